@@ -1,0 +1,116 @@
+#!/usr/bin/env bash
+# Installs what moire needs beside Rust, and nothing twice:
+#   run time   the Vulkan loader and Mesa's lavapipe (a CPU driver: no GPU needed)
+#   tests      the Khronos validation layer
+#   build      a C++ compiler and the shader compiler's static archives
+# and merges those archives into .cargo/shaderc/libshaderc_combined.a, where .cargo/config.toml
+# points the crate shaderc-sys. Without that archive the crate builds shaderc from source by itself
+# (about 10 minutes, needs cmake, git, python3 and a C++ compiler).
+# Quiet when nothing is missing. MOIRE_SETUP_DRY_RUN=1 prints what would be installed and stops.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")"
+
+RUN_PACKAGES="libvulkan1 mesa-vulkan-drivers"
+TEST_PACKAGES="vulkan-validationlayers"
+BUILD_PACKAGES="g++ libshaderc-dev glslang-dev spirv-tools"
+SOURCE_PACKAGES="cmake git python3"
+MIN_CARGO="1.88"
+
+say() { printf 'setup: %s\n' "$*" >&2; }
+
+version_at_least() { # version_at_least HAVE WANT
+    [ "$(printf '%s\n%s\n' "$2" "$1" | sort -V | head -n 1)" = "$2" ]
+}
+
+check_cargo() {
+    [ -f "$HOME/.cargo/env" ] && . "$HOME/.cargo/env"
+    local have=""
+    if command -v cargo >/dev/null; then have=$(cargo --version | cut -d' ' -f2); fi
+    if [ -z "$have" ] || ! version_at_least "$have" "$MIN_CARGO"; then
+        say "cargo ${have:-is not installed}; moire needs $MIN_CARGO or newer (edition 2024)."
+        say "Install Rust with rustup (https://rustup.rs), or update it with: rustup update stable"
+        exit 1
+    fi
+}
+
+installed() { dpkg-query -W -f='${Status}' "$1" 2>/dev/null | grep -q 'ok installed'; }
+
+missing_of() {
+    local p
+    for p in "$@"; do installed "$p" || printf '%s ' "$p"; done
+}
+
+as_root() {
+    if [ "$(id -u)" = 0 ]; then "$@"
+    elif command -v sudo >/dev/null; then sudo "$@"
+    else say "not root and no sudo; run as root: $*"; exit 1
+    fi
+}
+
+apt_install() { # apt_install PACKAGES...
+    local lists=/var/lib/apt/lists
+    if [ -z "$(find "$lists" -maxdepth 1 -name '*_Packages*' -mtime -1 -print -quit 2>/dev/null)" ]; then
+        as_root apt-get update -qq
+    fi
+    as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "$@" >/dev/null ||
+        { as_root apt-get update -qq &&
+          as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "$@" >/dev/null; }
+}
+
+# One archive from those that the distribution has; 1 when the compiler itself is not among them.
+merge_shaderc() {
+    local out=.cargo/shaderc/libshaderc_combined.a dir="" d lib found=0 tmp
+    for d in "/usr/lib/$(uname -m)-linux-gnu" /usr/lib64 /usr/lib; do
+        if [ -f "$d/libshaderc.a" ] || [ -f "$d/libshaderc_combined.a" ]; then dir=$d; break; fi
+    done
+    [ -n "$dir" ] || return 1
+    [ -f "$out" ] && [ "$out" -nt "$dir/libshaderc_combined.a" ] && return 0
+    mkdir -p .cargo/shaderc
+    tmp=$(mktemp -d)
+    {
+        echo "create $tmp/libshaderc_combined.a"
+        for lib in libshaderc_combined libshaderc libshaderc_util libglslang libSPIRV libMachineIndependent \
+            libGenericCodeGen libOSDependent libOGLCompiler libHLSL libSPIRV-Tools-opt libSPIRV-Tools; do
+            # libshaderc_combined already holds libshaderc and libshaderc_util.
+            case $lib in libshaderc|libshaderc_util) [ "$found" = 1 ] && continue ;; esac
+            if [ -f "$dir/$lib.a" ]; then
+                echo "addlib $dir/$lib.a"
+                [ "$lib" = libshaderc_combined ] && found=1
+            fi
+        done
+        echo save
+        echo end
+    } >"$tmp/merge.mri"
+    ar -M <"$tmp/merge.mri"
+    mv "$tmp/libshaderc_combined.a" "$out"
+    rm -r "$tmp"
+    say "merged the shader compiler's archives into $out"
+}
+
+check_cargo
+if command -v apt-get >/dev/null && command -v dpkg-query >/dev/null; then
+    # shellcheck disable=SC2086 # the lists are words on purpose
+    missing=$(missing_of $RUN_PACKAGES $TEST_PACKAGES $BUILD_PACKAGES)
+    if [ "${MOIRE_SETUP_DRY_RUN:-0}" = 1 ]; then
+        say "would install: ${missing:-nothing}"
+        exit 0
+    fi
+    if [ -n "$missing" ]; then
+        say "installing $missing"
+        # shellcheck disable=SC2086
+        apt_install $missing
+    fi
+    if ! merge_shaderc; then
+        # shellcheck disable=SC2086
+        missing=$(missing_of $SOURCE_PACKAGES)
+        say "no static shaderc here: cargo will build it from source once (about 10 minutes)"
+        # shellcheck disable=SC2086
+        [ -z "$missing" ] || apt_install $missing
+    fi
+else
+    if [ "${MOIRE_SETUP_DRY_RUN:-0}" = 1 ]; then say "would install nothing: no apt-get here"; exit 0; fi
+    merge_shaderc || true
+    say "this system has no apt-get; install by hand, if missing:"
+    say "  the Vulkan loader (vulkan-loader), a driver (Mesa's lavapipe runs on any CPU),"
+    say "  the Khronos validation layers (for the tests), a C++ compiler, cmake, git and python3"
+fi

@@ -1,0 +1,18 @@
+//! The picture while and after it is made: one linear RGB mean per pixel in f32, row 0 on top,
+//! and how many samples stand behind each.
+
+#[derive(Clone, Debug, PartialEq)]
+pub struct Film {
+    pub width: u32,
+    pub height: u32,
+    /// `width · height` pixels, linear RGB, means over `samples`.
+    pub pixels: Vec<[f32; 3]>,
+    /// Samples per pixel behind every mean.
+    pub samples: u32,
+}
+
+impl Film {
+    pub fn new(width: u32, height: u32, samples: u32) -> Film {
+        Film { width, height, pixels: vec![[0.0; 3]; width as usize * height as usize], samples }
+    }
+}

@@ -1,0 +1,33 @@
+//! One table per vocabulary: an enum whose variants carry the names that scene files, the command
+//! line, messages and tests use. Names are written once, here at the enum.
+
+/// Declares an enum with `ALL`, `name()`, `NAMES` and `from_name()`.
+macro_rules! named_enum {
+    ($(#[$meta:meta])* pub enum $enum:ident { $($(#[$vmeta:meta])* $variant:ident = $name:literal,)+ }) => {
+        $(#[$meta])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+        #[repr(u32)]
+        pub enum $enum { $($(#[$vmeta])* $variant,)+ }
+
+        impl $enum {
+            pub const ALL: &'static [$enum] = &[$($enum::$variant,)+];
+            pub const NAMES: &'static [&'static str] = &[$($name,)+];
+
+            pub const fn name(self) -> &'static str {
+                Self::NAMES[self as usize]
+            }
+
+            pub fn from_name(name: &str) -> Option<Self> {
+                Self::ALL.iter().copied().find(|v| v.name() == name)
+            }
+        }
+
+        impl std::fmt::Display for $enum {
+            fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                f.write_str(self.name())
+            }
+        }
+    };
+}
+
+pub(crate) use named_enum;

@@ -1,0 +1,3 @@
+//! Scene files: TOML text in, validated [`model::Scene`] out.
+
+pub mod model;

@@ -1,0 +1,205 @@
+//! The scene as plain f64 data, after every reference is resolved to an index and every number is
+//! known to be finite. Units: scene units, degrees, linear RGB. Nothing here knows a device.
+
+use std::path::PathBuf;
+
+use glam::{DVec2, DVec3};
+
+use crate::named::named_enum;
+use crate::texture::data::ColorSpace;
+use crate::texture::sampler_spec::SamplerSpec;
+
+#[derive(Clone, Debug)]
+pub struct Scene {
+    /// The scene file, for messages and the default output name.
+    pub path: PathBuf,
+    pub camera: Camera,
+    pub width: u32,
+    pub height: u32,
+    pub sampling: Sampling,
+    pub background: DVec3,
+    pub textures: Vec<TextureSource>,
+    pub samplers: Vec<SamplerSpec>,
+    pub materials: Vec<Material>,
+    pub planes: Vec<Plane>,
+    pub spheres: Vec<Sphere>,
+    pub triangles: Vec<Triangle>,
+    pub lights: Vec<Light>,
+}
+
+#[derive(Clone, Copy, Debug)]
+pub struct Camera {
+    pub eye: DVec3,
+    pub look_at: DVec3,
+    pub up: DVec3,
+    pub projection: Projection,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Projection {
+    /// Full vertical opening angle in degrees, in (0, 180).
+    VerticalFov(f64),
+    /// Distance of an image plane of height 1 (the lecture's camera constant).
+    CameraConstant(f64),
+    /// Parallel rays; the picture's height in scene units.
+    Orthographic(f64),
+}
+
+named_enum! {
+    /// How many rays a pixel sends and what becomes of them (`[sampling] algorithm`).
+    pub enum Algorithm {
+        Samples = "samples",
+    }
+}
+
+named_enum! {
+    /// Where in the pixel the samples lie (`[sampling] pattern`).
+    pub enum Pattern {
+        Center = "center",
+        Grid = "grid",
+        Random = "random",
+        Stratified = "stratified",
+    }
+}
+
+named_enum! {
+    /// Over what a texture look-up is averaged (`[sampling] footprint`).
+    pub enum Footprint {
+        None = "none",
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sampling {
+    pub algorithm: Algorithm,
+    pub pattern: Pattern,
+    /// Samples per pixel, at least 1; a square for `grid` and `stratified`.
+    pub spp: u32,
+    /// True: one set of displacement vectors for all pixels (the lecture's variant).
+    pub shared: bool,
+    pub seed: u32,
+    /// Mirror bounces after the camera ray; exhausted means black.
+    pub max_depth: u32,
+    pub footprint: Footprint,
+}
+
+#[derive(Clone, Debug)]
+pub struct TextureSource {
+    pub name: String,
+    /// Already joined with the scene file's folder.
+    pub file: PathBuf,
+    pub color_space: ColorSpace,
+    /// False: v = 0 is the file's first row. True: v grows upwards (the lecture's loader).
+    pub flip_v: bool,
+}
+
+named_enum! {
+    /// Reflection model of a material.
+    pub enum Model {
+        Unlit = "unlit",
+        Lambert = "lambert",
+        Mirror = "mirror",
+    }
+}
+
+#[derive(Clone, Debug)]
+pub struct Material {
+    pub name: String,
+    pub model: Model,
+    /// Multiplies the texture.
+    pub color: DVec3,
+    /// Index into `Scene::textures`.
+    pub texture: Option<usize>,
+    /// Index into `Scene::samplers`; meaningful where a texture is set.
+    pub sampler: usize,
+    pub mapping: Mapping,
+}
+
+named_enum! {
+    /// How a surface point becomes a texture coordinate.
+    pub enum MappingKind {
+        Surface = "surface",
+        Planar = "planar",
+        Cylindrical = "cylindrical",
+        Spherical = "spherical",
+    }
+}
+
+named_enum! {
+    /// What a projecting map projects.
+    pub enum Entity {
+        Position = "position",
+    }
+}
+
+named_enum! {
+    /// Where a projecting map's frame lives.
+    pub enum Space {
+        World = "world",
+        Bounds = "bounds",
+    }
+}
+
+/// `uv' = R(rotate) · (uv ∘ scale) + offset`, in the order of KHR_texture_transform.
+#[derive(Clone, Copy, Debug)]
+pub struct Mapping {
+    pub kind: MappingKind,
+    pub entity: Entity,
+    pub space: Space,
+    /// Frame of a projecting map: its origin and its axis (not necessarily of unit length).
+    pub origin: DVec3,
+    pub axis: DVec3,
+    pub scale: DVec2,
+    pub offset: DVec2,
+    /// Degrees, counter-clockwise in (u, v).
+    pub rotate: f64,
+}
+
+impl Default for Mapping {
+    fn default() -> Self {
+        Mapping {
+            kind: MappingKind::Surface,
+            entity: Entity::Position,
+            space: Space::World,
+            origin: DVec3::ZERO,
+            axis: DVec3::Y,
+            scale: DVec2::ONE,
+            offset: DVec2::ZERO,
+            rotate: 0.0,
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug)]
+pub struct Plane {
+    pub origin: DVec3,
+    pub tangent: DVec3,
+    pub bitangent: DVec3,
+    /// Bounds |u| and |v|, measured in tangents and bitangents; infinite without.
+    pub half_extent: Option<f64>,
+    pub material: usize,
+}
+
+#[derive(Clone, Copy, Debug)]
+pub struct Sphere {
+    pub center: DVec3,
+    pub radius: f64,
+    pub material: usize,
+}
+
+#[derive(Clone, Copy, Debug)]
+pub struct Triangle {
+    pub vertices: [DVec3; 3],
+    pub uvs: [DVec2; 3],
+    /// Shading normals (any length, not zero); the geometric normal without.
+    pub normals: Option<[DVec3; 3]>,
+    pub material: usize,
+}
+
+#[derive(Clone, Copy, Debug)]
+pub enum Light {
+    /// Intensity in W/sr.
+    Point { position: DVec3, intensity: DVec3 },
+    /// Direction towards the light (any length); irradiance in W/m² on a facing surface.
+    Directional { direction: DVec3, irradiance: DVec3 },
+}

@@ -1,0 +1,85 @@
+//! A decoded texture: exact texels as the file has them, in one of the formats a device can hold.
+//! Grey stays one channel, grey with alpha two; three channels are expanded to four.
+
+use crate::named::named_enum;
+
+named_enum! {
+    /// How stored values become linear light; sRGB is decoded before filtering.
+    pub enum ColorSpace {
+        Linear = "linear",
+        Srgb = "srgb",
+    }
+}
+
+named_enum! {
+    /// Channels × number type. One channel reads as (g, g, g, 1), two as (g, g, g, a).
+    pub enum TexelFormat {
+        Grey8 = "grey8",
+        GreyAlpha8 = "grey-alpha8",
+        Rgba8 = "rgba8",
+        Grey16 = "grey16",
+        GreyAlpha16 = "grey-alpha16",
+        Rgba16 = "rgba16",
+        GreyFloat = "grey-float",
+        GreyAlphaFloat = "grey-alpha-float",
+        RgbaFloat = "rgba-float",
+    }
+}
+
+named_enum! {
+    pub enum Component {
+        Unorm8 = "unorm8",
+        Unorm16 = "unorm16",
+        Float32 = "float32",
+    }
+}
+
+impl TexelFormat {
+    pub const fn channels(self) -> usize {
+        match self as u32 % 3 {
+            0 => 1,
+            1 => 2,
+            _ => 4,
+        }
+    }
+
+    pub const fn component(self) -> Component {
+        match self as u32 / 3 {
+            0 => Component::Unorm8,
+            1 => Component::Unorm16,
+            _ => Component::Float32,
+        }
+    }
+
+    pub const fn bytes_per_texel(self) -> usize {
+        self.channels()
+            * match self.component() {
+                Component::Unorm8 => 1,
+                Component::Unorm16 => 2,
+                Component::Float32 => 4,
+            }
+    }
+
+    pub fn new(channels: usize, component: Component) -> TexelFormat {
+        let column = match channels {
+            1 => 0,
+            2 => 1,
+            _ => 2,
+        };
+        TexelFormat::ALL[component as usize * 3 + column]
+    }
+}
+
+/// Row 0 of `texels` is what v = 0 reads: `flip_v` is already applied.
+#[derive(Clone, Debug)]
+pub struct TextureData {
+    pub name: String,
+    pub width: u32,
+    pub height: u32,
+    pub format: TexelFormat,
+    pub color_space: ColorSpace,
+    /// Channels of the file, before three were expanded to four.
+    pub file_channels: usize,
+    /// Tightly packed rows, native endian.
+    pub texels: Vec<u8>,
+}
