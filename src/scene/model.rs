@@ -203,3 +203,28 @@ pub enum Light {
     /// Direction towards the light (any length); irradiance in W/m² on a facing surface.
     Directional { direction: DVec3, irradiance: DVec3 },
 }
+
+impl Sampling {
+    /// Samples that are really taken: all of `center` lie at one place, so one is enough.
+    pub fn samples(&self) -> u32 {
+        match self.pattern {
+            Pattern::Center => 1,
+            Pattern::Grid | Pattern::Random | Pattern::Stratified => self.spp,
+        }
+    }
+
+    /// Strata along each side of a pixel; 1 where the pattern has none.
+    pub fn strata_side(&self) -> u32 {
+        match self.pattern {
+            Pattern::Grid | Pattern::Stratified => self.spp.isqrt(),
+            Pattern::Center | Pattern::Random => 1,
+        }
+    }
+}
+
+impl Scene {
+    /// The sampler a material's texture is read through; the default where there is none.
+    pub fn sampler_of(&self, material: &Material) -> SamplerSpec {
+        self.samplers.get(material.sampler).copied().unwrap_or_default()
+    }
+}

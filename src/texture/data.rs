@@ -34,6 +34,24 @@ named_enum! {
     }
 }
 
+impl Component {
+    pub const fn bytes(self) -> usize {
+        match self {
+            Component::Unorm8 => 1,
+            Component::Unorm16 => 2,
+            Component::Float32 => 4,
+        }
+    }
+
+    /// The stored form of 1: the first `bytes()` of the array.
+    pub const fn one(self) -> [u8; 4] {
+        match self {
+            Component::Unorm8 | Component::Unorm16 => [255; 4],
+            Component::Float32 => 1f32.to_ne_bytes(),
+        }
+    }
+}
+
 impl TexelFormat {
     pub const fn channels(self) -> usize {
         match self as u32 % 3 {
@@ -52,12 +70,7 @@ impl TexelFormat {
     }
 
     pub const fn bytes_per_texel(self) -> usize {
-        self.channels()
-            * match self.component() {
-                Component::Unorm8 => 1,
-                Component::Unorm16 => 2,
-                Component::Float32 => 4,
-            }
+        self.channels() * self.component().bytes()
     }
 
     pub fn new(channels: usize, component: Component) -> TexelFormat {

@@ -1,0 +1,23 @@
+// Pixel and position in it -> ray, relative to the eye. Perspective: all rays start at 0 and the
+// direction is forward + (sx - width/2) step_x + (sy - height/2) step_y, not normalised.
+// Orthographic: that sum without `forward` is the origin, and `forward` the direction.
+#ifndef CAMERA_GLSL
+#define CAMERA_GLSL
+
+struct Ray {
+    vec3 origin;
+    vec3 direction;
+};
+
+Ray camera_ray(Header header, uvec2 pixel, uvec2 position) {
+    vec2 inside = vec2(position) * (1.0 / 16777216.0);
+    vec2 corner = vec2(pixel) - 0.5 * vec2(header.image.xy);
+    bool orthographic = MODE_IS(PROJECTIONS, PROJECTION_ORTHOGRAPHIC, header.size.z);
+    vec3 start = orthographic ? vec3(0.0) : header.forward.xyz;
+    // The sum up to the pixel's corner is the same for all its samples.
+    precise vec3 base = (start + corner.x * header.step_x.xyz) + corner.y * header.step_y.xyz;
+    precise vec3 point = (base + inside.x * header.step_x.xyz) + inside.y * header.step_y.xyz;
+    return orthographic ? Ray(point, header.forward.xyz) : Ray(vec3(0.0), point);
+}
+
+#endif

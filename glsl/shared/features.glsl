@@ -1,0 +1,58 @@
+// What this scene uses, as specialization constants. The defaults keep everything; src/features.rs
+// narrows them. A constant that names modes is a bit mask: one bit set means the mode is known when
+// the pipeline is built and no test is left; several mean a test at run time.
+#ifndef FEATURES_GLSL
+#define FEATURES_GLSL
+
+const uint DYNAMIC = 0xFFFFFFFFu; // "read the number from the scene"
+
+layout(constant_id = 2) const uint PROJECTIONS = 0x3u;
+layout(constant_id = 3) const uint PATTERNS = 0xFu;
+layout(constant_id = 4) const uint STRATA_SIDE = DYNAMIC;
+layout(constant_id = 5) const uint PLANES = DYNAMIC;
+layout(constant_id = 6) const uint SPHERES = DYNAMIC;
+layout(constant_id = 7) const uint TRIANGLES = DYNAMIC;
+layout(constant_id = 8) const uint LIGHTS = DYNAMIC;
+layout(constant_id = 9) const uint MATERIALS = DYNAMIC;
+layout(constant_id = 10) const uint MAPS = DYNAMIC;
+layout(constant_id = 11) const uint TEXTURES = DYNAMIC;
+layout(constant_id = 12) const uint SAMPLERS = DYNAMIC;
+layout(constant_id = 13) const bool BOUNDED_PLANES = true;
+layout(constant_id = 14) const bool SMOOTH_NORMALS = true;
+layout(constant_id = 15) const uint MODELS = 0x7u;
+layout(constant_id = 16) const uint LIGHT_KINDS = 0x3u;
+layout(constant_id = 17) const bool SHADOWS = true;
+layout(constant_id = 18) const bool BOUNCES = true;
+layout(constant_id = 19) const uint MAPPINGS = 0xFu;
+layout(constant_id = 20) const bool TEXTURED = true;   // some material reads a texture
+layout(constant_id = 21) const bool UNTEXTURED = true; // some material reads none
+layout(constant_id = 22) const uint METHODS = 0x3u;
+layout(constant_id = 23) const uint ADDRESSES_U = 0x1Fu;
+layout(constant_id = 24) const uint ADDRESSES_V = 0x1Fu;
+layout(constant_id = 25) const uint FILTERS = 0x3u;
+layout(constant_id = 26) const uint TEXEL_CENTERS = 0x3u;
+layout(constant_id = 27) const uint TEXEL_FORMATS = 0x1FFu;
+layout(constant_id = 28) const uint COLOR_SPACES = 0x3u;
+layout(constant_id = 29) const bool COMPENSATED = true; // more samples than one chunk holds
+layout(constant_id = 30) const uint SLOTS = 1u;         // image descriptors
+
+// Where each list begins in the scene buffer, in units of 16 bytes.
+layout(constant_id = 40) const uint PLANES_AT = 0u;
+layout(constant_id = 41) const uint SPHERES_AT = 0u;
+layout(constant_id = 42) const uint TRIANGLES_AT = 0u;
+layout(constant_id = 43) const uint LIGHTS_AT = 0u;
+layout(constant_id = 44) const uint MATERIALS_AT = 0u;
+layout(constant_id = 45) const uint MAPS_AT = 0u;
+layout(constant_id = 46) const uint TEXTURES_AT = 0u;
+layout(constant_id = 47) const uint SAMPLERS_AT = 0u;
+layout(constant_id = 48) const uint SRGB_AT = 0u;
+
+// Whether the run-time mode is `value`, decided at build time where the mask allows.
+#define MODE_IS(mask, value, runtime) \
+    ((mask) == (1u << (value)) || ((((mask) >> (value)) & 1u) != 0u && (runtime) == (value)))
+#define HAS(mask, value) ((((mask) >> (value)) & 1u) != 0u)
+#define COUNT(constant, runtime) ((constant) == DYNAMIC ? (runtime) : (constant))
+// An index into a list of one needs no look at the shape that holds it.
+#define INDEX(constant, runtime) ((constant) == 1u ? 0u : (runtime))
+
+#endif

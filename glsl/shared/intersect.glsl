@@ -1,0 +1,138 @@
+// Ray against planes, spheres and triangles: the nearest hit with t > 0, or whether anything lies
+// between. Shapes are numbered planes first, then spheres, then triangles. Flat shapes never hit
+// the ray that left them (`skip`); spheres rely on the offset origin.
+#ifndef INTERSECT_GLSL
+#define INTERSECT_GLSL
+
+#include "camera.glsl"
+#include "math.glsl"
+
+struct Hit {
+    float t; // in units of the direction's length; FAR on a miss
+    uint shape;
+    vec2 weights; // barycentric weights of a triangle's vertices b and c
+};
+
+// Camera rays that are the only rays start at the eye, which is the coordinate origin.
+#define ORIGIN_IS_EYE (!BOUNCES && PROJECTIONS == (1u << PROJECTION_PERSPECTIVE))
+
+// t = (n·o' - n·o) / n·d, kept when the point lies within the half extent on both axes.
+float plane_distance(Plane plane, Ray ray, bool from_eye) {
+    float slope = dot3(plane.normal.xyz, ray.direction);
+    float height = plane.normal.w;
+    if (!from_eye) {
+        precise float above = height - dot3(plane.normal.xyz, ray.origin);
+        height = above;
+    }
+    precise float t = height / slope;
+    if (BOUNDED_PLANES && plane.link.w != 0u) {
+        precise vec3 p = from_eye ? t * ray.direction : ray.origin + t * ray.direction;
+        float extent = uintBitsToFloat(plane.link.z);
+        bool inside = abs(affine(plane.extent_u, p)) <= extent && abs(affine(plane.extent_v, p)) <= extent;
+        t = inside ? t : -1.0;
+    }
+    return t;
+}
+
+// Haines, Günther & Akenine-Möller 2019: the discriminant from the vector of closest approach, and
+// of the two roots c/q and q/a the one that does not cancel.
+float sphere_distance(Sphere sphere, Ray ray, bool from_eye) {
+    precise vec3 f = from_eye ? -sphere.ball.xyz : ray.origin - sphere.ball.xyz;
+    float radius = sphere.ball.w;
+    float a = dot3(ray.direction, ray.direction);
+    float b = -dot3(f, ray.direction);
+    precise vec3 closest = f + (b / a) * ray.direction;
+    precise float discriminant = radius * radius - dot3(closest, closest);
+    precise float c = dot3(f, f) - radius * radius;
+    if (!(discriminant > 0.0) || (c > 0.0 && b <= 0.0)) return -1.0;
+    float root = sqrt(a * discriminant);
+    precise float q = b + (b < 0.0 ? -root : root);
+    return c > 0.0 || b < 0.0 ? c / q : q / a;
+}
+
+// Edge functions as volumes d·(p × q): the two triangles at a shared edge compute the same value
+// with opposite sign, so no ray passes between them. t from the geometric plane.
+float triangle_distance(Triangle triangle, Ray ray, bool from_eye, out vec2 weights) {
+    precise vec3 a = from_eye ? triangle.a.xyz : triangle.a.xyz - ray.origin;
+    precise vec3 b = from_eye ? triangle.b.xyz : triangle.b.xyz - ray.origin;
+    precise vec3 c = from_eye ? triangle.c.xyz : triangle.c.xyz - ray.origin;
+    float ea = dot3(ray.direction, cross3(b, c));
+    float eb = dot3(ray.direction, cross3(c, a));
+    float ec = dot3(ray.direction, cross3(a, b));
+    precise float sum = (ea + eb) + ec;
+    bool front = ea >= 0.0 && eb >= 0.0 && ec >= 0.0;
+    bool back = ea <= 0.0 && eb <= 0.0 && ec <= 0.0;
+    weights = vec2(0.0);
+    if (!(front || back) || sum == 0.0) return -1.0;
+    weights = vec2(eb / sum, ec / sum);
+    float height = triangle.normal.w;
+    if (!from_eye) {
+        precise float above = height - dot3(triangle.normal.xyz, ray.origin);
+        height = above;
+    }
+    return height / dot3(triangle.normal.xyz, ray.direction);
+}
+
+Hit nearest_hit(Header header, Ray ray, uint skip, bool from_eye) {
+    Hit hit = Hit(FAR, NO_SHAPE, vec2(0.0));
+    uint planes = COUNT(PLANES, header.counts.x);
+    uint spheres = COUNT(SPHERES, header.counts.y);
+    uint triangles = COUNT(TRIANGLES, header.counts.z);
+    for (uint i = 0u; i < planes; i++) {
+        float t = plane_distance(load_plane(i), ray, from_eye);
+        bool nearer = t > 0.0 && t < hit.t && i != skip;
+        hit.t = nearer ? t : hit.t;
+        hit.shape = nearer ? i : hit.shape;
+    }
+    for (uint i = 0u; i < spheres; i++) {
+        float t = sphere_distance(load_sphere(i), ray, from_eye);
+        bool nearer = t > 0.0 && t < hit.t;
+        hit.t = nearer ? t : hit.t;
+        hit.shape = nearer ? planes + i : hit.shape;
+    }
+    for (uint i = 0u; i < triangles; i++) {
+        vec2 weights;
+        float t = triangle_distance(load_triangle(i), ray, from_eye, weights);
+        bool nearer = t > 0.0 && t < hit.t && planes + spheres + i != skip;
+        hit.t = nearer ? t : hit.t;
+        hit.shape = nearer ? planes + spheres + i : hit.shape;
+        hit.weights = nearer ? weights : hit.weights;
+    }
+    return hit;
+}
+
+// True when a shape lies at 0 < t < t_max.
+bool occluded(Header header, Ray ray, float t_max, uint skip) {
+    bool blocked = false;
+    uint planes = COUNT(PLANES, header.counts.x);
+    uint spheres = COUNT(SPHERES, header.counts.y);
+    uint triangles = COUNT(TRIANGLES, header.counts.z);
+    for (uint i = 0u; i < planes; i++) {
+        float t = plane_distance(load_plane(i), ray, false);
+        blocked = blocked || (t > 0.0 && t < t_max && i != skip);
+    }
+    for (uint i = 0u; i < spheres; i++) {
+        float t = sphere_distance(load_sphere(i), ray, false);
+        blocked = blocked || (t > 0.0 && t < t_max);
+    }
+    for (uint i = 0u; i < triangles; i++) {
+        vec2 weights;
+        float t = triangle_distance(load_triangle(i), ray, false, weights);
+        blocked = blocked || (t > 0.0 && t < t_max && planes + spheres + i != skip);
+    }
+    return blocked;
+}
+
+// Wächter & Binder 2019, "A Fast and Robust Method for Avoiding Self-Intersection": the point moved
+// along the geometric normal by a number of ulps, by a fixed step near the coordinate origin.
+vec3 offset_origin(vec3 p, vec3 n) {
+    ivec3 ulps = ivec3(256.0 * n);
+    ivec3 bits = floatBitsToInt(p);
+    vec3 moved = intBitsToFloat(ivec3(p.x < 0.0 ? bits.x - ulps.x : bits.x + ulps.x,
+                                      p.y < 0.0 ? bits.y - ulps.y : bits.y + ulps.y,
+                                      p.z < 0.0 ? bits.z - ulps.z : bits.z + ulps.z));
+    precise vec3 near = p + n * (1.0 / 65536.0);
+    return mix(moved, near, lessThan(abs(p), vec3(1.0 / 32.0)));
+}
+
+#endif

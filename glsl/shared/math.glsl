@@ -1,0 +1,52 @@
+// Functions whose built-in twins are too loose, and dot products in a stated order.
+// atan: minimax polynomial of degree 17 on [0, 1], error below 2e-8 in exact arithmetic.
+#ifndef MATH_GLSL
+#define MATH_GLSL
+
+const float PI = 3.14159265358979;
+
+// x y z summed from the left, never contracted: two devices round alike.
+float dot3(vec3 a, vec3 b) {
+    precise float sum = (a.x * b.x + a.y * b.y) + a.z * b.z;
+    return sum;
+}
+
+// row.xyz · p + row.w
+float affine(vec4 row, vec3 p) {
+    precise float sum = ((row.x * p.x + row.y * p.y) + row.z * p.z) + row.w;
+    return sum;
+}
+
+vec3 cross3(vec3 a, vec3 b) {
+    precise vec3 c = vec3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
+    return c;
+}
+
+// atan(x) for x in [0, 1].
+float atan_unit(float x) {
+    float y = x * x;
+    precise float sum = 0.002849889771088515;
+    sum = sum * y - 0.01606862956664404;
+    sum = sum * y + 0.042691520265489;
+    sum = sum * y - 0.07504294623787518;
+    sum = sum * y + 0.10640934065394224;
+    sum = sum * y - 0.14203644476771696;
+    sum = sum * y + 0.19992619392945368;
+    sum = sum * y - 0.33333073345113357;
+    sum = sum * y + 0.999999984765776;
+    return sum * x;
+}
+
+// The angle of (x, y) from +x towards +y, in (-pi, pi]; 0 at the origin.
+float atan2_accurate(float y, float x) {
+    float ax = abs(x);
+    float ay = abs(y);
+    float high = max(ax, ay);
+    if (high == 0.0) return 0.0;
+    precise float angle = atan_unit(min(ax, ay) / high);
+    if (ay > ax) angle = 0.5 * PI - angle;
+    if (x < 0.0) angle = PI - angle;
+    return y < 0.0 ? -angle : angle;
+}
+
+#endif

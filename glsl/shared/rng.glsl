@@ -1,0 +1,37 @@
+// Counter-based random bits: integers in, integers out, no state. Jarzynski & Olano 2020, "Hash
+// Functions for GPU Rendering" (pcg2d, pcg3d). Bit-identical to src/oracle/rng.rs.
+#ifndef RNG_GLSL
+#define RNG_GLSL
+
+uvec2 pcg2d(uvec2 v) {
+    v = v * 1664525u + 1013904223u;
+    v.x += v.y * 1664525u;
+    v.y += v.x * 1664525u;
+    v ^= v >> 16u;
+    v.x += v.y * 1664525u;
+    v.y += v.x * 1664525u;
+    return v ^ (v >> 16u);
+}
+
+uvec3 pcg3d(uvec3 v) {
+    v = v * 1664525u + 1013904223u;
+    v.x += v.y * v.z;
+    v.y += v.z * v.x;
+    v.z += v.x * v.y;
+    v ^= v >> 16u;
+    v.x += v.y * v.z;
+    v.y += v.z * v.x;
+    v.z += v.x * v.y;
+    return v;
+}
+
+// One key a pixel; all pixels have the key of a pixel outside the picture when they share it.
+uvec2 pixel_key(uvec2 pixel, uint seed, bool shared_key) {
+    return pcg3d(uvec3(shared_key ? uvec2(0xFFFFFFFFu) : pixel, seed)).xy;
+}
+
+uvec2 sample_bits(uvec2 key, uint s) {
+    return pcg2d(uvec2(key.x + s, key.y));
+}
+
+#endif

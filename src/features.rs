@@ -1,0 +1,209 @@
+//! What a packed scene needs → the specialization constants of its pipelines, and the list of what
+//! was left out. [`FEATURES`] is the one table; every constant of `features.glsl` stands in it or
+//! among the places and sizes that [`constants`] adds.
+
+use crate::layout::NO_TEXTURE;
+use crate::named::named_enum;
+use crate::pack::{LightKind, MapKind, PackedScene, ProjectionKind, Sections};
+use crate::scene::model::{Model, Pattern};
+use crate::shaders::Shader;
+use crate::texture::data::{ColorSpace, TexelFormat};
+use crate::texture::sampler_spec::{Address, Filter, Method, TexelCenter};
+
+named_enum! {
+    /// Where the shader finds its texels.
+    pub enum TexelSource {
+        /// No texture in the scene.
+        None = "none",
+        /// A texel buffer with all textures one after the other.
+        Buffer = "buffer",
+        /// One image a texture; the only source of the device's own samplers.
+        Image = "image",
+    }
+}
+
+/// "Read the number from the scene."
+pub const DYNAMIC: u32 = u32::MAX;
+
+/// Samples that are summed in f32 before the sum goes to the film. More samples arrive in chunks
+/// and are added with compensation (Kahan 1965).
+pub const CHUNK: u32 = 256;
+
+/// Lists longer than this stay loops at run time: unrolled code would grow without end.
+const UNROLL: usize = 8;
+
+/// How a constant is narrowed to what the scene uses.
+#[derive(Clone, Copy)]
+enum Narrow {
+    /// A bit mask of the modes that occur, and all their names.
+    Modes(&'static [&'static str], fn(&PackedScene) -> u32),
+    /// A number known when the pipeline is built, or `DYNAMIC`.
+    Count(fn(&PackedScene) -> u32),
+    /// Code that is there or not.
+    Switch(fn(&PackedScene) -> bool),
+}
+use Narrow::{Count, Modes, Switch};
+
+/// (constant, what a person calls it, how it is narrowed)
+const FEATURES: &[(&str, &str, Narrow)] = &[
+    ("PROJECTIONS", "projection", Modes(ProjectionKind::NAMES, |s| bit(s.header.size[2]))),
+    ("PATTERNS", "pattern", Modes(Pattern::NAMES, |s| bit(s.header.sampling[0]))),
+    ("STRATA_SIDE", "number of strata read at run time", Count(|s| s.header.sampling[1])),
+    ("PLANES", "loop over planes", Count(|s| unrolled(s.planes.len()))),
+    ("SPHERES", "loop over spheres", Count(|s| unrolled(s.spheres.len()))),
+    ("TRIANGLES", "loop over triangles", Count(|s| unrolled(s.triangles.len()))),
+    ("LIGHTS", "loop over lights", Count(|s| unrolled(s.lights.len()))),
+    ("MATERIALS", "choice among materials", Count(|s| choice(s.materials.len()))),
+    ("MAPS", "choice among mappings", Count(|s| choice(s.maps.len()))),
+    ("TEXTURES", "choice among textures", Count(|s| choice(s.textures.len()))),
+    ("SAMPLERS", "choice among samplers", Count(|s| choice(s.samplers.len()))),
+    ("BOUNDED_PLANES", "bounds of planes", Switch(|s| s.planes.iter().any(|p| p.link[3] != 0))),
+    ("SMOOTH_NORMALS", "interpolated normals", Switch(|s| s.triangles.iter().any(|t| t.v[3] != 0.0))),
+    ("MODELS", "reflection model", Modes(Model::NAMES, |s| bits(s.materials.iter().map(|m| m.link[0])))),
+    ("LIGHT_KINDS", "light", Modes(LightKind::NAMES, |s| bits(s.lights.iter().map(|l| l.link[0])))),
+    ("SHADOWS", "shadow rays", Switch(casts_shadows)),
+    ("BOUNCES", "mirror bounces", Switch(|s| s.header.size[3] > 0 && has_model(s, Model::Mirror))),
+    ("MAPPINGS", "mapping", Modes(MapKind::NAMES, |s| bits(s.maps.iter().map(|m| m.link[0])))),
+    ("TEXTURED", "texture look-ups", Switch(|s| s.materials.iter().any(|m| m.link[1] != NO_TEXTURE))),
+    ("UNTEXTURED", "plain materials", Switch(|s| s.materials.iter().any(|m| m.link[1] == NO_TEXTURE))),
+    ("METHODS", "look-up method", Modes(Method::NAMES, |s| bits(s.samplers.iter().map(|x| x.link[0])))),
+    ("ADDRESSES_U", "address u", Modes(Address::NAMES, |s| bits(s.samplers.iter().map(|x| x.modes[0])))),
+    ("ADDRESSES_V", "address v", Modes(Address::NAMES, |s| bits(s.samplers.iter().map(|x| x.modes[1])))),
+    ("FILTERS", "filter", Modes(Filter::NAMES, |s| bits(s.samplers.iter().map(|x| x.modes[2])))),
+    ("TEXEL_CENTERS", "texel centre", Modes(TexelCenter::NAMES, |s| bits(s.samplers.iter().map(|x| x.modes[3])))),
+    ("TEXEL_FORMATS", "texel format", Modes(TexelFormat::NAMES, |s| bits(s.textures.iter().map(|t| t.place[3])))),
+    ("COLOR_SPACES", "colour space", Modes(ColorSpace::NAMES, |s| bits(s.textures.iter().map(|t| t.link[0])))),
+    ("COMPENSATED", "second film for rounding errors", Switch(|s| s.samples > CHUNK)),
+];
+
+/// What one pipeline is built for.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Features {
+    /// (constant, value) in the order of the table.
+    pub values: Vec<(&'static str, u32)>,
+    /// What the pipeline does without, in words.
+    pub left_out: Vec<String>,
+    pub source: TexelSource,
+    /// Does the film have its second half?
+    pub compensated: bool,
+}
+
+impl Features {
+    /// Exactly what the scene needs, or with `keep_everything` all there is.
+    pub fn new(scene: &PackedScene, image_source: bool, keep_everything: bool) -> Features {
+        let source = match (scene.textures.is_empty(), image_source) {
+            (true, _) if !keep_everything => TexelSource::None,
+            (false, true) => TexelSource::Image,
+            _ => TexelSource::Buffer,
+        };
+        let mut features = Features { values: Vec::new(), left_out: Vec::new(), source, compensated: true };
+        if keep_everything {
+            features.values = FEATURES.iter().map(|&(name, _, narrow)| (name, everything(narrow))).collect();
+            return features;
+        }
+        features.compensated = scene.samples > CHUNK;
+        for &(name, what, narrow) in FEATURES {
+            let value = match narrow {
+                Modes(_, of) | Count(of) => of(scene),
+                Switch(of) => u32::from(of(scene)),
+            };
+            features.values.push((name, value));
+            features.left_out.extend(left_out(what, narrow, value));
+        }
+        for (other, text) in [
+            (TexelSource::Buffer, "texel buffer"),
+            (TexelSource::Image, "images and device samplers"),
+        ] {
+            if source != other {
+                features.left_out.push(text.into());
+            }
+        }
+        features
+    }
+}
+
+/// The widest value: every mode, run-time numbers, all code.
+fn everything(narrow: Narrow) -> u32 {
+    match narrow {
+        Modes(names, _) => (1 << names.len()) - 1,
+        Count(_) => DYNAMIC,
+        Switch(_) => 1,
+    }
+}
+
+fn left_out(what: &str, narrow: Narrow, value: u32) -> Option<String> {
+    match narrow {
+        Modes(names, _) => {
+            let absent: Vec<&str> =
+                names.iter().enumerate().filter(|(i, _)| value >> i & 1 == 0).map(|(_, n)| *n).collect();
+            (!absent.is_empty()).then(|| format!("{what}: {}", absent.join(", ")))
+        }
+        Count(_) => (value != DYNAMIC).then(|| what.to_string()),
+        Switch(_) => (value == 0).then(|| what.to_string()),
+    }
+}
+
+/// (specialization id, value) for a shader: the features, the lists' places, the workgroup's size
+/// and the number of image slots. A constant that the shader does not have is not set.
+pub fn constants(
+    shader: &Shader,
+    features: &Features,
+    sections: &Sections,
+    group: [u32; 2],
+    slots: u32,
+) -> Vec<(u32, u32)> {
+    let places = [
+        ("PLANES_AT", sections.planes),
+        ("SPHERES_AT", sections.spheres),
+        ("TRIANGLES_AT", sections.triangles),
+        ("LIGHTS_AT", sections.lights),
+        ("MATERIALS_AT", sections.materials),
+        ("MAPS_AT", sections.maps),
+        ("TEXTURES_AT", sections.textures),
+        ("SAMPLERS_AT", sections.samplers),
+        ("SRGB_AT", sections.srgb),
+        ("GROUP_X", group[0]),
+        ("GROUP_Y", group[1]),
+        ("SLOTS", slots.max(1)),
+    ];
+    let all = features.values.iter().copied().chain(places);
+    all.filter_map(|(name, value)| Some((shader.constant(name)?.id, value))).collect()
+}
+
+/// Names of the constants that describe features, in the order of the table.
+pub fn names() -> impl Iterator<Item = &'static str> {
+    FEATURES.iter().map(|f| f.0)
+}
+
+/// The widest value of each constant, as `features.glsl` has it for its default.
+pub fn widest() -> impl Iterator<Item = (&'static str, u32)> {
+    FEATURES.iter().map(|&(name, _, narrow)| (name, everything(narrow)))
+}
+
+fn bit(mode: u32) -> u32 {
+    1 << mode
+}
+
+fn bits(modes: impl Iterator<Item = u32>) -> u32 {
+    modes.fold(0, |mask, mode| mask | bit(mode))
+}
+
+fn unrolled(count: usize) -> u32 {
+    if count <= UNROLL { count as u32 } else { DYNAMIC }
+}
+
+/// A list of one needs no index; longer lists are indexed at run time whatever their length.
+fn choice(count: usize) -> u32 {
+    if count <= 1 { count as u32 } else { DYNAMIC }
+}
+
+fn has_model(scene: &PackedScene, model: Model) -> bool {
+    scene.materials.iter().any(|m| m.link[0] == model as u32)
+}
+
+/// A lone flat shape cannot lie between itself and a light.
+fn casts_shadows(scene: &PackedScene) -> bool {
+    let flat = scene.planes.len() + scene.triangles.len();
+    let alone = scene.spheres.is_empty() && flat <= 1;
+    !scene.lights.is_empty() && has_model(scene, Model::Lambert) && !alone
+}

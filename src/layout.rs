@@ -1,0 +1,123 @@
+//! `repr(C)` mirrors of `glsl/shared/layout.glsl`, field by field, in the same order. Every member
+//! is a four-vector of f32 or u32, so std430 and Rust agree; the sizes are asserted here and a test
+//! compares them with the strides in the shader's loaders.
+
+use bytemuck::{Pod, Zeroable};
+
+pub const NO_TEXTURE: u32 = u32::MAX;
+pub const NO_SHAPE: u32 = u32::MAX;
+
+/// Declares a mirror and asserts its size in units of 16 bytes.
+macro_rules! mirror {
+    ($name:ident, $units:literal, { $($(#[$meta:meta])* $field:ident: $type:ty,)+ }) => {
+        #[doc = concat!("Mirror of `struct ", stringify!($name), "` in `layout.glsl`.")]
+        #[repr(C)]
+        #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+        pub struct $name { $($(#[$meta])* pub $field: $type,)+ }
+        const _: () = assert!(size_of::<$name>() == $units * 16);
+        impl $name {
+            /// Size in the units in which the shader counts.
+            pub const UNITS: u32 = $units;
+        }
+    };
+}
+
+mirror!(Header, 9, {
+    forward: [f32; 4],
+    step_x: [f32; 4],
+    step_y: [f32; 4],
+    background: [f32; 4],
+    /// Width, height, crop x, crop y.
+    image: [u32; 4],
+    /// Film width, film height, projection, max depth.
+    size: [u32; 4],
+    /// Pattern, strata a side, ceil(log2(side)), seed.
+    sampling: [u32; 4],
+    /// 1 when all pixels share their displacements; lights.
+    key: [u32; 4],
+    /// Planes, spheres, triangles.
+    counts: [u32; 4],
+});
+
+mirror!(Plane, 4, {
+    normal: [f32; 4],
+    extent_u: [f32; 4],
+    extent_v: [f32; 4],
+    /// Material, map, half extent (f32 bits), 1 when bounded.
+    link: [u32; 4],
+});
+
+mirror!(Sphere, 2, {
+    ball: [f32; 4],
+    /// Material, map.
+    link: [u32; 4],
+});
+
+mirror!(Triangle, 9, {
+    a: [f32; 4],
+    b: [f32; 4],
+    c: [f32; 4],
+    v: [f32; 4],
+    normal: [f32; 4],
+    normal_a: [f32; 4],
+    normal_b: [f32; 4],
+    normal_c: [f32; 4],
+    /// Material, map.
+    link: [u32; 4],
+});
+
+mirror!(Light, 3, {
+    place: [f32; 4],
+    power: [f32; 4],
+    /// Kind.
+    link: [u32; 4],
+});
+
+mirror!(Material, 2, {
+    color: [f32; 4],
+    /// Model, texture or `NO_TEXTURE`, sampler, image slot.
+    link: [u32; 4],
+});
+
+mirror!(Map, 6, {
+    x: [f32; 4],
+    y: [f32; 4],
+    z: [f32; 4],
+    matrix: [f32; 4],
+    offset: [f32; 4],
+    /// Kind.
+    link: [u32; 4],
+});
+
+mirror!(Texture, 2, {
+    /// First word in the texel buffer, width, height, format.
+    place: [u32; 4],
+    /// Colour space.
+    link: [u32; 4],
+});
+
+mirror!(Sampler, 3, {
+    border: [f32; 4],
+    /// Address u, address v, filter, texel centre.
+    modes: [u32; 4],
+    /// Method.
+    link: [u32; 4],
+});
+
+/// Mirror of the push constants of `render_main.glsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
+pub struct Slice {
+    pub tiles_x: u32,
+    pub tiles: u32,
+    pub tile_stride: u32,
+    pub first_tile: u32,
+    pub band_y: u32,
+    pub band_height: u32,
+    pub first_sample: u32,
+    pub sample_count: u32,
+}
+const _: () = assert!(size_of::<Slice>() == 32);
+
+/// Pixels along the side of the square tiles in which work is handed out.
+pub const TILE: u32 = 64;

@@ -1,0 +1,39 @@
+//! Widening of packed numbers, and the twin of `glsl/shared/math.glsl`: products of vectors in f64,
+//! the angle by the standard library, and the shader's f32 polynomial for comparison with it.
+
+use glam::{DVec3, DVec4};
+
+pub fn xyz(v: [f32; 4]) -> DVec3 {
+    vec4(v).truncate()
+}
+
+pub fn vec4(v: [f32; 4]) -> DVec4 {
+    glam::Vec4::from_array(v).as_dvec4()
+}
+
+/// row.xyz · p + row.w
+pub fn affine(row: [f32; 4], p: DVec3) -> f64 {
+    vec4(row).dot(p.extend(1.0))
+}
+
+/// The polynomial of `math.glsl`, in f32 and in its order: atan(x) for x in [0, 1].
+pub fn atan_unit_f32(x: f32) -> f32 {
+    const COEFFICIENTS: [f32; 9] = [
+        0.002_849_889_8,
+        -0.016_068_63,
+        0.042_691_52,
+        -0.075_042_95,
+        0.106_409_34,
+        -0.142_036_44,
+        0.199_926_2,
+        -0.333_330_73,
+        1.0,
+    ];
+    let y = x * x;
+    COEFFICIENTS.iter().copied().reduce(|sum, c| sum * y + c).unwrap_or(0.0) * x
+}
+
+/// The angle of (x, y) from +x towards +y, in [-π, π]; 0 at the origin.
+pub fn atan2_accurate(y: f64, x: f64) -> f64 {
+    y.atan2(x)
+}

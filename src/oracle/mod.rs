@@ -1,0 +1,13 @@
+//! The renderer once more in f64, on the CPU, reading the same packed scene. Each file is the twin
+//! of `glsl/shared/` with the same stem, the same functions in the same order. Sample positions are
+//! integers and equal bit for bit; everything after them differs by the rounding of f32 only.
+
+pub mod camera;
+pub mod intersect;
+pub mod mapping;
+pub mod math;
+pub mod render;
+pub mod rng;
+pub mod shade;
+pub mod strata;
+pub mod texture;

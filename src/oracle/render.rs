@@ -1,0 +1,50 @@
+//! Packed scene → picture, in f64 on all cores. Twin of `glsl/shared/render_main.glsl`.
+
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use super::camera::camera_ray;
+use super::rng::pixel_key;
+use super::shade::radiance;
+use super::strata::sample_position;
+use crate::error::{Error, Result};
+use crate::film::Film;
+use crate::pack::PackedScene;
+use crate::progress::Progress;
+use crate::scene::model::Pattern;
+
+/// The mean radiance of one pixel of the film.
+pub fn pixel(scene: &PackedScene, x: u32, y: u32) -> DVec3 {
+    let header = &scene.header;
+    let [pattern, side, side_log2, seed] = header.sampling;
+    let pattern = Pattern::ALL[pattern as usize];
+    let place = [x + header.image[2], y + header.image[3]];
+    let key = pixel_key(place, seed, header.key[0] != 0);
+    let sum: DVec3 = (0..scene.samples)
+        .map(|s| {
+            let position = sample_position(pattern, key, s, side, side_log2);
+            radiance(scene, camera_ray(header, place, position))
+        })
+        .sum();
+    sum / f64::from(scene.samples)
+}
+
+/// The whole film. Rows are shared out over the cores; the result does not depend on how.
+pub fn render(scene: &PackedScene, progress: &dyn Progress) -> Result<Film> {
+    let [width, height, _, _] = scene.header.size;
+    let mut film = Film::new(width, height, scene.samples);
+    let done = AtomicUsize::new(0);
+    film.pixels.par_chunks_mut(width as usize).enumerate().for_each(|(y, row)| {
+        if progress.cancelled() {
+            return;
+        }
+        for (x, out) in row.iter_mut().enumerate() {
+            *out = pixel(scene, x as u32, y as u32).as_vec3().to_array();
+        }
+        let rows = done.fetch_add(1, Ordering::Relaxed) + 1;
+        progress.advance(rows as f64 / f64::from(height));
+    });
+    if progress.cancelled() { Err(Error::Interrupted) } else { Ok(film) }
+}

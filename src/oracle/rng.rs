@@ -1,0 +1,46 @@
+//! Counter-based random bits: integers in, integers out, no state. Jarzynski & Olano 2020, "Hash
+//! Functions for GPU Rendering" (pcg2d, pcg3d). Bit-identical to `glsl/shared/rng.glsl`.
+
+const MULTIPLIER: u32 = 1_664_525;
+const INCREMENT: u32 = 1_013_904_223;
+
+fn advance(x: u32) -> u32 {
+    x.wrapping_mul(MULTIPLIER).wrapping_add(INCREMENT)
+}
+
+pub fn pcg2d(v: [u32; 2]) -> [u32; 2] {
+    let [mut x, mut y] = v.map(advance);
+    x = x.wrapping_add(y.wrapping_mul(MULTIPLIER));
+    y = y.wrapping_add(x.wrapping_mul(MULTIPLIER));
+    x ^= x >> 16;
+    y ^= y >> 16;
+    x = x.wrapping_add(y.wrapping_mul(MULTIPLIER));
+    y = y.wrapping_add(x.wrapping_mul(MULTIPLIER));
+    [x ^ (x >> 16), y ^ (y >> 16)]
+}
+
+pub fn pcg3d(v: [u32; 3]) -> [u32; 3] {
+    let [mut x, mut y, mut z] = v.map(advance);
+    for round in 0..2 {
+        x = x.wrapping_add(y.wrapping_mul(z));
+        y = y.wrapping_add(z.wrapping_mul(x));
+        z = z.wrapping_add(x.wrapping_mul(y));
+        if round == 0 {
+            x ^= x >> 16;
+            y ^= y >> 16;
+            z ^= z >> 16;
+        }
+    }
+    [x, y, z]
+}
+
+/// One key a pixel; all pixels have the key of a pixel outside the picture when they share it.
+pub fn pixel_key(pixel: [u32; 2], seed: u32, shared_key: bool) -> [u32; 2] {
+    let [x, y] = if shared_key { [u32::MAX; 2] } else { pixel };
+    let [a, b, _] = pcg3d([x, y, seed]);
+    [a, b]
+}
+
+pub fn sample_bits(key: [u32; 2], s: u32) -> [u32; 2] {
+    pcg2d([key[0].wrapping_add(s), key[1]])
+}

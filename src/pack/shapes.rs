@@ -1,0 +1,146 @@
+//! Planes, spheres and triangles → their device records, relative to the eye, each with its map.
+
+use glam::{DVec2, DVec3, DVec4};
+
+use super::mapping::{self, Bounds};
+use super::{MapKind, PackedScene, vec4};
+use crate::error::{Error, Result};
+use crate::layout;
+use crate::scene::model::{Mapping, MappingKind, Material, Plane, Scene, Space, Sphere, Triangle};
+use crate::texture::sampler_spec::SamplerSpec;
+
+pub fn pack_shapes(packed: &mut PackedScene, scene: &Scene) -> Result<()> {
+    let eye = scene.camera.eye;
+    for plane in &scene.planes {
+        let record = pack_plane(packed, scene, plane, eye)?;
+        packed.planes.push(record);
+    }
+    for sphere in &scene.spheres {
+        let map = add_map(packed, scene, sphere.material, |mapping, sampler| {
+            let around_center = Mapping { origin: sphere.center, ..*mapping };
+            let mapping = if mapping.kind == MappingKind::Surface { &around_center } else { mapping };
+            mapping::projecting_map(mapping, sampler, eye, Some(sphere_bounds(sphere)))
+        });
+        packed.spheres.push(layout::Sphere {
+            ball: vec4((sphere.center - eye).extend(sphere.radius)),
+            link: [sphere.material as u32, map, 0, 0],
+        });
+    }
+    for triangle in &scene.triangles {
+        let record = pack_triangle(packed, scene, triangle, eye);
+        packed.triangles.push(record);
+    }
+    Ok(())
+}
+
+/// Rows u and v of the plane's own coordinates: p ↦ row·(p, 1) solves p + eye - origin =
+/// u tangent + v bitangent, also for axes that are neither unit nor orthogonal.
+pub fn plane_rows(plane: &Plane, eye: DVec3) -> [DVec4; 2] {
+    let (t, b) = (plane.tangent, plane.bitangent);
+    let (tt, tb, bb) = (t.dot(t), t.dot(b), b.dot(b));
+    let determinant = tt * bb - tb * tb;
+    [(bb * t - tb * b) / determinant, (tt * b - tb * t) / determinant]
+        .map(|row| row.extend(row.dot(eye - plane.origin)))
+}
+
+fn pack_plane(
+    packed: &mut PackedScene,
+    scene: &Scene,
+    plane: &Plane,
+    eye: DVec3,
+) -> Result<layout::Plane> {
+    let normal = plane.tangent.cross(plane.bitangent).normalize();
+    let [u, v] = plane_rows(plane, eye);
+    let bounds = plane.half_extent.map(|h| plane_bounds(plane, h));
+    let material = &scene.materials[plane.material];
+    if material.texture.is_some() && material.mapping.space == Space::Bounds && bounds.is_none() {
+        return Err(Error::with_help(
+            format!("material \"{}\": mapping in the space of the shape's box, on an infinite plane", material.name),
+            "give the plane a half_extent, or use space = \"world\"",
+        ));
+    }
+    let map = add_map(packed, scene, plane.material, |mapping, sampler| match mapping.kind {
+        MappingKind::Surface => mapping::affine_map(mapping, sampler, u, v),
+        _ => mapping::projecting_map(mapping, sampler, eye, bounds),
+    });
+    Ok(layout::Plane {
+        normal: vec4(normal.extend(normal.dot(plane.origin - eye))),
+        extent_u: vec4(u),
+        extent_v: vec4(v),
+        link: [
+            plane.material as u32,
+            map,
+            (plane.half_extent.unwrap_or(0.0) as f32).to_bits(),
+            u32::from(plane.half_extent.is_some()),
+        ],
+    })
+}
+
+fn pack_triangle(
+    packed: &mut PackedScene,
+    scene: &Scene,
+    triangle: &Triangle,
+    eye: DVec3,
+) -> layout::Triangle {
+    let [a, b, c] = triangle.vertices.map(|v| v - eye);
+    let normal = (b - a).cross(c - a).normalize();
+    let material = &scene.materials[triangle.material];
+    let uvs = vertex_uvs(triangle, material, &scene.sampler_of(material));
+    let map = add_map(packed, scene, triangle.material, |mapping, sampler| match mapping.kind {
+        MappingKind::Surface => {
+            layout::Map { link: [MapKind::VertexUv as u32, 0, 0, 0], ..Default::default() }
+        }
+        _ => mapping::projecting_map(mapping, sampler, eye, Some(triangle_bounds(triangle))),
+    });
+    let shading = triangle.normals.unwrap_or([normal; 3]).map(|n| vec4(n.normalize().extend(0.0)));
+    layout::Triangle {
+        a: vec4(a.extend(uvs[0].x)),
+        b: vec4(b.extend(uvs[1].x)),
+        c: vec4(c.extend(uvs[2].x)),
+        v: vec4(DVec4::new(uvs[0].y, uvs[1].y, uvs[2].y, f64::from(u8::from(triangle.normals.is_some())))),
+        normal: vec4(normal.extend(normal.dot(a))),
+        normal_a: shading[0],
+        normal_b: shading[1],
+        normal_c: shading[2],
+        link: [triangle.material as u32, map, 0, 0],
+    }
+}
+
+/// The vertices' coordinates after scale, rotation and offset, with the whole tiles of the first
+/// vertex taken out of all three.
+fn vertex_uvs(triangle: &Triangle, material: &Material, sampler: &SamplerSpec) -> [DVec2; 3] {
+    let matrix = mapping::uv_matrix(&material.mapping);
+    let uvs = triangle.uvs.map(|uv| matrix * uv + material.mapping.offset);
+    let whole = mapping::whole_tiles(uvs[0], mapping::periods(sampler));
+    uvs.map(|uv| uv - whole)
+}
+
+/// The index of the shape's map; shapes without a texture share map 0, which they never read.
+fn add_map(
+    packed: &mut PackedScene,
+    scene: &Scene,
+    material: usize,
+    make: impl Fn(&Mapping, &SamplerSpec) -> layout::Map,
+) -> u32 {
+    let material = &scene.materials[material];
+    if material.texture.is_none() {
+        return 0;
+    }
+    packed.maps.push(make(&material.mapping, &scene.sampler_of(material)));
+    packed.maps.len() as u32 - 1
+}
+
+fn sphere_bounds(sphere: &Sphere) -> Bounds {
+    let reach = DVec3::splat(sphere.radius);
+    Bounds { min: sphere.center - reach, max: sphere.center + reach }
+}
+
+fn plane_bounds(plane: &Plane, half_extent: f64) -> Bounds {
+    let reach = half_extent * (plane.tangent.abs() + plane.bitangent.abs());
+    Bounds { min: plane.origin - reach, max: plane.origin + reach }
+}
+
+fn triangle_bounds(triangle: &Triangle) -> Bounds {
+    let [a, b, c] = triangle.vertices;
+    Bounds { min: a.min(b).min(c), max: a.max(b).max(c) }
+}

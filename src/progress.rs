@@ -1,0 +1,19 @@
+//! How a long computation tells how far it is, and learns that it shall stop.
+
+pub trait Progress: Sync {
+    /// `done` of the work is finished, in [0, 1].
+    fn advance(&self, done: f64);
+    /// True once the person asked to stop; the work then ends at the next safe place.
+    fn cancelled(&self) -> bool;
+}
+
+/// Says nothing, never stops.
+pub struct Silent;
+
+impl Progress for Silent {
+    fn advance(&self, _done: f64) {}
+
+    fn cancelled(&self) -> bool {
+        false
+    }
+}

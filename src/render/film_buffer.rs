@@ -1,0 +1,107 @@
+//! The film on the device: sums of radiance, four floats a pixel, twice that with compensation. A
+//! picture larger than the device's buffers is rendered in bands of whole tile rows, one buffer
+//! serving all; each band is read back into the host's film as means.
+
+use crate::error::{Error, Result};
+use crate::features::Features;
+use crate::film::Film;
+use crate::gpu::{Buffer, BufferUse, DeviceKind, Gpu};
+use crate::layout::{Slice, TILE};
+use crate::pack::PackedScene;
+
+use super::slices::tile_stride;
+
+const PIXEL_BYTES: u64 = 16;
+/// Larger films gain nothing: on a CPU device this is host memory, on a GPU it is read back anyway.
+const MAX_BYTES_CPU: u64 = 64 << 20;
+const MAX_BYTES_GPU: u64 = 1 << 30;
+
+pub struct FilmBuffer {
+    pub buffer: Buffer,
+    width: u32,
+    height: u32,
+    band_rows: u32,
+    compensated: bool,
+}
+
+/// Some rows of the picture.
+pub struct Band {
+    pub y: u32,
+    pub height: u32,
+    pub tiles_x: u32,
+    pub tiles: u32,
+}
+
+impl Band {
+    /// The push constants of a slice, but for which tiles and samples.
+    pub fn slice(&self) -> Slice {
+        Slice {
+            tiles_x: self.tiles_x,
+            tiles: self.tiles,
+            tile_stride: tile_stride(self.tiles),
+            band_y: self.y,
+            band_height: self.height,
+            ..Default::default()
+        }
+    }
+}
+
+impl FilmBuffer {
+    pub fn new(gpu: &Gpu, scene: &PackedScene, features: &Features) -> Result<FilmBuffer> {
+        let [width, height, _, _] = scene.header.size;
+        let limits = &gpu.info().limits;
+        let cap = if gpu.info().kind == DeviceKind::Cpu { MAX_BYTES_CPU } else { MAX_BYTES_GPU };
+        let cap = cap.min(limits.max_storage_buffer_range).min(limits.heap_bytes / 4);
+        let row = u64::from(width) * PIXEL_BYTES * if features.compensated { 2 } else { 1 };
+        let tile_rows = cap / (row * u64::from(TILE));
+        if tile_rows == 0 {
+            return Err(Error::new(format!(
+                "a picture {width} pixels wide: {TILE} rows of film take {} MiB, device \"{}\" allows {} MiB at once",
+                (row * u64::from(TILE)) >> 20,
+                gpu.info().name,
+                cap >> 20
+            )));
+        }
+        let band_rows = (tile_rows * u64::from(TILE)).min(u64::from(height)) as u32;
+        let buffer = gpu.buffer("film", row * u64::from(band_rows), BufferUse::Storage)?;
+        Ok(FilmBuffer { buffer, width, height, band_rows, compensated: features.compensated })
+    }
+
+    pub fn bands(&self) -> impl Iterator<Item = Band> + use<> {
+        let (width, height, rows) = (self.width, self.height, self.band_rows);
+        (0..height).step_by(rows as usize).map(move |y| {
+            let height = rows.min(height - y);
+            let tiles_x = width.div_ceil(TILE);
+            Band { y, height, tiles_x, tiles: tiles_x * height.div_ceil(TILE) }
+        })
+    }
+
+    /// Tiles of the whole picture.
+    pub fn tiles(&self) -> u64 {
+        self.bands().map(|b| u64::from(b.tiles)).sum()
+    }
+
+    /// Sums of a band → means of its rows, a few rows at a time.
+    pub fn read(&self, gpu: &Gpu, band: &Band, film: &mut Film) -> Result<()> {
+        let row_bytes = u64::from(self.width) * PIXEL_BYTES;
+        let rows_at_once = ((4 << 20) / row_bytes).clamp(1, u64::from(band.height)) as u32;
+        let mut sums = vec![[0f32; 4]; (self.width * rows_at_once) as usize];
+        let mut lost = if self.compensated { sums.clone() } else { Vec::new() };
+        for y in (0..band.height).step_by(rows_at_once as usize) {
+            let count = (rows_at_once.min(band.height - y) * self.width) as usize;
+            gpu.read_buffer(&self.buffer, u64::from(y) * row_bytes, bytemuck::cast_slice_mut(&mut sums[..count]))?;
+            if self.compensated {
+                let second = u64::from(band.height + y) * row_bytes;
+                gpu.read_buffer(&self.buffer, second, bytemuck::cast_slice_mut(&mut lost[..count]))?;
+            }
+            let first = (band.y + y) as usize * self.width as usize;
+            for (i, out) in film.pixels[first..first + count].iter_mut().enumerate() {
+                for c in 0..3 {
+                    let rest = lost.get(i).map_or(0.0, |l| f64::from(l[c]));
+                    out[c] = ((f64::from(sums[i][c]) - rest) / f64::from(film.samples)) as f32;
+                }
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,163 @@
+//! Packed scene → film on a device: resources from the features, one pipeline, work handed out in
+//! slices, film read back. Orchestrates `gpu`'s own types and knows nothing of Vulkan's.
+
+mod film_buffer;
+mod resources;
+mod slices;
+mod tuning;
+
+use std::time::Instant;
+
+use serde::Serialize;
+
+use crate::error::{Error, Result};
+use crate::features::{self, Features};
+use crate::film::Film;
+use crate::gpu::{BindGroup, BindingDesc, BindingKind, Gpu, Pipeline, PipelineDesc};
+use crate::layout::Slice;
+use crate::pack::PackedScene;
+use crate::progress::Progress;
+use crate::shaders::Shader;
+
+use film_buffer::{Band, FilmBuffer};
+use resources::Resources;
+
+pub use resources::shader_for;
+pub use tuning::{Tuning, TexelChoice};
+
+/// Wall seconds by stage, in the order in which they come.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Seconds {
+    /// Opening the device.
+    pub startup: f64,
+    /// Reading and packing scene and textures.
+    pub load: f64,
+    /// Building pipelines, with a dispatch of one workgroup: drivers compile just in time.
+    pub compile: f64,
+    pub upload: f64,
+    pub render: f64,
+    pub readback: f64,
+    /// Encoding and writing the pictures.
+    pub write: f64,
+    pub total: f64,
+}
+
+/// What a render did beside its film.
+#[derive(Clone, Debug, Default)]
+pub struct Report {
+    pub left_out: Vec<String>,
+    pub seconds: Seconds,
+    /// Device timestamps around the slices, summed.
+    pub device_render_seconds: f64,
+    pub slices: u32,
+    /// Bytes of device memory at the end of the render.
+    pub device_bytes: u64,
+}
+
+/// Renders on an open device.
+pub fn render(
+    gpu: &Gpu,
+    scene: &PackedScene,
+    keep_everything: bool,
+    tuning: &Tuning,
+    progress: &dyn Progress,
+) -> Result<(Film, Report)> {
+    let mut report = Report::default();
+    let image_source = tuning.image_source(gpu.info(), scene);
+    let features = Features::new(scene, image_source, keep_everything);
+    report.left_out.clone_from(&features.left_out);
+
+    let clock = Instant::now();
+    let resources = Resources::upload(gpu, scene, &features)?;
+    let film_buffer = FilmBuffer::new(gpu, scene, &features)?;
+    report.seconds.upload = clock.elapsed().as_secs_f64();
+
+    let clock = Instant::now();
+    let shader = shader_for(features.source);
+    let group_size = tuning.group_size(gpu.info(), features.source);
+    let slots = scene.slots.len() as u32;
+    let constants = features::constants(shader, &features, &resources.sections, group_size, slots);
+    let pipeline = build_pipeline(gpu, shader, &constants, slots)?;
+    let group = resources.bind(gpu, &pipeline, &pipeline_bindings(shader, slots), &film_buffer)?;
+    let renderer = Renderer { gpu, pipeline, group, groups_per_tile: tuning::groups_per_tile(group_size) };
+    renderer.warm_up(&film_buffer)?;
+    report.seconds.compile = clock.elapsed().as_secs_f64();
+
+    let mut film = Film::new(scene.header.size[0], scene.header.size[1], scene.samples);
+    let mut plan = slices::Plan::new(scene.samples, film_buffer.tiles());
+    for band in film_buffer.bands() {
+        let clock = Instant::now();
+        renderer.band(&band, &mut plan, &mut report, progress)?;
+        report.seconds.render += clock.elapsed().as_secs_f64();
+        let clock = Instant::now();
+        film_buffer.read(gpu, &band, &mut film)?;
+        report.seconds.readback += clock.elapsed().as_secs_f64();
+    }
+    report.device_bytes = gpu.memory_in_use();
+    Ok((film, report))
+}
+
+/// Descriptors as reflection found them in the shader, with the scene's number of image slots.
+fn pipeline_bindings(shader: &Shader, slots: u32) -> Vec<BindingDesc> {
+    let describe = |b: &crate::shaders::ReflectedBinding| {
+        let count = if b.kind == BindingKind::SampledImage { slots.max(1) } else { 1 };
+        BindingDesc { binding: b.binding, kind: b.kind, count }
+    };
+    shader.bindings.iter().map(describe).collect()
+}
+
+fn build_pipeline(gpu: &Gpu, shader: &Shader, constants: &[(u32, u32)], slots: u32) -> Result<Pipeline> {
+    gpu.pipeline(&PipelineDesc {
+        name: shader.name,
+        spirv: shader.spirv,
+        bindings: &pipeline_bindings(shader, slots),
+        push_constant_bytes: size_of::<Slice>() as u32,
+        constants,
+    })
+}
+
+struct Renderer<'a> {
+    gpu: &'a Gpu,
+    pipeline: Pipeline,
+    group: BindGroup,
+    groups_per_tile: u32,
+}
+
+impl Renderer<'_> {
+    /// One workgroup of the first slice: whatever the driver compiles late, it compiles now.
+    fn warm_up(&self, film: &FilmBuffer) -> Result<()> {
+        if let Some(band) = film.bands().next() {
+            let slice = Slice { sample_count: 1, ..band.slice() };
+            self.gpu.run(&self.pipeline, &self.group, bytemuck::bytes_of(&slice), [1, 1, 1])?;
+        }
+        Ok(())
+    }
+
+    /// All samples of all tiles of a band, in slices as long as the plan allows.
+    fn band(
+        &self,
+        band: &Band,
+        plan: &mut slices::Plan,
+        report: &mut Report,
+        progress: &dyn Progress,
+    ) -> Result<()> {
+        for (first_sample, sample_count) in plan.chunks() {
+            let mut first_tile = 0;
+            while first_tile < band.tiles {
+                let tiles = plan.tiles(band.tiles - first_tile, sample_count);
+                let slice = Slice { first_tile, first_sample, sample_count, ..band.slice() };
+                let groups = [self.groups_per_tile, tiles, 1];
+                let time = self.gpu.run(&self.pipeline, &self.group, bytemuck::bytes_of(&slice), groups)?;
+                plan.learn(tiles, sample_count, time.wall_seconds);
+                report.device_render_seconds += time.device_seconds;
+                report.slices += 1;
+                progress.advance(plan.done());
+                if progress.cancelled() {
+                    return Err(Error::Interrupted);
+                }
+                first_tile += tiles;
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,66 @@
+//! What measures best on a kind of device: where texels are read from and the workgroup's shape.
+//! Both can be fixed for a measurement; neither changes the picture.
+
+use crate::error::{Error, Result};
+use crate::features::TexelSource;
+use crate::gpu::{DeviceInfo, DeviceKind};
+use crate::layout::TILE;
+use crate::named::named_enum;
+use crate::pack::{MAX_SLOTS, PackedScene};
+
+named_enum! {
+    /// Where look-ups of method shader read their texels.
+    pub enum TexelChoice {
+        Auto = "auto",
+        Buffer = "buffer",
+        Image = "image",
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Tuning {
+    pub texels: TexelChoice,
+    /// Width and height of a workgroup; `None` chooses by the device.
+    pub group: Option<[u32; 2]>,
+}
+
+impl Default for Tuning {
+    fn default() -> Self {
+        Tuning { texels: TexelChoice::Auto, group: None }
+    }
+}
+
+impl Tuning {
+    /// `64x1`: powers of two whose product is between 8 and 1024 and that divide a tile.
+    pub fn parse_group(text: &str) -> Result<[u32; 2]> {
+        let parsed = text.split_once('x').and_then(|(x, y)| Some([x.parse().ok()?, y.parse().ok()?]));
+        let fits = |n: u32| n.is_power_of_two() && n <= TILE;
+        match parsed {
+            Some([x, y]) if fits(x) && fits(y) && (8..=1024).contains(&(x * y)) => Ok([x, y]),
+            _ => Err(Error::new(format!(
+                "workgroup \"{text}\": expected WIDTHxHEIGHT, powers of two up to {TILE} with a product of 8 to 1024, such as 64x1"
+            ))),
+        }
+    }
+
+    /// Images are the only source of the device's samplers. Without any of those, CPU drivers read a
+    /// buffer fastest and GPUs an image, but descriptors are few and a buffer holds any number.
+    pub fn image_source(&self, device: &DeviceInfo, scene: &PackedScene) -> bool {
+        let fits = scene.slots.len() <= MAX_SLOTS;
+        scene.uses_hardware_samplers()
+            || match self.texels {
+                TexelChoice::Auto => device.kind != DeviceKind::Cpu && fits,
+                TexelChoice::Buffer => false,
+                TexelChoice::Image => fits,
+            }
+    }
+
+    pub fn group_size(&self, device: &DeviceInfo, _source: TexelSource) -> [u32; 2] {
+        let default = if device.kind == DeviceKind::Cpu { [64, 1] } else { [8, 8] };
+        self.group.unwrap_or(default)
+    }
+}
+
+pub fn groups_per_tile(group: [u32; 2]) -> u32 {
+    (TILE / group[0]) * (TILE / group[1])
+}

@@ -1,0 +1,74 @@
+//! Scene → the same picture's scene without what no ray can meet: materials on no shape, textures
+//! and samplers behind no material, lights that shine on nothing that scatters. Indices follow.
+
+use super::model::{Model, Scene};
+
+/// What was dropped, for `-v`.
+pub fn prune(scene: &mut Scene) -> Vec<String> {
+    let mut dropped = Vec::new();
+    let used: Vec<usize> = scene
+        .planes
+        .iter()
+        .map(|p| p.material)
+        .chain(scene.spheres.iter().map(|s| s.material))
+        .chain(scene.triangles.iter().map(|t| t.material))
+        .collect();
+    let materials = keep(&mut scene.materials, &used);
+    for shape in &mut scene.planes {
+        shape.material = materials[shape.material];
+    }
+    for shape in &mut scene.spheres {
+        shape.material = materials[shape.material];
+    }
+    for shape in &mut scene.triangles {
+        shape.material = materials[shape.material];
+    }
+    note(&mut dropped, "material", &materials);
+
+    let textured = || scene.materials.iter().filter(|m| m.texture.is_some());
+    let used: Vec<usize> = textured().filter_map(|m| m.texture).collect();
+    let samplers_used: Vec<usize> = textured().map(|m| m.sampler).collect();
+    let textures = keep(&mut scene.textures, &used);
+    let samplers = keep(&mut scene.samplers, &samplers_used);
+    for material in &mut scene.materials {
+        material.sampler = if material.texture.is_some() { samplers[material.sampler] } else { 0 };
+        material.texture = material.texture.map(|t| textures[t]);
+    }
+    note(&mut dropped, "texture", &textures);
+    note(&mut dropped, "sampler", &samplers);
+
+    if !scene.lights.is_empty() && !scene.materials.iter().any(|m| m.model == Model::Lambert) {
+        dropped.push(format!("{} lights that shine on nothing", scene.lights.len()));
+        scene.lights.clear();
+    }
+    dropped
+}
+
+const GONE: usize = usize::MAX;
+
+/// Keeps the items whose index is in `used`; returns old index → new index.
+fn keep<T>(items: &mut Vec<T>, used: &[usize]) -> Vec<usize> {
+    let mut map = vec![GONE; items.len()];
+    for &index in used {
+        map[index] = 0;
+    }
+    let mut next = 0;
+    for new in map.iter_mut().filter(|new| **new != GONE) {
+        *new = next;
+        next += 1;
+    }
+    let mut index = 0;
+    items.retain(|_| {
+        index += 1;
+        map[index - 1] != GONE
+    });
+    map
+}
+
+fn note(dropped: &mut Vec<String>, what: &str, map: &[usize]) {
+    match map.iter().filter(|&&new| new == GONE).count() {
+        0 => {}
+        1 => dropped.push(format!("1 {what} that no shape shows")),
+        n => dropped.push(format!("{n} {what}s that no shape shows")),
+    }
+}

@@ -1,0 +1,32 @@
+//! The compiled shaders, as `build.rs` made them: SPIR-V words and what reflection found in them.
+
+use crate::gpu::BindingKind;
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ReflectedBinding {
+    pub binding: u32,
+    pub kind: BindingKind,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SpecConstant {
+    pub name: &'static str,
+    pub id: u32,
+    pub default: u32,
+}
+
+#[derive(Debug)]
+pub struct Shader {
+    pub name: &'static str,
+    pub bindings: &'static [ReflectedBinding],
+    pub constants: &'static [SpecConstant],
+    pub spirv: &'static [u32],
+}
+
+impl Shader {
+    pub fn constant(&self, name: &str) -> Option<&'static SpecConstant> {
+        self.constants.iter().find(|c| c.name == name)
+    }
+}
+
+include!(concat!(env!("OUT_DIR"), "/shaders.rs"));
