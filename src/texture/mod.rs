@@ -2,3 +2,4 @@
 
 pub mod data;
 pub mod sampler_spec;
+pub mod synth;

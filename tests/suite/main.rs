@@ -1,1 +1,8 @@
-fn main() {}
+//! The one test binary; each module is a field of behaviour.
+
+// A failed step of a test is a failed test; clippy's own exemption covers #[test] functions alone,
+// not the helpers they share.
+#![allow(clippy::unwrap_used)]
+
+mod data;
+mod support;

@@ -1,0 +1,118 @@
+//! A poster, not tileable: words, an arrow, a zone plate and four different corners, so that a
+//! picture that is flipped, turned, mirrored or shifted by half a texel is seen to be so.
+
+use image::RgbImage;
+
+use super::{Color, mix, rgb, supersampled};
+
+const WIDTH: u32 = 256;
+const HEIGHT: u32 = 192;
+
+pub(super) fn poster() -> RgbImage {
+    supersampled(WIDTH, HEIGHT, 4, color)
+}
+
+fn color(x: f64, y: f64) -> Color {
+    let ink = rgb(24, 32, 56);
+    let (right, bottom) = (f64::from(WIDTH) - x, f64::from(HEIGHT) - y);
+    if let Some(c) = corner(x, y, right, bottom) {
+        return c;
+    }
+    if let Some(c) = rim(x, y, right, bottom) {
+        return c;
+    }
+    if text("MOIRE", x, y, (55.0, 15.0), 5.0) || text("UP", x, y, (22.0, 116.0), 3.0) {
+        return ink;
+    }
+    if text("256X192", x, y, (45.0, 170.0), 2.0) {
+        return rgb(150, 60, 40);
+    }
+    if arrow(x - 70.0, y - 66.0) {
+        return mix(rgb(236, 120, 24), rgb(150, 20, 60), (y - 66.0) / 90.0);
+    }
+    if let Some(c) = zone_plate(x - 176.0, y - 118.0) {
+        return c;
+    }
+    mix(rgb(250, 244, 226), rgb(196, 218, 232), y / f64::from(HEIGHT))
+}
+
+/// Red square top left, green triangle top right, blue disc bottom left, yellow ring bottom right.
+fn corner(x: f64, y: f64, right: f64, bottom: f64) -> Option<Color> {
+    let side = 36.0;
+    let from_center =
+        |a: f64, b: f64| ((a - 0.5 * side) * (a - 0.5 * side) + (b - 0.5 * side) * (b - 0.5 * side)).sqrt();
+    if x < side && y < side {
+        Some(rgb(206, 32, 40))
+    } else if right + y < side * 1.4 {
+        Some(rgb(24, 140, 64))
+    } else if from_center(x, bottom) < 14.0 {
+        Some(rgb(30, 76, 200))
+    } else if (7.0..14.0).contains(&from_center(right, bottom)) {
+        Some(rgb(240, 192, 20))
+    } else {
+        None
+    }
+}
+
+/// Four texels of colour along each side, one colour a side: what clamping repeats.
+fn rim(x: f64, y: f64, right: f64, bottom: f64) -> Option<Color> {
+    let sides = [
+        (x, rgb(24, 32, 56)),
+        (right, rgb(236, 120, 24)),
+        (y, rgb(20, 130, 140)),
+        (bottom, rgb(150, 20, 60)),
+    ];
+    sides.into_iter().find(|&(distance, _)| distance < 4.0).map(|(_, color)| color)
+}
+
+/// An arrow that points up, its tip at (0, 0), 90 texels long.
+fn arrow(x: f64, y: f64) -> bool {
+    let head = (0.0..38.0).contains(&y) && x.abs() < 0.72 * y;
+    let shaft = (38.0..90.0).contains(&y) && x.abs() < 10.0;
+    head || shaft
+}
+
+/// Rings whose spacing shrinks like 1/radius, down to two texels at the rim: an interference
+/// pattern shows wherever it is sampled too coarsely.
+fn zone_plate(x: f64, y: f64) -> Option<Color> {
+    let radius = 52.0;
+    let squared = x * x + y * y;
+    if squared > radius * radius {
+        return None;
+    }
+    // Ring number r²/p; rings lie p/2r apart, 2 texels at the rim.
+    let phase = squared / (4.0 * radius);
+    let t = phase - phase.floor();
+    Some(mix(rgb(252, 250, 244), rgb(24, 32, 56), if t < 0.5 { 2.0 * t } else { 2.0 - 2.0 * t }))
+}
+
+/// Whether (x, y) is inked by `words` set at `origin` (top left) with dots of `dot` texels.
+fn text(words: &str, x: f64, y: f64, origin: (f64, f64), dot: f64) -> bool {
+    let (column, row) = (((x - origin.0) / dot).floor(), ((y - origin.1) / dot).floor());
+    if column < 0.0 || !(0.0..7.0).contains(&row) {
+        return false;
+    }
+    let (column, row) = (column as usize, row as usize);
+    let dots = words.chars().nth(column / 6).map_or(0, |letter| glyph(letter)[row]);
+    column % 6 < 5 && dots >> (4 - column % 6) & 1 == 1
+}
+
+/// Seven rows of five dots; the highest of five bits is the leftmost dot.
+fn glyph(letter: char) -> [u8; 7] {
+    match letter {
+        'M' => [0b10001, 0b11011, 0b10101, 0b10101, 0b10001, 0b10001, 0b10001],
+        'O' => [0b01110, 0b10001, 0b10001, 0b10001, 0b10001, 0b10001, 0b01110],
+        'I' => [0b01110, 0b00100, 0b00100, 0b00100, 0b00100, 0b00100, 0b01110],
+        'R' => [0b11110, 0b10001, 0b10001, 0b11110, 0b10100, 0b10010, 0b10001],
+        'E' => [0b11111, 0b10000, 0b10000, 0b11110, 0b10000, 0b10000, 0b11111],
+        'U' => [0b10001, 0b10001, 0b10001, 0b10001, 0b10001, 0b10001, 0b01110],
+        'P' => [0b11110, 0b10001, 0b10001, 0b11110, 0b10000, 0b10000, 0b10000],
+        'X' => [0b10001, 0b10001, 0b01010, 0b00100, 0b01010, 0b10001, 0b10001],
+        '1' => [0b00100, 0b01100, 0b00100, 0b00100, 0b00100, 0b00100, 0b01110],
+        '2' => [0b01110, 0b10001, 0b00001, 0b00110, 0b01000, 0b10000, 0b11111],
+        '5' => [0b11111, 0b10000, 0b11110, 0b00001, 0b00001, 0b10001, 0b01110],
+        '6' => [0b01110, 0b10000, 0b10000, 0b11110, 0b10001, 0b10001, 0b01110],
+        '9' => [0b01110, 0b10001, 0b10001, 0b01111, 0b00001, 0b00001, 0b01110],
+        _ => [0; 7],
+    }
+}
