@@ -1,7 +1,34 @@
 //! Headless Vulkan compute renderer for texture mapping and anti-aliasing.
+//!
+//! ```text
+//! argv ─ cli ──┬─ scene::load ────▶ Scene (plain f64 data) ──┐
+//!              └─ texture::decode ▶ TextureData ─────────────┤
+//!                                                            ▼
+//!               features: what this scene needs ◀─ pack ─▶ PackedScene (exact bytes)
+//!                        ┌───────────────────────────────────┴──────────────┐
+//!             render + gpu (ash, unsafe)                              oracle (f64, rayon)
+//!             upload ▶ pipeline ▶ slices ▶ readback                   reads the same bytes
+//!                        └────────▶ Film (linear RGB means) ◀───────────────┘
+//!                                             │
+//!                             output (PNG, EXR, …) · metrics
+//! ```
+//!
+//! Only [`gpu`] names Vulkan. Each file of `glsl/shared/` has a twin of the same stem in [`oracle`].
 
+pub mod cli;
+pub mod color;
 pub mod error;
+pub mod features;
 pub mod film;
+pub mod gpu;
+pub mod layout;
+pub mod metrics;
 mod named;
+pub mod oracle;
+pub mod output;
+pub mod pack;
+pub mod progress;
+pub mod render;
 pub mod scene;
+pub mod shaders;
 pub mod texture;

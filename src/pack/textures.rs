@@ -97,3 +97,17 @@ pub fn needs_srgb_table(textures: &[layout::Texture]) -> bool {
             && TexelFormat::ALL[t.place[3] as usize].component() == Component::Unorm8
     })
 }
+
+impl PackedScene {
+    /// One line a texture: size, how it is stored, and what was expanded on the way.
+    pub fn texture_lines(&self) -> Vec<String> {
+        let line = |(name, record): (&String, &layout::Texture)| {
+            let [_, width, height, format] = record.place;
+            let format = TexelFormat::ALL[format as usize];
+            let space = ColorSpace::ALL[record.link[0] as usize];
+            let bytes = width as usize * height as usize * format.bytes_per_texel();
+            format!("\"{name}\": {width}×{height}, held as {format} ({space}), {} KiB", bytes.div_ceil(1024))
+        };
+        self.texture_names.iter().zip(&self.textures).map(line).collect()
+    }
+}

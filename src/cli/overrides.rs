@@ -1,0 +1,97 @@
+//! Options of the command line that replace values of the scene file, checked by the same rules.
+
+use clap::Args;
+use serde_json::{Value, json};
+
+use crate::error::{Error, Result};
+use crate::pack::Crop;
+use crate::scene::check_spp;
+use crate::scene::model::{Algorithm, Footprint, Pattern, Scene};
+use crate::texture::sampler_spec::{Filter, Method};
+
+use super::named_parser;
+
+#[derive(Args, Debug)]
+pub struct Overrides {
+    /// Picture size in pixels
+    #[arg(long, value_name = "WxH", value_parser = parse_size)]
+    size: Option<[u32; 2]>,
+    /// Samples per pixel
+    #[arg(long, value_name = "N")]
+    spp: Option<u32>,
+    #[arg(long, value_name = "A", value_parser = named_parser(Algorithm::NAMES, Algorithm::from_name), help = one_of("Algorithm", Algorithm::NAMES))]
+    algorithm: Option<Algorithm>,
+    #[arg(long, value_name = "P", value_parser = named_parser(Pattern::NAMES, Pattern::from_name), help = one_of("Sampling pattern", Pattern::NAMES))]
+    pattern: Option<Pattern>,
+    /// Seed of the sampling pattern
+    #[arg(long, value_name = "N")]
+    seed: Option<u32>,
+    #[arg(long, value_name = "M", value_parser = named_parser(Method::NAMES, Method::from_name), help = one_of("Look-up method of every sampler", Method::NAMES))]
+    method: Option<Method>,
+    #[arg(long, value_name = "F", value_parser = named_parser(Filter::NAMES, Filter::from_name), help = one_of("Filter of every sampler", Filter::NAMES))]
+    filter: Option<Filter>,
+    #[arg(long, value_name = "F", value_parser = named_parser(Footprint::NAMES, Footprint::from_name), help = one_of("Footprint of a sample", Footprint::NAMES))]
+    footprint: Option<Footprint>,
+}
+
+/// The help of an option that takes one of `names`.
+fn one_of(what: &str, names: &[&str]) -> String {
+    format!("{what}: {}", names.join(", "))
+}
+
+impl Overrides {
+    pub fn apply(&self, scene: &mut Scene) -> Result<()> {
+        if let Some([width, height]) = self.size {
+            (scene.width, scene.height) = (width, height);
+        }
+        let sampling = &mut scene.sampling;
+        sampling.spp = self.spp.unwrap_or(sampling.spp);
+        sampling.algorithm = self.algorithm.unwrap_or(sampling.algorithm);
+        sampling.pattern = self.pattern.unwrap_or(sampling.pattern);
+        sampling.seed = self.seed.unwrap_or(sampling.seed);
+        sampling.footprint = self.footprint.unwrap_or(sampling.footprint);
+        if sampling.shared && sampling.pattern != Pattern::Stratified {
+            return Err(Error::with_help(
+                format!("the scene shares its displacement vectors, which pattern \"{}\" does not have", sampling.pattern),
+                "remove shared = true from [sampling], or use --pattern stratified",
+            ));
+        }
+        check_spp(sampling.pattern, sampling.spp).map_err(|m| Error::new(format!("--spp: {m}")))?;
+        for sampler in &mut scene.samplers {
+            sampler.method = self.method.unwrap_or(sampler.method);
+            if let Some(filter) = self.filter {
+                (sampler.mag, sampler.min) = (filter, filter);
+            }
+        }
+        Ok(())
+    }
+
+    /// What the render used, overridden or not.
+    pub fn report(&self, scene: &Scene, crop: Option<Crop>, keep_everything: bool) -> Value {
+        let s = &scene.sampling;
+        let methods: Vec<&str> = scene.samplers.iter().map(|x| x.method.name()).collect();
+        json!({
+            "scene": scene.path.display().to_string(),
+            "size": [scene.width, scene.height],
+            "crop": crop.map(|c| [c.x, c.y, c.width, c.height]),
+            "algorithm": s.algorithm.name(),
+            "pattern": s.pattern.name(),
+            "spp": s.spp,
+            "shared": s.shared,
+            "seed": s.seed,
+            "max_depth": s.max_depth,
+            "footprint": s.footprint.name(),
+            "methods": methods,
+            "keep_everything": keep_everything,
+        })
+    }
+}
+
+fn parse_size(text: &str) -> Result<[u32; 2], String> {
+    let limit = crate::scene::MAX_IMAGE_SIDE;
+    let parsed = text.split_once(['x', '×']).and_then(|(w, h)| Some([w.parse().ok()?, h.parse().ok()?]));
+    match parsed {
+        Some([w, h]) if (1..=limit).contains(&w) && (1..=limit).contains(&h) => Ok([w, h]),
+        _ => Err(format!("expected WIDTHxHEIGHT, each from 1 to {limit}, such as 512x512")),
+    }
+}

@@ -1,0 +1,41 @@
+//! The progress bar on a terminal, and Ctrl-C: the first one lets the slice on the device finish.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+
+use crate::error::{Error, Result};
+use crate::progress::Progress;
+
+static CANCELLED: AtomicBool = AtomicBool::new(false);
+const STEPS: u64 = 1000;
+
+/// Drawn on stderr when that is a terminal; nothing in a pipe.
+pub struct Bar(ProgressBar);
+
+impl Bar {
+    pub fn new(quiet: bool) -> Result<Bar> {
+        ctrlc::set_handler(|| CANCELLED.store(true, Ordering::Relaxed))
+            .map_err(|e| Error::new(format!("cannot listen to Ctrl-C: {e}")))?;
+        let target = if quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
+        let bar = ProgressBar::with_draw_target(Some(STEPS), target);
+        if let Ok(style) = ProgressStyle::with_template("{wide_bar} {percent:>3} % {eta:>4} left") {
+            bar.set_style(style);
+        }
+        Ok(Bar(bar))
+    }
+
+    pub fn finish(&self) {
+        self.0.finish_and_clear();
+    }
+}
+
+impl Progress for Bar {
+    fn advance(&self, done: f64) {
+        self.0.set_position((done * STEPS as f64) as u64);
+    }
+
+    fn cancelled(&self) -> bool {
+        CANCELLED.load(Ordering::Relaxed)
+    }
+}

@@ -1,0 +1,228 @@
+//! `moire render`: a scene file and options in, pictures and (with `--json`) one object of figures
+//! out. Everything that can be refused is refused before the device starts.
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+use std::time::Instant;
+
+use clap::Args;
+use serde_json::json;
+
+use super::overrides::Overrides;
+use super::progress::Bar;
+use crate::error::{Error, Result};
+use crate::film::Film;
+use crate::gpu::{DeviceSelect, Gpu};
+use crate::oracle;
+use crate::output::{self, WriteOptions};
+use crate::pack::{self, Crop, PackedScene};
+use crate::progress::Progress;
+use crate::render::{self, Report, TexelChoice, Tuning};
+use crate::scene::model::Scene;
+use crate::scene::prune::prune;
+use crate::texture;
+
+#[derive(Args, Debug)]
+pub struct RenderArgs {
+    /// Scene file (TOML)
+    scene: PathBuf,
+    /// Picture to write; the ending decides the format: exr hdr (linear float), png jpg tif (sRGB).
+    /// May be given several times [default: <scene>.png in the current folder]
+    #[arg(short, long = "output", value_name = "OUT")]
+    output: Vec<PathBuf>,
+    #[command(flatten)]
+    overrides: Overrides,
+    /// Device: an index or a part of the name as `moire devices` lists them, cpu, gpu, or oracle
+    /// (float64 on the CPU) [default: discrete GPU, else integrated, else CPU]
+    #[arg(long, value_name = "SEL")]
+    device: Option<String>,
+    /// Render only this part, in pixels of the full picture
+    #[arg(long, value_name = "X,Y,W,H", value_parser = parse_crop)]
+    crop: Option<Crop>,
+    /// Build the pipeline with all features, to measure what leaving them out gains
+    #[arg(long)]
+    keep_everything: bool,
+    /// Where look-ups of method shader read texels
+    #[arg(long, value_name = "SOURCE", default_value = "auto", value_parser = super::named_parser(TexelChoice::NAMES, TexelChoice::from_name))]
+    texels: TexelChoice,
+    /// Workgroup shape, for measurements [default: by device]
+    #[arg(long, value_name = "WxH", value_parser = |s: &str| Tuning::parse_group(s).map_err(|e| e.to_string()))]
+    workgroup: Option<[u32; 2]>,
+    /// Bits per channel of PNG files
+    #[arg(long, value_name = "BITS", default_value = "8", value_parser = ["8", "16"])]
+    png_bits: String,
+    /// Print one JSON object on stdout
+    #[arg(long)]
+    json: bool,
+    /// Say nothing but errors
+    #[arg(short, long, conflicts_with = "verbose")]
+    quiet: bool,
+    /// Say what was left out and how textures are stored
+    #[arg(short, long)]
+    verbose: bool,
+}
+
+/// What a render ran on.
+struct Ran {
+    device: String,
+    driver: String,
+    film: Film,
+    report: Report,
+}
+
+pub fn run(args: &RenderArgs) -> Result<ExitCode> {
+    let start = Instant::now();
+    let bar = Bar::new(args.quiet)?;
+    let oracle = args.device.as_deref() == Some("oracle");
+    let select = match args.device.as_deref() {
+        Some(text) if !oracle => DeviceSelect::parse(text)?,
+        _ => DeviceSelect::Default,
+    };
+    let mut scene = crate::scene::load(&args.scene)?;
+    args.overrides.apply(&mut scene)?;
+    check_crop(args.crop, &scene)?;
+    let outputs = outputs(args);
+    for path in &outputs {
+        output::check_writable(path)?;
+    }
+    let dropped = prune(&mut scene);
+
+    let mut ran = if oracle {
+        render_on_oracle(args, &scene, &bar, start)?
+    } else {
+        render_on_device(args, &scene, &select, &bar, start)?
+    };
+    ran.report.left_out.extend(dropped);
+    bar.finish();
+
+    let clock = Instant::now();
+    let options = WriteOptions { png_bits: if args.png_bits == "16" { 16 } else { 8 } };
+    for path in &outputs {
+        output::write(&ran.film, path, &options)?;
+    }
+    ran.report.seconds.write = clock.elapsed().as_secs_f64();
+    ran.report.seconds.total = start.elapsed().as_secs_f64();
+    report(args, &scene, &ran, &outputs);
+    Ok(ExitCode::SUCCESS)
+}
+
+/// The device opens while the textures are read: both wait for different things.
+fn render_on_device(
+    args: &RenderArgs,
+    scene: &Scene,
+    select: &DeviceSelect,
+    bar: &Bar,
+    start: Instant,
+) -> Result<Ran> {
+    let (gpu, packed, startup, load) = std::thread::scope(|scope| {
+        let loading = scope.spawn(|| (load(scene, args), start.elapsed().as_secs_f64()));
+        let clock = Instant::now();
+        let gpu = Gpu::open(select);
+        let startup = clock.elapsed().as_secs_f64();
+        let (packed, load) = loading.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
+        // A mistake in the scene is told before one of the machine.
+        packed.and_then(|packed| Ok((gpu?, packed, startup, load)))
+    })?;
+    say_textures(args, &packed);
+    let tuning = Tuning { texels: args.texels, group: args.workgroup };
+    let (film, mut report) = render::render(&gpu, &packed, args.keep_everything, &tuning, bar)?;
+    (report.seconds.startup, report.seconds.load) = (startup, load);
+    for message in gpu.messages() {
+        eprintln!("validation: {message}");
+    }
+    Ok(Ran { device: gpu.info().name.clone(), driver: gpu.info().driver.clone(), film, report })
+}
+
+fn render_on_oracle(args: &RenderArgs, scene: &Scene, bar: &Bar, start: Instant) -> Result<Ran> {
+    let packed = load(scene, args)?;
+    say_textures(args, &packed);
+    let mut report = Report::default();
+    report.seconds.load = start.elapsed().as_secs_f64();
+    let clock = Instant::now();
+    let film = oracle::render::render(&packed, bar)?;
+    report.seconds.render = clock.elapsed().as_secs_f64();
+    let driver = format!("moire {} in float64", env!("CARGO_PKG_VERSION"));
+    Ok(Ran { device: "oracle".into(), driver, film, report })
+}
+
+fn load(scene: &Scene, args: &RenderArgs) -> Result<PackedScene> {
+    let decode = |t: &crate::scene::model::TextureSource| texture::decode::decode(&t.file, &t.name, t.color_space, t.flip_v);
+    let textures = scene.textures.iter().map(decode).collect::<Result<Vec<_>>>()?;
+    pack::pack(scene, textures, args.crop)
+}
+
+fn outputs(args: &RenderArgs) -> Vec<PathBuf> {
+    if args.output.is_empty() {
+        let stem = args.scene.file_stem().unwrap_or("scene".as_ref());
+        return vec![PathBuf::from(stem).with_extension("png")];
+    }
+    args.output.clone()
+}
+
+fn parse_crop(text: &str) -> Result<Crop, String> {
+    let numbers: Vec<u32> = text.split(',').map_while(|n| n.trim().parse().ok()).collect();
+    match numbers[..] {
+        [x, y, width, height] if text.split(',').count() == 4 && width > 0 && height > 0 => {
+            Ok(Crop { x, y, width, height })
+        }
+        _ => Err("expected X,Y,W,H in whole pixels, with W and H at least 1".into()),
+    }
+}
+
+fn check_crop(crop: Option<Crop>, scene: &Scene) -> Result<()> {
+    let Some(c) = crop else { return Ok(()) };
+    let fits = |at: u32, size: u32, whole: u32| at.checked_add(size).is_some_and(|end| end <= whole);
+    if fits(c.x, c.width, scene.width) && fits(c.y, c.height, scene.height) {
+        return Ok(());
+    }
+    Err(Error::new(format!(
+        "--crop {},{},{},{} reaches outside the picture of {}×{} pixels",
+        c.x, c.y, c.width, c.height, scene.width, scene.height
+    )))
+}
+
+fn say_textures(args: &RenderArgs, packed: &PackedScene) {
+    if args.verbose {
+        for line in packed.texture_lines() {
+            eprintln!("texture {line}");
+        }
+    }
+}
+
+fn report(args: &RenderArgs, scene: &Scene, ran: &Ran, outputs: &[PathBuf]) {
+    let outputs: Vec<String> = outputs.iter().map(|p| p.display().to_string()).collect();
+    let seconds = &ran.report.seconds;
+    if args.json {
+        let object = json!({
+            "device": ran.device,
+            "driver": ran.driver,
+            "options": args.overrides.report(scene, args.crop, args.keep_everything),
+            "left_out": ran.report.left_out,
+            "samples": ran.film.samples,
+            "outputs": outputs,
+            "seconds": seconds,
+            "device_seconds": { "render": ran.report.device_render_seconds },
+            "device_bytes": ran.report.device_bytes,
+            "slices": ran.report.slices,
+        });
+        println!("{object:#}");
+    }
+    if args.quiet {
+        return;
+    }
+    if args.verbose {
+        eprintln!("left out:");
+        for line in &ran.report.left_out {
+            eprintln!("  {line}");
+        }
+        eprintln!(
+            "seconds: startup {:.3}, load {:.3}, upload {:.3}, compile {:.3}, render {:.3} (device {:.4}, {} slices), readback {:.3}, write {:.3}",
+            seconds.startup, seconds.load, seconds.upload, seconds.compile, seconds.render,
+            ran.report.device_render_seconds, ran.report.slices, seconds.readback, seconds.write
+        );
+    }
+    eprintln!(
+        "{}: {}×{} pixels, {} samples a pixel on {}, render {:.3} s, total {:.3} s",
+        outputs.join(", "), ran.film.width, ran.film.height, ran.film.samples, ran.device, seconds.render, seconds.total
+    );
+}
