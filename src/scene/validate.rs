@@ -5,8 +5,7 @@ use glam::DVec3;
 
 use super::model::Pattern;
 
-/// Pixels along one side of a picture: what every Vulkan device class in use can hold
-/// (`maxImageDimension2D` is 16384 or more on desktop devices).
+/// Pixels along one side of a picture.
 pub const MAX_SIZE: u32 = 16384;
 /// Samples per pixel: sample positions are multiples of 2⁻²⁴, more could not be told apart.
 pub const MAX_SPP: u32 = 1 << 24;

@@ -339,7 +339,7 @@ fn unreadable_scene_files_say_which_and_why() {
     assert!(matches!(error, Error::Plain { help: Some(help), .. } if help.contains("UTF-8")));
 }
 
-/// Quadratic reading of 10 000 triangles would take minutes.
+/// A wide bound against look-ups whose cost grows with the square of the number of names.
 #[test]
 fn ten_thousand_triangles_parse_in_well_under_two_seconds() {
     let mut text = HEAD.to_owned();
