@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 
 use crate::error::{Error, Result};
 use crate::pack::Crop;
-use crate::scene::check_spp;
+use crate::scene::{check_shared, check_spp};
 use crate::scene::model::{Algorithm, Footprint, Pattern, Scene};
 use crate::texture::sampler_spec::{Filter, Method};
 
@@ -50,12 +50,7 @@ impl Overrides {
         sampling.pattern = self.pattern.unwrap_or(sampling.pattern);
         sampling.seed = self.seed.unwrap_or(sampling.seed);
         sampling.footprint = self.footprint.unwrap_or(sampling.footprint);
-        if sampling.shared && sampling.pattern != Pattern::Stratified {
-            return Err(Error::with_help(
-                format!("the scene shares its displacement vectors, which pattern \"{}\" does not have", sampling.pattern),
-                "remove shared = true from [sampling], or use --pattern stratified",
-            ));
-        }
+        check_shared(sampling.pattern, sampling.shared).map_err(Error::new)?;
         check_spp(sampling.pattern, sampling.spp).map_err(|m| Error::new(format!("--spp: {m}")))?;
         for sampler in &mut scene.samplers {
             sampler.method = self.method.unwrap_or(sampler.method);
@@ -88,7 +83,7 @@ impl Overrides {
 }
 
 fn parse_size(text: &str) -> Result<[u32; 2], String> {
-    let limit = crate::scene::MAX_IMAGE_SIDE;
+    let limit = crate::scene::MAX_SIZE;
     let parsed = text.split_once(['x', '×']).and_then(|(w, h)| Some([w.parse().ok()?, h.parse().ok()?]));
     match parsed {
         Some([w, h]) if (1..=limit).contains(&w) && (1..=limit).contains(&h) => Ok([w, h]),

@@ -5,4 +5,5 @@
 #![allow(clippy::unwrap_used)]
 
 mod data;
+mod scene;
 mod support;

@@ -1,0 +1,163 @@
+//! Entry of the scene layer. In: a path, or text and the path it is known by. Out: the whole
+//! validated scene, with every reference an index, or the first error.
+
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+
+use toml::de::DeTable;
+
+use super::model::{Material, Plane, Scene, Sphere, TextureSource, Triangle};
+use super::names::Names;
+use super::sections::{self, default_material};
+use super::shapes::{self, MaterialIndex};
+use super::source::Source;
+use super::table::Table;
+use super::validate::{MAX_SHAPES, MAX_TEXTURES};
+use crate::error::{Error, Result};
+use crate::texture::sampler_spec::SamplerSpec;
+
+/// 65535 triangles with texture coordinates take 7 MB of text.
+const MAX_BYTES: u64 = 64 << 20;
+const SECTIONS: &[&str] = &[
+    "camera",
+    "image",
+    "sampling",
+    "background",
+    "texture",
+    "sampler",
+    "material",
+    "plane",
+    "sphere",
+    "triangle",
+    "light",
+];
+
+/// Reads a scene file. Textures are named, not opened.
+pub fn load(path: &Path) -> Result<Scene> {
+    parse(path, &read(path)?)
+}
+
+/// Parses scene text. Paths in it are relative to the folder of `path_for_messages`.
+pub fn parse(path_for_messages: &Path, text: &str) -> Result<Scene> {
+    let source = Source { path: path_for_messages, text };
+    let document = DeTable::parse(text).map_err(|error| syntax_error(source, &error))?;
+    let root = Table::root(source, document.get_ref(), SECTIONS)?;
+    assemble(path_for_messages, &root)
+}
+
+fn read(path: &Path) -> Result<String> {
+    let shown = path.display();
+    if path.is_dir() {
+        let message = format!("cannot read scene {shown}: it is a folder");
+        return Err(Error::with_help(message, "name a scene file (TOML) in it"));
+    }
+    let unreadable = |error: std::io::Error| Error::new(format!("cannot read scene {shown}: {error}"));
+    let mut bytes = Vec::new();
+    let file = File::open(path).map_err(unreadable)?;
+    file.take(MAX_BYTES + 1).read_to_end(&mut bytes).map_err(unreadable)?;
+    if bytes.len() as u64 > MAX_BYTES {
+        return Err(Error::new(format!(
+            "cannot read scene {shown}: it is larger than {} MiB, the most a scene file may have",
+            MAX_BYTES >> 20
+        )));
+    }
+    String::from_utf8(bytes).map_err(|error| {
+        let valid = error.utf8_error().valid_up_to();
+        let line = error.as_bytes()[..valid].iter().filter(|&&byte| byte == b'\n').count() + 1;
+        let byte = error.as_bytes()[valid];
+        let message = format!(
+            "cannot read scene {shown}: not UTF-8 text (byte 0x{byte:02x} at offset {valid}, line {line})"
+        );
+        Error::with_help(message, "scene files are TOML text: save the file as UTF-8")
+    })
+}
+
+fn syntax_error(source: Source<'_>, error: &toml::de::Error) -> Error {
+    let span = error.span().unwrap_or(0..0);
+    let found = match source.excerpt(span.clone()) {
+        empty if empty.is_empty() => String::new(),
+        excerpt => format!(", found {excerpt}"),
+    };
+    source.error(span, &format!("TOML syntax: {}{found}", error.message()), error.message())
+}
+
+fn assemble(path: &Path, root: &Table<'_>) -> Result<Scene> {
+    root.check_counts("textures", MAX_TEXTURES, &["texture"])?;
+    root.check_counts("planes, spheres and triangles", MAX_SHAPES, &["plane", "sphere", "triangle"])?;
+
+    const CAMERA_NEEDS: &str = "eye, look_at and one of vertical_fov, camera_constant, orthographic_height";
+    let camera = sections::camera(&root.required_single("camera", sections::CAMERA, CAMERA_NEEDS)?)?;
+    let image = root.required_single("image", sections::IMAGE, "width and height")?;
+    let (width, height) = sections::image(&image)?;
+    let sampling = sections::sampling(root.single("sampling", sections::SAMPLING)?.as_ref())?;
+    let background = sections::background(root.single("background", sections::BACKGROUND)?.as_ref())?;
+
+    let Surfaces { textures, samplers, mut materials, names } = surfaces(path, root)?;
+    let index = MaterialIndex { names: &names, fallback: materials.len() };
+    let planes = each(root.repeated("plane", shapes::PLANE)?, |table| {
+        let plane = shapes::plane(table, &index)?;
+        materials.get(plane.material).map_or(Ok(()), |m| shapes::check_bounds(table, &plane, m))?;
+        Ok(plane)
+    })?;
+    let spheres = each(root.repeated("sphere", shapes::SPHERE)?, |table| shapes::sphere(table, &index))?;
+    let triangles =
+        each(root.repeated("triangle", shapes::TRIANGLE)?, |table| shapes::triangle(table, &index))?;
+    let lights = each(root.repeated("light", shapes::LIGHT)?, shapes::light)?;
+
+    let used = planes.iter().map(|plane: &Plane| plane.material);
+    let used = used.chain(spheres.iter().map(|sphere: &Sphere| sphere.material));
+    let mut used = used.chain(triangles.iter().map(|triangle: &Triangle| triangle.material));
+    if used.any(|material| material == materials.len()) {
+        materials.push(default_material());
+    }
+    let path = path.to_owned();
+    Ok(Scene {
+        path,
+        camera,
+        width,
+        height,
+        sampling,
+        background,
+        textures,
+        samplers,
+        materials,
+        planes,
+        spheres,
+        triangles,
+        lights,
+    })
+}
+
+struct Surfaces<'a> {
+    textures: Vec<TextureSource>,
+    samplers: Vec<SamplerSpec>,
+    materials: Vec<Material>,
+    /// Of the materials.
+    names: Names<'a>,
+}
+
+fn surfaces<'a>(path: &Path, root: &Table<'a>) -> Result<Surfaces<'a>> {
+    let tables = root.repeated("texture", sections::TEXTURE)?;
+    let texture_names = Names::collect("texture", &tables)?;
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let textures = each(tables, |table| sections::texture(table, folder))?;
+
+    let tables = root.repeated("sampler", sections::SAMPLER)?;
+    let sampler_names = Names::collect("sampler", &tables)?;
+    let mut samplers = each(tables, sections::sampler)?;
+
+    let tables = root.repeated("material", sections::MATERIAL)?;
+    let names = Names::collect("material", &tables)?;
+    let fallback = samplers.len();
+    let materials =
+        each(tables, |table| sections::material(table, &texture_names, &sampler_names, fallback))?;
+    if materials.iter().any(|m: &Material| m.texture.is_some() && m.sampler == fallback) {
+        samplers.push(SamplerSpec::default());
+    }
+    Ok(Surfaces { textures, samplers, materials, names })
+}
+
+fn each<'a, T>(tables: Vec<Table<'a>>, read: impl Fn(&Table<'a>) -> Result<T>) -> Result<Vec<T>> {
+    tables.iter().map(read).collect()
+}

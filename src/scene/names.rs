@@ -1,0 +1,67 @@
+//! Names of textures, samplers and materials. In: the tables of one kind. Out: the index behind a
+//! reference, or an error for a name given twice or known nowhere.
+
+use std::collections::HashMap;
+use std::collections::hash_map::Entry;
+
+use super::reader::Field;
+use super::source::{quoted, suggestion};
+use super::table::Table;
+use crate::error::Result;
+
+/// A message lists no more names than this.
+const MOST_LISTED: usize = 12;
+
+pub(super) struct Names<'a> {
+    kind: &'static str,
+    ordered: Vec<&'a str>,
+    indices: HashMap<&'a str, usize>,
+}
+
+impl<'a> Names<'a> {
+    pub fn collect(kind: &'static str, tables: &[Table<'a>]) -> Result<Self> {
+        let mut names = Names { kind, ordered: Vec::new(), indices: HashMap::new() };
+        let mut fields: Vec<Field<'a>> = Vec::with_capacity(tables.len());
+        for table in tables {
+            let field = table.required("name")?;
+            let name = field.string()?;
+            match names.indices.entry(name) {
+                Entry::Vacant(entry) => entry.insert(fields.len()),
+                Entry::Occupied(entry) => {
+                    let first = fields[*entry.get()].span().start;
+                    let (line, _) = field.source.line_column(first);
+                    let what = format!(
+                        "the name {} is taken by the [[{kind}]] of line {line}; give each its own",
+                        quoted(name)
+                    );
+                    return Err(field.error(&what, format!("also on line {line}")));
+                }
+            };
+            names.ordered.push(name);
+            fields.push(field);
+        }
+        Ok(names)
+    }
+
+    pub fn resolve(&self, field: Field<'_>) -> Result<usize> {
+        let name = field.string()?;
+        if let Some(&index) = self.indices.get(name) {
+            return Ok(index);
+        }
+        let kind = self.kind;
+        if self.ordered.is_empty() {
+            let what = format!("no [[{kind}]] is named {}: the scene has no [[{kind}]]", quoted(name));
+            return Err(field.error(&what, format!("no such {kind}")));
+        }
+        let near = suggestion(name, self.ordered.iter().copied());
+        let end = if near.is_empty() { ";" } else { "" };
+        let listed: Vec<String> = self.ordered.iter().take(MOST_LISTED).map(|name| quoted(name)).collect();
+        let rest = match self.ordered.len().saturating_sub(MOST_LISTED) {
+            0 => String::new(),
+            more => format!(" and {more} more"),
+        };
+        let known = listed.join(", ");
+        let what = format!("no [[{kind}]] is named {}{near}{end} known: {known}{rest}", quoted(name));
+        Err(field.error(&what, format!("no such {kind}{near}")))
+    }
+}

@@ -1,0 +1,183 @@
+//! One value of a scene file with its key and place. In: what a section expects there. Out: the
+//! typed value, or an error that quotes what was found and says what is allowed.
+
+use std::ops::{Range, RangeInclusive};
+
+use glam::{DVec2, DVec3};
+use toml::Spanned;
+use toml::de::DeValue;
+
+use super::source::{Source, quoted, suggestion};
+use crate::error::{Error, Result};
+
+/// Which finite numbers a key takes. Everything stays below 1e30, so that single precision has
+/// room left (it ends at 3.4e38), and lengths above 1e-30, where it would reach zero.
+pub(super) struct Limits {
+    words: &'static str,
+    allow: fn(f64) -> bool,
+}
+
+pub(super) const COORDINATE: Limits = Limits { words: "between -1e30 and 1e30", allow: |x| x.abs() <= 1e30 };
+pub(super) const LENGTH: Limits =
+    Limits { words: "above 0 (1e-30 to 1e30)", allow: |x| (1e-30..=1e30).contains(&x) };
+pub(super) const COLOR: Limits =
+    Limits { words: "that are not negative (0 to 1e30)", allow: |x| (0.0..=1e30).contains(&x) };
+pub(super) const FOV: Limits =
+    Limits { words: "above 0 and below 180 degrees", allow: |x| x > 0.0 && x < 180.0 };
+pub(super) const SCALE: Limits =
+    Limits { words: "other than 0 (magnitude 1e-30 to 1e30)", allow: |x| (1e-30..=1e30).contains(&x.abs()) };
+
+#[derive(Clone, Copy)]
+pub(super) struct Field<'a> {
+    pub source: Source<'a>,
+    pub section: &'static str,
+    pub key: &'static str,
+    /// Set on an element of the key's array.
+    pub index: Option<usize>,
+    pub item: &'a Spanned<DeValue<'a>>,
+}
+
+impl<'a> Field<'a> {
+    pub fn value(&self) -> &'a DeValue<'a> {
+        self.item.get_ref()
+    }
+
+    pub fn span(&self) -> Range<usize> {
+        self.item.span()
+    }
+
+    /// `key "section.key": what`, pointing at the value.
+    pub fn error(&self, what: &str, label: impl Into<String>) -> Error {
+        self.error_at(self.span(), what, label)
+    }
+
+    fn error_at(&self, span: Range<usize>, what: &str, label: impl Into<String>) -> Error {
+        let dot = if self.section.is_empty() { "" } else { "." };
+        let index = self.index.map_or_else(String::new, |index| format!("[{index}]"));
+        let what = format!("key \"{}{dot}{}{index}\": {what}", self.section, self.key);
+        self.source.error(span, &what, label)
+    }
+
+    pub fn expected(&self, wanted: &str) -> Error {
+        self.expected_at(self.span(), wanted)
+    }
+
+    fn expected_at(&self, span: Range<usize>, wanted: &str) -> Error {
+        let kind = match self.value() {
+            DeValue::String(_) => "the string ",
+            DeValue::Datetime(_) => "the date-time ",
+            DeValue::Table(_) => "the table ",
+            _ => "",
+        };
+        let found = self.source.excerpt(self.span());
+        self.error_at(span, &format!("expected {wanted}, found {kind}{found}"), format!("expected {wanted}"))
+    }
+
+    pub fn number(self, limits: &Limits) -> Result<f64> {
+        match finite(self.value()) {
+            Some(x) if (limits.allow)(x) => Ok(x),
+            Some(_) => Err(self.expected(&format!("a number {}", limits.words))),
+            None => Err(self.expected("a finite number")),
+        }
+    }
+
+    pub fn numbers<const N: usize>(self, limits: &Limits) -> Result<[f64; N]> {
+        let wanted = || format!("{N} finite numbers");
+        let array = match self.value() {
+            DeValue::Array(array) if array.len() == N => array,
+            _ => return Err(self.expected(&wanted())),
+        };
+        let mut numbers = [0.0; N];
+        for (number, item) in numbers.iter_mut().zip(array) {
+            *number = match finite(item.get_ref()) {
+                Some(x) if (limits.allow)(x) => x,
+                Some(_) => {
+                    return Err(self.expected_at(item.span(), &format!("{N} numbers {}", limits.words)));
+                }
+                None => return Err(self.expected_at(item.span(), &wanted())),
+            };
+        }
+        Ok(numbers)
+    }
+
+    pub fn vec2(self, limits: &Limits) -> Result<DVec2> {
+        self.numbers(limits).map(DVec2::from_array)
+    }
+
+    pub fn vec3(self, limits: &Limits) -> Result<DVec3> {
+        self.numbers(limits).map(DVec3::from_array)
+    }
+
+    /// A vector of any length but zero.
+    pub fn direction(self) -> Result<DVec3> {
+        let vector = self.vec3(&COORDINATE)?;
+        if vector.abs().max_element() < 1e-30 {
+            return Err(self.expected("a vector that is not zero (shorter than 1e-30)"));
+        }
+        Ok(vector)
+    }
+
+    /// An array of exactly `N` elements, each read by `read` in place of one of `values`.
+    pub fn array<const N: usize, T>(
+        self,
+        wanted: &str,
+        mut values: [T; N],
+        read: impl Fn(Field<'a>) -> Result<T>,
+    ) -> Result<[T; N]> {
+        let array = match self.value() {
+            DeValue::Array(array) if array.len() == N => array,
+            _ => return Err(self.expected(wanted)),
+        };
+        for (index, (value, item)) in values.iter_mut().zip(array).enumerate() {
+            *value = read(Field { index: Some(index), item, ..self })?;
+        }
+        Ok(values)
+    }
+
+    pub fn integer(self, range: RangeInclusive<u32>) -> Result<u32> {
+        let found = match self.value() {
+            DeValue::Integer(integer) => i128::from_str_radix(integer.as_str(), integer.radix()).ok(),
+            _ => None,
+        };
+        let integer = found.and_then(|integer| u32::try_from(integer).ok());
+        integer
+            .filter(|integer| range.contains(integer))
+            .ok_or_else(|| self.expected(&format!("an integer from {} to {}", range.start(), range.end())))
+    }
+
+    pub fn boolean(self) -> Result<bool> {
+        self.value().as_bool().ok_or_else(|| self.expected("true or false"))
+    }
+
+    pub fn string(self) -> Result<&'a str> {
+        match self.value().as_str() {
+            Some(text) if !text.is_empty() => Ok(text),
+            _ => Err(self.expected("a string that is not empty")),
+        }
+    }
+
+    /// One value of a vocabulary, by its name.
+    pub fn choice<T: Copy>(self, names: &[&str], values: &[T]) -> Result<T> {
+        let Some(word) = self.value().as_str() else {
+            return Err(self.expected(&format!("a string, one of {}", names.join(", "))));
+        };
+        let found = names.iter().zip(values).find(|(name, _)| **name == word);
+        found.map(|(_, value)| *value).ok_or_else(|| {
+            let near = suggestion(word, names.iter().copied());
+            let end = if near.is_empty() { ";" } else { "" };
+            let what = format!("unknown value {}{near}{end} allowed: {}", quoted(word), names.join(", "));
+            self.error(&what, format!("unknown value{near}"))
+        })
+    }
+}
+
+/// Integers count as numbers; `nan`, `inf` and what overflows double precision do not.
+fn finite(value: &DeValue<'_>) -> Option<f64> {
+    let number = match value {
+        DeValue::Float(float) => float.as_str().parse().ok()?,
+        DeValue::Integer(integer) if integer.radix() == 10 => integer.as_str().parse().ok()?,
+        DeValue::Integer(integer) => i128::from_str_radix(integer.as_str(), integer.radix()).ok()? as f64,
+        _ => return None,
+    };
+    f64::is_finite(number).then_some(number)
+}

@@ -1,0 +1,113 @@
+//! A scene's text and where it came from. In: a byte range and what is wrong there. Out: an
+//! [`Error::Scene`] whose one-line message names file, line and column (both from 1, columns in
+//! characters), and excerpts and suggestions to put into it.
+
+use std::ops::Range;
+use std::path::Path;
+use std::sync::Arc;
+
+use miette::NamedSource;
+
+use crate::error::Error;
+
+/// Longest excerpt or name that a message repeats, in characters.
+const LONGEST_EXCERPT: usize = 60;
+
+#[derive(Clone, Copy)]
+pub(super) struct Source<'a> {
+    pub path: &'a Path,
+    pub text: &'a str,
+}
+
+impl Source<'_> {
+    /// `label` stands beside the caret, `what` in the message behind `file:line:column: `.
+    pub fn error(self, span: Range<usize>, what: &str, label: impl Into<String>) -> Error {
+        let start = floor_char(self.text, span.start);
+        let end = floor_char(self.text, span.end).max(start);
+        let (line, column) = self.line_column(start);
+        let path = self.path.display().to_string();
+        let source = NamedSource::new(&path, self.text.to_owned());
+        Error::Scene {
+            message: one_line(&format!("{path}:{line}:{column}: {what}")),
+            label: one_line(&label.into()),
+            source_code: Arc::new(source),
+            span: (start, end - start).into(),
+            help: None,
+        }
+    }
+
+    pub fn line_column(self, offset: usize) -> (usize, usize) {
+        let before = &self.text[..floor_char(self.text, offset)];
+        let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
+        let line = before.bytes().filter(|&byte| byte == b'\n').count() + 1;
+        let on_line = before[line_start..].trim_start_matches('\u{feff}');
+        (line, on_line.chars().count() + 1)
+    }
+
+    /// The source of a value as a reader would quote it: white space runs become one space.
+    pub fn excerpt(self, span: Range<usize>) -> String {
+        let text = self.text.get(span).unwrap_or_default();
+        // Enough of a long text for the shortened form.
+        let head: String = text.chars().take(8 * LONGEST_EXCERPT).collect();
+        shorten(&head.split_whitespace().collect::<Vec<_>>().join(" "))
+    }
+}
+
+/// The last character boundary at or before `offset`.
+fn floor_char(text: &str, offset: usize) -> usize {
+    (0..=offset.min(text.len())).rev().find(|&at| text.is_char_boundary(at)).unwrap_or(0)
+}
+
+/// Terminals and line-based tools get one line: control characters are escaped.
+fn one_line(text: &str) -> String {
+    let is_break = |c: char| c.is_control() || c == '\u{2028}' || c == '\u{2029}';
+    if !text.contains(is_break) {
+        return text.to_owned();
+    }
+    let mut line = String::with_capacity(text.len());
+    for c in text.chars() {
+        if is_break(c) { line.extend(c.escape_default()) } else { line.push(c) }
+    }
+    line
+}
+
+fn shorten(text: &str) -> String {
+    match text.char_indices().nth(LONGEST_EXCERPT) {
+        Some((end, _)) => format!("{}…", &text[..end]),
+        None => text.to_owned(),
+    }
+}
+
+pub(super) fn quoted(name: &str) -> String {
+    format!("\"{}\"", shorten(name))
+}
+
+/// `; did you mean "x"?` for the candidate that `word` most probably misspells, else nothing.
+pub(super) fn suggestion<'c>(word: &str, candidates: impl IntoIterator<Item = &'c str>) -> String {
+    let word = word.to_lowercase();
+    let near =
+        candidates.into_iter().filter_map(|candidate| Some((unlikeness(&word, candidate)?, candidate)));
+    let best = near.min_by_key(|(unlikeness, _)| *unlikeness);
+    best.map_or_else(String::new, |(_, candidate)| format!("; did you mean {}?", quoted(candidate)))
+}
+
+/// `None`: another word. Misspellings (by edit distance) come before words that share a part.
+fn unlikeness(word: &str, candidate: &str) -> Option<usize> {
+    let lower = candidate.to_lowercase();
+    let (length, wanted) = (word.chars().count(), lower.chars().count());
+    // The distance costs the product of both lengths.
+    if length.max(wanted) > LONGEST_EXCERPT {
+        return None;
+    }
+    // Another first letter in a short word is more often another word ("cone", "none").
+    let other_start = length.min(wanted) <= 4 && word.chars().next() != lower.chars().next();
+    let allowed = if wanted <= 4 { 1 } else { wanted.div_ceil(3) };
+    let distance = strsim::damerau_levenshtein(word, &lower);
+    if distance <= allowed && !other_start {
+        return Some(distance);
+    }
+    // "fov" in "vertical_fov", "rotation" for "rotate".
+    let common = word.chars().zip(lower.chars()).take_while(|(a, b)| a == b).count();
+    let shares_part = length >= 3 && (lower.contains(word) || (common >= 4 && 4 * common >= 3 * wanted));
+    shares_part.then_some(LONGEST_EXCERPT + wanted)
+}

@@ -1,0 +1,158 @@
+//! TOML tables with their place in the text. In: a parsed table and the keys its section knows.
+//! Out: [`Field`]s to read, or an error for an unknown, missing or misplaced key.
+
+use std::ops::Range;
+
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use super::reader::Field;
+use super::source::{Source, quoted, suggestion};
+use crate::error::{Error, Result};
+
+/// How a table is written, for messages.
+#[derive(Clone, Copy, PartialEq)]
+enum Form {
+    Root,
+    Single,
+    Repeated,
+    Inline,
+}
+
+#[derive(Clone)]
+pub(super) struct Table<'a> {
+    pub source: Source<'a>,
+    /// Dotted path of the section, empty for the whole file: the start of its keys' paths.
+    pub section: &'static str,
+    form: Form,
+    table: &'a DeTable<'a>,
+    /// The header, or the whole of an inline table.
+    pub span: Range<usize>,
+}
+
+impl<'a> Table<'a> {
+    pub fn root(source: Source<'a>, table: &'a DeTable<'a>, keys: &[&str]) -> Result<Self> {
+        let root = Table { source, section: "", form: Form::Root, table, span: 0..0 };
+        root.allow_only(keys)?;
+        Ok(root)
+    }
+
+    pub fn inline(field: Field<'a>, section: &'static str, keys: &[&str]) -> Result<Self> {
+        let DeValue::Table(table) = field.value() else {
+            return Err(field.expected(&format!("a table with the keys {}", keys.join(", "))));
+        };
+        let inline = Table { source: field.source, section, form: Form::Inline, table, span: field.span() };
+        inline.allow_only(keys)?;
+        Ok(inline)
+    }
+
+    /// The table `[section]`, if the file has it.
+    pub fn single(&self, section: &'static str, keys: &[&str]) -> Result<Option<Table<'a>>> {
+        let Some(field) = self.get(section) else { return Ok(None) };
+        let DeValue::Table(table) = field.value() else {
+            return Err(field.expected(&format!("one table [{section}]")));
+        };
+        let single = Table { source: self.source, section, form: Form::Single, table, span: field.span() };
+        single.allow_only(keys)?;
+        Ok(Some(single))
+    }
+
+    pub fn required_single(&self, section: &'static str, keys: &[&str], needs: &str) -> Result<Table<'a>> {
+        self.single(section, keys)?.ok_or_else(|| {
+            let what = format!("section [{section}] is missing; it needs {needs}");
+            self.error(&what, format!("no [{section}]"))
+        })
+    }
+
+    /// Refuses more than `limit` entries in the arrays of tables `sections` together.
+    pub fn check_counts(&self, what: &str, limit: usize, sections: &[&'static str]) -> Result<()> {
+        let arrays = sections.iter().filter_map(|section| self.get(section)?.value().as_array());
+        let total: usize = arrays.clone().map(|array| array.len()).sum();
+        if total <= limit {
+            return Ok(());
+        }
+        // Sections come in the order of the vocabulary, but entries over the limit in the file's.
+        let mut spans: Vec<_> = arrays.flat_map(|array| array.iter().map(|item| item.span())).collect();
+        spans.sort_by_key(|span| span.start);
+        let span = spans.swap_remove(limit);
+        let message = format!("{total} {what}; a scene may have {limit} at most");
+        Err(self.source.error(span, &message, "one too many"))
+    }
+
+    /// The tables `[[section]]` in the order of the file.
+    pub fn repeated(&self, section: &'static str, keys: &[&str]) -> Result<Vec<Table<'a>>> {
+        let Some(field) = self.get(section) else { return Ok(Vec::new()) };
+        let DeValue::Array(array) = field.value() else {
+            return Err(field.expected(&format!("tables, each headed [[{section}]]")));
+        };
+        array
+            .iter()
+            .map(|item| {
+                let DeValue::Table(table) = item.get_ref() else {
+                    let field = Field { item, ..field };
+                    return Err(field.expected(&format!("tables, each headed [[{section}]]")));
+                };
+                let (source, form, span) = (self.source, Form::Repeated, item.span());
+                let entry = Table { source, section, form, table, span };
+                entry.allow_only(keys)?;
+                Ok(entry)
+            })
+            .collect()
+    }
+
+    pub fn get(&self, key: &'static str) -> Option<Field<'a>> {
+        let item = self.table.get(key)?;
+        Some(Field { source: self.source, section: self.section, key, index: None, item })
+    }
+
+    pub fn required(&self, key: &'static str) -> Result<Field<'a>> {
+        self.get(key).ok_or_else(|| {
+            let what = format!("key \"{}.{key}\" is missing {}", self.section, self.place());
+            self.error(&what, format!("needs {key}"))
+        })
+    }
+
+    pub fn error(&self, what: &str, label: impl Into<String>) -> Error {
+        self.source.error(self.span.clone(), what, label)
+    }
+
+    fn allow_only(&self, keys: &[&str]) -> Result<()> {
+        match self.first_outside(keys) {
+            Some(stray) => Err(self.unknown(stray, keys, &self.place())),
+            None => Ok(()),
+        }
+    }
+
+    /// Checked again where a section's keys depend on its kind.
+    pub fn allow_only_with(&self, kind: &str, keys: &[&str]) -> Result<()> {
+        match self.first_outside(keys) {
+            Some(stray) => Err(self.unknown(stray, keys, &format!("{} of kind \"{kind}\"", self.place()))),
+            None => Ok(()),
+        }
+    }
+
+    /// Of several stray keys the one that stands first in the file.
+    fn first_outside(&self, keys: &[&str]) -> Option<Stray<'a>> {
+        let stray = self.table.iter().filter(|(key, _)| !keys.contains(&key.get_ref().as_ref()));
+        stray.map(|(key, _)| key).min_by_key(|key| key.span().start)
+    }
+
+    fn unknown(&self, stray: Stray<'_>, keys: &[&str], place: &str) -> Error {
+        let name = stray.get_ref().as_ref();
+        let near = suggestion(name, keys.iter().copied());
+        let end = if near.is_empty() { ";" } else { "" };
+        let what = format!("unknown key {} {place}{near}{end} allowed: {}", quoted(name), keys.join(", "));
+        self.source.error(stray.span(), &what, format!("unknown key{near}"))
+    }
+
+    fn place(&self) -> String {
+        match self.form {
+            Form::Root => "at the top level".to_owned(),
+            Form::Single => format!("in [{}]", self.section),
+            Form::Repeated => format!("in [[{}]]", self.section),
+            Form::Inline => format!("in the table of {}", self.section),
+        }
+    }
+}
+
+type Stray<'a> = &'a Spanned<toml::de::DeString<'a>>;

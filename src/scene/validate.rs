@@ -1,0 +1,83 @@
+//! Limits and cross-checks that no single value shows. In: values already read and finite. Out:
+//! whether they make sense together, for scene files and for command line overrides alike.
+
+use glam::DVec3;
+
+use super::model::Pattern;
+
+/// Pixels along one side of a picture.
+pub const MAX_SIZE: u32 = 16384;
+/// Samples per pixel: sample positions are multiples of 2⁻²⁴, more could not be told apart.
+pub const MAX_SPP: u32 = 1 << 24;
+pub const MAX_DEPTH: u32 = 64;
+/// Planes, spheres and triangles together.
+pub(super) const MAX_SHAPES: usize = 65535;
+pub(super) const MAX_TEXTURES: usize = 1024;
+
+/// Two directions whose sine is below this count as parallel: far below any intended angle, far
+/// above what rounding of double precision components can produce.
+const LEAST_SINE: f64 = 1e-9;
+/// A triangle whose height is below this part of its longest edge counts as a line.
+const LEAST_HEIGHT: f64 = 1e-12;
+
+/// `grid` and `stratified` divide the pixel into n × n cells: `spp` must be a square there.
+pub fn check_spp(pattern: Pattern, spp: u32) -> Result<(), String> {
+    if !(1..=MAX_SPP).contains(&spp) {
+        return Err(format!("spp = {spp} is out of range; use 1 to {MAX_SPP} (2^24)"));
+    }
+    let root = spp.isqrt();
+    match pattern {
+        Pattern::Grid | Pattern::Stratified if root * root != spp => {
+            let (below, above) = (root * root, (root + 1) * (root + 1));
+            Err(format!("spp = {spp} is no square; use {below} or {above} with pattern \"{pattern}\""))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Only jittered strata have displacement vectors that pixels could share.
+pub fn check_shared(pattern: Pattern, shared: bool) -> Result<(), String> {
+    if shared && pattern != Pattern::Stratified {
+        return Err(format!(
+            "shared = true needs pattern \"stratified\", whose displacement vectors it shares; the pattern is \"{pattern}\""
+        ));
+    }
+    Ok(())
+}
+
+/// |a × b| = |a| |b| sin of the angle between them.
+pub(super) fn parallel(a: DVec3, b: DVec3) -> bool {
+    a.cross(b).length() <= LEAST_SINE * a.length() * b.length()
+}
+
+/// Twice the area is |e₁ × e₂|: longest edge times height. Vertices far from the origin are known
+/// to a few ulp only, which adds to the height that counts as none.
+pub(super) fn collinear(vertices: [DVec3; 3]) -> bool {
+    let [a, b, c] = vertices;
+    let longest = (b - a).length().max((c - a).length()).max((c - b).length());
+    let largest = vertices.iter().map(|v| v.abs().max_element()).fold(0.0, f64::max);
+    let height = LEAST_HEIGHT * longest + 4.0 * f64::EPSILON * largest;
+    (b - a).cross(c - a).length() <= longest * height
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn needles_are_triangles_but_rounded_lines_are_not() {
+        let line = [0.1, 0.2, 0.3].map(|x| DVec3::new(x, 3.0 * x, 7.0 * x));
+        assert!(collinear(line));
+        assert!(collinear(line.map(|v| v + 1e6)));
+        assert!(!collinear([DVec3::ZERO, DVec3::X, DVec3::new(0.5, 1e-6, 0.0)]));
+        assert!(!collinear([DVec3::ZERO, DVec3::X * 1e-30, DVec3::Y * 1e-30]));
+        assert!(!collinear([DVec3::ZERO, DVec3::X * 1e30, DVec3::Y * 1e30]));
+    }
+
+    #[test]
+    fn parallel_looks_at_the_angle_alone() {
+        assert!(parallel(DVec3::X * 1e30, DVec3::X * -1e-30));
+        assert!(!parallel(DVec3::X * 1e30, DVec3::Y * 1e-30));
+        assert!(!parallel(DVec3::X, DVec3::new(1.0, 1e-6, 0.0)));
+    }
+}
