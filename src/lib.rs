@@ -27,6 +27,7 @@ mod named;
 pub mod oracle;
 pub mod output;
 pub mod pack;
+pub mod probe;
 pub mod progress;
 pub mod render;
 pub mod scene;

@@ -1,1 +1,39 @@
-fn main() {}
+//! Parses the command line, calls the library, prints the error. Exit 0: done; 1: a comparison
+//! failed; 2: an error; 130: interrupted by Ctrl-C.
+
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+use moire::cli::{compare, devices, render};
+use moire::error::Error;
+
+/// Renders textured scenes with Vulkan compute, with or without a GPU
+#[derive(Parser)]
+#[command(name = "moire", version)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Render a scene file into one or more pictures
+    Render(Box<render::RenderArgs>),
+    /// Compare two pictures in linear RGB
+    Compare(compare::CompareArgs),
+    /// List the Vulkan devices
+    Devices(devices::DevicesArgs),
+}
+
+fn main() -> ExitCode {
+    let result = match Cli::parse().command {
+        Command::Render(args) => render::run(&args),
+        Command::Compare(args) => compare::run(&args),
+        Command::Devices(args) => devices::run(&args),
+    };
+    result.unwrap_or_else(|error| {
+        let code = if matches!(error, Error::Interrupted) { 130 } else { 2 };
+        eprintln!("{:?}", miette::Report::new(error));
+        ExitCode::from(code)
+    })
+}

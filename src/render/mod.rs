@@ -17,12 +17,12 @@ use crate::gpu::{BindGroup, BindingDesc, BindingKind, Gpu, Pipeline, PipelineDes
 use crate::layout::Slice;
 use crate::pack::PackedScene;
 use crate::progress::Progress;
-use crate::shaders::Shader;
+use crate::shaders::{ReflectedBinding, Shader};
 
 use film_buffer::{Band, FilmBuffer};
-use resources::Resources;
+use resources::shader_for;
 
-pub use resources::shader_for;
+pub(crate) use resources::Resources;
 pub use tuning::{Tuning, TexelChoice};
 
 /// Wall seconds by stage, in the order in which they come.
@@ -77,8 +77,8 @@ pub fn render(
     let group_size = tuning.group_size(gpu.info(), features.source);
     let slots = scene.slots.len() as u32;
     let constants = features::constants(shader, &features, &resources.sections, group_size, slots);
-    let pipeline = build_pipeline(gpu, shader, &constants, slots)?;
-    let group = resources.bind(gpu, &pipeline, &pipeline_bindings(shader, slots), &film_buffer)?;
+    let pipeline = build_pipeline(gpu, shader, &constants, slots, size_of::<Slice>())?;
+    let group = resources.bind(gpu, &pipeline, shader, &film_buffer.buffer, None)?;
     let renderer = Renderer { gpu, pipeline, group, groups_per_tile: tuning::groups_per_tile(group_size) };
     renderer.warm_up(&film_buffer)?;
     report.seconds.compile = clock.elapsed().as_secs_f64();
@@ -97,21 +97,24 @@ pub fn render(
     Ok((film, report))
 }
 
-/// Descriptors as reflection found them in the shader, with the scene's number of image slots.
-fn pipeline_bindings(shader: &Shader, slots: u32) -> Vec<BindingDesc> {
-    let describe = |b: &crate::shaders::ReflectedBinding| {
+/// A pipeline of `shader` with these constants; the scene has `slots` image descriptors.
+pub(crate) fn build_pipeline(
+    gpu: &Gpu,
+    shader: &Shader,
+    constants: &[(u32, u32)],
+    slots: u32,
+    push_constant_bytes: usize,
+) -> Result<Pipeline> {
+    let describe = |b: &ReflectedBinding| {
         let count = if b.kind == BindingKind::SampledImage { slots.max(1) } else { 1 };
         BindingDesc { binding: b.binding, kind: b.kind, count }
     };
-    shader.bindings.iter().map(describe).collect()
-}
-
-fn build_pipeline(gpu: &Gpu, shader: &Shader, constants: &[(u32, u32)], slots: u32) -> Result<Pipeline> {
+    let bindings: Vec<BindingDesc> = shader.bindings.iter().map(describe).collect();
     gpu.pipeline(&PipelineDesc {
         name: shader.name,
         spirv: shader.spirv,
-        bindings: &pipeline_bindings(shader, slots),
-        push_constant_bytes: size_of::<Slice>() as u32,
+        bindings: &bindings,
+        push_constant_bytes: push_constant_bytes as u32,
         constants,
     })
 }

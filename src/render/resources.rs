@@ -3,13 +3,11 @@
 
 use crate::error::{Error, Result};
 use crate::features::{Features, TexelSource};
-use crate::gpu::{BindGroup, BindingDesc, BindingKind, Bound, Buffer, BufferUse, Gpu, Image, ImageDesc, ImageFormat, Pipeline, Sampler, Swizzle};
+use crate::gpu::{BindGroup, BindingKind, Bound, Buffer, BufferUse, Gpu, Image, ImageDesc, ImageFormat, Pipeline, Sampler, Swizzle};
 use crate::pack::{MAX_SLOTS, PackedScene, Sections, Slot};
-use crate::shaders::{self, Shader};
+use crate::shaders::{self, ReflectedBinding, Shader};
 use crate::texture::data::{ColorSpace, TexelFormat};
 use crate::texture::sampler_spec::{Address, Filter, SamplerSpec};
-
-use super::film_buffer::FilmBuffer;
 
 /// The render shader that reads texels from `source`.
 pub fn shader_for(source: TexelSource) -> &'static Shader {
@@ -45,27 +43,28 @@ impl Resources {
         Ok(Resources { sections, scene, texels, images })
     }
 
-    /// What each of the shader's bindings binds.
+    /// The shader's bindings with what they bind: 0 what it writes, 4 a list of queries, the other
+    /// storage buffers the scene.
     pub fn bind(
         &self,
         gpu: &Gpu,
         pipeline: &Pipeline,
-        bindings: &[BindingDesc],
-        film: &FilmBuffer,
+        shader: &Shader,
+        output: &Buffer,
+        queries: Option<&Buffer>,
     ) -> Result<BindGroup> {
         let images: Vec<(&Image, &Sampler)> = self.images.iter().map(|(i, s)| (i, s)).collect();
-        let bound: Vec<(u32, Bound<'_>)> = bindings
-            .iter()
-            .filter_map(|b| {
-                let resource = match b.kind {
-                    BindingKind::StorageBuffer if b.binding == 0 => Bound::Buffer(&film.buffer),
-                    BindingKind::StorageBuffer => Bound::Buffer(&self.scene),
-                    BindingKind::TexelBuffer => Bound::Texels(self.texels.as_ref()?),
-                    BindingKind::SampledImage => Bound::Images(&images),
-                };
-                Some((b.binding, resource))
-            })
-            .collect();
+        let resource = |b: &ReflectedBinding| {
+            let resource = match (b.kind, b.binding) {
+                (BindingKind::StorageBuffer, 0) => Bound::Buffer(output),
+                (BindingKind::StorageBuffer, 4) => Bound::Buffer(queries?),
+                (BindingKind::StorageBuffer, _) => Bound::Buffer(&self.scene),
+                (BindingKind::TexelBuffer, _) => Bound::Texels(self.texels.as_ref()?),
+                (BindingKind::SampledImage, _) => Bound::Images(&images),
+            };
+            Some((b.binding, resource))
+        };
+        let bound: Vec<(u32, Bound<'_>)> = shader.bindings.iter().filter_map(resource).collect();
         gpu.bind(pipeline, &bound)
     }
 }

@@ -1,0 +1,24 @@
+// Texture look-ups from a list: one thread a query (texture, sampler, slot, u, v), RGBA out. The
+// same code that shades a hit, without a scene around it.
+#include "features.glsl"
+#include "layout.glsl"
+#include "texture.glsl"
+
+layout(local_size_x_id = 0, local_size_y_id = 1, local_size_z = 1) in;
+
+struct Query {
+    uvec4 link; // texture, sampler, slot
+    vec4 uv;    // u, v
+};
+
+layout(std430, set = 0, binding = 0) writeonly buffer Results { vec4 results[]; };
+layout(std430, set = 0, binding = 4) readonly buffer Queries { Query queries[]; };
+layout(push_constant) uniform Range { uint count; } range;
+
+void main() {
+    uint i = gl_GlobalInvocationID.x;
+    if (i >= range.count) return;
+    Query query = queries[i];
+    results[i] = look_up(load_texture(INDEX(TEXTURES, query.link.x)), load_sampler(INDEX(SAMPLERS, query.link.y)),
+                         query.link.z, query.uv.xy);
+}

@@ -1,0 +1,108 @@
+//! Parts of the renderer by themselves, on a device: look-ups, rays and sample positions from lists
+//! of queries. What tests and conformance reports compare with the oracle; the shaders run the very
+//! functions that rendering runs.
+
+use bytemuck::{Pod, Zeroable};
+
+use crate::error::Result;
+use crate::features::{self, Features, TexelSource};
+use crate::gpu::{BufferUse, Gpu};
+use crate::pack::PackedScene;
+use crate::render::{Resources, build_pipeline};
+use crate::shaders::{self, Shader};
+
+/// One texture look-up; `slot` is an index into `PackedScene::slots`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct LookUp {
+    pub texture: u32,
+    pub sampler: u32,
+    pub slot: u32,
+    pub padding: u32,
+    pub uv: [f32; 4],
+}
+
+/// One ray, relative to the eye; `direction[3]` bounds the question whether anything lies between.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct RayQuery {
+    pub origin: [f32; 4],
+    pub direction: [f32; 4],
+}
+
+/// What a ray hit.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct RayAnswer {
+    pub point: [f32; 3],
+    pub t: f32,
+    /// Unit, turned towards the ray.
+    pub normal: [f32; 4],
+    pub uv: [f32; 4],
+    /// `NO_SHAPE` on a miss.
+    pub shape: u32,
+    pub occluded: u32,
+    pub padding: [u32; 2],
+}
+
+const GROUP: u32 = 64;
+
+/// RGBA of each look-up, by the pipeline that rendering this scene would build.
+pub fn look_ups(
+    gpu: &Gpu,
+    scene: &PackedScene,
+    image_source: bool,
+    keep_everything: bool,
+    queries: &[LookUp],
+) -> Result<Vec<[f32; 4]>> {
+    let features = Features::new(scene, image_source, keep_everything);
+    let shader = match features.source {
+        TexelSource::Image => &shaders::PROBE_IMAGES,
+        TexelSource::None | TexelSource::Buffer => &shaders::PROBE_TEXELS,
+    };
+    run(gpu, scene, &features, shader, Some(bytemuck::cast_slice(queries)), queries.len(), &[])
+}
+
+/// What each ray hits. Shapes need a texture for their coordinate to mean anything.
+pub fn rays(gpu: &Gpu, scene: &PackedScene, keep_everything: bool, queries: &[RayQuery]) -> Result<Vec<RayAnswer>> {
+    let features = Features::new(scene, false, keep_everything);
+    run(gpu, scene, &features, &shaders::PROBE_RAYS, Some(bytemuck::cast_slice(queries)), queries.len(), &[])
+}
+
+/// The positions of all samples of the first `pixels` pixels of a picture `width` wide, sample by
+/// sample within a pixel, as integers of 24 bits.
+pub fn positions(
+    gpu: &Gpu,
+    scene: &PackedScene,
+    keep_everything: bool,
+    width: u32,
+    pixels: u32,
+) -> Result<Vec<[u32; 2]>> {
+    let features = Features::new(scene, false, keep_everything);
+    let count = pixels as usize * scene.samples as usize;
+    run(gpu, scene, &features, &shaders::STRATA, None, count, &[scene.samples, width])
+}
+
+/// One dispatch with a thread an answer. The push constants are the count and then `push`.
+fn run<T: Pod>(
+    gpu: &Gpu,
+    scene: &PackedScene,
+    features: &Features,
+    shader: &Shader,
+    queries: Option<&[u8]>,
+    count: usize,
+    push: &[u32],
+) -> Result<Vec<T>> {
+    let resources = Resources::upload(gpu, scene, features)?;
+    let mut answers = vec![T::zeroed(); count];
+    let output = gpu.buffer("answers", size_of_val(answers.as_slice()) as u64, BufferUse::Storage)?;
+    let queries = queries.map(|q| gpu.upload_buffer("queries", BufferUse::Storage, q)).transpose()?;
+    let slots = scene.slots.len() as u32;
+    let constants = features::constants(shader, features, &resources.sections, [GROUP, 1], slots);
+    let push: Vec<u32> = std::iter::once(count as u32).chain(push.iter().copied()).collect();
+    let pipeline = build_pipeline(gpu, shader, &constants, slots, size_of_val(push.as_slice()))?;
+    let group = resources.bind(gpu, &pipeline, shader, &output, queries.as_ref())?;
+    gpu.run(&pipeline, &group, bytemuck::cast_slice(&push), [(count as u32).div_ceil(GROUP), 1, 1])?;
+    gpu.read_buffer(&output, 0, bytemuck::cast_slice_mut(&mut answers))?;
+    Ok(answers)
+}
