@@ -1,9 +1,12 @@
-//! The one test binary; each module is a field of behaviour.
+//! The one test binary; each module is a field of behaviour, named so that a failing name is the
+//! diagnosis.
 
 // A failed step of a test is a failed test; clippy's own exemption covers #[test] functions alone,
 // not the helpers they share.
 #![allow(clippy::unwrap_used)]
 
 mod data;
+mod device;
+mod device_shaders;
 mod scene;
 mod support;

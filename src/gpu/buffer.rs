@@ -1,0 +1,191 @@
+//! Buffers: in go a name, a size and a use, out comes a buffer with memory behind it, and a texel
+//! view where the use wants one.
+
+use std::sync::Arc;
+
+use ash::vk;
+use gpu_allocator::MemoryLocation;
+use gpu_allocator::vulkan::Allocation;
+
+use super::convert;
+use super::device::Core;
+use super::result::{Doing, size_text};
+use crate::error::{Error, Result};
+use crate::named::named_enum;
+
+named_enum! {
+    /// How shaders see a buffer.
+    pub enum BufferUse {
+        /// `buffer` block, read and written.
+        Storage = "storage",
+        /// `usamplerBuffer` of 32-bit unsigned texels.
+        TexelUint = "texel-uint",
+    }
+}
+
+/// Cheap to clone: clones are the same buffer.
+#[derive(Clone)]
+pub struct Buffer {
+    raw: Arc<RawBuffer>,
+    usage: BufferUse,
+}
+
+impl Buffer {
+    pub(super) fn new(core: &Arc<Core>, name: &str, bytes: u64, usage: BufferUse) -> Result<Buffer> {
+        check_size(core, name, bytes, usage)?;
+        let flags = convert::buffer_usage(usage)
+            | vk::BufferUsageFlags::TRANSFER_SRC
+            | vk::BufferUsageFlags::TRANSFER_DST;
+        let mut raw = RawBuffer::new(core, name, bytes, flags, MemoryLocation::GpuOnly)?;
+        if usage == BufferUse::TexelUint {
+            raw.create_texel_view()?;
+        }
+        Ok(Buffer { raw: Arc::new(raw), usage })
+    }
+
+    pub fn name(&self) -> &str {
+        &self.raw.name
+    }
+
+    /// The size it was made with.
+    pub fn bytes(&self) -> u64 {
+        self.raw.bytes
+    }
+
+    pub fn usage(&self) -> BufferUse {
+        self.usage
+    }
+
+    pub(super) fn core(&self) -> &Arc<Core> {
+        &self.raw.core
+    }
+
+    pub(super) fn handle(&self) -> vk::Buffer {
+        self.raw.handle
+    }
+
+    /// Null unless the use is texels.
+    pub(super) fn texel_view(&self) -> vk::BufferView {
+        self.raw.view
+    }
+
+    /// `offset .. offset + len` must lie inside.
+    pub(super) fn check_range(&self, offset: u64, len: usize) -> Result<()> {
+        if offset.checked_add(len as u64).is_some_and(|end| end <= self.bytes()) {
+            return Ok(());
+        }
+        Err(Error::new(format!(
+            "bytes {offset}..{offset}+{len} lie outside buffer `{}` of {} bytes",
+            self.name(),
+            self.bytes()
+        )))
+    }
+}
+
+fn check_size(core: &Core, name: &str, bytes: u64, usage: BufferUse) -> Result<()> {
+    let limits = &core.info.limits;
+    let refuse = |reason: String| {
+        let size = size_text(bytes);
+        Err(Error::new(format!("buffer `{name}` ({size}) does not fit {}: {reason}", core.info.name)))
+    };
+    if bytes == 0 {
+        return Err(Error::new(format!("buffer `{name}` has no bytes")));
+    }
+    match usage {
+        BufferUse::Storage if bytes > limits.max_storage_buffer_range => refuse(format!(
+            "a storage buffer there has at most {}",
+            size_text(limits.max_storage_buffer_range)
+        )),
+        BufferUse::TexelUint if bytes.div_ceil(4) > limits.max_texel_buffer_elements => {
+            refuse(format!("a texel buffer there has at most {} texels", limits.max_texel_buffer_elements))
+        }
+        _ => core.memory.check_heap(&format!("buffer `{name}`"), bytes),
+    }
+}
+
+/// Handle, view and memory; also what the staging buffer is made of.
+pub(super) struct RawBuffer {
+    core: Arc<Core>,
+    name: String,
+    bytes: u64,
+    handle: vk::Buffer,
+    view: vk::BufferView,
+    allocation: Option<Allocation>,
+}
+
+impl RawBuffer {
+    pub(super) fn new(
+        core: &Arc<Core>,
+        name: &str,
+        bytes: u64,
+        usage: vk::BufferUsageFlags,
+        location: MemoryLocation,
+    ) -> Result<RawBuffer> {
+        // Whole words: fills and texel views work on multiples of four bytes.
+        let info = vk::BufferCreateInfo::default()
+            .size(bytes.next_multiple_of(4))
+            .usage(usage)
+            .sharing_mode(vk::SharingMode::EXCLUSIVE);
+        let what = || format!("buffer `{name}`");
+        // SAFETY: the device is live; the size is not zero (checked by the callers).
+        let handle =
+            unsafe { core.device.create_buffer(&info, None) }.doing(|| format!("creating {}", what()))?;
+        let mut raw = RawBuffer {
+            core: Arc::clone(core),
+            name: name.into(),
+            bytes,
+            handle,
+            view: vk::BufferView::null(),
+            allocation: None,
+        };
+        core.set_name(handle, what);
+        // SAFETY: the handle was created just now.
+        let requirements = unsafe { core.device.get_buffer_memory_requirements(handle) };
+        let allocation =
+            raw.allocation.insert(core.memory.allocate(&what(), requirements, location, true)?);
+        // SAFETY: memory of the required size, type and alignment, bound once, and freed after
+        // the buffer is destroyed.
+        unsafe { core.device.bind_buffer_memory(handle, allocation.memory(), allocation.offset()) }
+            .doing(|| format!("binding memory to {}", what()))?;
+        Ok(raw)
+    }
+
+    fn create_texel_view(&mut self) -> Result<()> {
+        let info = vk::BufferViewCreateInfo::default()
+            .buffer(self.handle)
+            .format(vk::Format::R32_UINT)
+            .range(vk::WHOLE_SIZE);
+        // SAFETY: the buffer has memory and the uniform texel usage; R32_UINT is always supported
+        // for it (Vulkan 1.2, "Required Format Support").
+        self.view = unsafe { self.core.device.create_buffer_view(&info, None) }
+            .doing(|| format!("creating the texel view of buffer `{}`", self.name))?;
+        self.core.set_name(self.view, || format!("texels of `{}`", self.name));
+        Ok(())
+    }
+
+    pub(super) fn handle(&self) -> vk::Buffer {
+        self.handle
+    }
+
+    /// The mapped bytes, in host-visible memory.
+    pub(super) fn mapped(&mut self) -> Result<&mut [u8]> {
+        let slice = self.allocation.as_mut().and_then(Allocation::mapped_slice_mut);
+        slice.ok_or_else(|| Error::new(format!("buffer `{}` is not mapped to host memory", self.name)))
+    }
+}
+
+impl Drop for RawBuffer {
+    fn drop(&mut self) {
+        self.core.release(|device| {
+            // SAFETY: calls are synchronous, so the device does not use the buffer; null handles
+            // are allowed.
+            unsafe {
+                device.destroy_buffer_view(self.view, None);
+                device.destroy_buffer(self.handle, None);
+            }
+            if let Some(allocation) = self.allocation.take() {
+                self.core.memory.free(allocation);
+            }
+        });
+    }
+}

@@ -1,0 +1,172 @@
+//! One command buffer, used over and over: in goes a recording, out comes the time it took, once
+//! the device has finished. All writes are visible to whatever comes next.
+
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use ash::vk;
+
+use super::device::Core;
+use super::result::{Doing, failed, lost};
+use super::timing::{RunTime, Timestamps};
+use crate::error::Result;
+
+/// Dispatches are sliced to well under a second; one that takes this long never ends.
+const TIME_OUT: Duration = Duration::from_secs(120);
+
+pub(super) struct Commands {
+    core: Arc<Core>,
+    pool: vk::CommandPool,
+    buffer: vk::CommandBuffer,
+    fence: vk::Fence,
+    timestamps: Option<Timestamps>,
+}
+
+impl Commands {
+    pub(super) fn new(core: &Arc<Core>) -> Result<Commands> {
+        let mut commands = Commands {
+            core: Arc::clone(core),
+            pool: vk::CommandPool::null(),
+            buffer: vk::CommandBuffer::null(),
+            fence: vk::Fence::null(),
+            timestamps: Timestamps::new(core)?,
+        };
+        commands.create().doing(|| "creating the command buffer".into())?;
+        core.set_name(commands.pool, || "command pool".into());
+        core.set_name(commands.buffer, || "commands".into());
+        core.set_name(commands.fence, || "commands done".into());
+        Ok(commands)
+    }
+
+    fn create(&mut self) -> Result<(), vk::Result> {
+        let device = &self.core.device;
+        let pool = vk::CommandPoolCreateInfo::default()
+            .flags(vk::CommandPoolCreateFlags::TRANSIENT)
+            .queue_family_index(self.core.queue_family);
+        // SAFETY: the device is live and has a queue of that family.
+        self.pool = unsafe { device.create_command_pool(&pool, None)? };
+        let buffer = vk::CommandBufferAllocateInfo::default()
+            .command_pool(self.pool)
+            .level(vk::CommandBufferLevel::PRIMARY)
+            .command_buffer_count(1);
+        // SAFETY: the pool was created just now.
+        let buffers = unsafe { device.allocate_command_buffers(&buffer)? };
+        self.buffer = buffers.first().copied().ok_or(vk::Result::ERROR_UNKNOWN)?;
+        // SAFETY: the device is live.
+        self.fence = unsafe { device.create_fence(&vk::FenceCreateInfo::default(), None)? };
+        Ok(())
+    }
+
+    /// Records, submits and waits. `what` names the work in errors.
+    pub(super) fn run(
+        &mut self,
+        what: &str,
+        record: impl FnOnce(&ash::Device, vk::CommandBuffer),
+    ) -> Result<RunTime> {
+        if self.core.is_hung() {
+            return Err(lost(&format!("`{what}`: the device does not answer since an earlier call")));
+        }
+        let start = Instant::now();
+        self.record(record).doing(|| format!("recording `{what}`"))?;
+        self.submit().doing(|| format!("submitting `{what}`"))?;
+        self.wait(what)?;
+        let wall_seconds = start.elapsed().as_secs_f64();
+        let device_seconds = match &self.timestamps {
+            Some(timestamps) => timestamps.seconds().doing(|| format!("reading the times of `{what}`"))?,
+            None => wall_seconds,
+        };
+        Ok(RunTime { device_seconds, wall_seconds })
+    }
+
+    fn record(&mut self, record: impl FnOnce(&ash::Device, vk::CommandBuffer)) -> Result<(), vk::Result> {
+        let device = &self.core.device;
+        let begin = vk::CommandBufferBeginInfo::default().flags(vk::CommandBufferUsageFlags::ONE_TIME_SUBMIT);
+        // SAFETY: the last submission was waited for, so that pool and buffer are not in use;
+        // `&mut self` makes this thread their only user.
+        unsafe {
+            device.reset_command_pool(self.pool, vk::CommandPoolResetFlags::empty())?;
+            device.begin_command_buffer(self.buffer, &begin)?;
+        }
+        if let Some(timestamps) = &self.timestamps {
+            timestamps.open(self.buffer);
+        }
+        record(device, self.buffer);
+        self.barrier();
+        // After the barrier: a driver may let an earlier closing timestamp overtake the work.
+        if let Some(timestamps) = &self.timestamps {
+            timestamps.close(self.buffer);
+        }
+        // SAFETY: the buffer is in the recording state.
+        unsafe { device.end_command_buffer(self.buffer) }
+    }
+
+    /// All writes of this submission before all accesses of later ones and of the host.
+    fn barrier(&self) {
+        use vk::{AccessFlags as Access, PipelineStageFlags as Stage};
+        let memory = vk::MemoryBarrier::default()
+            .src_access_mask(Access::SHADER_WRITE | Access::TRANSFER_WRITE)
+            .dst_access_mask(
+                Access::SHADER_READ
+                    | Access::SHADER_WRITE
+                    | Access::TRANSFER_READ
+                    | Access::TRANSFER_WRITE
+                    | Access::HOST_READ,
+            );
+        // SAFETY: the command buffer is in the recording state, outside a render pass.
+        unsafe {
+            self.core.device.cmd_pipeline_barrier(
+                self.buffer,
+                Stage::COMPUTE_SHADER | Stage::TRANSFER,
+                Stage::COMPUTE_SHADER | Stage::TRANSFER | Stage::HOST,
+                vk::DependencyFlags::empty(),
+                &[memory],
+                &[],
+                &[],
+            );
+        }
+    }
+
+    fn submit(&mut self) -> Result<(), vk::Result> {
+        let buffers = [self.buffer];
+        let submits = [vk::SubmitInfo::default().command_buffers(&buffers)];
+        // SAFETY: the buffer is executable, the fence is not in use, and `&mut self` of the
+        // device's only `Commands` makes this thread the queue's only user.
+        unsafe {
+            self.core.device.reset_fences(&[self.fence])?;
+            self.core.device.queue_submit(self.core.queue, &submits, self.fence)
+        }
+    }
+
+    fn wait(&self, what: &str) -> Result<()> {
+        // SAFETY: the fence is of this device and was submitted.
+        let waited =
+            unsafe { self.core.device.wait_for_fences(&[self.fence], true, TIME_OUT.as_nanos() as u64) };
+        match waited {
+            Ok(()) => Ok(()),
+            // A lost device executes nothing any more: its objects may be destroyed as usual.
+            Err(vk::Result::ERROR_DEVICE_LOST) => {
+                Err(failed(&format!("running `{what}`"), vk::Result::ERROR_DEVICE_LOST))
+            }
+            Err(vk::Result::TIMEOUT) => {
+                self.core.set_hung();
+                let seconds = TIME_OUT.as_secs();
+                Err(lost(&format!("running `{what}`: the device did not finish within {seconds} s")))
+            }
+            Err(code) => {
+                self.core.set_hung();
+                Err(failed(&format!("waiting for `{what}`"), code))
+            }
+        }
+    }
+}
+
+impl Drop for Commands {
+    fn drop(&mut self) {
+        // SAFETY: every submission was waited for; null handles are allowed, and the pool frees
+        // its command buffer.
+        self.core.release(|device| unsafe {
+            device.destroy_fence(self.fence, None);
+            device.destroy_command_pool(self.pool, None);
+        });
+    }
+}

@@ -1,0 +1,97 @@
+//! Own vocabulary to Vulkan's and back: the only place that pairs the two.
+
+use ash::vk;
+
+use super::buffer::BufferUse;
+use super::descriptor::BindingKind;
+use super::image::{ImageFormat, Swizzle};
+use super::info::DeviceKind;
+use crate::texture::sampler_spec::{Address, Filter, MipMode};
+
+pub(super) fn kind(kind: vk::PhysicalDeviceType) -> DeviceKind {
+    match kind {
+        vk::PhysicalDeviceType::DISCRETE_GPU => DeviceKind::Discrete,
+        vk::PhysicalDeviceType::INTEGRATED_GPU => DeviceKind::Integrated,
+        vk::PhysicalDeviceType::VIRTUAL_GPU => DeviceKind::Virtual,
+        vk::PhysicalDeviceType::CPU => DeviceKind::Cpu,
+        _ => DeviceKind::Other,
+    }
+}
+
+pub(super) fn format(format: ImageFormat) -> vk::Format {
+    match format {
+        ImageFormat::R8 => vk::Format::R8_UNORM,
+        ImageFormat::Rg8 => vk::Format::R8G8_UNORM,
+        ImageFormat::Rgba8 => vk::Format::R8G8B8A8_UNORM,
+        ImageFormat::Rgba8Srgb => vk::Format::R8G8B8A8_SRGB,
+        ImageFormat::R16 => vk::Format::R16_UNORM,
+        ImageFormat::Rg16 => vk::Format::R16G16_UNORM,
+        ImageFormat::Rgba16 => vk::Format::R16G16B16A16_UNORM,
+        ImageFormat::R32f => vk::Format::R32_SFLOAT,
+        ImageFormat::Rg32f => vk::Format::R32G32_SFLOAT,
+        ImageFormat::Rgba32f => vk::Format::R32G32B32A32_SFLOAT,
+    }
+}
+
+pub(super) fn swizzle(swizzle: Swizzle) -> vk::ComponentMapping {
+    use vk::ComponentSwizzle as C;
+    let [r, g, b, a] = match swizzle {
+        Swizzle::Rgba => [C::IDENTITY; 4],
+        Swizzle::Grey => [C::R, C::R, C::R, C::ONE],
+        Swizzle::GreyAlpha => [C::R, C::R, C::R, C::G],
+    };
+    vk::ComponentMapping { r, g, b, a }
+}
+
+pub(super) fn buffer_usage(usage: BufferUse) -> vk::BufferUsageFlags {
+    match usage {
+        BufferUse::Storage => vk::BufferUsageFlags::STORAGE_BUFFER,
+        BufferUse::TexelUint => vk::BufferUsageFlags::UNIFORM_TEXEL_BUFFER,
+    }
+}
+
+pub(super) fn descriptor(kind: BindingKind) -> vk::DescriptorType {
+    match kind {
+        BindingKind::StorageBuffer => vk::DescriptorType::STORAGE_BUFFER,
+        BindingKind::TexelBuffer => vk::DescriptorType::UNIFORM_TEXEL_BUFFER,
+        BindingKind::SampledImage => vk::DescriptorType::COMBINED_IMAGE_SAMPLER,
+    }
+}
+
+pub(super) fn address(address: Address) -> vk::SamplerAddressMode {
+    match address {
+        Address::Repeat => vk::SamplerAddressMode::REPEAT,
+        Address::MirroredRepeat => vk::SamplerAddressMode::MIRRORED_REPEAT,
+        Address::ClampToEdge => vk::SamplerAddressMode::CLAMP_TO_EDGE,
+        Address::ClampToBorder => vk::SamplerAddressMode::CLAMP_TO_BORDER,
+        Address::MirrorClampToEdge => vk::SamplerAddressMode::MIRROR_CLAMP_TO_EDGE,
+    }
+}
+
+pub(super) fn filter(filter: Filter) -> vk::Filter {
+    match filter {
+        Filter::Nearest => vk::Filter::NEAREST,
+        Filter::Linear => vk::Filter::LINEAR,
+    }
+}
+
+/// Mip mode and largest level. Without mips the level is clamped to 1/4, not 0: it rounds to level
+/// 0 all the same, and the minification filter stays reachable (Vulkan 1.2, `VkSamplerCreateInfo`,
+/// "Mapping of OpenGL to Vulkan filter modes").
+pub(super) fn mip(mip: MipMode) -> (vk::SamplerMipmapMode, f32) {
+    match mip {
+        MipMode::None => (vk::SamplerMipmapMode::NEAREST, 0.25),
+        MipMode::Nearest => (vk::SamplerMipmapMode::NEAREST, vk::LOD_CLAMP_NONE),
+        MipMode::Linear => (vk::SamplerMipmapMode::LINEAR, vk::LOD_CLAMP_NONE),
+    }
+}
+
+/// Custom where none of the three standard colours is meant exactly.
+pub(super) fn border_color(color: [f32; 4]) -> vk::BorderColor {
+    match color {
+        [0.0, 0.0, 0.0, 0.0] => vk::BorderColor::FLOAT_TRANSPARENT_BLACK,
+        [0.0, 0.0, 0.0, 1.0] => vk::BorderColor::FLOAT_OPAQUE_BLACK,
+        [1.0, 1.0, 1.0, 1.0] => vk::BorderColor::FLOAT_OPAQUE_WHITE,
+        _ => vk::BorderColor::FLOAT_CUSTOM_EXT,
+    }
+}

@@ -1,0 +1,252 @@
+//! Sampled 2D images: in go size, format and the levels' texels, out comes an optimally tiled image
+//! with a view. `upload` fills it.
+
+use std::sync::Arc;
+
+use ash::vk;
+use gpu_allocator::MemoryLocation;
+use gpu_allocator::vulkan::Allocation;
+
+use super::convert;
+use super::device::Core;
+use super::result::Doing;
+use crate::error::{Error, Result};
+use crate::named::named_enum;
+
+named_enum! {
+    /// Channels × component; unsigned normalized unless float.
+    pub enum ImageFormat {
+        R8 = "r8",
+        Rg8 = "rg8",
+        Rgba8 = "rgba8",
+        Rgba8Srgb = "rgba8-srgb",
+        R16 = "r16",
+        Rg16 = "rg16",
+        Rgba16 = "rgba16",
+        R32f = "r32f",
+        Rg32f = "rg32f",
+        Rgba32f = "rgba32f",
+    }
+}
+
+impl ImageFormat {
+    pub const fn texel_bytes(self) -> usize {
+        match self {
+            ImageFormat::R8 => 1,
+            ImageFormat::Rg8 | ImageFormat::R16 => 2,
+            ImageFormat::Rgba8 | ImageFormat::Rgba8Srgb | ImageFormat::Rg16 | ImageFormat::R32f => 4,
+            ImageFormat::Rgba16 | ImageFormat::Rg32f => 8,
+            ImageFormat::Rgba32f => 16,
+        }
+    }
+}
+
+named_enum! {
+    /// What a shader reads from the stored channels, by `texture` and by `texelFetch`. Border
+    /// colours go through it too, where the driver defines that at all
+    /// (VK_EXT_border_color_swizzle): with another swizzle than `Rgba` do not rely on them.
+    pub enum Swizzle {
+        Rgba = "rgba",
+        /// (r, r, r, 1)
+        Grey = "grey",
+        /// (r, r, r, g)
+        GreyAlpha = "grey-alpha",
+    }
+}
+
+#[derive(Clone, Copy, Debug)]
+pub struct ImageDesc<'a> {
+    pub name: &'a str,
+    pub width: u32,
+    pub height: u32,
+    pub format: ImageFormat,
+    pub swizzle: Swizzle,
+    /// Tightly packed rows of each mip level, the full size first; each next level is half as wide
+    /// and high, rounded down, at least 1.
+    pub levels: &'a [&'a [u8]],
+}
+
+/// Cheap to clone: clones are the same image.
+#[derive(Clone)]
+pub struct Image(Arc<RawImage>);
+
+struct RawImage {
+    core: Arc<Core>,
+    /// `texture `ground` 1024×1024 rgba8`
+    label: String,
+    width: u32,
+    height: u32,
+    levels: u32,
+    format: ImageFormat,
+    handle: vk::Image,
+    view: vk::ImageView,
+    allocation: Option<Allocation>,
+}
+
+impl Image {
+    /// The content is undefined until uploaded.
+    pub(super) fn new(core: &Arc<Core>, desc: &ImageDesc<'_>) -> Result<Image> {
+        let label = format!("texture `{}` {}×{} {}", desc.name, desc.width, desc.height, desc.format);
+        check(core, desc, &label)?;
+        let mut raw = RawImage {
+            core: Arc::clone(core),
+            label,
+            width: desc.width,
+            height: desc.height,
+            levels: desc.levels.len() as u32,
+            format: desc.format,
+            handle: vk::Image::null(),
+            view: vk::ImageView::null(),
+            allocation: None,
+        };
+        raw.create_image()?;
+        raw.create_view(desc.swizzle)?;
+        Ok(Image(Arc::new(raw)))
+    }
+
+    pub fn width(&self) -> u32 {
+        self.0.width
+    }
+
+    pub fn height(&self) -> u32 {
+        self.0.height
+    }
+
+    pub fn levels(&self) -> u32 {
+        self.0.levels
+    }
+
+    pub fn format(&self) -> ImageFormat {
+        self.0.format
+    }
+
+    pub(super) fn label(&self) -> &str {
+        &self.0.label
+    }
+
+    pub(super) fn core(&self) -> &Arc<Core> {
+        &self.0.core
+    }
+
+    pub(super) fn handle(&self) -> vk::Image {
+        self.0.handle
+    }
+
+    pub(super) fn view(&self) -> vk::ImageView {
+        self.0.view
+    }
+
+    pub(super) fn all_levels(&self) -> vk::ImageSubresourceRange {
+        self.0.all_levels()
+    }
+}
+
+/// Size of a mip level (Vulkan 1.2, "Image Miplevel Sizing": halved and rounded down, at least 1).
+pub(super) fn level_size(width: u32, height: u32, level: u32) -> (u32, u32) {
+    let half = |size: u32| size.checked_shr(level).unwrap_or(0).max(1);
+    (half(width), half(height))
+}
+
+fn check(core: &Core, desc: &ImageDesc<'_>, label: &str) -> Result<()> {
+    let limit = core.info.limits.max_image_2d;
+    let longest = desc.width.max(desc.height);
+    if desc.width == 0 || desc.height == 0 {
+        return Err(Error::new(format!("{label} has no texels")));
+    }
+    if longest > limit {
+        return Err(Error::with_help(
+            format!(
+                "{label} is too large for {}: images there have at most {limit}×{limit} texels",
+                core.info.name
+            ),
+            "Scale the texture down, or use method = \"shader\", or another device.",
+        ));
+    }
+    if !core.supports(desc.format, false) {
+        return Err(Error::with_help(
+            format!("{label}: {} cannot sample images of this format", core.info.name),
+            "Use method = \"shader\", or a texture with other channels or another component type.",
+        ));
+    }
+    let most = u32::BITS - longest.leading_zeros();
+    if desc.levels.is_empty() || desc.levels.len() > most as usize {
+        return Err(Error::new(format!("{label} has {} levels; it can have 1 to {most}", desc.levels.len())));
+    }
+    for (level, texels) in (0u32..).zip(desc.levels) {
+        let (width, height) = level_size(desc.width, desc.height, level);
+        let expected = width as usize * height as usize * desc.format.texel_bytes();
+        if texels.len() != expected {
+            return Err(Error::new(format!(
+                "level {level} of {label} has {} bytes of texels; {width}×{height} take {expected}",
+                texels.len()
+            )));
+        }
+    }
+    core.memory.check_heap(label, desc.levels.iter().map(|texels| texels.len() as u64).sum())
+}
+
+impl RawImage {
+    fn create_image(&mut self) -> Result<()> {
+        let info = vk::ImageCreateInfo::default()
+            .image_type(vk::ImageType::TYPE_2D)
+            .format(convert::format(self.format))
+            .extent(vk::Extent3D { width: self.width, height: self.height, depth: 1 })
+            .mip_levels(self.levels)
+            .array_layers(1)
+            .samples(vk::SampleCountFlags::TYPE_1)
+            .tiling(vk::ImageTiling::OPTIMAL)
+            .usage(vk::ImageUsageFlags::SAMPLED | vk::ImageUsageFlags::TRANSFER_DST)
+            .sharing_mode(vk::SharingMode::EXCLUSIVE)
+            .initial_layout(vk::ImageLayout::UNDEFINED);
+        let device = &self.core.device;
+        // SAFETY: size, level count and format were checked against the device.
+        self.handle =
+            unsafe { device.create_image(&info, None) }.doing(|| format!("creating {}", self.label))?;
+        self.core.set_name(self.handle, || self.label.clone());
+        // SAFETY: the handle was created just now.
+        let requirements = unsafe { device.get_image_memory_requirements(self.handle) };
+        let memory = self.core.memory.allocate(&self.label, requirements, MemoryLocation::GpuOnly, false)?;
+        let memory = self.allocation.insert(memory);
+        // SAFETY: memory of the required size, type and alignment, bound once, and freed after the
+        // image is destroyed.
+        unsafe { device.bind_image_memory(self.handle, memory.memory(), memory.offset()) }
+            .doing(|| format!("binding memory to {}", self.label))
+    }
+
+    fn create_view(&mut self, swizzle: Swizzle) -> Result<()> {
+        let info = vk::ImageViewCreateInfo::default()
+            .image(self.handle)
+            .view_type(vk::ImageViewType::TYPE_2D)
+            .format(convert::format(self.format))
+            .components(convert::swizzle(swizzle))
+            .subresource_range(self.all_levels());
+        // SAFETY: the image has memory, and the view has its format and levels.
+        self.view = unsafe { self.core.device.create_image_view(&info, None) }
+            .doing(|| format!("creating the view of {}", self.label))?;
+        self.core.set_name(self.view, || format!("view of {}", self.label));
+        Ok(())
+    }
+
+    fn all_levels(&self) -> vk::ImageSubresourceRange {
+        vk::ImageSubresourceRange::default()
+            .aspect_mask(vk::ImageAspectFlags::COLOR)
+            .level_count(self.levels)
+            .layer_count(1)
+    }
+}
+
+impl Drop for RawImage {
+    fn drop(&mut self) {
+        self.core.release(|device| {
+            // SAFETY: calls are synchronous, so the device does not use the image; null handles
+            // are allowed.
+            unsafe {
+                device.destroy_image_view(self.view, None);
+                device.destroy_image(self.handle, None);
+            }
+            if let Some(allocation) = self.allocation.take() {
+                self.core.memory.free(allocation);
+            }
+        });
+    }
+}

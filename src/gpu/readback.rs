@@ -1,0 +1,34 @@
+//! Device to host: in go a buffer and an offset, out come its bytes, chunk by chunk through the
+//! staging buffer.
+
+use ash::vk;
+
+use super::buffer::Buffer;
+use super::command::Commands;
+use super::staging::{CHUNK, Staging};
+use crate::error::Result;
+
+pub(super) fn from_buffer(
+    staging: &mut Staging,
+    commands: &mut Commands,
+    buffer: &Buffer,
+    offset: u64,
+    out: &mut [u8],
+) -> Result<()> {
+    buffer.check_range(offset, out.len())?;
+    let mut src_offset = offset;
+    for chunk in out.chunks_mut(CHUNK) {
+        let target = staging.get(chunk.len())?;
+        let handle = target.handle();
+        let size = chunk.len() as u64;
+        let region = vk::BufferCopy { src_offset, dst_offset: 0, size };
+        commands.run(buffer.name(), |device, commands| {
+            // SAFETY: both ranges were checked; submissions are waited for one by one, each with
+            // a closing barrier that makes its writes visible to the host.
+            unsafe { device.cmd_copy_buffer(commands, buffer.handle(), handle, &[region]) };
+        })?;
+        chunk.copy_from_slice(&target.mapped()?[..chunk.len()]);
+        src_offset += size;
+    }
+    Ok(())
+}
