@@ -133,9 +133,12 @@ impl Reflection {
     fn opaque_kind(&self, id: u32) -> Result<&'static str, AnyError> {
         const DIM_BUFFER: u32 = 5;
         match &self.types[&id] {
-            (28, operands) => self.opaque_kind(operands[0]), // OpTypeArray
-            (27, _) => Ok("SampledImage"),                         // OpTypeSampledImage
-            (25, operands) if operands[1] == DIM_BUFFER => Ok("TexelBuffer"), // OpTypeImage
+            (28, operands) => self.opaque_kind(operands[0]), // OpTypeArray of sampled images
+            (27, operands) => {
+                // OpTypeSampledImage of an OpTypeImage: sampled type, dimension, …
+                let buffer = self.types[&operands[0]].1[1] == DIM_BUFFER;
+                Ok(if buffer { "TexelBuffer" } else { "SampledImage" })
+            }
             (op, _) => Err(format!("descriptor of type instruction {op} is not known").into()),
         }
     }

@@ -16,7 +16,6 @@ use crate::gpu::{DeviceSelect, Gpu};
 use crate::oracle;
 use crate::output::{self, WriteOptions};
 use crate::pack::{self, Crop, PackedScene};
-use crate::progress::Progress;
 use crate::render::{self, Report, TexelChoice, Tuning};
 use crate::scene::model::Scene;
 use crate::scene::prune::prune;
