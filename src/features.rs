@@ -70,9 +70,21 @@ const FEATURES: &[(&str, &str, Narrow)] = &[
     ("ADDRESSES_U", "address u", Modes(Address::NAMES, |s| bits(s.samplers.iter().map(|x| x.modes[0])))),
     ("ADDRESSES_V", "address v", Modes(Address::NAMES, |s| bits(s.samplers.iter().map(|x| x.modes[1])))),
     ("FILTERS", "filter", Modes(Filter::NAMES, |s| bits(s.samplers.iter().map(|x| x.modes[2])))),
-    ("TEXEL_CENTERS", "texel centre", Modes(TexelCenter::NAMES, |s| bits(s.samplers.iter().map(|x| x.modes[3])))),
-    ("TEXEL_FORMATS", "texel format", Modes(TexelFormat::NAMES, |s| bits(s.textures.iter().map(|t| t.place[3])))),
-    ("COLOR_SPACES", "colour space", Modes(ColorSpace::NAMES, |s| bits(s.textures.iter().map(|t| t.link[0])))),
+    (
+        "TEXEL_CENTERS",
+        "texel centre",
+        Modes(TexelCenter::NAMES, |s| bits(s.samplers.iter().map(|x| x.modes[3]))),
+    ),
+    (
+        "TEXEL_FORMATS",
+        "texel format",
+        Modes(TexelFormat::NAMES, |s| bits(s.textures.iter().map(|t| t.place[3]))),
+    ),
+    (
+        "COLOR_SPACES",
+        "colour space",
+        Modes(ColorSpace::NAMES, |s| bits(s.textures.iter().map(|t| t.link[0]))),
+    ),
     ("COMPENSATED", "second film for rounding errors", Switch(|s| s.samples > CHUNK)),
 ];
 
@@ -110,10 +122,9 @@ impl Features {
             features.values.push((name, value));
             features.left_out.extend(left_out(what, narrow, value));
         }
-        for (other, text) in [
-            (TexelSource::Buffer, "texel buffer"),
-            (TexelSource::Image, "images and device samplers"),
-        ] {
+        for (other, text) in
+            [(TexelSource::Buffer, "texel buffer"), (TexelSource::Image, "images and device samplers")]
+        {
             if source != other {
                 features.left_out.push(text.into());
             }

@@ -64,7 +64,12 @@ pub fn look_ups(
 }
 
 /// What each ray hits. Shapes need a texture for their coordinate to mean anything.
-pub fn rays(gpu: &Gpu, scene: &PackedScene, keep_everything: bool, queries: &[RayQuery]) -> Result<Vec<RayAnswer>> {
+pub fn rays(
+    gpu: &Gpu,
+    scene: &PackedScene,
+    keep_everything: bool,
+    queries: &[RayQuery],
+) -> Result<Vec<RayAnswer>> {
     let features = Features::new(scene, false, keep_everything);
     run(gpu, scene, &features, &shaders::PROBE_RAYS, Some(bytemuck::cast_slice(queries)), queries.len(), &[])
 }

@@ -5,8 +5,8 @@ use serde_json::{Value, json};
 
 use crate::error::{Error, Result};
 use crate::pack::Crop;
-use crate::scene::{check_shared, check_spp};
 use crate::scene::model::{Algorithm, Footprint, Pattern, Scene};
+use crate::scene::{check_shared, check_spp};
 use crate::texture::sampler_spec::{Filter, Method};
 
 use super::named_parser;

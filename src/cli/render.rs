@@ -145,7 +145,9 @@ fn render_on_oracle(args: &RenderArgs, scene: &Scene, bar: &Bar, start: Instant)
 }
 
 fn load(scene: &Scene, args: &RenderArgs) -> Result<PackedScene> {
-    let decode = |t: &crate::scene::model::TextureSource| texture::decode::decode(&t.file, &t.name, t.color_space, t.flip_v);
+    let decode = |t: &crate::scene::model::TextureSource| {
+        texture::decode::decode(&t.file, &t.name, t.color_space, t.flip_v)
+    };
     let textures = scene.textures.iter().map(decode).collect::<Result<Vec<_>>>()?;
     pack::pack(scene, textures, args.crop)
 }
@@ -216,12 +218,25 @@ fn report(args: &RenderArgs, scene: &Scene, ran: &Ran, outputs: &[PathBuf]) {
         }
         eprintln!(
             "seconds: startup {:.3}, load {:.3}, upload {:.3}, compile {:.3}, render {:.3} (device {:.4}, {} slices), readback {:.3}, write {:.3}",
-            seconds.startup, seconds.load, seconds.upload, seconds.compile, seconds.render,
-            ran.report.device_render_seconds, ran.report.slices, seconds.readback, seconds.write
+            seconds.startup,
+            seconds.load,
+            seconds.upload,
+            seconds.compile,
+            seconds.render,
+            ran.report.device_render_seconds,
+            ran.report.slices,
+            seconds.readback,
+            seconds.write
         );
     }
     eprintln!(
         "{}: {}×{} pixels, {} samples a pixel on {}, render {:.3} s, total {:.3} s",
-        outputs.join(", "), ran.film.width, ran.film.height, ran.film.samples, ran.device, seconds.render, seconds.total
+        outputs.join(", "),
+        ran.film.width,
+        ran.film.height,
+        ran.film.samples,
+        ran.device,
+        seconds.render,
+        seconds.total
     );
 }

@@ -43,19 +43,17 @@ pub fn plane_rows(plane: &Plane, eye: DVec3) -> [DVec4; 2] {
         .map(|row| row.extend(row.dot(eye - plane.origin)))
 }
 
-fn pack_plane(
-    packed: &mut PackedScene,
-    scene: &Scene,
-    plane: &Plane,
-    eye: DVec3,
-) -> Result<layout::Plane> {
+fn pack_plane(packed: &mut PackedScene, scene: &Scene, plane: &Plane, eye: DVec3) -> Result<layout::Plane> {
     let normal = plane.tangent.cross(plane.bitangent).normalize();
     let [u, v] = plane_rows(plane, eye);
     let bounds = plane.half_extent.map(|h| plane_bounds(plane, h));
     let material = &scene.materials[plane.material];
     if material.texture.is_some() && material.mapping.space == Space::Bounds && bounds.is_none() {
         return Err(Error::with_help(
-            format!("material \"{}\": mapping in the space of the shape's box, on an infinite plane", material.name),
+            format!(
+                "material \"{}\": mapping in the space of the shape's box, on an infinite plane",
+                material.name
+            ),
             "give the plane a half_extent, or use space = \"world\"",
         ));
     }

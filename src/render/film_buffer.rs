@@ -89,7 +89,11 @@ impl FilmBuffer {
         let mut lost = if self.compensated { sums.clone() } else { Vec::new() };
         for y in (0..band.height).step_by(rows_at_once as usize) {
             let count = (rows_at_once.min(band.height - y) * self.width) as usize;
-            gpu.read_buffer(&self.buffer, u64::from(y) * row_bytes, bytemuck::cast_slice_mut(&mut sums[..count]))?;
+            gpu.read_buffer(
+                &self.buffer,
+                u64::from(y) * row_bytes,
+                bytemuck::cast_slice_mut(&mut sums[..count]),
+            )?;
             if self.compensated {
                 let second = u64::from(band.height + y) * row_bytes;
                 gpu.read_buffer(&self.buffer, second, bytemuck::cast_slice_mut(&mut lost[..count]))?;

@@ -3,7 +3,10 @@
 
 use crate::error::{Error, Result};
 use crate::features::{Features, TexelSource};
-use crate::gpu::{BindGroup, BindingKind, Bound, Buffer, BufferUse, Gpu, Image, ImageDesc, ImageFormat, Pipeline, Sampler, Swizzle};
+use crate::gpu::{
+    BindGroup, BindingKind, Bound, Buffer, BufferUse, Gpu, Image, ImageDesc, ImageFormat, Pipeline, Sampler,
+    Swizzle,
+};
 use crate::pack::{MAX_SLOTS, PackedScene, Sections, Slot};
 use crate::shaders::{self, ReflectedBinding, Shader};
 use crate::texture::data::{ColorSpace, TexelFormat};
@@ -90,7 +93,10 @@ fn upload_texels(gpu: &Gpu, packed: &PackedScene) -> Result<Buffer> {
 fn upload_images(gpu: &Gpu, packed: &PackedScene) -> Result<Vec<(Image, Sampler)>> {
     if packed.slots.len() > MAX_SLOTS {
         return Err(Error::with_help(
-            format!("the scene reads {} pairs of texture and sampler through images; {MAX_SLOTS} are possible", packed.slots.len()),
+            format!(
+                "the scene reads {} pairs of texture and sampler through images; {MAX_SLOTS} are possible",
+                packed.slots.len()
+            ),
             "set method = \"shader\" on some samplers, or share samplers and textures",
         ));
     }

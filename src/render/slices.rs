@@ -76,7 +76,8 @@ mod tests {
             let stride = tile_stride(tiles);
             let mut seen = vec![false; tiles as usize];
             for i in 0..tiles {
-                let tile = (i.checked_mul(stride).expect("the shader multiplies in 32 bits") % tiles) as usize;
+                let tile =
+                    (i.checked_mul(stride).expect("the shader multiplies in 32 bits") % tiles) as usize;
                 assert!(!std::mem::replace(&mut seen[tile], true), "{tiles} tiles, stride {stride}");
             }
         }

@@ -1,5 +1,11 @@
 //! Textures as data: what a file holds, what a sampler does with it.
 
 pub mod data;
+pub mod decode;
+mod jpeg_end;
+mod read_exr;
+pub(crate) mod read_file;
 pub mod sampler_spec;
+mod sniff;
 pub mod synth;
+mod value;

@@ -6,7 +6,11 @@
 #![allow(clippy::unwrap_used)]
 
 mod data;
+mod decode;
+mod decode_errors;
 mod device;
 mod device_shaders;
+mod metrics;
+mod output;
 mod scene;
 mod support;

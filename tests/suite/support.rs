@@ -1,18 +1,52 @@
-//! What several test modules share.
+//! What several test files need: the program and the data, found when the tests run (never where they
+//! were compiled), so that the binaries can be carried to another machine; small pictures.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-/// The data folder: `MOIRE_DATA`, else `data` in the current folder or beside an ancestor of the
-/// test binary, so that the binary also runs on a machine that has no checkout at build paths.
-pub fn data() -> PathBuf {
-    if let Some(folder) = std::env::var_os("MOIRE_DATA") {
-        return folder.into();
+use moire::film::Film;
+
+/// The program under test: `MOIRE_BIN`, else `moire` beside this binary or one folder up.
+pub fn moire() -> assert_cmd::Command {
+    assert_cmd::Command::new(program())
+}
+
+fn program() -> PathBuf {
+    if let Some(path) = std::env::var_os("MOIRE_BIN") {
+        return path.into();
     }
-    let here = std::env::current_dir().unwrap();
-    let binary = std::env::current_exe().unwrap();
-    std::iter::once(here.as_path())
-        .chain(binary.ancestors())
-        .map(|folder| folder.join("data"))
-        .find(|folder| folder.join("scenes").is_dir())
-        .expect("no folder data/ here or above the test binary; set MOIRE_DATA")
+    let own = std::env::current_exe().unwrap();
+    let name = format!("moire{}", std::env::consts::EXE_SUFFIX);
+    let mut candidates = own.ancestors().skip(1).take(2).map(|folder| folder.join(&name));
+    candidates.find(|path| path.is_file()).expect("no program `moire` near the test binary: set MOIRE_BIN")
+}
+
+/// The folder `data`: `MOIRE_DATA`, else in the current folder, else above this binary.
+pub fn data() -> PathBuf {
+    if let Some(path) = std::env::var_os("MOIRE_DATA") {
+        return path.into();
+    }
+    let own = std::env::current_exe().unwrap();
+    let mut candidates =
+        std::iter::once(Path::new("")).chain(own.ancestors().skip(1)).map(|f| f.join("data"));
+    candidates
+        .find(|path| path.is_dir())
+        .expect("no folder `data` here or above the test binary: set MOIRE_DATA")
+}
+
+/// Every pixel and channel different, values in [0, 1].
+pub fn gradient(width: u32, height: u32) -> Film {
+    let mut film = Film::new(width, height, 1);
+    let count = film.pixels.len() as f32 * 3.0;
+    for (i, pixel) in film.pixels.iter_mut().enumerate() {
+        *pixel = [0, 1, 2].map(|c| (i * 3 + c) as f32 / count);
+    }
+    film
+}
+
+/// The message and its help, as one string.
+pub fn told<T>(result: moire::error::Result<T>) -> String {
+    match result.err().expect("an error was expected") {
+        moire::error::Error::Plain { message, help } => format!("{message}\n{}", help.unwrap_or_default()),
+        other => other.to_string(),
+    }
 }

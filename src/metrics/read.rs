@@ -1,0 +1,41 @@
+//! Any picture file as linear RGB: 8- and 16-bit values decoded from sRGB, float values taken as
+//! linear; grey replicated, alpha ignored. NaN passes: the comparison counts it.
+
+use std::path::Path;
+
+use crate::color::{srgb_to_linear, srgb8_table};
+use crate::error::Result;
+use crate::film::Film;
+use crate::texture::data::Component;
+use crate::texture::read_file;
+
+/// `samples` is 0: a file does not say how many stand behind it.
+pub fn read_picture(path: &Path) -> Result<Film> {
+    let texels = read_file::read(path)?;
+    let channels = texels.format.channels();
+    let pixels = match texels.format.component() {
+        Component::Unorm8 => {
+            let table = srgb8_table();
+            pixels::<1>(&texels.bytes, channels, |[v]| table[usize::from(v)])
+        }
+        Component::Unorm16 => pixels::<2>(&texels.bytes, channels, |v| {
+            srgb_to_linear(f64::from(u16::from_ne_bytes(v)) / 65_535.0) as f32
+        }),
+        Component::Float32 => pixels::<4>(&texels.bytes, channels, f32::from_ne_bytes),
+    };
+    Ok(Film { width: texels.width, height: texels.height, pixels, samples: 0 })
+}
+
+fn pixels<const SIZE: usize>(
+    bytes: &[u8],
+    channels: usize,
+    linear: impl Fn([u8; SIZE]) -> f32,
+) -> Vec<[f32; 3]> {
+    let (values, _) = bytes.as_chunks::<SIZE>();
+    let texels = values.chunks_exact(channels);
+    if channels < 3 {
+        texels.map(|t| [linear(t[0]); 3]).collect()
+    } else {
+        texels.map(|t| [linear(t[0]), linear(t[1]), linear(t[2])]).collect()
+    }
+}

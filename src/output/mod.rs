@@ -1,0 +1,81 @@
+//! A finished film into a picture file whose ending names the format. The file appears complete or
+//! not at all: it is written beside its final place and renamed. Folders are never created.
+
+mod encode;
+mod quantise;
+mod target;
+
+use std::path::Path;
+
+use crate::error::{Error, Result};
+use crate::film::Film;
+pub use encode::Format;
+use target::Target;
+
+/// Every ending that names a format.
+pub const ENDINGS: &[(&str, Format)] = &[
+    ("exr", Format::Exr),
+    ("hdr", Format::Hdr),
+    ("png", Format::Png),
+    ("jpg", Format::Jpeg),
+    ("jpeg", Format::Jpeg),
+    ("tif", Format::Tiff),
+    ("tiff", Format::Tiff),
+];
+
+#[derive(Clone, Copy, Debug)]
+pub struct WriteOptions {
+    /// Bits per channel of PNG files: 8 or 16.
+    pub png_bits: u8,
+}
+
+impl Default for WriteOptions {
+    fn default() -> Self {
+        WriteOptions { png_bits: 8 }
+    }
+}
+
+/// Writes `film` to `path`, replacing a file that is there; on failure that file is as it was.
+pub fn write(film: &Film, path: &Path, options: &WriteOptions) -> Result<()> {
+    let format = format_of(path)?;
+    if !matches!(options.png_bits, 8 | 16) {
+        return Err(Error::with_help(
+            format!("PNG with {} bits per channel cannot be written", options.png_bits),
+            "use 8 or 16",
+        ));
+    }
+    let mut target = Target::create(path)?;
+    encode::encode(film, format, options, target.writer()).map_err(|e| {
+        Error::with_help(
+            format!(
+                "{}: the {}×{} picture cannot be written as {format}: {e}",
+                path.display(),
+                film.width,
+                film.height
+            ),
+            "nothing was written; check the disk's free space, or choose another format by its ending",
+        )
+    })?;
+    target.finish()
+}
+
+/// What [`write()`] would complain about that does not depend on the picture: to be called before a
+/// long render.
+pub fn check_writable(path: &Path) -> Result<()> {
+    format_of(path)?;
+    Target::create(path).map(drop)
+}
+
+/// By the ending, in upper or lower case.
+pub fn format_of(path: &Path) -> Result<Format> {
+    let ending = path.extension().map(|e| e.to_string_lossy().to_lowercase());
+    let known = ENDINGS.iter().find(|(name, _)| ending.as_deref() == Some(*name));
+    known.map(|(_, format)| *format).ok_or_else(|| {
+        let found = ending.map_or("the name has no ending".into(), |e| format!("the ending .{e} is unknown"));
+        let endings: Vec<String> = ENDINGS.iter().map(|(name, _)| format!(".{name}")).collect();
+        Error::with_help(
+            format!("{}: {found}, so no picture format is chosen", path.display()),
+            format!("use one of {}", endings.join(", ")),
+        )
+    })
+}

@@ -1,0 +1,68 @@
+//! Linear f32 pixels into the numbers a file format holds: sRGB-encoded integers for PNG, JPEG and
+//! TIFF, shared-exponent bytes for Radiance HDR. Always to the nearest value that can be stored.
+
+use std::sync::OnceLock;
+
+use crate::color::{linear_to_srgb, srgb_to_linear};
+
+/// `round(255 · srgb(clip(v)))`: counts the 255 rounding boundaries at or below `v`, which is exact
+/// and several times cheaper than a power per channel. NaN is at or above none of them: 0.
+pub fn srgb8(value: f32) -> u8 {
+    static BOUNDARIES: OnceLock<[f64; 255]> = OnceLock::new();
+    let boundaries =
+        BOUNDARIES.get_or_init(|| std::array::from_fn(|i| srgb_to_linear((i as f64 + 0.5) / 255.0)));
+    boundaries.partition_point(|&b| f64::from(value) >= b) as u8
+}
+
+/// `round(65535 · srgb(clip(v)))`; NaN becomes 0.
+pub fn srgb16(value: f32) -> u16 {
+    let clipped = f64::from(value).clamp(0.0, 1.0);
+    (linear_to_srgb(clipped) * 65_535.0).round() as u16
+}
+
+/// The nearest color that RGBE holds exactly (Ward 1991: three mantissas of 8 bits that share the
+/// largest channel's exponent). Encoders truncate, which would darken every pixel by half a step on
+/// average; values that are exact already pass through them unchanged. Negative values and NaN
+/// become 0, what is too bright the largest value.
+pub fn rgbe(pixel: [f32; 3]) -> [f32; 3] {
+    const LARGEST: f64 = 255.0 / 256.0 * (1u128 << 127) as f64;
+    const SMALLEST: f64 = 1.0 / (1u128 << 127) as f64;
+    let clipped = pixel.map(|v| if v > 0.0 { f64::from(v).min(LARGEST) } else { 0.0 });
+    let largest = clipped.iter().fold(0.0, |a: f64, &b| a.max(b));
+    if largest < SMALLEST {
+        return [0.0; 3];
+    }
+    // The exponent field of a normal f64: largest is in [2^(e-1), 2^e).
+    let exponent = ((largest.to_bits() >> 52) as i32 & 0x7ff) - 1022;
+    let step = f64::powi(2.0, exponent - 8);
+    // Rounding up to 256 steps moves the pixel to the next exponent.
+    let step = if (largest / step).round() >= 256.0 { step * 2.0 } else { step };
+    clipped.map(|v| ((v / step).round() * step) as f32)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn srgb8_counts_boundaries_as_the_formula_rounds() {
+        for i in 0..=40_000 {
+            let v = i as f32 / 36_000.0 - 0.05;
+            let want = (linear_to_srgb(f64::from(v).clamp(0.0, 1.0)) * 255.0).round() as u8;
+            assert_eq!(srgb8(v), want, "at {v}");
+        }
+        assert_eq!([srgb8(f32::NAN), srgb8(f32::INFINITY), srgb8(f32::NEG_INFINITY)], [0, 255, 0]);
+        assert_eq!([srgb16(f32::NAN), srgb16(f32::INFINITY), srgb16(-1.0)], [0, 65_535, 0]);
+    }
+
+    #[test]
+    fn rgbe_rounds_to_the_nearest_step_and_keeps_exact_values() {
+        assert_eq!(rgbe([1.0, 0.5, 0.25]), [1.0, 0.5, 0.25]);
+        // Largest channel 1.0: steps of 1/128.
+        assert_eq!(rgbe([1.0, 0.0047, 0.0030]), [1.0, 1.0 / 128.0, 0.0]);
+        // 255.6 steps of 1/256 round up to the next exponent.
+        assert_eq!(rgbe([0.9985, 0.0, 0.0]), [1.0, 0.0, 0.0]);
+        assert_eq!(rgbe([f32::NAN, -1.0, 1e-39]), [0.0; 3]);
+        assert!(rgbe([f32::INFINITY, 1.0, 0.0])[0] > 1.6e38);
+    }
+}

@@ -1,0 +1,103 @@
+//! The place a picture goes to: a temporary file in the same folder, renamed over the final name
+//! once complete (rename(2) replaces atomically within one file system) and removed otherwise.
+
+use std::ffi::OsStr;
+use std::fs::{self, File, OpenOptions};
+use std::io::{BufWriter, ErrorKind, Seek, Write};
+use std::path::{Path, PathBuf};
+
+use tempfile::NamedTempFile;
+
+use crate::error::{Error, Result};
+
+/// Several scan lines of a common picture a system call: EXR arrives line by line.
+const BUFFER: usize = 64 << 10;
+
+pub struct Target {
+    /// As the user wrote it, for messages.
+    path: PathBuf,
+    /// With symbolic links followed, so that a link stays a link.
+    destination: PathBuf,
+    file: BufWriter<NamedTempFile>,
+}
+
+impl Target {
+    pub fn create(path: &Path) -> Result<Target> {
+        let destination = check_destination(path)?;
+        let folder = destination.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        check_folder(path, folder)?;
+        let file = new_file(folder).map_err(|e| {
+            Error::with_help(
+                format!("{}: the folder {} is not writable: {e}", path.display(), folder.display()),
+                "choose a folder where files can be created",
+            )
+        })?;
+        Ok(Target { path: path.to_path_buf(), destination, file: BufWriter::with_capacity(BUFFER, file) })
+    }
+
+    pub fn writer(&mut self) -> impl Write + Seek {
+        &mut self.file
+    }
+
+    pub fn finish(self) -> Result<()> {
+        let failed = |e: std::io::Error| {
+            Error::with_help(
+                format!("{}: cannot be written: {e}", self.path.display()),
+                "nothing was written; check the disk's free space and the folder's permissions",
+            )
+        };
+        let file = self.file.into_inner().map_err(|e| failed(e.into_error()))?;
+        file.persist(&self.destination).map_err(|e| failed(e.error))?;
+        Ok(())
+    }
+}
+
+/// Temporary files are private by default; a picture gets the permissions that any new file has,
+/// 0666 less the umask, which the system subtracts.
+fn new_file(folder: &Path) -> std::io::Result<NamedTempFile> {
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".moire-").suffix(OsStr::new(".part"));
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        builder.permissions(fs::Permissions::from_mode(0o666));
+    }
+    builder.tempfile_in(folder)
+}
+
+/// Something that is there already must be a regular file that may be written to: a rename alone
+/// would silently replace a file that its owner has protected.
+fn check_destination(path: &Path) -> Result<PathBuf> {
+    let refused = |what: String, help: &str| Error::with_help(format!("{}: {what}", path.display()), help);
+    if path.as_os_str().to_string_lossy().ends_with(std::path::is_separator) {
+        return Err(refused("this names a folder, not a file".into(), "add a file name"));
+    }
+    match fs::metadata(path) {
+        Ok(m) if m.is_dir() => Err(refused("this is a folder".into(), "name a file in it")),
+        Ok(m) if !m.is_file() => Err(refused("this is not a regular file".into(), "choose another name")),
+        Ok(_) => {
+            let open: std::io::Result<File> = OpenOptions::new().write(true).open(path);
+            open.and_then(|_| fs::canonicalize(path)).map_err(|e| {
+                refused(format!("the file exists and cannot be replaced: {e}"), "choose another name")
+            })
+        }
+        // A missing folder gets its own message.
+        Err(e) if matches!(e.kind(), ErrorKind::NotFound | ErrorKind::NotADirectory) => {
+            Ok(path.to_path_buf())
+        }
+        Err(e) => {
+            Err(refused(format!("cannot be written: {e}"), "check the name and the folder's permissions"))
+        }
+    }
+}
+
+fn check_folder(path: &Path, folder: &Path) -> Result<()> {
+    if folder.is_dir() {
+        return Ok(());
+    }
+    let what = if folder.exists() { "is not a folder" } else { "does not exist" };
+    Err(Error::with_help(
+        format!("{}: {} {what}", path.display(), folder.display()),
+        "create the folder first; output folders are never created",
+    ))
+}

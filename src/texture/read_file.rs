@@ -1,0 +1,211 @@
+//! A picture file into texels as stored: 8 bits stay 8, 16 stay 16, float stays float, grey stays
+//! grey, three channels become four with opaque alpha. Profiles, gamma and orientation tags are
+//! ignored. Whatever is wrong with the file is an error that names it and says what to do.
+
+use std::fs::{self, File};
+use std::io::{BufReader, ErrorKind, Read, Seek};
+use std::path::Path;
+
+use image::{ColorType, ImageDecoder, ImageError, ImageFormat, ImageReader, Limits};
+
+use super::data::{Component, TexelFormat};
+use super::sniff::{self, Content};
+use super::{jpeg_end, read_exr};
+use crate::error::{Error, Result};
+
+/// Twice the largest image side of current GPUs; checked in the header, before any allocation.
+const MAX_SIDE: u64 = 65_536;
+/// Decoded size; the image crate's own default of 512 MiB refuses an 8192² float texture.
+const MAX_BYTES: u64 = 16 << 30;
+pub const SUPPORTED: &str = "PNG, JPEG, TIFF, Radiance HDR and OpenEXR";
+
+/// Tightly packed rows, first row of the file first, native endian.
+pub struct Texels {
+    pub width: u32,
+    pub height: u32,
+    pub format: TexelFormat,
+    /// Before three channels were expanded to four.
+    pub file_channels: usize,
+    pub bytes: Vec<u8>,
+}
+
+pub fn read(path: &Path) -> Result<Texels> {
+    let mut source = BufReader::new(open(path)?);
+    match identify(&mut source).map_err(|e| unreadable(path, &e))? {
+        Content::Picture(ImageFormat::OpenExr) => read_exr::read(source, path),
+        Content::Picture(format) => read_with_image(source, format, path),
+        Content::Other(what) => Err(Error::with_help(
+            format!("{}: not a picture that can be read: the content {what}", path.display()),
+            format!("supported are {SUPPORTED}, whatever the ending of the name"),
+        )),
+    }
+}
+
+fn identify(source: &mut (impl Read + Seek)) -> std::io::Result<Content> {
+    let mut head = Vec::with_capacity(sniff::HEAD_BYTES);
+    source.by_ref().take(sniff::HEAD_BYTES as u64).read_to_end(&mut head)?;
+    source.rewind()?;
+    Ok(sniff::identify(&head))
+}
+
+fn read_with_image(mut source: BufReader<File>, format: ImageFormat, path: &Path) -> Result<Texels> {
+    let kind = format!("{format:?}").to_uppercase();
+    if format == ImageFormat::Jpeg {
+        let complete = jpeg_end::is_complete(&mut source).and_then(|yes| source.rewind().map(|()| yes));
+        if !complete.map_err(|e| unreadable(path, &e))? {
+            return Err(damaged(path, &kind, &"the file ends before the end-of-image marker"));
+        }
+    }
+    let mut reader = ImageReader::with_format(source, format);
+    let mut limits = Limits::no_limits();
+    limits.max_alloc = Some(MAX_BYTES);
+    reader.limits(limits);
+    let decoder = reader.into_decoder().map_err(|e| image_error(path, &kind, e))?;
+
+    let (width, height) = decoder.dimensions();
+    let (file_channels, component) = layout(decoder.color_type()).ok_or_else(|| {
+        let found = decoder.color_type();
+        Error::with_help(
+            format!("{}: {kind} with {found:?} texels is not supported", path.display()),
+            "convert it to 8 bits, 16 bits or 32-bit float",
+        )
+    })?;
+    let channels = if file_channels == 3 { 4 } else { file_channels };
+    let texel_format = TexelFormat::new(channels, component);
+    check_size(path, width.into(), height.into(), texel_format.bytes_per_texel())?;
+
+    // Decoded into the front of the final buffer and widened there: no second copy.
+    let pixels = width as usize * height as usize;
+    check_memory(path, pixels * texel_format.bytes_per_texel())?;
+    let mut bytes = vec![0; pixels * texel_format.bytes_per_texel()];
+    let decoded = decoder.total_bytes() as usize;
+    decoder.read_image(&mut bytes[..decoded]).map_err(|e| image_error(path, &kind, e))?;
+    if file_channels == 3 {
+        match component {
+            Component::Unorm8 => widen::<3, 4>(&mut bytes, &[u8::MAX]),
+            Component::Unorm16 => widen::<6, 8>(&mut bytes, &u16::MAX.to_ne_bytes()),
+            Component::Float32 => widen::<12, 16>(&mut bytes, &1f32.to_ne_bytes()),
+        }
+    }
+    Ok(Texels { width, height, format: texel_format, file_channels, bytes })
+}
+
+fn layout(color: ColorType) -> Option<(usize, Component)> {
+    Some(match color {
+        ColorType::L8 => (1, Component::Unorm8),
+        ColorType::La8 => (2, Component::Unorm8),
+        ColorType::Rgb8 => (3, Component::Unorm8),
+        ColorType::Rgba8 => (4, Component::Unorm8),
+        ColorType::L16 => (1, Component::Unorm16),
+        ColorType::La16 => (2, Component::Unorm16),
+        ColorType::Rgb16 => (3, Component::Unorm16),
+        ColorType::Rgba16 => (4, Component::Unorm16),
+        ColorType::Rgb32F => (3, Component::Float32),
+        ColorType::Rgba32F => (4, Component::Float32),
+        _ => return None,
+    })
+}
+
+/// From `RGB` to `RGBA` bytes a texel, last texel first: a texel is read before its place is taken.
+fn widen<const RGB: usize, const RGBA: usize>(bytes: &mut [u8], opaque: &[u8]) {
+    let mut texel = [0u8; RGBA];
+    texel[RGB..].copy_from_slice(opaque);
+    for i in (0..bytes.len() / RGBA).rev() {
+        texel[..RGB].copy_from_slice(&bytes[i * RGB..(i + 1) * RGB]);
+        bytes[i * RGBA..(i + 1) * RGBA].copy_from_slice(&texel);
+    }
+}
+
+pub(super) fn check_size(path: &Path, width: u64, height: u64, bytes_per_texel: usize) -> Result<()> {
+    if width == 0 || height == 0 {
+        return Err(zero_size(path));
+    }
+    if width.max(height) > MAX_SIDE {
+        return Err(Error::with_help(
+            format!("{}: {width}×{height} texels are too many", path.display()),
+            format!("at most {MAX_SIDE} texels a side are read; scale the picture down or cut it"),
+        ));
+    }
+    if width * height * bytes_per_texel as u64 > MAX_BYTES {
+        return Err(out_of_memory(path));
+    }
+    Ok(())
+}
+
+/// Asks the allocator before `vec!` does: a size that a damaged header made up is then an error, not
+/// an abort. Nothing is touched, and zeroed pages are touched only as they are filled.
+pub(super) fn check_memory(path: &Path, bytes: usize) -> Result<()> {
+    Vec::<u8>::new().try_reserve_exact(bytes).map_err(|_| out_of_memory(path))
+}
+
+fn open(path: &Path) -> Result<File> {
+    let metadata = fs::metadata(path).map_err(|e| match e.kind() {
+        ErrorKind::NotFound => {
+            Error::Plain { message: format!("{}: there is no such file", path.display()), help: hint(path) }
+        }
+        _ => unreadable(path, &e),
+    })?;
+    if !metadata.is_file() {
+        let what = if metadata.is_dir() { "a folder" } else { "not a regular file" };
+        return Err(Error::with_help(
+            format!("{}: this is {what}, where a picture is needed", path.display()),
+            format!("name a picture file; supported are {SUPPORTED}"),
+        ));
+    }
+    File::open(path).map_err(|e| unreadable(path, &e))
+}
+
+/// Which part of a missing path is missing, or the name in that folder that comes closest.
+fn hint(path: &Path) -> Option<String> {
+    let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let Ok(entries) = fs::read_dir(folder) else {
+        return Some(format!("the folder {} does not exist or cannot be read", folder.display()));
+    };
+    let wanted = path.file_name()?.to_string_lossy().to_lowercase();
+    let names = entries.flatten().map(|e| e.file_name().to_string_lossy().into_owned());
+    let scored = names.map(|name| (strsim::jaro_winkler(&wanted, &name.to_lowercase()), name));
+    let (score, name) = scored.max_by(|a, b| a.0.total_cmp(&b.0))?;
+    (score > 0.85).then(|| format!("did you mean {}?", folder.join(name).display()))
+}
+
+fn unreadable(path: &Path, error: &std::io::Error) -> Error {
+    Error::with_help(
+        format!("{}: cannot be read: {error}", path.display()),
+        "check the path and the file's permissions",
+    )
+}
+
+pub(super) fn damaged(path: &Path, kind: &str, error: &dyn std::fmt::Display) -> Error {
+    Error::with_help(
+        format!("{}: the {kind} data is damaged or truncated: {error}", path.display()),
+        "fetch or export the picture again",
+    )
+}
+
+fn zero_size(path: &Path) -> Error {
+    Error::with_help(
+        format!("{}: the picture has zero size", path.display()),
+        "a picture needs at least one texel in width and in height",
+    )
+}
+
+fn out_of_memory(path: &Path) -> Error {
+    Error::with_help(
+        format!("{}: the decoded picture does not fit into memory", path.display()),
+        format!("at most {} GiB of texels are read; scale the picture down", MAX_BYTES >> 30),
+    )
+}
+
+fn image_error(path: &Path, kind: &str, error: ImageError) -> Error {
+    match error {
+        ImageError::Limits(_) => out_of_memory(path),
+        ImageError::Unsupported(e) => Error::with_help(
+            format!("{}: this kind of {kind} file is not supported: {e}", path.display()),
+            "convert it to 8-bit, 16-bit or 32-bit float grey or RGB, with or without alpha",
+        ),
+        ImageError::IoError(e) if e.kind() != ErrorKind::UnexpectedEof => unreadable(path, &e),
+        // The PNG decoder refuses a width or height of 0 by itself.
+        e if e.to_string().contains("Invalid image dimensions") => zero_size(path),
+        e => damaged(path, kind, &e),
+    }
+}

@@ -1,0 +1,111 @@
+//! What a file is, judged by its first bytes and never by the ending of its name. A file that is
+//! no picture we read gets a short description for the error message.
+
+use image::ImageFormat;
+
+/// Enough bytes for every signature below and for a fair guess at text.
+pub const HEAD_BYTES: usize = 64;
+
+#[derive(Debug, PartialEq)]
+pub enum Content {
+    Picture(ImageFormat),
+    /// Completes the sentence "the content …".
+    Other(String),
+}
+
+const PICTURES: &[(&[u8], ImageFormat)] = &[
+    (b"\x89PNG\r\n\x1a\n", ImageFormat::Png),
+    (b"\xff\xd8\xff", ImageFormat::Jpeg),
+    (b"II*\0", ImageFormat::Tiff),
+    (b"MM\0*", ImageFormat::Tiff),
+    (b"II+\0", ImageFormat::Tiff),
+    (b"MM\0+", ImageFormat::Tiff),
+    (b"#?RADIANCE", ImageFormat::Hdr),
+    (b"\x76\x2f\x31\x01", ImageFormat::OpenExr),
+];
+
+/// Offset, signature, name.
+const OTHERS: &[(usize, &[u8], &str)] = &[
+    (8, b"WEBP", "is WebP"),
+    (0, b"GIF8", "is GIF"),
+    (0, b"BM", "looks like BMP"),
+    (0, b"8BPS", "is a Photoshop document"),
+    (0, b"DDS ", "is DDS"),
+    (0, b"\xabKTX ", "is KTX"),
+    (0, b"\0\0\0\x0cjP  ", "is JPEG 2000"),
+    (0, b"\xff\x0a", "is JPEG XL"),
+    (0, b"\0\0\0\x0cJXL ", "is JPEG XL"),
+    (4, b"ftypavif", "is AVIF"),
+    (4, b"ftyphei", "is HEIF"),
+    (4, b"ftypmif1", "is HEIF"),
+    (0, b"\0\0\x01\0", "is a Windows icon"),
+    (0, b"qoif", "is QOI"),
+    (0, b"#?RGBE", "is Radiance HDR with the old signature #?RGBE"),
+    (0, b"PK\x03\x04", "is a ZIP archive"),
+    (0, b"\x1f\x8b", "is gzip-compressed"),
+    (0, b"%PDF", "is PDF"),
+    (0, b"gimp xcf", "is a GIMP document"),
+    (0, b"version https://git-lfs", "is a Git LFS pointer, not the picture itself"),
+    (0, b"<svg", "is SVG"),
+    (0, b"<?xml", "is XML or SVG"),
+    (0, b"<!DOCTYPE", "is a web page"),
+    (0, b"<html", "is a web page"),
+];
+
+/// `head`: the first [`HEAD_BYTES`] bytes, or all of a shorter file.
+pub fn identify(head: &[u8]) -> Content {
+    if let Some((_, format)) = PICTURES.iter().find(|(magic, _)| head.starts_with(magic)) {
+        return Content::Picture(*format);
+    }
+    Content::Other(describe(head))
+}
+
+fn describe(head: &[u8]) -> String {
+    if head.is_empty() {
+        return "is empty".into();
+    }
+    let known =
+        |(at, magic, _): &&(usize, &[u8], &str)| head.get(*at..).is_some_and(|h| h.starts_with(magic));
+    if let Some((_, _, what)) = OTHERS.iter().find(known) {
+        return (*what).into();
+    }
+    if PICTURES.iter().any(|(magic, _)| magic.starts_with(head)) {
+        return "ends within a picture's signature (truncated)".into();
+    }
+    if head[0] == b'P' && head.len() > 2 && head[1].is_ascii_digit() && head[2].is_ascii_whitespace() {
+        return "is a Netpbm picture".into();
+    }
+    if head.iter().all(|&b| b >= 0x20 || b.is_ascii_whitespace()) && looks_like_utf8(head) {
+        return "looks like text".into();
+    }
+    let bytes: Vec<String> = head.iter().take(8).map(|b| format!("{b:02x}")).collect();
+    format!("begins with the bytes {}", bytes.join(" "))
+}
+
+/// The cut after [`HEAD_BYTES`] may split one character.
+fn looks_like_utf8(head: &[u8]) -> bool {
+    match std::str::from_utf8(head) {
+        Ok(_) => true,
+        Err(e) => e.error_len().is_none(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn signatures_are_told_apart() {
+        for (head, want) in [
+            (&b""[..], "is empty"),
+            (b"hello, world\n", "looks like text"),
+            (b"RIFF\x10\0\0\0WEBPVP8 ", "is WebP"),
+            (b"P6\n2 2\n255\n", "is a Netpbm picture"),
+            (b"\x89PN", "ends within a picture's signature (truncated)"),
+            (b"\x01\x02\x03", "begins with the bytes 01 02 03"),
+        ] {
+            assert_eq!(identify(head), Content::Other(want.into()));
+        }
+        assert_eq!(identify(b"II*\0rest"), Content::Picture(ImageFormat::Tiff));
+    }
+}

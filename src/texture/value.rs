@@ -1,0 +1,47 @@
+//! One texel as numbers in f64: stored value, linear light, and the four channels a look-up
+//! returns. The reference that packed and uploaded texels are held against.
+
+use super::data::{ColorSpace, Component, TextureData};
+use crate::color::srgb_to_linear;
+
+impl TextureData {
+    /// Stored value of one of the format's own channels: integers scaled to [0, 1] by 2ⁿ − 1
+    /// (Vulkan 1.3, 3.10.1), float as it is.
+    ///
+    /// Panics when the texel or the channel does not exist.
+    pub fn value(&self, x: u32, y: u32, channel: usize) -> f64 {
+        assert!(x < self.width && y < self.height && channel < self.format.channels());
+        let texel = y as usize * self.width as usize + x as usize;
+        let index = texel * self.format.channels() + channel;
+        let bytes = &self.texels;
+        match self.format.component() {
+            Component::Unorm8 => f64::from(bytes[index]) / 255.0,
+            Component::Unorm16 => {
+                let at = index * 2;
+                f64::from(u16::from_ne_bytes([bytes[at], bytes[at + 1]])) / 65_535.0
+            }
+            Component::Float32 => {
+                let at = index * 4;
+                let value = [bytes[at], bytes[at + 1], bytes[at + 2], bytes[at + 3]];
+                f64::from(f32::from_ne_bytes(value))
+            }
+        }
+    }
+
+    /// As [`value`](Self::value), with sRGB decoded. Alpha is never encoded.
+    pub fn linear_value(&self, x: u32, y: u32, channel: usize) -> f64 {
+        let stored = self.value(x, y, channel);
+        let is_alpha = self.format.channels() > 1 && channel + 1 == self.format.channels();
+        if self.color_space == ColorSpace::Srgb && !is_alpha { srgb_to_linear(stored) } else { stored }
+    }
+
+    /// What a look-up of this texel returns: grey is replicated, missing alpha is 1.
+    pub fn linear_rgba(&self, x: u32, y: u32) -> [f64; 4] {
+        let value = |channel| self.linear_value(x, y, channel);
+        match self.format.channels() {
+            1 => [value(0), value(0), value(0), 1.0],
+            2 => [value(0), value(0), value(0), value(1)],
+            _ => [value(0), value(1), value(2), value(3)],
+        }
+    }
+}
