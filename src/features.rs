@@ -29,7 +29,7 @@ pub const DYNAMIC: u32 = u32::MAX;
 /// and are added with compensation (Kahan 1965).
 pub const CHUNK: u32 = 256;
 
-/// Lists longer than this stay loops at run time: unrolled code would grow without end.
+/// Longer lists are read at run time: unrolled code would grow without end.
 const UNROLL: usize = 8;
 
 /// How a constant is narrowed to what the scene uses.
@@ -53,10 +53,10 @@ const FEATURES: &[(&str, &str, Narrow)] = &[
     ("SPHERES", "loop over spheres", Count(|s| unrolled(s.spheres.len()))),
     ("TRIANGLES", "loop over triangles", Count(|s| unrolled(s.triangles.len()))),
     ("LIGHTS", "loop over lights", Count(|s| unrolled(s.lights.len()))),
-    ("MATERIALS", "choice among materials", Count(|s| choice(s.materials.len()))),
-    ("MAPS", "choice among mappings", Count(|s| choice(s.maps.len()))),
-    ("TEXTURES", "choice among textures", Count(|s| choice(s.textures.len()))),
-    ("SAMPLERS", "choice among samplers", Count(|s| choice(s.samplers.len()))),
+    ("MATERIALS", "choice among materials", Count(|s| unrolled(s.materials.len()))),
+    ("MAPS", "choice among mappings", Count(|s| unrolled(s.maps.len()))),
+    ("TEXTURES", "choice among textures", Count(|s| unrolled(s.textures.len()))),
+    ("SAMPLERS", "choice among samplers", Count(|s| unrolled(s.samplers.len()))),
     ("BOUNDED_PLANES", "bounds of planes", Switch(|s| s.planes.iter().any(|p| p.link[3] != 0))),
     ("SMOOTH_NORMALS", "interpolated normals", Switch(|s| s.triangles.iter().any(|t| t.v[3] != 0.0))),
     ("MODELS", "reflection model", Modes(Model::NAMES, |s| bits(s.materials.iter().map(|m| m.link[0])))),
@@ -201,11 +201,6 @@ fn bits(modes: impl Iterator<Item = u32>) -> u32 {
 
 fn unrolled(count: usize) -> u32 {
     if count <= UNROLL { count as u32 } else { DYNAMIC }
-}
-
-/// A list of one needs no index; longer lists are indexed at run time whatever their length.
-fn choice(count: usize) -> u32 {
-    if count <= 1 { count as u32 } else { DYNAMIC }
 }
 
 fn has_model(scene: &PackedScene, model: Model) -> bool {

@@ -52,7 +52,5 @@ layout(constant_id = 48) const uint SRGB_AT = 0u;
     ((mask) == (1u << (value)) || ((((mask) >> (value)) & 1u) != 0u && (runtime) == (value)))
 #define HAS(mask, value) ((((mask) >> (value)) & 1u) != 0u)
 #define COUNT(constant, runtime) ((constant) == DYNAMIC ? (runtime) : (constant))
-// An index into a list of one needs no look at the shape that holds it.
-#define INDEX(constant, runtime) ((constant) == 1u ? 0u : (runtime))
 
 #endif

@@ -79,20 +79,20 @@ Hit nearest_hit(Header header, Ray ray, uint skip, bool from_eye) {
     uint spheres = COUNT(SPHERES, header.counts.y);
     uint triangles = COUNT(TRIANGLES, header.counts.z);
     for (uint i = 0u; i < planes; i++) {
-        float t = plane_distance(load_plane(i), ray, from_eye);
+        float t = plane_distance(plane_at(i), ray, from_eye);
         bool nearer = t > 0.0 && t < hit.t && i != skip;
         hit.t = nearer ? t : hit.t;
         hit.shape = nearer ? i : hit.shape;
     }
     for (uint i = 0u; i < spheres; i++) {
-        float t = sphere_distance(load_sphere(i), ray, from_eye);
+        float t = sphere_distance(sphere_at(i), ray, from_eye);
         bool nearer = t > 0.0 && t < hit.t;
         hit.t = nearer ? t : hit.t;
         hit.shape = nearer ? planes + i : hit.shape;
     }
     for (uint i = 0u; i < triangles; i++) {
         vec2 weights;
-        float t = triangle_distance(load_triangle(i), ray, from_eye, weights);
+        float t = triangle_distance(triangle_at(i), ray, from_eye, weights);
         bool nearer = t > 0.0 && t < hit.t && planes + spheres + i != skip;
         hit.t = nearer ? t : hit.t;
         hit.shape = nearer ? planes + spheres + i : hit.shape;
@@ -108,16 +108,16 @@ bool occluded(Header header, Ray ray, float t_max, uint skip) {
     uint spheres = COUNT(SPHERES, header.counts.y);
     uint triangles = COUNT(TRIANGLES, header.counts.z);
     for (uint i = 0u; i < planes; i++) {
-        float t = plane_distance(load_plane(i), ray, false);
+        float t = plane_distance(plane_at(i), ray, false);
         blocked = blocked || (t > 0.0 && t < t_max && i != skip);
     }
     for (uint i = 0u; i < spheres; i++) {
-        float t = sphere_distance(load_sphere(i), ray, false);
+        float t = sphere_distance(sphere_at(i), ray, false);
         blocked = blocked || (t > 0.0 && t < t_max);
     }
     for (uint i = 0u; i < triangles; i++) {
         vec2 weights;
-        float t = triangle_distance(load_triangle(i), ray, false, weights);
+        float t = triangle_distance(triangle_at(i), ray, false, weights);
         blocked = blocked || (t > 0.0 && t < t_max && planes + spheres + i != skip);
     }
     return blocked;

@@ -175,4 +175,42 @@ Sampler load_sampler(uint i) {
     return Sampler(scene_vec4(at), scene[at + 1u], scene[at + 2u]);
 }
 
+// Lists of known, small length are read once, before any branch: some compilers (lavapipe's) read a
+// buffer lane by lane inside control flow. An index that is not known at build time then selects
+// among registers.
+#define HELD_LIST(Type, held, hold, at, load, COUNT_CONSTANT)                                   \
+    Type held[COUNT_CONSTANT == DYNAMIC || COUNT_CONSTANT == 0u ? 1u : COUNT_CONSTANT];         \
+    void hold() {                                                                               \
+        if (COUNT_CONSTANT == DYNAMIC) return;                                                  \
+        for (uint i = 0u; i < COUNT_CONSTANT; i++) held[i] = load(i);                           \
+    }                                                                                           \
+    Type at(uint index) {                                                                       \
+        if (COUNT_CONSTANT == DYNAMIC) return load(index);                                      \
+        Type found = held[0];                                                                   \
+        for (uint i = 1u; i < COUNT_CONSTANT; i++) {                                            \
+            if (i == index) found = held[i];                                                    \
+        }                                                                                       \
+        return found;                                                                           \
+    }
+
+HELD_LIST(Plane, held_planes, hold_planes, plane_at, load_plane, PLANES)
+HELD_LIST(Sphere, held_spheres, hold_spheres, sphere_at, load_sphere, SPHERES)
+HELD_LIST(Triangle, held_triangles, hold_triangles, triangle_at, load_triangle, TRIANGLES)
+HELD_LIST(Light, held_lights, hold_lights, light_at, load_light, LIGHTS)
+HELD_LIST(Material, held_materials, hold_materials, material_at, load_material, MATERIALS)
+HELD_LIST(Map, held_maps, hold_maps, map_at, load_map, MAPS)
+HELD_LIST(Texture, held_textures, hold_textures, texture_at, load_texture, TEXTURES)
+HELD_LIST(Sampler, held_samplers, hold_samplers, sampler_at, load_sampler, SAMPLERS)
+
+void hold_scene() {
+    hold_planes();
+    hold_spheres();
+    hold_triangles();
+    hold_lights();
+    hold_materials();
+    hold_maps();
+    hold_textures();
+    hold_samplers();
+}
+
 #endif

@@ -16,9 +16,10 @@ layout(std430, set = 0, binding = 4) readonly buffer Queries { Query queries[]; 
 layout(push_constant) uniform Range { uint count; } range;
 
 void main() {
+    hold_scene();
     uint i = gl_GlobalInvocationID.x;
     if (i >= range.count) return;
     Query query = queries[i];
-    results[i] = look_up(load_texture(INDEX(TEXTURES, query.link.x)), load_sampler(INDEX(SAMPLERS, query.link.y)),
+    results[i] = look_up(texture_at(query.link.x), sampler_at(query.link.y),
                          query.link.z, query.uv.xy);
 }

@@ -38,6 +38,7 @@ uvec2 film_pixel() {
 
 void main() {
     Header header = load_header();
+    hold_scene();
     uvec2 place = film_pixel();
     if (place.x >= header.size.x || place.y >= slice.band_height) return;
     uvec2 pixel = uvec2(place.x, place.y + slice.band_y) + header.image.zw;

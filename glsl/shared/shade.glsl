@@ -47,13 +47,13 @@ Surface hit_surface(Header header, Ray ray, Hit hit, bool from_eye) {
     uint triangles = COUNT(TRIANGLES, header.counts.z);
     precise vec3 point = from_eye ? hit.t * ray.direction : ray.origin + hit.t * ray.direction;
     Surface surface = Surface(point, vec3(0.0), vec3(0.0), vec2(0.0), uvec2(0u));
-    // A list of one needs no index, a scene of one kind no test.
+    // A scene of one kind of shape needs no test.
     if (planes > 0u && (spheres + triangles == 0u || hit.shape < planes)) {
-        surface = plane_surface(load_plane(INDEX(PLANES, hit.shape)), point);
+        surface = plane_surface(plane_at(hit.shape), point);
     } else if (spheres > 0u && (triangles == 0u || hit.shape < planes + spheres)) {
-        surface = sphere_surface(load_sphere(INDEX(SPHERES, hit.shape - planes)), point);
+        surface = sphere_surface(sphere_at(hit.shape - planes), point);
     } else if (triangles > 0u) {
-        surface = triangle_surface(load_triangle(INDEX(TRIANGLES, hit.shape - planes - spheres)), point, hit.weights);
+        surface = triangle_surface(triangle_at(hit.shape - planes - spheres), point, hit.weights);
     }
     bool away = dot3(surface.geometric_normal, ray.direction) > 0.0;
     surface.geometric_normal = away ? -surface.geometric_normal : surface.geometric_normal;
@@ -65,9 +65,9 @@ vec3 surface_color(Material material, Surface surface) {
     vec3 color = material.color.xyz;
 #if SOURCE != SOURCE_NONE
     if (TEXTURED && (!UNTEXTURED || material.link.y != NO_TEXTURE)) {
-        vec2 uv = texture_coordinate(load_map(INDEX(MAPS, surface.link.y)), surface.point, surface.vertex_uv);
-        precise vec3 product = color * look_up(load_texture(INDEX(TEXTURES, material.link.y)),
-                                               load_sampler(INDEX(SAMPLERS, material.link.z)), material.link.w, uv).xyz;
+        vec2 uv = texture_coordinate(map_at(surface.link.y), surface.point, surface.vertex_uv);
+        precise vec3 product = color * look_up(texture_at(material.link.y),
+                                               sampler_at(material.link.z), material.link.w, uv).xyz;
         color = product;
     }
 #endif
@@ -80,7 +80,7 @@ vec3 direct_light(Header header, Surface surface, uint shape) {
     uint lights = COUNT(LIGHTS, header.key.y);
     vec3 start = SHADOWS ? offset_origin(surface.point, surface.geometric_normal) : surface.point;
     for (uint i = 0u; i < lights; i++) {
-        Light light = load_light(i);
+        Light light = light_at(i);
         bool point_light = MODE_IS(LIGHT_KINDS, LIGHT_POINT, light.link.x);
         precise vec3 way = point_light ? light.place.xyz - surface.point : light.place.xyz;
         float squared = dot3(way, way);
@@ -106,33 +106,42 @@ vec3 mirrored(vec3 direction, vec3 normal) {
     return result;
 }
 
-vec3 radiance(Header header, Ray ray) {
-    vec3 throughput = vec3(1.0);
-    vec3 result = vec3(0.0);
-    uint skip = NO_SHAPE;
-    uint last = BOUNCES ? header.size.w : 0u;
-    for (uint depth = 0u; depth <= last; depth++) {
-        Hit hit = nearest_hit(header, ray, skip, ORIGIN_IS_EYE);
-        if (hit.shape == NO_SHAPE) {
-            result = throughput * header.background.xyz;
-            break;
-        }
-        Surface surface = hit_surface(header, ray, hit, ORIGIN_IS_EYE);
-        Material material = load_material(INDEX(MATERIALS, surface.link.x));
-        vec3 color = surface_color(material, surface);
-        if (MODE_IS(MODELS, MODEL_UNLIT, material.link.x)) {
-            result = throughput * color;
-            break;
-        }
-        if (MODE_IS(MODELS, MODEL_LAMBERT, material.link.x)) {
-            result = throughput * color * direct_light(header, surface, hit.shape);
-            break;
-        }
-        throughput *= color;
-        ray = Ray(offset_origin(surface.point, surface.geometric_normal), mirrored(ray.direction, surface.normal));
-        skip = hit.shape;
+// One ray: what it adds to the result, and the mirrored ray to follow, if any.
+struct Step {
+    vec3 radiance;
+    vec3 throughput; // of the next ray
+    Ray next;
+    uint skip; // the shape that the next ray leaves
+    bool goes_on;
+};
+
+Step follow(Header header, Ray ray, vec3 throughput, uint skip, bool from_eye) {
+    Hit hit = nearest_hit(header, ray, skip, from_eye);
+    Step result = Step(throughput * header.background.xyz, vec3(0.0), ray, hit.shape, false);
+    if (hit.shape != NO_SHAPE) {
+        Surface surface = hit_surface(header, ray, hit, from_eye);
+        Material material = material_at(surface.link.x);
+        result.throughput = throughput * surface_color(material, surface);
+        result.goes_on = MODE_IS(MODELS, MODEL_MIRROR, material.link.x);
+        vec3 light = vec3(result.goes_on ? 0.0 : 1.0);
+        if (MODE_IS(MODELS, MODEL_LAMBERT, material.link.x)) light = direct_light(header, surface, hit.shape);
+        result.radiance = result.throughput * light;
+        result.next = Ray(offset_origin(surface.point, surface.geometric_normal),
+                          mirrored(ray.direction, surface.normal));
     }
     return result;
+}
+
+vec3 radiance(Header header, Ray ray) {
+    Step first = follow(header, ray, vec3(1.0), NO_SHAPE, ORIGIN_IS_EYE);
+    if (!BOUNCES) return first.radiance;
+    vec3 sum = first.radiance;
+    Step now = first;
+    for (uint depth = 0u; now.goes_on && depth < header.size.w; depth++) {
+        now = follow(header, now.next, now.throughput, now.skip, false);
+        sum += now.radiance;
+    }
+    return sum;
 }
 
 #endif
