@@ -3,6 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 // Rays from a list: one thread a query, what the ray hits and where out: distance, shape, point,
 // normal, texture coordinate, and whether anything lies between the origin and t_max.
+#define ORIGIN_IS_EYE false // these rays start anywhere
 #include "shared/features.glsl"
 #include "shared/layout.glsl"
 #include "shared/shade.glsl"
@@ -31,11 +32,11 @@ void main() {
     if (i >= range.count) return;
     Header header = load_header();
     Ray ray = Ray(queries[i].origin.xyz, queries[i].direction.xyz);
-    Hit hit = nearest_hit(header, ray, NO_SHAPE, false);
+    Hit hit = nearest_hit(header, ray, NO_SHAPE);
     bool blocked = occluded(header, ray, queries[i].direction.w, NO_SHAPE);
     Answer answer = Answer(vec4(0.0, 0.0, 0.0, FAR), vec4(0.0), vec4(0.0), uvec4(NO_SHAPE, uint(blocked), 0u, 0u));
     if (hit.shape != NO_SHAPE) {
-        Surface surface = hit_surface(header, ray, hit, false);
+        Surface surface = hit_surface(header, ray, hit);
         vec2 uv = texture_coordinate(map_at(surface.link.y), surface.point, surface.vertex_uv);
         answer = Answer(vec4(surface.point, hit.t), vec4(surface.normal, 0.0), vec4(uv, 0.0, 0.0),
                         uvec4(hit.shape, uint(blocked), 0u, 0u));

@@ -10,11 +10,13 @@
 struct Hit {
     float t; // in units of the direction's length; FAR on a miss
     uint shape;
-    vec2 weights; // barycentric weights of a triangle's vertices b and c
+    vec3 edges; // a triangle's edge functions: barycentric weights times their sum
 };
 
 // Camera rays that are the only rays start at the eye, which is the coordinate origin.
+#ifndef ORIGIN_IS_EYE
 #define ORIGIN_IS_EYE (!BOUNCES && PROJECTIONS == (1u << PROJECTION_PERSPECTIVE))
+#endif
 
 // t = (n·o' - n·o) / n·d, kept when the point lies within the half extent on both axes.
 float plane_distance(Plane plane, Ray ray, bool from_eye) {
@@ -44,59 +46,57 @@ float sphere_distance(Sphere sphere, Ray ray, bool from_eye) {
     precise vec3 closest = f + (b / a) * ray.direction;
     precise float discriminant = radius * radius - dot3(closest, closest);
     precise float c = dot3(f, f) - radius * radius;
-    if (!(discriminant > 0.0) || (c > 0.0 && b <= 0.0)) return -1.0;
-    float root = sqrt(a * discriminant);
+    float root = sqrt(max(a * discriminant, 0.0));
     precise float q = b + (b < 0.0 ? -root : root);
-    return c > 0.0 || b < 0.0 ? c / q : q / a;
+    bool small_root = c > 0.0 || b < 0.0;
+    precise float t = (small_root ? c : q) / (small_root ? q : a);
+    return discriminant > 0.0 && (c <= 0.0 || b > 0.0) ? t : -1.0;
 }
 
 // Edge functions as volumes d·(p × q): the two triangles at a shared edge compute the same value
 // with opposite sign, so no ray passes between them. t from the geometric plane.
-float triangle_distance(Triangle triangle, Ray ray, bool from_eye, out vec2 weights) {
+float triangle_distance(Triangle triangle, Ray ray, bool from_eye, out vec3 edges) {
     precise vec3 a = from_eye ? triangle.a.xyz : triangle.a.xyz - ray.origin;
     precise vec3 b = from_eye ? triangle.b.xyz : triangle.b.xyz - ray.origin;
     precise vec3 c = from_eye ? triangle.c.xyz : triangle.c.xyz - ray.origin;
-    float ea = dot3(ray.direction, cross3(b, c));
-    float eb = dot3(ray.direction, cross3(c, a));
-    float ec = dot3(ray.direction, cross3(a, b));
-    precise float sum = (ea + eb) + ec;
-    bool front = ea >= 0.0 && eb >= 0.0 && ec >= 0.0;
-    bool back = ea <= 0.0 && eb <= 0.0 && ec <= 0.0;
-    weights = vec2(0.0);
-    if (!(front || back) || sum == 0.0) return -1.0;
-    weights = vec2(eb / sum, ec / sum);
+    edges = vec3(dot3(ray.direction, cross3(b, c)), dot3(ray.direction, cross3(c, a)),
+                 dot3(ray.direction, cross3(a, b)));
+    bool front = edges.x >= 0.0 && edges.y >= 0.0 && edges.z >= 0.0;
+    bool back = edges.x <= 0.0 && edges.y <= 0.0 && edges.z <= 0.0;
+    bool degenerate = edges == vec3(0.0);
     float height = triangle.normal.w;
     if (!from_eye) {
         precise float above = height - dot3(triangle.normal.xyz, ray.origin);
         height = above;
     }
-    return height / dot3(triangle.normal.xyz, ray.direction);
+    precise float t = height / dot3(triangle.normal.xyz, ray.direction);
+    return (front || back) && !degenerate ? t : -1.0;
 }
 
-Hit nearest_hit(Header header, Ray ray, uint skip, bool from_eye) {
-    Hit hit = Hit(FAR, NO_SHAPE, vec2(0.0));
+Hit nearest_hit(Header header, Ray ray, uint skip) {
+    Hit hit = Hit(FAR, NO_SHAPE, vec3(0.0));
     uint planes = COUNT(PLANES, header.counts.x);
     uint spheres = COUNT(SPHERES, header.counts.y);
     uint triangles = COUNT(TRIANGLES, header.counts.z);
     for (uint i = 0u; i < planes; i++) {
-        float t = plane_distance(plane_at(i), ray, from_eye);
+        float t = plane_distance(plane_at(i), ray, ORIGIN_IS_EYE);
         bool nearer = t > 0.0 && t < hit.t && i != skip;
         hit.t = nearer ? t : hit.t;
         hit.shape = nearer ? i : hit.shape;
     }
     for (uint i = 0u; i < spheres; i++) {
-        float t = sphere_distance(sphere_at(i), ray, from_eye);
+        float t = sphere_distance(sphere_at(i), ray, ORIGIN_IS_EYE);
         bool nearer = t > 0.0 && t < hit.t;
         hit.t = nearer ? t : hit.t;
         hit.shape = nearer ? planes + i : hit.shape;
     }
     for (uint i = 0u; i < triangles; i++) {
-        vec2 weights;
-        float t = triangle_distance(triangle_at(i), ray, from_eye, weights);
+        vec3 edges;
+        float t = triangle_distance(triangle_at(i), ray, ORIGIN_IS_EYE, edges);
         bool nearer = t > 0.0 && t < hit.t && planes + spheres + i != skip;
         hit.t = nearer ? t : hit.t;
         hit.shape = nearer ? planes + spheres + i : hit.shape;
-        hit.weights = nearer ? weights : hit.weights;
+        hit.edges = nearer ? edges : hit.edges;
     }
     return hit;
 }
@@ -116,8 +116,8 @@ bool occluded(Header header, Ray ray, float t_max, uint skip) {
         blocked = blocked || (t > 0.0 && t < t_max);
     }
     for (uint i = 0u; i < triangles; i++) {
-        vec2 weights;
-        float t = triangle_distance(triangle_at(i), ray, false, weights);
+        vec3 edges;
+        float t = triangle_distance(triangle_at(i), ray, false, edges);
         blocked = blocked || (t > 0.0 && t < t_max && planes + spheres + i != skip);
     }
     return blocked;

@@ -47,11 +47,20 @@ void main() {
     // The number of bits of side - 1 is ceil(log2 side).
     uint side_log2 = uint(findMSB(side - 1u) + 1);
 
+    // One loop for samples and bounces: a turn follows one ray, and a pixel whose path has ended
+    // starts its next sample while its neighbours' paths go on.
     precise vec3 sum = vec3(0.0);
-    uint end = slice.first_sample + slice.sample_count;
-    for (uint s = slice.first_sample; s < end; s++) {
-        uvec2 position = sample_position(header.sampling.x, key, s, side, side_log2);
-        sum += radiance(header, camera_ray(header, pixel, position));
+    uint s = slice.first_sample;
+    uint end = s + slice.sample_count;
+    Path path;
+    path.goes_on = false;
+    while (s < end) {
+        if (!BOUNCES || !path.goes_on) {
+            uvec2 position = sample_position(header.sampling.x, key, s, side, side_log2);
+            path = camera_path(camera_ray(header, pixel, position));
+        }
+        sum += advance(header, path);
+        s += path.goes_on ? 0u : 1u;
     }
 
     uint at = place.y * header.size.x + place.x;

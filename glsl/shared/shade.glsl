@@ -23,29 +23,32 @@ Surface plane_surface(Plane plane, vec3 point) {
 // The hit is put back on the sphere: the error of t does not reach the normal or the next ray.
 Surface sphere_surface(Sphere sphere, vec3 point) {
     precise vec3 radial = point - sphere.ball.xyz;
-    precise vec3 normal = radial / sqrt(dot3(radial, radial));
+    precise float scale = 1.0 / sqrt(dot3(radial, radial));
+    precise vec3 normal = radial * scale;
     precise vec3 on_sphere = sphere.ball.xyz + sphere.ball.w * normal;
     return Surface(on_sphere, normal, normal, vec2(0.0), sphere.link.xy);
 }
 
-Surface triangle_surface(Triangle triangle, vec3 point, vec2 weights) {
-    precise vec3 w = vec3((1.0 - weights.x) - weights.y, weights);
+Surface triangle_surface(Triangle triangle, vec3 point, vec3 edges) {
+    precise float scale = 1.0 / ((edges.x + edges.y) + edges.z);
+    precise vec3 w = edges * scale;
     vec2 uv = vec2(dot3(w, vec3(triangle.a.w, triangle.b.w, triangle.c.w)), dot3(w, triangle.v.xyz));
     vec3 normal = triangle.normal.xyz;
     if (SMOOTH_NORMALS && triangle.v.w != 0.0) {
         precise vec3 blend = (w.x * triangle.normal_a.xyz + w.y * triangle.normal_b.xyz) + w.z * triangle.normal_c.xyz;
         float squared = dot3(blend, blend);
-        precise vec3 unit = blend / sqrt(squared);
+        precise float length_scale = 1.0 / sqrt(squared);
+        precise vec3 unit = blend * length_scale;
         normal = squared > 0.0 ? unit : normal;
     }
     return Surface(point, triangle.normal.xyz, normal, uv, triangle.link.xy);
 }
 
-Surface hit_surface(Header header, Ray ray, Hit hit, bool from_eye) {
+Surface hit_surface(Header header, Ray ray, Hit hit) {
     uint planes = COUNT(PLANES, header.counts.x);
     uint spheres = COUNT(SPHERES, header.counts.y);
     uint triangles = COUNT(TRIANGLES, header.counts.z);
-    precise vec3 point = from_eye ? hit.t * ray.direction : ray.origin + hit.t * ray.direction;
+    precise vec3 point = ORIGIN_IS_EYE ? hit.t * ray.direction : ray.origin + hit.t * ray.direction;
     Surface surface = Surface(point, vec3(0.0), vec3(0.0), vec2(0.0), uvec2(0u));
     // A scene of one kind of shape needs no test.
     if (planes > 0u && (spheres + triangles == 0u || hit.shape < planes)) {
@@ -53,7 +56,7 @@ Surface hit_surface(Header header, Ray ray, Hit hit, bool from_eye) {
     } else if (spheres > 0u && (triangles == 0u || hit.shape < planes + spheres)) {
         surface = sphere_surface(sphere_at(hit.shape - planes), point);
     } else if (triangles > 0u) {
-        surface = triangle_surface(triangle_at(hit.shape - planes - spheres), point, hit.weights);
+        surface = triangle_surface(triangle_at(hit.shape - planes - spheres), point, hit.edges);
     }
     bool away = dot3(surface.geometric_normal, ray.direction) > 0.0;
     surface.geometric_normal = away ? -surface.geometric_normal : surface.geometric_normal;
@@ -106,42 +109,37 @@ vec3 mirrored(vec3 direction, vec3 normal) {
     return result;
 }
 
-// One ray: what it adds to the result, and the mirrored ray to follow, if any.
-struct Step {
-    vec3 radiance;
-    vec3 throughput; // of the next ray
-    Ray next;
-    uint skip; // the shape that the next ray leaves
-    bool goes_on;
+// A path between two hits: the ray, what it still carries, the shape that it leaves.
+struct Path {
+    Ray ray;
+    vec3 throughput;
+    uint skip;
+    uint depth;
+    bool goes_on; // false: the path has ended, the next one starts at the camera
 };
 
-Step follow(Header header, Ray ray, vec3 throughput, uint skip, bool from_eye) {
-    Hit hit = nearest_hit(header, ray, skip, from_eye);
-    Step result = Step(throughput * header.background.xyz, vec3(0.0), ray, hit.shape, false);
-    if (hit.shape != NO_SHAPE) {
-        Surface surface = hit_surface(header, ray, hit, from_eye);
-        Material material = material_at(surface.link.x);
-        result.throughput = throughput * surface_color(material, surface);
-        result.goes_on = MODE_IS(MODELS, MODEL_MIRROR, material.link.x);
-        vec3 light = vec3(result.goes_on ? 0.0 : 1.0);
-        if (MODE_IS(MODELS, MODEL_LAMBERT, material.link.x)) light = direct_light(header, surface, hit.shape);
-        result.radiance = result.throughput * light;
-        result.next = Ray(offset_origin(surface.point, surface.geometric_normal),
-                          mirrored(ray.direction, surface.normal));
-    }
-    return result;
-}
+Path camera_path(Ray ray) { return Path(ray, vec3(1.0), NO_SHAPE, 0u, true); }
 
-vec3 radiance(Header header, Ray ray) {
-    Step first = follow(header, ray, vec3(1.0), NO_SHAPE, ORIGIN_IS_EYE);
-    if (!BOUNCES) return first.radiance;
-    vec3 sum = first.radiance;
-    Step now = first;
-    for (uint depth = 0u; now.goes_on && depth < header.size.w; depth++) {
-        now = follow(header, now.next, now.throughput, now.skip, false);
-        sum += now.radiance;
+// Follows the path to its next hit; what that adds to the sample is returned.
+vec3 advance(Header header, inout Path path) {
+    Hit hit = nearest_hit(header, path.ray, path.skip);
+    vec3 seen = path.throughput * header.background.xyz;
+    bool mirror = false;
+    if (hit.shape != NO_SHAPE) {
+        Surface surface = hit_surface(header, path.ray, hit);
+        Material material = material_at(surface.link.x);
+        path.throughput *= surface_color(material, surface);
+        mirror = MODE_IS(MODELS, MODEL_MIRROR, material.link.x);
+        vec3 light = vec3(mirror ? 0.0 : 1.0);
+        if (MODE_IS(MODELS, MODEL_LAMBERT, material.link.x)) light = direct_light(header, surface, hit.shape);
+        seen = path.throughput * light;
+        path.ray = Ray(offset_origin(surface.point, surface.geometric_normal),
+                       mirrored(path.ray.direction, surface.normal));
     }
-    return sum;
+    path.skip = hit.shape;
+    path.goes_on = BOUNCES && mirror && path.depth < header.size.w;
+    path.depth++;
+    return seen;
 }
 
 #endif
