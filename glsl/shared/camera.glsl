@@ -10,13 +10,16 @@ struct Ray {
 };
 
 Ray camera_ray(Header header, uvec2 pixel, uvec2 position) {
-    vec2 inside = vec2(position) * (1.0 / 16777216.0);
+    // Scaling by 2^-24 is exact wherever it happens: here once a pixel, not once a sample.
+    vec3 fine_x = header.step_x.xyz * (1.0 / 16777216.0);
+    vec3 fine_y = header.step_y.xyz * (1.0 / 16777216.0);
+    vec2 inside = vec2(position);
     vec2 corner = vec2(pixel) - 0.5 * vec2(header.image.xy);
     bool orthographic = MODE_IS(PROJECTIONS, PROJECTION_ORTHOGRAPHIC, header.size.z);
     vec3 start = orthographic ? vec3(0.0) : header.forward.xyz;
     // The sum up to the pixel's corner is the same for all its samples.
     precise vec3 base = (start + corner.x * header.step_x.xyz) + corner.y * header.step_y.xyz;
-    precise vec3 point = (base + inside.x * header.step_x.xyz) + inside.y * header.step_y.xyz;
+    precise vec3 point = (base + inside.x * fine_x) + inside.y * fine_y;
     return orthographic ? Ray(point, header.forward.xyz) : Ray(vec3(0.0), point);
 }
 

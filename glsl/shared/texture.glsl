@@ -116,16 +116,24 @@ vec4 fetch_texel(Texture image, uint slot, ivec2 at) {
 #endif
 
 #if SOURCE != SOURCE_NONE
-// The coordinate in texels, brought near the texture without changing what it reads: whole periods
-// leave exactly (u - floor u is exact in f32), clamped modes lose what lies far outside.
+// Adding 1.5 · 2^23 leaves the nearest integer (ties to even) in the low bits of an f32 below 2^22:
+// rounding and conversion in two additions, alike on every device.
+const float ROUND = 12582912.0;
+
+// The coordinate in texels, brought near the texture without changing what it reads. Whole periods
+// leave exactly, to [-1/2, 1/2] or, mirrored, [-1, 1]; from 2^23 on u is whole, and what is not finite
+// reads as 0. Clamped modes lose what lies far outside.
 float reduced_coordinate(uint mask, uint mode, float u, float size) {
     precise float s;
     if (MODE_IS(mask, ADDRESS_REPEAT, mode)) {
-        s = u - floor(u);
-        s = s >= 0.0 && s < 1.0 ? s : 0.0; // a tiny negative u rounds to 1; not finite reads texel 0
+        precise float whole = (u + ROUND) - ROUND;
+        s = u - whole;
+        s = abs(s) <= 0.5 ? s : 0.0;
     } else if (MODE_IS(mask, ADDRESS_MIRRORED_REPEAT, mode)) {
-        s = u - 2.0 * floor(0.5 * u);
-        s = s >= 0.0 && s < 2.0 ? s : 0.0;
+        precise float half_u = 0.5 * u;
+        precise float whole = (half_u + ROUND) - ROUND;
+        s = u - 2.0 * whole;
+        s = abs(s) <= 1.0 ? s : 0.0;
     } else {
         s = u >= -2.0 ? (u <= 3.0 ? u : 3.0) : -2.0;
     }
@@ -133,28 +141,22 @@ float reduced_coordinate(uint mask, uint mode, float u, float size) {
     return texel;
 }
 
-// Vulkan 1.3, 16.6 "Integer coordinate wrapping"; -1 asks for the border colour.
+// Vulkan 1.3, 16.6 "Integer coordinate wrapping", for what `reduced_coordinate` leaves; -1 asks for
+// the border colour. The bounds hold for every i, so no fetch leaves the texture.
 int addressed_texel(uint mask, uint mode, int i, int size) {
-    if (MODE_IS(mask, ADDRESS_REPEAT, mode)) {
-        i = i < 0 ? i + size : i;
-        i = i >= size ? i - size : i;
-    } else if (MODE_IS(mask, ADDRESS_MIRRORED_REPEAT, mode)) {
-        i = i < 0 ? i + 2 * size : i;
-        i = i >= 2 * size ? i - 2 * size : i;
-        i = i < size ? i : 2 * size - 1 - i;
-    } else if (MODE_IS(mask, ADDRESS_CLAMP_TO_BORDER, mode)) {
-        return i < 0 || i >= size ? -1 : i;
-    } else if (MODE_IS(mask, ADDRESS_MIRROR_CLAMP_TO_EDGE, mode)) {
-        i = i < 0 ? -1 - i : i;
-    }
+    if (MODE_IS(mask, ADDRESS_REPEAT, mode)) return int(min(uint(i < 0 ? i + size : i), uint(size - 1)));
+    if (MODE_IS(mask, ADDRESS_CLAMP_TO_BORDER, mode)) return i < 0 || i >= size ? -1 : i;
+    // Within one period mirroring is mirror-clamp-to-edge.
+    if (!MODE_IS(mask, ADDRESS_CLAMP_TO_EDGE, mode)) i = i < 0 ? -1 - i : i;
     return clamp(i, 0, size - 1);
 }
 
 vec4 fetch_or_border(Texture image, Sampler how, uint slot, ivec2 at) {
-    bool border = (HAS(ADDRESSES_U, ADDRESS_CLAMP_TO_BORDER) && at.x < 0) ||
-                  (HAS(ADDRESSES_V, ADDRESS_CLAMP_TO_BORDER) && at.y < 0);
+    if (!HAS(ADDRESSES_U, ADDRESS_CLAMP_TO_BORDER) && !HAS(ADDRESSES_V, ADDRESS_CLAMP_TO_BORDER)) {
+        return fetch_texel(image, slot, at);
+    }
     vec4 value = fetch_texel(image, slot, max(at, ivec2(0)));
-    return border ? how.border : value;
+    return at.x < 0 || at.y < 0 ? how.border : value;
 }
 
 vec4 look_up(Texture image, Sampler how, uint slot, vec2 uv) {
@@ -176,20 +178,22 @@ vec4 look_up(Texture image, Sampler how, uint slot, vec2 uv) {
                                      addressed_texel(ADDRESSES_V, how.modes.y, nearest.y, size.y)));
     }
     if (!integer_centers) texel -= 0.5;
-    vec2 low = floor(texel);
+    // floor(texel), or on a texel's centre the one before it with weight 1 on its neighbour.
+    precise vec2 shifted = (texel - 0.5) + ROUND;
+    precise vec2 low = shifted - ROUND;
     precise vec2 b = texel - low;
     precise vec2 a = 1.0 - b;
-    ivec2 first = ivec2(low);
+    ivec2 first = floatBitsToInt(shifted) - floatBitsToInt(ROUND);
     ivec2 u = ivec2(addressed_texel(ADDRESSES_U, how.modes.x, first.x, size.x),
                     addressed_texel(ADDRESSES_U, how.modes.x, first.x + 1, size.x));
     ivec2 v = ivec2(addressed_texel(ADDRESSES_V, how.modes.y, first.y, size.y),
                     addressed_texel(ADDRESSES_V, how.modes.y, first.y + 1, size.y));
-    precise vec4 top = a.x * fetch_or_border(image, how, slot, ivec2(u.x, v.x)) +
-                       b.x * fetch_or_border(image, how, slot, ivec2(u.y, v.x));
-    precise vec4 bottom = a.x * fetch_or_border(image, how, slot, ivec2(u.x, v.y)) +
-                          b.x * fetch_or_border(image, how, slot, ivec2(u.y, v.y));
-    precise vec4 value = a.y * top + b.y * bottom;
-    return value;
+    // fma by name: fused or not, but alike in every pipeline of a device.
+    vec4 top = fma(vec4(b.x), fetch_or_border(image, how, slot, ivec2(u.y, v.x)),
+                   a.x * fetch_or_border(image, how, slot, ivec2(u.x, v.x)));
+    vec4 bottom = fma(vec4(b.x), fetch_or_border(image, how, slot, ivec2(u.y, v.y)),
+                      a.x * fetch_or_border(image, how, slot, ivec2(u.x, v.y)));
+    return fma(vec4(b.y), bottom, a.y * top);
 }
 #endif
 
