@@ -26,7 +26,7 @@ pub struct RenderArgs {
     /// Scene file (TOML)
     scene: PathBuf,
     /// Picture to write; the ending decides the format: exr hdr (linear float), png jpg tif (sRGB).
-    /// May be given several times [default: <scene>.png in the current folder]
+    /// May be given several times [default: the scene's name with .png, in the current folder]
     #[arg(short, long = "output", value_name = "OUT")]
     output: Vec<PathBuf>,
     #[command(flatten)]

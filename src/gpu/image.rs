@@ -159,7 +159,7 @@ fn check(core: &Core, desc: &ImageDesc<'_>, label: &str) -> Result<()> {
                 "{label} is too large for {}: images there have at most {limit}×{limit} texels",
                 core.info.name
             ),
-            "Scale the texture down, or use method = \"shader\", or another device.",
+            "Scale the texture down, use method = \"shader\" with --texels buffer, or another device.",
         ));
     }
     if !core.supports(desc.format, false) {

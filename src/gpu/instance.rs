@@ -15,11 +15,21 @@ pub fn list_devices() -> Result<Vec<DeviceInfo>> {
     Ok(Instance::new(false)?.devices()?.into_iter().map(|(_, info)| info).collect())
 }
 
+/// `MOIRE_VULKAN_LIBRARY` names a loader to use in place of the system's.
 pub(super) fn load() -> Result<ash::Entry> {
-    // SAFETY: this runs the initialisers of the system's Vulkan loader, a library that is made to
-    // be loaded so; nothing is unloaded before `Entry` is dropped, which owners do last.
-    unsafe { ash::Entry::load() }
-        .map_err(|error| Error::with_help(format!("no Vulkan loader was found ({error})"), INSTALL))
+    let Some(path) = std::env::var_os("MOIRE_VULKAN_LIBRARY") else {
+        // SAFETY: this runs the initialisers of the system's Vulkan loader, a library that is made
+        // to be loaded so; nothing is unloaded before `Entry` is dropped, which owners do last.
+        return unsafe { ash::Entry::load() }
+            .map_err(|error| Error::with_help(format!("no Vulkan loader was found ({error})"), INSTALL));
+    };
+    // SAFETY: as above; that the named library is a Vulkan loader is the user's word.
+    unsafe { ash::Entry::load_from(&path) }.map_err(|error| {
+        Error::with_help(
+            format!("no Vulkan loader was found at MOIRE_VULKAN_LIBRARY = {} ({error})", path.display()),
+            format!("unset it to use the system's loader. {INSTALL}"),
+        )
+    })
 }
 
 /// Dropped last of all objects: messenger, then instance, then the loader. Destroying the instance

@@ -37,10 +37,11 @@ pub fn render(scene: &PackedScene, progress: &dyn Progress) -> Result<Film> {
     let mut film = Film::new(width, height, scene.samples);
     let done = AtomicUsize::new(0);
     film.pixels.par_chunks_mut(width as usize).enumerate().for_each(|(y, row)| {
-        if progress.cancelled() {
-            return;
-        }
         for (x, out) in row.iter_mut().enumerate() {
+            // A row can take minutes where a pixel has very many samples.
+            if progress.cancelled() {
+                return;
+            }
             *out = pixel(scene, x as u32, y as u32).as_vec3().to_array();
         }
         let rows = done.fetch_add(1, Ordering::Relaxed) + 1;

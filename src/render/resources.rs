@@ -151,19 +151,22 @@ fn upload_image(gpu: &Gpu, packed: &PackedScene, index: usize, form: Form) -> Re
     let format = TexelFormat::ALL[format as usize];
     let start = first_word as usize * 4;
     let bytes = &packed.texels[start..start + width as usize * height as usize * format.bytes_per_texel()];
-    let name = format!("texture `{}`", packed.texture_names[index]);
+    let name = &packed.texture_names[index];
     let expanded = expanded(bytes, format, form);
     let (format, texels) = expanded.as_ref().map_or((format, bytes), |(f, b)| (*f, b.as_slice()));
     let stored = image_format(format, form.decode);
     if !gpu.supports(stored, form.filtered) {
         let filtering = if form.filtered { "with linear filtering" } else { "as a sampled image" };
         return Err(Error::with_help(
-            format!("{name}: device \"{}\" does not support {stored} images {filtering}", gpu.info().name),
+            format!(
+                "texture `{name}`: device \"{}\" does not support {stored} images {filtering}",
+                gpu.info().name
+            ),
             "use method = \"shader\" with --texels buffer, or store the texture with 8 bits",
         ));
     }
     gpu.image(&ImageDesc {
-        name: &name,
+        name,
         width,
         height,
         format: stored,

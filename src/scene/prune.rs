@@ -52,10 +52,8 @@ fn keep<T>(items: &mut Vec<T>, used: &[usize]) -> Vec<usize> {
     for &index in used {
         map[index] = 0;
     }
-    let mut next = 0;
-    for new in map.iter_mut().filter(|new| **new != GONE) {
+    for (next, new) in map.iter_mut().filter(|new| **new != GONE).enumerate() {
         *new = next;
-        next += 1;
     }
     let mut index = 0;
     items.retain(|_| {

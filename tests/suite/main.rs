@@ -5,12 +5,21 @@
 // not the helpers they share.
 #![allow(clippy::unwrap_used)]
 
+mod bad_input;
+mod cli;
 mod data;
 mod decode;
 mod decode_errors;
 mod device;
 mod device_shaders;
+mod error;
+mod golden;
+#[cfg(unix)]
+mod interrupt;
+mod lean;
 mod metrics;
+mod oracle;
 mod output;
 mod scene;
+mod stage;
 mod support;

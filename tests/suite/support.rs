@@ -10,7 +10,7 @@ pub fn moire() -> assert_cmd::Command {
     assert_cmd::Command::new(program())
 }
 
-fn program() -> PathBuf {
+pub fn program() -> PathBuf {
     if let Some(path) = std::env::var_os("MOIRE_BIN") {
         return path.into();
     }

@@ -1,0 +1,31 @@
+//! Places that no picture can be written to.
+
+use std::fs;
+use std::path::Path;
+
+use super::Case;
+
+#[test]
+fn outputs_that_cannot_be_written_are_refused_before_the_render() {
+    let case = Case::new();
+    fs::create_dir(case.path("folder.png")).unwrap();
+    for (output, wanted) in [
+        ("none/a.png", "does not exist"),
+        ("folder.png", "is a folder"),
+        ("a.gif", ".gif is unknown"),
+        ("a", "no ending"),
+        ("scene.toml/a.png", "is not a folder"),
+        ("b.png/", "names a folder"),
+    ] {
+        // Rendering this first would take hours.
+        case.refused(&["--size", "16384x16384", "--spp", "16777216", "-o", output], &[output, wanted]);
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn a_device_file_is_no_place_for_a_picture() {
+    let case = Case::new();
+    std::os::unix::fs::symlink(Path::new("/dev/null"), case.path("null.png")).unwrap();
+    case.refused(&["-o", "null.png"], &["null.png", "not a regular file"]);
+}

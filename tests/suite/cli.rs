@@ -1,0 +1,276 @@
+//! The command line as people use it: what goes to which stream, what files appear, what each option
+//! changes, exit codes, Ctrl-C.
+
+use std::fs;
+use std::path::Path;
+use std::process::Output;
+
+use moire::film::Film;
+use moire::metrics::{compare, read_picture};
+use moire::pack::Crop;
+use serde_json::Value;
+use tempfile::{TempDir, tempdir};
+
+use crate::stage::{assert_same_bits, cut, device_name, path};
+use crate::support::moire;
+
+/// `moire render SCENE --device …` in `folder`, with validation.
+fn render(folder: &Path, scene: &str, options: &[&str]) -> Output {
+    let mut command = moire();
+    command.current_dir(folder).env("MOIRE_VALIDATION", "1").arg("render").arg(absolute(&path(scene)));
+    if !options.contains(&"--device") {
+        command.args(["--device", &device_name()]);
+    }
+    let output = command.args(options).output().unwrap();
+    assert!(!text(&output.stderr).contains("validation:"), "{}", text(&output.stderr));
+    output
+}
+
+fn absolute(path: &Path) -> std::path::PathBuf {
+    std::path::absolute(path).unwrap()
+}
+
+fn text(bytes: &[u8]) -> &str {
+    std::str::from_utf8(bytes).unwrap()
+}
+
+/// The picture that these options give, through an EXR file.
+fn film(scene: &str, options: &[&str]) -> Film {
+    let folder = tempdir().unwrap();
+    let output = render(folder.path(), scene, &[options, &["-q", "-o", "a.exr"]].concat());
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    read_picture(&folder.path().join("a.exr")).unwrap()
+}
+
+fn files(folder: &TempDir) -> Vec<String> {
+    let entries = fs::read_dir(folder.path()).unwrap();
+    let mut names: Vec<String> = entries.map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
+    names.sort();
+    names
+}
+
+fn rmse(a: &Film, b: &Film) -> f64 {
+    compare(a, b).unwrap().rmse
+}
+
+#[test]
+fn without_output_the_picture_is_named_after_the_scene_and_lies_here() {
+    let folder = tempdir().unwrap();
+    let output = render(folder.path(), "horizon", &["--size", "32x24", "--spp", "1"]);
+    assert_eq!(output.status.code(), Some(0));
+    assert_eq!(files(&folder), ["horizon.png"]);
+    assert_eq!(text(&output.stdout), "");
+    let told = text(&output.stderr);
+    assert!(told.starts_with("horizon.png: 32×24 pixels, 1 samples a pixel on "), "{told}");
+    assert_eq!(told.lines().count(), 1, "{told}");
+    assert!(!told.contains(['\r', '\x1b']), "bytes of a progress bar: {told:?}");
+}
+
+#[test]
+fn several_outputs_hold_the_same_picture_in_every_format() {
+    let folder = tempdir().unwrap();
+    let names = ["a.exr", "a.hdr", "a.jpeg", "a.jpg", "a.png", "a.tif", "a.tiff", "b.PNG"];
+    let mut options = vec!["--size", "48x48", "--spp", "4", "-q"];
+    names.iter().for_each(|name| options.extend(["-o", name]));
+    assert_eq!(render(folder.path(), "inside", &options).status.code(), Some(0));
+    let mut sorted = names;
+    sorted.sort();
+    assert_eq!(files(&folder), sorted);
+    let read = |name: &str| read_picture(&folder.path().join(name)).unwrap();
+    let exact = read("a.exr");
+    for (name, bound) in [("a.hdr", 2e-3), ("a.png", 2e-3), ("a.tif", 2e-3), ("a.jpg", 4e-2)] {
+        assert!(rmse(&read(name), &exact) <= bound, "{name}: {}", rmse(&read(name), &exact));
+    }
+    assert_eq!(read("a.png"), read("b.PNG"));
+    assert_eq!(read("a.tif"), read("a.tiff"));
+    assert_eq!(read("a.jpg"), read("a.jpeg"));
+}
+
+#[test]
+fn quiet_says_nothing() {
+    let folder = tempdir().unwrap();
+    let output = render(folder.path(), "horizon", &["--size", "16x16", "--spp", "1", "-q"]);
+    assert_eq!((text(&output.stdout), text(&output.stderr)), ("", ""));
+    assert_eq!(files(&folder), ["horizon.png"]);
+}
+
+#[test]
+fn verbose_lists_what_was_left_out_and_how_textures_are_held() {
+    let folder = tempdir().unwrap();
+    let output = render(folder.path(), "horizon", &["--size", "16x16", "--spp", "1", "-v"]);
+    let told = text(&output.stderr);
+    for part in
+        ["left out:", "shadow rays", "mirror bounces", "texture \"tiles\": 256×256", "seconds: startup"]
+    {
+        assert!(told.contains(part), "{part} not in: {told}");
+    }
+    assert_eq!(text(&output.stdout), "");
+    let output = render(folder.path(), "horizon", &["--size", "16x16", "-v", "--keep-everything"]);
+    assert!(!text(&output.stderr).contains("shadow rays"), "{}", text(&output.stderr));
+}
+
+fn json(scene: &str, options: &[&str]) -> Value {
+    let folder = tempdir().unwrap();
+    let output = render(folder.path(), scene, &[options, &["--json"]].concat());
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    serde_json::from_slice(&output.stdout).expect("one JSON object and nothing else")
+}
+
+fn keys(value: &Value) -> Vec<&str> {
+    let mut keys: Vec<&str> = value.as_object().unwrap().keys().map(String::as_str).collect();
+    keys.sort();
+    keys
+}
+
+#[test]
+fn json_is_one_object_with_the_documented_fields() {
+    let told = json("lecture", &["--size", "40x30", "--spp", "4", "-o", "x.exr", "-o", "y.png"]);
+    for field in
+        ["device", "driver", "options", "left_out", "samples", "outputs", "seconds", "device_seconds"]
+    {
+        assert!(!told[field].is_null(), "{field} is missing: {told:#}");
+    }
+    let stages = ["compile", "load", "readback", "render", "startup", "total", "upload", "write"];
+    assert_eq!(keys(&told["seconds"]), stages);
+    let second = |name: &str| told["seconds"][name].as_f64().unwrap();
+    assert!(stages.iter().all(|s| second(s) >= 0.0) && second("total") >= second("render"), "{told:#}");
+    assert_eq!(keys(&told["device_seconds"]), ["render"]);
+    assert!(told["device_seconds"]["render"].as_f64().unwrap() <= second("render"));
+    assert_eq!((&told["samples"], &told["outputs"]), (&4.into(), &serde_json::json!(["x.exr", "y.png"])));
+    assert!(told["left_out"].as_array().unwrap().iter().all(Value::is_string));
+    assert_ne!(told["left_out"], serde_json::json!([]));
+    assert_eq!(told["options"]["size"], serde_json::json!([40, 30]));
+    let kept = json("lecture", &["--size", "8x8", "--keep-everything"]);
+    assert_eq!(
+        (&kept["left_out"], &kept["options"]["keep_everything"]),
+        (&serde_json::json!([]), &true.into())
+    );
+}
+
+#[test]
+fn options_replace_the_values_of_the_scene() {
+    let options =
+        ["--size", "20x10", "--spp", "9", "--pattern", "grid", "--seed", "5", "--method", "hardware"];
+    let told = json("horizon", &options);
+    let used = &told["options"];
+    assert_eq!(used["size"], serde_json::json!([20, 10]));
+    assert_eq!((&used["spp"], &used["seed"]), (&9.into(), &5.into()));
+    assert_eq!((&used["pattern"], &told["samples"]), (&"grid".into(), &9.into()));
+    assert_eq!(used["methods"], serde_json::json!(["hardware"]));
+    let centre = json("horizon", &["--size", "20x10", "--pattern", "center"]);
+    assert_eq!(centre["samples"], 1);
+}
+
+const SMALL: [&str; 4] = ["--size", "48x36", "--spp", "4"];
+
+fn with<'a>(more: &[&'a str]) -> Vec<&'a str> {
+    [&SMALL, more].concat()
+}
+
+#[test]
+fn size_and_samples_are_those_asked_for() {
+    let film = film("horizon", &["--size", "50x20", "--spp", "1"]);
+    assert_eq!((film.width, film.height), (50, 20));
+}
+
+#[test]
+fn the_seed_chooses_the_noise() {
+    let [a, again, b] = ["7", "7", "8"].map(|seed| film("horizon", &with(&["--seed", seed])));
+    assert_same_bits(&a, &again, "the same seed");
+    assert!(a != b, "another seed gives the same picture");
+}
+
+#[test]
+fn pattern_filter_and_method_change_what_they_should() {
+    let plain = film("horizon", &SMALL);
+    for options in [["--pattern", "random"], ["--pattern", "grid"], ["--filter", "nearest"]] {
+        assert!(film("horizon", &with(&options)) != plain, "{options:?} changes nothing");
+    }
+    let hardware = film("lecture", &with(&["--method", "hardware"]));
+    let shader = film("lecture", &SMALL);
+    assert!(hardware != shader, "the texture unit has fewer sub-texel bits than f32");
+    assert!(rmse(&hardware, &shader) < 2e-3, "{}", rmse(&hardware, &shader));
+}
+
+#[test]
+fn a_crop_writes_the_pixels_of_the_full_picture() {
+    let full = film("lecture", &SMALL);
+    let part = film("lecture", &with(&["--crop", "10,20,30,16"]));
+    assert_same_bits(&part, &cut(&full, Crop { x: 10, y: 20, width: 30, height: 16 }), "crop");
+}
+
+#[test]
+fn png_can_have_sixteen_bits() {
+    let folder = tempdir().unwrap();
+    let options = with(&["-q", "-o", "a.png", "-o", "a.exr", "--png-bits", "16"]);
+    assert_eq!(render(folder.path(), "lecture", &options).status.code(), Some(0));
+    let picture = image::open(folder.path().join("a.png")).unwrap();
+    assert_eq!(picture.color(), image::ColorType::Rgb16);
+    let read = |name: &str| read_picture(&folder.path().join(name)).unwrap();
+    assert!(rmse(&read("a.png"), &read("a.exr")) < 1e-5);
+}
+
+#[test]
+fn the_oracle_is_a_device_by_name_only() {
+    let told = json("lights", &with(&["--device", "oracle"]));
+    assert_eq!(told["device"], "oracle");
+    let folder = tempdir().unwrap();
+    let options = with(&["-q", "-o", "a.exr", "--device", "oracle"]);
+    assert_eq!(render(folder.path(), "lights", &options).status.code(), Some(0));
+    let oracle = read_picture(&folder.path().join("a.exr")).unwrap();
+    assert!(rmse(&oracle, &film("lights", &SMALL)) < 1e-3);
+}
+
+fn devices() -> Vec<Value> {
+    let output = moire().args(["devices", "--json"]).output().unwrap();
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    serde_json::from_slice(&output.stdout).unwrap()
+}
+
+#[test]
+fn devices_lists_each_with_index_name_and_limits() {
+    let devices = devices();
+    for (i, device) in devices.iter().enumerate() {
+        assert_eq!(device["index"], i);
+        assert!(device["name"].is_string() && device["driver"].is_string(), "{device:#}");
+        assert!(device["limits"]["max_image_2d"].as_u64().unwrap() >= 4096, "{device:#}");
+    }
+    assert_eq!(devices.iter().filter(|d| d["default"] == true).count(), 1);
+    let output = moire().arg("devices").output().unwrap();
+    let listing = text(&output.stdout);
+    assert!(devices.iter().all(|d| listing.contains(d["name"].as_str().unwrap())), "{listing}");
+}
+
+#[test]
+fn a_device_is_chosen_by_index_and_by_a_part_of_its_name() {
+    let chosen = json("quad", &["--size", "8x8"])["device"].as_str().unwrap().to_string();
+    let devices = devices();
+    let index = devices.iter().position(|d| d["name"] == chosen.as_str()).unwrap().to_string();
+    let part: String = chosen.to_uppercase().chars().take(7).collect();
+    for select in [index.as_str(), part.as_str()] {
+        let told = json("quad", &["--size", "8x8", "--device", select]);
+        assert_eq!(told["device"], chosen.as_str(), "--device {select}");
+    }
+}
+
+#[test]
+fn help_and_version_are_answers_on_stdout() {
+    for args in [&["--help"][..], &["--version"], &["render", "--help"], &["compare", "--help"]] {
+        let output = moire().args(args).output().unwrap();
+        assert_eq!((output.status.code(), text(&output.stderr)), (Some(0), ""), "{args:?}");
+        assert!(!output.stdout.is_empty(), "{args:?}");
+    }
+}
+
+#[test]
+fn compare_judges_rendered_files() {
+    let folder = tempdir().unwrap();
+    for (name, spp) in [("a.exr", "4"), ("b.exr", "16")] {
+        let options = ["--size", "32x32", "-q", "--spp", spp, "-o", name];
+        assert_eq!(render(folder.path(), "horizon", &options).status.code(), Some(0));
+    }
+    let run = |args: &[&str]| moire().current_dir(folder.path()).arg("compare").args(args).output().unwrap();
+    assert_eq!(run(&["a.exr", "b.exr"]).status.code(), Some(0));
+    assert_eq!(run(&["a.exr", "a.exr", "--max-rmse", "0"]).status.code(), Some(0));
+    assert_eq!(run(&["a.exr", "b.exr", "--max-rmse", "1e-4"]).status.code(), Some(1));
+}

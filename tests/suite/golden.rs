@@ -1,0 +1,294 @@
+//! The scenes of `data/scenes` as 8-bit pictures against the stored ones of `data/golden`, which a
+//! person has looked at. `MOIRE_BLESS=NAME` or `all` stores new ones, on a CPU device only, and still
+//! fails: a picture passes only once it was stored, looked at and rendered again. What a failure saw
+//! lies in `target/golden`: NAME.actual.png, NAME.expected.png, NAME.diff.png.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use moire::film::Film;
+use moire::gpu::DeviceKind;
+use moire::metrics::{compare, difference_picture, read_picture};
+use moire::output::{WriteOptions, write};
+use moire::scene::model::{Model, Scene};
+use moire::texture::data::ColorSpace;
+use moire::texture::sampler_spec::TexelCenter;
+use tempfile::tempdir;
+
+use crate::stage::{device, packed, render, scene};
+use crate::support::data;
+
+/// Scene, size of the picture.
+const GOLDENS: &[(&str, [u32; 2])] = &[
+    ("formats", [172, 60]),
+    ("hardware", [164, 84]),
+    ("horizon", [128, 96]),
+    ("inside", [96, 96]),
+    ("lecture", [128, 128]),
+    ("lights", [120, 90]),
+    ("mappings", [160, 80]),
+    ("mirrors", [120, 90]),
+    ("samplers", [264, 108]),
+    ("shared", [120, 90]),
+];
+
+/// How far a picture may be from the stored one, both with 8 bits.
+#[derive(Clone, Copy)]
+struct Bounds {
+    /// Share of the pixels that may be more than one step of 8 bits away.
+    over: f64,
+    /// Largest difference of any channel, in steps.
+    steps: f64,
+    rmse: f64,
+}
+
+/// The drivers of one class of device differ in the last bits only.
+const SAME_CLASS: Bounds = Bounds { over: 0.0002, steps: 3.0, rmse: 1e-3 };
+/// Another device rounds differently where two texels or two shapes meet: with 4 to 16 samples a
+/// pixel, one sample on the other side moves a pixel by up to a quarter of the range, so the largest
+/// difference says nothing and their number is bounded. The device's own filter, with 8 sub-texel
+/// bits on either side, stays within 2 steps of 8 bits in all but its steepest pixels.
+const OTHER_CLASS: Bounds = Bounds { over: 0.002, steps: 255.0, rmse: 2e-3 };
+
+fn bounds() -> Bounds {
+    if device().info().kind == DeviceKind::Cpu { SAME_CLASS } else { OTHER_CLASS }
+}
+
+/// Infinite planes end here. Further on, f32 knows ever less about the texel, so that the last row
+/// before a horizon is another one on each device; the comparison with float64 counts those pixels.
+const END_OF_PLANES: f64 = 100.0;
+
+fn sized(name: &str, [width, height]: [u32; 2]) -> Scene {
+    let mut scene = scene(name);
+    (scene.width, scene.height) = (width, height);
+    for plane in &mut scene.planes {
+        plane.half_extent = plane.half_extent.or(Some(END_OF_PLANES));
+    }
+    scene
+}
+
+/// Through a file, as the program writes and reads it.
+fn eight_bits(film: &Film) -> Film {
+    let folder = tempdir().unwrap();
+    let path = folder.path().join("picture.png");
+    write(film, &path, &WriteOptions::default()).unwrap();
+    read_picture(&path).unwrap()
+}
+
+/// Whether `actual` may pass for `expected`; both have 8 bits.
+fn judge(actual: &Film, expected: &Film, bounds: Bounds) -> Result<(), String> {
+    let c = compare(actual, expected).map_err(|e| e.to_string())?;
+    let found = format!(
+        "{} pixels ({:.3} %) over 1/255, largest {:.1}/255, RMSE {:.2e}, {} NaN",
+        c.over_1_255_pixels,
+        c.over_1_255 * 100.0,
+        c.max_encoded * 255.0,
+        c.rmse,
+        c.nan_pixels
+    );
+    let good = c.over_1_255 <= bounds.over
+        && c.max_encoded * 255.0 <= bounds.steps + 0.001
+        && c.passes(Some(bounds.rmse));
+    if good { Ok(()) } else { Err(found) }
+}
+
+/// The picture against the file `golden`; what was seen goes to `seen` when it fails. With `bless`
+/// the picture becomes the file, and the answer is still no.
+fn check(golden: &Path, actual: &Film, bounds: Bounds, bless: bool, seen: &Path) -> Result<(), String> {
+    let name = golden.file_stem().unwrap().to_str().unwrap();
+    let actual = eight_bits(actual);
+    let keep = |film: &Film, kind: &str| {
+        fs::create_dir_all(seen).unwrap();
+        write(film, &seen.join(format!("{name}.{kind}.png")), &WriteOptions::default()).unwrap();
+    };
+    let told = |what: String| format!("{name}: {what}; see {}", seen.display());
+    if bless {
+        write(&actual, golden, &WriteOptions::default()).unwrap();
+        return Err(format!(
+            "{name}: stored {}; look at it, then test again without MOIRE_BLESS",
+            golden.display()
+        ));
+    }
+    let expected = match read_picture(golden) {
+        Ok(expected) => expected,
+        Err(error) => {
+            keep(&actual, "actual");
+            return Err(told(format!("no stored picture: {error}")));
+        }
+    };
+    judge(&actual, &expected, bounds).map_err(|what| {
+        keep(&actual, "actual");
+        keep(&expected, "expected");
+        if let Ok(difference) = difference_picture(&actual, &expected) {
+            keep(&difference, "diff");
+        }
+        told(what)
+    })
+}
+
+/// `target/golden` here, else `golden` beside this binary.
+fn seen() -> PathBuf {
+    let here = Path::new("target");
+    if here.is_dir() {
+        return here.join("golden");
+    }
+    std::env::current_exe().unwrap().with_file_name("golden")
+}
+
+fn matches_stored(name: &str) {
+    let (_, size) = *GOLDENS.iter().find(|g| g.0 == name).unwrap();
+    let wish = std::env::var("MOIRE_BLESS").unwrap_or_default();
+    let bless = wish == "all" || wish == name;
+    assert!(!bless || device().info().kind == DeviceKind::Cpu, "pictures are stored from a CPU device only");
+    let film = render(&packed(sized(name, size), None));
+    let golden = data().join(format!("golden/{name}.png"));
+    if let Err(what) = check(&golden, &film, bounds(), bless, &seen()) {
+        panic!("{what}");
+    }
+}
+
+macro_rules! goldens {
+    ($($name:ident)*) => {
+        $(#[test]
+        fn $name() {
+            matches_stored(stringify!($name));
+        })*
+
+        #[test]
+        fn every_scene_has_a_picture_and_every_picture_a_scene() {
+            assert_eq!(GOLDENS.iter().map(|g| g.0).collect::<Vec<_>>(), [$(stringify!($name)),*]);
+            let stems = |folder: &str, ending: &str| {
+                let entries = fs::read_dir(data().join(folder)).unwrap().map(|e| e.unwrap().path());
+                let files = entries.filter(|p| p.extension().is_some_and(|e| e == ending));
+                let mut stems: Vec<String> =
+                    files.map(|p| p.file_stem().unwrap().to_str().unwrap().into()).collect();
+                stems.sort();
+                stems
+            };
+            let mut scenes = stems("scenes", "toml");
+            // Its picture is the texture that it draws.
+            scenes.retain(|s| s != "quad");
+            assert_eq!(scenes, stems("golden", "png"));
+            assert_eq!(scenes, [$(stringify!($name)),*]);
+        }
+    };
+}
+goldens! { formats hardware horizon inside lecture lights mappings mirrors samplers shared }
+
+/// One texel a pixel: the very bytes of the texture.
+#[test]
+fn quad_draws_its_texture_exactly() {
+    let film = eight_bits(&render(&packed(scene("quad"), None)));
+    let poster = read_picture(&data().join("textures/poster.png")).unwrap();
+    assert_eq!(film, Film { samples: 0, ..poster });
+}
+
+/// What the looser of the two bounds makes of the lecture's scene once `change` went wrong in it.
+fn planted(change: impl Fn(&mut Scene)) -> Result<(), String> {
+    let right = sized("lecture", [128, 128]);
+    let mut wrong = right.clone();
+    change(&mut wrong);
+    let of = |scene| eight_bits(&render(&packed(scene, None)));
+    judge(&of(wrong), &of(right), OTHER_CLASS)
+}
+
+#[test]
+fn nothing_planted_passes() {
+    assert_eq!(planted(|_| {}), Ok(()));
+}
+
+#[test]
+fn half_a_texel_of_shift_fails() {
+    assert!(planted(|s| s.samplers.iter_mut().for_each(|x| x.texel_center = TexelCenter::Integer)).is_err());
+}
+
+#[test]
+fn swapped_axes_fail() {
+    let swap = |s: &mut Scene| {
+        s.planes.iter_mut().for_each(|p| std::mem::swap(&mut p.tangent, &mut p.bitangent));
+    };
+    assert!(planted(swap).is_err());
+}
+
+#[test]
+fn undecoded_srgb_fails() {
+    assert!(planted(|s| s.textures.iter_mut().for_each(|t| t.color_space = ColorSpace::Linear)).is_err());
+}
+
+#[test]
+fn a_missing_row_order_fails() {
+    assert!(planted(|s| s.textures.iter_mut().for_each(|t| t.flip_v = false)).is_err());
+}
+
+/// The ground lit as if nothing stood on it, the rest as it is.
+#[test]
+fn a_missing_shadow_fails() {
+    let right = sized("lecture", [128, 128]);
+    let mut alone = right.clone();
+    alone.spheres.clear();
+    alone.triangles.clear();
+    // White where a pixel shows the ground directly, black elsewhere.
+    let mut mask = right.clone();
+    mask.lights.clear();
+    mask.background = glam::DVec3::ZERO;
+    for material in &mut mask.materials {
+        material.texture = None;
+        material.color = glam::DVec3::splat(if material.name == "ground" { 1.0 } else { 0.0 });
+        material.model = Model::Unlit;
+    }
+    let [film, alone, mask] = [right, alone, mask].map(|s| render(&packed(s, None)));
+    let mut wrong = film.clone();
+    for (i, pixel) in wrong.pixels.iter_mut().enumerate() {
+        if mask.pixels[i] == [1.0; 3] {
+            *pixel = alone.pixels[i];
+        }
+    }
+    let shown = judge(&eight_bits(&wrong), &eight_bits(&film), OTHER_CLASS);
+    assert!(shown.is_err());
+}
+
+#[test]
+fn a_missing_or_mis_sized_picture_fails_and_shows_what_was_rendered() {
+    let folder = tempdir().unwrap();
+    let (golden, seen) = (folder.path().join("a.png"), folder.path().join("seen"));
+    let film = crate::support::gradient(8, 4);
+    let what = check(&golden, &film, SAME_CLASS, false, &seen).unwrap_err();
+    assert!(what.contains("no stored picture") && seen.join("a.actual.png").is_file(), "{what}");
+    write(&crate::support::gradient(4, 8), &golden, &WriteOptions::default()).unwrap();
+    let what = check(&golden, &film, SAME_CLASS, false, &seen).unwrap_err();
+    assert!(what.contains("differ in size") && seen.join("a.expected.png").is_file(), "{what}");
+}
+
+#[test]
+fn blessing_stores_the_picture_and_fails() {
+    let folder = tempdir().unwrap();
+    let (golden, seen) = (folder.path().join("a.png"), folder.path().join("seen"));
+    let film = crate::support::gradient(8, 4);
+    assert!(check(&golden, &film, SAME_CLASS, true, &seen).unwrap_err().contains("stored"));
+    assert_eq!(check(&golden, &film, SAME_CLASS, false, &seen), Ok(()));
+    assert!(!seen.exists(), "nothing failed, nothing to show");
+}
+
+#[test]
+fn failures_show_actual_expected_and_difference() {
+    let folder = tempdir().unwrap();
+    let (golden, seen) = (folder.path().join("a.png"), folder.path().join("seen"));
+    let mut film = crate::support::gradient(100, 100);
+    write(&film, &golden, &WriteOptions::default()).unwrap();
+    // 2 of 10000 pixels may be two or three steps away, none four.
+    let step = |film: &mut Film, at: usize, steps: f64| {
+        let code = (moire::color::linear_to_srgb(f64::from(film.pixels[at][1])) * 255.0).round() + steps;
+        film.pixels[at][1] = moire::color::srgb_to_linear(code / 255.0) as f32;
+    };
+    step(&mut film, 4000, 3.0);
+    step(&mut film, 5000, 2.0);
+    assert_eq!(check(&golden, &film, SAME_CLASS, false, &seen), Ok(()));
+    let mut third = film.clone();
+    step(&mut third, 6000, 2.0);
+    assert!(check(&golden, &third, SAME_CLASS, false, &seen).is_err(), "three pixels");
+    step(&mut film, 4000, 1.0);
+    assert!(check(&golden, &film, SAME_CLASS, false, &seen).is_err(), "four steps");
+    for kind in ["actual", "expected", "diff"] {
+        assert!(seen.join(format!("a.{kind}.png")).is_file(), "{kind}");
+    }
+}

@@ -1,0 +1,188 @@
+//! What is left out changes no bit of the picture, and neither does anything else that only concerns
+//! speed: where texels are read, the workgroup's shape, slices, bands, crops.
+
+use moire::features::{Features, TexelSource};
+use moire::pack::Crop;
+use moire::render::{TexelChoice, Tuning};
+use moire::scene::model::Pattern;
+
+use crate::stage::{
+    assert_same_bits, cut, every_scene, packed, render, render_on_oracle, render_with, scene, small,
+    with_random,
+};
+
+every_scene! { same_bits_whatever_is_left_out_of: super::same_bits_whatever_is_left_out }
+
+/// A texel of an image is converted by the device, one of a buffer by the shader: k / 255 to within an
+/// ulp each, which a mean of samples keeps.
+fn same_bits_whatever_is_left_out(name: &str) {
+    // Two tiles wide, with a ragged edge.
+    let packed = packed(small(name, 70, 4), None);
+    let [buffer, image] = [TexelChoice::Buffer, TexelChoice::Image].map(|texels| {
+        let tuning = Tuning { texels, group: None };
+        let (lean, lean_report) = render_with(&packed, false, &tuning);
+        let (full, full_report) = render_with(&packed, true, &tuning);
+        assert_same_bits(&lean, &full, &format!("{name} with texels from {texels}"));
+        assert!(!lean_report.left_out.is_empty(), "{name} leaves nothing out");
+        assert_eq!(full_report.left_out, [""; 0], "{name} keeps not everything");
+        lean
+    });
+    for (p, q) in buffer.pixels.iter().flatten().zip(image.pixels.iter().flatten()) {
+        assert!((p - q).abs() <= 4.0 * f32::EPSILON * p.abs().max(1.0), "{name}: {p} and {q}");
+    }
+}
+
+#[test]
+fn the_default_source_of_texels_is_one_of_the_two() {
+    let packed = packed(small("lecture", 70, 4), None);
+    let film = |texels| render_with(&packed, false, &Tuning { texels, group: None }).0;
+    let default = film(TexelChoice::Auto);
+    assert!([TexelChoice::Buffer, TexelChoice::Image].iter().any(|&texels| film(texels) == default));
+}
+
+fn value(features: &Features, constant: &str) -> u32 {
+    let found = features.values.iter().find(|(name, _)| *name == constant);
+    found.unwrap_or_else(|| panic!("no constant {constant}")).1
+}
+
+#[test]
+fn a_ground_without_light_pays_for_nothing_else() {
+    let packed = packed(scene("s1a"), None);
+    let features = Features::new(&packed, false, false);
+    for absent in [
+        "SHADOWS",
+        "BOUNCES",
+        "SPHERES",
+        "TRIANGLES",
+        "LIGHTS",
+        "UNTEXTURED",
+        "COMPENSATED",
+        "SMOOTH_NORMALS",
+    ] {
+        assert_eq!(value(&features, absent), 0, "{absent}");
+    }
+    for single in ["PLANES", "TEXTURES", "SAMPLERS", "MATERIALS", "MAPS"] {
+        assert_eq!(value(&features, single), 1, "{single}");
+    }
+    for mode in [
+        "PATTERNS",
+        "MODELS",
+        "METHODS",
+        "ADDRESSES_U",
+        "ADDRESSES_V",
+        "FILTERS",
+        "TEXEL_CENTERS",
+        "MAPPINGS",
+    ] {
+        assert_eq!(value(&features, mode).count_ones(), 1, "{mode} is not one mode");
+    }
+    assert_eq!(value(&features, "PATTERNS"), 1 << Pattern::Stratified as u32);
+    assert_eq!((features.source, features.compensated), (TexelSource::Buffer, false));
+    assert!(features.left_out.iter().any(|line| line == "shadow rays"), "{:?}", features.left_out);
+}
+
+#[test]
+fn what_a_scene_uses_is_kept() {
+    let features = |name: &str| Features::new(&packed(scene(name), None), false, false);
+    assert_eq!(value(&features("lecture"), "SHADOWS"), 1);
+    assert_eq!(value(&features("lecture"), "BOUNCES"), 1);
+    assert_eq!(value(&features("lights"), "LIGHT_KINDS"), 0b11);
+    assert_eq!(value(&features("lights"), "BOUNCES"), 0);
+    assert_eq!(value(&features("samplers"), "ADDRESSES_U"), 0b1_1111);
+    assert_eq!(value(&features("lights"), "SMOOTH_NORMALS"), 1);
+}
+
+#[test]
+fn an_untextured_scene_has_no_source_of_texels() {
+    let mut plain = scene("lights");
+    plain.materials.iter_mut().for_each(|m| m.texture = None);
+    plain.width = 70;
+    plain.height = 50;
+    let packed = packed(plain, None);
+    assert_eq!(Features::new(&packed, true, false).source, TexelSource::None);
+    let (lean, _) = render_with(&packed, false, &Tuning::default());
+    let (full, _) = render_with(&packed, true, &Tuning::default());
+    assert_same_bits(&lean, &full, "no textures");
+}
+
+#[test]
+fn shape_of_the_workgroup_changes_no_bit() {
+    let packed = packed(small("lights", 130, 4), None);
+    let of = |group| render_with(&packed, false, &Tuning { texels: TexelChoice::Auto, group }).0;
+    let default = of(None);
+    for group in [[64, 1], [8, 8], [1, 8], [16, 64]] {
+        assert_same_bits(&of(Some(group)), &default, &format!("workgroups of {group:?}"));
+    }
+}
+
+#[test]
+fn a_crop_has_the_pixels_of_the_full_picture() {
+    for name in ["mirrors", "lights", "shared", "hardware"] {
+        let scene = small(name, 130, 4);
+        let (width, height) = (scene.width, scene.height);
+        let full = render(&packed(scene.clone(), None));
+        for crop in [
+            Crop { x: 0, y: 0, width: 1, height: 1 },
+            Crop { x: width - 1, y: height - 1, width: 1, height: 1 },
+            Crop { x: 17, y: 5, width: 66, height: height - 5 },
+        ] {
+            let part = render(&packed(scene.clone(), Some(crop)));
+            assert_same_bits(&part, &cut(&full, crop), &format!("{name}, {crop:?}"));
+        }
+    }
+}
+
+#[test]
+fn slices_change_no_bit() {
+    let mut scene = scene("horizon");
+    (scene.width, scene.height) = (300, 300);
+    let (full, report) = render_with(&packed(scene.clone(), None), false, &Tuning::default());
+    assert!(report.slices > 1, "one slice proves nothing");
+    let crop = Crop { x: 100, y: 130, width: 64, height: 64 };
+    let (part, report) = render_with(&packed(scene, Some(crop)), false, &Tuning::default());
+    assert_eq!(report.slices, 1);
+    assert_same_bits(&part, &cut(&full, crop), "slices");
+}
+
+/// On a CPU device a film this wide takes several bands.
+#[test]
+fn bands_change_no_bit() {
+    let mut scene = scene("quad");
+    (scene.width, scene.height) = (16_384, 330);
+    let full = render(&packed(scene.clone(), None));
+    for y in [200, 255, 300] {
+        let crop = Crop { x: 8000, y, width: 100, height: 30 };
+        let part = render(&packed(scene.clone(), Some(crop)));
+        assert_same_bits(&part, &cut(&full, crop), &format!("rows from {y}"));
+    }
+}
+
+/// `random` keeps no stratum, so that the order of 1000 samples matters only to the sum.
+#[test]
+fn many_samples_are_summed_as_the_oracle_sums_them() {
+    let packed = packed(with_random(small("lights", 24, 1), 1000), None);
+    let (device, oracle) = (render(&packed), render_on_oracle(&packed));
+    let (full, _) = render_with(&packed, true, &Tuning::default());
+    assert_same_bits(&device, &full, "1000 samples");
+    let compared = moire::metrics::compare(&device, &oracle).unwrap();
+    // One sample in a thousand on the other side of an edge moves a pixel by up to 1e-3.
+    assert!(
+        compared.rmse <= 2e-5 && compared.max <= 1e-3,
+        "RMSE {:e}, largest {:e}",
+        compared.rmse,
+        compared.max
+    );
+}
+
+/// One f32 sum of 2²⁰ copies of 0.1 is off by a hundredth of itself. Chunks are plain sums of 256,
+/// each addition rounding by at most 2⁻²⁴; adding the chunks must not lose anything more.
+#[test]
+fn a_constant_stays_constant_over_a_million_samples() {
+    let mut scene = with_random(small("quad", 4, 1), 1 << 20);
+    scene.planes.clear();
+    scene.background = glam::DVec3::new(0.1, 0.3, 0.7);
+    let film = render(&packed(scene, None));
+    for (value, wanted) in film.pixels.iter().flat_map(|p| p.iter().zip([0.1f32, 0.3, 0.7])) {
+        assert!((value - wanted).abs() <= 256.0 * f32::EPSILON / 2.0 * wanted, "{value} for {wanted}");
+    }
+}
