@@ -112,7 +112,7 @@ fn five_address_modes_on_two_texels() {
     let table = [
         (Address::Repeat, [20.0, 10.0, 20.0, 10.0, 20.0, 10.0, 20.0, 10.0]),
         // Mirrored at every whole number: … A B | B A | A B | B A | A B …
-        (Address::MirroredRepeat, [10.0, 20.0, 10.0, 10.0, 20.0, 20.0, 10.0, 10.0]),
+        (Address::MirroredRepeat, [20.0, 20.0, 10.0, 10.0, 20.0, 20.0, 10.0, 10.0]),
         (Address::ClampToEdge, [10.0, 10.0, 10.0, 10.0, 20.0, 20.0, 20.0, 20.0]),
         (Address::ClampToBorder, [0.0, 0.0, 0.0, 10.0, 20.0, 0.0, 0.0, 0.0]),
         // Mirrored once at 0: at −0.75 texel 1; beyond −1 and 1 the edge, B.
