@@ -246,7 +246,8 @@ fn planted_errors_of_rays_are_caught() {
         tally.wrong.len() as f64 / tally.rays as f64
     };
     assert_eq!(caught(&|_| {}), 0.0);
-    let plants: [(&str, &dyn Fn(&mut RayAnswer)); 6] = [
+    type Plant<'a> = (&'a str, &'a dyn Fn(&mut RayAnswer));
+    let plants: [Plant<'_>; 6] = [
         ("t 1e-4 too long", &|a| a.t *= 1.0001),
         ("another shape", &|a| a.shape = (a.shape + 1) % 12),
         ("normal away from the ray", &|a| a.normal = a.normal.map(|n| -n)),

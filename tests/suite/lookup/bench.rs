@@ -137,7 +137,7 @@ pub fn edge_coordinates(size: u32) -> Vec<f32> {
 
 /// Where f32 still tells texels apart and whole periods leave exactly.
 pub const FAR_COORDINATES: [f32; 6] =
-    [1000.25, -1000.75, 65_536.5, -65_535.375, 1_048_576.125, -1_048_575.875];
+    [1000.25, -1000.75, 65_536.5, -65_535.375, 1_048_576.0 + 0.125, 0.25 - 1_048_576.0];
 
 /// Random pairs of coordinates in [-3, 4], and pairs of the given ones with random partners.
 pub fn coordinates(dice: &mut Dice, size: [u32; 2], random: usize, far: bool) -> Vec<[f32; 2]> {
