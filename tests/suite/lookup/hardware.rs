@@ -27,7 +27,7 @@ const STANDARD_BORDERS: [[f32; 4]; 3] = [[0.0; 4], [0.0, 0.0, 0.0, 1.0], [1.0; 4
 fn precision(gpu: &Gpu) -> Precision {
     let step = (-f64::from(gpu.info().limits.sub_texel_bits)).exp2();
     // CPU drivers may filter 8-bit texels with weights and results of 8 bits: one step of 255. A
-    // quarter of it fails 0.3 % of such look-ups on lavapipe.
+    // quarter of it fails 0.3 % of all look-ups on lavapipe.
     let eight_bits = if gpu.info().kind == DeviceKind::Cpu { 1.0 / 255.0 } else { 0.5 * step };
     Precision::Hardware {
         sub_texel: step, // VkPhysicalDeviceLimits::subTexelPrecisionBits
