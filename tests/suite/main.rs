@@ -17,9 +17,16 @@ mod golden;
 #[cfg(unix)]
 mod interrupt;
 mod lean;
+mod layering;
+mod layout;
+mod lecture;
+mod lookup;
 mod metrics;
 mod oracle;
 mod output;
+mod rays;
 mod scene;
 mod stage;
+mod shared_gpu;
+mod strata;
 mod support;

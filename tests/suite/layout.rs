@@ -1,0 +1,229 @@
+//! The layout contract, read from both sides: structs and strides of `glsl/shared/layout.glsl`
+//! against their Rust mirrors, numbers of modes against the enums' order, and the specialization
+//! constants of the compiled shaders against the table of features.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+
+use moire::layout as mirror;
+use moire::pack::{LightKind, MapKind, ProjectionKind};
+use moire::scene::model::{Model, Pattern};
+use moire::shaders::{self, Shader};
+use moire::texture::data::{ColorSpace, TexelFormat};
+use moire::texture::sampler_spec::{Address, Filter, Method, TexelCenter};
+use moire::{features, oracle};
+
+use crate::layering::source_root;
+
+/// (type, name) of each field, in order.
+type Fields = Vec<(String, String)>;
+
+/// `struct NAME {` … `}` of GLSL, or a block `uniform NAME {`.
+fn glsl_struct(text: &str, opening: &str) -> Option<Fields> {
+    let body = text.split_once(&format!("{opening} {{"))?.1.split_once('}')?.0;
+    let code = body.lines().map(|line| line.split("//").next().unwrap_or(""));
+    let code: String = code.collect::<Vec<_>>().join(" ");
+    let field = |f: &str| {
+        let mut words = f.split_whitespace();
+        Some((words.next()?.to_string(), words.next()?.to_string()))
+    };
+    code.split(';').filter(|f| !f.trim().is_empty()).map(field).collect()
+}
+
+/// The fields of `opening … {` in Rust, with the types that GLSL gives such members.
+fn rust_struct(text: &str, opening: &str) -> Option<Fields> {
+    let body = text.split_once(opening)?.1.split_once('{')?.1.split_once('}')?.0;
+    let lines = body.lines().map(str::trim).filter(|l| !l.is_empty() && !l.starts_with("//"));
+    let field = |line: &str| {
+        let (name, kind) = line.trim_start_matches("pub ").trim_end_matches(',').split_once(": ")?;
+        let kind = match kind {
+            "[f32; 4]" => "vec4",
+            "[u32; 4]" => "uvec4",
+            "u32" => "uint",
+            "f32" => "float",
+            other => other,
+        };
+        Some((kind.to_string(), name.to_string()))
+    };
+    lines.map(field).collect()
+}
+
+/// The stride in the body of `load_…(uint i)`, in units of 16 bytes.
+fn loader_stride(text: &str, function: &str) -> Option<u32> {
+    let body = text.split_once(&format!(" {function}(uint i) {{"))?.1.split_once('}')?.0;
+    let after = body.split_once("i * ")?.1;
+    after.split('u').next()?.parse().ok()
+}
+
+/// `const uint NAME = 3u;` lines: name and number.
+fn glsl_numbers(text: &str) -> BTreeMap<String, u32> {
+    let number = |line: &str| {
+        let (name, value) = line.strip_prefix("const uint ")?.split_once(" = ")?;
+        let value = value.split(';').next()?.trim_end_matches('u');
+        let value = match value.strip_prefix("0x") {
+            Some(hex) => u32::from_str_radix(hex, 16).ok()?,
+            None => value.parse().ok()?,
+        };
+        Some((name.to_string(), value))
+    };
+    text.lines().filter_map(number).collect()
+}
+
+/// Every number of a mode that layout.glsl must define, and no other.
+fn expected_numbers() -> BTreeMap<String, u32> {
+    let tables: [(&str, &[&str]); 11] = [
+        ("PROJECTION", ProjectionKind::NAMES),
+        ("PATTERN", Pattern::NAMES),
+        ("MODEL", Model::NAMES),
+        ("LIGHT", LightKind::NAMES),
+        ("MAP", MapKind::NAMES),
+        ("METHOD", Method::NAMES),
+        ("ADDRESS", Address::NAMES),
+        ("FILTER", Filter::NAMES),
+        ("TEXEL_CENTER", TexelCenter::NAMES),
+        ("TEXEL_FORMAT", TexelFormat::NAMES),
+        ("COLOR_SPACE", ColorSpace::NAMES),
+    ];
+    let mut all: BTreeMap<String, u32> = tables
+        .iter()
+        .flat_map(|(prefix, names)| {
+            let constant = |name: &str| format!("{prefix}_{}", name.replace('-', "_").to_uppercase());
+            names.iter().zip(0..).map(move |(name, i)| (constant(name), i)).collect::<Vec<_>>()
+        })
+        .collect();
+    all.insert("NO_TEXTURE".into(), mirror::NO_TEXTURE);
+    all.insert("NO_SHAPE".into(), mirror::NO_SHAPE);
+    all
+}
+
+/// (struct, its loader if it stands in a list, units of 16 bytes)
+const MIRRORS: &[(&str, Option<&str>, u32)] = &[
+    ("Header", None, mirror::Header::UNITS),
+    ("Plane", Some("load_plane"), mirror::Plane::UNITS),
+    ("Sphere", Some("load_sphere"), mirror::Sphere::UNITS),
+    ("Triangle", Some("load_triangle"), mirror::Triangle::UNITS),
+    ("Light", Some("load_light"), mirror::Light::UNITS),
+    ("Material", Some("load_material"), mirror::Material::UNITS),
+    ("Map", Some("load_map"), mirror::Map::UNITS),
+    ("Texture", Some("load_texture"), mirror::Texture::UNITS),
+    ("Sampler", Some("load_sampler"), mirror::Sampler::UNITS),
+];
+
+/// What differs between the shader's layout and its Rust mirror.
+fn differences(glsl: &str, rust: &str) -> Vec<String> {
+    let mut found = Vec::new();
+    for &(name, loader, units) in MIRRORS {
+        let here = glsl_struct(glsl, &format!("struct {name}"));
+        let there = rust_struct(rust, &format!("mirror!({name}, "));
+        if here.is_none() || here != there {
+            found.push(format!("{name}: GLSL {here:?}, Rust {there:?}"));
+        }
+        if here.is_some_and(|fields| fields.len() as u32 != units) {
+            found.push(format!("{name}: not {units} units of 16 bytes"));
+        }
+        if let Some(loader) = loader {
+            let stride = loader_stride(glsl, loader);
+            if stride != Some(units) {
+                found.push(format!("{loader}: stride {stride:?}, not {units}"));
+            }
+        }
+    }
+    let (numbers, expected) = (glsl_numbers(glsl), expected_numbers());
+    for name in numbers.keys().chain(expected.keys()).collect::<BTreeSet<_>>() {
+        if numbers.get(name) != expected.get(name) {
+            found.push(format!("{name}: GLSL {:?}, Rust {:?}", numbers.get(name), expected.get(name)));
+        }
+    }
+    found
+}
+
+#[test]
+fn shader_structs_strides_and_mode_numbers_equal_their_mirrors() {
+    let Some(root) = source_root() else { return };
+    let glsl = fs::read_to_string(root.join("glsl/shared/layout.glsl")).unwrap();
+    let rust = fs::read_to_string(root.join("src/layout.rs")).unwrap();
+    let found = differences(&glsl, &rust);
+    assert!(found.is_empty(), "{}", found.join("\n"));
+    let far = glsl.split_once("const float FAR = ").unwrap().1.split(';').next().unwrap();
+    assert_eq!(far.parse::<f64>().unwrap(), oracle::intersect::FAR);
+}
+
+#[test]
+fn planted_differences_of_layout_are_found() {
+    let Some(root) = source_root() else { return };
+    let glsl = fs::read_to_string(root.join("glsl/shared/layout.glsl")).unwrap();
+    let rust = fs::read_to_string(root.join("src/layout.rs")).unwrap();
+    let plants = [
+        ("vec4 extent_u;", "vec4 extent_w;", "Plane"),
+        ("uvec4 modes;", "vec4 modes;", "Sampler"),
+        ("    vec4 step_x;", "    vec4 step_z; vec4 step_x;", "Header"),
+        ("TRIANGLES_AT + i * 9u", "TRIANGLES_AT + i * 8u", "load_triangle"),
+        ("ADDRESS_CLAMP_TO_EDGE = 2u", "ADDRESS_CLAMP_TO_EDGE = 3u", "ADDRESS_CLAMP_TO_EDGE"),
+        ("const uint MODEL_MIRROR = 2u;", "", "MODEL_MIRROR"),
+        (
+            "const uint FILTER_LINEAR = 1u;",
+            "const uint FILTER_LINEAR = 1u;\nconst uint FILTER_CUBIC = 2u;",
+            "FILTER_CUBIC",
+        ),
+    ];
+    for (from, to, name) in plants {
+        assert!(glsl.contains(from), "nothing to plant at: {from}");
+        let found = differences(&glsl.replace(from, to), &rust);
+        assert!(found.iter().any(|f| f.starts_with(name)), "{from} → {to} gave {found:?}");
+    }
+}
+
+#[test]
+fn push_constants_of_rendering_equal_the_slice() {
+    let Some(root) = source_root() else { return };
+    let glsl = fs::read_to_string(root.join("glsl/shared/render_main.glsl")).unwrap();
+    let rust = fs::read_to_string(root.join("src/layout.rs")).unwrap();
+    let here = glsl_struct(&glsl, "uniform Slice").unwrap();
+    assert_eq!(Some(&here), rust_struct(&rust, "pub struct Slice").as_ref());
+    assert_eq!(size_of::<mirror::Slice>(), here.len() * 4);
+}
+
+const SHADERS: [&Shader; 6] = [
+    &shaders::RENDER_NONE,
+    &shaders::RENDER_TEXELS,
+    &shaders::RENDER_IMAGES,
+    &shaders::PROBE_TEXELS,
+    &shaders::PROBE_IMAGES,
+    &shaders::PROBE_RAYS,
+];
+
+/// Constants that say where lists begin and how work is divided.
+fn is_place(name: &str) -> bool {
+    name.ends_with("_AT") || ["GROUP_X", "GROUP_Y", "SLOTS"].contains(&name)
+}
+
+#[test]
+fn every_specialization_constant_is_a_feature_or_a_place() {
+    let features: BTreeSet<&str> = features::names().collect();
+    assert_eq!(features.len(), features::names().count(), "a feature stands twice in the table");
+    let mut seen = BTreeSet::new();
+    let mut ids: BTreeMap<&str, u32> = BTreeMap::new();
+    for shader in SHADERS.into_iter().chain([&shaders::STRATA]) {
+        let own: BTreeSet<u32> = shader.constants.iter().map(|c| c.id).collect();
+        assert_eq!(own.len(), shader.constants.len(), "{}: one id for two constants", shader.name);
+        for constant in shader.constants {
+            let name = constant.name;
+            assert!(features.contains(name) || is_place(name), "{}: {name} is in no table", shader.name);
+            assert_eq!(*ids.entry(name).or_insert(constant.id), constant.id, "{}: id of {name}", shader.name);
+            seen.insert(name);
+        }
+    }
+    let unknown: Vec<_> = features.difference(&seen).collect();
+    assert!(unknown.is_empty(), "features that no shader has: {unknown:?}");
+}
+
+#[test]
+fn defaults_of_the_shaders_keep_everything() {
+    for shader in SHADERS {
+        for (name, widest) in features::widest() {
+            if let Some(constant) = shader.constant(name) {
+                assert_eq!(constant.default, widest, "{}: {name}", shader.name);
+            }
+        }
+    }
+}

@@ -1,0 +1,15 @@
+//! Texture look-ups on the device against the oracle: every address mode, filter, texel centre,
+//! format and colour space, over random and awkward coordinates, from both texel sources, by our
+//! shader and by the device's own samplers.
+
+pub mod bench;
+mod hardware;
+mod judge;
+mod planted;
+mod shader;
+
+/// The first complaints, and how many there are.
+fn assert_none(complaints: &[String], of: usize) {
+    let first = complaints.iter().take(5).cloned().collect::<Vec<_>>().join("\n");
+    assert!(complaints.is_empty(), "{} of {of} look-ups are wrong:\n{first}", complaints.len());
+}

@@ -1,0 +1,262 @@
+//! Rays on the device against the oracle: which shape, how far, the point, the normal and the
+//! texture coordinate, each within the rounding that f32 arithmetic of that conditioning allows; and
+//! no ray between two triangles that share an edge.
+
+use glam::{DVec2, DVec3};
+use moire::layout::NO_SHAPE;
+use moire::oracle::camera::Ray;
+use moire::oracle::intersect::{Hit, nearest_hit, occluded};
+use moire::oracle::mapping::texture_coordinate;
+use moire::oracle::math::xyz;
+use moire::oracle::shade::hit_surface;
+use moire::pack::{MapKind, PackedScene};
+use moire::probe::{self, RayAnswer, RayQuery};
+
+use crate::lookup::bench::Dice;
+use crate::shared_gpu::gpu;
+use bounds::{Estimate, U, estimate};
+
+mod bounds;
+mod scenes;
+
+fn widened(v: &[f32]) -> DVec3 {
+    DVec3::new(v[0].into(), v[1].into(), v[2].into())
+}
+
+fn ray_of(query: &RayQuery) -> Ray {
+    Ray { origin: widened(&query.origin), direction: widened(&query.direction) }
+}
+
+/// What the comparison of one scene found.
+#[derive(Default, Debug)]
+struct Tally {
+    rays: usize,
+    hits: usize,
+    /// Another shape than the oracle's, where rounding decides: silhouettes, edges, equal distances.
+    undecided: usize,
+    wrong: Vec<String>,
+}
+
+impl Tally {
+    fn add(&mut self, scene: &PackedScene, query: &RayQuery, answer: &RayAnswer) {
+        let ray = ray_of(query);
+        let hit = nearest_hit(scene, &ray, NO_SHAPE);
+        let estimates: Vec<Estimate> =
+            (0..scene.header.counts[..3].iter().sum()).map(|s| estimate(scene, s, &ray)).collect();
+        self.rays += 1;
+        self.hits += usize::from(hit.shape != NO_SHAPE);
+        if let Some(what) = wrong_shape(&hit, answer, &estimates) {
+            self.wrong.push(format!("{query:?}: {what}; {answer:?}"));
+        } else if hit.shape != answer.shape {
+            self.undecided += 1;
+        } else if hit.shape != NO_SHAPE {
+            self.wrong.extend(
+                wrong_hit(scene, &ray, &hit, answer, estimates[hit.shape as usize])
+                    .map(|what| format!("shape {} of {query:?}: {what}; {answer:?}", hit.shape)),
+            );
+        }
+        let t_max = f64::from(query.direction[3]);
+        let expected = occluded(scene, &ray, t_max, NO_SHAPE);
+        let unsure = estimates
+            .iter()
+            .any(|e| e.unsure || (e.t - t_max).abs() <= e.error + U * t_max || e.t.abs() <= e.error);
+        if (answer.occluded != 0) != expected && !unsure {
+            self.wrong.push(format!("{query:?}: occluded {}, oracle {expected}", answer.occluded));
+        }
+    }
+}
+
+/// The device's shape, where rounding cannot explain that it is not the oracle's.
+fn wrong_shape(hit: &Hit, answer: &RayAnswer, estimates: &[Estimate]) -> Option<String> {
+    if hit.shape == answer.shape {
+        return None;
+    }
+    let of = |shape: u32| estimates.get(shape as usize);
+    let unsure = |shape: u32| of(shape).is_some_and(|e| e.unsure || e.t.abs() <= e.error);
+    let tie = match (of(hit.shape), of(answer.shape)) {
+        (Some(a), Some(b)) => (a.t - b.t).abs() <= a.error + b.error,
+        _ => false,
+    };
+    let explained = tie || unsure(hit.shape) || unsure(answer.shape);
+    (!explained).then(|| format!("shape {}, oracle {} at {}", answer.shape, hit.shape, hit.t))
+}
+
+fn wrong_hit(
+    scene: &PackedScene,
+    ray: &Ray,
+    hit: &Hit,
+    answer: &RayAnswer,
+    estimate: Estimate,
+) -> Option<String> {
+    let t_error = (f64::from(answer.t) - hit.t).abs();
+    if t_error > estimate.error {
+        return Some(format!("t off by {t_error:e} from {}, {:e} allowed", hit.t, estimate.error));
+    }
+    let surface = hit_surface(scene, ray, hit);
+    // The error of t along the ray; products and sums in o + t d, and on a sphere the way back to it.
+    let reach = ray.origin.length() + hit.t * ray.direction.length() + surface.point.length();
+    let point_error = 2.0 * estimate.error * ray.direction.length() + 16.0 * U * reach;
+    let off = widened(&answer.point).distance(surface.point);
+    if off > point_error {
+        return Some(format!("point off by {off:e}, {point_error:e} allowed"));
+    }
+    let normal = widened(&answer.normal);
+    if (normal.length() - 1.0).abs() > 8.0 * U {
+        return Some(format!("normal of length {}", normal.length())); // 8 roundings of a unit vector
+    }
+    let bend = estimate.curvature * point_error + estimate.weights + 16.0 * U; // turn of the normal by the error
+    let grazing = surface.geometric_normal.dot(ray.direction).abs() <= bend * ray.direction.length();
+    let off = normal.distance(surface.normal);
+    if off > bend && !grazing {
+        return Some(format!("normal off by {off:e} from {}, {bend:e} allowed", surface.normal));
+    }
+    wrong_uv(scene, &surface, answer, point_error, estimate.weights)
+}
+
+fn wrong_uv(
+    scene: &PackedScene,
+    surface: &moire::oracle::shade::Surface,
+    answer: &RayAnswer,
+    point_error: f64,
+    weights: f64,
+) -> Option<String> {
+    let map = &scene.maps[surface.map as usize];
+    let expected = texture_coordinate(map, surface.point, surface.vertex_uv);
+    let got = DVec2::new(answer.uv[0].into(), answer.uv[1].into());
+    let rows = [map.x, map.y, map.z];
+    let steep = rows.iter().map(|r| xyz(*r).length()).fold(0.0, f64::max);
+    // Products and sums of a row, on top of the error of the point.
+    let row_error = rows
+        .iter()
+        .map(|r| 4.0 * U * ((xyz(*r) * surface.point).abs().element_sum() + f64::from(r[3]).abs()))
+        .fold(0.0, f64::max)
+        + steep * point_error;
+    let kind = MapKind::ALL[map.link[0] as usize];
+    let (tolerance, turn) = match kind {
+        MapKind::Affine => (DVec2::splat(row_error), DVec2::ZERO),
+        MapKind::VertexUv => (DVec2::splat(8.0 * weights + 16.0 * U), DVec2::ZERO), // uv up to 4
+        MapKind::Cylindrical | MapKind::Spherical => {
+            let at = rows.map(|r| xyz(r).dot(surface.point) + f64::from(r[3]));
+            let across = at[0].hypot(at[2]);
+            // The angle by an error across the axis; 2e-7 for the polynomial and its steps.
+            let angle = (row_error / across).min(1.0) + 2e-7;
+            let (own, turn) = match kind {
+                MapKind::Cylindrical => (DVec2::new(angle, row_error), DVec2::X),
+                _ => (DVec2::new(row_error / across.hypot(at[1]) + 2e-7, angle), DVec2::Y),
+            };
+            let m = map.matrix.map(f64::from);
+            let times = |v: DVec2| DVec2::new(m[0] * v.x + m[1] * v.y, m[2] * v.x + m[3] * v.y);
+            let wide =
+                DVec2::new(m[0].abs() * own.x + m[1].abs() * own.y, m[2].abs() * own.x + m[3].abs() * own.y);
+            (wide + 8.0 * U * (expected.abs() + 4.0), times(turn))
+        }
+    };
+    let fits = |period: DVec2| (got - expected + period).abs().cmple(tolerance).all();
+    let right = fits(DVec2::ZERO) || fits(turn) || fits(-turn);
+    (!right).then(|| format!("{kind} uv {got}, oracle {expected}, {tolerance} allowed"))
+}
+
+fn compare(scene: &PackedScene, queries: &[RayQuery], keep_everything: bool) -> Tally {
+    let answers = probe::rays(&gpu(), scene, keep_everything, queries).unwrap();
+    let mut tally = Tally::default();
+    for (query, answer) in queries.iter().zip(&answers) {
+        tally.add(scene, query, answer);
+    }
+    tally
+}
+
+fn assert_agrees(what: &str, scene: &PackedScene, queries: &[RayQuery], keep_everything: bool) {
+    let tally = compare(scene, queries, keep_everything);
+    let first = tally.wrong.iter().take(4).cloned().collect::<Vec<_>>().join("\n");
+    assert!(
+        tally.wrong.is_empty(),
+        "{what}: {} of {} rays are wrong:\n{first}",
+        tally.wrong.len(),
+        tally.rays
+    );
+    assert!(tally.hits * 10 > tally.rays, "{what}: only {} of {} rays hit", tally.hits, tally.rays);
+    // Silhouettes and edges are thin: their share is about 1e-5 in these scenes.
+    assert!(tally.undecided * 1000 <= tally.rays, "{what}: {} of {} undecided", tally.undecided, tally.rays);
+}
+
+#[test]
+fn planes_bounded_and_infinite_with_skewed_axes() {
+    for seed in 0..3 {
+        let mut dice = Dice::new(seed + 100);
+        let scene = scenes::planes(&mut dice);
+        assert_agrees(&format!("planes {seed}"), &scene, &scenes::rays(&mut dice, 4000), seed == 0);
+    }
+}
+
+#[test]
+fn spheres_from_outside_inside_and_grazing() {
+    for seed in 0..3 {
+        let mut dice = Dice::new(seed + 200);
+        let scene = scenes::spheres(&mut dice);
+        let mut queries = scenes::rays(&mut dice, 3000);
+        queries.extend(scenes::grazing(&mut dice, &scene, 1000));
+        assert_agrees(&format!("spheres {seed}"), &scene, &queries, seed == 0);
+    }
+}
+
+#[test]
+fn triangles_flat_and_smooth() {
+    for seed in 0..3 {
+        let mut dice = Dice::new(seed + 300);
+        let scene = scenes::triangles(&mut dice);
+        assert_agrees(&format!("triangles {seed}"), &scene, &scenes::rays(&mut dice, 4000), seed == 0);
+    }
+}
+
+#[test]
+fn all_shapes_together_with_every_mapping() {
+    for keep_everything in [false, true] {
+        let mut dice = Dice::new(400);
+        let scene = scenes::everything(&mut dice);
+        assert_agrees("everything", &scene, &scenes::rays(&mut dice, 6000), keep_everything);
+    }
+}
+
+#[test]
+fn no_ray_passes_between_triangles_that_share_an_edge() {
+    for seed in 0..4 {
+        let mut dice = Dice::new(seed + 500);
+        let (scene, queries) = scenes::fan(&mut dice, 9, 5000);
+        for keep_everything in [false, true] {
+            let answers = probe::rays(&gpu(), &scene, keep_everything, &queries).unwrap();
+            let missed: Vec<_> = queries.iter().zip(&answers).filter(|(_, a)| a.shape == NO_SHAPE).collect();
+            assert!(missed.is_empty(), "{} rays pass, the first {:?}", missed.len(), missed[0]);
+        }
+    }
+}
+
+#[test]
+fn planted_errors_of_rays_are_caught() {
+    let mut dice = Dice::new(600);
+    let scene = scenes::everything(&mut dice);
+    let queries = scenes::rays(&mut dice, 1000);
+    let right = probe::rays(&gpu(), &scene, false, &queries).unwrap();
+    let caught = |plant: &dyn Fn(&mut RayAnswer)| {
+        let mut tally = Tally::default();
+        for (query, answer) in queries.iter().zip(&right).filter(|(_, a)| a.shape != NO_SHAPE) {
+            let mut answer = *answer;
+            plant(&mut answer);
+            tally.add(&scene, query, &answer);
+        }
+        tally.wrong.len() as f64 / tally.rays as f64
+    };
+    assert_eq!(caught(&|_| {}), 0.0);
+    type Plant<'a> = (&'a str, &'a dyn Fn(&mut RayAnswer));
+    let plants: [Plant<'_>; 6] = [
+        ("t 1e-4 too long", &|a| a.t *= 1.0001),
+        ("another shape", &|a| a.shape = (a.shape + 1) % 12),
+        ("normal away from the ray", &|a| a.normal = a.normal.map(|n| -n)),
+        ("u and v swapped", &|a| a.uv.swap(0, 1)),
+        ("u off by 1e-3", &|a| a.uv[0] += 1e-3),
+        ("occlusion reversed", &|a| a.occluded = 1 - a.occluded),
+    ];
+    for (what, plant) in plants {
+        let share = caught(plant);
+        assert!(share > 0.9, "{what}: only {share} caught");
+    }
+}

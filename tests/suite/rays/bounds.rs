@@ -1,0 +1,107 @@
+//! How far rounding may take an f32 intersection from the exact one: first-order error analysis of
+//! the formulas (Higham 2002, chapter 3), with the vectors' own lengths as condition. A division may
+//! be off by 2.5 ulp, a square root by about as much (Vulkan 1.3, "Precision and Operation of SPIR-V
+//! Instructions").
+
+use moire::oracle::camera::Ray;
+use moire::oracle::intersect::{plane_distance, sphere_distance, triangle_distance};
+use moire::oracle::math::{affine, xyz};
+use moire::pack::PackedScene;
+
+/// Unit roundoff of f32.
+pub const U: f64 = 1.0 / 16_777_216.0;
+const DIVIDE: f64 = 5.0; // 2.5 ulp
+const ROOT: f64 = 8.0; // inversesqrt 2 ulp, then a division or product
+
+#[derive(Clone, Copy, Debug)]
+pub struct Estimate {
+    /// Negative on a miss.
+    pub t: f64,
+    /// Greatest error of t.
+    pub error: f64,
+    /// Rounding decides whether it is a hit.
+    pub unsure: bool,
+    /// How fast the normal turns along the surface.
+    pub curvature: f64,
+    /// Greatest error of barycentric weights.
+    pub weights: f64,
+}
+
+pub fn estimate(scene: &PackedScene, shape: u32, ray: &Ray) -> Estimate {
+    let [planes, spheres, _, _] = scene.header.counts;
+    if shape < planes {
+        plane(scene, shape as usize, ray)
+    } else if shape < planes + spheres {
+        sphere(scene, (shape - planes) as usize, ray)
+    } else {
+        triangle(scene, (shape - planes - spheres) as usize, ray)
+    }
+}
+
+/// Error of t = (n·o' − n·o) / n·d.
+fn flat_error(normal: [f32; 4], ray: &Ray, t: f64) -> f64 {
+    let n = xyz(normal);
+    let (height, slope) = (f64::from(normal[3]) - n.dot(ray.origin), n.dot(ray.direction));
+    let size = f64::from(normal[3]).abs() + (n * ray.origin).abs().element_sum();
+    let above = 4.0 * U * size / height.abs();
+    let below = 3.0 * U * (n * ray.direction).abs().element_sum() / slope.abs();
+    t.abs() * 1.01 * (above + below + DIVIDE * U)
+}
+
+fn plane(scene: &PackedScene, index: usize, ray: &Ray) -> Estimate {
+    let plane = &scene.planes[index];
+    let unbounded = moire::layout::Plane { link: [plane.link[0], plane.link[1], 0, 0], ..*plane };
+    let t = plane_distance(&unbounded, ray);
+    let error = flat_error(plane.normal, ray, t);
+    let point = ray.origin + t * ray.direction;
+    let point_error = error * ray.direction.length() + 2.0 * U * (ray.origin.length() + point.length());
+    let extent = f64::from(f32::from_bits(plane.link[2]));
+    let near_edge = [plane.extent_u, plane.extent_v].iter().any(|row| {
+        let own = 4.0 * U * ((xyz(*row) * point).abs().element_sum() + f64::from(row[3]).abs());
+        (affine(*row, point).abs() - extent).abs() <= own + xyz(*row).length() * point_error
+    });
+    let t = plane_distance(plane, ray);
+    Estimate { t, error, unsure: plane.link[3] != 0 && near_edge, curvature: 0.0, weights: 0.0 }
+}
+
+fn sphere(scene: &PackedScene, index: usize, ray: &Ray) -> Estimate {
+    let sphere = &scene.spheres[index];
+    let (center, r, d) = (xyz(sphere.ball), f64::from(sphere.ball[3]), ray.direction);
+    let f = ray.origin - center;
+    let (a, b) = (d.dot(d), -f.dot(d));
+    let closest = f + (b / a) * d;
+    let discriminant = r * r - closest.length_squared();
+    let c = f.length_squared() - r * r;
+    // Errors: of f·d, of the vector of closest approach, of its square, of the root, of c.
+    let e_b = 5.0 * U * f.length() * d.length();
+    let e_closest = 18.0 * U * f.length();
+    let e_disc = 2.0 * closest.length() * e_closest + 4.0 * U * closest.length_squared() + 2.0 * U * r * r;
+    let e_c = 6.0 * U * f.length_squared() + 2.0 * U * r * r;
+    let unsure = discriminant.abs() <= e_disc || c.abs() <= e_c;
+    let t = sphere_distance(sphere, ray);
+    let root = (a * discriminant.max(0.0)).sqrt();
+    let e_root = root * (0.5 * e_disc / discriminant.abs() + ROOT * U);
+    let q = b.abs() + root;
+    let relative = (e_b + e_root) / q + U + if c > 0.0 || b < 0.0 { e_c / c.abs() } else { 4.0 * U };
+    let error = t.abs() * 1.01 * (relative + DIVIDE * U);
+    Estimate { t, error, unsure, curvature: 2.0 / r, weights: 0.0 }
+}
+
+fn triangle(scene: &PackedScene, index: usize, ray: &Ray) -> Estimate {
+    let triangle = &scene.triangles[index];
+    let (t, _) = triangle_distance(triangle, ray);
+    let corners = [triangle.a, triangle.b, triangle.c].map(|v| xyz(v) - ray.origin);
+    let edges = [0, 1, 2].map(|i| {
+        let (p, q) = (corners[(i + 1) % 3], corners[(i + 2) % 3]);
+        // Subtractions, products, differences, and the dot product: 8 roundings at most.
+        (ray.direction.dot(p.cross(q)), 8.0 * U * ray.direction.length() * p.length() * q.length())
+    });
+    let sum = edges.iter().map(|e| e.0).sum::<f64>();
+    let worst = edges.iter().map(|e| e.1).fold(0.0, f64::max);
+    let unsure = edges.iter().any(|(e, error)| e.abs() <= *error);
+    let weights = 4.0 * worst / sum.abs() + DIVIDE * U;
+    let t_plane = if t > 0.0 { t } else { 1.0 };
+    let bend = if triangle.v[3] != 0.0 { 2.0 * weights } else { 0.0 };
+    let error = flat_error(triangle.normal, ray, t_plane);
+    Estimate { t, error, unsure, curvature: 0.0, weights: weights.max(bend) }
+}
