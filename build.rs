@@ -116,11 +116,13 @@ impl Reflection {
     /// (binding, kind) of every descriptor, in order of binding.
     fn descriptors(&self) -> Result<Vec<(u32, &'static str)>, AnyError> {
         const UNIFORM_CONSTANT: u32 = 0;
+        const UNIFORM: u32 = 2;
         const STORAGE_BUFFER: u32 = 12;
         let mut found = Vec::new();
         for &(variable, pointer, storage) in &self.variables {
             let Some(&binding) = self.bindings.get(&variable) else { continue };
             let kind = match storage {
+                UNIFORM => "UniformBuffer",
                 STORAGE_BUFFER => "StorageBuffer",
                 UNIFORM_CONSTANT => self.opaque_kind(self.types[&pointer].1[1])?,
                 other => return Err(format!("binding {binding}: storage class {other} is not known").into()),

@@ -2,7 +2,7 @@
 //! was left out. [`FEATURES`] is the one table; every constant of `features.glsl` stands in it or
 //! among the places and sizes that [`constants`] adds.
 
-use crate::layout::NO_TEXTURE;
+use crate::layout::{self, NO_TEXTURE};
 use crate::named::named_enum;
 use crate::pack::{LightKind, MapKind, PackedScene, ProjectionKind, Sections};
 use crate::scene::model::{Model, Pattern};
@@ -19,6 +19,14 @@ named_enum! {
         Buffer = "buffer",
         /// One image a texture; the only source of the device's own samplers.
         Image = "image",
+    }
+}
+
+named_enum! {
+    /// Powers of two wrap by a mask.
+    pub enum TextureSize {
+        PowerOfTwo = "power-of-two",
+        Any = "any",
     }
 }
 
@@ -64,6 +72,7 @@ const FEATURES: &[(&str, &str, Narrow)] = &[
     ("SHADOWS", "shadow rays", Switch(casts_shadows)),
     ("BOUNCES", "mirror bounces", Switch(|s| s.header.size[3] > 0 && has_model(s, Model::Mirror))),
     ("MAPPINGS", "mapping", Modes(MapKind::NAMES, |s| bits(s.maps.iter().map(|m| m.link[0])))),
+    ("ROTATED_UV", "rotation of texture coordinates", Switch(|s| s.maps.iter().any(rotates))),
     ("TEXTURED", "texture look-ups", Switch(|s| s.materials.iter().any(|m| m.link[1] != NO_TEXTURE))),
     ("UNTEXTURED", "plain materials", Switch(|s| s.materials.iter().any(|m| m.link[1] == NO_TEXTURE))),
     ("METHODS", "look-up method", Modes(Method::NAMES, |s| bits(s.samplers.iter().map(|x| x.link[0])))),
@@ -75,6 +84,7 @@ const FEATURES: &[(&str, &str, Narrow)] = &[
         "texel centre",
         Modes(TexelCenter::NAMES, |s| bits(s.samplers.iter().map(|x| x.modes[3]))),
     ),
+    ("TEXTURE_SIZES", "texture size", Modes(TextureSize::NAMES, |s| bits(s.textures.iter().map(size_kind)))),
     (
         "TEXEL_FORMATS",
         "texel format",
@@ -201,6 +211,16 @@ fn bits(modes: impl Iterator<Item = u32>) -> u32 {
 
 fn unrolled(count: usize) -> u32 {
     if count <= UNROLL { count as u32 } else { DYNAMIC }
+}
+
+fn rotates(map: &layout::Map) -> bool {
+    map.matrix[1] != 0.0 || map.matrix[2] != 0.0
+}
+
+fn size_kind(texture: &layout::Texture) -> u32 {
+    let [_, width, height, _] = texture.place;
+    let power = width.is_power_of_two() && height.is_power_of_two();
+    if power { TextureSize::PowerOfTwo as u32 } else { TextureSize::Any as u32 }
 }
 
 fn has_model(scene: &PackedScene, model: Model) -> bool {

@@ -41,8 +41,8 @@ mirror!(Header, 9, {
 
 mirror!(Plane, 4, {
     normal: [f32; 4],
-    extent_u: [f32; 4],
-    extent_v: [f32; 4],
+    axis_u: [f32; 4],
+    axis_v: [f32; 4],
     /// Material, map, half extent (f32 bits), 1 when bounded.
     link: [u32; 4],
 });
@@ -118,6 +118,10 @@ pub struct Slice {
     pub sample_count: u32,
 }
 const _: () = assert!(size_of::<Slice>() == 32);
+
+/// The part of the scene buffer that is also bound as uniforms: `maxUniformBufferRange` is at least
+/// this on every device.
+pub const HEAD_BYTES: usize = 16 << 10;
 
 /// Pixels along the side of the square tiles in which work is handed out.
 pub const TILE: u32 = 64;

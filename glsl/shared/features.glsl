@@ -23,7 +23,8 @@ layout(constant_id = 15) const uint MODELS = 0x7u;
 layout(constant_id = 16) const uint LIGHT_KINDS = 0x3u;
 layout(constant_id = 17) const bool SHADOWS = true;
 layout(constant_id = 18) const bool BOUNCES = true;
-layout(constant_id = 19) const uint MAPPINGS = 0xFu;
+layout(constant_id = 19) const uint MAPPINGS = 0x1Fu;
+layout(constant_id = 31) const bool ROTATED_UV = true;
 layout(constant_id = 20) const bool TEXTURED = true;   // some material reads a texture
 layout(constant_id = 21) const bool UNTEXTURED = true; // some material reads none
 layout(constant_id = 22) const uint METHODS = 0x3u;
@@ -31,6 +32,7 @@ layout(constant_id = 23) const uint ADDRESSES_U = 0x1Fu;
 layout(constant_id = 24) const uint ADDRESSES_V = 0x1Fu;
 layout(constant_id = 25) const uint FILTERS = 0x3u;
 layout(constant_id = 26) const uint TEXEL_CENTERS = 0x3u;
+layout(constant_id = 32) const uint TEXTURE_SIZES = 0x3u;
 layout(constant_id = 27) const uint TEXEL_FORMATS = 0x1FFu;
 layout(constant_id = 28) const uint COLOR_SPACES = 0x3u;
 layout(constant_id = 29) const bool COMPENSATED = true; // more samples than one chunk holds

@@ -10,7 +10,8 @@
 struct Hit {
     float t; // in units of the direction's length; FAR on a miss
     uint shape;
-    vec3 edges; // a triangle's edge functions: barycentric weights times their sum
+    // A triangle's edge functions (barycentric weights times their sum), or a plane's own (u, v).
+    vec3 local;
 };
 
 // Camera rays that are the only rays start at the eye, which is the coordinate origin.
@@ -19,7 +20,7 @@ struct Hit {
 #endif
 
 // t = (n·o' - n·o) / n·d, kept when the point lies within the half extent on both axes.
-float plane_distance(Plane plane, Ray ray, bool from_eye) {
+float plane_distance(Plane plane, Ray ray, bool from_eye, out vec3 local) {
     float slope = dot3(plane.normal.xyz, ray.direction);
     float height = plane.normal.w;
     if (!from_eye) {
@@ -27,11 +28,12 @@ float plane_distance(Plane plane, Ray ray, bool from_eye) {
         height = above;
     }
     precise float t = height / slope;
+    precise vec3 p = from_eye ? t * ray.direction : ray.origin + t * ray.direction;
+    local = vec3(dot3(plane.axis_u.xyz, p), dot3(plane.axis_v.xyz, p), 0.0);
     if (BOUNDED_PLANES && plane.link.w != 0u) {
-        precise vec3 p = from_eye ? t * ray.direction : ray.origin + t * ray.direction;
         float extent = uintBitsToFloat(plane.link.z);
-        bool inside = abs(affine(plane.extent_u, p)) <= extent && abs(affine(plane.extent_v, p)) <= extent;
-        t = inside ? t : -1.0;
+        precise vec2 place = local.xy + vec2(plane.axis_u.w, plane.axis_v.w);
+        t = abs(place.x) <= extent && abs(place.y) <= extent ? t : -1.0;
     }
     return t;
 }
@@ -79,10 +81,12 @@ Hit nearest_hit(Header header, Ray ray, uint skip) {
     uint spheres = COUNT(SPHERES, header.counts.y);
     uint triangles = COUNT(TRIANGLES, header.counts.z);
     for (uint i = 0u; i < planes; i++) {
-        float t = plane_distance(plane_at(i), ray, ORIGIN_IS_EYE);
+        vec3 local;
+        float t = plane_distance(plane_at(i), ray, ORIGIN_IS_EYE, local);
         bool nearer = t > 0.0 && t < hit.t && i != skip;
         hit.t = nearer ? t : hit.t;
         hit.shape = nearer ? i : hit.shape;
+        hit.local = nearer ? local : hit.local;
     }
     for (uint i = 0u; i < spheres; i++) {
         float t = sphere_distance(sphere_at(i), ray, ORIGIN_IS_EYE);
@@ -96,7 +100,7 @@ Hit nearest_hit(Header header, Ray ray, uint skip) {
         bool nearer = t > 0.0 && t < hit.t && planes + spheres + i != skip;
         hit.t = nearer ? t : hit.t;
         hit.shape = nearer ? planes + spheres + i : hit.shape;
-        hit.edges = nearer ? edges : hit.edges;
+        hit.local = nearer ? edges : hit.local;
     }
     return hit;
 }
@@ -108,7 +112,8 @@ bool occluded(Header header, Ray ray, float t_max, uint skip) {
     uint spheres = COUNT(SPHERES, header.counts.y);
     uint triangles = COUNT(TRIANGLES, header.counts.z);
     for (uint i = 0u; i < planes; i++) {
-        float t = plane_distance(plane_at(i), ray, false);
+        vec3 local;
+        float t = plane_distance(plane_at(i), ray, false, local);
         blocked = blocked || (t > 0.0 && t < t_max && i != skip);
     }
     for (uint i = 0u; i < spheres; i++) {

@@ -19,10 +19,11 @@ const uint MODEL_MIRROR = 2u;
 const uint LIGHT_POINT = 0u;
 const uint LIGHT_DIRECTIONAL = 1u;
 
-const uint MAP_AFFINE = 0u;      // uv is affine in the position: planes, planar
-const uint MAP_VERTEX_UV = 1u;   // uv is interpolated over a triangle
-const uint MAP_CYLINDRICAL = 2u;
-const uint MAP_SPHERICAL = 3u;
+const uint MAP_PLANE = 0u;       // the plane's own coordinates
+const uint MAP_AFFINE = 1u;      // affine in the position: planar
+const uint MAP_VERTEX_UV = 2u;   // interpolated over a triangle
+const uint MAP_CYLINDRICAL = 3u;
+const uint MAP_SPHERICAL = 4u;
 
 const uint METHOD_SHADER = 0u;
 const uint METHOD_HARDWARE = 1u;
@@ -49,6 +50,9 @@ const uint TEXEL_FORMAT_GREY_FLOAT = 6u;
 const uint TEXEL_FORMAT_GREY_ALPHA_FLOAT = 7u;
 const uint TEXEL_FORMAT_RGBA_FLOAT = 8u;
 
+const uint TEXTURE_SIZE_POWER_OF_TWO = 0u;
+const uint TEXTURE_SIZE_ANY = 1u;
+
 const uint COLOR_SPACE_LINEAR = 0u;
 const uint COLOR_SPACE_SRGB = 1u;
 
@@ -70,8 +74,8 @@ struct Header {
 
 struct Plane {
     vec4 normal;   // unit n; w = n·(origin − eye)
-    vec4 extent_u; // plane coordinate u of an eye-relative point p: xyz·p + w
-    vec4 extent_v;
+    vec4 axis_u;   // plane coordinate u of an eye-relative point p, counted from the eye: xyz·p;
+    vec4 axis_v;   // w: what to add to count from the plane's origin
     uvec4 link;    // material, map, half extent (bits), 1 when bounded
 };
 
@@ -125,82 +129,69 @@ struct Sampler {
 
 layout(std430, set = 0, binding = 1) readonly buffer SceneBuffer { uvec4 scene[]; };
 
-vec4 scene_vec4(uint at) { return uintBitsToFloat(scene[at]); }
+// The first 16 KiB of the scene buffer once more, which devices read fastest as uniforms. The header
+// and all short lists lie there.
+const uint HEAD_UNITS = 1024u;
+layout(std140, set = 0, binding = 5) uniform SceneHead { uvec4 head[HEAD_UNITS]; };
+
+#define READ_HEAD(at) head[at]
+#define READ_SCENE(at) scene[at]
+#define READ_HEADER(at) uintBitsToFloat(head[at])
 
 Header load_header() {
-    return Header(scene_vec4(0u), scene_vec4(1u), scene_vec4(2u), scene_vec4(3u), scene[4u], scene[5u],
-                  scene[6u], scene[7u], scene[8u]);
+    return Header(READ_HEADER(0u), READ_HEADER(1u), READ_HEADER(2u), READ_HEADER(3u), head[4u], head[5u], head[6u],
+                  head[7u], head[8u]);
 }
 
-Plane load_plane(uint i) {
-    uint at = PLANES_AT + i * 4u;
-    return Plane(scene_vec4(at), scene_vec4(at + 1u), scene_vec4(at + 2u), scene[at + 3u]);
-}
+// How a record is put together from what lies at `at`, read from the head or from the whole.
+#define F(read, at) uintBitsToFloat(read(at))
+#define PLANE(read, at) Plane(F(read, at), F(read, at + 1u), F(read, at + 2u), read(at + 3u))
+#define SPHERE(read, at) Sphere(F(read, at), read(at + 1u))
+#define TRIANGLE(read, at)                                                                      \
+    Triangle(F(read, at), F(read, at + 1u), F(read, at + 2u), F(read, at + 3u), F(read, at + 4u), \
+             F(read, at + 5u), F(read, at + 6u), F(read, at + 7u), read(at + 8u))
+#define LIGHT(read, at) Light(F(read, at), F(read, at + 1u), read(at + 2u))
+#define MATERIAL(read, at) Material(F(read, at), read(at + 1u))
+#define MAP(read, at)                                                                           \
+    Map(F(read, at), F(read, at + 1u), F(read, at + 2u), F(read, at + 3u), F(read, at + 4u), read(at + 5u))
+#define TEXTURE(read, at) Texture(read(at), read(at + 1u))
+#define SAMPLER(read, at) Sampler(F(read, at), read(at + 1u), read(at + 2u))
 
-Sphere load_sphere(uint i) {
-    uint at = SPHERES_AT + i * 2u;
-    return Sphere(scene_vec4(at), scene[at + 1u]);
-}
-
-Triangle load_triangle(uint i) {
-    uint at = TRIANGLES_AT + i * 9u;
-    return Triangle(scene_vec4(at), scene_vec4(at + 1u), scene_vec4(at + 2u), scene_vec4(at + 3u),
-                    scene_vec4(at + 4u), scene_vec4(at + 5u), scene_vec4(at + 6u), scene_vec4(at + 7u),
-                    scene[at + 8u]);
-}
-
-Light load_light(uint i) {
-    uint at = LIGHTS_AT + i * 3u;
-    return Light(scene_vec4(at), scene_vec4(at + 1u), scene[at + 2u]);
-}
-
-Material load_material(uint i) {
-    uint at = MATERIALS_AT + i * 2u;
-    return Material(scene_vec4(at), scene[at + 1u]);
-}
-
-Map load_map(uint i) {
-    uint at = MAPS_AT + i * 6u;
-    return Map(scene_vec4(at), scene_vec4(at + 1u), scene_vec4(at + 2u), scene_vec4(at + 3u),
-               scene_vec4(at + 4u), scene[at + 5u]);
-}
-
-Texture load_texture(uint i) {
-    uint at = TEXTURES_AT + i * 2u;
-    return Texture(scene[at], scene[at + 1u]);
-}
-
-Sampler load_sampler(uint i) {
-    uint at = SAMPLERS_AT + i * 3u;
-    return Sampler(scene_vec4(at), scene[at + 1u], scene[at + 2u]);
-}
+const uint PLANE_UNITS = 4u;
+const uint SPHERE_UNITS = 2u;
+const uint TRIANGLE_UNITS = 9u;
+const uint LIGHT_UNITS = 3u;
+const uint MATERIAL_UNITS = 2u;
+const uint MAP_UNITS = 6u;
+const uint TEXTURE_UNITS = 2u;
+const uint SAMPLER_UNITS = 3u;
 
 // Lists of known, small length are read once, before any branch: some compilers (lavapipe's) read a
 // buffer lane by lane inside control flow. An index that is not known at build time then selects
 // among registers.
-#define HELD_LIST(Type, held, hold, at, load, COUNT_CONSTANT)                                   \
-    Type held[COUNT_CONSTANT == DYNAMIC || COUNT_CONSTANT == 0u ? 1u : COUNT_CONSTANT];         \
-    void hold() {                                                                               \
-        if (COUNT_CONSTANT == DYNAMIC) return;                                                  \
-        for (uint i = 0u; i < COUNT_CONSTANT; i++) held[i] = load(i);                           \
-    }                                                                                           \
-    Type at(uint index) {                                                                       \
-        if (COUNT_CONSTANT == DYNAMIC) return load(index);                                      \
-        Type found = held[0];                                                                   \
-        for (uint i = 1u; i < COUNT_CONSTANT; i++) {                                            \
-            if (i == index) found = held[i];                                                    \
-        }                                                                                       \
-        return found;                                                                           \
+#define HELD_LIST(Type, RECORD, held, hold, at, LENGTH, BEGIN, UNITS)                            \
+    Type held[LENGTH == DYNAMIC || LENGTH == 0u ? 1u : LENGTH];                                  \
+    void hold() {                                                                                \
+        if (LENGTH == DYNAMIC) return;                                                           \
+        for (uint i = 0u; i < LENGTH; i++) held[i] = RECORD(READ_HEAD, BEGIN + i * UNITS);       \
+    }                                                                                            \
+    Type at(uint index) {                                                                        \
+        if (LENGTH == DYNAMIC) return RECORD(READ_SCENE, BEGIN + index * UNITS);                 \
+        Type found = held[0];                                                                    \
+        for (uint i = 1u; i < LENGTH; i++) {                                                     \
+            if (i == index) found = held[i];                                                     \
+        }                                                                                        \
+        return found;                                                                            \
     }
 
-HELD_LIST(Plane, held_planes, hold_planes, plane_at, load_plane, PLANES)
-HELD_LIST(Sphere, held_spheres, hold_spheres, sphere_at, load_sphere, SPHERES)
-HELD_LIST(Triangle, held_triangles, hold_triangles, triangle_at, load_triangle, TRIANGLES)
-HELD_LIST(Light, held_lights, hold_lights, light_at, load_light, LIGHTS)
-HELD_LIST(Material, held_materials, hold_materials, material_at, load_material, MATERIALS)
-HELD_LIST(Map, held_maps, hold_maps, map_at, load_map, MAPS)
-HELD_LIST(Texture, held_textures, hold_textures, texture_at, load_texture, TEXTURES)
-HELD_LIST(Sampler, held_samplers, hold_samplers, sampler_at, load_sampler, SAMPLERS)
+HELD_LIST(Plane, PLANE, held_planes, hold_planes, plane_at, PLANES, PLANES_AT, PLANE_UNITS)
+HELD_LIST(Sphere, SPHERE, held_spheres, hold_spheres, sphere_at, SPHERES, SPHERES_AT, SPHERE_UNITS)
+HELD_LIST(Triangle, TRIANGLE, held_triangles, hold_triangles, triangle_at, TRIANGLES, TRIANGLES_AT, TRIANGLE_UNITS)
+HELD_LIST(Light, LIGHT, held_lights, hold_lights, light_at, LIGHTS, LIGHTS_AT, LIGHT_UNITS)
+HELD_LIST(Material, MATERIAL, held_materials, hold_materials, material_at, MATERIALS, MATERIALS_AT, MATERIAL_UNITS)
+HELD_LIST(Map, MAP, held_maps, hold_maps, map_at, MAPS, MAPS_AT, MAP_UNITS)
+HELD_LIST(Texture, TEXTURE, held_textures, hold_textures, texture_at, TEXTURES, TEXTURES_AT, TEXTURE_UNITS)
+HELD_LIST(Sampler, SAMPLER, held_samplers, hold_samplers, sampler_at, SAMPLERS, SAMPLERS_AT, SAMPLER_UNITS)
 
 void hold_scene() {
     hold_planes();

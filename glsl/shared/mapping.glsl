@@ -1,15 +1,28 @@
-// Surface point -> texture coordinate. Planes and `planar` are affine in the position; triangles
-// interpolate their vertices' uv; `cylindrical`: u = phi/2pi, v = height; `spherical`: u = theta/pi,
-// v = phi/2pi, theta from +axis, phi from +x towards +z. Scale, rotation, offset come last; the
-// affine and vertex kinds have them folded in by the host, with whole tiles taken out.
+// Surface point -> texture coordinate. Planes have their own coordinates and triangles interpolate
+// their vertices' uv (`surface`); `planar` is affine in the position; `cylindrical`: u = phi/2pi,
+// v = height; `spherical`: u = theta/pi, v = phi/2pi, theta from +axis, phi from +x towards +z. Scale,
+// rotation, offset come last; where the host can fold them in it has, with whole tiles taken out.
 #ifndef MAPPING_GLSL
 #define MAPPING_GLSL
 
 #include "math.glsl"
 
-vec2 texture_coordinate(Map map, vec3 p, vec2 vertex_uv) {
+// matrix · uv + offset. Most scenes neither rotate nor shear.
+vec2 placed(Map map, vec2 uv) {
+    precise vec2 mapped;
+    if (ROTATED_UV) {
+        mapped = vec2((map.matrix.x * uv.x + map.matrix.y * uv.y) + map.offset.x,
+                      (map.matrix.w * uv.y + map.matrix.z * uv.x) + map.offset.y);
+    } else {
+        mapped = vec2(map.matrix.x * uv.x + map.offset.x, map.matrix.w * uv.y + map.offset.y);
+    }
+    return mapped;
+}
+
+vec2 texture_coordinate(Map map, vec3 p, vec2 own_uv) {
     uint kind = map.link.x;
-    if (MODE_IS(MAPPINGS, MAP_VERTEX_UV, kind)) return vertex_uv;
+    if (MODE_IS(MAPPINGS, MAP_VERTEX_UV, kind)) return own_uv;
+    if (MODE_IS(MAPPINGS, MAP_PLANE, kind)) return placed(map, own_uv);
     vec2 xy = vec2(affine(map.x, p), affine(map.y, p));
     if (MODE_IS(MAPPINGS, MAP_AFFINE, kind)) return xy;
     float z = affine(map.z, p);
@@ -20,9 +33,7 @@ vec2 texture_coordinate(Map map, vec3 p, vec2 vertex_uv) {
         precise float across = sqrt(xy.x * xy.x + z * z);
         uv = vec2(atan2_accurate(across, xy.y) * (1.0 / PI), turn);
     }
-    precise vec2 mapped = vec2((map.matrix.x * uv.x + map.matrix.y * uv.y) + map.offset.x,
-                               (map.matrix.z * uv.x + map.matrix.w * uv.y) + map.offset.y);
-    return mapped;
+    return placed(map, uv);
 }
 
 #endif

@@ -1,5 +1,6 @@
 // Counter-based random bits: integers in, integers out, no state. Jarzynski & Olano 2020, "Hash
-// Functions for GPU Rendering" (pcg2d, pcg3d). Bit-identical to src/oracle/rng.rs.
+// Functions for GPU Rendering" (pcg2d, pcg3d), pcg2d without its last step, v ^= v >> 16, which
+// changes only low bits: callers take high ones. Bit-identical to src/oracle/rng.rs.
 #ifndef RNG_GLSL
 #define RNG_GLSL
 
@@ -10,7 +11,7 @@ uvec2 pcg2d(uvec2 v) {
     v ^= v >> 16u;
     v.x += v.y * 1664525u;
     v.y += v.x * 1664525u;
-    return v ^ (v >> 16u);
+    return v;
 }
 
 uvec3 pcg3d(uvec3 v) {

@@ -12,12 +12,12 @@ struct Surface {
     vec3 point;
     vec3 geometric_normal; // unit, towards the incoming ray
     vec3 normal;           // unit, for shading
-    vec2 vertex_uv;
+    vec2 own_uv; // the plane's coordinates or the vertices' interpolated uv
     uvec2 link; // material, map
 };
 
-Surface plane_surface(Plane plane, vec3 point) {
-    return Surface(point, plane.normal.xyz, plane.normal.xyz, vec2(0.0), plane.link.xy);
+Surface plane_surface(Plane plane, vec3 point, vec2 uv) {
+    return Surface(point, plane.normal.xyz, plane.normal.xyz, uv, plane.link.xy);
 }
 
 // The hit is put back on the sphere: the error of t does not reach the normal or the next ray.
@@ -52,11 +52,11 @@ Surface hit_surface(Header header, Ray ray, Hit hit) {
     Surface surface = Surface(point, vec3(0.0), vec3(0.0), vec2(0.0), uvec2(0u));
     // A scene of one kind of shape needs no test.
     if (planes > 0u && (spheres + triangles == 0u || hit.shape < planes)) {
-        surface = plane_surface(plane_at(hit.shape), point);
+        surface = plane_surface(plane_at(hit.shape), point, hit.local.xy);
     } else if (spheres > 0u && (triangles == 0u || hit.shape < planes + spheres)) {
         surface = sphere_surface(sphere_at(hit.shape - planes), point);
     } else if (triangles > 0u) {
-        surface = triangle_surface(triangle_at(hit.shape - planes - spheres), point, hit.edges);
+        surface = triangle_surface(triangle_at(hit.shape - planes - spheres), point, hit.local);
     }
     bool away = dot3(surface.geometric_normal, ray.direction) > 0.0;
     surface.geometric_normal = away ? -surface.geometric_normal : surface.geometric_normal;
@@ -68,7 +68,7 @@ vec3 surface_color(Material material, Surface surface) {
     vec3 color = material.color.xyz;
 #if SOURCE != SOURCE_NONE
     if (TEXTURED && (!UNTEXTURED || material.link.y != NO_TEXTURE)) {
-        vec2 uv = texture_coordinate(map_at(surface.link.y), surface.point, surface.vertex_uv);
+        vec2 uv = texture_coordinate(map_at(surface.link.y), surface.point, surface.own_uv);
         precise vec3 product = color * look_up(texture_at(material.link.y),
                                                sampler_at(material.link.z), material.link.w, uv).xyz;
         color = product;

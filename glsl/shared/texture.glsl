@@ -144,6 +144,7 @@ float reduced_coordinate(uint mask, uint mode, float u, float size) {
 // Vulkan 1.3, 16.6 "Integer coordinate wrapping", for what `reduced_coordinate` leaves; -1 asks for
 // the border colour. The bounds hold for every i, so no fetch leaves the texture.
 int addressed_texel(uint mask, uint mode, int i, int size) {
+    if (MODE_IS(mask, ADDRESS_REPEAT, mode) && TEXTURE_SIZES == (1u << TEXTURE_SIZE_POWER_OF_TWO)) return i & (size - 1);
     if (MODE_IS(mask, ADDRESS_REPEAT, mode)) return int(min(uint(i < 0 ? i + size : i), uint(size - 1)));
     if (MODE_IS(mask, ADDRESS_CLAMP_TO_BORDER, mode)) return i < 0 || i >= size ? -1 : i;
     // Within one period mirroring is mirror-clamp-to-edge.

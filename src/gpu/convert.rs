@@ -45,7 +45,7 @@ pub(super) fn swizzle(swizzle: Swizzle) -> vk::ComponentMapping {
 
 pub(super) fn buffer_usage(usage: BufferUse) -> vk::BufferUsageFlags {
     match usage {
-        BufferUse::Storage => vk::BufferUsageFlags::STORAGE_BUFFER,
+        BufferUse::Storage => vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::UNIFORM_BUFFER,
         BufferUse::TexelUint => vk::BufferUsageFlags::UNIFORM_TEXEL_BUFFER,
     }
 }
@@ -53,6 +53,7 @@ pub(super) fn buffer_usage(usage: BufferUse) -> vk::BufferUsageFlags {
 pub(super) fn descriptor(kind: BindingKind) -> vk::DescriptorType {
     match kind {
         BindingKind::StorageBuffer => vk::DescriptorType::STORAGE_BUFFER,
+        BindingKind::UniformBuffer => vk::DescriptorType::UNIFORM_BUFFER,
         BindingKind::TexelBuffer => vk::DescriptorType::UNIFORM_TEXEL_BUFFER,
         BindingKind::SampledImage => vk::DescriptorType::COMBINED_IMAGE_SAMPLER,
     }

@@ -20,6 +20,8 @@ named_enum! {
     pub enum BindingKind {
         /// `buffer { … }`
         StorageBuffer = "storage buffer",
+        /// `uniform { … }`
+        UniformBuffer = "uniform buffer",
         /// `usamplerBuffer`
         TexelBuffer = "texel buffer",
         /// `sampler2D`, by itself or an array
@@ -39,6 +41,8 @@ pub struct BindingDesc {
 #[derive(Clone, Copy)]
 pub enum Bound<'a> {
     Buffer(&'a Buffer),
+    /// The first bytes of a storage buffer, as many as given, as uniforms.
+    Head(&'a Buffer, u64),
     Texels(&'a Buffer),
     Images(&'a [(&'a Image, &'a Sampler)]),
 }
@@ -47,6 +51,7 @@ impl Bound<'_> {
     fn kind(&self) -> BindingKind {
         match self {
             Bound::Buffer(_) => BindingKind::StorageBuffer,
+            Bound::Head(..) => BindingKind::UniformBuffer,
             Bound::Texels(_) => BindingKind::TexelBuffer,
             Bound::Images(_) => BindingKind::SampledImage,
         }
@@ -54,7 +59,7 @@ impl Bound<'_> {
 
     fn count(&self) -> u32 {
         match self {
-            Bound::Buffer(_) | Bound::Texels(_) => 1,
+            Bound::Buffer(_) | Bound::Head(..) | Bound::Texels(_) => 1,
             Bound::Images(images) => images.len() as u32,
         }
     }
@@ -131,10 +136,10 @@ impl BindGroup {
             .descriptor_type(convert::descriptor(bound.kind()));
         let (mut buffers, mut views, mut images) = (Vec::new(), Vec::new(), Vec::new());
         let write = match bound {
-            Bound::Buffer(buffer) => {
+            Bound::Buffer(buffer) | Bound::Head(buffer, _) => {
                 self._buffers.push((*buffer).clone());
-                let info = vk::DescriptorBufferInfo::default().buffer(buffer.handle()).range(vk::WHOLE_SIZE);
-                buffers.push(info);
+                let range = if let Bound::Head(_, bytes) = bound { *bytes } else { vk::WHOLE_SIZE };
+                buffers.push(vk::DescriptorBufferInfo::default().buffer(buffer.handle()).range(range));
                 write.buffer_info(&buffers)
             }
             Bound::Texels(buffer) => {
@@ -213,6 +218,13 @@ fn check_resource(core: &Arc<Core>, pipeline: &str, binding: u32, bound: &Bound<
     };
     match bound {
         Bound::Buffer(buffer) => check_buffer(buffer, BufferUse::Storage),
+        Bound::Head(buffer, bytes) => {
+            let most = buffer.bytes().min(core.info.limits.max_uniform_buffer_range);
+            if *bytes == 0 || *bytes > most {
+                return Err(Error::new(format!("{place}: {bytes} bytes of uniforms, of at most {most}")));
+            }
+            check_buffer(buffer, BufferUse::Storage)
+        }
         Bound::Texels(buffer) => check_buffer(buffer, BufferUse::TexelUint),
         Bound::Images(pairs) => pairs.iter().try_for_each(|(image, sampler)| {
             check_core(image.core())?;

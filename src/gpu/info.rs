@@ -48,6 +48,8 @@ pub struct DeviceLimits {
     pub max_image_2d: u32,
     /// Bytes.
     pub max_storage_buffer_range: u64,
+    /// Bytes.
+    pub max_uniform_buffer_range: u64,
     pub max_texel_buffer_elements: u64,
     /// Bytes.
     pub max_push_constants: u32,
@@ -142,6 +144,7 @@ fn basic_limits(properties: &vk::PhysicalDeviceProperties) -> DeviceLimits {
     DeviceLimits {
         max_image_2d: limits.max_image_dimension2_d,
         max_storage_buffer_range: u64::from(limits.max_storage_buffer_range),
+        max_uniform_buffer_range: u64::from(limits.max_uniform_buffer_range),
         max_texel_buffer_elements: u64::from(limits.max_texel_buffer_elements),
         max_push_constants: limits.max_push_constants_size,
         max_workgroup_invocations: limits.max_compute_work_group_invocations,

@@ -4,7 +4,7 @@
 use glam::DVec3;
 
 use super::camera::Ray;
-use super::math::{affine, xyz};
+use super::math::xyz;
 use crate::layout::{NO_SHAPE, Plane, Sphere, Triangle};
 use crate::pack::PackedScene;
 
@@ -16,21 +16,24 @@ pub struct Hit {
     pub t: f64,
     /// Planes first, then spheres, then triangles; `NO_SHAPE` on a miss.
     pub shape: u32,
-    /// Barycentric weights of a triangle's vertices b and c.
-    pub weights: [f64; 2],
+    /// A triangle's edge functions (barycentric weights times their sum), or a plane's own (u, v).
+    pub local: DVec3,
 }
 
-pub fn plane_distance(plane: &Plane, ray: &Ray) -> f64 {
+/// Distance, and the plane's own coordinates of the point counted from the eye.
+pub fn plane_distance(plane: &Plane, ray: &Ray) -> (f64, DVec3) {
     let normal = xyz(plane.normal);
     let height = f64::from(plane.normal[3]) - normal.dot(ray.origin);
     let t = height / normal.dot(ray.direction);
+    let p = ray.origin + t * ray.direction;
+    let local = DVec3::new(xyz(plane.axis_u).dot(p), xyz(plane.axis_v).dot(p), 0.0);
     if plane.link[3] != 0 {
-        let p = ray.origin + t * ray.direction;
         let extent = f64::from(f32::from_bits(plane.link[2]));
-        let inside = affine(plane.extent_u, p).abs() <= extent && affine(plane.extent_v, p).abs() <= extent;
-        return if inside { t } else { -1.0 };
+        let (u, v) = (local.x + f64::from(plane.axis_u[3]), local.y + f64::from(plane.axis_v[3]));
+        let inside = u.abs() <= extent && v.abs() <= extent;
+        return (if inside { t } else { -1.0 }, local);
     }
-    t
+    (t, local)
 }
 
 /// Haines, Günther & Akenine-Möller 2019.
@@ -50,40 +53,37 @@ pub fn sphere_distance(sphere: &Sphere, ray: &Ray) -> f64 {
     if c > 0.0 || b < 0.0 { c / q } else { q / a }
 }
 
-/// Distance and the barycentric weights of b and c.
-pub fn triangle_distance(triangle: &Triangle, ray: &Ray) -> (f64, [f64; 2]) {
+/// Distance, and the edge functions.
+pub fn triangle_distance(triangle: &Triangle, ray: &Ray) -> (f64, DVec3) {
     let [a, b, c] = [triangle.a, triangle.b, triangle.c].map(|v| xyz(v) - ray.origin);
-    let ea = ray.direction.dot(b.cross(c));
-    let eb = ray.direction.dot(c.cross(a));
-    let ec = ray.direction.dot(a.cross(b));
-    let sum = (ea + eb) + ec;
-    let front = ea >= 0.0 && eb >= 0.0 && ec >= 0.0;
-    let back = ea <= 0.0 && eb <= 0.0 && ec <= 0.0;
-    if !(front || back) || sum == 0.0 {
-        return (-1.0, [0.0; 2]);
+    let d = ray.direction;
+    let edges = DVec3::new(d.dot(b.cross(c)), d.dot(c.cross(a)), d.dot(a.cross(b)));
+    let front = edges.cmpge(DVec3::ZERO).all();
+    let back = edges.cmple(DVec3::ZERO).all();
+    if !(front || back) || edges == DVec3::ZERO {
+        return (-1.0, edges);
     }
     let normal = xyz(triangle.normal);
     let height = f64::from(triangle.normal[3]) - normal.dot(ray.origin);
-    (height / normal.dot(ray.direction), [eb / sum, ec / sum])
+    (height / normal.dot(ray.direction), edges)
 }
 
 pub fn nearest_hit(scene: &PackedScene, ray: &Ray, skip: u32) -> Hit {
-    let mut hit = Hit { t: FAR, shape: NO_SHAPE, weights: [0.0; 2] };
-    let mut offer = |t: f64, shape: u32, weights: [f64; 2], flat: bool| {
+    let mut hit = Hit { t: FAR, shape: NO_SHAPE, local: DVec3::ZERO };
+    let mut offer = |(t, local): (f64, DVec3), shape: u32, flat: bool| {
         if t > 0.0 && t < hit.t && !(flat && shape == skip) {
-            hit = Hit { t, shape, weights };
+            hit = Hit { t, shape, local };
         }
     };
     let [planes, spheres, _, _] = scene.header.counts;
     for (i, plane) in scene.planes.iter().enumerate() {
-        offer(plane_distance(plane, ray), i as u32, [0.0; 2], true);
+        offer(plane_distance(plane, ray), i as u32, true);
     }
     for (i, sphere) in scene.spheres.iter().enumerate() {
-        offer(sphere_distance(sphere, ray), planes + i as u32, [0.0; 2], false);
+        offer((sphere_distance(sphere, ray), DVec3::ZERO), planes + i as u32, false);
     }
     for (i, triangle) in scene.triangles.iter().enumerate() {
-        let (t, weights) = triangle_distance(triangle, ray);
-        offer(t, planes + spheres + i as u32, weights, true);
+        offer(triangle_distance(triangle, ray), planes + spheres + i as u32, true);
     }
     hit
 }
@@ -93,7 +93,7 @@ pub fn occluded(scene: &PackedScene, ray: &Ray, t_max: f64, skip: u32) -> bool {
     let between = |t: f64| t > 0.0 && t < t_max;
     let [planes, spheres, _, _] = scene.header.counts;
     let mut flat = scene.planes.iter().enumerate();
-    if flat.any(|(i, plane)| i as u32 != skip && between(plane_distance(plane, ray))) {
+    if flat.any(|(i, plane)| i as u32 != skip && between(plane_distance(plane, ray).0)) {
         return true;
     }
     if scene.spheres.iter().any(|sphere| between(sphere_distance(sphere, ray))) {

@@ -8,10 +8,18 @@ use super::math::{affine, atan2_accurate, vec4};
 use crate::layout::Map;
 use crate::pack::MapKind;
 
-pub fn texture_coordinate(map: &Map, p: DVec3, vertex_uv: DVec2) -> DVec2 {
+/// matrix · uv + offset.
+pub fn placed(map: &Map, uv: DVec2) -> DVec2 {
+    let (m, offset) = (vec4(map.matrix), vec4(map.offset));
+    DVec2::new(m.x * uv.x + m.y * uv.y + offset.x, m.z * uv.x + m.w * uv.y + offset.y)
+}
+
+pub fn texture_coordinate(map: &Map, p: DVec3, own_uv: DVec2) -> DVec2 {
     let kind = MapKind::ALL[map.link[0] as usize];
-    if kind == MapKind::VertexUv {
-        return vertex_uv;
+    match kind {
+        MapKind::VertexUv => return own_uv,
+        MapKind::Plane => return placed(map, own_uv),
+        MapKind::Affine | MapKind::Cylindrical | MapKind::Spherical => {}
     }
     let (x, y) = (affine(map.x, p), affine(map.y, p));
     if kind == MapKind::Affine {
@@ -24,6 +32,5 @@ pub fn texture_coordinate(map: &Map, p: DVec3, vertex_uv: DVec2) -> DVec2 {
         MapKind::Spherical => DVec2::new(atan2_accurate(x.hypot(z), y) / PI, turn),
         _ => DVec2::new(turn, y),
     };
-    let (m, offset) = (vec4(map.matrix), vec4(map.offset));
-    DVec2::new(m.x * uv.x + m.y * uv.y + offset.x, m.z * uv.x + m.w * uv.y + offset.y)
+    placed(map, uv)
 }

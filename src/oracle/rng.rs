@@ -1,5 +1,6 @@
 //! Counter-based random bits: integers in, integers out, no state. Jarzynski & Olano 2020, "Hash
-//! Functions for GPU Rendering" (pcg2d, pcg3d). Bit-identical to `glsl/shared/rng.glsl`.
+//! Functions for GPU Rendering" (pcg2d, pcg3d), pcg2d without its last step, v ^= v >> 16, which
+//! changes only low bits: callers take high ones. Bit-identical to `glsl/shared/rng.glsl`.
 
 const MULTIPLIER: u32 = 1_664_525;
 const INCREMENT: u32 = 1_013_904_223;
@@ -16,7 +17,7 @@ pub fn pcg2d(v: [u32; 2]) -> [u32; 2] {
     y ^= y >> 16;
     x = x.wrapping_add(y.wrapping_mul(MULTIPLIER));
     y = y.wrapping_add(x.wrapping_mul(MULTIPLIER));
-    [x ^ (x >> 16), y ^ (y >> 16)]
+    [x, y]
 }
 
 pub fn pcg3d(v: [u32; 3]) -> [u32; 3] {

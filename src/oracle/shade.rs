@@ -19,18 +19,19 @@ pub struct Surface {
     pub geometric_normal: DVec3,
     /// Unit, for shading.
     pub normal: DVec3,
-    pub vertex_uv: DVec2,
+    /// The plane's coordinates or the vertices' interpolated uv.
+    pub own_uv: DVec2,
     pub material: u32,
     pub map: u32,
 }
 
 fn surface(point: DVec3, geometric: DVec3, normal: DVec3, uv: DVec2, link: [u32; 4]) -> Surface {
-    Surface { point, geometric_normal: geometric, normal, vertex_uv: uv, material: link[0], map: link[1] }
+    Surface { point, geometric_normal: geometric, normal, own_uv: uv, material: link[0], map: link[1] }
 }
 
-fn plane_surface(plane: &Plane, point: DVec3) -> Surface {
+fn plane_surface(plane: &Plane, point: DVec3, uv: DVec2) -> Surface {
     let normal = xyz(plane.normal).normalize();
-    surface(point, normal, normal, DVec2::ZERO, plane.link)
+    surface(point, normal, normal, uv, plane.link)
 }
 
 fn sphere_surface(sphere: &Sphere, point: DVec3) -> Surface {
@@ -39,8 +40,8 @@ fn sphere_surface(sphere: &Sphere, point: DVec3) -> Surface {
     surface(center + f64::from(sphere.ball[3]) * normal, normal, normal, DVec2::ZERO, sphere.link)
 }
 
-fn triangle_surface(triangle: &Triangle, point: DVec3, weights: [f64; 2]) -> Surface {
-    let w = DVec3::new(1.0 - weights[0] - weights[1], weights[0], weights[1]);
+fn triangle_surface(triangle: &Triangle, point: DVec3, edges: DVec3) -> Surface {
+    let w = edges / edges.element_sum();
     let u = DVec3::new(triangle.a[3].into(), triangle.b[3].into(), triangle.c[3].into());
     let uv = DVec2::new(w.dot(u), w.dot(xyz(triangle.v)));
     let geometric = xyz(triangle.normal).normalize();
@@ -56,11 +57,11 @@ pub fn hit_surface(scene: &PackedScene, ray: &Ray, hit: &Hit) -> Surface {
     let point = ray.origin + hit.t * ray.direction;
     let [planes, spheres, _, _] = scene.header.counts;
     let mut surface = if hit.shape < planes {
-        plane_surface(&scene.planes[hit.shape as usize], point)
+        plane_surface(&scene.planes[hit.shape as usize], point, hit.local.truncate())
     } else if hit.shape < planes + spheres {
         sphere_surface(&scene.spheres[(hit.shape - planes) as usize], point)
     } else {
-        triangle_surface(&scene.triangles[(hit.shape - planes - spheres) as usize], point, hit.weights)
+        triangle_surface(&scene.triangles[(hit.shape - planes - spheres) as usize], point, hit.local)
     };
     if surface.geometric_normal.dot(ray.direction) > 0.0 {
         surface.geometric_normal = -surface.geometric_normal;
@@ -75,7 +76,7 @@ pub fn surface_color(scene: &PackedScene, material: &Material, surface: &Surface
     if texture == NO_TEXTURE {
         return color;
     }
-    let uv = texture_coordinate(&scene.maps[surface.map as usize], surface.point, surface.vertex_uv);
+    let uv = texture_coordinate(&scene.maps[surface.map as usize], surface.point, surface.own_uv);
     let texel = look_up(scene, &scene.textures[texture as usize], &scene.samplers[sampler as usize], uv);
     color * texel.truncate()
 }

@@ -48,6 +48,24 @@ pub fn affine_map(mapping: &Mapping, sampler: &SamplerSpec, u: DVec4, v: DVec4) 
     Map { x: vec4(x), y: vec4(y), link: [MapKind::Affine as u32, 0, 0, 0], ..Default::default() }
 }
 
+/// `surface` on a plane: uv = matrix · (own + at_eye) + offset, where the plane's own coordinates are
+/// counted from the eye's place `at_eye` on it.
+pub fn plane_map(mapping: &Mapping, sampler: &SamplerSpec, at_eye: DVec2) -> Map {
+    let constant = uv_matrix(mapping) * at_eye + mapping.offset;
+    let constant = constant - whole_tiles(constant, periods(sampler));
+    Map { offset: vec4(constant.extend(0.0).extend(0.0)), ..matrix_map(mapping, MapKind::Plane) }
+}
+
+/// A map whose matrix is the mapping's scale and rotation.
+fn matrix_map(mapping: &Mapping, kind: MapKind) -> Map {
+    let m = uv_matrix(mapping);
+    Map {
+        matrix: vec4(DVec4::new(m.x_axis.x, m.y_axis.x, m.x_axis.y, m.y_axis.y)),
+        link: [kind as u32, 0, 0, 0],
+        ..Default::default()
+    }
+}
+
 /// `planar`, `cylindrical` or `spherical`, by position relative to the eye.
 pub fn projecting_map(mapping: &Mapping, sampler: &SamplerSpec, eye: DVec3, bounds: Option<Bounds>) -> Map {
     let [x, y, z] = frame_rows(mapping, eye, bounds);
@@ -59,14 +77,12 @@ pub fn projecting_map(mapping: &Mapping, sampler: &SamplerSpec, eye: DVec3, boun
 }
 
 fn angular_map(mapping: &Mapping, kind: MapKind, [x, y, z]: [DVec4; 3]) -> Map {
-    let m = uv_matrix(mapping);
     Map {
         x: vec4(x),
         y: vec4(y),
         z: vec4(z),
-        matrix: vec4(DVec4::new(m.x_axis.x, m.y_axis.x, m.x_axis.y, m.y_axis.y)),
-        offset: vec4(DVec4::new(mapping.offset.x, mapping.offset.y, 0.0, 0.0)),
-        link: [kind as u32, 0, 0, 0],
+        offset: vec4(mapping.offset.extend(0.0).extend(0.0)),
+        ..matrix_map(mapping, kind)
     }
 }
 

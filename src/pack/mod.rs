@@ -8,6 +8,7 @@ mod textures;
 
 use glam::{DVec3, DVec4};
 
+use crate::color::srgb8_table;
 use crate::error::Result;
 use crate::layout::{self, Header};
 use crate::named::named_enum;
@@ -36,6 +37,7 @@ named_enum! {
 named_enum! {
     /// `MAP_*` of the shader: how a device forms a texture coordinate.
     pub enum MapKind {
+        Plane = "plane",
         Affine = "affine",
         VertexUv = "vertex-uv",
         Cylindrical = "cylindrical",
@@ -127,29 +129,29 @@ impl PackedScene {
         self.slots.iter().any(|s| self.sampler_specs[s.sampler].method == Method::Hardware)
     }
 
-    /// The scene buffer and where its lists begin. The sRGB table is there only when a texture of
-    /// 8 bits needs it.
+    /// The scene buffer and where its lists begin: the short ones first, so that all of them lie in
+    /// the head. The sRGB table is there only when a texture of 8 bits needs it.
     pub fn scene_bytes(&self) -> (Vec<u8>, Sections) {
+        let srgb: &[f32] = if textures::needs_srgb_table(&self.textures) { srgb8_table() } else { &[] };
+        let mut sections = Sections::default();
+        let mut lists: [(&[u8], &mut u32); 9] = [
+            (bytemuck::cast_slice(&self.planes), &mut sections.planes),
+            (bytemuck::cast_slice(&self.spheres), &mut sections.spheres),
+            (bytemuck::cast_slice(&self.triangles), &mut sections.triangles),
+            (bytemuck::cast_slice(&self.lights), &mut sections.lights),
+            (bytemuck::cast_slice(&self.materials), &mut sections.materials),
+            (bytemuck::cast_slice(&self.maps), &mut sections.maps),
+            (bytemuck::cast_slice(&self.textures), &mut sections.textures),
+            (bytemuck::cast_slice(&self.samplers), &mut sections.samplers),
+            (bytemuck::cast_slice(srgb), &mut sections.srgb),
+        ];
+        lists.sort_by_key(|(list, _)| list.len());
         let mut bytes = bytemuck::bytes_of(&self.header).to_vec();
-        let mut append = |list: &[u8]| {
-            let at = (bytes.len() / 16) as u32;
+        for (list, at) in lists {
+            *at = (bytes.len() / 16) as u32;
             bytes.extend_from_slice(list);
-            at
-        };
-        let mut sections = Sections {
-            planes: append(bytemuck::cast_slice(&self.planes)),
-            spheres: append(bytemuck::cast_slice(&self.spheres)),
-            triangles: append(bytemuck::cast_slice(&self.triangles)),
-            lights: append(bytemuck::cast_slice(&self.lights)),
-            materials: append(bytemuck::cast_slice(&self.materials)),
-            maps: append(bytemuck::cast_slice(&self.maps)),
-            textures: append(bytemuck::cast_slice(&self.textures)),
-            samplers: append(bytemuck::cast_slice(&self.samplers)),
-            srgb: 0,
-        };
-        if textures::needs_srgb_table(&self.textures) {
-            sections.srgb = append(bytemuck::cast_slice(crate::color::srgb8_table()));
         }
+        bytes.resize(bytes.len().max(layout::HEAD_BYTES), 0);
         (bytes, sections)
     }
 }

@@ -58,13 +58,13 @@ fn pack_plane(packed: &mut PackedScene, scene: &Scene, plane: &Plane, eye: DVec3
         ));
     }
     let map = add_map(packed, scene, plane.material, |mapping, sampler| match mapping.kind {
-        MappingKind::Surface => mapping::affine_map(mapping, sampler, u, v),
+        MappingKind::Surface => mapping::plane_map(mapping, sampler, DVec2::new(u.w, v.w)),
         _ => mapping::projecting_map(mapping, sampler, eye, bounds),
     });
     Ok(layout::Plane {
         normal: vec4(normal.extend(normal.dot(plane.origin - eye))),
-        extent_u: vec4(u),
-        extent_v: vec4(v),
+        axis_u: vec4(u),
+        axis_v: vec4(v),
         link: [
             plane.material as u32,
             map,

@@ -7,6 +7,7 @@ use crate::gpu::{
     BindGroup, BindingKind, Bound, Buffer, BufferUse, Gpu, Image, ImageDesc, ImageFormat, Pipeline, Sampler,
     Swizzle,
 };
+use crate::layout::HEAD_BYTES;
 use crate::pack::{MAX_SLOTS, PackedScene, Sections, Slot};
 use crate::shaders::{self, ReflectedBinding, Shader};
 use crate::texture::data::{ColorSpace, TexelFormat};
@@ -62,6 +63,7 @@ impl Resources {
                 (BindingKind::StorageBuffer, 0) => Bound::Buffer(output),
                 (BindingKind::StorageBuffer, 4) => Bound::Buffer(queries?),
                 (BindingKind::StorageBuffer, _) => Bound::Buffer(&self.scene),
+                (BindingKind::UniformBuffer, _) => Bound::Head(&self.scene, HEAD_BYTES as u64),
                 (BindingKind::TexelBuffer, _) => Bound::Texels(self.texels.as_ref()?),
                 (BindingKind::SampledImage, _) => Bound::Images(&images),
             };
