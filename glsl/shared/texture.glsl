@@ -107,6 +107,8 @@ vec4 read_sampled(uint slot, vec2 uv) {
 
 vec4 fetch_texel(Texture image, uint slot, ivec2 at) {
     vec4 value = read_image(slot, at);
+    // The view replicates grey; where all textures are grey, two channels need no arithmetic.
+    if (TEXEL_FORMATS == (1u << TEXEL_FORMAT_GREY8)) value = vec4(value.xxx, 1.0);
     if (MODE_IS(COLOR_SPACES, COLOR_SPACE_SRGB, image.link.x)) {
         uvec3 code = uvec3(value.xyz * 255.0 + 0.5);
         value.xyz = vec3(decode_srgb8(code.x), decode_srgb8(code.y), decode_srgb8(code.z));
@@ -190,11 +192,10 @@ vec4 look_up(Texture image, Sampler how, uint slot, vec2 uv) {
     ivec2 v = ivec2(addressed_texel(ADDRESSES_V, how.modes.y, first.y, size.y),
                     addressed_texel(ADDRESSES_V, how.modes.y, first.y + 1, size.y));
     // fma by name: fused or not, but alike in every pipeline of a device.
-    vec4 top = fma(vec4(b.x), fetch_or_border(image, how, slot, ivec2(u.y, v.x)),
-                   a.x * fetch_or_border(image, how, slot, ivec2(u.x, v.x)));
-    vec4 bottom = fma(vec4(b.x), fetch_or_border(image, how, slot, ivec2(u.y, v.y)),
-                      a.x * fetch_or_border(image, how, slot, ivec2(u.x, v.y)));
-    return fma(vec4(b.y), bottom, a.y * top);
+    vec4 sum = (a.x * a.y) * fetch_or_border(image, how, slot, ivec2(u.x, v.x));
+    sum = fma(vec4(b.x * a.y), fetch_or_border(image, how, slot, ivec2(u.y, v.x)), sum);
+    sum = fma(vec4(a.x * b.y), fetch_or_border(image, how, slot, ivec2(u.x, v.y)), sum);
+    return fma(vec4(b.x * b.y), fetch_or_border(image, how, slot, ivec2(u.y, v.y)), sum);
 }
 #endif
 

@@ -6,6 +6,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 
 use moire::layout as mirror;
+use moire::features::TextureSize;
 use moire::pack::{LightKind, MapKind, ProjectionKind};
 use moire::scene::model::{Model, Pattern};
 use moire::shaders::{self, Shader};
@@ -48,13 +49,6 @@ fn rust_struct(text: &str, opening: &str) -> Option<Fields> {
     lines.map(field).collect()
 }
 
-/// The stride in the body of `load_…(uint i)`, in units of 16 bytes.
-fn loader_stride(text: &str, function: &str) -> Option<u32> {
-    let body = text.split_once(&format!(" {function}(uint i) {{"))?.1.split_once('}')?.0;
-    let after = body.split_once("i * ")?.1;
-    after.split('u').next()?.parse().ok()
-}
-
 /// `const uint NAME = 3u;` lines: name and number.
 fn glsl_numbers(text: &str) -> BTreeMap<String, u32> {
     let number = |line: &str| {
@@ -69,9 +63,9 @@ fn glsl_numbers(text: &str) -> BTreeMap<String, u32> {
     text.lines().filter_map(number).collect()
 }
 
-/// Every number of a mode that layout.glsl must define, and no other.
+/// Every number that layout.glsl must define, and no other: modes, and strides in units of 16 bytes.
 fn expected_numbers() -> BTreeMap<String, u32> {
-    let tables: [(&str, &[&str]); 11] = [
+    let tables: [(&str, &[&str]); 12] = [
         ("PROJECTION", ProjectionKind::NAMES),
         ("PATTERN", Pattern::NAMES),
         ("MODEL", Model::NAMES),
@@ -83,6 +77,7 @@ fn expected_numbers() -> BTreeMap<String, u32> {
         ("TEXEL_CENTER", TexelCenter::NAMES),
         ("TEXEL_FORMAT", TexelFormat::NAMES),
         ("COLOR_SPACE", ColorSpace::NAMES),
+        ("TEXTURE_SIZE", TextureSize::NAMES),
     ];
     let mut all: BTreeMap<String, u32> = tables
         .iter()
@@ -93,26 +88,29 @@ fn expected_numbers() -> BTreeMap<String, u32> {
         .collect();
     all.insert("NO_TEXTURE".into(), mirror::NO_TEXTURE);
     all.insert("NO_SHAPE".into(), mirror::NO_SHAPE);
+    all.insert("HEAD_UNITS".into(), mirror::HEAD_BYTES as u32 / 16);
+    let strides = MIRRORS.iter().filter(|(name, _)| *name != "Header");
+    all.extend(strides.map(|(name, units)| (format!("{}_UNITS", name.to_uppercase()), *units)));
     all
 }
 
-/// (struct, its loader if it stands in a list, units of 16 bytes)
-const MIRRORS: &[(&str, Option<&str>, u32)] = &[
-    ("Header", None, mirror::Header::UNITS),
-    ("Plane", Some("load_plane"), mirror::Plane::UNITS),
-    ("Sphere", Some("load_sphere"), mirror::Sphere::UNITS),
-    ("Triangle", Some("load_triangle"), mirror::Triangle::UNITS),
-    ("Light", Some("load_light"), mirror::Light::UNITS),
-    ("Material", Some("load_material"), mirror::Material::UNITS),
-    ("Map", Some("load_map"), mirror::Map::UNITS),
-    ("Texture", Some("load_texture"), mirror::Texture::UNITS),
-    ("Sampler", Some("load_sampler"), mirror::Sampler::UNITS),
+/// (struct, units of 16 bytes)
+const MIRRORS: &[(&str, u32)] = &[
+    ("Header", mirror::Header::UNITS),
+    ("Plane", mirror::Plane::UNITS),
+    ("Sphere", mirror::Sphere::UNITS),
+    ("Triangle", mirror::Triangle::UNITS),
+    ("Light", mirror::Light::UNITS),
+    ("Material", mirror::Material::UNITS),
+    ("Map", mirror::Map::UNITS),
+    ("Texture", mirror::Texture::UNITS),
+    ("Sampler", mirror::Sampler::UNITS),
 ];
 
 /// What differs between the shader's layout and its Rust mirror.
 fn differences(glsl: &str, rust: &str) -> Vec<String> {
     let mut found = Vec::new();
-    for &(name, loader, units) in MIRRORS {
+    for &(name, units) in MIRRORS {
         let here = glsl_struct(glsl, &format!("struct {name}"));
         let there = rust_struct(rust, &format!("mirror!({name}, "));
         if here.is_none() || here != there {
@@ -120,12 +118,6 @@ fn differences(glsl: &str, rust: &str) -> Vec<String> {
         }
         if here.is_some_and(|fields| fields.len() as u32 != units) {
             found.push(format!("{name}: not {units} units of 16 bytes"));
-        }
-        if let Some(loader) = loader {
-            let stride = loader_stride(glsl, loader);
-            if stride != Some(units) {
-                found.push(format!("{loader}: stride {stride:?}, not {units}"));
-            }
         }
     }
     let (numbers, expected) = (glsl_numbers(glsl), expected_numbers());
@@ -154,10 +146,10 @@ fn planted_differences_of_layout_are_found() {
     let glsl = fs::read_to_string(root.join("glsl/shared/layout.glsl")).unwrap();
     let rust = fs::read_to_string(root.join("src/layout.rs")).unwrap();
     let plants = [
-        ("vec4 extent_u;", "vec4 extent_w;", "Plane"),
+        ("vec4 axis_u;", "vec4 axis_w;", "Plane"),
         ("uvec4 modes;", "vec4 modes;", "Sampler"),
         ("    vec4 step_x;", "    vec4 step_z; vec4 step_x;", "Header"),
-        ("TRIANGLES_AT + i * 9u", "TRIANGLES_AT + i * 8u", "load_triangle"),
+        ("TRIANGLE_UNITS = 9u", "TRIANGLE_UNITS = 8u", "TRIANGLE_UNITS"),
         ("ADDRESS_CLAMP_TO_EDGE = 2u", "ADDRESS_CLAMP_TO_EDGE = 3u", "ADDRESS_CLAMP_TO_EDGE"),
         ("const uint MODEL_MIRROR = 2u;", "", "MODEL_MIRROR"),
         (

@@ -54,7 +54,10 @@ fn assert_mapped(scene: &PackedScene, way: impl Fn(DVec3) -> DVec3, cases: &[(DV
     for keep_everything in [false, true] {
         let answers = probe::rays(&gpu(), scene, keep_everything, &queries).unwrap();
         for (&(point, uv), answer) in cases.iter().zip(&answers) {
-            let oracle = texture_coordinate(&scene.maps[0], point, DVec2::ZERO);
+            let own = scene.planes.first().map_or(DVec2::ZERO, |plane| {
+                DVec2::new(xyz(plane.axis_u).dot(point), xyz(plane.axis_v).dot(point))
+            });
+            let oracle = texture_coordinate(&scene.maps[0], point, own);
             assert!(oracle.distance(uv) < 1e-6, "oracle: {point} maps to {oracle}, by hand {uv}"); // packed rows are f32
             assert_ne!(answer.shape, NO_SHAPE, "{point} is not met");
             let got = DVec2::new(answer.uv[0].into(), answer.uv[1].into());

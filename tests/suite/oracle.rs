@@ -16,7 +16,8 @@ const SUB_TEXEL_STEP: f64 = 2.0 / 256.0 + 1e-3;
 /// (scene, step, largest RMSE of the pixels below the step, largest share of the pixels above it).
 /// Infinite planes seen up to the horizon lose the texel there: f32 holds a coordinate of 2¹⁶ tiles
 /// to 1/128, and `mirrors` shows the horizon once more in each bounce. In `shared`, `nearest` makes
-/// every edge of a texel a discontinuity.
+/// every edge of a texel a discontinuity: steps between nearly equal texels, about 4e-4 in as many
+/// pixels as step visibly, stay in the RMSE, which they make sqrt(0.013) · 4e-4.
 const BOUNDS: &[(&str, f64, f64, f64)] = &[
     ("formats", STEP, 1e-6, 0.0),
     ("hardware", SUB_TEXEL_STEP, 2e-3, 0.01),
@@ -28,7 +29,7 @@ const BOUNDS: &[(&str, f64, f64, f64)] = &[
     ("mirrors", STEP, 2.5e-4, 0.03),
     ("quad", STEP, 0.0, 0.0),
     ("samplers", STEP, 1e-6, 0.0),
-    ("shared", STEP, 1e-6, 0.03),
+    ("shared", STEP, 5e-5, 0.03),
     ("s1a", STEP, 5e-5, 0.001),
     ("s1b", STEP, 1e-4, 0.005),
     ("s2", STEP, 2e-5, 0.001),

@@ -121,7 +121,7 @@ fn wrong_uv(
     weights: f64,
 ) -> Option<String> {
     let map = &scene.maps[surface.map as usize];
-    let expected = texture_coordinate(map, surface.point, surface.vertex_uv);
+    let expected = texture_coordinate(map, surface.point, surface.own_uv);
     let got = DVec2::new(answer.uv[0].into(), answer.uv[1].into());
     let rows = [map.x, map.y, map.z];
     let steep = rows.iter().map(|r| xyz(*r).length()).fold(0.0, f64::max);
@@ -134,6 +134,21 @@ fn wrong_uv(
     let kind = MapKind::ALL[map.link[0] as usize];
     let (tolerance, turn) = match kind {
         MapKind::Affine => (DVec2::splat(row_error), DVec2::ZERO),
+        MapKind::Plane => {
+            let plane = &scene.planes[answer.shape as usize];
+            // Products and sums of an axis, then of the matrix, on top of the error of the point.
+            let own = [plane.axis_u, plane.axis_v].map(|axis| {
+                let size = (xyz(axis) * surface.point).abs().element_sum();
+                (size, 4.0 * U * size + xyz(axis).length() * point_error)
+            });
+            let m = map.matrix.map(|x| f64::from(x).abs());
+            let offset = [0, 1].map(|i| f64::from(map.offset[i]).abs());
+            let wide = [0, 1].map(|i| {
+                let (a, b) = (m[2 * i], m[2 * i + 1]);
+                a * own[0].1 + b * own[1].1 + 4.0 * U * (a * own[0].0 + b * own[1].0 + offset[i])
+            });
+            (DVec2::from_array(wide), DVec2::ZERO)
+        }
         MapKind::VertexUv => (DVec2::splat(8.0 * weights + 16.0 * U), DVec2::ZERO), // uv up to 4
         MapKind::Cylindrical | MapKind::Spherical => {
             let at = rows.map(|r| xyz(r).dot(surface.point) + f64::from(r[3]));

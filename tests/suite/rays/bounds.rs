@@ -51,16 +51,16 @@ fn flat_error(normal: [f32; 4], ray: &Ray, t: f64) -> f64 {
 fn plane(scene: &PackedScene, index: usize, ray: &Ray) -> Estimate {
     let plane = &scene.planes[index];
     let unbounded = moire::layout::Plane { link: [plane.link[0], plane.link[1], 0, 0], ..*plane };
-    let t = plane_distance(&unbounded, ray);
+    let (t, _) = plane_distance(&unbounded, ray);
     let error = flat_error(plane.normal, ray, t);
     let point = ray.origin + t * ray.direction;
     let point_error = error * ray.direction.length() + 2.0 * U * (ray.origin.length() + point.length());
     let extent = f64::from(f32::from_bits(plane.link[2]));
-    let near_edge = [plane.extent_u, plane.extent_v].iter().any(|row| {
+    let near_edge = [plane.axis_u, plane.axis_v].iter().any(|row| {
         let own = 4.0 * U * ((xyz(*row) * point).abs().element_sum() + f64::from(row[3]).abs());
         (affine(*row, point).abs() - extent).abs() <= own + xyz(*row).length() * point_error
     });
-    let t = plane_distance(plane, ray);
+    let (t, _) = plane_distance(plane, ray);
     Estimate { t, error, unsure: plane.link[3] != 0 && near_edge, curvature: 0.0, weights: 0.0 }
 }
 
