@@ -1,5 +1,5 @@
 //! What a packed scene needs → the specialization constants of its pipelines, and the list of what
-//! was left out. [`FEATURES`] is the one table; every constant of `features.glsl` stands in it or
+//! was left out. `FEATURES` is the one table; every constant of `features.glsl` stands in it or
 //! among the places and sizes that [`constants`] adds.
 
 use crate::layout::{self, NO_TEXTURE};

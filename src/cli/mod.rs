@@ -5,6 +5,7 @@ pub mod devices;
 mod overrides;
 mod progress;
 pub mod render;
+mod report;
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 

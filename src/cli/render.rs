@@ -6,12 +6,11 @@ use std::process::ExitCode;
 use std::time::Instant;
 
 use clap::Args;
-use serde_json::json;
 
 use super::overrides::Overrides;
 use super::progress::Bar;
+use super::report::{self, Ran};
 use crate::error::{Error, Result};
-use crate::film::Film;
 use crate::gpu::{DeviceSelect, Gpu};
 use crate::oracle;
 use crate::output::{self, WriteOptions};
@@ -61,14 +60,6 @@ pub struct RenderArgs {
     verbose: bool,
 }
 
-/// What a render ran on.
-struct Ran {
-    device: String,
-    driver: String,
-    film: Film,
-    report: Report,
-}
-
 pub fn run(args: &RenderArgs) -> Result<ExitCode> {
     let start = Instant::now();
     let bar = Bar::new(args.quiet)?;
@@ -101,7 +92,14 @@ pub fn run(args: &RenderArgs) -> Result<ExitCode> {
     }
     ran.report.seconds.write = clock.elapsed().as_secs_f64();
     ran.report.seconds.total = start.elapsed().as_secs_f64();
-    report(args, &scene, &ran, &outputs);
+    let outputs: Vec<String> = outputs.iter().map(|p| p.display().to_string()).collect();
+    if args.json {
+        let options = args.overrides.report(&scene, args.crop, args.keep_everything);
+        println!("{:#}", report::json(&ran, options, &outputs));
+    }
+    if !args.quiet {
+        report::say(&ran, &outputs, args.verbose);
+    }
     Ok(ExitCode::SUCCESS)
 }
 
@@ -124,7 +122,7 @@ fn render_on_device(
     })?;
     say_textures(args, &packed);
     let tuning = Tuning { texels: args.texels, group: args.workgroup };
-    let (film, mut report) = render::render(&gpu, &packed, args.keep_everything, &tuning, bar)?;
+    let (film, mut report) = render::render(&gpu, packed, args.keep_everything, &tuning, bar)?;
     (report.seconds.startup, report.seconds.load) = (startup, load);
     for message in gpu.messages() {
         eprintln!("validation: {message}");
@@ -188,55 +186,4 @@ fn say_textures(args: &RenderArgs, packed: &PackedScene) {
             eprintln!("texture {line}");
         }
     }
-}
-
-fn report(args: &RenderArgs, scene: &Scene, ran: &Ran, outputs: &[PathBuf]) {
-    let outputs: Vec<String> = outputs.iter().map(|p| p.display().to_string()).collect();
-    let seconds = &ran.report.seconds;
-    if args.json {
-        let object = json!({
-            "device": ran.device,
-            "driver": ran.driver,
-            "options": args.overrides.report(scene, args.crop, args.keep_everything),
-            "left_out": ran.report.left_out,
-            "samples": ran.film.samples,
-            "outputs": outputs,
-            "seconds": seconds,
-            "device_seconds": { "render": ran.report.device_render_seconds },
-            "device_bytes": ran.report.device_bytes,
-            "slices": ran.report.slices,
-        });
-        println!("{object:#}");
-    }
-    if args.quiet {
-        return;
-    }
-    if args.verbose {
-        eprintln!("left out:");
-        for line in &ran.report.left_out {
-            eprintln!("  {line}");
-        }
-        eprintln!(
-            "seconds: startup {:.3}, load {:.3}, upload {:.3}, compile {:.3}, render {:.3} (device {:.4}, {} slices), readback {:.3}, write {:.3}",
-            seconds.startup,
-            seconds.load,
-            seconds.upload,
-            seconds.compile,
-            seconds.render,
-            ran.report.device_render_seconds,
-            ran.report.slices,
-            seconds.readback,
-            seconds.write
-        );
-    }
-    eprintln!(
-        "{}: {}×{} pixels, {} samples a pixel on {}, render {:.3} s, total {:.3} s",
-        outputs.join(", "),
-        ran.film.width,
-        ran.film.height,
-        ran.film.samples,
-        ran.device,
-        seconds.render,
-        seconds.total
-    );
 }

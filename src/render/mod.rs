@@ -54,22 +54,23 @@ pub struct Report {
     pub device_bytes: u64,
 }
 
-/// Renders on an open device.
+/// Renders on an open device. The texels of `scene` leave the host's memory once the device has them.
 pub fn render(
     gpu: &Gpu,
-    scene: &PackedScene,
+    mut scene: PackedScene,
     keep_everything: bool,
     tuning: &Tuning,
     progress: &dyn Progress,
 ) -> Result<(Film, Report)> {
     let mut report = Report::default();
-    let image_source = tuning.image_source(gpu.info(), scene);
-    let features = Features::new(scene, image_source, keep_everything);
+    let image_source = tuning.image_source(gpu.info(), &scene);
+    let features = Features::new(&scene, image_source, keep_everything);
     report.left_out.clone_from(&features.left_out);
 
     let clock = Instant::now();
-    let resources = Resources::upload(gpu, scene, &features)?;
-    let film_buffer = FilmBuffer::new(gpu, scene, &features)?;
+    let resources = Resources::upload(gpu, &scene, &features)?;
+    let film_buffer = FilmBuffer::new(gpu, &scene, &features)?;
+    scene.texels = Vec::new();
     report.seconds.upload = clock.elapsed().as_secs_f64();
 
     let clock = Instant::now();

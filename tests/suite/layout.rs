@@ -5,8 +5,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 
-use moire::layout as mirror;
 use moire::features::TextureSize;
+use moire::layout as mirror;
 use moire::pack::{LightKind, MapKind, ProjectionKind};
 use moire::scene::model::{Model, Pattern};
 use moire::shaders::{self, Shader};

@@ -233,7 +233,8 @@ fn assert_radiance(what: &str, text: &str, by_hand: DVec3) {
     let mut films: Vec<(&str, Film)> =
         vec![("oracle", moire::oracle::render::render(&scene, &Silent).unwrap())];
     for (name, keep_everything) in [("device", false), ("device, everything kept", true)] {
-        let film = render::render(&gpu(), &scene, keep_everything, &Tuning::default(), &Silent).unwrap().0;
+        let film =
+            render::render(&gpu(), scene.clone(), keep_everything, &Tuning::default(), &Silent).unwrap().0;
         films.push((name, film));
     }
     for (who, film) in films {

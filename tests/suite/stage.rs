@@ -134,7 +134,7 @@ impl Drop for Device {
 }
 
 pub fn render_with(scene: &PackedScene, keep_everything: bool, tuning: &Tuning) -> (Film, Report) {
-    render::render(&device(), scene, keep_everything, tuning, &Silent).unwrap()
+    render::render(&device(), scene.clone(), keep_everything, tuning, &Silent).unwrap()
 }
 
 pub fn render(scene: &PackedScene) -> Film {

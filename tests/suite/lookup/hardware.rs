@@ -27,11 +27,12 @@ const STANDARD_BORDERS: [[f32; 4]; 3] = [[0.0; 4], [0.0, 0.0, 0.0, 1.0], [1.0; 4
 fn precision(gpu: &Gpu) -> Precision {
     let step = (-f64::from(gpu.info().limits.sub_texel_bits)).exp2();
     // CPU drivers may filter 8-bit texels with weights and results of 8 bits: one step of 255. A
-    // quarter of it fails 0.3 % of all look-ups on lavapipe.
-    let eight_bits = if gpu.info().kind == DeviceKind::Cpu { 1.0 / 255.0 } else { 0.5 * step };
+    // quarter of it fails 0.3 % of all look-ups on lavapipe. Elsewhere each of the four products of
+    // two weights may be rounded to half a sub-texel step, which adds up to one step of the range.
+    let eight_bits = if gpu.info().kind == DeviceKind::Cpu { 1.0 / 255.0 } else { step };
     Precision::Hardware {
         sub_texel: step, // VkPhysicalDeviceLimits::subTexelPrecisionBits
-        value: [eight_bits, 0.5 * step],
+        value: [eight_bits, if gpu.info().kind == DeviceKind::Cpu { 0.5 * step } else { step }],
         decode: 0.5 / 255.0, // half a step of the encoded value
     }
 }

@@ -7,7 +7,7 @@ use moire::oracle::texture::{fetch_texel, look_up};
 use moire::pack::PackedScene;
 use moire::probe::LookUp;
 use moire::texture::data::{ColorSpace, Component, TexelFormat};
-use moire::texture::sampler_spec::{Filter, TexelCenter};
+use moire::texture::sampler_spec::{Address, Filter, TexelCenter};
 
 use super::bench::uv_of;
 
@@ -67,6 +67,15 @@ fn span(scene: &PackedScene, texture: usize) -> [DVec4; 2] {
     })
 }
 
+/// Half the distance of two neighbouring values of a stored channel, near 1.
+fn half_step(component: Component) -> f64 {
+    match component {
+        Component::Unorm8 => 0.5 / 255.0,
+        Component::Unorm16 => 0.5 / 65_535.0,
+        Component::Float32 => 0.5 * F32_ULP,
+    }
+}
+
 /// Boxes one of which must hold the answer.
 fn allowed(
     scene: &PackedScene,
@@ -99,7 +108,14 @@ fn allowed(
             let decoding = if srgb { decode * 2.4 / 1.055 } else { 0.0 };
             let eight_bits = TexelFormat::ALL[image.place[3] as usize].component() == Component::Unorm8;
             let value = if nearest { 0.0 } else { value[usize::from(!eight_bits)] };
-            (rounding + sub_texel, range * value + DVec4::splat(decoding) + ulps)
+            // VK_EXT_custom_border_color: a device may hold the colour in the texels' own format.
+            let held = if how.modes[..2].contains(&(Address::ClampToBorder as u32)) {
+                let component = TexelFormat::ALL[image.place[3] as usize].component();
+                half_step(component) + f64::from(f32::EPSILON)
+            } else {
+                0.0
+            };
+            (rounding + sub_texel, range * value + DVec4::splat(decoding + held) + ulps)
         }
     };
     let texel = uv * size;

@@ -1,0 +1,142 @@
+//! The figures that the README states, measured anew: `cargo bench`. Runs the program itself on the
+//! scenes of `data/scenes/bench` and prints Markdown: medians over whole processes, the ratio of lean
+//! to full pipelines from runs in turn, errors against the float64 references.
+//! `MOIRE_DEVICE` chooses the device (default cpu), `MOIRE_BENCH_RUNS` the number of runs (default 5).
+
+use std::path::Path;
+use std::process::Command;
+use std::time::Instant;
+
+use serde_json::Value;
+
+type Outcome<T> = Result<T, Box<dyn std::error::Error>>;
+
+/// One run of the program: its JSON, and the wall time of the whole process.
+struct Run {
+    json: Value,
+    wall: f64,
+}
+
+impl Run {
+    fn figure(&self, pointer: &str) -> f64 {
+        self.json.pointer(pointer).and_then(Value::as_f64).unwrap_or(f64::NAN)
+    }
+}
+
+struct Bench {
+    device: String,
+    runs: usize,
+    picture: tempfile::TempDir,
+}
+
+impl Bench {
+    fn scene(name: &str) -> String {
+        format!("data/scenes/bench/{name}.toml")
+    }
+
+    fn out(&self) -> String {
+        self.picture.path().join("out.exr").display().to_string()
+    }
+
+    fn run(&self, name: &str, options: &[&str], environment: &[(&str, &str)]) -> Outcome<Run> {
+        let clock = Instant::now();
+        let output = Command::new(env!("CARGO_BIN_EXE_moire"))
+            .args(["render", &Self::scene(name), "-o", &self.out(), "--json", "-q", "--device", &self.device])
+            .args(options)
+            .envs(environment.iter().copied())
+            .output()?;
+        let wall = clock.elapsed().as_secs_f64();
+        if !output.status.success() {
+            return Err(String::from_utf8_lossy(&output.stderr).into());
+        }
+        Ok(Run { json: serde_json::from_slice(&output.stdout)?, wall })
+    }
+
+    /// The runs that count, after one that does not.
+    fn repeat(&self, name: &str, options: &[&str], environment: &[(&str, &str)]) -> Outcome<Vec<Run>> {
+        self.run(name, options, environment)?;
+        (0..self.runs).map(|_| self.run(name, options, environment)).collect()
+    }
+
+    fn times(&self) -> Outcome<()> {
+        println!(
+            "| scene, samples | render s | device s | CPU s, whole process | wall s, whole process | peak MiB |"
+        );
+        println!("| --- | --- | --- | --- | --- | --- |");
+        for (name, spp) in [("s1a", "16"), ("s1a", "64"), ("s1b", "64"), ("s2", "64")] {
+            let runs = self.repeat(name, &["--spp", spp], &[])?;
+            println!(
+                "| {name}, {spp} | {:.3} | {:.4} | {:.2} | {:.3} | {:.0} |",
+                median(&runs, |r| r.figure("/seconds/render")),
+                median(&runs, |r| r.figure("/device_seconds/render")),
+                median(&runs, |r| r.figure("/process/cpu_seconds")),
+                median(&runs, |r| r.wall),
+                median(&runs, |r| r.figure("/process/peak_host_bytes")) / f64::from(1 << 20),
+            );
+        }
+        let cold = self.repeat("s1a", &["--spp", "16"], &[("MESA_SHADER_CACHE_DISABLE", "true")])?;
+        println!("\ns1a, 16 samples, shader cache off: whole process {:.3} s", median(&cold, |r| r.wall));
+        Ok(())
+    }
+
+    /// Lean and full pipelines in turn, so that a drift of the machine's speed meets both.
+    fn lean(&self) -> Outcome<()> {
+        let mut ratios = Vec::new();
+        for _ in 0..self.runs.min(3) {
+            let lean = self.run("s1a", &["--spp", "64"], &[])?.figure("/device_seconds/render");
+            let full = self.run("s1a", &["--spp", "64", "--keep-everything"], &[])?;
+            ratios.push(full.figure("/device_seconds/render") / lean);
+        }
+        ratios.sort_by(f64::total_cmp);
+        println!(
+            "\ns1a, 64 samples, --keep-everything: {:.1} times the lean pipeline's time",
+            ratios[ratios.len() / 2]
+        );
+        Ok(())
+    }
+
+    fn large(&self) -> Outcome<()> {
+        println!("\n| s1a, 4096², 16 samples | device ms |\n| --- | --- |");
+        for method in ["hardware", "shader"] {
+            let runs =
+                self.repeat("s1a", &["--size", "4096x4096", "--spp", "16", "--method", method], &[])?;
+            println!("| {method} | {:.3} |", 1e3 * median(&runs, |r| r.figure("/device_seconds/render")));
+        }
+        Ok(())
+    }
+
+    fn errors(&self) -> Outcome<()> {
+        println!("\n| scene | RMSE at 64 | 256 | 1024 samples |\n| --- | --- | --- | --- |");
+        for name in ["s1a", "s1b", "s2"] {
+            let reference = moire::metrics::read_picture(Path::new(&format!("data/reference/{name}.exr")))?;
+            let mut row = format!("| {name} ");
+            for spp in ["64", "256", "1024"] {
+                self.run(name, &["--spp", spp], &[])?;
+                let picture = moire::metrics::read_picture(Path::new(&self.out()))?;
+                row += &format!("| {:.3e} ", moire::metrics::compare(&picture, &reference)?.rmse);
+            }
+            println!("{row}|");
+        }
+        Ok(())
+    }
+}
+
+fn median(runs: &[Run], figure: impl Fn(&Run) -> f64) -> f64 {
+    let mut values: Vec<f64> = runs.iter().map(figure).collect();
+    values.sort_by(f64::total_cmp);
+    values[values.len() / 2]
+}
+
+fn main() -> Outcome<()> {
+    let runs = std::env::var("MOIRE_BENCH_RUNS").ok().and_then(|n| n.parse().ok()).unwrap_or(5);
+    let device = std::env::var("MOIRE_DEVICE").unwrap_or("cpu".into());
+    let bench = Bench { device, runs, picture: tempfile::tempdir()? };
+    let first = bench.run("s1a", &["--spp", "1"], &[])?;
+    println!("{}, {runs} runs each\n", first.json["device"].as_str().unwrap_or("?"));
+    bench.times()?;
+    bench.lean()?;
+    if first.json["driver"].as_str().is_some_and(|d| !d.contains("llvmpipe")) {
+        bench.large()?;
+    }
+    bench.errors()
+}

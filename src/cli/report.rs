@@ -1,0 +1,83 @@
+//! What a render says when it is done: one JSON object on stdout, or lines for a person on stderr.
+
+use std::fs;
+
+use serde_json::{Value, json};
+
+use crate::film::Film;
+use crate::render::Report;
+
+/// What a render ran on, and what came of it.
+pub struct Ran {
+    pub device: String,
+    pub driver: String,
+    pub film: Film,
+    pub report: Report,
+}
+
+pub fn json(ran: &Ran, options: Value, outputs: &[String]) -> Value {
+    json!({
+        "device": ran.device,
+        "driver": ran.driver,
+        "options": options,
+        "left_out": ran.report.left_out,
+        "samples": ran.film.samples,
+        "outputs": outputs,
+        "seconds": ran.report.seconds,
+        "device_seconds": { "render": ran.report.device_render_seconds },
+        "slices": ran.report.slices,
+        "device_bytes": ran.report.device_bytes,
+        "process": { "cpu_seconds": cpu_seconds(), "peak_host_bytes": peak_host_bytes() },
+    })
+}
+
+pub fn say(ran: &Ran, outputs: &[String], verbose: bool) {
+    let (report, seconds) = (&ran.report, &ran.report.seconds);
+    if verbose {
+        eprintln!("left out:");
+        for line in &report.left_out {
+            eprintln!("  {line}");
+        }
+        eprintln!(
+            "seconds: startup {:.3}, load {:.3}, compile {:.3}, upload {:.3}, render {:.3}, readback {:.3}, write {:.3}",
+            seconds.startup,
+            seconds.load,
+            seconds.compile,
+            seconds.upload,
+            seconds.render,
+            seconds.readback,
+            seconds.write
+        );
+        eprintln!(
+            "device time of rendering: {:.4} s in {} slices",
+            report.device_render_seconds, report.slices
+        );
+    }
+    eprintln!(
+        "{}: {}×{} pixels, {} samples a pixel on {}, render {:.3} s, total {:.3} s",
+        outputs.join(", "),
+        ran.film.width,
+        ran.film.height,
+        ran.film.samples,
+        ran.device,
+        seconds.render,
+        seconds.total
+    );
+}
+
+/// User and system time of this process so far, where `/proc` tells (proc(5), fields 14 and 15, in
+/// hundredths of a second).
+fn cpu_seconds() -> Option<f64> {
+    let stat = fs::read_to_string("/proc/self/stat").ok()?;
+    let after_name = stat.rsplit_once(')')?.1;
+    let fields: Vec<&str> = after_name.split_whitespace().collect();
+    let ticks = |i: usize| fields.get(i)?.parse::<f64>().ok();
+    Some((ticks(11)? + ticks(12)?) / 100.0)
+}
+
+/// The most memory this process has held at once, where `/proc` tells.
+fn peak_host_bytes() -> Option<u64> {
+    let status = fs::read_to_string("/proc/self/status").ok()?;
+    let line = status.lines().find_map(|l| l.strip_prefix("VmHWM:"))?;
+    Some(line.split_whitespace().next()?.parse::<u64>().ok()? * 1024)
+}
