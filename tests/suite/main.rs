@@ -25,6 +25,7 @@ mod metrics;
 mod oracle;
 mod output;
 mod rays;
+mod readme;
 mod scene;
 mod shared_gpu;
 mod stage;

@@ -1,0 +1,60 @@
+//! The README's commands work as written: every `moire` line of its shell blocks runs, in order, in a
+//! folder that has `data` beside it. Lines that need a certain device are left to that device.
+
+use std::fs;
+use std::process::Command;
+
+use crate::support::{data, program};
+
+/// `moire …` lines of ```sh blocks, without comments.
+fn commands(readme: &str) -> Vec<String> {
+    let mut inside = false;
+    let mut found = Vec::new();
+    for line in readme.lines() {
+        if line.starts_with("```") {
+            inside = line == "```sh";
+        } else if inside && line.starts_with("moire ") {
+            found.push(line.split('#').next().unwrap_or(line).trim().to_string());
+        }
+    }
+    found
+}
+
+fn needs_its_own_device(command: &str) -> bool {
+    let device = command.split_once("--device ").map(|(_, rest)| rest);
+    device.is_some_and(|d| !["cpu", "oracle"].contains(&d.split(' ').next().unwrap_or("")))
+}
+
+#[test]
+fn every_command_of_the_readme_works() {
+    let path = data().join("../README.md");
+    let Ok(readme) = fs::read_to_string(&path) else {
+        eprintln!("no README.md beside the data: not tested");
+        return;
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let scenes = fs::canonicalize(data()).unwrap();
+    std::os::unix::fs::symlink(scenes, folder.path().join("data")).unwrap();
+    let commands = commands(&readme);
+    assert!(commands.len() >= 12, "only {} commands found", commands.len());
+    for command in commands.iter().filter(|c| !needs_its_own_device(c)) {
+        let device = std::env::var("MOIRE_DEVICE").unwrap_or("cpu".into());
+        let mut arguments: Vec<&str> = command.split_whitespace().skip(1).collect();
+        if arguments[0] == "render" && !arguments.contains(&"--device") {
+            arguments.extend(["--device", &device]);
+        }
+        let output = Command::new(program()).args(&arguments).current_dir(folder.path()).output().unwrap();
+        assert!(output.status.success(), "{command}\n{}", String::from_utf8_lossy(&output.stderr));
+    }
+}
+
+#[test]
+fn pictures_of_the_readme_exist() {
+    let Ok(readme) = fs::read_to_string(data().join("../README.md")) else { return };
+    let links: Vec<&str> =
+        readme.split("](data/").skip(1).filter_map(|rest| rest.split(')').next()).collect();
+    assert!(!links.is_empty());
+    for link in links {
+        assert!(data().join(link).is_file(), "data/{link} is missing");
+    }
+}
