@@ -2,17 +2,18 @@
 # Installs what moire needs beside Rust, and nothing twice:
 #   run time   the Vulkan loader and Mesa's lavapipe (a CPU driver: no GPU needed)
 #   tests      the Khronos validation layer
-#   build      a C++ compiler and the shader compiler's static archives
+#   build      a C++ compiler and, where the distribution has them, the shader compiler's archives
 # and merges those archives into .cargo/shaderc/libshaderc_combined.a, where .cargo/config.toml
-# points the crate shaderc-sys. Without that archive the crate builds shaderc from source by itself
-# (about 10 minutes, needs cmake, git, python3 and a C++ compiler).
+# points the crate shaderc-sys. Where they are missing or do not link, the crate builds shaderc from
+# source by itself (about 10 minutes; needs cmake, git and python3 too).
 # Quiet when nothing is missing. MOIRE_SETUP_DRY_RUN=1 prints what would be installed and stops.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 
 RUN_PACKAGES="libvulkan1 mesa-vulkan-drivers"
 TEST_PACKAGES="vulkan-validationlayers"
-BUILD_PACKAGES="g++ libshaderc-dev glslang-dev spirv-tools"
+BUILD_PACKAGES="g++"
+ARCHIVE_PACKAGES="libshaderc-dev glslang-dev spirv-tools"
 SOURCE_PACKAGES="cmake git python3"
 MIN_CARGO="1.88"
 
@@ -48,13 +49,27 @@ as_root() {
 }
 
 apt_install() { # apt_install PACKAGES...
-    local lists=/var/lib/apt/lists
-    if [ -z "$(find "$lists" -maxdepth 1 -name '*_Packages*' -mtime -1 -print -quit 2>/dev/null)" ]; then
+    if [ -z "$(find /var/lib/apt/lists -maxdepth 1 -name '*_Packages*' -mtime -1 -print -quit 2>/dev/null)" ]; then
         as_root apt-get update -qq
     fi
-    as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "$@" >/dev/null ||
-        { as_root apt-get update -qq &&
-          as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "$@" >/dev/null; }
+    local install="env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends"
+    # Lists of yesterday may name files that are gone: once more with new ones.
+    # shellcheck disable=SC2086
+    as_root $install "$@" >/dev/null || { as_root apt-get update -qq && as_root $install "$@" >/dev/null; }
+}
+
+# Does a program that uses the compiler link against this archive?
+links() { # links ARCHIVE
+    local program
+    program=$(mktemp)
+    printf '%s\n' 'extern "C" { void* shaderc_compiler_initialize(void); void shaderc_compiler_release(void*);' \
+        'void* shaderc_compile_into_spv(void*, const char*, unsigned long, int, const char*, const char*, void*); }' \
+        'int main() { void* c = shaderc_compiler_initialize();' \
+        'shaderc_compile_into_spv(c, "", 0, 2, "", "main", 0); shaderc_compiler_release(c); }' |
+        g++ -x c++ - -x none "$1" -pthread -o "$program" 2>/dev/null
+    local status=$?
+    rm -f "$program"
+    return $status
 }
 
 # One archive from those that the distribution has; 1 when the compiler itself is not among them.
@@ -81,7 +96,10 @@ merge_shaderc() {
         echo save
         echo end
     } >"$tmp/merge.mri"
-    ar -M <"$tmp/merge.mri"
+    if ! ar -M <"$tmp/merge.mri" || ! links "$tmp/libshaderc_combined.a"; then
+        rm -r "$tmp"
+        return 1
+    fi
     mv "$tmp/libshaderc_combined.a" "$out"
     rm -r "$tmp"
     say "merged the shader compiler's archives into $out"
@@ -91,7 +109,10 @@ check_cargo
 if command -v apt-get >/dev/null && command -v dpkg-query >/dev/null; then
     # shellcheck disable=SC2086 # the lists are words on purpose
     missing=$(missing_of $RUN_PACKAGES $TEST_PACKAGES $BUILD_PACKAGES)
+    # shellcheck disable=SC2086
+    archives=$(missing_of $ARCHIVE_PACKAGES)
     if [ "${MOIRE_SETUP_DRY_RUN:-0}" = 1 ]; then
+        missing=$missing$archives
         say "would install: ${missing:-nothing}"
         exit 0
     fi
@@ -99,6 +120,11 @@ if command -v apt-get >/dev/null && command -v dpkg-query >/dev/null; then
         say "installing $missing"
         # shellcheck disable=SC2086
         apt_install $missing
+    fi
+    if [ -n "$archives" ]; then
+        say "installing $archives"
+        # shellcheck disable=SC2086
+        apt_install $archives || say "not all of them are to be had here"
     fi
     if ! merge_shaderc; then
         # shellcheck disable=SC2086

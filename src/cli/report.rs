@@ -26,6 +26,7 @@ pub fn json(ran: &Ran, options: Value, outputs: &[String]) -> Value {
         "seconds": ran.report.seconds,
         "device_seconds": { "render": ran.report.device_render_seconds },
         "slices": ran.report.slices,
+        "longest_slice_seconds": ran.report.longest_slice_seconds,
         "device_bytes": ran.report.device_bytes,
         "process": { "cpu_seconds": cpu_seconds(), "peak_host_bytes": peak_host_bytes() },
     })

@@ -50,6 +50,8 @@ pub struct Report {
     /// Device timestamps around the slices, summed.
     pub device_render_seconds: f64,
     pub slices: u32,
+    /// Wall time of the longest slice: how long a Ctrl-C may wait.
+    pub longest_slice_seconds: f64,
     /// Bytes of device memory at the end of the render.
     pub device_bytes: u64,
 }
@@ -75,7 +77,7 @@ pub fn render(
 
     let clock = Instant::now();
     let shader = shader_for(features.source);
-    let group_size = tuning.group_size(gpu.info(), features.source);
+    let group_size = tuning.group_size(gpu.info());
     let slots = scene.slots.len() as u32;
     let constants = features::constants(shader, &features, &resources.sections, group_size, slots);
     let pipeline = build_pipeline(gpu, shader, &constants, slots, size_of::<Slice>())?;
@@ -155,6 +157,7 @@ impl Renderer<'_> {
                 plan.learn(tiles, sample_count, time.wall_seconds);
                 report.device_render_seconds += time.device_seconds;
                 report.slices += 1;
+                report.longest_slice_seconds = report.longest_slice_seconds.max(time.wall_seconds);
                 progress.advance(plan.done());
                 if progress.cancelled() {
                     return Err(Error::Interrupted);

@@ -2,7 +2,6 @@
 //! Both can be fixed for a measurement; neither changes the picture.
 
 use crate::error::{Error, Result};
-use crate::features::TexelSource;
 use crate::gpu::{DeviceInfo, DeviceKind};
 use crate::layout::TILE;
 use crate::named::named_enum;
@@ -55,7 +54,7 @@ impl Tuning {
             }
     }
 
-    pub fn group_size(&self, device: &DeviceInfo, _source: TexelSource) -> [u32; 2] {
+    pub fn group_size(&self, device: &DeviceInfo) -> [u32; 2] {
         let default = if device.kind == DeviceKind::Cpu { [64, 1] } else { [8, 8] };
         self.group.unwrap_or(default)
     }
