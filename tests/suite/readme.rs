@@ -20,9 +20,10 @@ fn commands(readme: &str) -> Vec<String> {
     found
 }
 
-fn needs_its_own_device(command: &str) -> bool {
-    let device = command.split_once("--device ").map(|(_, rest)| rest);
-    device.is_some_and(|d| !["cpu", "oracle"].contains(&d.split(' ').next().unwrap_or("")))
+/// Another device than the one under test or the oracle.
+fn needs_another_device(command: &str, device: &str) -> bool {
+    let named = command.split_once("--device ").and_then(|(_, rest)| rest.split(' ').next());
+    named.is_some_and(|n| n != device && n != "oracle")
 }
 
 #[test]
@@ -37,8 +38,8 @@ fn every_command_of_the_readme_works() {
     std::os::unix::fs::symlink(scenes, folder.path().join("data")).unwrap();
     let commands = commands(&readme);
     assert!(commands.len() >= 12, "only {} commands found", commands.len());
-    for command in commands.iter().filter(|c| !needs_its_own_device(c)) {
-        let device = std::env::var("MOIRE_DEVICE").unwrap_or("cpu".into());
+    let device = std::env::var("MOIRE_DEVICE").unwrap_or("cpu".into());
+    for command in commands.iter().filter(|c| !needs_another_device(c, &device)) {
         let mut arguments: Vec<&str> = command.split_whitespace().skip(1).collect();
         if arguments[0] == "render" && !arguments.contains(&"--device") {
             arguments.extend(["--device", &device]);
