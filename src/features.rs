@@ -38,7 +38,7 @@ pub const DYNAMIC: u32 = u32::MAX;
 pub const CHUNK: u32 = 256;
 
 /// Longer lists are read at run time: unrolled code would grow without end.
-const UNROLL: usize = 8;
+const UNROLL: usize = 16;
 
 /// How a constant is narrowed to what the scene uses.
 #[derive(Clone, Copy)]
