@@ -16,6 +16,7 @@ named_enum! {
     }
 }
 
+/// What is left to the device, unless a measurement fixes it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Tuning {
     pub texels: TexelChoice,
@@ -54,12 +55,23 @@ impl Tuning {
             }
     }
 
-    pub fn group_size(&self, device: &DeviceInfo) -> [u32; 2] {
+    /// Width and height of a workgroup; an error where the device has none of that many threads.
+    pub fn group_size(&self, device: &DeviceInfo) -> Result<[u32; 2]> {
         let default = if device.kind == DeviceKind::Cpu { [64, 1] } else { [8, 8] };
-        self.group.unwrap_or(default)
+        let [x, y] = self.group.unwrap_or(default);
+        let most = device.limits.max_workgroup_invocations;
+        if x * y > most {
+            return Err(Error::new(format!(
+                "workgroup {x}x{y}: {} threads, device \"{}\" takes at most {most}",
+                x * y,
+                device.name
+            )));
+        }
+        Ok([x, y])
     }
 }
 
+/// Workgroups that cover one tile.
 pub fn groups_per_tile(group: [u32; 2]) -> u32 {
     (TILE / group[0]) * (TILE / group[1])
 }
