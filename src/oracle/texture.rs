@@ -80,10 +80,8 @@ pub fn look_up(scene: &PackedScene, image: &Texture, how: &Sampler, uv: DVec2) -
     let x = reduced_coordinate(u, uv.x, f64::from(width)) + shift;
     let y = reduced_coordinate(v, uv.y, f64::from(height)) + shift;
     let texel = |i: f64, j: f64| {
-        let at = (
-            addressed_texel(u, i as i64, i64::from(width)),
-            addressed_texel(v, j as i64, i64::from(height)),
-        );
+        let at =
+            (addressed_texel(u, i as i64, i64::from(width)), addressed_texel(v, j as i64, i64::from(height)));
         fetch_or_border(scene, image, how, at)
     };
     if how.modes[2] == Filter::Nearest as u32 {
