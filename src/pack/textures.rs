@@ -135,7 +135,7 @@ impl PackedScene {
             let bytes = width as usize * height as usize * format.bytes_per_texel();
             let kib = bytes.div_ceil(1024);
             format!(
-                "\"{name}\": {width}×{height}, {channels} channels in the file, held as {format} ({space}), {kib} KiB"
+                "\"{name}\": {width}×{height}, {channels}-channel file, held as {format} ({space}), {kib} KiB"
             )
         };
         self.texture_names.iter().zip(&self.textures).zip(&self.file_channels).map(line).collect()

@@ -75,3 +75,28 @@ impl Tuning {
 pub fn groups_per_tile(group: [u32; 2]) -> u32 {
     (TILE / group[0]) * (TILE / group[1])
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_workgroup_over_the_devices_threads_is_refused() {
+        let mut device = DeviceInfo {
+            index: 0,
+            name: "small".into(),
+            kind: DeviceKind::Integrated,
+            driver: String::new(),
+            api_version: "1.2.0".into(),
+            uuid: None,
+            limits: Default::default(),
+            suitable: Ok(()),
+        };
+        device.limits.max_workgroup_invocations = 128;
+        let tuning = |group| Tuning { texels: TexelChoice::Auto, group };
+        assert_eq!(tuning(None).group_size(&device).unwrap(), [8, 8]);
+        assert_eq!(tuning(Some([16, 8])).group_size(&device).unwrap(), [16, 8]);
+        let error = tuning(Some([32, 8])).group_size(&device).unwrap_err().to_string();
+        assert!(error.contains("32x8") && error.contains("128"), "{error}");
+    }
+}
