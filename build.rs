@@ -64,9 +64,12 @@ fn compile_if_changed(
     let name = source.to_string_lossy();
     let binary =
         compiler.compile_into_spirv(&text, shaderc::ShaderKind::Compute, &name, "main", Some(&options))?;
-    fs::write(&spv, binary.as_binary_u8())?;
     let list: Vec<_> = included.borrow().iter().map(|p| p.to_string_lossy().into_owned()).collect();
     fs::write(&inputs, list.join("\n"))?;
+    // Last and by renaming: a build that is interrupted here leaves no words that look current.
+    let part = base.with_extension("part");
+    fs::write(&part, binary.as_binary_u8())?;
+    fs::rename(&part, &spv)?;
     Ok(binary.as_binary().to_vec())
 }
 

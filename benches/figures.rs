@@ -95,12 +95,19 @@ impl Bench {
         Ok(())
     }
 
+    /// The pictures whose device time a GPU is measured by.
     fn large(&self) -> Outcome<()> {
-        println!("\n| s1a, 4096², 16 samples | device ms |\n| --- | --- |");
-        for method in ["hardware", "shader"] {
-            let runs =
-                self.repeat("s1a", &["--size", "4096x4096", "--spp", "16", "--method", method], &[])?;
-            println!("| {method} | {:.3} |", 1e3 * median(&runs, |r| r.figure("/device_seconds/render")));
+        println!("\n| scene, 16 samples | size | method | device ms |\n| --- | --- | --- | --- |");
+        for (name, size, method) in [
+            ("s1a", "4096x4096", "shader"),
+            ("s1a", "4096x4096", "hardware"),
+            ("s1b", "4096x4096", "shader"),
+            ("s1b", "4096x4096", "hardware"),
+            ("s2", "2048x2048", "shader"),
+        ] {
+            let runs = self.repeat(name, &["--size", size, "--spp", "16", "--method", method], &[])?;
+            let milliseconds = 1e3 * median(&runs, |r| r.figure("/device_seconds/render"));
+            println!("| {name} | {size} | {method} | {milliseconds:.3} |");
         }
         Ok(())
     }

@@ -1,13 +1,14 @@
 //! The picture while and after it is made: one linear RGB mean per pixel in f32, row 0 on top,
 //! and how many samples stand behind each.
 
+/// A finished picture, also one that was read from a file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Film {
     pub width: u32,
     pub height: u32,
     /// `width · height` pixels, linear RGB, means over `samples`.
     pub pixels: Vec<[f32; 3]>,
-    /// Samples per pixel behind every mean.
+    /// Samples per pixel behind every mean; 0 where that is not known.
     pub samples: u32,
 }
 

@@ -1,10 +1,12 @@
 //! `repr(C)` mirrors of `glsl/shared/layout.glsl`, field by field, in the same order. Every member
 //! is a four-vector of f32 or u32, so std430 and Rust agree; the sizes are asserted here and a test
-//! compares them with the strides in the shader's loaders.
+//! compares them with the shader's. What each member holds is said there.
 
 use bytemuck::{Pod, Zeroable};
 
+/// In place of an index: the material has no texture.
 pub const NO_TEXTURE: u32 = u32::MAX;
+/// In place of an index: no shape is hit, or none is left out.
 pub const NO_SHAPE: u32 = u32::MAX;
 
 /// Declares a mirror and asserts its size in units of 16 bytes.

@@ -13,7 +13,8 @@
 //!                             output (PNG, EXR, …) · metrics
 //! ```
 //!
-//! Only [`gpu`] names Vulkan. Each file of `glsl/shared/` has a twin of the same stem in [`oracle`].
+//! Only [`gpu`] names Vulkan. Each file of [`oracle`] is the float64 twin of a file of `glsl/shared/`;
+//! [`layout`] and [`features`] are the host's side of the two that hold declarations.
 
 pub mod cli;
 pub mod color;

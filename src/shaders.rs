@@ -2,12 +2,14 @@
 
 use crate::gpu::BindingKind;
 
+/// A descriptor of set 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ReflectedBinding {
     pub binding: u32,
     pub kind: BindingKind,
 }
 
+/// A named specialization constant; of a boolean the default is 0 or 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SpecConstant {
     pub name: &'static str,
@@ -15,6 +17,7 @@ pub struct SpecConstant {
     pub default: u32,
 }
 
+/// One `glsl/*.comp`.
 #[derive(Debug)]
 pub struct Shader {
     pub name: &'static str,

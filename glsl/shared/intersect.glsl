@@ -1,6 +1,6 @@
 // Ray against planes, spheres and triangles: the nearest hit with t > 0, or whether anything lies
 // between. Shapes are numbered planes first, then spheres, then triangles. Flat shapes never hit
-// the ray that left them (`skip`); spheres rely on the offset origin.
+// the ray that left them (`skip`); spheres rely on the offset origin. Twin: src/oracle/intersect.rs.
 #ifndef INTERSECT_GLSL
 #define INTERSECT_GLSL
 
@@ -14,7 +14,8 @@ struct Hit {
     vec3 local;
 };
 
-// Camera rays that are the only rays start at the eye, which is the coordinate origin.
+// Without bounces all rays but shadow rays are camera rays, and those of a perspective start at the
+// eye, which is the coordinate origin.
 #ifndef ORIGIN_IS_EYE
 #define ORIGIN_IS_EYE (!BOUNCES && PROJECTIONS == (1u << PROJECTION_PERSPECTIVE))
 #endif

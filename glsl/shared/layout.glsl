@@ -74,8 +74,8 @@ struct Header {
 
 struct Plane {
     vec4 normal;   // unit n; w = n·(origin − eye)
-    vec4 axis_u;   // plane coordinate u of an eye-relative point p, counted from the eye: xyz·p;
-    vec4 axis_v;   // w: what to add to count from the plane's origin
+    vec4 axis_u;   // own coordinate u of an eye-relative point p, counted from the eye: xyz·p; plus
+    vec4 axis_v;   // w it counts from the plane's origin. v likewise
     uvec4 link;    // material, map, half extent (bits), 1 when bounded
 };
 

@@ -1,6 +1,7 @@
 // Counter-based random bits: integers in, integers out, no state. Jarzynski & Olano 2020, "Hash
 // Functions for GPU Rendering" (pcg2d, pcg3d), pcg2d without its last step, v ^= v >> 16, which
-// changes only low bits: callers take high ones. Bit-identical to src/oracle/rng.rs.
+// changes the lower half alone: of a position less than 2^-16 of its range. Bit-identical to its twin
+// src/oracle/rng.rs.
 #ifndef RNG_GLSL
 #define RNG_GLSL
 
@@ -31,6 +32,7 @@ uvec2 pixel_key(uvec2 pixel, uint seed, bool shared_key) {
     return pcg3d(uvec3(shared_key ? uvec2(0xFFFFFFFFu) : pixel, seed)).xy;
 }
 
+// Two words of random bits for sample `s` of the pixel with this key.
 uvec2 sample_bits(uvec2 key, uint s) {
     return pcg2d(uvec2(key.x + s, key.y));
 }

@@ -1,6 +1,7 @@
 // Ray -> radiance. Unlit: colour. Lambert: albedo/pi · I cos/r² (point) or albedo/pi · E cos
 // (directional), hard shadows. Mirror: colour times what the mirrored ray sees, at most `max depth`
 // times, then black. Every shape is two-sided: its normal is turned towards the incoming ray.
+// Twin: src/oracle/shade.rs.
 #ifndef SHADE_GLSL
 #define SHADE_GLSL
 
@@ -12,8 +13,8 @@ struct Surface {
     vec3 point;
     vec3 geometric_normal; // unit, towards the incoming ray
     vec3 normal;           // unit, for shading
-    vec2 own_uv; // the plane's coordinates or the vertices' interpolated uv
-    uvec2 link; // material, map
+    vec2 own_uv;           // the plane's coordinates or the vertices' interpolated uv
+    uvec2 link;            // material, map
 };
 
 Surface plane_surface(Plane plane, vec3 point, vec2 uv) {

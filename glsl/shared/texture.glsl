@@ -1,6 +1,6 @@
 // (texture, sampler, u, v) -> linear RGBA. Method shader: addressing and filtering here in f32,
 // texels from a texel buffer or by texelFetch from an image. Method hardware: the device's sampler
-// at level 0. Follows Vulkan 1.3, chapter 16 "Texel input operations".
+// at level 0. Follows Vulkan 1.3, "Image Sample Operations". Twin: src/oracle/texture.rs.
 #ifndef TEXTURE_GLSL
 #define TEXTURE_GLSL
 
@@ -23,7 +23,7 @@ float decode_srgb8(uint code) { return srgb_table[SRGB_AT * 4u + code]; }
 #endif
 
 #if SOURCE == SOURCE_BUFFER
-// One texel by its number; grey is replicated, missing alpha is 1.
+// One texel by column and row; grey is replicated, missing alpha is 1, sRGB decoded.
 vec4 fetch_texel(Texture image, uint slot, ivec2 at) {
     uint format = image.place.w;
     uint texel = uint(at.y) * image.place.y + uint(at.x);
@@ -123,8 +123,9 @@ vec4 fetch_texel(Texture image, uint slot, ivec2 at) {
 const float ROUND = 12582912.0;
 
 // The coordinate in texels, brought near the texture without changing what it reads. Whole periods
-// leave exactly, to [-1/2, 1/2] or, mirrored, [-1, 1]; from 2^23 on u is whole, and what is not finite
-// reads as 0. Clamped modes lose what lies far outside.
+// leave exactly, to [-1/2, 1/2] or, mirrored, [-1, 1]; what is not finite reads as 0. Below -2^22
+// (mirrored: -2^23) an f32 resolves half a period at best, and that half is lost too. Clamped modes
+// lose what lies far outside.
 float reduced_coordinate(uint mask, uint mode, float u, float size) {
     precise float s;
     if (MODE_IS(mask, ADDRESS_REPEAT, mode)) {
@@ -143,7 +144,7 @@ float reduced_coordinate(uint mask, uint mode, float u, float size) {
     return texel;
 }
 
-// Vulkan 1.3, 16.6 "Integer coordinate wrapping", for what `reduced_coordinate` leaves; -1 asks for
+// Vulkan 1.3, "Wrapping Operation", for what `reduced_coordinate` leaves; -1 asks for
 // the border colour. The bounds hold for every i, so no fetch leaves the texture.
 int addressed_texel(uint mask, uint mode, int i, int size) {
     if (MODE_IS(mask, ADDRESS_REPEAT, mode) && TEXTURE_SIZES == (1u << TEXTURE_SIZE_POWER_OF_TWO)) return i & (size - 1);
@@ -154,6 +155,7 @@ int addressed_texel(uint mask, uint mode, int i, int size) {
     return clamp(i, 0, size - 1);
 }
 
+// The texel at addressed (x, y), or the border colour where either is -1.
 vec4 fetch_or_border(Texture image, Sampler how, uint slot, ivec2 at) {
     if (!HAS(ADDRESSES_U, ADDRESS_CLAMP_TO_BORDER) && !HAS(ADDRESSES_V, ADDRESS_CLAMP_TO_BORDER)) {
         return fetch_texel(image, slot, at);
@@ -181,7 +183,7 @@ vec4 look_up(Texture image, Sampler how, uint slot, vec2 uv) {
                                      addressed_texel(ADDRESSES_V, how.modes.y, nearest.y, size.y)));
     }
     if (!integer_centers) texel -= 0.5;
-    // floor(texel), or on a texel's centre the one before it with weight 1 on its neighbour.
+    // floor(texel); where texel is whole, perhaps the one before, with weight 1 on its neighbour.
     precise vec2 shifted = (texel - 0.5) + ROUND;
     precise vec2 low = shifted - ROUND;
     precise vec2 b = texel - low;

@@ -1,7 +1,6 @@
 //! `moire compare A B`: prints how far two pictures are apart. Exit 0 when they agree well enough, 1
 //! when the RMSE is above the bound or a NaN is present, 2 when they cannot be compared.
 
-use std::io::{self, ErrorKind, Write};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -54,7 +53,7 @@ pub fn run(args: &CompareArgs) -> Result<ExitCode> {
     }
     let pass = comparison.passes(args.max_rmse);
     let text = if args.json { json(args, &comparison, pass)? } else { table(args, &comparison) };
-    print(&text)?;
+    super::print(&text)?;
     if !pass {
         eprintln!("{}", reason(&comparison, args.max_rmse));
     }
@@ -95,13 +94,5 @@ fn reason(c: &Comparison, bound: Option<f64>) -> String {
         _ if c.nan_pixels > 0 => format!("NaN in {} pixels", c.nan_pixels),
         Some(x) if c.rmse.is_finite() => format!("RMSE {:.6e} is above the bound {x:e}", c.rmse),
         _ => "the pictures differ by an infinite value".into(),
-    }
-}
-
-/// A reader that stops early, such as `head`, is no error.
-fn print(text: &str) -> Result<()> {
-    match writeln!(io::stdout().lock(), "{text}") {
-        Err(e) if e.kind() != ErrorKind::BrokenPipe => Err(Error::new(format!("standard output: {e}"))),
-        _ => Ok(()),
     }
 }

@@ -2,7 +2,6 @@
 //! taken by default.
 
 use std::fmt::Write as _;
-use std::io::{ErrorKind, Write as _};
 use std::process::ExitCode;
 
 use serde::Serialize;
@@ -21,12 +20,8 @@ pub fn run(args: &DevicesArgs) -> Result<ExitCode> {
     let devices = list_devices()?;
     let default = DeviceSelect::Default.choose(&devices).ok();
     let text = if args.json { json(&devices, default)? } else { listing(&devices, default) };
-    match std::io::stdout().lock().write_all(text.as_bytes()) {
-        // A reader that has seen enough, as in `moire devices | head -1`.
-        Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(ExitCode::SUCCESS),
-        Err(error) => Err(Error::new(format!("writing the list of devices: {error}"))),
-        Ok(()) => Ok(ExitCode::SUCCESS),
-    }
+    super::print(text.trim_end())?;
+    Ok(ExitCode::SUCCESS)
 }
 
 #[derive(Serialize)]
@@ -39,8 +34,7 @@ struct Row<'a> {
 fn json(devices: &[DeviceInfo], default: Option<usize>) -> Result<String> {
     let rows: Vec<Row<'_>> =
         devices.iter().enumerate().map(|(i, device)| Row { default: default == Some(i), device }).collect();
-    let text = serde_json::to_string_pretty(&rows);
-    text.map(|text| text + "\n").map_err(|error| Error::new(format!("writing JSON: {error}")))
+    serde_json::to_string_pretty(&rows).map_err(|error| Error::new(format!("writing JSON: {error}")))
 }
 
 fn listing(devices: &[DeviceInfo], default: Option<usize>) -> String {

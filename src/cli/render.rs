@@ -95,7 +95,7 @@ pub fn run(args: &RenderArgs) -> Result<ExitCode> {
     let outputs: Vec<String> = outputs.iter().map(|p| p.display().to_string()).collect();
     if args.json {
         let options = args.overrides.report(&scene, args.crop, args.keep_everything);
-        println!("{:#}", report::json(&ran, options, &outputs));
+        super::print(&format!("{:#}", report::json(&ran, options, &outputs)))?;
     }
     if !args.quiet {
         report::say(&ran, &outputs, args.verbose);

@@ -16,7 +16,7 @@ use crate::named::named_enum;
 named_enum! {
     /// How shaders see a buffer.
     pub enum BufferUse {
-        /// `buffer` block, read and written.
+        /// `buffer` block, read and written; its head also as a `uniform` block.
         Storage = "storage",
         /// `usamplerBuffer` of 32-bit unsigned texels.
         TexelUint = "texel-uint",
@@ -121,7 +121,7 @@ impl RawBuffer {
         usage: vk::BufferUsageFlags,
         location: MemoryLocation,
     ) -> Result<RawBuffer> {
-        // Whole words: fills and texel views work on multiples of four bytes.
+        // Whole words: texel views work on multiples of four bytes.
         let info = vk::BufferCreateInfo::default()
             .size(bytes.next_multiple_of(4))
             .usage(usage)

@@ -106,7 +106,8 @@ impl Commands {
         let memory = vk::MemoryBarrier::default()
             .src_access_mask(Access::SHADER_WRITE | Access::TRANSFER_WRITE)
             .dst_access_mask(
-                Access::SHADER_READ
+                Access::UNIFORM_READ
+                    | Access::SHADER_READ
                     | Access::SHADER_WRITE
                     | Access::TRANSFER_READ
                     | Access::TRANSFER_WRITE

@@ -129,12 +129,6 @@ impl Gpu {
         readback::from_buffer(&mut staging, &mut commands, buffer, offset, out)
     }
 
-    /// Sets every byte to zero.
-    pub fn clear_buffer(&self, buffer: &Buffer) -> Result<()> {
-        self.owns(buffer.core(), buffer.name())?;
-        upload::clear(&mut lock(&self.commands), buffer)
-    }
-
     /// Whether images of this format can be sampled, with linear filtering if asked for.
     pub fn supports(&self, format: ImageFormat, linear_filter: bool) -> bool {
         self.core.supports(format, linear_filter)

@@ -37,14 +37,6 @@ pub(super) fn to_buffer(
     Ok(())
 }
 
-pub(super) fn clear(commands: &mut Commands, buffer: &Buffer) -> Result<()> {
-    commands.run(buffer.name(), |device, commands| {
-        // SAFETY: the buffer's real size is a multiple of four, so that all of it is filled.
-        unsafe { device.cmd_fill_buffer(commands, buffer.handle(), 0, vk::WHOLE_SIZE, 0) };
-    })?;
-    Ok(())
-}
-
 /// The levels' sizes were checked when the image was created.
 pub(super) fn to_image(
     staging: &mut Staging,

@@ -1,5 +1,6 @@
 //! Ray against planes, spheres and triangles: the nearest hit with t > 0, or whether anything lies
-//! between. Twin of `glsl/shared/intersect.glsl`.
+//! between. Flat shapes never hit the ray that left them (`skip`); spheres rely on the offset origin.
+//! Twin of `glsl/shared/intersect.glsl`.
 
 use glam::DVec3;
 
@@ -13,6 +14,7 @@ pub const FAR: f64 = 1e30;
 
 #[derive(Clone, Copy, Debug)]
 pub struct Hit {
+    /// In units of the direction's length; `FAR` on a miss.
     pub t: f64,
     /// Planes first, then spheres, then triangles; `NO_SHAPE` on a miss.
     pub shape: u32,
@@ -36,7 +38,7 @@ pub fn plane_distance(plane: &Plane, ray: &Ray) -> (f64, DVec3) {
     (t, local)
 }
 
-/// Haines, Günther & Akenine-Möller 2019.
+/// Haines, Günther & Akenine-Möller 2019; -1 on a miss.
 pub fn sphere_distance(sphere: &Sphere, ray: &Ray) -> f64 {
     let f = ray.origin - xyz(sphere.ball);
     let radius = f64::from(sphere.ball[3]);
@@ -53,7 +55,7 @@ pub fn sphere_distance(sphere: &Sphere, ray: &Ray) -> f64 {
     if c > 0.0 || b < 0.0 { c / q } else { q / a }
 }
 
-/// Distance, and the edge functions.
+/// Distance, and the edge functions d·(p × q); the distance is -1 on a miss.
 pub fn triangle_distance(triangle: &Triangle, ray: &Ray) -> (f64, DVec3) {
     let [a, b, c] = [triangle.a, triangle.b, triangle.c].map(|v| xyz(v) - ray.origin);
     let d = ray.direction;
@@ -68,6 +70,7 @@ pub fn triangle_distance(triangle: &Triangle, ray: &Ray) -> (f64, DVec3) {
     (height / normal.dot(ray.direction), edges)
 }
 
+/// The hit with the least t above 0; of hits at the same t the lowest shape.
 pub fn nearest_hit(scene: &PackedScene, ray: &Ray, skip: u32) -> Hit {
     let mut hit = Hit { t: FAR, shape: NO_SHAPE, local: DVec3::ZERO };
     let mut offer = |(t, local): (f64, DVec3), shape: u32, flat: bool| {

@@ -8,12 +8,13 @@ use super::math::{affine, atan2_accurate, vec4};
 use crate::layout::Map;
 use crate::pack::MapKind;
 
-/// matrix · uv + offset.
+/// matrix · uv + offset: scale, rotation and offset of the mapping.
 pub fn placed(map: &Map, uv: DVec2) -> DVec2 {
     let (m, offset) = (vec4(map.matrix), vec4(map.offset));
     DVec2::new(m.x * uv.x + m.y * uv.y + offset.x, m.z * uv.x + m.w * uv.y + offset.y)
 }
 
+/// `p` is relative to the eye; `own_uv` is the plane's own coordinate or the triangle's interpolated one.
 pub fn texture_coordinate(map: &Map, p: DVec3, own_uv: DVec2) -> DVec2 {
     let kind = MapKind::ALL[map.link[0] as usize];
     match kind {

@@ -1,5 +1,6 @@
 //! The renderer once more in f64, on the CPU, reading the same packed scene. Each file is the twin
-//! of `glsl/shared/` with the same stem, the same functions in the same order. Sample positions are
+//! of that of the same stem in `glsl/shared/` (of `render`: `render_main.glsl`), with the same
+//! functions in the same order. Sample positions are
 //! integers and equal bit for bit; everything after them differs by the rounding of f32 only.
 
 pub mod camera;

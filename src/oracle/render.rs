@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use super::camera::camera_ray;
 use super::rng::pixel_key;
-use super::shade::radiance;
+use super::shade::{advance, camera_path};
 use super::strata::sample_position;
 use crate::error::{Error, Result};
 use crate::film::Film;
@@ -15,19 +15,21 @@ use crate::pack::PackedScene;
 use crate::progress::Progress;
 use crate::scene::model::Pattern;
 
-/// The mean radiance of one pixel of the film.
+/// The mean radiance of pixel (x, y) of the film: of the crop, where there is one.
 pub fn pixel(scene: &PackedScene, x: u32, y: u32) -> DVec3 {
     let header = &scene.header;
     let [pattern, side, side_log2, seed] = header.sampling;
     let pattern = Pattern::ALL[pattern as usize];
     let place = [x + header.image[2], y + header.image[3]];
     let key = pixel_key(place, seed, header.key[0] != 0);
-    let sum: DVec3 = (0..scene.samples)
-        .map(|s| {
-            let position = sample_position(pattern, key, s, side, side_log2);
-            radiance(scene, camera_ray(header, place, position))
-        })
-        .sum();
+    let mut sum = DVec3::ZERO;
+    for s in 0..scene.samples {
+        let position = sample_position(pattern, key, s, side, side_log2);
+        let mut path = camera_path(camera_ray(header, place, position));
+        while path.goes_on {
+            sum += advance(scene, &mut path);
+        }
+    }
     sum / f64::from(scene.samples)
 }
 

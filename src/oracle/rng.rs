@@ -1,16 +1,18 @@
 //! Counter-based random bits: integers in, integers out, no state. Jarzynski & Olano 2020, "Hash
 //! Functions for GPU Rendering" (pcg2d, pcg3d), pcg2d without its last step, v ^= v >> 16, which
-//! changes only low bits: callers take high ones. Bit-identical to `glsl/shared/rng.glsl`.
+//! changes the lower half alone: of a position less than 2^-16 of its range. Bit-identical to its twin
+//! `glsl/shared/rng.glsl`.
 
 const MULTIPLIER: u32 = 1_664_525;
 const INCREMENT: u32 = 1_013_904_223;
 
-fn advance(x: u32) -> u32 {
+/// One step of a linear congruential generator (Press et al., "Numerical Recipes", ranqd1).
+fn step(x: u32) -> u32 {
     x.wrapping_mul(MULTIPLIER).wrapping_add(INCREMENT)
 }
 
 pub fn pcg2d(v: [u32; 2]) -> [u32; 2] {
-    let [mut x, mut y] = v.map(advance);
+    let [mut x, mut y] = v.map(step);
     x = x.wrapping_add(y.wrapping_mul(MULTIPLIER));
     y = y.wrapping_add(x.wrapping_mul(MULTIPLIER));
     x ^= x >> 16;
@@ -21,7 +23,7 @@ pub fn pcg2d(v: [u32; 2]) -> [u32; 2] {
 }
 
 pub fn pcg3d(v: [u32; 3]) -> [u32; 3] {
-    let [mut x, mut y, mut z] = v.map(advance);
+    let [mut x, mut y, mut z] = v.map(step);
     for round in 0..2 {
         x = x.wrapping_add(y.wrapping_mul(z));
         y = y.wrapping_add(z.wrapping_mul(x));
@@ -42,6 +44,7 @@ pub fn pixel_key(pixel: [u32; 2], seed: u32, shared_key: bool) -> [u32; 2] {
     [a, b]
 }
 
+/// Two words of random bits for sample `s` of the pixel with this key.
 pub fn sample_bits(key: [u32; 2], s: u32) -> [u32; 2] {
     pcg2d([key[0].wrapping_add(s), key[1]])
 }

@@ -1,4 +1,4 @@
-//! Ray → radiance. Twin of `glsl/shared/shade.glsl`.
+//! Ray → radiance, one hit of its path at a time. Twin of `glsl/shared/shade.glsl`.
 
 use std::f64::consts::PI;
 
@@ -13,6 +13,7 @@ use crate::layout::{Material, NO_SHAPE, NO_TEXTURE, Plane, Sphere, Triangle};
 use crate::pack::{LightKind, PackedScene};
 use crate::scene::model::Model;
 
+/// Where a ray met a shape, and what it needs to know of it.
 pub struct Surface {
     pub point: DVec3,
     /// Unit, towards the incoming ray.
@@ -53,6 +54,7 @@ fn triangle_surface(triangle: &Triangle, point: DVec3, edges: DVec3) -> Surface 
     surface(point, geometric, normal, uv, triangle.link)
 }
 
+/// The surface at a hit; `hit.shape` must be a shape of the scene.
 pub fn hit_surface(scene: &PackedScene, ray: &Ray, hit: &Hit) -> Surface {
     let point = ray.origin + hit.t * ray.direction;
     let [planes, spheres, _, _] = scene.header.counts;
@@ -70,6 +72,7 @@ pub fn hit_surface(scene: &PackedScene, ray: &Ray, hit: &Hit) -> Surface {
     surface
 }
 
+/// The material's colour, linear RGB, times its texture where it has one.
 pub fn surface_color(scene: &PackedScene, material: &Material, surface: &Surface) -> DVec3 {
     let color = xyz(material.color);
     let [_, texture, sampler, _] = material.link;
@@ -107,28 +110,41 @@ pub fn mirrored(direction: DVec3, normal: DVec3) -> DVec3 {
     direction - 2.0 * direction.dot(normal) * normal
 }
 
-pub fn radiance(scene: &PackedScene, mut ray: Ray) -> DVec3 {
-    let mut throughput = DVec3::ONE;
-    let mut skip = NO_SHAPE;
-    for _ in 0..=scene.header.size[3] {
-        let hit = nearest_hit(scene, &ray, skip);
-        if hit.shape == NO_SHAPE {
-            return throughput * xyz(scene.header.background);
-        }
-        let surface = hit_surface(scene, &ray, &hit);
-        let material = &scene.materials[surface.material as usize];
-        let color = surface_color(scene, material, &surface);
-        match Model::ALL[material.link[0] as usize] {
-            Model::Unlit => return throughput * color,
-            Model::Lambert => return throughput * color * direct_light(scene, &surface, hit.shape),
-            Model::Mirror => {}
-        }
-        throughput *= color;
-        ray = Ray {
-            origin: offset_origin(surface.point, surface.geometric_normal),
-            direction: mirrored(ray.direction, surface.normal),
-        };
-        skip = hit.shape;
+/// A path between two hits: the ray, what it still carries, the shape that it leaves.
+pub struct Path {
+    pub ray: Ray,
+    pub throughput: DVec3,
+    pub skip: u32,
+    pub depth: u32,
+    /// False: the path has ended.
+    pub goes_on: bool,
+}
+
+pub fn camera_path(ray: Ray) -> Path {
+    Path { ray, throughput: DVec3::ONE, skip: NO_SHAPE, depth: 0, goes_on: true }
+}
+
+/// Follows the path to its next hit; what that adds to the sample is returned.
+pub fn advance(scene: &PackedScene, path: &mut Path) -> DVec3 {
+    let hit = nearest_hit(scene, &path.ray, path.skip);
+    path.goes_on = false;
+    if hit.shape == NO_SHAPE {
+        return path.throughput * xyz(scene.header.background);
     }
+    let surface = hit_surface(scene, &path.ray, &hit);
+    let material = &scene.materials[surface.material as usize];
+    path.throughput *= surface_color(scene, material, &surface);
+    match Model::ALL[material.link[0] as usize] {
+        Model::Unlit => return path.throughput,
+        Model::Lambert => return path.throughput * direct_light(scene, &surface, hit.shape),
+        Model::Mirror => {}
+    }
+    path.ray = Ray {
+        origin: offset_origin(surface.point, surface.geometric_normal),
+        direction: mirrored(path.ray.direction, surface.normal),
+    };
+    path.skip = hit.shape;
+    path.goes_on = path.depth < scene.header.size[3];
+    path.depth += 1;
     DVec3::ZERO
 }

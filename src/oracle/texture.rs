@@ -1,5 +1,5 @@
-//! (texture, sampler, u, v) → linear RGBA in f64, from the packed bytes. Vulkan 1.3, chapter 16
-//! "Texel input operations". Twin of `glsl/shared/texture.glsl`.
+//! (texture, sampler, u, v) → linear RGBA in f64, from the packed bytes. Follows Vulkan 1.3, "Image
+//! Sample Operations". Twin of `glsl/shared/texture.glsl`.
 
 use glam::{DVec2, DVec4};
 
@@ -35,7 +35,7 @@ pub fn fetch_texel(scene: &PackedScene, image: &Texture, x: i64, y: i64) -> DVec
 }
 
 /// The coordinate in texels, brought near the texture without changing what it reads. What is not
-/// finite reads as 0 in the periodic modes and as the lower end in the others.
+/// finite reads as 0 in the periodic modes; in the others NaN reads as the lower end.
 pub fn reduced_coordinate(mode: Address, u: f64, size: f64) -> f64 {
     let reduced = match mode {
         Address::Repeat => u - u.floor(),
@@ -46,7 +46,7 @@ pub fn reduced_coordinate(mode: Address, u: f64, size: f64) -> f64 {
     if reduced.is_finite() { reduced * size } else { 0.0 }
 }
 
-/// Vulkan 1.3, 16.6 "Integer coordinate wrapping"; `None` asks for the border colour.
+/// Vulkan 1.3, "Wrapping Operation", for every i; `None` asks for the border colour.
 pub fn addressed_texel(mode: Address, i: i64, size: i64) -> Option<i64> {
     let mirror = |n: i64| if n >= 0 { n } else { -1 - n };
     match mode {
@@ -58,34 +58,39 @@ pub fn addressed_texel(mode: Address, i: i64, size: i64) -> Option<i64> {
     }
 }
 
-pub fn fetch_or_border(scene: &PackedScene, image: &Texture, how: &Sampler, x: i64, y: i64) -> DVec4 {
-    let (width, height) = (i64::from(image.place[1]), i64::from(image.place[2]));
-    let [u, v] = address(how);
-    match (addressed_texel(u, x, width), addressed_texel(v, y, height)) {
+/// The texel at addressed (x, y), or the border colour where either is `None`.
+pub fn fetch_or_border(
+    scene: &PackedScene,
+    image: &Texture,
+    how: &Sampler,
+    at: (Option<i64>, Option<i64>),
+) -> DVec4 {
+    match at {
         (Some(x), Some(y)) => fetch_texel(scene, image, x, y),
         _ => vec4(how.border),
     }
 }
 
 pub fn look_up(scene: &PackedScene, image: &Texture, how: &Sampler, uv: DVec2) -> DVec4 {
-    let [u, v] = address(how);
+    let [u, v] = [how.modes[0], how.modes[1]].map(|mode| Address::ALL[mode as usize]);
+    let (width, height) = (image.place[1], image.place[2]);
     // Texel i is centred at i + ½, or at i: half a texel is then added before addressing.
     let integer_centers = how.modes[3] == TexelCenter::Integer as u32;
     let shift = if integer_centers { 0.5 } else { 0.0 };
-    let x = reduced_coordinate(u, uv.x, f64::from(image.place[1])) + shift;
-    let y = reduced_coordinate(v, uv.y, f64::from(image.place[2])) + shift;
+    let x = reduced_coordinate(u, uv.x, f64::from(width)) + shift;
+    let y = reduced_coordinate(v, uv.y, f64::from(height)) + shift;
+    let texel = |i: f64, j: f64| {
+        let at =
+            (addressed_texel(u, i as i64, i64::from(width)), addressed_texel(v, j as i64, i64::from(height)));
+        fetch_or_border(scene, image, how, at)
+    };
     if how.modes[2] == Filter::Nearest as u32 {
-        return fetch_or_border(scene, image, how, x.floor() as i64, y.floor() as i64);
+        return texel(x.floor(), y.floor());
     }
     let (x, y) = (x - 0.5, y - 0.5);
     let (i, j) = (x.floor(), y.floor());
     let (a, b) = (x - i, y - j);
-    let tap = |di, dj| fetch_or_border(scene, image, how, i as i64 + di, j as i64 + dj);
-    let top = tap(0, 0) * (1.0 - a) + tap(1, 0) * a;
-    let bottom = tap(0, 1) * (1.0 - a) + tap(1, 1) * a;
+    let top = texel(i, j) * (1.0 - a) + texel(i + 1.0, j) * a;
+    let bottom = texel(i, j + 1.0) * (1.0 - a) + texel(i + 1.0, j + 1.0) * a;
     top * (1.0 - b) + bottom * b
-}
-
-fn address(how: &Sampler) -> [Address; 2] {
-    [Address::ALL[how.modes[0] as usize], Address::ALL[how.modes[1] as usize]]
 }

@@ -1,6 +1,7 @@
 //! A material's mapping on one shape → the rows and matrix that a device multiplies. Scale, rotation
-//! and offset follow KHR_texture_transform; whole tiles are taken out of every constant, one at a
-//! time for `repeat`, two for `mirrored-repeat`, which changes no look-up.
+//! and offset follow KHR_texture_transform; whole tiles are taken out of the constants of planes and
+//! affine maps, one at a time for `repeat`, two for `mirrored-repeat`, which changes no look-up. An
+//! angular map, whose coordinates lie within one turn, keeps its offset as given.
 
 use glam::{DMat2, DQuat, DVec2, DVec3, DVec4};
 
@@ -72,6 +73,7 @@ pub fn projecting_map(mapping: &Mapping, sampler: &SamplerSpec, eye: DVec3, boun
     match mapping.kind {
         MappingKind::Planar => affine_map(mapping, sampler, x, y),
         MappingKind::Cylindrical => angular_map(mapping, MapKind::Cylindrical, [x, y, z]),
+        // `surface` reaches this on spheres only, whose own coordinates are the two angles.
         MappingKind::Spherical | MappingKind::Surface => angular_map(mapping, MapKind::Spherical, [x, y, z]),
     }
 }

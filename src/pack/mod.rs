@@ -68,6 +68,8 @@ pub struct PackedScene {
     pub samplers: Vec<layout::Sampler>,
     /// Names of the textures, for messages.
     pub texture_names: Vec<String>,
+    /// Channels that each texture's file has, for messages.
+    pub file_channels: Vec<usize>,
     /// The samplers as data, for the device's own sampler objects.
     pub sampler_specs: Vec<SamplerSpec>,
     /// Texels of all textures one after the other, each beginning at a whole 32-bit word.

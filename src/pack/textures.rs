@@ -49,6 +49,7 @@ pub fn pack_textures(packed: &mut PackedScene, textures: Vec<TextureData>) -> Re
             link: [texture.color_space as u32, 0, 0, 0],
         });
         packed.texture_names.push(texture.name);
+        packed.file_channels.push(texture.file_channels);
         if packed.texels.is_empty() {
             packed.texels = texture.texels;
         } else {
@@ -125,15 +126,18 @@ pub fn needs_srgb_table(textures: &[layout::Texture]) -> bool {
 }
 
 impl PackedScene {
-    /// One line a texture: size, how it is stored, and what was expanded on the way.
+    /// One line a texture: size, the file's channels, and how it is held.
     pub fn texture_lines(&self) -> Vec<String> {
-        let line = |(name, record): (&String, &layout::Texture)| {
+        let line = |((name, record), channels): ((&String, &layout::Texture), &usize)| {
             let [_, width, height, format] = record.place;
             let format = TexelFormat::ALL[format as usize];
             let space = ColorSpace::ALL[record.link[0] as usize];
             let bytes = width as usize * height as usize * format.bytes_per_texel();
-            format!("\"{name}\": {width}×{height}, held as {format} ({space}), {} KiB", bytes.div_ceil(1024))
+            let kib = bytes.div_ceil(1024);
+            format!(
+                "\"{name}\": {width}×{height}, {channels}-channel file, held as {format} ({space}), {kib} KiB"
+            )
         };
-        self.texture_names.iter().zip(&self.textures).map(line).collect()
+        self.texture_names.iter().zip(&self.textures).zip(&self.file_channels).map(line).collect()
     }
 }

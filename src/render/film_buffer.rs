@@ -55,12 +55,15 @@ impl FilmBuffer {
         let row = u64::from(width) * PIXEL_BYTES * if features.compensated { 2 } else { 1 };
         let tile_rows = cap / (row * u64::from(TILE));
         if tile_rows == 0 {
-            return Err(Error::new(format!(
-                "a picture {width} pixels wide: {TILE} rows of film take {} MiB, device \"{}\" allows {} MiB at once",
-                (row * u64::from(TILE)) >> 20,
-                gpu.info().name,
-                cap >> 20
-            )));
+            return Err(Error::with_help(
+                format!(
+                    "a picture {width} pixels wide: {TILE} rows of film take {} MiB, device \"{}\" allows {} MiB at once",
+                    (row * u64::from(TILE)) >> 20,
+                    gpu.info().name,
+                    cap >> 20
+                ),
+                "render it in parts with --crop, or smaller with --size",
+            ));
         }
         let band_rows = (tile_rows * u64::from(TILE)).min(u64::from(height)) as u32;
         let buffer = gpu.buffer("film", row * u64::from(band_rows), BufferUse::Storage)?;

@@ -77,7 +77,7 @@ pub fn render(
 
     let clock = Instant::now();
     let shader = shader_for(features.source);
-    let group_size = tuning.group_size(gpu.info());
+    let group_size = tuning.group_size(gpu.info())?;
     let slots = scene.slots.len() as u32;
     let constants = features::constants(shader, &features, &resources.sections, group_size, slots);
     let pipeline = build_pipeline(gpu, shader, &constants, slots, size_of::<Slice>())?;

@@ -76,7 +76,8 @@ impl Resources {
 
 fn upload_texels(gpu: &Gpu, packed: &PackedScene) -> Result<Buffer> {
     let words = packed.texels.len() as u64 / 4;
-    let limit = gpu.info().limits.max_texel_buffer_elements;
+    // The shader's index is an `int`, whatever the device allows.
+    let limit = gpu.info().limits.max_texel_buffer_elements.min(i32::MAX as u64);
     if words > limit {
         return Err(Error::with_help(
             format!(

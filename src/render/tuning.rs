@@ -16,6 +16,7 @@ named_enum! {
     }
 }
 
+/// What is left to the device, unless a measurement fixes it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Tuning {
     pub texels: TexelChoice,
@@ -54,12 +55,48 @@ impl Tuning {
             }
     }
 
-    pub fn group_size(&self, device: &DeviceInfo) -> [u32; 2] {
+    /// Width and height of a workgroup; an error where the device has none of that many threads.
+    pub fn group_size(&self, device: &DeviceInfo) -> Result<[u32; 2]> {
         let default = if device.kind == DeviceKind::Cpu { [64, 1] } else { [8, 8] };
-        self.group.unwrap_or(default)
+        let [x, y] = self.group.unwrap_or(default);
+        let most = device.limits.max_workgroup_invocations;
+        if x * y > most {
+            return Err(Error::new(format!(
+                "workgroup {x}x{y}: {} threads, device \"{}\" takes at most {most}",
+                x * y,
+                device.name
+            )));
+        }
+        Ok([x, y])
     }
 }
 
+/// Workgroups that cover one tile.
 pub fn groups_per_tile(group: [u32; 2]) -> u32 {
     (TILE / group[0]) * (TILE / group[1])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_workgroup_over_the_devices_threads_is_refused() {
+        let mut device = DeviceInfo {
+            index: 0,
+            name: "small".into(),
+            kind: DeviceKind::Integrated,
+            driver: String::new(),
+            api_version: "1.2.0".into(),
+            uuid: None,
+            limits: Default::default(),
+            suitable: Ok(()),
+        };
+        device.limits.max_workgroup_invocations = 128;
+        let tuning = |group| Tuning { texels: TexelChoice::Auto, group };
+        assert_eq!(tuning(None).group_size(&device).unwrap(), [8, 8]);
+        assert_eq!(tuning(Some([16, 8])).group_size(&device).unwrap(), [16, 8]);
+        let error = tuning(Some([32, 8])).group_size(&device).unwrap_err().to_string();
+        assert!(error.contains("32x8") && error.contains("128"), "{error}");
+    }
 }

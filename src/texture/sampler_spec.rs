@@ -4,7 +4,7 @@
 use crate::named::named_enum;
 
 named_enum! {
-    /// What a coordinate outside [0, 1) reads (Vulkan 1.3, 16.8 "Texel input operations").
+    /// What a coordinate outside [0, 1) reads (Vulkan 1.3, "Wrapping Operation").
     pub enum Address {
         Repeat = "repeat",
         MirroredRepeat = "mirrored-repeat",
