@@ -78,7 +78,7 @@ merge_shaderc() {
     for d in "/usr/lib/$(uname -m)-linux-gnu" /usr/lib64 /usr/lib; do
         if [ -f "$d/libshaderc.a" ] || [ -f "$d/libshaderc_combined.a" ]; then dir=$d; break; fi
     done
-    [ -n "$dir" ] || return 1
+    [ -n "$dir" ] || { rm -f "$out"; return 1; }
     [ -f "$out" ] && [ "$out" -nt "$dir/libshaderc_combined.a" ] && return 0
     mkdir -p .cargo/shaderc
     tmp=$(mktemp -d)
@@ -97,7 +97,7 @@ merge_shaderc() {
         echo end
     } >"$tmp/merge.mri"
     if ! ar -M <"$tmp/merge.mri" || ! links "$tmp/libshaderc_combined.a"; then
-        rm -r "$tmp"
+        rm -rf "$tmp" "$out"
         return 1
     fi
     mv "$tmp/libshaderc_combined.a" "$out"

@@ -123,19 +123,15 @@ vec4 fetch_texel(Texture image, uint slot, ivec2 at) {
 const float ROUND = 12582912.0;
 
 // The coordinate in texels, brought near the texture without changing what it reads. Whole periods
-// leave exactly, to [-1/2, 1/2] or, mirrored, [-1, 1]; what is not finite reads as 0. Below -2^22
-// (mirrored: -2^23) an f32 resolves half a period at best, and that half is lost too. Clamped modes
+// leave exactly, to [-1/2, 1/2] or, mirrored, [-1, 1]; what is not finite reads as 0. Clamped modes
 // lose what lies far outside.
 float reduced_coordinate(uint mask, uint mode, float u, float size) {
     precise float s;
     if (MODE_IS(mask, ADDRESS_REPEAT, mode)) {
-        precise float whole = (u + ROUND) - ROUND;
-        s = u - whole;
+        s = u - roundEven(u);
         s = abs(s) <= 0.5 ? s : 0.0;
     } else if (MODE_IS(mask, ADDRESS_MIRRORED_REPEAT, mode)) {
-        precise float half_u = 0.5 * u;
-        precise float whole = (half_u + ROUND) - ROUND;
-        s = u - 2.0 * whole;
+        s = u - 2.0 * roundEven(0.5 * u);
         s = abs(s) <= 1.0 ? s : 0.0;
     } else {
         s = u >= -2.0 ? (u <= 3.0 ? u : 3.0) : -2.0;

@@ -72,18 +72,21 @@ pub fn projecting_map(mapping: &Mapping, sampler: &SamplerSpec, eye: DVec3, boun
     let [x, y, z] = frame_rows(mapping, eye, bounds);
     match mapping.kind {
         MappingKind::Planar => affine_map(mapping, sampler, x, y),
-        MappingKind::Cylindrical => angular_map(mapping, MapKind::Cylindrical, [x, y, z]),
+        MappingKind::Cylindrical => angular_map(mapping, sampler, MapKind::Cylindrical, [x, y, z]),
         // `surface` reaches this on spheres only, whose own coordinates are the two angles.
-        MappingKind::Spherical | MappingKind::Surface => angular_map(mapping, MapKind::Spherical, [x, y, z]),
+        MappingKind::Spherical | MappingKind::Surface => {
+            angular_map(mapping, sampler, MapKind::Spherical, [x, y, z])
+        }
     }
 }
 
-fn angular_map(mapping: &Mapping, kind: MapKind, [x, y, z]: [DVec4; 3]) -> Map {
+fn angular_map(mapping: &Mapping, sampler: &SamplerSpec, kind: MapKind, [x, y, z]: [DVec4; 3]) -> Map {
+    let offset = mapping.offset - whole_tiles(mapping.offset, periods(sampler));
     Map {
         x: vec4(x),
         y: vec4(y),
         z: vec4(z),
-        offset: vec4(mapping.offset.extend(0.0).extend(0.0)),
+        offset: vec4(offset.extend(0.0).extend(0.0)),
         ..matrix_map(mapping, kind)
     }
 }
