@@ -4,7 +4,7 @@
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
-use moire::cli::{compare, devices, render};
+use moire::cli::{self, compare, devices, render};
 use moire::error::Error;
 
 /// Renders textured scenes with Vulkan compute, with or without a GPU
@@ -33,7 +33,7 @@ fn main() -> ExitCode {
     };
     result.unwrap_or_else(|error| {
         let code = if matches!(error, Error::Interrupted) { 130 } else { 2 };
-        eprintln!("{:?}", miette::Report::new(error));
+        cli::tell(format_args!("{:?}", miette::Report::new(error)));
         ExitCode::from(code)
     })
 }

@@ -55,7 +55,7 @@ pub fn run(args: &CompareArgs) -> Result<ExitCode> {
     let text = if args.json { json(args, &comparison, pass)? } else { table(args, &comparison) };
     super::print(&text)?;
     if !pass {
-        eprintln!("{}", reason(&comparison, args.max_rmse));
+        super::tell(reason(&comparison, args.max_rmse));
     }
     Ok(ExitCode::from(if pass { 0 } else { 1 }))
 }

@@ -7,15 +7,23 @@ mod progress;
 pub mod render;
 mod report;
 
+use std::fmt::Display;
 use std::io::{self, ErrorKind, Write};
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 
 use crate::error::{Error, Result};
 
-/// One piece of text to stdout. A reader that stops early, such as `head`, is no error.
+/// A line on stderr. Where nobody can read it any more (a closed pipe, a full disk) there is nobody to
+/// tell either: the work goes on and the exit code still says how it ended.
+pub fn tell(line: impl Display) {
+    let _ = writeln!(io::stderr().lock(), "{line}");
+}
+
+/// A result on stdout. A reader that stops early, such as `head`, is no error.
 fn print(text: &str) -> Result<()> {
-    match writeln!(io::stdout().lock(), "{text}") {
+    let mut stdout = io::stdout().lock();
+    match writeln!(stdout, "{text}").and_then(|()| stdout.flush()) {
         Err(e) if e.kind() != ErrorKind::BrokenPipe => Err(Error::new(format!("standard output: {e}"))),
         _ => Ok(()),
     }

@@ -17,14 +17,14 @@ pub struct Overrides {
     #[arg(long, value_name = "WxH", value_parser = parse_size)]
     size: Option<[u32; 2]>,
     /// Samples per pixel
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
     spp: Option<u32>,
     #[arg(long, value_name = "A", value_parser = named_parser(Algorithm::NAMES, Algorithm::from_name), help = one_of("Algorithm", Algorithm::NAMES))]
     algorithm: Option<Algorithm>,
     #[arg(long, value_name = "P", value_parser = named_parser(Pattern::NAMES, Pattern::from_name), help = one_of("Sampling pattern", Pattern::NAMES))]
     pattern: Option<Pattern>,
     /// Seed of the sampling pattern
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
     seed: Option<u32>,
     #[arg(long, value_name = "M", value_parser = named_parser(Method::NAMES, Method::from_name), help = one_of("Look-up method of every sampler", Method::NAMES))]
     method: Option<Method>,

@@ -1,7 +1,7 @@
 //! `moire render`: a scene file and options in, pictures and (with `--json`) one object of figures
 //! out. Everything that can be refused is refused before the device starts.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
 
@@ -35,7 +35,7 @@ pub struct RenderArgs {
     #[arg(long, value_name = "SEL")]
     device: Option<String>,
     /// Render only this part, in pixels of the full picture
-    #[arg(long, value_name = "X,Y,W,H", value_parser = parse_crop)]
+    #[arg(long, value_name = "X,Y,W,H", allow_hyphen_values = true, value_parser = parse_crop)]
     crop: Option<Crop>,
     /// Build the pipeline with all features, to measure what leaving them out gains
     #[arg(long)]
@@ -74,6 +74,7 @@ pub fn run(args: &RenderArgs) -> Result<ExitCode> {
     let outputs = outputs(args);
     for path in &outputs {
         output::check_writable(path)?;
+        check_inputs_kept(path, &scene)?;
     }
     let dropped = prune(&mut scene);
 
@@ -87,9 +88,7 @@ pub fn run(args: &RenderArgs) -> Result<ExitCode> {
 
     let clock = Instant::now();
     let options = WriteOptions { png_bits: if args.png_bits == "16" { 16 } else { 8 } };
-    for path in &outputs {
-        output::write(&ran.film, path, &options)?;
-    }
+    output::write_all(&ran.film, &outputs, &options)?;
     ran.report.seconds.write = clock.elapsed().as_secs_f64();
     ran.report.seconds.total = start.elapsed().as_secs_f64();
     let outputs: Vec<String> = outputs.iter().map(|p| p.display().to_string()).collect();
@@ -125,7 +124,7 @@ fn render_on_device(
     let (film, mut report) = render::render(&gpu, packed, args.keep_everything, &tuning, bar)?;
     (report.seconds.startup, report.seconds.load) = (startup, load);
     for message in gpu.messages() {
-        eprintln!("validation: {message}");
+        super::tell(format_args!("validation: {message}"));
     }
     Ok(Ran { device: gpu.info().name.clone(), driver: gpu.info().driver.clone(), film, report })
 }
@@ -152,10 +151,25 @@ fn load(scene: &Scene, args: &RenderArgs) -> Result<PackedScene> {
 
 fn outputs(args: &RenderArgs) -> Vec<PathBuf> {
     if args.output.is_empty() {
-        let stem = args.scene.file_stem().unwrap_or("scene".as_ref());
-        return vec![PathBuf::from(stem).with_extension("png")];
+        let mut name = args.scene.file_stem().unwrap_or("scene".as_ref()).to_owned();
+        name.push(".png");
+        return vec![PathBuf::from(name)];
     }
     args.output.clone()
+}
+
+/// A picture must not replace a file that it is made from.
+fn check_inputs_kept(output: &Path, scene: &Scene) -> Result<()> {
+    let Ok(output_file) = output.canonicalize() else { return Ok(()) };
+    let textures = scene.textures.iter().map(|t| (&t.file, format!("the file of texture \"{}\"", t.name)));
+    let mut inputs = std::iter::once((&scene.path, "the scene file".to_owned())).chain(textures);
+    match inputs.find(|(file, _)| file.canonicalize().is_ok_and(|file| file == output_file)) {
+        Some((_, what)) => Err(Error::with_help(
+            format!("{}: this is {what}, which the picture would replace", output.display()),
+            "choose another name for the picture with -o",
+        )),
+        None => Ok(()),
+    }
 }
 
 fn parse_crop(text: &str) -> Result<Crop, String> {
@@ -183,7 +197,7 @@ fn check_crop(crop: Option<Crop>, scene: &Scene) -> Result<()> {
 fn say_textures(args: &RenderArgs, packed: &PackedScene) {
     if args.verbose {
         for line in packed.texture_lines() {
-            eprintln!("texture {line}");
+            super::tell(format_args!("texture {line}"));
         }
     }
 }

@@ -4,6 +4,7 @@ use std::fs;
 
 use serde_json::{Value, json};
 
+use super::tell;
 use crate::film::Film;
 use crate::render::Report;
 
@@ -35,11 +36,11 @@ pub fn json(ran: &Ran, options: Value, outputs: &[String]) -> Value {
 pub fn say(ran: &Ran, outputs: &[String], verbose: bool) {
     let (report, seconds) = (&ran.report, &ran.report.seconds);
     if verbose {
-        eprintln!("left out:");
+        tell("left out:");
         for line in &report.left_out {
-            eprintln!("  {line}");
+            tell(format_args!("  {line}"));
         }
-        eprintln!(
+        tell(format_args!(
             "seconds: startup {:.3}, load {:.3}, compile {:.3}, upload {:.3}, render {:.3}, readback {:.3}, write {:.3}",
             seconds.startup,
             seconds.load,
@@ -48,13 +49,13 @@ pub fn say(ran: &Ran, outputs: &[String], verbose: bool) {
             seconds.render,
             seconds.readback,
             seconds.write
-        );
-        eprintln!(
+        ));
+        tell(format_args!(
             "device time of rendering: {:.4} s in {} slices",
             report.device_render_seconds, report.slices
-        );
+        ));
     }
-    eprintln!(
+    tell(format_args!(
         "{}: {}×{} pixels, {} samples a pixel on {}, render {:.3} s, total {:.3} s",
         outputs.join(", "),
         ran.film.width,
@@ -63,7 +64,7 @@ pub fn say(ran: &Ran, outputs: &[String], verbose: bool) {
         ran.device,
         seconds.render,
         seconds.total
-    );
+    ));
 }
 
 /// User and system time of this process so far, where `/proc` tells (proc(5), fields 14 and 15, in

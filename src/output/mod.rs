@@ -37,6 +37,19 @@ impl Default for WriteOptions {
 
 /// Writes `film` to `path`, replacing a file that is there; on failure that file is as it was.
 pub fn write(film: &Film, path: &Path, options: &WriteOptions) -> Result<()> {
+    prepare(film, path, options)?.finish()
+}
+
+/// Writes `film` to every path. All files are complete before the first one takes its place, so that
+/// a full disk leaves none of them.
+pub fn write_all(film: &Film, paths: &[impl AsRef<Path>], options: &WriteOptions) -> Result<()> {
+    let prepared =
+        paths.iter().map(|path| prepare(film, path.as_ref(), options)).collect::<Result<Vec<_>>>()?;
+    prepared.into_iter().try_for_each(Target::finish)
+}
+
+/// The whole file under its temporary name.
+fn prepare(film: &Film, path: &Path, options: &WriteOptions) -> Result<Target> {
     let format = format_of(path)?;
     if !matches!(options.png_bits, 8 | 16) {
         return Err(Error::with_help(
@@ -56,7 +69,8 @@ pub fn write(film: &Film, path: &Path, options: &WriteOptions) -> Result<()> {
             "nothing was written; check the disk's free space, or choose another format by its ending",
         )
     })?;
-    target.finish()
+    target.complete()?;
+    Ok(target)
 }
 
 /// What [`write()`] would complain about that does not depend on the picture: to be called before a

@@ -39,17 +39,23 @@ impl Target {
         &mut self.file
     }
 
+    /// All bytes to the temporary file: what a full disk refuses is refused here.
+    pub fn complete(&mut self) -> Result<()> {
+        self.file.flush().map_err(|e| failed(&self.path, &e))
+    }
+
     pub fn finish(self) -> Result<()> {
-        let failed = |e: std::io::Error| {
-            Error::with_help(
-                format!("{}: cannot be written: {e}", self.path.display()),
-                "nothing was written; check the disk's free space and the folder's permissions",
-            )
-        };
-        let file = self.file.into_inner().map_err(|e| failed(e.into_error()))?;
-        file.persist(&self.destination).map_err(|e| failed(e.error))?;
+        let file = self.file.into_inner().map_err(|e| failed(&self.path, &e.into_error()))?;
+        file.persist(&self.destination).map_err(|e| failed(&self.path, &e.error))?;
         Ok(())
     }
+}
+
+fn failed(path: &Path, error: &std::io::Error) -> Error {
+    Error::with_help(
+        format!("{}: cannot be written: {error}", path.display()),
+        "nothing was written; check the disk's free space and the folder's permissions",
+    )
 }
 
 /// Temporary files are private by default; a picture gets the permissions that any new file has,

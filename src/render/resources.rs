@@ -100,7 +100,8 @@ fn upload_images(gpu: &Gpu, packed: &PackedScene) -> Result<Vec<(Image, Sampler)
                 "the scene reads {} pairs of texture and sampler through images; {MAX_SLOTS} are possible",
                 packed.slots.len()
             ),
-            "set method = \"shader\" on some samplers, or share samplers and textures",
+            "one sampler of method \"hardware\" makes all look-ups go through images: use --method shader, \
+             or share samplers and textures",
         ));
     }
     // One image serves all slots that read it in the same form.

@@ -274,3 +274,57 @@ fn compare_judges_rendered_files() {
     assert_eq!(run(&["a.exr", "a.exr", "--max-rmse", "0"]).status.code(), Some(0));
     assert_eq!(run(&["a.exr", "b.exr", "--max-rmse", "1e-4"]).status.code(), Some(1));
 }
+
+#[test]
+fn only_the_last_ending_of_the_scenes_name_is_replaced() {
+    let folder = tempdir().unwrap();
+    let text = "camera = { eye = [0, 0, 1], look_at = [0, 0, 0], vertical_fov = 40 }\nimage = { width = 2, height = 2 }";
+    fs::write(folder.path().join("floor.v2.toml"), text).unwrap();
+    let output =
+        moire().current_dir(folder.path()).args(["render", "floor.v2.toml", "--device", "oracle"]).output();
+    assert_eq!(output.unwrap().status.code(), Some(0));
+    assert_eq!(files(&folder), ["floor.v2.png", "floor.v2.toml"]);
+}
+
+/// A pipe whose reader has gone, and a device without space.
+#[cfg(target_os = "linux")]
+fn deaf_ears() -> [std::process::Stdio; 2] {
+    let (reader, writer) = std::io::pipe().unwrap();
+    drop(reader);
+    [writer.into(), fs::OpenOptions::new().write(true).open("/dev/full").unwrap().into()]
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_render_that_nobody_listens_to_still_writes_its_picture() {
+    for stderr in deaf_ears() {
+        let folder = tempdir().unwrap();
+        let status = std::process::Command::new(crate::support::program())
+            .current_dir(folder.path())
+            .args(["render", "-v", "--size", "8x8", "--device", "oracle"])
+            .arg(absolute(&path("horizon")))
+            .stderr(stderr)
+            .status();
+        assert_eq!((status.unwrap().code(), files(&folder)), (Some(0), vec!["horizon.png".to_owned()]));
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_report_that_cannot_be_printed_is_an_error_but_a_closed_pipe_is_none() {
+    for (stdout, (code, said)) in deaf_ears().into_iter().zip([(0, ""), (2, "standard output")]) {
+        let folder = tempdir().unwrap();
+        let output = std::process::Command::new(crate::support::program())
+            .current_dir(folder.path())
+            .args(["render", "-q", "--json", "--size", "8x8", "--device", "oracle"])
+            .arg(absolute(&path("horizon")))
+            .stdout(stdout)
+            .stderr(std::process::Stdio::piped())
+            .spawn()
+            .and_then(|child| child.wait_with_output())
+            .unwrap();
+        let told = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(code), "{told}");
+        assert!(told.contains(said) && !told.contains("panicked"), "{told}");
+    }
+}

@@ -6,7 +6,7 @@ use std::path::Path;
 use moire::color::{linear_to_srgb, srgb_to_linear};
 use moire::film::Film;
 use moire::metrics::read_picture;
-use moire::output::{WriteOptions, check_writable, write};
+use moire::output::{WriteOptions, check_writable, write, write_all};
 use moire::texture::data::{ColorSpace, TexelFormat, TextureData};
 use moire::texture::decode::decode;
 use tempfile::tempdir;
@@ -224,4 +224,15 @@ fn symbolic_link_stays_a_link() {
     write(&gradient(2, 2), &link, &WriteOptions::default()).unwrap();
     assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
     assert_eq!(stored(&file).width, 2);
+}
+
+#[test]
+fn of_several_pictures_all_are_written_or_none() {
+    let folder = tempdir().unwrap();
+    // JPEG has 16 bits for a side.
+    let paths = ["a.exr", "b.jpg"].map(|name| folder.path().join(name));
+    assert!(told(write_all(&gradient(70_000, 1), &paths, &WriteOptions::default())).contains("b.jpg"));
+    assert!(names(folder.path()).is_empty(), "{:?}", names(folder.path()));
+    write_all(&gradient(7, 1), &paths, &WriteOptions::default()).unwrap();
+    assert_eq!(names(folder.path()), ["a.exr", "b.jpg"]);
 }

@@ -29,3 +29,12 @@ fn a_device_file_is_no_place_for_a_picture() {
     std::os::unix::fs::symlink(Path::new("/dev/null"), case.path("null.png")).unwrap();
     case.refused(&["-o", "null.png"], &["null.png", "not a regular file"]);
 }
+
+#[test]
+fn a_picture_does_not_replace_what_it_is_made_from() {
+    let case = Case::new();
+    case.refused(&["-o", "tiles.png"], &["tiles.png", "file of texture", "-o"]);
+    fs::copy(case.path("scene.toml"), case.path("scene.png")).unwrap();
+    case.fails(&[], &["render", "scene.png", "-o", "scene.png"], &["scene.png", "this is the scene file"]);
+    assert_eq!(fs::read(case.path("scene.png")).unwrap(), fs::read(case.path("scene.toml")).unwrap());
+}
