@@ -6,6 +6,7 @@ mod overrides;
 mod progress;
 pub mod render;
 mod report;
+pub mod texture;
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 
