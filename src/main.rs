@@ -4,7 +4,7 @@
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
-use moire::cli::{self, compare, devices, render};
+use moire::cli::{self, compare, devices, render, texture};
 use moire::error::Error;
 
 /// Renders textured scenes with Vulkan compute, with or without a GPU
@@ -23,6 +23,8 @@ enum Command {
     Compare(compare::CompareArgs),
     /// List the Vulkan devices
     Devices(devices::DevicesArgs),
+    /// Describe a texture file, and say whether it tiles
+    Texture(texture::TextureArgs),
 }
 
 fn main() -> ExitCode {
@@ -30,6 +32,7 @@ fn main() -> ExitCode {
         Command::Render(args) => render::run(&args),
         Command::Compare(args) => compare::run(&args),
         Command::Devices(args) => devices::run(&args),
+        Command::Texture(args) => texture::run(&args),
     };
     result.unwrap_or_else(|error| {
         let code = if matches!(error, Error::Interrupted) { 130 } else { 2 };

@@ -6,6 +6,7 @@ mod overrides;
 mod progress;
 pub mod render;
 mod report;
+pub mod texture;
 
 use std::fmt::Display;
 use std::io::{self, ErrorKind, Write};

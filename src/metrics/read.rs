@@ -7,11 +7,15 @@ use crate::color::{srgb_to_linear, srgb8_table};
 use crate::error::Result;
 use crate::film::Film;
 use crate::texture::data::Component;
-use crate::texture::read_file;
+use crate::texture::read_file::{self, Texels};
 
 /// `samples` is 0: a file does not say how many stand behind it.
 pub fn read_picture(path: &Path) -> Result<Film> {
-    let texels = read_file::read(path)?;
+    Ok(film_of(&read_file::read(path)?))
+}
+
+/// The texels of a file as a picture.
+pub(crate) fn film_of(texels: &Texels) -> Film {
     let channels = texels.format.channels();
     let pixels = match texels.format.component() {
         Component::Unorm8 => {
@@ -23,7 +27,7 @@ pub fn read_picture(path: &Path) -> Result<Film> {
         }),
         Component::Float32 => pixels::<4>(&texels.bytes, channels, f32::from_ne_bytes),
     };
-    Ok(Film { width: texels.width, height: texels.height, pixels, samples: 0 })
+    Film { width: texels.width, height: texels.height, pixels, samples: 0 }
 }
 
 fn pixels<const SIZE: usize>(

@@ -1,5 +1,7 @@
 //! Textures as data: what a file holds, what a sampler does with it.
 
+pub mod analysis;
+mod analysis_steps;
 pub mod data;
 pub mod decode;
 mod jpeg_end;

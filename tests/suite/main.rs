@@ -31,3 +31,4 @@ mod shared_gpu;
 mod stage;
 mod strata;
 mod support;
+mod texture_command;

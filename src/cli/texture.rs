@@ -1,0 +1,203 @@
+//! `moire texture FILE`: what a texture file holds, whether it tiles, and a picture of it repeated
+//! 2×2. A texture that does not tile or that holds NaN is described like any other: exit 0.
+
+use std::fmt::Write as _;
+use std::io::{self, ErrorKind, Write as _};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use serde_json::{Value, json};
+
+use super::named_parser;
+use crate::error::{Error, Result};
+use crate::film::Film;
+use crate::metrics::read::film_of;
+use crate::output::{self, WriteOptions};
+use crate::texture::analysis::{Analysis, Axis, Channel, LARGEST_RATIO, LARGEST_RECURRENCE, Seam, analyse};
+use crate::texture::data::{ColorSpace, Component, TextureData};
+use crate::texture::read_file::{self, Texels};
+
+/// Describe a texture file: size, format, range and mean, non-finite texels, whether it tiles
+///
+/// An axis tiles if the step from the last texels to the first is at most 1.5 times the RMS of the
+/// steps between neighbours inside, or is an edge that the texture has inside as well.
+#[derive(Debug, clap::Args)]
+pub struct TextureArgs {
+    /// PNG, JPEG, TIFF, HDR or EXR
+    pub file: PathBuf,
+    /// Write the texture repeated 2×2, looking like the file; alpha is left out
+    #[arg(short, long, value_name = "OUT.png")]
+    pub out: Option<PathBuf>,
+    /// What the stored values mean, as in a scene; srgb: range and mean are those of linear light
+    #[arg(long, value_name = "SPACE", default_value = "linear",
+          value_parser = named_parser(ColorSpace::NAMES, ColorSpace::from_name))]
+    pub color_space: ColorSpace,
+    /// Print one JSON object
+    #[arg(long)]
+    pub json: bool,
+}
+
+pub fn run(args: &TextureArgs) -> Result<ExitCode> {
+    if let Some(path) = &args.out {
+        output::check_writable(path)?;
+    }
+    let texels = read_file::read(&args.file)?;
+    if texels.format.component() == Component::Float32 && args.color_space == ColorSpace::Srgb {
+        return Err(Error::with_help(
+            format!("{}: float texels are linear light, not sRGB", args.file.display()),
+            "leave out --color-space srgb; sRGB is an encoding of 8- and 16-bit values",
+        ));
+    }
+    if let Some(path) = &args.out {
+        // As many bits as the file has: its own values come back.
+        let png_bits = if texels.format.component() == Component::Unorm16 { 16 } else { 8 };
+        output::write(&repeated(&texels, &args.file)?, path, &WriteOptions { png_bits })?;
+    }
+    let texture = named(texels, args);
+    let analysis = analyse(&texture);
+    let text = if args.json { json(args, &texture, &analysis)? } else { table(args, &texture, &analysis) };
+    match writeln!(io::stdout().lock(), "{}", text.trim_end()) {
+        // A reader that stops early, such as `head`, is no error.
+        Err(e) if e.kind() != ErrorKind::BrokenPipe => Err(Error::new(format!("standard output: {e}"))),
+        _ => Ok(ExitCode::SUCCESS),
+    }
+}
+
+fn named(texels: Texels, args: &TextureArgs) -> TextureData {
+    TextureData {
+        name: args.file.display().to_string(),
+        width: texels.width,
+        height: texels.height,
+        format: texels.format,
+        color_space: args.color_space,
+        file_channels: texels.file_channels,
+        texels: texels.bytes,
+    }
+}
+
+/// Two by two copies. 8- and 16-bit values are decoded from sRGB, whatever they mean as a texture:
+/// writing encodes them again, so that the picture looks like the file. Float values stay.
+fn repeated(texels: &Texels, file: &Path) -> Result<Film> {
+    let (width, height) = (texels.width * 2, texels.height * 2);
+    let mut pixels = Vec::new();
+    pixels.try_reserve_exact(width as usize * height as usize).map_err(|_| {
+        Error::with_help(
+            format!("{}: {width}×{height} pixels do not fit into memory", file.display()),
+            "leave out --out, or scale the texture down",
+        )
+    })?;
+    let film = film_of(texels);
+    for row in film.pixels.chunks_exact(texels.width as usize) {
+        pixels.extend_from_slice(row);
+        pixels.extend_from_slice(row);
+    }
+    pixels.extend_from_within(..);
+    Ok(Film { width, height, pixels, samples: 0 })
+}
+
+fn json(args: &TextureArgs, texture: &TextureData, analysis: &Analysis) -> Result<String> {
+    let report = json!({
+        "file": texture.name,
+        "size": [texture.width, texture.height],
+        "format": texture.format.name(),
+        "file_channels": texture.file_channels,
+        "bytes": texture.texels.len(),
+        "color_space": texture.color_space.name(),
+        "channels": analysis.channels.iter().map(channel_json).collect::<Vec<_>>(),
+        "non_finite_texels": analysis.non_finite_texels,
+        "first_non_finite": analysis.first_non_finite,
+        "tiling": { "u": axis_json(&analysis.u), "v": axis_json(&analysis.v) },
+        "largest_ratio": LARGEST_RATIO,
+        "largest_recurrence": LARGEST_RECURRENCE,
+        "out": args.out.as_ref().map(|path| path.display().to_string()),
+    });
+    serde_json::to_string_pretty(&report).map_err(|e| Error::new(format!("the report as JSON: {e}")))
+}
+
+fn channel_json(channel: &Channel) -> Value {
+    json!({
+        "name": channel.name,
+        "min": channel.min,
+        "max": channel.max,
+        "mean": channel.mean,
+        "nan": channel.nan,
+        "infinite": channel.infinite,
+    })
+}
+
+fn axis_json(axis: &Axis) -> Value {
+    json!({
+        "tiles": axis.seam.tiles(),
+        "seam": axis.seam.name(),
+        "seam_rms": axis.seam_rms,
+        "interior_rms": axis.interior_rms,
+        "ratio": axis.ratio,
+        "recurrence": axis.recurrence,
+    })
+}
+
+fn table(args: &TextureArgs, texture: &TextureData, analysis: &Analysis) -> String {
+    let mut text = String::new();
+    let mut line = |name: &str, value: String| {
+        let _ = writeln!(text, "{name:<12}{value}");
+    };
+    let of_file = texture.file_channels;
+    let plural = if of_file == 1 { "" } else { "s" };
+    line("file", texture.name.clone());
+    line("size", format!("{}×{} texels", texture.width, texture.height));
+    line(
+        "format",
+        format!("{} from {of_file} channel{plural}, {} bytes", texture.format, texture.texels.len()),
+    );
+    line("values", meaning(texture).into());
+    for channel in &analysis.channels {
+        line(channel.name, channel_line(channel));
+    }
+    let first = analysis.first_non_finite.map_or(String::new(), |[x, y]| format!(", first ({x}, {y})"));
+    line("non-finite", format!("{}{first}", analysis.non_finite_texels));
+    line("tiles in u", axis_line(&analysis.u, texture.width, "column"));
+    line("tiles in v", axis_line(&analysis.v, texture.height, "row"));
+    if let Some(path) = &args.out {
+        line("written", path.display().to_string());
+    }
+    text
+}
+
+fn meaning(texture: &TextureData) -> &'static str {
+    match (texture.format.component(), texture.color_space) {
+        (Component::Float32, _) => "as stored",
+        (_, ColorSpace::Linear) => "as stored, scaled to [0, 1]",
+        (_, ColorSpace::Srgb) => "decoded from sRGB",
+    }
+}
+
+fn channel_line(channel: &Channel) -> String {
+    let mut text = match (channel.min, channel.max, channel.mean) {
+        (Some(min), Some(max), Some(mean)) => format!("{min:.6} to {max:.6}, mean {mean:.6}"),
+        _ => "no finite value".into(),
+    };
+    if channel.nan + channel.infinite > 0 {
+        let _ = write!(text, "; {} NaN, {} infinite", channel.nan, channel.infinite);
+    }
+    text
+}
+
+fn axis_line(axis: &Axis, texels: u32, line: &str) -> String {
+    let numbers = match (axis.seam_rms, axis.interior_rms) {
+        (Some(seam), Some(interior)) => {
+            let ratio = axis.ratio.map_or(String::new(), |ratio| format!(", ratio {ratio:.3}"));
+            format!(" (seam {seam:.6}, interior {interior:.6}{ratio})")
+        }
+        _ => String::new(),
+    };
+    let verdict = match axis.seam {
+        Seam::Smooth => "yes".into(),
+        Seam::Pattern => "yes: the edge at the seam is one that the texture has inside".into(),
+        Seam::Doubled => format!("yes, but the last {line} repeats the first: leave one out"),
+        Seam::Constant if texels == 1 => "yes: one texel".into(),
+        Seam::Constant => "yes: constant".into(),
+        Seam::Visible => "no".into(),
+        Seam::Unknown => "unknown: no finite pair of texels".to_string(),
+    };
+    verdict + &numbers
+}
