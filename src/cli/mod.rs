@@ -10,6 +10,7 @@ pub mod texture;
 
 use std::fmt::Display;
 use std::io::{self, ErrorKind, Write};
+use std::path::Path;
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 
@@ -28,6 +29,18 @@ fn print(text: &str) -> Result<()> {
         Err(e) if e.kind() != ErrorKind::BrokenPipe => Err(Error::new(format!("standard output: {e}"))),
         _ => Ok(()),
     }
+}
+
+/// Refuses to write over `input`, which is `what`.
+fn check_input_kept(output: &Path, input: &Path, what: &str) -> Result<()> {
+    let same = output.canonicalize().is_ok_and(|o| input.canonicalize().is_ok_and(|i| i == o));
+    if !same {
+        return Ok(());
+    }
+    Err(Error::with_help(
+        format!("{}: this is {what}, which the picture would replace", output.display()),
+        "choose another name for the picture with -o",
+    ))
 }
 
 /// A value parser over a vocabulary: clap lists the names and suggests the nearest.

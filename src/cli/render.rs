@@ -160,16 +160,10 @@ fn outputs(args: &RenderArgs) -> Vec<PathBuf> {
 
 /// A picture must not replace a file that it is made from.
 fn check_inputs_kept(output: &Path, scene: &Scene) -> Result<()> {
-    let Ok(output_file) = output.canonicalize() else { return Ok(()) };
-    let textures = scene.textures.iter().map(|t| (&t.file, format!("the file of texture \"{}\"", t.name)));
-    let mut inputs = std::iter::once((&scene.path, "the scene file".to_owned())).chain(textures);
-    match inputs.find(|(file, _)| file.canonicalize().is_ok_and(|file| file == output_file)) {
-        Some((_, what)) => Err(Error::with_help(
-            format!("{}: this is {what}, which the picture would replace", output.display()),
-            "choose another name for the picture with -o",
-        )),
-        None => Ok(()),
-    }
+    super::check_input_kept(output, &scene.path, "the scene file")?;
+    scene.textures.iter().try_for_each(|t| {
+        super::check_input_kept(output, &t.file, &format!("the file of texture \"{}\"", t.name))
+    })
 }
 
 fn parse_crop(text: &str) -> Result<Crop, String> {

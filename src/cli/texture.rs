@@ -2,7 +2,6 @@
 //! 2×2. A texture that does not tile or that holds NaN is described like any other: exit 0.
 
 use std::fmt::Write as _;
-use std::io::{self, ErrorKind, Write as _};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -40,6 +39,7 @@ pub struct TextureArgs {
 pub fn run(args: &TextureArgs) -> Result<ExitCode> {
     if let Some(path) = &args.out {
         output::check_writable(path)?;
+        super::check_input_kept(path, &args.file, "the texture that is described")?;
     }
     let texels = read_file::read(&args.file)?;
     if texels.format.component() == Component::Float32 && args.color_space == ColorSpace::Srgb {
@@ -56,11 +56,7 @@ pub fn run(args: &TextureArgs) -> Result<ExitCode> {
     let texture = named(texels, args);
     let analysis = analyse(&texture);
     let text = if args.json { json(args, &texture, &analysis)? } else { table(args, &texture, &analysis) };
-    match writeln!(io::stdout().lock(), "{}", text.trim_end()) {
-        // A reader that stops early, such as `head`, is no error.
-        Err(e) if e.kind() != ErrorKind::BrokenPipe => Err(Error::new(format!("standard output: {e}"))),
-        _ => Ok(ExitCode::SUCCESS),
-    }
+    super::print(text.trim_end()).map(|()| ExitCode::SUCCESS)
 }
 
 fn named(texels: Texels, args: &TextureArgs) -> TextureData {

@@ -289,3 +289,16 @@ fn what_cannot_be_read_or_written_is_exit_2_and_nothing_is_written() {
         assert!(output.stdout.is_empty() && !Path::new(out).exists(), "{file:?}");
     }
 }
+
+#[test]
+fn the_repeated_picture_does_not_replace_the_texture() {
+    let folder = tempdir().unwrap();
+    let file = folder.path().join("t.png");
+    std::fs::copy(texture("tiles.png"), &file).unwrap();
+    let before = std::fs::read(&file).unwrap();
+    let output = moire().arg("texture").arg(&file).arg("--out").arg(&file).output().unwrap();
+    assert_eq!(output.status.code(), Some(2));
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert!(told.contains("t.png") && told.contains("choose another name"), "{told}");
+    assert_eq!(std::fs::read(&file).unwrap(), before);
+}

@@ -135,9 +135,22 @@ pub fn edge_coordinates(size: u32) -> Vec<f32> {
     all
 }
 
-/// Where f32 still tells texels apart and whole periods leave exactly.
-pub const FAR_COORDINATES: [f32; 6] =
-    [1000.25, -1000.75, 65_536.5, -65_535.375, 1_048_576.0 + 0.125, 0.25 - 1_048_576.0];
+/// Far outside, where whole periods leave exactly: to the last f32 with a fraction (2²³) and, with odd
+/// whole numbers, which mirroring tells from even ones, to the last f32 that is one (2²⁴).
+pub const FAR_COORDINATES: [f32; 12] = [
+    1000.25,
+    -1000.75,
+    65_536.5,
+    -65_535.375,
+    1_048_576.5,
+    -1_048_575.75,
+    4_194_304.5,
+    -4_194_304.5,
+    8_388_607.0,
+    -8_388_609.0,
+    16_777_215.0,
+    -16_777_215.0,
+];
 
 /// Random pairs of coordinates in [-3, 4], and pairs of the given ones with random partners.
 pub fn coordinates(dice: &mut Dice, size: [u32; 2], random: usize, far: bool) -> Vec<[f32; 2]> {
