@@ -142,10 +142,7 @@ fn render_on_oracle(args: &RenderArgs, scene: &Scene, bar: &Bar, start: Instant)
 }
 
 fn load(scene: &Scene, args: &RenderArgs) -> Result<PackedScene> {
-    let decode = |t: &crate::scene::model::TextureSource| {
-        texture::decode::decode(&t.file, &t.name, t.color_space, t.flip_v)
-    };
-    let textures = scene.textures.iter().map(decode).collect::<Result<Vec<_>>>()?;
+    let textures = scene.textures.iter().map(texture::load::load).collect::<Result<Vec<_>>>()?;
     pack::pack(scene, textures, args.crop)
 }
 
@@ -162,7 +159,8 @@ fn outputs(args: &RenderArgs) -> Vec<PathBuf> {
 fn check_inputs_kept(output: &Path, scene: &Scene) -> Result<()> {
     super::check_input_kept(output, &scene.path, "the scene file")?;
     scene.textures.iter().try_for_each(|t| {
-        super::check_input_kept(output, &t.file, &format!("the file of texture \"{}\"", t.name))
+        let what = format!("the file of texture \"{}\"", t.name);
+        t.content.files().into_iter().try_for_each(|file| super::check_input_kept(output, file, &what))
     })
 }
 

@@ -13,7 +13,7 @@ use crate::film::Film;
 use crate::metrics::read::film_of;
 use crate::output::{self, WriteOptions};
 use crate::texture::analysis::{Analysis, Axis, Channel, LARGEST_RATIO, LARGEST_RECURRENCE, Seam, analyse};
-use crate::texture::data::{ColorSpace, Component, TextureData};
+use crate::texture::data::{ColorSpace, Component, Dimension, TextureData};
 use crate::texture::read_file::{self, Texels};
 
 /// Describe a texture file: size, format, range and mean, non-finite texels, whether it tiles
@@ -62,8 +62,10 @@ pub fn run(args: &TextureArgs) -> Result<ExitCode> {
 fn named(texels: Texels, args: &TextureArgs) -> TextureData {
     TextureData {
         name: args.file.display().to_string(),
+        dimension: Dimension::Two,
         width: texels.width,
         height: texels.height,
+        depth: 1,
         format: texels.format,
         color_space: args.color_space,
         file_channels: texels.file_channels,

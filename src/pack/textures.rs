@@ -94,7 +94,7 @@ fn linear_floats(texture: &TextureData) -> TextureData {
     let channels = texture.format.channels();
     let texel = |x, y| (0..channels).map(move |c| texture.linear_value(x, y, c) as f32);
     let row = |y| (0..texture.width).flat_map(move |x| texel(x, y));
-    let floats: Vec<f32> = (0..texture.height).flat_map(row).collect();
+    let floats: Vec<f32> = (0..texture.height * texture.depth).flat_map(row).collect();
     TextureData {
         name: texture.name.clone(),
         format: TexelFormat::new(channels, Component::Float32),

@@ -6,8 +6,8 @@ use std::path::PathBuf;
 use glam::{DVec2, DVec3};
 
 use crate::named::named_enum;
-use crate::texture::data::ColorSpace;
 use crate::texture::sampler_spec::SamplerSpec;
+pub use crate::texture::source::{TextureContent, TextureSource};
 
 #[derive(Clone, Debug)]
 pub struct Scene {
@@ -81,16 +81,6 @@ pub struct Sampling {
     /// Mirror bounces after the camera ray; exhausted means black.
     pub max_depth: u32,
     pub footprint: Footprint,
-}
-
-#[derive(Clone, Debug)]
-pub struct TextureSource {
-    pub name: String,
-    /// Already joined with the scene file's folder.
-    pub file: PathBuf,
-    pub color_space: ColorSpace,
-    /// False: v = 0 is the file's first row. True: v grows upwards (the lecture's loader).
-    pub flip_v: bool,
 }
 
 named_enum! {

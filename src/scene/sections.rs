@@ -12,7 +12,7 @@ use super::reader::{COLOR, COORDINATE, FOV, Field, LENGTH, SCALE};
 use super::table::Table;
 use super::validate::{MAX_DEPTH, MAX_SIZE, MAX_SPP, check_shared, check_spp, parallel};
 use crate::error::Result;
-use crate::texture::data::ColorSpace;
+use crate::texture::data::{ColorSpace, Dimension, MipKernel};
 use crate::texture::sampler_spec::{Address, Filter, Method, MipMode, SamplerSpec, TexelCenter};
 
 pub(super) const CAMERA: &[&str] =
@@ -125,13 +125,14 @@ pub(super) fn background(table: Option<&Table<'_>>) -> Result<DVec3> {
 /// Where the file is, not what is in it: nothing is opened here.
 pub(super) fn texture(table: &Table<'_>, folder: &Path) -> Result<TextureSource> {
     let name = table.required("name")?.string()?.to_owned();
-    let file = folder.join(table.required("file")?.string()?);
+    let content = TextureContent::File(folder.join(table.required("file")?.string()?));
     let color_space = match table.get("color_space") {
         Some(field) => field.choice(ColorSpace::NAMES, ColorSpace::ALL)?,
         None => ColorSpace::Linear,
     };
     let flip_v = table.get("flip_v").map_or(Ok(false), Field::boolean)?;
-    Ok(TextureSource { name, file, color_space, flip_v })
+    let (dimension, mip_kernel) = (Dimension::Two, MipKernel::Box);
+    Ok(TextureSource { name, content, dimension, color_space, flip_v, mip_kernel })
 }
 
 pub(super) fn sampler(table: &Table<'_>) -> Result<SamplerSpec> {

@@ -12,6 +12,26 @@ named_enum! {
 }
 
 named_enum! {
+    /// Axes of the texel array.
+    pub enum Dimension {
+        One = "1d",
+        Two = "2d",
+        Three = "3d",
+        Cube = "cube",
+    }
+}
+
+named_enum! {
+    /// What a texel of a coarser level is a mean over.
+    pub enum MipKernel {
+        /// The texels that it covers, each by its share.
+        Box = "box",
+        /// A wider neighbourhood: sharper and with less aliasing.
+        Kaiser = "kaiser",
+    }
+}
+
+named_enum! {
     /// Channels × number type. One channel reads as (g, g, g, 1), two as (g, g, g, a).
     pub enum TexelFormat {
         Grey8 = "grey8",
@@ -87,12 +107,17 @@ impl TexelFormat {
 #[derive(Clone, Debug)]
 pub struct TextureData {
     pub name: String,
+    pub dimension: Dimension,
     pub width: u32,
+    /// 1 for a 1D texture.
     pub height: u32,
+    /// Slices of a volume; 6 faces of a cube; else 1.
+    pub depth: u32,
     pub format: TexelFormat,
     pub color_space: ColorSpace,
     /// Channels of the file, before three were expanded to four.
     pub file_channels: usize,
-    /// Tightly packed rows, native endian.
+    /// Tightly packed rows, native endian; slices one after the other, and so are a cube's faces,
+    /// +x −x +y −y +z −z as Vulkan counts them.
     pub texels: Vec<u8>,
 }

@@ -4,7 +4,7 @@
 
 use std::path::Path;
 
-use super::data::{ColorSpace, Component, TextureData};
+use super::data::{ColorSpace, Component, Dimension, TextureData};
 use super::read_file::{self, Texels};
 use crate::error::{Error, Result};
 
@@ -24,8 +24,10 @@ pub fn decode(path: &Path, name: &str, color_space: ColorSpace, flip_v: bool) ->
     }
     Ok(TextureData {
         name: name.to_string(),
+        dimension: Dimension::Two,
         width: texels.width,
         height: texels.height,
+        depth: 1,
         format: texels.format,
         color_space,
         file_channels: texels.file_channels,

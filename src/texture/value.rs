@@ -8,9 +8,11 @@ impl TextureData {
     /// Stored value of one of the format's own channels: integers scaled to [0, 1] by 2ⁿ − 1
     /// (Vulkan 1.3, 3.10.1), float as it is.
     ///
+    /// Rows are counted through all slices and faces: row y of slice z is `y + height · z`.
+    ///
     /// Panics when the texel or the channel does not exist.
     pub fn value(&self, x: u32, y: u32, channel: usize) -> f64 {
-        assert!(x < self.width && y < self.height && channel < self.format.channels());
+        assert!(x < self.width && y < self.height * self.depth && channel < self.format.channels());
         let texel = y as usize * self.width as usize + x as usize;
         let index = texel * self.format.channels() + channel;
         let bytes = &self.texels;

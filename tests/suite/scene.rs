@@ -6,7 +6,7 @@ mod shapes;
 mod surfaces;
 mod text;
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use glam::{DVec2, DVec3};
 use moire::error::Error;
@@ -146,7 +146,7 @@ fn keys_left_out_have_the_documented_defaults() {
     assert!(scene.lights.is_empty());
 
     let texture = &scene.textures[0];
-    assert_eq!(texture.file, PathBuf::from("scenes/t.png"));
+    assert_eq!(texture.content.files(), ["scenes/t.png"].map(Path::new));
     assert_eq!((texture.color_space, texture.flip_v), (ColorSpace::Linear, false));
     let sampler = SamplerSpec {
         address: [Address::Repeat; 2],
@@ -191,9 +191,9 @@ fn every_key_of_a_full_scene_arrives() {
     assert_eq!(scene.background, DVec3::new(0.1, 0.3, 0.6));
 
     let [ground, plain] = scene.textures.as_slice() else { panic!("two textures") };
-    assert_eq!(ground.file, Path::new("scenes/textures/grass.png"));
+    assert_eq!(ground.content.files(), ["scenes/textures/grass.png"].map(Path::new));
     assert_eq!((ground.color_space, ground.flip_v), (ColorSpace::Srgb, true));
-    assert_eq!(plain.file, Path::new("/absolute/plain.png"));
+    assert_eq!(plain.content.files(), ["/absolute/plain.png"].map(Path::new));
 
     let [per_axis, near, appended] = scene.samplers.as_slice() else { panic!("three samplers") };
     assert_eq!(per_axis.address, [Address::MirroredRepeat, Address::ClampToBorder]);
@@ -316,8 +316,13 @@ fn loading_reads_a_file_and_joins_its_folder() {
     let path = folder.path().join("a.toml");
     std::fs::write(&path, format!("{HEAD}[[texture]]\nname = 't'\nfile = 'sub/t.png'\n")).unwrap();
     let scene = load(&path).unwrap();
-    assert_eq!(scene.textures[0].file, folder.path().join("sub/t.png"), "not opened, only joined");
-    assert_eq!(parse(Path::new("a.toml"), FULL).unwrap().textures[0].file, Path::new("textures/grass.png"));
+    assert_eq!(
+        scene.textures[0].content.files(),
+        [folder.path().join("sub/t.png")],
+        "not opened, only joined"
+    );
+    let beside = parse(Path::new("a.toml"), FULL).unwrap();
+    assert_eq!(beside.textures[0].content.files(), ["textures/grass.png"].map(Path::new));
 }
 
 #[test]

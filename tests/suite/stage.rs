@@ -14,7 +14,7 @@ use moire::progress::Silent;
 use moire::render::{self, Report, Tuning};
 use moire::scene::model::{Pattern, Scene};
 use moire::scene::{self, prune::prune};
-use moire::texture::decode::decode;
+use moire::texture::load::load;
 
 use crate::support::data;
 
@@ -81,8 +81,7 @@ pub fn small(name: &str, side: u32, spp: u32) -> Scene {
 
 pub fn packed(mut scene: Scene, crop: Option<Crop>) -> PackedScene {
     prune(&mut scene);
-    let textures =
-        scene.textures.iter().map(|t| decode(&t.file, &t.name, t.color_space, t.flip_v).unwrap()).collect();
+    let textures = scene.textures.iter().map(|t| load(t).unwrap()).collect();
     pack::pack(&scene, textures, crop).unwrap()
 }
 

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use image::{ColorType, DynamicImage, ImageBuffer, Luma, Rgb, Rgb32FImage, RgbImage};
 use moire::texture::analysis::{Analysis, Seam, analyse};
-use moire::texture::data::{ColorSpace, TexelFormat, TextureData};
+use moire::texture::data::{ColorSpace, Dimension, TexelFormat, TextureData};
 use serde_json::{Value, json};
 use tempfile::tempdir;
 
@@ -16,8 +16,10 @@ fn grey(width: u32, height: u32, texel: impl Fn(u32, u32) -> f32) -> Analysis {
     let values = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
     analyse(&TextureData {
         name: "planted".into(),
+        dimension: Dimension::Two,
         width,
         height,
+        depth: 1,
         format: TexelFormat::GreyFloat,
         color_space: ColorSpace::Linear,
         file_channels: 1,

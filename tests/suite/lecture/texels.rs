@@ -3,7 +3,7 @@
 
 use moire::oracle::texture::look_up;
 use moire::probe::{self, LookUp};
-use moire::texture::data::{ColorSpace, TexelFormat, TextureData};
+use moire::texture::data::{ColorSpace, Dimension, TexelFormat, TextureData};
 use moire::texture::sampler_spec::{Address, Filter, SamplerSpec, TexelCenter};
 
 use crate::lookup::bench::{pairs, query, uv_of};
@@ -13,8 +13,10 @@ use crate::shared_gpu::gpu;
 fn grey(width: u32, values: &[f32]) -> TextureData {
     TextureData {
         name: "by hand".into(),
+        dimension: Dimension::Two,
         width,
         height: values.len() as u32 / width,
+        depth: 1,
         format: TexelFormat::GreyFloat,
         color_space: ColorSpace::Linear,
         file_channels: 1,

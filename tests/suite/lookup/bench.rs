@@ -7,7 +7,7 @@ use moire::probe::LookUp;
 use moire::scene::model::{
     Algorithm, Camera, Footprint, Mapping, Material, Model, Pattern, Projection, Sampling, Scene,
 };
-use moire::texture::data::{ColorSpace, Component, TexelFormat, TextureData};
+use moire::texture::data::{ColorSpace, Component, Dimension, TexelFormat, TextureData};
 use moire::texture::sampler_spec::SamplerSpec;
 
 /// Xorshift (Marsaglia 2003); the tests' own, so that they do not lean on what they test.
@@ -66,7 +66,17 @@ pub fn texture(
         }
     };
     let name = format!("{format} {color_space} {width}x{height}");
-    TextureData { name, width, height, format, color_space, file_channels: format.channels(), texels }
+    TextureData {
+        name,
+        dimension: Dimension::Two,
+        width,
+        height,
+        depth: 1,
+        format,
+        color_space,
+        file_channels: format.channels(),
+        texels,
+    }
 }
 
 /// A scene without shapes whose materials are these (texture, sampler) pairs.

@@ -1,0 +1,77 @@
+//! Where a scene says that a texture's texels come from: one file or several, a ramp written in the
+//! scene, a raw volume. Nothing is opened here; `load` makes [`TextureData`](super::data) of it.
+
+use std::path::{Path, PathBuf};
+
+use super::data::{ColorSpace, Dimension, MipKernel, TexelFormat};
+use crate::named::named_enum;
+
+#[derive(Clone, Debug)]
+pub struct TextureSource {
+    pub name: String,
+    pub content: TextureContent,
+    pub dimension: Dimension,
+    pub color_space: ColorSpace,
+    /// False: v = 0 is the file's first row. True: v grows upwards (the lecture's loader).
+    pub flip_v: bool,
+    pub mip_kernel: MipKernel,
+}
+
+/// Files are already joined with the scene file's folder.
+#[derive(Clone, Debug, PartialEq)]
+pub enum TextureContent {
+    /// A picture, or an NRRD volume.
+    File(PathBuf),
+    /// Linear light, one texel an entry: a 1D texture.
+    Ramp(Vec<[f32; 4]>),
+    /// All faces of a cube in one picture; without a layout its shape says which.
+    CubeFile(PathBuf, Option<CubeLayout>),
+    /// +x −x +y −y +z −z
+    Faces([PathBuf; 6]),
+    /// Pictures of one size, the first at w = 0.
+    Slices(Vec<PathBuf>),
+    Volume(VolumeSource),
+}
+
+named_enum! {
+    /// How the six faces of a cube lie in one picture.
+    pub enum CubeLayout {
+        HorizontalCross = "horizontal-cross",
+        VerticalCross = "vertical-cross",
+        HorizontalStrip = "horizontal-strip",
+        VerticalStrip = "vertical-strip",
+    }
+}
+
+named_enum! {
+    /// Byte order of a file's numbers.
+    pub enum Endian {
+        Little = "little",
+        Big = "big",
+    }
+}
+
+/// A file of bare texels: x runs fastest, then y, then z.
+#[derive(Clone, Debug, PartialEq)]
+pub struct VolumeSource {
+    pub file: PathBuf,
+    /// Width, height, depth.
+    pub size: [u32; 3],
+    pub format: TexelFormat,
+    /// Bytes before the first texel.
+    pub offset: u64,
+    pub endian: Endian,
+}
+
+impl TextureContent {
+    /// All files named in the scene.
+    pub fn files(&self) -> Vec<&Path> {
+        match self {
+            TextureContent::Ramp(_) => Vec::new(),
+            TextureContent::File(file) | TextureContent::CubeFile(file, _) => vec![file],
+            TextureContent::Faces(files) => files.iter().map(PathBuf::as_path).collect(),
+            TextureContent::Slices(files) => files.iter().map(PathBuf::as_path).collect(),
+            TextureContent::Volume(volume) => vec![&volume.file],
+        }
+    }
+}
