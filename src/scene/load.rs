@@ -13,6 +13,7 @@ use super::sections::{self, default_material};
 use super::shapes::{self, MaterialIndex};
 use super::source::Source;
 use super::table::Table;
+use super::textures;
 use super::validate::{MAX_SHAPES, MAX_TEXTURES};
 use crate::error::{Error, Result};
 use crate::texture::sampler_spec::SamplerSpec;
@@ -138,10 +139,10 @@ struct Surfaces<'a> {
 }
 
 fn surfaces<'a>(path: &Path, root: &Table<'a>) -> Result<Surfaces<'a>> {
-    let tables = root.repeated("texture", sections::TEXTURE)?;
+    let tables = root.repeated("texture", textures::TEXTURE)?;
     let texture_names = Names::collect("texture", &tables)?;
     let folder = path.parent().unwrap_or(Path::new(""));
-    let textures = each(tables, |table| sections::texture(table, folder))?;
+    let textures = each(tables, |table| textures::texture(table, folder))?;
 
     let tables = root.repeated("sampler", sections::SAMPLER)?;
     let sampler_names = Names::collect("sampler", &tables)?;

@@ -9,6 +9,7 @@ mod sections;
 mod shapes;
 mod source;
 mod table;
+mod textures;
 mod validate;
 
 pub use load::{load, parse};

@@ -134,6 +134,16 @@ impl<'a> Field<'a> {
         Ok(values)
     }
 
+    /// An array of 1 to `most` elements.
+    pub fn list<T>(self, of: &str, most: u32, read: impl Fn(Field<'a>) -> Result<T>) -> Result<Vec<T>> {
+        let array = match self.value() {
+            DeValue::Array(array) if (1..=most as usize).contains(&array.len()) => array,
+            _ => return Err(self.expected(&format!("an array of 1 to {most} {of}"))),
+        };
+        let element = |(index, item)| read(Field { index: Some(index), item, ..self });
+        array.iter().enumerate().map(element).collect()
+    }
+
     pub fn integer(self, range: RangeInclusive<u32>) -> Result<u32> {
         let found = match self.value() {
             DeValue::Integer(integer) => i128::from_str_radix(integer.as_str(), integer.radix()).ok(),

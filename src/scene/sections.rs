@@ -1,8 +1,6 @@
 //! Camera, image, sampling, background and everything that colours a surface. In: the tables of
 //! those sections. Out: the types of the model, with the defaults of keys that are not given.
 
-use std::path::Path;
-
 use glam::{DVec2, DVec3};
 use toml::de::DeValue;
 
@@ -12,7 +10,6 @@ use super::reader::{COLOR, COORDINATE, FOV, Field, LENGTH, SCALE};
 use super::table::Table;
 use super::validate::{MAX_DEPTH, MAX_SIZE, MAX_SPP, check_shared, check_spp, parallel};
 use crate::error::Result;
-use crate::texture::data::{ColorSpace, Dimension, MipKernel};
 use crate::texture::sampler_spec::{Address, Filter, Method, MipMode, SamplerSpec, TexelCenter};
 
 pub(super) const CAMERA: &[&str] =
@@ -21,7 +18,6 @@ pub(super) const IMAGE: &[&str] = &["width", "height"];
 pub(super) const SAMPLING: &[&str] =
     &["algorithm", "pattern", "spp", "shared", "seed", "max_depth", "footprint"];
 pub(super) const BACKGROUND: &[&str] = &["color"];
-pub(super) const TEXTURE: &[&str] = &["name", "file", "color_space", "flip_v"];
 pub(super) const SAMPLER: &[&str] =
     &["name", "address", "filter", "border_color", "mip", "method", "texel_center"];
 pub(super) const MATERIAL: &[&str] = &["name", "model", "color", "texture", "sampler", "mapping"];
@@ -120,19 +116,6 @@ pub(super) fn sampling(table: Option<&Table<'_>>) -> Result<Sampling> {
 
 pub(super) fn background(table: Option<&Table<'_>>) -> Result<DVec3> {
     table.and_then(|table| table.get("color")).map_or(Ok(DVec3::ZERO), |field| field.vec3(&COLOR))
-}
-
-/// Where the file is, not what is in it: nothing is opened here.
-pub(super) fn texture(table: &Table<'_>, folder: &Path) -> Result<TextureSource> {
-    let name = table.required("name")?.string()?.to_owned();
-    let content = TextureContent::File(folder.join(table.required("file")?.string()?));
-    let color_space = match table.get("color_space") {
-        Some(field) => field.choice(ColorSpace::NAMES, ColorSpace::ALL)?,
-        None => ColorSpace::Linear,
-    };
-    let flip_v = table.get("flip_v").map_or(Ok(false), Field::boolean)?;
-    let (dimension, mip_kernel) = (Dimension::Two, MipKernel::Box);
-    Ok(TextureSource { name, content, dimension, color_space, flip_v, mip_kernel })
 }
 
 pub(super) fn sampler(table: &Table<'_>) -> Result<SamplerSpec> {

@@ -18,9 +18,9 @@ fn texture_sampler_and_material_rules() {
         ("texture file", "[[texture]]\nname = 'x'", &["texture.file", "missing"]),
         ("empty file", "[[texture]]\nname = 'x'\nfile = ''", &["texture.file", "not empty"]),
         (
-            "faces",
-            "[[texture]]\nname = 'x'\nfaces = []",
-            &["unknown key \"faces\"", "name, file, color_space"],
+            "texture key",
+            "[[texture]]\nname = 'x'\nfacs = []",
+            &["unknown key \"facs\"", "did you mean \"faces\"", "name, file, faces"],
         ),
         (
             "colour space",
