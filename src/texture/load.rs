@@ -1,14 +1,71 @@
 //! A texture as a scene describes it, in; its texels, ready for upload, out. Mistakes in the files
 //! are errors that name the texture and the file.
 
-use super::data::TextureData;
-use super::decode::decode;
+use std::path::Path;
+
+use super::data::{Component, Dimension, TexelFormat, TextureData};
+use super::decode::{check_finite, check_meaning, in_texture, read_checked, reverse_rows, texture_of};
+use super::read_file::Texels;
 use super::source::{TextureContent, TextureSource};
+use super::{cube, nrrd, stack, volume};
 use crate::error::{Error, Result};
 
 pub fn load(source: &TextureSource) -> Result<TextureData> {
-    match &source.content {
-        TextureContent::File(file) => decode(file, &source.name, source.color_space, source.flip_v),
-        _ => Err(Error::new(format!("texture \"{}\": this content is not read", source.name))),
+    let (mut texels, depth) = read(source).map_err(|e| in_texture(&source.name, e))?;
+    if source.flip_v {
+        let height = texels.height;
+        reverse_rows(&mut texels, height);
     }
+    Ok(texture_of(&source.name, source.dimension, source.color_space, texels, depth))
+}
+
+/// The texels and how many slices or faces they are.
+fn read(source: &TextureSource) -> Result<(Texels, u32)> {
+    let space = source.color_space;
+    let picture = |path: &Path| read_checked(path, space);
+    let volume = |path: &Path, (texels, depth): (Texels, u32)| {
+        check_meaning(texels.format, space, path)?;
+        check_finite(&texels, path)?;
+        Ok((texels, depth))
+    };
+    match &source.content {
+        TextureContent::File(file) if source.dimension == Dimension::Three => volume(file, nrrd::read(file)?),
+        TextureContent::File(file) => {
+            let texels = picture(file)?;
+            if source.dimension == Dimension::One {
+                check_row(&texels, file)?;
+            }
+            Ok((texels, 1))
+        }
+        TextureContent::Ramp(colors) => Ok((ramp(colors), 1)),
+        TextureContent::CubeFile(file, layout) => cube::cut(&picture(file)?, *layout, file).map(|t| (t, 6)),
+        TextureContent::Faces(files) => cube::join(files, space).map(|t| (t, 6)),
+        TextureContent::Slices(files) => stack::read(files, space, "slice").map(|t| (t, files.len() as u32)),
+        TextureContent::Volume(raw) => volume(&raw.file, (volume::read(raw)?, raw.size[2])),
+    }
+}
+
+fn ramp(colors: &[[f32; 4]]) -> Texels {
+    Texels {
+        width: colors.len() as u32,
+        height: 1,
+        format: TexelFormat::new(4, Component::Float32),
+        file_channels: if colors.iter().all(|c| c[3] == 1.0) { 3 } else { 4 },
+        bytes: bytemuck::cast_slice(colors).to_vec(),
+    }
+}
+
+fn check_row(texels: &Texels, path: &Path) -> Result<()> {
+    if texels.height == 1 {
+        return Ok(());
+    }
+    Err(Error::with_help(
+        format!(
+            "{}: {}×{} texels, and a texture of dimension \"1d\" is one texel high",
+            path.display(),
+            texels.width,
+            texels.height
+        ),
+        "cut one row out of the picture, or set dimension = \"2d\"",
+    ))
 }

@@ -2,14 +2,18 @@
 
 pub mod analysis;
 mod analysis_steps;
+mod cube;
 pub mod data;
 pub mod decode;
 mod jpeg_end;
 pub mod load;
+mod nrrd;
 mod read_exr;
 pub(crate) mod read_file;
 pub mod sampler_spec;
 mod sniff;
 pub mod source;
+mod stack;
 pub mod synth;
 mod value;
+mod volume;

@@ -81,11 +81,7 @@ fn read_with_image(mut source: BufReader<File>, format: ImageFormat, path: &Path
     let decoded = decoder.total_bytes() as usize;
     decoder.read_image(&mut bytes[..decoded]).map_err(|e| image_error(path, &kind, e))?;
     if file_channels == 3 {
-        match component {
-            Component::Unorm8 => widen::<3, 4>(&mut bytes, &[u8::MAX]),
-            Component::Unorm16 => widen::<6, 8>(&mut bytes, &u16::MAX.to_ne_bytes()),
-            Component::Float32 => widen::<12, 16>(&mut bytes, &1f32.to_ne_bytes()),
-        }
+        widen_rgb(&mut bytes, component);
     }
     Ok(Texels { width, height, format: texel_format, file_channels, bytes })
 }
@@ -104,6 +100,15 @@ fn layout(color: ColorType) -> Option<(usize, Component)> {
         ColorType::Rgba32F => (4, Component::Float32),
         _ => return None,
     })
+}
+
+/// Three channels at the front of the buffer become four that fill it, with opaque alpha.
+pub(super) fn widen_rgb(bytes: &mut [u8], component: Component) {
+    match component {
+        Component::Unorm8 => widen::<3, 4>(bytes, &[u8::MAX]),
+        Component::Unorm16 => widen::<6, 8>(bytes, &u16::MAX.to_ne_bytes()),
+        Component::Float32 => widen::<12, 16>(bytes, &1f32.to_ne_bytes()),
+    }
 }
 
 /// From `RGB` to `RGBA` bytes a texel, last texel first: a texel is read before its place is taken.
@@ -132,13 +137,29 @@ pub(super) fn check_size(path: &Path, width: u64, height: u64, bytes_per_texel: 
     Ok(())
 }
 
+/// Several slices or faces: the same limits, and one for all texels together.
+pub(super) fn check_volume(path: &Path, size: [u32; 3], bytes_per_texel: usize) -> Result<()> {
+    let [width, height, depth] = size.map(u64::from);
+    if depth > MAX_SIDE {
+        return Err(Error::with_help(
+            format!("{}: {width}×{height}×{depth} texels are too many", path.display()),
+            format!("at most {MAX_SIDE} texels a side are read"),
+        ));
+    }
+    check_size(path, width, height, bytes_per_texel)?;
+    if width * height * depth.max(1) * bytes_per_texel as u64 > MAX_BYTES {
+        return Err(out_of_memory(path));
+    }
+    if depth == 0 { Err(zero_size(path)) } else { Ok(()) }
+}
+
 /// Asks the allocator before `vec!` does: a size that a damaged header made up is then an error, not
 /// an abort. Nothing is touched, and zeroed pages are touched only as they are filled.
 pub(super) fn check_memory(path: &Path, bytes: usize) -> Result<()> {
     Vec::<u8>::new().try_reserve_exact(bytes).map_err(|_| out_of_memory(path))
 }
 
-fn open(path: &Path) -> Result<File> {
+pub(super) fn open(path: &Path) -> Result<File> {
     let metadata = fs::metadata(path).map_err(|e| match e.kind() {
         ErrorKind::NotFound => {
             Error::Plain { message: format!("{}: there is no such file", path.display()), help: hint(path) }
@@ -168,7 +189,7 @@ fn hint(path: &Path) -> Option<String> {
     (score > 0.85).then(|| format!("did you mean {}?", folder.join(name).display()))
 }
 
-fn unreadable(path: &Path, error: &std::io::Error) -> Error {
+pub(super) fn unreadable(path: &Path, error: &std::io::Error) -> Error {
     Error::with_help(
         format!("{}: cannot be read: {error}", path.display()),
         "check the path and the file's permissions",

@@ -41,6 +41,7 @@ const OTHERS: &[(usize, &[u8], &str)] = &[
     (0, b"\0\0\x01\0", "is a Windows icon"),
     (0, b"qoif", "is QOI"),
     (0, b"#?RGBE", "is Radiance HDR with the old signature #?RGBE"),
+    (0, b"NRRD000", "is an NRRD volume (dimension \"3d\", and an ending .nrrd or .nhdr)"),
     (0, b"PK\x03\x04", "is a ZIP archive"),
     (0, b"\x1f\x8b", "is gzip-compressed"),
     (0, b"%PDF", "is PDF"),

@@ -1,0 +1,243 @@
+//! NRRD volumes (teem, "Definition of NRRD File Format", versions 1 to 5): three axes, or four with
+//! 1 to 4 channels on the first, of unsigned 8- and 16-bit integers or 32-bit floats, raw or gzip,
+//! behind the header or in a file of their own. Fields that only place the volume in the world
+//! (spacings, space, kinds of the other axes, …) are read over. Mistakes name line and field.
+
+use std::collections::HashMap;
+use std::fs::File;
+use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom};
+use std::path::{Path, PathBuf};
+
+use flate2::bufread::MultiGzDecoder;
+
+use super::data::Component;
+use super::read_file::{Texels, open, unreadable};
+use super::source::Endian;
+use super::volume::Bare;
+use crate::error::{Error, Result};
+
+/// A header line longer than this is no header line.
+const LONGEST_LINE: u64 = 64 << 10;
+const MOST_LINES: usize = 10_000;
+
+pub(super) fn read(path: &Path) -> Result<(Texels, u32)> {
+    let mut file = BufReader::new(open(path)?);
+    let header = Header::read(&mut file, path)?;
+    let layout = header.layout()?;
+    let (endian, skips) = (header.endian(layout.component)?, header.skips()?);
+    let gzip = header.choice("encoding", &[("raw", false), ("gzip", true), ("gz", true)])?;
+    let depth = layout.size[2];
+    let data_file = header.data_file()?;
+    let (source, path) = match &data_file {
+        Some(data) => (BufReader::new(open(data)?), data.as_path()),
+        None => (file, path),
+    };
+    let texels = read_data(source, &layout, endian, skips, gzip, path)?;
+    Ok((texels, depth))
+}
+
+/// Lines before the data, then bytes; −1 bytes: the data ends where the file ends.
+#[derive(Clone, Copy)]
+struct Skips {
+    lines: u32,
+    bytes: i64,
+}
+
+fn read_data(
+    mut source: BufReader<File>,
+    layout: &Bare,
+    endian: Endian,
+    skips: Skips,
+    gzip: bool,
+    path: &Path,
+) -> Result<Texels> {
+    let failed = |e: io::Error| unreadable(path, &e);
+    for _ in 0..skips.lines {
+        source.skip_until(b'\n').map_err(failed)?;
+    }
+    if skips.bytes < 0 {
+        let length = source.get_ref().metadata().map_err(failed)?.len();
+        source.seek(SeekFrom::Start(length.saturating_sub(layout.bytes()))).map_err(failed)?;
+    }
+    let mut source: Box<dyn Read> =
+        if gzip { Box::new(MultiGzDecoder::new(source)) } else { Box::new(source) };
+    let before = u64::try_from(skips.bytes).unwrap_or(0);
+    io::copy(&mut source.by_ref().take(before), &mut io::sink()).map_err(failed)?;
+    layout.read(source, endian, path)
+}
+
+struct Header<'a> {
+    path: &'a Path,
+    /// By name in lower case: line number and content.
+    fields: HashMap<String, (usize, String)>,
+}
+
+impl<'a> Header<'a> {
+    /// Up to the empty line before the data, or to the end of a header that stands alone.
+    fn read(file: &mut impl BufRead, path: &'a Path) -> Result<Header<'a>> {
+        let mut header = Header { path, fields: HashMap::new() };
+        for number in 1..=MOST_LINES {
+            let mut line = Vec::new();
+            file.by_ref()
+                .take(LONGEST_LINE)
+                .read_until(b'\n', &mut line)
+                .map_err(|e| unreadable(path, &e))?;
+            let at_end = line.is_empty();
+            let line = String::from_utf8_lossy(&line);
+            let line = line.trim_end();
+            if number == 1 {
+                let version = line.strip_prefix("NRRD000").and_then(|v| v.parse::<u32>().ok());
+                if !version.is_some_and(|v| (1..=5).contains(&v)) {
+                    return Err(not_nrrd(path));
+                }
+            } else if at_end || line.is_empty() {
+                return Ok(header);
+            } else if !line.starts_with('#') {
+                header.add(number, line)?;
+            }
+        }
+        Err(not_nrrd(path))
+    }
+
+    fn add(&mut self, number: usize, line: &str) -> Result<()> {
+        // `key:=value` pairs are the user's own.
+        let Some((name, content)) = line.split_once(": ").or_else(|| line.split_once(':')) else {
+            let excerpt: String = line.chars().take(40).collect();
+            return Err(self.at(number, &format!("\"{excerpt}\" is no field: expected NAME: VALUE")));
+        };
+        if content.starts_with('=') {
+            return Ok(());
+        }
+        let name = match name.trim().to_lowercase().as_str() {
+            "datafile" => "data file".to_string(),
+            "byteskip" => "byte skip".to_string(),
+            "lineskip" => "line skip".to_string(),
+            name => name.to_string(),
+        };
+        if let Some((first, _)) = self.fields.get(&name) {
+            return Err(self.at(number, &format!("field \"{name}\" stands on line {first} already")));
+        }
+        self.fields.insert(name, (number, content.trim().to_string()));
+        Ok(())
+    }
+
+    fn layout(&self) -> Result<Bare> {
+        let component = self.component()?;
+        let dimension = self.choice("dimension", &[("3", 3), ("4", 4)])?;
+        let (_, sizes) = self.required("sizes")?;
+        let sizes: Vec<u32> = sizes.split_whitespace().map_while(|n| n.parse().ok()).collect();
+        if sizes.len() != dimension || sizes.contains(&0) {
+            return Err(self.wrong("sizes", &format!("{dimension} whole numbers above 0")));
+        }
+        let channels_first = dimension == 4;
+        let kind = self.fields.get("kinds").and_then(|(_, kinds)| kinds.split_whitespace().next());
+        let of_place = kind.map(|k| ["domain", "space", "time"].contains(&k.to_lowercase().as_str()));
+        let of_value = kind.is_some_and(|k| {
+            let kind = k.to_lowercase();
+            kind.contains("color") || kind.contains("vector") || kind == "complex"
+        });
+        match (channels_first, of_place) {
+            (true, Some(true)) => Err(self.wrong("kinds", "the channels on the first of four axes")),
+            (false, _) if of_value => Err(self.wrong("kinds", "three axes of space, or four with channels")),
+            (true, _) if sizes[0] > 4 => {
+                Err(self.wrong("sizes", "1 to 4 channels on the first of four axes"))
+            }
+            _ => {
+                let (channels, size) = if channels_first { (sizes[0], &sizes[1..]) } else { (1, &sizes[..]) };
+                let size = [size[0], size[1], size[2]];
+                Ok(Bare { size, channels: channels as usize, component })
+            }
+        }
+    }
+
+    fn component(&self) -> Result<Component> {
+        const TYPES: [(&str, Component); 10] = [
+            ("uchar", Component::Unorm8),
+            ("unsigned char", Component::Unorm8),
+            ("uint8", Component::Unorm8),
+            ("uint8_t", Component::Unorm8),
+            ("ushort", Component::Unorm16),
+            ("unsigned short", Component::Unorm16),
+            ("unsigned short int", Component::Unorm16),
+            ("uint16", Component::Unorm16),
+            ("uint16_t", Component::Unorm16),
+            ("float", Component::Float32),
+        ];
+        self.choice("type", &TYPES)
+    }
+
+    /// The format wants it wherever an order exists.
+    fn endian(&self, component: Component) -> Result<Endian> {
+        if component == Component::Unorm8 {
+            return Ok(Endian::Little);
+        }
+        self.choice("endian", &[("little", Endian::Little), ("big", Endian::Big)])
+    }
+
+    fn skips(&self) -> Result<Skips> {
+        let number = |name: &str, least: i64| match self.fields.get(name) {
+            None => Ok(0),
+            Some((_, text)) => {
+                let number = text.parse::<i64>().ok().filter(|n| (least..=i64::from(u32::MAX)).contains(n));
+                number.ok_or_else(|| self.wrong(name, &format!("a whole number from {least} on")))
+            }
+        };
+        let (lines, bytes) = (number("line skip", 0)?, number("byte skip", -1)?);
+        let raw = self.fields.get("encoding").is_some_and(|(_, e)| e.eq_ignore_ascii_case("raw"));
+        if bytes < 0 && !raw {
+            return Err(self.wrong("byte skip", "0 or more, as the encoding is not raw"));
+        }
+        Ok(Skips { lines: lines as u32, bytes })
+    }
+
+    /// Relative to the header.
+    fn data_file(&self) -> Result<Option<PathBuf>> {
+        let Some((_, name)) = self.fields.get("data file") else { return Ok(None) };
+        if name.is_empty() || name.starts_with("LIST") || name.contains('%') {
+            return Err(self.wrong("data file", "the name of one file"));
+        }
+        Ok(Some(self.path.parent().unwrap_or(Path::new("")).join(name)))
+    }
+
+    fn required(&self, name: &str) -> Result<(usize, &str)> {
+        let found = self.fields.get(name).map(|(line, content)| (*line, content.as_str()));
+        found.ok_or_else(|| {
+            Error::with_help(
+                format!("{}: the NRRD header has no field \"{name}\"", self.path.display()),
+                "it needs type, dimension, sizes, encoding, and endian for more than 8 bits",
+            )
+        })
+    }
+
+    fn choice<T: Copy>(&self, name: &str, choices: &[(&str, T)]) -> Result<T> {
+        let (_, word) = self.required(name)?;
+        let found = choices.iter().find(|(choice, _)| choice.eq_ignore_ascii_case(word));
+        found.map(|(_, value)| *value).ok_or_else(|| {
+            let names: Vec<&str> = choices.iter().map(|(name, _)| *name).collect();
+            self.wrong(name, &format!("one of {}", names.join(", ")))
+        })
+    }
+
+    fn wrong(&self, name: &str, wanted: &str) -> Error {
+        let (line, found) = self.fields.get(name).map_or((1, ""), |(line, text)| (*line, text.as_str()));
+        let found: String = found.chars().take(60).collect();
+        self.at(line, &format!("field \"{name}\": expected {wanted}, found \"{found}\""))
+    }
+
+    fn at(&self, line: usize, what: &str) -> Error {
+        Error::with_help(
+            format!("{}:{line}: {what}", self.path.display()),
+            "convert the volume, for example to raw ushort with three axes",
+        )
+    }
+}
+
+fn not_nrrd(path: &Path) -> Error {
+    Error::with_help(
+        format!(
+            "{}: no NRRD volume: it does not begin with NRRD0001 to NRRD0005 and a header",
+            path.display()
+        ),
+        "give slices = [files] for pictures, or volume = { … } for bare texels",
+    )
+}

@@ -1,0 +1,80 @@
+//! Several pictures into one texture: slices of a volume, faces of a cube. In go the files, out come
+//! their texels one after the other. All have one size. Formats may differ where that loses nothing:
+//! each is widened to the most channels (grey is replicated, missing alpha is 1) and from 8 to 16
+//! bits (times 257, so that 255 stays 1). Floats stand apart: an 8-bit picture may be encoded, and a
+//! float one is linear light.
+
+use std::path::PathBuf;
+
+use rayon::prelude::*;
+
+use super::data::{ColorSpace, Component, TexelFormat};
+use super::decode::read_checked;
+use super::read_file::{Texels, check_volume};
+use crate::error::{Error, Result};
+
+/// `what` a file is, for messages: its ordinal follows, from 1.
+pub(super) fn read(files: &[PathBuf], space: ColorSpace, what: &str) -> Result<Texels> {
+    let pictures: Vec<Result<Texels>> = files.par_iter().map(|file| read_checked(file, space)).collect();
+    // The first mistake in the order of the files, whichever was found first.
+    let pictures = pictures.into_iter().collect::<Result<Vec<_>>>()?;
+    let Some(first) = pictures.first() else { return Err(Error::new(format!("no {what} is given"))) };
+    let (width, height) = (first.width, first.height);
+    let mut channels = 0;
+    let mut widest = first.format.component();
+    for (index, (picture, file)) in pictures.iter().zip(files).enumerate() {
+        let place = format!("{}: {what} {} of {}", file.display(), index + 1, files.len());
+        if (picture.width, picture.height) != (width, height) {
+            return Err(Error::with_help(
+                format!(
+                    "{place} has {}×{} texels, and the first, {}, has {width}×{height}",
+                    picture.width,
+                    picture.height,
+                    files[0].display()
+                ),
+                format!("all {what}s of a texture have one size: scale this one"),
+            ));
+        }
+        let component = picture.format.component();
+        if (component == Component::Float32) != (widest == Component::Float32) {
+            let (this, other) = (picture.format, first.format);
+            return Err(Error::with_help(
+                format!("{place} holds {this}, and the first, {}, {other}", files[0].display()),
+                "float texels are linear light and integers may be sRGB: store all files alike",
+            ));
+        }
+        widest = widest.max(component);
+        channels = channels.max(picture.format.channels());
+    }
+    let format = TexelFormat::new(channels, widest);
+    check_volume(&files[0], [width, height, files.len() as u32], format.bytes_per_texel())?;
+    let file_channels = pictures.iter().map(|p| p.file_channels).max().unwrap_or(channels);
+    let mut bytes = Vec::with_capacity(pictures.iter().map(|p| p.bytes.len()).sum());
+    for picture in pictures {
+        append(&mut bytes, &picture, format);
+    }
+    Ok(Texels { width, height, format, file_channels, bytes })
+}
+
+fn append(bytes: &mut Vec<u8>, picture: &Texels, format: TexelFormat) {
+    if picture.format == format {
+        bytes.extend_from_slice(&picture.bytes);
+        return;
+    }
+    let (from, to) = (picture.format.component(), format.component());
+    let size = from.bytes();
+    for texel in picture.bytes.chunks_exact(picture.format.bytes_per_texel()) {
+        let channel = |c: usize| &texel[c * size..(c + 1) * size];
+        let mut put = |value: &[u8]| match (from, to) {
+            (Component::Unorm8, Component::Unorm16) => bytes.extend_from_slice(&[value[0]; 2]),
+            _ => bytes.extend_from_slice(value),
+        };
+        let opaque = &from.one()[..size];
+        match (picture.format.channels(), format.channels()) {
+            (1, 2) => [channel(0), opaque].into_iter().for_each(&mut put),
+            (1, 4) => [channel(0), channel(0), channel(0), opaque].into_iter().for_each(&mut put),
+            (2, 4) => [channel(0), channel(0), channel(0), channel(1)].into_iter().for_each(&mut put),
+            (own, _) => (0..own).map(channel).for_each(&mut put),
+        }
+    }
+}
