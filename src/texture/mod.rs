@@ -7,6 +7,7 @@ pub mod data;
 pub mod decode;
 mod jpeg_end;
 pub mod load;
+pub mod mips;
 mod nrrd;
 mod read_exr;
 pub(crate) mod read_file;

@@ -1,0 +1,131 @@
+//! Mip levels of a texture, in linear light. In goes level 0, out come the others in its own format,
+//! each half as long on every axis, rounded down, at least 1 (Vulkan 1.3, "Image Mip Level Sizing").
+//! Faces of a cube are filtered each by itself, slices of a volume along the third axis too.
+//!
+//! - `box`: a texel is the mean over exactly the area that it covers, of texels at the border by their
+//!   share; so the mean of every level is that of level 0. Lengths that halve without remainder take
+//!   each level from the one before; from the first odd length on, every level is taken from that one.
+//! - `kaiser`: sinc(x) · I₀(β √(1 − (x/w)²)) / I₀(β) with w = 3 texels of the new level and β = 4, each
+//!   level from the one before, the texture continued by its border texels. Negative lobes overshoot
+//!   at edges: no level leaves the range of level 0.
+//!
+//! Between levels all stays in f32 and unrounded, so that a stored level is off by one rounding, however
+//! many levels lie above it: half a step of its format, and halves round up. Colour is weighted by
+//! alpha: the mean of what is seen, and where nothing is seen the plain mean.
+
+mod codec;
+mod halve;
+mod resample;
+
+use rayon::prelude::*;
+
+use super::data::{Dimension, MipKernel, TextureData};
+use codec::Codec;
+use halve::halve;
+use resample::{Axis, resample};
+
+/// Levels 1 to the last; none of a texture of one texel.
+pub fn pyramid(texture: &TextureData, kernel: MipKernel) -> Vec<TextureData> {
+    let codec = Codec::new(texture, kernel == MipKernel::Kaiser);
+    let stored =
+        Level { size: size(texture, 0), rows: Rows::Stored { texels: &texture.texels, codec: &codec } };
+    match kernel {
+        MipKernel::Box => boxes(texture, &codec, stored),
+        MipKernel::Kaiser => kaiser(texture, &codec, stored),
+    }
+}
+
+/// With level 0.
+pub fn level_count(texture: &TextureData) -> u32 {
+    let depth = if texture.dimension == Dimension::Three { texture.depth } else { 1 };
+    let longest = texture.width.max(texture.height).max(depth);
+    u32::BITS - longest.leading_zeros()
+}
+
+/// Width, height, and depth or faces.
+pub fn level_size(texture: &TextureData, level: u32) -> [u32; 3] {
+    let half = |n: u32| n.checked_shr(level).unwrap_or(0).max(1);
+    let depth = if texture.dimension == Dimension::Three { half(texture.depth) } else { texture.depth };
+    [half(texture.width), half(texture.height), depth]
+}
+
+fn size(texture: &TextureData, level: u32) -> [usize; 3] {
+    level_size(texture, level).map(|n| n as usize)
+}
+
+fn boxes(texture: &TextureData, codec: &Codec, stored: Level<'_>) -> Vec<TextureData> {
+    let mut levels = Vec::new();
+    let mut above = stored;
+    for level in 1..level_count(texture) {
+        let to = size(texture, level);
+        if !halves(above.size, to) {
+            let rest: Vec<u32> = (level..level_count(texture)).collect();
+            let direct = rest.par_iter().map(|&level| {
+                let to = size(texture, level);
+                let axes = [0, 1, 2].map(|a| Axis::boxes(above.size[a], to[a]));
+                stored_level(texture, codec, to, &resample(&above, &axes, codec.channels()))
+            });
+            levels.extend(direct.collect::<Vec<_>>());
+            break;
+        }
+        let values = halve(&above, to, codec.channels());
+        levels.push(stored_level(texture, codec, to, &values));
+        above = Level { size: to, rows: Rows::Working(values) };
+    }
+    levels
+}
+
+fn kaiser(texture: &TextureData, codec: &Codec, stored: Level<'_>) -> Vec<TextureData> {
+    let mut levels = Vec::new();
+    let mut above = stored;
+    for level in 1..level_count(texture) {
+        let to = size(texture, level);
+        let axes = [0, 1, 2].map(|a| Axis::kaiser(above.size[a], to[a]));
+        let values = resample(&above, &axes, codec.channels());
+        levels.push(stored_level(texture, codec, to, &values));
+        above = Level { size: to, rows: Rows::Working(values) };
+    }
+    levels
+}
+
+/// Whether each texel of the new level covers whole texels, two or one along an axis.
+fn halves(from: [usize; 3], to: [usize; 3]) -> bool {
+    from.iter().zip(to).all(|(&from, to)| from == to || from == 2 * to)
+}
+
+fn stored_level(texture: &TextureData, codec: &Codec, size: [usize; 3], values: &[f32]) -> TextureData {
+    let [width, height, depth] = size.map(|n| n as u32);
+    let texels = codec.encode(values, size[0]);
+    TextureData { name: texture.name.clone(), width, height, depth, texels, ..*texture }
+}
+
+/// A level that the next is made from.
+struct Level<'a> {
+    size: [usize; 3],
+    rows: Rows<'a>,
+}
+
+enum Rows<'a> {
+    /// Decoded row by row: level 0 is never held as floats.
+    Stored { texels: &'a [u8], codec: &'a Codec },
+    /// As the codec decodes, rows one after the other.
+    Working(Vec<f32>),
+}
+
+impl Level<'_> {
+    /// Row `index`, counted through all slices; `scratch` holds it if it must be decoded.
+    fn row<'s>(&'s self, index: usize, scratch: &'s mut Vec<f32>) -> &'s [f32] {
+        match &self.rows {
+            Rows::Working(values) => {
+                let length = values.len() / (self.size[1] * self.size[2]);
+                &values[index * length..(index + 1) * length]
+            }
+            Rows::Stored { texels, codec } => {
+                scratch.resize(self.size[0] * codec.channels(), 0.0);
+                let bytes = texels.len() / (self.size[1] * self.size[2]);
+                codec.decode(&texels[index * bytes..(index + 1) * bytes], scratch);
+                scratch
+            }
+        }
+    }
+}
