@@ -4,7 +4,7 @@ use ash::vk;
 
 use super::buffer::BufferUse;
 use super::descriptor::BindingKind;
-use super::image::{ImageFormat, Swizzle};
+use super::image::{ImageFormat, ImageShape, Swizzle};
 use super::info::DeviceKind;
 use crate::texture::sampler_spec::{Address, Filter, MipMode};
 
@@ -30,6 +30,18 @@ pub(super) fn format(format: ImageFormat) -> vk::Format {
         ImageFormat::R32f => vk::Format::R32_SFLOAT,
         ImageFormat::Rg32f => vk::Format::R32G32_SFLOAT,
         ImageFormat::Rgba32f => vk::Format::R32G32B32A32_SFLOAT,
+    }
+}
+
+/// Of the image and of its view. A cube is a 2D image of six layers.
+pub(super) fn shape(shape: ImageShape) -> (vk::ImageType, vk::ImageViewType, vk::ImageCreateFlags) {
+    let none = vk::ImageCreateFlags::empty();
+    match shape {
+        ImageShape::Flat => (vk::ImageType::TYPE_2D, vk::ImageViewType::TYPE_2D, none),
+        ImageShape::Volume => (vk::ImageType::TYPE_3D, vk::ImageViewType::TYPE_3D, none),
+        ImageShape::Cube => {
+            (vk::ImageType::TYPE_2D, vk::ImageViewType::CUBE, vk::ImageCreateFlags::CUBE_COMPATIBLE)
+        }
     }
 }
 

@@ -121,7 +121,11 @@ fn create(
         .custom_border_colors(true)
         .custom_border_color_without_format(true);
     let extensions = [ash::ext::custom_border_color::NAME.as_ptr()];
-    let mut create_info = vk::DeviceCreateInfo::default().queue_create_infos(&queues).push_next(&mut core12);
+    let features = vk::PhysicalDeviceFeatures::default().sampler_anisotropy(info.limits.max_anisotropy > 1.0);
+    let mut create_info = vk::DeviceCreateInfo::default()
+        .queue_create_infos(&queues)
+        .enabled_features(&features)
+        .push_next(&mut core12);
     if info.limits.custom_border_color {
         create_info = create_info.enabled_extension_names(&extensions).push_next(&mut border);
     }

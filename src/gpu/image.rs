@@ -1,5 +1,5 @@
-//! Sampled 2D images: in go size, format and the levels' texels, out comes an optimally tiled image
-//! with a view. `upload` fills it.
+//! Sampled images, flat, volumes and cubes: in go size, format and the levels' texels, out comes an
+//! optimally tiled image with a view. `upload` fills it.
 
 use std::sync::Arc;
 
@@ -54,15 +54,29 @@ named_enum! {
     }
 }
 
+named_enum! {
+    pub enum ImageShape {
+        /// `sampler2D`
+        Flat = "2d",
+        /// `sampler3D`
+        Volume = "3d",
+        /// `samplerCube`, which Vulkan filters across edges and corners.
+        Cube = "cube",
+    }
+}
+
 #[derive(Clone, Copy, Debug)]
 pub struct ImageDesc<'a> {
     pub name: &'a str,
+    pub shape: ImageShape,
     pub width: u32,
     pub height: u32,
+    /// Slices of a volume; 6 for a cube; else 1.
+    pub depth: u32,
     pub format: ImageFormat,
     pub swizzle: Swizzle,
-    /// Tightly packed rows of each mip level, the full size first; each next level is half as wide
-    /// and high, rounded down, at least 1.
+    /// Tightly packed rows of each mip level, slices or faces one after the other, the full size first;
+    /// each next level is half as wide, high and (a volume) deep, rounded down, at least 1.
     pub levels: &'a [&'a [u8]],
 }
 
@@ -74,8 +88,7 @@ struct RawImage {
     core: Arc<Core>,
     /// `texture `ground` 1024×1024 rgba8`
     label: String,
-    width: u32,
-    height: u32,
+    extent: Extent,
     levels: u32,
     format: ImageFormat,
     handle: vk::Image,
@@ -86,13 +99,13 @@ struct RawImage {
 impl Image {
     /// The content is undefined until uploaded.
     pub(super) fn new(core: &Arc<Core>, desc: &ImageDesc<'_>) -> Result<Image> {
-        let label = format!("texture `{}` {}×{} {}", desc.name, desc.width, desc.height, desc.format);
-        check(core, desc, &label)?;
+        let extent = Extent { shape: desc.shape, width: desc.width, height: desc.height, depth: desc.depth };
+        let label = format!("texture `{}` {extent} {}", desc.name, desc.format);
+        check(core, desc, extent, &label)?;
         let mut raw = RawImage {
             core: Arc::clone(core),
             label,
-            width: desc.width,
-            height: desc.height,
+            extent,
             levels: desc.levels.len() as u32,
             format: desc.format,
             handle: vk::Image::null(),
@@ -104,12 +117,8 @@ impl Image {
         Ok(Image(Arc::new(raw)))
     }
 
-    pub fn width(&self) -> u32 {
-        self.0.width
-    }
-
-    pub fn height(&self) -> u32 {
-        self.0.height
+    pub(super) fn extent(&self) -> Extent {
+        self.0.extent
     }
 
     pub fn levels(&self) -> u32 {
@@ -141,23 +150,62 @@ impl Image {
     }
 }
 
-/// Size of a mip level (Vulkan 1.2, "Image Miplevel Sizing": halved and rounded down, at least 1).
-pub(super) fn level_size(width: u32, height: u32, level: u32) -> (u32, u32) {
-    let half = |size: u32| size.checked_shr(level).unwrap_or(0).max(1);
-    (half(width), half(height))
+/// Shape and size of an image or of one of its levels.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Extent {
+    pub shape: ImageShape,
+    pub width: u32,
+    pub height: u32,
+    /// Slices or faces.
+    pub depth: u32,
 }
 
-fn check(core: &Core, desc: &ImageDesc<'_>, label: &str) -> Result<()> {
-    let limit = core.info.limits.max_image_2d;
-    let longest = desc.width.max(desc.height);
-    if desc.width == 0 || desc.height == 0 {
+impl Extent {
+    /// Vulkan 1.2, "Image Miplevel Sizing": halved and rounded down, at least 1; faces stay six.
+    pub(super) fn at_level(self, level: u32) -> Extent {
+        let half = |size: u32| size.checked_shr(level).unwrap_or(0).max(1);
+        let depth = if self.shape == ImageShape::Volume { half(self.depth) } else { self.depth };
+        Extent { width: half(self.width), height: half(self.height), depth, ..self }
+    }
+
+    pub(super) fn layers(self) -> u32 {
+        if self.shape == ImageShape::Cube { 6 } else { 1 }
+    }
+
+    fn longest(self) -> u32 {
+        let depth = if self.shape == ImageShape::Volume { self.depth } else { 1 };
+        self.width.max(self.height).max(depth)
+    }
+}
+
+impl std::fmt::Display for Extent {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{}×{}", self.width, self.height)?;
+        if self.depth == 1 { Ok(()) } else { write!(f, "×{}", self.depth) }
+    }
+}
+
+fn check(core: &Core, desc: &ImageDesc<'_>, extent: Extent, label: &str) -> Result<()> {
+    if desc.width == 0 || desc.height == 0 || desc.depth == 0 {
         return Err(Error::new(format!("{label} has no texels")));
     }
-    if longest > limit {
+    let limits = &core.info.limits;
+    let (limit, fits, texels) = match desc.shape {
+        ImageShape::Flat => (limits.max_image_2d, desc.depth == 1, "2D images have one slice"),
+        ImageShape::Volume => (limits.max_image_3d, true, ""),
+        ImageShape::Cube => {
+            let square = desc.width == desc.height && desc.depth == 6;
+            (limits.max_image_cube, square, "cubes have six square faces")
+        }
+    };
+    if !fits {
+        return Err(Error::new(format!("{label}: {texels}")));
+    }
+    if extent.longest() > limit {
         return Err(Error::with_help(
             format!(
-                "{label} is too large for {}: images there have at most {limit}×{limit} texels",
-                core.info.name
+                "{label} is too large for {}: {} images there have at most {limit} texels a side",
+                core.info.name, desc.shape
             ),
             "Scale the texture down, use method = \"shader\" with --texels buffer, or another device.",
         ));
@@ -168,16 +216,17 @@ fn check(core: &Core, desc: &ImageDesc<'_>, label: &str) -> Result<()> {
             "Use method = \"shader\", or a texture with other channels or another component type.",
         ));
     }
-    let most = u32::BITS - longest.leading_zeros();
+    let most = u32::BITS - extent.longest().leading_zeros();
     if desc.levels.is_empty() || desc.levels.len() > most as usize {
         return Err(Error::new(format!("{label} has {} levels; it can have 1 to {most}", desc.levels.len())));
     }
     for (level, texels) in (0u32..).zip(desc.levels) {
-        let (width, height) = level_size(desc.width, desc.height, level);
-        let expected = width as usize * height as usize * desc.format.texel_bytes();
+        let size = extent.at_level(level);
+        let count = size.width as usize * size.height as usize * size.depth as usize;
+        let expected = count * desc.format.texel_bytes();
         if texels.len() != expected {
             return Err(Error::new(format!(
-                "level {level} of {label} has {} bytes of texels; {width}×{height} take {expected}",
+                "level {level} of {label} has {} bytes of texels; {size} take {expected}",
                 texels.len()
             )));
         }
@@ -187,12 +236,15 @@ fn check(core: &Core, desc: &ImageDesc<'_>, label: &str) -> Result<()> {
 
 impl RawImage {
     fn create_image(&mut self) -> Result<()> {
+        let (image_type, _, flags) = convert::shape(self.extent.shape);
+        let depth = self.extent.depth / self.extent.layers();
         let info = vk::ImageCreateInfo::default()
-            .image_type(vk::ImageType::TYPE_2D)
+            .flags(flags)
+            .image_type(image_type)
             .format(convert::format(self.format))
-            .extent(vk::Extent3D { width: self.width, height: self.height, depth: 1 })
+            .extent(vk::Extent3D { width: self.extent.width, height: self.extent.height, depth })
             .mip_levels(self.levels)
-            .array_layers(1)
+            .array_layers(self.extent.layers())
             .samples(vk::SampleCountFlags::TYPE_1)
             .tiling(vk::ImageTiling::OPTIMAL)
             .usage(vk::ImageUsageFlags::SAMPLED | vk::ImageUsageFlags::TRANSFER_DST)
@@ -216,7 +268,7 @@ impl RawImage {
     fn create_view(&mut self, swizzle: Swizzle) -> Result<()> {
         let info = vk::ImageViewCreateInfo::default()
             .image(self.handle)
-            .view_type(vk::ImageViewType::TYPE_2D)
+            .view_type(convert::shape(self.extent.shape).1)
             .format(convert::format(self.format))
             .components(convert::swizzle(swizzle))
             .subresource_range(self.all_levels());
@@ -231,7 +283,7 @@ impl RawImage {
         vk::ImageSubresourceRange::default()
             .aspect_mask(vk::ImageAspectFlags::COLOR)
             .level_count(self.levels)
-            .layer_count(1)
+            .layer_count(self.extent.layers())
     }
 }
 

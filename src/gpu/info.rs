@@ -46,6 +46,8 @@ pub struct DeviceInfo {
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct DeviceLimits {
     pub max_image_2d: u32,
+    pub max_image_3d: u32,
+    pub max_image_cube: u32,
     /// Bytes.
     pub max_storage_buffer_range: u64,
     /// Bytes.
@@ -143,6 +145,8 @@ fn basic_limits(properties: &vk::PhysicalDeviceProperties) -> DeviceLimits {
     let limits = &properties.limits;
     DeviceLimits {
         max_image_2d: limits.max_image_dimension2_d,
+        max_image_3d: limits.max_image_dimension3_d,
+        max_image_cube: limits.max_image_dimension_cube,
         max_storage_buffer_range: u64::from(limits.max_storage_buffer_range),
         max_uniform_buffer_range: u64::from(limits.max_uniform_buffer_range),
         max_texel_buffer_elements: u64::from(limits.max_texel_buffer_elements),

@@ -31,7 +31,7 @@ use std::sync::{Arc, Mutex};
 pub use buffer::{Buffer, BufferUse};
 pub use debug::{MessageLog, validation_available};
 pub use descriptor::{BindGroup, BindingDesc, BindingKind, Bound};
-pub use image::{Image, ImageDesc, ImageFormat, Swizzle};
+pub use image::{Image, ImageDesc, ImageFormat, ImageShape, Swizzle};
 pub use info::{DeviceInfo, DeviceKind, DeviceLimits};
 pub use instance::list_devices;
 pub use pipeline::{Pipeline, PipelineDesc};

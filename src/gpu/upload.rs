@@ -5,7 +5,7 @@ use ash::vk;
 
 use super::buffer::Buffer;
 use super::command::Commands;
-use super::image::{Image, level_size};
+use super::image::{Extent, Image, ImageShape};
 use super::staging::{CHUNK, Staging};
 use crate::error::Result;
 
@@ -45,18 +45,20 @@ pub(super) fn to_image(
     levels: &[&[u8]],
 ) -> Result<()> {
     let texel_bytes = image.format().texel_bytes();
-    let chunks = plan(image.width(), image.height(), image.levels(), texel_bytes, CHUNK);
+    let extent = image.extent();
+    let chunks = plan(extent, image.levels(), texel_bytes, CHUNK);
     for (index, pieces) in chunks.iter().enumerate() {
         let bytes = pieces.last().map_or(0, Piece::end);
         let source = staging.get(bytes)?;
         let mapped = source.mapped()?;
         for piece in pieces {
-            let from = piece.row as usize * piece.row_bytes;
+            let from = piece.from();
             mapped[piece.at..piece.end()]
                 .copy_from_slice(&levels[piece.level as usize][from..from + piece.bytes()]);
         }
         let source = source.handle();
-        let regions: Vec<vk::BufferImageCopy> = pieces.iter().map(Piece::region).collect();
+        let regions: Vec<vk::BufferImageCopy> =
+            pieces.iter().map(|piece| piece.region(extent.shape)).collect();
         let (first, last) = (index == 0, index + 1 == chunks.len());
         commands.run(image.label(), |device, commands| {
             if first {
@@ -114,13 +116,16 @@ fn transition(device: &ash::Device, commands: vk::CommandBuffer, image: &Image, 
     }
 }
 
-/// Whole rows of one level, at byte `at` of a chunk.
+/// Whole rows of one slice or face of a level, at byte `at` of a chunk.
 #[derive(Clone, Debug, PartialEq)]
 struct Piece {
     level: u32,
+    slice: u32,
     row: u32,
     rows: u32,
+    /// Of the level.
     width: u32,
+    height: u32,
     row_bytes: usize,
     at: usize,
 }
@@ -134,26 +139,34 @@ impl Piece {
         self.at + self.bytes()
     }
 
-    fn region(&self) -> vk::BufferImageCopy {
+    /// Where in the level's texels it begins.
+    fn from(&self) -> usize {
+        (self.slice as usize * self.height as usize + self.row as usize) * self.row_bytes
+    }
+
+    fn region(&self, shape: ImageShape) -> vk::BufferImageCopy {
+        let (layer, z) = if shape == ImageShape::Cube { (self.slice, 0) } else { (0, self.slice) };
         vk::BufferImageCopy::default()
             .buffer_offset(self.at as u64)
             .image_subresource(
                 vk::ImageSubresourceLayers::default()
                     .aspect_mask(vk::ImageAspectFlags::COLOR)
                     .mip_level(self.level)
+                    .base_array_layer(layer)
                     .layer_count(1),
             )
-            .image_offset(vk::Offset3D { x: 0, y: self.row as i32, z: 0 })
+            .image_offset(vk::Offset3D { x: 0, y: self.row as i32, z: z as i32 })
             .image_extent(vk::Extent3D { width: self.width, height: self.rows, depth: 1 })
     }
 }
 
 /// Cuts all levels into chunks of at most `capacity` bytes; a row is never cut.
-fn plan(width: u32, height: u32, levels: u32, texel_bytes: usize, capacity: usize) -> Vec<Vec<Piece>> {
+fn plan(extent: Extent, levels: u32, texel_bytes: usize, capacity: usize) -> Vec<Vec<Piece>> {
     let mut chunks = vec![Vec::new()];
     let mut at = 0;
-    for level in 0..levels {
-        let (width, height) = level_size(width, height, level);
+    let sizes = (0..levels).map(|level| (level, extent.at_level(level)));
+    let slices = sizes.flat_map(|(level, size)| (0..size.depth).map(move |slice| (level, slice, size)));
+    for (level, slice, Extent { width, height, .. }) in slices {
         let row_bytes = width as usize * texel_bytes;
         let mut row = 0;
         while row < height {
@@ -164,7 +177,7 @@ fn plan(width: u32, height: u32, levels: u32, texel_bytes: usize, capacity: usiz
                 continue;
             }
             let rows = room.clamp(1, height - row);
-            let piece = Piece { level, row, rows, width, row_bytes, at };
+            let piece = Piece { level, slice, row, rows, width, height, row_bytes, at };
             at = piece.end().next_multiple_of(ALIGNMENT);
             row += rows;
             if let Some(chunk) = chunks.last_mut() {
@@ -179,39 +192,54 @@ fn plan(width: u32, height: u32, levels: u32, texel_bytes: usize, capacity: usiz
 mod tests {
     use super::*;
 
-    /// Every row of every level once, inside the capacity, aligned, without overlap.
-    fn check(width: u32, height: u32, levels: u32, texel_bytes: usize, capacity: usize) -> usize {
-        let chunks = plan(width, height, levels, texel_bytes, capacity);
-        let mut next = (0, 0);
+    /// Every row of every slice of every level once, inside the capacity, aligned, without overlap.
+    fn check(extent: Extent, levels: u32, texel_bytes: usize, capacity: usize) -> usize {
+        let chunks = plan(extent, levels, texel_bytes, capacity);
+        let mut next = (0, 0, 0);
         for pieces in &chunks {
             let mut free = 0;
             for piece in pieces {
-                assert_eq!((piece.level, piece.row), next, "rows in order");
+                assert_eq!((piece.level, piece.slice, piece.row), next, "rows in order");
                 assert!(
                     piece.at >= free && piece.at % ALIGNMENT == 0,
                     "{piece:?} overlaps or is not aligned"
                 );
                 assert!(piece.end() <= capacity, "{piece:?} is outside of {capacity}");
                 free = piece.end();
-                let (_, height) = level_size(width, height, piece.level);
+                let size = extent.at_level(piece.level);
                 let row = piece.row + piece.rows;
-                next = if row == height { (piece.level + 1, 0) } else { (piece.level, row) };
+                next = match (row == size.height, piece.slice + 1 == size.depth) {
+                    (false, _) => (piece.level, piece.slice, row),
+                    (true, false) => (piece.level, piece.slice + 1, 0),
+                    (true, true) => (piece.level + 1, 0, 0),
+                };
             }
         }
-        assert_eq!(next, (levels, 0), "all levels are covered");
+        assert_eq!(next, (levels, 0, 0), "all levels are covered");
         chunks.len()
+    }
+
+    fn flat(width: u32, height: u32) -> Extent {
+        Extent { shape: ImageShape::Flat, width, height, depth: 1 }
     }
 
     #[test]
     fn a_small_image_with_all_levels_is_one_chunk() {
-        assert_eq!(check(64, 64, 7, 4, CHUNK), 1);
-        assert_eq!(check(5, 3, 3, 1, CHUNK), 1);
+        assert_eq!(check(flat(64, 64), 7, 4, CHUNK), 1);
+        assert_eq!(check(flat(5, 3), 3, 1, CHUNK), 1);
+        assert_eq!(
+            check(Extent { shape: ImageShape::Volume, width: 5, height: 3, depth: 9 }, 4, 1, CHUNK),
+            1
+        );
+        assert_eq!(check(Extent { shape: ImageShape::Cube, width: 8, height: 8, depth: 6 }, 4, 4, CHUNK), 1);
     }
 
     #[test]
     fn a_large_image_is_cut_between_rows() {
-        assert_eq!(check(100, 50, 1, 4, 4000), 5);
-        assert!(check(37, 91, 7, 16, 4096) > 1);
-        assert!(check(1, 1000, 10, 1, 64) > 1);
+        assert_eq!(check(flat(100, 50), 1, 4, 4000), 5);
+        assert!(check(flat(37, 91), 7, 16, 4096) > 1);
+        assert!(check(flat(1, 1000), 10, 1, 64) > 1);
+        assert!(check(Extent { shape: ImageShape::Volume, width: 33, height: 17, depth: 9 }, 6, 4, 999) > 1);
+        assert!(check(Extent { shape: ImageShape::Cube, width: 33, height: 33, depth: 6 }, 6, 4, 999) > 1);
     }
 }

@@ -4,8 +4,8 @@
 use crate::error::{Error, Result};
 use crate::features::{Features, TexelSource};
 use crate::gpu::{
-    BindGroup, BindingKind, Bound, Buffer, BufferUse, Gpu, Image, ImageDesc, ImageFormat, Pipeline, Sampler,
-    Swizzle,
+    BindGroup, BindingKind, Bound, Buffer, BufferUse, Gpu, Image, ImageDesc, ImageFormat, ImageShape,
+    Pipeline, Sampler, Swizzle,
 };
 use crate::layout::HEAD_BYTES;
 use crate::pack::{MAX_SLOTS, PackedScene, Sections, Slot};
@@ -171,8 +171,10 @@ fn upload_image(gpu: &Gpu, packed: &PackedScene, index: usize, form: Form) -> Re
     }
     gpu.image(&ImageDesc {
         name,
+        shape: ImageShape::Flat,
         width,
         height,
+        depth: 1,
         format: stored,
         swizzle: match format.channels() {
             1 => Swizzle::Grey,

@@ -2,8 +2,8 @@
 //! every format, at every level, under every sampler that the device has.
 
 use moire::gpu::{
-    BindGroup, BindingDesc, BindingKind, Bound, Buffer, BufferUse, Gpu, ImageDesc, ImageFormat, Pipeline,
-    PipelineDesc, Swizzle,
+    BindGroup, BindingDesc, BindingKind, Bound, Buffer, BufferUse, Gpu, ImageDesc, ImageFormat, ImageShape,
+    Pipeline, PipelineDesc, Swizzle,
 };
 use moire::texture::sampler_spec::{Address, Filter, MipMode, SamplerSpec};
 
@@ -73,6 +73,8 @@ fn images_are_sampled_and_fetched_at_every_level() {
     let levels = [&levels[0][..], &levels[1], &levels[2]];
     let ramp = ImageDesc {
         name: "ramp",
+        shape: ImageShape::Flat,
+        depth: 1,
         width: 5,
         height: 2,
         format: ImageFormat::R32f,
@@ -103,6 +105,8 @@ fn an_image_larger_than_a_transfer_chunk_arrives_whole() {
     texels[last..].copy_from_slice(&[10, 20, 30, 40]);
     let big = ImageDesc {
         name: "big",
+        shape: ImageShape::Flat,
+        depth: 1,
         width: width as u32,
         height: height as u32,
         format: ImageFormat::Rgba8,
@@ -142,7 +146,16 @@ fn formats_and_swizzles_read_as_named() {
     let nearest = SamplerSpec { mag: Filter::Nearest, min: Filter::Nearest, ..Default::default() };
     for (format, swizzle, texel, expected) in cases {
         assert!(gpu.supports(format, false), "{format}");
-        let desc = ImageDesc { name: "texel", width: 1, height: 1, format, swizzle, levels: &[&texel] };
+        let desc = ImageDesc {
+            name: "texel",
+            shape: ImageShape::Flat,
+            depth: 1,
+            width: 1,
+            height: 1,
+            format,
+            swizzle,
+            levels: &[&texel],
+        };
         let [sampled, fetched, _] = Look::new(&gpu, &desc, &desc, &nearest).at(&gpu, [0.5, 0.5], 0.0, 0);
         for (found, exact) in sampled.iter().chain(&fetched).zip(expected.iter().chain(&expected)) {
             // sRGB decoding by table or polynomial may err by half a step of 8 bits (Direct3D 11.3
@@ -171,6 +184,8 @@ fn border_colors_are_read_back_through_a_sampler() {
     let gpu = Checked::open();
     let white = ImageDesc {
         name: "white",
+        shape: ImageShape::Flat,
+        depth: 1,
         width: 1,
         height: 1,
         format: ImageFormat::Rgba32f,
@@ -202,6 +217,8 @@ fn without_mips_both_filters_stay_reachable() {
     let gpu = Checked::open();
     let step = ImageDesc {
         name: "step",
+        shape: ImageShape::Flat,
+        depth: 1,
         width: 2,
         height: 1,
         format: ImageFormat::R32f,

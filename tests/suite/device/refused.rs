@@ -1,7 +1,9 @@
 //! What the device layer refuses before Vulkan sees it: sizes over the limits, texels that do not fit,
 //! pipelines and runs that do not match, resources of another device. Each by name.
 
-use moire::gpu::{BindingDesc, BindingKind, Bound, BufferUse, ImageDesc, ImageFormat, PipelineDesc, Swizzle};
+use moire::gpu::{
+    BindingDesc, BindingKind, Bound, BufferUse, ImageDesc, ImageFormat, ImageShape, PipelineDesc, Swizzle,
+};
 
 use super::{Checked, error_of, fill, one};
 use crate::device_shaders::FILL;
@@ -13,6 +15,8 @@ fn sizes_over_the_limits_are_refused_by_name_and_limit() {
     let wide = limits.max_image_2d + 1;
     let desc = ImageDesc {
         name: "ground",
+        shape: ImageShape::Flat,
+        depth: 1,
         width: wide,
         height: 1,
         format: ImageFormat::R8,
@@ -44,6 +48,8 @@ fn wrong_texels_levels_and_sizes_are_refused() {
     let texels = [0u8; 64];
     let desc = |width, height, levels| ImageDesc {
         name: "t",
+        shape: ImageShape::Flat,
+        depth: 1,
         width,
         height,
         format: ImageFormat::Rgba8,
