@@ -1,10 +1,12 @@
 //! Scene files: TOML text in, validated [`model::Scene`] out.
 
 mod load;
+mod materials;
 pub mod model;
 mod names;
 pub mod prune;
 mod reader;
+mod samplers;
 mod sections;
 mod shapes;
 mod source;
@@ -13,4 +15,4 @@ mod textures;
 mod validate;
 
 pub use load::{load, parse};
-pub use validate::{MAX_DEPTH, MAX_SIZE, MAX_SPP, check_shared, check_spp};
+pub use validate::{MAX_DEPTH, MAX_SIZE, MAX_SPP, both_filters, check_filters, check_shared, check_spp};
