@@ -11,6 +11,8 @@ use crate::pack::PackedScene;
 use crate::render::{Resources, build_pipeline};
 use crate::shaders::{self, Shader};
 
+pub use crate::render::can_sample;
+
 /// One texture look-up; `slot` is an index into `PackedScene::slots`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]

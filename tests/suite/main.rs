@@ -32,3 +32,4 @@ mod stage;
 mod strata;
 mod support;
 mod texture_command;
+mod verify;

@@ -1,0 +1,278 @@
+//! `moire verify`: what it prints and how it exits, and that its parts (table of variants, verdicts,
+//! weight bits) tell a broken device from a sound one.
+
+use std::collections::BTreeSet;
+
+use glam::DVec2;
+use moire::error::Error;
+use moire::gpu::{DeviceInfo, DeviceKind, DeviceLimits};
+use moire::oracle::texture::look_up;
+use moire::progress::Progress;
+use moire::texture::sampler_spec::{Address, Filter, SamplerSpec};
+use moire::verify::judge::{Judge, Judgement, Precision};
+use moire::verify::queries::{Dice, coordinates, pairs, query, ramp, ramp_texture, texture, uv_of};
+use moire::verify::report::{Report, Row, Verdict};
+use moire::verify::run::Tally;
+use moire::verify::text::text;
+use moire::verify::variants::{FormatClass, Reader, Variant, sampler_variants, shader_variants};
+use moire::verify::verify;
+use moire::verify::weights::{RAMP_STEPS, WeightBits, weight_bits};
+use serde_json::Value;
+
+use crate::shared_gpu::gpu;
+use crate::stage::device_name;
+use crate::support::moire;
+
+const LAVAPIPE: &str = "llvmpipe Mesa 22.3.6 (LLVM 15.0.6)";
+
+fn device(driver: &str) -> DeviceInfo {
+    DeviceInfo {
+        index: 0,
+        name: "made up".into(),
+        kind: DeviceKind::Cpu,
+        driver: driver.into(),
+        api_version: "1.3.0".into(),
+        uuid: None,
+        limits: DeviceLimits { sub_texel_bits: 8, mip_bits: 4, ..Default::default() },
+        suitable: Ok(()),
+    }
+}
+
+fn variant(address: Address, filter: Filter, class: FormatClass) -> Variant {
+    let spec = SamplerSpec { address: [address; 2], mag: filter, min: filter, ..Default::default() };
+    Variant { reader: Reader::Sampler, spec, class, format: class.formats()[2], size: [8, 6] }
+}
+
+/// What a device with this look-up would be told; `shift` in texels along u.
+fn row(driver: &str, variant: &Variant, shift: f64) -> Row {
+    let device = device(driver);
+    let image = texture(8, 6, variant.format, variant.class.color_space(), 5);
+    let scene = pairs(vec![image], &[variant.spec], &[(0, 0)]).unwrap();
+    let judge = Judge::new(&scene, Precision::declared(&device));
+    let mut tally = Tally::default();
+    for uv in coordinates(&mut Dice::new(3), variant.size, 100, false) {
+        let query = query(&scene, 0, uv);
+        let at = uv_of(&query) + DVec2::X * shift / 8.0;
+        let answer = look_up(&scene, &scene.textures[0], &scene.samplers[0], at).as_vec4().to_array();
+        tally.add(judge.judge(&query, answer));
+    }
+    Row::new(&device, variant, tally)
+}
+
+#[test]
+fn a_device_that_does_as_the_oracle_is_within_and_one_half_a_texel_off_is_outside() {
+    for &class in FormatClass::ALL {
+        for &filter in Filter::ALL {
+            for &address in Address::ALL {
+                let variant = variant(address, filter, class);
+                for driver in [LAVAPIPE, "another"] {
+                    let label = variant.label();
+                    assert_eq!(row(driver, &variant, 0.0).verdict, Verdict::Within, "{label}");
+                    assert_eq!(row(driver, &variant, 0.5).verdict, Verdict::Outside, "{label}");
+                    assert_eq!(row(driver, &variant, -0.5).verdict, Verdict::Outside, "{label}");
+                }
+            }
+        }
+    }
+}
+
+/// A tally of one look-up that is this far beyond the declared precision.
+fn tally(beyond: f64, weights: Option<WeightBits>) -> Tally {
+    let mut tally = Tally { weights, ..Default::default() };
+    tally.add(Judgement { error: beyond, beyond, right: beyond == 0.0 });
+    tally
+}
+
+#[test]
+fn known_faults_hold_for_their_driver_their_variants_and_their_extent() {
+    let linear = variant(Address::Repeat, Filter::Linear, FormatClass::Unorm8);
+    let verdict =
+        |driver, variant: &Variant, beyond| Row::new(&device(driver), variant, tally(beyond, None)).verdict;
+    assert_eq!(verdict(LAVAPIPE, &linear, 0.0035), Verdict::KnownFault);
+    assert_eq!(verdict(LAVAPIPE, &linear, 0.0), Verdict::Within);
+    assert_eq!(verdict(LAVAPIPE, &linear, 0.006), Verdict::Outside);
+    assert_eq!(verdict(LAVAPIPE, &linear, f64::INFINITY), Verdict::Outside);
+    assert_eq!(verdict("another", &linear, 0.0035), Verdict::Outside);
+    for other in [
+        variant(Address::MirroredRepeat, Filter::Linear, FormatClass::Unorm8),
+        variant(Address::Repeat, Filter::Nearest, FormatClass::Unorm8),
+        variant(Address::Repeat, Filter::Linear, FormatClass::Srgb8),
+        variant(Address::Repeat, Filter::Linear, FormatClass::Float32),
+        Variant { reader: Reader::ShaderBuffer, ..linear },
+    ] {
+        assert_eq!(verdict(LAVAPIPE, &other, 0.0035), Verdict::Outside, "{}", other.label());
+    }
+}
+
+#[test]
+fn weights_coarser_than_declared_are_outside_whatever_the_driver() {
+    let linear = variant(Address::Repeat, Filter::Linear, FormatClass::Unorm8);
+    for (bits, expected) in [(6, Verdict::Outside), (7, Verdict::Outside), (8, Verdict::Within)] {
+        let weights = Some(WeightBits { bits, at_least: false });
+        assert_eq!(Row::new(&device(LAVAPIPE), &linear, tally(0.0, weights)).verdict, expected);
+    }
+}
+
+#[test]
+fn answers_that_are_no_numbers_are_wrong() {
+    let variant = variant(Address::ClampToEdge, Filter::Linear, FormatClass::Float32);
+    let scene = pairs(
+        vec![texture(8, 6, variant.format, variant.class.color_space(), 5)],
+        &[variant.spec],
+        &[(0, 0)],
+    );
+    let scene = scene.unwrap();
+    let judge = Judge::new(&scene, Precision::declared(&device("x")));
+    for odd in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
+        let found = judge.judge(&query(&scene, 0, [0.3, 0.3]), [odd; 4]);
+        assert!(!found.right && found.beyond.is_infinite(), "{odd}: {found:?}");
+    }
+}
+
+#[test]
+fn weight_bits_are_those_of_the_quantiser() {
+    let weights = || (0..=RAMP_STEPS).map(|k| f64::from(k) / f64::from(RAMP_STEPS));
+    for bits in 3..=14u32 {
+        let steps = f64::from(bits).exp2();
+        let exactly = WeightBits { bits, at_least: false };
+        let floored = weights().map(|w| ((w * steps).floor() / steps) as f32);
+        assert_eq!(weight_bits(floored), exactly, "truncated weights");
+        let rounded = weights().map(|w| ((w * steps).round() / steps) as f32);
+        assert_eq!(weight_bits(rounded), exactly, "rounded weights");
+        let stored = weights().map(|w| ((w * (steps - 1.0)).round() / (steps - 1.0)) as f32);
+        assert_eq!(weight_bits(stored), exactly, "results rounded to normalized integers");
+    }
+    assert_eq!(weight_bits(weights().map(|w| w as f32)), WeightBits { bits: 16, at_least: true });
+    assert_eq!(weight_bits(weights().map(|_| 0.5)).bits, 0);
+}
+
+#[test]
+fn the_ramp_runs_from_one_texel_to_the_other_in_equal_exact_steps() {
+    for &class in FormatClass::ALL {
+        for format in class.formats() {
+            let spec = SamplerSpec::default();
+            let scene = pairs(vec![ramp_texture(format, class.color_space())], &[spec], &[(0, 0)]).unwrap();
+            for (k, uv) in ramp(1024).enumerate() {
+                let uv = uv_of(&query(&scene, 0, uv));
+                let value = look_up(&scene, &scene.textures[0], &scene.samplers[0], uv);
+                assert_eq!(value.x, k as f64 / 1024.0, "{format} at step {k}");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_table_has_every_sampler_with_every_class_and_each_group_meets_all_sizes_and_channels() {
+    let all = sampler_variants(true);
+    assert_eq!(all.len(), SamplerSpec::all().count() * FormatClass::ALL.len());
+    let labels: BTreeSet<String> = all.iter().map(|v| format!("{} {}", v.spec.label(), v.class)).collect();
+    assert_eq!(labels.len(), all.len());
+    for &u in Address::ALL {
+        for &v in Address::ALL {
+            for &mag in Filter::ALL {
+                for &class in FormatClass::ALL {
+                    let group = all
+                        .iter()
+                        .filter(|x| x.spec.address == [u, v] && x.spec.mag == mag && x.class == class);
+                    let sizes: BTreeSet<[u32; 2]> = group.clone().map(|x| x.size).collect();
+                    let formats: BTreeSet<&str> = group.map(|x| x.format.name()).collect();
+                    assert_eq!((sizes.len(), formats.len()), (6, 3), "{u}/{v} {mag} {class}");
+                }
+            }
+        }
+    }
+    let borders: BTreeSet<String> = all.iter().map(|v| format!("{:?}", v.spec.border_color)).collect();
+    assert_eq!(borders.len(), 4);
+    for reader in [Reader::ShaderBuffer, Reader::ShaderImage] {
+        assert_eq!(shader_variants(reader, 0).len(), 25 * 2 * 12);
+    }
+}
+
+#[test]
+fn the_text_names_what_is_outside_and_strictness_decides_about_known_faults() {
+    let report = |beyond: f64| {
+        let device = device(LAVAPIPE);
+        let linear = variant(Address::Repeat, Filter::Linear, FormatClass::Unorm8);
+        let missing = [variant(Address::MirrorClampToEdge, Filter::Linear, FormatClass::Unorm8)];
+        Report::new(&device, vec![Row::new(&device, &linear, tally(beyond, None))], &missing, 1.0)
+    };
+    let (sound, known, broken) = (report(0.0), report(0.0035), report(0.1));
+    assert_eq!([&sound, &known, &broken].map(|r| r.passes(false)), [true, true, false]);
+    assert_eq!([&sound, &known, &broken].map(|r| r.passes(true)), [true, false, false]);
+    assert!(
+        text(&sound).contains("1 within, 0 with a known fault, 0 outside, 1 not offered"),
+        "{}",
+        text(&sound)
+    );
+    assert!(text(&known).contains("known fault (1 variants): lavapipe filters"), "{}", text(&known));
+    assert!(text(&broken).contains("outside: sampler repeat/repeat mag=linear"), "{}", text(&broken));
+    assert!(text(&broken).contains("1 of 1 wrong, worst 1.0e-1"), "{}", text(&broken));
+}
+
+struct Stop;
+
+impl Progress for Stop {
+    fn advance(&self, _done: f64) {}
+
+    fn cancelled(&self) -> bool {
+        true
+    }
+}
+
+#[test]
+fn a_wish_to_stop_ends_after_one_batch() {
+    assert!(matches!(verify(&gpu(), &Stop), Err(Error::Interrupted)));
+}
+
+#[test]
+fn the_device_under_test_conforms_and_the_report_is_one_json_object() {
+    let output = moire()
+        .env("MOIRE_VALIDATION", "1")
+        .args(["verify", "--device", &device_name(), "--json", "--strict"])
+        .output()
+        .unwrap();
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(told, "", "nothing belongs on stderr");
+    let report: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let summary = |key: &str| report["summary"][key].as_u64().unwrap();
+    assert_eq!(summary("outside"), 0, "{}", report["summary"]);
+    let strict_fails = summary("known_faults") > 0;
+    assert_eq!(output.status.code(), Some(i32::from(strict_fails)));
+    let rows = report["rows"].as_array().unwrap();
+    assert_eq!(rows.len() as u64, summary("variants"));
+    assert_eq!(summary("variants") + summary("not_offered"), 1200 + 4 * 600);
+    assert!(report["limits"]["sub_texel_bits"].as_u64().unwrap() >= 4); // Vulkan 1.3, required limits
+    for row in rows {
+        assert!(row["look_ups"].as_u64().unwrap() > 100, "{row}");
+        assert!(row["worst_error"].is_f64() && row["worst_beyond"].is_f64(), "{row}");
+        let known = row["verdict"] == "known fault";
+        assert_eq!(row["fault"].is_string(), known, "{row}");
+        assert!(known || row["verdict"] == "within", "{row}");
+    }
+    let bits = |class: &str, address: &str| {
+        let of = rows.iter().find(|r| {
+            r["class"] == class
+                && r["address"] == serde_json::json!([address, address])
+                && r["weights"].is_object()
+        });
+        of.unwrap()["weights"]["bits"].as_u64().unwrap()
+    };
+    if report["driver"].as_str().unwrap().contains("llvmpipe") {
+        assert!(strict_fails, "lavapipe's 8-bit path was not noticed");
+        assert_eq!(
+            [bits("unorm8", "repeat"), bits("unorm8", "mirrored-repeat"), bits("float32", "repeat")],
+            [8, 16, 16]
+        );
+    }
+}
+
+#[test]
+fn a_device_that_is_not_there_is_exit_2() {
+    for (name, expected) in [("voodoo", "voodoo"), ("oracle", "the oracle itself is no device")] {
+        let output = moire().args(["verify", "--device", name]).output().unwrap();
+        assert_eq!(output.status.code(), Some(2));
+        assert!(output.stdout.is_empty());
+        let told = String::from_utf8_lossy(&output.stderr);
+        assert!(told.contains(expected), "{told}");
+    }
+}
