@@ -37,7 +37,8 @@ impl Sampler {
             .address_mode_u(u)
             .address_mode_v(v)
             .address_mode_w(vk::SamplerAddressMode::CLAMP_TO_EDGE)
-            .max_lod(max_lod)
+            .min_lod(spec.min_lod)
+            .max_lod(max_lod.max(spec.min_lod))
             .border_color(border);
         if border == vk::BorderColor::FLOAT_CUSTOM_EXT {
             info = info.push_next(&mut custom);

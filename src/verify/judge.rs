@@ -51,14 +51,16 @@ impl Precision {
     }
 }
 
-/// One answer against the oracle. Both errors are parts of the texels' range (border included), of the
-/// worst channel; infinite for a NaN, or where the range is 0 and the answer is off.
+/// One answer against the oracle. Both errors are of the worst channel, as a part of what the format can
+/// tell apart: of 1 for normalized integers, of the texels' range (border included) for floats; infinite
+/// for a NaN, or where that range is 0 and the answer is off.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Judgement {
     /// From the oracle's value (linear), or from the nearest texel that may be chosen (nearest).
     pub error: f64,
     /// Beyond every value that a coordinate within the declared precision gives.
     pub beyond: f64,
+    /// Not beyond those values by more than the arithmetic of filtering.
     pub right: bool,
 }
 
@@ -75,9 +77,10 @@ struct Allowed {
     boxes: Vec<[DVec4; 2]>,
     /// Rounding of numbers, that nobody counts as filtering.
     slack: DVec4,
-    /// Error of a filtered value, as a part of `range`.
-    value: f64,
-    range: DVec4,
+    /// Error of a filtered value.
+    arithmetic: DVec4,
+    /// What errors are told in.
+    unit: DVec4,
     exact: Option<DVec4>,
 }
 
@@ -95,21 +98,21 @@ impl<'a> Judge<'a> {
         let allowed = self.allowed(query);
         let outside = |[low, high]: &[DVec4; 2]| (*low - got).max(got - *high).max(DVec4::ZERO);
         let least = |slack: DVec4| {
-            let of = |b| part(outside(b) - slack, allowed.range);
+            let of = |b| part(outside(b) - slack, allowed.unit);
             allowed.boxes.iter().map(of).fold(f64::INFINITY, f64::min)
         };
-        let beyond = least(allowed.slack);
         let error = match allowed.exact {
-            Some(exact) => part((got - exact).abs(), allowed.range),
+            Some(exact) => part((got - exact).abs(), allowed.unit),
             None => least(DVec4::ZERO),
         };
-        Judgement { error, beyond, right: beyond <= allowed.value }
+        let right = least(allowed.slack + allowed.arithmetic) == 0.0;
+        Judgement { error, beyond: least(allowed.slack), right }
     }
 
     /// What a wrong answer should have been.
     pub fn complaint(&self, query: &LookUp, answer: [f32; 4]) -> String {
         let allowed = self.allowed(query);
-        let slack = allowed.slack + allowed.range * allowed.value;
+        let slack = allowed.slack + allowed.arithmetic;
         let boxes: Vec<String> = allowed
             .boxes
             .iter()
@@ -143,14 +146,15 @@ impl<'a> Judge<'a> {
         let range = most - least;
         let ulps = 4.0 * F32_ULP * least.abs().max(most.abs()); // 4 ulp of the greatest texel
         let nearest = how.modes[2] == Filter::Nearest as u32;
-        let value = self.precision.value(component, nearest);
+        let arithmetic = range * self.precision.value(component, nearest);
+        let unit = if component == Component::Float32 { range } else { DVec4::ONE };
         let at = |texel: DVec2| look_up(scene, image, how, texel / size);
 
         let (reach, slack) = match self.precision {
             Precision::Shader if !nearest => {
                 let exact = look_up(scene, image, how, uv);
                 let slack = range * (size.max_element() * F32_ULP * 2.0) + ulps; // W · 2⁻²² of the range + 4 ulp
-                return Allowed { boxes: vec![[exact; 2]], slack, value, range, exact: Some(exact) };
+                return Allowed { boxes: vec![[exact; 2]], slack, arithmetic, unit, exact: Some(exact) };
             }
             Precision::Shader => (size * (2.0 * F32_ULP), ulps), // W · 2⁻²² texels, 4 ulp
             Precision::Hardware { sub_texel, decode, .. } => {
@@ -186,7 +190,7 @@ impl<'a> Judge<'a> {
             vec![[low, high]]
         };
         let exact = (!nearest).then(|| look_up(scene, image, how, uv));
-        Allowed { boxes, slack, value, range, exact }
+        Allowed { boxes, slack, arithmetic, unit, exact }
     }
 }
 

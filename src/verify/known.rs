@@ -23,7 +23,7 @@ const FAULTS: &[KnownFault] = &[KnownFault {
         let simple = |a: &Address| matches!(a, Address::Repeat | Address::ClampToEdge);
         v.reader == Reader::Sampler
             && v.class == FormatClass::Unorm8
-            && v.spec.mag == Filter::Linear
+            && v.filter() == Filter::Linear
             && v.spec.address.iter().all(simple)
     },
     beyond: 1.0 / 255.0, // half a step of 255 an axis

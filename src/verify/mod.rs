@@ -1,8 +1,9 @@
 //! Sampler conformance: a device in, a report out. Every variant of sampler and texel format is looked
 //! up on the device over random, awkward and finely stepped coordinates and held against the float64
 //! oracle by the interval rule; so are the shader's own filters from both texel sources. Images of two
-//! dimensions, level 0 by explicit level.
+//! dimensions, level 0.
 
+pub mod groups;
 pub mod judge;
 pub mod known;
 pub mod queries;
@@ -21,6 +22,7 @@ use crate::probe;
 use crate::progress::Progress;
 use crate::texture::sampler_spec::{Filter, MipMode};
 use judge::Precision;
+use queries::Axis;
 use report::{Report, Row};
 use run::Tally;
 use variants::{Reader, Variant};
@@ -28,51 +30,73 @@ use variants::{Reader, Variant};
 /// Rounds of the shader's variants; each gives its textures other sizes.
 const ROUNDS: usize = 2;
 
+/// Variants whose look-ups one dispatch answers, by their place in the list of all.
+struct Batch {
+    members: Vec<usize>,
+    precision: Precision,
+    kind: Kind,
+}
+
+#[derive(Clone, Copy)]
+enum Kind {
+    Scattered,
+    Ramp(Axis),
+}
+
 /// Verifies everything that the device offers.
 pub fn verify(gpu: &Gpu, progress: &dyn Progress) -> Result<Report> {
     let start = Instant::now();
     let device = gpu.info();
-    let all = variants::sampler_variants(device.limits.custom_border_color);
-    let offered = |v: &Variant| probe::can_sample(gpu, &v.spec, v.format, v.class.color_space());
-    let (samplers, missing): (Vec<Variant>, Vec<Variant>) = all.into_iter().partition(offered);
-    let shaders: Vec<Variant> = [Reader::ShaderBuffer, Reader::ShaderImage]
-        .into_iter()
-        .flat_map(|reader| (0..ROUNDS).flat_map(move |round| variants::shader_variants(reader, round)))
-        .collect();
-    let per_round = shaders.len() / (2 * ROUNDS);
-
-    let mut batches: Vec<(&[Variant], Precision)> = Vec::new();
-    let declared = Precision::declared(device);
-    batches.extend(samplers.chunks(MAX_SLOTS).map(|batch| (batch, declared)));
-    batches.extend(shaders.chunks(per_round).map(|batch| (batch, Precision::Shader)));
-    let ramps: Vec<usize> = (0..samplers.len()).filter(|&i| wants_ramp(&samplers[i])).collect();
-    let steps = (batches.len() + ramps.len().div_ceil(MAX_SLOTS)) as f64;
-    let mut done = 0.0;
-    let mut step = || {
-        done += 1.0;
-        progress.advance(done / steps);
-        if progress.cancelled() { Err(Error::Interrupted) } else { Ok(()) }
+    let offered = |v: &Variant| {
+        v.reader != Reader::Sampler || probe::can_sample(gpu, &v.spec, v.format, v.class.color_space())
     };
+    let all = variants::all(device.limits.custom_border_color, ROUNDS);
+    let (variants, missing): (Vec<Variant>, Vec<Variant>) = all.into_iter().partition(offered);
 
-    let mut tallies: Vec<Tally> = Vec::new();
-    for (seed, (batch, precision)) in (1..).zip(batches) {
-        tallies.extend(run::look_ups(gpu, batch.iter().collect(), precision, seed)?);
-        step()?;
-    }
-    for batch in ramps.chunks(MAX_SLOTS) {
-        let found = run::weights(gpu, batch.iter().map(|&i| &samplers[i]).collect())?;
-        for (&i, bits) in batch.iter().zip(found) {
-            tallies[i].weights = Some(bits);
+    let batches = batches(&variants, Precision::declared(device));
+    let mut tallies = vec![Tally::default(); variants.len()];
+    for (done, batch) in batches.iter().enumerate() {
+        let members = batch.members.iter().map(|&i| &variants[i]).collect();
+        let found = match batch.kind {
+            Kind::Scattered => run::look_ups(gpu, members, batch.precision, 1 + done as u64)?,
+            Kind::Ramp(axis) => run::ramps(gpu, members, batch.precision, axis)?,
+        };
+        for (&i, tally) in batch.members.iter().zip(found) {
+            tallies[i].merge(tally);
         }
-        step()?;
+        progress.advance((done + 1) as f64 / batches.len() as f64);
+        if progress.cancelled() {
+            return Err(Error::Interrupted);
+        }
     }
-    let rows = samplers.iter().chain(&shaders).zip(tallies);
-    let rows = rows.map(|(variant, tally)| Row::new(device, variant, tally)).collect();
-    Ok(Report::new(device, rows, &missing, start.elapsed().as_secs_f64()))
+    let rows = variants.iter().zip(tallies).map(|(variant, tally)| Row::new(device, variant, tally));
+    Ok(Report::new(device, rows.collect(), &missing, start.elapsed().as_secs_f64()))
 }
 
-/// One ramp for each pair of address modes and class of formats.
+/// As many variants a batch as one pipeline reads: a slot each for the device's samplers, a slot a
+/// texture for the shader.
+fn batches(variants: &[Variant], declared: Precision) -> Vec<Batch> {
+    let indices = |wanted: &dyn Fn(&Variant) -> bool| -> Vec<usize> {
+        (0..variants.len()).filter(|&i| wanted(&variants[i])).collect()
+    };
+    let mut all = Vec::new();
+    let mut add = |members: Vec<usize>, size: usize, precision: Precision, kind: Kind| {
+        let batch = |chunk: &[usize]| Batch { members: chunk.to_vec(), precision, kind };
+        all.extend(members.chunks(size).map(batch));
+    };
+    add(indices(&|v| v.reader == Reader::Sampler), MAX_SLOTS, declared, Kind::Scattered);
+    for reader in [Reader::ShaderBuffer, Reader::ShaderImage] {
+        let size = variants::shader_variants(reader, 0).len();
+        add(indices(&|v| v.reader == reader), size, Precision::Shader, Kind::Scattered);
+    }
+    add(indices(&wants_ramp), MAX_SLOTS, declared, Kind::Ramp(Axis::U));
+    add(indices(&wants_ramp), MAX_SLOTS, declared, Kind::Ramp(Axis::V));
+    all
+}
+
+/// One ramp an axis for each pair of address modes, scale and class of formats.
 fn wants_ramp(variant: &Variant) -> bool {
     let spec = &variant.spec;
-    spec.mag == Filter::Linear && spec.min == Filter::Linear && spec.mip == MipMode::None
+    let linear = spec.mag == Filter::Linear && spec.min == Filter::Linear;
+    variant.reader == Reader::Sampler && linear && spec.mip == MipMode::None
 }

@@ -5,6 +5,7 @@
 use glam::{DVec2, DVec3};
 
 use crate::error::Result;
+use crate::named::named_enum;
 use crate::pack::{self, PackedScene};
 use crate::probe::LookUp;
 use crate::scene::model::{
@@ -59,20 +60,37 @@ pub fn texture(
     TextureData { name, width, height, format, color_space, file_channels: format.channels(), texels }
 }
 
-/// 2 × 2 texels: 0 in every channel on the left, 1 on the right.
-pub fn ramp_texture(format: TexelFormat, color_space: ColorSpace) -> TextureData {
+named_enum! {
+    /// Along which a ramp runs.
+    pub enum Axis {
+        U = "u",
+        V = "v",
+    }
+}
+
+/// 2 × 2 texels: 0 in every channel on the left, 1 on the right; or, along v, above and below.
+pub fn ramp_texture(axis: Axis, format: TexelFormat, color_space: ColorSpace) -> TextureData {
     let component = format.component();
     let texel = |value: [u8; 4]| value[..component.bytes()].repeat(format.channels());
-    let row = [texel([0; 4]), texel(component.one())].concat();
+    let [zero, one] = [texel([0; 4]), texel(component.one())];
+    let texels = match axis {
+        Axis::U => [&zero, &one, &zero, &one].map(Vec::as_slice).concat(),
+        Axis::V => [&zero, &zero, &one, &one].map(Vec::as_slice).concat(),
+    };
     let name = format!("ramp {format} {color_space}");
-    let texels = row.repeat(2);
     TextureData { name, width: 2, height: 2, format, color_space, file_channels: format.channels(), texels }
 }
 
-/// From the centre of the left texel of `ramp_texture` to that of the right one: weights k / `steps`,
-/// exact in f32 up to 2²² steps.
-pub fn ramp(steps: u32) -> impl Iterator<Item = [f32; 2]> {
-    (0..=steps).map(move |k| [(0.25 + 0.5 * f64::from(k) / f64::from(steps)) as f32, 0.5])
+/// From the centre of the first texel of `ramp_texture` to that of the next one: weights k / `steps`,
+/// exact in f32 up to 2²² steps. The other coordinate is where both rows weigh the same.
+pub fn ramp(axis: Axis, steps: u32) -> impl Iterator<Item = [f32; 2]> {
+    (0..=steps).map(move |k| {
+        let along = (0.25 + 0.5 * f64::from(k) / f64::from(steps)) as f32;
+        match axis {
+            Axis::U => [along, 0.5],
+            Axis::V => [0.5, along],
+        }
+    })
 }
 
 /// A scene without shapes whose materials are these (texture, sampler) pairs.

@@ -4,7 +4,7 @@ use serde::{Serialize, Serializer};
 
 use super::known::known_fault;
 use super::run::Tally;
-use super::variants::{Reader, Variant};
+use super::variants::Variant;
 use super::weights::WeightBits;
 use crate::gpu::DeviceInfo;
 use crate::named::named_enum;
@@ -35,12 +35,14 @@ pub struct Row {
     pub mag: &'static str,
     pub min: &'static str,
     pub mip: &'static str,
+    /// Which of the two filters was read.
+    pub scale: &'static str,
     pub class: &'static str,
     pub format: &'static str,
     pub size: [u32; 2],
     pub look_ups: usize,
     pub wrong: usize,
-    /// Parts of the texels' range; null for an answer that is no number or should have been constant.
+    /// As `judge::Judgement` has them; null for an answer that is no number or should have been constant.
     pub worst_error: f64,
     pub worst_beyond: f64,
     pub weights: Option<WeightBits>,
@@ -67,6 +69,7 @@ impl Row {
             mag: spec.mag.name(),
             min: spec.min.name(),
             mip: spec.mip.name(),
+            scale: variant.scale.name(),
             class: variant.class.name(),
             format: variant.format.name(),
             size: variant.size,
@@ -147,27 +150,5 @@ impl Report {
     /// No variant outside, and if `strict` no known fault either.
     pub fn passes(&self, strict: bool) -> bool {
         self.summary.outside == 0 && (!strict || self.summary.known_faults == 0)
-    }
-}
-
-/// How a report's lines are grouped.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Group {
-    pub reader: Reader,
-    /// The mode of both axes; `None` where they differ.
-    pub address: Option<&'static str>,
-    pub filter: &'static str,
-    pub class: &'static str,
-}
-
-impl Group {
-    pub fn of(row: &Row) -> Group {
-        let [u, v] = row.address;
-        Group {
-            reader: row.variant.reader,
-            address: (u == v).then_some(u),
-            filter: row.mag,
-            class: row.class,
-        }
     }
 }

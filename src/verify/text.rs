@@ -1,9 +1,10 @@
-//! A report → a table for people: one line a group of variants (address, filter, class of formats; all
-//! minification filters and mip modes together, since level 0 reads neither), then what fails.
+//! A report → a table for people: one line for the variants that differ in min, mip or address and fared
+//! alike, then the faults that drivers are known for, then what fails.
 
 use std::fmt::Write as _;
 
-use super::report::{Group, Report, Row, Verdict};
+use super::groups::{Line, lines};
+use super::report::{Report, Row, Verdict};
 
 /// Failing variants that are listed one by one.
 const MOST_LISTED: usize = 20;
@@ -16,16 +17,26 @@ pub fn text(report: &Report) -> String {
     };
     line(format!("{} ({}, Vulkan {})", report.device, report.driver, report.api_version));
     line(format!(
-        "declared: {} sub-texel bits, {} mip bits; errors in parts of the texels' range",
+        "declared: {} sub-texel bits, {} mip bits; errors in parts of 1, of floats in parts of their range",
         limits.sub_texel_bits, limits.mip_bits
     ));
     line(String::new());
     line(format!(
-        "{:<15} {:<21} {:<8} {:<8} {:>8} {:>8} {:>6} {:>8} {:>8} {:>6}  verdict",
-        "reader", "address", "filter", "texels", "variants", "look-ups", "wrong", "error", "beyond", "bits"
+        "{:<14} {:<5} {:<7} {:<7} {:<22} {:>8} {:>8} {:>6} {:>7} {:>7} {:>4}  verdict",
+        "reader",
+        "scale",
+        "filter",
+        "texels",
+        "address",
+        "variants",
+        "look-ups",
+        "wrong",
+        "error",
+        "beyond",
+        "bits"
     ));
-    for (group, rows) in groups(&report.rows) {
-        line(group_line(&group, &rows));
+    for group in lines(&report.rows) {
+        line(table_line(&group));
     }
     line(String::new());
     let summary = &report.summary;
@@ -53,55 +64,32 @@ pub fn text(report: &Report) -> String {
 }
 
 fn reason(row: &Row, declared: u32) -> String {
-    let wrong = format!("{} of {} wrong, worst {}", row.wrong, row.look_ups, number(row.worst_beyond));
-    match (&row.example, &row.weights) {
-        (Some(example), _) => format!("{wrong}; first: {example}"),
-        (None, Some(bits)) => format!("weights of {bits} bits, {declared} declared"),
-        (None, None) => wrong,
+    let mut reasons = Vec::new();
+    if row.wrong > 0 {
+        reasons.push(format!("{} of {} wrong, worst {}", row.wrong, row.look_ups, number(row.worst_beyond)));
     }
+    if let Some(bits) = row.weights.filter(|w| w.bits < declared) {
+        reasons.push(format!("weights of {bits} bits, {declared} declared"));
+    }
+    reasons.extend(row.example.as_ref().map(|example| format!("first: {example}")));
+    reasons.join("; ")
 }
 
-/// Groups in the order of their first rows.
-fn groups(rows: &[Row]) -> Vec<(Group, Vec<&Row>)> {
-    let mut found: Vec<(Group, Vec<&Row>)> = Vec::new();
-    for row in rows {
-        let group = Group::of(row);
-        match found.iter_mut().find(|(g, _)| *g == group) {
-            Some((_, rows)) => rows.push(row),
-            None => found.push((group, vec![row])),
-        }
-    }
-    found.sort_by_key(|(group, _)| (group.reader, group.address.is_none()));
-    found
-}
-
-fn group_line(group: &Group, rows: &[&Row]) -> String {
-    let sum = |of: fn(&Row) -> usize| rows.iter().map(|r| of(r)).sum::<usize>();
-    let worst = |of: fn(&Row) -> f64| rows.iter().map(|r| of(r)).fold(0.0, f64::max);
-    let bits = rows.iter().filter_map(|r| r.weights);
-    let bits = match (bits.clone().min(), bits.max()) {
-        (Some(least), Some(most)) if least != most => format!("{}–{most}", least.bits),
-        (Some(least), _) => least.to_string(),
-        _ => "-".into(),
-    };
-    let verdict = rows.iter().map(|r| r.verdict).max().unwrap_or(Verdict::Within);
-    let number_of = rows.iter().filter(|r| r.verdict == verdict).count();
-    let verdict = match verdict {
-        Verdict::Within => verdict.to_string(),
-        _ => format!("{verdict} ({number_of} variants)"),
-    };
+fn table_line(line: &Line) -> String {
     format!(
-        "{:<15} {:<21} {:<8} {:<8} {:>8} {:>8} {:>6} {:>8} {:>8} {:>6}  {verdict}",
-        group.reader.name(),
-        group.address.unwrap_or("two modes"),
-        group.filter,
-        group.class,
-        rows.len(),
-        sum(|r| r.look_ups),
-        sum(|r| r.wrong),
-        number(worst(|r| r.worst_error)),
-        number(worst(|r| r.worst_beyond)),
-        bits,
+        "{:<14} {:<5} {:<7} {:<7} {:<22} {:>8} {:>8} {:>6} {:>7} {:>7} {:>4}  {}",
+        line.reader,
+        line.scale,
+        line.filter,
+        line.class,
+        line.address,
+        line.variants,
+        line.look_ups,
+        line.wrong,
+        number(line.error),
+        number(line.beyond),
+        line.weights.map_or("-".into(), |w| w.to_string()),
+        line.verdict,
     )
 }
 

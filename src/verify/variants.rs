@@ -47,22 +47,56 @@ impl Reader {
     }
 }
 
+named_enum! {
+    /// Which of its two filters a sampler reads level 0 with (Vulkan 1.3, "Scale Factor Operation, Level-of-Detail
+    /// Operation and Image Level(s) Selection": magnified where the level of detail is at most 0).
+    pub enum Scale {
+        Magnified = "mag",
+        Minified = "min",
+    }
+}
+
+/// A level of detail that minifies and still is level 0, also with the most that `MipMode::None` allows.
+const MINIFYING_LOD: f32 = 0.125;
+
 /// One row of a report.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Variant {
     pub reader: Reader,
     pub spec: SamplerSpec,
+    pub scale: Scale,
     pub class: FormatClass,
     pub format: TexelFormat,
     pub size: [u32; 2],
 }
 
 impl Variant {
-    /// `sampler repeat/repeat mag=linear min=linear mip=none, grey8 linear 5×3`
+    /// The filter that is read.
+    pub fn filter(&self) -> Filter {
+        match self.scale {
+            Scale::Magnified => self.spec.mag,
+            Scale::Minified => self.spec.min,
+        }
+    }
+
+    /// The sampler of the device that reads so.
+    pub fn device_sampler(&self) -> SamplerSpec {
+        let min_lod = if self.scale == Scale::Minified { MINIFYING_LOD } else { 0.0 };
+        SamplerSpec { min_lod, ..self.spec }
+    }
+
+    /// What is read, without regard to scale: as the oracle is asked.
+    pub fn level_0_sampler(&self) -> SamplerSpec {
+        let filter = self.filter();
+        SamplerSpec { mag: filter, min: filter, ..self.spec }
+    }
+
+    /// `sampler repeat/repeat mag=linear min=linear mip=none (mag), grey8 linear 5×3`
     pub fn label(&self) -> String {
         let [width, height] = self.size;
         let space = self.class.color_space();
-        format!("{} {}, {} {space} {width}×{height}", self.reader, self.spec.label(), self.format)
+        let Variant { reader, scale, format, .. } = self;
+        format!("{reader} {} ({scale}), {format} {space} {width}×{height}", self.spec.label())
     }
 }
 
@@ -74,7 +108,16 @@ const STANDARD_BORDERS: [[f32; 4]; 3] = [[0.0; 4], [0.0, 0.0, 0.0, 1.0], [1.0; 4
 /// Odd values, all different: a border channel taken from elsewhere shows.
 pub const ODD_BORDER: [f32; 4] = [0.9, 0.1, 0.6, 0.3];
 
-/// The device's own samplers: all of them, with each class of formats.
+/// The default set; `rounds` of the shader's variants.
+pub fn all(custom_border_color: bool, rounds: usize) -> Vec<Variant> {
+    let mut all = sampler_variants(custom_border_color);
+    for reader in [Reader::ShaderBuffer, Reader::ShaderImage] {
+        all.extend((0..rounds).flat_map(|round| shader_variants(reader, round)));
+    }
+    all
+}
+
+/// The device's own samplers: all of them, magnifying and minifying, with each class of formats.
 pub fn sampler_variants(custom_border_color: bool) -> Vec<Variant> {
     let mut borders = STANDARD_BORDERS.to_vec();
     if custom_border_color {
@@ -82,17 +125,19 @@ pub fn sampler_variants(custom_border_color: bool) -> Vec<Variant> {
     }
     let mut all = Vec::new();
     for (i, spec) in SamplerSpec::all().enumerate() {
+        let [mag, min, mip] = [spec.mag as usize, spec.min as usize, spec.mip as usize];
+        let pair = i / (2 * 2 * 3);
         for (j, &class) in FormatClass::ALL.iter().enumerate() {
             let border_color = borders[(i + i / 6 + j) % borders.len()];
-            all.push(Variant {
+            all.extend(Scale::ALL.iter().map(|&scale| Variant {
                 reader: Reader::Sampler,
                 spec: SamplerSpec { method: Method::Hardware, border_color, ..spec },
+                scale,
                 class,
-                // Six variants of minification and mips follow each other: each meets another size,
-                // every second one another number of channels.
-                format: class.formats()[(i / 2 + i / 6) % 3],
-                size: SIZES[(i * 5 + j) % SIZES.len()],
-            });
+                // The six that share a filter meet all numbers of channels and all sizes.
+                format: class.formats()[(mip + pair / 2) % 3],
+                size: SIZES[(2 * mip + (mag ^ min) + pair + j) % SIZES.len()],
+            }));
         }
     }
     all
@@ -116,6 +161,7 @@ pub fn shader_variants(reader: Reader, round: usize) -> Vec<Variant> {
                 all.extend(formats.enumerate().map(|(i, (class, format))| Variant {
                     reader,
                     spec,
+                    scale: Scale::Magnified,
                     class,
                     format,
                     size: SIZES[(i + round) % SIZES.len()],

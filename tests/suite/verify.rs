@@ -1,7 +1,7 @@
 //! `moire verify`: what it prints and how it exits, and that its parts (table of variants, verdicts,
 //! weight bits) tell a broken device from a sound one.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use glam::DVec2;
 use moire::error::Error;
@@ -9,12 +9,13 @@ use moire::gpu::{DeviceInfo, DeviceKind, DeviceLimits};
 use moire::oracle::texture::look_up;
 use moire::progress::Progress;
 use moire::texture::sampler_spec::{Address, Filter, SamplerSpec};
+use moire::verify::groups::lines;
 use moire::verify::judge::{Judge, Judgement, Precision};
-use moire::verify::queries::{Dice, coordinates, pairs, query, ramp, ramp_texture, texture, uv_of};
+use moire::verify::queries::{Axis, Dice, coordinates, pairs, query, ramp, ramp_texture, texture, uv_of};
 use moire::verify::report::{Report, Row, Verdict};
 use moire::verify::run::Tally;
 use moire::verify::text::text;
-use moire::verify::variants::{FormatClass, Reader, Variant, sampler_variants, shader_variants};
+use moire::verify::variants::{FormatClass, Reader, Scale, Variant, sampler_variants, shader_variants};
 use moire::verify::verify;
 use moire::verify::weights::{RAMP_STEPS, WeightBits, weight_bits};
 use serde_json::Value;
@@ -40,7 +41,8 @@ fn device(driver: &str) -> DeviceInfo {
 
 fn variant(address: Address, filter: Filter, class: FormatClass) -> Variant {
     let spec = SamplerSpec { address: [address; 2], mag: filter, min: filter, ..Default::default() };
-    Variant { reader: Reader::Sampler, spec, class, format: class.formats()[2], size: [8, 6] }
+    let scale = Scale::Magnified;
+    Variant { reader: Reader::Sampler, spec, scale, class, format: class.formats()[2], size: [8, 6] }
 }
 
 /// What a device with this look-up would be told; `shift` in texels along u.
@@ -149,13 +151,15 @@ fn weight_bits_are_those_of_the_quantiser() {
 #[test]
 fn the_ramp_runs_from_one_texel_to_the_other_in_equal_exact_steps() {
     for &class in FormatClass::ALL {
-        for format in class.formats() {
+        for (format, &axis) in class.formats().into_iter().flat_map(|f| Axis::ALL.iter().map(move |a| (f, a)))
+        {
             let spec = SamplerSpec::default();
-            let scene = pairs(vec![ramp_texture(format, class.color_space())], &[spec], &[(0, 0)]).unwrap();
-            for (k, uv) in ramp(1024).enumerate() {
+            let texture = ramp_texture(axis, format, class.color_space());
+            let scene = pairs(vec![texture], &[spec], &[(0, 0)]).unwrap();
+            for (k, uv) in ramp(axis, 1024).enumerate() {
                 let uv = uv_of(&query(&scene, 0, uv));
                 let value = look_up(&scene, &scene.textures[0], &scene.samplers[0], uv);
-                assert_eq!(value.x, k as f64 / 1024.0, "{format} at step {k}");
+                assert_eq!(value.x, k as f64 / 1024.0, "{format} along {axis} at step {k}");
             }
         }
     }
@@ -164,22 +168,20 @@ fn the_ramp_runs_from_one_texel_to_the_other_in_equal_exact_steps() {
 #[test]
 fn the_table_has_every_sampler_with_every_class_and_each_group_meets_all_sizes_and_channels() {
     let all = sampler_variants(true);
-    assert_eq!(all.len(), SamplerSpec::all().count() * FormatClass::ALL.len());
-    let labels: BTreeSet<String> = all.iter().map(|v| format!("{} {}", v.spec.label(), v.class)).collect();
+    assert_eq!(all.len(), SamplerSpec::all().count() * Scale::ALL.len() * FormatClass::ALL.len());
+    let labels: BTreeSet<String> =
+        all.iter().map(|v| format!("{} {} {}", v.spec.label(), v.scale, v.class)).collect();
     assert_eq!(labels.len(), all.len());
-    for &u in Address::ALL {
-        for &v in Address::ALL {
-            for &mag in Filter::ALL {
-                for &class in FormatClass::ALL {
-                    let group = all
-                        .iter()
-                        .filter(|x| x.spec.address == [u, v] && x.spec.mag == mag && x.class == class);
-                    let sizes: BTreeSet<[u32; 2]> = group.clone().map(|x| x.size).collect();
-                    let formats: BTreeSet<&str> = group.map(|x| x.format.name()).collect();
-                    assert_eq!((sizes.len(), formats.len()), (6, 3), "{u}/{v} {mag} {class}");
-                }
-            }
-        }
+    let mut groups: BTreeMap<String, Vec<&Variant>> = BTreeMap::new();
+    for v in &all {
+        let [a, b] = v.spec.address;
+        groups.entry(format!("{a}/{b} {} {} {}", v.scale, v.filter(), v.class)).or_default().push(v);
+    }
+    assert_eq!(groups.len(), 25 * 2 * 2 * 4);
+    for (label, group) in groups {
+        let sizes: BTreeSet<[u32; 2]> = group.iter().map(|x| x.size).collect();
+        let formats: BTreeSet<&str> = group.iter().map(|x| x.format.name()).collect();
+        assert_eq!((sizes.len(), formats.len()), (6, 3), "{label}");
     }
     let borders: BTreeSet<String> = all.iter().map(|v| format!("{:?}", v.spec.border_color)).collect();
     assert_eq!(borders.len(), 4);
@@ -189,24 +191,62 @@ fn the_table_has_every_sampler_with_every_class_and_each_group_meets_all_sizes_a
 }
 
 #[test]
+fn a_minified_variant_asks_the_device_for_level_0_by_the_minification_filter() {
+    let split = SamplerSpec { mag: Filter::Nearest, min: Filter::Linear, ..Default::default() };
+    let magnified = Variant { spec: split, ..variant(Address::Repeat, Filter::Linear, FormatClass::Unorm8) };
+    let minified = Variant { scale: Scale::Minified, ..magnified };
+    assert_eq!([magnified, minified].map(|v| v.filter()), [Filter::Nearest, Filter::Linear]);
+    assert_eq!([magnified, minified].map(|v| v.level_0_sampler().mag), [Filter::Nearest, Filter::Linear]);
+    assert_eq!(magnified.device_sampler(), split);
+    let bound = minified.device_sampler();
+    assert!(bound.min_lod > 0.0 && bound.min_lod < 0.25, "{bound:?}");
+    assert_eq!(SamplerSpec { min_lod: 0.0, ..bound }, split);
+}
+
+#[test]
 fn the_text_names_what_is_outside_and_strictness_decides_about_known_faults() {
-    let report = |beyond: f64| {
+    let report = |beyond: f64, weights| {
         let device = device(LAVAPIPE);
         let linear = variant(Address::Repeat, Filter::Linear, FormatClass::Unorm8);
         let missing = [variant(Address::MirrorClampToEdge, Filter::Linear, FormatClass::Unorm8)];
-        Report::new(&device, vec![Row::new(&device, &linear, tally(beyond, None))], &missing, 1.0)
+        Report::new(&device, vec![Row::new(&device, &linear, tally(beyond, weights))], &missing, 1.0)
     };
-    let (sound, known, broken) = (report(0.0), report(0.0035), report(0.1));
-    assert_eq!([&sound, &known, &broken].map(|r| r.passes(false)), [true, true, false]);
-    assert_eq!([&sound, &known, &broken].map(|r| r.passes(true)), [true, false, false]);
-    assert!(
-        text(&sound).contains("1 within, 0 with a known fault, 0 outside, 1 not offered"),
-        "{}",
-        text(&sound)
+    let coarse = Some(WeightBits { bits: 6, at_least: false });
+    let (sound, known, broken) = (report(0.0, None), report(0.0035, None), report(0.1, None));
+    let blunt = report(0.0, coarse);
+    assert_eq!([&sound, &known, &broken, &blunt].map(|r| r.passes(false)), [true, true, false, false]);
+    assert_eq!([&sound, &known, &broken, &blunt].map(|r| r.passes(true)), [true, false, false, false]);
+    for (report, expected) in [
+        (&sound, "1 within, 0 with a known fault, 0 outside, 1 not offered"),
+        (&known, "known fault (1 variants): lavapipe filters"),
+        (&broken, "outside: sampler repeat/repeat mag=linear"),
+        (&broken, "1 of 1 wrong, worst 1.0e-1"),
+        (&blunt, "weights of 6 bits, 8 declared"),
+    ] {
+        assert!(text(report).contains(expected), "{expected}\n{}", text(report));
+    }
+}
+
+#[test]
+fn the_text_has_one_line_for_address_modes_that_fared_alike() {
+    let device = device(LAVAPIPE);
+    let row = |address, beyond| {
+        Row::new(&device, &variant(address, Filter::Linear, FormatClass::Unorm8), tally(beyond, None))
+    };
+    let rows = [Address::Repeat, Address::ClampToEdge, Address::ClampToBorder].map(|a| row(a, 0.0));
+    let lines = |rows: &[Row]| {
+        let lines = lines(rows).into_iter();
+        lines.map(|l| (l.address, l.variants, l.wrong, l.verdict)).collect::<Vec<_>>()
+    };
+    assert_eq!(lines(&rows), [("all 3 pairs".into(), 3, 0, Verdict::Within)]);
+    let mixed = [rows[0].clone(), row(Address::ClampToEdge, 0.0035), rows[2].clone()];
+    assert_eq!(
+        lines(&mixed),
+        [
+            ("2 pairs".into(), 2, 0, Verdict::Within),
+            ("clamp-to-edge/clamp-to-edge".into(), 1, 1, Verdict::KnownFault)
+        ]
     );
-    assert!(text(&known).contains("known fault (1 variants): lavapipe filters"), "{}", text(&known));
-    assert!(text(&broken).contains("outside: sampler repeat/repeat mag=linear"), "{}", text(&broken));
-    assert!(text(&broken).contains("1 of 1 wrong, worst 1.0e-1"), "{}", text(&broken));
 }
 
 struct Stop;
@@ -240,7 +280,7 @@ fn the_device_under_test_conforms_and_the_report_is_one_json_object() {
     assert_eq!(output.status.code(), Some(i32::from(strict_fails)));
     let rows = report["rows"].as_array().unwrap();
     assert_eq!(rows.len() as u64, summary("variants"));
-    assert_eq!(summary("variants") + summary("not_offered"), 1200 + 4 * 600);
+    assert_eq!(summary("variants") + summary("not_offered"), 2 * 1200 + 4 * 600);
     assert!(report["limits"]["sub_texel_bits"].as_u64().unwrap() >= 4); // Vulkan 1.3, required limits
     for row in rows {
         assert!(row["look_ups"].as_u64().unwrap() > 100, "{row}");
