@@ -180,10 +180,12 @@ pub const FAR_COORDINATES: [f32; 12] = [
     -16_777_215.0,
 ];
 
-/// Random pairs of coordinates in [-3, 4], and pairs of the given ones with random partners.
+/// Random pairs of coordinates, half of them in [-3, 4] and half in and just around the texture, where
+/// clamped modes read more than their edge; and pairs of awkward ones.
 pub fn coordinates(dice: &mut Dice, size: [u32; 2], random: usize, far: bool) -> Vec<[f32; 2]> {
+    let ends = |i: usize| if i.is_multiple_of(2) { (-3.0, 4.0) } else { (-0.25, 1.25) };
     let mut all: Vec<[f32; 2]> =
-        (0..random).map(|_| [dice.between(-3.0, 4.0) as f32, dice.between(-3.0, 4.0) as f32]).collect();
+        (0..random).map(ends).map(|(low, high)| [0; 2].map(|_| dice.between(low, high) as f32)).collect();
     let [mut us, mut vs] = size.map(edge_coordinates);
     if far {
         us.extend(FAR_COORDINATES);

@@ -78,10 +78,10 @@ fn reason(row: &Row, declared: u32) -> String {
 fn table_line(line: &Line) -> String {
     format!(
         "{:<14} {:<5} {:<7} {:<7} {:<22} {:>8} {:>8} {:>6} {:>7} {:>7} {:>4}  {}",
-        line.reader,
-        line.scale,
-        line.filter,
-        line.class,
+        line.reader.name(),
+        line.scale.name(),
+        line.filter.name(),
+        line.class.name(),
         line.address,
         line.variants,
         line.look_ups,
@@ -89,7 +89,7 @@ fn table_line(line: &Line) -> String {
         number(line.error),
         number(line.beyond),
         line.weights.map_or("-".into(), |w| w.to_string()),
-        line.verdict,
+        line.verdict.name(),
     )
 }
 
