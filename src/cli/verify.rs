@@ -43,8 +43,9 @@ pub fn run(args: &VerifyArgs) -> Result<ExitCode> {
         None => DeviceSelect::Default,
     };
     let gpu = Gpu::open(&select)?;
-    let report = verify(&gpu, &bar)?;
+    let report = verify(&gpu, &bar);
     bar.finish();
+    let report = report?;
     for message in gpu.messages() {
         super::tell(format_args!("validation: {message}"));
     }
