@@ -11,7 +11,7 @@ use crate::probe::LookUp;
 use crate::scene::model::{
     Algorithm, Camera, Footprint, Mapping, Material, Model, Pattern, Projection, Sampling, Scene,
 };
-use crate::texture::data::{ColorSpace, Component, TexelFormat, TextureData};
+use crate::texture::data::{ColorSpace, Component, Dimension, TexelFormat, TextureData};
 use crate::texture::sampler_spec::SamplerSpec;
 
 /// Xorshift (Marsaglia 2003); apart from the renderer's own hash, so as not to lean on what it tests.
@@ -57,7 +57,28 @@ pub fn texture(
         }
     };
     let name = format!("{format} {color_space} {width}x{height}");
-    TextureData { name, width, height, format, color_space, file_channels: format.channels(), texels }
+    flat(name, [width, height], format, color_space, texels)
+}
+
+/// Of two dimensions.
+fn flat(
+    name: String,
+    [width, height]: [u32; 2],
+    format: TexelFormat,
+    color_space: ColorSpace,
+    texels: Vec<u8>,
+) -> TextureData {
+    TextureData {
+        name,
+        dimension: Dimension::Two,
+        width,
+        height,
+        depth: 1,
+        format,
+        color_space,
+        file_channels: format.channels(),
+        texels,
+    }
 }
 
 named_enum! {
@@ -78,7 +99,7 @@ pub fn ramp_texture(axis: Axis, format: TexelFormat, color_space: ColorSpace) ->
         Axis::V => [&zero, &zero, &one, &one].map(Vec::as_slice).concat(),
     };
     let name = format!("ramp {format} {color_space}");
-    TextureData { name, width: 2, height: 2, format, color_space, file_channels: format.channels(), texels }
+    flat(name, [2, 2], format, color_space, texels)
 }
 
 /// From the centre of the first texel of `ramp_texture` to that of the next one: weights k / `steps`,
