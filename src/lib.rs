@@ -34,3 +34,4 @@ pub mod render;
 pub mod scene;
 pub mod shaders;
 pub mod texture;
+pub mod verify;

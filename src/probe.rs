@@ -11,6 +11,8 @@ use crate::pack::PackedScene;
 use crate::render::{Resources, build_pipeline};
 use crate::shaders::{self, Shader};
 
+pub use crate::render::can_sample;
+
 /// One texture look-up; `slot` is a material's. `dx` and `dy` are the change of the coordinate over the
 /// footprint, which counts in scenes whose footprint is not `none`.
 #[repr(C)]

@@ -7,6 +7,7 @@ mod progress;
 pub mod render;
 mod report;
 pub mod texture;
+pub mod verify;
 
 use std::fmt::Display;
 use std::io::{self, ErrorKind, Write};

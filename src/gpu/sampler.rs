@@ -37,7 +37,8 @@ impl Sampler {
             .address_mode_u(u)
             .address_mode_v(v)
             .address_mode_w(convert::address(spec.address_w))
-            .max_lod(max_lod)
+            .min_lod(spec.min_lod)
+            .max_lod(max_lod.max(spec.min_lod))
             .anisotropy_enable(anisotropic(spec))
             .max_anisotropy((spec.max_anisotropy as f32).min(core.info.limits.max_anisotropy))
             .border_color(border);

@@ -23,6 +23,7 @@ use film_buffer::{Band, FilmBuffer};
 use resources::shader_for;
 
 pub(crate) use resources::Resources;
+pub use resources::can_sample;
 pub use tuning::{TexelChoice, Tuning};
 
 /// Wall seconds by stage, in the order in which they come.

@@ -197,13 +197,27 @@ impl Form {
     fn of(packed: &PackedScene, slot: &Slot, spec: &SamplerSpec) -> Form {
         let texture = &packed.textures[slot.texture];
         let srgb = texture.link[0] == ColorSpace::Srgb as u32;
+        Form::new(slot.hardware, srgb, spec)
+    }
+
+    fn new(hardware: bool, srgb: bool, spec: &SamplerSpec) -> Form {
         let border = spec.address.contains(&Address::ClampToBorder);
         Form {
-            decode: slot.hardware && srgb,
-            expand: slot.hardware && (srgb || border),
-            filtered: slot.hardware && (spec.mag != Filter::Nearest || spec.min != Filter::Nearest),
+            decode: hardware && srgb,
+            expand: hardware && (srgb || border),
+            filtered: hardware && (spec.mag != Filter::Nearest || spec.min != Filter::Nearest),
         }
     }
+}
+
+/// Whether the device's own samplers read textures of this format so.
+pub fn can_sample(gpu: &Gpu, spec: &SamplerSpec, format: TexelFormat, space: ColorSpace) -> bool {
+    let limits = &gpu.info().limits;
+    let form = Form::new(true, space == ColorSpace::Srgb, spec);
+    let channels = if form.expand { 4 } else { format.channels() };
+    let stored = image_format(TexelFormat::new(channels, format.component()), form.decode);
+    let mirrors = limits.mirror_clamp_to_edge || !spec.address.contains(&Address::MirrorClampToEdge);
+    mirrors && gpu.supports(stored, form.filtered)
 }
 
 fn upload_image(gpu: &Gpu, packed: &PackedScene, index: usize, form: Form) -> Result<Image> {

@@ -9,7 +9,7 @@ use toml::de::DeTable;
 
 use super::model::{Background, Material, Plane, Scene, Sphere, TextureSource, Triangle};
 use super::names::Names;
-use super::materials::{self, default_material};
+use super::materials;
 use super::samplers::{self, Known};
 use super::sections;
 use super::shapes::{self, MaterialIndex};
@@ -110,7 +110,7 @@ fn assemble(path: &Path, root: &Table<'_>) -> Result<Scene> {
     let used = used.chain(spheres.iter().map(|sphere: &Sphere| sphere.material));
     let mut used = used.chain(triangles.iter().map(|triangle: &Triangle| triangle.material));
     if used.any(|material| material == materials.len()) {
-        materials.push(default_material());
+        materials.push(Material::default());
     }
     let path = path.to_owned();
     let scene = Scene {

@@ -1,7 +1,7 @@
 //! `[[material]]` and its mapping. In: the table, and the textures and samplers it may name. Out: a
 //! material whose mapping fits its texture.
 
-use glam::{DVec2, DVec3};
+use glam::DVec2;
 use toml::de::DeValue;
 
 use super::model::*;
@@ -29,23 +29,8 @@ const MAPPING: &[&str] = &["kind", "entity", "space", "origin", "axis", "scale",
 /// Keys of the frame that only projecting maps have.
 const FRAME: [&str; 4] = ["origin", "axis", "space", "entity"];
 
-pub(super) fn default_material() -> Material {
-    Material {
-        name: "default".to_owned(),
-        model: Model::Lambert,
-        color: DVec3::ONE,
-        texture: None,
-        sampler: 0,
-        mapping: Mapping::default(),
-        relief: None,
-        specular: DVec3::splat(0.5),
-        exponent: 32.0,
-        ior: 1.5,
-    }
-}
-
 pub(super) fn material(table: &Table<'_>, known: &Known<'_, '_>) -> Result<Material> {
-    let mut material = default_material();
+    let mut material = Material::default();
     material.name = table.required("name")?.string()?.to_owned();
     if let Some(field) = table.get("model") {
         material.model = field.choice(Model::NAMES, Model::ALL)?;

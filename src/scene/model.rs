@@ -28,7 +28,7 @@ pub struct Scene {
 }
 
 /// What rays see that hit nothing.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Background {
     /// Without an environment all there is; with one it multiplies the texture.
     pub color: DVec3,
@@ -174,6 +174,23 @@ pub struct Material {
     pub exponent: f64,
     /// Refractive index of `dielectric` behind its surface, over that in front of it.
     pub ior: f64,
+}
+
+impl Default for Material {
+    fn default() -> Self {
+        Material {
+            name: "default".to_owned(),
+            model: Model::Lambert,
+            color: DVec3::ONE,
+            texture: None,
+            sampler: 0,
+            mapping: Mapping::default(),
+            relief: None,
+            specular: DVec3::splat(0.5),
+            exponent: 32.0,
+            ior: 1.5,
+        }
+    }
 }
 
 impl Material {

@@ -72,6 +72,8 @@ pub struct SamplerSpec {
     pub mag: Filter,
     pub min: Filter,
     pub mip: MipMode,
+    /// The device's samplers only: least level of detail. Above 0, every look-up minifies.
+    pub min_lod: f32,
     pub border_color: [f32; 4],
     pub method: Method,
     pub texel_center: TexelCenter,
@@ -92,6 +94,7 @@ impl Default for SamplerSpec {
             mag: Filter::Linear,
             min: Filter::Linear,
             mip: MipMode::None,
+            min_lod: 0.0,
             border_color: [0.0; 4],
             method: Method::Shader,
             texel_center: TexelCenter::Half,

@@ -4,7 +4,6 @@
 
 pub mod bench;
 mod hardware;
-mod judge;
 mod planted;
 mod shader;
 

@@ -34,3 +34,4 @@ mod stage;
 mod strata;
 mod support;
 mod texture_command;
+mod verify;

@@ -153,6 +153,7 @@ fn keys_left_out_have_the_documented_defaults() {
         mag: Filter::Linear,
         min: Filter::Linear,
         mip: MipMode::None,
+        min_lod: 0.0,
         border_color: [0.0; 4],
         method: Method::Shader,
         texel_center: TexelCenter::Half,

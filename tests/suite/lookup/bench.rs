@@ -1,44 +1,25 @@
-//! Textures, samplers and coordinates for look-up tests: random texels in every format, scenes that
-//! consist of pairs of texture and sampler, and coordinates where addressing and filtering can fail.
+//! What `moire::verify` looks things up with, as tests want it: failures end the test, random
+//! directions, and the list of all formats.
 
-use glam::{DVec2, DVec3};
-use moire::pack::{self, PackedScene};
-use moire::probe::LookUp;
-use moire::scene::model::{
-    Algorithm, Camera, Footprint, Mapping, Material, Model, Pattern, Projection, Sampling, Scene,
-};
-use moire::texture::data::{ColorSpace, Component, Dimension, TexelFormat, TextureData};
+use glam::DVec3;
+use moire::pack::PackedScene;
+use moire::texture::data::{ColorSpace, Component, TexelFormat, TextureData};
 use moire::texture::sampler_spec::SamplerSpec;
+use moire::verify::queries;
+pub use moire::verify::queries::{Dice, coordinates, query, texture, uv_of};
 
-/// Xorshift (Marsaglia 2003); the tests' own, so that they do not lean on what they test.
-pub struct Dice(u64);
+/// Random vectors.
+pub trait Vectors {
+    fn vector(&mut self, reach: f64) -> DVec3;
+    fn direction(&mut self) -> DVec3;
+}
 
-impl Dice {
-    pub fn new(seed: u64) -> Dice {
-        Dice(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1)
-    }
-
-    pub fn bits(&mut self) -> u64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        self.0
-    }
-
-    /// In [0, 1).
-    pub fn unit(&mut self) -> f64 {
-        (self.bits() >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    pub fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.unit()
-    }
-
-    pub fn vector(&mut self, reach: f64) -> DVec3 {
+impl Vectors for Dice {
+    fn vector(&mut self, reach: f64) -> DVec3 {
         DVec3::new(self.between(-reach, reach), self.between(-reach, reach), self.between(-reach, reach))
     }
 
-    pub fn direction(&mut self) -> DVec3 {
+    fn direction(&mut self) -> DVec3 {
         loop {
             let v = self.vector(1.0);
             if (0.01..=1.0).contains(&v.length_squared()) {
@@ -48,137 +29,9 @@ impl Dice {
     }
 }
 
-/// Random texels; floats in [-2, 6].
-pub fn texture(
-    width: u32,
-    height: u32,
-    format: TexelFormat,
-    color_space: ColorSpace,
-    seed: u64,
-) -> TextureData {
-    let mut dice = Dice::new(seed);
-    let count = width as usize * height as usize * format.channels();
-    let texels = match format.component() {
-        Component::Unorm8 => (0..count).map(|_| (dice.bits() >> 40) as u8).collect(),
-        Component::Unorm16 => (0..count).flat_map(|_| ((dice.bits() >> 40) as u16).to_ne_bytes()).collect(),
-        Component::Float32 => {
-            (0..count).flat_map(|_| (dice.between(-2.0, 6.0) as f32).to_ne_bytes()).collect()
-        }
-    };
-    let name = format!("{format} {color_space} {width}x{height}");
-    TextureData {
-        name,
-        dimension: Dimension::Two,
-        width,
-        height,
-        depth: 1,
-        format,
-        color_space,
-        file_channels: format.channels(),
-        texels,
-    }
-}
-
 /// A scene without shapes whose materials are these (texture, sampler) pairs.
 pub fn pairs(textures: Vec<TextureData>, samplers: &[SamplerSpec], pairs: &[(usize, usize)]) -> PackedScene {
-    let material = |&(texture, sampler): &(usize, usize)| Material {
-        name: "pair".into(),
-        model: Model::Unlit,
-        color: DVec3::ONE,
-        texture: Some(texture),
-        sampler,
-        mapping: Mapping::default(),
-    };
-    let scene = Scene {
-        path: "pairs.toml".into(),
-        camera: Camera {
-            eye: DVec3::ZERO,
-            look_at: DVec3::NEG_Z,
-            up: DVec3::Y,
-            projection: Projection::VerticalFov(90.0),
-        },
-        width: 1,
-        height: 1,
-        sampling: Sampling {
-            algorithm: Algorithm::Samples,
-            pattern: Pattern::Center,
-            spp: 1,
-            shared: false,
-            seed: 1,
-            max_depth: 0,
-            footprint: Footprint::None,
-        },
-        background: DVec3::ZERO,
-        textures: Vec::new(),
-        samplers: samplers.to_vec(),
-        materials: pairs.iter().map(material).collect(),
-        planes: Vec::new(),
-        spheres: Vec::new(),
-        triangles: Vec::new(),
-        lights: Vec::new(),
-    };
-    pack::pack(&scene, textures, None).unwrap()
-}
-
-/// The look-up of a pair's material at (u, v).
-pub fn query(scene: &PackedScene, pair: usize, uv: [f32; 2]) -> LookUp {
-    let [_, texture, sampler, slot] = scene.materials[pair].link;
-    LookUp { texture, sampler, slot, padding: 0, uv: [uv[0], uv[1], 0.0, 0.0] }
-}
-
-pub fn uv_of(query: &LookUp) -> DVec2 {
-    DVec2::new(f64::from(query.uv[0]), f64::from(query.uv[1]))
-}
-
-/// Along one axis: texel edges and centres in and around the texture, whole numbers and what lies
-/// just beside them, coordinates close to 0 on both sides.
-pub fn edge_coordinates(size: u32) -> Vec<f32> {
-    let mut all = vec![1e-9, -1e-9, 1e-20, -1e-20, 0.0, -0.0, 0.25, 0.5, 0.75];
-    for whole in [-3.0f32, -2.0, -1.0, 1.0, 2.0, 3.0] {
-        all.extend([whole, whole.next_down(), whole.next_up()]);
-    }
-    let w = f64::from(size);
-    let step = (size / 4).max(1);
-    for k in (-i64::from(size)..=2 * i64::from(size)).step_by(step as usize) {
-        all.extend([(k as f64 / w) as f32, ((k as f64 + 0.5) / w) as f32]);
-    }
-    all
-}
-
-/// Far outside, where whole periods leave exactly: to the last f32 with a fraction (2²³) and, with odd
-/// whole numbers, which mirroring tells from even ones, to the last f32 that is one (2²⁴).
-pub const FAR_COORDINATES: [f32; 12] = [
-    1000.25,
-    -1000.75,
-    65_536.5,
-    -65_535.375,
-    1_048_576.5,
-    -1_048_575.75,
-    4_194_304.5,
-    -4_194_304.5,
-    8_388_607.0,
-    -8_388_609.0,
-    16_777_215.0,
-    -16_777_215.0,
-];
-
-/// Random pairs of coordinates in [-3, 4], and pairs of the given ones with random partners.
-pub fn coordinates(dice: &mut Dice, size: [u32; 2], random: usize, far: bool) -> Vec<[f32; 2]> {
-    let mut all: Vec<[f32; 2]> =
-        (0..random).map(|_| [dice.between(-3.0, 4.0) as f32, dice.between(-3.0, 4.0) as f32]).collect();
-    let [mut us, mut vs] = size.map(edge_coordinates);
-    if far {
-        us.extend(FAR_COORDINATES);
-        vs.extend(FAR_COORDINATES);
-    }
-    let any = |dice: &mut Dice, list: &[f32]| list[dice.bits() as usize % list.len()];
-    for &u in &us {
-        all.push([u, any(dice, &vs)]);
-    }
-    for &v in &vs {
-        all.push([any(dice, &us), v]);
-    }
-    all
+    queries::pairs(textures, samplers, pairs).unwrap()
 }
 
 /// The nine formats in linear space and the integer ones in sRGB.

@@ -5,10 +5,11 @@ use moire::pack::MAX_SLOTS;
 use moire::probe::{self, LookUp};
 use moire::texture::data::{ColorSpace, TexelFormat, TextureData};
 use moire::texture::sampler_spec::{Address, Filter, Method, SamplerSpec, TexelCenter};
+use moire::verify::judge::{Precision, complaints as judge};
+use moire::verify::variants::SIZES;
 
 use super::assert_none;
 use super::bench::{Dice, coordinates, pairs, query, texture};
-use super::judge::{Precision, judge};
 use crate::shared_gpu::gpu;
 
 const FORMATS: [(TexelFormat, ColorSpace); 6] = [
@@ -19,8 +20,6 @@ const FORMATS: [(TexelFormat, ColorSpace); 6] = [
     (TexelFormat::RgbaFloat, ColorSpace::Linear),
     (TexelFormat::GreyAlpha8, ColorSpace::Linear),
 ];
-
-const SIZES: [[u32; 2]; 6] = [[5, 3], [64, 64], [7, 4], [1, 1], [2, 2], [1, 9]];
 
 const STANDARD_BORDERS: [[f32; 4]; 3] = [[0.0; 4], [0.0, 0.0, 0.0, 1.0], [1.0; 4]];
 

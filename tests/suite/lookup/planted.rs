@@ -9,9 +9,9 @@ use moire::pack::PackedScene;
 use moire::probe::LookUp;
 use moire::texture::data::{ColorSpace, TexelFormat};
 use moire::texture::sampler_spec::{Address, Filter, SamplerSpec};
+use moire::verify::judge::{Precision, complaints as judge};
 
 use super::bench::{Dice, coordinates, pairs, query, texture, uv_of};
-use super::judge::{Precision, judge};
 
 const HARDWARE: Precision =
     Precision::Hardware { sub_texel: 1.0 / 256.0, value: [2.0 / 255.0; 2], decode: 0.5 / 255.0 };

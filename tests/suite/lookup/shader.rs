@@ -5,10 +5,10 @@ use moire::pack::PackedScene;
 use moire::probe::{self, LookUp};
 use moire::texture::data::{ColorSpace, TexelFormat, TextureData};
 use moire::texture::sampler_spec::{Address, Filter, SamplerSpec, TexelCenter};
+use moire::verify::judge::{Precision, complaints as judge};
 
 use super::assert_none;
 use super::bench::{Dice, coordinates, formats, pairs, query, texture, uv_of};
-use super::judge::{Precision, judge};
 use crate::shared_gpu::gpu;
 
 /// Odd values, all different: a border channel taken from elsewhere shows.

@@ -9,7 +9,7 @@ use moire::probe::RayQuery;
 use moire::scene;
 use moire::texture::data::{ColorSpace, TexelFormat};
 
-use crate::lookup::bench::{Dice, texture};
+use crate::lookup::bench::{Dice, Vectors, texture};
 
 /// The eye is away from the world's origin: what is packed is relative to it.
 const HEAD: &str = "camera = { eye = [3.0, -2.0, 5.0], look_at = [0.0, 0.0, 0.0], vertical_fov = 60.0 }

@@ -1,0 +1,58 @@
+//! `moire verify`: holds a device's samplers against the oracle and prints what was found. Exit 0 when
+//! every variant is within what the device declares or has a fault that its driver is known for, 1 when
+//! one is outside (with --strict also for known faults), 2 when the device could not be asked.
+
+use std::process::ExitCode;
+
+use super::progress::Bar;
+use crate::error::{Error, Result};
+use crate::gpu::{DeviceSelect, Gpu};
+use crate::verify::{report::Report, text::text, verify};
+
+/// Hold a device's samplers against the float64 oracle
+///
+/// Every address mode, filter, mip mode and class of texel formats over random, awkward and finely
+/// stepped coordinates. Exit code 1 when a variant is outside what the device declares.
+#[derive(clap::Args, Clone, Debug)]
+pub struct VerifyArgs {
+    /// Device: an index or a part of the name as `moire devices` lists them, cpu or gpu
+    /// [default: discrete GPU, else integrated, else CPU]
+    #[arg(long, value_name = "SEL")]
+    device: Option<String>,
+    /// Print one JSON object with a row for each variant
+    #[arg(long)]
+    json: bool,
+    /// Known faults of drivers are failures too
+    #[arg(long)]
+    strict: bool,
+    /// No progress bar
+    #[arg(short, long)]
+    quiet: bool,
+}
+
+pub fn run(args: &VerifyArgs) -> Result<ExitCode> {
+    let bar = Bar::new(args.quiet)?;
+    let select = match args.device.as_deref() {
+        Some("oracle") => {
+            return Err(Error::with_help(
+                "verify holds a device against the oracle; the oracle itself is no device",
+                "name one that `moire devices` lists, or leave --device out",
+            ));
+        }
+        Some(text) => DeviceSelect::parse(text)?,
+        None => DeviceSelect::Default,
+    };
+    let gpu = Gpu::open(&select)?;
+    let report = verify(&gpu, &bar);
+    bar.finish();
+    let report = report?;
+    for message in gpu.messages() {
+        super::tell(format_args!("validation: {message}"));
+    }
+    super::print(if args.json { json(&report)? } else { text(&report) }.trim_end())?;
+    Ok(ExitCode::from(if report.passes(args.strict) { 0 } else { 1 }))
+}
+
+fn json(report: &Report) -> Result<String> {
+    serde_json::to_string_pretty(report).map_err(|e| Error::new(format!("the report as JSON: {e}")))
+}

@@ -1,0 +1,35 @@
+//! Faults that drivers are known to have: who, in which variants, and how far they go. A variant that
+//! errs within these bounds is named and does not fail a report unless it is strict.
+
+use super::variants::{FormatClass, Reader, Variant};
+use crate::gpu::DeviceInfo;
+use crate::texture::sampler_spec::{Address, Filter};
+
+pub struct KnownFault {
+    pub name: &'static str,
+    /// A part of the driver's name.
+    driver: &'static str,
+    applies: fn(&Variant) -> bool,
+    /// How far a value may lie beyond what the device's declared precision allows, as a part of the
+    /// texels' range.
+    pub beyond: f64,
+}
+
+const FAULTS: &[KnownFault] = &[KnownFault {
+    // Mesa's gallivm, lp_bld_sample_aos.c: interpolation in integers of 8 bits, rounded after each axis.
+    name: "lavapipe filters 8-bit texels with 8-bit arithmetic where both axes repeat or clamp to the edge",
+    driver: "llvmpipe",
+    applies: |v| {
+        let simple = |a: &Address| matches!(a, Address::Repeat | Address::ClampToEdge);
+        v.reader == Reader::Sampler
+            && v.class == FormatClass::Unorm8
+            && v.filter() == Filter::Linear
+            && v.spec.address.iter().all(simple)
+    },
+    beyond: 1.0 / 255.0, // half a step of 255 an axis
+}];
+
+/// The fault, if this device has one in this variant.
+pub fn known_fault(device: &DeviceInfo, variant: &Variant) -> Option<&'static KnownFault> {
+    FAULTS.iter().find(|f| device.driver.contains(f.driver) && (f.applies)(variant))
+}
