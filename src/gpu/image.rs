@@ -202,11 +202,13 @@ fn check(core: &Core, desc: &ImageDesc<'_>, extent: Extent, label: &str) -> Resu
         return Err(Error::new(format!("{label}: {texels}")));
     }
     if extent.longest() > limit {
+        let most = match desc.shape {
+            ImageShape::Flat => format!("images there have at most {limit}×{limit} texels"),
+            ImageShape::Volume => format!("3D images there have at most {limit}×{limit}×{limit} texels"),
+            ImageShape::Cube => format!("faces of cubes there have at most {limit}×{limit} texels"),
+        };
         return Err(Error::with_help(
-            format!(
-                "{label} is too large for {}: {} images there have at most {limit} texels a side",
-                core.info.name, desc.shape
-            ),
+            format!("{label} is too large for {}: {most}", core.info.name),
             "Scale the texture down, use method = \"shader\" with --texels buffer, or another device.",
         ));
     }
