@@ -8,6 +8,7 @@ use crate::pack::{LightKind, MapKind, PackedScene, ProjectionKind, Sections};
 use crate::scene::model::{Model, Pattern};
 use crate::shaders::Shader;
 use crate::texture::data::{ColorSpace, TexelFormat};
+use crate::texture::procedural::ProceduralKind;
 use crate::texture::sampler_spec::{Address, Filter, Method, TexelCenter};
 
 named_enum! {
@@ -95,6 +96,13 @@ const FEATURES: &[(&str, &str, Narrow)] = &[
         "colour space",
         Modes(ColorSpace::NAMES, |s| bits(s.textures.iter().map(|t| t.link[0]))),
     ),
+    ("PROCEDURALS", "choice among procedural textures", Count(|s| unrolled(s.procedurals.len()))),
+    (
+        "PROCEDURAL_KINDS",
+        "procedural",
+        Modes(ProceduralKind::NAMES, |s| bits(s.procedurals.iter().map(|p| p.link[0]))),
+    ),
+    ("PROCEDURAL_FILTERED", "filter of procedural textures", Switch(|s| s.procedurals_filtered)),
     ("COMPENSATED", "second film for rounding errors", Switch(|s| s.samples > CHUNK)),
 ];
 
@@ -182,6 +190,7 @@ pub fn constants(
         ("MAPS_AT", sections.maps),
         ("TEXTURES_AT", sections.textures),
         ("SAMPLERS_AT", sections.samplers),
+        ("PROCEDURALS_AT", sections.procedurals),
         ("SRGB_AT", sections.srgb),
         ("GROUP_X", group[0]),
         ("GROUP_Y", group[1]),

@@ -38,6 +38,10 @@ layout(constant_id = 28) const uint COLOR_SPACES = 0x3u;
 layout(constant_id = 29) const bool COMPENSATED = true; // more samples than one chunk holds
 layout(constant_id = 30) const uint SLOTS = 1u;         // image descriptors
 
+layout(constant_id = 60) const uint PROCEDURALS = DYNAMIC;
+layout(constant_id = 61) const uint PROCEDURAL_KINDS = 0x3FFu;
+layout(constant_id = 62) const bool PROCEDURAL_FILTERED = true; // averaged over footprints
+
 // Where each list begins in the scene buffer, in units of 16 bytes.
 layout(constant_id = 40) const uint PLANES_AT = 0u;
 layout(constant_id = 41) const uint SPHERES_AT = 0u;
@@ -48,6 +52,7 @@ layout(constant_id = 45) const uint MAPS_AT = 0u;
 layout(constant_id = 46) const uint TEXTURES_AT = 0u;
 layout(constant_id = 47) const uint SAMPLERS_AT = 0u;
 layout(constant_id = 48) const uint SRGB_AT = 0u;
+layout(constant_id = 63) const uint PROCEDURALS_AT = 0u;
 
 // Whether the run-time mode is `value`, decided at build time where the mask allows.
 #define MODE_IS(mask, value, runtime) \

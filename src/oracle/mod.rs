@@ -7,6 +7,8 @@ pub mod camera;
 pub mod intersect;
 pub mod mapping;
 pub mod math;
+pub mod noise;
+pub mod procedural;
 pub mod render;
 pub mod rng;
 pub mod shade;
