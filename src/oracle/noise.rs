@@ -13,7 +13,7 @@ pub const NOISE_VARIANCE: f64 = 0.0729;
 pub const FOLDED_MEAN: f64 = 0.2203;
 pub const FOLDED_VARIANCE: f64 = 0.0244;
 /// See `slice_mean`.
-pub const FOLDED_SLICE: f64 = -0.11;
+pub const FOLDED_SLICES: [f64; 2] = [-0.11, -0.094];
 
 /// Cells that a footprint covers → weight of the value at its centre beside the mean.
 pub fn kept(cells: f64) -> f64 {
@@ -22,10 +22,10 @@ pub fn kept(cells: f64) -> f64 {
 }
 
 /// The mean of what is constant along the axes that the footprint does not reach along.
-pub fn slice_mean(mean: f64, slope: f64, fraction: DVec3, widths: DVec3) -> f64 {
-    let s = fraction - 0.5;
-    let off = s * s - 1.0 / 12.0;
-    mean + slope * off.dot(DVec3::new(kept(widths.x), kept(widths.y), kept(widths.z)))
+pub fn slice_mean(mean: f64, slopes: [f64; 2], fraction: DVec3, widths: DVec3) -> f64 {
+    let square = (fraction - 0.5) * (fraction - 0.5);
+    let off = (square - 1.0 / 12.0) * (slopes[0] + (slopes[1] - slopes[0]) * (4.0 * square));
+    mean + off.dot(DVec3::new(kept(widths.x), kept(widths.y), kept(widths.z)))
 }
 
 /// The number of a cell, modulo 2³².
@@ -79,7 +79,7 @@ pub fn octave_sum(what: &Procedural, at: DVec3, size: f64, widths: DVec3, folded
         let noise = gradient_noise(p, key);
         let keep = kept(size * frequency);
         let (value, mean, variance) = if folded {
-            let mean = slice_mean(FOLDED_MEAN, FOLDED_SLICE, p - p.floor(), widths * frequency);
+            let mean = slice_mean(FOLDED_MEAN, FOLDED_SLICES, p - p.floor(), widths * frequency);
             (noise.abs(), mean, FOLDED_VARIANCE)
         } else {
             (noise, 0.0, NOISE_VARIANCE)
@@ -112,9 +112,10 @@ pub fn cell_distance(p: DVec3, seed: u32, jitter: f64) -> f64 {
     nearest.sqrt()
 }
 
-/// The mean of `cell_distance`, and how it varies between planes: polynomials in jitter².
+/// The mean of `cell_distance`, and how it varies between planes: polynomials in the jitter.
 pub fn cell_mean(p: DVec3, widths: DVec3, jitter: f64) -> f64 {
     let j = jitter * jitter;
     let mean = 0.4803 + j * (0.0504 - 0.0099 * j);
-    slice_mean(mean, 1.07 + j * (0.37 * j - 1.35), p - p.floor(), widths)
+    let slopes = [1.175 + j * (0.36 * j - 1.42), 0.96 - 0.93 * jitter];
+    slice_mean(mean, slopes, p - p.floor(), widths)
 }

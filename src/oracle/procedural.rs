@@ -98,8 +98,8 @@ fn footprint_share(what: &Procedural, kind: ProceduralKind, at: DVec3, major: DV
     let step = major / count;
     let squares = step * step + minor * minor;
     let w = DVec3::from_array(squares.to_array().map(f64::sqrt));
-    let shares = (0..count as u32)
-        .map(|i| box_share(what, kind, p + step * (f64::from(i) + 0.5 - 0.5 * count), w));
+    let shares =
+        (0..count as u32).map(|i| box_share(what, kind, p + step * (f64::from(i) + 0.5 - 0.5 * count), w));
     shares.sum::<f64>() / count
 }
 
@@ -151,10 +151,9 @@ pub fn figure_share(what: &Procedural, at: DVec3, dx: DVec3, dy: DVec3) -> f64 {
     let squares = major * major + minor * minor;
     let widths = DVec3::from_array(squares.to_array().map(f64::sqrt));
     match kind {
-        ProceduralKind::Checker
-        | ProceduralKind::Stripes
-        | ProceduralKind::Grid
-        | ProceduralKind::Brick => footprint_share(what, kind, at, major, minor),
+        ProceduralKind::Checker | ProceduralKind::Stripes | ProceduralKind::Grid | ProceduralKind::Brick => {
+            footprint_share(what, kind, at, major, minor)
+        }
         ProceduralKind::Turbulence => octave_sum(what, at, size, widths, true).0,
         ProceduralKind::Marble => marble(what, at, dx, dy, size, widths),
         ProceduralKind::Wood => wood(what, at, dx, dy, size, widths),

@@ -24,6 +24,7 @@ mod lookup;
 mod metrics;
 mod oracle;
 mod output;
+mod procedural;
 mod rays;
 mod readme;
 mod scene;
