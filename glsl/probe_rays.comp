@@ -37,7 +37,8 @@ void main() {
     Answer answer = Answer(vec4(0.0, 0.0, 0.0, FAR), vec4(0.0), vec4(0.0), uvec4(NO_SHAPE, uint(blocked), 0u, 0u));
     if (hit.shape != NO_SHAPE) {
         Surface surface = hit_surface(header, ray, hit);
-        vec2 uv = texture_coordinate(map_at(surface.link.y), surface.point, surface.own_uv);
+        Map map = map_at(surface.link.y);
+        vec2 uv = texture_coordinate(map, seen_by_map(map, ray, surface, NO_FOOTPRINT)).at.xy;
         answer = Answer(vec4(surface.point, hit.t), vec4(surface.normal, 0.0), vec4(uv, 0.0, 0.0),
                         uvec4(hit.shape, uint(blocked), 0u, 0u));
     }

@@ -2,14 +2,16 @@
 //! was left out. `FEATURES` is the one table; every constant of `features.glsl` stands in it or
 //! among the places and sizes that [`constants`] adds.
 
-use crate::layout::{self, NO_TEXTURE};
+use crate::layout::{self, NO_MATERIAL, NO_TEXTURE};
 use crate::named::named_enum;
-use crate::pack::{LightKind, MapKind, PackedScene, ProjectionKind, Sections};
-use crate::scene::model::{Model, Pattern};
+use crate::pack::{
+    EntityKind, LightKind, MapKind, PackedScene, ProjectionKind, Sections, SlotCounts, TextureKind,
+};
+use crate::scene::model::{Footprint, Model, Pattern, ReliefKind};
 use crate::shaders::Shader;
 use crate::texture::data::{ColorSpace, TexelFormat};
 use crate::texture::procedural::ProceduralKind;
-use crate::texture::sampler_spec::{Address, Filter, Method, TexelCenter};
+use crate::texture::sampler_spec::{Address, Filter, Method, MipMode, TexelCenter};
 
 named_enum! {
     /// Where the shader finds its texels.
@@ -20,6 +22,8 @@ named_enum! {
         Buffer = "buffer",
         /// One image a texture; the only source of the device's own samplers.
         Image = "image",
+        /// Images, those of volumes and cubes among them, beside a texel buffer.
+        Solids = "solids",
     }
 }
 
@@ -71,21 +75,36 @@ const FEATURES: &[(&str, &str, Narrow)] = &[
     ("MODELS", "reflection model", Modes(Model::NAMES, |s| bits(s.materials.iter().map(|m| m.link[0])))),
     ("LIGHT_KINDS", "light", Modes(LightKind::NAMES, |s| bits(s.lights.iter().map(|l| l.link[0])))),
     ("SHADOWS", "shadow rays", Switch(casts_shadows)),
-    ("BOUNCES", "mirror bounces", Switch(|s| s.header.size[3] > 0 && has_model(s, Model::Mirror))),
+    ("BOUNCES", "bounces", Switch(bounces)),
+    ("ENVIRONMENT", "environment", Switch(|s| s.header.counts[3] != NO_MATERIAL)),
+    ("FOOTPRINTS", "footprint", Modes(Footprint::NAMES, |s| bit(s.header.key[2]))),
+    ("RANDOM", "random choices", Switch(chooses)),
     ("MAPPINGS", "mapping", Modes(MapKind::NAMES, |s| bits(s.maps.iter().map(|m| m.link[0])))),
+    ("ENTITIES", "entity", Modes(EntityKind::NAMES, |s| bits(s.maps.iter().map(|m| m.link[1])))),
     ("ROTATED_UV", "rotation of texture coordinates", Switch(|s| s.maps.iter().any(rotates))),
     ("TEXTURED", "texture look-ups", Switch(|s| s.materials.iter().any(|m| m.link[1] != NO_TEXTURE))),
     ("UNTEXTURED", "plain materials", Switch(|s| s.materials.iter().any(|m| m.link[1] == NO_TEXTURE))),
+    ("BUMPED", "relief", Switch(|s| s.materials.iter().any(|m| m.detail[0] != NO_TEXTURE))),
+    ("RELIEFS", "relief", Modes(ReliefKind::NAMES, reliefs)),
     ("METHODS", "look-up method", Modes(Method::NAMES, |s| bits(s.samplers.iter().map(|x| x.link[0])))),
     ("ADDRESSES_U", "address u", Modes(Address::NAMES, |s| bits(s.samplers.iter().map(|x| x.modes[0])))),
     ("ADDRESSES_V", "address v", Modes(Address::NAMES, |s| bits(s.samplers.iter().map(|x| x.modes[1])))),
-    ("FILTERS", "filter", Modes(Filter::NAMES, |s| bits(s.samplers.iter().map(|x| x.modes[2])))),
+    ("ADDRESSES_W", "address w", Modes(Address::NAMES, |s| bits(s.samplers.iter().map(|x| x.more[0])))),
+    ("POLES", "rows over the poles", Switch(|s| s.samplers.iter().any(|x| x.more[1] != 0))),
+    ("FILTERS", "filter", Modes(Filter::NAMES, filters)),
+    ("MIPS", "mip mode", Modes(MipMode::NAMES, |s| bits(s.samplers.iter().map(|x| x.link[2])))),
     (
         "TEXEL_CENTERS",
         "texel centre",
         Modes(TexelCenter::NAMES, |s| bits(s.samplers.iter().map(|x| x.modes[3]))),
     ),
     ("TEXTURE_SIZES", "texture size", Modes(TextureSize::NAMES, |s| bits(s.textures.iter().map(size_kind)))),
+    (
+        "TEXTURE_KINDS",
+        "texture kind",
+        Modes(TextureKind::NAMES, |s| bits(s.textures.iter().map(|t| t.link[3]))),
+    ),
+    ("MIPMAPPED", "levels of textures", Switch(|s| s.textures.iter().any(|t| t.link[1] > 1))),
     (
         "TEXEL_FORMATS",
         "texel format",
@@ -102,7 +121,7 @@ const FEATURES: &[(&str, &str, Narrow)] = &[
         "procedural",
         Modes(ProceduralKind::NAMES, |s| bits(s.procedurals.iter().map(|p| p.link[0]))),
     ),
-    ("PROCEDURAL_FILTERED", "filter of procedural textures", Switch(|s| s.procedurals_filtered)),
+    ("PROCEDURAL_FILTERED", "filter of procedural textures", Switch(filters_procedurals)),
     ("COMPENSATED", "second film for rounding errors", Switch(|s| s.samples > CHUNK)),
 ];
 
@@ -123,6 +142,7 @@ impl Features {
     pub fn new(scene: &PackedScene, image_source: bool, keep_everything: bool) -> Features {
         let source = match (scene.textures.is_empty(), image_source) {
             (true, _) if !keep_everything => TexelSource::None,
+            (false, true) if scene.has_solids() => TexelSource::Solids,
             (false, true) => TexelSource::Image,
             _ => TexelSource::Buffer,
         };
@@ -140,13 +160,11 @@ impl Features {
             features.values.push((name, value));
             features.left_out.extend(left_out(what, narrow, value));
         }
-        for (other, text) in
-            [(TexelSource::Buffer, "texel buffer"), (TexelSource::Image, "images and device samplers")]
-        {
-            if source != other {
-                features.left_out.push(text.into());
-            }
-        }
+        let unused = [
+            ("texel buffer", !matches!(source, TexelSource::Buffer | TexelSource::Solids)),
+            ("images and device samplers", !matches!(source, TexelSource::Image | TexelSource::Solids)),
+        ];
+        features.left_out.extend(unused.iter().filter(|(_, unused)| *unused).map(|(text, _)| (*text).into()));
         features
     }
 }
@@ -179,7 +197,7 @@ pub fn constants(
     features: &Features,
     sections: &Sections,
     group: [u32; 2],
-    slots: u32,
+    slots: SlotCounts,
 ) -> Vec<(u32, u32)> {
     let places = [
         ("PLANES_AT", sections.planes),
@@ -194,7 +212,9 @@ pub fn constants(
         ("SRGB_AT", sections.srgb),
         ("GROUP_X", group[0]),
         ("GROUP_Y", group[1]),
-        ("SLOTS", slots.max(1)),
+        ("SLOTS", slots.flat.max(1)),
+        ("VOLUME_SLOTS", slots.volumes.max(1)),
+        ("CUBE_SLOTS", slots.cubes.max(1)),
     ];
     let all = features.values.iter().copied().chain(places);
     all.filter_map(|(name, value)| Some((shader.constant(name)?.id, value))).collect()
@@ -236,9 +256,33 @@ fn has_model(scene: &PackedScene, model: Model) -> bool {
     scene.materials.iter().any(|m| m.link[0] == model as u32)
 }
 
+/// Without a footprint, look-ups of procedural textures pass one of zero.
+fn filters_procedurals(scene: &PackedScene) -> bool {
+    !scene.procedurals.is_empty() && scene.header.key[2] != Footprint::None as u32
+}
+
+/// Mirrors and glass, if their rays may go on.
+fn bounces(scene: &PackedScene) -> bool {
+    scene.header.size[3] > 0 && (has_model(scene, Model::Mirror) || has_model(scene, Model::Dielectric))
+}
+
+/// Whether anything but the sample's position is left to chance.
+fn chooses(scene: &PackedScene) -> bool {
+    has_model(scene, Model::Dielectric) || filters(scene) & bit(Filter::Stochastic as u32) != 0
+}
+
+fn filters(scene: &PackedScene) -> u32 {
+    bits(scene.samplers.iter().flat_map(|s| [s.modes[2], s.link[1]]))
+}
+
+fn reliefs(scene: &PackedScene) -> u32 {
+    bits(scene.materials.iter().filter(|m| m.detail[0] != NO_TEXTURE).map(|m| m.detail[3]))
+}
+
 /// A lone flat shape cannot lie between itself and a light.
 fn casts_shadows(scene: &PackedScene) -> bool {
     let flat = scene.planes.len() + scene.triangles.len();
     let alone = scene.spheres.is_empty() && flat <= 1;
-    !scene.lights.is_empty() && has_model(scene, Model::Lambert) && !alone
+    let lit = has_model(scene, Model::Lambert) || has_model(scene, Model::Phong);
+    !scene.lights.is_empty() && lit && !alone
 }

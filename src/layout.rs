@@ -8,6 +8,8 @@ use bytemuck::{Pod, Zeroable};
 pub const NO_TEXTURE: u32 = u32::MAX;
 /// In place of an index: no shape is hit, or none is left out.
 pub const NO_SHAPE: u32 = u32::MAX;
+/// In place of an index: there is no environment.
+pub const NO_MATERIAL: u32 = u32::MAX;
 
 /// Declares a mirror and asserts its size in units of 16 bytes.
 macro_rules! mirror {
@@ -36,8 +38,9 @@ mirror!(Header, 9, {
     /// Pattern, strata a side, ceil(log2(side)), seed.
     sampling: [u32; 4],
     /// 1 when all pixels share their displacements; lights.
+    /// Footprint, the environment's map.
     key: [u32; 4],
-    /// Planes, spheres, triangles.
+    /// Planes, spheres, triangles, the environment's material or `NO_MATERIAL`.
     counts: [u32; 4],
 });
 
@@ -75,10 +78,13 @@ mirror!(Light, 3, {
     link: [u32; 4],
 });
 
-mirror!(Material, 2, {
+mirror!(Material, 4, {
     color: [f32; 4],
     /// Model, texture or `NO_TEXTURE`, sampler, image slot.
     link: [u32; 4],
+    /// Of the relief: texture or `NO_TEXTURE`, sampler, image slot, kind.
+    detail: [u32; 4],
+    specular: [f32; 4],
 });
 
 mirror!(Map, 6, {
@@ -87,23 +93,25 @@ mirror!(Map, 6, {
     z: [f32; 4],
     matrix: [f32; 4],
     offset: [f32; 4],
-    /// Kind.
+    /// Kind, entity.
     link: [u32; 4],
 });
 
 mirror!(Texture, 2, {
-    /// First word in the texel buffer, width, height, format.
+    /// First word of level 0 in the texel buffer, width, height, format.
     place: [u32; 4],
-    /// Colour space.
+    /// Colour space, levels, depth, kind.
     link: [u32; 4],
 });
 
-mirror!(Sampler, 3, {
+mirror!(Sampler, 4, {
     border: [f32; 4],
-    /// Address u, address v, filter, texel centre.
+    /// Address u, address v, magnification filter, texel centre.
     modes: [u32; 4],
-    /// Method.
+    /// Method, minification filter, mip mode, maximum anisotropy.
     link: [u32; 4],
+    /// Address w, 1 where rows go on over the poles, B and C of the cubic filter (f32 bits).
+    more: [u32; 4],
 });
 
 mirror!(Procedural, 5, {

@@ -11,15 +11,20 @@ use crate::pack::PackedScene;
 use crate::render::{Resources, build_pipeline};
 use crate::shaders::{self, Shader};
 
-/// One texture look-up; `slot` is an index into `PackedScene::slots`.
+/// One texture look-up; `slot` is a material's. `dx` and `dy` are the change of the coordinate over the
+/// footprint, which counts in scenes whose footprint is not `none`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 pub struct LookUp {
     pub texture: u32,
     pub sampler: u32,
     pub slot: u32,
-    pub padding: u32,
+    /// Of the stochastic filter.
+    pub seed: u32,
+    /// u, v, w, or a direction.
     pub uv: [f32; 4],
+    pub dx: [f32; 4],
+    pub dy: [f32; 4],
 }
 
 /// One ray, relative to the eye; `direction[3]` bounds the question whether anything lies between.
@@ -70,6 +75,7 @@ pub fn look_ups(
     let features = Features::new(scene, image_source, keep_everything);
     let shader = match features.source {
         TexelSource::Image => &shaders::PROBE_IMAGES,
+        TexelSource::Solids => &shaders::PROBE_SOLIDS,
         TexelSource::None | TexelSource::Buffer => &shaders::PROBE_TEXELS,
     };
     run(gpu, scene, &features, shader, Some(bytemuck::cast_slice(queries)), queries.len(), &[])
@@ -126,7 +132,7 @@ fn run<T: Pod>(
     let mut answers = vec![T::zeroed(); count];
     let output = gpu.buffer("answers", size_of_val(answers.as_slice()) as u64, BufferUse::Storage)?;
     let queries = queries.map(|q| gpu.upload_buffer("queries", BufferUse::Storage, q)).transpose()?;
-    let slots = scene.slots.len() as u32;
+    let slots = scene.slot_counts();
     let constants = features::constants(shader, features, &resources.sections, [GROUP, 1], slots);
     let push: Vec<u32> = std::iter::once(count as u32).chain(push.iter().copied()).collect();
     let pipeline = build_pipeline(gpu, shader, &constants, slots, size_of_val(push.as_slice()))?;

@@ -19,24 +19,37 @@ layout(constant_id = 11) const uint TEXTURES = DYNAMIC;
 layout(constant_id = 12) const uint SAMPLERS = DYNAMIC;
 layout(constant_id = 13) const bool BOUNDED_PLANES = true;
 layout(constant_id = 14) const bool SMOOTH_NORMALS = true;
-layout(constant_id = 15) const uint MODELS = 0x7u;
+layout(constant_id = 15) const uint MODELS = 0x1Fu;
 layout(constant_id = 16) const uint LIGHT_KINDS = 0x3u;
 layout(constant_id = 17) const bool SHADOWS = true;
 layout(constant_id = 18) const bool BOUNCES = true;
-layout(constant_id = 19) const uint MAPPINGS = 0x1Fu;
+layout(constant_id = 19) const uint MAPPINGS = 0xFFu;
 layout(constant_id = 31) const bool ROTATED_UV = true;
 layout(constant_id = 20) const bool TEXTURED = true;   // some material reads a texture
 layout(constant_id = 21) const bool UNTEXTURED = true; // some material reads none
 layout(constant_id = 22) const uint METHODS = 0x3u;
 layout(constant_id = 23) const uint ADDRESSES_U = 0x1Fu;
 layout(constant_id = 24) const uint ADDRESSES_V = 0x1Fu;
-layout(constant_id = 25) const uint FILTERS = 0x3u;
+layout(constant_id = 25) const uint FILTERS = 0x7Fu;
+layout(constant_id = 33) const uint MIPS = 0x7u;
+layout(constant_id = 34) const uint FOOTPRINTS = 0x7u;
+layout(constant_id = 35) const uint ENTITIES = 0xFu;
+layout(constant_id = 36) const uint TEXTURE_KINDS = 0x7u;
+layout(constant_id = 37) const uint ADDRESSES_W = 0x1Fu;
+layout(constant_id = 38) const bool MIPMAPPED = true;   // some texture has more than one level
+layout(constant_id = 39) const bool ENVIRONMENT = true;
+layout(constant_id = 49) const bool POLES = true;       // environments whose rows go on over the poles
+layout(constant_id = 50) const bool BUMPED = true;
+layout(constant_id = 51) const uint RELIEFS = 0x3u;
+layout(constant_id = 52) const bool RANDOM = true;      // choices beside the sample's position
 layout(constant_id = 26) const uint TEXEL_CENTERS = 0x3u;
 layout(constant_id = 32) const uint TEXTURE_SIZES = 0x3u;
 layout(constant_id = 27) const uint TEXEL_FORMATS = 0x1FFu;
 layout(constant_id = 28) const uint COLOR_SPACES = 0x3u;
 layout(constant_id = 29) const bool COMPENSATED = true; // more samples than one chunk holds
-layout(constant_id = 30) const uint SLOTS = 1u;         // image descriptors
+layout(constant_id = 30) const uint SLOTS = 1u;         // image descriptors: flat, volumes, cubes
+layout(constant_id = 53) const uint VOLUME_SLOTS = 1u;
+layout(constant_id = 54) const uint CUBE_SLOTS = 1u;
 
 layout(constant_id = 60) const uint PROCEDURALS = DYNAMIC;
 layout(constant_id = 61) const uint PROCEDURAL_KINDS = 0x3FFu;

@@ -15,6 +15,20 @@ const uint PATTERN_STRATIFIED = 3u;
 const uint MODEL_UNLIT = 0u;
 const uint MODEL_LAMBERT = 1u;
 const uint MODEL_MIRROR = 2u;
+const uint MODEL_DIELECTRIC = 3u;
+const uint MODEL_PHONG = 4u;
+
+const uint FOOTPRINT_NONE = 0u;
+const uint FOOTPRINT_CONE = 1u;
+const uint FOOTPRINT_DIFFERENTIALS = 2u;
+
+const uint ENTITY_POSITION = 0u;
+const uint ENTITY_NORMAL = 1u;
+const uint ENTITY_REFLECTION = 2u;
+const uint ENTITY_DIRECTION = 3u; // of the ray: an environment's
+
+const uint RELIEF_NORMAL = 0u;
+const uint RELIEF_BUMP = 1u;
 
 const uint LIGHT_POINT = 0u;
 const uint LIGHT_DIRECTIONAL = 1u;
@@ -24,6 +38,9 @@ const uint MAP_AFFINE = 1u;      // affine in the position: planar
 const uint MAP_VERTEX_UV = 2u;   // interpolated over a triangle
 const uint MAP_CYLINDRICAL = 3u;
 const uint MAP_SPHERICAL = 4u;
+const uint MAP_SOLID = 5u; // affine in the entity, three coordinates
+const uint MAP_CUBE = 6u;  // a direction for a cube texture
+const uint MAP_BOX = 7u;   // the place on the cube's face, for a flat texture
 
 const uint METHOD_SHADER = 0u;
 const uint METHOD_HARDWARE = 1u;
@@ -36,6 +53,19 @@ const uint ADDRESS_MIRROR_CLAMP_TO_EDGE = 4u;
 
 const uint FILTER_NEAREST = 0u;
 const uint FILTER_LINEAR = 1u;
+const uint FILTER_CUBIC = 2u;
+const uint FILTER_STOCHASTIC = 3u;
+const uint FILTER_ANISOTROPIC = 4u;
+const uint FILTER_EWA = 5u;
+const uint FILTER_SUMMED_AREA = 6u;
+
+const uint MIP_NONE = 0u;
+const uint MIP_NEAREST = 1u;
+const uint MIP_LINEAR = 2u;
+
+const uint TEXTURE_KIND_FLAT = 0u;
+const uint TEXTURE_KIND_VOLUME = 1u;
+const uint TEXTURE_KIND_CUBE = 2u;
 
 const uint TEXEL_CENTER_HALF = 0u;
 const uint TEXEL_CENTER_INTEGER = 1u;
@@ -69,18 +99,20 @@ const uint PROCEDURAL_CELLULAR = 9u;
 
 const uint NO_TEXTURE = 0xFFFFFFFFu;
 const uint NO_SHAPE = 0xFFFFFFFFu;
+const uint NO_MATERIAL = 0xFFFFFFFFu;
 const float FAR = 1e30; // farther than any hit that counts
 
 struct Header {
     vec4 forward;    // unit view direction; w: unused
-    vec4 step_x;     // one pixel to the right: added to direction (perspective) or origin (orthographic)
-    vec4 step_y;     // one pixel down
+    vec4 step_x;     // one pixel to the right: added to direction (perspective) or origin (orthographic);
+                     // w: side of the part of a pixel that a sample stands for
+    vec4 step_y;     // one pixel down; w: a pixel's side
     vec4 background; // linear RGB
     uvec4 image;     // width, height, crop x, crop y
     uvec4 size;      // film width, film height, projection, max depth
     uvec4 sampling;  // pattern, strata a side, ceil(log2(side)), seed
-    uvec4 key;       // 1 when all pixels share their displacements; lights; unused
-    uvec4 counts;    // planes, spheres, triangles, unused
+    uvec4 key;       // 1 when all pixels share their displacements; lights; footprint; the environment's map
+    uvec4 counts;    // planes, spheres, triangles, the environment's material
 };
 
 struct Plane {
@@ -114,8 +146,10 @@ struct Light {
 };
 
 struct Material {
-    vec4 color;
-    uvec4 link; // model, texture or NO_TEXTURE, sampler, image slot
+    vec4 color;    // w: strength of the relief
+    uvec4 link;    // model, texture or NO_TEXTURE, sampler, image slot
+    uvec4 detail;  // the relief's texture or NO_TEXTURE, sampler, image slot; normal or bump map
+    vec4 specular; // colour of the highlight; w: its exponent, or of a dielectric the refractive index
 };
 
 struct Map {
@@ -124,18 +158,19 @@ struct Map {
     vec4 z;
     vec4 matrix; // uv' = (m00 u + m01 v, m10 u + m11 v) + offset
     vec4 offset;
-    uvec4 link;  // kind
+    uvec4 link;  // kind, entity
 };
 
 struct Texture {
-    uvec4 place; // first word in the texel buffer, width, height, format
-    uvec4 link;  // colour space
+    uvec4 place; // first word of level 0 in the texel buffer, width, height, format
+    uvec4 link;  // colour space, levels, depth, kind
 };
 
 struct Sampler {
     vec4 border;
-    uvec4 modes; // address u, address v, filter, texel centre
-    uvec4 link;  // method
+    uvec4 modes; // address u, address v, magnification filter, texel centre
+    uvec4 link;  // method, minification filter, mip mode, maximum anisotropy
+    uvec4 more;  // address w, 1 where rows go on over the poles, B and C of the cubic filter (bits)
 };
 
 struct Procedural {
@@ -170,11 +205,11 @@ Header load_header() {
     Triangle(F(read, at), F(read, at + 1u), F(read, at + 2u), F(read, at + 3u), F(read, at + 4u), \
              F(read, at + 5u), F(read, at + 6u), F(read, at + 7u), read(at + 8u))
 #define LIGHT(read, at) Light(F(read, at), F(read, at + 1u), read(at + 2u))
-#define MATERIAL(read, at) Material(F(read, at), read(at + 1u))
+#define MATERIAL(read, at) Material(F(read, at), read(at + 1u), read(at + 2u), F(read, at + 3u))
 #define MAP(read, at)                                                                           \
     Map(F(read, at), F(read, at + 1u), F(read, at + 2u), F(read, at + 3u), F(read, at + 4u), read(at + 5u))
 #define TEXTURE(read, at) Texture(read(at), read(at + 1u))
-#define SAMPLER(read, at) Sampler(F(read, at), read(at + 1u), read(at + 2u))
+#define SAMPLER(read, at) Sampler(F(read, at), read(at + 1u), read(at + 2u), read(at + 3u))
 #define PROCEDURAL(read, at) \
     Procedural(F(read, at), F(read, at + 1u), F(read, at + 2u), F(read, at + 3u), read(at + 4u))
 
@@ -182,10 +217,10 @@ const uint PLANE_UNITS = 4u;
 const uint SPHERE_UNITS = 2u;
 const uint TRIANGLE_UNITS = 9u;
 const uint LIGHT_UNITS = 3u;
-const uint MATERIAL_UNITS = 2u;
+const uint MATERIAL_UNITS = 4u;
 const uint MAP_UNITS = 6u;
 const uint TEXTURE_UNITS = 2u;
-const uint SAMPLER_UNITS = 3u;
+const uint SAMPLER_UNITS = 4u;
 const uint PROCEDURAL_UNITS = 5u;
 
 // Lists of known, small length are read once, before any branch: some compilers (lavapipe's) read a

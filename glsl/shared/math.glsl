@@ -1,5 +1,6 @@
 // Functions whose built-in twins are too loose, and dot products in a stated order.
 // atan: minimax polynomial of degree 17 on [0, 1], error below 2e-8 in exact arithmetic.
+// exp2: Taylor series of degree 6. log2: exponent from the bits, artanh series of the mantissa, error below 1e-7 (2 ulp of the result).
 #ifndef MATH_GLSL
 #define MATH_GLSL
 
@@ -63,6 +64,36 @@ float sine_turns(float t) {
     sum = sum * y + 6.283185160092155;
     precise float sine = sum * a;
     return s < 0.0 ? -sine : sine;
+}
+
+// 2^x, to 2 ulp for |x| < 126: the nearest whole power times the Taylor series of the rest.
+float exp2_accurate(float x) {
+    precise float whole = floor(x + 0.5);
+    precise float t = (x - whole) * 0.69314718;
+    precise float sum = 0.00138889;
+    sum = sum * t + 0.00833333;
+    sum = sum * t + 0.04166667;
+    sum = sum * t + 0.16666667;
+    sum = sum * t + 0.5;
+    sum = sum * t + 1.0;
+    sum = sum * t + 1.0;
+    return intBitsToFloat((int(whole) + 127) << 23) * sum;
+}
+
+// log2(x) for normal positive x: x = 2^e m with m in [1/√2, √2), log2 m = 2 / ln 2 · artanh((m-1)/(m+1)).
+float log2_accurate(float x) {
+    int bits = floatBitsToInt(x);
+    int e = (bits - 0x3F3504F3) >> 23;
+    precise float m = intBitsToFloat(bits - (e << 23));
+    precise float t = (m - 1.0) / (m + 1.0);
+    precise float y = t * t;
+    precise float sum = 0.3205989;
+    sum = sum * y + 0.41219859;
+    sum = sum * y + 0.57707802;
+    sum = sum * y + 0.96179669;
+    sum = sum * y + 2.88539008;
+    sum = sum * t + float(e);
+    return sum;
 }
 
 #endif

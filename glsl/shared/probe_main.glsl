@@ -2,13 +2,16 @@
 // same code that shades a hit, without a scene around it.
 #include "features.glsl"
 #include "layout.glsl"
-#include "texture.glsl"
+#include "filter.glsl"
+#include "rng.glsl"
 
 layout(local_size_x_id = 0, local_size_y_id = 1, local_size_z = 1) in;
 
 struct Query {
-    uvec4 link; // texture, sampler, slot
-    vec4 uv;    // u, v
+    uvec4 link; // texture, sampler, slot, seed
+    vec4 at;    // u, v, w
+    vec4 dx;    // change over the footprint
+    vec4 dy;
 };
 
 layout(std430, set = 0, binding = 0) writeonly buffer Results { vec4 results[]; };
@@ -20,6 +23,6 @@ void main() {
     uint i = gl_GlobalInvocationID.x;
     if (i >= range.count) return;
     Query query = queries[i];
-    results[i] = look_up(texture_at(query.link.x), sampler_at(query.link.y),
-                         query.link.z, query.uv.xy);
+    results[i] = look_up(texture_at(query.link.x), sampler_at(query.link.y), query.link.z,
+                         Coordinate(query.at.xyz, query.dx.xyz, query.dy.xyz), pcg2d(uvec2(i, query.link.w)));
 }

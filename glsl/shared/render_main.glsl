@@ -57,7 +57,10 @@ void main() {
     while (s < end) {
         if (!BOUNCES || !path.goes_on) {
             uvec2 position = sample_position(header.sampling.x, key, s, side, side_log2);
-            path = camera_path(camera_ray(header, pixel, position));
+            Ray ray = camera_ray(header, pixel, position);
+            // Bits that have nothing to do with the sample's position.
+            uvec2 random = RANDOM ? pcg2d(sample_bits(key, s) ^ 0x5BD1E995u) : uvec2(0u);
+            path = camera_path(ray, camera_beam(header, ray), random);
         }
         sum += advance(header, path);
         s += path.goes_on ? 0u : 1u;

@@ -1,145 +1,207 @@
-// Ray -> radiance. Unlit: colour. Lambert: albedo/pi · I cos/r² (point) or albedo/pi · E cos
-// (directional), hard shadows. Mirror: colour times what the mirrored ray sees, at most `max depth`
-// times, then black. Every shape is two-sided: its normal is turned towards the incoming ray.
-// Twin: src/oracle/shade.rs.
+// Ray -> radiance, one hit of its path at a time. Mirror: colour times what the mirrored ray sees, at
+// most `max depth` times, then black. What hits nothing reads the background, or the environment as if
+// it were a surface of colour alone. Twin: src/oracle/shade.rs.
 #ifndef SHADE_GLSL
 #define SHADE_GLSL
 
-#include "intersect.glsl"
-#include "mapping.glsl"
-#include "texture.glsl"
+#include "filter.glsl"
+#include "light.glsl"
+#include "surface.glsl"
 
-struct Surface {
-    vec3 point;
-    vec3 geometric_normal; // unit, towards the incoming ray
-    vec3 normal;           // unit, for shading
-    vec2 own_uv;           // the plane's coordinates or the vertices' interpolated uv
-    uvec2 link;            // material, map
-};
-
-Surface plane_surface(Plane plane, vec3 point, vec2 uv) {
-    return Surface(point, plane.normal.xyz, plane.normal.xyz, uv, plane.link.xy);
-}
-
-// The hit is put back on the sphere: the error of t does not reach the normal or the next ray.
-Surface sphere_surface(Sphere sphere, vec3 point) {
-    precise vec3 radial = point - sphere.ball.xyz;
-    precise float scale = 1.0 / sqrt(dot3(radial, radial));
-    precise vec3 normal = radial * scale;
-    precise vec3 on_sphere = sphere.ball.xyz + sphere.ball.w * normal;
-    return Surface(on_sphere, normal, normal, vec2(0.0), sphere.link.xy);
-}
-
-Surface triangle_surface(Triangle triangle, vec3 point, vec3 edges) {
-    precise float scale = 1.0 / ((edges.x + edges.y) + edges.z);
-    precise vec3 w = edges * scale;
-    vec2 uv = vec2(dot3(w, vec3(triangle.a.w, triangle.b.w, triangle.c.w)), dot3(w, triangle.v.xyz));
-    vec3 normal = triangle.normal.xyz;
-    if (SMOOTH_NORMALS && triangle.v.w != 0.0) {
-        precise vec3 blend = (w.x * triangle.normal_a.xyz + w.y * triangle.normal_b.xyz) + w.z * triangle.normal_c.xyz;
-        float squared = dot3(blend, blend);
-        precise float length_scale = 1.0 / sqrt(squared);
-        precise vec3 unit = blend * length_scale;
-        normal = squared > 0.0 ? unit : normal;
+// What the surface's map looks at.
+Seen seen_by_map(Map map, Ray ray, Surface surface, Footprint print) {
+    Seen seen = Seen(surface.point, vec3(0.0), vec3(0.0), surface.own_uv, vec2(0.0), vec2(0.0));
+    uint entity = map.link.y;
+    if (FILTERED) {
+        seen.entity_x = print.point_x;
+        seen.entity_y = print.point_y;
+        seen.own_x = vec2(dot3(surface.own_u, print.point_x), dot3(surface.own_v, print.point_x));
+        seen.own_y = vec2(dot3(surface.own_u, print.point_y), dot3(surface.own_v, print.point_y));
     }
-    return Surface(point, triangle.normal.xyz, normal, uv, triangle.link.xy);
-}
-
-Surface hit_surface(Header header, Ray ray, Hit hit) {
-    uint planes = COUNT(PLANES, header.counts.x);
-    uint spheres = COUNT(SPHERES, header.counts.y);
-    uint triangles = COUNT(TRIANGLES, header.counts.z);
-    precise vec3 point = ORIGIN_IS_EYE ? hit.t * ray.direction : ray.origin + hit.t * ray.direction;
-    Surface surface = Surface(point, vec3(0.0), vec3(0.0), vec2(0.0), uvec2(0u));
-    // A scene of one kind of shape needs no test.
-    if (planes > 0u && (spheres + triangles == 0u || hit.shape < planes)) {
-        surface = plane_surface(plane_at(hit.shape), point, hit.local.xy);
-    } else if (spheres > 0u && (triangles == 0u || hit.shape < planes + spheres)) {
-        surface = sphere_surface(sphere_at(hit.shape - planes), point);
-    } else if (triangles > 0u) {
-        surface = triangle_surface(triangle_at(hit.shape - planes - spheres), point, hit.local);
+    if (MODE_IS(ENTITIES, ENTITY_POSITION, entity)) return seen;
+    vec3 bent_x = surface.bend * print.point_x;
+    vec3 bent_y = surface.bend * print.point_y;
+    if (MODE_IS(ENTITIES, ENTITY_NORMAL, entity)) {
+        seen.entity = surface.normal;
+        seen.entity_x = bent_x;
+        seen.entity_y = bent_y;
+        return seen;
     }
-    bool away = dot3(surface.geometric_normal, ray.direction) > 0.0;
-    surface.geometric_normal = away ? -surface.geometric_normal : surface.geometric_normal;
-    surface.normal = away ? -surface.normal : surface.normal;
-    return surface;
+    vec3 way = ray.direction;
+    vec3 way_x = print.direction_x;
+    vec3 way_y = print.direction_y;
+    if (MODE_IS(ENTITIES, ENTITY_REFLECTION, entity)) {
+        way_x = mirrored_change(way, surface.normal, way_x, bent_x);
+        way_y = mirrored_change(way, surface.normal, way_y, bent_y);
+        way = mirrored(way, surface.normal);
+    }
+    // Of unit length; its change is at right angles to it.
+    precise float scale = 1.0 / sqrt(dot3(way, way));
+    precise vec3 unit = way * scale;
+    seen.entity = unit;
+    if (FILTERED) {
+        seen.entity_x = (way_x - dot3(unit, way_x) * unit) * scale;
+        seen.entity_y = (way_y - dot3(unit, way_y) * unit) * scale;
+    }
+    return seen;
 }
 
-vec3 surface_color(Material material, Surface surface) {
+#if SOURCE != SOURCE_NONE
+// Gradients of u and v along the surface, from their changes along two tangents.
+void uv_gradients(Map map, Ray ray, Surface surface, out vec3 u, out vec3 v) {
+    vec3 n = surface.geometric_normal;
+    vec3 first = any_tangent(n);
+    vec3 second = cross3(n, first);
+    Footprint print = Footprint(first, second, vec3(0.0), vec3(0.0));
+    Coordinate c = texture_coordinate(map, seen_by_map(map, ray, surface, print));
+    u = first * c.dx.x + second * c.dy.x;
+    v = first * c.dx.y + second * c.dy.y;
+}
+
+// Places at which a bump map is read, two on each axis, a texel or half the footprint away.
+vec2 relief_step(Material material, Coordinate c) {
+    vec2 texel = 1.0 / vec2(texture_at(material.detail.x).place.yz);
+    return max(texel, 0.5 * max(abs(c.dx.xy), abs(c.dy.xy)));
+}
+
+// The shading normal after the material's relief, from what was read there. Normal map: 2 rgb - 1 along
+// growing u, growing v and the normal. Bump map: n - grad h, the height's gradient along the surface
+// (Blinn 1978; Mikkelsen 2020), h from central differences.
+vec3 relief_normal(Material material, Map map, Ray ray, Surface surface, vec4 read, vec2 step) {
+    float side = surface.inside ? -1.0 : 1.0;
+    vec3 n = side * surface.normal;
+    float strength = material.color.w;
+    vec3 u;
+    vec3 v;
+    uv_gradients(map, ray, surface, u, v);
+    vec3 result;
+    if (MODE_IS(RELIEFS, RELIEF_NORMAL, material.detail.w)) {
+        vec3 t = cross3(v, n);
+        vec3 b = cross3(n, u);
+        float handed = dot3(cross3(u, v), n) < 0.0 ? -strength : strength;
+        vec3 m = 2.0 * read.xyz - 1.0;
+        vec2 scale = vec2(dot3(t, t), dot3(b, b));
+        result = n * m.z;
+        result += t * (scale.x > 0.0 ? handed * m.x / sqrt(scale.x) : 0.0);
+        result += b * (scale.y > 0.0 ? handed * m.y / sqrt(scale.y) : 0.0);
+    } else {
+        vec2 slope = 0.5 * strength * (read.xz - read.yw) / step;
+        result = n - slope.x * u - slope.y * v;
+    }
+    float squared = dot3(result, result);
+    return side * (squared > 0.0 ? result / sqrt(squared) : n);
+}
+#endif
+
+// The material's colour, times its texture where it has one; before that its relief turns the normal.
+// One loop for all look-ups of a hit: they are most of the code.
+vec3 surface_color(Material material, Map map, Ray ray, inout Surface surface, Footprint print, uvec2 random) {
     vec3 color = material.color.xyz;
 #if SOURCE != SOURCE_NONE
-    if (TEXTURED && (!UNTEXTURED || material.link.y != NO_TEXTURE)) {
-        vec2 uv = texture_coordinate(map_at(surface.link.y), surface.point, surface.own_uv);
-        precise vec3 product = color * look_up(texture_at(material.link.y),
-                                               sampler_at(material.link.z), material.link.w, uv).xyz;
-        color = product;
+    bool relief = BUMPED && material.detail.x != NO_TEXTURE;
+    uint taps = 0u;
+    if (relief) taps = MODE_IS(RELIEFS, RELIEF_NORMAL, material.detail.w) ? 1u : 4u;
+    vec4 read = vec4(0.0);
+    vec2 step = vec2(0.0);
+    if (!TEXTURED && !BUMPED) return color;
+    for (uint tap = 0u; tap <= taps; tap++) {
+        bool last = tap == taps;
+        if (relief && last) surface.normal = relief_normal(material, map, ray, surface, read, step);
+        if (last && UNTEXTURED && material.link.y == NO_TEXTURE) break;
+        Coordinate c = texture_coordinate(map, seen_by_map(map, ray, surface, print));
+        uvec3 link = material.link.yzw;
+        if (BUMPED && !last) {
+            link = material.detail.xyz;
+            step = relief_step(material, c);
+            if (taps == 4u) c.at[tap >> 1u] += (tap & 1u) == 0u ? step[tap >> 1u] : -step[tap >> 1u];
+        }
+        vec4 texel = look_up(texture_at(link.x), sampler_at(link.y), link.z, c, random);
+        if (BUMPED && !last) {
+            if (taps == 4u) read[tap] = texel.x;
+            else read = texel;
+        } else {
+            precise vec3 product = color * texel.xyz;
+            color = product;
+        }
     }
 #endif
     return color;
 }
 
-// Irradiance over pi from all lights: what an albedo of 1 sends on.
-vec3 direct_light(Header header, Surface surface, uint shape) {
-    vec3 sum = vec3(0.0);
-    uint lights = COUNT(LIGHTS, header.key.y);
-    vec3 start = SHADOWS ? offset_origin(surface.point, surface.geometric_normal) : surface.point;
-    for (uint i = 0u; i < lights; i++) {
-        Light light = light_at(i);
-        bool point_light = MODE_IS(LIGHT_KINDS, LIGHT_POINT, light.link.x);
-        precise vec3 way = point_light ? light.place.xyz - surface.point : light.place.xyz;
-        float squared = dot3(way, way);
-        float facing = dot3(surface.normal, way);
-        // Point: cos/r² = n·l / r³ with the unnormalised l. Directional: l is a unit vector.
-        precise float share = point_light ? facing / (squared * sqrt(squared)) : facing;
-        bool lit = facing > 0.0 && dot3(surface.geometric_normal, way) > 0.0;
-        if (lit) {
-            if (SHADOWS) {
-                precise vec3 to_light = point_light ? light.place.xyz - start : light.place.xyz;
-                lit = !occluded(header, Ray(start, to_light), point_light ? 1.0 : FAR, shape);
-            }
-            precise vec3 more = sum + light.power.xyz * (share * (1.0 / PI));
-            sum = lit ? more : sum;
-        }
-    }
-    return sum;
-}
-
-// d - 2 (d·n) n, for unit n.
-vec3 mirrored(vec3 direction, vec3 normal) {
-    precise vec3 result = direction - (2.0 * dot3(direction, normal)) * normal;
-    return result;
-}
-
-// A path between two hits: the ray, what it still carries, the shape that it leaves.
+// A path between two hits: the ray, how wide it is, what it still carries, the shape that it leaves.
 struct Path {
     Ray ray;
+    Beam beam;
     vec3 throughput;
+    uvec2 random; // bits for the choices at the next hit
     uint skip;
     uint depth;
     bool goes_on; // false: the path has ended, the next one starts at the camera
 };
 
-Path camera_path(Ray ray) { return Path(ray, vec3(1.0), NO_SHAPE, 0u, true); }
+Path camera_path(Ray ray, Beam beam, uvec2 random) {
+    return Path(ray, beam, vec3(1.0), random, NO_SHAPE, 0u, true);
+}
+
+// Where a mirrored or refracted path goes on; false where the material ends it.
+bool bounced(Header header, Hit hit, Surface surface, Footprint print, Material material, inout Path path) {
+    bool mirror = MODE_IS(MODELS, MODEL_MIRROR, material.link.x);
+    bool glass = MODE_IS(MODELS, MODEL_DIELECTRIC, material.link.x);
+    if (!mirror && !glass) return false;
+    Ray ray = path.ray;
+    float ratio = surface.inside ? material.specular.w : 1.0 / material.specular.w;
+    if (glass) {
+        float chance = float(pcg2d(path.random).x >> 8u) * (1.0 / 16777216.0);
+        mirror = chance < reflectance(ray.direction, surface.normal, ratio);
+    }
+    vec3 start = offset_origin(surface.point, mirror ? surface.geometric_normal : -surface.geometric_normal);
+    Beam beam = path.beam;
+    if (mirror) {
+        path.ray = Ray(start, mirrored(ray.direction, surface.normal));
+        if (FILTERED) path.beam = mirrored_beam(header, beam, ray, hit.t, print, surface.normal, surface.bend, surface.curvature);
+    } else {
+        path.ray = Ray(start, refracted(ray.direction, surface.normal, ratio));
+        if (FILTERED) path.beam = refracted_beam(header, beam, ray, hit.t, print, surface.normal, surface.bend, surface.curvature, ratio);
+    }
+    return true;
+}
 
 // Follows the path to its next hit; what that adds to the sample is returned.
 vec3 advance(Header header, inout Path path) {
     Hit hit = nearest_hit(header, path.ray, path.skip);
+    bool missed = hit.shape == NO_SHAPE;
     vec3 seen = path.throughput * header.background.xyz;
-    bool mirror = false;
-    if (hit.shape != NO_SHAPE) {
+    bool goes_on = false;
+    // What hits nothing is then as good as a hit.
+    bool surrounded = ENVIRONMENT && header.counts.w != NO_MATERIAL;
+    if (surrounded || !missed) {
+        if (ENVIRONMENT) hit.shape = missed ? 0u : hit.shape;
         Surface surface = hit_surface(header, path.ray, hit);
+        Footprint print = footprint_at(header, path.beam, path.ray, hit.t, surface.geometric_normal);
+        if (ENVIRONMENT && missed) {
+            surface.link = uvec2(header.counts.w, header.key.w);
+            print = endless_footprint(header, path.beam, path.ray);
+        }
         Material material = material_at(surface.link.x);
-        path.throughput *= surface_color(material, surface);
-        mirror = MODE_IS(MODELS, MODEL_MIRROR, material.link.x);
-        vec3 light = vec3(mirror ? 0.0 : 1.0);
-        if (MODE_IS(MODELS, MODEL_LAMBERT, material.link.x)) light = direct_light(header, surface, hit.shape);
-        seen = path.throughput * light;
-        path.ray = Ray(offset_origin(surface.point, surface.geometric_normal),
-                       mirrored(path.ray.direction, surface.normal));
+        Map map = map_at(surface.link.y);
+        vec3 carried = path.throughput;
+        path.throughput *= surface_color(material, map, path.ray, surface, print, path.random);
+        vec3 direction = path.ray.direction;
+        goes_on = BOUNCES && bounced(header, hit, surface, print, material, path);
+        bool ends_in_mirror = MODE_IS(MODELS, MODEL_MIRROR, material.link.x) || MODE_IS(MODELS, MODEL_DIELECTRIC, material.link.x);
+        seen = ends_in_mirror ? vec3(0.0) : path.throughput;
+        bool phong = MODE_IS(MODELS, MODEL_PHONG, material.link.x);
+        if (phong || MODE_IS(MODELS, MODEL_LAMBERT, material.link.x)) {
+            vec3 mirror = HAS(MODELS, MODEL_PHONG) ? mirrored(direction, surface.normal) : vec3(0.0);
+            Lit lit = direct_light(header, surface, hit.shape, mirror, material.specular.w);
+            seen = path.throughput * lit.diffuse;
+            if (phong) seen += carried * material.specular.xyz * lit.specular;
+        }
     }
     path.skip = hit.shape;
-    path.goes_on = BOUNCES && mirror && path.depth < header.size.w;
+    path.goes_on = goes_on && path.depth < header.size.w;
     path.depth++;
+    if (BOUNCES) path.random = pcg2d(path.random);
     return seen;
 }
 

@@ -1,17 +1,30 @@
-// (texture, sampler, u, v) -> linear RGBA. Method shader: addressing and filtering here in f32,
-// texels from a texel buffer or by texelFetch from an image. Method hardware: the device's sampler
-// at level 0. Follows Vulkan 1.3, "Image Sample Operations". Twin: src/oracle/texture.rs.
+// Texels: which one an addressed place means, and its value as linear RGBA. Texels come from one texel
+// buffer, or of flat textures by texelFetch from images. Follows Vulkan 1.3, "Image Sample
+// Operations". Twin: src/oracle/texture.rs.
 #ifndef TEXTURE_GLSL
 #define TEXTURE_GLSL
 
+#include "mapping.glsl"
+
 #define SOURCE_NONE 0
 #define SOURCE_BUFFER 1
-#define SOURCE_IMAGES 2
+#define SOURCE_IMAGES 2 // flat textures only
+#define SOURCE_SOLIDS 3 // images of all kinds beside a texel buffer
 
-#if SOURCE == SOURCE_BUFFER
-layout(set = 0, binding = 2) uniform usamplerBuffer texels;
-#elif SOURCE == SOURCE_IMAGES
+#define HAS_IMAGES (SOURCE == SOURCE_IMAGES || SOURCE == SOURCE_SOLIDS)
+#define HAS_TEXELS (SOURCE == SOURCE_BUFFER || SOURCE == SOURCE_SOLIDS)
+
+#if HAS_IMAGES
 layout(set = 0, binding = 2) uniform sampler2D images[SLOTS];
+#endif
+#if SOURCE == SOURCE_SOLIDS
+layout(set = 0, binding = 7) uniform sampler3D volumes[VOLUME_SLOTS];
+layout(set = 0, binding = 8) uniform samplerCube cubes[CUBE_SLOTS];
+#endif
+
+#if HAS_TEXELS
+// All texels one after the other; beside images what cannot be read from those.
+layout(set = 0, binding = 6) uniform usamplerBuffer texels;
 #endif
 
 #if SOURCE != SOURCE_NONE
@@ -20,14 +33,35 @@ layout(set = 0, binding = 2) uniform sampler2D images[SLOTS];
 layout(std430, set = 0, binding = 3) readonly buffer SrgbTable { float srgb_table[]; };
 
 float decode_srgb8(uint code) { return srgb_table[SRGB_AT * 4u + code]; }
+
+// One level of a texture's pyramid.
+struct Level {
+    ivec3 size; // of a cube: width, height, 6
+    int index;
+    uint word;  // where it begins in the texel buffer
+};
+
+// Level sizes are halved and rounded down (Vulkan 1.3, "Image Miplevel Sizing"). The words before level 0
+// say where the others begin.
+Level level_at(Texture image, int index) {
+    ivec3 size = ivec3(image.place.yz, image.link.z);
+    if (!MIPMAPPED || index == 0) return Level(size, 0, image.place.x);
+    ivec3 halved = max(size >> index, ivec3(1));
+    if (!MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_VOLUME, image.link.w)) halved.z = size.z;
+#if HAS_TEXELS
+    return Level(halved, index, texelFetch(texels, int(image.place.x) - index).x);
+#else
+    return Level(halved, index, 0u);
+#endif
+}
 #endif
 
-#if SOURCE == SOURCE_BUFFER
-// One texel by column and row; grey is replicated, missing alpha is 1, sRGB decoded.
-vec4 fetch_texel(Texture image, uint slot, ivec2 at) {
+#if HAS_TEXELS
+// One texel by column, row and slice; grey is replicated, missing alpha is 1, sRGB decoded.
+vec4 fetch_pooled(Texture image, Level level, ivec3 at) {
     uint format = image.place.w;
-    uint texel = uint(at.y) * image.place.y + uint(at.x);
-    uint word = image.place.x;
+    uint texel = uint((at.z * level.size.y + at.y) * level.size.x + at.x);
+    uint word = level.word;
     bool srgb = MODE_IS(COLOR_SPACES, COLOR_SPACE_SRGB, image.link.x);
     if (MODE_IS(TEXEL_FORMATS, TEXEL_FORMAT_RGBA8, format)) {
         uint packed = texelFetch(texels, int(word + texel)).x;
@@ -70,43 +104,80 @@ vec4 fetch_texel(Texture image, uint slot, ivec2 at) {
 }
 #endif
 
-#if SOURCE == SOURCE_IMAGES
+#if HAS_IMAGES
 // Not every device can index descriptors by a variable, so the index is compared with constants.
-#define SLOT_SWITCH(read) \
-    if (SLOTS == 1u || slot == 0u) return read(0u); \
-    if (SLOTS > 1u && slot == 1u) return read(1u); \
-    if (SLOTS > 2u && slot == 2u) return read(2u); \
-    if (SLOTS > 3u && slot == 3u) return read(3u); \
-    if (SLOTS > 4u && slot == 4u) return read(4u); \
-    if (SLOTS > 5u && slot == 5u) return read(5u); \
-    if (SLOTS > 6u && slot == 6u) return read(6u); \
-    if (SLOTS > 7u && slot == 7u) return read(7u); \
-    if (SLOTS > 8u && slot == 8u) return read(8u); \
-    if (SLOTS > 9u && slot == 9u) return read(9u); \
-    if (SLOTS > 10u && slot == 10u) return read(10u); \
-    if (SLOTS > 11u && slot == 11u) return read(11u); \
-    if (SLOTS > 12u && slot == 12u) return read(12u); \
-    if (SLOTS > 13u && slot == 13u) return read(13u); \
-    if (SLOTS > 14u && slot == 14u) return read(14u); \
+#define SLOT_SWITCH(count, read) \
+    if (count == 1u || slot == 0u) return read(0u); \
+    if (count > 1u && slot == 1u) return read(1u); \
+    if (count > 2u && slot == 2u) return read(2u); \
+    if (count > 3u && slot == 3u) return read(3u); \
+    if (count > 4u && slot == 4u) return read(4u); \
+    if (count > 5u && slot == 5u) return read(5u); \
+    if (count > 6u && slot == 6u) return read(6u); \
+    if (count > 7u && slot == 7u) return read(7u); \
+    if (count > 8u && slot == 8u) return read(8u); \
+    if (count > 9u && slot == 9u) return read(9u); \
+    if (count > 10u && slot == 10u) return read(10u); \
+    if (count > 11u && slot == 11u) return read(11u); \
+    if (count > 12u && slot == 12u) return read(12u); \
+    if (count > 13u && slot == 13u) return read(13u); \
+    if (count > 14u && slot == 14u) return read(14u); \
     return read(15u);
 
-// Slots beyond SLOTS are never chosen, but their constants must stay inside the array.
+// Slots beyond the count are never chosen, but their constants must stay inside the array.
 #define SLOT(i) images[(i) < SLOTS ? (i) : 0u]
+#define VOLUME_SLOT(i) volumes[(i) < VOLUME_SLOTS ? (i) : 0u]
+#define CUBE_SLOT(i) cubes[(i) < CUBE_SLOTS ? (i) : 0u]
 
-vec4 read_image(uint slot, ivec2 at) {
-#define READ(i) texelFetch(SLOT(i), at, 0)
-    SLOT_SWITCH(READ)
+vec4 read_image(uint slot, ivec2 at, int level) {
+#define READ(i) texelFetch(SLOT(i), at, level)
+    SLOT_SWITCH(SLOTS, READ)
 #undef READ
 }
 
-vec4 read_sampled(uint slot, vec2 uv) {
-#define READ(i) textureLod(SLOT(i), uv, 0.0)
-    SLOT_SWITCH(READ)
+// The device's sampler at a level; where it filters anisotropically, over the footprint.
+vec4 read_flat(Sampler how, uint slot, vec2 uv, Coordinate c, float level) {
+    if (FILTERED && HAS(FILTERS, FILTER_ANISOTROPIC) && how.link.y == FILTER_ANISOTROPIC) {
+#define READ(i) textureGrad(SLOT(i), uv, c.dx.xy, c.dy.xy)
+        SLOT_SWITCH(SLOTS, READ)
+#undef READ
+    }
+#define READ(i) textureLod(SLOT(i), uv, level)
+    SLOT_SWITCH(SLOTS, READ)
 #undef READ
 }
 
-vec4 fetch_texel(Texture image, uint slot, ivec2 at) {
-    vec4 value = read_image(slot, at);
+#if SOURCE == SOURCE_SOLIDS
+vec4 read_volume(uint slot, vec3 at, float level) {
+#define READ(i) textureLod(VOLUME_SLOT(i), at, level)
+    SLOT_SWITCH(VOLUME_SLOTS, READ)
+#undef READ
+}
+
+vec4 read_cube(uint slot, vec3 at, float level) {
+#define READ(i) textureLod(CUBE_SLOT(i), at, level)
+    SLOT_SWITCH(CUBE_SLOTS, READ)
+#undef READ
+}
+#endif
+
+vec4 read_sampled(Texture image, Sampler how, uint slot, Coordinate c, float level) {
+    vec3 shift = vec3(0.0);
+    if (MODE_IS(TEXEL_CENTERS, TEXEL_CENTER_INTEGER, how.modes.w)) {
+        shift = 0.5 / vec3(max(ivec3(image.place.yz, image.link.z) >> int(level), ivec3(1)));
+    }
+#if SOURCE == SOURCE_SOLIDS
+    if (MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_VOLUME, image.link.w)) return read_volume(slot, c.at + shift, level);
+    if (MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_CUBE, image.link.w)) return read_cube(slot, c.at, level);
+#endif
+    return read_flat(how, slot, c.at.xy + shift.xy, c, level);
+}
+
+vec4 fetch_texel(Texture image, uint slot, Level level, ivec3 at) {
+#if HAS_TEXELS
+    if (!MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_FLAT, image.link.w)) return fetch_pooled(image, level, at);
+#endif
+    vec4 value = read_image(slot, at.xy, level.index);
     // The view replicates grey; where all textures are grey, two channels need no arithmetic.
     if (TEXEL_FORMATS == (1u << TEXEL_FORMAT_GREY8)) value = vec4(value.xxx, 1.0);
     if (MODE_IS(COLOR_SPACES, COLOR_SPACE_SRGB, image.link.x)) {
@@ -115,6 +186,8 @@ vec4 fetch_texel(Texture image, uint slot, ivec2 at) {
     }
     return value;
 }
+#elif SOURCE == SOURCE_BUFFER
+vec4 fetch_texel(Texture image, uint slot, Level level, ivec3 at) { return fetch_pooled(image, level, at); }
 #endif
 
 #if SOURCE != SOURCE_NONE
@@ -151,49 +224,44 @@ int addressed_texel(uint mask, uint mode, int i, int size) {
     return clamp(i, 0, size - 1);
 }
 
-// The texel at addressed (x, y), or the border colour where either is -1.
-vec4 fetch_or_border(Texture image, Sampler how, uint slot, ivec2 at) {
-    if (!HAS(ADDRESSES_U, ADDRESS_CLAMP_TO_BORDER) && !HAS(ADDRESSES_V, ADDRESS_CLAMP_TO_BORDER)) {
-        return fetch_texel(image, slot, at);
+// The same for every i: wide filters reach beyond one period.
+int wrapped_texel(uint mask, uint mode, int i, int size) {
+    if (MODE_IS(mask, ADDRESS_REPEAT, mode)) {
+        if (TEXTURE_SIZES == (1u << TEXTURE_SIZE_POWER_OF_TWO)) return i & (size - 1);
+        int left = i % size;
+        return left < 0 ? left + size : left;
     }
-    vec4 value = fetch_texel(image, slot, max(at, ivec2(0)));
-    return at.x < 0 || at.y < 0 ? how.border : value;
+    if (MODE_IS(mask, ADDRESS_MIRRORED_REPEAT, mode)) {
+        int left = i % (2 * size);
+        left = left < 0 ? left + 2 * size : left;
+        return left < size ? left : 2 * size - 1 - left;
+    }
+    return addressed_texel(mask, mode, i, size);
 }
 
-vec4 look_up(Texture image, Sampler how, uint slot, vec2 uv) {
-    ivec2 size = ivec2(image.place.yz);
-    bool integer_centers = MODE_IS(TEXEL_CENTERS, TEXEL_CENTER_INTEGER, how.modes.w);
-#if SOURCE == SOURCE_IMAGES
-    if (MODE_IS(METHODS, METHOD_HARDWARE, how.link.x)) {
-        return read_sampled(slot, integer_centers ? uv + 0.5 / vec2(size) : uv);
+const uint ADDRESSES = ADDRESSES_U | ADDRESSES_V | ADDRESSES_W;
+const bool BORDERS = HAS(ADDRESSES, ADDRESS_CLAMP_TO_BORDER);
+
+// The texel at an addressed place, or the border colour where a number of it is -1.
+vec4 fetch_or_border(Texture image, Sampler how, uint slot, Level level, ivec3 at) {
+    if (!BORDERS) return fetch_texel(image, slot, level, at);
+    vec4 value = fetch_texel(image, slot, level, max(at, ivec3(0)));
+    return at.x < 0 || at.y < 0 || at.z < 0 ? how.border : value;
+}
+
+// A flat texture's texel at (column, row), addressed. Over a pole of an environment the same row goes on,
+// half a turn away.
+vec4 flat_texel(Texture image, Sampler how, uint slot, Level level, ivec2 at) {
+    if (POLES && how.more.y != 0u) {
+        bool over = at.y < 0 || at.y >= level.size.y;
+        at.x += over ? level.size.x / 2 : 0;
+        at.y = at.y < 0 ? -1 - at.y : (over ? 2 * level.size.y - 1 - at.y : at.y);
+        at.x = wrapped_texel(ADDRESSES_U, how.modes.x, at.x, level.size.x);
+        return fetch_texel(image, slot, level, ivec3(at.x, clamp(at.y, 0, level.size.y - 1), 0));
     }
-#endif
-    precise vec2 texel = vec2(reduced_coordinate(ADDRESSES_U, how.modes.x, uv.x, float(size.x)),
-                              reduced_coordinate(ADDRESSES_V, how.modes.y, uv.y, float(size.y)));
-    // Integer centres move texel i from i + 1/2 to i: half a texel is added before addressing.
-    if (MODE_IS(FILTERS, FILTER_NEAREST, how.modes.z)) {
-        if (integer_centers) texel += 0.5;
-        ivec2 nearest = ivec2(floor(texel));
-        return fetch_or_border(image, how, slot,
-                               ivec2(addressed_texel(ADDRESSES_U, how.modes.x, nearest.x, size.x),
-                                     addressed_texel(ADDRESSES_V, how.modes.y, nearest.y, size.y)));
-    }
-    if (!integer_centers) texel -= 0.5;
-    // floor(texel); where texel is whole, perhaps the one before, with weight 1 on its neighbour.
-    precise vec2 shifted = (texel - 0.5) + ROUND;
-    precise vec2 low = shifted - ROUND;
-    precise vec2 b = texel - low;
-    precise vec2 a = 1.0 - b;
-    ivec2 first = floatBitsToInt(shifted) - floatBitsToInt(ROUND);
-    ivec2 u = ivec2(addressed_texel(ADDRESSES_U, how.modes.x, first.x, size.x),
-                    addressed_texel(ADDRESSES_U, how.modes.x, first.x + 1, size.x));
-    ivec2 v = ivec2(addressed_texel(ADDRESSES_V, how.modes.y, first.y, size.y),
-                    addressed_texel(ADDRESSES_V, how.modes.y, first.y + 1, size.y));
-    // fma by name: fused or not, but alike in every pipeline of a device.
-    vec4 sum = (a.x * a.y) * fetch_or_border(image, how, slot, ivec2(u.x, v.x));
-    sum = fma(vec4(b.x * a.y), fetch_or_border(image, how, slot, ivec2(u.y, v.x)), sum);
-    sum = fma(vec4(a.x * b.y), fetch_or_border(image, how, slot, ivec2(u.x, v.y)), sum);
-    return fma(vec4(b.x * b.y), fetch_or_border(image, how, slot, ivec2(u.y, v.y)), sum);
+    return fetch_or_border(image, how, slot, level,
+                           ivec3(addressed_texel(ADDRESSES_U, how.modes.x, at.x, level.size.x),
+                                 addressed_texel(ADDRESSES_V, how.modes.y, at.y, level.size.y), 0));
 }
 #endif
 

@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 use crate::error::{Error, Result};
 use crate::pack::Crop;
 use crate::scene::model::{Algorithm, Footprint, Pattern, Scene};
-use crate::scene::{check_shared, check_spp};
+use crate::scene::{both_filters, check_filters, check_shared, check_spp};
 use crate::texture::sampler_spec::{Filter, Method};
 
 use super::named_parser;
@@ -55,10 +55,10 @@ impl Overrides {
         for sampler in &mut scene.samplers {
             sampler.method = self.method.unwrap_or(sampler.method);
             if let Some(filter) = self.filter {
-                (sampler.mag, sampler.min) = (filter, filter);
+                (sampler.mag, sampler.min) = both_filters(filter);
             }
         }
-        Ok(())
+        check_filters(scene)
     }
 
     /// What the render used, overridden or not.

@@ -84,7 +84,8 @@ pub(super) fn address(address: Address) -> vk::SamplerAddressMode {
 pub(super) fn filter(filter: Filter) -> vk::Filter {
     match filter {
         Filter::Nearest => vk::Filter::NEAREST,
-        Filter::Linear => vk::Filter::LINEAR,
+        // Anisotropy is a setting of its own, beside the filter; the others are refused before.
+        _ => vk::Filter::LINEAR,
     }
 }
 

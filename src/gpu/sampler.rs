@@ -1,5 +1,5 @@
 //! Samplers: in goes a sampler description, out comes the `VkSampler` that does exactly that, or an
-//! error that says what the device lacks. No anisotropy, normalized coordinates.
+//! error that says what the device lacks. Normalized coordinates.
 
 use std::sync::Arc;
 
@@ -36,8 +36,10 @@ impl Sampler {
             .mipmap_mode(mip)
             .address_mode_u(u)
             .address_mode_v(v)
-            .address_mode_w(vk::SamplerAddressMode::CLAMP_TO_EDGE)
+            .address_mode_w(convert::address(spec.address_w))
             .max_lod(max_lod)
+            .anisotropy_enable(anisotropic(spec))
+            .max_anisotropy((spec.max_anisotropy as f32).min(core.info.limits.max_anisotropy))
             .border_color(border);
         if border == vk::BorderColor::FLOAT_CUSTOM_EXT {
             info = info.push_next(&mut custom);
@@ -46,7 +48,7 @@ impl Sampler {
         let handle = unsafe { core.device.create_sampler(&info, None) }
             .doing(|| format!("creating sampler {}", spec.label()))?;
         core.set_name(handle, || format!("sampler {}", spec.label()));
-        let linear = [spec.mag, spec.min].contains(&Filter::Linear) || spec.mip == MipMode::Linear;
+        let linear = [spec.mag, spec.min].iter().any(|&f| f != Filter::Nearest) || spec.mip == MipMode::Linear;
         Ok(Sampler(Arc::new(RawSampler { core: Arc::clone(core), handle, linear })))
     }
 
@@ -64,6 +66,10 @@ impl Sampler {
     }
 }
 
+fn anisotropic(spec: &SamplerSpec) -> bool {
+    spec.min == Filter::Anisotropic
+}
+
 /// The colour counts only where an axis reads it.
 fn border_color(spec: &SamplerSpec) -> vk::BorderColor {
     if spec.address.contains(&Address::ClampToBorder) {
@@ -75,6 +81,12 @@ fn border_color(spec: &SamplerSpec) -> vk::BorderColor {
 
 fn check(core: &Core, spec: &SamplerSpec) -> Result<()> {
     let limits = &core.info.limits;
+    if anisotropic(spec) && limits.max_anisotropy <= 1.0 {
+        return Err(Error::with_help(
+            format!("sampler {}: {} has no anisotropic filtering", spec.label(), core.info.name),
+            "Use method = \"shader\", which has it on every device.",
+        ));
+    }
     if spec.address.contains(&Address::MirrorClampToEdge) && !limits.mirror_clamp_to_edge {
         return Err(Error::with_help(
             format!("sampler {}: {} has no mirror-clamp-to-edge", spec.label(), core.info.name),

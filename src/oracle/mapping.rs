@@ -1,37 +1,142 @@
-//! Surface point → texture coordinate. Twin of `glsl/shared/mapping.glsl`.
+//! Surface point → texture coordinate, and how it changes over the footprint. Twin of
+//! `glsl/shared/mapping.glsl`.
 
 use std::f64::consts::PI;
 
 use glam::{DVec2, DVec3};
 
-use super::math::{affine, atan2_accurate, vec4};
+use super::math::{affine, atan2_accurate, vec4, xyz};
 use crate::layout::Map;
 use crate::pack::MapKind;
 
-/// matrix · uv + offset: scale, rotation and offset of the mapping.
-pub fn placed(map: &Map, uv: DVec2) -> DVec2 {
-    let (m, offset) = (vec4(map.matrix), vec4(map.offset));
-    DVec2::new(m.x * uv.x + m.y * uv.y + offset.x, m.z * uv.x + m.w * uv.y + offset.y)
+/// What a map can look at: the entity that its kind projects, the shape's own coordinate, and the
+/// changes of both over the footprint.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Seen {
+    pub entity: DVec3,
+    pub entity_change: [DVec3; 2],
+    pub own: DVec2,
+    pub own_change: [DVec2; 2],
 }
 
-/// `p` is relative to the eye; `own_uv` is the plane's own coordinate or the triangle's interpolated one.
-pub fn texture_coordinate(map: &Map, p: DVec3, own_uv: DVec2) -> DVec2 {
-    let kind = MapKind::ALL[map.link[0] as usize];
-    match kind {
-        MapKind::VertexUv => return own_uv,
-        MapKind::Plane => return placed(map, own_uv),
-        MapKind::Affine | MapKind::Cylindrical | MapKind::Spherical => {}
-    }
-    let (x, y) = (affine(map.x, p), affine(map.y, p));
-    if kind == MapKind::Affine {
-        return DVec2::new(x, y);
-    }
-    let z = affine(map.z, p);
-    let turn = atan2_accurate(z, x) / (2.0 * PI);
-    let turn = if turn < 0.0 { turn + 1.0 } else { turn };
-    let uv = match kind {
-        MapKind::Spherical => DVec2::new(atan2_accurate(x.hypot(z), y) / PI, turn),
-        _ => DVec2::new(turn, y),
+/// A texture coordinate (u, v, w), or a direction for a cube texture, and its changes.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Coordinate {
+    pub at: DVec3,
+    pub change: [DVec3; 2],
+}
+
+/// matrix · uv: scale and rotation.
+pub fn turned_uv(map: &Map, uv: DVec2) -> DVec2 {
+    let m = vec4(map.matrix);
+    DVec2::new(m.x * uv.x + m.y * uv.y, m.z * uv.x + m.w * uv.y)
+}
+
+/// matrix · uv + offset.
+pub fn placed(map: &Map, uv: DVec2) -> DVec2 {
+    turned_uv(map, uv) + xyz(map.offset).truncate()
+}
+
+/// A coordinate of a map that ends with `placed`.
+pub fn placed_coordinate(map: &Map, uv: DVec2, change: [DVec2; 2]) -> Coordinate {
+    Coordinate { at: placed(map, uv).extend(0.0), change: change.map(|d| turned_uv(map, d).extend(0.0)) }
+}
+
+/// The linear part of the frame.
+pub fn in_frame(map: &Map, v: DVec3) -> DVec3 {
+    DVec3::new(xyz(map.x).dot(v), xyz(map.y).dot(v), xyz(map.z).dot(v))
+}
+
+/// Which face of a cube a direction meets, and where on it, (s, t) in [-1, 1] (Vulkan 1.3, "Cube Map
+/// Face Selection"; ties go to z, then y). The third number is the length along the face's axis.
+pub fn on_cube_face(d: DVec3) -> (DVec3, u32) {
+    let a = d.abs();
+    let face = if a.z >= a.x && a.z >= a.y {
+        4 + u32::from(d.z < 0.0)
+    } else if a.y >= a.x {
+        2 + u32::from(d.y < 0.0)
+    } else {
+        u32::from(d.x < 0.0)
     };
-    placed(map, uv)
+    (along_cube_face(d, face), face)
+}
+
+/// The axes of `face` for a direction, or for a change of direction that stays on it.
+pub fn along_cube_face(d: DVec3, face: u32) -> DVec3 {
+    match face {
+        0 => DVec3::new(-d.z, -d.y, d.x),
+        1 => DVec3::new(d.z, -d.y, -d.x),
+        2 => DVec3::new(d.x, d.z, d.y),
+        3 => DVec3::new(d.x, -d.z, -d.y),
+        4 => DVec3::new(d.x, -d.y, d.z),
+        _ => DVec3::new(-d.x, -d.y, -d.z),
+    }
+}
+
+/// Place on a face in [0, 1]², from numerator and axis: (s / major + 1) / 2.
+pub fn face_uv(stm: DVec3) -> DVec2 {
+    0.5 * (stm.truncate() / stm.z) + 0.5
+}
+
+/// Its change: the quotient's derivative.
+pub fn face_uv_change(stm: DVec3, change: DVec3) -> DVec2 {
+    0.5 * (change.truncate() * stm.z - stm.truncate() * change.z) / (stm.z * stm.z)
+}
+
+/// Angles change without bound towards the pole; a footprint never covers more than one turn.
+pub fn turn_change(local: DVec3, change: DVec3, around: f64) -> f64 {
+    let area = local.x * change.z - local.z * change.x;
+    (area / (around.max(1e-30) * (2.0 * PI))).clamp(-1.0, 1.0)
+}
+
+fn turn(local: DVec3) -> f64 {
+    let turn = atan2_accurate(local.z, local.x) / (2.0 * PI);
+    if turn < 0.0 { turn + 1.0 } else { turn }
+}
+
+/// (turn, height) and its change: φ/2π and y.
+pub fn cylindrical(map: &Map, local: DVec3, change: [DVec3; 2]) -> Coordinate {
+    let around = local.x * local.x + local.z * local.z;
+    let of = |d: DVec3| DVec2::new(turn_change(local, d, around), d.y);
+    placed_coordinate(map, DVec2::new(turn(local), local.y), change.map(of))
+}
+
+/// θ / π changes by (y dρ - ρ dy) / (ρ² + y²), where dρ = (x dx + z dz) / ρ.
+pub fn polar_change(local: DVec3, change: DVec3, across: f64, squared: f64) -> f64 {
+    let outward = (local.x * change.x + local.z * change.z) / across.max(1e-30);
+    ((local.y * outward - across * change.y) / (squared.max(1e-30) * PI)).clamp(-1.0, 1.0)
+}
+
+/// (θ/π, φ/2π) and its change.
+pub fn spherical(map: &Map, local: DVec3, change: [DVec3; 2]) -> Coordinate {
+    let around = local.x * local.x + local.z * local.z;
+    let across = around.sqrt();
+    let uv = DVec2::new(atan2_accurate(across, local.y) / PI, turn(local));
+    let squared = around + local.y * local.y;
+    let of = |d: DVec3| DVec2::new(polar_change(local, d, across, squared), turn_change(local, d, around));
+    placed_coordinate(map, uv, change.map(of))
+}
+
+pub fn texture_coordinate(map: &Map, seen: &Seen) -> Coordinate {
+    let kind = MapKind::ALL[map.link[0] as usize];
+    let local = || DVec3::new(affine(map.x, seen.entity), affine(map.y, seen.entity), affine(map.z, seen.entity));
+    let change = seen.entity_change.map(|d| in_frame(map, d));
+    match kind {
+        MapKind::VertexUv => {
+            Coordinate { at: seen.own.extend(0.0), change: seen.own_change.map(|d| d.extend(0.0)) }
+        }
+        MapKind::Plane => placed_coordinate(map, seen.own, seen.own_change),
+        MapKind::Affine => Coordinate {
+            at: local().truncate().extend(0.0),
+            change: change.map(|d| d.truncate().extend(0.0)),
+        },
+        MapKind::Solid | MapKind::Cube => Coordinate { at: local(), change },
+        MapKind::Box => {
+            let (stm, face) = on_cube_face(local());
+            let of = |d| face_uv_change(stm, along_cube_face(d, face));
+            placed_coordinate(map, face_uv(stm), change.map(of))
+        }
+        MapKind::Cylindrical => cylindrical(map, local(), change),
+        MapKind::Spherical => spherical(map, local(), change),
+    }
 }

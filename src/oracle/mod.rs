@@ -4,7 +4,10 @@
 //! integers and equal bit for bit; everything after them differs by the rounding of f32 only.
 
 pub mod camera;
+pub mod filter;
+pub mod footprint;
 pub mod intersect;
+pub mod light;
 pub mod mapping;
 pub mod math;
 pub mod noise;
@@ -13,4 +16,5 @@ pub mod render;
 pub mod rng;
 pub mod shade;
 pub mod strata;
+pub mod surface;
 pub mod texture;

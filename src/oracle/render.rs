@@ -6,7 +6,8 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::camera::camera_ray;
-use super::rng::pixel_key;
+use super::footprint::camera_beam;
+use super::rng::{pcg2d, pixel_key, sample_bits};
 use super::shade::{advance, camera_path};
 use super::strata::sample_position;
 use crate::error::{Error, Result};
@@ -25,7 +26,10 @@ pub fn pixel(scene: &PackedScene, x: u32, y: u32) -> DVec3 {
     let mut sum = DVec3::ZERO;
     for s in 0..scene.samples {
         let position = sample_position(pattern, key, s, side, side_log2);
-        let mut path = camera_path(camera_ray(header, place, position));
+        let ray = camera_ray(header, place, position);
+        // Bits that have nothing to do with the sample's position.
+        let random = pcg2d(sample_bits(key, s).map(|bits| bits ^ 0x5BD1_E995));
+        let mut path = camera_path(ray, camera_beam(header, &ray), random);
         while path.goes_on {
             sum += advance(scene, &mut path);
         }

@@ -1,127 +1,183 @@
 //! Ray → radiance, one hit of its path at a time. Twin of `glsl/shared/shade.glsl`.
 
-use std::f64::consts::PI;
-
-use glam::{DVec2, DVec3};
+use glam::{DVec2, DVec3, DVec4};
 
 use super::camera::Ray;
-use super::intersect::{FAR, Hit, nearest_hit, occluded, offset_origin};
-use super::mapping::texture_coordinate;
+use super::filter::look_up;
+use super::footprint::{
+    Beam, Footprint, Meeting, any_tangent, endless_footprint, footprint_at, is_filtered, mirrored, mirrored_beam,
+    mirrored_change, reflectance, refracted, refracted_beam,
+};
+use super::intersect::{Hit, nearest_hit, offset_origin};
+use super::light::direct_light;
+use super::mapping::{Coordinate, Seen, texture_coordinate};
 use super::math::xyz;
-use super::texture::look_up;
-use crate::layout::{Material, NO_SHAPE, NO_TEXTURE, Plane, Sphere, Triangle};
-use crate::pack::{LightKind, PackedScene};
-use crate::scene::model::Model;
+use super::rng::pcg2d;
+use super::surface::{Surface, hit_surface};
+use crate::layout::{Map, Material, NO_MATERIAL, NO_SHAPE, NO_TEXTURE};
+use crate::pack::{EntityKind, PackedScene};
+use crate::scene::model::{Model, ReliefKind};
 
-/// Where a ray met a shape, and what it needs to know of it.
-pub struct Surface {
-    pub point: DVec3,
-    /// Unit, towards the incoming ray.
-    pub geometric_normal: DVec3,
-    /// Unit, for shading.
-    pub normal: DVec3,
-    /// The plane's coordinates or the vertices' interpolated uv.
-    pub own_uv: DVec2,
-    pub material: u32,
-    pub map: u32,
-}
-
-fn surface(point: DVec3, geometric: DVec3, normal: DVec3, uv: DVec2, link: [u32; 4]) -> Surface {
-    Surface { point, geometric_normal: geometric, normal, own_uv: uv, material: link[0], map: link[1] }
-}
-
-fn plane_surface(plane: &Plane, point: DVec3, uv: DVec2) -> Surface {
-    let normal = xyz(plane.normal).normalize();
-    surface(point, normal, normal, uv, plane.link)
-}
-
-fn sphere_surface(sphere: &Sphere, point: DVec3) -> Surface {
-    let center = xyz(sphere.ball);
-    let normal = (point - center).normalize();
-    surface(center + f64::from(sphere.ball[3]) * normal, normal, normal, DVec2::ZERO, sphere.link)
-}
-
-fn triangle_surface(triangle: &Triangle, point: DVec3, edges: DVec3) -> Surface {
-    let w = edges / edges.element_sum();
-    let u = DVec3::new(triangle.a[3].into(), triangle.b[3].into(), triangle.c[3].into());
-    let uv = DVec2::new(w.dot(u), w.dot(xyz(triangle.v)));
-    let geometric = xyz(triangle.normal).normalize();
-    let mut normal = geometric;
-    if triangle.v[3] != 0.0 {
-        let [a, b, c] = [triangle.normal_a, triangle.normal_b, triangle.normal_c].map(xyz);
-        normal = (w.x * a + w.y * b + w.z * c).try_normalize().unwrap_or(geometric);
-    }
-    surface(point, geometric, normal, uv, triangle.link)
-}
-
-/// The surface at a hit; `hit.shape` must be a shape of the scene.
-pub fn hit_surface(scene: &PackedScene, ray: &Ray, hit: &Hit) -> Surface {
-    let point = ray.origin + hit.t * ray.direction;
-    let [planes, spheres, _, _] = scene.header.counts;
-    let mut surface = if hit.shape < planes {
-        plane_surface(&scene.planes[hit.shape as usize], point, hit.local.truncate())
-    } else if hit.shape < planes + spheres {
-        sphere_surface(&scene.spheres[(hit.shape - planes) as usize], point)
-    } else {
-        triangle_surface(&scene.triangles[(hit.shape - planes - spheres) as usize], point, hit.local)
+/// What the surface's map looks at.
+pub fn seen_by_map(map: &Map, ray: &Ray, surface: &Surface, print: &Footprint) -> Seen {
+    let own = |d: DVec3| DVec2::from_array(surface.own_gradients.map(|g| g.dot(d)));
+    let mut seen = Seen {
+        entity: surface.point,
+        entity_change: print.point,
+        own: surface.own_uv,
+        own_change: print.point.map(own),
     };
-    if surface.geometric_normal.dot(ray.direction) > 0.0 {
-        surface.geometric_normal = -surface.geometric_normal;
-        surface.normal = -surface.normal;
+    let bent = print.point.map(|d| surface.bend * d);
+    let (mut way, mut change) = (ray.direction, print.direction);
+    match EntityKind::ALL[map.link[1] as usize] {
+        EntityKind::Position => return seen,
+        EntityKind::Normal => {
+            (seen.entity, seen.entity_change) = (surface.normal, bent);
+            return seen;
+        }
+        EntityKind::Reflection => {
+            change = [0, 1].map(|i| mirrored_change(way, surface.normal, change[i], bent[i]));
+            way = mirrored(way, surface.normal);
+        }
+        EntityKind::Direction => {}
     }
-    surface
+    // Of unit length; its change is at right angles to it.
+    let length = way.length();
+    let unit = way / length;
+    seen.entity = unit;
+    seen.entity_change = change.map(|d| (d - unit.dot(d) * unit) / length);
+    seen
+}
+
+/// Gradients of u and v along the surface, from their changes along two tangents.
+pub fn uv_gradients(map: &Map, ray: &Ray, surface: &Surface) -> [DVec3; 2] {
+    let n = surface.geometric_normal;
+    let first = any_tangent(n);
+    let second = n.cross(first);
+    let print = Footprint { point: [first, second], direction: [DVec3::ZERO; 2] };
+    let [x, y] = texture_coordinate(map, &seen_by_map(map, ray, surface, &print)).change;
+    [first * x.x + second * y.x, first * x.y + second * y.y]
+}
+
+fn detail(scene: &PackedScene, material: &Material, c: &Coordinate, random: [u32; 2]) -> DVec4 {
+    let [texture, sampler, _, _] = material.detail;
+    look_up(scene, &scene.textures[texture as usize], &scene.samplers[sampler as usize], c, random)
+}
+
+/// The shading normal after the material's relief.
+pub fn bumped_normal(
+    scene: &PackedScene,
+    material: &Material,
+    map: &Map,
+    at: (&Ray, &Surface, &Footprint),
+    random: [u32; 2],
+) -> DVec3 {
+    let (ray, surface, print) = at;
+    let [texture, _, _, kind] = material.detail;
+    if texture == NO_TEXTURE {
+        return surface.normal;
+    }
+    let side = if surface.inside { -1.0 } else { 1.0 };
+    let n = side * surface.normal;
+    let strength = f64::from(material.color[3]);
+    let [u, v] = uv_gradients(map, ray, surface);
+    let c = texture_coordinate(map, &seen_by_map(map, ray, surface, print));
+    let result = if kind == ReliefKind::Normal as u32 {
+        let handed = if u.cross(v).dot(n) < 0.0 { -1.0 } else { 1.0 };
+        let m = 2.0 * detail(scene, material, &c, random).truncate() - 1.0;
+        let t = v.cross(n).normalize_or_zero();
+        let b = n.cross(u).normalize_or_zero();
+        n * m.z + (t * m.x + b * m.y) * strength * handed
+    } else {
+        let image = &scene.textures[texture as usize];
+        let texel = DVec2::new(1.0 / f64::from(image.place[1]), 1.0 / f64::from(image.place[2]));
+        let wide = 0.5 * c.change[0].abs().max(c.change[1].abs()).truncate();
+        let step = texel.max(wide);
+        let height = |x: f64, y: f64| {
+            let at = c.at + DVec3::new(x, y, 0.0);
+            detail(scene, material, &Coordinate { at, ..c }, random).x
+        };
+        let rise = DVec2::new(height(step.x, 0.0) - height(-step.x, 0.0), height(0.0, step.y) - height(0.0, -step.y));
+        let slope = 0.5 * strength * rise / step;
+        n - slope.x * u - slope.y * v
+    };
+    side * result.try_normalize().unwrap_or(n)
 }
 
 /// The material's colour, linear RGB, times its texture where it has one.
-pub fn surface_color(scene: &PackedScene, material: &Material, surface: &Surface) -> DVec3 {
+pub fn surface_color(scene: &PackedScene, material: &Material, map: Option<&Map>, at: (&Ray, &Surface, &Footprint), random: [u32; 2]) -> DVec3 {
     let color = xyz(material.color);
     let [_, texture, sampler, _] = material.link;
-    if texture == NO_TEXTURE {
-        return color;
-    }
-    let uv = texture_coordinate(&scene.maps[surface.map as usize], surface.point, surface.own_uv);
-    let texel = look_up(scene, &scene.textures[texture as usize], &scene.samplers[sampler as usize], uv);
-    color * texel.truncate()
+    let (Some(map), true) = (map, texture != NO_TEXTURE) else { return color };
+    let (ray, surface, print) = at;
+    let c = texture_coordinate(map, &seen_by_map(map, ray, surface, print));
+    let image = &scene.textures[texture as usize];
+    color * look_up(scene, image, &scene.samplers[sampler as usize], &c, random).truncate()
 }
 
-/// Irradiance over π from all lights: what an albedo of 1 sends on.
-pub fn direct_light(scene: &PackedScene, surface: &Surface, shape: u32) -> DVec3 {
-    let mut sum = DVec3::ZERO;
-    let start = offset_origin(surface.point, surface.geometric_normal);
-    for light in &scene.lights {
-        let point_light = light.link[0] == LightKind::Point as u32;
-        let way = if point_light { xyz(light.place) - surface.point } else { xyz(light.place) };
-        let squared = way.dot(way);
-        let facing = surface.normal.dot(way);
-        let share = if point_light { facing / (squared * squared.sqrt()) } else { facing };
-        if facing > 0.0 && surface.geometric_normal.dot(way) > 0.0 {
-            let (to_light, t_max) =
-                if point_light { (xyz(light.place) - start, 1.0) } else { (xyz(light.place), FAR) };
-            if !occluded(scene, &Ray { origin: start, direction: to_light }, t_max, shape) {
-                sum += xyz(light.power) * (share / PI);
-            }
-        }
-    }
-    sum
-}
-
-/// d - 2 (d·n) n, for unit n.
-pub fn mirrored(direction: DVec3, normal: DVec3) -> DVec3 {
-    direction - 2.0 * direction.dot(normal) * normal
-}
-
-/// A path between two hits: the ray, what it still carries, the shape that it leaves.
+/// A path between two hits: the ray, how wide it is, what it still carries, the shape that it leaves.
 pub struct Path {
     pub ray: Ray,
+    pub beam: Beam,
     pub throughput: DVec3,
+    /// Bits for the choices at the next hit.
+    pub random: [u32; 2],
     pub skip: u32,
     pub depth: u32,
     /// False: the path has ended.
     pub goes_on: bool,
 }
 
-pub fn camera_path(ray: Ray) -> Path {
-    Path { ray, throughput: DVec3::ONE, skip: NO_SHAPE, depth: 0, goes_on: true }
+pub fn camera_path(ray: Ray, beam: Beam, random: [u32; 2]) -> Path {
+    Path { ray, beam, throughput: DVec3::ONE, random, skip: NO_SHAPE, depth: 0, goes_on: true }
+}
+
+/// Where a mirrored or refracted path goes on; false where the material ends it.
+fn bounced(hit: &Hit, surface: &Surface, print: Footprint, material: &Material, path: &mut Path) -> bool {
+    let model = Model::ALL[material.link[0] as usize];
+    if !matches!(model, Model::Mirror | Model::Dielectric) {
+        return false;
+    }
+    let ior = f64::from(material.specular[3]);
+    let ratio = if surface.inside { ior } else { 1.0 / ior };
+    let direction = path.ray.direction;
+    let chance = f64::from(pcg2d(path.random)[0] >> 8) / 16_777_216.0;
+    let mirror = model == Model::Mirror || chance < reflectance(direction, surface.normal, ratio);
+    let meeting = Meeting {
+        ray: path.ray,
+        t: hit.t,
+        print,
+        normal: surface.normal,
+        bend: surface.bend,
+        curvature: surface.curvature,
+    };
+    if mirror {
+        let origin = offset_origin(surface.point, surface.geometric_normal);
+        path.ray = Ray { origin, direction: mirrored(direction, surface.normal) };
+        path.beam = mirrored_beam(&path.beam, &meeting);
+    } else {
+        let origin = offset_origin(surface.point, -surface.geometric_normal);
+        path.ray = Ray { origin, direction: refracted(direction, surface.normal, ratio) };
+        path.beam = refracted_beam(&path.beam, &meeting, ratio);
+    }
+    true
+}
+
+/// What a ray sees that hits nothing.
+fn background(scene: &PackedScene, path: &Path) -> DVec3 {
+    let header = &scene.header;
+    if header.counts[3] == NO_MATERIAL {
+        return path.throughput * xyz(header.background);
+    }
+    let material = &scene.materials[header.counts[3] as usize];
+    let map = &scene.maps[header.key[3] as usize];
+    let print = if is_filtered(header) {
+        endless_footprint(header, &path.beam, &path.ray)
+    } else {
+        Footprint::default()
+    };
+    let nowhere = Surface::default();
+    path.throughput * surface_color(scene, material, Some(map), (&path.ray, &nowhere, &print), path.random)
 }
 
 /// Follows the path to its next hit; what that adds to the sample is returned.
@@ -129,22 +185,37 @@ pub fn advance(scene: &PackedScene, path: &mut Path) -> DVec3 {
     let hit = nearest_hit(scene, &path.ray, path.skip);
     path.goes_on = false;
     if hit.shape == NO_SHAPE {
-        return path.throughput * xyz(scene.header.background);
+        return background(scene, path);
     }
-    let surface = hit_surface(scene, &path.ray, &hit);
-    let material = &scene.materials[surface.material as usize];
-    path.throughput *= surface_color(scene, material, &surface);
-    match Model::ALL[material.link[0] as usize] {
-        Model::Unlit => return path.throughput,
-        Model::Lambert => return path.throughput * direct_light(scene, &surface, hit.shape),
-        Model::Mirror => {}
-    }
-    path.ray = Ray {
-        origin: offset_origin(surface.point, surface.geometric_normal),
-        direction: mirrored(path.ray.direction, surface.normal),
+    let header = &scene.header;
+    let mut surface = hit_surface(scene, &path.ray, &hit);
+    let print = if is_filtered(header) {
+        footprint_at(header, &path.beam, &path.ray, hit.t, surface.geometric_normal)
+    } else {
+        Footprint::default()
     };
+    let material = &scene.materials[surface.material as usize];
+    let map = scene.maps.get(surface.map as usize);
+    let ray = path.ray;
+    if let Some(map) = map {
+        surface.normal = bumped_normal(scene, material, map, (&ray, &surface, &print), path.random);
+    }
+    let carried = path.throughput;
+    path.throughput *= surface_color(scene, material, map, (&ray, &surface, &print), path.random);
+    let model = Model::ALL[material.link[0] as usize];
+    if model == Model::Unlit {
+        return path.throughput;
+    }
+    if model.is_lit() {
+        let mirror = mirrored(ray.direction, surface.normal);
+        let lit = direct_light(scene, &surface, hit.shape, mirror, material.specular[3].into());
+        let highlight = if model == Model::Phong { lit.specular } else { DVec3::ZERO };
+        return path.throughput * lit.diffuse + carried * xyz(material.specular) * highlight;
+    }
+    let goes_on = bounced(&hit, &surface, print, material, path);
     path.skip = hit.shape;
-    path.goes_on = path.depth < scene.header.size[3];
+    path.goes_on = goes_on && path.depth < header.size[3];
     path.depth += 1;
+    path.random = pcg2d(path.random);
     DVec3::ZERO
 }

@@ -1,21 +1,39 @@
-//! (texture, sampler, u, v) → linear RGBA in f64, from the packed bytes. Follows Vulkan 1.3, "Image
-//! Sample Operations". Twin of `glsl/shared/texture.glsl`.
+//! Texels: which one an addressed place means, and its value as linear RGBA in f64, from the packed
+//! bytes. Follows Vulkan 1.3, "Image Sample Operations". Twin of `glsl/shared/texture.glsl`.
 
-use glam::{DVec2, DVec4};
+use glam::DVec4;
 
 use super::math::vec4;
 use crate::color::srgb_to_linear;
 use crate::layout::{Sampler, Texture};
-use crate::pack::PackedScene;
+use crate::pack::{PackedScene, TextureKind};
 use crate::texture::data::{ColorSpace, Component, TexelFormat};
-use crate::texture::sampler_spec::{Address, Filter, TexelCenter};
+use crate::texture::sampler_spec::Address;
 
-/// One texel; grey is replicated, missing alpha is 1, sRGB decoded.
-pub fn fetch_texel(scene: &PackedScene, image: &Texture, x: i64, y: i64) -> DVec4 {
-    let [first_word, width, _, format] = image.place;
-    let format = TexelFormat::ALL[format as usize];
-    let texel = y as usize * width as usize + x as usize;
-    let start = first_word as usize * 4 + texel * format.bytes_per_texel();
+/// One level of a texture's pyramid.
+#[derive(Clone, Copy, Debug)]
+pub struct Level {
+    /// Of a cube: width, height, 6.
+    pub size: [i64; 3],
+    pub index: u32,
+    /// Where it begins in the texel buffer.
+    pub word: u32,
+}
+
+/// Level sizes are halved and rounded down (Vulkan 1.3, "Image Miplevel Sizing").
+pub fn level_at(scene: &PackedScene, image: &Texture, index: u32) -> Level {
+    let [first_word, width, height, _] = image.place;
+    let [_, _, depth, kind] = image.link;
+    let halved = |n: u32| i64::from((n >> index).max(1));
+    let depth = if kind == TextureKind::Volume as u32 { halved(depth) } else { i64::from(depth) };
+    Level { size: [halved(width), halved(height), depth], index, word: scene.level_word(first_word, index) }
+}
+
+/// One texel by column, row and slice; grey is replicated, missing alpha is 1, sRGB decoded.
+pub fn fetch_texel(scene: &PackedScene, image: &Texture, level: &Level, at: [i64; 3]) -> DVec4 {
+    let format = TexelFormat::ALL[image.place[3] as usize];
+    let texel = ((at[2] * level.size[1] + at[1]) * level.size[0] + at[0]) as usize;
+    let start = level.word as usize * 4 + texel * format.bytes_per_texel();
     let bytes = &scene.texels[start..start + format.bytes_per_texel()];
     let channel = |i: usize| match format.component() {
         Component::Unorm8 => f64::from(bytes[i]) / 255.0,
@@ -58,39 +76,42 @@ pub fn addressed_texel(mode: Address, i: i64, size: i64) -> Option<i64> {
     }
 }
 
-/// The texel at addressed (x, y), or the border colour where either is `None`.
+/// The address modes of u, v and w.
+pub fn addresses(how: &Sampler) -> [Address; 3] {
+    [how.modes[0], how.modes[1], how.more[0]].map(|mode| Address::ALL[mode as usize])
+}
+
+/// The texel at a place, addressed, or the border colour; `axes` counts those that are addressed.
 pub fn fetch_or_border(
     scene: &PackedScene,
     image: &Texture,
     how: &Sampler,
-    at: (Option<i64>, Option<i64>),
+    level: &Level,
+    at: [i64; 3],
+    axes: usize,
 ) -> DVec4 {
-    match at {
-        (Some(x), Some(y)) => fetch_texel(scene, image, x, y),
-        _ => vec4(how.border),
+    let mut place = at;
+    for (axis, mode) in addresses(how).into_iter().take(axes).enumerate() {
+        match addressed_texel(mode, at[axis], level.size[axis]) {
+            Some(texel) => place[axis] = texel,
+            None => return vec4(how.border),
+        }
     }
+    fetch_texel(scene, image, level, place)
 }
 
-pub fn look_up(scene: &PackedScene, image: &Texture, how: &Sampler, uv: DVec2) -> DVec4 {
-    let [u, v] = [how.modes[0], how.modes[1]].map(|mode| Address::ALL[mode as usize]);
-    let (width, height) = (image.place[1], image.place[2]);
-    // Texel i is centred at i + ½, or at i: half a texel is then added before addressing.
-    let integer_centers = how.modes[3] == TexelCenter::Integer as u32;
-    let shift = if integer_centers { 0.5 } else { 0.0 };
-    let x = reduced_coordinate(u, uv.x, f64::from(width)) + shift;
-    let y = reduced_coordinate(v, uv.y, f64::from(height)) + shift;
-    let texel = |i: f64, j: f64| {
-        let at =
-            (addressed_texel(u, i as i64, i64::from(width)), addressed_texel(v, j as i64, i64::from(height)));
-        fetch_or_border(scene, image, how, at)
-    };
-    if how.modes[2] == Filter::Nearest as u32 {
-        return texel(x.floor(), y.floor());
+/// A flat texture's texel at (column, row), addressed. Over a pole of an environment the same row goes
+/// on, half a turn away.
+pub fn flat_texel(scene: &PackedScene, image: &Texture, how: &Sampler, level: &Level, at: [i64; 2]) -> DVec4 {
+    let [mut x, mut y] = at;
+    let [width, height, _] = level.size;
+    if how.more[1] == 0 {
+        return fetch_or_border(scene, image, how, level, [x, y, 0], 2);
     }
-    let (x, y) = (x - 0.5, y - 0.5);
-    let (i, j) = (x.floor(), y.floor());
-    let (a, b) = (x - i, y - j);
-    let top = texel(i, j) * (1.0 - a) + texel(i + 1.0, j) * a;
-    let bottom = texel(i, j + 1.0) * (1.0 - a) + texel(i + 1.0, j + 1.0) * a;
-    top * (1.0 - b) + bottom * b
+    if !(0..height).contains(&y) {
+        x += width / 2;
+        y = if y < 0 { -1 - y } else { 2 * height - 1 - y };
+    }
+    let x = addressed_texel(addresses(how)[0], x, width).unwrap_or(0);
+    fetch_texel(scene, image, level, [x, y.clamp(0, height - 1), 0])
 }

@@ -5,9 +5,9 @@
 
 use glam::{DMat2, DQuat, DVec2, DVec3, DVec4};
 
-use super::{MapKind, vec4};
+use super::{EntityKind, MapKind, vec4};
 use crate::layout::Map;
-use crate::scene::model::{Mapping, MappingKind, Space};
+use crate::scene::model::{Entity, Environment, EnvironmentLayout, Mapping, MappingKind, Space};
 use crate::texture::sampler_spec::{Address, SamplerSpec};
 
 /// An axis-aligned box around a shape.
@@ -17,18 +17,30 @@ pub struct Bounds {
     pub max: DVec3,
 }
 
+/// What a map may need to know of the shape.
+#[derive(Clone, Copy, Debug)]
+pub struct Place {
+    /// Of shapes that end.
+    pub centroid: Option<DVec3>,
+    pub bounds: Option<Bounds>,
+}
+
 /// The linear part of scale, then rotation: uv' = matrix · uv + offset.
 pub fn uv_matrix(mapping: &Mapping) -> DMat2 {
     DMat2::from_angle(mapping.rotate.to_radians()) * DMat2::from_diagonal(mapping.scale)
 }
 
-/// How many tiles may be taken out of u and v without changing a look-up; 0 for none.
-pub fn periods(sampler: &SamplerSpec) -> DVec2 {
-    let period = |address| match address {
+/// How many tiles may be taken out of a coordinate without changing a look-up; 0 for none.
+pub fn period(address: Address) -> f64 {
+    match address {
         Address::Repeat => 1.0,
         Address::MirroredRepeat => 2.0,
         Address::ClampToEdge | Address::ClampToBorder | Address::MirrorClampToEdge => 0.0,
-    };
+    }
+}
+
+/// The same for u and v.
+pub fn periods(sampler: &SamplerSpec) -> DVec2 {
     DVec2::new(period(sampler.address[0]), period(sampler.address[1]))
 }
 
@@ -67,17 +79,48 @@ fn matrix_map(mapping: &Mapping, kind: MapKind) -> Map {
     }
 }
 
-/// `planar`, `cylindrical` or `spherical`, by position relative to the eye.
-pub fn projecting_map(mapping: &Mapping, sampler: &SamplerSpec, eye: DVec3, bounds: Option<Bounds>) -> Map {
-    let [x, y, z] = frame_rows(mapping, eye, bounds);
-    match mapping.kind {
+/// Every kind but `surface` on planes and triangles. `center` is the shape's centroid, `bounds` its box;
+/// `flat` says that the texture has two dimensions, or one.
+pub fn projecting_map(mapping: &Mapping, sampler: &SamplerSpec, eye: DVec3, place: &Place, flat: bool) -> Map {
+    let [x, y, z] = frame_rows(mapping, eye, place);
+    let map = match mapping.kind {
         MappingKind::Planar => affine_map(mapping, sampler, x, y),
         MappingKind::Cylindrical => angular_map(mapping, sampler, MapKind::Cylindrical, [x, y, z]),
         // `surface` reaches this on spheres only, whose own coordinates are the two angles.
         MappingKind::Spherical | MappingKind::Surface => {
             angular_map(mapping, sampler, MapKind::Spherical, [x, y, z])
         }
-    }
+        MappingKind::Cube if flat => angular_map(mapping, sampler, MapKind::Box, [x, y, z]),
+        MappingKind::Cube => {
+            let rows = turned_about_axis(mapping, [x, y, z]);
+            Map { x: vec4(rows[0]), y: vec4(rows[1]), z: vec4(rows[2]), ..of_kind(MapKind::Cube) }
+        }
+        MappingKind::Solid => solid_map(mapping, sampler, [x, y, z], flat),
+    };
+    let entity = match mapping.entity {
+        Entity::Position | Entity::Centroid => EntityKind::Position,
+        Entity::Normal => EntityKind::Normal,
+        Entity::Reflection => EntityKind::Reflection,
+    };
+    Map { link: [map.link[0], entity as u32, 0, 0], ..map }
+}
+
+/// The map of an environment: `spherical` with the equator's angle as u, or the direction for a cube.
+pub fn environment_map(environment: &Environment) -> Map {
+    let turn = DQuat::from_rotation_y(environment.rotate.to_radians());
+    let (axes, kind, matrix) = match environment.layout {
+        // The angle grows from +z towards -x, so that -z is in the middle and +x to its right.
+        EnvironmentLayout::Equirectangular => {
+            ([DVec3::Z, DVec3::Y, DVec3::NEG_X], MapKind::Spherical, [0.0, 1.0, 1.0, 0.0])
+        }
+        EnvironmentLayout::Cube => ([DVec3::X, DVec3::Y, DVec3::Z], MapKind::Cube, [1.0, 0.0, 0.0, 1.0]),
+    };
+    let [x, y, z] = axes.map(|axis| vec4((turn * axis).extend(0.0)));
+    Map { x, y, z, matrix, link: [kind as u32, EntityKind::Direction as u32, 0, 0], ..Default::default() }
+}
+
+fn of_kind(kind: MapKind) -> Map {
+    Map { link: [kind as u32, 0, 0, 0], ..Default::default() }
 }
 
 fn angular_map(mapping: &Mapping, sampler: &SamplerSpec, kind: MapKind, [x, y, z]: [DVec4; 3]) -> Map {
@@ -91,17 +134,40 @@ fn angular_map(mapping: &Mapping, sampler: &SamplerSpec, kind: MapKind, [x, y, z
     }
 }
 
-/// Rows that give the frame coordinates of an eye-relative point. The frame's y is the mapping's
-/// axis; x and z follow by the smallest rotation that takes +y there. In `bounds` space the shape's
-/// box runs from -1 to 1 on each axis; a box that is flat on an axis keeps world units there.
-fn frame_rows(mapping: &Mapping, eye: DVec3, bounds: Option<Bounds>) -> [DVec4; 3] {
+/// Scale, rotation about the frame's axis, offset; whole tiles leave texel arrays, while a procedural
+/// texture (`endless`) repeats nowhere.
+fn solid_map(mapping: &Mapping, sampler: &SamplerSpec, rows: [DVec4; 3], endless: bool) -> Map {
+    let scale = mapping.scale.extend(mapping.scale_w).to_array();
+    let offset = mapping.offset.extend(mapping.offset_w).to_array();
+    let mut rows = turned_about_axis(mapping, rows);
+    let period = [sampler.address[0], sampler.address[1], sampler.address_w].map(period);
+    for (i, row) in rows.iter_mut().enumerate() {
+        *row *= scale[i];
+        row.w += offset[i];
+        if !endless && period[i] > 0.0 {
+            row.w -= (row.w / period[i]).floor() * period[i];
+        }
+    }
+    Map { x: vec4(rows[0]), y: vec4(rows[1]), z: vec4(rows[2]), ..of_kind(MapKind::Solid) }
+}
+
+/// Frame coordinates after a turn by `rotate` about the frame's y, from z towards x.
+fn turned_about_axis(mapping: &Mapping, [x, y, z]: [DVec4; 3]) -> [DVec4; 3] {
+    let (sin, cos) = mapping.rotate.to_radians().sin_cos();
+    [x * cos + z * sin, y, z * cos - x * sin]
+}
+
+/// Rows that give the frame coordinates of an eye-relative point, or of a direction. The frame's y is
+/// the mapping's axis; x and z follow by the smallest rotation that takes +y there. In `bounds` space the
+/// shape's box runs from -1 to 1 on each axis; a box that is flat on an axis keeps world units there.
+fn frame_rows(mapping: &Mapping, eye: DVec3, place: &Place) -> [DVec4; 3] {
     let axis = mapping.axis.normalize();
     let turn = if axis.y < -1.0 + 1e-12 {
         DQuat::from_axis_angle(DVec3::X, std::f64::consts::PI)
     } else {
         DQuat::from_rotation_arc(DVec3::Y, axis)
     };
-    let (center, stretch) = match (mapping.space, bounds) {
+    let (center, stretch) = match (mapping.space, place.bounds) {
         (Space::Bounds, Some(b)) => {
             let half = 0.5 * (b.max - b.min);
             let or_one = |h: f64| if h > 0.0 { 1.0 / h } else { 1.0 };
@@ -109,10 +175,19 @@ fn frame_rows(mapping: &Mapping, eye: DVec3, bounds: Option<Bounds>) -> [DVec4; 
         }
         _ => (DVec3::ZERO, DVec3::ONE),
     };
+    let origin = if mapping.entity == Entity::Centroid {
+        // Through the box's scale, where there is one, as every point goes.
+        mapping.origin + stretch * (place.centroid.unwrap_or(DVec3::ZERO) - center)
+    } else {
+        mapping.origin
+    };
     // local = axes · (stretch ∘ (p + eye - center) - origin)
     [DVec3::X, DVec3::Y, DVec3::Z].map(|unit| {
         let row = turn * unit;
-        let constant = row.dot(stretch * (eye - center) - mapping.origin);
+        if mapping.entity.is_direction() {
+            return row.extend(0.0);
+        }
+        let constant = row.dot(stretch * (eye - center) - origin);
         (row * stretch).extend(constant)
     })
 }

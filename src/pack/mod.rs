@@ -13,7 +13,9 @@ use crate::color::srgb8_table;
 use crate::error::Result;
 use crate::layout::{self, Header};
 use crate::named::named_enum;
-use crate::scene::model::{Light, Pattern, Projection, Scene};
+use crate::scene::model::{
+    Environment, EnvironmentLayout, Footprint, Light, Material, Model, Pattern, Projection, Scene,
+};
 use crate::texture::data::TextureData;
 use crate::texture::sampler_spec::{Method, SamplerSpec};
 
@@ -44,6 +46,30 @@ named_enum! {
         VertexUv = "vertex-uv",
         Cylindrical = "cylindrical",
         Spherical = "spherical",
+        Solid = "solid",
+        Cube = "cube",
+        Box = "box",
+    }
+}
+
+named_enum! {
+    /// `ENTITY_*` of the shader: the vector that a map looks at.
+    pub enum EntityKind {
+        Position = "position",
+        Normal = "normal",
+        Reflection = "reflection",
+        /// Of the ray: an environment's.
+        Direction = "direction",
+    }
+}
+
+named_enum! {
+    /// `TEXTURE_KIND_*` of the shader.
+    pub enum TextureKind {
+        /// One or two dimensions.
+        Flat = "flat",
+        Volume = "volume",
+        Cube = "cube",
     }
 }
 
@@ -69,8 +95,6 @@ pub struct PackedScene {
     pub textures: Vec<layout::Texture>,
     pub samplers: Vec<layout::Sampler>,
     pub procedurals: Vec<layout::Procedural>,
-    /// Are they averaged over footprints? Where not, each look-up must pass a footprint of zero.
-    pub procedurals_filtered: bool,
     /// Names of the textures, for messages.
     pub texture_names: Vec<String>,
     /// Channels that each texture's file has, for messages.
@@ -79,8 +103,13 @@ pub struct PackedScene {
     pub sampler_specs: Vec<SamplerSpec>,
     /// Texels of all textures one after the other, each beginning at a whole 32-bit word.
     pub texels: Vec<u8>,
-    /// Which texture is read through which sampler object; filled where images are used.
+    /// Which texture is read through which image descriptor: flat ones, volumes, cubes. The last two are
+    /// read through images by method hardware only.
     pub slots: Vec<Slot>,
+    pub volume_slots: Vec<Slot>,
+    pub cube_slots: Vec<Slot>,
+    /// Bytes at the front of `texels` that a pipeline with images needs too: no image holds them.
+    pub solid_bytes: usize,
     /// Samples per pixel.
     pub samples: u32,
 }
@@ -100,41 +129,101 @@ pub struct Sections {
     pub srgb: u32,
 }
 
+/// Image descriptors of each kind.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct SlotCounts {
+    pub flat: u32,
+    pub volumes: u32,
+    pub cubes: u32,
+}
+
 /// Packs what the scene shows; textures and samplers that no shape reaches are not in `scene`.
 pub fn pack(scene: &Scene, textures: Vec<TextureData>, crop: Option<Crop>) -> Result<PackedScene> {
     let crop = crop.unwrap_or(Crop { x: 0, y: 0, width: scene.width, height: scene.height });
     let mut packed = PackedScene { samples: scene.sampling.samples(), ..Default::default() };
     packed.header = header(scene, crop);
+    let filtered = packed.header.key[2] != Footprint::None as u32;
     packed.sampler_specs = scene.samplers.clone();
-    packed.samplers = scene.samplers.iter().map(textures::sampler).collect();
-    textures::pack_textures(&mut packed, textures)?;
-    for material in &scene.materials {
-        let slot = match material.texture {
-            Some(texture) => textures::slot(&mut packed, texture, material.sampler),
-            None => 0,
-        };
-        packed.materials.push(layout::Material {
-            color: vec4(material.color.extend(1.0)),
-            link: [
-                material.model as u32,
-                material.texture.map_or(layout::NO_TEXTURE, |t| t as u32),
-                material.sampler as u32,
-                slot,
-            ],
-        });
+    packed.samplers = scene.samplers.iter().map(|spec| textures::sampler(spec, filtered)).collect();
+    textures::pack_textures(&mut packed, scene, textures)?;
+    for source in &scene.materials {
+        let material = material(&mut packed, source);
+        packed.materials.push(material);
     }
     shapes::pack_shapes(&mut packed, scene)?;
+    if let Some(environment) = &scene.background.environment {
+        pack_environment(&mut packed, scene, environment);
+    }
     packed.lights = scene.lights.iter().map(|l| light(l, scene.camera.eye)).collect();
     packed.header.key[1] = packed.lights.len() as u32;
-    packed.header.counts =
-        [packed.planes.len() as u32, packed.spheres.len() as u32, packed.triangles.len() as u32, 0];
+    let counts = [packed.planes.len(), packed.spheres.len(), packed.triangles.len()].map(|n| n as u32);
+    packed.header.counts[..3].copy_from_slice(&counts);
     Ok(packed)
+}
+
+fn material(packed: &mut PackedScene, source: &Material) -> layout::Material {
+    let mut slot = |texture: Option<usize>| match texture {
+        Some(texture) => textures::slot(packed, texture, source.sampler),
+        None => 0,
+    };
+    let index = |texture: Option<usize>| texture.map_or(layout::NO_TEXTURE, |t| t as u32);
+    let relief = source.relief;
+    let relief_texture = relief.map(|r| r.texture);
+    let fourth = if source.model == Model::Dielectric { source.ior } else { source.exponent };
+    layout::Material {
+        color: vec4(source.color.extend(relief.map_or(0.0, |r| r.strength))),
+        link: [source.model as u32, index(source.texture), source.sampler as u32, slot(source.texture)],
+        detail: [
+            index(relief_texture),
+            source.sampler as u32,
+            slot(relief_texture),
+            relief.map_or(0, |r| r.kind as u32),
+        ],
+        specular: vec4(source.specular.extend(fourth)),
+    }
+}
+
+/// The environment is the last material, unlit, with the last map.
+fn pack_environment(packed: &mut PackedScene, scene: &Scene, environment: &Environment) {
+    let mut sampler = environment.sampler;
+    if environment.layout == EnvironmentLayout::Equirectangular {
+        // The same sampler on a shape does not go on over poles.
+        let mut record = packed.samplers[sampler];
+        record.more[1] = 1;
+        packed.samplers.push(record);
+        packed.sampler_specs.push(packed.sampler_specs[sampler]);
+        sampler = packed.samplers.len() - 1;
+    }
+    let slot = textures::slot(packed, environment.texture, sampler);
+    packed.header.counts[3] = packed.materials.len() as u32;
+    packed.header.key[3] = packed.maps.len() as u32;
+    packed.maps.push(mapping::environment_map(environment));
+    packed.materials.push(layout::Material {
+        color: vec4(scene.background.color.extend(0.0)),
+        link: [Model::Unlit as u32, environment.texture as u32, sampler as u32, slot],
+        detail: [layout::NO_TEXTURE, 0, 0, 0],
+        specular: [0.0; 4],
+    });
 }
 
 impl PackedScene {
     /// Does any look-up go through the device's own samplers?
     pub fn uses_hardware_samplers(&self) -> bool {
-        self.slots.iter().any(|s| self.sampler_specs[s.sampler].method == Method::Hardware)
+        let mut slots = self.slots.iter().chain(&self.volume_slots).chain(&self.cube_slots);
+        slots.any(|s| self.sampler_specs[s.sampler].method == Method::Hardware)
+    }
+
+    /// Is there anything to look up that images of flat textures do not hold?
+    pub fn has_solids(&self) -> bool {
+        self.textures.iter().any(|t| t.link[3] != TextureKind::Flat as u32)
+    }
+
+    pub fn slot_counts(&self) -> SlotCounts {
+        SlotCounts {
+            flat: self.slots.len() as u32,
+            volumes: self.volume_slots.len() as u32,
+            cubes: self.cube_slots.len() as u32,
+        }
     }
 
     /// The scene buffer and where its lists begin: the short ones first, so that all of them lie in
@@ -182,11 +271,12 @@ fn header(scene: &Scene, crop: Crop) -> Header {
     };
     let pixel = 2.0 * half_height / f64::from(scene.height);
     let side = scene.sampling.strata_side();
+    let share = 1.0 / f64::from(scene.sampling.samples()).sqrt();
     Header {
         forward: vec4(forward.extend(0.0)),
-        step_x: vec4((right * pixel).extend(0.0)),
-        step_y: vec4((-up * pixel).extend(0.0)),
-        background: vec4(scene.background.extend(1.0)),
+        step_x: vec4((right * pixel).extend(share)),
+        step_y: vec4((-up * pixel).extend(pixel)),
+        background: vec4(scene.background.color.extend(1.0)),
         image: [scene.width, scene.height, crop.x, crop.y],
         size: [crop.width, crop.height, projection as u32, scene.sampling.max_depth],
         sampling: [
@@ -195,9 +285,20 @@ fn header(scene: &Scene, crop: Crop) -> Header {
             side.next_power_of_two().trailing_zeros(),
             scene.sampling.seed,
         ],
-        key: [u32::from(scene.sampling.shared && scene.sampling.pattern == Pattern::Stratified), 0, 0, 0],
-        counts: [0; 4],
+        key: [
+            u32::from(scene.sampling.shared && scene.sampling.pattern == Pattern::Stratified),
+            0,
+            footprint(scene) as u32,
+            0,
+        ],
+        counts: [0, 0, 0, layout::NO_MATERIAL],
     }
+}
+
+/// The footprint, if there is a filter that asks for it.
+fn footprint(scene: &Scene) -> Footprint {
+    let needed = scene.samplers.iter().any(SamplerSpec::needs_footprint);
+    if needed { scene.sampling.footprint } else { Footprint::None }
 }
 
 fn light(light: &Light, eye: DVec3) -> layout::Light {

@@ -2,11 +2,11 @@
 
 use glam::{DVec2, DVec3, DVec4};
 
-use super::mapping::{self, Bounds};
-use super::{MapKind, PackedScene, vec4};
+use super::mapping::{self, Bounds, Place};
+use super::{MapKind, PackedScene, TextureKind, vec4};
 use crate::error::{Error, Result};
 use crate::layout;
-use crate::scene::model::{Mapping, MappingKind, Material, Plane, Scene, Space, Sphere, Triangle};
+use crate::scene::model::{Entity, Mapping, MappingKind, Material, Plane, Scene, Space, Sphere, Triangle};
 use crate::texture::sampler_spec::SamplerSpec;
 
 pub fn pack_shapes(packed: &mut PackedScene, scene: &Scene) -> Result<()> {
@@ -16,10 +16,11 @@ pub fn pack_shapes(packed: &mut PackedScene, scene: &Scene) -> Result<()> {
         packed.planes.push(record);
     }
     for sphere in &scene.spheres {
-        let map = add_map(packed, scene, sphere.material, |mapping, sampler| {
+        let map = add_map(packed, scene, sphere.material, |mapping, sampler, flat| {
             let around_center = Mapping { origin: sphere.center, ..*mapping };
             let mapping = if mapping.kind == MappingKind::Surface { &around_center } else { mapping };
-            mapping::projecting_map(mapping, sampler, eye, Some(sphere_bounds(sphere)))
+            let place = Place { centroid: Some(sphere.center), bounds: Some(sphere_bounds(sphere)) };
+            mapping::projecting_map(mapping, sampler, eye, &place, flat)
         });
         packed.spheres.push(layout::Sphere {
             ball: vec4((sphere.center - eye).extend(sphere.radius)),
@@ -48,7 +49,7 @@ fn pack_plane(packed: &mut PackedScene, scene: &Scene, plane: &Plane, eye: DVec3
     let [u, v] = plane_rows(plane, eye);
     let bounds = plane.half_extent.map(|h| plane_bounds(plane, h));
     let material = &scene.materials[plane.material];
-    if material.texture.is_some() && material.mapping.space == Space::Bounds && bounds.is_none() {
+    if material.is_mapped() && material.mapping.space == Space::Bounds && bounds.is_none() {
         return Err(Error::with_help(
             format!(
                 "material \"{}\": mapping in the space of the shape's box, on an infinite plane",
@@ -57,9 +58,16 @@ fn pack_plane(packed: &mut PackedScene, scene: &Scene, plane: &Plane, eye: DVec3
             "give the plane a half_extent, or use space = \"world\"",
         ));
     }
-    let map = add_map(packed, scene, plane.material, |mapping, sampler| match mapping.kind {
+    let place = Place { centroid: bounds.map(|_| plane.origin), bounds };
+    if material.is_mapped() && material.mapping.entity == Entity::Centroid && place.centroid.is_none() {
+        return Err(Error::with_help(
+            format!("material \"{}\": entity \"centroid\", on an infinite plane, which has none", material.name),
+            "give the plane a half_extent, or use entity \"position\" with an origin",
+        ));
+    }
+    let map = add_map(packed, scene, plane.material, |mapping, sampler, flat| match mapping.kind {
         MappingKind::Surface => mapping::plane_map(mapping, sampler, DVec2::new(u.w, v.w)),
-        _ => mapping::projecting_map(mapping, sampler, eye, bounds),
+        _ => mapping::projecting_map(mapping, sampler, eye, &place, flat),
     });
     Ok(layout::Plane {
         normal: vec4(normal.extend(normal.dot(plane.origin - eye))),
@@ -84,11 +92,15 @@ fn pack_triangle(
     let normal = (b - a).cross(c - a).normalize();
     let material = &scene.materials[triangle.material];
     let uvs = vertex_uvs(triangle, material, &scene.sampler_of(material));
-    let map = add_map(packed, scene, triangle.material, |mapping, sampler| match mapping.kind {
+    let place = Place {
+        centroid: Some(triangle.vertices.iter().sum::<DVec3>() / 3.0),
+        bounds: Some(triangle_bounds(triangle)),
+    };
+    let map = add_map(packed, scene, triangle.material, |mapping, sampler, flat| match mapping.kind {
         MappingKind::Surface => {
             layout::Map { link: [MapKind::VertexUv as u32, 0, 0, 0], ..Default::default() }
         }
-        _ => mapping::projecting_map(mapping, sampler, eye, Some(triangle_bounds(triangle))),
+        _ => mapping::projecting_map(mapping, sampler, eye, &place, flat),
     });
     let shading = triangle.normals.unwrap_or([normal; 3]).map(|n| vec4(n.normalize().extend(0.0)));
     layout::Triangle {
@@ -118,13 +130,12 @@ fn add_map(
     packed: &mut PackedScene,
     scene: &Scene,
     material: usize,
-    make: impl Fn(&Mapping, &SamplerSpec) -> layout::Map,
+    make: impl Fn(&Mapping, &SamplerSpec, bool) -> layout::Map,
 ) -> u32 {
     let material = &scene.materials[material];
-    if material.texture.is_none() {
-        return 0;
-    }
-    packed.maps.push(make(&material.mapping, &scene.sampler_of(material)));
+    let Some(texture) = material.texture.or(material.relief.map(|r| r.texture)) else { return 0 };
+    let flat = packed.textures[texture].link[3] == TextureKind::Flat as u32;
+    packed.maps.push(make(&material.mapping, &scene.sampler_of(material), flat));
     packed.maps.len() as u32 - 1
 }
 

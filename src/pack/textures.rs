@@ -1,11 +1,13 @@
 //! Textures and samplers → texel bytes, records and image slots.
 
 use crate::error::{Error, Result};
-use crate::layout;
-use crate::texture::data::{ColorSpace, Component, TexelFormat, TextureData};
-use crate::texture::sampler_spec::{Method, SamplerSpec};
+use crate::layout::{self, Texture};
+use crate::scene::model::{Footprint, Scene};
+use crate::texture::data::{ColorSpace, Component, Dimension, MipKernel, TexelFormat, TextureData};
+use crate::texture::mips;
+use crate::texture::sampler_spec::{Method, MipMode, SamplerSpec};
 
-use super::PackedScene;
+use super::{PackedScene, TextureKind};
 
 /// One image descriptor: a texture and the sampler it is read through. Look-ups of method shader
 /// fetch texels and ignore the sampler, so all of them share one slot a texture.
@@ -19,45 +21,105 @@ pub struct Slot {
 /// At most this many image descriptors (`SLOT_SWITCH` in `texture.glsl`).
 pub const MAX_SLOTS: usize = 16;
 
-pub fn sampler(spec: &SamplerSpec) -> layout::Sampler {
+/// Without a footprint the level is 0, which is magnification: what differs under minification is left
+/// out.
+pub fn sampler(spec: &SamplerSpec, filtered: bool) -> layout::Sampler {
+    let (min, mip) = if filtered { (spec.min, spec.mip) } else { (spec.mag, MipMode::None) };
     layout::Sampler {
         border: spec.border_color,
         modes: [
             spec.address[0] as u32,
             spec.address[1] as u32,
-            spec.mag as u32, // without a footprint the level is 0, which is magnification
+            spec.mag as u32,
             spec.texel_center as u32,
         ],
-        link: [spec.method as u32, 0, 0, 0],
+        link: [spec.method as u32, min as u32, mip as u32, spec.max_anisotropy],
+        more: [spec.address_w as u32, 0, spec.cubic[0].to_bits(), spec.cubic[1].to_bits()],
     }
 }
 
-/// Appends all texels to the pool; a single texture is moved, not copied.
-pub fn pack_textures(packed: &mut PackedScene, textures: Vec<TextureData>) -> Result<()> {
-    for texture in textures {
+/// Puts all texels into the pool, those that images cannot hold first. The texels of a lone texture of one
+/// level are moved, not copied.
+pub fn pack_textures(packed: &mut PackedScene, scene: &Scene, textures: Vec<TextureData>) -> Result<()> {
+    let mut order: Vec<usize> = (0..textures.len()).collect();
+    order.sort_by_key(|&i| kind(&textures[i]) == TextureKind::Flat);
+    packed.textures = vec![layout::Texture::default(); textures.len()];
+    packed.texture_names = textures.iter().map(|t| t.name.clone()).collect();
+    packed.file_channels = textures.iter().map(|t| t.file_channels).collect();
+    let mut textures: Vec<Option<TextureData>> = textures.into_iter().map(Some).collect();
+    for index in order {
+        let Some(texture) = textures[index].take() else { continue };
         let texture = without_equal_channels(texture);
         let texture = if needs_linear_floats(&texture) { linear_floats(&texture) } else { texture };
-        let first_word = packed.texels.len() / 4;
-        let first_word = u32::try_from(first_word).map_err(|_| {
-            Error::with_help(
-                format!("texture \"{}\": all textures together exceed 16 GiB", texture.name),
-                "use smaller textures, or fewer",
-            )
-        })?;
-        packed.textures.push(layout::Texture {
-            place: [first_word, texture.width, texture.height, texture.format as u32],
-            link: [texture.color_space as u32, 0, 0, 0],
-        });
-        packed.texture_names.push(texture.name);
-        packed.file_channels.push(texture.file_channels);
-        if packed.texels.is_empty() {
-            packed.texels = texture.texels;
+        let kind = kind(&texture);
+        let levels = if reads_levels(packed, scene, index) {
+            mips::pyramid(&texture, scene.textures.get(index).map_or(MipKernel::Box, |t| t.mip_kernel))
         } else {
-            packed.texels.extend_from_slice(&texture.texels);
+            Vec::new()
+        };
+        let link = [texture.color_space as u32, 1 + levels.len() as u32, texture.depth, kind as u32];
+        let [width, height, format] = [texture.width, texture.height, texture.format as u32];
+        let first_word = append(packed, texture, levels)?;
+        packed.textures[index] = layout::Texture { place: [first_word, width, height, format], link };
+        if kind != TextureKind::Flat {
+            packed.solid_bytes = packed.texels.len();
         }
-        packed.texels.resize(packed.texels.len().next_multiple_of(4), 0);
     }
     Ok(())
+}
+
+pub fn kind(texture: &TextureData) -> TextureKind {
+    match texture.dimension {
+        Dimension::One | Dimension::Two => TextureKind::Flat,
+        Dimension::Three => TextureKind::Volume,
+        Dimension::Cube => TextureKind::Cube,
+    }
+}
+
+/// Whether some sampler that reads this texture goes below level 0.
+fn reads_levels(packed: &PackedScene, scene: &Scene, texture: usize) -> bool {
+    if packed.header.key[2] == Footprint::None as u32 {
+        return false;
+    }
+    let materials = scene.materials.iter();
+    let read = materials.filter(|m| m.texture == Some(texture) || m.relief.is_some_and(|r| r.texture == texture));
+    let environment = scene.background.environment.filter(|e| e.texture == texture).map(|e| e.sampler);
+    let mut samplers = read.map(|m| m.sampler).chain(environment);
+    samplers.any(|sampler| scene.samplers[sampler].reads_levels())
+}
+
+/// The texture's first word: where the texels of level 0 begin. The words before it say where those of the
+/// other levels do, level 1 last.
+fn append(packed: &mut PackedScene, texture: TextureData, levels: Vec<TextureData>) -> Result<u32> {
+    let start = packed.texels.len() / 4 + levels.len();
+    let mut words = Vec::with_capacity(levels.len());
+    let mut end = start + texture.texels.len().div_ceil(4);
+    for level in &levels {
+        words.push(end);
+        end += level.texels.len().div_ceil(4);
+    }
+    if u32::try_from(end).is_err() {
+        return Err(Error::with_help(
+            format!("texture \"{}\": all textures together exceed 16 GiB", texture.name),
+            "use smaller textures, or fewer",
+        ));
+    }
+    for &word in words.iter().rev() {
+        packed.texels.extend_from_slice(&(word as u32).to_ne_bytes());
+    }
+    if packed.texels.is_empty() {
+        packed.texels = texture.texels;
+    } else {
+        packed.texels.reserve_exact((end - start) * 4);
+        packed.texels.extend_from_slice(&texture.texels);
+    }
+    let fill = |texels: &mut Vec<u8>| texels.resize(texels.len().next_multiple_of(4), 0);
+    fill(&mut packed.texels);
+    for level in levels {
+        packed.texels.extend_from_slice(&level.texels);
+        fill(&mut packed.texels);
+    }
+    Ok(start as u32)
 }
 
 /// A colour texture whose texels are all opaque grey is held as grey: a quarter of the memory, and of
@@ -104,16 +166,20 @@ fn linear_floats(texture: &TextureData) -> TextureData {
     }
 }
 
-/// The slot of this pair, new or shared.
+/// The slot of this pair among those of its kind, new or shared. What no image holds has none.
 pub fn slot(packed: &mut PackedScene, texture: usize, sampler: usize) -> u32 {
     let hardware = packed.sampler_specs[sampler].method == Method::Hardware;
-    let known = packed
-        .slots
-        .iter()
-        .position(|s| s.texture == texture && s.hardware == hardware && (!hardware || s.sampler == sampler));
-    let index = known.unwrap_or_else(|| {
-        packed.slots.push(Slot { texture, sampler, hardware });
-        packed.slots.len() - 1
+    let slots = match TextureKind::ALL[packed.textures[texture].link[3] as usize] {
+        TextureKind::Flat => &mut packed.slots,
+        _ if !hardware => return 0,
+        TextureKind::Volume => &mut packed.volume_slots,
+        TextureKind::Cube => &mut packed.cube_slots,
+    };
+    let same =
+        |s: &Slot| s.texture == texture && s.hardware == hardware && (!hardware || s.sampler == sampler);
+    let index = slots.iter().position(same).unwrap_or_else(|| {
+        slots.push(Slot { texture, sampler, hardware });
+        slots.len() - 1
     });
     index as u32
 }
@@ -126,18 +192,49 @@ pub fn needs_srgb_table(textures: &[layout::Texture]) -> bool {
 }
 
 impl PackedScene {
+    /// Width, height and depth of a level (Vulkan 1.3, "Image Miplevel Sizing"); of a cube the depth is 6.
+    pub fn level_size(&self, texture: usize, level: u32) -> [u32; 3] {
+        let Texture { place: [_, width, height, _], link: [_, _, depth, kind] } = self.textures[texture];
+        let halved = |n: u32| (n >> level).max(1);
+        let depth = if kind == TextureKind::Volume as u32 { halved(depth) } else { depth };
+        [halved(width), halved(height), depth]
+    }
+
+    /// The texels of a level.
+    pub fn level_texels(&self, texture: usize, level: u32) -> &[u8] {
+        let [first_word, _, _, format] = self.textures[texture].place;
+        let start = self.level_word(first_word, level) as usize * 4;
+        let [width, height, depth] = self.level_size(texture, level).map(|n| n as usize);
+        let bytes = width * height * depth * TexelFormat::ALL[format as usize].bytes_per_texel();
+        &self.texels[start..start + bytes]
+    }
+
+    /// Where a level's texels begin, of the texture whose level 0 begins at `first_word`.
+    pub fn level_word(&self, first_word: u32, level: u32) -> u32 {
+        if level == 0 {
+            return first_word;
+        }
+        let at = (first_word - level) as usize * 4;
+        let word = &self.texels[at..at + 4];
+        u32::from_ne_bytes([word[0], word[1], word[2], word[3]])
+    }
+
     /// One line a texture: size, the file's channels, and how it is held.
     pub fn texture_lines(&self) -> Vec<String> {
-        let line = |((name, record), channels): ((&String, &layout::Texture), &usize)| {
+        let line = |(i, ((name, record), channels)): (usize, ((&String, &Texture), &usize))| {
             let [_, width, height, format] = record.place;
             let format = TexelFormat::ALL[format as usize];
-            let space = ColorSpace::ALL[record.link[0] as usize];
-            let bytes = width as usize * height as usize * format.bytes_per_texel();
+            let [space, levels, depth, kind] = record.link;
+            let space = ColorSpace::ALL[space as usize];
+            let depth = if kind == TextureKind::Flat as u32 { String::new() } else { format!("×{depth}") };
+            let bytes: usize = (0..levels).map(|level| self.level_texels(i, level).len()).sum();
             let kib = bytes.div_ceil(1024);
+            let levels = if levels > 1 { format!(", {levels} levels") } else { String::new() };
             format!(
-                "\"{name}\": {width}×{height}, {channels}-channel file, held as {format} ({space}), {kib} KiB"
+                "\"{name}\": {width}×{height}{depth}{levels}, {channels}-channel file, held as {format} ({space}), {kib} KiB"
             )
         };
-        self.texture_names.iter().zip(&self.textures).zip(&self.file_channels).map(line).collect()
+        let records = self.texture_names.iter().zip(&self.textures).zip(&self.file_channels);
+        records.enumerate().map(line).collect()
     }
 }

@@ -15,7 +15,7 @@ use crate::features::{self, Features};
 use crate::film::Film;
 use crate::gpu::{BindGroup, BindingDesc, BindingKind, Gpu, Pipeline, PipelineDesc};
 use crate::layout::Slice;
-use crate::pack::PackedScene;
+use crate::pack::{PackedScene, SlotCounts};
 use crate::progress::Progress;
 use crate::shaders::{ReflectedBinding, Shader};
 
@@ -78,7 +78,7 @@ pub fn render(
     let clock = Instant::now();
     let shader = shader_for(features.source);
     let group_size = tuning.group_size(gpu.info())?;
-    let slots = scene.slots.len() as u32;
+    let slots = scene.slot_counts();
     let constants = features::constants(shader, &features, &resources.sections, group_size, slots);
     let pipeline = build_pipeline(gpu, shader, &constants, slots, size_of::<Slice>())?;
     let group = resources.bind(gpu, &pipeline, shader, &film_buffer.buffer, None)?;
@@ -100,16 +100,21 @@ pub fn render(
     Ok((film, report))
 }
 
-/// A pipeline of `shader` with these constants; the scene has `slots` image descriptors.
+/// A pipeline of `shader` with these constants; the scene has so many image descriptors.
 pub(crate) fn build_pipeline(
     gpu: &Gpu,
     shader: &Shader,
     constants: &[(u32, u32)],
-    slots: u32,
+    slots: SlotCounts,
     push_constant_bytes: usize,
 ) -> Result<Pipeline> {
     let describe = |b: &ReflectedBinding| {
-        let count = if b.kind == BindingKind::SampledImage { slots.max(1) } else { 1 };
+        let count = match (b.kind, b.binding) {
+            (BindingKind::SampledImage, resources::VOLUMES) => slots.volumes.max(1),
+            (BindingKind::SampledImage, resources::CUBES) => slots.cubes.max(1),
+            (BindingKind::SampledImage, _) => slots.flat.max(1),
+            _ => 1,
+        };
         BindingDesc { binding: b.binding, kind: b.kind, count }
     };
     let bindings: Vec<BindingDesc> = shader.bindings.iter().map(describe).collect();

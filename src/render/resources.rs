@@ -1,6 +1,8 @@
 //! Packed scene → buffers and images on the device: only what the features name, and of the
 //! textures only the source in use.
 
+use std::borrow::Cow;
+
 use crate::error::{Error, Result};
 use crate::features::{Features, TexelSource};
 use crate::gpu::{
@@ -8,7 +10,7 @@ use crate::gpu::{
     Pipeline, Sampler, Swizzle,
 };
 use crate::layout::HEAD_BYTES;
-use crate::pack::{MAX_SLOTS, PackedScene, Sections, Slot};
+use crate::pack::{MAX_SLOTS, PackedScene, Sections, Slot, TextureKind};
 use crate::shaders::{self, ReflectedBinding, Shader};
 use crate::texture::data::{ColorSpace, TexelFormat};
 use crate::texture::sampler_spec::{Address, Filter, SamplerSpec};
@@ -19,14 +21,21 @@ pub fn shader_for(source: TexelSource) -> &'static Shader {
         TexelSource::None => &shaders::RENDER_NONE,
         TexelSource::Buffer => &shaders::RENDER_TEXELS,
         TexelSource::Image => &shaders::RENDER_IMAGES,
+        TexelSource::Solids => &shaders::RENDER_SOLIDS,
     }
 }
+
+/// Bindings of the images of volumes and of cubes; 2 has those of flat textures.
+pub const VOLUMES: u32 = 7;
+pub const CUBES: u32 = 8;
 
 pub struct Resources {
     pub sections: Sections,
     scene: Buffer,
     texels: Option<Buffer>,
     images: Vec<(Image, Sampler)>,
+    volumes: Vec<(Image, Sampler)>,
+    cubes: Vec<(Image, Sampler)>,
 }
 
 impl Resources {
@@ -34,17 +43,20 @@ impl Resources {
         let (bytes, sections) = packed.scene_bytes();
         let scene = gpu.upload_buffer("scene", BufferUse::Storage, &bytes)?;
         let texels = match features.source {
-            TexelSource::Buffer if packed.texels.is_empty() => {
-                Some(gpu.upload_buffer("texels", BufferUse::TexelUint, &[0; 4])?)
-            }
-            TexelSource::Buffer => Some(upload_texels(gpu, packed)?),
+            TexelSource::Buffer => Some(upload_texels(gpu, packed, &packed.texels)?),
+            TexelSource::Solids => Some(upload_texels(gpu, packed, &packed.texels[..packed.solid_bytes])?),
             TexelSource::None | TexelSource::Image => None,
         };
-        let images = match features.source {
-            TexelSource::Image => upload_images(gpu, packed)?,
-            TexelSource::None | TexelSource::Buffer => Vec::new(),
-        };
-        Ok(Resources { sections, scene, texels, images })
+        let mut uploads = Uploads { gpu, packed, images: Vec::new() };
+        let [mut images, mut volumes, mut cubes] = [const { Vec::new() }; 3];
+        if matches!(features.source, TexelSource::Image | TexelSource::Solids) {
+            images = uploads.slots(&packed.slots, TextureKind::Flat)?;
+        }
+        if features.source == TexelSource::Solids {
+            volumes = uploads.slots(&packed.volume_slots, TextureKind::Volume)?;
+            cubes = uploads.slots(&packed.cube_slots, TextureKind::Cube)?;
+        }
+        Ok(Resources { sections, scene, texels, images, volumes, cubes })
     }
 
     /// The shader's bindings with what they bind: 0 what it writes, 4 a list of queries, the other
@@ -57,7 +69,7 @@ impl Resources {
         output: &Buffer,
         queries: Option<&Buffer>,
     ) -> Result<BindGroup> {
-        let images: Vec<(&Image, &Sampler)> = self.images.iter().map(|(i, s)| (i, s)).collect();
+        let [images, volumes, cubes] = [&self.images, &self.volumes, &self.cubes].map(|slots| pairs(slots));
         let resource = |b: &ReflectedBinding| {
             let resource = match (b.kind, b.binding) {
                 (BindingKind::StorageBuffer, 0) => Bound::Buffer(output),
@@ -65,6 +77,8 @@ impl Resources {
                 (BindingKind::StorageBuffer, _) => Bound::Buffer(&self.scene),
                 (BindingKind::UniformBuffer, _) => Bound::Head(&self.scene, HEAD_BYTES as u64),
                 (BindingKind::TexelBuffer, _) => Bound::Texels(self.texels.as_ref()?),
+                (BindingKind::SampledImage, VOLUMES) => Bound::Images(&volumes),
+                (BindingKind::SampledImage, CUBES) => Bound::Images(&cubes),
                 (BindingKind::SampledImage, _) => Bound::Images(&images),
             };
             Some((b.binding, resource))
@@ -74,8 +88,12 @@ impl Resources {
     }
 }
 
-fn upload_texels(gpu: &Gpu, packed: &PackedScene) -> Result<Buffer> {
-    let words = packed.texels.len() as u64 / 4;
+fn pairs(slots: &[(Image, Sampler)]) -> Vec<(&Image, &Sampler)> {
+    slots.iter().map(|(image, sampler)| (image, sampler)).collect()
+}
+
+fn upload_texels(gpu: &Gpu, packed: &PackedScene, texels: &[u8]) -> Result<Buffer> {
+    let words = texels.len() as u64 / 4;
     // The shader's index is an `int`, whatever the device allows.
     let limit = gpu.info().limits.max_texel_buffer_elements.min(i32::MAX as u64);
     if words > limit {
@@ -83,45 +101,84 @@ fn upload_texels(gpu: &Gpu, packed: &PackedScene) -> Result<Buffer> {
             format!(
                 "the textures {} together take {} MiB, over the {} MiB of a texel buffer on device \"{}\"",
                 packed.texture_names.join(", "),
-                packed.texels.len() >> 20,
+                texels.len() >> 20,
                 (limit * 4) >> 20,
                 gpu.info().name
             ),
             "use smaller textures, or --texels image (up to 16 textures)",
         ));
     }
-    gpu.upload_buffer("texels", BufferUse::TexelUint, &packed.texels)
+    // A binding has to hold something.
+    let texels = if texels.is_empty() { &[0; 4] } else { texels };
+    gpu.upload_buffer("texels", BufferUse::TexelUint, texels)
 }
 
-fn upload_images(gpu: &Gpu, packed: &PackedScene) -> Result<Vec<(Image, Sampler)>> {
-    if packed.slots.len() > MAX_SLOTS {
-        return Err(Error::with_help(
-            format!(
-                "the scene reads {} pairs of texture and sampler through images; {MAX_SLOTS} are possible",
-                packed.slots.len()
-            ),
-            "one sampler of method \"hardware\" makes all look-ups go through images: use --method shader, \
-             or share samplers and textures",
-        ));
+/// One image serves all slots that read a texture in the same form.
+struct Uploads<'a> {
+    gpu: &'a Gpu,
+    packed: &'a PackedScene,
+    images: Vec<((usize, Form), Image)>,
+}
+
+impl Uploads<'_> {
+    /// Image and sampler of each slot; where there is none one that is never read, as a binding has to
+    /// hold something.
+    fn slots(&mut self, slots: &[Slot], kind: TextureKind) -> Result<Vec<(Image, Sampler)>> {
+        if slots.len() > MAX_SLOTS {
+            return Err(Error::with_help(
+                format!(
+                    "the scene reads {} pairs of texture and sampler through images; {MAX_SLOTS} are possible",
+                    slots.len()
+                ),
+                "one sampler of method \"hardware\" makes all look-ups go through images: use --method shader, \
+                 or share samplers and textures",
+            ));
+        }
+        if slots.is_empty() {
+            let image = self.gpu.image(&unread(kind))?;
+            return Ok(vec![(image, self.gpu.sampler(&SamplerSpec::default())?)]);
+        }
+        slots.iter().map(|slot| self.slot(slot)).collect()
     }
-    // One image serves all slots that read it in the same form.
-    let mut images: Vec<((usize, Form), Image)> = Vec::new();
-    let mut slots = Vec::new();
-    for slot in &packed.slots {
-        let spec = packed.sampler_specs[slot.sampler];
-        let form = Form::of(packed, slot, &spec);
-        let image = match images.iter().find(|(key, _)| *key == (slot.texture, form)) {
+
+    fn slot(&mut self, slot: &Slot) -> Result<(Image, Sampler)> {
+        let spec = self.packed.sampler_specs[slot.sampler];
+        let form = Form::of(self.packed, slot, &spec);
+        let image = match self.images.iter().find(|(key, _)| *key == (slot.texture, form)) {
             Some((_, image)) => image.clone(),
             None => {
-                let image = upload_image(gpu, packed, slot.texture, form)?;
-                images.push(((slot.texture, form), image.clone()));
+                let image = upload_image(self.gpu, self.packed, slot.texture, form)?;
+                self.images.push(((slot.texture, form), image.clone()));
                 image
             }
         };
         let sampler = if slot.hardware { spec } else { SamplerSpec::default() };
-        slots.push((image, gpu.sampler(&sampler)?));
+        Ok((image, self.gpu.sampler(&sampler)?))
     }
-    Ok(slots)
+}
+
+/// One texel of each face.
+fn unread(kind: TextureKind) -> ImageDesc<'static> {
+    const TEXELS: [&[u8]; 2] = [&[0], &[0; 6]];
+    let faces = usize::from(kind == TextureKind::Cube);
+    ImageDesc {
+        name: "unread",
+        shape: shape(kind),
+        width: 1,
+        height: 1,
+        depth: TEXELS[faces].len() as u32,
+        format: ImageFormat::R8,
+        swizzle: Swizzle::Grey,
+        levels: &TEXELS[faces..=faces],
+    }
+}
+
+fn shape(kind: TextureKind) -> ImageShape {
+    match kind {
+        TextureKind::Flat => ImageShape::Flat,
+        TextureKind::Volume => ImageShape::Volume,
+        TextureKind::Cube => ImageShape::Cube,
+    }
 }
 
 /// In what form an image is stored.
@@ -144,20 +201,23 @@ impl Form {
         Form {
             decode: slot.hardware && srgb,
             expand: slot.hardware && (srgb || border),
-            filtered: slot.hardware && (spec.mag == Filter::Linear || spec.min == Filter::Linear),
+            filtered: slot.hardware && (spec.mag != Filter::Nearest || spec.min != Filter::Nearest),
         }
     }
 }
 
 fn upload_image(gpu: &Gpu, packed: &PackedScene, index: usize, form: Form) -> Result<Image> {
     let record = &packed.textures[index];
-    let [first_word, width, height, format] = record.place;
-    let format = TexelFormat::ALL[format as usize];
-    let start = first_word as usize * 4;
-    let bytes = &packed.texels[start..start + width as usize * height as usize * format.bytes_per_texel()];
+    let [_, width, height, format] = record.place;
+    let mut format = TexelFormat::ALL[format as usize];
     let name = &packed.texture_names[index];
-    let expanded = expanded(bytes, format, form);
-    let (format, texels) = expanded.as_ref().map_or((format, bytes), |(f, b)| (*f, b.as_slice()));
+    let mut levels: Vec<Cow<'_, [u8]>> =
+        (0..record.link[1]).map(|level| Cow::Borrowed(packed.level_texels(index, level))).collect();
+    if form.expand && format.channels() != 4 {
+        levels = levels.iter().map(|level| Cow::Owned(expanded(level, format))).collect();
+        format = TexelFormat::new(4, format.component());
+    }
+    let levels: Vec<&[u8]> = levels.iter().map(|level| level.as_ref()).collect();
     let stored = image_format(format, form.decode);
     if !gpu.supports(stored, form.filtered) {
         let filtering = if form.filtered { "with linear filtering" } else { "as a sampled image" };
@@ -171,25 +231,22 @@ fn upload_image(gpu: &Gpu, packed: &PackedScene, index: usize, form: Form) -> Re
     }
     gpu.image(&ImageDesc {
         name,
-        shape: ImageShape::Flat,
+        shape: shape(TextureKind::ALL[record.link[3] as usize]),
         width,
         height,
-        depth: 1,
+        depth: record.link[2],
         format: stored,
         swizzle: match format.channels() {
             1 => Swizzle::Grey,
             2 => Swizzle::GreyAlpha,
             _ => Swizzle::Rgba,
         },
-        levels: &[texels],
+        levels: &levels,
     })
 }
 
-/// The texels with four channels, where `expand` asks for it.
-fn expanded(bytes: &[u8], format: TexelFormat, form: Form) -> Option<(TexelFormat, Vec<u8>)> {
-    if !form.expand || format.channels() == 4 {
-        return None;
-    }
+/// The texels of a grey format with four channels.
+fn expanded(bytes: &[u8], format: TexelFormat) -> Vec<u8> {
     let component = format.component();
     let (width, channels, opaque) = (component.bytes(), format.channels(), component.one());
     let mut out = Vec::with_capacity(bytes.len() / channels * 4);
@@ -200,7 +257,7 @@ fn expanded(bytes: &[u8], format: TexelFormat, form: Form) -> Option<(TexelForma
         }
         out.extend_from_slice(if channels == 2 { alpha } else { &opaque[..width] });
     }
-    Some((TexelFormat::new(4, component), out))
+    out
 }
 
 fn image_format(format: TexelFormat, srgb: bool) -> ImageFormat {

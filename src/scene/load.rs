@@ -7,14 +7,16 @@ use std::path::Path;
 
 use toml::de::DeTable;
 
-use super::model::{Material, Plane, Scene, Sphere, TextureSource, Triangle};
+use super::model::{Background, Material, Plane, Scene, Sphere, TextureSource, Triangle};
 use super::names::Names;
-use super::sections::{self, default_material};
+use super::materials::{self, default_material};
+use super::samplers::{self, Known};
+use super::sections;
 use super::shapes::{self, MaterialIndex};
 use super::source::Source;
 use super::table::Table;
 use super::textures;
-use super::validate::{MAX_SHAPES, MAX_TEXTURES};
+use super::validate::{check_filters, MAX_SHAPES, MAX_TEXTURES};
 use crate::error::{Error, Result};
 use crate::texture::sampler_spec::SamplerSpec;
 
@@ -92,9 +94,7 @@ fn assemble(path: &Path, root: &Table<'_>) -> Result<Scene> {
     let image = root.required_single("image", sections::IMAGE, "width and height")?;
     let (width, height) = sections::image(&image)?;
     let sampling = sections::sampling(root.single("sampling", sections::SAMPLING)?.as_ref())?;
-    let background = sections::background(root.single("background", sections::BACKGROUND)?.as_ref())?;
-
-    let Surfaces { textures, samplers, mut materials, names } = surfaces(path, root)?;
+    let Surfaces { textures, samplers, mut materials, background, names } = surfaces(path, root)?;
     let index = MaterialIndex { names: &names, fallback: materials.len() };
     let planes = each(root.repeated("plane", shapes::PLANE)?, |table| {
         let plane = shapes::plane(table, &index)?;
@@ -113,7 +113,7 @@ fn assemble(path: &Path, root: &Table<'_>) -> Result<Scene> {
         materials.push(default_material());
     }
     let path = path.to_owned();
-    Ok(Scene {
+    let scene = Scene {
         path,
         camera,
         width,
@@ -127,13 +127,16 @@ fn assemble(path: &Path, root: &Table<'_>) -> Result<Scene> {
         spheres,
         triangles,
         lights,
-    })
+    };
+    check_filters(&scene)?;
+    Ok(scene)
 }
 
 struct Surfaces<'a> {
     textures: Vec<TextureSource>,
     samplers: Vec<SamplerSpec>,
     materials: Vec<Material>,
+    background: Background,
     /// Of the materials.
     names: Names<'a>,
 }
@@ -144,19 +147,27 @@ fn surfaces<'a>(path: &Path, root: &Table<'a>) -> Result<Surfaces<'a>> {
     let folder = path.parent().unwrap_or(Path::new(""));
     let textures = each(tables, |table| textures::texture(table, folder))?;
 
-    let tables = root.repeated("sampler", sections::SAMPLER)?;
+    let tables = root.repeated("sampler", samplers::SAMPLER)?;
     let sampler_names = Names::collect("sampler", &tables)?;
-    let mut samplers = each(tables, sections::sampler)?;
+    let mut samplers = each(tables, samplers::sampler)?;
 
-    let tables = root.repeated("material", sections::MATERIAL)?;
+    let tables = root.repeated("material", materials::MATERIAL)?;
     let names = Names::collect("material", &tables)?;
     let fallback = samplers.len();
-    let materials =
-        each(tables, |table| sections::material(table, &texture_names, &sampler_names, fallback))?;
-    if materials.iter().any(|m: &Material| m.texture.is_some() && m.sampler == fallback) {
+    let known = Known {
+        textures: &texture_names,
+        sources: &textures,
+        samplers: &sampler_names,
+        default_sampler: fallback,
+    };
+    let materials = each(tables, |table| materials::material(table, &known))?;
+    let table = root.single("background", samplers::BACKGROUND)?;
+    let background = samplers::background(table.as_ref(), &known)?;
+    let mut used = materials.iter().filter(|m: &&Material| m.is_mapped()).map(|m| m.sampler);
+    if used.any(|s| s == fallback) || background.environment.is_some_and(|e| e.sampler == fallback) {
         samplers.push(SamplerSpec::default());
     }
-    Ok(Surfaces { textures, samplers, materials, names })
+    Ok(Surfaces { textures, samplers, materials, background, names })
 }
 
 fn each<'a, T>(tables: Vec<Table<'a>>, read: impl Fn(&Table<'a>) -> Result<T>) -> Result<Vec<T>> {

@@ -1,11 +1,13 @@
 //! Scene files: TOML text in, validated [`model::Scene`] out.
 
 mod load;
+mod materials;
 pub mod model;
 mod names;
 mod procedural;
 pub mod prune;
 mod reader;
+mod samplers;
 mod sections;
 mod shapes;
 mod source;
@@ -15,4 +17,4 @@ mod validate;
 
 pub use load::{load, parse};
 pub use procedural::parse_procedural;
-pub use validate::{MAX_DEPTH, MAX_SIZE, MAX_SPP, check_shared, check_spp};
+pub use validate::{MAX_DEPTH, MAX_SIZE, MAX_SPP, both_filters, check_filters, check_shared, check_spp};

@@ -17,7 +17,7 @@ pub struct Scene {
     pub width: u32,
     pub height: u32,
     pub sampling: Sampling,
-    pub background: DVec3,
+    pub background: Background,
     pub textures: Vec<TextureSource>,
     pub samplers: Vec<SamplerSpec>,
     pub materials: Vec<Material>,
@@ -25,6 +25,35 @@ pub struct Scene {
     pub spheres: Vec<Sphere>,
     pub triangles: Vec<Triangle>,
     pub lights: Vec<Light>,
+}
+
+/// What rays see that hit nothing.
+#[derive(Clone, Debug)]
+pub struct Background {
+    /// Without an environment all there is; with one it multiplies the texture.
+    pub color: DVec3,
+    pub environment: Option<Environment>,
+}
+
+/// A texture around the whole scene.
+#[derive(Clone, Copy, Debug)]
+pub struct Environment {
+    /// Index into `Scene::textures`.
+    pub texture: usize,
+    /// Index into `Scene::samplers`.
+    pub sampler: usize,
+    pub layout: EnvironmentLayout,
+    /// Degrees about +y, counter-clockwise from above.
+    pub rotate: f64,
+}
+
+named_enum! {
+    /// How directions lie on an environment's texture (`[background] layout`).
+    pub enum EnvironmentLayout {
+        /// The image's centre looks along -z, +x to its right, v = 0 at +y.
+        Equirectangular = "equirectangular",
+        Cube = "cube",
+    }
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -66,6 +95,10 @@ named_enum! {
     /// Over what a texture look-up is averaged (`[sampling] footprint`).
     pub enum Footprint {
         None = "none",
+        /// A width and a spread (Amanatides 1984; Akenine-Möller et al. 2021).
+        Cone = "cone",
+        /// Two vectors each of origin and direction (Igehy 1999).
+        Differentials = "differentials",
     }
 }
 
@@ -89,7 +122,39 @@ named_enum! {
         Unlit = "unlit",
         Lambert = "lambert",
         Mirror = "mirror",
+        /// Mirrors or refracts, by Fresnel's share of each.
+        Dielectric = "dielectric",
+        /// Lambert with a highlight.
+        Phong = "phong",
     }
+}
+
+impl Model {
+    /// Whether lights shine on it.
+    pub const fn is_lit(self) -> bool {
+        matches!(self, Model::Lambert | Model::Phong)
+    }
+}
+
+named_enum! {
+    /// What a material's relief texture holds.
+    pub enum ReliefKind {
+        /// Unit normals as 2 rgb - 1: along growing u, along growing v, outward.
+        Normal = "normal",
+        /// Heights.
+        Bump = "bump",
+    }
+}
+
+/// A texture that turns the shading normal.
+#[derive(Clone, Copy, Debug)]
+pub struct Relief {
+    pub kind: ReliefKind,
+    /// Index into `Scene::textures`.
+    pub texture: usize,
+    /// Normal map: factor of the two components along the surface. Bump map: height of a texel of 1, in
+    /// scene units.
+    pub strength: f64,
 }
 
 #[derive(Clone, Debug)]
@@ -100,9 +165,22 @@ pub struct Material {
     pub color: DVec3,
     /// Index into `Scene::textures`.
     pub texture: Option<usize>,
-    /// Index into `Scene::samplers`; meaningful where a texture is set.
+    /// Index into `Scene::samplers`; meaningful where a texture or a relief is set.
     pub sampler: usize,
     pub mapping: Mapping,
+    pub relief: Option<Relief>,
+    /// Of the highlight of `phong`.
+    pub specular: DVec3,
+    pub exponent: f64,
+    /// Refractive index of `dielectric` behind its surface, over that in front of it.
+    pub ior: f64,
+}
+
+impl Material {
+    /// Whether a map leads to a texture of this material.
+    pub fn is_mapped(&self) -> bool {
+        self.texture.is_some() || self.relief.is_some()
+    }
 }
 
 named_enum! {
@@ -112,6 +190,10 @@ named_enum! {
         Planar = "planar",
         Cylindrical = "cylindrical",
         Spherical = "spherical",
+        /// The place on a cube's six faces.
+        Cube = "cube",
+        /// The three coordinates themselves, for 3D and procedural textures.
+        Solid = "solid",
     }
 }
 
@@ -119,6 +201,19 @@ named_enum! {
     /// What a projecting map projects.
     pub enum Entity {
         Position = "position",
+        /// The shading normal.
+        Normal = "normal",
+        /// The vector from the shape's centroid to the point.
+        Centroid = "centroid",
+        /// The direction into which the surface mirrors the incoming ray.
+        Reflection = "reflection",
+    }
+}
+
+impl Entity {
+    /// A direction has no place that an origin or a box could be in.
+    pub const fn is_direction(self) -> bool {
+        matches!(self, Entity::Normal | Entity::Reflection)
     }
 }
 
@@ -130,7 +225,8 @@ named_enum! {
     }
 }
 
-/// `uv' = R(rotate) · (uv ∘ scale) + offset`, in the order of KHR_texture_transform.
+/// `uv' = R(rotate) · (uv ∘ scale) + offset`, in the order of KHR_texture_transform; of `solid` and `cube`
+/// the rotation is about the frame's axis.
 #[derive(Clone, Copy, Debug)]
 pub struct Mapping {
     pub kind: MappingKind,
@@ -141,6 +237,9 @@ pub struct Mapping {
     pub axis: DVec3,
     pub scale: DVec2,
     pub offset: DVec2,
+    /// Scale and offset of w: `solid` only.
+    pub scale_w: f64,
+    pub offset_w: f64,
     /// Degrees, counter-clockwise in (u, v).
     pub rotate: f64,
 }
@@ -155,6 +254,8 @@ impl Default for Mapping {
             axis: DVec3::Y,
             scale: DVec2::ONE,
             offset: DVec2::ZERO,
+            scale_w: 1.0,
+            offset_w: 0.0,
             rotate: 0.0,
         }
     }

@@ -1,7 +1,7 @@
 //! Scene → the same picture's scene without what no ray can meet: materials on no shape, textures
 //! and samplers behind no material, lights that shine on nothing that scatters. Indices follow.
 
-use super::model::{Model, Scene};
+use super::model::Scene;
 
 /// What was dropped, for `-v`.
 pub fn prune(scene: &mut Scene) -> Vec<String> {
@@ -25,19 +25,28 @@ pub fn prune(scene: &mut Scene) -> Vec<String> {
     }
     note(&mut dropped, "material", &materials);
 
-    let textured = || scene.materials.iter().filter(|m| m.texture.is_some());
-    let used: Vec<usize> = textured().filter_map(|m| m.texture).collect();
-    let samplers_used: Vec<usize> = textured().map(|m| m.sampler).collect();
+    let mapped = || scene.materials.iter().filter(|m| m.is_mapped());
+    let environment = scene.background.environment;
+    let of = mapped().flat_map(|m| [m.texture, m.relief.map(|r| r.texture)]).flatten();
+    let used: Vec<usize> = of.chain(environment.map(|e| e.texture)).collect();
+    let samplers_used: Vec<usize> = mapped().map(|m| m.sampler).chain(environment.map(|e| e.sampler)).collect();
     let textures = keep(&mut scene.textures, &used);
     let samplers = keep(&mut scene.samplers, &samplers_used);
     for material in &mut scene.materials {
-        material.sampler = if material.texture.is_some() { samplers[material.sampler] } else { 0 };
+        material.sampler = if material.is_mapped() { samplers[material.sampler] } else { 0 };
         material.texture = material.texture.map(|t| textures[t]);
+        if let Some(relief) = &mut material.relief {
+            relief.texture = textures[relief.texture];
+        }
+    }
+    if let Some(environment) = &mut scene.background.environment {
+        environment.texture = textures[environment.texture];
+        environment.sampler = samplers[environment.sampler];
     }
     note(&mut dropped, "texture", &textures);
     note(&mut dropped, "sampler", &samplers);
 
-    if !scene.lights.is_empty() && !scene.materials.iter().any(|m| m.model == Model::Lambert) {
+    if !scene.lights.is_empty() && !scene.materials.iter().any(|m| m.model.is_lit()) {
         dropped.push(format!("{} lights that shine on nothing", scene.lights.len()));
         scene.lights.clear();
     }

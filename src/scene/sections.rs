@@ -1,30 +1,19 @@
-//! Camera, image, sampling, background and everything that colours a surface. In: the tables of
-//! those sections. Out: the types of the model, with the defaults of keys that are not given.
+//! Camera, image and sampling. In: the tables of those sections. Out: the types of the model, with the
+//! defaults of keys that are not given.
 
-use glam::{DVec2, DVec3};
-use toml::de::DeValue;
+use glam::DVec3;
 
 use super::model::*;
-use super::names::Names;
-use super::reader::{COLOR, COORDINATE, FOV, Field, LENGTH, SCALE};
+use super::reader::{COORDINATE, FOV, Field, LENGTH};
 use super::table::Table;
 use super::validate::{MAX_DEPTH, MAX_SIZE, MAX_SPP, check_shared, check_spp, parallel};
 use crate::error::Result;
-use crate::texture::sampler_spec::{Address, Filter, Method, MipMode, SamplerSpec, TexelCenter};
 
 pub(super) const CAMERA: &[&str] =
     &["eye", "look_at", "up", "vertical_fov", "camera_constant", "orthographic_height"];
 pub(super) const IMAGE: &[&str] = &["width", "height"];
 pub(super) const SAMPLING: &[&str] =
     &["algorithm", "pattern", "spp", "shared", "seed", "max_depth", "footprint"];
-pub(super) const BACKGROUND: &[&str] = &["color"];
-pub(super) const SAMPLER: &[&str] =
-    &["name", "address", "filter", "border_color", "mip", "method", "texel_center"];
-pub(super) const MATERIAL: &[&str] = &["name", "model", "color", "texture", "sampler", "mapping"];
-const FILTER: &[&str] = &["mag", "min"];
-const MAPPING: &[&str] = &["kind", "entity", "space", "origin", "axis", "scale", "offset", "rotate"];
-/// Keys of the frame that only projecting maps have.
-const FRAME: [&str; 4] = ["origin", "axis", "space", "entity"];
 
 pub(super) fn camera(table: &Table<'_>) -> Result<Camera> {
     let eye = table.required("eye")?.vec3(&COORDINATE)?;
@@ -112,120 +101,4 @@ pub(super) fn sampling(table: Option<&Table<'_>>) -> Result<Sampling> {
         sampling.footprint = field.choice(Footprint::NAMES, Footprint::ALL)?;
     }
     Ok(sampling)
-}
-
-pub(super) fn background(table: Option<&Table<'_>>) -> Result<DVec3> {
-    table.and_then(|table| table.get("color")).map_or(Ok(DVec3::ZERO), |field| field.vec3(&COLOR))
-}
-
-pub(super) fn sampler(table: &Table<'_>) -> Result<SamplerSpec> {
-    let mut spec = SamplerSpec::default();
-    if let Some(field) = table.get("address") {
-        let one = |field: Field<'_>| field.choice(Address::NAMES, Address::ALL);
-        spec.address = match field.value() {
-            DeValue::Array(_) => field.array("one string, or 2 for u and v", spec.address, one)?,
-            _ => [one(field)?; 2],
-        };
-    }
-    if let Some(field) = table.get("filter") {
-        let one = |field: Field<'_>| field.choice(Filter::NAMES, Filter::ALL);
-        if let DeValue::Table(_) = field.value() {
-            let both = Table::inline(field, "sampler.filter", FILTER)?;
-            spec.mag = both.get("mag").map_or(Ok(spec.mag), one)?;
-            spec.min = both.get("min").map_or(Ok(spec.min), one)?;
-        } else {
-            let filter = one(field)?;
-            (spec.mag, spec.min) = (filter, filter);
-        }
-    }
-    if let Some(field) = table.get("border_color") {
-        spec.border_color = field.numbers::<4>(&COLOR)?.map(|x| x as f32);
-    }
-    if let Some(field) = table.get("mip") {
-        spec.mip = field.choice(MipMode::NAMES, MipMode::ALL)?;
-    }
-    if let Some(field) = table.get("method") {
-        spec.method = field.choice(Method::NAMES, Method::ALL)?;
-    }
-    if let Some(field) = table.get("texel_center") {
-        spec.texel_center = field.choice(TexelCenter::NAMES, TexelCenter::ALL)?;
-    }
-    Ok(spec)
-}
-
-pub(super) fn default_material() -> Material {
-    Material {
-        name: "default".to_owned(),
-        model: Model::Lambert,
-        color: DVec3::ONE,
-        texture: None,
-        sampler: 0,
-        mapping: Mapping::default(),
-    }
-}
-
-/// `default_sampler` is where the sampler of a texture without one stands or will stand.
-pub(super) fn material(
-    table: &Table<'_>,
-    textures: &Names<'_>,
-    samplers: &Names<'_>,
-    default_sampler: usize,
-) -> Result<Material> {
-    let mut material = default_material();
-    material.name = table.required("name")?.string()?.to_owned();
-    if let Some(field) = table.get("model") {
-        material.model = field.choice(Model::NAMES, Model::ALL)?;
-    }
-    if let Some(field) = table.get("color") {
-        material.color = field.vec3(&COLOR)?;
-    }
-    material.texture = table.get("texture").map(|field| textures.resolve(field)).transpose()?;
-    material.sampler = match (table.get("sampler"), material.texture) {
-        (Some(field), _) => samplers.resolve(field)?,
-        (None, Some(_)) => default_sampler,
-        (None, None) => 0,
-    };
-    if let Some(field) = table.get("mapping") {
-        material.mapping = mapping(&Table::inline(field, "material.mapping", MAPPING)?)?;
-    }
-    Ok(material)
-}
-
-fn mapping(table: &Table<'_>) -> Result<Mapping> {
-    let mut mapping = Mapping::default();
-    if let Some(field) = table.get("kind") {
-        mapping.kind = field.choice(MappingKind::NAMES, MappingKind::ALL)?;
-    }
-    if mapping.kind == MappingKind::Surface
-        && let Some(field) = FRAME.iter().find_map(|key| table.get(key))
-    {
-        let what = "kind \"surface\" uses the shape's own coordinates and has no frame; \
-                    remove the key or choose kind planar, cylindrical or spherical";
-        return Err(field.error(what, "not with kind \"surface\""));
-    }
-    if let Some(field) = table.get("entity") {
-        mapping.entity = field.choice(Entity::NAMES, Entity::ALL)?;
-    }
-    if let Some(field) = table.get("space") {
-        mapping.space = field.choice(Space::NAMES, Space::ALL)?;
-    }
-    if let Some(field) = table.get("origin") {
-        mapping.origin = field.vec3(&COORDINATE)?;
-    }
-    if let Some(field) = table.get("axis") {
-        mapping.axis = field.direction()?;
-    }
-    if let Some(field) = table.get("scale") {
-        mapping.scale = match field.value() {
-            DeValue::Array(_) => field.vec2(&SCALE)?,
-            _ => DVec2::splat(field.number(&SCALE)?),
-        };
-    }
-    if let Some(field) = table.get("offset") {
-        mapping.offset = field.vec2(&COORDINATE)?;
-    }
-    if let Some(field) = table.get("rotate") {
-        mapping.rotate = field.number(&COORDINATE)?;
-    }
-    Ok(mapping)
 }

@@ -3,7 +3,10 @@
 
 use glam::DVec3;
 
-use super::model::Pattern;
+use super::model::{Pattern, Scene};
+use crate::error::{Error, Result};
+use crate::texture::data::Dimension;
+use crate::texture::sampler_spec::{Filter, Method, SamplerSpec};
 
 /// Pixels along one side of a picture.
 pub const MAX_SIZE: u32 = 16384;
@@ -13,6 +16,9 @@ pub const MAX_DEPTH: u32 = 64;
 /// Planes, spheres and triangles together.
 pub(super) const MAX_SHAPES: usize = 65535;
 pub(super) const MAX_TEXTURES: usize = 1024;
+
+/// Footprints longer than this many widths are blurred.
+pub const MAX_ANISOTROPY: u32 = 64;
 
 /// Two directions whose sine is below this count as parallel: far below any intended angle, far
 /// above what rounding of double precision components can produce.
@@ -33,6 +39,56 @@ pub fn check_spp(pattern: Pattern, spp: u32) -> Result<(), String> {
         }
         _ => Ok(()),
     }
+}
+
+/// The filters that one name stands for: those that only minify magnify linearly.
+pub fn both_filters(filter: Filter) -> (Filter, Filter) {
+    (if filter.only_minifies() { Filter::Linear } else { filter }, filter)
+}
+
+pub(super) fn check_mag(mag: Filter) -> Result<(), String> {
+    if mag.only_minifies() {
+        return Err(format!(
+            "filter \"{mag}\" averages over footprints wider than a texel and cannot magnify; \
+             use it for min, and nearest, linear, cubic or stochastic for mag"
+        ));
+    }
+    Ok(())
+}
+
+/// What texture units do not have.
+pub(super) fn check_method(spec: &SamplerSpec) -> Result<(), String> {
+    let own = |f: &Filter| matches!(f, Filter::Nearest | Filter::Linear | Filter::Anisotropic);
+    match [spec.mag, spec.min].iter().find(|f| !own(f)) {
+        Some(filter) if spec.method == Method::Hardware => Err(format!(
+            "no device's own sampler has filter \"{filter}\"; use method \"shader\", or filter nearest, linear or anisotropic"
+        )),
+        _ => Ok(()),
+    }
+}
+
+/// What look-ups of each texture can do, after the command line's changes too.
+pub fn check_filters(scene: &Scene) -> Result<()> {
+    let materials = scene.materials.iter().flat_map(|m| m.texture.map(|t| (t, m.sampler)));
+    let environment = scene.background.environment.iter().map(|e| (e.texture, e.sampler));
+    for (texture, sampler) in materials.chain(environment) {
+        let (Some(source), Some(spec)) = (scene.textures.get(texture), scene.samplers.get(sampler)) else {
+            continue;
+        };
+        check_method(spec).map_err(|what| Error::new(format!("texture \"{}\": {what}", source.name)))?;
+        let flat = matches!(source.dimension, Dimension::One | Dimension::Two);
+        let needs_flat = |f: &Filter| matches!(f, Filter::Cubic | Filter::Ewa | Filter::SummedArea);
+        if let Some(filter) = [spec.mag, spec.min].iter().find(|f| !flat && needs_flat(f)) {
+            return Err(Error::with_help(
+                format!(
+                    "texture \"{}\" is {}: filter \"{filter}\" reads 2d textures only",
+                    source.name, source.dimension
+                ),
+                "give it a sampler with filter nearest, linear, stochastic or anisotropic",
+            ));
+        }
+    }
+    Ok(())
 }
 
 /// Only jittered strata have displacement vectors that pixels could share.

@@ -15,9 +15,27 @@ named_enum! {
 }
 
 named_enum! {
+    /// How the texels around a place, or under a footprint, become one value.
     pub enum Filter {
         Nearest = "nearest",
         Linear = "linear",
+        /// Four by four texels, by B and C of Mitchell & Netravali 1988.
+        Cubic = "cubic",
+        /// One texel, by chance, with the weights of `linear` (Fajardo et al. 2023).
+        Stochastic = "stochastic",
+        /// Look-ups along the footprint's major axis (McCormack et al. 1999); as texture units do it.
+        Anisotropic = "anisotropic",
+        /// All texels under the footprint's ellipse (Heckbert 1989).
+        Ewa = "ewa",
+        /// The mean over the footprint's bounding box (Crow 1984).
+        SummedArea = "summed-area",
+    }
+}
+
+impl Filter {
+    /// Filters that only mean something where a footprint covers more than a texel.
+    pub const fn only_minifies(self) -> bool {
+        matches!(self, Filter::Anisotropic | Filter::Ewa | Filter::SummedArea)
     }
 }
 
@@ -49,36 +67,62 @@ named_enum! {
 pub struct SamplerSpec {
     /// Along u and v.
     pub address: [Address; 2],
+    /// Along w, of 3D textures.
+    pub address_w: Address,
     pub mag: Filter,
     pub min: Filter,
     pub mip: MipMode,
     pub border_color: [f32; 4],
     pub method: Method,
     pub texel_center: TexelCenter,
+    /// Longest footprint, in widths, that `anisotropic` and `ewa` follow; wider ones are blurred.
+    pub max_anisotropy: u32,
+    /// B and C of the cubic filter.
+    pub cubic: [f32; 2],
 }
+
+/// B = 0, C = ½: interpolates.
+pub const CATMULL_ROM: [f32; 2] = [0.0, 0.5];
 
 impl Default for SamplerSpec {
     fn default() -> Self {
         SamplerSpec {
             address: [Address::Repeat; 2],
+            address_w: Address::Repeat,
             mag: Filter::Linear,
             min: Filter::Linear,
             mip: MipMode::None,
             border_color: [0.0; 4],
             method: Method::Shader,
             texel_center: TexelCenter::Half,
+            max_anisotropy: 16,
+            cubic: CATMULL_ROM,
         }
     }
 }
 
+/// What texture units have.
+const BASIC: [Filter; 2] = [Filter::Nearest, Filter::Linear];
+
 impl SamplerSpec {
-    /// Every variant that differs in more than its border colour or texel centre: 5 × 5 address
-    /// modes, 2 × 2 filters, 3 mip modes. Hardware tests and reports walk this table.
+    /// Whether look-ups depend on what they are averaged over.
+    pub fn needs_footprint(&self) -> bool {
+        self.mag != self.min || self.mip != MipMode::None
+    }
+
+    /// Whether it reads levels below the texture itself.
+    pub fn reads_levels(&self) -> bool {
+        self.mip != MipMode::None || self.min == Filter::Ewa
+    }
+
+    /// Every variant of a device's sampler that differs in more than its border colour, texel centre or
+    /// anisotropy: 5 × 5 address modes, 2 × 2 filters, 3 mip modes. Hardware tests and reports walk this
+    /// table.
     pub fn all() -> impl Iterator<Item = SamplerSpec> {
         let axes = Address::ALL.iter().flat_map(|&u| Address::ALL.iter().map(move |&v| [u, v]));
         axes.flat_map(|address| {
-            Filter::ALL.iter().flat_map(move |&mag| {
-                Filter::ALL.iter().flat_map(move |&min| {
+            BASIC.iter().flat_map(move |&mag| {
+                BASIC.iter().flat_map(move |&min| {
                     MipMode::ALL.iter().map(move |&mip| SamplerSpec {
                         address,
                         mag,

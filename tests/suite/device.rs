@@ -4,6 +4,7 @@
 
 mod images;
 mod refused;
+mod solids;
 
 use moire::gpu::{
     BindingDesc, BindingKind, Bound, Buffer, BufferUse, DeviceSelect, Gpu, MessageLog, OpenOptions, Pipeline,

@@ -12,6 +12,7 @@ mod decode;
 mod decode_errors;
 mod device;
 mod device_shaders;
+mod dimensions;
 mod error;
 mod golden;
 #[cfg(unix)]
@@ -22,6 +23,7 @@ mod lean;
 mod lecture;
 mod lookup;
 mod metrics;
+mod mips;
 mod oracle;
 mod output;
 mod procedural;

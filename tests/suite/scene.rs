@@ -268,7 +268,8 @@ fn every_key_listed_as_allowed_is_read() {
     let material = "[[texture]]\nname = 't'\nfile = 't'\n[[material]]\nname = 'm'\n";
     let sections = [
         ("[camera]\neye = [0, 0, 1]\nlook_at = [0, 0, 0]\n", 6),
-        ("[[texture]]\nname = 'x'\nfile = 'x'\n", 4),
+        ("[[texture]]\nname = 'x'\nfile = 'x'\n", 11),
+        ("[[texture]]\nname = 'x'\n[texture.volume]\nfile = 'x'\nsize = [1, 1, 1]\nformat = 'grey8'\n", 5),
         ("[[sampler]]\nname = 'x'\n", 7),
         ("[[material]]\nname = 'x'\n", 6),
         ("[sampling]\n", 7),

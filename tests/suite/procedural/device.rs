@@ -1,10 +1,11 @@
 //! The device against the oracle, for every kind, near and far, with and without a footprint.
 
 use glam::DVec3;
-use moire::layout;
+use moire::layout::{self, Header};
 use moire::oracle::procedural::{box_count, principal_axes, procedural_color};
 use moire::pack::PackedScene;
 use moire::probe::{self, ProceduralQuery};
+use moire::scene::model::Footprint;
 use moire::texture::procedural::ProceduralKind::{self, *};
 
 use super::{default_record, record};
@@ -12,7 +13,9 @@ use crate::lookup::bench::Dice;
 use crate::shared_gpu::gpu;
 
 fn scene(records: &[layout::Procedural], filtered: bool) -> PackedScene {
-    PackedScene { procedurals: records.to_vec(), procedurals_filtered: filtered, ..Default::default() }
+    let footprint = if filtered { Footprint::Differentials } else { Footprint::None };
+    let header = Header { key: [0, 0, footprint as u32, 0], ..Default::default() };
+    PackedScene { header, procedurals: records.to_vec(), ..Default::default() }
 }
 
 fn four(v: DVec3) -> [f32; 4] {

@@ -1,0 +1,203 @@
+// How wide a ray is: what its share of the pixel covers, at its origin and as it goes, on the surface
+// that it hits, and after a mirror or a refraction. Differentials (Igehy 1999) carry two vectors each of
+// origin and direction; a cone (Amanatides 1984; Akenine-Möller et al. 2021) a width and a spread. Both
+// give two vectors on the surface, full widths, which is all that filters see. Twin:
+// src/oracle/footprint.rs.
+#ifndef FOOTPRINT_GLSL
+#define FOOTPRINT_GLSL
+
+#include "camera.glsl"
+#include "math.glsl"
+
+const bool FILTERED = FOOTPRINTS != (1u << FOOTPRINT_NONE);
+const bool CONES = HAS(FOOTPRINTS, FOOTPRINT_CONE);
+const bool DIFFERENTIALS = HAS(FOOTPRINTS, FOOTPRINT_DIFFERENTIALS);
+
+struct Beam {
+    vec3 origin_x; // change of the ray's origin over the share of the pixel, to the right and down
+    vec3 origin_y;
+    vec3 direction_x;
+    vec3 direction_y;
+    float width;  // of the cone at the origin
+    float spread; // growth of the width a unit of t; negative where it converges
+};
+
+// What the beam covers where it meets a surface: changes of the point and of the direction.
+struct Footprint {
+    vec3 point_x;
+    vec3 point_y;
+    vec3 direction_x;
+    vec3 direction_y;
+};
+
+const Footprint NO_FOOTPRINT = Footprint(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
+
+bool uses_cones(Header header) { return MODE_IS(FOOTPRINTS, FOOTPRINT_CONE, header.key.z); }
+
+// `share` is the side of the part of a pixel that one sample stands for: 1 / √samples.
+Beam camera_beam(Header header, Ray ray) {
+    Beam beam = Beam(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), 0.0, 0.0);
+    if (!FILTERED) return beam;
+    bool orthographic = MODE_IS(PROJECTIONS, PROJECTION_ORTHOGRAPHIC, header.size.z);
+    float share = header.step_x.w;
+    if (DIFFERENTIALS) {
+        vec3 x = header.step_x.xyz * share;
+        vec3 y = header.step_y.xyz * share;
+        beam.origin_x = orthographic ? x : vec3(0.0);
+        beam.origin_y = orthographic ? y : vec3(0.0);
+        beam.direction_x = orthographic ? vec3(0.0) : x;
+        beam.direction_y = orthographic ? vec3(0.0) : y;
+    }
+    if (CONES) {
+        float side = header.step_y.w * share; // of the pixel's share, at t = 1
+        // Seen from the eye a pixel off the axis is narrower by the cosine in one direction: the cone
+        // has the root of it, and so the same cross-section.
+        beam.width = orthographic ? side : 0.0;
+        beam.spread = orthographic ? 0.0 : side / sqrt(sqrt(dot3(ray.direction, ray.direction)));
+    }
+    return beam;
+}
+
+// A unit vector at right angles to the unit vector n (Duff et al. 2017).
+vec3 any_tangent(vec3 n) {
+    float side = n.z >= 0.0 ? 1.0 : -1.0;
+    float a = -1.0 / (side + n.z);
+    return vec3(1.0 + side * n.x * n.x * a, side * n.x * n.y * a, -side * n.x);
+}
+
+// Grazing footprints end here: 1 / cos at most.
+const float MAX_STRETCH = 65536.0;
+
+// The footprint around the point origin + t direction with unit normal n.
+Footprint footprint_at(Header header, Beam beam, Ray ray, float t, vec3 n) {
+    Footprint print = NO_FOOTPRINT;
+    if (!FILTERED) return print;
+    float facing = dot3(n, ray.direction);
+    float squared = dot3(ray.direction, ray.direction);
+    float least = sqrt(squared) / MAX_STRETCH;
+    facing = abs(facing) < least ? (facing < 0.0 ? -least : least) : facing;
+    if (DIFFERENTIALS && (!CONES || !uses_cones(header))) {
+        precise vec3 x = beam.origin_x + t * beam.direction_x;
+        precise vec3 y = beam.origin_y + t * beam.direction_y;
+        precise vec3 on_x = x - (dot3(n, x) / facing) * ray.direction;
+        precise vec3 on_y = y - (dot3(n, y) / facing) * ray.direction;
+        return Footprint(on_x, on_y, beam.direction_x, beam.direction_y);
+    }
+    if (CONES) {
+        precise float width = abs(beam.width + beam.spread * t);
+        float scale = 1.0 / sqrt(squared);
+        vec3 d = ray.direction * scale;
+        vec3 across = cross3(n, d); // as long as the sine of the angle of incidence
+        float sine = sqrt(dot3(across, across));
+        // At normal incidence every direction across is as good as any other.
+        vec3 minor = sine > 1e-4 ? across / sine : any_tangent(n);
+        vec3 major = cross3(minor, n);
+        vec3 turned = cross3(d, minor);
+        float stretch = sqrt(squared) / abs(facing);
+        print.point_x = minor * width;
+        print.point_y = major * (width * stretch);
+        print.direction_x = minor * beam.spread;
+        print.direction_y = turned * beam.spread;
+    }
+    return print;
+}
+
+// The footprint of a ray that goes on for ever: all that counts is the change of its direction.
+Footprint endless_footprint(Header header, Beam beam, Ray ray) {
+    if (!FILTERED) return NO_FOOTPRINT;
+    if (DIFFERENTIALS && (!CONES || !uses_cones(header))) {
+        return Footprint(vec3(0.0), vec3(0.0), beam.direction_x, beam.direction_y);
+    }
+    vec3 d = ray.direction / sqrt(dot3(ray.direction, ray.direction));
+    vec3 side = any_tangent(d);
+    return Footprint(vec3(0.0), vec3(0.0), side * beam.spread, cross3(d, side) * beam.spread);
+}
+
+// d - 2 (d·n) n, for unit n.
+vec3 mirrored(vec3 direction, vec3 normal) {
+    precise vec3 result = direction - (2.0 * dot3(direction, normal)) * normal;
+    return result;
+}
+
+// Change of the mirrored direction d - 2 (d·n) n, where the normal changes by `normal_change`.
+vec3 mirrored_change(vec3 direction, vec3 n, vec3 change, vec3 normal_change) {
+    float d = dot3(direction, n);
+    float d_change = dot3(change, n) + dot3(direction, normal_change);
+    return change - 2.0 * (d * normal_change + d_change * n);
+}
+
+// The beam that leaves a mirror. `bend` is the change of the unit normal a unit of way along the surface;
+// a cone takes its mean, the curvature.
+Beam mirrored_beam(Header header, Beam beam, Ray ray, float t, Footprint print, vec3 n, mat3 bend, float curvature) {
+    if (!FILTERED) return beam;
+    Beam next = beam;
+    if (DIFFERENTIALS) {
+        next.origin_x = print.point_x;
+        next.origin_y = print.point_y;
+        next.direction_x = mirrored_change(ray.direction, n, print.direction_x, bend * print.point_x);
+        next.direction_y = mirrored_change(ray.direction, n, print.direction_y, bend * print.point_y);
+    }
+    if (CONES) {
+        next.width = beam.width + beam.spread * t;
+        next.spread = beam.spread + 2.0 * curvature * next.width * sqrt(dot3(ray.direction, ray.direction));
+    }
+    return next;
+}
+
+// Snell: the direction behind a surface with unit normal n against the ray; `ratio` of refractive
+// indices, in front over behind. As long as d; d itself where everything is reflected.
+vec3 refracted(vec3 direction, vec3 n, float ratio) {
+    float along = dot3(direction, n);
+    float squared = dot3(direction, direction);
+    precise float under = squared - ratio * ratio * (squared - along * along);
+    precise vec3 result = ratio * direction - (ratio * along + sqrt(max(under, 0.0))) * n;
+    return under > 0.0 ? result : direction;
+}
+
+// Share of unpolarised light that is mirrored (Fresnel); 1 beyond the critical angle.
+float reflectance(vec3 direction, vec3 n, float ratio) {
+    float squared = dot3(direction, direction);
+    float along = dot3(direction, n);
+    precise float cosine = min(abs(along) / sqrt(squared), 1.0);
+    precise float under = 1.0 - ratio * ratio * (1.0 - cosine * cosine);
+    if (under <= 0.0) return 1.0;
+    precise float behind = sqrt(under);
+    precise float s = (ratio * cosine - behind) / (ratio * cosine + behind);
+    precise float p = (cosine - ratio * behind) / (cosine + ratio * behind);
+    precise float mean = 0.5 * (s * s + p * p);
+    return mean;
+}
+
+// Change of the refracted direction r d - (r d·n + k) n with k² = d² - r² (d² - (d·n)²).
+vec3 refracted_change(vec3 direction, vec3 n, float ratio, vec3 change, vec3 normal_change) {
+    float along = dot3(direction, n);
+    float along_change = dot3(change, n) + dot3(direction, normal_change);
+    float rr = ratio * ratio;
+    float squared = dot3(direction, direction);
+    float k = sqrt(max(squared - rr * (squared - along * along), 1e-6 * squared));
+    float k_change = ((1.0 - rr) * dot3(direction, change) + rr * along * along_change) / k;
+    return ratio * change - (ratio * along + k) * normal_change - (ratio * along_change + k_change) * n;
+}
+
+// The beam behind a refracting surface. A cone is as wide as the ellipse that it becomes has area.
+Beam refracted_beam(Header header, Beam beam, Ray ray, float t, Footprint print, vec3 n, mat3 bend, float curvature, float ratio) {
+    if (!FILTERED) return beam;
+    Beam next = beam;
+    if (DIFFERENTIALS) {
+        next.origin_x = print.point_x;
+        next.origin_y = print.point_y;
+        next.direction_x = refracted_change(ray.direction, n, ratio, print.direction_x, bend * print.point_x);
+        next.direction_y = refracted_change(ray.direction, n, ratio, print.direction_y, bend * print.point_y);
+    }
+    if (CONES) {
+        float size = sqrt(dot3(ray.direction, ray.direction));
+        float before = min(abs(dot3(ray.direction, n)) / size, 1.0);
+        float behind = sqrt(max(1.0 - ratio * ratio * (1.0 - before * before), 1e-6));
+        float squeeze = sqrt(behind / max(before, 1e-6));
+        next.width = (beam.width + beam.spread * t) * squeeze;
+        next.spread = beam.spread * (ratio / squeeze) + (ratio * before - behind) * curvature * next.width * size;
+    }
+    return next;
+}
+
+#endif

@@ -1,0 +1,187 @@
+//! How wide a ray is, on surfaces and after mirrors and refraction. Twin of
+//! `glsl/shared/footprint.glsl`.
+
+use glam::{DMat3, DVec3};
+
+use super::camera::Ray;
+use super::math::xyz;
+use crate::layout::Header;
+use crate::pack::ProjectionKind;
+use crate::scene::model::Footprint as FootprintKind;
+
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Beam {
+    /// Change of the ray's origin over the share of the pixel, to the right and down.
+    pub origin: [DVec3; 2],
+    pub direction: [DVec3; 2],
+    /// Of the cone at the origin.
+    pub width: f64,
+    /// Growth of the width a unit of t.
+    pub spread: f64,
+}
+
+/// What the beam covers where it meets a surface: changes of the point and of the direction.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Footprint {
+    pub point: [DVec3; 2],
+    pub direction: [DVec3; 2],
+}
+
+pub fn is_filtered(header: &Header) -> bool {
+    header.key[2] != FootprintKind::None as u32
+}
+
+pub fn uses_cones(header: &Header) -> bool {
+    header.key[2] == FootprintKind::Cone as u32
+}
+
+pub fn camera_beam(header: &Header, ray: &Ray) -> Beam {
+    let orthographic = header.size[2] == ProjectionKind::Orthographic as u32;
+    let share = f64::from(header.step_x[3]);
+    let steps = [xyz(header.step_x) * share, xyz(header.step_y) * share];
+    let side = f64::from(header.step_y[3]) * share;
+    let none = [DVec3::ZERO; 2];
+    if orthographic {
+        Beam { origin: steps, direction: none, width: side, spread: 0.0 }
+    } else {
+        Beam { origin: none, direction: steps, width: 0.0, spread: side / ray.direction.length().sqrt() }
+    }
+}
+
+/// A unit vector at right angles to the unit vector n (Duff et al. 2017).
+pub fn any_tangent(n: DVec3) -> DVec3 {
+    let side = if n.z >= 0.0 { 1.0 } else { -1.0 };
+    let a = -1.0 / (side + n.z);
+    DVec3::new(1.0 + side * n.x * n.x * a, side * n.x * n.y * a, -side * n.x)
+}
+
+/// Grazing footprints end here: 1 / cos at most.
+const MAX_STRETCH: f64 = 65536.0;
+
+/// The footprint around the point origin + t direction with unit normal n.
+pub fn footprint_at(header: &Header, beam: &Beam, ray: &Ray, t: f64, n: DVec3) -> Footprint {
+    let length = ray.direction.length();
+    let mut facing = n.dot(ray.direction);
+    let least = length / MAX_STRETCH;
+    if facing.abs() < least {
+        facing = if facing < 0.0 { -least } else { least };
+    }
+    if !uses_cones(header) {
+        let on_surface = |i: usize| {
+            let moved = beam.origin[i] + t * beam.direction[i];
+            moved - (n.dot(moved) / facing) * ray.direction
+        };
+        return Footprint { point: [on_surface(0), on_surface(1)], direction: beam.direction };
+    }
+    let width = (beam.width + beam.spread * t).abs();
+    let d = ray.direction / length;
+    let across = n.cross(d);
+    let sine = across.length();
+    // At normal incidence every direction across is as good as any other.
+    let minor = if sine > 1e-4 { across / sine } else { any_tangent(n) };
+    let major = minor.cross(n);
+    Footprint {
+        point: [minor * width, major * (width * length / facing.abs())],
+        direction: [minor * beam.spread, d.cross(minor) * beam.spread],
+    }
+}
+
+/// The footprint of a ray that goes on for ever: all that counts is the change of its direction.
+pub fn endless_footprint(header: &Header, beam: &Beam, ray: &Ray) -> Footprint {
+    if !uses_cones(header) {
+        return Footprint { point: [DVec3::ZERO; 2], direction: beam.direction };
+    }
+    let d = ray.direction.normalize();
+    let side = any_tangent(d);
+    Footprint { point: [DVec3::ZERO; 2], direction: [side * beam.spread, d.cross(side) * beam.spread] }
+}
+
+/// d - 2 (d·n) n, for unit n.
+pub fn mirrored(direction: DVec3, normal: DVec3) -> DVec3 {
+    direction - 2.0 * direction.dot(normal) * normal
+}
+
+/// Change of the mirrored direction, where the normal changes by `normal_change`.
+pub fn mirrored_change(direction: DVec3, n: DVec3, change: DVec3, normal_change: DVec3) -> DVec3 {
+    let d_change = change.dot(n) + direction.dot(normal_change);
+    change - 2.0 * (direction.dot(n) * normal_change + d_change * n)
+}
+
+/// A place where a beam meets a surface.
+#[derive(Clone, Copy, Debug)]
+pub struct Meeting {
+    pub ray: Ray,
+    pub t: f64,
+    pub print: Footprint,
+    /// Unit, against the ray.
+    pub normal: DVec3,
+    /// Change of the unit normal a unit of way along the surface, and its mean.
+    pub bend: DMat3,
+    pub curvature: f64,
+}
+
+/// The beam that leaves a mirror.
+pub fn mirrored_beam(beam: &Beam, at: &Meeting) -> Beam {
+    let d = at.ray.direction;
+    let change =
+        |i: usize| mirrored_change(d, at.normal, at.print.direction[i], at.bend * at.print.point[i]);
+    let width = beam.width + beam.spread * at.t;
+    Beam {
+        origin: at.print.point,
+        direction: [change(0), change(1)],
+        width,
+        spread: beam.spread + 2.0 * at.curvature * width * d.length(),
+    }
+}
+
+/// Snell: the direction behind a surface with unit normal n against the ray; `ratio` of refractive
+/// indices, in front over behind. As long as d; d itself where everything is reflected.
+pub fn refracted(direction: DVec3, n: DVec3, ratio: f64) -> DVec3 {
+    let along = direction.dot(n);
+    let squared = direction.length_squared();
+    let under = squared - ratio * ratio * (squared - along * along);
+    if under > 0.0 { ratio * direction - (ratio * along + under.sqrt()) * n } else { direction }
+}
+
+/// Share of unpolarised light that is mirrored (Fresnel); 1 beyond the critical angle.
+pub fn reflectance(direction: DVec3, n: DVec3, ratio: f64) -> f64 {
+    let cosine = (direction.dot(n).abs() / direction.length()).min(1.0);
+    let under = 1.0 - ratio * ratio * (1.0 - cosine * cosine);
+    if under <= 0.0 {
+        return 1.0;
+    }
+    let behind = under.sqrt();
+    let s = (ratio * cosine - behind) / (ratio * cosine + behind);
+    let p = (cosine - ratio * behind) / (cosine + ratio * behind);
+    0.5 * (s * s + p * p)
+}
+
+/// Change of the refracted direction r d - (r d·n + k) n with k² = d² - r² (d² - (d·n)²).
+pub fn refracted_change(direction: DVec3, n: DVec3, ratio: f64, change: DVec3, normal_change: DVec3) -> DVec3 {
+    let along = direction.dot(n);
+    let along_change = change.dot(n) + direction.dot(normal_change);
+    let rr = ratio * ratio;
+    let squared = direction.length_squared();
+    let k = (squared - rr * (squared - along * along)).max(1e-6 * squared).sqrt();
+    let k_change = ((1.0 - rr) * direction.dot(change) + rr * along * along_change) / k;
+    ratio * change - (ratio * along + k) * normal_change - (ratio * along_change + k_change) * n
+}
+
+/// The beam behind a refracting surface.
+pub fn refracted_beam(beam: &Beam, at: &Meeting, ratio: f64) -> Beam {
+    let d = at.ray.direction;
+    let change = |i: usize| {
+        refracted_change(d, at.normal, ratio, at.print.direction[i], at.bend * at.print.point[i])
+    };
+    let before = (d.dot(at.normal).abs() / d.length()).min(1.0);
+    let behind = (1.0 - ratio * ratio * (1.0 - before * before)).max(1e-6).sqrt();
+    let squeeze = (behind / before.max(1e-6)).sqrt();
+    let width = (beam.width + beam.spread * at.t) * squeeze;
+    Beam {
+        origin: at.print.point,
+        direction: [change(0), change(1)],
+        width,
+        spread: beam.spread * (ratio / squeeze)
+            + (ratio * before - behind) * at.curvature * width * d.length(),
+    }
+}

@@ -1,0 +1,142 @@
+//! `[[sampler]]` and `[background]`. In: their tables. Out: the types of the model, with the defaults of
+//! keys that are not given.
+
+use glam::DVec3;
+use toml::de::DeValue;
+
+use super::model::{Background, Environment, EnvironmentLayout, TextureSource};
+use super::names::Names;
+use super::reader::{COLOR, COORDINATE, Field};
+use super::table::Table;
+use super::validate::{MAX_ANISOTROPY, both_filters, check_mag, check_method};
+use crate::error::Result;
+use crate::texture::data::Dimension;
+use crate::texture::sampler_spec::{Address, CATMULL_ROM, Filter, Method, MipMode, SamplerSpec, TexelCenter};
+
+pub(super) const SAMPLER: &[&str] = &[
+    "name",
+    "address",
+    "filter",
+    "border_color",
+    "mip",
+    "method",
+    "texel_center",
+    "max_anisotropy",
+    "cubic",
+];
+pub(super) const BACKGROUND: &[&str] = &["color", "environment", "sampler", "layout", "rotate"];
+const FILTER: &[&str] = &["mag", "min"];
+/// Cubic filters by name, with B and C (Mitchell & Netravali 1988).
+const CUBICS: [(&str, [f32; 2]); 3] =
+    [("catmull-rom", CATMULL_ROM), ("b-spline", [1.0, 0.0]), ("mitchell", [1.0 / 3.0, 1.0 / 3.0])];
+
+pub(super) fn sampler(table: &Table<'_>) -> Result<SamplerSpec> {
+    let mut spec = SamplerSpec::default();
+    if let Some(field) = table.get("address") {
+        let one = |field: Field<'_>| field.choice(Address::NAMES, Address::ALL);
+        spec.address = match field.value() {
+            DeValue::Array(array) if array.len() == 3 => {
+                let [u, v, w] = field.array("one string, or one an axis", [spec.address_w; 3], one)?;
+                spec.address_w = w;
+                [u, v]
+            }
+            DeValue::Array(_) => {
+                field.array("one string, or 2 for u and v, or 3 for u, v and w", spec.address, one)?
+            }
+            _ => {
+                spec.address_w = one(field)?;
+                [spec.address_w; 2]
+            }
+        };
+    }
+    if let Some(field) = table.get("filter") {
+        let one = |field: Field<'_>| field.choice(Filter::NAMES, Filter::ALL);
+        if let DeValue::Table(_) = field.value() {
+            let both = Table::inline(field, "sampler.filter", FILTER)?;
+            if let Some(field) = both.get("mag") {
+                spec.mag = one(field)?;
+                check_mag(spec.mag).map_err(|what| field.error(&what, "not for magnification"))?;
+            }
+            spec.min = both.get("min").map_or(Ok(spec.min), one)?;
+        } else {
+            (spec.mag, spec.min) = both_filters(one(field)?);
+        }
+    }
+    if let Some(field) = table.get("max_anisotropy") {
+        spec.max_anisotropy = field.integer(1..=MAX_ANISOTROPY)?;
+    }
+    if let Some(field) = table.get("cubic") {
+        spec.cubic = cubic(field)?;
+    }
+    if let Some(field) = table.get("border_color") {
+        spec.border_color = field.numbers::<4>(&COLOR)?.map(|x| x as f32);
+    }
+    if let Some(field) = table.get("mip") {
+        spec.mip = field.choice(MipMode::NAMES, MipMode::ALL)?;
+    }
+    if let Some(field) = table.get("method") {
+        spec.method = field.choice(Method::NAMES, Method::ALL)?;
+        check_method(&spec).map_err(|what| field.error(&what, "not by the device"))?;
+    }
+    if let Some(field) = table.get("texel_center") {
+        spec.texel_center = field.choice(TexelCenter::NAMES, TexelCenter::ALL)?;
+    }
+    Ok(spec)
+}
+
+/// A name, or [B, C].
+fn cubic(field: Field<'_>) -> Result<[f32; 2]> {
+    if let DeValue::Array(_) = field.value() {
+        return Ok(field.numbers::<2>(&COORDINATE)?.map(|x| x as f32));
+    }
+    field.choice(&CUBICS.map(|c| c.0), &CUBICS.map(|c| c.1))
+}
+
+/// What a reference to a texture or a sampler needs. The sampler of a texture without one stands or will
+/// stand at `default_sampler`.
+pub(super) struct Known<'n, 'a> {
+    pub textures: &'n Names<'a>,
+    pub sources: &'n [TextureSource],
+    pub samplers: &'n Names<'a>,
+    pub default_sampler: usize,
+}
+
+pub(super) fn background(table: Option<&Table<'_>>, known: &Known<'_, '_>) -> Result<Background> {
+    let mut background = Background { color: DVec3::ZERO, environment: None };
+    let Some(table) = table else { return Ok(background) };
+    let color = table.get("color").map(|field| field.vec3(&COLOR)).transpose()?;
+    let Some(field) = table.get("environment") else {
+        if let Some(field) = ["sampler", "layout", "rotate"].iter().find_map(|key| table.get(key)) {
+            return Err(field.error("this needs an environment = \"TEXTURE\" beside it", "no environment"));
+        }
+        background.color = color.unwrap_or(DVec3::ZERO);
+        return Ok(background);
+    };
+    let texture = known.textures.resolve(field)?;
+    let dimension = known.sources[texture].dimension;
+    let natural = match dimension {
+        Dimension::Two => EnvironmentLayout::Equirectangular,
+        Dimension::Cube => EnvironmentLayout::Cube,
+        Dimension::One | Dimension::Three => {
+            let what = format!("an environment is a 2d or a cube texture; this one is {dimension}");
+            return Err(field.error(&what, "neither 2d nor cube"));
+        }
+    };
+    if let Some(field) = table.get("layout") {
+        let layout = field.choice(EnvironmentLayout::NAMES, EnvironmentLayout::ALL)?;
+        if layout != natural {
+            let what = format!("the texture is {dimension}, which needs layout \"{natural}\"");
+            return Err(field.error(&what, "does not fit the texture"));
+        }
+    }
+    let sampler = table.get("sampler").map(|field| known.samplers.resolve(field)).transpose()?;
+    let rotate = table.get("rotate").map_or(Ok(0.0), |field| field.number(&COORDINATE))?;
+    background.color = color.unwrap_or(DVec3::ONE);
+    background.environment = Some(Environment {
+        texture,
+        sampler: sampler.unwrap_or(known.default_sampler),
+        layout: natural,
+        rotate,
+    });
+    Ok(background)
+}
