@@ -10,6 +10,7 @@ use crate::pack::{
 use crate::scene::model::{Footprint, Model, Pattern, ReliefKind};
 use crate::shaders::Shader;
 use crate::texture::data::{ColorSpace, TexelFormat};
+use crate::texture::procedural::ProceduralKind;
 use crate::texture::sampler_spec::{Address, Filter, Method, MipMode, TexelCenter};
 
 named_enum! {
@@ -114,6 +115,13 @@ const FEATURES: &[(&str, &str, Narrow)] = &[
         "colour space",
         Modes(ColorSpace::NAMES, |s| bits(s.textures.iter().map(|t| t.link[0]))),
     ),
+    ("PROCEDURALS", "choice among procedural textures", Count(|s| unrolled(s.procedurals.len()))),
+    (
+        "PROCEDURAL_KINDS",
+        "procedural",
+        Modes(ProceduralKind::NAMES, |s| bits(s.procedurals.iter().map(|p| p.link[0]))),
+    ),
+    ("PROCEDURAL_FILTERED", "filter of procedural textures", Switch(filters_procedurals)),
     ("COMPENSATED", "second film for rounding errors", Switch(|s| s.samples > CHUNK)),
 ];
 
@@ -200,6 +208,7 @@ pub fn constants(
         ("MAPS_AT", sections.maps),
         ("TEXTURES_AT", sections.textures),
         ("SAMPLERS_AT", sections.samplers),
+        ("PROCEDURALS_AT", sections.procedurals),
         ("SRGB_AT", sections.srgb),
         ("GROUP_X", group[0]),
         ("GROUP_Y", group[1]),
@@ -245,6 +254,11 @@ fn size_kind(texture: &layout::Texture) -> u32 {
 
 fn has_model(scene: &PackedScene, model: Model) -> bool {
     scene.materials.iter().any(|m| m.link[0] == model as u32)
+}
+
+/// Without a footprint, look-ups of procedural textures pass one of zero.
+fn filters_procedurals(scene: &PackedScene) -> bool {
+    !scene.procedurals.is_empty() && scene.header.key[2] != Footprint::None as u32
 }
 
 /// Mirrors and glass, if their rays may go on.

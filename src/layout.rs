@@ -114,6 +114,17 @@ mirror!(Sampler, 4, {
     more: [u32; 4],
 });
 
+mirror!(Procedural, 5, {
+    background: [f32; 4],
+    figure: [f32; 4],
+    /// Width, aspect, offset, jitter.
+    shape: [f32; 4],
+    /// Lacunarity, gain, 1 / sum of the gains, distortion.
+    octaves: [f32; 4],
+    /// Kind, seed, number of octaves, dimensions.
+    link: [u32; 4],
+});
+
 /// Mirror of the push constants of `render_main.glsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]

@@ -1,6 +1,6 @@
-//! Parts of the renderer by themselves, on a device: look-ups, rays and sample positions from lists
-//! of queries. What tests and conformance reports compare with the oracle; the shaders run the very
-//! functions that rendering runs.
+//! Parts of the renderer by themselves, on a device: look-ups, procedural textures, rays and sample
+//! positions from lists of queries. What tests and conformance reports compare with the oracle; the
+//! shaders run the very functions that rendering runs.
 
 use bytemuck::{Pod, Zeroable};
 
@@ -52,6 +52,18 @@ pub struct RayAnswer {
     pub padding: [u32; 2],
 }
 
+/// One look-up of a procedural texture, averaged over the footprint that `dx` and `dy` span.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct ProceduralQuery {
+    /// Index into `PackedScene::procedurals`.
+    pub procedural: u32,
+    pub padding: [u32; 3],
+    pub at: [f32; 4],
+    pub dx: [f32; 4],
+    pub dy: [f32; 4],
+}
+
 const GROUP: u32 = 64;
 
 /// RGBA of each look-up, by the pipeline that rendering this scene would build.
@@ -80,6 +92,18 @@ pub fn rays(
 ) -> Result<Vec<RayAnswer>> {
     let features = Features::new(scene, false, keep_everything);
     run(gpu, scene, &features, &shaders::PROBE_RAYS, Some(bytemuck::cast_slice(queries)), queries.len(), &[])
+}
+
+/// Linear RGB of each look-up of a procedural texture, and 1.
+pub fn procedurals(
+    gpu: &Gpu,
+    scene: &PackedScene,
+    keep_everything: bool,
+    queries: &[ProceduralQuery],
+) -> Result<Vec<[f32; 4]>> {
+    let features = Features::new(scene, false, keep_everything);
+    let list = Some(bytemuck::cast_slice(queries));
+    run(gpu, scene, &features, &shaders::PROBE_PROCEDURAL, list, queries.len(), &[])
 }
 
 /// The positions of all samples of the first `pixels` pixels of a picture `width` wide, sample by

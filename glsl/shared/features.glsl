@@ -51,6 +51,10 @@ layout(constant_id = 30) const uint SLOTS = 1u;         // image descriptors: fl
 layout(constant_id = 53) const uint VOLUME_SLOTS = 1u;
 layout(constant_id = 54) const uint CUBE_SLOTS = 1u;
 
+layout(constant_id = 60) const uint PROCEDURALS = DYNAMIC;
+layout(constant_id = 61) const uint PROCEDURAL_KINDS = 0x3FFu;
+layout(constant_id = 62) const bool PROCEDURAL_FILTERED = true; // averaged over footprints
+
 // Where each list begins in the scene buffer, in units of 16 bytes.
 layout(constant_id = 40) const uint PLANES_AT = 0u;
 layout(constant_id = 41) const uint SPHERES_AT = 0u;
@@ -61,6 +65,7 @@ layout(constant_id = 45) const uint MAPS_AT = 0u;
 layout(constant_id = 46) const uint TEXTURES_AT = 0u;
 layout(constant_id = 47) const uint SAMPLERS_AT = 0u;
 layout(constant_id = 48) const uint SRGB_AT = 0u;
+layout(constant_id = 63) const uint PROCEDURALS_AT = 0u;
 
 // Whether the run-time mode is `value`, decided at build time where the mask allows.
 #define MODE_IS(mask, value, runtime) \

@@ -86,6 +86,17 @@ const uint TEXTURE_SIZE_ANY = 1u;
 const uint COLOR_SPACE_LINEAR = 0u;
 const uint COLOR_SPACE_SRGB = 1u;
 
+const uint PROCEDURAL_CHECKER = 0u;
+const uint PROCEDURAL_STRIPES = 1u;
+const uint PROCEDURAL_GRID = 2u;
+const uint PROCEDURAL_BRICK = 3u;
+const uint PROCEDURAL_NOISE = 4u;
+const uint PROCEDURAL_FBM = 5u;
+const uint PROCEDURAL_TURBULENCE = 6u;
+const uint PROCEDURAL_MARBLE = 7u;
+const uint PROCEDURAL_WOOD = 8u;
+const uint PROCEDURAL_CELLULAR = 9u;
+
 const uint NO_TEXTURE = 0xFFFFFFFFu;
 const uint NO_SHAPE = 0xFFFFFFFFu;
 const uint NO_MATERIAL = 0xFFFFFFFFu;
@@ -162,6 +173,14 @@ struct Sampler {
     uvec4 more;  // address w, 1 where rows go on over the poles, B and C of the cubic filter (bits)
 };
 
+struct Procedural {
+    vec4 background; // linear RGB
+    vec4 figure;
+    vec4 shape;      // width, aspect, offset, jitter
+    vec4 octaves;    // lacunarity, gain, 1 / sum of the gains, distortion
+    uvec4 link;      // kind, seed, number of octaves, dimensions
+};
+
 layout(std430, set = 0, binding = 1) readonly buffer SceneBuffer { uvec4 scene[]; };
 
 // The first 16 KiB of the scene buffer once more, which devices read fastest as uniforms. The header
@@ -191,6 +210,8 @@ Header load_header() {
     Map(F(read, at), F(read, at + 1u), F(read, at + 2u), F(read, at + 3u), F(read, at + 4u), read(at + 5u))
 #define TEXTURE(read, at) Texture(read(at), read(at + 1u))
 #define SAMPLER(read, at) Sampler(F(read, at), read(at + 1u), read(at + 2u), read(at + 3u))
+#define PROCEDURAL(read, at) \
+    Procedural(F(read, at), F(read, at + 1u), F(read, at + 2u), F(read, at + 3u), read(at + 4u))
 
 const uint PLANE_UNITS = 4u;
 const uint SPHERE_UNITS = 2u;
@@ -200,6 +221,7 @@ const uint MATERIAL_UNITS = 4u;
 const uint MAP_UNITS = 6u;
 const uint TEXTURE_UNITS = 2u;
 const uint SAMPLER_UNITS = 4u;
+const uint PROCEDURAL_UNITS = 5u;
 
 // Lists of known, small length are read once, before any branch: some compilers (lavapipe's) read a
 // buffer lane by lane inside control flow. An index that is not known at build time then selects
@@ -227,6 +249,8 @@ HELD_LIST(Material, MATERIAL, held_materials, hold_materials, material_at, MATER
 HELD_LIST(Map, MAP, held_maps, hold_maps, map_at, MAPS, MAPS_AT, MAP_UNITS)
 HELD_LIST(Texture, TEXTURE, held_textures, hold_textures, texture_at, TEXTURES, TEXTURES_AT, TEXTURE_UNITS)
 HELD_LIST(Sampler, SAMPLER, held_samplers, hold_samplers, sampler_at, SAMPLERS, SAMPLERS_AT, SAMPLER_UNITS)
+HELD_LIST(Procedural, PROCEDURAL, held_procedurals, hold_procedurals, procedural_at, PROCEDURALS, PROCEDURALS_AT,
+          PROCEDURAL_UNITS)
 
 void hold_scene() {
     hold_planes();
@@ -237,6 +261,7 @@ void hold_scene() {
     hold_maps();
     hold_textures();
     hold_samplers();
+    hold_procedurals();
 }
 
 #endif

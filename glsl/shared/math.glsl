@@ -50,6 +50,22 @@ float atan2_accurate(float y, float x) {
     return y < 0.0 ? -angle : angle;
 }
 
+// sin(2 pi t): the fraction of t, folded to [0, 1/4], in a minimax polynomial of degree 9, error below
+// 4e-9 in exact arithmetic.
+float sine_turns(float t) {
+    precise float s = t - roundEven(t);
+    precise float a = abs(s);
+    a = min(a, 0.5 - a);
+    precise float y = a * a;
+    precise float sum = 39.53670776604566;
+    sum = sum * y - 76.54978257470793;
+    sum = sum * y + 81.60100408945674;
+    sum = sum * y - 41.341655031788335;
+    sum = sum * y + 6.283185160092155;
+    precise float sine = sum * a;
+    return s < 0.0 ? -sine : sine;
+}
+
 // 2^x, to 2 ulp for |x| < 126: the nearest whole power times the Taylor series of the rest.
 float exp2_accurate(float x) {
     precise float whole = floor(x + 0.5);

@@ -37,3 +37,8 @@ pub fn atan_unit_f32(x: f32) -> f32 {
 pub fn atan2_accurate(y: f64, x: f64) -> f64 {
     y.atan2(x)
 }
+
+/// sin(2π t).
+pub fn sine_turns(t: f64) -> f64 {
+    (2.0 * std::f64::consts::PI * (t - t.round_ties_even())).sin()
+}

@@ -10,6 +10,8 @@ pub mod intersect;
 pub mod light;
 pub mod mapping;
 pub mod math;
+pub mod noise;
+pub mod procedural;
 pub mod render;
 pub mod rng;
 pub mod shade;

@@ -3,6 +3,7 @@
 //! the device sees is small and near wherever the scene lies in the world.
 
 mod mapping;
+mod procedural;
 mod shapes;
 mod textures;
 
@@ -18,6 +19,7 @@ use crate::scene::model::{
 use crate::texture::data::TextureData;
 use crate::texture::sampler_spec::{Method, SamplerSpec};
 
+pub use procedural::procedural;
 pub use textures::{MAX_SLOTS, Slot};
 
 named_enum! {
@@ -92,6 +94,7 @@ pub struct PackedScene {
     pub maps: Vec<layout::Map>,
     pub textures: Vec<layout::Texture>,
     pub samplers: Vec<layout::Sampler>,
+    pub procedurals: Vec<layout::Procedural>,
     /// Names of the textures, for messages.
     pub texture_names: Vec<String>,
     /// Channels that each texture's file has, for messages.
@@ -122,6 +125,7 @@ pub struct Sections {
     pub maps: u32,
     pub textures: u32,
     pub samplers: u32,
+    pub procedurals: u32,
     pub srgb: u32,
 }
 
@@ -227,7 +231,7 @@ impl PackedScene {
     pub fn scene_bytes(&self) -> (Vec<u8>, Sections) {
         let srgb: &[f32] = if textures::needs_srgb_table(&self.textures) { srgb8_table() } else { &[] };
         let mut sections = Sections::default();
-        let mut lists: [(&[u8], &mut u32); 9] = [
+        let mut lists: [(&[u8], &mut u32); 10] = [
             (bytemuck::cast_slice(&self.planes), &mut sections.planes),
             (bytemuck::cast_slice(&self.spheres), &mut sections.spheres),
             (bytemuck::cast_slice(&self.triangles), &mut sections.triangles),
@@ -236,6 +240,7 @@ impl PackedScene {
             (bytemuck::cast_slice(&self.maps), &mut sections.maps),
             (bytemuck::cast_slice(&self.textures), &mut sections.textures),
             (bytemuck::cast_slice(&self.samplers), &mut sections.samplers),
+            (bytemuck::cast_slice(&self.procedurals), &mut sections.procedurals),
             (bytemuck::cast_slice(srgb), &mut sections.srgb),
         ];
         lists.sort_by_key(|(list, _)| list.len());

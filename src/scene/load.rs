@@ -76,7 +76,7 @@ fn read(path: &Path) -> Result<String> {
     })
 }
 
-fn syntax_error(source: Source<'_>, error: &toml::de::Error) -> Error {
+pub(super) fn syntax_error(source: Source<'_>, error: &toml::de::Error) -> Error {
     let span = error.span().unwrap_or(0..0);
     let found = match source.excerpt(span.clone()) {
         empty if empty.is_empty() => String::new(),

@@ -4,6 +4,7 @@ mod load;
 mod materials;
 pub mod model;
 mod names;
+mod procedural;
 pub mod prune;
 mod reader;
 mod samplers;
@@ -15,4 +16,5 @@ mod textures;
 mod validate;
 
 pub use load::{load, parse};
+pub use procedural::parse_procedural;
 pub use validate::{MAX_DEPTH, MAX_SIZE, MAX_SPP, both_filters, check_filters, check_shared, check_spp};

@@ -13,8 +13,8 @@ use crate::error::{Error, Result};
 /// Which finite numbers a key takes. Everything stays below 1e30, so that single precision has
 /// room left (it ends at 3.4e38), and lengths above 1e-30, where it would reach zero.
 pub(super) struct Limits {
-    words: &'static str,
-    allow: fn(f64) -> bool,
+    pub words: &'static str,
+    pub allow: fn(f64) -> bool,
 }
 
 pub(super) const COORDINATE: Limits = Limits { words: "between -1e30 and 1e30", allow: |x| x.abs() <= 1e30 };

@@ -9,6 +9,7 @@ mod jpeg_end;
 pub mod load;
 pub mod mips;
 mod nrrd;
+pub mod procedural;
 mod read_exr;
 pub(crate) mod read_file;
 pub mod sampler_spec;

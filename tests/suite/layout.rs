@@ -11,6 +11,7 @@ use moire::pack::{LightKind, MapKind, ProjectionKind};
 use moire::scene::model::{Model, Pattern};
 use moire::shaders::{self, Shader};
 use moire::texture::data::{ColorSpace, TexelFormat};
+use moire::texture::procedural::ProceduralKind;
 use moire::texture::sampler_spec::{Address, Filter, Method, TexelCenter};
 use moire::{features, oracle};
 
@@ -65,7 +66,7 @@ fn glsl_numbers(text: &str) -> BTreeMap<String, u32> {
 
 /// Every number that layout.glsl must define, and no other: modes, and strides in units of 16 bytes.
 fn expected_numbers() -> BTreeMap<String, u32> {
-    let tables: [(&str, &[&str]); 12] = [
+    let tables: [(&str, &[&str]); 13] = [
         ("PROJECTION", ProjectionKind::NAMES),
         ("PATTERN", Pattern::NAMES),
         ("MODEL", Model::NAMES),
@@ -78,6 +79,7 @@ fn expected_numbers() -> BTreeMap<String, u32> {
         ("TEXEL_FORMAT", TexelFormat::NAMES),
         ("COLOR_SPACE", ColorSpace::NAMES),
         ("TEXTURE_SIZE", TextureSize::NAMES),
+        ("PROCEDURAL", ProceduralKind::NAMES),
     ];
     let mut all: BTreeMap<String, u32> = tables
         .iter()
@@ -105,6 +107,7 @@ const MIRRORS: &[(&str, u32)] = &[
     ("Map", mirror::Map::UNITS),
     ("Texture", mirror::Texture::UNITS),
     ("Sampler", mirror::Sampler::UNITS),
+    ("Procedural", mirror::Procedural::UNITS),
 ];
 
 /// What differs between the shader's layout and its Rust mirror.
@@ -175,13 +178,14 @@ fn push_constants_of_rendering_equal_the_slice() {
     assert_eq!(size_of::<mirror::Slice>(), here.len() * 4);
 }
 
-const SHADERS: [&Shader; 6] = [
+const SHADERS: [&Shader; 7] = [
     &shaders::RENDER_NONE,
     &shaders::RENDER_TEXELS,
     &shaders::RENDER_IMAGES,
     &shaders::PROBE_TEXELS,
     &shaders::PROBE_IMAGES,
     &shaders::PROBE_RAYS,
+    &shaders::PROBE_PROCEDURAL,
 ];
 
 /// Constants that say where lists begin and how work is divided.

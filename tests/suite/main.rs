@@ -26,6 +26,7 @@ mod metrics;
 mod mips;
 mod oracle;
 mod output;
+mod procedural;
 mod rays;
 mod readme;
 mod scene;

@@ -1,0 +1,28 @@
+#version 460
+#define SOURCE 0
+#extension GL_GOOGLE_include_directive : require
+// Look-ups of procedural textures from a list: one thread a query, RGB out.
+#include "shared/features.glsl"
+#include "shared/layout.glsl"
+#include "shared/procedural.glsl"
+
+layout(local_size_x_id = 0, local_size_y_id = 1, local_size_z = 1) in;
+
+struct Query {
+    uvec4 link; // procedural texture
+    vec4 at;
+    vec4 dx;
+    vec4 dy;
+};
+
+layout(std430, set = 0, binding = 0) writeonly buffer Results { vec4 results[]; };
+layout(std430, set = 0, binding = 4) readonly buffer Queries { Query queries[]; };
+layout(push_constant) uniform Range { uint count; } range;
+
+void main() {
+    hold_scene();
+    uint i = gl_GlobalInvocationID.x;
+    if (i >= range.count) return;
+    Query query = queries[i];
+    results[i] = vec4(procedural_color(procedural_at(query.link.x), query.at.xyz, query.dx.xyz, query.dy.xyz), 1.0);
+}

@@ -1,0 +1,129 @@
+// Random values on the integer lattice -> smooth noise. Gradient noise after Perlin 2002, sums of
+// its octaves, and the distance to the nearest of jittered points (Worley 1996, F1). Hashes are
+// integers, so every device has the same lattice; cell numbers wrap at 2^32. What is averaged over a
+// footprint fades to its mean as the footprint grows. Twin: src/oracle/noise.rs.
+#ifndef NOISE_GLSL
+#define NOISE_GLSL
+
+#include "math.glsl"
+#include "rng.glsl"
+
+// Statistics of gradient noise over space, from 3e6 random places.
+const float NOISE_VARIANCE = 0.0729;
+const float FOLDED_MEAN = 0.2203; // of |noise|
+const float FOLDED_VARIANCE = 0.0244;
+const vec2 FOLDED_SLICES = vec2(-0.11, -0.094); // see `slice_mean`
+
+// Cells that a footprint covers -> weight of the value at its centre beside the mean: the regression of
+// the mean over a square on the value in its middle, within 0.07, for noise and for cells.
+float kept(float cells) {
+    if (!PROCEDURAL_FILTERED) return 1.0;
+    precise float x = min(0.5 * cells, 1.0);
+    precise float weight = 1.0 - x * x * (3.0 - 2.0 * x);
+    return weight;
+}
+
+// The mean of what is constant along the axes that the footprint does not reach along: planes of the
+// lattice differ from the volume. With s the distance from the middle of a cell, the mean over a plane
+// is nearly linear in s², whose mean over all planes is 1/12; slopes in the middle and at the border.
+float slice_mean(float mean, vec2 slopes, vec3 fraction, vec3 widths) {
+    precise vec3 s = fraction - 0.5;
+    precise vec3 square = s * s;
+    precise vec3 off = (square - 1.0 / 12.0) * (slopes.x + (slopes.y - slopes.x) * (4.0 * square));
+    precise float shifted = mean + (off.x * kept(widths.x) + off.y * kept(widths.y) + off.z * kept(widths.z));
+    return shifted;
+}
+
+// The number of a cell. Beyond 2^31 no f32 has a fraction, and any cell will do.
+uvec3 lattice_cell(vec3 whole) {
+    bvec3 near = lessThanEqual(abs(whole), vec3(2147483520.0));
+    return uvec3(ivec3(mix(vec3(0.0), whole, near)));
+}
+
+// The dot product with one of the 12 vectors from a cube's middle to its edges.
+float lattice_gradient(uvec3 cell, float x, float y, float z) {
+    uint code = pcg3d(cell).x >> 28u;
+    float u = code < 8u ? x : y;
+    float v = code < 4u ? y : (code == 12u || code == 14u ? x : z);
+    precise float product = ((code & 1u) != 0u ? -u : u) + ((code & 2u) != 0u ? -v : v);
+    return product;
+}
+
+float blend(float a, float b, float weight) {
+    precise float value = a + weight * (b - a);
+    return value;
+}
+
+// In [-1, 1], 0 at lattice points, with continuous second derivatives.
+float gradient_noise(vec3 p, uvec3 key) {
+    precise vec3 whole = floor(p);
+    precise vec3 f = p - whole;
+    precise vec3 g = f - 1.0;
+    precise vec3 s = f * f * f * (f * (f * 6.0 - 15.0) + 10.0);
+    uvec3 a = lattice_cell(whole) + key;
+    uvec3 b = a + 1u;
+    float low = blend(blend(lattice_gradient(a, f.x, f.y, f.z),
+                            lattice_gradient(uvec3(b.x, a.yz), g.x, f.y, f.z), s.x),
+                      blend(lattice_gradient(uvec3(a.x, b.y, a.z), f.x, g.y, f.z),
+                            lattice_gradient(uvec3(b.xy, a.z), g.x, g.y, f.z), s.x), s.y);
+    float high = blend(blend(lattice_gradient(uvec3(a.xy, b.z), f.x, f.y, g.z),
+                             lattice_gradient(uvec3(b.x, a.y, b.z), g.x, f.y, g.z), s.x),
+                       blend(lattice_gradient(uvec3(a.x, b.yz), f.x, g.y, g.z),
+                             lattice_gradient(b, g.x, g.y, g.z), s.x), s.y);
+    return clamp(blend(low, high, s.z), -1.0, 1.0);
+}
+
+// x: the weighted mean of the octaves of noise, or of |noise| where folded. y: the variance that has
+// faded out of it. `size` and `widths` of the footprint are in units. All octaves but the first are
+// shifted by fractions of a cell, so that their zeros do not meet.
+vec2 octave_sum(Procedural what, vec3 at, float size, vec3 widths, bool folded) {
+    precise float sum = 0.0;
+    precise float faded = 0.0;
+    precise float weight = what.octaves.z;
+    precise float frequency = 1.0;
+    for (uint k = 0u; k < what.link.z; k++) {
+        uvec3 key = pcg3d(uvec3(what.link.y, k, 0u));
+        vec3 shift = k == 0u ? vec3(0.0) : vec3(key >> 8u) * (1.0 / 16777216.0);
+        precise vec3 p = at * frequency + shift;
+        float value = gradient_noise(p, key);
+        float keep = kept(size * frequency);
+        float mean = 0.0;
+        float variance = NOISE_VARIANCE;
+        if (folded) {
+            value = abs(value);
+            mean = slice_mean(FOLDED_MEAN, FOLDED_SLICES, fract(p), widths * frequency);
+            variance = FOLDED_VARIANCE;
+        }
+        sum += weight * (keep * value + (1.0 - keep) * mean);
+        faded += weight * weight * variance * (1.0 - keep * keep);
+        weight *= what.octaves.y;
+        frequency *= what.octaves.x;
+    }
+    return vec2(sum, faded);
+}
+
+// Distance to the nearest point, at most 1: a nearer one lies in one of the 27 cells searched.
+float cell_distance(vec3 p, uint seed, float jitter) {
+    precise vec3 whole = floor(p);
+    precise vec3 f = p - whole;
+    uvec3 cell = lattice_cell(whole) + pcg3d(uvec3(seed, 0u, 0u));
+    float nearest = 1.0;
+    for (uint i = 0u; i < 27u; i++) {
+        uvec3 step = uvec3(i % 3u, (i / 3u) % 3u, i / 9u);
+        vec3 random = vec3(pcg3d(cell + step - 1u) >> 8u) * (1.0 / 16777216.0);
+        precise vec3 away = ((vec3(step) - 0.5) + jitter * (random - 0.5)) - f;
+        nearest = min(nearest, dot3(away, away));
+    }
+    return sqrt(nearest);
+}
+
+// The mean of `cell_distance`, within 0.002, and how it varies between planes, within 0.01: polynomials
+// through values from 3e5 random places.
+float cell_mean(vec3 p, vec3 widths, float jitter) {
+    precise float j = jitter * jitter;
+    precise float mean = 0.4803 + j * (0.0504 - 0.0099 * j);
+    precise vec2 slopes = vec2(1.175 + j * (0.36 * j - 1.42), 0.96 - 0.93 * jitter);
+    return slice_mean(mean, slopes, fract(p), widths);
+}
+
+#endif

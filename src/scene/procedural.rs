@@ -1,0 +1,138 @@
+//! `[[texture]]` with `procedural = "KIND"`: a pattern and its parameters. In: the section's table.
+//! Out: a [`Procedural`] whose parameters are in range. Which kinds have which parameter stands in one
+//! table; a parameter of another kind is an error.
+
+use std::path::Path;
+
+use toml::de::DeTable;
+
+use super::load::syntax_error;
+use super::reader::{COLOR, Field, Limits};
+use super::source::Source;
+use super::table::Table;
+use crate::error::Result;
+use crate::texture::procedural::ProceduralKind::{
+    self, Brick, Cellular, Fbm, Grid, Marble, Noise, Stripes, Turbulence, Wood,
+};
+use crate::texture::procedural::{MAX_OCTAVES, Procedural};
+
+/// Parameters that only some kinds have, and which.
+const PARAMETERS: &[(&str, &[ProceduralKind])] = &[
+    ("seed", &[Noise, Fbm, Turbulence, Marble, Wood, Cellular]),
+    ("octaves", &[Fbm, Turbulence, Marble, Wood]),
+    ("lacunarity", &[Fbm, Turbulence, Marble, Wood]),
+    ("gain", &[Fbm, Turbulence, Marble, Wood]),
+    ("width", &[Stripes, Grid, Brick]),
+    ("distortion", &[Marble, Wood]),
+    ("aspect", &[Brick]),
+    ("offset", &[Brick]),
+    ("jitter", &[Cellular]),
+    ("dimensions", &[Grid]),
+];
+
+/// All keys that a procedural texture may have beside its name.
+pub(super) const PROCEDURAL: &[&str] = &[
+    "procedural",
+    "colors",
+    "seed",
+    "octaves",
+    "lacunarity",
+    "gain",
+    "width",
+    "distortion",
+    "aspect",
+    "offset",
+    "jitter",
+    "dimensions",
+];
+
+const SHARE: Limits = Limits { words: "from 0 to 1", allow: |x| (0.0..=1.0).contains(&x) };
+const LACUNARITY: Limits = Limits { words: "from 1 to 16", allow: |x| (1.0..=16.0).contains(&x) };
+const GAIN: Limits = Limits { words: "from 0.01 to 1", allow: |x| (0.01..=1.0).contains(&x) };
+const DISTORTION: Limits = Limits { words: "from 0 to 100", allow: |x| (0.0..=100.0).contains(&x) };
+const ASPECT: Limits = Limits { words: "from 0.01 to 100", allow: |x| (0.01..=100.0).contains(&x) };
+
+pub(super) fn procedural(table: &Table<'_>) -> Result<Procedural> {
+    let kind = table.required("procedural")?.choice(ProceduralKind::NAMES, ProceduralKind::ALL)?;
+    for (key, kinds) in PARAMETERS.iter().filter(|(_, kinds)| !kinds.contains(&kind)) {
+        if let Some(field) = table.get(key) {
+            let names: Vec<&str> = kinds.iter().map(|k| k.name()).collect();
+            let verb = if names.len() == 1 { "has" } else { "have" };
+            let what = format!("procedural \"{kind}\" has no {key}; {} {verb} it", names.join(", "));
+            return Err(field.error(&what, format!("not with \"{kind}\"")));
+        }
+    }
+    let mut pattern = Procedural::new(kind);
+    if let Some(field) = table.get("colors") {
+        let color = |f: Field<'_>| f.numbers::<3>(&COLOR).map(|c| c.map(|x| x as f32));
+        pattern.colors = field.array("2 colours, background and figure", pattern.colors, color)?;
+    }
+    if let Some(field) = table.get("seed") {
+        pattern.seed = field.integer(0..=u32::MAX)?;
+    }
+    if let Some(field) = table.get("octaves") {
+        pattern.octaves = field.integer(1..=MAX_OCTAVES)?;
+    }
+    if let Some(field) = table.get("dimensions") {
+        pattern.dimensions = field.integer(2..=3)?;
+    }
+    let numbers = [
+        ("lacunarity", &mut pattern.lacunarity, LACUNARITY),
+        ("gain", &mut pattern.gain, GAIN),
+        ("width", &mut pattern.width, SHARE),
+        ("distortion", &mut pattern.distortion, DISTORTION),
+        ("aspect", &mut pattern.aspect, ASPECT),
+        ("offset", &mut pattern.offset, SHARE),
+        ("jitter", &mut pattern.jitter, SHARE),
+    ];
+    for (key, number, limits) in numbers {
+        if let Some(field) = table.get(key) {
+            *number = field.number(&limits)? as f32;
+        }
+    }
+    if kind == Brick {
+        joints_fit(table, &pattern)?;
+    }
+    Ok(pattern)
+}
+
+/// Joints as wide as a brick would leave no brick.
+fn joints_fit(table: &Table<'_>, pattern: &Procedural) -> Result<()> {
+    let (width, aspect) = (pattern.width, pattern.aspect);
+    if width < aspect.min(1.0) {
+        return Ok(());
+    }
+    let what =
+        format!("joints of width {width} leave nothing of bricks of {aspect} × 1; use a width below both");
+    Err(match table.get("width").or_else(|| table.get("aspect")) {
+        Some(field) => field.error(&what, "no room for bricks"),
+        None => table.error(&what, "no room for bricks"),
+    })
+}
+
+/// The one procedural `[[texture]]` of a text that holds nothing else.
+pub fn parse_procedural(path_for_messages: &Path, text: &str) -> Result<Procedural> {
+    let source = Source { path: path_for_messages, text };
+    let document = DeTable::parse(text).map_err(|error| syntax_error(source, &error))?;
+    let root = Table::root(source, document.get_ref(), &["texture"])?;
+    let keys: Vec<&str> = std::iter::once("name").chain(PROCEDURAL.iter().copied()).collect();
+    match root.repeated("texture", &keys)?.as_slice() {
+        [table] => procedural(table),
+        tables => {
+            let what = format!("one [[texture]] is expected, and there are {}", tables.len());
+            Err(root.error(&what, "one [[texture]]"))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_parameter_is_a_key() {
+        let parameters = PARAMETERS.iter().map(|p| p.0);
+        let keys: Vec<&str> = ["procedural", "colors"].into_iter().chain(parameters).collect();
+        assert_eq!(keys, PROCEDURAL);
+    }
+}
