@@ -98,23 +98,15 @@ const FEATURES: &[(&str, &str, Narrow)] = &[
         "texel centre",
         Modes(TexelCenter::NAMES, |s| bits(s.samplers.iter().map(|x| x.modes[3]))),
     ),
-    ("TEXTURE_SIZES", "texture size", Modes(TextureSize::NAMES, |s| bits(s.textures.iter().map(size_kind)))),
+    ("TEXTURE_SIZES", "texture size", Modes(TextureSize::NAMES, |s| bits(stored(s).map(size_kind)))),
     (
         "TEXTURE_KINDS",
         "texture kind",
         Modes(TextureKind::NAMES, |s| bits(s.textures.iter().map(|t| t.link[3]))),
     ),
     ("MIPMAPPED", "levels of textures", Switch(|s| s.textures.iter().any(|t| t.link[1] > 1))),
-    (
-        "TEXEL_FORMATS",
-        "texel format",
-        Modes(TexelFormat::NAMES, |s| bits(s.textures.iter().map(|t| t.place[3]))),
-    ),
-    (
-        "COLOR_SPACES",
-        "colour space",
-        Modes(ColorSpace::NAMES, |s| bits(s.textures.iter().map(|t| t.link[0]))),
-    ),
+    ("TEXEL_FORMATS", "texel format", Modes(TexelFormat::NAMES, |s| bits(stored(s).map(|t| t.place[3])))),
+    ("COLOR_SPACES", "colour space", Modes(ColorSpace::NAMES, |s| bits(stored(s).map(|t| t.link[0])))),
     ("PROCEDURALS", "choice among procedural textures", Count(|s| unrolled(s.procedurals.len()))),
     (
         "PROCEDURAL_KINDS",
@@ -250,6 +242,11 @@ fn size_kind(texture: &layout::Texture) -> u32 {
     let [_, width, height, _] = texture.place;
     let power = width.is_power_of_two() && height.is_power_of_two();
     if power { TextureSize::PowerOfTwo as u32 } else { TextureSize::Any as u32 }
+}
+
+/// Textures that are texels.
+fn stored(scene: &PackedScene) -> impl Iterator<Item = &layout::Texture> {
+    scene.textures.iter().filter(|t| t.link[3] != TextureKind::Procedural as u32)
 }
 
 fn has_model(scene: &PackedScene, model: Model) -> bool {

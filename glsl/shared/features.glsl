@@ -34,7 +34,7 @@ layout(constant_id = 25) const uint FILTERS = 0x7Fu;
 layout(constant_id = 33) const uint MIPS = 0x7u;
 layout(constant_id = 34) const uint FOOTPRINTS = 0x7u;
 layout(constant_id = 35) const uint ENTITIES = 0xFu;
-layout(constant_id = 36) const uint TEXTURE_KINDS = 0x7u;
+layout(constant_id = 36) const uint TEXTURE_KINDS = 0xFu;
 layout(constant_id = 37) const uint ADDRESSES_W = 0x1Fu;
 layout(constant_id = 38) const bool MIPMAPPED = true;   // some texture has more than one level
 layout(constant_id = 39) const bool ENVIRONMENT = true;

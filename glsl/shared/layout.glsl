@@ -66,6 +66,7 @@ const uint MIP_LINEAR = 2u;
 const uint TEXTURE_KIND_FLAT = 0u;
 const uint TEXTURE_KIND_VOLUME = 1u;
 const uint TEXTURE_KIND_CUBE = 2u;
+const uint TEXTURE_KIND_PROCEDURAL = 3u;
 
 const uint TEXEL_CENTER_HALF = 0u;
 const uint TEXEL_CENTER_INTEGER = 1u;

@@ -49,7 +49,8 @@ impl Sampler {
         let handle = unsafe { core.device.create_sampler(&info, None) }
             .doing(|| format!("creating sampler {}", spec.label()))?;
         core.set_name(handle, || format!("sampler {}", spec.label()));
-        let linear = [spec.mag, spec.min].iter().any(|&f| f != Filter::Nearest) || spec.mip == MipMode::Linear;
+        let linear =
+            [spec.mag, spec.min].iter().any(|&f| f != Filter::Nearest) || spec.mip == MipMode::Linear;
         Ok(Sampler(Arc::new(RawSampler { core: Arc::clone(core), handle, linear })))
     }
 

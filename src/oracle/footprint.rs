@@ -123,8 +123,7 @@ pub struct Meeting {
 /// The beam that leaves a mirror.
 pub fn mirrored_beam(beam: &Beam, at: &Meeting) -> Beam {
     let d = at.ray.direction;
-    let change =
-        |i: usize| mirrored_change(d, at.normal, at.print.direction[i], at.bend * at.print.point[i]);
+    let change = |i: usize| mirrored_change(d, at.normal, at.print.direction[i], at.bend * at.print.point[i]);
     let width = beam.width + beam.spread * at.t;
     Beam {
         origin: at.print.point,
@@ -157,7 +156,13 @@ pub fn reflectance(direction: DVec3, n: DVec3, ratio: f64) -> f64 {
 }
 
 /// Change of the refracted direction r d - (r d·n + k) n with k² = d² - r² (d² - (d·n)²).
-pub fn refracted_change(direction: DVec3, n: DVec3, ratio: f64, change: DVec3, normal_change: DVec3) -> DVec3 {
+pub fn refracted_change(
+    direction: DVec3,
+    n: DVec3,
+    ratio: f64,
+    change: DVec3,
+    normal_change: DVec3,
+) -> DVec3 {
     let along = direction.dot(n);
     let along_change = change.dot(n) + direction.dot(normal_change);
     let rr = ratio * ratio;
@@ -170,9 +175,8 @@ pub fn refracted_change(direction: DVec3, n: DVec3, ratio: f64, change: DVec3, n
 /// The beam behind a refracting surface.
 pub fn refracted_beam(beam: &Beam, at: &Meeting, ratio: f64) -> Beam {
     let d = at.ray.direction;
-    let change = |i: usize| {
-        refracted_change(d, at.normal, ratio, at.print.direction[i], at.bend * at.print.point[i])
-    };
+    let change =
+        |i: usize| refracted_change(d, at.normal, ratio, at.print.direction[i], at.bend * at.print.point[i]);
     let before = (d.dot(at.normal).abs() / d.length()).min(1.0);
     let behind = (1.0 - ratio * ratio * (1.0 - before * before)).max(1e-6).sqrt();
     let squeeze = (behind / before.max(1e-6)).sqrt();

@@ -26,6 +26,13 @@ pub struct Coordinate {
     pub change: [DVec3; 2],
 }
 
+impl Coordinate {
+    /// A place of a flat texture, without a footprint.
+    pub fn flat(uv: DVec2) -> Coordinate {
+        Coordinate { at: uv.extend(0.0), ..Default::default() }
+    }
+}
+
 /// matrix · uv: scale and rotation.
 pub fn turned_uv(map: &Map, uv: DVec2) -> DVec2 {
     let m = vec4(map.matrix);
@@ -119,7 +126,8 @@ pub fn spherical(map: &Map, local: DVec3, change: [DVec3; 2]) -> Coordinate {
 
 pub fn texture_coordinate(map: &Map, seen: &Seen) -> Coordinate {
     let kind = MapKind::ALL[map.link[0] as usize];
-    let local = || DVec3::new(affine(map.x, seen.entity), affine(map.y, seen.entity), affine(map.z, seen.entity));
+    let local =
+        || DVec3::new(affine(map.x, seen.entity), affine(map.y, seen.entity), affine(map.z, seen.entity));
     let change = seen.entity_change.map(|d| in_frame(map, d));
     match kind {
         MapKind::VertexUv => {

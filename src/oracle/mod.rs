@@ -4,9 +4,11 @@
 //! integers and equal bit for bit; everything after them differs by the rounding of f32 only.
 
 pub mod camera;
+pub mod ellipse;
 pub mod filter;
 pub mod footprint;
 pub mod intersect;
+pub mod levels;
 pub mod light;
 pub mod mapping;
 pub mod math;
@@ -15,6 +17,7 @@ pub mod procedural;
 pub mod render;
 pub mod rng;
 pub mod shade;
+pub mod spread;
 pub mod strata;
 pub mod surface;
 pub mod texture;

@@ -5,8 +5,8 @@ use glam::{DVec2, DVec3, DVec4};
 use super::camera::Ray;
 use super::filter::look_up;
 use super::footprint::{
-    Beam, Footprint, Meeting, any_tangent, endless_footprint, footprint_at, is_filtered, mirrored, mirrored_beam,
-    mirrored_change, reflectance, refracted, refracted_beam,
+    Beam, Footprint, Meeting, any_tangent, endless_footprint, footprint_at, is_filtered, mirrored,
+    mirrored_beam, mirrored_change, reflectance, refracted, refracted_beam,
 };
 use super::intersect::{Hit, nearest_hit, offset_origin};
 use super::light::direct_light;
@@ -97,7 +97,10 @@ pub fn bumped_normal(
             let at = c.at + DVec3::new(x, y, 0.0);
             detail(scene, material, &Coordinate { at, ..c }, random).x
         };
-        let rise = DVec2::new(height(step.x, 0.0) - height(-step.x, 0.0), height(0.0, step.y) - height(0.0, -step.y));
+        let rise = DVec2::new(
+            height(step.x, 0.0) - height(-step.x, 0.0),
+            height(0.0, step.y) - height(0.0, -step.y),
+        );
         let slope = 0.5 * strength * rise / step;
         n - slope.x * u - slope.y * v
     };
@@ -105,7 +108,13 @@ pub fn bumped_normal(
 }
 
 /// The material's colour, linear RGB, times its texture where it has one.
-pub fn surface_color(scene: &PackedScene, material: &Material, map: Option<&Map>, at: (&Ray, &Surface, &Footprint), random: [u32; 2]) -> DVec3 {
+pub fn surface_color(
+    scene: &PackedScene,
+    material: &Material,
+    map: Option<&Map>,
+    at: (&Ray, &Surface, &Footprint),
+    random: [u32; 2],
+) -> DVec3 {
     let color = xyz(material.color);
     let [_, texture, sampler, _] = material.link;
     let (Some(map), true) = (map, texture != NO_TEXTURE) else { return color };

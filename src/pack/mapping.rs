@@ -80,8 +80,14 @@ fn matrix_map(mapping: &Mapping, kind: MapKind) -> Map {
 }
 
 /// Every kind but `surface` on planes and triangles. `center` is the shape's centroid, `bounds` its box;
-/// `flat` says that the texture has two dimensions, or one.
-pub fn projecting_map(mapping: &Mapping, sampler: &SamplerSpec, eye: DVec3, place: &Place, flat: bool) -> Map {
+/// `flat` says that the texture can be read by two coordinates.
+pub fn projecting_map(
+    mapping: &Mapping,
+    sampler: &SamplerSpec,
+    eye: DVec3,
+    place: &Place,
+    flat: bool,
+) -> Map {
     let [x, y, z] = frame_rows(mapping, eye, place);
     let map = match mapping.kind {
         MappingKind::Planar => affine_map(mapping, sampler, x, y),
@@ -95,7 +101,7 @@ pub fn projecting_map(mapping: &Mapping, sampler: &SamplerSpec, eye: DVec3, plac
             let rows = turned_about_axis(mapping, [x, y, z]);
             Map { x: vec4(rows[0]), y: vec4(rows[1]), z: vec4(rows[2]), ..of_kind(MapKind::Cube) }
         }
-        MappingKind::Solid => solid_map(mapping, sampler, [x, y, z], flat),
+        MappingKind::Solid => solid_map(mapping, sampler, [x, y, z]),
     };
     let entity = match mapping.entity {
         Entity::Position | Entity::Centroid => EntityKind::Position,
@@ -134,9 +140,8 @@ fn angular_map(mapping: &Mapping, sampler: &SamplerSpec, kind: MapKind, [x, y, z
     }
 }
 
-/// Scale, rotation about the frame's axis, offset; whole tiles leave texel arrays, while a procedural
-/// texture (`endless`) repeats nowhere.
-fn solid_map(mapping: &Mapping, sampler: &SamplerSpec, rows: [DVec4; 3], endless: bool) -> Map {
+/// Scale, rotation about the frame's axis, offset, without whole tiles.
+fn solid_map(mapping: &Mapping, sampler: &SamplerSpec, rows: [DVec4; 3]) -> Map {
     let scale = mapping.scale.extend(mapping.scale_w).to_array();
     let offset = mapping.offset.extend(mapping.offset_w).to_array();
     let mut rows = turned_about_axis(mapping, rows);
@@ -144,7 +149,7 @@ fn solid_map(mapping: &Mapping, sampler: &SamplerSpec, rows: [DVec4; 3], endless
     for (i, row) in rows.iter_mut().enumerate() {
         *row *= scale[i];
         row.w += offset[i];
-        if !endless && period[i] > 0.0 {
+        if period[i] > 0.0 {
             row.w -= (row.w / period[i]).floor() * period[i];
         }
     }

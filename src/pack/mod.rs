@@ -70,6 +70,8 @@ named_enum! {
         Flat = "flat",
         Volume = "volume",
         Cube = "cube",
+        /// Computed at every look-up; `place[0]` is an index into the list of procedurals.
+        Procedural = "procedural",
     }
 }
 
@@ -215,7 +217,8 @@ impl PackedScene {
 
     /// Is there anything to look up that images of flat textures do not hold?
     pub fn has_solids(&self) -> bool {
-        self.textures.iter().any(|t| t.link[3] != TextureKind::Flat as u32)
+        let solids = [TextureKind::Volume as u32, TextureKind::Cube as u32];
+        self.textures.iter().any(|t| solids.contains(&t.link[3]))
     }
 
     pub fn slot_counts(&self) -> SlotCounts {
@@ -295,9 +298,10 @@ fn header(scene: &Scene, crop: Crop) -> Header {
     }
 }
 
-/// The footprint, if there is a filter that asks for it.
+/// The footprint, if there is a filter that asks for it. All textures and samplers are read.
 fn footprint(scene: &Scene) -> Footprint {
-    let needed = scene.samplers.iter().any(SamplerSpec::needs_footprint);
+    let procedural = scene.textures.iter().any(|t| t.content.procedural().is_some());
+    let needed = procedural || scene.samplers.iter().any(SamplerSpec::needs_footprint);
     if needed { scene.sampling.footprint } else { Footprint::None }
 }
 

@@ -61,7 +61,10 @@ fn pack_plane(packed: &mut PackedScene, scene: &Scene, plane: &Plane, eye: DVec3
     let place = Place { centroid: bounds.map(|_| plane.origin), bounds };
     if material.is_mapped() && material.mapping.entity == Entity::Centroid && place.centroid.is_none() {
         return Err(Error::with_help(
-            format!("material \"{}\": entity \"centroid\", on an infinite plane, which has none", material.name),
+            format!(
+                "material \"{}\": entity \"centroid\", on an infinite plane, which has none",
+                material.name
+            ),
             "give the plane a half_extent, or use entity \"position\" with an origin",
         ));
     }
@@ -134,7 +137,8 @@ fn add_map(
 ) -> u32 {
     let material = &scene.materials[material];
     let Some(texture) = material.texture.or(material.relief.map(|r| r.texture)) else { return 0 };
-    let flat = packed.textures[texture].link[3] == TextureKind::Flat as u32;
+    let kind = TextureKind::ALL[packed.textures[texture].link[3] as usize];
+    let flat = matches!(kind, TextureKind::Flat | TextureKind::Procedural);
     packed.maps.push(make(&material.mapping, &scene.sampler_of(material), flat));
     packed.maps.len() as u32 - 1
 }

@@ -27,12 +27,7 @@ pub fn sampler(spec: &SamplerSpec, filtered: bool) -> layout::Sampler {
     let (min, mip) = if filtered { (spec.min, spec.mip) } else { (spec.mag, MipMode::None) };
     layout::Sampler {
         border: spec.border_color,
-        modes: [
-            spec.address[0] as u32,
-            spec.address[1] as u32,
-            spec.mag as u32,
-            spec.texel_center as u32,
-        ],
+        modes: [spec.address[0] as u32, spec.address[1] as u32, spec.mag as u32, spec.texel_center as u32],
         link: [spec.method as u32, min as u32, mip as u32, spec.max_anisotropy],
         more: [spec.address_w as u32, 0, spec.cubic[0].to_bits(), spec.cubic[1].to_bits()],
     }
@@ -49,6 +44,13 @@ pub fn pack_textures(packed: &mut PackedScene, scene: &Scene, textures: Vec<Text
     let mut textures: Vec<Option<TextureData>> = textures.into_iter().map(Some).collect();
     for index in order {
         let Some(texture) = textures[index].take() else { continue };
+        if let Some(procedural) = scene.textures.get(index).and_then(|t| t.content.procedural()) {
+            let link = [ColorSpace::Linear as u32, 1, 1, TextureKind::Procedural as u32];
+            packed.textures[index] =
+                layout::Texture { place: [packed.procedurals.len() as u32, 1, 1, 0], link };
+            packed.procedurals.push(super::procedural(procedural));
+            continue;
+        }
         let texture = without_equal_channels(texture);
         let texture = if needs_linear_floats(&texture) { linear_floats(&texture) } else { texture };
         let kind = kind(&texture);
@@ -82,7 +84,8 @@ fn reads_levels(packed: &PackedScene, scene: &Scene, texture: usize) -> bool {
         return false;
     }
     let materials = scene.materials.iter();
-    let read = materials.filter(|m| m.texture == Some(texture) || m.relief.is_some_and(|r| r.texture == texture));
+    let read =
+        materials.filter(|m| m.texture == Some(texture) || m.relief.is_some_and(|r| r.texture == texture));
     let environment = scene.background.environment.filter(|e| e.texture == texture).map(|e| e.sampler);
     let mut samplers = read.map(|m| m.sampler).chain(environment);
     samplers.any(|sampler| scene.samplers[sampler].reads_levels())
@@ -171,6 +174,7 @@ pub fn slot(packed: &mut PackedScene, texture: usize, sampler: usize) -> u32 {
     let hardware = packed.sampler_specs[sampler].method == Method::Hardware;
     let slots = match TextureKind::ALL[packed.textures[texture].link[3] as usize] {
         TextureKind::Flat => &mut packed.slots,
+        TextureKind::Procedural => return 0,
         _ if !hardware => return 0,
         TextureKind::Volume => &mut packed.volume_slots,
         TextureKind::Cube => &mut packed.cube_slots,
@@ -222,6 +226,9 @@ impl PackedScene {
     /// One line a texture: size, the file's channels, and how it is held.
     pub fn texture_lines(&self) -> Vec<String> {
         let line = |(i, ((name, record), channels)): (usize, ((&String, &Texture), &usize))| {
+            if record.link[3] == TextureKind::Procedural as u32 {
+                return format!("\"{name}\": procedural, no texels");
+            }
             let [_, width, height, format] = record.place;
             let format = TexelFormat::ALL[format as usize];
             let [space, levels, depth, kind] = record.link;

@@ -175,7 +175,7 @@ fn unread(kind: TextureKind) -> ImageDesc<'static> {
 
 fn shape(kind: TextureKind) -> ImageShape {
     match kind {
-        TextureKind::Flat => ImageShape::Flat,
+        TextureKind::Flat | TextureKind::Procedural => ImageShape::Flat,
         TextureKind::Volume => ImageShape::Volume,
         TextureKind::Cube => ImageShape::Cube,
     }

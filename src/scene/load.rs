@@ -7,16 +7,17 @@ use std::path::Path;
 
 use toml::de::DeTable;
 
+use super::materials;
 use super::model::{Background, Material, Plane, Scene, Sphere, TextureSource, Triangle};
 use super::names::Names;
-use super::materials;
+use super::procedural::PROCEDURAL;
 use super::samplers::{self, Known};
 use super::sections;
 use super::shapes::{self, MaterialIndex};
 use super::source::Source;
 use super::table::Table;
 use super::textures;
-use super::validate::{check_filters, MAX_SHAPES, MAX_TEXTURES};
+use super::validate::{MAX_SHAPES, MAX_TEXTURES, check_filters};
 use crate::error::{Error, Result};
 use crate::texture::sampler_spec::SamplerSpec;
 
@@ -76,7 +77,7 @@ fn read(path: &Path) -> Result<String> {
     })
 }
 
-pub(super) fn syntax_error(source: Source<'_>, error: &toml::de::Error) -> Error {
+fn syntax_error(source: Source<'_>, error: &toml::de::Error) -> Error {
     let span = error.span().unwrap_or(0..0);
     let found = match source.excerpt(span.clone()) {
         empty if empty.is_empty() => String::new(),
@@ -142,7 +143,7 @@ struct Surfaces<'a> {
 }
 
 fn surfaces<'a>(path: &Path, root: &Table<'a>) -> Result<Surfaces<'a>> {
-    let tables = root.repeated("texture", textures::TEXTURE)?;
+    let tables = root.repeated("texture", &[textures::TEXTURE, PROCEDURAL].concat())?;
     let texture_names = Names::collect("texture", &tables)?;
     let folder = path.parent().unwrap_or(Path::new(""));
     let textures = each(tables, |table| textures::texture(table, folder))?;

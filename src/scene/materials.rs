@@ -51,10 +51,18 @@ pub(super) fn material(table: &Table<'_>, known: &Known<'_, '_>) -> Result<Mater
         material.mapping = mapping(&Table::inline(field, "material.mapping", MAPPING)?)?;
     }
     if let (Some(field), Some(texture)) = (texture_field, material.texture) {
-        fits(field, &material.mapping, known.sources[texture].dimension)?;
+        let source = &known.sources[texture];
+        if source.content.procedural().is_none() {
+            fits(field, &material.mapping, source.dimension)?;
+        }
     }
     if let (Some(field), Some(relief)) = (relief_field, material.relief) {
-        let dimension = known.sources[relief.texture].dimension;
+        let source = &known.sources[relief.texture];
+        let dimension = source.dimension;
+        if source.content.procedural().is_some() {
+            let what = "a relief is read from texels; bake the pattern into a picture";
+            return Err(field.error(what, "procedural"));
+        }
         if !matches!(dimension, Dimension::One | Dimension::Two) {
             let what = format!("a relief is a 2d texture; this one is {dimension}");
             return Err(field.error(&what, "not 2d"));
@@ -97,7 +105,9 @@ fn relief<'a>(
         (None, Some(field)) => (field, ReliefKind::Bump),
         (None, None) => {
             return match table.get("strength") {
-                Some(field) => Err(field.error("this needs a normal_map or a bump_map beside it", "no relief")),
+                Some(field) => {
+                    Err(field.error("this needs a normal_map or a bump_map beside it", "no relief"))
+                }
                 None => Ok(None),
             };
         }
@@ -112,10 +122,14 @@ fn fits(field: Field<'_>, mapping: &Mapping, dimension: Dimension) -> Result<()>
     let what = match (dimension, mapping.kind) {
         (Dimension::Three, MappingKind::Solid) | (Dimension::Cube, MappingKind::Cube) => return Ok(()),
         (Dimension::Three, kind) => {
-            format!("a 3d texture needs a mapping of kind \"solid\", which has three coordinates; this one is \"{kind}\"")
+            format!(
+                "a 3d texture needs a mapping of kind \"solid\", which has three coordinates; this one is \"{kind}\""
+            )
         }
         (Dimension::Cube, kind) => {
-            format!("a cube texture needs a mapping of kind \"cube\", which gives a direction; this one is \"{kind}\"")
+            format!(
+                "a cube texture needs a mapping of kind \"cube\", which gives a direction; this one is \"{kind}\""
+            )
         }
         (Dimension::One | Dimension::Two, MappingKind::Solid) => {
             format!("a {dimension} texture has no third coordinate for kind \"solid\"; use kind \"planar\"")

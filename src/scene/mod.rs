@@ -16,5 +16,4 @@ mod textures;
 mod validate;
 
 pub use load::{load, parse};
-pub use procedural::parse_procedural;
 pub use validate::{MAX_DEPTH, MAX_SIZE, MAX_SPP, both_filters, check_filters, check_shared, check_spp};

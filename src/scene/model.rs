@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use glam::{DVec2, DVec3};
 
 use crate::named::named_enum;
-use crate::texture::sampler_spec::SamplerSpec;
+use crate::texture::sampler_spec::{Address, SamplerSpec};
 pub use crate::texture::source::{TextureContent, TextureSource};
 
 #[derive(Clone, Debug)]
@@ -333,6 +333,13 @@ impl Sampling {
 impl Scene {
     /// The sampler a material's texture is read through; the default where there is none.
     pub fn sampler_of(&self, material: &Material) -> SamplerSpec {
-        self.samplers.get(material.sampler).copied().unwrap_or_default()
+        let spec = self.samplers.get(material.sampler).copied().unwrap_or_default();
+        let procedural = |t: usize| self.textures.get(t).is_some_and(|t| t.content.procedural().is_some());
+        if material.texture.is_some_and(procedural) {
+            // A pattern repeats nowhere: no whole tiles may leave its coordinates.
+            let clamp = Address::ClampToEdge;
+            return SamplerSpec { address: [clamp; 2], address_w: clamp, ..spec };
+        }
+        spec
     }
 }

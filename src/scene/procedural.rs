@@ -2,13 +2,7 @@
 //! Out: a [`Procedural`] whose parameters are in range. Which kinds have which parameter stands in one
 //! table; a parameter of another kind is an error.
 
-use std::path::Path;
-
-use toml::de::DeTable;
-
-use super::load::syntax_error;
 use super::reader::{COLOR, Field, Limits};
-use super::source::Source;
 use super::table::Table;
 use crate::error::Result;
 use crate::texture::procedural::ProceduralKind::{
@@ -108,21 +102,6 @@ fn joints_fit(table: &Table<'_>, pattern: &Procedural) -> Result<()> {
         Some(field) => field.error(&what, "no room for bricks"),
         None => table.error(&what, "no room for bricks"),
     })
-}
-
-/// The one procedural `[[texture]]` of a text that holds nothing else.
-pub fn parse_procedural(path_for_messages: &Path, text: &str) -> Result<Procedural> {
-    let source = Source { path: path_for_messages, text };
-    let document = DeTable::parse(text).map_err(|error| syntax_error(source, &error))?;
-    let root = Table::root(source, document.get_ref(), &["texture"])?;
-    let keys: Vec<&str> = std::iter::once("name").chain(PROCEDURAL.iter().copied()).collect();
-    match root.repeated("texture", &keys)?.as_slice() {
-        [table] => procedural(table),
-        tables => {
-            let what = format!("one [[texture]] is expected, and there are {}", tables.len());
-            Err(root.error(&what, "one [[texture]]"))
-        }
-    }
 }
 
 #[cfg(test)]

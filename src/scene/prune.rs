@@ -29,7 +29,8 @@ pub fn prune(scene: &mut Scene) -> Vec<String> {
     let environment = scene.background.environment;
     let of = mapped().flat_map(|m| [m.texture, m.relief.map(|r| r.texture)]).flatten();
     let used: Vec<usize> = of.chain(environment.map(|e| e.texture)).collect();
-    let samplers_used: Vec<usize> = mapped().map(|m| m.sampler).chain(environment.map(|e| e.sampler)).collect();
+    let samplers_used: Vec<usize> =
+        mapped().map(|m| m.sampler).chain(environment.map(|e| e.sampler)).collect();
     let textures = keep(&mut scene.textures, &used);
     let samplers = keep(&mut scene.samplers, &samplers_used);
     for material in &mut scene.materials {

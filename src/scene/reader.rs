@@ -27,10 +27,8 @@ pub(super) const FOV: Limits =
 pub(super) const SCALE: Limits =
     Limits { words: "other than 0 (magnitude 1e-30 to 1e30)", allow: |x| (1e-30..=1e30).contains(&x.abs()) };
 
-pub(super) const IOR: Limits =
-    Limits { words: "from 0.01 to 100", allow: |x| (0.01..=100.0).contains(&x) };
-pub(super) const EXPONENT: Limits =
-    Limits { words: "from 1 to 1e6", allow: |x| (1.0..=1e6).contains(&x) };
+pub(super) const IOR: Limits = Limits { words: "from 0.01 to 100", allow: |x| (0.01..=100.0).contains(&x) };
+pub(super) const EXPONENT: Limits = Limits { words: "from 1 to 1e6", allow: |x| (1.0..=1e6).contains(&x) };
 
 #[derive(Clone, Copy)]
 pub(super) struct Field<'a> {

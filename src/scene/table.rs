@@ -116,7 +116,7 @@ impl<'a> Table<'a> {
         self.source.error(self.span.clone(), what, label)
     }
 
-    fn allow_only(&self, keys: &[&str]) -> Result<()> {
+    pub fn allow_only(&self, keys: &[&str]) -> Result<()> {
         match self.first_outside(keys) {
             Some(stray) => Err(self.unknown(stray, keys, &self.place())),
             None => Ok(()),

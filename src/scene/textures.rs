@@ -3,6 +3,7 @@
 
 use std::path::{Path, PathBuf};
 
+use super::procedural::{PROCEDURAL, procedural};
 use super::reader::{COORDINATE, Field};
 use super::table::Table;
 use crate::error::Result;
@@ -31,7 +32,19 @@ const MOST: u32 = 65_536;
 
 pub(super) fn texture(table: &Table<'_>, folder: &Path) -> Result<TextureSource> {
     let name = table.required("name")?.string()?.to_owned();
+    if table.get("procedural").is_some() {
+        if let Some(other) = CONTENTS.iter().find_map(|key| table.get(key)) {
+            let what = "a procedural texture has no texels; keep procedural or this";
+            return Err(other.error(what, "excludes procedural"));
+        }
+        table.allow_only(&[&["name"], PROCEDURAL].concat())?;
+        let content = TextureContent::Procedural(procedural(table)?);
+        let (dimension, color_space) = (Dimension::Two, ColorSpace::Linear);
+        let mip_kernel = MipKernel::Box;
+        return Ok(TextureSource { name, content, dimension, color_space, flip_v: false, mip_kernel });
+    }
     let field = only_content(table)?;
+    table.allow_only(TEXTURE)?;
     let dimension = dimension(table, field)?;
     let content = content(table, field, dimension, folder)?;
 
@@ -70,7 +83,7 @@ fn only_content<'a>(table: &Table<'a>) -> Result<Field<'a>> {
         [] => {
             let what = format!(
                 "key \"texture.file\" is missing in [[texture]]: give one of {}",
-                CONTENTS.join(", ")
+                [&CONTENTS[..], &["procedural"]].concat().join(", ")
             );
             Err(table.error(&what, "no texels"))
         }

@@ -75,6 +75,9 @@ pub fn check_filters(scene: &Scene) -> Result<()> {
         let (Some(source), Some(spec)) = (scene.textures.get(texture), scene.samplers.get(sampler)) else {
             continue;
         };
+        if source.content.procedural().is_some() {
+            continue;
+        }
         check_method(spec).map_err(|what| Error::new(format!("texture \"{}\": {what}", source.name)))?;
         let flat = matches!(source.dimension, Dimension::One | Dimension::Two);
         let needs_flat = |f: &Filter| matches!(f, Filter::Cubic | Filter::Ewa | Filter::SummedArea);

@@ -10,6 +10,7 @@ use super::source::{TextureContent, TextureSource};
 use super::{cube, nrrd, stack, volume};
 use crate::error::{Error, Result};
 
+/// Of a procedural texture, which has no texels, one that nobody reads.
 pub fn load(source: &TextureSource) -> Result<TextureData> {
     let (mut texels, depth) = read(source).map_err(|e| in_texture(&source.name, e))?;
     if source.flip_v {
@@ -41,6 +42,7 @@ fn read(source: &TextureSource) -> Result<(Texels, u32)> {
         TextureContent::CubeFile(file, layout) => cube::cut(&picture(file)?, *layout, file).map(|t| (t, 6)),
         TextureContent::Faces(files) => cube::join(files, space).map(|t| (t, 6)),
         TextureContent::Slices(files) => stack::read(files, space, "slice").map(|t| (t, files.len() as u32)),
+        TextureContent::Procedural(_) => Ok((ramp(&[[0.0; 4]]), 1)),
         TextureContent::Volume(raw) => volume(&raw.file, (volume::read(raw)?, raw.size[2])),
     }
 }

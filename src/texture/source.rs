@@ -4,6 +4,7 @@
 use std::path::{Path, PathBuf};
 
 use super::data::{ColorSpace, Dimension, MipKernel, TexelFormat};
+use super::procedural::Procedural;
 use crate::named::named_enum;
 
 #[derive(Clone, Debug)]
@@ -31,6 +32,8 @@ pub enum TextureContent {
     /// Pictures of one size, the first at w = 0.
     Slices(Vec<PathBuf>),
     Volume(VolumeSource),
+    /// No texels: computed where it is read.
+    Procedural(Procedural),
 }
 
 named_enum! {
@@ -64,10 +67,17 @@ pub struct VolumeSource {
 }
 
 impl TextureContent {
+    pub fn procedural(&self) -> Option<&Procedural> {
+        match self {
+            TextureContent::Procedural(procedural) => Some(procedural),
+            _ => None,
+        }
+    }
+
     /// All files named in the scene.
     pub fn files(&self) -> Vec<&Path> {
         match self {
-            TextureContent::Ramp(_) => Vec::new(),
+            TextureContent::Ramp(_) | TextureContent::Procedural(_) => Vec::new(),
             TextureContent::File(file) | TextureContent::CubeFile(file, _) => vec![file],
             TextureContent::Faces(files) => files.iter().map(PathBuf::as_path).collect(),
             TextureContent::Slices(files) => files.iter().map(PathBuf::as_path).collect(),

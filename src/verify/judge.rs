@@ -150,10 +150,7 @@ impl<'a> Judge<'a> {
         let nearest = how.modes[2] == Filter::Nearest as u32;
         let arithmetic = range * self.precision.value(component, nearest);
         let unit = if component == Component::Float32 { range } else { DVec4::ONE };
-        let value_at = |uv: DVec2| {
-            let place = Coordinate { at: uv.extend(0.0), ..Default::default() };
-            look_up(scene, image, how, &place, [query.seed, 0])
-        };
+        let value_at = |uv: DVec2| look_up(scene, image, how, &Coordinate::flat(uv), [query.seed, 0]);
         let at = |texel: DVec2| value_at(texel / size);
 
         let (reach, slack) = match self.precision {

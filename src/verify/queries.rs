@@ -9,7 +9,7 @@ use crate::named::named_enum;
 use crate::pack::{self, PackedScene};
 use crate::probe::LookUp;
 use crate::scene::model::{
-    Algorithm, Camera, Footprint, Mapping, Material, Model, Pattern, Projection, Sampling, Scene,
+    Algorithm, Background, Camera, Footprint, Material, Model, Pattern, Projection, Sampling, Scene,
 };
 use crate::texture::data::{ColorSpace, Component, Dimension, TexelFormat, TextureData};
 use crate::texture::sampler_spec::SamplerSpec;

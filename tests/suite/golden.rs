@@ -230,7 +230,7 @@ fn a_missing_shadow_fails() {
     // White where a pixel shows the ground directly, black elsewhere.
     let mut mask = right.clone();
     mask.lights.clear();
-    mask.background = glam::DVec3::ZERO;
+    mask.background.color = glam::DVec3::ZERO;
     for material in &mut mask.materials {
         material.texture = None;
         material.color = glam::DVec3::splat(if material.name == "ground" { 1.0 } else { 0.0 });

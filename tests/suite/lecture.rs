@@ -6,9 +6,9 @@ use glam::{DVec2, DVec3};
 use moire::film::Film;
 use moire::layout::NO_SHAPE;
 use moire::oracle::camera::camera_ray;
-use moire::oracle::mapping::texture_coordinate;
+use moire::oracle::footprint::mirrored;
+use moire::oracle::mapping::{Seen, texture_coordinate};
 use moire::oracle::math::{atan_unit_f32, xyz};
-use moire::oracle::shade::mirrored;
 use moire::pack::PackedScene;
 use moire::probe::{self, RayQuery};
 use moire::progress::Silent;
@@ -57,7 +57,9 @@ fn assert_mapped(scene: &PackedScene, way: impl Fn(DVec3) -> DVec3, cases: &[(DV
             let own = scene.planes.first().map_or(DVec2::ZERO, |plane| {
                 DVec2::new(xyz(plane.axis_u).dot(point), xyz(plane.axis_v).dot(point))
             });
-            let oracle = texture_coordinate(&scene.maps[0], point, own);
+            let oracle =
+                texture_coordinate(&scene.maps[0], &Seen { entity: point, own, ..Default::default() });
+            let oracle = oracle.at.truncate();
             assert!(oracle.distance(uv) < 1e-6, "oracle: {point} maps to {oracle}, by hand {uv}"); // packed rows are f32
             assert_ne!(answer.shape, NO_SHAPE, "{point} is not met");
             let got = DVec2::new(answer.uv[0].into(), answer.uv[1].into());

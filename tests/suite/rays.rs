@@ -6,9 +6,9 @@ use glam::{DVec2, DVec3};
 use moire::layout::NO_SHAPE;
 use moire::oracle::camera::Ray;
 use moire::oracle::intersect::{Hit, nearest_hit, occluded};
-use moire::oracle::mapping::texture_coordinate;
+use moire::oracle::mapping::{Seen, texture_coordinate};
 use moire::oracle::math::xyz;
-use moire::oracle::shade::hit_surface;
+use moire::oracle::surface::hit_surface;
 use moire::pack::{MapKind, PackedScene};
 use moire::probe::{self, RayAnswer, RayQuery};
 
@@ -115,13 +115,15 @@ fn wrong_hit(
 
 fn wrong_uv(
     scene: &PackedScene,
-    surface: &moire::oracle::shade::Surface,
+    surface: &moire::oracle::surface::Surface,
     answer: &RayAnswer,
     point_error: f64,
     weights: f64,
 ) -> Option<String> {
     let map = &scene.maps[surface.map as usize];
-    let expected = texture_coordinate(map, surface.point, surface.own_uv);
+    let expected =
+        texture_coordinate(map, &Seen { entity: surface.point, own: surface.own_uv, ..Default::default() });
+    let expected = expected.at.truncate();
     let got = DVec2::new(answer.uv[0].into(), answer.uv[1].into());
     let rows = [map.x, map.y, map.z];
     let steep = rows.iter().map(|r| xyz(*r).length()).fold(0.0, f64::max);
@@ -150,6 +152,9 @@ fn wrong_uv(
             (DVec2::from_array(wide), DVec2::ZERO)
         }
         MapKind::VertexUv => (DVec2::splat(8.0 * weights + 16.0 * U), DVec2::ZERO), // uv up to 4
+        MapKind::Solid | MapKind::Cube | MapKind::Box => {
+            unreachable!("these rays meet 2d textures of other kinds")
+        }
         MapKind::Cylindrical | MapKind::Spherical => {
             let at = rows.map(|r| xyz(r).dot(surface.point) + f64::from(r[3]));
             let across = at[0].hypot(at[2]);

@@ -142,7 +142,7 @@ fn keys_left_out_have_the_documented_defaults() {
         footprint: Footprint::None,
     };
     assert_eq!(scene.sampling, sampling);
-    assert_eq!(scene.background, DVec3::ZERO);
+    assert_eq!(scene.background.color, DVec3::ZERO);
     assert!(scene.lights.is_empty());
 
     let texture = &scene.textures[0];
@@ -157,6 +157,9 @@ fn keys_left_out_have_the_documented_defaults() {
         border_color: [0.0; 4],
         method: Method::Shader,
         texel_center: TexelCenter::Half,
+        address_w: Address::Repeat,
+        max_anisotropy: 16,
+        cubic: [0.0, 0.5],
     };
     assert_eq!(scene.samplers, [sampler; 2], "the scene's own and an appended default one");
     assert_eq!(scene.materials[0].sampler, 1, "a texture without sampler gets the appended one");
@@ -189,7 +192,7 @@ fn every_key_of_a_full_scene_arrives() {
     assert_eq!((scene.width, scene.height), (512, 256));
     let Sampling { spp, shared, seed, max_depth, .. } = scene.sampling;
     assert_eq!((spp, shared, seed, max_depth), (25, true, u32::MAX, 64));
-    assert_eq!(scene.background, DVec3::new(0.1, 0.3, 0.6));
+    assert_eq!(scene.background.color, DVec3::new(0.1, 0.3, 0.6));
 
     let [ground, plain] = scene.textures.as_slice() else { panic!("two textures") };
     assert_eq!(ground.content.files(), ["scenes/textures/grass.png"].map(Path::new));
@@ -210,10 +213,11 @@ fn every_key_of_a_full_scene_arrives() {
     let [m, glass, ground_material, default] = scene.materials.as_slice() else { panic!("four materials") };
     assert_eq!((m.model, m.color), (Model::Unlit, DVec3::new(1.0, 2.0, 3.0)));
     assert_eq!((m.texture, m.sampler), (Some(1), 1));
-    let Mapping { kind, entity, space, origin, axis, scale, offset, rotate } = m.mapping;
+    let Mapping { kind, entity, space, origin, axis, scale, offset, rotate, scale_w, offset_w } = m.mapping;
     assert_eq!((kind, entity, space), (MappingKind::Cylindrical, Entity::Position, Space::Bounds));
     assert_eq!((origin, axis), (DVec3::new(1.0, 2.0, 3.0), DVec3::new(0.0, 0.0, 2.0)));
     assert_eq!((scale, offset, rotate), (DVec2::new(0.2, -0.5), DVec2::new(7.0, 8.0), 90.0));
+    assert_eq!((scale_w, offset_w), (1.0, 0.0));
     assert_eq!((glass.model, glass.mapping.scale), (Model::Mirror, DVec2::splat(0.5)));
     assert_eq!((ground_material.texture, ground_material.sampler), (Some(0), 2));
     assert_eq!(default.name, "default");

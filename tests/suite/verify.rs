@@ -5,7 +5,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use glam::DVec2;
 use moire::gpu::{DeviceInfo, DeviceKind, DeviceLimits};
-use moire::oracle::texture::look_up;
+use moire::oracle::filter::look_up;
+use moire::oracle::mapping::Coordinate;
 use moire::texture::sampler_spec::{Address, Filter, SamplerSpec};
 use moire::verify::groups::lines;
 use moire::verify::judge::{Judge, Judgement, Precision};
@@ -49,7 +50,9 @@ fn row(driver: &str, variant: &Variant, shift: f64) -> Row {
     for uv in coordinates(&mut Dice::new(3), variant.size, 100, false) {
         let query = query(&scene, 0, uv);
         let at = uv_of(&query) + DVec2::X * shift / 8.0;
-        let answer = look_up(&scene, &scene.textures[0], &scene.samplers[0], at).as_vec4().to_array();
+        let answer = look_up(&scene, &scene.textures[0], &scene.samplers[0], &Coordinate::flat(at), [0; 2])
+            .as_vec4()
+            .to_array();
         tally.add(judge.judge(&query, answer));
     }
     Row::new(&device, variant, tally)
@@ -152,7 +155,8 @@ fn the_ramp_runs_from_one_texel_to_the_other_in_equal_exact_steps() {
             let scene = pairs(vec![texture], &[spec], &[(0, 0)]).unwrap();
             for (k, uv) in ramp(axis, 1024).enumerate() {
                 let uv = uv_of(&query(&scene, 0, uv));
-                let value = look_up(&scene, &scene.textures[0], &scene.samplers[0], uv);
+                let value =
+                    look_up(&scene, &scene.textures[0], &scene.samplers[0], &Coordinate::flat(uv), [0; 2]);
                 assert_eq!(value.x, k as f64 / 1024.0, "{format} along {axis} at step {k}");
             }
         }

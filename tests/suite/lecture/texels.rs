@@ -1,7 +1,8 @@
 //! Look-ups by the lecture's two formulas, and the five address modes on a row of two texels, at
 //! coordinates worked out by hand.
 
-use moire::oracle::texture::look_up;
+use moire::oracle::filter::look_up;
+use moire::oracle::mapping::Coordinate;
 use moire::probe::{self, LookUp};
 use moire::texture::data::{ColorSpace, Dimension, TexelFormat, TextureData};
 use moire::texture::sampler_spec::{Address, Filter, SamplerSpec, TexelCenter};
@@ -29,7 +30,9 @@ fn assert_reads(texture: TextureData, spec: SamplerSpec, cases: &[([f32; 2], f64
     let scene = pairs(vec![texture], &[spec], &[(0, 0)]);
     let queries: Vec<LookUp> = cases.iter().map(|c| query(&scene, 0, c.0)).collect();
     let mut answers: Vec<(&str, Vec<f64>)> = Vec::new();
-    let oracle = |q: &LookUp| look_up(&scene, &scene.textures[0], &scene.samplers[0], uv_of(q)).x;
+    let oracle = |q: &LookUp| {
+        look_up(&scene, &scene.textures[0], &scene.samplers[0], &Coordinate::flat(uv_of(q)), [0; 2]).x
+    };
     answers.push(("oracle", queries.iter().map(oracle).collect()));
     for (who, image_source) in [("device, buffer", false), ("device, image", true)] {
         let read = probe::look_ups(&gpu(), &scene, image_source, false, &queries).unwrap();

@@ -9,7 +9,7 @@ use moire::scene::model::Footprint;
 use moire::texture::procedural::ProceduralKind::{self, *};
 
 use super::{default_record, record};
-use crate::lookup::bench::Dice;
+use crate::lookup::bench::{Dice, Vectors};
 use crate::shared_gpu::gpu;
 
 fn scene(records: &[layout::Procedural], filtered: bool) -> PackedScene {

@@ -8,7 +8,7 @@ use moire::oracle::procedural::{box_attenuation, figure_share, pulse_mean};
 use moire::texture::procedural::ProceduralKind::{self, *};
 
 use super::{HARD_EDGED, default_record, mean_of_points, share_at};
-use crate::lookup::bench::Dice;
+use crate::lookup::bench::{Dice, Vectors};
 
 /// The integral of the pulse train from 0 to x, by its definition.
 fn integral(x: f64, duty: f64) -> f64 {

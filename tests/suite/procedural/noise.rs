@@ -8,7 +8,7 @@ use moire::oracle::noise::{
 use moire::texture::procedural::ProceduralKind::{self, *};
 
 use super::{HARD_EDGED, default_record, record, share_at};
-use crate::lookup::bench::Dice;
+use crate::lookup::bench::{Dice, Vectors};
 
 const SMOOTH: [ProceduralKind; 6] = [Noise, Fbm, Turbulence, Marble, Wood, Cellular];
 

@@ -2,13 +2,17 @@
 
 use std::path::Path;
 
-use moire::scene::parse_procedural;
+use moire::scene;
 use moire::texture::procedural::{Procedural, ProceduralKind};
 
 use crate::support::told;
 
 fn parse(keys: &str) -> moire::error::Result<Procedural> {
-    parse_procedural(Path::new("test.toml"), &format!("[[texture]]\nname = \"t\"\n{keys}\n"))
+    let rest =
+        "[camera]\neye = [0, 0, 1]\nlook_at = [0, 0, 0]\nvertical_fov = 40\n[image]\nwidth = 1\nheight = 1\n";
+    let text = format!("[[texture]]\nname = \"t\"\n{keys}\n{rest}");
+    let scene = scene::parse(Path::new("test.toml"), &text)?;
+    Ok(*scene.textures[0].content.procedural().unwrap())
 }
 
 #[test]

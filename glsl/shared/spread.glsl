@@ -1,0 +1,54 @@
+// A footprint in texture coordinates -> its axes in texels, alike for flat textures, volumes and the
+// faces of cubes. Twin: src/oracle/spread.rs.
+#ifndef SPREAD_GLSL
+#define SPREAD_GLSL
+
+#include "texture.glsl"
+
+#if SOURCE != SOURCE_NONE
+
+// Squares of the footprint's axes (singular values of its Jacobian) in texels of level 0, and the unit
+// vector whose combination of dx and dy is the major axis.
+struct Spread {
+    float major;
+    float minor;
+    vec2 along;
+};
+
+// What is not a number, or endless, is as wide as the widest.
+float bounded(float squared) { return squared < 1e30 ? squared : 1e30; }
+
+// A direction on the cube as a place on its face; a flat or solid coordinate as it is.
+Coordinate in_texture(Texture image, Coordinate c, out uint face) {
+    face = 0u;
+    if (!MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_CUBE, image.link.w)) return c;
+    vec3 stm = on_cube_face(c.at, face);
+    Coordinate on_face = Coordinate(vec3(face_uv(stm), 0.0), vec3(0.0), vec3(0.0));
+    if (FILTERED) {
+        on_face.dx.xy = face_uv_change(stm, along_cube_face(c.dx, face));
+        on_face.dy.xy = face_uv_change(stm, along_cube_face(c.dy, face));
+    }
+    return on_face;
+}
+
+Spread texel_spread(Texture image, Coordinate c) {
+    vec3 size = vec3(image.place.yz, MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_VOLUME, image.link.w) ? image.link.z : 0u);
+    precise vec3 x = c.dx * size;
+    precise vec3 y = c.dy * size;
+    float xx = bounded(dot3(x, x));
+    float yy = bounded(dot3(y, y));
+    float xy = dot3(x, y);
+    precise float middle = 0.5 * (xx + yy);
+    precise float half_difference = 0.5 * (xx - yy);
+    precise float radius = sqrt(half_difference * half_difference + xy * xy);
+    precise float major = middle + radius;
+    precise float minor = max(xx * (yy / major) - xy * (xy / major), 0.0);
+    // Of two forms of the eigenvector the one that does not cancel.
+    vec2 along = half_difference >= 0.0 ? vec2(half_difference + radius, xy) : vec2(xy, radius - half_difference);
+    float squared = along.x * along.x + along.y * along.y;
+    along = squared > 0.0 ? along / sqrt(squared) : vec2(1.0, 0.0);
+    return Spread(bounded(major), minor >= 0.0 ? minor : 0.0, along);
+}
+#endif
+
+#endif

@@ -1,0 +1,57 @@
+//! A footprint in texture coordinates → its axes in texels. Twin of `glsl/shared/spread.glsl`.
+
+use glam::{DVec2, DVec3};
+
+use super::mapping::{Coordinate, along_cube_face, face_uv, face_uv_change, on_cube_face};
+use crate::layout::Texture;
+use crate::pack::TextureKind;
+
+/// The footprint in texels of level 0.
+#[derive(Clone, Copy, Debug)]
+pub struct Spread {
+    /// Squares of its axes: the singular values of its Jacobian.
+    pub major: f64,
+    pub minor: f64,
+    /// The unit vector whose combination of the two changes is the major axis.
+    pub along: DVec2,
+}
+
+/// What is not a number, or endless, is as wide as the widest.
+pub fn bounded(squared: f64) -> f64 {
+    if squared < 1e30 { squared } else { 1e30 }
+}
+
+pub fn kind_of(image: &Texture) -> TextureKind {
+    TextureKind::ALL[image.link[3] as usize]
+}
+
+/// A direction on the cube as a place on its face; a flat or solid coordinate as it is.
+pub fn in_texture(image: &Texture, c: &Coordinate) -> (Coordinate, u32) {
+    if kind_of(image) != TextureKind::Cube {
+        return (*c, 0);
+    }
+    let (stm, face) = on_cube_face(c.at);
+    let change = c.change.map(|d| face_uv_change(stm, along_cube_face(d, face)).extend(0.0));
+    (Coordinate { at: face_uv(stm).extend(0.0), change }, face)
+}
+
+pub fn texel_spread(image: &Texture, c: &Coordinate) -> Spread {
+    let depth = if kind_of(image) == TextureKind::Volume { image.link[2] } else { 0 };
+    let size = DVec3::new(image.place[1].into(), image.place[2].into(), depth.into());
+    let [x, y] = c.change.map(|d| d * size);
+    let (xx, yy, xy) = (bounded(x.dot(x)), bounded(y.dot(y)), x.dot(y));
+    let half_difference = 0.5 * (xx - yy);
+    let radius = half_difference.hypot(xy);
+    let major = 0.5 * (xx + yy) + radius;
+    let minor = (xx * (yy / major) - xy * (xy / major)).max(0.0);
+    let along = if half_difference >= 0.0 {
+        DVec2::new(half_difference + radius, xy)
+    } else {
+        DVec2::new(xy, radius - half_difference)
+    };
+    Spread {
+        major: bounded(major),
+        minor: if minor >= 0.0 { minor } else { 0.0 },
+        along: along.try_normalize().unwrap_or(DVec2::X),
+    }
+}
