@@ -30,8 +30,7 @@ pub fn specialise(words: &[u32], constants: &[(u32, u32)]) -> Vec<u32> {
     let bodies: Vec<Instruction> = functions.iter().flat_map(Function::emit).collect();
 
     // Names and decorations of what is gone go too.
-    let defined: HashSet<u32> =
-        globals.iter().chain(&bodies).filter_map(Instruction::result).collect();
+    let defined: HashSet<u32> = globals.iter().chain(&bodies).filter_map(Instruction::result).collect();
     globals.retain(|i| {
         let annotates = matches!(i.op, op::NAME | op::MEMBER_NAME | op::DECORATE | op::MEMBER_DECORATE);
         !annotates || defined.contains(&i.words[0])
@@ -77,13 +76,16 @@ impl Constants {
                 op::CONSTANT_FALSE | op::SPEC_CONSTANT_FALSE => Some(0),
                 op::CONSTANT | op::SPEC_CONSTANT => i.words.get(2).copied(),
                 op::SPEC_CONSTANT_OP => {
-                    let operands: Option<Vec<u32>> = i.words[3..].iter().map(|w| known.get(w).copied()).collect();
+                    let operands: Option<Vec<u32>> =
+                        i.words[3..].iter().map(|w| known.get(w).copied()).collect();
                     operands.and_then(|operands| evaluate(i.words[2], &operands))
                 }
                 _ => None,
             };
             let value = spec.and_then(|spec| values.get(&spec).copied()).or(default);
-            let (Some(value), Some(&kind), false) = (value, scalars.get(&i.words[0]), group) else { continue };
+            let (Some(value), Some(&kind), false) = (value, scalars.get(&i.words[0]), group) else {
+                continue;
+            };
             known.insert(id, value);
             *i = match (kind, value) {
                 (op::TYPE_BOOL, 0) => Instruction::new(op::CONSTANT_FALSE, &i.words[..2]),
@@ -146,7 +148,9 @@ impl Function {
                     reached.extend(targets);
                 }
             }
-            if reached.len() == before && self.blocks.iter().all(|b| b.reachable == reached.contains(&b.label)) {
+            if reached.len() == before
+                && self.blocks.iter().all(|b| b.reachable == reached.contains(&b.label))
+            {
                 return;
             }
         }
@@ -178,7 +182,8 @@ impl Function {
             let label = Instruction::new(op::LABEL, &[block.label]);
             if block.reachable {
                 out.push(label);
-                let kept = block.instructions.iter().filter(|i| i.op != op::LOOP_MERGE || self.is_loop(block));
+                let kept =
+                    block.instructions.iter().filter(|i| i.op != op::LOOP_MERGE || self.is_loop(block));
                 out.extend(kept.map(|i| self.with_known_parents(i, block.label)));
             } else if let Some(header) = continues.get(&block.label) {
                 out.extend([label, Instruction::new(op::BRANCH, &[*header])]);

@@ -84,7 +84,9 @@ impl Instruction {
         match self.op {
             op::BRANCH => vec![self.words[0]],
             op::BRANCH_CONDITIONAL => vec![self.words[1], self.words[2]],
-            op::SWITCH => std::iter::once(self.words[1]).chain(self.words[3..].iter().step_by(2).copied()).collect(),
+            op::SWITCH => {
+                std::iter::once(self.words[1]).chain(self.words[3..].iter().step_by(2).copied()).collect()
+            }
             _ => Vec::new(),
         }
     }
@@ -121,7 +123,11 @@ pub fn evaluate(op: u32, operands: &[u32]) -> Option<u32> {
     Some(match (op, operands) {
         (op::LOGICAL_NOT, [a]) => u32::from(*a == 0),
         (op::SELECT, [condition, a, b]) => {
-            if *condition != 0 { *a } else { *b }
+            if *condition != 0 {
+                *a
+            } else {
+                *b
+            }
         }
         (op::LOGICAL_AND | op::BITWISE_AND, [a, b]) => a & b,
         (op::LOGICAL_OR | op::BITWISE_OR, [a, b]) => a | b,
