@@ -76,9 +76,9 @@ impl Constants {
                 op::CONSTANT_FALSE | op::SPEC_CONSTANT_FALSE => Some(0),
                 op::CONSTANT | op::SPEC_CONSTANT => i.words.get(2).copied(),
                 op::SPEC_CONSTANT_OP => {
-                    let operands: Option<Vec<u32>> =
+                    let operands: Vec<Option<u32>> =
                         i.words[3..].iter().map(|w| known.get(w).copied()).collect();
-                    operands.and_then(|operands| evaluate(i.words[2], &operands))
+                    evaluate(i.words[2], &operands)
                 }
                 _ => None,
             };
@@ -111,6 +111,8 @@ struct Function {
     blocks: Vec<Block>,
     /// (from, to) of every branch that may be taken.
     edges: HashSet<(u32, u32)>,
+    /// Variables that have one value.
+    constants: HashSet<u32>,
 }
 
 impl Function {
@@ -127,7 +129,8 @@ impl Function {
             }
         }
         let head = body[..starts].to_vec();
-        let mut function = Function { id: head[0].words[1], head, blocks, edges: HashSet::new() };
+        let (id, edges, constants) = (head[0].words[1], HashSet::new(), written_once(body));
+        let mut function = Function { id, head, blocks, edges, constants };
         function.follow(known);
         function
     }
@@ -142,7 +145,7 @@ impl Function {
             for block in &mut self.blocks {
                 block.reachable = reached.contains(&block.label);
                 if block.reachable {
-                    decide(block, &self.edges, &mut values);
+                    decide(block, &self.edges, &self.constants, &mut values);
                     let targets = block.instructions.last().map(Instruction::targets).unwrap_or_default();
                     self.edges.extend(targets.iter().map(|&to| (block.label, to)));
                     reached.extend(targets);
@@ -216,21 +219,55 @@ impl Function {
     }
 }
 
-/// Values that a reachable block computes from known ones, and its branch if that is known.
-fn decide(block: &mut Block, edges: &HashSet<(u32, u32)>, values: &mut HashMap<u32, u32>) {
+/// Local variables that are written once, and otherwise only read: all reads have that value.
+fn written_once(body: &[Instruction]) -> HashSet<u32> {
+    let locals = body.iter().filter(|i| i.op == op::VARIABLE && i.words.len() == 3).map(|i| i.words[1]);
+    let mut writes: HashMap<u32, u32> = locals.map(|id| (id, 0)).collect();
+    for i in body {
+        let used = match i.op {
+            op::VARIABLE | op::LOAD => continue,
+            op::STORE => {
+                writes.entry(i.words[0]).and_modify(|count| *count += 1);
+                &i.words[1..]
+            }
+            _ => i.words.as_slice(),
+        };
+        for word in used {
+            writes.remove(word); // others may write through its address
+        }
+    }
+    writes.into_iter().filter(|w| w.1 == 1).map(|w| w.0).collect()
+}
+
+/// Values that a reachable block computes from known ones, and its branch if that is known. `constants`
+/// are variables that are written once.
+fn decide(
+    block: &mut Block,
+    edges: &HashSet<(u32, u32)>,
+    constants: &HashSet<u32>,
+    values: &mut HashMap<u32, u32>,
+) {
     // Branches backwards are not seen before the loop has been gone through.
     let is_loop = block.instructions.iter().any(|i| i.op == op::LOOP_MERGE);
     for i in &block.instructions {
-        let Some(id) = i.result() else { continue };
+        if let (op::STORE, [pointer, value, ..]) = (i.op, i.words.as_slice())
+            && constants.contains(pointer)
+            && let Some(&value) = values.get(value)
+        {
+            values.insert(*pointer, value);
+        }
+        let Some(id) = i.result().filter(|_| i.op != op::VARIABLE) else { continue };
         let value = if i.op == op::PHI && !is_loop {
             let taken = i.words[2..].chunks(2).filter(|pair| edges.contains(&(pair[1], block.label)));
             let mut incoming = taken.map(|pair| values.get(&pair[0]).copied());
             let first = incoming.next().flatten();
             first.filter(|_| incoming.all(|value| value == first))
+        } else if i.op == op::LOAD {
+            values.get(&i.words[2]).copied()
         } else {
-            let operands: Option<Vec<u32>> =
-                i.words.get(2..).unwrap_or_default().iter().map(|w| values.get(w).copied()).collect();
-            operands.and_then(|operands| evaluate(i.op, &operands))
+            let operands = i.words.get(2..).unwrap_or_default();
+            let operands: Vec<Option<u32>> = operands.iter().map(|w| values.get(w).copied()).collect();
+            evaluate(i.op, &operands)
         };
         match value {
             Some(value) => drop(values.insert(id, value)),

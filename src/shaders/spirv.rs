@@ -3,15 +3,21 @@
 
 /// Opcodes by their names in the specification.
 pub mod op {
+    use std::ops::RangeInclusive;
+
+    pub const SOURCE_CONTINUED: u32 = 2;
+    pub const SOURCE: u32 = 3;
     pub const NAME: u32 = 5;
     pub const MEMBER_NAME: u32 = 6;
     pub const STRING: u32 = 7;
     pub const LINE: u32 = 8;
     pub const EXT_INST_IMPORT: u32 = 11;
     pub const ENTRY_POINT: u32 = 15;
+    /// Up to here, and decorations: instructions about the module and its ids.
+    pub const CAPABILITY: u32 = 17;
     pub const TYPE_BOOL: u32 = 20;
     pub const TYPE_INT: u32 = 21;
-    pub const TYPES: std::ops::RangeInclusive<u32> = 19..=39;
+    pub const TYPES: RangeInclusive<u32> = 19..=39;
     pub const CONSTANT_TRUE: u32 = 41;
     pub const CONSTANT_FALSE: u32 = 42;
     pub const CONSTANT: u32 = 43;
@@ -22,6 +28,8 @@ pub mod op {
     pub const FUNCTION: u32 = 54;
     pub const FUNCTION_END: u32 = 56;
     pub const FUNCTION_CALL: u32 = 57;
+    pub const VARIABLE: u32 = 59;
+    pub const LOAD: u32 = 61;
     pub const STORE: u32 = 62;
     pub const DECORATE: u32 = 71;
     pub const MEMBER_DECORATE: u32 = 72;
@@ -51,7 +59,7 @@ pub mod op {
     pub const BRANCH: u32 = 249;
     pub const BRANCH_CONDITIONAL: u32 = 250;
     pub const SWITCH: u32 = 251;
-    pub const TERMINATORS: std::ops::RangeInclusive<u32> = 249..=255;
+    pub const TERMINATORS: RangeInclusive<u32> = 249..=255;
     pub const UNREACHABLE: u32 = 255;
     pub const NO_LINE: u32 = 317;
 }
@@ -68,10 +76,11 @@ impl Instruction {
         Instruction { op, words: words.to_vec() }
     }
 
-    /// The id that it defines; of the instructions in functions those that define none are listed.
+    /// The id that it defines.
     pub fn result(&self) -> Option<u32> {
         match self.op {
-            op::LABEL | op::STRING | op::EXT_INST_IMPORT => self.words.first().copied(),
+            op::LABEL | op::EXT_INST_IMPORT => self.words.first().copied(),
+            0..=op::CAPABILITY | op::DECORATE | op::MEMBER_DECORATE => None,
             o if op::TYPES.contains(&o) => self.words.first().copied(),
             op::STORE | op::LOOP_MERGE | op::SELECTION_MERGE | op::FUNCTION_END => None,
             o if op::TERMINATORS.contains(&o) => None,
@@ -95,13 +104,13 @@ impl Instruction {
 /// Words of a module's header.
 const HEADER: usize = 5;
 
-/// The header and the instructions of a valid module, without the places in the source text.
+/// The header and the instructions of a valid module, without the source text and the places in it.
 pub fn parse(words: &[u32]) -> (Vec<u32>, Vec<Instruction>) {
     let mut instructions = Vec::new();
     let mut at = HEADER;
     while at < words.len() {
         let (op, length) = (words[at] & 0xFFFF, (words[at] >> 16) as usize);
-        if op != op::LINE && op != op::NO_LINE {
+        if !matches!(op, op::SOURCE | op::SOURCE_CONTINUED | op::STRING | op::LINE | op::NO_LINE) {
             instructions.push(Instruction::new(op, &words[at + 1..at + length]));
         }
         at += length;
@@ -118,17 +127,18 @@ pub fn assemble<'a>(header: &[u32], instructions: impl Iterator<Item = &'a Instr
     words
 }
 
-/// Integer and boolean arithmetic on known operands; `None` for what is not among it.
-pub fn evaluate(op: u32, operands: &[u32]) -> Option<u32> {
-    Some(match (op, operands) {
+/// Integer and boolean arithmetic; `None` where the known operands do not decide the result, or for what
+/// is not among it.
+pub fn evaluate(op: u32, operands: &[Option<u32>]) -> Option<u32> {
+    match (op, operands) {
+        (op::SELECT, [condition, a, b]) => return if (*condition)? != 0 { *a } else { *b },
+        (op::LOGICAL_AND, [Some(0), _] | [_, Some(0)]) => return Some(0),
+        (op::LOGICAL_OR, [Some(1), _] | [_, Some(1)]) => return Some(1),
+        _ => {}
+    }
+    let known: Vec<u32> = operands.iter().copied().collect::<Option<_>>()?;
+    Some(match (op, known.as_slice()) {
         (op::LOGICAL_NOT, [a]) => u32::from(*a == 0),
-        (op::SELECT, [condition, a, b]) => {
-            if *condition != 0 {
-                *a
-            } else {
-                *b
-            }
-        }
         (op::LOGICAL_AND | op::BITWISE_AND, [a, b]) => a & b,
         (op::LOGICAL_OR | op::BITWISE_OR, [a, b]) => a | b,
         (op::LOGICAL_EQUAL | op::I_EQUAL, [a, b]) => u32::from(a == b),
