@@ -16,6 +16,9 @@ use crate::texture::data::{ColorSpace, Component, TexelFormat};
 use crate::texture::sampler_spec::{Address, Filter, TexelCenter};
 
 const F32_ULP: f64 = 1.0 / 8_388_608.0; // of 1: 2⁻²³
+/// What an error of `linear` may be in `cubic` (Catmull-Rom): steepest slope 3/2 along an axis times the sum
+/// of |weights| 5/4 along the other; and (5/4)² is less.
+const CUBIC: f64 = 1.5 * 1.25;
 
 /// How exact a method promises to be.
 #[derive(Clone, Copy, Debug)]
@@ -157,6 +160,7 @@ impl<'a> Judge<'a> {
             Precision::Shader if !nearest => {
                 let exact = value_at(uv);
                 let slack = range * (size.max_element() * F32_ULP * 2.0) + ulps; // W · 2⁻²² of the range + 4 ulp
+                let slack = slack * if how.modes[2] == Filter::Cubic as u32 { CUBIC } else { 1.0 };
                 return Allowed { boxes: vec![[exact; 2]], slack, arithmetic, unit, exact: Some(exact) };
             }
             Precision::Shader => (size * (2.0 * F32_ULP), ulps), // W · 2⁻²² texels, 4 ulp
