@@ -16,7 +16,6 @@ use crate::texture::data::{ColorSpace, Component, TexelFormat};
 use crate::texture::sampler_spec::{Address, Filter, TexelCenter};
 
 const F32_ULP: f64 = 1.0 / 8_388_608.0; // of 1: 2⁻²³
-
 /// How exact a method promises to be.
 #[derive(Clone, Copy, Debug)]
 pub enum Precision {
