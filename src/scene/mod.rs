@@ -1,6 +1,7 @@
 //! Scene files: TOML text in, validated [`model::Scene`] out.
 
 mod load;
+mod mapping;
 mod materials;
 pub mod model;
 mod names;

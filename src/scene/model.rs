@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use glam::{DVec2, DVec3};
 
+pub use super::mapping::{Entity, Mapping, MappingKind, Space};
 use crate::named::named_enum;
 use crate::texture::sampler_spec::{Address, SamplerSpec};
 pub use crate::texture::source::{TextureContent, TextureSource};
@@ -197,84 +198,6 @@ impl Material {
     /// Whether a map leads to a texture of this material.
     pub fn is_mapped(&self) -> bool {
         self.texture.is_some() || self.relief.is_some()
-    }
-}
-
-named_enum! {
-    /// How a surface point becomes a texture coordinate.
-    pub enum MappingKind {
-        Surface = "surface",
-        Planar = "planar",
-        Cylindrical = "cylindrical",
-        Spherical = "spherical",
-        /// The place on a cube's six faces.
-        Cube = "cube",
-        /// The three coordinates themselves, for 3D and procedural textures.
-        Solid = "solid",
-    }
-}
-
-named_enum! {
-    /// What a projecting map projects.
-    pub enum Entity {
-        Position = "position",
-        /// The shading normal.
-        Normal = "normal",
-        /// The vector from the shape's centroid to the point.
-        Centroid = "centroid",
-        /// The direction into which the surface mirrors the incoming ray.
-        Reflection = "reflection",
-    }
-}
-
-impl Entity {
-    /// A direction has no place that an origin or a box could be in.
-    pub const fn is_direction(self) -> bool {
-        matches!(self, Entity::Normal | Entity::Reflection)
-    }
-}
-
-named_enum! {
-    /// Where a projecting map's frame lives.
-    pub enum Space {
-        World = "world",
-        Bounds = "bounds",
-    }
-}
-
-/// `uv' = R(rotate) · (uv ∘ scale) + offset`, in the order of KHR_texture_transform; of `solid` and `cube`
-/// the rotation is about the frame's axis.
-#[derive(Clone, Copy, Debug)]
-pub struct Mapping {
-    pub kind: MappingKind,
-    pub entity: Entity,
-    pub space: Space,
-    /// Frame of a projecting map: its origin and its axis (not necessarily of unit length).
-    pub origin: DVec3,
-    pub axis: DVec3,
-    pub scale: DVec2,
-    pub offset: DVec2,
-    /// Scale and offset of w: `solid` only.
-    pub scale_w: f64,
-    pub offset_w: f64,
-    /// Degrees, counter-clockwise in (u, v).
-    pub rotate: f64,
-}
-
-impl Default for Mapping {
-    fn default() -> Self {
-        Mapping {
-            kind: MappingKind::Surface,
-            entity: Entity::Position,
-            space: Space::World,
-            origin: DVec3::ZERO,
-            axis: DVec3::Y,
-            scale: DVec2::ONE,
-            offset: DVec2::ZERO,
-            scale_w: 1.0,
-            offset_w: 0.0,
-            rotate: 0.0,
-        }
     }
 }
 

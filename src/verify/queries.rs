@@ -114,8 +114,18 @@ pub fn ramp(axis: Axis, steps: u32) -> impl Iterator<Item = [f32; 2]> {
     })
 }
 
-/// A scene without shapes whose materials are these (texture, sampler) pairs.
+/// A scene without shapes whose materials are these (texture, sampler) pairs; all is magnification.
 pub fn pairs(
+    textures: Vec<TextureData>,
+    samplers: &[SamplerSpec],
+    pairs: &[(usize, usize)],
+) -> Result<PackedScene> {
+    pairs_over(Footprint::None, textures, samplers, pairs)
+}
+
+/// The same, whose look-ups count their footprints unless that is `none`.
+pub fn pairs_over(
+    footprint: Footprint,
     textures: Vec<TextureData>,
     samplers: &[SamplerSpec],
     pairs: &[(usize, usize)],
@@ -144,7 +154,7 @@ pub fn pairs(
             shared: false,
             seed: 1,
             max_depth: 0,
-            footprint: Footprint::None,
+            footprint,
         },
         background: Background::default(),
         textures: Vec::new(),

@@ -7,12 +7,12 @@ use std::fs;
 
 use moire::features::TextureSize;
 use moire::layout as mirror;
-use moire::pack::{LightKind, MapKind, ProjectionKind};
-use moire::scene::model::{Model, Pattern};
+use moire::pack::{EntityKind, LightKind, MapKind, ProjectionKind, TextureKind};
+use moire::scene::model::{Footprint, Model, Pattern, ReliefKind};
 use moire::shaders::{self, Shader};
 use moire::texture::data::{ColorSpace, TexelFormat};
 use moire::texture::procedural::ProceduralKind;
-use moire::texture::sampler_spec::{Address, Filter, Method, TexelCenter};
+use moire::texture::sampler_spec::{Address, Filter, Method, MipMode, TexelCenter};
 use moire::{features, oracle};
 
 use crate::layering::source_root;
@@ -66,15 +66,20 @@ fn glsl_numbers(text: &str) -> BTreeMap<String, u32> {
 
 /// Every number that layout.glsl must define, and no other: modes, and strides in units of 16 bytes.
 fn expected_numbers() -> BTreeMap<String, u32> {
-    let tables: [(&str, &[&str]); 13] = [
+    let tables: [(&str, &[&str]); 18] = [
         ("PROJECTION", ProjectionKind::NAMES),
         ("PATTERN", Pattern::NAMES),
         ("MODEL", Model::NAMES),
+        ("FOOTPRINT", Footprint::NAMES),
+        ("ENTITY", EntityKind::NAMES),
+        ("RELIEF", ReliefKind::NAMES),
         ("LIGHT", LightKind::NAMES),
         ("MAP", MapKind::NAMES),
         ("METHOD", Method::NAMES),
         ("ADDRESS", Address::NAMES),
         ("FILTER", Filter::NAMES),
+        ("MIP", MipMode::NAMES),
+        ("TEXTURE_KIND", TextureKind::NAMES),
         ("TEXEL_CENTER", TexelCenter::NAMES),
         ("TEXEL_FORMAT", TexelFormat::NAMES),
         ("COLOR_SPACE", ColorSpace::NAMES),
@@ -90,6 +95,7 @@ fn expected_numbers() -> BTreeMap<String, u32> {
         .collect();
     all.insert("NO_TEXTURE".into(), mirror::NO_TEXTURE);
     all.insert("NO_SHAPE".into(), mirror::NO_SHAPE);
+    all.insert("NO_MATERIAL".into(), mirror::NO_MATERIAL);
     all.insert("HEAD_UNITS".into(), mirror::HEAD_BYTES as u32 / 16);
     let strides = MIRRORS.iter().filter(|(name, _)| *name != "Header");
     all.extend(strides.map(|(name, units)| (format!("{}_UNITS", name.to_uppercase()), *units)));
@@ -157,8 +163,8 @@ fn planted_differences_of_layout_are_found() {
         ("const uint MODEL_MIRROR = 2u;", "", "MODEL_MIRROR"),
         (
             "const uint FILTER_LINEAR = 1u;",
-            "const uint FILTER_LINEAR = 1u;\nconst uint FILTER_CUBIC = 2u;",
-            "FILTER_CUBIC",
+            "const uint FILTER_LINEAR = 1u;\nconst uint FILTER_BILINEAR = 1u;",
+            "FILTER_BILINEAR",
         ),
     ];
     for (from, to, name) in plants {
@@ -178,19 +184,21 @@ fn push_constants_of_rendering_equal_the_slice() {
     assert_eq!(size_of::<mirror::Slice>(), here.len() * 4);
 }
 
-const SHADERS: [&Shader; 7] = [
+const SHADERS: [&Shader; 9] = [
     &shaders::RENDER_NONE,
     &shaders::RENDER_TEXELS,
     &shaders::RENDER_IMAGES,
+    &shaders::RENDER_SOLIDS,
     &shaders::PROBE_TEXELS,
     &shaders::PROBE_IMAGES,
+    &shaders::PROBE_SOLIDS,
     &shaders::PROBE_RAYS,
     &shaders::PROBE_PROCEDURAL,
 ];
 
 /// Constants that say where lists begin and how work is divided.
 fn is_place(name: &str) -> bool {
-    name.ends_with("_AT") || ["GROUP_X", "GROUP_Y", "SLOTS"].contains(&name)
+    name.ends_with("_AT") || ["GROUP_X", "GROUP_Y", "SLOTS", "VOLUME_SLOTS", "CUBE_SLOTS"].contains(&name)
 }
 
 #[test]

@@ -4,9 +4,14 @@
 use glam::DVec3;
 use moire::pack::PackedScene;
 use moire::texture::data::{ColorSpace, Component, TexelFormat, TextureData};
-use moire::texture::sampler_spec::SamplerSpec;
+use moire::texture::sampler_spec::{Filter, SamplerSpec};
 use moire::verify::queries;
 pub use moire::verify::queries::{Dice, coordinates, query, texture, uv_of};
+
+/// Filters that magnify, without chance.
+pub const CERTAIN: [Filter; 3] = [Filter::Nearest, Filter::Linear, Filter::Cubic];
+/// Those of texture units.
+pub const BASIC: [Filter; 2] = [Filter::Nearest, Filter::Linear];
 
 /// Random vectors.
 pub trait Vectors {

@@ -47,7 +47,10 @@ fn every_parameter_is_read() {
 #[test]
 fn what_is_wrong_is_named_with_its_place_and_what_is_allowed() {
     for (keys, expected) in [
-        ("width = 0.1", "key \"texture.procedural\" is missing"),
+        (
+            "width = 0.1",
+            "key \"texture.file\" is missing in [[texture]]: give one of file, faces, slices, volume, ramp, procedural",
+        ),
         ("procedural = \"chequer\"", "test.toml:3:14: key \"texture.procedural\": unknown value \"chequer\""),
         (
             "procedural = \"checker\"\njitter = 0.5",

@@ -88,7 +88,7 @@ fn sampling_and_background_rules() {
             &["\"sobol-owen\"; allowed: center, grid, random"],
         ),
         ("algorithm", "[sampling]\nalgorithm = 'beam'", &["sampling.algorithm", "allowed: samples"]),
-        ("footprint", "[sampling]\nfootprint = 'cone'", &["sampling.footprint", "\"cone\"; allowed: none"]),
+        ("footprint", "[sampling]\nfootprint = 'ray'", &["\"ray\"; allowed: none, cone, differentials"]),
         ("number as name", "[sampling]\npattern = 3", &["a string, one of center", "found 3"]),
         (
             "negative background",
@@ -98,7 +98,23 @@ fn sampling_and_background_rules() {
         (
             "environment",
             "[background]\nenvironment = 'x'",
-            &["\"environment\" in [background]", "allowed: color"],
+            &["background.environment", "\"x\"", "no [[texture]]"],
+        ),
+        (
+            "environment of one dimension",
+            "[[texture]]\nname = 't'\nramp = [[1, 1, 1]]\n[background]\nenvironment = 't'",
+            &["background.environment", "a 2d or a cube texture; this one is 1d"],
+        ),
+        (
+            "layout of the other dimension",
+            "[[texture]]\nname = 't'\nfile = 'f'\n[background]\nenvironment = 't'\nlayout = 'cube'",
+            &["background.layout", "2d, which needs layout \"equirectangular\""],
+        ),
+        ("turned nothing", "[background]\nrotate = 90", &["background.rotate", "needs an environment"]),
+        (
+            "sampler of nothing",
+            "[background]\nsampler = 's'",
+            &["background.sampler", "needs an environment"],
         ),
     ]);
 }

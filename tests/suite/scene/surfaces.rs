@@ -46,9 +46,9 @@ fn texture_sampler_and_material_rules() {
             &["did you mean \"clamp-to-border\""],
         ),
         (
-            "three axes",
-            "[[sampler]]\nname = 's'\naddress = ['repeat', 'repeat', 'repeat']",
-            &["sampler.address", "2 for u and v"],
+            "four axes",
+            "[[sampler]]\nname = 's'\naddress = ['repeat', 'repeat', 'repeat', 'repeat']",
+            &["sampler.address", "2 for u and v, or 3 for u, v and w"],
         ),
         (
             "second axis",
@@ -57,8 +57,8 @@ fn texture_sampler_and_material_rules() {
         ),
         (
             "filter",
-            "[[sampler]]\nname = 's'\nfilter = 'cubic'",
-            &["sampler.filter", "allowed: nearest, linear"],
+            "[[sampler]]\nname = 's'\nfilter = 'bicubic'",
+            &["sampler.filter", "nearest, linear, cubic, stochastic, anisotropic, ewa"],
         ),
         (
             "filter key",
@@ -66,10 +66,17 @@ fn texture_sampler_and_material_rules() {
             &["sampler.filter", "did you mean \"mag\""],
         ),
         (
-            "filter min",
-            "[[sampler]]\nname = 's'\nfilter = { min = 'ewa' }",
-            &["sampler.filter.min", "\"ewa\""],
+            "filter mag",
+            "[[sampler]]\nname = 's'\nfilter = { mag = 'ewa' }",
+            &["sampler.filter.mag", "\"ewa\"", "cannot magnify"],
         ),
+        (
+            "filter of no device",
+            "[[sampler]]\nname = 's'\nfilter = 'ewa'\nmethod = 'hardware'",
+            &["sampler.method", "\"ewa\"", "method \"shader\""],
+        ),
+        ("anisotropy", "[[sampler]]\nname = 's'\nmax_anisotropy = 0", &["sampler.max_anisotropy", "1 to 64"]),
+        ("cubic", "[[sampler]]\nname = 's'\ncubic = 'mitchel'", &["sampler.cubic", "\"mitchell\""]),
         (
             "border of 3",
             "[[sampler]]\nname = 's'\nborder_color = [0, 0, 0]",
@@ -88,7 +95,27 @@ fn texture_sampler_and_material_rules() {
             "[[material]]\nname = 'm'\nmodel = 'lambret'",
             &["did you mean \"lambert\"", "unlit, lambert, mirror"],
         ),
-        ("dielectric", "[[material]]\nname = 'm'\nmodel = 'dielectric'", &["\"dielectric\"; allowed: unlit"]),
+        (
+            "key of another model",
+            "[[material]]\nname = 'm'\nmodel = 'mirror'\nior = 1.5",
+            &["material.ior", "only model \"dielectric\" has ior", "\"mirror\""],
+        ),
+        ("strength of nothing", "[[material]]\nname = 'm'\nstrength = 2", &["material.strength", "bump_map"]),
+        (
+            "two reliefs",
+            "[[texture]]\nname = 't'\nfile = 'f'\n[[material]]\nname = 'm'\nnormal_map = 't'\nbump_map = 't'",
+            &["material.bump_map", "normal_map is given too"],
+        ),
+        (
+            "relief of a cube",
+            "[[texture]]\nname = 't'\nfile = 'f'\ndimension = 'cube'\n[[material]]\nname = 'm'\nbump_map = 't'",
+            &["material.bump_map", "a relief is a 2d texture; this one is cube"],
+        ),
+        (
+            "relief of a pattern",
+            "[[texture]]\nname = 't'\nprocedural = 'noise'\n[[material]]\nname = 'm'\nnormal_map = 't'",
+            &["material.normal_map", "read from texels"],
+        ),
         (
             "colour key",
             "[[material]]\nname = 'm'\ncolour = [1, 1, 1]",
@@ -129,14 +156,32 @@ fn texture_sampler_and_material_rules() {
 #[test]
 fn mapping_rules() {
     let frame = "uses the shape's own coordinates";
-    let cases: [(&str, &str, &[&str]); 18] = [
+    let cases: [(&str, &str, &[&str]); 20] = [
         ("origin on a surface", "{ origin = [0, 0, 0] }", &["material.mapping.origin", frame, "planar"]),
         ("axis on a surface", "{ kind = 'surface', axis = [0, 1, 0] }", &["material.mapping.axis", frame]),
         ("space on a surface", "{ space = 'world' }", &["material.mapping.space", frame]),
         ("entity on a surface", "{ entity = 'position' }", &["material.mapping.entity", frame]),
-        ("kind cube", "{ kind = 'cube' }", &["\"cube\"; allowed: surface, planar, cylindrical, spherical"]),
+        (
+            "kind",
+            "{ kind = 'box' }",
+            &["\"box\"; allowed: surface, planar, cylindrical, spherical, cube, solid"],
+        ),
         ("kind near", "{ kind = 'spheric' }", &["material.mapping.kind", "did you mean \"spherical\""]),
-        ("entity normal", "{ kind = 'planar', entity = 'normal' }", &["mapping.entity", "allowed: position"]),
+        (
+            "entity",
+            "{ kind = 'planar', entity = 'tangent' }",
+            &["mapping.entity", "normal, centroid, reflection"],
+        ),
+        (
+            "origin of a direction",
+            "{ kind = 'planar', entity = 'normal', origin = [0, 0, 0] }",
+            &["mapping.origin", "\"normal\" is a direction"],
+        ),
+        (
+            "box of a direction",
+            "{ kind = 'cube', entity = 'reflection', space = 'bounds' }",
+            &["mapping.space", "\"reflection\" is a direction"],
+        ),
         ("space", "{ kind = 'planar', space = 'object' }", &["mapping.space", "allowed: world, bounds"]),
         (
             "axis zero",
