@@ -14,9 +14,14 @@ use moire::texture::synth;
 fn main() -> Result<(), Box<dyn Error>> {
     let folder = std::env::args_os().nth(1).map_or_else(|| PathBuf::from("data/textures"), PathBuf::from);
     let mut total = 0;
+    let mut files = Vec::new();
     for asset in synth::all() {
         let path = folder.join(asset.path);
         let bytes = encode(&path, &asset.image)?;
+        files.push((path, bytes));
+    }
+    files.extend(synth::volumes().into_iter().map(|volume| (folder.join(volume.path), volume.bytes)));
+    for (path, bytes) in files {
         if let Some(parent) = path.parent() {
             fs::create_dir_all(parent)?;
         }

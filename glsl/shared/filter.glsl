@@ -10,6 +10,7 @@
 #include "procedural.glsl"
 #include "rng.glsl"
 #include "spread.glsl"
+#include "summed.glsl"
 
 #if SOURCE != SOURCE_NONE
 
@@ -48,6 +49,9 @@ vec4 look_up(Texture image, Sampler how, uint slot, Coordinate place, uvec2 rand
     bool magnified = spread.major <= 1.0;
     mode = magnified ? mode : how.link.y;
     if (HAS(FILTERS, FILTER_EWA) && mode == FILTER_EWA) return ellipse(image, how, slot, c, spread);
+#if HAS_TEXELS
+    if (HAS(FILTERS, FILTER_SUMMED_AREA) && mode == FILTER_SUMMED_AREA) return summed_area(image, how, place);
+#endif
     int last = int(image.link.y) - 1;
     uint probes = 1u;
     if (HAS(FILTERS, FILTER_ANISOTROPIC) && mode == FILTER_ANISOTROPIC) {

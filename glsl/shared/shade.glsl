@@ -103,27 +103,30 @@ vec3 surface_color(Material material, Map map, Ray ray, inout Surface surface, F
     if (relief) taps = MODE_IS(RELIEFS, RELIEF_NORMAL, material.detail.w) ? 1u : 4u;
     vec4 read = vec4(0.0);
     vec2 step = vec2(0.0);
+    uint tap = 0u;
     if (!TEXTURED && !BUMPED) return color;
-    for (uint tap = 0u; tap <= taps; tap++) {
+    do {
         bool last = tap == taps;
         if (relief && last) surface.normal = relief_normal(material, map, ray, surface, read, step);
-        if (last && UNTEXTURED && material.link.y == NO_TEXTURE) break;
-        Coordinate c = texture_coordinate(map, seen_by_map(map, ray, surface, print));
-        uvec3 link = material.link.yzw;
-        if (BUMPED && !last) {
-            link = material.detail.xyz;
-            step = relief_step(material, c);
-            if (taps == 4u) c.at[tap >> 1u] += (tap & 1u) == 0u ? step[tap >> 1u] : -step[tap >> 1u];
+        if (!UNTEXTURED || !last || material.link.y != NO_TEXTURE) {
+            Coordinate c = texture_coordinate(map, seen_by_map(map, ray, surface, print));
+            uvec3 link = material.link.yzw;
+            if (BUMPED && !last) {
+                link = material.detail.xyz;
+                step = relief_step(material, c);
+                if (taps == 4u) c.at[tap >> 1u] += (tap & 1u) == 0u ? step[tap >> 1u] : -step[tap >> 1u];
+            }
+            vec4 texel = look_up(texture_at(link.x), sampler_at(link.y), link.z, c, random);
+            if (BUMPED && !last) {
+                if (taps == 4u) read[tap] = texel.x;
+                else read = texel;
+            } else {
+                precise vec3 product = color * texel.xyz;
+                color = product;
+            }
         }
-        vec4 texel = look_up(texture_at(link.x), sampler_at(link.y), link.z, c, random);
-        if (BUMPED && !last) {
-            if (taps == 4u) read[tap] = texel.x;
-            else read = texel;
-        } else {
-            precise vec3 product = color * texel.xyz;
-            color = product;
-        }
-    }
+        tap++;
+    } while (BUMPED && tap <= taps);
 #endif
     return color;
 }

@@ -10,6 +10,7 @@ use super::mapping::Coordinate;
 use super::procedural::procedural_color;
 use super::rng::pcg3d;
 use super::spread::{in_texture, kind_of, texel_spread};
+use super::summed::summed_area;
 use super::texture::level_at;
 use crate::layout::{Sampler, Texture};
 use crate::pack::{PackedScene, TextureKind};
@@ -45,6 +46,9 @@ pub fn look_up(
     let mode = if magnified { mag } else { Filter::ALL[how.link[1] as usize] };
     if mode == Filter::Ewa {
         return ellipse(&reader, &c, &spread);
+    }
+    if mode == Filter::SummedArea {
+        return summed_area(scene, image, how, place);
     }
     let last = image.link[1] - 1;
     let mut probes = 1.0;

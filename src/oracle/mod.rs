@@ -19,5 +19,6 @@ pub mod rng;
 pub mod shade;
 pub mod spread;
 pub mod strata;
+pub mod summed;
 pub mod surface;
 pub mod texture;

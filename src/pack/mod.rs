@@ -112,6 +112,8 @@ pub struct PackedScene {
     pub cube_slots: Vec<Slot>,
     /// Bytes at the front of `texels` that a pipeline with images needs too: no image holds them.
     pub solid_bytes: usize,
+    /// Some texture has a table of sums, which no image holds.
+    pub summed_tables: bool,
     /// Samples per pixel.
     pub samples: u32,
 }
@@ -221,7 +223,7 @@ impl PackedScene {
     /// Is there anything to look up that images of flat textures do not hold?
     pub fn has_solids(&self) -> bool {
         let solids = [TextureKind::Volume as u32, TextureKind::Cube as u32];
-        self.textures.iter().any(|t| solids.contains(&t.link[3]))
+        self.summed_tables || self.textures.iter().any(|t| solids.contains(&t.link[3]))
     }
 
     pub fn slot_counts(&self) -> SlotCounts {

@@ -4,8 +4,8 @@ use crate::error::{Error, Result};
 use crate::layout::{self, Texture};
 use crate::scene::model::{Footprint, Scene};
 use crate::texture::data::{ColorSpace, Component, Dimension, MipKernel, TexelFormat, TextureData};
-use crate::texture::mips;
-use crate::texture::sampler_spec::{Method, MipMode, SamplerSpec};
+use crate::texture::sampler_spec::{Filter, Method, MipMode, SamplerSpec};
+use crate::texture::{mips, summed};
 
 use super::{PackedScene, TextureKind};
 
@@ -33,11 +33,16 @@ pub fn sampler(spec: &SamplerSpec, filtered: bool) -> layout::Sampler {
     }
 }
 
-/// Puts all texels into the pool, those that images cannot hold first. The texels of a lone texture of one
+/// Puts all texels into the pool, first those that images cannot hold. The texels of a lone texture of one
 /// level are moved, not copied.
 pub fn pack_textures(packed: &mut PackedScene, scene: &Scene, textures: Vec<TextureData>) -> Result<()> {
     let mut order: Vec<usize> = (0..textures.len()).collect();
-    order.sort_by_key(|&i| kind(&textures[i]) == TextureKind::Flat);
+    let tables = |i: usize, packed: &PackedScene| {
+        reads(packed, scene, i, |s: &SamplerSpec| s.min == Filter::SummedArea)
+    };
+    let pooled: Vec<bool> =
+        order.iter().map(|&i| kind(&textures[i]) != TextureKind::Flat || tables(i, packed)).collect();
+    order.sort_by_key(|&i| !pooled[i]);
     packed.textures = vec![layout::Texture::default(); textures.len()];
     packed.texture_names = textures.iter().map(|t| t.name.clone()).collect();
     packed.file_channels = textures.iter().map(|t| t.file_channels).collect();
@@ -54,16 +59,17 @@ pub fn pack_textures(packed: &mut PackedScene, scene: &Scene, textures: Vec<Text
         let texture = without_equal_channels(texture);
         let texture = if needs_linear_floats(&texture) { linear_floats(&texture) } else { texture };
         let kind = kind(&texture);
-        let levels = if reads_levels(packed, scene, index) {
+        let levels = if reads(packed, scene, index, SamplerSpec::reads_levels) {
             mips::pyramid(&texture, scene.textures.get(index).map_or(MipKernel::Box, |t| t.mip_kernel))
         } else {
             Vec::new()
         };
         let link = [texture.color_space as u32, 1 + levels.len() as u32, texture.depth, kind as u32];
         let [width, height, format] = [texture.width, texture.height, texture.format as u32];
-        let first_word = append(packed, texture, levels)?;
+        let table = if tables(index, packed) { Some(summed::table(&texture)) } else { None };
+        let first_word = append(packed, texture, levels, table)?;
         packed.textures[index] = layout::Texture { place: [first_word, width, height, format], link };
-        if kind != TextureKind::Flat {
+        if pooled[index] {
             packed.solid_bytes = packed.texels.len();
         }
     }
@@ -78,8 +84,8 @@ pub fn kind(texture: &TextureData) -> TextureKind {
     }
 }
 
-/// Whether some sampler that reads this texture goes below level 0.
-fn reads_levels(packed: &PackedScene, scene: &Scene, texture: usize) -> bool {
+/// Whether some sampler that minifies this texture is such.
+fn reads(packed: &PackedScene, scene: &Scene, texture: usize, such: impl Fn(&SamplerSpec) -> bool) -> bool {
     if packed.header.key[2] == Footprint::None as u32 {
         return false;
     }
@@ -88,18 +94,28 @@ fn reads_levels(packed: &PackedScene, scene: &Scene, texture: usize) -> bool {
         materials.filter(|m| m.texture == Some(texture) || m.relief.is_some_and(|r| r.texture == texture));
     let environment = scene.background.environment.filter(|e| e.texture == texture).map(|e| e.sampler);
     let mut samplers = read.map(|m| m.sampler).chain(environment);
-    samplers.any(|sampler| scene.samplers[sampler].reads_levels())
+    samplers.any(|sampler| such(&scene.samplers[sampler]))
 }
 
 /// The texture's first word: where the texels of level 0 begin. The words before it say where those of the
-/// other levels do, level 1 last.
-fn append(packed: &mut PackedScene, texture: TextureData, levels: Vec<TextureData>) -> Result<u32> {
-    let start = packed.texels.len() / 4 + levels.len();
-    let mut words = Vec::with_capacity(levels.len());
+/// other levels do, level 1 last; before them, where there is a table of sums, where that begins.
+fn append(
+    packed: &mut PackedScene,
+    texture: TextureData,
+    levels: Vec<TextureData>,
+    table: Option<Vec<u32>>,
+) -> Result<u32> {
+    let pointers = levels.len() + usize::from(table.is_some());
+    let start = packed.texels.len() / 4 + pointers;
+    let mut words = Vec::with_capacity(pointers);
     let mut end = start + texture.texels.len().div_ceil(4);
     for level in &levels {
         words.push(end);
         end += level.texels.len().div_ceil(4);
+    }
+    if let Some(table) = &table {
+        words.push(end);
+        end += table.len();
     }
     if u32::try_from(end).is_err() {
         return Err(Error::with_help(
@@ -121,6 +137,10 @@ fn append(packed: &mut PackedScene, texture: TextureData, levels: Vec<TextureDat
     for level in levels {
         packed.texels.extend_from_slice(&level.texels);
         fill(&mut packed.texels);
+    }
+    if let Some(table) = table {
+        packed.texels.extend_from_slice(bytemuck::cast_slice(&table));
+        packed.summed_tables = true;
     }
     Ok(start as u32)
 }

@@ -17,7 +17,7 @@ use crate::gpu::{BindGroup, BindingDesc, BindingKind, Gpu, Pipeline, PipelineDes
 use crate::layout::Slice;
 use crate::pack::{PackedScene, SlotCounts};
 use crate::progress::Progress;
-use crate::shaders::{ReflectedBinding, Shader};
+use crate::shaders::{ReflectedBinding, Shader, specialise};
 
 use film_buffer::{Band, FilmBuffer};
 use resources::shader_for;
@@ -121,7 +121,7 @@ pub(crate) fn build_pipeline(
     let bindings: Vec<BindingDesc> = shader.bindings.iter().map(describe).collect();
     gpu.pipeline(&PipelineDesc {
         name: shader.name,
-        spirv: shader.spirv,
+        spirv: &specialise(shader.spirv, constants),
         bindings: &bindings,
         push_constant_bytes: push_constant_bytes as u32,
         constants,

@@ -16,6 +16,7 @@ pub mod sampler_spec;
 mod sniff;
 pub mod source;
 mod stack;
+pub mod summed;
 pub mod synth;
 mod value;
 mod volume;

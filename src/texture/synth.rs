@@ -1,11 +1,17 @@
-//! The textures of `data/textures`, made by arithmetic alone: `all()` gives every picture that
-//! `cargo run --release --example make_textures` writes, and a test holds the files against them.
+//! The textures of `data/textures`, made by arithmetic alone: `all()` gives every picture and
+//! `volumes()` every volume that `cargo run --release --example make_textures` writes, and a test holds
+//! the files against them.
 //! Only integers and the correctly rounded f64 operations (+ − × ÷ √ floor) are used, so that
 //! every platform makes the same bytes.
 
+mod axes;
 mod coded;
 mod grass;
+mod lettering;
 mod poster;
+mod relief;
+mod sky;
+mod solid;
 mod tiles;
 
 use image::{DynamicImage, RgbImage};
@@ -26,10 +32,28 @@ pub fn all() -> Vec<Asset> {
         Asset { path: "grass.png", image: grass::grass().into() },
         Asset { path: "tiles.png", image: tiles::tiles().into() },
         Asset { path: "poster.png", image: poster::poster().into() },
+        Asset { path: "axes.png", image: axes::axes().into() },
+        Asset { path: "sky.png", image: sky::equirectangular().into() },
+        Asset { path: "sky-cross.png", image: sky::cross().into() },
+        Asset { path: "studs.png", image: relief::heights().into() },
+        Asset { path: "studs-normal.png", image: relief::normals().into() },
         Asset { path: "bench/checker.png", image: coded::checker().into() },
     ];
     assets.extend(coded::small());
+    assets.extend(axes::cube_faces());
+    assets.extend(solid::slices());
     assets
+}
+
+/// One volume file: its path below `data/textures` and its bytes.
+pub struct Volume {
+    pub path: &'static str,
+    pub bytes: Vec<u8>,
+}
+
+/// Every generated volume.
+pub fn volumes() -> Vec<Volume> {
+    vec![Volume { path: "onion.nrrd", bytes: solid::onion() }]
 }
 
 /// Hash of two integers and a seed: Wellons' `lowbias32` finaliser between additions.

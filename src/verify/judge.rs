@@ -16,10 +16,6 @@ use crate::texture::data::{ColorSpace, Component, TexelFormat};
 use crate::texture::sampler_spec::{Address, Filter, TexelCenter};
 
 const F32_ULP: f64 = 1.0 / 8_388_608.0; // of 1: 2⁻²³
-/// What an error of `linear` may be in `cubic` (Catmull-Rom): steepest slope 3/2 along an axis times the sum
-/// of |weights| 5/4 along the other; and (5/4)² is less.
-const CUBIC: f64 = 1.5 * 1.25;
-
 /// How exact a method promises to be.
 #[derive(Clone, Copy, Debug)]
 pub enum Precision {
@@ -150,7 +146,8 @@ impl<'a> Judge<'a> {
         let (least, most) = (least.min(border), most.max(border));
         let range = most - least;
         let ulps = 4.0 * F32_ULP * least.abs().max(most.abs()); // 4 ulp of the greatest texel
-        let nearest = how.modes[2] == Filter::Nearest as u32;
+        let filter = Filter::ALL[how.modes[2] as usize];
+        let nearest = matches!(filter, Filter::Nearest | Filter::Stochastic); // one texel
         let arithmetic = range * self.precision.value(component, nearest);
         let unit = if component == Component::Float32 { range } else { DVec4::ONE };
         let value_at = |uv: DVec2| look_up(scene, image, how, &Coordinate::flat(uv), [query.seed, 0]);
@@ -159,8 +156,10 @@ impl<'a> Judge<'a> {
         let (reach, slack) = match self.precision {
             Precision::Shader if !nearest => {
                 let exact = value_at(uv);
-                let slack = range * (size.max_element() * F32_ULP * 2.0) + ulps; // W · 2⁻²² of the range + 4 ulp
-                let slack = slack * if how.modes[2] == Filter::Cubic as u32 { CUBIC } else { 1.0 };
+                // W · 2⁻²² of the range + 4 ulp. The weights of four texels an axis rise and fall by up to
+                // 1.5 a texel, and their sizes add up to 1.25, squared.
+                let steep = if filter == Filter::Cubic { 1.5 * 1.25 } else { 1.0 };
+                let slack = (range * (size.max_element() * F32_ULP * 2.0) + ulps) * steep;
                 return Allowed { boxes: vec![[exact; 2]], slack, arithmetic, unit, exact: Some(exact) };
             }
             Precision::Shader => (size * (2.0 * F32_ULP), ulps), // W · 2⁻²² texels, 4 ulp

@@ -47,9 +47,22 @@ fn committed_textures_equal_what_the_code_makes() {
 }
 
 #[test]
+fn committed_volumes_equal_what_the_code_makes() {
+    for volume in synth::volumes() {
+        let file = fs::read(data().join("textures").join(volume.path)).unwrap();
+        assert!(
+            file == volume.bytes,
+            "{} differs: run `cargo run --release --example make_textures` and commit",
+            volume.path
+        );
+    }
+}
+
+#[test]
 fn every_texture_file_is_generated_except_the_noise() {
     let root = data().join("textures");
     let mut known: HashSet<PathBuf> = synth::all().iter().map(|a| root.join(a.path)).collect();
+    known.extend(synth::volumes().iter().map(|v| root.join(v.path)));
     known.insert(root.join("bench/noise.png"));
     for file in files_below(&root, "") {
         assert!(known.contains(&file), "{} is made by nothing", file.display());
@@ -174,9 +187,22 @@ fn every_scene_is_toml_and_its_textures_exist() {
             assert!(scene.contains_key(needed), "{}: no [{needed}]", path.display());
         }
         let textures = scene.get("texture").and_then(|t| t.as_array()).cloned().unwrap_or_default();
-        for entry in textures {
-            let file = path.parent().unwrap().join(entry["file"].as_str().unwrap());
+        for name in textures.iter().flat_map(files_of) {
+            let file = path.parent().unwrap().join(name);
             assert!(file.is_file(), "{}: no file {}", path.display(), file.display());
         }
     }
+}
+
+/// The files that a `[[texture]]` reads.
+fn files_of(texture: &toml::Value) -> Vec<&str> {
+    let keys = ["file", "faces", "slices", "volume"];
+    let given = keys.iter().filter_map(|key| texture.get(key));
+    given
+        .flat_map(|value| match value {
+            toml::Value::Array(files) => files.iter().filter_map(|f| f.as_str()).collect(),
+            toml::Value::Table(volume) => volume.get("file").and_then(|f| f.as_str()).into_iter().collect(),
+            other => other.as_str().into_iter().collect::<Vec<_>>(),
+        })
+        .collect()
 }

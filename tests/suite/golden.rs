@@ -20,16 +20,28 @@ use crate::support::data;
 
 /// Scene, size of the picture.
 const GOLDENS: &[(&str, [u32; 2])] = &[
+    ("centroid", [128, 77]),
+    ("environment", [120, 75]),
+    ("environment_cube", [120, 75]),
+    ("filters", [128, 80]),
     ("formats", [172, 60]),
+    ("glass", [120, 90]),
     ("hardware", [164, 84]),
     ("horizon", [128, 96]),
     ("inside", [96, 96]),
     ("lecture", [128, 128]),
     ("lights", [120, 90]),
     ("mappings", [160, 80]),
+    ("materials", [128, 64]),
     ("mirrors", [120, 90]),
+    ("normal", [128, 54]),
+    ("position", [144, 50]),
+    ("procedural", [120, 53]),
+    ("ramp", [120, 42]),
+    ("reflection", [128, 54]),
     ("samplers", [264, 108]),
     ("shared", [120, 90]),
+    ("volume", [120, 50]),
 ];
 
 /// How far a picture may be from the stored one, both with 8 bits.
@@ -173,7 +185,10 @@ macro_rules! goldens {
         }
     };
 }
-goldens! { formats hardware horizon inside lecture lights mappings mirrors samplers shared }
+goldens! {
+    centroid environment environment_cube filters formats glass hardware horizon inside lecture lights
+    mappings materials mirrors normal position procedural ramp reflection samplers shared volume
+}
 
 /// One texel a pixel: the very bytes of the texture.
 #[test]

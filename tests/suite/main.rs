@@ -32,6 +32,7 @@ mod rays;
 mod readme;
 mod scene;
 mod shared_gpu;
+mod specialise;
 mod stage;
 mod strata;
 mod support;

@@ -61,7 +61,7 @@ fn row(driver: &str, variant: &Variant, shift: f64) -> Row {
 #[test]
 fn a_device_that_does_as_the_oracle_is_within_and_one_half_a_texel_off_is_outside() {
     for &class in FormatClass::ALL {
-        for &filter in Filter::ALL {
+        for filter in [Filter::Nearest, Filter::Linear] {
             for &address in Address::ALL {
                 let variant = variant(address, filter, class);
                 for driver in [LAVAPIPE, "another"] {
@@ -184,7 +184,7 @@ fn the_table_has_every_sampler_with_every_class_and_each_group_meets_all_sizes_a
     let borders: BTreeSet<String> = all.iter().map(|v| format!("{:?}", v.spec.border_color)).collect();
     assert_eq!(borders.len(), 4);
     for reader in [Reader::ShaderBuffer, Reader::ShaderImage] {
-        assert_eq!(shader_variants(reader, 0).len(), 25 * 2 * 12);
+        assert_eq!(shader_variants(reader, 0).len(), 25 * 3 * 12);
     }
 }
 

@@ -3,6 +3,7 @@
 
 use image::RgbImage;
 
+use super::lettering::text;
 use super::{Color, mix, rgb, supersampled};
 
 const WIDTH: u32 = 256;
@@ -84,35 +85,4 @@ fn zone_plate(x: f64, y: f64) -> Option<Color> {
     let phase = squared / (4.0 * radius);
     let t = phase - phase.floor();
     Some(mix(rgb(252, 250, 244), rgb(24, 32, 56), if t < 0.5 { 2.0 * t } else { 2.0 - 2.0 * t }))
-}
-
-/// Whether (x, y) is inked by `words` set at `origin` (top left) with dots of `dot` texels.
-fn text(words: &str, x: f64, y: f64, origin: (f64, f64), dot: f64) -> bool {
-    let (column, row) = (((x - origin.0) / dot).floor(), ((y - origin.1) / dot).floor());
-    if column < 0.0 || !(0.0..7.0).contains(&row) {
-        return false;
-    }
-    let (column, row) = (column as usize, row as usize);
-    let dots = words.chars().nth(column / 6).map_or(0, |letter| glyph(letter)[row]);
-    column % 6 < 5 && dots >> (4 - column % 6) & 1 == 1
-}
-
-/// Seven rows of five dots; the highest of five bits is the leftmost dot.
-fn glyph(letter: char) -> [u8; 7] {
-    match letter {
-        'M' => [0b10001, 0b11011, 0b10101, 0b10101, 0b10001, 0b10001, 0b10001],
-        'O' => [0b01110, 0b10001, 0b10001, 0b10001, 0b10001, 0b10001, 0b01110],
-        'I' => [0b01110, 0b00100, 0b00100, 0b00100, 0b00100, 0b00100, 0b01110],
-        'R' => [0b11110, 0b10001, 0b10001, 0b11110, 0b10100, 0b10010, 0b10001],
-        'E' => [0b11111, 0b10000, 0b10000, 0b11110, 0b10000, 0b10000, 0b11111],
-        'U' => [0b10001, 0b10001, 0b10001, 0b10001, 0b10001, 0b10001, 0b01110],
-        'P' => [0b11110, 0b10001, 0b10001, 0b11110, 0b10000, 0b10000, 0b10000],
-        'X' => [0b10001, 0b10001, 0b01010, 0b00100, 0b01010, 0b10001, 0b10001],
-        '1' => [0b00100, 0b01100, 0b00100, 0b00100, 0b00100, 0b00100, 0b01110],
-        '2' => [0b01110, 0b10001, 0b00001, 0b00110, 0b01000, 0b10000, 0b11111],
-        '5' => [0b11111, 0b10000, 0b11110, 0b00001, 0b00001, 0b10001, 0b01110],
-        '6' => [0b01110, 0b10000, 0b10000, 0b11110, 0b10001, 0b10001, 0b01110],
-        '9' => [0b01110, 0b10001, 0b10001, 0b01111, 0b00001, 0b00001, 0b01110],
-        _ => [0; 7],
-    }
 }

@@ -40,7 +40,7 @@ fn the_device_under_test_conforms_and_the_report_is_one_json_object() {
     assert_eq!(output.status.code(), Some(i32::from(strict_fails)));
     let rows = report["rows"].as_array().unwrap();
     assert_eq!(rows.len() as u64, summary("variants"));
-    assert_eq!(summary("variants") + summary("not_offered"), 2 * 1200 + 4 * 600);
+    assert_eq!(summary("variants") + summary("not_offered"), 2 * 1200 + 4 * 900);
     assert!(report["limits"]["sub_texel_bits"].as_u64().unwrap() >= 4); // Vulkan 1.3, required limits
     for row in rows {
         assert!(row["look_ups"].as_u64().unwrap() > 100, "{row}");

@@ -1,6 +1,11 @@
 //! The compiled shaders, as `build.rs` made them: SPIR-V words and what reflection found in them.
 
+mod specialise;
+mod spirv;
+
 use crate::gpu::BindingKind;
+
+pub use specialise::specialise;
 
 /// A descriptor of set 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

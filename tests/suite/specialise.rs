@@ -1,0 +1,135 @@
+//! Specialised shaders: valid modules without branches on constants, smaller the less a scene uses, and
+//! with the workgroup's size still open. That pictures do not change is shown by the tests that compare
+//! pipelines with and without what a scene leaves out.
+
+use std::io::Write;
+use std::process::{Command, Stdio};
+
+use moire::features::{Features, constants, widest};
+use moire::pack::{self, PackedScene, SlotCounts};
+use moire::scene;
+use moire::shaders::{self, Shader, specialise};
+use moire::texture::load::load;
+
+use crate::support::data;
+
+fn packed(name: &str) -> PackedScene {
+    let mut scene = scene::load(&data().join("scenes").join(name)).unwrap();
+    scene::prune::prune(&mut scene);
+    let textures = scene.textures.iter().map(|t| load(t).unwrap()).collect();
+    pack::pack(&scene, textures, None).unwrap()
+}
+
+fn specialised(shader: &Shader, scene: &PackedScene, keep_everything: bool) -> Vec<u32> {
+    let features = Features::new(scene, shader.name.contains("images"), keep_everything);
+    let (_, sections) = scene.scene_bytes();
+    specialise(shader.spirv, &constants(shader, &features, &sections, [64, 1], SlotCounts::default()))
+}
+
+/// (opcode, operands) of each instruction.
+fn instructions(words: &[u32]) -> Vec<(u32, &[u32])> {
+    let mut all = Vec::new();
+    let mut at = 5;
+    while at < words.len() {
+        let length = (words[at] >> 16) as usize;
+        all.push((words[at] & 0xFFFF, &words[at + 1..at + length]));
+        at += length;
+    }
+    all
+}
+
+const CONSTANT_TRUE: u32 = 41;
+const CONSTANT_FALSE: u32 = 42;
+const SPEC_CONSTANTS: std::ops::RangeInclusive<u32> = 48..=50;
+const DECORATE: u32 = 71;
+const BRANCH_CONDITIONAL: u32 = 250;
+
+fn validator() -> bool {
+    let found = Command::new("spirv-val").arg("--version").stdout(Stdio::null()).status().is_ok();
+    if !found {
+        eprintln!("spirv-val is not installed: modules are checked by the validation layer only");
+    }
+    found
+}
+
+fn assert_valid(words: &[u32], what: &str) {
+    let mut child = Command::new("spirv-val")
+        .args(["--target-env", "vulkan1.2", "-"])
+        .stdin(Stdio::piped())
+        .stderr(Stdio::piped())
+        .stdout(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let bytes: Vec<u8> = words.iter().flat_map(|w| w.to_le_bytes()).collect();
+    child.stdin.take().unwrap().write_all(&bytes).unwrap();
+    let output = child.wait_with_output().unwrap();
+    let told =
+        String::from_utf8_lossy(&output.stdout).into_owned() + &String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{what}: {told}");
+}
+
+const SCENES: [&str; 4] = ["bench/s1a.toml", "bench/s2.toml", "lecture.toml", "samplers.toml"];
+
+#[test]
+fn specialised_modules_are_valid() {
+    if !validator() {
+        return;
+    }
+    for name in SCENES {
+        let scene = packed(name);
+        assert_valid(&specialised(&shaders::RENDER_TEXELS, &scene, false), name);
+        assert_valid(&specialised(&shaders::RENDER_SOLIDS, &scene, false), name);
+    }
+    assert_valid(&specialised(&shaders::RENDER_SOLIDS, &packed("lecture.toml"), true), "everything");
+    // Of everything every third feature left out, and of the others every third.
+    let shader = &shaders::RENDER_SOLIDS;
+    for third in 0..3 {
+        for narrow in [0, 1, 4] {
+            let values = widest().enumerate().filter_map(|(i, (name, value))| {
+                let value = if i % 3 == third { narrow.min(value) } else { value };
+                Some((shader.constant(name)?.id, value))
+            });
+            let values: Vec<(u32, u32)> = values.collect();
+            assert_valid(
+                &specialise(shader.spirv, &values),
+                &format!("{narrow} for {third}, {third} + 3, …"),
+            );
+        }
+    }
+}
+
+#[test]
+fn no_branch_on_a_constant_is_left() {
+    for name in SCENES {
+        let words = specialised(&shaders::RENDER_TEXELS, &packed(name), false);
+        let all = instructions(&words);
+        let booleans: Vec<u32> = all
+            .iter()
+            .filter(|(op, _)| [CONSTANT_TRUE, CONSTANT_FALSE].contains(op))
+            .map(|(_, w)| w[1])
+            .collect();
+        assert!(!booleans.is_empty());
+        let decided = all.iter().filter(|(op, w)| *op == BRANCH_CONDITIONAL && booleans.contains(&w[0]));
+        assert_eq!(decided.count(), 0, "{name}");
+    }
+}
+
+#[test]
+fn only_the_workgroups_size_is_left_open() {
+    let words = specialised(&shaders::RENDER_TEXELS, &packed("lecture.toml"), false);
+    let all = instructions(&words);
+    assert_eq!(all.iter().filter(|(op, _)| SPEC_CONSTANTS.contains(op)).count(), 2);
+    let ids: Vec<u32> =
+        all.iter().filter(|(op, w)| *op == DECORATE && w[1] == 1).map(|(_, w)| w[2]).collect();
+    assert_eq!(ids, [0, 1]);
+}
+
+/// A flat unlit scene keeps a small part of the shader, and more features keep more.
+#[test]
+fn a_small_scene_has_a_small_shader() {
+    let size = |name: &str, all| specialised(&shaders::RENDER_TEXELS, &packed(name), all).len();
+    let (s1a, lecture, everything) =
+        (size("bench/s1a.toml", false), size("lecture.toml", false), size("lecture.toml", true));
+    assert!(s1a < lecture && lecture < everything, "{s1a} {lecture} {everything}");
+    assert!(s1a * 2 < everything, "{s1a} of {everything} words");
+}
