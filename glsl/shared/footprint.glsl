@@ -39,17 +39,17 @@ Beam camera_beam(Header header, Ray ray) {
     Beam beam = Beam(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), 0.0, 0.0);
     if (!FILTERED) return beam;
     bool orthographic = MODE_IS(PROJECTIONS, PROJECTION_ORTHOGRAPHIC, header.size.z);
-    float share = header.step_x.w;
+    precise float share = header.step_x.w;
     if (DIFFERENTIALS) {
-        vec3 x = header.step_x.xyz * share;
-        vec3 y = header.step_y.xyz * share;
+        precise vec3 x = header.step_x.xyz * share;
+        precise vec3 y = header.step_y.xyz * share;
         beam.origin_x = orthographic ? x : vec3(0.0);
         beam.origin_y = orthographic ? y : vec3(0.0);
         beam.direction_x = orthographic ? vec3(0.0) : x;
         beam.direction_y = orthographic ? vec3(0.0) : y;
     }
     if (CONES) {
-        float side = header.step_y.w * share; // of the pixel's share, at t = 1
+        precise float side = header.step_y.w * share; // of the pixel's share, at t = 1
         // Seen from the eye a pixel off the axis is narrower by the cosine in one direction: the cone
         // has the root of it, and so the same cross-section.
         beam.width = orthographic ? side : 0.0;
@@ -60,8 +60,8 @@ Beam camera_beam(Header header, Ray ray) {
 
 // A unit vector at right angles to the unit vector n (Duff et al. 2017).
 vec3 any_tangent(vec3 n) {
-    float side = n.z >= 0.0 ? 1.0 : -1.0;
-    float a = -1.0 / (side + n.z);
+    precise float side = n.z >= 0.0 ? 1.0 : -1.0;
+    precise float a = -1.0 / (side + n.z);
     return vec3(1.0 + side * n.x * n.x * a, side * n.x * n.y * a, -side * n.x);
 }
 
@@ -72,9 +72,9 @@ const float MAX_STRETCH = 65536.0;
 Footprint footprint_at(Header header, Beam beam, Ray ray, float t, vec3 n) {
     Footprint print = NO_FOOTPRINT;
     if (!FILTERED) return print;
-    float facing = dot3(n, ray.direction);
-    float squared = dot3(ray.direction, ray.direction);
-    float least = sqrt(squared) / MAX_STRETCH;
+    precise float facing = dot3(n, ray.direction);
+    precise float squared = dot3(ray.direction, ray.direction);
+    precise float least = sqrt(squared) / MAX_STRETCH;
     facing = abs(facing) < least ? (facing < 0.0 ? -least : least) : facing;
     if (DIFFERENTIALS && (!CONES || !uses_cones(header))) {
         precise vec3 x = beam.origin_x + t * beam.direction_x;
@@ -85,15 +85,15 @@ Footprint footprint_at(Header header, Beam beam, Ray ray, float t, vec3 n) {
     }
     if (CONES) {
         precise float width = abs(beam.width + beam.spread * t);
-        float scale = 1.0 / sqrt(squared);
-        vec3 d = ray.direction * scale;
-        vec3 across = cross3(n, d); // as long as the sine of the angle of incidence
-        float sine = sqrt(dot3(across, across));
+        precise float scale = 1.0 / sqrt(squared);
+        precise vec3 d = ray.direction * scale;
+        precise vec3 across = cross3(n, d); // as long as the sine of the angle of incidence
+        precise float sine = sqrt(dot3(across, across));
         // At normal incidence every direction across is as good as any other.
-        vec3 minor = sine > 1e-4 ? across / sine : any_tangent(n);
-        vec3 major = cross3(minor, n);
-        vec3 turned = cross3(d, minor);
-        float stretch = sqrt(squared) / abs(facing);
+        precise vec3 minor = sine > 1e-4 ? across / sine : any_tangent(n);
+        precise vec3 major = cross3(minor, n);
+        precise vec3 turned = cross3(d, minor);
+        precise float stretch = sqrt(squared) / abs(facing);
         print.point_x = minor * width;
         print.point_y = major * (width * stretch);
         print.direction_x = minor * beam.spread;
@@ -108,8 +108,8 @@ Footprint endless_footprint(Header header, Beam beam, Ray ray) {
     if (DIFFERENTIALS && (!CONES || !uses_cones(header))) {
         return Footprint(vec3(0.0), vec3(0.0), beam.direction_x, beam.direction_y);
     }
-    vec3 d = ray.direction / sqrt(dot3(ray.direction, ray.direction));
-    vec3 side = any_tangent(d);
+    precise vec3 d = ray.direction / sqrt(dot3(ray.direction, ray.direction));
+    precise vec3 side = any_tangent(d);
     return Footprint(vec3(0.0), vec3(0.0), side * beam.spread, cross3(d, side) * beam.spread);
 }
 
@@ -121,9 +121,16 @@ vec3 mirrored(vec3 direction, vec3 normal) {
 
 // Change of the mirrored direction d - 2 (d·n) n, where the normal changes by `normal_change`.
 vec3 mirrored_change(vec3 direction, vec3 n, vec3 change, vec3 normal_change) {
-    float d = dot3(direction, n);
-    float d_change = dot3(change, n) + dot3(direction, normal_change);
-    return change - 2.0 * (d * normal_change + d_change * n);
+    precise float d = dot3(direction, n);
+    precise float d_change = dot3(change, n) + dot3(direction, normal_change);
+    precise vec3 result = change - 2.0 * (d * normal_change + d_change * n);
+    return result;
+}
+
+// bend · v, summed in a stated order.
+vec3 bent(mat3 bend, vec3 v) {
+    precise vec3 change = (bend[0] * v.x + bend[1] * v.y) + bend[2] * v.z;
+    return change;
 }
 
 // The beam that leaves a mirror. `bend` is the change of the unit normal a unit of way along the surface;
@@ -134,12 +141,14 @@ Beam mirrored_beam(Header header, Beam beam, Ray ray, float t, Footprint print, 
     if (DIFFERENTIALS) {
         next.origin_x = print.point_x;
         next.origin_y = print.point_y;
-        next.direction_x = mirrored_change(ray.direction, n, print.direction_x, bend * print.point_x);
-        next.direction_y = mirrored_change(ray.direction, n, print.direction_y, bend * print.point_y);
+        next.direction_x = mirrored_change(ray.direction, n, print.direction_x, bent(bend, print.point_x));
+        next.direction_y = mirrored_change(ray.direction, n, print.direction_y, bent(bend, print.point_y));
     }
     if (CONES) {
-        next.width = beam.width + beam.spread * t;
-        next.spread = beam.spread + 2.0 * curvature * next.width * sqrt(dot3(ray.direction, ray.direction));
+        precise float width = beam.width + beam.spread * t;
+        precise float spread = beam.spread + 2.0 * curvature * width * sqrt(dot3(ray.direction, ray.direction));
+        next.width = width;
+        next.spread = spread;
     }
     return next;
 }
@@ -170,13 +179,14 @@ float reflectance(vec3 direction, vec3 n, float ratio) {
 
 // Change of the refracted direction r d - (r d·n + k) n with k² = d² - r² (d² - (d·n)²).
 vec3 refracted_change(vec3 direction, vec3 n, float ratio, vec3 change, vec3 normal_change) {
-    float along = dot3(direction, n);
-    float along_change = dot3(change, n) + dot3(direction, normal_change);
-    float rr = ratio * ratio;
-    float squared = dot3(direction, direction);
-    float k = sqrt(max(squared - rr * (squared - along * along), 1e-6 * squared));
-    float k_change = ((1.0 - rr) * dot3(direction, change) + rr * along * along_change) / k;
-    return ratio * change - (ratio * along + k) * normal_change - (ratio * along_change + k_change) * n;
+    precise float along = dot3(direction, n);
+    precise float along_change = dot3(change, n) + dot3(direction, normal_change);
+    precise float rr = ratio * ratio;
+    precise float squared = dot3(direction, direction);
+    precise float k = sqrt(max(squared - rr * (squared - along * along), 1e-6 * squared));
+    precise float k_change = ((1.0 - rr) * dot3(direction, change) + rr * along * along_change) / k;
+    precise vec3 result = ratio * change - (ratio * along + k) * normal_change - (ratio * along_change + k_change) * n;
+    return result;
 }
 
 // The beam behind a refracting surface. A cone is as wide as the ellipse that it becomes has area.
@@ -186,16 +196,18 @@ Beam refracted_beam(Header header, Beam beam, Ray ray, float t, Footprint print,
     if (DIFFERENTIALS) {
         next.origin_x = print.point_x;
         next.origin_y = print.point_y;
-        next.direction_x = refracted_change(ray.direction, n, ratio, print.direction_x, bend * print.point_x);
-        next.direction_y = refracted_change(ray.direction, n, ratio, print.direction_y, bend * print.point_y);
+        next.direction_x = refracted_change(ray.direction, n, ratio, print.direction_x, bent(bend, print.point_x));
+        next.direction_y = refracted_change(ray.direction, n, ratio, print.direction_y, bent(bend, print.point_y));
     }
     if (CONES) {
-        float size = sqrt(dot3(ray.direction, ray.direction));
-        float before = min(abs(dot3(ray.direction, n)) / size, 1.0);
-        float behind = sqrt(max(1.0 - ratio * ratio * (1.0 - before * before), 1e-6));
-        float squeeze = sqrt(behind / max(before, 1e-6));
-        next.width = (beam.width + beam.spread * t) * squeeze;
-        next.spread = beam.spread * (ratio / squeeze) + (ratio * before - behind) * curvature * next.width * size;
+        precise float size = sqrt(dot3(ray.direction, ray.direction));
+        precise float before = min(abs(dot3(ray.direction, n)) / size, 1.0);
+        precise float behind = sqrt(max(1.0 - ratio * ratio * (1.0 - before * before), 1e-6));
+        precise float squeeze = sqrt(behind / max(before, 1e-6));
+        precise float width = (beam.width + beam.spread * t) * squeeze;
+        precise float spread = beam.spread * (ratio / squeeze) + (ratio * before - behind) * curvature * width * size;
+        next.width = width;
+        next.spread = spread;
     }
     return next;
 }

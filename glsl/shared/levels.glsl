@@ -35,15 +35,15 @@ vec4 linear_flat(Texture image, Sampler how, uint slot, Level level, vec2 texel)
 // Weights of the four texels around a place t in [0, 1] between the middle two (Mitchell & Netravali
 // 1988): B = 0, C = 1/2 is Catmull-Rom, B = 1, C = 0 the B-spline.
 vec4 cubic_weights(float t, vec2 bc) {
-    float b = bc.x;
-    float c = bc.y;
-    float r = 1.0 - t;
-    float tt = t * t;
-    float rr = r * r;
-    vec4 outer = vec4(b * (1.0 / 6.0), -c, 0.0, 0.0);
-    float w0 = rr * (outer.x * r + outer.y * t);
-    float w3 = tt * (outer.x * t + outer.y * r);
-    float w1 = 1.0 - b * (1.0 / 3.0) + tt * ((-3.0 + 2.0 * b + c) + (2.0 - 1.5 * b - c) * t);
+    precise float b = bc.x;
+    precise float c = bc.y;
+    precise float r = 1.0 - t;
+    precise float tt = t * t;
+    precise float rr = r * r;
+    precise vec4 outer = vec4(b * (1.0 / 6.0), -c, 0.0, 0.0);
+    precise float w0 = rr * (outer.x * r + outer.y * t);
+    precise float w3 = tt * (outer.x * t + outer.y * r);
+    precise float w1 = 1.0 - b * (1.0 / 3.0) + tt * ((-3.0 + 2.0 * b + c) + (2.0 - 1.5 * b - c) * t);
     return vec4(w0, w1, ((1.0 - w0) - w1) - w3, w3);
 }
 

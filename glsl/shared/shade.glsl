@@ -19,17 +19,17 @@ Seen seen_by_map(Map map, Ray ray, Surface surface, Footprint print) {
         seen.own_y = vec2(dot3(surface.own_u, print.point_y), dot3(surface.own_v, print.point_y));
     }
     if (MODE_IS(ENTITIES, ENTITY_POSITION, entity)) return seen;
-    vec3 bent_x = surface.bend * print.point_x;
-    vec3 bent_y = surface.bend * print.point_y;
+    precise vec3 bent_x = bent(surface.bend, print.point_x);
+    precise vec3 bent_y = bent(surface.bend, print.point_y);
     if (MODE_IS(ENTITIES, ENTITY_NORMAL, entity)) {
         seen.entity = surface.normal;
         seen.entity_x = bent_x;
         seen.entity_y = bent_y;
         return seen;
     }
-    vec3 way = ray.direction;
-    vec3 way_x = print.direction_x;
-    vec3 way_y = print.direction_y;
+    precise vec3 way = ray.direction;
+    precise vec3 way_x = print.direction_x;
+    precise vec3 way_y = print.direction_y;
     if (MODE_IS(ENTITIES, ENTITY_REFLECTION, entity)) {
         way_x = mirrored_change(way, surface.normal, way_x, bent_x);
         way_y = mirrored_change(way, surface.normal, way_y, bent_y);
@@ -49,18 +49,20 @@ Seen seen_by_map(Map map, Ray ray, Surface surface, Footprint print) {
 #if SOURCE != SOURCE_NONE
 // Gradients of u and v along the surface, from their changes along two tangents.
 void uv_gradients(Map map, Ray ray, Surface surface, out vec3 u, out vec3 v) {
-    vec3 n = surface.geometric_normal;
-    vec3 first = any_tangent(n);
-    vec3 second = cross3(n, first);
+    precise vec3 n = surface.geometric_normal;
+    precise vec3 first = any_tangent(n);
+    precise vec3 second = cross3(n, first);
     Footprint print = Footprint(first, second, vec3(0.0), vec3(0.0));
     Coordinate c = texture_coordinate(map, seen_by_map(map, ray, surface, print));
-    u = first * c.dx.x + second * c.dy.x;
-    v = first * c.dx.y + second * c.dy.y;
+    precise vec3 along_u = first * c.dx.x + second * c.dy.x;
+    precise vec3 along_v = first * c.dx.y + second * c.dy.y;
+    u = along_u;
+    v = along_v;
 }
 
 // Places at which a bump map is read, two on each axis, a texel or half the footprint away.
 vec2 relief_step(Material material, Coordinate c) {
-    vec2 texel = 1.0 / vec2(texture_at(material.detail.x).place.yz);
+    precise vec2 texel = 1.0 / vec2(texture_at(material.detail.x).place.yz);
     return max(texel, 0.5 * max(abs(c.dx.xy), abs(c.dy.xy)));
 }
 
@@ -68,27 +70,27 @@ vec2 relief_step(Material material, Coordinate c) {
 // growing u, growing v and the normal. Bump map: n - grad h, the height's gradient along the surface
 // (Blinn 1978; Mikkelsen 2020), h from central differences.
 vec3 relief_normal(Material material, Map map, Ray ray, Surface surface, vec4 read, vec2 step) {
-    float side = surface.inside ? -1.0 : 1.0;
-    vec3 n = side * surface.normal;
-    float strength = material.color.w;
+    precise float side = surface.inside ? -1.0 : 1.0;
+    precise vec3 n = side * surface.normal;
+    precise float strength = material.color.w;
     vec3 u;
     vec3 v;
     uv_gradients(map, ray, surface, u, v);
-    vec3 result;
+    precise vec3 result;
     if (MODE_IS(RELIEFS, RELIEF_NORMAL, material.detail.w)) {
-        vec3 t = cross3(v, n);
-        vec3 b = cross3(n, u);
-        float handed = dot3(cross3(u, v), n) < 0.0 ? -strength : strength;
-        vec3 m = 2.0 * read.xyz - 1.0;
-        vec2 scale = vec2(dot3(t, t), dot3(b, b));
+        precise vec3 t = cross3(v, n);
+        precise vec3 b = cross3(n, u);
+        precise float handed = dot3(cross3(u, v), n) < 0.0 ? -strength : strength;
+        precise vec3 m = 2.0 * read.xyz - 1.0;
+        precise vec2 scale = vec2(dot3(t, t), dot3(b, b));
         result = n * m.z;
         result += t * (scale.x > 0.0 ? handed * m.x / sqrt(scale.x) : 0.0);
         result += b * (scale.y > 0.0 ? handed * m.y / sqrt(scale.y) : 0.0);
     } else {
-        vec2 slope = 0.5 * strength * (read.xz - read.yw) / step;
+        precise vec2 slope = 0.5 * strength * (read.xz - read.yw) / step;
         result = n - slope.x * u - slope.y * v;
     }
-    float squared = dot3(result, result);
+    precise float squared = dot3(result, result);
     return side * (squared > 0.0 ? result / sqrt(squared) : n);
 }
 #endif
@@ -129,6 +131,11 @@ vec3 surface_color(Material material, Map map, Ray ray, inout Surface surface, F
     } while (BUMPED && tap <= taps);
 #endif
     return color;
+}
+
+vec3 with_highlight(vec3 diffuse, vec3 carried, vec3 specular, vec3 light) {
+    precise vec3 sum = diffuse + carried * specular * light;
+    return sum;
 }
 
 // A path between two hits: the ray, how wide it is, what it still carries, the shape that it leaves.
@@ -198,7 +205,7 @@ vec3 advance(Header header, inout Path path) {
             vec3 mirror = HAS(MODELS, MODEL_PHONG) ? mirrored(direction, surface.normal) : vec3(0.0);
             Lit lit = direct_light(header, surface, hit.shape, mirror, material.specular.w);
             seen = path.throughput * lit.diffuse;
-            if (phong) seen += carried * material.specular.xyz * lit.specular;
+            if (phong) seen = with_highlight(seen, carried, material.specular.xyz, lit.specular);
         }
     }
     path.skip = hit.shape;

@@ -40,21 +40,21 @@ Surface sphere_surface(Sphere sphere, vec3 point) {
 Surface triangle_surface(Triangle triangle, vec3 point, vec3 edges) {
     precise float scale = 1.0 / ((edges.x + edges.y) + edges.z);
     precise vec3 w = edges * scale;
-    vec2 uv = vec2(dot3(w, vec3(triangle.a.w, triangle.b.w, triangle.c.w)), dot3(w, triangle.v.xyz));
-    vec3 n = triangle.normal.xyz;
-    vec3 normal = n;
+    precise vec2 uv = vec2(dot3(w, vec3(triangle.a.w, triangle.b.w, triangle.c.w)), dot3(w, triangle.v.xyz));
+    precise vec3 n = triangle.normal.xyz;
+    precise vec3 normal = n;
     mat3 bend = FLAT;
-    vec3 own_u = vec3(0.0);
-    vec3 own_v = vec3(0.0);
-    vec3 wa = vec3(0.0);
-    vec3 wb = vec3(0.0);
-    vec3 wc = vec3(0.0);
+    precise vec3 own_u = vec3(0.0);
+    precise vec3 own_v = vec3(0.0);
+    precise vec3 wa = vec3(0.0);
+    precise vec3 wb = vec3(0.0);
+    precise vec3 wc = vec3(0.0);
     if (FILTERED || BUMPED) {
         // Gradients of the weights: at right angles to the opposite side, 1 over the height.
-        vec3 ab = triangle.b.xyz - triangle.a.xyz;
-        vec3 bc = triangle.c.xyz - triangle.b.xyz;
-        vec3 ca = triangle.a.xyz - triangle.c.xyz;
-        float twice_area = dot3(n, cross3(ab, bc));
+        precise vec3 ab = triangle.b.xyz - triangle.a.xyz;
+        precise vec3 bc = triangle.c.xyz - triangle.b.xyz;
+        precise vec3 ca = triangle.a.xyz - triangle.c.xyz;
+        precise float twice_area = dot3(n, cross3(ab, bc));
         wa = cross3(n, bc) / twice_area;
         wb = cross3(n, ca) / twice_area;
         wc = cross3(n, ab) / twice_area;
@@ -63,7 +63,7 @@ Surface triangle_surface(Triangle triangle, vec3 point, vec3 edges) {
     }
     if (SMOOTH_NORMALS && triangle.v.w != 0.0) {
         precise vec3 blend = (w.x * triangle.normal_a.xyz + w.y * triangle.normal_b.xyz) + w.z * triangle.normal_c.xyz;
-        float squared = dot3(blend, blend);
+        precise float squared = dot3(blend, blend);
         precise float length_scale = 1.0 / sqrt(squared);
         precise vec3 unit = blend * length_scale;
         normal = squared > 0.0 ? unit : normal;
@@ -74,7 +74,7 @@ Surface triangle_surface(Triangle triangle, vec3 point, vec3 edges) {
             bend = (change - outerProduct(normal, normal * change)) * length_scale;
         }
     }
-    float curvature = 0.5 * (bend[0][0] + bend[1][1] + bend[2][2]);
+    precise float curvature = 0.5 * (bend[0][0] + bend[1][1] + bend[2][2]);
     return Surface(point, n, normal, uv, own_u, own_v, bend, curvature, false, triangle.link.xy);
 }
 
