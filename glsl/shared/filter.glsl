@@ -62,7 +62,9 @@ vec4 look_up(Texture image, Sampler how, uint slot, Coordinate place, uvec2 rand
     }
     float level = 0.0;
     if (!magnified && (MIPMAPPED || hardware)) {
-        level = 0.5 * log2_accurate(spread.major / float(probes * probes));
+        // A look-up is as wide as the minor axis, though more of them than needed lie along the major one.
+        float least = probes > 1u ? spread.minor : 0.0;
+        level = 0.5 * log2_accurate(max(spread.major / float(probes * probes), least));
         // The device's sampler knows its own last level, and minifies with one level too.
         level = clamp(level, 0.0, hardware ? 32.0 : float(last));
     }
@@ -101,7 +103,7 @@ vec4 look_up(Texture image, Sampler how, uint slot, Coordinate place, uvec2 rand
         weight *= each;
         vec3 at = c.at;
         uint at_face = face;
-        if (HAS(FILTERS, FILTER_ANISOTROPIC)) {
+        if (HAS(FILTERS, FILTER_ANISOTROPIC) && mode == FILTER_ANISOTROPIC) {
             // From both ends inwards.
             uint order = (probe & 1u) != 0u ? probes - 1u - probe / 2u : probe / 2u;
             float way = (float(order) + 0.5) * each - 0.5;

@@ -60,7 +60,9 @@ pub fn look_up(
     let level = if magnified {
         0.0
     } else {
-        (0.5 * (spread.major / (probes * probes)).log2()).clamp(0.0, last.into())
+        // A look-up is as wide as the minor axis, though more of them than needed lie along the major one.
+        let least = if probes > 1.0 { spread.minor } else { 0.0 };
+        (0.5 * (spread.major / (probes * probes)).max(least).log2()).clamp(0.0, last.into())
     };
     let (low, mut rest) = match MipMode::ALL[how.link[2] as usize] {
         MipMode::None => (0.0, 0.0),

@@ -17,7 +17,7 @@ use crate::scene::model::{
     Environment, EnvironmentLayout, Footprint, Light, Material, Model, Pattern, Projection, Scene,
 };
 use crate::texture::data::TextureData;
-use crate::texture::sampler_spec::{Method, SamplerSpec};
+use crate::texture::sampler_spec::{Address, Method, SamplerSpec};
 
 pub use procedural::procedural;
 pub use textures::{MAX_SLOTS, Slot};
@@ -194,8 +194,11 @@ fn pack_environment(packed: &mut PackedScene, scene: &Scene, environment: &Envir
         // The same sampler on a shape does not go on over poles.
         let mut record = packed.samplers[sampler];
         record.more[1] = 1;
+        // From pole to pole: with `repeat` the lower half would be read as what lies above the upper one.
+        record.modes[1] = Address::ClampToEdge as u32;
+        let spec = packed.sampler_specs[sampler];
         packed.samplers.push(record);
-        packed.sampler_specs.push(packed.sampler_specs[sampler]);
+        packed.sampler_specs.push(SamplerSpec { address: [spec.address[0], Address::ClampToEdge], ..spec });
         sampler = packed.samplers.len() - 1;
     }
     let slot = textures::slot(packed, environment.texture, sampler);

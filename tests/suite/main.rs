@@ -14,6 +14,7 @@ mod device;
 mod device_shaders;
 mod dimensions;
 mod error;
+mod footprints;
 mod golden;
 #[cfg(unix)]
 mod interrupt;

@@ -1,0 +1,228 @@
+//! The level that a ray reads against the level of its pixel's exact footprint: the way from a place in
+//! the picture to a place in the texture, differentiated numerically in f64. For every kind of mapping and
+//! entity, around seams and poles, directly, in mirrors and through glass.
+
+use glam::{DVec2, DVec3};
+use moire::layout::{NO_MATERIAL, NO_SHAPE};
+use moire::oracle::camera::{Ray, camera_ray};
+use moire::oracle::footprint::{Footprint, camera_beam, mirrored, refracted};
+use moire::oracle::intersect::{nearest_hit, offset_origin};
+use moire::oracle::mapping::texture_coordinate;
+use moire::oracle::math::xyz;
+use moire::oracle::rng::pcg2d;
+use moire::oracle::shade::{advance, camera_path, seen_by_map};
+use moire::oracle::spread::in_texture;
+use moire::oracle::surface::{Surface, hit_surface};
+use moire::pack::{MapKind, PackedScene};
+use moire::scene::model::Model;
+
+use super::bench::{level_scene, place_of};
+use crate::stage;
+
+/// Where a ray through a place in the picture ends in the texture: shapes on its way and the face of a
+/// cube, map, and the place in [0, 1].
+fn end_of_ray(scene: &PackedScene, at: DVec2) -> Option<(Vec<u32>, u32, DVec3)> {
+    let header = &scene.header;
+    let centered = at - 0.5 * DVec2::new(header.image[0].into(), header.image[1].into());
+    let direction = xyz(header.forward) + centered.x * xyz(header.step_x) + centered.y * xyz(header.step_y);
+    let mut ray = Ray { origin: DVec3::ZERO, direction };
+    let mut way = Vec::new();
+    let mut skip = NO_SHAPE;
+    for _ in 0..6 {
+        let hit = nearest_hit(scene, &ray, skip);
+        way.push(hit.shape);
+        skip = hit.shape;
+        let (surface, material, map) = if hit.shape == NO_SHAPE {
+            let material = header.counts[3];
+            (material != NO_MATERIAL).then_some((Surface::default(), material, header.key[3]))?
+        } else {
+            let surface = hit_surface(scene, &ray, &hit);
+            (surface, surface.material, surface.map)
+        };
+        let material = &scene.materials[material as usize];
+        let model = Model::ALL[material.link[0] as usize];
+        let n = surface.geometric_normal;
+        let ior = f64::from(material.specular[3]);
+        let ratio = if surface.inside { ior } else { 1.0 / ior };
+        ray = match model {
+            Model::Mirror => Ray {
+                origin: offset_origin(surface.point, n),
+                direction: mirrored(ray.direction, surface.normal),
+            },
+            Model::Dielectric => Ray {
+                origin: offset_origin(surface.point, -n),
+                direction: refracted(ray.direction, surface.normal, ratio),
+            },
+            _ => {
+                let map_record = &scene.maps[map as usize];
+                let seen = seen_by_map(map_record, &ray, &surface, &Footprint::default());
+                let image = &scene.textures[material.link[1] as usize];
+                let (c, face) = in_texture(image, &texture_coordinate(map_record, &seen));
+                way.push(face);
+                return Some((way, map, c.at));
+            }
+        };
+    }
+    None
+}
+
+/// log2 of the longer axis of the pixel's footprint, in texels of the last hit's texture.
+fn exact_level(scene: &PackedScene, at: DVec2) -> Option<f64> {
+    const STEP: f64 = 1e-4;
+    let here = end_of_ray(scene, at)?;
+    let image = &scene.textures[0];
+    let size = DVec3::new(image.place[1].into(), image.place[2].into(), image.link[2].into());
+    let mut changes = [DVec3::ZERO; 2];
+    for (change, axis) in changes.iter_mut().zip([DVec2::X, DVec2::Y]) {
+        let [a, b] = [axis, -axis].map(|d| end_of_ray(scene, at + STEP * d));
+        let (a, b) = (a?, b?);
+        if a.0 != here.0 || b.0 != here.0 {
+            return None;
+        }
+        let mut d = a.2 - b.2;
+        let kind = MapKind::ALL[scene.maps[here.1 as usize].link[0] as usize];
+        if matches!(kind, MapKind::Cylindrical | MapKind::Spherical) {
+            d -= d.round();
+        }
+        *change = d / (2.0 * STEP);
+        // A box's faces, the pole itself, and what is wider than the texture.
+        if change.abs().max_element() > 0.4 {
+            return None;
+        }
+        *change *= size;
+    }
+    let [x, y] = changes;
+    let (xx, yy, xy) = (x.dot(x), y.dot(y), x.dot(y));
+    let squared = 0.5 * (xx + yy) + (0.25 * (xx - yy).powi(2) + xy * xy).sqrt();
+    Some((0.5 * squared.log2()).clamp(0.0, f64::from(image.link[1] - 1)))
+}
+
+/// Random bits by which every surface of glass refracts that reflects less than half of the light.
+fn refracting() -> [u32; 2] {
+    let refracts = |start: &[u32; 2]| {
+        let mut bits = *start;
+        (0..5).all(|_| {
+            bits = pcg2d(bits);
+            bits[0] >> 31 == 1
+        })
+    };
+    // The choice is made by the first word of the next bits.
+    (0..).map(|i| [i, 77]).find(refracts).unwrap()
+}
+
+/// (level read by the oracle's ray, exact one) of pixels all over the picture.
+fn levels(scene: &PackedScene) -> Vec<(f64, f64, DVec2)> {
+    let [width, height, ..] = scene.header.image;
+    let mut all = Vec::new();
+    for pixel in (0..width * height).step_by(3).map(|i| [i % width, i / width]) {
+        let at = DVec2::new(f64::from(pixel[0]) + 0.5, f64::from(pixel[1]) + 0.5);
+        let Some(exact) = exact_level(scene, at) else { continue };
+        let ray = camera_ray(&scene.header, pixel, [1 << 23; 2]);
+        let mut path = camera_path(ray, camera_beam(&scene.header, &ray), refracting());
+        let mut read = DVec3::ZERO;
+        while path.goes_on {
+            read += advance(scene, &mut path);
+        }
+        all.push((read.x, exact, at));
+    }
+    all
+}
+
+/// Where differentials are exact but for their second order, and cones stay within half a level.
+fn check(what: &str, text: &str, differentials: f64, cone: f64) {
+    for (footprint, allowed) in [("differentials", differentials), ("cone", cone)] {
+        let scene = level_scene(text, footprint);
+        let all = levels(&scene);
+        assert!(all.len() > 60, "{what}: only {} pixels count", all.len());
+        let wide = all.iter().filter(|l| l.1 > 0.0).count();
+        assert!(
+            wide * 4 > all.len(),
+            "{what}: only {wide} of {} footprints are wider than a texel",
+            all.len()
+        );
+        let worst = all.iter().max_by(|a, b| (a.0 - a.1).abs().total_cmp(&(b.0 - b.1).abs())).unwrap();
+        let off = (worst.0 - worst.1).abs();
+        assert!(off <= allowed, "{what}, {footprint}: level {} for {} at {}", worst.0, worst.1, worst.2);
+    }
+}
+
+const KINDS: [&str; 6] = ["planar", "cylindrical", "spherical", "cube", "box", "solid"];
+const SPHERE: &str = "[[sphere]]\ncenter = [0.2, -0.1, 0.3]\nradius = 1.4\nmaterial = 'm'\n";
+const PLANE: &str = "[[plane]]\norigin = [0, 0, 0]\ntangent = [1, 0, 0.8]\nbitangent = [0, 1, -0.5]\nhalf_extent = 2\nmaterial = 'm'\n";
+
+#[test]
+fn every_mapping_of_every_entity_on_a_sphere_with_pole_and_seam_in_sight() {
+    for kind in KINDS {
+        for entity in ["position", "normal", "centroid", "reflection"] {
+            let place = place_of(kind, entity);
+            check(&format!("{kind} {entity}"), &format!("{place}{SPHERE}"), 0.01, 0.5);
+        }
+    }
+    check("surface", &format!("{}{SPHERE}", place_of("surface", "")), 0.01, 0.5);
+}
+
+#[test]
+fn every_mapping_of_the_entities_that_vary_over_a_plane() {
+    for kind in KINDS {
+        for entity in ["position", "centroid"] {
+            check(&format!("{kind} {entity}"), &format!("{}{PLANE}", place_of(kind, entity)), 0.01, 0.5);
+        }
+    }
+    check("surface", &format!("{}{PLANE}", place_of("surface", "")), 0.01, 0.5);
+}
+
+/// What a ray of the camera may meet before it comes to the texture.
+const BEHIND: &str =
+    "[[plane]]\norigin = [0, 0, -3]\ntangent = [0.25, 0, 0.05]\nbitangent = [0, 0.25, 0]\nmaterial = 'm'\n";
+const FLOOR: &str =
+    "[[plane]]\norigin = [0, -3, 0]\ntangent = [0.2, 0, 0]\nbitangent = [0, 0, 0.2]\nmaterial = 'm'\n";
+
+fn with(model: &str, shape: &str, seen: &str) -> String {
+    let place = place_of("surface", "");
+    format!("{place}[[material]]\nname = 'n'\nmodel = '{model}'\n{shape}\nmaterial = 'n'\n{seen}")
+}
+
+#[test]
+fn through_mirrors_and_glass() {
+    let ball = "[[sphere]]\ncenter = [0, 0, 0]\nradius = 1.1";
+    let pane = "[[plane]]\norigin = [0, 0, 1]\ntangent = [1, 0, 0.4]\nbitangent = [0, 1, 0.2]";
+    let wall = "[[plane]]\norigin = [0, 0, 0]\ntangent = [1, 0, 0.1]\nbitangent = [0, 1, -0.8]";
+    check("a mirror", &with("mirror", wall, FLOOR), 0.01, 0.5);
+    check("a mirror ball", &with("mirror", ball, FLOOR), 0.01, 2.0);
+    check("a pane of glass", &with("dielectric", pane, BEHIND), 0.01, 0.5);
+    check("a ball of glass", &with("dielectric", ball, BEHIND), 0.01, 2.0);
+}
+
+#[test]
+fn environments_directly_and_in_a_mirror_ball() {
+    let ball = "[[material]]\nname = 'n'\nmodel = 'mirror'\n[[sphere]]\ncenter = [0, 0, 0]\nradius = 1.1\nmaterial = 'n'\n";
+    for kind in ["planar", "cube"] {
+        let background = "[background]\nenvironment = 't'\nsampler = 's'\nrotate = 37\n";
+        let place = place_of(kind, "position");
+        check(&format!("{kind} environment"), &format!("{place}{background}"), 0.01, 0.5);
+        check(&format!("{kind} environment in a ball"), &format!("{place}{background}{ball}"), 0.01, 2.0);
+    }
+}
+
+/// All of it on the device: the picture of levels is the oracle's.
+#[test]
+fn the_device_reads_the_levels_of_the_oracle() {
+    let ball = "[[sphere]]\ncenter = [-0.6, 0, 0]\nradius = 0.7";
+    let more = "[[sphere]]\ncenter = [0.9, 0.2, 0.3]\nradius = 0.6\nmaterial = 'm'\n";
+    for footprint in ["differentials", "cone"] {
+        for text in [
+            with("mirror", ball, &format!("{FLOOR}{more}")),
+            format!("{}{SPHERE}", place_of("spherical", "reflection")),
+            format!("{}{SPHERE}", place_of("box", "normal")),
+        ] {
+            let scene = level_scene(&text, footprint);
+            let (device, oracle) = (stage::render(&scene), stage::render_on_oracle(&scene));
+            let mut off: Vec<f32> =
+                device.pixels.iter().zip(&oracle.pixels).map(|(a, b)| (a[0] - b[0]).abs()).collect();
+            off.sort_by(f32::total_cmp);
+            // Silhouettes and the pole move by rounding; elsewhere a level is log2 of a few roundings.
+            let most = off[off.len() * 98 / 100];
+            assert!(most < 2e-3, "{footprint}: levels off by {most} in one of 50 pixels, {text}");
+        }
+    }
+}
