@@ -1,7 +1,7 @@
 //! Errors of filters at equal time: `cargo bench -- filters`. For each scene of `data/scenes/bench` and
 //! each filter, the RMSE that it reaches in the render time of 64 samples without a footprint. Counts of
 //! stratified samples are squares, so it stands between two of them: the logarithm of the error is
-//! interpolated over that of the time. Times are ratios to the unfiltered scene, from runs in turn.
+//! interpolated over that of the time. Then what one sample in the pixel's centre gives. Times are ratios to the unfiltered scene, from runs in turn.
 
 use std::fs;
 use std::path::Path;
@@ -70,8 +70,18 @@ impl Pair {
             let base = Pair::time(bench, &self.plain, &["--spp", BASE])?;
             ratios.push(Pair::time(bench, &self.mipped, &options)? / base);
         }
-        ratios.sort_by(f64::total_cmp);
-        Ok(Point { samples: f64::from(samples), time: ratios[ROUNDS / 2], rmse: self.error(bench)? })
+        Ok(Point { samples: f64::from(samples), time: middle(ratios), rmse: self.error(bench)? })
+    }
+
+    /// One sample in the centre of each pixel: its error and its time.
+    fn centred(&self, bench: &Bench, filter: &str, footprint: &str) -> Outcome<String> {
+        let options = ["--filter", filter, "--footprint", footprint, "--pattern", "center"];
+        let mut ratios = Vec::new();
+        for _ in 0..ROUNDS {
+            let base = Pair::time(bench, &self.plain, &["--spp", BASE])?;
+            ratios.push(Pair::time(bench, &self.mipped, &options)? / base);
+        }
+        Ok(format!("{:.2e} ({:.2})", self.error(bench)?, middle(ratios)))
     }
 
     /// The error in the time of the unfiltered scene. A filter that takes longer even for one sample is
@@ -99,6 +109,11 @@ impl Pair {
     }
 }
 
+fn middle(mut ratios: Vec<f64>) -> f64 {
+    ratios.sort_by(f64::total_cmp);
+    ratios[ratios.len() / 2]
+}
+
 pub fn table(bench: &Bench) -> Outcome<()> {
     let names = ["s1a", "s1b", "s2"];
     let pairs = names.iter().map(|name| Pair::new(bench, name)).collect::<Outcome<Vec<Pair>>>()?;
@@ -113,6 +128,14 @@ pub fn table(bench: &Bench) -> Outcome<()> {
         let mut row = format!("| {label} | {footprint} |");
         for pair in &pairs {
             row += &format!(" {} |", pair.cell(bench, filter, footprint)?);
+        }
+        println!("{row}");
+    }
+    println!("\n| one sample | footprint | {} |\n| --- | --- | --- | --- | --- |", names.join(" | "));
+    for (label, filter, footprint) in [("linear", "linear", "none")].iter().chain(&FILTERS) {
+        let mut row = format!("| {label} | {footprint} |");
+        for pair in &pairs {
+            row += &format!(" {} |", pair.centred(bench, filter, footprint)?);
         }
         println!("{row}");
     }
