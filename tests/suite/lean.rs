@@ -14,7 +14,8 @@ use crate::stage::{
 every_scene! { same_bits_whatever_is_left_out_of: super::same_bits_whatever_is_left_out }
 
 /// A texel of an image is converted by the device, one of a buffer by the shader: k / 255 to within an
-/// ulp each, which a mean of samples keeps.
+/// ulp each, which a mean of samples keeps. Of a relief the differences of neighbours count, over a texel,
+/// and a highlight raises what they turn to a power.
 fn same_bits_whatever_is_left_out(name: &str) {
     // Two tiles wide, with a ragged edge.
     let packed = packed(small(name, 70, 4), None);
@@ -27,8 +28,9 @@ fn same_bits_whatever_is_left_out(name: &str) {
         assert_eq!(full_report.left_out, [""; 0], "{name} keeps not everything");
         lean
     });
+    let ulps = if name == "materials" { 256.0 } else { 4.0 };
     for (p, q) in buffer.pixels.iter().flatten().zip(image.pixels.iter().flatten()) {
-        assert!((p - q).abs() <= 4.0 * f32::EPSILON * p.abs().max(1.0), "{name}: {p} and {q}");
+        assert!((p - q).abs() <= ulps * f32::EPSILON * p.abs().max(1.0), "{name}: {p} and {q}");
     }
 }
 

@@ -1,7 +1,10 @@
-//! The figures that the README states, measured anew: `cargo bench`. Runs the program itself on the
+//! The figures that the README states, measured anew: `cargo bench`, and `cargo bench -- filters` for the
+//! errors of filters at equal time. Runs the program itself on the
 //! scenes of `data/scenes/bench` and prints Markdown: medians over whole processes, the ratio of lean
 //! to full pipelines from runs in turn, errors against the float64 references.
 //! `MOIRE_DEVICE` chooses the device (default cpu), `MOIRE_BENCH_RUNS` the number of runs (default 5).
+
+mod equal_time;
 
 use std::path::Path;
 use std::process::Command;
@@ -39,9 +42,13 @@ impl Bench {
     }
 
     fn run(&self, name: &str, options: &[&str], environment: &[(&str, &str)]) -> Outcome<Run> {
+        self.run_file(&Self::scene(name), options, environment)
+    }
+
+    fn run_file(&self, scene: &str, options: &[&str], environment: &[(&str, &str)]) -> Outcome<Run> {
         let clock = Instant::now();
         let output = Command::new(env!("CARGO_BIN_EXE_moire"))
-            .args(["render", &Self::scene(name), "-o", &self.out(), "--json", "-q", "--device", &self.device])
+            .args(["render", scene, "-o", &self.out(), "--json", "-q", "--device", &self.device])
             .args(options)
             .envs(environment.iter().copied())
             .output()?;
@@ -140,6 +147,9 @@ fn main() -> Outcome<()> {
     let bench = Bench { device, runs, picture: tempfile::tempdir()? };
     let first = bench.run("s1a", &["--spp", "1"], &[])?;
     println!("{}, {runs} runs each\n", first.json["device"].as_str().unwrap_or("?"));
+    if std::env::args().any(|argument| argument == "filters") {
+        return equal_time::table(&bench);
+    }
     bench.times()?;
     bench.lean()?;
     if first.json["driver"].as_str().is_some_and(|d| !d.contains("llvmpipe")) {
