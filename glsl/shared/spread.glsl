@@ -18,16 +18,12 @@ struct Spread {
 // What is not a number, or endless, is as wide as the widest.
 float bounded(float squared) { return squared < 1e30 ? squared : 1e30; }
 
-// A place on a face, whatever its direction was: the cube's centre has none.
-float on_side(float x) { return x >= 0.0 ? min(x, 1.0) : 0.0; }
-
 // A direction on the cube as a place on its face; a flat or solid coordinate as it is.
 Coordinate in_texture(Texture image, Coordinate c, out uint face) {
     face = 0u;
     if (!MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_CUBE, image.link.w)) return c;
     vec3 stm = on_cube_face(c.at, face);
-    vec2 uv = face_uv(stm);
-    Coordinate on_face = Coordinate(vec3(on_side(uv.x), on_side(uv.y), 0.0), vec3(0.0), vec3(0.0));
+    Coordinate on_face = Coordinate(vec3(within_face(stm), 0.0), vec3(0.0), vec3(0.0));
     if (FILTERED) {
         on_face.dx.xy = face_uv_change(stm, along_cube_face(c.dx, face));
         on_face.dy.xy = face_uv_change(stm, along_cube_face(c.dy, face));

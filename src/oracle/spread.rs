@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
-use super::mapping::{Coordinate, along_cube_face, face_uv, face_uv_change, on_cube_face};
+use super::mapping::{Coordinate, along_cube_face, face_uv_change, on_cube_face, within_face};
 use crate::layout::Texture;
 use crate::pack::TextureKind;
 
@@ -25,11 +25,6 @@ pub fn kind_of(image: &Texture) -> TextureKind {
     TextureKind::ALL[image.link[3] as usize]
 }
 
-/// A place on a face, whatever its direction was: the cube's centre has none.
-fn on_side(x: f64) -> f64 {
-    if x >= 0.0 { x.min(1.0) } else { 0.0 }
-}
-
 /// A direction on the cube as a place on its face; a flat or solid coordinate as it is.
 pub fn in_texture(image: &Texture, c: &Coordinate) -> (Coordinate, u32) {
     if kind_of(image) != TextureKind::Cube {
@@ -37,8 +32,7 @@ pub fn in_texture(image: &Texture, c: &Coordinate) -> (Coordinate, u32) {
     }
     let (stm, face) = on_cube_face(c.at);
     let change = c.change.map(|d| face_uv_change(stm, along_cube_face(d, face)).extend(0.0));
-    let uv = face_uv(stm);
-    (Coordinate { at: DVec3::new(on_side(uv.x), on_side(uv.y), 0.0), change }, face)
+    (Coordinate { at: within_face(stm).extend(0.0), change }, face)
 }
 
 pub fn texel_spread(image: &Texture, c: &Coordinate) -> Spread {
