@@ -98,7 +98,7 @@ vec3 refaced(vec3 at, inout uint face) {
     uint other;
     vec3 stm = on_cube_face(face_direction(face, 2.0 * at.xy - 1.0), other);
     face = other;
-    return vec3(face_uv(stm), 0.0);
+    return vec3(within_face(stm), 0.0);
 }
 
 // The texel of a cube at a place of a face, or beyond its edge: of the neighbour that the extended

@@ -94,6 +94,12 @@ vec2 face_uv(vec3 stm) {
     return uv;
 }
 
+// The same of any direction: the cube's centre has none, and NaN is no place.
+vec2 within_face(vec3 stm) {
+    vec2 uv = face_uv(stm);
+    return vec2(uv.x >= 0.0 ? min(uv.x, 1.0) : 0.0, uv.y >= 0.0 ? min(uv.y, 1.0) : 0.0);
+}
+
 // Its change: the quotient's derivative.
 vec2 face_uv_change(vec3 stm, vec3 change) {
     precise vec2 uv = 0.5 * (change.xy * stm.z - stm.xy * change.z) / (stm.z * stm.z);

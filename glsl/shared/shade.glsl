@@ -12,7 +12,7 @@
 Seen seen_by_map(Map map, Ray ray, Surface surface, Footprint print) {
     Seen seen = Seen(surface.point, vec3(0.0), vec3(0.0), surface.own_uv, vec2(0.0), vec2(0.0));
     uint entity = map.link.y;
-    if (FILTERED) {
+    if (DERIVATIVES) {
         seen.entity_x = print.point_x;
         seen.entity_y = print.point_y;
         seen.own_x = vec2(dot3(surface.own_u, print.point_x), dot3(surface.own_v, print.point_x));
@@ -39,7 +39,7 @@ Seen seen_by_map(Map map, Ray ray, Surface surface, Footprint print) {
     precise float scale = 1.0 / sqrt(dot3(way, way));
     precise vec3 unit = way * scale;
     seen.entity = unit;
-    if (FILTERED) {
+    if (DERIVATIVES) {
         seen.entity_x = (way_x - dot3(unit, way_x) * unit) * scale;
         seen.entity_y = (way_y - dot3(unit, way_y) * unit) * scale;
     }

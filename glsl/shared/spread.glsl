@@ -23,7 +23,7 @@ Coordinate in_texture(Texture image, Coordinate c, out uint face) {
     face = 0u;
     if (!MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_CUBE, image.link.w)) return c;
     vec3 stm = on_cube_face(c.at, face);
-    Coordinate on_face = Coordinate(vec3(face_uv(stm), 0.0), vec3(0.0), vec3(0.0));
+    Coordinate on_face = Coordinate(vec3(within_face(stm), 0.0), vec3(0.0), vec3(0.0));
     if (FILTERED) {
         on_face.dx.xy = face_uv_change(stm, along_cube_face(c.dx, face));
         on_face.dy.xy = face_uv_change(stm, along_cube_face(c.dy, face));

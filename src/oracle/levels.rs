@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3, DVec4};
 
-use super::mapping::{face_uv, on_cube_face};
+use super::mapping::{face_uv, on_cube_face, within_face};
 use super::spread::kind_of;
 use super::texture::{Level, addresses, fetch_or_border, fetch_texel, flat_texel, reduced_coordinate};
 use crate::layout::{Sampler, Texture};
@@ -159,7 +159,7 @@ pub fn face_direction(face: u32, st: DVec2) -> DVec3 {
 /// A place of a face's plane, on the face that lies behind it.
 pub fn refaced(at: DVec3, face: u32) -> (DVec3, u32) {
     let (stm, other) = on_cube_face(face_direction(face, 2.0 * at.truncate() - 1.0));
-    (face_uv(stm).extend(0.0), other)
+    (within_face(stm).extend(0.0), other)
 }
 
 /// The texel of a cube at a place of a face, or beyond its edge: of the neighbour that the extended plane

@@ -85,6 +85,13 @@ pub fn face_uv(stm: DVec3) -> DVec2 {
     0.5 * (stm.truncate() / stm.z) + 0.5
 }
 
+/// The same of any direction: the cube's centre has none, and NaN is no place.
+pub fn within_face(stm: DVec3) -> DVec2 {
+    let within = |x: f64| if x >= 0.0 { x.min(1.0) } else { 0.0 };
+    let uv = face_uv(stm);
+    DVec2::new(within(uv.x), within(uv.y))
+}
+
 /// Its change: the quotient's derivative.
 pub fn face_uv_change(stm: DVec3, change: DVec3) -> DVec2 {
     0.5 * (change.truncate() * stm.z - stm.truncate() * change.z) / (stm.z * stm.z)

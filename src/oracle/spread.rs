@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
-use super::mapping::{Coordinate, along_cube_face, face_uv, face_uv_change, on_cube_face};
+use super::mapping::{Coordinate, along_cube_face, face_uv_change, on_cube_face, within_face};
 use crate::layout::Texture;
 use crate::pack::TextureKind;
 
@@ -32,7 +32,7 @@ pub fn in_texture(image: &Texture, c: &Coordinate) -> (Coordinate, u32) {
     }
     let (stm, face) = on_cube_face(c.at);
     let change = c.change.map(|d| face_uv_change(stm, along_cube_face(d, face)).extend(0.0));
-    (Coordinate { at: face_uv(stm).extend(0.0), change }, face)
+    (Coordinate { at: within_face(stm).extend(0.0), change }, face)
 }
 
 pub fn texel_spread(image: &Texture, c: &Coordinate) -> Spread {

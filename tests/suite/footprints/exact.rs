@@ -128,11 +128,19 @@ fn levels(scene: &PackedScene) -> Vec<(f64, f64, DVec2)> {
     all
 }
 
-/// Where differentials are exact but for their second order, and cones stay within half a level.
-fn check(what: &str, text: &str, differentials: f64, cone: f64) {
-    for (footprint, allowed) in [("differentials", differentials), ("cone", cone)] {
+/// Where a cone, which is round, stays within half a level of the footprint's major axis.
+#[derive(Clone, Copy, PartialEq)]
+enum Cone {
+    Everywhere,
+    /// In half of the pixels: curved surfaces stretch it towards their silhouettes.
+    Mostly,
+}
+
+/// Differentials are exact but for the rounding of what is packed.
+fn check(what: &str, text: &str, cone: Cone) {
+    for (footprint, allowed) in [("differentials", 0.01), ("cone", 0.5)] {
         let scene = level_scene(text, footprint);
-        let all = levels(&scene);
+        let mut all = levels(&scene);
         assert!(all.len() > 60, "{what}: only {} pixels count", all.len());
         let wide = all.iter().filter(|l| l.1 > 0.0).count();
         assert!(
@@ -140,9 +148,10 @@ fn check(what: &str, text: &str, differentials: f64, cone: f64) {
             "{what}: only {wide} of {} footprints are wider than a texel",
             all.len()
         );
-        let worst = all.iter().max_by(|a, b| (a.0 - a.1).abs().total_cmp(&(b.0 - b.1).abs())).unwrap();
-        let off = (worst.0 - worst.1).abs();
-        assert!(off <= allowed, "{what}, {footprint}: level {} for {} at {}", worst.0, worst.1, worst.2);
+        all.sort_by(|a, b| (a.0 - a.1).abs().total_cmp(&(b.0 - b.1).abs()));
+        let most = footprint == "cone" && cone == Cone::Mostly;
+        let (read, exact, at) = all[if most { all.len() / 2 } else { all.len() - 1 }];
+        assert!((read - exact).abs() <= allowed, "{what}, {footprint}: level {read} for {exact} at {at}");
     }
 }
 
@@ -155,27 +164,31 @@ fn every_mapping_of_every_entity_on_a_sphere_with_pole_and_seam_in_sight() {
     for kind in KINDS {
         for entity in ["position", "normal", "centroid", "reflection"] {
             let place = place_of(kind, entity);
-            check(&format!("{kind} {entity}"), &format!("{place}{SPHERE}"), 0.01, 0.5);
+            check(&format!("{kind} {entity}"), &format!("{place}{SPHERE}"), Cone::Everywhere);
         }
     }
-    check("surface", &format!("{}{SPHERE}", place_of("surface", "")), 0.01, 0.5);
+    check("surface", &format!("{}{SPHERE}", place_of("surface", "")), Cone::Everywhere);
 }
 
 #[test]
 fn every_mapping_of_the_entities_that_vary_over_a_plane() {
     for kind in KINDS {
         for entity in ["position", "centroid"] {
-            check(&format!("{kind} {entity}"), &format!("{}{PLANE}", place_of(kind, entity)), 0.01, 0.5);
+            check(
+                &format!("{kind} {entity}"),
+                &format!("{}{PLANE}", place_of(kind, entity)),
+                Cone::Everywhere,
+            );
         }
     }
-    check("surface", &format!("{}{PLANE}", place_of("surface", "")), 0.01, 0.5);
+    check("surface", &format!("{}{PLANE}", place_of("surface", "")), Cone::Everywhere);
 }
 
 /// What a ray of the camera may meet before it comes to the texture.
 const BEHIND: &str =
-    "[[plane]]\norigin = [0, 0, -3]\ntangent = [0.25, 0, 0.05]\nbitangent = [0, 0.25, 0]\nmaterial = 'm'\n";
+    "[[plane]]\norigin = [0, 0, -3]\ntangent = [4, 0, 0.8]\nbitangent = [0, 4, 0]\nmaterial = 'm'\n";
 const FLOOR: &str =
-    "[[plane]]\norigin = [0, -3, 0]\ntangent = [0.2, 0, 0]\nbitangent = [0, 0, 0.2]\nmaterial = 'm'\n";
+    "[[plane]]\norigin = [0, -3, 0]\ntangent = [4, 0, 0]\nbitangent = [0, 0, 4]\nmaterial = 'm'\n";
 
 fn with(model: &str, shape: &str, seen: &str) -> String {
     let place = place_of("surface", "");
@@ -186,11 +199,11 @@ fn with(model: &str, shape: &str, seen: &str) -> String {
 fn through_mirrors_and_glass() {
     let ball = "[[sphere]]\ncenter = [0, 0, 0]\nradius = 1.1";
     let pane = "[[plane]]\norigin = [0, 0, 1]\ntangent = [1, 0, 0.4]\nbitangent = [0, 1, 0.2]";
-    let wall = "[[plane]]\norigin = [0, 0, 0]\ntangent = [1, 0, 0.1]\nbitangent = [0, 1, -0.8]";
-    check("a mirror", &with("mirror", wall, FLOOR), 0.01, 0.5);
-    check("a mirror ball", &with("mirror", ball, FLOOR), 0.01, 2.0);
-    check("a pane of glass", &with("dielectric", pane, BEHIND), 0.01, 0.5);
-    check("a ball of glass", &with("dielectric", ball, BEHIND), 0.01, 2.0);
+    let wall = "[[plane]]\norigin = [0, 0, 0]\ntangent = [1, 0, 0.1]\nbitangent = [0, 1, 0.8]";
+    check("a mirror", &with("mirror", wall, FLOOR), Cone::Everywhere);
+    check("a mirror ball", &with("mirror", ball, FLOOR), Cone::Mostly);
+    check("a pane of glass", &with("dielectric", pane, BEHIND), Cone::Everywhere);
+    check("a ball of glass", &with("dielectric", ball, BEHIND), Cone::Mostly);
 }
 
 #[test]
@@ -199,8 +212,8 @@ fn environments_directly_and_in_a_mirror_ball() {
     for kind in ["planar", "cube"] {
         let background = "[background]\nenvironment = 't'\nsampler = 's'\nrotate = 37\n";
         let place = place_of(kind, "position");
-        check(&format!("{kind} environment"), &format!("{place}{background}"), 0.01, 0.5);
-        check(&format!("{kind} environment in a ball"), &format!("{place}{background}{ball}"), 0.01, 2.0);
+        check(&format!("{kind} environment"), &format!("{place}{background}"), Cone::Everywhere);
+        check(&format!("{kind} environment in a ball"), &format!("{place}{background}{ball}"), Cone::Mostly);
     }
 }
 
