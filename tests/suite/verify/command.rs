@@ -21,7 +21,7 @@ impl Progress for Stop {
 
 #[test]
 fn a_wish_to_stop_ends_after_one_batch() {
-    assert!(matches!(verify(&gpu(), &Stop), Err(Error::Interrupted)));
+    assert!(matches!(verify(&gpu(), None, &Stop), Err(Error::Interrupted)));
 }
 
 #[test]
