@@ -36,7 +36,7 @@ const FAULTS: &[KnownFault] = &[
         beyond: 1.0 / 255.0, // half a step of 255 an axis
     },
     KnownFault {
-        name: "lavapipe reads level 0 under every footprint where a sampler is anisotropic",
+        name: "lavapipe reads levels that are not the footprint's where a sampler is anisotropic",
         driver: "llvmpipe",
         applies: |v| v.reader == Reader::Sampler && v.scale == Scale::Anisotropic,
         beyond: 1.0, // any level for any other

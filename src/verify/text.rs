@@ -105,18 +105,19 @@ fn group_line(line: &Line) -> String {
     )
 }
 
-/// The longest footprint that was followed, for each limit of the sampler.
+/// The longest footprint that was followed, for each limit of the sampler; where levels are wrong it says
+/// nothing.
 fn anisotropies(rows: &[Row]) -> Option<String> {
     let mut limits: Vec<u32> = rows.iter().filter_map(|r| r.max_anisotropy).collect();
     limits.sort();
     limits.dedup();
     let followed = |limit: &u32| {
-        let of = rows.iter().filter(|r| r.max_anisotropy == Some(*limit));
+        let of = rows.iter().filter(|r| r.max_anisotropy == Some(*limit) && r.verdict == Verdict::Within);
         let most = of.filter_map(|r| r.anisotropy).reduce(f64::max);
-        format!("{limit}: {}", most.map_or("none".into(), |m| format!("{m:.1}")))
+        format!("{limit}: {}", most.map_or("-".into(), |m| format!("{m:.1}")))
     };
     let list: Vec<String> = limits.iter().map(followed).collect();
-    (!list.is_empty()).then(|| format!("anisotropy, declared and followed: {}", list.join(", ")))
+    (!list.is_empty()).then(|| format!("anisotropy asked for and followed: {}", list.join(", ")))
 }
 
 fn faults(rows: &[Row]) -> Vec<(&'static str, usize)> {
