@@ -6,8 +6,8 @@ use bytemuck::{Pod, Zeroable};
 
 use crate::error::Result;
 use crate::features::{self, Features, TexelSource};
-use crate::gpu::{BufferUse, Gpu};
-use crate::pack::PackedScene;
+use crate::gpu::{BufferUse, Gpu, Pipeline};
+use crate::pack::{PackedScene, SlotCounts};
 use crate::render::{Resources, build_pipeline};
 use crate::shaders::{self, Shader};
 
@@ -75,12 +75,61 @@ pub fn look_ups(
     queries: &[LookUp],
 ) -> Result<Vec<[f32; 4]>> {
     let features = Features::new(scene, image_source, keep_everything);
-    let shader = match features.source {
+    let shader = look_up_shader(&features);
+    run(gpu, scene, &features, shader, Some(bytemuck::cast_slice(queries)), queries.len(), &[])
+}
+
+fn look_up_shader(features: &Features) -> &'static Shader {
+    match features.source {
         TexelSource::Image => &shaders::PROBE_IMAGES,
         TexelSource::Solids => &shaders::PROBE_SOLIDS,
         TexelSource::None | TexelSource::Buffer => &shaders::PROBE_TEXELS,
-    };
-    run(gpu, scene, &features, shader, Some(bytemuck::cast_slice(queries)), queries.len(), &[])
+    }
+}
+
+/// Look-ups of one scene after the other. Scenes that need the same code share a pipeline.
+pub struct LookUps<'a> {
+    gpu: &'a Gpu,
+    pipelines: Vec<(Code, Pipeline)>,
+}
+
+/// All that a pipeline of look-ups depends on.
+#[derive(PartialEq)]
+struct Code {
+    shader: &'static str,
+    constants: Vec<(u32, u32)>,
+    slots: SlotCounts,
+}
+
+impl<'a> LookUps<'a> {
+    pub fn new(gpu: &'a Gpu) -> LookUps<'a> {
+        LookUps { gpu, pipelines: Vec::new() }
+    }
+
+    pub fn answer(
+        &mut self,
+        scene: &PackedScene,
+        image_source: bool,
+        queries: &[LookUp],
+    ) -> Result<Vec<[f32; 4]>> {
+        let features = Features::new(scene, image_source, false);
+        let shader = look_up_shader(&features);
+        let resources = Resources::upload(self.gpu, scene, &features)?;
+        let slots = scene.slot_counts();
+        let constants = features::constants(shader, &features, &resources.sections, [GROUP, 1], slots);
+        let code = Code { shader: shader.name, constants, slots };
+        let known = self.pipelines.iter().position(|(other, _)| *other == code);
+        let index = match known {
+            Some(index) => index,
+            None => {
+                let pipeline = build_pipeline(self.gpu, shader, &code.constants, slots, size_of::<u32>())?;
+                self.pipelines.push((code, pipeline));
+                self.pipelines.len() - 1
+            }
+        };
+        let list = Some(bytemuck::cast_slice(queries));
+        dispatch(self.gpu, &self.pipelines[index].1, &resources, shader, list, queries.len(), &[])
+    }
 }
 
 /// What each ray hits. Shapes need a texture for their coordinate to mean anything.
@@ -131,15 +180,27 @@ fn run<T: Pod>(
     push: &[u32],
 ) -> Result<Vec<T>> {
     let resources = Resources::upload(gpu, scene, features)?;
+    let slots = scene.slot_counts();
+    let constants = features::constants(shader, features, &resources.sections, [GROUP, 1], slots);
+    let pipeline = build_pipeline(gpu, shader, &constants, slots, (1 + push.len()) * size_of::<u32>())?;
+    dispatch(gpu, &pipeline, &resources, shader, queries, count, push)
+}
+
+fn dispatch<T: Pod>(
+    gpu: &Gpu,
+    pipeline: &Pipeline,
+    resources: &Resources,
+    shader: &Shader,
+    queries: Option<&[u8]>,
+    count: usize,
+    push: &[u32],
+) -> Result<Vec<T>> {
     let mut answers = vec![T::zeroed(); count];
     let output = gpu.buffer("answers", size_of_val(answers.as_slice()) as u64, BufferUse::Storage)?;
     let queries = queries.map(|q| gpu.upload_buffer("queries", BufferUse::Storage, q)).transpose()?;
-    let slots = scene.slot_counts();
-    let constants = features::constants(shader, features, &resources.sections, [GROUP, 1], slots);
     let push: Vec<u32> = std::iter::once(count as u32).chain(push.iter().copied()).collect();
-    let pipeline = build_pipeline(gpu, shader, &constants, slots, size_of_val(push.as_slice()))?;
-    let group = resources.bind(gpu, &pipeline, shader, &output, queries.as_ref())?;
-    gpu.run(&pipeline, &group, bytemuck::cast_slice(&push), [(count as u32).div_ceil(GROUP), 1, 1])?;
+    let group = resources.bind(gpu, pipeline, shader, &output, queries.as_ref())?;
+    gpu.run(pipeline, &group, bytemuck::cast_slice(&push), [(count as u32).div_ceil(GROUP), 1, 1])?;
     gpu.read_buffer(&output, 0, bytemuck::cast_slice_mut(&mut answers))?;
     Ok(answers)
 }

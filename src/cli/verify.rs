@@ -11,14 +11,17 @@ use crate::verify::{report::Report, text::text, verify};
 
 /// Hold a device's samplers against the float64 oracle
 ///
-/// Every address mode, filter, mip mode and class of texel formats over random, awkward and finely
-/// stepped coordinates. Exit code 1 when a variant is outside what the device declares.
+/// Every address mode, filter, mip mode, kind of texture and class of texel formats over random, awkward
+/// and finely stepped coordinates and levels. Exit code 1 when a variant is outside what the device declares.
 #[derive(clap::Args, Clone, Debug)]
 pub struct VerifyArgs {
     /// Device: an index or a part of the name as `moire devices` lists them, cpu or gpu
     /// [default: discrete GPU, else integrated, else CPU]
     #[arg(long, value_name = "SEL")]
     device: Option<String>,
+    /// Only variants whose name has TEXT in it, such as "3d" or "mip=linear"; --json names all
+    #[arg(long, value_name = "TEXT")]
+    only: Option<String>,
     /// Print one JSON object with a row for each variant
     #[arg(long)]
     json: bool,
@@ -43,7 +46,7 @@ pub fn run(args: &VerifyArgs) -> Result<ExitCode> {
         None => DeviceSelect::Default,
     };
     let gpu = Gpu::open(&select)?;
-    let report = verify(&gpu, &bar);
+    let report = verify(&gpu, args.only.as_deref(), &bar);
     bar.finish();
     let report = report?;
     for message in gpu.messages() {

@@ -74,7 +74,7 @@ fn anisotropic(spec: &SamplerSpec) -> bool {
 
 /// The colour counts only where an axis reads it.
 fn border_color(spec: &SamplerSpec) -> vk::BorderColor {
-    if spec.address.contains(&Address::ClampToBorder) {
+    if spec.has(Address::ClampToBorder) {
         convert::border_color(spec.border_color)
     } else {
         vk::BorderColor::FLOAT_TRANSPARENT_BLACK
@@ -89,7 +89,7 @@ fn check(core: &Core, spec: &SamplerSpec) -> Result<()> {
             "Use method = \"shader\", which has it on every device.",
         ));
     }
-    if spec.address.contains(&Address::MirrorClampToEdge) && !limits.mirror_clamp_to_edge {
+    if spec.has(Address::MirrorClampToEdge) && !limits.mirror_clamp_to_edge {
         return Err(Error::with_help(
             format!("sampler {}: {} has no mirror-clamp-to-edge", spec.label(), core.info.name),
             "Use method = \"shader\", which has every address mode on every device.",

@@ -201,7 +201,7 @@ impl Form {
     }
 
     fn new(hardware: bool, srgb: bool, spec: &SamplerSpec) -> Form {
-        let border = spec.address.contains(&Address::ClampToBorder);
+        let border = spec.has(Address::ClampToBorder);
         Form {
             decode: hardware && srgb,
             expand: hardware && (srgb || border),
@@ -216,7 +216,7 @@ pub fn can_sample(gpu: &Gpu, spec: &SamplerSpec, format: TexelFormat, space: Col
     let form = Form::new(true, space == ColorSpace::Srgb, spec);
     let channels = if form.expand { 4 } else { format.channels() };
     let stored = image_format(TexelFormat::new(channels, format.component()), form.decode);
-    let mirrors = limits.mirror_clamp_to_edge || !spec.address.contains(&Address::MirrorClampToEdge);
+    let mirrors = limits.mirror_clamp_to_edge || !spec.has(Address::MirrorClampToEdge);
     mirrors && gpu.supports(stored, form.filtered)
 }
 

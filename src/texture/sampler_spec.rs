@@ -113,6 +113,11 @@ impl SamplerSpec {
         self.mag != self.min || self.mip != MipMode::None
     }
 
+    /// Whether some axis has this address mode.
+    pub fn has(&self, mode: Address) -> bool {
+        self.address.contains(&mode) || self.address_w == mode
+    }
+
     /// Whether it reads levels below the texture itself.
     pub fn reads_levels(&self) -> bool {
         self.mip != MipMode::None || self.min == Filter::Ewa

@@ -1,21 +1,24 @@
 //! Is the answer to a look-up right? By the interval rule of the Khronos conformance tests (VK-GL-CTS,
-//! `vktSampleVerifier.cpp`): right if some coordinate within the declared precision
-//! (`VkPhysicalDeviceLimits::subTexelPrecisionBits`) gives it, up to the arithmetic of filtering. What
-//! our shader filters must be close to the oracle's value itself.
+//! `vktSampleVerifier.cpp`): right if some coordinate and level within the declared precision
+//! (`VkPhysicalDeviceLimits::subTexelPrecisionBits` and `mipmapPrecisionBits`) give it, up to the
+//! arithmetic of filtering. What our shader filters must be close to the oracle's value itself.
 
-use glam::{DVec2, DVec4};
+use glam::DVec4;
 
-use super::queries::uv_of;
+use super::place::{Place, Reach, span};
+use super::queries::place_of;
+use super::reading::{Reading, levels_of_detail, readings};
 use crate::gpu::{DeviceInfo, DeviceKind};
+use crate::layout::Sampler;
 use crate::oracle::filter::look_up;
-use crate::oracle::mapping::Coordinate;
-use crate::oracle::texture::{fetch_texel, level_at};
-use crate::pack::PackedScene;
+use crate::oracle::footprint::is_filtered;
+use crate::pack::{PackedScene, TextureKind};
 use crate::probe::LookUp;
 use crate::texture::data::{ColorSpace, Component, TexelFormat};
-use crate::texture::sampler_spec::{Address, Filter, TexelCenter};
+use crate::texture::sampler_spec::{Address, Filter, MipMode};
 
-const F32_ULP: f64 = 1.0 / 8_388_608.0; // of 1: 2⁻²³
+pub(super) const F32_ULP: f64 = 1.0 / 8_388_608.0; // of 1: 2⁻²³
+
 /// How exact a method promises to be.
 #[derive(Clone, Copy, Debug)]
 pub enum Precision {
@@ -24,6 +27,8 @@ pub enum Precision {
     /// By the device: a coordinate to `sub_texel` texels beside the rounding of u · size in f32.
     Hardware {
         sub_texel: f64,
+        /// Of a level of detail.
+        level: f64,
         /// Error of a filtered value, as a part of the texels' range: of 8-bit texels, of others.
         value: [f64; 2],
         /// Error of sRGB decoding, in encoded units.
@@ -38,23 +43,33 @@ impl Precision {
     pub fn declared(device: &DeviceInfo) -> Precision {
         let step = (-f64::from(device.limits.sub_texel_bits)).exp2();
         let value = if device.kind == DeviceKind::Cpu { 0.5 * step } else { step };
-        Precision::Hardware { sub_texel: step, value: [value; 2], decode: 0.5 / 255.0 } // half a step of the encoded value
+        let level = (-f64::from(device.limits.mip_bits)).exp2();
+        let decode = 0.5 / 255.0; // half a step of the encoded value
+        Precision::Hardware { sub_texel: step, level, value: [value; 2], decode }
     }
 
-    /// What a filtered value may lie beyond the interval, as a part of the range.
-    fn value(self, component: Component, nearest: bool) -> f64 {
+    /// What a filtered value may lie beyond the interval, as a part of the range, for each two of the
+    /// mixes of values that filter it.
+    fn value(self, component: Component, mixes: usize) -> f64 {
         match self {
-            Precision::Hardware { value, .. } if !nearest => {
-                value[usize::from(component != Component::Unorm8)]
+            Precision::Hardware { value, .. } => {
+                value[usize::from(component != Component::Unorm8)] * mixes as f64 / 2.0
             }
-            _ => 0.0,
+            Precision::Shader => 0.0,
+        }
+    }
+
+    fn level(self) -> f64 {
+        match self {
+            Precision::Hardware { level, .. } => level,
+            Precision::Shader => 0.0,
         }
     }
 }
 
 /// One answer against the oracle. Both errors are of the worst channel, as a part of what the format can
-/// tell apart: of 1 for normalized integers, of the texels' range (border included) for floats; infinite
-/// for a NaN, or where that range is 0 and the answer is off.
+/// tell apart: of 1 for normalized integers, of the texels' range (border included) for floats, if it is
+/// not 0; infinite for a NaN.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Judgement {
     /// From the oracle's value (linear), or from the nearest texel that may be chosen (nearest).
@@ -83,6 +98,8 @@ struct Allowed {
     /// What errors are told in.
     unit: DVec4,
     exact: Option<DVec4>,
+    /// Levels of detail that count, where there is a footprint.
+    levels: Option<[f64; 2]>,
 }
 
 impl<'a> Judge<'a> {
@@ -123,13 +140,16 @@ impl<'a> Judge<'a> {
             })
             .collect();
         let how = &self.scene.sampler_specs[query.sampler as usize];
+        let [u, v, w, _] = query.uv;
+        let level = match &allowed.levels {
+            Some([from, to]) => format!(", level {from:.4} to {to:.4}"),
+            None => String::new(),
+        };
         format!(
-            "{}, {} centre {}, at ({:e}, {:e}): {answer:?}, allowed {}",
+            "{}, {} centre {}, at ({u:e}, {v:e}, {w:e}){level}: {answer:?}, allowed {}",
             self.scene.texture_names[query.texture as usize],
             how.label(),
             how.texel_center,
-            query.uv[0],
-            query.uv[1],
             boxes.join(" or "),
         )
     }
@@ -138,66 +158,58 @@ impl<'a> Judge<'a> {
         let scene = self.scene;
         let image = &scene.textures[query.texture as usize];
         let how = &scene.samplers[query.sampler as usize];
-        let size = DVec2::new(f64::from(image.place[1]), f64::from(image.place[2]));
         let component = TexelFormat::ALL[image.place[3] as usize].component();
-        let uv = uv_of(query);
+        let place = Place::new(scene, image, how, &place_of(query));
+        let levels = is_filtered(&scene.header)
+            .then(|| levels_of_detail(image, how, &place.at, self.precision.level()));
+        let mag = Filter::ALL[how.modes[2] as usize];
+        let readings = levels.map_or(vec![Reading::at(mag, 0)], |l| readings(how, image.link[1], l));
+
         let border = DVec4::from_array(how.border.map(f64::from));
         let [least, most] = self.spans[query.texture as usize];
         let (least, most) = (least.min(border), most.max(border));
         let range = most - least;
         let ulps = 4.0 * F32_ULP * least.abs().max(most.abs()); // 4 ulp of the greatest texel
-        let filter = Filter::ALL[how.modes[2] as usize];
-        let nearest = matches!(filter, Filter::Nearest | Filter::Stochastic); // one texel
-        let arithmetic = range * self.precision.value(component, nearest);
-        let unit = if component == Component::Float32 { range } else { DVec4::ONE };
-        let value_at = |uv: DVec2| look_up(scene, image, how, &Coordinate::flat(uv), [query.seed, 0]);
-        let at = |texel: DVec2| value_at(texel / size);
-
+        let mixes = readings.iter().map(|r| place.mixes(r)).max().unwrap_or(0);
+        let arithmetic = range * self.precision.value(component, mixes);
+        let spread = DVec4::select(range.cmpgt(DVec4::ZERO), range, DVec4::ONE);
+        let unit = if component == Component::Float32 { spread } else { DVec4::ONE };
         let (reach, slack) = match self.precision {
-            Precision::Shader if !nearest => {
-                let exact = value_at(uv);
-                // W · 2⁻²² of the range + 4 ulp. The weights of four texels an axis rise and fall by up to
-                // 1.5 a texel, and their sizes add up to 1.25, squared.
-                let steep = if filter == Filter::Cubic { 1.5 * 1.25 } else { 1.0 };
-                let slack = (range * (size.max_element() * F32_ULP * 2.0) + ulps) * steep;
-                return Allowed { boxes: vec![[exact; 2]], slack, arithmetic, unit, exact: Some(exact) };
-            }
-            Precision::Shader => (size * (2.0 * F32_ULP), ulps), // W · 2⁻²² texels, 4 ulp
+            Precision::Shader => (Reach::Shader, self.shader_slack(&place, mixes > 0, range, ulps)),
             Precision::Hardware { sub_texel, decode, .. } => {
-                let rounding = (uv.abs() + 1.0) * size * F32_ULP; // u · size in f32, with half a texel added
                 let srgb = image.link[0] == ColorSpace::Srgb as u32;
                 // The slope of the decoding curve is at most 2.4 / 1.055, at 1.
                 let decoding = if srgb { decode * 2.4 / 1.055 } else { 0.0 };
-                // VK_EXT_custom_border_color: a device may hold the colour in the texels' own format.
-                let held = if how.modes[..2].contains(&(Address::ClampToBorder as u32)) {
-                    half_step(component) + f64::from(f32::EPSILON)
-                } else {
-                    0.0
-                };
-                (rounding + sub_texel, DVec4::splat(decoding + held) + ulps)
+                let slack = DVec4::splat(decoding + held(how, place.kind, component)) + ulps;
+                (Reach::Hardware { sub_texel }, slack)
             }
         };
-        let texel = uv * size;
-        let boxes = if nearest {
-            let xs = [texel.x - reach.x, texel.x + reach.x];
-            let ys = [texel.y - reach.y, texel.y + reach.y];
-            xs.iter().flat_map(|&x| ys.map(|y| [at(DVec2::new(x, y)); 2])).collect()
-        } else {
-            // Bilinear between texel centres: the extremes lie at corners and where centres are crossed.
-            let half = if how.modes[3] == TexelCenter::Integer as u32 { 0.0 } else { 0.5 };
-            let mut low = DVec4::MAX;
-            let mut high = DVec4::MIN;
-            for x in stops(texel.x - reach.x, texel.x + reach.x, half) {
-                for y in stops(texel.y - reach.y, texel.y + reach.y, half) {
-                    let value = at(DVec2::new(x, y));
-                    (low, high) = (low.min(value), high.max(value));
-                }
-            }
-            vec![[low, high]]
-        };
-        let exact = (!nearest).then(|| value_at(uv));
-        Allowed { boxes, slack, arithmetic, unit, exact }
+        let slack =
+            slack + range * readings.iter().map(|r| place.beyond_corner(r, reach)).fold(0.0, f64::max);
+        let boxes = readings.iter().flat_map(|r| place.values(r, reach)).collect();
+        let by_nearest = |r: &Reading| r.filter == Filter::Nearest;
+        let smooth = !readings.iter().any(by_nearest)
+            && how.link[1] != Filter::Anisotropic as u32
+            && (how.link[2] != MipMode::Nearest as u32 || readings.len() == 1);
+        let exact = smooth.then(|| look_up(scene, image, how, &place_of(query), [query.seed, 0]));
+        Allowed { boxes, slack, arithmetic, unit, exact, levels }
     }
+
+    /// W · 2⁻²² of the range and 4 ulp where texels are mixed. The weights of the cubic filter rise and fall
+    /// by up to 1.5 a texel, and their sizes add up to 1.25, squared.
+    fn shader_slack(&self, place: &Place<'_>, mixed: bool, range: DVec4, ulps: DVec4) -> DVec4 {
+        let steep = if place.is_cubic() { 1.5 * 1.25 } else { 1.0 };
+        let moved = if mixed { range * (place.longest() * F32_ULP * 2.0) } else { DVec4::ZERO };
+        (moved + ulps) * steep
+    }
+}
+
+/// VK_EXT_custom_border_color: a device may hold the colour in the texels' own format.
+fn held(how: &Sampler, kind: TextureKind, component: Component) -> f64 {
+    let axes = [how.modes[0], how.modes[1], how.more[0]];
+    let read = if kind == TextureKind::Volume { &axes[..] } else { &axes[..2] };
+    let border = kind != TextureKind::Cube && read.contains(&(Address::ClampToBorder as u32));
+    if border { half_step(component) + f64::from(f32::EPSILON) } else { 0.0 }
 }
 
 /// Complaints about wrong answers; at most one a query.
@@ -223,26 +235,6 @@ fn part(distance: DVec4, range: DVec4) -> f64 {
         () => f64::INFINITY,
     };
     channels.map(of).fold(0.0, f64::max)
-}
-
-/// The ends of an interval, and the texel centre in it; intervals are shorter than a texel.
-fn stops(from: f64, to: f64, half: f64) -> Vec<f64> {
-    let crossed = (from - half).ceil() + half;
-    let mut all = vec![from, to];
-    all.extend((crossed < to).then_some(crossed));
-    all
-}
-
-/// Least and greatest value of each channel over all texels.
-fn span(scene: &PackedScene, texture: usize) -> [DVec4; 2] {
-    let record = &scene.textures[texture];
-    let level = level_at(scene, record, 0);
-    let [width, height, _] = level.size;
-    let texels = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
-    texels.fold([DVec4::MAX, DVec4::MIN], |[low, high], (x, y)| {
-        let texel = fetch_texel(scene, record, &level, [x, y, 0]);
-        [low.min(texel), high.max(texel)]
-    })
 }
 
 /// Half the distance of two neighbouring values of a stored channel, near 1.

@@ -1,9 +1,9 @@
 //! Faults that drivers are known to have: who, in which variants, and how far they go. A variant that
 //! errs within these bounds is named and does not fail a report unless it is strict.
 
-use super::variants::{FormatClass, Reader, Variant};
+use super::variants::{FormatClass, Reader, Scale, Variant};
 use crate::gpu::DeviceInfo;
-use crate::texture::sampler_spec::{Address, Filter};
+use crate::texture::sampler_spec::{Address, Filter, MipMode};
 
 pub struct KnownFault {
     pub name: &'static str,
@@ -15,19 +15,33 @@ pub struct KnownFault {
     pub beyond: f64,
 }
 
-const FAULTS: &[KnownFault] = &[KnownFault {
-    // Mesa's gallivm, lp_bld_sample_aos.c: interpolation in integers of 8 bits, rounded after each axis.
-    name: "lavapipe filters 8-bit texels with 8-bit arithmetic where both axes repeat or clamp to the edge",
-    driver: "llvmpipe",
-    applies: |v| {
-        let simple = |a: &Address| matches!(a, Address::Repeat | Address::ClampToEdge);
-        v.reader == Reader::Sampler
-            && v.class == FormatClass::Unorm8
-            && v.filter() == Filter::Linear
-            && v.spec.address.iter().all(simple)
+const FAULTS: &[KnownFault] = &[
+    KnownFault {
+        // Mesa's gallivm, lp_bld_sample_aos.c: interpolation in integers of 8 bits, rounded after each axis.
+        name: "lavapipe filters 8-bit texels with 8-bit arithmetic where all axes repeat or clamp to the edge",
+        driver: "llvmpipe",
+        applies: |v| {
+            let simple = |a: &Address| matches!(a, Address::Repeat | Address::ClampToEdge);
+            let mixes = match v.scale {
+                Scale::Levels => {
+                    [v.spec.mag, v.spec.min].contains(&Filter::Linear) || v.spec.mip == MipMode::Linear
+                }
+                _ => v.filter() == Filter::Linear,
+            };
+            v.reader == Reader::Sampler
+                && v.class == FormatClass::Unorm8
+                && mixes
+                && v.addresses().iter().all(simple)
+        },
+        beyond: 1.0 / 255.0, // half a step of 255 an axis
     },
-    beyond: 1.0 / 255.0, // half a step of 255 an axis
-}];
+    KnownFault {
+        name: "lavapipe reads levels that are not the footprint's where a sampler is anisotropic",
+        driver: "llvmpipe",
+        applies: |v| v.reader == Reader::Sampler && v.scale == Scale::Anisotropic,
+        beyond: 1.0, // any level for any other
+    },
+];
 
 /// The fault, if this device has one in this variant.
 pub fn known_fault(device: &DeviceInfo, variant: &Variant) -> Option<&'static KnownFault> {

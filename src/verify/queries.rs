@@ -6,6 +6,7 @@ use glam::{DVec2, DVec3};
 
 use crate::error::Result;
 use crate::named::named_enum;
+use crate::oracle::mapping::Coordinate;
 use crate::pack::{self, PackedScene};
 use crate::probe::LookUp;
 use crate::scene::model::{
@@ -39,7 +40,7 @@ impl Dice {
     }
 }
 
-/// Random texels; floats in [-2, 6].
+/// Random texels of two dimensions; floats in [-2, 6].
 pub fn texture(
     width: u32,
     height: u32,
@@ -47,8 +48,20 @@ pub fn texture(
     color_space: ColorSpace,
     seed: u64,
 ) -> TextureData {
+    noise(Dimension::Two, [width, height, 1], format, color_space, seed)
+}
+
+/// Random texels; a cube's third number is 6.
+pub fn noise(
+    dimension: Dimension,
+    size: [u32; 3],
+    format: TexelFormat,
+    color_space: ColorSpace,
+    seed: u64,
+) -> TextureData {
     let mut dice = Dice::new(seed);
-    let count = width as usize * height as usize * format.channels();
+    let [width, height, depth] = size;
+    let count = size.iter().product::<u32>() as usize * format.channels();
     let texels = match format.component() {
         Component::Unorm8 => (0..count).map(|_| (dice.bits() >> 40) as u8).collect(),
         Component::Unorm16 => (0..count).flat_map(|_| ((dice.bits() >> 40) as u16).to_ne_bytes()).collect(),
@@ -57,23 +70,13 @@ pub fn texture(
         }
     };
     let name = format!("{format} {color_space} {width}x{height}");
-    flat(name, [width, height], format, color_space, texels)
-}
-
-/// Of two dimensions.
-fn flat(
-    name: String,
-    [width, height]: [u32; 2],
-    format: TexelFormat,
-    color_space: ColorSpace,
-    texels: Vec<u8>,
-) -> TextureData {
+    let name = if depth == 1 { name } else { format!("{name}x{depth}") };
     TextureData {
         name,
-        dimension: Dimension::Two,
+        dimension,
         width,
         height,
-        depth: 1,
+        depth,
         format,
         color_space,
         file_channels: format.channels(),
@@ -99,7 +102,7 @@ pub fn ramp_texture(axis: Axis, format: TexelFormat, color_space: ColorSpace) ->
         Axis::V => [&zero, &zero, &one, &one].map(Vec::as_slice).concat(),
     };
     let name = format!("ramp {format} {color_space}");
-    flat(name, [2, 2], format, color_space, texels)
+    TextureData { name, texels, ..texture(2, 2, format, color_space, 0) }
 }
 
 /// From the centre of the first texel of `ramp_texture` to that of the next one: weights k / `steps`,
@@ -114,21 +117,21 @@ pub fn ramp(axis: Axis, steps: u32) -> impl Iterator<Item = [f32; 2]> {
     })
 }
 
-/// A scene without shapes whose materials are these (texture, sampler) pairs; all is magnification.
+/// A scene without shapes whose materials are these (texture, sampler) pairs.
 pub fn pairs(
     textures: Vec<TextureData>,
     samplers: &[SamplerSpec],
-    pairs: &[(usize, usize)],
+    list: &[(usize, usize)],
 ) -> Result<PackedScene> {
-    pairs_over(Footprint::None, textures, samplers, pairs)
+    pairs_over(Footprint::None, textures, samplers, list)
 }
 
-/// The same, whose look-ups count their footprints unless that is `none`.
+/// The same, looked up over footprints.
 pub fn pairs_over(
     footprint: Footprint,
     textures: Vec<TextureData>,
     samplers: &[SamplerSpec],
-    pairs: &[(usize, usize)],
+    list: &[(usize, usize)],
 ) -> Result<PackedScene> {
     let material = |&(texture, sampler): &(usize, usize)| Material {
         name: "pair".into(),
@@ -159,7 +162,7 @@ pub fn pairs_over(
         background: Background::default(),
         textures: Vec::new(),
         samplers: samplers.to_vec(),
-        materials: pairs.iter().map(material).collect(),
+        materials: list.iter().map(material).collect(),
         planes: Vec::new(),
         spheres: Vec::new(),
         triangles: Vec::new(),
@@ -172,6 +175,12 @@ pub fn pairs_over(
 pub fn query(scene: &PackedScene, pair: usize, uv: [f32; 2]) -> LookUp {
     let [_, texture, sampler, slot] = scene.materials[pair].link;
     LookUp { texture, sampler, slot, uv: [uv[0], uv[1], 0.0, 0.0], ..Default::default() }
+}
+
+/// Where it is looked up, and over what.
+pub fn place_of(query: &LookUp) -> Coordinate {
+    let vector = |[x, y, z, _]: [f32; 4]| DVec3::new(x.into(), y.into(), z.into());
+    Coordinate { at: vector(query.uv), change: [vector(query.dx), vector(query.dy)] }
 }
 
 pub fn uv_of(query: &LookUp) -> DVec2 {

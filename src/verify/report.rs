@@ -4,7 +4,7 @@ use serde::{Serialize, Serializer};
 
 use super::known::known_fault;
 use super::run::Tally;
-use super::variants::Variant;
+use super::variants::{Scale, Variant};
 use super::weights::WeightBits;
 use crate::gpu::DeviceInfo;
 use crate::named::named_enum;
@@ -24,28 +24,35 @@ impl Serialize for Verdict {
     }
 }
 
-/// One variant of sampler and texel format, at level 0 of an image of two dimensions.
+/// One variant of sampler, texture and texel format.
 #[derive(Clone, Debug, Serialize)]
 pub struct Row {
     #[serde(skip)]
     pub variant: Variant,
+    pub name: String,
     pub reader: &'static str,
-    pub dimensions: u32,
-    pub address: [&'static str; 2],
+    pub dimension: &'static str,
+    /// Of the axes that the texture has; of a cube none.
+    pub address: Vec<&'static str>,
     pub mag: &'static str,
     pub min: &'static str,
     pub mip: &'static str,
-    /// Which of the two filters was read.
+    /// What was read: level 0 by one of the two filters, all levels, or long footprints.
     pub scale: &'static str,
     pub class: &'static str,
     pub format: &'static str,
-    pub size: [u32; 2],
+    pub size: [u32; 3],
+    pub max_anisotropy: Option<u32>,
     pub look_ups: usize,
     pub wrong: usize,
     /// As `judge::Judgement` has them; null for an answer that is no number or should have been constant.
     pub worst_error: f64,
     pub worst_beyond: f64,
     pub weights: Option<WeightBits>,
+    /// Of the mix of two levels.
+    pub level_weights: Option<WeightBits>,
+    /// Longest footprint that was followed, in widths.
+    pub anisotropy: Option<f64>,
     pub verdict: Verdict,
     pub fault: Option<&'static str>,
     pub example: Option<String>,
@@ -53,7 +60,9 @@ pub struct Row {
 
 impl Row {
     pub fn new(device: &DeviceInfo, variant: &Variant, tally: Tally) -> Row {
-        let coarse = tally.weights.is_some_and(|w| w.bits < device.limits.sub_texel_bits);
+        let limits = &device.limits;
+        let coarse = tally.weights.is_some_and(|w| w.bits < limits.sub_texel_bits)
+            || tally.level_weights.is_some_and(|w| w.bits < limits.mip_bits);
         let known = known_fault(device, variant).filter(|f| tally.beyond <= f.beyond);
         let (verdict, fault) = match known {
             _ if tally.wrong == 0 && !coarse => (Verdict::Within, None),
@@ -63,9 +72,10 @@ impl Row {
         let spec = &variant.spec;
         Row {
             variant: *variant,
+            name: variant.label(),
             reader: variant.reader.name(),
-            dimensions: 2,
-            address: spec.address.map(|a| a.name()),
+            dimension: variant.dimension.name(),
+            address: variant.addresses().iter().map(|a| a.name()).collect(),
             mag: spec.mag.name(),
             min: spec.min.name(),
             mip: spec.mip.name(),
@@ -73,11 +83,14 @@ impl Row {
             class: variant.class.name(),
             format: variant.format.name(),
             size: variant.size,
+            max_anisotropy: (variant.scale == Scale::Anisotropic).then_some(spec.max_anisotropy),
             look_ups: tally.look_ups,
             wrong: tally.wrong,
             worst_error: tally.error,
             worst_beyond: tally.beyond,
             weights: tally.weights,
+            level_weights: tally.level_weights,
+            anisotropy: tally.anisotropy,
             verdict,
             fault,
             example: tally.example,

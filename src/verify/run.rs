@@ -1,18 +1,16 @@
 //! Variants → look-ups on the device in batches of one pipeline → a tally a variant: how many answers
 //! are wrong by the declared precision, how far the worst is off, and how fine the weights are.
 
-use rayon::prelude::*;
-
+use super::batch::Batch;
 use super::judge::{Judge, Judgement, Precision};
-use super::queries::{Axis, Dice, coordinates, pairs, query, ramp, ramp_texture, texture};
-use super::variants::{Reader, Variant};
+use super::queries::{Axis, Dice, coordinates, noise, place_of, ramp, ramp_texture};
+use super::sweeps::{level_ramp, level_sweep, long_footprints, paint_levels};
+use super::variants::{Reader, Scale, Variant};
 use super::weights::{RAMP_STEPS, WeightBits, weight_bits};
 use crate::error::Result;
-use crate::gpu::Gpu;
-use crate::pack::PackedScene;
-use crate::probe::{self, LookUp};
-use crate::texture::data::TextureData;
-use crate::texture::sampler_spec::{SamplerSpec, TexelCenter};
+use crate::probe::{LookUp, LookUps};
+use crate::texture::data::{Dimension, TextureData};
+use crate::texture::sampler_spec::{MipMode, TexelCenter};
 
 /// Random coordinates a variant, beside the edges.
 const RANDOM: usize = 60;
@@ -28,6 +26,10 @@ pub struct Tally {
     pub error: f64,
     pub beyond: f64,
     pub weights: Option<WeightBits>,
+    /// Of the mix of two levels.
+    pub level_weights: Option<WeightBits>,
+    /// Longest footprint that was followed, in widths.
+    pub anisotropy: Option<f64>,
     /// The first wrong answer, and what was allowed.
     pub example: Option<String>,
 }
@@ -56,106 +58,141 @@ impl Tally {
         self.error = self.error.max(other.error);
         self.beyond = self.beyond.max(other.beyond);
         self.weights = self.weights.into_iter().chain(other.weights).min();
+        self.level_weights = self.level_weights.into_iter().chain(other.level_weights).min();
+        self.anisotropy = self.anisotropy.into_iter().chain(other.anisotropy).reduce(f64::max);
         self.example = self.example.take().or(other.example);
     }
 }
 
-/// Variants that one pipeline reads: each with its texture and with both texel centres.
-struct Batch<'a> {
-    scene: PackedScene,
-    reader: Reader,
-    variants: Vec<&'a Variant>,
-    /// The pair of texture and sampler that each variant reads.
-    pair_of: Vec<usize>,
+/// The texture of a variant in this batch.
+fn noise_of(seed: u64) -> impl Fn(&Variant) -> TextureData {
+    move |v| noise(v.dimension, v.size, v.format, v.class.color_space(), seed * 1000 + v.format as u64)
 }
 
-impl<'a> Batch<'a> {
-    /// Samplers in three parts, each with one a variant: what the device binds, what the oracle is asked
-    /// about, and the same with integer texel centres.
-    fn new(variants: Vec<&'a Variant>, texture: impl Fn(&Variant) -> TextureData) -> Result<Batch<'a>> {
-        let reader = variants.first().map_or(Reader::Sampler, |v| v.reader);
-        let bound = variants.iter().map(|v| v.device_sampler());
-        let half = variants.iter().map(|v| v.level_0_sampler());
-        let integer = half.clone().map(|s| SamplerSpec { texel_center: TexelCenter::Integer, ..s });
-        let samplers: Vec<SamplerSpec> = bound.chain(half).chain(integer).collect();
-        let mut textures: Vec<TextureData> = Vec::new();
-        let mut list: Vec<(usize, usize)> = Vec::new();
-        let mut pair_of = Vec::new();
-        for (i, variant) in variants.iter().enumerate() {
-            let same_texture = |p: &(usize, usize)| {
-                let other = variants[p.1];
-                (other.class, other.format, other.size) == (variant.class, variant.format, variant.size)
-            };
-            // The shader's look-ups share one slot a texture, whatever the sampler.
-            let known = (reader != Reader::Sampler).then(|| list.iter().position(same_texture)).flatten();
-            pair_of.push(known.unwrap_or_else(|| {
-                textures.push(texture(variant));
-                list.push((textures.len() - 1, i));
-                list.len() - 1
-            }));
-        }
-        Ok(Batch { scene: pairs(textures, &samplers, &list)?, reader, variants, pair_of })
+fn judged(judge: &Judge<'_>, queries: &[LookUp], answers: &[[f32; 4]]) -> Tally {
+    let mut tally = Tally::default();
+    for (query, answer) in queries.iter().zip(answers) {
+        tally.look_up(judge, query, *answer);
     }
-
-    /// The look-up of variant `i` at (u, v).
-    fn query(&self, i: usize, center: TexelCenter, uv: [f32; 2]) -> LookUp {
-        let part = if center == TexelCenter::Integer { 2 } else { 1 };
-        let sampler = part * self.variants.len() + i;
-        LookUp { sampler: sampler as u32, ..query(&self.scene, self.pair_of[i], uv) }
-    }
-
-    fn answers(&self, gpu: &Gpu, queries: &[LookUp]) -> Result<Vec<[f32; 4]>> {
-        // One pipeline for all modes of the shader; the device's samplers need none of its code.
-        let everything = false;
-        probe::look_ups(gpu, &self.scene, self.reader != Reader::ShaderBuffer, everything, queries)
-    }
+    tally
 }
 
-/// Random and awkward coordinates, judged.
-pub fn look_ups(gpu: &Gpu, variants: Vec<&Variant>, precision: Precision, seed: u64) -> Result<Vec<Tally>> {
-    let random = |v: &Variant| {
-        let salt = seed * 1000 + v.format as u64;
-        texture(v.size[0], v.size[1], v.format, v.class.color_space(), salt)
-    };
-    let batch = Batch::new(variants, random)?;
+/// Random and awkward coordinates at level 0, judged.
+pub fn look_ups(
+    probe: &mut LookUps<'_>,
+    variants: Vec<&Variant>,
+    precision: Precision,
+    seed: u64,
+) -> Result<Vec<Tally>> {
+    let batch = Batch::new(variants, noise_of(seed))?;
     let mut dice = Dice::new(seed);
-    let mut queries = Vec::new();
-    let mut ends = Vec::new();
-    for (i, variant) in batch.variants.iter().enumerate() {
-        for uv in coordinates(&mut dice, variant.size, RANDOM, batch.reader != Reader::Sampler) {
-            queries.extend(TexelCenter::ALL.iter().map(|&center| batch.query(i, center, uv)));
-        }
-        ends.push(queries.len());
-    }
-    let answers = batch.answers(gpu, &queries)?;
+    let far = batch.reader != Reader::Sampler;
+    let list = |(i, v): (usize, &&Variant)| {
+        let places = coordinates(&mut dice, [v.size[0], v.size[1]], RANDOM, far).into_iter();
+        places
+            .flat_map(|uv| TexelCenter::ALL.iter().map(move |&c| (c, uv)))
+            .map(|(center, uv)| batch.query(i, center, uv))
+            .collect()
+    };
+    let queries: Vec<Vec<LookUp>> = batch.variants.iter().enumerate().map(list).collect();
     let judge = Judge::new(&batch.scene, precision);
-    let tally = |i: usize| {
-        let first = if i == 0 { 0 } else { ends[i - 1] };
-        let mut tally = Tally::default();
-        for (query, answer) in queries[first..ends[i]].iter().zip(&answers[first..ends[i]]) {
-            tally.look_up(&judge, query, *answer);
+    batch.tallies(probe, queries, |_, queries, answers| judged(&judge, queries, answers))
+}
+
+/// All levels over footprints of all lengths, judged; and how long those were that the device followed
+/// itself.
+pub fn sweeps(
+    probe: &mut LookUps<'_>,
+    variants: Vec<&Variant>,
+    precision: Precision,
+    seed: u64,
+) -> Result<Vec<Tally>> {
+    let mut batch = Batch::new(variants, noise_of(seed))?;
+    for i in 0..batch.variants.len() {
+        if batch.variants[i].scale == Scale::Anisotropic {
+            let texture = batch.query(i, TexelCenter::Half, [0.0; 2]).texture as usize;
+            paint_levels(&mut batch.scene, texture);
+        }
+    }
+    let mut dice = Dice::new(seed);
+    let list = |(i, v): (usize, &&Variant)| {
+        let base = batch.query(i, TexelCenter::Half, [0.0; 2]);
+        if v.scale == Scale::Anisotropic {
+            long_footprints(&mut dice, v, &base)
+        } else {
+            level_sweep(&mut dice, v, &base)
+        }
+    };
+    let queries: Vec<Vec<LookUp>> = batch.variants.iter().enumerate().map(list).collect();
+    let judge = Judge::new(&batch.scene, precision);
+    batch.tallies(probe, queries, |variant, queries, answers| {
+        let mut tally = judged(&judge, queries, answers);
+        if variant.scale == Scale::Anisotropic && variant.spec.mip == MipMode::Linear {
+            let pairs = queries.iter().zip(answers);
+            tally.anisotropy = pairs.filter_map(|(q, a)| followed(variant, q, *a)).reduce(f64::max);
         }
         tally
-    };
-    Ok((0..ends.len()).into_par_iter().map(tally).collect())
+    })
+}
+
+/// How long a footprint along an axis was followed, in widths of the level that was read; the colours of
+/// levels run from 0 to 1.
+fn followed(variant: &Variant, query: &LookUp, answer: [f32; 4]) -> Option<f64> {
+    let last = f64::from(variant.size[0].ilog2());
+    let level = f64::from(answer[0]) * last;
+    let [x, y] = place_of(query).change.map(|d| d.abs() * f64::from(variant.size[0]));
+    let along_axis = x.min_element() == 0.0 && x.x * y.x == 0.0 && x.y * y.y == 0.0;
+    // Levels 0 and last are what others are limited to.
+    let inside = level > 0.1 && level < last - 0.1;
+    (along_axis && inside).then(|| x.max_element().max(y.max_element()) / level.exp2())
 }
 
 /// Ramps between two texels, judged here and there, and the bits of the weights that they show.
-pub fn ramps(gpu: &Gpu, variants: Vec<&Variant>, precision: Precision, axis: Axis) -> Result<Vec<Tally>> {
+pub fn ramps(
+    probe: &mut LookUps<'_>,
+    variants: Vec<&Variant>,
+    precision: Precision,
+    axis: Axis,
+) -> Result<Vec<Tally>> {
     let batch = Batch::new(variants, |v| ramp_texture(axis, v.format, v.class.color_space()))?;
-    let of = |i| ramp(axis, RAMP_STEPS).map(move |uv| (i, uv));
-    let queries: Vec<LookUp> =
-        (0..batch.variants.len()).flat_map(of).map(|(i, uv)| batch.query(i, TexelCenter::Half, uv)).collect();
-    let answers = batch.answers(gpu, &queries)?;
+    let list = |i| ramp(axis, RAMP_STEPS).map(|uv| batch.query(i, TexelCenter::Half, uv)).collect();
+    let queries: Vec<Vec<LookUp>> = (0..batch.variants.len()).map(list).collect();
     let judge = Judge::new(&batch.scene, precision);
-    let length = RAMP_STEPS as usize + 1;
-    let tally = |(queries, answers): (&[LookUp], &[[f32; 4]])| {
-        let weights = weight_bits(answers.iter().map(|rgba| rgba[0]));
-        let mut tally = Tally { weights: Some(weights), ..Default::default() };
-        for (query, answer) in queries.iter().zip(answers).step_by(JUDGED_EVERY) {
-            tally.look_up(&judge, query, *answer);
-        }
-        tally
-    };
-    Ok(queries.par_chunks(length).zip(answers.par_chunks(length)).map(tally).collect())
+    batch.tallies(probe, queries, |_, queries, answers| Tally {
+        weights: Some(bits(answers)),
+        ..judged_here_and_there(&judge, queries, answers)
+    })
+}
+
+/// The same between two levels, 0 in every channel above and 1 below.
+pub fn level_ramps(
+    probe: &mut LookUps<'_>,
+    variants: Vec<&Variant>,
+    precision: Precision,
+) -> Result<Vec<Tally>> {
+    let mut batch =
+        Batch::new(variants, |v| noise(Dimension::Two, [2, 2, 1], v.format, v.class.color_space(), 1))?;
+    for i in 0..batch.variants.len() {
+        let texture = batch.query(i, TexelCenter::Half, [0.0; 2]).texture as usize;
+        paint_levels(&mut batch.scene, texture);
+    }
+    let list = |i| level_ramp(&batch.query(i, TexelCenter::Half, [0.5; 2]), RAMP_STEPS).collect();
+    let queries: Vec<Vec<LookUp>> = (0..batch.variants.len()).map(list).collect();
+    let judge = Judge::new(&batch.scene, precision);
+    batch.tallies(probe, queries, |_, queries, answers| Tally {
+        level_weights: Some(bits(answers)),
+        ..judged_here_and_there(&judge, queries, answers)
+    })
+}
+
+fn bits(answers: &[[f32; 4]]) -> WeightBits {
+    weight_bits(answers.iter().map(|rgba| rgba[0]))
+}
+
+fn judged_here_and_there(judge: &Judge<'_>, queries: &[LookUp], answers: &[[f32; 4]]) -> Tally {
+    let mut tally = Tally::default();
+    for (query, answer) in queries.iter().zip(answers).step_by(JUDGED_EVERY) {
+        tally.look_up(judge, query, *answer);
+    }
+    tally
 }

@@ -4,7 +4,7 @@
 use std::fmt::Write as _;
 
 use super::groups::{Line, lines};
-use super::report::{Report, Row, Verdict};
+use super::report::{Limits, Report, Row, Verdict};
 
 /// Failing variants that are listed one by one.
 const MOST_LISTED: usize = 20;
@@ -21,22 +21,13 @@ pub fn text(report: &Report) -> String {
         limits.sub_texel_bits, limits.mip_bits
     ));
     line(String::new());
-    line(format!(
-        "{:<14} {:<5} {:<7} {:<7} {:<22} {:>8} {:>8} {:>6} {:>7} {:>7} {:>4}  verdict",
-        "reader",
-        "scale",
-        "filter",
-        "texels",
-        "address",
-        "variants",
-        "look-ups",
-        "wrong",
-        "error",
-        "beyond",
-        "bits"
+    line(table_line(
+        ["reader", "texture", "scale", "filter", "mip", "texels", "address"],
+        ["variants", "look-ups", "wrong", "error", "beyond", "bits"],
+        "verdict",
     ));
     for group in lines(&report.rows) {
-        line(table_line(&group));
+        line(group_line(&group));
     }
     line(String::new());
     let summary = &report.summary;
@@ -50,12 +41,15 @@ pub fn text(report: &Report) -> String {
         summary.outside,
         summary.not_offered
     ));
+    if let Some(text) = anisotropies(&report.rows) {
+        line(text);
+    }
     for (fault, count) in faults(&report.rows) {
         line(format!("known fault ({count} variants): {fault}"));
     }
     let failing: Vec<&Row> = report.rows.iter().filter(|r| r.verdict == Verdict::Outside).collect();
     for row in failing.iter().take(MOST_LISTED) {
-        line(format!("outside: {}: {}", row.variant.label(), reason(row, limits.sub_texel_bits)));
+        line(format!("outside: {}: {}", row.variant.label(), reason(row, limits)));
     }
     if failing.len() > MOST_LISTED {
         line(format!("and {} more outside; --json lists all", failing.len() - MOST_LISTED));
@@ -63,34 +57,67 @@ pub fn text(report: &Report) -> String {
     out
 }
 
-fn reason(row: &Row, declared: u32) -> String {
+fn reason(row: &Row, limits: &Limits) -> String {
     let mut reasons = Vec::new();
     if row.wrong > 0 {
         reasons.push(format!("{} of {} wrong, worst {}", row.wrong, row.look_ups, number(row.worst_beyond)));
     }
-    if let Some(bits) = row.weights.filter(|w| w.bits < declared) {
-        reasons.push(format!("weights of {bits} bits, {declared} declared"));
+    for (what, weights, declared) in [
+        ("weights", row.weights, limits.sub_texel_bits),
+        ("weights of levels", row.level_weights, limits.mip_bits),
+    ] {
+        if let Some(bits) = weights.filter(|w| w.bits < declared) {
+            reasons.push(format!("{what} of {bits} bits, {declared} declared"));
+        }
     }
     reasons.extend(row.example.as_ref().map(|example| format!("first: {example}")));
     reasons.join("; ")
 }
 
-fn table_line(line: &Line) -> String {
+fn table_line(left: [&str; 7], right: [&str; 6], verdict: &str) -> String {
+    let [a, b, c, d, e, f, g] = left;
+    let [h, i, j, k, l, m] = right;
     format!(
-        "{:<14} {:<5} {:<7} {:<7} {:<22} {:>8} {:>8} {:>6} {:>7} {:>7} {:>4}  {}",
-        line.reader.name(),
-        line.scale.name(),
-        line.filter.name(),
-        line.class.name(),
-        line.address,
-        line.variants,
-        line.look_ups,
-        line.wrong,
-        number(line.error),
-        number(line.beyond),
-        line.weights.map_or("-".into(), |w| w.to_string()),
+        "{a:<14} {b:<7} {c:<6} {d:<11} {e:<7} {f:<7} {g:<22} {h:>8} {i:>8} {j:>6} {k:>7} {l:>7} {m:>4}  {verdict}"
+    )
+}
+
+fn group_line(line: &Line) -> String {
+    table_line(
+        [
+            line.reader.name(),
+            line.dimension.name(),
+            line.scale.name(),
+            line.filter.name(),
+            line.mip.map_or("-", |m| m.name()),
+            line.class.map_or("all", |c| c.name()),
+            &line.address,
+        ],
+        [
+            &line.variants.to_string(),
+            &line.look_ups.to_string(),
+            &line.wrong.to_string(),
+            &number(line.error),
+            &number(line.beyond),
+            &line.weights.map_or("-".into(), |w| w.to_string()),
+        ],
         line.verdict.name(),
     )
+}
+
+/// The longest footprint that was followed, for each limit of the sampler; where levels are wrong it says
+/// nothing.
+fn anisotropies(rows: &[Row]) -> Option<String> {
+    let mut limits: Vec<u32> = rows.iter().filter_map(|r| r.max_anisotropy).collect();
+    limits.sort();
+    limits.dedup();
+    let followed = |limit: &u32| {
+        let of = rows.iter().filter(|r| r.max_anisotropy == Some(*limit) && r.verdict == Verdict::Within);
+        let most = of.filter_map(|r| r.anisotropy).reduce(f64::max);
+        format!("{limit}: {}", most.map_or("-".into(), |m| format!("{m:.1}")))
+    };
+    let list: Vec<String> = limits.iter().map(followed).collect();
+    (!list.is_empty()).then(|| format!("anisotropy asked for and followed: {}", list.join(", ")))
 }
 
 fn faults(rows: &[Row]) -> Vec<(&'static str, usize)> {

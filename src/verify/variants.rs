@@ -1,9 +1,11 @@
-//! The table of variants: every sampler (`SamplerSpec::all`) with every class of texel formats, read by
-//! the device's sampler or by the shader from either texel source. Formats, sizes and border colours
-//! rotate through the table, so that each group of variants meets all of them.
+//! The table of variants. At level 0 of flat textures: every sampler (`SamplerSpec::all`) with every
+//! class of texel formats, read by the device's sampler or by the shader from either texel source.
+//! Formats, sizes and border colours rotate through the table, so that each group of variants meets all
+//! of them. Other levels and kinds of textures: `level_variants`.
 
+use super::level_variants;
 use crate::named::named_enum;
-use crate::texture::data::{ColorSpace, Component, TexelFormat};
+use crate::texture::data::{ColorSpace, Component, Dimension, TexelFormat};
 use crate::texture::sampler_spec::{Address, Filter, Method, SamplerSpec};
 
 named_enum! {
@@ -48,11 +50,17 @@ impl Reader {
 }
 
 named_enum! {
-    /// Which of its two filters a sampler reads level 0 with (Vulkan 1.3, "Scale Factor Operation, Level-of-Detail
-    /// Operation and Image Level(s) Selection": magnified where the level of detail is at most 0).
+    /// What is read: level 0, or as a footprint has it. A sampler magnifies where the level of detail is at
+    /// most 0 (Vulkan 1.3, "Scale Factor Operation, Level-of-Detail Operation and Image Level(s) Selection").
     pub enum Scale {
+        /// Level 0 by the magnification filter.
         Magnified = "mag",
+        /// Level 0 by the minification filter.
         Minified = "min",
+        /// All levels.
+        Levels = "levels",
+        /// Under footprints that the device follows itself.
+        Anisotropic = "aniso",
     }
 }
 
@@ -67,16 +75,20 @@ pub struct Variant {
     pub scale: Scale,
     pub class: FormatClass,
     pub format: TexelFormat,
-    pub size: [u32; 2],
+    pub dimension: Dimension,
+    /// Width, height, and depth or faces.
+    pub size: [u32; 3],
 }
 
 impl Variant {
-    /// The filter that is read.
+    /// The filter that is read; over all levels that of minification.
     pub fn filter(&self) -> Filter {
-        match self.scale {
-            Scale::Magnified => self.spec.mag,
-            Scale::Minified => self.spec.min,
-        }
+        if self.scale == Scale::Magnified { self.spec.mag } else { self.spec.min }
+    }
+
+    /// Whether it is looked up over footprints.
+    pub fn is_filtered(&self) -> bool {
+        matches!(self.scale, Scale::Levels | Scale::Anisotropic)
     }
 
     /// The sampler of the device that reads so.
@@ -85,23 +97,49 @@ impl Variant {
         SamplerSpec { min_lod, ..self.spec }
     }
 
-    /// What is read, without regard to scale: as the oracle is asked.
-    pub fn level_0_sampler(&self) -> SamplerSpec {
+    /// As the oracle is asked: at level 0 without regard to scale.
+    pub fn asked_sampler(&self) -> SamplerSpec {
         let filter = self.filter();
-        SamplerSpec { mag: filter, min: filter, ..self.spec }
+        if self.is_filtered() { self.spec } else { SamplerSpec { mag: filter, min: filter, ..self.spec } }
     }
 
-    /// `sampler repeat/repeat mag=linear min=linear mip=none (mag), grey8 linear 5×3`
+    /// The address modes that count.
+    pub fn addresses(&self) -> Vec<Address> {
+        let [u, v] = self.spec.address;
+        match self.dimension {
+            Dimension::One => vec![u],
+            Dimension::Two => vec![u, v],
+            Dimension::Three => vec![u, v, self.spec.address_w],
+            Dimension::Cube => Vec::new(),
+        }
+    }
+
+    /// `sampler 2d repeat/repeat mag=linear min=linear mip=none (mag), grey8 linear 5×3`
     pub fn label(&self) -> String {
-        let [width, height] = self.size;
-        let space = self.class.color_space();
-        let Variant { reader, scale, format, .. } = self;
-        format!("{reader} {} ({scale}), {format} {space} {width}×{height}", self.spec.label())
+        let Variant { reader, dimension, spec, scale, format, .. } = self;
+        let addresses: Vec<&str> = self.addresses().iter().map(|a| a.name()).collect();
+        let addresses = if addresses.is_empty() { String::new() } else { addresses.join("/") + " " };
+        let most =
+            if *scale == Scale::Anisotropic { format!(" {}", spec.max_anisotropy) } else { String::new() };
+        let size: Vec<String> = self.size.iter().map(u32::to_string).collect();
+        let axes = if self.size[2] == 1 { 2 } else { 3 };
+        format!(
+            "{reader} {dimension} {addresses}mag={} min={} mip={} ({scale}{most}), {format} {} {}",
+            spec.mag,
+            spec.min,
+            spec.mip,
+            self.class.color_space(),
+            size[..axes].join("×")
+        )
     }
 }
 
 /// Sizes with every remainder that addressing can trip over: one texel, odd, powers of two.
 pub const SIZES: [[u32; 2]; 6] = [[5, 3], [64, 64], [7, 4], [1, 1], [2, 2], [1, 9]];
+
+fn flat([width, height]: [u32; 2]) -> [u32; 3] {
+    [width, height, 1]
+}
 
 const STANDARD_BORDERS: [[f32; 4]; 3] = [[0.0; 4], [0.0, 0.0, 0.0, 1.0], [1.0; 4]];
 
@@ -114,8 +152,11 @@ pub fn all(custom_border_color: bool, rounds: usize) -> Vec<Variant> {
     for reader in [Reader::ShaderBuffer, Reader::ShaderImage] {
         all.extend((0..rounds).flat_map(|round| shader_variants(reader, round)));
     }
+    all.extend(level_variants::all());
     all
 }
+
+const LEVEL_0: [Scale; 2] = [Scale::Magnified, Scale::Minified];
 
 /// The device's own samplers: all of them, magnifying and minifying, with each class of formats.
 pub fn sampler_variants(custom_border_color: bool) -> Vec<Variant> {
@@ -129,14 +170,15 @@ pub fn sampler_variants(custom_border_color: bool) -> Vec<Variant> {
         let pair = i / (2 * 2 * 3);
         for (j, &class) in FormatClass::ALL.iter().enumerate() {
             let border_color = borders[(i + i / 6 + j) % borders.len()];
-            all.extend(Scale::ALL.iter().map(|&scale| Variant {
+            all.extend(LEVEL_0.map(|scale| Variant {
                 reader: Reader::Sampler,
                 spec: SamplerSpec { method: Method::Hardware, border_color, ..spec },
                 scale,
                 class,
                 // The six that share a filter meet all numbers of channels and all sizes.
                 format: class.formats()[(mip + pair / 2) % 3],
-                size: SIZES[(2 * mip + (mag ^ min) + pair + j) % SIZES.len()],
+                dimension: Dimension::Two,
+                size: flat(SIZES[(2 * mip + (mag ^ min) + pair + j) % SIZES.len()]),
             }));
         }
     }
@@ -167,7 +209,8 @@ pub fn shader_variants(reader: Reader, round: usize) -> Vec<Variant> {
                     scale: Scale::Magnified,
                     class,
                     format,
-                    size: SIZES[(i + round) % SIZES.len()],
+                    dimension: Dimension::Two,
+                    size: flat(SIZES[(i + round) % SIZES.len()]),
                 }));
             }
         }

@@ -31,6 +31,7 @@ fn precision(gpu: &Gpu) -> Precision {
     let eight_bits = if gpu.info().kind == DeviceKind::Cpu { 1.0 / 255.0 } else { step };
     Precision::Hardware {
         sub_texel: step, // VkPhysicalDeviceLimits::subTexelPrecisionBits
+        level: 0.0,
         value: [eight_bits, if gpu.info().kind == DeviceKind::Cpu { 0.5 * step } else { step }],
         decode: 0.5 / 255.0, // half a step of the encoded value
     }

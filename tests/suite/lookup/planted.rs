@@ -15,7 +15,7 @@ use moire::verify::judge::{Precision, complaints as judge};
 use super::bench::{BASIC, CERTAIN, Dice, coordinates, pairs, query, texture, uv_of};
 
 const HARDWARE: Precision =
-    Precision::Hardware { sub_texel: 1.0 / 256.0, value: [2.0 / 255.0; 2], decode: 0.5 / 255.0 };
+    Precision::Hardware { sub_texel: 1.0 / 256.0, level: 0.0, value: [2.0 / 255.0; 2], decode: 0.5 / 255.0 };
 
 /// The interval rule knows the filters of texture units.
 fn filters(precision: Precision) -> &'static [Filter] {
