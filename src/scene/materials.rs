@@ -30,8 +30,8 @@ const MAPPING: &[&str] = &["kind", "entity", "space", "origin", "axis", "scale",
 const FRAME: [&str; 4] = ["origin", "axis", "space", "entity"];
 
 pub(super) fn material(table: &Table<'_>, known: &Known<'_, '_>) -> Result<Material> {
-    let mut material = Material::default();
-    material.name = table.required("name")?.string()?.to_owned();
+    let name = table.required("name")?.string()?.to_owned();
+    let mut material = Material { name, ..Material::default() };
     if let Some(field) = table.get("model") {
         material.model = field.choice(Model::NAMES, Model::ALL)?;
     }

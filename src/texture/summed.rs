@@ -31,12 +31,12 @@ pub fn table(texture: &TextureData) -> Vec<u32> {
         let mut above = vec![0u64; width + 1];
         for y in 0..=height {
             let mut row = 0u64;
-            for x in 0..=width {
+            for (x, sum) in above.iter_mut().enumerate() {
                 if x > 0 && y > 0 {
                     row += fixed(value(x - 1, y - 1, c));
-                    above[x] += row;
+                    *sum += row;
                 }
-                words.extend([above[x] as u32, (above[x] >> 32) as u32]);
+                words.extend([*sum as u32, (*sum >> 32) as u32]);
             }
         }
     }

@@ -119,7 +119,11 @@ pub fn long_footprints(dice: &mut Dice, variant: &Variant, base: &LookUp) -> Vec
         };
         let [x, y] = [major * length, major.perp() * (length / ratio)];
         let at = [dice.unit() as f32, dice.unit() as f32, 0.0];
-        if i / ANGLES.len() % 2 == 0 { over(base, variant, at, x, y) } else { over(base, variant, at, y, x) }
+        if (i / ANGLES.len()).is_multiple_of(2) {
+            over(base, variant, at, x, y)
+        } else {
+            over(base, variant, at, y, x)
+        }
     };
     (0..32 * ANGLES.len()).map(query).collect()
 }
