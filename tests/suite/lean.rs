@@ -16,16 +16,22 @@ every_scene! { same_bits_whatever_is_left_out_of: super::same_bits_whatever_is_l
 /// A texel of an image is converted by the device, one of a buffer by the shader: k / 255 to within an
 /// ulp each, which a mean of samples keeps. Of a relief the differences of neighbours count, over a texel,
 /// and a highlight raises what they turn to a power.
+///
+/// Pipelines with everything take seconds to compile on a CPU device: from images they are built for the
+/// scenes that read images in a way of their own.
 fn same_bits_whatever_is_left_out(name: &str) {
     // Two tiles wide, with a ragged edge.
     let packed = packed(small(name, 70, 4), None);
     let [buffer, image] = [TexelChoice::Buffer, TexelChoice::Image].map(|texels| {
         let tuning = Tuning { texels, group: None };
         let (lean, lean_report) = render_with(&packed, false, &tuning);
-        let (full, full_report) = render_with(&packed, true, &tuning);
-        assert_same_bits(&lean, &full, &format!("{name} with texels from {texels}"));
         assert!(!lean_report.left_out.is_empty(), "{name} leaves nothing out");
-        assert_eq!(full_report.left_out, [""; 0], "{name} keeps not everything");
+        let own_images = ["formats", "samplers", "volume", "environment_cube", "hardware"];
+        if texels == TexelChoice::Buffer || own_images.contains(&name) {
+            let (full, full_report) = render_with(&packed, true, &tuning);
+            assert_same_bits(&lean, &full, &format!("{name} with texels from {texels}"));
+            assert_eq!(full_report.left_out, [""; 0], "{name} keeps not everything");
+        }
         lean
     });
     let ulps = if name == "materials" { 256.0 } else { 4.0 };
