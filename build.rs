@@ -10,11 +10,15 @@ use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 use std::{env, fs};
 
+#[path = "build/uncontracted.rs"]
+mod uncontracted;
+
 type AnyError = Box<dyn std::error::Error>;
 
 fn main() -> Result<(), AnyError> {
     println!("cargo:rerun-if-changed=glsl");
     println!("cargo:rerun-if-changed=build.rs");
+    println!("cargo:rerun-if-changed=build");
     let out = PathBuf::from(env::var("OUT_DIR")?);
     let mut sources: Vec<PathBuf> =
         fs::read_dir("glsl")?.map(|e| e.map(|e| e.path())).collect::<Result<_, _>>()?;
@@ -41,7 +45,7 @@ fn compile_if_changed(
     let (spv, inputs) = (base.with_extension("spv"), base.with_extension("inputs"));
     if let (Ok(made), Ok(list)) = (modified(&spv), fs::read_to_string(&inputs)) {
         let current =
-            list.lines().chain(["build.rs"]).all(|f| modified(Path::new(f)).is_ok_and(|t| t < made));
+            list.lines().chain(["build.rs", "build/uncontracted.rs"]).all(|f| modified(Path::new(f)).is_ok_and(|t| t < made));
         if current {
             return Ok(words_of(&fs::read(&spv)?));
         }
@@ -68,9 +72,10 @@ fn compile_if_changed(
     fs::write(&inputs, list.join("\n"))?;
     // Last and by renaming: a build that is interrupted here leaves no words that look current.
     let part = base.with_extension("part");
-    fs::write(&part, binary.as_binary_u8())?;
+    let words = uncontracted::uncontracted(binary.as_binary());
+    fs::write(&part, words.iter().flat_map(|w| w.to_le_bytes()).collect::<Vec<u8>>())?;
     fs::rename(&part, &spv)?;
-    Ok(binary.as_binary().to_vec())
+    Ok(words)
 }
 
 fn modified(path: &Path) -> std::io::Result<SystemTime> {

@@ -18,8 +18,8 @@ Ray camera_ray(Header header, uvec2 pixel, uvec2 position) {
     bool orthographic = MODE_IS(PROJECTIONS, PROJECTION_ORTHOGRAPHIC, header.size.z);
     vec3 start = orthographic ? vec3(0.0) : header.forward.xyz;
     // The sum up to the pixel's corner is the same for all its samples.
-    precise vec3 base = (start + corner.x * header.step_x.xyz) + corner.y * header.step_y.xyz;
-    precise vec3 point = (base + inside.x * fine_x) + inside.y * fine_y;
+    vec3 base = (start + corner.x * header.step_x.xyz) + corner.y * header.step_y.xyz;
+    vec3 point = (base + inside.x * fine_x) + inside.y * fine_y;
     return orthographic ? Ray(point, header.forward.xyz) : Ray(vec3(0.0), point);
 }
 

@@ -14,68 +14,68 @@ const int MAX_ELLIPSE_STEPS = 8192;
 
 // exp(-2 r²) - exp(-2) for r² in [0, 1], as a polynomial: 1 at the centre but for scale, 0 at the rim.
 float ellipse_weight(float squared) {
-    precise float r = 1.0 - squared;
+    float r = 1.0 - squared;
     return r * (0.2643662 + r * (0.3266478 + r * (0.0257909 + r * 0.2473448)));
 }
 
 // All texels of the footprint's ellipse, weighted by a Gaussian. The level is that on which the minor
 // axis is about one texel; where the ellipse is longer than the maximum anisotropy its minor axis grows.
 vec4 ellipse(Texture image, Sampler how, uint slot, Coordinate c, Spread spread) {
-    precise float most = float(how.link.w);
-    precise float minor = max(spread.minor, spread.major / (most * most));
+    float most = float(how.link.w);
+    float minor = max(spread.minor, spread.major / (most * most));
     int index = clamp(int(floor(0.5 * log2_accurate(max(minor, 1e-30)) + ELLIPSE_LEVEL)), 0, int(image.link.y) - 1);
     Level level = level_at(image, index);
-    precise vec2 size = vec2(level.size.xy);
+    vec2 size = vec2(level.size.xy);
     // Covariance J Jᵀ on this level; the thin axis is widened along its own direction.
-    precise vec2 x = c.dx.xy * size;
-    precise vec2 y = c.dy.xy * size;
-    precise float shrink = float(level.size.x) / float(image.place.y);
-    precise vec3 m = vec3(x.x * x.x + y.x * y.x, x.x * x.y + y.x * y.y, x.y * x.y + y.y * y.y);
-    precise float scale = shrink * shrink;
-    precise float gap = spread.major - spread.minor;
-    precise float widen = gap > 0.0 ? (minor - spread.minor) / gap : 0.0;
+    vec2 x = c.dx.xy * size;
+    vec2 y = c.dy.xy * size;
+    float shrink = float(level.size.x) / float(image.place.y);
+    vec3 m = vec3(x.x * x.x + y.x * y.x, x.x * x.y + y.x * y.y, x.y * x.y + y.y * y.y);
+    float scale = shrink * shrink;
+    float gap = spread.major - spread.minor;
+    float widen = gap > 0.0 ? (minor - spread.minor) / gap : 0.0;
     m += widen * (vec3(spread.major * scale, 0.0, spread.major * scale) - m);
     // On the last level there is nothing wider to see.
     m *= min(1.0, 16.0 * most * most / (m.x + m.z));
     // The texels' own width, which reconstruction adds.
     m += vec3(1.0, 0.0, 1.0);
-    precise float inverse = 1.0 / (m.x * m.z - m.y * m.y);
-    precise float a = m.z * inverse;
-    precise float b = -m.y * inverse;
-    precise float d = m.x * inverse;
+    float inverse = 1.0 / (m.x * m.z - m.y * m.y);
+    float a = m.z * inverse;
+    float b = -m.y * inverse;
+    float d = m.x * inverse;
 
-    precise vec2 center = vec2(reduced_coordinate(ADDRESSES_U, how.modes.x, c.at.x, size.x),
+    vec2 center = vec2(reduced_coordinate(ADDRESSES_U, how.modes.x, c.at.x, size.x),
                                reduced_coordinate(ADDRESSES_V, how.modes.y, c.at.y, size.y));
     if (!MODE_IS(TEXEL_CENTERS, TEXEL_CENTER_INTEGER, how.modes.w)) center -= 0.5;
-    precise float reach = sqrt(m.z);
+    float reach = sqrt(m.z);
     int row = int(ceil(center.y - reach));
     int last_row = int(floor(center.y + reach));
     int column = 1;
     int last_column = 0;
-    precise vec4 sum = vec4(0.0);
-    precise float weights = 0.0;
+    vec4 sum = vec4(0.0);
+    float weights = 0.0;
     row -= 1;
     // One loop over rows and columns: neighbouring lanes whose ellipses differ stay busy.
     for (int turn = 0; turn < MAX_ELLIPSE_STEPS; turn++) {
         if (column > last_column) {
             row++;
             if (row > last_row) break;
-            precise float h = float(row) - center.y;
-            precise float root = a - (a * d - b * b) * h * h;
-            precise float half_width = sqrt(max(root, 0.0)) / a;
-            precise float middle = center.x - b * h / a;
+            float h = float(row) - center.y;
+            float root = a - (a * d - b * b) * h * h;
+            float half_width = sqrt(max(root, 0.0)) / a;
+            float middle = center.x - b * h / a;
             column = int(ceil(middle - half_width));
             last_column = int(floor(middle + half_width));
         } else {
-            precise vec2 offset = vec2(float(column), float(row)) - center;
-            precise float squared = a * offset.x * offset.x + 2.0 * b * offset.x * offset.y + d * offset.y * offset.y;
-            precise float weight = ellipse_weight(clamp(squared, 0.0, 1.0));
+            vec2 offset = vec2(float(column), float(row)) - center;
+            float squared = a * offset.x * offset.x + 2.0 * b * offset.x * offset.y + d * offset.y * offset.y;
+            float weight = ellipse_weight(clamp(squared, 0.0, 1.0));
             ivec2 at = ivec2(column, row);
             if (!POLES || how.more.y == 0u) {
                 at.x = wrapped_texel(ADDRESSES_U, how.modes.x, at.x, level.size.x);
                 at.y = wrapped_texel(ADDRESSES_V, how.modes.y, at.y, level.size.y);
             }
-            precise vec4 value = POLES ? flat_texel(image, how, slot, level, at)
+            vec4 value = POLES ? flat_texel(image, how, slot, level, at)
                                : fetch_or_border(image, how, slot, level, ivec3(at, 0));
             sum = fma(vec4(weight), value, sum);
             weights += weight;

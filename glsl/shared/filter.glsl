@@ -107,7 +107,7 @@ vec4 look_up(Texture image, Sampler how, uint slot, Coordinate place, uvec2 rand
             // From both ends inwards.
             uint order = (probe & 1u) != 0u ? probes - 1u - probe / 2u : probe / 2u;
             float way = (float(order) + 0.5) * each - 0.5;
-            precise vec3 moved = c.at + way * (spread.along.x * c.dx + spread.along.y * c.dy);
+            vec3 moved = c.at + way * (spread.along.x * c.dx + spread.along.y * c.dy);
             at = moved;
             if (MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_CUBE, image.link.w)) at = refaced(at, at_face);
         }

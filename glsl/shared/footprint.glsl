@@ -39,17 +39,17 @@ Beam camera_beam(Header header, Ray ray) {
     Beam beam = Beam(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), 0.0, 0.0);
     if (!FILTERED) return beam;
     bool orthographic = MODE_IS(PROJECTIONS, PROJECTION_ORTHOGRAPHIC, header.size.z);
-    precise float share = header.step_x.w;
+    float share = header.step_x.w;
     if (DIFFERENTIALS) {
-        precise vec3 x = header.step_x.xyz * share;
-        precise vec3 y = header.step_y.xyz * share;
+        vec3 x = header.step_x.xyz * share;
+        vec3 y = header.step_y.xyz * share;
         beam.origin_x = orthographic ? x : vec3(0.0);
         beam.origin_y = orthographic ? y : vec3(0.0);
         beam.direction_x = orthographic ? vec3(0.0) : x;
         beam.direction_y = orthographic ? vec3(0.0) : y;
     }
     if (CONES) {
-        precise float side = header.step_y.w * share; // of the pixel's share, at t = 1
+        float side = header.step_y.w * share; // of the pixel's share, at t = 1
         // Seen from the eye a pixel off the axis is narrower by the cosine in one direction: the cone
         // has the root of it, and so the same cross-section.
         beam.width = orthographic ? side : 0.0;
@@ -60,8 +60,8 @@ Beam camera_beam(Header header, Ray ray) {
 
 // A unit vector at right angles to the unit vector n (Duff et al. 2017).
 vec3 any_tangent(vec3 n) {
-    precise float side = n.z >= 0.0 ? 1.0 : -1.0;
-    precise float a = -1.0 / (side + n.z);
+    float side = n.z >= 0.0 ? 1.0 : -1.0;
+    float a = -1.0 / (side + n.z);
     return vec3(1.0 + side * n.x * n.x * a, side * n.x * n.y * a, -side * n.x);
 }
 
@@ -72,28 +72,28 @@ const float MAX_STRETCH = 65536.0;
 Footprint footprint_at(Header header, Beam beam, Ray ray, float t, vec3 n) {
     Footprint print = NO_FOOTPRINT;
     if (!FILTERED) return print;
-    precise float facing = dot3(n, ray.direction);
-    precise float squared = dot3(ray.direction, ray.direction);
-    precise float least = sqrt(squared) / MAX_STRETCH;
+    float facing = dot3(n, ray.direction);
+    float squared = dot3(ray.direction, ray.direction);
+    float least = sqrt(squared) / MAX_STRETCH;
     facing = abs(facing) < least ? (facing < 0.0 ? -least : least) : facing;
     if (DIFFERENTIALS && (!CONES || !uses_cones(header))) {
-        precise vec3 x = beam.origin_x + t * beam.direction_x;
-        precise vec3 y = beam.origin_y + t * beam.direction_y;
-        precise vec3 on_x = x - (dot3(n, x) / facing) * ray.direction;
-        precise vec3 on_y = y - (dot3(n, y) / facing) * ray.direction;
+        vec3 x = beam.origin_x + t * beam.direction_x;
+        vec3 y = beam.origin_y + t * beam.direction_y;
+        vec3 on_x = x - (dot3(n, x) / facing) * ray.direction;
+        vec3 on_y = y - (dot3(n, y) / facing) * ray.direction;
         return Footprint(on_x, on_y, beam.direction_x, beam.direction_y);
     }
     if (CONES) {
-        precise float width = abs(beam.width + beam.spread * t);
-        precise float scale = 1.0 / sqrt(squared);
-        precise vec3 d = ray.direction * scale;
-        precise vec3 across = cross3(n, d); // as long as the sine of the angle of incidence
-        precise float sine = sqrt(dot3(across, across));
+        float width = abs(beam.width + beam.spread * t);
+        float scale = 1.0 / sqrt(squared);
+        vec3 d = ray.direction * scale;
+        vec3 across = cross3(n, d); // as long as the sine of the angle of incidence
+        float sine = sqrt(dot3(across, across));
         // At normal incidence every direction across is as good as any other.
-        precise vec3 minor = sine > 1e-4 ? across / sine : any_tangent(n);
-        precise vec3 major = cross3(minor, n);
-        precise vec3 turned = cross3(d, minor);
-        precise float stretch = sqrt(squared) / abs(facing);
+        vec3 minor = sine > 1e-4 ? across / sine : any_tangent(n);
+        vec3 major = cross3(minor, n);
+        vec3 turned = cross3(d, minor);
+        float stretch = sqrt(squared) / abs(facing);
         print.point_x = minor * width;
         print.point_y = major * (width * stretch);
         print.direction_x = minor * beam.spread;
@@ -108,28 +108,28 @@ Footprint endless_footprint(Header header, Beam beam, Ray ray) {
     if (DIFFERENTIALS && (!CONES || !uses_cones(header))) {
         return Footprint(vec3(0.0), vec3(0.0), beam.direction_x, beam.direction_y);
     }
-    precise vec3 d = ray.direction / sqrt(dot3(ray.direction, ray.direction));
-    precise vec3 side = any_tangent(d);
+    vec3 d = ray.direction / sqrt(dot3(ray.direction, ray.direction));
+    vec3 side = any_tangent(d);
     return Footprint(vec3(0.0), vec3(0.0), side * beam.spread, cross3(d, side) * beam.spread);
 }
 
 // d - 2 (d·n) n, for unit n.
 vec3 mirrored(vec3 direction, vec3 normal) {
-    precise vec3 result = direction - (2.0 * dot3(direction, normal)) * normal;
+    vec3 result = direction - (2.0 * dot3(direction, normal)) * normal;
     return result;
 }
 
 // Change of the mirrored direction d - 2 (d·n) n, where the normal changes by `normal_change`.
 vec3 mirrored_change(vec3 direction, vec3 n, vec3 change, vec3 normal_change) {
-    precise float d = dot3(direction, n);
-    precise float d_change = dot3(change, n) + dot3(direction, normal_change);
-    precise vec3 result = change - 2.0 * (d * normal_change + d_change * n);
+    float d = dot3(direction, n);
+    float d_change = dot3(change, n) + dot3(direction, normal_change);
+    vec3 result = change - 2.0 * (d * normal_change + d_change * n);
     return result;
 }
 
 // bend · v, summed in a stated order.
 vec3 bent(mat3 bend, vec3 v) {
-    precise vec3 change = (bend[0] * v.x + bend[1] * v.y) + bend[2] * v.z;
+    vec3 change = (bend[0] * v.x + bend[1] * v.y) + bend[2] * v.z;
     return change;
 }
 
@@ -145,8 +145,8 @@ Beam mirrored_beam(Header header, Beam beam, Ray ray, float t, Footprint print, 
         next.direction_y = mirrored_change(ray.direction, n, print.direction_y, bent(bend, print.point_y));
     }
     if (CONES) {
-        precise float width = beam.width + beam.spread * t;
-        precise float spread = beam.spread + 2.0 * curvature * width * sqrt(dot3(ray.direction, ray.direction));
+        float width = beam.width + beam.spread * t;
+        float spread = beam.spread + 2.0 * curvature * width * sqrt(dot3(ray.direction, ray.direction));
         next.width = width;
         next.spread = spread;
     }
@@ -158,8 +158,8 @@ Beam mirrored_beam(Header header, Beam beam, Ray ray, float t, Footprint print, 
 vec3 refracted(vec3 direction, vec3 n, float ratio) {
     float along = dot3(direction, n);
     float squared = dot3(direction, direction);
-    precise float under = squared - ratio * ratio * (squared - along * along);
-    precise vec3 result = ratio * direction - (ratio * along + sqrt(max(under, 0.0))) * n;
+    float under = squared - ratio * ratio * (squared - along * along);
+    vec3 result = ratio * direction - (ratio * along + sqrt(max(under, 0.0))) * n;
     return under > 0.0 ? result : direction;
 }
 
@@ -167,25 +167,25 @@ vec3 refracted(vec3 direction, vec3 n, float ratio) {
 float reflectance(vec3 direction, vec3 n, float ratio) {
     float squared = dot3(direction, direction);
     float along = dot3(direction, n);
-    precise float cosine = min(abs(along) / sqrt(squared), 1.0);
-    precise float under = 1.0 - ratio * ratio * (1.0 - cosine * cosine);
+    float cosine = min(abs(along) / sqrt(squared), 1.0);
+    float under = 1.0 - ratio * ratio * (1.0 - cosine * cosine);
     if (under <= 0.0) return 1.0;
-    precise float behind = sqrt(under);
-    precise float s = (ratio * cosine - behind) / (ratio * cosine + behind);
-    precise float p = (cosine - ratio * behind) / (cosine + ratio * behind);
-    precise float mean = 0.5 * (s * s + p * p);
+    float behind = sqrt(under);
+    float s = (ratio * cosine - behind) / (ratio * cosine + behind);
+    float p = (cosine - ratio * behind) / (cosine + ratio * behind);
+    float mean = 0.5 * (s * s + p * p);
     return mean;
 }
 
 // Change of the refracted direction r d - (r d·n + k) n with k² = d² - r² (d² - (d·n)²).
 vec3 refracted_change(vec3 direction, vec3 n, float ratio, vec3 change, vec3 normal_change) {
-    precise float along = dot3(direction, n);
-    precise float along_change = dot3(change, n) + dot3(direction, normal_change);
-    precise float rr = ratio * ratio;
-    precise float squared = dot3(direction, direction);
-    precise float k = sqrt(max(squared - rr * (squared - along * along), 1e-6 * squared));
-    precise float k_change = ((1.0 - rr) * dot3(direction, change) + rr * along * along_change) / k;
-    precise vec3 result = ratio * change - (ratio * along + k) * normal_change - (ratio * along_change + k_change) * n;
+    float along = dot3(direction, n);
+    float along_change = dot3(change, n) + dot3(direction, normal_change);
+    float rr = ratio * ratio;
+    float squared = dot3(direction, direction);
+    float k = sqrt(max(squared - rr * (squared - along * along), 1e-6 * squared));
+    float k_change = ((1.0 - rr) * dot3(direction, change) + rr * along * along_change) / k;
+    vec3 result = ratio * change - (ratio * along + k) * normal_change - (ratio * along_change + k_change) * n;
     return result;
 }
 
@@ -200,12 +200,12 @@ Beam refracted_beam(Header header, Beam beam, Ray ray, float t, Footprint print,
         next.direction_y = refracted_change(ray.direction, n, ratio, print.direction_y, bent(bend, print.point_y));
     }
     if (CONES) {
-        precise float size = sqrt(dot3(ray.direction, ray.direction));
-        precise float before = min(abs(dot3(ray.direction, n)) / size, 1.0);
-        precise float behind = sqrt(max(1.0 - ratio * ratio * (1.0 - before * before), 1e-6));
-        precise float squeeze = sqrt(behind / max(before, 1e-6));
-        precise float width = (beam.width + beam.spread * t) * squeeze;
-        precise float spread = beam.spread * (ratio / squeeze) + (ratio * before - behind) * curvature * width * size;
+        float size = sqrt(dot3(ray.direction, ray.direction));
+        float before = min(abs(dot3(ray.direction, n)) / size, 1.0);
+        float behind = sqrt(max(1.0 - ratio * ratio * (1.0 - before * before), 1e-6));
+        float squeeze = sqrt(behind / max(before, 1e-6));
+        float width = (beam.width + beam.spread * t) * squeeze;
+        float spread = beam.spread * (ratio / squeeze) + (ratio * before - behind) * curvature * width * size;
         next.width = width;
         next.spread = spread;
     }

@@ -25,15 +25,15 @@ float plane_distance(Plane plane, Ray ray, bool from_eye, out vec3 local) {
     float slope = dot3(plane.normal.xyz, ray.direction);
     float height = plane.normal.w;
     if (!from_eye) {
-        precise float above = height - dot3(plane.normal.xyz, ray.origin);
+        float above = height - dot3(plane.normal.xyz, ray.origin);
         height = above;
     }
-    precise float t = height / slope;
-    precise vec3 p = from_eye ? t * ray.direction : ray.origin + t * ray.direction;
+    float t = height / slope;
+    vec3 p = from_eye ? t * ray.direction : ray.origin + t * ray.direction;
     local = vec3(dot3(plane.axis_u.xyz, p), dot3(plane.axis_v.xyz, p), 0.0);
     if (BOUNDED_PLANES && plane.link.w != 0u) {
         float extent = uintBitsToFloat(plane.link.z);
-        precise vec2 place = local.xy + vec2(plane.axis_u.w, plane.axis_v.w);
+        vec2 place = local.xy + vec2(plane.axis_u.w, plane.axis_v.w);
         t = abs(place.x) <= extent && abs(place.y) <= extent ? t : -1.0;
     }
     return t;
@@ -42,26 +42,26 @@ float plane_distance(Plane plane, Ray ray, bool from_eye, out vec3 local) {
 // Haines, Günther & Akenine-Möller 2019: the discriminant from the vector of closest approach, and
 // of the two roots c/q and q/a the one that does not cancel.
 float sphere_distance(Sphere sphere, Ray ray, bool from_eye) {
-    precise vec3 f = from_eye ? -sphere.ball.xyz : ray.origin - sphere.ball.xyz;
+    vec3 f = from_eye ? -sphere.ball.xyz : ray.origin - sphere.ball.xyz;
     float radius = sphere.ball.w;
     float a = dot3(ray.direction, ray.direction);
     float b = -dot3(f, ray.direction);
-    precise vec3 closest = f + (b / a) * ray.direction;
-    precise float discriminant = radius * radius - dot3(closest, closest);
-    precise float c = dot3(f, f) - radius * radius;
+    vec3 closest = f + (b / a) * ray.direction;
+    float discriminant = radius * radius - dot3(closest, closest);
+    float c = dot3(f, f) - radius * radius;
     float root = sqrt(max(a * discriminant, 0.0));
-    precise float q = b + (b < 0.0 ? -root : root);
+    float q = b + (b < 0.0 ? -root : root);
     bool small_root = c > 0.0 || b < 0.0;
-    precise float t = (small_root ? c : q) / (small_root ? q : a);
+    float t = (small_root ? c : q) / (small_root ? q : a);
     return discriminant > 0.0 && (c <= 0.0 || b > 0.0) ? t : -1.0;
 }
 
 // Edge functions as volumes d·(p × q): the two triangles at a shared edge compute the same value
 // with opposite sign, so no ray passes between them. t from the geometric plane.
 float triangle_distance(Triangle triangle, Ray ray, bool from_eye, out vec3 edges) {
-    precise vec3 a = from_eye ? triangle.a.xyz : triangle.a.xyz - ray.origin;
-    precise vec3 b = from_eye ? triangle.b.xyz : triangle.b.xyz - ray.origin;
-    precise vec3 c = from_eye ? triangle.c.xyz : triangle.c.xyz - ray.origin;
+    vec3 a = from_eye ? triangle.a.xyz : triangle.a.xyz - ray.origin;
+    vec3 b = from_eye ? triangle.b.xyz : triangle.b.xyz - ray.origin;
+    vec3 c = from_eye ? triangle.c.xyz : triangle.c.xyz - ray.origin;
     edges = vec3(dot3(ray.direction, cross3(b, c)), dot3(ray.direction, cross3(c, a)),
                  dot3(ray.direction, cross3(a, b)));
     bool front = edges.x >= 0.0 && edges.y >= 0.0 && edges.z >= 0.0;
@@ -69,10 +69,10 @@ float triangle_distance(Triangle triangle, Ray ray, bool from_eye, out vec3 edge
     bool degenerate = edges == vec3(0.0);
     float height = triangle.normal.w;
     if (!from_eye) {
-        precise float above = height - dot3(triangle.normal.xyz, ray.origin);
+        float above = height - dot3(triangle.normal.xyz, ray.origin);
         height = above;
     }
-    precise float t = height / dot3(triangle.normal.xyz, ray.direction);
+    float t = height / dot3(triangle.normal.xyz, ray.direction);
     return (front || back) && !degenerate ? t : -1.0;
 }
 
@@ -137,7 +137,7 @@ vec3 offset_origin(vec3 p, vec3 n) {
     vec3 moved = intBitsToFloat(ivec3(p.x < 0.0 ? bits.x - ulps.x : bits.x + ulps.x,
                                       p.y < 0.0 ? bits.y - ulps.y : bits.y + ulps.y,
                                       p.z < 0.0 ? bits.z - ulps.z : bits.z + ulps.z));
-    precise vec3 near = p + n * (1.0 / 65536.0);
+    vec3 near = p + n * (1.0 / 65536.0);
     return mix(moved, near, lessThan(abs(p), vec3(1.0 / 32.0)));
 }
 

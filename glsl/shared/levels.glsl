@@ -10,10 +10,10 @@
 
 vec4 linear_flat(Texture image, Sampler how, uint slot, Level level, vec2 texel) {
     // floor(texel); where texel is whole, perhaps the one before, with weight 1 on its neighbour.
-    precise vec2 shifted = (texel - 0.5) + ROUND;
-    precise vec2 low = shifted - ROUND;
-    precise vec2 b = texel - low;
-    precise vec2 a = 1.0 - b;
+    vec2 shifted = (texel - 0.5) + ROUND;
+    vec2 low = shifted - ROUND;
+    vec2 b = texel - low;
+    vec2 a = 1.0 - b;
     ivec2 first = floatBitsToInt(shifted) - floatBitsToInt(ROUND);
     if (POLES) {
         vec4 sum = (a.x * a.y) * flat_texel(image, how, slot, level, first);
@@ -35,21 +35,21 @@ vec4 linear_flat(Texture image, Sampler how, uint slot, Level level, vec2 texel)
 // Weights of the four texels around a place t in [0, 1] between the middle two (Mitchell & Netravali
 // 1988): B = 0, C = 1/2 is Catmull-Rom, B = 1, C = 0 the B-spline.
 vec4 cubic_weights(float t, vec2 bc) {
-    precise float b = bc.x;
-    precise float c = bc.y;
-    precise float r = 1.0 - t;
-    precise float tt = t * t;
-    precise float rr = r * r;
-    precise vec4 outer = vec4(b * (1.0 / 6.0), -c, 0.0, 0.0);
-    precise float w0 = rr * (outer.x * r + outer.y * t);
-    precise float w3 = tt * (outer.x * t + outer.y * r);
-    precise float w1 = 1.0 - b * (1.0 / 3.0) + tt * ((-3.0 + 2.0 * b + c) + (2.0 - 1.5 * b - c) * t);
+    float b = bc.x;
+    float c = bc.y;
+    float r = 1.0 - t;
+    float tt = t * t;
+    float rr = r * r;
+    vec4 outer = vec4(b * (1.0 / 6.0), -c, 0.0, 0.0);
+    float w0 = rr * (outer.x * r + outer.y * t);
+    float w3 = tt * (outer.x * t + outer.y * r);
+    float w1 = 1.0 - b * (1.0 / 3.0) + tt * ((-3.0 + 2.0 * b + c) + (2.0 - 1.5 * b - c) * t);
     return vec4(w0, w1, ((1.0 - w0) - w1) - w3, w3);
 }
 
 vec4 cubic_flat(Texture image, Sampler how, uint slot, Level level, vec2 texel) {
-    precise vec2 low = floor(texel);
-    precise vec2 t = texel - low;
+    vec2 low = floor(texel);
+    vec2 t = texel - low;
     vec2 bc = uintBitsToFloat(how.more.zw);
     vec4 wx = cubic_weights(t.x, bc);
     vec4 wy = cubic_weights(t.y, bc);
@@ -71,8 +71,8 @@ vec4 cubic_flat(Texture image, Sampler how, uint slot, Level level, vec2 texel) 
 }
 
 vec4 linear_volume(Texture image, Sampler how, uint slot, Level level, vec3 texel) {
-    precise vec3 low = floor(texel);
-    precise vec3 t = texel - low;
+    vec3 low = floor(texel);
+    vec3 t = texel - low;
     vec4 sum = vec4(0.0);
     for (int k = 0; k < 8; k++) {
         ivec3 corner = ivec3(k & 1, (k >> 1) & 1, k >> 2);
@@ -105,7 +105,7 @@ vec3 refaced(vec3 at, inout uint face) {
 // plane of the face reaches there.
 ivec3 cube_texel(uint face, ivec2 at, int size) {
     if (all(greaterThanEqual(at, ivec2(0))) && all(lessThan(at, ivec2(size)))) return ivec3(at, face);
-    precise vec2 st = (2.0 * vec2(at) + 1.0) / float(size) - 1.0;
+    vec2 st = (2.0 * vec2(at) + 1.0) / float(size) - 1.0;
     uint other;
     vec2 uv = face_uv(on_cube_face(face_direction(face, st), other));
     return ivec3(clamp(ivec2(floor(uv * float(size))), ivec2(0), ivec2(size - 1)), other);
@@ -114,8 +114,8 @@ ivec3 cube_texel(uint face, ivec2 at, int size) {
 // Beyond a corner there is no texel: its weight goes to the three that meet there.
 vec4 linear_cube(Texture image, uint slot, Level level, uint face, vec2 texel) {
     int size = level.size.x;
-    precise vec2 low = floor(texel);
-    precise vec2 t = texel - low;
+    vec2 low = floor(texel);
+    vec2 t = texel - low;
     ivec2 first = ivec2(low);
     float missing = 0.0;
     for (int k = 0; k < 4; k++) {
@@ -139,7 +139,7 @@ vec4 linear_cube(Texture image, uint slot, Level level, uint face, vec2 texel) {
 vec4 filtered_level(Texture image, Sampler how, uint slot, uint mode, Level level, vec3 at, uint face, vec3 dice) {
     bool cube = MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_CUBE, image.link.w);
     bool volume = MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_VOLUME, image.link.w);
-    precise vec3 texel;
+    vec3 texel;
     if (cube) {
         texel = at * float(level.size.x);
     } else {

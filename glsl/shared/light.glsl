@@ -14,8 +14,8 @@ struct Lit {
 
 // cos^n alpha (n + 2) / 2 between the mirror direction and the way to the light.
 float phong_lobe(vec3 mirror, vec3 way, float exponent) {
-    precise float cosine = dot3(mirror, way) / sqrt(dot3(mirror, mirror) * dot3(way, way));
-    precise float power = cosine > 0.0 ? exponent * log2_accurate(max(min(cosine, 1.0), 1e-30)) : -126.0;
+    float cosine = dot3(mirror, way) / sqrt(dot3(mirror, mirror) * dot3(way, way));
+    float power = cosine > 0.0 ? exponent * log2_accurate(max(min(cosine, 1.0), 1e-30)) : -126.0;
     return power > -126.0 ? exp2_accurate(power) * (0.5 * exponent + 1.0) : 0.0;
 }
 
@@ -26,22 +26,22 @@ Lit direct_light(Header header, Surface surface, uint shape, vec3 mirror, float 
     for (uint i = 0u; i < lights; i++) {
         Light light = light_at(i);
         bool point_light = MODE_IS(LIGHT_KINDS, LIGHT_POINT, light.link.x);
-        precise vec3 way = point_light ? light.place.xyz - surface.point : light.place.xyz;
+        vec3 way = point_light ? light.place.xyz - surface.point : light.place.xyz;
         float squared = dot3(way, way);
         float facing = dot3(surface.normal, way);
         // Point: cos/r² = n·l / r³ with the unnormalised l. Directional: l is a unit vector.
-        precise float share = point_light ? facing / (squared * sqrt(squared)) : facing;
+        float share = point_light ? facing / (squared * sqrt(squared)) : facing;
         bool lit = facing > 0.0 && dot3(surface.geometric_normal, way) > 0.0;
         if (lit) {
             if (SHADOWS) {
-                precise vec3 to_light = point_light ? light.place.xyz - start : light.place.xyz;
+                vec3 to_light = point_light ? light.place.xyz - start : light.place.xyz;
                 lit = !occluded(header, Ray(start, to_light), point_light ? 1.0 : FAR, shape);
             }
-            precise vec3 more = light.power.xyz * (share * (1.0 / PI));
-            precise vec3 diffuse = sum.diffuse + more;
+            vec3 more = light.power.xyz * (share * (1.0 / PI));
+            vec3 diffuse = sum.diffuse + more;
             sum.diffuse = lit ? diffuse : sum.diffuse;
             if (HAS(MODELS, MODEL_PHONG)) {
-                precise vec3 specular = sum.specular + more * phong_lobe(mirror, way, exponent);
+                vec3 specular = sum.specular + more * phong_lobe(mirror, way, exponent);
                 sum.specular = lit ? specular : sum.specular;
             }
         }

@@ -34,7 +34,7 @@ struct Coordinate {
 
 // matrix · uv: scale and rotation. Most scenes neither rotate nor shear.
 vec2 turned_uv(Map map, vec2 uv) {
-    precise vec2 mapped;
+    vec2 mapped;
     if (ROTATED_UV) {
         mapped = vec2(map.matrix.x * uv.x + map.matrix.y * uv.y, map.matrix.w * uv.y + map.matrix.z * uv.x);
     } else {
@@ -45,7 +45,7 @@ vec2 turned_uv(Map map, vec2 uv) {
 
 // matrix · uv + offset.
 vec2 placed(Map map, vec2 uv) {
-    precise vec2 mapped = turned_uv(map, uv) + map.offset.xy;
+    vec2 mapped = turned_uv(map, uv) + map.offset.xy;
     return mapped;
 }
 
@@ -90,7 +90,7 @@ vec3 along_cube_face(vec3 d, uint face) {
 
 // Place on a face in [0, 1]², from numerator and axis: (s / major + 1) / 2.
 vec2 face_uv(vec3 stm) {
-    precise vec2 uv = 0.5 * (stm.xy / stm.z) + 0.5;
+    vec2 uv = 0.5 * (stm.xy / stm.z) + 0.5;
     return uv;
 }
 
@@ -102,25 +102,25 @@ vec2 within_face(vec3 stm) {
 
 // Its change: the quotient's derivative.
 vec2 face_uv_change(vec3 stm, vec3 change) {
-    precise vec2 uv = 0.5 * (change.xy * stm.z - stm.xy * change.z) / (stm.z * stm.z);
+    vec2 uv = 0.5 * (change.xy * stm.z - stm.xy * change.z) / (stm.z * stm.z);
     return uv;
 }
 
 // Angles change without bound towards the pole; a footprint never covers more than one turn.
 float turn_change(vec3 local, vec3 change, float around) {
-    precise float area = local.x * change.z - local.z * change.x;
-    precise float turn = area / (max(around, 1e-30) * (2.0 * PI));
+    float area = local.x * change.z - local.z * change.x;
+    float turn = area / (max(around, 1e-30) * (2.0 * PI));
     return clamp(turn, -1.0, 1.0);
 }
 
 // (turn, height) and its change: phi/2pi and y.
 Coordinate cylindrical(Map map, vec3 local, vec3 x, vec3 y) {
-    precise float turn = atan2_accurate(local.z, local.x) * (0.5 / PI);
+    float turn = atan2_accurate(local.z, local.x) * (0.5 / PI);
     turn = turn < 0.0 ? turn + 1.0 : turn;
-    precise vec2 dx = vec2(0.0);
-    precise vec2 dy = vec2(0.0);
+    vec2 dx = vec2(0.0);
+    vec2 dy = vec2(0.0);
     if (DERIVATIVES) {
-        precise float around = local.x * local.x + local.z * local.z;
+        float around = local.x * local.x + local.z * local.z;
         dx = vec2(turn_change(local, x, around), x.y);
         dy = vec2(turn_change(local, y, around), y.y);
     }
@@ -129,21 +129,21 @@ Coordinate cylindrical(Map map, vec3 local, vec3 x, vec3 y) {
 
 // theta / pi changes by (y drho - rho dy) / (rho² + y²), where drho = (x dx + z dz) / rho.
 float polar_change(vec3 local, vec3 change, float across, float squared) {
-    precise float outward = (local.x * change.x + local.z * change.z) / max(across, 1e-30);
+    float outward = (local.x * change.x + local.z * change.z) / max(across, 1e-30);
     return clamp((local.y * outward - across * change.y) / (max(squared, 1e-30) * PI), -1.0, 1.0);
 }
 
 // (theta/pi, phi/2pi) and its change.
 Coordinate spherical(Map map, vec3 local, vec3 x, vec3 y) {
-    precise float turn = atan2_accurate(local.z, local.x) * (0.5 / PI);
+    float turn = atan2_accurate(local.z, local.x) * (0.5 / PI);
     turn = turn < 0.0 ? turn + 1.0 : turn;
-    precise float around = local.x * local.x + local.z * local.z;
-    precise float across = sqrt(around);
-    precise vec2 uv = vec2(atan2_accurate(across, local.y) * (1.0 / PI), turn);
-    precise vec2 dx = vec2(0.0);
-    precise vec2 dy = vec2(0.0);
+    float around = local.x * local.x + local.z * local.z;
+    float across = sqrt(around);
+    vec2 uv = vec2(atan2_accurate(across, local.y) * (1.0 / PI), turn);
+    vec2 dx = vec2(0.0);
+    vec2 dy = vec2(0.0);
     if (DERIVATIVES) {
-        precise float squared = around + local.y * local.y;
+        float squared = around + local.y * local.y;
         dx = vec2(polar_change(local, x, across, squared), turn_change(local, x, around));
         dy = vec2(polar_change(local, y, across, squared), turn_change(local, y, around));
     }
@@ -156,23 +156,23 @@ Coordinate texture_coordinate(Map map, Seen seen) {
         return Coordinate(vec3(seen.own, 0.0), vec3(seen.own_x, 0.0), vec3(seen.own_y, 0.0));
     }
     if (MODE_IS(MAPPINGS, MAP_PLANE, kind)) return placed_coordinate(map, seen.own, seen.own_x, seen.own_y);
-    precise vec3 x = vec3(0.0);
-    precise vec3 y = vec3(0.0);
+    vec3 x = vec3(0.0);
+    vec3 y = vec3(0.0);
     if (DERIVATIVES) {
         x = in_frame(map, seen.entity_x);
         y = in_frame(map, seen.entity_y);
     }
-    precise vec2 xy = vec2(affine(map.x, seen.entity), affine(map.y, seen.entity));
+    vec2 xy = vec2(affine(map.x, seen.entity), affine(map.y, seen.entity));
     if (MODE_IS(MAPPINGS, MAP_AFFINE, kind)) {
         return Coordinate(vec3(xy, 0.0), vec3(x.xy, 0.0), vec3(y.xy, 0.0));
     }
-    precise vec3 local = vec3(xy, affine(map.z, seen.entity));
+    vec3 local = vec3(xy, affine(map.z, seen.entity));
     if (MODE_IS(MAPPINGS, MAP_SOLID, kind) || MODE_IS(MAPPINGS, MAP_CUBE, kind)) return Coordinate(local, x, y);
     if (MODE_IS(MAPPINGS, MAP_BOX, kind)) {
         uint face;
-        precise vec3 stm = on_cube_face(local, face);
-        precise vec2 dx = vec2(0.0);
-        precise vec2 dy = vec2(0.0);
+        vec3 stm = on_cube_face(local, face);
+        vec2 dx = vec2(0.0);
+        vec2 dy = vec2(0.0);
         if (DERIVATIVES) {
             dx = face_uv_change(stm, along_cube_face(x, face));
             dy = face_uv_change(stm, along_cube_face(y, face));

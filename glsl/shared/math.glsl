@@ -8,25 +8,25 @@ const float PI = 3.14159265358979;
 
 // x y z summed from the left, never contracted: two devices round alike.
 float dot3(vec3 a, vec3 b) {
-    precise float sum = (a.x * b.x + a.y * b.y) + a.z * b.z;
+    float sum = (a.x * b.x + a.y * b.y) + a.z * b.z;
     return sum;
 }
 
 // row.xyz · p + row.w
 float affine(vec4 row, vec3 p) {
-    precise float sum = ((row.x * p.x + row.y * p.y) + row.z * p.z) + row.w;
+    float sum = ((row.x * p.x + row.y * p.y) + row.z * p.z) + row.w;
     return sum;
 }
 
 vec3 cross3(vec3 a, vec3 b) {
-    precise vec3 c = vec3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
+    vec3 c = vec3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
     return c;
 }
 
 // atan(x) for x in [0, 1].
 float atan_unit(float x) {
     float y = x * x;
-    precise float sum = 0.002849889771088515;
+    float sum = 0.002849889771088515;
     sum = sum * y - 0.01606862956664404;
     sum = sum * y + 0.042691520265489;
     sum = sum * y - 0.07504294623787518;
@@ -44,7 +44,7 @@ float atan2_accurate(float y, float x) {
     float ay = abs(y);
     float high = max(ax, ay);
     if (high == 0.0) return 0.0;
-    precise float angle = atan_unit(min(ax, ay) / high);
+    float angle = atan_unit(min(ax, ay) / high);
     if (ay > ax) angle = 0.5 * PI - angle;
     if (x < 0.0) angle = PI - angle;
     return y < 0.0 ? -angle : angle;
@@ -53,24 +53,24 @@ float atan2_accurate(float y, float x) {
 // sin(2 pi t): the fraction of t, folded to [0, 1/4], in a minimax polynomial of degree 9, error below
 // 4e-9 in exact arithmetic.
 float sine_turns(float t) {
-    precise float s = t - roundEven(t);
-    precise float a = abs(s);
+    float s = t - roundEven(t);
+    float a = abs(s);
     a = min(a, 0.5 - a);
-    precise float y = a * a;
-    precise float sum = 39.53670776604566;
+    float y = a * a;
+    float sum = 39.53670776604566;
     sum = sum * y - 76.54978257470793;
     sum = sum * y + 81.60100408945674;
     sum = sum * y - 41.341655031788335;
     sum = sum * y + 6.283185160092155;
-    precise float sine = sum * a;
+    float sine = sum * a;
     return s < 0.0 ? -sine : sine;
 }
 
 // 2^x, to 2 ulp for |x| < 126: the nearest whole power times the Taylor series of the rest.
 float exp2_accurate(float x) {
-    precise float whole = floor(x + 0.5);
-    precise float t = (x - whole) * 0.69314718;
-    precise float sum = 0.00138889;
+    float whole = floor(x + 0.5);
+    float t = (x - whole) * 0.69314718;
+    float sum = 0.00138889;
     sum = sum * t + 0.00833333;
     sum = sum * t + 0.04166667;
     sum = sum * t + 0.16666667;
@@ -84,10 +84,10 @@ float exp2_accurate(float x) {
 float log2_accurate(float x) {
     int bits = floatBitsToInt(x);
     int e = (bits - 0x3F3504F3) >> 23;
-    precise float m = intBitsToFloat(bits - (e << 23));
-    precise float t = (m - 1.0) / (m + 1.0);
-    precise float y = t * t;
-    precise float sum = 0.3205989;
+    float m = intBitsToFloat(bits - (e << 23));
+    float t = (m - 1.0) / (m + 1.0);
+    float y = t * t;
+    float sum = 0.3205989;
     sum = sum * y + 0.41219859;
     sum = sum * y + 0.57707802;
     sum = sum * y + 0.96179669;

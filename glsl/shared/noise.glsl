@@ -18,8 +18,8 @@ const vec2 FOLDED_SLICES = vec2(-0.11, -0.094); // see `slice_mean`
 // the mean over a square on the value in its middle, within 0.07, for noise and for cells.
 float kept(float cells) {
     if (!PROCEDURAL_FILTERED) return 1.0;
-    precise float x = min(0.5 * cells, 1.0);
-    precise float weight = 1.0 - x * x * (3.0 - 2.0 * x);
+    float x = min(0.5 * cells, 1.0);
+    float weight = 1.0 - x * x * (3.0 - 2.0 * x);
     return weight;
 }
 
@@ -27,10 +27,10 @@ float kept(float cells) {
 // lattice differ from the volume. With s the distance from the middle of a cell, the mean over a plane
 // is nearly linear in s², whose mean over all planes is 1/12; slopes in the middle and at the border.
 float slice_mean(float mean, vec2 slopes, vec3 fraction, vec3 widths) {
-    precise vec3 s = fraction - 0.5;
-    precise vec3 square = s * s;
-    precise vec3 off = (square - 1.0 / 12.0) * (slopes.x + (slopes.y - slopes.x) * (4.0 * square));
-    precise float shifted = mean + (off.x * kept(widths.x) + off.y * kept(widths.y) + off.z * kept(widths.z));
+    vec3 s = fraction - 0.5;
+    vec3 square = s * s;
+    vec3 off = (square - 1.0 / 12.0) * (slopes.x + (slopes.y - slopes.x) * (4.0 * square));
+    float shifted = mean + (off.x * kept(widths.x) + off.y * kept(widths.y) + off.z * kept(widths.z));
     return shifted;
 }
 
@@ -45,21 +45,21 @@ float lattice_gradient(uvec3 cell, float x, float y, float z) {
     uint code = pcg3d(cell).x >> 28u;
     float u = code < 8u ? x : y;
     float v = code < 4u ? y : (code == 12u || code == 14u ? x : z);
-    precise float product = ((code & 1u) != 0u ? -u : u) + ((code & 2u) != 0u ? -v : v);
+    float product = ((code & 1u) != 0u ? -u : u) + ((code & 2u) != 0u ? -v : v);
     return product;
 }
 
 float blend(float a, float b, float weight) {
-    precise float value = a + weight * (b - a);
+    float value = a + weight * (b - a);
     return value;
 }
 
 // In [-1, 1], 0 at lattice points, with continuous second derivatives.
 float gradient_noise(vec3 p, uvec3 key) {
-    precise vec3 whole = floor(p);
-    precise vec3 f = p - whole;
-    precise vec3 g = f - 1.0;
-    precise vec3 s = f * f * f * (f * (f * 6.0 - 15.0) + 10.0);
+    vec3 whole = floor(p);
+    vec3 f = p - whole;
+    vec3 g = f - 1.0;
+    vec3 s = f * f * f * (f * (f * 6.0 - 15.0) + 10.0);
     uvec3 a = lattice_cell(whole) + key;
     uvec3 b = a + 1u;
     float low = blend(blend(lattice_gradient(a, f.x, f.y, f.z),
@@ -77,14 +77,14 @@ float gradient_noise(vec3 p, uvec3 key) {
 // faded out of it. `size` and `widths` of the footprint are in units. All octaves but the first are
 // shifted by fractions of a cell, so that their zeros do not meet.
 vec2 octave_sum(Procedural what, vec3 at, float size, vec3 widths, bool folded) {
-    precise float sum = 0.0;
-    precise float faded = 0.0;
-    precise float weight = what.octaves.z;
-    precise float frequency = 1.0;
+    float sum = 0.0;
+    float faded = 0.0;
+    float weight = what.octaves.z;
+    float frequency = 1.0;
     for (uint k = 0u; k < what.link.z; k++) {
         uvec3 key = pcg3d(uvec3(what.link.y, k, 0u));
         vec3 shift = k == 0u ? vec3(0.0) : vec3(key >> 8u) * (1.0 / 16777216.0);
-        precise vec3 p = at * frequency + shift;
+        vec3 p = at * frequency + shift;
         float value = gradient_noise(p, key);
         float keep = kept(size * frequency);
         float mean = 0.0;
@@ -104,14 +104,14 @@ vec2 octave_sum(Procedural what, vec3 at, float size, vec3 widths, bool folded) 
 
 // Distance to the nearest point, at most 1: a nearer one lies in one of the 27 cells searched.
 float cell_distance(vec3 p, uint seed, float jitter) {
-    precise vec3 whole = floor(p);
-    precise vec3 f = p - whole;
+    vec3 whole = floor(p);
+    vec3 f = p - whole;
     uvec3 cell = lattice_cell(whole) + pcg3d(uvec3(seed, 0u, 0u));
     float nearest = 1.0;
     for (uint i = 0u; i < 27u; i++) {
         uvec3 step = uvec3(i % 3u, (i / 3u) % 3u, i / 9u);
         vec3 random = vec3(pcg3d(cell + step - 1u) >> 8u) * (1.0 / 16777216.0);
-        precise vec3 away = ((vec3(step) - 0.5) + jitter * (random - 0.5)) - f;
+        vec3 away = ((vec3(step) - 0.5) + jitter * (random - 0.5)) - f;
         nearest = min(nearest, dot3(away, away));
     }
     return sqrt(nearest);
@@ -120,9 +120,9 @@ float cell_distance(vec3 p, uint seed, float jitter) {
 // The mean of `cell_distance`, within 0.002, and how it varies between planes, within 0.01: polynomials
 // through values from 3e5 random places.
 float cell_mean(vec3 p, vec3 widths, float jitter) {
-    precise float j = jitter * jitter;
-    precise float mean = 0.4803 + j * (0.0504 - 0.0099 * j);
-    precise vec2 slopes = vec2(1.175 + j * (0.36 * j - 1.42), 0.96 - 0.93 * jitter);
+    float j = jitter * jitter;
+    float mean = 0.4803 + j * (0.0504 - 0.0099 * j);
+    vec2 slopes = vec2(1.175 + j * (0.36 * j - 1.42), 0.96 - 0.93 * jitter);
     return slice_mean(mean, slopes, fract(p), widths);
 }
 

@@ -19,17 +19,17 @@ vec3 bounded_width(vec3 d) { return mix(vec3(WIDEST), d, lessThanEqual(abs(d), v
 // Orthogonal axes with the parallelogram's second moments, the longer first: one rotation of Jacobi's
 // method. Orthogonal dx and dy are their own.
 void principal_axes(vec3 dx, vec3 dy, out vec3 major, out vec3 minor) {
-    precise float xx = dot3(dx, dx);
-    precise float yy = dot3(dy, dy);
-    precise float xy = dot3(dx, dy);
+    float xx = dot3(dx, dx);
+    float yy = dot3(dy, dy);
+    float xy = dot3(dx, dy);
     float t = 0.0;
     if (xy != 0.0) {
-        precise float zeta = (yy - xx) / (2.0 * xy);
+        float zeta = (yy - xx) / (2.0 * xy);
         t = (zeta >= 0.0 ? 1.0 : -1.0) / (abs(zeta) + sqrt(1.0 + zeta * zeta));
     }
-    precise float c = 1.0 / sqrt(1.0 + t * t);
-    precise vec3 a = c * dx - (c * t) * dy;
-    precise vec3 b = c * dy + (c * t) * dx;
+    float c = 1.0 / sqrt(1.0 + t * t);
+    vec3 a = c * dx - (c * t) * dy;
+    vec3 b = c * dy + (c * t) * dx;
     bool swap = dot3(b, b) > dot3(a, a);
     major = swap ? b : a;
     minor = swap ? a : b;
@@ -40,24 +40,24 @@ void principal_axes(vec3 dx, vec3 dy, out vec3 major, out vec3 minor) {
 float box_count(vec3 major, vec3 minor) {
     vec3 reach = abs(major);
     float oblique = max(min(reach.x, reach.y), min(max(reach.x, reach.y), reach.z)); // the median
-    precise float ratio = oblique / max(sqrt(dot3(minor, minor)), 1e-20);
+    float ratio = oblique / max(sqrt(dot3(minor, minor)), 1e-20);
     return clamp(min(ratio, 1.0 + MOST_BOXES * oblique), 1.0, MOST_BOXES);
 }
 
 // Mean over [x - w/2, x + w/2] of a pulse train: 1 within duty/2 of whole x, else 0. Whole periods
 // leave first, and the fraction before any sum, so that neither far nor tiny boxes cancel.
 float pulse_mean(float x, float w, float duty) {
-    precise float s = x - roundEven(x);
-    precise float half_duty = 0.5 * duty;
+    float s = x - roundEven(x);
+    float half_duty = 0.5 * duty;
     float inside = (s >= -half_duty && s < half_duty) || duty >= 1.0 ? 1.0 : 0.0;
     if (!PROCEDURAL_FILTERED || !(w > 1e-30)) return inside;
     float periods = floor(w);
-    precise float rest = w - periods;
+    float rest = w - periods;
     // An odd number of periods, taken out at one end, moves the middle of the rest by half of one.
-    precise float q = periods - 2.0 * floor(0.5 * periods) != 0.0 ? 0.5 - abs(s) : abs(s);
-    precise float first = clamp((half_duty - q) + 0.5 * rest, 0.0, min(rest, duty));
-    precise float second = max((q - (1.0 - half_duty)) + 0.5 * rest, 0.0);
-    precise float mean = (periods * duty + (first + second)) / w;
+    float q = periods - 2.0 * floor(0.5 * periods) != 0.0 ? 0.5 - abs(s) : abs(s);
+    float first = clamp((half_duty - q) + 0.5 * rest, 0.0, min(rest, duty));
+    float second = max((q - (1.0 - half_duty)) + 0.5 * rest, 0.0);
+    float mean = (periods * duty + (first + second)) / w;
     return mean;
 }
 
@@ -67,28 +67,28 @@ float box_share(Procedural what, vec3 at, vec3 w) {
     float width = what.shape.x;
     if (MODE_IS(PROCEDURAL_KINDS, PROCEDURAL_CHECKER, kind)) {
         // The mean of a product of square waves of ±1 is the product of their means.
-        precise vec3 middle = 0.5 * (at - 1.5);
+        vec3 middle = 0.5 * (at - 1.5);
         float wave = 1.0 - 2.0 * pulse_mean(middle.x, 0.5 * w.x, 0.5);
         wave *= 1.0 - 2.0 * pulse_mean(middle.y, 0.5 * w.y, 0.5);
         wave *= 1.0 - 2.0 * pulse_mean(middle.z, 0.5 * w.z, 0.5);
         return 0.5 - 0.5 * wave;
     }
     if (MODE_IS(PROCEDURAL_KINDS, PROCEDURAL_STRIPES, kind)) {
-        precise float middle = at.x - 0.5 * width;
+        float middle = at.x - 0.5 * width;
         return pulse_mean(middle, w.x, width);
     }
     if (MODE_IS(PROCEDURAL_KINDS, PROCEDURAL_GRID, kind)) {
-        precise float between = (1.0 - pulse_mean(at.x, w.x, width)) * (1.0 - pulse_mean(at.y, w.y, width));
+        float between = (1.0 - pulse_mean(at.x, w.x, width)) * (1.0 - pulse_mean(at.y, w.y, width));
         if (what.link.w == 3u) between *= 1.0 - pulse_mean(at.z, w.z, width);
-        precise float lines = 1.0 - between;
+        float lines = 1.0 - between;
         return lines;
     }
-    precise float row = 0.5 * (at.y - 0.5);
-    precise float column = at.x - 0.5;
-    precise float shifted = column - what.shape.z;
-    precise float duty_x = 1.0 - width / what.shape.y;
-    precise float duty_y = 0.5 * (1.0 - width);
-    precise float bricks = pulse_mean(row, 0.5 * w.y, duty_y) * pulse_mean(column, w.x, duty_x)
+    float row = 0.5 * (at.y - 0.5);
+    float column = at.x - 0.5;
+    float shifted = column - what.shape.z;
+    float duty_x = 1.0 - width / what.shape.y;
+    float duty_y = 0.5 * (1.0 - width);
+    float bricks = pulse_mean(row, 0.5 * w.y, duty_y) * pulse_mean(column, w.x, duty_x)
                          + pulse_mean(row - 0.5, 0.5 * w.y, duty_y) * pulse_mean(shifted, w.x, duty_x);
     return bricks;
 }
@@ -97,17 +97,17 @@ float box_share(Procedural what, vec3 at, vec3 w) {
 float footprint_share(Procedural what, vec3 at, vec3 major, vec3 minor) {
     vec3 unit = vec3(1.0);
     if (MODE_IS(PROCEDURAL_KINDS, PROCEDURAL_BRICK, what.link.x)) unit.x = what.shape.y;
-    precise vec3 p = at / unit;
+    vec3 p = at / unit;
     p = p - 2.0 * roundEven(0.5 * p); // all patterns repeat after two units
     if (!PROCEDURAL_FILTERED) return box_share(what, p, vec3(0.0));
     major /= unit;
     minor /= unit;
     float count = ceil(box_count(major, minor));
-    precise vec3 step = major / count;
-    precise vec3 w = sqrt(step * step + minor * minor);
-    precise float sum = 0.0;
+    vec3 step = major / count;
+    vec3 w = sqrt(step * step + minor * minor);
+    float sum = 0.0;
     for (float i = 0.0; i < count; i++) {
-        precise vec3 middle = p + step * ((i + 0.5) - 0.5 * count);
+        vec3 middle = p + step * ((i + 0.5) - 0.5 * count);
         sum += box_share(what, middle, w);
     }
     return sum / count;
@@ -115,14 +115,14 @@ float footprint_share(Procedural what, vec3 at, vec3 major, vec3 minor) {
 
 // Mean over a box of width w of a sine of period 1, over the sine.
 float box_attenuation(float w) {
-    precise float x = abs(w);
+    float x = abs(w);
     return x < 1e-3 ? 1.0 : sine_turns(0.5 * x) / (PI * x);
 }
 
 // What a random phase, in turns, leaves of a sine: exp(-2 pi² variance), by the start of its series.
 float phase_attenuation(float variance) {
-    precise float v = 2.0 * PI * PI * variance;
-    precise float series = 1.0 + v * (1.0 + v * (0.5 + v * (1.0 / 6.0)));
+    float v = 2.0 * PI * PI * variance;
+    float series = 1.0 + v * (1.0 + v * (0.5 + v * (1.0 / 6.0)));
     return 1.0 / series;
 }
 
@@ -130,23 +130,23 @@ float phase_attenuation(float variance) {
 float marble(Procedural what, vec3 at, vec3 dx, vec3 dy, float size, vec3 widths) {
     vec2 turbulence = octave_sum(what, at, size, widths, true);
     float distortion = what.octaves.w;
-    precise float phase = (at.x - roundEven(at.x)) + distortion * turbulence.x;
+    float phase = (at.x - roundEven(at.x)) + distortion * turbulence.x;
     float strength = 1.0;
     if (PROCEDURAL_FILTERED) {
         strength = box_attenuation(dx.x) * box_attenuation(dy.x);
         strength *= phase_attenuation(distortion * distortion * turbulence.y);
     }
-    precise float share = 0.5 + 0.5 * strength * sine_turns(phase);
+    float share = 0.5 + 0.5 * strength * sine_turns(phase);
     return share;
 }
 
 // By how much the distance r from the z axis varies along d: along it in proportion, across it only
 // where the footprint is not small against r.
 float radial_width(vec2 at, float r, vec2 d) {
-    precise float along = (at.x * d.x + at.y * d.y) / max(r, 1e-20);
-    precise float square = d.x * d.x + d.y * d.y;
-    precise float across = max(square - along * along, 0.0);
-    precise float width = sqrt(along * along + across * square / max(square + 4.0 * r * r, 1e-30));
+    float along = (at.x * d.x + at.y * d.y) / max(r, 1e-20);
+    float square = d.x * d.x + d.y * d.y;
+    float across = max(square - along * along, 0.0);
+    float width = sqrt(along * along + across * square / max(square + 4.0 * r * r, 1e-30));
     return width;
 }
 
@@ -154,14 +154,14 @@ float radial_width(vec2 at, float r, vec2 d) {
 float wood(Procedural what, vec3 at, vec3 dx, vec3 dy, float size, vec3 widths) {
     vec2 noise = octave_sum(what, at, size, widths, false);
     float distortion = what.octaves.w;
-    precise float r = sqrt(at.x * at.x + at.y * at.y);
-    precise float phase = (r - roundEven(r)) + distortion * noise.x;
+    float r = sqrt(at.x * at.x + at.y * at.y);
+    float phase = (r - roundEven(r)) + distortion * noise.x;
     float strength = 1.0;
     if (PROCEDURAL_FILTERED) {
         strength = box_attenuation(radial_width(at.xy, r, dx.xy)) * box_attenuation(radial_width(at.xy, r, dy.xy));
         strength *= phase_attenuation(distortion * distortion * noise.y);
     }
-    precise float share = 0.5 - 0.5 * strength * sine_turns(phase + 0.25);
+    float share = 0.5 - 0.5 * strength * sine_turns(phase + 0.25);
     return share;
 }
 
@@ -177,25 +177,25 @@ float figure_share(Procedural what, vec3 at, vec3 dx, vec3 dy) {
         && ((PROCEDURAL_KINDS & ~HARD_EDGED) == 0u || kind <= PROCEDURAL_BRICK)) {
         return footprint_share(what, at, major, minor);
     }
-    precise float size = sqrt(dot3(major, major));
-    precise vec3 widths = sqrt(major * major + minor * minor);
+    float size = sqrt(dot3(major, major));
+    vec3 widths = sqrt(major * major + minor * minor);
     if (MODE_IS(PROCEDURAL_KINDS, PROCEDURAL_TURBULENCE, kind)) return octave_sum(what, at, size, widths, true).x;
     if (MODE_IS(PROCEDURAL_KINDS, PROCEDURAL_MARBLE, kind)) return marble(what, at, dx, dy, size, widths);
     if (MODE_IS(PROCEDURAL_KINDS, PROCEDURAL_WOOD, kind)) return wood(what, at, dx, dy, size, widths);
     if (MODE_IS(PROCEDURAL_KINDS, PROCEDURAL_CELLULAR, kind)) {
-        precise float value = cell_distance(at, what.link.y, what.shape.w);
+        float value = cell_distance(at, what.link.y, what.shape.w);
         if (!PROCEDURAL_FILTERED) return value;
         float keep = kept(size);
-        precise float faded = keep * value + (1.0 - keep) * cell_mean(at, widths, what.shape.w);
+        float faded = keep * value + (1.0 - keep) * cell_mean(at, widths, what.shape.w);
         return faded;
     }
-    precise float share = 0.5 + 0.5 * octave_sum(what, at, size, widths, false).x;
+    float share = 0.5 + 0.5 * octave_sum(what, at, size, widths, false).x;
     return share;
 }
 
 vec3 procedural_color(Procedural what, vec3 at, vec3 dx, vec3 dy) {
     float share = figure_share(what, bounded_point(at), bounded_width(dx), bounded_width(dy));
-    precise vec3 color = (1.0 - share) * what.background.xyz + share * what.figure.xyz;
+    vec3 color = (1.0 - share) * what.background.xyz + share * what.figure.xyz;
     return color;
 }
 

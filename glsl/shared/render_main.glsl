@@ -49,7 +49,7 @@ void main() {
 
     // One loop for samples and bounces: a turn follows one ray, and a pixel whose path has ended
     // starts its next sample while its neighbours' paths go on.
-    precise vec3 sum = vec3(0.0);
+    vec3 sum = vec3(0.0);
     uint s = slice.first_sample;
     uint end = s + slice.sample_count;
     Path path;
@@ -69,9 +69,9 @@ void main() {
     uint at = place.y * header.size.x + place.x;
     if (COMPENSATED && slice.first_sample > 0u) {
         uint lost_at = at + header.size.x * slice.band_height;
-        precise vec3 term = sum - film[lost_at].xyz;
-        precise vec3 total = film[at].xyz + term;
-        precise vec3 lost = (total - film[at].xyz) - term;
+        vec3 term = sum - film[lost_at].xyz;
+        vec3 total = film[at].xyz + term;
+        vec3 lost = (total - film[at].xyz) - term;
         film[lost_at] = vec4(lost, 0.0);
         sum = total;
     } else if (COMPENSATED) {

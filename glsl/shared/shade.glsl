@@ -19,25 +19,25 @@ Seen seen_by_map(Map map, Ray ray, Surface surface, Footprint print) {
         seen.own_y = vec2(dot3(surface.own_u, print.point_y), dot3(surface.own_v, print.point_y));
     }
     if (MODE_IS(ENTITIES, ENTITY_POSITION, entity)) return seen;
-    precise vec3 bent_x = bent(surface.bend, print.point_x);
-    precise vec3 bent_y = bent(surface.bend, print.point_y);
+    vec3 bent_x = bent(surface.bend, print.point_x);
+    vec3 bent_y = bent(surface.bend, print.point_y);
     if (MODE_IS(ENTITIES, ENTITY_NORMAL, entity)) {
         seen.entity = surface.normal;
         seen.entity_x = bent_x;
         seen.entity_y = bent_y;
         return seen;
     }
-    precise vec3 way = ray.direction;
-    precise vec3 way_x = print.direction_x;
-    precise vec3 way_y = print.direction_y;
+    vec3 way = ray.direction;
+    vec3 way_x = print.direction_x;
+    vec3 way_y = print.direction_y;
     if (MODE_IS(ENTITIES, ENTITY_REFLECTION, entity)) {
         way_x = mirrored_change(way, surface.normal, way_x, bent_x);
         way_y = mirrored_change(way, surface.normal, way_y, bent_y);
         way = mirrored(way, surface.normal);
     }
     // Of unit length; its change is at right angles to it.
-    precise float scale = 1.0 / sqrt(dot3(way, way));
-    precise vec3 unit = way * scale;
+    float scale = 1.0 / sqrt(dot3(way, way));
+    vec3 unit = way * scale;
     seen.entity = unit;
     if (DERIVATIVES) {
         seen.entity_x = (way_x - dot3(unit, way_x) * unit) * scale;
@@ -49,20 +49,20 @@ Seen seen_by_map(Map map, Ray ray, Surface surface, Footprint print) {
 #if SOURCE != SOURCE_NONE
 // Gradients of u and v along the surface, from their changes along two tangents.
 void uv_gradients(Map map, Ray ray, Surface surface, out vec3 u, out vec3 v) {
-    precise vec3 n = surface.geometric_normal;
-    precise vec3 first = any_tangent(n);
-    precise vec3 second = cross3(n, first);
+    vec3 n = surface.geometric_normal;
+    vec3 first = any_tangent(n);
+    vec3 second = cross3(n, first);
     Footprint print = Footprint(first, second, vec3(0.0), vec3(0.0));
     Coordinate c = texture_coordinate(map, seen_by_map(map, ray, surface, print));
-    precise vec3 along_u = first * c.dx.x + second * c.dy.x;
-    precise vec3 along_v = first * c.dx.y + second * c.dy.y;
+    vec3 along_u = first * c.dx.x + second * c.dy.x;
+    vec3 along_v = first * c.dx.y + second * c.dy.y;
     u = along_u;
     v = along_v;
 }
 
 // Places at which a bump map is read, two on each axis, a texel or half the footprint away.
 vec2 relief_step(Material material, Coordinate c) {
-    precise vec2 texel = 1.0 / vec2(texture_at(material.detail.x).place.yz);
+    vec2 texel = 1.0 / vec2(texture_at(material.detail.x).place.yz);
     return max(texel, 0.5 * max(abs(c.dx.xy), abs(c.dy.xy)));
 }
 
@@ -70,27 +70,27 @@ vec2 relief_step(Material material, Coordinate c) {
 // growing u, growing v and the normal. Bump map: n - grad h, the height's gradient along the surface
 // (Blinn 1978; Mikkelsen 2020), h from central differences.
 vec3 relief_normal(Material material, Map map, Ray ray, Surface surface, vec4 read, vec2 step) {
-    precise float side = surface.inside ? -1.0 : 1.0;
-    precise vec3 n = side * surface.normal;
-    precise float strength = material.color.w;
+    float side = surface.inside ? -1.0 : 1.0;
+    vec3 n = side * surface.normal;
+    float strength = material.color.w;
     vec3 u;
     vec3 v;
     uv_gradients(map, ray, surface, u, v);
-    precise vec3 result;
+    vec3 result;
     if (MODE_IS(RELIEFS, RELIEF_NORMAL, material.detail.w)) {
-        precise vec3 t = cross3(v, n);
-        precise vec3 b = cross3(n, u);
-        precise float handed = dot3(cross3(u, v), n) < 0.0 ? -strength : strength;
-        precise vec3 m = 2.0 * read.xyz - 1.0;
-        precise vec2 scale = vec2(dot3(t, t), dot3(b, b));
+        vec3 t = cross3(v, n);
+        vec3 b = cross3(n, u);
+        float handed = dot3(cross3(u, v), n) < 0.0 ? -strength : strength;
+        vec3 m = 2.0 * read.xyz - 1.0;
+        vec2 scale = vec2(dot3(t, t), dot3(b, b));
         result = n * m.z;
         result += t * (scale.x > 0.0 ? handed * m.x / sqrt(scale.x) : 0.0);
         result += b * (scale.y > 0.0 ? handed * m.y / sqrt(scale.y) : 0.0);
     } else {
-        precise vec2 slope = 0.5 * strength * (read.xz - read.yw) / step;
+        vec2 slope = 0.5 * strength * (read.xz - read.yw) / step;
         result = n - slope.x * u - slope.y * v;
     }
-    precise float squared = dot3(result, result);
+    float squared = dot3(result, result);
     return side * (squared > 0.0 ? result / sqrt(squared) : n);
 }
 #endif
@@ -123,7 +123,7 @@ vec3 surface_color(Material material, Map map, Ray ray, inout Surface surface, F
                 if (taps == 4u) read[tap] = texel.x;
                 else read = texel;
             } else {
-                precise vec3 product = color * texel.xyz;
+                vec3 product = color * texel.xyz;
                 color = product;
             }
         }
@@ -134,7 +134,7 @@ vec3 surface_color(Material material, Map map, Ray ray, inout Surface surface, F
 }
 
 vec3 with_highlight(vec3 diffuse, vec3 carried, vec3 specular, vec3 light) {
-    precise vec3 sum = diffuse + carried * specular * light;
+    vec3 sum = diffuse + carried * specular * light;
     return sum;
 }
 

@@ -33,16 +33,16 @@ Coordinate in_texture(Texture image, Coordinate c, out uint face) {
 
 Spread texel_spread(Texture image, Coordinate c) {
     vec3 size = vec3(image.place.yz, MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_VOLUME, image.link.w) ? image.link.z : 0u);
-    precise vec3 x = c.dx * size;
-    precise vec3 y = c.dy * size;
+    vec3 x = c.dx * size;
+    vec3 y = c.dy * size;
     float xx = bounded(dot3(x, x));
     float yy = bounded(dot3(y, y));
     float xy = dot3(x, y);
-    precise float middle = 0.5 * (xx + yy);
-    precise float half_difference = 0.5 * (xx - yy);
-    precise float radius = sqrt(half_difference * half_difference + xy * xy);
-    precise float major = middle + radius;
-    precise float minor = max(xx * (yy / major) - xy * (xy / major), 0.0);
+    float middle = 0.5 * (xx + yy);
+    float half_difference = 0.5 * (xx - yy);
+    float radius = sqrt(half_difference * half_difference + xy * xy);
+    float major = middle + radius;
+    float minor = max(xx * (yy / major) - xy * (xy / major), 0.0);
     // Of two forms of the eigenvector the one that does not cancel.
     vec2 along = half_difference >= 0.0 ? vec2(half_difference + radius, xy) : vec2(xy, radius - half_difference);
     float squared = along.x * along.x + along.y * along.y;

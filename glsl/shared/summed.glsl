@@ -21,20 +21,20 @@ Parts axis_parts(uint mask, uint mode, float from, float to, float size) {
     Parts parts = Parts(vec3(0.0), vec3(0.0), vec3(0.0));
     if (MODE_IS(mask, ADDRESS_REPEAT, mode)) {
         // More than a period has the mean of a period.
-        precise float width = min(to - from, size);
-        precise float start = from - floor(from / size) * size;
-        precise float end = start + width;
+        float width = min(to - from, size);
+        float start = from - floor(from / size) * size;
+        float end = start + width;
         parts.from = vec3(start, 0.0, 0.0);
         parts.to = vec3(min(end, size), max(end - size, 0.0), 0.0);
         parts.amount = parts.to - parts.from;
     } else if (MODE_IS(mask, ADDRESS_MIRRORED_REPEAT, mode)) {
-        precise float width = min(to - from, 2.0 * size);
-        precise float start = from - floor(from / (2.0 * size)) * 2.0 * size;
-        precise float first = floor(start / size);
+        float width = min(to - from, 2.0 * size);
+        float start = from - floor(from / (2.0 * size)) * 2.0 * size;
+        float first = floor(start / size);
         for (int k = 0; k < 3; k++) {
-            precise float tile = first + float(k);
-            precise float a = clamp(start - tile * size, 0.0, size);
-            precise float b = clamp(start + width - tile * size, 0.0, size);
+            float tile = first + float(k);
+            float a = clamp(start - tile * size, 0.0, size);
+            float b = clamp(start + width - tile * size, 0.0, size);
             bool odd = fract(0.5 * tile) != 0.0;
             parts.from[k] = odd ? size - b : a;
             parts.to[k] = odd ? size - a : b;
@@ -44,8 +44,8 @@ Parts axis_parts(uint mask, uint mode, float from, float to, float size) {
         parts.from.x = clamp(from, 0.0, size);
         parts.to.x = clamp(to, 0.0, size);
         parts.amount.x = parts.to.x - parts.from.x;
-        precise float below = max(min(to, 0.0) - from, 0.0);
-        precise float above = max(to - max(from, size), 0.0);
+        float below = max(min(to, 0.0) - from, 0.0);
+        float above = max(to - max(from, size), 0.0);
         if (MODE_IS(mask, ADDRESS_MIRROR_CLAMP_TO_EDGE, mode)) {
             parts.from.y = clamp(-to, 0.0, size);
             parts.to.y = clamp(-from, 0.0, size);
@@ -82,11 +82,11 @@ float rectangle(uint table, int width, vec2 from, vec2 to, ivec2 last) {
     ivec2 i1 = min(ivec2(floor(to)), last);
     // Cut texels at both ends and whole ones between; where both ends lie in one texel the whole ones
     // between are minus one.
-    precise vec2 first = 1.0 - (from - vec2(i0));
-    precise vec2 end = to - vec2(i1);
-    precise vec3 wx = vec3(first.x, 1.0, end.x);
-    precise vec3 wy = vec3(first.y, 1.0, end.y);
-    precise float sum = 0.0;
+    vec2 first = 1.0 - (from - vec2(i0));
+    vec2 end = to - vec2(i1);
+    vec3 wx = vec3(first.x, 1.0, end.x);
+    vec3 wy = vec3(first.y, 1.0, end.y);
+    float sum = 0.0;
     uvec2 before[3];
     for (int r = 0; r < 4; r++) {
         int y = r < 2 ? i0.y + r : i1.y + r - 2;
@@ -109,32 +109,32 @@ float rectangle(uint table, int width, vec2 from, vec2 to, ivec2 last) {
 // `place` is a coordinate of a flat texture that has a table: after its levels.
 vec4 summed_area(Texture image, Sampler how, Coordinate place) {
     uint table = texelFetch(texels, int(image.place.x) - int(image.link.y)).x;
-    precise float least = uintBitsToFloat(texelFetch(texels, int(table)).x);
-    precise float step = uintBitsToFloat(texelFetch(texels, int(table) + 1).x);
+    float least = uintBitsToFloat(texelFetch(texels, int(table)).x);
+    float step = uintBitsToFloat(texelFetch(texels, int(table) + 1).x);
     int channels = int(texelFetch(texels, int(table) + 2).x);
     ivec2 size = ivec2(image.place.yz);
-    precise vec2 wide = vec2(size);
+    vec2 wide = vec2(size);
     // No box is narrower than a texel, or wider than a million periods.
-    precise vec2 reach = clamp(0.5 * (abs(place.dx.xy) + abs(place.dy.xy)) * wide, vec2(0.5), wide * 1e6);
-    precise vec2 center = vec2(reduced_coordinate(ADDRESSES_U, how.modes.x, place.at.x, wide.x),
+    vec2 reach = clamp(0.5 * (abs(place.dx.xy) + abs(place.dy.xy)) * wide, vec2(0.5), wide * 1e6);
+    vec2 center = vec2(reduced_coordinate(ADDRESSES_U, how.modes.x, place.at.x, wide.x),
                                reduced_coordinate(ADDRESSES_V, how.modes.y, place.at.y, wide.y));
     if (MODE_IS(TEXEL_CENTERS, TEXEL_CENTER_INTEGER, how.modes.w)) center += 0.5;
     Parts u = axis_parts(ADDRESSES_U, how.modes.x, center.x - reach.x, center.x + reach.x, wide.x);
     Parts v = axis_parts(ADDRESSES_V, how.modes.y, center.y - reach.y, center.y + reach.y, wide.y);
-    precise vec4 sum = vec4(0.0);
-    precise float inside = 0.0;
+    vec4 sum = vec4(0.0);
+    float inside = 0.0;
     for (int part = 0; part < 9; part++) {
         int i = part % 3;
         int j = part / 3;
-        precise float amount = u.amount[i] * v.amount[j];
+        float amount = u.amount[i] * v.amount[j];
         if (amount <= 0.0) continue;
-        precise vec2 from = vec2(u.from[i], v.from[j]);
-        precise vec2 to = vec2(u.to[i], v.to[j]);
-        precise float area = (to.x - from.x) * (to.y - from.y);
-        precise vec4 mean = vec4(0.0, 0.0, 0.0, 1.0);
+        vec2 from = vec2(u.from[i], v.from[j]);
+        vec2 to = vec2(u.to[i], v.to[j]);
+        float area = (to.x - from.x) * (to.y - from.y);
+        vec4 mean = vec4(0.0, 0.0, 0.0, 1.0);
         for (int c = 0; c < channels; c++) {
             uint first = table + 3u + uint(c * 2 * (size.x + 1) * (size.y + 1));
-            precise float value = least + step * (rectangle(first, size.x, from, to, size - 1) / area);
+            float value = least + step * (rectangle(first, size.x, from, to, size - 1) / area);
             if (c == 0) mean.xyz = vec3(value);
             else if (channels == 2) mean.w = value;
             else mean[c] = value;
@@ -146,9 +146,9 @@ vec4 summed_area(Texture image, Sampler how, Coordinate place) {
     if (BORDERS) {
         bool bordered = how.modes.x == ADDRESS_CLAMP_TO_BORDER || how.modes.y == ADDRESS_CLAMP_TO_BORDER;
         // Along a periodic axis the parts cover one period for the whole.
-        precise float share_u = how.modes.x == ADDRESS_CLAMP_TO_BORDER ? (u.amount.x + u.amount.y + u.amount.z) / (2.0 * reach.x) : 1.0;
-        precise float share_v = how.modes.y == ADDRESS_CLAMP_TO_BORDER ? (v.amount.x + v.amount.y + v.amount.z) / (2.0 * reach.y) : 1.0;
-        precise vec4 mean = inside > 0.0 ? sum / inside : vec4(0.0);
+        float share_u = how.modes.x == ADDRESS_CLAMP_TO_BORDER ? (u.amount.x + u.amount.y + u.amount.z) / (2.0 * reach.x) : 1.0;
+        float share_v = how.modes.y == ADDRESS_CLAMP_TO_BORDER ? (v.amount.x + v.amount.y + v.amount.z) / (2.0 * reach.y) : 1.0;
+        vec4 mean = inside > 0.0 ? sum / inside : vec4(0.0);
         return bordered ? mix(how.border, mean, share_u * share_v) : mean;
     }
     return sum / inside;

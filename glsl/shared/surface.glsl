@@ -28,33 +28,33 @@ Surface plane_surface(Plane plane, vec3 point, vec2 uv) {
 
 // The hit is put back on the sphere: the error of t does not reach the normal or the next ray.
 Surface sphere_surface(Sphere sphere, vec3 point) {
-    precise vec3 radial = point - sphere.ball.xyz;
-    precise float scale = 1.0 / sqrt(dot3(radial, radial));
-    precise vec3 normal = radial * scale;
-    precise vec3 on_sphere = sphere.ball.xyz + sphere.ball.w * normal;
+    vec3 radial = point - sphere.ball.xyz;
+    float scale = 1.0 / sqrt(dot3(radial, radial));
+    vec3 normal = radial * scale;
+    vec3 on_sphere = sphere.ball.xyz + sphere.ball.w * normal;
     float curvature = 1.0 / sphere.ball.w;
     return Surface(on_sphere, normal, normal, vec2(0.0), vec3(0.0), vec3(0.0), mat3(curvature), curvature,
                    false, sphere.link.xy);
 }
 
 Surface triangle_surface(Triangle triangle, vec3 point, vec3 edges) {
-    precise float scale = 1.0 / ((edges.x + edges.y) + edges.z);
-    precise vec3 w = edges * scale;
-    precise vec2 uv = vec2(dot3(w, vec3(triangle.a.w, triangle.b.w, triangle.c.w)), dot3(w, triangle.v.xyz));
-    precise vec3 n = triangle.normal.xyz;
-    precise vec3 normal = n;
+    float scale = 1.0 / ((edges.x + edges.y) + edges.z);
+    vec3 w = edges * scale;
+    vec2 uv = vec2(dot3(w, vec3(triangle.a.w, triangle.b.w, triangle.c.w)), dot3(w, triangle.v.xyz));
+    vec3 n = triangle.normal.xyz;
+    vec3 normal = n;
     mat3 bend = FLAT;
-    precise vec3 own_u = vec3(0.0);
-    precise vec3 own_v = vec3(0.0);
-    precise vec3 wa = vec3(0.0);
-    precise vec3 wb = vec3(0.0);
-    precise vec3 wc = vec3(0.0);
+    vec3 own_u = vec3(0.0);
+    vec3 own_v = vec3(0.0);
+    vec3 wa = vec3(0.0);
+    vec3 wb = vec3(0.0);
+    vec3 wc = vec3(0.0);
     if (FILTERED || BUMPED) {
         // Gradients of the weights: at right angles to the opposite side, 1 over the height.
-        precise vec3 ab = triangle.b.xyz - triangle.a.xyz;
-        precise vec3 bc = triangle.c.xyz - triangle.b.xyz;
-        precise vec3 ca = triangle.a.xyz - triangle.c.xyz;
-        precise float twice_area = dot3(n, cross3(ab, bc));
+        vec3 ab = triangle.b.xyz - triangle.a.xyz;
+        vec3 bc = triangle.c.xyz - triangle.b.xyz;
+        vec3 ca = triangle.a.xyz - triangle.c.xyz;
+        float twice_area = dot3(n, cross3(ab, bc));
         wa = cross3(n, bc) / twice_area;
         wb = cross3(n, ca) / twice_area;
         wc = cross3(n, ab) / twice_area;
@@ -62,10 +62,10 @@ Surface triangle_surface(Triangle triangle, vec3 point, vec3 edges) {
         own_v = wa * triangle.v.x + wb * triangle.v.y + wc * triangle.v.z;
     }
     if (SMOOTH_NORMALS && triangle.v.w != 0.0) {
-        precise vec3 blend = (w.x * triangle.normal_a.xyz + w.y * triangle.normal_b.xyz) + w.z * triangle.normal_c.xyz;
-        precise float squared = dot3(blend, blend);
-        precise float length_scale = 1.0 / sqrt(squared);
-        precise vec3 unit = blend * length_scale;
+        vec3 blend = (w.x * triangle.normal_a.xyz + w.y * triangle.normal_b.xyz) + w.z * triangle.normal_c.xyz;
+        float squared = dot3(blend, blend);
+        float length_scale = 1.0 / sqrt(squared);
+        vec3 unit = blend * length_scale;
         normal = squared > 0.0 ? unit : normal;
         if (FILTERED && squared > 0.0) {
             mat3 change = outerProduct(triangle.normal_a.xyz, wa) + outerProduct(triangle.normal_b.xyz, wb) +
@@ -74,7 +74,7 @@ Surface triangle_surface(Triangle triangle, vec3 point, vec3 edges) {
             bend = (change - outerProduct(normal, normal * change)) * length_scale;
         }
     }
-    precise float curvature = 0.5 * (bend[0][0] + bend[1][1] + bend[2][2]);
+    float curvature = 0.5 * (bend[0][0] + bend[1][1] + bend[2][2]);
     return Surface(point, n, normal, uv, own_u, own_v, bend, curvature, false, triangle.link.xy);
 }
 
@@ -82,7 +82,7 @@ Surface hit_surface(Header header, Ray ray, Hit hit) {
     uint planes = COUNT(PLANES, header.counts.x);
     uint spheres = COUNT(SPHERES, header.counts.y);
     uint triangles = COUNT(TRIANGLES, header.counts.z);
-    precise vec3 point = ORIGIN_IS_EYE ? hit.t * ray.direction : ray.origin + hit.t * ray.direction;
+    vec3 point = ORIGIN_IS_EYE ? hit.t * ray.direction : ray.origin + hit.t * ray.direction;
     Surface surface = Surface(point, vec3(0.0, 0.0, 1.0), vec3(0.0, 0.0, 1.0), vec2(0.0), vec3(0.0), vec3(0.0), FLAT,
                               0.0, false, uvec2(0u));
     // A scene of one kind of shape needs no test.

@@ -199,7 +199,7 @@ const float ROUND = 12582912.0;
 // leave exactly, to [-1/2, 1/2] or, mirrored, [-1, 1]; what is not finite reads as 0. Clamped modes
 // lose what lies far outside.
 float reduced_coordinate(uint mask, uint mode, float u, float size) {
-    precise float s;
+    float s;
     if (MODE_IS(mask, ADDRESS_REPEAT, mode)) {
         s = u - roundEven(u);
         s = abs(s) <= 0.5 ? s : 0.0;
@@ -209,7 +209,7 @@ float reduced_coordinate(uint mask, uint mode, float u, float size) {
     } else {
         s = u >= -2.0 ? (u <= 3.0 ? u : 3.0) : -2.0;
     }
-    precise float texel = s * size;
+    float texel = s * size;
     return texel;
 }
 
@@ -224,16 +224,17 @@ int addressed_texel(uint mask, uint mode, int i, int size) {
     return clamp(i, 0, size - 1);
 }
 
-// The same for every i: wide filters reach beyond one period.
+// The same for every i: wide filters reach beyond one period. Of a negative number Vulkan leaves the
+// remainder undefined, so i is mirrored at -1/2 first.
 int wrapped_texel(uint mask, uint mode, int i, int size) {
+    int folded = i < 0 ? -1 - i : i;
     if (MODE_IS(mask, ADDRESS_REPEAT, mode)) {
         if (TEXTURE_SIZES == (1u << TEXTURE_SIZE_POWER_OF_TWO)) return i & (size - 1);
-        int left = i % size;
-        return left < 0 ? left + size : left;
+        int left = folded % size;
+        return i < 0 ? size - 1 - left : left;
     }
     if (MODE_IS(mask, ADDRESS_MIRRORED_REPEAT, mode)) {
-        int left = i % (2 * size);
-        left = left < 0 ? left + 2 * size : left;
+        int left = folded % (2 * size);
         return left < size ? left : 2 * size - 1 - left;
     }
     return addressed_texel(mask, mode, i, size);
