@@ -53,7 +53,7 @@ Beam camera_beam(Header header, Ray ray) {
         // Seen from the eye a pixel off the axis is narrower by the cosine in one direction: the cone
         // has the root of it, and so the same cross-section.
         beam.width = orthographic ? side : 0.0;
-        beam.spread = orthographic ? 0.0 : side / sqrt(sqrt(dot3(ray.direction, ray.direction)));
+        beam.spread = orthographic ? 0.0 : side * inversesqrt(sqrt(dot3(ray.direction, ray.direction)));
     }
     return beam;
 }
@@ -85,7 +85,7 @@ Footprint footprint_at(Header header, Beam beam, Ray ray, float t, vec3 n) {
     }
     if (CONES) {
         float width = abs(beam.width + beam.spread * t);
-        float scale = 1.0 / sqrt(squared);
+        float scale = inversesqrt(squared);
         vec3 d = ray.direction * scale;
         vec3 across = cross3(n, d); // as long as the sine of the angle of incidence
         float sine = sqrt(dot3(across, across));
@@ -108,7 +108,7 @@ Footprint endless_footprint(Header header, Beam beam, Ray ray) {
     if (DIFFERENTIALS && (!CONES || !uses_cones(header))) {
         return Footprint(vec3(0.0), vec3(0.0), beam.direction_x, beam.direction_y);
     }
-    vec3 d = ray.direction / sqrt(dot3(ray.direction, ray.direction));
+    vec3 d = ray.direction * inversesqrt(dot3(ray.direction, ray.direction));
     vec3 side = any_tangent(d);
     return Footprint(vec3(0.0), vec3(0.0), side * beam.spread, cross3(d, side) * beam.spread);
 }
@@ -167,7 +167,7 @@ vec3 refracted(vec3 direction, vec3 n, float ratio) {
 float reflectance(vec3 direction, vec3 n, float ratio) {
     float squared = dot3(direction, direction);
     float along = dot3(direction, n);
-    float cosine = min(abs(along) / sqrt(squared), 1.0);
+    float cosine = min(abs(along) * inversesqrt(squared), 1.0);
     float under = 1.0 - ratio * ratio * (1.0 - cosine * cosine);
     if (under <= 0.0) return 1.0;
     float behind = sqrt(under);

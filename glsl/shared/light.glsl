@@ -14,7 +14,7 @@ struct Lit {
 
 // cos^n alpha (n + 2) / 2 between the mirror direction and the way to the light.
 float phong_lobe(vec3 mirror, vec3 way, float exponent) {
-    float cosine = dot3(mirror, way) / sqrt(dot3(mirror, mirror) * dot3(way, way));
+    float cosine = dot3(mirror, way) * inversesqrt(dot3(mirror, mirror) * dot3(way, way));
     float power = cosine > 0.0 ? exponent * log2_accurate(max(min(cosine, 1.0), 1e-30)) : -126.0;
     return power > -126.0 ? exp2_accurate(power) * (0.5 * exponent + 1.0) : 0.0;
 }

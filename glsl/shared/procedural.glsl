@@ -27,7 +27,7 @@ void principal_axes(vec3 dx, vec3 dy, out vec3 major, out vec3 minor) {
         float zeta = (yy - xx) / (2.0 * xy);
         t = (zeta >= 0.0 ? 1.0 : -1.0) / (abs(zeta) + sqrt(1.0 + zeta * zeta));
     }
-    float c = 1.0 / sqrt(1.0 + t * t);
+    float c = inversesqrt(1.0 + t * t);
     vec3 a = c * dx - (c * t) * dy;
     vec3 b = c * dy + (c * t) * dx;
     bool swap = dot3(b, b) > dot3(a, a);

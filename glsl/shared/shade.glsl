@@ -36,7 +36,7 @@ Seen seen_by_map(Map map, Ray ray, Surface surface, Footprint print) {
         way = mirrored(way, surface.normal);
     }
     // Of unit length; its change is at right angles to it.
-    float scale = 1.0 / sqrt(dot3(way, way));
+    float scale = inversesqrt(dot3(way, way));
     vec3 unit = way * scale;
     seen.entity = unit;
     if (DERIVATIVES) {
@@ -84,14 +84,14 @@ vec3 relief_normal(Material material, Map map, Ray ray, Surface surface, vec4 re
         vec3 m = 2.0 * read.xyz - 1.0;
         vec2 scale = vec2(dot3(t, t), dot3(b, b));
         result = n * m.z;
-        result += t * (scale.x > 0.0 ? handed * m.x / sqrt(scale.x) : 0.0);
-        result += b * (scale.y > 0.0 ? handed * m.y / sqrt(scale.y) : 0.0);
+        result += t * (scale.x > 0.0 ? handed * m.x * inversesqrt(scale.x) : 0.0);
+        result += b * (scale.y > 0.0 ? handed * m.y * inversesqrt(scale.y) : 0.0);
     } else {
         vec2 slope = 0.5 * strength * (read.xz - read.yw) / step;
         result = n - slope.x * u - slope.y * v;
     }
     float squared = dot3(result, result);
-    return side * (squared > 0.0 ? result / sqrt(squared) : n);
+    return side * (squared > 0.0 ? result * inversesqrt(squared) : n);
 }
 #endif
 

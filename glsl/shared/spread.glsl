@@ -46,7 +46,7 @@ Spread texel_spread(Texture image, Coordinate c) {
     // Of two forms of the eigenvector the one that does not cancel.
     vec2 along = half_difference >= 0.0 ? vec2(half_difference + radius, xy) : vec2(xy, radius - half_difference);
     float squared = along.x * along.x + along.y * along.y;
-    along = squared > 0.0 ? along / sqrt(squared) : vec2(1.0, 0.0);
+    along = squared > 0.0 ? along * inversesqrt(squared) : vec2(1.0, 0.0);
     return Spread(bounded(major), minor >= 0.0 ? minor : 0.0, along);
 }
 #endif

@@ -29,7 +29,7 @@ Surface plane_surface(Plane plane, vec3 point, vec2 uv) {
 // The hit is put back on the sphere: the error of t does not reach the normal or the next ray.
 Surface sphere_surface(Sphere sphere, vec3 point) {
     vec3 radial = point - sphere.ball.xyz;
-    float scale = 1.0 / sqrt(dot3(radial, radial));
+    float scale = inversesqrt(dot3(radial, radial));
     vec3 normal = radial * scale;
     vec3 on_sphere = sphere.ball.xyz + sphere.ball.w * normal;
     float curvature = 1.0 / sphere.ball.w;
@@ -64,7 +64,7 @@ Surface triangle_surface(Triangle triangle, vec3 point, vec3 edges) {
     if (SMOOTH_NORMALS && triangle.v.w != 0.0) {
         vec3 blend = (w.x * triangle.normal_a.xyz + w.y * triangle.normal_b.xyz) + w.z * triangle.normal_c.xyz;
         float squared = dot3(blend, blend);
-        float length_scale = 1.0 / sqrt(squared);
+        float length_scale = inversesqrt(squared);
         vec3 unit = blend * length_scale;
         normal = squared > 0.0 ? unit : normal;
         if (FILTERED && squared > 0.0) {

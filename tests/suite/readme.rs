@@ -6,7 +6,7 @@ use std::process::Command;
 
 use crate::support::{data, program};
 
-/// `moire …` lines of ```sh blocks, without comments.
+/// `moire …` lines of ```sh blocks, without comments and without the file that takes the output.
 fn commands(readme: &str) -> Vec<String> {
     let mut inside = false;
     let mut found = Vec::new();
@@ -14,7 +14,8 @@ fn commands(readme: &str) -> Vec<String> {
         if line.starts_with("```") {
             inside = line == "```sh";
         } else if inside && line.starts_with("moire ") {
-            found.push(line.split('#').next().unwrap_or(line).trim().to_string());
+            let command = line.split(" #").next().unwrap_or(line);
+            found.push(command.split(" > ").next().unwrap_or(command).trim().to_string());
         }
     }
     found
