@@ -16,9 +16,11 @@ use crate::oracle;
 use crate::output::{self, WriteOptions};
 use crate::pack::{self, Crop, PackedScene};
 use crate::render::{self, Report, TexelChoice, Tuning};
+use crate::scene::advice;
 use crate::scene::model::Scene;
 use crate::scene::prune::prune;
 use crate::texture;
+use crate::verify::known::anisotropy_fault;
 
 #[derive(Args, Debug)]
 pub struct RenderArgs {
@@ -84,6 +86,7 @@ pub fn run(args: &RenderArgs) -> Result<ExitCode> {
         render_on_device(args, &scene, &select, &bar, start)?
     };
     ran.report.left_out.extend(dropped);
+    ran.report.warnings.splice(..0, advice::of_scene(&scene));
     bar.finish();
 
     let clock = Instant::now();
@@ -123,6 +126,9 @@ fn render_on_device(
     let tuning = Tuning { texels: args.texels, group: args.workgroup };
     let (film, mut report) = render::render(&gpu, packed, args.keep_everything, &tuning, bar)?;
     (report.seconds.startup, report.seconds.load) = (startup, load);
+    if let (true, Some(fault)) = (advice::samples_anisotropically(scene), anisotropy_fault(gpu.info())) {
+        report.warnings.push(format!("{fault}; --method shader reads the right ones"));
+    }
     for message in gpu.messages() {
         super::tell(format_args!("validation: {message}"));
     }

@@ -22,6 +22,7 @@ pub fn json(ran: &Ran, options: Value, outputs: &[String]) -> Value {
         "driver": ran.driver,
         "options": options,
         "left_out": ran.report.left_out,
+        "warnings": ran.report.warnings,
         "samples": ran.film.samples,
         "outputs": outputs,
         "seconds": ran.report.seconds,
@@ -35,6 +36,9 @@ pub fn json(ran: &Ran, options: Value, outputs: &[String]) -> Value {
 
 pub fn say(ran: &Ran, outputs: &[String], verbose: bool) {
     let (report, seconds) = (&ran.report, &ran.report.seconds);
+    for warning in &report.warnings {
+        tell(format_args!("warning: {warning}"));
+    }
     if verbose {
         tell("left out:");
         for line in &report.left_out {

@@ -47,6 +47,8 @@ pub struct Seconds {
 #[derive(Clone, Debug, Default)]
 pub struct Report {
     pub left_out: Vec<String>,
+    /// What a person should know before looking at the picture.
+    pub warnings: Vec<String>,
     pub seconds: Seconds,
     /// Device timestamps around the slices, summed.
     pub device_render_seconds: f64,

@@ -1,5 +1,6 @@
 //! Scene files: TOML text in, validated [`model::Scene`] out.
 
+pub mod advice;
 mod load;
 mod mapping;
 mod materials;

@@ -35,13 +35,21 @@ const FAULTS: &[KnownFault] = &[
         },
         beyond: 1.0 / 255.0, // half a step of 255 an axis
     },
-    KnownFault {
-        name: "lavapipe reads levels that are not the footprint's where a sampler is anisotropic",
-        driver: "llvmpipe",
-        applies: |v| v.reader == Reader::Sampler && v.scale == Scale::Anisotropic,
-        beyond: 1.0, // any level for any other
-    },
+    ANISOTROPY,
 ];
+
+const ANISOTROPY: KnownFault = KnownFault {
+    name: "lavapipe reads levels that are not the footprint's where a sampler is anisotropic",
+    driver: "llvmpipe",
+    applies: |v| v.reader == Reader::Sampler && v.scale == Scale::Anisotropic,
+    beyond: 1.0, // any level for any other
+};
+
+/// What goes wrong where this device's samplers follow long footprints, if anything does.
+pub fn anisotropy_fault(device: &DeviceInfo) -> Option<&'static str> {
+    let fault = &ANISOTROPY;
+    device.driver.contains(fault.driver).then_some(fault.name)
+}
 
 /// The fault, if this device has one in this variant.
 pub fn known_fault(device: &DeviceInfo, variant: &Variant) -> Option<&'static KnownFault> {

@@ -137,12 +137,27 @@ fn json_is_one_object_with_the_documented_fields() {
     assert_eq!((&told["samples"], &told["outputs"]), (&4.into(), &serde_json::json!(["x.exr", "y.png"])));
     assert!(told["left_out"].as_array().unwrap().iter().all(Value::is_string));
     assert_ne!(told["left_out"], serde_json::json!([]));
+    assert_eq!(told["warnings"], serde_json::json!([]));
     assert_eq!(told["options"]["size"], serde_json::json!([40, 30]));
     let kept = json("lecture", &["--size", "8x8", "--keep-everything"]);
     assert_eq!(
         (&kept["left_out"], &kept["options"]["keep_everything"]),
         (&serde_json::json!([]), &true.into())
     );
+}
+
+#[test]
+fn filters_that_the_footprint_leaves_idle_are_warned_of_unless_quiet() {
+    let told = json("filters", &["--size", "8x8", "--footprint", "none"]);
+    assert!(told["warnings"][0].as_str().unwrap().contains("mip = \"linear\""), "{told:#}");
+    let folder = tempdir().unwrap();
+    let options = ["--size", "8x8", "--footprint", "none"];
+    let output = render(folder.path(), "filters", &options);
+    assert!(text(&output.stderr).contains("warning: footprint = \"none\""), "{}", text(&output.stderr));
+    let quiet = render(folder.path(), "filters", &[&options[..], &["-q"]].concat());
+    assert_eq!(text(&quiet.stderr), "");
+    let followed = render(folder.path(), "filters", &["--size", "8x8"]);
+    assert!(!text(&followed.stderr).contains("warning"), "{}", text(&followed.stderr));
 }
 
 #[test]

@@ -1,0 +1,74 @@
+//! Scene → what a person should know before looking at the picture: settings that are valid, and yet do
+//! not do what their names promise in this scene or on this device.
+
+use super::model::{Footprint, Scene};
+use crate::texture::sampler_spec::{Filter, Method, MipMode, SamplerSpec};
+
+/// Of the scene alone. Samplers that nothing reads have been dropped before.
+pub fn of_scene(scene: &Scene) -> Vec<String> {
+    without_effect(scene.sampling.footprint, &scene.samplers)
+}
+
+fn without_effect(footprint: Footprint, samplers: &[SamplerSpec]) -> Vec<String> {
+    if footprint != Footprint::None {
+        return Vec::new();
+    }
+    let asked: Vec<String> = samplers.iter().flat_map(idle_settings).collect();
+    let mut distinct: Vec<&str> = Vec::new();
+    asked.iter().for_each(|s| if !distinct.contains(&s.as_str()) { distinct.push(s) });
+    if distinct.is_empty() {
+        return Vec::new();
+    }
+    vec![format!(
+        "footprint = \"none\" makes every look-up a magnification: {} has no effect; \
+         set footprint = \"cone\" under [sampling], or --footprint cone",
+        distinct.join(", ")
+    )]
+}
+
+/// Settings that only minification uses.
+fn idle_settings(spec: &SamplerSpec) -> Vec<String> {
+    let mut idle = Vec::new();
+    if spec.min != spec.mag {
+        idle.push(format!("min = \"{}\"", spec.min));
+    }
+    if spec.mip != MipMode::None {
+        idle.push(format!("mip = \"{}\"", spec.mip));
+    }
+    idle
+}
+
+/// Whether the device's own samplers follow long footprints in this scene.
+pub fn samples_anisotropically(scene: &Scene) -> bool {
+    scene.sampling.footprint != Footprint::None && scene.samplers.iter().any(follows_footprints)
+}
+
+fn follows_footprints(spec: &SamplerSpec) -> bool {
+    spec.method == Method::Hardware && spec.min == Filter::Anisotropic
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn filters_without_a_footprint_are_told() {
+        let plain = SamplerSpec::default();
+        let mipped = SamplerSpec { mip: MipMode::Linear, ..plain };
+        let long = SamplerSpec { min: Filter::Ewa, ..mipped };
+        assert!(without_effect(Footprint::None, &[plain]).is_empty());
+        assert!(without_effect(Footprint::Cone, &[mipped, long]).is_empty());
+        let told = without_effect(Footprint::None, &[mipped, long, mipped]);
+        assert_eq!(told.len(), 1);
+        assert_eq!(told[0].matches("mip = \"linear\"").count(), 1, "{}", told[0]);
+        assert!(told[0].contains("min = \"ewa\"") && told[0].contains("--footprint cone"), "{}", told[0]);
+    }
+
+    #[test]
+    fn only_the_devices_own_samplers_follow_footprints() {
+        let shader = SamplerSpec { min: Filter::Anisotropic, ..SamplerSpec::default() };
+        assert!(!follows_footprints(&shader));
+        assert!(follows_footprints(&SamplerSpec { method: Method::Hardware, ..shader }));
+        assert!(!follows_footprints(&SamplerSpec { method: Method::Hardware, ..SamplerSpec::default() }));
+    }
+}
