@@ -1,4 +1,6 @@
-// Functions whose built-in twins are too loose, and dot products in a stated order.
+// Functions whose built-in twins are too loose, and dot products in a stated order. Nowhere is a product
+// fused with a sum but by `fma` (build/uncontracted.rs), and a reciprocal root is `inversesqrt`: of 1 / sqrt(x)
+// a driver makes that in one pipeline and not in another.
 // atan: minimax polynomial of degree 17 on [0, 1], error below 2e-8 in exact arithmetic.
 // exp2: Taylor series of degree 6. log2: exponent from the bits, artanh series of the mantissa, error below 1e-7 (2 ulp of the result).
 #ifndef MATH_GLSL
@@ -6,7 +8,7 @@
 
 const float PI = 3.14159265358979;
 
-// x y z summed from the left, never contracted: two devices round alike.
+// x y z summed from the left: two devices round alike.
 float dot3(vec3 a, vec3 b) {
     float sum = (a.x * b.x + a.y * b.y) + a.z * b.z;
     return sum;

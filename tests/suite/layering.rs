@@ -168,6 +168,9 @@ fn violations(path: &str, text: &str) -> Vec<String> {
         complain(1, format!("does not open with {opening}"));
     }
     if !path.ends_with(".rs") {
+        for (i, _) in text.lines().enumerate().filter(|(_, line)| line.contains("/ sqrt(")) {
+            complain(i + 1, "1 / sqrt is not the same in every pipeline; use inversesqrt".into());
+        }
         return found;
     }
     let code = code_of(text);
@@ -303,6 +306,7 @@ fn planted_violations_are_found_and_look_alikes_are_not() {
     }
     assert!(violations("src/film.rs", "use std::fs;\n")[0].contains("does not open with //!"));
     assert!(violations("glsl/shared/a.glsl", "#ifndef A\n")[0].contains("does not open with //"));
+    assert!(violations("glsl/shared/a.glsl", "// A.\nfloat x = y / sqrt(z);\n")[0].contains(":2: 1 / sqrt"));
     let long = format!("{doc}{}", "\n".repeat(MOST_LINES));
     assert!(violations("src/film.rs", &long)[0].contains("lines, more than"));
 }

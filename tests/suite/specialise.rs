@@ -124,6 +124,29 @@ fn only_the_workgroups_size_is_left_open() {
     assert_eq!(ids, [0, 1]);
 }
 
+/// As `glsl/shared` is written, no driver may fuse a product with a sum: pictures would depend on what
+/// else a pipeline can do.
+#[test]
+fn all_float_arithmetic_is_uncontracted() {
+    const NO_CONTRACTION: u32 = 42;
+    const SUMS_AND_PRODUCTS: [u32; 8] = [129, 131, 133, 142, 143, 144, 145, 148];
+    for shader in [&shaders::RENDER_TEXELS, &shaders::RENDER_SOLIDS, &shaders::PROBE_RAYS] {
+        for words in [shader.spirv.to_vec(), specialised(shader, &packed("lecture.toml"), false)] {
+            let all = instructions(&words);
+            let decorated: std::collections::HashSet<u32> = all
+                .iter()
+                .filter(|(op, w)| *op == DECORATE && w[1] == NO_CONTRACTION)
+                .map(|(_, w)| w[0])
+                .collect();
+            let arithmetic: Vec<u32> =
+                all.iter().filter(|(op, _)| SUMS_AND_PRODUCTS.contains(op)).map(|(_, w)| w[1]).collect();
+            assert!(arithmetic.len() > 20, "{}: {} operations", shader.name, arithmetic.len());
+            let loose = arithmetic.iter().filter(|id| !decorated.contains(id)).count();
+            assert_eq!(loose, 0, "{} of {} operations in {}", loose, arithmetic.len(), shader.name);
+        }
+    }
+}
+
 /// A flat unlit scene keeps a small part of the shader, and more features keep more.
 #[test]
 fn a_small_scene_has_a_small_shader() {
