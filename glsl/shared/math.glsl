@@ -1,6 +1,6 @@
 // Functions whose built-in twins are too loose, and dot products in a stated order. Nowhere is a product
-// fused with a sum but by `fma` (build/uncontracted.rs), and a reciprocal root is `inversesqrt`: of 1 / sqrt(x)
-// a driver makes that in one pipeline and not in another.
+// fused with a sum but by `fma` (build/uncontracted.rs), and a reciprocal root is `inversesqrt`: drivers
+// make that of a quotient in one pipeline and not in another.
 // atan: minimax polynomial of degree 17 on [0, 1], error below 2e-8 in exact arithmetic.
 // exp2: Taylor series of degree 6. log2: exponent from the bits, artanh series of the mantissa, error below 1e-7 (2 ulp of the result).
 #ifndef MATH_GLSL
