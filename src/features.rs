@@ -5,7 +5,7 @@
 use crate::layout::{self, NO_MATERIAL, NO_TEXTURE};
 use crate::named::named_enum;
 use crate::pack::{
-    EntityKind, LightKind, MapKind, PackedScene, ProjectionKind, Sections, SlotCounts, TextureKind,
+    EntityKind, LightKind, MapKind, PackedScene, ProjectionKind, Schedule, Sections, SlotCounts, TextureKind,
 };
 use crate::scene::model::{Footprint, Model, Pattern, ReliefKind};
 use crate::shaders::Shader;
@@ -114,7 +114,8 @@ const FEATURES: &[(&str, &str, Narrow)] = &[
         Modes(ProceduralKind::NAMES, |s| bits(s.procedurals.iter().map(|p| p.link[0]))),
     ),
     ("PROCEDURAL_FILTERED", "filter of procedural textures", Switch(filters_procedurals)),
-    ("COMPENSATED", "second film for rounding errors", Switch(|s| s.samples > CHUNK)),
+    ("COMPENSATED", "second film for rounding errors", Switch(compensates)),
+    ("SCHEDULES", "schedule", Modes(Schedule::NAMES, |s| bit(s.schedule as u32))),
 ];
 
 /// What one pipeline is built for.
@@ -143,7 +144,7 @@ impl Features {
             features.values = FEATURES.iter().map(|&(name, _, narrow)| (name, everything(narrow))).collect();
             return features;
         }
-        features.compensated = scene.samples > CHUNK;
+        features.compensated = compensates(scene);
         for &(name, what, narrow) in FEATURES {
             let value = match narrow {
                 Modes(_, of) | Count(of) => of(scene),
@@ -247,6 +248,11 @@ fn size_kind(texture: &layout::Texture) -> u32 {
 /// Textures that are texels.
 fn stored(scene: &PackedScene) -> impl Iterator<Item = &layout::Texture> {
     scene.textures.iter().filter(|t| t.link[3] != TextureKind::Procedural as u32)
+}
+
+/// Jobs sum in chunks of their own.
+fn compensates(scene: &PackedScene) -> bool {
+    scene.samples > CHUNK && scene.schedule == Schedule::Tiles
 }
 
 fn has_model(scene: &PackedScene, model: Model) -> bool {

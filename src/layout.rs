@@ -137,8 +137,22 @@ pub struct Slice {
     pub band_height: u32,
     pub first_sample: u32,
     pub sample_count: u32,
+    /// Tiles of the film, or a list of jobs: `tiles` is their number then.
+    pub schedule: u32,
 }
-const _: () = assert!(size_of::<Slice>() == 32);
+const _: () = assert!(size_of::<Slice>() == 36);
+
+/// Mirror of the jobs of `render_main.glsl`: samples `first` .. `first + count` of a pixel's half.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
+pub struct Job {
+    /// Column in the low half, row in the high one; rows count from the band's first.
+    pub place: u32,
+    pub half: u32,
+    pub first: u32,
+    pub count: u32,
+}
+const _: () = assert!(size_of::<Job>() == 16);
 
 /// The part of the scene buffer that is also bound as uniforms: `maxUniformBufferRange` is at least
 /// this on every device.

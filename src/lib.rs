@@ -16,6 +16,7 @@
 //! Only [`gpu`] names Vulkan. Each file of [`oracle`] is the float64 twin of a file of `glsl/shared/`;
 //! [`layout`] and [`features`] are the host's side of the two that hold declarations.
 
+pub mod adaptive;
 pub mod cli;
 pub mod color;
 pub mod error;

@@ -54,6 +54,7 @@ layout(constant_id = 54) const uint CUBE_SLOTS = 1u;
 layout(constant_id = 60) const uint PROCEDURALS = DYNAMIC;
 layout(constant_id = 61) const uint PROCEDURAL_KINDS = 0x3FFu;
 layout(constant_id = 62) const bool PROCEDURAL_FILTERED = true; // averaged over footprints
+layout(constant_id = 64) const uint SCHEDULES = 0x3u;
 
 // Where each list begins in the scene buffer, in units of 16 bytes.
 layout(constant_id = 40) const uint PLANES_AT = 0u;

@@ -12,6 +12,9 @@ const uint PATTERN_GRID = 1u;
 const uint PATTERN_RANDOM = 2u;
 const uint PATTERN_STRATIFIED = 3u;
 
+const uint SCHEDULE_TILES = 0u;
+const uint SCHEDULE_JOBS = 1u;
+
 const uint MODEL_UNLIT = 0u;
 const uint MODEL_LAMBERT = 1u;
 const uint MODEL_MIRROR = 2u;

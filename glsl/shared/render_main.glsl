@@ -1,4 +1,4 @@
-// One thread a pixel: the mean of a chunk of samples, added to the film. Tiles of 64 × 64 pixels are
+// One thread a pixel: the sum of a chunk of samples, added to the film. Tiles of 64 × 64 pixels are
 // visited in an order that spreads each slice over the picture, so that a slice's time foretells the
 // next one's. film[pixel] = sum of radiance (rgb); with COMPENSATED, film[pixel + pixels] holds
 // what rounding has lost so far (Kahan 1965), as chunks arrive in a fixed order.
@@ -14,6 +14,10 @@ layout(local_size_x_id = 0, local_size_y_id = 1, local_size_z = 1) in;
 
 layout(std430, set = 0, binding = 0) buffer Film { vec4 film[]; };
 
+// Samples of single pixels: place (x | y << 16), half, first sample, count. A film of jobs holds two halves,
+// each with sums of radiance and of its square's mean over the channels.
+layout(std430, set = 0, binding = 4) readonly buffer Jobs { uvec4 jobs[]; };
+
 layout(push_constant) uniform Slice {
     uint tiles_x;      // tiles across the picture
     uint tiles;        // tiles in this band
@@ -23,6 +27,7 @@ layout(push_constant) uniform Slice {
     uint band_height;
     uint first_sample;
     uint sample_count;
+    uint schedule;     // tiles of the film, or a list of `tiles` jobs
 } slice;
 
 const uint TILE = 64u;
@@ -36,13 +41,38 @@ uvec2 film_pixel() {
     return origin + group * gl_WorkGroupSize.xy + gl_LocalInvocationID.xy;
 }
 
+// What one thread does: samples of one pixel, into one place of the film.
+struct Task {
+    uvec2 place; // in the band
+    uint part; // which half of the samples
+    uint first;
+    uint end;
+};
+
+Task tile_task() {
+    return Task(film_pixel(), 0u, slice.first_sample, slice.first_sample + slice.sample_count);
+}
+
+// Jobs fill tiles one after the other, in the order of the list.
+Task job_task() {
+    uint thread = gl_WorkGroupID.x * gl_WorkGroupSize.x * gl_WorkGroupSize.y + gl_LocalInvocationIndex;
+    uint i = (slice.first_tile + gl_WorkGroupID.y) * (TILE * TILE) + thread;
+    if (i >= slice.tiles) return Task(uvec2(0u, slice.band_height), 0u, 0u, 0u);
+    uvec4 job = jobs[i];
+    return Task(uvec2(job.x & 0xFFFFu, job.x >> 16u), job.y, job.z, job.z + job.w);
+}
+
 void main() {
     Header header = load_header();
     hold_scene();
-    uvec2 place = film_pixel();
-    if (place.x >= header.size.x || place.y >= slice.band_height) return;
-    uvec2 pixel = uvec2(place.x, place.y + slice.band_y) + header.image.zw;
-    uvec2 key = pixel_key(pixel, header.sampling.w, header.key.x != 0u);
+    bool is_job = MODE_IS(SCHEDULES, SCHEDULE_JOBS, slice.schedule);
+    Task task;
+    if (is_job) task = job_task();
+    else task = tile_task();
+    if (task.place.x >= header.size.x || task.place.y >= slice.band_height) return;
+    uvec2 pixel = uvec2(task.place.x, task.place.y + slice.band_y) + header.image.zw;
+    // The second half is as good as another seed.
+    uvec2 key = pixel_key(pixel, header.sampling.w + task.part * 0x9E3779B9u, header.key.x != 0u);
     uint side = COUNT(STRATA_SIDE, header.sampling.y);
     // The number of bits of side - 1 is ceil(log2 side).
     uint side_log2 = uint(findMSB(side - 1u) + 1);
@@ -50,11 +80,12 @@ void main() {
     // One loop for samples and bounces: a turn follows one ray, and a pixel whose path has ended
     // starts its next sample while its neighbours' paths go on.
     vec3 sum = vec3(0.0);
-    uint s = slice.first_sample;
-    uint end = s + slice.sample_count;
+    vec4 chunks = vec4(0.0); // of a job: sums so far, and of squares
+    vec3 seen = vec3(0.0);   // of a job: by the current path
+    uint s = task.first;
     Path path;
     path.goes_on = false;
-    while (s < end) {
+    while (s < task.end) {
         if (!BOUNCES || !path.goes_on) {
             uvec2 position = sample_position(header.sampling.x, key, s, side, side_log2);
             Ray ray = camera_ray(header, pixel, position);
@@ -62,20 +93,39 @@ void main() {
             uvec2 random = RANDOM ? pcg2d(sample_bits(key, s) ^ 0x5BD1E995u) : uvec2(0u);
             path = camera_path(ray, camera_beam(header, ray), random);
         }
-        sum += advance(header, path);
+        vec3 more = advance(header, path);
+        sum += more;
+        if (is_job) {
+            seen += more;
+            if (!path.goes_on) {
+                chunks.w += dot3(seen, seen) * (1.0 / 3.0);
+                seen = vec3(0.0);
+                // Short sums lose less.
+                if ((s & 255u) == 255u) {
+                    chunks.xyz += sum;
+                    sum = vec3(0.0);
+                }
+            }
+        }
         s += path.goes_on ? 0u : 1u;
     }
 
-    uint at = place.y * header.size.x + place.x;
+    uint at = task.place.y * header.size.x + task.place.x;
+    uint pixels = header.size.x * slice.band_height;
+    if (is_job) {
+        at += task.part * pixels;
+        chunks.xyz += sum;
+        film[at] = task.first > 0u ? film[at] + chunks : chunks;
+        return;
+    }
     if (COMPENSATED && slice.first_sample > 0u) {
-        uint lost_at = at + header.size.x * slice.band_height;
-        vec3 term = sum - film[lost_at].xyz;
+        vec3 term = sum - film[at + pixels].xyz;
         vec3 total = film[at].xyz + term;
         vec3 lost = (total - film[at].xyz) - term;
-        film[lost_at] = vec4(lost, 0.0);
+        film[at + pixels] = vec4(lost, 0.0);
         sum = total;
     } else if (COMPENSATED) {
-        film[at + header.size.x * slice.band_height] = vec4(0.0);
+        film[at + pixels] = vec4(0.0);
     }
     film[at] = vec4(sum, 0.0);
 }

@@ -3,9 +3,10 @@
 use clap::Args;
 use serde_json::{Value, json};
 
+use crate::adaptive::Goal;
 use crate::error::{Error, Result};
 use crate::pack::Crop;
-use crate::scene::model::{Algorithm, Footprint, Pattern, Scene};
+use crate::scene::model::{Algorithm, Footprint, Pattern, Sampling, Scene};
 use crate::scene::{both_filters, check_filters, check_shared, check_spp};
 use crate::texture::sampler_spec::{Filter, Method};
 
@@ -21,6 +22,12 @@ pub struct Overrides {
     spp: Option<u32>,
     #[arg(long, value_name = "A", value_parser = named_parser(Algorithm::NAMES, Algorithm::from_name), help = one_of("Algorithm", Algorithm::NAMES))]
     algorithm: Option<Algorithm>,
+    /// Render for this long and then stop, with --algorithm auto unless another is named
+    #[arg(long, value_name = "SECONDS", value_parser = positive, conflicts_with = "target_error")]
+    budget: Option<f64>,
+    /// Render until the picture's RMSE is estimated to be this
+    #[arg(long, value_name = "RMSE", value_parser = positive)]
+    target_error: Option<f64>,
     #[arg(long, value_name = "P", value_parser = named_parser(Pattern::NAMES, Pattern::from_name), help = one_of("Sampling pattern", Pattern::NAMES))]
     pattern: Option<Pattern>,
     /// Seed of the sampling pattern
@@ -46,10 +53,12 @@ impl Overrides {
         }
         let sampling = &mut scene.sampling;
         sampling.spp = self.spp.unwrap_or(sampling.spp);
-        sampling.algorithm = self.algorithm.unwrap_or(sampling.algorithm);
+        let wanted = if self.goal().is_some() { Algorithm::Auto } else { sampling.algorithm };
+        sampling.algorithm = self.algorithm.unwrap_or(wanted);
         sampling.pattern = self.pattern.unwrap_or(sampling.pattern);
         sampling.seed = self.seed.unwrap_or(sampling.seed);
         sampling.footprint = self.footprint.unwrap_or(sampling.footprint);
+        self.suit_adaptive(sampling)?;
         check_shared(sampling.pattern, sampling.shared).map_err(Error::new)?;
         check_spp(sampling.pattern, sampling.spp).map_err(|m| Error::new(format!("--spp: {m}")))?;
         for sampler in &mut scene.samplers {
@@ -59,6 +68,37 @@ impl Overrides {
             }
         }
         check_filters(scene)
+    }
+
+    /// What ends the sampling, if it is not a number of samples.
+    pub fn goal(&self) -> Option<Goal> {
+        self.budget.map(Goal::Seconds).or(self.target_error.map(Goal::Error))
+    }
+
+    /// Sampling that differs from pixel to pixel needs a sequence that may end anywhere.
+    fn suit_adaptive(&self, sampling: &mut Sampling) -> Result<()> {
+        if !sampling.algorithm.is_adaptive() {
+            if self.goal().is_some() {
+                return Err(Error::with_help(
+                    "--budget and --target-error need an algorithm that may choose its samples; \"samples\" takes --spp",
+                    "leave --algorithm away, or use --algorithm adaptive",
+                ));
+            }
+            return Ok(());
+        }
+        if sampling.pattern.any_prefix() {
+            return Ok(());
+        }
+        if let Some(pattern) = self.pattern {
+            let able: Vec<&str> = Pattern::ALL.iter().filter(|p| p.any_prefix()).map(|p| p.name()).collect();
+            return Err(Error::new(format!(
+                "--pattern {pattern}: algorithm \"{}\" stops each pixel at another count, which pattern \"{pattern}\" cannot; use {}",
+                sampling.algorithm,
+                able.join(" or ")
+            )));
+        }
+        sampling.pattern = Pattern::Random;
+        Ok(())
     }
 
     /// What the render used, overridden or not.
@@ -79,6 +119,13 @@ impl Overrides {
             "methods": methods,
             "keep_everything": keep_everything,
         })
+    }
+}
+
+fn positive(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(value) if f64::is_finite(value) && value > 0.0 => Ok(value),
+        _ => Err("expected a number above 0".into()),
     }
 }
 

@@ -10,11 +10,12 @@ use clap::Args;
 use super::overrides::Overrides;
 use super::progress::Bar;
 use super::report::{self, Ran};
+use crate::adaptive::{self, Goal};
 use crate::error::{Error, Result};
 use crate::gpu::{DeviceSelect, Gpu};
 use crate::oracle;
 use crate::output::{self, WriteOptions};
-use crate::pack::{self, Crop, PackedScene};
+use crate::pack::{self, Crop, PackedScene, Schedule};
 use crate::render::{self, Report, TexelChoice, Tuning};
 use crate::scene::advice;
 use crate::scene::model::Scene;
@@ -124,7 +125,8 @@ fn render_on_device(
     })?;
     say_textures(args, &packed);
     let tuning = Tuning { texels: args.texels, group: args.workgroup };
-    let (film, mut report) = render::render(&gpu, packed, args.keep_everything, &tuning, bar)?;
+    let (film, mut report) =
+        render::render_to_goal(&gpu, packed, args.keep_everything, &tuning, args.overrides.goal(), bar)?;
     (report.seconds.startup, report.seconds.load) = (startup, load);
     if let (true, Some(fault)) = (advice::samples_anisotropically(scene), anisotropy_fault(gpu.info())) {
         report.warnings.push(format!("{fault}; --method shader reads the right ones"));
@@ -141,7 +143,16 @@ fn render_on_oracle(args: &RenderArgs, scene: &Scene, bar: &Bar, start: Instant)
     let mut report = Report::default();
     report.seconds.load = start.elapsed().as_secs_f64();
     let clock = Instant::now();
-    let film = oracle::render::render(&packed, bar)?;
+    let film = if packed.schedule == Schedule::Jobs {
+        let goal = args.overrides.goal().unwrap_or(Goal::Samples(packed.samples));
+        let [width, height, _, _] = packed.header.size;
+        let mut tracer = oracle::jobs::JobTracer::new(&packed);
+        let (film, outcome) = adaptive::run(&mut tracer, [width, height], goal, bar)?;
+        report.outcome = Some(outcome);
+        film
+    } else {
+        oracle::render::render(&packed, bar)?
+    };
     report.seconds.render = clock.elapsed().as_secs_f64();
     let driver = format!("moire {} in float64", env!("CARGO_PKG_VERSION"));
     Ok(Ran { device: "oracle".into(), driver, film, report })

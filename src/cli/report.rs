@@ -24,6 +24,7 @@ pub fn json(ran: &Ran, options: Value, outputs: &[String]) -> Value {
         "left_out": ran.report.left_out,
         "warnings": ran.report.warnings,
         "samples": ran.film.samples,
+        "reached": ran.report.outcome,
         "outputs": outputs,
         "seconds": ran.report.seconds,
         "device_seconds": { "render": ran.report.device_render_seconds },
@@ -57,6 +58,16 @@ pub fn say(ran: &Ran, outputs: &[String], verbose: bool) {
         tell(format_args!(
             "device time of rendering: {:.4} s in {} slices",
             report.device_render_seconds, report.slices
+        ));
+    }
+    if let Some(o) = &report.outcome {
+        tell(format_args!(
+            "estimated RMSE {:.2e} after {} passes, {} to {} samples a pixel{}",
+            o.estimated_rmse,
+            o.passes,
+            o.least_samples,
+            o.most_samples,
+            if o.reached { "" } else { "; the goal was not reached" }
         ));
     }
     tell(format_args!(

@@ -8,6 +8,7 @@ pub mod ellipse;
 pub mod filter;
 pub mod footprint;
 pub mod intersect;
+pub mod jobs;
 pub mod levels;
 pub mod light;
 pub mod mapping;

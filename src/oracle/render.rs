@@ -18,23 +18,28 @@ use crate::scene::model::Pattern;
 
 /// The mean radiance of pixel (x, y) of the film: of the crop, where there is one.
 pub fn pixel(scene: &PackedScene, x: u32, y: u32) -> DVec3 {
+    let sum: DVec3 = (0..scene.samples).map(|s| sample(scene, [x, y], 0, s)).sum();
+    sum / f64::from(scene.samples)
+}
+
+/// The radiance of one sample. The second half of an adaptive picture has another seed.
+pub fn sample(scene: &PackedScene, [x, y]: [u32; 2], half: u32, s: u32) -> DVec3 {
     let header = &scene.header;
     let [pattern, side, side_log2, seed] = header.sampling;
     let pattern = Pattern::ALL[pattern as usize];
     let place = [x + header.image[2], y + header.image[3]];
+    let seed = seed.wrapping_add(half.wrapping_mul(0x9E37_79B9));
     let key = pixel_key(place, seed, header.key[0] != 0);
+    let position = sample_position(pattern, key, s, side, side_log2);
+    let ray = camera_ray(header, place, position);
+    // Bits that have nothing to do with the sample's position.
+    let random = pcg2d(sample_bits(key, s).map(|bits| bits ^ 0x5BD1_E995));
+    let mut path = camera_path(ray, camera_beam(header, &ray), random);
     let mut sum = DVec3::ZERO;
-    for s in 0..scene.samples {
-        let position = sample_position(pattern, key, s, side, side_log2);
-        let ray = camera_ray(header, place, position);
-        // Bits that have nothing to do with the sample's position.
-        let random = pcg2d(sample_bits(key, s).map(|bits| bits ^ 0x5BD1_E995));
-        let mut path = camera_path(ray, camera_beam(header, &ray), random);
-        while path.goes_on {
-            sum += advance(scene, &mut path);
-        }
+    while path.goes_on {
+        sum += advance(scene, &mut path);
     }
-    sum / f64::from(scene.samples)
+    sum
 }
 
 /// The whole film. Rows are shared out over the cores; the result does not depend on how.

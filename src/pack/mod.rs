@@ -14,7 +14,7 @@ use crate::error::Result;
 use crate::layout::{self, Header};
 use crate::named::named_enum;
 use crate::scene::model::{
-    Environment, EnvironmentLayout, Footprint, Light, Material, Model, Pattern, Projection, Scene,
+    Algorithm, Environment, EnvironmentLayout, Footprint, Light, Material, Model, Pattern, Projection, Scene,
 };
 use crate::texture::data::TextureData;
 use crate::texture::sampler_spec::{Address, Method, SamplerSpec};
@@ -75,6 +75,22 @@ named_enum! {
     }
 }
 
+named_enum! {
+    /// `SCHEDULE_*` of the shader: how samples are handed out to threads.
+    pub enum Schedule {
+        /// Equally many to each pixel, tile by tile.
+        Tiles = "tiles",
+        /// By a list of jobs.
+        Jobs = "jobs",
+    }
+}
+
+impl Default for Schedule {
+    fn default() -> Self {
+        Schedule::Tiles
+    }
+}
+
 /// A part of the picture, in pixels of the full picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Crop {
@@ -116,6 +132,7 @@ pub struct PackedScene {
     pub summed_tables: bool,
     /// Samples per pixel.
     pub samples: u32,
+    pub schedule: Schedule,
 }
 
 /// Where each list begins in the scene buffer, in units of 16 bytes.
@@ -144,7 +161,11 @@ pub struct SlotCounts {
 /// Packs what the scene shows; textures and samplers that no shape reaches are not in `scene`.
 pub fn pack(scene: &Scene, textures: Vec<TextureData>, crop: Option<Crop>) -> Result<PackedScene> {
     let crop = crop.unwrap_or(Crop { x: 0, y: 0, width: scene.width, height: scene.height });
-    let mut packed = PackedScene { samples: scene.sampling.samples(), ..Default::default() };
+    let schedule = match scene.sampling.algorithm {
+        Algorithm::Samples => Schedule::Tiles,
+        Algorithm::Adaptive | Algorithm::Auto => Schedule::Jobs,
+    };
+    let mut packed = PackedScene { samples: scene.sampling.samples(), schedule, ..Default::default() };
     packed.header = header(scene, crop);
     let filtered = packed.header.key[2] != Footprint::None as u32;
     packed.sampler_specs = scene.samplers.clone();

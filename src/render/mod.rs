@@ -2,6 +2,7 @@
 //! slices, film read back. Orchestrates `gpu`'s own types and knows nothing of Vulkan's.
 
 mod film_buffer;
+mod jobs;
 mod resources;
 mod slices;
 mod tuning;
@@ -10,16 +11,18 @@ use std::time::Instant;
 
 use serde::Serialize;
 
+use crate::adaptive::{self, Goal, Outcome};
 use crate::error::{Error, Result};
 use crate::features::{self, Features};
 use crate::film::Film;
 use crate::gpu::{BindGroup, BindingDesc, BindingKind, Gpu, Pipeline, PipelineDesc};
 use crate::layout::Slice;
-use crate::pack::{PackedScene, SlotCounts};
+use crate::pack::{PackedScene, Schedule, SlotCounts};
 use crate::progress::Progress;
 use crate::shaders::{ReflectedBinding, Shader, specialise};
 
 use film_buffer::{Band, FilmBuffer};
+use jobs::{Binder, JobTracer};
 use resources::shader_for;
 
 pub(crate) use resources::Resources;
@@ -50,6 +53,8 @@ pub struct Report {
     /// What a person should know before looking at the picture.
     pub warnings: Vec<String>,
     pub seconds: Seconds,
+    /// How far sampling to a goal came.
+    pub outcome: Option<Outcome>,
     /// Device timestamps around the slices, summed.
     pub device_render_seconds: f64,
     pub slices: u32,
@@ -62,9 +67,22 @@ pub struct Report {
 /// Renders on an open device. The texels of `scene` leave the host's memory once the device has them.
 pub fn render(
     gpu: &Gpu,
+    scene: PackedScene,
+    keep_everything: bool,
+    tuning: &Tuning,
+    progress: &dyn Progress,
+) -> Result<(Film, Report)> {
+    render_to_goal(gpu, scene, keep_everything, tuning, None, progress)
+}
+
+/// The same; of a scene that is sampled by jobs, `goal` says when it is done, without one its own number of
+/// samples.
+pub fn render_to_goal(
+    gpu: &Gpu,
     mut scene: PackedScene,
     keep_everything: bool,
     tuning: &Tuning,
+    goal: Option<Goal>,
     progress: &dyn Progress,
 ) -> Result<(Film, Report)> {
     let mut report = Report::default();
@@ -74,7 +92,6 @@ pub fn render(
 
     let clock = Instant::now();
     let resources = Resources::upload(gpu, &scene, &features)?;
-    let film_buffer = FilmBuffer::new(gpu, &scene, &features)?;
     scene.texels = Vec::new();
     report.seconds.upload = clock.elapsed().as_secs_f64();
 
@@ -84,12 +101,28 @@ pub fn render(
     let slots = scene.slot_counts();
     let constants = features::constants(shader, &features, &resources.sections, group_size, slots);
     let pipeline = build_pipeline(gpu, shader, &constants, slots, size_of::<Slice>())?;
+    let groups_per_tile = tuning::groups_per_tile(group_size);
+    let [width, height, _, _] = scene.header.size;
+    if scene.schedule == Schedule::Jobs {
+        let binder = Binder { resources: &resources, pipeline: &pipeline, shader };
+        let mut tracer = JobTracer::new(gpu, binder, groups_per_tile, [width, height], &mut report)?;
+        tracer.warm_up()?;
+        let compile = clock.elapsed().as_secs_f64();
+        let clock = Instant::now();
+        let goal = goal.unwrap_or(Goal::Samples(scene.samples));
+        let (film, outcome) = adaptive::run(&mut tracer, [width, height], goal, progress)?;
+        (report.seconds.compile, report.seconds.render) = (compile, clock.elapsed().as_secs_f64());
+        report.outcome = Some(outcome);
+        report.device_bytes = gpu.memory_in_use();
+        return Ok((film, report));
+    }
+    let film_buffer = FilmBuffer::new(gpu, &scene, &features)?;
     let group = resources.bind(gpu, &pipeline, shader, &film_buffer.buffer, None)?;
-    let renderer = Renderer { gpu, pipeline, group, groups_per_tile: tuning::groups_per_tile(group_size) };
+    let renderer = Renderer { gpu, pipeline, group, groups_per_tile };
     renderer.warm_up(&film_buffer)?;
     report.seconds.compile = clock.elapsed().as_secs_f64();
 
-    let mut film = Film::new(scene.header.size[0], scene.header.size[1], scene.samples);
+    let mut film = Film::new(width, height, scene.samples);
     let mut plan = slices::Plan::new(scene.samples, film_buffer.tiles());
     for band in film_buffer.bands() {
         let clock = Instant::now();

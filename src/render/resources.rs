@@ -59,8 +59,8 @@ impl Resources {
         Ok(Resources { sections, scene, texels, images, volumes, cubes })
     }
 
-    /// The shader's bindings with what they bind: 0 what it writes, 4 a list of queries, the other
-    /// storage buffers the scene.
+    /// The shader's bindings with what they bind: 0 what it writes, 4 a list of queries or jobs (any buffer
+    /// where none is read), the other storage buffers the scene.
     pub fn bind(
         &self,
         gpu: &Gpu,
@@ -73,7 +73,7 @@ impl Resources {
         let resource = |b: &ReflectedBinding| {
             let resource = match (b.kind, b.binding) {
                 (BindingKind::StorageBuffer, 0) => Bound::Buffer(output),
-                (BindingKind::StorageBuffer, 4) => Bound::Buffer(queries?),
+                (BindingKind::StorageBuffer, 4) => Bound::Buffer(queries.unwrap_or(&self.scene)),
                 (BindingKind::StorageBuffer, _) => Bound::Buffer(&self.scene),
                 (BindingKind::UniformBuffer, _) => Bound::Head(&self.scene, HEAD_BYTES as u64),
                 (BindingKind::TexelBuffer, _) => Bound::Texels(self.texels.as_ref()?),

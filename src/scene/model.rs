@@ -78,7 +78,12 @@ pub enum Projection {
 named_enum! {
     /// How many rays a pixel sends and what becomes of them (`[sampling] algorithm`).
     pub enum Algorithm {
+        /// As many as asked for, the same number in each pixel.
         Samples = "samples",
+        /// More where the picture errs more.
+        Adaptive = "adaptive",
+        /// What meets the goal of `--budget` or `--target-error` soonest.
+        Auto = "auto",
     }
 }
 
@@ -100,6 +105,21 @@ named_enum! {
         Cone = "cone",
         /// Two vectors each of origin and direction (Igehy 1999).
         Differentials = "differentials",
+    }
+}
+
+impl Algorithm {
+    /// Whether pixels may get different numbers of samples.
+    pub fn is_adaptive(self) -> bool {
+        self != Algorithm::Samples
+    }
+}
+
+impl Pattern {
+    /// Whether sampling may end after any number of samples, each beginning of the sequence being as good
+    /// as it can.
+    pub fn any_prefix(self) -> bool {
+        self == Pattern::Random
     }
 }
 

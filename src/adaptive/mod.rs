@@ -1,0 +1,156 @@
+//! Samples where they lower the error most: jobs for a tracer out, sums of two independent halves in,
+//! until a goal is met. Each pass estimates every pixel's error from the halves and from the spread of
+//! its samples (Rousselle et al. 2011, "Adaptive Sampling and Reconstruction"), and asks for what a
+//! Lagrange multiplier gives each pixel so that the whole picture's error falls fastest.
+
+mod allocate;
+mod estimate;
+
+use std::time::Instant;
+
+use serde::Serialize;
+
+use crate::error::Result;
+use crate::film::Film;
+use crate::layout::Job;
+use crate::progress::Progress;
+
+use allocate::{Aim, Allocation};
+use estimate::Estimate;
+
+/// What ends the sampling.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Goal {
+    /// Samples a pixel, on average.
+    Samples(u32),
+    /// The picture's RMSE against its converged self.
+    Error(f64),
+    /// Wall seconds of sampling.
+    Seconds(f64),
+}
+
+/// Who takes the samples.
+pub trait Tracer {
+    /// Adds the samples of each job to its pixel of its half. No two jobs of a call are of one pixel and
+    /// one half.
+    fn sample(&mut self, jobs: &[Job], progress: &dyn Progress) -> Result<()>;
+    /// The sums so far.
+    fn read(&mut self, sums: &mut Sums) -> Result<()>;
+}
+
+/// Of each half, row by row: sums of red, green, blue, and of their squares' mean.
+pub struct Sums {
+    pub width: u32,
+    pub height: u32,
+    pub halves: [Vec<[f32; 4]>; 2],
+}
+
+/// What was reached.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Outcome {
+    /// RMSE by the difference of the halves.
+    pub estimated_rmse: f64,
+    pub passes: u32,
+    pub mean_samples: f64,
+    pub least_samples: u32,
+    pub most_samples: u32,
+    /// Whether the goal was met before the limit of samples.
+    pub reached: bool,
+}
+
+/// Samples of each half in the first pass: enough to meet the edge of a shape that covers a tenth of the
+/// pixel with a chance of 4 in 5.
+const FIRST: u32 = 8;
+/// A pixel's count grows at most so much from one pass to the next: what is known of it is that rough.
+const GROWTH: f64 = 8.0;
+/// Samples of a half; a job's count is a `u32`, and f32 sums stay exact enough.
+const MOST: u32 = 1 << 16;
+/// The estimate leans towards pixels whose halves agree by chance; the aim lies below the goal by so much.
+const MARGIN: f64 = 0.94;
+/// Part of the remaining time that a pass is planned for.
+const OF_TIME: f64 = 0.85;
+
+pub fn run(
+    tracer: &mut dyn Tracer,
+    [width, height]: [u32; 2],
+    goal: Goal,
+    progress: &dyn Progress,
+) -> Result<(Film, Outcome)> {
+    let start = Instant::now();
+    let pixels = width as usize * height as usize;
+    let half = || vec![[0.0; 4]; pixels];
+    let mut sums = Sums { width, height, halves: [half(), half()] };
+    let mut counts = vec![0u32; pixels];
+    let mut next = vec![first_count(goal); pixels];
+    let mut outcome = Outcome::default();
+    let mut taken;
+    let mut exponent = estimate::Exponent::default();
+    loop {
+        tracer.sample(&jobs(&counts, &next, width), progress)?;
+        counts.clone_from(&next);
+        tracer.read(&mut sums)?;
+        taken = total(&counts);
+        outcome.passes += 1;
+
+        let estimate = Estimate::new(&sums, &counts);
+        exponent.learn(taken, estimate.mse);
+        outcome.estimated_rmse = estimate.mse.sqrt();
+        let elapsed = start.elapsed().as_secs_f64();
+        let aim = match goal {
+            Goal::Samples(spp) => Aim::Samples(f64::from(spp) * pixels as f64),
+            Goal::Error(rmse) => Aim::Mse((rmse * MARGIN).powi(2)),
+            Goal::Seconds(limit) => {
+                Aim::Samples(taken + taken / elapsed * (limit - elapsed).max(0.0) * OF_TIME)
+            }
+        };
+        outcome.reached = match aim {
+            Aim::Samples(all) => taken * 1.02 >= all,
+            Aim::Mse(mse) => estimate.mse <= mse,
+        };
+        if outcome.reached {
+            break;
+        }
+        let allocation = Allocation::new(&estimate, &counts, exponent.value());
+        next = allocation.counts(aim, &counts, GROWTH, MOST);
+        if next == counts {
+            break;
+        }
+        progress.advance((taken / total(&next)).min(1.0));
+    }
+    outcome.mean_samples = taken / pixels as f64;
+    outcome.least_samples = 2 * counts.iter().copied().min().unwrap_or(0);
+    outcome.most_samples = 2 * counts.iter().copied().max().unwrap_or(0);
+    Ok((film(&sums, &counts), outcome))
+}
+
+fn first_count(goal: Goal) -> u32 {
+    match goal {
+        Goal::Samples(spp) => (spp / 8).clamp(1, FIRST),
+        Goal::Error(_) | Goal::Seconds(_) => FIRST,
+    }
+}
+
+/// Of both halves.
+fn total(counts: &[u32]) -> f64 {
+    2.0 * counts.iter().map(|&n| f64::from(n)).sum::<f64>()
+}
+
+/// From `counts` to `next` samples in each half of each pixel, longest first: neighbouring threads then
+/// have equally much to do.
+fn jobs(counts: &[u32], next: &[u32], width: u32) -> Vec<Job> {
+    let mut grown: Vec<usize> = (0..counts.len()).filter(|&i| next[i] > counts[i]).collect();
+    grown.sort_by_key(|&i| std::cmp::Reverse(next[i] - counts[i]));
+    let place = |i: usize| (i as u32 / width) << 16 | (i as u32 % width);
+    let job = |i: usize, half| Job { place: place(i), half, first: counts[i], count: next[i] - counts[i] };
+    grown.iter().flat_map(|&i| [job(i, 0), job(i, 1)]).collect()
+}
+
+fn film(sums: &Sums, counts: &[u32]) -> Film {
+    let mean = total(counts) / counts.len() as f64;
+    let mut film = Film::new(sums.width, sums.height, mean.round() as u32);
+    for (i, pixel) in film.pixels.iter_mut().enumerate() {
+        let sum = |c: usize| f64::from(sums.halves[0][i][c]) + f64::from(sums.halves[1][i][c]);
+        *pixel = std::array::from_fn(|c| (sum(c) / (2.0 * f64::from(counts[i]))) as f32);
+    }
+    film
+}

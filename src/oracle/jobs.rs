@@ -1,0 +1,60 @@
+//! Lists of jobs → sums of two halves, in f64 on all cores. Twin of the jobs of
+//! `glsl/shared/render_main.glsl`.
+
+use rayon::prelude::*;
+
+use super::render::sample;
+use crate::adaptive::{Sums, Tracer};
+use crate::error::{Error, Result};
+use crate::layout::Job;
+use crate::pack::PackedScene;
+use crate::progress::Progress;
+
+pub struct JobTracer<'a> {
+    scene: &'a PackedScene,
+    /// Of each half: red, green, blue, squares' mean.
+    halves: [Vec<[f64; 4]>; 2],
+}
+
+impl JobTracer<'_> {
+    pub fn new(scene: &PackedScene) -> JobTracer<'_> {
+        let [width, height, _, _] = scene.header.size;
+        let half = || vec![[0.0; 4]; width as usize * height as usize];
+        JobTracer { scene, halves: [half(), half()] }
+    }
+
+    fn sum(&self, job: &Job) -> [f64; 4] {
+        let place = [job.place & 0xFFFF, job.place >> 16];
+        let mut sum = [0.0; 4];
+        for s in job.first..job.first + job.count {
+            let seen = sample(self.scene, place, job.half, s);
+            let terms = [seen.x, seen.y, seen.z, seen.length_squared() / 3.0];
+            sum = std::array::from_fn(|i| sum[i] + terms[i]);
+        }
+        sum
+    }
+}
+
+impl Tracer for JobTracer<'_> {
+    fn sample(&mut self, jobs: &[Job], progress: &dyn Progress) -> Result<()> {
+        let of_job = |job: &Job| if progress.cancelled() { [0.0; 4] } else { self.sum(job) };
+        let sums: Vec<[f64; 4]> = jobs.par_iter().map(of_job).collect();
+        if progress.cancelled() {
+            return Err(Error::Interrupted);
+        }
+        let width = self.scene.header.size[0];
+        for (job, sum) in jobs.iter().zip(sums) {
+            let at = ((job.place >> 16) * width + (job.place & 0xFFFF)) as usize;
+            let total = &mut self.halves[job.half as usize][at];
+            *total = std::array::from_fn(|i| total[i] + sum[i]);
+        }
+        Ok(())
+    }
+
+    fn read(&mut self, sums: &mut Sums) -> Result<()> {
+        for (out, half) in sums.halves.iter_mut().zip(&self.halves) {
+            out.iter_mut().zip(half).for_each(|(out, sum)| *out = sum.map(|v| v as f32));
+        }
+        Ok(())
+    }
+}

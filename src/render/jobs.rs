@@ -1,0 +1,161 @@
+//! Lists of jobs → sums of two halves on the device, for sampling that differs from pixel to pixel. The
+//! film lies in pages of whole rows that the device's buffers can hold; each page has its own list.
+
+use super::{Report, Resources};
+use crate::adaptive::{Sums, Tracer};
+use crate::error::{Error, Result};
+use crate::gpu::{BindGroup, Buffer, BufferUse, Gpu, Pipeline};
+use crate::layout::{Job, Slice, TILE};
+use crate::pack::Schedule;
+use crate::progress::Progress;
+use crate::shaders::Shader;
+
+/// Four floats, twice.
+const PIXEL_BYTES: u64 = 32;
+const MAX_PAGE_BYTES: u64 = 64 << 20;
+/// What one submission aims at, and the samples of the first.
+const TARGET_SECONDS: f64 = 0.15;
+const FIRST_SAMPLES: f64 = (1u32 << 20) as f64;
+const JOBS_PER_TILE: usize = (TILE * TILE) as usize;
+/// `maxComputeWorkGroupCount` is at least this on every device.
+const MAX_TILES: usize = 65_535;
+
+struct Page {
+    y: u32,
+    height: u32,
+    film: Buffer,
+}
+
+/// What binding a list of jobs takes.
+pub struct Binder<'a> {
+    pub resources: &'a Resources,
+    pub pipeline: &'a Pipeline,
+    pub shader: &'a Shader,
+}
+
+impl Binder<'_> {
+    fn bind(&self, gpu: &Gpu, film: &Buffer, jobs: &Buffer) -> Result<BindGroup> {
+        self.resources.bind(gpu, self.pipeline, self.shader, film, Some(jobs))
+    }
+}
+
+pub struct JobTracer<'a> {
+    gpu: &'a Gpu,
+    binder: Binder<'a>,
+    groups_per_tile: u32,
+    pages: Vec<Page>,
+    report: &'a mut Report,
+    /// Samples of the next submission, learnt from the last ones.
+    next: f64,
+}
+
+impl<'a> JobTracer<'a> {
+    pub fn new(
+        gpu: &'a Gpu,
+        binder: Binder<'a>,
+        groups_per_tile: u32,
+        [width, height]: [u32; 2],
+        report: &'a mut Report,
+    ) -> Result<JobTracer<'a>> {
+        let limits = &gpu.info().limits;
+        let row = u64::from(width) * PIXEL_BYTES;
+        let rows =
+            (MAX_PAGE_BYTES.min(limits.max_storage_buffer_range) / row).clamp(1, u64::from(height)) as u32;
+        let page = |y: u32| {
+            let height = rows.min(height - y);
+            let film = gpu.buffer("film", row * u64::from(height), BufferUse::Storage)?;
+            Ok(Page { y, height, film })
+        };
+        let pages = (0..height).step_by(rows as usize).map(page).collect::<Result<Vec<_>>>()?;
+        Ok(JobTracer { gpu, binder, groups_per_tile, pages, report, next: FIRST_SAMPLES })
+    }
+
+    /// One workgroup without a job: whatever the driver compiles late, it compiles now.
+    pub fn warm_up(&self) -> Result<()> {
+        let Some(page) = self.pages.first() else { return Ok(()) };
+        let jobs = self.gpu.upload_buffer("jobs", BufferUse::Storage, bytemuck::bytes_of(&Job::default()))?;
+        let group = self.binder.bind(self.gpu, &page.film, &jobs)?;
+        let slice = Slice { tiles: 1, ..page.slice() };
+        self.gpu.run(self.binder.pipeline, &group, bytemuck::bytes_of(&slice), [1, 1, 1])?;
+        Ok(())
+    }
+
+    /// The list in submissions of whole tiles, each as long as the last ones allow.
+    fn page(&mut self, index: usize, list: &[Job], progress: &dyn Progress) -> Result<()> {
+        let page = &self.pages[index];
+        let jobs = self.gpu.upload_buffer("jobs", BufferUse::Storage, bytemuck::cast_slice(list))?;
+        let group = self.binder.bind(self.gpu, &page.film, &jobs)?;
+        let slice = Slice { tiles: list.len() as u32, ..page.slice() };
+        let costs: Vec<f64> =
+            list.chunks(JOBS_PER_TILE).map(|tile| tile.iter().map(|j| f64::from(j.count)).sum()).collect();
+        let mut first = 0;
+        while first < costs.len() {
+            let (mut tiles, mut samples) = (1, costs[first]);
+            while first + tiles < costs.len()
+                && tiles < MAX_TILES
+                && samples + costs[first + tiles] <= self.next
+            {
+                samples += costs[first + tiles];
+                tiles += 1;
+            }
+            let slice = Slice { first_tile: first as u32, ..slice };
+            let groups = [self.groups_per_tile, tiles as u32, 1];
+            let time = self.gpu.run(self.binder.pipeline, &group, bytemuck::bytes_of(&slice), groups)?;
+            self.next = samples * (TARGET_SECONDS / time.wall_seconds.max(1e-6)).min(16.0);
+            self.report.device_render_seconds += time.device_seconds;
+            self.report.slices += 1;
+            self.report.longest_slice_seconds = self.report.longest_slice_seconds.max(time.wall_seconds);
+            if progress.cancelled() {
+                return Err(Error::Interrupted);
+            }
+            first += tiles;
+        }
+        Ok(())
+    }
+}
+
+impl Page {
+    fn slice(&self) -> Slice {
+        Slice {
+            band_y: self.y,
+            band_height: self.height,
+            schedule: Schedule::Jobs as u32,
+            ..Default::default()
+        }
+    }
+}
+
+impl Tracer for JobTracer<'_> {
+    fn sample(&mut self, jobs: &[Job], progress: &dyn Progress) -> Result<()> {
+        if let [page] = self.pages.as_slice() {
+            debug_assert_eq!(page.y, 0);
+            return self.page(0, jobs, progress);
+        }
+        for index in 0..self.pages.len() {
+            let page = &self.pages[index];
+            let rows = page.y..page.y + page.height;
+            let own = jobs.iter().filter(|j| rows.contains(&(j.place >> 16)));
+            let list: Vec<Job> = own.map(|j| Job { place: j.place - (page.y << 16), ..*j }).collect();
+            if !list.is_empty() {
+                self.page(index, &list, progress)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn read(&mut self, sums: &mut Sums) -> Result<()> {
+        for page in &self.pages {
+            let pixels = page.height as usize * sums.width as usize;
+            let first = page.y as usize * sums.width as usize;
+            for (half, out) in sums.halves.iter_mut().enumerate() {
+                let offset = (half * pixels * size_of::<[f32; 4]>()) as u64;
+                self.gpu.read_buffer(
+                    &page.film,
+                    offset,
+                    bytemuck::cast_slice_mut(&mut out[first..first + pixels]),
+                )?;
+            }
+        }
+        Ok(())
+    }
+}
