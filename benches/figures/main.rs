@@ -1,10 +1,11 @@
 //! The figures that the README states, measured anew: `cargo bench`, and `cargo bench -- filters` for the
-//! errors of filters at equal time. Runs the program itself on the
+//! errors of filters at equal time, `cargo bench -- mips` for mip pyramids alone. Runs the program itself on the
 //! scenes of `data/scenes/bench` and prints Markdown: medians over whole processes, the ratio of lean
 //! to full pipelines from runs in turn, errors against the float64 references.
 //! `MOIRE_DEVICE` chooses the device (default cpu), `MOIRE_BENCH_RUNS` the number of runs (default 5).
 
 mod equal_time;
+mod mips;
 
 use std::path::Path;
 use std::process::Command;
@@ -150,8 +151,12 @@ fn main() -> Outcome<()> {
     if std::env::args().any(|argument| argument == "filters") {
         return equal_time::table(&bench);
     }
+    if std::env::args().any(|argument| argument == "mips") {
+        return mips::table(&bench);
+    }
     bench.times()?;
     bench.lean()?;
+    mips::table(&bench)?;
     if first.json["driver"].as_str().is_some_and(|d| !d.contains("llvmpipe")) {
         bench.large()?;
     }
