@@ -7,7 +7,7 @@
 mod equal_time;
 mod mips;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::Instant;
 
@@ -25,6 +25,11 @@ impl Run {
     fn figure(&self, pointer: &str) -> f64 {
         self.json.pointer(pointer).and_then(Value::as_f64).unwrap_or(f64::NAN)
     }
+}
+
+/// `MOIRE_BIN`, else the program that was built with this.
+fn program() -> PathBuf {
+    std::env::var_os("MOIRE_BIN").map_or(env!("CARGO_BIN_EXE_moire").into(), PathBuf::from)
 }
 
 struct Bench {
@@ -48,7 +53,7 @@ impl Bench {
 
     fn run_file(&self, scene: &str, options: &[&str], environment: &[(&str, &str)]) -> Outcome<Run> {
         let clock = Instant::now();
-        let output = Command::new(env!("CARGO_BIN_EXE_moire"))
+        let output = Command::new(program())
             .args(["render", scene, "-o", &self.out(), "--json", "-q", "--device", &self.device])
             .args(options)
             .envs(environment.iter().copied())
