@@ -3,6 +3,8 @@
 
 mod film_buffer;
 mod jobs;
+mod pool;
+mod pyramids;
 mod resources;
 mod slices;
 mod tuning;
@@ -25,9 +27,10 @@ use film_buffer::{Band, FilmBuffer};
 use jobs::{Binder, JobTracer};
 use resources::shader_for;
 
+pub(crate) use pyramids::{Maker, Top};
 pub(crate) use resources::Resources;
 pub use resources::can_sample;
-pub use tuning::{TexelChoice, Tuning};
+pub use tuning::{MipChoice, TexelChoice, Tuning};
 
 /// Wall seconds by stage, in the order in which they come.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
@@ -57,6 +60,8 @@ pub struct Report {
     pub outcome: Option<Outcome>,
     /// Device timestamps around the slices, summed.
     pub device_render_seconds: f64,
+    /// The same around the passes that make levels of textures, if there were any.
+    pub device_mips_seconds: Option<f64>,
     pub slices: u32,
     /// Wall time of the longest slice: how long a Ctrl-C may wait.
     pub longest_slice_seconds: f64,
@@ -93,6 +98,7 @@ pub fn render_to_goal(
     let clock = Instant::now();
     let resources = Resources::upload(gpu, &scene, &features)?;
     scene.texels = Vec::new();
+    report.device_mips_seconds = resources.mips_seconds;
     report.seconds.upload = clock.elapsed().as_secs_f64();
 
     let clock = Instant::now();
