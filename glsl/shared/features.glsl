@@ -7,8 +7,9 @@
 const uint DYNAMIC = 0xFFFFFFFFu; // "read the number from the scene"
 
 layout(constant_id = 2) const uint PROJECTIONS = 0x3u;
-layout(constant_id = 3) const uint PATTERNS = 0xFu;
+layout(constant_id = 3) const uint PATTERNS = 0x1FFu;
 layout(constant_id = 4) const uint STRATA_SIDE = DYNAMIC;
+layout(constant_id = 64) const uint SAMPLES = DYNAMIC;
 layout(constant_id = 5) const uint PLANES = DYNAMIC;
 layout(constant_id = 6) const uint SPHERES = DYNAMIC;
 layout(constant_id = 7) const uint TRIANGLES = DYNAMIC;
