@@ -62,6 +62,7 @@ const FEATURES: &[(&str, &str, Narrow)] = &[
     ("PROJECTIONS", "projection", Modes(ProjectionKind::NAMES, |s| bit(s.header.size[2]))),
     ("PATTERNS", "pattern", Modes(Pattern::NAMES, |s| bit(s.header.sampling[0]))),
     ("STRATA_SIDE", "number of strata read at run time", Count(|s| s.header.sampling[1])),
+    ("SAMPLES", "number of samples read at run time", Count(counted_samples)),
     ("PLANES", "loop over planes", Count(|s| unrolled(s.planes.len()))),
     ("SPHERES", "loop over spheres", Count(|s| unrolled(s.spheres.len()))),
     ("TRIANGLES", "loop over triangles", Count(|s| unrolled(s.triangles.len()))),
@@ -229,6 +230,12 @@ fn bit(mode: u32) -> u32 {
 
 fn bits(modes: impl Iterator<Item = u32>) -> u32 {
     modes.fold(0, |mask, mode| mask | bit(mode))
+}
+
+/// The number of samples, where positions depend on it: pipelines without it serve any number.
+fn counted_samples(scene: &PackedScene) -> u32 {
+    let [pattern, _, samples, _] = scene.header.sampling;
+    if Pattern::ALL[pattern as usize].goes_on() { 0 } else { samples }
 }
 
 fn unrolled(count: usize) -> u32 {

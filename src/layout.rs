@@ -35,7 +35,7 @@ mirror!(Header, 9, {
     image: [u32; 4],
     /// Film width, film height, projection, max depth.
     size: [u32; 4],
-    /// Pattern, strata a side, ceil(log2(side)), seed.
+    /// Pattern, strata a side, samples, seed.
     sampling: [u32; 4],
     /// 1 when all pixels share their displacements; lights.
     /// Footprint, the environment's map.

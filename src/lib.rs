@@ -29,6 +29,7 @@ mod named;
 pub mod oracle;
 pub mod output;
 pub mod pack;
+pub mod pattern;
 pub mod probe;
 pub mod progress;
 pub mod render;

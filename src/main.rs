@@ -4,7 +4,7 @@
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
-use moire::cli::{self, compare, devices, render, texture, verify};
+use moire::cli::{self, compare, devices, pattern, render, texture, verify};
 use moire::error::Error;
 
 /// Renders textured scenes with Vulkan compute, with or without a GPU
@@ -25,6 +25,8 @@ enum Command {
     Devices(devices::DevicesArgs),
     /// Describe a texture file, and say whether it tiles
     Texture(texture::TextureArgs),
+    /// Show a sample pattern and its power spectrum
+    Pattern(pattern::PatternArgs),
     /// Hold a device's samplers against the float64 oracle
     Verify(verify::VerifyArgs),
 }
@@ -35,6 +37,7 @@ fn main() -> ExitCode {
         Command::Compare(args) => compare::run(&args),
         Command::Devices(args) => devices::run(&args),
         Command::Texture(args) => texture::run(&args),
+        Command::Pattern(args) => pattern::run(&args),
         Command::Verify(args) => verify::run(&args),
     };
     result.unwrap_or_else(|error| {

@@ -197,18 +197,28 @@ pub fn procedurals(
     run(gpu, scene, &features, &shaders::PROBE_PROCEDURAL, list, queries.len(), &[])
 }
 
-/// The positions of all samples of the first `pixels` pixels of a picture `width` wide, sample by
-/// sample within a pixel, as integers of 24 bits.
+/// Which positions: those of `samples` samples from `first` on of the first `pixels` pixels of a picture
+/// `width` wide.
+#[derive(Clone, Copy, Debug)]
+pub struct Positions {
+    pub pair: u32,
+    pub width: u32,
+    pub pixels: u32,
+    pub first: u32,
+    pub samples: u32,
+}
+
+/// Positions sample by sample within a pixel, as integers of 24 bits.
 pub fn positions(
     gpu: &Gpu,
     scene: &PackedScene,
     keep_everything: bool,
-    width: u32,
-    pixels: u32,
+    which: &Positions,
 ) -> Result<Vec<[u32; 2]>> {
     let features = Features::new(scene, false, keep_everything);
-    let count = pixels as usize * scene.samples as usize;
-    run(gpu, scene, &features, &shaders::STRATA, None, count, &[scene.samples, width])
+    let count = which.pixels as usize * which.samples as usize;
+    let push = [which.samples, which.width, which.pair, which.first];
+    run(gpu, scene, &features, &shaders::STRATA, None, count, &push)
 }
 
 /// One dispatch with a thread an answer. The push constants are the count and then `push`.

@@ -7,8 +7,9 @@
 const uint DYNAMIC = 0xFFFFFFFFu; // "read the number from the scene"
 
 layout(constant_id = 2) const uint PROJECTIONS = 0x3u;
-layout(constant_id = 3) const uint PATTERNS = 0xFu;
+layout(constant_id = 3) const uint PATTERNS = 0x1FFu;
 layout(constant_id = 4) const uint STRATA_SIDE = DYNAMIC;
+layout(constant_id = 64) const uint SAMPLES = DYNAMIC;
 layout(constant_id = 5) const uint PLANES = DYNAMIC;
 layout(constant_id = 6) const uint SPHERES = DYNAMIC;
 layout(constant_id = 7) const uint TRIANGLES = DYNAMIC;
@@ -54,7 +55,7 @@ layout(constant_id = 54) const uint CUBE_SLOTS = 1u;
 layout(constant_id = 60) const uint PROCEDURALS = DYNAMIC;
 layout(constant_id = 61) const uint PROCEDURAL_KINDS = 0x3FFu;
 layout(constant_id = 62) const bool PROCEDURAL_FILTERED = true; // averaged over footprints
-layout(constant_id = 64) const uint SCHEDULES = 0x3u;
+layout(constant_id = 65) const uint SCHEDULES = 0x3u;
 
 // Where each list begins in the scene buffer, in units of 16 bytes.
 layout(constant_id = 40) const uint PLANES_AT = 0u;

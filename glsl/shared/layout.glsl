@@ -11,6 +11,11 @@ const uint PATTERN_CENTER = 0u;
 const uint PATTERN_GRID = 1u;
 const uint PATTERN_RANDOM = 2u;
 const uint PATTERN_STRATIFIED = 3u;
+const uint PATTERN_MULTI_JITTERED = 4u;
+const uint PATTERN_HALTON = 5u;
+const uint PATTERN_SOBOL_OWEN = 6u;
+const uint PATTERN_BLUE_NOISE = 7u;
+const uint PATTERN_N_ROOKS = 8u;
 
 const uint SCHEDULE_TILES = 0u;
 const uint SCHEDULE_JOBS = 1u;
@@ -114,7 +119,7 @@ struct Header {
     vec4 background; // linear RGB
     uvec4 image;     // width, height, crop x, crop y
     uvec4 size;      // film width, film height, projection, max depth
-    uvec4 sampling;  // pattern, strata a side, ceil(log2(side)), seed
+    uvec4 sampling;  // pattern, strata a side, samples, seed
     uvec4 key;       // 1 when all pixels share their displacements; lights; footprint; the environment's map
     uvec4 counts;    // planes, spheres, triangles, the environment's material
 };

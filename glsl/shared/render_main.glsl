@@ -7,7 +7,7 @@
 
 #include "features.glsl"
 #include "layout.glsl"
-#include "strata.glsl"
+#include "patterns.glsl"
 #include "shade.glsl"
 
 layout(local_size_x_id = 0, local_size_y_id = 1, local_size_z = 1) in;
@@ -73,9 +73,7 @@ void main() {
     uvec2 pixel = uvec2(task.place.x, task.place.y + slice.band_y) + header.image.zw;
     // The second half is as good as another seed.
     uvec2 key = pixel_key(pixel, header.sampling.w + task.part * 0x9E3779B9u, header.key.x != 0u);
-    uint side = COUNT(STRATA_SIDE, header.sampling.y);
-    // The number of bits of side - 1 is ceil(log2 side).
-    uint side_log2 = uint(findMSB(side - 1u) + 1);
+    Points points = pixel_points(header, pixel, key);
 
     // One loop for samples and bounces: a turn follows one ray, and a pixel whose path has ended
     // starts its next sample while its neighbours' paths go on.
@@ -87,7 +85,7 @@ void main() {
     path.goes_on = false;
     while (s < task.end) {
         if (!BOUNCES || !path.goes_on) {
-            uvec2 position = sample_position(header.sampling.x, key, s, side, side_log2);
+            uvec2 position = sample_point(points, s);
             Ray ray = camera_ray(header, pixel, position);
             // Bits that have nothing to do with the sample's position.
             uvec2 random = RANDOM ? pcg2d(sample_bits(key, s) ^ 0x5BD1E995u) : uvec2(0u);

@@ -15,6 +15,15 @@ uvec2 pcg2d(uvec2 v) {
     return v;
 }
 
+// One word to one word: Wellons 2018, "Prospecting for Hash Functions" (lowbias32).
+uint mix_bits(uint v) {
+    v ^= v >> 16u;
+    v *= 0x7FEB352Du;
+    v ^= v >> 15u;
+    v *= 0x846CA68Bu;
+    return v ^ (v >> 16u);
+}
+
 uvec3 pcg3d(uvec3 v) {
     v = v * 1664525u + 1013904223u;
     v.x += v.y * v.z;

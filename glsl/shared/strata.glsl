@@ -1,10 +1,8 @@
-// Sample positions inside a pixel, as integers in [0, 2^24) on each axis. With n strata a side,
+// Positions in strata, as integers in [0, 2^24) on each axis. With n strata a side,
 // L = ceil(log2 n) and B = 24 - L bits of jitter j, the position in stratum c is
 // floor(((c << B) + j) * 2^24 / (n << B)) = floor((c * 2^24 + j * 2^L) / n), in 32-bit integers.
 #ifndef STRATA_GLSL
 #define STRATA_GLSL
-
-#include "rng.glsl"
 
 uint stratum_position(uint cell, uint jitter, uint side, uint side_log2) {
     if (side == (1u << side_log2)) return (cell << (24u - side_log2)) + jitter;
@@ -15,13 +13,19 @@ uint stratum_position(uint cell, uint jitter, uint side, uint side_log2) {
     return quotient + (low % side + (jitter << side_log2)) / side;
 }
 
-uvec2 sample_position(uint pattern, uvec2 key, uint s, uint side, uint side_log2) {
-    if (MODE_IS(PATTERNS, PATTERN_RANDOM, pattern)) return sample_bits(key, s) >> 8u;
-    // The centre of a stratum is the jitter of half a stratum; `center` is a grid of one.
-    uvec2 jitter = uvec2(1u << (23u - side_log2));
-    if (MODE_IS(PATTERNS, PATTERN_STRATIFIED, pattern)) jitter = sample_bits(key, s) >> (8u + side_log2);
-    return uvec2(stratum_position(s % side, jitter.x, side, side_log2),
-                 stratum_position(s / side, jitter.y, side, side_log2));
+// The same for up to 2^24 strata a side and a jitter of 24 bits, of which the upper B are used. Long division
+// 8 bits at a time: the rest stays below 2^24.
+uint fine_position(uint cell, uint jitter, uint cells) {
+    uint cells_log2 = uint(findMSB(cells - 1u) + 1);
+    jitter >>= cells_log2;
+    if (cells == (1u << cells_log2)) return (cell << (24u - cells_log2)) + jitter;
+    uint quotient = 0u;
+    uint rest = cell;
+    for (uint i = 0u; i < 3u; i++) {
+        quotient = (quotient << 8u) + (rest << 8u) / cells;
+        rest = (rest << 8u) % cells;
+    }
+    return quotient + (rest + (jitter << cells_log2)) / cells;
 }
 
 #endif

@@ -3,6 +3,7 @@
 pub mod compare;
 pub mod devices;
 mod overrides;
+pub mod pattern;
 mod progress;
 pub mod render;
 mod report;

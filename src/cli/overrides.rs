@@ -86,18 +86,19 @@ impl Overrides {
             }
             return Ok(());
         }
-        if sampling.pattern.any_prefix() {
+        if sampling.pattern.stops_anywhere() {
             return Ok(());
         }
         if let Some(pattern) = self.pattern {
-            let able: Vec<&str> = Pattern::ALL.iter().filter(|p| p.any_prefix()).map(|p| p.name()).collect();
+            let able: Vec<&str> =
+                Pattern::ALL.iter().filter(|p| p.stops_anywhere()).map(|p| p.name()).collect();
             return Err(Error::new(format!(
-                "--pattern {pattern}: algorithm \"{}\" stops each pixel at another count, which pattern \"{pattern}\" cannot; use {}",
+                "--pattern {pattern}: algorithm \"{}\" stops each pixel at another count, which pattern \"{pattern}\" cannot; use one of {}",
                 sampling.algorithm,
-                able.join(" or ")
+                able.join(", ")
             )));
         }
-        sampling.pattern = Pattern::Random;
+        sampling.pattern = Pattern::SobolOwen;
         Ok(())
     }
 

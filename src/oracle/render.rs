@@ -7,14 +7,13 @@ use rayon::prelude::*;
 
 use super::camera::camera_ray;
 use super::footprint::camera_beam;
+use super::patterns::{pixel_points, sample_point};
 use super::rng::{pcg2d, pixel_key, sample_bits};
 use super::shade::{advance, camera_path};
-use super::strata::sample_position;
 use crate::error::{Error, Result};
 use crate::film::Film;
 use crate::pack::PackedScene;
 use crate::progress::Progress;
-use crate::scene::model::Pattern;
 
 /// The mean radiance of pixel (x, y) of the film: of the crop, where there is one.
 pub fn pixel(scene: &PackedScene, x: u32, y: u32) -> DVec3 {
@@ -25,12 +24,11 @@ pub fn pixel(scene: &PackedScene, x: u32, y: u32) -> DVec3 {
 /// The radiance of one sample. The second half of an adaptive picture has another seed.
 pub fn sample(scene: &PackedScene, [x, y]: [u32; 2], half: u32, s: u32) -> DVec3 {
     let header = &scene.header;
-    let [pattern, side, side_log2, seed] = header.sampling;
-    let pattern = Pattern::ALL[pattern as usize];
     let place = [x + header.image[2], y + header.image[3]];
-    let seed = seed.wrapping_add(half.wrapping_mul(0x9E37_79B9));
+    let seed = header.sampling[3].wrapping_add(half.wrapping_mul(0x9E37_79B9));
     let key = pixel_key(place, seed, header.key[0] != 0);
-    let position = sample_position(pattern, key, s, side, side_log2);
+    let points = pixel_points(header, place, key);
+    let position = sample_point(&points, s);
     let ray = camera_ray(header, place, position);
     // Bits that have nothing to do with the sample's position.
     let random = pcg2d(sample_bits(key, s).map(|bits| bits ^ 0x5BD1_E995));

@@ -22,6 +22,15 @@ pub fn pcg2d(v: [u32; 2]) -> [u32; 2] {
     [x, y]
 }
 
+/// One word to one word: Wellons 2018, "Prospecting for Hash Functions" (lowbias32).
+pub fn mix_bits(mut v: u32) -> u32 {
+    v ^= v >> 16;
+    v = v.wrapping_mul(0x7FEB_352D);
+    v ^= v >> 15;
+    v = v.wrapping_mul(0x846C_A68B);
+    v ^ (v >> 16)
+}
+
 pub fn pcg3d(v: [u32; 3]) -> [u32; 3] {
     let [mut x, mut y, mut z] = v.map(step);
     for round in 0..2 {

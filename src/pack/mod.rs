@@ -15,7 +15,7 @@ use crate::color::srgb8_table;
 use crate::error::Result;
 use crate::layout::{self, Header};
 use crate::scene::model::{
-    Algorithm, Environment, EnvironmentLayout, Footprint, Light, Material, Model, Pattern, Projection, Scene,
+    Algorithm, Environment, EnvironmentLayout, Footprint, Light, Material, Model, Projection, Scene,
 };
 use crate::texture::data::TextureData;
 use crate::texture::sampler_spec::{Address, Method, SamplerSpec};
@@ -246,7 +246,6 @@ fn header(scene: &Scene, crop: Crop) -> Header {
         Projection::Orthographic(height) => (0.5 * height, ProjectionKind::Orthographic),
     };
     let pixel = 2.0 * half_height / f64::from(scene.height);
-    let side = scene.sampling.strata_side();
     let share = 1.0 / f64::from(scene.sampling.samples()).sqrt();
     Header {
         forward: vec4(forward.extend(0.0)),
@@ -257,12 +256,12 @@ fn header(scene: &Scene, crop: Crop) -> Header {
         size: [crop.width, crop.height, projection as u32, scene.sampling.max_depth],
         sampling: [
             scene.sampling.pattern as u32,
-            side,
-            side.next_power_of_two().trailing_zeros(),
+            scene.sampling.strata_side(),
+            scene.sampling.samples(),
             scene.sampling.seed,
         ],
         key: [
-            u32::from(scene.sampling.shared && scene.sampling.pattern == Pattern::Stratified),
+            u32::from(scene.sampling.shared && scene.sampling.pattern.can_be_shared()),
             0,
             footprint(scene) as u32,
             0,

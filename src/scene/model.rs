@@ -94,6 +94,43 @@ named_enum! {
         Grid = "grid",
         Random = "random",
         Stratified = "stratified",
+        /// Kensler 2013, correlated.
+        MultiJittered = "multi-jittered",
+        /// Bases 2 and 3, nested scrambling.
+        Halton = "halton",
+        /// A (0,2)-sequence, nested scrambling (Burley 2020).
+        SobolOwen = "sobol-owen",
+        /// Blocks of one sequence along a shuffled Morton curve of pixels (Ahmed & Wonka 2020).
+        BlueNoise = "blue-noise",
+        /// Shirley 1991, also known as latin hypercube.
+        NRooks = "n-rooks",
+    }
+}
+
+impl Pattern {
+    /// A sequence: positions do not depend on how many samples there are, so that any number of them, from
+    /// the first on, is a set of the same kind.
+    pub const fn goes_on(self) -> bool {
+        matches!(self, Pattern::Center | Pattern::Random | Pattern::Halton | Pattern::SobolOwen)
+    }
+
+    /// Whether each pixel may stop at another number of samples.
+    pub fn stops_anywhere(self) -> bool {
+        self.goes_on() && self != Pattern::Center
+    }
+
+    /// Strata along each side of a pixel, of `multi-jittered` columns; 1 where the pattern has none.
+    pub const fn strata_side(self, samples: u32) -> u32 {
+        match self {
+            Pattern::Grid | Pattern::Stratified | Pattern::MultiJittered => samples.isqrt(),
+            _ => 1,
+        }
+    }
+
+    /// Whether all pixels may have one set of displacements.
+    pub const fn can_be_shared(self) -> bool {
+        use Pattern::{Halton, MultiJittered, NRooks, SobolOwen, Stratified};
+        matches!(self, Stratified | MultiJittered | Halton | SobolOwen | NRooks)
     }
 }
 
@@ -115,19 +152,12 @@ impl Algorithm {
     }
 }
 
-impl Pattern {
-    /// Whether sampling may end after any number of samples, each beginning of the sequence being as good
-    /// as it can.
-    pub fn any_prefix(self) -> bool {
-        self == Pattern::Random
-    }
-}
-
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sampling {
     pub algorithm: Algorithm,
     pub pattern: Pattern,
-    /// Samples per pixel, at least 1; a square for `grid` and `stratified`.
+    /// Samples per pixel, at least 1; a square for `grid` and `stratified`, a power of two for
+    /// `blue-noise`.
     pub spp: u32,
     /// True: one set of displacement vectors for all pixels (the lecture's variant).
     pub shared: bool,
@@ -258,18 +288,11 @@ pub enum Light {
 impl Sampling {
     /// Samples that are really taken: all of `center` lie at one place, so one is enough.
     pub fn samples(&self) -> u32 {
-        match self.pattern {
-            Pattern::Center => 1,
-            Pattern::Grid | Pattern::Random | Pattern::Stratified => self.spp,
-        }
+        if self.pattern == Pattern::Center { 1 } else { self.spp }
     }
 
-    /// Strata along each side of a pixel; 1 where the pattern has none.
     pub fn strata_side(&self) -> u32 {
-        match self.pattern {
-            Pattern::Grid | Pattern::Stratified => self.spp.isqrt(),
-            Pattern::Center | Pattern::Random => 1,
-        }
+        self.pattern.strata_side(self.spp)
     }
 }
 

@@ -84,12 +84,13 @@ pub(super) fn sampling(table: Option<&Table<'_>>) -> Result<Sampling> {
     }
     if let Some(field) = table.get("spp") {
         sampling.spp = field.integer(1..=MAX_SPP)?;
-        check_spp(sampling.pattern, sampling.spp).map_err(|what| field.error(&what, "no square number"))?;
+        check_spp(sampling.pattern, sampling.spp)
+            .map_err(|what| field.error(&what, "not with this pattern"))?;
     }
     if let Some(field) = table.get("shared") {
         sampling.shared = field.boolean()?;
         check_shared(sampling.pattern, sampling.shared)
-            .map_err(|what| field.error(&what, "needs pattern \"stratified\""))?;
+            .map_err(|what| field.error(&what, "nothing to share"))?;
     }
     if let Some(field) = table.get("seed") {
         sampling.seed = field.integer(0..=u32::MAX)?;

@@ -26,7 +26,8 @@ const LEAST_SINE: f64 = 1e-9;
 /// A triangle whose height is below this part of its longest edge counts as a line.
 const LEAST_HEIGHT: f64 = 1e-12;
 
-/// `grid` and `stratified` divide the pixel into n × n cells: `spp` must be a square there.
+/// `grid` and `stratified` divide the pixel into n × n cells: `spp` must be a square there. Blocks of
+/// `blue-noise` are powers of two.
 pub fn check_spp(pattern: Pattern, spp: u32) -> Result<(), String> {
     if !(1..=MAX_SPP).contains(&spp) {
         return Err(format!("spp = {spp} is out of range; use 1 to {MAX_SPP} (2^24)"));
@@ -36,6 +37,11 @@ pub fn check_spp(pattern: Pattern, spp: u32) -> Result<(), String> {
         Pattern::Grid | Pattern::Stratified if root * root != spp => {
             let (below, above) = (root * root, (root + 1) * (root + 1));
             Err(format!("spp = {spp} is no square; use {below} or {above} with pattern \"{pattern}\""))
+        }
+        Pattern::BlueNoise if !spp.is_power_of_two() => {
+            let above = spp.next_power_of_two();
+            let below = above / 2;
+            Err(format!("spp = {spp} is no power of two; use {below} or {above} with pattern \"{pattern}\""))
         }
         _ => Ok(()),
     }
@@ -94,14 +100,22 @@ pub fn check_filters(scene: &Scene) -> Result<()> {
     Ok(())
 }
 
-/// Only jittered strata have displacement vectors that pixels could share.
+/// Only patterns with displacements that differ between pixels have anything to share.
 pub fn check_shared(pattern: Pattern, shared: bool) -> Result<(), String> {
-    if shared && pattern != Pattern::Stratified {
+    if !shared || pattern.can_be_shared() {
+        return Ok(());
+    }
+    if pattern == Pattern::BlueNoise {
         return Err(format!(
-            "shared = true needs pattern \"stratified\", whose displacement vectors it shares; the pattern is \"{pattern}\""
+            "shared = true gives all pixels one set of samples, but \"{pattern}\" lives by how the sets of \
+             neighbouring pixels differ; use pattern \"sobol-owen\" with shared = true"
         ));
     }
-    Ok(())
+    let able: Vec<&str> = Pattern::ALL.iter().filter(|p| p.can_be_shared()).map(|p| p.name()).collect();
+    Err(format!(
+        "shared = true needs a pattern whose displacements it can share: {}; the pattern is \"{pattern}\"",
+        able.join(", ")
+    ))
 }
 
 /// |a × b| = |a| |b| sin of the angle between them.

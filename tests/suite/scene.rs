@@ -249,7 +249,7 @@ fn orthographic_cameras_and_every_name_of_the_vocabulary_parse() {
         parsed(&format!("{HEAD}[[{section}]]\nname = 'x'\n{key} = '{name}'\n"))
     };
     for pattern in Pattern::ALL {
-        let scene = parsed(&format!("{HEAD}[sampling]\npattern = '{pattern}'\nspp = 9\n"));
+        let scene = parsed(&format!("{HEAD}[sampling]\npattern = '{pattern}'\nspp = 4\n"));
         assert_eq!(scene.sampling.pattern, *pattern);
     }
     for model in Model::ALL {

@@ -74,6 +74,16 @@ fn sampling_and_background_rules() {
             "[sampling]\npattern = 'grid'\nshared = true",
             &["sampling.shared", "stratified", "grid"],
         ),
+        (
+            "no power of two",
+            "[sampling]\npattern = 'blue-noise'\nspp = 9",
+            &["sampling.spp", "spp = 9 is no power of two; use 8 or 16", "\"blue-noise\""],
+        ),
+        (
+            "shared blue noise",
+            "[sampling]\npattern = 'blue-noise'\nshared = true",
+            &["sampling.shared", "neighbouring pixels differ", "sobol-owen"],
+        ),
         ("shared as text", "[sampling]\nshared = 'yes'", &["true or false, found the string 'yes'"]),
         ("depth 65", "[sampling]\nmax_depth = 65", &["sampling.max_depth", "from 0 to 64, found 65"]),
         ("seed negative", "[sampling]\nseed = -1", &["sampling.seed", "from 0 to 4294967295, found -1"]),
@@ -82,11 +92,7 @@ fn sampling_and_background_rules() {
             "[sampling]\npattern = 'stratfied'",
             &["did you mean \"stratified\"?", "center, grid"],
         ),
-        (
-            "far pattern",
-            "[sampling]\npattern = 'sobol-owen'",
-            &["\"sobol-owen\"; allowed: center, grid, random"],
-        ),
+        ("far pattern", "[sampling]\npattern = 'poisson'", &["\"poisson\"; allowed: center, grid, random"]),
         ("algorithm", "[sampling]\nalgorithm = 'beam'", &["sampling.algorithm", "allowed: samples"]),
         ("footprint", "[sampling]\nfootprint = 'ray'", &["\"ray\"; allowed: none, cone, differentials"]),
         ("number as name", "[sampling]\npattern = 3", &["a string, one of center", "found 3"]),
@@ -127,11 +133,19 @@ fn spp_and_shared_rules_stand_for_the_command_line_too() {
         assert!(check_spp(pattern, (1 << 24) - 1).unwrap_err().contains("use 16769025 or 16777216"));
         assert_eq!(check_spp(pattern, 1 << 24), Ok(()));
     }
-    for pattern in [Pattern::Center, Pattern::Random] {
+    let blue = check_spp(Pattern::BlueNoise, 100).unwrap_err();
+    assert!(blue.contains("spp = 100 is no power of two; use 64 or 128"), "{blue}");
+    for spp in [1, 2, 1 << 23, 1 << 24] {
+        assert_eq!(check_spp(Pattern::BlueNoise, spp), Ok(()));
+    }
+    use Pattern::{Center, Halton, MultiJittered, NRooks, Random, SobolOwen};
+    for pattern in [Center, Random, MultiJittered, Halton, SobolOwen, NRooks] {
         assert_eq!(check_spp(pattern, 15), Ok(()));
     }
     assert!(check_spp(Pattern::Random, 0).unwrap_err().contains("1 to 16777216"));
     assert!(check_spp(Pattern::Random, u32::MAX).is_err());
     assert!(check_shared(Pattern::Random, true).unwrap_err().contains("stratified"));
-    assert_eq!(check_shared(Pattern::Stratified, true), Ok(()));
+    for pattern in [Pattern::Stratified, MultiJittered, Halton, SobolOwen, NRooks] {
+        assert_eq!(check_shared(pattern, true), Ok(()));
+    }
 }

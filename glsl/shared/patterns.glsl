@@ -1,0 +1,101 @@
+// Positions of samples as integers in [0, 2^24) on each axis, from the pixel and the sample's number alone.
+// Pair 0 is the place in the pixel; further pairs are other choices of the same samples. A pixel's
+// points are drawn up once a pixel and pair (`pixel_points`, `pair_points`), then asked for sample by sample.
+#ifndef PATTERNS_GLSL
+#define PATTERNS_GLSL
+
+#include "halton.glsl"
+#include "permute.glsl"
+#include "rng.glsl"
+#include "sobol.glsl"
+#include "strata.glsl"
+
+struct Points {
+    uint pattern;
+    uint side;  // strata a side, columns
+    uint count; // samples; used where positions depend on it
+    uint pair;
+    uvec2 key;
+    uint order; // seed of the samples' order, of further pairs
+    uint place; // blue-noise: along the Morton curve of the tile
+    uint block; // blue-noise: first index of the pixel's block
+};
+
+// Blue-noise: pixels share one sequence of 2^32 points within tiles of 2^n pixels a side.
+uint tile_log2(uint count) {
+    return (32u - uint(findMSB(count))) >> 1u;
+}
+
+uint first_of_block(Points points, uint seed) {
+    return shuffled_place(points.place, tile_log2(points.count), seed) << uint(findMSB(points.count));
+}
+
+// The points of pair 0; `key` is the pixel's.
+Points pixel_points(Header header, uvec2 pixel, uvec2 key) {
+    uint side = COUNT(STRATA_SIDE, header.sampling.y);
+    uint count = COUNT(SAMPLES, header.sampling.z);
+    Points points = Points(header.sampling.x, side, count, 0u, key, 0u, 0u, 0u);
+    if (MODE_IS(PATTERNS, PATTERN_BLUE_NOISE, points.pattern)) {
+        uint bits = tile_log2(count);
+        points.key = pixel_key(pixel >> bits, header.sampling.w, false);
+        points.place = morton(pixel & ((1u << bits) - 1u));
+        points.block = first_of_block(points, points.key.x);
+    }
+    return points;
+}
+
+// The points of another pair, from those of pair 0.
+Points pair_points(Points first, uint pair) {
+    if (pair == 0u) return first;
+    Points points = first;
+    uvec3 bits = pcg3d(uvec3(first.key, pair));
+    points.pair = pair;
+    points.key = bits.xy;
+    points.order = bits.z;
+    if (MODE_IS(PATTERNS, PATTERN_BLUE_NOISE, points.pattern)) {
+        points.block = first_of_block(points, bits.z);
+        points.order ^= mix_bits(points.block);
+    }
+    return points;
+}
+
+uvec2 sample_point(Points points, uint s) {
+    uvec2 key = points.key;
+    if (MODE_IS(PATTERNS, PATTERN_SOBOL_OWEN, points.pattern)) return sobol_owen(s, key);
+    if (MODE_IS(PATTERNS, PATTERN_BLUE_NOISE, points.pattern)) return sobol_owen(points.block + s, key);
+    if (MODE_IS(PATTERNS, PATTERN_HALTON, points.pattern)) return halton(s, points.pair, key);
+    if (MODE_IS(PATTERNS, PATTERN_N_ROOKS, points.pattern)) return n_rooks(s, points.count, key);
+    if (MODE_IS(PATTERNS, PATTERN_MULTI_JITTERED, points.pattern)) {
+        return multi_jittered(s, points.side, points.count, key);
+    }
+    if (MODE_IS(PATTERNS, PATTERN_RANDOM, points.pattern)) return sample_bits(key, s) >> 8u;
+    uint side = points.side;
+    // The number of bits of side - 1 is ceil(log2 side).
+    uint side_log2 = uint(findMSB(side - 1u) + 1);
+    // The centre of a stratum is the jitter of half a stratum; `center` is a grid of one.
+    uvec2 jitter = uvec2(1u << (23u - side_log2));
+    if (MODE_IS(PATTERNS, PATTERN_STRATIFIED, points.pattern)) jitter = sample_bits(key, s) >> (8u + side_log2);
+    return uvec2(stratum_position(s % side, jitter.x, side, side_log2),
+                 stratum_position(s / side, jitter.y, side, side_log2));
+}
+
+bool fills_strata(uint pattern) {
+    return MODE_IS(PATTERNS, PATTERN_GRID, pattern) || MODE_IS(PATTERNS, PATTERN_STRATIFIED, pattern) ||
+           MODE_IS(PATTERNS, PATTERN_MULTI_JITTERED, pattern) || MODE_IS(PATTERNS, PATTERN_N_ROOKS, pattern);
+}
+
+// Sample s of any pair. Further pairs go through their points in an order of their own, so that which
+// points of two pairs meet in a sample is left to chance. Halton's bases need no such order.
+uvec2 sample_pair(Points points, uint s) {
+    if (points.pair == 0u) return sample_point(points, s);
+    if (MODE_IS(PATTERNS, PATTERN_SOBOL_OWEN, points.pattern)) {
+        s = shuffled_index(s, points.order);
+    } else if (MODE_IS(PATTERNS, PATTERN_BLUE_NOISE, points.pattern)) {
+        s = shuffled_index(s, points.order) & (points.count - 1u);
+    } else if (fills_strata(points.pattern)) {
+        s = permute(s, points.count, points.order);
+    }
+    return sample_point(points, s);
+}
+
+#endif

@@ -1,0 +1,108 @@
+//! Positions of samples as integers in [0, 2^24) on each axis, from the pixel and the sample's number alone.
+//! Pair 0 is the place in the pixel; further pairs are other choices of the same samples. A pixel's
+//! points are drawn up once a pixel and pair (`pixel_points`, `pair_points`), then asked for sample by
+//! sample. Twin of `glsl/shared/patterns.glsl`.
+
+use super::halton::halton;
+use super::permute::{multi_jittered, n_rooks, permute};
+use super::rng::{mix_bits, pcg3d, pixel_key, sample_bits};
+use super::sobol::{morton, shuffled_index, shuffled_place, sobol_owen};
+use super::strata::stratum_position;
+use crate::layout::Header;
+use crate::scene::model::Pattern;
+
+/// Pairs of dimensions: Halton's bases are the first 32 primes.
+pub const MAX_PAIRS: u32 = 16;
+
+#[derive(Clone, Copy, Debug)]
+pub struct Points {
+    pub pattern: Pattern,
+    /// Strata a side, columns.
+    pub side: u32,
+    /// Samples; used where positions depend on it.
+    pub count: u32,
+    pub pair: u32,
+    pub key: [u32; 2],
+    /// Seed of the samples' order, of further pairs.
+    pub order: u32,
+    /// Blue-noise: along the Morton curve of the tile.
+    pub place: u32,
+    /// Blue-noise: first index of the pixel's block.
+    pub block: u32,
+}
+
+/// Blue-noise: pixels share one sequence of 2^32 points within tiles of 2^n pixels a side.
+pub fn tile_log2(count: u32) -> u32 {
+    (32 - count.ilog2()) / 2
+}
+
+fn first_of_block(points: &Points, seed: u32) -> u32 {
+    shuffled_place(points.place, tile_log2(points.count), seed) << points.count.ilog2()
+}
+
+/// The points of pair 0; `key` is the pixel's.
+pub fn pixel_points(header: &Header, pixel: [u32; 2], key: [u32; 2]) -> Points {
+    let [pattern, side, count, seed] = header.sampling;
+    let pattern = Pattern::ALL[pattern as usize];
+    let mut points = Points { pattern, side, count, pair: 0, key, order: 0, place: 0, block: 0 };
+    if pattern == Pattern::BlueNoise {
+        let bits = tile_log2(count);
+        points.key = pixel_key(pixel.map(|x| x >> bits), seed, false);
+        points.place = morton(pixel.map(|x| x & ((1 << bits) - 1)));
+        points.block = first_of_block(&points, points.key[0]);
+    }
+    points
+}
+
+/// The points of another pair, from those of pair 0.
+pub fn pair_points(first: &Points, pair: u32) -> Points {
+    let mut points = *first;
+    if pair == 0 {
+        return points;
+    }
+    let [x, y, order] = pcg3d([first.key[0], first.key[1], pair]);
+    (points.pair, points.key, points.order) = (pair, [x, y], order);
+    if points.pattern == Pattern::BlueNoise {
+        points.block = first_of_block(&points, order);
+        points.order ^= mix_bits(points.block);
+    }
+    points
+}
+
+pub fn sample_point(points: &Points, s: u32) -> [u32; 2] {
+    let Points { side, count, key, .. } = *points;
+    // ceil(log2 side)
+    let side_log2 = side.next_power_of_two().trailing_zeros();
+    let jitter = match points.pattern {
+        Pattern::SobolOwen => return sobol_owen(s, key),
+        Pattern::BlueNoise => return sobol_owen(points.block + s, key),
+        Pattern::Halton => return halton(s, points.pair, key),
+        Pattern::NRooks => return n_rooks(s, count, key),
+        Pattern::MultiJittered => return multi_jittered(s, side, count, key),
+        Pattern::Random => return sample_bits(key, s).map(|b| b >> 8),
+        Pattern::Stratified => sample_bits(key, s).map(|b| b >> (8 + side_log2)),
+        // The centre of a stratum is the jitter of half a stratum; `center` is a grid of one.
+        Pattern::Center | Pattern::Grid => [1 << (23 - side_log2); 2],
+    };
+    [
+        stratum_position(s % side, jitter[0], side, side_log2),
+        stratum_position(s / side, jitter[1], side, side_log2),
+    ]
+}
+
+/// Sample s of any pair. Further pairs go through their points in an order of their own, so that which
+/// points of two pairs meet in a sample is left to chance. Halton's bases need no such order.
+pub fn sample_pair(points: &Points, s: u32) -> [u32; 2] {
+    if points.pair == 0 {
+        return sample_point(points, s);
+    }
+    let s = match points.pattern {
+        Pattern::SobolOwen => shuffled_index(s, points.order),
+        Pattern::BlueNoise => shuffled_index(s, points.order) & (points.count - 1),
+        Pattern::Grid | Pattern::Stratified | Pattern::MultiJittered | Pattern::NRooks => {
+            permute(s, points.count, points.order)
+        }
+        Pattern::Center | Pattern::Random | Pattern::Halton => s,
+    };
+    sample_point(points, s)
+}
