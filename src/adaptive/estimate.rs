@@ -3,6 +3,9 @@
 //! A pixel's own halves say little: the square of one difference. The spread of its samples is known well,
 //! but well placed samples err less than it says. So the spread tells pixels apart, and the halves of a
 //! window around each how much less its samples err: v = s²/n · Σ d² / Σ s²/n, sums over the window.
+//!
+//! An edge that all n samples missed covers less than about 1/n of the pixel, of which the square's mean is
+//! 1/3n²: no variance is taken for less than that times the contrast to the nearest pixels, squared.
 
 use rayon::prelude::*;
 
@@ -10,9 +13,6 @@ use super::Sums;
 
 /// Pixels on each side of the window's middle.
 const RADIUS: usize = 3;
-/// Of the largest variance beside it a pixel has at least this part: what its neighbours saw may reach
-/// into it.
-const OF_NEIGHBOURS: f32 = 0.02;
 
 pub struct Estimate {
     /// Of the mean over both halves, a channel's mean.
@@ -20,46 +20,57 @@ pub struct Estimate {
     pub mse: f64,
 }
 
+/// Of one pixel.
+#[derive(Clone, Copy, Default)]
+struct Seen {
+    mean: [f32; 3],
+    /// The mean's variance by the difference of the halves.
+    difference: f32,
+    /// And by the spread of the samples.
+    spread: f32,
+}
+
 impl Estimate {
     pub fn new(sums: &Sums, counts: &[u32]) -> Estimate {
         let (width, height) = (sums.width as usize, sums.height as usize);
-        // (difference of the halves, spread of the samples): either as a variance of the mean.
-        let seen: Vec<[f32; 2]> = (0..counts.len()).into_par_iter().map(|i| seen(sums, counts, i)).collect();
-        let mse = seen.iter().map(|s| f64::from(s[0])).sum::<f64>() / seen.len() as f64;
+        let seen: Vec<Seen> = (0..counts.len()).into_par_iter().map(|i| seen(sums, counts[i], i)).collect();
+        let mse = seen.iter().map(|s| f64::from(s.difference)).sum::<f64>() / seen.len() as f64;
         let windows = window_sums(&seen, width, height);
-        let own: Vec<f32> = (seen.par_iter().zip(&windows))
-            .map(|(own, window)| if window[1] > 0.0 { own[1] * (window[0] / window[1]) } else { own[0] })
-            .collect();
-        let variances = (0..own.len())
-            .into_par_iter()
-            .map(|i| own[i].max(OF_NEIGHBOURS * largest_beside(&own, i, width, height)));
-        Estimate { variances: variances.collect(), mse }
+        let variance = |i: usize| {
+            let [difference, spread] = windows[i];
+            let own = if spread > 0.0 { seen[i].spread * (difference / spread) } else { seen[i].difference };
+            let n = 2.0 * counts[i] as f32;
+            own.max(contrast(&seen, i, width, height) / (3.0 * n * n))
+        };
+        Estimate { variances: (0..seen.len()).into_par_iter().map(variance).collect(), mse }
     }
 }
 
-fn seen(sums: &Sums, counts: &[u32], i: usize) -> [f32; 2] {
-    let n = counts[i] as f32;
+fn seen(sums: &Sums, count: u32, i: usize) -> Seen {
+    let n = count as f32;
     let [a, b] = [sums.halves[0][i], sums.halves[1][i]];
-    let channel = |c: usize| ((a[c] - b[c]) / n, (a[c] + b[c]) / (2.0 * n));
-    let (mut difference, mut mean) = (0.0, 0.0);
-    for (d, m) in [0, 1, 2].map(channel) {
-        difference += d * d / 3.0;
-        mean += m * m / 3.0;
-    }
-    let spread = ((a[3] + b[3]) / (2.0 * n) - mean).max(0.0);
-    [difference / 4.0, spread / (2.0 * n)]
+    let mean: [f32; 3] = std::array::from_fn(|c| (a[c] + b[c]) / (2.0 * n));
+    let halves: [f32; 3] = std::array::from_fn(|c| (a[c] - b[c]) / n);
+    let spread = ((a[3] + b[3]) / (2.0 * n) - square(mean)).max(0.0);
+    Seen { mean, difference: square(halves) / 4.0, spread: spread / (2.0 * n) }
 }
 
-fn window_sums(values: &[[f32; 2]], width: usize, height: usize) -> Vec<[f32; 2]> {
+/// A channel's mean.
+fn square(v: [f32; 3]) -> f32 {
+    (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) / 3.0
+}
+
+/// Of each pixel's window: sums of what the halves and the spread say.
+fn window_sums(seen: &[Seen], width: usize, height: usize) -> Vec<[f32; 2]> {
     let add = |a: [f32; 2], b: [f32; 2]| [a[0] + b[0], a[1] + b[1]];
     let around = |at: usize, size: usize| at.saturating_sub(RADIUS)..(at + RADIUS + 1).min(size);
-    let mut rows = vec![[0.0; 2]; values.len()];
-    rows.par_chunks_mut(width).zip(values.par_chunks(width)).for_each(|(out, row)| {
+    let mut rows = vec![[0.0; 2]; seen.len()];
+    rows.par_chunks_mut(width).zip(seen.par_chunks(width)).for_each(|(out, row)| {
         for (x, out) in out.iter_mut().enumerate() {
-            *out = row[around(x, width)].iter().copied().fold([0.0; 2], add);
+            *out = row[around(x, width)].iter().fold([0.0; 2], |sum, s| add(sum, [s.difference, s.spread]));
         }
     });
-    let mut sums = vec![[0.0; 2]; values.len()];
+    let mut sums = vec![[0.0; 2]; seen.len()];
     sums.par_chunks_mut(width).enumerate().for_each(|(y, out)| {
         for row in around(y, height) {
             for (out, value) in out.iter_mut().zip(&rows[row * width..(row + 1) * width]) {
@@ -70,12 +81,19 @@ fn window_sums(values: &[[f32; 2]], width: usize, height: usize) -> Vec<[f32; 2]
     sums
 }
 
-fn largest_beside(values: &[f32], i: usize, width: usize, height: usize) -> f32 {
+/// The largest squared difference to one of the four nearest pixels.
+fn contrast(seen: &[Seen], i: usize, width: usize, height: usize) -> f32 {
     let (x, y) = (i % width, i / width);
+    let to = |j: usize| square(std::array::from_fn(|c| seen[i].mean[c] - seen[j].mean[c]));
     let mut most = 0.0f32;
-    for row in y.saturating_sub(1)..(y + 2).min(height) {
-        for value in &values[row * width + x.saturating_sub(1)..row * width + (x + 2).min(width)] {
-            most = most.max(*value);
+    for (there, j) in [
+        (x > 0, i.wrapping_sub(1)),
+        (x + 1 < width, i + 1),
+        (y > 0, i.wrapping_sub(width)),
+        (y + 1 < height, i + width),
+    ] {
+        if there {
+            most = most.max(to(j));
         }
     }
     most
@@ -106,5 +124,84 @@ impl Exponent {
 
     pub fn value(&self) -> f64 {
         self.value
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::oracle::rng::pcg3d;
+
+    const WIDTH: usize = 64;
+
+    /// Uniform numbers of variance 1 for each sample, at least for as many as are asked for here.
+    fn noise(pixel: usize, half: usize, s: u32) -> f32 {
+        let bits = pcg3d([pixel as u32, half as u32, s])[0] >> 8;
+        (bits as f32 / 16_777_216.0 - 0.5) * 12f32.sqrt()
+    }
+
+    /// A picture whose samples deviate by `spread` from `mean`.
+    fn sums(counts: &[u32], mean: impl Fn(usize) -> f32, spread: impl Fn(usize) -> f32) -> Sums {
+        let half = |half: usize| {
+            let sum = |i: usize| {
+                let mut sum = [0.0; 4];
+                for s in 0..counts[i] {
+                    let value = mean(i) + spread(i) * noise(i, half, s);
+                    (0..3).for_each(|c| sum[c] += value);
+                    sum[3] += value * value;
+                }
+                sum
+            };
+            (0..counts.len()).map(sum).collect()
+        };
+        Sums { width: WIDTH as u32, height: (counts.len() / WIDTH) as u32, halves: [half(0), half(1)] }
+    }
+
+    #[test]
+    fn random_samples_err_as_their_spread_says() {
+        let counts = vec![32u32; WIDTH * WIDTH];
+        let spread = |i: usize| if i % WIDTH < WIDTH / 2 { 0.1 } else { 1.0 };
+        let estimate = Estimate::new(&sums(&counts, |_| 0.5, spread), &counts);
+        // Half the pixels 0.01 / 64, half 1 / 64; 4096 squares of a normal deviate: 3 sigma are 9 %.
+        let exact = 0.505 / 64.0;
+        assert!((estimate.mse / exact - 1.0).abs() < 0.09, "{:e}, exactly {exact:e}", estimate.mse);
+        for (i, v) in estimate.variances.iter().enumerate() {
+            let exact = spread(i) * spread(i) / 64.0;
+            // In a corner a window has 16 such squares: p = 1e-5 below 0.15 and above 3.2; spreads vary too.
+            assert!((0.1..4.0).contains(&(v / exact)), "{i}: {v:e}, exactly {exact:e}");
+        }
+    }
+
+    /// Where halves agree better than the spread says, samples were placed well.
+    #[test]
+    fn agreeing_halves_lower_the_variance() {
+        let counts = vec![32u32; WIDTH * WIDTH];
+        let mut same = sums(&counts, |_| 0.5, |_| 0.3);
+        same.halves[1] = same.halves[0].clone();
+        let estimate = Estimate::new(&same, &counts);
+        assert_eq!(estimate.mse, 0.0);
+        // Left is the contrast of neighbours.
+        assert!(estimate.variances.iter().all(|v| *v < 0.01 * 0.09 / 64.0));
+    }
+
+    #[test]
+    fn a_pixel_beside_an_edge_that_no_sample_met_keeps_a_variance() {
+        let counts = vec![8u32; WIDTH * 8];
+        let edge = |i: usize| if i % WIDTH < 20 { 0.0 } else { 1.0 };
+        let estimate = Estimate::new(&sums(&counts, edge, |_| 0.0), &counts);
+        for (i, v) in estimate.variances.iter().enumerate() {
+            let wanted = if [19, 20].contains(&(i % WIDTH)) { 1.0 / (3.0 * 256.0) } else { 0.0 };
+            assert!((v - wanted).abs() < 1e-6, "{i}: {v:e}, not {wanted:e}");
+        }
+    }
+
+    #[test]
+    fn the_exponent_follows_the_error_within_its_bounds() {
+        let mut exponent = Exponent::default();
+        exponent.learn(100.0, 1e-3);
+        exponent.learn(400.0, 1e-3 / 8.0);
+        assert!((exponent.value() - 1.5).abs() < 1e-9);
+        exponent.learn(1600.0, 1e-3);
+        assert_eq!(exponent.value(), 1.0);
     }
 }

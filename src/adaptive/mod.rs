@@ -6,6 +6,7 @@
 mod allocate;
 mod estimate;
 
+use std::collections::BTreeMap;
 use std::time::Instant;
 
 use serde::Serialize;
@@ -65,8 +66,10 @@ const FIRST: u32 = 8;
 const GROWTH: f64 = 8.0;
 /// Samples of a half; a job's count is a `u32`, and f32 sums stay exact enough.
 const MOST: u32 = 1 << 16;
-/// The estimate leans towards pixels whose halves agree by chance; the aim lies below the goal by so much.
-const MARGIN: f64 = 0.94;
+/// The estimate leans towards pixels whose halves agree by chance. It is believed when it lies below the goal
+/// by the first factor; passes are planned for the second, so that few are needed.
+const BELIEVED: f64 = 0.97;
+const PLANNED: f64 = 0.93;
 /// Part of the remaining time that a pass is planned for.
 const OF_TIME: f64 = 0.85;
 
@@ -98,14 +101,15 @@ pub fn run(
         let elapsed = start.elapsed().as_secs_f64();
         let aim = match goal {
             Goal::Samples(spp) => Aim::Samples(f64::from(spp) * pixels as f64),
-            Goal::Error(rmse) => Aim::Mse((rmse * MARGIN).powi(2)),
+            Goal::Error(rmse) => Aim::Mse((rmse * PLANNED).powi(2)),
             Goal::Seconds(limit) => {
                 Aim::Samples(taken + taken / elapsed * (limit - elapsed).max(0.0) * OF_TIME)
             }
         };
-        outcome.reached = match aim {
-            Aim::Samples(all) => taken * 1.02 >= all,
-            Aim::Mse(mse) => estimate.mse <= mse,
+        outcome.reached = match (aim, goal) {
+            (Aim::Samples(all), _) => taken * 1.02 >= all,
+            (Aim::Mse(_), Goal::Error(rmse)) => outcome.estimated_rmse <= rmse * BELIEVED,
+            (Aim::Mse(_), _) => false,
         };
         if outcome.reached {
             break;
@@ -138,11 +142,24 @@ fn total(counts: &[u32]) -> f64 {
 /// From `counts` to `next` samples in each half of each pixel, longest first: neighbouring threads then
 /// have equally much to do.
 fn jobs(counts: &[u32], next: &[u32], width: u32) -> Vec<Job> {
-    let mut grown: Vec<usize> = (0..counts.len()).filter(|&i| next[i] > counts[i]).collect();
-    grown.sort_by_key(|&i| std::cmp::Reverse(next[i] - counts[i]));
-    let place = |i: usize| (i as u32 / width) << 16 | (i as u32 % width);
-    let job = |i: usize, half| Job { place: place(i), half, first: counts[i], count: next[i] - counts[i] };
-    grown.iter().flat_map(|&i| [job(i, 0), job(i, 1)]).collect()
+    // Few lengths occur, so pixels are dealt out by length instead of sorted.
+    let mut lengths: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
+    for (i, (&now, &next)) in (0..).zip(counts.iter().zip(next)) {
+        if next > now {
+            lengths.entry(next - now).or_default().push(i);
+        }
+    }
+    let job = |i: u32, half, count| Job {
+        place: (i / width) << 16 | (i % width),
+        half,
+        first: counts[i as usize],
+        count,
+    };
+    let both = |(count, pixels): (u32, Vec<u32>)| {
+        let pair = |i: u32| [job(i, 0, count), job(i, 1, count)];
+        pixels.into_iter().flat_map(pair).collect::<Vec<_>>()
+    };
+    lengths.into_iter().rev().flat_map(both).collect()
 }
 
 fn film(sums: &Sums, counts: &[u32]) -> Film {
