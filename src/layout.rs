@@ -142,13 +142,17 @@ pub struct Slice {
 }
 const _: () = assert!(size_of::<Slice>() == 36);
 
+/// In a job's part: without a footprint.
+pub const JOB_BARE: u32 = 2;
+
 /// Mirror of the jobs of `render_main.glsl`: samples `first` .. `first + count` of a pixel's half.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
 pub struct Job {
     /// Column in the low half, row in the high one; rows count from the band's first.
     pub place: u32,
-    pub half: u32,
+    /// 0 or 1, and `JOB_BARE`.
+    pub part: u32,
     pub first: u32,
     pub count: u32,
 }

@@ -19,6 +19,7 @@ const uint PATTERN_N_ROOKS = 8u;
 
 const uint SCHEDULE_TILES = 0u;
 const uint SCHEDULE_JOBS = 1u;
+const uint JOB_BARE = 2u; // without a footprint
 
 const uint MODEL_UNLIT = 0u;
 const uint MODEL_LAMBERT = 1u;

@@ -14,7 +14,7 @@ layout(local_size_x_id = 0, local_size_y_id = 1, local_size_z = 1) in;
 
 layout(std430, set = 0, binding = 0) buffer Film { vec4 film[]; };
 
-// Samples of single pixels: place (x | y << 16), half, first sample, count. A film of jobs holds two halves,
+// Samples of single pixels: place (x | y << 16), half and JOB_BARE, first sample, count. A film of jobs holds two halves,
 // each with sums of radiance and of its square's mean over the channels.
 layout(std430, set = 0, binding = 4) readonly buffer Jobs { uvec4 jobs[]; };
 
@@ -44,7 +44,7 @@ uvec2 film_pixel() {
 // What one thread does: samples of one pixel, into one place of the film.
 struct Task {
     uvec2 place; // in the band
-    uint part; // which half of the samples
+    uint part; // of a job: which half of the samples, and JOB_BARE
     uint first;
     uint end;
 };
@@ -71,8 +71,11 @@ void main() {
     else task = tile_task();
     if (task.place.x >= header.size.x || task.place.y >= slice.band_height) return;
     uvec2 pixel = uvec2(task.place.x, task.place.y + slice.band_y) + header.image.zw;
+    // Of a job, a sample's share of the pixel is by the samples that the pixel has at its end.
+    if (FILTERED && is_job) header.step_x.w = (task.part & JOB_BARE) != 0u ? 0.0 : inversesqrt(2.0 * float(task.end));
     // The second half is as good as another seed.
-    uvec2 key = pixel_key(pixel, header.sampling.w + task.part * 0x9E3779B9u, header.key.x != 0u);
+    uint part = task.part & 1u;
+    uvec2 key = pixel_key(pixel, header.sampling.w + part * 0x9E3779B9u, header.key.x != 0u);
     Points points = pixel_points(header, pixel, key);
 
     // One loop for samples and bounces: a turn follows one ray, and a pixel whose path has ended
@@ -111,7 +114,7 @@ void main() {
     uint at = task.place.y * header.size.x + task.place.x;
     uint pixels = header.size.x * slice.band_height;
     if (is_job) {
-        at += task.part * pixels;
+        at += part * pixels;
         chunks.xyz += sum;
         film[at] = task.first > 0u ? film[at] + chunks : chunks;
         return;

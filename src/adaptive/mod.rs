@@ -4,6 +4,7 @@
 //! Lagrange multiplier gives each pixel so that the whole picture's error falls fastest.
 
 mod allocate;
+mod bias;
 mod estimate;
 
 use std::collections::BTreeMap;
@@ -17,6 +18,7 @@ use crate::layout::Job;
 use crate::progress::Progress;
 
 use allocate::{Aim, Allocation};
+use bias::bias;
 use estimate::Estimate;
 
 /// What ends the sampling.
@@ -35,6 +37,8 @@ pub trait Tracer {
     /// Adds the samples of each job to its pixel of its half. No two jobs of a call are of one pixel and
     /// one half.
     fn sample(&mut self, jobs: &[Job], progress: &dyn Progress) -> Result<()>;
+    /// Whether samples are averages over footprints.
+    fn prefilters(&self) -> bool;
     /// The sums so far.
     fn read(&mut self, sums: &mut Sums) -> Result<()>;
 }
@@ -49,8 +53,10 @@ pub struct Sums {
 /// What was reached.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Outcome {
-    /// RMSE by the difference of the halves.
+    /// RMSE of the noise, by the difference of the halves.
     pub estimated_rmse: f64,
+    /// RMSE of the prefilter's bias, which the halves have in common.
+    pub estimated_bias: f64,
     pub passes: u32,
     pub mean_samples: f64,
     pub least_samples: u32,
@@ -88,7 +94,7 @@ pub fn run(
     let mut outcome = Outcome::default();
     let mut taken;
     let mut exponent = estimate::Exponent::default();
-    loop {
+    let estimate = loop {
         tracer.sample(&jobs(&counts, &next, width), progress)?;
         counts.clone_from(&next);
         tracer.read(&mut sums)?;
@@ -107,23 +113,29 @@ pub fn run(
             }
         };
         outcome.reached = match (aim, goal) {
-            (Aim::Samples(all), _) => taken * 1.02 >= all,
             (Aim::Mse(_), Goal::Error(rmse)) => outcome.estimated_rmse <= rmse * BELIEVED,
             (Aim::Mse(_), _) => false,
+            (Aim::Samples(all), _) => taken * 1.02 >= all,
         };
         if outcome.reached {
-            break;
+            break estimate;
         }
         let allocation = Allocation::new(&estimate, &counts, exponent.value());
         next = allocation.counts(aim, &counts, GROWTH, MOST);
         if next == counts {
-            break;
+            break estimate;
         }
         progress.advance((taken / total(&next)).min(1.0));
-    }
+    };
     outcome.mean_samples = taken / pixels as f64;
     outcome.least_samples = 2 * counts.iter().copied().min().unwrap_or(0);
     outcome.most_samples = 2 * counts.iter().copied().max().unwrap_or(0);
+    if tracer.prefilters() {
+        outcome.estimated_bias = bias(tracer, &sums, &counts, &estimate.variances, progress)?;
+        if let Goal::Error(rmse) = goal {
+            outcome.reached &= outcome.estimated_rmse.hypot(outcome.estimated_bias) <= rmse;
+        }
+    }
     Ok((film(&sums, &counts), outcome))
 }
 
@@ -151,7 +163,7 @@ fn jobs(counts: &[u32], next: &[u32], width: u32) -> Vec<Job> {
     }
     let job = |i: u32, half, count| Job {
         place: (i / width) << 16 | (i % width),
-        half,
+        part: half,
         first: counts[i as usize],
         count,
     };

@@ -57,7 +57,9 @@ impl Overrides {
         sampling.algorithm = self.algorithm.unwrap_or(wanted);
         sampling.pattern = self.pattern.unwrap_or(sampling.pattern);
         sampling.seed = self.seed.unwrap_or(sampling.seed);
-        sampling.footprint = self.footprint.unwrap_or(sampling.footprint);
+        // A prefilter's bias does not fall with the samples as their noise does.
+        let free = if sampling.algorithm == Algorithm::Auto { Footprint::None } else { sampling.footprint };
+        sampling.footprint = self.footprint.unwrap_or(free);
         self.suit_adaptive(sampling)?;
         check_shared(sampling.pattern, sampling.shared).map_err(Error::new)?;
         check_spp(sampling.pattern, sampling.spp).map_err(|m| Error::new(format!("--spp: {m}")))?;

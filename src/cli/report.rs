@@ -71,6 +71,12 @@ pub fn say(ran: &Ran, outputs: &[String], verbose: bool) {
         }
     }
     if let Some(o) = &report.outcome {
+        if o.estimated_bias > 0.0 {
+            tell(format_args!(
+                "the footprint's bias is about {:.2e} RMSE; --footprint none has none",
+                o.estimated_bias
+            ));
+        }
         tell(format_args!(
             "estimated RMSE {:.2e} after {} passes, {} to {} samples a pixel{}",
             o.estimated_rmse,

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use super::render::sample;
 use crate::adaptive::{Sums, Tracer};
 use crate::error::{Error, Result};
-use crate::layout::Job;
+use crate::layout::{JOB_BARE, Job};
 use crate::pack::PackedScene;
 use crate::progress::Progress;
 
@@ -26,8 +26,11 @@ impl JobTracer<'_> {
     fn sum(&self, job: &Job) -> [f64; 4] {
         let place = [job.place & 0xFFFF, job.place >> 16];
         let mut sum = [0.0; 4];
+        let mut header = self.scene.header;
+        let samples = 2.0 * f64::from(job.first + job.count);
+        header.step_x[3] = if job.part & JOB_BARE != 0 { 0.0 } else { samples.sqrt().recip() as f32 };
         for s in job.first..job.first + job.count {
-            let seen = sample(self.scene, place, job.half, s);
+            let seen = sample(self.scene, &header, place, job.part & 1, s);
             let terms = [seen.x, seen.y, seen.z, seen.length_squared() / 3.0];
             sum = std::array::from_fn(|i| sum[i] + terms[i]);
         }
@@ -45,10 +48,14 @@ impl Tracer for JobTracer<'_> {
         let width = self.scene.header.size[0];
         for (job, sum) in jobs.iter().zip(sums) {
             let at = ((job.place >> 16) * width + (job.place & 0xFFFF)) as usize;
-            let total = &mut self.halves[job.half as usize][at];
-            *total = std::array::from_fn(|i| total[i] + sum[i]);
+            let total = &mut self.halves[(job.part & 1) as usize][at];
+            *total = std::array::from_fn(|i| if job.first > 0 { total[i] + sum[i] } else { sum[i] });
         }
         Ok(())
+    }
+
+    fn prefilters(&self) -> bool {
+        self.scene.prefilters()
     }
 
     fn read(&mut self, sums: &mut Sums) -> Result<()> {

@@ -12,18 +12,19 @@ use super::rng::{pcg2d, pixel_key, sample_bits};
 use super::shade::{advance, camera_path};
 use crate::error::{Error, Result};
 use crate::film::Film;
+use crate::layout::Header;
 use crate::pack::PackedScene;
 use crate::progress::Progress;
 
 /// The mean radiance of pixel (x, y) of the film: of the crop, where there is one.
 pub fn pixel(scene: &PackedScene, x: u32, y: u32) -> DVec3 {
-    let sum: DVec3 = (0..scene.samples).map(|s| sample(scene, [x, y], 0, s)).sum();
+    let sum: DVec3 = (0..scene.samples).map(|s| sample(scene, &scene.header, [x, y], 0, s)).sum();
     sum / f64::from(scene.samples)
 }
 
-/// The radiance of one sample. The second half of an adaptive picture has another seed.
-pub fn sample(scene: &PackedScene, [x, y]: [u32; 2], half: u32, s: u32) -> DVec3 {
-    let header = &scene.header;
+/// The radiance of one sample, by a header that may differ from the scene's in the samples' share of the
+/// pixel. The second half of an adaptive picture has another seed.
+pub fn sample(scene: &PackedScene, header: &Header, [x, y]: [u32; 2], half: u32, s: u32) -> DVec3 {
     let place = [x + header.image[2], y + header.image[3]];
     let seed = header.sampling[3].wrapping_add(half.wrapping_mul(0x9E37_79B9));
     let key = pixel_key(place, seed, header.key[0] != 0);

@@ -114,7 +114,7 @@ pub fn pack_with(
     };
     let mut packed = PackedScene { samples: scene.sampling.samples(), schedule, ..Default::default() };
     packed.header = header(scene, crop);
-    let filtered = packed.header.key[2] != Footprint::None as u32;
+    let filtered = packed.prefilters();
     packed.sampler_specs = scene.samplers.clone();
     packed.samplers = scene.samplers.iter().map(|spec| textures::sampler(spec, filtered)).collect();
     textures::pack_textures(&mut packed, scene, textures, pyramids)?;
@@ -182,6 +182,11 @@ fn pack_environment(packed: &mut PackedScene, scene: &Scene, environment: &Envir
 }
 
 impl PackedScene {
+    /// Whether samples are averages over footprints.
+    pub fn prefilters(&self) -> bool {
+        self.header.key[2] != Footprint::None as u32
+    }
+
     /// Does any look-up go through the device's own samplers?
     pub fn uses_hardware_samplers(&self) -> bool {
         let mut slots = self.slots.iter().chain(&self.volume_slots).chain(&self.cube_slots);

@@ -6,7 +6,7 @@ use crate::adaptive::{Sums, Tracer};
 use crate::error::{Error, Result};
 use crate::gpu::{BindGroup, Buffer, BufferUse, Gpu, Pipeline};
 use crate::layout::{Job, Slice, TILE};
-use crate::pack::Schedule;
+use crate::pack::{PackedScene, Schedule};
 use crate::progress::Progress;
 use crate::shaders::Shader;
 
@@ -44,6 +44,7 @@ pub struct JobTracer<'a> {
     binder: Binder<'a>,
     groups_per_tile: u32,
     pages: Vec<Page>,
+    prefilters: bool,
     report: &'a mut Report,
     /// Samples of the next submission, learnt from the last ones.
     next: f64,
@@ -54,9 +55,11 @@ impl<'a> JobTracer<'a> {
         gpu: &'a Gpu,
         binder: Binder<'a>,
         groups_per_tile: u32,
-        [width, height]: [u32; 2],
+        scene: &PackedScene,
         report: &'a mut Report,
     ) -> Result<JobTracer<'a>> {
+        let [width, height, _, _] = scene.header.size;
+        let prefilters = scene.prefilters();
         let limits = &gpu.info().limits;
         let row = u64::from(width) * PIXEL_BYTES;
         let rows =
@@ -67,7 +70,7 @@ impl<'a> JobTracer<'a> {
             Ok(Page { y, height, film })
         };
         let pages = (0..height).step_by(rows as usize).map(page).collect::<Result<Vec<_>>>()?;
-        Ok(JobTracer { gpu, binder, groups_per_tile, pages, report, next: FIRST_SAMPLES })
+        Ok(JobTracer { gpu, binder, groups_per_tile, pages, prefilters, report, next: FIRST_SAMPLES })
     }
 
     /// One workgroup without a job: whatever the driver compiles late, it compiles now.
@@ -141,6 +144,10 @@ impl Tracer for JobTracer<'_> {
             }
         }
         Ok(())
+    }
+
+    fn prefilters(&self) -> bool {
+        self.prefilters
     }
 
     fn read(&mut self, sums: &mut Sums) -> Result<()> {

@@ -111,7 +111,7 @@ pub fn render_to_goal(
     let [width, height, _, _] = scene.header.size;
     if scene.schedule == Schedule::Jobs {
         let binder = Binder { resources: &resources, pipeline: &pipeline, shader };
-        let mut tracer = JobTracer::new(gpu, binder, groups_per_tile, [width, height], &mut report)?;
+        let mut tracer = JobTracer::new(gpu, binder, groups_per_tile, &scene, &mut report)?;
         tracer.warm_up()?;
         let compile = clock.elapsed().as_secs_f64();
         let clock = Instant::now();

@@ -161,6 +161,38 @@ fn filters_that_the_footprint_leaves_idle_are_warned_of_unless_quiet() {
 }
 
 #[test]
+fn goals_choose_an_algorithm_and_say_what_was_reached() {
+    let told = json("s2", &["--size", "64x64", "--target-error", "5e-3"]);
+    assert_eq!(
+        (&told["options"]["algorithm"], &told["options"]["pattern"]),
+        (&"auto".into(), &"sobol-owen".into())
+    );
+    assert_eq!(told["reached"]["reached"], true);
+    assert!(told["reached"]["estimated_rmse"].as_f64().unwrap() <= 5e-3, "{told:#}");
+    let told = json("s2", &["--size", "64x64", "--budget", "0.05"]);
+    assert!(told["reached"]["mean_samples"].as_f64().unwrap() >= 16.0, "{told:#}");
+    assert!(json("s2", &["--size", "8x8"])["reached"].is_null());
+}
+
+#[test]
+fn goals_that_cannot_be_followed_are_refused() {
+    let cases: [(&[&str], &str); 5] = [
+        (&["--budget", "1", "--target-error", "1e-3"], "cannot be used with"),
+        (&["--budget", "0"], "above 0"),
+        (&["--target-error", "nan"], "above 0"),
+        (&["--budget", "1", "--algorithm", "samples"], "takes --spp"),
+        (&["--target-error", "1e-3", "--pattern", "stratified"], "sobol-owen"),
+    ];
+    for (options, expected) in cases {
+        let folder = tempdir().unwrap();
+        let output = render(folder.path(), "s2", options);
+        assert_eq!(output.status.code(), Some(2), "{options:?}");
+        assert!(text(&output.stderr).contains(expected), "{options:?}: {}", text(&output.stderr));
+        assert_eq!(files(&folder), [""; 0], "{options:?}");
+    }
+}
+
+#[test]
 fn options_replace_the_values_of_the_scene() {
     let options =
         ["--size", "20x10", "--spp", "9", "--pattern", "grid", "--seed", "5", "--method", "hardware"];

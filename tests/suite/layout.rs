@@ -96,6 +96,7 @@ fn expected_numbers() -> BTreeMap<String, u32> {
         .collect();
     all.insert("NO_TEXTURE".into(), mirror::NO_TEXTURE);
     all.insert("NO_SHAPE".into(), mirror::NO_SHAPE);
+    all.insert("JOB_BARE".into(), mirror::JOB_BARE);
     all.insert("NO_MATERIAL".into(), mirror::NO_MATERIAL);
     all.insert("HEAD_UNITS".into(), mirror::HEAD_BYTES as u32 / 16);
     let strides = MIRRORS.iter().filter(|(name, _)| *name != "Header");

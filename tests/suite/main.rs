@@ -5,6 +5,7 @@
 // not the helpers they share.
 #![allow(clippy::unwrap_used)]
 
+mod adaptive;
 mod bad_input;
 mod cli;
 mod data;
