@@ -7,7 +7,7 @@ use crate::error::{Error, Result};
 use crate::pack::Crop;
 use crate::scene::model::{Algorithm, Footprint, Pattern, Scene};
 use crate::scene::{both_filters, check_filters, check_shared, check_spp};
-use crate::texture::sampler_spec::{Filter, Method};
+use crate::texture::sampler_spec::{Filter, Method, MipMode};
 
 use super::named_parser;
 
@@ -32,6 +32,11 @@ pub struct Overrides {
     filter: Option<Filter>,
     #[arg(long, value_name = "F", value_parser = named_parser(Footprint::NAMES, Footprint::from_name), help = one_of("Footprint of a sample", Footprint::NAMES))]
     footprint: Option<Footprint>,
+    #[arg(long, value_name = "M", value_parser = named_parser(MipMode::NAMES, MipMode::from_name), help = one_of("Levels that every sampler reads", MipMode::NAMES))]
+    mip: Option<MipMode>,
+    /// Whether all pixels share their displacements
+    #[arg(long, value_name = "BOOL")]
+    shared: Option<bool>,
 }
 
 /// The help of an option that takes one of `names`.
@@ -50,9 +55,11 @@ impl Overrides {
         sampling.pattern = self.pattern.unwrap_or(sampling.pattern);
         sampling.seed = self.seed.unwrap_or(sampling.seed);
         sampling.footprint = self.footprint.unwrap_or(sampling.footprint);
+        sampling.shared = self.shared.unwrap_or(sampling.shared);
         check_shared(sampling.pattern, sampling.shared).map_err(Error::new)?;
         check_spp(sampling.pattern, sampling.spp).map_err(|m| Error::new(format!("--spp: {m}")))?;
         for sampler in &mut scene.samplers {
+            sampler.mip = self.mip.unwrap_or(sampler.mip);
             sampler.method = self.method.unwrap_or(sampler.method);
             if let Some(filter) = self.filter {
                 (sampler.mag, sampler.min) = both_filters(filter);

@@ -3,15 +3,13 @@
 
 mod film_buffer;
 mod resources;
+mod session;
 mod slices;
 mod tuning;
-
-use std::time::Instant;
 
 use serde::Serialize;
 
 use crate::error::{Error, Result};
-use crate::features::{self, Features};
 use crate::film::Film;
 use crate::gpu::{BindGroup, BindingDesc, BindingKind, Gpu, Pipeline, PipelineDesc};
 use crate::layout::Slice;
@@ -20,10 +18,10 @@ use crate::progress::Progress;
 use crate::shaders::{ReflectedBinding, Shader, specialise};
 
 use film_buffer::{Band, FilmBuffer};
-use resources::shader_for;
 
 pub(crate) use resources::Resources;
 pub use resources::can_sample;
+pub use session::{Prepared, Session};
 pub use tuning::{TexelChoice, Tuning};
 
 /// Wall seconds by stage, in the order in which they come.
@@ -62,45 +60,12 @@ pub struct Report {
 /// Renders on an open device. The texels of `scene` leave the host's memory once the device has them.
 pub fn render(
     gpu: &Gpu,
-    mut scene: PackedScene,
+    scene: PackedScene,
     keep_everything: bool,
     tuning: &Tuning,
     progress: &dyn Progress,
 ) -> Result<(Film, Report)> {
-    let mut report = Report::default();
-    let image_source = tuning.image_source(gpu.info(), &scene);
-    let features = Features::new(&scene, image_source, keep_everything);
-    report.left_out.clone_from(&features.left_out);
-
-    let clock = Instant::now();
-    let resources = Resources::upload(gpu, &scene, &features)?;
-    let film_buffer = FilmBuffer::new(gpu, &scene, &features)?;
-    scene.texels = Vec::new();
-    report.seconds.upload = clock.elapsed().as_secs_f64();
-
-    let clock = Instant::now();
-    let shader = shader_for(features.source);
-    let group_size = tuning.group_size(gpu.info())?;
-    let slots = scene.slot_counts();
-    let constants = features::constants(shader, &features, &resources.sections, group_size, slots);
-    let pipeline = build_pipeline(gpu, shader, &constants, slots, size_of::<Slice>())?;
-    let group = resources.bind(gpu, &pipeline, shader, &film_buffer.buffer, None)?;
-    let renderer = Renderer { gpu, pipeline, group, groups_per_tile: tuning::groups_per_tile(group_size) };
-    renderer.warm_up(&film_buffer)?;
-    report.seconds.compile = clock.elapsed().as_secs_f64();
-
-    let mut film = Film::new(scene.header.size[0], scene.header.size[1], scene.samples);
-    let mut plan = slices::Plan::new(scene.samples, film_buffer.tiles());
-    for band in film_buffer.bands() {
-        let clock = Instant::now();
-        renderer.band(&band, &mut plan, &mut report, progress)?;
-        report.seconds.render += clock.elapsed().as_secs_f64();
-        let clock = Instant::now();
-        film_buffer.read(gpu, &band, &mut film)?;
-        report.seconds.readback += clock.elapsed().as_secs_f64();
-    }
-    report.device_bytes = gpu.memory_in_use();
-    Ok((film, report))
+    Session::open(gpu, scene, keep_everything, tuning)?.prepare()?.render(progress)
 }
 
 /// A pipeline of `shader` with these constants; the scene has so many image descriptors.
