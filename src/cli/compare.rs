@@ -54,8 +54,7 @@ pub fn run(args: &CompareArgs) -> Result<ExitCode> {
     }
     let pass = comparison.passes(args.max_rmse);
     let flip = flip(&a, &b)?;
-    let text =
-        if args.json { json(args, &comparison, flip, pass)? } else { table(args, &comparison, flip) };
+    let text = if args.json { json(args, &comparison, flip, pass)? } else { table(args, &comparison, flip) };
     super::print(&text)?;
     if !pass {
         super::tell(reason(&comparison, args.max_rmse));
@@ -72,7 +71,8 @@ fn bound(text: &str) -> Result<f64, String> {
 
 fn json(args: &CompareArgs, comparison: &Comparison, flip: f64, pass: bool) -> Result<String> {
     let name = |path: &PathBuf| path.display().to_string();
-    let report = Report { a: name(&args.a), b: name(&args.b), comparison, flip, max_rmse: args.max_rmse, pass };
+    let report =
+        Report { a: name(&args.a), b: name(&args.b), comparison, flip, max_rmse: args.max_rmse, pass };
     serde_json::to_string_pretty(&report).map_err(|e| Error::new(format!("the report as JSON: {e}")))
 }
 

@@ -6,6 +6,7 @@ mod overrides;
 mod progress;
 pub mod render;
 mod report;
+pub mod study;
 pub mod texture;
 pub mod verify;
 

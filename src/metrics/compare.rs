@@ -78,7 +78,8 @@ pub fn compare(a: &Film, b: &Film) -> Result<Comparison> {
             let largest = differences.into_iter().fold(0.0, f64::max);
             let squares = differences.map(|d| d * d);
             row_sum += squares.iter().sum::<f64>();
-            row_relative += squares.iter().zip(q).map(|(s, q)| s / (f64::from(q).powi(2) + RELATIVE_FLOOR)).sum::<f64>();
+            row_relative +=
+                squares.iter().zip(q).map(|(s, q)| s / (f64::from(q).powi(2) + RELATIVE_FLOOR)).sum::<f64>();
             if largest > max {
                 (max, max_at) = (largest, Some([x as u32, y as u32]));
             }
