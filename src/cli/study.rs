@@ -47,7 +47,7 @@ pub struct StudyArgs {
     #[arg(long, value_name = "FILE|oracle")]
     reference: Option<String>,
     /// Time for all of it; the longest points are left out where it does not suffice
-    #[arg(long, value_name = "LIMIT", default_value = "600", value_parser = limit)]
+    #[arg(long, value_name = "LIMIT", default_value = "600", value_parser = limit, allow_negative_numbers = true)]
     seconds: f64,
     /// Print the content of study.json on stdout
     #[arg(long)]
@@ -142,8 +142,12 @@ fn report(args: &StudyArgs, record: &Record) -> Result<()> {
     if args.verbose {
         for w in analysis.iter().flat_map(|a| &a.winners) {
             super::tell(format_args!(
-                "within {:.3e} s: {} with {} samples, RMSE {:.3e} in {:.3e} s",
-                w.budget, w.method, w.spp, w.rmse, w.seconds
+                "within {:.3e} s: {} with {}{} samples, RMSE {:.3e}",
+                w.budget,
+                w.method,
+                if w.estimated { "about " } else { "" },
+                w.spp,
+                w.rmse
             ));
         }
         record.notes.iter().for_each(|note| super::tell(format_args!("note: {note}")));

@@ -4,6 +4,7 @@
 
 mod mapping;
 mod procedural;
+mod resample;
 mod shapes;
 mod textures;
 
@@ -214,16 +215,6 @@ fn pack_environment(packed: &mut PackedScene, scene: &Scene, environment: &Envir
 }
 
 impl PackedScene {
-    /// Takes the samples of `scene`, which is the one it was packed from but for pattern, number, seed and
-    /// whether pixels share them.
-    pub fn set_sampling(&mut self, scene: &Scene) {
-        let [_, _, x, y] = self.header.image;
-        let [width, height, _, _] = self.header.size;
-        let Header { step_x, sampling, key: [shared, ..], .. } = header(scene, Crop { x, y, width, height });
-        (self.header.step_x, self.header.sampling, self.header.key[0]) = (step_x, sampling, shared);
-        self.samples = scene.sampling.samples();
-    }
-
     /// Does any look-up go through the device's own samplers?
     pub fn uses_hardware_samplers(&self) -> bool {
         let mut slots = self.slots.iter().chain(&self.volume_slots).chain(&self.cube_slots);

@@ -46,6 +46,9 @@ pub struct Winner {
     pub spp: u32,
     pub seconds: f64,
     pub rmse: f64,
+    /// Beyond the method's longest point, along its slope. A method that is slow for its samples would
+    /// otherwise win all the time in which nothing else was measured.
+    pub estimated: bool,
 }
 
 /// Seconds to each error, by method; none where no measured point is as good.
@@ -69,13 +72,9 @@ pub fn analyse(record: &Record) -> Analysis {
             theory_text: text.to_owned(),
         }
     };
-    let winners = winners(&record.points);
-    Analysis {
-        recommendation: advice(record, &winners),
-        slopes: record.methods.iter().map(slope).collect(),
-        winners,
-        reach: reach(record),
-    }
+    let slopes: Vec<MethodSlope> = record.methods.iter().map(slope).collect();
+    let winners = winners(&record.points, &slopes);
+    Analysis { recommendation: advice(record, &winners), slopes, winners, reach: reach(record) }
 }
 
 /// Of the variance over the number of samples: independent ones −1; one jittered sample in each of n strata
@@ -150,23 +149,41 @@ pub fn steps(from: f64, to: f64) -> Vec<f64> {
     steps
 }
 
-pub fn winners(points: &[PointRecord]) -> Vec<Winner> {
+pub fn winners(points: &[PointRecord], slopes: &[MethodSlope]) -> Vec<Winner> {
     let usable: Vec<&PointRecord> =
         points.iter().filter(|p| p.median_seconds() > 0.0 && p.errors.rmse.is_finite()).collect();
     let times = || usable.iter().map(|p| p.median_seconds());
     let budgets = steps(times().fold(f64::INFINITY, f64::min), times().fold(0.0, f64::max));
     let winner = |budget: f64| {
         let fitting = usable.iter().filter(|p| p.median_seconds() <= budget);
-        let best = fitting.min_by(|a, b| a.errors.rmse.total_cmp(&b.errors.rmse))?;
-        Some(Winner {
+        let measured = fitting.map(|p| Winner {
             budget,
-            method: best.method.clone(),
-            spp: best.spp,
-            seconds: best.median_seconds(),
-            rmse: best.errors.rmse,
-        })
+            method: p.method.clone(),
+            spp: p.spp,
+            seconds: p.median_seconds(),
+            rmse: p.errors.rmse,
+            estimated: false,
+        });
+        let estimated = slopes.iter().filter_map(|slope| beyond(&usable, slope, budget));
+        measured.chain(estimated).min_by(|a, b| a.rmse.total_cmp(&b.rmse))
     };
     budgets.into_iter().filter_map(winner).collect()
+}
+
+/// What a method with a law would come to in a time longer than it was measured for.
+fn beyond(points: &[&PointRecord], slope: &MethodSlope, budget: f64) -> Option<Winner> {
+    let own = points.iter().filter(|p| p.method == slope.method);
+    let last = own.max_by(|a, b| a.median_seconds().total_cmp(&b.median_seconds()))?;
+    let longer = budget / last.median_seconds();
+    let law = slope.fitted.filter(|f| !slope.theory.is_empty() && f.value < 0.0)?;
+    (longer > 1.0).then(|| Winner {
+        budget,
+        method: slope.method.clone(),
+        spp: (f64::from(last.spp) * longer) as u32,
+        seconds: budget,
+        rmse: last.errors.rmse * longer.powf(0.5 * law.value),
+        estimated: true,
+    })
 }
 
 fn reach(record: &Record) -> Reach {

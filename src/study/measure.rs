@@ -54,6 +54,12 @@ impl<'a> Measurement<'a> {
         record.notes = [notes, self.notes(&tasks)].concat();
         collect(record, &tasks, self.methods);
         files::save(&self.options.out, record)?;
+        if record.points.is_empty() && outcome.is_ok() {
+            return Err(Error::with_help(
+                format!("--seconds {}: no time for a single point", self.options.limit),
+                "allow more, or ask for fewer samples with --spp or a smaller picture with --size",
+            ));
+        }
         outcome
     }
 

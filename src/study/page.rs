@@ -10,7 +10,7 @@ use super::record::Record;
 use super::showcase::Showcase;
 use super::svg::escape;
 use super::tables;
-use super::words::error;
+use super::words::{error, recommended};
 
 /// Widest picture within the page.
 const MOST: u32 = 420;
@@ -28,9 +28,7 @@ pub fn html(record: &Record, showcase: &Showcase, plots: &Plots) -> Result<Strin
         escape(&c.device.driver),
         escape(&c.program)
     );
-    let best = analysis.winners.last().and_then(|w| {
-        record.points.iter().find(|p| p.method == w.method && p.spp == w.spp).map(|p| p.command.as_str())
-    });
+    let best = recommended(record, &analysis.winners).map(|(_, point)| point.command.as_str());
     let command = best.map_or(String::new(), |c| scroll("The recommended setting as a command", &code(c)));
     let sections = [
         section("faults", "Three faults and what helps", &faults(showcase)?),
@@ -51,10 +49,10 @@ pub fn html(record: &Record, showcase: &Showcase, plots: &Plots) -> Result<Strin
         section("conditions", "Conditions", &tables::conditions(record)),
     ];
     Ok(format!(
-        "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
-         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
-         <meta name=\"color-scheme\" content=\"light dark\">\n<title>{title}</title>\n\
-         <link rel=\"icon\" href=\"data:,\">\n<style>\n{}</style>\n</head>\n<body>\n<main>\n\
+        "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n\
+         <meta name=\"color-scheme\" content=\"light dark\"/>\n<title>{title}</title>\n\
+         <link rel=\"icon\" href=\"data:,\"/>\n<style>\n{}</style>\n</head>\n<body>\n<main>\n\
          <header>\n<h1>{title}</h1>\n<p class=\"facts\">{facts}</p>\n<p class=\"lead\">{}</p>\n{command}</header>\n\
          {}</main>\n<script>\n{}</script>\n</body>\n</html>\n",
         include_str!("page/style.css"),
@@ -86,7 +84,7 @@ fn plot(label: &str, svg: &str) -> String {
 
 fn image(uri: &str, size: [u32; 2], alt: &str, class: &str) -> String {
     format!(
-        "<img src=\"{uri}\" width=\"{}\" height=\"{}\" alt=\"{}\" class=\"{class}\">",
+        "<img src=\"{uri}\" width=\"{}\" height=\"{}\" alt=\"{}\" class=\"{class}\"/>",
         size[0],
         size[1],
         escape(alt)

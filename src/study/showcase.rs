@@ -13,6 +13,7 @@ use super::method::Method;
 use super::pictures::{self, Window};
 use super::plan::next_count;
 use super::record::{MethodRecord, Record};
+use super::words::recommended;
 
 /// Pixels along a side of the magnified crops.
 const CROP: u32 = 64;
@@ -61,7 +62,7 @@ const FILTERED: (&str, &str) =
     ("Filtering", "Each sample reads its texture averaged over its share of the pixel: no grain, some blur.");
 const ALGORITHM: (&str, &str) = ("Another algorithm", "The pixel is not sampled at points alone.");
 const WINNER: (&str, &str) =
-    ("The winner", "The method with the least error for the time this study allowed.");
+    ("The recommended method", "It has the least error within most of the times that were measured.");
 
 pub fn render(
     looks: &Looks<'_>,
@@ -82,8 +83,8 @@ pub fn render(
     for method in record.methods.iter().filter_map(named).filter(|m| m.algorithm != Algorithm::Samples) {
         chosen.push((ALGORITHM.0, ALGORITHM.1, method));
     }
-    let winner = record.analysis.as_ref().and_then(|a| a.winners.last());
-    if let Some(method) = winner.and_then(|w| Method::parse(&w.method).ok()) {
+    let winner = record.analysis.as_ref().and_then(|a| recommended(record, &a.winners));
+    if let Some(method) = winner.and_then(|(name, _)| Method::parse(name).ok()) {
         if !chosen.iter().any(|c| c.2 == method) {
             chosen.push((WINNER.0, WINNER.1, method));
         }

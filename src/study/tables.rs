@@ -23,10 +23,22 @@ fn table(caption: &str, head: &[&str], rows: &[Vec<String>]) -> String {
 
 pub fn winners(analysis: &Analysis) -> String {
     let row = |w: &super::analysis::Winner| {
-        vec![seconds(w.budget), method(&w.method), samples(w.spp), error(w.rmse), seconds(w.seconds)]
+        let about = if w.estimated { "about " } else { "" };
+        let [count, rmse] = [samples(w.spp), error(w.rmse)].map(|text| format!("{about}{text}"));
+        vec![seconds(w.budget), method(&w.method), count, rmse, seconds(w.seconds)]
     };
     let rows: Vec<Vec<String>> = analysis.winners.iter().map(row).collect();
-    table("The least error within each time", &["time", "winner", "samples", "RMSE", "it takes"], &rows)
+    let text = if analysis.winners.iter().any(|w| w.estimated) {
+        "<p>“about”: beyond what was measured of the method, along its fitted slope.</p>\n"
+    } else {
+        ""
+    };
+    text.to_owned()
+        + &table(
+            "The least error within each time",
+            &["time", "winner", "samples", "RMSE", "it takes"],
+            &rows,
+        )
 }
 
 pub fn slopes(analysis: &Analysis) -> String {

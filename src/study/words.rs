@@ -4,74 +4,62 @@
 use super::analysis::{Winner, time_to};
 use super::record::{PointRecord, Record};
 
-/// Who wins how much of the time axis: neighbouring budgets of one method, as (method, first, last).
-fn stretches(winners: &[Winner]) -> Vec<(&str, &Winner, &Winner)> {
-    let mut stretches: Vec<(&str, &Winner, &Winner)> = Vec::new();
-    for winner in winners {
-        match stretches.last_mut() {
-            Some((method, _, last)) if *method == winner.method => *last = winner,
-            _ => stretches.push((&winner.method, winner, winner)),
-        }
-    }
-    stretches
-}
-
-/// The method that wins with the most time, its best count, what it saves, and who is better with less time.
+/// The method that wins most of the times, with its best measured count, and who is better with less and with
+/// more time.
 pub fn advice(record: &Record, winners: &[Winner]) -> String {
-    let Some((_, first, last)) = stretches(winners).last().copied() else {
+    let Some((method, best)) = recommended(record, winners) else {
         return "Nothing was measured.".into();
     };
     let mut text = format!(
-        "Use {} with {}: RMSE {} in {}",
-        last.method,
-        samples(last.spp),
-        error(last.rmse),
-        seconds(last.seconds)
+        "Use {method} with {}: RMSE {} in {}",
+        samples(best.spp),
+        error(best.errors.rmse),
+        seconds(best.median_seconds())
     );
-    if let Some(times) = saved(record, last) {
+    if let Some(times) = saved(record, best) {
         text += &format!(", {times} times as fast as random samples come to that error");
     }
-    if first.budget < last.budget {
-        text += &format!("; it has the least error from {} on", seconds(first.seconds));
+    let mut others = Vec::new();
+    if let Some(first) = winners.first().filter(|w| w.method != method) {
+        others.push(format!("if there is time for {} only, {}", seconds(first.budget), setting(first)));
     }
-    let stretches = stretches(winners);
-    // Two at most, those that hold longest: a sentence is no table.
-    let mut before: Vec<_> = stretches[..stretches.len() - 1].iter().collect();
-    before.sort_by(|a, b| (b.2.budget / b.1.budget).total_cmp(&(a.2.budget / a.1.budget)));
-    before.truncate(2);
-    before.sort_by(|a, b| a.1.budget.total_cmp(&b.1.budget));
-    let shorter: Vec<String> = before
-        .iter()
-        .map(|(method, _, last)| {
-            format!(
-                "with {} {method} with {} (RMSE {})",
-                seconds(last.budget),
-                samples(last.spp),
-                error(last.rmse)
-            )
-        })
-        .collect();
-    if !shorter.is_empty() {
-        text += &format!("; {}", shorter.join(", "));
+    if let Some(last) = winners.last().filter(|w| w.method != method) {
+        others.push(format!("with {}, {}", seconds(last.budget), setting(last)));
     }
+    others.iter().for_each(|other| text += &format!("; {other}"));
     text + "."
 }
 
-fn saved(record: &Record, winner: &Winner) -> Option<String> {
+fn setting(winner: &Winner) -> String {
+    let about = if winner.estimated { "about " } else { "" };
+    format!("{} with {about}{} (RMSE {about}{})", winner.method, samples(winner.spp), error(winner.rmse))
+}
+
+/// The method that has the least error in most of the times, and its best point.
+pub fn recommended<'a>(record: &'a Record, winners: &'a [Winner]) -> Option<(&'a str, &'a PointRecord)> {
+    let won = |name: &str| winners.iter().filter(|w| w.method == name).count();
+    // The last among equals: it was measured for the longer times.
+    let method = winners.iter().max_by_key(|w| won(&w.method))?.method.as_str();
+    let best = record.points_of(method).min_by(|a, b| a.errors.rmse.total_cmp(&b.errors.rmse))?;
+    Some((method, best))
+}
+
+/// How many times as long random samples take to the same error.
+fn saved(record: &Record, best: &PointRecord) -> Option<String> {
     let curve: Vec<(f64, f64)> =
         record.points_of("random").map(|p| (p.median_seconds(), p.errors.rmse)).collect();
-    if winner.method == "random" {
+    if best.method == "random" {
         return None;
     }
-    let (time, at_least) = match time_to(&curve, winner.rmse) {
+    let (time, at_least) = match time_to(&curve, best.errors.rmse) {
         Some(time) => (time, ""),
         // Independent samples halve their error with four times the number.
         None => {
             let (time, rmse) = *curve.last()?;
-            (time * (rmse / winner.rmse).powi(2), "about ")
+            (time * (rmse / best.errors.rmse).powi(2), "about ")
         }
     };
-    let ratio = time / winner.seconds;
+    let ratio = time / best.median_seconds();
     (ratio.is_finite() && ratio >= 1.05).then(|| format!("{at_least}{}", significant(ratio)))
 }
 
