@@ -15,7 +15,7 @@ use crate::error::Result;
 use crate::layout::{self, Header};
 use crate::named::named_enum;
 use crate::scene::model::{
-    Environment, EnvironmentLayout, Footprint, Light, Material, Model, Pattern, Projection, Scene,
+    Environment, EnvironmentLayout, Footprint, Material, Model, Pattern, Projection, Scene,
 };
 use crate::texture::data::TextureData;
 use crate::texture::sampler_spec::{Address, Method, SamplerSpec};
@@ -159,7 +159,7 @@ pub fn pack(scene: &Scene, textures: Vec<TextureData>, crop: Option<Crop>) -> Re
     if let Some(environment) = &scene.background.environment {
         pack_environment(&mut packed, scene, environment);
     }
-    packed.lights = scene.lights.iter().map(|l| light(l, scene.camera.eye)).collect();
+    packed.lights = scene.lights.iter().map(|l| shapes::light(l, scene.camera.eye)).collect();
     packed.header.key[1] = packed.lights.len() as u32;
     let counts = [packed.planes.len(), packed.spheres.len(), packed.triangles.len()].map(|n| n as u32);
     packed.header.counts[..3].copy_from_slice(&counts);
@@ -309,21 +309,6 @@ fn footprint(scene: &Scene) -> Footprint {
     let procedural = scene.textures.iter().any(|t| t.content.procedural().is_some());
     let needed = procedural || scene.samplers.iter().any(SamplerSpec::needs_footprint);
     if needed { scene.sampling.footprint } else { Footprint::None }
-}
-
-fn light(light: &Light, eye: DVec3) -> layout::Light {
-    match *light {
-        Light::Point { position, intensity } => layout::Light {
-            place: vec4((position - eye).extend(0.0)),
-            power: vec4(intensity.extend(0.0)),
-            link: [LightKind::Point as u32, 0, 0, 0],
-        },
-        Light::Directional { direction, irradiance } => layout::Light {
-            place: vec4(direction.normalize().extend(0.0)),
-            power: vec4(irradiance.extend(0.0)),
-            link: [LightKind::Directional as u32, 0, 0, 0],
-        },
-    }
 }
 
 fn vec4(v: DVec4) -> [f32; 4] {

@@ -81,7 +81,7 @@ impl Chart<'_> {
         if let Some(floor) = self.floor.filter(|f| *f > 0.0) {
             let at = y.place(floor);
             body += &svg::line([left, at], [right, at], "floor");
-            body += &svg::text(right - 6.0, at - 5.0, "end", "small", "the reference's own error");
+            body += &svg::text(left + 8.0, at - 5.0, "start", "small", "the reference's own error");
         }
         for (index, series) in self.series.iter().enumerate() {
             body += &drawn(series, index, &x, &y);
@@ -130,9 +130,7 @@ impl Chart<'_> {
             let at = |v: f64| [x.place(v), y.place(start * (v / x.low).powf(*slope))];
             out += &svg::line(at(x.low), at(end), "guide");
             let [px, py] = at(end);
-            let (px, py, anchor) =
-                if end < x.high { (px - 8.0, py - 8.0, "end") } else { (px - 6.0, py - 6.0, "end") };
-            out += &svg::text(px, py, anchor, "small", name);
+            out += &svg::text(px - 7.0, py - 7.0, "end", "small", name);
         }
         out
     }
@@ -144,7 +142,7 @@ impl Chart<'_> {
         for (index, series) in self.series.iter().enumerate() {
             let px = PLOT[0][0] + width * (index / rows) as f64;
             let py = from + KEY_ROW * (index % rows) as f64 + 8.0;
-            let line = svg::line([px, py], [px + 34.0, py], &class(series, index));
+            let line = line(&format!("M{px:.1} {py:.1}h34"), series, index);
             let marker = svg::marker(index, [px + 17.0, py], "");
             let name = svg::text(px + 44.0, py + 4.5, "start", "", &series.name);
             out += &format!(
@@ -156,8 +154,9 @@ impl Chart<'_> {
     }
 }
 
-fn class(series: &Series, index: usize) -> String {
-    format!("line s{}{}", svg::color(index), if series.dashed { " dashed" } else { "" })
+fn line(path: &str, series: &Series, index: usize) -> String {
+    let dashes = if series.dashed { " stroke-dasharray=\"6 4\"" } else { "" };
+    format!("<path d=\"{path}\" class=\"line s{}\"{dashes}/>\n", svg::color(index))
 }
 
 fn drawn(series: &Series, index: usize, x: &Axis, y: &Axis) -> String {
@@ -173,8 +172,7 @@ fn drawn(series: &Series, index: usize, x: &Axis, y: &Axis) -> String {
     let mut out = format!("<g class=\"series\" data-series=\"{}\">\n", svg::escape(&series.name));
     if shown.len() > 1 {
         let steps: Vec<String> = shown.iter().map(|([px, py], _)| format!("{px:.1} {py:.1}")).collect();
-        let dashes = if series.dashed { " stroke-dasharray=\"6 4\"" } else { "" };
-        out += &format!("<path d=\"M{}\" class=\"{}\"{dashes}/>\n", steps.join("L"), class(series, index));
+        out += &line(&format!("M{}", steps.join("L")), series, index);
     }
     for (at, title) in shown {
         out += &svg::marker(index, at, title);

@@ -30,6 +30,8 @@ pub const FILE: &str = "reference.exr";
 const TIMES: u32 = 64;
 /// The part of a study's time that a reference may take.
 const SHARE: f64 = 0.25;
+/// Samples of two short renders that tell how long a long one takes.
+const PROBES: [u32; 2] = [1, 9];
 /// Added to the scene's seed: no half shares its samples with a measured point.
 const SEEDS: [u32; 2] = [1_000_003, 2_000_003];
 
@@ -140,11 +142,18 @@ fn in_halves(
     options: &Options,
     progress: &dyn Progress,
 ) -> Result<(Film, ReferenceRecord, f64)> {
-    const PROBE: u32 = 4;
     let clock = Instant::now();
-    half(PROBE, 0, &Part { whole: progress, from: 0.0, to: 0.0 })?;
-    let rate = clock.elapsed().as_secs_f64() / f64::from(PROBE);
-    let fitting = (0.5 * allowed / rate).clamp(1.0, f64::from(wanted)) as u32;
+    let still = Part { whole: progress, from: 0.0, to: 0.0 };
+    // What a sample more takes, without what any render takes.
+    let mut times = [0.0; 2];
+    for (time, samples) in times.iter_mut().zip(PROBES) {
+        let clock = Instant::now();
+        half(samples, 0, &still)?;
+        *time = clock.elapsed().as_secs_f64();
+    }
+    let rate = ((times[1] - times[0]) / f64::from(PROBES[1] - PROBES[0])).max(1e-9);
+    let fitting = (0.5 * (allowed - clock.elapsed().as_secs_f64()).max(0.0) / rate)
+        .clamp(1.0, f64::from(wanted)) as u32;
     let samples = match next_count(Pattern::Stratified, fitting) {
         Some(next) if fitting == wanted => next,
         _ => fitting.isqrt().pow(2),

@@ -62,7 +62,7 @@ fn mistakes_end_with_exit_code_2_and_leave_no_folder() {
         (&new, vec!["--spp", "0"], "0 is not in 1..=16777216"),
         (&new, vec!["--repeats", "0"], "--repeats"),
         (&new, vec!["--seconds", "-1"], "--seconds"),
-        (&new, vec!["--size", "0x4"], "WIDTHxHEIGHT"),
+        (&new, vec!["--reference"], "--reference"),
         (&file, vec![], "not a folder"),
         (&nowhere, vec![], "cannot be created"),
     ] {
@@ -107,10 +107,10 @@ fn given_reference_is_what_errors_are_measured_against() {
 #[test]
 fn longest_points_are_left_out_where_time_does_not_suffice() {
     let folder = tempdir().unwrap();
-    let options = ["--methods", "random,stratified", "--spp", "1,4,1048576", "--seconds", "1.5"];
+    let options = ["--methods", "random,stratified", "--spp", "1,4,16777216", "--seconds", "4"];
     let record = studied(folder.path(), &options);
     let counts: Vec<u64> = points(&record).iter().map(|p| p["spp"].as_u64().unwrap()).collect();
     assert_eq!(counts, [1, 4, 1, 4]);
     let notes = record["notes"].to_string();
-    assert!(notes.contains("random with 1048576 samples was left out"), "{notes}");
+    assert!(notes.contains("random with 16777216 samples was left out"), "{notes}");
 }
