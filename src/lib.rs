@@ -10,7 +10,7 @@
 //!             upload ▶ pipeline ▶ slices ▶ readback                   reads the same bytes
 //!                        └────────▶ Film (linear RGB means) ◀───────────────┘
 //!                                             │
-//!                             output (PNG, EXR, …) · metrics
+//!                             output (PNG, EXR, …) · metrics ◀─ study (error against time)
 //! ```
 //!
 //! Only [`gpu`] names Vulkan. Each file of [`oracle`] is the float64 twin of a file of `glsl/shared/`;
@@ -35,5 +35,6 @@ pub mod progress;
 pub mod render;
 pub mod scene;
 pub mod shaders;
+pub mod study;
 pub mod texture;
 pub mod verify;

@@ -4,7 +4,7 @@
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
-use moire::cli::{self, compare, devices, pattern, render, texture, verify};
+use moire::cli::{self, compare, devices, pattern, render, study, texture, verify};
 use moire::error::Error;
 
 /// Renders textured scenes with Vulkan compute, with or without a GPU
@@ -19,6 +19,8 @@ struct Cli {
 enum Command {
     /// Render a scene file into one or more pictures
     Render(Box<render::RenderArgs>),
+    /// Measure which anti-aliasing method gives the least error in the time there is
+    Study(study::StudyArgs),
     /// Compare two pictures in linear RGB
     Compare(compare::CompareArgs),
     /// List the Vulkan devices
@@ -34,6 +36,7 @@ enum Command {
 fn main() -> ExitCode {
     let result = match Cli::parse().command {
         Command::Render(args) => render::run(&args),
+        Command::Study(args) => study::run(&args),
         Command::Compare(args) => compare::run(&args),
         Command::Devices(args) => devices::run(&args),
         Command::Texture(args) => texture::run(&args),

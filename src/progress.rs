@@ -17,3 +17,20 @@ impl Progress for Silent {
         false
     }
 }
+
+/// A part of a longer computation, from `from` to `to` of it.
+pub struct Part<'a> {
+    pub whole: &'a dyn Progress,
+    pub from: f64,
+    pub to: f64,
+}
+
+impl Progress for Part<'_> {
+    fn advance(&self, done: f64) {
+        self.whole.advance(self.from + done * (self.to - self.from));
+    }
+
+    fn cancelled(&self) -> bool {
+        self.whole.cancelled()
+    }
+}

@@ -7,7 +7,7 @@ use std::process::ExitCode;
 use serde::Serialize;
 
 use crate::error::{Error, Result};
-use crate::metrics::{Comparison, compare, difference, read_picture};
+use crate::metrics::{Comparison, compare, difference, flip, read_picture};
 use crate::output::{self, WriteOptions};
 
 /// Compare two pictures of the same size in linear RGB
@@ -37,6 +37,7 @@ struct Report<'a> {
     b: String,
     #[serde(flatten)]
     comparison: &'a Comparison,
+    flip: f64,
     max_rmse: Option<f64>,
     pass: bool,
 }
@@ -52,7 +53,8 @@ pub fn run(args: &CompareArgs) -> Result<ExitCode> {
         output::write(&picture, path, &WriteOptions::default())?;
     }
     let pass = comparison.passes(args.max_rmse);
-    let text = if args.json { json(args, &comparison, pass)? } else { table(args, &comparison) };
+    let flip = flip(&a, &b)?;
+    let text = if args.json { json(args, &comparison, flip, pass)? } else { table(args, &comparison, flip) };
     super::print(&text)?;
     if !pass {
         super::tell(reason(&comparison, args.max_rmse));
@@ -67,13 +69,14 @@ fn bound(text: &str) -> Result<f64, String> {
     }
 }
 
-fn json(args: &CompareArgs, comparison: &Comparison, pass: bool) -> Result<String> {
+fn json(args: &CompareArgs, comparison: &Comparison, flip: f64, pass: bool) -> Result<String> {
     let name = |path: &PathBuf| path.display().to_string();
-    let report = Report { a: name(&args.a), b: name(&args.b), comparison, max_rmse: args.max_rmse, pass };
+    let report =
+        Report { a: name(&args.a), b: name(&args.b), comparison, flip, max_rmse: args.max_rmse, pass };
     serde_json::to_string_pretty(&report).map_err(|e| Error::new(format!("the report as JSON: {e}")))
 }
 
-fn table(args: &CompareArgs, c: &Comparison) -> String {
+fn table(args: &CompareArgs, c: &Comparison, flip: f64) -> String {
     let at = c.max_at.map_or(String::new(), |[x, y]| format!("  at pixel ({x}, {y})"));
     let rows = [
         ("A", args.a.display().to_string()),
@@ -81,12 +84,14 @@ fn table(args: &CompareArgs, c: &Comparison) -> String {
         ("size", format!("{}×{}", c.width, c.height)),
         ("RMSE", format!("{:.6e}", c.rmse)),
         ("MSE", format!("{:.6e}", c.mse)),
+        ("relative MSE", format!("{:.6e}", c.relative_mse)),
         ("max", format!("{:.6e}{at}", c.max)),
         ("PSNR", if c.mse == 0.0 { "infinite: equal".into() } else { format!("{:.2} dB", c.psnr) }),
         ("over 1/255", format!("{:.4} %  ({} pixels)", c.over_1_255 * 100.0, c.over_1_255_pixels)),
+        ("FLIP", format!("{flip:.6}")),
         ("NaN pixels", c.nan_pixels.to_string()),
     ];
-    rows.iter().map(|(name, value)| format!("{name:<12}{value}")).collect::<Vec<_>>().join("\n")
+    rows.iter().map(|(name, value)| format!("{name:<14}{value}")).collect::<Vec<_>>().join("\n")
 }
 
 fn reason(c: &Comparison, bound: Option<f64>) -> String {

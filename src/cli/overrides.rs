@@ -8,7 +8,7 @@ use crate::error::{Error, Result};
 use crate::pack::Crop;
 use crate::scene::model::{Algorithm, Footprint, Pattern, Sampling, Scene};
 use crate::scene::{both_filters, check_filters, check_shared, check_spp};
-use crate::texture::sampler_spec::{Filter, Method};
+use crate::texture::sampler_spec::{Filter, Method, MipMode};
 
 use super::named_parser;
 
@@ -39,6 +39,11 @@ pub struct Overrides {
     filter: Option<Filter>,
     #[arg(long, value_name = "F", value_parser = named_parser(Footprint::NAMES, Footprint::from_name), help = one_of("Footprint of a sample", Footprint::NAMES))]
     footprint: Option<Footprint>,
+    #[arg(long, value_name = "M", value_parser = named_parser(MipMode::NAMES, MipMode::from_name), help = one_of("Levels that every sampler reads", MipMode::NAMES))]
+    mip: Option<MipMode>,
+    /// Whether all pixels share their displacements
+    #[arg(long, value_name = "BOOL")]
+    shared: Option<bool>,
 }
 
 /// The help of an option that takes one of `names`.
@@ -60,10 +65,12 @@ impl Overrides {
         // A prefilter's bias does not fall with the samples as their noise does.
         let free = if sampling.algorithm == Algorithm::Auto { Footprint::None } else { sampling.footprint };
         sampling.footprint = self.footprint.unwrap_or(free);
+        sampling.shared = self.shared.unwrap_or(sampling.shared);
         self.suit_adaptive(sampling)?;
         check_shared(sampling.pattern, sampling.shared).map_err(Error::new)?;
         check_spp(sampling.pattern, sampling.spp).map_err(|m| Error::new(format!("--spp: {m}")))?;
         for sampler in &mut scene.samplers {
+            sampler.mip = self.mip.unwrap_or(sampler.mip);
             sampler.method = self.method.unwrap_or(sampler.method);
             if let Some(filter) = self.filter {
                 (sampler.mag, sampler.min) = both_filters(filter);
@@ -132,7 +139,7 @@ fn positive(text: &str) -> Result<f64, String> {
     }
 }
 
-fn parse_size(text: &str) -> Result<[u32; 2], String> {
+pub(super) fn parse_size(text: &str) -> Result<[u32; 2], String> {
     let limit = crate::scene::MAX_SIZE;
     let parsed = text.split_once(['x', '×']).and_then(|(w, h)| Some([w.parse().ok()?, h.parse().ok()?]));
     match parsed {

@@ -1,6 +1,6 @@
 //! Two films in, one row of error measures out: over all pixels and three channels in f64,
-//! MSE = Σ(a−b)²/3N, RMSE = √MSE, PSNR = −10·log10(MSE) for a peak of 1, all in linear light; "over
-//! 1/255" on clipped sRGB-encoded values, where one step of an 8-bit file is what an eye might see.
+//! MSE = Σ(a−b)²/3N, RMSE = √MSE, relative MSE = Σ(a−b)²/(b²+0.01)/3N, PSNR = −10·log10(MSE) for a peak
+//! of 1, all in linear light; "over 1/255" on clipped sRGB-encoded values, where one step of an 8-bit file is what an eye might see.
 
 use serde::Serialize;
 
@@ -12,6 +12,8 @@ use crate::film::Film;
 /// in linear light, each by at most 2⁻²⁴ of itself, which the encoding turns into 2.7e-8 or less.
 const ENCODED_TOLERANCE: f64 = 1e-7;
 const STEP: f64 = 1.0 / 255.0;
+/// Keeps the relative error of black finite (Rousselle et al. 2011).
+const RELATIVE_FLOOR: f64 = 0.01;
 /// Largest slope of the sRGB encoding.
 const SLOPE: f64 = 12.92;
 
@@ -24,6 +26,8 @@ pub struct Comparison {
     /// Means over the pixels that are not NaN in either picture.
     pub rmse: f64,
     pub mse: f64,
+    /// Mean of (a − b)² / (b² + 0.01): b is the reference.
+    pub relative_mse: f64,
     /// Largest difference of one channel, and the pixel where it first occurs.
     pub max: f64,
     pub max_at: Option<[u32; 2]>,
@@ -47,19 +51,24 @@ impl Comparison {
     }
 }
 
-pub fn compare(a: &Film, b: &Film) -> Result<Comparison> {
-    if (a.width, a.height) != (b.width, b.height) {
-        return Err(Error::with_help(
-            format!("the pictures differ in size: {}×{} and {}×{}", a.width, a.height, b.width, b.height),
-            "only pictures of the same size can be compared",
-        ));
+pub(super) fn check_sizes(a: &Film, b: &Film) -> Result<()> {
+    if (a.width, a.height) == (b.width, b.height) {
+        return Ok(());
     }
-    let mut sum = 0.0;
+    Err(Error::with_help(
+        format!("the pictures differ in size: {}×{} and {}×{}", a.width, a.height, b.width, b.height),
+        "only pictures of the same size can be compared",
+    ))
+}
+
+pub fn compare(a: &Film, b: &Film) -> Result<Comparison> {
+    check_sizes(a, b)?;
+    let (mut sum, mut relative_sum) = (0.0, 0.0);
     let (mut max, mut max_at) = (0.0, None);
     let (mut over, mut max_encoded, mut nan_pixels) = (0u64, 0.0f64, 0u64);
     let rows = a.pixels.chunks(a.width.max(1) as usize).zip(b.pixels.chunks(b.width.max(1) as usize));
     for (y, (row_a, row_b)) in rows.enumerate() {
-        let mut row_sum = 0.0;
+        let (mut row_sum, mut row_relative) = (0.0, 0.0);
         for (x, (&p, &q)) in row_a.iter().zip(row_b).enumerate() {
             let Some(differences) = differences(p, q) else {
                 nan_pixels += 1;
@@ -67,7 +76,10 @@ pub fn compare(a: &Film, b: &Film) -> Result<Comparison> {
                 continue;
             };
             let largest = differences.into_iter().fold(0.0, f64::max);
-            row_sum += differences.iter().map(|d| d * d).sum::<f64>();
+            let squares = differences.map(|d| d * d);
+            row_sum += squares.iter().sum::<f64>();
+            row_relative +=
+                squares.iter().zip(q).map(|(s, q)| s / (f64::from(q).powi(2) + RELATIVE_FLOOR)).sum::<f64>();
             if largest > max {
                 (max, max_at) = (largest, Some([x as u32, y as u32]));
             }
@@ -79,14 +91,17 @@ pub fn compare(a: &Film, b: &Film) -> Result<Comparison> {
             }
         }
         sum += row_sum;
+        relative_sum += row_relative;
     }
     let pixels = a.pixels.len() as u64;
-    let mse = sum / (3 * (pixels - nan_pixels)) as f64;
+    let values = (3 * (pixels - nan_pixels)) as f64;
+    let mse = sum / values;
     Ok(Comparison {
         width: a.width,
         height: a.height,
         rmse: mse.sqrt(),
         mse,
+        relative_mse: relative_sum / values,
         max,
         max_at,
         psnr: -10.0 * mse.log10(),

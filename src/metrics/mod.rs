@@ -2,8 +2,11 @@
 
 pub mod compare;
 pub mod difference;
+pub mod flip;
+mod flip_color;
 pub mod read;
 
 pub use compare::{Comparison, compare};
 pub use difference::difference_picture;
+pub use flip::flip;
 pub use read::read_picture;

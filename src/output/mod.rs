@@ -5,6 +5,7 @@ mod encode;
 mod quantise;
 mod target;
 
+use std::io::{Cursor, Write};
 use std::path::Path;
 
 use crate::error::{Error, Result};
@@ -71,6 +72,27 @@ fn prepare(film: &Film, path: &Path, options: &WriteOptions) -> Result<Target> {
     })?;
     target.complete()?;
     Ok(target)
+}
+
+/// Writes `bytes` as they are, by the same rules as pictures.
+pub fn write_file(path: &Path, bytes: &[u8]) -> Result<()> {
+    let mut target = Target::create(path)?;
+    target.writer().write_all(bytes).map_err(|e| Error::new(format!("{}: {e}", path.display())))?;
+    target.complete()?;
+    target.finish()
+}
+
+/// The bytes of a picture file.
+pub fn to_bytes(film: &Film, format: Format) -> Result<Vec<u8>> {
+    let mut bytes = Cursor::new(Vec::new());
+    encode::encode(film, format, &WriteOptions::default(), &mut bytes)
+        .map_err(|e| Error::new(format!("a {format} picture of {}×{}: {e}", film.width, film.height)))?;
+    Ok(bytes.into_inner())
+}
+
+/// What [`write_file`] would complain about.
+pub fn check_file_writable(path: &Path) -> Result<()> {
+    Target::create(path).map(drop)
 }
 
 /// What [`write()`] would complain about that does not depend on the picture: to be called before a

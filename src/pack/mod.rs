@@ -6,6 +6,7 @@ mod kinds;
 mod mapping;
 mod procedural;
 mod pyramids;
+mod resample;
 mod shapes;
 mod textures;
 
@@ -15,7 +16,7 @@ use crate::color::srgb8_table;
 use crate::error::Result;
 use crate::layout::{self, Header};
 use crate::scene::model::{
-    Algorithm, Environment, EnvironmentLayout, Footprint, Light, Material, Model, Projection, Scene,
+    Algorithm, Environment, EnvironmentLayout, Footprint, Material, Model, Projection, Scene,
 };
 use crate::texture::data::TextureData;
 use crate::texture::sampler_spec::{Address, Method, SamplerSpec};
@@ -108,11 +109,8 @@ pub fn pack_with(
     pyramids: Pyramids,
 ) -> Result<PackedScene> {
     let crop = crop.unwrap_or(Crop { x: 0, y: 0, width: scene.width, height: scene.height });
-    let schedule = match scene.sampling.algorithm {
-        Algorithm::Samples => Schedule::Tiles,
-        Algorithm::Adaptive | Algorithm::Auto => Schedule::Jobs,
-    };
-    let mut packed = PackedScene { samples: scene.sampling.samples(), schedule, ..Default::default() };
+    let samples = scene.sampling.samples();
+    let mut packed = PackedScene { samples, schedule: schedule(scene), ..Default::default() };
     packed.header = header(scene, crop);
     let filtered = packed.prefilters();
     packed.sampler_specs = scene.samplers.clone();
@@ -126,11 +124,18 @@ pub fn pack_with(
     if let Some(environment) = &scene.background.environment {
         pack_environment(&mut packed, scene, environment);
     }
-    packed.lights = scene.lights.iter().map(|l| light(l, scene.camera.eye)).collect();
+    packed.lights = scene.lights.iter().map(|l| shapes::light(l, scene.camera.eye)).collect();
     packed.header.key[1] = packed.lights.len() as u32;
     let counts = [packed.planes.len(), packed.spheres.len(), packed.triangles.len()].map(|n| n as u32);
     packed.header.counts[..3].copy_from_slice(&counts);
     Ok(packed)
+}
+
+fn schedule(scene: &Scene) -> Schedule {
+    match scene.sampling.algorithm {
+        Algorithm::Samples => Schedule::Tiles,
+        Algorithm::Adaptive | Algorithm::Auto => Schedule::Jobs,
+    }
 }
 
 fn material(packed: &mut PackedScene, source: &Material) -> layout::Material {
@@ -280,21 +285,6 @@ fn footprint(scene: &Scene) -> Footprint {
     let procedural = scene.textures.iter().any(|t| t.content.procedural().is_some());
     let needed = procedural || scene.samplers.iter().any(SamplerSpec::needs_footprint);
     if needed { scene.sampling.footprint } else { Footprint::None }
-}
-
-fn light(light: &Light, eye: DVec3) -> layout::Light {
-    match *light {
-        Light::Point { position, intensity } => layout::Light {
-            place: vec4((position - eye).extend(0.0)),
-            power: vec4(intensity.extend(0.0)),
-            link: [LightKind::Point as u32, 0, 0, 0],
-        },
-        Light::Directional { direction, irradiance } => layout::Light {
-            place: vec4(direction.normalize().extend(0.0)),
-            power: vec4(irradiance.extend(0.0)),
-            link: [LightKind::Directional as u32, 0, 0, 0],
-        },
-    }
 }
 
 fn vec4(v: DVec4) -> [f32; 4] {

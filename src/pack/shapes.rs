@@ -1,12 +1,14 @@
-//! Planes, spheres and triangles → their device records, relative to the eye, each with its map.
+//! Planes, spheres and triangles → their device records, relative to the eye, each with its map; lights.
 
 use glam::{DVec2, DVec3, DVec4};
 
 use super::mapping::{self, Bounds, Place};
-use super::{MapKind, PackedScene, TextureKind, vec4};
+use super::{LightKind, MapKind, PackedScene, TextureKind, vec4};
 use crate::error::{Error, Result};
 use crate::layout;
-use crate::scene::model::{Entity, Mapping, MappingKind, Material, Plane, Scene, Space, Sphere, Triangle};
+use crate::scene::model::{
+    Entity, Light, Mapping, MappingKind, Material, Plane, Scene, Space, Sphere, Triangle,
+};
 use crate::texture::sampler_spec::SamplerSpec;
 
 pub fn pack_shapes(packed: &mut PackedScene, scene: &Scene) -> Result<()> {
@@ -156,4 +158,19 @@ fn plane_bounds(plane: &Plane, half_extent: f64) -> Bounds {
 fn triangle_bounds(triangle: &Triangle) -> Bounds {
     let [a, b, c] = triangle.vertices;
     Bounds { min: a.min(b).min(c), max: a.max(b).max(c) }
+}
+
+pub fn light(light: &Light, eye: DVec3) -> layout::Light {
+    match *light {
+        Light::Point { position, intensity } => layout::Light {
+            place: vec4((position - eye).extend(0.0)),
+            power: vec4(intensity.extend(0.0)),
+            link: [LightKind::Point as u32, 0, 0, 0],
+        },
+        Light::Directional { direction, irradiance } => layout::Light {
+            place: vec4(direction.normalize().extend(0.0)),
+            power: vec4(irradiance.extend(0.0)),
+            link: [LightKind::Directional as u32, 0, 0, 0],
+        },
+    }
 }

@@ -6,7 +6,7 @@ use crate::adaptive::{Sums, Tracer};
 use crate::error::{Error, Result};
 use crate::gpu::{BindGroup, Buffer, BufferUse, Gpu, Pipeline};
 use crate::layout::{Job, Slice, TILE};
-use crate::pack::{PackedScene, Schedule};
+use crate::pack::Schedule;
 use crate::progress::Progress;
 use crate::shaders::Shader;
 
@@ -55,11 +55,10 @@ impl<'a> JobTracer<'a> {
         gpu: &'a Gpu,
         binder: Binder<'a>,
         groups_per_tile: u32,
-        scene: &PackedScene,
+        [width, height]: [u32; 2],
+        prefilters: bool,
         report: &'a mut Report,
     ) -> Result<JobTracer<'a>> {
-        let [width, height, _, _] = scene.header.size;
-        let prefilters = scene.prefilters();
         let limits = &gpu.info().limits;
         let row = u64::from(width) * PIXEL_BYTES;
         let rows =

@@ -6,30 +6,27 @@ mod jobs;
 mod pool;
 mod pyramids;
 mod resources;
+mod session;
 mod slices;
 mod tuning;
 
-use std::time::Instant;
-
 use serde::Serialize;
 
-use crate::adaptive::{self, Goal, Outcome};
+use crate::adaptive::{Goal, Outcome};
 use crate::error::{Error, Result};
-use crate::features::{self, Features};
 use crate::film::Film;
 use crate::gpu::{BindGroup, BindingDesc, BindingKind, Gpu, Pipeline, PipelineDesc};
 use crate::layout::Slice;
-use crate::pack::{PackedScene, Schedule, SlotCounts};
+use crate::pack::{PackedScene, SlotCounts};
 use crate::progress::Progress;
 use crate::shaders::{ReflectedBinding, Shader, specialise};
 
 use film_buffer::{Band, FilmBuffer};
-use jobs::{Binder, JobTracer};
-use resources::shader_for;
 
 pub(crate) use pyramids::{Maker, Top};
 pub(crate) use resources::Resources;
 pub use resources::can_sample;
+pub use session::{Prepared, Session};
 pub use tuning::{MipChoice, TexelChoice, Tuning};
 
 /// Wall seconds by stage, in the order in which they come.
@@ -84,62 +81,13 @@ pub fn render(
 /// samples.
 pub fn render_to_goal(
     gpu: &Gpu,
-    mut scene: PackedScene,
+    scene: PackedScene,
     keep_everything: bool,
     tuning: &Tuning,
     goal: Option<Goal>,
     progress: &dyn Progress,
 ) -> Result<(Film, Report)> {
-    let mut report = Report::default();
-    let image_source = tuning.image_source(gpu.info(), &scene);
-    let features = Features::new(&scene, image_source, keep_everything);
-    report.left_out.clone_from(&features.left_out);
-
-    let clock = Instant::now();
-    let resources = Resources::upload(gpu, &scene, &features)?;
-    scene.texels = Vec::new();
-    report.device_mips_seconds = resources.mips_seconds;
-    report.seconds.upload = clock.elapsed().as_secs_f64();
-
-    let clock = Instant::now();
-    let shader = shader_for(features.source);
-    let group_size = tuning.group_size(gpu.info())?;
-    let slots = scene.slot_counts();
-    let constants = features::constants(shader, &features, &resources.sections, group_size, slots);
-    let pipeline = build_pipeline(gpu, shader, &constants, slots, size_of::<Slice>())?;
-    let groups_per_tile = tuning::groups_per_tile(group_size);
-    let [width, height, _, _] = scene.header.size;
-    if scene.schedule == Schedule::Jobs {
-        let binder = Binder { resources: &resources, pipeline: &pipeline, shader };
-        let mut tracer = JobTracer::new(gpu, binder, groups_per_tile, &scene, &mut report)?;
-        tracer.warm_up()?;
-        let compile = clock.elapsed().as_secs_f64();
-        let clock = Instant::now();
-        let goal = goal.unwrap_or(Goal::Samples(scene.samples));
-        let (film, outcome) = adaptive::run(&mut tracer, [width, height], goal, progress)?;
-        (report.seconds.compile, report.seconds.render) = (compile, clock.elapsed().as_secs_f64());
-        report.outcome = Some(outcome);
-        report.device_bytes = gpu.memory_in_use();
-        return Ok((film, report));
-    }
-    let film_buffer = FilmBuffer::new(gpu, &scene, &features)?;
-    let group = resources.bind(gpu, &pipeline, shader, &film_buffer.buffer, None)?;
-    let renderer = Renderer { gpu, pipeline, group, groups_per_tile };
-    renderer.warm_up(&film_buffer)?;
-    report.seconds.compile = clock.elapsed().as_secs_f64();
-
-    let mut film = Film::new(width, height, scene.samples);
-    let mut plan = slices::Plan::new(scene.samples, film_buffer.tiles());
-    for band in film_buffer.bands() {
-        let clock = Instant::now();
-        renderer.band(&band, &mut plan, &mut report, progress)?;
-        report.seconds.render += clock.elapsed().as_secs_f64();
-        let clock = Instant::now();
-        film_buffer.read(gpu, &band, &mut film)?;
-        report.seconds.readback += clock.elapsed().as_secs_f64();
-    }
-    report.device_bytes = gpu.memory_in_use();
-    Ok((film, report))
+    Session::open(gpu, scene, keep_everything, tuning)?.prepare()?.render_to_goal(goal, progress)
 }
 
 /// A pipeline of `shader` with these constants; the scene has so many image descriptors.

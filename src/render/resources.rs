@@ -11,7 +11,7 @@ use crate::gpu::{
     BindGroup, BindingKind, Bound, Buffer, BufferUse, Gpu, Image, ImageDesc, ImageFormat, ImageShape,
     Pipeline, Sampler, Swizzle,
 };
-use crate::layout::HEAD_BYTES;
+use crate::layout::{HEAD_BYTES, Header};
 use crate::pack::{MAX_SLOTS, PackedScene, Sections, Slot, TextureKind};
 use crate::shaders::{self, ReflectedBinding, Shader};
 use crate::texture::data::{ColorSpace, TexelFormat};
@@ -62,6 +62,11 @@ impl Resources {
             cubes = uploads.slots(&packed.cube_slots, TextureKind::Cube)?;
         }
         Ok(Resources { sections, mips_seconds: uploads.maker.seconds, scene, texels, images, volumes, cubes })
+    }
+
+    /// Replaces what the scene buffer begins with.
+    pub fn write_header(&self, gpu: &Gpu, header: &Header) -> Result<()> {
+        gpu.write_buffer(&self.scene, 0, bytemuck::bytes_of(header))
     }
 
     /// The shader's bindings with what they bind: 0 what it writes, 4 a list of queries or jobs (any buffer

@@ -12,13 +12,14 @@ const MOST_LINES: usize = 330;
 
 /// (layers, crate modules that they may not use)
 const FORBIDDEN: &[(&[&str], &[&str])] = &[
-    (&["oracle"], &["gpu", "render", "probe", "shaders", "verify", "cli", "output"]),
-    (&["verify"], &["render", "shaders", "features", "cli", "output", "metrics"]),
+    (&["oracle"], &["gpu", "render", "probe", "shaders", "verify", "study", "cli", "output"]),
+    (&["verify"], &["render", "shaders", "features", "study", "cli", "output", "metrics"]),
+    (&["study"], &["probe", "shaders", "features", "layout", "verify", "cli"]),
     (
         &["scene", "texture", "pack", "film", "output", "metrics", "layout", "color", "named", "error"],
-        &["gpu", "render", "probe", "shaders", "oracle", "verify", "cli"],
+        &["gpu", "render", "probe", "shaders", "oracle", "verify", "study", "cli"],
     ),
-    (&["features", "render", "probe"], &["oracle", "verify", "cli", "output", "metrics"]),
+    (&["features", "render", "probe"], &["oracle", "verify", "study", "cli", "output", "metrics"]),
 ];
 
 /// All that the device layer may use of the crate.
@@ -163,7 +164,11 @@ fn violations(path: &str, text: &str) -> Vec<String> {
             complain(i + 1, format!("{word} left behind"));
         }
     }
-    let opening = if path.ends_with(".rs") { "//! " } else { "// " };
+    let opening = match path.rsplit('.').next() {
+        Some("rs") => "//! ",
+        Some("css") => "/* ",
+        _ => "// ",
+    };
     if !path.ends_with(".comp") && !text.starts_with(opening) {
         complain(1, format!("does not open with {opening}"));
     }
@@ -282,6 +287,9 @@ fn planted_violations_are_found_and_look_alikes_are_not() {
         ("src/metrics/mod.rs", "use crate::cli;", "layer metrics uses `cli`"),
         ("src/verify/run.rs", "use crate::render::Resources;", "layer verify uses `render::Resources`"),
         ("src/probe.rs", "use crate::verify::judge::Judge;", "layer probe uses `verify::judge`"),
+        ("src/study/plan.rs", "use crate::cli::render;", "layer study uses `cli::render`"),
+        ("src/study/plan.rs", "use crate::shaders::Shader;", "layer study uses `shaders::Shader`"),
+        ("src/render/mod.rs", "use crate::study::Options;", "layer render uses `study::Options`"),
         ("src/film.rs", "// TODO: more", "TODO left"),
         ("src/film.rs", "fn f() { dbg!(1); }", "dbg! left"),
     ];
@@ -305,6 +313,7 @@ fn planted_violations_are_found_and_look_alikes_are_not() {
         assert!(found.is_empty(), "{path}: {code:?} gave {found:?}");
     }
     assert!(violations("src/film.rs", "use std::fs;\n")[0].contains("does not open with //!"));
+    assert!(violations("src/a/a.css", "body {}\n")[0].contains("does not open with /*"));
     assert!(violations("glsl/shared/a.glsl", "#ifndef A\n")[0].contains("does not open with //"));
     assert!(violations("glsl/shared/a.glsl", "// A.\nfloat x = y / sqrt(z);\n")[0].contains(":2: 1 / sqrt"));
     let long = format!("{doc}{}", "\n".repeat(MOST_LINES));

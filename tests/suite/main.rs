@@ -15,6 +15,7 @@ mod device;
 mod device_shaders;
 mod dimensions;
 mod error;
+mod flip;
 mod footprints;
 mod golden;
 #[cfg(unix)]
@@ -39,6 +40,7 @@ mod shared_gpu;
 mod specialise;
 mod stage;
 mod strata;
+mod study;
 mod support;
 mod texture_command;
 mod turned;

@@ -157,7 +157,7 @@ fn command_exits_0_within_and_1_above_the_bound() {
     let b = file(&folder, "b.exr", &flat([0.625; 3]));
     let (code, out, err) = run(&a, &b, &[]);
     assert_eq!((code, err.as_str()), (Some(0), ""));
-    assert!(out.contains("RMSE        1.250000e-1") && out.contains("PSNR        18.06 dB"), "{out}");
+    assert!(out.contains("RMSE          1.250000e-1") && out.contains("PSNR          18.06 dB"), "{out}");
     assert_eq!(run(&a, &b, &["--max-rmse", "0.125"]).0, Some(0));
     let (code, _, err) = run(&a, &b, &["--max-rmse", "0.1249"]);
     assert_eq!(code, Some(1));
@@ -174,7 +174,7 @@ fn command_exits_1_on_a_nan_without_any_bound() {
     let b = file(&folder, "b.exr", &film);
     let (code, out, err) = run(&a, &b, &[]);
     assert_eq!(code, Some(1));
-    assert!(out.contains("NaN pixels  1") && err.contains("NaN in 1 pixels"), "{out}{err}");
+    assert!(out.contains("NaN pixels    1") && err.contains("NaN in 1 pixels"), "{out}{err}");
 }
 
 #[test]
@@ -185,6 +185,10 @@ fn command_prints_one_json_object() {
     let (_, out, _) = run(&a, &b, &["--json", "--max-rmse", "0.2"]);
     let json: serde_json::Value = serde_json::from_str(&out).unwrap();
     assert_eq!(json["rmse"], 0.125);
+    // 0.125² over 0.625² + 0.01, b being the reference.
+    let relative = json["relative_mse"].as_f64().unwrap();
+    assert!((relative - 0.015_625 / 0.400_625).abs() < 1e-12, "{relative}");
+    assert!(json["flip"].as_f64().unwrap() > 0.05, "{json}");
     assert_eq!((&json["max_rmse"], &json["pass"]), (&0.2.into(), &true.into()));
     assert_eq!((&json["width"], &json["nan_pixels"]), (&8.into(), &0.into()));
     let (_, out, _) = run(&a, &a, &["--json"]);

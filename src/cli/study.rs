@@ -1,0 +1,167 @@
+//! `moire study SCENE --out DIR`: error against time by measurement. Everything that can be refused is
+//! refused before the device starts. Ctrl-C leaves a folder from which the same command goes on.
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use super::overrides::parse_size;
+use super::progress::Bar;
+use crate::error::{Error, Result};
+use crate::gpu::{DeviceSelect, Gpu};
+use crate::scene::MAX_SPP;
+use crate::scene::prune::prune;
+use crate::study::method::Method;
+use crate::study::record::{self, Record};
+use crate::study::{self, Options, ReferenceChoice};
+
+/// Measure which anti-aliasing method gives the least error in the time there is
+///
+/// Renders the scene with each method and sample count, compares every picture with a reference, and writes
+/// study.csv, study.json, three plots as SVG and index.html, a page that needs no other file. A study that was
+/// interrupted goes on where it was when the same command is given again.
+#[derive(clap::Args, Debug)]
+pub struct StudyArgs {
+    /// Scene file (TOML)
+    scene: PathBuf,
+    /// Folder for the results; its last part is created where it is missing
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+    /// Methods, separated by commas: PATTERN, PATTERN+FOOTPRINT or PATTERN+FOOTPRINT+FILTER, such as
+    /// random,stratified,stratified+cone+ewa [default: all patterns, and filters where there are textures]
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = Method::parse)]
+    methods: Vec<Method>,
+    /// Samples a pixel, separated by commas, each rounded up to what a pattern takes
+    #[arg(long, value_name = "LIST", value_delimiter = ',', default_value = "1,4,16,64,256", value_parser = clap::value_parser!(u32).range(1..=i64::from(MAX_SPP)))]
+    spp: Vec<u32>,
+    /// Renders of each point; their median counts
+    #[arg(long, value_name = "N", default_value = "3", value_parser = clap::value_parser!(u32).range(1..=1000))]
+    repeats: u32,
+    /// Picture size in pixels
+    #[arg(long, value_name = "WxH", value_parser = parse_size)]
+    size: Option<[u32; 2]>,
+    /// Device: an index or a part of the name as `moire devices` lists them, cpu or gpu
+    /// [default: discrete GPU, else integrated, else CPU]
+    #[arg(long, value_name = "SEL")]
+    device: Option<String>,
+    /// Reference: a picture file, or oracle [default: many samples on the device]
+    #[arg(long, value_name = "FILE|oracle")]
+    reference: Option<String>,
+    /// Time for all of it; the longest points are left out where it does not suffice
+    #[arg(long, value_name = "LIMIT", default_value = "600", value_parser = limit, allow_negative_numbers = true)]
+    seconds: f64,
+    /// Print the content of study.json on stdout
+    #[arg(long)]
+    json: bool,
+    /// Say nothing but errors
+    #[arg(short, long, conflicts_with = "verbose")]
+    quiet: bool,
+    /// Say the winner of each time and what was left out
+    #[arg(short, long)]
+    verbose: bool,
+}
+
+pub fn run(args: &StudyArgs) -> Result<ExitCode> {
+    let bar = Bar::new(args.quiet)?;
+    let select = match args.device.as_deref() {
+        Some("oracle") => {
+            return Err(Error::with_help(
+                "a study measures a device; the oracle is no device, but it can make the reference",
+                "name one that `moire devices` lists, or leave --device out; see --reference oracle",
+            ));
+        }
+        Some(text) => DeviceSelect::parse(text)?,
+        None => DeviceSelect::Default,
+    };
+    let mut scene = crate::scene::load(&args.scene)?;
+    if let Some([width, height]) = args.size {
+        (scene.width, scene.height) = (width, height);
+    }
+    study::prepare_folder(&args.out)?;
+    prune(&mut scene);
+    let options = options(args);
+    let gpu = Gpu::open(&select)?;
+    let outcome = study::run(&gpu, &scene, &options, &bar);
+    bar.finish();
+    for message in gpu.messages() {
+        super::tell(format_args!("validation: {message}"));
+    }
+    match outcome {
+        Err(Error::Interrupted) => {
+            let points = record::read(&args.out).points.len();
+            super::tell(format_args!(
+                "interrupted: {points} points are in {}; the same command goes on from there",
+                args.out.display()
+            ));
+            Ok(ExitCode::from(130))
+        }
+        outcome => {
+            report(args, &outcome?)?;
+            Ok(ExitCode::SUCCESS)
+        }
+    }
+}
+
+fn options(args: &StudyArgs) -> Options {
+    let mut methods: Vec<Method> = Vec::new();
+    args.methods.iter().for_each(|m| {
+        if !methods.contains(m) {
+            methods.push(m.clone())
+        }
+    });
+    let mut arguments = Vec::new();
+    if let Some([width, height]) = args.size {
+        arguments.extend(["--size".to_owned(), format!("{width}x{height}")]);
+    }
+    if let Some(device) = &args.device {
+        arguments.extend(["--device".to_owned(), device.clone()]);
+    }
+    Options {
+        methods: (!methods.is_empty()).then_some(methods),
+        counts: args.spp.clone(),
+        repeats: args.repeats,
+        reference: match args.reference.as_deref() {
+            None => ReferenceChoice::Device,
+            Some("oracle") => ReferenceChoice::Oracle,
+            Some(file) => ReferenceChoice::File(file.into()),
+        },
+        limit: args.seconds,
+        out: args.out.clone(),
+        arguments,
+    }
+}
+
+fn report(args: &StudyArgs, record: &Record) -> Result<()> {
+    if args.json {
+        let json = serde_json::to_string_pretty(record);
+        super::print(&json.map_err(|e| Error::new(format!("the study as JSON: {e}")))?)?;
+    }
+    if args.quiet {
+        return Ok(());
+    }
+    let analysis = record.analysis.as_ref();
+    if args.verbose {
+        for w in analysis.iter().flat_map(|a| &a.winners) {
+            super::tell(format_args!(
+                "within {:.3e} s: {} with {}{} samples, RMSE {:.3e}",
+                w.budget,
+                w.method,
+                if w.estimated { "about " } else { "" },
+                w.spp,
+                w.rmse
+            ));
+        }
+        record.notes.iter().for_each(|note| super::tell(format_args!("note: {note}")));
+    }
+    if let Some(analysis) = analysis {
+        super::tell(&analysis.recommendation);
+    }
+    super::tell(format_args!("{}: {} points", args.out.join("index.html").display(), record.points.len()));
+    Ok(())
+}
+
+fn limit(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(seconds) if seconds.is_finite() && seconds > 0.0 => Ok(seconds),
+        _ => Err("a number of seconds above 0 is needed".into()),
+    }
+}

@@ -1,0 +1,18 @@
+//! A packed scene with other samples: what a device holds of shapes and textures stays as it is.
+
+use super::{Crop, PackedScene, header, schedule};
+use crate::layout::Header;
+use crate::scene::model::Scene;
+
+impl PackedScene {
+    /// Takes the samples of `scene`, which is the one it was packed from but for algorithm, pattern, number,
+    /// seed and whether pixels share them.
+    pub fn set_sampling(&mut self, scene: &Scene) {
+        let [_, _, x, y] = self.header.image;
+        let [width, height, _, _] = self.header.size;
+        let Header { step_x, sampling, key: [shared, ..], .. } = header(scene, Crop { x, y, width, height });
+        (self.header.step_x, self.header.sampling, self.header.key[0]) = (step_x, sampling, shared);
+        self.samples = scene.sampling.samples();
+        self.schedule = schedule(scene);
+    }
+}

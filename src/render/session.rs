@@ -1,0 +1,202 @@
+//! A scene on a device, rendered any number of times. In: a packed scene, whose shapes and texels go up
+//! once. Out: for each choice of samples a pipeline, and from it films. Renders of one session share the
+//! buffers of scene and film, so they take turns.
+
+use std::cell::{Cell, RefCell};
+use std::rc::Rc;
+use std::time::Instant;
+
+use crate::adaptive::{self, Goal};
+use crate::error::{Error, Result};
+use crate::features::{self, Features};
+use crate::film::Film;
+use crate::gpu::{Gpu, Pipeline};
+use crate::layout::{Header, Slice};
+use crate::pack::{PackedScene, Schedule};
+use crate::progress::Progress;
+use crate::scene::model::Scene;
+use crate::shaders::Shader;
+
+use super::film_buffer::FilmBuffer;
+use super::jobs::{Binder, JobTracer};
+use super::resources::{Resources, shader_for};
+use super::{Renderer, Report, Tuning, build_pipeline, slices, tuning};
+
+pub struct Session<'a> {
+    gpu: &'a Gpu,
+    /// Without its texels: the device has them.
+    scene: PackedScene,
+    resources: Resources,
+    keep_everything: bool,
+    tuning: Tuning,
+    /// What the scene buffer begins with now.
+    header: Cell<Header>,
+    /// Films of this size, without compensation and with it.
+    films: RefCell<[Option<Rc<FilmBuffer>>; 2]>,
+    upload_seconds: f64,
+}
+
+/// A session's scene with one choice of samples.
+pub struct Prepared<'s, 'a> {
+    session: &'s Session<'a>,
+    header: Header,
+    samples: u32,
+    work: Work<'a>,
+    /// Of a render: its pipeline is compiled, nothing is rendered.
+    report: Report,
+}
+
+/// How samples reach the film.
+enum Work<'a> {
+    Tiles { renderer: Renderer<'a>, film: Rc<FilmBuffer> },
+    Jobs { pipeline: Pipeline, shader: &'static Shader, groups_per_tile: u32, prefilters: bool },
+}
+
+impl<'a> Session<'a> {
+    /// The texels of `scene` leave the host's memory once the device has them.
+    pub fn open(
+        gpu: &'a Gpu,
+        mut scene: PackedScene,
+        keep_everything: bool,
+        tuning: &Tuning,
+    ) -> Result<Session<'a>> {
+        let clock = Instant::now();
+        let features = features_of(gpu, &scene, keep_everything, tuning);
+        let resources = Resources::upload(gpu, &scene, &features)?;
+        let films = RefCell::new([None, None]);
+        scene.texels = Vec::new();
+        let header = Cell::new(scene.header);
+        let upload_seconds = clock.elapsed().as_secs_f64();
+        Ok(Session { gpu, scene, resources, keep_everything, tuning: *tuning, header, films, upload_seconds })
+    }
+
+    /// The scene as it was packed.
+    pub fn prepare(&self) -> Result<Prepared<'_, 'a>> {
+        self.prepare_packed(&self.scene)
+    }
+
+    /// With the samples of `scene`, which differs from the packed one in nothing else.
+    pub fn prepare_sampling(&self, scene: &Scene) -> Result<Prepared<'_, 'a>> {
+        let mut packed = self.scene.clone();
+        packed.set_sampling(scene);
+        self.prepare_packed(&packed)
+    }
+
+    fn prepare_packed(&self, scene: &PackedScene) -> Result<Prepared<'_, 'a>> {
+        let features = features_of(self.gpu, scene, self.keep_everything, &self.tuning);
+        let mut report = Report {
+            left_out: features.left_out.clone(),
+            device_mips_seconds: self.resources.mips_seconds,
+            ..Report::default()
+        };
+        let clock = Instant::now();
+        self.write_header(&scene.header)?;
+        report.seconds.upload = self.upload_seconds + clock.elapsed().as_secs_f64();
+
+        let clock = Instant::now();
+        let shader = shader_for(features.source);
+        let group_size = self.tuning.group_size(self.gpu.info())?;
+        let slots = scene.slot_counts();
+        let constants = features::constants(shader, &features, &self.resources.sections, group_size, slots);
+        let pipeline = build_pipeline(self.gpu, shader, &constants, slots, size_of::<Slice>())?;
+        let groups_per_tile = tuning::groups_per_tile(group_size);
+        let work = match scene.schedule {
+            Schedule::Tiles => {
+                let film = self.film(scene, &features)?;
+                let group = self.resources.bind(self.gpu, &pipeline, shader, &film.buffer, None)?;
+                let renderer = Renderer { gpu: self.gpu, pipeline, group, groups_per_tile };
+                renderer.warm_up(&film)?;
+                Work::Tiles { renderer, film }
+            }
+            Schedule::Jobs => Work::Jobs { pipeline, shader, groups_per_tile, prefilters: scene.prefilters() },
+        };
+        let mut prepared = Prepared { session: self, header: scene.header, samples: scene.samples, work, report };
+        prepared.warm_up_jobs()?;
+        prepared.report.seconds.compile = clock.elapsed().as_secs_f64();
+        Ok(prepared)
+    }
+
+    fn film(&self, scene: &PackedScene, features: &Features) -> Result<Rc<FilmBuffer>> {
+        let slot = &mut self.films.borrow_mut()[usize::from(features.compensated)];
+        if let Some(film) = slot {
+            return Ok(film.clone());
+        }
+        let film = Rc::new(FilmBuffer::new(self.gpu, scene, features)?);
+        *slot = Some(film.clone());
+        Ok(film)
+    }
+
+    fn write_header(&self, header: &Header) -> Result<()> {
+        if self.header.get() != *header {
+            self.resources.write_header(self.gpu, header)?;
+            self.header.set(*header);
+        }
+        Ok(())
+    }
+}
+
+impl Prepared<'_, '_> {
+    pub fn compile_seconds(&self) -> f64 {
+        self.report.seconds.compile
+    }
+
+    /// Renders once more. The report's times of loading and compiling are those of the first.
+    pub fn render(&self, progress: &dyn Progress) -> Result<(Film, Report)> {
+        self.render_to_goal(None, progress)
+    }
+
+    /// The same; where samples go to the film by jobs, until the goal is met, by default the number of
+    /// samples.
+    pub fn render_to_goal(&self, goal: Option<Goal>, progress: &dyn Progress) -> Result<(Film, Report)> {
+        self.session.write_header(&self.header)?;
+        let mut report = self.report.clone();
+        let [width, height, _, _] = self.header.size;
+        let film = match &self.work {
+            Work::Tiles { renderer, film: buffer } => {
+                let mut film = Film::new(width, height, self.samples);
+                let mut plan = slices::Plan::new(self.samples, buffer.tiles());
+                for band in buffer.bands() {
+                    let clock = Instant::now();
+                    renderer.band(&band, &mut plan, &mut report, progress)?;
+                    report.seconds.render += clock.elapsed().as_secs_f64();
+                    let clock = Instant::now();
+                    buffer.read(self.session.gpu, &band, &mut film)?;
+                    report.seconds.readback += clock.elapsed().as_secs_f64();
+                }
+                film
+            }
+            Work::Jobs { .. } => {
+                let clock = Instant::now();
+                let goal = goal.unwrap_or(Goal::Samples(self.samples));
+                let mut tracer = self.tracer(&mut report)?;
+                let (film, outcome) = adaptive::run(&mut tracer, [width, height], goal, progress)?;
+                report.seconds.render = clock.elapsed().as_secs_f64();
+                report.outcome = Some(outcome);
+                film
+            }
+        };
+        report.device_bytes = self.session.gpu.memory_in_use();
+        Ok((film, report))
+    }
+
+    /// Whatever the driver compiles late, it compiles now.
+    fn warm_up_jobs(&self) -> Result<()> {
+        match self.work {
+            Work::Tiles { .. } => Ok(()),
+            Work::Jobs { .. } => self.tracer(&mut Report::default())?.warm_up(),
+        }
+    }
+
+    fn tracer<'t>(&'t self, report: &'t mut Report) -> Result<JobTracer<'t>> {
+        let Work::Jobs { pipeline, shader, groups_per_tile, prefilters } = &self.work else {
+            return Err(Error::new("a scene that is rendered tile by tile has no jobs"));
+        };
+        let binder = Binder { resources: &self.session.resources, pipeline, shader };
+        let [width, height, _, _] = self.header.size;
+        JobTracer::new(self.session.gpu, binder, *groups_per_tile, [width, height], *prefilters, report)
+    }
+}
+
+fn features_of(gpu: &Gpu, scene: &PackedScene, keep_everything: bool, tuning: &Tuning) -> Features {
+    Features::new(scene, tuning.image_source(gpu.info(), scene), keep_everything)
+}

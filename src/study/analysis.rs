@@ -1,0 +1,211 @@
+//! What follows from the measured points. In: (rays, seconds, error) by method. Out: the slope of each
+//! method's variance over its rays with a 95 % interval, the winner of each time budget, the time to reach
+//! each error, and one sentence.
+
+use serde::Serialize;
+
+use super::record::{PointRecord, Record};
+use super::words::advice;
+
+/// Points nearer to the reference's own error than this many times bend towards it and count in no slope.
+const ABOVE_FLOOR: f64 = 3.0;
+/// Fewest points that have a slope.
+const FEWEST: usize = 3;
+
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Analysis {
+    pub recommendation: String,
+    pub slopes: Vec<MethodSlope>,
+    pub winners: Vec<Winner>,
+    pub reach: Reach,
+}
+
+/// log MSE over log rays, fitted by least squares.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Slope {
+    pub value: f64,
+    /// Half of the 95 % interval (Student's t); none from points that lie on a line by number.
+    pub half_width: Option<f64>,
+    pub points: usize,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct MethodSlope {
+    pub method: String,
+    pub fitted: Option<Slope>,
+    /// What theory says of the variance, steepest last; none where there is no law.
+    pub theory: Vec<f64>,
+    pub theory_text: String,
+}
+
+/// The least error within a time.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Winner {
+    pub budget: f64,
+    pub method: String,
+    pub spp: u32,
+    pub seconds: f64,
+    pub rmse: f64,
+    /// Beyond the method's longest point, along its slope. A method that is slow for its samples would
+    /// otherwise win all the time in which nothing else was measured.
+    pub estimated: bool,
+}
+
+/// Seconds to each error, by method; none where no measured point is as good.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Reach {
+    pub errors: Vec<f64>,
+    pub methods: Vec<(String, Vec<Option<f64>>)>,
+}
+
+pub fn analyse(record: &Record) -> Analysis {
+    let floor = record.reference.rmse.unwrap_or(0.0);
+    let slope = |m: &super::record::MethodRecord| {
+        let points: Vec<(f64, f64)> =
+            record.points_of(&m.name).map(|p| (f64::from(p.samples), p.errors.rmse)).collect();
+        let filtered = m.footprint != "none";
+        let (theory, text) = theory(&m.pattern, filtered);
+        MethodSlope {
+            method: m.name.clone(),
+            fitted: slope(&points, floor),
+            theory: theory.to_vec(),
+            theory_text: text.to_owned(),
+        }
+    };
+    let slopes: Vec<MethodSlope> = record.methods.iter().map(slope).collect();
+    let winners = winners(&record.points, &slopes);
+    Analysis { recommendation: advice(record, &winners), slopes, winners, reach: reach(record) }
+}
+
+/// Of the variance over the number of samples: independent ones −1; one jittered sample in each of n strata
+/// −1 where every stratum varies, −1.5 where edges cross √n of them, −2 where the picture is smooth (Mitchell
+/// 1996); scrambled nets up to −3 (Owen 1997).
+fn theory(pattern: &str, filtered: bool) -> (&'static [f64], &'static str) {
+    match pattern {
+        _ if filtered => (&[], "levels off where the filter blurs"),
+        "center" => (&[], "none: one place, whatever the count"),
+        "grid" => (&[], "none: aliases, as regular patterns do"),
+        "random" => (&[-1.0], "−1"),
+        "n-rooks" => (&[-1.0], "−1, less along the axes"),
+        "sobol-owen" | "blue-noise" | "halton" => {
+            (&[-1.0, -1.5, -2.0, -3.0], "−1 busy, −1.5 one edge, −2 to −3 smooth")
+        }
+        _ => (&[-1.0, -1.5, -2.0], "−1 busy, −1.5 one edge, −2 smooth"),
+    }
+}
+
+/// Of (rays, RMSE); the slope is that of the variance, RMSE².
+pub fn slope(points: &[(f64, f64)], floor: f64) -> Option<Slope> {
+    let fair = |p: &&(f64, f64)| p.1 > ABOVE_FLOOR * floor && p.1 > 0.0 && p.1.is_finite();
+    let logs: Vec<(f64, f64)> = points.iter().filter(fair).map(|p| (p.0.ln(), 2.0 * p.1.ln())).collect();
+    let n = logs.len() as f64;
+    let mean = |f: fn(&(f64, f64)) -> f64| logs.iter().map(f).sum::<f64>() / n;
+    let (x, y) = (mean(|p| p.0), mean(|p| p.1));
+    let sxx: f64 = logs.iter().map(|p| (p.0 - x).powi(2)).sum();
+    if logs.len() < FEWEST || sxx < 1e-9 {
+        return None;
+    }
+    let value = logs.iter().map(|p| (p.0 - x) * (p.1 - y)).sum::<f64>() / sxx;
+    let residual: f64 = logs.iter().map(|p| (p.1 - y - value * (p.0 - x)).powi(2)).sum();
+    let half_width = student(logs.len() - 2) * (residual / (n - 2.0) / sxx).sqrt();
+    Some(Slope { value, half_width: (half_width > 1e-9).then_some(half_width), points: logs.len() })
+}
+
+/// 97.5 % quantile of Student's t with this many degrees of freedom.
+fn student(freedom: usize) -> f64 {
+    const TABLE: [f64; 10] = [12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228];
+    match freedom {
+        1..=10 => TABLE[freedom - 1],
+        11..=30 => 2.12,
+        _ => 1.96,
+    }
+}
+
+pub fn median(values: &[f64]) -> f64 {
+    let mut sorted = values.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let middle = sorted.len() / 2;
+    match sorted.len() {
+        0 => f64::NAN,
+        n if n % 2 == 1 => sorted[middle],
+        _ => 0.5 * (sorted[middle - 1] + sorted[middle]),
+    }
+}
+
+/// 1, 2, 5, 10, … from the first that is not below `from` up to the first that is not below `to`.
+pub fn steps(from: f64, to: f64) -> Vec<f64> {
+    if !(from > 0.0 && to.is_finite()) {
+        return Vec::new();
+    }
+    let first = from.log10().floor() as i32;
+    let all = (first..first + 40).flat_map(|e| [1.0, 2.0, 5.0].map(|m| m * 10f64.powi(e)));
+    let mut steps = Vec::new();
+    for step in all.skip_while(|s| *s < from * (1.0 - 1e-9)) {
+        steps.push(step);
+        if step >= to * (1.0 - 1e-9) {
+            break;
+        }
+    }
+    steps
+}
+
+pub fn winners(points: &[PointRecord], slopes: &[MethodSlope]) -> Vec<Winner> {
+    let usable: Vec<&PointRecord> =
+        points.iter().filter(|p| p.median_seconds() > 0.0 && p.errors.rmse.is_finite()).collect();
+    let times = || usable.iter().map(|p| p.median_seconds());
+    let budgets = steps(times().fold(f64::INFINITY, f64::min), times().fold(0.0, f64::max));
+    let winner = |budget: f64| {
+        let fitting = usable.iter().filter(|p| p.median_seconds() <= budget);
+        let measured = fitting.map(|p| Winner {
+            budget,
+            method: p.method.clone(),
+            spp: p.spp,
+            seconds: p.median_seconds(),
+            rmse: p.errors.rmse,
+            estimated: false,
+        });
+        let estimated = slopes.iter().filter_map(|slope| beyond(&usable, slope, budget));
+        measured.chain(estimated).min_by(|a, b| a.rmse.total_cmp(&b.rmse))
+    };
+    budgets.into_iter().filter_map(winner).collect()
+}
+
+/// What a method with a law would come to in a time longer than it was measured for.
+fn beyond(points: &[&PointRecord], slope: &MethodSlope, budget: f64) -> Option<Winner> {
+    let own = points.iter().filter(|p| p.method == slope.method);
+    let last = own.max_by(|a, b| a.median_seconds().total_cmp(&b.median_seconds()))?;
+    let longer = budget / last.median_seconds();
+    let law = slope.fitted.filter(|f| !slope.theory.is_empty() && f.value < 0.0)?;
+    (longer > 1.0).then(|| Winner {
+        budget,
+        method: slope.method.clone(),
+        spp: (f64::from(last.spp) * longer) as u32,
+        seconds: budget,
+        rmse: last.errors.rmse * longer.powf(0.5 * law.value),
+        estimated: true,
+    })
+}
+
+fn reach(record: &Record) -> Reach {
+    let errors = || record.points.iter().map(|p| p.errors.rmse).filter(|e| *e > 0.0 && e.is_finite());
+    let mut levels = steps(errors().fold(f64::INFINITY, f64::min), errors().fold(0.0, f64::max));
+    levels.reverse();
+    let times = |m: &super::record::MethodRecord| {
+        let curve: Vec<(f64, f64)> =
+            record.points_of(&m.name).map(|p| (p.median_seconds(), p.errors.rmse)).collect();
+        (m.name.clone(), levels.iter().map(|level| time_to(&curve, *level)).collect())
+    };
+    Reach { methods: record.methods.iter().map(times).collect(), errors: levels }
+}
+
+/// When a curve of (seconds, RMSE) first comes down to `error`, on straight lines between the logarithms.
+pub fn time_to(curve: &[(f64, f64)], error: f64) -> Option<f64> {
+    let mut curve = curve.to_vec();
+    curve.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let after = curve.iter().position(|p| p.1 <= error)?;
+    let (b, Some(a)) = (curve[after], after.checked_sub(1).map(|i| curve[i])) else {
+        return Some(curve[after].0);
+    };
+    let share = (a.1 / error).ln() / (a.1 / b.1).ln();
+    Some(if b.1 > 0.0 { a.0 * (b.0 / a.0).powf(share) } else { b.0 })
+}

@@ -1,0 +1,206 @@
+//! The points of a study, measured. In: methods, counts, the reference, what an earlier run left. Out: for
+//! each point the render stage's time in every repeat, and the errors of its picture. Repeats are interleaved:
+//! all points once, then all again, so that a drift of the machine's speed meets all alike.
+
+use std::time::Instant;
+
+use crate::error::{Error, Result};
+use crate::film::Film;
+use crate::metrics::compare;
+use crate::metrics::flip::Seen;
+use crate::progress::{Part, Progress};
+use crate::render::Prepared;
+use crate::scene::model::Scene;
+
+use super::identity::Hash;
+use super::looks::Looks;
+use super::method::Method;
+use super::plan::{Forecast, Point};
+use super::record::{Errors, PointRecord, Record, Stages};
+use super::reference::Reference;
+use super::{Options, files, quote, quoted};
+
+/// Between two writes of the record; what an interruption by force may lose.
+const SAVE_SECONDS: f64 = 1.0;
+
+pub struct Measurement<'a> {
+    pub looks: &'a Looks<'a>,
+    pub scene: &'a Scene,
+    pub options: &'a Options,
+    pub methods: &'a [Method],
+    pub points: &'a [Point],
+    pub reference: &'a Reference,
+    pub identity: &'a Hash,
+    pub started: Instant,
+    pub progress: &'a dyn Progress,
+}
+
+/// A point while it is measured.
+struct Task<'a> {
+    point: Point,
+    record: PointRecord,
+    prepared: Option<Prepared<'a, 'a>>,
+    /// Whether the record has the errors of its picture.
+    judged: bool,
+    left_out: bool,
+}
+
+impl<'a> Measurement<'a> {
+    /// Fills in the record's points. On an error what was measured so far is in the folder.
+    pub fn run(&self, record: &mut Record, kept: Vec<PointRecord>) -> Result<()> {
+        let mut tasks: Vec<Task<'a>> = self.points.iter().map(|point| self.task(*point, &kept)).collect();
+        let notes = record.notes.clone();
+        let outcome = self.rounds(&mut tasks, record);
+        record.notes = [notes, self.notes(&tasks)].concat();
+        collect(record, &tasks, self.methods);
+        files::save(&self.options.out, record)?;
+        if record.points.is_empty() && outcome.is_ok() {
+            return Err(Error::with_help(
+                format!("--seconds {}: no time for a single point", self.options.limit),
+                "allow more, or ask for fewer samples with --spp or a smaller picture with --size",
+            ));
+        }
+        outcome
+    }
+
+    fn task(&self, point: Point, kept: &[PointRecord]) -> Task<'a> {
+        let method = self.methods[point.method].name();
+        let reference = &self.reference.record;
+        let hash = self.identity.text(&reference.hash).text(&reference.samples.to_string());
+        let hash = hash.text(&method).text(&point.spp.to_string()).hex();
+        let same = |p: &&PointRecord| p.hash == hash && !p.seconds.is_empty();
+        let found = kept.iter().find(same).cloned();
+        let judged = found.is_some();
+        let fresh =
+            PointRecord { hash, method, spp: point.spp, samples: point.samples, ..PointRecord::default() };
+        let record = PointRecord { command: self.command(&point), ..found.unwrap_or(fresh) };
+        Task { point, record, prepared: None, judged, left_out: false }
+    }
+
+    fn rounds(&self, tasks: &mut [Task<'a>], record: &mut Record) -> Result<()> {
+        let mut forecast = Forecast::default();
+        for task in tasks.iter().filter(|t| t.judged) {
+            forecast.learn(&task.point, task.record.median_seconds());
+        }
+        let begun = Instant::now();
+        let mut saved = Instant::now();
+        for round in 0..self.options.repeats as usize {
+            for i in 0..tasks.len() {
+                if tasks[i].record.seconds.len() > round || tasks[i].left_out {
+                    continue;
+                }
+                let needed = if round == 0 { self.upkeep(tasks, i, &forecast) } else { 0.0 };
+                if self.started.elapsed().as_secs_f64() + needed > self.options.limit {
+                    tasks[i].left_out |= round == 0;
+                    continue;
+                }
+                let spent = begun.elapsed().as_secs_f64();
+                let left = self.remaining(tasks, &forecast);
+                let share = |seconds: f64| {
+                    let from = self.reference.progress;
+                    from + (1.0 - from) * (seconds / (spent + left).max(1e-9)).min(1.0)
+                };
+                let next = forecast.seconds(&tasks[i].point);
+                let part = Part { whole: self.progress, from: share(spent), to: share(spent + next) };
+                self.measure(&mut tasks[i], &part)?;
+                forecast.learn(&tasks[i].point, tasks[i].record.median_seconds());
+                if saved.elapsed().as_secs_f64() > SAVE_SECONDS {
+                    collect(record, tasks, self.methods);
+                    files::save(&self.options.out, record)?;
+                    saved = Instant::now();
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Seconds that point `i` needs if it is taken up now: all its repeats, and those that the points before
+    /// it still lack.
+    fn upkeep(&self, tasks: &[Task<'_>], i: usize, forecast: &Forecast) -> f64 {
+        let own = forecast.seconds(&tasks[i].point) * f64::from(self.options.repeats);
+        let before = tasks[..i].iter().filter(|t| !t.left_out && t.judged);
+        own + before.map(|t| self.lacking(t) * forecast.seconds(&t.point)).sum::<f64>()
+    }
+
+    fn lacking(&self, task: &Task<'_>) -> f64 {
+        f64::from(self.options.repeats.saturating_sub(task.record.seconds.len() as u32))
+    }
+
+    fn remaining(&self, tasks: &[Task<'_>], forecast: &Forecast) -> f64 {
+        let left = tasks.iter().filter(|t| !t.left_out);
+        let sum: f64 = left.map(|t| self.lacking(t) * forecast.seconds(&t.point)).sum();
+        sum.min((self.options.limit - self.started.elapsed().as_secs_f64()).max(0.0))
+    }
+
+    fn measure(&self, task: &mut Task<'a>, progress: &dyn Progress) -> Result<()> {
+        if progress.cancelled() {
+            return Err(Error::Interrupted);
+        }
+        let (prepared, pack) = match task.prepared.take() {
+            Some(prepared) => (prepared, task.record.stages.pack),
+            None => self.looks.prepare(self.scene, &self.methods[task.point.method], task.point.spp)?,
+        };
+        let (film, report) = prepared.render(progress)?;
+        let seconds = report.seconds;
+        let Stages { upload, compile, .. } = task.record.stages;
+        let first = !task.judged;
+        task.record.stages = Stages {
+            pack,
+            upload: if first { seconds.upload } else { upload },
+            compile: if first { seconds.compile } else { compile },
+            readback: seconds.readback,
+        };
+        task.record.seconds.push(seconds.render);
+        task.record.device_seconds.push(report.device_render_seconds);
+        task.prepared = Some(prepared);
+        if first {
+            task.record.errors = judge(&film, self.reference)?;
+            task.judged = true;
+        }
+        Ok(())
+    }
+
+    fn command(&self, point: &Point) -> String {
+        let mut words = vec!["moire".to_owned(), "render".to_owned(), quoted(&self.scene.path)];
+        words.extend(self.methods[point.method].arguments(self.scene, point.spp));
+        words.extend(self.options.arguments.iter().map(|a| quote(a)));
+        words.extend(["-o".to_owned(), "point.exr".to_owned()]);
+        words.join(" ")
+    }
+
+    fn notes(&self, tasks: &[Task<'_>]) -> Vec<String> {
+        let limit = self.options.limit;
+        let mut notes = Vec::new();
+        for (index, method) in self.methods.iter().enumerate() {
+            let left = tasks.iter().filter(|t| t.point.method == index && t.left_out);
+            let counts: Vec<String> = left.map(|t| t.point.spp.to_string()).collect();
+            if !counts.is_empty() {
+                notes.push(format!(
+                    "{} with {} samples was left out: no room within --seconds {limit}",
+                    method.name(),
+                    counts.join(", ")
+                ));
+            }
+        }
+        let wanted = self.options.repeats as usize;
+        let short = tasks.iter().filter(|t| t.judged && t.record.seconds.len() < wanted).count();
+        if short > 0 {
+            notes.push(format!(
+                "{short} points have fewer than {wanted} repeats: no room within --seconds {limit}"
+            ));
+        }
+        notes
+    }
+}
+
+fn judge(film: &Film, reference: &Reference) -> Result<Errors> {
+    let comparison = compare(film, &reference.film)?;
+    let flip = if comparison.nan_pixels > 0 { f64::NAN } else { Seen::of(film).mean(&reference.seen) };
+    Ok(Errors::new(&comparison, flip))
+}
+
+/// The points that have been measured, method by method.
+fn collect(record: &mut Record, tasks: &[Task<'_>], methods: &[Method]) {
+    let of = |method: usize| tasks.iter().filter(move |t| t.point.method == method && t.judged);
+    record.points = (0..methods.len()).flat_map(of).map(|t| t.record.clone()).collect();
+}

@@ -1,0 +1,130 @@
+//! Slopes, winners and times to errors of points that are made up, so that the answers are known.
+
+use moire::study::analysis::{MethodSlope, Slope, median, slope, steps, time_to, winners};
+use moire::study::record::{Errors, PointRecord};
+
+/// RMSE whose square falls with this slope, with a ripple of some per cent as measured points have.
+fn curve(exponent: f64, ripple: f64) -> Vec<(f64, f64)> {
+    let wave = [1.0, -0.7, 0.2, -1.0, 0.6];
+    let one = |(i, n): (usize, &f64)| (*n, 0.3 * n.powf(0.5 * exponent) * (1.0 + ripple * wave[i]));
+    [1.0, 4.0, 16.0, 64.0, 256.0].iter().enumerate().map(one).collect()
+}
+
+fn holds(slope: &Slope, value: f64) -> bool {
+    (slope.value - value).abs() <= slope.half_width.unwrap_or(0.0) + 1e-9
+}
+
+#[test]
+fn theoretical_slopes_are_recovered_within_their_intervals() {
+    for exponent in [-1.0, -1.5, -2.0] {
+        let exact = slope(&curve(exponent, 0.0), 0.0).unwrap();
+        assert!((exact.value - exponent).abs() < 1e-9, "{exact:?}");
+        assert_eq!((exact.half_width, exact.points), (None, 5));
+        let rippled = slope(&curve(exponent, 0.04), 0.0).unwrap();
+        assert!(holds(&rippled, exponent), "{exponent}: {rippled:?}");
+        assert!(rippled.half_width.unwrap() < 0.1, "{rippled:?}");
+    }
+}
+
+#[test]
+fn planted_wrong_slopes_lie_outside_the_intervals() {
+    for (planted, claimed) in [(-1.0, -1.5), (-1.5, -2.0), (-1.25, -1.0), (-2.0, -1.5)] {
+        let fitted = slope(&curve(planted, 0.04), 0.0).unwrap();
+        assert!(!holds(&fitted, claimed), "{planted} passes for {claimed}: {fitted:?}");
+    }
+}
+
+#[test]
+fn points_at_the_references_own_error_bend_no_slope() {
+    let floor = 0.01;
+    let bent = |(n, e): (f64, f64)| (n, e.hypot(floor));
+    let points: Vec<(f64, f64)> = curve(-1.5, 0.0).into_iter().map(bent).collect();
+    let blind = slope(&points, 0.0).unwrap();
+    assert!(blind.value > -1.4, "the planted floor does not bend: {blind:?}");
+    let fitted = slope(&points, floor).unwrap();
+    assert!(fitted.points < 5 && (fitted.value + 1.5).abs() < 0.05, "{fitted:?}");
+}
+
+#[test]
+fn two_points_or_one_count_have_no_slope() {
+    assert_eq!(slope(&curve(-1.0, 0.0)[..2], 0.0), None);
+    assert_eq!(slope(&[(4.0, 0.1), (4.0, 0.2), (4.0, 0.3)], 0.0), None);
+    assert_eq!(slope(&[(1.0, 0.0), (4.0, f64::NAN), (16.0, 0.1)], 0.0), None);
+}
+
+fn point(method: &str, spp: u32, seconds: f64, rmse: f64) -> PointRecord {
+    PointRecord {
+        method: method.into(),
+        spp,
+        samples: spp,
+        seconds: vec![seconds * 3.0, seconds, seconds * 0.5],
+        errors: Errors { rmse, ..Errors::default() },
+        ..PointRecord::default()
+    }
+}
+
+fn law(method: &str, value: f64, theory: &[f64]) -> MethodSlope {
+    MethodSlope {
+        method: method.into(),
+        fitted: Some(Slope { value, half_width: None, points: 3 }),
+        theory: theory.to_vec(),
+        theory_text: String::new(),
+    }
+}
+
+#[test]
+fn each_budget_is_won_by_the_least_error_that_fits_into_it() {
+    let points = [
+        point("fast", 1, 0.001, 0.2),
+        point("fast", 4, 0.004, 0.15),
+        point("good", 1, 0.003, 0.1),
+        point("good", 4, 0.012, 0.05),
+    ];
+    let table: Vec<(f64, String, u32)> =
+        winners(&points, &[]).into_iter().map(|w| (w.budget, w.method, w.spp)).collect();
+    let expected =
+        [(0.001, "fast", 1), (0.002, "fast", 1), (0.005, "good", 1), (0.01, "good", 1), (0.02, "good", 4)];
+    assert_eq!(table.len(), expected.len(), "{table:?}");
+    for ((budget, method, spp), (b, m, s)) in table.iter().zip(expected) {
+        assert!((budget / b - 1.0).abs() < 1e-9 && method == m && *spp == s, "{table:?}");
+    }
+}
+
+#[test]
+fn slow_method_does_not_win_the_times_in_which_nothing_else_was_measured() {
+    let points =
+        [point("fast", 16, 0.01, 0.02), point("fast", 64, 0.04, 0.01), point("slow", 64, 1.0, 0.009)];
+    let last = |slopes: &[MethodSlope]| winners(&points, slopes).pop().unwrap();
+    assert_eq!(last(&[]).method, "slow");
+    let found = last(&[law("fast", -1.0, &[-1.0])]);
+    // 25 times the time: a fifth of the error.
+    assert!(found.method == "fast" && found.estimated && (found.rmse - 0.002).abs() < 1e-9, "{found:?}");
+    assert_eq!(found.spp, 1600);
+    // What has no law is not prolonged.
+    assert_eq!(last(&[law("fast", -1.0, &[])]).method, "slow");
+}
+
+#[test]
+fn time_to_an_error_lies_on_the_line_between_the_logarithms() {
+    let curve = [(1.0, 0.1), (100.0, 0.01), (1000.0, 0.02)];
+    assert!((time_to(&curve, 0.1_f64.powf(1.5)).unwrap() - 10.0).abs() < 1e-9);
+    assert_eq!(time_to(&curve, 0.5), Some(1.0));
+    assert_eq!(time_to(&curve, 0.001), None);
+    assert_eq!(time_to(&[], 0.1), None);
+}
+
+#[test]
+fn steps_are_1_2_5_and_cover_the_range() {
+    let close = |found: &[f64], expected: &[f64]| {
+        found.len() == expected.len() && found.iter().zip(expected).all(|(f, e)| (f / e - 1.0).abs() < 1e-9)
+    };
+    assert!(close(&steps(0.003, 0.07), &[0.005, 0.01, 0.02, 0.05, 0.1]), "{:?}", steps(0.003, 0.07));
+    assert!(close(&steps(1.0, 10.0), &[1.0, 2.0, 5.0, 10.0]));
+    assert!(steps(f64::INFINITY, 0.0).is_empty() && steps(0.0, 1.0).is_empty());
+}
+
+#[test]
+fn median_is_the_middle_of_any_number() {
+    assert_eq!([&[3.0, 1.0, 2.0][..], &[4.0, 1.0], &[5.0]].map(median), [2.0, 2.5, 5.0]);
+    assert!(median(&[]).is_nan());
+}

@@ -1,0 +1,130 @@
+//! The page in headless Chromium, where `chromium` is installed: no message on the console, plots and pictures
+//! visible, nothing wider than a phone, dark mode, keys that work.
+
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+use serde_json::Value;
+use tempfile::tempdir;
+
+use super::studied;
+
+/// Frames as wide as a phone and as a desk's screen; what is found in them ends up in the document.
+const PROBE: &str = r#"<!doctype html><title>probe</title>
+<iframe id="phone" src="index.html" width="360" height="700"></iframe>
+<iframe id="desk" src="index.html" width="1200" height="800"></iframe>
+<script>
+addEventListener("load", () => {
+  const report = {};
+  for (const frame of document.querySelectorAll("iframe")) {
+    const page = frame.contentDocument, view = frame.contentWindow;
+    const box = (e) => e.getBoundingClientRect();
+    const key = page.querySelector("svg .key");
+    const pressed = () => key.getAttribute("aria-pressed") + page.querySelectorAll("svg .series.off").length;
+    const states = [pressed()];
+    key.dispatchEvent(new view.MouseEvent("click", { bubbles: true }));
+    states.push(pressed());
+    key.dispatchEvent(new view.KeyboardEvent("keydown", { key: "Enter", bubbles: true }));
+    states.push(pressed());
+    report[frame.id] = {
+      width: view.innerWidth,
+      scroll: page.documentElement.scrollWidth,
+      background: view.getComputedStyle(page.body).backgroundColor,
+      text: view.getComputedStyle(page.body).color,
+      plots: [...page.querySelectorAll("svg.plot")].map((e) => [box(e).width, box(e).height]),
+      marks: [...page.querySelectorAll("svg .mark")].filter((e) => box(e).width > 2).length,
+      pictures: [...page.images].map((e) => [e.naturalWidth, box(e).width]),
+      boxes: [...page.querySelectorAll(".scroll")].every((e) => e.tabIndex === 0 && e.ariaLabel),
+      states,
+    };
+  }
+  const out = document.createElement("pre");
+  out.id = "report";
+  out.textContent = JSON.stringify(report);
+  document.body.append(out);
+});
+</script>"#;
+
+/// What the probe found, or none where there is no browser.
+fn probed(folder: &Path, dark: bool) -> Option<Value> {
+    let scheme = if dark { 0 } else { 1 };
+    let profile = tempdir().unwrap();
+    let output = Command::new("chromium")
+        .args([
+            "--headless",
+            "--no-sandbox",
+            "--disable-gpu",
+            "--disable-dev-shm-usage",
+            "--enable-logging=stderr",
+        ])
+        .args(["--allow-file-access-from-files", "--virtual-time-budget=4000", "--window-size=1400,900"])
+        .arg(format!("--blink-settings=preferredColorScheme={scheme}"))
+        .arg(format!("--user-data-dir={}", profile.path().display()))
+        .arg("--dump-dom")
+        .arg(format!("file://{}", folder.join("probe.html").display()))
+        .output()
+        .ok()?;
+    let console: Vec<String> = String::from_utf8_lossy(&output.stderr)
+        .lines()
+        .filter(|l| l.contains("CONSOLE"))
+        .map(str::to_owned)
+        .collect();
+    assert!(console.is_empty(), "the console says {console:#?}");
+    let dom = String::from_utf8_lossy(&output.stdout).into_owned();
+    let report = dom.split("<pre id=\"report\">").nth(1).and_then(|rest| rest.split("</pre>").next());
+    let report = report
+        .unwrap_or_else(|| panic!("no report; the browser said {}", String::from_utf8_lossy(&output.stderr)));
+    Some(serde_json::from_str(report).unwrap())
+}
+
+fn numbers(pair: &Value) -> [f64; 2] {
+    [0, 1].map(|i| pair[i].as_f64().unwrap())
+}
+
+fn check(found: &Value, phone: bool) {
+    let [width, scroll] = ["width", "scroll"].map(|k| found[k].as_f64().unwrap());
+    assert!(scroll <= width, "the page is {scroll} wide in a window of {width}");
+    let plots = found["plots"].as_array().unwrap();
+    assert_eq!(plots.len(), 3);
+    for plot in plots {
+        let [w, h] = numbers(plot);
+        // On a phone plots keep a readable width and scroll within their boxes.
+        assert!(w > 500.0 && h > 80.0, "a plot of {w}×{h}");
+        assert!(!phone || w < 800.0, "a plot of {w}×{h}");
+    }
+    assert!(found["marks"].as_u64().unwrap() >= 20, "{} marks", found["marks"]);
+    let pictures = found["pictures"].as_array().unwrap();
+    assert!(pictures.len() >= 10);
+    assert!(pictures.iter().map(numbers).all(|[own, shown]| own > 0.0 && shown > 100.0), "{pictures:?}");
+    assert_eq!(found["boxes"], true, "boxes that scroll are reached by keyboard and have names");
+    let states: Vec<&str> = found["states"].as_array().unwrap().iter().map(|s| s.as_str().unwrap()).collect();
+    // Off by pointer in two plots and their keys, on again by keyboard.
+    assert_eq!(states, ["true0", "false4", "true0"]);
+}
+
+#[test]
+fn page_works_in_a_browser_on_a_phone_and_in_the_dark() {
+    if Command::new("chromium").arg("--version").output().is_err() {
+        eprintln!("chromium is not installed: the page was not tried in a browser");
+        return;
+    }
+    let folder = tempdir().unwrap();
+    let methods = "center,grid,random,stratified,stratified+cone+anisotropic";
+    studied(folder.path(), &["--methods", methods, "--spp", "1,4,16", "--repeats", "1"]);
+    fs::write(folder.path().join("probe.html"), PROBE).unwrap();
+    let brightness = |color: &Value| -> u32 {
+        let digits = color.as_str().unwrap().split(|c: char| !c.is_ascii_digit());
+        digits.filter_map(|d| d.parse::<u32>().ok()).take(3).sum()
+    };
+    for dark in [false, true] {
+        let Some(report) = probed(folder.path(), dark) else { return };
+        for name in ["phone", "desk"] {
+            let found = &report[name];
+            check(found, name == "phone");
+            let (ground, ink) = (brightness(&found["background"]), brightness(&found["text"]));
+            assert_eq!(dark, ground < ink, "dark {dark}: ground {ground}, ink {ink}");
+            assert!(ground.abs_diff(ink) > 500, "contrast of {ground} and {ink}");
+        }
+    }
+}

@@ -1,0 +1,116 @@
+//! The commands that a page gives do what they say, and mistakes are told as by the other commands.
+
+use std::fs;
+
+use moire::output::{WriteOptions, write};
+use serde_json::Value;
+use tempfile::tempdir;
+
+use super::{points, studied, study, told};
+use crate::support::{gradient, moire};
+
+#[test]
+fn each_command_renders_its_point_again() {
+    let folder = tempdir().unwrap();
+    let out = folder.path().join("study");
+    let methods = "center,random,random+differentials+ewa,stratified+cone";
+    let record = studied(&out, &["--methods", methods, "--spp", "5", "--repeats", "1"]);
+    let reference = out.join("reference.exr");
+    assert_eq!(record["reference"]["file"], reference.display().to_string());
+    assert_eq!(points(&record).len(), 4);
+    for point in points(&record) {
+        let command = point["command"].as_str().unwrap();
+        let words: Vec<&str> = command.split(' ').collect();
+        assert_eq!(words[0], "moire");
+        let output = moire().current_dir(folder.path()).args(&words[1..]).output().unwrap();
+        assert!(output.status.success(), "{command}: {}", told(&output));
+        let compared = moire()
+            .current_dir(folder.path())
+            .args(["compare", "point.exr", "--json"])
+            .arg(&reference)
+            .output()
+            .unwrap();
+        let json: Value = serde_json::from_slice(&compared.stdout).unwrap();
+        for metric in ["rmse", "relative_mse", "max", "over_1_255", "flip"] {
+            let [then, now] = [&point["errors"][metric], &json[metric]].map(|v| v.as_f64().unwrap());
+            // Sums over threads are the same; text keeps 17 digits.
+            assert!((then - now).abs() <= 1e-12 * then.abs(), "{command}: {metric} {then}, again {now}");
+        }
+    }
+}
+
+#[test]
+fn paths_with_spaces_are_quoted_in_commands() {
+    assert_eq!(moire::study::quote("a/b-c.toml"), "a/b-c.toml");
+    assert_eq!(moire::study::quote("my scene.toml"), "'my scene.toml'");
+    assert_eq!(moire::study::quote("it's"), "'it'\\''s'");
+    assert_eq!(moire::study::quote(""), "''");
+}
+
+#[test]
+fn mistakes_end_with_exit_code_2_and_leave_no_folder() {
+    let folder = tempdir().unwrap();
+    let file = folder.path().join("file");
+    fs::write(&file, "text").unwrap();
+    let small = folder.path().join("small.exr");
+    write(&gradient(3, 3), &small, &WriteOptions::default()).unwrap();
+    let new = folder.path().join("new");
+    let nowhere = folder.path().join("none/new");
+    let small = small.to_str().unwrap();
+    for (out, options, what) in [
+        (&new, vec!["--methods", "jitter"], "patterns: center, grid, random, stratified"),
+        (&new, vec!["--spp", "0"], "0 is not in 1..=16777216"),
+        (&new, vec!["--repeats", "0"], "--repeats"),
+        (&new, vec!["--seconds", "-1"], "--seconds"),
+        (&new, vec!["--reference"], "--reference"),
+        (&file, vec![], "not a folder"),
+        (&nowhere, vec![], "cannot be created"),
+    ] {
+        let output = study(out, &options);
+        assert_eq!(output.status.code(), Some(2), "{what}");
+        assert!(told(&output).contains(what), "{what} not in: {}", told(&output));
+        assert!(!new.exists(), "{what}");
+    }
+    let output = study(&new, &["--reference", small]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(told(&output).contains("3×3") && told(&output).contains("48×36"), "{}", told(&output));
+    let output = study(&new, &["--seconds", "0.000001", "--spp", "1"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(told(&output).contains("no time for a single point"), "{}", told(&output));
+}
+
+#[test]
+fn oracle_makes_references_but_is_no_device() {
+    let folder = tempdir().unwrap();
+    let options = ["--methods", "random", "--spp", "1,2,4", "--repeats", "1", "--reference", "oracle"];
+    let record = studied(folder.path(), &options);
+    assert!(record["reference"]["kind"].as_str().unwrap().contains("oracle"), "{}", record["reference"]);
+    let refused = moire().args(["study", "x.toml", "--out", "x", "--device", "oracle"]).output().unwrap();
+    assert_eq!(refused.status.code(), Some(2));
+    assert!(told(&refused).contains("no device"), "{}", told(&refused));
+}
+
+#[test]
+fn given_reference_is_what_errors_are_measured_against() {
+    let folder = tempdir().unwrap();
+    let picture = folder.path().join("grey.exr");
+    let mut film = gradient(48, 36);
+    film.pixels.fill([0.5; 3]);
+    write(&film, &picture, &WriteOptions::default()).unwrap();
+    let file = picture.to_str().unwrap();
+    let out = folder.path().join("out");
+    let record = studied(&out, &["--methods", "center", "--spp", "1", "--reference", file]);
+    assert!(record["reference"]["rmse"].is_null(), "a file's own error is not known");
+    assert!(points(&record)[0]["errors"]["rmse"].as_f64().unwrap() > 0.1);
+}
+
+#[test]
+fn longest_points_are_left_out_where_time_does_not_suffice() {
+    let folder = tempdir().unwrap();
+    let options = ["--methods", "random,stratified", "--spp", "1,4,16777216", "--seconds", "4"];
+    let record = studied(folder.path(), &options);
+    let counts: Vec<u64> = points(&record).iter().map(|p| p["spp"].as_u64().unwrap()).collect();
+    assert_eq!(counts, [1, 4, 1, 4]);
+    let notes = record["notes"].to_string();
+    assert!(notes.contains("random with 16777216 samples was left out"), "{notes}");
+}

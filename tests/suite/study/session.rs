@@ -1,0 +1,56 @@
+//! Renders that share what is on the device are the same, bit for bit, as renders of their own.
+
+use moire::film::Film;
+use moire::pack::pack;
+use moire::progress::Silent;
+use moire::render::{Session, Tuning, render};
+use moire::scene::model::{Pattern, Scene};
+use moire::texture;
+
+use crate::shared_gpu;
+use crate::stage;
+
+fn load(name: &str) -> Scene {
+    let mut scene = stage::scene(name);
+    (scene.width, scene.height) = (24, 18);
+    moire::scene::prune::prune(&mut scene);
+    scene
+}
+
+fn packed(scene: &Scene) -> moire::pack::PackedScene {
+    pack(scene, scene.textures.iter().map(|t| texture::load::load(t).unwrap()).collect(), None).unwrap()
+}
+
+fn alone(scene: &Scene) -> Film {
+    let gpu = shared_gpu::gpu();
+    render(&gpu, packed(scene), false, &Tuning::default(), &Silent).unwrap().0
+}
+
+#[test]
+fn renders_in_turn_equal_renders_alone() {
+    for name in ["s2", "filters"] {
+        let base = load(name);
+        let variant = |pattern, spp, seed| {
+            let mut scene = base.clone();
+            scene.sampling = moire::scene::model::Sampling { pattern, spp, seed, ..scene.sampling };
+            scene
+        };
+        // More than 256 samples need the film's second half.
+        let scenes = [
+            variant(Pattern::Stratified, 4, 1),
+            variant(Pattern::Random, 5, 7),
+            variant(Pattern::Stratified, 324, 1),
+        ];
+        let gpu = shared_gpu::gpu();
+        let session = Session::open(&gpu, packed(&base), false, &Tuning::default()).unwrap();
+        let prepared: Vec<_> = scenes.iter().map(|s| session.prepare_sampling(s).unwrap()).collect();
+        let alone: Vec<Film> = scenes.iter().map(alone).collect();
+        for round in 0..2 {
+            for ((scene, expected), prepared) in scenes.iter().zip(&alone).zip(&prepared) {
+                let (film, report) = prepared.render(&Silent).unwrap();
+                assert!(film == *expected, "{name}, round {round}, {:?}", scene.sampling);
+                assert!(report.seconds.render > 0.0 && report.seconds.compile > 0.0);
+            }
+        }
+    }
+}
