@@ -67,8 +67,7 @@ fn pixel(canvas: &mut Canvas, corner: [usize; 2], set: &Set, points: &[[f64; 2]]
         }
         for line in 1..cells as usize {
             let at = line * PANEL / cells as usize;
-            let (place, size) =
-                if axis == 0 { ([x + at, y], [1, PANEL]) } else { ([x, y + at], [PANEL, 1]) };
+            let (place, size) = if axis == 0 { ([x + at, y], [1, PANEL]) } else { ([x, y + at], [PANEL, 1]) };
             canvas.rectangle(place, size, STRATA);
         }
     }

@@ -143,7 +143,11 @@ mod tests {
             let sums = [turns.map(f64::cos), turns.map(f64::sin)].map(|t| t.iter().sum::<f64>());
             let power = (sums[0].powi(2) + sums[1].powi(2)) / 3.0;
             // Sums of three products in f32.
-            assert!((spectrum.at(x, y) - power).abs() < 1e-5, "({x}, {y}): {} for {power}", spectrum.at(x, y));
+            assert!(
+                (spectrum.at(x, y) - power).abs() < 1e-5,
+                "({x}, {y}): {} for {power}",
+                spectrum.at(x, y)
+            );
         }
         assert_eq!(spectrum.at(0, 0), 0.0);
     }

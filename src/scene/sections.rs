@@ -84,7 +84,8 @@ pub(super) fn sampling(table: Option<&Table<'_>>) -> Result<Sampling> {
     }
     if let Some(field) = table.get("spp") {
         sampling.spp = field.integer(1..=MAX_SPP)?;
-        check_spp(sampling.pattern, sampling.spp).map_err(|what| field.error(&what, "not with this pattern"))?;
+        check_spp(sampling.pattern, sampling.spp)
+            .map_err(|what| field.error(&what, "not with this pattern"))?;
     }
     if let Some(field) = table.get("shared") {
         sampling.shared = field.boolean()?;

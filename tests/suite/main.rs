@@ -29,6 +29,7 @@ mod metrics;
 mod mips;
 mod oracle;
 mod output;
+mod patterns;
 mod procedural;
 mod rays;
 mod readme;
