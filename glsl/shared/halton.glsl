@@ -5,12 +5,24 @@
 #ifndef HALTON_GLSL
 #define HALTON_GLSL
 
-#include "rng.glsl"
 #include "sobol.glsl"
 
 const uint PRIMES[32] = uint[32](2u, 3u, 5u, 7u, 11u, 13u, 17u, 19u, 23u, 29u, 31u, 37u, 41u, 43u, 47u, 53u,
                                  59u, 61u, 67u, 71u, 73u, 79u, 83u, 89u, 97u, 101u, 103u, 107u, 109u, 113u,
                                  127u, 131u);
+// The largest power of each prime below 2^30, and 2^56 over it.
+const uint TOTALS[32] = uint[32](536870912u, 387420489u, 244140625u, 282475249u, 214358881u, 815730721u,
+                                 410338673u, 893871739u, 148035889u, 594823321u, 887503681u, 69343957u,
+                                 115856201u, 147008443u, 229345007u, 418195493u, 714924299u, 844596301u,
+                                 20151121u, 25411681u, 28398241u, 38950081u, 47458321u, 62742241u, 88529281u,
+                                 104060401u, 112550881u, 131079601u, 141158161u, 163047361u, 260144641u,
+                                 294499921u);
+const uint RECIPROCALS[32] = uint[32](134217728u, 185993245u, 295147905u, 255093479u, 336153994u, 88335025u,
+                                      175605173u, 80612901u, 486757599u, 121141171u, 81191318u, 1039132999u,
+                                      621957162u, 490159562u, 314188632u, 172306003u, 100790523u, 85316018u,
+                                      3575860322u, 2835609105u, 2537396384u, 1849998567u, 1518334246u,
+                                      1148470199u, 813940802u, 692459315u, 640222390u, 549723934u, 510474162u,
+                                      441942718u, 276990499u, 244677804u);
 
 uint high_product(uint a, uint b) {
     uint high, low;
@@ -18,13 +30,14 @@ uint high_product(uint a, uint b) {
     return high;
 }
 
-// `stream` is the scrambled place within the interval as 24 bits of it, if all further digits are
-// zeros: its first digit in this base is the shift, what remains the fraction within that digit's interval.
-// Any other digit begins a new stream. `path` tells intervals apart. Widths and places are in units of 2^-32.
-uint scrambled_inverse(uint index, uint base, uint seed) {
-    uint path = mix_bits(seed);
+// The base's digits of `index`, last one first and scrambled, as a position. `stream` is the scrambled place
+// within the interval as 24 bits of it, if all further digits are zeros: its first digit in this base is the
+// shift, what remains the fraction within that digit's interval. Any other digit begins a new stream. `path`
+// tells intervals apart. Widths and places are in parts of `total`, so that intervals end exactly.
+uint scrambled_inverse(uint index, uint base, uint total, uint reciprocal, uint seed) {
+    uint path = seed;
     uint stream = path >> 8u;
-    uint width = 0xFFFFFFFFu;
+    uint width = total;
     uint place = 0u;
     while (index != 0u) {
         uint digit = index % base;
@@ -37,13 +50,23 @@ uint scrambled_inverse(uint index, uint base, uint seed) {
         path ^= path >> 15u;
         stream = digit == 0u ? digits & 0xFFFFFFu : path >> 8u;
     }
-    return place + high_product(stream << 8u, width);
+    place += high_product(stream << 8u, width);
+    // floor(place * 2^24 / total): the product is that or one less.
+    uint position = high_product(place, reciprocal);
+    uint rest = (place << 24u) - position * total;
+    return position + (rest >= total ? 1u : 0u);
+}
+
+uint of_prime(uint index, uint i, uint seed) {
+    return scrambled_inverse(index, PRIMES[i], TOTALS[i], RECIPROCALS[i], seed);
 }
 
 uvec2 halton(uint s, uint pair, uvec2 key) {
-    if (pair == 0u) return uvec2(bitfieldReverse(laine_karras(s, key.x)), scrambled_inverse(s, 3u, key.y)) >> 8u;
-    return uvec2(scrambled_inverse(s, PRIMES[2u * pair], key.x),
-                 scrambled_inverse(s, PRIMES[2u * pair + 1u], key.y)) >> 8u;
+    if (pair == 0u) {
+        return uvec2(bitfieldReverse(laine_karras(s, key.x)) >> 8u,
+                     scrambled_inverse(s, PRIMES[1], TOTALS[1], RECIPROCALS[1], key.y));
+    }
+    return uvec2(of_prime(s, 2u * pair, key.x), of_prime(s, 2u * pair + 1u, key.y));
 }
 
 #endif

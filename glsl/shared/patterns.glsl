@@ -30,6 +30,12 @@ uint first_of_block(Points points, uint seed) {
     return shuffled_place(points.place, tile_log2(points.count), seed) << uint(findMSB(points.count));
 }
 
+// Whether the key seeds scramblings, which need all its bits alike: the low ones of pcg are weak.
+bool is_scrambled(uint pattern) {
+    return MODE_IS(PATTERNS, PATTERN_HALTON, pattern) || MODE_IS(PATTERNS, PATTERN_SOBOL_OWEN, pattern) ||
+           MODE_IS(PATTERNS, PATTERN_BLUE_NOISE, pattern);
+}
+
 // The points of pair 0; `key` is the pixel's.
 Points pixel_points(Header header, uvec2 pixel, uvec2 key) {
     uint side = COUNT(STRATA_SIDE, header.sampling.y);
@@ -39,8 +45,9 @@ Points pixel_points(Header header, uvec2 pixel, uvec2 key) {
         uint bits = tile_log2(count);
         points.key = pixel_key(pixel >> bits, header.sampling.w, false);
         points.place = morton(pixel & ((1u << bits) - 1u));
-        points.block = first_of_block(points, points.key.x);
+        points.block = first_of_block(points, mix_bits(points.key.x ^ points.key.y));
     }
+    if (is_scrambled(points.pattern)) points.key = uvec2(mix_bits(points.key.x), mix_bits(points.key.y));
     return points;
 }
 
@@ -50,10 +57,10 @@ Points pair_points(Points first, uint pair) {
     Points points = first;
     uvec3 bits = pcg3d(uvec3(first.key, pair));
     points.pair = pair;
-    points.key = bits.xy;
-    points.order = bits.z;
+    points.key = uvec2(mix_bits(bits.x), mix_bits(bits.y));
+    points.order = mix_bits(bits.z);
     if (MODE_IS(PATTERNS, PATTERN_BLUE_NOISE, points.pattern)) {
-        points.block = first_of_block(points, bits.z);
+        points.block = first_of_block(points, points.order);
         points.order ^= mix_bits(points.block);
     }
     return points;

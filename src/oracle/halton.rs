@@ -4,7 +4,6 @@
 //! which is all that the variance depends on (Owen 2003, "Variance with Alternative Scramblings of Digital
 //! Nets"). Twin of `glsl/shared/halton.glsl`.
 
-use super::rng::mix_bits;
 use super::sobol::laine_karras;
 
 pub const PRIMES: [u32; 32] = [
@@ -16,14 +15,16 @@ fn high_product(a: u32, b: u32) -> u32 {
     (u64::from(a) * u64::from(b) >> 32) as u32
 }
 
-/// `stream` is the scrambled place within the interval as 24 bits of it, if all further digits are
-/// zeros: its first digit in this base is the shift, what remains the fraction within that digit's interval.
-/// Any other digit begins a new stream. `path` tells intervals apart. Widths and places are in units of
-/// 2^-32.
+/// The base's digits of `index`, last one first and scrambled, as a position. `stream` is the scrambled place
+/// within the interval as 24 bits of it, if all further digits are zeros: its first digit in this base is the
+/// shift, what remains the fraction within that digit's interval. Any other digit begins a new stream. `path`
+/// tells intervals apart. Widths and places are in parts of `total`, the largest power of the base below
+/// 2^30, so that intervals end exactly.
 pub fn scrambled_inverse(mut index: u32, base: u32, seed: u32) -> u32 {
-    let mut path = mix_bits(seed);
+    let total = base.pow(((1u32 << 30) - 1).ilog(base));
+    let mut path = seed;
     let mut stream = path >> 8;
-    let mut width = u32::MAX;
+    let mut width = total;
     let mut place = 0;
     while index != 0 {
         let digit = index % base;
@@ -36,13 +37,14 @@ pub fn scrambled_inverse(mut index: u32, base: u32, seed: u32) -> u32 {
         path ^= path >> 15;
         stream = if digit == 0 { digits & 0xFF_FFFF } else { path >> 8 };
     }
-    place + high_product(stream << 8, width)
+    place += high_product(stream << 8, width);
+    ((u64::from(place) << 24) / u64::from(total)) as u32
 }
 
 pub fn halton(s: u32, pair: u32, key: [u32; 2]) -> [u32; 2] {
     if pair == 0 {
-        return [laine_karras(s, key[0]).reverse_bits() >> 8, scrambled_inverse(s, 3, key[1]) >> 8];
+        return [laine_karras(s, key[0]).reverse_bits() >> 8, scrambled_inverse(s, 3, key[1])];
     }
     let [first, second] = [PRIMES[2 * pair as usize], PRIMES[2 * pair as usize + 1]];
-    [scrambled_inverse(s, first, key[0]) >> 8, scrambled_inverse(s, second, key[1]) >> 8]
+    [scrambled_inverse(s, first, key[0]), scrambled_inverse(s, second, key[1])]
 }

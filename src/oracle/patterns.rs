@@ -40,6 +40,11 @@ fn first_of_block(points: &Points, seed: u32) -> u32 {
     shuffled_place(points.place, tile_log2(points.count), seed) << points.count.ilog2()
 }
 
+/// Whether the key seeds scramblings, which need all its bits alike: the low ones of pcg are weak.
+fn is_scrambled(pattern: Pattern) -> bool {
+    matches!(pattern, Pattern::Halton | Pattern::SobolOwen | Pattern::BlueNoise)
+}
+
 /// The points of pair 0; `key` is the pixel's.
 pub fn pixel_points(header: &Header, pixel: [u32; 2], key: [u32; 2]) -> Points {
     let [pattern, side, count, seed] = header.sampling;
@@ -49,7 +54,10 @@ pub fn pixel_points(header: &Header, pixel: [u32; 2], key: [u32; 2]) -> Points {
         let bits = tile_log2(count);
         points.key = pixel_key(pixel.map(|x| x >> bits), seed, false);
         points.place = morton(pixel.map(|x| x & ((1 << bits) - 1)));
-        points.block = first_of_block(&points, points.key[0]);
+        points.block = first_of_block(&points, mix_bits(points.key[0] ^ points.key[1]));
+    }
+    if is_scrambled(pattern) {
+        points.key = points.key.map(mix_bits);
     }
     points
 }
@@ -60,7 +68,7 @@ pub fn pair_points(first: &Points, pair: u32) -> Points {
     if pair == 0 {
         return points;
     }
-    let [x, y, order] = pcg3d([first.key[0], first.key[1], pair]);
+    let [x, y, order] = pcg3d([first.key[0], first.key[1], pair]).map(mix_bits);
     (points.pair, points.key, points.order) = (pair, [x, y], order);
     if points.pattern == Pattern::BlueNoise {
         points.block = first_of_block(&points, order);

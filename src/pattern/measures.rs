@@ -56,9 +56,9 @@ pub fn mean_nearest_distance(points: &[[f64; 2]]) -> Option<f64> {
 
 /// How many of `columns` × `rows` equal cells hold a point.
 pub fn occupied(points: &[[f64; 2]], columns: u32, rows: u32) -> u32 {
-    // The middle of a step of 2⁻²⁴, in which a position is rounded down.
-    let half = 0.5 / f64::from(1 << 24);
-    let cell = |x: f64, cells: u32| ((x + half) * f64::from(cells)) as usize;
+    // Positions are rounded down to steps of 2⁻²⁴, and so is the step at which a cell begins.
+    let step = 1.0 / f64::from(1 << 24);
+    let cell = |x: f64, cells: u32| ((x + step) * f64::from(cells)).ceil() as usize - 1;
     let mut held = vec![false; columns as usize * rows as usize];
     points.iter().for_each(|p| held[cell(p[1], rows) * columns as usize + cell(p[0], columns)] = true);
     held.iter().filter(|h| **h).count() as u32

@@ -31,6 +31,7 @@ mod metrics;
 mod mips;
 mod oracle;
 mod output;
+mod patterns;
 mod procedural;
 mod pyramids;
 mod rays;

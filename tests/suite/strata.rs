@@ -17,7 +17,7 @@ fn log2_ceil(side: u32) -> u32 {
     side.next_power_of_two().trailing_zeros()
 }
 
-pub fn scene(pattern: Pattern, side: u32, shared: bool, seed: u32, samples: u32) -> PackedScene {
+fn scene(pattern: Pattern, side: u32, shared: bool, seed: u32, samples: u32) -> PackedScene {
     let header = Header {
         sampling: [pattern as u32, side, samples, seed],
         key: [u32::from(shared), 0, 0, 0],
@@ -63,7 +63,7 @@ fn the_oracles_strata_follow_the_formula_for_every_side() {
 }
 
 /// All samples of pair 0.
-pub fn positions(scene: &PackedScene, keep: bool, width: u32, pixels: u32) -> Vec<[u32; 2]> {
+fn positions(scene: &PackedScene, keep: bool, width: u32, pixels: u32) -> Vec<[u32; 2]> {
     let which = Positions { pair: 0, width, pixels, first: 0, samples: scene.samples };
     probe::positions(&gpu(), scene, keep, &which).unwrap()
 }
@@ -176,7 +176,7 @@ pub fn assert_uniform(what: &str, values: impl Iterator<Item = usize>, bins: usi
 }
 
 /// Correlation of two equally long lists of numbers, as a multiple of its sigma 1/√N.
-pub fn correlation_sigmas(a: &[f64], b: &[f64]) -> f64 {
+fn correlation_sigmas(a: &[f64], b: &[f64]) -> f64 {
     let n = a.len() as f64;
     let mean = |v: &[f64]| v.iter().sum::<f64>() / n;
     let (ma, mb) = (mean(a), mean(b));

@@ -1,0 +1,56 @@
+//! Sample patterns: positions on the device and in the oracle, what each pattern promises, spectra,
+//! errors of pixels, and `moire pattern`.
+
+mod agree;
+mod blue_noise;
+mod command;
+mod errors;
+mod laws;
+mod pictures;
+mod randomness;
+mod spectra;
+
+use moire::layout::Header;
+use moire::oracle::patterns::{Points, pair_points, pixel_points, sample_pair};
+use moire::oracle::rng::pixel_key;
+use moire::pack::PackedScene;
+use moire::scene::model::Pattern;
+
+/// All that have points of their own in each pixel.
+const SCATTERED: [Pattern; 7] = [
+    Pattern::Random,
+    Pattern::Stratified,
+    Pattern::MultiJittered,
+    Pattern::Halton,
+    Pattern::SobolOwen,
+    Pattern::BlueNoise,
+    Pattern::NRooks,
+];
+
+fn header(pattern: Pattern, samples: u32, shared: bool, seed: u32) -> Header {
+    Header {
+        sampling: [pattern as u32, pattern.strata_side(samples), samples, seed],
+        key: [u32::from(shared), 0, 0, 0],
+        ..Default::default()
+    }
+}
+
+fn scene(pattern: Pattern, samples: u32, shared: bool, seed: u32) -> PackedScene {
+    PackedScene { header: header(pattern, samples, shared, seed), samples, ..Default::default() }
+}
+
+fn points(header: &Header, pixel: [u32; 2], pair: u32) -> Points {
+    let key = pixel_key(pixel, header.sampling[3], header.key[0] != 0);
+    pair_points(&pixel_points(header, pixel, key), pair)
+}
+
+/// All positions of one pixel and pair in the oracle.
+fn set(pattern: Pattern, samples: u32, seed: u32, pixel: [u32; 2], pair: u32) -> Vec<[u32; 2]> {
+    let points = points(&header(pattern, samples, false, seed), pixel, pair);
+    (0..samples).map(|s| sample_pair(&points, s)).collect()
+}
+
+/// In [0, 1), in the middle of their steps of 2⁻²⁴.
+fn unit(positions: &[[u32; 2]]) -> Vec<[f64; 2]> {
+    positions.iter().map(|p| p.map(|x| (f64::from(x) + 0.5) / f64::from(1 << 24))).collect()
+}
