@@ -60,10 +60,10 @@ pub fn obtain(
     let oracle = options.reference == ReferenceChoice::Oracle;
     let hash = identity.text(if oracle { "oracle" } else { "device" }).text(&wanted.to_string()).hex();
     let path = options.out.join(FILE);
-    if let Some(record) = kept.filter(|record| record.hash == hash) {
-        if let Some(film) = read_picture(&path).ok().filter(|film| fits(film, scene)) {
-            return Ok(finished(film, record, 0.0));
-        }
+    if let Some(record) = kept.filter(|record| record.hash == hash)
+        && let Some(film) = read_picture(&path).ok().filter(|film| fits(film, scene))
+    {
+        return Ok(finished(film, record, 0.0));
     }
     let allowed = (SHARE * options.limit - started.elapsed().as_secs_f64()).max(0.0);
     let (film, mut record, progress) = if oracle {

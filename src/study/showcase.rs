@@ -84,10 +84,10 @@ pub fn render(
         chosen.push((ALGORITHM.0, ALGORITHM.1, method));
     }
     let winner = record.analysis.as_ref().and_then(|a| recommended(record, &a.winners));
-    if let Some(method) = winner.and_then(|(name, _)| Method::parse(name).ok()) {
-        if !chosen.iter().any(|c| c.2 == method) {
-            chosen.push((WINNER.0, WINNER.1, method));
-        }
+    if let Some(method) = winner.and_then(|(name, _)| Method::parse(name).ok())
+        && !chosen.iter().any(|c| c.2 == method)
+    {
+        chosen.push((WINNER.0, WINNER.1, method));
     }
     let still = Part { whole: progress, from: 1.0, to: 1.0 };
     let mut panels = Vec::new();

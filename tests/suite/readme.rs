@@ -42,7 +42,7 @@ fn every_command_of_the_readme_works() {
     let device = std::env::var("MOIRE_DEVICE").unwrap_or("cpu".into());
     for command in commands.iter().filter(|c| !needs_another_device(c, &device)) {
         let mut arguments: Vec<&str> = command.split_whitespace().skip(1).collect();
-        if arguments[0] == "render" && !arguments.contains(&"--device") {
+        if ["render", "study"].contains(&arguments[0]) && !arguments.contains(&"--device") {
             arguments.extend(["--device", &device]);
         }
         let output = Command::new(program()).args(&arguments).current_dir(folder.path()).output().unwrap();
