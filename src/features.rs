@@ -38,10 +38,6 @@ named_enum! {
 /// "Read the number from the scene."
 pub const DYNAMIC: u32 = u32::MAX;
 
-/// Samples that are summed in f32 before the sum goes to the film. More samples arrive in chunks
-/// and are added with compensation (Kahan 1965).
-pub const CHUNK: u32 = 256;
-
 /// Longer lists are read at run time: unrolled code would grow without end.
 const UNROLL: usize = 16;
 
@@ -114,7 +110,7 @@ const FEATURES: &[(&str, &str, Narrow)] = &[
         Modes(ProceduralKind::NAMES, |s| bits(s.procedurals.iter().map(|p| p.link[0]))),
     ),
     ("PROCEDURAL_FILTERED", "filter of procedural textures", Switch(filters_procedurals)),
-    ("COMPENSATED", "second film for rounding errors", Switch(|s| s.samples > CHUNK)),
+    ("COMPENSATED", "second film for rounding errors", Switch(|s| s.samples > s.chunk)),
 ];
 
 /// What one pipeline is built for.
@@ -143,7 +139,7 @@ impl Features {
             features.values = FEATURES.iter().map(|&(name, _, narrow)| (name, everything(narrow))).collect();
             return features;
         }
-        features.compensated = scene.samples > CHUNK;
+        features.compensated = scene.samples > scene.chunk;
         for &(name, what, narrow) in FEATURES {
             let value = match narrow {
                 Modes(_, of) | Count(of) => of(scene),

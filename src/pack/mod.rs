@@ -13,7 +13,7 @@ use glam::{DVec3, DVec4};
 
 use crate::color::srgb8_table;
 use crate::error::Result;
-use crate::layout::{self, Header};
+use crate::layout::{self, CHUNK, Header};
 use crate::scene::model::{
     Environment, EnvironmentLayout, Footprint, Light, Material, Model, Pattern, Projection, Scene,
 };
@@ -69,6 +69,8 @@ pub struct PackedScene {
     pub summed_tables: bool,
     /// Samples per pixel.
     pub samples: u32,
+    /// Samples of a pixel that one thread takes at once, at most `CHUNK`.
+    pub chunk: u32,
 }
 
 /// Where each list begins in the scene buffer, in units of 16 bytes.
@@ -107,7 +109,7 @@ pub fn pack_with(
     pyramids: Pyramids,
 ) -> Result<PackedScene> {
     let crop = crop.unwrap_or(Crop { x: 0, y: 0, width: scene.width, height: scene.height });
-    let mut packed = PackedScene { samples: scene.sampling.samples(), ..Default::default() };
+    let mut packed = PackedScene { samples: scene.sampling.samples(), chunk: CHUNK, ..Default::default() };
     packed.header = header(scene, crop);
     let filtered = packed.header.key[2] != Footprint::None as u32;
     packed.sampler_specs = scene.samplers.clone();

@@ -7,6 +7,7 @@ mod pyramids;
 mod resources;
 mod slices;
 mod tuning;
+mod turns;
 
 use std::time::Instant;
 
@@ -73,6 +74,7 @@ pub fn render(
     progress: &dyn Progress,
 ) -> Result<(Film, Report)> {
     let mut report = Report::default();
+    scene.chunk = turns::samples_at_once(gpu.info(), &scene)?;
     let image_source = tuning.image_source(gpu.info(), &scene);
     let features = Features::new(&scene, image_source, keep_everything);
     report.left_out.clone_from(&features.left_out);
@@ -96,7 +98,7 @@ pub fn render(
     report.seconds.compile = clock.elapsed().as_secs_f64();
 
     let mut film = Film::new(scene.header.size[0], scene.header.size[1], scene.samples);
-    let mut plan = slices::Plan::new(scene.samples, film_buffer.tiles());
+    let mut plan = slices::Plan::new(scene.samples, scene.chunk, film_buffer.tiles());
     for band in film_buffer.bands() {
         let clock = Instant::now();
         renderer.band(&band, &mut plan, &mut report, progress)?;

@@ -41,4 +41,5 @@ mod strata;
 mod support;
 mod texture_command;
 mod turned;
+mod turns;
 mod verify;
