@@ -38,10 +38,6 @@ named_enum! {
 /// "Read the number from the scene."
 pub const DYNAMIC: u32 = u32::MAX;
 
-/// Samples that are summed in f32 before the sum goes to the film. More samples arrive in chunks
-/// and are added with compensation (Kahan 1965).
-pub const CHUNK: u32 = 256;
-
 /// Longer lists are read at run time: unrolled code would grow without end.
 const UNROLL: usize = 16;
 
@@ -259,7 +255,7 @@ fn stored(scene: &PackedScene) -> impl Iterator<Item = &layout::Texture> {
 
 /// Jobs sum in chunks of their own.
 fn compensates(scene: &PackedScene) -> bool {
-    scene.samples > CHUNK && scene.schedule == Schedule::Tiles
+    scene.samples > scene.chunk && scene.schedule == Schedule::Tiles
 }
 
 fn has_model(scene: &PackedScene, model: Model) -> bool {

@@ -182,5 +182,9 @@ const _: () = assert!(size_of::<Halving>() == 32);
 /// this on every device.
 pub const HEAD_BYTES: usize = 16 << 10;
 
+/// Samples that are summed in f32 before the sum goes to the film, at most. More samples arrive in chunks
+/// and are added with compensation (Kahan 1965).
+pub const CHUNK: u32 = 256;
+
 /// Pixels along the side of the square tiles in which work is handed out.
 pub const TILE: u32 = 64;

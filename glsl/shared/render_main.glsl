@@ -81,8 +81,8 @@ void main() {
     // One loop for samples and bounces: a turn follows one ray, and a pixel whose path has ended
     // starts its next sample while its neighbours' paths go on.
     vec3 sum = vec3(0.0);
-    vec4 chunks = vec4(0.0); // of a job: sums so far, and of squares
-    vec3 seen = vec3(0.0);   // of a job: by the current path
+    float squares = 0.0;   // of a job
+    vec3 seen = vec3(0.0); // of a job: by the current path
     uint s = task.first;
     Path path;
     path.goes_on = false;
@@ -99,13 +99,8 @@ void main() {
         if (is_job) {
             seen += more;
             if (!path.goes_on) {
-                chunks.w += dot3(seen, seen) * (1.0 / 3.0);
+                squares += dot3(seen, seen) * (1.0 / 3.0);
                 seen = vec3(0.0);
-                // Short sums lose less.
-                if ((s & 255u) == 255u) {
-                    chunks.xyz += sum;
-                    sum = vec3(0.0);
-                }
             }
         }
         s += path.goes_on ? 0u : 1u;
@@ -115,8 +110,8 @@ void main() {
     uint pixels = header.size.x * slice.band_height;
     if (is_job) {
         at += part * pixels;
-        chunks.xyz += sum;
-        film[at] = task.first > 0u ? film[at] + chunks : chunks;
+        vec4 sums = vec4(sum, squares);
+        film[at] = task.first > 0u ? film[at] + sums : sums;
         return;
     }
     if (COMPENSATED && slice.first_sample > 0u) {

@@ -70,7 +70,7 @@ pub struct Outcome {
 const FIRST: u32 = 8;
 /// A pixel's count grows at most so much from one pass to the next: what is known of it is that rough.
 const GROWTH: f64 = 8.0;
-/// Samples of a half; a job's count is a `u32`, and f32 sums stay exact enough.
+/// Samples of a half: f32 sums of so many stay exact enough.
 const MOST: u32 = 1 << 16;
 /// The estimate leans towards pixels whose halves agree by chance. It is believed when it lies below the goal
 /// by the first factor; passes are planned for the second, so that few are needed.

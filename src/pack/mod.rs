@@ -14,7 +14,7 @@ use glam::{DVec3, DVec4};
 
 use crate::color::srgb8_table;
 use crate::error::Result;
-use crate::layout::{self, Header};
+use crate::layout::{self, CHUNK, Header};
 use crate::scene::model::{
     Algorithm, Environment, EnvironmentLayout, Footprint, Material, Model, Projection, Scene,
 };
@@ -70,6 +70,8 @@ pub struct PackedScene {
     pub summed_tables: bool,
     /// Samples per pixel.
     pub samples: u32,
+    /// Samples of a pixel that one thread takes at once, at most `CHUNK`.
+    pub chunk: u32,
     pub schedule: Schedule,
 }
 
@@ -110,7 +112,8 @@ pub fn pack_with(
 ) -> Result<PackedScene> {
     let crop = crop.unwrap_or(Crop { x: 0, y: 0, width: scene.width, height: scene.height });
     let samples = scene.sampling.samples();
-    let mut packed = PackedScene { samples, schedule: schedule(scene), ..Default::default() };
+    let schedule = schedule(scene);
+    let mut packed = PackedScene { samples, chunk: CHUNK, schedule, ..Default::default() };
     packed.header = header(scene, crop);
     let filtered = packed.prefilters();
     packed.sampler_specs = scene.samplers.clone();

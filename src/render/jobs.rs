@@ -45,6 +45,8 @@ pub struct JobTracer<'a> {
     groups_per_tile: u32,
     pages: Vec<Page>,
     prefilters: bool,
+    /// A thread takes no more samples at once.
+    chunk: u32,
     report: &'a mut Report,
     /// Samples of the next submission, learnt from the last ones.
     next: f64,
@@ -57,6 +59,7 @@ impl<'a> JobTracer<'a> {
         groups_per_tile: u32,
         [width, height]: [u32; 2],
         prefilters: bool,
+        chunk: u32,
         report: &'a mut Report,
     ) -> Result<JobTracer<'a>> {
         let limits = &gpu.info().limits;
@@ -69,7 +72,7 @@ impl<'a> JobTracer<'a> {
             Ok(Page { y, height, film })
         };
         let pages = (0..height).step_by(rows as usize).map(page).collect::<Result<Vec<_>>>()?;
-        Ok(JobTracer { gpu, binder, groups_per_tile, pages, prefilters, report, next: FIRST_SAMPLES })
+        Ok(JobTracer { gpu, binder, groups_per_tile, pages, prefilters, chunk, report, next: FIRST_SAMPLES })
     }
 
     /// One workgroup without a job: whatever the driver compiles late, it compiles now.
@@ -79,6 +82,20 @@ impl<'a> JobTracer<'a> {
         let group = self.binder.bind(self.gpu, &page.film, &jobs)?;
         let slice = Slice { tiles: 1, ..page.slice() };
         self.gpu.run(self.binder.pipeline, &group, bytemuck::bytes_of(&slice), [1, 1, 1])?;
+        Ok(())
+    }
+
+    /// All samples of a list, in rounds that no thread finds too long.
+    fn rounds(&mut self, index: usize, list: &[Job], progress: &dyn Progress) -> Result<()> {
+        let (chunk, most) = (self.chunk, list.iter().map(|j| j.count).max().unwrap_or(0));
+        if most <= chunk {
+            return self.page(index, list, progress);
+        }
+        for done in (0..most).step_by(chunk as usize) {
+            let rest = list.iter().filter(|j| j.count > done);
+            let part = rest.map(|j| Job { first: j.first + done, count: chunk.min(j.count - done), ..*j });
+            self.page(index, &part.collect::<Vec<_>>(), progress)?;
+        }
         Ok(())
     }
 
@@ -131,7 +148,7 @@ impl Tracer for JobTracer<'_> {
     fn sample(&mut self, jobs: &[Job], progress: &dyn Progress) -> Result<()> {
         if let [page] = self.pages.as_slice() {
             debug_assert_eq!(page.y, 0);
-            return self.page(0, jobs, progress);
+            return self.rounds(0, jobs, progress);
         }
         for index in 0..self.pages.len() {
             let page = &self.pages[index];
@@ -139,7 +156,7 @@ impl Tracer for JobTracer<'_> {
             let own = jobs.iter().filter(|j| rows.contains(&(j.place >> 16)));
             let list: Vec<Job> = own.map(|j| Job { place: j.place - (page.y << 16), ..*j }).collect();
             if !list.is_empty() {
-                self.page(index, &list, progress)?;
+                self.rounds(index, &list, progress)?;
             }
         }
         Ok(())

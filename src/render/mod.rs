@@ -9,6 +9,7 @@ mod resources;
 mod session;
 mod slices;
 mod tuning;
+mod turns;
 
 use serde::Serialize;
 

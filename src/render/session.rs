@@ -20,6 +20,7 @@ use crate::shaders::Shader;
 use super::film_buffer::FilmBuffer;
 use super::jobs::{Binder, JobTracer};
 use super::resources::{Resources, shader_for};
+use super::turns::samples_at_once;
 use super::{Renderer, Report, Tuning, build_pipeline, slices, tuning};
 
 pub struct Session<'a> {
@@ -61,6 +62,7 @@ impl<'a> Session<'a> {
         tuning: &Tuning,
     ) -> Result<Session<'a>> {
         let clock = Instant::now();
+        scene.chunk = samples_at_once(gpu.info(), &scene)?;
         let features = features_of(gpu, &scene, keep_everything, tuning);
         let resources = Resources::upload(gpu, &scene, &features)?;
         let films = RefCell::new([None, None]);
@@ -154,7 +156,7 @@ impl Prepared<'_, '_> {
         let film = match &self.work {
             Work::Tiles { renderer, film: buffer } => {
                 let mut film = Film::new(width, height, self.samples);
-                let mut plan = slices::Plan::new(self.samples, buffer.tiles());
+                let mut plan = slices::Plan::new(self.samples, self.session.scene.chunk, buffer.tiles());
                 for band in buffer.bands() {
                     let clock = Instant::now();
                     renderer.band(&band, &mut plan, &mut report, progress)?;
@@ -193,7 +195,9 @@ impl Prepared<'_, '_> {
         };
         let binder = Binder { resources: &self.session.resources, pipeline, shader };
         let [width, height, _, _] = self.header.size;
-        JobTracer::new(self.session.gpu, binder, *groups_per_tile, [width, height], *prefilters, report)
+        let chunk = self.session.scene.chunk;
+        let size = [width, height];
+        JobTracer::new(self.session.gpu, binder, *groups_per_tile, size, *prefilters, chunk, report)
     }
 }
 

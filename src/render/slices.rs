@@ -2,7 +2,6 @@
 //! enough that progress moves, Ctrl-C is heard and no watchdog fires. Tiles and chunks of samples
 //! go in; how many tiles to dispatch next comes out, learnt from how long the last ones took.
 
-use crate::features::CHUNK;
 use crate::layout::TILE;
 
 /// What a slice aims at. Costs differ over a picture, so the aim is well below the bound of 0.5 s.
@@ -16,6 +15,7 @@ const MAX_TILES: u32 = 65_535;
 
 pub struct Plan {
     samples: u32,
+    chunk: u32,
     /// Tile-samples of the whole picture and how many are done.
     total: f64,
     done: f64,
@@ -24,15 +24,15 @@ pub struct Plan {
 }
 
 impl Plan {
-    pub fn new(samples: u32, tiles: u64) -> Plan {
+    pub fn new(samples: u32, chunk: u32, tiles: u64) -> Plan {
         let next = FIRST_SAMPLES / f64::from(TILE * TILE);
-        Plan { samples, total: tiles as f64 * f64::from(samples), done: 0.0, next }
+        Plan { samples, chunk, total: tiles as f64 * f64::from(samples), done: 0.0, next }
     }
 
     /// (first sample, number) of each chunk, in the order in which the film adds them.
     pub fn chunks(&self) -> impl Iterator<Item = (u32, u32)> + use<> {
-        let samples = self.samples;
-        (0..samples).step_by(CHUNK as usize).map(move |first| (first, CHUNK.min(samples - first)))
+        let (samples, chunk) = (self.samples, self.chunk);
+        (0..samples).step_by(chunk as usize).map(move |first| (first, chunk.min(samples - first)))
     }
 
     /// How many of the `left` tiles the next slice takes.
@@ -85,12 +85,12 @@ mod tests {
 
     #[test]
     fn chunks_cover_all_samples_in_order() {
-        for samples in [1, 255, 256, 257, 1000, 65_536] {
-            let plan = Plan::new(samples, 1);
+        for (samples, chunk) in [1, 255, 256, 257, 1000, 65_536].into_iter().zip([256, 256, 7, 256, 1, 256]) {
+            let plan = Plan::new(samples, chunk, 1);
             let mut next = 0;
             for (first, count) in plan.chunks() {
                 assert_eq!(first, next);
-                assert!((1..=CHUNK).contains(&count));
+                assert!((1..=chunk).contains(&count));
                 next += count;
             }
             assert_eq!(next, samples);
@@ -99,14 +99,14 @@ mod tests {
 
     #[test]
     fn a_slow_slice_makes_the_next_one_short() {
-        let mut plan = Plan::new(64, 10_000);
+        let mut plan = Plan::new(64, 256, 10_000);
         plan.learn(100, 64, 1.5);
         assert_eq!(plan.tiles(9_000, 64), 10);
     }
 
     #[test]
     fn growth_is_bounded_even_when_the_clock_says_nothing() {
-        let mut plan = Plan::new(64, 10_000);
+        let mut plan = Plan::new(64, 256, 10_000);
         plan.learn(4, 64, 0.0);
         assert_eq!(plan.tiles(9_000, 64), 64);
     }

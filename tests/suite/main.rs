@@ -45,4 +45,5 @@ mod study;
 mod support;
 mod texture_command;
 mod turned;
+mod turns;
 mod verify;

@@ -1,0 +1,86 @@
+//! How many samples one thread may take at once. Mesa's CPU driver ends all loops of a thread after 65 535
+//! turns (`LP_MAX_TGSI_LOOP_ITERATIONS` of its shader compiler), whatever they have left to do; so in go a
+//! scene and a device, and out comes the number of samples whose loops stay below that.
+
+use crate::error::{Error, Result};
+use crate::gpu::{DeviceInfo, DeviceKind};
+use crate::layout::{CHUNK, NO_TEXTURE, Procedural, Sampler};
+use crate::pack::{PackedScene, TextureKind};
+use crate::scene::model::Model;
+use crate::texture::sampler_spec::Filter;
+
+const MOST_TURNS: u64 = 65_535;
+/// `MAX_ELLIPSE_STEPS` of `ellipse.glsl`.
+const ELLIPSE: u64 = 8192;
+/// Corners of nine boxes of four rows.
+const SUMMED_AREA: u64 = 9 * 24;
+/// Four by four texels.
+const CUBIC: u64 = 20;
+/// Eight texels, or twice four.
+const SOLID: u64 = 10;
+/// Look-ups of a bump map, and the colour.
+const TAPS: u64 = 5;
+/// `MOST_BOXES` of `procedural.glsl`.
+const BOXES: u64 = 16;
+
+/// Samples of a thread, from 1 to `CHUNK`.
+pub fn samples_at_once(device: &DeviceInfo, scene: &PackedScene) -> Result<u32> {
+    if device.kind != DeviceKind::Cpu {
+        return Ok(CHUNK);
+    }
+    let turns = turns_of_a_sample(scene);
+    if turns > MOST_TURNS {
+        return Err(Error::with_help(
+            format!(
+                "device \"{}\" ends a shader's loops after {MOST_TURNS} turns; one sample of this scene may take {turns}",
+                device.name
+            ),
+            "use fewer shapes, lights or bounces, another device, or --device oracle",
+        ));
+    }
+    Ok((MOST_TURNS / turns).min(u64::from(CHUNK)) as u32)
+}
+
+/// An upper bound.
+fn turns_of_a_sample(scene: &PackedScene) -> u64 {
+    let count = |n: usize| n as u64;
+    let shapes = count(scene.planes.len() + scene.spheres.len() + scene.triangles.len()) + 3;
+    let records = count(scene.materials.len() + scene.maps.len());
+    let bounces = scene
+        .materials
+        .iter()
+        .any(|m| [Model::Mirror, Model::Dielectric].iter().any(|model| m.link[0] == *model as u32));
+    let rays = if bounces { 1 + u64::from(scene.header.size[3]) } else { 1 };
+    let bumped = scene.materials.iter().any(|m| m.detail[0] != NO_TEXTURE);
+    let taps = if bumped { TAPS } else { 1 };
+    let hit = 1 + shapes + records + count(scene.lights.len()) * (1 + shapes);
+    rays * (hit + taps * turns_of_a_look_up(scene))
+}
+
+fn turns_of_a_look_up(scene: &PackedScene) -> u64 {
+    let records = (scene.textures.len() + scene.samplers.len() + scene.procedurals.len()) as u64;
+    let is = |kind: TextureKind| scene.textures.iter().any(|t| t.link[3] == kind as u32);
+    let procedural = scene.procedurals.iter().map(turns_of_a_pattern).max().unwrap_or(0);
+    let solid = if is(TextureKind::Volume) || is(TextureKind::Cube) { SOLID } else { 1 };
+    let of_sampler = |sampler: &Sampler| {
+        let filters = [sampler.modes[2], sampler.link[1]];
+        let has = |filter: Filter| filters.contains(&(filter as u32));
+        let place = if has(Filter::Cubic) { CUBIC.max(solid) } else { solid };
+        let probes = if has(Filter::Anisotropic) { u64::from(sampler.link[3]) + 2 } else { 2 };
+        let walked = probes * (1 + place);
+        if has(Filter::Ewa) {
+            ELLIPSE.max(walked)
+        } else if has(Filter::SummedArea) {
+            SUMMED_AREA.max(walked)
+        } else {
+            walked
+        }
+    };
+    let stored = scene.samplers.iter().map(of_sampler).max().unwrap_or(0);
+    records + stored.max(procedural)
+}
+
+/// Octaves, the 27 cells around a place, or boxes along a footprint.
+fn turns_of_a_pattern(pattern: &Procedural) -> u64 {
+    u64::from(pattern.link[2]).max(27) + BOXES
+}
