@@ -13,6 +13,7 @@ const MOST_LINES: usize = 330;
 /// (layers, crate modules that they may not use)
 const FORBIDDEN: &[(&[&str], &[&str])] = &[
     (&["oracle"], &["gpu", "render", "probe", "shaders", "verify", "cli", "output"]),
+    (&["pattern"], &["gpu", "render", "probe", "shaders", "verify", "cli", "output", "metrics"]),
     (&["verify"], &["render", "shaders", "features", "cli", "output", "metrics"]),
     (
         &["scene", "texture", "pack", "film", "output", "metrics", "layout", "color", "named", "error"],
