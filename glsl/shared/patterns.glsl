@@ -30,10 +30,12 @@ uint first_of_block(Points points, uint seed) {
     return shuffled_place(points.place, tile_log2(points.count), seed) << uint(findMSB(points.count));
 }
 
-// Whether the key seeds scramblings, which need all its bits alike: the low ones of pcg are weak.
-bool is_scrambled(uint pattern) {
-    return MODE_IS(PATTERNS, PATTERN_HALTON, pattern) || MODE_IS(PATTERNS, PATTERN_SOBOL_OWEN, pattern) ||
-           MODE_IS(PATTERNS, PATTERN_BLUE_NOISE, pattern);
+const uint SCRAMBLED = (1u << PATTERN_HALTON) | (1u << PATTERN_SOBOL_OWEN) | (1u << PATTERN_BLUE_NOISE);
+
+// Keys that seed scramblings need all their bits alike: the low ones of pcg are weak.
+uvec2 pattern_key(uint pattern, uvec2 key) {
+    if ((PATTERNS & SCRAMBLED) == 0u) return key;
+    return HAS(SCRAMBLED, pattern) ? uvec2(mix_bits(key.x), mix_bits(key.y)) : key;
 }
 
 // The points of pair 0; `key` is the pixel's.
@@ -47,7 +49,7 @@ Points pixel_points(Header header, uvec2 pixel, uvec2 key) {
         points.place = morton(pixel & ((1u << bits) - 1u));
         points.block = first_of_block(points, mix_bits(points.key.x ^ points.key.y));
     }
-    if (is_scrambled(points.pattern)) points.key = uvec2(mix_bits(points.key.x), mix_bits(points.key.y));
+    points.key = pattern_key(points.pattern, points.key);
     return points;
 }
 

@@ -12,7 +12,7 @@ pub const PRIMES: [u32; 32] = [
 ];
 
 fn high_product(a: u32, b: u32) -> u32 {
-    (u64::from(a) * u64::from(b) >> 32) as u32
+    ((u64::from(a) * u64::from(b)) >> 32) as u32
 }
 
 /// The base's digits of `index`, last one first and scrambled, as a position. `stream` is the scrambled place
@@ -29,7 +29,7 @@ pub fn scrambled_inverse(mut index: u32, base: u32, seed: u32) -> u32 {
     while index != 0 {
         let digit = index % base;
         index /= base;
-        let slope = 1 + ((stream & 0xFFFF) * (base - 1) >> 16);
+        let slope = 1 + (((stream & 0xFFFF) * (base - 1)) >> 16);
         let digits = stream * base;
         width /= base;
         place += (slope * digit + (digits >> 24)) % base * width;

@@ -40,9 +40,12 @@ fn first_of_block(points: &Points, seed: u32) -> u32 {
     shuffled_place(points.place, tile_log2(points.count), seed) << points.count.ilog2()
 }
 
-/// Whether the key seeds scramblings, which need all its bits alike: the low ones of pcg are weak.
-fn is_scrambled(pattern: Pattern) -> bool {
-    matches!(pattern, Pattern::Halton | Pattern::SobolOwen | Pattern::BlueNoise)
+/// Keys that seed scramblings need all their bits alike: the low ones of pcg are weak.
+fn pattern_key(pattern: Pattern, key: [u32; 2]) -> [u32; 2] {
+    match pattern {
+        Pattern::Halton | Pattern::SobolOwen | Pattern::BlueNoise => key.map(mix_bits),
+        _ => key,
+    }
 }
 
 /// The points of pair 0; `key` is the pixel's.
@@ -56,9 +59,7 @@ pub fn pixel_points(header: &Header, pixel: [u32; 2], key: [u32; 2]) -> Points {
         points.place = morton(pixel.map(|x| x & ((1 << bits) - 1)));
         points.block = first_of_block(&points, mix_bits(points.key[0] ^ points.key[1]));
     }
-    if is_scrambled(pattern) {
-        points.key = points.key.map(mix_bits);
-    }
+    points.key = pattern_key(pattern, points.key);
     points
 }
 

@@ -19,9 +19,9 @@ pub fn limit_for(samples: u32) -> usize {
     (2.0 * f64::from(samples).sqrt()).ceil().max(64.0) as usize
 }
 
-/// A few hundred, fewer of large sets.
+/// Hundreds, fewer of large sets.
 pub fn realisations_for(samples: u32) -> u32 {
-    ((1 << 18) / samples).clamp(64, 400)
+    ((1 << 18) / samples).clamp(64, 1600)
 }
 
 /// Σ exp(-2πi f·x) needs the four products of cosines and sines: sign changes of f only change signs of

@@ -110,9 +110,12 @@ impl<'a> Session<'a> {
                 renderer.warm_up(&film)?;
                 Work::Tiles { renderer, film }
             }
-            Schedule::Jobs => Work::Jobs { pipeline, shader, groups_per_tile, prefilters: scene.prefilters() },
+            Schedule::Jobs => {
+                Work::Jobs { pipeline, shader, groups_per_tile, prefilters: scene.prefilters() }
+            }
         };
-        let mut prepared = Prepared { session: self, header: scene.header, samples: scene.samples, work, report };
+        let mut prepared =
+            Prepared { session: self, header: scene.header, samples: scene.samples, work, report };
         prepared.warm_up_jobs()?;
         prepared.report.seconds.compile = clock.elapsed().as_secs_f64();
         Ok(prepared)

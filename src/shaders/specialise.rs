@@ -29,6 +29,7 @@ pub fn specialise(words: &[u32], constants: &[(u32, u32)]) -> Vec<u32> {
     functions.retain(|f| called.contains(&f.id));
     let bodies: Vec<Instruction> = functions.iter().flat_map(Function::emit).collect();
 
+    drop_unused_constants(&mut globals, &bodies);
     // Names and decorations of what is gone go too.
     let defined: HashSet<u32> = globals.iter().chain(&bodies).filter_map(Instruction::result).collect();
     globals.retain(|i| {
@@ -36,6 +37,27 @@ pub fn specialise(words: &[u32], constants: &[(u32, u32)]) -> Vec<u32> {
         !annotates || defined.contains(&i.words[0])
     });
     assemble(&header, globals.iter().chain(&bodies))
+}
+
+/// Constants that only code had that is gone. Words that are no ids may keep one that nothing uses.
+fn drop_unused_constants(globals: &mut Vec<Instruction>, bodies: &[Instruction]) {
+    let lines = |i: &&Instruction| !matches!(i.op, op::LINE | op::NO_LINE);
+    let mut used: HashSet<u32> = bodies.iter().filter(lines).flat_map(|i| &i.words).copied().collect();
+    let is_kept: Vec<bool> = globals
+        .iter()
+        .rev()
+        .map(|i| {
+            let annotates = matches!(i.op, op::NAME | op::MEMBER_NAME | op::LINE | op::STRING | op::SOURCE);
+            let constant = op::PLAIN_CONSTANTS.contains(&i.op);
+            let kept = !constant || used.contains(&i.words[1]);
+            if kept && !annotates {
+                used.extend(&i.words);
+            }
+            kept
+        })
+        .collect();
+    let mut kept = is_kept.into_iter().rev();
+    globals.retain(|_| kept.next().unwrap_or(true));
 }
 
 /// Functions that are called from `entries`, directly or not.

@@ -13,11 +13,16 @@ const MOST_LINES: usize = 330;
 /// (layers, crate modules that they may not use)
 const FORBIDDEN: &[(&[&str], &[&str])] = &[
     (&["oracle"], &["gpu", "render", "probe", "shaders", "verify", "study", "cli", "output"]),
+    (&["pattern"], &["gpu", "render", "probe", "shaders", "verify", "study", "cli", "output", "metrics"]),
     (&["verify"], &["render", "shaders", "features", "study", "cli", "output", "metrics"]),
     (&["study"], &["probe", "shaders", "features", "layout", "verify", "cli"]),
     (
         &["scene", "texture", "pack", "film", "output", "metrics", "layout", "color", "named", "error"],
         &["gpu", "render", "probe", "shaders", "oracle", "verify", "study", "cli"],
+    ),
+    (
+        &["adaptive"],
+        &["gpu", "render", "probe", "shaders", "oracle", "verify", "study", "cli", "output", "metrics"],
     ),
     (&["features", "render", "probe"], &["oracle", "verify", "study", "cli", "output", "metrics"]),
 ];

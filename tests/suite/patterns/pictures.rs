@@ -12,9 +12,10 @@ fn with(mut scene: Scene, pattern: Pattern, spp: u32) -> Scene {
     scene
 }
 
+/// The first four patterns are those of the scenes that are rendered both ways.
 #[test]
 fn lean_pipelines_give_the_bits_of_full_ones() {
-    for &pattern in Pattern::ALL {
+    for &pattern in &Pattern::ALL[4..] {
         let packed = packed(with(small("s1a", 70, 16), pattern, 16), None);
         let (lean, report) = render_with(&packed, false, &Tuning::default());
         let (full, _) = render_with(&packed, true, &Tuning::default());
