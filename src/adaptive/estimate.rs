@@ -130,13 +130,18 @@ impl Exponent {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::oracle::rng::pcg3d;
 
     const WIDTH: usize = 64;
 
     /// Uniform numbers of variance 1 for each sample, at least for as many as are asked for here.
     fn noise(pixel: usize, half: usize, s: u32) -> f32 {
-        let bits = pcg3d([pixel as u32, half as u32, s])[0] >> 8;
+        // Two rounds of Jarzynski & Olano's pcg.
+        let pcg = |v: u32| {
+            let state = v.wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
+            let word = ((state >> ((state >> 28) + 4)) ^ state).wrapping_mul(277_803_737);
+            (word >> 22) ^ word
+        };
+        let bits = pcg(pcg(pixel as u32 * 2 + half as u32).wrapping_add(s)) >> 8;
         (bits as f32 / 16_777_216.0 - 0.5) * 12f32.sqrt()
     }
 
