@@ -28,21 +28,23 @@ pub fn samples_at_once(device: &DeviceInfo, scene: &PackedScene) -> Result<u32> 
     if device.kind != DeviceKind::Cpu {
         return Ok(CHUNK);
     }
-    let turns = turns_of_a_sample(scene);
-    if turns > MOST_TURNS {
+    let turns = turns_of_a_sample(scene, ELLIPSE);
+    // Ellipses of that size fill the horizon, not each of many look-ups of one path.
+    let without_ellipses = turns_of_a_sample(scene, 0);
+    if without_ellipses > MOST_TURNS {
         return Err(Error::with_help(
             format!(
-                "device \"{}\" ends a shader's loops after {MOST_TURNS} turns; one sample of this scene may take {turns}",
+                "device \"{}\" ends a shader's loops after {MOST_TURNS} turns; one sample of this scene may take {without_ellipses}",
                 device.name
             ),
             "use fewer shapes, lights or bounces, another device, or --device oracle",
         ));
     }
-    Ok((MOST_TURNS / turns).min(u64::from(CHUNK)) as u32)
+    Ok((MOST_TURNS / turns).clamp(1, u64::from(CHUNK)) as u32)
 }
 
-/// An upper bound.
-fn turns_of_a_sample(scene: &PackedScene) -> u64 {
+/// An upper bound, with so many for an ellipse.
+fn turns_of_a_sample(scene: &PackedScene, ellipse: u64) -> u64 {
     let count = |n: usize| n as u64;
     let shapes = count(scene.planes.len() + scene.spheres.len() + scene.triangles.len()) + 3;
     let records = count(scene.materials.len() + scene.maps.len());
@@ -54,10 +56,10 @@ fn turns_of_a_sample(scene: &PackedScene) -> u64 {
     let bumped = scene.materials.iter().any(|m| m.detail[0] != NO_TEXTURE);
     let taps = if bumped { TAPS } else { 1 };
     let hit = 1 + shapes + records + count(scene.lights.len()) * (1 + shapes);
-    rays * (hit + taps * turns_of_a_look_up(scene))
+    rays * (hit + taps * turns_of_a_look_up(scene, ellipse))
 }
 
-fn turns_of_a_look_up(scene: &PackedScene) -> u64 {
+fn turns_of_a_look_up(scene: &PackedScene, ellipse: u64) -> u64 {
     let records = (scene.textures.len() + scene.samplers.len() + scene.procedurals.len()) as u64;
     let is = |kind: TextureKind| scene.textures.iter().any(|t| t.link[3] == kind as u32);
     let procedural = scene.procedurals.iter().map(turns_of_a_pattern).max().unwrap_or(0);
@@ -69,7 +71,7 @@ fn turns_of_a_look_up(scene: &PackedScene) -> u64 {
         let probes = if has(Filter::Anisotropic) { u64::from(sampler.link[3]) + 2 } else { 2 };
         let walked = probes * (1 + place);
         if has(Filter::Ewa) {
-            ELLIPSE.max(walked)
+            ellipse.max(walked)
         } else if has(Filter::SummedArea) {
             SUMMED_AREA.max(walked)
         } else {
