@@ -44,8 +44,10 @@ fn compile_if_changed(
 ) -> Result<Vec<u32>, AnyError> {
     let (spv, inputs) = (base.with_extension("spv"), base.with_extension("inputs"));
     if let (Ok(made), Ok(list)) = (modified(&spv), fs::read_to_string(&inputs)) {
-        let current =
-            list.lines().chain(["build.rs", "build/uncontracted.rs"]).all(|f| modified(Path::new(f)).is_ok_and(|t| t < made));
+        let current = list
+            .lines()
+            .chain(["build.rs", "build/uncontracted.rs"])
+            .all(|f| modified(Path::new(f)).is_ok_and(|t| t < made));
         if current {
             return Ok(words_of(&fs::read(&spv)?));
         }

@@ -2,6 +2,8 @@
 //! slices, film read back. Orchestrates `gpu`'s own types and knows nothing of Vulkan's.
 
 mod film_buffer;
+mod pool;
+mod pyramids;
 mod resources;
 mod slices;
 mod tuning;
@@ -22,9 +24,10 @@ use crate::shaders::{ReflectedBinding, Shader, specialise};
 use film_buffer::{Band, FilmBuffer};
 use resources::shader_for;
 
+pub(crate) use pyramids::{Maker, Top};
 pub(crate) use resources::Resources;
 pub use resources::can_sample;
-pub use tuning::{TexelChoice, Tuning};
+pub use tuning::{MipChoice, TexelChoice, Tuning};
 
 /// Wall seconds by stage, in the order in which they come.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
@@ -52,6 +55,8 @@ pub struct Report {
     pub seconds: Seconds,
     /// Device timestamps around the slices, summed.
     pub device_render_seconds: f64,
+    /// The same around the passes that make levels of textures, if there were any.
+    pub device_mips_seconds: Option<f64>,
     pub slices: u32,
     /// Wall time of the longest slice: how long a Ctrl-C may wait.
     pub longest_slice_seconds: f64,
@@ -76,6 +81,7 @@ pub fn render(
     let resources = Resources::upload(gpu, &scene, &features)?;
     let film_buffer = FilmBuffer::new(gpu, &scene, &features)?;
     scene.texels = Vec::new();
+    report.device_mips_seconds = resources.mips_seconds;
     report.seconds.upload = clock.elapsed().as_secs_f64();
 
     let clock = Instant::now();

@@ -15,7 +15,11 @@ fn without_effect(footprint: Footprint, samplers: &[SamplerSpec]) -> Vec<String>
     }
     let asked: Vec<String> = samplers.iter().flat_map(idle_settings).collect();
     let mut distinct: Vec<&str> = Vec::new();
-    asked.iter().for_each(|s| if !distinct.contains(&s.as_str()) { distinct.push(s) });
+    asked.iter().for_each(|s| {
+        if !distinct.contains(&s.as_str()) {
+            distinct.push(s)
+        }
+    });
     if distinct.is_empty() {
         return Vec::new();
     }

@@ -31,6 +31,7 @@ mod oracle;
 mod output;
 mod patterns;
 mod procedural;
+mod pyramids;
 mod rays;
 mod readme;
 mod scene;
