@@ -57,16 +57,12 @@ named_enum! {
 
 named_enum! {
     /// `SCHEDULE_*` of the shader: how samples are handed out to threads.
+    #[derive(Default)]
     pub enum Schedule {
         /// Equally many to each pixel, tile by tile.
+        #[default]
         Tiles = "tiles",
         /// By a list of jobs.
         Jobs = "jobs",
-    }
-}
-
-impl Default for Schedule {
-    fn default() -> Self {
-        Schedule::Tiles
     }
 }
