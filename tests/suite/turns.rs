@@ -17,10 +17,10 @@ fn crowd(count: usize) -> Scene {
     scene.planes.clear();
     scene.lights.truncate(1);
     let mut dice = Dice::new(7);
-    let first = scene.triangles[0].clone();
+    let first = scene.triangles[0];
     let moved = |_| {
         let by = glam::DVec3::new(dice.between(-1.0, 1.0), dice.between(-0.5, 1.0), dice.between(-1.0, 1.0));
-        Triangle { vertices: first.vertices.map(|v| 0.2 * v + by), ..first.clone() }
+        Triangle { vertices: first.vertices.map(|v| 0.2 * v + by), ..first }
     };
     scene.triangles = (0..count).map(moved).collect();
     scene
