@@ -107,7 +107,7 @@ fn given_reference_is_what_errors_are_measured_against() {
 #[test]
 fn longest_points_are_left_out_where_time_does_not_suffice() {
     let folder = tempdir().unwrap();
-    let options = ["--methods", "random,stratified", "--spp", "1,4,16777216", "--seconds", "4"];
+    let options = ["--methods", "random,stratified", "--spp", "1,4,16777216", "--seconds", "8"];
     let record = studied(folder.path(), &options);
     let counts: Vec<u64> = points(&record).iter().map(|p| p["spp"].as_u64().unwrap()).collect();
     assert_eq!(counts, [1, 4, 1, 4]);
