@@ -140,6 +140,26 @@ pub struct Slice {
 }
 const _: () = assert!(size_of::<Slice>() == 32);
 
+/// Mirror of the push constants of `pyramid.glsl`: one level from the one above.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
+pub struct Halving {
+    /// 1: the level above is level 0, words of codes; 0: numbers.
+    pub from_codes: u32,
+    /// First word or number of the level above.
+    pub above: u32,
+    /// Where the new level begins as words, and as numbers.
+    pub word: u32,
+    pub number: u32,
+    /// Of the new level.
+    pub texels: u32,
+    pub columns_log2: u32,
+    pub rows_log2: u32,
+    /// One bit an axis: the length above is twice as long.
+    pub halved: u32,
+}
+const _: () = assert!(size_of::<Halving>() == 32);
+
 /// The part of the scene buffer that is also bound as uniforms: `maxUniformBufferRange` is at least
 /// this on every device.
 pub const HEAD_BYTES: usize = 16 << 10;

@@ -1,15 +1,17 @@
 //! Parts of the renderer by themselves, on a device: look-ups, procedural textures, rays and sample
-//! positions from lists of queries. What tests and conformance reports compare with the oracle; the
+//! positions from lists of queries; mip pyramids. What tests and conformance reports compare with the oracle; the
 //! shaders run the very functions that rendering runs.
 
 use bytemuck::{Pod, Zeroable};
 
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::features::{self, Features, TexelSource};
 use crate::gpu::{BufferUse, Gpu, Pipeline};
 use crate::pack::{PackedScene, SlotCounts};
-use crate::render::{Resources, build_pipeline};
+use crate::render::{Maker, Resources, Top, build_pipeline};
 use crate::shaders::{self, Shader};
+use crate::texture::data::{ColorSpace, Component, TextureData};
+use crate::texture::mips;
 
 pub use crate::render::can_sample;
 
@@ -129,6 +131,46 @@ impl<'a> LookUps<'a> {
         };
         let list = Some(bytemuck::cast_slice(queries));
         dispatch(self.gpu, &self.pipelines[index].1, &resources, shader, list, queries.len(), &[])
+    }
+}
+
+/// Box pyramids of one texture after the other. Formats share pipelines.
+pub struct Pyramids<'a>(&'a Gpu, Maker<'a>);
+
+impl<'a> Pyramids<'a> {
+    pub fn new(gpu: &'a Gpu) -> Pyramids<'a> {
+        Pyramids(gpu, Maker::new(gpu))
+    }
+
+    /// Levels 1 to the last, as `texture::mips` makes them, and the device's seconds.
+    pub fn make(&mut self, texture: &TextureData) -> Result<(Vec<TextureData>, f64)> {
+        let Pyramids(gpu, maker) = self;
+        let mut levels = mips::blank(texture);
+        if levels.is_empty() {
+            return Ok((levels, 0.0));
+        }
+        let wide =
+            texture.color_space == ColorSpace::Srgb && texture.format.component() == Component::Unorm16;
+        if wide || !mips::halves_throughout(texture) {
+            return Err(Error::new(format!(
+                "texture \"{}\": devices make pyramids of lengths that are powers of two, sRGB of 8 bits",
+                texture.name
+            )));
+        }
+        let sizes: Vec<[u32; 3]> =
+            (0..mips::level_count(texture)).map(|level| mips::level_size(texture, level)).collect();
+        maker.seconds = None;
+        let pyramid = maker.make(&Top {
+            name: &texture.name,
+            format: texture.format,
+            space: texture.color_space,
+            sizes: &sizes,
+            texels: &texture.texels,
+        })?;
+        for (level, start) in levels.iter_mut().zip(&pyramid.starts[1..]) {
+            gpu.read_buffer(&pyramid.buffer, *start, &mut level.texels)?;
+        }
+        Ok((levels, maker.seconds.unwrap_or(0.0)))
     }
 }
 

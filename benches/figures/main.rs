@@ -1,12 +1,13 @@
 //! The figures that the README states, measured anew: `cargo bench`, and `cargo bench -- filters` for the
-//! errors of filters at equal time. Runs the program itself on the
+//! errors of filters at equal time, `cargo bench -- mips` for mip pyramids alone. Runs the program itself on the
 //! scenes of `data/scenes/bench` and prints Markdown: medians over whole processes, the ratio of lean
 //! to full pipelines from runs in turn, errors against the float64 references.
 //! `MOIRE_DEVICE` chooses the device (default cpu), `MOIRE_BENCH_RUNS` the number of runs (default 5).
 
 mod equal_time;
+mod mips;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::Instant;
 
@@ -24,6 +25,11 @@ impl Run {
     fn figure(&self, pointer: &str) -> f64 {
         self.json.pointer(pointer).and_then(Value::as_f64).unwrap_or(f64::NAN)
     }
+}
+
+/// `MOIRE_BIN`, else the program that was built with this.
+fn program() -> PathBuf {
+    std::env::var_os("MOIRE_BIN").map_or(env!("CARGO_BIN_EXE_moire").into(), PathBuf::from)
 }
 
 struct Bench {
@@ -47,7 +53,7 @@ impl Bench {
 
     fn run_file(&self, scene: &str, options: &[&str], environment: &[(&str, &str)]) -> Outcome<Run> {
         let clock = Instant::now();
-        let output = Command::new(env!("CARGO_BIN_EXE_moire"))
+        let output = Command::new(program())
             .args(["render", scene, "-o", &self.out(), "--json", "-q", "--device", &self.device])
             .args(options)
             .envs(environment.iter().copied())
@@ -150,8 +156,12 @@ fn main() -> Outcome<()> {
     if std::env::args().any(|argument| argument == "filters") {
         return equal_time::table(&bench);
     }
+    if std::env::args().any(|argument| argument == "mips") {
+        return mips::table(&bench);
+    }
     bench.times()?;
     bench.lean()?;
+    mips::table(&bench)?;
     if first.json["driver"].as_str().is_some_and(|d| !d.contains("llvmpipe")) {
         bench.large()?;
     }

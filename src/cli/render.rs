@@ -3,6 +3,7 @@
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use std::sync::mpsc;
 use std::time::Instant;
 
 use clap::Args;
@@ -14,8 +15,8 @@ use crate::error::{Error, Result};
 use crate::gpu::{DeviceSelect, Gpu};
 use crate::oracle;
 use crate::output::{self, WriteOptions};
-use crate::pack::{self, Crop, PackedScene};
-use crate::render::{self, Report, TexelChoice, Tuning};
+use crate::pack::{self, Crop, PackedScene, Pyramids};
+use crate::render::{self, MipChoice, Report, TexelChoice, Tuning};
 use crate::scene::advice;
 use crate::scene::model::Scene;
 use crate::scene::prune::prune;
@@ -45,6 +46,9 @@ pub struct RenderArgs {
     /// Where look-ups of method shader read texels
     #[arg(long, value_name = "SOURCE", default_value = "auto", value_parser = super::named_parser(TexelChoice::NAMES, TexelChoice::from_name))]
     texels: TexelChoice,
+    /// Where box pyramids of textures are made, if their lengths are powers of two
+    #[arg(long, value_name = "PLACE", default_value = "auto", value_parser = super::named_parser(MipChoice::NAMES, MipChoice::from_name))]
+    mips: MipChoice,
     /// Workgroup shape, for measurements [default: by device]
     #[arg(long, value_name = "WxH", value_parser = |s: &str| Tuning::parse_group(s).map_err(|e| e.to_string()))]
     workgroup: Option<[u32; 2]>,
@@ -114,9 +118,15 @@ fn render_on_device(
     start: Instant,
 ) -> Result<Ran> {
     let (gpu, packed, startup, load) = std::thread::scope(|scope| {
-        let loading = scope.spawn(|| (load(scene, args), start.elapsed().as_secs_f64()));
+        let (tell, told) = mpsc::channel();
+        let loading = scope.spawn(move || {
+            let packed = load(scene, args, || told.recv().unwrap_or_default());
+            (packed, start.elapsed().as_secs_f64())
+        });
         let clock = Instant::now();
         let gpu = Gpu::open(select);
+        // Nobody listens where the scene has no use for it.
+        let _ = tell.send(gpu.as_ref().map_or(Pyramids::Host, |gpu| args.mips.pyramids(gpu.info())));
         let startup = clock.elapsed().as_secs_f64();
         let (packed, load) = loading.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
         // A mistake in the scene is told before one of the machine.
@@ -136,7 +146,7 @@ fn render_on_device(
 }
 
 fn render_on_oracle(args: &RenderArgs, scene: &Scene, bar: &Bar, start: Instant) -> Result<Ran> {
-    let packed = load(scene, args)?;
+    let packed = load(scene, args, || Pyramids::Host)?;
     say_textures(args, &packed);
     let mut report = Report::default();
     report.seconds.load = start.elapsed().as_secs_f64();
@@ -147,9 +157,11 @@ fn render_on_oracle(args: &RenderArgs, scene: &Scene, bar: &Bar, start: Instant)
     Ok(Ran { device: "oracle".into(), driver, film, report })
 }
 
-fn load(scene: &Scene, args: &RenderArgs) -> Result<PackedScene> {
+/// `pyramids` says who makes those, and may wait for a device to be known.
+fn load(scene: &Scene, args: &RenderArgs, pyramids: impl FnOnce() -> Pyramids) -> Result<PackedScene> {
     let textures = scene.textures.iter().map(texture::load::load).collect::<Result<Vec<_>>>()?;
-    pack::pack(scene, textures, args.crop)
+    let pyramids = if pack::reads_levels(scene) { pyramids() } else { Pyramids::Host };
+    pack::pack_with(scene, textures, args.crop, pyramids)
 }
 
 fn outputs(args: &RenderArgs) -> Vec<PathBuf> {

@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 
 use super::tell;
 use crate::film::Film;
@@ -16,6 +16,13 @@ pub struct Ran {
     pub report: Report,
 }
 
+/// By the device's timestamps; the levels of textures only where the device made them.
+fn device_seconds(report: &Report) -> Value {
+    let mut seconds = Map::from_iter([("render".into(), json!(report.device_render_seconds))]);
+    seconds.extend(report.device_mips_seconds.map(|mips| ("mips".into(), json!(mips))));
+    seconds.into()
+}
+
 pub fn json(ran: &Ran, options: Value, outputs: &[String]) -> Value {
     json!({
         "device": ran.device,
@@ -26,7 +33,7 @@ pub fn json(ran: &Ran, options: Value, outputs: &[String]) -> Value {
         "samples": ran.film.samples,
         "outputs": outputs,
         "seconds": ran.report.seconds,
-        "device_seconds": { "render": ran.report.device_render_seconds },
+        "device_seconds": device_seconds(&ran.report),
         "slices": ran.report.slices,
         "longest_slice_seconds": ran.report.longest_slice_seconds,
         "device_bytes": ran.report.device_bytes,
@@ -58,6 +65,9 @@ pub fn say(ran: &Ran, outputs: &[String], verbose: bool) {
             "device time of rendering: {:.4} s in {} slices",
             report.device_render_seconds, report.slices
         ));
+        if let Some(mips) = report.device_mips_seconds {
+            tell(format_args!("device time of mip pyramids: {mips:.4} s"));
+        }
     }
     tell(format_args!(
         "{}: {}×{} pixels, {} samples a pixel on {}, render {:.3} s, total {:.3} s",

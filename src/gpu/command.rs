@@ -91,40 +91,13 @@ impl Commands {
             timestamps.open(self.buffer);
         }
         record(device, self.buffer);
-        self.barrier();
+        barrier(device, self.buffer);
         // After the barrier: a driver may let an earlier closing timestamp overtake the work.
         if let Some(timestamps) = &self.timestamps {
             timestamps.close(self.buffer);
         }
         // SAFETY: the buffer is in the recording state.
         unsafe { device.end_command_buffer(self.buffer) }
-    }
-
-    /// All writes of this submission before all accesses of later ones and of the host.
-    fn barrier(&self) {
-        use vk::{AccessFlags as Access, PipelineStageFlags as Stage};
-        let memory = vk::MemoryBarrier::default()
-            .src_access_mask(Access::SHADER_WRITE | Access::TRANSFER_WRITE)
-            .dst_access_mask(
-                Access::UNIFORM_READ
-                    | Access::SHADER_READ
-                    | Access::SHADER_WRITE
-                    | Access::TRANSFER_READ
-                    | Access::TRANSFER_WRITE
-                    | Access::HOST_READ,
-            );
-        // SAFETY: the command buffer is in the recording state, outside a render pass.
-        unsafe {
-            self.core.device.cmd_pipeline_barrier(
-                self.buffer,
-                Stage::COMPUTE_SHADER | Stage::TRANSFER,
-                Stage::COMPUTE_SHADER | Stage::TRANSFER | Stage::HOST,
-                vk::DependencyFlags::empty(),
-                &[memory],
-                &[],
-                &[],
-            );
-        }
     }
 
     fn submit(&mut self) -> Result<(), vk::Result> {
@@ -158,6 +131,33 @@ impl Commands {
                 Err(failed(&format!("waiting for `{what}`"), code))
             }
         }
+    }
+}
+
+/// All writes so far before all accesses that follow, also those of later submissions and of the host.
+pub(super) fn barrier(device: &ash::Device, commands: vk::CommandBuffer) {
+    use vk::{AccessFlags as Access, PipelineStageFlags as Stage};
+    let memory = vk::MemoryBarrier::default()
+        .src_access_mask(Access::SHADER_WRITE | Access::TRANSFER_WRITE)
+        .dst_access_mask(
+            Access::UNIFORM_READ
+                | Access::SHADER_READ
+                | Access::SHADER_WRITE
+                | Access::TRANSFER_READ
+                | Access::TRANSFER_WRITE
+                | Access::HOST_READ,
+        );
+    // SAFETY: the command buffer is in the recording state, outside a render pass.
+    unsafe {
+        device.cmd_pipeline_barrier(
+            commands,
+            Stage::COMPUTE_SHADER | Stage::TRANSFER,
+            Stage::COMPUTE_SHADER | Stage::TRANSFER | Stage::HOST,
+            vk::DependencyFlags::empty(),
+            &[memory],
+            &[],
+            &[],
+        );
     }
 }
 

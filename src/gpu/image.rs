@@ -9,8 +9,9 @@ use gpu_allocator::vulkan::Allocation;
 
 use super::convert;
 use super::device::Core;
+use super::image_check::{Texels, check};
 use super::result::Doing;
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::named::named_enum;
 
 named_enum! {
@@ -98,15 +99,15 @@ struct RawImage {
 
 impl Image {
     /// The content is undefined until uploaded.
-    pub(super) fn new(core: &Arc<Core>, desc: &ImageDesc<'_>) -> Result<Image> {
+    pub(super) fn new(core: &Arc<Core>, desc: &ImageDesc<'_>, texels: &Texels<'_>) -> Result<Image> {
         let extent = Extent { shape: desc.shape, width: desc.width, height: desc.height, depth: desc.depth };
         let label = format!("texture `{}` {extent} {}", desc.name, desc.format);
-        check(core, desc, extent, &label)?;
+        check(core, desc, texels, extent, &label)?;
         let mut raw = RawImage {
             core: Arc::clone(core),
             label,
             extent,
-            levels: desc.levels.len() as u32,
+            levels: texels.levels() as u32,
             format: desc.format,
             handle: vk::Image::null(),
             view: vk::ImageView::null(),
@@ -172,7 +173,7 @@ impl Extent {
         if self.shape == ImageShape::Cube { 6 } else { 1 }
     }
 
-    fn longest(self) -> u32 {
+    pub(super) fn longest(self) -> u32 {
         let depth = if self.shape == ImageShape::Volume { self.depth } else { 1 };
         self.width.max(self.height).max(depth)
     }
@@ -183,57 +184,6 @@ impl std::fmt::Display for Extent {
         write!(f, "{}×{}", self.width, self.height)?;
         if self.depth == 1 { Ok(()) } else { write!(f, "×{}", self.depth) }
     }
-}
-
-fn check(core: &Core, desc: &ImageDesc<'_>, extent: Extent, label: &str) -> Result<()> {
-    if desc.width == 0 || desc.height == 0 || desc.depth == 0 {
-        return Err(Error::new(format!("{label} has no texels")));
-    }
-    let limits = &core.info.limits;
-    let (limit, fits, texels) = match desc.shape {
-        ImageShape::Flat => (limits.max_image_2d, desc.depth == 1, "2D images have one slice"),
-        ImageShape::Volume => (limits.max_image_3d, true, ""),
-        ImageShape::Cube => {
-            let square = desc.width == desc.height && desc.depth == 6;
-            (limits.max_image_cube, square, "cubes have six square faces")
-        }
-    };
-    if !fits {
-        return Err(Error::new(format!("{label}: {texels}")));
-    }
-    if extent.longest() > limit {
-        let most = match desc.shape {
-            ImageShape::Flat => format!("images there have at most {limit}×{limit} texels"),
-            ImageShape::Volume => format!("3D images there have at most {limit}×{limit}×{limit} texels"),
-            ImageShape::Cube => format!("faces of cubes there have at most {limit}×{limit} texels"),
-        };
-        return Err(Error::with_help(
-            format!("{label} is too large for {}: {most}", core.info.name),
-            "Scale the texture down, use method = \"shader\" with --texels buffer, or another device.",
-        ));
-    }
-    if !core.supports(desc.format, false) {
-        return Err(Error::with_help(
-            format!("{label}: {} cannot sample images of this format", core.info.name),
-            "Use method = \"shader\", or a texture with other channels or another component type.",
-        ));
-    }
-    let most = u32::BITS - extent.longest().leading_zeros();
-    if desc.levels.is_empty() || desc.levels.len() > most as usize {
-        return Err(Error::new(format!("{label} has {} levels; it can have 1 to {most}", desc.levels.len())));
-    }
-    for (level, texels) in (0u32..).zip(desc.levels) {
-        let size = extent.at_level(level);
-        let count = size.width as usize * size.height as usize * size.depth as usize;
-        let expected = count * desc.format.texel_bytes();
-        if texels.len() != expected {
-            return Err(Error::new(format!(
-                "level {level} of {label} has {} bytes of texels; {size} take {expected}",
-                texels.len()
-            )));
-        }
-    }
-    core.memory.check_heap(label, desc.levels.iter().map(|texels| texels.len() as u64).sum())
 }
 
 impl RawImage {

@@ -10,10 +10,12 @@
 mod buffer;
 mod command;
 mod convert;
+mod copy;
 mod debug;
 mod descriptor;
 mod device;
 mod image;
+mod image_check;
 mod info;
 mod instance;
 mod memory;
@@ -41,8 +43,9 @@ pub use timing::RunTime;
 
 use crate::error::{Error, Result};
 use crate::texture::sampler_spec::SamplerSpec;
-use command::Commands;
+use command::{Commands, barrier};
 use device::{Core, lock};
+use image_check::Texels;
 use staging::Staging;
 
 /// How a device is opened.
@@ -129,6 +132,13 @@ impl Gpu {
         readback::from_buffer(&mut staging, &mut commands, buffer, offset, out)
     }
 
+    /// Copies bytes from one buffer into another.
+    pub fn copy_buffer(&self, from: &Buffer, start: u64, to: &Buffer, at: u64, bytes: u64) -> Result<()> {
+        self.owns(from.core(), from.name())?;
+        self.owns(to.core(), to.name())?;
+        copy::to_buffer(&mut lock(&self.commands), from, start, to, at, bytes)
+    }
+
     /// Whether images of this format can be sampled, with linear filtering if asked for.
     pub fn supports(&self, format: ImageFormat, linear_filter: bool) -> bool {
         self.core.supports(format, linear_filter)
@@ -136,9 +146,18 @@ impl Gpu {
 
     /// A sampled image with its texels uploaded.
     pub fn image(&self, desc: &ImageDesc<'_>) -> Result<Image> {
-        let image = Image::new(&self.core, desc)?;
+        let image = Image::new(&self.core, desc, &Texels::Host(desc.levels))?;
         let (mut staging, mut commands) = (lock(&self.staging), lock(&self.commands));
         upload::to_image(&mut staging, &mut commands, &image, desc.levels)?;
+        Ok(image)
+    }
+
+    /// A sampled image whose levels begin at these bytes of a buffer; `levels` of the description is not
+    /// read.
+    pub fn image_from(&self, desc: &ImageDesc<'_>, buffer: &Buffer, starts: &[u64]) -> Result<Image> {
+        self.owns(buffer.core(), buffer.name())?;
+        let image = Image::new(&self.core, desc, &Texels::Device(buffer, starts))?;
+        copy::to_image(&mut lock(&self.commands), &image, buffer, starts)?;
         Ok(image)
     }
 
@@ -164,11 +183,27 @@ impl Gpu {
         push: &[u8],
         groups: [u32; 3],
     ) -> Result<RunTime> {
+        self.run_all(pipeline, group, &[(push, groups)])
+    }
+
+    /// Several dispatches, given by push constants and workgroups, in one submission; each sees what the
+    /// ones before it wrote.
+    pub fn run_all(
+        &self,
+        pipeline: &Pipeline,
+        group: &BindGroup,
+        dispatches: &[(&[u8], [u32; 3])],
+    ) -> Result<RunTime> {
         self.owns(pipeline.core(), pipeline.name())?;
         self.owns(group.core(), pipeline.name())?;
-        pipeline.check_run(group, push, groups)?;
+        dispatches.iter().try_for_each(|(push, groups)| pipeline.check_run(group, push, *groups))?;
         lock(&self.commands).run(pipeline.name(), |device, commands| {
-            pipeline.record(device, commands, group, push, groups);
+            for (index, (push, groups)) in dispatches.iter().enumerate() {
+                if index > 0 {
+                    barrier(device, commands);
+                }
+                pipeline.record(device, commands, group, push, *groups);
+            }
         })
     }
 

@@ -78,12 +78,12 @@ pub(super) fn to_image(
     Ok(())
 }
 
-enum Transition {
+pub(super) enum Transition {
     ToTransfer,
     ToShader,
 }
 
-fn transition(device: &ash::Device, commands: vk::CommandBuffer, image: &Image, to: Transition) {
+pub(super) fn transition(device: &ash::Device, commands: vk::CommandBuffer, image: &Image, to: Transition) {
     use vk::{AccessFlags as Access, ImageLayout as Layout, PipelineStageFlags as Stage};
     let barrier = vk::ImageMemoryBarrier::default()
         .src_queue_family_index(vk::QUEUE_FAMILY_IGNORED)

@@ -39,6 +39,12 @@ pub fn pixel(scene: &PackedScene, x: u32, y: u32) -> DVec3 {
 
 /// The whole film. Rows are shared out over the cores; the result does not depend on how.
 pub fn render(scene: &PackedScene, progress: &dyn Progress) -> Result<Film> {
+    if let Some(&texture) = scene.device_levels.first() {
+        return Err(Error::new(format!(
+            "the levels of texture \"{}\" are left to a device: the oracle reads what the host made",
+            scene.texture_names[texture]
+        )));
+    }
     let [width, height, _, _] = scene.header.size;
     let mut film = Film::new(width, height, scene.samples);
     let done = AtomicUsize::new(0);

@@ -2,8 +2,10 @@
 //! f32: positions relative to the eye, texture coordinates with whole tiles taken out, so that what
 //! the device sees is small and near wherever the scene lies in the world.
 
+mod kinds;
 mod mapping;
 mod procedural;
+mod pyramids;
 mod resample;
 mod shapes;
 mod textures;
@@ -13,68 +15,16 @@ use glam::{DVec3, DVec4};
 use crate::color::srgb8_table;
 use crate::error::Result;
 use crate::layout::{self, Header};
-use crate::named::named_enum;
 use crate::scene::model::{
     Environment, EnvironmentLayout, Footprint, Material, Model, Pattern, Projection, Scene,
 };
 use crate::texture::data::TextureData;
 use crate::texture::sampler_spec::{Address, Method, SamplerSpec};
 
+pub use kinds::{EntityKind, LightKind, MapKind, ProjectionKind, TextureKind};
 pub use procedural::procedural;
+pub use pyramids::{Pyramids, reads_levels};
 pub use textures::{MAX_SLOTS, Slot};
-
-named_enum! {
-    /// `PROJECTION_*` of the shader.
-    pub enum ProjectionKind {
-        Perspective = "perspective",
-        Orthographic = "orthographic",
-    }
-}
-
-named_enum! {
-    /// `LIGHT_*` of the shader.
-    pub enum LightKind {
-        Point = "point",
-        Directional = "directional",
-    }
-}
-
-named_enum! {
-    /// `MAP_*` of the shader: how a device forms a texture coordinate.
-    pub enum MapKind {
-        Plane = "plane",
-        Affine = "affine",
-        VertexUv = "vertex-uv",
-        Cylindrical = "cylindrical",
-        Spherical = "spherical",
-        Solid = "solid",
-        Cube = "cube",
-        Box = "box",
-    }
-}
-
-named_enum! {
-    /// `ENTITY_*` of the shader: the vector that a map looks at.
-    pub enum EntityKind {
-        Position = "position",
-        Normal = "normal",
-        Reflection = "reflection",
-        /// Of the ray: an environment's.
-        Direction = "direction",
-    }
-}
-
-named_enum! {
-    /// `TEXTURE_KIND_*` of the shader.
-    pub enum TextureKind {
-        /// One or two dimensions.
-        Flat = "flat",
-        Volume = "volume",
-        Cube = "cube",
-        /// Computed at every look-up; `place[0]` is an index into the list of procedurals.
-        Procedural = "procedural",
-    }
-}
 
 /// A part of the picture, in pixels of the full picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -106,6 +56,9 @@ pub struct PackedScene {
     pub sampler_specs: Vec<SamplerSpec>,
     /// Texels of all textures one after the other, each beginning at a whole 32-bit word.
     pub texels: Vec<u8>,
+    /// Textures whose levels a device makes from level 0, in the order of their texels; these have zeros
+    /// there.
+    pub device_levels: Vec<usize>,
     /// Which texture is read through which image descriptor: flat ones, volumes, cubes. The last two are
     /// read through images by method hardware only.
     pub slots: Vec<Slot>,
@@ -144,13 +97,23 @@ pub struct SlotCounts {
 
 /// Packs what the scene shows; textures and samplers that no shape reaches are not in `scene`.
 pub fn pack(scene: &Scene, textures: Vec<TextureData>, crop: Option<Crop>) -> Result<PackedScene> {
+    pack_with(scene, textures, crop, Pyramids::Host)
+}
+
+/// The same, with some levels of textures left to the device.
+pub fn pack_with(
+    scene: &Scene,
+    textures: Vec<TextureData>,
+    crop: Option<Crop>,
+    pyramids: Pyramids,
+) -> Result<PackedScene> {
     let crop = crop.unwrap_or(Crop { x: 0, y: 0, width: scene.width, height: scene.height });
     let mut packed = PackedScene { samples: scene.sampling.samples(), ..Default::default() };
     packed.header = header(scene, crop);
     let filtered = packed.header.key[2] != Footprint::None as u32;
     packed.sampler_specs = scene.samplers.clone();
     packed.samplers = scene.samplers.iter().map(|spec| textures::sampler(spec, filtered)).collect();
-    textures::pack_textures(&mut packed, scene, textures)?;
+    textures::pack_textures(&mut packed, scene, textures, pyramids)?;
     for source in &scene.materials {
         let material = material(&mut packed, source);
         packed.materials.push(material);

@@ -7,7 +7,7 @@ use crate::texture::data::{ColorSpace, Component, Dimension, MipKernel, TexelFor
 use crate::texture::sampler_spec::{Filter, Method, MipMode, SamplerSpec};
 use crate::texture::{mips, summed};
 
-use super::{PackedScene, TextureKind};
+use super::{PackedScene, Pyramids, TextureKind};
 
 /// One image descriptor: a texture and the sampler it is read through. Look-ups of method shader
 /// fetch texels and ignore the sampler, so all of them share one slot a texture.
@@ -35,7 +35,12 @@ pub fn sampler(spec: &SamplerSpec, filtered: bool) -> layout::Sampler {
 
 /// Puts all texels into the pool, first those that images cannot hold. The texels of a lone texture of one
 /// level are moved, not copied.
-pub fn pack_textures(packed: &mut PackedScene, scene: &Scene, textures: Vec<TextureData>) -> Result<()> {
+pub fn pack_textures(
+    packed: &mut PackedScene,
+    scene: &Scene,
+    textures: Vec<TextureData>,
+    pyramids: Pyramids,
+) -> Result<()> {
     let mut order: Vec<usize> = (0..textures.len()).collect();
     let tables = |i: usize, packed: &PackedScene| {
         reads(packed, scene, i, |s: &SamplerSpec| s.min == Filter::SummedArea)
@@ -59,10 +64,14 @@ pub fn pack_textures(packed: &mut PackedScene, scene: &Scene, textures: Vec<Text
         let texture = without_equal_channels(texture);
         let texture = if needs_linear_floats(&texture) { linear_floats(&texture) } else { texture };
         let kind = kind(&texture);
-        let levels = if reads(packed, scene, index, SamplerSpec::reads_levels) {
-            mips::pyramid(&texture, scene.textures.get(index).map_or(MipKernel::Box, |t| t.mip_kernel))
-        } else {
+        let kernel = scene.textures.get(index).map_or(MipKernel::Box, |t| t.mip_kernel);
+        let levels = if !reads(packed, scene, index, SamplerSpec::reads_levels) {
             Vec::new()
+        } else if pyramids.leaves(&texture, kernel) {
+            packed.device_levels.push(index);
+            mips::blank(&texture)
+        } else {
+            mips::pyramid(&texture, kernel)
         };
         let link = [texture.color_space as u32, 1 + levels.len() as u32, texture.depth, kind as u32];
         let [width, height, format] = [texture.width, texture.height, texture.format as u32];

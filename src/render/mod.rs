@@ -2,6 +2,8 @@
 //! slices, film read back. Orchestrates `gpu`'s own types and knows nothing of Vulkan's.
 
 mod film_buffer;
+mod pool;
+mod pyramids;
 mod resources;
 mod session;
 mod slices;
@@ -19,10 +21,11 @@ use crate::shaders::{ReflectedBinding, Shader, specialise};
 
 use film_buffer::{Band, FilmBuffer};
 
+pub(crate) use pyramids::{Maker, Top};
 pub(crate) use resources::Resources;
 pub use resources::can_sample;
 pub use session::{Prepared, Session};
-pub use tuning::{TexelChoice, Tuning};
+pub use tuning::{MipChoice, TexelChoice, Tuning};
 
 /// Wall seconds by stage, in the order in which they come.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
@@ -50,6 +53,8 @@ pub struct Report {
     pub seconds: Seconds,
     /// Device timestamps around the slices, summed.
     pub device_render_seconds: f64,
+    /// The same around the passes that make levels of textures, if there were any.
+    pub device_mips_seconds: Option<f64>,
     pub slices: u32,
     /// Wall time of the longest slice: how long a Ctrl-C may wait.
     pub longest_slice_seconds: f64,

@@ -3,6 +3,8 @@
 
 use std::borrow::Cow;
 
+use super::pool;
+use super::pyramids::{Maker, Top, sizes};
 use crate::error::{Error, Result};
 use crate::features::{Features, TexelSource};
 use crate::gpu::{
@@ -31,6 +33,8 @@ pub const CUBES: u32 = 8;
 
 pub struct Resources {
     pub sections: Sections,
+    /// Device time of making levels, if any were.
+    pub mips_seconds: Option<f64>,
     scene: Buffer,
     texels: Option<Buffer>,
     images: Vec<(Image, Sampler)>,
@@ -42,12 +46,13 @@ impl Resources {
     pub fn upload(gpu: &Gpu, packed: &PackedScene, features: &Features) -> Result<Resources> {
         let (bytes, sections) = packed.scene_bytes();
         let scene = gpu.upload_buffer("scene", BufferUse::Storage, &bytes)?;
+        let mut maker = Maker::new(gpu);
         let texels = match features.source {
-            TexelSource::Buffer => Some(upload_texels(gpu, packed, &packed.texels)?),
-            TexelSource::Solids => Some(upload_texels(gpu, packed, &packed.texels[..packed.solid_bytes])?),
+            TexelSource::Buffer => Some(pool::upload(gpu, packed, packed.texels.len(), &mut maker)?),
+            TexelSource::Solids => Some(pool::upload(gpu, packed, packed.solid_bytes, &mut maker)?),
             TexelSource::None | TexelSource::Image => None,
         };
-        let mut uploads = Uploads { gpu, packed, images: Vec::new() };
+        let mut uploads = Uploads { gpu, packed, maker, images: Vec::new() };
         let [mut images, mut volumes, mut cubes] = [const { Vec::new() }; 3];
         if matches!(features.source, TexelSource::Image | TexelSource::Solids) {
             images = uploads.slots(&packed.slots, TextureKind::Flat)?;
@@ -56,7 +61,7 @@ impl Resources {
             volumes = uploads.slots(&packed.volume_slots, TextureKind::Volume)?;
             cubes = uploads.slots(&packed.cube_slots, TextureKind::Cube)?;
         }
-        Ok(Resources { sections, scene, texels, images, volumes, cubes })
+        Ok(Resources { sections, mips_seconds: uploads.maker.seconds, scene, texels, images, volumes, cubes })
     }
 
     /// Replaces what the scene buffer begins with.
@@ -97,31 +102,11 @@ fn pairs(slots: &[(Image, Sampler)]) -> Vec<(&Image, &Sampler)> {
     slots.iter().map(|(image, sampler)| (image, sampler)).collect()
 }
 
-fn upload_texels(gpu: &Gpu, packed: &PackedScene, texels: &[u8]) -> Result<Buffer> {
-    let words = texels.len() as u64 / 4;
-    // The shader's index is an `int`, whatever the device allows.
-    let limit = gpu.info().limits.max_texel_buffer_elements.min(i32::MAX as u64);
-    if words > limit {
-        return Err(Error::with_help(
-            format!(
-                "the textures {} together take {} MiB, over the {} MiB of a texel buffer on device \"{}\"",
-                packed.texture_names.join(", "),
-                texels.len() >> 20,
-                (limit * 4) >> 20,
-                gpu.info().name
-            ),
-            "use smaller textures, or --texels image (up to 16 textures)",
-        ));
-    }
-    // A binding has to hold something.
-    let texels = if texels.is_empty() { &[0; 4] } else { texels };
-    gpu.upload_buffer("texels", BufferUse::TexelUint, texels)
-}
-
 /// One image serves all slots that read a texture in the same form.
 struct Uploads<'a> {
     gpu: &'a Gpu,
     packed: &'a PackedScene,
+    maker: Maker<'a>,
     images: Vec<((usize, Form), Image)>,
 }
 
@@ -152,7 +137,7 @@ impl Uploads<'_> {
         let image = match self.images.iter().find(|(key, _)| *key == (slot.texture, form)) {
             Some((_, image)) => image.clone(),
             None => {
-                let image = upload_image(self.gpu, self.packed, slot.texture, form)?;
+                let image = upload_image(self.gpu, self.packed, &mut self.maker, slot.texture, form)?;
                 self.images.push(((slot.texture, form), image.clone()));
                 image
             }
@@ -225,13 +210,21 @@ pub fn can_sample(gpu: &Gpu, spec: &SamplerSpec, format: TexelFormat, space: Col
     mirrors && gpu.supports(stored, form.filtered)
 }
 
-fn upload_image(gpu: &Gpu, packed: &PackedScene, index: usize, form: Form) -> Result<Image> {
+fn upload_image(
+    gpu: &Gpu,
+    packed: &PackedScene,
+    maker: &mut Maker<'_>,
+    index: usize,
+    form: Form,
+) -> Result<Image> {
     let record = &packed.textures[index];
     let [_, width, height, format] = record.place;
     let mut format = TexelFormat::ALL[format as usize];
     let name = &packed.texture_names[index];
+    let made_there = packed.device_levels.contains(&index);
+    let uploaded = if made_there { 1 } else { record.link[1] };
     let mut levels: Vec<Cow<'_, [u8]>> =
-        (0..record.link[1]).map(|level| Cow::Borrowed(packed.level_texels(index, level))).collect();
+        (0..uploaded).map(|level| Cow::Borrowed(packed.level_texels(index, level))).collect();
     if form.expand && format.channels() != 4 {
         levels = levels.iter().map(|level| Cow::Owned(expanded(level, format))).collect();
         format = TexelFormat::new(4, format.component());
@@ -248,7 +241,7 @@ fn upload_image(gpu: &Gpu, packed: &PackedScene, index: usize, form: Form) -> Re
             "use method = \"shader\" with --texels buffer, or store the texture with 8 bits",
         ));
     }
-    gpu.image(&ImageDesc {
+    let desc = ImageDesc {
         name,
         shape: shape(TextureKind::ALL[record.link[3] as usize]),
         width,
@@ -261,7 +254,14 @@ fn upload_image(gpu: &Gpu, packed: &PackedScene, index: usize, form: Form) -> Re
             _ => Swizzle::Rgba,
         },
         levels: &levels,
-    })
+    };
+    if !made_there {
+        return gpu.image(&desc);
+    }
+    let space = ColorSpace::ALL[record.link[0] as usize];
+    let top = Top { name, format, space, sizes: &sizes(packed, index), texels: levels[0] };
+    let pyramid = maker.make(&top)?;
+    gpu.image_from(&desc, &pyramid.buffer, &pyramid.starts)
 }
 
 /// The texels of a grey format with four channels.

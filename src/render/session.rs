@@ -76,7 +76,11 @@ impl<'a> Session<'a> {
 
     fn prepare_packed(&self, scene: &PackedScene) -> Result<Prepared<'_, 'a>> {
         let features = features_of(self.gpu, scene, self.keep_everything, &self.tuning);
-        let mut report = Report { left_out: features.left_out.clone(), ..Report::default() };
+        let mut report = Report {
+            left_out: features.left_out.clone(),
+            device_mips_seconds: self.resources.mips_seconds,
+            ..Report::default()
+        };
         let clock = Instant::now();
         let film = self.film(scene, &features)?;
         self.write_header(&scene.header)?;

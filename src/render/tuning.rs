@@ -5,7 +5,7 @@ use crate::error::{Error, Result};
 use crate::gpu::{DeviceInfo, DeviceKind};
 use crate::layout::TILE;
 use crate::named::named_enum;
-use crate::pack::{MAX_SLOTS, PackedScene};
+use crate::pack::{MAX_SLOTS, PackedScene, Pyramids};
 
 named_enum! {
     /// Where look-ups of method shader read their texels.
@@ -13,6 +13,33 @@ named_enum! {
         Auto = "auto",
         Buffer = "buffer",
         Image = "image",
+    }
+}
+
+named_enum! {
+    /// Where box pyramids are made.
+    pub enum MipChoice {
+        Auto = "auto",
+        Host = "host",
+        Device = "device",
+    }
+}
+
+/// From how many texels on the host takes longer for a pyramid than a driver for the pipeline of it.
+const LARGE: u64 = 1 << 20;
+
+impl MipChoice {
+    /// CPU devices run on the host's own cores. The buffers that pyramids pass through take a part of the
+    /// device's memory for themselves.
+    pub fn pyramids(self, device: &DeviceInfo) -> Pyramids {
+        let most_bytes = device.limits.max_storage_buffer_range.min(device.limits.heap_bytes / 8);
+        match self {
+            MipChoice::Auto if device.kind != DeviceKind::Cpu => {
+                Pyramids::Device { least_texels: LARGE, most_bytes }
+            }
+            MipChoice::Device => Pyramids::Device { least_texels: 0, most_bytes },
+            MipChoice::Auto | MipChoice::Host => Pyramids::Host,
+        }
     }
 }
 

@@ -21,6 +21,7 @@ use rayon::prelude::*;
 
 use super::data::{Dimension, MipKernel, TextureData};
 use codec::Codec;
+pub use codec::srgb8_middles;
 use halve::halve;
 use resample::{Axis, resample};
 
@@ -47,6 +48,22 @@ pub fn level_size(texture: &TextureData, level: u32) -> [u32; 3] {
     let half = |n: u32| n.checked_shr(level).unwrap_or(0).max(1);
     let depth = if texture.dimension == Dimension::Three { half(texture.depth) } else { texture.depth };
     [half(texture.width), half(texture.height), depth]
+}
+
+/// Whether every length of every level is that of the level above, or half of it.
+pub fn halves_throughout(texture: &TextureData) -> bool {
+    (1..level_count(texture)).all(|level| halves(size(texture, level - 1), size(texture, level)))
+}
+
+/// Levels 1 to the last, their texels 0.
+pub fn blank(texture: &TextureData) -> Vec<TextureData> {
+    let level = |level| {
+        let [width, height, depth] = level_size(texture, level);
+        let count = width as usize * height as usize * depth as usize;
+        let texels = vec![0; count * texture.format.bytes_per_texel()];
+        TextureData { name: texture.name.clone(), width, height, depth, texels, ..*texture }
+    };
+    (1..level_count(texture)).map(level).collect()
 }
 
 fn size(texture: &TextureData, level: u32) -> [usize; 3] {

@@ -2,6 +2,7 @@
 //! shaders read is what was bound, and the validation layer, where installed, has nothing to say about
 //! any of it, unless a mistake is planted.
 
+mod copies;
 mod images;
 mod refused;
 mod solids;

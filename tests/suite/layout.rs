@@ -175,13 +175,17 @@ fn planted_differences_of_layout_are_found() {
 }
 
 #[test]
-fn push_constants_of_rendering_equal_the_slice() {
+fn push_constants_equal_their_mirrors() {
     let Some(root) = source_root() else { return };
     let glsl = fs::read_to_string(root.join("glsl/shared/render_main.glsl")).unwrap();
     let rust = fs::read_to_string(root.join("src/layout.rs")).unwrap();
     let here = glsl_struct(&glsl, "uniform Slice").unwrap();
     assert_eq!(Some(&here), rust_struct(&rust, "pub struct Slice").as_ref());
     assert_eq!(size_of::<mirror::Slice>(), here.len() * 4);
+    let glsl = fs::read_to_string(root.join("glsl/shared/pyramid.glsl")).unwrap();
+    let here = glsl_struct(&glsl, "uniform Halving").unwrap();
+    assert_eq!(Some(&here), rust_struct(&rust, "pub struct Halving").as_ref());
+    assert_eq!(size_of::<mirror::Halving>(), here.len() * 4);
 }
 
 const SHADERS: [&Shader; 9] = [

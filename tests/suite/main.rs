@@ -31,6 +31,7 @@ mod mips;
 mod oracle;
 mod output;
 mod procedural;
+mod pyramids;
 mod rays;
 mod readme;
 mod scene;

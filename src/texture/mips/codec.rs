@@ -194,19 +194,23 @@ fn unweigh<const N: usize, const C: usize>(
     }
 }
 
+/// Linear light from which on the code after is nearer; none after the last.
+pub fn srgb8_middles() -> [f32; 256] {
+    let middle = |code: usize| srgb_to_linear((code as f64 + 0.5) / 255.0) as f32;
+    std::array::from_fn(|code| if code < 255 { middle(code) } else { f32::INFINITY })
+}
+
 /// Linear light to the nearest 8-bit sRGB code, without a power: a table says which code the light
 /// has at least, and the middles between codes say the rest.
 struct Encoder8 {
     /// Codes at the beginning of each step.
     least: Vec<u8>,
-    /// Light from which on the next code is nearer; none after the last.
     middles: [f32; 256],
 }
 
 impl Encoder8 {
     fn new() -> Encoder8 {
-        let middle = |code: usize| srgb_to_linear((code as f64 + 0.5) / 255.0) as f32;
-        let middles = std::array::from_fn(|code| if code < 255 { middle(code) } else { f32::INFINITY });
+        let middles = srgb8_middles();
         let below = |light: f32| middles.iter().filter(|&&m| m <= light).count() as u8;
         let least = (0..=STEPS).map(|step| below(step as f32 / STEPS as f32)).collect();
         Encoder8 { least, middles }

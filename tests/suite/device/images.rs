@@ -2,15 +2,15 @@
 //! every format, at every level, under every sampler that the device has.
 
 use moire::gpu::{
-    BindGroup, BindingDesc, BindingKind, Bound, Buffer, BufferUse, Gpu, ImageDesc, ImageFormat, ImageShape,
-    Pipeline, PipelineDesc, Swizzle,
+    BindGroup, BindingDesc, BindingKind, Bound, Buffer, BufferUse, Gpu, Image, ImageDesc, ImageFormat,
+    ImageShape, Pipeline, PipelineDesc, Swizzle,
 };
 use moire::texture::sampler_spec::{Address, Filter, MipMode, SamplerSpec};
 
 use super::{Checked, bytes_of, error_of, noise, one, read_u32};
 use crate::device_shaders::LOOK;
 
-struct Look {
+pub struct Look {
     output: Buffer,
     pipeline: Pipeline,
     group: BindGroup,
@@ -19,10 +19,14 @@ struct Look {
 impl Look {
     /// Looks `sampled` up through `spec` and fetches from `fetched`.
     fn new(gpu: &Gpu, sampled: &ImageDesc<'_>, fetched: &ImageDesc<'_>, spec: &SamplerSpec) -> Look {
+        let (sampled, fetched) = (gpu.image(sampled).unwrap(), gpu.image(fetched).unwrap());
+        Look::of(gpu, &sampled, &fetched, spec)
+    }
+
+    pub fn of(gpu: &Gpu, sampled: &Image, fetched: &Image, spec: &SamplerSpec) -> Look {
         let output = gpu.buffer("looked up", 48, BufferUse::Storage).unwrap();
         let texels = gpu.upload_buffer("texels", BufferUse::TexelUint, &bytes_of(&[41, 42, 43])).unwrap();
         let sampler = gpu.sampler(spec).unwrap();
-        let (sampled, fetched) = (gpu.image(sampled).unwrap(), gpu.image(fetched).unwrap());
         let pipeline = gpu
             .pipeline(&PipelineDesc {
                 name: "look",
@@ -42,7 +46,7 @@ impl Look {
                 &[
                     (4, Bound::Texels(&texels)),
                     (0, Bound::Buffer(&output)),
-                    (1, Bound::Images(&[(&sampled, &sampler), (&fetched, &sampler)])),
+                    (1, Bound::Images(&[(sampled, &sampler), (fetched, &sampler)])),
                 ],
             )
             .unwrap();
@@ -50,7 +54,7 @@ impl Look {
     }
 
     /// The filtered look-up, the fetched texel, and the texel buffer's facts.
-    fn at(&self, gpu: &Gpu, uv: [f32; 2], lod: f32, level: u32) -> [[f32; 4]; 3] {
+    pub fn at(&self, gpu: &Gpu, uv: [f32; 2], lod: f32, level: u32) -> [[f32; 4]; 3] {
         let push = bytes_of(&[uv[0].to_bits(), uv[1].to_bits(), lod.to_bits(), level]);
         gpu.run(&self.pipeline, &self.group, &push, [1, 1, 1]).unwrap();
         let values: Vec<f32> = read_u32(gpu, &self.output).into_iter().map(f32::from_bits).collect();
@@ -58,7 +62,7 @@ impl Look {
     }
 }
 
-fn floats(values: &[f32]) -> Vec<u8> {
+pub fn floats(values: &[f32]) -> Vec<u8> {
     values.iter().flat_map(|v| v.to_ne_bytes()).collect()
 }
 

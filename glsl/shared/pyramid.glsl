@@ -1,0 +1,196 @@
+// The texels of a level from those of the level above, whose lengths halve: codes to numbers that are linear
+// in light and in coverage (colour times alpha), their mean, and back to codes. Host's side: src/texture/mips;
+// sums run in the order of halve.rs, codes are those of codec.rs.
+#ifndef PYRAMID_GLSL
+#define PYRAMID_GLSL
+
+layout(constant_id = 2) const uint CHANNELS = 4u;
+layout(constant_id = 3) const uint COMPONENT_BYTES = 1u;
+layout(constant_id = 4) const bool SRGB = false; // of 8 bits; deeper ones are held as linear floats
+
+// The texture as the pool holds it; numbers of two levels, between which the passes alternate; linear light
+// of the 256 sRGB codes, and the light from which on the next code is nearer.
+layout(std430, set = 0, binding = 0) buffer Words { uint words[]; };
+layout(std430, set = 0, binding = 1) buffer Numbers { float numbers[]; };
+layout(std430, set = 0, binding = 2) readonly buffer Tables { float light[256]; float middles[256]; };
+
+// src/layout.rs mirrors it.
+layout(push_constant) uniform Halving {
+    uint from_codes;
+    uint above;
+    uint word;
+    uint number;
+    uint texels;
+    uint columns_log2;
+    uint rows_log2;
+    uint halved;
+} halving;
+
+const float SHARES[4] = float[](1.0, 0.5, 0.25, 0.125);
+
+// A code over the largest one, rounded to nearest: in binary the quotient is the code repeated for ever.
+// Division may be off by 2.5 ulp (Vulkan 1.3, "Precision of Individual Operations"), and every fourth mean
+// of codes lies right between two.
+float unit(uint code) {
+    if (code == 0u) return 0.0;
+    uint digits = code * (COMPONENT_BYTES == 1u ? 0x01010101u : 0x00010001u);
+    uint zeros = 31u - uint(findMSB(digits));
+    digits = (digits << zeros) | ((digits >> 1u) >> (31u - zeros));
+    return uintBitsToFloat(((125u - zeros) << 23u) + (digits >> 8u) + ((digits >> 7u) & 1u));
+}
+
+// a / b with the error of the device's division taken out.
+float quotient(float a, float b) {
+    float q = a / b;
+    return fma(fma(-q, b, a), 1.0 / b, q);
+}
+
+// Of a colour; 2^-30 for where nothing is seen.
+float weight(float alpha) { return max(alpha, 0.0) + 9.31322574615478515625e-10; }
+
+uvec4 codes_at(uint element) {
+    if (COMPONENT_BYTES == 1u) {
+        uint bits = words[halving.above + (element >> 2u)] >> ((element & 3u) * 8u);
+        return uvec4(bits & 255u, (bits >> 8u) & 255u, (bits >> 16u) & 255u, bits >> 24u);
+    }
+    uint at = halving.above + (element >> 1u);
+    uint bits = words[at] >> ((element & 1u) * 16u);
+    uvec4 codes = uvec4(bits & 65535u, bits >> 16u, 0u, 0u);
+    if (CHANNELS == 4u) {
+        bits = words[at + 1u];
+        codes.zw = uvec2(bits & 65535u, bits >> 16u);
+    }
+    return codes;
+}
+
+// Colours, and alpha last.
+vec4 decoded(uint texel) {
+    uint element = texel * CHANNELS;
+    if (COMPONENT_BYTES == 4u) {
+        uint at = halving.above + element;
+        uvec4 bits = uvec4(words[at], 0u, 0u, 0u);
+        if (CHANNELS > 1u) bits.y = words[at + 1u];
+        if (CHANNELS > 2u) bits.zw = uvec2(words[at + 2u], words[at + 3u]);
+        return uintBitsToFloat(bits);
+    }
+    uvec4 codes = codes_at(element);
+    vec4 value = vec4(codes);
+    if (SRGB) {
+        value.x = light[codes.x];
+        if (CHANNELS == 4u) value.yz = vec2(light[codes.y], light[codes.z]);
+    }
+    if (CHANNELS == 2u) value.y = unit(codes.y);
+    if (CHANNELS == 4u) value.w = unit(codes.w);
+    return value;
+}
+
+vec4 numbers_of(uint texel) {
+    if (halving.from_codes != 0u) {
+        vec4 value = decoded(texel);
+        if (CHANNELS == 2u) value.x *= weight(value.y);
+        if (CHANNELS == 4u) value.xyz *= weight(value.w);
+        return value;
+    }
+    uint at = halving.above + texel * CHANNELS;
+    vec4 value = vec4(numbers[at], 0.0, 0.0, 0.0);
+    if (CHANNELS > 1u) value.y = numbers[at + 1u];
+    if (CHANNELS > 2u) value.zw = vec2(numbers[at + 2u], numbers[at + 3u]);
+    return value;
+}
+
+// One column of the texels that a new one covers.
+vec4 column(uvec3 first, uint x, float share) {
+    uint columns_log2 = halving.columns_log2 + (halving.halved & 1u);
+    uint rows_log2 = halving.rows_log2 + ((halving.halved >> 1u) & 1u);
+    uint texel = (((first.z << rows_log2) + first.y) << columns_log2) + first.x + x;
+    uint below = 1u << columns_log2;
+    uint behind = below << rows_log2;
+    vec4 sum = numbers_of(texel) * share;
+    if ((halving.halved & 2u) != 0u) sum += numbers_of(texel + below) * share;
+    if ((halving.halved & 4u) != 0u) {
+        sum += numbers_of(texel + behind) * share;
+        if ((halving.halved & 2u) != 0u) sum += numbers_of(texel + behind + below) * share;
+    }
+    return sum;
+}
+
+vec4 mean(uint texel) {
+    uint row = texel >> halving.columns_log2;
+    uvec3 place = uvec3(texel & ((1u << halving.columns_log2) - 1u),
+                        row & ((1u << halving.rows_log2) - 1u), row >> halving.rows_log2);
+    uvec3 first = place << (uvec3(halving.halved, halving.halved >> 1u, halving.halved >> 2u) & 1u);
+    float share = SHARES[bitCount(halving.halved)];
+    vec4 sum = column(first, 0u, share);
+    if ((halving.halved & 1u) != 0u) sum += column(first, 1u, share);
+    return sum;
+}
+
+void keep(uint texel, vec4 value) {
+    uint at = halving.number + texel * CHANNELS;
+    numbers[at] = value.x;
+    if (CHANNELS > 1u) numbers[at + 1u] = value.y;
+    if (CHANNELS > 2u) {
+        numbers[at + 2u] = value.z;
+        numbers[at + 3u] = value.w;
+    }
+}
+
+// How many middles lie at or below the light.
+uint srgb_code(float linear) {
+    uint code = 0u;
+    for (uint step = 128u; step > 0u; step >>= 1u) {
+        if (linear >= middles[code + step - 1u]) code += step;
+    }
+    return code;
+}
+
+// Halves round up.
+uvec4 encoded(vec4 value) {
+    if (CHANNELS == 2u) value.x = quotient(value.x, weight(value.y));
+    if (CHANNELS == 4u) {
+        float seen = weight(value.w);
+        value.xyz = vec3(quotient(value.x, seen), quotient(value.y, seen), quotient(value.z, seen));
+    }
+    if (COMPONENT_BYTES == 4u) return floatBitsToUint(value);
+    float most = COMPONENT_BYTES == 1u ? 255.0 : 65535.0;
+    uvec4 codes = uvec4(value + 0.5);
+    if (SRGB) {
+        codes.x = srgb_code(value.x);
+        if (CHANNELS == 4u) codes.yz = uvec2(srgb_code(value.y), srgb_code(value.z));
+    }
+    if (CHANNELS == 2u) codes.y = uint(value.y * most + 0.5);
+    if (CHANNELS == 4u) codes.w = uint(value.w * most + 0.5);
+    return min(codes, uvec4(most));
+}
+
+// The texels that share word `index` of the level, or the words of texel `index` where one fills a word or more.
+void make_texels(uint index) {
+    uint texel_bytes = CHANNELS * COMPONENT_BYTES;
+    uint sharing = texel_bytes < 4u ? 4u / texel_bytes : 1u;
+    uint word = 0u;
+    for (uint i = 0u; i < sharing; ++i) {
+        uint texel = index * sharing + i;
+        if (texel >= halving.texels) break;
+        vec4 value = mean(texel);
+        keep(texel, value);
+        uvec4 codes = encoded(value);
+        if (texel_bytes > 4u || COMPONENT_BYTES == 4u) {
+            uint at = halving.word + texel * (texel_bytes / 4u);
+            if (COMPONENT_BYTES == 2u) codes.xy = uvec2(codes.x | codes.y << 16u, codes.z | codes.w << 16u);
+            words[at] = codes.x;
+            if (texel_bytes > 4u) words[at + 1u] = codes.y;
+            if (texel_bytes > 8u) {
+                words[at + 2u] = codes.z;
+                words[at + 3u] = codes.w;
+            }
+            return;
+        }
+        uint bits = codes.x;
+        if (CHANNELS > 1u) bits |= codes.y << (8u * COMPONENT_BYTES);
+        if (CHANNELS > 2u) bits |= codes.z << 16u | codes.w << 24u;
+        word |= bits << (8u * texel_bytes * i);
+    }
+    if (index * sharing < halving.texels) words[halving.word + index] = word;
+}
+
+#endif

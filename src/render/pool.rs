@@ -1,0 +1,58 @@
+//! Texels of all textures → one texel buffer. Levels that the host left out do not cross the bus: they are
+//! made on the device and copied to their places.
+
+use super::pyramids::{Maker, Top, sizes};
+use crate::error::{Error, Result};
+use crate::gpu::{Buffer, BufferUse, Gpu};
+use crate::pack::PackedScene;
+use crate::texture::data::{ColorSpace, TexelFormat};
+
+/// The first `bytes` of the scene's texels.
+pub fn upload(gpu: &Gpu, packed: &PackedScene, bytes: usize, maker: &mut Maker<'_>) -> Result<Buffer> {
+    let texels = &packed.texels[..bytes];
+    check(gpu, packed, texels)?;
+    let starts = packed.device_levels.iter().map(|&t| (t, packed.textures[t].place[0] as usize * 4));
+    let mut made = starts.filter(|&(_, start)| start < bytes).peekable();
+    if made.peek().is_none() {
+        // A binding has to hold something.
+        let texels = if texels.is_empty() { &[0; 4] } else { texels };
+        return gpu.upload_buffer("texels", BufferUse::TexelUint, texels);
+    }
+    let buffer = gpu.buffer("texels", bytes as u64, BufferUse::TexelUint)?;
+    let mut written = 0;
+    for (texture, start) in made {
+        gpu.write_buffer(&buffer, written as u64, &texels[written..start])?;
+        let record = &packed.textures[texture];
+        let pyramid = maker.make(&Top {
+            name: &packed.texture_names[texture],
+            format: TexelFormat::ALL[record.place[3] as usize],
+            space: ColorSpace::ALL[record.link[0] as usize],
+            sizes: &sizes(packed, texture),
+            texels: packed.level_texels(texture, 0),
+        })?;
+        let length = pyramid.buffer.bytes();
+        gpu.copy_buffer(&pyramid.buffer, 0, &buffer, start as u64, length)?;
+        written = start + length as usize;
+    }
+    gpu.write_buffer(&buffer, written as u64, &texels[written..])?;
+    Ok(buffer)
+}
+
+fn check(gpu: &Gpu, packed: &PackedScene, texels: &[u8]) -> Result<()> {
+    let words = texels.len() as u64 / 4;
+    // The shader's index is an `int`, whatever the device allows.
+    let limit = gpu.info().limits.max_texel_buffer_elements.min(i32::MAX as u64);
+    if words <= limit {
+        return Ok(());
+    }
+    Err(Error::with_help(
+        format!(
+            "the textures {} together take {} MiB, over the {} MiB of a texel buffer on device \"{}\"",
+            packed.texture_names.join(", "),
+            texels.len() >> 20,
+            (limit * 4) >> 20,
+            gpu.info().name
+        ),
+        "use smaller textures, or --texels image (up to 16 textures)",
+    ))
+}
