@@ -6,7 +6,7 @@ use std::time::Instant;
 use crate::error::{Error, Result};
 use crate::gpu::Gpu;
 use crate::pack;
-use crate::render::{Prepared, Session, Tuning};
+use crate::render::{MipChoice, Prepared, Session, Tuning};
 use crate::scene::model::{Footprint, Scene};
 use crate::texture::data::TextureData;
 use crate::texture::sampler_spec::Filter;
@@ -41,12 +41,14 @@ impl<'a> Looks<'a> {
                 keys.push(k)
             }
         });
+        let pyramids = MipChoice::Auto.pyramids(gpu.info());
         let mut looks = Vec::with_capacity(keys.len());
         for key in keys {
             let clock = Instant::now();
             let reading =
                 Method { footprint: key.0, filter: key.1, ..Method::of_pattern(scene.sampling.pattern) };
-            let packed = pack::pack(&reading.apply(scene, scene.sampling.spp)?, textures.clone(), None)?;
+            let reading = reading.apply(scene, scene.sampling.spp)?;
+            let packed = pack::pack_with(&reading, textures.clone(), None, pyramids)?;
             let pack_seconds = clock.elapsed().as_secs_f64();
             let session = Session::open(gpu, packed, false, &Tuning::default())?;
             looks.push(Look { key, session, pack_seconds });

@@ -30,8 +30,6 @@ pub const FILE: &str = "reference.exr";
 const TIMES: u32 = 64;
 /// The part of a study's time that a reference may take.
 const SHARE: f64 = 0.25;
-/// Samples of two short renders that tell how long a long one takes.
-const PROBES: [u32; 2] = [1, 9];
 /// Added to the scene's seed: no half shares its samples with a measured point.
 const SEEDS: [u32; 2] = [1_000_003, 2_000_003];
 
@@ -143,15 +141,7 @@ fn in_halves(
     progress: &dyn Progress,
 ) -> Result<(Film, ReferenceRecord, f64)> {
     let clock = Instant::now();
-    let still = Part { whole: progress, from: 0.0, to: 0.0 };
-    // What a sample more takes, without what any render takes.
-    let mut times = [0.0; 2];
-    for (time, samples) in times.iter_mut().zip(PROBES) {
-        let clock = Instant::now();
-        half(samples, 0, &still)?;
-        *time = clock.elapsed().as_secs_f64();
-    }
-    let rate = ((times[1] - times[0]) / f64::from(PROBES[1] - PROBES[0])).max(1e-9);
+    let rate = seconds_per_sample(half, wanted, &Part { whole: progress, from: 0.0, to: 0.0 })?;
     let fitting = (0.5 * (allowed - clock.elapsed().as_secs_f64()).max(0.0) / rate)
         .clamp(1.0, f64::from(wanted)) as u32;
     let samples = match next_count(Pattern::Stratified, fitting) {
@@ -172,6 +162,25 @@ fn in_halves(
         ..ReferenceRecord::default()
     };
     Ok((mean(&a, &b), record, end))
+}
+
+/// From renders of 1, 4, 16, … samples, until they take so long that neither what every render takes nor a
+/// hiccup of the machine counts.
+fn seconds_per_sample(half: &Half<'_>, wanted: u32, progress: &dyn Progress) -> Result<f64> {
+    const CLEAR: f64 = 0.1;
+    let timed = |samples: u32| {
+        let clock = Instant::now();
+        half(samples, 0, progress).map(|_| clock.elapsed().as_secs_f64())
+    };
+    let one = timed(1)?;
+    let mut samples = 4;
+    loop {
+        let more = timed(samples)? - one;
+        if more >= CLEAR || samples >= wanted.isqrt().pow(2) {
+            return Ok(more.max(1e-9) / f64::from(samples - 1));
+        }
+        samples *= 4;
+    }
 }
 
 fn mean(a: &Film, b: &Film) -> Film {
