@@ -264,11 +264,11 @@ fn has_model(scene: &PackedScene, model: Model) -> bool {
 
 /// Without a footprint, look-ups of procedural textures pass one of zero.
 fn filters_procedurals(scene: &PackedScene) -> bool {
-    !scene.procedurals.is_empty() && scene.header.key[2] != Footprint::None as u32
+    !scene.procedurals.is_empty() && scene.prefilters()
 }
 
 /// Mirrors and glass, if their rays may go on.
-fn bounces(scene: &PackedScene) -> bool {
+pub fn bounces(scene: &PackedScene) -> bool {
     scene.header.size[3] > 0 && (has_model(scene, Model::Mirror) || has_model(scene, Model::Dielectric))
 }
 

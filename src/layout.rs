@@ -158,6 +158,18 @@ pub struct Job {
 }
 const _: () = assert!(size_of::<Job>() == 16);
 
+impl Job {
+    /// The `place` of a film's pixel by its index.
+    pub fn place_of(index: u32, width: u32) -> u32 {
+        (index / width) << 16 | (index % width)
+    }
+
+    /// Column and row.
+    pub fn column_and_row(&self) -> [u32; 2] {
+        [self.place & 0xFFFF, self.place >> 16]
+    }
+}
+
 /// Mirror of the push constants of `pyramid.glsl`: one level from the one above.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]

@@ -20,14 +20,13 @@ pub fn bias(
     variances: &[f32],
     progress: &dyn Progress,
 ) -> Result<f64> {
-    let width = sums.width as usize;
     // Steps by the golden section visit a picture evenly.
     let golden = (counts.len() as f64 * 0.618_033_988_75) as usize | 1;
     let mut places: Vec<usize> = (0..PIXELS.min(counts.len())).map(|k| (k * golden) % counts.len()).collect();
     places.sort_unstable();
     places.dedup();
     let job = |&i: &usize, half: u32| {
-        let place = ((i / width) as u32) << 16 | (i % width) as u32;
+        let place = Job::place_of(i as u32, sums.width);
         Job { place, part: half | JOB_BARE, first: 0, count: SAMPLES }
     };
     let jobs: Vec<Job> = places.iter().flat_map(|i| [job(i, 0), job(i, 1)]).collect();

@@ -162,7 +162,7 @@ fn jobs(counts: &[u32], next: &[u32], width: u32) -> Vec<Job> {
         }
     }
     let job = |i: u32, half, count| Job {
-        place: (i / width) << 16 | (i % width),
+        place: Job::place_of(i, width),
         part: half,
         first: counts[i as usize],
         count,

@@ -47,7 +47,7 @@ pub struct StudyArgs {
     #[arg(long, value_name = "FILE|oracle")]
     reference: Option<String>,
     /// Time for all of it; the longest points are left out where it does not suffice
-    #[arg(long, value_name = "LIMIT", default_value = "600", value_parser = limit, allow_negative_numbers = true)]
+    #[arg(long, value_name = "LIMIT", default_value = "600", value_parser = super::overrides::positive, allow_negative_numbers = true)]
     seconds: f64,
     /// Print the content of study.json on stdout
     #[arg(long)]
@@ -157,11 +157,4 @@ fn report(args: &StudyArgs, record: &Record) -> Result<()> {
     }
     super::tell(format_args!("{}: {} points", args.out.join("index.html").display(), record.points.len()));
     Ok(())
-}
-
-fn limit(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(seconds) if seconds.is_finite() && seconds > 0.0 => Ok(seconds),
-        _ => Err("a number of seconds above 0 is needed".into()),
-    }
 }

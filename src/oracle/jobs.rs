@@ -24,7 +24,7 @@ impl JobTracer<'_> {
     }
 
     fn sum(&self, job: &Job) -> [f64; 4] {
-        let place = [job.place & 0xFFFF, job.place >> 16];
+        let place = job.column_and_row();
         let mut sum = [0.0; 4];
         let mut header = self.scene.header;
         let samples = 2.0 * f64::from(job.first + job.count);
@@ -47,7 +47,8 @@ impl Tracer for JobTracer<'_> {
         }
         let width = self.scene.header.size[0];
         for (job, sum) in jobs.iter().zip(sums) {
-            let at = ((job.place >> 16) * width + (job.place & 0xFFFF)) as usize;
+            let [x, y] = job.column_and_row();
+            let at = (y * width + x) as usize;
             let total = &mut self.halves[(job.part & 1) as usize][at];
             *total = std::array::from_fn(|i| if job.first > 0 { total[i] + sum[i] } else { sum[i] });
         }

@@ -1,6 +1,7 @@
 //! Lists of jobs → sums of two halves on the device, for sampling that differs from pixel to pixel. The
 //! film lies in pages of whole rows that the device's buffers can hold; each page has its own list.
 
+use super::slices::{FIRST_SAMPLES, MAX_TILES, next_work};
 use super::{Report, Resources};
 use crate::adaptive::{Sums, Tracer};
 use crate::error::{Error, Result};
@@ -13,12 +14,7 @@ use crate::shaders::Shader;
 /// Four floats, twice.
 const PIXEL_BYTES: u64 = 32;
 const MAX_PAGE_BYTES: u64 = 64 << 20;
-/// What one submission aims at, and the samples of the first.
-const TARGET_SECONDS: f64 = 0.15;
-const FIRST_SAMPLES: f64 = (1u32 << 20) as f64;
 const JOBS_PER_TILE: usize = (TILE * TILE) as usize;
-/// `maxComputeWorkGroupCount` is at least this on every device.
-const MAX_TILES: usize = 65_535;
 
 struct Page {
     y: u32,
@@ -111,7 +107,7 @@ impl<'a> JobTracer<'a> {
         while first < costs.len() {
             let (mut tiles, mut samples) = (1, costs[first]);
             while first + tiles < costs.len()
-                && tiles < MAX_TILES
+                && tiles < MAX_TILES as usize
                 && samples + costs[first + tiles] <= self.next
             {
                 samples += costs[first + tiles];
@@ -120,10 +116,8 @@ impl<'a> JobTracer<'a> {
             let slice = Slice { first_tile: first as u32, ..slice };
             let groups = [self.groups_per_tile, tiles as u32, 1];
             let time = self.gpu.run(self.binder.pipeline, &group, bytemuck::bytes_of(&slice), groups)?;
-            self.next = samples * (TARGET_SECONDS / time.wall_seconds.max(1e-6)).min(16.0);
-            self.report.device_render_seconds += time.device_seconds;
-            self.report.slices += 1;
-            self.report.longest_slice_seconds = self.report.longest_slice_seconds.max(time.wall_seconds);
+            self.next = next_work(samples, time.wall_seconds);
+            self.report.add_slice(time);
             if progress.cancelled() {
                 return Err(Error::Interrupted);
             }

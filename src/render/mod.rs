@@ -16,7 +16,7 @@ use serde::Serialize;
 use crate::adaptive::{Goal, Outcome};
 use crate::error::{Error, Result};
 use crate::film::Film;
-use crate::gpu::{BindGroup, BindingDesc, BindingKind, Gpu, Pipeline, PipelineDesc};
+use crate::gpu::{BindGroup, BindingDesc, BindingKind, Gpu, Pipeline, PipelineDesc, RunTime};
 use crate::layout::Slice;
 use crate::pack::{PackedScene, SlotCounts};
 use crate::progress::Progress;
@@ -65,6 +65,14 @@ pub struct Report {
     pub longest_slice_seconds: f64,
     /// Bytes of device memory at the end of the render.
     pub device_bytes: u64,
+}
+
+impl Report {
+    fn add_slice(&mut self, time: RunTime) {
+        self.device_render_seconds += time.device_seconds;
+        self.slices += 1;
+        self.longest_slice_seconds = self.longest_slice_seconds.max(time.wall_seconds);
+    }
 }
 
 /// Renders on an open device. The texels of `scene` leave the host's memory once the device has them.
@@ -151,9 +159,7 @@ impl Renderer<'_> {
                 let groups = [self.groups_per_tile, tiles, 1];
                 let time = self.gpu.run(&self.pipeline, &self.group, bytemuck::bytes_of(&slice), groups)?;
                 plan.learn(tiles, sample_count, time.wall_seconds);
-                report.device_render_seconds += time.device_seconds;
-                report.slices += 1;
-                report.longest_slice_seconds = report.longest_slice_seconds.max(time.wall_seconds);
+                report.add_slice(time);
                 progress.advance(plan.done());
                 if progress.cancelled() {
                     return Err(Error::Interrupted);

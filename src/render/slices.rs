@@ -7,11 +7,11 @@ use crate::layout::TILE;
 /// What a slice aims at. Costs differ over a picture, so the aim is well below the bound of 0.5 s.
 const TARGET_SECONDS: f64 = 0.15;
 /// Samples in the first slice, before anything is known.
-const FIRST_SAMPLES: f64 = (1u32 << 20) as f64;
+pub(super) const FIRST_SAMPLES: f64 = (1u32 << 20) as f64;
 /// A slice is at most this many times longer than the one before it.
 const GROWTH: f64 = 16.0;
 /// `maxComputeWorkGroupCount` is at least this on every device.
-const MAX_TILES: u32 = 65_535;
+pub(super) const MAX_TILES: u32 = 65_535;
 
 pub struct Plan {
     samples: u32,
@@ -45,13 +45,17 @@ impl Plan {
     pub fn learn(&mut self, tiles: u32, sample_count: u32, seconds: f64) {
         let work = f64::from(tiles) * f64::from(sample_count);
         self.done += work;
-        let fitting = work * TARGET_SECONDS / seconds.max(1e-6);
-        self.next = fitting.min(work * GROWTH);
+        self.next = next_work(work, seconds);
     }
 
     pub fn done(&self) -> f64 {
         self.done / self.total
     }
+}
+
+/// The work of the next slice, after one that took so long.
+pub fn next_work(work: f64, seconds: f64) -> f64 {
+    (work * TARGET_SECONDS / seconds.max(1e-6)).min(work * GROWTH)
 }
 
 /// A step through `tiles` tiles that visits each once and neighbours far apart: the number nearest

@@ -3,10 +3,10 @@
 //! scene and a device, and out comes the number of samples whose loops stay below that.
 
 use crate::error::{Error, Result};
+use crate::features::bounces;
 use crate::gpu::{DeviceInfo, DeviceKind};
 use crate::layout::{CHUNK, NO_TEXTURE, Procedural, Sampler};
 use crate::pack::{PackedScene, TextureKind};
-use crate::scene::model::Model;
 use crate::texture::sampler_spec::Filter;
 
 const MOST_TURNS: u64 = 65_535;
@@ -48,11 +48,7 @@ fn turns_of_a_sample(scene: &PackedScene, ellipse: u64) -> u64 {
     let count = |n: usize| n as u64;
     let shapes = count(scene.planes.len() + scene.spheres.len() + scene.triangles.len()) + 3;
     let records = count(scene.materials.len() + scene.maps.len());
-    let bounces = scene
-        .materials
-        .iter()
-        .any(|m| [Model::Mirror, Model::Dielectric].iter().any(|model| m.link[0] == *model as u32));
-    let rays = if bounces { 1 + u64::from(scene.header.size[3]) } else { 1 };
+    let rays = if bounces(scene) { 1 + u64::from(scene.header.size[3]) } else { 1 };
     let bumped = scene.materials.iter().any(|m| m.detail[0] != NO_TEXTURE);
     let taps = if bumped { TAPS } else { 1 };
     let hit = 1 + shapes + records + count(scene.lights.len()) * (1 + shapes);
