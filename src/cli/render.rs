@@ -160,6 +160,10 @@ fn render_on_oracle(args: &RenderArgs, scene: &Scene, bar: &Bar, start: Instant)
         let (film, outcome) = adaptive::run(&mut tracer, [width, height], goal, bar)?;
         report.outcome = Some(outcome);
         film
+    } else if packed.beams {
+        let (film, sampled) = oracle::render::render_beams(&packed, bar)?;
+        report.sampled_pixels = Some(sampled);
+        film
     } else {
         oracle::render::render(&packed, bar)?
     };

@@ -32,6 +32,7 @@ pub fn json(ran: &Ran, options: Value, outputs: &[String]) -> Value {
         "warnings": ran.report.warnings,
         "samples": ran.film.samples,
         "reached": ran.report.outcome,
+        "sampled_pixels": ran.report.sampled_pixels,
         "outputs": outputs,
         "seconds": ran.report.seconds,
         "device_seconds": device_seconds(&ran.report),
@@ -69,6 +70,13 @@ pub fn say(ran: &Ran, outputs: &[String], verbose: bool) {
         if let Some(mips) = report.device_mips_seconds {
             tell(format_args!("device time of mip pyramids: {mips:.4} s"));
         }
+    }
+    if let Some(sampled) = report.sampled_pixels {
+        let pixels = ran.film.pixels.len() as f64;
+        tell(format_args!(
+            "one beam a pixel; {sampled} pixels ({:.2} %) took samples, as beams cannot tell them",
+            100.0 * sampled as f64 / pixels
+        ));
     }
     if let Some(o) = &report.outcome {
         if o.estimated_bias > 0.0 {

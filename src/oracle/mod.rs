@@ -3,10 +3,12 @@
 //! functions in the same order. Sample positions are
 //! integers and equal bit for bit; everything after them differs by the rounding of f32 only.
 
+pub mod beam;
 pub mod camera;
 pub mod ellipse;
 pub mod filter;
 pub mod footprint;
+pub mod forms;
 pub mod halton;
 pub mod intersect;
 pub mod jobs;
@@ -17,9 +19,11 @@ pub mod math;
 pub mod noise;
 pub mod patterns;
 pub mod permute;
+pub mod polygon;
 pub mod procedural;
 pub mod render;
 pub mod rng;
+pub mod rows;
 pub mod shade;
 pub mod sobol;
 pub mod spread;

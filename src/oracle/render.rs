@@ -1,10 +1,11 @@
 //! Packed scene → picture, in f64 on all cores. Twin of `glsl/shared/render_main.glsl`.
 
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 
 use glam::DVec3;
 use rayon::prelude::*;
 
+use super::beam::beam;
 use super::camera::camera_ray;
 use super::footprint::camera_beam;
 use super::patterns::{pixel_points, sample_point};
@@ -41,8 +42,25 @@ pub fn sample(scene: &PackedScene, header: &Header, [x, y]: [u32; 2], half: u32,
     sum
 }
 
-/// The whole film. Rows are shared out over the cores; the result does not depend on how.
+/// The whole film.
 pub fn render(scene: &PackedScene, progress: &dyn Progress) -> Result<Film> {
+    rows(scene, progress, |x, y| pixel(scene, x, y))
+}
+
+/// The whole film by beams, and how many pixels took samples.
+pub fn render_beams(scene: &PackedScene, progress: &dyn Progress) -> Result<(Film, u64)> {
+    let sampled = AtomicU64::new(0);
+    let film = rows(scene, progress, |x, y| {
+        beam(scene, [x, y]).unwrap_or_else(|| {
+            sampled.fetch_add(1, Ordering::Relaxed);
+            pixel(scene, x, y)
+        })
+    })?;
+    Ok((film, sampled.into_inner()))
+}
+
+/// Rows are shared out over the cores; the result does not depend on how.
+fn rows(scene: &PackedScene, progress: &dyn Progress, pixel: impl Fn(u32, u32) -> DVec3 + Sync) -> Result<Film> {
     if let Some(&texture) = scene.device_levels.first() {
         return Err(Error::new(format!(
             "the levels of texture \"{}\" are left to a device: the oracle reads what the host made",
@@ -58,7 +76,7 @@ pub fn render(scene: &PackedScene, progress: &dyn Progress) -> Result<Film> {
             if progress.cancelled() {
                 return;
             }
-            *out = pixel(scene, x as u32, y as u32).as_vec3().to_array();
+            *out = pixel(x as u32, y as u32).as_vec3().to_array();
         }
         let rows = done.fetch_add(1, Ordering::Relaxed) + 1;
         progress.advance(rows as f64 / f64::from(height));

@@ -73,6 +73,10 @@ pub struct PackedScene {
     /// Samples of a pixel that one thread takes at once, at most `CHUNK`.
     pub chunk: u32,
     pub schedule: Schedule,
+    /// One beam a pixel, and samples where that cannot tell.
+    pub beams: bool,
+    /// For beams: where each texture's sums along rows begin, 0 for none; then those.
+    pub row_sums: Vec<u32>,
 }
 
 /// Where each list begins in the scene buffer, in units of 16 bytes.
@@ -117,6 +121,10 @@ pub fn pack_with(
     packed.header = header(scene, crop);
     let filtered = packed.prefilters();
     packed.sampler_specs = scene.samplers.clone();
+    packed.beams = scene.sampling.algorithm == Algorithm::Beam;
+    if packed.beams {
+        packed.row_sums = textures::row_sums(&textures);
+    }
     packed.samplers = scene.samplers.iter().map(|spec| textures::sampler(spec, filtered)).collect();
     textures::pack_textures(&mut packed, scene, textures, pyramids)?;
     for source in &scene.materials {
@@ -136,7 +144,7 @@ pub fn pack_with(
 
 fn schedule(scene: &Scene) -> Schedule {
     match scene.sampling.algorithm {
-        Algorithm::Samples => Schedule::Tiles,
+        Algorithm::Samples | Algorithm::Beam => Schedule::Tiles,
         Algorithm::Adaptive | Algorithm::Auto => Schedule::Jobs,
     }
 }
@@ -283,8 +291,12 @@ fn header(scene: &Scene, crop: Crop) -> Header {
     }
 }
 
-/// The footprint, if there is a filter that asks for it. All textures and samplers are read.
+/// The footprint, if there is a filter that asks for it. All textures and samplers are read. Beams average
+/// without a filter's error, and so do the samples beside them.
 fn footprint(scene: &Scene) -> Footprint {
+    if scene.sampling.algorithm == Algorithm::Beam {
+        return Footprint::None;
+    }
     let procedural = scene.textures.iter().any(|t| t.content.procedural().is_some());
     let needed = procedural || scene.samplers.iter().any(SamplerSpec::needs_footprint);
     if needed { scene.sampling.footprint } else { Footprint::None }

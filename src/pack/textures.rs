@@ -5,7 +5,7 @@ use crate::layout::{self, Texture};
 use crate::scene::model::{Footprint, Scene};
 use crate::texture::data::{ColorSpace, Component, Dimension, MipKernel, TexelFormat, TextureData};
 use crate::texture::sampler_spec::{Filter, Method, MipMode, SamplerSpec};
-use crate::texture::{mips, summed};
+use crate::texture::{mips, row_sums, summed};
 
 use super::{PackedScene, Pyramids, TextureKind};
 
@@ -91,6 +91,18 @@ pub fn kind(texture: &TextureData) -> TextureKind {
         Dimension::Three => TextureKind::Volume,
         Dimension::Cube => TextureKind::Cube,
     }
+}
+
+/// For each texture where its sums along rows begin, 0 for one that is not flat; then those sums.
+pub fn row_sums(textures: &[TextureData]) -> Vec<u32> {
+    // One word more than needed: no table begins at 0, and a buffer holds something.
+    let mut words = vec![0; textures.len() + 1];
+    for (i, texture) in textures.iter().enumerate().filter(|(_, t)| t.dimension == Dimension::Two) {
+        words[i] = words.len() as u32;
+        let table = row_sums::table(texture, words.len());
+        words.extend(table);
+    }
+    words
 }
 
 /// Whether some sampler that minifies this texture is such.

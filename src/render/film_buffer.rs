@@ -84,8 +84,23 @@ impl FilmBuffer {
         self.bands().map(|b| u64::from(b.tiles)).sum()
     }
 
-    /// Sums of a band → means of its rows, a few rows at a time.
+    /// Sums of a band → means of its rows.
     pub fn read(&self, gpu: &Gpu, band: &Band, film: &mut Film) -> Result<()> {
+        let samples = f64::from(film.samples);
+        self.read_with(gpu, band, |i, sum, lost| {
+            film.pixels[i] =
+                std::array::from_fn(|c| ((f64::from(sum[c]) - f64::from(lost[c])) / samples) as f32);
+        })
+    }
+
+    /// Each pixel of a band by its place in the picture, with what rounding has lost of it; a few rows at a
+    /// time.
+    pub fn read_with(
+        &self,
+        gpu: &Gpu,
+        band: &Band,
+        mut each: impl FnMut(usize, [f32; 4], [f32; 4]),
+    ) -> Result<()> {
         let row_bytes = u64::from(self.width) * PIXEL_BYTES;
         let rows_at_once = ((4 << 20) / row_bytes).clamp(1, u64::from(band.height)) as u32;
         let mut sums = vec![[0f32; 4]; (self.width * rows_at_once) as usize];
@@ -102,11 +117,8 @@ impl FilmBuffer {
                 gpu.read_buffer(&self.buffer, second, bytemuck::cast_slice_mut(&mut lost[..count]))?;
             }
             let first = (band.y + y) as usize * self.width as usize;
-            for (i, out) in film.pixels[first..first + count].iter_mut().enumerate() {
-                for c in 0..3 {
-                    let rest = lost.get(i).map_or(0.0, |l| f64::from(l[c]));
-                    out[c] = ((f64::from(sums[i][c]) - rest) / f64::from(film.samples)) as f32;
-                }
+            for (i, &sum) in sums[..count].iter().enumerate() {
+                each(first + i, sum, lost.get(i).copied().unwrap_or_default());
             }
         }
         Ok(())

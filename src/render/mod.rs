@@ -1,6 +1,7 @@
 //! Packed scene → film on a device: resources from the features, one pipeline, work handed out in
 //! slices, film read back. Orchestrates `gpu`'s own types and knows nothing of Vulkan's.
 
+mod beams;
 mod film_buffer;
 mod jobs;
 mod pool;
@@ -56,6 +57,8 @@ pub struct Report {
     pub seconds: Seconds,
     /// How far sampling to a goal came.
     pub outcome: Option<Outcome>,
+    /// Of beams: pixels that were left to samples.
+    pub sampled_pixels: Option<u64>,
     /// Device timestamps around the slices, summed.
     pub device_render_seconds: f64,
     /// The same around the passes that make levels of textures, if there were any.

@@ -10,7 +10,7 @@ use crate::texture::data::{ColorSpace, TexelFormat};
 /// The first `bytes` of the scene's texels.
 pub fn upload(gpu: &Gpu, packed: &PackedScene, bytes: usize, maker: &mut Maker<'_>) -> Result<Buffer> {
     let texels = &packed.texels[..bytes];
-    check(gpu, packed, texels)?;
+    check(gpu, packed, texels.len() / 4, "use smaller textures, or --texels image (up to 16 textures)")?;
     let starts = packed.device_levels.iter().map(|&t| (t, packed.textures[t].place[0] as usize * 4));
     let mut made = starts.filter(|&(_, start)| start < bytes).peekable();
     if made.peek().is_none() {
@@ -38,8 +38,14 @@ pub fn upload(gpu: &Gpu, packed: &PackedScene, bytes: usize, maker: &mut Maker<'
     Ok(buffer)
 }
 
-fn check(gpu: &Gpu, packed: &PackedScene, texels: &[u8]) -> Result<()> {
-    let words = texels.len() as u64 / 4;
+/// The sums along rows that beams read.
+pub fn upload_row_sums(gpu: &Gpu, packed: &PackedScene) -> Result<Buffer> {
+    check(gpu, packed, packed.row_sums.len(), "use smaller textures, or --algorithm adaptive")?;
+    gpu.upload_buffer("row sums", BufferUse::TexelUint, bytemuck::cast_slice(&packed.row_sums))
+}
+
+fn check(gpu: &Gpu, packed: &PackedScene, words: usize, help: &str) -> Result<()> {
+    let words = words as u64;
     // The shader's index is an `int`, whatever the device allows.
     let limit = gpu.info().limits.max_texel_buffer_elements.min(i32::MAX as u64);
     if words <= limit {
@@ -49,10 +55,10 @@ fn check(gpu: &Gpu, packed: &PackedScene, texels: &[u8]) -> Result<()> {
         format!(
             "the textures {} together take {} MiB, over the {} MiB of a texel buffer on device \"{}\"",
             packed.texture_names.join(", "),
-            texels.len() >> 20,
+            words >> 18,
             (limit * 4) >> 20,
             gpu.info().name
         ),
-        "use smaller textures, or --texels image (up to 16 textures)",
+        help,
     ))
 }

@@ -30,6 +30,8 @@ pub fn shader_for(source: TexelSource) -> &'static Shader {
 /// Bindings of the images of volumes and of cubes; 2 has those of flat textures.
 pub const VOLUMES: u32 = 7;
 pub const CUBES: u32 = 8;
+/// Binding of the sums along rows of textures.
+const ROW_SUMS: u32 = 9;
 
 pub struct Resources {
     pub sections: Sections,
@@ -37,6 +39,7 @@ pub struct Resources {
     pub mips_seconds: Option<f64>,
     scene: Buffer,
     texels: Option<Buffer>,
+    row_sums: Option<Buffer>,
     images: Vec<(Image, Sampler)>,
     volumes: Vec<(Image, Sampler)>,
     cubes: Vec<(Image, Sampler)>,
@@ -52,6 +55,7 @@ impl Resources {
             TexelSource::Solids => Some(pool::upload(gpu, packed, packed.solid_bytes, &mut maker)?),
             TexelSource::None | TexelSource::Image => None,
         };
+        let row_sums = packed.beams.then(|| pool::upload_row_sums(gpu, packed)).transpose()?;
         let mut uploads = Uploads { gpu, packed, maker, images: Vec::new() };
         let [mut images, mut volumes, mut cubes] = [const { Vec::new() }; 3];
         if matches!(features.source, TexelSource::Image | TexelSource::Solids) {
@@ -61,7 +65,7 @@ impl Resources {
             volumes = uploads.slots(&packed.volume_slots, TextureKind::Volume)?;
             cubes = uploads.slots(&packed.cube_slots, TextureKind::Cube)?;
         }
-        Ok(Resources { sections, mips_seconds: uploads.maker.seconds, scene, texels, images, volumes, cubes })
+        Ok(Resources { sections, mips_seconds: uploads.maker.seconds, scene, texels, row_sums, images, volumes, cubes })
     }
 
     /// Replaces what the scene buffer begins with.
@@ -86,6 +90,7 @@ impl Resources {
                 (BindingKind::StorageBuffer, 4) => Bound::Buffer(queries.unwrap_or(&self.scene)),
                 (BindingKind::StorageBuffer, _) => Bound::Buffer(&self.scene),
                 (BindingKind::UniformBuffer, _) => Bound::Head(&self.scene, HEAD_BYTES as u64),
+                (BindingKind::TexelBuffer, ROW_SUMS) => Bound::Texels(self.row_sums.as_ref()?),
                 (BindingKind::TexelBuffer, _) => Bound::Texels(self.texels.as_ref()?),
                 (BindingKind::SampledImage, VOLUMES) => Bound::Images(&volumes),
                 (BindingKind::SampledImage, CUBES) => Bound::Images(&cubes),

@@ -2,7 +2,7 @@
 //! once. Out: for each choice of samples a pipeline, and from it films. Renders of one session share the
 //! buffers of scene and film, so they take turns.
 
-use std::cell::{Cell, RefCell};
+use std::cell::{Cell, OnceCell, RefCell};
 use std::rc::Rc;
 use std::time::Instant;
 
@@ -15,8 +15,9 @@ use crate::layout::{Header, Slice};
 use crate::pack::{PackedScene, Schedule};
 use crate::progress::Progress;
 use crate::scene::model::Scene;
-use crate::shaders::Shader;
+use crate::shaders::{self, Shader};
 
+use super::beams::{Beams, Fallback, Sampler};
 use super::film_buffer::FilmBuffer;
 use super::jobs::{Binder, JobTracer};
 use super::resources::{Resources, shader_for};
@@ -50,7 +51,8 @@ pub struct Prepared<'s, 'a> {
 /// How samples reach the film.
 enum Work<'a> {
     Tiles { renderer: Renderer<'a>, film: Rc<FilmBuffer> },
-    Jobs { pipeline: Pipeline, shader: &'static Shader, groups_per_tile: u32, prefilters: bool },
+    Jobs { sampler: Sampler, prefilters: bool },
+    Beams(Beams<'a>),
 }
 
 impl<'a> Session<'a> {
@@ -96,22 +98,19 @@ impl<'a> Session<'a> {
         report.seconds.upload = self.upload_seconds + clock.elapsed().as_secs_f64();
 
         let clock = Instant::now();
-        let shader = shader_for(features.source);
-        let group_size = self.tuning.group_size(self.gpu.info())?;
-        let slots = scene.slot_counts();
-        let constants = features::constants(shader, &features, &self.resources.sections, group_size, slots);
-        let pipeline = build_pipeline(self.gpu, shader, &constants, slots, size_of::<Slice>())?;
-        let groups_per_tile = tuning::groups_per_tile(group_size);
         let work = match scene.schedule {
+            Schedule::Tiles if scene.beams => {
+                let features = Features { compensated: false, ..features };
+                let (renderer, film) = self.renderer(scene, &features, &shaders::BEAM)?;
+                Work::Beams(Beams { renderer, film, sampler: OnceCell::new() })
+            }
             Schedule::Tiles => {
-                let film = self.film(scene, &features)?;
-                let group = self.resources.bind(self.gpu, &pipeline, shader, &film.buffer, None)?;
-                let renderer = Renderer { gpu: self.gpu, pipeline, group, groups_per_tile };
-                renderer.warm_up(&film)?;
+                let (renderer, film) = self.renderer(scene, &features, shader_for(features.source))?;
                 Work::Tiles { renderer, film }
             }
             Schedule::Jobs => {
-                Work::Jobs { pipeline, shader, groups_per_tile, prefilters: scene.prefilters() }
+                let sampler = self.sampler(scene, &features)?;
+                Work::Jobs { sampler, prefilters: scene.prefilters() }
             }
         };
         let mut prepared =
@@ -119,6 +118,47 @@ impl<'a> Session<'a> {
         prepared.warm_up_jobs()?;
         prepared.report.seconds.compile = clock.elapsed().as_secs_f64();
         Ok(prepared)
+    }
+
+    /// Renders tile by tile; compiled.
+    fn renderer(
+        &self,
+        scene: &PackedScene,
+        features: &Features,
+        shader: &'static Shader,
+    ) -> Result<(Renderer<'a>, Rc<FilmBuffer>)> {
+        let (pipeline, groups_per_tile) = self.pipeline(scene, features, shader)?;
+        let film = self.film(scene, features)?;
+        let group = self.resources.bind(self.gpu, &pipeline, shader, &film.buffer, None)?;
+        let renderer = Renderer { gpu: self.gpu, pipeline, group, groups_per_tile };
+        renderer.warm_up(&film)?;
+        Ok((renderer, film))
+    }
+
+    fn sampler(&self, scene: &PackedScene, features: &Features) -> Result<Sampler> {
+        let shader = shader_for(features.source);
+        let (pipeline, groups_per_tile) = self.pipeline(scene, features, shader)?;
+        Ok(Sampler { pipeline, shader, groups_per_tile })
+    }
+
+    /// And its workgroups a tile.
+    fn pipeline(
+        &self,
+        scene: &PackedScene,
+        features: &Features,
+        shader: &'static Shader,
+    ) -> Result<(Pipeline, u32)> {
+        let group_size = self.tuning.group_size(self.gpu.info())?;
+        let slots = scene.slot_counts();
+        let constants = features::constants(shader, features, &self.resources.sections, group_size, slots);
+        let pipeline = build_pipeline(self.gpu, shader, &constants, slots, size_of::<Slice>())?;
+        Ok((pipeline, tuning::groups_per_tile(group_size)))
+    }
+
+    /// What samples the pixels that beams leave.
+    fn beside_beams(&self) -> Result<Sampler> {
+        let scene = PackedScene { schedule: Schedule::Jobs, ..self.scene.clone() };
+        self.sampler(&scene, &features_of(self.gpu, &scene, self.keep_everything, &self.tuning))
     }
 
     fn film(&self, scene: &PackedScene, features: &Features) -> Result<Rc<FilmBuffer>> {
@@ -170,6 +210,17 @@ impl Prepared<'_, '_> {
                 }
                 film
             }
+            Work::Beams(beams) => {
+                let clock = Instant::now();
+                let session = self.session;
+                let (samples, chunk) = (self.samples, session.scene.chunk);
+                let fallback = Fallback { resources: &session.resources, samples, chunk };
+                let build = || session.beside_beams();
+                let film =
+                    beams.render(session.gpu, [width, height], &fallback, build, &mut report, progress)?;
+                report.seconds.render = clock.elapsed().as_secs_f64();
+                film
+            }
             Work::Jobs { .. } => {
                 let clock = Instant::now();
                 let goal = goal.unwrap_or(Goal::Samples(self.samples));
@@ -187,13 +238,13 @@ impl Prepared<'_, '_> {
     /// Whatever the driver compiles late, it compiles now.
     fn warm_up_jobs(&self) -> Result<()> {
         match self.work {
-            Work::Tiles { .. } => Ok(()),
+            Work::Tiles { .. } | Work::Beams(_) => Ok(()),
             Work::Jobs { .. } => self.tracer(&mut Report::default())?.warm_up(),
         }
     }
 
     fn tracer<'t>(&'t self, report: &'t mut Report) -> Result<JobTracer<'t>> {
-        let Work::Jobs { pipeline, shader, groups_per_tile, prefilters } = &self.work else {
+        let Work::Jobs { sampler: Sampler { pipeline, shader, groups_per_tile }, prefilters } = &self.work else {
             return Err(Error::new("a scene that is rendered tile by tile has no jobs"));
         };
         let binder = Binder { resources: &self.session.resources, pipeline, shader };

@@ -82,6 +82,8 @@ named_enum! {
         Samples = "samples",
         /// More where the picture errs more.
         Adaptive = "adaptive",
+        /// One beam a pixel, cut by the polygons that it meets: exact areas, exact integrals.
+        Beam = "beam",
         /// What meets the goal of `--budget` or `--target-error` soonest.
         Auto = "auto",
     }
@@ -148,7 +150,7 @@ named_enum! {
 impl Algorithm {
     /// Whether pixels may get different numbers of samples.
     pub fn is_adaptive(self) -> bool {
-        self != Algorithm::Samples
+        matches!(self, Algorithm::Adaptive | Algorithm::Auto)
     }
 }
 

@@ -45,6 +45,9 @@ impl Method {
                 Algorithm::Adaptive => {
                     methods.push(Method { algorithm, ..Method::of_pattern(Pattern::SobolOwen) });
                 }
+                Algorithm::Beam => {
+                    methods.push(Method { algorithm, pattern: None, ..Method::of_pattern(Pattern::Stratified) });
+                }
                 // Chooses by a goal, not by a number of samples.
                 Algorithm::Auto => {}
             }

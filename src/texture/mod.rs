@@ -12,6 +12,7 @@ mod nrrd;
 pub mod procedural;
 mod read_exr;
 pub(crate) mod read_file;
+pub mod row_sums;
 pub mod sampler_spec;
 mod sniff;
 pub mod source;

@@ -1,0 +1,86 @@
+//! One beam a pixel on a device: first all pixels by beams, which flag those that they cannot tell, then
+//! samples for these, by a pipeline that is built when the first of them turns up.
+
+use std::cell::OnceCell;
+use std::rc::Rc;
+
+use super::film_buffer::FilmBuffer;
+use super::jobs::{Binder, JobTracer};
+use super::{Renderer, Report, Resources, slices};
+use crate::adaptive::{Sums, Tracer};
+use crate::error::{Error, Result};
+use crate::film::Film;
+use crate::gpu::{Gpu, Pipeline};
+use crate::layout::Job;
+use crate::progress::Progress;
+use crate::shaders::Shader;
+
+pub struct Beams<'a> {
+    pub renderer: Renderer<'a>,
+    pub film: Rc<FilmBuffer>,
+    /// Of the pixels that beams leave, once there were any.
+    pub sampler: OnceCell<Sampler>,
+}
+
+/// The pipeline that samples by jobs.
+pub struct Sampler {
+    pub pipeline: Pipeline,
+    pub shader: &'static Shader,
+    pub groups_per_tile: u32,
+}
+
+/// What the samples of the flagged pixels need.
+pub struct Fallback<'s> {
+    pub resources: &'s Resources,
+    pub samples: u32,
+    pub chunk: u32,
+}
+
+impl Beams<'_> {
+    /// `build` makes the sampling pipeline.
+    pub fn render(
+        &self,
+        gpu: &Gpu,
+        [width, height]: [u32; 2],
+        fallback: &Fallback<'_>,
+        build: impl Fn() -> Result<Sampler>,
+        report: &mut Report,
+        progress: &dyn Progress,
+    ) -> Result<Film> {
+        let mut film = Film::new(width, height, 1);
+        let mut left: Vec<u32> = Vec::new();
+        let mut plan = slices::Plan::new(1, 1, self.film.tiles());
+        for band in self.film.bands() {
+            self.renderer.band(&band, &mut plan, report, progress)?;
+            self.film.read_with(gpu, &band, |i, pixel, _| {
+                film.pixels[i] = [pixel[0], pixel[1], pixel[2]];
+                if pixel[3] != 0.0 {
+                    left.push(i as u32);
+                }
+            })?;
+        }
+        report.sampled_pixels = Some(left.len() as u64);
+        if left.is_empty() {
+            return Ok(film);
+        }
+        if self.sampler.get().is_none() {
+            // Never set twice: it was empty just now.
+            let _ = self.sampler.set(build()?);
+        }
+        let sampler = self.sampler.get().ok_or_else(|| Error::new("no pipeline for samples"))?;
+        let binder =
+            Binder { resources: fallback.resources, pipeline: &sampler.pipeline, shader: sampler.shader };
+        let (groups, chunk) = (sampler.groups_per_tile, fallback.chunk);
+        let mut tracer = JobTracer::new(gpu, binder, groups, [width, height], false, chunk, report)?;
+        let job = |&i: &u32| Job { place: Job::place_of(i, width), part: 0, first: 0, count: fallback.samples };
+        tracer.sample(&left.iter().map(job).collect::<Vec<_>>(), progress)?;
+        let half = || vec![[0.0; 4]; film.pixels.len()];
+        let mut sums = Sums { width, height, halves: [half(), half()] };
+        tracer.read(&mut sums)?;
+        for i in left {
+            let sum = sums.halves[0][i as usize];
+            film.pixels[i as usize] = std::array::from_fn(|c| sum[c] / fallback.samples as f32);
+        }
+        Ok(film)
+    }
+}
