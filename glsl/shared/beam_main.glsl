@@ -44,7 +44,7 @@ struct Paint {
 };
 
 // Lists of one thread. Too much for a beam: it gives up.
-Region met[MAX_MET];
+Region met[MAX_MET + 1u]; // the last: of a shadow
 uint met_shapes[MAX_MET];
 uint met_count;
 Piece pieces[MAX_PIECES];
@@ -55,9 +55,23 @@ bool gave_up;
 uint crossed;
 
 void push_piece(Polygon polygon, uint stage) {
-    if (waiting < MAX_PIECES) pieces[waiting] = Piece(polygon, stage);
-    else gave_up = true;
-    waiting = min(waiting + 1u, MAX_PIECES);
+    if (waiting < MAX_PIECES) {
+        pieces[waiting].stage = stage;
+        pieces[waiting].polygon.count = polygon.count;
+        for (uint k = 0u; k < polygon.count; k++) pieces[waiting].polygon.corners[k] = polygon.corners[k];
+        waiting++;
+    } else {
+        gave_up = true;
+    }
+}
+
+Piece pop_piece() {
+    waiting--;
+    Piece piece;
+    piece.stage = pieces[waiting].stage;
+    piece.polygon.count = pieces[waiting].polygon.count;
+    for (uint k = 0u; k < piece.polygon.count; k++) piece.polygon.corners[k] = pieces[waiting].polygon.corners[k];
+    return piece;
 }
 
 // Material and map.
@@ -115,7 +129,9 @@ void find_shapes(Header header, Beam beam) {
         for (uint k = 0u; k < region.count; k++) touches = touches && range(beam.polygon, region.lines[k]).y > 0.0;
         if (!touches) continue;
         if (met_count < MAX_MET) {
-            met[met_count] = region;
+            met[met_count].count = region.count;
+            met[met_count].nearness = region.nearness;
+            for (uint k = 0u; k < region.count; k++) met[met_count].lines[k] = region.lines[k];
             met_shapes[met_count] = shape;
             met_count++;
         } else {
@@ -133,15 +149,19 @@ vec3 before(uint by, uint own, Polygon polygon) {
     return vec3(0.0, 0.0, by < own ? 1.0 : -1.0);
 }
 
-// Cuts the piece along the lines of a region, of which `first` is one more. What lies within them all is
-// kept, or all else is.
-void carve(Piece piece, Region region, bool has_first, vec3 first, bool kept) {
-    Polygon rest = piece.polygon;
+// Cuts the piece along the lines of a shape that is met, of which `first` is one more. What lies within them all
+// is kept, or all else is.
+void carve(Piece piece, uint by, bool has_first, vec3 first, bool kept) {
+    Polygon rest;
+    copy(piece.polygon, rest);
     uint k = has_first ? 0u : 1u;
     bool gone = false;
-    for (; k <= region.count && !gone; k++) {
+    uint count = met[by].count;
+    for (; k <= count && !gone; k++) {
         vec3 line = first;
-        if (k > 0u) line = region.lines[k - 1u];
+        if (k > 0u) line = met[by].lines[k - 1u];
+        vec2 ends = range(rest, line);
+        if (ends.x >= 0.0) continue;
         Polygon inside;
         Polygon outside;
         split(rest, line, inside, outside);
@@ -150,7 +170,7 @@ void carve(Piece piece, Region region, bool has_first, vec3 first, bool kept) {
             return;
         }
         if (!kept && area(outside) > LEAST_AREA) push_piece(outside, piece.stage + 1u);
-        rest = inside;
+        copy(inside, rest);
         gone = area(rest) <= LEAST_AREA;
     }
     if (kept && !gone) push_piece(rest, piece.stage + 1u);
@@ -193,32 +213,26 @@ bool may_shade(Header header, Paint paint, Polygon polygon, Light light, Sphere 
 }
 
 // Strips that a piece is cut into: the root of STRIPS times the logarithm of the ratio of depths.
-const float STRIPS = 3750.0;
+const float STRIPS = 2000.0;
 const float MOST_STRIPS = 64.0;
 // What lies e^7 times as deep as the piece's nearest part counts as one strip.
 const float DEEPEST = 7.0;
 const float LOG2_E = 1.44269504088896;
 // Cells that an edge of a strip may cross, and what all strips of a piece share beyond that.
-const float CELLS_OF_AN_EDGE = 64.0;
+const float CELLS_OF_AN_EDGE = 32.0;
 const float CELLS_OF_ALL = 512.0;
 
-vec3 mean_color(Material record, Polygon strip, Quotient quotient, float most, inout bool ended) {
-    Texture image = texture_at(record.link.y);
-    bool checker = MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_PROCEDURAL, image.link.w);
-    Grid grid;
-    float reach = 0.0;
-    for (uint turn = 0u; turn < 2u; turn++) {
-        // First the reach at level 0, then the level at which it is short enough.
-        int level = reach > most ? int(ceil(log2_accurate(reach / most))) : 0;
-        if (checker) grid = checker_grid(level);
-        else grid = texture_grid(record.link.y, image, sampler_at(record.link.z), level);
-        if (turn == 0u) reach = longest_edge(strip, in_grid(grid, quotient, ivec2(0)));
+vec3 mean_color(Material record, Grid grid, Polygon strip, Quotient quotient, float most, inout bool ended) {
+    float reach = longest_edge(strip, in_grid(grid, quotient, ivec2(0)));
+    // The level at which it is short enough.
+    if (reach > most) grid = coarser(grid, int(ceil(log2_accurate(reach / most))));
+    if (grid.unknown) {
+        gave_up = true;
+        return vec3(0.0);
     }
-    if (grid.unknown) gave_up = true;
-    if (gave_up) return vec3(0.0);
     vec3 mean = mean_over(grid, strip, quotient, reach < SMALLEST, crossed, ended);
-    if (checker) {
-        Procedural what = procedural_at(image.place.x);
+    if (grid.checker) {
+        Procedural what = procedural_at(texture_at(record.link.y).place.x);
         return what.background.xyz + mean.x * (what.figure.xyz - what.background.xyz);
     }
     return vec3(grid.least) + grid.step * mean;
@@ -234,23 +248,29 @@ vec3 integral(Header header, Paint paint, Polygon polygon, bool has_light, Light
     float strips = 1.0;
     if (textured || has_light) strips = clamp(ceil(sqrt(STRIPS * span)), 1.0, MOST_STRIPS);
     float most = CELLS_OF_AN_EDGE + CELLS_OF_ALL / strips;
-    Polygon rest = polygon;
+    Grid grid = checker_grid();
+    if (textured) {
+        Texture image = texture_at(paint.record.link.y);
+        bool checker = MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_PROCEDURAL, image.link.w);
+        if (!checker) grid = texture_grid(paint.record.link.y, image, sampler_at(paint.record.link.z));
+    }
+    Polygon rest;
+    copy(polygon, rest);
     vec3 sum = vec3(0.0);
     bool ended = true;
     float k = 1.0;
     for (; k <= strips && !gave_up; k += 1.0) {
-        Polygon strip = rest;
-        if (k < strips) {
-            float limit = ends.y * exp2_accurate(-span * k / strips * LOG2_E);
-            Polygon beyond;
-            split(rest, depth - vec3(0.0, 0.0, limit), strip, beyond);
-            if (max(strip.count, beyond.count) > MAX_CORNERS) gave_up = true;
-            rest = beyond;
-        }
+        // Beyond the last strip lies nothing.
+        float limit = k < strips ? ends.y * exp2_accurate(-span * k / strips * LOG2_E) : -1.0;
+        Polygon strip;
+        Polygon beyond;
+        split(rest, depth - vec3(0.0, 0.0, limit), strip, beyond);
+        if (max(strip.count, beyond.count) > MAX_CORNERS) gave_up = true;
+        copy(beyond, rest);
         float share = area(strip);
         if (strip.count < 3u || share <= 0.0) continue;
         vec3 color = vec3(1.0);
-        if (textured) color = mean_color(paint.record, strip, paint.quotient, most, ended);
+        if (textured) color = mean_color(paint.record, grid, strip, paint.quotient, most, ended);
         if (crossed > MOST_CELLS) gave_up = true;
         if (LIGHTS != 0u && has_light) color *= irradiance(header, paint, strip, light);
         sum += share * color;
@@ -269,17 +289,19 @@ vec3 lit_by(Header header, Paint paint, uint shape, Polygon polygon, bool has_li
     if (!has_light) push_piece(polygon, shapes);
     else if (is_lit(header, paint, polygon, light)) push_piece(polygon, 0u);
     while (waiting > bottom && !gave_up) {
-        waiting--;
-        Piece piece = pieces[waiting];
+        Piece piece = pop_piece();
         uint by = piece.stage;
-        if (by == shapes) {
+        if (LIGHTS == 0u || by == shapes) {
             sum += integral(header, paint, piece.polygon, has_light, light);
             continue;
         }
         bool is_sphere = SPHERES != 0u && by >= planes && by < before_triangles;
         if (is_sphere && may_shade(header, paint, piece.polygon, light, sphere_at(by - planes))) gave_up = true;
         if (by == shape || is_sphere) push_piece(piece.polygon, by + 1u);
-        else carve(piece, shadow_region(header, paint.frame, paint.near, by, light), false, vec3(0.0), false);
+        else {
+            met[MAX_MET] = shadow_region(header, paint.frame, paint.near, by, light);
+            carve(piece, MAX_MET, false, vec3(0.0), false);
+        }
     }
     return sum;
 }
@@ -333,8 +355,7 @@ vec3 follow(Header header, Beam beam) {
     for (; own < met_count && !gave_up; own++) {
         push_piece(beam.polygon, 0u);
         while (waiting > 0u && !gave_up) {
-            waiting--;
-            Piece piece = pieces[waiting];
+            Piece piece = pop_piece();
             // Stage 0 cuts out the shape itself, the others take away what lies before it.
             if (piece.stage > met_count) {
                 left -= area(piece.polygon);
@@ -347,7 +368,7 @@ vec3 follow(Header header, Beam beam) {
                 bool mirrored = BOUNCES && beam.skip != NO_SHAPE;
                 // What lies before the mirror that the beam left is not seen.
                 vec3 first = kept ? beam.limit - met[own].nearness : before(by, own, piece.polygon);
-                carve(piece, met[by], !kept || mirrored, first, kept);
+                carve(piece, by, !kept || mirrored, first, kept);
             }
         }
     }

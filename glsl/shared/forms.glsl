@@ -87,17 +87,6 @@ vec3 along(Header header, Frame frame, vec3 near, vec4 row) {
     return own + (same + row.w) * near;
 }
 
-void add(inout Region region, vec3 line) {
-    region.lines[region.count] = line;
-    region.count++;
-}
-
-// Of a plane's own coordinates: within the extent on both sides.
-void add_bounds(inout Region region, vec3 extent, vec3 own) {
-    add(region, extent - own);
-    add(region, extent + own);
-}
-
 // Barycentric weights of a triangle's corners times their sum, positive within it.
 mat3 edge_forms(Header header, Frame frame, Triangle triangle) {
     bool parallel = is_parallel(header);
@@ -117,37 +106,43 @@ mat3 edge_forms(Header header, Frame frame, Triangle triangle) {
     return mat3(side * form(frame, cross3(b, c)), side * form(frame, cross3(c, a)), side * form(frame, cross3(a, b)));
 }
 
-// Planes first, then spheres, then triangles; spheres have no region.
-Region shape_region(Header header, Frame frame, uint shape) {
-    uint planes = COUNT(PLANES, header.counts.x);
-    uint before_triangles = planes + COUNT(SPHERES, header.counts.y);
-    Region region;
-    region.count = 0u;
-    if (TRIANGLES == 0u || shape < planes) {
-        Plane plane = plane_at(shape);
-        vec3 near = nearness(header, frame, plane.normal.xyz, plane.normal.w);
-        region.nearness = near;
-        add(region, in_front(header, near));
-        if (BOUNDED_PLANES && plane.link.w != 0u) {
-            vec3 extent = uintBitsToFloat(plane.link.z) * below(header, near);
-            add_bounds(region, extent, along(header, frame, near, plane.axis_u));
-            add_bounds(region, extent, along(header, frame, near, plane.axis_v));
-        }
-    } else {
-        Triangle triangle = triangle_at(shape - before_triangles);
-        region.nearness = nearness(header, frame, triangle.normal.xyz, triangle.normal.w);
-        add(region, in_front(header, region.nearness));
-        mat3 edges = edge_forms(header, frame, triangle);
-        for (uint k = 0u; k < 3u; k++) add(region, edges[k]);
-    }
-    return region;
-}
-
 // Unit normal, and height of the plane in which a flat shape lies.
 vec4 shape_plane(Header header, uint shape) {
     uint planes = COUNT(PLANES, header.counts.x);
     if (TRIANGLES == 0u || shape < planes) return plane_at(shape).normal;
     return triangle_at(shape - planes - COUNT(SPHERES, header.counts.y)).normal;
+}
+
+// Planes first, then spheres, then triangles; spheres have no region.
+Region shape_region(Header header, Frame frame, uint shape) {
+    uint planes = COUNT(PLANES, header.counts.x);
+    uint before_triangles = planes + COUNT(SPHERES, header.counts.y);
+    Region region;
+    region.count = 1u;
+    vec4 plane = shape_plane(header, shape);
+    vec3 near = nearness(header, frame, plane.xyz, plane.w);
+    region.nearness = near;
+    region.lines[0] = in_front(header, near);
+    if (TRIANGLES == 0u || shape < planes) {
+        Plane record = plane_at(shape);
+        if (BOUNDED_PLANES && record.link.w != 0u) {
+            vec3 extent = uintBitsToFloat(record.link.z) * below(header, near);
+            vec3 u = along(header, frame, near, record.axis_u);
+            vec3 v = along(header, frame, near, record.axis_v);
+            region.lines[1] = extent - u;
+            region.lines[2] = extent + u;
+            region.lines[3] = extent - v;
+            region.lines[4] = extent + v;
+            region.count = 5u;
+        }
+    } else {
+        mat3 edges = edge_forms(header, frame, triangle_at(shape - before_triangles));
+        region.lines[1] = edges[0];
+        region.lines[2] = edges[1];
+        region.lines[3] = edges[2];
+        region.count = 4u;
+    }
+    return region;
 }
 
 // Texture coordinates on a flat shape, for maps that are affine there.
@@ -183,10 +178,10 @@ Region shadow_region(Header header, Frame frame, vec3 near, uint shape, Light li
     float rise = point_light ? plane.w - dot3(n, place) : dot3(n, place);
     float side = sign(rise);
     Region region;
-    region.count = 0u;
+    region.count = 1u;
     region.nearness = near;
     // Beyond the plane, seen from the light.
-    add(region, along(header, frame, near, (point_light ? side : -side) * vec4(n, -plane.w)));
+    region.lines[0] = along(header, frame, near, (point_light ? side : -side) * vec4(n, -plane.w));
     if (TRIANGLES == 0u || shape < planes) {
         Plane record = plane_at(shape);
         if (!BOUNDED_PLANES || record.link.w == 0u) return region;
@@ -200,8 +195,11 @@ Region shadow_region(Header header, Frame frame, vec3 near, uint shape, Light li
             // n·p) / rise, times |rise|.
             vec4 own = point_light ? (across + row.w) * depth + abs(rise) * vec4(row.xyz, -across)
                                    : abs(rise) * row + (side * across) * vec4(-n, plane.w);
-            add_bounds(region, extent, along(header, frame, near, own));
+            vec3 across_axis = along(header, frame, near, own);
+            region.lines[1u + 2u * k] = extent - across_axis;
+            region.lines[2u + 2u * k] = extent + across_axis;
         }
+        region.count = 5u;
         return region;
     }
     Triangle triangle = triangle_at(shape - planes - COUNT(SPHERES, header.counts.y));
@@ -214,8 +212,9 @@ Region shadow_region(Header header, Frame frame, vec3 near, uint shape, Light li
         vec3 q = corners[(k + 2u) % 3u];
         vec3 m = point_light ? cross3(p, q) : cross3(p - q, place);
         float constant = point_light ? -dot3(m, place) : dot3(place, cross3(p, q));
-        add(region, along(header, frame, near, turn * vec4(m, constant)));
+        region.lines[1u + k] = along(header, frame, near, turn * vec4(m, constant));
     }
+    region.count = 4u;
     return region;
 }
 

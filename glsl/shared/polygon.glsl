@@ -35,6 +35,12 @@ void push(inout Polygon polygon, vec2 corner) {
     polygon.count++;
 }
 
+// Copies the corners that there are: some compilers move whole lists lane by lane.
+void copy(Polygon from, out Polygon to) {
+    to.count = from.count;
+    for (uint k = 0u; k < from.count; k++) to.corners[k] = from.corners[k];
+}
+
 // Where the form is positive, and where it is negative. A side with more than MAX_CORNERS corners has lost
 // some.
 void split(Polygon polygon, vec3 form, out Polygon inside, out Polygon outside) {
@@ -45,12 +51,13 @@ void split(Polygon polygon, vec3 form, out Polygon inside, out Polygon outside) 
     for (uint k = 1u; k <= polygon.count; k++) {
         vec2 b = polygon.corners[k == polygon.count ? 0u : k];
         float fb = at(form, b);
-        if (fa >= 0.0) push(inside, a);
-        if (fa <= 0.0) push(outside, a);
-        if ((fa < 0.0 && fb > 0.0) || (fa > 0.0 && fb < 0.0)) {
-            vec2 cut = a + (b - a) * (fa / (fa - fb));
-            push(inside, cut);
-            push(outside, cut);
+        bool cuts = (fa < 0.0 && fb > 0.0) || (fa > 0.0 && fb < 0.0);
+        // First the corner, then the place where the edge is cut.
+        for (uint turn = 0u; turn < (cuts ? 2u : 1u); turn++) {
+            bool first = turn == 0u;
+            vec2 corner = first ? a : a + (b - a) * (fa / (fa - fb));
+            if (!first || fa >= 0.0) push(inside, corner);
+            if (!first || fa <= 0.0) push(outside, corner);
         }
         a = b;
         fa = fb;

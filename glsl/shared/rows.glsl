@@ -22,6 +22,7 @@ struct Grid {
     ivec2 size;
     int channels;
     int first_word;
+    int head;     // of the texture's sums
     uvec2 address;
     bool linear;  // between texels colour changes linearly, not in steps
     vec2 scale;   // cells an axis a unit of the coordinate
@@ -32,100 +33,133 @@ struct Grid {
 
 int word(int index) { return int(texelFetch(row_sums, index).x); }
 
-Grid texture_grid(uint index, Texture image, Sampler how, int level) {
+// Level 0.
+Grid texture_grid(uint index, Texture image, Sampler how) {
     int head = word(int(index));
-    int coarsest = word(head + 1) - 1;
-    int held = min(level, coarsest);
-    ivec2 size = max(ivec2(image.place.yz) >> held, ivec2(1));
     bool linear = MODE_IS(FILTERS, FILTER_LINEAR, how.modes.z);
     bool integer = MODE_IS(TEXEL_CENTERS, TEXEL_CENTER_INTEGER, how.modes.w);
     // Linear cells lie between texel centres, of which the integer rule moves all by half a texel.
     float shift = (linear ? -0.5 : 0.0) + (integer ? 0.5 : 0.0);
-    bool clamped = MODE_IS(ADDRESSES_U, ADDRESS_CLAMP_TO_EDGE, how.modes.x) ||
-                   MODE_IS(ADDRESSES_V, ADDRESS_CLAMP_TO_EDGE, how.modes.y);
-    return Grid(false, level > coarsest, level > 0 && clamped, size, word(head), word(head + HEADER_WORDS + held),
-                how.modes.xy, linear, vec2(size), shift, uintBitsToFloat(texelFetch(row_sums, head + 2).x),
+    return Grid(false, false, false, ivec2(image.place.yz), word(head), word(head + HEADER_WORDS), head, how.modes.xy,
+                linear, vec2(image.place.yz), shift, uintBitsToFloat(texelFetch(row_sums, head + 2).x),
                 uintBitsToFloat(texelFetch(row_sums, head + 3).x));
 }
 
-Grid checker_grid(int level) {
-    return Grid(true, level > 0, false, ivec2(1), 1, 0, uvec2(0u), false, vec2(1.0), 0.0, 0.0, 1.0);
+Grid checker_grid() {
+    return Grid(true, false, false, ivec2(1), 1, 0, 0, uvec2(0u), false, vec2(1.0), 0.0, 0.0, 1.0);
+}
+
+// A coarser level of a grid; of a checker all of them are even.
+Grid coarser(Grid grid, int level) {
+    if (grid.checker) {
+        grid.even = true;
+        return grid;
+    }
+    int coarsest = word(grid.head + 1) - 1;
+    int held = min(level, coarsest);
+    grid.even = level > coarsest;
+    grid.unknown = MODE_IS(ADDRESSES_U, ADDRESS_CLAMP_TO_EDGE, grid.address.x) ||
+                   MODE_IS(ADDRESSES_V, ADDRESS_CLAMP_TO_EDGE, grid.address.y);
+    grid.size = max(grid.size >> held, ivec2(1));
+    grid.first_word = word(grid.head + HEADER_WORDS + held);
+    grid.scale = vec2(grid.size);
+    return grid;
 }
 
 // floor(a / b) for b > 0.
 int floor_div(int a, int b) { return a < 0 ? -1 - (-1 - a) / b : a / b; }
 
-// Codes of a row summed from column 0 to before column i, modulo 2^32.
-uvec3 stored_sum(Grid grid, int row, int i) {
-    int first = grid.first_word + (row * (grid.size.x + 1) + i) * grid.channels;
-    uint code = texelFetch(row_sums, first).x;
+// Codes of a row, which begins at word `first`, summed from column 0 to before column i, modulo 2^32.
+uvec3 stored_sum(Grid grid, int first, int i) {
+    int at_word = first + i * grid.channels;
+    uint code = texelFetch(row_sums, at_word).x;
     if (grid.channels == 1) return uvec3(code);
-    return uvec3(code, texelFetch(row_sums, first + 1).x, texelFetch(row_sums, first + 2).x);
+    return uvec3(code, texelFetch(row_sums, at_word + 1).x, texelFetch(row_sums, at_word + 2).x);
 }
 
-// The texture's row that an addressed one shows.
+// The first word of the texture's row that an addressed one shows; of a checker whether cells are odd.
 int addressed_row(Grid grid, int j) {
+    if (grid.checker) return j & 1;
     int size = grid.size.y;
-    if (MODE_IS(ADDRESSES_V, ADDRESS_REPEAT, grid.address.y)) return j - size * floor_div(j, size);
-    if (MODE_IS(ADDRESSES_V, ADDRESS_MIRRORED_REPEAT, grid.address.y)) {
+    int row = clamp(j, 0, size - 1);
+    if (MODE_IS(ADDRESSES_V, ADDRESS_REPEAT, grid.address.y)) {
+        if (TEXTURE_SIZES == (1u << TEXTURE_SIZE_POWER_OF_TWO)) row = j & (size - 1);
+        else row = j - size * floor_div(j, size);
+    } else if (MODE_IS(ADDRESSES_V, ADDRESS_MIRRORED_REPEAT, grid.address.y)) {
         int left = j - 2 * size * floor_div(j, 2 * size);
-        return left < size ? left : 2 * size - 1 - left;
+        row = left < size ? left : 2 * size - 1 - left;
     }
-    return clamp(j, 0, size - 1);
+    return grid.first_word + row * (grid.size.x + 1) * grid.channels;
 }
 
-// The same for any column, over repeats and edges: from column 0 to before column i, negative before it.
-// `row` is addressed; of a checker it is any.
-uvec3 row_sum(Grid grid, int row, int i) {
-    // Cells whose numbers sum to an odd one.
-    if (grid.checker) return uvec3(floor_div(i + (row & 1), 2));
+// Column i: the texel that it shows, and how often whole rows lie before it.
+struct Column {
+    int texel;
+    int rows;
+    bool back; // mirrored: it runs from the row's end
+};
+
+Column addressed_column(Grid grid, int i) {
     int size = grid.size.x;
-    // sum = times · (a whole row) + sign · (up to `first`)
-    int times = 0;
-    int first = i;
-    bool back = false;
+    Column column = Column(clamp(i, 0, size - 1), 0, false);
     if (MODE_IS(ADDRESSES_U, ADDRESS_REPEAT, grid.address.x)) {
-        times = floor_div(i, size);
-        first = i - size * times;
+        // A shift of whole powers of two floors.
+        if (TEXTURE_SIZES == (1u << TEXTURE_SIZE_POWER_OF_TWO)) column.rows = i >> findMSB(size);
+        else column.rows = floor_div(i, size);
+        column.texel = i - size * column.rows;
     } else if (MODE_IS(ADDRESSES_U, ADDRESS_MIRRORED_REPEAT, grid.address.x)) {
-        times = 2 * floor_div(i, 2 * size);
-        first = i - size * times;
-        back = first > size;
-        times += back ? 2 : 0;
-        first = back ? 2 * size - first : first;
-    } else {
-        first = clamp(i, 0, size);
+        int period = floor_div(i, 2 * size);
+        int left = i - 2 * size * period;
+        column.back = left >= size;
+        column.texel = column.back ? 2 * size - 1 - left : left;
+        column.rows = 2 * period + (column.back ? 2 : 0);
     }
-    uvec3 sum = stored_sum(grid, row, first);
-    sum = back ? uvec3(0u) - sum : sum;
-    if (times != 0) sum += uint(times) * stored_sum(grid, row, size);
-    if (MODE_IS(ADDRESSES_U, ADDRESS_CLAMP_TO_EDGE, grid.address.x) && first != i) {
-        uvec3 edge = i < 0 ? stored_sum(grid, row, 1) : sum - stored_sum(grid, row, size - 1);
-        sum += uint(i - first) * edge;
-    }
-    return sum;
+    return column;
 }
 
-// b - a as a signed number.
-vec3 difference(uvec3 a, uvec3 b) { return vec3(ivec3(b - a)); }
+// Codes of a column's texel, and summed up to it from column 0, negative before that.
+struct Codes {
+    uvec3 own;
+    uvec3 before;
+};
 
-// A row's texels i and i + 1, and the integral from the middle of texel `from` to that of texel i, or from edge
-// to edge where colour changes in steps.
+Codes codes_at(Grid grid, int row, int i) {
+    // A checker's cells of odd number are its figure: half of those before.
+    if (grid.checker) return Codes(uvec3((i + row) & 1), uvec3((i + row) >> 1));
+    Column column = addressed_column(grid, i);
+    uvec3 low = stored_sum(grid, row, column.texel);
+    uvec3 high = stored_sum(grid, row, column.texel + 1);
+    Codes codes = Codes(high - low, column.back ? uvec3(0u) - high : low);
+    if (column.rows != 0) codes.before += uint(column.rows) * stored_sum(grid, row, grid.size.x);
+    if (MODE_IS(ADDRESSES_U, ADDRESS_CLAMP_TO_EDGE, grid.address.x)) codes.before += uint(i - column.texel) * codes.own;
+    return codes;
+}
+
+// Where the integrals along a row begin.
+struct Row {
+    int first;
+    Codes start;
+};
+
+Row load_row(Grid grid, ivec2 base, int j) {
+    int first = addressed_row(grid, base.y + j);
+    return Row(first, codes_at(grid, first, base.x));
+}
+
+// Of a cell of a row: its texel and the next one, and the integral from the middle of the base's texel to that of its own, or
+// from edge to edge where colour changes in steps.
 struct Stretch {
     vec3 own;
     vec3 right;
     vec3 whole;
 };
 
-Stretch stretch(Grid grid, int j, int from, int i) {
-    int row = grid.checker ? j : addressed_row(grid, j);
-    uvec3 start = row_sum(grid, row, from);
-    uvec3 here = row_sum(grid, row, i);
-    uvec3 next = row_sum(grid, row, i + 1);
-    Stretch s = Stretch(difference(here, next), vec3(0.0), difference(start, here));
+Stretch stretch(Grid grid, Row row, int i) {
+    Codes here = codes_at(grid, row.first, i);
+    Stretch s = Stretch(vec3(ivec3(here.own)), vec3(0.0), vec3(ivec3(here.before - row.start.before)));
     if (grid.linear) {
-        s.right = difference(next, row_sum(grid, row, i + 2));
-        s.whole += 0.5 * (s.own - difference(start, row_sum(grid, row, from + 1)));
+        s.right = vec3(ivec3(codes_at(grid, row.first, i + 1).own));
+        s.whole += 0.5 * (s.own - vec3(ivec3(row.start.own)));
     }
     return s;
 }
@@ -134,13 +168,6 @@ Stretch stretch(Grid grid, int j, int from, int i) {
 vec3 along_row(Grid grid, Stretch row, float s) {
     vec3 sum = row.whole + s * row.own;
     if (grid.linear) sum += (0.5 * s * s) * (row.right - row.own);
-    return sum;
-}
-
-// C in a cell.
-vec3 primitive(Grid grid, Stretch low, Stretch high, vec2 within) {
-    vec3 sum = along_row(grid, low, within.x);
-    if (grid.linear) sum += within.y * (along_row(grid, high, within.x) - sum);
     return sum;
 }
 
@@ -156,13 +183,16 @@ const float GAUSS = 0.57735026918962576; // 1 / √3
 // devices end loops early.
 vec3 edge_integral(Grid grid, ivec2 base, vec2 a, vec2 b, inout bool ended) {
     vec2 way = b - a;
-    if (way.y == 0.0) return vec3(0.0);
     ivec2 cell = ivec2(floor(a));
     ivec2 last = ivec2(floor(b));
     ivec2 forward = ivec2(way.x > 0.0 ? 1 : 0, way.y > 0.0 ? 1 : 0);
     vec3 sum = vec3(0.0);
     float done = 0.0;
     uint cells = cells_between(a, b);
+    uint rows = grid.linear ? 2u : 1u;
+    Row low;
+    Row high;
+    bool fresh = true;
     uint k = 0u;
     for (; k <= cells; k++) {
         // Where on the edge the next line of the grid is met.
@@ -170,15 +200,23 @@ vec3 edge_integral(Grid grid, ivec2 base, vec2 a, vec2 b, inout bool ended) {
         bool down = cell.x == last.x || (cell.y != last.y && ends.y < ends.x);
         float end = cell == last ? 1.0 : max(down ? ends.y : ends.x, done);
         float half_way = 0.5 * (end - done);
-        ivec2 texel = base + cell;
-        Stretch low = stretch(grid, texel.y, base.x, texel.x);
-        Stretch high = low;
-        if (grid.linear) high = stretch(grid, texel.y + 1, base.x, texel.x);
         // Gauss's two points: exact for what is cubic along the edge.
         vec2 first = clamp(a + way * (done + half_way * (1.0 - GAUSS)) - vec2(cell), 0.0, 1.0);
         vec2 second = clamp(a + way * (done + half_way * (1.0 + GAUSS)) - vec2(cell), 0.0, 1.0);
-        sum += half_way * (primitive(grid, low, high, first) + primitive(grid, low, high, second));
+        for (uint r = 0u; r < rows; r++) {
+            Row row = low;
+            if (r == 1u) row = high;
+            if (fresh) row = load_row(grid, base, cell.y + int(r));
+            if (r == 0u) low = row;
+            else high = row;
+            Stretch s = stretch(grid, row, base.x + cell.x);
+            vec2 weights = vec2(1.0);
+            if (grid.linear) weights = r == 0u ? 1.0 - vec2(first.y, second.y) : vec2(first.y, second.y);
+            weights *= half_way;
+            sum += weights.x * along_row(grid, s, first.x) + weights.y * along_row(grid, s, second.x);
+        }
         done = end;
+        fresh = down;
         if (down) cell.y += 2 * forward.y - 1;
         else cell.x += 2 * forward.x - 1;
     }
@@ -188,12 +226,14 @@ vec3 edge_integral(Grid grid, ivec2 base, vec2 a, vec2 b, inout bool ended) {
 
 // The colour at a place of a cell.
 vec3 value_in(Grid grid, ivec2 cell, vec2 within) {
-    Stretch low = stretch(grid, cell.y, cell.x, cell.x);
-    if (!grid.linear) return low.own;
-    Stretch high = stretch(grid, cell.y + 1, cell.x, cell.x);
-    vec3 a = low.own + within.x * (low.right - low.own);
-    vec3 b = high.own + within.x * (high.right - high.own);
-    return a + within.y * (b - a);
+    vec3 sum = vec3(0.0);
+    for (int r = 0; r < (grid.linear ? 2 : 1); r++) {
+        Stretch s = stretch(grid, load_row(grid, cell, r), cell.x);
+        vec3 value = s.own;
+        if (grid.linear) value = (s.own + within.x * (s.right - s.own)) * (r == 0 ? 1.0 - within.y : within.y);
+        sum += value;
+    }
+    return sum;
 }
 
 const float FARTHEST = 1e8;       // in cells
@@ -226,29 +266,46 @@ float longest_edge(Polygon polygon, Quotient quotient) {
     return reach;
 }
 
+// An edge is level that rises by so little of the polygon's height: its integral is less than what rounding
+// makes of it.
+const float LEVEL = 3e-5;
+
+float rows_covered(Polygon polygon, Quotient quotient) {
+    vec2 ends = vec2(FARTHEST, -FARTHEST);
+    for (uint k = 0u; k < polygon.count; k++) {
+        float row = place_in(quotient, polygon.corners[k]).y;
+        ends = vec2(min(ends.x, row), max(ends.y, row));
+    }
+    return ends.y - ends.x;
+}
+
 // Mean colour, in codes, over the texture space that a polygon shows. Cells that were crossed are counted.
 vec3 mean_over(Grid grid, Polygon polygon, Quotient quotient, bool small, inout uint crossed, inout bool ended) {
-    if (grid.even) return grid.checker ? vec3(0.5) : difference(row_sum(grid, 0, 0), row_sum(grid, 0, 1));
+    if (grid.even && grid.checker) return vec3(0.5);
     vec2 place = place_in(in_grid(grid, quotient, ivec2(0)), middle(polygon));
     vec2 cell = floor(place);
     ivec2 base = ivec2(cell);
-    vec3 mean = value_in(grid, base, place - cell);
-    if (small) return mean;
-    Quotient near = in_grid(grid, quotient, base);
-    vec3 integral = vec3(0.0);
-    float covered = 0.0;
-    vec2 a = place_in(near, polygon.corners[0]);
-    uint k = 1u;
-    for (; k <= polygon.count; k++) {
-        vec2 b = place_in(near, polygon.corners[k == polygon.count ? 0u : k]);
-        integral += edge_integral(grid, base, a, b, ended);
-        covered += 0.5 * (a.x + b.x) * (b.y - a.y);
-        crossed += 1u + cells_between(a, b);
-        a = b;
+    if (!small && !grid.even) {
+        Quotient near = in_grid(grid, quotient, base);
+        vec3 integral = vec3(0.0);
+        float covered = 0.0;
+        float height = rows_covered(polygon, near);
+        vec2 a = place_in(near, polygon.corners[0]);
+        uint k = 1u;
+        for (; k <= polygon.count; k++) {
+            vec2 b = place_in(near, polygon.corners[k == polygon.count ? 0u : k]);
+            if (abs(b.y - a.y) > LEVEL * height) {
+                integral += edge_integral(grid, base, a, b, ended);
+                covered += 0.5 * (a.x + b.x) * (b.y - a.y);
+                crossed += 1u + cells_between(a, b);
+            }
+            a = b;
+        }
+        ended = ended && k > polygon.count;
+        if (covered != 0.0) return integral / covered;
     }
-    ended = ended && k > polygon.count;
-    // What has no area shows the colour of its middle.
-    return covered == 0.0 ? mean : integral / covered;
+    // What has no area shows the colour of its middle; the coarsest level has one everywhere.
+    return value_in(grid, base, place - cell);
 }
 
 #endif
