@@ -18,20 +18,13 @@ const uint MOST_CELLS = 40000u; // of textures that a pixel's edges may cross
 // Planes whose nearness differs by less, relatively, lie in each other: the first of the list is seen.
 const float COPLANAR = 4e-6;
 
-// A part of the pixel, and how its rays go.
+// How the rays of a part of the pixel go.
 struct Beam {
-    Polygon polygon;
     Frame frame;
     vec3 carried;
     uint skip;  // the mirror that it left, and that one's nearness
     vec3 limit;
     uint depth;
-};
-
-// A part of the picture, of which the first `stage` tests are done.
-struct Piece {
-    Polygon polygon;
-    uint stage;
 };
 
 // What a piece is painted with.
@@ -47,31 +40,37 @@ struct Paint {
 Region met[MAX_MET + 1u]; // the last: of a shadow
 uint met_shapes[MAX_MET];
 uint met_count;
-Piece pieces[MAX_PIECES];
+uint stages[MAX_PIECES]; // a waiting piece: how many tests are done
 uint waiting;
 Beam beams[MAX_BEAMS];
 uint waiting_beams;
 bool gave_up;
 uint crossed;
 
-void push_piece(Polygon polygon, uint stage) {
-    if (waiting < MAX_PIECES) {
-        pieces[waiting].stage = stage;
-        pieces[waiting].polygon.count = polygon.count;
-        for (uint k = 0u; k < polygon.count; k++) pieces[waiting].polygon.corners[k] = polygon.corners[k];
-        waiting++;
-    } else {
-        gave_up = true;
-    }
+// Polygons: the waiting pieces with room for one more, those of waiting beams, and
+const uint BEAMS_AT = MAX_PIECES + 1u;
+const uint WHOLE = BEAMS_AT + MAX_BEAMS; // of the beam
+const uint PIECE = WHOLE + 1u;           // that was taken from the waiting ones
+const uint OTHER = PIECE + 1u;           // the piece with the next part cut away
+const uint SEEN = OTHER + 1u;            // a visible one
+const uint STRIP = SEEN + 1u;            // of a piece
+
+// The polygon at the end of the waiting ones becomes one of them.
+void keep_piece(uint stage) {
+    if (waiting < MAX_PIECES) stages[waiting++] = stage;
+    else gave_up = true;
 }
 
-Piece pop_piece() {
+void push_piece(uint polygon, uint stage) {
+    copy(polygon, waiting);
+    keep_piece(stage);
+}
+
+// Takes the last of them as PIECE; what is returned is its stage.
+uint pop_piece() {
     waiting--;
-    Piece piece;
-    piece.stage = pieces[waiting].stage;
-    piece.polygon.count = pieces[waiting].polygon.count;
-    for (uint k = 0u; k < piece.polygon.count; k++) piece.polygon.corners[k] = pieces[waiting].polygon.corners[k];
-    return piece;
+    copy(waiting, PIECE);
+    return stages[waiting];
 }
 
 // Material and map.
@@ -121,12 +120,12 @@ void find_shapes(Header header, Beam beam) {
     for (uint shape = 0u; shape < shapes; shape++) {
         if (shape == beam.skip) continue;
         if (SPHERES != 0u && shape >= planes && shape < before_triangles) {
-            if (may_meet_sphere(header, beam.frame, beam.polygon, sphere_at(shape - planes))) gave_up = true;
+            if (may_meet_sphere(header, beam.frame, WHOLE, sphere_at(shape - planes))) gave_up = true;
             continue;
         }
         Region region = shape_region(header, beam.frame, shape);
         bool touches = true;
-        for (uint k = 0u; k < region.count; k++) touches = touches && range(beam.polygon, region.lines[k]).y > 0.0;
+        for (uint k = 0u; k < region.count; k++) touches = touches && range(WHOLE, region.lines[k]).y > 0.0;
         if (!touches) continue;
         if (met_count < MAX_MET) {
             met[met_count].count = region.count;
@@ -141,7 +140,7 @@ void find_shapes(Header header, Beam beam) {
 }
 
 // Positive where `by` lies before `own`.
-vec3 before(uint by, uint own, Polygon polygon) {
+vec3 before(uint by, uint own, uint polygon) {
     vec3 apart = met[by].nearness - met[own].nearness;
     vec2 ends = range(polygon, apart);
     vec2 sizes = range(polygon, met[own].nearness);
@@ -149,35 +148,28 @@ vec3 before(uint by, uint own, Polygon polygon) {
     return vec3(0.0, 0.0, by < own ? 1.0 : -1.0);
 }
 
-// Cuts the piece along the lines of a shape that is met, of which `first` is one more. What lies within them all
+// Cuts PIECE along the lines of a shape that is met, of which `first` is one more. What lies within them all
 // is kept, or all else is.
-void carve(Piece piece, uint by, bool has_first, vec3 first, bool kept) {
-    Polygon rest;
-    copy(piece.polygon, rest);
+void carve(uint stage, uint by, bool has_first, vec3 first, bool kept) {
+    uint rest = PIECE;
     uint k = has_first ? 0u : 1u;
     bool gone = false;
     uint count = met[by].count;
     for (; k <= count && !gone; k++) {
         vec3 line = first;
         if (k > 0u) line = met[by].lines[k - 1u];
-        vec2 ends = range(rest, line);
-        if (ends.x >= 0.0) continue;
-        Polygon inside;
-        Polygon outside;
-        split(rest, line, inside, outside);
-        if (max(inside.count, outside.count) > MAX_CORNERS) {
-            gave_up = true;
-            return;
-        }
-        if (!kept && area(outside) > LEAST_AREA) push_piece(outside, piece.stage + 1u);
-        copy(inside, rest);
+        if (range(rest, line).x >= 0.0) continue;
+        uint inside = PIECE + OTHER - rest;
+        if (!split(rest, line, inside, waiting)) gave_up = true;
+        if (!kept && area(waiting) > LEAST_AREA) keep_piece(stage + 1u);
+        rest = inside;
         gone = area(rest) <= LEAST_AREA;
     }
-    if (kept && !gone) push_piece(rest, piece.stage + 1u);
+    if (kept && !gone) push_piece(rest, stage + 1u);
 }
 
 // A light behind the surface, as its beam sees it, gives nothing.
-bool is_lit(Header header, Paint paint, Polygon polygon, Light light) {
+bool is_lit(Header header, Paint paint, uint polygon, Light light) {
     vec3 way;
     vec3 origin;
     ray_at(header, paint.frame, middle(polygon), way, origin);
@@ -187,7 +179,7 @@ bool is_lit(Header header, Paint paint, Polygon polygon, Light light) {
 }
 
 // Irradiance over pi at the middle of a strip, of a light that it sees.
-vec3 irradiance(Header header, Paint paint, Polygon strip, Light light) {
+vec3 irradiance(Header header, Paint paint, uint strip, Light light) {
     vec3 n = paint.plane.xyz;
     vec3 power = light.power.xyz * (1.0 / PI);
     if (!MODE_IS(LIGHT_KINDS, LIGHT_POINT, light.link.x)) return power * abs(dot3(n, light.place.xyz));
@@ -197,11 +189,11 @@ vec3 irradiance(Header header, Paint paint, Polygon strip, Light light) {
 }
 
 // False where no way from the piece to the light can pass the sphere.
-bool may_shade(Header header, Paint paint, Polygon polygon, Light light, Sphere sphere) {
+bool may_shade(Header header, Paint paint, uint polygon, Light light, Sphere sphere) {
     vec3 from = point_at(header, paint.frame, paint.near, middle(polygon));
     float wide = 0.0;
-    for (uint k = 0u; k < polygon.count; k++) {
-        vec3 apart = point_at(header, paint.frame, paint.near, polygon.corners[k]) - from;
+    for (uint k = 0u; k < counts[polygon]; k++) {
+        vec3 apart = point_at(header, paint.frame, paint.near, corner(polygon, k)) - from;
         wide = max(wide, sqrt(dot3(apart, apart)));
     }
     bool point_light = MODE_IS(LIGHT_KINDS, LIGHT_POINT, light.link.x);
@@ -222,7 +214,7 @@ const float LOG2_E = 1.44269504088896;
 const float CELLS_OF_AN_EDGE = 32.0;
 const float CELLS_OF_ALL = 512.0;
 
-vec3 mean_color(Material record, Grid grid, Polygon strip, Quotient quotient, float most, inout bool ended) {
+vec3 mean_color(Material record, Grid grid, uint strip, Quotient quotient, float most, inout bool ended) {
     float reach = longest_edge(strip, in_grid(grid, quotient, ivec2(0)));
     // The level at which it is short enough.
     if (reach > most) grid = coarser(grid, int(ceil(log2_accurate(reach / most))));
@@ -238,12 +230,12 @@ vec3 mean_color(Material record, Grid grid, Polygon strip, Quotient quotient, fl
     return vec3(grid.least) + grid.step * mean;
 }
 
-// Texture times irradiance / pi, integrated over the piece, in strips within which the depth hardly changes: there
+// Texture times irradiance / pi, integrated over PIECE, in strips within which the depth hardly changes: there
 // equal areas of the texture are equal areas of the picture.
-vec3 integral(Header header, Paint paint, Polygon polygon, bool has_light, Light light) {
+vec3 integral(Header header, Paint paint, bool has_light, Light light) {
     bool textured = TEXTURED && paint.record.link.y != NO_TEXTURE;
     vec3 depth = textured ? paint.quotient.below : below(header, paint.near);
-    vec2 ends = range(polygon, depth);
+    vec2 ends = range(PIECE, depth);
     float span = min(log2_accurate(ends.y / max(ends.x, 1e-30 * ends.y)) / LOG2_E, DEEPEST);
     float strips = 1.0;
     if (textured || has_light) strips = clamp(ceil(sqrt(STRIPS * span)), 1.0, MOST_STRIPS);
@@ -254,60 +246,56 @@ vec3 integral(Header header, Paint paint, Polygon polygon, bool has_light, Light
         bool checker = MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_PROCEDURAL, image.link.w);
         if (!checker) grid = texture_grid(paint.record.link.y, image, sampler_at(paint.record.link.z));
     }
-    Polygon rest;
-    copy(polygon, rest);
+    uint rest = PIECE;
     vec3 sum = vec3(0.0);
     bool ended = true;
     float k = 1.0;
     for (; k <= strips && !gave_up; k += 1.0) {
         // Beyond the last strip lies nothing.
         float limit = k < strips ? ends.y * exp2_accurate(-span * k / strips * LOG2_E) : -1.0;
-        Polygon strip;
-        Polygon beyond;
-        split(rest, depth - vec3(0.0, 0.0, limit), strip, beyond);
-        if (max(strip.count, beyond.count) > MAX_CORNERS) gave_up = true;
-        copy(beyond, rest);
-        float share = area(strip);
-        if (strip.count < 3u || share <= 0.0) continue;
+        uint beyond = PIECE + OTHER - rest;
+        if (!split(rest, depth - vec3(0.0, 0.0, limit), STRIP, beyond)) gave_up = true;
+        rest = beyond;
+        float share = area(STRIP);
+        if (!(share > 0.0)) continue;
         vec3 color = vec3(1.0);
-        if (textured) color = mean_color(paint.record, grid, strip, paint.quotient, most, ended);
+        if (textured) color = mean_color(paint.record, grid, STRIP, paint.quotient, most, ended);
         if (crossed > MOST_CELLS) gave_up = true;
-        if (LIGHTS != 0u && has_light) color *= irradiance(header, paint, strip, light);
+        if (LIGHTS != 0u && has_light) color *= irradiance(header, paint, STRIP, light);
         sum += share * color;
     }
     if (!ended || k <= strips) gave_up = true;
     return sum;
 }
 
-// The integral over those parts of a piece that see the light; without one, over all of it.
-vec3 lit_by(Header header, Paint paint, uint shape, Polygon polygon, bool has_light, Light light) {
+// The integral over those parts of SEEN that see the light; without one, over all of it.
+vec3 lit_by(Header header, Paint paint, uint shape, bool has_light, Light light) {
     uint planes = COUNT(PLANES, header.counts.x);
     uint before_triangles = planes + COUNT(SPHERES, header.counts.y);
     uint shapes = before_triangles + COUNT(TRIANGLES, header.counts.z);
     vec3 sum = vec3(0.0);
     uint bottom = waiting;
-    if (!has_light) push_piece(polygon, shapes);
-    else if (is_lit(header, paint, polygon, light)) push_piece(polygon, 0u);
+    if (!has_light) push_piece(SEEN, shapes);
+    else if (is_lit(header, paint, SEEN, light)) push_piece(SEEN, 0u);
     while (waiting > bottom && !gave_up) {
-        Piece piece = pop_piece();
-        uint by = piece.stage;
+        uint by = pop_piece();
         if (LIGHTS == 0u || by == shapes) {
-            sum += integral(header, paint, piece.polygon, has_light, light);
+            sum += integral(header, paint, has_light, light);
             continue;
         }
         bool is_sphere = SPHERES != 0u && by >= planes && by < before_triangles;
-        if (is_sphere && may_shade(header, paint, piece.polygon, light, sphere_at(by - planes))) gave_up = true;
-        if (by == shape || is_sphere) push_piece(piece.polygon, by + 1u);
+        if (is_sphere && may_shade(header, paint, PIECE, light, sphere_at(by - planes))) gave_up = true;
+        if (by == shape || is_sphere) push_piece(PIECE, by + 1u);
         else {
             met[MAX_MET] = shadow_region(header, paint.frame, paint.near, by, light);
-            carve(piece, MAX_MET, false, vec3(0.0), false);
+            carve(by, MAX_MET, false, vec3(0.0), false);
         }
     }
     return sum;
 }
 
-// A visible piece: its colour, or the beam that goes on.
-vec3 shade(Header header, Beam beam, uint own, Polygon polygon) {
+// SEEN, a visible piece: its colour, or the beam that goes on.
+vec3 shade(Header header, Beam beam, uint own) {
     uint shape = met_shapes[own];
     uvec2 link = links(header, shape);
     Material record = material_at(link.x);
@@ -326,7 +314,8 @@ vec3 shade(Header header, Beam beam, uint own, Polygon polygon) {
         }
         vec4 plane = shape_plane(header, shape);
         Frame frame = mirrored_frame(header, beam.frame, plane.xyz, plane.w);
-        beams[waiting_beams] = Beam(polygon, frame, carried, shape, near, beam.depth + 1u);
+        copy(SEEN, BEAMS_AT + waiting_beams);
+        beams[waiting_beams] = Beam(frame, carried, shape, near, beam.depth + 1u);
         waiting_beams++;
         return vec3(0.0);
     }
@@ -340,7 +329,7 @@ vec3 shade(Header header, Beam beam, uint own, Polygon polygon) {
     for (; i < lights && !gave_up; i++) {
         Light light = Light(vec4(0.0), vec4(0.0), uvec4(0u));
         if (LIGHTS != 0u && !unlit) light = light_at(i);
-        sum += lit_by(header, paint, shape, polygon, LIGHTS != 0u && !unlit, light);
+        sum += lit_by(header, paint, shape, LIGHTS != 0u && !unlit, light);
     }
     if (i < lights) gave_up = true;
     return carried * sum;
@@ -349,26 +338,27 @@ vec3 shade(Header header, Beam beam, uint own, Polygon polygon) {
 // Everything that one beam sees but for what its mirrors send on.
 vec3 follow(Header header, Beam beam) {
     find_shapes(header, beam);
-    float left = area(beam.polygon);
+    float left = area(WHOLE);
     vec3 sum = vec3(0.0);
     uint own = 0u;
     for (; own < met_count && !gave_up; own++) {
-        push_piece(beam.polygon, 0u);
+        push_piece(WHOLE, 0u);
         while (waiting > 0u && !gave_up) {
-            Piece piece = pop_piece();
+            uint stage = pop_piece();
             // Stage 0 cuts out the shape itself, the others take away what lies before it.
-            if (piece.stage > met_count) {
-                left -= area(piece.polygon);
-                sum += shade(header, beam, own, piece.polygon);
-            } else if (piece.stage == own + 1u) {
-                push_piece(piece.polygon, piece.stage + 1u);
+            if (stage > met_count) {
+                left -= area(PIECE);
+                copy(PIECE, SEEN);
+                sum += shade(header, beam, own);
+            } else if (stage == own + 1u) {
+                push_piece(PIECE, stage + 1u);
             } else {
-                bool kept = piece.stage == 0u;
-                uint by = kept ? own : piece.stage - 1u;
+                bool kept = stage == 0u;
+                uint by = kept ? own : stage - 1u;
                 bool mirrored = BOUNCES && beam.skip != NO_SHAPE;
                 // What lies before the mirror that the beam left is not seen.
-                vec3 first = kept ? beam.limit - met[own].nearness : before(by, own, piece.polygon);
-                carve(piece, by, !kept || mirrored, first, kept);
+                vec3 first = kept ? beam.limit - met[own].nearness : before(by, own, PIECE);
+                carve(stage, by, !kept || mirrored, first, kept);
             }
         }
     }
@@ -391,7 +381,8 @@ void main() {
     waiting = 0u;
     waiting_beams = 0u;
     vec3 color = vec3(0.0);
-    Beam beam = Beam(unit_square(), pixel_frame(header, pixel), vec3(1.0), NO_SHAPE, vec3(0.0), 0u);
+    unit_square(WHOLE);
+    Beam beam = Beam(pixel_frame(header, pixel), vec3(1.0), NO_SHAPE, vec3(0.0), 0u);
     bool more = true;
     while (more && !gave_up) {
         color += follow(header, beam);
@@ -399,6 +390,7 @@ void main() {
         if (more) {
             waiting_beams--;
             beam = beams[waiting_beams];
+            copy(BEAMS_AT + waiting_beams, WHOLE);
         }
     }
     film[place.y * header.size.x + place.x] = vec4(color, gave_up || more ? 1.0 : 0.0);

@@ -219,7 +219,7 @@ Region shadow_region(Header header, Frame frame, vec3 near, uint shape, Light li
 }
 
 // False where no ray of the polygon can meet the sphere.
-bool may_meet_sphere(Header header, Frame frame, Polygon polygon, Sphere sphere) {
+bool may_meet_sphere(Header header, Frame frame, uint polygon, Sphere sphere) {
     vec3 way;
     vec3 origin;
     ray_at(header, frame, middle(polygon), way, origin);
@@ -232,10 +232,10 @@ bool may_meet_sphere(Header header, Frame frame, Polygon polygon, Sphere sphere)
     // The tangent of the widest angle to a corner, or the farthest of the parallel rays.
     float wide = 0.0;
     bool parallel = is_parallel(header);
-    for (uint k = 0u; k < polygon.count; k++) {
+    for (uint k = 0u; k < counts[polygon]; k++) {
         vec3 w;
         vec3 o;
-        ray_at(header, frame, polygon.corners[k], w, o);
+        ray_at(header, frame, corner(polygon, k), w, o);
         vec3 apart = parallel ? o - origin : cross3(w, unit);
         wide = max(wide, sqrt(dot3(apart, apart)) / (parallel ? 1.0 : dot3(w, unit)));
     }

@@ -10,67 +10,72 @@ const uint MAX_CORNERS = 12u;
 // What is smaller is dropped, in pixels².
 const float LEAST_AREA = 1e-7;
 
-// Corners in order; fewer than three are no area.
-struct Polygon {
-    uint count;
-    vec2 corners[MAX_CORNERS];
-};
+// A thread's polygons lie in one list, and go by their number in it: compilers move structures that hold lists
+// element by element. Corners in order; fewer than three are no area.
+const uint MAX_POLYGONS = 24u;
+vec2 corners[MAX_POLYGONS * MAX_CORNERS];
+uint counts[MAX_POLYGONS];
+
+vec2 corner(uint polygon, uint k) { return corners[polygon * MAX_CORNERS + k]; }
+
+// The one that follows corner k - 1: after the last comes the first.
+vec2 next_corner(uint polygon, uint k) { return corner(polygon, k == counts[polygon] ? 0u : k); }
 
 // f(x, y) = f.x x + f.y y + f.z.
 float at(vec3 form, vec2 place) { return (form.x * place.x + form.y * place.y) + form.z; }
 
 // The whole pixel.
-Polygon unit_square() {
-    Polygon square;
-    square.count = 4u;
-    square.corners[0] = vec2(0.0, 0.0);
-    square.corners[1] = vec2(1.0, 0.0);
-    square.corners[2] = vec2(1.0, 1.0);
-    square.corners[3] = vec2(0.0, 1.0);
-    return square;
+void unit_square(uint polygon) {
+    counts[polygon] = 4u;
+    for (uint k = 0u; k < 4u; k++) {
+        corners[polygon * MAX_CORNERS + k] = vec2(k == 1u || k == 2u ? 1.0 : 0.0, k > 1u ? 1.0 : 0.0);
+    }
 }
 
-void push(inout Polygon polygon, vec2 corner) {
-    if (polygon.count < MAX_CORNERS) polygon.corners[polygon.count] = corner;
-    polygon.count++;
+void push(uint polygon, vec2 corner) {
+    uint count = counts[polygon];
+    if (count < MAX_CORNERS) corners[polygon * MAX_CORNERS + count] = corner;
+    counts[polygon] = count + 1u;
 }
 
-// Copies the corners that there are: some compilers move whole lists lane by lane.
-void copy(Polygon from, out Polygon to) {
-    to.count = from.count;
-    for (uint k = 0u; k < from.count; k++) to.corners[k] = from.corners[k];
+void copy(uint from, uint to) {
+    counts[to] = counts[from];
+    for (uint k = 0u; k < counts[from]; k++) corners[to * MAX_CORNERS + k] = corner(from, k);
 }
 
-// Where the form is positive, and where it is negative. A side with more than MAX_CORNERS corners has lost
-// some.
-void split(Polygon polygon, vec3 form, out Polygon inside, out Polygon outside) {
-    inside.count = 0u;
-    outside.count = 0u;
-    vec2 a = polygon.corners[0];
+// Where the form is positive, and where it is negative. False when a side has lost corners, as it has more
+// than MAX_CORNERS.
+bool split(uint polygon, vec3 form, uint inside, uint outside) {
+    counts[inside] = 0u;
+    counts[outside] = 0u;
+    vec2 a = corner(polygon, 0u);
     float fa = at(form, a);
-    for (uint k = 1u; k <= polygon.count; k++) {
-        vec2 b = polygon.corners[k == polygon.count ? 0u : k];
+    for (uint k = 1u; k <= counts[polygon]; k++) {
+        vec2 b = next_corner(polygon, k);
         float fb = at(form, b);
         bool cuts = (fa < 0.0 && fb > 0.0) || (fa > 0.0 && fb < 0.0);
+        vec2 place = a;
+        bool first = true;
         // First the corner, then the place where the edge is cut.
         for (uint turn = 0u; turn < (cuts ? 2u : 1u); turn++) {
-            bool first = turn == 0u;
-            vec2 corner = first ? a : a + (b - a) * (fa / (fa - fb));
-            if (!first || fa >= 0.0) push(inside, corner);
-            if (!first || fa <= 0.0) push(outside, corner);
+            if (!first || fa >= 0.0) push(inside, place);
+            if (!first || fa <= 0.0) push(outside, place);
+            place = a + (b - a) * (fa / (fa - fb));
+            first = false;
         }
         a = b;
         fa = fb;
     }
+    return max(counts[inside], counts[outside]) <= MAX_CORNERS;
 }
 
 // Signed area by the shoelace formula, counted from the first corner.
-float area(Polygon polygon) {
+float area(uint polygon) {
     float twice = 0.0;
-    vec2 first = polygon.corners[0];
-    vec2 a = polygon.corners[1] - first;
-    for (uint k = 2u; k < polygon.count; k++) {
-        vec2 b = polygon.corners[k] - first;
+    vec2 first = corner(polygon, 0u);
+    vec2 a = vec2(0.0);
+    for (uint k = 1u; k < counts[polygon]; k++) {
+        vec2 b = corner(polygon, k) - first;
         twice += a.x * b.y - a.y * b.x;
         a = b;
     }
@@ -78,17 +83,17 @@ float area(Polygon polygon) {
 }
 
 // The mean of the corners.
-vec2 middle(Polygon polygon) {
+vec2 middle(uint polygon) {
     vec2 sum = vec2(0.0);
-    for (uint k = 0u; k < polygon.count; k++) sum += polygon.corners[k];
-    return sum / float(polygon.count);
+    for (uint k = 0u; k < counts[polygon]; k++) sum += corner(polygon, k);
+    return sum / float(counts[polygon]);
 }
 
 // The least and the greatest value of a form on a polygon.
-vec2 range(Polygon polygon, vec3 form) {
+vec2 range(uint polygon, vec3 form) {
     vec2 ends = vec2(3e38, -3e38);
-    for (uint k = 0u; k < polygon.count; k++) {
-        float value = at(form, polygon.corners[k]);
+    for (uint k = 0u; k < counts[polygon]; k++) {
+        float value = at(form, corner(polygon, k));
         ends = vec2(min(ends.x, value), max(ends.y, value));
     }
     return ends;

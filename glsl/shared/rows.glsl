@@ -254,11 +254,11 @@ vec2 place_in(Quotient quotient, vec2 place) {
 }
 
 // The longest edge of a polygon, in cells.
-float longest_edge(Polygon polygon, Quotient quotient) {
-    vec2 a = place_in(quotient, polygon.corners[0]);
+float longest_edge(uint polygon, Quotient quotient) {
+    vec2 a = place_in(quotient, corner(polygon, 0u));
     float reach = 0.0;
-    for (uint k = 1u; k <= polygon.count; k++) {
-        vec2 b = place_in(quotient, polygon.corners[k == polygon.count ? 0u : k]);
+    for (uint k = 1u; k <= counts[polygon]; k++) {
+        vec2 b = place_in(quotient, next_corner(polygon, k));
         vec2 way = abs(b - a);
         reach = max(reach, way.x + way.y);
         a = b;
@@ -270,17 +270,17 @@ float longest_edge(Polygon polygon, Quotient quotient) {
 // makes of it.
 const float LEVEL = 3e-5;
 
-float rows_covered(Polygon polygon, Quotient quotient) {
+float rows_covered(uint polygon, Quotient quotient) {
     vec2 ends = vec2(FARTHEST, -FARTHEST);
-    for (uint k = 0u; k < polygon.count; k++) {
-        float row = place_in(quotient, polygon.corners[k]).y;
+    for (uint k = 0u; k < counts[polygon]; k++) {
+        float row = place_in(quotient, corner(polygon, k)).y;
         ends = vec2(min(ends.x, row), max(ends.y, row));
     }
     return ends.y - ends.x;
 }
 
 // Mean colour, in codes, over the texture space that a polygon shows. Cells that were crossed are counted.
-vec3 mean_over(Grid grid, Polygon polygon, Quotient quotient, bool small, inout uint crossed, inout bool ended) {
+vec3 mean_over(Grid grid, uint polygon, Quotient quotient, bool small, inout uint crossed, inout bool ended) {
     if (grid.even && grid.checker) return vec3(0.5);
     vec2 place = place_in(in_grid(grid, quotient, ivec2(0)), middle(polygon));
     vec2 cell = floor(place);
@@ -290,10 +290,10 @@ vec3 mean_over(Grid grid, Polygon polygon, Quotient quotient, bool small, inout 
         vec3 integral = vec3(0.0);
         float covered = 0.0;
         float height = rows_covered(polygon, near);
-        vec2 a = place_in(near, polygon.corners[0]);
+        vec2 a = place_in(near, corner(polygon, 0u));
         uint k = 1u;
-        for (; k <= polygon.count; k++) {
-            vec2 b = place_in(near, polygon.corners[k == polygon.count ? 0u : k]);
+        for (; k <= counts[polygon]; k++) {
+            vec2 b = place_in(near, next_corner(polygon, k));
             if (abs(b.y - a.y) > LEVEL * height) {
                 integral += edge_integral(grid, base, a, b, ended);
                 covered += 0.5 * (a.x + b.x) * (b.y - a.y);
@@ -301,7 +301,7 @@ vec3 mean_over(Grid grid, Polygon polygon, Quotient quotient, bool small, inout 
             }
             a = b;
         }
-        ended = ended && k > polygon.count;
+        ended = ended && k > counts[polygon];
         if (covered != 0.0) return integral / covered;
     }
     // What has no area shows the colour of its middle; the coarsest level has one everywhere.

@@ -13,7 +13,7 @@ use super::forms::{
 };
 use super::math::xyz;
 use super::polygon::{Form, LEAST_AREA, MAX_CORNERS, Polygon, area, middle, range, split, unit_square};
-use super::rows::{Grid, checker_grid, mean_over, texture_grid};
+use super::rows::{Grid, SMALLEST, checker_grid, coarser, in_grid, longest_edge, mean_over, texture_grid};
 use crate::layout::{Light, Material, NO_MATERIAL, NO_SHAPE, NO_TEXTURE};
 use crate::pack::{EntityKind, LightKind, MapKind, PackedScene, TextureKind};
 use crate::scene::model::Model;
@@ -210,6 +210,13 @@ impl Pixel<'_> {
         let flat = quotient.is_none() && light.is_none();
         let strips = if flat { 1.0 } else { (STRIPS * span).sqrt().ceil().clamp(1.0, MOST_STRIPS) };
         let most = CELLS_OF_AN_EDGE + CELLS_OF_ALL / strips;
+        let grid = quotient.map(|_| {
+            let image = &scene.textures[record.link[1] as usize];
+            if image.link[3] == TextureKind::Procedural as u32 {
+                return checker_grid();
+            }
+            texture_grid(&scene.row_sums, record.link[1], image, &scene.samplers[record.link[2] as usize])
+        });
         let mut rest = *polygon;
         let mut sum = DVec3::ZERO;
         for k in 1..=strips as u32 {
@@ -225,11 +232,12 @@ impl Pixel<'_> {
             if strip.count < 3 || share <= 0.0 {
                 continue;
             }
-            let color = match quotient {
-                None => DVec3::ONE,
-                Some(quotient) => {
-                    mean_color(scene, record, &strip, quotient, most, &mut self.crossed).ok_or(GaveUp)?
+            let color = match (quotient, &grid) {
+                (Some(quotient), Some(grid)) => {
+                    let mean = mean_color(scene, record, grid, &strip, quotient, most, &mut self.crossed);
+                    mean.ok_or(GaveUp)?
                 }
+                _ => DVec3::ONE,
             };
             if self.crossed > MOST_CELLS {
                 return Err(GaveUp);
@@ -242,12 +250,12 @@ impl Pixel<'_> {
 }
 
 /// Strips that a piece is cut into: √(STRIPS · logarithm of the ratio of depths).
-const STRIPS: f64 = 3750.0;
+const STRIPS: f64 = 2000.0;
 const MOST_STRIPS: f64 = 64.0;
 /// What lies e^7 times as deep as the piece's nearest part counts as one strip.
 const DEEPEST: f64 = 7.0;
 /// Cells that an edge of a strip may cross, and what all strips of a piece share beyond that.
-const CELLS_OF_AN_EDGE: f64 = 64.0;
+const CELLS_OF_AN_EDGE: f64 = 32.0;
 const CELLS_OF_ALL: f64 = 512.0;
 
 /// What a piece is painted with.
@@ -379,21 +387,25 @@ fn is_simple(scene: &PackedScene, shape: u32, record: &Material, map: u32) -> bo
 fn mean_color(
     scene: &PackedScene,
     record: &Material,
+    grid: &Grid,
     strip: &Polygon,
     quotient: &Quotient,
     most: f64,
     crossed: &mut u32,
 ) -> Option<DVec3> {
-    let [_, texture, sampler, _] = record.link;
-    let image = &scene.textures[texture as usize];
+    let reach = longest_edge(strip, &in_grid(grid, quotient, [0, 0]));
+    // The level at which it is short enough.
+    let grid = if reach > most { coarser(*grid, (reach / most).log2().ceil() as i64) } else { *grid };
+    if grid.unknown {
+        return None;
+    }
+    let mean = mean_over(&grid, strip, quotient, reach < SMALLEST, crossed);
+    let image = &scene.textures[record.link[1] as usize];
     if image.link[3] == TextureKind::Procedural as u32 {
         let what = &scene.procedurals[image.place[0] as usize];
-        let share = mean_over(checker_grid, strip, quotient, most, crossed)?;
-        return Some(xyz(what.background).lerp(xyz(what.figure), share.x));
+        return Some(xyz(what.background).lerp(xyz(what.figure), mean.x));
     }
-    let how = &scene.samplers[sampler as usize];
-    let grid = |level| -> Grid<'_> { texture_grid(&scene.row_sums, texture, image, how, level) };
-    mean_over(grid, strip, quotient, most, crossed)
+    Some(DVec3::splat(grid.least) + grid.step * mean)
 }
 
 /// A light behind the surface, as its beam sees it, gives nothing.

@@ -6,22 +6,24 @@
 use glam::{DVec2, DVec3};
 
 use super::forms::Quotient;
-use super::polygon::{MAX_CORNERS, Polygon, at, middle};
+use super::polygon::{Polygon, at, middle};
 use crate::layout::{Sampler, Texture};
 use crate::texture::sampler_spec::{Address, Filter, TexelCenter};
 
-/// What is walked: a level of a texture, or a checker.
+/// What is walked: a level of a texture, or a checker of unit squares.
 #[derive(Clone, Copy, Debug)]
 pub struct Grid<'a> {
-    /// None: a checker of unit squares.
-    sums: Option<&'a [u32]>,
+    sums: &'a [u32],
+    checker: bool,
     /// Seen from so far that all has the colour of the mean.
-    even: Option<DVec3>,
+    even: bool,
     /// Of a texture that does not repeat, coarser levels are no prefilter beyond its edges.
-    unknown: bool,
+    pub unknown: bool,
     size: [i64; 2],
-    channels: usize,
-    first_word: usize,
+    channels: i64,
+    first_word: i64,
+    /// Of the texture's sums.
+    head: i64,
     address: [u32; 2],
     /// Between texels colour changes linearly, not in steps.
     linear: bool,
@@ -29,69 +31,74 @@ pub struct Grid<'a> {
     scale: DVec2,
     shift: f64,
     /// value = least + step · code
-    least: f64,
-    step: f64,
+    pub least: f64,
+    pub step: f64,
 }
 
 /// Of a flat texture's sums: channels, levels, least value, step, first word of each level.
-const HEADER_WORDS: usize = 4;
+const HEADER_WORDS: i64 = 4;
 
-pub fn texture_grid<'a>(
-    sums: &'a [u32],
-    index: u32,
-    texture: &Texture,
-    sampler: &Sampler,
-    level: u32,
-) -> Grid<'a> {
-    let head = &sums[sums[index as usize] as usize..];
-    let coarsest = head[1] - 1;
-    let (far, asked) = (level > coarsest, level);
-    let level = level.min(coarsest);
+/// Level 0.
+pub fn texture_grid<'a>(sums: &'a [u32], index: u32, texture: &Texture, sampler: &Sampler) -> Grid<'a> {
+    let head = i64::from(sums[index as usize]);
+    let word = |i: i64| sums[(head + i) as usize];
     let [_, width, height, _] = texture.place;
-    let size = [width, height].map(|n| i64::from((n >> level).max(1)));
     let linear = sampler.modes[2] == Filter::Linear as u32;
-    let centered = sampler.modes[3] == TexelCenter::Half as u32;
-    // Linear cells lie between texel centres, of which the integer rule moves all by half a texel.
-    let shift = match (linear, centered) {
-        (true, true) => -0.5,
-        (true, false) | (false, true) => 0.0,
-        (false, false) => 0.5,
-    };
-    let address = [sampler.modes[0], sampler.modes[1]];
-    let mut grid = Grid {
-        sums: Some(sums),
-        even: None,
-        unknown: asked > 0 && address.contains(&(Address::ClampToEdge as u32)),
-        size,
-        channels: head[0] as usize,
-        first_word: head[HEADER_WORDS + level as usize] as usize,
-        address,
+    let integer = sampler.modes[3] == TexelCenter::Integer as u32;
+    Grid {
+        sums,
+        checker: false,
+        even: false,
+        unknown: false,
+        size: [width.into(), height.into()],
+        channels: word(0).into(),
+        first_word: word(HEADER_WORDS).into(),
+        head,
+        address: [sampler.modes[0], sampler.modes[1]],
         linear,
-        scale: DVec2::new(size[0] as f64, size[1] as f64),
-        shift,
-        least: f64::from(f32::from_bits(head[2])),
-        step: f64::from(f32::from_bits(head[3])),
-    };
-    if far {
-        grid.even = Some(texel(&grid, 0, 0));
+        scale: DVec2::new(width.into(), height.into()),
+        // Linear cells lie between texel centres, of which the integer rule moves all by half a texel.
+        shift: if linear { -0.5 } else { 0.0 } + if integer { 0.5 } else { 0.0 },
+        least: f64::from(f32::from_bits(word(2))),
+        step: f64::from(f32::from_bits(word(3))),
     }
-    grid
 }
 
-pub fn checker_grid(level: u32) -> Grid<'static> {
+pub fn checker_grid() -> Grid<'static> {
     Grid {
-        sums: None,
-        even: (level > 0).then_some(DVec3::splat(0.5)),
+        sums: &[],
+        checker: true,
+        even: false,
         unknown: false,
         size: [1, 1],
         channels: 1,
         first_word: 0,
+        head: 0,
         address: [0, 0],
         linear: false,
-        scale: DVec2::splat(0.5f64.powi(level as i32)),
+        scale: DVec2::ONE,
         shift: 0.0,
         least: 0.0,
         step: 1.0,
+    }
+}
+
+/// A coarser level of a grid; of a checker all of them are even.
+pub fn coarser<'a>(grid: Grid<'a>, level: i64) -> Grid<'a> {
+    if grid.checker {
+        return Grid { even: true, ..grid };
+    }
+    let word = |i: i64| i64::from(grid.sums[(grid.head + i) as usize]);
+    let coarsest = word(1) - 1;
+    let held = level.min(coarsest);
+    let size = grid.size.map(|n| (n >> held).max(1));
+    Grid {
+        even: level > coarsest,
+        unknown: grid.address.contains(&(Address::ClampToEdge as u32)),
+        size,
+        first_word: word(HEADER_WORDS + held),
+        scale: DVec2::new(size[0] as f64, size[1] as f64),
+        ..grid
     }
 }
 
@@ -100,97 +107,138 @@ fn floor_div(a: i64, b: i64) -> i64 {
     if a < 0 { -1 - (-1 - a) / b } else { a / b }
 }
 
-/// Codes of `row` summed from column 0 to before column `i`, modulo 2³².
-fn stored_sum(grid: &Grid, sums: &[u32], row: i64, i: i64) -> [u32; 3] {
-    let at = grid.first_word + ((row * (grid.size[0] + 1) + i) as usize) * grid.channels;
-    std::array::from_fn(|c| sums[at + if grid.channels == 3 { c } else { 0 }])
+/// Codes of a row, which begins at word `first`, summed from column 0 to before column i, modulo 2³².
+fn stored_sum(grid: &Grid, first: i64, i: i64) -> Sums {
+    let at = (first + i * grid.channels) as usize;
+    std::array::from_fn(|c| grid.sums[at + if grid.channels == 1 { 0 } else { c }])
 }
 
-/// The texture's row that an addressed one shows.
+type Sums = [u32; 3];
+
+/// a + times · b, modulo 2³².
+fn plus(a: Sums, times: i64, b: Sums) -> Sums {
+    std::array::from_fn(|c| a[c].wrapping_add((times as u32).wrapping_mul(b[c])))
+}
+
+/// The first word of the texture's row that an addressed one shows; of a checker whether cells are odd.
 fn addressed_row(grid: &Grid, j: i64) -> i64 {
+    if grid.checker {
+        return j & 1;
+    }
     let size = grid.size[1];
-    if grid.address[1] == Address::Repeat as u32 {
+    let row = if grid.address[1] == Address::Repeat as u32 {
         j - size * floor_div(j, size)
     } else if grid.address[1] == Address::MirroredRepeat as u32 {
         let left = j - 2 * size * floor_div(j, 2 * size);
         if left < size { left } else { 2 * size - 1 - left }
     } else {
         j.clamp(0, size - 1)
-    }
+    };
+    grid.first_word + row * (grid.size[0] + 1) * grid.channels
 }
 
-/// The same for any column, over repeats and edges: from column 0 to before column i, negative before it.
-fn row_sum(grid: &Grid, j: i64, i: i64) -> [u32; 3] {
-    let Some(sums) = grid.sums else {
-        // Cells whose numbers sum to an odd one; a level's are all alike.
-        let odd = floor_div(i + (j & 1), 2);
-        return [odd as u32; 3];
-    };
-    let row = addressed_row(grid, j);
+/// Column i: the texel that it shows, and how often whole rows lie before it.
+struct Column {
+    texel: i64,
+    rows: i64,
+    /// Mirrored: it runs from the row's end.
+    back: bool,
+}
+
+fn addressed_column(grid: &Grid, i: i64) -> Column {
     let size = grid.size[0];
-    let sum = |i: i64| stored_sum(grid, sums, row, i);
-    let plus = |a: [u32; 3], times: i64, b: [u32; 3]| -> [u32; 3] {
-        std::array::from_fn(|c| a[c].wrapping_add((times as u32).wrapping_mul(b[c])))
-    };
     if grid.address[0] == Address::Repeat as u32 {
-        let tile = floor_div(i, size);
-        plus(sum(i - size * tile), tile, sum(size))
+        let rows = floor_div(i, size);
+        Column { texel: i - size * rows, rows, back: false }
     } else if grid.address[0] == Address::MirroredRepeat as u32 {
-        let tile = floor_div(i, 2 * size);
-        let left = i - 2 * size * tile;
-        let all = sum(size);
-        if left <= size {
-            plus(sum(left), 2 * tile, all)
-        } else {
-            let back = sum(2 * size - left);
-            plus(plus([0; 3], -1, back), 2 * tile + 2, all)
-        }
-    } else if i < 0 {
-        plus([0; 3], i, sum(1))
-    } else if i > size {
-        let last = plus(sum(size), -1, sum(size - 1));
-        plus(sum(size), i - size, last)
+        let period = floor_div(i, 2 * size);
+        let left = i - 2 * size * period;
+        let back = left >= size;
+        let texel = if back { 2 * size - 1 - left } else { left };
+        Column { texel, rows: 2 * period + if back { 2 } else { 0 }, back }
     } else {
-        sum(i)
+        Column { texel: i.clamp(0, size - 1), rows: 0, back: false }
     }
 }
 
-/// b - a as a signed number.
-fn difference(a: [u32; 3], b: [u32; 3]) -> DVec3 {
-    let d: [f64; 3] = std::array::from_fn(|c| f64::from(b[c].wrapping_sub(a[c]) as i32));
-    DVec3::from_array(d)
+/// Codes of a column's texel, and summed up to it from column 0, negative before that.
+struct Codes {
+    own: Sums,
+    before: Sums,
 }
 
-fn texel(grid: &Grid, i: i64, j: i64) -> DVec3 {
-    difference(row_sum(grid, j, i), row_sum(grid, j, i + 1))
+fn codes_at(grid: &Grid, row: i64, i: i64) -> Codes {
+    if grid.checker {
+        // Cells of odd number are its figure: half of those before.
+        return Codes { own: [((i + row) & 1) as u32; 3], before: [((i + row) >> 1) as u32; 3] };
+    }
+    let column = addressed_column(grid, i);
+    let low = stored_sum(grid, row, column.texel);
+    let high = stored_sum(grid, row, column.texel + 1);
+    let own = plus(high, -1, low);
+    let mut before = if column.back { plus([0; 3], -1, high) } else { low };
+    if column.rows != 0 {
+        before = plus(before, column.rows, stored_sum(grid, row, grid.size[0]));
+    }
+    if grid.address[0] == Address::ClampToEdge as u32 {
+        before = plus(before, i - column.texel, own);
+    }
+    Codes { own, before }
 }
 
-/// The integral of a row's colour from a whole column to place s in cell i.
-fn along_row(grid: &Grid, j: i64, from: i64, i: i64, s: f64) -> DVec3 {
-    let (start, here, next) = (row_sum(grid, j, from), row_sum(grid, j, i), row_sum(grid, j, i + 1));
-    let own = difference(here, next);
-    let whole = difference(start, here);
+/// Where the integrals along a row begin.
+struct Row {
+    first: i64,
+    start: Codes,
+}
+
+fn load_row(grid: &Grid, base: [i64; 2], j: i64) -> Row {
+    let first = addressed_row(grid, base[1] + j);
+    Row { first, start: codes_at(grid, first, base[0]) }
+}
+
+/// As signed numbers.
+fn signed(codes: Sums) -> DVec3 {
+    DVec3::from_array(codes.map(|code| f64::from(code as i32)))
+}
+
+/// Of a cell of a row: its texel and the next one, and the integral from the middle of the base's texel to that
+/// of its own, or from edge to edge where colour changes in steps.
+struct Stretch {
+    own: DVec3,
+    right: DVec3,
+    whole: DVec3,
+}
+
+fn stretch(grid: &Grid, row: &Row, i: i64) -> Stretch {
+    let here = codes_at(grid, row.first, i);
+    let own = signed(here.own);
+    let whole = signed(plus(here.before, -1, row.start.before));
     if !grid.linear {
-        return whole + s * own;
+        return Stretch { own, right: own, whole };
     }
-    let right = difference(next, row_sum(grid, j, i + 2));
-    let left = difference(start, row_sum(grid, j, from + 1));
-    whole + 0.5 * (own - left) + s * own + (0.5 * s * s) * (right - own)
+    let right = signed(codes_at(grid, row.first, i + 1).own);
+    Stretch { own, right, whole: whole + 0.5 * (own - signed(row.start.own)) }
 }
 
-/// C in a cell, from column `base`; cells count from `base`.
-fn primitive(grid: &Grid, base: [i64; 2], cell: [i64; 2], s: f64, t: f64) -> DVec3 {
-    let (i, j) = (base[0] + cell[0], base[1] + cell[1]);
-    let low = along_row(grid, j, base[0], i, s);
-    if grid.linear { low.lerp(along_row(grid, j + 1, base[0], i, s), t) } else { low }
+/// The integral of a row's colour up to place s in the cell.
+fn along_row(grid: &Grid, row: &Stretch, s: f64) -> DVec3 {
+    let sum = row.whole + s * row.own;
+    if grid.linear { sum + (0.5 * s * s) * (row.right - row.own) } else { sum }
 }
+
+/// Lines of the grid that an edge crosses.
+fn cells_between(a: DVec2, b: DVec2) -> u32 {
+    let cells = (b.floor() - a.floor()).abs();
+    (cells.x + cells.y) as u32
+}
+
+/// 1 / √3
+const GAUSS: f64 = 0.577_350_269_189_625_8;
 
 /// ∫ C dY from a to b; places count from cell `base`.
 fn edge_integral(grid: &Grid, base: [i64; 2], a: DVec2, b: DVec2) -> DVec3 {
     let way = b - a;
-    if way.y == 0.0 {
-        return DVec3::ZERO;
-    }
     let mut cell = [a.x.floor() as i64, a.y.floor() as i64];
     let last = [b.x.floor() as i64, b.y.floor() as i64];
     let forward = [way.x > 0.0, way.y > 0.0];
@@ -199,6 +247,7 @@ fn edge_integral(grid: &Grid, base: [i64; 2], a: DVec2, b: DVec2) -> DVec3 {
         let line = (cell[axis] + i64::from(forward[axis])) as f64;
         if way[axis] == 0.0 { 1.0 } else { ((line - a[axis]) / way[axis]).clamp(0.0, 1.0) }
     };
+    let rows = if grid.linear { 2 } else { 1 };
     let mut sum = DVec3::ZERO;
     let mut done = 0.0;
     for _ in 0..=cells_between(a, b) {
@@ -207,11 +256,21 @@ fn edge_integral(grid: &Grid, base: [i64; 2], a: DVec2, b: DVec2) -> DVec3 {
         let end = if cell == last { 1.0 } else { ends[axis].max(done) };
         let half = 0.5 * (end - done);
         // Gauss's two points: exact for what is cubic along the edge.
-        for sign in [-1.0, 1.0] {
-            let place = a + way * (done + half + sign * half * GAUSS);
-            let s = (place.x - cell[0] as f64).clamp(0.0, 1.0);
-            let t = (place.y - cell[1] as f64).clamp(0.0, 1.0);
-            sum += half * primitive(grid, base, cell, s, t);
+        let corner = DVec2::new(cell[0] as f64, cell[1] as f64);
+        let place = |sign: f64| {
+            (a + way * (done + half * (1.0 + sign * GAUSS)) - corner).clamp(DVec2::ZERO, DVec2::ONE)
+        };
+        for r in 0..rows {
+            let row = load_row(grid, base, cell[1] + r);
+            let s = stretch(grid, &row, base[0] + cell[0]);
+            for place in [place(-1.0), place(1.0)] {
+                let weight = match (grid.linear, r) {
+                    (false, _) => 1.0,
+                    (true, 0) => 1.0 - place.y,
+                    (true, _) => place.y,
+                };
+                sum += half * weight * along_row(grid, &s, place.x);
+            }
         }
         done = end;
         cell[axis] += if forward[axis] { 1 } else { -1 };
@@ -219,87 +278,78 @@ fn edge_integral(grid: &Grid, base: [i64; 2], a: DVec2, b: DVec2) -> DVec3 {
     sum * way.y
 }
 
-/// 1 / √3
-const GAUSS: f64 = 0.577_350_269_189_625_8;
-
-/// Lines of the grid that an edge crosses.
-fn cells_between(a: DVec2, b: DVec2) -> u32 {
-    let cells = (b.floor() - a.floor()).abs();
-    (cells.x + cells.y) as u32
-}
-
 /// The colour at a place of a cell.
-fn value_in(grid: &Grid, cell: [i64; 2], s: f64, t: f64) -> DVec3 {
-    let [i, j] = cell;
-    if !grid.linear {
-        return texel(grid, i, j);
-    }
-    let row = |j| texel(grid, i, j).lerp(texel(grid, i + 1, j), s);
-    row(j).lerp(row(j + 1), t)
-}
-
-/// Places of a polygon's corners in the grid.
-fn places(grid: &Grid, polygon: &Polygon, quotient: &Quotient, base: [i64; 2]) -> [DVec2; MAX_CORNERS] {
-    let start = DVec2::splat(grid.shift) - DVec2::new(base[0] as f64, base[1] as f64);
-    // Counted from the base before the division, so that near places differ exactly.
-    let u = grid.scale.x * quotient.u + start.x * quotient.below;
-    let v = grid.scale.y * quotient.v + start.y * quotient.below;
-    let mut out = [DVec2::ZERO; MAX_CORNERS];
-    for k in 0..polygon.count {
-        let corner = polygon.corners[k];
-        let below = at(quotient.below, corner);
-        // Towards the horizon a place goes to infinity.
-        out[k] = (DVec2::new(at(u, corner), at(v, corner)) / below).clamp(-FARTHEST, FARTHEST);
-    }
-    out
+fn value_in(grid: &Grid, cell: [i64; 2], within: DVec2) -> DVec3 {
+    let row = |j: i64| stretch(grid, &load_row(grid, cell, j), cell[0]);
+    let value = |s: &Stretch| s.own.lerp(s.right, within.x);
+    if grid.linear { value(&row(0)).lerp(value(&row(1)), within.y) } else { row(0).own }
 }
 
 /// In cells.
 const FARTHEST: DVec2 = DVec2::splat(1e8);
 /// A polygon so small has the colour of its middle.
-const SMALLEST: f64 = 1.0 / 256.0;
+pub const SMALLEST: f64 = 1.0 / 256.0;
 
-/// Mean colour over the texture space that a polygon shows; `most` cells for each of its edges. `make` gives
-/// the levels of the texture. Cells that were crossed are counted. None where only samples can tell.
-pub fn mean_over<'a>(
-    make: impl Fn(u32) -> Grid<'a>,
-    polygon: &Polygon,
-    quotient: &Quotient,
-    most: f64,
-    crossed: &mut u32,
-) -> Option<DVec3> {
-    let mut grid = make(0);
-    let corners = places(&grid, polygon, quotient, [0, 0]);
-    let edges = || (0..polygon.count).map(|k| (k, (k + 1) % polygon.count));
-    let reach = edges().map(|(k, n)| (corners[n] - corners[k]).abs().element_sum()).fold(0.0, f64::max);
-    if reach > most {
-        grid = make((reach / most).log2().ceil() as u32);
+/// How places of the picture lie in the grid, counted from a base before the division, so that near places
+/// differ exactly.
+pub fn in_grid(grid: &Grid, quotient: &Quotient, base: [i64; 2]) -> Quotient {
+    let start = DVec2::splat(grid.shift) - DVec2::new(base[0] as f64, base[1] as f64);
+    Quotient {
+        u: grid.scale.x * quotient.u + start.x * quotient.below,
+        v: grid.scale.y * quotient.v + start.y * quotient.below,
+        below: quotient.below,
     }
-    if grid.unknown {
-        return None;
+}
+
+/// Towards the horizon a place goes to infinity.
+fn place_in(quotient: &Quotient, place: DVec2) -> DVec2 {
+    let at_place = DVec2::new(at(quotient.u, place), at(quotient.v, place)) / at(quotient.below, place);
+    at_place.clamp(-FARTHEST, FARTHEST)
+}
+
+fn places<'a>(polygon: &'a Polygon, quotient: &'a Quotient) -> impl Iterator<Item = [DVec2; 2]> + 'a {
+    let place = |k: usize| place_in(quotient, polygon.corners[k % polygon.count]);
+    (0..polygon.count).map(move |k| [place(k), place(k + 1)])
+}
+
+/// The longest edge of a polygon, in cells.
+pub fn longest_edge(polygon: &Polygon, quotient: &Quotient) -> f64 {
+    places(polygon, quotient).map(|[a, b]| (b - a).abs().element_sum()).fold(0.0, f64::max)
+}
+
+/// An edge is level that rises by so little of the polygon's height: its integral is less than what rounding
+/// makes of it.
+const LEVEL: f64 = 3e-5;
+
+fn rows_covered(polygon: &Polygon, quotient: &Quotient) -> f64 {
+    let rows = || places(polygon, quotient).map(|[a, _]| a.y);
+    rows().fold(-FARTHEST.y, f64::max) - rows().fold(FARTHEST.y, f64::min)
+}
+
+/// Mean colour, in codes, over the texture space that a polygon shows. Cells that were crossed are counted.
+pub fn mean_over(grid: &Grid, polygon: &Polygon, quotient: &Quotient, small: bool, crossed: &mut u32) -> DVec3 {
+    if grid.even && grid.checker {
+        return DVec3::splat(0.5);
     }
-    if let Some(mean) = grid.even {
-        return Some(DVec3::splat(grid.least) + grid.step * mean);
-    }
-    let center = middle(polygon);
-    let below = at(quotient.below, center);
-    let place = DVec2::new(at(quotient.u, center), at(quotient.v, center)) / below * grid.scale + grid.shift;
-    let place = place.clamp(-FARTHEST, FARTHEST);
-    let base = [place.x.floor() as i64, place.y.floor() as i64];
-    let within = place - place.floor();
-    let mut mean = value_in(&grid, base, within.x, within.y);
-    if reach >= SMALLEST {
-        let corners = places(&grid, polygon, quotient, base);
+    let place = place_in(&in_grid(grid, quotient, [0, 0]), middle(polygon));
+    let cell = place.floor();
+    let base = [cell.x as i64, cell.y as i64];
+    if !small && !grid.even {
+        let near = in_grid(grid, quotient, base);
+        let height = rows_covered(polygon, &near);
         let mut integral = DVec3::ZERO;
-        let mut area = 0.0;
-        for (k, n) in edges() {
-            let (a, b) = (corners[k], corners[n]);
-            integral += edge_integral(&grid, base, a, b);
-            area += 0.5 * (a.x + b.x) * (b.y - a.y);
-            *crossed += 1 + cells_between(a, b);
+        let mut covered = 0.0;
+        for [a, b] in places(polygon, &near) {
+            if (b.y - a.y).abs() > LEVEL * height {
+                integral += edge_integral(grid, base, a, b);
+                covered += 0.5 * (a.x + b.x) * (b.y - a.y);
+                *crossed += 1 + cells_between(a, b);
+            }
         }
-        // What has no area shows the colour of its middle.
-        mean = if area == 0.0 { mean } else { integral / area };
+        if covered != 0.0 {
+            return integral / covered;
+        }
     }
-    Some(DVec3::splat(grid.least) + grid.step * mean)
+    // What has no area shows the colour of its middle; the coarsest level has one everywhere.
+    value_in(grid, base, place - cell)
 }

@@ -15,6 +15,9 @@ use crate::layout::Job;
 use crate::progress::Progress;
 use crate::shaders::Shader;
 
+/// A beam takes as long as many samples.
+const FIRST_TILES: f64 = 2.0;
+
 pub struct Beams<'a> {
     pub renderer: Renderer<'a>,
     pub film: Rc<FilmBuffer>,
@@ -49,7 +52,7 @@ impl Beams<'_> {
     ) -> Result<Film> {
         let mut film = Film::new(width, height, 1);
         let mut left: Vec<u32> = Vec::new();
-        let mut plan = slices::Plan::new(1, 1, self.film.tiles());
+        let mut plan = slices::Plan::starting_with(FIRST_TILES, 1, 1, self.film.tiles());
         for band in self.film.bands() {
             self.renderer.band(&band, &mut plan, report, progress)?;
             self.film.read_with(gpu, &band, |i, pixel, _| {

@@ -25,7 +25,11 @@ pub struct Plan {
 
 impl Plan {
     pub fn new(samples: u32, chunk: u32, tiles: u64) -> Plan {
-        let next = FIRST_SAMPLES / f64::from(TILE * TILE);
+        Plan::starting_with(FIRST_SAMPLES / f64::from(TILE * TILE), samples, chunk, tiles)
+    }
+
+    /// With so many tile-samples in the first slice.
+    pub fn starting_with(next: f64, samples: u32, chunk: u32, tiles: u64) -> Plan {
         Plan { samples, chunk, total: tiles as f64 * f64::from(samples), done: 0.0, next }
     }
 
