@@ -3,22 +3,18 @@
 //! exact integral of its colour. Mirrors send the piece on. What this cannot do is left to samples. Twin of
 //! `glsl/shared/beam_main.glsl`.
 
-use std::f64::consts::PI;
-
-use glam::{DVec3, DVec4};
+use glam::DVec3;
 
 use super::forms::{
-    Frame, Quotient, Region, coordinates, may_meet_sphere, mirrored_frame, pixel_frame, point_at, ray_at,
-    shadow_region, shape_plane, shape_region,
+    Frame, Region, coordinates, may_meet_sphere, mirrored_frame, pixel_frame, shadow_region, shape_plane,
+    shape_region,
 };
 use super::math::xyz;
-use super::polygon::{Form, LEAST_AREA, MAX_CORNERS, Polygon, area, middle, range, split, unit_square};
-use super::rows::{Grid, SMALLEST, checker_grid, coarser, in_grid, longest_edge, mean_over, texture_grid};
-use crate::layout::{Light, Material, NO_MATERIAL, NO_SHAPE, NO_TEXTURE};
-use crate::pack::{EntityKind, LightKind, MapKind, PackedScene, TextureKind};
+use super::paint::{GaveUp, Paint, Result, integral, is_lit, is_simple, links, may_shade};
+use super::polygon::{Form, LEAST_AREA, MAX_CORNERS, Polygon, area, range, split, unit_square};
+use crate::layout::{Light, NO_MATERIAL, NO_SHAPE, NO_TEXTURE};
+use crate::pack::PackedScene;
 use crate::scene::model::Model;
-use crate::texture::procedural::ProceduralKind;
-use crate::texture::sampler_spec::{Address, Filter};
 
 /// Shapes that a beam may meet.
 const MAX_MET: usize = 8;
@@ -26,8 +22,6 @@ const MAX_MET: usize = 8;
 const MAX_PIECES: usize = 12;
 /// Mirrored beams that wait at a time.
 const MAX_BEAMS: usize = 6;
-/// Cells of textures that a pixel's edges may cross.
-const MOST_CELLS: u32 = 40_000;
 /// Planes whose nearness differs by less, relatively, lie in each other: the first of the list is seen.
 const COPLANAR: f64 = 4e-6;
 
@@ -48,11 +42,6 @@ struct Piece {
     polygon: Polygon,
     stage: usize,
 }
-
-/// Too much for a beam.
-struct GaveUp;
-
-type Result<T> = std::result::Result<T, GaveUp>;
 
 struct Met {
     shape: u32,
@@ -103,7 +92,8 @@ impl Pixel<'_> {
                 } else {
                     let kept = piece.stage == 0;
                     let by = &met[if kept { own } else { piece.stage - 1 }];
-                    let first = if kept { beam.beyond_mirror(by) } else { before(by, &met[own], &piece.polygon) };
+                    let first =
+                        if kept { beam.beyond_mirror(by) } else { before(by, &met[own], &piece.polygon) };
                     carve(&mut self.pieces, piece, &by.region, first, kept)?;
                 }
             }
@@ -147,7 +137,8 @@ impl Pixel<'_> {
             return Ok(());
         }
         let quotient = textured.then(|| coordinates(scene, &beam.frame, seen.shape, map, near));
-        let paint = Paint { record, quotient, plane: shape_plane(scene, seen.shape), frame: beam.frame, near };
+        let paint =
+            Paint { record, quotient, plane: shape_plane(scene, seen.shape), frame: beam.frame, near };
         let unlit = model == Model::Unlit;
         let lights = if unlit { 1 } else { scene.lights.len() };
         for i in 0..lights {
@@ -159,7 +150,13 @@ impl Pixel<'_> {
     }
 
     /// The integral over those parts of a piece that see the light; without one, over all of it.
-    fn lit_by(&mut self, paint: &Paint, shape: u32, polygon: &Polygon, light: Option<&Light>) -> Result<DVec3> {
+    fn lit_by(
+        &mut self,
+        paint: &Paint,
+        shape: u32,
+        polygon: &Polygon,
+        light: Option<&Light>,
+    ) -> Result<DVec3> {
         let scene = self.scene;
         let [planes, spheres, triangles, _] = scene.header.counts;
         let shapes = (planes + spheres + triangles) as usize;
@@ -175,7 +172,7 @@ impl Pixel<'_> {
         while self.pieces.len() > bottom {
             let Some(piece) = self.pieces.pop() else { break };
             let (by, Some(light)) = (piece.stage as u32, light.filter(|_| piece.stage < shapes)) else {
-                sum += self.integral(paint, &piece.polygon, light)?;
+                sum += integral(scene, paint, &piece.polygon, light, &mut self.crossed)?;
                 continue;
             };
             let is_sphere = by >= planes && by < planes + spheres;
@@ -194,77 +191,6 @@ impl Pixel<'_> {
         }
         Ok(sum)
     }
-
-    /// ∬ of texture times irradiance / π over the piece, in strips within which the depth hardly changes: there
-    /// equal areas of the texture are equal areas of the picture.
-    fn integral(&mut self, paint: &Paint, polygon: &Polygon, light: Option<&Light>) -> Result<DVec3> {
-        let scene = self.scene;
-        let Paint { record, quotient, .. } = paint;
-        let depth = match quotient {
-            Some(quotient) => quotient.below,
-            None if paint.frame.parallel => Form::Z,
-            None => paint.near,
-        };
-        let (low, high) = range(polygon, depth);
-        let span = (high / low.max(1e-30 * high)).ln().min(DEEPEST);
-        let flat = quotient.is_none() && light.is_none();
-        let strips = if flat { 1.0 } else { (STRIPS * span).sqrt().ceil().clamp(1.0, MOST_STRIPS) };
-        let most = CELLS_OF_AN_EDGE + CELLS_OF_ALL / strips;
-        let grid = quotient.map(|_| {
-            let image = &scene.textures[record.link[1] as usize];
-            if image.link[3] == TextureKind::Procedural as u32 {
-                return checker_grid();
-            }
-            texture_grid(&scene.row_sums, record.link[1], image, &scene.samplers[record.link[2] as usize])
-        });
-        let mut rest = *polygon;
-        let mut sum = DVec3::ZERO;
-        for k in 1..=strips as u32 {
-            let mut strip = rest;
-            if f64::from(k) < strips {
-                let limit = high * (-span * f64::from(k) / strips).exp();
-                [strip, rest] = split(&rest, depth - limit * Form::Z);
-                if strip.count > MAX_CORNERS || rest.count > MAX_CORNERS {
-                    return Err(GaveUp);
-                }
-            }
-            let share = area(&strip);
-            if strip.count < 3 || share <= 0.0 {
-                continue;
-            }
-            let color = match (quotient, &grid) {
-                (Some(quotient), Some(grid)) => {
-                    let mean = mean_color(scene, record, grid, &strip, quotient, most, &mut self.crossed);
-                    mean.ok_or(GaveUp)?
-                }
-                _ => DVec3::ONE,
-            };
-            if self.crossed > MOST_CELLS {
-                return Err(GaveUp);
-            }
-            let irradiance = light.map_or(DVec3::ONE, |light| irradiance(paint, &strip, light));
-            sum += share * color * irradiance;
-        }
-        Ok(sum)
-    }
-}
-
-/// Strips that a piece is cut into: √(STRIPS · logarithm of the ratio of depths).
-const STRIPS: f64 = 2000.0;
-const MOST_STRIPS: f64 = 64.0;
-/// What lies e^7 times as deep as the piece's nearest part counts as one strip.
-const DEEPEST: f64 = 7.0;
-/// Cells that an edge of a strip may cross, and what all strips of a piece share beyond that.
-const CELLS_OF_AN_EDGE: f64 = 32.0;
-const CELLS_OF_ALL: f64 = 512.0;
-
-/// What a piece is painted with.
-struct Paint<'a> {
-    record: &'a Material,
-    quotient: Option<Quotient>,
-    plane: DVec4,
-    frame: Frame,
-    near: Form,
 }
 
 impl Beam {
@@ -313,7 +239,13 @@ fn before(by: &Met, own: &Met, polygon: &Polygon) -> Option<Form> {
 
 /// Cuts the piece along the lines of a region, of which `first` is one more. What lies within them all is
 /// kept, or all else is.
-fn carve(pieces: &mut Vec<Piece>, piece: Piece, region: &Region, first: Option<Form>, kept: bool) -> Result<()> {
+fn carve(
+    pieces: &mut Vec<Piece>,
+    piece: Piece,
+    region: &Region,
+    first: Option<Form>,
+    kept: bool,
+) -> Result<()> {
     let mut rest = piece.polygon;
     let lines = first.into_iter().chain(region.lines[..region.count].iter().copied());
     for line in lines {
@@ -338,110 +270,4 @@ fn push(pieces: &mut Vec<Piece>, piece: Piece) -> Result<()> {
     }
     pieces.push(piece);
     Ok(())
-}
-
-/// Material and map.
-fn links(scene: &PackedScene, shape: u32) -> [u32; 2] {
-    let [planes, spheres, _, _] = scene.header.counts;
-    let [material, map, _, _] = if shape < planes {
-        scene.planes[shape as usize].link
-    } else {
-        scene.triangles[(shape - planes - spheres) as usize].link
-    };
-    [material, map]
-}
-
-/// Whether the integral of a shape's colour is known: of one that is unlit, diffuse or a plane mirror, with a
-/// checker or a flat texture that is affine on it.
-fn is_simple(scene: &PackedScene, shape: u32, record: &Material, map: u32) -> bool {
-    let [planes, spheres, _, _] = scene.header.counts;
-    let [model, texture, sampler, _] = record.link;
-    let smooth = shape >= planes && scene.triangles[(shape - planes - spheres) as usize].v[3] != 0.0;
-    let model = Model::ALL[model as usize];
-    let shades = model == Model::Unlit || (matches!(model, Model::Lambert | Model::Mirror) && !smooth);
-    if !shades || record.detail[0] != NO_TEXTURE {
-        return false;
-    }
-    if texture == NO_TEXTURE {
-        return true;
-    }
-    let [kind, entity, _, _] = scene.maps[map as usize].link;
-    let flat = [MapKind::Plane as u32, MapKind::VertexUv as u32, MapKind::Affine as u32].contains(&kind);
-    if !flat || entity != EntityKind::Position as u32 || model == Model::Mirror {
-        return false;
-    }
-    let image = &scene.textures[texture as usize];
-    if image.link[3] == TextureKind::Procedural as u32 {
-        let [kind, _, _, dimensions] = scene.procedurals[image.place[0] as usize].link;
-        return kind == ProceduralKind::Checker as u32 && dimensions < 3;
-    }
-    let sampler = &scene.samplers[sampler as usize];
-    let known = |address: u32| {
-        use Address::{ClampToEdge, MirroredRepeat, Repeat};
-        [Repeat as u32, MirroredRepeat as u32, ClampToEdge as u32].contains(&address)
-    };
-    let steps = [Filter::Nearest as u32, Filter::Linear as u32].contains(&sampler.modes[2]);
-    steps && known(sampler.modes[0]) && known(sampler.modes[1]) && scene.row_sums[texture as usize] > 0
-}
-
-fn mean_color(
-    scene: &PackedScene,
-    record: &Material,
-    grid: &Grid,
-    strip: &Polygon,
-    quotient: &Quotient,
-    most: f64,
-    crossed: &mut u32,
-) -> Option<DVec3> {
-    let reach = longest_edge(strip, &in_grid(grid, quotient, [0, 0]));
-    // The level at which it is short enough.
-    let grid = if reach > most { coarser(*grid, (reach / most).log2().ceil() as i64) } else { *grid };
-    if grid.unknown {
-        return None;
-    }
-    let mean = mean_over(&grid, strip, quotient, reach < SMALLEST, crossed);
-    let image = &scene.textures[record.link[1] as usize];
-    if image.link[3] == TextureKind::Procedural as u32 {
-        let what = &scene.procedurals[image.place[0] as usize];
-        return Some(xyz(what.background).lerp(xyz(what.figure), mean.x));
-    }
-    Some(DVec3::splat(grid.least) + grid.step * mean)
-}
-
-/// A light behind the surface, as its beam sees it, gives nothing.
-fn is_lit(paint: &Paint, polygon: &Polygon, light: &Light) -> bool {
-    let n = paint.plane.truncate();
-    let (way, _) = ray_at(&paint.frame, middle(polygon));
-    let place = xyz(light.place);
-    let above = if light.link[0] == LightKind::Point as u32 { n.dot(place) - paint.plane.w } else { n.dot(place) };
-    above * n.dot(way) < 0.0
-}
-
-/// Irradiance over π at the middle of a strip, of a light that it sees.
-fn irradiance(paint: &Paint, strip: &Polygon, light: &Light) -> DVec3 {
-    let n = paint.plane.truncate();
-    let place = xyz(light.place);
-    let power = xyz(light.power) / PI;
-    if light.link[0] != LightKind::Point as u32 {
-        return power * n.dot(place).abs();
-    }
-    let way = place - point_at(&paint.frame, paint.near, middle(strip));
-    let squared = way.length_squared();
-    power * n.dot(way).abs() / (squared * squared.sqrt())
-}
-
-/// False where no way from the piece to the light can pass the sphere.
-fn may_shade(paint: &Paint, polygon: &Polygon, light: &Light, center: DVec3, radius: f64) -> bool {
-    let from = point_at(&paint.frame, paint.near, middle(polygon));
-    let point = |k: usize| point_at(&paint.frame, paint.near, polygon.corners[k]);
-    let wide = (0..polygon.count).map(|k| (point(k) - from).length()).fold(0.0, f64::max);
-    let place = xyz(light.place);
-    let way = if light.link[0] == LightKind::Point as u32 { place - from } else { place };
-    let to = center - from;
-    let squared = way.length_squared();
-    let mut along = (to.dot(way) / squared).max(0.0);
-    if light.link[0] == LightKind::Point as u32 {
-        along = along.min(1.0);
-    }
-    (to - along * way).length() <= radius + wide
 }

@@ -145,9 +145,8 @@ pub fn edge_forms(frame: &Frame, triangle: &Triangle) -> [Form; 3] {
     let way = frame.same;
     if frame.parallel {
         let side = way.dot((b - a).cross(c - a)).signum();
-        let edge = |p: DVec3, q: DVec3| {
-            side * (form(frame, (p - q).cross(way)) + DVec3::Z * way.dot(p.cross(q)))
-        };
+        let edge =
+            |p: DVec3, q: DVec3| side * (form(frame, (p - q).cross(way)) + DVec3::Z * way.dot(p.cross(q)));
         return [edge(b, c), edge(c, a), edge(a, b)];
     }
     let [a, b, c] = [a - way, b - way, c - way];
@@ -201,7 +200,11 @@ pub fn coordinates(scene: &PackedScene, frame: &Frame, shape: u32, map: u32, nea
     let (u, v) = (own(plane.axis_u), own(plane.axis_v));
     let m = vec4(map.matrix);
     let offset = vec4(map.offset);
-    Quotient { u: m.x * u + m.y * v + offset.x * under, v: m.z * u + m.w * v + offset.y * under, below: under }
+    Quotient {
+        u: m.x * u + m.y * v + offset.x * under,
+        v: m.z * u + m.w * v + offset.y * under,
+        below: under,
+    }
 }
 
 /// Where, on the plane of this nearness, a flat shape keeps a light away.
@@ -242,7 +245,8 @@ pub fn shadow_region(scene: &PackedScene, frame: &Frame, near: Form, shape: u32,
     }
     let triangle = &scene.triangles[(shape - planes - spheres) as usize];
     let [a, b, c] = [triangle.a, triangle.b, triangle.c].map(xyz);
-    let turn = if point { (a - place).dot((b - place).cross(c - place)) } else { place.dot((b - a).cross(c - a)) };
+    let turn =
+        if point { (a - place).dot((b - place).cross(c - place)) } else { place.dot((b - a).cross(c - a)) };
     for (p, q) in [(b, c), (c, a), (a, b)] {
         let row = if point {
             let m = (p - place).cross(q - place);

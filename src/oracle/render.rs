@@ -44,6 +44,9 @@ pub fn sample(scene: &PackedScene, header: &Header, [x, y]: [u32; 2], half: u32,
 
 /// The whole film.
 pub fn render(scene: &PackedScene, progress: &dyn Progress) -> Result<Film> {
+    if scene.beams {
+        return render_beams(scene, progress).map(|(film, _)| film);
+    }
     rows(scene, progress, |x, y| pixel(scene, x, y))
 }
 
@@ -60,7 +63,11 @@ pub fn render_beams(scene: &PackedScene, progress: &dyn Progress) -> Result<(Fil
 }
 
 /// Rows are shared out over the cores; the result does not depend on how.
-fn rows(scene: &PackedScene, progress: &dyn Progress, pixel: impl Fn(u32, u32) -> DVec3 + Sync) -> Result<Film> {
+fn rows(
+    scene: &PackedScene,
+    progress: &dyn Progress,
+    pixel: impl Fn(u32, u32) -> DVec3 + Sync,
+) -> Result<Film> {
     if let Some(&texture) = scene.device_levels.first() {
         return Err(Error::new(format!(
             "the levels of texture \"{}\" are left to a device: the oracle reads what the host made",

@@ -75,7 +75,8 @@ impl Beams<'_> {
             Binder { resources: fallback.resources, pipeline: &sampler.pipeline, shader: sampler.shader };
         let (groups, chunk) = (sampler.groups_per_tile, fallback.chunk);
         let mut tracer = JobTracer::new(gpu, binder, groups, [width, height], false, chunk, report)?;
-        let job = |&i: &u32| Job { place: Job::place_of(i, width), part: 0, first: 0, count: fallback.samples };
+        let job =
+            |&i: &u32| Job { place: Job::place_of(i, width), part: 0, first: 0, count: fallback.samples };
         tracer.sample(&left.iter().map(job).collect::<Vec<_>>(), progress)?;
         let half = || vec![[0.0; 4]; film.pixels.len()];
         let mut sums = Sums { width, height, halves: [half(), half()] };

@@ -65,7 +65,16 @@ impl Resources {
             volumes = uploads.slots(&packed.volume_slots, TextureKind::Volume)?;
             cubes = uploads.slots(&packed.cube_slots, TextureKind::Cube)?;
         }
-        Ok(Resources { sections, mips_seconds: uploads.maker.seconds, scene, texels, row_sums, images, volumes, cubes })
+        Ok(Resources {
+            sections,
+            mips_seconds: uploads.maker.seconds,
+            scene,
+            texels,
+            row_sums,
+            images,
+            volumes,
+            cubes,
+        })
     }
 
     /// Replaces what the scene buffer begins with.

@@ -244,7 +244,8 @@ impl Prepared<'_, '_> {
     }
 
     fn tracer<'t>(&'t self, report: &'t mut Report) -> Result<JobTracer<'t>> {
-        let Work::Jobs { sampler: Sampler { pipeline, shader, groups_per_tile }, prefilters } = &self.work else {
+        let Work::Jobs { sampler: Sampler { pipeline, shader, groups_per_tile }, prefilters } = &self.work
+        else {
             return Err(Error::new("a scene that is rendered tile by tile has no jobs"));
         };
         let binder = Binder { resources: &self.session.resources, pipeline, shader };

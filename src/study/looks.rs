@@ -7,15 +7,16 @@ use crate::error::{Error, Result};
 use crate::gpu::Gpu;
 use crate::pack;
 use crate::render::{MipChoice, Prepared, Session, Tuning};
-use crate::scene::model::{Footprint, Scene};
+use crate::scene::model::{Algorithm, Footprint, Scene};
 use crate::texture::data::TextureData;
 use crate::texture::sampler_spec::Filter;
 
 use super::method::Method;
 
-type Key = (Footprint, Option<Filter>);
+/// Footprint, filter, and whether beams read the texture.
+type Key = (Footprint, Option<Filter>, bool);
 
-const PLAIN: Key = (Footprint::None, None);
+const PLAIN: Key = (Footprint::None, None, false);
 
 struct Look<'a> {
     key: Key,
@@ -45,8 +46,10 @@ impl<'a> Looks<'a> {
         let mut looks = Vec::with_capacity(keys.len());
         for key in keys {
             let clock = Instant::now();
-            let reading =
-                Method { footprint: key.0, filter: key.1, ..Method::of_pattern(scene.sampling.pattern) };
+            let (footprint, filter, beams) = key;
+            let algorithm = if beams { Algorithm::Beam } else { Algorithm::Samples };
+            let pattern = Some(scene.sampling.pattern);
+            let reading = Method { algorithm, pattern, footprint, filter };
             let reading = reading.apply(scene, scene.sampling.spp)?;
             let packed = pack::pack_with(&reading, textures.clone(), None, pyramids)?;
             let pack_seconds = clock.elapsed().as_secs_f64();
@@ -70,5 +73,5 @@ impl<'a> Looks<'a> {
 }
 
 fn key(method: &Method) -> Key {
-    (method.footprint, method.filter)
+    (method.footprint, method.filter, method.algorithm == Algorithm::Beam)
 }

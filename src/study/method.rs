@@ -46,7 +46,11 @@ impl Method {
                     methods.push(Method { algorithm, ..Method::of_pattern(Pattern::SobolOwen) });
                 }
                 Algorithm::Beam => {
-                    methods.push(Method { algorithm, pattern: None, ..Method::of_pattern(Pattern::Stratified) });
+                    methods.push(Method {
+                        algorithm,
+                        pattern: None,
+                        ..Method::of_pattern(Pattern::Stratified)
+                    });
                 }
                 // Chooses by a goal, not by a number of samples.
                 Algorithm::Auto => {}

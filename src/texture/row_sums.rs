@@ -56,7 +56,9 @@ pub fn table(texture: &TextureData, start: usize) -> Vec<u32> {
 /// The texture as opaque linear floats.
 fn linear_colors(texture: &TextureData, channels: usize) -> TextureData {
     let format = TexelFormat::new(if channels == 1 { 1 } else { 4 }, Component::Float32);
-    let texel = |x, y| (0..format.channels()).map(move |c| if c < 3 { texture.linear_value(x, y, c) as f32 } else { 1.0 });
+    let texel = |x, y| {
+        (0..format.channels()).map(move |c| if c < 3 { texture.linear_value(x, y, c) as f32 } else { 1.0 })
+    };
     let row = |y| (0..texture.width).flat_map(move |x| texel(x, y));
     let floats: Vec<f32> = (0..texture.height).flat_map(row).collect();
     TextureData {

@@ -20,6 +20,7 @@ use crate::support::data;
 
 /// Scene, size of the picture.
 const GOLDENS: &[(&str, [u32; 2])] = &[
+    ("beams", [96, 96]),
     ("centroid", [128, 77]),
     ("environment", [120, 75]),
     ("environment_cube", [120, 75]),
@@ -186,7 +187,7 @@ macro_rules! goldens {
     };
 }
 goldens! {
-    centroid environment environment_cube filters formats glass hardware horizon inside lecture lights
+    beams centroid environment environment_cube filters formats glass hardware horizon inside lecture lights
     mappings materials mirrors normal position procedural ramp reflection samplers shared volume
 }
 

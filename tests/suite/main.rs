@@ -7,6 +7,7 @@
 
 mod adaptive;
 mod bad_input;
+mod beams;
 mod cli;
 mod data;
 mod decode;

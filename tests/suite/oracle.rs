@@ -21,6 +21,7 @@ const SUB_TEXEL_STEP: f64 = 2.0 / 256.0 + 1e-3;
 /// Where a shape passes through the middle of an angular map's frame (`centroid`, `position`), angles change
 /// without bound.
 const BOUNDS: &[(&str, f64, f64, f64)] = &[
+    ("beams", STEP, 1e-6, 0.0),
     ("centroid", STEP, 5e-5, 0.001),
     ("environment", STEP, 1e-5, 0.001),
     ("environment_cube", STEP, 1e-5, 0.001),

@@ -1,0 +1,135 @@
+// Sums along the rows of a texture's levels, or of a checker: cells to codes of texels and of all before them,
+// over repeats and edges. Twin: src/oracle/grid.rs.
+#ifndef GRID_GLSL
+#define GRID_GLSL
+
+#include "layout.glsl"
+
+// Where each texture's sums begin, then those: channels, levels, least value, step, first word of each
+// level; a level's rows of width + 1 sums.
+layout(set = 0, binding = 9) uniform usamplerBuffer row_sums;
+
+const int HEADER_WORDS = 4;
+
+// What is walked: a level of a texture, or a checker of unit squares.
+struct Grid {
+    bool checker;
+    bool even;    // seen from so far that all has the colour of the mean
+    bool unknown; // of a texture that does not repeat, coarser levels are no prefilter beyond its edges
+    ivec2 size;
+    int channels;
+    int first_word;
+    int head;     // of the texture's sums
+    uvec2 address;
+    bool linear;  // between texels colour changes linearly, not in steps
+    vec2 scale;   // cells an axis a unit of the coordinate
+    float shift;  // where cell 0 begins
+    float least;  // value = least + step · code
+    float step;
+};
+
+int word(int index) { return int(texelFetch(row_sums, index).x); }
+
+// Level 0.
+Grid texture_grid(uint index, Texture image, Sampler how) {
+    int head = word(int(index));
+    bool linear = MODE_IS(FILTERS, FILTER_LINEAR, how.modes.z);
+    bool integer = MODE_IS(TEXEL_CENTERS, TEXEL_CENTER_INTEGER, how.modes.w);
+    // Linear cells lie between texel centres, of which the integer rule moves all by half a texel.
+    float shift = (linear ? -0.5 : 0.0) + (integer ? 0.5 : 0.0);
+    return Grid(false, false, false, ivec2(image.place.yz), word(head), word(head + HEADER_WORDS), head, how.modes.xy,
+                linear, vec2(image.place.yz), shift, uintBitsToFloat(texelFetch(row_sums, head + 2).x),
+                uintBitsToFloat(texelFetch(row_sums, head + 3).x));
+}
+
+Grid checker_grid() {
+    return Grid(true, false, false, ivec2(1), 1, 0, 0, uvec2(0u), false, vec2(1.0), 0.0, 0.0, 1.0);
+}
+
+// A coarser level of a grid; of a checker all of them are even.
+Grid coarser(Grid grid, int level) {
+    if (grid.checker) {
+        grid.even = true;
+        return grid;
+    }
+    int coarsest = word(grid.head + 1) - 1;
+    int held = min(level, coarsest);
+    grid.even = level > coarsest;
+    grid.unknown = MODE_IS(ADDRESSES_U, ADDRESS_CLAMP_TO_EDGE, grid.address.x) ||
+                   MODE_IS(ADDRESSES_V, ADDRESS_CLAMP_TO_EDGE, grid.address.y);
+    grid.size = max(grid.size >> held, ivec2(1));
+    grid.first_word = word(grid.head + HEADER_WORDS + held);
+    grid.scale = vec2(grid.size);
+    return grid;
+}
+
+// floor(a / b) for b > 0.
+int floor_div(int a, int b) { return a < 0 ? -1 - (-1 - a) / b : a / b; }
+
+// Codes of a row, which begins at word `first`, summed from column 0 to before column i, modulo 2^32.
+uvec3 stored_sum(Grid grid, int first, int i) {
+    int at_word = first + i * grid.channels;
+    uint code = texelFetch(row_sums, at_word).x;
+    if (grid.channels == 1) return uvec3(code);
+    return uvec3(code, texelFetch(row_sums, at_word + 1).x, texelFetch(row_sums, at_word + 2).x);
+}
+
+// The first word of the texture's row that an addressed one shows; of a checker whether cells are odd.
+int addressed_row(Grid grid, int j) {
+    if (grid.checker) return j & 1;
+    int size = grid.size.y;
+    int row = clamp(j, 0, size - 1);
+    if (MODE_IS(ADDRESSES_V, ADDRESS_REPEAT, grid.address.y)) {
+        if (TEXTURE_SIZES == (1u << TEXTURE_SIZE_POWER_OF_TWO)) row = j & (size - 1);
+        else row = j - size * floor_div(j, size);
+    } else if (MODE_IS(ADDRESSES_V, ADDRESS_MIRRORED_REPEAT, grid.address.y)) {
+        int left = j - 2 * size * floor_div(j, 2 * size);
+        row = left < size ? left : 2 * size - 1 - left;
+    }
+    return grid.first_word + row * (grid.size.x + 1) * grid.channels;
+}
+
+// Column i: the texel that it shows, and how often whole rows lie before it.
+struct Column {
+    int texel;
+    int rows;
+    bool back; // mirrored: it runs from the row's end
+};
+
+Column addressed_column(Grid grid, int i) {
+    int size = grid.size.x;
+    Column column = Column(clamp(i, 0, size - 1), 0, false);
+    if (MODE_IS(ADDRESSES_U, ADDRESS_REPEAT, grid.address.x)) {
+        // A shift of whole powers of two floors.
+        if (TEXTURE_SIZES == (1u << TEXTURE_SIZE_POWER_OF_TWO)) column.rows = i >> findMSB(size);
+        else column.rows = floor_div(i, size);
+        column.texel = i - size * column.rows;
+    } else if (MODE_IS(ADDRESSES_U, ADDRESS_MIRRORED_REPEAT, grid.address.x)) {
+        int period = floor_div(i, 2 * size);
+        int left = i - 2 * size * period;
+        column.back = left >= size;
+        column.texel = column.back ? 2 * size - 1 - left : left;
+        column.rows = 2 * period + (column.back ? 2 : 0);
+    }
+    return column;
+}
+
+// Codes of a column's texel, and summed up to it from column 0, negative before that.
+struct Codes {
+    uvec3 own;
+    uvec3 before;
+};
+
+Codes codes_at(Grid grid, int row, int i) {
+    // A checker's cells of odd number are its figure: half of those before.
+    if (grid.checker) return Codes(uvec3((i + row) & 1), uvec3((i + row) >> 1));
+    Column column = addressed_column(grid, i);
+    uvec3 low = stored_sum(grid, row, column.texel);
+    uvec3 high = stored_sum(grid, row, column.texel + 1);
+    Codes codes = Codes(high - low, column.back ? uvec3(0u) - high : low);
+    if (column.rows != 0) codes.before += uint(column.rows) * stored_sum(grid, row, grid.size.x);
+    if (MODE_IS(ADDRESSES_U, ADDRESS_CLAMP_TO_EDGE, grid.address.x)) codes.before += uint(i - column.texel) * codes.own;
+    return codes;
+}
+
+#endif
