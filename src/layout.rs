@@ -125,7 +125,7 @@ mirror!(Procedural, 5, {
     link: [u32; 4],
 });
 
-/// Mirror of the push constants of `render_main.glsl`.
+/// Mirror of the push constants of `slice.glsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
 pub struct Slice {
@@ -145,7 +145,7 @@ const _: () = assert!(size_of::<Slice>() == 36);
 /// In a job's part: without a footprint.
 pub const JOB_BARE: u32 = 2;
 
-/// Mirror of the jobs of `render_main.glsl`: samples `first` .. `first + count` of a pixel's half.
+/// Mirror of the jobs of `slice.glsl`: samples `first` .. `first + count` of a pixel's half.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
 pub struct Job {
