@@ -17,6 +17,7 @@ pub mod math;
 pub mod noise;
 pub mod patterns;
 pub mod permute;
+pub mod pixel_filter;
 pub mod procedural;
 pub mod render;
 pub mod rng;

@@ -7,7 +7,7 @@ use crate::features::Features;
 use crate::film::Film;
 use crate::gpu::{Buffer, BufferUse, DeviceKind, Gpu};
 use crate::layout::{Slice, TILE};
-use crate::pack::PackedScene;
+use crate::pack::{PackedScene, divisor};
 
 use super::slices::tile_stride;
 
@@ -22,6 +22,8 @@ pub struct FilmBuffer {
     height: u32,
     band_rows: u32,
     compensated: bool,
+    /// Mean of the samples' signs, where they have any: a pixel's fourth float is their sum.
+    mean_sign: Option<f64>,
 }
 
 /// Some rows of the picture.
@@ -67,7 +69,8 @@ impl FilmBuffer {
         }
         let band_rows = (tile_rows * u64::from(TILE)).min(u64::from(height)) as u32;
         let buffer = gpu.buffer("film", row * u64::from(band_rows), BufferUse::Storage)?;
-        Ok(FilmBuffer { buffer, width, height, band_rows, compensated: features.compensated })
+        let (compensated, mean_sign) = (features.compensated, scene.mean_sign);
+        Ok(FilmBuffer { buffer, width, height, band_rows, compensated, mean_sign })
     }
 
     pub fn bands(&self) -> impl Iterator<Item = Band> + use<> {
@@ -102,10 +105,13 @@ impl FilmBuffer {
                 gpu.read_buffer(&self.buffer, second, bytemuck::cast_slice_mut(&mut lost[..count]))?;
             }
             let first = (band.y + y) as usize * self.width as usize;
+            let samples = f64::from(film.samples);
             for (i, out) in film.pixels[first..first + count].iter_mut().enumerate() {
+                let signs = f64::from(sums[i][3]);
+                let by = self.mean_sign.map_or(samples, |mean| divisor(signs, samples, mean));
                 for c in 0..3 {
                     let rest = lost.get(i).map_or(0.0, |l| f64::from(l[c]));
-                    out[c] = ((f64::from(sums[i][c]) - rest) / f64::from(film.samples)) as f32;
+                    out[c] = ((f64::from(sums[i][c]) - rest) / by) as f32;
                 }
             }
         }

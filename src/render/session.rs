@@ -50,7 +50,7 @@ pub struct Prepared<'s, 'a> {
 /// How samples reach the film.
 enum Work<'a> {
     Tiles { renderer: Renderer<'a>, film: Rc<FilmBuffer> },
-    Jobs { pipeline: Pipeline, shader: &'static Shader, groups_per_tile: u32, prefilters: bool },
+    Jobs { pipeline: Pipeline, shader: &'static Shader, groups_per_tile: u32 },
 }
 
 impl<'a> Session<'a> {
@@ -110,9 +110,7 @@ impl<'a> Session<'a> {
                 renderer.warm_up(&film)?;
                 Work::Tiles { renderer, film }
             }
-            Schedule::Jobs => {
-                Work::Jobs { pipeline, shader, groups_per_tile, prefilters: scene.prefilters() }
-            }
+            Schedule::Jobs => Work::Jobs { pipeline, shader, groups_per_tile },
         };
         let mut prepared =
             Prepared { session: self, header: scene.header, samples: scene.samples, work, report };
@@ -193,14 +191,11 @@ impl Prepared<'_, '_> {
     }
 
     fn tracer<'t>(&'t self, report: &'t mut Report) -> Result<JobTracer<'t>> {
-        let Work::Jobs { pipeline, shader, groups_per_tile, prefilters } = &self.work else {
+        let Work::Jobs { pipeline, shader, groups_per_tile } = &self.work else {
             return Err(Error::new("a scene that is rendered tile by tile has no jobs"));
         };
         let binder = Binder { resources: &self.session.resources, pipeline, shader };
-        let [width, height, _, _] = self.header.size;
-        let chunk = self.session.scene.chunk;
-        let size = [width, height];
-        JobTracer::new(self.session.gpu, binder, *groups_per_tile, size, *prefilters, chunk, report)
+        JobTracer::new(self.session.gpu, binder, *groups_per_tile, &self.session.scene, report)
     }
 }
 

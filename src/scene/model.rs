@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use glam::{DVec2, DVec3};
 
 pub use super::mapping::{Entity, Mapping, MappingKind, Space};
+pub use super::pixel_filter::{PixelFilter, PixelFilterKind};
 use crate::named::named_enum;
 use crate::texture::sampler_spec::{Address, SamplerSpec};
 pub use crate::texture::source::{TextureContent, TextureSource};
@@ -17,6 +18,7 @@ pub struct Scene {
     pub camera: Camera,
     pub width: u32,
     pub height: u32,
+    pub pixel_filter: PixelFilter,
     pub sampling: Sampling,
     pub background: Background,
     pub textures: Vec<TextureSource>,
