@@ -7,7 +7,7 @@ use crate::named::named_enum;
 use crate::pack::{
     EntityKind, LightKind, MapKind, PackedScene, ProjectionKind, Schedule, Sections, SlotCounts, TextureKind,
 };
-use crate::scene::model::{Footprint, Model, Pattern, ReliefKind};
+use crate::scene::model::{Footprint, Model, Pattern, PixelFilterKind, ReliefKind};
 use crate::shaders::Shader;
 use crate::texture::data::{ColorSpace, TexelFormat};
 use crate::texture::procedural::ProceduralKind;
@@ -113,6 +113,8 @@ const FEATURES: &[(&str, &str, Narrow)] = &[
     ("PROCEDURAL_FILTERED", "filter of procedural textures", Switch(filters_procedurals)),
     ("COMPENSATED", "second film for rounding errors", Switch(compensates)),
     ("SCHEDULES", "schedule", Modes(Schedule::NAMES, |s| bit(s.schedule as u32))),
+    ("PIXEL_FILTERS", "pixel filter", Modes(PixelFilterKind::NAMES, |s| bit(s.header.pixel_filter[0]))),
+    ("WARPED", "samples beyond their pixels", Switch(warps)),
 ];
 
 /// What one pipeline is built for.
@@ -200,6 +202,7 @@ pub fn constants(
         ("SAMPLERS_AT", sections.samplers),
         ("PROCEDURALS_AT", sections.procedurals),
         ("SRGB_AT", sections.srgb),
+        ("PIXEL_FILTER_AT", sections.pixel_filter),
         ("GROUP_X", group[0]),
         ("GROUP_Y", group[1]),
         ("SLOTS", slots.flat.max(1)),
@@ -256,6 +259,12 @@ fn stored(scene: &PackedScene) -> impl Iterator<Item = &layout::Texture> {
 /// Jobs sum in chunks of their own.
 fn compensates(scene: &PackedScene) -> bool {
     scene.samples > scene.chunk && scene.schedule == Schedule::Tiles
+}
+
+/// A box of one pixel leaves samples where they are.
+fn warps(scene: &PackedScene) -> bool {
+    let [kind, radius, _, _] = scene.header.pixel_filter;
+    kind != PixelFilterKind::Box as u32 || f32::from_bits(radius) != 0.5
 }
 
 fn has_model(scene: &PackedScene, model: Model) -> bool {

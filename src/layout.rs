@@ -26,7 +26,7 @@ macro_rules! mirror {
     };
 }
 
-mirror!(Header, 9, {
+mirror!(Header, 10, {
     forward: [f32; 4],
     step_x: [f32; 4],
     step_y: [f32; 4],
@@ -42,6 +42,8 @@ mirror!(Header, 9, {
     key: [u32; 4],
     /// Planes, spheres, triangles, the environment's material or `NO_MATERIAL`.
     counts: [u32; 4],
+    /// Kind, radius (f32 bits), width (f32 bits), first step from the middle where the filter is negative.
+    pixel_filter: [u32; 4],
 });
 
 mirror!(Plane, 4, {
@@ -197,6 +199,9 @@ pub const HEAD_BYTES: usize = 16 << 10;
 /// Samples that are summed in f32 before the sum goes to the film, at most. More samples arrive in chunks
 /// and are added with compensation (Kahan 1965).
 pub const CHUNK: u32 = 256;
+
+/// Cells of the table by which samples are placed about a pixel.
+pub const PIXEL_FILTER_CELLS: u32 = 512;
 
 /// Pixels along the side of the square tiles in which work is handed out.
 pub const TILE: u32 = 64;

@@ -1,6 +1,6 @@
 //! The figures that the README states, measured anew: `cargo bench`, `cargo bench -- filters` for the
-//! errors of filters at equal time, `cargo bench -- patterns` for those of sample patterns, `cargo bench -- mips`
-//! for mip pyramids alone. Runs the program itself on the scenes of `data/scenes/bench` and prints Markdown:
+//! errors of filters at equal time, `cargo bench -- patterns` for those of sample patterns, `cargo bench --
+//! pixel-filters` for those of pixel filters, `cargo bench -- mips` for mip pyramids alone. Runs the program itself on the scenes of `data/scenes/bench` and prints Markdown:
 //! medians over whole processes, the ratio of lean to full pipelines from runs in turn, errors against the
 //! float64 references.
 //! `MOIRE_DEVICE` chooses the device (default cpu), `MOIRE_BENCH_RUNS` the number of runs (default 5).
@@ -8,6 +8,7 @@
 mod equal_time;
 mod mips;
 mod patterns;
+mod pixel_filters;
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -163,6 +164,9 @@ fn main() -> Outcome<()> {
     }
     if std::env::args().any(|argument| argument == "patterns") {
         return patterns::table(&bench);
+    }
+    if std::env::args().any(|argument| argument == "pixel-filters") {
+        return pixel_filters::table(&bench);
     }
     bench.times()?;
     bench.lean()?;

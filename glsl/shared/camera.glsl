@@ -9,11 +9,11 @@ struct Ray {
     vec3 direction;
 };
 
-Ray camera_ray(Header header, uvec2 pixel, uvec2 position) {
+// `inside` counts from the pixel's corner, in units of 2^-24 of a pixel.
+Ray camera_ray(Header header, uvec2 pixel, vec2 inside) {
     // Scaling by 2^-24 is exact wherever it happens: here once a pixel, not once a sample.
     vec3 fine_x = header.step_x.xyz * (1.0 / 16777216.0);
     vec3 fine_y = header.step_y.xyz * (1.0 / 16777216.0);
-    vec2 inside = vec2(position);
     vec2 corner = vec2(pixel) - 0.5 * vec2(header.image.xy);
     bool orthographic = MODE_IS(PROJECTIONS, PROJECTION_ORTHOGRAPHIC, header.size.z);
     vec3 start = orthographic ? vec3(0.0) : header.forward.xyz;

@@ -56,6 +56,8 @@ layout(constant_id = 60) const uint PROCEDURALS = DYNAMIC;
 layout(constant_id = 61) const uint PROCEDURAL_KINDS = 0x3FFu;
 layout(constant_id = 62) const bool PROCEDURAL_FILTERED = true; // averaged over footprints
 layout(constant_id = 65) const uint SCHEDULES = 0x3u;
+layout(constant_id = 66) const uint PIXEL_FILTERS = 0x1Fu;
+layout(constant_id = 67) const bool WARPED = true;      // a pixel filter that is not the pixel's own square
 
 // Where each list begins in the scene buffer, in units of 16 bytes.
 layout(constant_id = 40) const uint PLANES_AT = 0u;
@@ -68,6 +70,7 @@ layout(constant_id = 46) const uint TEXTURES_AT = 0u;
 layout(constant_id = 47) const uint SAMPLERS_AT = 0u;
 layout(constant_id = 48) const uint SRGB_AT = 0u;
 layout(constant_id = 63) const uint PROCEDURALS_AT = 0u;
+layout(constant_id = 68) const uint PIXEL_FILTER_AT = 0u;
 
 // Whether the run-time mode is `value`, decided at build time where the mask allows.
 #define MODE_IS(mask, value, runtime) \

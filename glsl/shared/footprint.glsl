@@ -34,7 +34,8 @@ const Footprint NO_FOOTPRINT = Footprint(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0
 
 bool uses_cones(Header header) { return MODE_IS(FOOTPRINTS, FOOTPRINT_CONE, header.key.z); }
 
-// `share` is the side of the part of a pixel that one sample stands for: 1 / √samples.
+// `share` is the side of the part of a pixel that one sample stands for: that of a box with the
+// pixel filter's variance over √samples.
 Beam camera_beam(Header header, Ray ray) {
     Beam beam = Beam(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), 0.0, 0.0);
     if (!FILTERED) return beam;

@@ -33,12 +33,15 @@ struct Quotient {
 bool is_parallel(Header header) { return MODE_IS(PROJECTIONS, PROJECTION_ORTHOGRAPHIC, header.size.z); }
 
 Frame pixel_frame(Header header, uvec2 pixel) {
-    vec2 corner = vec2(pixel) - 0.5 * vec2(header.image.xy);
+    // The unit square stands for the pixel filter's box.
+    float radius = uintBitsToFloat(header.pixel_filter.y);
+    float wide = 2.0 * radius;
+    vec2 corner = (vec2(pixel) - 0.5 * vec2(header.image.xy)) + (0.5 - radius);
     vec3 x = header.step_x.xyz;
     vec3 y = header.step_y.xyz;
     vec3 base = corner.x * x + corner.y * y;
-    if (is_parallel(header)) return Frame(mat3(x, y, base), header.forward.xyz);
-    return Frame(mat3(x, y, base + header.forward.xyz), vec3(0.0));
+    if (is_parallel(header)) return Frame(mat3(wide * x, wide * y, base), header.forward.xyz);
+    return Frame(mat3(wide * x, wide * y, base + header.forward.xyz), vec3(0.0));
 }
 
 // n · (what differs from ray to ray).

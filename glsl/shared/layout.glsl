@@ -21,6 +21,13 @@ const uint SCHEDULE_TILES = 0u;
 const uint SCHEDULE_JOBS = 1u;
 const uint JOB_BARE = 2u; // without a footprint
 
+const uint PIXEL_FILTER_BOX = 0u;
+const uint PIXEL_FILTER_TENT = 1u;
+const uint PIXEL_FILTER_GAUSSIAN = 2u;
+const uint PIXEL_FILTER_MITCHELL = 3u;
+const uint PIXEL_FILTER_BLACKMAN_HARRIS = 4u;
+const uint PIXEL_FILTER_CELLS = 512u; // of the table by which samples are placed
+
 const uint MODEL_UNLIT = 0u;
 const uint MODEL_LAMBERT = 1u;
 const uint MODEL_MIRROR = 2u;
@@ -115,7 +122,8 @@ const float FAR = 1e30; // farther than any hit that counts
 struct Header {
     vec4 forward;    // unit view direction; w: unused
     vec4 step_x;     // one pixel to the right: added to direction (perspective) or origin (orthographic);
-                     // w: side of the part of a pixel that a sample stands for
+                     // w: side of the part of a pixel that a sample stands for;
+                     // 0 without a footprint
     vec4 step_y;     // one pixel down; w: a pixel's side
     vec4 background; // linear RGB
     uvec4 image;     // width, height, crop x, crop y
@@ -123,6 +131,7 @@ struct Header {
     uvec4 sampling;  // pattern, strata a side, samples, seed
     uvec4 key;       // 1 when all pixels share their displacements; lights; footprint; the environment's map
     uvec4 counts;    // planes, spheres, triangles, the environment's material
+    uvec4 pixel_filter; // kind, radius and width (bits; pixels), first step from the middle where it is negative
 };
 
 struct Plane {
@@ -204,7 +213,7 @@ layout(std140, set = 0, binding = 5) uniform SceneHead { uvec4 head[HEAD_UNITS];
 
 Header load_header() {
     return Header(READ_HEADER(0u), READ_HEADER(1u), READ_HEADER(2u), READ_HEADER(3u), head[4u], head[5u], head[6u],
-                  head[7u], head[8u]);
+                  head[7u], head[8u], head[9u]);
 }
 
 // How a record is put together from what lies at `at`, read from the head or from the whole.

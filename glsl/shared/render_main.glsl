@@ -1,18 +1,22 @@
-// One thread a pixel: the sum of a chunk of samples, added to the film. film[pixel] = sum of radiance (rgb); with COMPENSATED, film[pixel + pixels] holds
-// what rounding has lost so far (Kahan 1965), as chunks arrive in a fixed order.
+// One thread a pixel: the sum of a chunk of samples, added to the film. film[pixel] = sum of radiance (rgb);
+// with COMPENSATED, film[pixel + pixels] holds what rounding has lost so far (Kahan 1965), as chunks arrive
+// in a fixed order. Samples in negative lobes of the pixel filter count with their sign, and film[pixel].w
+// is the sum of the signs.
 #ifndef RENDER_MAIN_GLSL
 #define RENDER_MAIN_GLSL
 
 #include "features.glsl"
 #include "layout.glsl"
 #include "patterns.glsl"
+#include "pixel_filter.glsl"
 #include "shade.glsl"
 #include "slice.glsl"
 
 layout(std430, set = 0, binding = 0) buffer Film { vec4 film[]; };
 
 // Samples of single pixels: place (x | y << 16), half and JOB_BARE, first sample, count. A film of jobs holds two halves,
-// each with sums of radiance and of its square's mean over the channels.
+// each with sums of radiance and of its square's mean over the channels; where the pixel filter has negative
+// lobes two more with the sum of the signs and the number of samples.
 layout(std430, set = 0, binding = 4) readonly buffer Jobs { uvec4 jobs[]; };
 
 // What one thread does: samples of one pixel, into one place of the film.
@@ -46,7 +50,10 @@ void main() {
     if (task.place.x >= header.size.x || task.place.y >= slice.band_height) return;
     uvec2 pixel = uvec2(task.place.x, task.place.y + slice.band_y) + header.image.zw;
     // Of a job, a sample's share of the pixel is by the samples that the pixel has at its end.
-    if (FILTERED && is_job) header.step_x.w = (task.part & JOB_BARE) != 0u ? 0.0 : inversesqrt(2.0 * float(task.end));
+    if (FILTERED && is_job && header.key.z != FOOTPRINT_NONE) {
+        float share = inversesqrt(2.0 * float(task.end)) * filter_width(header);
+        header.step_x.w = (task.part & JOB_BARE) != 0u ? 0.0 : share;
+    }
     // The second half is as good as another seed.
     uint part = task.part & 1u;
     uvec2 key = pixel_key(pixel, header.sampling.w + part * 0x9E3779B9u, header.key.x != 0u);
@@ -57,18 +64,23 @@ void main() {
     vec3 sum = vec3(0.0);
     float squares = 0.0;   // of a job
     vec3 seen = vec3(0.0); // of a job: by the current path
+    float sign = 1.0; // of the current path's sample, and the sum of all
+    float signs = 0.0;
     uint s = task.first;
     Path path;
     path.goes_on = false;
     while (s < task.end) {
         if (!BOUNCES || !path.goes_on) {
-            uvec2 position = sample_point(points, s);
-            Ray ray = camera_ray(header, pixel, position);
+            Place place = filtered_place(header, sample_point(points, s));
+            Ray ray = camera_ray(header, pixel, place.inside);
+            sign = place.sign;
+            signs += sign;
             // Bits that have nothing to do with the sample's position.
             uvec2 random = RANDOM ? pcg2d(sample_bits(key, s) ^ 0x5BD1E995u) : uvec2(0u);
             path = camera_path(ray, camera_beam(header, ray), random);
         }
         vec3 more = advance(header, path);
+        if (SIGNED) more *= sign;
         sum += more;
         if (is_job) {
             seen += more;
@@ -82,10 +94,15 @@ void main() {
 
     uint at = task.place.y * header.size.x + task.place.x;
     uint pixels = header.size.x * slice.band_height;
+    bool is_signed = MODE_IS(PIXEL_FILTERS, PIXEL_FILTER_MITCHELL, header.pixel_filter.x);
     if (is_job) {
         at += part * pixels;
         vec4 sums = vec4(sum, squares);
         film[at] = task.first > 0u ? film[at] + sums : sums;
+        if (is_signed) {
+            vec4 counts = vec4(signs, float(task.end - task.first), 0.0, 0.0);
+            film[at + 2u * pixels] = task.first > 0u ? film[at + 2u * pixels] + counts : counts;
+        }
         return;
     }
     if (COMPENSATED && slice.first_sample > 0u) {
@@ -93,11 +110,12 @@ void main() {
         vec3 total = film[at].xyz + term;
         vec3 lost = (total - film[at].xyz) - term;
         film[at + pixels] = vec4(lost, 0.0);
+        if (SIGNED) signs += film[at].w;
         sum = total;
     } else if (COMPENSATED) {
         film[at + pixels] = vec4(0.0);
     }
-    film[at] = vec4(sum, 0.0);
+    film[at] = vec4(sum, SIGNED ? signs : 0.0);
 }
 
 #endif

@@ -6,8 +6,8 @@ use serde_json::{Value, json};
 use crate::adaptive::Goal;
 use crate::error::{Error, Result};
 use crate::pack::Crop;
-use crate::scene::model::{Algorithm, Footprint, Pattern, Sampling, Scene};
-use crate::scene::{both_filters, check_filters, check_shared, check_spp};
+use crate::scene::model::{Algorithm, Footprint, Pattern, PixelFilter, PixelFilterKind, Sampling, Scene};
+use crate::scene::{MAX_RADIUS, both_filters, check_filters, check_shared, check_spp};
 use crate::texture::sampler_spec::{Filter, Method, MipMode};
 
 use super::named_parser;
@@ -41,6 +41,11 @@ pub struct Overrides {
     footprint: Option<Footprint>,
     #[arg(long, value_name = "M", value_parser = named_parser(MipMode::NAMES, MipMode::from_name), help = one_of("Levels that every sampler reads", MipMode::NAMES))]
     mip: Option<MipMode>,
+    #[arg(long, value_name = "NAME", value_parser = named_parser(PixelFilterKind::NAMES, PixelFilterKind::from_name), help = one_of("Pixel filter", PixelFilterKind::NAMES))]
+    pixel_filter: Option<PixelFilterKind>,
+    /// Pixels that the pixel filter reaches to each side [default: by filter]
+    #[arg(long, value_name = "R", value_parser = radius, allow_negative_numbers = true)]
+    pixel_filter_radius: Option<f64>,
     /// Whether all pixels share their displacements
     #[arg(long, value_name = "BOOL")]
     shared: Option<bool>,
@@ -56,6 +61,10 @@ impl Overrides {
         if let Some([width, height]) = self.size {
             (scene.width, scene.height) = (width, height);
         }
+        if let Some(kind) = self.pixel_filter {
+            scene.pixel_filter = PixelFilter::new(kind, None);
+        }
+        scene.pixel_filter.radius = self.pixel_filter_radius.unwrap_or(scene.pixel_filter.radius);
         let sampling = &mut scene.sampling;
         sampling.spp = self.spp.unwrap_or(sampling.spp);
         let wanted = if self.goal().is_some() { Algorithm::Auto } else { sampling.algorithm };
@@ -119,6 +128,8 @@ impl Overrides {
             "scene": scene.path.display().to_string(),
             "size": [scene.width, scene.height],
             "crop": crop.map(|c| [c.x, c.y, c.width, c.height]),
+            "pixel_filter": scene.pixel_filter.kind.name(),
+            "pixel_filter_radius": scene.pixel_filter.radius,
             "algorithm": s.algorithm.name(),
             "pattern": s.pattern.name(),
             "spp": s.spp,
@@ -137,6 +148,11 @@ pub(super) fn positive(text: &str) -> Result<f64, String> {
         Ok(value) if f64::is_finite(value) && value > 0.0 => Ok(value),
         _ => Err("expected a number above 0".into()),
     }
+}
+
+fn radius(text: &str) -> Result<f64, String> {
+    let value = positive(text).ok().filter(|value| (1e-30..=MAX_RADIUS).contains(value));
+    value.ok_or_else(|| format!("expected a number above 0 and at most {MAX_RADIUS} (pixels)"))
 }
 
 pub(super) fn parse_size(text: &str) -> Result<[u32; 2], String> {

@@ -3,7 +3,6 @@
 use glam::{DVec2, DVec3};
 
 use super::math::xyz;
-use super::strata::UNIT;
 use crate::layout::Header;
 use crate::pack::ProjectionKind;
 
@@ -13,8 +12,8 @@ pub struct Ray {
     pub direction: DVec3,
 }
 
-pub fn camera_ray(header: &Header, pixel: [u32; 2], position: [u32; 2]) -> Ray {
-    let inside = DVec2::new(f64::from(position[0]), f64::from(position[1])) * UNIT;
+/// `inside` counts from the pixel's corner, in pixels.
+pub fn camera_ray(header: &Header, pixel: [u32; 2], inside: DVec2) -> Ray {
     let corner = DVec2::new(
         f64::from(pixel[0]) - 0.5 * f64::from(header.image[0]),
         f64::from(pixel[1]) - 0.5 * f64::from(header.image[1]),

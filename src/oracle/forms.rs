@@ -42,13 +42,16 @@ pub fn pixel_frame(header: &Header, pixel: [u32; 2]) -> Frame {
         f64::from(pixel[0]) - 0.5 * f64::from(header.image[0]),
         f64::from(pixel[1]) - 0.5 * f64::from(header.image[1]),
     );
+    // The unit square stands for the pixel filter's box.
+    let radius = f64::from(f32::from_bits(header.pixel_filter[1]));
+    let corner = corner + (0.5 - radius);
     let (x, y, forward) = (xyz(header.step_x), xyz(header.step_y), xyz(header.forward));
     let parallel = header.size[2] == ProjectionKind::Orthographic as u32;
-    let base = corner.x * x + corner.y * y;
+    let (base, wide) = (corner.x * x + corner.y * y, 2.0 * radius);
     if parallel {
-        Frame { rays: DMat3::from_cols(x, y, base), same: forward, parallel }
+        Frame { rays: DMat3::from_cols(wide * x, wide * y, base), same: forward, parallel }
     } else {
-        Frame { rays: DMat3::from_cols(x, y, base + forward), same: DVec3::ZERO, parallel }
+        Frame { rays: DMat3::from_cols(wide * x, wide * y, base + forward), same: DVec3::ZERO, parallel }
     }
 }
 

@@ -3,35 +3,38 @@
 
 use rayon::prelude::*;
 
+use super::pixel_filter::filter_width;
 use super::render::sample;
 use crate::adaptive::{Sums, Tracer};
 use crate::error::{Error, Result};
 use crate::layout::{JOB_BARE, Job};
-use crate::pack::PackedScene;
+use crate::pack::{PackedScene, divisor};
 use crate::progress::Progress;
 
 pub struct JobTracer<'a> {
     scene: &'a PackedScene,
-    /// Of each half: red, green, blue, squares' mean.
-    halves: [Vec<[f64; 4]>; 2],
+    /// Of each half: red, green, blue, squares' mean; sum of the signs, number of samples.
+    halves: [Vec<[f64; 6]>; 2],
 }
 
 impl JobTracer<'_> {
     pub fn new(scene: &PackedScene) -> JobTracer<'_> {
         let [width, height, _, _] = scene.header.size;
-        let half = || vec![[0.0; 4]; width as usize * height as usize];
+        let half = || vec![[0.0; 6]; width as usize * height as usize];
         JobTracer { scene, halves: [half(), half()] }
     }
 
-    fn sum(&self, job: &Job) -> [f64; 4] {
+    fn sum(&self, job: &Job) -> [f64; 6] {
         let place = job.column_and_row();
-        let mut sum = [0.0; 4];
+        let mut sum = [0.0; 6];
         let mut header = self.scene.header;
         let samples = 2.0 * f64::from(job.first + job.count);
-        header.step_x[3] = if job.part & JOB_BARE != 0 { 0.0 } else { samples.sqrt().recip() as f32 };
+        let share = filter_width(&header) / samples.sqrt();
+        header.step_x[3] = if job.part & JOB_BARE != 0 { 0.0 } else { share as f32 };
         for s in job.first..job.first + job.count {
-            let seen = sample(self.scene, &header, place, job.part & 1, s);
-            let terms = [seen.x, seen.y, seen.z, seen.length_squared() / 3.0];
+            let (seen, sign) = sample(self.scene, &header, place, job.part & 1, s);
+            let [x, y, z] = (sign * seen).to_array();
+            let terms = [x, y, z, seen.length_squared() / 3.0, sign, 1.0];
             sum = std::array::from_fn(|i| sum[i] + terms[i]);
         }
         sum
@@ -40,8 +43,8 @@ impl JobTracer<'_> {
 
 impl Tracer for JobTracer<'_> {
     fn sample(&mut self, jobs: &[Job], progress: &dyn Progress) -> Result<()> {
-        let of_job = |job: &Job| if progress.cancelled() { [0.0; 4] } else { self.sum(job) };
-        let sums: Vec<[f64; 4]> = jobs.par_iter().map(of_job).collect();
+        let of_job = |job: &Job| if progress.cancelled() { [0.0; 6] } else { self.sum(job) };
+        let sums: Vec<[f64; 6]> = jobs.par_iter().map(of_job).collect();
         if progress.cancelled() {
             return Err(Error::Interrupted);
         }
@@ -61,7 +64,10 @@ impl Tracer for JobTracer<'_> {
 
     fn read(&mut self, sums: &mut Sums) -> Result<()> {
         for (out, half) in sums.halves.iter_mut().zip(&self.halves) {
-            out.iter_mut().zip(half).for_each(|(out, sum)| *out = sum.map(|v| v as f32));
+            for (out, &[r, g, b, squares, signs, samples]) in out.iter_mut().zip(half) {
+                let scale = self.scene.mean_sign.map_or(1.0, |mean| samples / divisor(signs, samples, mean));
+                *out = [scale * r, scale * g, scale * b, squares].map(|v| v as f32);
+            }
         }
         Ok(())
     }

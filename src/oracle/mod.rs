@@ -21,6 +21,7 @@ pub mod noise;
 pub mod paint;
 pub mod patterns;
 pub mod permute;
+pub mod pixel_filter;
 pub mod polygon;
 pub mod procedural;
 pub mod render;

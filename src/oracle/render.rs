@@ -9,29 +9,36 @@ use super::beam::beam;
 use super::camera::camera_ray;
 use super::footprint::camera_beam;
 use super::patterns::{pixel_points, sample_point};
+use super::pixel_filter::filtered_place;
 use super::rng::{pcg2d, pixel_key, sample_bits};
 use super::shade::{advance, camera_path};
 use crate::error::{Error, Result};
 use crate::film::Film;
 use crate::layout::Header;
-use crate::pack::PackedScene;
+use crate::pack::{PackedScene, divisor};
 use crate::progress::Progress;
 
 /// The mean radiance of pixel (x, y) of the film: of the crop, where there is one.
 pub fn pixel(scene: &PackedScene, x: u32, y: u32) -> DVec3 {
-    let sum: DVec3 = (0..scene.samples).map(|s| sample(scene, &scene.header, [x, y], 0, s)).sum();
-    sum / f64::from(scene.samples)
+    let (mut sum, mut signs) = (DVec3::ZERO, 0.0);
+    for s in 0..scene.samples {
+        let (radiance, sign) = sample(scene, &scene.header, [x, y], 0, s);
+        sum += sign * radiance;
+        signs += sign;
+    }
+    let samples = f64::from(scene.samples);
+    sum / scene.mean_sign.map_or(samples, |mean| divisor(signs, samples, mean))
 }
 
-/// The radiance of one sample, by a header that may differ from the scene's in the samples' share of the
+/// The radiance of one sample and the pixel filter's sign there, by a header that may differ from the scene's in the samples' share of the
 /// pixel. The second half of an adaptive picture has another seed.
-pub fn sample(scene: &PackedScene, header: &Header, [x, y]: [u32; 2], half: u32, s: u32) -> DVec3 {
+pub fn sample(scene: &PackedScene, header: &Header, [x, y]: [u32; 2], half: u32, s: u32) -> (DVec3, f64) {
     let place = [x + header.image[2], y + header.image[3]];
     let seed = header.sampling[3].wrapping_add(half.wrapping_mul(0x9E37_79B9));
     let key = pixel_key(place, seed, header.key[0] != 0);
     let points = pixel_points(header, place, key);
-    let position = sample_point(&points, s);
-    let ray = camera_ray(header, place, position);
+    let at = filtered_place(scene, sample_point(&points, s));
+    let ray = camera_ray(header, place, at.inside);
     // Bits that have nothing to do with the sample's position.
     let random = pcg2d(sample_bits(key, s).map(|bits| bits ^ 0x5BD1_E995));
     let mut path = camera_path(ray, camera_beam(header, &ray), random);
@@ -39,7 +46,7 @@ pub fn sample(scene: &PackedScene, header: &Header, [x, y]: [u32; 2], half: u32,
     while path.goes_on {
         sum += advance(scene, &mut path);
     }
-    sum
+    (sum, at.sign)
 }
 
 /// The whole film.

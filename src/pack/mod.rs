@@ -4,6 +4,7 @@
 
 mod kinds;
 mod mapping;
+mod pixel_filter;
 mod procedural;
 mod pyramids;
 mod resample;
@@ -20,8 +21,10 @@ use crate::scene::model::{
 };
 use crate::texture::data::TextureData;
 use crate::texture::sampler_spec::{Address, Method, SamplerSpec};
+use pixel_filter::Warp;
 
 pub use kinds::{EntityKind, LightKind, MapKind, ProjectionKind, Schedule, TextureKind};
+pub use pixel_filter::{divisor, kernel};
 pub use procedural::procedural;
 pub use pyramids::{Pyramids, reads_levels};
 pub use textures::{MAX_SLOTS, Slot};
@@ -77,6 +80,10 @@ pub struct PackedScene {
     pub beams: bool,
     /// For beams: where each texture's sums along rows begin, 0 for none; then those.
     pub row_sums: Vec<u32>,
+    /// The table by which samples are placed about their pixel; empty where there is a closed form.
+    pub pixel_filter: Vec<f32>,
+    /// Mean of the samples' signs, where the pixel filter has negative lobes.
+    pub mean_sign: Option<f64>,
 }
 
 /// Where each list begins in the scene buffer, in units of 16 bytes.
@@ -92,6 +99,7 @@ pub struct Sections {
     pub samplers: u32,
     pub procedurals: u32,
     pub srgb: u32,
+    pub pixel_filter: u32,
 }
 
 /// Image descriptors of each kind.
@@ -118,10 +126,12 @@ pub fn pack_with(
     let samples = scene.sampling.samples();
     let schedule = schedule(scene);
     let mut packed = PackedScene { samples, chunk: CHUNK, schedule, ..Default::default() };
-    packed.header = header(scene, crop);
+    let warp = Warp::new(scene.pixel_filter);
+    packed.header = header(scene, crop, &warp);
+    (packed.pixel_filter, packed.mean_sign) = (warp.table, warp.mean_sign);
     let filtered = packed.prefilters();
     packed.sampler_specs = scene.samplers.clone();
-    packed.beams = scene.sampling.algorithm == Algorithm::Beam;
+    packed.beams = scene.sampling.algorithm == Algorithm::Beam && scene.suits_beams();
     if packed.beams {
         packed.row_sums = textures::row_sums(&textures);
     }
@@ -223,8 +233,8 @@ impl PackedScene {
         }
     }
 
-    /// The scene buffer and where its lists begin: the short ones first, so that all of them lie in
-    /// the head. The sRGB table is there only when a texture of 8 bits needs it.
+    /// The scene buffer and where its lists begin: that of the pixel filter and then the short ones first, so
+    /// that all of them lie in the head. The sRGB table is there only when a texture of 8 bits needs it.
     pub fn scene_bytes(&self) -> (Vec<u8>, Sections) {
         let srgb: &[f32] = if textures::needs_srgb_table(&self.textures) { srgb8_table() } else { &[] };
         let mut sections = Sections::default();
@@ -242,6 +252,9 @@ impl PackedScene {
         ];
         lists.sort_by_key(|(list, _)| list.len());
         let mut bytes = bytemuck::bytes_of(&self.header).to_vec();
+        sections.pixel_filter = (bytes.len() / 16) as u32;
+        bytes.extend_from_slice(bytemuck::cast_slice(&self.pixel_filter));
+        bytes.resize(bytes.len().next_multiple_of(16), 0);
         for (list, at) in lists {
             *at = (bytes.len() / 16) as u32;
             bytes.extend_from_slice(list);
@@ -258,7 +271,7 @@ pub fn camera_basis(scene: &Scene) -> [DVec3; 3] {
     [right, right.cross(forward), forward]
 }
 
-fn header(scene: &Scene, crop: Crop) -> Header {
+fn header(scene: &Scene, crop: Crop, warp: &Warp) -> Header {
     let [right, up, forward] = camera_basis(scene);
     // Half the picture's height at distance 1 (perspective) or in scene units (orthographic).
     let (half_height, projection) = match scene.camera.projection {
@@ -267,7 +280,10 @@ fn header(scene: &Scene, crop: Crop) -> Header {
         Projection::Orthographic(height) => (0.5 * height, ProjectionKind::Orthographic),
     };
     let pixel = 2.0 * half_height / f64::from(scene.height);
-    let share = 1.0 / f64::from(scene.sampling.samples()).sqrt();
+    let share = match footprint(scene) {
+        Footprint::None => 0.0,
+        _ => warp.width / f64::from(scene.sampling.samples()).sqrt(),
+    };
     Header {
         forward: vec4(forward.extend(0.0)),
         step_x: vec4((right * pixel).extend(share)),
@@ -288,6 +304,7 @@ fn header(scene: &Scene, crop: Crop) -> Header {
             0,
         ],
         counts: [0, 0, 0, layout::NO_MATERIAL],
+        pixel_filter: warp.record,
     }
 }
 

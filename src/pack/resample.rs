@@ -1,5 +1,6 @@
 //! A packed scene with other samples: what a device holds of shapes and textures stays as it is.
 
+use super::pixel_filter::Warp;
 use super::{Crop, PackedScene, header, schedule};
 use crate::layout::Header;
 use crate::scene::model::Scene;
@@ -10,7 +11,8 @@ impl PackedScene {
     pub fn set_sampling(&mut self, scene: &Scene) {
         let [_, _, x, y] = self.header.image;
         let [width, height, _, _] = self.header.size;
-        let Header { step_x, sampling, key: [shared, ..], .. } = header(scene, Crop { x, y, width, height });
+        let Header { step_x, sampling, key: [shared, ..], .. } =
+            header(scene, Crop { x, y, width, height }, &Warp::new(scene.pixel_filter));
         (self.header.step_x, self.header.sampling, self.header.key[0]) = (step_x, sampling, shared);
         self.samples = scene.sampling.samples();
         self.schedule = schedule(scene);

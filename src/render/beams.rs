@@ -12,6 +12,7 @@ use crate::error::{Error, Result};
 use crate::film::Film;
 use crate::gpu::{Gpu, Pipeline};
 use crate::layout::Job;
+use crate::pack::PackedScene;
 use crate::progress::Progress;
 use crate::shaders::Shader;
 
@@ -35,8 +36,8 @@ pub struct Sampler {
 /// What the samples of the flagged pixels need.
 pub struct Fallback<'s> {
     pub resources: &'s Resources,
+    pub scene: &'s PackedScene,
     pub samples: u32,
-    pub chunk: u32,
 }
 
 impl Beams<'_> {
@@ -73,8 +74,7 @@ impl Beams<'_> {
         let sampler = self.sampler.get().ok_or_else(|| Error::new("no pipeline for samples"))?;
         let binder =
             Binder { resources: fallback.resources, pipeline: &sampler.pipeline, shader: sampler.shader };
-        let (groups, chunk) = (sampler.groups_per_tile, fallback.chunk);
-        let mut tracer = JobTracer::new(gpu, binder, groups, [width, height], false, chunk, report)?;
+        let mut tracer = JobTracer::new(gpu, binder, sampler.groups_per_tile, fallback.scene, report)?;
         let job =
             |&i: &u32| Job { place: Job::place_of(i, width), part: 0, first: 0, count: fallback.samples };
         tracer.sample(&left.iter().map(job).collect::<Vec<_>>(), progress)?;

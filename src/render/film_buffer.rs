@@ -7,7 +7,7 @@ use crate::features::Features;
 use crate::film::Film;
 use crate::gpu::{Buffer, BufferUse, DeviceKind, Gpu};
 use crate::layout::{Slice, TILE};
-use crate::pack::PackedScene;
+use crate::pack::{PackedScene, divisor};
 
 use super::slices::tile_stride;
 
@@ -22,6 +22,8 @@ pub struct FilmBuffer {
     height: u32,
     band_rows: u32,
     compensated: bool,
+    /// Mean of the samples' signs, where they have any: a pixel's fourth float is their sum.
+    mean_sign: Option<f64>,
 }
 
 /// Some rows of the picture.
@@ -67,7 +69,8 @@ impl FilmBuffer {
         }
         let band_rows = (tile_rows * u64::from(TILE)).min(u64::from(height)) as u32;
         let buffer = gpu.buffer("film", row * u64::from(band_rows), BufferUse::Storage)?;
-        Ok(FilmBuffer { buffer, width, height, band_rows, compensated: features.compensated })
+        let (compensated, mean_sign) = (features.compensated, scene.mean_sign);
+        Ok(FilmBuffer { buffer, width, height, band_rows, compensated, mean_sign })
     }
 
     pub fn bands(&self) -> impl Iterator<Item = Band> + use<> {
@@ -88,8 +91,8 @@ impl FilmBuffer {
     pub fn read(&self, gpu: &Gpu, band: &Band, film: &mut Film) -> Result<()> {
         let samples = f64::from(film.samples);
         self.read_with(gpu, band, |i, sum, lost| {
-            film.pixels[i] =
-                std::array::from_fn(|c| ((f64::from(sum[c]) - f64::from(lost[c])) / samples) as f32);
+            let by = self.mean_sign.map_or(samples, |mean| divisor(f64::from(sum[3]), samples, mean));
+            film.pixels[i] = std::array::from_fn(|c| ((f64::from(sum[c]) - f64::from(lost[c])) / by) as f32);
         })
     }
 

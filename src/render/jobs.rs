@@ -7,11 +7,11 @@ use crate::adaptive::{Sums, Tracer};
 use crate::error::{Error, Result};
 use crate::gpu::{BindGroup, Buffer, BufferUse, Gpu, Pipeline};
 use crate::layout::{Job, Slice, TILE};
-use crate::pack::Schedule;
+use crate::pack::{PackedScene, Schedule, divisor};
 use crate::progress::Progress;
 use crate::shaders::Shader;
 
-/// Four floats, twice.
+/// Four floats, of each half.
 const PIXEL_BYTES: u64 = 32;
 const MAX_PAGE_BYTES: u64 = 64 << 20;
 const JOBS_PER_TILE: usize = (TILE * TILE) as usize;
@@ -41,6 +41,8 @@ pub struct JobTracer<'a> {
     groups_per_tile: u32,
     pages: Vec<Page>,
     prefilters: bool,
+    /// Mean of the samples' signs, where they have any: the film holds their sums behind those of radiance.
+    mean_sign: Option<f64>,
     /// A thread takes no more samples at once.
     chunk: u32,
     report: &'a mut Report,
@@ -53,13 +55,13 @@ impl<'a> JobTracer<'a> {
         gpu: &'a Gpu,
         binder: Binder<'a>,
         groups_per_tile: u32,
-        [width, height]: [u32; 2],
-        prefilters: bool,
-        chunk: u32,
+        scene: &PackedScene,
         report: &'a mut Report,
     ) -> Result<JobTracer<'a>> {
         let limits = &gpu.info().limits;
-        let row = u64::from(width) * PIXEL_BYTES;
+        let [width, height, _, _] = scene.header.size;
+        let planes = if scene.mean_sign.is_some() { 2 } else { 1 };
+        let row = u64::from(width) * PIXEL_BYTES * planes;
         let rows =
             (MAX_PAGE_BYTES.min(limits.max_storage_buffer_range) / row).clamp(1, u64::from(height)) as u32;
         let page = |y: u32| {
@@ -68,7 +70,17 @@ impl<'a> JobTracer<'a> {
             Ok(Page { y, height, film })
         };
         let pages = (0..height).step_by(rows as usize).map(page).collect::<Result<Vec<_>>>()?;
-        Ok(JobTracer { gpu, binder, groups_per_tile, pages, prefilters, chunk, report, next: FIRST_SAMPLES })
+        Ok(JobTracer {
+            gpu,
+            binder,
+            groups_per_tile,
+            pages,
+            prefilters: scene.prefilters(),
+            mean_sign: scene.mean_sign,
+            chunk: scene.chunk,
+            report,
+            next: FIRST_SAMPLES,
+        })
     }
 
     /// One workgroup without a job: whatever the driver compiles late, it compiles now.
@@ -165,12 +177,17 @@ impl Tracer for JobTracer<'_> {
             let pixels = page.height as usize * sums.width as usize;
             let first = page.y as usize * sums.width as usize;
             for (half, out) in sums.halves.iter_mut().enumerate() {
-                let offset = (half * pixels * size_of::<[f32; 4]>()) as u64;
-                self.gpu.read_buffer(
-                    &page.film,
-                    offset,
-                    bytemuck::cast_slice_mut(&mut out[first..first + pixels]),
-                )?;
+                let out = &mut out[first..first + pixels];
+                let offset = |plane: usize| (plane * pixels * size_of::<[f32; 4]>()) as u64;
+                self.gpu.read_buffer(&page.film, offset(half), bytemuck::cast_slice_mut(out))?;
+                let Some(mean) = self.mean_sign else { continue };
+                let mut counts = vec![[0f32; 4]; pixels];
+                self.gpu.read_buffer(&page.film, offset(2 + half), bytemuck::cast_slice_mut(&mut counts))?;
+                for (sums, [signs, samples, _, _]) in out.iter_mut().zip(counts) {
+                    let samples = f64::from(samples);
+                    let scale = samples / divisor(f64::from(signs), samples, mean);
+                    sums[..3].iter_mut().for_each(|sum| *sum = (f64::from(*sum) * scale) as f32);
+                }
             }
         }
         Ok(())

@@ -51,7 +51,7 @@ pub struct Prepared<'s, 'a> {
 /// How samples reach the film.
 enum Work<'a> {
     Tiles { renderer: Renderer<'a>, film: Rc<FilmBuffer> },
-    Jobs { sampler: Sampler, prefilters: bool },
+    Jobs { sampler: Sampler },
     Beams(Beams<'a>),
 }
 
@@ -108,10 +108,7 @@ impl<'a> Session<'a> {
                 let (renderer, film) = self.renderer(scene, &features, shader_for(features.source))?;
                 Work::Tiles { renderer, film }
             }
-            Schedule::Jobs => {
-                let sampler = self.sampler(scene, &features)?;
-                Work::Jobs { sampler, prefilters: scene.prefilters() }
-            }
+            Schedule::Jobs => Work::Jobs { sampler: self.sampler(scene, &features)? },
         };
         let mut prepared =
             Prepared { session: self, header: scene.header, samples: scene.samples, work, report };
@@ -213,8 +210,8 @@ impl Prepared<'_, '_> {
             Work::Beams(beams) => {
                 let clock = Instant::now();
                 let session = self.session;
-                let (samples, chunk) = (self.samples, session.scene.chunk);
-                let fallback = Fallback { resources: &session.resources, samples, chunk };
+                let (resources, scene) = (&session.resources, &session.scene);
+                let fallback = Fallback { resources, scene, samples: self.samples };
                 let build = || session.beside_beams();
                 let film =
                     beams.render(session.gpu, [width, height], &fallback, build, &mut report, progress)?;
@@ -244,15 +241,11 @@ impl Prepared<'_, '_> {
     }
 
     fn tracer<'t>(&'t self, report: &'t mut Report) -> Result<JobTracer<'t>> {
-        let Work::Jobs { sampler: Sampler { pipeline, shader, groups_per_tile }, prefilters } = &self.work
-        else {
+        let Work::Jobs { sampler: Sampler { pipeline, shader, groups_per_tile } } = &self.work else {
             return Err(Error::new("a scene that is rendered tile by tile has no jobs"));
         };
         let binder = Binder { resources: &self.session.resources, pipeline, shader };
-        let [width, height, _, _] = self.header.size;
-        let chunk = self.session.scene.chunk;
-        let size = [width, height];
-        JobTracer::new(self.session.gpu, binder, *groups_per_tile, size, *prefilters, chunk, report)
+        JobTracer::new(self.session.gpu, binder, *groups_per_tile, &self.session.scene, report)
     }
 }
 

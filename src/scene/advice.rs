@@ -1,12 +1,20 @@
 //! Scene → what a person should know before looking at the picture: settings that are valid, and yet do
 //! not do what their names promise in this scene or on this device.
 
-use super::model::{Footprint, Scene};
+use super::model::{Algorithm, Footprint, Scene};
 use crate::texture::sampler_spec::{Filter, Method, MipMode, SamplerSpec};
 
 /// Of the scene alone. Samplers that nothing reads have been dropped before.
 pub fn of_scene(scene: &Scene) -> Vec<String> {
-    without_effect(scene.sampling.footprint, &scene.samplers)
+    let mut told = without_effect(scene.sampling.footprint, &scene.samplers);
+    if scene.sampling.algorithm == Algorithm::Beam && !scene.suits_beams() {
+        told.push(
+            "one beam a pixel takes all rays of a square alike: with another pixel filter than \"box\" every \
+             pixel takes samples"
+                .into(),
+        );
+    }
+    told
 }
 
 fn without_effect(footprint: Footprint, samplers: &[SamplerSpec]) -> Vec<String> {

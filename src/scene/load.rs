@@ -10,6 +10,7 @@ use toml::de::DeTable;
 use super::materials;
 use super::model::{Background, Material, Plane, Scene, Sphere, TextureSource, Triangle};
 use super::names::Names;
+use super::pixel_filter::pixel_filter;
 use super::procedural::PROCEDURAL;
 use super::samplers::{self, Known};
 use super::sections;
@@ -94,6 +95,7 @@ fn assemble(path: &Path, root: &Table<'_>) -> Result<Scene> {
     let camera = sections::camera(&root.required_single("camera", sections::CAMERA, CAMERA_NEEDS)?)?;
     let image = root.required_single("image", sections::IMAGE, "width and height")?;
     let (width, height) = sections::image(&image)?;
+    let pixel_filter = pixel_filter(&image)?;
     let sampling = sections::sampling(root.single("sampling", sections::SAMPLING)?.as_ref())?;
     let Surfaces { textures, samplers, mut materials, background, names } = surfaces(path, root)?;
     let index = MaterialIndex { names: &names, fallback: materials.len() };
@@ -119,6 +121,7 @@ fn assemble(path: &Path, root: &Table<'_>) -> Result<Scene> {
         camera,
         width,
         height,
+        pixel_filter,
         sampling,
         background,
         textures,

@@ -6,6 +6,7 @@ mod mapping;
 mod materials;
 pub mod model;
 mod names;
+mod pixel_filter;
 mod procedural;
 pub mod prune;
 mod reader;
@@ -18,4 +19,5 @@ mod textures;
 mod validate;
 
 pub use load::{load, parse};
+pub use pixel_filter::MAX_RADIUS;
 pub use validate::{MAX_DEPTH, MAX_SIZE, MAX_SPP, both_filters, check_filters, check_shared, check_spp};

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use glam::{DVec2, DVec3};
 
 pub use super::mapping::{Entity, Mapping, MappingKind, Space};
+pub use super::pixel_filter::{PixelFilter, PixelFilterKind};
 use crate::named::named_enum;
 use crate::texture::sampler_spec::{Address, SamplerSpec};
 pub use crate::texture::source::{TextureContent, TextureSource};
@@ -17,6 +18,7 @@ pub struct Scene {
     pub camera: Camera,
     pub width: u32,
     pub height: u32,
+    pub pixel_filter: PixelFilter,
     pub sampling: Sampling,
     pub background: Background,
     pub textures: Vec<TextureSource>,
@@ -299,6 +301,11 @@ impl Sampling {
 }
 
 impl Scene {
+    /// Whether one beam can stand for all rays of a pixel: those from its square, by equal weights.
+    pub fn suits_beams(&self) -> bool {
+        self.pixel_filter.kind == PixelFilterKind::Box
+    }
+
     /// The sampler a material's texture is read through; the default where there is none.
     pub fn sampler_of(&self, material: &Material) -> SamplerSpec {
         let spec = self.samplers.get(material.sampler).copied().unwrap_or_default();

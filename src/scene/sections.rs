@@ -11,7 +11,7 @@ use crate::error::Result;
 
 pub(super) const CAMERA: &[&str] =
     &["eye", "look_at", "up", "vertical_fov", "camera_constant", "orthographic_height"];
-pub(super) const IMAGE: &[&str] = &["width", "height"];
+pub(super) const IMAGE: &[&str] = &["width", "height", "pixel_filter", "pixel_filter_radius"];
 pub(super) const SAMPLING: &[&str] =
     &["algorithm", "pattern", "spp", "shared", "seed", "max_depth", "footprint"];
 

@@ -10,7 +10,8 @@ use crate::oracle::mapping::Coordinate;
 use crate::pack::{self, PackedScene};
 use crate::probe::LookUp;
 use crate::scene::model::{
-    Algorithm, Background, Camera, Footprint, Material, Model, Pattern, Projection, Sampling, Scene,
+    Algorithm, Background, Camera, Footprint, Material, Model, Pattern, PixelFilter, Projection, Sampling,
+    Scene,
 };
 use crate::texture::data::{ColorSpace, Component, Dimension, TexelFormat, TextureData};
 use crate::texture::sampler_spec::SamplerSpec;
@@ -150,6 +151,7 @@ pub fn pairs_over(
         },
         width: 1,
         height: 1,
+        pixel_filter: PixelFilter::default(),
         sampling: Sampling {
             algorithm: Algorithm::Samples,
             pattern: Pattern::Center,

@@ -8,7 +8,7 @@ use moire::film::Film;
 use moire::metrics::compare;
 use moire::pack::PackedScene;
 use moire::render::Tuning;
-use moire::scene::model::{Algorithm, Footprint, Pattern, Scene};
+use moire::scene::model::{Algorithm, Footprint, Pattern, PixelFilterKind, Scene};
 
 use crate::stage::{assert_same_bits, packed, render, render_on_oracle, render_with, small};
 
@@ -130,6 +130,24 @@ fn crowded_pixels_are_left_to_samples() {
     assert!(sampled > 0 && sampled < 600, "{sampled}");
     let converged = render(&with_samples(scene, 64 * 64));
     assert!(rmse(&film, &converged) < 5e-3);
+}
+
+#[test]
+fn boxes_of_any_width_too() {
+    let mut scene = small("beams", 48, 4);
+    scene.pixel_filter.radius = 0.8;
+    assert_meets_samples(&scene, "a wide box");
+}
+
+/// Weights that are not equal: every pixel is that of the samples.
+#[test]
+fn other_pixel_filters_take_samples() {
+    let mut scene = small("beams", 24, 16);
+    scene.pixel_filter = moire::scene::model::PixelFilter::new(PixelFilterKind::Gaussian, None);
+    let beams = render(&with_beams(scene.clone()));
+    scene.sampling.algorithm = Algorithm::Samples;
+    scene.sampling.footprint = Footprint::None;
+    assert_same_bits(&beams, &render(&packed(scene, None)), "gaussian");
 }
 
 #[test]

@@ -43,6 +43,7 @@ const GOLDENS: &[(&str, [u32; 2])] = &[
     ("samplers", [264, 108]),
     ("shared", [120, 90]),
     ("volume", [120, 50]),
+    ("zone_plate", [120, 120]),
 ];
 
 /// How far a picture may be from the stored one, both with 8 bits.
@@ -188,7 +189,7 @@ macro_rules! goldens {
 }
 goldens! {
     beams centroid environment environment_cube filters formats glass hardware horizon inside lecture lights
-    mappings materials mirrors normal position procedural ramp reflection samplers shared volume
+    mappings materials mirrors normal position procedural ramp reflection samplers shared volume zone_plate
 }
 
 /// One texel a pixel: the very bytes of the texture.

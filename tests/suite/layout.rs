@@ -8,7 +8,7 @@ use std::fs;
 use moire::features::TextureSize;
 use moire::layout as mirror;
 use moire::pack::{EntityKind, LightKind, MapKind, ProjectionKind, Schedule, TextureKind};
-use moire::scene::model::{Footprint, Model, Pattern, ReliefKind};
+use moire::scene::model::{Footprint, Model, Pattern, PixelFilterKind, ReliefKind};
 use moire::shaders::{self, Shader};
 use moire::texture::data::{ColorSpace, TexelFormat};
 use moire::texture::procedural::ProceduralKind;
@@ -66,10 +66,11 @@ fn glsl_numbers(text: &str) -> BTreeMap<String, u32> {
 
 /// Every number that layout.glsl must define, and no other: modes, and strides in units of 16 bytes.
 fn expected_numbers() -> BTreeMap<String, u32> {
-    let tables: [(&str, &[&str]); 19] = [
+    let tables: [(&str, &[&str]); 20] = [
         ("PROJECTION", ProjectionKind::NAMES),
         ("PATTERN", Pattern::NAMES),
         ("SCHEDULE", Schedule::NAMES),
+        ("PIXEL_FILTER", PixelFilterKind::NAMES),
         ("MODEL", Model::NAMES),
         ("FOOTPRINT", Footprint::NAMES),
         ("ENTITY", EntityKind::NAMES),
@@ -98,6 +99,7 @@ fn expected_numbers() -> BTreeMap<String, u32> {
     all.insert("NO_SHAPE".into(), mirror::NO_SHAPE);
     all.insert("JOB_BARE".into(), mirror::JOB_BARE);
     all.insert("NO_MATERIAL".into(), mirror::NO_MATERIAL);
+    all.insert("PIXEL_FILTER_CELLS".into(), mirror::PIXEL_FILTER_CELLS);
     all.insert("HEAD_UNITS".into(), mirror::HEAD_BYTES as u32 / 16);
     let strides = MIRRORS.iter().filter(|(name, _)| *name != "Header");
     all.extend(strides.map(|(name, units)| (format!("{}_UNITS", name.to_uppercase()), *units)));

@@ -182,7 +182,8 @@ fn camera(projection: &str, width: u32, height: u32) -> PackedScene {
 /// The eye looks along −z, so right is +x and up +y. `offset` is in units of 2⁻²⁴ pixels.
 fn assert_rays(scene: &PackedScene, cases: &[([u32; 2], [u32; 2], DVec3, DVec3)]) {
     for &(pixel, position, origin, direction) in cases {
-        let ray = camera_ray(&scene.header, pixel, position);
+        let inside = DVec2::from_array(position.map(|p| f64::from(p) / f64::from(1 << 24)));
+        let ray = camera_ray(&scene.header, pixel, inside);
         assert!(ray.origin.distance(origin) < 1e-6, "{pixel:?}: origin {}, by hand {origin}", ray.origin); // f32 steps
         assert!(
             ray.direction.distance(direction) < 1e-6,

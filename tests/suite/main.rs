@@ -33,6 +33,7 @@ mod mips;
 mod oracle;
 mod output;
 mod patterns;
+mod pixel_filters;
 mod procedural;
 mod pyramids;
 mod rays;

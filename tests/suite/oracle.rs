@@ -45,6 +45,7 @@ const BOUNDS: &[(&str, f64, f64, f64)] = &[
     ("samplers", STEP, 1e-6, 0.0),
     ("shared", STEP, 5e-5, 0.03),
     ("volume", STEP, 1e-5, 0.001),
+    ("zone_plate", STEP, 5e-5, 0.001),
     ("s1a", STEP, 5e-5, 0.001),
     ("s1b", STEP, 1e-4, 0.005),
     ("s2", STEP, 2e-5, 0.001),

@@ -279,7 +279,7 @@ fn every_key_listed_as_allowed_is_read() {
         ("[[material]]\nname = 'x'\n", 12),
         ("[sampling]\n", 7),
         ("[background]\n", 5),
-        ("[image]\nwidth = 1\nheight = 1\n", 2),
+        ("[image]\nwidth = 1\nheight = 1\n", 4),
         ("[[plane]]\norigin = [0, 0, 0]\ntangent = [1, 0, 0]\nbitangent = [0, 1, 0]\n", 5),
         ("[[sphere]]\ncenter = [0, 0, 0]\nradius = 1\n", 3),
         ("[[triangle]]\nvertices = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]\n", 4),

@@ -32,7 +32,7 @@ macro_rules! with_scenes {
         $crate::stage::dispatch! {
             $($call)* beams centroid environment environment_cube filters formats glass hardware horizon
             inside lecture lights mappings materials mirrors normal position procedural quad ramp
-            reflection samplers shared volume s1a s1b s2
+            reflection samplers shared volume zone_plate s1a s1b s2
         }
     };
 }

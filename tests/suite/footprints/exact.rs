@@ -117,7 +117,7 @@ fn levels(scene: &PackedScene) -> Vec<(f64, f64, DVec2)> {
     for pixel in (0..width * height).step_by(3).map(|i| [i % width, i / width]) {
         let at = DVec2::new(f64::from(pixel[0]) + 0.5, f64::from(pixel[1]) + 0.5);
         let Some(exact) = exact_level(scene, at) else { continue };
-        let ray = camera_ray(&scene.header, pixel, [1 << 23; 2]);
+        let ray = camera_ray(&scene.header, pixel, DVec2::splat(0.5));
         let mut path = camera_path(ray, camera_beam(&scene.header, &ray), refracting());
         let mut read = DVec3::ZERO;
         while path.goes_on {

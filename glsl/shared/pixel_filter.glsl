@@ -1,0 +1,61 @@
+// A sample's place in the unit square -> its place about the pixel, by the inverse of the distribution of the
+// pixel filter's absolute value along each axis (Ernst, Stamminger & Greiner 2006), and the filter's sign there.
+// From the middle outwards, with a part t of the samples nearer, a place lies at D(√(1 - t)) radii: D(v) = 1 - v
+// for a tent, a table for others. A box of one pixel leaves every place as it is.
+#ifndef PIXEL_FILTER_GLSL
+#define PIXEL_FILTER_GLSL
+
+const bool SIGNED = HAS(PIXEL_FILTERS, PIXEL_FILTER_MITCHELL);
+
+struct Place {
+    vec2 inside; // from the pixel's corner, in units of 2^-24 of a pixel
+    float sign;
+};
+
+// In the head, which devices read fastest, also at an index of their own for each thread.
+float tabled_distance(uint i) {
+    return uintBitsToFloat(head[PIXEL_FILTER_AT + (i >> 2u)][i & 3u]);
+}
+
+// `rest` of 2^24 samples lie further from the middle.
+float distance_in_radii(Header header, uint rest) {
+    float v = sqrt(float(rest) * (1.0 / 16777216.0));
+    if (MODE_IS(PIXEL_FILTERS, PIXEL_FILTER_TENT, header.pixel_filter.x)) return 1.0 - v;
+    float at = v * float(PIXEL_FILTER_CELLS);
+    uint cell = min(uint(at), PIXEL_FILTER_CELLS - 1u);
+    float near = tabled_distance(cell);
+    float further = tabled_distance(cell + 1u) - near;
+    return near + (at - float(cell)) * further;
+}
+
+// How far out of 2^24 the middle of a position's step is from the middle of all.
+uint from_middle(uint position) {
+    uint doubled = 2u * position + 1u;
+    return position < 0x800000u ? 0x1000000u - doubled : doubled - 0x1000000u;
+}
+
+float filtered_position(Header header, uint position) {
+    float radius = uintBitsToFloat(header.pixel_filter.y);
+    if (MODE_IS(PIXEL_FILTERS, PIXEL_FILTER_BOX, header.pixel_filter.x)) {
+        return 8388608.0 + (float(position) - 8388608.0) * (2.0 * radius);
+    }
+    float offset = distance_in_radii(header, 0x1000000u - from_middle(position)) * (radius * 16777216.0);
+    return position < 0x800000u ? 8388608.0 - offset : 8388608.0 + offset;
+}
+
+float filter_sign(Header header, uvec2 position) {
+    bool x = from_middle(position.x) >= header.pixel_filter.w;
+    bool y = from_middle(position.y) >= header.pixel_filter.w;
+    return x == y ? 1.0 : -1.0;
+}
+
+Place filtered_place(Header header, uvec2 position) {
+    if (!WARPED) return Place(vec2(position), 1.0);
+    vec2 inside = vec2(filtered_position(header, position.x), filtered_position(header, position.y));
+    return Place(inside, SIGNED ? filter_sign(header, position) : 1.0);
+}
+
+// Side of the square, in pixels, over which a box has the filter's variance.
+float filter_width(Header header) { return WARPED ? uintBitsToFloat(header.pixel_filter.z) : 1.0; }
+
+#endif

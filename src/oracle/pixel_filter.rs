@@ -1,0 +1,60 @@
+//! A sample's place in the unit square → its place about the pixel, and the pixel filter's sign there. Twin of
+//! `glsl/shared/pixel_filter.glsl`.
+
+use glam::DVec2;
+
+use super::strata::UNIT;
+use crate::layout::{Header, PIXEL_FILTER_CELLS};
+use crate::pack::PackedScene;
+use crate::scene::model::PixelFilterKind;
+
+#[derive(Clone, Copy, Debug)]
+pub struct Place {
+    /// From the pixel's corner, in pixels.
+    pub inside: DVec2,
+    pub sign: f64,
+}
+
+const MIDDLE: u32 = 1 << 23;
+const WHOLE: u32 = 1 << 24;
+
+/// `rest` of 2²⁴ samples lie further from the middle.
+pub fn distance_in_radii(scene: &PackedScene, rest: u32) -> f64 {
+    let v = (f64::from(rest) * UNIT).sqrt();
+    if scene.header.pixel_filter[0] == PixelFilterKind::Tent as u32 {
+        return 1.0 - v;
+    }
+    let at = v * f64::from(PIXEL_FILTER_CELLS);
+    let cell = (at as usize).min(PIXEL_FILTER_CELLS as usize - 1);
+    let [near, far] = [0, 1].map(|i| f64::from(scene.pixel_filter[cell + i]));
+    near + (at - cell as f64) * (far - near)
+}
+
+/// How far out of 2²⁴ the middle of a position's step is from the middle of all.
+pub fn from_middle(position: u32) -> u32 {
+    (2 * position + 1).abs_diff(WHOLE)
+}
+
+pub fn filtered_position(scene: &PackedScene, position: u32) -> f64 {
+    let radius = f64::from(f32::from_bits(scene.header.pixel_filter[1]));
+    if scene.header.pixel_filter[0] == PixelFilterKind::Box as u32 {
+        return 0.5 + (f64::from(position) * UNIT - 0.5) * 2.0 * radius;
+    }
+    let offset = distance_in_radii(scene, WHOLE - from_middle(position)) * radius;
+    if position < MIDDLE { 0.5 - offset } else { 0.5 + offset }
+}
+
+pub fn filter_sign(header: &Header, position: [u32; 2]) -> f64 {
+    let [x, y] = position.map(|p| from_middle(p) >= header.pixel_filter[3]);
+    if x == y { 1.0 } else { -1.0 }
+}
+
+pub fn filtered_place(scene: &PackedScene, position: [u32; 2]) -> Place {
+    let inside = DVec2::from_array(position.map(|p| filtered_position(scene, p)));
+    Place { inside, sign: filter_sign(&scene.header, position) }
+}
+
+/// Side of the square, in pixels, over which a box has the filter's variance.
+pub fn filter_width(header: &Header) -> f64 {
+    f64::from(f32::from_bits(header.pixel_filter[2]))
+}

@@ -1,0 +1,143 @@
+//! Pixel filters as what turns a place in the unit square into a place about the pixel (Ernst, Stamminger &
+//! Greiner 2006, "Filter importance sampling"): along each axis the inverse of the distribution of |f|, so that
+//! a sum of samples, each with the sign that f has there, is filtered by f. In: a filter. Out: its record in
+//! the header and the table of that inverse, computed in f64.
+//!
+//! From the middle outwards, t being the part of the samples that lie nearer, the distance in radii is tabled
+//! over v = √(1 - t): where f goes to 0 linearly it is smooth in v to the end. Linear interpolation among 512
+//! cells leaves distributions within 1e-6 of the exact one, and within 1.3e-4 for `mitchell`, whose zero lies
+//! inside a cell.
+
+use std::f64::consts::PI;
+
+use crate::layout::PIXEL_FILTER_CELLS;
+use crate::scene::model::{PixelFilter, PixelFilterKind};
+
+/// Steps of the integrals from the middle to the radius.
+const STEPS: usize = 1 << 14;
+
+/// The filter at x, in radii from the middle; not normalised.
+pub fn kernel(kind: PixelFilterKind, x: f64) -> f64 {
+    let x = x.abs();
+    if x > 1.0 {
+        return 0.0;
+    }
+    match kind {
+        PixelFilterKind::Box => 1.0,
+        PixelFilterKind::Tent => 1.0 - x,
+        PixelFilterKind::Gaussian => (-4.5 * x * x).exp() - (-4.5f64).exp(),
+        PixelFilterKind::Mitchell => {
+            let x = 2.0 * x;
+            let near = (7.0 * x - 12.0) * x * x + 16.0 / 3.0;
+            let far = ((-7.0 / 3.0 * x + 12.0) * x - 20.0) * x + 32.0 / 3.0;
+            (if x < 1.0 { near } else { far }) / 6.0
+        }
+        PixelFilterKind::BlackmanHarris => {
+            let wave = |k: f64| (k * PI * (x + 1.0)).cos();
+            0.35875 - 0.48829 * wave(1.0) + 0.14128 * wave(2.0) - 0.01168 * wave(3.0)
+        }
+    }
+}
+
+/// Where the filter becomes negative, in radii.
+fn zero(kind: PixelFilterKind) -> f64 {
+    if kind == PixelFilterKind::Mitchell { 4.0 / 7.0 } else { 1.0 }
+}
+
+/// What samples of a filter are placed by.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Warp {
+    /// The header's.
+    pub record: [u32; 4],
+    /// Side of the square over which a box has the same variance, in pixels: what a prefilter may cover.
+    pub width: f64,
+    /// Distance in radii at v = 0, 1/512, …, 1; empty where there is a closed form.
+    pub table: Vec<f32>,
+    /// Mean of the samples' signs, where the filter has negative lobes.
+    pub mean_sign: Option<f64>,
+}
+
+impl Warp {
+    pub fn new(filter: PixelFilter) -> Warp {
+        let PixelFilter { kind, radius } = filter;
+        let integrals = Integrals::new(kind);
+        let width = match kind {
+            PixelFilterKind::Box => 2.0 * radius,
+            _ => radius * (12.0 * integrals.variance).sqrt(),
+        };
+        let tabled = !matches!(kind, PixelFilterKind::Box | PixelFilterKind::Tent);
+        let cells = PIXEL_FILTER_CELLS as usize;
+        let distance = |i: usize| integrals.inverse(1.0 - (i as f64 / cells as f64).powi(2)) as f32;
+        // An axis has its sign by an integer: device and oracle never differ in it.
+        let first_negative = (integrals.below(zero(kind)) * 16_777_216.0).round() as u32;
+        Warp {
+            record: [
+                kind as u32,
+                (radius as f32).to_bits(),
+                (width as f32).to_bits(),
+                if zero(kind) < 1.0 { first_negative } else { u32::MAX },
+            ],
+            width,
+            table: if tabled { (0..=cells).map(distance).collect() } else { Vec::new() },
+            mean_sign: (zero(kind) < 1.0).then(|| integrals.mean_sign.powi(2)),
+        }
+    }
+}
+
+/// By which the sum of samples, each with its sign, becomes their mean: the sum of the signs, so that a picture
+/// of one colour keeps it exactly. By few samples that sum can be anything, even 0; then what it is on average.
+pub fn divisor(signs: f64, samples: f64, mean_sign: f64) -> f64 {
+    if 2.0 * signs.abs() >= samples { signs } else { samples * mean_sign }
+}
+
+/// Of a filter from its middle to its radius, by Simpson's rule.
+struct Integrals {
+    kind: PixelFilterKind,
+    /// ∫|f| up to each step, over all of it.
+    absolute: Vec<f64>,
+    whole: f64,
+    /// ∫f / ∫|f|
+    mean_sign: f64,
+    /// ∫x²f / ∫f
+    variance: f64,
+}
+
+/// ∫ f from a to b.
+fn simpson(f: impl Fn(f64) -> f64, a: f64, b: f64) -> f64 {
+    (b - a) / 6.0 * (f(a) + 4.0 * f(0.5 * (a + b)) + f(b))
+}
+
+impl Integrals {
+    fn new(kind: PixelFilterKind) -> Integrals {
+        let at = |i: usize| i as f64 / STEPS as f64;
+        let (mut absolute, mut signed, mut second) = (vec![0.0], 0.0, 0.0);
+        for i in 0..STEPS {
+            let (a, b) = (at(i), at(i + 1));
+            let f = |x| kernel(kind, x);
+            absolute.push(absolute[i] + simpson(|x| f(x).abs(), a, b));
+            signed += simpson(f, a, b);
+            second += simpson(|x| x * x * f(x), a, b);
+        }
+        let whole = absolute[STEPS];
+        absolute.iter_mut().for_each(|sum| *sum /= whole);
+        Integrals { kind, absolute, whole, mean_sign: signed / whole, variance: second / signed }
+    }
+
+    /// The part of |f| nearer to the middle than x.
+    fn below(&self, x: f64) -> f64 {
+        let step = ((x * STEPS as f64) as usize).min(STEPS - 1);
+        let start = step as f64 / STEPS as f64;
+        self.absolute[step] + simpson(|x| kernel(self.kind, x).abs(), start, x) / self.whole
+    }
+
+    /// The distance within which a part t of |f| lies.
+    fn inverse(&self, t: f64) -> f64 {
+        let step = self.absolute.partition_point(|&below| below < t).clamp(1, STEPS);
+        let (mut low, mut high) = ((step - 1) as f64 / STEPS as f64, step as f64 / STEPS as f64);
+        for _ in 0..40 {
+            let middle = 0.5 * (low + high);
+            *(if self.below(middle) < t { &mut low } else { &mut high }) = middle;
+        }
+        0.5 * (low + high)
+    }
+}

@@ -1,0 +1,154 @@
+//! Device and oracle, lean pipelines and such with everything, parts and the whole: the same picture.
+
+use moire::adaptive::{self, Goal};
+use moire::features::Features;
+use moire::metrics::compare;
+use moire::oracle::jobs::JobTracer;
+use moire::pack::Crop;
+use moire::progress::Silent;
+use moire::render::{self, Tuning};
+use moire::scene::model::{Algorithm, Footprint, Pattern, PixelFilter, PixelFilterKind, Scene};
+
+use super::{filters, with};
+use crate::stage::{
+    assert_same_bits, cut, device, packed, render, render_on_oracle, render_with, small, with_random,
+};
+
+fn constant(features: &Features, name: &str) -> u32 {
+    features.values.iter().find(|(n, _)| *n == name).unwrap().1
+}
+
+#[test]
+fn a_box_of_one_pixel_is_left_out_and_changes_no_bit() {
+    for name in ["s1a", "lecture", "filters"] {
+        let plain = small(name, 70, 4);
+        let named = with(plain.clone(), PixelFilter::new(PixelFilterKind::Box, Some(0.5)));
+        let (plain, named) = (packed(plain, None), packed(named, None));
+        assert_eq!(constant(&Features::new(&named, false, false), "WARPED"), 0);
+        assert_same_bits(&render(&plain), &render(&named), name);
+        let (full, _) = render_with(&named, true, &Tuning::default());
+        assert_same_bits(&full, &render(&named), name);
+    }
+}
+
+#[test]
+fn other_filters_are_not_left_out() {
+    for filter in filters() {
+        let features = Features::new(&packed(with(small("s1a", 8, 4), filter), None), false, false);
+        assert_eq!(constant(&features, "WARPED"), 1, "{filter:?}");
+        assert_eq!(constant(&features, "PIXEL_FILTERS"), 1 << filter.kind as u32);
+    }
+}
+
+#[test]
+fn device_and_oracle_filter_alike() {
+    for name in ["lecture", "s2", "zone_plate"] {
+        for filter in filters() {
+            let scene = packed(with(small(name, 64, 16), filter), None);
+            let (device, oracle) = (render(&scene), render_on_oracle(&scene));
+            let found = compare(&device, &oracle).unwrap();
+            // One of 16 samples on the other side of an edge, in one pixel of thousands.
+            assert!(found.rmse < 1e-3 && found.over_1_255 < 0.002, "{name}, {filter:?}: {:e}", found.rmse);
+        }
+    }
+}
+
+/// All code is built once for each, so a few stand for all.
+#[test]
+fn what_is_left_out_changes_no_bit_of_a_filtered_picture() {
+    let footprints = |mut scene: Scene| {
+        scene.sampling.footprint = Footprint::Differentials;
+        scene
+    };
+    for (scene, filter) in [
+        (small("lecture", 70, 4), PixelFilter::new(PixelFilterKind::Tent, None)),
+        (footprints(small("filters", 70, 4)), PixelFilter::new(PixelFilterKind::Mitchell, None)),
+        // More samples than one chunk holds.
+        (with_random(small("lights", 24, 1), 600), PixelFilter::new(PixelFilterKind::Mitchell, None)),
+        (small("s2", 40, 4), PixelFilter::new(PixelFilterKind::BlackmanHarris, None)),
+        (small("s2", 40, 4), PixelFilter::new(PixelFilterKind::Box, Some(2.0))),
+    ] {
+        let scene = packed(with(scene, filter), None);
+        let (lean, _) = render_with(&scene, false, &Tuning::default());
+        let (full, _) = render_with(&scene, true, &Tuning::default());
+        assert_same_bits(&lean, &full, &format!("{filter:?}"));
+    }
+}
+
+/// Filters reach over the edges of crops, and of the picture, where nothing else ends.
+#[test]
+fn a_crop_of_a_filtered_picture_has_its_pixels() {
+    for filter in filters() {
+        let scene = with(small("lecture", 80, 4), filter);
+        let full = render(&packed(scene.clone(), None));
+        for crop in [Crop { x: 0, y: 0, width: 3, height: 2 }, Crop { x: 17, y: 30, width: 30, height: 21 }] {
+            let part = render(&packed(scene.clone(), Some(crop)));
+            assert_same_bits(&part, &cut(&full, crop), &format!("{filter:?}, {crop:?}"));
+        }
+    }
+}
+
+/// On a CPU device a film this wide takes several bands, of both kinds.
+#[test]
+fn bands_and_pages_change_no_bit_of_a_filtered_picture() {
+    for algorithm in [Algorithm::Samples, Algorithm::Adaptive] {
+        let mut scene = with(small("quad", 96, 1), PixelFilter::new(PixelFilterKind::Mitchell, None));
+        (scene.width, scene.height) = (16_384, 300);
+        (scene.sampling.pattern, scene.sampling.spp) = (Pattern::SobolOwen, 2);
+        scene.sampling.algorithm = algorithm;
+        let full = render(&packed(scene.clone(), None));
+        let crop = Crop { x: 8000, y: 250, width: 100, height: 30 };
+        let part = render(&packed(scene, Some(crop)));
+        assert_same_bits(&part, &cut(&full, crop), &format!("{algorithm}"));
+    }
+}
+
+fn adaptively(filter: PixelFilter, footprint: Footprint) -> Scene {
+    // Without a footprint, what lies near a horizon differs by rounding.
+    let name = if footprint == Footprint::None { "s2" } else { "filters" };
+    let mut scene = with(small(name, 64, 4), filter);
+    scene.sampling.algorithm = Algorithm::Adaptive;
+    (scene.sampling.pattern, scene.sampling.spp) = (Pattern::SobolOwen, 2);
+    scene.sampling.footprint = footprint;
+    scene
+}
+
+#[test]
+fn adaptive_samples_are_filtered_alike_by_device_and_oracle() {
+    for filter in filters() {
+        for footprint in [Footprint::None, Footprint::Cone] {
+            let scene = packed(adaptively(filter, footprint), None);
+            let (width, height) = (scene.header.size[0], scene.header.size[1]);
+            let mut tracer = JobTracer::new(&scene);
+            let (oracle, _) = adaptive::run(&mut tracer, [width, height], Goal::Samples(2), &Silent).unwrap();
+            let rendered = render::render_to_goal(
+                &device(),
+                scene,
+                false,
+                &Tuning::default(),
+                Some(Goal::Samples(2)),
+                &Silent,
+            );
+            let found = compare(&rendered.unwrap().0, &oracle).unwrap();
+            assert!(found.rmse < 2e-3, "{filter:?}, {footprint}: {:e}", found.rmse);
+        }
+    }
+}
+
+#[test]
+fn adaptive_pictures_converge_to_the_filtered_one() {
+    for filter in filters() {
+        let mut scene = with(small("s2", 64, 4), filter);
+        (scene.sampling.pattern, scene.sampling.spp) = (Pattern::SobolOwen, 4096);
+        let reference = render(&packed(scene.clone(), None));
+        scene.sampling.algorithm = Algorithm::Adaptive;
+        let scene = packed(scene, None);
+        let goal = Goal::Error(4e-3);
+        let rendered =
+            render::render_to_goal(&device(), scene, false, &Tuning::default(), Some(goal), &Silent);
+        let (film, report) = rendered.unwrap();
+        let error = compare(&film, &reference).unwrap().rmse;
+        // The estimate has a sigma of 5 % at this size.
+        assert!(error < 4.6e-3, "{filter:?}: {error:e}, {:?}", report.outcome);
+    }
+}
