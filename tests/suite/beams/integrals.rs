@@ -17,7 +17,7 @@ use crate::stage::{packed, render, render_on_oracle, small};
 
 /// The pixel as the mean of a grid of so many look-ups a side.
 fn by_grid(scene: &PackedScene, place: [u32; 2], side: u32) -> f64 {
-    let sum: f64 = (0..side * side).map(|s| sample(scene, &scene.header, place, 0, s).x).sum();
+    let sum: f64 = (0..side * side).map(|s| sample(scene, &scene.header, place, 0, s).0.x).sum();
     sum / f64::from(side * side)
 }
 
