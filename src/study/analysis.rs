@@ -1,9 +1,10 @@
 //! What follows from the measured points. In: (rays, seconds, error) by method. Out: the slope of each
-//! method's variance over its rays with a 95 % interval, the winner of each time budget, the time to reach
+//! method's variance over its rays with 95 % intervals, the winner of each time budget, the time to reach
 //! each error, and one sentence.
 
 use serde::Serialize;
 
+use super::bootstrap::interval;
 use super::record::{PointRecord, Record};
 use super::words::advice;
 
@@ -33,6 +34,9 @@ pub struct Slope {
 pub struct MethodSlope {
     pub method: String,
     pub fitted: Option<Slope>,
+    /// 95 % of the slopes when blocks of pixels are drawn anew: what noise leaves open, whether or not the points
+    /// lie on a line.
+    pub interval: Option<[f64; 2]>,
     /// What theory says of the variance, steepest last; none where there is no law.
     pub theory: Vec<f64>,
     pub theory_text: String,
@@ -68,6 +72,7 @@ pub fn analyse(record: &Record) -> Analysis {
         MethodSlope {
             method: m.name.clone(),
             fitted: slope(&points, floor),
+            interval: noise_interval(&record.points_of(&m.name).collect::<Vec<_>>(), floor),
             theory: theory.to_vec(),
             theory_text: text.to_owned(),
         }
@@ -96,19 +101,44 @@ fn theory(pattern: &str, filtered: bool) -> (&'static [f64], &'static str) {
 
 /// Of (rays, RMSE); the slope is that of the variance, RMSE².
 pub fn slope(points: &[(f64, f64)], floor: f64) -> Option<Slope> {
-    let fair = |p: &&(f64, f64)| p.1 > ABOVE_FLOOR * floor && p.1 > 0.0 && p.1.is_finite();
-    let logs: Vec<(f64, f64)> = points.iter().filter(fair).map(|p| (p.0.ln(), 2.0 * p.1.ln())).collect();
-    let n = logs.len() as f64;
-    let mean = |f: fn(&(f64, f64)) -> f64| logs.iter().map(f).sum::<f64>() / n;
-    let (x, y) = (mean(|p| p.0), mean(|p| p.1));
-    let sxx: f64 = logs.iter().map(|p| (p.0 - x).powi(2)).sum();
-    if logs.len() < FEWEST || sxx < 1e-9 {
+    let logs: Vec<(f64, f64)> =
+        points.iter().filter(|p| is_fair(p.1, floor)).map(|p| (p.0.ln(), 2.0 * p.1.ln())).collect();
+    if logs.len() < FEWEST || logs.iter().all(|p| (p.0 - logs[0].0).abs() < 1e-5) {
         return None;
     }
-    let value = logs.iter().map(|p| (p.0 - x) * (p.1 - y)).sum::<f64>() / sxx;
-    let residual: f64 = logs.iter().map(|p| (p.1 - y - value * (p.0 - x)).powi(2)).sum();
-    let half_width = student(logs.len() - 2) * (residual / (n - 2.0) / sxx).sqrt();
+    let Line { value, residual, sxx } = least_squares(&logs);
+    let half_width = student(logs.len() - 2) * (residual / (logs.len() as f64 - 2.0) / sxx).sqrt();
     Some(Slope { value, half_width: (half_width > 1e-9).then_some(half_width), points: logs.len() })
+}
+
+/// Whether an error says something of the method, and not of the reference.
+fn is_fair(rmse: f64, floor: f64) -> bool {
+    rmse > ABOVE_FLOOR * floor && rmse > 0.0 && rmse.is_finite()
+}
+
+/// What the noise alone leaves open of a method's slope.
+fn noise_interval(points: &[&PointRecord], floor: f64) -> Option<[f64; 2]> {
+    let fair = points.iter().filter(|p| is_fair(p.errors.rmse, floor));
+    let points: Vec<(f64, &[f32])> = fair.map(|p| (f64::from(p.samples), p.blocks.as_slice())).collect();
+    interval(&points, 0.95)
+}
+
+pub(super) struct Line {
+    pub value: f64,
+    /// Sum of the squares that are left.
+    residual: f64,
+    sxx: f64,
+}
+
+/// The straight line through (x, y) of at least two x.
+pub(super) fn least_squares(points: &[(f64, f64)]) -> Line {
+    let n = points.len() as f64;
+    let mean = |f: fn(&(f64, f64)) -> f64| points.iter().map(f).sum::<f64>() / n;
+    let (x, y) = (mean(|p| p.0), mean(|p| p.1));
+    let sxx: f64 = points.iter().map(|p| (p.0 - x).powi(2)).sum();
+    let value = points.iter().map(|p| (p.0 - x) * (p.1 - y)).sum::<f64>() / sxx;
+    let residual = points.iter().map(|p| (p.1 - y - value * (p.0 - x)).powi(2)).sum();
+    Line { value, residual, sxx }
 }
 
 /// 97.5 % quantile of Student's t with this many degrees of freedom.

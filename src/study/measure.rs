@@ -12,6 +12,7 @@ use crate::progress::{Part, Progress};
 use crate::render::Prepared;
 use crate::scene::model::Scene;
 
+use super::bootstrap::blocks;
 use super::identity::Hash;
 use super::looks::Looks;
 use super::method::Method;
@@ -155,6 +156,7 @@ impl<'a> Measurement<'a> {
         task.prepared = Some(prepared);
         if first {
             task.record.errors = judge(&film, self.reference)?;
+            task.record.blocks = blocks(&film, &self.reference.film);
             task.judged = true;
         }
         Ok(())

@@ -8,6 +8,7 @@
 //! ```
 
 pub mod analysis;
+pub mod bootstrap;
 pub mod chart;
 mod files;
 mod identity;

@@ -86,6 +86,9 @@ pub struct PointRecord {
     pub device_seconds: Vec<f64>,
     pub stages: Stages,
     pub errors: Errors,
+    /// Sums of squared errors of parts of the picture; none where an older study left the point.
+    #[serde(default)]
+    pub blocks: Vec<f32>,
     pub command: String,
 }
 

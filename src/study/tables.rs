@@ -47,17 +47,36 @@ pub fn slopes(analysis: &Analysis) -> String {
             None => "too few points".into(),
             Some(f) => {
                 let interval = f.half_width.map_or(String::new(), |h| format!(" ± {h:.2}"));
-                format!("{:.2}{interval}", f.value).replace('-', "−")
+                minus(format!("{:.2}{interval}", f.value))
             }
         };
         let points = s.fitted.map_or("–".into(), |f| f.points.to_string());
-        vec![method(&s.method), fitted, points, escape(&s.theory_text)]
+        let noise = s.interval.map_or("–".into(), |[low, high]| minus(format!("{low:.2} to {high:.2}")));
+        vec![method(&s.method), fitted, points, noise, escape(&s.theory_text), lies_within(s)]
     };
     let rows: Vec<Vec<String>> = analysis.slopes.iter().map(row).collect();
-    let text = "<p>The slope of the variance (RMSE²) over the rays, fitted with a 95 % interval to the points that lie \
-                well above the reference's own error. Theory: independent samples −1; jittered strata −1 where all \
-                of a pixel varies, −1.5 along one edge, −2 where it is smooth. A scene has all three.</p>\n";
-    text.to_owned() + &table("Slopes", &["method", "slope", "points", "theory"], &rows)
+    let text = "<p>The slope of the variance (RMSE²) over the rays, fitted to the points that lie well above the \
+                reference's own error, with a 95 % interval by how far they lie from the line; and what noise alone \
+                leaves open, by drawing parts of the picture anew (95 % of 2000 draws). Theory: independent samples \
+                −1; jittered strata −1 where all of a pixel varies, −1.5 along one edge, −2 where it is smooth. A \
+                scene that has all three has a slope between.</p>\n";
+    let head = ["method", "slope", "points", "noise leaves", "theory", "within it"];
+    text.to_owned() + &table("Slopes", &head, &rows)
+}
+
+fn minus(text: String) -> String {
+    text.replace('-', "−")
+}
+
+/// Those of theory's slopes that the wider of both intervals holds.
+fn lies_within(slope: &MethodSlope) -> String {
+    let Some(fitted) = slope.fitted else { return "–".into() };
+    let own = fitted.half_width.unwrap_or(0.0);
+    let [low, high] = slope.interval.unwrap_or([fitted.value; 2]);
+    let [low, high] = [low.min(fitted.value - own), high.max(fitted.value + own)];
+    let held: Vec<String> =
+        slope.theory.iter().filter(|t| (low..=high).contains(*t)).map(|t| minus(t.to_string())).collect();
+    if held.is_empty() { "none".into() } else { held.join(", ") }
 }
 
 pub fn reach(analysis: &Analysis) -> String {

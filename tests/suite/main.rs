@@ -40,6 +40,7 @@ mod rays;
 mod readme;
 mod scene;
 mod shared_gpu;
+mod slopes;
 mod specialise;
 mod stage;
 mod strata;

@@ -67,6 +67,7 @@ fn law(method: &str, value: f64, theory: &[f64]) -> MethodSlope {
     MethodSlope {
         method: method.into(),
         fitted: Some(Slope { value, half_width: None, points: 3 }),
+        interval: None,
         theory: theory.to_vec(),
         theory_text: String::new(),
     }

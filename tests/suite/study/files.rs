@@ -106,11 +106,20 @@ fn record_says_where_and_against_what_it_was_measured() {
         for metric in ["rmse", "relative_mse", "max", "over_1_255", "flip"] {
             assert!(point["errors"][metric].as_f64().is_some_and(|e| e > 0.0), "{metric}: {point}");
         }
+        let blocks = point["blocks"].as_array().unwrap().iter().map(|b| b.as_f64().unwrap());
+        let size = record["size"].as_array().unwrap().iter().map(|n| n.as_f64().unwrap()).product::<f64>();
+        let mse = blocks.sum::<f64>() / (3.0 * size);
+        assert!((mse.sqrt() / point["errors"]["rmse"].as_f64().unwrap() - 1.0).abs() < 1e-6, "{point}");
     }
     let slope = |method: &str| {
         let all = record["analysis"]["slopes"].as_array().unwrap();
         all.iter().find(|s| s["method"] == method).unwrap()["fitted"]["value"].as_f64().unwrap_or(0.0)
     };
+    let random = record["analysis"]["slopes"].as_array().unwrap().iter().find(|s| s["method"] == "random");
+    let [low, high] = [0, 1].map(|i| random.unwrap()["interval"][i].as_f64().unwrap());
+    assert!(low < slope("random") && slope("random") < high && high - low < 0.5, "{low} to {high}");
+    let page = std::fs::read_to_string(folder.path().join("index.html")).unwrap();
+    assert!(page.contains("<th scope=\"col\">noise leaves</th>"));
     // Three counts of a small picture with a checker: independent samples come near −1, jittered ones below.
     assert!((slope("random") + 1.0).abs() < 0.3, "{}", slope("random"));
     assert!(slope("stratified") < slope("random"), "{} {}", slope("stratified"), slope("random"));
