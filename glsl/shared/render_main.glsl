@@ -9,37 +9,11 @@
 #include "layout.glsl"
 #include "patterns.glsl"
 #include "shade.glsl"
-
-layout(local_size_x_id = 0, local_size_y_id = 1, local_size_z = 1) in;
-
-layout(std430, set = 0, binding = 0) buffer Film { vec4 film[]; };
+#include "slice.glsl"
 
 // Samples of single pixels: place (x | y << 16), half and JOB_BARE, first sample, count. A film of jobs holds two halves,
 // each with sums of radiance and of its square's mean over the channels.
 layout(std430, set = 0, binding = 4) readonly buffer Jobs { uvec4 jobs[]; };
-
-layout(push_constant) uniform Slice {
-    uint tiles_x;      // tiles across the picture
-    uint tiles;        // tiles in this band
-    uint tile_stride;  // coprime to `tiles`: the visiting order
-    uint first_tile;
-    uint band_y;       // first row of the band
-    uint band_height;
-    uint first_sample;
-    uint sample_count;
-    uint schedule;     // tiles of the film, or a list of `tiles` jobs
-} slice;
-
-const uint TILE = 64u;
-
-// Thread -> pixel of the film. Workgroups of a tile follow each other in x, tiles in y.
-uvec2 film_pixel() {
-    uint tile = ((slice.first_tile + gl_WorkGroupID.y) * slice.tile_stride) % slice.tiles;
-    uvec2 origin = uvec2(tile % slice.tiles_x, tile / slice.tiles_x) * TILE;
-    uint across = TILE / gl_WorkGroupSize.x;
-    uvec2 group = uvec2(gl_WorkGroupID.x % across, gl_WorkGroupID.x / across);
-    return origin + group * gl_WorkGroupSize.xy + gl_LocalInvocationID.xy;
-}
 
 // What one thread does: samples of one pixel, into one place of the film.
 struct Task {

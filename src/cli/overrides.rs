@@ -6,6 +6,7 @@ use serde_json::{Value, json};
 use crate::adaptive::Goal;
 use crate::error::{Error, Result};
 use crate::pack::Crop;
+use crate::scene::cone;
 use crate::scene::model::{Algorithm, Footprint, Pattern, Sampling, Scene};
 use crate::scene::{both_filters, check_filters, check_shared, check_spp};
 use crate::texture::sampler_spec::{Filter, Method, MipMode};
@@ -52,7 +53,8 @@ fn one_of(what: &str, names: &[&str]) -> String {
 }
 
 impl Overrides {
-    pub fn apply(&self, scene: &mut Scene) -> Result<()> {
+    /// What was chosen beside what is named, in words.
+    pub fn apply(&self, scene: &mut Scene) -> Result<Option<&'static str>> {
         if let Some([width, height]) = self.size {
             (scene.width, scene.height) = (width, height);
         }
@@ -76,7 +78,12 @@ impl Overrides {
                 (sampler.mag, sampler.min) = both_filters(filter);
             }
         }
-        check_filters(scene)
+        // What the command line names is meant.
+        let free = self.filter.is_none() && self.mip.is_none();
+        let chosen = if free { cone::suit(scene) } else { None };
+        cone::suit_footprint(scene);
+        check_filters(scene)?;
+        Ok(chosen)
     }
 
     /// What ends the sampling, if it is not a number of samples.
@@ -89,7 +96,10 @@ impl Overrides {
         if !sampling.algorithm.is_adaptive() {
             if self.goal().is_some() {
                 return Err(Error::with_help(
-                    "--budget and --target-error need an algorithm that may choose its samples; \"samples\" takes --spp",
+                    format!(
+                        "--budget and --target-error need an algorithm that may choose its samples; \"{}\" does not",
+                        sampling.algorithm
+                    ),
                     "leave --algorithm away, or use --algorithm adaptive",
                 ));
             }

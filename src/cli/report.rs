@@ -32,6 +32,7 @@ pub fn json(ran: &Ran, options: Value, outputs: &[String]) -> Value {
         "warnings": ran.report.warnings,
         "samples": ran.film.samples,
         "reached": ran.report.outcome,
+        "dropped": ran.report.dropped,
         "outputs": outputs,
         "seconds": ran.report.seconds,
         "device_seconds": device_seconds(&ran.report),
@@ -69,6 +70,12 @@ pub fn say(ran: &Ran, outputs: &[String], verbose: bool) {
         if let Some(mips) = report.device_mips_seconds {
             tell(format_args!("device time of mip pyramids: {mips:.4} s"));
         }
+    }
+    if let Some(dropped) = report.dropped.filter(|d| *d > 0.0) {
+        tell(format_args!(
+            "cones left out {:.2e} of the picture's weight: shapes beyond the nearest of a pixel, faint reflections",
+            dropped
+        ));
     }
     if let Some(o) = &report.outcome {
         if o.estimated_bias > 0.0 {

@@ -4,6 +4,9 @@
 //! integers and equal bit for bit; everything after them differs by the rounding of f32 only.
 
 pub mod camera;
+pub mod cone;
+pub mod cone_shade;
+pub mod coverage;
 pub mod ellipse;
 pub mod filter;
 pub mod footprint;

@@ -6,6 +6,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::camera::camera_ray;
+use super::cone_shade;
 use super::footprint::camera_beam;
 use super::patterns::{pixel_points, sample_point};
 use super::rng::{pcg2d, pixel_key, sample_bits};
@@ -15,9 +16,13 @@ use crate::film::Film;
 use crate::layout::Header;
 use crate::pack::PackedScene;
 use crate::progress::Progress;
+use crate::scene::model::Algorithm;
 
 /// The mean radiance of pixel (x, y) of the film: of the crop, where there is one.
 pub fn pixel(scene: &PackedScene, x: u32, y: u32) -> DVec3 {
+    if scene.algorithm == Algorithm::Cone {
+        return cone_shade::pixel(scene, x, y).0;
+    }
     let sum: DVec3 = (0..scene.samples).map(|s| sample(scene, &scene.header, [x, y], 0, s)).sum();
     sum / f64::from(scene.samples)
 }

@@ -73,6 +73,7 @@ pub struct PackedScene {
     /// Samples of a pixel that one thread takes at once, at most `CHUNK`.
     pub chunk: u32,
     pub schedule: Schedule,
+    pub algorithm: Algorithm,
 }
 
 /// Where each list begins in the scene buffer, in units of 16 bytes.
@@ -113,7 +114,13 @@ pub fn pack_with(
     let crop = crop.unwrap_or(Crop { x: 0, y: 0, width: scene.width, height: scene.height });
     let samples = scene.sampling.samples();
     let schedule = schedule(scene);
-    let mut packed = PackedScene { samples, chunk: CHUNK, schedule, ..Default::default() };
+    let mut packed = PackedScene {
+        samples,
+        chunk: CHUNK,
+        schedule,
+        algorithm: scene.sampling.algorithm,
+        ..Default::default()
+    };
     packed.header = header(scene, crop);
     let filtered = packed.prefilters();
     packed.sampler_specs = scene.samplers.clone();
@@ -136,7 +143,7 @@ pub fn pack_with(
 
 fn schedule(scene: &Scene) -> Schedule {
     match scene.sampling.algorithm {
-        Algorithm::Samples => Schedule::Tiles,
+        Algorithm::Samples | Algorithm::Cone => Schedule::Tiles,
         Algorithm::Adaptive | Algorithm::Auto => Schedule::Jobs,
     }
 }
@@ -286,6 +293,9 @@ fn header(scene: &Scene, crop: Crop) -> Header {
 /// The footprint, if there is a filter that asks for it. All textures and samplers are read.
 fn footprint(scene: &Scene) -> Footprint {
     let procedural = scene.textures.iter().any(|t| t.content.procedural().is_some());
+    if scene.sampling.algorithm == Algorithm::Cone {
+        return Footprint::Cone;
+    }
     let needed = procedural || scene.samplers.iter().any(SamplerSpec::needs_footprint);
     if needed { scene.sampling.footprint } else { Footprint::None }
 }

@@ -84,8 +84,10 @@ impl FilmBuffer {
         self.bands().map(|b| u64::from(b.tiles)).sum()
     }
 
-    /// Sums of a band → means of its rows, a few rows at a time.
-    pub fn read(&self, gpu: &Gpu, band: &Band, film: &mut Film) -> Result<()> {
+    /// Sums of a band → means of its rows, a few rows at a time. What cones dropped, over all pixels, is
+    /// the answer.
+    pub fn read(&self, gpu: &Gpu, band: &Band, film: &mut Film) -> Result<f64> {
+        let mut dropped = 0.0;
         let row_bytes = u64::from(self.width) * PIXEL_BYTES;
         let rows_at_once = ((4 << 20) / row_bytes).clamp(1, u64::from(band.height)) as u32;
         let mut sums = vec![[0f32; 4]; (self.width * rows_at_once) as usize];
@@ -103,12 +105,13 @@ impl FilmBuffer {
             }
             let first = (band.y + y) as usize * self.width as usize;
             for (i, out) in film.pixels[first..first + count].iter_mut().enumerate() {
+                dropped += f64::from(sums[i][3]);
                 for c in 0..3 {
                     let rest = lost.get(i).map_or(0.0, |l| f64::from(l[c]));
                     out[c] = ((f64::from(sums[i][c]) - rest) / f64::from(film.samples)) as f32;
                 }
             }
         }
-        Ok(())
+        Ok(dropped)
     }
 }

@@ -56,6 +56,8 @@ pub struct Report {
     pub seconds: Seconds,
     /// How far sampling to a goal came.
     pub outcome: Option<Outcome>,
+    /// Of cones: weight of what none was traced for, or no room was kept, over that of the whole picture.
+    pub dropped: Option<f64>,
     /// Device timestamps around the slices, summed.
     pub device_render_seconds: f64,
     /// The same around the passes that make levels of textures, if there were any.

@@ -14,7 +14,7 @@ use crate::gpu::{Gpu, Pipeline};
 use crate::layout::{Header, Slice};
 use crate::pack::{PackedScene, Schedule};
 use crate::progress::Progress;
-use crate::scene::model::Scene;
+use crate::scene::model::{Algorithm, Scene};
 use crate::shaders::Shader;
 
 use super::film_buffer::FilmBuffer;
@@ -42,6 +42,7 @@ pub struct Prepared<'s, 'a> {
     session: &'s Session<'a>,
     header: Header,
     samples: u32,
+    cones: bool,
     work: Work<'a>,
     /// Of a render: its pipeline is compiled, nothing is rendered.
     report: Report,
@@ -96,7 +97,7 @@ impl<'a> Session<'a> {
         report.seconds.upload = self.upload_seconds + clock.elapsed().as_secs_f64();
 
         let clock = Instant::now();
-        let shader = shader_for(features.source);
+        let shader = shader_for(scene.algorithm, features.source);
         let group_size = self.tuning.group_size(self.gpu.info())?;
         let slots = scene.slot_counts();
         let constants = features::constants(shader, &features, &self.resources.sections, group_size, slots);
@@ -114,8 +115,9 @@ impl<'a> Session<'a> {
                 Work::Jobs { pipeline, shader, groups_per_tile, prefilters: scene.prefilters() }
             }
         };
+        let cones = scene.algorithm == Algorithm::Cone;
         let mut prepared =
-            Prepared { session: self, header: scene.header, samples: scene.samples, work, report };
+            Prepared { session: self, header: scene.header, samples: scene.samples, cones, work, report };
         prepared.warm_up_jobs()?;
         prepared.report.seconds.compile = clock.elapsed().as_secs_f64();
         Ok(prepared)
@@ -159,15 +161,17 @@ impl Prepared<'_, '_> {
         let film = match &self.work {
             Work::Tiles { renderer, film: buffer } => {
                 let mut film = Film::new(width, height, self.samples);
+                let mut dropped = 0.0;
                 let mut plan = slices::Plan::new(self.samples, self.session.scene.chunk, buffer.tiles());
                 for band in buffer.bands() {
                     let clock = Instant::now();
                     renderer.band(&band, &mut plan, &mut report, progress)?;
                     report.seconds.render += clock.elapsed().as_secs_f64();
                     let clock = Instant::now();
-                    buffer.read(self.session.gpu, &band, &mut film)?;
+                    dropped += buffer.read(self.session.gpu, &band, &mut film)?;
                     report.seconds.readback += clock.elapsed().as_secs_f64();
                 }
+                report.dropped = self.cones.then(|| dropped / film.pixels.len() as f64);
                 film
             }
             Work::Jobs { .. } => {

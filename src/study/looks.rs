@@ -7,15 +7,16 @@ use crate::error::{Error, Result};
 use crate::gpu::Gpu;
 use crate::pack;
 use crate::render::{MipChoice, Prepared, Session, Tuning};
-use crate::scene::model::{Footprint, Scene};
+use crate::scene::model::{Algorithm, Footprint, Scene};
 use crate::texture::data::TextureData;
 use crate::texture::sampler_spec::Filter;
 
 use super::method::Method;
 
-type Key = (Footprint, Option<Filter>);
+/// Cones read textures in a way of their own.
+type Key = (bool, Footprint, Option<Filter>);
 
-const PLAIN: Key = (Footprint::None, None);
+const PLAIN: Key = (false, Footprint::None, None);
 
 struct Look<'a> {
     key: Key,
@@ -45,8 +46,10 @@ impl<'a> Looks<'a> {
         let mut looks = Vec::with_capacity(keys.len());
         for key in keys {
             let clock = Instant::now();
+            let (cones, footprint, filter) = key;
+            let algorithm = if cones { Algorithm::Cone } else { Algorithm::Samples };
             let reading =
-                Method { footprint: key.0, filter: key.1, ..Method::of_pattern(scene.sampling.pattern) };
+                Method { algorithm, footprint, filter, ..Method::of_pattern(scene.sampling.pattern) };
             let reading = reading.apply(scene, scene.sampling.spp)?;
             let packed = pack::pack_with(&reading, textures.clone(), None, pyramids)?;
             let pack_seconds = clock.elapsed().as_secs_f64();
@@ -70,5 +73,5 @@ impl<'a> Looks<'a> {
 }
 
 fn key(method: &Method) -> Key {
-    (method.footprint, method.filter)
+    (method.algorithm == Algorithm::Cone, method.footprint, method.filter)
 }

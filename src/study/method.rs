@@ -3,6 +3,7 @@
 //! be tried. Out: the scene rendered so, and the options of `moire render` that do the same.
 
 use crate::error::{Error, Result};
+use crate::scene::cone;
 use crate::scene::model::{Algorithm, Footprint, Pattern, Scene};
 use crate::scene::{both_filters, check_filters, check_shared, check_spp};
 use crate::texture::sampler_spec::{Filter, MipMode, SamplerSpec};
@@ -24,6 +25,10 @@ pub struct Method {
 const FILTERS: [Filter; 3] = [Filter::Linear, Filter::Anisotropic, Filter::Ewa];
 
 impl Method {
+    /// Its pattern and count say nothing.
+    const CONE: Method =
+        Method { algorithm: Algorithm::Cone, pattern: None, footprint: Footprint::None, filter: None };
+
     pub const fn of_pattern(pattern: Pattern) -> Method {
         Method {
             algorithm: Algorithm::Samples,
@@ -45,6 +50,7 @@ impl Method {
                 Algorithm::Adaptive => {
                     methods.push(Method { algorithm, ..Method::of_pattern(Pattern::SobolOwen) });
                 }
+                Algorithm::Cone => methods.push(Method::CONE),
                 // Chooses by a goal, not by a number of samples.
                 Algorithm::Auto => {}
             }
@@ -111,6 +117,10 @@ impl Method {
         if let Some(filter) = self.filter {
             scene.samplers.iter_mut().for_each(|sampler| with_filter(sampler, filter));
         }
+        if self.filter.is_none() {
+            cone::suit(&mut scene);
+        }
+        cone::suit_footprint(&mut scene);
         check_filters(&scene)?;
         Ok(scene)
     }

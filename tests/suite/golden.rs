@@ -21,6 +21,7 @@ use crate::support::data;
 /// Scene, size of the picture.
 const GOLDENS: &[(&str, [u32; 2])] = &[
     ("centroid", [128, 77]),
+    ("cones", [120, 90]),
     ("environment", [120, 75]),
     ("environment_cube", [120, 75]),
     ("filters", [128, 80]),
@@ -186,7 +187,7 @@ macro_rules! goldens {
     };
 }
 goldens! {
-    centroid environment environment_cube filters formats glass hardware horizon inside lecture lights
+    centroid cones environment environment_cube filters formats glass hardware horizon inside lecture lights
     mappings materials mirrors normal position procedural ramp reflection samplers shared volume
 }
 

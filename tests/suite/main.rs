@@ -8,6 +8,7 @@
 mod adaptive;
 mod bad_input;
 mod cli;
+mod cone;
 mod data;
 mod decode;
 mod decode_errors;

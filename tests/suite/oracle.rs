@@ -22,6 +22,7 @@ const SUB_TEXEL_STEP: f64 = 2.0 / 256.0 + 1e-3;
 /// without bound.
 const BOUNDS: &[(&str, f64, f64, f64)] = &[
     ("centroid", STEP, 5e-5, 0.001),
+    ("cones", STEP, 1e-4, 0.01),
     ("environment", STEP, 1e-5, 0.001),
     ("environment_cube", STEP, 1e-5, 0.001),
     ("filters", STEP, 1e-5, 0.001),

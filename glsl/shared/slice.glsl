@@ -1,0 +1,34 @@
+// Which pixel a thread works for: the film, and the part of it that one submission renders. Tiles of
+// 64 × 64 pixels are visited in an order that spreads each slice over the picture, so that a slice's
+// time foretells the next one's.
+#ifndef SLICE_GLSL
+#define SLICE_GLSL
+
+layout(local_size_x_id = 0, local_size_y_id = 1, local_size_z = 1) in;
+
+layout(std430, set = 0, binding = 0) buffer Film { vec4 film[]; };
+
+layout(push_constant) uniform Slice {
+    uint tiles_x;      // tiles across the picture
+    uint tiles;        // tiles in this band
+    uint tile_stride;  // coprime to `tiles`: the visiting order
+    uint first_tile;
+    uint band_y;       // first row of the band
+    uint band_height;
+    uint first_sample;
+    uint sample_count;
+    uint schedule;     // tiles of the film, or a list of `tiles` jobs
+} slice;
+
+const uint TILE = 64u;
+
+// Thread -> pixel of the film. Workgroups of a tile follow each other in x, tiles in y.
+uvec2 film_pixel() {
+    uint tile = ((slice.first_tile + gl_WorkGroupID.y) * slice.tile_stride) % slice.tiles;
+    uvec2 origin = uvec2(tile % slice.tiles_x, tile / slice.tiles_x) * TILE;
+    uint across = TILE / gl_WorkGroupSize.x;
+    uvec2 group = uvec2(gl_WorkGroupID.x % across, gl_WorkGroupID.x / across);
+    return origin + group * gl_WorkGroupSize.xy + gl_LocalInvocationID.xy;
+}
+
+#endif
