@@ -112,6 +112,7 @@ const FEATURES: &[(&str, &str, Narrow)] = &[
     ),
     ("PROCEDURAL_FILTERED", "filter of procedural textures", Switch(filters_procedurals)),
     ("COMPENSATED", "second film for rounding errors", Switch(compensates)),
+    ("CONE_SHAPES", "cones through more shapes", Count(cone_shapes)),
     ("SCHEDULES", "schedule", Modes(Schedule::NAMES, |s| bit(s.schedule as u32))),
     ("PIXEL_FILTERS", "pixel filter", Modes(PixelFilterKind::NAMES, |s| bit(s.header.pixel_filter[0]))),
     ("WARPED", "samples beyond their pixels", Switch(warps)),
@@ -235,6 +236,13 @@ fn bits(modes: impl Iterator<Item = u32>) -> u32 {
 fn counted_samples(scene: &PackedScene) -> u32 {
     let [pattern, _, samples, _] = scene.header.sampling;
     if Pattern::ALL[pattern as usize].goes_on() { 0 } else { samples }
+}
+
+/// Shapes that a cone can touch, up to those that it keeps.
+fn cone_shapes(scene: &PackedScene) -> u32 {
+    const MOST_PIECES: usize = 8;
+    let shapes = scene.planes.len() + scene.spheres.len() + scene.triangles.len();
+    if shapes < MOST_PIECES { shapes.max(1) as u32 } else { DYNAMIC }
 }
 
 fn unrolled(count: usize) -> u32 {

@@ -9,8 +9,6 @@
 #include "paint.glsl"
 #include "slice.glsl"
 
-layout(std430, set = 0, binding = 0) buffer Film { vec4 film[]; };
-
 const uint MAX_MET = 8u;      // shapes that a beam may meet
 // Planes whose nearness differs by less, relatively, lie in each other: the first of the list is seen.
 const float COPLANAR = 4e-6;

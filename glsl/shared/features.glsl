@@ -58,6 +58,7 @@ layout(constant_id = 62) const bool PROCEDURAL_FILTERED = true; // averaged over
 layout(constant_id = 65) const uint SCHEDULES = 0x3u;
 layout(constant_id = 66) const uint PIXEL_FILTERS = 0x1Fu;
 layout(constant_id = 67) const bool WARPED = true;      // a pixel filter that is not the pixel's own square
+layout(constant_id = 80) const uint CONE_SHAPES = DYNAMIC; // of the scene, where a cone can hold all
 
 // Where each list begins in the scene buffer, in units of 16 bytes.
 layout(constant_id = 40) const uint PLANES_AT = 0u;

@@ -12,8 +12,6 @@
 #include "shade.glsl"
 #include "slice.glsl"
 
-layout(std430, set = 0, binding = 0) buffer Film { vec4 film[]; };
-
 // Samples of single pixels: place (x | y << 16), half and JOB_BARE, first sample, count. A film of jobs holds two halves,
 // each with sums of radiance and of its square's mean over the channels; where the pixel filter has negative
 // lobes two more with the sum of the signs and the number of samples.

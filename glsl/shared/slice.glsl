@@ -1,9 +1,12 @@
-// Which pixel of the film a thread works on. Tiles of 64 × 64 pixels are visited in an order that spreads
-// each slice over the picture, so that a slice's time foretells the next one's.
+// Which pixel a thread works for: the film, and the part of it that one submission renders. Tiles of
+// 64 × 64 pixels are visited in an order that spreads each slice over the picture, so that a slice's
+// time foretells the next one's.
 #ifndef SLICE_GLSL
 #define SLICE_GLSL
 
 layout(local_size_x_id = 0, local_size_y_id = 1, local_size_z = 1) in;
+
+layout(std430, set = 0, binding = 0) buffer Film { vec4 film[]; };
 
 layout(push_constant) uniform Slice {
     uint tiles_x;      // tiles across the picture

@@ -6,6 +6,7 @@ use serde_json::{Value, json};
 use crate::adaptive::Goal;
 use crate::error::{Error, Result};
 use crate::pack::Crop;
+use crate::scene::cone;
 use crate::scene::model::{Algorithm, Footprint, Pattern, PixelFilter, PixelFilterKind, Sampling, Scene};
 use crate::scene::{MAX_RADIUS, both_filters, check_filters, check_shared, check_spp};
 use crate::texture::sampler_spec::{Filter, Method, MipMode};
@@ -57,7 +58,8 @@ fn one_of(what: &str, names: &[&str]) -> String {
 }
 
 impl Overrides {
-    pub fn apply(&self, scene: &mut Scene) -> Result<()> {
+    /// What was chosen beside what is named, in words.
+    pub fn apply(&self, scene: &mut Scene) -> Result<Option<&'static str>> {
         if let Some([width, height]) = self.size {
             (scene.width, scene.height) = (width, height);
         }
@@ -85,7 +87,12 @@ impl Overrides {
                 (sampler.mag, sampler.min) = both_filters(filter);
             }
         }
-        check_filters(scene)
+        // What the command line names is meant.
+        let free = self.filter.is_none() && self.mip.is_none();
+        let chosen = if free { cone::suit(scene) } else { None };
+        cone::suit_footprint(scene);
+        check_filters(scene)?;
+        Ok(chosen)
     }
 
     /// What ends the sampling, if it is not a number of samples.
@@ -98,7 +105,10 @@ impl Overrides {
         if !sampling.algorithm.is_adaptive() {
             if self.goal().is_some() {
                 return Err(Error::with_help(
-                    "--budget and --target-error need an algorithm that may choose its samples; \"samples\" takes --spp",
+                    format!(
+                        "--budget and --target-error need an algorithm that may choose its samples; \"{}\" does not",
+                        sampling.algorithm
+                    ),
                     "leave --algorithm away, or use --algorithm adaptive",
                 ));
             }

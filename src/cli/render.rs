@@ -76,7 +76,7 @@ pub fn run(args: &RenderArgs) -> Result<ExitCode> {
         _ => DeviceSelect::Default,
     };
     let mut scene = crate::scene::load(&args.scene)?;
-    args.overrides.apply(&mut scene)?;
+    let chosen = args.overrides.apply(&mut scene)?;
     check_crop(args.crop, &scene)?;
     let outputs = outputs(args);
     for path in &outputs {
@@ -84,6 +84,9 @@ pub fn run(args: &RenderArgs) -> Result<ExitCode> {
         check_inputs_kept(path, &scene)?;
     }
     let dropped = prune(&mut scene);
+    if let (Some(chosen), true) = (chosen, args.verbose) {
+        super::tell(chosen);
+    }
 
     let mut ran = if oracle {
         render_on_oracle(args, &scene, &bar, start)?

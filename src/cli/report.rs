@@ -33,6 +33,7 @@ pub fn json(ran: &Ran, options: Value, outputs: &[String]) -> Value {
         "samples": ran.film.samples,
         "reached": ran.report.outcome,
         "sampled_pixels": ran.report.sampled_pixels,
+        "dropped": ran.report.dropped,
         "outputs": outputs,
         "seconds": ran.report.seconds,
         "device_seconds": device_seconds(&ran.report),
@@ -76,6 +77,12 @@ pub fn say(ran: &Ran, outputs: &[String], verbose: bool) {
         tell(format_args!(
             "one beam a pixel; {sampled} pixels ({:.2} %) took samples, as beams cannot tell them",
             100.0 * sampled as f64 / pixels
+        ));
+    }
+    if let Some(dropped) = report.dropped.filter(|d| *d > 0.0) {
+        tell(format_args!(
+            "cones left out {:.2e} of the picture's weight: shapes beyond the nearest of a pixel, faint reflections",
+            dropped
         ));
     }
     if let Some(o) = &report.outcome {

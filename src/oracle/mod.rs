@@ -5,6 +5,9 @@
 
 pub mod beam;
 pub mod camera;
+pub mod cone;
+pub mod cone_shade;
+pub mod coverage;
 pub mod ellipse;
 pub mod filter;
 pub mod footprint;

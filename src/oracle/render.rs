@@ -7,6 +7,7 @@ use rayon::prelude::*;
 
 use super::beam::beam;
 use super::camera::camera_ray;
+use super::cone_shade;
 use super::footprint::camera_beam;
 use super::patterns::{pixel_points, sample_point};
 use super::pixel_filter::filtered_place;
@@ -17,9 +18,13 @@ use crate::film::Film;
 use crate::layout::Header;
 use crate::pack::{PackedScene, divisor};
 use crate::progress::Progress;
+use crate::scene::model::Algorithm;
 
 /// The mean radiance of pixel (x, y) of the film: of the crop, where there is one.
 pub fn pixel(scene: &PackedScene, x: u32, y: u32) -> DVec3 {
+    if scene.algorithm == Algorithm::Cone {
+        return cone_shade::pixel(scene, x, y).0;
+    }
     let (mut sum, mut signs) = (DVec3::ZERO, 0.0);
     for s in 0..scene.samples {
         let (radiance, sign) = sample(scene, &scene.header, [x, y], 0, s);

@@ -76,6 +76,7 @@ pub struct PackedScene {
     /// Samples of a pixel that one thread takes at once, at most `CHUNK`.
     pub chunk: u32,
     pub schedule: Schedule,
+    pub algorithm: Algorithm,
     /// One beam a pixel, and samples where that cannot tell.
     pub beams: bool,
     /// For beams: where each texture's sums along rows begin, 0 for none; then those.
@@ -125,8 +126,11 @@ pub fn pack_with(
     let crop = crop.unwrap_or(Crop { x: 0, y: 0, width: scene.width, height: scene.height });
     let samples = scene.sampling.samples();
     let schedule = schedule(scene);
-    let mut packed = PackedScene { samples, chunk: CHUNK, schedule, ..Default::default() };
-    let warp = Warp::new(scene.pixel_filter);
+    let algorithm = scene.sampling.algorithm;
+    let mut packed = PackedScene { samples, chunk: CHUNK, schedule, algorithm, ..Default::default() };
+    // A cone stands for its pixel's own square.
+    let filter = if algorithm == Algorithm::Cone { PixelFilter::default() } else { scene.pixel_filter };
+    let warp = Warp::new(filter);
     packed.header = header(scene, crop, &warp);
     (packed.pixel_filter, packed.mean_sign) = (warp.table, warp.mean_sign);
     let filtered = packed.prefilters();
@@ -154,7 +158,7 @@ pub fn pack_with(
 
 fn schedule(scene: &Scene) -> Schedule {
     match scene.sampling.algorithm {
-        Algorithm::Samples | Algorithm::Beam => Schedule::Tiles,
+        Algorithm::Samples | Algorithm::Beam | Algorithm::Cone => Schedule::Tiles,
         Algorithm::Adaptive | Algorithm::Auto => Schedule::Jobs,
     }
 }
@@ -315,6 +319,9 @@ fn footprint(scene: &Scene) -> Footprint {
         return Footprint::None;
     }
     let procedural = scene.textures.iter().any(|t| t.content.procedural().is_some());
+    if scene.sampling.algorithm == Algorithm::Cone {
+        return Footprint::Cone;
+    }
     let needed = procedural || scene.samplers.iter().any(SamplerSpec::needs_footprint);
     if needed { scene.sampling.footprint } else { Footprint::None }
 }

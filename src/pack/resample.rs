@@ -16,5 +16,6 @@ impl PackedScene {
         (self.header.step_x, self.header.sampling, self.header.key[0]) = (step_x, sampling, shared);
         self.samples = scene.sampling.samples();
         self.schedule = schedule(scene);
+        self.algorithm = scene.sampling.algorithm;
     }
 }

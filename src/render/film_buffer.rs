@@ -87,13 +87,16 @@ impl FilmBuffer {
         self.bands().map(|b| u64::from(b.tiles)).sum()
     }
 
-    /// Sums of a band → means of its rows.
-    pub fn read(&self, gpu: &Gpu, band: &Band, film: &mut Film) -> Result<()> {
+    /// Sums of a band → means of its rows. The sum of the fourth floats is the answer: what cones dropped.
+    pub fn read(&self, gpu: &Gpu, band: &Band, film: &mut Film) -> Result<f64> {
         let samples = f64::from(film.samples);
+        let mut fourth = 0.0;
         self.read_with(gpu, band, |i, sum, lost| {
+            fourth += f64::from(sum[3]);
             let by = self.mean_sign.map_or(samples, |mean| divisor(f64::from(sum[3]), samples, mean));
             film.pixels[i] = std::array::from_fn(|c| ((f64::from(sum[c]) - f64::from(lost[c])) / by) as f32);
-        })
+        })?;
+        Ok(fourth)
     }
 
     /// Each pixel of a band by its place in the picture, with what rounding has lost of it; a few rows at a

@@ -59,6 +59,8 @@ pub struct Report {
     pub outcome: Option<Outcome>,
     /// Of beams: pixels that were left to samples.
     pub sampled_pixels: Option<u64>,
+    /// Of cones: weight of what none was traced for, or no room was kept, over that of the whole picture.
+    pub dropped: Option<f64>,
     /// Device timestamps around the slices, summed.
     pub device_render_seconds: f64,
     /// The same around the passes that make levels of textures, if there were any.

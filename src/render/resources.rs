@@ -13,12 +13,21 @@ use crate::gpu::{
 };
 use crate::layout::{HEAD_BYTES, Header};
 use crate::pack::{MAX_SLOTS, PackedScene, Sections, Slot, TextureKind};
+use crate::scene::model::Algorithm;
 use crate::shaders::{self, ReflectedBinding, Shader};
 use crate::texture::data::{ColorSpace, TexelFormat};
 use crate::texture::sampler_spec::{Address, Filter, SamplerSpec};
 
-/// The render shader that reads texels from `source`.
-pub fn shader_for(source: TexelSource) -> &'static Shader {
+/// The shader of an algorithm that reads texels from `source`.
+pub fn shader_for(algorithm: Algorithm, source: TexelSource) -> &'static Shader {
+    if algorithm == Algorithm::Cone {
+        return match source {
+            TexelSource::None => &shaders::CONE_NONE,
+            TexelSource::Buffer => &shaders::CONE_TEXELS,
+            TexelSource::Image => &shaders::CONE_IMAGES,
+            TexelSource::Solids => &shaders::CONE_SOLIDS,
+        };
+    }
     match source {
         TexelSource::None => &shaders::RENDER_NONE,
         TexelSource::Buffer => &shaders::RENDER_TEXELS,

@@ -14,7 +14,7 @@ use crate::gpu::{Gpu, Pipeline};
 use crate::layout::{Header, Slice};
 use crate::pack::{PackedScene, Schedule};
 use crate::progress::Progress;
-use crate::scene::model::Scene;
+use crate::scene::model::{Algorithm, Scene};
 use crate::shaders::{self, Shader};
 
 use super::beams::{Beams, Fallback, Sampler};
@@ -43,6 +43,7 @@ pub struct Prepared<'s, 'a> {
     session: &'s Session<'a>,
     header: Header,
     samples: u32,
+    cones: bool,
     work: Work<'a>,
     /// Of a render: its pipeline is compiled, nothing is rendered.
     report: Report,
@@ -105,13 +106,15 @@ impl<'a> Session<'a> {
                 Work::Beams(Beams { renderer, film, sampler: OnceCell::new() })
             }
             Schedule::Tiles => {
-                let (renderer, film) = self.renderer(scene, &features, shader_for(features.source))?;
+                let (renderer, film) =
+                    self.renderer(scene, &features, shader_for(scene.algorithm, features.source))?;
                 Work::Tiles { renderer, film }
             }
             Schedule::Jobs => Work::Jobs { sampler: self.sampler(scene, &features)? },
         };
+        let cones = scene.algorithm == Algorithm::Cone;
         let mut prepared =
-            Prepared { session: self, header: scene.header, samples: scene.samples, work, report };
+            Prepared { session: self, header: scene.header, samples: scene.samples, cones, work, report };
         prepared.warm_up_jobs()?;
         prepared.report.seconds.compile = clock.elapsed().as_secs_f64();
         Ok(prepared)
@@ -133,7 +136,7 @@ impl<'a> Session<'a> {
     }
 
     fn sampler(&self, scene: &PackedScene, features: &Features) -> Result<Sampler> {
-        let shader = shader_for(features.source);
+        let shader = shader_for(scene.algorithm, features.source);
         let (pipeline, groups_per_tile) = self.pipeline(scene, features, shader)?;
         Ok(Sampler { pipeline, shader, groups_per_tile })
     }
@@ -196,15 +199,17 @@ impl Prepared<'_, '_> {
         let film = match &self.work {
             Work::Tiles { renderer, film: buffer } => {
                 let mut film = Film::new(width, height, self.samples);
+                let mut dropped = 0.0;
                 let mut plan = slices::Plan::new(self.samples, self.session.scene.chunk, buffer.tiles());
                 for band in buffer.bands() {
                     let clock = Instant::now();
                     renderer.band(&band, &mut plan, &mut report, progress)?;
                     report.seconds.render += clock.elapsed().as_secs_f64();
                     let clock = Instant::now();
-                    buffer.read(self.session.gpu, &band, &mut film)?;
+                    dropped += buffer.read(self.session.gpu, &band, &mut film)?;
                     report.seconds.readback += clock.elapsed().as_secs_f64();
                 }
+                report.dropped = self.cones.then(|| dropped / film.pixels.len() as f64);
                 film
             }
             Work::Beams(beams) => {

@@ -7,6 +7,7 @@ use crate::features::bounces;
 use crate::gpu::{DeviceInfo, DeviceKind};
 use crate::layout::{CHUNK, NO_TEXTURE, Procedural, Sampler};
 use crate::pack::{PackedScene, TextureKind};
+use crate::scene::model::Algorithm;
 use crate::texture::sampler_spec::Filter;
 
 const MOST_TURNS: u64 = 65_535;
@@ -22,6 +23,8 @@ const SOLID: u64 = 10;
 const TAPS: u64 = 5;
 /// `MOST_BOXES` of `procedural.glsl`.
 const BOXES: u64 = 16;
+/// `MOST_CONES` of `cone_shade.glsl`.
+const MOST_CONES: u64 = 64;
 
 /// Samples of a thread, from 1 to `CHUNK`.
 pub fn samples_at_once(device: &DeviceInfo, scene: &PackedScene) -> Result<u32> {
@@ -43,8 +46,30 @@ pub fn samples_at_once(device: &DeviceInfo, scene: &PackedScene) -> Result<u32> 
     Ok((MOST_TURNS / turns).clamp(1, u64::from(CHUNK)) as u32)
 }
 
+/// An upper bound of the turns for a pixel's cones, but for how many pieces each one sees: where cones are
+/// many, few of them see more than three.
+fn turns_of_cones(scene: &PackedScene, ellipse: u64) -> u64 {
+    const PIECES: u64 = 8;
+    const SEEN: u64 = 3;
+    let shapes = (scene.planes.len() + scene.spheres.len() + scene.triangles.len()) as u64;
+    let lights = scene.lights.len() as u64;
+    let cones = if bounces(scene) { MOST_CONES } else { MOST_CONES.min(1 + PIECES * lights) };
+    let gathered = 4 + shapes + shapes / 16 + 2 * PIECES;
+    // Each pair both ways, and two shapes each time.
+    let laid_over = 3 * SEEN * (SEEN - 1);
+    let bumped = scene.materials.iter().any(|m| m.detail[0] != NO_TEXTURE);
+    let look_ups = if bumped { TAPS } else { 1 } * turns_of_a_look_up(scene, 0);
+    let records = (scene.materials.len() + scene.maps.len()) as u64;
+    let shaded = SEEN * (1 + records + look_ups + lights.max(2) * (2 + lights));
+    // Ellipses of that size fill the horizon, and that is seen by few of them.
+    cones * (gathered + laid_over + shaded) + ellipse
+}
+
 /// An upper bound, with so many for an ellipse.
 fn turns_of_a_sample(scene: &PackedScene, ellipse: u64) -> u64 {
+    if scene.algorithm == Algorithm::Cone {
+        return turns_of_cones(scene, ellipse);
+    }
     let count = |n: usize| n as u64;
     let shapes = count(scene.planes.len() + scene.spheres.len() + scene.triangles.len()) + 3;
     let records = count(scene.materials.len() + scene.maps.len());

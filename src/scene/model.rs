@@ -79,8 +79,10 @@ pub enum Projection {
 
 named_enum! {
     /// How many rays a pixel sends and what becomes of them (`[sampling] algorithm`).
+    #[derive(Default)]
     pub enum Algorithm {
         /// As many as asked for, the same number in each pixel.
+        #[default]
         Samples = "samples",
         /// More where the picture errs more.
         Adaptive = "adaptive",
@@ -88,6 +90,8 @@ named_enum! {
         Beam = "beam",
         /// What meets the goal of `--budget` or `--target-error` soonest.
         Auto = "auto",
+        /// One cone a pixel and no sample (Amanatides 1984).
+        Cone = "cone",
     }
 }
 
@@ -290,9 +294,10 @@ pub enum Light {
 }
 
 impl Sampling {
-    /// Samples that are really taken: all of `center` lie at one place, so one is enough.
+    /// Samples that are really taken: all of `center` lie at one place, so one is enough, and a cone is one.
     pub fn samples(&self) -> u32 {
-        if self.pattern == Pattern::Center { 1 } else { self.spp }
+        let one = self.pattern == Pattern::Center || self.algorithm == Algorithm::Cone;
+        if one { 1 } else { self.spp }
     }
 
     pub fn strata_side(&self) -> u32 {

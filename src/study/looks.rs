@@ -13,10 +13,10 @@ use crate::texture::sampler_spec::Filter;
 
 use super::method::Method;
 
-/// Footprint, filter, and whether beams read the texture.
-type Key = (Footprint, Option<Filter>, bool);
+/// Footprint and filter; beams and cones read textures in ways of their own.
+type Key = (Algorithm, Footprint, Option<Filter>);
 
-const PLAIN: Key = (Footprint::None, None, false);
+const PLAIN: Key = (Algorithm::Samples, Footprint::None, None);
 
 struct Look<'a> {
     key: Key,
@@ -46,8 +46,7 @@ impl<'a> Looks<'a> {
         let mut looks = Vec::with_capacity(keys.len());
         for key in keys {
             let clock = Instant::now();
-            let (footprint, filter, beams) = key;
-            let algorithm = if beams { Algorithm::Beam } else { Algorithm::Samples };
+            let (algorithm, footprint, filter) = key;
             let pattern = Some(scene.sampling.pattern);
             let reading = Method { algorithm, pattern, footprint, filter };
             let reading = reading.apply(scene, scene.sampling.spp)?;
@@ -73,5 +72,9 @@ impl<'a> Looks<'a> {
 }
 
 fn key(method: &Method) -> Key {
-    (method.footprint, method.filter, method.algorithm == Algorithm::Beam)
+    let algorithm = match method.algorithm {
+        own @ (Algorithm::Beam | Algorithm::Cone) => own,
+        Algorithm::Samples | Algorithm::Adaptive | Algorithm::Auto => Algorithm::Samples,
+    };
+    (algorithm, method.footprint, method.filter)
 }

@@ -3,6 +3,7 @@
 //! be tried. Out: the scene rendered so, and the options of `moire render` that do the same.
 
 use crate::error::{Error, Result};
+use crate::scene::cone;
 use crate::scene::model::{Algorithm, Footprint, Pattern, Scene};
 use crate::scene::{both_filters, check_filters, check_shared, check_spp};
 use crate::texture::sampler_spec::{Filter, MipMode, SamplerSpec};
@@ -24,6 +25,11 @@ pub struct Method {
 const FILTERS: [Filter; 3] = [Filter::Linear, Filter::Anisotropic, Filter::Ewa];
 
 impl Method {
+    /// Of one cone or beam a pixel; the pattern is the scene's, for what beams leave to samples.
+    const fn of_algorithm(algorithm: Algorithm) -> Method {
+        Method { algorithm, pattern: None, footprint: Footprint::None, filter: None }
+    }
+
     pub const fn of_pattern(pattern: Pattern) -> Method {
         Method {
             algorithm: Algorithm::Samples,
@@ -45,13 +51,7 @@ impl Method {
                 Algorithm::Adaptive => {
                     methods.push(Method { algorithm, ..Method::of_pattern(Pattern::SobolOwen) });
                 }
-                Algorithm::Beam => {
-                    methods.push(Method {
-                        algorithm,
-                        pattern: None,
-                        ..Method::of_pattern(Pattern::Stratified)
-                    });
-                }
+                Algorithm::Beam | Algorithm::Cone => methods.push(Method::of_algorithm(algorithm)),
                 // Chooses by a goal, not by a number of samples.
                 Algorithm::Auto => {}
             }
@@ -118,6 +118,10 @@ impl Method {
         if let Some(filter) = self.filter {
             scene.samplers.iter_mut().for_each(|sampler| with_filter(sampler, filter));
         }
+        if self.filter.is_none() {
+            cone::suit(&mut scene);
+        }
+        cone::suit_footprint(&mut scene);
         check_filters(&scene)?;
         Ok(scene)
     }

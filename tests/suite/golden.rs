@@ -22,6 +22,7 @@ use crate::support::data;
 const GOLDENS: &[(&str, [u32; 2])] = &[
     ("beams", [96, 96]),
     ("centroid", [128, 77]),
+    ("cones", [120, 90]),
     ("environment", [120, 75]),
     ("environment_cube", [120, 75]),
     ("filters", [128, 80]),
@@ -188,8 +189,9 @@ macro_rules! goldens {
     };
 }
 goldens! {
-    beams centroid environment environment_cube filters formats glass hardware horizon inside lecture lights
-    mappings materials mirrors normal position procedural ramp reflection samplers shared volume zone_plate
+    beams centroid cones environment environment_cube filters formats glass hardware horizon inside lecture
+    lights mappings materials mirrors normal position procedural ramp reflection samplers shared volume
+    zone_plate
 }
 
 /// One texel a pixel: the very bytes of the texture.

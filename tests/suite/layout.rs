@@ -181,7 +181,7 @@ fn planted_differences_of_layout_are_found() {
 #[test]
 fn push_constants_equal_their_mirrors() {
     let Some(root) = source_root() else { return };
-    let glsl = fs::read_to_string(root.join("glsl/shared/render_main.glsl")).unwrap();
+    let glsl = fs::read_to_string(root.join("glsl/shared/slice.glsl")).unwrap();
     let rust = fs::read_to_string(root.join("src/layout.rs")).unwrap();
     let here = glsl_struct(&glsl, "uniform Slice").unwrap();
     assert_eq!(Some(&here), rust_struct(&rust, "pub struct Slice").as_ref());
@@ -192,11 +192,15 @@ fn push_constants_equal_their_mirrors() {
     assert_eq!(size_of::<mirror::Halving>(), here.len() * 4);
 }
 
-const SHADERS: [&Shader; 9] = [
+const SHADERS: [&Shader; 13] = [
     &shaders::RENDER_NONE,
     &shaders::RENDER_TEXELS,
     &shaders::RENDER_IMAGES,
     &shaders::RENDER_SOLIDS,
+    &shaders::CONE_NONE,
+    &shaders::CONE_TEXELS,
+    &shaders::CONE_IMAGES,
+    &shaders::CONE_SOLIDS,
     &shaders::PROBE_TEXELS,
     &shaders::PROBE_IMAGES,
     &shaders::PROBE_SOLIDS,

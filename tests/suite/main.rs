@@ -9,6 +9,7 @@ mod adaptive;
 mod bad_input;
 mod beams;
 mod cli;
+mod cone;
 mod data;
 mod decode;
 mod decode_errors;

@@ -23,6 +23,7 @@ const SUB_TEXEL_STEP: f64 = 2.0 / 256.0 + 1e-3;
 const BOUNDS: &[(&str, f64, f64, f64)] = &[
     ("beams", STEP, 1e-6, 0.0),
     ("centroid", STEP, 5e-5, 0.001),
+    ("cones", STEP, 1e-4, 0.01),
     ("environment", STEP, 1e-5, 0.001),
     ("environment_cube", STEP, 1e-5, 0.001),
     ("filters", STEP, 1e-5, 0.001),

@@ -30,7 +30,7 @@ macro_rules! every_scene {
 macro_rules! with_scenes {
     ($($call:tt)*) => {
         $crate::stage::dispatch! {
-            $($call)* beams centroid environment environment_cube filters formats glass hardware horizon
+            $($call)* beams centroid cones environment environment_cube filters formats glass hardware horizon
             inside lecture lights mappings materials mirrors normal position procedural quad ramp
             reflection samplers shared volume zone_plate s1a s1b s2
         }
@@ -82,6 +82,7 @@ pub fn small(name: &str, side: u32, spp: u32) -> Scene {
 
 pub fn packed(mut scene: Scene, crop: Option<Crop>) -> PackedScene {
     prune(&mut scene);
+    scene::cone::suit(&mut scene);
     let textures = scene.textures.iter().map(|t| load(t).unwrap()).collect();
     pack::pack(&scene, textures, crop).unwrap()
 }

@@ -1,0 +1,25 @@
+// One thread a pixel, one cone each: film[pixel] = radiance (rgb) and the weight of what was dropped.
+// With COMPENSATED the film has a second half, where nothing is lost.
+#ifndef CONE_MAIN_GLSL
+#define CONE_MAIN_GLSL
+
+#include "features.glsl"
+#include "layout.glsl"
+#include "cone_shade.glsl"
+#include "slice.glsl"
+
+const uvec2 MIDDLE = uvec2(1u << 23u); // of a pixel
+
+void main() {
+    Header header = load_header();
+    hold_scene();
+    uvec2 place = film_pixel();
+    if (place.x >= header.size.x || place.y >= slice.band_height) return;
+    uvec2 pixel = uvec2(place.x, place.y + slice.band_y) + header.image.zw;
+    Ray ray = camera_ray(header, pixel, MIDDLE);
+    uint at = place.y * header.size.x + place.x;
+    film[at] = trace_cone(header, ray, camera_beam(header, ray));
+    if (COMPENSATED) film[at + header.size.x * slice.band_height] = vec4(0.0);
+}
+
+#endif

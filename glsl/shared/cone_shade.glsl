@@ -1,0 +1,194 @@
+// Cone -> radiance: each piece that it sees is shaded once, at the centroid of what is seen, with a
+// footprint of that size; mirrors and glass send narrower cones on, glass two of them, weighted by
+// Fresnel. A light is one more cone, from the footprint to it, so that a shadow's edge is a share. All wait
+// in one list and are traced by one piece of code: threads run through all code whether they use it or not.
+// Nothing is left to chance. Twin: src/oracle/cone_shade.rs.
+#ifndef CONE_SHADE_GLSL
+#define CONE_SHADE_GLSL
+
+#include "cone.glsl"
+#include "shade.glsl"
+
+// Cones that wait, cones of a pixel, and the least weight of one. What goes beyond is dropped.
+const uint MOST_WAITING = BOUNCES || SHADOWS ? 32u : 1u;
+const uint MOST_CONES = BOUNCES || SHADOWS ? 64u : 1u;
+const float LEAST_WEIGHT = 1.0 / 1024.0;
+
+// A cone that is still to be traced.
+struct Branch {
+    Ray ray;
+    float width;
+    float spread;
+    vec3 weight;
+    uint skip;
+    uint depth; // bounces before it, or how it ends at a light
+};
+
+// In place of a depth: the weight is what a light sends, as much of it as is not hidden.
+const uint TO_POINT_LIGHT = 0x80000000u;
+const uint TO_FAR_LIGHT = 0x80000001u;
+
+Branch waiting[MOST_WAITING];
+uint waiting_count;
+float dropped; // weight of all that was
+
+Beam cone_beam(float width, float spread) {
+    return Beam(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), width, spread);
+}
+
+float largest(vec3 v) { return max(v.x, max(v.y, v.z)); }
+
+void send(Branch branch) {
+    if (waiting_count == MOST_WAITING) {
+        dropped += largest(branch.weight);
+        return;
+    }
+    waiting[waiting_count] = branch;
+    waiting_count++;
+}
+
+// The shape that a ray must not meet again at once. From inside a ball its other side is met.
+uint left_shape(Header header, uint shape, bool within) {
+    uint planes = COUNT(PLANES, header.counts.x);
+    bool ball = shape >= planes && shape < planes + COUNT(SPHERES, header.counts.y);
+    return ball && within ? NO_SHAPE : shape;
+}
+
+// What an unhidden light sends through a surface to the eye, and the cone in which it may be hidden: as
+// wide as the footprint looks from the light, where it ends in a point.
+Branch lit_branch(Branch branch, vec3 carried, Hit hit, Surface surface, Footprint print, Material material, uint skip, Light light) {
+    bool point_light = MODE_IS(LIGHT_KINDS, LIGHT_POINT, light.link.x);
+    vec3 way = point_light ? light.place.xyz - surface.point : light.place.xyz;
+    float squared = dot3(way, way);
+    float facing = dot3(surface.normal, way);
+    float share = point_light ? facing / (squared * sqrt(squared)) : facing;
+    float above = dot3(surface.geometric_normal, way);
+    if (!(facing > 0.0 && above > 0.0)) share = 0.0;
+    vec3 more = light.power.xyz * (share * (1.0 / PI));
+    vec3 seen = branch.weight * more;
+    if (MODE_IS(MODELS, MODEL_PHONG, material.link.x)) {
+        vec3 mirror = mirrored(branch.ray.direction, surface.normal);
+        seen = with_highlight(seen, carried, material.specular.xyz, more * phong_lobe(mirror, way, material.specular.w));
+    }
+    if (!SHADOWS) return Branch(branch.ray, 0.0, 0.0, seen, skip, 0u);
+    vec3 start = offset_origin(surface.point, surface.geometric_normal);
+    vec3 to_light = point_light ? light.place.xyz - start : light.place.xyz;
+    vec3 across = cross3(print.point_x, print.point_y);
+    float width = sqrt(sqrt(dot3(across, across)) * (max(above, 0.0) * inversesqrt(squared)));
+    return Branch(Ray(start, to_light), width, point_light ? -width : 0.0, seen, skip,
+                  point_light ? TO_POINT_LIGHT : TO_FAR_LIGHT);
+}
+
+// The cone that leaves a mirror or glass, `through` it or not.
+Branch bent_branch(Header header, Branch branch, Hit hit, Surface surface, Footprint print, float ratio, float share, uint skip, bool through) {
+    Ray ray = branch.ray;
+    Beam beam = cone_beam(branch.width, branch.spread);
+    vec3 direction;
+    if (through) {
+        beam = refracted_beam(header, beam, ray, hit.t, print, surface.normal, surface.bend, surface.curvature, ratio);
+        direction = refracted(ray.direction, surface.normal, ratio);
+    } else {
+        beam = mirrored_beam(header, beam, ray, hit.t, print, surface.normal, surface.bend, surface.curvature);
+        direction = mirrored(ray.direction, surface.normal);
+    }
+    vec3 start = offset_origin(surface.point, through ? -surface.geometric_normal : surface.geometric_normal);
+    return Branch(Ray(start, direction), beam.width, beam.spread, branch.weight * share, skip, branch.depth + 1u);
+}
+
+// What a part of a cone shows: of a shape, or of what lies behind all of them. `branch` is that part.
+vec3 shade_part(Header header, Branch branch, uint shape) {
+    bool missed = ENVIRONMENT && shape == NO_SHAPE;
+    Ray ray = branch.ray;
+    Hit hit = Hit(1.0, 0u, vec3(0.0));
+    if (!missed) hit = meet(header, ray, shape);
+    Surface surface = hit_surface(header, ray, hit);
+    Beam beam = cone_beam(branch.width, branch.spread);
+    Footprint print = footprint_at(header, beam, ray, hit.t, surface.geometric_normal);
+    if (missed) {
+        surface.link = uvec2(header.counts.w, header.key.w);
+        print = endless_footprint(header, beam, ray);
+    }
+    Material material = material_at(surface.link.x);
+    vec3 carried = branch.weight;
+    branch.weight *= surface_color(material, map_at(surface.link.y), ray, surface, print, uvec2(0u));
+    bool mirror = MODE_IS(MODELS, MODEL_MIRROR, material.link.x);
+    bool glass = MODE_IS(MODELS, MODEL_DIELECTRIC, material.link.x);
+    bool lit = MODE_IS(MODELS, MODEL_PHONG, material.link.x) || MODE_IS(MODELS, MODEL_LAMBERT, material.link.x);
+    if (!mirror && !glass && !lit) return branch.weight;
+    float ratio = surface.inside ? material.specular.w : 1.0 / material.specular.w;
+    float back = 1.0;
+    if (glass) back = reflectance(ray.direction, surface.normal, ratio);
+    // What follows: cones to the lights, or what goes through glass and then what it returns, which as the
+    // last is traced first.
+    uint branches = lit ? COUNT(LIGHTS, header.key.y) : (BOUNCES && branch.depth < header.size.w ? 2u : 0u);
+    vec3 sum = vec3(0.0);
+    for (uint i = 0u; i < branches; i++) {
+        bool through = BOUNCES && !lit && i == 0u;
+        uint skip = left_shape(header, hit.shape, surface.inside != through);
+        Branch next = branch;
+        if (lit) {
+            next = lit_branch(branch, carried, hit, surface, print, material, skip, light_at(i));
+        } else if (BOUNCES) {
+            next = bent_branch(header, branch, hit, surface, print, ratio, through ? 1.0 - back : back, skip, through);
+        }
+        float weight = largest(next.weight);
+        if (lit && !SHADOWS) sum += next.weight;
+        else if (weight > 0.0 && (lit || weight >= LEAST_WEIGHT)) send(next);
+        else if (!lit) dropped += weight;
+    }
+    return sum;
+}
+
+// The part of a branch that is seen around `center` of its cone.
+Branch part_of(Branch branch, Cone cone, Covered covered, float norm) {
+    float side = sqrt(covered.share);
+    branch.ray = ray_at(cone, covered.center);
+    branch.width *= side;
+    branch.spread *= side;
+    branch.weight *= covered.share * norm;
+    return branch;
+}
+
+// What the cone around a ray from the camera sees; last, the weight of what was dropped.
+vec4 trace_cone(Header header, Ray ray, Beam beam) {
+    vec3 sum = vec3(0.0);
+    dropped = 0.0;
+    waiting[0] = Branch(ray, beam.width, beam.spread, vec3(1.0), NO_SHAPE, 0u);
+    waiting_count = 1u;
+    for (uint traced = 0u; traced < MOST_CONES && waiting_count > 0u; traced++) {
+        waiting_count--;
+        Branch branch = waiting[waiting_count];
+        vec3 across = branch.depth == 0u ? header.step_x.xyz : vec3(0.0);
+        Cone cone = cone_of(branch.ray, cone_beam(branch.width, branch.spread), across);
+        bool to_light = SHADOWS && branch.depth >= TO_POINT_LIGHT;
+        gather(header, cone, branch.skip, to_light && branch.depth == TO_POINT_LIGHT ? 1.0 : FAR);
+        Covered rest = lay_over(header, cone);
+        if (to_light) {
+            sum += branch.weight * (rest.share * clear);
+            continue;
+        }
+        // Those that are kept stand for shapes that are not.
+        float replaced = rest.share * (1.0 - clear);
+        float norm = 1.0 + replaced / max(1.0 - rest.share, LEAST_SHARE);
+        dropped += largest(branch.weight) * replaced;
+        rest.share -= replaced;
+        // An environment is one part more, behind all pieces.
+        bool surrounded = ENVIRONMENT && header.counts.w != NO_MATERIAL;
+        uint parts = piece_count + (surrounded && rest.share > 0.0 ? 1u : 0u);
+        for (uint i = 0u; i < parts; i++) {
+            Covered part = rest;
+            uint shape = NO_SHAPE;
+            if (!ENVIRONMENT || i < piece_count) {
+                Piece piece = piece_at(i);
+                part = Covered(piece.seen, piece.center);
+                shape = piece.shape;
+            }
+            if (part.share > 0.0) sum += shade_part(header, part_of(branch, cone, part, shape == NO_SHAPE ? 1.0 : norm), shape);
+        }
+        if (!surrounded) sum += (branch.weight * rest.share) * header.background.xyz;
+    }
+    for (uint k = 0u; k < MOST_WAITING; k++) if (k < waiting_count) dropped += largest(waiting[k].weight);
+    return vec4(sum, dropped);
+}
+
+#endif

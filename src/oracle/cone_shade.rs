@@ -1,0 +1,261 @@
+//! Cone → radiance, without chance. Twin of `glsl/shared/cone_shade.glsl`.
+
+use std::f64::consts::PI;
+
+use glam::DVec3;
+
+use super::camera::{Ray, camera_ray};
+use super::cone::{Cone, cone_of, gather, lay_over, meet};
+use super::coverage::{Covered, LEAST_SHARE};
+use super::footprint::{
+    Beam, Footprint, Meeting, camera_beam, endless_footprint, footprint_at, mirrored, mirrored_beam,
+    reflectance, refracted, refracted_beam,
+};
+use super::intersect::{FAR, Hit, offset_origin};
+use super::light::phong_lobe;
+use super::math::xyz;
+use super::shade::{bumped_normal, surface_color};
+use super::surface::{Surface, hit_surface};
+use crate::layout::{Light, Material, NO_MATERIAL, NO_SHAPE};
+use crate::pack::{LightKind, PackedScene};
+use crate::scene::model::Model;
+
+/// Cones that wait, cones of a pixel, and the least weight of one. What goes beyond is dropped.
+const MOST_WAITING: usize = 32;
+const MOST_CONES: u32 = 64;
+const LEAST_WEIGHT: f64 = 1.0 / 1024.0;
+
+/// What a cone is traced for.
+#[derive(Clone, Copy, Debug)]
+enum Goal {
+    /// What it sees, after so many bounces.
+    Color(u32),
+    /// How much of a light is not hidden, up to this t; the weight is what that sends.
+    Light(f64),
+}
+
+/// A cone that is still to be traced.
+#[derive(Clone, Copy, Debug)]
+struct Branch {
+    ray: Ray,
+    width: f64,
+    spread: f64,
+    weight: DVec3,
+    skip: u32,
+    goal: Goal,
+}
+
+#[derive(Default)]
+struct Waiting {
+    list: Vec<Branch>,
+    /// Weight of all that was.
+    dropped: f64,
+}
+
+impl Waiting {
+    fn send(&mut self, branch: Branch) {
+        if self.list.len() == MOST_WAITING {
+            self.dropped += branch.weight.max_element();
+        } else {
+            self.list.push(branch);
+        }
+    }
+}
+
+fn cone_beam(branch: &Branch) -> Beam {
+    Beam { width: branch.width, spread: branch.spread, ..Beam::default() }
+}
+
+/// Where a part of a cone meets a shape.
+struct Met<'a> {
+    hit: Hit,
+    surface: Surface,
+    print: Footprint,
+    material: &'a Material,
+    /// The weight before the surface's colour.
+    carried: DVec3,
+}
+
+/// What an unhidden light sends through a surface to the eye, and the cone in which it may be hidden.
+fn lit_branch(branch: &Branch, met: &Met<'_>, skip: u32, light: &Light) -> Branch {
+    let Met { surface, material, .. } = met;
+    let point_light = light.link[0] == LightKind::Point as u32;
+    let way = if point_light { xyz(light.place) - surface.point } else { xyz(light.place) };
+    let length = way.length();
+    let facing = surface.normal.dot(way);
+    let above = surface.geometric_normal.dot(way);
+    let shines = facing > 0.0 && above > 0.0;
+    let share = if point_light { facing / length.powi(3) } else { facing };
+    let more = xyz(light.power) * (if shines { share } else { 0.0 } / PI);
+    let mut seen = branch.weight * more;
+    if Model::ALL[material.link[0] as usize] == Model::Phong {
+        let mirror = mirrored(branch.ray.direction, surface.normal);
+        let lobe = phong_lobe(mirror, way, material.specular[3].into());
+        seen += met.carried * xyz(material.specular) * more * lobe;
+    }
+    let origin = offset_origin(surface.point, surface.geometric_normal);
+    let direction = if point_light { xyz(light.place) - origin } else { xyz(light.place) };
+    let area = met.print.point[0].cross(met.print.point[1]).length();
+    let width = (area * above.max(0.0) / length).sqrt();
+    let (spread, t_max) = if point_light { (-width, 1.0) } else { (0.0, FAR) };
+    Branch { ray: Ray { origin, direction }, width, spread, weight: seen, skip, goal: Goal::Light(t_max) }
+}
+
+/// The shape that a ray must not meet again at once. From inside a ball its other side is met.
+fn left_shape(scene: &PackedScene, shape: u32, within: bool) -> u32 {
+    let [planes, spheres, _, _] = scene.header.counts;
+    let ball = (planes..planes + spheres).contains(&shape);
+    if ball && within { NO_SHAPE } else { shape }
+}
+
+/// The cone that leaves a mirror or glass, `through` it or not.
+fn bent_branch(branch: &Branch, met: &Met<'_>, ratio: f64, share: f64, skip: u32, through: bool) -> Branch {
+    let surface = &met.surface;
+    let beam = cone_beam(branch);
+    let meeting = Meeting {
+        ray: branch.ray,
+        t: met.hit.t,
+        print: met.print,
+        normal: surface.normal,
+        bend: surface.bend,
+        curvature: surface.curvature,
+    };
+    let direction = branch.ray.direction;
+    let (beam, direction, side) = if through {
+        (refracted_beam(&beam, &meeting, ratio), refracted(direction, surface.normal, ratio), -1.0)
+    } else {
+        (mirrored_beam(&beam, &meeting), mirrored(direction, surface.normal), 1.0)
+    };
+    let origin = offset_origin(surface.point, side * surface.geometric_normal);
+    let depth = if let Goal::Color(depth) = branch.goal { depth + 1 } else { 0 };
+    Branch {
+        ray: Ray { origin, direction },
+        width: beam.width,
+        spread: beam.spread,
+        weight: branch.weight * share,
+        skip,
+        goal: Goal::Color(depth),
+    }
+}
+
+/// What a part of a cone shows: of a shape, or of what lies behind all of them.
+fn shade_part(waiting: &mut Waiting, scene: &PackedScene, mut branch: Branch, shape: u32) -> DVec3 {
+    let header = &scene.header;
+    let ray = branch.ray;
+    let beam = cone_beam(&branch);
+    if shape == NO_SHAPE {
+        if header.counts[3] == NO_MATERIAL {
+            return branch.weight * xyz(header.background);
+        }
+        let material = &scene.materials[header.counts[3] as usize];
+        let map = &scene.maps[header.key[3] as usize];
+        let print = endless_footprint(header, &beam, &ray);
+        let nowhere = Surface::default();
+        return branch.weight * surface_color(scene, material, Some(map), (&ray, &nowhere, &print), [0; 2]);
+    }
+    let hit = meet(scene, &ray, shape);
+    let mut surface = hit_surface(scene, &ray, &hit);
+    let print = footprint_at(header, &beam, &ray, hit.t, surface.geometric_normal);
+    let material = &scene.materials[surface.material as usize];
+    let map = scene.maps.get(surface.map as usize);
+    if let Some(map) = map {
+        surface.normal = bumped_normal(scene, material, map, (&ray, &surface, &print), [0; 2]);
+    }
+    let carried = branch.weight;
+    branch.weight *= surface_color(scene, material, map, (&ray, &surface, &print), [0; 2]);
+    let met = Met { hit, surface, print, material, carried };
+    let inside = surface.inside;
+    let model = Model::ALL[material.link[0] as usize];
+    if model == Model::Unlit {
+        return branch.weight;
+    }
+    if model.is_lit() {
+        for light in &scene.lights {
+            let next = lit_branch(&branch, &met, left_shape(scene, shape, inside), light);
+            if next.weight.max_element() > 0.0 {
+                waiting.send(next);
+            }
+        }
+        return DVec3::ZERO;
+    }
+    if matches!(branch.goal, Goal::Color(depth) if depth >= header.size[3]) {
+        return DVec3::ZERO;
+    }
+    let ior = f64::from(material.specular[3]);
+    let ratio = if inside { ior } else { 1.0 / ior };
+    let glass = model == Model::Dielectric;
+    let back = if glass { reflectance(ray.direction, surface.normal, ratio) } else { 1.0 };
+    // What goes through glass and then what it returns, which as the last is traced first.
+    for (through, share) in [(true, 1.0 - back), (false, back)] {
+        let skip = left_shape(scene, shape, inside != through);
+        let next = bent_branch(&branch, &met, ratio, share, skip, through);
+        let weight = next.weight.max_element();
+        if weight >= LEAST_WEIGHT {
+            waiting.send(next);
+        } else {
+            waiting.dropped += weight;
+        }
+    }
+    DVec3::ZERO
+}
+
+/// The part of a branch that is seen around `covered.center` of its cone.
+fn part_of(branch: &Branch, cone: &Cone, covered: Covered, norm: f64) -> Branch {
+    let side = covered.share.sqrt();
+    Branch {
+        ray: cone.ray_at(covered.center),
+        width: branch.width * side,
+        spread: branch.spread * side,
+        weight: branch.weight * covered.share * norm,
+        ..*branch
+    }
+}
+
+/// What the cone around a ray from the camera sees, and the weight of what was dropped.
+pub fn trace_cone(scene: &PackedScene, ray: Ray, beam: Beam) -> (DVec3, f64) {
+    let first = Branch {
+        ray,
+        width: beam.width,
+        spread: beam.spread,
+        weight: DVec3::ONE,
+        skip: NO_SHAPE,
+        goal: Goal::Color(0),
+    };
+    let mut waiting = Waiting { list: vec![first], dropped: 0.0 };
+    let mut sum = DVec3::ZERO;
+    for _ in 0..MOST_CONES {
+        let Some(branch) = waiting.list.pop() else { break };
+        let from_camera = matches!(branch.goal, Goal::Color(0));
+        let across = if from_camera { xyz(scene.header.step_x) } else { DVec3::ZERO };
+        let cone = cone_of(branch.ray, branch.width, branch.spread, across);
+        let t_max = if let Goal::Light(t_max) = branch.goal { t_max } else { FAR };
+        let mut pieces = gather(scene, &cone, branch.skip, t_max);
+        let mut rest = lay_over(&mut pieces, scene, &cone);
+        if let Goal::Light(_) = branch.goal {
+            sum += branch.weight * rest.share * pieces.clear;
+            continue;
+        }
+        // Those that are kept stand for shapes that are not.
+        let replaced = rest.share * (1.0 - pieces.clear);
+        let norm = 1.0 + replaced / (1.0 - rest.share).max(LEAST_SHARE);
+        waiting.dropped += branch.weight.max_element() * replaced;
+        rest.share -= replaced;
+        for piece in pieces.list.iter().filter(|p| p.seen > 0.0) {
+            let part = Covered { share: piece.seen, center: piece.center };
+            sum += shade_part(&mut waiting, scene, part_of(&branch, &cone, part, norm), piece.shape);
+        }
+        if rest.share > 0.0 {
+            sum += shade_part(&mut waiting, scene, part_of(&branch, &cone, rest, 1.0), NO_SHAPE);
+        }
+    }
+    let left: f64 = waiting.list.iter().map(|b| b.weight.max_element()).sum();
+    (sum, waiting.dropped + left)
+}
+
+/// Of pixel (x, y) of the film.
+pub fn pixel(scene: &PackedScene, x: u32, y: u32) -> (DVec3, f64) {
+    const MIDDLE: [u32; 2] = [1 << 23; 2];
+    let header = &scene.header;
+    let ray = camera_ray(header, [x + header.image[2], y + header.image[3]], MIDDLE);
+    trace_cone(scene, ray, camera_beam(header, &ray))
+}

@@ -1,0 +1,44 @@
+//! What cone tracing needs of a scene: a footprint, and filters that average over it. In: a scene that may
+//! name none. Out: the scene that is traced, and what was chosen for it.
+
+use super::model::{Algorithm, Footprint, Scene};
+use crate::texture::sampler_spec::{Filter, Method, MipMode, SamplerSpec};
+
+/// Footprints longer than this many widths are blurred, where the sampler's own limit is the default.
+const ANISOTROPY: u32 = 64;
+
+/// Forces the footprint of cones.
+pub fn suit_footprint(scene: &mut Scene) {
+    if scene.sampling.algorithm == Algorithm::Cone {
+        scene.sampling.footprint = Footprint::Cone;
+    }
+}
+
+/// The same, and a filter for every sampler that names none for minification: one whose filter does not
+/// depend on the footprint. What was chosen is told.
+pub fn suit(scene: &mut Scene) -> Option<&'static str> {
+    suit_footprint(scene);
+    let chosen = scene.sampling.algorithm == Algorithm::Cone
+        && scene.samplers.iter_mut().map(suit_sampler).fold(false, |any, one| any | one);
+    chosen.then_some(
+        "algorithm = \"cone\" averages over footprints: samplers without a filter for that read blended levels, \
+         of method \"shader\" along the footprint's longer axis (min = \"anisotropic\", mip = \"linear\")",
+    )
+}
+
+fn suit_sampler(sampler: &mut SamplerSpec) -> bool {
+    if sampler.needs_footprint() || sampler.min.only_minifies() {
+        return false;
+    }
+    sampler.mip = MipMode::Linear;
+    // Texture units differ in how they follow a footprint.
+    if sampler.method == Method::Hardware {
+        sampler.min = Filter::Linear;
+    } else {
+        sampler.min = Filter::Anisotropic;
+        if sampler.max_anisotropy == SamplerSpec::default().max_anisotropy {
+            sampler.max_anisotropy = ANISOTROPY;
+        }
+    }
+    true
+}
