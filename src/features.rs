@@ -112,6 +112,7 @@ const FEATURES: &[(&str, &str, Narrow)] = &[
     ),
     ("PROCEDURAL_FILTERED", "filter of procedural textures", Switch(filters_procedurals)),
     ("COMPENSATED", "second film for rounding errors", Switch(compensates)),
+    ("LENS", "lens", Switch(|s| s.header.lens[0] > 0.0)),
     ("SCHEDULES", "schedule", Modes(Schedule::NAMES, |s| bit(s.schedule as u32))),
 ];
 

@@ -26,7 +26,7 @@ macro_rules! mirror {
     };
 }
 
-mirror!(Header, 9, {
+mirror!(Header, 10, {
     forward: [f32; 4],
     step_x: [f32; 4],
     step_y: [f32; 4],
@@ -42,6 +42,7 @@ mirror!(Header, 9, {
     key: [u32; 4],
     /// Planes, spheres, triangles, the environment's material or `NO_MATERIAL`.
     counts: [u32; 4],
+    lens: [f32; 4],
 });
 
 mirror!(Plane, 4, {

@@ -4,6 +4,8 @@
 #ifndef CAMERA_GLSL
 #define CAMERA_GLSL
 
+#include "warps.glsl"
+
 struct Ray {
     vec3 origin;
     vec3 direction;
@@ -21,6 +23,15 @@ Ray camera_ray(Header header, uvec2 pixel, uvec2 position) {
     vec3 base = (start + corner.x * header.step_x.xyz) + corner.y * header.step_y.xyz;
     vec3 point = (base + inside.x * fine_x) + inside.y * fine_y;
     return orthographic ? Ray(point, header.forward.xyz) : Ray(vec3(0.0), point);
+}
+
+// The pinhole's ray, bent by a thin lens: from a point of the lens to where the pinhole's ray meets the plane
+// in focus (Cook, Porter & Carpenter 1984). Per unit of t both come equally far along the view, so that a
+// pixel's step changes the direction as it does without a lens.
+Ray through_lens(Header header, Ray ray, vec2 square) {
+    vec2 place = header.lens.x * concentric_disc(square);
+    vec3 aside = place.x * header.step_x.xyz + place.y * header.step_y.xyz;
+    return Ray(ray.origin + aside, ray.direction - header.lens.y * aside);
 }
 
 #endif

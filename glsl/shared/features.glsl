@@ -57,6 +57,8 @@ layout(constant_id = 61) const uint PROCEDURAL_KINDS = 0x3FFu;
 layout(constant_id = 62) const bool PROCEDURAL_FILTERED = true; // averaged over footprints
 layout(constant_id = 65) const uint SCHEDULES = 0x3u;
 
+layout(constant_id = 70) const bool LENS = true;        // a lens in place of a pinhole
+
 // Where each list begins in the scene buffer, in units of 16 bytes.
 layout(constant_id = 40) const uint PLANES_AT = 0u;
 layout(constant_id = 41) const uint SPHERES_AT = 0u;

@@ -15,9 +15,9 @@ struct Hit {
 };
 
 // Without bounces all rays but shadow rays are camera rays, and those of a perspective start at the
-// eye, which is the coordinate origin.
+// eye, which is the coordinate origin, where there is no lens.
 #ifndef ORIGIN_IS_EYE
-#define ORIGIN_IS_EYE (!BOUNCES && PROJECTIONS == (1u << PROJECTION_PERSPECTIVE))
+#define ORIGIN_IS_EYE (!BOUNCES && !LENS && PROJECTIONS == (1u << PROJECTION_PERSPECTIVE))
 #endif
 
 // t = (n·o' - n·o) / n·d, kept when the point lies within the half extent on both axes.

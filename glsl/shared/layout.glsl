@@ -123,6 +123,7 @@ struct Header {
     uvec4 sampling;  // pattern, strata a side, samples, seed
     uvec4 key;       // 1 when all pixels share their displacements; lights; footprint; the environment's map
     uvec4 counts;    // planes, spheres, triangles, the environment's material
+    vec4 lens;       // its radius over a pixel's side at distance 1, or 0; 1 / focus distance
 };
 
 struct Plane {
@@ -204,7 +205,7 @@ layout(std140, set = 0, binding = 5) uniform SceneHead { uvec4 head[HEAD_UNITS];
 
 Header load_header() {
     return Header(READ_HEADER(0u), READ_HEADER(1u), READ_HEADER(2u), READ_HEADER(3u), head[4u], head[5u], head[6u],
-                  head[7u], head[8u]);
+                  head[7u], head[8u], READ_HEADER(9u));
 }
 
 // How a record is put together from what lies at `at`, read from the head or from the whole.

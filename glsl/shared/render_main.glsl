@@ -7,7 +7,7 @@
 
 #include "features.glsl"
 #include "layout.glsl"
-#include "patterns.glsl"
+#include "choices.glsl"
 #include "shade.glsl"
 
 layout(local_size_x_id = 0, local_size_y_id = 1, local_size_z = 1) in;
@@ -77,6 +77,8 @@ void main() {
     uint part = task.part & 1u;
     uvec2 key = pixel_key(pixel, header.sampling.w + part * 0x9E3779B9u, header.key.x != 0u);
     Points points = pixel_points(header, pixel, key);
+    Points lens_points = points;
+    if (LENS) lens_points = pair_points(points, PAIR_LENS);
 
     // One loop for samples and bounces: a turn follows one ray, and a pixel whose path has ended
     // starts its next sample while its neighbours' paths go on.
@@ -90,6 +92,9 @@ void main() {
         if (!BOUNCES || !path.goes_on) {
             uvec2 position = sample_point(points, s);
             Ray ray = camera_ray(header, pixel, position);
+            if (LENS) {
+                if (header.lens.x > 0.0) ray = through_lens(header, ray, chosen(lens_points, s));
+            }
             // Bits that have nothing to do with the sample's position.
             uvec2 random = RANDOM ? pcg2d(sample_bits(key, s) ^ 0x5BD1E995u) : uvec2(0u);
             path = camera_path(ray, camera_beam(header, ray), random);

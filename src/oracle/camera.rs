@@ -4,6 +4,7 @@ use glam::{DVec2, DVec3};
 
 use super::math::xyz;
 use super::strata::UNIT;
+use super::warps::concentric_disc;
 use crate::layout::Header;
 use crate::pack::ProjectionKind;
 
@@ -27,4 +28,12 @@ pub fn camera_ray(header: &Header, pixel: [u32; 2], position: [u32; 2]) -> Ray {
     } else {
         Ray { origin: DVec3::ZERO, direction: forward + point }
     }
+}
+
+/// The pinhole's ray, bent by a thin lens: from a point of the lens to where the pinhole's ray meets the plane
+/// in focus.
+pub fn through_lens(header: &Header, ray: &Ray, square: DVec2) -> Ray {
+    let place = f64::from(header.lens[0]) * concentric_disc(square);
+    let aside = place.x * xyz(header.step_x) + place.y * xyz(header.step_y);
+    Ray { origin: ray.origin + aside, direction: ray.direction - f64::from(header.lens[1]) * aside }
 }

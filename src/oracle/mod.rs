@@ -4,6 +4,7 @@
 //! integers and equal bit for bit; everything after them differs by the rounding of f32 only.
 
 pub mod camera;
+pub mod choices;
 pub mod ellipse;
 pub mod filter;
 pub mod footprint;
@@ -27,3 +28,4 @@ pub mod strata;
 pub mod summed;
 pub mod surface;
 pub mod texture;
+pub mod warps;

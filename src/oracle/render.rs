@@ -5,9 +5,10 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::camera::camera_ray;
+use super::camera::{camera_ray, through_lens};
+use super::choices::{PAIR_LENS, chosen};
 use super::footprint::camera_beam;
-use super::patterns::{pixel_points, sample_point};
+use super::patterns::{pair_points, pixel_points, sample_point};
 use super::rng::{pcg2d, pixel_key, sample_bits};
 use super::shade::{advance, camera_path};
 use crate::error::{Error, Result};
@@ -30,7 +31,10 @@ pub fn sample(scene: &PackedScene, header: &Header, [x, y]: [u32; 2], half: u32,
     let key = pixel_key(place, seed, header.key[0] != 0);
     let points = pixel_points(header, place, key);
     let position = sample_point(&points, s);
-    let ray = camera_ray(header, place, position);
+    let mut ray = camera_ray(header, place, position);
+    if header.lens[0] > 0.0 {
+        ray = through_lens(header, &ray, chosen(&pair_points(&points, PAIR_LENS), s));
+    }
     // Bits that have nothing to do with the sample's position.
     let random = pcg2d(sample_bits(key, s).map(|bits| bits ^ 0x5BD1_E995));
     let mut path = camera_path(ray, camera_beam(header, &ray), random);

@@ -280,7 +280,14 @@ fn header(scene: &Scene, crop: Crop) -> Header {
             0,
         ],
         counts: [0, 0, 0, layout::NO_MATERIAL],
+        lens: vec4(lens(scene, pixel)),
     }
+}
+
+/// Radius over a pixel's side at distance 1; 1 / focus distance.
+fn lens(scene: &Scene, pixel: f64) -> DVec4 {
+    let Some(lens) = scene.camera.lens else { return DVec4::ZERO };
+    DVec4::new(lens.radius / pixel, 1.0 / lens.focus_distance, 0.0, 0.0)
 }
 
 /// The footprint, if there is a filter that asks for it. All textures and samplers are read.

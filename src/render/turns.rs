@@ -22,6 +22,8 @@ const SOLID: u64 = 10;
 const TAPS: u64 = 5;
 /// `MOST_BOXES` of `procedural.glsl`.
 const BOXES: u64 = 16;
+/// Digits of Halton's points, or turns in which an order is found, with room to spare.
+const POINTS: u64 = 64;
 
 /// Samples of a thread, from 1 to `CHUNK`.
 pub fn samples_at_once(device: &DeviceInfo, scene: &PackedScene) -> Result<u32> {
@@ -52,7 +54,8 @@ fn turns_of_a_sample(scene: &PackedScene, ellipse: u64) -> u64 {
     let bumped = scene.materials.iter().any(|m| m.detail[0] != NO_TEXTURE);
     let taps = if bumped { TAPS } else { 1 };
     let hit = 1 + shapes + records + count(scene.lights.len()) * (1 + shapes);
-    rays * (hit + taps * turns_of_a_look_up(scene, ellipse))
+    let of_camera = POINTS * u64::from(scene.header.lens[0] > 0.0);
+    of_camera + rays * (hit + taps * turns_of_a_look_up(scene, ellipse))
 }
 
 fn turns_of_a_look_up(scene: &PackedScene, ellipse: u64) -> u64 {

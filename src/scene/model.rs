@@ -63,6 +63,16 @@ pub struct Camera {
     pub look_at: DVec3,
     pub up: DVec3,
     pub projection: Projection,
+    /// None: a pinhole.
+    pub lens: Option<Lens>,
+}
+
+/// A thin lens around the eye, across the view.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lens {
+    pub radius: f64,
+    /// Along the view, to the plane in focus.
+    pub focus_distance: f64,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -4,13 +4,21 @@
 use glam::DVec3;
 
 use super::model::*;
-use super::reader::{COORDINATE, FOV, Field, LENGTH};
+use super::reader::{COORDINATE, FOV, Field, LENGTH, NOT_NEGATIVE};
 use super::table::Table;
 use super::validate::{MAX_DEPTH, MAX_SIZE, MAX_SPP, check_shared, check_spp, parallel};
 use crate::error::Result;
 
-pub(super) const CAMERA: &[&str] =
-    &["eye", "look_at", "up", "vertical_fov", "camera_constant", "orthographic_height"];
+pub(super) const CAMERA: &[&str] = &[
+    "eye",
+    "look_at",
+    "up",
+    "vertical_fov",
+    "camera_constant",
+    "orthographic_height",
+    "lens_radius",
+    "focus_distance",
+];
 pub(super) const IMAGE: &[&str] = &["width", "height"];
 pub(super) const SAMPLING: &[&str] =
     &["algorithm", "pattern", "spp", "shared", "seed", "max_depth", "footprint"];
@@ -36,7 +44,24 @@ pub(super) fn camera(table: &Table<'_>) -> Result<Camera> {
             }
         });
     }
-    Ok(Camera { eye, look_at, up, projection: projection(table)? })
+    let projection = projection(table)?;
+    let lens = lens(table, projection, view.length())?;
+    Ok(Camera { eye, look_at, up, projection, lens })
+}
+
+/// What is looked at is in focus, unless a distance is given.
+fn lens(table: &Table<'_>, projection: Projection, distance: f64) -> Result<Option<Lens>> {
+    let radius_field = table.get("lens_radius");
+    let radius = radius_field.map_or(Ok(0.0), |field| field.number(&NOT_NEGATIVE))?;
+    let focus_distance = table.get("focus_distance").map_or(Ok(distance), |field| field.number(&LENGTH))?;
+    match (radius_field, projection) {
+        (Some(field), Projection::Orthographic(_)) if radius > 0.0 => {
+            let what =
+                "parallel rays pass through no lens; remove it, or use vertical_fov or camera_constant";
+            Err(field.error(what, "not with orthographic_height"))
+        }
+        _ => Ok((radius > 0.0).then_some(Lens { radius, focus_distance })),
+    }
 }
 
 fn projection(table: &Table<'_>) -> Result<Projection> {

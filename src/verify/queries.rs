@@ -147,6 +147,7 @@ pub fn pairs_over(
             look_at: DVec3::NEG_Z,
             up: DVec3::Y,
             projection: Projection::VerticalFov(90.0),
+            lens: None,
         },
         width: 1,
         height: 1,

@@ -30,6 +30,7 @@ const GOLDENS: &[(&str, [u32; 2])] = &[
     ("horizon", [128, 96]),
     ("inside", [96, 96]),
     ("lecture", [128, 128]),
+    ("lens", [64, 48]),
     ("lights", [120, 90]),
     ("mappings", [160, 80]),
     ("materials", [128, 64]),
@@ -186,7 +187,7 @@ macro_rules! goldens {
     };
 }
 goldens! {
-    centroid environment environment_cube filters formats glass hardware horizon inside lecture lights
+    centroid environment environment_cube filters formats glass hardware horizon inside lecture lens lights
     mappings materials mirrors normal position procedural ramp reflection samplers shared volume
 }
 

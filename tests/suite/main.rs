@@ -40,6 +40,7 @@ mod scene;
 mod shared_gpu;
 mod specialise;
 mod stage;
+mod stochastic;
 mod strata;
 mod study;
 mod support;

@@ -31,6 +31,7 @@ const BOUNDS: &[(&str, f64, f64, f64)] = &[
     ("horizon", STEP, 1e-4, 0.015),
     ("inside", STEP, 1e-5, 0.0005),
     ("lecture", STEP, 1e-5, 0.0005),
+    ("lens", STEP, 1e-5, 0.005),
     ("lights", STEP, 2e-6, 0.0005),
     ("mappings", STEP, 6e-5, 0.0005),
     ("materials", STEP, 1e-5, 0.001),
