@@ -5,7 +5,8 @@
 use crate::layout::{self, NO_MATERIAL, NO_TEXTURE};
 use crate::named::named_enum;
 use crate::pack::{
-    EntityKind, LightKind, MapKind, PackedScene, ProjectionKind, Schedule, Sections, SlotCounts, TextureKind,
+    Choice, EntityKind, LightKind, MapKind, PackedScene, ProjectionKind, Schedule, Sections, SlotCounts,
+    TextureKind,
 };
 use crate::scene::model::{Footprint, Model, Pattern, ReliefKind};
 use crate::shaders::Shader;
@@ -112,7 +113,7 @@ const FEATURES: &[(&str, &str, Narrow)] = &[
     ),
     ("PROCEDURAL_FILTERED", "filter of procedural textures", Switch(filters_procedurals)),
     ("COMPENSATED", "second film for rounding errors", Switch(compensates)),
-    ("LENS", "lens", Switch(|s| s.header.lens[0] > 0.0)),
+    ("CHOICES", "choice of a sample", Modes(Choice::NAMES, |s| s.header.chances[0])),
     ("SCHEDULES", "schedule", Modes(Schedule::NAMES, |s| bit(s.schedule as u32))),
 ];
 

@@ -26,7 +26,7 @@ macro_rules! mirror {
     };
 }
 
-mirror!(Header, 10, {
+mirror!(Header, 11, {
     forward: [f32; 4],
     step_x: [f32; 4],
     step_y: [f32; 4],
@@ -42,6 +42,8 @@ mirror!(Header, 10, {
     key: [u32; 4],
     /// Planes, spheres, triangles, the environment's material or `NO_MATERIAL`.
     counts: [u32; 4],
+    /// One bit for each choice that samples make.
+    chances: [u32; 4],
     lens: [f32; 4],
 });
 
@@ -72,11 +74,13 @@ mirror!(Triangle, 9, {
     link: [u32; 4],
 });
 
-mirror!(Light, 3, {
+mirror!(Light, 5, {
     place: [f32; 4],
     power: [f32; 4],
     /// Kind.
     link: [u32; 4],
+    edge_u: [f32; 4],
+    edge_v: [f32; 4],
 });
 
 mirror!(Material, 4, {

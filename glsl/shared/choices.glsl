@@ -1,42 +1,70 @@
 // What a sample chooses beside its place in the pixel, each by a pair of dimensions of the same pattern:
 //   0 place in the pixel   1 lens   2 time (its first dimension)
 //   3 + 2d light, 4 + 2d lobe of the hit after d bounces
-// From the seventh hit on the pairs begin again, with keys of their own; so do further lights of one hit.
-// Twin: src/oracle/choices.rs.
+// From the seventh hit on the pairs begin again, shifted; further lights of one hit shift the pair of the
+// first. Twin: src/oracle/choices.rs.
 #ifndef CHOICES_GLSL
 #define CHOICES_GLSL
 
 #include "patterns.glsl"
 
-const uint PAIR_LENS = 1u;
-const uint PAIR_TIME = 2u;
+const bool LENS = HAS(CHOICES, CHOICE_LENS);
+const bool AREA_LIGHTS = HAS(CHOICES, CHOICE_LIGHT);
+
+const uint PAIR_OF_CAMERA = 1u;
 const uint PAIR_OF_HITS = 3u;
-const uint CHOICE_LIGHT = 0u;
-const uint CHOICE_LOBE = 1u;
-const uint CHOICES = 2u;
 const uint HITS_APART = 6u;
 
-// A sample and its pixel's points of pair 0.
+// Positions as integers in [0, 2^24).
 struct Choices {
-    Points points;
-    uint s;
+    uvec2 lens;
+    uvec2 time;
+    uvec2 light;
+    uvec2 lobe;
 };
 
-vec2 chosen(Points points, uint s) {
-    return vec2(sample_pair(points, s)) * (1.0 / 16777216.0);
+const Choices NO_CHOICES = Choices(uvec2(0u), uvec2(0u), uvec2(0u), uvec2(0u));
+
+vec2 unit_square(uvec2 position) {
+    return vec2(position) * (1.0 / 16777216.0);
 }
 
-// A choice of the hit after `depth` bounces, for the light `again`.
-vec2 chosen_at_hit(Choices choices, uint depth, uint choice, uint again) {
-    Points points = choices.points;
-    uint round = depth / HITS_APART;
-    uint salt = again * 16u + round;
-    if (salt != 0u) {
-        uvec3 bits = pcg3d(uvec3(points.key, ~salt));
-        points.key = uvec2(mix_bits(bits.x), mix_bits(bits.y));
+// The same positions shifted, by another number for each `salt` but 0: without correlation to them in the
+// mean, and as even. Nets of base 2 stay nets under exclusive or; strata move around the square.
+uvec2 apart(Points points, uvec2 position, uint salt) {
+    if (salt == 0u || MODE_IS(PATTERNS, PATTERN_CENTER, points.pattern) || MODE_IS(PATTERNS, PATTERN_GRID, points.pattern)) {
+        return position;
     }
-    uint pair = PAIR_OF_HITS + CHOICES * (depth - round * HITS_APART) + choice;
-    return chosen(pair_points(points, pair), choices.s);
+    uvec3 bits = pcg3d(uvec3(points.key, ~salt));
+    uvec2 by = uvec2(mix_bits(bits.x), mix_bits(bits.y)) >> 8u;
+    bool net = MODE_IS(PATTERNS, PATTERN_SOBOL_OWEN, points.pattern) || MODE_IS(PATTERNS, PATTERN_BLUE_NOISE, points.pattern);
+    return net ? position ^ by : (position + by) & 0xFFFFFFu;
+}
+
+// All that sample s chooses for the hit after `depth` bounces, where its path starts also those of the
+// camera. One loop: the patterns' code is there once.
+Choices choose(Header header, Points points, uint s, uint depth, bool starts) {
+    Choices choices = NO_CHOICES;
+    uint wanted = CHOICES & header.chances.x & (starts ? 0xFFFFFFFFu : 0xFFFFFFFFu << CHOICE_LIGHT);
+    uint round = depth / HITS_APART;
+    while (wanted != 0u) {
+        uint i = uint(findLSB(wanted));
+        wanted &= wanted - 1u;
+        bool of_hit = i >= CHOICE_LIGHT;
+        uint first = of_hit ? PAIR_OF_HITS + 2u * (depth - round * HITS_APART) - CHOICE_LIGHT : PAIR_OF_CAMERA;
+        uvec2 position = sample_pair(pair_points(points, first + i), s);
+        position = apart(points, position, of_hit ? round : 0u);
+        choices.lens = i == CHOICE_LENS ? position : choices.lens;
+        choices.time = i == CHOICE_TIME ? position : choices.time;
+        choices.light = i == CHOICE_LIGHT ? position : choices.light;
+        choices.lobe = i == CHOICE_LOBE ? position : choices.lobe;
+    }
+    return choices;
+}
+
+// The place of the hit's choice on the light `i`.
+vec2 chosen_light(Points points, Choices choices, uint i) {
+    return unit_square(apart(points, choices.light, 16u * i));
 }
 
 #endif

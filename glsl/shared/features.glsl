@@ -21,7 +21,7 @@ layout(constant_id = 12) const uint SAMPLERS = DYNAMIC;
 layout(constant_id = 13) const bool BOUNDED_PLANES = true;
 layout(constant_id = 14) const bool SMOOTH_NORMALS = true;
 layout(constant_id = 15) const uint MODELS = 0x1Fu;
-layout(constant_id = 16) const uint LIGHT_KINDS = 0x3u;
+layout(constant_id = 16) const uint LIGHT_KINDS = 0x1Fu;
 layout(constant_id = 17) const bool SHADOWS = true;
 layout(constant_id = 18) const bool BOUNCES = true;
 layout(constant_id = 19) const uint MAPPINGS = 0xFFu;
@@ -57,7 +57,7 @@ layout(constant_id = 61) const uint PROCEDURAL_KINDS = 0x3FFu;
 layout(constant_id = 62) const bool PROCEDURAL_FILTERED = true; // averaged over footprints
 layout(constant_id = 65) const uint SCHEDULES = 0x3u;
 
-layout(constant_id = 70) const bool LENS = true;        // a lens in place of a pinhole
+layout(constant_id = 70) const uint CHOICES = 0xFu; // what samples choose beside their place in the pixel
 
 // Where each list begins in the scene buffer, in units of 16 bytes.
 layout(constant_id = 40) const uint PLANES_AT = 0u;

@@ -21,6 +21,11 @@ const uint SCHEDULE_TILES = 0u;
 const uint SCHEDULE_JOBS = 1u;
 const uint JOB_BARE = 2u; // without a footprint
 
+const uint CHOICE_LENS = 0u;
+const uint CHOICE_TIME = 1u;
+const uint CHOICE_LIGHT = 2u; // from here on choices are made at every hit
+const uint CHOICE_LOBE = 3u;
+
 const uint MODEL_UNLIT = 0u;
 const uint MODEL_LAMBERT = 1u;
 const uint MODEL_MIRROR = 2u;
@@ -41,6 +46,9 @@ const uint RELIEF_BUMP = 1u;
 
 const uint LIGHT_POINT = 0u;
 const uint LIGHT_DIRECTIONAL = 1u;
+const uint LIGHT_SPHERE = 2u; // from here on the lights have an extent
+const uint LIGHT_RECTANGLE = 3u;
+const uint LIGHT_SUN = 4u;
 
 const uint MAP_PLANE = 0u;       // the plane's own coordinates
 const uint MAP_AFFINE = 1u;      // affine in the position: planar
@@ -123,6 +131,7 @@ struct Header {
     uvec4 sampling;  // pattern, strata a side, samples, seed
     uvec4 key;       // 1 when all pixels share their displacements; lights; footprint; the environment's map
     uvec4 counts;    // planes, spheres, triangles, the environment's material
+    uvec4 chances;   // one bit for each choice that samples make
     vec4 lens;       // its radius over a pixel's side at distance 1, or 0; 1 / focus distance
 };
 
@@ -151,9 +160,12 @@ struct Triangle {
 };
 
 struct Light {
-    vec4 place; // position relative to the eye, or unit direction towards the light; w: unused
-    vec4 power; // intensity (W/sr) or irradiance
-    uvec4 link; // kind
+    vec4 place;  // position relative to the eye, or unit direction towards the light; w: a sphere's radius,
+                 // or the height of the sun's cap on the unit sphere
+    vec4 power;  // intensity (W/sr), irradiance, or of a rectangle radiance
+    uvec4 link;  // kind
+    vec4 edge_u; // of a rectangle: its sides; it shines where edge_u × edge_v points
+    vec4 edge_v;
 };
 
 struct Material {
@@ -205,7 +217,7 @@ layout(std140, set = 0, binding = 5) uniform SceneHead { uvec4 head[HEAD_UNITS];
 
 Header load_header() {
     return Header(READ_HEADER(0u), READ_HEADER(1u), READ_HEADER(2u), READ_HEADER(3u), head[4u], head[5u], head[6u],
-                  head[7u], head[8u], READ_HEADER(9u));
+                  head[7u], head[8u], head[9u], READ_HEADER(10u));
 }
 
 // How a record is put together from what lies at `at`, read from the head or from the whole.
@@ -215,7 +227,7 @@ Header load_header() {
 #define TRIANGLE(read, at)                                                                      \
     Triangle(F(read, at), F(read, at + 1u), F(read, at + 2u), F(read, at + 3u), F(read, at + 4u), \
              F(read, at + 5u), F(read, at + 6u), F(read, at + 7u), read(at + 8u))
-#define LIGHT(read, at) Light(F(read, at), F(read, at + 1u), read(at + 2u))
+#define LIGHT(read, at) Light(F(read, at), F(read, at + 1u), read(at + 2u), F(read, at + 3u), F(read, at + 4u))
 #define MATERIAL(read, at) Material(F(read, at), read(at + 1u), read(at + 2u), F(read, at + 3u))
 #define MAP(read, at)                                                                           \
     Map(F(read, at), F(read, at + 1u), F(read, at + 2u), F(read, at + 3u), F(read, at + 4u), read(at + 5u))
@@ -227,7 +239,7 @@ Header load_header() {
 const uint PLANE_UNITS = 4u;
 const uint SPHERE_UNITS = 2u;
 const uint TRIANGLE_UNITS = 9u;
-const uint LIGHT_UNITS = 3u;
+const uint LIGHT_UNITS = 5u;
 const uint MATERIAL_UNITS = 4u;
 const uint MAP_UNITS = 6u;
 const uint TEXTURE_UNITS = 2u;

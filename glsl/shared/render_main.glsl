@@ -77,8 +77,6 @@ void main() {
     uint part = task.part & 1u;
     uvec2 key = pixel_key(pixel, header.sampling.w + part * 0x9E3779B9u, header.key.x != 0u);
     Points points = pixel_points(header, pixel, key);
-    Points lens_points = points;
-    if (LENS) lens_points = pair_points(points, PAIR_LENS);
 
     // One loop for samples and bounces: a turn follows one ray, and a pixel whose path has ended
     // starts its next sample while its neighbours' paths go on.
@@ -89,17 +87,20 @@ void main() {
     Path path;
     path.goes_on = false;
     while (s < task.end) {
-        if (!BOUNCES || !path.goes_on) {
+        bool starts = !BOUNCES || !path.goes_on;
+        Choices choices = NO_CHOICES;
+        if (CHOICES != 0u) choices = choose(header, points, s, starts ? 0u : path.depth, starts);
+        if (starts) {
             uvec2 position = sample_point(points, s);
             Ray ray = camera_ray(header, pixel, position);
             if (LENS) {
-                if (header.lens.x > 0.0) ray = through_lens(header, ray, chosen(lens_points, s));
+                if (header.lens.x > 0.0) ray = through_lens(header, ray, unit_square(choices.lens));
             }
             // Bits that have nothing to do with the sample's position.
             uvec2 random = RANDOM ? pcg2d(sample_bits(key, s) ^ 0x5BD1E995u) : uvec2(0u);
             path = camera_path(ray, camera_beam(header, ray), random);
         }
-        vec3 more = advance(header, path);
+        vec3 more = advance(header, points, choices, path);
         sum += more;
         if (is_job) {
             seen += more;

@@ -177,7 +177,7 @@ bool bounced(Header header, Hit hit, Surface surface, Footprint print, Material 
 }
 
 // Follows the path to its next hit; what that adds to the sample is returned.
-vec3 advance(Header header, inout Path path) {
+vec3 advance(Header header, Points points, Choices choices, inout Path path) {
     Hit hit = nearest_hit(header, path.ray, path.skip);
     bool missed = hit.shape == NO_SHAPE;
     vec3 seen = path.throughput * header.background.xyz;
@@ -203,7 +203,7 @@ vec3 advance(Header header, inout Path path) {
         bool phong = MODE_IS(MODELS, MODEL_PHONG, material.link.x);
         if (phong || MODE_IS(MODELS, MODEL_LAMBERT, material.link.x)) {
             vec3 mirror = HAS(MODELS, MODEL_PHONG) ? mirrored(direction, surface.normal) : vec3(0.0);
-            Lit lit = direct_light(header, surface, hit.shape, mirror, material.specular.w);
+            Lit lit = direct_light(header, surface, hit.shape, mirror, material.specular.w, points, choices);
             seen = path.throughput * lit.diffuse;
             if (phong) seen = with_highlight(seen, carried, material.specular.xyz, lit.specular);
         }

@@ -6,9 +6,9 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::camera::{camera_ray, through_lens};
-use super::choices::{PAIR_LENS, chosen};
+use super::choices::{choose, unit_square};
 use super::footprint::camera_beam;
-use super::patterns::{pair_points, pixel_points, sample_point};
+use super::patterns::{pixel_points, sample_point};
 use super::rng::{pcg2d, pixel_key, sample_bits};
 use super::shade::{advance, camera_path};
 use crate::error::{Error, Result};
@@ -32,12 +32,14 @@ pub fn sample(scene: &PackedScene, header: &Header, [x, y]: [u32; 2], half: u32,
     let points = pixel_points(header, place, key);
     let position = sample_point(&points, s);
     let mut ray = camera_ray(header, place, position);
+    let choices = choose(header, &points, s, 0, true);
     if header.lens[0] > 0.0 {
-        ray = through_lens(header, &ray, chosen(&pair_points(&points, PAIR_LENS), s));
+        ray = through_lens(header, &ray, unit_square(choices.lens));
     }
     // Bits that have nothing to do with the sample's position.
     let random = pcg2d(sample_bits(key, s).map(|bits| bits ^ 0x5BD1_E995));
     let mut path = camera_path(ray, camera_beam(header, &ray), random);
+    path.points = Some((points, s));
     let mut sum = DVec3::ZERO;
     while path.goes_on {
         sum += advance(scene, &mut path);

@@ -3,6 +3,7 @@
 use glam::{DVec2, DVec3, DVec4};
 
 use super::camera::Ray;
+use super::choices::{Choices, choose};
 use super::filter::look_up;
 use super::footprint::{
     Beam, Footprint, Meeting, any_tangent, endless_footprint, footprint_at, is_filtered, mirrored,
@@ -12,6 +13,7 @@ use super::intersect::{Hit, nearest_hit, offset_origin};
 use super::light::direct_light;
 use super::mapping::{Coordinate, Seen, texture_coordinate};
 use super::math::xyz;
+use super::patterns::Points;
 use super::rng::pcg2d;
 use super::surface::{Surface, hit_surface};
 use crate::layout::{Map, Material, NO_MATERIAL, NO_SHAPE, NO_TEXTURE};
@@ -135,10 +137,13 @@ pub struct Path {
     pub depth: u32,
     /// False: the path has ended.
     pub goes_on: bool,
+    /// The pixel's points and the sample; None: every choice is the middle one.
+    pub points: Option<(Points, u32)>,
 }
 
 pub fn camera_path(ray: Ray, beam: Beam, random: [u32; 2]) -> Path {
-    Path { ray, beam, throughput: DVec3::ONE, random, skip: NO_SHAPE, depth: 0, goes_on: true }
+    let throughput = DVec3::ONE;
+    Path { ray, beam, throughput, random, skip: NO_SHAPE, depth: 0, goes_on: true, points: None }
 }
 
 /// Where a mirrored or refracted path goes on; false where the material ends it.
@@ -197,6 +202,10 @@ pub fn advance(scene: &PackedScene, path: &mut Path) -> DVec3 {
         return background(scene, path);
     }
     let header = &scene.header;
+    let choices = match &path.points {
+        Some((points, s)) => choose(header, points, *s, path.depth, false),
+        None => Choices::MIDDLE,
+    };
     let mut surface = hit_surface(scene, &path.ray, &hit);
     let print = if is_filtered(header) {
         footprint_at(header, &path.beam, &path.ray, hit.t, surface.geometric_normal)
@@ -217,7 +226,9 @@ pub fn advance(scene: &PackedScene, path: &mut Path) -> DVec3 {
     }
     if model.is_lit() {
         let mirror = mirrored(ray.direction, surface.normal);
-        let lit = direct_light(scene, &surface, hit.shape, mirror, material.specular[3].into());
+        let exponent = material.specular[3].into();
+        let points = path.points.as_ref().map(|(points, _)| points);
+        let lit = direct_light(scene, &surface, hit.shape, mirror, exponent, points, &choices);
         let highlight = if model == Model::Phong { lit.specular } else { DVec3::ZERO };
         return path.throughput * lit.diffuse + carried * xyz(material.specular) * highlight;
     }

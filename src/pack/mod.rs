@@ -16,12 +16,12 @@ use crate::color::srgb8_table;
 use crate::error::Result;
 use crate::layout::{self, CHUNK, Header};
 use crate::scene::model::{
-    Algorithm, Environment, EnvironmentLayout, Footprint, Material, Model, Projection, Scene,
+    Algorithm, Environment, EnvironmentLayout, Footprint, Light, Material, Model, Projection, Scene,
 };
 use crate::texture::data::TextureData;
 use crate::texture::sampler_spec::{Address, Method, SamplerSpec};
 
-pub use kinds::{EntityKind, LightKind, MapKind, ProjectionKind, Schedule, TextureKind};
+pub use kinds::{Choice, EntityKind, LightKind, MapKind, ProjectionKind, Schedule, TextureKind};
 pub use procedural::procedural;
 pub use pyramids::{Pyramids, reads_levels};
 pub use textures::{MAX_SLOTS, Slot};
@@ -129,6 +129,7 @@ pub fn pack_with(
     }
     packed.lights = scene.lights.iter().map(|l| shapes::light(l, scene.camera.eye)).collect();
     packed.header.key[1] = packed.lights.len() as u32;
+    packed.header.chances[0] = chances(scene);
     let counts = [packed.planes.len(), packed.spheres.len(), packed.triangles.len()].map(|n| n as u32);
     packed.header.counts[..3].copy_from_slice(&counts);
     Ok(packed)
@@ -280,8 +281,19 @@ fn header(scene: &Scene, crop: Crop) -> Header {
             0,
         ],
         counts: [0, 0, 0, layout::NO_MATERIAL],
+        chances: [0; 4],
         lens: vec4(lens(scene, pixel)),
     }
+}
+
+/// What samples choose beside their place in the pixel.
+fn chances(scene: &Scene) -> u32 {
+    let of = |choice: &Choice| match choice {
+        Choice::Lens => scene.camera.lens.is_some(),
+        Choice::Time | Choice::Lobe => false,
+        Choice::Light => scene.lights.iter().any(Light::has_extent),
+    };
+    Choice::ALL.iter().filter(|c| of(c)).fold(0, |bits, &choice| bits | 1 << choice as u32)
 }
 
 /// Radius over a pixel's side at distance 1; 1 / focus distance.

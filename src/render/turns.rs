@@ -54,8 +54,8 @@ fn turns_of_a_sample(scene: &PackedScene, ellipse: u64) -> u64 {
     let bumped = scene.materials.iter().any(|m| m.detail[0] != NO_TEXTURE);
     let taps = if bumped { TAPS } else { 1 };
     let hit = 1 + shapes + records + count(scene.lights.len()) * (1 + shapes);
-    let of_camera = POINTS * u64::from(scene.header.lens[0] > 0.0);
-    of_camera + rays * (hit + taps * turns_of_a_look_up(scene, ellipse))
+    let choices = if scene.header.chances[0] == 0 { 0 } else { 4 * (1 + POINTS) };
+    rays * (choices + hit + taps * turns_of_a_look_up(scene, ellipse))
 }
 
 fn turns_of_a_look_up(scene: &PackedScene, ellipse: u64) -> u64 {

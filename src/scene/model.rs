@@ -293,6 +293,18 @@ pub enum Light {
     Point { position: DVec3, intensity: DVec3 },
     /// Direction towards the light (any length); irradiance in W/m² on a facing surface.
     Directional { direction: DVec3, irradiance: DVec3 },
+    /// A ball that far away shines like a point of this intensity.
+    Sphere { position: DVec3, radius: f64, intensity: DVec3 },
+    /// Its middle and sides; it shines where edge_u × edge_v points, alike in all directions.
+    Rectangle { position: DVec3, edge_u: DVec3, edge_v: DVec3, radiance: DVec3 },
+    /// A disc of the sky of this angular diameter in degrees, above 0; irradiance on a facing surface.
+    Sun { direction: DVec3, angle: f64, irradiance: DVec3 },
+}
+
+impl Light {
+    pub fn has_extent(&self) -> bool {
+        matches!(self, Light::Sphere { .. } | Light::Rectangle { .. } | Light::Sun { .. })
+    }
 }
 
 impl Sampling {

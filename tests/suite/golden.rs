@@ -36,6 +36,7 @@ const GOLDENS: &[(&str, [u32; 2])] = &[
     ("materials", [128, 64]),
     ("mirrors", [120, 90]),
     ("normal", [128, 54]),
+    ("penumbra", [64, 48]),
     ("position", [144, 50]),
     ("procedural", [120, 53]),
     ("ramp", [120, 42]),
@@ -188,7 +189,7 @@ macro_rules! goldens {
 }
 goldens! {
     centroid environment environment_cube filters formats glass hardware horizon inside lecture lens lights
-    mappings materials mirrors normal position procedural ramp reflection samplers shared volume
+    mappings materials mirrors normal penumbra position procedural ramp reflection samplers shared volume
 }
 
 /// One texel a pixel: the very bytes of the texture.

@@ -7,7 +7,7 @@ use std::fs;
 
 use moire::features::TextureSize;
 use moire::layout as mirror;
-use moire::pack::{EntityKind, LightKind, MapKind, ProjectionKind, Schedule, TextureKind};
+use moire::pack::{Choice, EntityKind, LightKind, MapKind, ProjectionKind, Schedule, TextureKind};
 use moire::scene::model::{Footprint, Model, Pattern, ReliefKind};
 use moire::shaders::{self, Shader};
 use moire::texture::data::{ColorSpace, TexelFormat};
@@ -66,10 +66,11 @@ fn glsl_numbers(text: &str) -> BTreeMap<String, u32> {
 
 /// Every number that layout.glsl must define, and no other: modes, and strides in units of 16 bytes.
 fn expected_numbers() -> BTreeMap<String, u32> {
-    let tables: [(&str, &[&str]); 19] = [
+    let tables: [(&str, &[&str]); 20] = [
         ("PROJECTION", ProjectionKind::NAMES),
         ("PATTERN", Pattern::NAMES),
         ("SCHEDULE", Schedule::NAMES),
+        ("CHOICE", Choice::NAMES),
         ("MODEL", Model::NAMES),
         ("FOOTPRINT", Footprint::NAMES),
         ("ENTITY", EntityKind::NAMES),

@@ -37,6 +37,7 @@ const BOUNDS: &[(&str, f64, f64, f64)] = &[
     ("materials", STEP, 1e-5, 0.001),
     ("mirrors", STEP, 2.5e-4, 0.03),
     ("normal", STEP, 1e-5, 0.001),
+    ("penumbra", STEP, 1e-5, 0.005),
     ("position", STEP, 5e-5, 0.002),
     ("procedural", STEP, 1e-5, 0.001),
     ("quad", STEP, 0.0, 0.0),

@@ -2,6 +2,7 @@
 //! maps behind the choices, what theory says of the pictures, and how much patterns gain in each.
 
 mod lens;
+mod lights;
 mod warps;
 
 use std::path::Path;
