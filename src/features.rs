@@ -114,6 +114,8 @@ const FEATURES: &[(&str, &str, Narrow)] = &[
     ("PROCEDURAL_FILTERED", "filter of procedural textures", Switch(filters_procedurals)),
     ("COMPENSATED", "second film for rounding errors", Switch(compensates)),
     ("CHOICES", "choice of a sample", Modes(Choice::NAMES, |s| s.header.chances[0])),
+    ("MOTIONS", "choice among motions", Count(|s| unrolled(s.motions.len()))),
+    ("MOVING_CAMERA", "motion of the camera", Switch(|s| s.header.chances[2] != 0)),
     ("SCHEDULES", "schedule", Modes(Schedule::NAMES, |s| bit(s.schedule as u32))),
 ];
 
@@ -201,6 +203,7 @@ pub fn constants(
         ("TEXTURES_AT", sections.textures),
         ("SAMPLERS_AT", sections.samplers),
         ("PROCEDURALS_AT", sections.procedurals),
+        ("MOTIONS_AT", sections.motions),
         ("SRGB_AT", sections.srgb),
         ("GROUP_X", group[0]),
         ("GROUP_Y", group[1]),

@@ -26,7 +26,7 @@ macro_rules! mirror {
     };
 }
 
-mirror!(Header, 11, {
+mirror!(Header, 15, {
     forward: [f32; 4],
     step_x: [f32; 4],
     step_y: [f32; 4],
@@ -42,9 +42,13 @@ mirror!(Header, 11, {
     key: [u32; 4],
     /// Planes, spheres, triangles, the environment's material or `NO_MATERIAL`.
     counts: [u32; 4],
-    /// One bit for each choice that samples make.
+    /// One bit for each choice that samples make; motions; 1 when the camera moves.
     chances: [u32; 4],
     lens: [f32; 4],
+    view: [f32; 4],
+    up: [f32; 4],
+    eye_motion: [f32; 4],
+    view_motion: [f32; 4],
 });
 
 mirror!(Plane, 4, {
@@ -128,6 +132,10 @@ mirror!(Procedural, 5, {
     octaves: [f32; 4],
     /// Kind, seed, number of octaves, dimensions.
     link: [u32; 4],
+});
+
+mirror!(Motion, 1, {
+    shift: [f32; 4],
 });
 
 /// Mirror of the push constants of `render_main.glsl`.

@@ -9,21 +9,21 @@
 #include "patterns.glsl"
 
 const bool LENS = HAS(CHOICES, CHOICE_LENS);
+const bool TIMED = HAS(CHOICES, CHOICE_TIME);
 const bool AREA_LIGHTS = HAS(CHOICES, CHOICE_LIGHT);
 
-const uint PAIR_OF_CAMERA = 1u;
-const uint PAIR_OF_HITS = 3u;
 const uint HITS_APART = 6u;
 
 // Positions as integers in [0, 2^24).
 struct Choices {
+    uvec2 place;
     uvec2 lens;
     uvec2 time;
     uvec2 light;
     uvec2 lobe;
 };
 
-const Choices NO_CHOICES = Choices(uvec2(0u), uvec2(0u), uvec2(0u), uvec2(0u));
+const Choices NO_CHOICES = Choices(uvec2(0u), uvec2(0u), uvec2(0u), uvec2(0u), uvec2(0u));
 
 vec2 unit_square(uvec2 position) {
     return vec2(position) * (1.0 / 16777216.0);
@@ -41,23 +41,25 @@ uvec2 apart(Points points, uvec2 position, uint salt) {
     return net ? position ^ by : (position + by) & 0xFFFFFFu;
 }
 
-// All that sample s chooses for the hit after `depth` bounces, where its path starts also those of the
-// camera. One loop: the patterns' code is there once.
+// All that sample s chooses for the hit after `depth` bounces, where its path starts also its place and what
+// the camera needs. One loop: the patterns' code is there once.
 Choices choose(Header header, Points points, uint s, uint depth, bool starts) {
     Choices choices = NO_CHOICES;
-    uint wanted = CHOICES & header.chances.x & (starts ? 0xFFFFFFFFu : 0xFFFFFFFFu << CHOICE_LIGHT);
+    uint wanted = (CHOICES & header.chances.x) << 1u;
+    wanted = starts ? wanted | 1u : wanted & (0xFFFFFFFFu << (1u + CHOICE_LIGHT));
     uint round = depth / HITS_APART;
     while (wanted != 0u) {
         uint i = uint(findLSB(wanted));
         wanted &= wanted - 1u;
-        bool of_hit = i >= CHOICE_LIGHT;
-        uint first = of_hit ? PAIR_OF_HITS + 2u * (depth - round * HITS_APART) - CHOICE_LIGHT : PAIR_OF_CAMERA;
-        uvec2 position = sample_pair(pair_points(points, first + i), s);
+        bool of_hit = i > CHOICE_LIGHT;
+        uint pair = of_hit ? i + 2u * (depth - round * HITS_APART) : i;
+        uvec2 position = sample_pair(pair_points(points, pair), s);
         position = apart(points, position, of_hit ? round : 0u);
-        choices.lens = i == CHOICE_LENS ? position : choices.lens;
-        choices.time = i == CHOICE_TIME ? position : choices.time;
-        choices.light = i == CHOICE_LIGHT ? position : choices.light;
-        choices.lobe = i == CHOICE_LOBE ? position : choices.lobe;
+        choices.place = i == 0u ? position : choices.place;
+        choices.lens = i == 1u + CHOICE_LENS ? position : choices.lens;
+        choices.time = i == 1u + CHOICE_TIME ? position : choices.time;
+        choices.light = i == 1u + CHOICE_LIGHT ? position : choices.light;
+        choices.lobe = i == 1u + CHOICE_LOBE ? position : choices.lobe;
     }
     return choices;
 }

@@ -58,6 +58,8 @@ layout(constant_id = 62) const bool PROCEDURAL_FILTERED = true; // averaged over
 layout(constant_id = 65) const uint SCHEDULES = 0x3u;
 
 layout(constant_id = 70) const uint CHOICES = 0xFu; // what samples choose beside their place in the pixel
+layout(constant_id = 71) const uint MOTIONS = DYNAMIC;     // as many as shapes where some move, else none
+layout(constant_id = 72) const bool MOVING_CAMERA = true;
 
 // Where each list begins in the scene buffer, in units of 16 bytes.
 layout(constant_id = 40) const uint PLANES_AT = 0u;
@@ -70,6 +72,7 @@ layout(constant_id = 46) const uint TEXTURES_AT = 0u;
 layout(constant_id = 47) const uint SAMPLERS_AT = 0u;
 layout(constant_id = 48) const uint SRGB_AT = 0u;
 layout(constant_id = 63) const uint PROCEDURALS_AT = 0u;
+layout(constant_id = 73) const uint MOTIONS_AT = 0u;
 
 // Whether the run-time mode is `value`, decided at build time where the mask allows.
 #define MODE_IS(mask, value, runtime) \

@@ -131,8 +131,13 @@ struct Header {
     uvec4 sampling;  // pattern, strata a side, samples, seed
     uvec4 key;       // 1 when all pixels share their displacements; lights; footprint; the environment's map
     uvec4 counts;    // planes, spheres, triangles, the environment's material
-    uvec4 chances;   // one bit for each choice that samples make
-    vec4 lens;       // its radius over a pixel's side at distance 1, or 0; 1 / focus distance
+    uvec4 chances;   // one bit for each choice that samples make; motions; 1 when the camera moves
+    vec4 lens;       // its radius over a pixel's side at distance 1, or 0; 1 / focus distance; when the shutter
+                     // opens, how long it is open
+    vec4 view;       // from the eye to what it looks at
+    vec4 up;
+    vec4 eye_motion; // between the times 0 and 1
+    vec4 view_motion;
 };
 
 struct Plane {
@@ -204,6 +209,11 @@ struct Procedural {
     uvec4 link;      // kind, seed, number of octaves, dimensions
 };
 
+// Of a shape, in their order: planes, spheres, triangles.
+struct Motion {
+    vec4 shift; // between the times 0 and 1
+};
+
 layout(std430, set = 0, binding = 1) readonly buffer SceneBuffer { uvec4 scene[]; };
 
 // The first 16 KiB of the scene buffer once more, which devices read fastest as uniforms. The header
@@ -217,7 +227,7 @@ layout(std140, set = 0, binding = 5) uniform SceneHead { uvec4 head[HEAD_UNITS];
 
 Header load_header() {
     return Header(READ_HEADER(0u), READ_HEADER(1u), READ_HEADER(2u), READ_HEADER(3u), head[4u], head[5u], head[6u],
-                  head[7u], head[8u], head[9u], READ_HEADER(10u));
+                  head[7u], head[8u], head[9u], READ_HEADER(10u), READ_HEADER(11u), READ_HEADER(12u), READ_HEADER(13u), READ_HEADER(14u));
 }
 
 // How a record is put together from what lies at `at`, read from the head or from the whole.
@@ -235,6 +245,7 @@ Header load_header() {
 #define SAMPLER(read, at) Sampler(F(read, at), read(at + 1u), read(at + 2u), read(at + 3u))
 #define PROCEDURAL(read, at) \
     Procedural(F(read, at), F(read, at + 1u), F(read, at + 2u), F(read, at + 3u), read(at + 4u))
+#define MOTION(read, at) Motion(F(read, at))
 
 const uint PLANE_UNITS = 4u;
 const uint SPHERE_UNITS = 2u;
@@ -245,6 +256,7 @@ const uint MAP_UNITS = 6u;
 const uint TEXTURE_UNITS = 2u;
 const uint SAMPLER_UNITS = 4u;
 const uint PROCEDURAL_UNITS = 5u;
+const uint MOTION_UNITS = 1u;
 
 // Lists of known, small length are read once, before any branch: some compilers (lavapipe's) read a
 // buffer lane by lane inside control flow. An index that is not known at build time then selects
@@ -274,6 +286,7 @@ HELD_LIST(Texture, TEXTURE, held_textures, hold_textures, texture_at, TEXTURES, 
 HELD_LIST(Sampler, SAMPLER, held_samplers, hold_samplers, sampler_at, SAMPLERS, SAMPLERS_AT, SAMPLER_UNITS)
 HELD_LIST(Procedural, PROCEDURAL, held_procedurals, hold_procedurals, procedural_at, PROCEDURALS, PROCEDURALS_AT,
           PROCEDURAL_UNITS)
+HELD_LIST(Motion, MOTION, held_motions, hold_motions, motion_at, MOTIONS, MOTIONS_AT, MOTION_UNITS)
 
 void hold_scene() {
     hold_planes();
@@ -285,6 +298,7 @@ void hold_scene() {
     hold_textures();
     hold_samplers();
     hold_procedurals();
+    hold_motions();
 }
 
 #endif

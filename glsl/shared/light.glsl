@@ -71,7 +71,7 @@ float phong_lobe(vec3 mirror, vec3 way, float exponent) {
     return power > -126.0 ? exp2_accurate(power) * (0.5 * exponent + 1.0) : 0.0;
 }
 
-Lit direct_light(Header header, Surface surface, uint shape, vec3 mirror, float exponent, Points points,
+Lit direct_light(Header header, Surface surface, float time, uint shape, vec3 mirror, float exponent, Points points,
                  Choices choices) {
     Lit sum = Lit(vec3(0.0), vec3(0.0));
     uint lights = COUNT(LIGHTS, header.key.y);
@@ -107,7 +107,7 @@ Lit direct_light(Header header, Surface surface, uint shape, vec3 mirror, float 
                     // A place of it, seen from where the shadow ray starts.
                     if (light.link.x == LIGHT_RECTANGLE) to_light += surface.point - start;
                 }
-                lit = !occluded(header, Ray(start, to_light), aim.reach, shape);
+                lit = !occluded(header, Ray(start, to_light, time), aim.reach, shape);
             }
             vec3 more = light.power.xyz * (share * (1.0 / PI));
             vec3 diffuse = sum.diffuse + more;

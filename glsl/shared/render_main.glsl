@@ -91,14 +91,26 @@ void main() {
         Choices choices = NO_CHOICES;
         if (CHOICES != 0u) choices = choose(header, points, s, starts ? 0u : path.depth, starts);
         if (starts) {
-            uvec2 position = sample_point(points, s);
-            Ray ray = camera_ray(header, pixel, position);
+            uvec2 position;
+            if (CHOICES == 0u) position = sample_point(points, s);
+            else position = choices.place;
+            Header camera = header;
+            float time = 0.0;
+            if (TIMED) time = header.lens.z + header.lens.w * unit_square(choices.time).x;
+            if (MOVING_CAMERA) {
+                if (header.chances.z != 0u) camera = camera_at(header, time);
+            }
+            Ray ray = camera_ray(camera, pixel, position);
             if (LENS) {
-                if (header.lens.x > 0.0) ray = through_lens(header, ray, unit_square(choices.lens));
+                if (header.lens.x > 0.0) ray = through_lens(camera, ray, unit_square(choices.lens));
+            }
+            if (TIMED) ray.time = time;
+            if (MOVING_CAMERA) {
+                if (header.chances.z != 0u) ray.origin += time * header.eye_motion.xyz;
             }
             // Bits that have nothing to do with the sample's position.
             uvec2 random = RANDOM ? pcg2d(sample_bits(key, s) ^ 0x5BD1E995u) : uvec2(0u);
-            path = camera_path(ray, camera_beam(header, ray), random);
+            path = camera_path(ray, camera_beam(camera, ray), random);
         }
         vec3 more = advance(header, points, choices, path);
         sum += more;

@@ -10,7 +10,7 @@
 
 // What the surface's map looks at.
 Seen seen_by_map(Map map, Ray ray, Surface surface, Footprint print) {
-    Seen seen = Seen(surface.point, vec3(0.0), vec3(0.0), surface.own_uv, vec2(0.0), vec2(0.0));
+    Seen seen = Seen(surface.at_rest, vec3(0.0), vec3(0.0), surface.own_uv, vec2(0.0), vec2(0.0));
     uint entity = map.link.y;
     if (DERIVATIVES) {
         seen.entity_x = print.point_x;
@@ -167,10 +167,10 @@ bool bounced(Header header, Hit hit, Surface surface, Footprint print, Material 
     vec3 start = offset_origin(surface.point, mirror ? surface.geometric_normal : -surface.geometric_normal);
     Beam beam = path.beam;
     if (mirror) {
-        path.ray = Ray(start, mirrored(ray.direction, surface.normal));
+        path.ray = Ray(start, mirrored(ray.direction, surface.normal), ray.time);
         if (FILTERED) path.beam = mirrored_beam(header, beam, ray, hit.t, print, surface.normal, surface.bend, surface.curvature);
     } else {
-        path.ray = Ray(start, refracted(ray.direction, surface.normal, ratio));
+        path.ray = Ray(start, refracted(ray.direction, surface.normal, ratio), ray.time);
         if (FILTERED) path.beam = refracted_beam(header, beam, ray, hit.t, print, surface.normal, surface.bend, surface.curvature, ratio);
     }
     return true;
@@ -203,7 +203,7 @@ vec3 advance(Header header, Points points, Choices choices, inout Path path) {
         bool phong = MODE_IS(MODELS, MODEL_PHONG, material.link.x);
         if (phong || MODE_IS(MODELS, MODEL_LAMBERT, material.link.x)) {
             vec3 mirror = HAS(MODELS, MODEL_PHONG) ? mirrored(direction, surface.normal) : vec3(0.0);
-            Lit lit = direct_light(header, surface, hit.shape, mirror, material.specular.w, points, choices);
+            Lit lit = direct_light(header, surface, path.ray.time, hit.shape, mirror, material.specular.w, points, choices);
             seen = path.throughput * lit.diffuse;
             if (phong) seen = with_highlight(seen, carried, material.specular.xyz, lit.specular);
         }

@@ -12,13 +12,12 @@ use crate::layout::Header;
 use crate::pack::Choice;
 use crate::scene::model::Pattern;
 
-const PAIR_OF_CAMERA: u32 = 1;
-const PAIR_OF_HITS: u32 = 3;
 const HITS_APART: u32 = 6;
 
 /// Positions as integers in [0, 2^24).
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Choices {
+    pub place: [u32; 2],
     pub lens: [u32; 2],
     pub time: [u32; 2],
     pub light: [u32; 2],
@@ -27,8 +26,13 @@ pub struct Choices {
 
 impl Choices {
     /// Of a path without a pattern: every choice is the middle one.
-    pub const MIDDLE: Choices =
-        Choices { lens: [1 << 23; 2], time: [1 << 23; 2], light: [1 << 23; 2], lobe: [1 << 23; 2] };
+    pub const MIDDLE: Choices = Choices {
+        place: [1 << 23; 2],
+        lens: [1 << 23; 2],
+        time: [1 << 23; 2],
+        light: [1 << 23; 2],
+        lobe: [1 << 23; 2],
+    };
 }
 
 pub fn unit_square(position: [u32; 2]) -> DVec2 {
@@ -46,19 +50,20 @@ pub fn apart(points: &Points, position: [u32; 2], salt: u32) -> [u32; 2] {
     [shifted(position[0], x >> 8), shifted(position[1], y >> 8)]
 }
 
-/// All that sample s chooses for the hit after `depth` bounces, where its path starts also those of the
-/// camera.
+/// All that sample s chooses for the hit after `depth` bounces, where its path starts also its place and what
+/// the camera needs.
 pub fn choose(header: &Header, points: &Points, s: u32, depth: u32, starts: bool) -> Choices {
-    let mut choices = Choices::default();
     let round = depth / HITS_APART;
+    let mut choices = Choices::default();
+    if starts {
+        choices.place = sample_pair(points, s);
+    }
     for &choice in Choice::ALL {
-        let i = choice as u32;
-        let of_hit = i >= Choice::Light as u32;
-        if header.chances[0] >> i & 1 == 0 || !(of_hit || starts) {
+        let of_hit = choice as u32 >= Choice::Light as u32;
+        if header.chances[0] >> choice as u32 & 1 == 0 || !(of_hit || starts) {
             continue;
         }
-        let hit = PAIR_OF_HITS + 2 * (depth - round * HITS_APART);
-        let pair = if of_hit { hit + i - Choice::Light as u32 } else { PAIR_OF_CAMERA + i };
+        let pair = 1 + choice as u32 + if of_hit { 2 * (depth - round * HITS_APART) } else { 0 };
         let position = sample_pair(&pair_points(points, pair), s);
         let position = apart(points, position, if of_hit { round } else { 0 });
         match choice {

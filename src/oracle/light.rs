@@ -6,11 +6,9 @@ use std::f64::consts::PI;
 use glam::{DVec2, DVec3};
 
 use super::camera::Ray;
-use super::choices::{Choices, chosen_light};
 use super::footprint::any_tangent;
 use super::intersect::{FAR, occluded, offset_origin};
 use super::math::xyz;
-use super::patterns::Points;
 use super::surface::Surface;
 use super::warps::{concentric_disc, on_cap};
 use crate::layout::Light;
@@ -77,20 +75,21 @@ pub fn phong_lobe(mirror: DVec3, way: DVec3, exponent: f64) -> f64 {
     if cosine > 0.0 { cosine.min(1.0).powf(exponent) * (0.5 * exponent + 1.0) } else { 0.0 }
 }
 
+/// `chosen` is the place of the hit's choice on a light.
 pub fn direct_light(
     scene: &PackedScene,
     surface: &Surface,
+    time: f64,
     shape: u32,
     mirror: DVec3,
     exponent: f64,
-    points: Option<&Points>,
-    choices: &Choices,
+    chosen: &dyn Fn(u32) -> DVec2,
 ) -> Lit {
     let mut sum = Lit::default();
     let start = offset_origin(surface.point, surface.geometric_normal);
     for (i, light) in (0..).zip(&scene.lights) {
         let place = xyz(light.place);
-        let square = || chosen_light(points, choices, i);
+        let square = || chosen(i);
         let kind = LightKind::ALL[light.link[0] as usize];
         let aim = match kind {
             LightKind::Point => {
@@ -106,7 +105,7 @@ pub fn direct_light(
         if facing > 0.0 && surface.geometric_normal.dot(aim.way) > 0.0 {
             let from_start = matches!(kind, LightKind::Point | LightKind::Rectangle);
             let to_light = if from_start { aim.way + (surface.point - start) } else { aim.way };
-            if !occluded(scene, &Ray { origin: start, direction: to_light }, aim.reach, shape) {
+            if !occluded(scene, &Ray { origin: start, direction: to_light, time }, aim.reach, shape) {
                 let more = xyz(light.power) * (facing * aim.density / PI);
                 sum.diffuse += more;
                 sum.specular += more * phong_lobe(mirror, aim.way, exponent);

@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3, DVec4};
 
 use super::camera::Ray;
-use super::choices::{Choices, choose};
+use super::choices::{Choices, choose, chosen_light};
 use super::filter::look_up;
 use super::footprint::{
     Beam, Footprint, Meeting, any_tangent, endless_footprint, footprint_at, is_filtered, mirrored,
@@ -24,7 +24,7 @@ use crate::scene::model::{Model, ReliefKind};
 pub fn seen_by_map(map: &Map, ray: &Ray, surface: &Surface, print: &Footprint) -> Seen {
     let own = |d: DVec3| DVec2::from_array(surface.own_gradients.map(|g| g.dot(d)));
     let mut seen = Seen {
-        entity: surface.point,
+        entity: surface.at_rest,
         entity_change: print.point,
         own: surface.own_uv,
         own_change: print.point.map(own),
@@ -167,11 +167,12 @@ fn bounced(hit: &Hit, surface: &Surface, print: Footprint, material: &Material, 
     };
     if mirror {
         let origin = offset_origin(surface.point, surface.geometric_normal);
-        path.ray = Ray { origin, direction: mirrored(direction, surface.normal) };
+        path.ray = Ray { origin, direction: mirrored(direction, surface.normal), time: path.ray.time };
         path.beam = mirrored_beam(&path.beam, &meeting);
     } else {
         let origin = offset_origin(surface.point, -surface.geometric_normal);
-        path.ray = Ray { origin, direction: refracted(direction, surface.normal, ratio) };
+        path.ray =
+            Ray { origin, direction: refracted(direction, surface.normal, ratio), time: path.ray.time };
         path.beam = refracted_beam(&path.beam, &meeting, ratio);
     }
     true
@@ -228,7 +229,8 @@ pub fn advance(scene: &PackedScene, path: &mut Path) -> DVec3 {
         let mirror = mirrored(ray.direction, surface.normal);
         let exponent = material.specular[3].into();
         let points = path.points.as_ref().map(|(points, _)| points);
-        let lit = direct_light(scene, &surface, hit.shape, mirror, exponent, points, &choices);
+        let chosen = |i: u32| chosen_light(points, &choices, i);
+        let lit = direct_light(scene, &surface, ray.time, hit.shape, mirror, exponent, &chosen);
         let highlight = if model == Model::Phong { lit.specular } else { DVec3::ZERO };
         return path.throughput * lit.diffuse + carried * xyz(material.specular) * highlight;
     }

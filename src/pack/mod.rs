@@ -48,6 +48,8 @@ pub struct PackedScene {
     pub textures: Vec<layout::Texture>,
     pub samplers: Vec<layout::Sampler>,
     pub procedurals: Vec<layout::Procedural>,
+    /// Of all shapes, where some move; else none.
+    pub motions: Vec<layout::Motion>,
     /// Names of the textures, for messages.
     pub texture_names: Vec<String>,
     /// Channels that each texture's file has, for messages.
@@ -87,6 +89,7 @@ pub struct Sections {
     pub textures: u32,
     pub samplers: u32,
     pub procedurals: u32,
+    pub motions: u32,
     pub srgb: u32,
 }
 
@@ -129,7 +132,11 @@ pub fn pack_with(
     }
     packed.lights = scene.lights.iter().map(|l| shapes::light(l, scene.camera.eye)).collect();
     packed.header.key[1] = packed.lights.len() as u32;
-    packed.header.chances[0] = chances(scene);
+    if scene.motions().any(|motion| motion != DVec3::ZERO) {
+        packed.motions = scene.motions().map(|m| layout::Motion { shift: vec4(m.extend(0.0)) }).collect();
+    }
+    let moves = u32::from(scene.camera.moves());
+    packed.header.chances = [chances(scene), packed.motions.len() as u32, moves, 0];
     let counts = [packed.planes.len(), packed.spheres.len(), packed.triangles.len()].map(|n| n as u32);
     packed.header.counts[..3].copy_from_slice(&counts);
     Ok(packed)
@@ -221,7 +228,7 @@ impl PackedScene {
     pub fn scene_bytes(&self) -> (Vec<u8>, Sections) {
         let srgb: &[f32] = if textures::needs_srgb_table(&self.textures) { srgb8_table() } else { &[] };
         let mut sections = Sections::default();
-        let mut lists: [(&[u8], &mut u32); 10] = [
+        let mut lists: [(&[u8], &mut u32); 11] = [
             (bytemuck::cast_slice(&self.planes), &mut sections.planes),
             (bytemuck::cast_slice(&self.spheres), &mut sections.spheres),
             (bytemuck::cast_slice(&self.triangles), &mut sections.triangles),
@@ -231,6 +238,7 @@ impl PackedScene {
             (bytemuck::cast_slice(&self.textures), &mut sections.textures),
             (bytemuck::cast_slice(&self.samplers), &mut sections.samplers),
             (bytemuck::cast_slice(&self.procedurals), &mut sections.procedurals),
+            (bytemuck::cast_slice(&self.motions), &mut sections.motions),
             (bytemuck::cast_slice(srgb), &mut sections.srgb),
         ];
         lists.sort_by_key(|(list, _)| list.len());
@@ -283,6 +291,10 @@ fn header(scene: &Scene, crop: Crop) -> Header {
         counts: [0, 0, 0, layout::NO_MATERIAL],
         chances: [0; 4],
         lens: vec4(lens(scene, pixel)),
+        view: vec4((scene.camera.look_at - scene.camera.eye).extend(0.0)),
+        up: vec4(scene.camera.up.normalize().extend(0.0)),
+        eye_motion: vec4(scene.camera.motion[0].extend(0.0)),
+        view_motion: vec4((scene.camera.motion[1] - scene.camera.motion[0]).extend(0.0)),
     }
 }
 
@@ -290,16 +302,18 @@ fn header(scene: &Scene, crop: Crop) -> Header {
 fn chances(scene: &Scene) -> u32 {
     let of = |choice: &Choice| match choice {
         Choice::Lens => scene.camera.lens.is_some(),
-        Choice::Time | Choice::Lobe => false,
+        Choice::Time => scene.camera.moves() || scene.motions().any(|motion| motion != DVec3::ZERO),
+        Choice::Lobe => false,
         Choice::Light => scene.lights.iter().any(Light::has_extent),
     };
     Choice::ALL.iter().filter(|c| of(c)).fold(0, |bits, &choice| bits | 1 << choice as u32)
 }
 
-/// Radius over a pixel's side at distance 1; 1 / focus distance.
+/// Radius over a pixel's side at distance 1; 1 / focus distance; when the shutter opens, how long it is open.
 fn lens(scene: &Scene, pixel: f64) -> DVec4 {
-    let Some(lens) = scene.camera.lens else { return DVec4::ZERO };
-    DVec4::new(lens.radius / pixel, 1.0 / lens.focus_distance, 0.0, 0.0)
+    let [opens, closes] = scene.camera.shutter;
+    let lens = scene.camera.lens.map_or([0.0; 2], |l| [l.radius / pixel, 1.0 / l.focus_distance]);
+    DVec4::new(lens[0], lens[1], opens, closes - opens)
 }
 
 /// The footprint, if there is a filter that asks for it. All textures and samplers are read.

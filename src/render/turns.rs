@@ -49,7 +49,7 @@ pub fn samples_at_once(device: &DeviceInfo, scene: &PackedScene) -> Result<u32> 
 fn turns_of_a_sample(scene: &PackedScene, ellipse: u64) -> u64 {
     let count = |n: usize| n as u64;
     let shapes = count(scene.planes.len() + scene.spheres.len() + scene.triangles.len()) + 3;
-    let records = count(scene.materials.len() + scene.maps.len());
+    let records = count(scene.materials.len() + scene.maps.len() + scene.motions.len());
     let rays = if bounces(scene) { 1 + u64::from(scene.header.size[3]) } else { 1 };
     let bumped = scene.materials.iter().any(|m| m.detail[0] != NO_TEXTURE);
     let taps = if bumped { TAPS } else { 1 };

@@ -65,6 +65,10 @@ pub struct Camera {
     pub projection: Projection,
     /// None: a pinhole.
     pub lens: Option<Lens>,
+    /// When the shutter opens and closes, between 0 and 1.
+    pub shutter: [f64; 2],
+    /// How far eye and look_at move between the times 0 and 1.
+    pub motion: [DVec3; 2],
 }
 
 /// A thin lens around the eye, across the view.
@@ -269,6 +273,8 @@ pub struct Plane {
     /// Bounds |u| and |v|, measured in tangents and bitangents; infinite without.
     pub half_extent: Option<f64>,
     pub material: usize,
+    /// How far it moves between the times 0 and 1.
+    pub motion: DVec3,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -276,6 +282,7 @@ pub struct Sphere {
     pub center: DVec3,
     pub radius: f64,
     pub material: usize,
+    pub motion: DVec3,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -285,6 +292,7 @@ pub struct Triangle {
     /// Shading normals (any length, not zero); the geometric normal without.
     pub normals: Option<[DVec3; 3]>,
     pub material: usize,
+    pub motion: DVec3,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -319,6 +327,13 @@ impl Sampling {
 }
 
 impl Scene {
+    /// Of all shapes: planes, spheres, triangles.
+    pub fn motions(&self) -> impl Iterator<Item = DVec3> {
+        let planes = self.planes.iter().map(|p| p.motion);
+        let spheres = self.spheres.iter().map(|s| s.motion);
+        planes.chain(spheres).chain(self.triangles.iter().map(|t| t.motion))
+    }
+
     /// The sampler a material's texture is read through; the default where there is none.
     pub fn sampler_of(&self, material: &Material) -> SamplerSpec {
         let spec = self.samplers.get(material.sampler).copied().unwrap_or_default();
@@ -329,5 +344,11 @@ impl Scene {
             return SamplerSpec { address: [clamp; 2], address_w: clamp, ..spec };
         }
         spec
+    }
+}
+
+impl Camera {
+    pub fn moves(&self) -> bool {
+        self.motion != [DVec3::ZERO; 2]
     }
 }

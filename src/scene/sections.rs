@@ -4,7 +4,7 @@
 use glam::DVec3;
 
 use super::model::*;
-use super::reader::{COORDINATE, FOV, Field, LENGTH, NOT_NEGATIVE};
+use super::reader::{COORDINATE, FOV, Field, LENGTH, NOT_NEGATIVE, TIME};
 use super::table::Table;
 use super::validate::{MAX_DEPTH, MAX_SIZE, MAX_SPP, check_shared, check_spp, parallel};
 use crate::error::Result;
@@ -18,6 +18,8 @@ pub(super) const CAMERA: &[&str] = &[
     "orthographic_height",
     "lens_radius",
     "focus_distance",
+    "shutter",
+    "motion",
 ];
 pub(super) const IMAGE: &[&str] = &["width", "height"];
 pub(super) const SAMPLING: &[&str] =
@@ -46,7 +48,43 @@ pub(super) fn camera(table: &Table<'_>) -> Result<Camera> {
     }
     let projection = projection(table)?;
     let lens = lens(table, projection, view.length())?;
-    Ok(Camera { eye, look_at, up, projection, lens })
+    let shutter = shutter(table)?;
+    let motion = motion(table, view, up)?;
+    Ok(Camera { eye, look_at, up, projection, lens, shutter, motion })
+}
+
+fn shutter(table: &Table<'_>) -> Result<[f64; 2]> {
+    let Some(field) = table.get("shutter") else { return Ok([0.0, 1.0]) };
+    let [opens, closes] = field.numbers(&TIME)?;
+    if opens > closes {
+        return Err(field.error("the shutter closes before it opens; swap the two times", "closes too early"));
+    }
+    Ok([opens, closes])
+}
+
+/// At no time may the eye be where it looks, or look along up.
+fn motion(table: &Table<'_>, view: DVec3, up: DVec3) -> Result<[DVec3; 2]> {
+    let Some(field) = table.get("motion") else { return Ok([DVec3::ZERO; 2]) };
+    let moves = Table::inline(field, "camera.motion", &["eye", "look_at"])?;
+    let of = |key| moves.get(key).map_or(Ok(DVec3::ZERO), |field| field.vec3(&COORDINATE));
+    let [eye, look_at] = [of("eye")?, of("look_at")?];
+    // Both change evenly with time, so that the least of them is at one of the ends or in between.
+    let least = |start: DVec3, change: DVec3| {
+        let time = -start.dot(change) / change.length_squared().max(f64::MIN_POSITIVE);
+        start + time.clamp(0.0, 1.0) * change
+    };
+    let change = look_at - eye;
+    let reach = view.length().max((view + change).length());
+    if least(view, change).length() <= 1e-9 * reach {
+        return Err(
+            field.error("the eye passes through what it looks at; choose other motions", "meets look_at")
+        );
+    }
+    if least(view.cross(up), change.cross(up)).length() <= 1e-9 * reach * up.length() {
+        let what = "at some time the view direction is parallel to up; choose other motions, or another up";
+        return Err(field.error(what, "looks along up"));
+    }
+    Ok([eye, look_at])
 }
 
 /// What is looked at is in focus, unless a distance is given.

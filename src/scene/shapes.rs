@@ -11,9 +11,9 @@ use super::table::Table;
 use super::validate::{collinear, parallel};
 use crate::error::Result;
 
-pub(super) const PLANE: &[&str] = &["origin", "tangent", "bitangent", "half_extent", "material"];
-pub(super) const SPHERE: &[&str] = &["center", "radius", "material"];
-pub(super) const TRIANGLE: &[&str] = &["vertices", "uvs", "normals", "material"];
+pub(super) const PLANE: &[&str] = &["origin", "tangent", "bitangent", "half_extent", "material", "motion"];
+pub(super) const SPHERE: &[&str] = &["center", "radius", "material", "motion"];
+pub(super) const TRIANGLE: &[&str] = &["vertices", "uvs", "normals", "material", "motion"];
 pub(super) const LIGHT: &[&str] = &[
     "kind",
     "position",
@@ -48,6 +48,10 @@ impl MaterialIndex<'_, '_> {
     }
 }
 
+fn motion(table: &Table<'_>) -> Result<DVec3> {
+    table.get("motion").map_or(Ok(DVec3::ZERO), |field| field.vec3(&COORDINATE))
+}
+
 pub(super) fn plane(table: &Table<'_>, materials: &MaterialIndex<'_, '_>) -> Result<Plane> {
     let origin = table.required("origin")?.vec3(&COORDINATE)?;
     let tangent = table.required("tangent")?.direction()?;
@@ -58,13 +62,14 @@ pub(super) fn plane(table: &Table<'_>, materials: &MaterialIndex<'_, '_>) -> Res
         return Err(bitangent_field.error(what, "parallel to tangent"));
     }
     let half_extent = table.get("half_extent").map(|field| field.number(&LENGTH)).transpose()?;
-    Ok(Plane { origin, tangent, bitangent, half_extent, material: materials.of(table)? })
+    let (material, motion) = (materials.of(table)?, motion(table)?);
+    Ok(Plane { origin, tangent, bitangent, half_extent, material, motion })
 }
 
 pub(super) fn sphere(table: &Table<'_>, materials: &MaterialIndex<'_, '_>) -> Result<Sphere> {
     let center = table.required("center")?.vec3(&COORDINATE)?;
     let radius = table.required("radius")?.number(&LENGTH)?;
-    Ok(Sphere { center, radius, material: materials.of(table)? })
+    Ok(Sphere { center, radius, material: materials.of(table)?, motion: motion(table)? })
 }
 
 pub(super) fn triangle(table: &Table<'_>, materials: &MaterialIndex<'_, '_>) -> Result<Triangle> {
@@ -84,7 +89,7 @@ pub(super) fn triangle(table: &Table<'_>, materials: &MaterialIndex<'_, '_>) -> 
         .get("normals")
         .map(|field| field.array("3 normals of 3 finite numbers each", [DVec3::Z; 3], Field::direction))
         .transpose()?;
-    Ok(Triangle { vertices, uvs, normals, material: materials.of(table)? })
+    Ok(Triangle { vertices, uvs, normals, material: materials.of(table)?, motion: motion(table)? })
 }
 
 /// Without an extent a sphere is a point, and a sun the directional light.

@@ -148,6 +148,8 @@ pub fn pairs_over(
             up: DVec3::Y,
             projection: Projection::VerticalFov(90.0),
             lens: None,
+            shutter: [0.0, 1.0],
+            motion: [DVec3::ZERO; 2],
         },
         width: 1,
         height: 1,

@@ -35,6 +35,7 @@ const GOLDENS: &[(&str, [u32; 2])] = &[
     ("mappings", [160, 80]),
     ("materials", [128, 64]),
     ("mirrors", [120, 90]),
+    ("motion", [64, 48]),
     ("normal", [128, 54]),
     ("penumbra", [64, 48]),
     ("position", [144, 50]),
@@ -189,7 +190,7 @@ macro_rules! goldens {
 }
 goldens! {
     centroid environment environment_cube filters formats glass hardware horizon inside lecture lens lights
-    mappings materials mirrors normal penumbra position procedural ramp reflection samplers shared volume
+    mappings materials mirrors motion normal penumbra position procedural ramp reflection samplers shared volume
 }
 
 /// One texel a pixel: the very bytes of the texture.

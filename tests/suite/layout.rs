@@ -117,6 +117,7 @@ const MIRRORS: &[(&str, u32)] = &[
     ("Texture", mirror::Texture::UNITS),
     ("Sampler", mirror::Sampler::UNITS),
     ("Procedural", mirror::Procedural::UNITS),
+    ("Motion", mirror::Motion::UNITS),
 ];
 
 /// What differs between the shader's layout and its Rust mirror.

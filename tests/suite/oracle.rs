@@ -36,6 +36,7 @@ const BOUNDS: &[(&str, f64, f64, f64)] = &[
     ("mappings", STEP, 6e-5, 0.0005),
     ("materials", STEP, 1e-5, 0.001),
     ("mirrors", STEP, 2.5e-4, 0.03),
+    ("motion", STEP, 1e-5, 0.005),
     ("normal", STEP, 1e-5, 0.001),
     ("penumbra", STEP, 1e-5, 0.005),
     ("position", STEP, 5e-5, 0.002),

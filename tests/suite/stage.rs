@@ -31,7 +31,7 @@ macro_rules! with_scenes {
     ($($call:tt)*) => {
         $crate::stage::dispatch! {
             $($call)* centroid environment environment_cube filters formats glass hardware horizon
-            inside lecture lens lights mappings materials mirrors normal penumbra position procedural quad ramp
+            inside lecture lens lights mappings materials mirrors motion normal penumbra position procedural quad ramp
             reflection samplers shared volume s1a s1b s2
         }
     };

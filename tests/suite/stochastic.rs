@@ -3,6 +3,7 @@
 
 mod lens;
 mod lights;
+mod motion;
 mod warps;
 
 use std::path::Path;

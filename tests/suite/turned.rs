@@ -76,6 +76,10 @@ fn turned(scene: &Scene, turn: DQuat) -> Scene {
     }
     scene.spheres.iter_mut().for_each(|s| spin(&mut s.center));
     scene.triangles.iter_mut().for_each(|t| t.vertices.iter_mut().for_each(spin));
+    scene.camera.motion.iter_mut().for_each(spin);
+    scene.planes.iter_mut().for_each(|p| spin(&mut p.motion));
+    scene.spheres.iter_mut().for_each(|s| spin(&mut s.motion));
+    scene.triangles.iter_mut().for_each(|t| spin(&mut t.motion));
     for light in &mut scene.lights {
         match light {
             Light::Point { position, .. } | Light::Sphere { position, .. } => spin(position),

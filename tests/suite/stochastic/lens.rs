@@ -47,7 +47,7 @@ fn what_lies_in_the_plane_of_focus_looks_as_through_a_pinhole() {
 }
 
 /// Variance of the light's place in the picture along x and y, in pixels squared.
-fn spread(film: &Film) -> [f64; 2] {
+pub fn spread(film: &Film) -> [f64; 2] {
     let (mut sum, mut first, mut second) = (0.0, [0.0; 2], [0.0; 2]);
     for (i, pixel) in film.pixels.iter().enumerate() {
         let light = f64::from(pixel[0]);
