@@ -66,21 +66,25 @@ pub struct ProceduralQuery {
     pub dy: [f32; 4],
 }
 
-/// A point of the unit square, and the height of the cap that it goes to.
+/// A point of the unit square; the height of the cap that it goes to, and alpha of the facets of which it
+/// chooses one; the ray that meets it, and the surface's normal, both of unit length.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 pub struct WarpQuery {
     pub square: [f32; 2],
     pub height: f32,
-    pub padding: f32,
+    pub alpha: f32,
+    pub direction: [f32; 4],
+    pub normal: [f32; 4],
 }
 
-/// Where that point lies.
+/// Where that point lies; the facet's normal, and the share of what it mirrors.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 pub struct WarpAnswer {
     pub disc: [f32; 4],
     pub cap: [f32; 4],
+    pub facet: [f32; 4],
 }
 
 const GROUP: u32 = 64;

@@ -177,7 +177,8 @@ struct Material {
     vec4 color;    // w: strength of the relief
     uvec4 link;    // model, texture or NO_TEXTURE, sampler, image slot
     uvec4 detail;  // the relief's texture or NO_TEXTURE, sampler, image slot; normal or bump map
-    vec4 specular; // colour of the highlight; w: its exponent, or of a dielectric the refractive index
+    vec4 specular; // colour of the highlight, of mirrors and glass x: alpha of their facets; w: the highlight's
+                   // exponent, or the refractive index
 };
 
 struct Map {

@@ -18,14 +18,6 @@ struct Aim {
     float density;
 };
 
-// Around the unit vector n as around +z.
-vec3 around(vec3 n, vec3 v) {
-    vec3 tangent = any_tangent(n);
-    vec3 bitangent = cross3(n, tangent);
-    vec3 turned = (v.x * tangent + v.y * bitangent) + v.z * n;
-    return turned;
-}
-
 // Uniform over the cone in which the sphere is seen; from within it, over all directions. Of radiance
 // I / (pi R²) a direction stands for 2 pi h, the cone's solid angle, h = 1 - cos of its half angle.
 Aim sphere_aim(Light light, vec3 point, vec2 square) {

@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 use glam::{DVec2, DVec3};
 
 use super::camera::Ray;
-use super::footprint::any_tangent;
+use super::footprint::around;
 use super::intersect::{FAR, occluded, offset_origin};
 use super::math::xyz;
 use super::surface::Surface;
@@ -24,12 +24,6 @@ pub struct Aim {
     pub way: DVec3,
     pub reach: f64,
     pub density: f64,
-}
-
-/// Around the unit vector n as around +z.
-pub fn around(n: DVec3, v: DVec3) -> DVec3 {
-    let tangent = any_tangent(n);
-    v.x * tangent + v.y * n.cross(tangent) + v.z * n
 }
 
 /// Uniform over the cone in which the sphere is seen; from within it, over all directions.

@@ -8,6 +8,7 @@ pub mod choices;
 pub mod ellipse;
 pub mod filter;
 pub mod footprint;
+pub mod glossy;
 pub mod halton;
 pub mod intersect;
 pub mod jobs;

@@ -157,6 +157,10 @@ fn material(packed: &mut PackedScene, source: &Material) -> layout::Material {
     let index = |texture: Option<usize>| texture.map_or(layout::NO_TEXTURE, |t| t as u32);
     let relief = source.relief;
     let relief_texture = relief.map(|r| r.texture);
+    let specular = match source.model {
+        Model::Mirror | Model::Dielectric => DVec3::new(source.roughness.powi(2), 0.0, 0.0),
+        _ => source.specular,
+    };
     let fourth = if source.model == Model::Dielectric { source.ior } else { source.exponent };
     layout::Material {
         color: vec4(source.color.extend(relief.map_or(0.0, |r| r.strength))),
@@ -167,7 +171,7 @@ fn material(packed: &mut PackedScene, source: &Material) -> layout::Material {
             slot(relief_texture),
             relief.map_or(0, |r| r.kind as u32),
         ],
-        specular: vec4(source.specular.extend(fourth)),
+        specular: vec4(specular.extend(fourth)),
     }
 }
 
@@ -303,7 +307,7 @@ fn chances(scene: &Scene) -> u32 {
     let of = |choice: &Choice| match choice {
         Choice::Lens => scene.camera.lens.is_some(),
         Choice::Time => scene.camera.moves() || scene.motions().any(|motion| motion != DVec3::ZERO),
-        Choice::Lobe => false,
+        Choice::Lobe => scene.sampling.max_depth > 0 && scene.materials.iter().any(|m| m.roughness > 0.0),
         Choice::Light => scene.lights.iter().any(Light::has_extent),
     };
     Choice::ALL.iter().filter(|c| of(c)).fold(0, |bits, &choice| bits | 1 << choice as u32)

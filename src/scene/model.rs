@@ -239,6 +239,8 @@ pub struct Material {
     pub exponent: f64,
     /// Refractive index of `dielectric` behind its surface, over that in front of it.
     pub ior: f64,
+    /// Of `mirror` and `dielectric`, from 0, which is smooth, to 1.
+    pub roughness: f64,
 }
 
 impl Default for Material {
@@ -254,6 +256,7 @@ impl Default for Material {
             specular: DVec3::splat(0.5),
             exponent: 32.0,
             ior: 1.5,
+            roughness: 0.0,
         }
     }
 }

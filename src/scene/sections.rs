@@ -4,7 +4,7 @@
 use glam::DVec3;
 
 use super::model::*;
-use super::reader::{COORDINATE, FOV, Field, LENGTH, NOT_NEGATIVE, TIME};
+use super::reader::{COORDINATE, FOV, Field, LENGTH, NOT_NEGATIVE, UNIT};
 use super::table::Table;
 use super::validate::{MAX_DEPTH, MAX_SIZE, MAX_SPP, check_shared, check_spp, parallel};
 use crate::error::Result;
@@ -55,7 +55,7 @@ pub(super) fn camera(table: &Table<'_>) -> Result<Camera> {
 
 fn shutter(table: &Table<'_>) -> Result<[f64; 2]> {
     let Some(field) = table.get("shutter") else { return Ok([0.0, 1.0]) };
-    let [opens, closes] = field.numbers(&TIME)?;
+    let [opens, closes] = field.numbers(&UNIT)?;
     if opens > closes {
         return Err(field.error("the shutter closes before it opens; swap the two times", "closes too early"));
     }

@@ -26,6 +26,7 @@ const GOLDENS: &[(&str, [u32; 2])] = &[
     ("filters", [128, 80]),
     ("formats", [172, 60]),
     ("glass", [120, 90]),
+    ("glossy", [64, 48]),
     ("hardware", [164, 84]),
     ("horizon", [128, 96]),
     ("inside", [96, 96]),
@@ -189,7 +190,7 @@ macro_rules! goldens {
     };
 }
 goldens! {
-    centroid environment environment_cube filters formats glass hardware horizon inside lecture lens lights
+    centroid environment environment_cube filters formats glass glossy hardware horizon inside lecture lens lights
     mappings materials mirrors motion normal penumbra position procedural ramp reflection samplers shared volume
 }
 

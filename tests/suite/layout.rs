@@ -192,7 +192,7 @@ fn push_constants_equal_their_mirrors() {
     assert_eq!(size_of::<mirror::Halving>(), here.len() * 4);
 }
 
-const SHADERS: [&Shader; 9] = [
+const SHADERS: [&Shader; 10] = [
     &shaders::RENDER_NONE,
     &shaders::RENDER_TEXELS,
     &shaders::RENDER_IMAGES,
@@ -201,6 +201,7 @@ const SHADERS: [&Shader; 9] = [
     &shaders::PROBE_IMAGES,
     &shaders::PROBE_SOLIDS,
     &shaders::PROBE_RAYS,
+    &shaders::PROBE_WARPS,
     &shaders::PROBE_PROCEDURAL,
 ];
 

@@ -30,7 +30,7 @@ macro_rules! every_scene {
 macro_rules! with_scenes {
     ($($call:tt)*) => {
         $crate::stage::dispatch! {
-            $($call)* centroid environment environment_cube filters formats glass hardware horizon
+            $($call)* centroid environment environment_cube filters formats glass glossy hardware horizon
             inside lecture lens lights mappings materials mirrors motion normal penumbra position procedural quad ramp
             reflection samplers shared volume s1a s1b s2
         }
