@@ -11,7 +11,7 @@
 layout(local_size_x_id = 0, local_size_y_id = 1, local_size_z = 1) in;
 
 struct Query {
-    vec4 origin;
+    vec4 origin;    // w: time
     vec4 direction; // w: t_max
 };
 
@@ -31,7 +31,7 @@ void main() {
     uint i = gl_GlobalInvocationID.x;
     if (i >= range.count) return;
     Header header = load_header();
-    Ray ray = Ray(queries[i].origin.xyz, queries[i].direction.xyz);
+    Ray ray = Ray(queries[i].origin.xyz, queries[i].direction.xyz, queries[i].origin.w);
     Hit hit = nearest_hit(header, ray, NO_SHAPE);
     bool blocked = occluded(header, ray, queries[i].direction.w, NO_SHAPE);
     Answer answer = Answer(vec4(0.0, 0.0, 0.0, FAR), vec4(0.0), vec4(0.0), uvec4(NO_SHAPE, uint(blocked), 0u, 0u));

@@ -5,7 +5,8 @@
 use crate::layout::{self, NO_MATERIAL, NO_TEXTURE};
 use crate::named::named_enum;
 use crate::pack::{
-    EntityKind, LightKind, MapKind, PackedScene, ProjectionKind, Schedule, Sections, SlotCounts, TextureKind,
+    Choice, EntityKind, LightKind, MapKind, PackedScene, ProjectionKind, Schedule, Sections, SlotCounts,
+    TextureKind,
 };
 use crate::scene::model::{Footprint, Model, Pattern, PixelFilterKind, ReliefKind};
 use crate::shaders::Shader;
@@ -113,6 +114,9 @@ const FEATURES: &[(&str, &str, Narrow)] = &[
     ("PROCEDURAL_FILTERED", "filter of procedural textures", Switch(filters_procedurals)),
     ("COMPENSATED", "second film for rounding errors", Switch(compensates)),
     ("CONE_SHAPES", "cones through more shapes", Count(cone_shapes)),
+    ("CHOICES", "choice of a sample", Modes(Choice::NAMES, |s| s.header.chances[0])),
+    ("MOTIONS", "choice among motions", Count(|s| unrolled(s.motions.len()))),
+    ("MOVING_CAMERA", "motion of the camera", Switch(|s| s.header.chances[2] != 0)),
     ("SCHEDULES", "schedule", Modes(Schedule::NAMES, |s| bit(s.schedule as u32))),
     ("PIXEL_FILTERS", "pixel filter", Modes(PixelFilterKind::NAMES, |s| bit(s.header.pixel_filter[0]))),
     ("WARPED", "samples beyond their pixels", Switch(warps)),
@@ -202,6 +206,7 @@ pub fn constants(
         ("TEXTURES_AT", sections.textures),
         ("SAMPLERS_AT", sections.samplers),
         ("PROCEDURALS_AT", sections.procedurals),
+        ("MOTIONS_AT", sections.motions),
         ("SRGB_AT", sections.srgb),
         ("PIXEL_FILTER_AT", sections.pixel_filter),
         ("GROUP_X", group[0]),

@@ -26,7 +26,7 @@ macro_rules! mirror {
     };
 }
 
-mirror!(Header, 10, {
+mirror!(Header, 16, {
     forward: [f32; 4],
     step_x: [f32; 4],
     step_y: [f32; 4],
@@ -42,6 +42,13 @@ mirror!(Header, 10, {
     key: [u32; 4],
     /// Planes, spheres, triangles, the environment's material or `NO_MATERIAL`.
     counts: [u32; 4],
+    /// One bit for each choice that samples make; motions; 1 when the camera moves.
+    chances: [u32; 4],
+    lens: [f32; 4],
+    view: [f32; 4],
+    up: [f32; 4],
+    eye_motion: [f32; 4],
+    view_motion: [f32; 4],
     /// Kind, radius (f32 bits), width (f32 bits), first step from the middle where the filter is negative.
     pixel_filter: [u32; 4],
 });
@@ -73,11 +80,13 @@ mirror!(Triangle, 9, {
     link: [u32; 4],
 });
 
-mirror!(Light, 3, {
+mirror!(Light, 5, {
     place: [f32; 4],
     power: [f32; 4],
     /// Kind.
     link: [u32; 4],
+    edge_u: [f32; 4],
+    edge_v: [f32; 4],
 });
 
 mirror!(Material, 4, {
@@ -125,6 +134,10 @@ mirror!(Procedural, 5, {
     octaves: [f32; 4],
     /// Kind, seed, number of octaves, dimensions.
     link: [u32; 4],
+});
+
+mirror!(Motion, 1, {
+    shift: [f32; 4],
 });
 
 /// Mirror of the push constants of `slice.glsl`.

@@ -66,6 +66,27 @@ pub struct ProceduralQuery {
     pub dy: [f32; 4],
 }
 
+/// A point of the unit square; the height of the cap that it goes to, and alpha of the facets of which it
+/// chooses one; the ray that meets it, and the surface's normal, both of unit length.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct WarpQuery {
+    pub square: [f32; 2],
+    pub height: f32,
+    pub alpha: f32,
+    pub direction: [f32; 4],
+    pub normal: [f32; 4],
+}
+
+/// Where that point lies; the facet's normal, and the share of what it mirrors.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct WarpAnswer {
+    pub disc: [f32; 4],
+    pub cap: [f32; 4],
+    pub facet: [f32; 4],
+}
+
 const GROUP: u32 = 64;
 
 /// RGBA of each look-up, by the pipeline that rendering this scene would build.
@@ -195,6 +216,13 @@ pub fn procedurals(
     let features = Features::new(scene, false, keep_everything);
     let list = Some(bytemuck::cast_slice(queries));
     run(gpu, scene, &features, &shaders::PROBE_PROCEDURAL, list, queries.len(), &[])
+}
+
+/// Where points of the unit square come to lie on disc and cap.
+pub fn warps(gpu: &Gpu, scene: &PackedScene, queries: &[WarpQuery]) -> Result<Vec<WarpAnswer>> {
+    let features = Features::new(scene, false, false);
+    let list = Some(bytemuck::cast_slice(queries));
+    run(gpu, scene, &features, &shaders::PROBE_WARPS, list, queries.len(), &[])
 }
 
 /// Which positions: those of `samples` samples from `first` on of the first `pixels` pixels of a picture

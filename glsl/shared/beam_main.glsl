@@ -165,8 +165,10 @@ vec3 shade(Header header, Beam beam, uint own) {
     vec3 sum = vec3(0.0);
     uint i = 0u;
     for (; i < lights && !gave_up; i++) {
-        Light light = Light(vec4(0.0), vec4(0.0), uvec4(0u));
+        Light light = NO_LIGHT;
         if (LIGHTS != 0u && !unlit) light = light_at(i);
+        // Of lights with an extent beams do not know the penumbra.
+        if (HAS_EXTENTS && light.link.x >= LIGHT_SPHERE) gave_up = true;
         sum += lit_by(header, paint, shape, LIGHTS != 0u && !unlit, light);
     }
     if (i < lights) gave_up = true;

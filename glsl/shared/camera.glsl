@@ -4,9 +4,13 @@
 #ifndef CAMERA_GLSL
 #define CAMERA_GLSL
 
+#include "choices.glsl"
+#include "warps.glsl"
+
 struct Ray {
     vec3 origin;
     vec3 direction;
+    float time;
 };
 
 // `inside` counts from the pixel's corner, in units of 2^-24 of a pixel.
@@ -20,7 +24,30 @@ Ray camera_ray(Header header, uvec2 pixel, vec2 inside) {
     // The sum up to the pixel's corner is the same for all its samples.
     vec3 base = (start + corner.x * header.step_x.xyz) + corner.y * header.step_y.xyz;
     vec3 point = (base + inside.x * fine_x) + inside.y * fine_y;
-    return orthographic ? Ray(point, header.forward.xyz) : Ray(vec3(0.0), point);
+    return orthographic ? Ray(point, header.forward.xyz, 0.0) : Ray(vec3(0.0), point, 0.0);
+}
+
+// The pinhole's ray, bent by a thin lens: from a point of the lens to where the pinhole's ray meets the plane
+// in focus (Cook, Porter & Carpenter 1984). Per unit of t both come equally far along the view, so that a
+// pixel's step changes the direction as it does without a lens.
+Ray through_lens(Header header, Ray ray, vec2 square) {
+    vec2 place = header.lens.x * concentric_disc(square);
+    vec3 aside = place.x * header.step_x.xyz + place.y * header.step_y.xyz;
+    return Ray(ray.origin + aside, ray.direction - header.lens.y * aside, ray.time);
+}
+
+// The camera at a time between 0 and 1: eye and what it looks at have moved, and its axes are formed anew. Rays
+// still start relative to where the eye is then.
+Header camera_at(Header header, float time) {
+    vec3 view = header.view.xyz + time * header.view_motion.xyz;
+    vec3 forward = view * inversesqrt(dot3(view, view));
+    vec3 across = cross3(forward, header.up.xyz);
+    vec3 right = across * inversesqrt(dot3(across, across));
+    float pixel = header.step_y.w;
+    header.forward.xyz = forward;
+    header.step_x.xyz = pixel * right;
+    header.step_y.xyz = pixel * cross3(forward, right);
+    return header;
 }
 
 #endif

@@ -76,7 +76,7 @@ Ray ray_at(Cone cone, vec2 u) {
     vec3 aside = u.x * cone.x + u.y * cone.y;
     vec3 origin = cone.ray.origin + cone.width * aside;
     vec3 direction = cone.ray.direction + cone.spread * aside;
-    return Ray(origin, direction);
+    return Ray(origin, direction, 0.0);
 }
 
 // A plane in the cone: the ray at u meets it at t = (height - w tilt·u) / (facing + s tilt·u), both

@@ -8,7 +8,7 @@
 #include "cone_shade.glsl"
 #include "slice.glsl"
 
-const uvec2 MIDDLE = uvec2(1u << 23u); // of a pixel
+const vec2 MIDDLE = vec2(8388608.0); // of a pixel, in units of 2^-24
 
 void main() {
     Header header = load_header();

@@ -75,7 +75,7 @@ Branch lit_branch(Branch branch, vec3 carried, Hit hit, Surface surface, Footpri
     vec3 to_light = point_light ? light.place.xyz - start : light.place.xyz;
     vec3 across = cross3(print.point_x, print.point_y);
     float width = sqrt(sqrt(dot3(across, across)) * (max(above, 0.0) * inversesqrt(squared)));
-    return Branch(Ray(start, to_light), width, point_light ? -width : 0.0, seen, skip,
+    return Branch(Ray(start, to_light, 0.0), width, point_light ? -width : 0.0, seen, skip,
                   point_light ? TO_POINT_LIGHT : TO_FAR_LIGHT);
 }
 
@@ -92,7 +92,7 @@ Branch bent_branch(Header header, Branch branch, Hit hit, Surface surface, Footp
         direction = mirrored(ray.direction, surface.normal);
     }
     vec3 start = offset_origin(surface.point, through ? -surface.geometric_normal : surface.geometric_normal);
-    return Branch(Ray(start, direction), beam.width, beam.spread, branch.weight * share, skip, branch.depth + 1u);
+    return Branch(Ray(start, direction, 0.0), beam.width, beam.spread, branch.weight * share, skip, branch.depth + 1u);
 }
 
 // What a part of a cone shows: of a shape, or of what lies behind all of them. `branch` is that part.

@@ -21,7 +21,7 @@ layout(constant_id = 12) const uint SAMPLERS = DYNAMIC;
 layout(constant_id = 13) const bool BOUNDED_PLANES = true;
 layout(constant_id = 14) const bool SMOOTH_NORMALS = true;
 layout(constant_id = 15) const uint MODELS = 0x1Fu;
-layout(constant_id = 16) const uint LIGHT_KINDS = 0x3u;
+layout(constant_id = 16) const uint LIGHT_KINDS = 0x1Fu;
 layout(constant_id = 17) const bool SHADOWS = true;
 layout(constant_id = 18) const bool BOUNCES = true;
 layout(constant_id = 19) const uint MAPPINGS = 0xFFu;
@@ -60,6 +60,10 @@ layout(constant_id = 66) const uint PIXEL_FILTERS = 0x1Fu;
 layout(constant_id = 67) const bool WARPED = true;      // a pixel filter that is not the pixel's own square
 layout(constant_id = 80) const uint CONE_SHAPES = DYNAMIC; // of the scene, where a cone can hold all
 
+layout(constant_id = 70) const uint CHOICES = 0xFu; // what samples choose beside their place in the pixel
+layout(constant_id = 71) const uint MOTIONS = DYNAMIC;     // as many as shapes where some move, else none
+layout(constant_id = 72) const bool MOVING_CAMERA = true;
+
 // Where each list begins in the scene buffer, in units of 16 bytes.
 layout(constant_id = 40) const uint PLANES_AT = 0u;
 layout(constant_id = 41) const uint SPHERES_AT = 0u;
@@ -72,6 +76,7 @@ layout(constant_id = 47) const uint SAMPLERS_AT = 0u;
 layout(constant_id = 48) const uint SRGB_AT = 0u;
 layout(constant_id = 63) const uint PROCEDURALS_AT = 0u;
 layout(constant_id = 68) const uint PIXEL_FILTER_AT = 0u;
+layout(constant_id = 73) const uint MOTIONS_AT = 0u;
 
 // Whether the run-time mode is `value`, decided at build time where the mask allows.
 #define MODE_IS(mask, value, runtime) \

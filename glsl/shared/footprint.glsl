@@ -38,7 +38,7 @@ bool uses_cones(Header header) { return MODE_IS(FOOTPRINTS, FOOTPRINT_CONE, head
 // pixel filter's variance over √samples.
 Beam camera_beam(Header header, Ray ray) {
     Beam beam = Beam(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), 0.0, 0.0);
-    if (!FILTERED) return beam;
+    if (!FILTERED || MODE_IS(FOOTPRINTS, FOOTPRINT_NONE, header.key.z)) return beam;
     bool orthographic = MODE_IS(PROJECTIONS, PROJECTION_ORTHOGRAPHIC, header.size.z);
     float share = header.step_x.w;
     if (DIFFERENTIALS) {
@@ -64,6 +64,14 @@ vec3 any_tangent(vec3 n) {
     float side = n.z >= 0.0 ? 1.0 : -1.0;
     float a = -1.0 / (side + n.z);
     return vec3(1.0 + side * n.x * n.x * a, side * n.x * n.y * a, -side * n.x);
+}
+
+// Around the unit vector n as around +z.
+vec3 around(vec3 n, vec3 v) {
+    vec3 tangent = any_tangent(n);
+    vec3 bitangent = cross3(n, tangent);
+    vec3 turned = (v.x * tangent + v.y * bitangent) + v.z * n;
+    return turned;
 }
 
 // Grazing footprints end here: 1 / cos at most.

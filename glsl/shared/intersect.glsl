@@ -15,10 +15,25 @@ struct Hit {
 };
 
 // Without bounces all rays but shadow rays are camera rays, and those of a perspective start at the
-// eye, which is the coordinate origin.
+// eye, which is the coordinate origin, where there is no lens and nothing moves.
 #ifndef ORIGIN_IS_EYE
-#define ORIGIN_IS_EYE (!BOUNCES && PROJECTIONS == (1u << PROJECTION_PERSPECTIVE))
+#define ORIGIN_IS_EYE (!BOUNCES && !LENS && !TIMED && PROJECTIONS == (1u << PROJECTION_PERSPECTIVE))
 #endif
+
+// How far a shape has moved at the ray's time. Shapes are met, and textured, where they are at time 0, by rays
+// that start as far back.
+vec3 moved_by(Header header, Ray ray, uint shape) {
+    vec3 shift = vec3(0.0);
+    if (MOTIONS != 0u) {
+        if (header.chances.y != 0u) shift = ray.time * motion_at(shape).shift.xyz;
+    }
+    return shift;
+}
+
+Ray at_rest(Header header, Ray ray, uint shape) {
+    if (MOTIONS != 0u) ray.origin -= moved_by(header, ray, shape);
+    return ray;
+}
 
 // t = (n·o' - n·o) / n·d, kept when the point lies within the half extent on both axes.
 float plane_distance(Plane plane, Ray ray, bool from_eye, out vec3 local) {
@@ -83,21 +98,21 @@ Hit nearest_hit(Header header, Ray ray, uint skip) {
     uint triangles = COUNT(TRIANGLES, header.counts.z);
     for (uint i = 0u; i < planes; i++) {
         vec3 local;
-        float t = plane_distance(plane_at(i), ray, ORIGIN_IS_EYE, local);
+        float t = plane_distance(plane_at(i), at_rest(header, ray, i), ORIGIN_IS_EYE, local);
         bool nearer = t > 0.0 && t < hit.t && i != skip;
         hit.t = nearer ? t : hit.t;
         hit.shape = nearer ? i : hit.shape;
         hit.local = nearer ? local : hit.local;
     }
     for (uint i = 0u; i < spheres; i++) {
-        float t = sphere_distance(sphere_at(i), ray, ORIGIN_IS_EYE);
+        float t = sphere_distance(sphere_at(i), at_rest(header, ray, planes + i), ORIGIN_IS_EYE);
         bool nearer = t > 0.0 && t < hit.t;
         hit.t = nearer ? t : hit.t;
         hit.shape = nearer ? planes + i : hit.shape;
     }
     for (uint i = 0u; i < triangles; i++) {
         vec3 edges;
-        float t = triangle_distance(triangle_at(i), ray, ORIGIN_IS_EYE, edges);
+        float t = triangle_distance(triangle_at(i), at_rest(header, ray, planes + spheres + i), ORIGIN_IS_EYE, edges);
         bool nearer = t > 0.0 && t < hit.t && planes + spheres + i != skip;
         hit.t = nearer ? t : hit.t;
         hit.shape = nearer ? planes + spheres + i : hit.shape;
@@ -114,16 +129,16 @@ bool occluded(Header header, Ray ray, float t_max, uint skip) {
     uint triangles = COUNT(TRIANGLES, header.counts.z);
     for (uint i = 0u; i < planes; i++) {
         vec3 local;
-        float t = plane_distance(plane_at(i), ray, false, local);
+        float t = plane_distance(plane_at(i), at_rest(header, ray, i), false, local);
         blocked = blocked || (t > 0.0 && t < t_max && i != skip);
     }
     for (uint i = 0u; i < spheres; i++) {
-        float t = sphere_distance(sphere_at(i), ray, false);
+        float t = sphere_distance(sphere_at(i), at_rest(header, ray, planes + i), false);
         blocked = blocked || (t > 0.0 && t < t_max);
     }
     for (uint i = 0u; i < triangles; i++) {
         vec3 edges;
-        float t = triangle_distance(triangle_at(i), ray, false, edges);
+        float t = triangle_distance(triangle_at(i), at_rest(header, ray, planes + spheres + i), false, edges);
         blocked = blocked || (t > 0.0 && t < t_max && planes + spheres + i != skip);
     }
     return blocked;

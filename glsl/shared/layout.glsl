@@ -27,6 +27,10 @@ const uint PIXEL_FILTER_GAUSSIAN = 2u;
 const uint PIXEL_FILTER_MITCHELL = 3u;
 const uint PIXEL_FILTER_BLACKMAN_HARRIS = 4u;
 const uint PIXEL_FILTER_CELLS = 512u; // of the table by which samples are placed
+const uint CHOICE_LENS = 0u;
+const uint CHOICE_TIME = 1u;
+const uint CHOICE_LIGHT = 2u; // from here on choices are made at every hit
+const uint CHOICE_LOBE = 3u;
 
 const uint MODEL_UNLIT = 0u;
 const uint MODEL_LAMBERT = 1u;
@@ -48,6 +52,9 @@ const uint RELIEF_BUMP = 1u;
 
 const uint LIGHT_POINT = 0u;
 const uint LIGHT_DIRECTIONAL = 1u;
+const uint LIGHT_SPHERE = 2u; // from here on the lights have an extent
+const uint LIGHT_RECTANGLE = 3u;
+const uint LIGHT_SUN = 4u;
 
 const uint MAP_PLANE = 0u;       // the plane's own coordinates
 const uint MAP_AFFINE = 1u;      // affine in the position: planar
@@ -131,6 +138,13 @@ struct Header {
     uvec4 sampling;  // pattern, strata a side, samples, seed
     uvec4 key;       // 1 when all pixels share their displacements; lights; footprint; the environment's map
     uvec4 counts;    // planes, spheres, triangles, the environment's material
+    uvec4 chances;   // one bit for each choice that samples make; motions; 1 when the camera moves
+    vec4 lens;       // its radius over a pixel's side at distance 1, or 0; 1 / focus distance; when the shutter
+                     // opens, how long it is open
+    vec4 view;       // from the eye to what it looks at
+    vec4 up;
+    vec4 eye_motion; // between the times 0 and 1
+    vec4 view_motion;
     uvec4 pixel_filter; // kind, radius and width (bits; pixels), first step from the middle where it is negative
 };
 
@@ -159,16 +173,20 @@ struct Triangle {
 };
 
 struct Light {
-    vec4 place; // position relative to the eye, or unit direction towards the light; w: unused
-    vec4 power; // intensity (W/sr) or irradiance
-    uvec4 link; // kind
+    vec4 place;  // position relative to the eye, or unit direction towards the light; w: a sphere's radius,
+                 // or the height of the sun's cap on the unit sphere
+    vec4 power;  // intensity (W/sr), irradiance, or of a rectangle radiance
+    uvec4 link;  // kind
+    vec4 edge_u; // of a rectangle: its sides; it shines where edge_u × edge_v points
+    vec4 edge_v;
 };
 
 struct Material {
     vec4 color;    // w: strength of the relief
     uvec4 link;    // model, texture or NO_TEXTURE, sampler, image slot
     uvec4 detail;  // the relief's texture or NO_TEXTURE, sampler, image slot; normal or bump map
-    vec4 specular; // colour of the highlight; w: its exponent, or of a dielectric the refractive index
+    vec4 specular; // colour of the highlight, of mirrors and glass x: alpha of their facets; w: the highlight's
+                   // exponent, or the refractive index
 };
 
 struct Map {
@@ -200,6 +218,11 @@ struct Procedural {
     uvec4 link;      // kind, seed, number of octaves, dimensions
 };
 
+// Of a shape, in their order: planes, spheres, triangles.
+struct Motion {
+    vec4 shift; // between the times 0 and 1
+};
+
 layout(std430, set = 0, binding = 1) readonly buffer SceneBuffer { uvec4 scene[]; };
 
 // The first 16 KiB of the scene buffer once more, which devices read fastest as uniforms. The header
@@ -213,7 +236,8 @@ layout(std140, set = 0, binding = 5) uniform SceneHead { uvec4 head[HEAD_UNITS];
 
 Header load_header() {
     return Header(READ_HEADER(0u), READ_HEADER(1u), READ_HEADER(2u), READ_HEADER(3u), head[4u], head[5u], head[6u],
-                  head[7u], head[8u], head[9u]);
+                  head[7u], head[8u], head[9u], READ_HEADER(10u), READ_HEADER(11u), READ_HEADER(12u),
+                  READ_HEADER(13u), READ_HEADER(14u), head[15u]);
 }
 
 // How a record is put together from what lies at `at`, read from the head or from the whole.
@@ -223,7 +247,7 @@ Header load_header() {
 #define TRIANGLE(read, at)                                                                      \
     Triangle(F(read, at), F(read, at + 1u), F(read, at + 2u), F(read, at + 3u), F(read, at + 4u), \
              F(read, at + 5u), F(read, at + 6u), F(read, at + 7u), read(at + 8u))
-#define LIGHT(read, at) Light(F(read, at), F(read, at + 1u), read(at + 2u))
+#define LIGHT(read, at) Light(F(read, at), F(read, at + 1u), read(at + 2u), F(read, at + 3u), F(read, at + 4u))
 #define MATERIAL(read, at) Material(F(read, at), read(at + 1u), read(at + 2u), F(read, at + 3u))
 #define MAP(read, at)                                                                           \
     Map(F(read, at), F(read, at + 1u), F(read, at + 2u), F(read, at + 3u), F(read, at + 4u), read(at + 5u))
@@ -231,16 +255,18 @@ Header load_header() {
 #define SAMPLER(read, at) Sampler(F(read, at), read(at + 1u), read(at + 2u), read(at + 3u))
 #define PROCEDURAL(read, at) \
     Procedural(F(read, at), F(read, at + 1u), F(read, at + 2u), F(read, at + 3u), read(at + 4u))
+#define MOTION(read, at) Motion(F(read, at))
 
 const uint PLANE_UNITS = 4u;
 const uint SPHERE_UNITS = 2u;
 const uint TRIANGLE_UNITS = 9u;
-const uint LIGHT_UNITS = 3u;
+const uint LIGHT_UNITS = 5u;
 const uint MATERIAL_UNITS = 4u;
 const uint MAP_UNITS = 6u;
 const uint TEXTURE_UNITS = 2u;
 const uint SAMPLER_UNITS = 4u;
 const uint PROCEDURAL_UNITS = 5u;
+const uint MOTION_UNITS = 1u;
 
 // Lists of known, small length are read once, before any branch: some compilers (lavapipe's) read a
 // buffer lane by lane inside control flow. An index that is not known at build time then selects
@@ -270,6 +296,7 @@ HELD_LIST(Texture, TEXTURE, held_textures, hold_textures, texture_at, TEXTURES, 
 HELD_LIST(Sampler, SAMPLER, held_samplers, hold_samplers, sampler_at, SAMPLERS, SAMPLERS_AT, SAMPLER_UNITS)
 HELD_LIST(Procedural, PROCEDURAL, held_procedurals, hold_procedurals, procedural_at, PROCEDURALS, PROCEDURALS_AT,
           PROCEDURAL_UNITS)
+HELD_LIST(Motion, MOTION, held_motions, hold_motions, motion_at, MOTIONS, MOTIONS_AT, MOTION_UNITS)
 
 void hold_scene() {
     hold_planes();
@@ -281,6 +308,7 @@ void hold_scene() {
     hold_textures();
     hold_samplers();
     hold_procedurals();
+    hold_motions();
 }
 
 #endif

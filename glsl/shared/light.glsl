@@ -1,10 +1,54 @@
 // What lights send to a surface: Lambert, albedo/pi · I cos/r² (point) or albedo/pi · E cos
-// (directional), hard shadows; beside it the highlight of Phong, energy-normalised: specular (n + 2)/2pi
+// (directional); of a light with an extent that of one place, chosen by the sample; beside it the highlight of Phong, energy-normalised: specular (n + 2)/2pi
 // cos^n of the angle to the mirror direction (Lafortune & Willems 1994). Twin: src/oracle/light.rs.
 #ifndef LIGHT_GLSL
 #define LIGHT_GLSL
 
+#include "choices.glsl"
 #include "surface.glsl"
+
+// Shapes as near to a place of a light as this share of the way are taken for the light itself.
+const float BEFORE_LIGHT = 4095.0 / 4096.0;
+
+// The way to a place of a light, how much of it a shape may not lie in, and the irradiance there, over the
+// light's power and the cosine.
+struct Aim {
+    vec3 way;
+    float reach;
+    float density;
+};
+
+// Uniform over the cone in which the sphere is seen; from within it, over all directions. Of radiance
+// I / (pi R²) a direction stands for 2 pi h, the cone's solid angle, h = 1 - cos of its half angle.
+Aim sphere_aim(Light light, vec3 point, vec2 square) {
+    vec3 way = light.place.xyz - point;
+    float radius = light.place.w;
+    float squared = max(dot3(way, way), 1e-30);
+    float sine = radius * radius / squared; // squared
+    bool outside = sine < 1.0;
+    float both = 1.0 + sqrt(max(1.0 - sine, 0.0));
+    vec3 local = on_cap(concentric_disc(square), outside ? sine / both : 2.0);
+    float away = squared * (local.x * local.x + local.y * local.y);
+    float half_chord = sqrt(max(radius * radius - away, 0.0));
+    float reach = sqrt(squared) * local.z + (outside ? -half_chord : half_chord);
+    float density = outside ? 2.0 / (squared * both) : 4.0 / (radius * radius);
+    return Aim(around(way * inversesqrt(squared), local), reach * BEFORE_LIGHT, density);
+}
+
+// Uniform over the area, which is the length of the sides' cross product: cos / r² with cos' of the light.
+Aim rectangle_aim(Light light, vec3 point, vec2 square) {
+    vec2 p = square - 0.5;
+    vec3 way = (light.place.xyz - point) + (p.x * light.edge_u.xyz + p.y * light.edge_v.xyz);
+    float squared = dot3(way, way);
+    float leaving = -dot3(way, cross3(light.edge_u.xyz, light.edge_v.xyz));
+    float density = leaving > 0.0 ? (leaving / squared) / squared : 0.0;
+    return Aim(way, BEFORE_LIGHT, density);
+}
+
+// Uniform over the cap of the sky.
+Aim sun_aim(Light light, vec2 square) {
+    return Aim(around(light.place.xyz, on_cap(concentric_disc(square), light.place.w)), FAR, 1.0);
+}
 
 // Irradiance over pi from all lights: what an albedo of 1 sends on, and a specular colour of 1.
 struct Lit {
@@ -19,7 +63,8 @@ float phong_lobe(vec3 mirror, vec3 way, float exponent) {
     return power > -126.0 ? exp2_accurate(power) * (0.5 * exponent + 1.0) : 0.0;
 }
 
-Lit direct_light(Header header, Surface surface, uint shape, vec3 mirror, float exponent) {
+Lit direct_light(Header header, Surface surface, float time, uint shape, vec3 mirror, float exponent, Points points,
+                 Choices choices) {
     Lit sum = Lit(vec3(0.0), vec3(0.0));
     uint lights = COUNT(LIGHTS, header.key.y);
     vec3 start = SHADOWS ? offset_origin(surface.point, surface.geometric_normal) : surface.point;
@@ -27,15 +72,34 @@ Lit direct_light(Header header, Surface surface, uint shape, vec3 mirror, float 
         Light light = light_at(i);
         bool point_light = MODE_IS(LIGHT_KINDS, LIGHT_POINT, light.link.x);
         vec3 way = point_light ? light.place.xyz - surface.point : light.place.xyz;
+        Aim aim = Aim(way, point_light ? 1.0 : FAR, 1.0);
+        if (AREA_LIGHTS) {
+            if (light.link.x >= LIGHT_SPHERE) {
+                vec2 square = chosen_light(points, choices, i);
+                if (MODE_IS(LIGHT_KINDS, LIGHT_SPHERE, light.link.x)) {
+                    aim = sphere_aim(light, surface.point, square);
+                } else if (MODE_IS(LIGHT_KINDS, LIGHT_RECTANGLE, light.link.x)) {
+                    aim = rectangle_aim(light, surface.point, square);
+                } else {
+                    aim = sun_aim(light, square);
+                }
+                way = aim.way;
+            }
+        }
         float squared = dot3(way, way);
         float facing = dot3(surface.normal, way);
         // Point: cos/r² = n·l / r³ with the unnormalised l. Directional: l is a unit vector.
         float share = point_light ? facing / (squared * sqrt(squared)) : facing;
+        if (AREA_LIGHTS) share *= aim.density;
         bool lit = facing > 0.0 && dot3(surface.geometric_normal, way) > 0.0;
         if (lit) {
             if (SHADOWS) {
-                vec3 to_light = point_light ? light.place.xyz - start : light.place.xyz;
-                lit = !occluded(header, Ray(start, to_light), point_light ? 1.0 : FAR, shape);
+                vec3 to_light = point_light ? light.place.xyz - start : way;
+                if (HAS(LIGHT_KINDS, LIGHT_RECTANGLE)) {
+                    // A place of it, seen from where the shadow ray starts.
+                    if (light.link.x == LIGHT_RECTANGLE) to_light += surface.point - start;
+                }
+                lit = !occluded(header, Ray(start, to_light, time), aim.reach, shape);
             }
             vec3 more = light.power.xyz * (share * (1.0 / PI));
             vec3 diffuse = sum.diffuse + more;

@@ -23,6 +23,10 @@ const uint MOST_CELLS = 40000u; // of textures that a pixel's edges may cross
 bool gave_up;
 uint crossed;
 
+const Light NO_LIGHT = Light(vec4(0.0), vec4(0.0), uvec4(0u), vec4(0.0), vec4(0.0));
+const bool HAS_EXTENTS = (LIGHT_KINDS >> LIGHT_SPHERE) != 0u;
+const bool GLOSSY = HAS(CHOICES, CHOICE_LOBE);
+
 // What a piece is painted with.
 struct Paint {
     Material record;
@@ -55,6 +59,7 @@ bool is_simple(Header header, uint shape, Material record, Map map) {
     bool mirror = MODE_IS(MODELS, MODEL_MIRROR, record.link.x);
     bool plain = mirror || MODE_IS(MODELS, MODEL_LAMBERT, record.link.x);
     if (!unlit && (!plain || is_smooth(header, shape))) return false;
+    if (GLOSSY && mirror && record.specular.x > 0.0) return false;
     if (BUMPED && record.detail.x != NO_TEXTURE) return false;
     if (record.link.y == NO_TEXTURE) return true;
     bool flat_map = MODE_IS(MAPPINGS, MAP_PLANE, map.link.x) || MODE_IS(MAPPINGS, MAP_VERTEX_UV, map.link.x) ||

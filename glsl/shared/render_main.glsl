@@ -7,7 +7,7 @@
 
 #include "features.glsl"
 #include "layout.glsl"
-#include "patterns.glsl"
+#include "choices.glsl"
 #include "pixel_filter.glsl"
 #include "shade.glsl"
 #include "slice.glsl"
@@ -68,16 +68,35 @@ void main() {
     Path path;
     path.goes_on = false;
     while (s < task.end) {
-        if (!BOUNCES || !path.goes_on) {
-            Place place = filtered_place(header, sample_point(points, s));
-            Ray ray = camera_ray(header, pixel, place.inside);
+        bool starts = !BOUNCES || !path.goes_on;
+        Choices choices = NO_CHOICES;
+        if (CHOICES != 0u) choices = choose(header, points, s, starts ? 0u : path.depth, starts);
+        if (starts) {
+            uvec2 position;
+            if (CHOICES == 0u) position = sample_point(points, s);
+            else position = choices.place;
+            Header camera = header;
+            float time = 0.0;
+            if (TIMED) time = header.lens.z + header.lens.w * unit_square(choices.time).x;
+            if (MOVING_CAMERA) {
+                if (header.chances.z != 0u) camera = camera_at(header, time);
+            }
+            Place place = filtered_place(header, position);
             sign = place.sign;
             signs += sign;
+            Ray ray = camera_ray(camera, pixel, place.inside);
+            if (LENS) {
+                if (header.lens.x > 0.0) ray = through_lens(camera, ray, unit_square(choices.lens));
+            }
+            if (TIMED) ray.time = time;
+            if (MOVING_CAMERA) {
+                if (header.chances.z != 0u) ray.origin += time * header.eye_motion.xyz;
+            }
             // Bits that have nothing to do with the sample's position.
             uvec2 random = RANDOM ? pcg2d(sample_bits(key, s) ^ 0x5BD1E995u) : uvec2(0u);
-            path = camera_path(ray, camera_beam(header, ray), random);
+            path = camera_path(ray, camera_beam(camera, ray), random);
         }
-        vec3 more = advance(header, path);
+        vec3 more = advance(header, points, choices, path);
         if (SIGNED) more *= sign;
         sum += more;
         if (is_job) {

@@ -5,12 +5,13 @@
 #define SHADE_GLSL
 
 #include "filter.glsl"
+#include "glossy.glsl"
 #include "light.glsl"
 #include "surface.glsl"
 
 // What the surface's map looks at.
 Seen seen_by_map(Map map, Ray ray, Surface surface, Footprint print) {
-    Seen seen = Seen(surface.point, vec3(0.0), vec3(0.0), surface.own_uv, vec2(0.0), vec2(0.0));
+    Seen seen = Seen(surface.at_rest, vec3(0.0), vec3(0.0), surface.own_uv, vec2(0.0), vec2(0.0));
     uint entity = map.link.y;
     if (DERIVATIVES) {
         seen.entity_x = print.point_x;
@@ -154,30 +155,49 @@ Path camera_path(Ray ray, Beam beam, uvec2 random) {
 }
 
 // Where a mirrored or refracted path goes on; false where the material ends it.
-bool bounced(Header header, Hit hit, Surface surface, Footprint print, Material material, inout Path path) {
+bool bounced(Header header, Hit hit, Surface surface, Footprint print, Material material, Choices choices,
+             inout Path path) {
     bool mirror = MODE_IS(MODELS, MODEL_MIRROR, material.link.x);
     bool glass = MODE_IS(MODELS, MODEL_DIELECTRIC, material.link.x);
     if (!mirror && !glass) return false;
     Ray ray = path.ray;
+    float alpha = GLOSSY ? material.specular.x : 0.0;
+    vec3 normal = surface.normal;
+    if (GLOSSY) {
+        if (alpha > 0.0) normal = visible_normal(ray.direction, surface.normal, alpha, unit_square(choices.lobe));
+    }
     float ratio = surface.inside ? material.specular.w : 1.0 / material.specular.w;
     if (glass) {
         float chance = float(pcg2d(path.random).x >> 8u) * (1.0 / 16777216.0);
-        mirror = chance < reflectance(ray.direction, surface.normal, ratio);
+        mirror = chance < reflectance(ray.direction, normal, ratio);
     }
     vec3 start = offset_origin(surface.point, mirror ? surface.geometric_normal : -surface.geometric_normal);
     Beam beam = path.beam;
     if (mirror) {
-        path.ray = Ray(start, mirrored(ray.direction, surface.normal));
-        if (FILTERED) path.beam = mirrored_beam(header, beam, ray, hit.t, print, surface.normal, surface.bend, surface.curvature);
+        path.ray = Ray(start, mirrored(ray.direction, normal), ray.time);
+        if (FILTERED) path.beam = mirrored_beam(header, beam, ray, hit.t, print, normal, surface.bend, surface.curvature);
     } else {
-        path.ray = Ray(start, refracted(ray.direction, surface.normal, ratio));
-        if (FILTERED) path.beam = refracted_beam(header, beam, ray, hit.t, print, surface.normal, surface.bend, surface.curvature, ratio);
+        path.ray = Ray(start, refracted(ray.direction, normal, ratio), ray.time);
+        if (FILTERED) path.beam = refracted_beam(header, beam, ray, hit.t, print, normal, surface.bend, surface.curvature, ratio);
     }
-    return true;
+    bool leaves = true;
+    if (GLOSSY) {
+        if (alpha > 0.0) {
+            vec3 way = mirror ? path.ray.direction : -path.ray.direction;
+            float seen = -dot3(ray.direction, surface.normal) * inversesqrt(dot3(ray.direction, ray.direction));
+            float leaving = dot3(way, surface.normal) * inversesqrt(dot3(way, way));
+            // What a facet sends into the surface is lost.
+            leaves = leaving > 0.0 && dot3(way, surface.geometric_normal) > 0.0;
+            float share = mirror ? mirrored_share(max(seen, 0.0), leaving, alpha) : refracted_share(leaving, alpha);
+            path.throughput *= leaves ? share : 0.0;
+            path.beam = widened_beam(header, path.beam, path.ray.direction, alpha);
+        }
+    }
+    return leaves;
 }
 
 // Follows the path to its next hit; what that adds to the sample is returned.
-vec3 advance(Header header, inout Path path) {
+vec3 advance(Header header, Points points, Choices choices, inout Path path) {
     Hit hit = nearest_hit(header, path.ray, path.skip);
     bool missed = hit.shape == NO_SHAPE;
     vec3 seen = path.throughput * header.background.xyz;
@@ -197,13 +217,13 @@ vec3 advance(Header header, inout Path path) {
         vec3 carried = path.throughput;
         path.throughput *= surface_color(material, map, path.ray, surface, print, path.random);
         vec3 direction = path.ray.direction;
-        goes_on = BOUNCES && bounced(header, hit, surface, print, material, path);
+        goes_on = BOUNCES && bounced(header, hit, surface, print, material, choices, path);
         bool ends_in_mirror = MODE_IS(MODELS, MODEL_MIRROR, material.link.x) || MODE_IS(MODELS, MODEL_DIELECTRIC, material.link.x);
         seen = ends_in_mirror ? vec3(0.0) : path.throughput;
         bool phong = MODE_IS(MODELS, MODEL_PHONG, material.link.x);
         if (phong || MODE_IS(MODELS, MODEL_LAMBERT, material.link.x)) {
             vec3 mirror = HAS(MODELS, MODEL_PHONG) ? mirrored(direction, surface.normal) : vec3(0.0);
-            Lit lit = direct_light(header, surface, hit.shape, mirror, material.specular.w);
+            Lit lit = direct_light(header, surface, path.ray.time, hit.shape, mirror, material.specular.w, points, choices);
             seen = path.throughput * lit.diffuse;
             if (phong) seen = with_highlight(seen, carried, material.specular.xyz, lit.specular);
         }

@@ -17,13 +17,14 @@ struct Surface {
     float curvature;       // its mean; positive where the shape bulges towards the ray
     bool inside;           // the ray comes from behind the shape's own normal
     uvec2 link;            // material, map
+    vec3 at_rest;          // the point where the shape does not move
 };
 
 const mat3 FLAT = mat3(0.0);
 
 Surface plane_surface(Plane plane, vec3 point, vec2 uv) {
     return Surface(point, plane.normal.xyz, plane.normal.xyz, uv, plane.axis_u.xyz, plane.axis_v.xyz, FLAT, 0.0,
-                   false, plane.link.xy);
+                   false, plane.link.xy, point);
 }
 
 // The hit is put back on the sphere: the error of t does not reach the normal or the next ray.
@@ -34,7 +35,7 @@ Surface sphere_surface(Sphere sphere, vec3 point) {
     vec3 on_sphere = sphere.ball.xyz + sphere.ball.w * normal;
     float curvature = 1.0 / sphere.ball.w;
     return Surface(on_sphere, normal, normal, vec2(0.0), vec3(0.0), vec3(0.0), mat3(curvature), curvature,
-                   false, sphere.link.xy);
+                   false, sphere.link.xy, on_sphere);
 }
 
 Surface triangle_surface(Triangle triangle, vec3 point, vec3 edges) {
@@ -75,16 +76,17 @@ Surface triangle_surface(Triangle triangle, vec3 point, vec3 edges) {
         }
     }
     float curvature = 0.5 * (bend[0][0] + bend[1][1] + bend[2][2]);
-    return Surface(point, n, normal, uv, own_u, own_v, bend, curvature, false, triangle.link.xy);
+    return Surface(point, n, normal, uv, own_u, own_v, bend, curvature, false, triangle.link.xy, point);
 }
 
-Surface hit_surface(Header header, Ray ray, Hit hit) {
+Surface hit_surface(Header header, Ray moving, Hit hit) {
+    Ray ray = at_rest(header, moving, hit.shape);
     uint planes = COUNT(PLANES, header.counts.x);
     uint spheres = COUNT(SPHERES, header.counts.y);
     uint triangles = COUNT(TRIANGLES, header.counts.z);
     vec3 point = ORIGIN_IS_EYE ? hit.t * ray.direction : ray.origin + hit.t * ray.direction;
     Surface surface = Surface(point, vec3(0.0, 0.0, 1.0), vec3(0.0, 0.0, 1.0), vec2(0.0), vec3(0.0), vec3(0.0), FLAT,
-                              0.0, false, uvec2(0u));
+                              0.0, false, uvec2(0u), point);
     // A scene of one kind of shape needs no test.
     if (planes > 0u && (spheres + triangles == 0u || hit.shape < planes)) {
         surface = plane_surface(plane_at(hit.shape), point, hit.local.xy);
@@ -93,6 +95,7 @@ Surface hit_surface(Header header, Ray ray, Hit hit) {
     } else if (triangles > 0u) {
         surface = triangle_surface(triangle_at(hit.shape - planes - spheres), point, hit.local);
     }
+    if (MOTIONS != 0u) surface.point += moved_by(header, moving, hit.shape);
     bool away = dot3(surface.geometric_normal, ray.direction) > 0.0;
     surface.inside = away;
     surface.geometric_normal = away ? -surface.geometric_normal : surface.geometric_normal;

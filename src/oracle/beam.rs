@@ -13,7 +13,7 @@ use super::math::xyz;
 use super::paint::{GaveUp, Paint, Result, integral, is_lit, is_simple, links, may_shade};
 use super::polygon::{Form, LEAST_AREA, MAX_CORNERS, Polygon, area, range, split, unit_square};
 use crate::layout::{Light, NO_MATERIAL, NO_SHAPE, NO_TEXTURE};
-use crate::pack::PackedScene;
+use crate::pack::{LightKind, PackedScene};
 use crate::scene::model::Model;
 
 /// Shapes that a beam may meet.
@@ -143,6 +143,10 @@ impl Pixel<'_> {
         let lights = if unlit { 1 } else { scene.lights.len() };
         for i in 0..lights {
             let light = if unlit { None } else { Some(&scene.lights[i]) };
+            // Of lights with an extent beams do not know the penumbra.
+            if light.is_some_and(|l| l.link[0] >= LightKind::Sphere as u32) {
+                return Err(GaveUp);
+            }
             let lit = self.lit_by(&paint, seen.shape, polygon, light)?;
             self.color += carried * lit;
         }

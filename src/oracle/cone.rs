@@ -65,6 +65,7 @@ impl Cone {
         Ray {
             origin: self.ray.origin + self.width * aside,
             direction: self.ray.direction + self.spread * aside,
+            time: 0.0,
         }
     }
 

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 use super::camera::{Ray, camera_ray};
 use super::cone::{Cone, cone_of, gather, lay_over, meet};
@@ -98,7 +98,14 @@ fn lit_branch(branch: &Branch, met: &Met<'_>, skip: u32, light: &Light) -> Branc
     let area = met.print.point[0].cross(met.print.point[1]).length();
     let width = (area * above.max(0.0) / length).sqrt();
     let (spread, t_max) = if point_light { (-width, 1.0) } else { (0.0, FAR) };
-    Branch { ray: Ray { origin, direction }, width, spread, weight: seen, skip, goal: Goal::Light(t_max) }
+    Branch {
+        ray: Ray { origin, direction, time: 0.0 },
+        width,
+        spread,
+        weight: seen,
+        skip,
+        goal: Goal::Light(t_max),
+    }
 }
 
 /// The shape that a ray must not meet again at once. From inside a ball its other side is met.
@@ -129,7 +136,7 @@ fn bent_branch(branch: &Branch, met: &Met<'_>, ratio: f64, share: f64, skip: u32
     let origin = offset_origin(surface.point, side * surface.geometric_normal);
     let depth = if let Goal::Color(depth) = branch.goal { depth + 1 } else { 0 };
     Branch {
-        ray: Ray { origin, direction },
+        ray: Ray { origin, direction, time: 0.0 },
         width: beam.width,
         spread: beam.spread,
         weight: branch.weight * share,
@@ -254,7 +261,7 @@ pub fn trace_cone(scene: &PackedScene, ray: Ray, beam: Beam) -> (DVec3, f64) {
 
 /// Of pixel (x, y) of the film.
 pub fn pixel(scene: &PackedScene, x: u32, y: u32) -> (DVec3, f64) {
-    const MIDDLE: [u32; 2] = [1 << 23; 2];
+    const MIDDLE: DVec2 = DVec2::splat(0.5);
     let header = &scene.header;
     let ray = camera_ray(header, [x + header.image[2], y + header.image[3]], MIDDLE);
     trace_cone(scene, ray, camera_beam(header, &ray))

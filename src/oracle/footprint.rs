@@ -55,6 +55,12 @@ pub fn any_tangent(n: DVec3) -> DVec3 {
     DVec3::new(1.0 + side * n.x * n.x * a, side * n.x * n.y * a, -side * n.x)
 }
 
+/// Around the unit vector n as around +z.
+pub fn around(n: DVec3, v: DVec3) -> DVec3 {
+    let tangent = any_tangent(n);
+    v.x * tangent + v.y * n.cross(tangent) + v.z * n
+}
+
 /// Grazing footprints end here: 1 / cos at most.
 const MAX_STRETCH: f64 = 65536.0;
 

@@ -22,6 +22,16 @@ pub struct Hit {
     pub local: DVec3,
 }
 
+/// How far a shape has moved at the ray's time. Shapes are met, and textured, where they are at time 0, by rays
+/// that start as far back.
+pub fn moved_by(scene: &PackedScene, ray: &Ray, shape: u32) -> DVec3 {
+    scene.motions.get(shape as usize).map_or(DVec3::ZERO, |motion| ray.time * xyz(motion.shift))
+}
+
+pub fn at_rest(scene: &PackedScene, ray: &Ray, shape: u32) -> Ray {
+    Ray { origin: ray.origin - moved_by(scene, ray, shape), ..*ray }
+}
+
 /// Distance, and the plane's own coordinates of the point counted from the eye.
 pub fn plane_distance(plane: &Plane, ray: &Ray) -> (f64, DVec3) {
     let normal = xyz(plane.normal);
@@ -80,13 +90,16 @@ pub fn nearest_hit(scene: &PackedScene, ray: &Ray, skip: u32) -> Hit {
     };
     let [planes, spheres, _, _] = scene.header.counts;
     for (i, plane) in scene.planes.iter().enumerate() {
-        offer(plane_distance(plane, ray), i as u32, true);
+        let shape = i as u32;
+        offer(plane_distance(plane, &at_rest(scene, ray, shape)), shape, true);
     }
     for (i, sphere) in scene.spheres.iter().enumerate() {
-        offer((sphere_distance(sphere, ray), DVec3::ZERO), planes + i as u32, false);
+        let shape = planes + i as u32;
+        offer((sphere_distance(sphere, &at_rest(scene, ray, shape)), DVec3::ZERO), shape, false);
     }
     for (i, triangle) in scene.triangles.iter().enumerate() {
-        offer(triangle_distance(triangle, ray), planes + spheres + i as u32, true);
+        let shape = planes + spheres + i as u32;
+        offer(triangle_distance(triangle, &at_rest(scene, ray, shape)), shape, true);
     }
     hit
 }
@@ -95,17 +108,17 @@ pub fn nearest_hit(scene: &PackedScene, ray: &Ray, skip: u32) -> Hit {
 pub fn occluded(scene: &PackedScene, ray: &Ray, t_max: f64, skip: u32) -> bool {
     let between = |t: f64| t > 0.0 && t < t_max;
     let [planes, spheres, _, _] = scene.header.counts;
-    let mut flat = scene.planes.iter().enumerate();
-    if flat.any(|(i, plane)| i as u32 != skip && between(plane_distance(plane, ray).0)) {
+    let at_rest = |shape: u32| at_rest(scene, ray, shape);
+    let mut flat = (0..).zip(&scene.planes);
+    if flat.any(|(i, plane)| i != skip && between(plane_distance(plane, &at_rest(i)).0)) {
         return true;
     }
-    if scene.spheres.iter().any(|sphere| between(sphere_distance(sphere, ray))) {
+    let mut round = (planes..).zip(&scene.spheres);
+    if round.any(|(i, sphere)| between(sphere_distance(sphere, &at_rest(i)))) {
         return true;
     }
-    let mut flat = scene.triangles.iter().enumerate();
-    flat.any(|(i, triangle)| {
-        planes + spheres + i as u32 != skip && between(triangle_distance(triangle, ray).0)
-    })
+    let mut flat = (planes + spheres..).zip(&scene.triangles);
+    flat.any(|(i, triangle)| i != skip && between(triangle_distance(triangle, &at_rest(i)).0))
 }
 
 /// The point moved along the geometric normal by far more than f64's rounding and far less than

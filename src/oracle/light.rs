@@ -1,15 +1,60 @@
-//! What lights send to a surface: Lambert and the highlight of Phong, hard shadows. Twin of
-//! `glsl/shared/light.glsl`.
+//! What lights send to a surface: Lambert and the highlight of Phong; of a light with an extent that of one
+//! place, chosen by the sample. Twin of `glsl/shared/light.glsl`.
 
 use std::f64::consts::PI;
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 use super::camera::Ray;
+use super::footprint::around;
 use super::intersect::{FAR, occluded, offset_origin};
 use super::math::xyz;
 use super::surface::Surface;
+use super::warps::{concentric_disc, on_cap};
+use crate::layout::Light;
 use crate::pack::{LightKind, PackedScene};
+
+/// Shapes as near to a place of a light as this share of the way are taken for the light itself.
+const BEFORE_LIGHT: f64 = 4095.0 / 4096.0;
+
+/// The way to a place of a light, how much of it a shape may not lie in, and the irradiance there, over the
+/// light's power and the cosine.
+#[derive(Clone, Copy, Debug)]
+pub struct Aim {
+    pub way: DVec3,
+    pub reach: f64,
+    pub density: f64,
+}
+
+/// Uniform over the cone in which the sphere is seen; from within it, over all directions.
+pub fn sphere_aim(light: &Light, point: DVec3, square: DVec2) -> Aim {
+    let way = xyz(light.place) - point;
+    let radius = f64::from(light.place[3]);
+    let squared = way.length_squared().max(1e-30);
+    let sine = radius * radius / squared; // squared
+    let outside = sine < 1.0;
+    let both = 1.0 + (1.0 - sine).max(0.0).sqrt();
+    let local = on_cap(concentric_disc(square), if outside { sine / both } else { 2.0 });
+    let away = squared * (local.x * local.x + local.y * local.y);
+    let half_chord = (radius * radius - away).max(0.0).sqrt();
+    let reach = squared.sqrt() * local.z + if outside { -half_chord } else { half_chord };
+    let density = if outside { 2.0 / (squared * both) } else { 4.0 / (radius * radius) };
+    Aim { way: around(way / squared.sqrt(), local), reach: reach * BEFORE_LIGHT, density }
+}
+
+/// Uniform over the area.
+pub fn rectangle_aim(light: &Light, point: DVec3, square: DVec2) -> Aim {
+    let [u, v] = [light.edge_u, light.edge_v].map(xyz);
+    let way = xyz(light.place) - point + (square.x - 0.5) * u + (square.y - 0.5) * v;
+    let density = -way.dot(u.cross(v)) / way.length_squared().powi(2);
+    Aim { way, reach: BEFORE_LIGHT, density: density.max(0.0) }
+}
+
+/// Uniform over the cap of the sky.
+pub fn sun_aim(light: &Light, square: DVec2) -> Aim {
+    let local = on_cap(concentric_disc(square), light.place[3].into());
+    Aim { way: around(xyz(light.place), local), reach: FAR, density: 1.0 }
+}
 
 /// Irradiance over π from all lights: what an albedo of 1 sends on, and a specular colour of 1.
 #[derive(Clone, Copy, Debug, Default)]
@@ -24,22 +69,40 @@ pub fn phong_lobe(mirror: DVec3, way: DVec3, exponent: f64) -> f64 {
     if cosine > 0.0 { cosine.min(1.0).powf(exponent) * (0.5 * exponent + 1.0) } else { 0.0 }
 }
 
-pub fn direct_light(scene: &PackedScene, surface: &Surface, shape: u32, mirror: DVec3, exponent: f64) -> Lit {
+/// `chosen` is the place of the hit's choice on a light.
+pub fn direct_light(
+    scene: &PackedScene,
+    surface: &Surface,
+    time: f64,
+    shape: u32,
+    mirror: DVec3,
+    exponent: f64,
+    chosen: &dyn Fn(u32) -> DVec2,
+) -> Lit {
     let mut sum = Lit::default();
     let start = offset_origin(surface.point, surface.geometric_normal);
-    for light in &scene.lights {
-        let point_light = light.link[0] == LightKind::Point as u32;
-        let way = if point_light { xyz(light.place) - surface.point } else { xyz(light.place) };
-        let squared = way.dot(way);
-        let facing = surface.normal.dot(way);
-        let share = if point_light { facing / (squared * squared.sqrt()) } else { facing };
-        if facing > 0.0 && surface.geometric_normal.dot(way) > 0.0 {
-            let (to_light, t_max) =
-                if point_light { (xyz(light.place) - start, 1.0) } else { (xyz(light.place), FAR) };
-            if !occluded(scene, &Ray { origin: start, direction: to_light }, t_max, shape) {
-                let more = xyz(light.power) * (share / PI);
+    for (i, light) in (0..).zip(&scene.lights) {
+        let place = xyz(light.place);
+        let square = || chosen(i);
+        let kind = LightKind::ALL[light.link[0] as usize];
+        let aim = match kind {
+            LightKind::Point => {
+                let way = place - surface.point;
+                Aim { way, reach: 1.0, density: way.length().powi(-3) }
+            }
+            LightKind::Directional => Aim { way: place, reach: FAR, density: 1.0 },
+            LightKind::Sphere => sphere_aim(light, surface.point, square()),
+            LightKind::Rectangle => rectangle_aim(light, surface.point, square()),
+            LightKind::Sun => sun_aim(light, square()),
+        };
+        let facing = surface.normal.dot(aim.way);
+        if facing > 0.0 && surface.geometric_normal.dot(aim.way) > 0.0 {
+            let from_start = matches!(kind, LightKind::Point | LightKind::Rectangle);
+            let to_light = if from_start { aim.way + (surface.point - start) } else { aim.way };
+            if !occluded(scene, &Ray { origin: start, direction: to_light, time }, aim.reach, shape) {
+                let more = xyz(light.power) * (facing * aim.density / PI);
                 sum.diffuse += more;
-                sum.specular += more * phong_lobe(mirror, way, exponent);
+                sum.specular += more * phong_lobe(mirror, aim.way, exponent);
             }
         }
     }

@@ -5,6 +5,7 @@
 
 pub mod beam;
 pub mod camera;
+pub mod choices;
 pub mod cone;
 pub mod cone_shade;
 pub mod coverage;
@@ -12,6 +13,7 @@ pub mod ellipse;
 pub mod filter;
 pub mod footprint;
 pub mod forms;
+pub mod glossy;
 pub mod grid;
 pub mod halton;
 pub mod intersect;
@@ -37,3 +39,4 @@ pub mod strata;
 pub mod summed;
 pub mod surface;
 pub mod texture;
+pub mod warps;

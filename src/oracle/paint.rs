@@ -54,6 +54,9 @@ pub fn is_simple(scene: &PackedScene, shape: u32, record: &Material, map: u32) -
     if !shades || record.detail[0] != NO_TEXTURE {
         return false;
     }
+    if model == Model::Mirror && record.specular[0] > 0.0 {
+        return false;
+    }
     if texture == NO_TEXTURE {
         return true;
     }

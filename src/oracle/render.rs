@@ -6,10 +6,12 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::beam::beam;
-use super::camera::camera_ray;
+use super::camera::{camera_at, camera_ray, through_lens};
+use super::choices::{choose, unit_square};
 use super::cone_shade;
 use super::footprint::camera_beam;
-use super::patterns::{pixel_points, sample_point};
+use super::math::xyz;
+use super::patterns::pixel_points;
 use super::pixel_filter::filtered_place;
 use super::rng::{pcg2d, pixel_key, sample_bits};
 use super::shade::{advance, camera_path};
@@ -42,11 +44,24 @@ pub fn sample(scene: &PackedScene, header: &Header, [x, y]: [u32; 2], half: u32,
     let seed = header.sampling[3].wrapping_add(half.wrapping_mul(0x9E37_79B9));
     let key = pixel_key(place, seed, header.key[0] != 0);
     let points = pixel_points(header, place, key);
-    let at = filtered_place(scene, sample_point(&points, s));
-    let ray = camera_ray(header, place, at.inside);
+    let choices = choose(header, &points, s, 0, true);
+    let moves = header.chances[2] != 0;
+    let [_, _, opens, open] = header.lens.map(f64::from);
+    let time = opens + open * unit_square(choices.time).x;
+    let camera = if moves { &camera_at(header, time) } else { header };
+    let at = filtered_place(scene, choices.place);
+    let mut ray = camera_ray(camera, place, at.inside);
+    if header.lens[0] > 0.0 {
+        ray = through_lens(camera, &ray, unit_square(choices.lens));
+    }
+    ray.time = time;
+    if moves {
+        ray.origin += time * xyz(header.eye_motion);
+    }
     // Bits that have nothing to do with the sample's position.
     let random = pcg2d(sample_bits(key, s).map(|bits| bits ^ 0x5BD1_E995));
-    let mut path = camera_path(ray, camera_beam(header, &ray), random);
+    let mut path = camera_path(ray, camera_beam(camera, &ray), random);
+    path.points = Some((points, s));
     let mut sum = DVec3::ZERO;
     while path.goes_on {
         sum += advance(scene, &mut path);

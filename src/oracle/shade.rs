@@ -3,18 +3,21 @@
 use glam::{DVec2, DVec3, DVec4};
 
 use super::camera::Ray;
+use super::choices::{Choices, choose, chosen_light, unit_square};
 use super::filter::look_up;
 use super::footprint::{
     Beam, Footprint, Meeting, any_tangent, endless_footprint, footprint_at, is_filtered, mirrored,
     mirrored_beam, mirrored_change, reflectance, refracted, refracted_beam,
 };
+use super::glossy::{mirrored_share, refracted_share, visible_normal, widened_beam};
 use super::intersect::{Hit, nearest_hit, offset_origin};
 use super::light::direct_light;
 use super::mapping::{Coordinate, Seen, texture_coordinate};
 use super::math::xyz;
+use super::patterns::Points;
 use super::rng::pcg2d;
 use super::surface::{Surface, hit_surface};
-use crate::layout::{Map, Material, NO_MATERIAL, NO_SHAPE, NO_TEXTURE};
+use crate::layout::{Header, Map, Material, NO_MATERIAL, NO_SHAPE, NO_TEXTURE};
 use crate::pack::{EntityKind, PackedScene};
 use crate::scene::model::{Model, ReliefKind};
 
@@ -22,7 +25,7 @@ use crate::scene::model::{Model, ReliefKind};
 pub fn seen_by_map(map: &Map, ray: &Ray, surface: &Surface, print: &Footprint) -> Seen {
     let own = |d: DVec3| DVec2::from_array(surface.own_gradients.map(|g| g.dot(d)));
     let mut seen = Seen {
-        entity: surface.point,
+        entity: surface.at_rest,
         entity_change: print.point,
         own: surface.own_uv,
         own_change: print.point.map(own),
@@ -135,14 +138,25 @@ pub struct Path {
     pub depth: u32,
     /// False: the path has ended.
     pub goes_on: bool,
+    /// The pixel's points and the sample; None: every choice is the middle one.
+    pub points: Option<(Points, u32)>,
 }
 
 pub fn camera_path(ray: Ray, beam: Beam, random: [u32; 2]) -> Path {
-    Path { ray, beam, throughput: DVec3::ONE, random, skip: NO_SHAPE, depth: 0, goes_on: true }
+    let throughput = DVec3::ONE;
+    Path { ray, beam, throughput, random, skip: NO_SHAPE, depth: 0, goes_on: true, points: None }
 }
 
 /// Where a mirrored or refracted path goes on; false where the material ends it.
-fn bounced(hit: &Hit, surface: &Surface, print: Footprint, material: &Material, path: &mut Path) -> bool {
+fn bounced(
+    header: &Header,
+    hit: &Hit,
+    surface: &Surface,
+    print: Footprint,
+    material: &Material,
+    lobe: DVec2,
+    path: &mut Path,
+) -> bool {
     let model = Model::ALL[material.link[0] as usize];
     if !matches!(model, Model::Mirror | Model::Dielectric) {
         return false;
@@ -150,26 +164,34 @@ fn bounced(hit: &Hit, surface: &Surface, print: Footprint, material: &Material, 
     let ior = f64::from(material.specular[3]);
     let ratio = if surface.inside { ior } else { 1.0 / ior };
     let direction = path.ray.direction;
+    let alpha = f64::from(material.specular[0]);
+    let glossy = alpha > 0.0;
+    let normal = if glossy { visible_normal(direction, surface.normal, alpha, lobe) } else { surface.normal };
     let chance = f64::from(pcg2d(path.random)[0] >> 8) / 16_777_216.0;
-    let mirror = model == Model::Mirror || chance < reflectance(direction, surface.normal, ratio);
-    let meeting = Meeting {
-        ray: path.ray,
-        t: hit.t,
-        print,
-        normal: surface.normal,
-        bend: surface.bend,
-        curvature: surface.curvature,
-    };
+    let mirror = model == Model::Mirror || chance < reflectance(direction, normal, ratio);
+    let meeting =
+        Meeting { ray: path.ray, t: hit.t, print, normal, bend: surface.bend, curvature: surface.curvature };
     if mirror {
         let origin = offset_origin(surface.point, surface.geometric_normal);
-        path.ray = Ray { origin, direction: mirrored(direction, surface.normal) };
+        path.ray = Ray { origin, direction: mirrored(direction, normal), time: path.ray.time };
         path.beam = mirrored_beam(&path.beam, &meeting);
     } else {
         let origin = offset_origin(surface.point, -surface.geometric_normal);
-        path.ray = Ray { origin, direction: refracted(direction, surface.normal, ratio) };
+        path.ray = Ray { origin, direction: refracted(direction, normal, ratio), time: path.ray.time };
         path.beam = refracted_beam(&path.beam, &meeting, ratio);
     }
-    true
+    if !glossy {
+        return true;
+    }
+    let way = if mirror { path.ray.direction } else { -path.ray.direction };
+    let seen = (-direction.dot(surface.normal) / direction.length()).max(0.0);
+    let leaving = way.dot(surface.normal) / way.length();
+    // What a facet sends into the surface is lost.
+    let leaves = leaving > 0.0 && way.dot(surface.geometric_normal) > 0.0;
+    let share = if mirror { mirrored_share(seen, leaving, alpha) } else { refracted_share(leaving, alpha) };
+    path.throughput *= if leaves { share } else { 0.0 };
+    path.beam = widened_beam(header, &path.beam, path.ray.direction, alpha);
+    leaves
 }
 
 /// What a ray sees that hits nothing.
@@ -197,6 +219,10 @@ pub fn advance(scene: &PackedScene, path: &mut Path) -> DVec3 {
         return background(scene, path);
     }
     let header = &scene.header;
+    let choices = match &path.points {
+        Some((points, s)) => choose(header, points, *s, path.depth, false),
+        None => Choices::MIDDLE,
+    };
     let mut surface = hit_surface(scene, &path.ray, &hit);
     let print = if is_filtered(header) {
         footprint_at(header, &path.beam, &path.ray, hit.t, surface.geometric_normal)
@@ -217,11 +243,14 @@ pub fn advance(scene: &PackedScene, path: &mut Path) -> DVec3 {
     }
     if model.is_lit() {
         let mirror = mirrored(ray.direction, surface.normal);
-        let lit = direct_light(scene, &surface, hit.shape, mirror, material.specular[3].into());
+        let exponent = material.specular[3].into();
+        let points = path.points.as_ref().map(|(points, _)| points);
+        let chosen = |i: u32| chosen_light(points, &choices, i);
+        let lit = direct_light(scene, &surface, ray.time, hit.shape, mirror, exponent, &chosen);
         let highlight = if model == Model::Phong { lit.specular } else { DVec3::ZERO };
         return path.throughput * lit.diffuse + carried * xyz(material.specular) * highlight;
     }
-    let goes_on = bounced(&hit, &surface, print, material, path);
+    let goes_on = bounced(header, &hit, &surface, print, material, unit_square(choices.lobe), path);
     path.skip = hit.shape;
     path.goes_on = goes_on && path.depth < header.size[3];
     path.depth += 1;

@@ -4,7 +4,7 @@
 use glam::{DMat3, DVec2, DVec3};
 
 use super::camera::Ray;
-use super::intersect::Hit;
+use super::intersect::{Hit, moved_by};
 use super::math::xyz;
 use crate::layout::{Plane, Sphere, Triangle};
 use crate::pack::PackedScene;
@@ -28,6 +28,8 @@ pub struct Surface {
     pub inside: bool,
     pub material: u32,
     pub map: u32,
+    /// The point where the shape does not move.
+    pub at_rest: DVec3,
 }
 
 fn surface(point: DVec3, geometric: DVec3, normal: DVec3, link: [u32; 4]) -> Surface {
@@ -42,6 +44,7 @@ fn surface(point: DVec3, geometric: DVec3, normal: DVec3, link: [u32; 4]) -> Sur
         inside: false,
         material: link[0],
         map: link[1],
+        at_rest: point,
     }
 }
 
@@ -91,7 +94,8 @@ fn triangle_surface(triangle: &Triangle, point: DVec3, edges: DVec3) -> Surface 
 
 /// The surface at a hit; `hit.shape` must be a shape of the scene.
 pub fn hit_surface(scene: &PackedScene, ray: &Ray, hit: &Hit) -> Surface {
-    let point = ray.origin + hit.t * ray.direction;
+    let shift = moved_by(scene, ray, hit.shape);
+    let point = ray.origin - shift + hit.t * ray.direction;
     let [planes, spheres, _, _] = scene.header.counts;
     let mut surface = if hit.shape < planes {
         plane_surface(&scene.planes[hit.shape as usize], point, hit.local.truncate())
@@ -100,6 +104,7 @@ pub fn hit_surface(scene: &PackedScene, ray: &Ray, hit: &Hit) -> Surface {
     } else {
         triangle_surface(&scene.triangles[(hit.shape - planes - spheres) as usize], point, hit.local)
     };
+    surface.point += shift;
     if surface.geometric_normal.dot(ray.direction) > 0.0 {
         surface.geometric_normal = -surface.geometric_normal;
         surface.normal = -surface.normal;

@@ -11,10 +11,27 @@ named_enum! {
 }
 
 named_enum! {
+    /// `CHOICE_*` of the shader: what a sample chooses beside its place in the pixel.
+    pub enum Choice {
+        /// A point of the lens.
+        Lens = "lens",
+        Time = "time",
+        /// A place of lights with an extent.
+        Light = "light",
+        /// A direction of a glossy surface.
+        Lobe = "lobe",
+    }
+}
+
+named_enum! {
     /// `LIGHT_*` of the shader.
     pub enum LightKind {
         Point = "point",
         Directional = "directional",
+        Sphere = "sphere",
+        Rectangle = "rectangle",
+        /// Directional, from a disc of the sky.
+        Sun = "sun",
     }
 }
 

@@ -16,14 +16,16 @@ use glam::{DVec3, DVec4};
 use crate::color::srgb8_table;
 use crate::error::Result;
 use crate::layout::{self, CHUNK, Header};
+use crate::scene::cone;
 use crate::scene::model::{
-    Algorithm, Environment, EnvironmentLayout, Footprint, Material, Model, Projection, Scene,
+    Algorithm, Environment, EnvironmentLayout, Footprint, Light, Material, Model, PixelFilter, Projection,
+    Scene,
 };
 use crate::texture::data::TextureData;
 use crate::texture::sampler_spec::{Address, Method, SamplerSpec};
 use pixel_filter::Warp;
 
-pub use kinds::{EntityKind, LightKind, MapKind, ProjectionKind, Schedule, TextureKind};
+pub use kinds::{Choice, EntityKind, LightKind, MapKind, ProjectionKind, Schedule, TextureKind};
 pub use pixel_filter::{divisor, kernel};
 pub use procedural::procedural;
 pub use pyramids::{Pyramids, reads_levels};
@@ -51,6 +53,8 @@ pub struct PackedScene {
     pub textures: Vec<layout::Texture>,
     pub samplers: Vec<layout::Sampler>,
     pub procedurals: Vec<layout::Procedural>,
+    /// Of all shapes, where some move; else none.
+    pub motions: Vec<layout::Motion>,
     /// Names of the textures, for messages.
     pub texture_names: Vec<String>,
     /// Channels that each texture's file has, for messages.
@@ -99,6 +103,7 @@ pub struct Sections {
     pub textures: u32,
     pub samplers: u32,
     pub procedurals: u32,
+    pub motions: u32,
     pub srgb: u32,
     pub pixel_filter: u32,
 }
@@ -123,6 +128,8 @@ pub fn pack_with(
     crop: Option<Crop>,
     pyramids: Pyramids,
 ) -> Result<PackedScene> {
+    let settled = (scene.sampling.algorithm == Algorithm::Cone).then(|| cone::settle(scene).0);
+    let scene = settled.as_ref().unwrap_or(scene);
     let crop = crop.unwrap_or(Crop { x: 0, y: 0, width: scene.width, height: scene.height });
     let samples = scene.sampling.samples();
     let schedule = schedule(scene);
@@ -151,6 +158,11 @@ pub fn pack_with(
     }
     packed.lights = scene.lights.iter().map(|l| shapes::light(l, scene.camera.eye)).collect();
     packed.header.key[1] = packed.lights.len() as u32;
+    if scene.motions().any(|motion| motion != DVec3::ZERO) {
+        packed.motions = scene.motions().map(|m| layout::Motion { shift: vec4(m.extend(0.0)) }).collect();
+    }
+    let moves = u32::from(scene.camera.moves());
+    packed.header.chances = [chances(scene), packed.motions.len() as u32, moves, 0];
     let counts = [packed.planes.len(), packed.spheres.len(), packed.triangles.len()].map(|n| n as u32);
     packed.header.counts[..3].copy_from_slice(&counts);
     Ok(packed)
@@ -171,6 +183,10 @@ fn material(packed: &mut PackedScene, source: &Material) -> layout::Material {
     let index = |texture: Option<usize>| texture.map_or(layout::NO_TEXTURE, |t| t as u32);
     let relief = source.relief;
     let relief_texture = relief.map(|r| r.texture);
+    let specular = match source.model {
+        Model::Mirror | Model::Dielectric => DVec3::new(source.roughness.powi(2), 0.0, 0.0),
+        _ => source.specular,
+    };
     let fourth = if source.model == Model::Dielectric { source.ior } else { source.exponent };
     layout::Material {
         color: vec4(source.color.extend(relief.map_or(0.0, |r| r.strength))),
@@ -181,7 +197,7 @@ fn material(packed: &mut PackedScene, source: &Material) -> layout::Material {
             slot(relief_texture),
             relief.map_or(0, |r| r.kind as u32),
         ],
-        specular: vec4(source.specular.extend(fourth)),
+        specular: vec4(specular.extend(fourth)),
     }
 }
 
@@ -242,7 +258,7 @@ impl PackedScene {
     pub fn scene_bytes(&self) -> (Vec<u8>, Sections) {
         let srgb: &[f32] = if textures::needs_srgb_table(&self.textures) { srgb8_table() } else { &[] };
         let mut sections = Sections::default();
-        let mut lists: [(&[u8], &mut u32); 10] = [
+        let mut lists: [(&[u8], &mut u32); 11] = [
             (bytemuck::cast_slice(&self.planes), &mut sections.planes),
             (bytemuck::cast_slice(&self.spheres), &mut sections.spheres),
             (bytemuck::cast_slice(&self.triangles), &mut sections.triangles),
@@ -252,6 +268,7 @@ impl PackedScene {
             (bytemuck::cast_slice(&self.textures), &mut sections.textures),
             (bytemuck::cast_slice(&self.samplers), &mut sections.samplers),
             (bytemuck::cast_slice(&self.procedurals), &mut sections.procedurals),
+            (bytemuck::cast_slice(&self.motions), &mut sections.motions),
             (bytemuck::cast_slice(srgb), &mut sections.srgb),
         ];
         lists.sort_by_key(|(list, _)| list.len());
@@ -308,8 +325,32 @@ fn header(scene: &Scene, crop: Crop, warp: &Warp) -> Header {
             0,
         ],
         counts: [0, 0, 0, layout::NO_MATERIAL],
+        chances: [0; 4],
+        lens: vec4(lens(scene, pixel)),
+        view: vec4((scene.camera.look_at - scene.camera.eye).extend(0.0)),
+        up: vec4(scene.camera.up.normalize().extend(0.0)),
+        eye_motion: vec4(scene.camera.motion[0].extend(0.0)),
+        view_motion: vec4((scene.camera.motion[1] - scene.camera.motion[0]).extend(0.0)),
         pixel_filter: warp.record,
     }
+}
+
+/// What samples choose beside their place in the pixel.
+fn chances(scene: &Scene) -> u32 {
+    let of = |choice: &Choice| match choice {
+        Choice::Lens => scene.camera.lens.is_some(),
+        Choice::Time => scene.camera.moves() || scene.motions().any(|motion| motion != DVec3::ZERO),
+        Choice::Lobe => scene.sampling.max_depth > 0 && scene.materials.iter().any(|m| m.roughness > 0.0),
+        Choice::Light => scene.lights.iter().any(Light::has_extent),
+    };
+    Choice::ALL.iter().filter(|c| of(c)).fold(0, |bits, &choice| bits | 1 << choice as u32)
+}
+
+/// Radius over a pixel's side at distance 1; 1 / focus distance; when the shutter opens, how long it is open.
+fn lens(scene: &Scene, pixel: f64) -> DVec4 {
+    let [opens, closes] = scene.camera.shutter;
+    let lens = scene.camera.lens.map_or([0.0; 2], |l| [l.radius / pixel, 1.0 / l.focus_distance]);
+    DVec4::new(lens[0], lens[1], opens, closes - opens)
 }
 
 /// The footprint, if there is a filter that asks for it. All textures and samplers are read. Beams average

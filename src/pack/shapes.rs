@@ -161,16 +161,33 @@ fn triangle_bounds(triangle: &Triangle) -> Bounds {
 }
 
 pub fn light(light: &Light, eye: DVec3) -> layout::Light {
+    let record = |kind: LightKind, place: DVec4, power: DVec3| layout::Light {
+        place: vec4(place),
+        power: vec4(power.extend(0.0)),
+        link: [kind as u32, 0, 0, 0],
+        ..Default::default()
+    };
     match *light {
-        Light::Point { position, intensity } => layout::Light {
-            place: vec4((position - eye).extend(0.0)),
-            power: vec4(intensity.extend(0.0)),
-            link: [LightKind::Point as u32, 0, 0, 0],
+        Light::Point { position, intensity } => {
+            record(LightKind::Point, (position - eye).extend(0.0), intensity)
+        }
+        Light::Directional { direction, irradiance } => {
+            record(LightKind::Directional, direction.normalize().extend(0.0), irradiance)
+        }
+        Light::Sphere { position, radius, intensity } => {
+            record(LightKind::Sphere, (position - eye).extend(radius), intensity)
+        }
+        Light::Rectangle { position, edge_u, edge_v, radiance } => layout::Light {
+            edge_u: vec4(edge_u.extend(0.0)),
+            edge_v: vec4(edge_v.extend(0.0)),
+            ..record(LightKind::Rectangle, (position - eye).extend(0.0), radiance)
         },
-        Light::Directional { direction, irradiance } => layout::Light {
-            place: vec4(direction.normalize().extend(0.0)),
-            power: vec4(irradiance.extend(0.0)),
-            link: [LightKind::Directional as u32, 0, 0, 0],
-        },
+        Light::Sun { direction, angle, irradiance } => {
+            // A cap of height h has the solid angle 2 pi h, and a surface that faces its middle receives
+            // pi h (2 - h) of its radiance.
+            let height = 2.0 * (0.25 * angle.to_radians()).sin().powi(2);
+            let power = irradiance * (2.0 / (2.0 - height));
+            record(LightKind::Sun, direction.normalize().extend(height), power)
+        }
     }
 }

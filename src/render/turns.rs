@@ -25,6 +25,8 @@ const TAPS: u64 = 5;
 const BOXES: u64 = 16;
 /// `MOST_CONES` of `cone_shade.glsl`.
 const MOST_CONES: u64 = 64;
+/// Digits of Halton's points, or turns in which an order is found, with room to spare.
+const POINTS: u64 = 64;
 
 /// Samples of a thread, from 1 to `CHUNK`.
 pub fn samples_at_once(device: &DeviceInfo, scene: &PackedScene) -> Result<u32> {
@@ -72,12 +74,13 @@ fn turns_of_a_sample(scene: &PackedScene, ellipse: u64) -> u64 {
     }
     let count = |n: usize| n as u64;
     let shapes = count(scene.planes.len() + scene.spheres.len() + scene.triangles.len()) + 3;
-    let records = count(scene.materials.len() + scene.maps.len());
+    let records = count(scene.materials.len() + scene.maps.len() + scene.motions.len());
     let rays = if bounces(scene) { 1 + u64::from(scene.header.size[3]) } else { 1 };
     let bumped = scene.materials.iter().any(|m| m.detail[0] != NO_TEXTURE);
     let taps = if bumped { TAPS } else { 1 };
     let hit = 1 + shapes + records + count(scene.lights.len()) * (1 + shapes);
-    rays * (hit + taps * turns_of_a_look_up(scene, ellipse))
+    let choices = if scene.header.chances[0] == 0 { 0 } else { 4 * (1 + POINTS) };
+    rays * (choices + hit + taps * turns_of_a_look_up(scene, ellipse))
 }
 
 fn turns_of_a_look_up(scene: &PackedScene, ellipse: u64) -> u64 {

@@ -1,18 +1,30 @@
 //! Scene → what a person should know before looking at the picture: settings that are valid, and yet do
 //! not do what their names promise in this scene or on this device.
 
-use super::model::{Algorithm, Footprint, Scene};
+use super::cone;
+use super::model::{Algorithm, Footprint, PixelFilter, Scene};
 use crate::texture::sampler_spec::{Filter, Method, MipMode, SamplerSpec};
 
 /// Of the scene alone. Samplers that nothing reads have been dropped before.
 pub fn of_scene(scene: &Scene) -> Vec<String> {
     let mut told = without_effect(scene.sampling.footprint, &scene.samplers);
-    if scene.sampling.algorithm == Algorithm::Beam && !scene.suits_beams() {
+    let algorithm = scene.sampling.algorithm;
+    if algorithm == Algorithm::Beam && !scene.suits_beams() {
         told.push(
-            "one beam a pixel takes all rays of a square alike: with another pixel filter than \"box\" every \
-             pixel takes samples"
+            "one beam a pixel takes all rays of a square alike, from one place at one time: with another pixel \
+             filter than \"box\", a lens or motion every pixel takes samples"
                 .into(),
         );
+    }
+    if algorithm == Algorithm::Cone && cone::settle(scene).1 {
+        told.push(
+            "cones choose nothing by chance: no lens, everything as in the middle of the shutter's time, lights as \
+             points at their middles, sharp reflections"
+                .into(),
+        );
+    }
+    if algorithm == Algorithm::Cone && scene.pixel_filter != PixelFilter::default() {
+        told.push("a cone stands for its pixel's own square: pixel_filter has no effect".into());
     }
     told
 }

@@ -1,7 +1,9 @@
 //! What cone tracing needs of a scene: a footprint, and filters that average over it. In: a scene that may
 //! name none. Out: the scene that is traced, and what was chosen for it.
 
-use super::model::{Algorithm, Footprint, Scene};
+use glam::DVec3;
+
+use super::model::{Algorithm, Footprint, Light, Scene};
 use crate::texture::sampler_spec::{Filter, Method, MipMode, SamplerSpec};
 
 /// Footprints longer than this many widths are blurred, where the sampler's own limit is the default.
@@ -24,6 +26,43 @@ pub fn suit(scene: &mut Scene) -> Option<&'static str> {
         "algorithm = \"cone\" averages over footprints: samplers without a filter for that read blended levels, \
          of method \"shader\" along the footprint's longer axis (min = \"anisotropic\", mip = \"linear\")",
     )
+}
+
+/// What samples leave to chance has one value for a cone: a pinhole, everything where it is in the middle of the
+/// shutter's time, lights at their middles, sharp reflections. Whether that changes the scene.
+pub fn settle(scene: &Scene) -> (Scene, bool) {
+    let mut settled = scene.clone();
+    let [opens, closes] = scene.camera.shutter;
+    let time = 0.5 * (opens + closes);
+    let camera = &mut settled.camera;
+    let [eye, look_at] = camera.motion;
+    (camera.eye, camera.look_at) = (camera.eye + time * eye, camera.look_at + time * look_at);
+    (camera.lens, camera.motion) = (None, Default::default());
+    for plane in &mut settled.planes {
+        plane.origin += time * std::mem::take(&mut plane.motion);
+    }
+    for sphere in &mut settled.spheres {
+        sphere.center += time * std::mem::take(&mut sphere.motion);
+    }
+    for triangle in &mut settled.triangles {
+        let way = time * std::mem::take(&mut triangle.motion);
+        triangle.vertices = triangle.vertices.map(|v| v + way);
+    }
+    for light in &mut settled.lights {
+        *light = match *light {
+            Light::Sphere { position, intensity, .. } => Light::Point { position, intensity },
+            Light::Rectangle { position, edge_u, edge_v, radiance } => {
+                Light::Point { position, intensity: radiance * edge_u.cross(edge_v).length() }
+            }
+            Light::Sun { direction, irradiance, .. } => Light::Directional { direction, irradiance },
+            other => other,
+        };
+    }
+    settled.materials.iter_mut().for_each(|m| m.roughness = 0.0);
+    let moves = scene.camera.moves() || scene.motions().any(|m| m != DVec3::ZERO);
+    let spread =
+        scene.lights.iter().any(Light::has_extent) || scene.materials.iter().any(|m| m.roughness > 0.0);
+    (settled, moves || spread || scene.camera.lens.is_some())
 }
 
 fn suit_sampler(sampler: &mut SamplerSpec) -> bool {

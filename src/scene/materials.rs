@@ -5,7 +5,7 @@ use glam::DVec2;
 use toml::de::DeValue;
 
 use super::model::*;
-use super::reader::{COLOR, COORDINATE, EXPONENT, Field, IOR, SCALE};
+use super::reader::{COLOR, COORDINATE, EXPONENT, Field, IOR, SCALE, UNIT};
 use super::samplers::Known;
 use super::table::Table;
 use crate::error::Result;
@@ -24,6 +24,7 @@ pub(super) const MATERIAL: &[&str] = &[
     "specular",
     "exponent",
     "ior",
+    "roughness",
 ];
 const MAPPING: &[&str] = &["kind", "entity", "space", "origin", "axis", "scale", "offset", "rotate"];
 /// Keys of the frame that only projecting maps have.
@@ -87,6 +88,16 @@ fn of_model(table: &Table<'_>, material: &mut Material) -> Result<()> {
             "exponent" => material.exponent = field.number(&EXPONENT)?,
             _ => material.ior = field.number(&IOR)?,
         }
+    }
+    if let Some(field) = table.get("roughness") {
+        if !matches!(material.model, Model::Mirror | Model::Dielectric) {
+            let what = format!(
+                "only models \"mirror\" and \"dielectric\" have roughness; this one is \"{}\"",
+                material.model
+            );
+            return Err(field.error(&what, "needs model \"mirror\" or \"dielectric\""));
+        }
+        material.roughness = field.number(&UNIT)?;
     }
     Ok(())
 }

@@ -65,6 +65,20 @@ pub struct Camera {
     pub look_at: DVec3,
     pub up: DVec3,
     pub projection: Projection,
+    /// None: a pinhole.
+    pub lens: Option<Lens>,
+    /// When the shutter opens and closes, between 0 and 1.
+    pub shutter: [f64; 2],
+    /// How far eye and look_at move between the times 0 and 1.
+    pub motion: [DVec3; 2],
+}
+
+/// A thin lens around the eye, across the view.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lens {
+    pub radius: f64,
+    /// Along the view, to the plane in focus.
+    pub focus_distance: f64,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -233,6 +247,8 @@ pub struct Material {
     pub exponent: f64,
     /// Refractive index of `dielectric` behind its surface, over that in front of it.
     pub ior: f64,
+    /// Of `mirror` and `dielectric`, from 0, which is smooth, to 1.
+    pub roughness: f64,
 }
 
 impl Default for Material {
@@ -248,6 +264,7 @@ impl Default for Material {
             specular: DVec3::splat(0.5),
             exponent: 32.0,
             ior: 1.5,
+            roughness: 0.0,
         }
     }
 }
@@ -267,6 +284,8 @@ pub struct Plane {
     /// Bounds |u| and |v|, measured in tangents and bitangents; infinite without.
     pub half_extent: Option<f64>,
     pub material: usize,
+    /// How far it moves between the times 0 and 1.
+    pub motion: DVec3,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -274,6 +293,7 @@ pub struct Sphere {
     pub center: DVec3,
     pub radius: f64,
     pub material: usize,
+    pub motion: DVec3,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -283,6 +303,7 @@ pub struct Triangle {
     /// Shading normals (any length, not zero); the geometric normal without.
     pub normals: Option<[DVec3; 3]>,
     pub material: usize,
+    pub motion: DVec3,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -291,6 +312,18 @@ pub enum Light {
     Point { position: DVec3, intensity: DVec3 },
     /// Direction towards the light (any length); irradiance in W/m² on a facing surface.
     Directional { direction: DVec3, irradiance: DVec3 },
+    /// A ball that far away shines like a point of this intensity.
+    Sphere { position: DVec3, radius: f64, intensity: DVec3 },
+    /// Its middle and sides; it shines where edge_u × edge_v points, alike in all directions.
+    Rectangle { position: DVec3, edge_u: DVec3, edge_v: DVec3, radiance: DVec3 },
+    /// A disc of the sky of this angular diameter in degrees, above 0; irradiance on a facing surface.
+    Sun { direction: DVec3, angle: f64, irradiance: DVec3 },
+}
+
+impl Light {
+    pub fn has_extent(&self) -> bool {
+        matches!(self, Light::Sphere { .. } | Light::Rectangle { .. } | Light::Sun { .. })
+    }
 }
 
 impl Sampling {
@@ -306,9 +339,18 @@ impl Sampling {
 }
 
 impl Scene {
-    /// Whether one beam can stand for all rays of a pixel: those from its square, by equal weights.
+    /// Whether one beam can stand for all rays of a pixel: those from its square, by equal weights, from one
+    /// place at one time.
     pub fn suits_beams(&self) -> bool {
-        self.pixel_filter.kind == PixelFilterKind::Box
+        let still = !self.camera.moves() && self.motions().all(|motion| motion == DVec3::ZERO);
+        self.pixel_filter.kind == PixelFilterKind::Box && self.camera.lens.is_none() && still
+    }
+
+    /// Of all shapes: planes, spheres, triangles.
+    pub fn motions(&self) -> impl Iterator<Item = DVec3> {
+        let planes = self.planes.iter().map(|p| p.motion);
+        let spheres = self.spheres.iter().map(|s| s.motion);
+        planes.chain(spheres).chain(self.triangles.iter().map(|t| t.motion))
     }
 
     /// The sampler a material's texture is read through; the default where there is none.
@@ -321,5 +363,11 @@ impl Scene {
             return SamplerSpec { address: [clamp; 2], address_w: clamp, ..spec };
         }
         spec
+    }
+}
+
+impl Camera {
+    pub fn moves(&self) -> bool {
+        self.motion != [DVec3::ZERO; 2]
     }
 }

@@ -20,6 +20,11 @@ pub(super) struct Limits {
 pub(super) const COORDINATE: Limits = Limits { words: "between -1e30 and 1e30", allow: |x| x.abs() <= 1e30 };
 pub(super) const LENGTH: Limits =
     Limits { words: "above 0 (1e-30 to 1e30)", allow: |x| (1e-30..=1e30).contains(&x) };
+pub(super) const NOT_NEGATIVE: Limits =
+    Limits { words: "that is not negative (0 to 1e30)", allow: |x| (0.0..=1e30).contains(&x) };
+pub(super) const UNIT: Limits = Limits { words: "from 0 to 1", allow: |x| (0.0..=1.0).contains(&x) };
+pub(super) const CAP: Limits =
+    Limits { words: "from 0 to 180 degrees", allow: |x| (0.0..=180.0).contains(&x) };
 pub(super) const COLOR: Limits =
     Limits { words: "that are not negative (0 to 1e30)", allow: |x| (0.0..=1e30).contains(&x) };
 pub(super) const FOV: Limits =

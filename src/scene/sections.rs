@@ -4,13 +4,23 @@
 use glam::DVec3;
 
 use super::model::*;
-use super::reader::{COORDINATE, FOV, Field, LENGTH};
+use super::reader::{COORDINATE, FOV, Field, LENGTH, NOT_NEGATIVE, UNIT};
 use super::table::Table;
 use super::validate::{MAX_DEPTH, MAX_SIZE, MAX_SPP, check_shared, check_spp, parallel};
 use crate::error::Result;
 
-pub(super) const CAMERA: &[&str] =
-    &["eye", "look_at", "up", "vertical_fov", "camera_constant", "orthographic_height"];
+pub(super) const CAMERA: &[&str] = &[
+    "eye",
+    "look_at",
+    "up",
+    "vertical_fov",
+    "camera_constant",
+    "orthographic_height",
+    "lens_radius",
+    "focus_distance",
+    "shutter",
+    "motion",
+];
 pub(super) const IMAGE: &[&str] = &["width", "height", "pixel_filter", "pixel_filter_radius"];
 pub(super) const SAMPLING: &[&str] =
     &["algorithm", "pattern", "spp", "shared", "seed", "max_depth", "footprint"];
@@ -36,7 +46,60 @@ pub(super) fn camera(table: &Table<'_>) -> Result<Camera> {
             }
         });
     }
-    Ok(Camera { eye, look_at, up, projection: projection(table)? })
+    let projection = projection(table)?;
+    let lens = lens(table, projection, view.length())?;
+    let shutter = shutter(table)?;
+    let motion = motion(table, view, up)?;
+    Ok(Camera { eye, look_at, up, projection, lens, shutter, motion })
+}
+
+fn shutter(table: &Table<'_>) -> Result<[f64; 2]> {
+    let Some(field) = table.get("shutter") else { return Ok([0.0, 1.0]) };
+    let [opens, closes] = field.numbers(&UNIT)?;
+    if opens > closes {
+        return Err(field.error("the shutter closes before it opens; swap the two times", "closes too early"));
+    }
+    Ok([opens, closes])
+}
+
+/// At no time may the eye be where it looks, or look along up.
+fn motion(table: &Table<'_>, view: DVec3, up: DVec3) -> Result<[DVec3; 2]> {
+    let Some(field) = table.get("motion") else { return Ok([DVec3::ZERO; 2]) };
+    let moves = Table::inline(field, "camera.motion", &["eye", "look_at"])?;
+    let of = |key| moves.get(key).map_or(Ok(DVec3::ZERO), |field| field.vec3(&COORDINATE));
+    let [eye, look_at] = [of("eye")?, of("look_at")?];
+    // Both change evenly with time, so that the least of them is at one of the ends or in between.
+    let least = |start: DVec3, change: DVec3| {
+        let time = -start.dot(change) / change.length_squared().max(f64::MIN_POSITIVE);
+        start + time.clamp(0.0, 1.0) * change
+    };
+    let change = look_at - eye;
+    let reach = view.length().max((view + change).length());
+    if least(view, change).length() <= 1e-9 * reach {
+        return Err(
+            field.error("the eye passes through what it looks at; choose other motions", "meets look_at")
+        );
+    }
+    if least(view.cross(up), change.cross(up)).length() <= 1e-9 * reach * up.length() {
+        let what = "at some time the view direction is parallel to up; choose other motions, or another up";
+        return Err(field.error(what, "looks along up"));
+    }
+    Ok([eye, look_at])
+}
+
+/// What is looked at is in focus, unless a distance is given.
+fn lens(table: &Table<'_>, projection: Projection, distance: f64) -> Result<Option<Lens>> {
+    let radius_field = table.get("lens_radius");
+    let radius = radius_field.map_or(Ok(0.0), |field| field.number(&NOT_NEGATIVE))?;
+    let focus_distance = table.get("focus_distance").map_or(Ok(distance), |field| field.number(&LENGTH))?;
+    match (radius_field, projection) {
+        (Some(field), Projection::Orthographic(_)) if radius > 0.0 => {
+            let what =
+                "parallel rays pass through no lens; remove it, or use vertical_fov or camera_constant";
+            Err(field.error(what, "not with orthographic_height"))
+        }
+        _ => Ok((radius > 0.0).then_some(Lens { radius, focus_distance })),
+    }
 }
 
 fn projection(table: &Table<'_>) -> Result<Projection> {

@@ -5,18 +5,36 @@ use glam::{DVec2, DVec3};
 
 use super::model::{Light, Material, Plane, Space, Sphere, Triangle};
 use super::names::Names;
-use super::reader::{COLOR, COORDINATE, Field, LENGTH};
+use super::reader::{CAP, COLOR, COORDINATE, Field, LENGTH, NOT_NEGATIVE};
 use super::source::quoted;
 use super::table::Table;
 use super::validate::{collinear, parallel};
 use crate::error::Result;
 
-pub(super) const PLANE: &[&str] = &["origin", "tangent", "bitangent", "half_extent", "material"];
-pub(super) const SPHERE: &[&str] = &["center", "radius", "material"];
-pub(super) const TRIANGLE: &[&str] = &["vertices", "uvs", "normals", "material"];
-pub(super) const LIGHT: &[&str] = &["kind", "position", "intensity", "direction", "irradiance"];
-const POINT_LIGHT: &[&str] = &["kind", "position", "intensity"];
-const DIRECTIONAL_LIGHT: &[&str] = &["kind", "direction", "irradiance"];
+pub(super) const PLANE: &[&str] = &["origin", "tangent", "bitangent", "half_extent", "material", "motion"];
+pub(super) const SPHERE: &[&str] = &["center", "radius", "material", "motion"];
+pub(super) const TRIANGLE: &[&str] = &["vertices", "uvs", "normals", "material", "motion"];
+pub(super) const LIGHT: &[&str] = &[
+    "kind",
+    "position",
+    "intensity",
+    "direction",
+    "irradiance",
+    "angle",
+    "radius",
+    "edge_u",
+    "edge_v",
+    "radiance",
+];
+
+type LightReader = fn(&Table<'_>) -> Result<Light>;
+/// Kind, its keys, how it is read.
+const LIGHT_KINDS: [(&str, &[&str], LightReader); 4] = [
+    ("point", &["kind", "position", "intensity"], point_light),
+    ("directional", &["kind", "direction", "irradiance", "angle"], directional_light),
+    ("sphere", &["kind", "position", "radius", "intensity"], sphere_light),
+    ("rectangle", &["kind", "position", "edge_u", "edge_v", "radiance", "intensity"], rectangle_light),
+];
 
 /// Which material a shape has; `fallback` is where the default one stands or will stand.
 pub(super) struct MaterialIndex<'n, 'a> {
@@ -30,6 +48,10 @@ impl MaterialIndex<'_, '_> {
     }
 }
 
+fn motion(table: &Table<'_>) -> Result<DVec3> {
+    table.get("motion").map_or(Ok(DVec3::ZERO), |field| field.vec3(&COORDINATE))
+}
+
 pub(super) fn plane(table: &Table<'_>, materials: &MaterialIndex<'_, '_>) -> Result<Plane> {
     let origin = table.required("origin")?.vec3(&COORDINATE)?;
     let tangent = table.required("tangent")?.direction()?;
@@ -40,13 +62,14 @@ pub(super) fn plane(table: &Table<'_>, materials: &MaterialIndex<'_, '_>) -> Res
         return Err(bitangent_field.error(what, "parallel to tangent"));
     }
     let half_extent = table.get("half_extent").map(|field| field.number(&LENGTH)).transpose()?;
-    Ok(Plane { origin, tangent, bitangent, half_extent, material: materials.of(table)? })
+    let (material, motion) = (materials.of(table)?, motion(table)?);
+    Ok(Plane { origin, tangent, bitangent, half_extent, material, motion })
 }
 
 pub(super) fn sphere(table: &Table<'_>, materials: &MaterialIndex<'_, '_>) -> Result<Sphere> {
     let center = table.required("center")?.vec3(&COORDINATE)?;
     let radius = table.required("radius")?.number(&LENGTH)?;
-    Ok(Sphere { center, radius, material: materials.of(table)? })
+    Ok(Sphere { center, radius, material: materials.of(table)?, motion: motion(table)? })
 }
 
 pub(super) fn triangle(table: &Table<'_>, materials: &MaterialIndex<'_, '_>) -> Result<Triangle> {
@@ -66,22 +89,67 @@ pub(super) fn triangle(table: &Table<'_>, materials: &MaterialIndex<'_, '_>) -> 
         .get("normals")
         .map(|field| field.array("3 normals of 3 finite numbers each", [DVec3::Z; 3], Field::direction))
         .transpose()?;
-    Ok(Triangle { vertices, uvs, normals, material: materials.of(table)? })
+    Ok(Triangle { vertices, uvs, normals, material: materials.of(table)?, motion: motion(table)? })
 }
 
+/// Without an extent a sphere is a point, and a sun the directional light.
 pub(super) fn light(table: &Table<'_>) -> Result<Light> {
-    let kind = table.required("kind")?;
-    if kind.choice(&["point", "directional"], &[true, false])? {
-        table.allow_only_with("point", POINT_LIGHT)?;
-        let position = table.required("position")?.vec3(&COORDINATE)?;
-        let intensity = table.required("intensity")?.vec3(&COLOR)?;
-        Ok(Light::Point { position, intensity })
+    let (kind, keys, read) =
+        table.required("kind")?.choice(&LIGHT_KINDS.map(|kind| kind.0), &LIGHT_KINDS.map(|kind| kind))?;
+    table.allow_only_with(kind, keys)?;
+    read(table)
+}
+
+fn point_light(table: &Table<'_>) -> Result<Light> {
+    let position = table.required("position")?.vec3(&COORDINATE)?;
+    let intensity = table.required("intensity")?.vec3(&COLOR)?;
+    Ok(Light::Point { position, intensity })
+}
+
+fn directional_light(table: &Table<'_>) -> Result<Light> {
+    let direction = table.required("direction")?.direction()?;
+    let irradiance = table.required("irradiance")?.vec3(&COLOR)?;
+    let angle = table.get("angle").map_or(Ok(0.0), |field| field.number(&CAP))?;
+    Ok(if angle > 0.0 {
+        Light::Sun { direction, angle, irradiance }
     } else {
-        table.allow_only_with("directional", DIRECTIONAL_LIGHT)?;
-        let direction = table.required("direction")?.direction()?;
-        let irradiance = table.required("irradiance")?.vec3(&COLOR)?;
-        Ok(Light::Directional { direction, irradiance })
+        Light::Directional { direction, irradiance }
+    })
+}
+
+fn sphere_light(table: &Table<'_>) -> Result<Light> {
+    let position = table.required("position")?.vec3(&COORDINATE)?;
+    let intensity = table.required("intensity")?.vec3(&COLOR)?;
+    let radius = table.required("radius")?.number(&NOT_NEGATIVE)?;
+    Ok(if radius > 0.0 {
+        Light::Sphere { position, radius, intensity }
+    } else {
+        Light::Point { position, intensity }
+    })
+}
+
+fn rectangle_light(table: &Table<'_>) -> Result<Light> {
+    let position = table.required("position")?.vec3(&COORDINATE)?;
+    let edge_u = table.required("edge_u")?.direction()?;
+    let edge_v_field = table.required("edge_v")?;
+    let edge_v = edge_v_field.direction()?;
+    if parallel(edge_u, edge_v) {
+        let what = "edge_u and edge_v are parallel and span no area; turn one of them";
+        return Err(edge_v_field.error(what, "parallel to edge_u"));
     }
+    let radiance = match (table.get("radiance"), table.get("intensity")) {
+        (Some(field), None) => field.vec3(&COLOR)?,
+        (None, Some(field)) => field.vec3(&COLOR)? / edge_u.cross(edge_v).length(),
+        (Some(_), Some(field)) => {
+            return Err(field.error("radiance is given too; keep one of the two", "excludes radiance"));
+        }
+        (None, None) => {
+            let what =
+                "key \"light.radiance\" is missing: give radiance, or the intensity along edge_u × edge_v";
+            return Err(table.error(what, "needs radiance or intensity"));
+        }
+    };
+    Ok(Light::Rectangle { position, edge_u, edge_v, radiance })
 }
 
 /// A map in `space = "bounds"` measures in the shape's box, which an infinite plane lacks.

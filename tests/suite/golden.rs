@@ -28,15 +28,19 @@ const GOLDENS: &[(&str, [u32; 2])] = &[
     ("filters", [128, 80]),
     ("formats", [172, 60]),
     ("glass", [120, 90]),
+    ("glossy", [64, 48]),
     ("hardware", [164, 84]),
     ("horizon", [128, 96]),
     ("inside", [96, 96]),
     ("lecture", [128, 128]),
+    ("lens", [64, 48]),
     ("lights", [120, 90]),
     ("mappings", [160, 80]),
     ("materials", [128, 64]),
     ("mirrors", [120, 90]),
+    ("motion", [64, 48]),
     ("normal", [128, 54]),
+    ("penumbra", [64, 48]),
     ("position", [144, 50]),
     ("procedural", [120, 53]),
     ("ramp", [120, 42]),
@@ -189,9 +193,9 @@ macro_rules! goldens {
     };
 }
 goldens! {
-    beams centroid cones environment environment_cube filters formats glass hardware horizon inside lecture
-    lights mappings materials mirrors normal position procedural ramp reflection samplers shared volume
-    zone_plate
+    beams centroid cones environment environment_cube filters formats glass glossy hardware horizon inside
+    lecture lens lights mappings materials mirrors motion normal penumbra position procedural ramp reflection
+    samplers shared volume zone_plate
 }
 
 /// One texel a pixel: the very bytes of the texture.

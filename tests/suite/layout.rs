@@ -7,7 +7,7 @@ use std::fs;
 
 use moire::features::TextureSize;
 use moire::layout as mirror;
-use moire::pack::{EntityKind, LightKind, MapKind, ProjectionKind, Schedule, TextureKind};
+use moire::pack::{Choice, EntityKind, LightKind, MapKind, ProjectionKind, Schedule, TextureKind};
 use moire::scene::model::{Footprint, Model, Pattern, PixelFilterKind, ReliefKind};
 use moire::shaders::{self, Shader};
 use moire::texture::data::{ColorSpace, TexelFormat};
@@ -66,11 +66,12 @@ fn glsl_numbers(text: &str) -> BTreeMap<String, u32> {
 
 /// Every number that layout.glsl must define, and no other: modes, and strides in units of 16 bytes.
 fn expected_numbers() -> BTreeMap<String, u32> {
-    let tables: [(&str, &[&str]); 20] = [
+    let tables: [(&str, &[&str]); 21] = [
         ("PROJECTION", ProjectionKind::NAMES),
         ("PATTERN", Pattern::NAMES),
         ("SCHEDULE", Schedule::NAMES),
         ("PIXEL_FILTER", PixelFilterKind::NAMES),
+        ("CHOICE", Choice::NAMES),
         ("MODEL", Model::NAMES),
         ("FOOTPRINT", Footprint::NAMES),
         ("ENTITY", EntityKind::NAMES),
@@ -118,6 +119,7 @@ const MIRRORS: &[(&str, u32)] = &[
     ("Texture", mirror::Texture::UNITS),
     ("Sampler", mirror::Sampler::UNITS),
     ("Procedural", mirror::Procedural::UNITS),
+    ("Motion", mirror::Motion::UNITS),
 ];
 
 /// What differs between the shader's layout and its Rust mirror.
@@ -192,7 +194,7 @@ fn push_constants_equal_their_mirrors() {
     assert_eq!(size_of::<mirror::Halving>(), here.len() * 4);
 }
 
-const SHADERS: [&Shader; 13] = [
+const SHADERS: [&Shader; 14] = [
     &shaders::RENDER_NONE,
     &shaders::RENDER_TEXELS,
     &shaders::RENDER_IMAGES,
@@ -205,6 +207,7 @@ const SHADERS: [&Shader; 13] = [
     &shaders::PROBE_IMAGES,
     &shaders::PROBE_SOLIDS,
     &shaders::PROBE_RAYS,
+    &shaders::PROBE_WARPS,
     &shaders::PROBE_PROCEDURAL,
 ];
 

@@ -66,6 +66,9 @@ fn a_ground_without_light_pays_for_nothing_else() {
         "UNTEXTURED",
         "COMPENSATED",
         "SMOOTH_NORMALS",
+        "CHOICES",
+        "MOTIONS",
+        "MOVING_CAMERA",
     ] {
         assert_eq!(value(&features, absent), 0, "{absent}");
     }

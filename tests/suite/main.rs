@@ -44,6 +44,7 @@ mod shared_gpu;
 mod slopes;
 mod specialise;
 mod stage;
+mod stochastic;
 mod strata;
 mod study;
 mod support;

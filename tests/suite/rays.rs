@@ -24,7 +24,7 @@ fn widened(v: &[f32]) -> DVec3 {
 }
 
 fn ray_of(query: &RayQuery) -> Ray {
-    Ray { origin: widened(&query.origin), direction: widened(&query.direction) }
+    Ray { origin: widened(&query.origin), direction: widened(&query.direction), time: query.origin[3].into() }
 }
 
 /// What the comparison of one scene found.

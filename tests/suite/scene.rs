@@ -272,18 +272,18 @@ fn orthographic_cameras_and_every_name_of_the_vocabulary_parse() {
 fn every_key_listed_as_allowed_is_read() {
     let material = "[[texture]]\nname = 't'\nfile = 't'\n[[material]]\nname = 'm'\n";
     let sections = [
-        ("[camera]\neye = [0, 0, 1]\nlook_at = [0, 0, 0]\n", 6),
+        ("[camera]\neye = [0, 0, 1]\nlook_at = [0, 0, 0]\nvertical_fov = 60\n", 10),
         ("[[texture]]\nname = 'x'\nfile = 'x'\n", 23),
         ("[[texture]]\nname = 'x'\n[texture.volume]\nfile = 'x'\nsize = [1, 1, 1]\nformat = 'grey8'\n", 5),
         ("[[sampler]]\nname = 'x'\n", 9),
-        ("[[material]]\nname = 'x'\n", 12),
+        ("[[material]]\nname = 'x'\n", 13),
         ("[sampling]\n", 7),
         ("[background]\n", 5),
         ("[image]\nwidth = 1\nheight = 1\n", 4),
-        ("[[plane]]\norigin = [0, 0, 0]\ntangent = [1, 0, 0]\nbitangent = [0, 1, 0]\n", 5),
-        ("[[sphere]]\ncenter = [0, 0, 0]\nradius = 1\n", 3),
-        ("[[triangle]]\nvertices = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]\n", 4),
-        ("[[light]]\nkind = 'point'\nposition = [0, 0, 0]\nintensity = [0, 0, 0]\n", 5),
+        ("[[plane]]\norigin = [0, 0, 0]\ntangent = [1, 0, 0]\nbitangent = [0, 1, 0]\n", 6),
+        ("[[sphere]]\ncenter = [0, 0, 0]\nradius = 1\n", 4),
+        ("[[triangle]]\nvertices = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]\n", 5),
+        ("[[light]]\nkind = 'point'\nposition = [0, 0, 0]\nintensity = [0, 0, 0]\n", 10),
         ("[[material]]\nname = 'y'\n[material.mapping]\nkind = 'planar'\n", 8),
         ("[[sampler]]\nname = 'y'\n[sampler.filter]\n", 2),
     ];

@@ -30,9 +30,9 @@ macro_rules! every_scene {
 macro_rules! with_scenes {
     ($($call:tt)*) => {
         $crate::stage::dispatch! {
-            $($call)* beams centroid cones environment environment_cube filters formats glass hardware horizon
-            inside lecture lights mappings materials mirrors normal position procedural quad ramp
-            reflection samplers shared volume zone_plate s1a s1b s2
+            $($call)* beams centroid cones environment environment_cube filters formats glass glossy hardware
+            horizon inside lecture lens lights mappings materials mirrors motion normal penumbra position
+            procedural quad ramp reflection samplers shared volume zone_plate s1a s1b s2
         }
     };
 }

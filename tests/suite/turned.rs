@@ -76,10 +76,17 @@ fn turned(scene: &Scene, turn: DQuat) -> Scene {
     }
     scene.spheres.iter_mut().for_each(|s| spin(&mut s.center));
     scene.triangles.iter_mut().for_each(|t| t.vertices.iter_mut().for_each(spin));
+    scene.camera.motion.iter_mut().for_each(spin);
+    scene.planes.iter_mut().for_each(|p| spin(&mut p.motion));
+    scene.spheres.iter_mut().for_each(|s| spin(&mut s.motion));
+    scene.triangles.iter_mut().for_each(|t| spin(&mut t.motion));
     for light in &mut scene.lights {
         match light {
-            Light::Point { position, .. } => spin(position),
-            Light::Directional { direction, .. } => spin(direction),
+            Light::Point { position, .. } | Light::Sphere { position, .. } => spin(position),
+            Light::Directional { direction, .. } | Light::Sun { direction, .. } => spin(direction),
+            Light::Rectangle { position, edge_u, edge_v, .. } => {
+                [position, edge_u, edge_v].into_iter().for_each(spin);
+            }
         }
     }
     for material in &mut scene.materials {

@@ -25,7 +25,7 @@ fn end_of_ray(scene: &PackedScene, at: DVec2) -> Option<(Vec<u32>, u32, DVec3)> 
     let header = &scene.header;
     let centered = at - 0.5 * DVec2::new(header.image[0].into(), header.image[1].into());
     let direction = xyz(header.forward) + centered.x * xyz(header.step_x) + centered.y * xyz(header.step_y);
-    let mut ray = Ray { origin: DVec3::ZERO, direction };
+    let mut ray = Ray { origin: DVec3::ZERO, direction, time: 0.0 };
     let mut way = Vec::new();
     let mut skip = NO_SHAPE;
     for _ in 0..6 {
@@ -48,10 +48,12 @@ fn end_of_ray(scene: &PackedScene, at: DVec2) -> Option<(Vec<u32>, u32, DVec3)> 
             Model::Mirror => Ray {
                 origin: offset_origin(surface.point, n),
                 direction: mirrored(ray.direction, surface.normal),
+                time: 0.0,
             },
             Model::Dielectric => Ray {
                 origin: offset_origin(surface.point, -n),
                 direction: refracted(ray.direction, surface.normal, ratio),
+                time: 0.0,
             },
             _ => {
                 let map_record = &scene.maps[map as usize];

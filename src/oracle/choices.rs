@@ -1,0 +1,82 @@
+//! What a sample chooses beside its place in the pixel, each by a pair of dimensions of the same pattern:
+//! 0 place in the pixel, 1 lens, 2 time (its first dimension), 3 + 2d light and 4 + 2d lobe of the hit after
+//! d bounces. From the seventh hit on the pairs begin again, shifted; further lights of one hit shift the
+//! pair of the first. Twin of `glsl/shared/choices.glsl`.
+
+use glam::DVec2;
+
+use super::patterns::{Points, pair_points, sample_pair};
+use super::rng::{mix_bits, pcg3d};
+use super::strata::UNIT;
+use crate::layout::Header;
+use crate::pack::Choice;
+use crate::scene::model::Pattern;
+
+const HITS_APART: u32 = 6;
+
+/// Positions as integers in [0, 2^24).
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Choices {
+    pub place: [u32; 2],
+    pub lens: [u32; 2],
+    pub time: [u32; 2],
+    pub light: [u32; 2],
+    pub lobe: [u32; 2],
+}
+
+impl Choices {
+    /// Of a path without a pattern: every choice is the middle one.
+    pub const MIDDLE: Choices = Choices {
+        place: [1 << 23; 2],
+        lens: [1 << 23; 2],
+        time: [1 << 23; 2],
+        light: [1 << 23; 2],
+        lobe: [1 << 23; 2],
+    };
+}
+
+pub fn unit_square(position: [u32; 2]) -> DVec2 {
+    DVec2::from_array(position.map(|x| f64::from(x) * UNIT))
+}
+
+/// The same positions shifted, by another number for each `salt` but 0.
+pub fn apart(points: &Points, position: [u32; 2], salt: u32) -> [u32; 2] {
+    if salt == 0 || matches!(points.pattern, Pattern::Center | Pattern::Grid) {
+        return position;
+    }
+    let [x, y, _] = pcg3d([points.key[0], points.key[1], !salt]).map(mix_bits);
+    let net = matches!(points.pattern, Pattern::SobolOwen | Pattern::BlueNoise);
+    let shifted = |position: u32, by: u32| if net { position ^ by } else { (position + by) & 0xFF_FFFF };
+    [shifted(position[0], x >> 8), shifted(position[1], y >> 8)]
+}
+
+/// All that sample s chooses for the hit after `depth` bounces, where its path starts also its place and what
+/// the camera needs.
+pub fn choose(header: &Header, points: &Points, s: u32, depth: u32, starts: bool) -> Choices {
+    let round = depth / HITS_APART;
+    let mut choices = Choices::default();
+    if starts {
+        choices.place = sample_pair(points, s);
+    }
+    for &choice in Choice::ALL {
+        let of_hit = choice as u32 >= Choice::Light as u32;
+        if header.chances[0] >> choice as u32 & 1 == 0 || !(of_hit || starts) {
+            continue;
+        }
+        let pair = 1 + choice as u32 + if of_hit { 2 * (depth - round * HITS_APART) } else { 0 };
+        let position = sample_pair(&pair_points(points, pair), s);
+        let position = apart(points, position, if of_hit { round } else { 0 });
+        match choice {
+            Choice::Lens => choices.lens = position,
+            Choice::Time => choices.time = position,
+            Choice::Light => choices.light = position,
+            Choice::Lobe => choices.lobe = position,
+        }
+    }
+    choices
+}
+
+/// The place of the hit's choice on the light `i`.
+pub fn chosen_light(points: Option<&Points>, choices: &Choices, i: u32) -> DVec2 {
+    unit_square(points.map_or(choices.light, |points| apart(points, choices.light, 16 * i)))
+}
