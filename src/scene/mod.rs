@@ -1,6 +1,7 @@
 //! Scene files: TOML text in, validated [`model::Scene`] out.
 
 pub mod advice;
+mod camera;
 mod load;
 mod mapping;
 mod materials;
