@@ -2,6 +2,7 @@
 //! f32: positions relative to the eye, texture coordinates with whole tiles taken out, so that what
 //! the device sees is small and near wherever the scene lies in the world.
 
+mod chances;
 mod kinds;
 mod mapping;
 mod pixel_filter;
@@ -18,8 +19,7 @@ use crate::error::Result;
 use crate::layout::{self, CHUNK, Header};
 use crate::scene::cone;
 use crate::scene::model::{
-    Algorithm, Environment, EnvironmentLayout, Footprint, Light, Material, Model, PixelFilter, Projection,
-    Scene,
+    Algorithm, Environment, EnvironmentLayout, Footprint, Material, Model, PixelFilter, Projection, Scene,
 };
 use crate::texture::data::TextureData;
 use crate::texture::sampler_spec::{Address, Method, SamplerSpec};
@@ -162,7 +162,7 @@ pub fn pack_with(
         packed.motions = scene.motions().map(|m| layout::Motion { shift: vec4(m.extend(0.0)) }).collect();
     }
     let moves = u32::from(scene.camera.moves());
-    packed.header.chances = [chances(scene), packed.motions.len() as u32, moves, 0];
+    packed.header.chances = [chances::chances(scene), packed.motions.len() as u32, moves, 0];
     let counts = [packed.planes.len(), packed.spheres.len(), packed.triangles.len()].map(|n| n as u32);
     packed.header.counts[..3].copy_from_slice(&counts);
     Ok(packed)
@@ -326,31 +326,13 @@ fn header(scene: &Scene, crop: Crop, warp: &Warp) -> Header {
         ],
         counts: [0, 0, 0, layout::NO_MATERIAL],
         chances: [0; 4],
-        lens: vec4(lens(scene, pixel)),
+        lens: vec4(chances::lens(scene, pixel)),
         view: vec4((scene.camera.look_at - scene.camera.eye).extend(0.0)),
         up: vec4(scene.camera.up.normalize().extend(0.0)),
         eye_motion: vec4(scene.camera.motion[0].extend(0.0)),
         view_motion: vec4((scene.camera.motion[1] - scene.camera.motion[0]).extend(0.0)),
         pixel_filter: warp.record,
     }
-}
-
-/// What samples choose beside their place in the pixel.
-fn chances(scene: &Scene) -> u32 {
-    let of = |choice: &Choice| match choice {
-        Choice::Lens => scene.camera.lens.is_some(),
-        Choice::Time => scene.camera.moves() || scene.motions().any(|motion| motion != DVec3::ZERO),
-        Choice::Lobe => scene.sampling.max_depth > 0 && scene.materials.iter().any(|m| m.roughness > 0.0),
-        Choice::Light => scene.lights.iter().any(Light::has_extent),
-    };
-    Choice::ALL.iter().filter(|c| of(c)).fold(0, |bits, &choice| bits | 1 << choice as u32)
-}
-
-/// Radius over a pixel's side at distance 1; 1 / focus distance; when the shutter opens, how long it is open.
-fn lens(scene: &Scene, pixel: f64) -> DVec4 {
-    let [opens, closes] = scene.camera.shutter;
-    let lens = scene.camera.lens.map_or([0.0; 2], |l| [l.radius / pixel, 1.0 / l.focus_distance]);
-    DVec4::new(lens[0], lens[1], opens, closes - opens)
 }
 
 /// The footprint, if there is a filter that asks for it. All textures and samplers are read. Beams average

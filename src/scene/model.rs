@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use glam::{DVec2, DVec3};
 
+pub use super::camera::{Camera, Lens, Projection};
 pub use super::mapping::{Entity, Mapping, MappingKind, Space};
 pub use super::pixel_filter::{PixelFilter, PixelFilterKind};
 use crate::named::named_enum;
@@ -57,38 +58,6 @@ named_enum! {
         Equirectangular = "equirectangular",
         Cube = "cube",
     }
-}
-
-#[derive(Clone, Copy, Debug)]
-pub struct Camera {
-    pub eye: DVec3,
-    pub look_at: DVec3,
-    pub up: DVec3,
-    pub projection: Projection,
-    /// None: a pinhole.
-    pub lens: Option<Lens>,
-    /// When the shutter opens and closes, between 0 and 1.
-    pub shutter: [f64; 2],
-    /// How far eye and look_at move between the times 0 and 1.
-    pub motion: [DVec3; 2],
-}
-
-/// A thin lens around the eye, across the view.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Lens {
-    pub radius: f64,
-    /// Along the view, to the plane in focus.
-    pub focus_distance: f64,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Projection {
-    /// Full vertical opening angle in degrees, in (0, 180).
-    VerticalFov(f64),
-    /// Distance of an image plane of height 1 (the lecture's camera constant).
-    CameraConstant(f64),
-    /// Parallel rays; the picture's height in scene units.
-    Orthographic(f64),
 }
 
 named_enum! {
@@ -363,11 +332,5 @@ impl Scene {
             return SamplerSpec { address: [clamp; 2], address_w: clamp, ..spec };
         }
         spec
-    }
-}
-
-impl Camera {
-    pub fn moves(&self) -> bool {
-        self.motion != [DVec3::ZERO; 2]
     }
 }

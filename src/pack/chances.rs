@@ -1,0 +1,25 @@
+//! Scene → which choices its samples make beside their place in the pixel, and the header's numbers of lens and
+//! shutter.
+
+use glam::{DVec3, DVec4};
+
+use super::Choice;
+use crate::scene::model::{Light, Scene};
+
+/// What samples choose beside their place in the pixel.
+pub fn chances(scene: &Scene) -> u32 {
+    let of = |choice: &Choice| match choice {
+        Choice::Lens => scene.camera.lens.is_some(),
+        Choice::Time => scene.camera.moves() || scene.motions().any(|motion| motion != DVec3::ZERO),
+        Choice::Lobe => scene.sampling.max_depth > 0 && scene.materials.iter().any(|m| m.roughness > 0.0),
+        Choice::Light => scene.lights.iter().any(Light::has_extent),
+    };
+    Choice::ALL.iter().filter(|c| of(c)).fold(0, |bits, &choice| bits | 1 << choice as u32)
+}
+
+/// Radius over a pixel's side at distance 1; 1 / focus distance; when the shutter opens, how long it is open.
+pub fn lens(scene: &Scene, pixel: f64) -> DVec4 {
+    let [opens, closes] = scene.camera.shutter;
+    let lens = scene.camera.lens.map_or([0.0; 2], |l| [l.radius / pixel, 1.0 / l.focus_distance]);
+    DVec4::new(lens[0], lens[1], opens, closes - opens)
+}
