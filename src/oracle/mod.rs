@@ -20,6 +20,7 @@ pub mod math;
 pub mod noise;
 pub mod patterns;
 pub mod permute;
+pub mod pieces;
 pub mod procedural;
 pub mod render;
 pub mod rng;
