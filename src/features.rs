@@ -245,6 +245,7 @@ fn counted_samples(scene: &PackedScene) -> u32 {
 
 /// Shapes that a cone can touch, up to those that it keeps.
 fn cone_shapes(scene: &PackedScene) -> u32 {
+    // Of `pieces.glsl`.
     const MOST_PIECES: usize = 8;
     let shapes = scene.planes.len() + scene.spheres.len() + scene.triangles.len();
     if shapes < MOST_PIECES { shapes.max(1) as u32 } else { DYNAMIC }

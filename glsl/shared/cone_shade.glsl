@@ -6,7 +6,7 @@
 #ifndef CONE_SHADE_GLSL
 #define CONE_SHADE_GLSL
 
-#include "cone.glsl"
+#include "pieces.glsl"
 #include "shade.glsl"
 
 // Cones that wait, cones of a pixel, and the least weight of one. What goes beyond is dropped.

@@ -104,10 +104,13 @@ impl Overrides {
     fn suit_adaptive(&self, sampling: &mut Sampling) -> Result<()> {
         if !sampling.algorithm.is_adaptive() {
             if self.goal().is_some() {
+                let fixed = match sampling.algorithm {
+                    Algorithm::Cone => "\"cone\" takes none",
+                    _ => "\"samples\" takes --spp",
+                };
                 return Err(Error::with_help(
                     format!(
-                        "--budget and --target-error need an algorithm that may choose its samples; \"{}\" does not",
-                        sampling.algorithm
+                        "--budget and --target-error need an algorithm that may choose its samples; {fixed}"
                     ),
                     "leave --algorithm away, or use --algorithm adaptive",
                 ));

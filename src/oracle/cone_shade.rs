@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use glam::{DVec2, DVec3};
 
 use super::camera::{Ray, camera_ray};
-use super::cone::{Cone, cone_of, gather, lay_over, meet};
+use super::cone::{Cone, cone_of, meet};
 use super::coverage::{Covered, LEAST_SHARE};
 use super::footprint::{
     Beam, Footprint, Meeting, camera_beam, endless_footprint, footprint_at, mirrored, mirrored_beam,
@@ -14,6 +14,7 @@ use super::footprint::{
 use super::intersect::{FAR, Hit, offset_origin};
 use super::light::phong_lobe;
 use super::math::xyz;
+use super::pieces::{gather, lay_over};
 use super::shade::{bumped_normal, surface_color};
 use super::surface::{Surface, hit_surface};
 use crate::layout::{Light, Material, NO_MATERIAL, NO_SHAPE};

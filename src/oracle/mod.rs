@@ -26,6 +26,7 @@ pub mod noise;
 pub mod paint;
 pub mod patterns;
 pub mod permute;
+pub mod pieces;
 pub mod pixel_filter;
 pub mod polygon;
 pub mod procedural;
