@@ -9,12 +9,12 @@ mod pixel_filter;
 mod procedural;
 mod pyramids;
 mod resample;
+mod sections;
 mod shapes;
 mod textures;
 
 use glam::{DVec3, DVec4};
 
-use crate::color::srgb8_table;
 use crate::error::Result;
 use crate::layout::{self, CHUNK, Header};
 use crate::scene::cone;
@@ -29,6 +29,7 @@ pub use kinds::{Choice, EntityKind, LightKind, MapKind, ProjectionKind, Schedule
 pub use pixel_filter::{divisor, kernel};
 pub use procedural::procedural;
 pub use pyramids::{Pyramids, reads_levels};
+pub use sections::Sections;
 pub use textures::{MAX_SLOTS, Slot};
 
 /// A part of the picture, in pixels of the full picture.
@@ -89,23 +90,6 @@ pub struct PackedScene {
     pub pixel_filter: Vec<f32>,
     /// Mean of the samples' signs, where the pixel filter has negative lobes.
     pub mean_sign: Option<f64>,
-}
-
-/// Where each list begins in the scene buffer, in units of 16 bytes.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Sections {
-    pub planes: u32,
-    pub spheres: u32,
-    pub triangles: u32,
-    pub lights: u32,
-    pub materials: u32,
-    pub maps: u32,
-    pub textures: u32,
-    pub samplers: u32,
-    pub procedurals: u32,
-    pub motions: u32,
-    pub srgb: u32,
-    pub pixel_filter: u32,
 }
 
 /// Image descriptors of each kind.
@@ -251,37 +235,6 @@ impl PackedScene {
             volumes: self.volume_slots.len() as u32,
             cubes: self.cube_slots.len() as u32,
         }
-    }
-
-    /// The scene buffer and where its lists begin: that of the pixel filter and then the short ones first, so
-    /// that all of them lie in the head. The sRGB table is there only when a texture of 8 bits needs it.
-    pub fn scene_bytes(&self) -> (Vec<u8>, Sections) {
-        let srgb: &[f32] = if textures::needs_srgb_table(&self.textures) { srgb8_table() } else { &[] };
-        let mut sections = Sections::default();
-        let mut lists: [(&[u8], &mut u32); 11] = [
-            (bytemuck::cast_slice(&self.planes), &mut sections.planes),
-            (bytemuck::cast_slice(&self.spheres), &mut sections.spheres),
-            (bytemuck::cast_slice(&self.triangles), &mut sections.triangles),
-            (bytemuck::cast_slice(&self.lights), &mut sections.lights),
-            (bytemuck::cast_slice(&self.materials), &mut sections.materials),
-            (bytemuck::cast_slice(&self.maps), &mut sections.maps),
-            (bytemuck::cast_slice(&self.textures), &mut sections.textures),
-            (bytemuck::cast_slice(&self.samplers), &mut sections.samplers),
-            (bytemuck::cast_slice(&self.procedurals), &mut sections.procedurals),
-            (bytemuck::cast_slice(&self.motions), &mut sections.motions),
-            (bytemuck::cast_slice(srgb), &mut sections.srgb),
-        ];
-        lists.sort_by_key(|(list, _)| list.len());
-        let mut bytes = bytemuck::bytes_of(&self.header).to_vec();
-        sections.pixel_filter = (bytes.len() / 16) as u32;
-        bytes.extend_from_slice(bytemuck::cast_slice(&self.pixel_filter));
-        bytes.resize(bytes.len().next_multiple_of(16), 0);
-        for (list, at) in lists {
-            *at = (bytes.len() / 16) as u32;
-            bytes.extend_from_slice(list);
-        }
-        bytes.resize(bytes.len().max(layout::HEAD_BYTES), 0);
-        (bytes, sections)
     }
 }
 

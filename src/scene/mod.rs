@@ -1,6 +1,7 @@
 //! Scene files: TOML text in, validated [`model::Scene`] out.
 
 pub mod advice;
+mod beam;
 mod camera;
 pub mod cone;
 mod load;

@@ -93,7 +93,7 @@ fn sampling_and_background_rules() {
             &["did you mean \"stratified\"?", "center, grid"],
         ),
         ("far pattern", "[sampling]\npattern = 'poisson'", &["\"poisson\"; allowed: center, grid, random"]),
-        ("algorithm", "[sampling]\nalgorithm = 'beam'", &["sampling.algorithm", "allowed: samples"]),
+        ("algorithm", "[sampling]\nalgorithm = 'rays'", &["sampling.algorithm", "allowed: samples"]),
         ("footprint", "[sampling]\nfootprint = 'ray'", &["\"ray\"; allowed: none, cone, differentials"]),
         ("number as name", "[sampling]\npattern = 3", &["a string, one of center", "found 3"]),
         (

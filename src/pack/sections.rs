@@ -1,0 +1,69 @@
+//! Lists of a packed scene → the bytes of its scene buffer, and where each list begins.
+
+use super::{PackedScene, textures};
+use crate::color::srgb8_table;
+use crate::layout;
+
+/// Room in which short lists end.
+const LIST_BYTES: usize = 64 * 16;
+
+/// Where each list begins in the scene buffer, in units of 16 bytes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Sections {
+    pub planes: u32,
+    pub spheres: u32,
+    pub triangles: u32,
+    pub lights: u32,
+    pub materials: u32,
+    pub maps: u32,
+    pub textures: u32,
+    pub samplers: u32,
+    pub procedurals: u32,
+    pub motions: u32,
+    pub srgb: u32,
+    pub pixel_filter: u32,
+}
+
+impl PackedScene {
+    /// The scene buffer and where its lists begin: that of the pixel filter and then the short ones first, so
+    /// that all of them lie in the head; in steps, where there is room, so that small scenes have them at the
+    /// same places, and one compiled pipeline. The sRGB table is there only when a texture of 8 bits needs it.
+    pub fn scene_bytes(&self) -> (Vec<u8>, Sections) {
+        let srgb: &[f32] = if textures::needs_srgb_table(&self.textures) { srgb8_table() } else { &[] };
+        let mut sections = Sections::default();
+        let mut lists: [(&[u8], &mut u32); 11] = [
+            (bytemuck::cast_slice(&self.planes), &mut sections.planes),
+            (bytemuck::cast_slice(&self.spheres), &mut sections.spheres),
+            (bytemuck::cast_slice(&self.triangles), &mut sections.triangles),
+            (bytemuck::cast_slice(&self.lights), &mut sections.lights),
+            (bytemuck::cast_slice(&self.materials), &mut sections.materials),
+            (bytemuck::cast_slice(&self.maps), &mut sections.maps),
+            (bytemuck::cast_slice(&self.textures), &mut sections.textures),
+            (bytemuck::cast_slice(&self.samplers), &mut sections.samplers),
+            (bytemuck::cast_slice(&self.procedurals), &mut sections.procedurals),
+            (bytemuck::cast_slice(&self.motions), &mut sections.motions),
+            (bytemuck::cast_slice(srgb), &mut sections.srgb),
+        ];
+        lists.sort_by_key(|(list, _)| room(list));
+        let mut bytes = bytemuck::bytes_of(&self.header).to_vec();
+        sections.pixel_filter = (bytes.len() / 16) as u32;
+        bytes.extend_from_slice(bytemuck::cast_slice(&self.pixel_filter));
+        let alike = bytes.len().next_multiple_of(LIST_BYTES);
+        let all: usize = lists.iter().map(|(list, _)| room(list)).sum();
+        let step = if alike + all <= layout::HEAD_BYTES { LIST_BYTES } else { 16 };
+        bytes.resize(bytes.len().next_multiple_of(step), 0);
+        for (list, at) in lists {
+            *at = (bytes.len() / 16) as u32;
+            let end = bytes.len() + if step == LIST_BYTES { room(list) } else { list.len() };
+            bytes.extend_from_slice(list);
+            bytes.resize(end, 0);
+        }
+        bytes.resize(bytes.len().max(layout::HEAD_BYTES), 0);
+        (bytes, sections)
+    }
+}
+
+/// Bytes in which a list lies where lists begin in steps.
+fn room(list: &[u8]) -> usize {
+    list.len().max(1).next_multiple_of(LIST_BYTES)
+}
