@@ -3,7 +3,7 @@
 //! points before took.
 
 use crate::error::{Error, Result};
-use crate::scene::model::{Pattern, Scene};
+use crate::scene::model::{Algorithm, Pattern, Scene};
 use crate::scene::{MAX_SPP, check_spp};
 
 use super::method::Method;
@@ -32,6 +32,10 @@ pub fn points(methods: &[Method], scene: &Scene, counts: &[u32]) -> Result<Vec<P
     let mut points: Vec<Point> = Vec::new();
     for &asked in &counts {
         for (method, how) in methods.iter().enumerate() {
+            // Few pixels of beams take samples, if any: one point, with the most.
+            if how.algorithm == Algorithm::Beam && Some(&asked) != counts.last() {
+                continue;
+            }
             let pattern = how.pattern_in(scene);
             let spp = next_count(pattern, asked).ok_or_else(|| {
                 Error::new(format!("--spp: pattern \"{pattern}\" takes no count from {asked} on"))
