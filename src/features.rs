@@ -132,6 +132,8 @@ pub struct Features {
     pub source: TexelSource,
     /// Does the film have its second half?
     pub compensated: bool,
+    /// Nothing is left out.
+    pub everything: bool,
 }
 
 impl Features {
@@ -143,7 +145,13 @@ impl Features {
             (false, true) => TexelSource::Image,
             _ => TexelSource::Buffer,
         };
-        let mut features = Features { values: Vec::new(), left_out: Vec::new(), source, compensated: true };
+        let mut features = Features {
+            values: Vec::new(),
+            left_out: Vec::new(),
+            source,
+            compensated: true,
+            everything: keep_everything,
+        };
         if keep_everything {
             features.values = FEATURES.iter().map(|&(name, _, narrow)| (name, everything(narrow))).collect();
             return features;

@@ -26,9 +26,10 @@ pub struct Sections {
 
 impl PackedScene {
     /// The scene buffer and where its lists begin: that of the pixel filter and then the short ones first, so
-    /// that all of them lie in the head; in steps, where there is room, so that small scenes have them at the
-    /// same places, and one compiled pipeline. The sRGB table is there only when a texture of 8 bits needs it.
-    pub fn scene_bytes(&self) -> (Vec<u8>, Sections) {
+    /// that all of them lie in the head. Close together, as devices cache few of them; or, where there is
+    /// room, in steps, so that all small scenes have one compiled pipeline that keeps everything. The sRGB
+    /// table is there only when a texture of 8 bits needs it.
+    pub fn scene_bytes(&self, in_steps: bool) -> (Vec<u8>, Sections) {
         let srgb: &[f32] = if textures::needs_srgb_table(&self.textures) { srgb8_table() } else { &[] };
         let mut sections = Sections::default();
         let mut lists: [(&[u8], &mut u32); 11] = [
@@ -44,13 +45,13 @@ impl PackedScene {
             (bytemuck::cast_slice(&self.motions), &mut sections.motions),
             (bytemuck::cast_slice(srgb), &mut sections.srgb),
         ];
-        lists.sort_by_key(|(list, _)| room(list));
+        lists.sort_by_key(|(list, _)| if in_steps { room(list) } else { list.len() });
         let mut bytes = bytemuck::bytes_of(&self.header).to_vec();
         sections.pixel_filter = (bytes.len() / 16) as u32;
         bytes.extend_from_slice(bytemuck::cast_slice(&self.pixel_filter));
         let alike = bytes.len().next_multiple_of(LIST_BYTES);
         let all: usize = lists.iter().map(|(list, _)| room(list)).sum();
-        let step = if alike + all <= layout::HEAD_BYTES { LIST_BYTES } else { 16 };
+        let step = if in_steps && alike + all <= layout::HEAD_BYTES { LIST_BYTES } else { 16 };
         bytes.resize(bytes.len().next_multiple_of(step), 0);
         for (list, at) in lists {
             *at = (bytes.len() / 16) as u32;

@@ -56,7 +56,7 @@ pub struct Resources {
 
 impl Resources {
     pub fn upload(gpu: &Gpu, packed: &PackedScene, features: &Features) -> Result<Resources> {
-        let (bytes, sections) = packed.scene_bytes();
+        let (bytes, sections) = packed.scene_bytes(features.everything);
         let scene = gpu.upload_buffer("scene", BufferUse::Storage, &bytes)?;
         let mut maker = Maker::new(gpu);
         let texels = match features.source {

@@ -22,7 +22,7 @@ fn packed(name: &str) -> PackedScene {
 
 fn specialised(shader: &Shader, scene: &PackedScene, keep_everything: bool) -> Vec<u32> {
     let features = Features::new(scene, shader.name.contains("images"), keep_everything);
-    let (_, sections) = scene.scene_bytes();
+    let (_, sections) = scene.scene_bytes(false);
     specialise(shader.spirv, &constants(shader, &features, &sections, [64, 1], SlotCounts::default()))
 }
 
