@@ -168,7 +168,7 @@ vec3 shade(Header header, Beam beam, uint own) {
         Light light = NO_LIGHT;
         if (LIGHTS != 0u && !unlit) light = light_at(i);
         // Of lights with an extent beams do not know the penumbra.
-        if (HAS_EXTENTS && light.link.x >= LIGHT_SPHERE) gave_up = true;
+        if (AREA_LIGHTS && light.link.x >= LIGHT_SPHERE) gave_up = true;
         sum += lit_by(header, paint, shape, LIGHTS != 0u && !unlit, light);
     }
     if (i < lights) gave_up = true;
@@ -214,8 +214,8 @@ void main() {
     Header header = load_header();
     hold_scene();
     uvec2 place = film_pixel();
-    if (place.x >= header.size.x || place.y >= slice.band_height) return;
-    uvec2 pixel = uvec2(place.x, place.y + slice.band_y) + header.image.zw;
+    if (!in_film(header, place)) return;
+    uvec2 pixel = picture_pixel(header, place);
     gave_up = false;
     crossed = 0u;
     waiting = 0u;
@@ -233,7 +233,7 @@ void main() {
             copy(BEAMS_AT + waiting_beams, WHOLE);
         }
     }
-    film[place.y * header.size.x + place.x] = vec4(color, gave_up || more ? 1.0 : 0.0);
+    film[film_index(header, place)] = vec4(color, gave_up || more ? 1.0 : 0.0);
 }
 
 #endif

@@ -11,6 +11,7 @@
 const bool LENS = HAS(CHOICES, CHOICE_LENS);
 const bool TIMED = HAS(CHOICES, CHOICE_TIME);
 const bool AREA_LIGHTS = HAS(CHOICES, CHOICE_LIGHT);
+const bool GLOSSY = HAS(CHOICES, CHOICE_LOBE);
 
 const uint HITS_APART = 6u;
 

@@ -14,10 +14,10 @@ void main() {
     Header header = load_header();
     hold_scene();
     uvec2 place = film_pixel();
-    if (place.x >= header.size.x || place.y >= slice.band_height) return;
-    uvec2 pixel = uvec2(place.x, place.y + slice.band_y) + header.image.zw;
+    if (!in_film(header, place)) return;
+    uvec2 pixel = picture_pixel(header, place);
     Ray ray = camera_ray(header, pixel, MIDDLE);
-    uint at = place.y * header.size.x + place.x;
+    uint at = film_index(header, place);
     film[at] = trace_cone(header, ray, camera_beam(header, ray));
     if (COMPENSATED) film[at + header.size.x * slice.band_height] = vec4(0.0);
 }

@@ -4,9 +4,8 @@
 #ifndef GLOSSY_GLSL
 #define GLOSSY_GLSL
 
+#include "choices.glsl"
 #include "footprint.glsl"
-
-const bool GLOSSY = HAS(CHOICES, CHOICE_LOBE);
 
 // The normal of a facet that a ray along `direction` meets, on a surface with unit normal n against the ray.
 // In a space stretched by alpha the facets are those of a sphere: the half vectors of a cap and the view.

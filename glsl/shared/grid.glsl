@@ -3,7 +3,7 @@
 #ifndef GRID_GLSL
 #define GRID_GLSL
 
-#include "layout.glsl"
+#include "address.glsl"
 
 // Where each texture's sums begin, then those: channels, levels, least value, step, first word of each
 // level; a level's rows of width + 1 sums.
@@ -77,15 +77,7 @@ uvec3 stored_sum(Grid grid, int first, int i) {
 // The first word of the texture's row that an addressed one shows; of a checker whether cells are odd.
 int addressed_row(Grid grid, int j) {
     if (grid.checker) return j & 1;
-    int size = grid.size.y;
-    int row = clamp(j, 0, size - 1);
-    if (MODE_IS(ADDRESSES_V, ADDRESS_REPEAT, grid.address.y)) {
-        if (TEXTURE_SIZES == (1u << TEXTURE_SIZE_POWER_OF_TWO)) row = j & (size - 1);
-        else row = j - size * floor_div(j, size);
-    } else if (MODE_IS(ADDRESSES_V, ADDRESS_MIRRORED_REPEAT, grid.address.y)) {
-        int left = j - 2 * size * floor_div(j, 2 * size);
-        row = left < size ? left : 2 * size - 1 - left;
-    }
+    int row = wrapped_texel(ADDRESSES_V, grid.address.y, j, grid.size.y);
     return grid.first_word + row * (grid.size.x + 1) * grid.channels;
 }
 
@@ -98,18 +90,14 @@ struct Column {
 
 Column addressed_column(Grid grid, int i) {
     int size = grid.size.x;
-    Column column = Column(clamp(i, 0, size - 1), 0, false);
-    if (MODE_IS(ADDRESSES_U, ADDRESS_REPEAT, grid.address.x)) {
+    Column column = Column(wrapped_texel(ADDRESSES_U, grid.address.x, i, size), 0, false);
+    bool mirrors = MODE_IS(ADDRESSES_U, ADDRESS_MIRRORED_REPEAT, grid.address.x);
+    if (mirrors || MODE_IS(ADDRESSES_U, ADDRESS_REPEAT, grid.address.x)) {
         // A shift of whole powers of two floors.
         if (TEXTURE_SIZES == (1u << TEXTURE_SIZE_POWER_OF_TWO)) column.rows = i >> findMSB(size);
         else column.rows = floor_div(i, size);
-        column.texel = i - size * column.rows;
-    } else if (MODE_IS(ADDRESSES_U, ADDRESS_MIRRORED_REPEAT, grid.address.x)) {
-        int period = floor_div(i, 2 * size);
-        int left = i - 2 * size * period;
-        column.back = left >= size;
-        column.texel = column.back ? 2 * size - 1 - left : left;
-        column.rows = 2 * period + (column.back ? 2 : 0);
+        column.back = mirrors && (column.rows & 1) != 0;
+        column.rows += column.back ? 1 : 0;
     }
     return column;
 }

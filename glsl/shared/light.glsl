@@ -1,6 +1,7 @@
 // What lights send to a surface: Lambert, albedo/pi · I cos/r² (point) or albedo/pi · E cos
-// (directional); of a light with an extent that of one place, chosen by the sample; beside it the highlight of Phong, energy-normalised: specular (n + 2)/2pi
-// cos^n of the angle to the mirror direction (Lafortune & Willems 1994). Twin: src/oracle/light.rs.
+// (directional); of a light with an extent that of one place, chosen by the sample; beside it the highlight
+// of Phong, energy-normalised: specular (n + 2)/2pi cos^n of the angle to the mirror direction (Lafortune &
+// Willems 1994). Twin: src/oracle/light.rs.
 #ifndef LIGHT_GLSL
 #define LIGHT_GLSL
 

@@ -5,6 +5,7 @@
 
 #include "features.glsl"
 #include "rows.glsl"
+#include "choices.glsl"
 
 const uint MAX_PIECES = 12u;  // that wait at a time
 const uint MAX_BEAMS = 6u;    // mirrored ones that wait at a time
@@ -24,8 +25,6 @@ bool gave_up;
 uint crossed;
 
 const Light NO_LIGHT = Light(vec4(0.0), vec4(0.0), uvec4(0u), vec4(0.0), vec4(0.0));
-const bool HAS_EXTENTS = (LIGHT_KINDS >> LIGHT_SPHERE) != 0u;
-const bool GLOSSY = HAS(CHOICES, CHOICE_LOBE);
 
 // What a piece is painted with.
 struct Paint {

@@ -45,8 +45,8 @@ void main() {
     Task task;
     if (is_job) task = job_task();
     else task = tile_task();
-    if (task.place.x >= header.size.x || task.place.y >= slice.band_height) return;
-    uvec2 pixel = uvec2(task.place.x, task.place.y + slice.band_y) + header.image.zw;
+    if (!in_film(header, task.place)) return;
+    uvec2 pixel = picture_pixel(header, task.place);
     // Of a job, a sample's share of the pixel is by the samples that the pixel has at its end.
     if (FILTERED && is_job && header.key.z != FOOTPRINT_NONE) {
         float share = inversesqrt(2.0 * float(task.end)) * filter_width(header);
@@ -109,7 +109,7 @@ void main() {
         s += path.goes_on ? 0u : 1u;
     }
 
-    uint at = task.place.y * header.size.x + task.place.x;
+    uint at = film_index(header, task.place);
     uint pixels = header.size.x * slice.band_height;
     bool is_signed = MODE_IS(PIXEL_FILTERS, PIXEL_FILTER_MITCHELL, header.pixel_filter.x);
     if (is_job) {

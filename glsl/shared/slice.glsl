@@ -4,6 +4,8 @@
 #ifndef SLICE_GLSL
 #define SLICE_GLSL
 
+#include "layout.glsl"
+
 layout(local_size_x_id = 0, local_size_y_id = 1, local_size_z = 1) in;
 
 layout(std430, set = 0, binding = 0) buffer Film { vec4 film[]; };
@@ -30,5 +32,13 @@ uvec2 film_pixel() {
     uvec2 group = uvec2(gl_WorkGroupID.x % across, gl_WorkGroupID.x / across);
     return origin + group * gl_WorkGroupSize.xy + gl_LocalInvocationID.xy;
 }
+
+// Tiles reach beyond the picture.
+bool in_film(Header header, uvec2 place) { return place.x < header.size.x && place.y < slice.band_height; }
+
+// Of the whole picture, before any crop.
+uvec2 picture_pixel(Header header, uvec2 place) { return uvec2(place.x, place.y + slice.band_y) + header.image.zw; }
+
+uint film_index(Header header, uvec2 place) { return place.y * header.size.x + place.x; }
 
 #endif

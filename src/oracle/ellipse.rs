@@ -2,10 +2,11 @@
 
 use glam::{DVec2, DVec3, DVec4};
 
+use super::address::reduced_coordinate;
 use super::levels::Reader;
 use super::mapping::Coordinate;
 use super::spread::Spread;
-use super::texture::{addresses, level_at, reduced_coordinate};
+use super::texture::{addresses, level_at};
 use crate::texture::sampler_spec::TexelCenter;
 
 /// The level on which the minor axis, full width, lies between 2^-ELLIPSE_LEVEL and twice that in texels.

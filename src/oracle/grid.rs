@@ -3,6 +3,8 @@
 
 use glam::DVec2;
 
+use super::address::addressed_texel;
+use super::texture::addresses;
 use crate::layout::{Sampler, Texture};
 use crate::texture::sampler_spec::{Address, Filter, TexelCenter};
 
@@ -20,7 +22,7 @@ pub struct Grid<'a> {
     first_word: i64,
     /// Of the texture's sums.
     head: i64,
-    address: [u32; 2],
+    address: [Address; 2],
     /// Between texels colour changes linearly, not in steps.
     pub linear: bool,
     /// Cells an axis a unit of the coordinate, and where cell 0 begins.
@@ -40,6 +42,7 @@ pub fn texture_grid<'a>(sums: &'a [u32], index: u32, texture: &Texture, sampler:
     let word = |i: i64| sums[(head + i) as usize];
     let [_, width, height, _] = texture.place;
     let linear = sampler.modes[2] == Filter::Linear as u32;
+    let [u, v, _] = addresses(sampler);
     let integer = sampler.modes[3] == TexelCenter::Integer as u32;
     Grid {
         sums,
@@ -50,7 +53,7 @@ pub fn texture_grid<'a>(sums: &'a [u32], index: u32, texture: &Texture, sampler:
         channels: word(0).into(),
         first_word: word(HEADER_WORDS).into(),
         head,
-        address: [sampler.modes[0], sampler.modes[1]],
+        address: [u, v],
         linear,
         scale: DVec2::new(width.into(), height.into()),
         // Linear cells lie between texel centres, of which the integer rule moves all by half a texel.
@@ -70,7 +73,7 @@ pub fn checker_grid() -> Grid<'static> {
         channels: 1,
         first_word: 0,
         head: 0,
-        address: [0, 0],
+        address: [Address::Repeat; 2],
         linear: false,
         scale: DVec2::ONE,
         shift: 0.0,
@@ -90,17 +93,12 @@ pub fn coarser<'a>(grid: Grid<'a>, level: i64) -> Grid<'a> {
     let size = grid.size.map(|n| (n >> held).max(1));
     Grid {
         even: level > coarsest,
-        unknown: grid.address.contains(&(Address::ClampToEdge as u32)),
+        unknown: grid.address.contains(&Address::ClampToEdge),
         size,
         first_word: word(HEADER_WORDS + held),
         scale: DVec2::new(size[0] as f64, size[1] as f64),
         ..grid
     }
-}
-
-/// ⌊a / b⌋ for b > 0.
-fn floor_div(a: i64, b: i64) -> i64 {
-    if a < 0 { -1 - (-1 - a) / b } else { a / b }
 }
 
 /// Codes of a row, which begins at word `first`, summed from column 0 to before column i, modulo 2³².
@@ -121,15 +119,8 @@ pub fn addressed_row(grid: &Grid, j: i64) -> i64 {
     if grid.checker {
         return j & 1;
     }
-    let size = grid.size[1];
-    let row = if grid.address[1] == Address::Repeat as u32 {
-        j - size * floor_div(j, size)
-    } else if grid.address[1] == Address::MirroredRepeat as u32 {
-        let left = j - 2 * size * floor_div(j, 2 * size);
-        if left < size { left } else { 2 * size - 1 - left }
-    } else {
-        j.clamp(0, size - 1)
-    };
+    // Beams read no texture that has a border.
+    let row = addressed_texel(grid.address[1], j, grid.size[1]).unwrap_or(0);
     grid.first_word + row * (grid.size[0] + 1) * grid.channels
 }
 
@@ -142,19 +133,15 @@ struct Column {
 }
 
 fn addressed_column(grid: &Grid, i: i64) -> Column {
-    let size = grid.size[0];
-    if grid.address[0] == Address::Repeat as u32 {
-        let rows = floor_div(i, size);
-        Column { texel: i - size * rows, rows, back: false }
-    } else if grid.address[0] == Address::MirroredRepeat as u32 {
-        let period = floor_div(i, 2 * size);
-        let left = i - 2 * size * period;
-        let back = left >= size;
-        let texel = if back { 2 * size - 1 - left } else { left };
-        Column { texel, rows: 2 * period + if back { 2 } else { 0 }, back }
-    } else {
-        Column { texel: i.clamp(0, size - 1), rows: 0, back: false }
+    let mode = grid.address[0];
+    let texel = addressed_texel(mode, i, grid.size[0]).unwrap_or(0);
+    let mirrors = mode == Address::MirroredRepeat;
+    if !mirrors && mode != Address::Repeat {
+        return Column { texel, rows: 0, back: false };
     }
+    let rows = i.div_euclid(grid.size[0]);
+    let back = mirrors && rows & 1 != 0;
+    Column { texel, rows: rows + i64::from(back), back }
 }
 
 /// Codes of a column's texel, and summed up to it from column 0, negative before that.
@@ -176,7 +163,7 @@ pub fn codes_at(grid: &Grid, row: i64, i: i64) -> Codes {
     if column.rows != 0 {
         before = plus(before, column.rows, stored_sum(grid, row, grid.size[0]));
     }
-    if grid.address[0] == Address::ClampToEdge as u32 {
+    if grid.address[0] == Address::ClampToEdge {
         before = plus(before, i - column.texel, own);
     }
     Codes { own, before }

@@ -2,9 +2,10 @@
 
 use glam::{DVec2, DVec3, DVec4};
 
+use super::address::reduced_coordinate;
 use super::mapping::{face_uv, on_cube_face, within_face};
 use super::spread::kind_of;
-use super::texture::{Level, addresses, fetch_or_border, fetch_texel, flat_texel, reduced_coordinate};
+use super::texture::{Level, addresses, fetch_or_border, fetch_texel, flat_texel};
 use crate::layout::{Sampler, Texture};
 use crate::pack::{PackedScene, TextureKind};
 use crate::texture::sampler_spec::{Filter, TexelCenter};

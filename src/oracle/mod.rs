@@ -3,6 +3,7 @@
 //! functions in the same order. Sample positions are
 //! integers and equal bit for bit; everything after them differs by the rounding of f32 only.
 
+pub mod address;
 pub mod beam;
 pub mod camera;
 pub mod choices;

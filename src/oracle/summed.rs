@@ -2,9 +2,10 @@
 
 use glam::{DVec2, DVec4};
 
+use super::address::reduced_coordinate;
 use super::mapping::Coordinate;
 use super::math::vec4;
-use super::texture::{addresses, reduced_coordinate};
+use super::texture::addresses;
 use crate::layout::{Sampler, Texture};
 use crate::pack::PackedScene;
 use crate::texture::sampler_spec::{Address, TexelCenter};

@@ -1,8 +1,9 @@
-//! Texels: which one an addressed place means, and its value as linear RGBA in f64, from the packed
+//! Texels: the one at an addressed place, and its value as linear RGBA in f64, from the packed
 //! bytes. Follows Vulkan 1.3, "Image Sample Operations". Twin of `glsl/shared/texture.glsl`.
 
 use glam::DVec4;
 
+use super::address::addressed_texel;
 use super::math::vec4;
 use crate::color::srgb_to_linear;
 use crate::layout::{Sampler, Texture};
@@ -49,30 +50,6 @@ pub fn fetch_texel(scene: &PackedScene, image: &Texture, level: &Level, at: [i64
         1 => DVec4::new(light(0), light(0), light(0), 1.0),
         2 => DVec4::new(light(0), light(0), light(0), channel(1)),
         _ => DVec4::new(light(0), light(1), light(2), channel(3)),
-    }
-}
-
-/// The coordinate in texels, brought near the texture without changing what it reads. What is not
-/// finite reads as 0 in the periodic modes; in the others NaN reads as the lower end.
-pub fn reduced_coordinate(mode: Address, u: f64, size: f64) -> f64 {
-    let reduced = match mode {
-        Address::Repeat => u - u.floor(),
-        Address::MirroredRepeat => u - 2.0 * (0.5 * u).floor(),
-        _ if u >= -2.0 => u.min(3.0),
-        _ => -2.0,
-    };
-    if reduced.is_finite() { reduced * size } else { 0.0 }
-}
-
-/// Vulkan 1.3, "Wrapping Operation", for every i; `None` asks for the border colour.
-pub fn addressed_texel(mode: Address, i: i64, size: i64) -> Option<i64> {
-    let mirror = |n: i64| if n >= 0 { n } else { -1 - n };
-    match mode {
-        Address::Repeat => Some(i.rem_euclid(size)),
-        Address::MirroredRepeat => Some(size - 1 - mirror(i.rem_euclid(2 * size) - size)),
-        Address::ClampToEdge => Some(i.clamp(0, size - 1)),
-        Address::ClampToBorder => (0..size).contains(&i).then_some(i),
-        Address::MirrorClampToEdge => Some(mirror(i).clamp(0, size - 1)),
     }
 }
 

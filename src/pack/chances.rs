@@ -1,18 +1,18 @@
 //! Scene → which choices its samples make beside their place in the pixel, and the header's numbers of lens and
 //! shutter.
 
-use glam::{DVec3, DVec4};
+use glam::DVec4;
 
 use super::Choice;
-use crate::scene::model::{Light, Scene};
+use crate::scene::model::Scene;
 
 /// What samples choose beside their place in the pixel.
 pub fn chances(scene: &Scene) -> u32 {
     let of = |choice: &Choice| match choice {
         Choice::Lens => scene.camera.lens.is_some(),
-        Choice::Time => scene.camera.moves() || scene.motions().any(|motion| motion != DVec3::ZERO),
-        Choice::Lobe => scene.sampling.max_depth > 0 && scene.materials.iter().any(|m| m.roughness > 0.0),
-        Choice::Light => scene.lights.iter().any(Light::has_extent),
+        Choice::Time => scene.moves(),
+        Choice::Lobe => scene.sampling.max_depth > 0 && scene.is_glossy(),
+        Choice::Light => scene.has_wide_lights(),
     };
     Choice::ALL.iter().filter(|c| of(c)).fold(0, |bits, &choice| bits | 1 << choice as u32)
 }

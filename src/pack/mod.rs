@@ -112,7 +112,7 @@ pub fn pack_with(
     crop: Option<Crop>,
     pyramids: Pyramids,
 ) -> Result<PackedScene> {
-    let settled = (scene.sampling.algorithm == Algorithm::Cone).then(|| cone::settle(scene).0);
+    let settled = (scene.sampling.algorithm == Algorithm::Cone).then(|| cone::settle(scene));
     let scene = settled.as_ref().unwrap_or(scene);
     let crop = crop.unwrap_or(Crop { x: 0, y: 0, width: scene.width, height: scene.height });
     let samples = scene.sampling.samples();
@@ -142,7 +142,7 @@ pub fn pack_with(
     }
     packed.lights = scene.lights.iter().map(|l| shapes::light(l, scene.camera.eye)).collect();
     packed.header.key[1] = packed.lights.len() as u32;
-    if scene.motions().any(|motion| motion != DVec3::ZERO) {
+    if scene.shapes_move() {
         packed.motions = scene.motions().map(|m| layout::Motion { shift: vec4(m.extend(0.0)) }).collect();
     }
     let moves = u32::from(scene.camera.moves());

@@ -197,17 +197,7 @@ pub fn needs_linear_floats(texture: &TextureData) -> bool {
 }
 
 fn linear_floats(texture: &TextureData) -> TextureData {
-    let channels = texture.format.channels();
-    let texel = |x, y| (0..channels).map(move |c| texture.linear_value(x, y, c) as f32);
-    let row = |y| (0..texture.width).flat_map(move |x| texel(x, y));
-    let floats: Vec<f32> = (0..texture.height * texture.depth).flat_map(row).collect();
-    TextureData {
-        name: texture.name.clone(),
-        format: TexelFormat::new(channels, Component::Float32),
-        color_space: ColorSpace::Linear,
-        texels: bytemuck::cast_slice(&floats).to_vec(),
-        ..*texture
-    }
+    texture.with_floats(texture.format.channels(), |x, y, c| texture.linear_value(x, y, c) as f32)
 }
 
 /// The slot of this pair among those of its kind, new or shared. What no image holds has none.

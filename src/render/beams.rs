@@ -3,6 +3,7 @@
 
 use std::cell::OnceCell;
 use std::rc::Rc;
+use std::time::Instant;
 
 use super::film_buffer::FilmBuffer;
 use super::jobs::{Binder, JobTracer};
@@ -33,6 +34,19 @@ pub struct Sampler {
     pub groups_per_tile: u32,
 }
 
+impl Sampler {
+    pub fn tracer<'a>(
+        &'a self,
+        gpu: &'a Gpu,
+        resources: &'a Resources,
+        scene: &PackedScene,
+        report: &'a mut Report,
+    ) -> Result<JobTracer<'a>> {
+        let binder = Binder { resources, pipeline: &self.pipeline, shader: self.shader };
+        JobTracer::new(gpu, binder, self.groups_per_tile, scene, report)
+    }
+}
+
 /// What the samples of the flagged pixels need.
 pub struct Fallback<'s> {
     pub resources: &'s Resources,
@@ -41,7 +55,7 @@ pub struct Fallback<'s> {
 }
 
 impl Beams<'_> {
-    /// `build` makes the sampling pipeline.
+    /// `build` makes the sampling pipeline; its time is compiling's, not rendering's.
     pub fn render(
         &self,
         gpu: &Gpu,
@@ -51,6 +65,7 @@ impl Beams<'_> {
         report: &mut Report,
         progress: &dyn Progress,
     ) -> Result<Film> {
+        let clock = Instant::now();
         let mut film = Film::new(width, height, 1);
         let mut left: Vec<u32> = Vec::new();
         let mut plan = slices::Plan::starting_with(FIRST_TILES, 1, 1, self.film.tiles());
@@ -64,17 +79,21 @@ impl Beams<'_> {
             })?;
         }
         report.sampled_pixels = Some(left.len() as u64);
+        report.seconds.render = clock.elapsed().as_secs_f64();
         if left.is_empty() {
             return Ok(film);
         }
+        let clock = Instant::now();
         if self.sampler.get().is_none() {
+            let sampler = build()?;
+            sampler.tracer(gpu, fallback.resources, fallback.scene, &mut Report::default())?.warm_up()?;
             // Never set twice: it was empty just now.
-            let _ = self.sampler.set(build()?);
+            let _ = self.sampler.set(sampler);
         }
         let sampler = self.sampler.get().ok_or_else(|| Error::new("no pipeline for samples"))?;
-        let binder =
-            Binder { resources: fallback.resources, pipeline: &sampler.pipeline, shader: sampler.shader };
-        let mut tracer = JobTracer::new(gpu, binder, sampler.groups_per_tile, fallback.scene, report)?;
+        report.seconds.compile += clock.elapsed().as_secs_f64();
+        let clock = Instant::now();
+        let mut tracer = sampler.tracer(gpu, fallback.resources, fallback.scene, report)?;
         let job =
             |&i: &u32| Job { place: Job::place_of(i, width), part: 0, first: 0, count: fallback.samples };
         tracer.sample(&left.iter().map(job).collect::<Vec<_>>(), progress)?;
@@ -85,6 +104,7 @@ impl Beams<'_> {
             let sum = sums.halves[0][i as usize];
             film.pixels[i as usize] = std::array::from_fn(|c| sum[c] / fallback.samples as f32);
         }
+        report.seconds.render += clock.elapsed().as_secs_f64();
         Ok(film)
     }
 }

@@ -19,14 +19,14 @@ use crate::shaders::{self, Shader};
 
 use super::beams::{Beams, Fallback, Sampler};
 use super::film_buffer::FilmBuffer;
-use super::jobs::{Binder, JobTracer};
+use super::jobs::JobTracer;
 use super::resources::{Resources, shader_for};
 use super::turns::samples_at_once;
 use super::{Renderer, Report, Tuning, build_pipeline, slices, tuning};
 
 pub struct Session<'a> {
     gpu: &'a Gpu,
-    /// Without its texels: the device has them.
+    /// Without texels and their sums: the device has them.
     scene: PackedScene,
     resources: Resources,
     keep_everything: bool,
@@ -69,7 +69,7 @@ impl<'a> Session<'a> {
         let features = features_of(gpu, &scene, keep_everything, tuning);
         let resources = Resources::upload(gpu, &scene, &features)?;
         let films = RefCell::new([None, None]);
-        scene.texels = Vec::new();
+        (scene.texels, scene.row_sums) = (Vec::new(), Vec::new());
         let header = Cell::new(scene.header);
         let upload_seconds = clock.elapsed().as_secs_f64();
         Ok(Session { gpu, scene, resources, keep_everything, tuning: *tuning, header, films, upload_seconds })
@@ -213,15 +213,11 @@ impl Prepared<'_, '_> {
                 film
             }
             Work::Beams(beams) => {
-                let clock = Instant::now();
                 let session = self.session;
                 let (resources, scene) = (&session.resources, &session.scene);
                 let fallback = Fallback { resources, scene, samples: self.samples };
                 let build = || session.beside_beams();
-                let film =
-                    beams.render(session.gpu, [width, height], &fallback, build, &mut report, progress)?;
-                report.seconds.render = clock.elapsed().as_secs_f64();
-                film
+                beams.render(session.gpu, [width, height], &fallback, build, &mut report, progress)?
             }
             Work::Jobs { .. } => {
                 let clock = Instant::now();
@@ -246,11 +242,10 @@ impl Prepared<'_, '_> {
     }
 
     fn tracer<'t>(&'t self, report: &'t mut Report) -> Result<JobTracer<'t>> {
-        let Work::Jobs { sampler: Sampler { pipeline, shader, groups_per_tile } } = &self.work else {
+        let Work::Jobs { sampler } = &self.work else {
             return Err(Error::new("a scene that is rendered tile by tile has no jobs"));
         };
-        let binder = Binder { resources: &self.session.resources, pipeline, shader };
-        JobTracer::new(self.session.gpu, binder, *groups_per_tile, &self.session.scene, report)
+        sampler.tracer(self.session.gpu, &self.session.resources, &self.session.scene, report)
     }
 }
 

@@ -1,7 +1,6 @@
 //! Scene → what a person should know before looking at the picture: settings that are valid, and yet do
 //! not do what their names promise in this scene or on this device.
 
-use super::cone;
 use super::model::{Algorithm, Footprint, PixelFilter, Scene};
 use crate::texture::sampler_spec::{Filter, Method, MipMode, SamplerSpec};
 
@@ -16,7 +15,7 @@ pub fn of_scene(scene: &Scene) -> Vec<String> {
                 .into(),
         );
     }
-    if algorithm == Algorithm::Cone && cone::settle(scene).1 {
+    if algorithm == Algorithm::Cone && scene.leaves_more_to_chance() {
         told.push(
             "cones choose nothing by chance: no lens, everything as in the middle of the shutter's time, lights as \
              points at their middles, sharp reflections"

@@ -1,8 +1,6 @@
 //! What cone tracing needs of a scene: a footprint, and filters that average over it. In: a scene that may
 //! name none. Out: the scene that is traced, and what was chosen for it.
 
-use glam::DVec3;
-
 use super::model::{Algorithm, Footprint, Light, Scene};
 use crate::texture::sampler_spec::{Filter, Method, MipMode, SamplerSpec};
 
@@ -29,8 +27,8 @@ pub fn suit(scene: &mut Scene) -> Option<&'static str> {
 }
 
 /// What samples leave to chance has one value for a cone: a pinhole, everything where it is in the middle of the
-/// shutter's time, lights at their middles, sharp reflections. Whether that changes the scene.
-pub fn settle(scene: &Scene) -> (Scene, bool) {
+/// shutter's time, lights at their middles, sharp reflections.
+pub fn settle(scene: &Scene) -> Scene {
     let mut settled = scene.clone();
     let [opens, closes] = scene.camera.shutter;
     let time = 0.5 * (opens + closes);
@@ -59,10 +57,7 @@ pub fn settle(scene: &Scene) -> (Scene, bool) {
         };
     }
     settled.materials.iter_mut().for_each(|m| m.roughness = 0.0);
-    let moves = scene.camera.moves() || scene.motions().any(|m| m != DVec3::ZERO);
-    let spread =
-        scene.lights.iter().any(Light::has_extent) || scene.materials.iter().any(|m| m.roughness > 0.0);
-    (settled, moves || spread || scene.camera.lens.is_some())
+    settled
 }
 
 fn suit_sampler(sampler: &mut SamplerSpec) -> bool {

@@ -1,8 +1,8 @@
 //! Scene files: TOML text in, validated [`model::Scene`] out.
 
 pub mod advice;
-mod beam;
 mod camera;
+mod chance;
 pub mod cone;
 mod load;
 mod mapping;

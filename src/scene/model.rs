@@ -308,13 +308,6 @@ impl Sampling {
 }
 
 impl Scene {
-    /// Of all shapes: planes, spheres, triangles.
-    pub fn motions(&self) -> impl Iterator<Item = DVec3> {
-        let planes = self.planes.iter().map(|p| p.motion);
-        let spheres = self.spheres.iter().map(|s| s.motion);
-        planes.chain(spheres).chain(self.triangles.iter().map(|t| t.motion))
-    }
-
     /// The sampler a material's texture is read through; the default where there is none.
     pub fn sampler_of(&self, material: &Material) -> SamplerSpec {
         let spec = self.samplers.get(material.sampler).copied().unwrap_or_default();

@@ -5,6 +5,7 @@ mod analysis_steps;
 mod cube;
 pub mod data;
 pub mod decode;
+mod fixed_point;
 mod jpeg_end;
 pub mod load;
 pub mod mips;

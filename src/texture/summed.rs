@@ -3,9 +3,10 @@
 //! range, sums have 64 bits: they never overflow, and their differences are exact.
 
 use super::data::TextureData;
+use super::fixed_point::FixedPoint;
 
 /// Steps of the fixed point over the range of values.
-const STEPS: f64 = 16_777_215.0;
+const STEPS: u32 = 16_777_215;
 
 /// As a device reads it: the least value and a step (f32 bits), the number of channels, and then for
 /// each channel rows of `width + 1` sums, `height + 1` of them, low word first.
@@ -15,17 +16,8 @@ pub fn table(texture: &TextureData) -> Vec<u32> {
     let value = |x: usize, y: usize, c: usize| texture.linear_value(x as u32, y as u32, c);
     let texels = || (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
     let values = || texels().flat_map(|(x, y)| (0..channels).map(move |c| value(x, y, c)));
-    let least = values().fold(f64::INFINITY, f64::min) as f32;
-    let most = values().fold(f64::NEG_INFINITY, f64::max) as f32;
-    let step = ((f64::from(most) - f64::from(least)) / STEPS) as f32;
-    let fixed = |v: f64| {
-        if step > 0.0 {
-            ((v - f64::from(least)) / f64::from(step)).round().clamp(0.0, 2.0 * STEPS) as u64
-        } else {
-            0
-        }
-    };
-    let mut words = vec![least.to_bits(), step.to_bits(), channels as u32];
+    let fixed = FixedPoint::over(values(), STEPS);
+    let mut words = vec![fixed.least.to_bits(), fixed.step.to_bits(), channels as u32];
     words.reserve_exact(channels * (width + 1) * (height + 1) * 2);
     for c in 0..channels {
         let mut above = vec![0u64; width + 1];
@@ -33,7 +25,7 @@ pub fn table(texture: &TextureData) -> Vec<u32> {
             let mut row = 0u64;
             for (x, sum) in above.iter_mut().enumerate() {
                 if x > 0 && y > 0 {
-                    row += fixed(value(x - 1, y - 1, c));
+                    row += u64::from(fixed.code(value(x - 1, y - 1, c)));
                     *sum += row;
                 }
                 words.extend([*sum as u32, (*sum >> 32) as u32]);

@@ -1,7 +1,7 @@
 //! One texel as numbers in f64: stored value, linear light, and the four channels a look-up
 //! returns. The reference that packed and uploaded texels are held against.
 
-use super::data::{ColorSpace, Component, TextureData};
+use super::data::{ColorSpace, Component, TexelFormat, TextureData};
 use crate::color::srgb_to_linear;
 
 impl TextureData {
@@ -35,6 +35,22 @@ impl TextureData {
         let stored = self.value(x, y, channel);
         let is_alpha = self.format.channels() > 1 && channel + 1 == self.format.channels();
         if self.color_space == ColorSpace::Srgb && !is_alpha { srgb_to_linear(stored) } else { stored }
+    }
+
+    /// A texture of this one's size in linear floats, by column, row (as in [`value`](Self::value)) and channel.
+    pub fn with_floats(&self, channels: usize, value: impl Fn(u32, u32, usize) -> f32) -> TextureData {
+        let rows = (0..self.height * self.depth).flat_map(|y| (0..self.width).map(move |x| (x, y)));
+        let floats: Vec<f32> = rows
+            .flat_map(|(x, y)| (0..channels).map(move |c| (x, y, c)))
+            .map(|(x, y, c)| value(x, y, c))
+            .collect();
+        TextureData {
+            name: self.name.clone(),
+            format: TexelFormat::new(channels, Component::Float32),
+            color_space: ColorSpace::Linear,
+            texels: bytemuck::cast_slice(&floats).to_vec(),
+            ..*self
+        }
     }
 
     /// What a look-up of this texel returns: grey is replicated, missing alpha is 1.
