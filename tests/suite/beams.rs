@@ -55,21 +55,51 @@ fn lean_is_the_same_as_with_everything_kept() {
     assert_same_bits(&render(&scene), &kept, "beams");
 }
 
-/// Two pictures by very many samples: their mean errs by half of what they differ, and so far at most may the
-/// beams be from it.
-fn assert_meets_samples(scene: &Scene, what: &str) {
+/// Two pictures by very many samples, of two seeds.
+fn converged(scene: &Scene) -> [Film; 2] {
     let mut other = scene.clone();
     other.sampling.seed = 77;
-    let [mut a, b] = [scene.clone(), other].map(|s| render(&with_samples(s, 64 * 64)));
-    let noise = 0.5 * rmse(&a, &b);
-    for (p, q) in a.pixels.iter_mut().flatten().zip(b.pixels.iter().flatten()) {
-        *p = 0.5 * (*p + q);
+    [scene.clone(), other].map(|s| render(&with_samples(s, 64 * 64)))
+}
+
+/// By how many standard deviations the film is further from the mean of two pictures than chance explains.
+/// Half the difference of the two and the mean's error are alike in distribution, so in each pixel the squares
+/// of both differ by something of mean 0, and the sum of those varies by the sum of their squares. Allowed
+/// beside chance: beams' own bound near a horizon, RMSE 1e-4.
+fn sigmas_beyond_chance(film: &Film, [a, b]: &[Film; 2]) -> f64 {
+    let (mut sum, mut squares) = (0.0, 0.0);
+    for ((film, a), b) in film.pixels.iter().zip(&a.pixels).zip(&b.pixels) {
+        let excess: f64 = (0..3)
+            .map(|c| {
+                let [film, a, b] = [film, a, b].map(|p| f64::from(p[c]));
+                (film - 0.5 * (a + b)).powi(2) - (0.5 * (a - b)).powi(2)
+            })
+            .sum();
+        sum += excess - 3.0 * 1e-8;
+        squares += excess * excess;
     }
+    sum / squares.sqrt()
+}
+
+fn assert_meets_samples(scene: &Scene, what: &str) {
     let (film, sampled) = beams(&with_beams(scene.clone()));
     assert_eq!(sampled, 0, "{what}");
-    let apart = rmse(&film, &a);
-    // A tenth for the chance in 3 · 64² numbers, and beams' own bound near a horizon.
-    assert!(apart < 1.1 * noise + 1e-4, "{what}: RMSE {apart:e}, noise {noise:e}");
+    let pictures = converged(scene);
+    let sigmas = sigmas_beyond_chance(&film, &pictures);
+    let noise = 0.5 * rmse(&pictures[0], &pictures[1]);
+    assert!(sigmas < 3.0, "{what}: {sigmas} sigma beyond a noise of RMSE {noise:e}");
+}
+
+/// Planted: six tenths of the noise, everywhere.
+#[test]
+fn what_is_a_little_wrong_everywhere_does_not_pass_for_chance() {
+    let scene = small("s1b", 64, 4);
+    let (mut film, _) = beams(&with_beams(scene.clone()));
+    let pictures = converged(&scene);
+    let noise = 0.5 * rmse(&pictures[0], &pictures[1]) as f32;
+    film.pixels.iter_mut().flatten().for_each(|value| *value += 0.6 * noise);
+    let sigmas = sigmas_beyond_chance(&film, &pictures);
+    assert!(sigmas > 3.0, "{sigmas} sigma");
 }
 
 #[test]

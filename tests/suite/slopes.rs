@@ -1,8 +1,6 @@
 //! How the variance falls with the number of samples, on scenes made for it: smooth in every pixel, one edge in
 //! every pixel, busy in every pixel. Jittered strata have slopes of -2, -3/2 and -1 (Mitchell 1996), independent
-//! samples -1 on all three. Sine and edges vary along columns: along rows consecutive samples of a pixel repel each
-//! other a little (pcg2d of consecutive numbers), so that `random` errs less than independent samples would.
-//! Intervals come from the errors themselves: blocks of pixels are drawn anew.
+//! samples -1 on all three. Intervals come from the errors themselves: blocks of pixels are drawn anew.
 
 use moire::film::Film;
 use moire::scene::model::Pattern;

@@ -253,3 +253,35 @@ fn the_statistical_testers_find_what_they_look_for() {
     let (statistic, low, _) = chi_square((0..6_400).map(|i| i % 64), 64);
     assert!(statistic < low, "a comb passes for random");
 }
+
+/// The variance of the mean of N independent numbers is theirs / N: sums of N consecutive samples over many
+/// pixels, of each coordinate and of the first frequency of each.
+#[test]
+fn means_of_random_samples_spread_as_those_of_independent_numbers() {
+    const PIXELS: u32 = 4096;
+    for n in [16, 64, 256, 1024] {
+        let mut squares = [0.0; 4];
+        for pixel in 0..PIXELS {
+            let key = pixel_key([pixel % 64, pixel / 64], 1, false);
+            let mut sums = [0.0; 4];
+            for s in 0..n {
+                let [x, y] = sample_bits(key, s).map(|b| f64::from(b) / 4_294_967_296.0);
+                let wave = |x: f64| (std::f64::consts::TAU * x).cos();
+                let deviates = [(x - 0.5) * 12f64.sqrt(), (y - 0.5) * 12f64.sqrt(), wave(x), wave(y)];
+                sums.iter_mut().zip(deviates).for_each(|(sum, d)| *sum += d);
+            }
+            squares.iter_mut().zip(sums).for_each(|(square, sum)| *square += sum * sum / f64::from(n));
+        }
+        for (what, square, variance) in [
+            ("x", squares[0], 1.0),
+            ("y", squares[1], 1.0),
+            ("cos x", squares[2], 0.5),
+            ("cos y", squares[3], 0.5),
+        ] {
+            // A square of a normal deviate varies by 2: 5 sigma.
+            let ratio = square / f64::from(PIXELS) / variance;
+            let sigma = (2.0 / f64::from(PIXELS)).sqrt();
+            assert!((ratio - 1.0).abs() < 5.0 * sigma, "{what} of {n}: {ratio} of what is independent");
+        }
+    }
+}
