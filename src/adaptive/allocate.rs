@@ -39,6 +39,8 @@ impl Bin {
     }
 }
 
+/// A few samples more would not pay for their job: a pixel's count grows at least so much, or not at all.
+const WORTH: f64 = 1.2;
 /// Pixels that one thread takes at once.
 const CHUNK: usize = 1 << 15;
 const BINS: usize = 1024;
@@ -55,7 +57,7 @@ impl Allocation {
                 let n = count as f32;
                 let falling = variance * n.powf(p);
                 *weight = falling.powf(1.0 / (1.0 + p));
-                bins[bin_of(f64::from(n / *weight))].add(variance, n, *weight);
+                bins[bin_of(WORTH * f64::from(n / *weight))].add(variance, n, *weight);
             }
             bins
         });
@@ -63,13 +65,22 @@ impl Allocation {
         Allocation { weights, bins, exponent, pixels: counts.len() as f64 }
     }
 
+    /// How the samples are shared out over the pixels.
+    pub fn weights(&self) -> &[f32] {
+        &self.weights
+    }
+
+    /// Samples in sum with which the aim is met.
+    pub fn cost(&self, aim: Aim) -> f64 {
+        self.samples(self.multiplier(aim))
+    }
+
     /// Samples in each half after the next pass.
     pub fn counts(&self, aim: Aim, now: &[u32], growth: f64, most: u32) -> Vec<u32> {
         let multiplier = self.multiplier(aim);
         let count = |(&weight, &now): (&f32, &u32)| {
             let wanted = (f64::from(weight) * multiplier).min(f64::from(now) * growth).min(f64::from(most));
-            // A few samples more would not pay for their job.
-            if wanted < 1.2 * f64::from(now) { now } else { rounded(wanted) }
+            if wanted < WORTH * f64::from(now) { now } else { rounded(wanted) }
         };
         self.weights.par_iter().zip(now).map(count).collect()
     }
@@ -126,11 +137,12 @@ fn multiplier_of(bin: usize) -> f64 {
     ((bin as f64 - (BINS / 2) as f64) / BINS_AN_OCTAVE).exp2()
 }
 
-/// Up to a number with two significant bits: counts with many factors of two suit nets in base 2.
+/// To the nearest number with two significant bits: counts with many factors of two suit nets in base 2, and
+/// what one pixel gains another loses.
 fn rounded(wanted: f64) -> u32 {
     let wanted = wanted as u32;
     let step = (wanted.max(2).ilog2() - 1).min(30);
-    wanted.div_ceil(1 << step) << step
+    ((wanted + (1 << step >> 1)) >> step) << step
 }
 
 #[cfg(test)]

@@ -11,6 +11,8 @@ use rayon::prelude::*;
 
 use super::Sums;
 
+/// Pixels that one thread takes at once.
+const CHUNK: usize = 1 << 15;
 /// Pixels on each side of the window's middle.
 const RADIUS: usize = 3;
 
@@ -43,6 +45,16 @@ impl Estimate {
             own.max(contrast(&seen, i, width, height) / (3.0 * n * n))
         };
         Estimate { variances: (0..seen.len()).into_par_iter().map(variance).collect(), mse }
+    }
+}
+
+impl Estimate {
+    /// The variances' mean over the error that the halves tell.
+    pub fn weight(&self) -> f64 {
+        let chunks: Vec<f64> =
+            self.variances.par_chunks(CHUNK).map(|chunk| chunk.iter().map(|&v| f64::from(v)).sum()).collect();
+        let mean = chunks.iter().sum::<f64>() / self.variances.len() as f64;
+        if self.mse > 0.0 { mean / self.mse } else { 1.0 }
     }
 }
 

@@ -6,6 +6,7 @@
 mod allocate;
 mod bias;
 mod estimate;
+mod exact;
 
 use std::collections::BTreeMap;
 use std::time::Instant;
@@ -20,6 +21,9 @@ use crate::progress::Progress;
 use allocate::{Aim, Allocation};
 use bias::bias;
 use estimate::Estimate;
+use exact::{Exact, OWN_ERROR, Outlook, needed};
+
+pub use exact::Trial;
 
 /// What ends the sampling.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,6 +45,14 @@ pub trait Tracer {
     fn prefilters(&self) -> bool;
     /// The sums so far.
     fn read(&mut self, sums: &mut Sums) -> Result<()>;
+    /// Tells a part of the picture without samples, to see what that takes. None where it cannot.
+    fn trial(&mut self, _: &dyn Progress) -> Result<Option<Trial>> {
+        Ok(None)
+    }
+    /// Tells the whole picture: of each pixel red, green, blue and 0, or a last 1 where it needs samples.
+    fn tell(&mut self, _: &dyn Progress) -> Result<Vec<[f32; 4]>> {
+        Ok(Vec::new())
+    }
 }
 
 /// Of each half, row by row: sums of red, green, blue, and of their squares' mean.
@@ -61,6 +73,8 @@ pub struct Outcome {
     pub mean_samples: f64,
     pub least_samples: u32,
     pub most_samples: u32,
+    /// Pixels that one beam tells: they have no noise, and their samples do not count.
+    pub beam_pixels: u64,
     /// Whether the goal was met before the limit of samples.
     pub reached: bool,
 }
@@ -74,8 +88,8 @@ const GROWTH: f64 = 8.0;
 const MOST: u32 = 1 << 16;
 /// The estimate leans towards pixels whose halves agree by chance. It is believed when it lies below the goal
 /// by the first factor; passes are planned for the second, so that few are needed.
-const BELIEVED: f64 = 0.97;
-const PLANNED: f64 = 0.93;
+const BELIEVED: f64 = 0.94;
+const PLANNED: f64 = 0.91;
 /// Part of the remaining time that a pass is planned for.
 const OF_TIME: f64 = 0.85;
 
@@ -94,20 +108,28 @@ pub fn run(
     let mut outcome = Outcome::default();
     let mut taken;
     let mut exponent = estimate::Exponent::default();
+    let mut exact = Exact::default();
     let estimate = loop {
-        tracer.sample(&jobs(&counts, &next, width), progress)?;
-        counts.clone_from(&next);
+        if next != counts {
+            tracer.sample(&jobs(&counts, &next, width), progress)?;
+            counts.clone_from(&next);
+            outcome.passes += 1;
+        }
         tracer.read(&mut sums)?;
+        exact.replace(&mut sums, &counts);
         taken = total(&counts);
-        outcome.passes += 1;
 
-        let estimate = Estimate::new(&sums, &counts);
+        let mut estimate = Estimate::new(&sums, &counts);
+        exact.settle(&mut estimate);
         exponent.learn(taken, estimate.mse);
-        outcome.estimated_rmse = estimate.mse.sqrt();
+        outcome.beam_pixels = exact.told() as u64;
+        let told = outcome.beam_pixels as f64 / pixels as f64;
+        outcome.estimated_rmse = estimate.mse.sqrt().hypot(OWN_ERROR * told.sqrt());
         let elapsed = start.elapsed().as_secs_f64();
         let aim = match goal {
             Goal::Samples(spp) => Aim::Samples(f64::from(spp) * pixels as f64),
-            Goal::Error(rmse) => Aim::Mse((rmse * PLANNED).powi(2)),
+            // In the allocation's measure, which weighs what may have been missed too.
+            Goal::Error(rmse) => Aim::Mse((rmse * PLANNED).powi(2) * estimate.weight()),
             Goal::Seconds(limit) => {
                 Aim::Samples(taken + taken / elapsed * (limit - elapsed).max(0.0) * OF_TIME)
             }
@@ -115,12 +137,24 @@ pub fn run(
         outcome.reached = match (aim, goal) {
             (Aim::Mse(_), Goal::Error(rmse)) => outcome.estimated_rmse <= rmse * BELIEVED,
             (Aim::Mse(_), _) => false,
-            (Aim::Samples(all), _) => taken * 1.02 >= all,
+            (Aim::Samples(all), _) => taken * 1.02 >= all || estimate.mse == 0.0 && told == 1.0,
         };
         if outcome.reached {
             break estimate;
         }
         let allocation = Allocation::new(&estimate, &counts, exponent.value());
+        let needed = needed(&allocation, aim);
+        let outlook = Outlook {
+            goal,
+            passes: outcome.passes,
+            elapsed,
+            mse: estimate.mse,
+            exponent: exponent.value(),
+            left: Outlook::left(goal, elapsed, taken, needed),
+        };
+        if exact.tell(tracer, &outlook, &estimate, &allocation, progress)? {
+            continue;
+        }
         next = allocation.counts(aim, &counts, GROWTH, MOST);
         if next == counts {
             break estimate;

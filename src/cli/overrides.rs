@@ -71,7 +71,10 @@ impl Overrides {
         sampling.spp = self.spp.unwrap_or(sampling.spp);
         let wanted = if self.goal().is_some() { Algorithm::Auto } else { sampling.algorithm };
         sampling.algorithm = self.algorithm.unwrap_or(wanted);
-        sampling.pattern = self.pattern.unwrap_or(sampling.pattern);
+        // What errs least of those that stop anywhere.
+        let wanted =
+            if sampling.algorithm == Algorithm::Auto { Pattern::SobolOwen } else { sampling.pattern };
+        sampling.pattern = self.pattern.unwrap_or(wanted);
         sampling.seed = self.seed.unwrap_or(sampling.seed);
         // A prefilter's bias does not fall with the samples as their noise does.
         let free = if sampling.algorithm == Algorithm::Auto { Footprint::None } else { sampling.footprint };

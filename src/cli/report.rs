@@ -86,6 +86,10 @@ pub fn say(ran: &Ran, outputs: &[String], verbose: bool) {
         ));
     }
     if let Some(o) = &report.outcome {
+        if o.beam_pixels > 0 {
+            let told = 100.0 * o.beam_pixels as f64 / ran.film.pixels.len() as f64;
+            tell(format_args!("one beam a pixel told {} pixels ({told:.2} %)", o.beam_pixels));
+        }
         if o.estimated_bias > 0.0 {
             tell(format_args!(
                 "the footprint's bias is about {:.2e} RMSE; --footprint none has none",

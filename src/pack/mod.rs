@@ -13,6 +13,8 @@ mod sections;
 mod shapes;
 mod textures;
 
+use std::sync::Arc;
+
 use glam::{DVec3, DVec4};
 
 use crate::error::Result;
@@ -30,7 +32,7 @@ pub use pixel_filter::{divisor, kernel};
 pub use procedural::procedural;
 pub use pyramids::{Pyramids, reads_levels};
 pub use sections::Sections;
-pub use textures::{MAX_SLOTS, Slot};
+pub use textures::{MAX_SLOTS, Slot, row_sums};
 
 /// A part of the picture, in pixels of the full picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -86,6 +88,8 @@ pub struct PackedScene {
     pub beams: bool,
     /// For beams: where each texture's sums along rows begin, 0 for none; then those.
     pub row_sums: Vec<u32>,
+    /// What those sums are made from, where beams may still be wanted.
+    pub beam_textures: Option<Arc<Vec<TextureData>>>,
     /// The table by which samples are placed about their pixel; empty where there is a closed form.
     pub pixel_filter: Vec<f32>,
     /// Mean of the samples' signs, where the pixel filter has negative lobes.
@@ -129,6 +133,8 @@ pub fn pack_with(
     packed.beams = scene.sampling.algorithm == Algorithm::Beam && scene.suits_beams();
     if packed.beams {
         packed.row_sums = textures::row_sums(&textures);
+    } else if algorithm == Algorithm::Auto && scene.suits_beams() {
+        packed.beam_textures = Some(Arc::new(textures.clone()));
     }
     packed.samplers = scene.samplers.iter().map(|spec| textures::sampler(spec, filtered)).collect();
     textures::pack_textures(&mut packed, scene, textures, pyramids)?;

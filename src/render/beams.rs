@@ -8,7 +8,7 @@ use std::time::Instant;
 use super::film_buffer::FilmBuffer;
 use super::jobs::{Binder, JobTracer};
 use super::{Renderer, Report, Resources, slices};
-use crate::adaptive::{Sums, Tracer};
+use crate::adaptive::{Sums, Tracer, Trial};
 use crate::error::{Error, Result};
 use crate::film::Film;
 use crate::gpu::{Gpu, Pipeline};
@@ -19,10 +19,48 @@ use crate::shaders::Shader;
 
 /// A beam takes as long as many samples.
 const FIRST_TILES: f64 = 2.0;
+/// A trial is on one tile of so many, of those first in line, which lie far apart.
+const TRIAL_PART: u32 = 8;
 
-pub struct Beams<'a> {
+/// What tells pixels by beams.
+pub struct Teller<'a> {
     pub renderer: Renderer<'a>,
     pub film: Rc<FilmBuffer>,
+}
+
+impl Teller<'_> {
+    /// Of each pixel red, green, blue and 0, or a last 1 where beams cannot tell.
+    pub fn tell(&self, gpu: &Gpu, report: &mut Report, progress: &dyn Progress) -> Result<Vec<[f32; 4]>> {
+        let mut pixels = Vec::new();
+        let mut plan = slices::Plan::starting_with(FIRST_TILES, 1, 1, self.film.tiles());
+        for band in self.film.bands() {
+            self.renderer.band(&band, &mut plan, report, progress)?;
+            self.film.read_with(gpu, &band, |_, pixel, _| pixels.push(pixel))?;
+        }
+        Ok(pixels)
+    }
+
+    /// The first tiles in line of the first band.
+    pub fn trial(&self, gpu: &Gpu, report: &mut Report, progress: &dyn Progress) -> Result<Trial> {
+        let Some(band) = self.film.bands().next() else { return Ok(Trial::default()) };
+        let tiles = band.tiles.div_ceil(TRIAL_PART);
+        let mut plan = slices::Plan::starting_with(FIRST_TILES, 1, 1, tiles.into());
+        let clock = Instant::now();
+        self.renderer.tiles(&band, tiles, &mut plan, report, progress)?;
+        let seconds = clock.elapsed().as_secs_f64() * self.film.tiles() as f64 / f64::from(tiles);
+        let tried: Vec<bool> = band.first_tiles(tiles);
+        let mut pixels = Vec::new();
+        self.film.read_with(gpu, &band, |i, pixel, _| {
+            if tried[band.tile_of(i as u32, self.film.width())] {
+                pixels.push((i as u32, pixel[3] == 0.0));
+            }
+        })?;
+        Ok(Trial { seconds, pixels })
+    }
+}
+
+pub struct Beams<'a> {
+    pub teller: Teller<'a>,
     /// Of the pixels that beams leave, once there were any.
     pub sampler: OnceCell<Sampler>,
 }
@@ -68,15 +106,11 @@ impl Beams<'_> {
         let clock = Instant::now();
         let mut film = Film::new(width, height, 1);
         let mut left: Vec<u32> = Vec::new();
-        let mut plan = slices::Plan::starting_with(FIRST_TILES, 1, 1, self.film.tiles());
-        for band in self.film.bands() {
-            self.renderer.band(&band, &mut plan, report, progress)?;
-            self.film.read_with(gpu, &band, |i, pixel, _| {
-                film.pixels[i] = [pixel[0], pixel[1], pixel[2]];
-                if pixel[3] != 0.0 {
-                    left.push(i as u32);
-                }
-            })?;
+        for (i, [r, g, b, sampled]) in (0..).zip(self.teller.tell(gpu, report, progress)?) {
+            film.pixels[i as usize] = [r, g, b];
+            if sampled != 0.0 {
+                left.push(i);
+            }
         }
         report.sampled_pixels = Some(left.len() as u64);
         report.seconds.render = clock.elapsed().as_secs_f64();

@@ -46,6 +46,21 @@ impl Band {
             ..Default::default()
         }
     }
+
+    /// Of each tile by its place in the band, whether it is one of the first `count` in line (`film_pixel` of
+    /// `slice.glsl`).
+    pub fn first_tiles(&self, count: u32) -> Vec<bool> {
+        let stride = tile_stride(self.tiles);
+        let mut first = vec![false; self.tiles as usize];
+        (0..count).for_each(|k| first[(k * stride % self.tiles) as usize] = true);
+        first
+    }
+
+    /// The tile of a pixel of the picture.
+    pub fn tile_of(&self, pixel: u32, width: u32) -> usize {
+        let (x, y) = (pixel % width, pixel / width - self.y);
+        (y / TILE * self.tiles_x + x / TILE) as usize
+    }
 }
 
 impl FilmBuffer {
@@ -80,6 +95,10 @@ impl FilmBuffer {
             let tiles_x = width.div_ceil(TILE);
             Band { y, height, tiles_x, tiles: tiles_x * height.div_ceil(TILE) }
         })
+    }
+
+    pub fn width(&self) -> u32 {
+        self.width
     }
 
     /// Tiles of the whole picture.

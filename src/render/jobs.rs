@@ -1,9 +1,12 @@
 //! Lists of jobs → sums of two halves on the device, for sampling that differs from pixel to pixel. The
 //! film lies in pages of whole rows that the device's buffers can hold; each page has its own list.
 
+use std::time::Instant;
+
+use super::beams::Teller;
 use super::slices::{FIRST_SAMPLES, MAX_TILES, next_work};
-use super::{Report, Resources};
-use crate::adaptive::{Sums, Tracer};
+use super::{Report, Resources, Session};
+use crate::adaptive::{Sums, Tracer, Trial};
 use crate::error::{Error, Result};
 use crate::gpu::{BindGroup, Buffer, BufferUse, Gpu, Pipeline};
 use crate::layout::{Job, Slice, TILE};
@@ -48,6 +51,9 @@ pub struct JobTracer<'a> {
     report: &'a mut Report,
     /// Samples of the next submission, learnt from the last ones.
     next: f64,
+    /// Makes what tells pixels without samples, where that is wanted.
+    pub session: Option<&'a Session<'a>>,
+    teller: Option<Teller<'a>>,
 }
 
 impl<'a> JobTracer<'a> {
@@ -80,6 +86,8 @@ impl<'a> JobTracer<'a> {
             chunk: scene.chunk,
             report,
             next: FIRST_SAMPLES,
+            session: None,
+            teller: None,
         })
     }
 
@@ -191,5 +199,21 @@ impl Tracer for JobTracer<'_> {
             }
         }
         Ok(())
+    }
+
+    fn trial(&mut self, progress: &dyn Progress) -> Result<Option<Trial>> {
+        let Some(session) = self.session else { return Ok(None) };
+        let clock = Instant::now();
+        self.teller = session.beside_samples()?;
+        self.report.seconds.compile += clock.elapsed().as_secs_f64();
+        let Some(teller) = &self.teller else { return Ok(None) };
+        teller.trial(self.gpu, self.report, progress).map(Some)
+    }
+
+    fn tell(&mut self, progress: &dyn Progress) -> Result<Vec<[f32; 4]>> {
+        match &self.teller {
+            Some(teller) => teller.tell(self.gpu, self.report, progress),
+            None => Ok(Vec::new()),
+        }
     }
 }

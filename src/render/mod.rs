@@ -156,10 +156,22 @@ impl Renderer<'_> {
         report: &mut Report,
         progress: &dyn Progress,
     ) -> Result<()> {
+        self.tiles(band, band.tiles, plan, report, progress)
+    }
+
+    /// The first `count` tiles in line alone.
+    fn tiles(
+        &self,
+        band: &Band,
+        count: u32,
+        plan: &mut slices::Plan,
+        report: &mut Report,
+        progress: &dyn Progress,
+    ) -> Result<()> {
         for (first_sample, sample_count) in plan.chunks() {
             let mut first_tile = 0;
-            while first_tile < band.tiles {
-                let tiles = plan.tiles(band.tiles - first_tile, sample_count);
+            while first_tile < count {
+                let tiles = plan.tiles(count - first_tile, sample_count);
                 let slice = Slice { first_tile, first_sample, sample_count, ..band.slice() };
                 let groups = [self.groups_per_tile, tiles, 1];
                 let time = self.gpu.run(&self.pipeline, &self.group, bytemuck::bytes_of(&slice), groups)?;

@@ -39,18 +39,26 @@ pub fn upload(gpu: &Gpu, packed: &PackedScene, bytes: usize, maker: &mut Maker<'
 }
 
 /// The sums along rows that beams read.
-pub fn upload_row_sums(gpu: &Gpu, packed: &PackedScene) -> Result<Buffer> {
-    check(gpu, packed, packed.row_sums.len(), "use smaller textures, or --algorithm adaptive")?;
-    gpu.upload_buffer("row sums", BufferUse::TexelUint, bytemuck::cast_slice(&packed.row_sums))
+pub fn upload_row_sums(gpu: &Gpu, packed: &PackedScene, words: &[u32]) -> Result<Buffer> {
+    check(gpu, packed, words.len(), "use smaller textures, or --algorithm adaptive")?;
+    gpu.upload_buffer("row sums", BufferUse::TexelUint, bytemuck::cast_slice(words))
+}
+
+/// Whether a texel buffer holds so many words.
+pub fn fits(gpu: &Gpu, words: usize) -> bool {
+    words as u64 <= most_words(gpu)
+}
+
+/// The shader's index is an `int`, whatever the device allows.
+fn most_words(gpu: &Gpu) -> u64 {
+    gpu.info().limits.max_texel_buffer_elements.min(i32::MAX as u64)
 }
 
 fn check(gpu: &Gpu, packed: &PackedScene, words: usize, help: &str) -> Result<()> {
-    let words = words as u64;
-    // The shader's index is an `int`, whatever the device allows.
-    let limit = gpu.info().limits.max_texel_buffer_elements.min(i32::MAX as u64);
-    if words <= limit {
+    if fits(gpu, words) {
         return Ok(());
     }
+    let (words, limit) = (words as u64, most_words(gpu));
     Err(Error::with_help(
         format!(
             "the textures {} together take {} MiB, over the {} MiB of a texel buffer on device \"{}\"",

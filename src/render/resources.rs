@@ -2,6 +2,7 @@
 //! textures only the source in use.
 
 use std::borrow::Cow;
+use std::cell::OnceCell;
 
 use super::pool;
 use super::pyramids::{Maker, Top, sizes};
@@ -48,7 +49,8 @@ pub struct Resources {
     pub mips_seconds: Option<f64>,
     scene: Buffer,
     texels: Option<Buffer>,
-    row_sums: Option<Buffer>,
+    /// Once beams are wanted.
+    row_sums: OnceCell<Buffer>,
     images: Vec<(Image, Sampler)>,
     volumes: Vec<(Image, Sampler)>,
     cubes: Vec<(Image, Sampler)>,
@@ -64,7 +66,11 @@ impl Resources {
             TexelSource::Solids => Some(pool::upload(gpu, packed, packed.solid_bytes, &mut maker)?),
             TexelSource::None | TexelSource::Image => None,
         };
-        let row_sums = packed.beams.then(|| pool::upload_row_sums(gpu, packed)).transpose()?;
+        let row_sums = OnceCell::new();
+        if packed.beams {
+            // Never set twice: it is empty.
+            let _ = row_sums.set(pool::upload_row_sums(gpu, packed, &packed.row_sums)?);
+        }
         let mut uploads = Uploads { gpu, packed, maker, images: Vec::new() };
         let [mut images, mut volumes, mut cubes] = [const { Vec::new() }; 3];
         if matches!(features.source, TexelSource::Image | TexelSource::Solids) {
@@ -84,6 +90,16 @@ impl Resources {
             volumes,
             cubes,
         })
+    }
+
+    /// The sums along rows of a scene that was not packed for beams; false where the device cannot hold them.
+    pub fn add_row_sums(&self, gpu: &Gpu, packed: &PackedScene, words: &[u32]) -> Result<bool> {
+        let fits = pool::fits(gpu, words.len());
+        if fits && self.row_sums.get().is_none() {
+            // Never set twice: it was empty just now.
+            let _ = self.row_sums.set(pool::upload_row_sums(gpu, packed, words)?);
+        }
+        Ok(fits)
     }
 
     /// Replaces what the scene buffer begins with.
@@ -108,7 +124,7 @@ impl Resources {
                 (BindingKind::StorageBuffer, 4) => Bound::Buffer(queries.unwrap_or(&self.scene)),
                 (BindingKind::StorageBuffer, _) => Bound::Buffer(&self.scene),
                 (BindingKind::UniformBuffer, _) => Bound::Head(&self.scene, HEAD_BYTES as u64),
-                (BindingKind::TexelBuffer, ROW_SUMS) => Bound::Texels(self.row_sums.as_ref()?),
+                (BindingKind::TexelBuffer, ROW_SUMS) => Bound::Texels(self.row_sums.get()?),
                 (BindingKind::TexelBuffer, _) => Bound::Texels(self.texels.as_ref()?),
                 (BindingKind::SampledImage, VOLUMES) => Bound::Images(&volumes),
                 (BindingKind::SampledImage, CUBES) => Bound::Images(&cubes),

@@ -12,12 +12,12 @@ use crate::features::{self, Features};
 use crate::film::Film;
 use crate::gpu::{Gpu, Pipeline};
 use crate::layout::{Header, Slice};
-use crate::pack::{PackedScene, Schedule};
+use crate::pack::{self, PackedScene, Schedule};
 use crate::progress::Progress;
 use crate::scene::model::{Algorithm, Scene};
 use crate::shaders::{self, Shader};
 
-use super::beams::{Beams, Fallback, Sampler};
+use super::beams::{Beams, Fallback, Sampler, Teller};
 use super::film_buffer::FilmBuffer;
 use super::jobs::JobTracer;
 use super::resources::{Resources, shader_for};
@@ -103,7 +103,7 @@ impl<'a> Session<'a> {
             Schedule::Tiles if scene.beams => {
                 let features = Features { compensated: false, ..features };
                 let (renderer, film) = self.renderer(scene, &features, &shaders::BEAM)?;
-                Work::Beams(Beams { renderer, film, sampler: OnceCell::new() })
+                Work::Beams(Beams { teller: Teller { renderer, film }, sampler: OnceCell::new() })
             }
             Schedule::Tiles => {
                 let (renderer, film) =
@@ -159,6 +159,20 @@ impl<'a> Session<'a> {
     fn beside_beams(&self) -> Result<Sampler> {
         let scene = PackedScene { schedule: Schedule::Jobs, ..self.scene.clone() };
         self.sampler(&scene, &features_of(self.gpu, &scene, self.keep_everything, &self.tuning))
+    }
+
+    /// What tells pixels beside samples; none for a scene that beams do not suit, or whose textures' sums the
+    /// device cannot hold.
+    pub(super) fn beside_samples(&self) -> Result<Option<Teller<'a>>> {
+        let Some(textures) = &self.scene.beam_textures else { return Ok(None) };
+        if !self.resources.add_row_sums(self.gpu, &self.scene, &pack::row_sums(textures))? {
+            return Ok(None);
+        }
+        let scene = PackedScene { schedule: Schedule::Tiles, beams: true, ..self.scene.clone() };
+        let features = features_of(self.gpu, &scene, self.keep_everything, &self.tuning);
+        let features = Features { compensated: false, ..features };
+        let (renderer, film) = self.renderer(&scene, &features, &shaders::BEAM)?;
+        Ok(Some(Teller { renderer, film }))
     }
 
     fn film(&self, scene: &PackedScene, features: &Features) -> Result<Rc<FilmBuffer>> {
@@ -222,9 +236,11 @@ impl Prepared<'_, '_> {
             Work::Jobs { .. } => {
                 let clock = Instant::now();
                 let goal = goal.unwrap_or(Goal::Samples(self.samples));
+                let compiled = report.seconds.compile;
                 let mut tracer = self.tracer(&mut report)?;
                 let (film, outcome) = adaptive::run(&mut tracer, [width, height], goal, progress)?;
-                report.seconds.render = clock.elapsed().as_secs_f64();
+                let compiling = report.seconds.compile - compiled;
+                report.seconds.render = clock.elapsed().as_secs_f64() - compiling;
                 report.outcome = Some(outcome);
                 film
             }
@@ -245,7 +261,10 @@ impl Prepared<'_, '_> {
         let Work::Jobs { sampler } = &self.work else {
             return Err(Error::new("a scene that is rendered tile by tile has no jobs"));
         };
-        sampler.tracer(self.session.gpu, &self.session.resources, &self.session.scene, report)
+        let session = self.session;
+        let mut tracer = sampler.tracer(session.gpu, &session.resources, &session.scene, report)?;
+        tracer.session = Some(session);
+        Ok(tracer)
     }
 }
 

@@ -1,12 +1,15 @@
 //! Sampling to a goal: which samples jobs take, that device and oracle take the same, that the error asked
 //! for is the error reached, and that samples spent where they lower it lower it further.
 
-use moire::adaptive::{self, Goal, Outcome};
+use moire::adaptive::{self, Goal, Outcome, Sums, Tracer, Trial};
 use moire::film::Film;
+use moire::gpu::DeviceKind;
+use moire::layout::Job;
 use moire::metrics::compare;
 use moire::oracle::jobs::JobTracer;
+use moire::oracle::rng::sample_bits;
 use moire::pack::PackedScene;
-use moire::progress::Silent;
+use moire::progress::{Progress, Silent};
 use moire::render::{self, Tuning};
 use moire::scene::model::{Algorithm, Footprint, Pattern, Scene};
 
@@ -169,4 +172,100 @@ fn the_bias_of_a_prefilter_is_seen_and_without_a_footprint_there_is_none() {
     assert!((0.6..1.6).contains(&(estimated / error)), "{error:e}, {blurred:?}");
     let (_, sharp) = to_goal(&with(scene, Algorithm::Adaptive, 16), Goal::Samples(16), false);
     assert_eq!(sharp.estimated_bias, 0.0);
+}
+
+/// Samples of a constant and noise, slowly taken; half of the pixels can be told at once.
+struct Slow {
+    sums: Sums,
+    tells: bool,
+    prefilters: bool,
+}
+
+const TOLD: [f32; 3] = [0.5, 0.25, 0.125];
+
+impl Tracer for Slow {
+    fn sample(&mut self, jobs: &[Job], _: &dyn Progress) -> moire::error::Result<()> {
+        std::thread::sleep(std::time::Duration::from_millis(20));
+        for job in jobs {
+            let [x, y] = job.column_and_row();
+            let sum = &mut self.sums.halves[(job.part & 1) as usize][(y * self.sums.width + x) as usize];
+            for s in job.first..job.first + job.count {
+                let noise = sample_bits([job.place, job.part & 1], s)[0] as f32 / u32::MAX as f32 - 0.5;
+                let seen = TOLD.map(|v| v + noise);
+                (0..3).for_each(|c| sum[c] += seen[c]);
+                sum[3] += seen.iter().map(|v| v * v / 3.0).sum::<f32>();
+            }
+        }
+        Ok(())
+    }
+
+    fn prefilters(&self) -> bool {
+        self.prefilters
+    }
+
+    fn read(&mut self, sums: &mut Sums) -> moire::error::Result<()> {
+        sums.halves.clone_from(&self.sums.halves);
+        Ok(())
+    }
+
+    fn trial(&mut self, _: &dyn Progress) -> moire::error::Result<Option<Trial>> {
+        let pixels = (0..64).map(|i| (i, i % 2 == 0)).collect();
+        Ok(self.tells.then_some(Trial { seconds: 0.1, pixels }))
+    }
+
+    fn tell(&mut self, _: &dyn Progress) -> moire::error::Result<Vec<[f32; 4]>> {
+        let [r, g, b] = TOLD;
+        Ok((0..self.sums.halves[0].len()).map(|i| [r, g, b, (i % 2) as f32]).collect())
+    }
+}
+
+fn slowly(tells: bool, prefilters: bool, goal: Goal) -> (Film, Outcome) {
+    const SIZE: [u32; 2] = [32, 16];
+    let half = || vec![[0.0; 4]; 512];
+    let sums = Sums { width: SIZE[0], height: SIZE[1], halves: [half(), half()] };
+    adaptive::run(&mut Slow { sums, tells, prefilters }, SIZE, goal, &Silent).unwrap()
+}
+
+/// 1e-3 takes some 80 000 random samples a pixel: minutes, by the time of the first passes.
+#[test]
+fn what_is_far_from_its_goal_is_told_by_beams_and_the_rest_sampled() {
+    let (film, outcome) = slowly(true, false, Goal::Error(4e-3));
+    assert_eq!(outcome.beam_pixels, 256);
+    assert!(outcome.reached, "{outcome:?}");
+    for (i, pixel) in film.pixels.iter().enumerate() {
+        if i % 2 == 0 {
+            assert_eq!(*pixel, TOLD, "pixel {i}");
+        } else {
+            assert_ne!(*pixel, TOLD, "pixel {i}");
+        }
+    }
+    assert!(
+        outcome.least_samples < 200 && outcome.most_samples > 2000,
+        "told pixels took samples: {outcome:?}"
+    );
+}
+
+#[test]
+fn what_is_near_its_goal_or_prefiltered_or_cannot_be_told_is_sampled() {
+    for (tells, prefilters, goal) in
+        [(true, false, Goal::Error(4e-2)), (true, true, Goal::Error(4e-3)), (false, false, Goal::Error(4e-3))]
+    {
+        let (_, outcome) = slowly(tells, prefilters, goal);
+        assert_eq!(outcome.beam_pixels, 0, "{tells} {prefilters} {goal:?}");
+        assert!(outcome.passes > 1, "{outcome:?}");
+    }
+}
+
+/// A checker to the horizon is told as algorithm beam tells it; time left after that is not spent.
+#[test]
+fn time_enough_for_beams_is_spent_on_beams() {
+    if device().info().kind != DeviceKind::Cpu {
+        return; // samples of so small a picture are quicker there
+    }
+    let scene = small("s1a", 256, 4);
+    let (film, outcome) = to_goal(&with(scene.clone(), Algorithm::Auto, 16), Goal::Seconds(4.0), false);
+    assert_eq!(outcome.beam_pixels, 256 * 256, "{outcome:?}");
+    assert!(outcome.reached && outcome.estimated_rmse == 5e-5, "{outcome:?}");
+    let beams = render(&with(scene, Algorithm::Beam, 4));
+    assert!(rmse(&film, &beams) < 1e-7, "{:e}", rmse(&film, &beams)); // a product and a quotient in f32
 }
