@@ -32,7 +32,7 @@ void main() {
     if (i >= range.count) return;
     Header header = load_header();
     Ray ray = Ray(queries[i].origin.xyz, queries[i].direction.xyz, queries[i].origin.w);
-    Hit hit = nearest_hit(header, ray, NO_SHAPE);
+    Hit hit = nearest_hit(header, ray, NO_SHAPE, NO_LIST);
     bool blocked = occluded(header, ray, queries[i].direction.w, NO_SHAPE);
     Answer answer = Answer(vec4(0.0, 0.0, 0.0, FAR), vec4(0.0), vec4(0.0), uvec4(NO_SHAPE, uint(blocked), 0u, 0u));
     if (hit.shape != NO_SHAPE) {

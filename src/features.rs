@@ -119,6 +119,7 @@ const FEATURES: &[(&str, &str, Narrow)] = &[
     ("MOVING_CAMERA", "motion of the camera", Switch(|s| s.header.chances[2] != 0)),
     ("SCHEDULES", "schedule", Modes(Schedule::NAMES, |s| bit(s.schedule as u32))),
     ("PIXEL_FILTERS", "pixel filter", Modes(PixelFilterKind::NAMES, |s| bit(s.header.pixel_filter[0]))),
+    ("SURVEYED", "triangles by cells of the picture", Switch(PackedScene::surveyed)),
     ("WARPED", "samples beyond their pixels", Switch(warps)),
 ];
 

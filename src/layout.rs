@@ -42,7 +42,8 @@ mirror!(Header, 16, {
     key: [u32; 4],
     /// Planes, spheres, triangles, the environment's material or `NO_MATERIAL`.
     counts: [u32; 4],
-    /// One bit for each choice that samples make; motions; 1 when the camera moves.
+    /// One bit for each choice that samples make; motions; 1 when the camera moves; pixels along
+    /// a side of the survey's cells, 0 without one.
     chances: [u32; 4],
     lens: [f32; 4],
     view: [f32; 4],
@@ -157,6 +158,15 @@ pub struct Slice {
 }
 const _: () = assert!(size_of::<Slice>() == 36);
 
+/// Mirror of the push constants of `survey_main.glsl`: cells `first` .. `end`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
+pub struct Part {
+    pub first: u32,
+    pub end: u32,
+}
+const _: () = assert!(size_of::<Part>() == 8);
+
 /// In a job's part: without a footprint.
 pub const JOB_BARE: u32 = 2;
 
@@ -215,6 +225,16 @@ pub const CHUNK: u32 = 256;
 
 /// Cells of the table by which samples are placed about a pixel.
 pub const PIXEL_FILTER_CELLS: u32 = 512;
+
+/// Words of a cell of the survey (`survey_main.glsl`): number of triangles, calmness, up to `MOST_LISTED` triangles.
+pub const CELL_WORDS: u32 = 64;
+pub const MOST_LISTED: u32 = 62;
+/// In place of where a cell begins: all triangles are tested.
+pub const NO_LIST: u32 = u32::MAX;
+/// Calmness of a cell.
+pub const CELL_EMPTY: u32 = 0;
+pub const CELL_CALM: u32 = 1;
+pub const CELL_BUSY: u32 = 2;
 
 /// Pixels along the side of the square tiles in which work is handed out.
 pub const TILE: u32 = 64;

@@ -135,7 +135,7 @@ vec3 lit_by(Header header, Paint paint, uint shape, bool has_light, Light light)
 // SEEN, a visible piece: its colour, or the beam that goes on.
 vec3 shade(Header header, Beam beam, uint own) {
     uint shape = met_shapes[own];
-    uvec2 link = links(header, shape);
+    uvec2 link = shape_links(header, shape);
     Material record = material_at(link.x);
     Map map = map_at(link.y);
     vec3 near = met[own].nearness;

@@ -57,6 +57,7 @@ layout(constant_id = 61) const uint PROCEDURAL_KINDS = 0x3FFu;
 layout(constant_id = 62) const bool PROCEDURAL_FILTERED = true; // averaged over footprints
 layout(constant_id = 65) const uint SCHEDULES = 0x3u;
 layout(constant_id = 66) const uint PIXEL_FILTERS = 0x1Fu;
+layout(constant_id = 77) const bool SURVEYED = true;    // triangles are listed by cells of the picture
 layout(constant_id = 67) const bool WARPED = true;      // a pixel filter that is not the pixel's own square
 layout(constant_id = 80) const uint CONE_SHAPES = DYNAMIC; // of the scene, where a cone can hold all
 

@@ -32,10 +32,11 @@ struct Quotient {
 
 bool is_parallel(Header header) { return MODE_IS(PROJECTIONS, PROJECTION_ORTHOGRAPHIC, header.size.z); }
 
-Frame pixel_frame(Header header, uvec2 pixel) {
+// All rays of the pixels from the first to `more` columns and rows on, and of a margin around them.
+Frame frame_over(Header header, uvec2 pixel, float more, float margin) {
     // The unit square stands for the pixel filter's box.
-    float radius = uintBitsToFloat(header.pixel_filter.y);
-    float wide = 2.0 * radius;
+    float radius = uintBitsToFloat(header.pixel_filter.y) + margin;
+    float wide = 2.0 * radius + more;
     vec2 corner = (vec2(pixel) - 0.5 * vec2(header.image.xy)) + (0.5 - radius);
     vec3 x = header.step_x.xyz;
     vec3 y = header.step_y.xyz;
@@ -43,6 +44,8 @@ Frame pixel_frame(Header header, uvec2 pixel) {
     if (is_parallel(header)) return Frame(mat3(wide * x, wide * y, base), header.forward.xyz);
     return Frame(mat3(wide * x, wide * y, base + header.forward.xyz), vec3(0.0));
 }
+
+Frame pixel_frame(Header header, uvec2 pixel) { return frame_over(header, pixel, 0.0, 0.0); }
 
 // n · (what differs from ray to ray).
 vec3 form(Frame frame, vec3 n) { return vec3(dot3(frame.rays[0], n), dot3(frame.rays[1], n), dot3(frame.rays[2], n)); }
@@ -116,14 +119,25 @@ vec4 shape_plane(Header header, uint shape) {
     return triangle_at(shape - planes - COUNT(SPHERES, header.counts.y)).normal;
 }
 
+// Material and map.
+uvec2 shape_links(Header header, uint shape) {
+    uint planes = COUNT(PLANES, header.counts.x);
+    if (TRIANGLES == 0u || shape < planes) return plane_at(shape).link.xy;
+    return triangle_at(shape - planes - COUNT(SPHERES, header.counts.y)).link.xy;
+}
+
+vec3 nearness_of(Header header, Frame frame, uint shape) {
+    vec4 plane = shape_plane(header, shape);
+    return nearness(header, frame, plane.xyz, plane.w);
+}
+
 // Planes first, then spheres, then triangles; spheres have no region.
 Region shape_region(Header header, Frame frame, uint shape) {
     uint planes = COUNT(PLANES, header.counts.x);
     uint before_triangles = planes + COUNT(SPHERES, header.counts.y);
     Region region;
     region.count = 1u;
-    vec4 plane = shape_plane(header, shape);
-    vec3 near = nearness(header, frame, plane.xyz, plane.w);
+    vec3 near = nearness_of(header, frame, shape);
     region.nearness = near;
     region.lines[0] = in_front(header, near);
     if (TRIANGLES == 0u || shape < planes) {

@@ -6,6 +6,7 @@
 
 #include "camera.glsl"
 #include "math.glsl"
+#include "survey.glsl"
 
 struct Hit {
     float t; // in units of the direction's length; FAR on a miss
@@ -91,7 +92,8 @@ float triangle_distance(Triangle triangle, Ray ray, bool from_eye, out vec3 edge
     return (front || back) && !degenerate ? t : -1.0;
 }
 
-Hit nearest_hit(Header header, Ray ray, uint skip) {
+// `list`: of the survey's cell in which a camera ray lies, else NO_LIST.
+Hit nearest_hit(Header header, Ray ray, uint skip, uint list) {
     Hit hit = Hit(FAR, NO_SHAPE, vec3(0.0));
     uint planes = COUNT(PLANES, header.counts.x);
     uint spheres = COUNT(SPHERES, header.counts.y);
@@ -110,7 +112,15 @@ Hit nearest_hit(Header header, Ray ray, uint skip) {
         hit.t = nearer ? t : hit.t;
         hit.shape = nearer ? planes + i : hit.shape;
     }
-    for (uint i = 0u; i < triangles; i++) {
+    uint tested = triangles;
+    if (SURVEYED) {
+        if (list != NO_LIST) tested = survey[list];
+    }
+    for (uint k = 0u; k < tested; k++) {
+        uint i = k;
+        if (SURVEYED) {
+            if (list != NO_LIST) i = survey[list + 2u + k];
+        }
         vec3 edges;
         float t = triangle_distance(triangle_at(i), at_rest(header, ray, planes + spheres + i), ORIGIN_IS_EYE, edges);
         bool nearer = t > 0.0 && t < hit.t && planes + spheres + i != skip;

@@ -21,6 +21,13 @@ const uint SCHEDULE_TILES = 0u;
 const uint SCHEDULE_JOBS = 1u;
 const uint JOB_BARE = 2u; // without a footprint
 
+const uint CELL_WORDS = 64u; // of a cell of the survey: number of triangles, calmness, up to MOST_LISTED triangles
+const uint MOST_LISTED = 62u;
+const uint CELL_EMPTY = 0u;
+const uint CELL_CALM = 1u;
+const uint CELL_BUSY = 2u;
+const uint NO_LIST = 0xFFFFFFFFu;
+
 const uint PIXEL_FILTER_BOX = 0u;
 const uint PIXEL_FILTER_TENT = 1u;
 const uint PIXEL_FILTER_GAUSSIAN = 2u;

@@ -35,13 +35,6 @@ struct Paint {
     vec3 near;
 };
 
-// Material and map.
-uvec2 links(Header header, uint shape) {
-    uint planes = COUNT(PLANES, header.counts.x);
-    if (TRIANGLES == 0u || shape < planes) return plane_at(shape).link.xy;
-    return triangle_at(shape - planes - COUNT(SPHERES, header.counts.y)).link.xy;
-}
-
 bool is_smooth(Header header, uint shape) {
     uint planes = COUNT(PLANES, header.counts.x);
     if (!SMOOTH_NORMALS || TRIANGLES == 0u || shape < planes) return false;

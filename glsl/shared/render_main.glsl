@@ -56,6 +56,7 @@ void main() {
     uint part = task.part & 1u;
     uvec2 key = pixel_key(pixel, header.sampling.w + part * 0x9E3779B9u, header.key.x != 0u);
     Points points = pixel_points(header, pixel, key);
+    uint list = SURVEYED ? cell_list(header, task.place + uvec2(0u, slice.band_y)) : NO_LIST;
 
     // One loop for samples and bounces: a turn follows one ray, and a pixel whose path has ended
     // starts its next sample while its neighbours' paths go on.
@@ -94,7 +95,7 @@ void main() {
             }
             // Bits that have nothing to do with the sample's position.
             uvec2 random = RANDOM ? pcg2d(sample_bits(key, s) ^ 0x5BD1E995u) : uvec2(0u);
-            path = camera_path(ray, camera_beam(camera, ray), random);
+            path = camera_path(ray, camera_beam(camera, ray), random, list);
         }
         vec3 more = advance(header, points, choices, path);
         if (SIGNED) more *= sign;

@@ -146,12 +146,13 @@ struct Path {
     vec3 throughput;
     uvec2 random; // bits for the choices at the next hit
     uint skip;
+    uint list; // the survey's, of a camera ray
     uint depth;
     bool goes_on; // false: the path has ended, the next one starts at the camera
 };
 
-Path camera_path(Ray ray, Beam beam, uvec2 random) {
-    return Path(ray, beam, vec3(1.0), random, NO_SHAPE, 0u, true);
+Path camera_path(Ray ray, Beam beam, uvec2 random, uint list) {
+    return Path(ray, beam, vec3(1.0), random, NO_SHAPE, list, 0u, true);
 }
 
 // Where a mirrored or refracted path goes on; false where the material ends it.
@@ -198,7 +199,7 @@ bool bounced(Header header, Hit hit, Surface surface, Footprint print, Material 
 
 // Follows the path to its next hit; what that adds to the sample is returned.
 vec3 advance(Header header, Points points, Choices choices, inout Path path) {
-    Hit hit = nearest_hit(header, path.ray, path.skip);
+    Hit hit = nearest_hit(header, path.ray, path.skip, path.list);
     bool missed = hit.shape == NO_SHAPE;
     vec3 seen = path.throughput * header.background.xyz;
     bool goes_on = false;
@@ -229,6 +230,7 @@ vec3 advance(Header header, Points points, Choices choices, inout Path path) {
         }
     }
     path.skip = hit.shape;
+    path.list = NO_LIST;
     path.goes_on = goes_on && path.depth < header.size.w;
     path.depth++;
     if (BOUNCES) path.random = pcg2d(path.random);

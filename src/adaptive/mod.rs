@@ -45,6 +45,11 @@ pub trait Tracer {
     fn prefilters(&self) -> bool;
     /// The sums so far.
     fn read(&mut self, sums: &mut Sums) -> Result<()>;
+    /// Samples of each half of each pixel in the first pass, at most so many: fewer where it is known that little
+    /// is missed.
+    fn first_samples(&self, most: u32, pixels: usize) -> Result<Vec<u32>> {
+        Ok(vec![most; pixels])
+    }
     /// Tells a part of the picture without samples, to see what that takes. None where it cannot.
     fn trial(&mut self, _: &dyn Progress) -> Result<Option<Trial>> {
         Ok(None)
@@ -104,7 +109,7 @@ pub fn run(
     let half = || vec![[0.0; 4]; pixels];
     let mut sums = Sums { width, height, halves: [half(), half()] };
     let mut counts = vec![0u32; pixels];
-    let mut next = vec![first_count(goal); pixels];
+    let mut next = tracer.first_samples(first_count(goal), pixels)?;
     let mut outcome = Outcome::default();
     let mut taken;
     let mut exponent = estimate::Exponent::default();

@@ -16,9 +16,10 @@ pub struct Ran {
     pub report: Report,
 }
 
-/// By the device's timestamps; the levels of textures only where the device made them.
+/// By the device's timestamps; survey and levels of textures only where the device made them.
 fn device_seconds(report: &Report) -> Value {
     let mut seconds = Map::from_iter([("render".into(), json!(report.device_render_seconds))]);
+    seconds.extend(report.device_survey_seconds.map(|survey| ("survey".into(), json!(survey))));
     seconds.extend(report.device_mips_seconds.map(|mips| ("mips".into(), json!(mips))));
     seconds.into()
 }
@@ -68,6 +69,9 @@ pub fn say(ran: &Ran, outputs: &[String], verbose: bool) {
             "device time of rendering: {:.4} s in {} slices",
             report.device_render_seconds, report.slices
         ));
+        if let Some(survey) = report.device_survey_seconds {
+            tell(format_args!("device time of the survey: {survey:.4} s"));
+        }
         if let Some(mips) = report.device_mips_seconds {
             tell(format_args!("device time of mip pyramids: {mips:.4} s"));
         }

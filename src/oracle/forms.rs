@@ -38,16 +38,21 @@ pub struct Quotient {
 }
 
 pub fn pixel_frame(header: &Header, pixel: [u32; 2]) -> Frame {
+    frame_over(header, pixel, 0.0, 0.0)
+}
+
+/// All rays of the pixels from the first to `more` columns and rows on, and of a margin around them.
+pub fn frame_over(header: &Header, pixel: [u32; 2], more: f64, margin: f64) -> Frame {
     let corner = DVec2::new(
         f64::from(pixel[0]) - 0.5 * f64::from(header.image[0]),
         f64::from(pixel[1]) - 0.5 * f64::from(header.image[1]),
     );
     // The unit square stands for the pixel filter's box.
-    let radius = f64::from(f32::from_bits(header.pixel_filter[1]));
+    let radius = f64::from(f32::from_bits(header.pixel_filter[1])) + margin;
     let corner = corner + (0.5 - radius);
     let (x, y, forward) = (xyz(header.step_x), xyz(header.step_y), xyz(header.forward));
     let parallel = header.size[2] == ProjectionKind::Orthographic as u32;
-    let (base, wide) = (corner.x * x + corner.y * y, 2.0 * radius);
+    let (base, wide) = (corner.x * x + corner.y * y, 2.0 * radius + more);
     if parallel {
         Frame { rays: DMat3::from_cols(wide * x, wide * y, base), same: forward, parallel }
     } else {

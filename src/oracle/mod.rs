@@ -40,5 +40,6 @@ pub mod spread;
 pub mod strata;
 pub mod summed;
 pub mod surface;
+pub mod survey;
 pub mod texture;
 pub mod warps;

@@ -11,6 +11,7 @@ mod pyramids;
 mod resample;
 mod sections;
 mod shapes;
+mod survey;
 mod textures;
 
 use std::sync::Arc;
@@ -152,7 +153,8 @@ pub fn pack_with(
         packed.motions = scene.motions().map(|m| layout::Motion { shift: vec4(m.extend(0.0)) }).collect();
     }
     let moves = u32::from(scene.camera.moves());
-    packed.header.chances = [chances::chances(scene), packed.motions.len() as u32, moves, 0];
+    let side = survey::cell_side(scene, [crop.width, crop.height]);
+    packed.header.chances = [chances::chances(scene), packed.motions.len() as u32, moves, side];
     let counts = [packed.planes.len(), packed.spheres.len(), packed.triangles.len()].map(|n| n as u32);
     packed.header.counts[..3].copy_from_slice(&counts);
     Ok(packed)
@@ -221,6 +223,11 @@ impl PackedScene {
     /// Whether samples are averages over footprints.
     pub fn prefilters(&self) -> bool {
         self.header.key[2] != Footprint::None as u32
+    }
+
+    /// Whether camera rays find their triangles in lists.
+    pub fn surveyed(&self) -> bool {
+        self.header.chances[3] != 0 && self.algorithm != Algorithm::Cone && !self.beams
     }
 
     /// Does any look-up go through the device's own samplers?

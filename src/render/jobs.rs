@@ -43,6 +43,7 @@ pub struct JobTracer<'a> {
     binder: Binder<'a>,
     groups_per_tile: u32,
     pages: Vec<Page>,
+    size: [u32; 2],
     prefilters: bool,
     /// Mean of the samples' signs, where they have any: the film holds their sums behind those of radiance.
     mean_sign: Option<f64>,
@@ -81,6 +82,7 @@ impl<'a> JobTracer<'a> {
             binder,
             groups_per_tile,
             pages,
+            size: [width, height],
             prefilters: scene.prefilters(),
             mean_sign: scene.mean_sign,
             chunk: scene.chunk,
@@ -199,6 +201,13 @@ impl Tracer for JobTracer<'_> {
             }
         }
         Ok(())
+    }
+
+    fn first_samples(&self, most: u32, pixels: usize) -> Result<Vec<u32>> {
+        match self.session.and_then(Session::survey) {
+            Some(survey) => survey.first_samples(self.gpu, self.size, most),
+            None => Ok(vec![most; pixels]),
+        }
     }
 
     fn trial(&mut self, progress: &dyn Progress) -> Result<Option<Trial>> {

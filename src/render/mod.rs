@@ -3,12 +3,14 @@
 
 mod beams;
 mod film_buffer;
+mod images;
 mod jobs;
 mod pool;
 mod pyramids;
 mod resources;
 mod session;
 mod slices;
+mod survey;
 mod tuning;
 mod turns;
 
@@ -25,9 +27,9 @@ use crate::shaders::{ReflectedBinding, Shader, specialise};
 
 use film_buffer::{Band, FilmBuffer};
 
+pub use images::can_sample;
 pub(crate) use pyramids::{Maker, Top};
 pub(crate) use resources::Resources;
-pub use resources::can_sample;
 pub use session::{Prepared, Session};
 pub use tuning::{MipChoice, TexelChoice, Tuning};
 
@@ -65,6 +67,8 @@ pub struct Report {
     pub device_render_seconds: f64,
     /// The same around the passes that make levels of textures, if there were any.
     pub device_mips_seconds: Option<f64>,
+    /// The same around the survey of the picture, if there was one.
+    pub device_survey_seconds: Option<f64>,
     pub slices: u32,
     /// Wall time of the longest slice: how long a Ctrl-C may wait.
     pub longest_slice_seconds: f64,

@@ -21,6 +21,7 @@ use super::beams::{Beams, Fallback, Sampler, Teller};
 use super::film_buffer::FilmBuffer;
 use super::jobs::JobTracer;
 use super::resources::{Resources, shader_for};
+use super::survey::Survey;
 use super::turns::samples_at_once;
 use super::{Renderer, Report, Tuning, build_pipeline, slices, tuning};
 
@@ -33,6 +34,8 @@ pub struct Session<'a> {
     tuning: Tuning,
     /// What the scene buffer begins with now.
     header: Cell<Header>,
+    /// Of a scene of many triangles.
+    survey: OnceCell<Survey>,
     /// Films of this size, without compensation and with it.
     films: RefCell<[Option<Rc<FilmBuffer>>; 2]>,
     upload_seconds: f64,
@@ -69,10 +72,21 @@ impl<'a> Session<'a> {
         let features = features_of(gpu, &scene, keep_everything, tuning);
         let resources = Resources::upload(gpu, &scene, &features)?;
         let films = RefCell::new([None, None]);
+        let survey = OnceCell::new();
         (scene.texels, scene.row_sums) = (Vec::new(), Vec::new());
         let header = Cell::new(scene.header);
         let upload_seconds = clock.elapsed().as_secs_f64();
-        Ok(Session { gpu, scene, resources, keep_everything, tuning: *tuning, header, films, upload_seconds })
+        Ok(Session {
+            gpu,
+            scene,
+            resources,
+            keep_everything,
+            tuning: *tuning,
+            header,
+            survey,
+            films,
+            upload_seconds,
+        })
     }
 
     /// The scene as it was packed.
@@ -99,6 +113,12 @@ impl<'a> Session<'a> {
         report.seconds.upload = self.upload_seconds + clock.elapsed().as_secs_f64();
 
         let clock = Instant::now();
+        if scene.surveyed() && self.survey.get().is_none() {
+            let survey = Survey::new(self.gpu, scene, &self.resources, &features)?;
+            // Never set twice: both were empty just now.
+            let _ = self.resources.survey.set(survey.buffer.clone());
+            let _ = self.survey.set(survey);
+        }
         let work = match scene.schedule {
             Schedule::Tiles if scene.beams => {
                 let features = Features { compensated: false, ..features };
@@ -153,6 +173,15 @@ impl<'a> Session<'a> {
         let constants = features::constants(shader, features, &self.resources.sections, group_size, slots);
         let pipeline = build_pipeline(self.gpu, shader, &constants, slots, size_of::<Slice>())?;
         Ok((pipeline, tuning::groups_per_tile(group_size)))
+    }
+
+    pub(super) fn survey(&self) -> Option<&Survey> {
+        self.survey.get()
+    }
+
+    /// What the survey found, of each cell `CELL_WORDS` words; none without one.
+    pub fn survey_words(&self) -> Result<Option<Vec<u32>>> {
+        self.survey().map(|survey| survey.words(self.gpu)).transpose()
     }
 
     /// What samples the pixels that beams leave.
@@ -210,6 +239,11 @@ impl Prepared<'_, '_> {
         self.session.write_header(&self.header)?;
         let mut report = self.report.clone();
         let [width, height, _, _] = self.header.size;
+        let clock = Instant::now();
+        if let Some(survey) = self.session.survey() {
+            survey.run(self.session.gpu, &mut report)?;
+        }
+        let surveying = clock.elapsed().as_secs_f64();
         let film = match &self.work {
             Work::Tiles { renderer, film: buffer } => {
                 let mut film = Film::new(width, height, self.samples);
@@ -245,6 +279,7 @@ impl Prepared<'_, '_> {
                 film
             }
         };
+        report.seconds.render += surveying;
         report.device_bytes = self.session.gpu.memory_in_use();
         Ok((film, report))
     }

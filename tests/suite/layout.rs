@@ -99,6 +99,12 @@ fn expected_numbers() -> BTreeMap<String, u32> {
     all.insert("NO_TEXTURE".into(), mirror::NO_TEXTURE);
     all.insert("NO_SHAPE".into(), mirror::NO_SHAPE);
     all.insert("JOB_BARE".into(), mirror::JOB_BARE);
+    all.insert("CELL_WORDS".into(), mirror::CELL_WORDS);
+    all.insert("MOST_LISTED".into(), mirror::MOST_LISTED);
+    all.insert("CELL_EMPTY".into(), mirror::CELL_EMPTY);
+    all.insert("CELL_CALM".into(), mirror::CELL_CALM);
+    all.insert("CELL_BUSY".into(), mirror::CELL_BUSY);
+    all.insert("NO_LIST".into(), mirror::NO_LIST);
     all.insert("NO_MATERIAL".into(), mirror::NO_MATERIAL);
     all.insert("PIXEL_FILTER_CELLS".into(), mirror::PIXEL_FILTER_CELLS);
     all.insert("HEAD_UNITS".into(), mirror::HEAD_BYTES as u32 / 16);

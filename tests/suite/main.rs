@@ -48,6 +48,7 @@ mod stochastic;
 mod strata;
 mod study;
 mod support;
+mod survey;
 mod texture_command;
 mod turned;
 mod turns;
