@@ -29,11 +29,16 @@ Task tile_task() {
     return Task(film_pixel(), 0u, slice.first_sample, slice.first_sample + slice.sample_count);
 }
 
-// Jobs fill tiles one after the other, in the order of the list.
-Task job_task() {
+// Jobs fill tiles one after the other, in the order of the list; without a list all pixels have the same, both
+// halves of a pixel side by side.
+Task job_task(Header header) {
     uint thread = gl_WorkGroupID.x * gl_WorkGroupSize.x * gl_WorkGroupSize.y + gl_LocalInvocationIndex;
     uint i = (slice.first_tile + gl_WorkGroupID.y) * (TILE * TILE) + thread;
     if (i >= slice.tiles) return Task(uvec2(0u, slice.band_height), 0u, 0u, 0u);
+    if (slice.sample_count > 0u) {
+        uvec2 place = uvec2((i >> 1u) % header.size.x, (i >> 1u) / header.size.x);
+        return Task(place, i & 1u, slice.first_sample, slice.first_sample + slice.sample_count);
+    }
     uvec4 job = jobs[i];
     return Task(uvec2(job.x & 0xFFFFu, job.x >> 16u), job.y, job.z, job.z + job.w);
 }
@@ -43,7 +48,7 @@ void main() {
     hold_scene();
     bool is_job = MODE_IS(SCHEDULES, SCHEDULE_JOBS, slice.schedule);
     Task task;
-    if (is_job) task = job_task();
+    if (is_job) task = job_task(header);
     else task = tile_task();
     if (!in_film(header, task.place)) return;
     uvec2 pixel = picture_pixel(header, task.place);

@@ -119,7 +119,7 @@ pub struct Exponent {
 
 impl Default for Exponent {
     fn default() -> Self {
-        Exponent { value: 1.3, last: None }
+        Exponent { value: 1.6, last: None }
     }
 }
 

@@ -40,11 +40,11 @@ pub struct Outlook {
 }
 
 impl Outlook {
-    /// Seconds that samples alone would still take, of which `taken` are taken and `needed` meet the goal.
-    pub fn left(goal: Goal, elapsed: f64, taken: f64, needed: f64) -> f64 {
+    /// Seconds that samples alone would still take, by those that they need to an error.
+    pub fn left(goal: Goal, elapsed: f64, needed: f64) -> f64 {
         match goal {
             Goal::Samples(_) => 0.0,
-            Goal::Error(_) => (needed / taken - 1.0).max(0.0) * elapsed,
+            Goal::Error(_) => needed.max(0.0),
             Goal::Seconds(limit) => (limit - elapsed).max(0.0),
         }
     }

@@ -41,6 +41,8 @@ pub trait Tracer {
     /// Adds the samples of each job to its pixel of its half. No two jobs of a call are of one pixel and
     /// one half.
     fn sample(&mut self, jobs: &[Job], progress: &dyn Progress) -> Result<()>;
+    /// Adds as many samples to both halves of all pixels.
+    fn sample_all(&mut self, first: u32, count: u32, progress: &dyn Progress) -> Result<()>;
     /// Whether samples are averages over footprints.
     fn prefilters(&self) -> bool;
     /// The sums so far.
@@ -87,14 +89,20 @@ pub struct Outcome {
 /// Samples of each half in the first pass: enough to meet the edge of a shape that covers a tenth of the
 /// pixel with a chance of 4 in 5.
 const FIRST: u32 = 8;
-/// A pixel's count grows at most so much from one pass to the next: what is known of it is that rough.
-const GROWTH: f64 = 8.0;
+/// A pixel's count grows at most so much from one pass to the next: what is known of it is that rough. Towards a
+/// fixed number of samples each one counts; else fewer passes do.
+fn growth(goal: Goal) -> f64 {
+    if let Goal::Samples(_) = goal { 8.0 } else { 16.0 }
+}
+
 /// Samples of a half: f32 sums of so many stay exact enough.
 const MOST: u32 = 1 << 16;
 /// The estimate leans towards pixels whose halves agree by chance. It is believed when it lies below the goal
 /// by the first factor; passes are planned for the second, so that few are needed.
 const BELIEVED: f64 = 0.94;
 const PLANNED: f64 = 0.91;
+/// Counts of a device that is idle grow at most so much at once.
+const MOST_IDLE: f64 = 64.0;
 /// Part of the remaining time that a pass is planned for.
 const OF_TIME: f64 = 0.85;
 
@@ -114,12 +122,19 @@ pub fn run(
     let mut taken;
     let mut exponent = estimate::Exponent::default();
     let mut exact = Exact::default();
+    let mut pace = Pace::default();
     let estimate = loop {
         if next != counts {
-            tracer.sample(&jobs(&counts, &next, width), progress)?;
+            let clock = Instant::now();
+            match (equal(&counts), equal(&next)) {
+                (Some(now), Some(next)) => tracer.sample_all(now, next - now, progress)?,
+                _ => tracer.sample(&jobs(&counts, &next, width), progress)?,
+            }
+            pace.learn(total(&next) - total(&counts), clock.elapsed().as_secs_f64());
             counts.clone_from(&next);
             outcome.passes += 1;
         }
+        let clock = Instant::now();
         tracer.read(&mut sums)?;
         exact.replace(&mut sums, &counts);
         taken = total(&counts);
@@ -130,13 +145,14 @@ pub fn run(
         outcome.beam_pixels = exact.told() as u64;
         let told = outcome.beam_pixels as f64 / pixels as f64;
         outcome.estimated_rmse = estimate.mse.sqrt().hypot(OWN_ERROR * told.sqrt());
+        pace.hosting = clock.elapsed().as_secs_f64();
         let elapsed = start.elapsed().as_secs_f64();
         let aim = match goal {
             Goal::Samples(spp) => Aim::Samples(f64::from(spp) * pixels as f64),
             // In the allocation's measure, which weighs what may have been missed too.
             Goal::Error(rmse) => Aim::Mse((rmse * PLANNED).powi(2) * estimate.weight()),
             Goal::Seconds(limit) => {
-                Aim::Samples(taken + taken / elapsed * (limit - elapsed).max(0.0) * OF_TIME)
+                Aim::Samples(taken + pace.rate * (limit - elapsed - pace.hosting).max(0.0) * OF_TIME)
             }
         };
         outcome.reached = match (aim, goal) {
@@ -155,12 +171,15 @@ pub fn run(
             elapsed,
             mse: estimate.mse,
             exponent: exponent.value(),
-            left: Outlook::left(goal, elapsed, taken, needed),
+            left: Outlook::left(goal, elapsed, (needed - taken) / pace.rate),
         };
         if exact.tell(tracer, &outlook, &estimate, &allocation, progress)? {
             continue;
         }
-        next = allocation.counts(aim, &counts, GROWTH, MOST);
+        next = match (equal(&counts), pace.idle(goal, elapsed)) {
+            (Some(now), Some(factor)) => vec![(now * factor).min(MOST); pixels],
+            _ => allocation.counts(aim, &counts, growth(goal), MOST),
+        };
         if next == counts {
             break estimate;
         }
@@ -176,6 +195,38 @@ pub fn run(
         }
     }
     Ok((film(&sums, &counts), outcome))
+}
+
+/// How fast samples are taken, and how long the host thinks about them.
+#[derive(Default)]
+struct Pace {
+    /// Samples a second, and the seconds that they took, in the last pass.
+    rate: f64,
+    sampling: f64,
+    hosting: f64,
+}
+
+impl Pace {
+    fn learn(&mut self, samples: f64, seconds: f64) {
+        (self.rate, self.sampling) = (samples / seconds.max(1e-9), seconds);
+    }
+
+    /// Of a device that mostly waits for the host: by how much all counts may grow until both work alike. That
+    /// costs less than to think of where samples are wanted most.
+    fn idle(&self, goal: Goal, elapsed: f64) -> Option<u32> {
+        let time = match goal {
+            Goal::Samples(_) => return None,
+            Goal::Error(_) => f64::INFINITY,
+            Goal::Seconds(limit) => 0.5 * (limit - elapsed),
+        };
+        let factor = (self.hosting.min(time) / self.sampling.max(1e-9)).min(MOST_IDLE);
+        (factor >= 2.0).then(|| 1 << (factor as u32).ilog2())
+    }
+}
+
+/// The count of all pixels, if it is one.
+fn equal(counts: &[u32]) -> Option<u32> {
+    counts.first().copied().filter(|first| counts.iter().all(|n| n == first))
 }
 
 fn first_count(goal: Goal) -> u32 {

@@ -33,8 +33,8 @@ pub struct Binder<'a> {
 }
 
 impl Binder<'_> {
-    fn bind(&self, gpu: &Gpu, film: &Buffer, jobs: &Buffer) -> Result<BindGroup> {
-        self.resources.bind(gpu, self.pipeline, self.shader, film, Some(jobs))
+    fn bind(&self, gpu: &Gpu, film: &Buffer, jobs: Option<&Buffer>) -> Result<BindGroup> {
+        self.resources.bind(gpu, self.pipeline, self.shader, film, jobs)
     }
 }
 
@@ -97,7 +97,7 @@ impl<'a> JobTracer<'a> {
     pub fn warm_up(&self) -> Result<()> {
         let Some(page) = self.pages.first() else { return Ok(()) };
         let jobs = self.gpu.upload_buffer("jobs", BufferUse::Storage, bytemuck::bytes_of(&Job::default()))?;
-        let group = self.binder.bind(self.gpu, &page.film, &jobs)?;
+        let group = self.binder.bind(self.gpu, &page.film, Some(&jobs))?;
         let slice = Slice { tiles: 1, ..page.slice() };
         self.gpu.run(self.binder.pipeline, &group, bytemuck::bytes_of(&slice), [1, 1, 1])?;
         Ok(())
@@ -117,14 +117,35 @@ impl<'a> JobTracer<'a> {
         Ok(())
     }
 
-    /// The list in submissions of whole tiles, each as long as the last ones allow.
+    /// The list in submissions of whole tiles.
     fn page(&mut self, index: usize, list: &[Job], progress: &dyn Progress) -> Result<()> {
-        let page = &self.pages[index];
         let jobs = self.gpu.upload_buffer("jobs", BufferUse::Storage, bytemuck::cast_slice(list))?;
-        let group = self.binder.bind(self.gpu, &page.film, &jobs)?;
-        let slice = Slice { tiles: list.len() as u32, ..page.slice() };
-        let costs: Vec<f64> =
+        let slice = Slice { tiles: list.len() as u32, ..self.pages[index].slice() };
+        let costs =
             list.chunks(JOBS_PER_TILE).map(|tile| tile.iter().map(|j| f64::from(j.count)).sum()).collect();
+        self.submit(index, slice, Some(&jobs), costs, progress)
+    }
+
+    /// As many samples of both halves of all pixels of a page.
+    fn whole_page(&mut self, index: usize, first: u32, count: u32, progress: &dyn Progress) -> Result<()> {
+        let page = &self.pages[index];
+        let jobs = 2 * self.size[0] * page.height;
+        let slice = Slice { tiles: jobs, first_sample: first, sample_count: count, ..page.slice() };
+        let cost = (JOBS_PER_TILE * count as usize) as f64;
+        let costs = vec![cost; (jobs as usize).div_ceil(JOBS_PER_TILE)];
+        self.submit(index, slice, None, costs, progress)
+    }
+
+    /// Tiles of so many samples, in submissions as long as the last ones allow.
+    fn submit(
+        &mut self,
+        index: usize,
+        slice: Slice,
+        jobs: Option<&Buffer>,
+        costs: Vec<f64>,
+        progress: &dyn Progress,
+    ) -> Result<()> {
+        let group = self.binder.bind(self.gpu, &self.pages[index].film, jobs)?;
         let mut first = 0;
         while first < costs.len() {
             let (mut tiles, mut samples) = (1, costs[first]);
@@ -173,6 +194,15 @@ impl Tracer for JobTracer<'_> {
             let list: Vec<Job> = own.map(|j| Job { place: j.place - (page.y << 16), ..*j }).collect();
             if !list.is_empty() {
                 self.rounds(index, &list, progress)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn sample_all(&mut self, first: u32, count: u32, progress: &dyn Progress) -> Result<()> {
+        for index in 0..self.pages.len() {
+            for done in (0..count).step_by(self.chunk as usize) {
+                self.whole_page(index, first + done, self.chunk.min(count - done), progress)?;
             }
         }
         Ok(())
