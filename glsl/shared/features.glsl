@@ -77,6 +77,7 @@ layout(constant_id = 47) const uint SAMPLERS_AT = 0u;
 layout(constant_id = 48) const uint SRGB_AT = 0u;
 layout(constant_id = 63) const uint PROCEDURALS_AT = 0u;
 layout(constant_id = 68) const uint PIXEL_FILTER_AT = 0u;
+layout(constant_id = 78) const bool TABLES_IN_HEAD = true; // what reads a table at scattered places differs by device
 layout(constant_id = 73) const uint MOTIONS_AT = 0u;
 
 // Whether the run-time mode is `value`, decided at build time where the mask allows.

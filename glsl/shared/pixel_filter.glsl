@@ -12,9 +12,14 @@ struct Place {
     float sign;
 };
 
-// In the head, which devices read fastest, also at an index of their own for each thread.
+// Each thread reads at an index of its own: CPU devices fastest in the head, GPUs elsewhere, as their constant
+// caches serve one address at a time.
 float tabled_distance(uint i) {
-    return uintBitsToFloat(head[PIXEL_FILTER_AT + (i >> 2u)][i & 3u]);
+    uint at = PIXEL_FILTER_AT + (i >> 2u);
+    uvec4 four;
+    if (TABLES_IN_HEAD) four = head[at];
+    else four = scene[at];
+    return uintBitsToFloat(four[i & 3u]);
 }
 
 // `rest` of 2^24 samples lie further from the middle.

@@ -78,7 +78,8 @@ impl Outlook {
 pub struct Exact {
     /// Red, green, blue, and 1 where samples are needed. None before anything is told.
     pixels: Vec<[f32; 4]>,
-    tried: bool,
+    /// Once one was made: what it found, if pixels can be told at all.
+    trial: Option<Option<Trial>>,
 }
 
 impl Exact {
@@ -86,7 +87,7 @@ impl Exact {
         self.pixels.iter().filter(|p| p[3] == 0.0).count()
     }
 
-    /// Tells the pixels, if that looks worth it; asked once.
+    /// Tells the pixels, if that looks worth it: by one trial, weighed anew as more becomes known.
     pub fn tell(
         &mut self,
         tracer: &mut dyn Tracer,
@@ -95,13 +96,15 @@ impl Exact {
         allocation: &Allocation,
         progress: &dyn Progress,
     ) -> Result<bool> {
-        if self.tried || tracer.prefilters() || !outlook.is_worth_a_trial() {
+        if !self.pixels.is_empty() || tracer.prefilters() || !outlook.is_worth_a_trial() {
             return Ok(false);
         }
-        self.tried = true;
-        let Some(trial) = tracer.trial(progress)? else { return Ok(false) };
-        let cost = share(&trial, allocation.weights());
-        let error = share(&trial, &estimate.variances);
+        if self.trial.is_none() {
+            self.trial = Some(tracer.trial(progress)?);
+        }
+        let Some(Some(trial)) = &self.trial else { return Ok(false) };
+        let cost = share(trial, allocation.weights());
+        let error = share(trial, &estimate.variances);
         if !outlook.gains(MARGIN * trial.seconds, cost, error) {
             return Ok(false);
         }
@@ -184,7 +187,8 @@ mod tests {
 
     #[test]
     fn told_pixels_have_their_value_and_no_variance() {
-        let exact = Exact { pixels: vec![[0.25, 0.5, 1.0, 0.0], [9.0, 9.0, 9.0, 1.0]], tried: true };
+        let pixels = vec![[0.25, 0.5, 1.0, 0.0], [9.0, 9.0, 9.0, 1.0]];
+        let exact = Exact { pixels, trial: None };
         let half = || vec![[1.0, 2.0, 3.0, 4.0]; 2];
         let mut sums = Sums { width: 2, height: 1, halves: [half(), half()] };
         exact.replace(&mut sums, &[4, 8]);

@@ -170,7 +170,11 @@ impl<'a> Session<'a> {
     ) -> Result<(Pipeline, u32)> {
         let group_size = self.tuning.group_size(self.gpu.info())?;
         let slots = scene.slot_counts();
-        let constants = features::constants(shader, features, &self.resources.sections, group_size, slots);
+        let mut constants =
+            features::constants(shader, features, &self.resources.sections, group_size, slots);
+        if let Some(constant) = shader.constant("TABLES_IN_HEAD") {
+            constants.push((constant.id, u32::from(Tuning::tables_in_head(self.gpu.info()))));
+        }
         let pipeline = build_pipeline(self.gpu, shader, &constants, slots, size_of::<Slice>())?;
         Ok((pipeline, tuning::groups_per_tile(group_size)))
     }

@@ -246,10 +246,7 @@ fn what_is_far_from_its_goal_is_told_by_beams_and_the_rest_sampled() {
             assert_ne!(*pixel, TOLD, "pixel {i}");
         }
     }
-    assert!(
-        outcome.least_samples <= 256 && outcome.most_samples > 2000,
-        "told pixels took samples: {outcome:?}"
-    );
+    assert!(outcome.most_samples >= 4 * outcome.least_samples, "told pixels took samples: {outcome:?}");
 }
 
 #[test]

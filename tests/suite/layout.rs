@@ -198,9 +198,15 @@ fn push_constants_equal_their_mirrors() {
     let here = glsl_struct(&glsl, "uniform Halving").unwrap();
     assert_eq!(Some(&here), rust_struct(&rust, "pub struct Halving").as_ref());
     assert_eq!(size_of::<mirror::Halving>(), here.len() * 4);
+    let glsl = fs::read_to_string(root.join("glsl/shared/survey_main.glsl")).unwrap();
+    let here = glsl_struct(&glsl, "uniform Part").unwrap();
+    assert_eq!(Some(&here), rust_struct(&rust, "pub struct Part").as_ref());
+    assert_eq!(size_of::<mirror::Part>(), here.len() * 4);
 }
 
-const SHADERS: [&Shader; 14] = [
+const SHADERS: [&Shader; 16] = [
+    &shaders::BEAM,
+    &shaders::SURVEY,
     &shaders::RENDER_NONE,
     &shaders::RENDER_TEXELS,
     &shaders::RENDER_IMAGES,
@@ -219,7 +225,8 @@ const SHADERS: [&Shader; 14] = [
 
 /// Constants that say where lists begin and how work is divided.
 fn is_place(name: &str) -> bool {
-    name.ends_with("_AT") || ["GROUP_X", "GROUP_Y", "SLOTS", "VOLUME_SLOTS", "CUBE_SLOTS"].contains(&name)
+    let others = ["GROUP_X", "GROUP_Y", "SLOTS", "VOLUME_SLOTS", "CUBE_SLOTS", "TABLES_IN_HEAD"];
+    name.ends_with("_AT") || others.contains(&name)
 }
 
 #[test]
