@@ -176,7 +176,8 @@ pub fn run(
         if exact.tell(tracer, &outlook, &estimate, &allocation, progress)? {
             continue;
         }
-        next = match (equal(&counts), pace.idle(goal, elapsed)) {
+        let idle = pace.idle(goal, elapsed, outcome.estimated_rmse, exponent.value());
+        next = match (equal(&counts), idle) {
             (Some(now), Some(factor)) => vec![(now * factor).min(MOST); pixels],
             _ => allocation.counts(aim, &counts, growth(goal), MOST),
         };
@@ -211,15 +212,16 @@ impl Pace {
         (self.rate, self.sampling) = (samples / seconds.max(1e-9), seconds);
     }
 
-    /// Of a device that mostly waits for the host: by how much all counts may grow until both work alike. That
-    /// costs less than to think of where samples are wanted most.
-    fn idle(&self, goal: Goal, elapsed: f64) -> Option<u32> {
-        let time = match goal {
+    /// Of a device that mostly waits for the host: by how much all counts may grow until both work alike, or the
+    /// goal is met. That costs less than to think of where samples are wanted most.
+    fn idle(&self, goal: Goal, elapsed: f64, rmse: f64, exponent: f64) -> Option<u32> {
+        let (time, most) = match goal {
             Goal::Samples(_) => return None,
-            Goal::Error(_) => f64::INFINITY,
-            Goal::Seconds(limit) => 0.5 * (limit - elapsed),
+            Goal::Error(wanted) => (f64::INFINITY, (rmse / (PLANNED * wanted)).powf(2.0 / exponent)),
+            Goal::Seconds(limit) => (0.5 * (limit - elapsed), MOST_IDLE),
         };
-        let factor = (self.hosting.min(time) / self.sampling.max(1e-9)).min(MOST_IDLE);
+        let factor = self.hosting.min(time) / self.sampling.max(1e-9);
+        let factor = factor.min(most.max(2.0)).min(MOST_IDLE);
         (factor >= 2.0).then(|| 1 << (factor as u32).ilog2())
     }
 }
@@ -272,4 +274,27 @@ fn film(sums: &Sums, counts: &[u32]) -> Film {
         *pixel = std::array::from_fn(|c| (sum(c) / (2.0 * f64::from(counts[i]))) as f32);
     }
     film
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn counts_grow_where_a_device_waits_for_the_host_and_no_further_than_to_the_goal() {
+        let waits = Pace { rate: 1e9, sampling: 1e-3, hosting: 0.2 };
+        assert_eq!(waits.idle(Goal::Seconds(10.0), 1.0, 1e-2, 1.6), Some(64));
+        assert_eq!(waits.idle(Goal::Seconds(1.02), 1.0, 1e-2, 1.6), Some(8), "half of what is left");
+        // Samples that lower the error by half are 2^(2 / 1.6) = 2.4 times as many; with what is planned beyond 2.7.
+        assert_eq!(waits.idle(Goal::Error(5e-3), 1.0, 1e-2, 1.6), Some(2));
+        assert_eq!(waits.idle(Goal::Error(1e-5), 1.0, 1e-2, 1.6), Some(64));
+        assert_eq!(waits.idle(Goal::Samples(64), 1.0, 1e-2, 1.6), None);
+        let works = Pace { sampling: 0.15, ..waits };
+        assert_eq!(works.idle(Goal::Seconds(10.0), 1.0, 1e-2, 1.6), None);
+    }
+
+    #[test]
+    fn one_count_is_told_from_several() {
+        assert_eq!([equal(&[3, 3, 3]), equal(&[3, 4, 3]), equal(&[])], [Some(3), None, None]);
+    }
 }
