@@ -89,7 +89,6 @@ impl Sampler {
 pub struct Fallback<'s> {
     pub resources: &'s Resources,
     pub scene: &'s PackedScene,
-    pub samples: u32,
 }
 
 impl Beams<'_> {
@@ -104,6 +103,7 @@ impl Beams<'_> {
         progress: &dyn Progress,
     ) -> Result<Film> {
         let clock = Instant::now();
+        let samples = fallback.scene.samples;
         let mut film = Film::new(width, height, 1);
         let mut left: Vec<u32> = Vec::new();
         for (i, [r, g, b, sampled]) in (0..).zip(self.teller.tell(gpu, report, progress)?) {
@@ -128,15 +128,14 @@ impl Beams<'_> {
         report.seconds.compile += clock.elapsed().as_secs_f64();
         let clock = Instant::now();
         let mut tracer = sampler.tracer(gpu, fallback.resources, fallback.scene, report)?;
-        let job =
-            |&i: &u32| Job { place: Job::place_of(i, width), part: 0, first: 0, count: fallback.samples };
+        let job = |&i: &u32| Job { place: Job::place_of(i, width), part: 0, first: 0, count: samples };
         tracer.sample(&left.iter().map(job).collect::<Vec<_>>(), progress)?;
         let half = || vec![[0.0; 4]; film.pixels.len()];
         let mut sums = Sums { width, height, halves: [half(), half()] };
         tracer.read(&mut sums)?;
         for i in left {
             let sum = sums.halves[0][i as usize];
-            film.pixels[i as usize] = std::array::from_fn(|c| sum[c] / fallback.samples as f32);
+            film.pixels[i as usize] = std::array::from_fn(|c| sum[c] / samples as f32);
         }
         report.seconds.render += clock.elapsed().as_secs_f64();
         Ok(film)

@@ -44,9 +44,8 @@ pub struct Session<'a> {
 /// A session's scene with one choice of samples.
 pub struct Prepared<'s, 'a> {
     session: &'s Session<'a>,
-    header: Header,
-    samples: u32,
-    cones: bool,
+    /// The session's with this choice.
+    scene: PackedScene,
     work: Work<'a>,
     /// Of a render: its pipeline is compiled, nothing is rendered.
     report: Report,
@@ -132,9 +131,7 @@ impl<'a> Session<'a> {
             }
             Schedule::Jobs => Work::Jobs { sampler: self.sampler(scene, &features)? },
         };
-        let cones = scene.algorithm == Algorithm::Cone;
-        let mut prepared =
-            Prepared { session: self, header: scene.header, samples: scene.samples, cones, work, report };
+        let mut prepared = Prepared { session: self, scene: scene.clone(), work, report };
         prepared.warm_up_jobs()?;
         prepared.report.seconds.compile = clock.elapsed().as_secs_f64();
         Ok(prepared)
@@ -189,8 +186,8 @@ impl<'a> Session<'a> {
     }
 
     /// What samples the pixels that beams leave.
-    fn beside_beams(&self) -> Result<Sampler> {
-        let scene = PackedScene { schedule: Schedule::Jobs, ..self.scene.clone() };
+    fn beside_beams(&self, scene: &PackedScene) -> Result<Sampler> {
+        let scene = PackedScene { schedule: Schedule::Jobs, ..scene.clone() };
         self.sampler(&scene, &features_of(self.gpu, &scene, self.keep_everything, &self.tuning))
     }
 
@@ -240,9 +237,9 @@ impl Prepared<'_, '_> {
     /// The same; where samples go to the film by jobs, until the goal is met, by default the number of
     /// samples.
     pub fn render_to_goal(&self, goal: Option<Goal>, progress: &dyn Progress) -> Result<(Film, Report)> {
-        self.session.write_header(&self.header)?;
+        self.session.write_header(&self.scene.header)?;
         let mut report = self.report.clone();
-        let [width, height, _, _] = self.header.size;
+        let [width, height, _, _] = self.scene.header.size;
         let clock = Instant::now();
         if let Some(survey) = self.session.survey() {
             survey.run(self.session.gpu, &mut report)?;
@@ -250,9 +247,9 @@ impl Prepared<'_, '_> {
         let surveying = clock.elapsed().as_secs_f64();
         let film = match &self.work {
             Work::Tiles { renderer, film: buffer } => {
-                let mut film = Film::new(width, height, self.samples);
+                let mut film = Film::new(width, height, self.scene.samples);
                 let mut dropped = 0.0;
-                let mut plan = slices::Plan::new(self.samples, self.session.scene.chunk, buffer.tiles());
+                let mut plan = slices::Plan::new(self.scene.samples, self.scene.chunk, buffer.tiles());
                 for band in buffer.bands() {
                     let clock = Instant::now();
                     renderer.band(&band, &mut plan, &mut report, progress)?;
@@ -261,19 +258,19 @@ impl Prepared<'_, '_> {
                     dropped += buffer.read(self.session.gpu, &band, &mut film)?;
                     report.seconds.readback += clock.elapsed().as_secs_f64();
                 }
-                report.dropped = self.cones.then(|| dropped / film.pixels.len() as f64);
+                let cones = self.scene.algorithm == Algorithm::Cone;
+                report.dropped = cones.then(|| dropped / film.pixels.len() as f64);
                 film
             }
             Work::Beams(beams) => {
                 let session = self.session;
-                let (resources, scene) = (&session.resources, &session.scene);
-                let fallback = Fallback { resources, scene, samples: self.samples };
-                let build = || session.beside_beams();
+                let fallback = Fallback { resources: &session.resources, scene: &self.scene };
+                let build = || session.beside_beams(&self.scene);
                 beams.render(session.gpu, [width, height], &fallback, build, &mut report, progress)?
             }
             Work::Jobs { .. } => {
                 let clock = Instant::now();
-                let goal = goal.unwrap_or(Goal::Samples(self.samples));
+                let goal = goal.unwrap_or(Goal::Samples(self.scene.samples));
                 let compiled = report.seconds.compile;
                 let mut tracer = self.tracer(&mut report)?;
                 let (film, outcome) = adaptive::run(&mut tracer, [width, height], goal, progress)?;
@@ -301,7 +298,7 @@ impl Prepared<'_, '_> {
             return Err(Error::new("a scene that is rendered tile by tile has no jobs"));
         };
         let session = self.session;
-        let mut tracer = sampler.tracer(session.gpu, &session.resources, &session.scene, report)?;
+        let mut tracer = sampler.tracer(session.gpu, &session.resources, &self.scene, report)?;
         tracer.session = Some(session);
         Ok(tracer)
     }

@@ -150,11 +150,11 @@ fn the_mean_over_seeds_shows_no_bias() {
 fn a_time_to_keep_is_kept() {
     let scene = with(small("s1b", 48, 4), Algorithm::Auto, 16);
     let clock = std::time::Instant::now();
-    let (_, outcome) = to_goal(&scene, Goal::Seconds(0.4), false);
+    let (_, outcome) = to_goal(&scene, Goal::Seconds(1.5), false);
     let seconds = clock.elapsed().as_secs_f64();
     assert!(outcome.passes > 1 && outcome.mean_samples > 16.0, "{outcome:?}");
     // Compiling is not part of it; a loaded machine is slower than its first pass said.
-    assert!(seconds < 20.0, "{seconds} s for 0.4 s");
+    assert!(seconds < 20.0, "{seconds} s for 1.5 s");
 }
 
 /// Trilinear look-ups of 16 samples' footprints blur a ground that is seen to the horizon.

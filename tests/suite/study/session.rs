@@ -4,7 +4,7 @@ use moire::film::Film;
 use moire::pack::pack;
 use moire::progress::Silent;
 use moire::render::{Session, Tuning, render};
-use moire::scene::model::{Pattern, Scene};
+use moire::scene::model::{Algorithm, Pattern, Scene};
 use moire::texture;
 
 use crate::shared_gpu;
@@ -24,6 +24,27 @@ fn packed(scene: &Scene) -> moire::pack::PackedScene {
 fn alone(scene: &Scene) -> Film {
     let gpu = shared_gpu::gpu();
     render(&gpu, packed(scene), false, &Tuning::default(), &Silent).unwrap().0
+}
+
+/// What beams leave takes the samples of its own choice, not those that the scene was packed with.
+#[test]
+fn samples_beside_beams_are_those_that_are_asked_for() {
+    let mut base = load("s2");
+    base.sampling.algorithm = Algorithm::Beam;
+    let variant = |pattern, spp| {
+        let mut scene = base.clone();
+        scene.sampling = moire::scene::model::Sampling { pattern, spp, ..scene.sampling };
+        scene
+    };
+    let gpu = shared_gpu::gpu();
+    let session = Session::open(&gpu, packed(&base), false, &Tuning::default()).unwrap();
+    for scene in
+        [variant(Pattern::Stratified, 1), variant(Pattern::Random, 5), variant(Pattern::Stratified, 64)]
+    {
+        let (film, report) = session.prepare_sampling(&scene).unwrap().render(&Silent).unwrap();
+        assert!(report.sampled_pixels > Some(0));
+        assert!(film == alone(&scene), "{:?}", scene.sampling);
+    }
 }
 
 #[test]
