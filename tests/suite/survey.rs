@@ -4,12 +4,12 @@
 use glam::DVec3;
 use moire::adaptive::Goal;
 use moire::film::Film;
-use moire::layout::{CELL_WORDS, MOST_LISTED};
+use moire::layout::{CELL_BUSY, CELL_CALM, CELL_EMPTY, CELL_WORDS, MOST_LISTED};
 use moire::oracle::survey::triangles_of;
 use moire::pack::{Crop, PackedScene};
 use moire::progress::Silent;
 use moire::render::{self, Session, Tuning};
-use moire::scene::model::{Algorithm, Pattern, Projection, Scene, Triangle};
+use moire::scene::model::{Algorithm, Model, Pattern, Projection, Scene, Triangle};
 
 use crate::lookup::bench::Dice;
 use crate::stage::{assert_same_bits, device, packed, render, render_with, small};
@@ -123,8 +123,36 @@ fn to_goal(scene: &Scene, goal: Goal) -> (Film, moire::adaptive::Outcome) {
     (film, report.outcome.unwrap())
 }
 
-/// Needles of a hundredth of a pixel before an empty background and before a calm ground: whatever is calm, the
-/// cells that they cross are not.
+/// How many cells are empty, calm and busy.
+fn calmness(scene: Scene) -> [usize; 3] {
+    let (_, words) = surveyed(&packed(scene, None));
+    [CELL_EMPTY, CELL_CALM, CELL_BUSY]
+        .map(|class| words.chunks(CELL_WORDS as usize).filter(|cell| cell[1] == class).count())
+}
+
+/// A ground alone is calm where it is near enough for its texels to span a pixel, and plain wherever it fills the
+/// cell; lit, another shape may shade it.
+#[test]
+fn ground_is_calm_by_its_texels_and_its_light() {
+    let mut lit = soup(20, 128);
+    lit.spheres.clear();
+    let mut unlit = lit.clone();
+    unlit.materials.iter_mut().for_each(|m| m.model = Model::Unlit);
+    let mut fine = unlit.clone();
+    fine.materials.iter_mut().for_each(|m| m.mapping.scale *= 1e3);
+    let mut coarse = unlit.clone();
+    coarse.materials.iter_mut().for_each(|m| m.mapping.scale *= 1e-3);
+    let mut plain = unlit.clone();
+    plain.materials.iter_mut().for_each(|m| m.texture = None);
+    let [lit, fine, coarse, plain] = [lit, fine, coarse, plain].map(calmness);
+    assert_eq!([lit[1], fine[1]], [0, 0], "shaded, minified");
+    assert!(coarse[1] > 20 && plain[1] >= coarse[1], "{coarse:?} {plain:?}");
+    for counts in [fine, coarse, plain] {
+        assert!(counts[0] == lit[0] && counts[0] > 0 && counts[2] > 0, "{counts:?}");
+    }
+}
+
+/// Needles of a hundredth of a pixel before an empty background: the cells that they cross are not empty.
 #[test]
 fn calm_cells_begin_with_fewer_samples_and_nothing_thin_is_missed() {
     let mut scene = soup(40, 128);
