@@ -41,8 +41,17 @@ pub trait Tracer {
     /// Adds the samples of each job to its pixel of its half. No two jobs of a call are of one pixel and
     /// one half.
     fn sample(&mut self, jobs: &[Job], progress: &dyn Progress) -> Result<()>;
-    /// Adds as many samples to both halves of all pixels.
-    fn sample_all(&mut self, first: u32, count: u32, progress: &dyn Progress) -> Result<()>;
+    /// Adds as many samples to both halves of all pixels of a picture of that size.
+    fn sample_all(
+        &mut self,
+        [width, height]: [u32; 2],
+        first: u32,
+        count: u32,
+        progress: &dyn Progress,
+    ) -> Result<()> {
+        let job = |i: u32| Job { place: Job::place_of(i >> 1, width), part: i & 1, first, count };
+        self.sample(&(0..2 * width * height).map(job).collect::<Vec<_>>(), progress)
+    }
     /// Whether samples are averages over footprints.
     fn prefilters(&self) -> bool;
     /// The sums so far.
@@ -127,7 +136,7 @@ pub fn run(
         if next != counts {
             let clock = Instant::now();
             match (equal(&counts), equal(&next)) {
-                (Some(now), Some(next)) => tracer.sample_all(now, next - now, progress)?,
+                (Some(now), Some(next)) => tracer.sample_all([width, height], now, next - now, progress)?,
                 _ => tracer.sample(&jobs(&counts, &next, width), progress)?,
             }
             pace.learn(total(&next) - total(&counts), clock.elapsed().as_secs_f64());

@@ -58,12 +58,6 @@ impl Tracer for JobTracer<'_> {
         Ok(())
     }
 
-    fn sample_all(&mut self, first: u32, count: u32, progress: &dyn Progress) -> Result<()> {
-        let [width, height, _, _] = self.scene.header.size;
-        let job = |i: u32| Job { place: Job::place_of(i >> 1, width), part: i & 1, first, count };
-        self.sample(&(0..2 * width * height).map(job).collect::<Vec<_>>(), progress)
-    }
-
     fn prefilters(&self) -> bool {
         self.scene.prefilters()
     }

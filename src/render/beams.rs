@@ -30,18 +30,18 @@ pub struct Teller<'a> {
 
 impl Teller<'_> {
     /// Of each pixel red, green, blue and 0, or a last 1 where beams cannot tell.
-    pub fn tell(&self, gpu: &Gpu, report: &mut Report, progress: &dyn Progress) -> Result<Vec<[f32; 4]>> {
+    pub fn tell(&self, report: &mut Report, progress: &dyn Progress) -> Result<Vec<[f32; 4]>> {
         let mut pixels = Vec::new();
         let mut plan = slices::Plan::starting_with(FIRST_TILES, 1, 1, self.film.tiles());
         for band in self.film.bands() {
             self.renderer.band(&band, &mut plan, report, progress)?;
-            self.film.read_with(gpu, &band, |_, pixel, _| pixels.push(pixel))?;
+            self.film.read_with(self.renderer.gpu, &band, |_, pixel, _| pixels.push(pixel))?;
         }
         Ok(pixels)
     }
 
     /// The first tiles in line of the first band.
-    pub fn trial(&self, gpu: &Gpu, report: &mut Report, progress: &dyn Progress) -> Result<Trial> {
+    pub fn trial(&self, report: &mut Report, progress: &dyn Progress) -> Result<Trial> {
         let Some(band) = self.film.bands().next() else { return Ok(Trial::default()) };
         let tiles = band.tiles.div_ceil(TRIAL_PART);
         let mut plan = slices::Plan::starting_with(FIRST_TILES, 1, 1, tiles.into());
@@ -50,7 +50,7 @@ impl Teller<'_> {
         let seconds = clock.elapsed().as_secs_f64() * self.film.tiles() as f64 / f64::from(tiles);
         let tried: Vec<bool> = band.first_tiles(tiles);
         let mut pixels = Vec::new();
-        self.film.read_with(gpu, &band, |i, pixel, _| {
+        self.film.read_with(self.renderer.gpu, &band, |i, pixel, _| {
             if tried[band.tile_of(i as u32, self.film.width())] {
                 pixels.push((i as u32, pixel[3] == 0.0));
             }
@@ -106,7 +106,7 @@ impl Beams<'_> {
         let samples = fallback.scene.samples;
         let mut film = Film::new(width, height, 1);
         let mut left: Vec<u32> = Vec::new();
-        for (i, [r, g, b, sampled]) in (0..).zip(self.teller.tell(gpu, report, progress)?) {
+        for (i, [r, g, b, sampled]) in (0..).zip(self.teller.tell(report, progress)?) {
             film.pixels[i as usize] = [r, g, b];
             if sampled != 0.0 {
                 left.push(i);

@@ -199,7 +199,7 @@ impl Tracer for JobTracer<'_> {
         Ok(())
     }
 
-    fn sample_all(&mut self, first: u32, count: u32, progress: &dyn Progress) -> Result<()> {
+    fn sample_all(&mut self, _: [u32; 2], first: u32, count: u32, progress: &dyn Progress) -> Result<()> {
         for index in 0..self.pages.len() {
             for done in (0..count).step_by(self.chunk as usize) {
                 self.whole_page(index, first + done, self.chunk.min(count - done), progress)?;
@@ -246,12 +246,12 @@ impl Tracer for JobTracer<'_> {
         self.teller = session.beside_samples()?;
         self.report.seconds.compile += clock.elapsed().as_secs_f64();
         let Some(teller) = &self.teller else { return Ok(None) };
-        teller.trial(self.gpu, self.report, progress).map(Some)
+        teller.trial(self.report, progress).map(Some)
     }
 
     fn tell(&mut self, progress: &dyn Progress) -> Result<Vec<[f32; 4]>> {
         match &self.teller {
-            Some(teller) => teller.tell(self.gpu, self.report, progress),
+            Some(teller) => teller.tell(self.report, progress),
             None => Ok(Vec::new()),
         }
     }

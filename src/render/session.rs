@@ -120,9 +120,7 @@ impl<'a> Session<'a> {
         }
         let work = match scene.schedule {
             Schedule::Tiles if scene.beams => {
-                let features = Features { compensated: false, ..features };
-                let (renderer, film) = self.renderer(scene, &features, &shaders::BEAM)?;
-                Work::Beams(Beams { teller: Teller { renderer, film }, sampler: OnceCell::new() })
+                Work::Beams(Beams { teller: self.teller(scene, features)?, sampler: OnceCell::new() })
             }
             Schedule::Tiles => {
                 let (renderer, film) =
@@ -200,9 +198,13 @@ impl<'a> Session<'a> {
         }
         let scene = PackedScene { schedule: Schedule::Tiles, beams: true, ..self.scene.clone() };
         let features = features_of(self.gpu, &scene, self.keep_everything, &self.tuning);
+        self.teller(&scene, features).map(Some)
+    }
+
+    fn teller(&self, scene: &PackedScene, features: Features) -> Result<Teller<'a>> {
         let features = Features { compensated: false, ..features };
-        let (renderer, film) = self.renderer(&scene, &features, &shaders::BEAM)?;
-        Ok(Some(Teller { renderer, film }))
+        let (renderer, film) = self.renderer(scene, &features, &shaders::BEAM)?;
+        Ok(Teller { renderer, film })
     }
 
     fn film(&self, scene: &PackedScene, features: &Features) -> Result<Rc<FilmBuffer>> {
@@ -241,7 +243,7 @@ impl Prepared<'_, '_> {
         let mut report = self.report.clone();
         let [width, height, _, _] = self.scene.header.size;
         let clock = Instant::now();
-        if let Some(survey) = self.session.survey() {
+        if let Some(survey) = self.session.survey().filter(|_| self.scene.surveyed()) {
             survey.run(self.session.gpu, &mut report)?;
         }
         let surveying = clock.elapsed().as_secs_f64();

@@ -200,12 +200,6 @@ impl Tracer for Slow {
         Ok(())
     }
 
-    fn sample_all(&mut self, first: u32, count: u32, progress: &dyn Progress) -> moire::error::Result<()> {
-        let job = |i: u32| Job { place: Job::place_of(i >> 1, self.sums.width), part: i & 1, first, count };
-        let all: Vec<Job> = (0..2 * self.sums.width * self.sums.height).map(job).collect();
-        self.sample(&all, progress)
-    }
-
     fn prefilters(&self) -> bool {
         self.prefilters
     }
