@@ -35,6 +35,7 @@ pub mod progress;
 pub mod render;
 pub mod scene;
 pub mod shaders;
+pub mod stability;
 pub mod study;
 pub mod texture;
 pub mod verify;

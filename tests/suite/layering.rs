@@ -15,6 +15,7 @@ const FORBIDDEN: &[(&[&str], &[&str])] = &[
     (&["oracle"], &["gpu", "render", "probe", "shaders", "verify", "study", "cli", "output"]),
     (&["pattern"], &["gpu", "render", "probe", "shaders", "verify", "study", "cli", "output", "metrics"]),
     (&["verify"], &["render", "shaders", "features", "study", "cli", "output", "metrics"]),
+    (&["stability"], &["shaders", "cli"]),
     (&["study"], &["probe", "shaders", "features", "layout", "verify", "cli"]),
     (
         &["scene", "texture", "pack", "film", "output", "metrics", "layout", "color", "named", "error"],

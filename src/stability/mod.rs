@@ -1,0 +1,11 @@
+//! Extreme and stiff cases: sweeps of one parameter over many decades on a device, each held against an
+//! exact or float64 answer and a bound that is derived. A device in, a report out.
+
+pub mod case;
+
+use case::Case;
+
+/// Every case, in the order of the report.
+pub fn all() -> Vec<Case> {
+    Vec::new()
+}
