@@ -1,46 +1,5 @@
 #version 460
+// Answers rays from a list.
 #define SOURCE 0
 #extension GL_GOOGLE_include_directive : require
-// Rays from a list: one thread a query, what the ray hits and where out: distance, shape, point,
-// normal, texture coordinate, and whether anything lies between the origin and t_max.
-#define ORIGIN_IS_EYE false // these rays start anywhere
-#include "shared/features.glsl"
-#include "shared/layout.glsl"
-#include "shared/shade.glsl"
-
-layout(local_size_x_id = 0, local_size_y_id = 1, local_size_z = 1) in;
-
-struct Query {
-    vec4 origin;    // w: time
-    vec4 direction; // w: t_max
-};
-
-struct Answer {
-    vec4 point;  // w: t
-    vec4 normal; // towards the ray
-    vec4 uv;
-    uvec4 link;  // shape, 1 when occluded
-};
-
-layout(std430, set = 0, binding = 0) writeonly buffer Answers { Answer answers[]; };
-layout(std430, set = 0, binding = 4) readonly buffer Queries { Query queries[]; };
-layout(push_constant) uniform Range { uint count; } range;
-
-void main() {
-    hold_scene();
-    uint i = gl_GlobalInvocationID.x;
-    if (i >= range.count) return;
-    Header header = load_header();
-    Ray ray = Ray(queries[i].origin.xyz, queries[i].direction.xyz, queries[i].origin.w);
-    Hit hit = nearest_hit(header, ray, NO_SHAPE, NO_LIST);
-    bool blocked = occluded(header, ray, queries[i].direction.w, NO_SHAPE);
-    Answer answer = Answer(vec4(0.0, 0.0, 0.0, FAR), vec4(0.0), vec4(0.0), uvec4(NO_SHAPE, uint(blocked), 0u, 0u));
-    if (hit.shape != NO_SHAPE) {
-        Surface surface = hit_surface(header, ray, hit);
-        Map map = map_at(surface.link.y);
-        vec2 uv = texture_coordinate(map, seen_by_map(map, ray, surface, NO_FOOTPRINT)).at.xy;
-        answer = Answer(vec4(surface.point, hit.t), vec4(surface.normal, 0.0), vec4(uv, 0.0, 0.0),
-                        uvec4(hit.shape, uint(blocked), 0u, 0u));
-    }
-    answers[i] = answer;
-}
+#include "shared/probe_rays_main.glsl"

@@ -133,6 +133,8 @@ pub struct Features {
     pub source: TexelSource,
     /// Does the film have its second half?
     pub compensated: bool,
+    /// Rays, shapes and texture coordinates are of f64.
+    pub double: bool,
     /// Nothing is left out.
     pub everything: bool,
 }
@@ -151,6 +153,7 @@ impl Features {
             left_out: Vec::new(),
             source,
             compensated: true,
+            double: scene.double,
             everything: keep_everything,
         };
         if keep_everything {
@@ -168,6 +171,7 @@ impl Features {
         }
         let unused = [
             ("texel buffer", !matches!(source, TexelSource::Buffer | TexelSource::Solids)),
+            ("geometry in f64", !scene.double),
             ("images and device samplers", !matches!(source, TexelSource::Image | TexelSource::Solids)),
         ];
         features.left_out.extend(unused.iter().filter(|(_, unused)| *unused).map(|(text, _)| (*text).into()));

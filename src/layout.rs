@@ -11,25 +11,95 @@ pub const NO_SHAPE: u32 = u32::MAX;
 /// In place of an index: there is no environment.
 pub const NO_MATERIAL: u32 = u32::MAX;
 
-/// Declares a mirror and asserts its size in units of 16 bytes.
+/// A member of a record, of which device memory has one unit of 16 bytes, or two where reals are f64.
+trait Member: Copy {
+    const REALS: u32;
+
+    fn write(self, double: bool, bytes: &mut Vec<u8>);
+
+    /// As memory of f32 holds it.
+    fn rounded(self) -> Self;
+}
+
+impl Member for [f64; 4] {
+    const REALS: u32 = 1;
+
+    fn write(self, double: bool, bytes: &mut Vec<u8>) {
+        if double {
+            bytes.extend_from_slice(bytemuck::bytes_of(&self));
+        } else {
+            bytes.extend_from_slice(bytemuck::bytes_of(&self.map(|x| x as f32)));
+        }
+    }
+
+    fn rounded(self) -> Self {
+        self.map(|x| f64::from(x as f32))
+    }
+}
+
+/// Members that are the same in both.
+macro_rules! plain {
+    ($($type:ty),+) => {
+        $(impl Member for $type {
+            const REALS: u32 = 0;
+
+            fn write(self, _: bool, bytes: &mut Vec<u8>) {
+                bytes.extend_from_slice(bytemuck::bytes_of(&self));
+            }
+
+            fn rounded(self) -> Self {
+                self
+            }
+        })+
+    };
+}
+plain!([f32; 4], [u32; 4]);
+
+/// A record of the scene buffer.
+pub trait Record {
+    /// Members that are vectors of reals, and those that are not.
+    const REALS: u32;
+    const OTHERS: u32;
+
+    /// Appends what the shader reads.
+    fn write(&self, double: bool, bytes: &mut Vec<u8>);
+
+    /// The record with the f32 numbers that the shader reads unless it reads f64.
+    fn rounded(&self) -> Self;
+}
+
+/// The bytes of a list of records.
+pub fn bytes_of<R: Record>(records: &[R], double: bool) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    records.iter().for_each(|record| record.write(double, &mut bytes));
+    bytes
+}
+
+/// Declares a mirror. Its members lie one behind the other.
 macro_rules! mirror {
-    ($name:ident, $units:literal, { $($(#[$meta:meta])* $field:ident: $type:ty,)+ }) => {
+    ($name:ident, { $($(#[$meta:meta])* $field:ident: $type:ty,)+ }) => {
         #[doc = concat!("Mirror of `struct ", stringify!($name), "` in `layout.glsl`.")]
-        #[repr(C)]
-        #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+        #[derive(Clone, Copy, Debug, Default, PartialEq)]
         pub struct $name { $($(#[$meta])* pub $field: $type,)+ }
-        const _: () = assert!(size_of::<$name>() == $units * 16);
-        impl $name {
-            /// Size in the units in which the shader counts.
-            pub const UNITS: u32 = $units;
+        impl Record for $name {
+            const REALS: u32 = 0 $(+ <$type as Member>::REALS)+;
+            const OTHERS: u32 = 0 $(+ 1 - <$type as Member>::REALS)+;
+
+            fn write(&self, double: bool, bytes: &mut Vec<u8>) {
+                $(self.$field.write(double, bytes);)+
+            }
+
+            fn rounded(&self) -> Self {
+                $name { $($field: self.$field.rounded(),)+ }
+            }
         }
     };
 }
 
-mirror!(Header, 16, {
-    forward: [f32; 4],
-    step_x: [f32; 4],
-    step_y: [f32; 4],
+mirror!(Header, {
+    forward: [f64; 4],
+    step_x: [f64; 4],
+    step_y: [f64; 4],
     background: [f32; 4],
     /// Width, height, crop x, crop y.
     image: [u32; 4],
@@ -46,51 +116,76 @@ mirror!(Header, 16, {
     /// a side of the survey's cells, 0 without one.
     chances: [u32; 4],
     lens: [f32; 4],
-    view: [f32; 4],
-    up: [f32; 4],
-    eye_motion: [f32; 4],
-    view_motion: [f32; 4],
+    view: [f64; 4],
+    up: [f64; 4],
+    eye_motion: [f64; 4],
+    view_motion: [f64; 4],
     /// Kind, radius (f32 bits), width (f32 bits), first step from the middle where the filter is negative.
     pixel_filter: [u32; 4],
 });
 
-mirror!(Plane, 4, {
-    normal: [f32; 4],
-    axis_u: [f32; 4],
-    axis_v: [f32; 4],
-    /// Material, map, half extent (f32 bits), 1 when bounded.
+mirror!(Plane, {
+    normal: [f64; 4],
+    axis_u: [f64; 4],
+    axis_v: [f64; 4],
+    /// Material, map, and of bounded planes the half extent: f32 bits and 1, or the bits of an f64, whose high
+    /// half is greater.
     link: [u32; 4],
 });
 
-mirror!(Sphere, 2, {
-    ball: [f32; 4],
+impl Plane {
+    /// How many tangents a bounded plane reaches.
+    pub fn half_extent(&self) -> Option<f64> {
+        match self.link[2..] {
+            [_, 0] => None,
+            [bits, 1] => Some(f32::from_bits(bits).into()),
+            [low, high] => Some(f64::from_bits(u64::from(high) << 32 | u64::from(low))),
+            _ => None,
+        }
+    }
+
+    /// The last two numbers of `link`.
+    pub fn extent_words(half_extent: Option<f64>, double: bool) -> [u32; 2] {
+        match half_extent {
+            None => [0, 0],
+            Some(extent) if double => {
+                let bits = extent.to_bits();
+                [bits as u32, (bits >> 32) as u32]
+            }
+            Some(extent) => [(extent as f32).to_bits(), 1],
+        }
+    }
+}
+
+mirror!(Sphere, {
+    ball: [f64; 4],
     /// Material, map.
     link: [u32; 4],
 });
 
-mirror!(Triangle, 9, {
-    a: [f32; 4],
-    b: [f32; 4],
-    c: [f32; 4],
-    v: [f32; 4],
-    normal: [f32; 4],
-    normal_a: [f32; 4],
-    normal_b: [f32; 4],
-    normal_c: [f32; 4],
+mirror!(Triangle, {
+    a: [f64; 4],
+    b: [f64; 4],
+    c: [f64; 4],
+    v: [f64; 4],
+    normal: [f64; 4],
+    normal_a: [f64; 4],
+    normal_b: [f64; 4],
+    normal_c: [f64; 4],
     /// Material, map.
     link: [u32; 4],
 });
 
-mirror!(Light, 5, {
-    place: [f32; 4],
+mirror!(Light, {
+    place: [f64; 4],
     power: [f32; 4],
     /// Kind.
     link: [u32; 4],
-    edge_u: [f32; 4],
-    edge_v: [f32; 4],
+    edge_u: [f64; 4],
+    edge_v: [f64; 4],
 });
 
-mirror!(Material, 4, {
+mirror!(Material, {
     color: [f32; 4],
     /// Model, texture or `NO_TEXTURE`, sampler, image slot.
     link: [u32; 4],
@@ -99,24 +194,24 @@ mirror!(Material, 4, {
     specular: [f32; 4],
 });
 
-mirror!(Map, 6, {
-    x: [f32; 4],
-    y: [f32; 4],
-    z: [f32; 4],
-    matrix: [f32; 4],
-    offset: [f32; 4],
+mirror!(Map, {
+    x: [f64; 4],
+    y: [f64; 4],
+    z: [f64; 4],
+    matrix: [f64; 4],
+    offset: [f64; 4],
     /// Kind, entity.
     link: [u32; 4],
 });
 
-mirror!(Texture, 2, {
+mirror!(Texture, {
     /// First word of level 0 in the texel buffer, width, height, format.
     place: [u32; 4],
     /// Colour space, levels, depth, kind.
     link: [u32; 4],
 });
 
-mirror!(Sampler, 4, {
+mirror!(Sampler, {
     border: [f32; 4],
     /// Address u, address v, magnification filter, texel centre.
     modes: [u32; 4],
@@ -126,19 +221,19 @@ mirror!(Sampler, 4, {
     more: [u32; 4],
 });
 
-mirror!(Procedural, 5, {
+mirror!(Procedural, {
     background: [f32; 4],
     figure: [f32; 4],
     /// Width, aspect, offset, jitter.
-    shape: [f32; 4],
+    shape: [f64; 4],
     /// Lacunarity, gain, 1 / sum of the gains, distortion.
     octaves: [f32; 4],
     /// Kind, seed, number of octaves, dimensions.
     link: [u32; 4],
 });
 
-mirror!(Motion, 1, {
-    shift: [f32; 4],
+mirror!(Motion, {
+    shift: [f64; 4],
 });
 
 /// Mirror of the push constants of `slice.glsl`.

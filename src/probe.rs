@@ -54,6 +54,27 @@ pub struct RayAnswer {
     pub padding: [u32; 2],
 }
 
+/// The same in f64.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct DoubleRay {
+    pub origin: [f64; 4],
+    pub direction: [f64; 4],
+}
+
+/// What a ray in f64 hit.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct DoubleAnswer {
+    pub point: [f64; 3],
+    pub t: f64,
+    pub normal: [f64; 4],
+    pub uv: [f64; 4],
+    pub shape: u32,
+    pub occluded: u32,
+    pub padding: [u32; 2],
+}
+
 /// One look-up of a procedural texture, averaged over the footprint that `dx` and `dy` span.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
@@ -204,6 +225,18 @@ pub fn rays(
 ) -> Result<Vec<RayAnswer>> {
     let features = Features::new(scene, false, keep_everything);
     run(gpu, scene, &features, &shaders::PROBE_RAYS, Some(bytemuck::cast_slice(queries)), queries.len(), &[])
+}
+
+/// The same for a scene whose geometry is in f64.
+pub fn double_rays(gpu: &Gpu, scene: &PackedScene, queries: &[DoubleRay]) -> Result<Vec<DoubleAnswer>> {
+    if !scene.double || !gpu.info().limits.float64 {
+        return Err(Error::new(
+            "rays in f64 need a scene that is packed for them, and a device that has f64",
+        ));
+    }
+    let features = Features::new(scene, false, false);
+    let list = Some(bytemuck::cast_slice(queries));
+    run(gpu, scene, &features, &shaders::PROBE_RAYS_DOUBLE, list, queries.len(), &[])
 }
 
 /// Linear RGB of each look-up of a procedural texture, and 1.

@@ -23,6 +23,19 @@ float reduced_coordinate(uint mask, uint mode, float u, float size) {
     return texel;
 }
 
+#ifdef DOUBLE
+// The same for a coordinate in tiles, which then fits an f32.
+float near_tile(uint mask, uint mode, double u) {
+    double s = clamp(u, -2.0, 3.0);
+    if (MODE_IS(mask, ADDRESS_REPEAT, mode)) {
+        s = u - roundEven(u);
+    } else if (MODE_IS(mask, ADDRESS_MIRRORED_REPEAT, mode)) {
+        s = u - 2.0 * roundEven(0.5 * u);
+    }
+    return float(s);
+}
+#endif
+
 // Vulkan 1.3, "Wrapping Operation", for what `reduced_coordinate` leaves; -1 asks for
 // the border colour. The bounds hold for every i, so no fetch leaves the texture.
 int addressed_texel(uint mask, uint mode, int i, int size) {

@@ -8,23 +8,23 @@
 #include "warps.glsl"
 
 struct Ray {
-    vec3 origin;
-    vec3 direction;
+    real3 origin;
+    real3 direction;
     float time;
 };
 
 // `inside` counts from the pixel's corner, in units of 2^-24 of a pixel.
 Ray camera_ray(Header header, uvec2 pixel, vec2 inside) {
     // Scaling by 2^-24 is exact wherever it happens: here once a pixel, not once a sample.
-    vec3 fine_x = header.step_x.xyz * (1.0 / 16777216.0);
-    vec3 fine_y = header.step_y.xyz * (1.0 / 16777216.0);
+    real3 fine_x = header.step_x.xyz * (1.0 / 16777216.0);
+    real3 fine_y = header.step_y.xyz * (1.0 / 16777216.0);
     vec2 corner = vec2(pixel) - 0.5 * vec2(header.image.xy);
     bool orthographic = MODE_IS(PROJECTIONS, PROJECTION_ORTHOGRAPHIC, header.size.z);
-    vec3 start = orthographic ? vec3(0.0) : header.forward.xyz;
+    real3 start = orthographic ? real3(0.0) : header.forward.xyz;
     // The sum up to the pixel's corner is the same for all its samples.
-    vec3 base = (start + corner.x * header.step_x.xyz) + corner.y * header.step_y.xyz;
-    vec3 point = (base + inside.x * fine_x) + inside.y * fine_y;
-    return orthographic ? Ray(point, header.forward.xyz, 0.0) : Ray(vec3(0.0), point, 0.0);
+    real3 base = (start + corner.x * header.step_x.xyz) + corner.y * header.step_y.xyz;
+    real3 point = (base + inside.x * fine_x) + inside.y * fine_y;
+    return orthographic ? Ray(point, header.forward.xyz, 0.0) : Ray(real3(0.0), point, 0.0);
 }
 
 // The pinhole's ray, bent by a thin lens: from a point of the lens to where the pinhole's ray meets the plane
@@ -32,18 +32,18 @@ Ray camera_ray(Header header, uvec2 pixel, vec2 inside) {
 // pixel's step changes the direction as it does without a lens.
 Ray through_lens(Header header, Ray ray, vec2 square) {
     vec2 place = header.lens.x * concentric_disc(square);
-    vec3 aside = place.x * header.step_x.xyz + place.y * header.step_y.xyz;
+    real3 aside = place.x * header.step_x.xyz + place.y * header.step_y.xyz;
     return Ray(ray.origin + aside, ray.direction - header.lens.y * aside, ray.time);
 }
 
 // The camera at a time between 0 and 1: eye and what it looks at have moved, and its axes are formed anew. Rays
 // still start relative to where the eye is then.
 Header camera_at(Header header, float time) {
-    vec3 view = header.view.xyz + time * header.view_motion.xyz;
-    vec3 forward = view * inversesqrt(dot3(view, view));
-    vec3 across = cross3(forward, header.up.xyz);
-    vec3 right = across * inversesqrt(dot3(across, across));
-    float pixel = header.step_y.w;
+    real3 view = header.view.xyz + time * header.view_motion.xyz;
+    real3 forward = view * inverse_root(dot3(view, view));
+    real3 across = cross3(forward, header.up.xyz);
+    real3 right = across * inverse_root(dot3(across, across));
+    real pixel = header.step_y.w;
     header.forward.xyz = forward;
     header.step_x.xyz = pixel * right;
     header.step_y.xyz = pixel * cross3(forward, right);

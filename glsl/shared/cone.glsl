@@ -69,7 +69,7 @@ void cut_plane(Cone cone, Plane plane) {
     cut_by(vec3(-cone.width * seen.tilt, seen.height));
     if (BOUNDED_PLANES && plane.link.w != 0u) {
         // Together they leave nothing above the horizon.
-        float extent = uintBitsToFloat(plane.link.z);
+        float extent = REAL_BITS(plane.link.zw);
         cut_bounds(cone, seen, plane.axis_u, extent);
         cut_bounds(cone, seen, plane.axis_v, extent);
     } else {
@@ -157,7 +157,7 @@ Hit meet(Header header, Ray ray, uint shape) {
     uint planes = COUNT(PLANES, header.counts.x);
     uint spheres = COUNT(SPHERES, header.counts.y);
     uint triangles = COUNT(TRIANGLES, header.counts.z);
-    Hit hit = Hit(-1.0, shape, vec3(0.0));
+    Hit hit = Hit(-1.0, shape, vec2(0.0));
     vec4 plane = vec4(0.0);
     if (planes > 0u && (spheres + triangles == 0u || shape < planes)) {
         Plane found = plane_at(shape);
@@ -170,9 +170,7 @@ Hit meet(Header header, Ray ray, uint shape) {
         hit.t = hit.t > 0.0 ? hit.t : nearest;
         return hit;
     } else if (triangles > 0u) {
-        Triangle found = triangle_at(shape - planes - spheres);
-        plane = found.normal;
-        triangle_distance(found, ray, false, hit.local);
+        plane = triangle_at(shape - planes - spheres).normal;
     }
     float above = plane.w - dot3(plane.xyz, ray.origin);
     hit.t = above / dot3(plane.xyz, ray.direction);

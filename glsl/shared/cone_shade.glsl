@@ -71,7 +71,7 @@ Branch lit_branch(Branch branch, vec3 carried, Hit hit, Surface surface, Footpri
         seen = with_highlight(seen, carried, material.specular.xyz, more * phong_lobe(mirror, way, material.specular.w));
     }
     if (!SHADOWS) return Branch(branch.ray, 0.0, 0.0, seen, skip, 0u);
-    vec3 start = offset_origin(surface.point, surface.geometric_normal);
+    vec3 start = offset_origin(surface.point, surface.geometric_normal, surface.size);
     vec3 to_light = point_light ? light.place.xyz - start : light.place.xyz;
     vec3 across = cross3(print.point_x, print.point_y);
     float width = sqrt(sqrt(dot3(across, across)) * (max(above, 0.0) * inversesqrt(squared)));
@@ -91,7 +91,7 @@ Branch bent_branch(Header header, Branch branch, Hit hit, Surface surface, Footp
         beam = mirrored_beam(header, beam, ray, hit.t, print, surface.normal, surface.bend, surface.curvature);
         direction = mirrored(ray.direction, surface.normal);
     }
-    vec3 start = offset_origin(surface.point, through ? -surface.geometric_normal : surface.geometric_normal);
+    vec3 start = offset_origin(surface.point, through ? -surface.geometric_normal : surface.geometric_normal, surface.size);
     return Branch(Ray(start, direction, 0.0), beam.width, beam.spread, branch.weight * share, skip, branch.depth + 1u);
 }
 
@@ -99,7 +99,7 @@ Branch bent_branch(Header header, Branch branch, Hit hit, Surface surface, Footp
 vec3 shade_part(Header header, Branch branch, uint shape) {
     bool missed = ENVIRONMENT && shape == NO_SHAPE;
     Ray ray = branch.ray;
-    Hit hit = Hit(1.0, 0u, vec3(0.0));
+    Hit hit = Hit(1.0, 0u, vec2(0.0));
     if (!missed) hit = meet(header, ray, shape);
     Surface surface = hit_surface(header, ray, hit);
     Beam beam = cone_beam(branch.width, branch.spread);

@@ -25,10 +25,11 @@ vec3 look_up_dice(uvec2 random) {
     return vec3(bits >> 8u) * (1.0 / 16777216.0);
 }
 
-vec4 look_up(Texture image, Sampler how, uint slot, Coordinate place, uvec2 random) {
+vec4 look_up(Texture image, Sampler how, uint slot, Mapped mapped, uvec2 random) {
     if (MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_PROCEDURAL, image.link.w)) {
-        return vec4(procedural_color(procedural_at(image.place.x), place.at, place.dx, place.dy), 1.0);
+        return vec4(procedural_color(procedural_at(image.place.x), mapped.at, mapped.dx, mapped.dy), 1.0);
     }
+    Coordinate place = near_coordinate(image, how, mapped);
     bool hardware = false;
 #if HAS_IMAGES
     hardware = MODE_IS(METHODS, METHOD_HARDWARE, how.link.x);

@@ -40,21 +40,21 @@ Beam camera_beam(Header header, Ray ray) {
     Beam beam = Beam(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), 0.0, 0.0);
     if (!FILTERED || MODE_IS(FOOTPRINTS, FOOTPRINT_NONE, header.key.z)) return beam;
     bool orthographic = MODE_IS(PROJECTIONS, PROJECTION_ORTHOGRAPHIC, header.size.z);
-    float share = header.step_x.w;
+    float share = float(header.step_x.w);
     if (DIFFERENTIALS) {
-        vec3 x = header.step_x.xyz * share;
-        vec3 y = header.step_y.xyz * share;
+        vec3 x = vec3(header.step_x.xyz) * share;
+        vec3 y = vec3(header.step_y.xyz) * share;
         beam.origin_x = orthographic ? x : vec3(0.0);
         beam.origin_y = orthographic ? y : vec3(0.0);
         beam.direction_x = orthographic ? vec3(0.0) : x;
         beam.direction_y = orthographic ? vec3(0.0) : y;
     }
     if (CONES) {
-        float side = header.step_y.w * share; // of the pixel's share, at t = 1
+        float side = float(header.step_y.w) * share; // of the pixel's share, at t = 1
         // Seen from the eye a pixel off the axis is narrower by the cosine in one direction: the cone
         // has the root of it, and so the same cross-section.
         beam.width = orthographic ? side : 0.0;
-        beam.spread = orthographic ? 0.0 : side * inversesqrt(sqrt(dot3(ray.direction, ray.direction)));
+        beam.spread = orthographic ? 0.0 : side * inversesqrt(sqrt(float(dot3(ray.direction, ray.direction))));
     }
     return beam;
 }
@@ -78,24 +78,27 @@ vec3 around(vec3 n, vec3 v) {
 const float MAX_STRETCH = 65536.0;
 
 // The footprint around the point origin + t direction with unit normal n.
-Footprint footprint_at(Header header, Beam beam, Ray ray, float t, vec3 n) {
+Footprint footprint_at(Header header, Beam beam, Ray ray, real distance, real3 normal) {
     Footprint print = NO_FOOTPRINT;
     if (!FILTERED) return print;
-    float facing = dot3(n, ray.direction);
-    float squared = dot3(ray.direction, ray.direction);
+    vec3 n = vec3(normal);
+    vec3 direction = vec3(ray.direction);
+    float t = float(distance);
+    float facing = float(dot3(normal, ray.direction));
+    float squared = dot3(direction, direction);
     float least = sqrt(squared) / MAX_STRETCH;
     facing = abs(facing) < least ? (facing < 0.0 ? -least : least) : facing;
     if (DIFFERENTIALS && (!CONES || !uses_cones(header))) {
         vec3 x = beam.origin_x + t * beam.direction_x;
         vec3 y = beam.origin_y + t * beam.direction_y;
-        vec3 on_x = x - (dot3(n, x) / facing) * ray.direction;
-        vec3 on_y = y - (dot3(n, y) / facing) * ray.direction;
+        vec3 on_x = x - (dot3(n, x) / facing) * direction;
+        vec3 on_y = y - (dot3(n, y) / facing) * direction;
         return Footprint(on_x, on_y, beam.direction_x, beam.direction_y);
     }
     if (CONES) {
         float width = abs(beam.width + beam.spread * t);
         float scale = inversesqrt(squared);
-        vec3 d = ray.direction * scale;
+        vec3 d = direction * scale;
         vec3 across = cross3(n, d); // as long as the sine of the angle of incidence
         float sine = sqrt(dot3(across, across));
         // At normal incidence every direction across is as good as any other.
@@ -117,14 +120,15 @@ Footprint endless_footprint(Header header, Beam beam, Ray ray) {
     if (DIFFERENTIALS && (!CONES || !uses_cones(header))) {
         return Footprint(vec3(0.0), vec3(0.0), beam.direction_x, beam.direction_y);
     }
-    vec3 d = ray.direction * inversesqrt(dot3(ray.direction, ray.direction));
+    vec3 direction = vec3(ray.direction);
+    vec3 d = direction * inversesqrt(dot3(direction, direction));
     vec3 side = any_tangent(d);
     return Footprint(vec3(0.0), vec3(0.0), side * beam.spread, cross3(d, side) * beam.spread);
 }
 
 // d - 2 (d·n) n, for unit n.
-vec3 mirrored(vec3 direction, vec3 normal) {
-    vec3 result = direction - (2.0 * dot3(direction, normal)) * normal;
+real3 mirrored(real3 direction, real3 normal) {
+    real3 result = direction - (2.0 * dot3(direction, normal)) * normal;
     return result;
 }
 
@@ -144,18 +148,22 @@ vec3 bent(mat3 bend, vec3 v) {
 
 // The beam that leaves a mirror. `bend` is the change of the unit normal a unit of way along the surface;
 // a cone takes its mean, the curvature.
-Beam mirrored_beam(Header header, Beam beam, Ray ray, float t, Footprint print, vec3 n, mat3 bend, float curvature) {
+Beam mirrored_beam(Header header, Beam beam, Ray ray, real distance, Footprint print, real3 normal, mat3 bend,
+                   float curvature) {
     if (!FILTERED) return beam;
+    vec3 n = vec3(normal);
+    vec3 direction = vec3(ray.direction);
+    float t = float(distance);
     Beam next = beam;
     if (DIFFERENTIALS) {
         next.origin_x = print.point_x;
         next.origin_y = print.point_y;
-        next.direction_x = mirrored_change(ray.direction, n, print.direction_x, bent(bend, print.point_x));
-        next.direction_y = mirrored_change(ray.direction, n, print.direction_y, bent(bend, print.point_y));
+        next.direction_x = mirrored_change(direction, n, print.direction_x, bent(bend, print.point_x));
+        next.direction_y = mirrored_change(direction, n, print.direction_y, bent(bend, print.point_y));
     }
     if (CONES) {
         float width = beam.width + beam.spread * t;
-        float spread = beam.spread + 2.0 * curvature * width * sqrt(dot3(ray.direction, ray.direction));
+        float spread = beam.spread + 2.0 * curvature * width * sqrt(dot3(direction, direction));
         next.width = width;
         next.spread = spread;
     }
@@ -164,25 +172,25 @@ Beam mirrored_beam(Header header, Beam beam, Ray ray, float t, Footprint print, 
 
 // Snell: the direction behind a surface with unit normal n against the ray; `ratio` of refractive
 // indices, in front over behind. As long as d; d itself where everything is reflected.
-vec3 refracted(vec3 direction, vec3 n, float ratio) {
-    float along = dot3(direction, n);
-    float squared = dot3(direction, direction);
-    float under = squared - ratio * ratio * (squared - along * along);
-    vec3 result = ratio * direction - (ratio * along + sqrt(max(under, 0.0))) * n;
+real3 refracted(real3 direction, real3 n, real ratio) {
+    real along = dot3(direction, n);
+    real squared = dot3(direction, direction);
+    real under = squared - ratio * ratio * (squared - along * along);
+    real3 result = ratio * direction - (ratio * along + sqrt(max(under, 0.0))) * n;
     return under > 0.0 ? result : direction;
 }
 
 // Share of unpolarised light that is mirrored (Fresnel); 1 beyond the critical angle.
-float reflectance(vec3 direction, vec3 n, float ratio) {
-    float squared = dot3(direction, direction);
-    float along = dot3(direction, n);
-    float cosine = min(abs(along) * inversesqrt(squared), 1.0);
-    float under = 1.0 - ratio * ratio * (1.0 - cosine * cosine);
+real reflectance(real3 direction, real3 n, real ratio) {
+    real squared = dot3(direction, direction);
+    real along = dot3(direction, n);
+    real cosine = min(abs(along) * inverse_root(squared), 1.0);
+    real under = 1.0 - ratio * ratio * (1.0 - cosine * cosine);
     if (under <= 0.0) return 1.0;
-    float behind = sqrt(under);
-    float s = (ratio * cosine - behind) / (ratio * cosine + behind);
-    float p = (cosine - ratio * behind) / (cosine + ratio * behind);
-    float mean = 0.5 * (s * s + p * p);
+    real behind = sqrt(under);
+    real s = (ratio * cosine - behind) / (ratio * cosine + behind);
+    real p = (cosine - ratio * behind) / (cosine + ratio * behind);
+    real mean = 0.5 * (s * s + p * p);
     return mean;
 }
 
@@ -199,18 +207,22 @@ vec3 refracted_change(vec3 direction, vec3 n, float ratio, vec3 change, vec3 nor
 }
 
 // The beam behind a refracting surface. A cone is as wide as the ellipse that it becomes has area.
-Beam refracted_beam(Header header, Beam beam, Ray ray, float t, Footprint print, vec3 n, mat3 bend, float curvature, float ratio) {
+Beam refracted_beam(Header header, Beam beam, Ray ray, real distance, Footprint print, real3 normal, mat3 bend,
+                    float curvature, float ratio) {
     if (!FILTERED) return beam;
+    vec3 n = vec3(normal);
+    vec3 direction = vec3(ray.direction);
+    float t = float(distance);
     Beam next = beam;
     if (DIFFERENTIALS) {
         next.origin_x = print.point_x;
         next.origin_y = print.point_y;
-        next.direction_x = refracted_change(ray.direction, n, ratio, print.direction_x, bent(bend, print.point_x));
-        next.direction_y = refracted_change(ray.direction, n, ratio, print.direction_y, bent(bend, print.point_y));
+        next.direction_x = refracted_change(direction, n, ratio, print.direction_x, bent(bend, print.point_x));
+        next.direction_y = refracted_change(direction, n, ratio, print.direction_y, bent(bend, print.point_y));
     }
     if (CONES) {
-        float size = sqrt(dot3(ray.direction, ray.direction));
-        float before = min(abs(dot3(ray.direction, n)) / size, 1.0);
+        float size = sqrt(dot3(direction, direction));
+        float before = min(abs(dot3(direction, n)) / size, 1.0);
         float behind = sqrt(max(1.0 - ratio * ratio * (1.0 - before * before), 1e-6));
         float squeeze = sqrt(behind / max(before, 1e-6));
         float width = (beam.width + beam.spread * t) * squeeze;

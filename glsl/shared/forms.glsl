@@ -143,7 +143,7 @@ Region shape_region(Header header, Frame frame, uint shape) {
     if (TRIANGLES == 0u || shape < planes) {
         Plane record = plane_at(shape);
         if (BOUNDED_PLANES && record.link.w != 0u) {
-            vec3 extent = uintBitsToFloat(record.link.z) * below(header, near);
+            vec3 extent = REAL_BITS(record.link.zw) * below(header, near);
             vec3 u = along(header, frame, near, record.axis_u);
             vec3 v = along(header, frame, near, record.axis_v);
             region.lines[1] = extent - u;
@@ -204,7 +204,7 @@ Region shadow_region(Header header, Frame frame, vec3 near, uint shape, Light li
         if (!BOUNDED_PLANES || record.link.w == 0u) return region;
         // A place's distance below the light, in |rise|, or its own height.
         vec4 depth = point_light ? side * vec4(n, -dot3(n, place)) : vec4(0.0, 0.0, 0.0, abs(rise));
-        vec3 extent = uintBitsToFloat(record.link.z) * along(header, frame, near, depth);
+        vec3 extent = REAL_BITS(record.link.zw) * along(header, frame, near, depth);
         for (uint k = 0u; k < 2u; k++) {
             vec4 row = k == 0u ? record.axis_u : record.axis_v;
             float across = dot3(row.xyz, place);

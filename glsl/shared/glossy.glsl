@@ -40,7 +40,7 @@ float refracted_share(float leaving, float alpha) {
 Beam widened_beam(Header header, Beam beam, vec3 direction, float alpha) {
     if (!FILTERED) return beam;
     float size = sqrt(dot3(direction, direction));
-    float by = 2.0 * alpha * header.step_x.w * size;
+    float by = 2.0 * alpha * float(header.step_x.w) * size;
     Beam next = beam;
     if (DIFFERENTIALS) {
         vec3 unit = direction / size;

@@ -4,6 +4,8 @@
 #ifndef LAYOUT_GLSL
 #define LAYOUT_GLSL
 
+#include "real.glsl"
+
 const uint PROJECTION_PERSPECTIVE = 0u;
 const uint PROJECTION_ORTHOGRAPHIC = 1u;
 
@@ -134,11 +136,11 @@ const uint NO_MATERIAL = 0xFFFFFFFFu;
 const float FAR = 1e30; // farther than any hit that counts
 
 struct Header {
-    vec4 forward;    // unit view direction; w: unused
-    vec4 step_x;     // one pixel to the right: added to direction (perspective) or origin (orthographic);
+    real4 forward;    // unit view direction; w: unused
+    real4 step_x;     // one pixel to the right: added to direction (perspective) or origin (orthographic);
                      // w: side of the part of a pixel that a sample stands for;
                      // 0 without a footprint
-    vec4 step_y;     // one pixel down; w: a pixel's side
+    real4 step_y;     // one pixel down; w: a pixel's side
     vec4 background; // linear RGB
     uvec4 image;     // width, height, crop x, crop y
     uvec4 size;      // film width, film height, projection, max depth
@@ -148,44 +150,44 @@ struct Header {
     uvec4 chances;   // one bit for each choice that samples make; motions; 1 when the camera moves
     vec4 lens;       // its radius over a pixel's side at distance 1, or 0; 1 / focus distance; when the shutter
                      // opens, how long it is open
-    vec4 view;       // from the eye to what it looks at
-    vec4 up;
-    vec4 eye_motion; // between the times 0 and 1
-    vec4 view_motion;
+    real4 view;       // from the eye to what it looks at
+    real4 up;
+    real4 eye_motion; // between the times 0 and 1
+    real4 view_motion;
     uvec4 pixel_filter; // kind, radius and width (bits; pixels), first step from the middle where it is negative
 };
 
 struct Plane {
-    vec4 normal;   // unit n; w = n·(origin − eye)
-    vec4 axis_u;   // own coordinate u of an eye-relative point p, counted from the eye: xyz·p; plus
-    vec4 axis_v;   // w it counts from the plane's origin. v likewise
-    uvec4 link;    // material, map, half extent (bits), 1 when bounded
+    real4 normal;   // unit n; w = n·(origin − eye)
+    real4 axis_u;   // own coordinate u of an eye-relative point p, counted from the eye: xyz·p; plus
+    real4 axis_v;   // w it counts from the plane's origin. v likewise
+    uvec4 link;    // material, map, and of bounded planes the half extent: f32 bits and 1, or f64 bits
 };
 
 struct Sphere {
-    vec4 ball;  // centre, radius
+    real4 ball;  // centre, radius
     uvec4 link; // material, map
 };
 
 struct Triangle {
-    vec4 a;        // vertex; w = u
-    vec4 b;
-    vec4 c;
-    vec4 v;        // v of the three vertices; w = 1 with shading normals
-    vec4 normal;   // unit geometric normal; w = n·a
-    vec4 normal_a; // unit shading normals
-    vec4 normal_b;
-    vec4 normal_c;
+    real4 a;        // vertex; w = u
+    real4 b;
+    real4 c;
+    real4 v;        // v of the three vertices; w = 1 with shading normals
+    real4 normal;   // unit geometric normal; w = n·a
+    real4 normal_a; // unit shading normals
+    real4 normal_b;
+    real4 normal_c;
     uvec4 link;    // material, map
 };
 
 struct Light {
-    vec4 place;  // position relative to the eye, or unit direction towards the light; w: a sphere's radius,
+    real4 place;  // position relative to the eye, or unit direction towards the light; w: a sphere's radius,
                  // or the height of the sun's cap on the unit sphere
     vec4 power;  // intensity (W/sr), irradiance, or of a rectangle radiance
     uvec4 link;  // kind
-    vec4 edge_u; // of a rectangle: its sides; it shines where edge_u × edge_v points
-    vec4 edge_v;
+    real4 edge_u; // of a rectangle: its sides; it shines where edge_u × edge_v points
+    real4 edge_v;
 };
 
 struct Material {
@@ -197,11 +199,11 @@ struct Material {
 };
 
 struct Map {
-    vec4 x;      // frame coordinates of an eye-relative point p: xyz·p + w
-    vec4 y;
-    vec4 z;
-    vec4 matrix; // uv' = (m00 u + m01 v, m10 u + m11 v) + offset
-    vec4 offset;
+    real4 x;      // frame coordinates of an eye-relative point p: xyz·p + w
+    real4 y;
+    real4 z;
+    real4 matrix; // uv' = (m00 u + m01 v, m10 u + m11 v) + offset
+    real4 offset;
     uvec4 link;  // kind, entity
 };
 
@@ -220,14 +222,14 @@ struct Sampler {
 struct Procedural {
     vec4 background; // linear RGB
     vec4 figure;
-    vec4 shape;      // width, aspect, offset, jitter
+    real4 shape;      // width, aspect, offset, jitter
     vec4 octaves;    // lacunarity, gain, 1 / sum of the gains, distortion
     uvec4 link;      // kind, seed, number of octaves, dimensions
 };
 
 // Of a shape, in their order: planes, spheres, triangles.
 struct Motion {
-    vec4 shift; // between the times 0 and 1
+    real4 shift; // between the times 0 and 1
 };
 
 layout(std430, set = 0, binding = 1) readonly buffer SceneBuffer { uvec4 scene[]; };
@@ -239,41 +241,50 @@ layout(std140, set = 0, binding = 5) uniform SceneHead { uvec4 head[HEAD_UNITS];
 
 #define READ_HEAD(at) head[at]
 #define READ_SCENE(at) scene[at]
-#define READ_HEADER(at) uintBitsToFloat(head[at])
+// A vector of reals behind `reals` of them and `others` that are none.
+#define R(read, at, reals, others) READ_REAL(read, (at) + (reals) * REAL_UNITS + (others))
+#define F(read, at, reals, others) uintBitsToFloat(read((at) + (reals) * REAL_UNITS + (others)))
+#define U(read, at, reals, others) read((at) + (reals) * REAL_UNITS + (others))
 
 Header load_header() {
-    return Header(READ_HEADER(0u), READ_HEADER(1u), READ_HEADER(2u), READ_HEADER(3u), head[4u], head[5u], head[6u],
-                  head[7u], head[8u], head[9u], READ_HEADER(10u), READ_HEADER(11u), READ_HEADER(12u),
-                  READ_HEADER(13u), READ_HEADER(14u), head[15u]);
+    return Header(R(READ_HEAD, 0u, 0u, 0u), R(READ_HEAD, 0u, 1u, 0u), R(READ_HEAD, 0u, 2u, 0u), F(READ_HEAD, 0u, 3u, 0u),
+                  U(READ_HEAD, 0u, 3u, 1u), U(READ_HEAD, 0u, 3u, 2u), U(READ_HEAD, 0u, 3u, 3u), U(READ_HEAD, 0u, 3u, 4u),
+                  U(READ_HEAD, 0u, 3u, 5u), U(READ_HEAD, 0u, 3u, 6u), F(READ_HEAD, 0u, 3u, 7u), R(READ_HEAD, 0u, 3u, 8u),
+                  R(READ_HEAD, 0u, 4u, 8u), R(READ_HEAD, 0u, 5u, 8u), R(READ_HEAD, 0u, 6u, 8u), U(READ_HEAD, 0u, 7u, 8u));
 }
 
 // How a record is put together from what lies at `at`, read from the head or from the whole.
-#define F(read, at) uintBitsToFloat(read(at))
-#define PLANE(read, at) Plane(F(read, at), F(read, at + 1u), F(read, at + 2u), read(at + 3u))
-#define SPHERE(read, at) Sphere(F(read, at), read(at + 1u))
+#define PLANE(read, at) \
+    Plane(R(read, at, 0u, 0u), R(read, at, 1u, 0u), R(read, at, 2u, 0u), U(read, at, 3u, 0u))
+#define SPHERE(read, at) Sphere(R(read, at, 0u, 0u), U(read, at, 1u, 0u))
 #define TRIANGLE(read, at)                                                                      \
-    Triangle(F(read, at), F(read, at + 1u), F(read, at + 2u), F(read, at + 3u), F(read, at + 4u), \
-             F(read, at + 5u), F(read, at + 6u), F(read, at + 7u), read(at + 8u))
-#define LIGHT(read, at) Light(F(read, at), F(read, at + 1u), read(at + 2u), F(read, at + 3u), F(read, at + 4u))
-#define MATERIAL(read, at) Material(F(read, at), read(at + 1u), read(at + 2u), F(read, at + 3u))
+    Triangle(R(read, at, 0u, 0u), R(read, at, 1u, 0u), R(read, at, 2u, 0u), R(read, at, 3u, 0u), \
+             R(read, at, 4u, 0u), R(read, at, 5u, 0u), R(read, at, 6u, 0u), R(read, at, 7u, 0u), \
+             U(read, at, 8u, 0u))
+#define LIGHT(read, at)                                                                         \
+    Light(R(read, at, 0u, 0u), F(read, at, 1u, 0u), U(read, at, 1u, 1u), R(read, at, 1u, 2u), R(read, at, 2u, 2u))
+#define MATERIAL(read, at) \
+    Material(F(read, at, 0u, 0u), U(read, at, 0u, 1u), U(read, at, 0u, 2u), F(read, at, 0u, 3u))
 #define MAP(read, at)                                                                           \
-    Map(F(read, at), F(read, at + 1u), F(read, at + 2u), F(read, at + 3u), F(read, at + 4u), read(at + 5u))
-#define TEXTURE(read, at) Texture(read(at), read(at + 1u))
-#define SAMPLER(read, at) Sampler(F(read, at), read(at + 1u), read(at + 2u), read(at + 3u))
-#define PROCEDURAL(read, at) \
-    Procedural(F(read, at), F(read, at + 1u), F(read, at + 2u), F(read, at + 3u), read(at + 4u))
-#define MOTION(read, at) Motion(F(read, at))
+    Map(R(read, at, 0u, 0u), R(read, at, 1u, 0u), R(read, at, 2u, 0u), R(read, at, 3u, 0u), R(read, at, 4u, 0u), \
+        U(read, at, 5u, 0u))
+#define TEXTURE(read, at) Texture(U(read, at, 0u, 0u), U(read, at, 0u, 1u))
+#define SAMPLER(read, at) \
+    Sampler(F(read, at, 0u, 0u), U(read, at, 0u, 1u), U(read, at, 0u, 2u), U(read, at, 0u, 3u))
+#define PROCEDURAL(read, at)                                                                    \
+    Procedural(F(read, at, 0u, 0u), F(read, at, 0u, 1u), R(read, at, 0u, 2u), F(read, at, 1u, 2u), U(read, at, 1u, 3u))
+#define MOTION(read, at) Motion(R(read, at, 0u, 0u))
 
-const uint PLANE_UNITS = 4u;
-const uint SPHERE_UNITS = 2u;
-const uint TRIANGLE_UNITS = 9u;
-const uint LIGHT_UNITS = 5u;
+const uint PLANE_UNITS = 3u * REAL_UNITS + 1u;
+const uint SPHERE_UNITS = 1u * REAL_UNITS + 1u;
+const uint TRIANGLE_UNITS = 8u * REAL_UNITS + 1u;
+const uint LIGHT_UNITS = 3u * REAL_UNITS + 2u;
 const uint MATERIAL_UNITS = 4u;
-const uint MAP_UNITS = 6u;
+const uint MAP_UNITS = 5u * REAL_UNITS + 1u;
 const uint TEXTURE_UNITS = 2u;
 const uint SAMPLER_UNITS = 4u;
-const uint PROCEDURAL_UNITS = 5u;
-const uint MOTION_UNITS = 1u;
+const uint PROCEDURAL_UNITS = 1u * REAL_UNITS + 4u;
+const uint MOTION_UNITS = 1u * REAL_UNITS;
 
 // Lists of known, small length are read once, before any branch: some compilers (lavapipe's) read a
 // buffer lane by lane inside control flow. An index that is not known at build time then selects

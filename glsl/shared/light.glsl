@@ -14,16 +14,16 @@ const float BEFORE_LIGHT = 4095.0 / 4096.0;
 // The way to a place of a light, how much of it a shape may not lie in, and the irradiance there, over the
 // light's power and the cosine.
 struct Aim {
-    vec3 way;
+    real3 way;
     float reach;
     float density;
 };
 
 // Uniform over the cone in which the sphere is seen; from within it, over all directions. Of radiance
 // I / (pi R²) a direction stands for 2 pi h, the cone's solid angle, h = 1 - cos of its half angle.
-Aim sphere_aim(Light light, vec3 point, vec2 square) {
-    vec3 way = light.place.xyz - point;
-    float radius = light.place.w;
+Aim sphere_aim(Light light, real3 point, vec2 square) {
+    vec3 way = vec3(light.place.xyz - point);
+    float radius = float(light.place.w);
     float squared = max(dot3(way, way), 1e-30);
     float sine = radius * radius / squared; // squared
     bool outside = sine < 1.0;
@@ -37,18 +37,18 @@ Aim sphere_aim(Light light, vec3 point, vec2 square) {
 }
 
 // Uniform over the area, which is the length of the sides' cross product: cos / r² with cos' of the light.
-Aim rectangle_aim(Light light, vec3 point, vec2 square) {
+Aim rectangle_aim(Light light, real3 point, vec2 square) {
     vec2 p = square - 0.5;
-    vec3 way = (light.place.xyz - point) + (p.x * light.edge_u.xyz + p.y * light.edge_v.xyz);
-    float squared = dot3(way, way);
-    float leaving = -dot3(way, cross3(light.edge_u.xyz, light.edge_v.xyz));
+    real3 way = (light.place.xyz - point) + (p.x * light.edge_u.xyz + p.y * light.edge_v.xyz);
+    float squared = float(dot3(way, way));
+    float leaving = float(-dot3(way, cross3(light.edge_u.xyz, light.edge_v.xyz)));
     float density = leaving > 0.0 ? (leaving / squared) / squared : 0.0;
     return Aim(way, BEFORE_LIGHT, density);
 }
 
 // Uniform over the cap of the sky.
 Aim sun_aim(Light light, vec2 square) {
-    return Aim(around(light.place.xyz, on_cap(concentric_disc(square), light.place.w)), FAR, 1.0);
+    return Aim(around(vec3(light.place.xyz), on_cap(concentric_disc(square), float(light.place.w))), FAR, 1.0);
 }
 
 // Irradiance over pi from all lights: what an albedo of 1 sends on, and a specular colour of 1.
@@ -68,11 +68,12 @@ Lit direct_light(Header header, Surface surface, float time, uint shape, vec3 mi
                  Choices choices) {
     Lit sum = Lit(vec3(0.0), vec3(0.0));
     uint lights = COUNT(LIGHTS, header.key.y);
-    vec3 start = SHADOWS ? offset_origin(surface.point, surface.geometric_normal) : surface.point;
+    real3 start = surface.point;
+    if (SHADOWS) start = offset_origin(surface.point, surface.geometric_normal, surface.size);
     for (uint i = 0u; i < lights; i++) {
         Light light = light_at(i);
         bool point_light = MODE_IS(LIGHT_KINDS, LIGHT_POINT, light.link.x);
-        vec3 way = point_light ? light.place.xyz - surface.point : light.place.xyz;
+        real3 way = point_light ? light.place.xyz - surface.point : light.place.xyz;
         Aim aim = Aim(way, point_light ? 1.0 : FAR, 1.0);
         if (AREA_LIGHTS) {
             if (light.link.x >= LIGHT_SPHERE) {
@@ -87,15 +88,15 @@ Lit direct_light(Header header, Surface surface, float time, uint shape, vec3 mi
                 way = aim.way;
             }
         }
-        float squared = dot3(way, way);
-        float facing = dot3(surface.normal, way);
+        float squared = float(dot3(way, way));
+        float facing = float(dot3(surface.normal, way));
         // Point: cos/r² = n·l / r³ with the unnormalised l. Directional: l is a unit vector.
         float share = point_light ? facing / (squared * sqrt(squared)) : facing;
         if (AREA_LIGHTS) share *= aim.density;
         bool lit = facing > 0.0 && dot3(surface.geometric_normal, way) > 0.0;
         if (lit) {
             if (SHADOWS) {
-                vec3 to_light = point_light ? light.place.xyz - start : way;
+                real3 to_light = point_light ? light.place.xyz - start : way;
                 if (HAS(LIGHT_KINDS, LIGHT_RECTANGLE)) {
                     // A place of it, seen from where the shadow ray starts.
                     if (light.link.x == LIGHT_RECTANGLE) to_light += surface.point - start;
@@ -106,7 +107,7 @@ Lit direct_light(Header header, Surface surface, float time, uint shape, vec3 mi
             vec3 diffuse = sum.diffuse + more;
             sum.diffuse = lit ? diffuse : sum.diffuse;
             if (HAS(MODELS, MODEL_PHONG)) {
-                vec3 specular = sum.specular + more * phong_lobe(mirror, way, exponent);
+                vec3 specular = sum.specular + more * phong_lobe(mirror, vec3(way), exponent);
                 sum.specular = lit ? specular : sum.specular;
             }
         }

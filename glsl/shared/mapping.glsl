@@ -17,15 +17,22 @@ const bool DERIVATIVES = FILTERED || BUMPED;
 // What a map can look at: the entity that its kind projects, the shape's own coordinate, and the
 // changes of both over the footprint.
 struct Seen {
-    vec3 entity;
+    real3 entity;
     vec3 entity_x;
     vec3 entity_y;
-    vec2 own;
+    real2 own;
     vec2 own_x;
     vec2 own_y;
 };
 
-// A texture coordinate (u, v, w), or a direction for a cube texture.
+// A texture coordinate (u, v, w), or a direction for a cube texture, as the map gives it.
+struct Mapped {
+    real3 at;
+    vec3 dx;
+    vec3 dy;
+};
+
+// The same where look-ups work: where whole tiles change nothing, they have left.
 struct Coordinate {
     vec3 at;
     vec3 dx;
@@ -33,49 +40,57 @@ struct Coordinate {
 };
 
 // matrix · uv: scale and rotation. Most scenes neither rotate nor shear.
-vec2 turned_uv(Map map, vec2 uv) {
-    vec2 mapped;
+real2 turned_uv(Map map, real2 uv) {
+    real2 mapped;
     if (ROTATED_UV) {
-        mapped = vec2(map.matrix.x * uv.x + map.matrix.y * uv.y, map.matrix.w * uv.y + map.matrix.z * uv.x);
+        mapped = real2(map.matrix.x * uv.x + map.matrix.y * uv.y, map.matrix.w * uv.y + map.matrix.z * uv.x);
     } else {
-        mapped = vec2(map.matrix.x * uv.x, map.matrix.w * uv.y);
+        mapped = real2(map.matrix.x * uv.x, map.matrix.w * uv.y);
     }
     return mapped;
 }
 
 // matrix · uv + offset.
-vec2 placed(Map map, vec2 uv) {
-    vec2 mapped = turned_uv(map, uv) + map.offset.xy;
+real2 placed(Map map, real2 uv) {
+    real2 mapped = turned_uv(map, uv) + map.offset.xy;
     return mapped;
 }
 
 // A coordinate of a map that ends with `placed`.
-Coordinate placed_coordinate(Map map, vec2 uv, vec2 dx, vec2 dy) {
-    Coordinate c = Coordinate(vec3(placed(map, uv), 0.0), vec3(0.0), vec3(0.0));
+Mapped placed_coordinate(Map map, real2 uv, vec2 dx, vec2 dy) {
+    Mapped c = Mapped(real3(placed(map, uv), 0.0), vec3(0.0), vec3(0.0));
     if (DERIVATIVES) {
-        c.dx = vec3(turned_uv(map, dx), 0.0);
-        c.dy = vec3(turned_uv(map, dy), 0.0);
+        c.dx = vec3(turned_uv(map, real2(dx)), 0.0);
+        c.dy = vec3(turned_uv(map, real2(dy)), 0.0);
     }
     return c;
 }
 
 // The linear part of the frame.
-vec3 in_frame(Map map, vec3 v) { return vec3(dot3(map.x.xyz, v), dot3(map.y.xyz, v), dot3(map.z.xyz, v)); }
+vec3 in_frame(Map map, vec3 v) {
+    return vec3(dot3(vec3(map.x.xyz), v), dot3(vec3(map.y.xyz), v), dot3(vec3(map.z.xyz), v));
+}
 
 // Which face of a cube a direction meets, and where on it, (s, t) in [-1, 1] (Vulkan 1.3, "Cube Map Face
 // Selection"; ties go to z, then y). The third number is the length along the face's axis.
-vec3 on_cube_face(vec3 d, out uint face) {
-    vec3 a = abs(d);
-    bool z = a.z >= a.x && a.z >= a.y;
-    bool y = !z && a.y >= a.x;
-    float major = z ? a.z : (y ? a.y : a.x);
-    float along = z ? d.z : (y ? d.y : d.x);
-    bool negative = along < 0.0;
-    face = (z ? 4u : (y ? 2u : 0u)) + (negative ? 1u : 0u);
-    float s = z ? (negative ? -d.x : d.x) : (y ? d.x : (negative ? d.z : -d.z));
-    float t = y ? (negative ? -d.z : d.z) : -d.y;
-    return vec3(s, t, major);
-}
+#define ON_CUBE_FACE(scalar, vector)                                                             \
+    vector on_cube_face(vector d, out uint face) {                                               \
+        vector a = abs(d);                                                                       \
+        bool z = a.z >= a.x && a.z >= a.y;                                                       \
+        bool y = !z && a.y >= a.x;                                                               \
+        scalar major = z ? a.z : (y ? a.y : a.x);                                                \
+        scalar along = z ? d.z : (y ? d.y : d.x);                                                \
+        bool negative = along < 0.0;                                                             \
+        face = (z ? 4u : (y ? 2u : 0u)) + (negative ? 1u : 0u);                                  \
+        scalar s = z ? (negative ? -d.x : d.x) : (y ? d.x : (negative ? d.z : -d.z));            \
+        scalar t = y ? (negative ? -d.z : d.z) : -d.y;                                           \
+        return vector(s, t, major);                                                              \
+    }
+
+ON_CUBE_FACE(float, vec3)
+#ifdef DOUBLE
+ON_CUBE_FACE(double, dvec3)
+#endif
 
 // The same two axes for a change of direction that stays on `face`.
 vec3 along_cube_face(vec3 d, uint face) {
@@ -89,10 +104,16 @@ vec3 along_cube_face(vec3 d, uint face) {
 }
 
 // Place on a face in [0, 1]², from numerator and axis: (s / major + 1) / 2.
-vec2 face_uv(vec3 stm) {
-    vec2 uv = 0.5 * (stm.xy / stm.z) + 0.5;
-    return uv;
-}
+#define FACE_UV(pair, vector)                                                                    \
+    pair face_uv(vector stm) {                                                                   \
+        pair uv = 0.5 * (stm.xy / stm.z) + 0.5;                                                  \
+        return uv;                                                                               \
+    }
+
+FACE_UV(vec2, vec3)
+#ifdef DOUBLE
+FACE_UV(dvec2, dvec3)
+#endif
 
 // The same of any direction: the cube's centre has none, and NaN is no place.
 vec2 within_face(vec3 stm) {
@@ -114,17 +135,18 @@ float turn_change(vec3 local, vec3 change, float around) {
 }
 
 // (turn, height) and its change: phi/2pi and y.
-Coordinate cylindrical(Map map, vec3 local, vec3 x, vec3 y) {
-    float turn = atan2_accurate(local.z, local.x) * (0.5 / PI);
+Mapped cylindrical(Map map, real3 local, vec3 x, vec3 y) {
+    real turn = atan2_accurate(local.z, local.x) * (0.5 / REAL_PI);
     turn = turn < 0.0 ? turn + 1.0 : turn;
     vec2 dx = vec2(0.0);
     vec2 dy = vec2(0.0);
     if (DERIVATIVES) {
-        float around = local.x * local.x + local.z * local.z;
-        dx = vec2(turn_change(local, x, around), x.y);
-        dy = vec2(turn_change(local, y, around), y.y);
+        vec3 p = vec3(local);
+        float around = p.x * p.x + p.z * p.z;
+        dx = vec2(turn_change(p, x, around), x.y);
+        dy = vec2(turn_change(p, y, around), y.y);
     }
-    return placed_coordinate(map, vec2(turn, local.y), dx, dy);
+    return placed_coordinate(map, real2(turn, local.y), dx, dy);
 }
 
 // theta / pi changes by (y drho - rho dy) / (rho² + y²), where drho = (x dx + z dz) / rho.
@@ -134,26 +156,27 @@ float polar_change(vec3 local, vec3 change, float across, float squared) {
 }
 
 // (theta/pi, phi/2pi) and its change.
-Coordinate spherical(Map map, vec3 local, vec3 x, vec3 y) {
-    float turn = atan2_accurate(local.z, local.x) * (0.5 / PI);
+Mapped spherical(Map map, real3 local, vec3 x, vec3 y) {
+    real turn = atan2_accurate(local.z, local.x) * (0.5 / REAL_PI);
     turn = turn < 0.0 ? turn + 1.0 : turn;
-    float around = local.x * local.x + local.z * local.z;
-    float across = sqrt(around);
-    vec2 uv = vec2(atan2_accurate(across, local.y) * (1.0 / PI), turn);
+    real around = local.x * local.x + local.z * local.z;
+    real across = sqrt(around);
+    real2 uv = real2(atan2_accurate(across, local.y) * (1.0 / REAL_PI), turn);
     vec2 dx = vec2(0.0);
     vec2 dy = vec2(0.0);
     if (DERIVATIVES) {
-        float squared = around + local.y * local.y;
-        dx = vec2(polar_change(local, x, across, squared), turn_change(local, x, around));
-        dy = vec2(polar_change(local, y, across, squared), turn_change(local, y, around));
+        vec3 p = vec3(local);
+        float squared = float(around + local.y * local.y);
+        dx = vec2(polar_change(p, x, float(across), squared), turn_change(p, x, float(around)));
+        dy = vec2(polar_change(p, y, float(across), squared), turn_change(p, y, float(around)));
     }
     return placed_coordinate(map, uv, dx, dy);
 }
 
-Coordinate texture_coordinate(Map map, Seen seen) {
+Mapped texture_coordinate(Map map, Seen seen) {
     uint kind = map.link.x;
     if (MODE_IS(MAPPINGS, MAP_VERTEX_UV, kind)) {
-        return Coordinate(vec3(seen.own, 0.0), vec3(seen.own_x, 0.0), vec3(seen.own_y, 0.0));
+        return Mapped(real3(seen.own, 0.0), vec3(seen.own_x, 0.0), vec3(seen.own_y, 0.0));
     }
     if (MODE_IS(MAPPINGS, MAP_PLANE, kind)) return placed_coordinate(map, seen.own, seen.own_x, seen.own_y);
     vec3 x = vec3(0.0);
@@ -162,20 +185,20 @@ Coordinate texture_coordinate(Map map, Seen seen) {
         x = in_frame(map, seen.entity_x);
         y = in_frame(map, seen.entity_y);
     }
-    vec2 xy = vec2(affine(map.x, seen.entity), affine(map.y, seen.entity));
+    real2 xy = real2(affine(map.x, seen.entity), affine(map.y, seen.entity));
     if (MODE_IS(MAPPINGS, MAP_AFFINE, kind)) {
-        return Coordinate(vec3(xy, 0.0), vec3(x.xy, 0.0), vec3(y.xy, 0.0));
+        return Mapped(real3(xy, 0.0), vec3(x.xy, 0.0), vec3(y.xy, 0.0));
     }
-    vec3 local = vec3(xy, affine(map.z, seen.entity));
-    if (MODE_IS(MAPPINGS, MAP_SOLID, kind) || MODE_IS(MAPPINGS, MAP_CUBE, kind)) return Coordinate(local, x, y);
+    real3 local = real3(xy, affine(map.z, seen.entity));
+    if (MODE_IS(MAPPINGS, MAP_SOLID, kind) || MODE_IS(MAPPINGS, MAP_CUBE, kind)) return Mapped(local, x, y);
     if (MODE_IS(MAPPINGS, MAP_BOX, kind)) {
         uint face;
-        vec3 stm = on_cube_face(local, face);
+        real3 stm = on_cube_face(local, face);
         vec2 dx = vec2(0.0);
         vec2 dy = vec2(0.0);
         if (DERIVATIVES) {
-            dx = face_uv_change(stm, along_cube_face(x, face));
-            dy = face_uv_change(stm, along_cube_face(y, face));
+            dx = face_uv_change(vec3(stm), along_cube_face(x, face));
+            dy = face_uv_change(vec3(stm), along_cube_face(y, face));
         }
         return placed_coordinate(map, face_uv(stm), dx, dy);
     }

@@ -6,24 +6,40 @@
 #ifndef MATH_GLSL
 #define MATH_GLSL
 
+#include "real.glsl"
+
 const float PI = 3.14159265358979;
+#ifdef DOUBLE
+const double REAL_PI = 3.14159265358979323846lf;
+#else
+const float REAL_PI = PI;
+#endif
 
 // x y z summed from the left: two devices round alike.
-float dot3(vec3 a, vec3 b) {
-    float sum = (a.x * b.x + a.y * b.y) + a.z * b.z;
-    return sum;
-}
+#define DOT3(scalar, vector)                                                                     \
+    scalar dot3(vector a, vector b) {                                                            \
+        scalar sum = (a.x * b.x + a.y * b.y) + a.z * b.z;                                        \
+        return sum;                                                                              \
+    }
 
 // row.xyz · p + row.w
-float affine(vec4 row, vec3 p) {
-    float sum = ((row.x * p.x + row.y * p.y) + row.z * p.z) + row.w;
-    return sum;
-}
+#define AFFINE(scalar, row_vector, vector)                                                       \
+    scalar affine(row_vector row, vector p) {                                                    \
+        scalar sum = ((row.x * p.x + row.y * p.y) + row.z * p.z) + row.w;                        \
+        return sum;                                                                              \
+    }
 
-vec3 cross3(vec3 a, vec3 b) {
-    vec3 c = vec3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
-    return c;
-}
+#define CROSS3(vector)                                                                           \
+    vector cross3(vector a, vector b) {                                                          \
+        vector c = vector(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);  \
+        return c;                                                                                \
+    }
+
+DOT3(float, vec3)
+AFFINE(float, vec4, vec3)
+CROSS3(vec3)
+
+float inverse_root(float x) { return inversesqrt(x); }
 
 // atan(x) for x in [0, 1].
 float atan_unit(float x) {
@@ -41,16 +57,55 @@ float atan_unit(float x) {
 }
 
 // The angle of (x, y) from +x towards +y, in (-pi, pi]; 0 at the origin.
-float atan2_accurate(float y, float x) {
-    float ax = abs(x);
-    float ay = abs(y);
-    float high = max(ax, ay);
-    if (high == 0.0) return 0.0;
-    float angle = atan_unit(min(ax, ay) / high);
-    if (ay > ax) angle = 0.5 * PI - angle;
-    if (x < 0.0) angle = PI - angle;
-    return y < 0.0 ? -angle : angle;
+#define ATAN2(scalar, pi)                                                                        \
+    scalar atan2_accurate(scalar y, scalar x) {                                                  \
+        scalar ax = abs(x);                                                                      \
+        scalar ay = abs(y);                                                                      \
+        scalar high = max(ax, ay);                                                               \
+        if (high == 0.0) return 0.0;                                                             \
+        scalar angle = atan_unit(min(ax, ay) / high);                                            \
+        if (ay > ax) angle = 0.5 * pi - angle;                                                   \
+        if (x < 0.0) angle = pi - angle;                                                         \
+        return y < 0.0 ? -angle : angle;                                                         \
+    }
+
+ATAN2(float, PI)
+
+#ifdef DOUBLE
+DOT3(double, dvec3)
+AFFINE(double, dvec4, dvec3)
+CROSS3(dvec3)
+
+double inverse_root(double x) { return 1.0lf / sqrt(x); }
+
+// The angle of the f32 polynomial, turned by the rest: with s and c of that angle by Taylor series to
+// degree 17, tan(rest) = (y c - x s) / (x c + y s), and the rest is below 1e-7, so that its cube is nothing.
+double atan_unit(double x) {
+    double angle = double(atan_unit(float(x)));
+    double y = angle * angle;
+    double s = 2.8114572543455206e-15lf;
+    s = s * y - 7.6471637318198164e-13lf;
+    s = s * y + 1.6059043836821614e-10lf;
+    s = s * y - 2.5052108385441719e-8lf;
+    s = s * y + 2.7557319223985891e-6lf;
+    s = s * y - 1.9841269841269841e-4lf;
+    s = s * y + 8.3333333333333333e-3lf;
+    s = s * y - 1.6666666666666667e-1lf;
+    s = (s * y + 1.0lf) * angle;
+    double c = 4.7794773323873853e-14lf;
+    c = c * y - 1.1470745597729725e-11lf;
+    c = c * y + 2.0876756987868099e-9lf;
+    c = c * y - 2.7557319223985891e-7lf;
+    c = c * y + 2.4801587301587302e-5lf;
+    c = c * y - 1.3888888888888889e-3lf;
+    c = c * y + 4.1666666666666667e-2lf;
+    c = c * y - 0.5lf;
+    c = c * y + 1.0lf;
+    return angle + (x * c - s) / (c + x * s);
 }
+
+ATAN2(double, REAL_PI)
+#endif
 
 // sin(2 pi t): the fraction of t, folded to [0, 1/4], in a minimax polynomial of degree 9, error below
 // 4e-9 in exact arithmetic.

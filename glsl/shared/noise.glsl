@@ -35,9 +35,9 @@ float slice_mean(float mean, vec2 slopes, vec3 fraction, vec3 widths) {
 }
 
 // The number of a cell. Beyond 2^31 no f32 has a fraction, and any cell will do.
-uvec3 lattice_cell(vec3 whole) {
-    bvec3 near = lessThanEqual(abs(whole), vec3(2147483520.0));
-    return uvec3(ivec3(mix(vec3(0.0), whole, near)));
+uvec3 lattice_cell(real3 whole) {
+    bvec3 near = lessThanEqual(abs(whole), real3(2147483520.0));
+    return uvec3(ivec3(mix(real3(0.0), whole, near)));
 }
 
 // The dot product with one of the 12 vectors from a cube's middle to its edges.
@@ -55,9 +55,9 @@ float blend(float a, float b, float weight) {
 }
 
 // In [-1, 1], 0 at lattice points, with continuous second derivatives.
-float gradient_noise(vec3 p, uvec3 key) {
-    vec3 whole = floor(p);
-    vec3 f = p - whole;
+float gradient_noise(real3 p, uvec3 key) {
+    real3 whole = floor(p);
+    vec3 f = vec3(p - whole);
     vec3 g = f - 1.0;
     vec3 s = f * f * f * (f * (f * 6.0 - 15.0) + 10.0);
     uvec3 a = lattice_cell(whole) + key;
@@ -76,7 +76,7 @@ float gradient_noise(vec3 p, uvec3 key) {
 // x: the weighted mean of the octaves of noise, or of |noise| where folded. y: the variance that has
 // faded out of it. `size` and `widths` of the footprint are in units. All octaves but the first are
 // shifted by fractions of a cell, so that their zeros do not meet.
-vec2 octave_sum(Procedural what, vec3 at, float size, vec3 widths, bool folded) {
+vec2 octave_sum(Procedural what, real3 at, float size, vec3 widths, bool folded) {
     float sum = 0.0;
     float faded = 0.0;
     float weight = what.octaves.z;
@@ -84,14 +84,14 @@ vec2 octave_sum(Procedural what, vec3 at, float size, vec3 widths, bool folded) 
     for (uint k = 0u; k < what.link.z; k++) {
         uvec3 key = pcg3d(uvec3(what.link.y, k, 0u));
         vec3 shift = k == 0u ? vec3(0.0) : vec3(key >> 8u) * (1.0 / 16777216.0);
-        vec3 p = at * frequency + shift;
+        real3 p = at * frequency + shift;
         float value = gradient_noise(p, key);
         float keep = kept(size * frequency);
         float mean = 0.0;
         float variance = NOISE_VARIANCE;
         if (folded) {
             value = abs(value);
-            mean = slice_mean(FOLDED_MEAN, FOLDED_SLICES, fract(p), widths * frequency);
+            mean = slice_mean(FOLDED_MEAN, FOLDED_SLICES, vec3(fract(p)), widths * frequency);
             variance = FOLDED_VARIANCE;
         }
         sum += weight * (keep * value + (1.0 - keep) * mean);
@@ -103,9 +103,9 @@ vec2 octave_sum(Procedural what, vec3 at, float size, vec3 widths, bool folded) 
 }
 
 // Distance to the nearest point, at most 1: a nearer one lies in one of the 27 cells searched.
-float cell_distance(vec3 p, uint seed, float jitter) {
-    vec3 whole = floor(p);
-    vec3 f = p - whole;
+float cell_distance(real3 p, uint seed, float jitter) {
+    real3 whole = floor(p);
+    vec3 f = vec3(p - whole);
     uvec3 cell = lattice_cell(whole) + pcg3d(uvec3(seed, 0u, 0u));
     float nearest = 1.0;
     for (uint i = 0u; i < 27u; i++) {
@@ -119,11 +119,11 @@ float cell_distance(vec3 p, uint seed, float jitter) {
 
 // The mean of `cell_distance`, within 0.002, and how it varies between planes, within 0.01: polynomials
 // through values from 3e5 random places.
-float cell_mean(vec3 p, vec3 widths, float jitter) {
+float cell_mean(real3 p, vec3 widths, float jitter) {
     float j = jitter * jitter;
     float mean = 0.4803 + j * (0.0504 - 0.0099 * j);
     vec2 slopes = vec2(1.175 + j * (0.36 * j - 1.42), 0.96 - 0.93 * jitter);
-    return slice_mean(mean, slopes, fract(p), widths);
+    return slice_mean(mean, slopes, vec3(fract(p)), widths);
 }
 
 #endif

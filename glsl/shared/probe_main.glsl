@@ -24,5 +24,5 @@ void main() {
     if (i >= range.count) return;
     Query query = queries[i];
     results[i] = look_up(texture_at(query.link.x), sampler_at(query.link.y), query.link.z,
-                         Coordinate(query.at.xyz, query.dx.xyz, query.dy.xyz), pcg2d(uvec2(i, query.link.w)));
+                         Mapped(query.at.xyz, query.dx.xyz, query.dy.xyz), pcg2d(uvec2(i, query.link.w)));
 }

@@ -12,7 +12,7 @@ const float MOST_BOXES = 16.0;
 // Footprints wider than this are averaged as if they were as wide.
 const float WIDEST = 1e9;
 
-vec3 bounded_point(vec3 at) { return mix(vec3(0.0), at, lessThanEqual(abs(at), vec3(1e15))); }
+real3 bounded_point(real3 at) { return mix(real3(0.0), at, lessThanEqual(abs(at), real3(1e15))); }
 
 vec3 bounded_width(vec3 d) { return mix(vec3(WIDEST), d, lessThanEqual(abs(d), vec3(WIDEST))); }
 
@@ -64,7 +64,7 @@ float pulse_mean(float x, float w, float duty) {
 // Share of the figure in a box around `at`; bricks count x in bricks here.
 float box_share(Procedural what, vec3 at, vec3 w) {
     uint kind = what.link.x;
-    float width = what.shape.x;
+    float width = float(what.shape.x);
     if (MODE_IS(PROCEDURAL_KINDS, PROCEDURAL_CHECKER, kind)) {
         // The mean of a product of square waves of ±1 is the product of their means.
         vec3 middle = 0.5 * (at - 1.5);
@@ -85,8 +85,8 @@ float box_share(Procedural what, vec3 at, vec3 w) {
     }
     float row = 0.5 * (at.y - 0.5);
     float column = at.x - 0.5;
-    float shifted = column - what.shape.z;
-    float duty_x = 1.0 - width / what.shape.y;
+    float shifted = column - float(what.shape.z);
+    float duty_x = 1.0 - width / float(what.shape.y);
     float duty_y = 0.5 * (1.0 - width);
     float bricks = pulse_mean(row, 0.5 * w.y, duty_y) * pulse_mean(column, w.x, duty_x)
                          + pulse_mean(row - 0.5, 0.5 * w.y, duty_y) * pulse_mean(shifted, w.x, duty_x);
@@ -94,11 +94,12 @@ float box_share(Procedural what, vec3 at, vec3 w) {
 }
 
 // Share of the figure in the footprint. A box has the second moments of its piece of the footprint.
-float footprint_share(Procedural what, vec3 at, vec3 major, vec3 minor) {
-    vec3 unit = vec3(1.0);
-    if (MODE_IS(PROCEDURAL_KINDS, PROCEDURAL_BRICK, what.link.x)) unit.x = what.shape.y;
-    vec3 p = at / unit;
-    p = p - 2.0 * roundEven(0.5 * p); // all patterns repeat after two units
+float footprint_share(Procedural what, real3 at, vec3 major, vec3 minor) {
+    real3 per_unit = real3(1.0);
+    if (MODE_IS(PROCEDURAL_KINDS, PROCEDURAL_BRICK, what.link.x)) per_unit.x = what.shape.y;
+    real3 far = at / per_unit;
+    vec3 p = vec3(far - 2.0 * roundEven(0.5 * far)); // all patterns repeat after two units
+    vec3 unit = vec3(per_unit);
     if (!PROCEDURAL_FILTERED) return box_share(what, p, vec3(0.0));
     major /= unit;
     minor /= unit;
@@ -127,10 +128,10 @@ float phase_attenuation(float variance) {
 }
 
 // Veins at whole x + distortion · turbulence.
-float marble(Procedural what, vec3 at, vec3 dx, vec3 dy, float size, vec3 widths) {
+float marble(Procedural what, real3 at, vec3 dx, vec3 dy, float size, vec3 widths) {
     vec2 turbulence = octave_sum(what, at, size, widths, true);
     float distortion = what.octaves.w;
-    float phase = (at.x - roundEven(at.x)) + distortion * turbulence.x;
+    float phase = float(at.x - roundEven(at.x)) + distortion * turbulence.x;
     float strength = 1.0;
     if (PROCEDURAL_FILTERED) {
         strength = box_attenuation(dx.x) * box_attenuation(dy.x);
@@ -151,14 +152,14 @@ float radial_width(vec2 at, float r, vec2 d) {
 }
 
 // Rings at whole distances from the z axis + distortion · noise.
-float wood(Procedural what, vec3 at, vec3 dx, vec3 dy, float size, vec3 widths) {
+float wood(Procedural what, real3 at, vec3 dx, vec3 dy, float size, vec3 widths) {
     vec2 noise = octave_sum(what, at, size, widths, false);
     float distortion = what.octaves.w;
-    float r = sqrt(at.x * at.x + at.y * at.y);
-    float phase = (r - roundEven(r)) + distortion * noise.x;
+    real r = sqrt(at.x * at.x + at.y * at.y);
+    float phase = float(r - roundEven(r)) + distortion * noise.x;
     float strength = 1.0;
     if (PROCEDURAL_FILTERED) {
-        strength = box_attenuation(radial_width(at.xy, r, dx.xy)) * box_attenuation(radial_width(at.xy, r, dy.xy));
+        strength = box_attenuation(radial_width(vec2(at.xy), float(r), dx.xy)) * box_attenuation(radial_width(vec2(at.xy), float(r), dy.xy));
         strength *= phase_attenuation(distortion * distortion * noise.y);
     }
     float share = 0.5 - 0.5 * strength * sine_turns(phase + 0.25);
@@ -168,7 +169,7 @@ float wood(Procedural what, vec3 at, vec3 dx, vec3 dy, float size, vec3 widths) 
 // Hard-edged kinds come first.
 const uint HARD_EDGED = (2u << PROCEDURAL_BRICK) - 1u;
 
-float figure_share(Procedural what, vec3 at, vec3 dx, vec3 dy) {
+float figure_share(Procedural what, real3 at, vec3 dx, vec3 dy) {
     uint kind = what.link.x;
     vec3 major = vec3(0.0);
     vec3 minor = vec3(0.0);
@@ -183,17 +184,17 @@ float figure_share(Procedural what, vec3 at, vec3 dx, vec3 dy) {
     if (MODE_IS(PROCEDURAL_KINDS, PROCEDURAL_MARBLE, kind)) return marble(what, at, dx, dy, size, widths);
     if (MODE_IS(PROCEDURAL_KINDS, PROCEDURAL_WOOD, kind)) return wood(what, at, dx, dy, size, widths);
     if (MODE_IS(PROCEDURAL_KINDS, PROCEDURAL_CELLULAR, kind)) {
-        float value = cell_distance(at, what.link.y, what.shape.w);
+        float value = cell_distance(at, what.link.y, float(what.shape.w));
         if (!PROCEDURAL_FILTERED) return value;
         float keep = kept(size);
-        float faded = keep * value + (1.0 - keep) * cell_mean(at, widths, what.shape.w);
+        float faded = keep * value + (1.0 - keep) * cell_mean(at, widths, float(what.shape.w));
         return faded;
     }
     float share = 0.5 + 0.5 * octave_sum(what, at, size, widths, false).x;
     return share;
 }
 
-vec3 procedural_color(Procedural what, vec3 at, vec3 dx, vec3 dy) {
+vec3 procedural_color(Procedural what, real3 at, vec3 dx, vec3 dy) {
     float share = figure_share(what, bounded_point(at), bounded_width(dx), bounded_width(dy));
     vec3 color = (1.0 - share) * what.background.xyz + share * what.figure.xyz;
     return color;

@@ -28,19 +28,20 @@ Seen seen_by_map(Map map, Ray ray, Surface surface, Footprint print) {
         seen.entity_y = bent_y;
         return seen;
     }
-    vec3 way = ray.direction;
+    real3 way = ray.direction;
     vec3 way_x = print.direction_x;
     vec3 way_y = print.direction_y;
     if (MODE_IS(ENTITIES, ENTITY_REFLECTION, entity)) {
-        way_x = mirrored_change(way, surface.normal, way_x, bent_x);
-        way_y = mirrored_change(way, surface.normal, way_y, bent_y);
+        way_x = mirrored_change(vec3(way), vec3(surface.normal), way_x, bent_x);
+        way_y = mirrored_change(vec3(way), vec3(surface.normal), way_y, bent_y);
         way = mirrored(way, surface.normal);
     }
     // Of unit length; its change is at right angles to it.
-    float scale = inversesqrt(dot3(way, way));
-    vec3 unit = way * scale;
-    seen.entity = unit;
+    real size = inverse_root(dot3(way, way));
+    seen.entity = way * size;
     if (DERIVATIVES) {
+        vec3 unit = vec3(seen.entity);
+        float scale = float(size);
         seen.entity_x = (way_x - dot3(unit, way_x) * unit) * scale;
         seen.entity_y = (way_y - dot3(unit, way_y) * unit) * scale;
     }
@@ -50,11 +51,11 @@ Seen seen_by_map(Map map, Ray ray, Surface surface, Footprint print) {
 #if SOURCE != SOURCE_NONE
 // Gradients of u and v along the surface, from their changes along two tangents.
 void uv_gradients(Map map, Ray ray, Surface surface, out vec3 u, out vec3 v) {
-    vec3 n = surface.geometric_normal;
+    vec3 n = vec3(surface.geometric_normal);
     vec3 first = any_tangent(n);
     vec3 second = cross3(n, first);
     Footprint print = Footprint(first, second, vec3(0.0), vec3(0.0));
-    Coordinate c = texture_coordinate(map, seen_by_map(map, ray, surface, print));
+    Mapped c = texture_coordinate(map, seen_by_map(map, ray, surface, print));
     vec3 along_u = first * c.dx.x + second * c.dy.x;
     vec3 along_v = first * c.dx.y + second * c.dy.y;
     u = along_u;
@@ -62,7 +63,7 @@ void uv_gradients(Map map, Ray ray, Surface surface, out vec3 u, out vec3 v) {
 }
 
 // Places at which a bump map is read, two on each axis, a texel or half the footprint away.
-vec2 relief_step(Material material, Coordinate c) {
+vec2 relief_step(Material material, Mapped c) {
     vec2 texel = 1.0 / vec2(texture_at(material.detail.x).place.yz);
     return max(texel, 0.5 * max(abs(c.dx.xy), abs(c.dy.xy)));
 }
@@ -72,7 +73,7 @@ vec2 relief_step(Material material, Coordinate c) {
 // (Blinn 1978; Mikkelsen 2020), h from central differences.
 vec3 relief_normal(Material material, Map map, Ray ray, Surface surface, vec4 read, vec2 step) {
     float side = surface.inside ? -1.0 : 1.0;
-    vec3 n = side * surface.normal;
+    vec3 n = side * vec3(surface.normal);
     float strength = material.color.w;
     vec3 u;
     vec3 v;
@@ -112,7 +113,7 @@ vec3 surface_color(Material material, Map map, Ray ray, inout Surface surface, F
         bool last = tap == taps;
         if (relief && last) surface.normal = relief_normal(material, map, ray, surface, read, step);
         if (!UNTEXTURED || !last || material.link.y != NO_TEXTURE) {
-            Coordinate c = texture_coordinate(map, seen_by_map(map, ray, surface, print));
+            Mapped c = texture_coordinate(map, seen_by_map(map, ray, surface, print));
             uvec3 link = material.link.yzw;
             if (BUMPED && !last) {
                 link = material.detail.xyz;
@@ -163,16 +164,18 @@ bool bounced(Header header, Hit hit, Surface surface, Footprint print, Material 
     if (!mirror && !glass) return false;
     Ray ray = path.ray;
     float alpha = GLOSSY ? material.specular.x : 0.0;
-    vec3 normal = surface.normal;
+    real3 normal = surface.normal;
     if (GLOSSY) {
-        if (alpha > 0.0) normal = visible_normal(ray.direction, surface.normal, alpha, unit_square(choices.lobe));
+        if (alpha > 0.0) {
+            normal = visible_normal(vec3(ray.direction), vec3(surface.normal), alpha, unit_square(choices.lobe));
+        }
     }
     float ratio = surface.inside ? material.specular.w : 1.0 / material.specular.w;
     if (glass) {
         float chance = float(pcg2d(path.random).x >> 8u) * (1.0 / 16777216.0);
         mirror = chance < reflectance(ray.direction, normal, ratio);
     }
-    vec3 start = offset_origin(surface.point, mirror ? surface.geometric_normal : -surface.geometric_normal);
+    real3 start = offset_origin(surface.point, mirror ? surface.geometric_normal : -surface.geometric_normal, surface.size);
     Beam beam = path.beam;
     if (mirror) {
         path.ray = Ray(start, mirrored(ray.direction, normal), ray.time);
@@ -184,14 +187,14 @@ bool bounced(Header header, Hit hit, Surface surface, Footprint print, Material 
     bool leaves = true;
     if (GLOSSY) {
         if (alpha > 0.0) {
-            vec3 way = mirror ? path.ray.direction : -path.ray.direction;
-            float seen = -dot3(ray.direction, surface.normal) * inversesqrt(dot3(ray.direction, ray.direction));
-            float leaving = dot3(way, surface.normal) * inversesqrt(dot3(way, way));
+            real3 way = mirror ? path.ray.direction : -path.ray.direction;
+            float seen = float(-dot3(ray.direction, surface.normal) * inverse_root(dot3(ray.direction, ray.direction)));
+            float leaving = float(dot3(way, surface.normal) * inverse_root(dot3(way, way)));
             // What a facet sends into the surface is lost.
             leaves = leaving > 0.0 && dot3(way, surface.geometric_normal) > 0.0;
             float share = mirror ? mirrored_share(max(seen, 0.0), leaving, alpha) : refracted_share(leaving, alpha);
             path.throughput *= leaves ? share : 0.0;
-            path.beam = widened_beam(header, path.beam, path.ray.direction, alpha);
+            path.beam = widened_beam(header, path.beam, vec3(path.ray.direction), alpha);
         }
     }
     return leaves;
@@ -217,13 +220,13 @@ vec3 advance(Header header, Points points, Choices choices, inout Path path) {
         Map map = map_at(surface.link.y);
         vec3 carried = path.throughput;
         path.throughput *= surface_color(material, map, path.ray, surface, print, path.random);
-        vec3 direction = path.ray.direction;
+        real3 direction = path.ray.direction;
         goes_on = BOUNCES && bounced(header, hit, surface, print, material, choices, path);
         bool ends_in_mirror = MODE_IS(MODELS, MODEL_MIRROR, material.link.x) || MODE_IS(MODELS, MODEL_DIELECTRIC, material.link.x);
         seen = ends_in_mirror ? vec3(0.0) : path.throughput;
         bool phong = MODE_IS(MODELS, MODEL_PHONG, material.link.x);
         if (phong || MODE_IS(MODELS, MODEL_LAMBERT, material.link.x)) {
-            vec3 mirror = HAS(MODELS, MODEL_PHONG) ? mirrored(direction, surface.normal) : vec3(0.0);
+            vec3 mirror = HAS(MODELS, MODEL_PHONG) ? vec3(mirrored(direction, surface.normal)) : vec3(0.0);
             Lit lit = direct_light(header, surface, path.ray.time, hit.shape, mirror, material.specular.w, points, choices);
             seen = path.throughput * lit.diffuse;
             if (phong) seen = with_highlight(seen, carried, material.specular.xyz, lit.specular);

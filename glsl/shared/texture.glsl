@@ -29,6 +29,17 @@ layout(set = 0, binding = 6) uniform usamplerBuffer texels;
 #endif
 
 #if SOURCE != SOURCE_NONE
+Coordinate near_coordinate(Texture image, Sampler how, Mapped c) {
+#ifdef DOUBLE
+    if (MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_CUBE, image.link.w)) return Coordinate(vec3(c.at), c.dx, c.dy);
+    vec3 at = vec3(near_tile(ADDRESSES_U, how.modes.x, c.at.x), near_tile(ADDRESSES_V, how.modes.y, c.at.y),
+                   near_tile(ADDRESSES_W, how.more.x, c.at.z));
+    return Coordinate(at, c.dx, c.dy);
+#else
+    return Coordinate(c.at, c.dx, c.dy);
+#endif
+}
+
 // The scene buffer once more, for the 256 entries that decode 8-bit sRGB. Deeper sRGB textures
 // arrive here as linear floats.
 layout(std430, set = 0, binding = 3) readonly buffer SrgbTable { float srgb_table[]; };

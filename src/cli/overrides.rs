@@ -7,7 +7,9 @@ use crate::adaptive::Goal;
 use crate::error::{Error, Result};
 use crate::pack::Crop;
 use crate::scene::cone;
-use crate::scene::model::{Algorithm, Footprint, Pattern, PixelFilter, PixelFilterKind, Sampling, Scene};
+use crate::scene::model::{
+    Algorithm, Footprint, Pattern, PixelFilter, PixelFilterKind, Precision, Sampling, Scene,
+};
 use crate::scene::{MAX_RADIUS, both_filters, check_filters, check_shared, check_spp};
 use crate::texture::sampler_spec::{Filter, Method, MipMode};
 
@@ -40,6 +42,8 @@ pub struct Overrides {
     filter: Option<Filter>,
     #[arg(long, value_name = "F", value_parser = named_parser(Footprint::NAMES, Footprint::from_name), help = one_of("Footprint of a sample", Footprint::NAMES))]
     footprint: Option<Footprint>,
+    #[arg(long, value_name = "P", value_parser = named_parser(Precision::NAMES, Precision::from_name), help = one_of("Numbers of geometry", Precision::NAMES))]
+    precision: Option<Precision>,
     #[arg(long, value_name = "M", value_parser = named_parser(MipMode::NAMES, MipMode::from_name), help = one_of("Levels that every sampler reads", MipMode::NAMES))]
     mip: Option<MipMode>,
     #[arg(long, value_name = "NAME", value_parser = named_parser(PixelFilterKind::NAMES, PixelFilterKind::from_name), help = one_of("Pixel filter", PixelFilterKind::NAMES))]
@@ -80,6 +84,7 @@ impl Overrides {
         let free = if sampling.algorithm == Algorithm::Auto { Footprint::None } else { sampling.footprint };
         sampling.footprint = self.footprint.unwrap_or(free);
         sampling.shared = self.shared.unwrap_or(sampling.shared);
+        sampling.precision = self.precision.unwrap_or(sampling.precision);
         self.suit_adaptive(sampling)?;
         check_shared(sampling.pattern, sampling.shared).map_err(Error::new)?;
         check_spp(sampling.pattern, sampling.spp).map_err(|m| Error::new(format!("--spp: {m}")))?;
@@ -153,6 +158,7 @@ impl Overrides {
             "seed": s.seed,
             "max_depth": s.max_depth,
             "footprint": s.footprint.name(),
+            "precision": s.precision.name(),
             "methods": methods,
             "keep_everything": keep_everything,
         })

@@ -121,7 +121,9 @@ fn create(
         .custom_border_colors(true)
         .custom_border_color_without_format(true);
     let extensions = [ash::ext::custom_border_color::NAME.as_ptr()];
-    let features = vk::PhysicalDeviceFeatures::default().sampler_anisotropy(info.limits.max_anisotropy > 1.0);
+    let features = vk::PhysicalDeviceFeatures::default()
+        .sampler_anisotropy(info.limits.max_anisotropy > 1.0)
+        .shader_float64(info.limits.float64);
     let mut create_info = vk::DeviceCreateInfo::default()
         .queue_create_infos(&queues)
         .enabled_features(&features)

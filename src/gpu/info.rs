@@ -63,6 +63,8 @@ pub struct DeviceLimits {
     pub mip_bits: u32,
     /// 1 where anisotropic filtering is absent.
     pub max_anisotropy: f32,
+    /// Shaders may compute in f64.
+    pub float64: bool,
     pub timestamp_period_ns: f64,
     /// 0 where the compute queue has no timestamps.
     pub timestamp_valid_bits: u32,
@@ -156,6 +158,7 @@ fn basic_limits(properties: &vk::PhysicalDeviceProperties) -> DeviceLimits {
         sub_texel_bits: limits.sub_texel_precision_bits,
         mip_bits: limits.mipmap_precision_bits,
         max_anisotropy: limits.max_sampler_anisotropy,
+        float64: false,
         timestamp_period_ns: f64::from(limits.timestamp_period),
         max_storage_buffers_per_stage: limits.max_per_stage_descriptor_storage_buffers,
         max_sampled_images_per_stage: limits.max_per_stage_descriptor_sampled_images,
@@ -210,6 +213,7 @@ fn query_features(instance: &ash::Instance, device: vk::PhysicalDevice, limits: 
     // SAFETY: the chained structures are of Vulkan 1.2 and of an extension that the device lists.
     unsafe { instance.get_physical_device_features2(device, &mut features) };
     let anisotropy = features.features.sampler_anisotropy == vk::TRUE;
+    limits.float64 = features.features.shader_float64 == vk::TRUE;
     limits.mirror_clamp_to_edge = core12.sampler_mirror_clamp_to_edge == vk::TRUE;
     limits.custom_border_color =
         border.custom_border_colors == vk::TRUE && border.custom_border_color_without_format == vk::TRUE;

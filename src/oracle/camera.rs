@@ -46,7 +46,7 @@ pub fn camera_at(header: &Header, time: f64) -> Header {
     let forward = view.normalize();
     let right = forward.cross(xyz(header.up)).normalize();
     let pixel = f64::from(header.step_y[3]);
-    let with = |v: DVec3, w: f32| v.as_vec3().extend(w).to_array();
+    let with = |v: DVec3, w: f64| v.extend(w).to_array();
     Header {
         forward: with(forward, header.forward[3]),
         step_x: with(pixel * right, header.step_x[3]),

@@ -7,7 +7,7 @@ use glam::{DVec2, DVec3, DVec4};
 use super::camera::Ray;
 use super::coverage::{Covered, Cuts, ball_overlap, circle_line};
 use super::footprint::any_tangent;
-use super::intersect::{Hit, plane_distance, sphere_distance, triangle_distance};
+use super::intersect::{Hit, plane_distance, sphere_distance};
 use super::math::{vec4, xyz};
 use crate::layout::{Plane, Sphere, Triangle};
 use crate::pack::PackedScene;
@@ -81,8 +81,7 @@ fn cut_bounds(cuts: &mut Cuts, cone: &Cone, plane: &Flat, row: DVec4, extent: f6
 fn cut_plane(cuts: &mut Cuts, cone: &Cone, plane: &Plane) {
     let seen = flat_in(cone, xyz(plane.normal), plane.normal[3].into());
     cuts.by((-cone.width * seen.tilt).extend(seen.height));
-    if plane.link[3] != 0 {
-        let extent = f32::from_bits(plane.link[2]).into();
+    if let Some(extent) = plane.half_extent() {
         cut_bounds(cuts, cone, &seen, vec4(plane.axis_u), extent);
         cut_bounds(cuts, cone, &seen, vec4(plane.axis_v), extent);
     } else {
@@ -182,18 +181,16 @@ pub(super) fn covered_by(scene: &PackedScene, cone: &Cone, shape: u32) -> Covere
 
 /// Where a ray within the shape's outline meets it; rounding may have put it just beside.
 pub fn meet(scene: &PackedScene, ray: &Ray, shape: u32) -> Hit {
-    let on_plane = |normal: [f32; 4]| {
+    let on_plane = |normal: [f64; 4]| {
         (f64::from(normal[3]) - xyz(normal).dot(ray.origin)) / xyz(normal).dot(ray.direction)
     };
     match shape_of(scene, shape) {
         Shape::Plane(plane) => Hit { t: on_plane(plane.normal), shape, local: plane_distance(plane, ray).1 },
-        Shape::Triangle(triangle) => {
-            Hit { t: on_plane(triangle.normal), shape, local: triangle_distance(triangle, ray).1 }
-        }
+        Shape::Triangle(triangle) => Hit { t: on_plane(triangle.normal), shape, local: DVec2::ZERO },
         Shape::Sphere(sphere) => {
             let t = sphere_distance(sphere, ray);
             let nearest = (xyz(sphere.ball) - ray.origin).dot(ray.direction) / ray.direction.length_squared();
-            Hit { t: if t > 0.0 { t } else { nearest }, shape, local: DVec3::ZERO }
+            Hit { t: if t > 0.0 { t } else { nearest }, shape, local: DVec2::ZERO }
         }
     }
 }

@@ -94,7 +94,7 @@ fn lit_branch(branch: &Branch, met: &Met<'_>, skip: u32, light: &Light) -> Branc
         let lobe = phong_lobe(mirror, way, material.specular[3].into());
         seen += met.carried * xyz(material.specular) * more * lobe;
     }
-    let origin = offset_origin(surface.point, surface.geometric_normal);
+    let origin = offset_origin(surface.point, surface.geometric_normal, surface.size);
     let direction = if point_light { xyz(light.place) - origin } else { xyz(light.place) };
     let area = met.print.point[0].cross(met.print.point[1]).length();
     let width = (area * above.max(0.0) / length).sqrt();
@@ -134,7 +134,7 @@ fn bent_branch(branch: &Branch, met: &Met<'_>, ratio: f64, share: f64, skip: u32
     } else {
         (mirrored_beam(&beam, &meeting), mirrored(direction, surface.normal), 1.0)
     };
-    let origin = offset_origin(surface.point, side * surface.geometric_normal);
+    let origin = offset_origin(surface.point, side * surface.geometric_normal, surface.size);
     let depth = if let Goal::Color(depth) = branch.goal { depth + 1 } else { 0 };
     Branch {
         ray: Ray { origin, direction, time: 0.0 },

@@ -126,8 +126,8 @@ pub fn plane_region(frame: &Frame, plane: &Plane) -> Region {
     let near = nearness(frame, xyz(plane.normal), plane.normal[3].into());
     let mut region = Region { count: 0, lines: [Form::ZERO; MAX_LINES], nearness: near };
     add(&mut region, in_front(frame, near));
-    if plane.link[3] != 0 {
-        let extent = f64::from(f32::from_bits(plane.link[2])) * below(frame, near);
+    if let Some(half_extent) = plane.half_extent() {
+        let extent = half_extent * below(frame, near);
         for row in [plane.axis_u, plane.axis_v] {
             let own = along(frame, near, vec4(row));
             add(&mut region, extent - own);
@@ -204,7 +204,7 @@ pub fn coordinates(scene: &PackedScene, frame: &Frame, shape: u32, map: u32, nea
     }
     let plane = &scene.planes[shape as usize];
     // Counted from the eye.
-    let own = |row: [f32; 4]| along(frame, near, xyz(row).extend(0.0));
+    let own = |row: [f64; 4]| along(frame, near, xyz(row).extend(0.0));
     let (u, v) = (own(plane.axis_u), own(plane.axis_v));
     let m = vec4(map.matrix);
     let offset = vec4(map.offset);
@@ -231,10 +231,7 @@ pub fn shadow_region(scene: &PackedScene, frame: &Frame, near: Form, shape: u32,
     add(&mut region, along(frame, near, beyond));
     if shape < planes {
         let record = &scene.planes[shape as usize];
-        if record.link[3] == 0 {
-            return region;
-        }
-        let extent = f64::from(f32::from_bits(record.link[2]));
+        let Some(extent) = record.half_extent() else { return region };
         // A place's distance below the light, in |rise|, or its own height.
         let depth = if point { side * n.extend(-n.dot(place)) } else { DVec4::W * rise.abs() };
         for row in [record.axis_u, record.axis_v].map(vec4) {

@@ -2,7 +2,7 @@
 //! between. Flat shapes never hit the ray that left them (`skip`); spheres rely on the offset origin.
 //! Twin of `glsl/shared/intersect.glsl`.
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 use super::camera::Ray;
 use super::math::xyz;
@@ -18,8 +18,8 @@ pub struct Hit {
     pub t: f64,
     /// Planes first, then spheres, then triangles; `NO_SHAPE` on a miss.
     pub shape: u32,
-    /// A triangle's edge functions (barycentric weights times their sum), or a plane's own (u, v).
-    pub local: DVec3,
+    /// A plane's own (u, v).
+    pub local: DVec2,
 }
 
 /// How far a shape has moved at the ray's time. Shapes are met, and textured, where they are at time 0, by rays
@@ -33,14 +33,13 @@ pub fn at_rest(scene: &PackedScene, ray: &Ray, shape: u32) -> Ray {
 }
 
 /// Distance, and the plane's own coordinates of the point counted from the eye.
-pub fn plane_distance(plane: &Plane, ray: &Ray) -> (f64, DVec3) {
+pub fn plane_distance(plane: &Plane, ray: &Ray) -> (f64, DVec2) {
     let normal = xyz(plane.normal);
     let height = f64::from(plane.normal[3]) - normal.dot(ray.origin);
     let t = height / normal.dot(ray.direction);
     let p = ray.origin + t * ray.direction;
-    let local = DVec3::new(xyz(plane.axis_u).dot(p), xyz(plane.axis_v).dot(p), 0.0);
-    if plane.link[3] != 0 {
-        let extent = f64::from(f32::from_bits(plane.link[2]));
+    let local = DVec2::new(xyz(plane.axis_u).dot(p), xyz(plane.axis_v).dot(p));
+    if let Some(extent) = plane.half_extent() {
         let (u, v) = (local.x + f64::from(plane.axis_u[3]), local.y + f64::from(plane.axis_v[3]));
         let inside = u.abs() <= extent && v.abs() <= extent;
         return (if inside { t } else { -1.0 }, local);
@@ -65,25 +64,25 @@ pub fn sphere_distance(sphere: &Sphere, ray: &Ray) -> f64 {
     if c > 0.0 || b < 0.0 { c / q } else { q / a }
 }
 
-/// Distance, and the edge functions d·(p × q); the distance is -1 on a miss.
-pub fn triangle_distance(triangle: &Triangle, ray: &Ray) -> (f64, DVec3) {
+/// -1 on a miss: the edge functions d·(p × q) have one sign within the triangle.
+pub fn triangle_distance(triangle: &Triangle, ray: &Ray) -> f64 {
     let [a, b, c] = [triangle.a, triangle.b, triangle.c].map(|v| xyz(v) - ray.origin);
     let d = ray.direction;
     let edges = DVec3::new(d.dot(b.cross(c)), d.dot(c.cross(a)), d.dot(a.cross(b)));
     let front = edges.cmpge(DVec3::ZERO).all();
     let back = edges.cmple(DVec3::ZERO).all();
     if !(front || back) || edges == DVec3::ZERO {
-        return (-1.0, edges);
+        return -1.0;
     }
     let normal = xyz(triangle.normal);
     let height = f64::from(triangle.normal[3]) - normal.dot(ray.origin);
-    (height / normal.dot(ray.direction), edges)
+    height / normal.dot(ray.direction)
 }
 
 /// The hit with the least t above 0; of hits at the same t the lowest shape.
 pub fn nearest_hit(scene: &PackedScene, ray: &Ray, skip: u32) -> Hit {
-    let mut hit = Hit { t: FAR, shape: NO_SHAPE, local: DVec3::ZERO };
-    let mut offer = |(t, local): (f64, DVec3), shape: u32, flat: bool| {
+    let mut hit = Hit { t: FAR, shape: NO_SHAPE, local: DVec2::ZERO };
+    let mut offer = |(t, local): (f64, DVec2), shape: u32, flat: bool| {
         if t > 0.0 && t < hit.t && !(flat && shape == skip) {
             hit = Hit { t, shape, local };
         }
@@ -95,11 +94,11 @@ pub fn nearest_hit(scene: &PackedScene, ray: &Ray, skip: u32) -> Hit {
     }
     for (i, sphere) in scene.spheres.iter().enumerate() {
         let shape = planes + i as u32;
-        offer((sphere_distance(sphere, &at_rest(scene, ray, shape)), DVec3::ZERO), shape, false);
+        offer((sphere_distance(sphere, &at_rest(scene, ray, shape)), DVec2::ZERO), shape, false);
     }
     for (i, triangle) in scene.triangles.iter().enumerate() {
         let shape = planes + spheres + i as u32;
-        offer(triangle_distance(triangle, &at_rest(scene, ray, shape)), shape, true);
+        offer((triangle_distance(triangle, &at_rest(scene, ray, shape)), DVec2::ZERO), shape, true);
     }
     hit
 }
@@ -118,11 +117,12 @@ pub fn occluded(scene: &PackedScene, ray: &Ray, t_max: f64, skip: u32) -> bool {
         return true;
     }
     let mut flat = (planes + spheres..).zip(&scene.triangles);
-    flat.any(|(i, triangle)| i != skip && between(triangle_distance(triangle, &at_rest(i)).0))
+    flat.any(|(i, triangle)| i != skip && between(triangle_distance(triangle, &at_rest(i))))
 }
 
-/// The point moved along the geometric normal by far more than f64's rounding and far less than
-/// f32's, where the shader moves it by ulps (Wächter & Binder 2019).
-pub fn offset_origin(p: DVec3, n: DVec3) -> DVec3 {
-    p + n * (1e-12 * (1.0 + p.abs().max_element()))
+/// The start of a ray that leaves the surface at p along its unit geometric normal, off it by far more than
+/// f64's rounding and far less than f32's; `size` is that of the largest coordinate that p came from.
+pub fn offset_origin(p: DVec3, n: DVec3, size: f64) -> DVec3 {
+    const CLEARANCE: f64 = 1.0 / (1u64 << 46) as f64;
+    p + n * (CLEARANCE * size)
 }

@@ -30,7 +30,7 @@ impl JobTracer<'_> {
         let mut header = self.scene.header;
         let samples = 2.0 * f64::from(job.first + job.count);
         let share = filter_width(&header) / samples.sqrt();
-        header.step_x[3] = if job.part & JOB_BARE != 0 { 0.0 } else { share as f32 };
+        header.step_x[3] = if job.part & JOB_BARE != 0 { 0.0 } else { share };
         for s in job.first..job.first + job.count {
             let (seen, sign) = sample(self.scene, &header, place, job.part & 1, s);
             let [x, y, z] = (sign * seen).to_array();

@@ -80,7 +80,7 @@ pub fn direct_light(
     chosen: &dyn Fn(u32) -> DVec2,
 ) -> Lit {
     let mut sum = Lit::default();
-    let start = offset_origin(surface.point, surface.geometric_normal);
+    let start = offset_origin(surface.point, surface.geometric_normal, surface.size);
     for (i, light) in (0..).zip(&scene.lights) {
         let place = xyz(light.place);
         let square = || chosen(i);

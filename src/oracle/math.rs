@@ -3,16 +3,16 @@
 
 use glam::{DVec3, DVec4};
 
-pub fn xyz(v: [f32; 4]) -> DVec3 {
+pub fn xyz(v: [impl Into<f64>; 4]) -> DVec3 {
     vec4(v).truncate()
 }
 
-pub fn vec4(v: [f32; 4]) -> DVec4 {
-    glam::Vec4::from_array(v).as_dvec4()
+pub fn vec4(v: [impl Into<f64>; 4]) -> DVec4 {
+    DVec4::from_array(v.map(Into::into))
 }
 
 /// row.xyz · p + row.w
-pub fn affine(row: [f32; 4], p: DVec3) -> f64 {
+pub fn affine(row: [f64; 4], p: DVec3) -> f64 {
     vec4(row).dot(p.extend(1.0))
 }
 

@@ -172,11 +172,11 @@ fn bounced(
     let meeting =
         Meeting { ray: path.ray, t: hit.t, print, normal, bend: surface.bend, curvature: surface.curvature };
     if mirror {
-        let origin = offset_origin(surface.point, surface.geometric_normal);
+        let origin = offset_origin(surface.point, surface.geometric_normal, surface.size);
         path.ray = Ray { origin, direction: mirrored(direction, normal), time: path.ray.time };
         path.beam = mirrored_beam(&path.beam, &meeting);
     } else {
-        let origin = offset_origin(surface.point, -surface.geometric_normal);
+        let origin = offset_origin(surface.point, -surface.geometric_normal, surface.size);
         path.ray = Ray { origin, direction: refracted(direction, normal, ratio), time: path.ray.time };
         path.beam = refracted_beam(&path.beam, &meeting, ratio);
     }

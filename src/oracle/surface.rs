@@ -30,6 +30,8 @@ pub struct Surface {
     pub map: u32,
     /// The point where the shape does not move.
     pub at_rest: DVec3,
+    /// Of the largest coordinate that the point came from.
+    pub size: f64,
 }
 
 fn surface(point: DVec3, geometric: DVec3, normal: DVec3, link: [u32; 4]) -> Surface {
@@ -45,6 +47,7 @@ fn surface(point: DVec3, geometric: DVec3, normal: DVec3, link: [u32; 4]) -> Sur
         material: link[0],
         map: link[1],
         at_rest: point,
+        size: point.abs().max_element(),
     }
 }
 
@@ -60,11 +63,20 @@ fn sphere_surface(sphere: &Sphere, point: DVec3) -> Surface {
     let normal = (point - center).normalize();
     let curvature = 1.0 / radius;
     let bend = DMat3::from_diagonal(DVec3::splat(curvature));
-    Surface { bend, curvature, ..surface(center + radius * normal, normal, normal, sphere.link) }
+    let size = center.abs().max_element() + radius;
+    Surface { bend, curvature, size, ..surface(center + radius * normal, normal, normal, sphere.link) }
 }
 
-fn triangle_surface(triangle: &Triangle, point: DVec3, edges: DVec3) -> Surface {
-    let w = edges / edges.element_sum();
+/// Barycentric weights of a point of the triangle, from the vectors to its corners.
+fn weights(triangle: &Triangle, point: DVec3) -> DVec3 {
+    let [a, b, c] = [triangle.a, triangle.b, triangle.c].map(|v| xyz(v) - point);
+    let n = xyz(triangle.normal);
+    let areas = DVec3::new(n.dot(b.cross(c)), n.dot(c.cross(a)), n.dot(a.cross(b)));
+    areas / areas.element_sum()
+}
+
+fn triangle_surface(triangle: &Triangle, point: DVec3) -> Surface {
+    let w = weights(triangle, point);
     let u = DVec3::new(triangle.a[3].into(), triangle.b[3].into(), triangle.c[3].into());
     let v = xyz(triangle.v);
     let n = xyz(triangle.normal).normalize();
@@ -98,11 +110,11 @@ pub fn hit_surface(scene: &PackedScene, ray: &Ray, hit: &Hit) -> Surface {
     let point = ray.origin - shift + hit.t * ray.direction;
     let [planes, spheres, _, _] = scene.header.counts;
     let mut surface = if hit.shape < planes {
-        plane_surface(&scene.planes[hit.shape as usize], point, hit.local.truncate())
+        plane_surface(&scene.planes[hit.shape as usize], point, hit.local)
     } else if hit.shape < planes + spheres {
         sphere_surface(&scene.spheres[(hit.shape - planes) as usize], point)
     } else {
-        triangle_surface(&scene.triangles[(hit.shape - planes - spheres) as usize], point, hit.local)
+        triangle_surface(&scene.triangles[(hit.shape - planes - spheres) as usize], point)
     };
     surface.point += shift;
     if surface.geometric_normal.dot(ray.direction) > 0.0 {

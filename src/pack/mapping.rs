@@ -5,7 +5,7 @@
 
 use glam::{DMat2, DQuat, DVec2, DVec3, DVec4};
 
-use super::{EntityKind, MapKind, vec4};
+use super::{EntityKind, MapKind, real4};
 use crate::layout::Map;
 use crate::scene::model::{Entity, Environment, EnvironmentLayout, Mapping, MappingKind, Space};
 use crate::texture::sampler_spec::{Address, SamplerSpec};
@@ -58,7 +58,7 @@ pub fn affine_map(mapping: &Mapping, sampler: &SamplerSpec, u: DVec4, v: DVec4) 
     let constant = DVec2::new(x.w, y.w) + mapping.offset;
     let constant = constant - whole_tiles(constant, periods(sampler));
     (x.w, y.w) = (constant.x, constant.y);
-    Map { x: vec4(x), y: vec4(y), link: [MapKind::Affine as u32, 0, 0, 0], ..Default::default() }
+    Map { x: real4(x), y: real4(y), link: [MapKind::Affine as u32, 0, 0, 0], ..Default::default() }
 }
 
 /// `surface` on a plane: uv = matrix · (own + at_eye) + offset, where the plane's own coordinates are
@@ -66,14 +66,14 @@ pub fn affine_map(mapping: &Mapping, sampler: &SamplerSpec, u: DVec4, v: DVec4) 
 pub fn plane_map(mapping: &Mapping, sampler: &SamplerSpec, at_eye: DVec2) -> Map {
     let constant = uv_matrix(mapping) * at_eye + mapping.offset;
     let constant = constant - whole_tiles(constant, periods(sampler));
-    Map { offset: vec4(constant.extend(0.0).extend(0.0)), ..matrix_map(mapping, MapKind::Plane) }
+    Map { offset: real4(constant.extend(0.0).extend(0.0)), ..matrix_map(mapping, MapKind::Plane) }
 }
 
 /// A map whose matrix is the mapping's scale and rotation.
 fn matrix_map(mapping: &Mapping, kind: MapKind) -> Map {
     let m = uv_matrix(mapping);
     Map {
-        matrix: vec4(DVec4::new(m.x_axis.x, m.y_axis.x, m.x_axis.y, m.y_axis.y)),
+        matrix: real4(DVec4::new(m.x_axis.x, m.y_axis.x, m.x_axis.y, m.y_axis.y)),
         link: [kind as u32, 0, 0, 0],
         ..Default::default()
     }
@@ -99,7 +99,7 @@ pub fn projecting_map(
         MappingKind::Cube if flat => angular_map(mapping, sampler, MapKind::Box, [x, y, z]),
         MappingKind::Cube => {
             let rows = turned_about_axis(mapping, [x, y, z]);
-            Map { x: vec4(rows[0]), y: vec4(rows[1]), z: vec4(rows[2]), ..of_kind(MapKind::Cube) }
+            Map { x: real4(rows[0]), y: real4(rows[1]), z: real4(rows[2]), ..of_kind(MapKind::Cube) }
         }
         MappingKind::Solid => solid_map(mapping, sampler, [x, y, z]),
     };
@@ -121,7 +121,7 @@ pub fn environment_map(environment: &Environment) -> Map {
         }
         EnvironmentLayout::Cube => ([DVec3::X, DVec3::Y, DVec3::Z], MapKind::Cube, [1.0, 0.0, 0.0, 1.0]),
     };
-    let [x, y, z] = axes.map(|axis| vec4((turn * axis).extend(0.0)));
+    let [x, y, z] = axes.map(|axis| real4((turn * axis).extend(0.0)));
     Map { x, y, z, matrix, link: [kind as u32, EntityKind::Direction as u32, 0, 0], ..Default::default() }
 }
 
@@ -132,10 +132,10 @@ fn of_kind(kind: MapKind) -> Map {
 fn angular_map(mapping: &Mapping, sampler: &SamplerSpec, kind: MapKind, [x, y, z]: [DVec4; 3]) -> Map {
     let offset = mapping.offset - whole_tiles(mapping.offset, periods(sampler));
     Map {
-        x: vec4(x),
-        y: vec4(y),
-        z: vec4(z),
-        offset: vec4(offset.extend(0.0).extend(0.0)),
+        x: real4(x),
+        y: real4(y),
+        z: real4(z),
+        offset: real4(offset.extend(0.0).extend(0.0)),
         ..matrix_map(mapping, kind)
     }
 }
@@ -153,7 +153,7 @@ fn solid_map(mapping: &Mapping, sampler: &SamplerSpec, rows: [DVec4; 3]) -> Map 
             row.w -= (row.w / period[i]).floor() * period[i];
         }
     }
-    Map { x: vec4(rows[0]), y: vec4(rows[1]), z: vec4(rows[2]), ..of_kind(MapKind::Solid) }
+    Map { x: real4(rows[0]), y: real4(rows[1]), z: real4(rows[2]), ..of_kind(MapKind::Solid) }
 }
 
 /// Frame coordinates after a turn by `rotate` about the frame's y, from z towards x.

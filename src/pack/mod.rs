@@ -6,6 +6,7 @@ mod chances;
 mod kinds;
 mod mapping;
 mod pixel_filter;
+mod precision;
 mod procedural;
 mod pyramids;
 mod resample;
@@ -22,7 +23,8 @@ use crate::error::Result;
 use crate::layout::{self, CHUNK, Header};
 use crate::scene::cone;
 use crate::scene::model::{
-    Algorithm, Environment, EnvironmentLayout, Footprint, Material, Model, PixelFilter, Projection, Scene,
+    Algorithm, Environment, EnvironmentLayout, Footprint, Material, Model, PixelFilter, Precision,
+    Projection, Scene,
 };
 use crate::texture::data::TextureData;
 use crate::texture::sampler_spec::{Address, Method, SamplerSpec};
@@ -81,6 +83,8 @@ pub struct PackedScene {
     pub summed_tables: bool,
     /// Samples per pixel.
     pub samples: u32,
+    /// Reals are f64 on the device too; else they are rounded to f32 here.
+    pub double: bool,
     /// Samples of a pixel that one thread takes at once, at most `CHUNK`.
     pub chunk: u32,
     pub schedule: Schedule,
@@ -124,6 +128,15 @@ pub fn pack_with(
     let schedule = schedule(scene);
     let algorithm = scene.sampling.algorithm;
     let mut packed = PackedScene { samples, chunk: CHUNK, schedule, algorithm, ..Default::default() };
+    let sizes: Vec<[u32; 3]> = textures.iter().map(|t| [t.width, t.height, t.depth]).collect();
+    let need = precision::need(scene, &sizes);
+    packed.double = match (algorithm, scene.sampling.precision) {
+        (Algorithm::Cone, _) | (_, Precision::Single) => false,
+        (_, Precision::Double) => true,
+        (_, Precision::Auto) => need.outlines || need.texels,
+    };
+    // Beams are of f32 always.
+    let suits_beams = scene.suits_beams() && !(need.outlines && packed.double);
     // A cone stands for its pixel's own square.
     let filter = if algorithm == Algorithm::Cone { PixelFilter::default() } else { scene.pixel_filter };
     let warp = Warp::new(filter);
@@ -131,10 +144,10 @@ pub fn pack_with(
     (packed.pixel_filter, packed.mean_sign) = (warp.table, warp.mean_sign);
     let filtered = packed.prefilters();
     packed.sampler_specs = scene.samplers.clone();
-    packed.beams = scene.sampling.algorithm == Algorithm::Beam && scene.suits_beams();
+    packed.beams = scene.sampling.algorithm == Algorithm::Beam && suits_beams;
     if packed.beams {
         packed.row_sums = textures::row_sums(&textures);
-    } else if algorithm == Algorithm::Auto && scene.suits_beams() {
+    } else if algorithm == Algorithm::Auto && suits_beams {
         packed.beam_textures = Some(Arc::new(textures.clone()));
     }
     packed.samplers = scene.samplers.iter().map(|spec| textures::sampler(spec, filtered)).collect();
@@ -150,13 +163,16 @@ pub fn pack_with(
     packed.lights = scene.lights.iter().map(|l| shapes::light(l, scene.camera.eye)).collect();
     packed.header.key[1] = packed.lights.len() as u32;
     if scene.shapes_move() {
-        packed.motions = scene.motions().map(|m| layout::Motion { shift: vec4(m.extend(0.0)) }).collect();
+        packed.motions = scene.motions().map(|m| layout::Motion { shift: real4(m.extend(0.0)) }).collect();
     }
     let moves = u32::from(scene.camera.moves());
     let side = survey::cell_side(scene, [crop.width, crop.height]);
     packed.header.chances = [chances::chances(scene), packed.motions.len() as u32, moves, side];
     let counts = [packed.planes.len(), packed.spheres.len(), packed.triangles.len()].map(|n| n as u32);
     packed.header.counts[..3].copy_from_slice(&counts);
+    if !packed.double {
+        packed.round_reals();
+    }
     Ok(packed)
 }
 
@@ -258,23 +274,28 @@ pub fn camera_basis(scene: &Scene) -> [DVec3; 3] {
     [right, right.cross(forward), forward]
 }
 
+/// Half the picture's height at distance 1, or of parallel rays in scene units; and whether they are parallel.
+fn half_height(scene: &Scene) -> (f64, bool) {
+    match scene.camera.projection {
+        Projection::VerticalFov(degrees) => ((0.5 * degrees.to_radians()).tan(), false),
+        Projection::CameraConstant(distance) => (0.5 / distance, false),
+        Projection::Orthographic(height) => (0.5 * height, true),
+    }
+}
+
 fn header(scene: &Scene, crop: Crop, warp: &Warp) -> Header {
     let [right, up, forward] = camera_basis(scene);
-    // Half the picture's height at distance 1 (perspective) or in scene units (orthographic).
-    let (half_height, projection) = match scene.camera.projection {
-        Projection::VerticalFov(degrees) => ((0.5 * degrees.to_radians()).tan(), ProjectionKind::Perspective),
-        Projection::CameraConstant(distance) => (0.5 / distance, ProjectionKind::Perspective),
-        Projection::Orthographic(height) => (0.5 * height, ProjectionKind::Orthographic),
-    };
+    let (half_height, parallel) = half_height(scene);
+    let projection = if parallel { ProjectionKind::Orthographic } else { ProjectionKind::Perspective };
     let pixel = 2.0 * half_height / f64::from(scene.height);
     let share = match footprint(scene) {
         Footprint::None => 0.0,
         _ => warp.width / f64::from(scene.sampling.samples()).sqrt(),
     };
     Header {
-        forward: vec4(forward.extend(0.0)),
-        step_x: vec4((right * pixel).extend(share)),
-        step_y: vec4((-up * pixel).extend(pixel)),
+        forward: real4(forward.extend(0.0)),
+        step_x: real4((right * pixel).extend(share)),
+        step_y: real4((-up * pixel).extend(pixel)),
         background: vec4(scene.background.color.extend(1.0)),
         image: [scene.width, scene.height, crop.x, crop.y],
         size: [crop.width, crop.height, projection as u32, scene.sampling.max_depth],
@@ -293,10 +314,10 @@ fn header(scene: &Scene, crop: Crop, warp: &Warp) -> Header {
         counts: [0, 0, 0, layout::NO_MATERIAL],
         chances: [0; 4],
         lens: vec4(chances::lens(scene, pixel)),
-        view: vec4((scene.camera.look_at - scene.camera.eye).extend(0.0)),
-        up: vec4(scene.camera.up.normalize().extend(0.0)),
-        eye_motion: vec4(scene.camera.motion[0].extend(0.0)),
-        view_motion: vec4((scene.camera.motion[1] - scene.camera.motion[0]).extend(0.0)),
+        view: real4((scene.camera.look_at - scene.camera.eye).extend(0.0)),
+        up: real4(scene.camera.up.normalize().extend(0.0)),
+        eye_motion: real4(scene.camera.motion[0].extend(0.0)),
+        view_motion: real4((scene.camera.motion[1] - scene.camera.motion[0]).extend(0.0)),
         pixel_filter: warp.record,
     }
 }
@@ -313,6 +334,10 @@ fn footprint(scene: &Scene) -> Footprint {
     }
     let needed = procedural || scene.samplers.iter().any(SamplerSpec::needs_footprint);
     if needed { scene.sampling.footprint } else { Footprint::None }
+}
+
+fn real4(v: DVec4) -> [f64; 4] {
+    v.to_array()
 }
 
 fn vec4(v: DVec4) -> [f32; 4] {

@@ -12,7 +12,7 @@ pub fn procedural(texture: &Procedural) -> layout::Procedural {
     layout::Procedural {
         background,
         figure,
-        shape: [texture.width, texture.aspect, texture.offset, texture.jitter],
+        shape: [texture.width, texture.aspect, texture.offset, texture.jitter].map(f64::from),
         octaves: [texture.lacunarity, texture.gain, (1.0 / norm) as f32, texture.distortion],
         link: [texture.kind as u32, texture.seed, octaves, texture.dimensions],
     }

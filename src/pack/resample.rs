@@ -2,7 +2,7 @@
 
 use super::pixel_filter::Warp;
 use super::{Crop, PackedScene, header, schedule};
-use crate::layout::Header;
+use crate::layout::{Header, Record};
 use crate::scene::model::Scene;
 
 impl PackedScene {
@@ -13,6 +13,7 @@ impl PackedScene {
         let [width, height, _, _] = self.header.size;
         let Header { step_x, sampling, key: [shared, ..], .. } =
             header(scene, Crop { x, y, width, height }, &Warp::new(scene.pixel_filter));
+        let step_x = if self.double { step_x } else { Header { step_x, ..self.header }.rounded().step_x };
         (self.header.step_x, self.header.sampling, self.header.key[0]) = (step_x, sampling, shared);
         self.samples = scene.sampling.samples();
         self.schedule = schedule(scene);

@@ -2,7 +2,7 @@
 
 use super::{PackedScene, textures};
 use crate::color::srgb8_table;
-use crate::layout;
+use crate::layout::{self, Header, bytes_of};
 
 /// Room in which short lists end.
 const LIST_BYTES: usize = 64 * 16;
@@ -32,21 +32,22 @@ impl PackedScene {
     pub fn scene_bytes(&self, in_steps: bool) -> (Vec<u8>, Sections) {
         let srgb: &[f32] = if textures::needs_srgb_table(&self.textures) { srgb8_table() } else { &[] };
         let mut sections = Sections::default();
-        let mut lists: [(&[u8], &mut u32); 11] = [
-            (bytemuck::cast_slice(&self.planes), &mut sections.planes),
-            (bytemuck::cast_slice(&self.spheres), &mut sections.spheres),
-            (bytemuck::cast_slice(&self.triangles), &mut sections.triangles),
-            (bytemuck::cast_slice(&self.lights), &mut sections.lights),
-            (bytemuck::cast_slice(&self.materials), &mut sections.materials),
-            (bytemuck::cast_slice(&self.maps), &mut sections.maps),
-            (bytemuck::cast_slice(&self.textures), &mut sections.textures),
-            (bytemuck::cast_slice(&self.samplers), &mut sections.samplers),
-            (bytemuck::cast_slice(&self.procedurals), &mut sections.procedurals),
-            (bytemuck::cast_slice(&self.motions), &mut sections.motions),
-            (bytemuck::cast_slice(srgb), &mut sections.srgb),
+        let double = self.double;
+        let mut lists: [(Vec<u8>, &mut u32); 11] = [
+            (bytes_of(&self.planes, double), &mut sections.planes),
+            (bytes_of(&self.spheres, double), &mut sections.spheres),
+            (bytes_of(&self.triangles, double), &mut sections.triangles),
+            (bytes_of(&self.lights, double), &mut sections.lights),
+            (bytes_of(&self.materials, double), &mut sections.materials),
+            (bytes_of(&self.maps, double), &mut sections.maps),
+            (bytes_of(&self.textures, double), &mut sections.textures),
+            (bytes_of(&self.samplers, double), &mut sections.samplers),
+            (bytes_of(&self.procedurals, double), &mut sections.procedurals),
+            (bytes_of(&self.motions, double), &mut sections.motions),
+            (bytemuck::cast_slice(srgb).to_vec(), &mut sections.srgb),
         ];
-        lists.sort_by_key(|(list, _)| if in_steps { room(list) } else { list.len() });
-        let mut bytes = bytemuck::bytes_of(&self.header).to_vec();
+        lists.sort_by_key(|(list, _)| if in_steps { room(&list) } else { list.len() });
+        let mut bytes = self.header_bytes(&self.header);
         sections.pixel_filter = (bytes.len() / 16) as u32;
         bytes.extend_from_slice(bytemuck::cast_slice(&self.pixel_filter));
         let alike = bytes.len().next_multiple_of(LIST_BYTES);
@@ -55,12 +56,17 @@ impl PackedScene {
         bytes.resize(bytes.len().next_multiple_of(step), 0);
         for (list, at) in lists {
             *at = (bytes.len() / 16) as u32;
-            let end = bytes.len() + if step == LIST_BYTES { room(list) } else { list.len() };
-            bytes.extend_from_slice(list);
+            let end = bytes.len() + if step == LIST_BYTES { room(&list) } else { list.len() };
+            bytes.extend_from_slice(&list);
             bytes.resize(end, 0);
         }
         bytes.resize(bytes.len().max(layout::HEAD_BYTES), 0);
         (bytes, sections)
+    }
+
+    /// What the scene buffer begins with.
+    pub fn header_bytes(&self, header: &Header) -> Vec<u8> {
+        bytes_of(&[*header], self.double)
     }
 }
 

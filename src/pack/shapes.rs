@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3, DVec4};
 
 use super::mapping::{self, Bounds, Place};
-use super::{LightKind, MapKind, PackedScene, TextureKind, vec4};
+use super::{LightKind, MapKind, PackedScene, TextureKind, real4, vec4};
 use crate::error::{Error, Result};
 use crate::layout;
 use crate::scene::model::{
@@ -25,7 +25,7 @@ pub fn pack_shapes(packed: &mut PackedScene, scene: &Scene) -> Result<()> {
             mapping::projecting_map(mapping, sampler, eye, &place, flat)
         });
         packed.spheres.push(layout::Sphere {
-            ball: vec4((sphere.center - eye).extend(sphere.radius)),
+            ball: real4((sphere.center - eye).extend(sphere.radius)),
             link: [sphere.material as u32, map, 0, 0],
         });
     }
@@ -75,15 +75,14 @@ fn pack_plane(packed: &mut PackedScene, scene: &Scene, plane: &Plane, eye: DVec3
         _ => mapping::projecting_map(mapping, sampler, eye, &place, flat),
     });
     Ok(layout::Plane {
-        normal: vec4(normal.extend(normal.dot(plane.origin - eye))),
-        axis_u: vec4(u),
-        axis_v: vec4(v),
-        link: [
-            plane.material as u32,
-            map,
-            (plane.half_extent.unwrap_or(0.0) as f32).to_bits(),
-            u32::from(plane.half_extent.is_some()),
-        ],
+        normal: real4(normal.extend(normal.dot(plane.origin - eye))),
+        axis_u: real4(u),
+        axis_v: real4(v),
+        // Of f64 until the numbers are rounded.
+        link: {
+            let [low, high] = layout::Plane::extent_words(plane.half_extent, true);
+            [plane.material as u32, map, low, high]
+        },
     })
 }
 
@@ -107,13 +106,13 @@ fn pack_triangle(
         }
         _ => mapping::projecting_map(mapping, sampler, eye, &place, flat),
     });
-    let shading = triangle.normals.unwrap_or([normal; 3]).map(|n| vec4(n.normalize().extend(0.0)));
+    let shading = triangle.normals.unwrap_or([normal; 3]).map(|n| real4(n.normalize().extend(0.0)));
     layout::Triangle {
-        a: vec4(a.extend(uvs[0].x)),
-        b: vec4(b.extend(uvs[1].x)),
-        c: vec4(c.extend(uvs[2].x)),
-        v: vec4(DVec4::new(uvs[0].y, uvs[1].y, uvs[2].y, f64::from(u8::from(triangle.normals.is_some())))),
-        normal: vec4(normal.extend(normal.dot(a))),
+        a: real4(a.extend(uvs[0].x)),
+        b: real4(b.extend(uvs[1].x)),
+        c: real4(c.extend(uvs[2].x)),
+        v: real4(DVec4::new(uvs[0].y, uvs[1].y, uvs[2].y, f64::from(u8::from(triangle.normals.is_some())))),
+        normal: real4(normal.extend(normal.dot(a))),
         normal_a: shading[0],
         normal_b: shading[1],
         normal_c: shading[2],
@@ -162,7 +161,7 @@ fn triangle_bounds(triangle: &Triangle) -> Bounds {
 
 pub fn light(light: &Light, eye: DVec3) -> layout::Light {
     let record = |kind: LightKind, place: DVec4, power: DVec3| layout::Light {
-        place: vec4(place),
+        place: real4(place),
         power: vec4(power.extend(0.0)),
         link: [kind as u32, 0, 0, 0],
         ..Default::default()
@@ -178,8 +177,8 @@ pub fn light(light: &Light, eye: DVec3) -> layout::Light {
             record(LightKind::Sphere, (position - eye).extend(radius), intensity)
         }
         Light::Rectangle { position, edge_u, edge_v, radiance } => layout::Light {
-            edge_u: vec4(edge_u.extend(0.0)),
-            edge_v: vec4(edge_v.extend(0.0)),
+            edge_u: real4(edge_u.extend(0.0)),
+            edge_v: real4(edge_v.extend(0.0)),
             ..record(LightKind::Rectangle, (position - eye).extend(0.0), radiance)
         },
         Light::Sun { direction, angle, irradiance } => {

@@ -14,14 +14,23 @@ use crate::pack::{PackedScene, Sections, TextureKind};
 use crate::scene::model::Algorithm;
 use crate::shaders::{self, ReflectedBinding, Shader};
 
-/// The shader of an algorithm that reads texels from `source`.
-pub fn shader_for(algorithm: Algorithm, source: TexelSource) -> &'static Shader {
+/// The shader of an algorithm, by where its texels come from and the numbers of its geometry.
+pub fn shader_for(algorithm: Algorithm, features: &Features) -> &'static Shader {
+    let source = features.source;
     if algorithm == Algorithm::Cone {
         return match source {
             TexelSource::None => &shaders::CONE_NONE,
             TexelSource::Buffer => &shaders::CONE_TEXELS,
             TexelSource::Image => &shaders::CONE_IMAGES,
             TexelSource::Solids => &shaders::CONE_SOLIDS,
+        };
+    }
+    if features.double {
+        return match source {
+            TexelSource::None => &shaders::RENDER_NONE_DOUBLE,
+            TexelSource::Buffer => &shaders::RENDER_TEXELS_DOUBLE,
+            TexelSource::Image => &shaders::RENDER_IMAGES_DOUBLE,
+            TexelSource::Solids => &shaders::RENDER_SOLIDS_DOUBLE,
         };
     }
     match source {
@@ -103,8 +112,8 @@ impl Resources {
     }
 
     /// Replaces what the scene buffer begins with.
-    pub fn write_header(&self, gpu: &Gpu, header: &Header) -> Result<()> {
-        gpu.write_buffer(&self.scene, 0, bytemuck::bytes_of(header))
+    pub fn write_header(&self, gpu: &Gpu, packed: &PackedScene, header: &Header) -> Result<()> {
+        gpu.write_buffer(&self.scene, 0, &packed.header_bytes(header))
     }
 
     /// The shader's bindings with what they bind: 0 what it writes, 4 a list of queries or jobs (any buffer

@@ -67,6 +67,9 @@ impl<'a> Session<'a> {
         tuning: &Tuning,
     ) -> Result<Session<'a>> {
         let clock = Instant::now();
+        if !gpu.info().limits.float64 {
+            scene.round_reals();
+        }
         scene.chunk = samples_at_once(gpu.info(), &scene)?;
         let features = features_of(gpu, &scene, keep_everything, tuning);
         let resources = Resources::upload(gpu, &scene, &features)?;
@@ -124,7 +127,7 @@ impl<'a> Session<'a> {
             }
             Schedule::Tiles => {
                 let (renderer, film) =
-                    self.renderer(scene, &features, shader_for(scene.algorithm, features.source))?;
+                    self.renderer(scene, &features, shader_for(scene.algorithm, &features))?;
                 Work::Tiles { renderer, film }
             }
             Schedule::Jobs => Work::Jobs { sampler: self.sampler(scene, &features)? },
@@ -151,7 +154,7 @@ impl<'a> Session<'a> {
     }
 
     fn sampler(&self, scene: &PackedScene, features: &Features) -> Result<Sampler> {
-        let shader = shader_for(scene.algorithm, features.source);
+        let shader = shader_for(scene.algorithm, &features);
         let (pipeline, groups_per_tile) = self.pipeline(scene, features, shader)?;
         Ok(Sampler { pipeline, shader, groups_per_tile })
     }
@@ -203,7 +206,11 @@ impl<'a> Session<'a> {
 
     fn teller(&self, scene: &PackedScene, features: Features) -> Result<Teller<'a>> {
         let features = Features { compensated: false, ..features };
-        let (renderer, film) = self.renderer(scene, &features, &shaders::BEAM)?;
+        let (renderer, film) = self.renderer(
+            scene,
+            &features,
+            if features.double { &shaders::BEAM_WIDE } else { &shaders::BEAM },
+        )?;
         Ok(Teller { renderer, film })
     }
 
@@ -219,7 +226,7 @@ impl<'a> Session<'a> {
 
     fn write_header(&self, header: &Header) -> Result<()> {
         if self.header.get() != *header {
-            self.resources.write_header(self.gpu, header)?;
+            self.resources.write_header(self.gpu, &self.scene, header)?;
             self.header.set(*header);
         }
         Ok(())

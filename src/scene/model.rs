@@ -136,6 +136,18 @@ named_enum! {
     }
 }
 
+named_enum! {
+    /// In which numbers rays meet shapes and texture coordinates are formed (`[sampling] precision`).
+    #[derive(Default)]
+    pub enum Precision {
+        /// f64 where f32 would misplace a texel or an outline.
+        #[default]
+        Auto = "auto",
+        Single = "single",
+        Double = "double",
+    }
+}
+
 impl Algorithm {
     /// Whether pixels may get different numbers of samples.
     pub fn is_adaptive(self) -> bool {
@@ -156,6 +168,7 @@ pub struct Sampling {
     /// Mirror bounces after the camera ray; exhausted means black.
     pub max_depth: u32,
     pub footprint: Footprint,
+    pub precision: Precision,
 }
 
 named_enum! {

@@ -23,7 +23,7 @@ pub(super) const CAMERA: &[&str] = &[
 ];
 pub(super) const IMAGE: &[&str] = &["width", "height", "pixel_filter", "pixel_filter_radius"];
 pub(super) const SAMPLING: &[&str] =
-    &["algorithm", "pattern", "spp", "shared", "seed", "max_depth", "footprint"];
+    &["algorithm", "pattern", "spp", "shared", "seed", "max_depth", "footprint", "precision"];
 
 pub(super) fn camera(table: &Table<'_>) -> Result<Camera> {
     let eye = table.required("eye")?.vec3(&COORDINATE)?;
@@ -137,6 +137,7 @@ pub(super) fn sampling(table: Option<&Table<'_>>) -> Result<Sampling> {
         seed: 1,
         max_depth: 5,
         footprint: Footprint::None,
+        precision: Precision::Auto,
     };
     let Some(table) = table else { return Ok(sampling) };
     if let Some(field) = table.get("algorithm") {
@@ -163,6 +164,9 @@ pub(super) fn sampling(table: Option<&Table<'_>>) -> Result<Sampling> {
     }
     if let Some(field) = table.get("footprint") {
         sampling.footprint = field.choice(Footprint::NAMES, Footprint::ALL)?;
+    }
+    if let Some(field) = table.get("precision") {
+        sampling.precision = field.choice(Precision::NAMES, Precision::ALL)?;
     }
     Ok(sampling)
 }

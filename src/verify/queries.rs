@@ -10,8 +10,8 @@ use crate::oracle::mapping::Coordinate;
 use crate::pack::{self, PackedScene};
 use crate::probe::LookUp;
 use crate::scene::model::{
-    Algorithm, Background, Camera, Footprint, Material, Model, Pattern, PixelFilter, Projection, Sampling,
-    Scene,
+    Algorithm, Background, Camera, Footprint, Material, Model, Pattern, PixelFilter, Precision, Projection,
+    Sampling, Scene,
 };
 use crate::texture::data::{ColorSpace, Component, Dimension, TexelFormat, TextureData};
 use crate::texture::sampler_spec::SamplerSpec;
@@ -163,6 +163,7 @@ pub fn pairs_over(
             seed: 1,
             max_depth: 0,
             footprint,
+            precision: Precision::Single,
         },
         background: Background::default(),
         textures: Vec::new(),

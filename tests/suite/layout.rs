@@ -6,7 +6,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 
 use moire::features::TextureSize;
-use moire::layout as mirror;
+use moire::layout::{self as mirror, Record};
 use moire::pack::{Choice, EntityKind, LightKind, MapKind, ProjectionKind, Schedule, TextureKind};
 use moire::scene::model::{Footprint, Model, Pattern, PixelFilterKind, ReliefKind};
 use moire::shaders::{self, Shader};
@@ -40,6 +40,7 @@ fn rust_struct(text: &str, opening: &str) -> Option<Fields> {
         let (name, kind) = line.trim_start_matches("pub ").trim_end_matches(',').split_once(": ")?;
         let kind = match kind {
             "[f32; 4]" => "vec4",
+            "[f64; 4]" => "real4",
             "[u32; 4]" => "uvec4",
             "u32" => "uint",
             "f32" => "float",
@@ -54,7 +55,15 @@ fn rust_struct(text: &str, opening: &str) -> Option<Fields> {
 fn glsl_numbers(text: &str) -> BTreeMap<String, u32> {
     let number = |line: &str| {
         let (name, value) = line.strip_prefix("const uint ")?.split_once(" = ")?;
-        let value = value.split(';').next()?.trim_end_matches('u');
+        // Where reals are f32.
+        let value = value.split(';').next()?;
+        if let Some((reals, others)) = value.split_once("u * REAL_UNITS") {
+            let others = others
+                .strip_prefix(" + ")
+                .map_or(Some(0), |n| n.trim_end_matches('u').parse::<u32>().ok())?;
+            return Some((name.to_string(), reals.parse::<u32>().ok()? + others));
+        }
+        let value = value.trim_end_matches('u');
         let value = match value.strip_prefix("0x") {
             Some(hex) => u32::from_str_radix(hex, 16).ok()?,
             None => value.parse().ok()?,
@@ -109,23 +118,27 @@ fn expected_numbers() -> BTreeMap<String, u32> {
     all.insert("PIXEL_FILTER_CELLS".into(), mirror::PIXEL_FILTER_CELLS);
     all.insert("HEAD_UNITS".into(), mirror::HEAD_BYTES as u32 / 16);
     let strides = MIRRORS.iter().filter(|(name, _)| *name != "Header");
-    all.extend(strides.map(|(name, units)| (format!("{}_UNITS", name.to_uppercase()), *units)));
+    all.extend(strides.map(|(name, units)| (format!("{}_UNITS", name.to_uppercase()), units.iter().sum())));
     all
 }
 
-/// (struct, units of 16 bytes)
-const MIRRORS: &[(&str, u32)] = &[
-    ("Header", mirror::Header::UNITS),
-    ("Plane", mirror::Plane::UNITS),
-    ("Sphere", mirror::Sphere::UNITS),
-    ("Triangle", mirror::Triangle::UNITS),
-    ("Light", mirror::Light::UNITS),
-    ("Material", mirror::Material::UNITS),
-    ("Map", mirror::Map::UNITS),
-    ("Texture", mirror::Texture::UNITS),
-    ("Sampler", mirror::Sampler::UNITS),
-    ("Procedural", mirror::Procedural::UNITS),
-    ("Motion", mirror::Motion::UNITS),
+const fn units<R: Record>() -> [u32; 2] {
+    [R::REALS, R::OTHERS]
+}
+
+/// (struct, vectors of reals and others, of 16 bytes each where reals are f32)
+const MIRRORS: &[(&str, [u32; 2])] = &[
+    ("Header", units::<mirror::Header>()),
+    ("Plane", units::<mirror::Plane>()),
+    ("Sphere", units::<mirror::Sphere>()),
+    ("Triangle", units::<mirror::Triangle>()),
+    ("Light", units::<mirror::Light>()),
+    ("Material", units::<mirror::Material>()),
+    ("Map", units::<mirror::Map>()),
+    ("Texture", units::<mirror::Texture>()),
+    ("Sampler", units::<mirror::Sampler>()),
+    ("Procedural", units::<mirror::Procedural>()),
+    ("Motion", units::<mirror::Motion>()),
 ];
 
 /// What differs between the shader's layout and its Rust mirror.
@@ -137,8 +150,8 @@ fn differences(glsl: &str, rust: &str) -> Vec<String> {
         if here.is_none() || here != there {
             found.push(format!("{name}: GLSL {here:?}, Rust {there:?}"));
         }
-        if here.is_some_and(|fields| fields.len() as u32 != units) {
-            found.push(format!("{name}: not {units} units of 16 bytes"));
+        if here.is_some_and(|fields| fields.len() as u32 != units.iter().sum::<u32>()) {
+            found.push(format!("{name}: not {units:?} vectors"));
         }
     }
     let (numbers, expected) = (glsl_numbers(glsl), expected_numbers());
@@ -167,10 +180,11 @@ fn planted_differences_of_layout_are_found() {
     let glsl = fs::read_to_string(root.join("glsl/shared/layout.glsl")).unwrap();
     let rust = fs::read_to_string(root.join("src/layout.rs")).unwrap();
     let plants = [
-        ("vec4 axis_u;", "vec4 axis_w;", "Plane"),
+        ("real4 axis_u;", "real4 axis_w;", "Plane"),
+        ("    real4 axis_u;", "    vec4 axis_u;", "Plane"),
         ("uvec4 modes;", "vec4 modes;", "Sampler"),
-        ("    vec4 step_x;", "    vec4 step_z; vec4 step_x;", "Header"),
-        ("TRIANGLE_UNITS = 9u", "TRIANGLE_UNITS = 8u", "TRIANGLE_UNITS"),
+        ("    real4 step_x;", "    real4 step_z; real4 step_x;", "Header"),
+        ("TRIANGLE_UNITS = 8u * REAL", "TRIANGLE_UNITS = 7u * REAL", "TRIANGLE_UNITS"),
         ("ADDRESS_CLAMP_TO_EDGE = 2u", "ADDRESS_CLAMP_TO_EDGE = 3u", "ADDRESS_CLAMP_TO_EDGE"),
         ("const uint MODEL_MIRROR = 2u;", "", "MODEL_MIRROR"),
         (
@@ -204,9 +218,15 @@ fn push_constants_equal_their_mirrors() {
     assert_eq!(size_of::<mirror::Part>(), here.len() * 4);
 }
 
-const SHADERS: [&Shader; 16] = [
+const SHADERS: [&Shader; 23] = [
     &shaders::BEAM,
+    &shaders::BEAM_WIDE,
     &shaders::SURVEY,
+    &shaders::SURVEY_WIDE,
+    &shaders::RENDER_NONE_DOUBLE,
+    &shaders::RENDER_TEXELS_DOUBLE,
+    &shaders::RENDER_IMAGES_DOUBLE,
+    &shaders::RENDER_SOLIDS_DOUBLE,
     &shaders::RENDER_NONE,
     &shaders::RENDER_TEXELS,
     &shaders::RENDER_IMAGES,
@@ -219,6 +239,7 @@ const SHADERS: [&Shader; 16] = [
     &shaders::PROBE_IMAGES,
     &shaders::PROBE_SOLIDS,
     &shaders::PROBE_RAYS,
+    &shaders::PROBE_RAYS_DOUBLE,
     &shaders::PROBE_WARPS,
     &shaders::PROBE_PROCEDURAL,
 ];

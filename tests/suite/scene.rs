@@ -140,6 +140,7 @@ fn keys_left_out_have_the_documented_defaults() {
         seed: 1,
         max_depth: 5,
         footprint: Footprint::None,
+        precision: Precision::Auto,
     };
     assert_eq!(scene.sampling, sampling);
     assert_eq!(scene.background.color, DVec3::ZERO);

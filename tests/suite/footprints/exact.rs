@@ -46,12 +46,12 @@ fn end_of_ray(scene: &PackedScene, at: DVec2) -> Option<(Vec<u32>, u32, DVec3)> 
         let ratio = if surface.inside { ior } else { 1.0 / ior };
         ray = match model {
             Model::Mirror => Ray {
-                origin: offset_origin(surface.point, n),
+                origin: offset_origin(surface.point, n, surface.size),
                 direction: mirrored(ray.direction, surface.normal),
                 time: 0.0,
             },
             Model::Dielectric => Ray {
-                origin: offset_origin(surface.point, -n),
+                origin: offset_origin(surface.point, -n, surface.size),
                 direction: refracted(ray.direction, surface.normal, ratio),
                 time: 0.0,
             },

@@ -39,7 +39,7 @@ pub fn estimate(scene: &PackedScene, shape: u32, ray: &Ray) -> Estimate {
 }
 
 /// Error of t = (n·o' − n·o) / n·d.
-fn flat_error(normal: [f32; 4], ray: &Ray, t: f64) -> f64 {
+fn flat_error(normal: [f64; 4], ray: &Ray, t: f64) -> f64 {
     let n = xyz(normal);
     let (height, slope) = (f64::from(normal[3]) - n.dot(ray.origin), n.dot(ray.direction));
     let size = f64::from(normal[3]).abs() + (n * ray.origin).abs().element_sum();
@@ -55,7 +55,7 @@ fn plane(scene: &PackedScene, index: usize, ray: &Ray) -> Estimate {
     let error = flat_error(plane.normal, ray, t);
     let point = ray.origin + t * ray.direction;
     let point_error = error * ray.direction.length() + 2.0 * U * (ray.origin.length() + point.length());
-    let extent = f64::from(f32::from_bits(plane.link[2]));
+    let extent = plane.half_extent().unwrap_or(0.0);
     let near_edge = [plane.axis_u, plane.axis_v].iter().any(|row| {
         let own = 4.0 * U * ((xyz(*row) * point).abs().element_sum() + f64::from(row[3]).abs());
         (affine(*row, point).abs() - extent).abs() <= own + xyz(*row).length() * point_error
@@ -89,7 +89,7 @@ fn sphere(scene: &PackedScene, index: usize, ray: &Ray) -> Estimate {
 
 fn triangle(scene: &PackedScene, index: usize, ray: &Ray) -> Estimate {
     let triangle = &scene.triangles[index];
-    let (t, _) = triangle_distance(triangle, ray);
+    let t = triangle_distance(triangle, ray);
     let corners = [triangle.a, triangle.b, triangle.c].map(|v| xyz(v) - ray.origin);
     let edges = [0, 1, 2].map(|i| {
         let (p, q) = (corners[(i + 1) % 3], corners[(i + 2) % 3]);

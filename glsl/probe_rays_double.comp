@@ -1,0 +1,6 @@
+#version 460
+// Answers rays from a list, in f64.
+#define DOUBLE
+#define SOURCE 0
+#extension GL_GOOGLE_include_directive : require
+#include "shared/probe_rays_main.glsl"
