@@ -30,6 +30,7 @@ pub mod oracle;
 pub mod output;
 pub mod pack;
 pub mod pattern;
+pub mod plot;
 pub mod probe;
 pub mod progress;
 pub mod render;

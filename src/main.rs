@@ -4,7 +4,7 @@
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
-use moire::cli::{self, compare, devices, pattern, render, study, texture, verify};
+use moire::cli::{self, compare, devices, pattern, render, stability, study, texture, verify};
 use moire::error::Error;
 
 /// Renders textured scenes with Vulkan compute, with or without a GPU
@@ -31,6 +31,8 @@ enum Command {
     Pattern(pattern::PatternArgs),
     /// Hold a device's samplers against the float64 oracle
     Verify(verify::VerifyArgs),
+    /// Sweep extreme cases on a device, with errors against float64
+    Stability(stability::StabilityArgs),
 }
 
 fn main() -> ExitCode {
@@ -42,6 +44,7 @@ fn main() -> ExitCode {
         Command::Texture(args) => texture::run(&args),
         Command::Pattern(args) => pattern::run(&args),
         Command::Verify(args) => verify::run(&args),
+        Command::Stability(args) => stability::run(&args),
     };
     result.unwrap_or_else(|error| {
         let code = if matches!(error, Error::Interrupted) { 130 } else { 2 };

@@ -48,6 +48,7 @@ layout(constant_id = 32) const uint TEXTURE_SIZES = 0x3u;
 layout(constant_id = 27) const uint TEXEL_FORMATS = 0x1FFu;
 layout(constant_id = 28) const uint COLOR_SPACES = 0x3u;
 layout(constant_id = 29) const bool COMPENSATED = true; // more samples than one chunk holds
+layout(constant_id = 82) const bool BLOCKS = true;      // a thread may sum more than MOST_PLAIN samples
 layout(constant_id = 30) const uint SLOTS = 1u;         // image descriptors: flat, volumes, cubes
 layout(constant_id = 53) const uint VOLUME_SLOTS = 1u;
 layout(constant_id = 54) const uint CUBE_SLOTS = 1u;

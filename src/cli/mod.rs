@@ -7,6 +7,7 @@ pub mod pattern;
 mod progress;
 pub mod render;
 mod report;
+pub mod stability;
 pub mod study;
 pub mod texture;
 pub mod verify;

@@ -8,6 +8,7 @@ use super::overrides::parse_size;
 use super::progress::Bar;
 use crate::error::{Error, Result};
 use crate::gpu::{DeviceSelect, Gpu};
+use crate::output;
 use crate::scene::MAX_SPP;
 use crate::scene::prune::prune;
 use crate::study::method::Method;
@@ -76,7 +77,7 @@ pub fn run(args: &StudyArgs) -> Result<ExitCode> {
     if let Some([width, height]) = args.size {
         (scene.width, scene.height) = (width, height);
     }
-    study::prepare_folder(&args.out)?;
+    output::prepare_folder(&args.out, record::FILE)?;
     prune(&mut scene);
     let options = options(args);
     let gpu = Gpu::open(&select)?;

@@ -1,7 +1,8 @@
 //! A finished film into a picture file whose ending names the format. The file appears complete or
-//! not at all: it is written beside its final place and renamed. Folders are never created.
+//! not at all: it is written beside its final place and renamed. Folders are created by `prepare_folder` alone.
 
 mod encode;
+mod folder;
 mod quantise;
 mod target;
 
@@ -11,6 +12,7 @@ use std::path::Path;
 use crate::error::{Error, Result};
 use crate::film::Film;
 pub use encode::Format;
+pub use folder::prepare_folder;
 use target::Target;
 
 /// Every ending that names a format.

@@ -2,6 +2,8 @@
 //! float64 answer at each value, and a bound with the reason for it. Cases make their own scenes and answers;
 //! the bench lends them the device.
 
+use serde::Serialize;
+
 use crate::error::{Error, Result};
 use crate::gpu::Gpu;
 use crate::progress::Progress;
@@ -24,10 +26,11 @@ pub struct Case {
 }
 
 /// The worst error at one value of the parameter.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Point {
+    /// 0 or above: plots are logarithmic.
     pub parameter: f64,
-    /// Infinite where the answer is no number.
+    /// Infinite where the answer is no number; JSON has null for that.
     pub error: f64,
     /// Where it was reached: pixel, ray, coordinate.
     pub place: String,
@@ -37,6 +40,13 @@ pub struct Point {
 pub struct Bench<'a> {
     pub gpu: &'a Gpu,
     pub progress: &'a dyn Progress,
+}
+
+impl Case {
+    /// Its group and its name: what it is called on the command line.
+    pub fn label(&self) -> String {
+        format!("{}/{}", self.group, self.name)
+    }
 }
 
 impl Bench<'_> {

@@ -2,10 +2,16 @@
 //! exact or float64 answer and a bound that is derived. A device in, a report out.
 
 pub mod case;
+pub mod page;
+pub mod report;
+pub mod run;
+mod scenes;
+mod sums;
+pub mod text;
 
 use case::Case;
 
 /// Every case, in the order of the report.
 pub fn all() -> Vec<Case> {
-    Vec::new()
+    sums::cases()
 }

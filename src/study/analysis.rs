@@ -7,6 +7,7 @@ use serde::Serialize;
 use super::bootstrap::interval;
 use super::record::{PointRecord, Record};
 use super::words::advice;
+use crate::plot::axis::steps;
 
 /// Points nearer to the reference's own error than this many times bend towards it and count in no slope.
 const ABOVE_FLOOR: f64 = 3.0;
@@ -160,23 +161,6 @@ pub fn median(values: &[f64]) -> f64 {
         n if n % 2 == 1 => sorted[middle],
         _ => 0.5 * (sorted[middle - 1] + sorted[middle]),
     }
-}
-
-/// 1, 2, 5, 10, … from the first that is not below `from` up to the first that is not below `to`.
-pub fn steps(from: f64, to: f64) -> Vec<f64> {
-    if !(from > 0.0 && to.is_finite()) {
-        return Vec::new();
-    }
-    let first = from.log10().floor() as i32;
-    let all = (first..first + 40).flat_map(|e| [1.0, 2.0, 5.0].map(|m| m * 10f64.powi(e)));
-    let mut steps = Vec::new();
-    for step in all.skip_while(|s| *s < from * (1.0 - 1e-9)) {
-        steps.push(step);
-        if step >= to * (1.0 - 1e-9) {
-            break;
-        }
-    }
-    steps
 }
 
 pub fn winners(points: &[PointRecord], slopes: &[MethodSlope]) -> Vec<Winner> {

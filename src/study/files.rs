@@ -1,37 +1,16 @@
 //! The folder of a study: `study.csv`, `study.json`, three plots and the page. Each file appears complete or
 //! not at all.
 
-use std::fs;
 use std::path::Path;
 
 use crate::error::{Error, Result};
 use crate::output;
+use crate::plot::chart::{Chart, Series};
 
-use super::chart::{Chart, Series};
 use super::record::{self, PointRecord, Record};
 use super::showcase::Showcase;
 use super::words::{error, samples, seconds};
 use super::{page, stages};
-
-/// Makes the folder where only its last part is missing; an error where files cannot be created in it.
-pub fn prepare_folder(folder: &Path) -> Result<()> {
-    let shown = folder.display();
-    if !folder.exists() {
-        fs::create_dir(folder).map_err(|e| {
-            Error::with_help(
-                format!("--out {shown}: the folder cannot be created: {e}"),
-                "name a folder, or a new one in a folder that exists and may be written to",
-            )
-        })?;
-    }
-    if !folder.is_dir() {
-        return Err(Error::with_help(
-            format!("--out {shown}: this is not a folder"),
-            "a study is several files: name a folder for them",
-        ));
-    }
-    output::check_file_writable(&folder.join(record::FILE))
-}
 
 /// What an interrupted study goes on from.
 pub fn save(folder: &Path, record: &Record) -> Result<()> {
@@ -64,14 +43,16 @@ pub struct Plots {
 
 impl Plots {
     pub fn new(record: &Record) -> Plots {
-        let chart = |id, title, x_label, x: &dyn Fn(&PointRecord) -> f64, guides| Chart {
+        // No point below it means anything.
+        let own = record.reference.rmse.filter(|e| *e > 0.0).map(|e| (e, "the reference's own error"));
+        let chart = |id, title: &str, x_label, x: &dyn Fn(&PointRecord) -> f64, guides| Chart {
             id,
-            title,
+            title: String::from(title),
             description: description(record, x_label),
             x_label,
             y_label: "RMSE (linear light)",
             series: series(record, x),
-            floor: record.reference.rmse,
+            level: own,
             guides,
         };
         let time =

@@ -3,13 +3,12 @@
 //! one HTML page that says which setting to use.
 //!
 //! ```text
-//! method ─ plan ─▶ measure (render, metrics) ─▶ record ─▶ analysis ─▶ chart · stages · page
+//! method ─ plan ─▶ measure (render, metrics) ─▶ record ─▶ analysis ─▶ plots · stages · page
 //!                     ▲ reference
 //! ```
 
 pub mod analysis;
 pub mod bootstrap;
-pub mod chart;
 mod files;
 mod identity;
 mod looks;
@@ -22,7 +21,6 @@ pub mod record;
 mod reference;
 mod showcase;
 mod stages;
-mod svg;
 mod tables;
 mod words;
 
@@ -38,8 +36,6 @@ use crate::texture;
 use looks::Looks;
 use method::Method;
 use record::{Conditions, Record};
-
-pub use files::prepare_folder;
 
 /// What a study is asked for.
 #[derive(Clone, Debug)]

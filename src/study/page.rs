@@ -3,12 +3,13 @@
 
 use crate::error::Result;
 use crate::output::Format;
+use crate::plot::html::{Header, SCRIPT, code, document, scroll, section};
+use crate::plot::svg::escape;
 
 use super::files::Plots;
 use super::pictures::{crop, data_uri, differences, false_color, ramp_css, scale, shrunk};
 use super::record::Record;
 use super::showcase::Showcase;
-use super::svg::escape;
 use super::tables;
 use super::words::{error, recommended};
 
@@ -48,34 +49,9 @@ pub fn html(record: &Record, showcase: &Showcase, plots: &Plots) -> Result<Strin
         section("points", "Every point", &tables::points(record)),
         section("conditions", "Conditions", &tables::conditions(record)),
     ];
-    Ok(format!(
-        "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n\
-         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n\
-         <meta name=\"color-scheme\" content=\"light dark\"/>\n<title>{title}</title>\n\
-         <link rel=\"icon\" href=\"data:,\"/>\n<style>\n{}</style>\n</head>\n<body>\n<main>\n\
-         <header>\n<h1>{title}</h1>\n<p class=\"facts\">{facts}</p>\n<p class=\"lead\">{}</p>\n{command}</header>\n\
-         {}</main>\n<script>\n{}</script>\n</body>\n</html>\n",
-        include_str!("page/style.css"),
-        escape(&analysis.recommendation),
-        sections.concat(),
-        include_str!("page/script.js")
-    ))
-}
-
-fn section(id: &str, heading: &str, body: &str) -> String {
-    format!("<section aria-labelledby=\"{id}-h\">\n<h2 id=\"{id}-h\">{heading}</h2>\n{body}</section>\n")
-}
-
-/// What is wider than a phone scrolls within its own box, by keyboard too.
-pub fn scroll(label: &str, body: &str) -> String {
-    format!(
-        "<div class=\"scroll\" role=\"region\" tabindex=\"0\" aria-label=\"{}\">\n{body}</div>\n",
-        escape(label)
-    )
-}
-
-pub fn code(command: &str) -> String {
-    format!("<pre><code>{}</code></pre>\n", escape(command))
+    let header =
+        Header { title: &title, facts: &facts, lead: &escape(&analysis.recommendation), more: &command };
+    Ok(document(&header, &sections.concat(), SCRIPT))
 }
 
 fn plot(label: &str, svg: &str) -> String {

@@ -2,8 +2,8 @@
 //! Out: an SVG document.
 
 use super::record::{MethodRecord, PointRecord, Record};
-use super::svg;
 use super::words::{samples, seconds};
+use crate::plot::svg;
 
 const WIDTH: f64 = 760.0;
 const BAR: [f64; 2] = [230.0, 640.0];

@@ -1,25 +1,11 @@
 //! The tables of the page: winners, slopes, times to errors, every point, and the conditions.
 
 use super::analysis::{Analysis, MethodSlope};
-use super::page::{code, scroll};
 use super::quote;
 use super::record::{PointRecord, Record};
-use super::svg::escape;
 use super::words::{error, percent, samples, seconds, times};
-
-/// The first cell of a row is its heading. Cells are HTML.
-fn table(caption: &str, head: &[&str], rows: &[Vec<String>]) -> String {
-    let mut out = format!("<table>\n<caption>{}</caption>\n<thead><tr>", escape(caption));
-    head.iter().for_each(|h| out += &format!("<th scope=\"col\">{}</th>", escape(h)));
-    out += "</tr></thead>\n<tbody>\n";
-    for row in rows {
-        let mut cells = row.iter();
-        out += &cells.next().map_or(String::new(), |c| format!("<tr><th scope=\"row\">{c}</th>"));
-        cells.for_each(|c| out += &format!("<td>{c}</td>"));
-        out += "</tr>\n";
-    }
-    scroll(caption, &(out + "</tbody>\n</table>\n"))
-}
+use crate::plot::html::{code, scroll, table};
+use crate::plot::svg::escape;
 
 pub fn winners(analysis: &Analysis) -> String {
     let row = |w: &super::analysis::Winner| {

@@ -43,6 +43,7 @@ mod scene;
 mod shared_gpu;
 mod slopes;
 mod specialise;
+mod stability;
 mod stage;
 mod stochastic;
 mod strata;

@@ -1,6 +1,7 @@
 //! Slopes, winners and times to errors of points that are made up, so that the answers are known.
 
-use moire::study::analysis::{MethodSlope, Slope, median, slope, steps, time_to, winners};
+use moire::plot::axis::steps;
+use moire::study::analysis::{MethodSlope, Slope, median, slope, time_to, winners};
 use moire::study::record::{Errors, PointRecord};
 
 /// RMSE whose square falls with this slope, with a ripple of some per cent as measured points have.

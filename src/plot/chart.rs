@@ -1,7 +1,8 @@
-//! Error over time or rays, both axes logarithmic. In: series of points with a text each, a floor, guides of
-//! known slope. Out: one SVG document with a key below the plot.
+//! Error over time, rays or another quantity, both axes logarithmic. In: series of points with a text each, a
+//! level that errors are held against, guides of known slope. Out: one SVG document; several series have a key
+//! below the plot.
 
-use super::analysis::steps;
+use super::axis::Axis;
 use super::svg;
 
 /// Of a document; the key adds to its height.
@@ -21,53 +22,15 @@ pub struct Series {
 pub struct Chart<'a> {
     /// Unique in a page.
     pub id: &'a str,
-    pub title: &'a str,
+    pub title: String,
     pub description: String,
     pub x_label: &'a str,
     pub y_label: &'a str,
     pub series: Vec<Series>,
-    /// No point below it means anything.
-    pub floor: Option<f64>,
+    /// A line across the plot, and what to call it: a bound, or the error below which points mean nothing.
+    pub level: Option<(f64, &'static str)>,
     /// Slopes in the plot's logarithms, and what to call them.
     pub guides: Vec<(f64, &'static str)>,
-}
-
-/// A logarithmic axis onto pixels.
-struct Axis {
-    low: f64,
-    high: f64,
-    from: f64,
-    to: f64,
-}
-
-impl Axis {
-    /// Whole decades would waste space: from 1, 2 or 5 to 1, 2 or 5.
-    fn new(values: impl Iterator<Item = f64>, from: f64, to: f64) -> Axis {
-        let usable: Vec<f64> = values.filter(|v| *v > 0.0 && v.is_finite()).collect();
-        let low = usable.iter().copied().fold(f64::INFINITY, f64::min);
-        let high = usable.iter().copied().fold(0.0, f64::max);
-        if usable.is_empty() {
-            return Axis { low: 1.0, high: 10.0, from, to };
-        }
-        // Markers keep clear of the frame.
-        let marks = steps(low / 2.4, high * 1.3);
-        match marks[..] {
-            [first, .., last] => Axis { low: first, high: last, from, to },
-            _ => Axis { low: low / 2.0, high: high * 2.0, from, to },
-        }
-    }
-
-    fn place(&self, value: f64) -> f64 {
-        self.from + (self.to - self.from) * (value / self.low).ln() / (self.high / self.low).ln()
-    }
-
-    /// Ticks with whether they carry a number: all where there is room, else whole decades.
-    fn ticks(&self) -> Vec<(f64, bool)> {
-        let all = steps(self.low, self.high);
-        let crowded = all.len() > 10;
-        let decade = |v: f64| (v.log10() - v.log10().round()).abs() < 1e-6;
-        all.into_iter().map(|v| (v, !crowded || decade(v))).collect()
-    }
 }
 
 impl Chart<'_> {
@@ -75,36 +38,35 @@ impl Chart<'_> {
         let [[left, top], [right, bottom]] = PLOT;
         let points = || self.series.iter().flat_map(|s| &s.points);
         let x = Axis::new(points().map(|p| p[0]), left, right);
-        let y = Axis::new(points().map(|p| p[1]).chain(self.floor), bottom, top);
+        let y = Axis::new(points().map(|p| p[1]).chain(self.level.map(|l| l.0)), bottom, top);
         let mut body = self.axes(&x, &y);
         body += &self.guide_lines(&x, &y);
-        if let Some(floor) = self.floor.filter(|f| *f > 0.0) {
-            let at = y.place(floor);
-            body += &svg::line([left, at], [right, at], "floor");
-            body += &svg::text(left + 8.0, at - 5.0, "start", "small", "the reference's own error");
+        if let Some((value, name)) = self.level
+            && let Some(at) = y.place(value)
+        {
+            body += &svg::line([left, at], [right, at], "level");
+            body += &svg::text(left + 8.0, at - 5.0, "start", "small", name);
         }
         for (index, series) in self.series.iter().enumerate() {
             body += &drawn(series, index, &x, &y);
         }
         let (key, height) = self.key(bottom + 58.0);
-        svg::document(self.id, [WIDTH, height], self.title, &self.description, &(body + &key))
+        svg::document(self.id, [WIDTH, height], &self.title, &self.description, &(body + &key))
     }
 
     fn axes(&self, x: &Axis, y: &Axis) -> String {
         let [[left, top], [right, bottom]] = PLOT;
         let mut out = String::new();
-        for (value, numbered) in x.ticks() {
-            let at = x.place(value);
+        for (at, number) in x.ticks() {
             out += &svg::line([at, top], [at, bottom], "grid");
-            if numbered {
-                out += &svg::text(at, bottom + 18.0, "middle", "small", &tick(value));
+            if let Some(number) = number {
+                out += &svg::text(at, bottom + 18.0, "middle", "small", &number);
             }
         }
-        for (value, numbered) in y.ticks() {
-            let at = y.place(value);
+        for (at, number) in y.ticks() {
             out += &svg::line([left, at], [right, at], "grid");
-            if numbered {
-                out += &svg::text(left - 7.0, at + 4.0, "end", "small", &tick(value));
+            if let Some(number) = number {
+                out += &svg::text(left - 7.0, at + 4.0, "end", "small", &number);
             }
         }
         out += &format!(
@@ -127,7 +89,7 @@ impl Chart<'_> {
         for (slope, name) in &self.guides {
             let reach = (y.low / start).powf(1.0 / slope);
             let end = x.high.min(x.low * reach);
-            let at = |v: f64| [x.place(v), y.place(start * (v / x.low).powf(*slope))];
+            let at = |v: f64| [x.at(v), y.at(start * (v / x.low).powf(*slope))];
             out += &svg::line(at(x.low), at(end), "guide");
             let [px, py] = at(end);
             out += &svg::text(px - 7.0, py - 7.0, "end", "small", name);
@@ -135,7 +97,11 @@ impl Chart<'_> {
         out
     }
 
+    /// And the document's height. One series needs no key.
     fn key(&self, from: f64) -> (String, f64) {
+        if self.series.len() == 1 {
+            return (String::new(), from);
+        }
         let rows = self.series.len().div_ceil(KEY_COLUMNS);
         let width = (PLOT[1][0] - PLOT[0][0]) / KEY_COLUMNS as f64;
         let mut out = String::new();
@@ -160,15 +126,9 @@ fn line(path: &str, series: &Series, index: usize) -> String {
 }
 
 fn drawn(series: &Series, index: usize, x: &Axis, y: &Axis) -> String {
-    let placed = |p: &[f64; 2]| [x.place(p[0]), y.place(p[1])];
-    let usable = |p: &[f64; 2]| p.iter().all(|v| *v > 0.0 && v.is_finite());
-    let shown: Vec<([f64; 2], &String)> = series
-        .points
-        .iter()
-        .zip(&series.titles)
-        .filter(|(p, _)| usable(p))
-        .map(|(p, t)| (placed(p), t))
-        .collect();
+    let placed = |p: &[f64; 2]| Some([x.place(p[0])?, y.place(p[1])?]);
+    let shown: Vec<([f64; 2], &String)> =
+        series.points.iter().zip(&series.titles).filter_map(|(p, t)| Some((placed(p)?, t))).collect();
     let mut out = format!("<g class=\"series\" data-series=\"{}\">\n", svg::escape(&series.name));
     if shown.len() > 1 {
         let steps: Vec<String> = shown.iter().map(|([px, py], _)| format!("{px:.1} {py:.1}")).collect();
@@ -178,15 +138,4 @@ fn drawn(series: &Series, index: usize, x: &Axis, y: &Axis) -> String {
         out += &svg::marker(index, at, title);
     }
     out + "</g>\n"
-}
-
-/// 0.01, 1, 500, 2e−5.
-fn tick(value: f64) -> String {
-    if (1e-3..1e5).contains(&value) {
-        let rounded = (value * 1e6).round() / 1e6;
-        return format!("{rounded}");
-    }
-    let exponent = value.log10().floor();
-    let digits = value / 10f64.powf(exponent);
-    format!("{digits:.0}e{exponent:.0}").replace('-', "−")
 }

@@ -15,7 +15,7 @@ font:14px system-ui,sans-serif}\
 --c5:#93d6ff;--c6:#bbb;--ink:#ececf1;--faint:#3a3a42;--ground:#17171b}}\
 .plot text{fill:currentColor}.plot .grid{stroke:var(--faint)}.plot .frame{stroke:currentColor;fill:none}\
 .plot .guide{stroke:currentColor;opacity:.55;stroke-dasharray:2 5}\
-.plot .floor{stroke:currentColor;stroke-dasharray:9 5;opacity:.8}\
+.plot .level{stroke:currentColor;stroke-dasharray:9 5;opacity:.8}\
 .plot .small{font-size:12px}.plot .series path.line{fill:none;stroke-width:1.8}\
 .plot .mark{stroke-width:1.6}.plot .off{opacity:.12}.plot .key{cursor:default}";
 

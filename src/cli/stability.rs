@@ -1,0 +1,65 @@
+//! `moire stability`: runs the extreme cases on a device and prints how far off each is at worst. Exit 0 when
+//! every case keeps its bound, 1 when one does not, 2 when the device could not be asked.
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use super::progress::Bar;
+use crate::error::{Error, Result};
+use crate::gpu::{DeviceSelect, Gpu};
+use crate::output::prepare_folder;
+use crate::stability::{all, page, run::run as run_cases, text::text};
+
+/// Sweep extreme cases on a device, with errors against float64
+///
+/// Each case sweeps one parameter over many decades and holds the device's answers against exact or float64
+/// ones, and the worst error against a bound that is derived. Exit code 1 when a bound is broken.
+#[derive(clap::Args, Clone, Debug)]
+pub struct StabilityArgs {
+    /// Device: an index or a part of the name as `moire devices` lists them, cpu or gpu
+    /// [default: discrete GPU, else integrated, else CPU]
+    #[arg(long, value_name = "SEL")]
+    device: Option<String>,
+    /// Only cases whose name has TEXT in it, such as "sums" or "dielectric/"
+    #[arg(long, value_name = "TEXT")]
+    only: Option<String>,
+    /// Folder for stability.html, a page with plots, and stability.json; its last part is created where it is
+    /// missing
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Print one JSON object with every point
+    #[arg(long)]
+    json: bool,
+    /// No progress bar
+    #[arg(short, long)]
+    quiet: bool,
+}
+
+pub fn run(args: &StabilityArgs) -> Result<ExitCode> {
+    let bar = Bar::new(args.quiet)?;
+    let select = match args.device.as_deref() {
+        Some("oracle") => {
+            return Err(Error::with_help(
+                "stability holds a device against the oracle; the oracle itself is no device",
+                "name one that `moire devices` lists, or leave --device out",
+            ));
+        }
+        Some(text) => DeviceSelect::parse(text)?,
+        None => DeviceSelect::Default,
+    };
+    if let Some(folder) = &args.out {
+        prepare_folder(folder, page::PAGE)?;
+    }
+    let gpu = Gpu::open(&select)?;
+    let report = run_cases(&gpu, all(), args.only.as_deref(), &bar);
+    bar.finish();
+    let report = report?;
+    for message in gpu.messages() {
+        super::tell(format_args!("validation: {message}"));
+    }
+    if let Some(folder) = &args.out {
+        page::write(folder, &report)?;
+    }
+    super::print(if args.json { page::json(&report)? } else { text(&report) }.trim_end())?;
+    Ok(ExitCode::from(if report.passes() { 0 } else { 1 }))
+}
