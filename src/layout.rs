@@ -2,7 +2,12 @@
 //! is a four-vector of f32 or u32, so std430 and Rust agree; the sizes are asserted here and a test
 //! compares them with the shader's. What each member holds is said there.
 
+mod record;
+
 use bytemuck::{Pod, Zeroable};
+
+use record::Member;
+pub use record::{Record, bytes_of};
 
 /// In place of an index: the material has no texture.
 pub const NO_TEXTURE: u32 = u32::MAX;
@@ -10,70 +15,6 @@ pub const NO_TEXTURE: u32 = u32::MAX;
 pub const NO_SHAPE: u32 = u32::MAX;
 /// In place of an index: there is no environment.
 pub const NO_MATERIAL: u32 = u32::MAX;
-
-/// A member of a record, of which device memory has one unit of 16 bytes, or two where reals are f64.
-trait Member: Copy {
-    const REALS: u32;
-
-    fn write(self, double: bool, bytes: &mut Vec<u8>);
-
-    /// As memory of f32 holds it.
-    fn rounded(self) -> Self;
-}
-
-impl Member for [f64; 4] {
-    const REALS: u32 = 1;
-
-    fn write(self, double: bool, bytes: &mut Vec<u8>) {
-        if double {
-            bytes.extend_from_slice(bytemuck::bytes_of(&self));
-        } else {
-            bytes.extend_from_slice(bytemuck::bytes_of(&self.map(|x| x as f32)));
-        }
-    }
-
-    fn rounded(self) -> Self {
-        self.map(|x| f64::from(x as f32))
-    }
-}
-
-/// Members that are the same in both.
-macro_rules! plain {
-    ($($type:ty),+) => {
-        $(impl Member for $type {
-            const REALS: u32 = 0;
-
-            fn write(self, _: bool, bytes: &mut Vec<u8>) {
-                bytes.extend_from_slice(bytemuck::bytes_of(&self));
-            }
-
-            fn rounded(self) -> Self {
-                self
-            }
-        })+
-    };
-}
-plain!([f32; 4], [u32; 4]);
-
-/// A record of the scene buffer.
-pub trait Record {
-    /// Members that are vectors of reals, and those that are not.
-    const REALS: u32;
-    const OTHERS: u32;
-
-    /// Appends what the shader reads.
-    fn write(&self, double: bool, bytes: &mut Vec<u8>);
-
-    /// The record with the f32 numbers that the shader reads unless it reads f64.
-    fn rounded(&self) -> Self;
-}
-
-/// The bytes of a list of records.
-pub fn bytes_of<R: Record>(records: &[R], double: bool) -> Vec<u8> {
-    let mut bytes = Vec::new();
-    records.iter().for_each(|record| record.write(double, &mut bytes));
-    bytes
-}
 
 /// Declares a mirror. Its members lie one behind the other.
 macro_rules! mirror {

@@ -234,8 +234,7 @@ struct Motion {
 
 layout(std430, set = 0, binding = 1) readonly buffer SceneBuffer { uvec4 scene[]; };
 
-// The first 16 KiB of the scene buffer once more, which devices read fastest as uniforms. The header
-// and all short lists lie there.
+// The first 16 KiB of the scene buffer once more, which devices read fastest as uniforms: header, short lists.
 const uint HEAD_UNITS = 1024u;
 layout(std140, set = 0, binding = 5) uniform SceneHead { uvec4 head[HEAD_UNITS]; };
 
@@ -254,8 +253,7 @@ Header load_header() {
 }
 
 // How a record is put together from what lies at `at`, read from the head or from the whole.
-#define PLANE(read, at) \
-    Plane(R(read, at, 0u, 0u), R(read, at, 1u, 0u), R(read, at, 2u, 0u), U(read, at, 3u, 0u))
+#define PLANE(read, at) Plane(R(read, at, 0u, 0u), R(read, at, 1u, 0u), R(read, at, 2u, 0u), U(read, at, 3u, 0u))
 #define SPHERE(read, at) Sphere(R(read, at, 0u, 0u), U(read, at, 1u, 0u))
 #define TRIANGLE(read, at)                                                                      \
     Triangle(R(read, at, 0u, 0u), R(read, at, 1u, 0u), R(read, at, 2u, 0u), R(read, at, 3u, 0u), \

@@ -76,7 +76,7 @@ DOT3(double, dvec3)
 AFFINE(double, dvec4, dvec3)
 CROSS3(dvec3)
 
-double inverse_root(double x) { return 1.0lf / sqrt(x); }
+double inverse_root(double x) { return inversesqrt(x); }
 
 // The angle of the f32 polynomial, turned by the rest: with s and c of that angle by Taylor series to
 // degree 17, tan(rest) = (y c - x s) / (x c + y s), and the rest is below 1e-7, so that its cube is nothing.

@@ -4,8 +4,9 @@
 
 use glam::{DVec2, DVec3};
 
+use super::header::{camera_basis, half_height};
 use super::mapping::uv_matrix;
-use super::{PackedScene, camera_basis, half_height, shapes};
+use super::{PackedScene, shapes};
 use crate::layout::{self, Record};
 use crate::scene::model::{Entity, Mapping, MappingKind, Material, Plane, Scene, Sphere, Triangle};
 

@@ -36,5 +36,5 @@ impl Pyramids {
 
 /// Whether some texture of the scene is read at other levels than 0.
 pub fn reads_levels(scene: &Scene) -> bool {
-    super::footprint(scene) != Footprint::None && scene.samplers.iter().any(SamplerSpec::reads_levels)
+    super::header::footprint(scene) != Footprint::None && scene.samplers.iter().any(SamplerSpec::reads_levels)
 }

@@ -1,7 +1,8 @@
 //! A packed scene with other samples: what a device holds of shapes and textures stays as it is.
 
+use super::header::header;
 use super::pixel_filter::Warp;
-use super::{Crop, PackedScene, header, schedule};
+use super::{Crop, PackedScene, schedule};
 use crate::layout::{Header, Record};
 use crate::scene::model::Scene;
 

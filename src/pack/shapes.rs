@@ -37,17 +37,27 @@ pub fn pack_shapes(packed: &mut PackedScene, scene: &Scene) -> Result<()> {
 }
 
 /// Rows u and v of the plane's own coordinates: p ↦ row·(p, 1) solves p + eye - origin =
-/// u tangent + v bitangent, also for axes that are neither unit nor orthogonal.
+/// u tangent + v bitangent, also for axes that are neither unit nor orthogonal: with n = t × b, u is
+/// (p × b)·n / n² = p·(b × n) / n².
 pub fn plane_rows(plane: &Plane, eye: DVec3) -> [DVec4; 2] {
     let (t, b) = (plane.tangent, plane.bitangent);
-    let (tt, tb, bb) = (t.dot(t), t.dot(b), b.dot(b));
-    let determinant = tt * bb - tb * tb;
-    [(bb * t - tb * b) / determinant, (tt * b - tb * t) / determinant]
-        .map(|row| row.extend(row.dot(eye - plane.origin)))
+    let n = cross(t, b);
+    let squared = n.length_squared();
+    [cross(b, n) / squared, cross(n, t) / squared].map(|row| row.extend(row.dot(eye - plane.origin)))
+}
+
+/// a × b to two ulps of each component, however near to parallel (Kahan's difference of products; Jeannerod,
+/// Louvet & Muller 2013).
+pub fn cross(a: DVec3, b: DVec3) -> DVec3 {
+    let difference = |a: f64, b: f64, c: f64, d: f64| {
+        let cd = c * d;
+        a.mul_add(b, -cd) + (-c).mul_add(d, cd)
+    };
+    DVec3::new(difference(a.y, b.z, a.z, b.y), difference(a.z, b.x, a.x, b.z), difference(a.x, b.y, a.y, b.x))
 }
 
 fn pack_plane(packed: &mut PackedScene, scene: &Scene, plane: &Plane, eye: DVec3) -> Result<layout::Plane> {
-    let normal = plane.tangent.cross(plane.bitangent).normalize();
+    let normal = cross(plane.tangent, plane.bitangent).normalize();
     let [u, v] = plane_rows(plane, eye);
     let bounds = plane.half_extent.map(|h| plane_bounds(plane, h));
     let material = &scene.materials[plane.material];
@@ -93,7 +103,7 @@ fn pack_triangle(
     eye: DVec3,
 ) -> layout::Triangle {
     let [a, b, c] = triangle.vertices.map(|v| v - eye);
-    let normal = (b - a).cross(c - a).normalize();
+    let normal = cross(b - a, c - a).normalize();
     let material = &scene.materials[triangle.material];
     let uvs = vertex_uvs(triangle, material, &scene.sampler_of(material));
     let place = Place {

@@ -14,6 +14,7 @@ mod procedural;
 pub mod prune;
 mod reader;
 mod samplers;
+mod sampling;
 mod sections;
 mod shapes;
 mod source;

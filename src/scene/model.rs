@@ -8,6 +8,7 @@ use glam::{DVec2, DVec3};
 pub use super::camera::{Camera, Lens, Projection};
 pub use super::mapping::{Entity, Mapping, MappingKind, Space};
 pub use super::pixel_filter::{PixelFilter, PixelFilterKind};
+pub use super::sampling::{Algorithm, Footprint, Pattern, Precision, Sampling};
 use crate::named::named_enum;
 use crate::texture::sampler_spec::{Address, SamplerSpec};
 pub use crate::texture::source::{TextureContent, TextureSource};
@@ -58,117 +59,6 @@ named_enum! {
         Equirectangular = "equirectangular",
         Cube = "cube",
     }
-}
-
-named_enum! {
-    /// How many rays a pixel sends and what becomes of them (`[sampling] algorithm`).
-    #[derive(Default)]
-    pub enum Algorithm {
-        /// As many as asked for, the same number in each pixel.
-        #[default]
-        Samples = "samples",
-        /// More where the picture errs more.
-        Adaptive = "adaptive",
-        /// One beam a pixel, cut by the polygons that it meets: exact areas, exact integrals.
-        Beam = "beam",
-        /// What meets the goal of `--budget` or `--target-error` soonest.
-        Auto = "auto",
-        /// One cone a pixel and no sample (Amanatides 1984).
-        Cone = "cone",
-    }
-}
-
-named_enum! {
-    /// Where in the pixel the samples lie (`[sampling] pattern`).
-    pub enum Pattern {
-        Center = "center",
-        Grid = "grid",
-        Random = "random",
-        Stratified = "stratified",
-        /// Kensler 2013, correlated.
-        MultiJittered = "multi-jittered",
-        /// Bases 2 and 3, nested scrambling.
-        Halton = "halton",
-        /// A (0,2)-sequence, nested scrambling (Burley 2020).
-        SobolOwen = "sobol-owen",
-        /// Blocks of one sequence along a shuffled Morton curve of pixels (Ahmed & Wonka 2020).
-        BlueNoise = "blue-noise",
-        /// Shirley 1991, also known as latin hypercube.
-        NRooks = "n-rooks",
-    }
-}
-
-impl Pattern {
-    /// A sequence: positions do not depend on how many samples there are, so that any number of them, from
-    /// the first on, is a set of the same kind.
-    pub const fn goes_on(self) -> bool {
-        matches!(self, Pattern::Center | Pattern::Random | Pattern::Halton | Pattern::SobolOwen)
-    }
-
-    /// Whether each pixel may stop at another number of samples.
-    pub fn stops_anywhere(self) -> bool {
-        self.goes_on() && self != Pattern::Center
-    }
-
-    /// Strata along each side of a pixel, of `multi-jittered` columns; 1 where the pattern has none.
-    pub const fn strata_side(self, samples: u32) -> u32 {
-        match self {
-            Pattern::Grid | Pattern::Stratified | Pattern::MultiJittered => samples.isqrt(),
-            _ => 1,
-        }
-    }
-
-    /// Whether all pixels may have one set of displacements.
-    pub const fn can_be_shared(self) -> bool {
-        use Pattern::{Halton, MultiJittered, NRooks, SobolOwen, Stratified};
-        matches!(self, Stratified | MultiJittered | Halton | SobolOwen | NRooks)
-    }
-}
-
-named_enum! {
-    /// Over what a texture look-up is averaged (`[sampling] footprint`).
-    pub enum Footprint {
-        None = "none",
-        /// A width and a spread (Amanatides 1984; Akenine-Möller et al. 2021).
-        Cone = "cone",
-        /// Two vectors each of origin and direction (Igehy 1999).
-        Differentials = "differentials",
-    }
-}
-
-named_enum! {
-    /// In which numbers rays meet shapes and texture coordinates are formed (`[sampling] precision`).
-    #[derive(Default)]
-    pub enum Precision {
-        /// f64 where f32 would misplace a texel or an outline.
-        #[default]
-        Auto = "auto",
-        Single = "single",
-        Double = "double",
-    }
-}
-
-impl Algorithm {
-    /// Whether pixels may get different numbers of samples.
-    pub fn is_adaptive(self) -> bool {
-        matches!(self, Algorithm::Adaptive | Algorithm::Auto)
-    }
-}
-
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sampling {
-    pub algorithm: Algorithm,
-    pub pattern: Pattern,
-    /// Samples per pixel, at least 1; a square for `grid` and `stratified`, a power of two for
-    /// `blue-noise`.
-    pub spp: u32,
-    /// True: one set of displacement vectors for all pixels (the lecture's variant).
-    pub shared: bool,
-    pub seed: u32,
-    /// Mirror bounces after the camera ray; exhausted means black.
-    pub max_depth: u32,
-    pub footprint: Footprint,
-    pub precision: Precision,
 }
 
 named_enum! {
@@ -305,18 +195,6 @@ pub enum Light {
 impl Light {
     pub fn has_extent(&self) -> bool {
         matches!(self, Light::Sphere { .. } | Light::Rectangle { .. } | Light::Sun { .. })
-    }
-}
-
-impl Sampling {
-    /// Samples that are really taken: all of `center` lie at one place, so one is enough, and a cone is one.
-    pub fn samples(&self) -> u32 {
-        let one = self.pattern == Pattern::Center || self.algorithm == Algorithm::Cone;
-        if one { 1 } else { self.spp }
-    }
-
-    pub fn strata_side(&self) -> u32 {
-        self.pattern.strata_side(self.spp)
     }
 }
 

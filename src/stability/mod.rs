@@ -2,16 +2,34 @@
 //! exact or float64 answer and a bound that is derived. A device in, a report out.
 
 pub mod case;
+mod coordinates;
+mod horizon;
+mod origins;
 pub mod page;
 pub mod report;
 pub mod run;
 mod scenes;
+mod spheres;
+mod stiff;
 mod sums;
 pub mod text;
+mod transforms;
+mod triangles;
+mod view;
 
 use case::Case;
 
 /// Every case, in the order of the report.
 pub fn all() -> Vec<Case> {
-    sums::cases()
+    let groups = [
+        coordinates::cases(),
+        horizon::cases(),
+        transforms::cases(),
+        spheres::cases(),
+        triangles::cases(),
+        origins::cases(),
+        stiff::cases(),
+        sums::cases(),
+    ];
+    groups.into_iter().flatten().collect()
 }

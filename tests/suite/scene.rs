@@ -278,7 +278,7 @@ fn every_key_listed_as_allowed_is_read() {
         ("[[texture]]\nname = 'x'\n[texture.volume]\nfile = 'x'\nsize = [1, 1, 1]\nformat = 'grey8'\n", 5),
         ("[[sampler]]\nname = 'x'\n", 9),
         ("[[material]]\nname = 'x'\n", 13),
-        ("[sampling]\n", 7),
+        ("[sampling]\n", 8),
         ("[background]\n", 5),
         ("[image]\nwidth = 1\nheight = 1\n", 4),
         ("[[plane]]\norigin = [0, 0, 0]\ntangent = [1, 0, 0]\nbitangent = [0, 1, 0]\n", 6),

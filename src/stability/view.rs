@@ -1,0 +1,153 @@
+//! Rays and texture coordinates once more, in f64 and from the scene's own numbers, written down from the
+//! conventions of the scene vocabulary and not from the renderer: ray through the middle of a pixel, u = (x −
+//! origin)·axis on a plane, and what a look-up in a texture of ramps should have read.
+
+use glam::{DVec2, DVec3};
+
+use super::scenes::texture;
+use crate::texture::data::{Dimension, TextureData};
+
+/// A pinhole camera and its picture.
+pub struct View {
+    pub eye: DVec3,
+    pub look_at: DVec3,
+    pub up: DVec3,
+    /// Vertical, in degrees.
+    pub fov: f64,
+    pub width: u32,
+    pub height: u32,
+}
+
+impl View {
+    /// Of a square picture.
+    pub fn new(eye: DVec3, look_at: DVec3, up: DVec3, fov: f64, side: u32) -> View {
+        View { eye, look_at, up, fov, width: side, height: side }
+    }
+
+    /// The sections of the scene that say the same; one sample in the middle of each pixel.
+    pub fn text(&self) -> String {
+        let v = |v: DVec3| format!("[{:?}, {:?}, {:?}]", v.x, v.y, v.z);
+        format!(
+            "[camera]\neye = {}\nlook_at = {}\nup = {}\nvertical_fov = {:?}\n[image]\nwidth = {}\nheight = {}\n",
+            v(self.eye),
+            v(self.look_at),
+            v(self.up),
+            self.fov,
+            self.width,
+            self.height
+        )
+    }
+
+    /// Right, up and ahead.
+    pub fn axes(&self) -> [DVec3; 3] {
+        let ahead = (self.look_at - self.eye).normalize();
+        let right = ahead.cross(self.up).normalize();
+        [right, right.cross(ahead), ahead]
+    }
+
+    /// Direction through a place of the picture, in pixels.
+    pub fn way(&self, place: DVec2) -> DVec3 {
+        let [right, up, ahead] = self.axes();
+        let size = DVec2::new(f64::from(self.width), f64::from(self.height));
+        let (x, y) = (2.0 * place.x / size.x - 1.0, 1.0 - 2.0 * place.y / size.y);
+        let half = (0.5 * self.fov.to_radians()).tan();
+        ahead + right * (x * half * size.x / size.y) + up * (y * half)
+    }
+
+    /// Index of every pixel, its column and row, and its middle.
+    pub fn pixels(&self) -> impl Iterator<Item = (usize, [u32; 2], DVec2)> {
+        let width = self.width;
+        (0..self.width * self.height).map(move |i| {
+            let place = [i % width, i / width];
+            (i as usize, place, DVec2::new(f64::from(place[0]) + 0.5, f64::from(place[1]) + 0.5))
+        })
+    }
+}
+
+/// How a coordinate repeats, and between which texels it is read.
+#[derive(Clone, Copy)]
+pub struct Reading {
+    pub mirrored: bool,
+    pub linear: bool,
+    pub size: [u32; 2],
+}
+
+impl Reading {
+    /// All four, each with a size of its own.
+    pub const ALL: [Reading; 4] = [
+        Reading { mirrored: false, linear: false, size: [1000, 37] },
+        Reading { mirrored: false, linear: true, size: [1024, 256] },
+        Reading { mirrored: true, linear: false, size: [1024, 64] },
+        Reading { mirrored: true, linear: true, size: [300, 77] },
+    ];
+
+    /// The sections of a scene with a plain material "m" that is read like this; `mapping` are further keys of
+    /// the map.
+    pub fn text(&self, mapping: &str) -> String {
+        let address = if self.mirrored { "mirrored-repeat" } else { "repeat" };
+        let filter = if self.linear { "linear" } else { "nearest" };
+        format!(
+            "[[texture]]\nname = \"t\"\nfile = \"t.exr\"\n\
+             [[sampler]]\nname = \"s\"\naddress = \"{address}\"\nfilter = \"{filter}\"\n\
+             [[material]]\nname = \"m\"\nmodel = \"unlit\"\ntexture = \"t\"\nsampler = \"s\"\nmapping = {{ {mapping} }}\n"
+        )
+    }
+
+    pub fn name(&self) -> String {
+        let address = if self.mirrored { "mirrored-repeat" } else { "repeat" };
+        let filter = if self.linear { "linear" } else { "nearest" };
+        format!("{address} {filter} {}×{}", self.size[0], self.size[1])
+    }
+
+    /// Red grows along u, green along v: each texel says where its middle is.
+    pub fn ramps(&self) -> TextureData {
+        let [width, height] = self.size;
+        texture(Dimension::Two, [width, height, 1], |i| {
+            let texel = i / 4;
+            let (index, count) = if i % 4 == 0 { (texel % width, width) } else { (texel / width, height) };
+            ((f64::from(index) + 0.5) / f64::from(count)) as f32
+        })
+    }
+
+    /// By how many texels the look-up that found these colours was off; none where the ramp jumps.
+    pub fn texels_off(&self, found: [f32; 3], uv: DVec2) -> Option<f64> {
+        let axis = |found: f32, coordinate: f64, size: u32| {
+            let wide = f64::from(size);
+            let place = self.folded(coordinate) * wide;
+            let read = f64::from(found) * wide;
+            if !self.linear {
+                // The texel reaches half a texel to both sides of its middle.
+                let around = |shift: f64| ((place - read + shift).abs() - 0.5).max(0.0);
+                return Some(if self.mirrored {
+                    around(0.0)
+                } else {
+                    around(0.0).min(around(wide)).min(around(-wide))
+                });
+            }
+            let inside = place.clamp(0.5, wide - 0.5);
+            (self.mirrored || inside == place).then(|| (read - inside).abs())
+        };
+        Some(axis(found[0], uv.x, self.size[0])?.max(axis(found[1], uv.y, self.size[1])?))
+    }
+
+    /// Into [0, 1].
+    fn folded(&self, coordinate: f64) -> f64 {
+        let half = 0.5 * coordinate;
+        match self.mirrored {
+            false => coordinate - coordinate.floor(),
+            true => 1.0 - (2.0 * (half - half.floor()) - 1.0).abs(),
+        }
+    }
+}
+
+/// The coordinate, in tangents and bitangents, of the plane's point that a ray meets, apart from that of the
+/// eye; none beyond the horizon.
+pub fn on_plane(eye: DVec3, way: DVec3, [origin, tangent, bitangent]: [DVec3; 3]) -> Option<[DVec2; 2]> {
+    let normal = tangent.cross(bitangent);
+    let t = normal.dot(origin - eye) / normal.dot(way);
+    // p × b = u t × b, t × p = v t × b.
+    let solved = |p: DVec3| {
+        DVec2::new(p.cross(bitangent).dot(normal), tangent.cross(p).dot(normal)) / normal.length_squared()
+    };
+    (t > 0.0 && t.is_finite()).then(|| [solved(eye - origin), solved(t * way)])
+}
