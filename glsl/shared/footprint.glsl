@@ -162,26 +162,34 @@ Beam mirrored_beam(Header header, Beam beam, Ray ray, float t, Footprint print, 
     return next;
 }
 
-// Snell: the direction behind a surface with unit normal n against the ray; `ratio` of refractive
-// indices, in front over behind. As long as d; d itself where everything is reflected.
+// Square of what of a ray as long as d goes along the normal behind a surface; `ratio` of refractive indices, in
+// front over behind. Not above 0 where everything is reflected. Of the sine, not the cosine: 1 - r² (1 - cos²)
+// loses all digits where r is large.
+float straight_behind(vec3 direction, vec3 n, float ratio) {
+    vec3 across = cross3(direction, n);
+    float sine = ratio * sqrt(dot3(across, across));
+    float size = sqrt(dot3(direction, direction));
+    float under = (size - sine) * (size + sine);
+    return under;
+}
+
+// Snell: the direction behind a surface with unit normal n against the ray. As long as d; d itself where
+// everything is reflected.
 vec3 refracted(vec3 direction, vec3 n, float ratio) {
-    float along = dot3(direction, n);
-    float squared = dot3(direction, direction);
-    float under = squared - ratio * ratio * (squared - along * along);
-    vec3 result = ratio * direction - (ratio * along + sqrt(max(under, 0.0))) * n;
+    float under = straight_behind(direction, n, ratio);
+    vec3 along = cross3(n, cross3(direction, n)); // the surface
+    vec3 result = ratio * along - sqrt(max(under, 0.0)) * n;
     return under > 0.0 ? result : direction;
 }
 
 // Share of unpolarised light that is mirrored (Fresnel); 1 beyond the critical angle.
 float reflectance(vec3 direction, vec3 n, float ratio) {
-    float squared = dot3(direction, direction);
-    float along = dot3(direction, n);
-    float cosine = min(abs(along) * inversesqrt(squared), 1.0);
-    float under = 1.0 - ratio * ratio * (1.0 - cosine * cosine);
+    float under = straight_behind(direction, n, ratio);
     if (under <= 0.0) return 1.0;
+    float before = abs(dot3(direction, n));
     float behind = sqrt(under);
-    float s = (ratio * cosine - behind) / (ratio * cosine + behind);
-    float p = (cosine - ratio * behind) / (cosine + ratio * behind);
+    float s = (ratio * before - behind) / (ratio * before + behind);
+    float p = (before - ratio * behind) / (before + ratio * behind);
     float mean = 0.5 * (s * s + p * p);
     return mean;
 }

@@ -2,10 +2,13 @@
 //! exact or float64 answer and a bound that is derived. A device in, a report out.
 
 pub mod case;
+mod dielectric;
+mod mirrors;
 pub mod page;
 pub mod report;
 pub mod run;
 mod scenes;
+mod sizes;
 mod sums;
 pub mod text;
 
@@ -13,5 +16,5 @@ use case::Case;
 
 /// Every case, in the order of the report.
 pub fn all() -> Vec<Case> {
-    sums::cases()
+    [sums::cases(), sizes::cases(), mirrors::cases(), dielectric::cases()].into_iter().flatten().collect()
 }

@@ -204,7 +204,7 @@ fn push_constants_equal_their_mirrors() {
     assert_eq!(size_of::<mirror::Part>(), here.len() * 4);
 }
 
-const SHADERS: [&Shader; 16] = [
+const SHADERS: [&Shader; 17] = [
     &shaders::BEAM,
     &shaders::SURVEY,
     &shaders::RENDER_NONE,
@@ -220,6 +220,7 @@ const SHADERS: [&Shader; 16] = [
     &shaders::PROBE_SOLIDS,
     &shaders::PROBE_RAYS,
     &shaders::PROBE_WARPS,
+    &shaders::PROBE_GLASS,
     &shaders::PROBE_PROCEDURAL,
 ];
 
