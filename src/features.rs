@@ -113,7 +113,8 @@ const FEATURES: &[(&str, &str, Narrow)] = &[
     ),
     ("PROCEDURAL_FILTERED", "filter of procedural textures", Switch(filters_procedurals)),
     ("COMPENSATED", "second film for rounding errors", Switch(compensates)),
-    ("BLOCKS", "sums by blocks", Switch(sums_by_blocks)),
+    // More than `MOST_PLAIN` of `render_main.glsl`.
+    ("BLOCKS", "sums by blocks", Switch(|s| s.samples > 64 || s.schedule == Schedule::Jobs)),
     ("CONE_SHAPES", "cones through more shapes", Count(cone_shapes)),
     ("CHOICES", "choice of a sample", Modes(Choice::NAMES, |s| s.header.chances[0])),
     ("MOTIONS", "choice among motions", Count(|s| unrolled(s.motions.len()))),
@@ -287,12 +288,6 @@ fn stored(scene: &PackedScene) -> impl Iterator<Item = &layout::Texture> {
 /// Jobs sum in chunks of their own.
 fn compensates(scene: &PackedScene) -> bool {
     scene.samples > scene.chunk && scene.schedule == Schedule::Tiles
-}
-
-/// No more samples a thread are summed as they are (`MOST_PLAIN` of `render_main.glsl`).
-fn sums_by_blocks(scene: &PackedScene) -> bool {
-    const MOST_PLAIN: u32 = 64;
-    scene.samples.min(scene.chunk) > MOST_PLAIN || scene.schedule == Schedule::Jobs
 }
 
 /// A box of one pixel leaves samples where they are.

@@ -108,6 +108,16 @@ pub struct WarpAnswer {
     pub facet: [f32; 4],
 }
 
+/// A ray that meets a surface between two refractive indices: in front over behind. The normal is of unit
+/// length, against the ray.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct GlassQuery {
+    pub direction: [f32; 3],
+    pub ratio: f32,
+    pub normal: [f32; 4],
+}
+
 const GROUP: u32 = 64;
 
 /// RGBA of each look-up, by the pipeline that rendering this scene would build.
@@ -256,6 +266,13 @@ pub fn warps(gpu: &Gpu, scene: &PackedScene, queries: &[WarpQuery]) -> Result<Ve
     let features = Features::new(scene, false, false);
     let list = Some(bytemuck::cast_slice(queries));
     run(gpu, scene, &features, &shaders::PROBE_WARPS, list, queries.len(), &[])
+}
+
+/// The direction behind the surface, and the share of light that is mirrored.
+pub fn glass(gpu: &Gpu, scene: &PackedScene, queries: &[GlassQuery]) -> Result<Vec<[f32; 4]>> {
+    let features = Features::new(scene, false, false);
+    let list = Some(bytemuck::cast_slice(queries));
+    run(gpu, scene, &features, &shaders::PROBE_GLASS, list, queries.len(), &[])
 }
 
 /// Which positions: those of `samples` samples from `first` on of the first `pixels` pixels of a picture

@@ -3,12 +3,15 @@
 
 pub mod case;
 mod coordinates;
+mod dielectric;
 mod horizon;
+mod mirrors;
 mod origins;
 pub mod page;
 pub mod report;
 pub mod run;
 mod scenes;
+mod sizes;
 mod spheres;
 mod stiff;
 mod sums;
@@ -30,6 +33,9 @@ pub fn all() -> Vec<Case> {
         origins::cases(),
         stiff::cases(),
         sums::cases(),
+        sizes::cases(),
+        mirrors::cases(),
+        dielectric::cases(),
     ];
     groups.into_iter().flatten().collect()
 }

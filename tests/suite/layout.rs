@@ -218,7 +218,7 @@ fn push_constants_equal_their_mirrors() {
     assert_eq!(size_of::<mirror::Part>(), here.len() * 4);
 }
 
-const SHADERS: [&Shader; 23] = [
+const SHADERS: [&Shader; 24] = [
     &shaders::BEAM,
     &shaders::BEAM_WIDE,
     &shaders::SURVEY,
@@ -241,6 +241,7 @@ const SHADERS: [&Shader; 23] = [
     &shaders::PROBE_RAYS,
     &shaders::PROBE_RAYS_DOUBLE,
     &shaders::PROBE_WARPS,
+    &shaders::PROBE_GLASS,
     &shaders::PROBE_PROCEDURAL,
 ];
 

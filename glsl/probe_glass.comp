@@ -1,0 +1,26 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Rays that meet glass, from a list: one thread a query, the direction behind the surface and the share of what
+// is mirrored.
+#include "shared/features.glsl"
+#include "shared/layout.glsl"
+#include "shared/footprint.glsl"
+
+layout(local_size_x_id = 0, local_size_y_id = 1, local_size_z = 1) in;
+
+struct Query {
+    vec4 direction; // w: ratio of refractive indices
+    vec4 normal;
+};
+
+layout(std430, set = 0, binding = 0) writeonly buffer Answers { vec4 answers[]; };
+layout(std430, set = 0, binding = 4) readonly buffer Queries { Query queries[]; };
+layout(push_constant) uniform Range { uint count; } range;
+
+void main() {
+    uint i = gl_GlobalInvocationID.x;
+    if (i >= range.count) return;
+    vec4 d = queries[i].direction;
+    vec3 n = queries[i].normal.xyz;
+    answers[i] = vec4(refracted(d.xyz, n, d.w), reflectance(d.xyz, n, d.w));
+}
