@@ -27,15 +27,17 @@ pub fn axis_parts(mode: Address, from: f64, to: f64, size: f64) -> [Part; 3] {
     let above = (to - from.max(size)).max(0.0);
     match mode {
         Address::Repeat => {
-            // More than a period has the mean of a period.
-            let start = from - (from / size).floor() * size;
-            let end = start + (to - from).min(size);
+            // More than a period has the mean of a period, which is the same from wherever it begins.
+            let width = (to - from).min(size);
+            let start = if width < size { inside(from - (from / size).floor() * size) } else { 0.0 };
+            let end = start + width;
             parts[0] = whole(start, end.min(size));
             parts[1] = whole(0.0, (end - size).max(0.0));
         }
         Address::MirroredRepeat => {
             let width = (to - from).min(2.0 * size);
             let start = from - (from / (2.0 * size)).floor() * 2.0 * size;
+            let start = if width < 2.0 * size { start.clamp(0.0, 2.0 * size) } else { 0.0 };
             let first = (start / size).floor();
             for (k, part) in parts.iter_mut().enumerate() {
                 let tile = first + k as f64;
@@ -112,14 +114,15 @@ pub fn summed_area(scene: &PackedScene, image: &Texture, how: &Sampler, place: &
     ) + shift;
     let us = axis_parts(mode_u, center.x - reach.x, center.x + reach.x, wide.x);
     let vs = axis_parts(mode_v, center.y - reach.y, center.y + reach.y, wide.y);
+    // What of the box is no border; shares of that, as amounts themselves may be large.
+    let [inside_u, inside_v] = [us, vs].map(|parts| parts.iter().map(|p| p.amount).sum::<f64>());
     let mut sum = DVec4::ZERO;
-    let mut inside = 0.0;
     for u in us {
         for v in vs {
-            let amount = u.amount * v.amount;
-            if amount <= 0.0 {
+            if u.amount <= 0.0 || v.amount <= 0.0 {
                 continue;
             }
+            let share = (u.amount / inside_u) * (v.amount / inside_v);
             let (from, to) = (DVec2::new(u.from, v.from), DVec2::new(u.to, v.to));
             let area = (to - from).element_product();
             let mean = |c: usize| {
@@ -132,16 +135,14 @@ pub fn summed_area(scene: &PackedScene, image: &Texture, how: &Sampler, place: &
                 2 => DVec4::new(mean(0), mean(0), mean(0), mean(1)),
                 _ => DVec4::new(mean(0), mean(1), mean(2), mean(3)),
             };
-            sum += amount * value;
-            inside += amount;
+            sum += share * value;
         }
     }
-    let mean = if inside > 0.0 { sum / inside } else { DVec4::ZERO };
     // What an axis with a border does not cover.
-    let share = |mode: Address, parts: [Part; 3], width: f64| match mode {
-        Address::ClampToBorder => parts.iter().map(|p| p.amount).sum::<f64>() / width,
+    let share = |mode: Address, inside: f64, width: f64| match mode {
+        Address::ClampToBorder => inside / width,
         _ => 1.0,
     };
-    let covered = share(mode_u, us, 2.0 * reach.x) * share(mode_v, vs, 2.0 * reach.y);
-    vec4(how.border).lerp(mean, covered)
+    let covered = share(mode_u, inside_u, 2.0 * reach.x) * share(mode_v, inside_v, 2.0 * reach.y);
+    vec4(how.border).lerp(sum, covered)
 }

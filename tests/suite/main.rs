@@ -32,6 +32,7 @@ mod materials;
 mod metrics;
 mod mips;
 mod oracle;
+mod nonfinite;
 mod output;
 mod patterns;
 mod pixel_filters;
