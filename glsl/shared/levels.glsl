@@ -153,6 +153,8 @@ vec4 filtered_level(Texture image, Sampler how, uint slot, uint mode, Level leve
     if (MODE_IS(FILTERS, FILTER_NEAREST, mode) || MODE_IS(FILTERS, FILTER_STOCHASTIC, mode)) {
         ivec3 nearest = ivec3(floor(texel));
         if (cube) {
+            // A place on the far edge belongs to the face that the direction meets.
+            if (MODE_IS(FILTERS, FILTER_NEAREST, mode)) nearest = min(nearest, ivec3(level.size.x - 1));
             // Beyond a corner: one of the three texels there, by the clamped place.
             bool corner = (nearest.x < 0 || nearest.x >= level.size.x) && (nearest.y < 0 || nearest.y >= level.size.x);
             if (corner && dice.z < 2.0 / 3.0) {

@@ -34,8 +34,10 @@ Coordinate in_texture(Texture image, Coordinate c, out uint face) {
     vec3 stm = on_cube_face(c.at, face);
     Coordinate on_face = Coordinate(vec3(within_face(stm), 0.0), vec3(0.0), vec3(0.0));
     if (FILTERED) {
-        on_face.dx = bounded_change(vec3(face_uv_change(stm, along_cube_face(c.dx, face)), 0.0));
-        on_face.dy = bounded_change(vec3(face_uv_change(stm, along_cube_face(c.dy, face)), 0.0));
+        // Directions of any length: none is squared.
+        vec3 unit = vec3(stm.xy / stm.z, 1.0);
+        on_face.dx = bounded_change(vec3(face_uv_change(unit, along_cube_face(c.dx, face) / stm.z), 0.0));
+        on_face.dy = bounded_change(vec3(face_uv_change(unit, along_cube_face(c.dy, face) / stm.z), 0.0));
     }
     return on_face;
 }

@@ -20,17 +20,17 @@ struct Parts {
 Parts axis_parts(uint mask, uint mode, float from, float to, float size) {
     Parts parts = Parts(vec3(0.0), vec3(0.0), vec3(0.0));
     if (MODE_IS(mask, ADDRESS_REPEAT, mode)) {
-        // More than a period has the mean of a period, which is the same from wherever it begins.
-        float width = min(to - from, size);
-        float start = width < size ? clamp(from - floor(from / size) * size, 0.0, size) : 0.0;
-        float end = start + width;
+        // Whole periods, which are the same from wherever they begin, and what is left.
+        float whole = floor((to - from) / size) * size;
+        float start = clamp(from - floor(from / size) * size, 0.0, size);
+        float end = start + clamp((to - from) - whole, 0.0, size);
         parts.from = vec3(start, 0.0, 0.0);
-        parts.to = vec3(min(end, size), max(end - size, 0.0), 0.0);
-        parts.amount = parts.to - parts.from;
+        parts.to = vec3(min(end, size), max(end - size, 0.0), size);
+        parts.amount = vec3(parts.to.xy - parts.from.xy, whole);
     } else if (MODE_IS(mask, ADDRESS_MIRRORED_REPEAT, mode)) {
-        float width = min(to - from, 2.0 * size);
-        float start = from - floor(from / (2.0 * size)) * 2.0 * size;
-        start = width < 2.0 * size ? clamp(start, 0.0, 2.0 * size) : 0.0;
+        float whole = floor((to - from) / (2.0 * size)) * 2.0 * size;
+        float width = clamp((to - from) - whole, 0.0, 2.0 * size);
+        float start = clamp(from - floor(from / (2.0 * size)) * 2.0 * size, 0.0, 2.0 * size);
         float first = floor(start / size);
         for (int k = 0; k < 3; k++) {
             float tile = first + float(k);
@@ -41,6 +41,11 @@ Parts axis_parts(uint mask, uint mode, float from, float to, float size) {
             parts.to[k] = odd ? size - a : b;
             parts.amount[k] = b - a;
         }
+        // Of three tiles the middle one is whole; where there are two, the third part is free.
+        int free = parts.amount.z > 0.0 ? 1 : 2;
+        if (free == 2) parts.from.z = 0.0;
+        if (free == 2) parts.to.z = size;
+        parts.amount[free] += whole;
     } else {
         parts.from.x = clamp(from, 0.0, size);
         parts.to.x = clamp(to, 0.0, size);

@@ -99,7 +99,11 @@ impl Reader<'_> {
             texel += dice - 0.5;
         }
         if matches!(filter, Filter::Nearest | Filter::Stochastic) {
-            let nearest = texel.floor().to_array().map(|x| x as i64);
+            let mut nearest = texel.floor().to_array().map(|x| x as i64);
+            // A place on the far edge belongs to the face that the direction meets.
+            if filter == Filter::Nearest && kind == TextureKind::Cube {
+                nearest = nearest.map(|n| n.min(level.size[0] - 1));
+            }
             return self.one_texel(kind, level, nearest, face, dice.z);
         }
         let texel = texel - 0.5;

@@ -27,22 +27,29 @@ pub fn axis_parts(mode: Address, from: f64, to: f64, size: f64) -> [Part; 3] {
     let above = (to - from.max(size)).max(0.0);
     match mode {
         Address::Repeat => {
-            // More than a period has the mean of a period, which is the same from wherever it begins.
-            let width = (to - from).min(size);
-            let start = if width < size { inside(from - (from / size).floor() * size) } else { 0.0 };
-            let end = start + width;
+            // Whole periods, which are the same from wherever they begin, and what is left.
+            let periods = ((to - from) / size).floor() * size;
+            let start = inside(from - (from / size).floor() * size);
+            let end = start + inside(to - from - periods);
             parts[0] = whole(start, end.min(size));
             parts[1] = whole(0.0, (end - size).max(0.0));
+            parts[2] = Part { from: 0.0, to: size, amount: periods };
         }
         Address::MirroredRepeat => {
-            let width = (to - from).min(2.0 * size);
-            let start = from - (from / (2.0 * size)).floor() * 2.0 * size;
-            let start = if width < 2.0 * size { start.clamp(0.0, 2.0 * size) } else { 0.0 };
+            let periods = ((to - from) / (2.0 * size)).floor() * 2.0 * size;
+            let width = (to - from - periods).clamp(0.0, 2.0 * size);
+            let start = (from - (from / (2.0 * size)).floor() * 2.0 * size).clamp(0.0, 2.0 * size);
             let first = (start / size).floor();
             for (k, part) in parts.iter_mut().enumerate() {
                 let tile = first + k as f64;
                 let (a, b) = (inside(start - tile * size), inside(start + width - tile * size));
                 *part = if (0.5 * tile).fract() != 0.0 { whole(size - b, size - a) } else { whole(a, b) };
+            }
+            // Of three tiles the middle one is whole; where there are two, the third part is free.
+            if parts[2].amount > 0.0 {
+                parts[1].amount += periods;
+            } else {
+                parts[2] = Part { from: 0.0, to: size, amount: periods };
             }
         }
         Address::ClampToBorder => parts[0] = whole(inside(from), inside(to)),

@@ -120,8 +120,8 @@ pub(super) fn reads(
 /// The samplers that this texture is read through.
 pub(super) fn readers(scene: &Scene, texture: usize) -> impl Iterator<Item = &SamplerSpec> {
     let materials = scene.materials.iter();
-    let read =
-        materials.filter(move |m| m.texture == Some(texture) || m.relief.is_some_and(|r| r.texture == texture));
+    let read = materials
+        .filter(move |m| m.texture == Some(texture) || m.relief.is_some_and(|r| r.texture == texture));
     let environment = scene.background.environment.filter(|e| e.texture == texture).map(|e| e.sampler);
     read.map(|m| m.sampler).chain(environment).map(|sampler| &scene.samplers[sampler])
 }

@@ -4,7 +4,9 @@
 use std::path::Path;
 
 use super::data::{Component, Dimension, TexelFormat, TextureData};
-use super::decode::{Values, check_meaning, check_values, in_texture, read_checked, reverse_rows, texture_of};
+use super::decode::{
+    Values, check_meaning, check_values, in_texture, read_checked, reverse_rows, texture_of,
+};
 use super::read_file::Texels;
 use super::source::{TextureContent, TextureSource};
 use super::{cube, nrrd, stack, volume};

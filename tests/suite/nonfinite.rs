@@ -81,9 +81,15 @@ fn a_texture_with_nan_is_refused_with_its_place_and_the_way_round() {
     let (code, report, said) = run(&folder, &[]);
     assert_eq!((code, report), (Some(2), Value::Null));
     let said = said.replace(|c: char| c.is_whitespace() || c == '│', "");
-    for part in
-        ["\"measured\"", "measured.exr", "texel(5,3)", "channelgreen", "NaN", "2valuesofthefile", "--allow-nonfinite"]
-    {
+    for part in [
+        "\"measured\"",
+        "measured.exr",
+        "texel(5,3)",
+        "channelgreen",
+        "NaN",
+        "2valuesofthefile",
+        "--allow-nonfinite",
+    ] {
         assert!(said.contains(part), "{part} not in {said}");
     }
     assert!(!folder.path().join("out.exr").exists());

@@ -11,9 +11,8 @@ pub fn pyramid_of_finite(texture: &TextureData) -> Vec<TextureData> {
     let channels = texture.format.channels();
     let present = |x, y| (0..channels).all(|c| texture.value(x, y, c).is_finite());
     // What is missing counts as transparent black; its share says how much of a mean that is.
-    let filled = texture.with_floats(channels, |x, y, c| {
-        if present(x, y) { texture.value(x, y, c) as f32 } else { 0.0 }
-    });
+    let filled = texture
+        .with_floats(channels, |x, y, c| if present(x, y) { texture.value(x, y, c) as f32 } else { 0.0 });
     let shares = texture.with_floats(1, |x, y, _| if present(x, y) { 1.0 } else { 0.0 });
     let levels = pyramid(&filled, MipKernel::Box).into_iter().zip(pyramid(&shares, MipKernel::Box));
     levels.map(|(level, share)| mean_of_present(&level, &share)).collect()
