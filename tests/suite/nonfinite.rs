@@ -145,6 +145,74 @@ fn what_one_such_texel_would_spoil_as_a_whole_is_refused_with_what_to_use() {
     }
 }
 
+/// Of a lit surface with a mirror on it.
+const LIT: &str = "
+[[light]]
+kind = 'point'
+position = [1, 3, 1]
+intensity = [30, 30, 30]
+[[material]]
+name = 'ball'
+model = 'mirror'
+[[sphere]]
+center = [0, 0.3, 0]
+radius = 0.3
+material = 'ball'
+";
+
+/// A texture that differs from another in one texel changes what shows it: there a NaN is seen, and there only.
+#[test]
+fn lit_and_mirrored_texels_that_are_no_numbers_are_seen_by_samples_and_by_cones() {
+    let scene = format!("{}{LIT}", SCENE.replace("model = 'unlit'", "model = 'lambert'"));
+    let folders =
+        [[f32::NAN, 0.5], [0.7, 0.5], [0.2, 0.5]].map(|[nan, other]| folder(&scene, &measured(nan, other)));
+    for options in
+        [&["--algorithm", "cone"][..], &["--filter", "linear"], &["--footprint", "cone", "--filter", "ewa"]]
+    {
+        for device in [device_name().as_str(), "oracle"] {
+            let options = [options, &["--device", device, "--allow-nonfinite"]].concat();
+            let films = folders.each_ref().map(|folder| {
+                let (code, _, said) = run(folder, &options);
+                assert_eq!(code, Some(0), "{said}");
+                picture(folder)
+            });
+            let pixels = || films[0].pixels.iter().zip(&films[1].pixels).zip(&films[2].pixels);
+            let leaks = pixels().filter(|((nan, a), b)| !finite(nan) && a == b).count();
+            let spoilt = pixels().filter(|((nan, _), _)| !finite(nan)).count();
+            // Mirrored small the texel is part of coarser ones, which are means over the others.
+            let means = pixels().filter(|((nan, a), b)| finite(nan) && a != b).count();
+            assert_eq!(leaks, 0, "{options:?}: of {spoilt}");
+            assert!(spoilt > 8 && means < spoilt, "{options:?}: {spoilt} spoilt, {means} changed");
+        }
+    }
+}
+
+#[test]
+fn negative_texels_are_as_far_below_0_as_positive_ones_are_above() {
+    let scene = format!("{}{LIT}", SCENE.replace("model = 'unlit'", "model = 'lambert'"));
+    let positive = measured(0.25, 0.5);
+    let mut negative = positive.clone();
+    negative.pixels.iter_mut().flatten().for_each(|v| *v = -*v);
+    let folders = [folder(&scene, &positive), folder(&scene, &negative)];
+    for options in [
+        &["--algorithm", "cone"][..],
+        &["--algorithm", "beam"],
+        &["--footprint", "cone", "--filter", "ewa"],
+        &[],
+    ] {
+        let films = folders.each_ref().map(|folder| {
+            let (code, _, said) = run(folder, options);
+            assert_eq!(code, Some(0), "{said}");
+            picture(folder)
+        });
+        assert!(films[0].pixels.iter().flatten().any(|v| *v > 0.1), "a black picture");
+        for (a, b) in films[0].pixels.iter().flatten().zip(films[1].pixels.iter().flatten()) {
+            // Beams hold texels as steps of 2^-16 of their range, times light of up to 10.
+            assert!((a + b).abs() <= 2e-4 * a.abs().max(1.0), "{options:?}: {a} and {b}");
+        }
+    }
+}
+
 /// Pixels that are no numbers have no error that samples could lower.
 #[test]
 fn sampling_to_a_goal_ends_beside_pixels_that_are_no_numbers() {
