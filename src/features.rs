@@ -103,6 +103,7 @@ const FEATURES: &[(&str, &str, Narrow)] = &[
         Modes(TextureKind::NAMES, |s| bits(s.textures.iter().map(|t| t.link[3]))),
     ),
     ("MIPMAPPED", "levels of textures", Switch(|s| s.textures.iter().any(|t| t.link[1] > 1))),
+    ("NONFINITE", "texels that are no numbers", Switch(PackedScene::has_nonfinite)),
     ("TEXEL_FORMATS", "texel format", Modes(TexelFormat::NAMES, |s| bits(stored(s).map(|t| t.place[3])))),
     ("COLOR_SPACES", "colour space", Modes(ColorSpace::NAMES, |s| bits(stored(s).map(|t| t.link[0])))),
     ("PROCEDURALS", "choice among procedural textures", Count(|s| unrolled(s.procedurals.len()))),

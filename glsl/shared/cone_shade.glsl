@@ -36,7 +36,14 @@ Beam cone_beam(float width, float spread) {
     return Beam(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), width, spread);
 }
 
-float largest(vec3 v) { return max(v.x, max(v.y, v.z)); }
+// The largest channel, of either sign; what is no number is seen, too.
+float largest(vec3 v) {
+    if (NONFINITE) {
+        // By its bits: compilers take comparisons for those of numbers.
+        if (any(equal(floatBitsToUint(v) & 0x7F800000u, uvec3(0x7F800000u)))) return 1.0;
+    }
+    return max(abs(v.x), max(abs(v.y), abs(v.z)));
+}
 
 void send(Branch branch) {
     if (waiting_count == MOST_WAITING) {

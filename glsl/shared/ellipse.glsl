@@ -11,6 +11,8 @@
 const float ELLIPSE_LEVEL = 0.0;
 // Beyond the longest ellipse: no loop is endless, whatever its numbers are.
 const int MAX_ELLIPSE_STEPS = 8192;
+// Area over pi of the largest: with its rows, fewer texels than steps.
+const float MOST_ELLIPSE = 2048.0;
 
 // exp(-2 r²) - exp(-2) for r² in [0, 1], as a polynomial: 1 at the centre but for scale, 0 at the rim.
 float ellipse_weight(float squared) {
@@ -36,7 +38,9 @@ vec4 ellipse(Texture image, Sampler how, uint slot, Coordinate c, Spread spread)
     float widen = gap > 0.0 ? (minor - spread.minor) / gap : 0.0;
     m += widen * (vec3(spread.major * scale, 0.0, spread.major * scale) - m);
     // On the last level there is nothing wider to see.
-    m *= min(1.0, 16.0 * most * most / (m.x + m.z));
+    m *= min(1.0, 16.0 * most * most / max(m.x + m.z, 1e-30));
+    // Where one side of the texture is far longer, levels shrink along that one alone.
+    m *= min(1.0, MOST_ELLIPSE * inversesqrt(max(m.x * m.z - m.y * m.y, 1.0)));
     // The texels' own width, which reconstruction adds.
     m += vec3(1.0, 0.0, 1.0);
     float inverse = 1.0 / (m.x * m.z - m.y * m.y);
@@ -77,7 +81,7 @@ vec4 ellipse(Texture image, Sampler how, uint slot, Coordinate c, Spread spread)
             }
             vec4 value = POLES ? flat_texel(image, how, slot, level, at)
                                : fetch_or_border(image, how, slot, level, ivec3(at, 0));
-            sum = fma(vec4(weight), value, sum);
+            sum = add_weighted(weight, value, sum);
             weights += weight;
             column++;
         }

@@ -45,6 +45,7 @@ layout(constant_id = 51) const uint RELIEFS = 0x3u;
 layout(constant_id = 52) const bool RANDOM = true;      // choices beside the sample's position
 layout(constant_id = 26) const uint TEXEL_CENTERS = 0x3u;
 layout(constant_id = 32) const uint TEXTURE_SIZES = 0x3u;
+layout(constant_id = 57) const bool NONFINITE = true;   // some texels are no numbers
 layout(constant_id = 27) const uint TEXEL_FORMATS = 0x1FFu;
 layout(constant_id = 28) const uint COLOR_SPACES = 0x3u;
 layout(constant_id = 29) const bool COMPENSATED = true; // more samples than one chunk holds

@@ -51,7 +51,7 @@ vec4 look_up(Texture image, Sampler how, uint slot, Mapped mapped, uvec2 random)
     mode = magnified ? mode : how.link.y;
     if (HAS(FILTERS, FILTER_EWA) && mode == FILTER_EWA) return ellipse(image, how, slot, c, spread);
 #if HAS_TEXELS
-    if (HAS(FILTERS, FILTER_SUMMED_AREA) && mode == FILTER_SUMMED_AREA) return summed_area(image, how, place);
+    if (HAS(FILTERS, FILTER_SUMMED_AREA) && mode == FILTER_SUMMED_AREA) return summed_area(image, how, c);
 #endif
     int last = int(image.link.y) - 1;
     uint probes = 1u;
@@ -113,7 +113,7 @@ vec4 look_up(Texture image, Sampler how, uint slot, Mapped mapped, uvec2 random)
             if (MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_CUBE, image.link.w)) at = refaced(at, at_face);
         }
         int index = upper ? min(low + 1, last) : low;
-        sum = fma(vec4(weight), filtered_level(image, how, slot, mode, level_at(image, index), at, at_face, dice), sum);
+        sum = add_weighted(weight, filtered_level(image, how, slot, mode, level_at(image, index), at, at_face, dice), sum);
     }
     return sum;
 }

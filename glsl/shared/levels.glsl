@@ -16,20 +16,19 @@ vec4 linear_flat(Texture image, Sampler how, uint slot, Level level, vec2 texel)
     vec2 a = 1.0 - b;
     ivec2 first = floatBitsToInt(shifted) - floatBitsToInt(ROUND);
     if (POLES) {
-        vec4 sum = (a.x * a.y) * flat_texel(image, how, slot, level, first);
-        sum = fma(vec4(b.x * a.y), flat_texel(image, how, slot, level, first + ivec2(1, 0)), sum);
-        sum = fma(vec4(a.x * b.y), flat_texel(image, how, slot, level, first + ivec2(0, 1)), sum);
-        return fma(vec4(b.x * b.y), flat_texel(image, how, slot, level, first + ivec2(1, 1)), sum);
+        vec4 sum = weighted(a.x * a.y, flat_texel(image, how, slot, level, first));
+        sum = add_weighted(b.x * a.y, flat_texel(image, how, slot, level, first + ivec2(1, 0)), sum);
+        sum = add_weighted(a.x * b.y, flat_texel(image, how, slot, level, first + ivec2(0, 1)), sum);
+        return add_weighted(b.x * b.y, flat_texel(image, how, slot, level, first + ivec2(1, 1)), sum);
     }
     ivec2 u = ivec2(addressed_texel(ADDRESSES_U, how.modes.x, first.x, level.size.x),
                     addressed_texel(ADDRESSES_U, how.modes.x, first.x + 1, level.size.x));
     ivec2 v = ivec2(addressed_texel(ADDRESSES_V, how.modes.y, first.y, level.size.y),
                     addressed_texel(ADDRESSES_V, how.modes.y, first.y + 1, level.size.y));
-    // fma by name: fused or not, but alike in every pipeline of a device.
-    vec4 sum = (a.x * a.y) * fetch_or_border(image, how, slot, level, ivec3(u.x, v.x, 0));
-    sum = fma(vec4(b.x * a.y), fetch_or_border(image, how, slot, level, ivec3(u.y, v.x, 0)), sum);
-    sum = fma(vec4(a.x * b.y), fetch_or_border(image, how, slot, level, ivec3(u.x, v.y, 0)), sum);
-    return fma(vec4(b.x * b.y), fetch_or_border(image, how, slot, level, ivec3(u.y, v.y, 0)), sum);
+    vec4 sum = weighted(a.x * a.y, fetch_or_border(image, how, slot, level, ivec3(u.x, v.x, 0)));
+    sum = add_weighted(b.x * a.y, fetch_or_border(image, how, slot, level, ivec3(u.y, v.x, 0)), sum);
+    sum = add_weighted(a.x * b.y, fetch_or_border(image, how, slot, level, ivec3(u.x, v.y, 0)), sum);
+    return add_weighted(b.x * b.y, fetch_or_border(image, how, slot, level, ivec3(u.y, v.y, 0)), sum);
 }
 
 // Weights of the four texels around a place t in [0, 1] between the middle two (Mitchell & Netravali
@@ -64,7 +63,7 @@ vec4 cubic_flat(Texture image, Sampler how, uint slot, Level level, vec2 texel) 
             }
             vec4 value = POLES ? flat_texel(image, how, slot, level, at)
                                : fetch_or_border(image, how, slot, level, ivec3(at, 0));
-            sum = fma(vec4(wx[i] * wy[j]), value, sum);
+            sum = add_weighted(wx[i] * wy[j], value, sum);
         }
     }
     return sum;
@@ -81,7 +80,7 @@ vec4 linear_volume(Texture image, Sampler how, uint slot, Level level, vec3 texe
                    addressed_texel(ADDRESSES_V, how.modes.y, at.y, level.size.y),
                    addressed_texel(ADDRESSES_W, how.more.x, at.z, level.size.z));
         vec3 w = mix(1.0 - t, t, vec3(corner));
-        sum = fma(vec4(w.x * w.y * w.z), fetch_or_border(image, how, slot, level, at), sum);
+        sum = add_weighted(w.x * w.y * w.z, fetch_or_border(image, how, slot, level, at), sum);
     }
     return sum;
 }
@@ -130,7 +129,7 @@ vec4 linear_cube(Texture image, uint slot, Level level, uint face, vec2 texel) {
         bool corner = (at.x < 0 || at.x >= size) && (at.y < 0 || at.y >= size);
         vec2 w = mix(1.0 - t, t, vec2(k & 1, k >> 1));
         float weight = corner ? 0.0 : w.x * w.y + missing * (1.0 / 3.0);
-        sum = fma(vec4(weight), fetch_texel(image, slot, level, cube_texel(face, at, size)), sum);
+        sum = add_weighted(weight, fetch_texel(image, slot, level, cube_texel(face, at, size)), sum);
     }
     return sum;
 }
@@ -154,6 +153,8 @@ vec4 filtered_level(Texture image, Sampler how, uint slot, uint mode, Level leve
     if (MODE_IS(FILTERS, FILTER_NEAREST, mode) || MODE_IS(FILTERS, FILTER_STOCHASTIC, mode)) {
         ivec3 nearest = ivec3(floor(texel));
         if (cube) {
+            // A place on the far edge belongs to the face that the direction meets.
+            if (MODE_IS(FILTERS, FILTER_NEAREST, mode)) nearest = min(nearest, ivec3(level.size.x - 1));
             // Beyond a corner: one of the three texels there, by the clamped place.
             bool corner = (nearest.x < 0 || nearest.x >= level.size.x) && (nearest.y < 0 || nearest.y >= level.size.x);
             if (corner && dice.z < 2.0 / 3.0) {

@@ -23,7 +23,7 @@ void principal_axes(vec3 dx, vec3 dy, out vec3 major, out vec3 minor) {
     float yy = dot3(dy, dy);
     float xy = dot3(dx, dy);
     float t = 0.0;
-    if (xy != 0.0) {
+    if (abs(xy) > 1e-30) { // smaller ones divide by what devices take for 0
         float zeta = (yy - xx) / (2.0 * xy);
         t = (zeta >= 0.0 ? 1.0 : -1.0) / (abs(zeta) + sqrt(1.0 + zeta * zeta));
     }

@@ -20,16 +20,17 @@ struct Parts {
 Parts axis_parts(uint mask, uint mode, float from, float to, float size) {
     Parts parts = Parts(vec3(0.0), vec3(0.0), vec3(0.0));
     if (MODE_IS(mask, ADDRESS_REPEAT, mode)) {
-        // More than a period has the mean of a period.
-        float width = min(to - from, size);
-        float start = from - floor(from / size) * size;
-        float end = start + width;
+        // Whole periods, which are the same from wherever they begin, and what is left.
+        float whole = floor((to - from) / size) * size;
+        float start = clamp(from - floor(from / size) * size, 0.0, size);
+        float end = start + clamp((to - from) - whole, 0.0, size);
         parts.from = vec3(start, 0.0, 0.0);
-        parts.to = vec3(min(end, size), max(end - size, 0.0), 0.0);
-        parts.amount = parts.to - parts.from;
+        parts.to = vec3(min(end, size), max(end - size, 0.0), size);
+        parts.amount = vec3(parts.to.xy - parts.from.xy, whole);
     } else if (MODE_IS(mask, ADDRESS_MIRRORED_REPEAT, mode)) {
-        float width = min(to - from, 2.0 * size);
-        float start = from - floor(from / (2.0 * size)) * 2.0 * size;
+        float whole = floor((to - from) / (2.0 * size)) * 2.0 * size;
+        float width = clamp((to - from) - whole, 0.0, 2.0 * size);
+        float start = clamp(from - floor(from / (2.0 * size)) * 2.0 * size, 0.0, 2.0 * size);
         float first = floor(start / size);
         for (int k = 0; k < 3; k++) {
             float tile = first + float(k);
@@ -40,6 +41,11 @@ Parts axis_parts(uint mask, uint mode, float from, float to, float size) {
             parts.to[k] = odd ? size - a : b;
             parts.amount[k] = b - a;
         }
+        // Of three tiles the middle one is whole; where there are two, the third part is free.
+        int free = parts.amount.z > 0.0 ? 1 : 2;
+        if (free == 2) parts.from.z = 0.0;
+        if (free == 2) parts.to.z = size;
+        parts.amount[free] += whole;
     } else {
         parts.from.x = clamp(from, 0.0, size);
         parts.to.x = clamp(to, 0.0, size);
@@ -121,13 +127,15 @@ vec4 summed_area(Texture image, Sampler how, Coordinate place) {
     if (MODE_IS(TEXEL_CENTERS, TEXEL_CENTER_INTEGER, how.modes.w)) center += 0.5;
     Parts u = axis_parts(ADDRESSES_U, how.modes.x, center.x - reach.x, center.x + reach.x, wide.x);
     Parts v = axis_parts(ADDRESSES_V, how.modes.y, center.y - reach.y, center.y + reach.y, wide.y);
+    // What of the box is no border; shares of that, as amounts themselves may be large.
+    float inside_u = u.amount.x + u.amount.y + u.amount.z;
+    float inside_v = v.amount.x + v.amount.y + v.amount.z;
     vec4 sum = vec4(0.0);
-    float inside = 0.0;
     for (int part = 0; part < 9; part++) {
         int i = part % 3;
         int j = part / 3;
-        float amount = u.amount[i] * v.amount[j];
-        if (amount <= 0.0) continue;
+        if (u.amount[i] <= 0.0 || v.amount[j] <= 0.0) continue;
+        float share = (u.amount[i] / inside_u) * (v.amount[j] / inside_v);
         vec2 from = vec2(u.from[i], v.from[j]);
         vec2 to = vec2(u.to[i], v.to[j]);
         float area = (to.x - from.x) * (to.y - from.y);
@@ -139,19 +147,17 @@ vec4 summed_area(Texture image, Sampler how, Coordinate place) {
             else if (channels == 2) mean.w = value;
             else mean[c] = value;
         }
-        sum += amount * mean;
-        inside += amount;
+        sum += share * mean;
     }
     // What neither axis covers is border.
     if (BORDERS) {
         bool bordered = how.modes.x == ADDRESS_CLAMP_TO_BORDER || how.modes.y == ADDRESS_CLAMP_TO_BORDER;
         // Along a periodic axis the parts cover one period for the whole.
-        float share_u = how.modes.x == ADDRESS_CLAMP_TO_BORDER ? (u.amount.x + u.amount.y + u.amount.z) / (2.0 * reach.x) : 1.0;
-        float share_v = how.modes.y == ADDRESS_CLAMP_TO_BORDER ? (v.amount.x + v.amount.y + v.amount.z) / (2.0 * reach.y) : 1.0;
-        vec4 mean = inside > 0.0 ? sum / inside : vec4(0.0);
-        return bordered ? mix(how.border, mean, share_u * share_v) : mean;
+        float share_u = how.modes.x == ADDRESS_CLAMP_TO_BORDER ? inside_u / (2.0 * reach.x) : 1.0;
+        float share_v = how.modes.y == ADDRESS_CLAMP_TO_BORDER ? inside_v / (2.0 * reach.y) : 1.0;
+        return bordered ? mix(how.border, sum, share_u * share_v) : sum;
     }
-    return sum / inside;
+    return sum;
 }
 #endif
 

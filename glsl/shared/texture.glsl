@@ -217,6 +217,22 @@ vec4 fetch_or_border(Texture image, Sampler how, uint slot, Level level, ivec3 a
     return at.x < 0 || at.y < 0 || at.z < 0 ? how.border : value;
 }
 
+// weight * value, and sum + weight * value. No number, times a weight of 0, would still be none: such a value
+// counts for nothing. fma by name: fused or not, but alike in every pipeline of a device.
+vec4 weighted(float weight, vec4 value) {
+    if (NONFINITE) {
+        if (weight == 0.0) return vec4(0.0);
+    }
+    return weight * value;
+}
+
+vec4 add_weighted(float weight, vec4 value, vec4 sum) {
+    if (NONFINITE) {
+        if (weight == 0.0) return sum;
+    }
+    return fma(vec4(weight), value, sum);
+}
+
 // A flat texture's texel at (column, row), addressed. Over a pole of an environment the same row goes on,
 // half a turn away.
 vec4 flat_texel(Texture image, Sampler how, uint slot, Level level, ivec2 at) {

@@ -44,6 +44,8 @@ pub fn bias(
         }
         apart - noise
     };
-    let mean = places.iter().map(excess).sum::<f64>() / places.len() as f64;
+    // Pixels that are no numbers have no bias either.
+    let told: Vec<f64> = places.iter().map(excess).filter(|e| e.is_finite()).collect();
+    let mean = told.iter().sum::<f64>() / told.len().max(1) as f64;
     Ok(mean.max(0.0).sqrt())
 }

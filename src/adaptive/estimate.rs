@@ -64,7 +64,10 @@ fn seen(sums: &Sums, count: u32, i: usize) -> Seen {
     let mean: [f32; 3] = std::array::from_fn(|c| (a[c] + b[c]) / (2.0 * n));
     let halves: [f32; 3] = std::array::from_fn(|c| (a[c] - b[c]) / n);
     let spread = ((a[3] + b[3]) / (2.0 * n) - square(mean)).max(0.0);
-    Seen { mean, difference: square(halves) / 4.0, spread: spread / (2.0 * n) }
+    let seen = Seen { mean, difference: square(halves) / 4.0, spread: spread / (2.0 * n) };
+    // What is no number stays none: more samples would not help, and no neighbour has contrast to it.
+    let number = mean.iter().chain([&seen.difference, &seen.spread]).all(|v| v.is_finite());
+    if number { seen } else { Seen { mean: [f32::NAN; 3], ..Seen::default() } }
 }
 
 /// A channel's mean.

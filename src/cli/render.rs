@@ -21,7 +21,8 @@ use crate::render::{self, MipChoice, Report, TexelChoice, Tuning};
 use crate::scene::advice;
 use crate::scene::model::Scene;
 use crate::scene::prune::prune;
-use crate::texture;
+use crate::texture::decode::Values;
+use crate::texture::load::load_with;
 use crate::verify::known::anisotropy_fault;
 
 #[derive(Args, Debug)]
@@ -44,6 +45,10 @@ pub struct RenderArgs {
     /// Build the pipeline with all features, to measure what leaving them out gains
     #[arg(long)]
     keep_everything: bool,
+    /// Let in textures with NaN and infinite texels, which are errors else: pixels that show one are no
+    /// numbers either, and counted
+    #[arg(long)]
+    allow_nonfinite: bool,
     /// Where look-ups of method shader read texels
     #[arg(long, value_name = "SOURCE", default_value = "auto", value_parser = super::named_parser(TexelChoice::NAMES, TexelChoice::from_name))]
     texels: TexelChoice,
@@ -136,7 +141,7 @@ fn render_on_device(
         // A mistake in the scene is told before one of the machine.
         packed.and_then(|packed| Ok((gpu?, packed, startup, load)))
     })?;
-    say_textures(args, &packed);
+    let nonfinite = say_textures(args, &packed);
     let tuning = Tuning { texels: args.texels, group: args.workgroup };
     let (film, mut report) =
         render::render_to_goal(&gpu, packed, args.keep_everything, &tuning, args.overrides.goal(), bar)?;
@@ -147,12 +152,12 @@ fn render_on_device(
     for message in gpu.messages() {
         super::tell(format_args!("validation: {message}"));
     }
-    Ok(Ran { device: gpu.info().name.clone(), driver: gpu.info().driver.clone(), film, report })
+    Ok(Ran { device: gpu.info().name.clone(), driver: gpu.info().driver.clone(), film, report, nonfinite })
 }
 
 fn render_on_oracle(args: &RenderArgs, scene: &Scene, bar: &Bar, start: Instant) -> Result<Ran> {
     let packed = load(scene, args, || Pyramids::Host)?;
-    say_textures(args, &packed);
+    let nonfinite = say_textures(args, &packed);
     let mut report = Report::default();
     report.seconds.load = start.elapsed().as_secs_f64();
     let clock = Instant::now();
@@ -172,12 +177,13 @@ fn render_on_oracle(args: &RenderArgs, scene: &Scene, bar: &Bar, start: Instant)
     };
     report.seconds.render = clock.elapsed().as_secs_f64();
     let driver = format!("moire {} in float64", env!("CARGO_PKG_VERSION"));
-    Ok(Ran { device: "oracle".into(), driver, film, report })
+    Ok(Ran { device: "oracle".into(), driver, film, report, nonfinite })
 }
 
 /// `pyramids` says who makes those, and may wait for a device to be known.
 fn load(scene: &Scene, args: &RenderArgs, pyramids: impl FnOnce() -> Pyramids) -> Result<PackedScene> {
-    let textures = scene.textures.iter().map(texture::load::load).collect::<Result<Vec<_>>>()?;
+    let values = if args.allow_nonfinite { Values::Any } else { Values::Finite };
+    let textures = scene.textures.iter().map(|t| load_with(t, values)).collect::<Result<Vec<_>>>()?;
     let pyramids = if pack::reads_levels(scene) { pyramids() } else { Pyramids::Host };
     pack::pack_with(scene, textures, args.crop, pyramids)
 }
@@ -222,10 +228,13 @@ fn check_crop(crop: Option<Crop>, scene: &Scene) -> Result<()> {
     )))
 }
 
-fn say_textures(args: &RenderArgs, packed: &PackedScene) {
+/// Where they are let in, what each texture has of texels that are not finite.
+fn say_textures(args: &RenderArgs, packed: &PackedScene) -> Option<Vec<(String, u64)>> {
     if args.verbose {
         for line in packed.texture_lines() {
             super::tell(format_args!("texture {line}"));
         }
     }
+    let counts = packed.texture_names.iter().cloned().zip(packed.nonfinite_texels.iter().copied());
+    args.allow_nonfinite.then(|| counts.collect())
 }

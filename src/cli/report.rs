@@ -14,6 +14,12 @@ pub struct Ran {
     pub driver: String,
     pub film: Film,
     pub report: Report,
+    /// Texels that are not finite, by texture, where those are let in.
+    pub nonfinite: Option<Vec<(String, u64)>>,
+}
+
+fn nonfinite_pixels(film: &Film) -> usize {
+    film.pixels.iter().filter(|pixel| !pixel.iter().all(|v| v.is_finite())).count()
 }
 
 /// By the device's timestamps; survey and levels of textures only where the device made them.
@@ -25,7 +31,7 @@ fn device_seconds(report: &Report) -> Value {
 }
 
 pub fn json(ran: &Ran, options: Value, outputs: &[String]) -> Value {
-    json!({
+    let mut all = json!({
         "device": ran.device,
         "driver": ran.driver,
         "options": options,
@@ -42,13 +48,25 @@ pub fn json(ran: &Ran, options: Value, outputs: &[String]) -> Value {
         "longest_slice_seconds": ran.report.longest_slice_seconds,
         "device_bytes": ran.report.device_bytes,
         "process": { "cpu_seconds": cpu_seconds(), "peak_host_bytes": peak_host_bytes() },
-    })
+    });
+    if let Some(textures) = &ran.nonfinite {
+        let texels: Map<String, Value> = textures.iter().map(|(name, n)| (name.clone(), json!(n))).collect();
+        all["nonfinite"] = json!({ "texels": texels, "pixels": nonfinite_pixels(&ran.film) });
+    }
+    all
 }
 
 pub fn say(ran: &Ran, outputs: &[String], verbose: bool) {
     let (report, seconds) = (&ran.report, &ran.report.seconds);
     for warning in &report.warnings {
         tell(format_args!("warning: {warning}"));
+    }
+    match nonfinite_pixels(&ran.film) {
+        0 => {}
+        count => tell(format_args!(
+            "warning: {count} pixels are not finite; .exr keeps them, other formats have NaN as black and \
+             infinity as their largest value"
+        )),
     }
     if verbose {
         tell("left out:");

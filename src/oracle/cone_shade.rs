@@ -53,10 +53,15 @@ struct Waiting {
     dropped: f64,
 }
 
+/// The largest channel, of either sign; what is no number is seen, too.
+fn largest(v: DVec3) -> f64 {
+    if v.is_finite() { v.abs().max_element() } else { 1.0 }
+}
+
 impl Waiting {
     fn send(&mut self, branch: Branch) {
         if self.list.len() == MOST_WAITING {
-            self.dropped += branch.weight.max_element();
+            self.dropped += largest(branch.weight);
         } else {
             self.list.push(branch);
         }
@@ -180,7 +185,7 @@ fn shade_part(waiting: &mut Waiting, scene: &PackedScene, mut branch: Branch, sh
     if model.is_lit() {
         for light in &scene.lights {
             let next = lit_branch(&branch, &met, left_shape(scene, shape, inside), light);
-            if next.weight.max_element() > 0.0 {
+            if largest(next.weight) > 0.0 {
                 waiting.send(next);
             }
         }
@@ -197,7 +202,7 @@ fn shade_part(waiting: &mut Waiting, scene: &PackedScene, mut branch: Branch, sh
     for (through, share) in [(true, 1.0 - back), (false, back)] {
         let skip = left_shape(scene, shape, inside != through);
         let next = bent_branch(&branch, &met, ratio, share, skip, through);
-        let weight = next.weight.max_element();
+        let weight = largest(next.weight);
         if weight >= LEAST_WEIGHT {
             waiting.send(next);
         } else {
@@ -246,7 +251,7 @@ pub fn trace_cone(scene: &PackedScene, ray: Ray, beam: Beam) -> (DVec3, f64) {
         // Those that are kept stand for shapes that are not.
         let replaced = rest.share * (1.0 - pieces.clear);
         let norm = 1.0 + replaced / (1.0 - rest.share).max(LEAST_SHARE);
-        waiting.dropped += branch.weight.max_element() * replaced;
+        waiting.dropped += largest(branch.weight) * replaced;
         rest.share -= replaced;
         for piece in pieces.list.iter().filter(|p| p.seen > 0.0) {
             let part = Covered { share: piece.seen, center: piece.center };
@@ -256,7 +261,7 @@ pub fn trace_cone(scene: &PackedScene, ray: Ray, beam: Beam) -> (DVec3, f64) {
             sum += shade_part(&mut waiting, scene, part_of(&branch, &cone, rest, 1.0), NO_SHAPE);
         }
     }
-    let left: f64 = waiting.list.iter().map(|b| b.weight.max_element()).sum();
+    let left: f64 = waiting.list.iter().map(|b| largest(b.weight)).sum();
     (sum, waiting.dropped + left)
 }
 

@@ -6,12 +6,14 @@ use super::address::reduced_coordinate;
 use super::levels::Reader;
 use super::mapping::Coordinate;
 use super::spread::Spread;
-use super::texture::{addresses, level_at};
+use super::texture::{add_weighted, addresses, level_at};
 use crate::texture::sampler_spec::TexelCenter;
 
 /// The level on which the minor axis, full width, lies between 2^-ELLIPSE_LEVEL and twice that in texels.
 const ELLIPSE_LEVEL: f64 = 0.0;
 const MAX_ELLIPSE_STEPS: u32 = 8192;
+/// Area over π of the largest: with its rows, fewer texels than steps.
+const MOST_ELLIPSE: f64 = 2048.0;
 
 /// exp(-2 r²) - exp(-2) for r² in [0, 1], as a polynomial.
 pub fn ellipse_weight(squared: f64) -> f64 {
@@ -34,7 +36,8 @@ pub fn ellipse(reader: &Reader<'_>, c: &Coordinate, spread: &Spread) -> DVec4 {
     let gap = spread.major - spread.minor;
     let widen = if gap > 0.0 { (minor - spread.minor) / gap } else { 0.0 };
     m += widen * (DVec3::new(spread.major * scale, 0.0, spread.major * scale) - m);
-    m *= (16.0 * most * most / (m.x + m.z)).min(1.0);
+    m *= (16.0 * most * most / (m.x + m.z).max(1e-30)).min(1.0);
+    m *= (MOST_ELLIPSE / (m.x * m.z - m.y * m.y).max(1.0).sqrt()).min(1.0);
     m += DVec3::new(1.0, 0.0, 1.0);
     let determinant = m.x * m.z - m.y * m.y;
     let (a, b, d) = (m.z / determinant, -m.y / determinant, m.x / determinant);
@@ -58,7 +61,7 @@ pub fn ellipse(reader: &Reader<'_>, c: &Coordinate, spread: &Spread) -> DVec4 {
             let offset = DVec2::new(column, row) - center;
             let squared = a * offset.x * offset.x + 2.0 * b * offset.x * offset.y + d * offset.y * offset.y;
             let weight = ellipse_weight(squared.clamp(0.0, 1.0));
-            sum += reader.flat(&level, column, row) * weight;
+            sum = add_weighted(weight, reader.flat(&level, column, row), sum);
             weights += weight;
             column += 1.0;
             steps += 1;

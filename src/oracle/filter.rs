@@ -11,7 +11,7 @@ use super::procedural::procedural_color;
 use super::rng::pcg3d;
 use super::spread::{in_texture, kind_of, texel_spread};
 use super::summed::summed_area;
-use super::texture::level_at;
+use super::texture::{add_weighted, level_at};
 use crate::layout::{Sampler, Texture};
 use crate::pack::{PackedScene, TextureKind};
 use crate::texture::sampler_spec::{Filter, MipMode};
@@ -48,7 +48,7 @@ pub fn look_up(
         return ellipse(&reader, &c, &spread);
     }
     if mode == Filter::SummedArea {
-        return summed_area(scene, image, how, place);
+        return summed_area(scene, image, how, &c);
     }
     let last = image.link[1] - 1;
     let mut probes = 1.0;
@@ -94,8 +94,8 @@ pub fn look_up(
         let upper = (share - f64::from(probe)).clamp(0.0, 1.0);
         for (index, weight) in [((low + 1).min(last), upper), (low, 1.0 - upper)] {
             if weight > 0.0 {
-                sum +=
-                    reader.level(mode, &level_at(scene, image, index), at, at_face, dice) * (weight / probes);
+                let value = reader.level(mode, &level_at(scene, image, index), at, at_face, dice);
+                sum = add_weighted(weight / probes, value, sum);
             }
         }
     }

@@ -5,7 +5,7 @@ use glam::{DVec2, DVec3, DVec4};
 use super::address::reduced_coordinate;
 use super::mapping::{face_uv, on_cube_face, within_face};
 use super::spread::kind_of;
-use super::texture::{Level, addresses, fetch_or_border, fetch_texel, flat_texel};
+use super::texture::{Level, add_weighted, addresses, fetch_or_border, fetch_texel, flat_texel, weighted};
 use crate::layout::{Sampler, Texture};
 use crate::pack::{PackedScene, TextureKind};
 use crate::texture::sampler_spec::{Filter, TexelCenter};
@@ -25,8 +25,11 @@ impl Reader<'_> {
     fn linear_flat(&self, level: &Level, texel: DVec2) -> DVec4 {
         let low = texel.floor();
         let t = texel - low;
-        let row = |y: f64| self.flat(level, low.x, y) * (1.0 - t.x) + self.flat(level, low.x + 1.0, y) * t.x;
-        row(low.y) * (1.0 - t.y) + row(low.y + 1.0) * t.y
+        let row = |y: f64| {
+            let left = weighted(1.0 - t.x, self.flat(level, low.x, y));
+            add_weighted(t.x, self.flat(level, low.x + 1.0, y), left)
+        };
+        add_weighted(t.y, row(low.y + 1.0), weighted(1.0 - t.y, row(low.y)))
     }
 
     fn cubic_flat(&self, level: &Level, texel: DVec2) -> DVec4 {
@@ -37,7 +40,8 @@ impl Reader<'_> {
         let mut sum = DVec4::ZERO;
         for (j, wy) in wy.into_iter().enumerate() {
             for (i, wx) in wx.into_iter().enumerate() {
-                sum += self.flat(level, low.x - 1.0 + i as f64, low.y - 1.0 + j as f64) * (wx * wy);
+                let texel = self.flat(level, low.x - 1.0 + i as f64, low.y - 1.0 + j as f64);
+                sum = add_weighted(wx * wy, texel, sum);
             }
         }
         sum
@@ -50,7 +54,8 @@ impl Reader<'_> {
         (0..8).map(corner).fold(DVec4::ZERO, |sum, corner| {
             let w = (1.0 - t) * (1.0 - corner) + t * corner;
             let at = (low + corner).to_array().map(|x| x as i64);
-            sum + fetch_or_border(self.scene, self.image, self.how, level, at, 3) * w.element_product()
+            let texel = fetch_or_border(self.scene, self.image, self.how, level, at, 3);
+            add_weighted(w.element_product(), texel, sum)
         })
     }
 
@@ -71,10 +76,10 @@ impl Reader<'_> {
                 continue;
             }
             let value = fetch_texel(self.scene, self.image, level, cube_texel(face, at, size));
-            sum += value * w;
+            sum = add_weighted(w, value, sum);
             three += value;
         }
-        sum + three * (missing / 3.0)
+        add_weighted(missing / 3.0, three, sum)
     }
 
     /// A place of one level by one filter; `dice` in [0, 1) are of the stochastic one.
@@ -94,7 +99,11 @@ impl Reader<'_> {
             texel += dice - 0.5;
         }
         if matches!(filter, Filter::Nearest | Filter::Stochastic) {
-            let nearest = texel.floor().to_array().map(|x| x as i64);
+            let mut nearest = texel.floor().to_array().map(|x| x as i64);
+            // A place on the far edge belongs to the face that the direction meets.
+            if filter == Filter::Nearest && kind == TextureKind::Cube {
+                nearest = nearest.map(|n| n.min(level.size[0] - 1));
+            }
             return self.one_texel(kind, level, nearest, face, dice.z);
         }
         let texel = texel - 0.5;

@@ -28,7 +28,7 @@ fn bounded_width(d: DVec3) -> DVec3 {
 pub fn principal_axes(dx: DVec3, dy: DVec3) -> (DVec3, DVec3) {
     let (xx, yy, xy) = (dx.dot(dx), dy.dot(dy), dx.dot(dy));
     let mut t = 0.0;
-    if xy != 0.0 {
+    if xy.abs() > 1e-30 {
         let zeta = (yy - xx) / (2.0 * xy);
         t = (if zeta >= 0.0 { 1.0 } else { -1.0 }) / (zeta.abs() + (1.0 + zeta * zeta).sqrt());
     }

@@ -16,22 +16,26 @@ pub struct Spread {
     pub along: DVec2,
 }
 
-/// What is not a number, or endless, is as wide as the widest.
-pub fn bounded(squared: f64) -> f64 {
-    if squared < 1e30 { squared } else { 1e30 }
+/// What is not a number, or endless, is as wide as the widest: so many tiles.
+pub const WIDEST_CHANGE: f64 = 1e9;
+
+pub fn bounded_change(d: DVec3) -> DVec3 {
+    DVec3::from_array(d.to_array().map(|x| if x.abs() <= WIDEST_CHANGE { x } else { WIDEST_CHANGE }))
 }
 
 pub fn kind_of(image: &Texture) -> TextureKind {
     TextureKind::ALL[image.link[3] as usize]
 }
 
-/// A direction on the cube as a place on its face; a flat or solid coordinate as it is.
+/// A direction on the cube as a place on its face; a flat or solid coordinate as it is. Footprints are
+/// numbers.
 pub fn in_texture(image: &Texture, c: &Coordinate) -> (Coordinate, u32) {
     if kind_of(image) != TextureKind::Cube {
-        return (*c, 0);
+        return (Coordinate { at: c.at, change: c.change.map(bounded_change) }, 0);
     }
     let (stm, face) = on_cube_face(c.at);
-    let change = c.change.map(|d| face_uv_change(stm, along_cube_face(d, face)).extend(0.0));
+    let on_face = |d| face_uv_change(stm, along_cube_face(d, face)).extend(0.0);
+    let change = c.change.map(|d| bounded_change(on_face(d)));
     (Coordinate { at: within_face(stm).extend(0.0), change }, face)
 }
 
@@ -39,7 +43,7 @@ pub fn texel_spread(image: &Texture, c: &Coordinate) -> Spread {
     let depth = if kind_of(image) == TextureKind::Volume { image.link[2] } else { 0 };
     let size = DVec3::new(image.place[1].into(), image.place[2].into(), depth.into());
     let [x, y] = c.change.map(|d| d * size);
-    let (xx, yy, xy) = (bounded(x.dot(x)), bounded(y.dot(y)), x.dot(y));
+    let (xx, yy, xy) = (x.dot(x), y.dot(y), x.dot(y));
     let half_difference = 0.5 * (xx - yy);
     let radius = half_difference.hypot(xy);
     let major = 0.5 * (xx + yy) + radius;
@@ -50,7 +54,7 @@ pub fn texel_spread(image: &Texture, c: &Coordinate) -> Spread {
         DVec2::new(xy, radius - half_difference)
     };
     Spread {
-        major: bounded(major),
+        major,
         minor: if minor >= 0.0 { minor } else { 0.0 },
         along: along.try_normalize().unwrap_or(DVec2::X),
     }

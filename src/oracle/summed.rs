@@ -27,20 +27,29 @@ pub fn axis_parts(mode: Address, from: f64, to: f64, size: f64) -> [Part; 3] {
     let above = (to - from.max(size)).max(0.0);
     match mode {
         Address::Repeat => {
-            // More than a period has the mean of a period.
-            let start = from - (from / size).floor() * size;
-            let end = start + (to - from).min(size);
+            // Whole periods, which are the same from wherever they begin, and what is left.
+            let periods = ((to - from) / size).floor() * size;
+            let start = inside(from - (from / size).floor() * size);
+            let end = start + inside(to - from - periods);
             parts[0] = whole(start, end.min(size));
             parts[1] = whole(0.0, (end - size).max(0.0));
+            parts[2] = Part { from: 0.0, to: size, amount: periods };
         }
         Address::MirroredRepeat => {
-            let width = (to - from).min(2.0 * size);
-            let start = from - (from / (2.0 * size)).floor() * 2.0 * size;
+            let periods = ((to - from) / (2.0 * size)).floor() * 2.0 * size;
+            let width = (to - from - periods).clamp(0.0, 2.0 * size);
+            let start = (from - (from / (2.0 * size)).floor() * 2.0 * size).clamp(0.0, 2.0 * size);
             let first = (start / size).floor();
             for (k, part) in parts.iter_mut().enumerate() {
                 let tile = first + k as f64;
                 let (a, b) = (inside(start - tile * size), inside(start + width - tile * size));
                 *part = if (0.5 * tile).fract() != 0.0 { whole(size - b, size - a) } else { whole(a, b) };
+            }
+            // Of three tiles the middle one is whole; where there are two, the third part is free.
+            if parts[2].amount > 0.0 {
+                parts[1].amount += periods;
+            } else {
+                parts[2] = Part { from: 0.0, to: size, amount: periods };
             }
         }
         Address::ClampToBorder => parts[0] = whole(inside(from), inside(to)),
@@ -112,14 +121,15 @@ pub fn summed_area(scene: &PackedScene, image: &Texture, how: &Sampler, place: &
     ) + shift;
     let us = axis_parts(mode_u, center.x - reach.x, center.x + reach.x, wide.x);
     let vs = axis_parts(mode_v, center.y - reach.y, center.y + reach.y, wide.y);
+    // What of the box is no border; shares of that, as amounts themselves may be large.
+    let [inside_u, inside_v] = [us, vs].map(|parts| parts.iter().map(|p| p.amount).sum::<f64>());
     let mut sum = DVec4::ZERO;
-    let mut inside = 0.0;
     for u in us {
         for v in vs {
-            let amount = u.amount * v.amount;
-            if amount <= 0.0 {
+            if u.amount <= 0.0 || v.amount <= 0.0 {
                 continue;
             }
+            let share = (u.amount / inside_u) * (v.amount / inside_v);
             let (from, to) = (DVec2::new(u.from, v.from), DVec2::new(u.to, v.to));
             let area = (to - from).element_product();
             let mean = |c: usize| {
@@ -132,16 +142,14 @@ pub fn summed_area(scene: &PackedScene, image: &Texture, how: &Sampler, place: &
                 2 => DVec4::new(mean(0), mean(0), mean(0), mean(1)),
                 _ => DVec4::new(mean(0), mean(1), mean(2), mean(3)),
             };
-            sum += amount * value;
-            inside += amount;
+            sum += share * value;
         }
     }
-    let mean = if inside > 0.0 { sum / inside } else { DVec4::ZERO };
     // What an axis with a border does not cover.
-    let share = |mode: Address, parts: [Part; 3], width: f64| match mode {
-        Address::ClampToBorder => parts.iter().map(|p| p.amount).sum::<f64>() / width,
+    let share = |mode: Address, inside: f64, width: f64| match mode {
+        Address::ClampToBorder => inside / width,
         _ => 1.0,
     };
-    let covered = share(mode_u, us, 2.0 * reach.x) * share(mode_v, vs, 2.0 * reach.y);
-    vec4(how.border).lerp(mean, covered)
+    let covered = share(mode_u, inside_u, 2.0 * reach.x) * share(mode_v, inside_v, 2.0 * reach.y);
+    vec4(how.border).lerp(sum, covered)
 }

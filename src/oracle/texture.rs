@@ -77,6 +77,16 @@ pub fn fetch_or_border(
     fetch_texel(scene, image, level, place)
 }
 
+/// weight · value. No number, times a weight of 0, would still be none: such a value counts for nothing.
+pub fn weighted(weight: f64, value: DVec4) -> DVec4 {
+    if weight == 0.0 { DVec4::ZERO } else { value * weight }
+}
+
+/// sum + weight · value.
+pub fn add_weighted(weight: f64, value: DVec4, sum: DVec4) -> DVec4 {
+    sum + weighted(weight, value)
+}
+
 /// A flat texture's texel at (column, row), addressed. Over a pole of an environment the same row goes
 /// on, half a turn away.
 pub fn flat_texel(scene: &PackedScene, image: &Texture, how: &Sampler, level: &Level, at: [i64; 2]) -> DVec4 {

@@ -6,6 +6,7 @@ mod chances;
 mod header;
 mod kinds;
 mod mapping;
+mod nonfinite;
 mod pixel_filter;
 mod precision;
 mod procedural;
@@ -67,6 +68,8 @@ pub struct PackedScene {
     pub texture_names: Vec<String>,
     /// Channels that each texture's file has, for messages.
     pub file_channels: Vec<usize>,
+    /// Texels of each texture that are NaN or infinite.
+    pub nonfinite_texels: Vec<u64>,
     /// The samplers as data, for the device's own sampler objects.
     pub sampler_specs: Vec<SamplerSpec>,
     /// Texels of all textures one after the other, each beginning at a whole 32-bit word.
@@ -147,9 +150,10 @@ pub fn pack_with(
     let filtered = packed.prefilters();
     packed.sampler_specs = scene.samplers.clone();
     packed.beams = scene.sampling.algorithm == Algorithm::Beam && suits_beams;
+    nonfinite::admit(&mut packed, scene, &textures)?;
     if packed.beams {
         packed.row_sums = textures::row_sums(&textures);
-    } else if algorithm == Algorithm::Auto && suits_beams {
+    } else if algorithm == Algorithm::Auto && suits_beams && !packed.has_nonfinite() {
         packed.beam_textures = Some(Arc::new(textures.clone()));
     }
     packed.samplers = scene.samplers.iter().map(|spec| textures::sampler(spec, filtered)).collect();

@@ -67,6 +67,8 @@ pub fn pack_textures(
         let kernel = scene.textures.get(index).map_or(MipKernel::Box, |t| t.mip_kernel);
         let levels = if !reads(packed, scene, index, SamplerSpec::reads_levels) {
             Vec::new()
+        } else if packed.nonfinite_texels[index] > 0 {
+            mips::pyramid_of_finite(&texture)
         } else if pyramids.leaves(&texture, kernel) {
             packed.device_levels.push(index);
             mips::blank(&texture)
@@ -106,16 +108,22 @@ pub fn row_sums(textures: &[TextureData]) -> Vec<u32> {
 }
 
 /// Whether some sampler that minifies this texture is such.
-fn reads(packed: &PackedScene, scene: &Scene, texture: usize, such: impl Fn(&SamplerSpec) -> bool) -> bool {
-    if packed.header.key[2] == Footprint::None as u32 {
-        return false;
-    }
+pub(super) fn reads(
+    packed: &PackedScene,
+    scene: &Scene,
+    texture: usize,
+    such: impl Fn(&SamplerSpec) -> bool,
+) -> bool {
+    packed.header.key[2] != Footprint::None as u32 && readers(scene, texture).any(such)
+}
+
+/// The samplers that this texture is read through.
+pub(super) fn readers(scene: &Scene, texture: usize) -> impl Iterator<Item = &SamplerSpec> {
     let materials = scene.materials.iter();
-    let read =
-        materials.filter(|m| m.texture == Some(texture) || m.relief.is_some_and(|r| r.texture == texture));
+    let read = materials
+        .filter(move |m| m.texture == Some(texture) || m.relief.is_some_and(|r| r.texture == texture));
     let environment = scene.background.environment.filter(|e| e.texture == texture).map(|e| e.sampler);
-    let mut samplers = read.map(|m| m.sampler).chain(environment);
-    samplers.any(|sampler| such(&scene.samplers[sampler]))
+    read.map(|m| m.sampler).chain(environment).map(|sampler| &scene.samplers[sampler])
 }
 
 /// The texture's first word: where the texels of level 0 begin. The words before it say where those of the
@@ -268,8 +276,12 @@ impl PackedScene {
             let bytes: usize = (0..levels).map(|level| self.level_texels(i, level).len()).sum();
             let kib = bytes.div_ceil(1024);
             let levels = if levels > 1 { format!(", {levels} levels") } else { String::new() };
+            let nonfinite = match self.nonfinite_texels[i] {
+                0 => String::new(),
+                count => format!(", {count} texels not finite"),
+            };
             format!(
-                "\"{name}\": {width}×{height}{depth}{levels}, {channels}-channel file, held as {format} ({space}), {kib} KiB"
+                "\"{name}\": {width}×{height}{depth}{levels}, {channels}-channel file, held as {format} ({space}), {kib} KiB{nonfinite}"
             )
         };
         let records = self.texture_names.iter().zip(&self.textures).zip(&self.file_channels);

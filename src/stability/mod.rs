@@ -1,20 +1,28 @@
 //! Extreme and stiff cases: sweeps of one parameter over many decades on a device, each held against an
 //! exact or float64 answer and a bound that is derived. A device in, a report out.
 
+mod areas;
 pub mod case;
 mod coordinates;
 mod dielectric;
+mod filters;
 mod horizon;
 mod mirrors;
 mod origins;
 pub mod page;
+#[cfg(test)]
+mod planted;
+mod probing;
+mod procedurals;
 pub mod report;
 pub mod run;
 mod scenes;
+mod seams;
 mod sizes;
 mod spheres;
 mod stiff;
 mod sums;
+mod texels;
 pub mod text;
 mod transforms;
 mod triangles;
@@ -32,6 +40,10 @@ pub fn all() -> Vec<Case> {
         triangles::cases(),
         origins::cases(),
         stiff::cases(),
+        texels::cases(),
+        filters::cases(),
+        procedurals::cases(),
+        seams::cases(),
         sums::cases(),
         sizes::cases(),
         mirrors::cases(),

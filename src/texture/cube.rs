@@ -22,6 +22,7 @@
 use std::path::{Path, PathBuf};
 
 use super::data::ColorSpace;
+use super::decode::Values;
 use super::read_file::Texels;
 use super::source::CubeLayout;
 use super::stack;
@@ -54,8 +55,8 @@ impl CubeLayout {
     }
 }
 
-pub(super) fn join(files: &[PathBuf; 6], space: ColorSpace) -> Result<Texels> {
-    let faces = stack::read(files, space, "face")?;
+pub(super) fn join(files: &[PathBuf; 6], space: ColorSpace, values: Values) -> Result<Texels> {
+    let faces = stack::read(files, space, values, "face")?;
     if faces.width == faces.height {
         return Ok(faces);
     }

@@ -1,6 +1,6 @@
 //! A picture file named in a scene: file in, texels out, ready for upload. Adds to reading the
-//! file what a texture needs: finite values (one NaN would spread through every filter that touches
-//! it), a colour space that fits the numbers, and the row order that v asks for.
+//! file what a texture needs: finite values, unless others are let in on purpose; a colour space that fits
+//! the numbers, and the row order that v asks for.
 
 use std::path::Path;
 
@@ -8,9 +8,18 @@ use super::data::{ColorSpace, Component, Dimension, TexelFormat, TextureData};
 use super::read_file::{self, Texels};
 use crate::error::{Error, Result};
 
+/// Which numbers a file of floats may hold.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Values {
+    /// NaN and infinity are errors: they are mistakes in nearly every file that has them.
+    #[default]
+    Finite,
+    Any,
+}
+
 /// A 2D texture from one picture.
 pub fn decode(path: &Path, name: &str, color_space: ColorSpace, flip_v: bool) -> Result<TextureData> {
-    let mut texels = read_checked(path, color_space).map_err(|e| in_texture(name, e))?;
+    let mut texels = read_checked(path, color_space, Values::Finite).map_err(|e| in_texture(name, e))?;
     if flip_v {
         let height = texels.height;
         reverse_rows(&mut texels, height);
@@ -39,10 +48,10 @@ pub(super) fn texture_of(
     }
 }
 
-pub(super) fn read_checked(path: &Path, color_space: ColorSpace) -> Result<Texels> {
+pub(super) fn read_checked(path: &Path, color_space: ColorSpace, values: Values) -> Result<Texels> {
     let texels = read_file::read(path)?;
     check_meaning(texels.format, color_space, path)?;
-    check_finite(&texels, path)?;
+    check_values(&texels, values, path)?;
     Ok(texels)
 }
 
@@ -66,8 +75,8 @@ pub(super) fn check_meaning(format: TexelFormat, color_space: ColorSpace, path: 
 }
 
 /// Also of several slices: those are told by a third number.
-pub(super) fn check_finite(texels: &Texels, path: &Path) -> Result<()> {
-    if texels.format.component() != Component::Float32 {
+pub(super) fn check_values(texels: &Texels, allowed: Values, path: &Path) -> Result<()> {
+    if allowed == Values::Any || texels.format.component() != Component::Float32 {
         return Ok(());
     }
     let values = texels.bytes.chunks_exact(4).map(|b| f32::from_ne_bytes([b[0], b[1], b[2], b[3]]));
@@ -89,7 +98,8 @@ pub(super) fn check_finite(texels: &Texels, path: &Path) -> Result<()> {
             row % height,
             names[first % channels],
         ),
-        "replace NaN and infinite texels before use, column and row are counted from the top left",
+        "replace them before use (column and row are counted from the top left), or let them in: \
+         moire render --allow-nonfinite",
     ))
 }
 

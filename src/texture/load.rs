@@ -4,7 +4,9 @@
 use std::path::Path;
 
 use super::data::{Component, Dimension, TexelFormat, TextureData};
-use super::decode::{check_finite, check_meaning, in_texture, read_checked, reverse_rows, texture_of};
+use super::decode::{
+    Values, check_meaning, check_values, in_texture, read_checked, reverse_rows, texture_of,
+};
 use super::read_file::Texels;
 use super::source::{TextureContent, TextureSource};
 use super::{cube, nrrd, stack, volume};
@@ -12,7 +14,12 @@ use crate::error::{Error, Result};
 
 /// Of a procedural texture, which has no texels, one that nobody reads.
 pub fn load(source: &TextureSource) -> Result<TextureData> {
-    let (mut texels, depth) = read(source).map_err(|e| in_texture(&source.name, e))?;
+    load_with(source, Values::Finite)
+}
+
+/// The same, with such numbers.
+pub fn load_with(source: &TextureSource, values: Values) -> Result<TextureData> {
+    let (mut texels, depth) = read(source, values).map_err(|e| in_texture(&source.name, e))?;
     if source.flip_v {
         let height = texels.height;
         reverse_rows(&mut texels, height);
@@ -21,12 +28,12 @@ pub fn load(source: &TextureSource) -> Result<TextureData> {
 }
 
 /// The texels and how many slices or faces they are.
-fn read(source: &TextureSource) -> Result<(Texels, u32)> {
+fn read(source: &TextureSource, values: Values) -> Result<(Texels, u32)> {
     let space = source.color_space;
-    let picture = |path: &Path| read_checked(path, space);
+    let picture = |path: &Path| read_checked(path, space, values);
     let volume = |path: &Path, (texels, depth): (Texels, u32)| {
         check_meaning(texels.format, space, path)?;
-        check_finite(&texels, path)?;
+        check_values(&texels, values, path)?;
         Ok((texels, depth))
     };
     match &source.content {
@@ -40,8 +47,10 @@ fn read(source: &TextureSource) -> Result<(Texels, u32)> {
         }
         TextureContent::Ramp(colors) => Ok((ramp(colors), 1)),
         TextureContent::CubeFile(file, layout) => cube::cut(&picture(file)?, *layout, file).map(|t| (t, 6)),
-        TextureContent::Faces(files) => cube::join(files, space).map(|t| (t, 6)),
-        TextureContent::Slices(files) => stack::read(files, space, "slice").map(|t| (t, files.len() as u32)),
+        TextureContent::Faces(files) => cube::join(files, space, values).map(|t| (t, 6)),
+        TextureContent::Slices(files) => {
+            stack::read(files, space, values, "slice").map(|t| (t, files.len() as u32))
+        }
         TextureContent::Procedural(_) => Ok((ramp(&[[0.0; 4]]), 1)),
         TextureContent::Volume(raw) => volume(&raw.file, (volume::read(raw)?, raw.size[2])),
     }

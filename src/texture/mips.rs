@@ -15,6 +15,7 @@
 
 mod codec;
 mod halve;
+mod nonfinite;
 mod resample;
 
 use rayon::prelude::*;
@@ -23,6 +24,7 @@ use super::data::{Dimension, MipKernel, TextureData};
 use codec::Codec;
 pub use codec::srgb8_middles;
 use halve::halve;
+pub use nonfinite::pyramid_of_finite;
 use resample::{Axis, resample};
 
 /// Levels 1 to the last; none of a texture of one texel.

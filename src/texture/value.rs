@@ -1,6 +1,8 @@
 //! One texel as numbers in f64: stored value, linear light, and the four channels a look-up
 //! returns. The reference that packed and uploaded texels are held against.
 
+use rayon::prelude::*;
+
 use super::data::{ColorSpace, Component, TexelFormat, TextureData};
 use crate::color::srgb_to_linear;
 
@@ -35,6 +37,18 @@ impl TextureData {
         let stored = self.value(x, y, channel);
         let is_alpha = self.format.channels() > 1 && channel + 1 == self.format.channels();
         if self.color_space == ColorSpace::Srgb && !is_alpha { srgb_to_linear(stored) } else { stored }
+    }
+
+    /// How many texels have a channel that is NaN or infinite.
+    pub fn nonfinite_texels(&self) -> u64 {
+        if self.format.component() != Component::Float32 {
+            return 0;
+        }
+        let row = self.width as usize * self.format.bytes_per_texel();
+        let finite = |bytes: &[u8; 4]| f32::from_ne_bytes(*bytes).is_finite();
+        let bad = |texel: &&[[u8; 4]]| !texel.iter().all(finite);
+        let in_row = |row: &[u8]| row.as_chunks().0.chunks_exact(self.format.channels()).filter(bad).count();
+        self.texels.par_chunks(row).map(|row| in_row(row) as u64).sum()
     }
 
     /// A texture of this one's size in linear floats, by column, row (as in [`value`](Self::value)) and channel.

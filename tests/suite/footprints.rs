@@ -4,6 +4,7 @@
 pub mod bench;
 mod chance;
 mod exact;
+mod extremes;
 mod levels;
 mod lookups;
 mod seams;

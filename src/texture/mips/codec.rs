@@ -10,7 +10,7 @@ use crate::texture::data::{ColorSpace, Component, TexelFormat, TextureData};
 
 /// Added to alpha as the weight of a colour: nothing beside any alpha that can be seen, and the same
 /// for all where alpha is 0. A power of two, so that it goes in and out without rounding.
-const UNSEEN: f32 = 1.0 / (1u32 << 30) as f32;
+pub(super) const UNSEEN: f32 = 1.0 / (1u32 << 30) as f32;
 /// Steps of the table behind [`Encoder8`].
 const STEPS: usize = 4096;
 

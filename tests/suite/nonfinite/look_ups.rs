@@ -1,0 +1,160 @@
+//! One texel that is no number, on the device: a look-up is no number where that texel has a weight, and has
+//! the same bits as without it everywhere else. Which weight it has tells a texture that is 1 there and 0
+//! elsewhere.
+
+use moire::pack::PackedScene;
+use moire::probe::LookUp;
+use moire::scene::model::Footprint;
+use moire::texture::data::{Dimension, TexelFormat, TextureData};
+use moire::texture::sampler_spec::{Address, Filter, SamplerSpec};
+
+use crate::footprints::bench::{answers, narrow, pairs_of, solid};
+use crate::lookup::bench::{Dice, Vectors, coordinates, query};
+
+/// With all channels of one texel of a float texture set to a value.
+fn with_texel(texture: &TextureData, at: [u32; 2], value: f32) -> TextureData {
+    let channels = texture.format.channels();
+    texture.with_floats(channels, |x, y, c| if [x, y] == at { value } else { texture.value(x, y, c) as f32 })
+}
+
+/// Random texels, which one of them is meant, and all filters of such textures with all address modes.
+struct Bench {
+    texture: TextureData,
+    at: [u32; 2],
+    specs: Vec<SamplerSpec>,
+}
+
+impl Bench {
+    fn new(dimension: Dimension, size: [u32; 3], at: [u32; 2]) -> Bench {
+        use Filter::{Anisotropic, Cubic, Ewa, Linear, Nearest, Stochastic};
+        let mut filters =
+            vec![(Nearest, Nearest), (Linear, Linear), (Stochastic, Stochastic), (Linear, Anisotropic)];
+        if dimension == Dimension::Two {
+            filters.extend([(Cubic, Cubic), (Linear, Ewa)]);
+        }
+        let modes = Address::ALL.iter().enumerate();
+        let spec = |mag, min, k: usize, u| SamplerSpec {
+            address: [u, Address::ALL[(k + 1) % Address::ALL.len()]],
+            address_w: Address::ALL[(k + 3) % Address::ALL.len()],
+            mag,
+            min,
+            ..Default::default()
+        };
+        let specs = filters
+            .iter()
+            .flat_map(|&(mag, min)| modes.clone().map(move |(k, &u)| spec(mag, min, k, u)))
+            .collect();
+        Bench { texture: solid(dimension, size, TexelFormat::RgbaFloat), at, specs }
+    }
+
+    fn scene(&self, texture: TextureData) -> PackedScene {
+        pairs_of(Footprint::Differentials, vec![texture], &self.specs, &[(0, 0)])
+    }
+
+    /// Anywhere and on texels' centres and edges; footprints of a point and of less than two texels' width, which
+    /// level 0 answers.
+    fn queries(&self, scene: &PackedScene) -> Vec<LookUp> {
+        let mut dice = Dice::new(71);
+        let (w, h) = (self.texture.width, self.texture.height);
+        let mut all = Vec::new();
+        for sampler in 0..self.specs.len() as u32 {
+            for (i, [u, v]) in coordinates(&mut dice, [w, h], 150, false).into_iter().enumerate() {
+                let uv = match self.texture.dimension {
+                    Dimension::Cube => narrow(dice.direction()),
+                    _ => [u, v, (dice.bits() % 9) as f32 / 8.0, 0.0],
+                };
+                let wide = [0.0, 1.2, 1.9][i % 3];
+                let (dx, dy) = (wide / w as f32, [1.0, 2.5][i % 2] * wide / h as f32);
+                let (dx, dy) = ([dx, 0.0, 0.0, 0.0], [0.3 * dx, dy, 0.0, 0.0]);
+                all.push(LookUp { sampler, seed: i as u32, uv, dx, dy, ..query(scene, 0, [0.0; 2]) });
+            }
+        }
+        all
+    }
+
+    /// Where look-ups with the texel (`odd`) and without it (`plain`) are not as its weights want it.
+    fn complaints(&self, weights: &[[f32; 4]], odd: &[[f32; 4]], plain: &[[f32; 4]]) -> Vec<usize> {
+        let wrong = |&i: &usize| {
+            let same = odd[i].map(f32::to_bits) == plain[i].map(f32::to_bits);
+            let none = odd[i].iter().all(|v| !v.is_finite());
+            if weights[i] == [0.0; 4] { !same } else { !none }
+        };
+        (0..odd.len()).filter(wrong).collect()
+    }
+}
+
+fn benches() -> [Bench; 3] {
+    [
+        Bench::new(Dimension::Two, [8, 5, 1], [3, 2]),
+        Bench::new(Dimension::Three, [4, 6, 4], [0, 7]),
+        Bench::new(Dimension::Cube, [4, 4, 6], [3, 8]),
+    ]
+}
+
+#[test]
+fn a_texel_that_is_no_number_stays_in_look_ups_that_read_it() {
+    for bench in benches() {
+        let zero = bench.texture.with_floats(4, |_, _, _| 0.0);
+        let weights = bench.scene(with_texel(&zero, bench.at, 1.0));
+        let queries = bench.queries(&weights);
+        let weights = answers(&weights, &queries);
+        let read = weights.iter().filter(|w| **w != [0.0; 4]).count();
+        assert!(read > 50 && queries.len() - read > 100, "{read} of {} prove nothing", queries.len());
+        // As its own scene builds it: without the code for texels that are no numbers.
+        let plain = bench.scene(with_texel(&bench.texture, bench.at, 7.0));
+        assert!(!plain.has_nonfinite());
+        let plain = answers(&plain, &queries);
+        for value in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
+            let scene = bench.scene(with_texel(&bench.texture, bench.at, value));
+            assert_eq!(scene.nonfinite_texels, [1]);
+            let odd = answers(&scene, &queries);
+            let wrong = bench.complaints(&weights, &odd, &plain);
+            let first = wrong.first().map(|&i| (&queries[i], weights[i], odd[i], plain[i]));
+            let kind = bench.texture.dimension;
+            assert!(wrong.is_empty(), "{kind} {value}: {} of {}: {first:?}", wrong.len(), queries.len());
+        }
+    }
+}
+
+#[test]
+fn a_pipeline_that_multiplies_such_a_texel_by_0_is_caught() {
+    let [bench, ..] = benches();
+    let zero = bench.texture.with_floats(4, |_, _, _| 0.0);
+    let weights = bench.scene(with_texel(&zero, bench.at, 1.0));
+    let queries = bench.queries(&weights);
+    let weights = answers(&weights, &queries);
+    let plain = answers(&bench.scene(with_texel(&bench.texture, bench.at, 7.0)), &queries);
+    let mut scene = bench.scene(with_texel(&bench.texture, bench.at, f32::NAN));
+    scene.nonfinite_texels = vec![0];
+    let odd = answers(&scene, &queries);
+    assert!(bench.complaints(&weights, &odd, &plain).len() > 10);
+    // And a texel beside the one that is meant.
+    let [x, y] = bench.at;
+    let beside = answers(&bench.scene(with_texel(&bench.texture, [x + 1, y], f32::NAN)), &queries);
+    assert!(bench.complaints(&weights, &beside, &plain).len() > 100);
+}
+
+/// Footprints of two texels and more read coarser levels, which are means over the other texels.
+#[test]
+fn coarser_levels_do_not_read_texels_that_are_no_numbers() {
+    let specs = [Filter::Linear, Filter::Anisotropic].map(|min| SamplerSpec {
+        min,
+        mip: moire::texture::sampler_spec::MipMode::Linear,
+        ..Default::default()
+    });
+    let texture = with_texel(&solid(Dimension::Two, [16, 16, 1], TexelFormat::RgbaFloat), [5, 5], f32::NAN);
+    let scene = pairs_of(Footprint::Differentials, vec![texture], &specs, &[(0, 0), (0, 1)]);
+    let mut dice = Dice::new(72);
+    let wide = |n: f32| n / 16.0;
+    let queries: Vec<LookUp> = (0..400)
+        .map(|i| {
+            let n = [2.0, 4.0, 3.0, 100.0, f32::INFINITY][i % 5];
+            let uv = [dice.unit() as f32, dice.unit() as f32, 0.0, 0.0];
+            let (dx, dy) = ([wide(n), 0.0, 0.0, 0.0], [0.0, wide(n), 0.0, 0.0]);
+            LookUp { sampler: i as u32 % 2, uv, dx, dy, ..query(&scene, 0, [0.0; 2]) }
+        })
+        .collect();
+    for (query, answer) in queries.iter().zip(answers(&scene, &queries)) {
+        assert!(answer.iter().all(|v| v.is_finite()), "{answer:?} at {query:?}");
+    }
+}
