@@ -2,7 +2,9 @@
 //! was left out. `FEATURES` is the one table; every constant of `features.glsl` stands in it or
 //! among the places and sizes that [`constants`] adds.
 
-use crate::layout::{self, NO_MATERIAL, NO_TEXTURE};
+mod needs;
+
+use crate::layout::{NO_MATERIAL, NO_TEXTURE};
 use crate::named::named_enum;
 use crate::pack::{
     Choice, EntityKind, LightKind, MapKind, PackedScene, ProjectionKind, Schedule, Sections, SlotCounts,
@@ -13,6 +15,12 @@ use crate::shaders::Shader;
 use crate::texture::data::{ColorSpace, TexelFormat};
 use crate::texture::procedural::ProceduralKind;
 use crate::texture::sampler_spec::{Address, Filter, Method, MipMode, TexelCenter};
+
+pub use needs::bounces;
+use needs::{
+    bit, bits, casts_shadows, chooses, compensates, cone_shapes, counted_samples, filters,
+    filters_procedurals, reliefs, rotates, size_kind, stored, unrolled, warps,
+};
 
 named_enum! {
     /// Where the shader finds its texels.
@@ -122,6 +130,7 @@ const FEATURES: &[(&str, &str, Narrow)] = &[
     ("MOVING_CAMERA", "motion of the camera", Switch(|s| s.header.chances[2] != 0)),
     ("SCHEDULES", "schedule", Modes(Schedule::NAMES, |s| bit(s.schedule as u32))),
     ("PIXEL_FILTERS", "pixel filter", Modes(PixelFilterKind::NAMES, |s| bit(s.header.pixel_filter[0]))),
+    ("GUARDED", "counters of what goes beyond a limit", Switch(|s| s.guarded)),
     ("SURVEYED", "triangles by cells of the picture", Switch(PackedScene::surveyed)),
     ("WARPED", "samples beyond their pixels", Switch(warps)),
 ];
@@ -179,6 +188,13 @@ impl Features {
         ];
         features.left_out.extend(unused.iter().filter(|(_, unused)| *unused).map(|(text, _)| (*text).into()));
         features
+    }
+}
+
+impl Features {
+    /// Whether the code of a switch is there.
+    pub fn has(&self, name: &str) -> bool {
+        self.values.iter().any(|(other, value)| *other == name && *value != 0)
     }
 }
 
@@ -243,91 +259,4 @@ pub fn names() -> impl Iterator<Item = &'static str> {
 /// The widest value of each constant, as `features.glsl` has it for its default.
 pub fn widest() -> impl Iterator<Item = (&'static str, u32)> {
     FEATURES.iter().map(|&(name, _, narrow)| (name, everything(narrow)))
-}
-
-fn bit(mode: u32) -> u32 {
-    1 << mode
-}
-
-fn bits(modes: impl Iterator<Item = u32>) -> u32 {
-    modes.fold(0, |mask, mode| mask | bit(mode))
-}
-
-/// The number of samples, where positions depend on it: pipelines without it serve any number.
-fn counted_samples(scene: &PackedScene) -> u32 {
-    let [pattern, _, samples, _] = scene.header.sampling;
-    if Pattern::ALL[pattern as usize].goes_on() { 0 } else { samples }
-}
-
-/// Shapes that a cone can touch, up to those that it keeps.
-fn cone_shapes(scene: &PackedScene) -> u32 {
-    // Of `pieces.glsl`.
-    const MOST_PIECES: usize = 8;
-    let shapes = scene.planes.len() + scene.spheres.len() + scene.triangles.len();
-    if shapes < MOST_PIECES { shapes.max(1) as u32 } else { DYNAMIC }
-}
-
-fn unrolled(count: usize) -> u32 {
-    if count <= UNROLL { count as u32 } else { DYNAMIC }
-}
-
-fn rotates(map: &layout::Map) -> bool {
-    map.matrix[1] != 0.0 || map.matrix[2] != 0.0
-}
-
-fn size_kind(texture: &layout::Texture) -> u32 {
-    let [_, width, height, _] = texture.place;
-    let power = width.is_power_of_two() && height.is_power_of_two();
-    if power { TextureSize::PowerOfTwo as u32 } else { TextureSize::Any as u32 }
-}
-
-/// Textures that are texels.
-fn stored(scene: &PackedScene) -> impl Iterator<Item = &layout::Texture> {
-    scene.textures.iter().filter(|t| t.link[3] != TextureKind::Procedural as u32)
-}
-
-/// Jobs sum in chunks of their own.
-fn compensates(scene: &PackedScene) -> bool {
-    scene.samples > scene.chunk && scene.schedule == Schedule::Tiles
-}
-
-/// A box of one pixel leaves samples where they are.
-fn warps(scene: &PackedScene) -> bool {
-    let [kind, radius, _, _] = scene.header.pixel_filter;
-    kind != PixelFilterKind::Box as u32 || f32::from_bits(radius) != 0.5
-}
-
-fn has_model(scene: &PackedScene, model: Model) -> bool {
-    scene.materials.iter().any(|m| m.link[0] == model as u32)
-}
-
-/// Without a footprint, look-ups of procedural textures pass one of zero.
-fn filters_procedurals(scene: &PackedScene) -> bool {
-    !scene.procedurals.is_empty() && scene.prefilters()
-}
-
-/// Mirrors and glass, if their rays may go on.
-pub fn bounces(scene: &PackedScene) -> bool {
-    scene.header.size[3] > 0 && (has_model(scene, Model::Mirror) || has_model(scene, Model::Dielectric))
-}
-
-/// Whether anything but the sample's position is left to chance.
-fn chooses(scene: &PackedScene) -> bool {
-    has_model(scene, Model::Dielectric) || filters(scene) & bit(Filter::Stochastic as u32) != 0
-}
-
-fn filters(scene: &PackedScene) -> u32 {
-    bits(scene.samplers.iter().flat_map(|s| [s.modes[2], s.link[1]]))
-}
-
-fn reliefs(scene: &PackedScene) -> u32 {
-    bits(scene.materials.iter().filter(|m| m.detail[0] != NO_TEXTURE).map(|m| m.detail[3]))
-}
-
-/// A lone flat shape cannot lie between itself and a light.
-fn casts_shadows(scene: &PackedScene) -> bool {
-    let flat = scene.planes.len() + scene.triangles.len();
-    let alone = scene.spheres.is_empty() && flat <= 1;
-    let lit = has_model(scene, Model::Lambert) || has_model(scene, Model::Phong);
-    !scene.lights.is_empty() && lit && !alone
 }

@@ -13,6 +13,7 @@ const vec2 MIDDLE = vec2(8388608.0); // of a pixel, in units of 2^-24
 void main() {
     Header header = load_header();
     hold_scene();
+    clear_notices();
     uvec2 place = film_pixel();
     if (!in_film(header, place)) return;
     uvec2 pixel = picture_pixel(header, place);
@@ -20,6 +21,7 @@ void main() {
     uint at = film_index(header, place);
     film[at] = trace_cone(header, ray, camera_beam(header, ray));
     if (COMPENSATED) film[at + header.size.x * slice.band_height] = vec4(0.0);
+    report_notices();
 }
 
 #endif

@@ -47,6 +47,7 @@ float largest(vec3 v) {
 
 void send(Branch branch) {
     if (waiting_count == MOST_WAITING) {
+        notice(GUARD_PIECES, true);
         dropped += largest(branch.weight);
         return;
     }
@@ -178,6 +179,7 @@ vec4 trace_cone(Header header, Ray ray, Beam beam) {
         float replaced = rest.share * (1.0 - clear);
         float norm = 1.0 + replaced / max(1.0 - rest.share, LEAST_SHARE);
         dropped += largest(branch.weight) * replaced;
+        notice(GUARD_PIECES, replaced > 0.0);
         rest.share -= replaced;
         // An environment is one part more, behind all pieces.
         bool surrounded = ENVIRONMENT && header.counts.w != NO_MATERIAL;

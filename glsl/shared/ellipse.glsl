@@ -25,6 +25,7 @@ float ellipse_weight(float squared) {
 vec4 ellipse(Texture image, Sampler how, uint slot, Coordinate c, Spread spread) {
     float most = float(how.link.w);
     float minor = max(spread.minor, spread.major / (most * most));
+    notice(GUARD_ANISOTROPY, minor > spread.minor);
     int index = clamp(int(floor(0.5 * log2_accurate(max(minor, 1e-30)) + ELLIPSE_LEVEL)), 0, int(image.link.y) - 1);
     Level level = level_at(image, index);
     vec2 size = vec2(level.size.xy);
@@ -38,6 +39,7 @@ vec4 ellipse(Texture image, Sampler how, uint slot, Coordinate c, Spread spread)
     float widen = gap > 0.0 ? (minor - spread.minor) / gap : 0.0;
     m += widen * (vec3(spread.major * scale, 0.0, spread.major * scale) - m);
     // On the last level there is nothing wider to see.
+    notice(GUARD_LEVELS, m.x + m.z > 16.0 * most * most);
     m *= min(1.0, 16.0 * most * most / max(m.x + m.z, 1e-30));
     // Where one side of the texture is far longer, levels shrink along that one alone.
     m *= min(1.0, MOST_ELLIPSE * inversesqrt(max(m.x * m.z - m.y * m.y, 1.0)));

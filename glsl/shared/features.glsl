@@ -63,6 +63,7 @@ layout(constant_id = 77) const bool SURVEYED = true;    // triangles are listed 
 layout(constant_id = 67) const bool WARPED = true;      // a pixel filter that is not the pixel's own square
 layout(constant_id = 80) const uint CONE_SHAPES = DYNAMIC; // of the scene, where a cone can hold all
 
+layout(constant_id = 81) const bool GUARDED = true;     // counts what goes beyond a limit
 layout(constant_id = 70) const uint CHOICES = 0xFu; // what samples choose beside their place in the pixel
 layout(constant_id = 71) const uint MOTIONS = DYNAMIC;     // as many as shapes where some move, else none
 layout(constant_id = 72) const bool MOVING_CAMERA = true;

@@ -7,6 +7,7 @@
 #define FOOTPRINT_GLSL
 
 #include "camera.glsl"
+#include "guards.glsl"
 #include "math.glsl"
 
 const bool FILTERED = FOOTPRINTS != (1u << FOOTPRINT_NONE);
@@ -87,6 +88,7 @@ Footprint footprint_at(Header header, Beam beam, Ray ray, real distance, real3 n
     float facing = float(dot3(normal, ray.direction));
     float squared = dot3(direction, direction);
     float least = sqrt(squared) / MAX_STRETCH;
+    notice(GUARD_GRAZING, abs(facing) < least);
     facing = abs(facing) < least ? (facing < 0.0 ? -least : least) : facing;
     if (DIFFERENTIALS && (!CONES || !uses_cones(header))) {
         vec3 x = beam.origin_x + t * beam.direction_x;

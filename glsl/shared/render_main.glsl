@@ -51,6 +51,7 @@ const uint BLOCK = 32u;
 void main() {
     Header header = load_header();
     hold_scene();
+    clear_notices();
     bool is_job = MODE_IS(SCHEDULES, SCHEDULE_JOBS, slice.schedule);
     Task task;
     if (is_job) task = job_task(header);
@@ -114,6 +115,7 @@ void main() {
                 path = camera_path(ray, camera_beam(camera, ray), random, list);
             }
             vec3 more = advance(header, points, choices, path);
+            notice(GUARD_RADIANCE, no_number(more));
             if (SIGNED) more *= sign;
             part += more;
             if (is_job) {
@@ -130,6 +132,8 @@ void main() {
         lost = (total - sum) - term;
         sum = total;
     } while (BLOCKS && s < task.end);
+
+    report_notices();
 
     uint at = film_index(header, task.place);
     uint pixels = header.size.x * slice.band_height;

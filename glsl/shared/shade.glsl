@@ -234,6 +234,7 @@ vec3 advance(Header header, Points points, Choices choices, inout Path path) {
     }
     path.skip = hit.shape;
     path.list = NO_LIST;
+    notice(GUARD_DEPTH, goes_on && path.depth >= header.size.w);
     path.goes_on = goes_on && path.depth < header.size.w;
     path.depth++;
     if (BOUNCES) path.random = pcg2d(path.random);

@@ -61,6 +61,10 @@ pub struct RenderArgs {
     /// Bits per channel of PNG files
     #[arg(long, value_name = "BITS", default_value = "8", value_parser = ["8", "16"])]
     png_bits: String,
+    /// Count on the device what goes beyond a limit: coordinates that are no numbers, levels, footprints, depth;
+    /// -v counts too
+    #[arg(long)]
+    guards: bool,
     /// Print one JSON object on stdout
     #[arg(long)]
     json: bool,
@@ -99,6 +103,7 @@ pub fn run(args: &RenderArgs) -> Result<ExitCode> {
         render_on_device(args, &scene, &select, &bar, start)?
     };
     ran.report.left_out.extend(dropped);
+    ran.dropped_triangles = scene.dropped_triangles;
     ran.report.warnings.splice(..0, advice::of_scene(&scene));
     bar.finish();
 
@@ -126,7 +131,7 @@ fn render_on_device(
     bar: &Bar,
     start: Instant,
 ) -> Result<Ran> {
-    let (gpu, packed, startup, load) = std::thread::scope(|scope| {
+    let (gpu, mut packed, startup, load) = std::thread::scope(|scope| {
         let (tell, told) = mpsc::channel();
         let loading = scope.spawn(move || {
             let packed = load(scene, args, || told.recv().unwrap_or_default());
@@ -142,6 +147,7 @@ fn render_on_device(
         packed.and_then(|packed| Ok((gpu?, packed, startup, load)))
     })?;
     let nonfinite = say_textures(args, &packed);
+    packed.guarded = args.guards || args.verbose;
     let tuning = Tuning { texels: args.texels, group: args.workgroup };
     let (film, mut report) =
         render::render_to_goal(&gpu, packed, args.keep_everything, &tuning, args.overrides.goal(), bar)?;
@@ -152,7 +158,14 @@ fn render_on_device(
     for message in gpu.messages() {
         super::tell(format_args!("validation: {message}"));
     }
-    Ok(Ran { device: gpu.info().name.clone(), driver: gpu.info().driver.clone(), film, report, nonfinite })
+    Ok(Ran {
+        device: gpu.info().name.clone(),
+        driver: gpu.info().driver.clone(),
+        film,
+        report,
+        nonfinite,
+        dropped_triangles: 0,
+    })
 }
 
 fn render_on_oracle(args: &RenderArgs, scene: &Scene, bar: &Bar, start: Instant) -> Result<Ran> {
@@ -177,7 +190,7 @@ fn render_on_oracle(args: &RenderArgs, scene: &Scene, bar: &Bar, start: Instant)
     };
     report.seconds.render = clock.elapsed().as_secs_f64();
     let driver = format!("moire {} in float64", env!("CARGO_PKG_VERSION"));
-    Ok(Ran { device: "oracle".into(), driver, film, report, nonfinite })
+    Ok(Ran { device: "oracle".into(), driver, film, report, nonfinite, dropped_triangles: 0 })
 }
 
 /// `pyramids` says who makes those, and may wait for a device to be known.

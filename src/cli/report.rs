@@ -6,6 +6,7 @@ use serde_json::{Map, Value, json};
 
 use super::tell;
 use crate::film::Film;
+use crate::pack::Guard;
 use crate::render::Report;
 
 /// What a render ran on, and what came of it.
@@ -16,6 +17,8 @@ pub struct Ran {
     pub report: Report,
     /// Texels that are not finite, by texture, where those are let in.
     pub nonfinite: Option<Vec<(String, u64)>>,
+    /// Triangles without area, which no ray meets.
+    pub dropped_triangles: usize,
 }
 
 fn nonfinite_pixels(film: &Film) -> usize {
@@ -41,6 +44,10 @@ pub fn json(ran: &Ran, options: Value, outputs: &[String]) -> Value {
         "reached": ran.report.outcome,
         "sampled_pixels": ran.report.sampled_pixels,
         "dropped": ran.report.dropped,
+        "dropped_triangles": ran.dropped_triangles,
+        "guards": ran.report.guards.as_ref().map(|counts| {
+            counts.iter().map(|(guard, count)| (guard.name().to_owned(), json!(count))).collect::<Map<_, _>>()
+        }),
         "outputs": outputs,
         "seconds": ran.report.seconds,
         "device_seconds": device_seconds(&ran.report),
@@ -54,6 +61,19 @@ pub fn json(ran: &Ran, options: Value, outputs: &[String]) -> Value {
         all["nonfinite"] = json!({ "texels": texels, "pixels": nonfinite_pixels(&ran.film) });
     }
     all
+}
+
+/// What is counted, in words.
+fn said(guard: Guard) -> &'static str {
+    match guard {
+        Guard::Coordinates => "look-ups at coordinates that are no numbers, read at 0",
+        Guard::Levels => "look-ups over more than a texel of the last level",
+        Guard::Anisotropy => "look-ups over footprints longer than max_anisotropy widths, blurred",
+        Guard::Grazing => "footprints of rays that graze a surface, cut off at 65536 times their width",
+        Guard::Depth => "paths at max_depth, ended in black",
+        Guard::Pieces => "cones for which there was no room",
+        Guard::Radiance => "samples whose radiance is no number",
+    }
 }
 
 pub fn say(ran: &Ran, outputs: &[String], verbose: bool) {
@@ -72,6 +92,9 @@ pub fn say(ran: &Ran, outputs: &[String], verbose: bool) {
         tell("left out:");
         for line in &report.left_out {
             tell(format_args!("  {line}"));
+        }
+        for (guard, count) in report.guards.iter().flatten().filter(|(_, count)| *count > 0) {
+            tell(format_args!("beyond a limit: {count} {}", said(*guard)));
         }
         tell(format_args!(
             "seconds: startup {:.3}, load {:.3}, compile {:.3}, upload {:.3}, render {:.3}, readback {:.3}, write {:.3}",

@@ -73,6 +73,26 @@ named_enum! {
 }
 
 named_enum! {
+    /// `GUARD_*` of the shader: what is counted where it goes beyond a limit.
+    pub enum Guard {
+        /// Look-ups at coordinates that are no numbers.
+        Coordinates = "coordinates",
+        /// Look-ups that wanted a level beyond the texture's last.
+        Levels = "levels",
+        /// Look-ups whose footprint is longer, over its width, than the sampler follows.
+        Anisotropy = "anisotropy",
+        /// Footprints of rays that graze a surface, cut off.
+        Grazing = "grazing",
+        /// Paths that ended in black at the greatest depth.
+        Depth = "depth",
+        /// Cones for which there was no room.
+        Pieces = "pieces",
+        /// Samples whose radiance is no number.
+        Radiance = "radiance",
+    }
+}
+
+named_enum! {
     /// `SCHEDULE_*` of the shader: how samples are handed out to threads.
     #[derive(Default)]
     pub enum Schedule {

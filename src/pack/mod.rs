@@ -33,7 +33,7 @@ use pixel_filter::Warp;
 
 pub use header::camera_basis;
 use header::header;
-pub use kinds::{Choice, EntityKind, LightKind, MapKind, ProjectionKind, Schedule, TextureKind};
+pub use kinds::{Choice, EntityKind, Guard, LightKind, MapKind, ProjectionKind, Schedule, TextureKind};
 pub use pixel_filter::{divisor, kernel};
 pub use procedural::procedural;
 pub use pyramids::{Pyramids, reads_levels};
@@ -100,6 +100,8 @@ pub struct PackedScene {
     pub row_sums: Vec<u32>,
     /// What those sums are made from, where beams may still be wanted.
     pub beam_textures: Option<Arc<Vec<TextureData>>>,
+    /// Whether a device counts what goes beyond a limit.
+    pub guarded: bool,
     /// The table by which samples are placed about their pixel; empty where there is a closed form.
     pub pixel_filter: Vec<f32>,
     /// Mean of the samples' signs, where the pixel filter has negative lobes.

@@ -3,6 +3,7 @@
 
 mod beams;
 mod film_buffer;
+mod guards;
 mod images;
 mod jobs;
 mod pool;
@@ -63,6 +64,8 @@ pub struct Report {
     pub sampled_pixels: Option<u64>,
     /// Of cones: weight of what none was traced for, or no room was kept, over that of the whole picture.
     pub dropped: Option<f64>,
+    /// How often what went beyond a limit, where that is counted.
+    pub guards: Option<guards::Counts>,
     /// Device timestamps around the slices, summed.
     pub device_render_seconds: f64,
     /// The same around the passes that make levels of textures, if there were any.

@@ -3,6 +3,7 @@
 
 use std::cell::OnceCell;
 
+use super::guards::Guards;
 use super::images::Uploads;
 use super::pool;
 use super::pyramids::Maker;
@@ -48,6 +49,8 @@ pub const CUBES: u32 = 8;
 const ROW_SUMS: u32 = 9;
 /// Binding of the survey's lists.
 const SURVEY: u32 = 10;
+/// Binding of the counters of what goes beyond a limit.
+const GUARDS: u32 = 11;
 
 pub struct Resources {
     pub sections: Sections,
@@ -59,6 +62,8 @@ pub struct Resources {
     row_sums: OnceCell<Buffer>,
     /// Once there are any lists of triangles.
     pub survey: OnceCell<Buffer>,
+    /// Where the pipelines count.
+    pub guards: Option<Guards>,
     images: Vec<(Image, Sampler)>,
     volumes: Vec<(Image, Sampler)>,
     cubes: Vec<(Image, Sampler)>,
@@ -95,6 +100,7 @@ impl Resources {
             texels,
             row_sums,
             survey: OnceCell::new(),
+            guards: features.has("GUARDED").then(|| Guards::new(gpu)).transpose()?,
             images,
             volumes,
             cubes,
@@ -133,6 +139,9 @@ impl Resources {
                 (BindingKind::StorageBuffer, 4) => Bound::Buffer(queries.unwrap_or(&self.scene)),
                 (BindingKind::StorageBuffer, SURVEY) => {
                     Bound::Buffer(self.survey.get().unwrap_or(&self.scene))
+                }
+                (BindingKind::StorageBuffer, GUARDS) => {
+                    Bound::Buffer(self.guards.as_ref().map_or(&self.scene, |guards| &guards.buffer))
                 }
                 (BindingKind::StorageBuffer, _) => Bound::Buffer(&self.scene),
                 (BindingKind::UniformBuffer, _) => Bound::Head(&self.scene, HEAD_BYTES as u64),

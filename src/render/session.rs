@@ -249,6 +249,9 @@ impl Prepared<'_, '_> {
         self.session.write_header(&self.scene.header)?;
         let mut report = self.report.clone();
         let [width, height, _, _] = self.scene.header.size;
+        if let Some(guards) = &self.session.resources.guards {
+            guards.clear(self.session.gpu)?;
+        }
         let clock = Instant::now();
         if let Some(survey) = self.session.survey().filter(|_| self.scene.surveyed()) {
             survey.run(self.session.gpu, &mut report)?;
@@ -290,6 +293,8 @@ impl Prepared<'_, '_> {
             }
         };
         report.seconds.render += surveying;
+        let guards = self.session.resources.guards.as_ref();
+        report.guards = guards.map(|guards| guards.read(self.session.gpu)).transpose()?;
         report.device_bytes = self.session.gpu.memory_in_use();
         Ok((film, report))
     }

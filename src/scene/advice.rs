@@ -8,6 +8,14 @@ use crate::texture::sampler_spec::{Filter, Method, MipMode, SamplerSpec};
 pub fn of_scene(scene: &Scene) -> Vec<String> {
     let mut told = without_effect(scene.sampling.footprint, &scene.samplers);
     let algorithm = scene.sampling.algorithm;
+    match scene.dropped_triangles {
+        0 => {}
+        1 => told.push(format!("a triangle (line {}) has no area and was left out", scene.first_dropped)),
+        count => told.push(format!(
+            "{count} triangles have no area and were left out, the first in line {}",
+            scene.first_dropped
+        )),
+    }
     if algorithm == Algorithm::Beam && !scene.suits_beams() {
         told.push(
             "one beam a pixel takes all rays of a square alike, from one place at one time: with another pixel \

@@ -105,8 +105,11 @@ fn assemble(path: &Path, root: &Table<'_>) -> Result<Scene> {
         Ok(plane)
     })?;
     let spheres = each(root.repeated("sphere", shapes::SPHERE)?, |table| shapes::sphere(table, &index))?;
-    let triangles =
-        each(root.repeated("triangle", shapes::TRIANGLE)?, |table| shapes::triangle(table, &index))?;
+    let tables = root.repeated("triangle", shapes::TRIANGLE)?;
+    let read = tables.iter().map(|table| shapes::triangle(table, &index)).collect::<Result<Vec<_>>>()?;
+    let first_dropped = read.iter().position(Option::is_none).map_or(0, |i| tables[i].line());
+    let triangles: Vec<Triangle> = read.into_iter().flatten().collect();
+    let dropped_triangles = tables.len() - triangles.len();
     let lights = each(root.repeated("light", shapes::LIGHT)?, shapes::light)?;
 
     let used = planes.iter().map(|plane: &Plane| plane.material);
@@ -130,6 +133,8 @@ fn assemble(path: &Path, root: &Table<'_>) -> Result<Scene> {
         planes,
         spheres,
         triangles,
+        dropped_triangles,
+        first_dropped,
         lights,
     };
     check_filters(&scene)?;

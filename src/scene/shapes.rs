@@ -72,14 +72,11 @@ pub(super) fn sphere(table: &Table<'_>, materials: &MaterialIndex<'_, '_>) -> Re
     Ok(Sphere { center, radius, material: materials.of(table)?, motion: motion(table)? })
 }
 
-pub(super) fn triangle(table: &Table<'_>, materials: &MaterialIndex<'_, '_>) -> Result<Triangle> {
+/// None where the vertices lie on one line: meshes have such triangles, and no ray meets them.
+pub(super) fn triangle(table: &Table<'_>, materials: &MaterialIndex<'_, '_>) -> Result<Option<Triangle>> {
     let field = table.required("vertices")?;
     let vertices =
         field.array("3 vertices of 3 finite numbers each", [DVec3::ZERO; 3], |f| f.vec3(&COORDINATE))?;
-    if collinear(vertices) {
-        let what = "the vertices lie on one line, so the triangle has no area; move or remove it";
-        return Err(field.error(what, "no area"));
-    }
     let mut uvs = [DVec2::ZERO, DVec2::X, DVec2::Y];
     if let Some(field) = table.get("uvs") {
         let wanted = "3 texture coordinates of 2 finite numbers each";
@@ -89,7 +86,9 @@ pub(super) fn triangle(table: &Table<'_>, materials: &MaterialIndex<'_, '_>) -> 
         .get("normals")
         .map(|field| field.array("3 normals of 3 finite numbers each", [DVec3::Z; 3], Field::direction))
         .transpose()?;
-    Ok(Triangle { vertices, uvs, normals, material: materials.of(table)?, motion: motion(table)? })
+    let triangle =
+        Triangle { vertices, uvs, normals, material: materials.of(table)?, motion: motion(table)? };
+    Ok((!collinear(vertices)).then_some(triangle))
 }
 
 /// Without an extent a sphere is a point, and a sun the directional light.

@@ -112,6 +112,11 @@ impl<'a> Table<'a> {
         })
     }
 
+    /// Of its first character.
+    pub fn line(&self) -> usize {
+        self.source.line_column(self.span.start).0
+    }
+
     pub fn error(&self, what: &str, label: impl Into<String>) -> Error {
         self.source.error(self.span.clone(), what, label)
     }

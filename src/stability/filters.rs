@@ -35,7 +35,7 @@ pub fn cases() -> Vec<Case> {
     vec![
         sweep("trilinear", 2e-6, levels, |bench| widths(bench, Filter::Linear, Filter::Linear)),
         sweep(
-            "cubic and trilinear",
+            "cubic-and-trilinear",
             4e-6,
             "as trilinear; cubic weights round, and overshoot by 1.6",
             |bench| widths(bench, Filter::Cubic, Filter::Cubic),
@@ -54,7 +54,7 @@ pub fn cases() -> Vec<Case> {
             |bench| widths(bench, Filter::Linear, Filter::Ewa),
         ),
         sweep(
-            "sums over areas",
+            "sums-over-areas",
             2e-5,
             "the four sides of a box of at least a texel round to 2^-24 of 64 texels, 4e-6 each",
             areas,
@@ -78,7 +78,7 @@ pub fn cases() -> Vec<Case> {
         },
         Case {
             group: "footprints",
-            name: "normal incidence",
+            name: "normal-incidence",
             parameter: "angle between the view and the normal, in radians",
             unit: OF_RANGE,
             bound: 2e-4,
@@ -96,7 +96,7 @@ pub fn cases() -> Vec<Case> {
         },
         Case {
             group: "footprints",
-            name: "no numbers",
+            name: "no-numbers",
             parameter: "number of the pair of axes",
             unit: "distance from the mean of the texels, of the range",
             bound: 1e-5,

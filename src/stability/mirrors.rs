@@ -34,7 +34,7 @@ pub fn cases() -> Vec<Case> {
         case(
             "place",
             2e-3,
-            "each of 64 bounces starts up to 256 ulps of 6e-8 off the mirror, 1.5e-5 of the way, and the ramp \
+            "each of 64 bounces starts 2^-18 of the largest coordinate off the mirror, 4e-6 of the way, and the ramp \
              rises by 2 over the way",
             place,
         ),

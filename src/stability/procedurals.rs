@@ -16,7 +16,7 @@ pub fn cases() -> Vec<Case> {
     vec![
         Case {
             group: "procedurals",
-            name: "checker far away",
+            name: "checker-far-away",
             parameter: "distance from the origin in cells",
             unit: "difference of the two colours",
             bound: 1.5e-4,
@@ -26,7 +26,7 @@ pub fn cases() -> Vec<Case> {
         },
         Case {
             group: "procedurals",
-            name: "checker over boxes",
+            name: "checker-over-boxes",
             parameter: "side of the box in cells",
             unit: "rounding (2^-24) of a cell, over the side of the box",
             bound: 8.0,
@@ -35,7 +35,7 @@ pub fn cases() -> Vec<Case> {
         },
         Case {
             group: "procedurals",
-            name: "all patterns over wide footprints",
+            name: "all-patterns-over-wide-footprints",
             parameter: "side of the box in cells",
             unit: "difference of the two colours",
             bound: 1e-4,
@@ -45,7 +45,7 @@ pub fn cases() -> Vec<Case> {
         },
         Case {
             group: "procedurals",
-            name: "all patterns anywhere",
+            name: "all-patterns-anywhere",
             parameter: "distance from the origin in cells",
             unit: "distance from the range of the two colours",
             bound: 1e-6,

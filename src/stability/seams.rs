@@ -17,7 +17,7 @@ pub fn cases() -> Vec<Case> {
     vec![
         Case {
             group: "seams",
-            name: "cube edges and corners",
+            name: "cube-edges-and-corners",
             parameter: "gap between two directions",
             unit: step,
             bound: 2e-6,
@@ -27,7 +27,7 @@ pub fn cases() -> Vec<Case> {
         },
         Case {
             group: "seams",
-            name: "ties of cube faces",
+            name: "ties-of-cube-faces",
             parameter: "length of the direction",
             unit: "directions on another face than z before y before x",
             bound: 0.0,
@@ -36,7 +36,7 @@ pub fn cases() -> Vec<Case> {
         },
         Case {
             group: "seams",
-            name: "levels of a cube",
+            name: "levels-of-a-cube",
             parameter: "length of the direction",
             unit: "range of the texels",
             bound: 1e-5,
@@ -45,7 +45,7 @@ pub fn cases() -> Vec<Case> {
         },
         Case {
             group: "seams",
-            name: "poles and date line",
+            name: "poles-and-date-line",
             parameter: "gap between two places, of the map",
             unit: step,
             bound: 4e-6,

@@ -25,7 +25,7 @@ pub fn cases() -> Vec<Case> {
         },
         Case {
             group: "texels",
-            name: "opposite extremes",
+            name: "opposite-extremes",
             parameter: "size of neighbouring texels of either sign",
             unit: "roundings (2^-24) of a texel",
             bound: 4.0,
@@ -45,7 +45,7 @@ pub fn cases() -> Vec<Case> {
         },
         Case {
             group: "texels",
-            name: "one bright texel, coarsest level",
+            name: "one-bright-texel-coarsest-level",
             parameter: "its value; all others are 1",
             unit: "roundings (2^-24) of the mean",
             bound: 16.0,
@@ -54,7 +54,7 @@ pub fn cases() -> Vec<Case> {
         },
         Case {
             group: "texels",
-            name: "one bright texel, sums over areas",
+            name: "one-bright-texel-sums-over-areas",
             parameter: "its value; all others are 1",
             unit: "parts (2^-24) of the range",
             bound: 64.0,
@@ -64,7 +64,7 @@ pub fn cases() -> Vec<Case> {
         },
         Case {
             group: "texels",
-            name: "one texel that is no number",
+            name: "one-texel-that-is-no-number",
             parameter: "texels along a side",
             unit: "look-ups that are no numbers without reading it, or numbers where they do",
             bound: 0.0,

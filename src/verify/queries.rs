@@ -172,6 +172,8 @@ pub fn pairs_over(
         planes: Vec::new(),
         spheres: Vec::new(),
         triangles: Vec::new(),
+        dropped_triangles: 0,
+        first_dropped: 0,
         lights: Vec::new(),
     };
     pack::pack(&scene, textures, None)

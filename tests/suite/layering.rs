@@ -15,7 +15,7 @@ const FORBIDDEN: &[(&[&str], &[&str])] = &[
     (&["oracle"], &["gpu", "render", "probe", "shaders", "verify", "study", "cli", "output"]),
     (&["pattern"], &["gpu", "render", "probe", "shaders", "verify", "study", "cli", "output", "metrics"]),
     (&["verify"], &["render", "shaders", "features", "study", "cli", "output", "metrics"]),
-    (&["stability"], &["shaders", "cli", "verify"]),
+    (&["stability"], &["shaders", "cli"]),
     (&["plot"], &["gpu", "render", "oracle", "verify", "study", "stability", "cli", "output"]),
     (&["study"], &["probe", "shaders", "features", "layout", "verify", "cli"]),
     (

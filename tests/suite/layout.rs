@@ -7,7 +7,7 @@ use std::fs;
 
 use moire::features::TextureSize;
 use moire::layout::{self as mirror, Record};
-use moire::pack::{Choice, EntityKind, LightKind, MapKind, ProjectionKind, Schedule, TextureKind};
+use moire::pack::{Choice, EntityKind, Guard, LightKind, MapKind, ProjectionKind, Schedule, TextureKind};
 use moire::scene::model::{Footprint, Model, Pattern, PixelFilterKind, ReliefKind};
 use moire::shaders::{self, Shader};
 use moire::texture::data::{ColorSpace, TexelFormat};
@@ -75,7 +75,8 @@ fn glsl_numbers(text: &str) -> BTreeMap<String, u32> {
 
 /// Every number that layout.glsl must define, and no other: modes, and strides in units of 16 bytes.
 fn expected_numbers() -> BTreeMap<String, u32> {
-    let tables: [(&str, &[&str]); 21] = [
+    let tables: [(&str, &[&str]); 22] = [
+        ("GUARD", Guard::NAMES),
         ("PROJECTION", ProjectionKind::NAMES),
         ("PATTERN", Pattern::NAMES),
         ("SCHEDULE", Schedule::NAMES),
@@ -107,6 +108,7 @@ fn expected_numbers() -> BTreeMap<String, u32> {
         .collect();
     all.insert("NO_TEXTURE".into(), mirror::NO_TEXTURE);
     all.insert("NO_SHAPE".into(), mirror::NO_SHAPE);
+    all.insert("GUARDS".into(), Guard::ALL.len() as u32);
     all.insert("JOB_BARE".into(), mirror::JOB_BARE);
     all.insert("CELL_WORDS".into(), mirror::CELL_WORDS);
     all.insert("MOST_LISTED".into(), mirror::MOST_LISTED);

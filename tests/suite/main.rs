@@ -16,11 +16,13 @@ mod decode_errors;
 mod device;
 mod device_shaders;
 mod dimensions;
+mod double;
 mod error;
 mod extremes;
 mod flip;
 mod footprints;
 mod golden;
+mod guards;
 #[cfg(unix)]
 mod interrupt;
 mod layering;

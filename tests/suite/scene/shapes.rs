@@ -58,13 +58,6 @@ fn shape_rules() {
             triangle("[[0, 0, 0], [1, 0, 0], [0, nan, 0]]", ""),
             &[":10:39:", "vertices[2]", "nan"],
         ),
-        (
-            "same vertices",
-            triangle("[[0, 0, 0], [1, 0, 0], [1, 0, 0]]", ""),
-            &["triangle.vertices", "no area"],
-        ),
-        ("one point", triangle("[[1, 1, 1], [1, 1, 1], [1, 1, 1]]", ""), &["triangle.vertices", "no area"]),
-        ("line", triangle("[[0.1, 0.1, 0.1], [0.2, 0.2, 0.2], [0.3, 0.3, 0.3]]", ""), &["one line"]),
         ("uvs of two", triangle(good, "uvs = [[0, 0], [1, 0]]"), &["triangle.uvs", "3 texture coordinates"]),
         (
             "uv inf",
@@ -140,4 +133,28 @@ fn too_many_shapes_or_textures_are_refused_at_the_first_one_over() {
     };
     assert!(parse(Path::new(PATH), &textures(1024)).is_ok());
     check(&[("textures", &textures(1025), &[":3081:1:", "1025 textures", "1024 at most"])]);
+}
+
+#[test]
+fn triangles_without_area_are_dropped_with_a_count() {
+    let triangle = |vertices: &str| format!("[[triangle]]\nvertices = {vertices}\n");
+    let flat = [
+        "[[0, 0, 0], [1, 0, 0], [1, 0, 0]]",
+        "[[1, 1, 1], [1, 1, 1], [1, 1, 1]]",
+        "[[0.1, 0.1, 0.1], [0.2, 0.2, 0.2], [0.3, 0.3, 0.3]]",
+    ];
+    let good = triangle("[[0, 0, 0], [1, 0, 0], [0, 1, 0]]");
+    let text = format!("{HEAD}{good}{}{good}", flat.map(triangle).concat());
+    let scene = parse(Path::new(PATH), &text).unwrap();
+    assert_eq!((scene.triangles.len(), scene.dropped_triangles), (2, 3));
+    let first = text.lines().position(|line| line.contains("[1, 0, 0], [1, 0, 0]")).unwrap();
+    // The table's header is the line before.
+    assert_eq!(scene.first_dropped, first);
+    let told = moire::scene::advice::of_scene(&scene);
+    assert!(
+        told.iter().any(|t| t.contains("3 triangles") && t.contains(&format!("line {first}"))),
+        "{told:?}"
+    );
+    let whole = parse(Path::new(PATH), &format!("{HEAD}{good}")).unwrap();
+    assert_eq!(whole.dropped_triangles, 0);
 }

@@ -1,0 +1,74 @@
+//! Faults that were there once, one test each: the cases of the stability report that show them, over part of their
+//! sweep's time.
+
+use moire::progress::Silent;
+use moire::stability::all;
+use moire::stability::case::Bench;
+
+use crate::stage::device;
+
+/// Every point of the case is within its bound.
+fn within(group: &str, name: &str) {
+    let case = all().into_iter().find(|c| (c.group, c.name) == (group, name)).unwrap();
+    let device = device();
+    let points = (case.run)(&Bench { gpu: &device, progress: &Silent }).unwrap();
+    assert!(!points.is_empty());
+    for point in points {
+        assert!(point.error <= case.bound, "{group}/{name}: {point:?}, bound {}", case.bound);
+    }
+}
+
+#[test]
+fn a_texture_that_repeats_a_billion_times_a_unit_is_read_where_it_should_be() {
+    within("coordinates", "scale");
+}
+
+#[test]
+fn axes_a_hundred_millionth_of_a_radian_apart_still_span_their_plane() {
+    within("coordinates", "collinear-axes");
+}
+
+#[test]
+fn rays_nearly_parallel_to_a_plane_meet_it_where_they_should() {
+    within("horizon", "grazing");
+}
+
+#[test]
+fn a_ball_ten_billion_radii_away_keeps_its_outline_and_its_texture() {
+    within("spheres", "distance");
+}
+
+#[test]
+fn a_planet_seen_from_its_surface_keeps_its_horizon() {
+    within("spheres", "horizon");
+}
+
+#[test]
+fn needles_a_million_times_as_long_as_wide_keep_their_edges() {
+    within("triangles", "needles");
+}
+
+#[test]
+fn a_scene_of_any_size_is_lit_and_mirrored_alike() {
+    within("transforms", "scaled");
+}
+
+#[test]
+fn a_lit_ball_of_any_size_has_no_acne() {
+    within("origins", "lit-ball");
+}
+
+#[test]
+fn a_lit_ball_far_away_has_no_acne() {
+    within("origins", "lit-ball-far");
+}
+
+#[test]
+fn no_light_leaks_into_a_closed_box_of_any_size() {
+    within("origins", "closed-box");
+}
+
+#[test]
+fn glass_of_index_1_of_any_size_is_not_there() {
+    within("origins", "glass-ball");
+}
