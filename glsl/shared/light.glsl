@@ -91,7 +91,7 @@ Lit direct_light(Header header, Surface surface, float time, uint shape, vec3 mi
         float squared = float(dot3(way, way));
         float facing = float(dot3(surface.normal, way));
         // Point: cos/r² = n·l / r³ with the unnormalised l. Directional: l is a unit vector.
-        float share = point_light ? facing / (squared * sqrt(squared)) : facing;
+        float share = point_light ? (facing / squared) * inversesqrt(squared) : facing;
         if (AREA_LIGHTS) share *= aim.density;
         bool lit = facing > 0.0 && dot3(surface.geometric_normal, way) > 0.0;
         if (lit) {

@@ -171,7 +171,7 @@ fn render_on_device(
 fn render_on_oracle(args: &RenderArgs, scene: &Scene, bar: &Bar, start: Instant) -> Result<Ran> {
     let packed = load(scene, args, || Pyramids::Host)?;
     let nonfinite = say_textures(args, &packed);
-    let mut report = Report::default();
+    let mut report = Report { double: packed.double, ..Report::default() };
     report.seconds.load = start.elapsed().as_secs_f64();
     let clock = Instant::now();
     let film = if packed.schedule == Schedule::Jobs {

@@ -8,6 +8,7 @@ use super::tell;
 use crate::film::Film;
 use crate::pack::Guard;
 use crate::render::Report;
+use crate::scene::model::Precision;
 
 /// What a render ran on, and what came of it.
 pub struct Ran {
@@ -38,6 +39,7 @@ pub fn json(ran: &Ran, options: Value, outputs: &[String]) -> Value {
         "device": ran.device,
         "driver": ran.driver,
         "options": options,
+        "precision": if ran.report.double { Precision::Double } else { Precision::Single }.name(),
         "left_out": ran.report.left_out,
         "warnings": ran.report.warnings,
         "samples": ran.film.samples,

@@ -283,6 +283,19 @@ impl Scene {
 }
 
 impl PackedScene {
+    /// Without f64 on the device all is of f32, and a person should know.
+    pub fn suit_device(&mut self, float64: bool) -> Option<String> {
+        if !self.double || float64 {
+            return None;
+        }
+        self.round_reals();
+        Some(
+            "the device has no f64 in shaders: geometry is of f32, which misplaces outlines or texels here; \
+             --precision single says that this is meant"
+                .into(),
+        )
+    }
+
     /// The numbers that a device reads as f32.
     pub fn round_reals(&mut self) {
         fn round<R: Record>(list: &mut [R]) {

@@ -64,6 +64,8 @@ pub struct Report {
     pub sampled_pixels: Option<u64>,
     /// Of cones: weight of what none was traced for, or no room was kept, over that of the whole picture.
     pub dropped: Option<f64>,
+    /// Geometry was of f64.
+    pub double: bool,
     /// How often what went beyond a limit, where that is counted.
     pub guards: Option<guards::Counts>,
     /// Device timestamps around the slices, summed.

@@ -32,6 +32,8 @@ pub struct Session<'a> {
     resources: Resources,
     keep_everything: bool,
     tuning: Tuning,
+    /// What the device lacks.
+    warnings: Vec<String>,
     /// What the scene buffer begins with now.
     header: Cell<Header>,
     /// Of a scene of many triangles.
@@ -67,9 +69,7 @@ impl<'a> Session<'a> {
         tuning: &Tuning,
     ) -> Result<Session<'a>> {
         let clock = Instant::now();
-        if !gpu.info().limits.float64 {
-            scene.round_reals();
-        }
+        let warnings = scene.suit_device(gpu.info().limits.float64).into_iter().collect();
         scene.chunk = samples_at_once(gpu.info(), &scene)?;
         let features = features_of(gpu, &scene, keep_everything, tuning);
         let resources = Resources::upload(gpu, &scene, &features)?;
@@ -84,6 +84,7 @@ impl<'a> Session<'a> {
             resources,
             keep_everything,
             tuning: *tuning,
+            warnings,
             header,
             survey,
             films,
@@ -108,6 +109,8 @@ impl<'a> Session<'a> {
         let mut report = Report {
             left_out: features.left_out.clone(),
             device_mips_seconds: self.resources.mips_seconds,
+            double: features.double,
+            warnings: self.warnings.clone(),
             ..Report::default()
         };
         let clock = Instant::now();
