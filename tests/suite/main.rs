@@ -17,6 +17,7 @@ mod device;
 mod device_shaders;
 mod dimensions;
 mod error;
+mod exact;
 mod extremes;
 mod flip;
 mod footprints;
