@@ -18,6 +18,7 @@ mod device_shaders;
 mod dimensions;
 mod double;
 mod error;
+mod exact;
 mod extremes;
 mod flip;
 mod footprints;
