@@ -40,6 +40,8 @@ pub struct Point {
 pub struct Bench<'a> {
     pub gpu: &'a Gpu,
     pub progress: &'a dyn Progress,
+    /// All geometry is of f32, whatever the scene needs: what cases are for has to show then.
+    pub rounded: bool,
 }
 
 impl Case {
@@ -49,7 +51,11 @@ impl Case {
     }
 }
 
-impl Bench<'_> {
+impl<'a> Bench<'a> {
+    pub fn new(gpu: &'a Gpu, progress: &'a dyn Progress) -> Bench<'a> {
+        Bench { gpu, progress, rounded: false }
+    }
+
     /// To be asked between values of the parameter: an interrupted report stops here.
     pub fn go_on(&self) -> Result<()> {
         if self.progress.cancelled() { Err(Error::Interrupted) } else { Ok(()) }

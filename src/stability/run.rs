@@ -27,7 +27,7 @@ pub fn run(gpu: &Gpu, mut cases: Vec<Case>, only: Option<&str>, progress: &dyn P
     for (done, case) in cases.iter().enumerate() {
         let from = done as f64 * share;
         let part = Part { whole: progress, from, to: from + share };
-        let bench = Bench { gpu, progress: &part };
+        let bench = Bench::new(gpu, &part);
         bench.go_on()?;
         let clock = Instant::now();
         let outcome = match (case.run)(&bench) {

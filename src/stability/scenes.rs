@@ -32,7 +32,11 @@ pub fn packed(text: &str, textures: Vec<TextureData>, crop: Option<Crop>) -> Res
 
 pub fn on_device(bench: &Bench<'_>, scene: &PackedScene) -> Result<Film> {
     bench.go_on()?;
-    Ok(render::render(bench.gpu, scene.clone(), false, &Tuning::default(), bench.progress)?.0)
+    let mut scene = scene.clone();
+    if bench.rounded {
+        scene.round_reals();
+    }
+    Ok(render::render(bench.gpu, scene, false, &Tuning::default(), bench.progress)?.0)
 }
 
 pub fn in_oracle(bench: &Bench<'_>, scene: &PackedScene) -> Result<Film> {

@@ -125,3 +125,22 @@ fn by_scale(bench: &Bench<'_>, eye: DVec3) -> Result<Vec<Point>> {
     let others = (-6..=6).filter(|k| *k != 0).map(|k| 10f64.powi(k));
     others.map(|s| Ok(differ(s, &here, &picture(bench, &place(s))?))).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_pixel_that_moves_by_more_than_a_step_of_8_bits_is_counted() {
+        let mut film = Film::new(SIDE, SIDE, 1);
+        let black = film.clone();
+        assert_eq!(differ(1.0, &black, &film).error, 0.0);
+        film.pixels[SIDE as usize + 2] = [0.0, 0.1, 0.0];
+        film.pixels[3] = [0.003; 3];
+        let found = differ(1.0, &black, &film);
+        assert_eq!(found.error, 1.0 / f64::from(SIDE * SIDE));
+        assert!(found.place.contains("(2, 1)"), "{}", found.place);
+        film.pixels[5] = [f32::NAN; 3];
+        assert_eq!(differ(1.0, &black, &film).error, 2.0 / f64::from(SIDE * SIDE));
+    }
+}

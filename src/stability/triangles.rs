@@ -105,14 +105,16 @@ fn mesh(distance: f64, precision: &str) -> Result<(PackedScene, [DVec3; 12], [[u
 /// Shapes that the rays from the eye's own place along `ways` meet.
 fn met(bench: &Bench<'_>, scene: &PackedScene, ways: &[DVec3]) -> Result<Vec<u32>> {
     bench.go_on()?;
-    if scene.double && bench.gpu.info().limits.float64 {
+    if scene.double && !bench.rounded && bench.gpu.info().limits.float64 {
         let query = |way: &DVec3| DoubleRay { origin: [0.0; 4], direction: way.extend(1.0).to_array() };
         let queries: Vec<DoubleRay> = ways.iter().map(query).collect();
         return Ok(probe::double_rays(bench.gpu, scene, &queries)?.iter().map(|a| a.shape).collect());
     }
+    let mut scene = scene.clone();
+    scene.round_reals();
     let query = |way: &DVec3| RayQuery { origin: [0.0; 4], direction: way.as_vec3().extend(1.0).to_array() };
     let queries: Vec<RayQuery> = ways.iter().map(query).collect();
-    Ok(probe::rays(bench.gpu, scene, false, &queries)?.iter().map(|a| a.shape).collect())
+    Ok(probe::rays(bench.gpu, &scene, false, &queries)?.iter().map(|a| a.shape).collect())
 }
 
 /// From within the mesh every ray meets it, wherever it goes; these go to its edges, and every eighth to a corner.

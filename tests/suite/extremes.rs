@@ -8,7 +8,7 @@ use crate::shared_gpu::gpu;
 
 fn holds(group: &str) {
     let gpu = gpu();
-    let bench = Bench { gpu: &gpu, progress: &Silent };
+    let bench = Bench::new(&gpu, &Silent);
     let mut complaints = Vec::new();
     for case in all().iter().filter(|case| case.group == group) {
         let points = (case.run)(&bench).unwrap();

@@ -127,7 +127,7 @@ fn a_wish_to_stop_ends_the_run_before_and_within_a_case() {
     // All cases ask between values.
     let gpu = gpu();
     for case in all() {
-        let outcome = (case.run)(&Bench { gpu: &gpu, progress: &Stop });
+        let outcome = (case.run)(&Bench::new(&gpu, &Stop));
         assert!(matches!(outcome, Err(Error::Interrupted)), "{} goes on", case.label());
     }
 }
