@@ -90,8 +90,13 @@ fn differ(parameter: f64, one: &Film, other: &Film) -> Point {
     let mut worst = (0.0, String::new());
     let mut count = 0.0;
     for (i, (a, b)) in one.pixels.iter().zip(&other.pixels).enumerate() {
-        let error = a.iter().zip(b).map(|(a, b)| f64::from((a - b).abs())).fold(0.0, f64::max);
-        if error > 1.0 / 255.0 || error.is_nan() {
+        let change = |(a, b): (&f32, &f32)| f64::from((a - b).abs());
+        let error = a
+            .iter()
+            .zip(b)
+            .map(change)
+            .fold(0.0, |most: f64, e| if e.is_nan() { f64::INFINITY } else { most.max(e) });
+        if error > 1.0 / 255.0 {
             count += 1.0;
         }
         if error > worst.0 {

@@ -111,6 +111,9 @@ impl Reading {
 
     /// By how many texels the look-up that found these colours was off; none where the ramp jumps.
     pub fn texels_off(&self, found: [f32; 3], uv: DVec2) -> Option<f64> {
+        if !found.iter().all(|x| x.is_finite()) {
+            return Some(f64::INFINITY);
+        }
         let axis = |found: f32, coordinate: f64, size: u32| {
             let wide = f64::from(size);
             let place = self.folded(coordinate) * wide;
@@ -150,4 +153,47 @@ pub fn on_plane(eye: DVec3, way: DVec3, [origin, tangent, bitangent]: [DVec3; 3]
         DVec2::new(p.cross(bitangent).dot(normal), tangent.cross(p).dot(normal)) / normal.length_squared()
     };
     (t > 0.0 && t.is_finite()).then(|| [solved(eye - origin), solved(t * way)])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What a look-up of a place of `uv` would read, moved by so many texels.
+    fn read(reading: &Reading, uv: DVec2, moved: f64) -> [f32; 3] {
+        let axis = |coordinate: f64, size: u32| {
+            let wide = f64::from(size);
+            let place = reading.folded(coordinate) * wide + moved;
+            (if reading.linear { place } else { place.floor() + 0.5 } / wide) as f32
+        };
+        [axis(uv.x, reading.size[0]), axis(uv.y, reading.size[1]), 0.0]
+    }
+
+    #[test]
+    fn a_look_up_is_off_by_as_many_texels_as_it_was_moved() {
+        let uv = DVec2::new(1234.3721, -17.6);
+        for reading in Reading::ALL {
+            let off = |moved| reading.texels_off(read(&reading, uv, moved), uv).unwrap();
+            assert!(off(0.0) < 1e-3, "{}", reading.name());
+            // A nearest texel says where it is to a texel.
+            assert!((off(3.0) - 3.0).abs() < if reading.linear { 1e-3 } else { 1.0 }, "{}", reading.name());
+            assert_eq!(reading.texels_off([f32::NAN, 0.5, 0.0], uv), Some(f64::INFINITY));
+        }
+    }
+
+    #[test]
+    fn the_ray_through_the_middle_of_a_picture_looks_ahead() {
+        let view = View::new(DVec3::ONE, DVec3::new(4.0, 1.0, 1.0), DVec3::Y, 90.0, 8);
+        assert!((view.way(DVec2::splat(4.0)) - DVec3::X).length() < 1e-15);
+        // Right is +z when looking along +x; up is up, by the tangent of 45 degrees.
+        assert!((view.way(DVec2::new(8.0, 0.0)) - DVec3::new(1.0, 1.0, 1.0)).length() < 1e-15);
+        let [eye, beyond] = on_plane(
+            DVec3::new(2.0, 3.0, 5.0),
+            DVec3::new(1.0, -1.0, 0.0),
+            [DVec3::ZERO, DVec3::new(2.0, 0.0, 0.0), DVec3::Z],
+        )
+        .unwrap();
+        assert_eq!((eye, beyond), (DVec2::new(1.0, 5.0), DVec2::new(1.5, 0.0)));
+        assert!(on_plane(DVec3::Y, DVec3::Y, [DVec3::ZERO, DVec3::X, DVec3::Z]).is_none());
+    }
 }
