@@ -79,11 +79,11 @@ void main() {
     uint s = task.first;
     Path path;
     path.goes_on = false;
-    // Long sums go by blocks: a block's samples as they are, the blocks with compensation. The condition stands at the
-    // loop's head: lavapipe (Mesa 22.3.6) loses lanes that leave a loop around another by a condition at its end.
+    // Long sums go by blocks: a block's samples as they are, the blocks with compensation. No do-while: lavapipe
+    // (Mesa 22.3.6) loses lanes that leave a loop around another by a condition after its body.
     uint block = task.end - task.first > MOST_PLAIN ? BLOCK : MOST_PLAIN;
     vec3 lost = vec3(0.0); // what rounding has added to the sum
-    while (s < task.end) {
+    while (true) {
         uint stop = BLOCKS ? min(s + block, task.end) : task.end;
         vec3 part = vec3(0.0);
         while (s < stop) {
@@ -132,6 +132,7 @@ void main() {
         vec3 total = sum + term;
         lost = (total - sum) - term;
         sum = total;
+        if (!BLOCKS || s >= task.end) break;
     }
 
     report_notices();
