@@ -182,7 +182,7 @@ impl Pixel<'_> {
             let is_sphere = by >= planes && by < planes + spheres;
             if is_sphere {
                 let sphere = &scene.spheres[(by - planes) as usize];
-                if may_shade(paint, &piece.polygon, light, xyz(sphere.ball), sphere.ball[3].into()) {
+                if may_shade(paint, &piece.polygon, light, xyz(sphere.ball), sphere.ball[3]) {
                     return Err(GaveUp);
                 }
             }

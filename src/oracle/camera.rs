@@ -45,7 +45,7 @@ pub fn camera_at(header: &Header, time: f64) -> Header {
     let view = xyz(header.view) + time * xyz(header.view_motion);
     let forward = view.normalize();
     let right = forward.cross(xyz(header.up)).normalize();
-    let pixel = f64::from(header.step_y[3]);
+    let pixel = header.step_y[3];
     let with = |v: DVec3, w: f64| v.extend(w).to_array();
     Header {
         forward: with(forward, header.forward[3]),

@@ -79,7 +79,7 @@ fn cut_bounds(cuts: &mut Cuts, cone: &Cone, plane: &Flat, row: DVec4, extent: f6
 }
 
 fn cut_plane(cuts: &mut Cuts, cone: &Cone, plane: &Plane) {
-    let seen = flat_in(cone, xyz(plane.normal), plane.normal[3].into());
+    let seen = flat_in(cone, xyz(plane.normal), plane.normal[3]);
     cuts.by((-cone.width * seen.tilt).extend(seen.height));
     if let Some(extent) = plane.half_extent() {
         cut_bounds(cuts, cone, &seen, vec4(plane.axis_u), extent);
@@ -99,7 +99,7 @@ fn in_disc(cone: &Cone, point: DVec3) -> DVec3 {
 fn cut_triangle(cuts: &mut Cuts, cone: &Cone, triangle: &Triangle) {
     let [a, b, c] = [triangle.a, triangle.b, triangle.c].map(|v| in_disc(cone, xyz(v)));
     let normal = xyz(triangle.normal);
-    let height = f64::from(triangle.normal[3]) - normal.dot(cone.ray.origin);
+    let height = triangle.normal[3] - normal.dot(cone.ray.origin);
     let side = if height < 0.0 { -1.0 } else { 1.0 };
     cuts.by(((-side * cone.width) * cone.aside(normal)).extend(side * height));
     cuts.by(side * a.cross(b));
@@ -118,7 +118,7 @@ struct Circle {
 
 fn circle_of(cone: &Cone, sphere: &Sphere) -> Circle {
     let f = cone.ray.origin - xyz(sphere.ball);
-    let radius = f64::from(sphere.ball[3]);
+    let radius = sphere.ball[3];
     let t = -f.dot(cone.ray.direction) / cone.ray.direction.length_squared();
     // From the inside it is all around, from behind nowhere.
     if f.length_squared() <= radius * radius {
@@ -181,9 +181,8 @@ pub(super) fn covered_by(scene: &PackedScene, cone: &Cone, shape: u32) -> Covere
 
 /// Where a ray within the shape's outline meets it; rounding may have put it just beside.
 pub fn meet(scene: &PackedScene, ray: &Ray, shape: u32) -> Hit {
-    let on_plane = |normal: [f64; 4]| {
-        (f64::from(normal[3]) - xyz(normal).dot(ray.origin)) / xyz(normal).dot(ray.direction)
-    };
+    let on_plane =
+        |normal: [f64; 4]| (normal[3] - xyz(normal).dot(ray.origin)) / xyz(normal).dot(ray.direction);
     match shape_of(scene, shape) {
         Shape::Plane(plane) => Hit { t: on_plane(plane.normal), shape, local: plane_distance(plane, ray).1 },
         Shape::Triangle(triangle) => Hit { t: on_plane(triangle.normal), shape, local: DVec2::ZERO },

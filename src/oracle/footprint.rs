@@ -37,9 +37,9 @@ pub fn uses_cones(header: &Header) -> bool {
 
 pub fn camera_beam(header: &Header, ray: &Ray) -> Beam {
     let orthographic = header.size[2] == ProjectionKind::Orthographic as u32;
-    let share = f64::from(header.step_x[3]);
+    let share = header.step_x[3];
     let steps = [xyz(header.step_x) * share, xyz(header.step_y) * share];
-    let side = f64::from(header.step_y[3]) * share;
+    let side = header.step_y[3] * share;
     let none = [DVec3::ZERO; 2];
     if orthographic {
         Beam { origin: steps, direction: none, width: side, spread: 0.0 }

@@ -123,7 +123,7 @@ fn add(region: &mut Region, line: Form) {
 }
 
 pub fn plane_region(frame: &Frame, plane: &Plane) -> Region {
-    let near = nearness(frame, xyz(plane.normal), plane.normal[3].into());
+    let near = nearness(frame, xyz(plane.normal), plane.normal[3]);
     let mut region = Region { count: 0, lines: [Form::ZERO; MAX_LINES], nearness: near };
     add(&mut region, in_front(frame, near));
     if let Some(half_extent) = plane.half_extent() {
@@ -138,7 +138,7 @@ pub fn plane_region(frame: &Frame, plane: &Plane) -> Region {
 }
 
 pub fn triangle_region(frame: &Frame, triangle: &Triangle) -> Region {
-    let near = nearness(frame, xyz(triangle.normal), triangle.normal[3].into());
+    let near = nearness(frame, xyz(triangle.normal), triangle.normal[3]);
     let mut region = Region { count: 0, lines: [Form::ZERO; MAX_LINES], nearness: near };
     add(&mut region, in_front(frame, near));
     for edge in edge_forms(frame, triangle) {
@@ -269,7 +269,7 @@ pub fn may_meet_sphere(frame: &Frame, polygon: &Polygon, sphere: &Sphere) -> boo
     let (way, origin) = ray_at(frame, middle(polygon));
     let unit = way.normalize();
     let to = xyz(sphere.ball) - origin;
-    let radius = f64::from(sphere.ball[3]);
+    let radius = sphere.ball[3];
     let along = to.dot(unit);
     if to.length_squared() <= radius * radius {
         return true;

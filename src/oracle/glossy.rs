@@ -36,7 +36,7 @@ pub fn refracted_share(leaving: f64, alpha: f64) -> f64 {
 /// The beam as wide as the part of the lobe that a sample stands for.
 pub fn widened_beam(header: &Header, beam: &Beam, direction: DVec3, alpha: f64) -> Beam {
     let size = direction.length();
-    let by = 2.0 * alpha * f64::from(header.step_x[3]) * size;
+    let by = 2.0 * alpha * header.step_x[3] * size;
     let unit = direction / size;
     let [x, y] = beam.direction;
     let first = (x - unit.dot(x) * unit).try_normalize().unwrap_or_else(|| any_tangent(unit));

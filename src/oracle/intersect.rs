@@ -35,12 +35,12 @@ pub fn at_rest(scene: &PackedScene, ray: &Ray, shape: u32) -> Ray {
 /// Distance, and the plane's own coordinates of the point counted from the eye.
 pub fn plane_distance(plane: &Plane, ray: &Ray) -> (f64, DVec2) {
     let normal = xyz(plane.normal);
-    let height = f64::from(plane.normal[3]) - normal.dot(ray.origin);
+    let height = plane.normal[3] - normal.dot(ray.origin);
     let t = height / normal.dot(ray.direction);
     let p = ray.origin + t * ray.direction;
     let local = DVec2::new(xyz(plane.axis_u).dot(p), xyz(plane.axis_v).dot(p));
     if let Some(extent) = plane.half_extent() {
-        let (u, v) = (local.x + f64::from(plane.axis_u[3]), local.y + f64::from(plane.axis_v[3]));
+        let (u, v) = (local.x + plane.axis_u[3], local.y + plane.axis_v[3]);
         let inside = u.abs() <= extent && v.abs() <= extent;
         return (if inside { t } else { -1.0 }, local);
     }
@@ -50,7 +50,7 @@ pub fn plane_distance(plane: &Plane, ray: &Ray) -> (f64, DVec2) {
 /// Haines, Günther & Akenine-Möller 2019; -1 on a miss.
 pub fn sphere_distance(sphere: &Sphere, ray: &Ray) -> f64 {
     let f = ray.origin - xyz(sphere.ball);
-    let radius = f64::from(sphere.ball[3]);
+    let radius = sphere.ball[3];
     let a = ray.direction.dot(ray.direction);
     let b = -f.dot(ray.direction);
     let closest = f + (b / a) * ray.direction;
@@ -75,7 +75,7 @@ pub fn triangle_distance(triangle: &Triangle, ray: &Ray) -> f64 {
         return -1.0;
     }
     let normal = xyz(triangle.normal);
-    let height = f64::from(triangle.normal[3]) - normal.dot(ray.origin);
+    let height = triangle.normal[3] - normal.dot(ray.origin);
     height / normal.dot(ray.direction)
 }
 

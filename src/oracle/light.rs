@@ -29,7 +29,7 @@ pub struct Aim {
 /// Uniform over the cone in which the sphere is seen; from within it, over all directions.
 pub fn sphere_aim(light: &Light, point: DVec3, square: DVec2) -> Aim {
     let way = xyz(light.place) - point;
-    let radius = f64::from(light.place[3]);
+    let radius = light.place[3];
     let squared = way.length_squared().max(1e-30);
     let sine = radius * radius / squared; // squared
     let outside = sine < 1.0;
@@ -52,7 +52,7 @@ pub fn rectangle_aim(light: &Light, point: DVec3, square: DVec2) -> Aim {
 
 /// Uniform over the cap of the sky.
 pub fn sun_aim(light: &Light, square: DVec2) -> Aim {
-    let local = on_cap(concentric_disc(square), light.place[3].into());
+    let local = on_cap(concentric_disc(square), light.place[3]);
     Aim { way: around(xyz(light.place), local), reach: FAR, density: 1.0 }
 }
 

@@ -37,13 +37,13 @@ pub struct Pieces {
 /// How deep a shape lies over the disc.
 fn depth_of(scene: &PackedScene, cone: &Cone, shape: u32, t: f64, area: f64) -> Flat {
     match shape_of(scene, shape) {
-        Shape::Plane(plane) => flat_in(cone, xyz(plane.normal), plane.normal[3].into()),
-        Shape::Triangle(triangle) => flat_in(cone, xyz(triangle.normal), triangle.normal[3].into()),
+        Shape::Plane(plane) => flat_in(cone, xyz(plane.normal), plane.normal[3]),
+        Shape::Triangle(triangle) => flat_in(cone, xyz(triangle.normal), triangle.normal[3]),
         Shape::Sphere(_) if area < 1.0 => Flat { height: t, facing: 1.0, tilt: DVec2::ZERO },
         Shape::Sphere(sphere) => {
             let center = xyz(sphere.ball);
             let normal = (cone.ray.origin + t * cone.ray.direction - center).normalize();
-            flat_in(cone, normal, normal.dot(center) + f64::from(sphere.ball[3]))
+            flat_in(cone, normal, normal.dot(center) + sphere.ball[3])
         }
     }
 }

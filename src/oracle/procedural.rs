@@ -89,7 +89,7 @@ fn box_share(what: &Procedural, kind: ProceduralKind, at: DVec3, w: DVec3) -> f6
 fn footprint_share(what: &Procedural, kind: ProceduralKind, at: DVec3, major: DVec3, minor: DVec3) -> f64 {
     let mut unit = DVec3::ONE;
     if kind == ProceduralKind::Brick {
-        unit.x = what.shape[1].into();
+        unit.x = what.shape[1];
     }
     let p = at / unit;
     let p = p - 2.0 * DVec3::from_array((0.5 * p).to_array().map(f64::round_ties_even));
@@ -158,7 +158,7 @@ pub fn figure_share(what: &Procedural, at: DVec3, dx: DVec3, dy: DVec3) -> f64 {
         ProceduralKind::Marble => marble(what, at, dx, dy, size, widths),
         ProceduralKind::Wood => wood(what, at, dx, dy, size, widths),
         ProceduralKind::Cellular => {
-            let (keep, jitter) = (kept(size), f64::from(what.shape[3]));
+            let (keep, jitter) = (kept(size), what.shape[3]);
             keep * cell_distance(at, what.link[1], jitter) + (1.0 - keep) * cell_mean(at, widths, jitter)
         }
         ProceduralKind::Noise | ProceduralKind::Fbm => {

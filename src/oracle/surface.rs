@@ -59,7 +59,7 @@ fn plane_surface(plane: &Plane, point: DVec3, uv: DVec2) -> Surface {
 
 fn sphere_surface(sphere: &Sphere, point: DVec3) -> Surface {
     let center = xyz(sphere.ball);
-    let radius = f64::from(sphere.ball[3]);
+    let radius = sphere.ball[3];
     let normal = (point - center).normalize();
     let curvature = 1.0 / radius;
     let bend = DMat3::from_diagonal(DVec3::splat(curvature));
@@ -77,7 +77,7 @@ fn weights(triangle: &Triangle, point: DVec3) -> DVec3 {
 
 fn triangle_surface(triangle: &Triangle, point: DVec3) -> Surface {
     let w = weights(triangle, point);
-    let u = DVec3::new(triangle.a[3].into(), triangle.b[3].into(), triangle.c[3].into());
+    let u = DVec3::new(triangle.a[3], triangle.b[3], triangle.c[3]);
     let v = xyz(triangle.v);
     let n = xyz(triangle.normal).normalize();
     let [a, b, c] = [triangle.a, triangle.b, triangle.c].map(xyz);

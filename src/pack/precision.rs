@@ -99,7 +99,7 @@ pub fn need(scene: &Scene, sizes: &[[u32; 3]]) -> Need {
     let outlines = rays_merge
         || scene.spheres.iter().any(|s| misses_sphere(&camera, s))
         || scene.triangles.iter().any(|t| misses_triangle(&camera, t))
-        || scene.shape_extents(camera.eye).any(|size| size > RANGE[1] || size < RANGE[0]);
+        || scene.shape_extents(camera.eye).any(|size| !(RANGE[0]..=RANGE[1]).contains(&size));
     let texels = |material: usize| {
         let material = &scene.materials[material];
         texels_per_tile(scene, sizes, material).map(|texels| (material, texels))

@@ -46,7 +46,7 @@ impl PackedScene {
             (bytes_of(&self.motions, double), &mut sections.motions),
             (bytemuck::cast_slice(srgb).to_vec(), &mut sections.srgb),
         ];
-        lists.sort_by_key(|(list, _)| if in_steps { room(&list) } else { list.len() });
+        lists.sort_by_key(|(list, _)| if in_steps { room(list) } else { list.len() });
         let mut bytes = self.header_bytes(&self.header);
         sections.pixel_filter = (bytes.len() / 16) as u32;
         bytes.extend_from_slice(bytemuck::cast_slice(&self.pixel_filter));

@@ -157,7 +157,7 @@ impl<'a> Session<'a> {
     }
 
     fn sampler(&self, scene: &PackedScene, features: &Features) -> Result<Sampler> {
-        let shader = shader_for(scene.algorithm, &features);
+        let shader = shader_for(scene.algorithm, features);
         let (pipeline, groups_per_tile) = self.pipeline(scene, features, shader)?;
         Ok(Sampler { pipeline, shader, groups_per_tile })
     }

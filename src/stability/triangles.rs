@@ -121,7 +121,7 @@ fn met(bench: &Bench<'_>, scene: &PackedScene, ways: &[DVec3]) -> Result<Vec<u32
 fn to_edge(vertices: &[DVec3; 12], faces: &[[usize; 3]; 20], i: u32) -> DVec3 {
     let face = faces[(dice(i, 1) * 20.0) as usize];
     let (from, to) = (vertices[face[0]], vertices[face[1 + (i & 1) as usize]]);
-    let part = if i % 8 == 0 { 0.0 } else { dice(i, 2) };
+    let part = if i.is_multiple_of(8) { 0.0 } else { dice(i, 2) };
     from + part * (to - from)
 }
 

@@ -130,7 +130,7 @@ fn wrong_uv(
     // Products and sums of a row, on top of the error of the point.
     let row_error = rows
         .iter()
-        .map(|r| 4.0 * U * ((xyz(*r) * surface.point).abs().element_sum() + f64::from(r[3]).abs()))
+        .map(|r| 4.0 * U * ((xyz(*r) * surface.point).abs().element_sum() + r[3].abs()))
         .fold(0.0, f64::max)
         + steep * point_error;
     let kind = MapKind::ALL[map.link[0] as usize];
@@ -143,8 +143,8 @@ fn wrong_uv(
                 let size = (xyz(axis) * surface.point).abs().element_sum();
                 (size, 4.0 * U * size + xyz(axis).length() * point_error)
             });
-            let m = map.matrix.map(|x| f64::from(x).abs());
-            let offset = [0, 1].map(|i| f64::from(map.offset[i]).abs());
+            let m = map.matrix.map(|x| x.abs());
+            let offset = [0, 1].map(|i| map.offset[i].abs());
             let wide = [0, 1].map(|i| {
                 let (a, b) = (m[2 * i], m[2 * i + 1]);
                 a * own[0].1 + b * own[1].1 + 4.0 * U * (a * own[0].0 + b * own[1].0 + offset[i])
@@ -156,7 +156,7 @@ fn wrong_uv(
             unreachable!("these rays meet 2d textures of other kinds")
         }
         MapKind::Cylindrical | MapKind::Spherical => {
-            let at = rows.map(|r| xyz(r).dot(surface.point) + f64::from(r[3]));
+            let at = rows.map(|r| xyz(r).dot(surface.point) + r[3]);
             let across = at[0].hypot(at[2]);
             // The angle by an error across the axis; 2e-7 for the polynomial and its steps.
             let angle = (row_error / across).min(1.0) + 2e-7;

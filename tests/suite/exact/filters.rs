@@ -183,7 +183,7 @@ fn ellipses(read: impl Fn(&PackedScene, &Coordinate) -> f64) -> Worst {
     for _ in 0..12 {
         // Between one and two texels wide, so that level 0 is read, and up to 8 long.
         let [long, wide] = [dice.between(2.0, 8.0), dice.between(1.05, 1.95)];
-        let turn = DVec2::from_angle(dice.between(0.0, 6.28));
+        let turn = DVec2::from_angle(dice.between(0.0, std::f64::consts::TAU));
         let size = DVec2::new(16.0, 8.0);
         let changes = [turn * long / size, turn.perp() * wide / size];
         let at = DVec2::new(dice.between(-1.0, 1.0), dice.between(-1.0, 1.0));

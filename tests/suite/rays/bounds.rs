@@ -41,8 +41,8 @@ pub fn estimate(scene: &PackedScene, shape: u32, ray: &Ray) -> Estimate {
 /// Error of t = (n·o' − n·o) / n·d.
 fn flat_error(normal: [f64; 4], ray: &Ray, t: f64) -> f64 {
     let n = xyz(normal);
-    let (height, slope) = (f64::from(normal[3]) - n.dot(ray.origin), n.dot(ray.direction));
-    let size = f64::from(normal[3]).abs() + (n * ray.origin).abs().element_sum();
+    let (height, slope) = (normal[3] - n.dot(ray.origin), n.dot(ray.direction));
+    let size = normal[3].abs() + (n * ray.origin).abs().element_sum();
     let above = 4.0 * U * size / height.abs();
     let below = 3.0 * U * (n * ray.direction).abs().element_sum() / slope.abs();
     t.abs() * 1.01 * (above + below + DIVIDE * U)
@@ -57,7 +57,7 @@ fn plane(scene: &PackedScene, index: usize, ray: &Ray) -> Estimate {
     let point_error = error * ray.direction.length() + 2.0 * U * (ray.origin.length() + point.length());
     let extent = plane.half_extent().unwrap_or(0.0);
     let near_edge = [plane.axis_u, plane.axis_v].iter().any(|row| {
-        let own = 4.0 * U * ((xyz(*row) * point).abs().element_sum() + f64::from(row[3]).abs());
+        let own = 4.0 * U * ((xyz(*row) * point).abs().element_sum() + row[3].abs());
         (affine(*row, point).abs() - extent).abs() <= own + xyz(*row).length() * point_error
     });
     let (t, _) = plane_distance(plane, ray);
@@ -66,7 +66,7 @@ fn plane(scene: &PackedScene, index: usize, ray: &Ray) -> Estimate {
 
 fn sphere(scene: &PackedScene, index: usize, ray: &Ray) -> Estimate {
     let sphere = &scene.spheres[index];
-    let (center, r, d) = (xyz(sphere.ball), f64::from(sphere.ball[3]), ray.direction);
+    let (center, r, d) = (xyz(sphere.ball), sphere.ball[3], ray.direction);
     let f = ray.origin - center;
     let (a, b) = (d.dot(d), -f.dot(d));
     let closest = f + (b / a) * d;
