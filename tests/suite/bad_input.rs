@@ -2,6 +2,7 @@
 //! that names the thing, never with a panic; no file appears, not even a temporary one, and a picture
 //! that was there is as it was.
 
+mod limits;
 mod machine;
 mod output;
 mod scene;
@@ -132,6 +133,7 @@ impl Case {
         let (code, _, stderr) = self.run(&[], &[&fixed[..], options].concat());
         assert_eq!((code, stderr.as_str()), (Some(0), ""), "{options:?}");
         assert_ne!(fs::read(self.path("out.png")).unwrap(), OLD);
+        self.put("out.png", OLD);
     }
 }
 

@@ -31,6 +31,7 @@ mod layout;
 mod lean;
 mod lean_features;
 mod lecture;
+mod limits;
 mod lookup;
 mod materials;
 mod metrics;
