@@ -81,9 +81,7 @@ fn glass_of_index_1_of_any_size_is_not_there() {
 #[test]
 fn in_f32_the_cases_of_geometry_are_broken() {
     for (group, name, least) in [
-        ("coordinates", "scale", 100.0),
         ("coordinates", "triangle", 100.0),
-        ("coordinates", "planar", 100.0),
         ("horizon", "height-in-f64", 100.0),
         ("spheres", "distance", 10.0),
         ("spheres", "radius", 10.0),
