@@ -22,6 +22,8 @@ const uint PATTERN_N_ROOKS = 8u;
 const uint SCHEDULE_TILES = 0u;
 const uint SCHEDULE_JOBS = 1u;
 const uint JOB_BARE = 2u; // without a footprint
+const uint JOB_APART = 4u; // sums go to the place of the job in its list, not to the pixel's half
+const uint JOB_STREAM_SHIFT = 8u; // above it: which stream of samples, each as good as another seed
 
 const uint CELL_WORDS = 64u; // of a cell of the survey: number of triangles, calmness, up to MOST_LISTED triangles
 const uint MOST_LISTED = 62u;

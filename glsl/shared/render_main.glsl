@@ -12,15 +12,16 @@
 #include "shade.glsl"
 #include "slice.glsl"
 
-// Samples of single pixels: place (x | y << 16), half and JOB_BARE, first sample, count. A film of jobs holds two halves,
-// each with sums of radiance and of its square's mean over the channels; where the pixel filter has negative
-// lobes two more with the sum of the signs and the number of samples.
+// Samples of single pixels: place (x | y << 16), part (half, JOB_BARE, JOB_APART, stream), first sample, count. A
+// film of jobs holds two halves, each with sums of radiance and of its square's mean over the channels; where the
+// pixel filter has negative lobes two more with the sum of the signs and the number of samples. With JOB_APART the
+// film has one such entry for each job of the list.
 layout(std430, set = 0, binding = 4) readonly buffer Jobs { uvec4 jobs[]; };
 
 // What one thread does: samples of one pixel, into one place of the film.
 struct Task {
     uvec2 place; // in the band
-    uint part; // of a job: which half of the samples, and JOB_BARE
+    uint part; // of a job: which half of the film, JOB_BARE, JOB_APART, and the stream of samples
     uint first;
     uint end;
 };
@@ -29,15 +30,20 @@ Task tile_task() {
     return Task(film_pixel(), 0u, slice.first_sample, slice.first_sample + slice.sample_count);
 }
 
-// Jobs fill tiles one after the other, in the order of the list; without a list all pixels have the same, both
-// halves of a pixel side by side.
-Task job_task(Header header) {
+// Jobs fill tiles one after the other, in the order of the list.
+uint job_index() {
     uint thread = gl_WorkGroupID.x * gl_WorkGroupSize.x * gl_WorkGroupSize.y + gl_LocalInvocationIndex;
-    uint i = (slice.first_tile + gl_WorkGroupID.y) * (TILE * TILE) + thread;
+    return (slice.first_tile + gl_WorkGroupID.y) * (TILE * TILE) + thread;
+}
+
+// Without a list all pixels have the same job, both halves of a pixel side by side.
+Task job_task(Header header) {
+    uint i = job_index();
     if (i >= slice.tiles) return Task(uvec2(0u, slice.band_height), 0u, 0u, 0u);
     if (slice.sample_count > 0u) {
         uvec2 place = uvec2((i >> 1u) % header.size.x, (i >> 1u) / header.size.x);
-        return Task(place, i & 1u, slice.first_sample, slice.first_sample + slice.sample_count);
+        uint part = (i & 1u) | (i & 1u) << JOB_STREAM_SHIFT;
+        return Task(place, part, slice.first_sample, slice.first_sample + slice.sample_count);
     }
     uvec4 job = jobs[i];
     return Task(uvec2(job.x & 0xFFFFu, job.x >> 16u), job.y, job.z, job.z + job.w);
@@ -63,9 +69,9 @@ void main() {
         float share = inversesqrt(2.0 * float(task.end)) * filter_width(header);
         header.step_x.w = (task.part & JOB_BARE) != 0u ? 0.0 : share;
     }
-    // The second half is as good as another seed.
-    uint part = task.part & 1u;
-    uvec2 key = pixel_key(pixel, header.sampling.w + part * 0x9E3779B9u, header.key.x != 0u);
+    // Each stream is as good as another seed.
+    uint stream = task.part >> JOB_STREAM_SHIFT;
+    uvec2 key = pixel_key(pixel, header.sampling.w + stream * 0x9E3779B9u, header.key.x != 0u);
     Points points = pixel_points(header, pixel, key);
     uint list = SURVEYED ? cell_list(header, task.place + uvec2(0u, slice.band_y)) : NO_LIST;
 
@@ -141,12 +147,15 @@ void main() {
     uint pixels = header.size.x * slice.band_height;
     bool is_signed = MODE_IS(PIXEL_FILTERS, PIXEL_FILTER_MITCHELL, header.pixel_filter.x);
     if (is_job) {
-        at += part * pixels;
+        bool apart = (task.part & JOB_APART) != 0u;
+        at = apart ? job_index() : at + (task.part & 1u) * pixels;
+        uint behind = apart ? slice.tiles : 2u * pixels; // where the counts lie
+        bool adds = !apart && task.first > 0u;
         vec4 sums = vec4(sum, squares);
-        film[at] = task.first > 0u ? film[at] + sums : sums;
+        film[at] = adds ? film[at] + sums : sums;
         if (is_signed) {
             vec4 counts = vec4(signs, float(task.end - task.first), 0.0, 0.0);
-            film[at + 2u * pixels] = task.first > 0u ? film[at + 2u * pixels] + counts : counts;
+            film[at + behind] = adds ? film[at + behind] + counts : counts;
         }
         return;
     }

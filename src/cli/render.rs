@@ -19,7 +19,7 @@ use crate::output::{self, WriteOptions};
 use crate::pack::{self, Crop, PackedScene, Pyramids, Schedule};
 use crate::render::{self, MipChoice, Report, TexelChoice, Tuning};
 use crate::scene::advice;
-use crate::scene::model::Scene;
+use crate::scene::model::{Algorithm, Scene};
 use crate::scene::prune::prune;
 use crate::texture::decode::Values;
 use crate::texture::load::load_with;
@@ -105,6 +105,14 @@ pub fn run(args: &RenderArgs) -> Result<ExitCode> {
     ran.report.left_out.extend(dropped);
     ran.dropped_triangles = scene.dropped_triangles;
     ran.report.warnings.splice(..0, advice::of_scene(&scene));
+    let counts_follow_neighbours = matches!(scene.sampling.algorithm, Algorithm::Adaptive | Algorithm::Auto);
+    if args.crop.is_some() && counts_follow_neighbours {
+        ran.report.warnings.push(
+            "--crop with algorithm adaptive or auto: samples go where this part errs most, so its pixels differ from \
+             those of the full picture within their noise; with --algorithm samples they are equal"
+                .into(),
+        );
+    }
     bar.finish();
 
     let clock = Instant::now();

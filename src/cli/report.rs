@@ -143,8 +143,11 @@ pub fn say(ran: &Ran, outputs: &[String], verbose: bool) {
                 o.estimated_bias
             ));
         }
+        let interval = o.interval.map_or(String::new(), |[low, high]| {
+            format!(" ({:.0} %: {low:.2e} to {high:.2e})", 100.0 * o.confidence)
+        });
         tell(format_args!(
-            "estimated RMSE {:.2e} after {} passes, {} to {} samples a pixel{}",
+            "estimated RMSE {:.2e}{interval} after {} passes, {} to {} samples a pixel{}",
             o.estimated_rmse,
             o.passes,
             o.least_samples,

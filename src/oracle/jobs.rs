@@ -32,12 +32,20 @@ impl JobTracer<'_> {
         let share = filter_width(&header) / samples.sqrt();
         header.step_x[3] = if job.part & JOB_BARE != 0 { 0.0 } else { share };
         for s in job.first..job.first + job.count {
-            let (seen, sign) = sample(self.scene, &header, place, job.part & 1, s);
+            let (seen, sign) = sample(self.scene, &header, place, job.stream(), s);
             let [x, y, z] = (sign * seen).to_array();
             let terms = [x, y, z, seen.length_squared() / 3.0, sign, 1.0];
             sum = std::array::from_fn(|i| sum[i] + terms[i]);
         }
         sum
+    }
+}
+
+impl JobTracer<'_> {
+    /// Weighed by the samples' signs.
+    fn radiance(&self, &[r, g, b, squares, signs, samples]: &[f64; 6]) -> [f32; 4] {
+        let scale = self.scene.mean_sign.map_or(1.0, |mean| samples / divisor(signs, samples, mean));
+        [scale * r, scale * g, scale * b, squares].map(|v| v as f32)
     }
 }
 
@@ -58,16 +66,26 @@ impl Tracer for JobTracer<'_> {
         Ok(())
     }
 
+    fn sample_apart(&mut self, jobs: &[Job], progress: &dyn Progress) -> Result<Vec<[f32; 4]>> {
+        let of_job = |job: &Job| if progress.cancelled() { [0.0; 6] } else { self.sum(job) };
+        let sums: Vec<[f64; 6]> = jobs.par_iter().map(of_job).collect();
+        if progress.cancelled() {
+            return Err(Error::Interrupted);
+        }
+        Ok(sums.iter().map(|sum| self.radiance(sum)).collect())
+    }
+
+    fn bright_share(&self) -> f64 {
+        self.scene.bright_share.unwrap_or(1.0)
+    }
+
     fn prefilters(&self) -> bool {
         self.scene.prefilters()
     }
 
     fn read(&mut self, sums: &mut Sums) -> Result<()> {
         for (out, half) in sums.halves.iter_mut().zip(&self.halves) {
-            for (out, &[r, g, b, squares, signs, samples]) in out.iter_mut().zip(half) {
-                let scale = self.scene.mean_sign.map_or(1.0, |mean| samples / divisor(signs, samples, mean));
-                *out = [scale * r, scale * g, scale * b, squares].map(|v| v as f32);
-            }
+            out.iter_mut().zip(half).for_each(|(out, sum)| *out = self.radiance(sum));
         }
         Ok(())
     }

@@ -39,9 +39,9 @@ pub fn pixel(scene: &PackedScene, x: u32, y: u32) -> DVec3 {
 
 /// The radiance of one sample and the pixel filter's sign there, by a header that may differ from the scene's in the samples' share of the
 /// pixel. The second half of an adaptive picture has another seed.
-pub fn sample(scene: &PackedScene, header: &Header, [x, y]: [u32; 2], half: u32, s: u32) -> (DVec3, f64) {
+pub fn sample(scene: &PackedScene, header: &Header, [x, y]: [u32; 2], stream: u32, s: u32) -> (DVec3, f64) {
     let place = [x + header.image[2], y + header.image[3]];
-    let seed = header.sampling[3].wrapping_add(half.wrapping_mul(0x9E37_79B9));
+    let seed = header.sampling[3].wrapping_add(stream.wrapping_mul(0x9E37_79B9));
     let key = pixel_key(place, seed, header.key[0] != 0);
     let points = pixel_points(header, place, key);
     let choices = choose(header, &points, s, 0, true);

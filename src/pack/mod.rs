@@ -2,6 +2,7 @@
 //! f32: positions relative to the eye, texture coordinates with whole tiles taken out, so that what
 //! the device sees is small and near wherever the scene lies in the world.
 
+mod bright;
 mod chances;
 mod header;
 mod kinds;
@@ -102,6 +103,9 @@ pub struct PackedScene {
     pub beam_textures: Option<Arc<Vec<TextureData>>>,
     /// Whether a device counts what goes beyond a limit.
     pub guarded: bool,
+    /// Of adaptive sampling: the share of a texture that is far brighter than the rest and yet has much of its light;
+    /// else none.
+    pub bright_share: Option<f64>,
     /// The table by which samples are placed about their pixel; empty where there is a closed form.
     pub pixel_filter: Vec<f32>,
     /// Mean of the samples' signs, where the pixel filter has negative lobes.
@@ -153,6 +157,9 @@ pub fn pack_with(
     packed.sampler_specs = scene.samplers.clone();
     packed.beams = scene.sampling.algorithm == Algorithm::Beam && suits_beams;
     nonfinite::admit(&mut packed, scene, &textures)?;
+    if schedule == Schedule::Jobs {
+        packed.bright_share = bright::share(scene, &textures);
+    }
     if packed.beams {
         packed.row_sums = textures::row_sums(&textures);
     } else if algorithm == Algorithm::Auto && suits_beams && !packed.has_nonfinite() {

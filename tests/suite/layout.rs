@@ -110,6 +110,8 @@ fn expected_numbers() -> BTreeMap<String, u32> {
     all.insert("NO_SHAPE".into(), mirror::NO_SHAPE);
     all.insert("GUARDS".into(), Guard::ALL.len() as u32);
     all.insert("JOB_BARE".into(), mirror::JOB_BARE);
+    all.insert("JOB_APART".into(), mirror::JOB_APART);
+    all.insert("JOB_STREAM_SHIFT".into(), mirror::JOB_STREAM_SHIFT);
     all.insert("CELL_WORDS".into(), mirror::CELL_WORDS);
     all.insert("MOST_LISTED".into(), mirror::MOST_LISTED);
     all.insert("CELL_EMPTY".into(), mirror::CELL_EMPTY);
