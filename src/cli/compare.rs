@@ -6,6 +6,7 @@ use std::process::ExitCode;
 
 use serde::Serialize;
 
+use crate::counted::counted;
 use crate::error::{Error, Result};
 use crate::metrics::{Comparison, compare, difference, flip, read_picture};
 use crate::output::{self, WriteOptions};
@@ -87,7 +88,7 @@ fn table(args: &CompareArgs, c: &Comparison, flip: f64) -> String {
         ("relative MSE", format!("{:.6e}", c.relative_mse)),
         ("max", format!("{:.6e}{at}", c.max)),
         ("PSNR", if c.mse == 0.0 { "infinite: equal".into() } else { format!("{:.2} dB", c.psnr) }),
-        ("over 1/255", format!("{:.4} %  ({} pixels)", c.over_1_255 * 100.0, c.over_1_255_pixels)),
+        ("over 1/255", format!("{:.4} %  ({})", c.over_1_255 * 100.0, counted(c.over_1_255_pixels, "pixel"))),
         ("FLIP", format!("{flip:.6}")),
         ("NaN pixels", c.nan_pixels.to_string()),
     ];
@@ -96,7 +97,7 @@ fn table(args: &CompareArgs, c: &Comparison, flip: f64) -> String {
 
 fn reason(c: &Comparison, bound: Option<f64>) -> String {
     match bound {
-        _ if c.nan_pixels > 0 => format!("NaN in {} pixels", c.nan_pixels),
+        _ if c.nan_pixels > 0 => format!("NaN in {}", counted(c.nan_pixels, "pixel")),
         Some(x) if c.rmse.is_finite() => format!("RMSE {:.6e} is above the bound {x:e}", c.rmse),
         _ => "the pictures differ by an infinite value".into(),
     }

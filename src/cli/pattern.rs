@@ -8,6 +8,7 @@ use std::process::ExitCode;
 use serde_json::json;
 
 use super::named_parser;
+use crate::counted::counted;
 use crate::error::{Error, Result};
 use crate::oracle::patterns::MAX_PAIRS;
 use crate::output::{self, WriteOptions};
@@ -137,7 +138,7 @@ fn table(args: &PatternArgs, set: &Set, spectrum: &Spectrum, measures: &Measures
     let [columns, rows] = measures.cells;
     let [x, y] = measures.occupied_lines;
     line("strata with points", format!("{} of {columns}×{rows}", measures.occupied));
-    line("in N strips", format!("{x} columns, {y} rows"));
+    line("in N strips", format!("{}, {}", counted(x, "column"), counted(y, "row")));
     // The mean over frequencies 1 … √N/2, where even patterns are quiet.
     let low = (set.samples.isqrt() as usize / 2).max(1);
     let mean = measures.radial_mean[..low].iter().sum::<f64>() / low as f64;

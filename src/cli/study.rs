@@ -6,6 +6,7 @@ use std::process::ExitCode;
 
 use super::overrides::parse_size;
 use super::progress::Bar;
+use crate::counted::{counted, verb};
 use crate::error::{Error, Result};
 use crate::gpu::{DeviceSelect, Gpu};
 use crate::output;
@@ -90,7 +91,9 @@ pub fn run(args: &StudyArgs) -> Result<ExitCode> {
         Err(Error::Interrupted) => {
             let points = record::read(&args.out).points.len();
             super::tell(format_args!(
-                "interrupted: {points} points are in {}; the same command goes on from there",
+                "interrupted: {} {} in {}; the same command goes on from there",
+                counted(points, "point"),
+                verb(points, "is", "are"),
                 args.out.display()
             ));
             Ok(ExitCode::from(130))
@@ -143,11 +146,11 @@ fn report(args: &StudyArgs, record: &Record) -> Result<()> {
     if args.verbose {
         for w in analysis.iter().flat_map(|a| &a.winners) {
             super::tell(format_args!(
-                "within {:.3e} s: {} with {}{} samples, RMSE {:.3e}",
+                "within {:.3e} s: {} with {}{}, RMSE {:.3e}",
                 w.budget,
                 w.method,
                 if w.estimated { "about " } else { "" },
-                w.spp,
+                counted(w.spp, "sample"),
                 w.rmse
             ));
         }
@@ -156,6 +159,10 @@ fn report(args: &StudyArgs, record: &Record) -> Result<()> {
     if let Some(analysis) = analysis {
         super::tell(&analysis.recommendation);
     }
-    super::tell(format_args!("{}: {} points", args.out.join("index.html").display(), record.points.len()));
+    super::tell(format_args!(
+        "{}: {}",
+        args.out.join("index.html").display(),
+        counted(record.points.len(), "point")
+    ));
     Ok(())
 }

@@ -1,6 +1,7 @@
 //! The study as one HTML page that needs nothing else: style, script, plots and pictures are in it. In: the
 //! record, the showcase, the plots. Out: the page's text.
 
+use crate::counted::counted;
 use crate::error::Result;
 use crate::output::Format;
 use crate::plot::html::{Header, SCRIPT, code, document, scroll, section};
@@ -91,8 +92,7 @@ fn faults(showcase: &Showcase) -> Result<String> {
     );
     figures += &figure(&frame, "The scene.", "The frame is where the pictures beside it differ most.");
     for panel in &showcase.panels {
-        let samples =
-            if panel.samples == 1 { "1 sample".into() } else { format!("{} samples", panel.samples) };
+        let samples = counted(panel.samples, "sample");
         let alt =
             format!("{}: {} with {samples}, magnified part of the picture", panel.heading, panel.method);
         let part = data_uri(&crop(&panel.film, w), Format::Png)?;
@@ -127,13 +127,13 @@ fn difference_pictures(showcase: &Showcase) -> Result<String> {
     for (panel, values) in showcase.panels.iter().zip(&values) {
         let picture = shrunk(&false_color(values, showcase.reference.width, scale), MOST);
         let alt = format!(
-            "Error of {} with {} samples at each pixel, from dark (none) to light ({})",
+            "Error of {} with {} at each pixel, from dark (none) to light ({})",
             panel.method,
-            panel.samples,
+            counted(panel.samples, "sample"),
             error(f64::from(scale))
         );
         let picture = image(&data_uri(&picture, Format::Jpeg)?, [picture.width, picture.height], &alt, "");
-        let text = format!("{} samples, RMSE {}.", panel.samples, error(panel.rmse));
+        let text = format!("{}, RMSE {}.", counted(panel.samples, "sample"), error(panel.rmse));
         figures += &figure(&picture, &format!("<code>{}</code>", escape(&panel.method)), &text);
     }
     Ok(format!(

@@ -3,6 +3,7 @@
 
 use super::analysis::{Winner, time_to};
 use super::record::{PointRecord, Record};
+use crate::counted::counted;
 
 /// The method that wins most of the times, with its best measured count, and who is better with less and with
 /// more time.
@@ -64,7 +65,7 @@ fn saved(record: &Record, best: &PointRecord) -> Option<String> {
 }
 
 pub fn samples(spp: u32) -> String {
-    if spp == 1 { "1 sample".into() } else { format!("{spp} samples") }
+    counted(spp, "sample")
 }
 
 pub fn seconds(seconds: f64) -> String {
