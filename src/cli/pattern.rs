@@ -30,6 +30,7 @@ const MAX_POINTS: u32 = 4096;
 /// the next three pairs of dimensions, then x with the next pair's x, y with y, x with y.
 #[derive(Debug, clap::Args)]
 pub struct PatternArgs {
+    /// Pattern
     #[arg(value_name = "NAME", value_parser = named_parser(Pattern::NAMES, Pattern::from_name))]
     name: Pattern,
     /// Picture to write
@@ -38,6 +39,7 @@ pub struct PatternArgs {
     /// Points in the pixel; `center` has one
     #[arg(long, value_name = "N", default_value = "64", allow_negative_numbers = true)]
     spp: u32,
+    /// Another set of random positions
     #[arg(long, value_name = "N", default_value = "1", allow_negative_numbers = true)]
     seed: u32,
     /// Pair of dimensions: 0 is the place in the pixel

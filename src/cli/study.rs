@@ -3,6 +3,7 @@
 
 use std::path::PathBuf;
 use std::process::ExitCode;
+use std::time::Instant;
 
 use super::overrides::parse_size;
 use super::progress::Bar;
@@ -10,10 +11,11 @@ use crate::counted::{counted, verb};
 use crate::error::{Error, Result};
 use crate::gpu::{DeviceSelect, Gpu};
 use crate::output;
-use crate::scene::MAX_SPP;
 use crate::scene::prune::prune;
+use crate::scene::{MAX_SPP, is_standard_input};
 use crate::study::method::Method;
 use crate::study::record::{self, Record};
+use crate::study::words::names;
 use crate::study::{self, Options, ReferenceChoice};
 
 /// Measure which anti-aliasing method gives the least error in the time there is
@@ -63,6 +65,13 @@ pub struct StudyArgs {
 }
 
 pub fn run(args: &StudyArgs) -> Result<ExitCode> {
+    let started = Instant::now();
+    if is_standard_input(&args.scene) {
+        return Err(Error::with_help(
+            "a study needs a scene file: its page has commands that render the scene again",
+            "write the scene to a file first",
+        ));
+    }
     let bar = Bar::new(args.quiet)?;
     let select = match args.device.as_deref() {
         Some("oracle") => {
@@ -80,7 +89,7 @@ pub fn run(args: &StudyArgs) -> Result<ExitCode> {
     }
     output::prepare_folder(&args.out, record::FILE)?;
     prune(&mut scene);
-    let options = options(args);
+    let options = options(args, started);
     let gpu = Gpu::open(&select)?;
     let outcome = study::run(&gpu, &scene, &options, &bar);
     bar.finish();
@@ -105,7 +114,7 @@ pub fn run(args: &StudyArgs) -> Result<ExitCode> {
     }
 }
 
-fn options(args: &StudyArgs) -> Options {
+fn options(args: &StudyArgs, started: Instant) -> Options {
     let mut methods: Vec<Method> = Vec::new();
     args.methods.iter().for_each(|m| {
         if !methods.contains(m) {
@@ -129,6 +138,7 @@ fn options(args: &StudyArgs) -> Options {
             Some(file) => ReferenceChoice::File(file.into()),
         },
         limit: args.seconds,
+        started,
         out: args.out.clone(),
         arguments,
     }
@@ -146,11 +156,10 @@ fn report(args: &StudyArgs, record: &Record) -> Result<()> {
     if args.verbose {
         for w in analysis.iter().flat_map(|a| &a.winners) {
             super::tell(format_args!(
-                "within {:.3e} s: {} with {}{}, RMSE {:.3e}",
+                "within {:.3e} s: {} with {}, RMSE {:.3e}",
                 w.budget,
-                w.method,
-                if w.estimated { "about " } else { "" },
-                counted(w.spp, "sample"),
+                names(w),
+                w.taken,
                 w.rmse
             ));
         }

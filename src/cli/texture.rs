@@ -52,7 +52,11 @@ pub fn run(args: &TextureArgs) -> Result<ExitCode> {
     if let Some(path) = &args.out {
         // As many bits as the file has: its own values come back.
         let png_bits = if texels.format.component() == Component::Unorm16 { 16 } else { 8 };
-        output::write(&repeated(&texels, &args.file)?, path, &WriteOptions { png_bits })?;
+        output::write(
+            &repeated(&texels, &args.file)?,
+            path,
+            &WriteOptions { png_bits, ..WriteOptions::default() },
+        )?;
     }
     let texture = named(texels, args);
     let analysis = analyse(&texture);

@@ -1,18 +1,18 @@
 //! The study as one HTML page that needs nothing else: style, script, plots and pictures are in it. In: the
 //! record, the showcase, the plots. Out: the page's text.
 
-use crate::counted::counted;
 use crate::error::Result;
 use crate::output::Format;
 use crate::plot::html::{Header, SCRIPT, code, document, scroll, section};
 use crate::plot::svg::escape;
 
+use super::choice::recommended;
 use super::files::Plots;
 use super::pictures::{crop, data_uri, differences, false_color, ramp_css, scale, shrunk};
 use super::record::Record;
 use super::showcase::Showcase;
 use super::tables;
-use super::words::{error, recommended};
+use super::words::error;
 
 /// Widest picture within the page.
 const MOST: u32 = 420;
@@ -30,7 +30,7 @@ pub fn html(record: &Record, showcase: &Showcase, plots: &Plots) -> Result<Strin
         escape(&c.device.driver),
         escape(&c.program)
     );
-    let best = recommended(record, &analysis.winners).map(|(_, point)| point.command.as_str());
+    let best = recommended(&record.points, &analysis.winners).map(|point| point.command.as_str());
     let command = best.map_or(String::new(), |c| scroll("The recommended setting as a command", &code(c)));
     let sections = [
         section("faults", "Three faults and what helps", &faults(showcase)?),
@@ -92,13 +92,15 @@ fn faults(showcase: &Showcase) -> Result<String> {
     );
     figures += &figure(&frame, "The scene.", "The frame is where the pictures beside it differ most.");
     for panel in &showcase.panels {
-        let samples = counted(panel.samples, "sample");
-        let alt =
-            format!("{}: {} with {samples}, magnified part of the picture", panel.heading, panel.method);
+        let alt = format!(
+            "{}: {} with {}, magnified part of the picture",
+            panel.heading, panel.method, panel.taken
+        );
         let part = data_uri(&crop(&panel.film, w), Format::Png)?;
         let text = format!(
-            "<code>{}</code>, {samples}, RMSE {}. {}",
+            "<code>{}</code>, {}, RMSE {}. {}",
             escape(&panel.method),
+            escape(&panel.taken),
             error(panel.rmse),
             escape(panel.text)
         );
@@ -113,7 +115,7 @@ fn faults(showcase: &Showcase) -> Result<String> {
     figures +=
         &figure(&image(&part, [w.width, w.height], alt, "pixels"), "Reference.", "What all of them aim at.");
     Ok(format!(
-        "<p>{}×{} pixels from column {}, row {}, at the same sample count, where the errors add up to most.</p>\n\
+        "<p>{}×{} pixels from column {}, row {}, where the errors add up to most.</p>\n\
          <div class=\"grid\">\n{figures}</div>\n",
         w.width, w.height, w.x, w.y
     ))
@@ -129,11 +131,11 @@ fn difference_pictures(showcase: &Showcase) -> Result<String> {
         let alt = format!(
             "Error of {} with {} at each pixel, from dark (none) to light ({})",
             panel.method,
-            counted(panel.samples, "sample"),
+            panel.taken,
             error(f64::from(scale))
         );
         let picture = image(&data_uri(&picture, Format::Jpeg)?, [picture.width, picture.height], &alt, "");
-        let text = format!("{}, RMSE {}.", counted(panel.samples, "sample"), error(panel.rmse));
+        let text = format!("{}, RMSE {}.", escape(&panel.taken), error(panel.rmse));
         figures += &figure(&picture, &format!("<code>{}</code>", escape(&panel.method)), &text);
     }
     Ok(format!(
