@@ -210,9 +210,7 @@ fn axis_line(axis: &Axis, texels: u32, line: &str) -> String {
         Seam::Constant => ": constant".into(),
         Seam::Visible => ": no step inside is like the seam".into(),
         Seam::Broken => ": what repeats inside does not go on across the seam".into(),
-        Seam::Uncertain => {
-            ": the seam is among the largest steps, and like none of them; look at it with --out".into()
-        }
+        Seam::Uncertain => ": the seam is among the largest steps inside; look at it with --out".into(),
         Seam::Unknown => ": no finite pair of texels".into(),
     };
     format!("{verdict}{why}{}", axis_numbers(axis, line, verdict))

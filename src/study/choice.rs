@@ -4,10 +4,13 @@
 use serde::Serialize;
 
 use super::analysis::MethodSlope;
+use super::bootstrap::ratio;
 use super::record::PointRecord;
-use super::student;
 use super::words::taken;
 use crate::plot::axis::steps;
+
+/// Errors that are so many times apart differ.
+const FAR: f64 = 2.0;
 
 /// The least error within a time.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -58,18 +61,19 @@ pub fn winners(points: &[PointRecord], slopes: &[MethodSlope]) -> Vec<Winner> {
     let budgets = steps(times().fold(f64::INFINITY, f64::min), times().fold(0.0, f64::max));
     let winner = |budget: f64| {
         let fitting = usable.iter().filter(|p| p.median_seconds() <= budget);
-        let measured = fitting.map(|p| Winner {
-            budget,
-            method: p.method.clone(),
-            ties: ties(p, &usable, budget),
-            spp: p.spp,
-            taken: taken(p),
-            seconds: p.median_seconds(),
-            rmse: p.errors.rmse,
-            estimated: false,
-        });
+        let least = fitting.min_by(|a, b| a.errors.rmse.total_cmp(&b.errors.rmse))?;
         let estimated = slopes.iter().filter_map(|slope| beyond(&usable, slope, budget));
-        measured.chain(estimated).min_by(|a, b| a.rmse.total_cmp(&b.rmse))
+        let estimated = estimated.min_by(|a, b| a.rmse.total_cmp(&b.rmse));
+        Some(estimated.filter(|e| e.rmse < least.errors.rmse).unwrap_or_else(|| Winner {
+            budget,
+            method: least.method.clone(),
+            ties: ties(least, &usable, budget),
+            spp: least.spp,
+            taken: taken(least),
+            seconds: least.median_seconds(),
+            rmse: least.errors.rmse,
+            estimated: false,
+        }))
     };
     budgets.into_iter().filter_map(winner).collect()
 }
@@ -89,22 +93,15 @@ fn ties(point: &PointRecord, all: &[&PointRecord], budget: f64) -> Vec<String> {
     methods
 }
 
-/// Whether two points have one picture, or errors whose difference over the parts of the picture has a 95 %
-/// interval (Student's t) that holds 0.
+/// Whether two points have one picture, or errors whose ratio has a 95 % interval that holds 1, when the parts of
+/// the picture are drawn anew.
 pub fn no_different(a: &PointRecord, b: &PointRecord) -> bool {
     if !a.picture.is_empty() && a.picture == b.picture {
         return true;
     }
-    let count = a.blocks.len();
-    if count < 3 || b.blocks.len() != count {
-        return false;
-    }
-    let apart: Vec<f64> =
-        a.blocks.iter().zip(&b.blocks).map(|(a, b)| f64::from(*a) - f64::from(*b)).collect();
-    let n = count as f64;
-    let mean = apart.iter().sum::<f64>() / n;
-    let variance = apart.iter().map(|d| (d - mean).powi(2)).sum::<f64>() / (n - 1.0);
-    mean.abs() <= student::quantile(count - 1) * (variance / n).sqrt()
+    // Noise explains no such ratio, and drawing takes its time.
+    let near = a.errors.rmse.max(b.errors.rmse) <= FAR * a.errors.rmse.min(b.errors.rmse);
+    near && ratio(&a.blocks, &b.blocks, 0.95).is_some_and(|[low, high]| low <= 1.0 && high >= 1.0)
 }
 
 /// What a method with a law would come to in a time longer than it was measured for.
@@ -119,7 +116,7 @@ fn beyond(points: &[&PointRecord], slope: &MethodSlope, budget: f64) -> Option<W
         method: slope.method.clone(),
         ties: Vec::new(),
         spp,
-        taken: format!("about {}", taken(&PointRecord { spp, ..(*last).clone() })),
+        taken: format!("about {}", taken(&PointRecord { spp, samples: spp, ..(*last).clone() })),
         seconds: budget,
         rmse: last.errors.rmse * longer.powf(0.5 * law.value),
         estimated: true,

@@ -8,6 +8,8 @@ use crate::progress::{Progress, Until};
 
 /// A century: longer limits are none.
 const ENDLESS: f64 = 3e9;
+/// A limit is kept up to this part of it.
+const KEPT: f64 = 1.05;
 
 #[derive(Clone, Copy, Debug)]
 pub struct Limit {
@@ -32,11 +34,12 @@ impl Limit {
         self.spent() >= self.seconds
     }
 
-    /// What to say where the least that a study does took longer.
+    /// What to say where the study took longer.
     pub fn note(&self) -> Option<String> {
         let (spent, seconds) = (self.spent(), self.seconds);
-        self.is_over()
-            .then(|| format!("it took {spent:.1} s: --seconds {seconds} is less than the least it does"))
+        let note =
+            || format!("it took {spent:.1} s: the least that a study does is more than --seconds {seconds}");
+        (spent > KEPT * seconds).then(note)
     }
 
     /// Runs `work` until this many seconds after the study began. None: it was not done by then.

@@ -9,7 +9,7 @@ use crate::film::Film;
 use crate::metrics::compare;
 use crate::metrics::flip::Seen;
 use crate::progress::{Part, Progress};
-use crate::render::Prepared;
+use crate::render::{Prepared, Report};
 use crate::scene::model::{Algorithm, Scene};
 
 use super::bootstrap::blocks;
@@ -189,9 +189,9 @@ impl<'a> Measurement<'a> {
             task.record.errors = judge(&film, self.reference)?;
             task.record.blocks = blocks(&film, &self.reference.film);
             task.record.picture = Hash::new().picture(&film).hex();
-            if let Some(count) = report.sampled_pixels {
-                let part = count as f64 / film.pixels.len() as f64;
-                task.record.sampled = Some(part);
+            task.record.sampled =
+                sampled_part(self.methods[task.point.method].algorithm, &report, film.pixels.len());
+            if let Some(part) = task.record.sampled {
                 // One beam, or what stands for it.
                 task.record.samples = (part * f64::from(task.point.samples)).ceil().max(1.0) as u32;
             }
@@ -234,6 +234,12 @@ impl<'a> Measurement<'a> {
         }
         notes
     }
+}
+
+/// Of beams: the part of the pixels that took samples; all of them in a scene that suits no beam.
+pub fn sampled_part(algorithm: Algorithm, report: &Report, pixels: usize) -> Option<f64> {
+    let part = || report.sampled_pixels.map_or(1.0, |count| count as f64 / pixels as f64);
+    (algorithm == Algorithm::Beam).then(part)
 }
 
 fn judge(film: &Film, reference: &Reference) -> Result<Errors> {

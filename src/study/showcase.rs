@@ -11,6 +11,7 @@ use crate::scene::model::{Algorithm, Pattern, Scene};
 use super::choice::recommended;
 use super::limit::Limit;
 use super::looks::Looks;
+use super::measure::sampled_part;
 use super::method::Method;
 use super::pictures::{self, Window};
 use super::plan::next_count;
@@ -122,7 +123,7 @@ pub fn render(
             left_out += 1;
             continue;
         };
-        let sampled = report.sampled_pixels.map(|count| count as f64 / film.pixels.len() as f64);
+        let sampled = sampled_part(method.algorithm, &report, film.pixels.len());
         let spp = if method.algorithm == Algorithm::Beam { spp } else { film.samples };
         let taken = taken_by(method.algorithm, spp, sampled);
         let rmse = compare(&film, reference)?.rmse;

@@ -58,21 +58,22 @@ pub fn names(winner: &Winner) -> String {
 /// What each pixel of a point took.
 pub fn taken(point: &PointRecord) -> String {
     let algorithm = Method::parse(&point.method).map_or(Algorithm::Samples, |method| method.algorithm);
-    taken_by(algorithm, point.spp, point.sampled)
+    let count = if algorithm == Algorithm::Beam { point.spp } else { point.samples };
+    taken_by(algorithm, count, point.sampled)
 }
 
-/// What each pixel took that an algorithm rendered with `spp`; `sampled` is the part of the pixels in which beams
-/// took samples.
-pub fn taken_by(algorithm: Algorithm, spp: u32, sampled: Option<f64>) -> String {
+/// What each pixel took of an algorithm that takes `count` samples; `sampled` is the part of the pixels in which
+/// beams took them.
+pub fn taken_by(algorithm: Algorithm, count: u32, sampled: Option<f64>) -> String {
     match (algorithm, sampled.unwrap_or(0.0)) {
         (Algorithm::Cone, _) => "one cone a pixel".into(),
         (Algorithm::Beam, 0.0) => "one beam a pixel".into(),
-        (Algorithm::Beam, 1.0) => format!("{} in every pixel, as beams suit none", samples(spp)),
+        (Algorithm::Beam, 1.0) => format!("{} in every pixel, as beams suit none", samples(count)),
         (Algorithm::Beam, part) => {
-            format!("one beam a pixel, and {} in {} of them", samples(spp), percent(part))
+            format!("one beam a pixel, and {} in {} of them", samples(count), percent(part))
         }
-        (Algorithm::Adaptive, _) => format!("{} on average", samples(spp)),
-        _ => samples(spp),
+        (Algorithm::Adaptive, _) => format!("{} on average", samples(count)),
+        _ => samples(count),
     }
 }
 

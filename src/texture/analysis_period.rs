@@ -10,6 +10,8 @@ const LONGEST: usize = 2048;
 const PERIODIC: f64 = 0.9;
 /// Distances count from where the mismatch has come to this part of the usual: nearer ones tell of smoothness.
 const APART: f64 = 0.8;
+/// Of the steps inside, those that fit best.
+const NEARLY_ALL: f64 = 0.98;
 /// Edges that differ less than this from each other are no pattern.
 const FLAT: f64 = 1e-3;
 
@@ -19,6 +21,9 @@ pub struct Period {
     /// How much worse than inside the texture fits itself a period later across the seam: 0 as well as in the
     /// worst window inside, 1 no better than at any distance.
     pub misfit: f64,
+    /// How many times worse the seam's own edges fit those a period before and after it than nearly all edges
+    /// inside do; 0 where some inside fit no better.
+    pub stray: f64,
 }
 
 /// Mismatches at one distance: mean and largest window inside, and the window across the seam.
@@ -52,8 +57,23 @@ pub fn period(lines: &[Vec<f32>]) -> Option<Period> {
     let first = lags.iter().position(|lag| lag.mean >= APART * usual)?;
     let best = (first..lags.len()).min_by(|&a, &b| lags[a].worst.total_cmp(&lags[b].worst))?;
     let [worst, across] = [lags[best].worst, lags[best].across].map(|mismatch| mismatch / usual);
-    (worst <= PERIODIC)
-        .then(|| Period { texels: best + 1, misfit: ((across - worst) / (1.0 - worst)).max(0.0) })
+    (worst <= PERIODIC).then(|| Period {
+        texels: best + 1,
+        misfit: ((across - worst) / (1.0 - worst)).max(0.0),
+        stray: stray(&edges, best + 1),
+    })
+}
+
+fn stray(lines: &[Vec<f32>], distance: usize) -> f64 {
+    let (length, seam) = (lines[0].len(), lines[0].len() - 1);
+    let mismatch = |i: usize| {
+        lines.iter().map(|line| f64::from((line[i] - line[(i + distance) % length]).abs())).sum::<f64>()
+    };
+    let mut inside: Vec<f64> = (0..seam - distance).map(mismatch).collect();
+    inside.sort_by(f64::total_cmp);
+    let own = 0.5 * (mismatch(seam) + mismatch(seam - distance));
+    let usual = inside[(NEARLY_ALL * (inside.len() - 1) as f64) as usize];
+    if inside.last().is_some_and(|worst| own <= *worst) { 0.0 } else { own / usual }
 }
 
 fn lag(lines: &[Vec<f32>], distance: usize) -> Lag {
@@ -90,7 +110,7 @@ mod tests {
     #[test]
     fn edges_that_go_on_fit_and_those_that_do_not_are_found() {
         let every_eight = |i: usize| if i % 8 == 7 { 1.0 } else { 0.0 };
-        assert_eq!(period(&ring(64, every_eight)), Some(Period { texels: 8, misfit: 0.0 }));
+        assert_eq!(period(&ring(64, every_eight)), Some(Period { texels: 8, misfit: 0.0, stray: 0.0 }));
         let cut = period(&ring(60, every_eight)).unwrap();
         assert!(cut.texels == 8 && cut.misfit > 0.4, "{cut:?}");
     }

@@ -40,8 +40,13 @@ struct Step {
 pub struct Steps {
     interior: Vec<Step>,
     seam: Step,
+    limits: Limits,
+}
+
+struct Limits {
     /// Where |d| and |mean of a run| are cut off.
-    caps: [f64; 2],
+    pair: f64,
+    run: f64,
     channels: usize,
 }
 
@@ -55,50 +60,48 @@ pub struct Sizes {
     pub runs: Option<[f64; 2]>,
 }
 
+impl Step {
+    /// Differences of pairs, channel by channel, beside those of the seam.
+    fn add(&mut self, limits: &Limits, stored: &[f64], weighed: &[f64], seam: Option<&[f64]>) {
+        for (i, (d, e)) in stored.iter().zip(weighed).enumerate() {
+            let channel = i % limits.channels;
+            if d.is_finite() && e.is_finite() {
+                self.square += d * d;
+                self.weighed_square += e * e;
+                self.pairs += 1;
+                self.size += e.abs().min(limits.pair);
+                self.run[channel] += e;
+                if let Some(s) = seam.map(|s| s[i]).filter(|s| s.is_finite()) {
+                    self.against_seam += (e.abs() - s.abs()).powi(2);
+                    self.pairs_with_seam += 1;
+                }
+            }
+            if channel + 1 == limits.channels {
+                self.in_run += 1;
+                if self.in_run == RUN {
+                    let means = self.run[..limits.channels].iter().map(|sum| (sum / RUN as f64).abs());
+                    self.run_size += means.map(|mean| mean.min(limits.run)).sum::<f64>();
+                    self.runs += 1;
+                    (self.run, self.in_run) = ([0.0; 4], 0);
+                }
+            }
+        }
+    }
+}
+
 impl Steps {
-    pub fn new(interior: usize, channels: usize, seam: &Pairs) -> Steps {
-        let mut steps = Steps { interior: vec![], seam: Step::default(), caps: [f64::INFINITY; 2], channels };
-        let whole_runs = seam.weighed.chunks_exact(RUN * channels);
+    pub fn new(interior: usize, channels: usize, pairs: &Pairs) -> Steps {
+        let whole_runs = pairs.weighed.chunks_exact(RUN * channels);
         let means = whole_runs.flat_map(|run| (0..channels).map(move |c| mean_of(run, c, channels)));
-        steps.caps = [cap(seam.weighed.iter().copied()), cap(means)];
-        let mut of_seam = Step::default();
-        steps.add_to(&mut of_seam, &seam.stored, &seam.weighed, None);
-        steps.seam = of_seam;
-        steps.interior = vec![Step::default(); interior];
-        steps
+        let limits = Limits { pair: cap(pairs.weighed.iter().copied()), run: cap(means), channels };
+        let mut seam = Step::default();
+        seam.add(&limits, &pairs.stored, &pairs.weighed, None);
+        Steps { interior: vec![Step::default(); interior], seam, limits }
     }
 
     /// Differences along step `at`, in the order of the seam's pairs, each beside that of the seam.
     pub fn add(&mut self, at: usize, stored: &[f64], weighed: &[f64], seam: &[f64]) {
-        let mut step = std::mem::take(&mut self.interior[at]);
-        self.add_to(&mut step, stored, weighed, Some(seam));
-        self.interior[at] = step;
-    }
-
-    fn add_to(&self, step: &mut Step, stored: &[f64], weighed: &[f64], seam: Option<&[f64]>) {
-        for (i, (d, e)) in stored.iter().zip(weighed).enumerate() {
-            let channel = i % self.channels;
-            if d.is_finite() && e.is_finite() {
-                step.square += d * d;
-                step.weighed_square += e * e;
-                step.pairs += 1;
-                step.size += e.abs().min(self.caps[0]);
-                step.run[channel] += e;
-                if let Some(s) = seam.map(|s| s[i]).filter(|s| s.is_finite()) {
-                    step.against_seam += (e.abs() - s.abs()).powi(2);
-                    step.pairs_with_seam += 1;
-                }
-            }
-            if channel + 1 == self.channels {
-                step.in_run += 1;
-                if step.in_run == RUN {
-                    let means = step.run[..self.channels].iter().map(|sum| (sum / RUN as f64).abs());
-                    step.run_size += means.map(|mean| mean.min(self.caps[1])).sum::<f64>();
-                    step.runs += 1;
-                    (step.run, step.in_run) = ([0.0; 4], 0);
-                }
-            }
-        }
+        self.interior[at].add(&self.limits, stored, weighed, Some(seam));
     }
 
     /// An axis of one texel.

@@ -9,6 +9,8 @@ use crate::named::named_enum;
 /// A seam larger than this many times the largest step inside is seen; one a little above it may be. Of
 /// textures that tile and have no edges the seam reached 0.98 of the largest.
 pub const SEEN: f64 = 1.25;
+/// The same of means over runs of pairs, of which there are fewer.
+pub const SEEN_RUNS: f64 = 1.5;
 pub const DOUBTFUL: f64 = 1.05;
 /// Up to this many times the middle step inside, or larger than this part of all steps at most, a seam is one
 /// step of many.
@@ -18,11 +20,13 @@ pub const USUAL_RANK: f64 = 0.9;
 /// Textures that tile reached 0.08, others began at 0.45.
 pub const FITS: f64 = 0.2;
 pub const BREAKS: f64 = 0.35;
+/// A seam that strays this much is no line of the pattern, whatever lies beside it.
+pub const STRAYS: f64 = 2.0;
 /// The seam is an edge that is found inside if their sizes, pair by pair, differ by this part of the seam, beside
 /// what the middle step inside has of it.
 pub const RECURS: f64 = 0.1;
-/// Steps within this factor are of one size.
-const ALIKE: f64 = 1.5;
+/// Up to this part it may be, with other tones.
+pub const RESEMBLES: f64 = 0.5;
 
 named_enum! {
     /// What the seam of one axis is.
@@ -39,7 +43,7 @@ named_enum! {
         Visible = "visible",
         /// What repeats inside does not go on across the seam.
         Broken = "broken",
-        /// Among the largest steps inside, or a little above them, and like none of them.
+        /// Among the largest steps inside, or a little above them, and only roughly like one of them.
         Uncertain = "uncertain",
         /// Every pair of the seam, or of the interior, has a value that is not finite.
         Unknown = "unknown",
@@ -87,8 +91,6 @@ pub struct Rank {
     of_middle: f64,
     /// Of runs of pairs, over the largest inside.
     runs_of_largest: f64,
-    /// Some step inside is of the seam's size.
-    has_like: bool,
 }
 
 impl Rank {
@@ -104,7 +106,6 @@ impl Rank {
             of_largest: (largest > 0.0).then(|| seam / largest),
             of_middle: ratio(seam, interior[interior.len() / 2]),
             runs_of_largest: sizes.runs.map_or(0.0, |[own, largest]| ratio(own, largest)),
-            has_like: interior.iter().any(|s| (seam / ALIKE..=seam * ALIKE).contains(s)),
         }
     }
 }
@@ -112,18 +113,18 @@ impl Rank {
 /// Of a seam that is no constant and has steps inside; `nearest` is that of
 /// [`Steps::nearest_to_seam`](super::analysis_steps::Steps::nearest_to_seam).
 pub fn judge(rank: &Rank, period: Option<Period>, nearest: Option<[f64; 2]>) -> Seam {
-    let recurs = nearest.is_some_and(|[distance, middle]| distance <= RECURS + middle);
+    let like = |part: f64| nearest.is_some_and(|[distance, middle]| distance <= part + middle);
     let over = rank.of_largest.unwrap_or(f64::INFINITY);
     match period {
-        _ if over.max(rank.runs_of_largest) > SEEN => Seam::Visible,
-        Some(period) if period.misfit >= BREAKS => Seam::Broken,
+        _ if over > SEEN || rank.runs_of_largest > SEEN_RUNS => Seam::Visible,
+        Some(period) if period.misfit >= BREAKS || period.stray > STRAYS => Seam::Broken,
         Some(period) if period.misfit > FITS => Seam::Uncertain,
         Some(_) if rank.of_middle > USUAL => Seam::Pattern,
         Some(_) => Seam::Smooth,
         None if over > DOUBTFUL => Seam::Uncertain,
         None if rank.of_middle <= USUAL || rank.share <= USUAL_RANK => Seam::Smooth,
-        None if recurs => Seam::Pattern,
-        None if !rank.has_like => Seam::Visible,
-        None => Seam::Uncertain,
+        None if like(RECURS) => Seam::Pattern,
+        None if like(RESEMBLES) => Seam::Uncertain,
+        None => Seam::Visible,
     }
 }

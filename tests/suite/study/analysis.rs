@@ -169,6 +169,11 @@ fn equal_pictures_and_errors_that_noise_explains_are_named_together() {
         }
         assert!(!winner.is_or_ties("random"), "{winner:?}");
     }
+    // A part that errs a hundred times as much as the others hides nothing.
+    let skewed = |factor: f32| -> Vec<f32> {
+        a.iter().enumerate().map(|(i, b)| b * factor * if i == 3 { 100.0 } else { 1.0 }).collect()
+    };
+    assert!(!no_different(&with("a", 0.01, "s", &skewed(1.0)), &with("b", 0.01, "t", &skewed(1.5))));
     let unknown = point("old", 1, 0.01, 0.1);
     assert!(!no_different(&unknown, &unknown), "without parts and picture nothing is known");
 }

@@ -172,8 +172,8 @@ fn longest_points_are_left_out_where_time_does_not_suffice() {
     let options = ["--methods", "random,stratified", "--spp", "1,4,16777216", "--seconds", "20"];
     let clock = std::time::Instant::now();
     let record = studied(folder.path(), &options);
-    // The last slice, and what is written: what the limit cannot cut.
-    assert!(clock.elapsed().as_secs_f64() < 23.0, "--seconds 20 took {:?}", clock.elapsed());
+    // What the limit cannot cut, on a busy machine: the last slice, and writing the folder.
+    assert!(clock.elapsed().as_secs_f64() < 26.0, "--seconds 20 took {:?}", clock.elapsed());
     let counts: Vec<u64> = points(&record).iter().map(|p| p["spp"].as_u64().unwrap()).collect();
     assert_eq!(counts, [1, 4, 1, 4]);
     let notes = record["notes"].to_string();
