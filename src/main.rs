@@ -36,6 +36,7 @@ enum Command {
 }
 
 fn main() -> ExitCode {
+    cli::prepare_process();
     let result = match Cli::parse().command {
         Command::Render(args) => render::run(&args),
         Command::Study(args) => study::run(&args),

@@ -8,14 +8,17 @@ use std::time::Instant;
 
 use clap::Args;
 
+use super::outputs::Outputs;
 use super::overrides::Overrides;
 use super::progress::Bar;
 use super::report::{self, Ran};
+use super::{DEVICE, MEASURING, OUTPUT, TEXTURES};
 use crate::adaptive::{self, Goal};
 use crate::error::{Error, Result};
+use crate::film::Placement;
 use crate::gpu::{DeviceSelect, Gpu};
 use crate::oracle;
-use crate::output::{self, WriteOptions};
+use crate::output::{self, ENDING_NAMES, Format, WriteOptions};
 use crate::pack::{self, Crop, PackedScene, Pyramids, Schedule};
 use crate::render::{self, MipChoice, Report, TexelChoice, Tuning};
 use crate::scene::advice;
@@ -27,52 +30,56 @@ use crate::verify::known::anisotropy_fault;
 
 #[derive(Args, Debug)]
 pub struct RenderArgs {
-    /// Scene file (TOML)
+    /// Scene file (TOML), or - for standard input
     scene: PathBuf,
     /// Picture to write; the ending decides the format: exr hdr (linear float), png jpg tif (sRGB).
-    /// May be given several times [default: the scene's name with .png, in the current folder]
-    #[arg(short, long = "output", value_name = "OUT")]
+    /// May be given several times; - is standard output [default: the scene's name with .png, in the
+    /// current folder]
+    #[arg(short, long = "output", value_name = "OUT", help_heading = OUTPUT)]
     output: Vec<PathBuf>,
+    /// Format of what -o - writes
+    #[arg(long, value_name = "FORMAT", value_parser = super::named_parser(&ENDING_NAMES, output::format_named), help_heading = OUTPUT)]
+    format: Option<Format>,
     #[command(flatten)]
     overrides: Overrides,
     /// Device: an index or a part of the name as `moire devices` lists them, cpu, gpu, or oracle
     /// (float64 on the CPU) [default: discrete GPU, else integrated, else CPU]
-    #[arg(long, value_name = "SEL")]
+    #[arg(long, value_name = "SEL", help_heading = DEVICE)]
     device: Option<String>,
     /// Render only this part, in pixels of the full picture
-    #[arg(long, value_name = "X,Y,W,H", allow_hyphen_values = true, value_parser = parse_crop)]
+    #[arg(long, value_name = "X,Y,W,H", help_heading = OUTPUT, allow_hyphen_values = true, value_parser = parse_crop)]
     crop: Option<Crop>,
     /// Build the pipeline with all features, to measure what leaving them out gains
-    #[arg(long)]
+    #[arg(long, help_heading = MEASURING)]
     keep_everything: bool,
     /// Let in textures with NaN and infinite texels, which are errors else: pixels that show one are no
     /// numbers either, and counted
-    #[arg(long)]
+    #[arg(long, help_heading = TEXTURES)]
     allow_nonfinite: bool,
     /// Where look-ups of method shader read texels
-    #[arg(long, value_name = "SOURCE", default_value = "auto", value_parser = super::named_parser(TexelChoice::NAMES, TexelChoice::from_name))]
+    #[arg(long, value_name = "SOURCE", help_heading = MEASURING, default_value = "auto", value_parser = super::named_parser(TexelChoice::NAMES, TexelChoice::from_name))]
     texels: TexelChoice,
     /// Where box pyramids of textures are made, if their lengths are powers of two
-    #[arg(long, value_name = "PLACE", default_value = "auto", value_parser = super::named_parser(MipChoice::NAMES, MipChoice::from_name))]
+    #[arg(long, value_name = "PLACE", help_heading = MEASURING, default_value = "auto", value_parser = super::named_parser(MipChoice::NAMES, MipChoice::from_name))]
     mips: MipChoice,
     /// Workgroup shape, for measurements [default: by device]
-    #[arg(long, value_name = "WxH", value_parser = |s: &str| Tuning::parse_group(s).map_err(|e| e.to_string()))]
+    #[arg(long, value_name = "WxH", help_heading = MEASURING, value_parser = |s: &str| Tuning::parse_group(s).map_err(|e| e.to_string()))]
     workgroup: Option<[u32; 2]>,
     /// Bits per channel of PNG files
-    #[arg(long, value_name = "BITS", default_value = "8", value_parser = ["8", "16"])]
+    #[arg(long, value_name = "BITS", help_heading = OUTPUT, default_value = "8", value_parser = ["8", "16"])]
     png_bits: String,
     /// Count on the device what goes beyond a limit: coordinates that are no numbers, levels, footprints, depth;
     /// -v counts too
-    #[arg(long)]
+    #[arg(long, help_heading = MEASURING)]
     guards: bool,
     /// Print one JSON object on stdout
-    #[arg(long)]
+    #[arg(long, help_heading = OUTPUT)]
     json: bool,
     /// Say nothing but errors
-    #[arg(short, long, conflicts_with = "verbose")]
+    #[arg(short, long, conflicts_with = "verbose", help_heading = OUTPUT)]
     quiet: bool,
     /// Say what was left out and how textures are stored
-    #[arg(short, long)]
+    #[arg(short, long, help_heading = OUTPUT)]
     verbose: bool,
 }
 
@@ -84,11 +91,11 @@ pub fn run(args: &RenderArgs) -> Result<ExitCode> {
         Some(text) if !oracle => DeviceSelect::parse(text)?,
         _ => DeviceSelect::Default,
     };
+    let outputs = Outputs::new(&args.scene, &args.output, args.format, args.json)?;
     let mut scene = crate::scene::load(&args.scene)?;
     let chosen = args.overrides.apply(&mut scene)?;
     check_crop(args.crop, &scene)?;
-    let outputs = outputs(args);
-    for path in &outputs {
+    for path in &outputs.files {
         output::check_writable(path)?;
         check_inputs_kept(path, &scene)?;
     }
@@ -116,11 +123,12 @@ pub fn run(args: &RenderArgs) -> Result<ExitCode> {
     bar.finish();
 
     let clock = Instant::now();
-    let options = WriteOptions { png_bits: if args.png_bits == "16" { 16 } else { 8 } };
-    output::write_all(&ran.film, &outputs, &options)?;
+    let placement = args.crop.map(|c| Placement { corner: [c.x, c.y], full: [scene.width, scene.height] });
+    let options = WriteOptions { png_bits: if args.png_bits == "16" { 16 } else { 8 }, placement };
+    outputs.write(&ran.film, &options)?;
     ran.report.seconds.write = clock.elapsed().as_secs_f64();
     ran.report.seconds.total = start.elapsed().as_secs_f64();
-    let outputs: Vec<String> = outputs.iter().map(|p| p.display().to_string()).collect();
+    let outputs = outputs.names();
     if args.json {
         let options = args.overrides.report(&scene, args.crop, args.keep_everything);
         super::print(&format!("{:#}", report::json(&ran, options, &outputs)))?;
@@ -207,15 +215,6 @@ fn load(scene: &Scene, args: &RenderArgs, pyramids: impl FnOnce() -> Pyramids) -
     let textures = scene.textures.iter().map(|t| load_with(t, values)).collect::<Result<Vec<_>>>()?;
     let pyramids = if pack::reads_levels(scene) { pyramids() } else { Pyramids::Host };
     pack::pack_with(scene, textures, args.crop, pyramids)
-}
-
-fn outputs(args: &RenderArgs) -> Vec<PathBuf> {
-    if args.output.is_empty() {
-        let mut name = args.scene.file_stem().unwrap_or("scene".as_ref()).to_owned();
-        name.push(".png");
-        return vec![PathBuf::from(name)];
-    }
-    args.output.clone()
 }
 
 /// A picture must not replace a file that it is made from.

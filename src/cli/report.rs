@@ -5,6 +5,7 @@ use std::fs;
 use serde_json::{Map, Value, json};
 
 use super::tell;
+use crate::counted::{counted, verb};
 use crate::film::Film;
 use crate::pack::Guard;
 use crate::render::Report;
@@ -86,8 +87,10 @@ pub fn say(ran: &Ran, outputs: &[String], verbose: bool) {
     match nonfinite_pixels(&ran.film) {
         0 => {}
         count => tell(format_args!(
-            "warning: {count} pixels are not finite; .exr keeps them, other formats have NaN as black and \
-             infinity as their largest value"
+            "warning: {} {} not finite; .exr keeps them, other formats have NaN as black and \
+             infinity as their largest value",
+            counted(count, "pixel"),
+            verb(count, "is", "are")
         )),
     }
     if verbose {
@@ -109,8 +112,9 @@ pub fn say(ran: &Ran, outputs: &[String], verbose: bool) {
             seconds.write
         ));
         tell(format_args!(
-            "device time of rendering: {:.4} s in {} slices",
-            report.device_render_seconds, report.slices
+            "device time of rendering: {:.4} s in {}",
+            report.device_render_seconds,
+            counted(report.slices, "slice")
         ));
         if let Some(survey) = report.device_survey_seconds {
             tell(format_args!("device time of the survey: {survey:.4} s"));
@@ -122,7 +126,8 @@ pub fn say(ran: &Ran, outputs: &[String], verbose: bool) {
     if let Some(sampled) = report.sampled_pixels {
         let pixels = ran.film.pixels.len() as f64;
         tell(format_args!(
-            "one beam a pixel; {sampled} pixels ({:.2} %) took samples, as beams cannot tell them",
+            "one beam a pixel; {} ({:.2} %) took samples, as beams cannot tell them",
+            counted(sampled, "pixel"),
             100.0 * sampled as f64 / pixels
         ));
     }
@@ -135,7 +140,7 @@ pub fn say(ran: &Ran, outputs: &[String], verbose: bool) {
     if let Some(o) = &report.outcome {
         if o.beam_pixels > 0 {
             let told = 100.0 * o.beam_pixels as f64 / ran.film.pixels.len() as f64;
-            tell(format_args!("one beam a pixel told {} pixels ({told:.2} %)", o.beam_pixels));
+            tell(format_args!("one beam a pixel told {} ({told:.2} %)", counted(o.beam_pixels, "pixel")));
         }
         if o.estimated_bias > 0.0 {
             tell(format_args!(
@@ -147,24 +152,27 @@ pub fn say(ran: &Ran, outputs: &[String], verbose: bool) {
             format!(" ({:.0} %: {low:.2e} to {high:.2e})", 100.0 * o.confidence)
         });
         tell(format_args!(
-            "estimated RMSE {:.2e}{interval} after {} passes, {} to {} samples a pixel{}",
+            "estimated RMSE {:.2e}{interval} after {}, {} a pixel{}",
             o.estimated_rmse,
-            o.passes,
-            o.least_samples,
-            o.most_samples,
+            counted(o.passes, "pass"),
+            range_of_samples(o.least_samples, o.most_samples),
             if o.reached { "" } else { "; the goal was not reached" }
         ));
     }
     tell(format_args!(
-        "{}: {}×{} pixels, {} samples a pixel on {}, render {:.3} s, total {:.3} s",
+        "{}: {}×{} pixels, {} a pixel on {}, render {:.3} s, total {:.3} s",
         outputs.join(", "),
         ran.film.width,
         ran.film.height,
-        ran.film.samples,
+        counted(ran.film.samples, "sample"),
         ran.device,
         seconds.render,
         seconds.total
     ));
+}
+
+fn range_of_samples(least: u32, most: u32) -> String {
+    if least == most { counted(most, "sample") } else { format!("{least} to {}", counted(most, "sample")) }
 }
 
 /// User and system time of this process so far, where `/proc` tells (proc(5), fields 14 and 15, in

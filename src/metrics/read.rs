@@ -5,13 +5,19 @@ use std::path::Path;
 
 use crate::color::{srgb_to_linear, srgb8_table};
 use crate::error::Result;
-use crate::film::Film;
+use crate::film::{Film, Placement};
 use crate::texture::data::Component;
-use crate::texture::read_file::{self, Texels};
+use crate::texture::read_file::{self, Part, Texels};
 
 /// `samples` is 0: a file does not say how many stand behind it.
 pub fn read_picture(path: &Path) -> Result<Film> {
-    Ok(film_of(&read_file::read(path)?))
+    read_placed(path).map(|(film, _)| film)
+}
+
+/// Also where it lies in the file's whole picture.
+pub fn read_placed(path: &Path) -> Result<(Film, Placement)> {
+    let (texels, placement) = read_file::read_part(path, Part::Data)?;
+    Ok((film_of(&texels), placement))
 }
 
 /// The texels of a file as a picture.

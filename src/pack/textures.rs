@@ -1,5 +1,6 @@
 //! Textures and samplers → texel bytes, records and image slots.
 
+use crate::counted::counted;
 use crate::error::{Error, Result};
 use crate::layout::{self, Texture};
 use crate::scene::model::{Footprint, Scene};
@@ -278,7 +279,7 @@ impl PackedScene {
             let levels = if levels > 1 { format!(", {levels} levels") } else { String::new() };
             let nonfinite = match self.nonfinite_texels[i] {
                 0 => String::new(),
-                count => format!(", {count} texels not finite"),
+                count => format!(", {} not finite", counted(count, "texel")),
             };
             format!(
                 "\"{name}\": {width}×{height}{depth}{levels}, {channels}-channel file, held as {format} ({space}), {kib} KiB{nonfinite}"

@@ -2,7 +2,7 @@
 //! validated scene, with every reference an index, or the first error.
 
 use std::fs::File;
-use std::io::Read;
+use std::io::{ErrorKind, Read};
 use std::path::Path;
 
 use toml::de::DeTable;
@@ -20,6 +20,7 @@ use super::table::Table;
 use super::textures;
 use super::validate::{MAX_SHAPES, MAX_TEXTURES, check_filters};
 use crate::error::{Error, Result};
+use crate::texture::read_file::odd_path;
 use crate::texture::sampler_spec::SamplerSpec;
 
 /// 65535 triangles with texture coordinates take 7 MB of text.
@@ -38,8 +39,20 @@ const SECTIONS: &[&str] = &[
     "light",
 ];
 
-/// Reads a scene file. Textures are named, not opened.
+/// What a scene is called that was not read from a file.
+pub const STANDARD_INPUT: &str = "<stdin>";
+
+/// Whether a path stands for standard input.
+pub fn is_standard_input(path: &Path) -> bool {
+    path == Path::new("-")
+}
+
+/// Reads a scene file, or standard input where the path is `-`: paths in it are then relative to the current
+/// folder. Textures are named, not opened.
 pub fn load(path: &Path) -> Result<Scene> {
+    if is_standard_input(path) {
+        return parse(Path::new(STANDARD_INPUT), &text_of(std::io::stdin().lock(), STANDARD_INPUT)?);
+    }
     parse(path, &read(path)?)
 }
 
@@ -57,10 +70,19 @@ fn read(path: &Path) -> Result<String> {
         let message = format!("cannot read scene {shown}: it is a folder");
         return Err(Error::with_help(message, "name a scene file (TOML) in it"));
     }
-    let unreadable = |error: std::io::Error| Error::new(format!("cannot read scene {shown}: {error}"));
+    let file = File::open(path).map_err(|error| Error::Plain {
+        message: format!("cannot read scene {shown}: {error}"),
+        help: odd_path(path).filter(|_| error.kind() == ErrorKind::NotFound),
+    })?;
+    text_of(file, &shown.to_string())
+}
+
+fn text_of(source: impl Read, shown: &str) -> Result<String> {
     let mut bytes = Vec::new();
-    let file = File::open(path).map_err(unreadable)?;
-    file.take(MAX_BYTES + 1).read_to_end(&mut bytes).map_err(unreadable)?;
+    source
+        .take(MAX_BYTES + 1)
+        .read_to_end(&mut bytes)
+        .map_err(|error| Error::new(format!("cannot read scene {shown}: {error}")))?;
     if bytes.len() as u64 > MAX_BYTES {
         return Err(Error::new(format!(
             "cannot read scene {shown}: it is larger than {} MiB, the most a scene file may have",
@@ -84,7 +106,19 @@ fn syntax_error(source: Source<'_>, error: &toml::de::Error) -> Error {
         empty if empty.is_empty() => String::new(),
         excerpt => format!(", found {excerpt}"),
     };
-    source.error(span, &format!("TOML syntax: {}{found}", error.message()), error.message())
+    let place = span.start;
+    let mut told = source.error(span, &format!("TOML syntax: {}{found}", error.message()), error.message());
+    if let Error::Scene { help, .. } = &mut told
+        && error.message().contains("escape")
+        && source.line(place).contains('\\')
+    {
+        *help = Some(
+            "within \"…\" a backslash begins an escape; write folders with / (textures/brick.png), or the path in \
+             single quotes ('textures\\brick.png')"
+                .into(),
+        );
+    }
+    told
 }
 
 fn assemble(path: &Path, root: &Table<'_>) -> Result<Scene> {

@@ -26,7 +26,8 @@ pub(super) const MATERIAL: &[&str] = &[
     "ior",
     "roughness",
 ];
-const MAPPING: &[&str] = &["kind", "entity", "space", "origin", "axis", "scale", "offset", "rotate"];
+pub(super) const MAPPING: &[&str] =
+    &["kind", "entity", "space", "origin", "axis", "scale", "offset", "rotate"];
 /// Keys of the frame that only projecting maps have.
 const FRAME: [&str; 4] = ["origin", "axis", "space", "entity"];
 

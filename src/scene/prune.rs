@@ -2,6 +2,7 @@
 //! and samplers behind no material, lights that shine on nothing that scatters. Indices follow.
 
 use super::model::Scene;
+use crate::counted::{counted, verb};
 
 /// What was dropped, for `-v`.
 pub fn prune(scene: &mut Scene) -> Vec<String> {
@@ -48,7 +49,12 @@ pub fn prune(scene: &mut Scene) -> Vec<String> {
     note(&mut dropped, "sampler", &samplers);
 
     if !scene.lights.is_empty() && !scene.materials.iter().any(|m| m.model.is_lit()) {
-        dropped.push(format!("{} lights that shine on nothing", scene.lights.len()));
+        let count = scene.lights.len();
+        dropped.push(format!(
+            "{} that {} on nothing",
+            counted(count, "light"),
+            verb(count, "shines", "shine")
+        ));
         scene.lights.clear();
     }
     dropped

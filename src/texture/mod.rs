@@ -1,7 +1,10 @@
 //! Textures as data: what a file holds, what a sampler does with it.
 
 pub mod analysis;
+mod analysis_period;
+mod analysis_rows;
 mod analysis_steps;
+mod analysis_verdict;
 mod cube;
 pub mod data;
 pub mod decode;

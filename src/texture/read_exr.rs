@@ -1,6 +1,6 @@
 //! OpenEXR into texels: the first flat layer with channels R, G, B (and A), else Y (and A), half
 //! and float alike as f32. The picture is the display window; what the data window leaves out is
-//! black, and transparent where the file has alpha.
+//! black, and transparent where the file has alpha. Or it is what both windows have, and where that lies.
 
 use std::io::{BufRead, Seek};
 use std::path::Path;
@@ -11,13 +11,14 @@ use exr::prelude::*;
 use super::data::{Component, TexelFormat};
 use super::read_file::{Texels, check_memory, check_size, damaged};
 use crate::error::{Error, Result};
+use crate::film::Placement;
 
 /// Where a layer lies in the picture.
 #[derive(Clone, Copy)]
 struct Window {
     width: usize,
     height: usize,
-    /// Data window's corner within the display window.
+    /// Data window's corner within the picture.
     offset: (i32, i32),
     channels: usize,
 }
@@ -35,7 +36,15 @@ impl Window {
     }
 }
 
-pub(super) fn read(source: impl BufRead + Seek, path: &Path) -> Result<Texels> {
+/// Which part of the file is the picture.
+#[derive(Clone, Copy, PartialEq)]
+pub enum Part {
+    Display,
+    /// What the data window has of the display window.
+    Data,
+}
+
+pub(super) fn read(source: impl BufRead + Seek, path: &Path, part: Part) -> Result<(Texels, Placement)> {
     let reader = exr::block::read(source, false).map_err(|e| exr_error(path, e))?;
     let headers = reader.headers();
     let layer_with =
@@ -51,10 +60,21 @@ pub(super) fn read(source: impl BufRead + Seek, path: &Path) -> Result<Texels> {
     let layer = header.layer_size;
     check_size(path, layer.0 as u64, layer.1 as u64, 4)?;
     let channels = if !grey { 4 } else { 1 + usize::from(has_alpha) };
-    check_size(path, display.size.0 as u64, display.size.1 as u64, channels * 4)?;
     let corner = header.own_attributes.layer_position - display.position;
-    let window =
-        Window { width: display.size.0, height: display.size.1, offset: (corner.0, corner.1), channels };
+    let (first, size) = match part {
+        Part::Display => ([0; 2], display.size),
+        Part::Data => shared_part(corner, layer, display.size).ok_or_else(|| {
+            Error::with_help(
+                format!("{}: its data window lies outside its display window", path.display()),
+                "write the picture again with a data window that the display window shows",
+            )
+        })?,
+    };
+    check_size(path, size.0 as u64, size.1 as u64, channels * 4)?;
+    let offset = (corner.0 - first[0] as i32, corner.1 - first[1] as i32);
+    let window = Window { width: size.0, height: size.1, offset, channels };
+    let placement =
+        Placement { corner: first, full: [display.size.0, display.size.1].map(|side| side as u32) };
 
     check_memory(path, window.bytes())?;
     let read_layer = exr::prelude::read().no_deep_data().largest_resolution_level();
@@ -90,13 +110,30 @@ pub(super) fn read(source: impl BufRead + Seek, path: &Path) -> Result<Texels> {
         bytes.chunks_exact_mut(16).for_each(|t| t[12..].copy_from_slice(&1f32.to_ne_bytes()));
     }
 
-    Ok(Texels {
+    let texels = Texels {
         width: window.width as u32,
         height: window.height as u32,
         format: TexelFormat::new(channels, Component::Float32),
         file_channels: if grey { channels } else { 3 + usize::from(has_alpha) },
         bytes,
-    })
+    };
+    Ok((texels, placement))
+}
+
+/// Corner and size of what a data window at `corner` has of a display window at the origin.
+fn shared_part(
+    corner: Vec2<i32>,
+    data: Vec2<usize>,
+    display: Vec2<usize>,
+) -> Option<([u32; 2], Vec2<usize>)> {
+    let along = |corner: i32, data: usize, display: usize| {
+        let first = i64::from(corner).max(0);
+        let end = (i64::from(corner) + data as i64).min(display as i64);
+        (end > first).then_some((first as u32, (end - first) as usize))
+    };
+    let (x, width) = along(corner.0, data.0, display.0)?;
+    let (y, height) = along(corner.1, data.1, display.1)?;
+    Some(([x, y], Vec2(width, height)))
 }
 
 fn put(bytes: &mut [u8], window: Window, at: Vec2<usize>, values: &[f32]) {

@@ -9,9 +9,11 @@ use std::path::Path;
 use image::{ColorType, ImageDecoder, ImageError, ImageFormat, ImageReader, Limits};
 
 use super::data::{Component, TexelFormat};
+pub use super::read_exr::Part;
 use super::sniff::{self, Content};
 use super::{jpeg_end, read_exr};
 use crate::error::{Error, Result};
+use crate::film::Placement;
 
 /// Twice the largest image side of current GPUs; checked in the header, before any allocation.
 const MAX_SIDE: u64 = 65_536;
@@ -30,10 +32,19 @@ pub struct Texels {
 }
 
 pub fn read(path: &Path) -> Result<Texels> {
+    read_part(path, Part::Display).map(|(texels, _)| texels)
+}
+
+/// Also where the texels lie in the file's picture.
+pub fn read_part(path: &Path, part: Part) -> Result<(Texels, Placement)> {
     let mut source = BufReader::new(open(path)?);
     match identify(&mut source).map_err(|e| unreadable(path, &e))? {
-        Content::Picture(ImageFormat::OpenExr) => read_exr::read(source, path),
-        Content::Picture(format) => read_with_image(source, format, path),
+        Content::Picture(ImageFormat::OpenExr) => read_exr::read(source, path, part),
+        Content::Picture(format) => {
+            let texels = read_with_image(source, format, path)?;
+            let placement = Placement::whole(texels.width, texels.height);
+            Ok((texels, placement))
+        }
         Content::Other(what) => Err(Error::with_help(
             format!("{}: not a picture that can be read: the content {what}", path.display()),
             format!("supported are {SUPPORTED}, whatever the ending of the name"),
@@ -162,7 +173,8 @@ pub(super) fn check_memory(path: &Path, bytes: usize) -> Result<()> {
 pub(super) fn open(path: &Path) -> Result<File> {
     let metadata = fs::metadata(path).map_err(|e| match e.kind() {
         ErrorKind::NotFound => {
-            Error::Plain { message: format!("{}: there is no such file", path.display()), help: hint(path) }
+            let shown: String = path.to_string_lossy().chars().flat_map(escaped).collect();
+            Error::Plain { message: format!("{shown}: there is no such file"), help: hint(path) }
         }
         _ => unreadable(path, &e),
     })?;
@@ -176,8 +188,11 @@ pub(super) fn open(path: &Path) -> Result<File> {
     File::open(path).map_err(|e| unreadable(path, &e))
 }
 
-/// Which part of a missing path is missing, or the name in that folder that comes closest.
+/// What is odd about a missing path, which part of it is missing, or the name in that folder that comes closest.
 fn hint(path: &Path) -> Option<String> {
+    if let Some(odd) = odd_path(path) {
+        return Some(odd);
+    }
     let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let Ok(entries) = fs::read_dir(folder) else {
         return Some(format!("the folder {} does not exist or cannot be read", folder.display()));
@@ -187,6 +202,26 @@ fn hint(path: &Path) -> Option<String> {
     let scored = names.map(|name| (strsim::jaro_winkler(&wanted, &name.to_lowercase()), name));
     let (score, name) = scored.max_by(|a, b| a.0.total_cmp(&b.0))?;
     (score > 0.85).then(|| format!("did you mean {}?", folder.join(name).display()))
+}
+
+/// A character as one line shows it.
+fn escaped(c: char) -> Vec<char> {
+    if c.is_control() { c.escape_default().collect() } else { vec![c] }
+}
+
+/// What to do about a path that was written with backslashes: TOML turns some of them into other characters, and
+/// only Windows divides folders by them.
+pub fn odd_path(path: &Path) -> Option<String> {
+    let text = path.to_string_lossy();
+    if text.contains(char::is_control) {
+        return Some(
+            "the name has a control character: within \"…\" of TOML, \\t, \\n, \\b and \\f are escapes; write \
+             folder/name, or 'folder\\name' in single quotes"
+                .into(),
+        );
+    }
+    (cfg!(not(windows)) && text.contains('\\'))
+        .then(|| format!("folders are divided by / here: {}", text.replace('\\', "/")))
 }
 
 pub(super) fn unreadable(path: &Path, error: &std::io::Error) -> Error {

@@ -138,7 +138,7 @@ fn what_one_such_texel_would_spoil_as_a_whole_is_refused_with_what_to_use() {
         let (code, _, said) = run(&folder, &[options, &["--allow-nonfinite"]].concat());
         assert_eq!(code, Some(2), "{options:?}: {said}");
         let said = said.replace(|c: char| c.is_whitespace() || c == '│', "");
-        for part in wanted.into_iter().chain(["\"measured\"", "1 texels are not finite"]) {
+        for part in wanted.into_iter().chain(["\"measured\"", "1 texel is not finite"]) {
             assert!(said.contains(&part.replace(' ', "")), "{part} not in {said}");
         }
         assert!(!folder.path().join("out.exr").exists());
