@@ -1,7 +1,7 @@
 // One thread a pixel: the sum of a chunk of samples, added to the film. film[pixel] = sum of radiance (rgb);
 // with COMPENSATED, film[pixel + pixels] holds what rounding has lost so far (Kahan 1965), as chunks arrive
-// in a fixed order. Samples in negative lobes of the pixel filter count with their sign, and film[pixel].w
-// is the sum of the signs.
+// in a fixed order. Samples in negative lobes of the pixel filter count with their sign, film[pixel].w is the sum
+// of the signs, and the plane behind all others holds the sum of those samples alone, without their sign.
 #ifndef RENDER_MAIN_GLSL
 #define RENDER_MAIN_GLSL
 
@@ -14,7 +14,7 @@
 
 // Samples of single pixels: place (x | y << 16), half and JOB_BARE, first sample, count. A film of jobs holds two halves,
 // each with sums of radiance and of its square's mean over the channels; where the pixel filter has negative
-// lobes two more with the sum of the signs and the number of samples.
+// lobes two more with the sums of samples in these, and two with the sum of the signs and the number of samples.
 layout(std430, set = 0, binding = 4) readonly buffer Jobs { uvec4 jobs[]; };
 
 // What one thread does: samples of one pixel, into one place of the film.
@@ -76,6 +76,7 @@ void main() {
     vec3 seen = vec3(0.0); // of a job: by the current path
     float sign = 1.0; // of the current path's sample, and the sum of all
     float signs = 0.0;
+    vec3 negative = vec3(0.0); // sum of the samples whose sign is negative, without it
     uint s = task.first;
     Path path;
     path.goes_on = false;
@@ -117,7 +118,10 @@ void main() {
             }
             vec3 more = advance(header, points, choices, path);
             notice(GUARD_RADIANCE, no_number(more));
-            if (SIGNED) more *= sign;
+            if (SIGNED) {
+                negative += sign < 0.0 ? more : vec3(0.0);
+                more *= sign;
+            }
             part += more;
             if (is_job) {
                 seen += more;
@@ -146,9 +150,16 @@ void main() {
         film[at] = task.first > 0u ? film[at] + sums : sums;
         if (is_signed) {
             vec4 counts = vec4(signs, float(task.end - task.first), 0.0, 0.0);
-            film[at + 2u * pixels] = task.first > 0u ? film[at + 2u * pixels] + counts : counts;
+            vec4 below = vec4(negative, 0.0);
+            film[at + 2u * pixels] = task.first > 0u ? film[at + 2u * pixels] + below : below;
+            film[at + 4u * pixels] = task.first > 0u ? film[at + 4u * pixels] + counts : counts;
         }
         return;
+    }
+    if (is_signed) {
+        uint behind = at + (COMPENSATED ? 2u : 1u) * pixels;
+        vec4 sums = vec4(negative, 0.0);
+        film[behind] = slice.first_sample > 0u ? film[behind] + sums : sums;
     }
     if (COMPENSATED && slice.first_sample > 0u) {
         vec3 term = sum - (film[at + pixels].xyz + lost);

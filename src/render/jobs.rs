@@ -10,7 +10,7 @@ use crate::adaptive::{Sums, Tracer, Trial};
 use crate::error::{Error, Result};
 use crate::gpu::{BindGroup, Buffer, BufferUse, Gpu, Pipeline};
 use crate::layout::{Job, Slice, TILE};
-use crate::pack::{PackedScene, Schedule, divisor};
+use crate::pack::{PackedScene, Schedule, filtered_mean};
 use crate::progress::Progress;
 use crate::shaders::Shader;
 
@@ -45,7 +45,8 @@ pub struct JobTracer<'a> {
     pages: Vec<Page>,
     size: [u32; 2],
     prefilters: bool,
-    /// Mean of the samples' signs, where they have any: the film holds their sums behind those of radiance.
+    /// Mean of the samples' signs, where they have any: behind the sums of radiance the film holds those of samples
+    /// whose sign is negative, and behind these the counts.
     mean_sign: Option<f64>,
     /// A thread takes no more samples at once.
     chunk: u32,
@@ -67,7 +68,7 @@ impl<'a> JobTracer<'a> {
     ) -> Result<JobTracer<'a>> {
         let limits = &gpu.info().limits;
         let [width, height, _, _] = scene.header.size;
-        let planes = if scene.mean_sign.is_some() { 2 } else { 1 };
+        let planes = if scene.mean_sign.is_some() { 3 } else { 1 };
         let row = u64::from(width) * PIXEL_BYTES * planes;
         let rows =
             (MAX_PAGE_BYTES.min(limits.max_storage_buffer_range) / row).clamp(1, u64::from(height)) as u32;
@@ -221,12 +222,19 @@ impl Tracer for JobTracer<'_> {
                 let offset = |plane: usize| (plane * pixels * size_of::<[f32; 4]>()) as u64;
                 self.gpu.read_buffer(&page.film, offset(half), bytemuck::cast_slice_mut(out))?;
                 let Some(mean) = self.mean_sign else { continue };
-                let mut counts = vec![[0f32; 4]; pixels];
-                self.gpu.read_buffer(&page.film, offset(2 + half), bytemuck::cast_slice_mut(&mut counts))?;
-                for (sums, [signs, samples, _, _]) in out.iter_mut().zip(counts) {
-                    let samples = f64::from(samples);
-                    let scale = samples / divisor(f64::from(signs), samples, mean);
-                    sums[..3].iter_mut().for_each(|sum| *sum = (f64::from(*sum) * scale) as f32);
+                let [mut negative, mut counts] = [(); 2].map(|()| vec![[0f32; 4]; pixels]);
+                self.gpu.read_buffer(
+                    &page.film,
+                    offset(2 + half),
+                    bytemuck::cast_slice_mut(&mut negative),
+                )?;
+                self.gpu.read_buffer(&page.film, offset(4 + half), bytemuck::cast_slice_mut(&mut counts))?;
+                for ((sums, negative), counts) in out.iter_mut().zip(negative).zip(counts) {
+                    let [signs, samples, _, _] = counts.map(f64::from);
+                    for (sum, negative) in sums.iter_mut().zip(negative).take(3) {
+                        let filtered = filtered_mean((*sum).into(), negative.into(), signs, samples, mean);
+                        *sum = (samples * filtered) as f32;
+                    }
                 }
             }
         }
