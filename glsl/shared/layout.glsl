@@ -40,6 +40,7 @@ const uint CHOICE_LENS = 0u;
 const uint CHOICE_TIME = 1u;
 const uint CHOICE_LIGHT = 2u; // from here on choices are made at every hit
 const uint CHOICE_LOBE = 3u;
+const uint CHOICE_FRESNEL = 4u; // by the pair of the light: where there is glass no light is chosen
 
 const uint MODEL_UNLIT = 0u;
 const uint MODEL_LAMBERT = 1u;

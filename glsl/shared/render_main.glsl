@@ -93,7 +93,7 @@ void main() {
             if (CHOICES != 0u) choices = choose(header, points, s, starts ? 0u : path.depth, starts);
             if (starts) {
                 uvec2 position;
-                if (CHOICES == 0u) position = sample_point(points, s);
+                if (CHOICES == 0u) position = sample_point(points, s, false);
                 else position = choices.place;
                 Header camera = header;
                 float time = 0.0;

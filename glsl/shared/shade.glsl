@@ -145,7 +145,7 @@ struct Path {
     Ray ray;
     Beam beam;
     vec3 throughput;
-    uvec2 random; // bits for the choices at the next hit
+    uvec2 random; // bits by which look-ups at the next hit take texels
     uint skip;
     uint list; // the survey's, of a camera ray
     uint depth;
@@ -171,10 +171,7 @@ bool bounced(Header header, Hit hit, Surface surface, Footprint print, Material 
         }
     }
     float ratio = surface.inside ? material.specular.w : 1.0 / material.specular.w;
-    if (glass) {
-        float chance = float(pcg2d(path.random).x >> 8u) * (1.0 / 16777216.0);
-        mirror = chance < reflectance(ray.direction, normal, ratio);
-    }
+    if (glass) mirror = unit_line(choices.fresnel) < reflectance(ray.direction, normal, ratio);
     real3 start = offset_origin(surface.point, mirror ? surface.geometric_normal : -surface.geometric_normal, surface.size);
     Beam beam = path.beam;
     if (mirror) {
@@ -237,7 +234,7 @@ vec3 advance(Header header, Points points, Choices choices, inout Path path) {
     notice(GUARD_DEPTH, goes_on && path.depth >= header.size.w);
     path.goes_on = goes_on && path.depth < header.size.w;
     path.depth++;
-    if (BOUNCES) path.random = pcg2d(path.random);
+    if (BOUNCES && RANDOM) path.random = pcg2d(path.random);
     return seen;
 }
 

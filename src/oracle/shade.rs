@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3, DVec4};
 
 use super::camera::Ray;
-use super::choices::{Choices, choose, chosen_light, unit_square};
+use super::choices::{Choices, choose, chosen_light, unit_line, unit_square};
 use super::filter::look_up;
 use super::footprint::{
     Beam, Footprint, Meeting, any_tangent, endless_footprint, footprint_at, is_filtered, mirrored,
@@ -132,7 +132,7 @@ pub struct Path {
     pub ray: Ray,
     pub beam: Beam,
     pub throughput: DVec3,
-    /// Bits for the choices at the next hit.
+    /// Bits by which look-ups at the next hit take texels.
     pub random: [u32; 2],
     pub skip: u32,
     pub depth: u32,
@@ -154,7 +154,7 @@ fn bounced(
     surface: &Surface,
     print: Footprint,
     material: &Material,
-    lobe: DVec2,
+    choices: &Choices,
     path: &mut Path,
 ) -> bool {
     let model = Model::ALL[material.link[0] as usize];
@@ -166,9 +166,9 @@ fn bounced(
     let direction = path.ray.direction;
     let alpha = f64::from(material.specular[0]);
     let glossy = alpha > 0.0;
+    let lobe = unit_square(choices.lobe);
     let normal = if glossy { visible_normal(direction, surface.normal, alpha, lobe) } else { surface.normal };
-    let chance = f64::from(pcg2d(path.random)[0] >> 8) / 16_777_216.0;
-    let mirror = model == Model::Mirror || chance < reflectance(direction, normal, ratio);
+    let mirror = model == Model::Mirror || unit_line(choices.fresnel) < reflectance(direction, normal, ratio);
     let meeting =
         Meeting { ray: path.ray, t: hit.t, print, normal, bend: surface.bend, curvature: surface.curvature };
     if mirror {
@@ -250,7 +250,7 @@ pub fn advance(scene: &PackedScene, path: &mut Path) -> DVec3 {
         let highlight = if model == Model::Phong { lit.specular } else { DVec3::ZERO };
         return path.throughput * lit.diffuse + carried * xyz(material.specular) * highlight;
     }
-    let goes_on = bounced(header, &hit, &surface, print, material, unit_square(choices.lobe), path);
+    let goes_on = bounced(header, &hit, &surface, print, material, &choices, path);
     path.skip = hit.shape;
     path.goes_on = goes_on && path.depth < header.size[3];
     path.depth += 1;
