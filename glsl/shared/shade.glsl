@@ -7,6 +7,7 @@
 #include "filter.glsl"
 #include "glossy.glsl"
 #include "light.glsl"
+#include "shading_normal.glsl"
 #include "surface.glsl"
 
 // What the surface's map looks at.
@@ -32,9 +33,11 @@ Seen seen_by_map(Map map, Ray ray, Surface surface, Footprint print) {
     vec3 way_x = print.direction_x;
     vec3 way_y = print.direction_y;
     if (MODE_IS(ENTITIES, ENTITY_REFLECTION, entity)) {
-        way_x = mirrored_change(vec3(way), vec3(surface.normal), way_x, bent_x);
-        way_y = mirrored_change(vec3(way), vec3(surface.normal), way_y, bent_y);
-        way = mirrored(way, surface.normal);
+        Surface mirror = surface;
+        settle_normal(ray.direction, mirror);
+        way_x = mirrored_change(vec3(way), vec3(mirror.normal), way_x, bent(mirror.bend, print.point_x));
+        way_y = mirrored_change(vec3(way), vec3(mirror.normal), way_y, bent(mirror.bend, print.point_y));
+        way = mirrored(way, mirror.normal);
     }
     // Of unit length; its change is at right angles to it.
     real size = inverse_root(dot3(way, way));
@@ -163,6 +166,7 @@ bool bounced(Header header, Hit hit, Surface surface, Footprint print, Material 
     bool glass = MODE_IS(MODELS, MODEL_DIELECTRIC, material.link.x);
     if (!mirror && !glass) return false;
     Ray ray = path.ray;
+    settle_normal(ray.direction, surface);
     float alpha = GLOSSY ? material.specular.x : 0.0;
     real3 normal = surface.normal;
     if (GLOSSY) {
@@ -182,9 +186,13 @@ bool bounced(Header header, Hit hit, Surface surface, Footprint print, Material 
         if (FILTERED) path.beam = refracted_beam(header, beam, ray, hit.t, print, normal, surface.bend, surface.curvature, ratio);
     }
     bool leaves = true;
+    real side = mirror ? 1.0 : -1.0;
+    if (LEANING) {
+        path.ray.direction = on_its_side(ray.direction, path.ray.direction, side * surface.normal, side * surface.geometric_normal);
+    }
     if (GLOSSY) {
         if (alpha > 0.0) {
-            real3 way = mirror ? path.ray.direction : -path.ray.direction;
+            real3 way = side * path.ray.direction;
             float seen = float(-dot3(ray.direction, surface.normal) * inverse_root(dot3(ray.direction, ray.direction)));
             float leaving = float(dot3(way, surface.normal) * inverse_root(dot3(way, way)));
             // What a facet sends into the surface is lost.

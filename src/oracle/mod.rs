@@ -35,6 +35,7 @@ pub mod render;
 pub mod rng;
 pub mod rows;
 pub mod shade;
+pub mod shading_normal;
 pub mod sobol;
 pub mod spread;
 pub mod strata;

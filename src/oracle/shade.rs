@@ -16,6 +16,7 @@ use super::mapping::{Coordinate, Seen, texture_coordinate};
 use super::math::xyz;
 use super::patterns::Points;
 use super::rng::pcg2d;
+use super::shading_normal::{on_its_side, settle_normal};
 use super::surface::{Surface, hit_surface};
 use crate::layout::{Header, Map, Material, NO_MATERIAL, NO_SHAPE, NO_TEXTURE};
 use crate::pack::{EntityKind, PackedScene};
@@ -39,8 +40,11 @@ pub fn seen_by_map(map: &Map, ray: &Ray, surface: &Surface, print: &Footprint) -
             return seen;
         }
         EntityKind::Reflection => {
-            change = [0, 1].map(|i| mirrored_change(way, surface.normal, change[i], bent[i]));
-            way = mirrored(way, surface.normal);
+            let mut mirror = *surface;
+            settle_normal(way, &mut mirror);
+            let bent = print.point.map(|d| mirror.bend * d);
+            change = [0, 1].map(|i| mirrored_change(way, mirror.normal, change[i], bent[i]));
+            way = mirrored(way, mirror.normal);
         }
         EntityKind::Direction => {}
     }
@@ -151,7 +155,7 @@ pub fn camera_path(ray: Ray, beam: Beam, random: [u32; 2]) -> Path {
 fn bounced(
     header: &Header,
     hit: &Hit,
-    surface: &Surface,
+    mut surface: Surface,
     print: Footprint,
     material: &Material,
     choices: &Choices,
@@ -164,6 +168,7 @@ fn bounced(
     let ior = f64::from(material.specular[3]);
     let ratio = if surface.inside { ior } else { 1.0 / ior };
     let direction = path.ray.direction;
+    settle_normal(direction, &mut surface);
     let alpha = f64::from(material.specular[0]);
     let glossy = alpha > 0.0;
     let lobe = unit_square(choices.lobe);
@@ -180,10 +185,13 @@ fn bounced(
         path.ray = Ray { origin, direction: refracted(direction, normal, ratio), time: path.ray.time };
         path.beam = refracted_beam(&path.beam, &meeting, ratio);
     }
+    let side = if mirror { 1.0 } else { -1.0 };
+    path.ray.direction =
+        on_its_side(direction, path.ray.direction, side * surface.normal, side * surface.geometric_normal);
     if !glossy {
         return true;
     }
-    let way = if mirror { path.ray.direction } else { -path.ray.direction };
+    let way = side * path.ray.direction;
     let seen = (-direction.dot(surface.normal) / direction.length()).max(0.0);
     let leaving = way.dot(surface.normal) / way.length();
     // What a facet sends into the surface is lost.
@@ -250,7 +258,7 @@ pub fn advance(scene: &PackedScene, path: &mut Path) -> DVec3 {
         let highlight = if model == Model::Phong { lit.specular } else { DVec3::ZERO };
         return path.throughput * lit.diffuse + carried * xyz(material.specular) * highlight;
     }
-    let goes_on = bounced(header, &hit, &surface, print, material, &choices, path);
+    let goes_on = bounced(header, &hit, surface, print, material, &choices, path);
     path.skip = hit.shape;
     path.goes_on = goes_on && path.depth < header.size[3];
     path.depth += 1;
