@@ -12,7 +12,7 @@
 
 // What the surface's map looks at.
 Seen seen_by_map(Map map, Ray ray, Surface surface, Footprint print) {
-    Seen seen = Seen(surface.at_rest, vec3(0.0), vec3(0.0), surface.own_uv, vec2(0.0), vec2(0.0));
+    Seen seen = Seen(surface.at_rest, vec3(0.0), vec3(0.0), surface.own_uv, vec2(0.0), vec2(0.0), false);
     uint entity = map.link.y;
     if (DERIVATIVES) {
         seen.entity_x = print.point_x;
@@ -58,7 +58,9 @@ void uv_gradients(Map map, Ray ray, Surface surface, out vec3 u, out vec3 v) {
     vec3 first = any_tangent(n);
     vec3 second = cross3(n, first);
     Footprint print = Footprint(first, second, vec3(0.0), vec3(0.0));
-    Mapped c = texture_coordinate(map, seen_by_map(map, ray, surface, print));
+    Seen seen = seen_by_map(map, ray, surface, print);
+    seen.gradients = true;
+    Mapped c = texture_coordinate(map, seen);
     vec3 along_u = first * c.dx.x + second * c.dy.x;
     vec3 along_v = first * c.dx.y + second * c.dy.y;
     u = along_u;

@@ -30,6 +30,7 @@ pub fn seen_by_map(map: &Map, ray: &Ray, surface: &Surface, print: &Footprint) -
         entity_change: print.point,
         own: surface.own_uv,
         own_change: print.point.map(own),
+        gradients: false,
     };
     let bent = print.point.map(|d| surface.bend * d);
     let (mut way, mut change) = (ray.direction, print.direction);
@@ -62,7 +63,8 @@ pub fn uv_gradients(map: &Map, ray: &Ray, surface: &Surface) -> [DVec3; 2] {
     let first = any_tangent(n);
     let second = n.cross(first);
     let print = Footprint { point: [first, second], direction: [DVec3::ZERO; 2] };
-    let [x, y] = texture_coordinate(map, &seen_by_map(map, ray, surface, &print)).change;
+    let seen = Seen { gradients: true, ..seen_by_map(map, ray, surface, &print) };
+    let [x, y] = texture_coordinate(map, &seen).change;
     [first * x.x + second * y.x, first * x.y + second * y.y]
 }
 

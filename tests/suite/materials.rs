@@ -5,6 +5,7 @@ mod glass;
 mod leaning;
 mod phong;
 mod relief;
+mod scales;
 
 use std::path::Path;
 
