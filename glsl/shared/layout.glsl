@@ -196,8 +196,8 @@ struct Light {
                  // or the height of the sun's cap on the unit sphere
     vec4 power;  // intensity (W/sr), irradiance, or of a rectangle radiance
     uvec4 link;  // kind
-    real4 edge_u; // of a rectangle: its sides; it shines where edge_u × edge_v points
-    real4 edge_v;
+    real4 edge_u; // of a rectangle: its sides, the longer first; it shines where edge_u × edge_v points
+    real4 edge_v; // their lengths are last, 0 where they are not at right angles
 };
 
 struct Material {

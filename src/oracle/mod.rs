@@ -31,6 +31,7 @@ pub mod pieces;
 pub mod pixel_filter;
 pub mod polygon;
 pub mod procedural;
+pub mod rectangle;
 pub mod render;
 pub mod rng;
 pub mod rows;

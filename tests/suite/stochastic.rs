@@ -6,6 +6,7 @@ mod glossy;
 mod lens;
 mod lights;
 mod motion;
+mod rectangles;
 mod warps;
 
 use std::path::Path;
