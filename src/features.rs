@@ -84,7 +84,7 @@ const FEATURES: &[(&str, &str, Narrow)] = &[
     ("BOUNCES", "bounces", Switch(bounces)),
     ("ENVIRONMENT", "environment", Switch(|s| s.header.counts[3] != NO_MATERIAL)),
     ("FOOTPRINTS", "footprint", Modes(Footprint::NAMES, |s| bit(s.header.key[2]))),
-    ("RANDOM", "random choices", Switch(chooses)),
+    ("RANDOM", "random texels", Switch(chooses)),
     ("MAPPINGS", "mapping", Modes(MapKind::NAMES, |s| bits(s.maps.iter().map(|m| m.link[0])))),
     ("ENTITIES", "entity", Modes(EntityKind::NAMES, |s| bits(s.maps.iter().map(|m| m.link[1])))),
     ("ROTATED_UV", "rotation of texture coordinates", Switch(|s| s.maps.iter().any(rotates))),

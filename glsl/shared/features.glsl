@@ -42,7 +42,7 @@ layout(constant_id = 39) const bool ENVIRONMENT = true;
 layout(constant_id = 49) const bool POLES = true;       // environments whose rows go on over the poles
 layout(constant_id = 50) const bool BUMPED = true;
 layout(constant_id = 51) const uint RELIEFS = 0x3u;
-layout(constant_id = 52) const bool RANDOM = true;      // choices beside the sample's position
+layout(constant_id = 52) const bool RANDOM = true;      // look-ups take texels at random
 layout(constant_id = 26) const uint TEXEL_CENTERS = 0x3u;
 layout(constant_id = 32) const uint TEXTURE_SIZES = 0x3u;
 layout(constant_id = 57) const bool NONFINITE = true;   // some texels are no numbers
@@ -64,7 +64,7 @@ layout(constant_id = 67) const bool WARPED = true;      // a pixel filter that i
 layout(constant_id = 80) const uint CONE_SHAPES = DYNAMIC; // of the scene, where a cone can hold all
 
 layout(constant_id = 81) const bool GUARDED = true;     // counts what goes beyond a limit
-layout(constant_id = 70) const uint CHOICES = 0xFu; // what samples choose beside their place in the pixel
+layout(constant_id = 70) const uint CHOICES = 0x1Fu; // what samples choose beside their place in the pixel
 layout(constant_id = 71) const uint MOTIONS = DYNAMIC;     // as many as shapes where some move, else none
 layout(constant_id = 72) const bool MOVING_CAMERA = true;
 

@@ -42,6 +42,7 @@ const uint CHOICE_LENS = 0u;
 const uint CHOICE_TIME = 1u;
 const uint CHOICE_LIGHT = 2u; // from here on choices are made at every hit
 const uint CHOICE_LOBE = 3u;
+const uint CHOICE_FRESNEL = 4u; // by the pair of the light: where there is glass no light is chosen
 
 const uint MODEL_UNLIT = 0u;
 const uint MODEL_LAMBERT = 1u;
@@ -197,8 +198,8 @@ struct Light {
                  // or the height of the sun's cap on the unit sphere
     vec4 power;  // intensity (W/sr), irradiance, or of a rectangle radiance
     uvec4 link;  // kind
-    real4 edge_u; // of a rectangle: its sides; it shines where edge_u × edge_v points
-    real4 edge_v;
+    real4 edge_u; // of a rectangle: its sides, the longer first; it shines where edge_u × edge_v points
+    real4 edge_v; // their lengths are last, 0 where they are not at right angles
 };
 
 struct Material {

@@ -1,7 +1,7 @@
 // One thread a pixel: the sum of a chunk of samples, added to the film. film[pixel] = sum of radiance (rgb);
 // with COMPENSATED, film[pixel + pixels] holds what rounding has lost so far (Kahan 1965), as chunks arrive
-// in a fixed order. Samples in negative lobes of the pixel filter count with their sign, and film[pixel].w
-// is the sum of the signs.
+// in a fixed order. Samples in negative lobes of the pixel filter count with their sign, film[pixel].w is the sum
+// of the signs, and the plane behind all others holds the sum of those samples alone, without their sign.
 #ifndef RENDER_MAIN_GLSL
 #define RENDER_MAIN_GLSL
 
@@ -14,8 +14,8 @@
 
 // Samples of single pixels: place (x | y << 16), part (half, JOB_BARE, JOB_APART, stream), first sample, count. A
 // film of jobs holds two halves, each with sums of radiance and of its square's mean over the channels; where the
-// pixel filter has negative lobes two more with the sum of the signs and the number of samples. With JOB_APART the
-// film has one such entry for each job of the list.
+// pixel filter has negative lobes two more with the sums of samples in these, and two with the sum of the signs and
+// the number of samples. With JOB_APART the film has one such entry for each job of the list in place of a half's.
 layout(std430, set = 0, binding = 4) readonly buffer Jobs { uvec4 jobs[]; };
 
 // What one thread does: samples of one pixel, into one place of the film.
@@ -82,6 +82,7 @@ void main() {
     vec3 seen = vec3(0.0); // of a job: by the current path
     float sign = 1.0; // of the current path's sample, and the sum of all
     float signs = 0.0;
+    vec3 negative = vec3(0.0); // sum of the samples whose sign is negative, without it
     uint s = task.first;
     Path path;
     path.goes_on = false;
@@ -98,7 +99,7 @@ void main() {
             if (CHOICES != 0u) choices = choose(header, points, s, starts ? 0u : path.depth, starts);
             if (starts) {
                 uvec2 position;
-                if (CHOICES == 0u) position = sample_point(points, s);
+                if (CHOICES == 0u) position = sample_point(points, s, false);
                 else position = choices.place;
                 Header camera = header;
                 float time = 0.0;
@@ -123,7 +124,10 @@ void main() {
             }
             vec3 more = advance(header, points, choices, path);
             notice(GUARD_RADIANCE, no_number(more));
-            if (SIGNED) more *= sign;
+            if (SIGNED) {
+                negative += sign < 0.0 ? more : vec3(0.0);
+                more *= sign;
+            }
             part += more;
             if (is_job) {
                 seen += more;
@@ -149,15 +153,22 @@ void main() {
     if (is_job) {
         bool apart = (task.part & JOB_APART) != 0u;
         at = apart ? job_index() : at + (task.part & 1u) * pixels;
-        uint behind = apart ? slice.tiles : 2u * pixels; // where the counts lie
+        uint behind = apart ? slice.tiles : 2u * pixels; // from one kind of sum to the next
         bool adds = !apart && task.first > 0u;
         vec4 sums = vec4(sum, squares);
         film[at] = adds ? film[at] + sums : sums;
         if (is_signed) {
             vec4 counts = vec4(signs, float(task.end - task.first), 0.0, 0.0);
-            film[at + behind] = adds ? film[at + behind] + counts : counts;
+            vec4 below = vec4(negative, 0.0);
+            film[at + behind] = adds ? film[at + behind] + below : below;
+            film[at + 2u * behind] = adds ? film[at + 2u * behind] + counts : counts;
         }
         return;
+    }
+    if (is_signed) {
+        uint behind = at + (COMPENSATED ? 2u : 1u) * pixels;
+        vec4 sums = vec4(negative, 0.0);
+        film[behind] = slice.first_sample > 0u ? film[behind] + sums : sums;
     }
     if (COMPENSATED && slice.first_sample > 0u) {
         vec3 term = sum - (film[at + pixels].xyz + lost);

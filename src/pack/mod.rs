@@ -35,7 +35,7 @@ use pixel_filter::Warp;
 pub use header::camera_basis;
 use header::header;
 pub use kinds::{Choice, EntityKind, Guard, LightKind, MapKind, ProjectionKind, Schedule, TextureKind};
-pub use pixel_filter::{divisor, kernel};
+pub use pixel_filter::{filtered_mean, kernel};
 pub use procedural::procedural;
 pub use pyramids::{Pyramids, reads_levels};
 pub use sections::Sections;

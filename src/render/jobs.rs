@@ -10,7 +10,7 @@ use crate::adaptive::{Sums, Tracer, Trial};
 use crate::error::{Error, Result};
 use crate::gpu::{BindGroup, Buffer, BufferUse, Gpu, Pipeline};
 use crate::layout::{Job, Slice, TILE};
-use crate::pack::{PackedScene, Schedule, divisor};
+use crate::pack::{PackedScene, Schedule, filtered_mean};
 use crate::progress::Progress;
 use crate::shaders::Shader;
 
@@ -50,7 +50,8 @@ pub struct JobTracer<'a> {
     size: [u32; 2],
     prefilters: bool,
     bright_share: f64,
-    /// Mean of the samples' signs, where they have any: the film holds their sums behind those of radiance.
+    /// Mean of the samples' signs, where they have any: behind the sums of radiance the film holds those of samples
+    /// whose sign is negative, and behind these the counts.
     mean_sign: Option<f64>,
     /// A thread takes no more samples at once.
     chunk: u32,
@@ -72,7 +73,7 @@ impl<'a> JobTracer<'a> {
     ) -> Result<JobTracer<'a>> {
         let limits = &gpu.info().limits;
         let [width, height, _, _] = scene.header.size;
-        let planes = if scene.mean_sign.is_some() { 2 } else { 1 };
+        let planes = if scene.mean_sign.is_some() { 3 } else { 1 };
         let row = u64::from(width) * PIXEL_BYTES * planes;
         let rows =
             (MAX_PAGE_BYTES.min(limits.max_storage_buffer_range) / row).clamp(1, u64::from(height)) as u32;
@@ -143,10 +144,15 @@ impl<'a> JobTracer<'a> {
         self.submit(&film, slice, None, costs, progress)
     }
 
-    /// Sums of jobs that a thread takes at once, beside the film.
-    fn parts_apart(&mut self, parts: &[(usize, Job)], progress: &dyn Progress) -> Result<Vec<[f32; 4]>> {
+    /// Sums of jobs that a thread takes at once, beside the film: of radiance, and where samples have signs those of
+    /// negative ones, and the counts.
+    fn parts_apart(
+        &mut self,
+        parts: &[(usize, Job)],
+        progress: &dyn Progress,
+    ) -> Result<Vec<Vec<[f32; 4]>>> {
         let list: Vec<Job> = parts.iter().map(|(_, job)| *job).collect();
-        let planes = if self.mean_sign.is_some() { 2 } else { 1 };
+        let planes = if self.mean_sign.is_some() { 3 } else { 1 };
         let plane = (list.len() * size_of::<[f32; 4]>()) as u64;
         let film = self.gpu.buffer("audit", planes * plane, BufferUse::Storage)?;
         let jobs = self.gpu.upload_buffer("jobs", BufferUse::Storage, bytemuck::cast_slice(&list))?;
@@ -154,14 +160,12 @@ impl<'a> JobTracer<'a> {
         let whole = Page { y: 0, height: self.size[1], film: film.clone() };
         let slice = Slice { tiles: list.len() as u32, ..whole.slice() };
         self.submit(&film, slice, Some(&jobs), costs(&list), progress)?;
-        let mut sums = vec![[0f32; 4]; list.len()];
-        self.gpu.read_buffer(&film, 0, bytemuck::cast_slice_mut(&mut sums))?;
-        if let Some(mean) = self.mean_sign {
-            let mut counts = vec![[0f32; 4]; list.len()];
-            self.gpu.read_buffer(&film, plane, bytemuck::cast_slice_mut(&mut counts))?;
-            weigh(&mut sums, &counts, mean);
-        }
-        Ok(sums)
+        let read = |kind: u64| {
+            let mut sums = vec![[0f32; 4]; list.len()];
+            self.gpu.read_buffer(&film, kind * plane, bytemuck::cast_slice_mut(&mut sums))?;
+            Ok(sums)
+        };
+        (0..planes).map(read).collect()
     }
 
     /// Tiles of so many samples, in submissions as long as the last ones allow.
@@ -203,13 +207,11 @@ fn costs(list: &[Job]) -> Vec<f64> {
     list.chunks(JOBS_PER_TILE).map(|tile| tile.iter().map(|j| f64::from(j.count)).sum()).collect()
 }
 
-/// Sums of radiance, whose samples have signs, as if all of these were positive.
-fn weigh(sums: &mut [[f32; 4]], counts: &[[f32; 4]], mean_sign: f64) {
-    for (sums, &[signs, samples, _, _]) in sums.iter_mut().zip(counts) {
-        let samples = f64::from(samples);
-        let scale = samples / divisor(f64::from(signs), samples, mean_sign);
-        sums[..3].iter_mut().for_each(|sum| *sum = (f64::from(*sum) * scale) as f32);
-    }
+/// Sums of radiance as if no sample had a sign, from those with signs, those of negative samples alone, and the
+/// sum of the signs and number of samples.
+fn weighed([sums, negative, [signs, samples, _, _]]: [[f64; 4]; 3], mean_sign: f64) -> [f32; 4] {
+    let filtered = |c: usize| samples * filtered_mean(sums[c], negative[c], signs, samples, mean_sign);
+    [filtered(0), filtered(1), filtered(2), sums[3]].map(|v| v as f32)
 }
 
 impl Page {
@@ -261,13 +263,19 @@ impl Tracer for JobTracer<'_> {
                 (i, Job { first: job.first + first, count: most.min(job.count - first), ..*job })
             }));
         }
-        let mut sums = vec![[0f64; 4]; jobs.len()];
+        let mut sums = vec![[[0f64; 4]; 3]; jobs.len()];
         for parts in parts.chunks(MAX_PARTS) {
-            for (&(i, _), sum) in parts.iter().zip(self.parts_apart(parts, progress)?) {
-                (0..4).for_each(|c| sums[i][c] += f64::from(sum[c]));
+            for (kind, plane) in self.parts_apart(parts, progress)?.iter().enumerate() {
+                for (&(i, _), sum) in parts.iter().zip(plane) {
+                    (0..4).for_each(|c| sums[i][kind][c] += f64::from(sum[c]));
+                }
             }
         }
-        Ok(sums.into_iter().map(|sum| sum.map(|v| v as f32)).collect())
+        let finish = |sums: [[f64; 4]; 3]| match self.mean_sign {
+            Some(mean) => weighed(sums, mean),
+            None => sums[0].map(|v| v as f32),
+        };
+        Ok(sums.into_iter().map(finish).collect())
     }
 
     fn bright_share(&self) -> f64 {
@@ -287,13 +295,15 @@ impl Tracer for JobTracer<'_> {
                 let offset = |plane: usize| (plane * pixels * size_of::<[f32; 4]>()) as u64;
                 self.gpu.read_buffer(&page.film, offset(half), bytemuck::cast_slice_mut(out))?;
                 if let Some(mean) = self.mean_sign {
-                    let mut counts = vec![[0f32; 4]; pixels];
-                    self.gpu.read_buffer(
-                        &page.film,
-                        offset(2 + half),
-                        bytemuck::cast_slice_mut(&mut counts),
-                    )?;
-                    weigh(out, &counts, mean);
+                    let mut planes = [(); 2].map(|()| vec![[0f32; 4]; pixels]);
+                    for (kind, plane) in planes.iter_mut().enumerate() {
+                        let offset = offset(2 * (1 + kind) + half);
+                        self.gpu.read_buffer(&page.film, offset, bytemuck::cast_slice_mut(plane))?;
+                    }
+                    let [negative, counts] = &planes;
+                    for ((sums, negative), counts) in out.iter_mut().zip(negative).zip(counts) {
+                        *sums = weighed([*sums, *negative, *counts].map(|v| v.map(f64::from)), mean);
+                    }
                 }
             }
         }

@@ -16,6 +16,12 @@ pub fn of_scene(scene: &Scene) -> Vec<String> {
             scene.first_dropped
         )),
     }
+    if let Some(address) = scene.background.environment.and_then(|e| e.idle_address) {
+        told.push(format!(
+            "an equirectangular environment goes on over its poles: address \"{address}\" of its sampler has no effect \
+             on v; write address = [\"repeat\", \"clamp-to-edge\"]"
+        ));
+    }
     if algorithm == Algorithm::Beam && !scene.suits_beams() {
         told.push(
             "one beam a pixel takes all rays of a square alike, from one place at one time: with another pixel \

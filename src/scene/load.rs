@@ -8,7 +8,7 @@ use std::path::Path;
 use toml::de::DeTable;
 
 use super::materials;
-use super::model::{Background, Material, Plane, Scene, Sphere, TextureSource, Triangle};
+use super::model::{Background, EnvironmentLayout, Material, Plane, Scene, Sphere, TextureSource, Triangle};
 use super::names::Names;
 use super::pixel_filter::pixel_filter;
 use super::procedural::PROCEDURAL;
@@ -21,7 +21,7 @@ use super::textures;
 use super::validate::{MAX_SHAPES, MAX_TEXTURES, check_filters};
 use crate::error::{Error, Result};
 use crate::texture::read_file::odd_path;
-use crate::texture::sampler_spec::SamplerSpec;
+use crate::texture::sampler_spec::{Address, SamplerSpec};
 
 /// 65535 triangles with texture coordinates take 7 MB of text.
 const MAX_BYTES: u64 = 64 << 20;
@@ -192,6 +192,7 @@ fn surfaces<'a>(path: &Path, root: &Table<'a>) -> Result<Surfaces<'a>> {
 
     let tables = root.repeated("sampler", samplers::SAMPLER)?;
     let sampler_names = Names::collect("sampler", &tables)?;
+    let states_address: Vec<bool> = tables.iter().map(|table| table.get("address").is_some()).collect();
     let mut samplers = each(tables, samplers::sampler)?;
 
     let tables = root.repeated("material", materials::MATERIAL)?;
@@ -205,7 +206,14 @@ fn surfaces<'a>(path: &Path, root: &Table<'a>) -> Result<Surfaces<'a>> {
     };
     let materials = each(tables, |table| materials::material(table, &known))?;
     let table = root.single("background", samplers::BACKGROUND)?;
-    let background = samplers::background(table.as_ref(), &known)?;
+    let mut background = samplers::background(table.as_ref(), &known)?;
+    if let Some(environment) = &mut background.environment
+        && environment.layout == EnvironmentLayout::Equirectangular
+        && states_address.get(environment.sampler) == Some(&true)
+    {
+        let [_, v] = samplers[environment.sampler].address;
+        environment.idle_address = (v != Address::ClampToEdge).then_some(v);
+    }
     let mut used = materials.iter().filter(|m: &&Material| m.is_mapped()).map(|m| m.sampler);
     if used.any(|s| s == fallback) || background.environment.is_some_and(|e| e.sampler == fallback) {
         samplers.push(SamplerSpec::default());

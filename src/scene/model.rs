@@ -53,6 +53,8 @@ pub struct Environment {
     pub layout: EnvironmentLayout,
     /// Degrees about +y, counter-clockwise from above.
     pub rotate: f64,
+    /// The address of v that the scene states and that has no effect: rows go on over the poles.
+    pub idle_address: Option<Address>,
 }
 
 named_enum! {

@@ -137,6 +137,7 @@ pub(super) fn background(table: Option<&Table<'_>>, known: &Known<'_, '_>) -> Re
         sampler: sampler.unwrap_or(known.default_sampler),
         layout: natural,
         rotate,
+        idle_address: None,
     });
     Ok(background)
 }
