@@ -26,7 +26,7 @@ struct Task {
 };
 
 Task tile_task() {
-    return Task(film_pixel(), 0u, slice.first_sample, slice.first_sample + slice.sample_count);
+    return Task(film_pixel(), 0u, first_sample(), first_sample() + sample_count());
 }
 
 // Jobs fill tiles one after the other, in the order of the list; without a list all pixels have the same, both
@@ -35,9 +35,9 @@ Task job_task(Header header) {
     uint thread = gl_WorkGroupID.x * gl_WorkGroupSize.x * gl_WorkGroupSize.y + gl_LocalInvocationIndex;
     uint i = (slice.first_tile + gl_WorkGroupID.y) * (TILE * TILE) + thread;
     if (i >= slice.tiles) return Task(uvec2(0u, slice.band_height), 0u, 0u, 0u);
-    if (slice.sample_count > 0u) {
+    if (sample_count() > 0u) {
         uvec2 place = uvec2((i >> 1u) % header.size.x, (i >> 1u) / header.size.x);
-        return Task(place, i & 1u, slice.first_sample, slice.first_sample + slice.sample_count);
+        return Task(place, i & 1u, first_sample(), first_sample() + sample_count());
     }
     uvec4 job = jobs[i];
     return Task(uvec2(job.x & 0xFFFFu, job.x >> 16u), job.y, job.z, job.z + job.w);
@@ -52,7 +52,7 @@ void main() {
     Header header = load_header();
     hold_scene();
     clear_notices();
-    bool is_job = MODE_IS(SCHEDULES, SCHEDULE_JOBS, slice.schedule);
+    bool is_job = MODE_IS(SCHEDULES, SCHEDULE_JOBS, schedule());
     Task task;
     if (is_job) task = job_task(header);
     else task = tile_task();
@@ -150,7 +150,7 @@ void main() {
         }
         return;
     }
-    if (COMPENSATED && slice.first_sample > 0u) {
+    if (COMPENSATED && first_sample() > 0u) {
         vec3 term = sum - (film[at + pixels].xyz + lost);
         vec3 total = film[at].xyz + term;
         lost = (total - film[at].xyz) - term;
