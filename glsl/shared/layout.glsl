@@ -4,6 +4,7 @@
 #ifndef LAYOUT_GLSL
 #define LAYOUT_GLSL
 
+#include "opaque.glsl"
 #include "real.glsl"
 
 const uint PROJECTION_PERSPECTIVE = 0u;
@@ -250,7 +251,7 @@ layout(std430, set = 0, binding = 1) readonly buffer SceneBuffer { uvec4 scene[]
 const uint HEAD_UNITS = 1024u;
 layout(std140, set = 0, binding = 5) uniform SceneHead { uvec4 head[HEAD_UNITS]; };
 
-#define READ_HEAD(at) head[at]
+#define READ_HEAD(at) OPAQUE(head[at])
 #define READ_SCENE(at) scene[at]
 // A vector of reals behind `reals` of them and `others` that are none.
 #define R(read, at, reals, others) READ_REAL(read, (at) + (reals) * REAL_UNITS + (others))

@@ -4,6 +4,8 @@
 #ifndef PYRAMID_GLSL
 #define PYRAMID_GLSL
 
+#include "opaque.glsl"
+
 layout(constant_id = 2) const uint CHANNELS = 4u;
 layout(constant_id = 3) const uint COMPONENT_BYTES = 1u;
 layout(constant_id = 4) const bool SRGB = false; // of 8 bits; deeper ones are held as linear floats
@@ -25,6 +27,9 @@ layout(push_constant) uniform Halving {
     uint rows_log2;
     uint halved;
 } halving;
+
+// Of an axis, 1, 2 or 4, whether it has half as many texels as above.
+bool halves(uint axis) { return (OPAQUE(halving.halved) & axis) != 0u; }
 
 const float SHARES[4] = float[](1.0, 0.5, 0.25, 0.125);
 
@@ -85,7 +90,7 @@ vec4 decoded(uint texel) {
 }
 
 vec4 numbers_of(uint texel) {
-    if (halving.from_codes != 0u) {
+    if (OPAQUE(halving.from_codes) != 0u) {
         vec4 value = decoded(texel);
         if (CHANNELS == 2u) value.x *= weight(value.y);
         if (CHANNELS == 4u) value.xyz *= weight(value.w);
@@ -106,10 +111,10 @@ vec4 column(uvec3 first, uint x, float share) {
     uint below = 1u << columns_log2;
     uint behind = below << rows_log2;
     vec4 sum = numbers_of(texel) * share;
-    if ((halving.halved & 2u) != 0u) sum += numbers_of(texel + below) * share;
-    if ((halving.halved & 4u) != 0u) {
+    if (halves(2u)) sum += numbers_of(texel + below) * share;
+    if (halves(4u)) {
         sum += numbers_of(texel + behind) * share;
-        if ((halving.halved & 2u) != 0u) sum += numbers_of(texel + behind + below) * share;
+        if (halves(2u)) sum += numbers_of(texel + behind + below) * share;
     }
     return sum;
 }
@@ -121,7 +126,7 @@ vec4 mean(uint texel) {
     uvec3 first = place << (uvec3(halving.halved, halving.halved >> 1u, halving.halved >> 2u) & 1u);
     float share = SHARES[bitCount(halving.halved)];
     vec4 sum = column(first, 0u, share);
-    if ((halving.halved & 1u) != 0u) sum += column(first, 1u, share);
+    if (halves(1u)) sum += column(first, 1u, share);
     return sum;
 }
 

@@ -27,7 +27,7 @@ struct Task {
 };
 
 Task tile_task() {
-    return Task(film_pixel(), 0u, slice.first_sample, slice.first_sample + slice.sample_count);
+    return Task(film_pixel(), 0u, first_sample(), first_sample() + sample_count());
 }
 
 // Jobs fill tiles one after the other, in the order of the list.
@@ -40,10 +40,10 @@ uint job_index() {
 Task job_task(Header header) {
     uint i = job_index();
     if (i >= slice.tiles) return Task(uvec2(0u, slice.band_height), 0u, 0u, 0u);
-    if (slice.sample_count > 0u) {
+    if (sample_count() > 0u) {
         uvec2 place = uvec2((i >> 1u) % header.size.x, (i >> 1u) / header.size.x);
         uint part = (i & 1u) | (i & 1u) << JOB_STREAM_SHIFT;
-        return Task(place, part, slice.first_sample, slice.first_sample + slice.sample_count);
+        return Task(place, part, first_sample(), first_sample() + sample_count());
     }
     uvec4 job = jobs[i];
     return Task(uvec2(job.x & 0xFFFFu, job.x >> 16u), job.y, job.z, job.z + job.w);
@@ -58,7 +58,7 @@ void main() {
     Header header = load_header();
     hold_scene();
     clear_notices();
-    bool is_job = MODE_IS(SCHEDULES, SCHEDULE_JOBS, slice.schedule);
+    bool is_job = MODE_IS(SCHEDULES, SCHEDULE_JOBS, schedule());
     Task task;
     if (is_job) task = job_task(header);
     else task = tile_task();
@@ -168,9 +168,9 @@ void main() {
     if (is_signed) {
         uint behind = at + (COMPENSATED ? 2u : 1u) * pixels;
         vec4 sums = vec4(negative, 0.0);
-        film[behind] = slice.first_sample > 0u ? film[behind] + sums : sums;
+        film[behind] = first_sample() > 0u ? film[behind] + sums : sums;
     }
-    if (COMPENSATED && slice.first_sample > 0u) {
+    if (COMPENSATED && first_sample() > 0u) {
         vec3 term = sum - (film[at + pixels].xyz + lost);
         vec3 total = film[at].xyz + term;
         lost = (total - film[at].xyz) - term;

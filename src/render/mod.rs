@@ -131,12 +131,15 @@ pub(crate) fn build_pipeline(
         BindingDesc { binding: b.binding, kind: b.kind, count }
     };
     let bindings: Vec<BindingDesc> = shader.bindings.iter().map(describe).collect();
+    let opaque = shader.constant("OPAQUE_UNIFORMS").map(|c| (c.id, Tuning::opaque_uniforms(gpu.info())));
+    let constants: Vec<(u32, u32)> =
+        constants.iter().copied().chain(opaque.map(|(id, is)| (id, u32::from(is)))).collect();
     gpu.pipeline(&PipelineDesc {
         name: shader.name,
-        spirv: &specialise(shader.spirv, constants),
+        spirv: &specialise(shader.spirv, &constants),
         bindings: &bindings,
         push_constant_bytes: push_constant_bytes as u32,
-        constants,
+        constants: &constants,
     })
 }
 

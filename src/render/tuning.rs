@@ -88,6 +88,12 @@ impl Tuning {
         device.kind == DeviceKind::Cpu
     }
 
+    /// Whether the driver makes a shader again at each submission where it knows that conditions depend on
+    /// uniforms alone: lavapipe does, see `glsl/shared/opaque.glsl`.
+    pub fn opaque_uniforms(device: &DeviceInfo) -> bool {
+        device.kind == DeviceKind::Cpu
+    }
+
     /// Width and height of a workgroup; an error where the device has none of that many threads.
     pub fn group_size(&self, device: &DeviceInfo) -> Result<[u32; 2]> {
         let default = if device.kind == DeviceKind::Cpu { [64, 1] } else { [8, 8] };
