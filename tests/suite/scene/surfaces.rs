@@ -32,6 +32,16 @@ fn texture_sampler_and_material_rules() {
             "[[texture]]\nname = 'x'\nfile = 'y'\nflip_v = 1",
             &["texture.flip_v", "true or false, found 1"],
         ),
+        (
+            "orientation",
+            "[[texture]]\nname = 'x'\nfile = 'y'\norientation = 'ignored'",
+            &["texture.orientation", "did you mean \"ignore\"", "apply, ignore"],
+        ),
+        (
+            "orientation of a ramp",
+            "[[texture]]\nname = 'x'\nramp = [[0, 0, 0]]\norientation = 'apply'",
+            &["texture.orientation", "these texels come from none"],
+        ),
         ("texture twice", &textures, &[":13:8:", "texture.name", "\"a\"", "line 10"]),
         ("sampler twice", &samplers, &["sampler.name", "\"a\"", "line 10"]),
         ("material twice", &materials, &["material.name", "\"a\"", "line 10"]),
