@@ -2,6 +2,7 @@
 //! reliefs; on device and oracle.
 
 mod glass;
+mod mirrored;
 mod phong;
 mod relief;
 

@@ -110,6 +110,17 @@ fn texture_sampler_and_material_rules() {
             "[[material]]\nname = 'm'\nmodel = 'mirror'\nior = 1.5",
             &["material.ior", "only model \"dielectric\" has ior", "\"mirror\""],
         ),
+        ("green of nothing", "[[material]]\nname = 'm'\ngreen = 'down'", &["material.green", "normal_map"]),
+        (
+            "green of heights",
+            "[[texture]]\nname = 't'\nfile = 'f'\n[[material]]\nname = 'm'\nbump_map = 't'\ngreen = 'down'",
+            &["material.green", "heights"],
+        ),
+        (
+            "green where",
+            "[[texture]]\nname = 't'\nfile = 'f'\n[[material]]\nname = 'm'\nnormal_map = 't'\ngreen = 'dwn'",
+            &["material.green", "did you mean \"down\"", "up, down"],
+        ),
         ("strength of nothing", "[[material]]\nname = 'm'\nstrength = 2", &["material.strength", "bump_map"]),
         (
             "two reliefs",
