@@ -19,6 +19,7 @@ mod sections;
 mod shapes;
 mod source;
 mod table;
+pub mod texture_advice;
 mod textures;
 mod validate;
 

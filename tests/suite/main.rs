@@ -6,6 +6,7 @@
 #![allow(clippy::unwrap_used)]
 
 mod adaptive;
+mod advice;
 mod bad_input;
 mod beams;
 mod cli;
