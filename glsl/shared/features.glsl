@@ -41,7 +41,7 @@ layout(constant_id = 38) const bool MIPMAPPED = true;   // some texture has more
 layout(constant_id = 39) const bool ENVIRONMENT = true;
 layout(constant_id = 49) const bool POLES = true;       // environments whose rows go on over the poles
 layout(constant_id = 50) const bool BUMPED = true;
-layout(constant_id = 51) const uint RELIEFS = 0x3u;
+layout(constant_id = 51) const uint RELIEFS = 0x7u;
 layout(constant_id = 52) const bool RANDOM = true;      // look-ups take texels at random
 layout(constant_id = 26) const uint TEXEL_CENTERS = 0x3u;
 layout(constant_id = 32) const uint TEXTURE_SIZES = 0x3u;

@@ -62,6 +62,7 @@ const uint ENTITY_DIRECTION = 3u; // of the ray: an environment's
 
 const uint RELIEF_NORMAL = 0u;
 const uint RELIEF_BUMP = 1u;
+const uint RELIEF_NORMAL_DOWN = 2u;
 
 const uint LIGHT_POINT = 0u;
 const uint LIGHT_DIRECTIONAL = 1u;

@@ -67,6 +67,11 @@ void uv_gradients(Map map, Ray ray, Surface surface, out vec3 u, out vec3 v) {
     v = along_v;
 }
 
+// A map of normals, not of heights.
+bool is_normal_map(Material material) {
+    return MODE_IS(RELIEFS, RELIEF_NORMAL, material.detail.w) || MODE_IS(RELIEFS, RELIEF_NORMAL_DOWN, material.detail.w);
+}
+
 // Places at which a bump map is read, two on each axis, a texel or half the footprint away.
 vec2 relief_step(Material material, Mapped c) {
     vec2 texel = 1.0 / vec2(texture_at(material.detail.x).place.yz);
@@ -74,7 +79,7 @@ vec2 relief_step(Material material, Mapped c) {
 }
 
 // The shading normal after the material's relief, from what was read there. Normal map: 2 rgb - 1 along
-// growing u, growing v and the normal. Bump map: n - grad h, the height's gradient along the surface
+// growing u, growing v (or against it) and the normal. Bump map: n - grad h, the height's gradient along the surface
 // (Blinn 1978; Mikkelsen 2020), h from central differences.
 vec3 relief_normal(Material material, Map map, Ray ray, Surface surface, vec4 read, vec2 step) {
     float side = surface.inside ? -1.0 : 1.0;
@@ -84,11 +89,12 @@ vec3 relief_normal(Material material, Map map, Ray ray, Surface surface, vec4 re
     vec3 v;
     uv_gradients(map, ray, surface, u, v);
     vec3 result;
-    if (MODE_IS(RELIEFS, RELIEF_NORMAL, material.detail.w)) {
+    if (is_normal_map(material)) {
         vec3 t = cross3(v, n);
         vec3 b = cross3(n, u);
         float handed = dot3(cross3(u, v), n) < 0.0 ? -strength : strength;
         vec3 m = 2.0 * read.xyz - 1.0;
+        if (MODE_IS(RELIEFS, RELIEF_NORMAL_DOWN, material.detail.w)) m.y = -m.y;
         vec2 scale = vec2(dot3(t, t), dot3(b, b));
         result = n * m.z;
         result += t * (scale.x > 0.0 ? handed * m.x * inversesqrt(scale.x) : 0.0);
@@ -109,7 +115,7 @@ vec3 surface_color(Material material, Map map, Ray ray, inout Surface surface, F
 #if SOURCE != SOURCE_NONE
     bool relief = BUMPED && material.detail.x != NO_TEXTURE;
     uint taps = 0u;
-    if (relief) taps = MODE_IS(RELIEFS, RELIEF_NORMAL, material.detail.w) ? 1u : 4u;
+    if (relief) taps = is_normal_map(material) ? 1u : 4u;
     vec4 read = vec4(0.0);
     vec2 step = vec2(0.0);
     uint tap = 0u;

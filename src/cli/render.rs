@@ -24,8 +24,11 @@ use crate::render::{self, MipChoice, Report, TexelChoice, Tuning};
 use crate::scene::advice;
 use crate::scene::model::{Algorithm, Scene};
 use crate::scene::prune::prune;
+use crate::scene::texture_advice::of_textures;
 use crate::texture::decode::Values;
 use crate::texture::load::load_with;
+use crate::texture::read_file::is_turned;
+use crate::texture::source::OrientationUse;
 use crate::verify::known::anisotropy_fault;
 
 #[derive(Args, Debug)]
@@ -147,7 +150,7 @@ fn render_on_device(
     bar: &Bar,
     start: Instant,
 ) -> Result<Ran> {
-    let (gpu, mut packed, startup, load) = std::thread::scope(|scope| {
+    let (gpu, (mut packed, doubts), startup, load) = std::thread::scope(|scope| {
         let (tell, told) = mpsc::channel();
         let loading = scope.spawn(move || {
             let packed = load(scene, args, || told.recv().unwrap_or_default());
@@ -160,14 +163,15 @@ fn render_on_device(
         let startup = clock.elapsed().as_secs_f64();
         let (packed, load) = loading.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
         // A mistake in the scene is told before one of the machine.
-        packed.and_then(|packed| Ok((gpu?, packed, startup, load)))
+        packed.and_then(|loaded| Ok((gpu?, loaded, startup, load)))
     })?;
-    let nonfinite = say_textures(args, &packed);
+    let nonfinite = say_textures(args, scene, &packed);
     packed.guarded = args.guards || args.verbose;
     let tuning = Tuning { texels: args.texels, group: args.workgroup };
     let (film, mut report) =
         render::render_to_goal(&gpu, packed, args.keep_everything, &tuning, args.overrides.goal(), bar)?;
     (report.seconds.startup, report.seconds.load) = (startup, load);
+    report.warnings.splice(..0, doubts);
     if let (true, Some(fault)) = (advice::samples_anisotropically(scene), anisotropy_fault(gpu.info())) {
         report.warnings.push(format!("{fault}; --method shader reads the right ones"));
     }
@@ -185,9 +189,9 @@ fn render_on_device(
 }
 
 fn render_on_oracle(args: &RenderArgs, scene: &Scene, bar: &Bar, start: Instant) -> Result<Ran> {
-    let packed = load(scene, args, || Pyramids::Host)?;
-    let nonfinite = say_textures(args, &packed);
-    let mut report = Report { double: packed.double, ..Report::default() };
+    let (packed, doubts) = load(scene, args, || Pyramids::Host)?;
+    let nonfinite = say_textures(args, scene, &packed);
+    let mut report = Report { double: packed.double, warnings: doubts, ..Report::default() };
     report.seconds.load = start.elapsed().as_secs_f64();
     let clock = Instant::now();
     let film = if packed.schedule == Schedule::Jobs {
@@ -209,12 +213,18 @@ fn render_on_oracle(args: &RenderArgs, scene: &Scene, bar: &Bar, start: Instant)
     Ok(Ran { device: "oracle".into(), driver, film, report, nonfinite, dropped_triangles: 0 })
 }
 
-/// `pyramids` says who makes those, and may wait for a device to be known.
-fn load(scene: &Scene, args: &RenderArgs, pyramids: impl FnOnce() -> Pyramids) -> Result<PackedScene> {
+/// The scene to render, and what is doubtful about its textures. `pyramids` says who makes those, and may wait
+/// for a device to be known.
+fn load(
+    scene: &Scene,
+    args: &RenderArgs,
+    pyramids: impl FnOnce() -> Pyramids,
+) -> Result<(PackedScene, Vec<String>)> {
     let values = if args.allow_nonfinite { Values::Any } else { Values::Finite };
     let textures = scene.textures.iter().map(|t| load_with(t, values)).collect::<Result<Vec<_>>>()?;
+    let doubts = of_textures(scene, &textures);
     let pyramids = if pack::reads_levels(scene) { pyramids() } else { Pyramids::Host };
-    pack::pack_with(scene, textures, args.crop, pyramids)
+    Ok((pack::pack_with(scene, textures, args.crop, pyramids)?, doubts))
 }
 
 /// A picture must not replace a file that it is made from.
@@ -249,10 +259,16 @@ fn check_crop(crop: Option<Crop>, scene: &Scene) -> Result<()> {
 }
 
 /// Where they are let in, what each texture has of texels that are not finite.
-fn say_textures(args: &RenderArgs, packed: &PackedScene) -> Option<Vec<(String, u64)>> {
+fn say_textures(args: &RenderArgs, scene: &Scene, packed: &PackedScene) -> Option<Vec<(String, u64)>> {
     if args.verbose {
         for line in packed.texture_lines() {
             super::tell(format_args!("texture {line}"));
+        }
+        for texture in scene.textures.iter().filter(|t| t.reading.orientation == OrientationUse::Apply) {
+            for file in texture.content.files().into_iter().filter(|file| is_turned(file)) {
+                let (name, file) = (&texture.name, file.display());
+                super::tell(format_args!("texture \"{name}\": {file} was turned as its orientation says"));
+            }
         }
     }
     let counts = packed.texture_names.iter().cloned().zip(packed.nonfinite_texels.iter().copied());

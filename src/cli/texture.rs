@@ -16,6 +16,7 @@ use crate::output::{self, WriteOptions};
 use crate::texture::analysis::{Analysis, Axis, Channel, Seam, Verdict, analyse};
 use crate::texture::data::{ColorSpace, Component, Dimension, TextureData};
 use crate::texture::read_file::{self, Texels};
+use crate::texture::source::{OrientationUse, Reading};
 
 /// Describe a texture file: size, format, range and mean, non-finite texels, whether it tiles
 ///
@@ -32,6 +33,13 @@ pub struct TextureArgs {
     #[arg(long, value_name = "SPACE", default_value = "linear",
           value_parser = named_parser(ColorSpace::NAMES, ColorSpace::from_name))]
     pub color_space: ColorSpace,
+    /// Layer, part or channel of an EXR file [default: the one without a name]
+    #[arg(long, value_name = "NAME")]
+    pub layer: Option<String>,
+    /// Whether a file that says how it is turned (Exif, TIFF) is turned
+    #[arg(long, value_name = "USE", default_value = "apply",
+          value_parser = named_parser(OrientationUse::NAMES, OrientationUse::from_name))]
+    pub orientation: OrientationUse,
     /// Print one JSON object
     #[arg(long)]
     pub json: bool,
@@ -42,7 +50,8 @@ pub fn run(args: &TextureArgs) -> Result<ExitCode> {
         output::check_writable(path)?;
         super::check_input_kept(path, &args.file, "the texture that is described")?;
     }
-    let texels = read_file::read(&args.file)?;
+    let reading = Reading { orientation: args.orientation, layer: args.layer.clone() };
+    let texels = read_file::read_as(&args.file, &reading)?;
     if texels.format.component() == Component::Float32 && args.color_space == ColorSpace::Srgb {
         return Err(Error::with_help(
             format!("{}: float texels are linear light, not sRGB", args.file.display()),

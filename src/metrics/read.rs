@@ -8,6 +8,7 @@ use crate::error::Result;
 use crate::film::{Film, Placement};
 use crate::texture::data::Component;
 use crate::texture::read_file::{self, Part, Texels};
+use crate::texture::source::Reading;
 
 /// `samples` is 0: a file does not say how many stand behind it.
 pub fn read_picture(path: &Path) -> Result<Film> {
@@ -16,7 +17,7 @@ pub fn read_picture(path: &Path) -> Result<Film> {
 
 /// Also where it lies in the file's whole picture.
 pub fn read_placed(path: &Path) -> Result<(Film, Placement)> {
-    let (texels, placement) = read_file::read_part(path, Part::Data)?;
+    let (texels, placement) = read_file::read_part(path, &Reading::default(), Part::Data)?;
     Ok((film_of(&texels), placement))
 }
 

@@ -68,6 +68,11 @@ pub fn uv_gradients(map: &Map, ray: &Ray, surface: &Surface) -> [DVec3; 2] {
     [first * x.x + second * y.x, first * x.y + second * y.y]
 }
 
+/// A map of normals, not of heights.
+fn is_normal_map(material: &Material) -> bool {
+    ReliefKind::ALL[material.detail[3] as usize].is_normal_map()
+}
+
 fn detail(scene: &PackedScene, material: &Material, c: &Coordinate, random: [u32; 2]) -> DVec4 {
     let [texture, sampler, _, _] = material.detail;
     look_up(scene, &scene.textures[texture as usize], &scene.samplers[sampler as usize], c, random)
@@ -91,9 +96,12 @@ pub fn bumped_normal(
     let strength = f64::from(material.color[3]);
     let [u, v] = uv_gradients(map, ray, surface);
     let c = texture_coordinate(map, &seen_by_map(map, ray, surface, print));
-    let result = if kind == ReliefKind::Normal as u32 {
+    let result = if is_normal_map(material) {
         let handed = if u.cross(v).dot(n) < 0.0 { -1.0 } else { 1.0 };
-        let m = 2.0 * detail(scene, material, &c, random).truncate() - 1.0;
+        let mut m = 2.0 * detail(scene, material, &c, random).truncate() - 1.0;
+        if kind == ReliefKind::NormalDown as u32 {
+            m.y = -m.y;
+        }
         let t = v.cross(n).normalize_or_zero();
         let b = n.cross(u).normalize_or_zero();
         n * m.z + (t * m.x + b * m.y) * strength * handed

@@ -20,6 +20,7 @@ mod shapes;
 mod source;
 pub mod synonyms;
 mod table;
+pub mod texture_advice;
 mod textures;
 mod validate;
 mod vocabulary;

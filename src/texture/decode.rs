@@ -6,6 +6,7 @@ use std::path::Path;
 
 use super::data::{ColorSpace, Component, Dimension, TexelFormat, TextureData};
 use super::read_file::{self, Texels};
+use super::source::Reading;
 use crate::error::{Error, Result};
 
 /// Which numbers a file of floats may hold.
@@ -19,7 +20,8 @@ pub enum Values {
 
 /// A 2D texture from one picture.
 pub fn decode(path: &Path, name: &str, color_space: ColorSpace, flip_v: bool) -> Result<TextureData> {
-    let mut texels = read_checked(path, color_space, Values::Finite).map_err(|e| in_texture(name, e))?;
+    let texels = read_checked(path, &Reading::default(), color_space, Values::Finite);
+    let mut texels = texels.map_err(|e| in_texture(name, e))?;
     if flip_v {
         let height = texels.height;
         reverse_rows(&mut texels, height);
@@ -48,8 +50,13 @@ pub(super) fn texture_of(
     }
 }
 
-pub(super) fn read_checked(path: &Path, color_space: ColorSpace, values: Values) -> Result<Texels> {
-    let texels = read_file::read(path)?;
+pub(super) fn read_checked(
+    path: &Path,
+    reading: &Reading,
+    color_space: ColorSpace,
+    values: Values,
+) -> Result<Texels> {
+    let texels = read_file::read_as(path, reading)?;
     check_meaning(texels.format, color_space, path)?;
     check_values(&texels, values, path)?;
     Ok(texels)

@@ -30,7 +30,8 @@ pub fn load_with(source: &TextureSource, values: Values) -> Result<TextureData> 
 /// The texels and how many slices or faces they are.
 fn read(source: &TextureSource, values: Values) -> Result<(Texels, u32)> {
     let space = source.color_space;
-    let picture = |path: &Path| read_checked(path, space, values);
+    let reading = &source.reading;
+    let picture = |path: &Path| read_checked(path, reading, space, values);
     let volume = |path: &Path, (texels, depth): (Texels, u32)| {
         check_meaning(texels.format, space, path)?;
         check_values(&texels, values, path)?;
@@ -47,9 +48,9 @@ fn read(source: &TextureSource, values: Values) -> Result<(Texels, u32)> {
         }
         TextureContent::Ramp(colors) => Ok((ramp(colors), 1)),
         TextureContent::CubeFile(file, layout) => cube::cut(&picture(file)?, *layout, file).map(|t| (t, 6)),
-        TextureContent::Faces(files) => cube::join(files, space, values).map(|t| (t, 6)),
+        TextureContent::Faces(files) => cube::join(files, reading, space, values).map(|t| (t, 6)),
         TextureContent::Slices(files) => {
-            stack::read(files, space, values, "slice").map(|t| (t, files.len() as u32))
+            stack::read(files, reading, space, values, "slice").map(|t| (t, files.len() as u32))
         }
         TextureContent::Procedural(_) => Ok((ramp(&[[0.0; 4]]), 1)),
         TextureContent::Volume(raw) => volume(&raw.file, (volume::read(raw)?, raw.size[2])),

@@ -1,6 +1,5 @@
 //! A picture file into texels as stored: 8 bits stay 8, 16 stay 16, float stays float, grey stays
-//! grey, three channels become four with opaque alpha. Profiles, gamma and orientation tags are
-//! ignored. Whatever is wrong with the file is an error that names it and says what to do.
+//! grey, three channels become four with opaque alpha. Profiles and gamma are ignored. Whatever is wrong with the file is an error that names it and says what to do.
 
 use std::fs::{self, File};
 use std::io::{BufReader, ErrorKind, Read, Seek};
@@ -9,8 +8,10 @@ use std::path::Path;
 use image::{ColorType, ImageDecoder, ImageError, ImageFormat, ImageReader, Limits};
 
 use super::data::{Component, TexelFormat};
+use super::orientation::orientation_of;
 pub use super::read_exr::Part;
 use super::sniff::{self, Content};
+use super::source::{OrientationUse, Reading};
 use super::{jpeg_end, read_exr};
 use crate::error::{Error, Result};
 use crate::film::Placement;
@@ -31,17 +32,37 @@ pub struct Texels {
     pub bytes: Vec<u8>,
 }
 
+/// Reads a picture upright and, where it has layers, the one without a name.
 pub fn read(path: &Path) -> Result<Texels> {
-    read_part(path, Part::Display).map(|(texels, _)| texels)
+    read_as(path, &Reading::default())
 }
 
-/// Also where the texels lie in the file's picture.
-pub fn read_part(path: &Path, part: Part) -> Result<(Texels, Placement)> {
+/// Reads a picture as it is asked for.
+pub fn read_as(path: &Path, reading: &Reading) -> Result<Texels> {
+    read_part(path, reading, Part::Display).map(|(texels, _)| texels)
+}
+
+/// Reads it, and where its texels lie in the file's picture.
+pub fn read_part(path: &Path, reading: &Reading, part: Part) -> Result<(Texels, Placement)> {
     let mut source = BufReader::new(open(path)?);
     match identify(&mut source).map_err(|e| unreadable(path, &e))? {
-        Content::Picture(ImageFormat::OpenExr) => read_exr::read(source, path, part),
+        Content::Picture(ImageFormat::OpenExr) => {
+            read_exr::read(source, reading.layer.as_deref(), part, path)
+        }
         Content::Picture(format) => {
-            let texels = read_with_image(source, format, path)?;
+            if let Some(layer) = &reading.layer {
+                return Err(no_layers(path, format, layer));
+            }
+            let orientation = match reading.orientation {
+                OrientationUse::Apply => orientation_of(&mut source, format),
+                OrientationUse::Ignore => None,
+            };
+            source.rewind().map_err(|e| unreadable(path, &e))?;
+            let mut texels = read_with_image(source, format, path)?;
+            if let Some(orientation) = orientation {
+                check_memory(path, texels.bytes.len())?;
+                texels = orientation.apply(texels);
+            }
             let placement = Placement::whole(texels.width, texels.height);
             Ok((texels, placement))
         }
@@ -57,6 +78,15 @@ fn identify(source: &mut (impl Read + Seek)) -> std::io::Result<Content> {
     source.by_ref().take(sniff::HEAD_BYTES as u64).read_to_end(&mut head)?;
     source.rewind()?;
     Ok(sniff::identify(&head))
+}
+
+/// Whether the file says that the picture is stored turned or mirrored.
+pub fn is_turned(path: &Path) -> bool {
+    let Ok(mut source) = open(path).map(BufReader::new) else { return false };
+    match identify(&mut source) {
+        Ok(Content::Picture(format)) => orientation_of(&mut source, format).is_some(),
+        _ => false,
+    }
 }
 
 fn read_with_image(mut source: BufReader<File>, format: ImageFormat, path: &Path) -> Result<Texels> {
@@ -235,6 +265,14 @@ pub(super) fn damaged(path: &Path, kind: &str, error: &dyn std::fmt::Display) ->
     Error::with_help(
         format!("{}: the {kind} data is damaged or truncated: {error}", path.display()),
         "fetch or export the picture again",
+    )
+}
+
+fn no_layers(path: &Path, format: ImageFormat, layer: &str) -> Error {
+    let kind = format!("{format:?}").to_uppercase();
+    Error::with_help(
+        format!("{}: layer \"{layer}\" of a {kind} file: only OpenEXR files have layers", path.display()),
+        "leave layer out",
     )
 }
 

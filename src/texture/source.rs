@@ -13,9 +13,36 @@ pub struct TextureSource {
     pub content: TextureContent,
     pub dimension: Dimension,
     pub color_space: ColorSpace,
+    /// Whether the scene says what the stored values mean.
+    pub color_space_stated: bool,
+    pub reading: Reading,
     /// False: v = 0 is the file's first row. True: v grows upwards (the lecture's loader).
     pub flip_v: bool,
     pub mip_kernel: MipKernel,
+}
+
+/// Which picture of a file is read, and which way up.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Reading {
+    pub orientation: OrientationUse,
+    /// Of an OpenEXR file: a layer, a part, or a channel that is read as grey.
+    pub layer: Option<String>,
+}
+
+impl Default for Reading {
+    fn default() -> Self {
+        Reading { orientation: OrientationUse::Apply, layer: None }
+    }
+}
+
+named_enum! {
+    /// What is done about a file that says how it is turned (Exif, TIFF tag 274).
+    pub enum OrientationUse {
+        /// The texels are turned, as programs that show pictures do.
+        Apply = "apply",
+        /// The texels stay as they are stored.
+        Ignore = "ignore",
+    }
 }
 
 /// Files are already joined with the scene file's folder.
@@ -43,6 +70,7 @@ named_enum! {
         VerticalCross = "vertical-cross",
         HorizontalStrip = "horizontal-strip",
         VerticalStrip = "vertical-strip",
+        Grid = "grid",
     }
 }
 

@@ -11,12 +11,19 @@ use rayon::prelude::*;
 use super::data::{ColorSpace, Component, TexelFormat};
 use super::decode::{Values, read_checked};
 use super::read_file::{Texels, check_volume};
+use super::source::Reading;
 use crate::error::{Error, Result};
 
 /// `what` a file is, for messages: its ordinal follows, from 1.
-pub(super) fn read(files: &[PathBuf], space: ColorSpace, values: Values, what: &str) -> Result<Texels> {
+pub(super) fn read(
+    files: &[PathBuf],
+    reading: &Reading,
+    space: ColorSpace,
+    values: Values,
+    what: &str,
+) -> Result<Texels> {
     let pictures: Vec<Result<Texels>> =
-        files.par_iter().map(|file| read_checked(file, space, values)).collect();
+        files.par_iter().map(|file| read_checked(file, reading, space, values)).collect();
     // The first mistake in the order of the files, whichever was found first.
     let pictures = pictures.into_iter().collect::<Result<Vec<_>>>()?;
     let Some(first) = pictures.first() else { return Err(Error::new(format!("no {what} is given"))) };

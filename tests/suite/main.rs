@@ -6,6 +6,7 @@
 #![allow(clippy::unwrap_used)]
 
 mod adaptive;
+mod advice;
 mod bad_input;
 mod beams;
 mod cli;
@@ -19,6 +20,7 @@ mod dimensions;
 mod double;
 mod error;
 mod exact;
+mod exr;
 mod extremes;
 mod flip;
 mod footprints;
@@ -38,6 +40,7 @@ mod metrics;
 mod mips;
 mod nonfinite;
 mod oracle;
+mod orientation;
 mod output;
 mod patterns;
 mod pixel_filters;

@@ -3,6 +3,7 @@
 
 mod glass;
 mod leaning;
+mod mirrored;
 mod phong;
 mod relief;
 mod scales;

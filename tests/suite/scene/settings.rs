@@ -121,6 +121,12 @@ fn sampling_and_background_rules() {
             &["background.layout", "2d, which needs layout \"equirectangular\""],
         ),
         ("turned nothing", "[background]\nrotate = 90", &["background.rotate", "needs an environment"]),
+        ("mirrored nothing", "[background]\nmirror = true", &["background.mirror", "needs an environment"]),
+        (
+            "mirrored how",
+            "[[texture]]\nname = 't'\nfile = 'f'\n[background]\nenvironment = 't'\nmirror = 'x'",
+            &["background.mirror", "true or false"],
+        ),
         (
             "sampler of nothing",
             "[background]\nsampler = 's'",
