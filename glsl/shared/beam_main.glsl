@@ -49,7 +49,15 @@ uint pop_piece() {
     return stages[waiting];
 }
 
-// All that the beam may meet.
+// Whether two planes lie in each other, by their nearness.
+bool coplanar(vec3 a, vec3 b, uint polygon) {
+    vec2 ends = range(polygon, a - b);
+    vec2 sizes = range(polygon, b);
+    return max(ends.y, -ends.x) <= COPLANAR * max(sizes.y, -sizes.x);
+}
+
+// All that the beam may meet. Behind a mirror that is what lies beyond it: what lies before it neither is seen
+// nor hides anything.
 void find_shapes(Header header, Beam beam) {
     uint planes = COUNT(PLANES, header.counts.x);
     uint before_triangles = planes + COUNT(SPHERES, header.counts.y);
@@ -62,6 +70,11 @@ void find_shapes(Header header, Beam beam) {
             continue;
         }
         Region region = shape_region(header, beam.frame, shape);
+        if (BOUNCES && beam.skip != NO_SHAPE) {
+            if (coplanar(region.nearness, beam.limit, WHOLE)) continue;
+            region.lines[region.count] = beam.limit - region.nearness;
+            region.count++;
+        }
         bool touches = true;
         for (uint k = 0u; k < region.count; k++) touches = touches && range(WHOLE, region.lines[k]).y > 0.0;
         if (!touches) continue;
@@ -79,10 +92,7 @@ void find_shapes(Header header, Beam beam) {
 
 // Positive where `by` lies before `own`.
 vec3 before(uint by, uint own, uint polygon) {
-    vec3 apart = met[by].nearness - met[own].nearness;
-    vec2 ends = range(polygon, apart);
-    vec2 sizes = range(polygon, met[own].nearness);
-    if (max(ends.y, -ends.x) > COPLANAR * max(sizes.y, -sizes.x)) return apart;
+    if (!coplanar(met[by].nearness, met[own].nearness, polygon)) return met[by].nearness - met[own].nearness;
     return vec3(0.0, 0.0, by < own ? 1.0 : -1.0);
 }
 
@@ -195,10 +205,9 @@ vec3 follow(Header header, Beam beam) {
             } else {
                 bool kept = stage == 0u;
                 uint by = kept ? own : stage - 1u;
-                bool mirrored = BOUNCES && beam.skip != NO_SHAPE;
-                // What lies before the mirror that the beam left is not seen.
-                vec3 first = kept ? beam.limit - met[own].nearness : before(by, own, PIECE);
-                carve(stage, by, !kept || mirrored, first, kept);
+                vec3 first = vec3(0.0);
+                if (!kept) first = before(by, own, PIECE);
+                carve(stage, by, !kept, first, kept);
             }
         }
     }

@@ -6,8 +6,8 @@
 use glam::DVec3;
 
 use super::forms::{
-    Frame, Region, coordinates, may_meet_sphere, mirrored_frame, pixel_frame, shadow_region, shape_plane,
-    shape_region,
+    Frame, Region, add, coordinates, may_meet_sphere, mirrored_frame, pixel_frame, shadow_region,
+    shape_plane, shape_region,
 };
 use super::math::xyz;
 use super::paint::{GaveUp, Paint, Result, integral, is_lit, is_simple, links, may_shade};
@@ -92,8 +92,7 @@ impl Pixel<'_> {
                 } else {
                     let kept = piece.stage == 0;
                     let by = &met[if kept { own } else { piece.stage - 1 }];
-                    let first =
-                        if kept { beam.beyond_mirror(by) } else { before(by, &met[own], &piece.polygon) };
+                    let first = (!kept).then(|| before(by, &met[own], &piece.polygon));
                     carve(&mut self.pieces, piece, &by.region, first, kept)?;
                 }
             }
@@ -197,14 +196,8 @@ impl Pixel<'_> {
     }
 }
 
-impl Beam {
-    /// Positive beyond the mirror that the beam left.
-    fn beyond_mirror(&self, met: &Met) -> Option<Form> {
-        (self.skip != NO_SHAPE).then(|| self.limit - met.region.nearness)
-    }
-}
-
-/// All that the beam may meet.
+/// All that the beam may meet. Behind a mirror that is what lies beyond it: what lies before it neither is seen
+/// nor hides anything.
 fn shapes_met(scene: &PackedScene, beam: &Beam) -> Result<Vec<Met>> {
     let [planes, spheres, triangles, _] = scene.header.counts;
     let mut met = Vec::new();
@@ -218,7 +211,14 @@ fn shapes_met(scene: &PackedScene, beam: &Beam) -> Result<Vec<Met>> {
             }
             continue;
         }
-        let region = shape_region(scene, &beam.frame, shape);
+        let mut region = shape_region(scene, &beam.frame, shape);
+        if beam.skip != NO_SHAPE {
+            if coplanar(region.nearness, beam.limit, &beam.polygon) {
+                continue;
+            }
+            let beyond_mirror = beam.limit - region.nearness;
+            add(&mut region, beyond_mirror);
+        }
         let touches = region.lines[..region.count].iter().all(|&line| range(&beam.polygon, line).1 > 0.0);
         if touches {
             if met.len() == MAX_MET {
@@ -230,15 +230,19 @@ fn shapes_met(scene: &PackedScene, beam: &Beam) -> Result<Vec<Met>> {
     Ok(met)
 }
 
+/// Whether two planes lie in each other, by their nearness.
+fn coplanar(a: Form, b: Form, polygon: &Polygon) -> bool {
+    let (low, high) = range(polygon, a - b);
+    let (least, most) = range(polygon, b);
+    high.max(-low) <= COPLANAR * most.max(-least)
+}
+
 /// Positive where `by` lies before `own`.
-fn before(by: &Met, own: &Met, polygon: &Polygon) -> Option<Form> {
-    let apart = by.region.nearness - own.region.nearness;
-    let (low, high) = range(polygon, apart);
-    let (least, most) = range(polygon, own.region.nearness);
-    if high.max(-low) > COPLANAR * most.max(-least) {
-        return Some(apart);
+fn before(by: &Met, own: &Met, polygon: &Polygon) -> Form {
+    if !coplanar(by.region.nearness, own.region.nearness, polygon) {
+        return by.region.nearness - own.region.nearness;
     }
-    Some(if by.shape < own.shape { Form::Z } else { -Form::Z })
+    if by.shape < own.shape { Form::Z } else { -Form::Z }
 }
 
 /// Cuts the piece along the lines of a region, of which `first` is one more. What lies within them all is

@@ -46,6 +46,7 @@ mod patterns;
 mod pixel_filters;
 mod procedural;
 mod pyramids;
+mod random_scenes;
 mod rays;
 mod readme;
 mod scene;
