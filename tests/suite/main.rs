@@ -41,6 +41,7 @@ mod oracle;
 mod output;
 mod patterns;
 mod pixel_filters;
+mod pool;
 mod procedural;
 mod pyramids;
 mod rays;
