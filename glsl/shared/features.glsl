@@ -48,11 +48,14 @@ layout(constant_id = 32) const uint TEXTURE_SIZES = 0x3u;
 layout(constant_id = 57) const bool NONFINITE = true;   // some texels are no numbers
 layout(constant_id = 27) const uint TEXEL_FORMATS = 0x1FFu;
 layout(constant_id = 28) const uint COLOR_SPACES = 0x3u;
+layout(constant_id = 55) const bool DEEP_SRGB = true;   // some texture has sRGB of 16 bits
 layout(constant_id = 29) const bool COMPENSATED = true; // more samples than one chunk holds
 layout(constant_id = 82) const bool BLOCKS = true;      // a thread may sum more than MOST_PLAIN samples
 layout(constant_id = 30) const uint SLOTS = 1u;         // image descriptors: flat, volumes, cubes
 layout(constant_id = 53) const uint VOLUME_SLOTS = 1u;
 layout(constant_id = 54) const uint CUBE_SLOTS = 1u;
+layout(constant_id = 58) const uint TEXEL_BLOCKS = 16u; // buffers that the texels lie in, of as many words
+layout(constant_id = 59) const uint BLOCK_LOG2 = 16u;
 
 layout(constant_id = 60) const uint PROCEDURALS = DYNAMIC;
 layout(constant_id = 61) const uint PROCEDURAL_KINDS = 0x3FFu;
@@ -77,7 +80,6 @@ layout(constant_id = 44) const uint MATERIALS_AT = 0u;
 layout(constant_id = 45) const uint MAPS_AT = 0u;
 layout(constant_id = 46) const uint TEXTURES_AT = 0u;
 layout(constant_id = 47) const uint SAMPLERS_AT = 0u;
-layout(constant_id = 48) const uint SRGB_AT = 0u;
 layout(constant_id = 63) const uint PROCEDURALS_AT = 0u;
 layout(constant_id = 68) const uint PIXEL_FILTER_AT = 0u;
 layout(constant_id = 78) const bool TABLES_IN_HEAD = true; // what reads a table at scattered places differs by device

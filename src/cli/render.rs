@@ -167,7 +167,7 @@ fn render_on_device(
     })?;
     let nonfinite = say_textures(args, scene, &packed);
     packed.guarded = args.guards || args.verbose;
-    let tuning = Tuning { texels: args.texels, group: args.workgroup };
+    let tuning = Tuning { texels: args.texels, group: args.workgroup, ..Tuning::default() };
     let (film, mut report) =
         render::render_to_goal(&gpu, packed, args.keep_everything, &tuning, args.overrides.goal(), bar)?;
     (report.seconds.startup, report.seconds.load) = (startup, load);

@@ -39,7 +39,7 @@ pub use pixel_filter::{filtered_mean, kernel};
 pub use procedural::procedural;
 pub use pyramids::{Pyramids, reads_levels};
 pub use sections::Sections;
-pub use textures::{MAX_SLOTS, Slot, row_sums};
+pub use textures::{MAX_SLOTS, Slot, row_sum_words, row_sums};
 
 /// A part of the picture, in pixels of the full picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -112,12 +112,16 @@ pub struct PackedScene {
     pub mean_sign: Option<f64>,
 }
 
-/// Image descriptors of each kind.
+/// Image descriptors of each kind, and texel buffers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct SlotCounts {
     pub flat: u32,
     pub volumes: u32,
     pub cubes: u32,
+    /// Buffers that the texels lie in.
+    pub texel_blocks: u32,
+    /// Words of each but the last, where there are several.
+    pub block_log2: u32,
 }
 
 /// Packs what the scene shows; textures and samplers that no shape reaches are not in `scene`.
@@ -162,7 +166,12 @@ pub fn pack_with(
     }
     if packed.beams {
         packed.row_sums = textures::row_sums(&textures);
-    } else if algorithm == Algorithm::Auto && suits_beams && !packed.has_nonfinite() {
+    } else if algorithm == Algorithm::Auto
+        && suits_beams
+        && !packed.has_nonfinite()
+        // No buffer is longer.
+        && row_sum_words(&textures) <= i32::MAX as u64
+    {
         packed.beam_textures = Some(Arc::new(textures.clone()));
     }
     packed.samplers = scene.samplers.iter().map(|spec| textures::sampler(spec, filtered)).collect();
@@ -273,11 +282,13 @@ impl PackedScene {
         self.summed_tables || self.textures.iter().any(|t| solids.contains(&t.link[3]))
     }
 
+    /// Of images alone.
     pub fn slot_counts(&self) -> SlotCounts {
         SlotCounts {
             flat: self.slots.len() as u32,
             volumes: self.volume_slots.len() as u32,
             cubes: self.cube_slots.len() as u32,
+            ..SlotCounts::default()
         }
     }
 }

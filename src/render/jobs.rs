@@ -146,11 +146,7 @@ impl<'a> JobTracer<'a> {
 
     /// Sums of jobs that a thread takes at once, beside the film: of radiance, and where samples have signs those of
     /// negative ones, and the counts.
-    fn parts_apart(
-        &mut self,
-        parts: &[(usize, Job)],
-        progress: &dyn Progress,
-    ) -> Result<Vec<Vec<[f32; 4]>>> {
+    fn parts_apart(&mut self, parts: &[(usize, Job)], progress: &dyn Progress) -> Result<Vec<Vec<[f32; 4]>>> {
         let list: Vec<Job> = parts.iter().map(|(_, job)| *job).collect();
         let planes = if self.mean_sign.is_some() { 3 } else { 1 };
         let plane = (list.len() * size_of::<[f32; 4]>()) as u64;

@@ -113,7 +113,7 @@ pub fn render_to_goal(
     Session::open(gpu, scene, keep_everything, tuning)?.prepare()?.render_to_goal(goal, progress)
 }
 
-/// A pipeline of `shader` with these constants; the scene has so many image descriptors.
+/// A pipeline of `shader` with these constants; the scene has so many descriptors.
 pub(crate) fn build_pipeline(
     gpu: &Gpu,
     shader: &Shader,
@@ -126,6 +126,7 @@ pub(crate) fn build_pipeline(
             (BindingKind::SampledImage, resources::VOLUMES) => slots.volumes.max(1),
             (BindingKind::SampledImage, resources::CUBES) => slots.cubes.max(1),
             (BindingKind::SampledImage, _) => slots.flat.max(1),
+            (BindingKind::TexelBuffer, resources::TEXELS) => slots.texel_blocks.max(1),
             _ => 1,
         };
         BindingDesc { binding: b.binding, kind: b.kind, count }

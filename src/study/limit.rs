@@ -30,10 +30,6 @@ impl Limit {
         (self.seconds - self.spent()).max(0.0)
     }
 
-    pub fn is_over(&self) -> bool {
-        self.spent() >= self.seconds
-    }
-
     /// What to say where the study took longer.
     pub fn note(&self) -> Option<String> {
         let (spent, seconds) = (self.spent(), self.seconds);
@@ -83,6 +79,6 @@ mod tests {
         assert!(matches!(limit.until(1e300, &Silent, asked), Ok(Some(()))));
         assert!(matches!(limit.until(0.0, &Silent, asked), Ok(None)));
         assert!(matches!(limit.until(1e300, &Stopped, asked), Err(Error::Interrupted)));
-        assert!(!limit.is_over() && Limit::new(Instant::now(), 0.0).is_over());
+        assert!(limit.left() > 0.0 && Limit::new(Instant::now(), 0.0).left() == 0.0);
     }
 }

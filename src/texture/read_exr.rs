@@ -26,7 +26,12 @@ pub enum Part {
     Data,
 }
 
-pub(super) fn read(mut source: impl BufRead + Seek, layer: Option<&str>, part: Part, path: &Path) -> Result<(Texels, Placement)> {
+pub(super) fn read(
+    mut source: impl BufRead + Seek,
+    layer: Option<&str>,
+    part: Part,
+    path: &Path,
+) -> Result<(Texels, Placement)> {
     let refused = match exr::block::read(&mut source, false) {
         Ok(reader) => return read_layer(reader, layer, part, path),
         Err(error) => error,
@@ -47,12 +52,22 @@ pub(super) fn read(mut source: impl BufRead + Seek, layer: Option<&str>, part: P
     }
 }
 
-fn read_layer<R: BufRead + Seek>(reader: Reader<R>, layer: Option<&str>, part: Part, path: &Path) -> Result<(Texels, Placement)> {
+fn read_layer<R: BufRead + Seek>(
+    reader: Reader<R>,
+    layer: Option<&str>,
+    part: Part,
+    path: &Path,
+) -> Result<(Texels, Placement)> {
     let choice = exr_layers::choose(reader.headers(), layer, path)?;
     read_chosen(reader, choice, part, path)
 }
 
-fn read_chosen<R: BufRead + Seek>(reader: Reader<R>, layer: Layer, part: Part, path: &Path) -> Result<(Texels, Placement)> {
+fn read_chosen<R: BufRead + Seek>(
+    reader: Reader<R>,
+    layer: Layer,
+    part: Part,
+    path: &Path,
+) -> Result<(Texels, Placement)> {
     let header = &reader.headers()[layer.part];
     let mut picture = Picture::new(header, &layer, part, path)?;
     let chromaticities = header.shared_attributes.chromaticities;
@@ -164,7 +179,12 @@ impl Picture {
         }
     }
 
-    fn finish(mut self, layer: &Layer, file: Option<Chromaticities>, path: &Path) -> Result<(Texels, Placement)> {
+    fn finish(
+        mut self,
+        layer: &Layer,
+        file: Option<Chromaticities>,
+        path: &Path,
+    ) -> Result<(Texels, Placement)> {
         if let Colors::LuminanceChroma(_) = layer.colors {
             exr_color::to_rgb(&mut self.bytes, exr_color::luminances(file, path)?);
         }

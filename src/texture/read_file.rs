@@ -32,12 +32,7 @@ pub struct Texels {
     pub bytes: Vec<u8>,
 }
 
-/// Reads a picture upright and, where it has layers, the one without a name.
-pub fn read(path: &Path) -> Result<Texels> {
-    read_as(path, &Reading::default())
-}
-
-/// Reads a picture as it is asked for.
+/// Reads a picture as it is asked for: by default upright and, where it has layers, the one without a name.
 pub fn read_as(path: &Path, reading: &Reading) -> Result<Texels> {
     read_part(path, reading, Part::Display).map(|(texels, _)| texels)
 }

@@ -7,7 +7,7 @@ use super::data::{ColorSpace, Dimension, MipKernel, TexelFormat};
 use super::procedural::Procedural;
 use crate::named::named_enum;
 
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct TextureSource {
     pub name: String,
     pub content: TextureContent,
@@ -94,6 +94,21 @@ pub struct VolumeSource {
     pub endian: Endian,
 }
 
+impl TextureSource {
+    /// The same under another name for every one that has the same texels: without its own name, and with its
+    /// files as the system knows them.
+    pub fn identity(&self) -> TextureSource {
+        let mut identity = TextureSource { name: String::new(), ..self.clone() };
+        for file in identity.content.files_mut() {
+            // What is not there is told when it is read.
+            if let Ok(path) = file.canonicalize() {
+                *file = path;
+            }
+        }
+        identity
+    }
+}
+
 impl TextureContent {
     pub fn procedural(&self) -> Option<&Procedural> {
         match self {
@@ -110,6 +125,16 @@ impl TextureContent {
             TextureContent::Faces(files) => files.iter().map(PathBuf::as_path).collect(),
             TextureContent::Slices(files) => files.iter().map(PathBuf::as_path).collect(),
             TextureContent::Volume(volume) => vec![&volume.file],
+        }
+    }
+
+    fn files_mut(&mut self) -> Vec<&mut PathBuf> {
+        match self {
+            TextureContent::Ramp(_) | TextureContent::Procedural(_) => Vec::new(),
+            TextureContent::File(file) | TextureContent::CubeFile(file, _) => vec![file],
+            TextureContent::Faces(files) => files.iter_mut().collect(),
+            TextureContent::Slices(files) => files.iter_mut().collect(),
+            TextureContent::Volume(volume) => vec![&mut volume.file],
         }
     }
 }

@@ -251,9 +251,8 @@ const SHADERS: [&Shader; 24] = [
 
 /// Constants that say where lists begin and how work is divided.
 fn is_place(name: &str) -> bool {
-    let others =
-        ["GROUP_X", "GROUP_Y", "SLOTS", "VOLUME_SLOTS", "CUBE_SLOTS", "TABLES_IN_HEAD", "OPAQUE_UNIFORMS"];
-    name.ends_with("_AT") || others.contains(&name)
+    let others = ["GROUP_X", "GROUP_Y", "TEXEL_BLOCKS", "BLOCK_LOG2", "TABLES_IN_HEAD", "OPAQUE_UNIFORMS"];
+    name.ends_with("_AT") || name.ends_with("SLOTS") || others.contains(&name)
 }
 
 #[test]

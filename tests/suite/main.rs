@@ -44,6 +44,7 @@ mod orientation;
 mod output;
 mod patterns;
 mod pixel_filters;
+mod pool;
 mod procedural;
 mod pyramids;
 mod random_scenes;
