@@ -49,11 +49,10 @@ uint pop_piece() {
     return stages[waiting];
 }
 
-// Whether two planes lie in each other, by their nearness.
-bool coplanar(vec3 a, vec3 b, uint polygon) {
-    vec2 ends = range(polygon, a - b);
-    vec2 sizes = range(polygon, b);
-    return max(ends.y, -ends.x) <= COPLANAR * max(sizes.y, -sizes.x);
+// Differences of nearness that are none.
+float negligible(vec3 nearness, uint polygon) {
+    vec2 ends = range(polygon, nearness);
+    return COPLANAR * max(ends.y, -ends.x);
 }
 
 // All that the beam may meet. Behind a mirror that is what lies beyond it: what lies before it neither is seen
@@ -63,6 +62,8 @@ void find_shapes(Header header, Beam beam) {
     uint before_triangles = planes + COUNT(SPHERES, header.counts.y);
     uint shapes = before_triangles + COUNT(TRIANGLES, header.counts.z);
     met_count = 0u;
+    bool mirrored = BOUNCES && beam.skip != NO_SHAPE;
+    float least = mirrored ? negligible(beam.limit, WHOLE) : 0.0;
     for (uint shape = 0u; shape < shapes; shape++) {
         if (shape == beam.skip) continue;
         if (SPHERES != 0u && shape >= planes && shape < before_triangles) {
@@ -70,10 +71,11 @@ void find_shapes(Header header, Beam beam) {
             continue;
         }
         Region region = shape_region(header, beam.frame, shape);
-        if (BOUNCES && beam.skip != NO_SHAPE) {
-            if (coplanar(region.nearness, beam.limit, WHOLE)) continue;
-            region.lines[region.count] = beam.limit - region.nearness;
-            region.count++;
+        if (mirrored) {
+            vec3 beyond = beam.limit - region.nearness;
+            vec2 ends = range(WHOLE, beyond);
+            if (ends.y <= least) continue;
+            if (ends.x < 0.0) region.lines[region.count++] = beyond;
         }
         bool touches = true;
         for (uint k = 0u; k < region.count; k++) touches = touches && range(WHOLE, region.lines[k]).y > 0.0;
@@ -92,7 +94,9 @@ void find_shapes(Header header, Beam beam) {
 
 // Positive where `by` lies before `own`.
 vec3 before(uint by, uint own, uint polygon) {
-    if (!coplanar(met[by].nearness, met[own].nearness, polygon)) return met[by].nearness - met[own].nearness;
+    vec3 apart = met[by].nearness - met[own].nearness;
+    vec2 ends = range(polygon, apart);
+    if (max(ends.y, -ends.x) > negligible(met[own].nearness, polygon)) return apart;
     return vec3(0.0, 0.0, by < own ? 1.0 : -1.0);
 }
 
@@ -125,6 +129,7 @@ vec3 lit_by(Header header, Paint paint, uint shape, bool has_light, Light light)
     uint bottom = waiting;
     if (!has_light) push_piece(SEEN, shapes);
     else if (is_lit(header, paint, SEEN, light)) push_piece(SEEN, 0u);
+    float least = is_parallel(header) ? negligible(paint.near, SEEN) : COPLANAR;
     while (waiting > bottom && !gave_up) {
         uint by = pop_piece();
         if (LIGHTS == 0u || by == shapes) {
@@ -136,7 +141,9 @@ vec3 lit_by(Header header, Paint paint, uint shape, bool has_light, Light light)
         if (by == shape || is_sphere) push_piece(PIECE, by + 1u);
         else {
             met[MAX_MET] = shadow_region(header, paint.frame, paint.near, by, light);
-            carve(by, MAX_MET, false, vec3(0.0), false);
+            // What lies in the surface's own plane, or beyond it, keeps no light away.
+            if (range(PIECE, met[MAX_MET].lines[0]).y <= least) push_piece(PIECE, by + 1u);
+            else carve(by, MAX_MET, false, vec3(0.0), false);
         }
     }
     return sum;

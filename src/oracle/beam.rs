@@ -172,6 +172,7 @@ impl Pixel<'_> {
             }
             Some(_) => {}
         }
+        let least = if paint.frame.parallel { negligible(paint.near, polygon) } else { COPLANAR };
         while self.pieces.len() > bottom {
             let Some(piece) = self.pieces.pop() else { break };
             let (by, Some(light)) = (piece.stage as u32, light.filter(|_| piece.stage < shapes)) else {
@@ -190,10 +191,21 @@ impl Pixel<'_> {
                 continue;
             }
             let region = shadow_region(scene, &paint.frame, paint.near, by, light);
+            // What lies in the surface's own plane, or beyond it, keeps no light away.
+            if range(&piece.polygon, region.lines[0]).1 <= least {
+                push(&mut self.pieces, Piece { stage: piece.stage + 1, ..piece })?;
+                continue;
+            }
             carve(&mut self.pieces, piece, &region, None, false)?;
         }
         Ok(sum)
     }
+}
+
+/// Differences of nearness that are none.
+fn negligible(nearness: Form, polygon: &Polygon) -> f64 {
+    let (low, high) = range(polygon, nearness);
+    COPLANAR * high.max(-low)
 }
 
 /// All that the beam may meet. Behind a mirror that is what lies beyond it: what lies before it neither is seen
@@ -201,6 +213,8 @@ impl Pixel<'_> {
 fn shapes_met(scene: &PackedScene, beam: &Beam) -> Result<Vec<Met>> {
     let [planes, spheres, triangles, _] = scene.header.counts;
     let mut met = Vec::new();
+    let mirrored = beam.skip != NO_SHAPE;
+    let least = if mirrored { negligible(beam.limit, &beam.polygon) } else { 0.0 };
     for shape in 0..planes + spheres + triangles {
         if shape == beam.skip {
             continue;
@@ -212,12 +226,15 @@ fn shapes_met(scene: &PackedScene, beam: &Beam) -> Result<Vec<Met>> {
             continue;
         }
         let mut region = shape_region(scene, &beam.frame, shape);
-        if beam.skip != NO_SHAPE {
-            if coplanar(region.nearness, beam.limit, &beam.polygon) {
+        if mirrored {
+            let beyond = beam.limit - region.nearness;
+            let (low, high) = range(&beam.polygon, beyond);
+            if high <= least {
                 continue;
             }
-            let beyond_mirror = beam.limit - region.nearness;
-            add(&mut region, beyond_mirror);
+            if low < 0.0 {
+                add(&mut region, beyond);
+            }
         }
         let touches = region.lines[..region.count].iter().all(|&line| range(&beam.polygon, line).1 > 0.0);
         if touches {
@@ -230,17 +247,12 @@ fn shapes_met(scene: &PackedScene, beam: &Beam) -> Result<Vec<Met>> {
     Ok(met)
 }
 
-/// Whether two planes lie in each other, by their nearness.
-fn coplanar(a: Form, b: Form, polygon: &Polygon) -> bool {
-    let (low, high) = range(polygon, a - b);
-    let (least, most) = range(polygon, b);
-    high.max(-low) <= COPLANAR * most.max(-least)
-}
-
 /// Positive where `by` lies before `own`.
 fn before(by: &Met, own: &Met, polygon: &Polygon) -> Form {
-    if !coplanar(by.region.nearness, own.region.nearness, polygon) {
-        return by.region.nearness - own.region.nearness;
+    let apart = by.region.nearness - own.region.nearness;
+    let (low, high) = range(polygon, apart);
+    if high.max(-low) > negligible(own.region.nearness, polygon) {
+        return apart;
     }
     if by.shape < own.shape { Form::Z } else { -Form::Z }
 }

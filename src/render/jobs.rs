@@ -318,14 +318,10 @@ impl Tracer for JobTracer<'_> {
         let clock = Instant::now();
         self.teller = session.beside_samples()?;
         self.report.seconds.compile += clock.elapsed().as_secs_f64();
-        let Some(teller) = &self.teller else { return Ok(None) };
-        teller.trial(self.report, progress).map(Some)
+        self.teller.as_ref().map(|teller| teller.trial(self.report, progress)).transpose()
     }
 
     fn tell(&mut self, progress: &dyn Progress) -> Result<Vec<[f32; 4]>> {
-        match &self.teller {
-            Some(teller) => teller.tell(self.report, progress),
-            None => Ok(Vec::new()),
-        }
+        self.teller.as_ref().map_or(Ok(Vec::new()), |teller| teller.tell(self.report, progress))
     }
 }

@@ -155,7 +155,7 @@ fn a_time_to_keep_is_kept() {
     let clock = std::time::Instant::now();
     let (_, outcome) = to_goal(&scene, Goal::Seconds(1.5), false);
     let seconds = clock.elapsed().as_secs_f64();
-    assert!(outcome.passes > 1 && outcome.mean_samples > 16.0, "{outcome:?}");
+    assert!(outcome.passes > 1 && outcome.mean_samples >= 16.0, "{outcome:?}");
     // Compiling is not part of it; a loaded machine is slower than its first pass said.
     assert!(seconds < 20.0, "{seconds} s for 1.5 s");
 }

@@ -1,7 +1,8 @@
-//! Random scenes of polygons by beams, on the device and in float64, against the path tracer in
+//! Random scenes of polygons by beams and by cones, on the device and in float64, against the path tracer in
 //! float64, which shares none of their code.
 
 mod beams;
+mod cones;
 mod scenes;
 mod truth;
 

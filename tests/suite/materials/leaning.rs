@@ -108,7 +108,7 @@ fn tilted() -> moire::texture::data::TextureData {
 /// The same mirror with interpolated normals and with a normal map.
 fn leaning(view: &str, material: &str) -> [PackedScene; 2] {
     let mapped = format!(
-        "{material}\nnormal_map = 't'\nsampler = 's'\nmapping = {{ kind = 'planar', scale = [0.7, 0.7] }}\n\
+        "normal_map = 't'\nsampler = 's'\nmapping = {{ kind = 'planar', scale = [0.7, 0.7] }}\n{material}\n\
          [[texture]]\nname = 't'\nfile = 't'\n[[sampler]]\nname = 's'\nfilter = 'nearest'"
     );
     [

@@ -1,6 +1,6 @@
 //! Random scenes of polygons, as text, so that one that fails can be rendered by the program. Each kind has
 //! what made beams or cones err once: mirrors that face or cut each other, that stand in an infinite ground or
-//! are one, shapes close behind them; parallel rays; shadows; a last bounce.
+//! are one, shapes in one plane, shapes close behind them; parallel rays; shadows; a last bounce.
 
 use std::path::Path;
 
@@ -89,6 +89,15 @@ impl Writer {
         }
     }
 
+    /// A level one, in which both are met at exactly the same place; of these hits the first counts.
+    fn two_in_one_plane(&mut self) {
+        for _ in 0..2 {
+            let corners = [(); 3].map(|()| DVec3 { y: 0.125, ..within(&mut self.dice, 0.8) });
+            let material = self.any_material();
+            self.triangle(corners, material);
+        }
+    }
+
     fn any_material(&mut self) -> &'static str {
         ["plain", "odd", "black", "lit", "lit", "pale", "squares"][(self.dice.bits() % 7) as usize]
     }
@@ -169,6 +178,9 @@ pub fn text(kind: Kind, seed: u64, side: u32) -> String {
         let around = within(&mut w.dice, 0.5);
         let material = w.any_material();
         w.any_triangle(around, 0.6, material);
+    }
+    if one_in(&mut w.dice, 2) {
+        w.two_in_one_plane();
     }
     w.text
 }

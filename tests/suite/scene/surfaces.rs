@@ -185,7 +185,9 @@ fn mapping_rules() {
         (
             "kind",
             "{ kind = 'box' }",
-            &["\"box\"; allowed: surface, planar, cylindrical, spherical, cube, solid"],
+            &[
+                "\"box\"; did you mean \"cube\"? allowed: surface, planar, cylindrical, spherical, cube, solid",
+            ],
         ),
         ("kind near", "{ kind = 'spheric' }", &["material.mapping.kind", "did you mean \"spherical\""]),
         (
