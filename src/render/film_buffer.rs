@@ -145,11 +145,10 @@ impl FilmBuffer {
         let mut negative = if self.mean_sign.is_some() { plane() } else { Vec::new() };
         for y in (0..band.height).step_by(rows_at_once as usize) {
             let count = (rows_at_once.min(band.height - y) * self.width) as usize;
-            let mut plane = 0;
-            for floats in [&mut sums, &mut lost, &mut negative].into_iter().filter(|p| !p.is_empty()) {
+            let planes = [&mut sums, &mut lost, &mut negative].into_iter().filter(|p| !p.is_empty());
+            for (plane, floats) in (0..).zip(planes) {
                 let first = u64::from(plane * band.height + y) * row_bytes;
                 gpu.read_buffer(&self.buffer, first, bytemuck::cast_slice_mut(&mut floats[..count]))?;
-                plane += 1;
             }
             let first = (band.y + y) as usize * self.width as usize;
             let of = |floats: &[[f32; 4]], i: usize| floats.get(i).copied().unwrap_or_default();

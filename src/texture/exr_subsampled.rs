@@ -105,7 +105,7 @@ impl Plane {
         };
         let (column, row) = (x / across, y / down);
         let along = |row: usize| mix(value(column, row), value(column + 1, row), x % across, across);
-        if y % down == 0 { along(row) } else { mix(along(row), along(row + 1), y % down, down) }
+        if y.is_multiple_of(down) { along(row) } else { mix(along(row), along(row + 1), y % down, down) }
     }
 }
 
@@ -193,7 +193,7 @@ fn decompress(header: &Header, compressed: Vec<u8>, rows: std::ops::Range<usize>
             (line.with_encoding(header.compression, BlockDescription::ScanLines, LineOrder::Increasing), size)
         }
         // Not B44, which the crate decompresses only where every texel has a sample.
-        Compression::PIZ | Compression::PXR24 if length % area == 0 => {
+        Compression::PIZ | Compression::PXR24 if length.is_multiple_of(area) => {
             let mut header = header.clone();
             // The crate takes the product of it and the area for the length.
             header.channels.bytes_per_pixel = length / area;

@@ -140,7 +140,7 @@ fn doubts_reach_stderr_and_json_unless_quiet() {
     let folder = pictures();
     let scene = "[[texture]]\nname = 'a'\nfile = 'photo.jpg'\n[[material]]\nname = 'm'\ntexture = 'a'\n";
     fs::write(folder.path().join("scene.toml"), format!("{HEAD}{scene}")).unwrap();
-    for device in ["cpu", "oracle"] {
+    for device in [crate::stage::device_name().as_str(), "oracle"] {
         let run = |more: &str| {
             let args = ["render", "scene.toml", "--device", device, more];
             let output = moire().current_dir(folder.path()).args(args).output().unwrap();

@@ -66,7 +66,7 @@ fn png(folder: &Path, tag: u8) -> PathBuf {
     let body = [b"eXIf".to_vec(), exif(tag)].concat();
     let length = (body.len() as u32 - 4).to_be_bytes().to_vec();
     let chunk = [length, body.clone(), crc32fast::hash(&body).to_be_bytes().to_vec()].concat();
-    let at = if tag % 2 == 0 { 33 } else { plain.len() - 12 };
+    let at = if tag.is_multiple_of(2) { 33 } else { plain.len() - 12 };
     let path = folder.join(format!("{tag}.png"));
     fs::write(&path, [&plain[..at], &chunk, &plain[at..]].concat()).unwrap();
     path

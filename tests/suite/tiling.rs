@@ -137,7 +137,8 @@ fn letters() -> Texture {
         let (column, line) = (x / 12, y / 18);
         let glyph = (26.0 * hash(column, line)) as usize;
         let (i, j) = ((x % 12) / 2, (y % 18) / 2);
-        let ink = i < 5 && (1..8).contains(&j) && glyph % 6 != 0 && hash(glyph * 64 + i * 8 + j, 3) < 0.5;
+        let ink =
+            i < 5 && (1..8).contains(&j) && !glyph.is_multiple_of(6) && hash(glyph * 64 + i * 8 + j, 3) < 0.5;
         if ink { 0.08 } else { 0.95 }
     })
 }

@@ -25,10 +25,10 @@ fn coin() -> Scene {
 /// The same coin tossed again and again, at eight panes one over the other.
 fn stack() -> Scene {
     let mut scene = coin();
-    let pane = scene.planes[0].clone();
+    let pane = scene.planes[0];
     scene.planes.truncate(2);
     for i in 1..8 {
-        let mut next = pane.clone();
+        let mut next = pane;
         next.origin.z = -0.05 * f64::from(i);
         scene.planes.push(next);
     }

@@ -102,8 +102,8 @@ fn device_and_oracle_agree_in_solid_angle() {
         let [x, y, below, angle] = answer.rectangle.map(f64::from);
         let what = format!("{middle} {half} {z} {square:?}: device {:?}", answer.rectangle);
         let right = solid_angle(middle - half, middle + half, z);
-        // Angles up to pi in f32 arc tangents: 1.6e-7 were seen on lavapipe, 1.0e-6 at 1.26 on an H100.
-        assert!((angle - right).abs() < 6e-7 + 6e-7 * right, "{what}: {right} by arc tangents");
+        // Angles up to pi in f32 arc tangents: 1.6e-7 were seen on lavapipe, 1.3e-6 at 1.01 on an H100.
+        assert!((angle - right).abs() < 1e-6 + 1e-6 * right, "{what}: {right} by arc tangents");
         assert!((below + z).abs() <= 4e-7 * z, "{what}");
         let [u, v] = square.map(f64::from);
         let (low, high) = (middle - half, middle + half);
