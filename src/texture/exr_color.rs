@@ -25,9 +25,12 @@ pub(super) fn luminances(file: Option<Chromaticities>, path: &Path) -> Result<DV
     let xyz = |Vec2(x, y): Vec2<f32>| DVec3::new(x.into(), y.into(), 1.0 - f64::from(x) - f64::from(y));
     let primaries = DMat3::from_cols(xyz(file.red), xyz(file.green), xyz(file.blue));
     let white = xyz(file.white) / f64::from(file.white.1);
-    let weights = primaries.inverse() * white * primaries.row(1);
-    if weights.is_finite() && weights.y != 0.0 {
-        return Ok(weights);
+    // Two primaries in one place leave rounding for a determinant; those of BT.709 have 0.11.
+    if primaries.determinant().abs() > 1e-6 {
+        let weights = primaries.inverse() * white * primaries.row(1);
+        if weights.is_finite() && weights.y != 0.0 {
+            return Ok(weights);
+        }
     }
     Err(Error::with_help(
         format!("{}: the chromaticities of this OpenEXR file span no colours", path.display()),
