@@ -66,16 +66,16 @@ pub fn json(ran: &Ran, options: Value, outputs: &[String]) -> Value {
     all
 }
 
-/// What is counted, in words.
-fn said(guard: Guard) -> &'static str {
+/// What is counted: the noun, and what is said of it.
+fn said(guard: Guard) -> (&'static str, &'static str) {
     match guard {
-        Guard::Coordinates => "look-ups at coordinates that are no numbers, read at 0",
-        Guard::Levels => "look-ups over more than a texel of the last level",
-        Guard::Anisotropy => "look-ups over footprints longer than max_anisotropy widths, blurred",
-        Guard::Grazing => "footprints of rays that graze a surface, cut off at 65536 times their width",
-        Guard::Depth => "paths at max_depth, ended in black",
-        Guard::Pieces => "cones for which there was no room",
-        Guard::Radiance => "samples whose radiance is no number",
+        Guard::Coordinates => ("look-up", "at coordinates that are no numbers, read at 0"),
+        Guard::Levels => ("look-up", "over more than a texel of the last level"),
+        Guard::Anisotropy => ("look-up", "over footprints longer than max_anisotropy widths, blurred"),
+        Guard::Grazing => ("footprint", "of rays that graze a surface, cut off at 65536 times their width"),
+        Guard::Depth => ("path", "at max_depth, ended in black"),
+        Guard::Pieces => ("cone", "for which there was no room"),
+        Guard::Radiance => ("sample", "whose radiance is no number"),
     }
 }
 
@@ -99,7 +99,8 @@ pub fn say(ran: &Ran, outputs: &[String], verbose: bool) {
             tell(format_args!("  {line}"));
         }
         for (guard, count) in report.guards.iter().flatten().filter(|(_, count)| *count > 0) {
-            tell(format_args!("beyond a limit: {count} {}", said(*guard)));
+            let (noun, rest) = said(*guard);
+            tell(format_args!("beyond a limit: {} {rest}", counted(*count, noun)));
         }
         tell(format_args!(
             "seconds: startup {:.3}, load {:.3}, compile {:.3}, upload {:.3}, render {:.3}, readback {:.3}, write {:.3}",

@@ -80,5 +80,6 @@ mod tests {
         assert!(matches!(limit.until(0.0, &Silent, asked), Ok(None)));
         assert!(matches!(limit.until(1e300, &Stopped, asked), Err(Error::Interrupted)));
         assert!(limit.left() > 0.0 && Limit::new(Instant::now(), 0.0).left() == 0.0);
+        assert!(limit.note().is_none() && Limit::new(Instant::now(), 1e-9).note().is_some());
     }
 }
