@@ -10,8 +10,6 @@ const LONGEST: usize = 2048;
 const PERIODIC: f64 = 0.9;
 /// Distances count from where the mismatch has come to this part of the usual: nearer ones tell of smoothness.
 const APART: f64 = 0.8;
-/// Of the steps inside, those that fit best.
-const NEARLY_ALL: f64 = 0.98;
 /// Edges that differ less than this from each other are no pattern.
 const FLAT: f64 = 1e-3;
 
@@ -21,8 +19,8 @@ pub struct Period {
     /// How much worse than inside the texture fits itself a period later across the seam: 0 as well as in the
     /// worst window inside, 1 no better than at any distance.
     pub misfit: f64,
-    /// How many times worse the seam's own edges fit those a period before and after it than nearly all edges
-    /// inside do; 0 where some inside fit no better.
+    /// How many times worse the seam's own edges fit those a period before or after it, whichever they fit better,
+    /// than the worst step inside.
     pub stray: f64,
 }
 
@@ -66,14 +64,17 @@ pub fn period(lines: &[Vec<f32>]) -> Option<Period> {
 
 fn stray(lines: &[Vec<f32>], distance: usize) -> f64 {
     let (length, seam) = (lines[0].len(), lines[0].len() - 1);
+    if seam <= 2 * distance {
+        return 0.0;
+    }
+    // Between a step and the one a period on.
     let mismatch = |i: usize| {
         lines.iter().map(|line| f64::from((line[i] - line[(i + distance) % length]).abs())).sum::<f64>()
     };
-    let mut inside: Vec<f64> = (0..seam - distance).map(mismatch).collect();
-    inside.sort_by(f64::total_cmp);
-    let own = 0.5 * (mismatch(seam) + mismatch(seam - distance));
-    let usual = inside[(NEARLY_ALL * (inside.len() - 1) as f64) as usize];
-    if inside.last().is_some_and(|worst| own <= *worst) { 0.0 } else { own / usual }
+    let of = |i: usize| mismatch(i - distance).min(mismatch(i));
+    let worst = (distance..seam - distance).map(of).fold(0.0, f64::max);
+    let own = of(seam);
+    if own > 0.0 { own / worst } else { 0.0 }
 }
 
 fn lag(lines: &[Vec<f32>], distance: usize) -> Lag {
@@ -107,12 +108,28 @@ mod tests {
         vec![(0..length).map(edge).collect()]
     }
 
+    fn every_eight(i: usize) -> f32 {
+        if i % 8 == 7 { 1.0 } else { 0.0 }
+    }
+
     #[test]
     fn edges_that_go_on_fit_and_those_that_do_not_are_found() {
-        let every_eight = |i: usize| if i % 8 == 7 { 1.0 } else { 0.0 };
         assert_eq!(period(&ring(64, every_eight)), Some(Period { texels: 8, misfit: 0.0, stray: 0.0 }));
         let cut = period(&ring(60, every_eight)).unwrap();
         assert!(cut.texels == 8 && cut.misfit > 0.4, "{cut:?}");
+    }
+
+    #[test]
+    fn a_seam_that_belongs_elsewhere_strays() {
+        let lines = |seam: [f32; 2]| {
+            let line = |k: usize| {
+                (0..64).map(|i| if i == 63 { seam[k] } else { every_eight(i) * (k + 1) as f32 }).collect()
+            };
+            [line(0), line(1)]
+        };
+        let stray = |seam| period(&lines(seam)).unwrap().stray;
+        assert_eq!(stray([1.0, 2.0]), 0.0);
+        assert!(stray([0.0, 0.5]) > 100.0, "nothing inside strays at all");
     }
 
     #[test]

@@ -20,10 +20,11 @@ pub const USUAL_RANK: f64 = 0.9;
 /// Textures that tile reached 0.08, others began at 0.45.
 pub const FITS: f64 = 0.2;
 pub const BREAKS: f64 = 0.35;
-/// A seam that strays this much is no line of the pattern, whatever lies beside it.
-pub const STRAYS: f64 = 2.0;
-/// The seam is an edge that is found inside if their sizes, pair by pair, differ by this part of the seam, beside
-/// what the middle step inside has of it.
+/// A seam that strays this much is no line of the pattern, whatever lies beside it. Those that are reached 1.11; last
+/// columns that were shifted along themselves mostly lay above 2.
+pub const STRAYS: f64 = 1.5;
+/// The seam is an edge that is found inside if their sizes, pair by pair, differ by this part of the seam, and by as
+/// much again for grain, if the middle step inside has it.
 pub const RECURS: f64 = 0.1;
 /// Up to this part it may be, with other tones.
 pub const RESEMBLES: f64 = 0.5;
@@ -113,7 +114,8 @@ impl Rank {
 /// Of a seam that is no constant and has steps inside; `nearest` is that of
 /// [`Steps::nearest_to_seam`](super::analysis_steps::Steps::nearest_to_seam).
 pub fn judge(rank: &Rank, period: Option<Period>, nearest: Option<[f64; 2]>) -> Seam {
-    let like = |part: f64| nearest.is_some_and(|[distance, middle]| distance <= part + middle);
+    let recurs = nearest.is_some_and(|[distance, middle]| distance <= RECURS + middle.min(RECURS));
+    let resembles = nearest.is_some_and(|[distance, _]| distance <= RESEMBLES);
     let over = rank.of_largest.unwrap_or(f64::INFINITY);
     match period {
         _ if over > SEEN || rank.runs_of_largest > SEEN_RUNS => Seam::Visible,
@@ -123,8 +125,8 @@ pub fn judge(rank: &Rank, period: Option<Period>, nearest: Option<[f64; 2]>) -> 
         Some(_) => Seam::Smooth,
         None if over > DOUBTFUL => Seam::Uncertain,
         None if rank.of_middle <= USUAL || rank.share <= USUAL_RANK => Seam::Smooth,
-        None if like(RECURS) => Seam::Pattern,
-        None if like(RESEMBLES) => Seam::Uncertain,
+        None if recurs => Seam::Pattern,
+        None if resembles => Seam::Uncertain,
         None => Seam::Visible,
     }
 }
