@@ -216,7 +216,7 @@ fn planks_that_were_made_to_tile_do() {
 #[test]
 fn textures_that_were_made_to_tile_do() {
     check(vec![
-        ("clouds", clouds(1), TILES),
+        ("clouds", clouds(1).rolled(9, 20), TILES),
         ("clouds, rolled", clouds(2).rolled(77, 31), TILES),
         ("clouds with grain", clouds(3).with_grain(0.05), TILES),
         ("grain", Texture::new(SIZE, |_, _| 0.5).with_grain(0.2), TILES),
