@@ -1,8 +1,7 @@
 // What a sample chooses beside its place in the pixel, each by a pair of dimensions of the same pattern:
 //   0 place in the pixel   1 lens   2 time (its first dimension)
 //   3 + 2d light, 4 + 2d lobe of the hit after d bounces; of glass 3 + 2d is whether it mirrors (its first dimension)
-// From the seventh hit on the pairs begin again, shifted; further lights of one hit shift the pair of the
-// first. Twin: src/oracle/choices.rs.
+// Further lights of one hit shift the pair of the first. Twin: src/oracle/choices.rs.
 #ifndef CHOICES_GLSL
 #define CHOICES_GLSL
 
@@ -13,8 +12,6 @@ const bool TIMED = HAS(CHOICES, CHOICE_TIME);
 const bool AREA_LIGHTS = HAS(CHOICES, CHOICE_LIGHT);
 const bool GLOSSY = HAS(CHOICES, CHOICE_LOBE);
 const bool FRESNEL = HAS(CHOICES, CHOICE_FRESNEL);
-
-const uint HITS_APART = 6u;
 
 // Positions as integers in [0, 2^24).
 struct Choices {
@@ -54,16 +51,14 @@ Choices choose(Header header, Points points, uint s, uint depth, bool starts) {
     Choices choices = NO_CHOICES;
     uint wanted = (CHOICES & header.chances.x) << 1u;
     wanted = starts ? wanted | 1u : wanted & (0xFFFFFFFFu << (1u + CHOICE_LIGHT));
-    uint round = depth / HITS_APART;
     while (wanted != 0u) {
         uint i = uint(findLSB(wanted));
         wanted &= wanted - 1u;
         bool of_hit = i > CHOICE_LIGHT;
         bool fresnel = FRESNEL && i == 1u + CHOICE_FRESNEL;
         uint first = fresnel ? 1u + CHOICE_LIGHT : i;
-        Points drawn = pair_points(points, of_hit ? first + 2u * (depth - round * HITS_APART) : first);
+        Points drawn = pair_points(points, of_hit ? first + 2u * depth : first);
         uvec2 position = sample_pair(drawn, s, fresnel);
-        position = apart(points, position, of_hit ? round : 0u);
         choices.place = i == 0u ? position : choices.place;
         choices.lens = i == 1u + CHOICE_LENS ? position : choices.lens;
         choices.time = i == 1u + CHOICE_TIME ? position : choices.time;

@@ -7,6 +7,9 @@
 
 #include "sobol.glsl"
 
+// Pairs of bases; a path longer than these has random points.
+const uint HALTON_PAIRS = 16u;
+
 const uint PRIMES[32] = uint[32](2u, 3u, 5u, 7u, 11u, 13u, 17u, 19u, 23u, 29u, 31u, 37u, 41u, 43u, 47u, 53u,
                                  59u, 61u, 67u, 71u, 73u, 79u, 83u, 89u, 97u, 101u, 103u, 107u, 109u, 113u,
                                  127u, 131u);

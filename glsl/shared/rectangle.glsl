@@ -39,12 +39,13 @@ vec4 on_rectangle(vec2 middle, vec2 half_sides, float height, vec2 square) {
     vec2 size = abs(middle) + half_sides;
     float reach = max(max(size.x, size.y), height);
     float z = height / reach;
-    vec2 c = abs(middle) / reach;
-    vec2 h = half_sides / reach;
     bvec2 flipped = lessThan(middle, vec2(0.0));
     vec2 rest = mix(1.0 - square, square, flipped);
-    vec2 x = vec2(c.x - h.x, c.x + h.x);
-    vec2 y = vec2(c.y - h.y, c.y + h.y);
+    // Of two numbers of like size the difference is exact (Sterbenz 1974), before they are divided.
+    vec2 low = (abs(middle) - half_sides) / reach;
+    vec2 high = size / reach;
+    vec2 x = vec2(low.x, high.x);
+    vec2 y = vec2(low.y, high.y);
     vec2 l = y * y + z * z;
     vec2 near = sqrt(x.x * x.x + l);
     vec2 far = sqrt(x.y * x.y + l);

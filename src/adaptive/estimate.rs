@@ -10,6 +10,7 @@
 use rayon::prelude::*;
 
 use super::Sums;
+use super::unseen::{self, Spreads};
 
 /// Pixels that one thread takes at once.
 const CHUNK: usize = 1 << 15;
@@ -32,10 +33,13 @@ struct Seen {
     difference: f32,
     /// And by the spread of the samples.
     spread: f32,
+    /// The variance of one sample, by each half.
+    halves: Spreads,
 }
 
 impl Estimate {
-    pub fn new(sums: &Sums, counts: &[u32]) -> Estimate {
+    /// `bright`: the scene is known to have something small and bright.
+    pub fn new(sums: &Sums, counts: &[u32], bright: bool) -> Estimate {
         let (width, height) = (sums.width as usize, sums.height as usize);
         let seen: Vec<Seen> = (0..counts.len()).into_par_iter().map(|i| seen(sums, counts[i], i)).collect();
         let mse = seen.iter().map(|s| f64::from(s.difference)).sum::<f64>() / seen.len() as f64;
@@ -47,11 +51,10 @@ impl Estimate {
             own.max(contrast(&seen, i, width, height) / (3.0 * n * n))
         };
         let spread = |(seen, &count): (&Seen, &u32)| seen.spread * (2.0 * count as f32);
-        Estimate {
-            variances: (0..seen.len()).into_par_iter().map(variance).collect(),
-            spreads: seen.par_iter().zip(counts).map(spread).collect(),
-            mse,
-        }
+        let mut variances: Vec<f32> = (0..seen.len()).into_par_iter().map(variance).collect();
+        let halves: Vec<Spreads> = seen.iter().map(|s| s.halves).collect();
+        unseen::settle(&mut variances, &halves, counts, width, bright);
+        Estimate { variances, spreads: seen.par_iter().zip(counts).map(spread).collect(), mse }
     }
 }
 
@@ -69,9 +72,10 @@ fn seen(sums: &Sums, count: u32, i: usize) -> Seen {
     let n = count as f32;
     let [a, b] = [sums.halves[0][i], sums.halves[1][i]];
     let mean: [f32; 3] = std::array::from_fn(|c| (a[c] + b[c]) / (2.0 * n));
-    let halves: [f32; 3] = std::array::from_fn(|c| (a[c] - b[c]) / n);
+    let apart: [f32; 3] = std::array::from_fn(|c| (a[c] - b[c]) / n);
+    let halves = [a, b].map(|[r, g, b, squares]| (squares / n - square([r, g, b].map(|v| v / n))).max(0.0));
     let spread = ((a[3] + b[3]) / (2.0 * n) - square(mean)).max(0.0);
-    let seen = Seen { mean, difference: square(halves) / 4.0, spread: spread / (2.0 * n) };
+    let seen = Seen { mean, difference: square(apart) / 4.0, spread: spread / (2.0 * n), halves };
     // What is no number stays none: more samples would not help, and no neighbour has contrast to it.
     let number = mean.iter().chain([&seen.difference, &seen.spread]).all(|v| v.is_finite());
     if number { seen } else { Seen { mean: [f32::NAN; 3], ..Seen::default() } }
@@ -188,7 +192,7 @@ mod tests {
     fn random_samples_err_as_their_spread_says() {
         let counts = vec![32u32; WIDTH * WIDTH];
         let spread = |i: usize| if i % WIDTH < WIDTH / 2 { 0.1 } else { 1.0 };
-        let estimate = Estimate::new(&sums(&counts, |_| 0.5, spread), &counts);
+        let estimate = Estimate::new(&sums(&counts, |_| 0.5, spread), &counts, false);
         // Half the pixels 0.01 / 64, half 1 / 64; 4096 squares of a normal deviate: 3 sigma are 9 %.
         let exact = 0.505 / 64.0;
         assert!((estimate.mse / exact - 1.0).abs() < 0.09, "{:e}, exactly {exact:e}", estimate.mse);
@@ -205,7 +209,7 @@ mod tests {
         let counts = vec![32u32; WIDTH * WIDTH];
         let mut same = sums(&counts, |_| 0.5, |_| 0.3);
         same.halves[1] = same.halves[0].clone();
-        let estimate = Estimate::new(&same, &counts);
+        let estimate = Estimate::new(&same, &counts, false);
         assert_eq!(estimate.mse, 0.0);
         // Left is the contrast of neighbours.
         assert!(estimate.variances.iter().all(|v| *v < 0.01 * 0.09 / 64.0));
@@ -215,7 +219,7 @@ mod tests {
     fn a_pixel_beside_an_edge_that_no_sample_met_keeps_a_variance() {
         let counts = vec![8u32; WIDTH * 8];
         let edge = |i: usize| if i % WIDTH < 20 { 0.0 } else { 1.0 };
-        let estimate = Estimate::new(&sums(&counts, edge, |_| 0.0), &counts);
+        let estimate = Estimate::new(&sums(&counts, edge, |_| 0.0), &counts, false);
         for (i, v) in estimate.variances.iter().enumerate() {
             let wanted = if [19, 20].contains(&(i % WIDTH)) { 1.0 / (3.0 * 256.0) } else { 0.0 };
             assert!((v - wanted).abs() < 1e-6, "{i}: {v:e}, not {wanted:e}");

@@ -10,6 +10,7 @@ mod exact;
 mod explore;
 mod pace;
 mod run;
+mod unseen;
 
 use serde::Serialize;
 

@@ -80,7 +80,7 @@ pub fn run(
         exact.replace(&mut sums, &counts);
         taken = total(&counts);
 
-        let mut estimate = Estimate::new(&sums, &counts);
+        let mut estimate = Estimate::new(&sums, &counts, tracer.bright_share() < 1.0);
         exact.settle(&mut estimate);
         exponent.learn(taken, estimate.mse);
         outcome.beam_pixels = exact.told() as u64;

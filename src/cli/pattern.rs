@@ -10,7 +10,7 @@ use serde_json::json;
 use super::named_parser;
 use crate::counted::counted;
 use crate::error::{Error, Result};
-use crate::oracle::patterns::MAX_PAIRS;
+use crate::oracle::patterns::HALTON_PAIRS;
 use crate::output::{self, WriteOptions};
 use crate::pattern::measures::{mean_nearest_distance, occupied, star_discrepancy};
 use crate::pattern::picture::picture;
@@ -43,7 +43,7 @@ pub struct PatternArgs {
     #[arg(long, value_name = "N", default_value = "1", allow_negative_numbers = true)]
     seed: u32,
     /// Pair of dimensions: 0 is the place in the pixel
-    #[arg(long, value_name = "K", default_value = "0", value_parser = clap::value_parser!(u32).range(..i64::from(MAX_PAIRS)))]
+    #[arg(long, value_name = "K", default_value = "0", value_parser = clap::value_parser!(u32).range(..i64::from(HALTON_PAIRS)))]
     pair: u32,
     /// Print one JSON object
     #[arg(long)]

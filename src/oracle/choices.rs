@@ -1,7 +1,7 @@
 //! What a sample chooses beside its place in the pixel, each by a pair of dimensions of the same pattern:
 //! 0 place in the pixel, 1 lens, 2 time (its first dimension), 3 + 2d light and 4 + 2d lobe of the hit after
-//! d bounces; of glass 3 + 2d is whether it mirrors (its first dimension). From the seventh hit on the pairs begin again, shifted; further lights of one hit shift the
-//! pair of the first. Twin of `glsl/shared/choices.glsl`.
+//! d bounces; of glass 3 + 2d is whether it mirrors (its first dimension).
+//! Further lights of one hit shift the pair of the first. Twin of `glsl/shared/choices.glsl`.
 
 use glam::DVec2;
 
@@ -11,8 +11,6 @@ use super::strata::UNIT;
 use crate::layout::Header;
 use crate::pack::Choice;
 use crate::scene::model::Pattern;
-
-const HITS_APART: u32 = 6;
 
 /// Positions as integers in [0, 2^24).
 #[derive(Clone, Copy, Debug, Default)]
@@ -59,7 +57,6 @@ pub fn apart(points: &Points, position: [u32; 2], salt: u32) -> [u32; 2] {
 /// All that sample s chooses for the hit after `depth` bounces, where its path starts also its place and what
 /// the camera needs.
 pub fn choose(header: &Header, points: &Points, s: u32, depth: u32, starts: bool) -> Choices {
-    let round = depth / HITS_APART;
     let mut choices = Choices::default();
     if starts {
         choices.place = sample_pair(points, s);
@@ -70,11 +67,10 @@ pub fn choose(header: &Header, points: &Points, s: u32, depth: u32, starts: bool
             continue;
         }
         let first = if choice == Choice::Fresnel { Choice::Light } else { choice };
-        let pair = 1 + first as u32 + if of_hit { 2 * (depth - round * HITS_APART) } else { 0 };
+        let pair = 1 + first as u32 + if of_hit { 2 * depth } else { 0 };
         let drawn = pair_points(points, pair);
         let position =
             if choice == Choice::Fresnel { [sample_line(&drawn, s), 0] } else { sample_pair(&drawn, s) };
-        let position = apart(points, position, if of_hit { round } else { 0 });
         match choice {
             Choice::Lens => choices.lens = position,
             Choice::Time => choices.time = position,

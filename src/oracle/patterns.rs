@@ -11,8 +11,8 @@ use super::strata::{fine_position, stratum_position};
 use crate::layout::Header;
 use crate::scene::model::Pattern;
 
-/// Pairs of dimensions: Halton's bases are the first 32 primes.
-pub const MAX_PAIRS: u32 = 16;
+/// Halton's bases are the first 32 primes; a path longer than these pairs has random points.
+pub const HALTON_PAIRS: u32 = 16;
 
 #[derive(Clone, Copy, Debug)]
 pub struct Points {
@@ -85,10 +85,10 @@ pub fn sample_point(points: &Points, s: u32) -> [u32; 2] {
     let jitter = match points.pattern {
         Pattern::SobolOwen => return sobol_owen(s, key),
         Pattern::BlueNoise => return sobol_owen(points.block + s, key),
-        Pattern::Halton => return halton(s, points.pair, key),
+        Pattern::Halton if points.pair < HALTON_PAIRS => return halton(s, points.pair, key),
         Pattern::NRooks => return n_rooks(s, count, key),
         Pattern::MultiJittered => return multi_jittered(s, side, count, key),
-        Pattern::Random => return sample_bits(key, s).map(|b| b >> 8),
+        Pattern::Halton | Pattern::Random => return sample_bits(key, s).map(|b| b >> 8),
         Pattern::Stratified => sample_bits(key, s).map(|b| b >> (8 + side_log2)),
         // The centre of a stratum is the jitter of half a stratum; `center` is a grid of one.
         Pattern::Center | Pattern::Grid => [1 << (23 - side_log2); 2],

@@ -37,12 +37,13 @@ fn angle_between(a: DVec2, b: DVec2) -> f64 {
 /// `middle` of the rectangle along its sides, `half_sides`, and the `height` of the point over its plane, from which
 /// all is seen. Out: the place along the sides and below the point, and the solid angle.
 pub fn on_rectangle(middle: DVec2, half_sides: DVec2, height: f64, square: DVec2) -> (DVec3, f64) {
-    let reach = (middle.abs() + half_sides).max_element().max(height);
+    let size = middle.abs() + half_sides;
+    let reach = size.max_element().max(height);
     let z = height / reach;
-    let (c, h) = (middle.abs() / reach, half_sides / reach);
     let flipped = middle.cmplt(DVec2::ZERO);
     let rest = DVec2::select(flipped, square, 1.0 - square);
-    let (x, y) = ([c.x - h.x, c.x + h.x], [c.y - h.y, c.y + h.y]);
+    let (low, high) = ((middle.abs() - half_sides) / reach, size / reach);
+    let (x, y) = ([low.x, high.x], [low.y, high.y]);
     let l = y.map(|y| y * y + z * z);
     let [near, far] = x.map(|x| l.map(|l| (x * x + l).sqrt()));
     let solid_angle = angle_between(half_strip(x[1], y, z, far), half_strip(x[0], y, z, near));

@@ -8,7 +8,7 @@ use super::canvas::{Canvas, Color};
 use super::points::Set;
 use super::spectrum::Spectrum;
 use crate::film::Film;
-use crate::oracle::patterns::MAX_PAIRS;
+use crate::oracle::patterns::HALTON_PAIRS;
 
 const PANEL: usize = 258; // two pixels for each of 129 frequencies
 const SMALL: usize = 126;
@@ -29,7 +29,7 @@ pub fn picture(set: &Set, spectrum: &Spectrum) -> Film {
     power(&mut canvas, [2 * GAP + TICKS + PANEL, GAP], spectrum);
     radial(&mut canvas, [3 * GAP + TICKS + 2 * PANEL, GAP], spectrum, set.samples);
 
-    let next = |by: u32| set.with_pair((set.pair + by) % MAX_PAIRS).realisation(0);
+    let next = |by: u32| set.with_pair((set.pair + by) % HALTON_PAIRS).realisation(0);
     let others = [1, 2, 3].map(next);
     let join = |a: usize, b: usize| points.iter().zip(&others[0]).map(|(p, q)| [p[a], q[b]]).collect();
     let mixed: [Vec<[f64; 2]>; 3] = [join(0, 0), join(1, 1), join(0, 1)];

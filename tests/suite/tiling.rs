@@ -208,7 +208,6 @@ const TILES: [&[Verdict]; 2] = [&[Yes], &[Yes]];
 const NEITHER: [&[Verdict]; 2] = [&[No], &[No]];
 
 #[test]
-#[ignore = "known fault: wide planks of different tones and grain along them are told not to tile along u"]
 fn planks_that_were_made_to_tile_do() {
     check(vec![("planks", planks(), TILES)]);
 }

@@ -77,7 +77,6 @@ fn equal_areas_of_the_square_are_equal_solid_angles() {
 
 /// In the solid angle that lies between a device's place and the right one.
 #[test]
-#[ignore = "known fault: close before a narrow light the solid angle in f32 is off by 9e-6 of 1.0"]
 fn device_and_oracle_agree_in_solid_angle() {
     let mut dice = Dice::new(83);
     let cases: Vec<_> = rectangles(4000, 82)
