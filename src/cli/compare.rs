@@ -16,7 +16,7 @@ use crate::output::{self, WriteOptions};
 /// taken as linear. Exit code 1 when a NaN is present or the RMSE is above --max-rmse.
 #[derive(Debug, clap::Args)]
 pub struct CompareArgs {
-    /// First picture (PNG, JPEG, TIFF, HDR or EXR)
+    /// First picture (PNG, JPEG, TIFF, TGA, HDR or EXR)
     pub a: PathBuf,
     /// Second picture, usually the reference
     pub b: PathBuf,

@@ -15,15 +15,29 @@ pub mod verify;
 use std::fmt::Display;
 use std::io::{self, ErrorKind, Write};
 use std::path::Path;
+use std::process::ExitCode;
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 
 use crate::error::{Error, Result};
+use crate::panics;
 
 /// A line on stderr. Where nobody can read it any more (a closed pipe, a full disk) there is nobody to
 /// tell either: the work goes on and the exit code still says how it ended.
 pub fn tell(line: impl Display) {
     let _ = writeln!(io::stderr().lock(), "{line}");
+}
+
+/// The code of a command that has ended; an error is told.
+pub fn exit_code(result: Result<ExitCode>) -> ExitCode {
+    result.unwrap_or_else(|error| {
+        let code = if matches!(error, Error::Interrupted) { 130 } else { 2 };
+        let plain = error.to_string();
+        // Showing lines of a scene file is work for a library too.
+        let report = panics::contain(&"an error message", || Ok(format!("{:?}", miette::Report::new(error))));
+        tell(report.unwrap_or(plain));
+        ExitCode::from(code)
+    })
 }
 
 /// A result on stdout. A reader that stops early, such as `head`, is no error.

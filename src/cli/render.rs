@@ -22,7 +22,7 @@ use crate::scene::advice;
 use crate::scene::model::Scene;
 use crate::scene::prune::prune;
 use crate::texture::decode::Values;
-use crate::texture::load::load_with;
+use crate::texture::load::load_noted;
 use crate::verify::known::anisotropy_fault;
 
 #[derive(Args, Debug)]
@@ -131,7 +131,7 @@ fn render_on_device(
     bar: &Bar,
     start: Instant,
 ) -> Result<Ran> {
-    let (gpu, mut packed, startup, load) = std::thread::scope(|scope| {
+    let (gpu, (mut packed, notes), startup, load) = std::thread::scope(|scope| {
         let (tell, told) = mpsc::channel();
         let loading = scope.spawn(move || {
             let packed = load(scene, args, || told.recv().unwrap_or_default());
@@ -152,6 +152,7 @@ fn render_on_device(
     let (film, mut report) =
         render::render_to_goal(&gpu, packed, args.keep_everything, &tuning, args.overrides.goal(), bar)?;
     (report.seconds.startup, report.seconds.load) = (startup, load);
+    report.warnings.extend(notes);
     if let (true, Some(fault)) = (advice::samples_anisotropically(scene), anisotropy_fault(gpu.info())) {
         report.warnings.push(format!("{fault}; --method shader reads the right ones"));
     }
@@ -169,9 +170,9 @@ fn render_on_device(
 }
 
 fn render_on_oracle(args: &RenderArgs, scene: &Scene, bar: &Bar, start: Instant) -> Result<Ran> {
-    let packed = load(scene, args, || Pyramids::Host)?;
+    let (packed, notes) = load(scene, args, || Pyramids::Host)?;
     let nonfinite = say_textures(args, &packed);
-    let mut report = Report { double: packed.double, ..Report::default() };
+    let mut report = Report { double: packed.double, warnings: notes, ..Report::default() };
     report.seconds.load = start.elapsed().as_secs_f64();
     let clock = Instant::now();
     let film = if packed.schedule == Schedule::Jobs {
@@ -193,12 +194,18 @@ fn render_on_oracle(args: &RenderArgs, scene: &Scene, bar: &Bar, start: Instant)
     Ok(Ran { device: "oracle".into(), driver, film, report, nonfinite, dropped_triangles: 0 })
 }
 
-/// `pyramids` says who makes those, and may wait for a device to be known.
-fn load(scene: &Scene, args: &RenderArgs, pyramids: impl FnOnce() -> Pyramids) -> Result<PackedScene> {
+/// The scene for the device, and what a person should know about its textures. `pyramids` says who makes
+/// those, and may wait for a device to be known.
+fn load(
+    scene: &Scene,
+    args: &RenderArgs,
+    pyramids: impl FnOnce() -> Pyramids,
+) -> Result<(PackedScene, Vec<String>)> {
     let values = if args.allow_nonfinite { Values::Any } else { Values::Finite };
-    let textures = scene.textures.iter().map(|t| load_with(t, values)).collect::<Result<Vec<_>>>()?;
+    let textures = scene.textures.iter().map(|t| load_noted(t, values)).collect::<Result<Vec<_>>>()?;
+    let (textures, notes): (Vec<_>, Vec<_>) = textures.into_iter().unzip();
     let pyramids = if pack::reads_levels(scene) { pyramids() } else { Pyramids::Host };
-    pack::pack_with(scene, textures, args.crop, pyramids)
+    Ok((pack::pack_with(scene, textures, args.crop, pyramids)?, notes.concat()))
 }
 
 fn outputs(args: &RenderArgs) -> Vec<PathBuf> {

@@ -14,7 +14,7 @@ use crate::metrics::read::film_of;
 use crate::output::{self, WriteOptions};
 use crate::texture::analysis::{Analysis, Axis, Channel, LARGEST_RATIO, LARGEST_RECURRENCE, Seam, analyse};
 use crate::texture::data::{ColorSpace, Component, Dimension, TextureData};
-use crate::texture::read_file::{self, Texels};
+use crate::texture::read_file::{self, Picture, Texels};
 
 /// Describe a texture file: size, format, range and mean, non-finite texels, whether it tiles
 ///
@@ -22,7 +22,7 @@ use crate::texture::read_file::{self, Texels};
 /// steps between neighbours inside, or is an edge that the texture has inside as well.
 #[derive(Debug, clap::Args)]
 pub struct TextureArgs {
-    /// PNG, JPEG, TIFF, HDR or EXR
+    /// PNG, JPEG, TIFF, TGA, HDR or EXR
     pub file: PathBuf,
     /// Write the texture repeated 2×2, looking like the file; alpha is left out
     #[arg(short, long, value_name = "OUT.png")]
@@ -41,7 +41,10 @@ pub fn run(args: &TextureArgs) -> Result<ExitCode> {
         output::check_writable(path)?;
         super::check_input_kept(path, &args.file, "the texture that is described")?;
     }
-    let texels = read_file::read(&args.file)?;
+    let Picture { texels, notes } = read_file::read_noted(&args.file)?;
+    for note in notes {
+        super::tell(format_args!("warning: {note}"));
+    }
     if texels.format.component() == Component::Float32 && args.color_space == ColorSpace::Srgb {
         return Err(Error::with_help(
             format!("{}: float texels are linear light, not sRGB", args.file.display()),

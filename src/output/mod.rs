@@ -11,6 +11,7 @@ use std::path::Path;
 
 use crate::error::{Error, Result};
 use crate::film::Film;
+use crate::panics;
 pub use encode::Format;
 pub use folder::prepare_folder;
 use target::Target;
@@ -61,7 +62,7 @@ fn prepare(film: &Film, path: &Path, options: &WriteOptions) -> Result<Target> {
         ));
     }
     let mut target = Target::create(path)?;
-    encode::encode(film, format, options, target.writer()).map_err(|e| {
+    let failed = |e| {
         Error::with_help(
             format!(
                 "{}: the {}×{} picture cannot be written as {format}: {e}",
@@ -71,7 +72,9 @@ fn prepare(film: &Film, path: &Path, options: &WriteOptions) -> Result<Target> {
             ),
             "nothing was written; check the disk's free space, or choose another format by its ending",
         )
-    })?;
+    };
+    let stage = format!("{}: writing this picture", path.display());
+    panics::contain(&stage, || encode::encode(film, format, options, target.writer()).map_err(failed))?;
     target.complete()?;
     Ok(target)
 }

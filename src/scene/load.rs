@@ -20,6 +20,7 @@ use super::table::Table;
 use super::textures;
 use super::validate::{MAX_SHAPES, MAX_TEXTURES, check_filters};
 use crate::error::{Error, Result};
+use crate::panics;
 use crate::texture::sampler_spec::SamplerSpec;
 
 /// 65535 triangles with texture coordinates take 7 MB of text.
@@ -40,7 +41,8 @@ const SECTIONS: &[&str] = &[
 
 /// Reads a scene file. Textures are named, not opened.
 pub fn load(path: &Path) -> Result<Scene> {
-    parse(path, &read(path)?)
+    let stage = format!("{}: reading this scene", path.display());
+    panics::contain(&stage, || parse(path, &read(path)?))
 }
 
 /// Parses scene text. Paths in it are relative to the folder of `path_for_messages`.

@@ -23,7 +23,7 @@ use std::path::{Path, PathBuf};
 
 use super::data::ColorSpace;
 use super::decode::Values;
-use super::read_file::Texels;
+use super::read_file::{Picture, Texels};
 use super::source::CubeLayout;
 use super::stack;
 use crate::error::{Error, Result};
@@ -55,10 +55,11 @@ impl CubeLayout {
     }
 }
 
-pub(super) fn join(files: &[PathBuf; 6], space: ColorSpace, values: Values) -> Result<Texels> {
-    let faces = stack::read(files, space, values, "face")?;
+pub(super) fn join(files: &[PathBuf; 6], space: ColorSpace, values: Values) -> Result<Picture> {
+    let picture = stack::read(files, space, values, "face")?;
+    let faces = &picture.texels;
     if faces.width == faces.height {
-        return Ok(faces);
+        return Ok(picture);
     }
     Err(Error::with_help(
         format!(

@@ -5,7 +5,7 @@
 use std::path::Path;
 
 use super::data::{ColorSpace, Component, Dimension, TexelFormat, TextureData};
-use super::read_file::{self, Texels};
+use super::read_file::{self, Picture, Texels};
 use crate::error::{Error, Result};
 
 /// Which numbers a file of floats may hold.
@@ -19,7 +19,8 @@ pub enum Values {
 
 /// A 2D texture from one picture.
 pub fn decode(path: &Path, name: &str, color_space: ColorSpace, flip_v: bool) -> Result<TextureData> {
-    let mut texels = read_checked(path, color_space, Values::Finite).map_err(|e| in_texture(name, e))?;
+    let picture = read_checked(path, color_space, Values::Finite).map_err(|e| in_texture(name, e))?;
+    let mut texels = picture.texels;
     if flip_v {
         let height = texels.height;
         reverse_rows(&mut texels, height);
@@ -48,11 +49,11 @@ pub(super) fn texture_of(
     }
 }
 
-pub(super) fn read_checked(path: &Path, color_space: ColorSpace, values: Values) -> Result<Texels> {
-    let texels = read_file::read(path)?;
-    check_meaning(texels.format, color_space, path)?;
-    check_values(&texels, values, path)?;
-    Ok(texels)
+pub(super) fn read_checked(path: &Path, color_space: ColorSpace, values: Values) -> Result<Picture> {
+    let picture = read_file::read_noted(path)?;
+    check_meaning(picture.texels.format, color_space, path)?;
+    check_values(&picture.texels, values, path)?;
+    Ok(picture)
 }
 
 pub(super) fn in_texture(name: &str, error: Error) -> Error {

@@ -3,21 +3,25 @@
 //! ignored. Whatever is wrong with the file is an error that names it and says what to do.
 
 use std::fs::{self, File};
-use std::io::{BufReader, ErrorKind, Read, Seek};
+use std::io::{BufReader, Cursor, ErrorKind, Read, Seek};
 use std::path::Path;
 
-use image::{ColorType, ImageDecoder, ImageError, ImageFormat, ImageReader, Limits};
+use image::codecs::tga::TgaDecoder;
+use image::{ColorType, ImageDecoder, ImageError, ImageFormat};
 
 use super::data::{Component, TexelFormat};
 use super::sniff::{self, Content};
-use super::{jpeg_end, read_exr};
+use super::{read_exr, read_hdr, read_jpeg, read_png, tiff};
 use crate::error::{Error, Result};
+use crate::panics;
 
 /// Twice the largest image side of current GPUs; checked in the header, before any allocation.
 const MAX_SIDE: u64 = 65_536;
 /// Decoded size; the image crate's own default of 512 MiB refuses an 8192² float texture.
-const MAX_BYTES: u64 = 16 << 30;
-pub const SUPPORTED: &str = "PNG, JPEG, TIFF, Radiance HDR and OpenEXR";
+pub(super) const MAX_BYTES: u64 = 16 << 30;
+/// PNG: Deflate gives 1032 bytes for one at most, of 8 texels each. The others give less.
+const MAX_TEXELS_PER_BYTE: u64 = 1032 * 8;
+pub const SUPPORTED: &str = "PNG, JPEG, TIFF, TGA, Radiance HDR and OpenEXR";
 
 /// Tightly packed rows, first row of the file first, native endian.
 pub struct Texels {
@@ -29,39 +33,69 @@ pub struct Texels {
     pub bytes: Vec<u8>,
 }
 
+/// What a file holds, and what a person should know about how it was read: each note names the file.
+pub struct Picture {
+    pub texels: Texels,
+    pub notes: Vec<String>,
+}
+
+impl From<Texels> for Picture {
+    fn from(texels: Texels) -> Self {
+        Picture { texels, notes: Vec::new() }
+    }
+}
+
 pub fn read(path: &Path) -> Result<Texels> {
-    let mut source = BufReader::new(open(path)?);
-    match identify(&mut source).map_err(|e| unreadable(path, &e))? {
-        Content::Picture(ImageFormat::OpenExr) => read_exr::read(source, path),
-        Content::Picture(format) => read_with_image(source, format, path),
-        Content::Other(what) => Err(Error::with_help(
-            format!("{}: not a picture that can be read: the content {what}", path.display()),
-            format!("supported are {SUPPORTED}, whatever the ending of the name"),
-        )),
+    read_noted(path).map(|picture| picture.texels)
+}
+
+pub fn read_noted(path: &Path) -> Result<Picture> {
+    let stage = format!("{}: reading this picture", path.display());
+    panics::contain(&stage, || read_by_content(open(path)?, path))
+}
+
+fn read_by_content(mut source: File, path: &Path) -> Result<Picture> {
+    let failed = |e: std::io::Error| unreadable(path, &e);
+    let mut file = Vec::with_capacity(sniff::HEAD_BYTES);
+    source.by_ref().take(sniff::HEAD_BYTES as u64).read_to_end(&mut file).map_err(failed)?;
+    let format = match sniff::identify(&file) {
+        Content::Picture(format) => format,
+        Content::Other(what) => return Err(no_picture(path, &what)),
+    };
+    if format == ImageFormat::OpenExr {
+        source.rewind().map_err(failed)?;
+        return read_exr::read(BufReader::new(source), path).map(Picture::from);
     }
-}
-
-fn identify(source: &mut (impl Read + Seek)) -> std::io::Result<Content> {
-    let mut head = Vec::with_capacity(sniff::HEAD_BYTES);
-    source.by_ref().take(sniff::HEAD_BYTES as u64).read_to_end(&mut head)?;
-    source.rewind()?;
-    Ok(sniff::identify(&head))
-}
-
-fn read_with_image(mut source: BufReader<File>, format: ImageFormat, path: &Path) -> Result<Texels> {
-    let kind = format!("{format:?}").to_uppercase();
-    if format == ImageFormat::Jpeg {
-        let complete = jpeg_end::is_complete(&mut source).and_then(|yes| source.rewind().map(|()| yes));
-        if !complete.map_err(|e| unreadable(path, &e))? {
-            return Err(damaged(path, &kind, &"the file ends before the end-of-image marker"));
+    let length = source.metadata().map_err(failed)?.len() as usize;
+    file.try_reserve_exact(length.saturating_sub(file.len())).map_err(|_| out_of_memory(path))?;
+    source.read_to_end(&mut file).map_err(failed)?;
+    match format {
+        ImageFormat::Png => read_png::read(&file, path),
+        ImageFormat::Jpeg => read_jpeg::read(&file, path),
+        ImageFormat::Tiff => tiff::read(&file, path),
+        ImageFormat::Hdr => read_hdr::read(&file, path),
+        ImageFormat::Tga => {
+            decode_with(TgaDecoder::new(Cursor::new(&file)), "TGA", file.len(), path).map(Picture::from)
         }
+        _ => Err(no_picture(path, &format!("is {format:?}"))),
     }
-    let mut reader = ImageReader::with_format(source, format);
-    let mut limits = Limits::no_limits();
-    limits.max_alloc = Some(MAX_BYTES);
-    reader.limits(limits);
-    let decoder = reader.into_decoder().map_err(|e| image_error(path, &kind, e))?;
+}
 
+fn no_picture(path: &Path, what: &str) -> Error {
+    Error::with_help(
+        format!("{}: not a picture that can be read: the content {what}", path.display()),
+        format!("supported are {SUPPORTED}, whatever the ending of the name"),
+    )
+}
+
+/// Texels by a decoder of the image crate that has read the header of `file_bytes` bytes of this kind.
+pub(super) fn decode_with(
+    decoder: std::result::Result<impl ImageDecoder, ImageError>,
+    kind: &str,
+    file_bytes: usize,
+    path: &Path,
+) -> Result<Texels> {
+    let decoder = decoder.map_err(|e| image_error(path, kind, e))?;
     let (width, height) = decoder.dimensions();
     let (file_channels, component) = layout(decoder.color_type()).ok_or_else(|| {
         let found = decoder.color_type();
@@ -73,13 +107,16 @@ fn read_with_image(mut source: BufReader<File>, format: ImageFormat, path: &Path
     let channels = if file_channels == 3 { 4 } else { file_channels };
     let texel_format = TexelFormat::new(channels, component);
     check_size(path, width.into(), height.into(), texel_format.bytes_per_texel())?;
+    let pixels = width as usize * height as usize;
+    if pixels as u64 > (file_bytes as u64).saturating_mul(MAX_TEXELS_PER_BYTE) {
+        return Err(damaged(path, kind, &format!("{file_bytes} bytes cannot hold {width}×{height} texels")));
+    }
 
     // Decoded into the front of the final buffer and widened there: no second copy.
-    let pixels = width as usize * height as usize;
     check_memory(path, pixels * texel_format.bytes_per_texel())?;
     let mut bytes = vec![0; pixels * texel_format.bytes_per_texel()];
     let decoded = decoder.total_bytes() as usize;
-    decoder.read_image(&mut bytes[..decoded]).map_err(|e| image_error(path, &kind, e))?;
+    decoder.read_image(&mut bytes[..decoded]).map_err(|e| image_error(path, kind, e))?;
     if file_channels == 3 {
         widen_rgb(&mut bytes, component);
     }
@@ -96,8 +133,6 @@ fn layout(color: ColorType) -> Option<(usize, Component)> {
         ColorType::La16 => (2, Component::Unorm16),
         ColorType::Rgb16 => (3, Component::Unorm16),
         ColorType::Rgba16 => (4, Component::Unorm16),
-        ColorType::Rgb32F => (3, Component::Float32),
-        ColorType::Rgba32F => (4, Component::Float32),
         _ => return None,
     })
 }
@@ -210,10 +245,18 @@ fn zero_size(path: &Path) -> Error {
     )
 }
 
-fn out_of_memory(path: &Path) -> Error {
+pub(super) fn out_of_memory(path: &Path) -> Error {
     Error::with_help(
         format!("{}: the decoded picture does not fit into memory", path.display()),
         format!("at most {} GiB of texels are read; scale the picture down", MAX_BYTES >> 30),
+    )
+}
+
+/// `name`: what the file is, with its article if it has one.
+pub(super) fn unsupported_kind(path: &Path, name: &str) -> Error {
+    Error::with_help(
+        format!("{}: this file is {name}, which is not read", path.display()),
+        "convert it, for example to PNG of 8 or 16 bits, or to OpenEXR",
     )
 }
 

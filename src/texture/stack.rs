@@ -10,15 +10,17 @@ use rayon::prelude::*;
 
 use super::data::{ColorSpace, Component, TexelFormat};
 use super::decode::{Values, read_checked};
-use super::read_file::{Texels, check_volume};
+use super::read_file::{Picture, Texels, check_volume};
 use crate::error::{Error, Result};
 
 /// `what` a file is, for messages: its ordinal follows, from 1.
-pub(super) fn read(files: &[PathBuf], space: ColorSpace, values: Values, what: &str) -> Result<Texels> {
-    let pictures: Vec<Result<Texels>> =
+pub(super) fn read(files: &[PathBuf], space: ColorSpace, values: Values, what: &str) -> Result<Picture> {
+    let pictures: Vec<Result<Picture>> =
         files.par_iter().map(|file| read_checked(file, space, values)).collect();
     // The first mistake in the order of the files, whichever was found first.
     let pictures = pictures.into_iter().collect::<Result<Vec<_>>>()?;
+    let (pictures, notes): (Vec<Texels>, Vec<Vec<String>>) =
+        pictures.into_iter().map(|picture| (picture.texels, picture.notes)).unzip();
     let Some(first) = pictures.first() else { return Err(Error::new(format!("no {what} is given"))) };
     let (width, height) = (first.width, first.height);
     let mut channels = 0;
@@ -54,7 +56,7 @@ pub(super) fn read(files: &[PathBuf], space: ColorSpace, values: Values, what: &
     for picture in pictures {
         append(&mut bytes, &picture, format);
     }
-    Ok(Texels { width, height, format, file_channels, bytes })
+    Ok(Picture { texels: Texels { width, height, format, file_channels, bytes }, notes: notes.concat() })
 }
 
 fn append(bytes: &mut Vec<u8>, picture: &Texels, format: TexelFormat) {

@@ -40,6 +40,7 @@ mod nonfinite;
 mod oracle;
 mod output;
 mod patterns;
+mod pictures;
 mod pixel_filters;
 mod procedural;
 mod pyramids;
