@@ -67,9 +67,12 @@ mod tests {
                 joined.unwrap_or_else(|payload| panic::resume_unwind(payload))
             })
         };
-        for message in
-            [told(|| panic!("a literal")), told(|| Ok(drop(empty[0]))), told(in_rayon), told(in_scope)]
-        {
+        for message in [
+            told(|| panic!("a literal")),
+            told(|| Err(Error::new(format!("{}", empty[0])))),
+            told(in_rayon),
+            told(in_scope),
+        ] {
             assert!(message.starts_with("reading a.tif: the program failed"), "{message}");
         }
         assert!(matches!(contain(&"x", || Ok(7)), Ok(7)));

@@ -65,7 +65,7 @@ for bits in [1, 2, 4, 6, 10, 12, 14]:
     tiff(f"grey{bits}", codes(1, bits)[..., 0].astype(kind), bitspersample=bits, rowsperstrip=5)
 tiff("grey1-fill2", codes(1, 1)[..., 0].astype("u1"), bitspersample=1)
 reversed_bits("grey1-fill2")
-tiff("rgb12-be", codes(3, 12).astype("u2"), bitspersample=12, byteorder=">")
+tiff("rgb12", codes(3, 12).astype("u2"), bitspersample=12)
 tiff("rgb8-x-lzw2", numbers(4, "u1"), extrasamples=["unspecified"], compression="lzw", predictor=2)
 tiff("rgb8-xxx-planar", numbers(6, "u1"), extrasamples=["unspecified"] * 3, planarconfig="separate", compression="zlib")
 tiff("rgb16-xa-tiled", numbers(5, "u2"), extrasamples=["unspecified", "unassalpha"], tile=(16, 16), compression="zlib", predictor=2)

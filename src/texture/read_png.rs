@@ -39,10 +39,10 @@ fn with_end(file: &[u8]) -> Option<Vec<u8>> {
             Some((length, name)) => (u32::from_be_bytes(*length) as usize, name.get(..4).unwrap_or(&[])),
             None => (0, &[][..]),
         };
-        if name == b"IEND" {
+        let is_whole = rest.len() >= CHUNK_BYTES && rest.len() - CHUNK_BYTES >= length;
+        if is_whole && name == b"IEND" {
             return None;
         }
-        let is_whole = rest.len() >= CHUNK_BYTES && rest.len() - CHUNK_BYTES >= length;
         if is_whole {
             at += CHUNK_BYTES + length;
             continue;

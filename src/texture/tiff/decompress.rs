@@ -4,7 +4,6 @@
 use std::borrow::Cow;
 use std::io::{Cursor, Read};
 
-use fax::Color;
 use fax::decoder::{DecodeStatus, Group4Decoder};
 use flate2::read::ZlibDecoder;
 use image::ImageDecoder;
@@ -12,7 +11,8 @@ use image::codecs::jpeg::JpegDecoder;
 use weezl::{BitOrder, LzwStatus, decode::Decoder};
 
 use super::Fault;
-use super::layout::{self, Compression, Layout};
+use super::color::Color;
+use super::layout::{Compression, Layout};
 
 /// Plain bytes that one byte of such data can stand for at most. LZW: a code of 12 bits for a string of 3838
 /// bytes. JPEG: a block of 8×8 texels takes a bit of each channel, and chroma may stand for four blocks.
@@ -129,7 +129,7 @@ fn expand_jpeg(
         stored.strip_prefix(START).ok_or_else(|| Fault::damaged("JPEG data without its first marker"))?;
     let tables =
         tables.and_then(|t| t.strip_prefix(START)).map_or(&[][..], |t| t.strip_suffix(END).unwrap_or(t));
-    let is_ycbcr = matches!(layout.color, layout::Color::YCbCr);
+    let is_ycbcr = matches!(layout.color, Color::YCbCr);
     let adobe = [&b"\xff\xee\0\x0eAdobe\0\x64\0\0\0\0"[..], &[u8::from(is_ycbcr)]].concat();
     let jpeg = [START, &adobe, tables, body].concat();
     if let Some(name) = super::super::read_jpeg::unsupported(&jpeg) {
@@ -169,7 +169,7 @@ fn expand_group4(stored: &[u8], width: u32, rows: u32, plain: &mut Vec<u8>) -> R
         }
         let mut texels = fax::decoder::pels(decoder.transition(), width);
         for _ in 0..width.div_ceil(8) {
-            let bit = |i| texels.next().map_or(0, |color| u8::from(color == Color::Black) << (7 - i));
+            let bit = |i| texels.next().map_or(0, |color| u8::from(color == fax::Color::Black) << (7 - i));
             plain.push((0..8).map(bit).sum());
         }
     }

@@ -1,12 +1,14 @@
 //! A TIFF or BigTIFF file into texels (TIFF 6.0 with Adobe's supplements): the whole file in, the first of its
-//! pictures out. `directory` reads the tags, `layout` judges them and refuses by name what is not read,
-//! `decompress` and `predictor` give the bytes of a strip or tile, `picture` makes texels of its samples.
+//! pictures out. `directory` reads the tags; `layout` and `color` judge them and refuse by name what is not read;
+//! `decompress` and `predictor` give the bytes of a strip or tile, `samples` their numbers, `picture` the texels.
 
+mod color;
 mod decompress;
 mod directory;
 mod layout;
 mod picture;
 mod predictor;
+mod samples;
 
 use std::path::Path;
 

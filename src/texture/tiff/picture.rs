@@ -6,10 +6,13 @@ use rayon::prelude::*;
 
 use super::super::data::{Component, TexelFormat};
 use super::super::read_file::Texels;
+use super::super::scalar::Scalar;
 use super::Fault;
+use super::color::Color;
 use super::decompress::{decompress, greatest_ratio};
-use super::layout::{Color, Layout};
+use super::layout::Layout;
 use super::predictor;
+use super::samples::Samples;
 
 pub(super) fn format(layout: &Layout) -> TexelFormat {
     let channels = match layout.color {
@@ -166,52 +169,12 @@ fn stored<'a>(file: &'a [u8], layout: &Layout, index: usize, wanted: usize) -> R
     Ok(&from[..length])
 }
 
-/// The numbers of one row of a chunk, by texel and sample.
-struct Samples<'a> {
-    layout: &'a Layout,
-    /// One, or one for each sample; empty where no texel needs it.
-    planes: Vec<&'a [u8]>,
-}
-
-impl<'a> Samples<'a> {
-    fn of_row(layout: &'a Layout, planes: &'a [Vec<u8>], y: usize) -> Samples<'a> {
-        let bytes = layout.row_bytes() as usize;
-        let row = |plane: &'a Vec<u8>| plane.get(y * bytes..(y + 1) * bytes).unwrap_or(&[]);
-        Samples { layout, planes: planes.iter().map(row).collect() }
-    }
-
-    fn number(&self, x: usize, sample: usize) -> f64 {
-        let (row, index) = match self.layout.planar {
-            true => (self.planes[sample], x),
-            false => (self.planes[0], x * self.layout.samples + sample),
-        };
-        self.layout.scalar.number(code(row, index, self.layout.scalar.bits as usize))
-    }
-}
-
-/// Numbers of whole bytes have been put lowest byte first; others lie in the bits from the highest on.
-fn code(row: &[u8], index: usize, bits: usize) -> u64 {
-    match bits {
-        8 => row[index].into(),
-        16 => u16::from_le_bytes([row[2 * index], row[2 * index + 1]]).into(),
-        24 | 32 | 64 => {
-            let bytes = &row[index * bits / 8..(index + 1) * bits / 8];
-            bytes.iter().rev().fold(0, |code, byte| code << 8 | u64::from(*byte))
-        }
-        _ => {
-            let (first, end) = (index * bits, (index + 1) * bits);
-            let bytes = &row[first / 8..end.div_ceil(8)];
-            let held = bytes.iter().fold(0, |held, byte| held << 8 | u64::from(*byte));
-            held >> (end.next_multiple_of(8) - end) & ((1 << bits) - 1)
-        }
-    }
-}
-
 /// Samples to texels of the picture's format.
 struct Writer<'a> {
     layout: &'a Layout,
     format: TexelFormat,
     map: Vec<[f64; 3]>,
+    copied: Option<Vec<Option<usize>>>,
 }
 
 impl<'a> Writer<'a> {
@@ -223,11 +186,18 @@ impl<'a> Writer<'a> {
             }
             _ => Vec::new(),
         };
-        Writer { layout, format, map }
+        Writer { layout, format, map, copied: copied(layout, format) }
     }
 
     fn write(&self, samples: &Samples<'_>, row: &mut [u8]) {
         let (channels, component) = (self.format.channels(), self.format.component());
+        if let Some(channels) = &self.copied {
+            return match component {
+                Component::Unorm8 => copy::<1>(samples, channels, component, row),
+                Component::Unorm16 => copy::<2>(samples, channels, component, row),
+                Component::Float32 => copy::<4>(samples, channels, component, row),
+            };
+        }
         for (x, texel) in row.chunks_exact_mut(self.format.bytes_per_texel()).enumerate() {
             let values = self.values(|sample| samples.number(x, sample));
             let kept = if channels == 2 { [values[0], values[3], 0.0, 0.0] } else { values };
@@ -255,5 +225,35 @@ impl<'a> Writer<'a> {
         let bounded = self.format.component() != Component::Float32;
         let own = |v: f64| if bounded { (v / a).min(1.0) } else { v / a };
         [own(r), own(g), own(b), a]
+    }
+}
+
+/// Of samples that the texture holds as they are: for each channel which one it is, none for an alpha of 1.
+fn copied(layout: &Layout, format: TexelFormat) -> Option<Vec<Option<usize>>> {
+    let colors = match layout.color {
+        Color::Grey { inverted: false } => 1,
+        Color::Rgb | Color::YCbCr => 3,
+        _ => return None,
+    };
+    let is_same = layout.scalar == Scalar::of(format.component()) && cfg!(target_endian = "little");
+    if !is_same || layout.alpha.is_some_and(|alpha| alpha.associated) {
+        return None;
+    }
+    let alpha = std::iter::once(layout.alpha.map(|alpha| alpha.sample));
+    Some((0..colors).map(Some).chain(alpha).take(format.channels()).collect())
+}
+
+fn copy<const SIZE: usize>(
+    samples: &Samples<'_>,
+    channels: &[Option<usize>],
+    component: Component,
+    row: &mut [u8],
+) {
+    let mut opaque = [0; SIZE];
+    opaque.copy_from_slice(&component.one()[..SIZE]);
+    for (x, texel) in row.chunks_exact_mut(channels.len() * SIZE).enumerate() {
+        for (place, channel) in texel.as_chunks_mut().0.iter_mut().zip(channels) {
+            *place = channel.map_or(opaque, |sample| *samples.bytes(x, sample));
+        }
     }
 }
