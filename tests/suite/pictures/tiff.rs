@@ -12,7 +12,7 @@ const SIZE: [u32; 2] = [21, 18];
 /// Sample `c` of texel (x, y), as `data/pictures/make.py` has it.
 fn code(x: u32, y: u32, c: u32, bits: u32) -> u64 {
     let [x, y, c] = [x, y, c].map(u64::from);
-    let mixed = x * 73_856_093 ^ y * 19_349_663 ^ c * 83_492_791;
+    let mixed = (x * 73_856_093) ^ (y * 19_349_663) ^ (c * 83_492_791);
     (mixed.wrapping_mul(2_654_435_761) & 0xffff_ffff) >> (32 - bits)
 }
 
