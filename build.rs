@@ -1,5 +1,5 @@
-//! Compiles every `glsl/*.comp` to SPIR-V and writes `$OUT_DIR/shaders.rs`: for each shader its
-//! words and what reflection finds in them (descriptor bindings, the two specialization constants of
+//! Compiles every `glsl/*.comp` to SPIR-V and writes `$OUT_DIR/shaders.rs`: for each shader where its
+//! words lie and what reflection finds in them (descriptor bindings, the two specialization constants of
 //! the workgroup's size, all named specialization constants). A shader is compiled again only when
 //! it or a file it includes has changed. Warnings are errors.
 
@@ -193,11 +193,7 @@ fn write_shader(rust: &mut String, stem: &str, words: &[u32]) -> Result<(), AnyE
     for (name, id, default) in reflection.constants() {
         writeln!(rust, "    SpecConstant {{ name: {name:?}, id: {id}, default: {default} }},")?;
     }
-    writeln!(rust, "], spirv: &[")?;
-    for line in words.chunks(16) {
-        let numbers: Vec<String> = line.iter().map(|w| format!("{w:#x}")).collect();
-        writeln!(rust, "    {},", numbers.join(","))?;
-    }
-    writeln!(rust, "] }};")?;
+    // As literals they would take seconds and a gigabyte to compile.
+    writeln!(rust, "], spirv: &Words(*include_bytes!(concat!(env!(\"OUT_DIR\"), \"/{stem}.spv\"))) }};")?;
     Ok(())
 }

@@ -18,5 +18,5 @@ void main() {
     uvec2 pixel = uvec2(place % range.width, place / range.width);
     uvec2 key = pixel_key(pixel, header.sampling.w, header.key.x != 0u);
     Points points = pair_points(pixel_points(header, pixel, key), range.pair);
-    positions[i] = sample_pair(points, range.first_sample + i % range.samples);
+    positions[i] = sample_pair(points, range.first_sample + i % range.samples, false);
 }

@@ -1,5 +1,5 @@
 //! Transfer functions between stored sRGB values and linear light (IEC 61966-2-1), in f64, and the
-//! table of all 8-bit values that devices and the oracle share. Domain and range are [0, 1];
+//! tables of all codes that devices and the oracle share. Domain and range are [0, 1];
 //! outside it the formulas continue (negative values along the straight piece).
 
 use std::sync::OnceLock;
@@ -14,8 +14,9 @@ pub fn linear_to_srgb(linear: f64) -> f64 {
     if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 }
 }
 
-/// `table[i]` is the linear value of the stored 8-bit value `i`, rounded once to f32.
-pub fn srgb8_table() -> &'static [f32; 256] {
-    static TABLE: OnceLock<[f32; 256]> = OnceLock::new();
-    TABLE.get_or_init(|| std::array::from_fn(|i| srgb_to_linear(i as f64 / 255.0) as f32))
+/// `table[i]` is the linear value of code `i` of 256 or 65536, rounded once to f32.
+pub fn srgb_table(codes: usize) -> &'static [f32] {
+    static TABLES: [OnceLock<Vec<f32>>; 2] = [const { OnceLock::new() }; 2];
+    let light = |code: usize| srgb_to_linear(code as f64 / (codes - 1) as f64) as f32;
+    TABLES[usize::from(codes > 256)].get_or_init(|| (0..codes).map(light).collect())
 }

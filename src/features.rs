@@ -12,7 +12,7 @@ use crate::pack::{
 };
 use crate::scene::model::{Footprint, Model, Pattern, PixelFilterKind, ReliefKind};
 use crate::shaders::Shader;
-use crate::texture::data::{ColorSpace, TexelFormat};
+use crate::texture::data::{ColorSpace, Component, TexelFormat};
 use crate::texture::procedural::ProceduralKind;
 use crate::texture::sampler_spec::{Address, Filter, Method, MipMode, TexelCenter};
 
@@ -84,7 +84,7 @@ const FEATURES: &[(&str, &str, Narrow)] = &[
     ("BOUNCES", "bounces", Switch(bounces)),
     ("ENVIRONMENT", "environment", Switch(|s| s.header.counts[3] != NO_MATERIAL)),
     ("FOOTPRINTS", "footprint", Modes(Footprint::NAMES, |s| bit(s.header.key[2]))),
-    ("RANDOM", "random choices", Switch(chooses)),
+    ("RANDOM", "random texels", Switch(chooses)),
     ("MAPPINGS", "mapping", Modes(MapKind::NAMES, |s| bits(s.maps.iter().map(|m| m.link[0])))),
     ("ENTITIES", "entity", Modes(EntityKind::NAMES, |s| bits(s.maps.iter().map(|m| m.link[1])))),
     ("ROTATED_UV", "rotation of texture coordinates", Switch(|s| s.maps.iter().any(rotates))),
@@ -114,6 +114,7 @@ const FEATURES: &[(&str, &str, Narrow)] = &[
     ("NONFINITE", "texels that are no numbers", Switch(PackedScene::has_nonfinite)),
     ("TEXEL_FORMATS", "texel format", Modes(TexelFormat::NAMES, |s| bits(stored(s).map(|t| t.place[3])))),
     ("COLOR_SPACES", "colour space", Modes(ColorSpace::NAMES, |s| bits(stored(s).map(|t| t.link[0])))),
+    ("DEEP_SRGB", "sRGB of 16 bits", Switch(|s| s.has_srgb(Component::Unorm16))),
     ("PROCEDURALS", "choice among procedural textures", Count(|s| unrolled(s.procedurals.len()))),
     (
         "PROCEDURAL_KINDS",
@@ -220,7 +221,7 @@ fn left_out(what: &str, narrow: Narrow, value: u32) -> Option<String> {
 }
 
 /// (specialization id, value) for a shader: the features, the lists' places, the workgroup's size
-/// and the number of image slots. A constant that the shader does not have is not set.
+/// and the number of descriptors. A constant that the shader does not have is not set.
 pub fn constants(
     shader: &Shader,
     features: &Features,
@@ -239,13 +240,14 @@ pub fn constants(
         ("SAMPLERS_AT", sections.samplers),
         ("PROCEDURALS_AT", sections.procedurals),
         ("MOTIONS_AT", sections.motions),
-        ("SRGB_AT", sections.srgb),
         ("PIXEL_FILTER_AT", sections.pixel_filter),
         ("GROUP_X", group[0]),
         ("GROUP_Y", group[1]),
         ("SLOTS", slots.flat.max(1)),
         ("VOLUME_SLOTS", slots.volumes.max(1)),
         ("CUBE_SLOTS", slots.cubes.max(1)),
+        ("TEXEL_BLOCKS", slots.texel_blocks.max(1)),
+        ("BLOCK_LOG2", slots.block_log2),
     ];
     let all = features.values.iter().copied().chain(places);
     all.filter_map(|(name, value)| Some((shader.constant(name)?.id, value))).collect()

@@ -17,3 +17,19 @@ impl Film {
         Film { width, height, pixels: vec![[0.0; 3]; width as usize * height as usize], samples }
     }
 }
+
+/// Where a film lies in a larger picture, in its pixels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Placement {
+    /// Of the film's first pixel.
+    pub corner: [u32; 2],
+    /// Width and height of the picture.
+    pub full: [u32; 2],
+}
+
+impl Placement {
+    /// A picture of its own.
+    pub const fn whole(width: u32, height: u32) -> Placement {
+        Placement { corner: [0; 2], full: [width, height] }
+    }
+}

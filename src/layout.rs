@@ -205,6 +205,10 @@ const _: () = assert!(size_of::<Part>() == 8);
 
 /// In a job's part: without a footprint.
 pub const JOB_BARE: u32 = 2;
+/// In a job's part: its sums go to its own place in the list, not to the pixel's half.
+pub const JOB_APART: u32 = 4;
+/// Above it in a job's part: the stream of samples, each as good as another seed.
+pub const JOB_STREAM_SHIFT: u32 = 8;
 
 /// Mirror of the jobs of `slice.glsl`: samples `first` .. `first + count` of a pixel's half.
 #[repr(C)]
@@ -212,7 +216,7 @@ pub const JOB_BARE: u32 = 2;
 pub struct Job {
     /// Column in the low half, row in the high one; rows count from the band's first.
     pub place: u32,
-    /// 0 or 1, and `JOB_BARE`.
+    /// The half (0 or 1), `JOB_BARE`, `JOB_APART`, and the stream of samples.
     pub part: u32,
     pub first: u32,
     pub count: u32,
@@ -223,6 +227,16 @@ impl Job {
     /// The `place` of a film's pixel by its index.
     pub fn place_of(index: u32, width: u32) -> u32 {
         (index / width) << 16 | (index % width)
+    }
+
+    /// The `part` of a half of the film: its samples are the stream of the same number.
+    pub fn part_of(half: u32) -> u32 {
+        half | half << JOB_STREAM_SHIFT
+    }
+
+    /// The stream of samples.
+    pub fn stream(&self) -> u32 {
+        self.part >> JOB_STREAM_SHIFT
     }
 
     /// Column and row.

@@ -19,6 +19,7 @@
 pub mod adaptive;
 pub mod cli;
 pub mod color;
+mod counted;
 pub mod error;
 pub mod features;
 pub mod film;

@@ -37,9 +37,12 @@ enum Command {
 }
 
 fn main() -> ExitCode {
+    cli::prepare_process();
     panics::record();
-    let command = Cli::parse().command;
-    cli::exit_code(panics::contain(&format_args!("moire {}", command.name()), || command.run()))
+    cli::exit_code(panics::contain(&"moire", || {
+        let command = Cli::parse().command;
+        panics::contain(&format_args!("moire {}", command.name()), || command.run())
+    }))
 }
 
 impl Command {

@@ -10,9 +10,9 @@ use crate::error::{Error, Result};
 use crate::features::{self, Features, TexelSource};
 use crate::gpu::{BufferUse, Gpu, Pipeline};
 use crate::pack::{PackedScene, SlotCounts};
-use crate::render::{Maker, Resources, Top, build_pipeline};
+use crate::render::{Maker, Resources, Top, Tuning, build_pipeline};
 use crate::shaders::{self, Shader};
-use crate::texture::data::{ColorSpace, Component, TextureData};
+use crate::texture::data::TextureData;
 use crate::texture::mips;
 
 pub use crate::render::can_sample;
@@ -70,8 +70,9 @@ impl<'a> LookUps<'a> {
     ) -> Result<Vec<[f32; 4]>> {
         let features = Features::new(scene, image_source, false);
         let shader = look_up_shader(&features);
-        let resources = Resources::upload(self.gpu, scene, &features)?;
-        let slots = scene.slot_counts();
+        let resources =
+            Resources::upload(self.gpu, scene, &features, Tuning::default().texel_words(self.gpu))?;
+        let slots = resources.slots;
         let constants = features::constants(shader, &features, &resources.sections, [GROUP, 1], slots);
         let code = Code { shader: shader.name, constants, slots };
         let known = self.pipelines.iter().position(|(other, _)| *other == code);
@@ -103,11 +104,9 @@ impl<'a> Pyramids<'a> {
         if levels.is_empty() {
             return Ok((levels, 0.0));
         }
-        let wide =
-            texture.color_space == ColorSpace::Srgb && texture.format.component() == Component::Unorm16;
-        if wide || !mips::halves_throughout(texture) {
+        if !mips::halves_throughout(texture) {
             return Err(Error::new(format!(
-                "texture \"{}\": devices make pyramids of lengths that are powers of two, sRGB of 8 bits",
+                "texture \"{}\": devices make pyramids of lengths that are powers of two",
                 texture.name
             )));
         }
@@ -211,8 +210,8 @@ fn run<T: Pod>(
     count: usize,
     push: &[u32],
 ) -> Result<Vec<T>> {
-    let resources = Resources::upload(gpu, scene, features)?;
-    let slots = scene.slot_counts();
+    let resources = Resources::upload(gpu, scene, features, Tuning::default().texel_words(gpu))?;
+    let slots = resources.slots;
     let constants = features::constants(shader, features, &resources.sections, [GROUP, 1], slots);
     let pipeline = build_pipeline(gpu, shader, &constants, slots, (1 + push.len()) * size_of::<u32>())?;
     dispatch(gpu, &pipeline, &resources, shader, queries, count, push)

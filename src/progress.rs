@@ -1,5 +1,7 @@
 //! How a long computation tells how far it is, and learns that it shall stop.
 
+use std::time::Instant;
+
 pub trait Progress: Sync {
     /// `done` of the work is finished, in [0, 1].
     fn advance(&self, done: f64);
@@ -32,5 +34,21 @@ impl Progress for Part<'_> {
 
     fn cancelled(&self) -> bool {
         self.whole.cancelled()
+    }
+}
+
+/// A computation that also stops when its time is over.
+pub struct Until<'a> {
+    pub whole: &'a dyn Progress,
+    pub deadline: Instant,
+}
+
+impl Progress for Until<'_> {
+    fn advance(&self, done: f64) {
+        self.whole.advance(done);
+    }
+
+    fn cancelled(&self) -> bool {
+        self.whole.cancelled() || Instant::now() >= self.deadline
     }
 }

@@ -49,12 +49,21 @@ uint pop_piece() {
     return stages[waiting];
 }
 
-// All that the beam may meet.
+// Differences of nearness that are none.
+float negligible(vec3 nearness, uint polygon) {
+    vec2 ends = range(polygon, nearness);
+    return COPLANAR * max(ends.y, -ends.x);
+}
+
+// All that the beam may meet. Behind a mirror that is what lies beyond it: what lies before it neither is seen
+// nor hides anything.
 void find_shapes(Header header, Beam beam) {
     uint planes = COUNT(PLANES, header.counts.x);
     uint before_triangles = planes + COUNT(SPHERES, header.counts.y);
     uint shapes = before_triangles + COUNT(TRIANGLES, header.counts.z);
     met_count = 0u;
+    bool mirrored = BOUNCES && beam.skip != NO_SHAPE;
+    float least = mirrored ? negligible(beam.limit, WHOLE) : 0.0;
     for (uint shape = 0u; shape < shapes; shape++) {
         if (shape == beam.skip) continue;
         if (SPHERES != 0u && shape >= planes && shape < before_triangles) {
@@ -62,6 +71,12 @@ void find_shapes(Header header, Beam beam) {
             continue;
         }
         Region region = shape_region(header, beam.frame, shape);
+        if (mirrored) {
+            vec3 beyond = beam.limit - region.nearness;
+            vec2 ends = range(WHOLE, beyond);
+            if (ends.y <= least) continue;
+            if (ends.x < 0.0) region.lines[region.count++] = beyond;
+        }
         bool touches = true;
         for (uint k = 0u; k < region.count; k++) touches = touches && range(WHOLE, region.lines[k]).y > 0.0;
         if (!touches) continue;
@@ -81,8 +96,7 @@ void find_shapes(Header header, Beam beam) {
 vec3 before(uint by, uint own, uint polygon) {
     vec3 apart = met[by].nearness - met[own].nearness;
     vec2 ends = range(polygon, apart);
-    vec2 sizes = range(polygon, met[own].nearness);
-    if (max(ends.y, -ends.x) > COPLANAR * max(sizes.y, -sizes.x)) return apart;
+    if (max(ends.y, -ends.x) > negligible(met[own].nearness, polygon)) return apart;
     return vec3(0.0, 0.0, by < own ? 1.0 : -1.0);
 }
 
@@ -115,6 +129,7 @@ vec3 lit_by(Header header, Paint paint, uint shape, bool has_light, Light light)
     uint bottom = waiting;
     if (!has_light) push_piece(SEEN, shapes);
     else if (is_lit(header, paint, SEEN, light)) push_piece(SEEN, 0u);
+    float least = is_parallel(header) ? negligible(paint.near, SEEN) : COPLANAR;
     while (waiting > bottom && !gave_up) {
         uint by = pop_piece();
         if (LIGHTS == 0u || by == shapes) {
@@ -126,7 +141,9 @@ vec3 lit_by(Header header, Paint paint, uint shape, bool has_light, Light light)
         if (by == shape || is_sphere) push_piece(PIECE, by + 1u);
         else {
             met[MAX_MET] = shadow_region(header, paint.frame, paint.near, by, light);
-            carve(by, MAX_MET, false, vec3(0.0), false);
+            // What lies in the surface's own plane, or beyond it, keeps no light away.
+            if (range(PIECE, met[MAX_MET].lines[0]).y <= least) push_piece(PIECE, by + 1u);
+            else carve(by, MAX_MET, false, vec3(0.0), false);
         }
     }
     return sum;
@@ -195,10 +212,9 @@ vec3 follow(Header header, Beam beam) {
             } else {
                 bool kept = stage == 0u;
                 uint by = kept ? own : stage - 1u;
-                bool mirrored = BOUNCES && beam.skip != NO_SHAPE;
-                // What lies before the mirror that the beam left is not seen.
-                vec3 first = kept ? beam.limit - met[own].nearness : before(by, own, PIECE);
-                carve(stage, by, !kept || mirrored, first, kept);
+                vec3 first = vec3(0.0);
+                if (!kept) first = before(by, own, PIECE);
+                carve(stage, by, !kept, first, kept);
             }
         }
     }

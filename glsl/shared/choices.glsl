@@ -1,6 +1,6 @@
 // What a sample chooses beside its place in the pixel, each by a pair of dimensions of the same pattern:
 //   0 place in the pixel   1 lens   2 time (its first dimension)
-//   3 + 2d light, 4 + 2d lobe of the hit after d bounces
+//   3 + 2d light, 4 + 2d lobe of the hit after d bounces; of glass 3 + 2d is whether it mirrors (its first dimension)
 // From the seventh hit on the pairs begin again, shifted; further lights of one hit shift the pair of the
 // first. Twin: src/oracle/choices.rs.
 #ifndef CHOICES_GLSL
@@ -12,6 +12,7 @@ const bool LENS = HAS(CHOICES, CHOICE_LENS);
 const bool TIMED = HAS(CHOICES, CHOICE_TIME);
 const bool AREA_LIGHTS = HAS(CHOICES, CHOICE_LIGHT);
 const bool GLOSSY = HAS(CHOICES, CHOICE_LOBE);
+const bool FRESNEL = HAS(CHOICES, CHOICE_FRESNEL);
 
 const uint HITS_APART = 6u;
 
@@ -22,9 +23,14 @@ struct Choices {
     uvec2 time;
     uvec2 light;
     uvec2 lobe;
+    uint fresnel;
 };
 
-const Choices NO_CHOICES = Choices(uvec2(0u), uvec2(0u), uvec2(0u), uvec2(0u), uvec2(0u));
+const Choices NO_CHOICES = Choices(uvec2(0u), uvec2(0u), uvec2(0u), uvec2(0u), uvec2(0u), 0u);
+
+float unit_line(uint position) {
+    return float(position) * (1.0 / 16777216.0);
+}
 
 vec2 unit_square(uvec2 position) {
     return vec2(position) * (1.0 / 16777216.0);
@@ -53,14 +59,17 @@ Choices choose(Header header, Points points, uint s, uint depth, bool starts) {
         uint i = uint(findLSB(wanted));
         wanted &= wanted - 1u;
         bool of_hit = i > CHOICE_LIGHT;
-        uint pair = of_hit ? i + 2u * (depth - round * HITS_APART) : i;
-        uvec2 position = sample_pair(pair_points(points, pair), s);
+        bool fresnel = FRESNEL && i == 1u + CHOICE_FRESNEL;
+        uint first = fresnel ? 1u + CHOICE_LIGHT : i;
+        Points drawn = pair_points(points, of_hit ? first + 2u * (depth - round * HITS_APART) : first);
+        uvec2 position = sample_pair(drawn, s, fresnel);
         position = apart(points, position, of_hit ? round : 0u);
         choices.place = i == 0u ? position : choices.place;
         choices.lens = i == 1u + CHOICE_LENS ? position : choices.lens;
         choices.time = i == 1u + CHOICE_TIME ? position : choices.time;
         choices.light = i == 1u + CHOICE_LIGHT ? position : choices.light;
         choices.lobe = i == 1u + CHOICE_LOBE ? position : choices.lobe;
+        choices.fresnel = fresnel ? position.x : choices.fresnel;
     }
     return choices;
 }

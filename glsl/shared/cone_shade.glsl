@@ -95,6 +95,7 @@ Branch bent_branch(Header header, Branch branch, Hit hit, Surface surface, Footp
     if (through) {
         beam = refracted_beam(header, beam, ray, hit.t, print, surface.normal, surface.bend, surface.curvature, ratio);
         direction = refracted(ray.direction, surface.normal, ratio);
+        if (LEANING) direction = on_its_side(ray.direction, direction, -surface.normal, -surface.geometric_normal);
     } else {
         beam = mirrored_beam(header, beam, ray, hit.t, print, surface.normal, surface.bend, surface.curvature);
         direction = mirrored(ray.direction, surface.normal);
@@ -123,6 +124,7 @@ vec3 shade_part(Header header, Branch branch, uint shape) {
     bool glass = MODE_IS(MODELS, MODEL_DIELECTRIC, material.link.x);
     bool lit = MODE_IS(MODELS, MODEL_PHONG, material.link.x) || MODE_IS(MODELS, MODEL_LAMBERT, material.link.x);
     if (!mirror && !glass && !lit) return branch.weight;
+    if (!lit) settle_normal(ray.direction, surface);
     float ratio = surface.inside ? material.specular.w : 1.0 / material.specular.w;
     float back = 1.0;
     if (glass) back = reflectance(ray.direction, surface.normal, ratio);

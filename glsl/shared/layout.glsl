@@ -4,6 +4,7 @@
 #ifndef LAYOUT_GLSL
 #define LAYOUT_GLSL
 
+#include "opaque.glsl"
 #include "real.glsl"
 
 const uint PROJECTION_PERSPECTIVE = 0u;
@@ -22,6 +23,8 @@ const uint PATTERN_N_ROOKS = 8u;
 const uint SCHEDULE_TILES = 0u;
 const uint SCHEDULE_JOBS = 1u;
 const uint JOB_BARE = 2u; // without a footprint
+const uint JOB_APART = 4u; // sums go to the place of the job in its list, not to the pixel's half
+const uint JOB_STREAM_SHIFT = 8u; // above it: which stream of samples, each as good as another seed
 
 const uint CELL_WORDS = 64u; // of a cell of the survey: number of triangles, calmness, up to MOST_LISTED triangles
 const uint MOST_LISTED = 62u;
@@ -40,6 +43,7 @@ const uint CHOICE_LENS = 0u;
 const uint CHOICE_TIME = 1u;
 const uint CHOICE_LIGHT = 2u; // from here on choices are made at every hit
 const uint CHOICE_LOBE = 3u;
+const uint CHOICE_FRESNEL = 4u; // by the pair of the light: where there is glass no light is chosen
 
 const uint MODEL_UNLIT = 0u;
 const uint MODEL_LAMBERT = 1u;
@@ -58,6 +62,7 @@ const uint ENTITY_DIRECTION = 3u; // of the ray: an environment's
 
 const uint RELIEF_NORMAL = 0u;
 const uint RELIEF_BUMP = 1u;
+const uint RELIEF_NORMAL_DOWN = 2u;
 
 const uint LIGHT_POINT = 0u;
 const uint LIGHT_DIRECTIONAL = 1u;
@@ -195,8 +200,8 @@ struct Light {
                  // or the height of the sun's cap on the unit sphere
     vec4 power;  // intensity (W/sr), irradiance, or of a rectangle radiance
     uvec4 link;  // kind
-    real4 edge_u; // of a rectangle: its sides; it shines where edge_u × edge_v points
-    real4 edge_v;
+    real4 edge_u; // of a rectangle: its sides, the longer first; it shines where edge_u × edge_v points
+    real4 edge_v; // their lengths are last, 0 where they are not at right angles
 };
 
 struct Material {
@@ -247,7 +252,7 @@ layout(std430, set = 0, binding = 1) readonly buffer SceneBuffer { uvec4 scene[]
 const uint HEAD_UNITS = 1024u;
 layout(std140, set = 0, binding = 5) uniform SceneHead { uvec4 head[HEAD_UNITS]; };
 
-#define READ_HEAD(at) head[at]
+#define READ_HEAD(at) OPAQUE(head[at])
 #define READ_SCENE(at) scene[at]
 // A vector of reals behind `reals` of them and `others` that are none.
 #define R(read, at, reals, others) READ_REAL(read, (at) + (reals) * REAL_UNITS + (others))

@@ -6,6 +6,7 @@
 #define LIGHT_GLSL
 
 #include "choices.glsl"
+#include "rectangle.glsl"
 #include "surface.glsl"
 
 // Shapes as near to a place of a light as this share of the way are taken for the light itself.
@@ -36,10 +37,25 @@ Aim sphere_aim(Light light, real3 point, vec2 square) {
     return Aim(around(way * inversesqrt(squared), local), reach * BEFORE_LIGHT, density);
 }
 
-// Uniform over the area, which is the length of the sides' cross product: cos / r² with cos' of the light.
+// Uniform over the solid angle, or where that is small and over slanted sides over the area, which is the length of
+// the sides' cross product: cos / r² with cos' of the light.
 Aim rectangle_aim(Light light, real3 point, vec2 square) {
     vec2 p = square - 0.5;
-    real3 way = (light.place.xyz - point) + (p.x * light.edge_u.xyz + p.y * light.edge_v.xyz);
+    real3 to_middle = light.place.xyz - point;
+    vec2 sides = vec2(light.edge_u.w, light.edge_v.w);
+    if (sides.x > 0.0) {
+        vec3 x = vec3(light.edge_u.xyz) / sides.x;
+        vec3 y = vec3(light.edge_v.xyz) / sides.y;
+        vec3 n = cross3(x, y);
+        vec3 m = vec3(to_middle);
+        float height = -dot3(m, n);
+        vec4 seen = on_rectangle(vec2(dot3(m, x), dot3(m, y)), 0.5 * sides, max(height, 0.0), square);
+        if (height > 0.0 && seen.w >= LEAST_SOLID_ANGLE) {
+            vec3 way = (seen.x * x + seen.y * y) + seen.z * n;
+            return Aim(real3(way), BEFORE_LIGHT, seen.w * inversesqrt(dot3(way, way)));
+        }
+    }
+    real3 way = to_middle + (p.x * light.edge_u.xyz + p.y * light.edge_v.xyz);
     float squared = float(dot3(way, way));
     float leaving = float(-dot3(way, cross3(light.edge_u.xyz, light.edge_v.xyz)));
     float density = leaving > 0.0 ? (leaving / squared) / squared : 0.0;

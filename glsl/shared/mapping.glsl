@@ -23,6 +23,7 @@ struct Seen {
     real2 own;
     vec2 own_x;
     vec2 own_y;
+    bool gradients; // the changes are along unit vectors, not over a footprint
 };
 
 // A texture coordinate (u, v, w), or a direction for a cube texture, as the map gives it.
@@ -128,14 +129,16 @@ vec2 face_uv_change(vec3 stm, vec3 change) {
 }
 
 // Angles change without bound towards the pole; a footprint never covers more than one turn.
-float turn_change(vec3 local, vec3 change, float around) {
+float within_turn(float change, bool gradients) { return gradients ? change : clamp(change, -1.0, 1.0); }
+
+float turn_change(vec3 local, vec3 change, float around, bool gradients) {
     float area = local.x * change.z - local.z * change.x;
     float turn = area / (max(around, 1e-30) * (2.0 * PI));
-    return clamp(turn, -1.0, 1.0);
+    return within_turn(turn, gradients);
 }
 
 // (turn, height) and its change: phi/2pi and y.
-Mapped cylindrical(Map map, real3 local, vec3 x, vec3 y) {
+Mapped cylindrical(Map map, real3 local, vec3 x, vec3 y, bool gradients) {
     real turn = atan2_accurate(local.z, local.x) * (0.5 / REAL_PI);
     turn = turn < 0.0 ? turn + 1.0 : turn;
     vec2 dx = vec2(0.0);
@@ -143,20 +146,20 @@ Mapped cylindrical(Map map, real3 local, vec3 x, vec3 y) {
     if (DERIVATIVES) {
         vec3 p = vec3(local);
         float around = p.x * p.x + p.z * p.z;
-        dx = vec2(turn_change(p, x, around), x.y);
-        dy = vec2(turn_change(p, y, around), y.y);
+        dx = vec2(turn_change(p, x, around, gradients), x.y);
+        dy = vec2(turn_change(p, y, around, gradients), y.y);
     }
     return placed_coordinate(map, real2(turn, local.y), dx, dy);
 }
 
 // theta / pi changes by (y drho - rho dy) / (rho² + y²), where drho = (x dx + z dz) / rho.
-float polar_change(vec3 local, vec3 change, float across, float squared) {
+float polar_change(vec3 local, vec3 change, float across, float squared, bool gradients) {
     float outward = (local.x * change.x + local.z * change.z) / max(across, 1e-30);
-    return clamp((local.y * outward - across * change.y) / (max(squared, 1e-30) * PI), -1.0, 1.0);
+    return within_turn((local.y * outward - across * change.y) / (max(squared, 1e-30) * PI), gradients);
 }
 
 // (theta/pi, phi/2pi) and its change.
-Mapped spherical(Map map, real3 local, vec3 x, vec3 y) {
+Mapped spherical(Map map, real3 local, vec3 x, vec3 y, bool gradients) {
     real turn = atan2_accurate(local.z, local.x) * (0.5 / REAL_PI);
     turn = turn < 0.0 ? turn + 1.0 : turn;
     real around = local.x * local.x + local.z * local.z;
@@ -167,8 +170,8 @@ Mapped spherical(Map map, real3 local, vec3 x, vec3 y) {
     if (DERIVATIVES) {
         vec3 p = vec3(local);
         float squared = float(around + local.y * local.y);
-        dx = vec2(polar_change(p, x, float(across), squared), turn_change(p, x, float(around)));
-        dy = vec2(polar_change(p, y, float(across), squared), turn_change(p, y, float(around)));
+        dx = vec2(polar_change(p, x, float(across), squared, gradients), turn_change(p, x, float(around), gradients));
+        dy = vec2(polar_change(p, y, float(across), squared, gradients), turn_change(p, y, float(around), gradients));
     }
     return placed_coordinate(map, uv, dx, dy);
 }
@@ -202,8 +205,8 @@ Mapped texture_coordinate(Map map, Seen seen) {
         }
         return placed_coordinate(map, face_uv(stm), dx, dy);
     }
-    if (MODE_IS(MAPPINGS, MAP_CYLINDRICAL, kind)) return cylindrical(map, local, x, y);
-    return spherical(map, local, x, y);
+    if (MODE_IS(MAPPINGS, MAP_CYLINDRICAL, kind)) return cylindrical(map, local, x, y, seen.gradients);
+    return spherical(map, local, x, y, seen.gradients);
 }
 
 #endif

@@ -68,7 +68,9 @@ Points pair_points(Points first, uint pair) {
     return points;
 }
 
-uvec2 sample_point(Points points, uint s) {
+// Of a `line` only the first number is asked for: n x n strata have only n different columns, and such patterns
+// stratify the line itself.
+uvec2 sample_point(Points points, uint s, bool line) {
     uvec2 key = points.key;
     if (MODE_IS(PATTERNS, PATTERN_SOBOL_OWEN, points.pattern)) return sobol_owen(s, key);
     if (MODE_IS(PATTERNS, PATTERN_BLUE_NOISE, points.pattern)) return sobol_owen(points.block + s, key);
@@ -82,8 +84,12 @@ uvec2 sample_point(Points points, uint s) {
     // The number of bits of side - 1 is ceil(log2 side).
     uint side_log2 = uint(findMSB(side - 1u) + 1);
     // The centre of a stratum is the jitter of half a stratum; `center` is a grid of one.
-    uvec2 jitter = uvec2(1u << (23u - side_log2));
-    if (MODE_IS(PATTERNS, PATTERN_STRATIFIED, points.pattern)) jitter = sample_bits(key, s) >> (8u + side_log2);
+    uvec2 jitter = uvec2(0x800000u);
+    if (MODE_IS(PATTERNS, PATTERN_STRATIFIED, points.pattern)) jitter = sample_bits(key, s) >> 8u;
+    if (line && !MODE_IS(PATTERNS, PATTERN_CENTER, points.pattern)) {
+        return uvec2(fine_position(s, jitter.x, points.count), 0u);
+    }
+    jitter >>= side_log2;
     return uvec2(stratum_position(s % side, jitter.x, side, side_log2),
                  stratum_position(s / side, jitter.y, side, side_log2));
 }
@@ -95,8 +101,8 @@ bool fills_strata(uint pattern) {
 
 // Sample s of any pair. Further pairs go through their points in an order of their own, so that which
 // points of two pairs meet in a sample is left to chance. Halton's bases need no such order.
-uvec2 sample_pair(Points points, uint s) {
-    if (points.pair == 0u) return sample_point(points, s);
+uvec2 sample_pair(Points points, uint s, bool line) {
+    if (points.pair == 0u) return sample_point(points, s, line);
     if (MODE_IS(PATTERNS, PATTERN_SOBOL_OWEN, points.pattern)) {
         s = shuffled_index(s, points.order);
     } else if (MODE_IS(PATTERNS, PATTERN_BLUE_NOISE, points.pattern)) {
@@ -104,7 +110,7 @@ uvec2 sample_pair(Points points, uint s) {
     } else if (fills_strata(points.pattern)) {
         s = permute(s, points.count, points.order);
     }
-    return sample_point(points, s);
+    return sample_point(points, s, line);
 }
 
 #endif

@@ -8,6 +8,8 @@
 
 // Shapes that a cone keeps: the nearest.
 const uint MOST_PIECES = 8u;
+// Planes whose depths differ by less, relatively, lie in each other: the first of the list is seen.
+const float COPLANAR = 4e-6;
 const uint PIECES = CONE_SHAPES == DYNAMIC ? MOST_PIECES : CONE_SHAPES;
 
 // A shape in the cone.
@@ -154,10 +156,11 @@ void gather(Header header, Cone cone, uint skip, float t_max) {
     piece_count = count;
 }
 
-// How two pieces lie over each other: where a hides b, or where b hides a.
-Covered hidden(Header header, Cone cone, Piece a, Piece b, bool turned, out bool crossing) {
+// How two pieces lie over each other: where a hides b, or where b hides a. `turns`: b does so anywhere in the
+// disc, be it as their planes cross or as b's centroid lies behind a's while b lies before a where both are.
+Covered hidden(Header header, Cone cone, Piece a, Piece b, bool turned, out bool turns) {
     whole_disc();
-    crossing = false;
+    turns = false;
     bool a_has_lines = true;
     bool b_has_lines = true;
     Flat p = Flat(0.0, 0.0, vec2(0.0));
@@ -176,13 +179,16 @@ Covered hidden(Header header, Cone cone, Piece a, Piece b, bool turned, out bool
     vec2 tilt = (q.height * cone.spread + cone.width * q.facing) * p.tilt;
     tilt -= (p.height * cone.spread + cone.width * p.facing) * q.tilt;
     vec3 before = vec3(tilt, q.height * p.facing - p.height * q.facing);
+    if (abs(before.x) + abs(before.y) + abs(before.z) <= COPLANAR * abs(q.height * p.facing)) {
+        before = vec3(0.0, 0.0, a.shape < b.shape ? 1.0 : -1.0);
+    }
     cut_by(turned ? -before : before);
     Covered both = cut_disc();
     if (!a_has_lines || !b_has_lines) {
         // As good as anywhere.
         both = Covered(turned ? 0.0 : a.area * b.area, a_has_lines ? b.center : a.center);
     } else {
-        crossing = before.z * before.z < dot2(before.xy, before.xy);
+        turns = before.z < sqrt(dot2(before.xy, before.xy));
     }
     return both;
 }
@@ -208,21 +214,20 @@ Covered lay_over(Header header, Cone cone) {
             seen = piece.area;
             moment = piece.area * piece.center;
         }
-        bool crossing = false;
-        Covered lost = hidden(header, cone, other, piece, turned, crossing);
+        bool turns = false;
+        Covered lost = hidden(header, cone, other, piece, turned, turns);
         float weight = turned ? piece.seen / piece.area : other.seen / other.area;
         lost.share *= weight;
         if (turned) {
-            // The piece behind comes through the one before it.
             float left = max(other.seen - lost.share, 0.0);
-            vec2 lost_moment = other.seen * other.center - lost.share * lost.center;
-            set_seen(j, left, left > LEAST_SHARE ? lost_moment / left : other.center);
+            vec2 left_moment = other.seen * other.center - lost.share * lost.center;
+            set_seen(j, left, left > LEAST_SHARE ? within_disc(left_moment / left) : other.center);
             rest += other.seen - left;
         } else {
             seen -= lost.share;
             moment -= lost.share * lost.center;
         }
-        turned = crossing && !turned;
+        turned = turns && !turned;
         j += turned ? 0u : 1u;
         if (j == i) {
             seen = min(seen, rest);
@@ -232,6 +237,25 @@ Covered lay_over(Header header, Cone cone) {
             i++;
             j = 0u;
         }
+    }
+    // Through what covers a place nothing is seen, however many lie over each other there: the place is one of
+    // those that are hidden.
+    float most = 0.0;
+    float concealed = 0.0;
+#define CONCEAL(k)                                     \
+    if (k < PIECES && k < piece_count) {               \
+        most = max(most, pieces[k].area);              \
+        concealed += pieces[k].area - pieces[k].seen;  \
+    }
+    EACH_PIECE(CONCEAL)
+#undef CONCEAL
+    float excess = rest - (1.0 - most);
+    if (excess > LEAST_SHARE && concealed > 0.0) {
+        float shown = excess / concealed;
+#define SHOW(k) if (k < PIECES && k < piece_count) pieces[k].seen += shown * (pieces[k].area - pieces[k].seen);
+        EACH_PIECE(SHOW)
+#undef SHOW
+        rest -= excess;
     }
     if (!(rest > LEAST_SHARE)) return NOTHING;
     vec2 rest_moment = vec2(0.0);

@@ -1,18 +1,22 @@
 // The texels of a level from those of the level above, whose lengths halve: codes to numbers that are linear
-// in light and in coverage (colour times alpha), their mean, and back to codes. Host's side: src/texture/mips;
+// in light, their mean, and back to codes; alpha is a channel like the others. Host's side: src/texture/mips;
 // sums run in the order of halve.rs, codes are those of codec.rs.
 #ifndef PYRAMID_GLSL
 #define PYRAMID_GLSL
 
+#include "opaque.glsl"
+
 layout(constant_id = 2) const uint CHANNELS = 4u;
 layout(constant_id = 3) const uint COMPONENT_BYTES = 1u;
-layout(constant_id = 4) const bool SRGB = false; // of 8 bits; deeper ones are held as linear floats
+layout(constant_id = 4) const bool SRGB = false; // colours, of 8 or 16 bits
+
+const uint CODES = COMPONENT_BYTES == 1u ? 256u : 65536u;
 
 // The texture as the pool holds it; numbers of two levels, between which the passes alternate; linear light
-// of the 256 sRGB codes, and the light from which on the next code is nearer.
+// of all sRGB codes, and then for each the light from which on the next code is nearer.
 layout(std430, set = 0, binding = 0) buffer Words { uint words[]; };
 layout(std430, set = 0, binding = 1) buffer Numbers { float numbers[]; };
-layout(std430, set = 0, binding = 2) readonly buffer Tables { float light[256]; float middles[256]; };
+layout(std430, set = 0, binding = 2) readonly buffer Tables { float tables[]; };
 
 // src/layout.rs mirrors it.
 layout(push_constant) uniform Halving {
@@ -26,27 +30,14 @@ layout(push_constant) uniform Halving {
     uint halved;
 } halving;
 
+// Of an axis, 1, 2 or 4, whether it has half as many texels as above.
+bool halves(uint axis) { return (OPAQUE(halving.halved) & axis) != 0u; }
+
 const float SHARES[4] = float[](1.0, 0.5, 0.25, 0.125);
 
-// A code over the largest one, rounded to nearest: in binary the quotient is the code repeated for ever.
-// Division may be off by 2.5 ulp (Vulkan 1.3, "Precision of Individual Operations"), and every fourth mean
-// of codes lies right between two.
-float unit(uint code) {
-    if (code == 0u) return 0.0;
-    uint digits = code * (COMPONENT_BYTES == 1u ? 0x01010101u : 0x00010001u);
-    uint zeros = 31u - uint(findMSB(digits));
-    digits = (digits << zeros) | ((digits >> 1u) >> (31u - zeros));
-    return uintBitsToFloat(((125u - zeros) << 23u) + (digits >> 8u) + ((digits >> 7u) & 1u));
-}
+float light(uint code) { return tables[code]; }
 
-// a / b with the error of the device's division taken out.
-float quotient(float a, float b) {
-    float q = a / b;
-    return fma(fma(-q, b, a), 1.0 / b, q);
-}
-
-// Of a colour; 2^-30 for where nothing is seen.
-float weight(float alpha) { return max(alpha, 0.0) + 9.31322574615478515625e-10; }
+float middle(uint code) { return tables[CODES + code]; }
 
 uvec4 codes_at(uint element) {
     if (COMPONENT_BYTES == 1u) {
@@ -76,21 +67,14 @@ vec4 decoded(uint texel) {
     uvec4 codes = codes_at(element);
     vec4 value = vec4(codes);
     if (SRGB) {
-        value.x = light[codes.x];
-        if (CHANNELS == 4u) value.yz = vec2(light[codes.y], light[codes.z]);
+        value.x = light(codes.x);
+        if (CHANNELS == 4u) value.yz = vec2(light(codes.y), light(codes.z));
     }
-    if (CHANNELS == 2u) value.y = unit(codes.y);
-    if (CHANNELS == 4u) value.w = unit(codes.w);
     return value;
 }
 
 vec4 numbers_of(uint texel) {
-    if (halving.from_codes != 0u) {
-        vec4 value = decoded(texel);
-        if (CHANNELS == 2u) value.x *= weight(value.y);
-        if (CHANNELS == 4u) value.xyz *= weight(value.w);
-        return value;
-    }
+    if (OPAQUE(halving.from_codes) != 0u) return decoded(texel);
     uint at = halving.above + texel * CHANNELS;
     vec4 value = vec4(numbers[at], 0.0, 0.0, 0.0);
     if (CHANNELS > 1u) value.y = numbers[at + 1u];
@@ -106,10 +90,10 @@ vec4 column(uvec3 first, uint x, float share) {
     uint below = 1u << columns_log2;
     uint behind = below << rows_log2;
     vec4 sum = numbers_of(texel) * share;
-    if ((halving.halved & 2u) != 0u) sum += numbers_of(texel + below) * share;
-    if ((halving.halved & 4u) != 0u) {
+    if (halves(2u)) sum += numbers_of(texel + below) * share;
+    if (halves(4u)) {
         sum += numbers_of(texel + behind) * share;
-        if ((halving.halved & 2u) != 0u) sum += numbers_of(texel + behind + below) * share;
+        if (halves(2u)) sum += numbers_of(texel + behind + below) * share;
     }
     return sum;
 }
@@ -121,7 +105,7 @@ vec4 mean(uint texel) {
     uvec3 first = place << (uvec3(halving.halved, halving.halved >> 1u, halving.halved >> 2u) & 1u);
     float share = SHARES[bitCount(halving.halved)];
     vec4 sum = column(first, 0u, share);
-    if ((halving.halved & 1u) != 0u) sum += column(first, 1u, share);
+    if (halves(1u)) sum += column(first, 1u, share);
     return sum;
 }
 
@@ -138,29 +122,21 @@ void keep(uint texel, vec4 value) {
 // How many middles lie at or below the light.
 uint srgb_code(float linear) {
     uint code = 0u;
-    for (uint step = 128u; step > 0u; step >>= 1u) {
-        if (linear >= middles[code + step - 1u]) code += step;
+    for (uint step = CODES / 2u; step > 0u; step >>= 1u) {
+        if (linear >= middle(code + step - 1u)) code += step;
     }
     return code;
 }
 
 // Halves round up.
 uvec4 encoded(vec4 value) {
-    if (CHANNELS == 2u) value.x = quotient(value.x, weight(value.y));
-    if (CHANNELS == 4u) {
-        float seen = weight(value.w);
-        value.xyz = vec3(quotient(value.x, seen), quotient(value.y, seen), quotient(value.z, seen));
-    }
     if (COMPONENT_BYTES == 4u) return floatBitsToUint(value);
-    float most = COMPONENT_BYTES == 1u ? 255.0 : 65535.0;
     uvec4 codes = uvec4(value + 0.5);
     if (SRGB) {
         codes.x = srgb_code(value.x);
         if (CHANNELS == 4u) codes.yz = uvec2(srgb_code(value.y), srgb_code(value.z));
     }
-    if (CHANNELS == 2u) codes.y = uint(value.y * most + 0.5);
-    if (CHANNELS == 4u) codes.w = uint(value.w * most + 0.5);
-    return min(codes, uvec4(most));
+    return min(codes, uvec4(CODES - 1u));
 }
 
 // The texels that share word `index` of the level, or the words of texel `index` where one fills a word or more.

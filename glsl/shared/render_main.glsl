@@ -1,7 +1,7 @@
 // One thread a pixel: the sum of a chunk of samples, added to the film. film[pixel] = sum of radiance (rgb);
 // with COMPENSATED, film[pixel + pixels] holds what rounding has lost so far (Kahan 1965), as chunks arrive
-// in a fixed order. Samples in negative lobes of the pixel filter count with their sign, and film[pixel].w
-// is the sum of the signs.
+// in a fixed order. Samples in negative lobes of the pixel filter count with their sign, film[pixel].w is the sum
+// of the signs, and the plane behind all others holds the sum of those samples alone, without their sign.
 #ifndef RENDER_MAIN_GLSL
 #define RENDER_MAIN_GLSL
 
@@ -12,32 +12,38 @@
 #include "shade.glsl"
 #include "slice.glsl"
 
-// Samples of single pixels: place (x | y << 16), half and JOB_BARE, first sample, count. A film of jobs holds two halves,
-// each with sums of radiance and of its square's mean over the channels; where the pixel filter has negative
-// lobes two more with the sum of the signs and the number of samples.
+// Samples of single pixels: place (x | y << 16), part (half, JOB_BARE, JOB_APART, stream), first sample, count. A
+// film of jobs holds two halves, each with sums of radiance and of its square's mean over the channels; where the
+// pixel filter has negative lobes two more with the sums of samples in these, and two with the sum of the signs and
+// the number of samples. With JOB_APART the film has one such entry for each job of the list in place of a half's.
 layout(std430, set = 0, binding = 4) readonly buffer Jobs { uvec4 jobs[]; };
 
 // What one thread does: samples of one pixel, into one place of the film.
 struct Task {
     uvec2 place; // in the band
-    uint part; // of a job: which half of the samples, and JOB_BARE
+    uint part; // of a job: which half of the film, JOB_BARE, JOB_APART, and the stream of samples
     uint first;
     uint end;
 };
 
 Task tile_task() {
-    return Task(film_pixel(), 0u, slice.first_sample, slice.first_sample + slice.sample_count);
+    return Task(film_pixel(), 0u, first_sample(), first_sample() + sample_count());
 }
 
-// Jobs fill tiles one after the other, in the order of the list; without a list all pixels have the same, both
-// halves of a pixel side by side.
-Task job_task(Header header) {
+// Jobs fill tiles one after the other, in the order of the list.
+uint job_index() {
     uint thread = gl_WorkGroupID.x * gl_WorkGroupSize.x * gl_WorkGroupSize.y + gl_LocalInvocationIndex;
-    uint i = (slice.first_tile + gl_WorkGroupID.y) * (TILE * TILE) + thread;
+    return (slice.first_tile + gl_WorkGroupID.y) * (TILE * TILE) + thread;
+}
+
+// Without a list all pixels have the same job, both halves of a pixel side by side.
+Task job_task(Header header) {
+    uint i = job_index();
     if (i >= slice.tiles) return Task(uvec2(0u, slice.band_height), 0u, 0u, 0u);
-    if (slice.sample_count > 0u) {
+    if (sample_count() > 0u) {
         uvec2 place = uvec2((i >> 1u) % header.size.x, (i >> 1u) / header.size.x);
-        return Task(place, i & 1u, slice.first_sample, slice.first_sample + slice.sample_count);
+        uint part = (i & 1u) | (i & 1u) << JOB_STREAM_SHIFT;
+        return Task(place, part, first_sample(), first_sample() + sample_count());
     }
     uvec4 job = jobs[i];
     return Task(uvec2(job.x & 0xFFFFu, job.x >> 16u), job.y, job.z, job.z + job.w);
@@ -52,7 +58,7 @@ void main() {
     Header header = load_header();
     hold_scene();
     clear_notices();
-    bool is_job = MODE_IS(SCHEDULES, SCHEDULE_JOBS, slice.schedule);
+    bool is_job = MODE_IS(SCHEDULES, SCHEDULE_JOBS, schedule());
     Task task;
     if (is_job) task = job_task(header);
     else task = tile_task();
@@ -63,9 +69,9 @@ void main() {
         float share = inversesqrt(2.0 * float(task.end)) * filter_width(header);
         header.step_x.w = (task.part & JOB_BARE) != 0u ? 0.0 : share;
     }
-    // The second half is as good as another seed.
-    uint part = task.part & 1u;
-    uvec2 key = pixel_key(pixel, header.sampling.w + part * 0x9E3779B9u, header.key.x != 0u);
+    // Each stream is as good as another seed.
+    uint stream = task.part >> JOB_STREAM_SHIFT;
+    uvec2 key = pixel_key(pixel, header.sampling.w + stream * 0x9E3779B9u, header.key.x != 0u);
     Points points = pixel_points(header, pixel, key);
     uint list = SURVEYED ? cell_list(header, task.place + uvec2(0u, slice.band_y)) : NO_LIST;
 
@@ -76,6 +82,7 @@ void main() {
     vec3 seen = vec3(0.0); // of a job: by the current path
     float sign = 1.0; // of the current path's sample, and the sum of all
     float signs = 0.0;
+    vec3 negative = vec3(0.0); // sum of the samples whose sign is negative, without it
     uint s = task.first;
     Path path;
     path.goes_on = false;
@@ -92,7 +99,7 @@ void main() {
             if (CHOICES != 0u) choices = choose(header, points, s, starts ? 0u : path.depth, starts);
             if (starts) {
                 uvec2 position;
-                if (CHOICES == 0u) position = sample_point(points, s);
+                if (CHOICES == 0u) position = sample_point(points, s, false);
                 else position = choices.place;
                 Header camera = header;
                 float time = 0.0;
@@ -117,7 +124,10 @@ void main() {
             }
             vec3 more = advance(header, points, choices, path);
             notice(GUARD_RADIANCE, no_number(more));
-            if (SIGNED) more *= sign;
+            if (SIGNED) {
+                negative += sign < 0.0 ? more : vec3(0.0);
+                more *= sign;
+            }
             part += more;
             if (is_job) {
                 seen += more;
@@ -141,16 +151,26 @@ void main() {
     uint pixels = header.size.x * slice.band_height;
     bool is_signed = MODE_IS(PIXEL_FILTERS, PIXEL_FILTER_MITCHELL, header.pixel_filter.x);
     if (is_job) {
-        at += part * pixels;
+        bool apart = (task.part & JOB_APART) != 0u;
+        at = apart ? job_index() : at + (task.part & 1u) * pixels;
+        uint behind = apart ? slice.tiles : 2u * pixels; // from one kind of sum to the next
+        bool adds = !apart && task.first > 0u;
         vec4 sums = vec4(sum, squares);
-        film[at] = task.first > 0u ? film[at] + sums : sums;
+        film[at] = adds ? film[at] + sums : sums;
         if (is_signed) {
             vec4 counts = vec4(signs, float(task.end - task.first), 0.0, 0.0);
-            film[at + 2u * pixels] = task.first > 0u ? film[at + 2u * pixels] + counts : counts;
+            vec4 below = vec4(negative, 0.0);
+            film[at + behind] = adds ? film[at + behind] + below : below;
+            film[at + 2u * behind] = adds ? film[at + 2u * behind] + counts : counts;
         }
         return;
     }
-    if (COMPENSATED && slice.first_sample > 0u) {
+    if (is_signed) {
+        uint behind = at + (COMPENSATED ? 2u : 1u) * pixels;
+        vec4 sums = vec4(negative, 0.0);
+        film[behind] = first_sample() > 0u ? film[behind] + sums : sums;
+    }
+    if (COMPENSATED && first_sample() > 0u) {
         vec3 term = sum - (film[at + pixels].xyz + lost);
         vec3 total = film[at].xyz + term;
         lost = (total - film[at].xyz) - term;

@@ -7,11 +7,12 @@
 #include "filter.glsl"
 #include "glossy.glsl"
 #include "light.glsl"
+#include "shading_normal.glsl"
 #include "surface.glsl"
 
 // What the surface's map looks at.
 Seen seen_by_map(Map map, Ray ray, Surface surface, Footprint print) {
-    Seen seen = Seen(surface.at_rest, vec3(0.0), vec3(0.0), surface.own_uv, vec2(0.0), vec2(0.0));
+    Seen seen = Seen(surface.at_rest, vec3(0.0), vec3(0.0), surface.own_uv, vec2(0.0), vec2(0.0), false);
     uint entity = map.link.y;
     if (DERIVATIVES) {
         seen.entity_x = print.point_x;
@@ -32,9 +33,11 @@ Seen seen_by_map(Map map, Ray ray, Surface surface, Footprint print) {
     vec3 way_x = print.direction_x;
     vec3 way_y = print.direction_y;
     if (MODE_IS(ENTITIES, ENTITY_REFLECTION, entity)) {
-        way_x = mirrored_change(vec3(way), vec3(surface.normal), way_x, bent_x);
-        way_y = mirrored_change(vec3(way), vec3(surface.normal), way_y, bent_y);
-        way = mirrored(way, surface.normal);
+        Surface mirror = surface;
+        settle_normal(ray.direction, mirror);
+        way_x = mirrored_change(vec3(way), vec3(mirror.normal), way_x, bent(mirror.bend, print.point_x));
+        way_y = mirrored_change(vec3(way), vec3(mirror.normal), way_y, bent(mirror.bend, print.point_y));
+        way = mirrored(way, mirror.normal);
     }
     // Of unit length; its change is at right angles to it.
     real size = inverse_root(dot3(way, way));
@@ -55,11 +58,18 @@ void uv_gradients(Map map, Ray ray, Surface surface, out vec3 u, out vec3 v) {
     vec3 first = any_tangent(n);
     vec3 second = cross3(n, first);
     Footprint print = Footprint(first, second, vec3(0.0), vec3(0.0));
-    Mapped c = texture_coordinate(map, seen_by_map(map, ray, surface, print));
+    Seen seen = seen_by_map(map, ray, surface, print);
+    seen.gradients = true;
+    Mapped c = texture_coordinate(map, seen);
     vec3 along_u = first * c.dx.x + second * c.dy.x;
     vec3 along_v = first * c.dx.y + second * c.dy.y;
     u = along_u;
     v = along_v;
+}
+
+// A map of normals, not of heights.
+bool is_normal_map(Material material) {
+    return MODE_IS(RELIEFS, RELIEF_NORMAL, material.detail.w) || MODE_IS(RELIEFS, RELIEF_NORMAL_DOWN, material.detail.w);
 }
 
 // Places at which a bump map is read, two on each axis, a texel or half the footprint away.
@@ -69,7 +79,7 @@ vec2 relief_step(Material material, Mapped c) {
 }
 
 // The shading normal after the material's relief, from what was read there. Normal map: 2 rgb - 1 along
-// growing u, growing v and the normal. Bump map: n - grad h, the height's gradient along the surface
+// growing u, growing v (or against it) and the normal. Bump map: n - grad h, the height's gradient along the surface
 // (Blinn 1978; Mikkelsen 2020), h from central differences.
 vec3 relief_normal(Material material, Map map, Ray ray, Surface surface, vec4 read, vec2 step) {
     float side = surface.inside ? -1.0 : 1.0;
@@ -79,11 +89,12 @@ vec3 relief_normal(Material material, Map map, Ray ray, Surface surface, vec4 re
     vec3 v;
     uv_gradients(map, ray, surface, u, v);
     vec3 result;
-    if (MODE_IS(RELIEFS, RELIEF_NORMAL, material.detail.w)) {
+    if (is_normal_map(material)) {
         vec3 t = cross3(v, n);
         vec3 b = cross3(n, u);
         float handed = dot3(cross3(u, v), n) < 0.0 ? -strength : strength;
         vec3 m = 2.0 * read.xyz - 1.0;
+        if (MODE_IS(RELIEFS, RELIEF_NORMAL_DOWN, material.detail.w)) m.y = -m.y;
         vec2 scale = vec2(dot3(t, t), dot3(b, b));
         result = n * m.z;
         result += t * (scale.x > 0.0 ? handed * m.x * inversesqrt(scale.x) : 0.0);
@@ -104,7 +115,7 @@ vec3 surface_color(Material material, Map map, Ray ray, inout Surface surface, F
 #if SOURCE != SOURCE_NONE
     bool relief = BUMPED && material.detail.x != NO_TEXTURE;
     uint taps = 0u;
-    if (relief) taps = MODE_IS(RELIEFS, RELIEF_NORMAL, material.detail.w) ? 1u : 4u;
+    if (relief) taps = is_normal_map(material) ? 1u : 4u;
     vec4 read = vec4(0.0);
     vec2 step = vec2(0.0);
     uint tap = 0u;
@@ -145,7 +156,7 @@ struct Path {
     Ray ray;
     Beam beam;
     vec3 throughput;
-    uvec2 random; // bits for the choices at the next hit
+    uvec2 random; // bits by which look-ups at the next hit take texels
     uint skip;
     uint list; // the survey's, of a camera ray
     uint depth;
@@ -163,6 +174,7 @@ bool bounced(Header header, Hit hit, Surface surface, Footprint print, Material 
     bool glass = MODE_IS(MODELS, MODEL_DIELECTRIC, material.link.x);
     if (!mirror && !glass) return false;
     Ray ray = path.ray;
+    settle_normal(ray.direction, surface);
     float alpha = GLOSSY ? material.specular.x : 0.0;
     real3 normal = surface.normal;
     if (GLOSSY) {
@@ -171,10 +183,7 @@ bool bounced(Header header, Hit hit, Surface surface, Footprint print, Material 
         }
     }
     float ratio = surface.inside ? material.specular.w : 1.0 / material.specular.w;
-    if (glass) {
-        float chance = float(pcg2d(path.random).x >> 8u) * (1.0 / 16777216.0);
-        mirror = chance < reflectance(ray.direction, normal, ratio);
-    }
+    if (glass) mirror = unit_line(choices.fresnel) < reflectance(ray.direction, normal, ratio);
     real3 start = offset_origin(surface.point, mirror ? surface.geometric_normal : -surface.geometric_normal, surface.size);
     Beam beam = path.beam;
     if (mirror) {
@@ -185,9 +194,13 @@ bool bounced(Header header, Hit hit, Surface surface, Footprint print, Material 
         if (FILTERED) path.beam = refracted_beam(header, beam, ray, hit.t, print, normal, surface.bend, surface.curvature, ratio);
     }
     bool leaves = true;
+    real side = mirror ? 1.0 : -1.0;
+    if (LEANING) {
+        path.ray.direction = on_its_side(ray.direction, path.ray.direction, side * surface.normal, side * surface.geometric_normal);
+    }
     if (GLOSSY) {
         if (alpha > 0.0) {
-            real3 way = mirror ? path.ray.direction : -path.ray.direction;
+            real3 way = side * path.ray.direction;
             float seen = float(-dot3(ray.direction, surface.normal) * inverse_root(dot3(ray.direction, ray.direction)));
             float leaving = float(dot3(way, surface.normal) * inverse_root(dot3(way, way)));
             // What a facet sends into the surface is lost.
@@ -237,7 +250,7 @@ vec3 advance(Header header, Points points, Choices choices, inout Path path) {
     notice(GUARD_DEPTH, goes_on && path.depth >= header.size.w);
     path.goes_on = goes_on && path.depth < header.size.w;
     path.depth++;
-    if (BOUNCES) path.random = pcg2d(path.random);
+    if (BOUNCES && RANDOM) path.random = pcg2d(path.random);
     return seen;
 }
 

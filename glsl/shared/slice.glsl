@@ -24,6 +24,10 @@ layout(push_constant) uniform Slice {
 
 const uint TILE = 64u;
 
+uint schedule() { return OPAQUE(slice.schedule); }
+uint first_sample() { return OPAQUE(slice.first_sample); }
+uint sample_count() { return OPAQUE(slice.sample_count); }
+
 // Thread -> pixel of the film. Workgroups of a tile follow each other in x, tiles in y.
 uvec2 film_pixel() {
     uint tile = ((slice.first_tile + gl_WorkGroupID.y) * slice.tile_stride) % slice.tiles;

@@ -99,8 +99,8 @@ float rectangle(uint table, int width, vec2 from, vec2 to, ivec2 last) {
         uvec2 left = uvec2(0u);
         for (int k = 0; k < 4; k++) {
             int x = k < 2 ? i0.x + k : i1.x + k - 2;
-            int at = int(table) + 2 * (y * (width + 1) + x);
-            uvec2 here = uvec2(texelFetch(texels, at).x, texelFetch(texels, at + 1).x);
+            uint at = table + 2u * uint(y * (width + 1) + x);
+            uvec2 here = uvec2(texel_word(at), texel_word(at + 1u));
             if (k > 0) {
                 uvec2 row = difference(here, left);
                 if (r > 0) sum += wx[k - 1] * wy[r - 1] * as_float(difference(row, before[k - 1]));
@@ -114,10 +114,10 @@ float rectangle(uint table, int width, vec2 from, vec2 to, ivec2 last) {
 
 // `place` is a coordinate of a flat texture that has a table: after its levels.
 vec4 summed_area(Texture image, Sampler how, Coordinate place) {
-    uint table = texelFetch(texels, int(image.place.x) - int(image.link.y)).x;
-    float least = uintBitsToFloat(texelFetch(texels, int(table)).x);
-    float step = uintBitsToFloat(texelFetch(texels, int(table) + 1).x);
-    int channels = int(texelFetch(texels, int(table) + 2).x);
+    uint table = texel_word(image.place.x - image.link.y);
+    float least = uintBitsToFloat(texel_word(table));
+    float step = uintBitsToFloat(texel_word(table + 1u));
+    int channels = int(texel_word(table + 2u));
     ivec2 size = ivec2(image.place.yz);
     vec2 wide = vec2(size);
     // No box is narrower than a texel, or wider than a million periods.
@@ -141,7 +141,7 @@ vec4 summed_area(Texture image, Sampler how, Coordinate place) {
         float area = (to.x - from.x) * (to.y - from.y);
         vec4 mean = vec4(0.0, 0.0, 0.0, 1.0);
         for (int c = 0; c < channels; c++) {
-            uint first = table + 3u + uint(c * 2 * (size.x + 1) * (size.y + 1));
+            uint first = table + 3u + uint(c) * 2u * uint(size.x + 1) * uint(size.y + 1);
             float value = least + step * (rectangle(first, size.x, from, to, size - 1) / area);
             if (c == 0) mean.xyz = vec3(value);
             else if (channels == 2) mean.w = value;

@@ -23,6 +23,11 @@ struct Surface {
 
 const mat3 FLAT = mat3(0.0);
 
+// Whether anything asks how normals bend: footprints that leave a mirror, or reliefs mapped by directions.
+const bool BY_DIRECTION = (ENTITIES & ((1u << ENTITY_NORMAL) | (1u << ENTITY_REFLECTION))) != 0u;
+const bool BENT_RELIEF = BUMPED && BY_DIRECTION;
+const bool BENT = FILTERED || BENT_RELIEF;
+
 real largest_part(real3 v) { return max(max(abs(v.x), abs(v.y)), abs(v.z)); }
 
 Surface plane_surface(Plane plane, real3 point, real2 uv) {
@@ -83,7 +88,7 @@ Surface triangle_surface(Triangle triangle, real3 point) {
         real length_scale = inverse_root(squared);
         real3 unit = blend * length_scale;
         normal = squared > 0.0 ? unit : normal;
-        if (FILTERED && squared > 0.0) {
+        if (BENT && squared > 0.0) {
             mat3 change = outerProduct(vec3(triangle.normal_a.xyz), wa) + outerProduct(vec3(triangle.normal_b.xyz), wb) +
                           outerProduct(vec3(triangle.normal_c.xyz), wc);
             // Of unit length: what is along the normal itself is lost.
@@ -116,7 +121,7 @@ Surface hit_surface(Header header, Ray moving, Hit hit) {
     surface.inside = away;
     surface.geometric_normal = away ? -surface.geometric_normal : surface.geometric_normal;
     surface.normal = away ? -surface.normal : surface.normal;
-    if (FILTERED && SPHERES + TRIANGLES != 0u) {
+    if (BENT && SPHERES + TRIANGLES != 0u) {
         surface.bend = away ? -surface.bend : surface.bend;
         surface.curvature = away ? -surface.curvature : surface.curvature;
     }

@@ -24,8 +24,7 @@ layout(set = 0, binding = 8) uniform samplerCube cubes[CUBE_SLOTS];
 #endif
 
 #if HAS_TEXELS
-// All texels one after the other; beside images what cannot be read from those.
-layout(set = 0, binding = 6) uniform usamplerBuffer texels;
+#include "pool.glsl"
 #endif
 
 #if SOURCE != SOURCE_NONE
@@ -40,11 +39,17 @@ Coordinate near_coordinate(Texture image, Sampler how, Mapped c) {
 #endif
 }
 
-// The scene buffer once more, for the 256 entries that decode 8-bit sRGB. Deeper sRGB textures
-// arrive here as linear floats.
-layout(std430, set = 0, binding = 3) readonly buffer SrgbTable { float srgb_table[]; };
+// Linear light of all codes of 8-bit sRGB, and then of 16-bit sRGB, as far as the scene has any. CPU drivers read
+// scattered texels faster than scattered places of a storage buffer.
+layout(set = 0, binding = 3) uniform usamplerBuffer srgb_light;
 
-float decode_srgb8(uint code) { return srgb_table[SRGB_AT * 4u + code]; }
+float decode_srgb8(uint code) { return uintBitsToFloat(texelFetch(srgb_light, int(code)).x); }
+
+float decode_srgb16(uint code) { return uintBitsToFloat(texelFetch(srgb_light, int(256u + code)).x); }
+
+vec3 decode_srgb16(uvec3 codes) {
+    return vec3(decode_srgb16(codes.x), decode_srgb16(codes.y), decode_srgb16(codes.z));
+}
 
 // One level of a texture's pyramid.
 struct Level {
@@ -61,7 +66,7 @@ Level level_at(Texture image, int index) {
     ivec3 halved = max(size >> index, ivec3(1));
     if (!MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_VOLUME, image.link.w)) halved.z = size.z;
 #if HAS_TEXELS
-    return Level(halved, index, texelFetch(texels, int(image.place.x) - index).x);
+    return Level(halved, index, texel_word(image.place.x - uint(index)));
 #else
     return Level(halved, index, 0u);
 #endif
@@ -76,41 +81,47 @@ vec4 fetch_pooled(Texture image, Level level, ivec3 at) {
     uint word = level.word;
     bool srgb = MODE_IS(COLOR_SPACES, COLOR_SPACE_SRGB, image.link.x);
     if (MODE_IS(TEXEL_FORMATS, TEXEL_FORMAT_RGBA8, format)) {
-        uint packed = texelFetch(texels, int(word + texel)).x;
+        uint packed = texel_word(word + texel);
         uvec4 code = uvec4(packed & 255u, (packed >> 8u) & 255u, (packed >> 16u) & 255u, packed >> 24u);
         if (srgb) return vec4(decode_srgb8(code.x), decode_srgb8(code.y), decode_srgb8(code.z), float(code.w) / 255.0);
         return vec4(code) / 255.0;
     }
     if (MODE_IS(TEXEL_FORMATS, TEXEL_FORMAT_GREY8, format)) {
-        uint code = (texelFetch(texels, int(word + (texel >> 2u))).x >> ((texel & 3u) * 8u)) & 255u;
+        uint code = (texel_word(word + (texel >> 2u)) >> ((texel & 3u) * 8u)) & 255u;
         return vec4(vec3(srgb ? decode_srgb8(code) : float(code) / 255.0), 1.0);
     }
     if (MODE_IS(TEXEL_FORMATS, TEXEL_FORMAT_GREY_ALPHA8, format)) {
-        uint pair = texelFetch(texels, int(word + (texel >> 1u))).x >> ((texel & 1u) * 16u);
+        uint pair = texel_word(word + (texel >> 1u)) >> ((texel & 1u) * 16u);
         uint code = pair & 255u;
         return vec4(vec3(srgb ? decode_srgb8(code) : float(code) / 255.0), float((pair >> 8u) & 255u) / 255.0);
     }
     vec4 value = vec4(0.0);
     if (MODE_IS(TEXEL_FORMATS, TEXEL_FORMAT_GREY16, format)) {
-        uint code = (texelFetch(texels, int(word + (texel >> 1u))).x >> ((texel & 1u) * 16u)) & 65535u;
+        uint code = (texel_word(word + (texel >> 1u)) >> ((texel & 1u) * 16u)) & 65535u;
+        if (DEEP_SRGB && srgb) return vec4(vec3(decode_srgb16(code)), 1.0);
         value = vec4(vec3(float(code) / 65535.0), 1.0);
     } else if (MODE_IS(TEXEL_FORMATS, TEXEL_FORMAT_GREY_ALPHA16, format)) {
-        uint pair = texelFetch(texels, int(word + texel)).x;
+        uint pair = texel_word(word + texel);
+        if (DEEP_SRGB && srgb) {
+            return vec4(vec3(decode_srgb16(pair & 65535u)), float(pair >> 16u) / 65535.0);
+        }
         value = vec4(vec3(float(pair & 65535u) / 65535.0), float(pair >> 16u) / 65535.0);
     } else if (MODE_IS(TEXEL_FORMATS, TEXEL_FORMAT_RGBA16, format)) {
-        int first = int(word + texel * 2u);
-        uvec2 pairs = uvec2(texelFetch(texels, first).x, texelFetch(texels, first + 1).x);
-        value = vec4(pairs.x & 65535u, pairs.x >> 16u, pairs.y & 65535u, pairs.y >> 16u) / 65535.0;
+        uint first = word + texel * 2u;
+        uvec2 pairs = uvec2(texel_word(first), texel_word(first + 1u));
+        uvec4 codes = uvec4(pairs.x & 65535u, pairs.x >> 16u, pairs.y & 65535u, pairs.y >> 16u);
+        if (DEEP_SRGB && srgb) return vec4(decode_srgb16(codes.xyz), float(codes.w) / 65535.0);
+        value = vec4(codes) / 65535.0;
     } else if (MODE_IS(TEXEL_FORMATS, TEXEL_FORMAT_GREY_FLOAT, format)) {
-        return vec4(vec3(uintBitsToFloat(texelFetch(texels, int(word + texel)).x)), 1.0);
+        return vec4(vec3(uintBitsToFloat(texel_word(word + texel))), 1.0);
     } else if (MODE_IS(TEXEL_FORMATS, TEXEL_FORMAT_GREY_ALPHA_FLOAT, format)) {
-        int first = int(word + texel * 2u);
-        vec2 pair = uintBitsToFloat(uvec2(texelFetch(texels, first).x, texelFetch(texels, first + 1).x));
+        uint first = word + texel * 2u;
+        vec2 pair = uintBitsToFloat(uvec2(texel_word(first), texel_word(first + 1u)));
         return pair.xxxy;
     } else if (MODE_IS(TEXEL_FORMATS, TEXEL_FORMAT_RGBA_FLOAT, format)) {
-        int first = int(word + texel * 4u);
-        return uintBitsToFloat(uvec4(texelFetch(texels, first).x, texelFetch(texels, first + 1).x,
-                                     texelFetch(texels, first + 2).x, texelFetch(texels, first + 3).x));
+        uint first = word + texel * 4u;
+        return uintBitsToFloat(uvec4(texel_word(first), texel_word(first + 1u),
+                                     texel_word(first + 2u), texel_word(first + 3u)));
     }
     return value;
 }
@@ -193,6 +204,10 @@ vec4 fetch_texel(Texture image, uint slot, Level level, ivec3 at) {
     // The view replicates grey; where all textures are grey, two channels need no arithmetic.
     if (TEXEL_FORMATS == (1u << TEXEL_FORMAT_GREY8)) value = vec4(value.xxx, 1.0);
     if (MODE_IS(COLOR_SPACES, COLOR_SPACE_SRGB, image.link.x)) {
+        if (DEEP_SRGB && image.place.w >= TEXEL_FORMAT_GREY16) {
+            value.xyz = decode_srgb16(uvec3(value.xyz * 65535.0 + 0.5));
+            return value;
+        }
         uvec3 code = uvec3(value.xyz * 255.0 + 0.5);
         value.xyz = vec3(decode_srgb8(code.x), decode_srgb8(code.y), decode_srgb8(code.z));
     }

@@ -19,6 +19,8 @@ const RADIUS: usize = 3;
 pub struct Estimate {
     /// Of the mean over both halves, a channel's mean.
     pub variances: Vec<f32>,
+    /// Of one sample.
+    pub spreads: Vec<f32>,
     pub mse: f64,
 }
 
@@ -44,7 +46,12 @@ impl Estimate {
             let n = 2.0 * counts[i] as f32;
             own.max(contrast(&seen, i, width, height) / (3.0 * n * n))
         };
-        Estimate { variances: (0..seen.len()).into_par_iter().map(variance).collect(), mse }
+        let spread = |(seen, &count): (&Seen, &u32)| seen.spread * (2.0 * count as f32);
+        Estimate {
+            variances: (0..seen.len()).into_par_iter().map(variance).collect(),
+            spreads: seen.par_iter().zip(counts).map(spread).collect(),
+            mse,
+        }
     }
 }
 

@@ -87,6 +87,11 @@ impl Exact {
         self.pixels.iter().filter(|p| p[3] == 0.0).count()
     }
 
+    /// Whether the pixel is told.
+    pub fn tells(&self, pixel: usize) -> bool {
+        self.pixels.get(pixel).is_some_and(|p| p[3] == 0.0)
+    }
+
     /// Tells the pixels, if that looks worth it: by one trial, weighed anew as more becomes known.
     pub fn tell(
         &mut self,
@@ -196,7 +201,7 @@ mod tests {
             assert_eq!(half[0][..3], [1.0, 2.0, 4.0]);
             assert_eq!(half[1], [1.0, 2.0, 3.0, 4.0], "a sampled pixel has changed");
         }
-        let mut estimate = Estimate { variances: vec![0.5, 0.5], mse: 0.0 };
+        let mut estimate = Estimate { variances: vec![0.5, 0.5], spreads: Vec::new(), mse: 0.0 };
         exact.settle(&mut estimate);
         assert_eq!((estimate.variances, exact.told()), (vec![0.0, 0.5], 1));
     }

@@ -1,19 +1,22 @@
 //! `moire compare A B`: prints how far two pictures are apart. Exit 0 when they agree well enough, 1
-//! when the RMSE is above the bound or a NaN is present, 2 when they cannot be compared.
+//! when a figure is above its bound or a NaN is present, 2 when they cannot be compared.
 
 use std::path::PathBuf;
 use std::process::ExitCode;
 
 use serde::Serialize;
 
+use crate::counted::counted;
 use crate::error::{Error, Result};
-use crate::metrics::{Comparison, compare, difference, flip, read_picture};
+use crate::film::Placement;
+use crate::metrics::{Comparison, common, compare, difference, flip, read_placed};
 use crate::output::{self, WriteOptions};
 
 /// Compare two pictures of the same size in linear RGB
 ///
 /// Alpha is ignored, grey is replicated; 8- and 16-bit files are decoded from sRGB, float files are
-/// taken as linear. Exit code 1 when a NaN is present or the RMSE is above --max-rmse.
+/// taken as linear. Of an EXR file that is a part of a picture, that part is compared. Exit code 1 when a NaN is
+/// present or a figure is above its bound.
 #[derive(Debug, clap::Args)]
 pub struct CompareArgs {
     /// First picture (PNG, JPEG, TIFF, TGA, HDR or EXR)
@@ -26,9 +29,18 @@ pub struct CompareArgs {
     /// Largest RMSE that counts as agreement
     #[arg(long, value_name = "X", value_parser = bound, allow_negative_numbers = true)]
     pub max_rmse: Option<f64>,
+    /// Largest mean FLIP, from 0 to 1
+    #[arg(long, value_name = "X", value_parser = bound, allow_negative_numbers = true)]
+    pub max_flip: Option<f64>,
+    /// Largest difference of one channel of a pixel, in linear light
+    #[arg(long, value_name = "X", value_parser = bound, allow_negative_numbers = true)]
+    pub max_diff: Option<f64>,
     /// Write |A − B|, scaled so that the largest difference is white; pixels with NaN are magenta
     #[arg(long, value_name = "OUT.png")]
     pub diff: Option<PathBuf>,
+    /// Say only what is above a bound, and errors
+    #[arg(short, long)]
+    pub quiet: bool,
 }
 
 #[derive(Serialize)]
@@ -38,7 +50,11 @@ struct Report<'a> {
     #[serde(flatten)]
     comparison: &'a Comparison,
     flip: f64,
+    /// What was compared of the picture that both are parts of: x, y, width, height.
+    part: Option<[u32; 4]>,
     max_rmse: Option<f64>,
+    max_flip: Option<f64>,
+    max_diff: Option<f64>,
     pass: bool,
 }
 
@@ -46,20 +62,26 @@ pub fn run(args: &CompareArgs) -> Result<ExitCode> {
     if let Some(path) = &args.diff {
         output::check_writable(path)?;
     }
-    let (a, b) = (read_picture(&args.a)?, read_picture(&args.b)?);
-    let comparison = compare(&a, &b)?;
+    let both = common(read_placed(&args.a)?, read_placed(&args.b)?)?;
+    let mut comparison = compare(&both.a, &both.b)?;
     if let Some(path) = &args.diff {
-        let picture = difference::scaled(&a, &b, &comparison)?;
-        output::write(&picture, path, &WriteOptions::default())?;
+        let picture = difference::scaled(&both.a, &both.b, &comparison)?;
+        output::write(
+            &picture,
+            path,
+            &WriteOptions { placement: Some(both.placement), ..Default::default() },
+        )?;
     }
-    let pass = comparison.passes(args.max_rmse);
-    let flip = flip(&a, &b)?;
-    let text = if args.json { json(args, &comparison, flip, pass)? } else { table(args, &comparison, flip) };
-    super::print(&text)?;
-    if !pass {
-        super::tell(reason(&comparison, args.max_rmse));
+    comparison.max_at = comparison.max_at.map(|at| [0, 1].map(|i| at[i] + both.placement.corner[i]));
+    let flip = flip(&both.a, &both.b)?;
+    let faults = faults(args, &comparison, flip);
+    if args.json {
+        super::print(&json(args, &comparison, flip, both.placement, faults.is_empty())?)?;
+    } else if !args.quiet {
+        super::print(&table(args, &comparison, flip, both.placement))?;
     }
-    Ok(ExitCode::from(if pass { 0 } else { 1 }))
+    faults.iter().for_each(super::tell);
+    Ok(ExitCode::from(u8::from(!faults.is_empty())))
 }
 
 fn bound(text: &str) -> Result<f64, String> {
@@ -69,35 +91,67 @@ fn bound(text: &str) -> Result<f64, String> {
     }
 }
 
-fn json(args: &CompareArgs, comparison: &Comparison, flip: f64, pass: bool) -> Result<String> {
+fn json(
+    args: &CompareArgs,
+    comparison: &Comparison,
+    flip: f64,
+    placement: Placement,
+    pass: bool,
+) -> Result<String> {
     let name = |path: &PathBuf| path.display().to_string();
-    let report =
-        Report { a: name(&args.a), b: name(&args.b), comparison, flip, max_rmse: args.max_rmse, pass };
+    let report = Report {
+        a: name(&args.a),
+        b: name(&args.b),
+        comparison,
+        flip,
+        part: part(comparison, placement),
+        max_rmse: args.max_rmse,
+        max_flip: args.max_flip,
+        max_diff: args.max_diff,
+        pass,
+    };
     serde_json::to_string_pretty(&report).map_err(|e| Error::new(format!("the report as JSON: {e}")))
 }
 
-fn table(args: &CompareArgs, c: &Comparison, flip: f64) -> String {
+/// None where all of the picture was compared.
+fn part(c: &Comparison, placement: Placement) -> Option<[u32; 4]> {
+    let [x, y] = placement.corner;
+    (placement != Placement::whole(c.width, c.height)).then_some([x, y, c.width, c.height])
+}
+
+fn table(args: &CompareArgs, c: &Comparison, flip: f64, placement: Placement) -> String {
+    let of = part(c, placement).map_or(String::new(), |[x, y, ..]| {
+        format!("  at ({x}, {y}) of {}×{}", placement.full[0], placement.full[1])
+    });
     let at = c.max_at.map_or(String::new(), |[x, y]| format!("  at pixel ({x}, {y})"));
     let rows = [
         ("A", args.a.display().to_string()),
         ("B", args.b.display().to_string()),
-        ("size", format!("{}×{}", c.width, c.height)),
+        ("size", format!("{}×{}{of}", c.width, c.height)),
         ("RMSE", format!("{:.6e}", c.rmse)),
         ("MSE", format!("{:.6e}", c.mse)),
         ("relative MSE", format!("{:.6e}", c.relative_mse)),
         ("max", format!("{:.6e}{at}", c.max)),
         ("PSNR", if c.mse == 0.0 { "infinite: equal".into() } else { format!("{:.2} dB", c.psnr) }),
-        ("over 1/255", format!("{:.4} %  ({} pixels)", c.over_1_255 * 100.0, c.over_1_255_pixels)),
+        ("over 1/255", format!("{:.4} %  ({})", c.over_1_255 * 100.0, counted(c.over_1_255_pixels, "pixel"))),
         ("FLIP", format!("{flip:.6}")),
         ("NaN pixels", c.nan_pixels.to_string()),
     ];
     rows.iter().map(|(name, value)| format!("{name:<14}{value}")).collect::<Vec<_>>().join("\n")
 }
 
-fn reason(c: &Comparison, bound: Option<f64>) -> String {
-    match bound {
-        _ if c.nan_pixels > 0 => format!("NaN in {} pixels", c.nan_pixels),
-        Some(x) if c.rmse.is_finite() => format!("RMSE {:.6e} is above the bound {x:e}", c.rmse),
-        _ => "the pictures differ by an infinite value".into(),
+/// What makes the pictures disagree, a line each.
+fn faults(args: &CompareArgs, c: &Comparison, flip: f64) -> Vec<String> {
+    if c.nan_pixels > 0 {
+        return vec![format!("NaN in {}", counted(c.nan_pixels, "pixel"))];
     }
+    if !c.rmse.is_finite() {
+        return vec!["the pictures differ by an infinite value".into()];
+    }
+    let figures =
+        [("RMSE", c.rmse, args.max_rmse), ("FLIP", flip, args.max_flip), ("max", c.max, args.max_diff)];
+    let above = figures
+        .into_iter()
+        .filter_map(|(name, value, bound)| Some((name, value, bound.filter(|b| value > *b)?)));
+    above.map(|(name, value, bound)| format!("{name} {value:.6e} is above the bound {bound:e}")).collect()
 }

@@ -2,6 +2,7 @@
 
 pub mod compare;
 pub mod devices;
+mod outputs;
 mod overrides;
 pub mod pattern;
 mod progress;
@@ -12,15 +13,42 @@ pub mod study;
 pub mod texture;
 pub mod verify;
 
+use std::ffi::OsStr;
 use std::fmt::Display;
-use std::io::{self, ErrorKind, Write};
+use std::io::{self, ErrorKind, IsTerminal, Write};
 use std::path::Path;
 use std::process::ExitCode;
 
-use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::builder::{PossibleValue, PossibleValuesParser, StyledStr, TypedValueParser};
+use clap::error::{ContextKind, ContextValue};
 
 use crate::error::{Error, Result};
 use crate::panics;
+use crate::scene::synonyms::meant;
+
+/// Groups of options in the help.
+const OUTPUT: &str = "Output";
+const SAMPLING: &str = "Sampling";
+const TEXTURES: &str = "Textures";
+const DEVICE: &str = "Device";
+const MEASURING: &str = "Measuring";
+
+/// To be called once, before anything else: a write beyond the size limit of files (`ulimit -f`) is then an error
+/// like that of a full disk, where it would end the program and leave a temporary file; and where no person reads
+/// stderr, messages keep to their own lines, so that what they quote stays whole.
+pub fn prepare_process() {
+    #[cfg(unix)]
+    {
+        let noticed = std::sync::Arc::default();
+        // Refused only for signals that cannot be caught, of which this is none.
+        let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, noticed);
+    }
+    let wrapped = io::stderr().is_terminal();
+    // An error only where a hook is set already.
+    let _ = miette::set_hook(Box::new(move |_| {
+        Box::new(miette::MietteHandlerOpts::new().wrap_lines(wrapped).break_words(false).build())
+    }));
+}
 
 /// A line on stderr. Where nobody can read it any more (a closed pipe, a full disk) there is nobody to
 /// tell either: the work goes on and the exit code still says how it ended.
@@ -49,6 +77,15 @@ fn print(text: &str) -> Result<()> {
     }
 }
 
+/// A picture on stdout, byte by byte.
+fn print_bytes(bytes: &[u8]) -> Result<()> {
+    let mut stdout = io::stdout().lock();
+    match stdout.write_all(bytes).and_then(|()| stdout.flush()) {
+        Err(e) if e.kind() != ErrorKind::BrokenPipe => Err(Error::new(format!("standard output: {e}"))),
+        _ => Ok(()),
+    }
+}
+
 /// Refuses to write over `input`, which is `what`.
 fn check_input_kept(output: &Path, input: &Path, what: &str) -> Result<()> {
     let same = output.canonicalize().is_ok_and(|o| input.canonicalize().is_ok_and(|i| i == o));
@@ -61,11 +98,47 @@ fn check_input_kept(output: &Path, input: &Path, what: &str) -> Result<()> {
     ))
 }
 
-/// A value parser over a vocabulary: clap lists the names and suggests the nearest.
+/// A value parser over a vocabulary: clap lists the names and suggests the nearest, or the one that other programs
+/// call by the word that was given.
 fn named_parser<T: Clone + Send + Sync + 'static>(
     names: &'static [&'static str],
     from_name: fn(&str) -> Option<T>,
-) -> impl TypedValueParser<Value = T> {
-    PossibleValuesParser::new(names)
-        .try_map(move |name| from_name(&name).ok_or_else(|| format!("\"{name}\" is not known")))
+) -> Named<T> {
+    Named { names, from_name }
+}
+
+#[derive(Clone)]
+struct Named<T> {
+    names: &'static [&'static str],
+    from_name: fn(&str) -> Option<T>,
+}
+
+impl<T: Clone + Send + Sync + 'static> TypedValueParser for Named<T> {
+    type Value = T;
+
+    fn parse_ref(
+        &self,
+        command: &clap::Command,
+        arg: Option<&clap::Arg>,
+        value: &OsStr,
+    ) -> std::result::Result<T, clap::Error> {
+        let name =
+            PossibleValuesParser::new(self.names).parse_ref(command, arg, value).map_err(|mut error| {
+                if let Some((name, also)) =
+                    value.to_str().and_then(|word| meant(word, self.names.iter().copied()))
+                {
+                    error.insert(ContextKind::SuggestedValue, ContextValue::String(name.into()));
+                    if let Some((key, value)) = also {
+                        let tip = StyledStr::from(format!("with it goes '--{key} {value}'"));
+                        error.insert(ContextKind::Suggested, ContextValue::StyledStrs(vec![tip]));
+                    }
+                }
+                error
+            })?;
+        (self.from_name)(&name).ok_or_else(|| clap::Error::new(clap::error::ErrorKind::InvalidValue))
+    }
+
+    fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
+        Some(Box::new(self.names.iter().map(PossibleValue::new)))
+    }
 }

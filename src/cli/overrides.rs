@@ -13,52 +13,55 @@ use crate::scene::model::{
 use crate::scene::{MAX_RADIUS, both_filters, check_filters, check_shared, check_spp};
 use crate::texture::sampler_spec::{Filter, Method, MipMode};
 
-use super::named_parser;
+use super::{DEVICE, OUTPUT, SAMPLING, TEXTURES, named_parser};
 
 #[derive(Args, Debug)]
 pub struct Overrides {
     /// Picture size in pixels
-    #[arg(long, value_name = "WxH", value_parser = parse_size)]
+    #[arg(long, value_name = "WxH", value_parser = parse_size, help_heading = OUTPUT)]
     size: Option<[u32; 2]>,
     /// Samples per pixel
-    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, help_heading = SAMPLING)]
     spp: Option<u32>,
-    #[arg(long, value_name = "A", value_parser = named_parser(Algorithm::NAMES, Algorithm::from_name), help = one_of("Algorithm", Algorithm::NAMES))]
+    /// Algorithm
+    #[arg(long, value_name = "A", value_parser = named_parser(Algorithm::NAMES, Algorithm::from_name), help_heading = SAMPLING)]
     algorithm: Option<Algorithm>,
     /// Render for this long and then stop, with --algorithm auto unless another is named
-    #[arg(long, value_name = "SECONDS", value_parser = positive, conflicts_with = "target_error")]
+    #[arg(long, value_name = "SECONDS", value_parser = positive, conflicts_with = "target_error", help_heading = SAMPLING)]
     budget: Option<f64>,
     /// Render until the picture's RMSE is estimated to be this
-    #[arg(long, value_name = "RMSE", value_parser = positive)]
+    #[arg(long, value_name = "RMSE", value_parser = positive, help_heading = SAMPLING)]
     target_error: Option<f64>,
-    #[arg(long, value_name = "P", value_parser = named_parser(Pattern::NAMES, Pattern::from_name), help = one_of("Sampling pattern", Pattern::NAMES))]
+    /// Sampling pattern
+    #[arg(long, value_name = "P", value_parser = named_parser(Pattern::NAMES, Pattern::from_name), help_heading = SAMPLING)]
     pattern: Option<Pattern>,
     /// Seed of the sampling pattern
-    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, help_heading = SAMPLING)]
     seed: Option<u32>,
-    #[arg(long, value_name = "M", value_parser = named_parser(Method::NAMES, Method::from_name), help = one_of("Look-up method of every sampler", Method::NAMES))]
+    /// Look-up method of every sampler
+    #[arg(long, value_name = "M", value_parser = named_parser(Method::NAMES, Method::from_name), help_heading = TEXTURES)]
     method: Option<Method>,
-    #[arg(long, value_name = "F", value_parser = named_parser(Filter::NAMES, Filter::from_name), help = one_of("Filter of every sampler", Filter::NAMES))]
+    /// Filter of every sampler
+    #[arg(long, value_name = "F", value_parser = named_parser(Filter::NAMES, Filter::from_name), help_heading = TEXTURES)]
     filter: Option<Filter>,
-    #[arg(long, value_name = "F", value_parser = named_parser(Footprint::NAMES, Footprint::from_name), help = one_of("Footprint of a sample", Footprint::NAMES))]
+    /// Footprint of a sample
+    #[arg(long, value_name = "F", value_parser = named_parser(Footprint::NAMES, Footprint::from_name), help_heading = TEXTURES)]
     footprint: Option<Footprint>,
-    #[arg(long, value_name = "P", value_parser = named_parser(Precision::NAMES, Precision::from_name), help = one_of("Numbers of geometry", Precision::NAMES))]
+    /// Numbers of geometry
+    #[arg(long, value_name = "P", value_parser = named_parser(Precision::NAMES, Precision::from_name), help_heading = DEVICE)]
     precision: Option<Precision>,
-    #[arg(long, value_name = "M", value_parser = named_parser(MipMode::NAMES, MipMode::from_name), help = one_of("Levels that every sampler reads", MipMode::NAMES))]
+    /// Levels that every sampler reads
+    #[arg(long, value_name = "M", value_parser = named_parser(MipMode::NAMES, MipMode::from_name), help_heading = TEXTURES)]
     mip: Option<MipMode>,
-    #[arg(long, value_name = "NAME", value_parser = named_parser(PixelFilterKind::NAMES, PixelFilterKind::from_name), help = one_of("Pixel filter", PixelFilterKind::NAMES))]
+    /// Pixel filter
+    #[arg(long, value_name = "NAME", value_parser = named_parser(PixelFilterKind::NAMES, PixelFilterKind::from_name), help_heading = SAMPLING)]
     pixel_filter: Option<PixelFilterKind>,
     /// Pixels that the pixel filter reaches to each side [default: by filter]
-    #[arg(long, value_name = "R", value_parser = radius, allow_negative_numbers = true)]
+    #[arg(long, value_name = "R", value_parser = radius, allow_negative_numbers = true, help_heading = SAMPLING)]
     pixel_filter_radius: Option<f64>,
     /// Whether all pixels share their displacements
-    #[arg(long, value_name = "BOOL")]
+    #[arg(long, value_name = "BOOL", help_heading = SAMPLING)]
     shared: Option<bool>,
-}
-
-/// The help of an option that takes one of `names`.
-fn one_of(what: &str, names: &[&str]) -> String {
-    format!("{what}: {}", names.join(", "))
 }
 
 impl Overrides {

@@ -8,6 +8,7 @@ use std::process::ExitCode;
 use serde_json::json;
 
 use super::named_parser;
+use crate::counted::counted;
 use crate::error::{Error, Result};
 use crate::oracle::patterns::MAX_PAIRS;
 use crate::output::{self, WriteOptions};
@@ -29,6 +30,7 @@ const MAX_POINTS: u32 = 4096;
 /// the next three pairs of dimensions, then x with the next pair's x, y with y, x with y.
 #[derive(Debug, clap::Args)]
 pub struct PatternArgs {
+    /// Pattern
     #[arg(value_name = "NAME", value_parser = named_parser(Pattern::NAMES, Pattern::from_name))]
     name: Pattern,
     /// Picture to write
@@ -37,6 +39,7 @@ pub struct PatternArgs {
     /// Points in the pixel; `center` has one
     #[arg(long, value_name = "N", default_value = "64", allow_negative_numbers = true)]
     spp: u32,
+    /// Another set of random positions
     #[arg(long, value_name = "N", default_value = "1", allow_negative_numbers = true)]
     seed: u32,
     /// Pair of dimensions: 0 is the place in the pixel
@@ -137,7 +140,7 @@ fn table(args: &PatternArgs, set: &Set, spectrum: &Spectrum, measures: &Measures
     let [columns, rows] = measures.cells;
     let [x, y] = measures.occupied_lines;
     line("strata with points", format!("{} of {columns}×{rows}", measures.occupied));
-    line("in N strips", format!("{x} columns, {y} rows"));
+    line("in N strips", format!("{}, {}", counted(x, "column"), counted(y, "row")));
     // The mean over frequencies 1 … √N/2, where even patterns are quiet.
     let low = (set.samples.isqrt() as usize / 2).max(1);
     let mean = measures.radial_mean[..low].iter().sum::<f64>() / low as f64;

@@ -8,71 +8,81 @@ use std::time::Instant;
 
 use clap::Args;
 
+use super::outputs::Outputs;
 use super::overrides::Overrides;
 use super::progress::Bar;
 use super::report::{self, Ran};
+use super::{DEVICE, MEASURING, OUTPUT, TEXTURES};
 use crate::adaptive::{self, Goal};
 use crate::error::{Error, Result};
+use crate::film::Placement;
 use crate::gpu::{DeviceSelect, Gpu};
 use crate::oracle;
-use crate::output::{self, WriteOptions};
+use crate::output::{self, ENDING_NAMES, Format, WriteOptions};
 use crate::pack::{self, Crop, PackedScene, Pyramids, Schedule};
 use crate::render::{self, MipChoice, Report, TexelChoice, Tuning};
 use crate::scene::advice;
-use crate::scene::model::Scene;
+use crate::scene::model::{Algorithm, Scene};
 use crate::scene::prune::prune;
+use crate::scene::texture_advice::of_textures;
 use crate::texture::decode::Values;
 use crate::texture::load::load_noted;
+use crate::texture::read_file::is_turned;
+use crate::texture::source::OrientationUse;
 use crate::verify::known::anisotropy_fault;
 
 #[derive(Args, Debug)]
 pub struct RenderArgs {
-    /// Scene file (TOML)
+    /// Scene file (TOML), or - for standard input
     scene: PathBuf,
     /// Picture to write; the ending decides the format: exr hdr (linear float), png jpg tif (sRGB).
-    /// May be given several times [default: the scene's name with .png, in the current folder]
-    #[arg(short, long = "output", value_name = "OUT")]
+    /// May be given several times; - is standard output [default: the scene's name with .png, in the
+    /// current folder]
+    #[arg(short, long = "output", value_name = "OUT", help_heading = OUTPUT)]
     output: Vec<PathBuf>,
+    /// Format of what -o - writes
+    #[arg(long, value_name = "FORMAT", value_parser = super::named_parser(&ENDING_NAMES, output::format_named), help_heading = OUTPUT)]
+    format: Option<Format>,
     #[command(flatten)]
     overrides: Overrides,
     /// Device: an index or a part of the name as `moire devices` lists them, cpu, gpu, or oracle
     /// (float64 on the CPU) [default: discrete GPU, else integrated, else CPU]
-    #[arg(long, value_name = "SEL")]
+    #[arg(long, value_name = "SEL", help_heading = DEVICE)]
     device: Option<String>,
     /// Render only this part, in pixels of the full picture
-    #[arg(long, value_name = "X,Y,W,H", allow_hyphen_values = true, value_parser = parse_crop)]
+    #[arg(long, value_name = "X,Y,W,H", help_heading = OUTPUT, allow_hyphen_values = true, value_parser = parse_crop)]
     crop: Option<Crop>,
     /// Build the pipeline with all features, to measure what leaving them out gains
-    #[arg(long)]
+    #[arg(long, help_heading = MEASURING)]
     keep_everything: bool,
     /// Let in textures with NaN and infinite texels, which are errors else: pixels that show one are no
     /// numbers either, and counted
-    #[arg(long)]
+    #[arg(long, help_heading = TEXTURES)]
     allow_nonfinite: bool,
     /// Where look-ups of method shader read texels
-    #[arg(long, value_name = "SOURCE", default_value = "auto", value_parser = super::named_parser(TexelChoice::NAMES, TexelChoice::from_name))]
+    #[arg(long, value_name = "SOURCE", help_heading = MEASURING, default_value = "auto", value_parser = super::named_parser(TexelChoice::NAMES, TexelChoice::from_name))]
     texels: TexelChoice,
     /// Where box pyramids of textures are made, if their lengths are powers of two
-    #[arg(long, value_name = "PLACE", default_value = "auto", value_parser = super::named_parser(MipChoice::NAMES, MipChoice::from_name))]
+    #[arg(long, value_name = "PLACE", help_heading = MEASURING, default_value = "auto", value_parser = super::named_parser(MipChoice::NAMES, MipChoice::from_name))]
     mips: MipChoice,
     /// Workgroup shape, for measurements [default: by device]
-    #[arg(long, value_name = "WxH", value_parser = |s: &str| Tuning::parse_group(s).map_err(|e| e.to_string()))]
+    #[arg(long, value_name = "WxH", help_heading = MEASURING, value_parser = |s: &str| Tuning::parse_group(s).map_err(|e| e.to_string()))]
     workgroup: Option<[u32; 2]>,
     /// Bits per channel of PNG files
-    #[arg(long, value_name = "BITS", default_value = "8", value_parser = ["8", "16"])]
+    #[arg(long, value_name = "BITS", help_heading = OUTPUT, default_value = "8", value_parser = ["8", "16"])]
     png_bits: String,
     /// Count on the device what goes beyond a limit: coordinates that are no numbers, levels, footprints, depth;
     /// -v counts too
-    #[arg(long)]
+    #[arg(long, help_heading = MEASURING)]
     guards: bool,
     /// Print one JSON object on stdout
-    #[arg(long)]
+    #[arg(long, help_heading = OUTPUT)]
     json: bool,
     /// Say nothing but errors
-    #[arg(short, long, conflicts_with = "verbose")]
+    #[arg(short, long, conflicts_with = "verbose", help_heading = OUTPUT)]
     quiet: bool,
     /// Say what was left out and how textures are stored
-    #[arg(short, long)]
+    #[arg(short, long, help_heading = OUTPUT)]
     verbose: bool,
 }
 
@@ -84,11 +94,11 @@ pub fn run(args: &RenderArgs) -> Result<ExitCode> {
         Some(text) if !oracle => DeviceSelect::parse(text)?,
         _ => DeviceSelect::Default,
     };
+    let outputs = Outputs::new(&args.scene, &args.output, args.format, args.json)?;
     let mut scene = crate::scene::load(&args.scene)?;
     let chosen = args.overrides.apply(&mut scene)?;
     check_crop(args.crop, &scene)?;
-    let outputs = outputs(args);
-    for path in &outputs {
+    for path in &outputs.files {
         output::check_writable(path)?;
         check_inputs_kept(path, &scene)?;
     }
@@ -105,14 +115,23 @@ pub fn run(args: &RenderArgs) -> Result<ExitCode> {
     ran.report.left_out.extend(dropped);
     ran.dropped_triangles = scene.dropped_triangles;
     ran.report.warnings.splice(..0, advice::of_scene(&scene));
+    let counts_follow_neighbours = matches!(scene.sampling.algorithm, Algorithm::Adaptive | Algorithm::Auto);
+    if args.crop.is_some() && counts_follow_neighbours {
+        ran.report.warnings.push(
+            "--crop with algorithm adaptive or auto: samples go where this part errs most, so its pixels differ from \
+             those of the full picture within their noise; with --algorithm samples they are equal"
+                .into(),
+        );
+    }
     bar.finish();
 
     let clock = Instant::now();
-    let options = WriteOptions { png_bits: if args.png_bits == "16" { 16 } else { 8 } };
-    output::write_all(&ran.film, &outputs, &options)?;
+    let placement = args.crop.map(|c| Placement { corner: [c.x, c.y], full: [scene.width, scene.height] });
+    let options = WriteOptions { png_bits: if args.png_bits == "16" { 16 } else { 8 }, placement };
+    outputs.write(&ran.film, &options)?;
     ran.report.seconds.write = clock.elapsed().as_secs_f64();
     ran.report.seconds.total = start.elapsed().as_secs_f64();
-    let outputs: Vec<String> = outputs.iter().map(|p| p.display().to_string()).collect();
+    let outputs = outputs.names();
     if args.json {
         let options = args.overrides.report(&scene, args.crop, args.keep_everything);
         super::print(&format!("{:#}", report::json(&ran, options, &outputs)))?;
@@ -131,7 +150,7 @@ fn render_on_device(
     bar: &Bar,
     start: Instant,
 ) -> Result<Ran> {
-    let (gpu, (mut packed, notes), startup, load) = std::thread::scope(|scope| {
+    let (gpu, (mut packed, doubts), startup, load) = std::thread::scope(|scope| {
         let (tell, told) = mpsc::channel();
         let loading = scope.spawn(move || {
             let packed = load(scene, args, || told.recv().unwrap_or_default());
@@ -144,15 +163,15 @@ fn render_on_device(
         let startup = clock.elapsed().as_secs_f64();
         let (packed, load) = loading.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
         // A mistake in the scene is told before one of the machine.
-        packed.and_then(|packed| Ok((gpu?, packed, startup, load)))
+        packed.and_then(|loaded| Ok((gpu?, loaded, startup, load)))
     })?;
-    let nonfinite = say_textures(args, &packed);
+    let nonfinite = say_textures(args, scene, &packed);
     packed.guarded = args.guards || args.verbose;
-    let tuning = Tuning { texels: args.texels, group: args.workgroup };
+    let tuning = Tuning { texels: args.texels, group: args.workgroup, ..Tuning::default() };
     let (film, mut report) =
         render::render_to_goal(&gpu, packed, args.keep_everything, &tuning, args.overrides.goal(), bar)?;
     (report.seconds.startup, report.seconds.load) = (startup, load);
-    report.warnings.extend(notes);
+    report.warnings.splice(..0, doubts);
     if let (true, Some(fault)) = (advice::samples_anisotropically(scene), anisotropy_fault(gpu.info())) {
         report.warnings.push(format!("{fault}; --method shader reads the right ones"));
     }
@@ -170,9 +189,9 @@ fn render_on_device(
 }
 
 fn render_on_oracle(args: &RenderArgs, scene: &Scene, bar: &Bar, start: Instant) -> Result<Ran> {
-    let (packed, notes) = load(scene, args, || Pyramids::Host)?;
-    let nonfinite = say_textures(args, &packed);
-    let mut report = Report { double: packed.double, warnings: notes, ..Report::default() };
+    let (packed, doubts) = load(scene, args, || Pyramids::Host)?;
+    let nonfinite = say_textures(args, scene, &packed);
+    let mut report = Report { double: packed.double, warnings: doubts, ..Report::default() };
     report.seconds.load = start.elapsed().as_secs_f64();
     let clock = Instant::now();
     let film = if packed.schedule == Schedule::Jobs {
@@ -194,8 +213,8 @@ fn render_on_oracle(args: &RenderArgs, scene: &Scene, bar: &Bar, start: Instant)
     Ok(Ran { device: "oracle".into(), driver, film, report, nonfinite, dropped_triangles: 0 })
 }
 
-/// The scene for the device, and what a person should know about its textures. `pyramids` says who makes
-/// those, and may wait for a device to be known.
+/// The scene to render, and what is doubtful about its textures. `pyramids` says who makes those, and may wait
+/// for a device to be known.
 fn load(
     scene: &Scene,
     args: &RenderArgs,
@@ -204,17 +223,9 @@ fn load(
     let values = if args.allow_nonfinite { Values::Any } else { Values::Finite };
     let textures = scene.textures.iter().map(|t| load_noted(t, values)).collect::<Result<Vec<_>>>()?;
     let (textures, notes): (Vec<_>, Vec<_>) = textures.into_iter().unzip();
+    let doubts = [notes.concat(), of_textures(scene, &textures)].concat();
     let pyramids = if pack::reads_levels(scene) { pyramids() } else { Pyramids::Host };
-    Ok((pack::pack_with(scene, textures, args.crop, pyramids)?, notes.concat()))
-}
-
-fn outputs(args: &RenderArgs) -> Vec<PathBuf> {
-    if args.output.is_empty() {
-        let mut name = args.scene.file_stem().unwrap_or("scene".as_ref()).to_owned();
-        name.push(".png");
-        return vec![PathBuf::from(name)];
-    }
-    args.output.clone()
+    Ok((pack::pack_with(scene, textures, args.crop, pyramids)?, doubts))
 }
 
 /// A picture must not replace a file that it is made from.
@@ -249,10 +260,16 @@ fn check_crop(crop: Option<Crop>, scene: &Scene) -> Result<()> {
 }
 
 /// Where they are let in, what each texture has of texels that are not finite.
-fn say_textures(args: &RenderArgs, packed: &PackedScene) -> Option<Vec<(String, u64)>> {
+fn say_textures(args: &RenderArgs, scene: &Scene, packed: &PackedScene) -> Option<Vec<(String, u64)>> {
     if args.verbose {
         for line in packed.texture_lines() {
             super::tell(format_args!("texture {line}"));
+        }
+        for texture in scene.textures.iter().filter(|t| t.reading.orientation == OrientationUse::Apply) {
+            for file in texture.content.files().into_iter().filter(|file| is_turned(file)) {
+                let (name, file) = (&texture.name, file.display());
+                super::tell(format_args!("texture \"{name}\": {file} was turned as its orientation says"));
+            }
         }
     }
     let counts = packed.texture_names.iter().cloned().zip(packed.nonfinite_texels.iter().copied());

@@ -5,6 +5,7 @@ use std::fs;
 use serde_json::{Map, Value, json};
 
 use super::tell;
+use crate::counted::{counted, verb};
 use crate::film::Film;
 use crate::pack::Guard;
 use crate::render::Report;
@@ -65,16 +66,16 @@ pub fn json(ran: &Ran, options: Value, outputs: &[String]) -> Value {
     all
 }
 
-/// What is counted, in words.
-fn said(guard: Guard) -> &'static str {
+/// What is counted: the noun, and what is said of it.
+fn said(guard: Guard) -> (&'static str, &'static str) {
     match guard {
-        Guard::Coordinates => "look-ups at coordinates that are no numbers, read at 0",
-        Guard::Levels => "look-ups over more than a texel of the last level",
-        Guard::Anisotropy => "look-ups over footprints longer than max_anisotropy widths, blurred",
-        Guard::Grazing => "footprints of rays that graze a surface, cut off at 65536 times their width",
-        Guard::Depth => "paths at max_depth, ended in black",
-        Guard::Pieces => "cones for which there was no room",
-        Guard::Radiance => "samples whose radiance is no number",
+        Guard::Coordinates => ("look-up", "at coordinates that are no numbers, read at 0"),
+        Guard::Levels => ("look-up", "over more than a texel of the last level"),
+        Guard::Anisotropy => ("look-up", "over footprints longer than max_anisotropy widths, blurred"),
+        Guard::Grazing => ("footprint", "of rays that graze a surface, cut off at 65536 times their width"),
+        Guard::Depth => ("path", "at max_depth, ended in black"),
+        Guard::Pieces => ("cone", "for which there was no room"),
+        Guard::Radiance => ("sample", "whose radiance is no number"),
     }
 }
 
@@ -86,8 +87,10 @@ pub fn say(ran: &Ran, outputs: &[String], verbose: bool) {
     match nonfinite_pixels(&ran.film) {
         0 => {}
         count => tell(format_args!(
-            "warning: {count} pixels are not finite; .exr keeps them, other formats have NaN as black and \
-             infinity as their largest value"
+            "warning: {} {} not finite; .exr keeps them, other formats have NaN as black and \
+             infinity as their largest value",
+            counted(count, "pixel"),
+            verb(count, "is", "are")
         )),
     }
     if verbose {
@@ -96,7 +99,8 @@ pub fn say(ran: &Ran, outputs: &[String], verbose: bool) {
             tell(format_args!("  {line}"));
         }
         for (guard, count) in report.guards.iter().flatten().filter(|(_, count)| *count > 0) {
-            tell(format_args!("beyond a limit: {count} {}", said(*guard)));
+            let (noun, rest) = said(*guard);
+            tell(format_args!("beyond a limit: {} {rest}", counted(*count, noun)));
         }
         tell(format_args!(
             "seconds: startup {:.3}, load {:.3}, compile {:.3}, upload {:.3}, render {:.3}, readback {:.3}, write {:.3}",
@@ -109,8 +113,9 @@ pub fn say(ran: &Ran, outputs: &[String], verbose: bool) {
             seconds.write
         ));
         tell(format_args!(
-            "device time of rendering: {:.4} s in {} slices",
-            report.device_render_seconds, report.slices
+            "device time of rendering: {:.4} s in {}",
+            report.device_render_seconds,
+            counted(report.slices, "slice")
         ));
         if let Some(survey) = report.device_survey_seconds {
             tell(format_args!("device time of the survey: {survey:.4} s"));
@@ -122,7 +127,8 @@ pub fn say(ran: &Ran, outputs: &[String], verbose: bool) {
     if let Some(sampled) = report.sampled_pixels {
         let pixels = ran.film.pixels.len() as f64;
         tell(format_args!(
-            "one beam a pixel; {sampled} pixels ({:.2} %) took samples, as beams cannot tell them",
+            "one beam a pixel; {} ({:.2} %) took samples, as beams cannot tell them",
+            counted(sampled, "pixel"),
             100.0 * sampled as f64 / pixels
         ));
     }
@@ -135,7 +141,7 @@ pub fn say(ran: &Ran, outputs: &[String], verbose: bool) {
     if let Some(o) = &report.outcome {
         if o.beam_pixels > 0 {
             let told = 100.0 * o.beam_pixels as f64 / ran.film.pixels.len() as f64;
-            tell(format_args!("one beam a pixel told {} pixels ({told:.2} %)", o.beam_pixels));
+            tell(format_args!("one beam a pixel told {} ({told:.2} %)", counted(o.beam_pixels, "pixel")));
         }
         if o.estimated_bias > 0.0 {
             tell(format_args!(
@@ -143,25 +149,31 @@ pub fn say(ran: &Ran, outputs: &[String], verbose: bool) {
                 o.estimated_bias
             ));
         }
+        let interval = o.interval.map_or(String::new(), |[low, high]| {
+            format!(" ({:.0} %: {low:.2e} to {high:.2e})", 100.0 * o.confidence)
+        });
         tell(format_args!(
-            "estimated RMSE {:.2e} after {} passes, {} to {} samples a pixel{}",
+            "estimated RMSE {:.2e}{interval} after {}, {} a pixel{}",
             o.estimated_rmse,
-            o.passes,
-            o.least_samples,
-            o.most_samples,
+            counted(o.passes, "pass"),
+            range_of_samples(o.least_samples, o.most_samples),
             if o.reached { "" } else { "; the goal was not reached" }
         ));
     }
     tell(format_args!(
-        "{}: {}×{} pixels, {} samples a pixel on {}, render {:.3} s, total {:.3} s",
+        "{}: {}×{} pixels, {} a pixel on {}, render {:.3} s, total {:.3} s",
         outputs.join(", "),
         ran.film.width,
         ran.film.height,
-        ran.film.samples,
+        counted(ran.film.samples, "sample"),
         ran.device,
         seconds.render,
         seconds.total
     ));
+}
+
+fn range_of_samples(least: u32, most: u32) -> String {
+    if least == most { counted(most, "sample") } else { format!("{least} to {}", counted(most, "sample")) }
 }
 
 /// User and system time of this process so far, where `/proc` tells (proc(5), fields 14 and 15, in

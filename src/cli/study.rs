@@ -3,16 +3,19 @@
 
 use std::path::PathBuf;
 use std::process::ExitCode;
+use std::time::Instant;
 
 use super::overrides::parse_size;
 use super::progress::Bar;
+use crate::counted::{counted, verb};
 use crate::error::{Error, Result};
 use crate::gpu::{DeviceSelect, Gpu};
 use crate::output;
-use crate::scene::MAX_SPP;
 use crate::scene::prune::prune;
+use crate::scene::{MAX_SPP, is_standard_input};
 use crate::study::method::Method;
 use crate::study::record::{self, Record};
+use crate::study::words::names;
 use crate::study::{self, Options, ReferenceChoice};
 
 /// Measure which anti-aliasing method gives the least error in the time there is
@@ -62,6 +65,13 @@ pub struct StudyArgs {
 }
 
 pub fn run(args: &StudyArgs) -> Result<ExitCode> {
+    let started = Instant::now();
+    if is_standard_input(&args.scene) {
+        return Err(Error::with_help(
+            "a study needs a scene file: its page has commands that render the scene again",
+            "write the scene to a file first",
+        ));
+    }
     let bar = Bar::new(args.quiet)?;
     let select = match args.device.as_deref() {
         Some("oracle") => {
@@ -79,7 +89,7 @@ pub fn run(args: &StudyArgs) -> Result<ExitCode> {
     }
     output::prepare_folder(&args.out, record::FILE)?;
     prune(&mut scene);
-    let options = options(args);
+    let options = options(args, started);
     let gpu = Gpu::open(&select)?;
     let outcome = study::run(&gpu, &scene, &options, &bar);
     bar.finish();
@@ -90,7 +100,9 @@ pub fn run(args: &StudyArgs) -> Result<ExitCode> {
         Err(Error::Interrupted) => {
             let points = record::read(&args.out).points.len();
             super::tell(format_args!(
-                "interrupted: {points} points are in {}; the same command goes on from there",
+                "interrupted: {} {} in {}; the same command goes on from there",
+                counted(points, "point"),
+                verb(points, "is", "are"),
                 args.out.display()
             ));
             Ok(ExitCode::from(130))
@@ -102,7 +114,7 @@ pub fn run(args: &StudyArgs) -> Result<ExitCode> {
     }
 }
 
-fn options(args: &StudyArgs) -> Options {
+fn options(args: &StudyArgs, started: Instant) -> Options {
     let mut methods: Vec<Method> = Vec::new();
     args.methods.iter().for_each(|m| {
         if !methods.contains(m) {
@@ -126,6 +138,7 @@ fn options(args: &StudyArgs) -> Options {
             Some(file) => ReferenceChoice::File(file.into()),
         },
         limit: args.seconds,
+        started,
         out: args.out.clone(),
         arguments,
     }
@@ -143,11 +156,10 @@ fn report(args: &StudyArgs, record: &Record) -> Result<()> {
     if args.verbose {
         for w in analysis.iter().flat_map(|a| &a.winners) {
             super::tell(format_args!(
-                "within {:.3e} s: {} with {}{} samples, RMSE {:.3e}",
+                "within {:.3e} s: {} with {}, RMSE {:.3e}",
                 w.budget,
-                w.method,
-                if w.estimated { "about " } else { "" },
-                w.spp,
+                names(w),
+                w.taken,
                 w.rmse
             ));
         }
@@ -156,6 +168,10 @@ fn report(args: &StudyArgs, record: &Record) -> Result<()> {
     if let Some(analysis) = analysis {
         super::tell(&analysis.recommendation);
     }
-    super::tell(format_args!("{}: {} points", args.out.join("index.html").display(), record.points.len()));
+    super::tell(format_args!(
+        "{}: {}",
+        args.out.join("index.html").display(),
+        counted(record.points.len(), "point")
+    ));
     Ok(())
 }

@@ -8,18 +8,20 @@ use std::process::ExitCode;
 use serde_json::{Value, json};
 
 use super::named_parser;
+use crate::counted::{counted, plural};
 use crate::error::{Error, Result};
 use crate::film::Film;
 use crate::metrics::read::film_of;
 use crate::output::{self, WriteOptions};
-use crate::texture::analysis::{Analysis, Axis, Channel, LARGEST_RATIO, LARGEST_RECURRENCE, Seam, analyse};
+use crate::texture::analysis::{Analysis, Axis, Channel, Seam, Verdict, analyse};
 use crate::texture::data::{ColorSpace, Component, Dimension, TextureData};
 use crate::texture::read_file::{self, Picture, Texels};
+use crate::texture::source::{OrientationUse, Reading};
 
 /// Describe a texture file: size, format, range and mean, non-finite texels, whether it tiles
 ///
-/// An axis tiles if the step from the last texels to the first is at most 1.5 times the RMS of the
-/// steps between neighbours inside, or is an edge that the texture has inside as well.
+/// An axis tiles if the step from the last texels to the first is one of many inside, or an edge that the texture
+/// has inside as well, and if what repeats inside goes on across it: yes, no, or perhaps.
 #[derive(Debug, clap::Args)]
 pub struct TextureArgs {
     /// PNG, JPEG, TIFF, TGA, HDR or EXR
@@ -31,6 +33,13 @@ pub struct TextureArgs {
     #[arg(long, value_name = "SPACE", default_value = "linear",
           value_parser = named_parser(ColorSpace::NAMES, ColorSpace::from_name))]
     pub color_space: ColorSpace,
+    /// Layer, part or channel of an EXR file [default: the one without a name]
+    #[arg(long, value_name = "NAME")]
+    pub layer: Option<String>,
+    /// Whether a file that says how it is turned (Exif, TIFF) is turned
+    #[arg(long, value_name = "USE", default_value = "apply",
+          value_parser = named_parser(OrientationUse::NAMES, OrientationUse::from_name))]
+    pub orientation: OrientationUse,
     /// Print one JSON object
     #[arg(long)]
     pub json: bool,
@@ -41,7 +50,8 @@ pub fn run(args: &TextureArgs) -> Result<ExitCode> {
         output::check_writable(path)?;
         super::check_input_kept(path, &args.file, "the texture that is described")?;
     }
-    let Picture { texels, notes } = read_file::read_noted(&args.file)?;
+    let reading = Reading { orientation: args.orientation, layer: args.layer.clone() };
+    let Picture { texels, notes, .. } = read_file::read_as(&args.file, &reading)?;
     for note in notes {
         super::tell(format_args!("warning: {note}"));
     }
@@ -54,7 +64,11 @@ pub fn run(args: &TextureArgs) -> Result<ExitCode> {
     if let Some(path) = &args.out {
         // As many bits as the file has: its own values come back.
         let png_bits = if texels.format.component() == Component::Unorm16 { 16 } else { 8 };
-        output::write(&repeated(&texels, &args.file)?, path, &WriteOptions { png_bits })?;
+        output::write(
+            &repeated(&texels, &args.file)?,
+            path,
+            &WriteOptions { png_bits, ..WriteOptions::default() },
+        )?;
     }
     let texture = named(texels, args);
     let analysis = analyse(&texture);
@@ -108,8 +122,6 @@ fn json(args: &TextureArgs, texture: &TextureData, analysis: &Analysis) -> Resul
         "non_finite_texels": analysis.non_finite_texels,
         "first_non_finite": analysis.first_non_finite,
         "tiling": { "u": axis_json(&analysis.u), "v": axis_json(&analysis.v) },
-        "largest_ratio": LARGEST_RATIO,
-        "largest_recurrence": LARGEST_RECURRENCE,
         "out": args.out.as_ref().map(|path| path.display().to_string()),
     });
     serde_json::to_string_pretty(&report).map_err(|e| Error::new(format!("the report as JSON: {e}")))
@@ -129,7 +141,12 @@ fn channel_json(channel: &Channel) -> Value {
 fn axis_json(axis: &Axis) -> Value {
     json!({
         "tiles": axis.seam.tiles(),
+        "verdict": axis.seam.verdict().name(),
         "seam": axis.seam.name(),
+        "rank": axis.rank.map(|rank| rank.share),
+        "of_largest": axis.rank.and_then(|rank| rank.of_largest),
+        "period": axis.period.map(|period| period.texels),
+        "misfit": axis.period.map(|period| period.misfit),
         "seam_rms": axis.seam_rms,
         "interior_rms": axis.interior_rms,
         "ratio": axis.ratio,
@@ -143,12 +160,24 @@ fn table(args: &TextureArgs, texture: &TextureData, analysis: &Analysis) -> Stri
         let _ = writeln!(text, "{name:<12}{value}");
     };
     let of_file = texture.file_channels;
-    let plural = if of_file == 1 { "" } else { "s" };
     line("file", texture.name.clone());
-    line("size", format!("{}×{} texels", texture.width, texture.height));
+    line(
+        "size",
+        format!(
+            "{}×{} {}",
+            texture.width,
+            texture.height,
+            plural(u64::from(texture.width) * u64::from(texture.height), "texel")
+        ),
+    );
     line(
         "format",
-        format!("{} from {of_file} channel{plural}, {} bytes", texture.format, texture.texels.len()),
+        format!(
+            "{} from {}, {}",
+            texture.format,
+            counted(of_file, "channel"),
+            counted(texture.texels.len(), "byte")
+        ),
     );
     line("values", meaning(texture).into());
     for channel in &analysis.channels {
@@ -184,21 +213,33 @@ fn channel_line(channel: &Channel) -> String {
 }
 
 fn axis_line(axis: &Axis, texels: u32, line: &str) -> String {
-    let numbers = match (axis.seam_rms, axis.interior_rms) {
-        (Some(seam), Some(interior)) => {
-            let ratio = axis.ratio.map_or(String::new(), |ratio| format!(", ratio {ratio:.3}"));
-            format!(" (seam {seam:.6}, interior {interior:.6}{ratio})")
-        }
-        _ => String::new(),
+    let verdict = axis.seam.verdict();
+    let why = match axis.seam {
+        Seam::Smooth => String::new(),
+        Seam::Pattern => ": the edge at the seam is one that the texture has inside".into(),
+        Seam::Doubled => format!(", but the last {line} repeats the first: leave one out"),
+        Seam::Constant if texels == 1 => ": one texel".into(),
+        Seam::Constant => ": constant".into(),
+        Seam::Visible => ": no step inside is like the seam".into(),
+        Seam::Broken => ": what repeats inside does not go on across the seam".into(),
+        Seam::Uncertain => ": the seam is among the largest steps inside; look at it with --out".into(),
+        Seam::Unknown => ": no finite pair of texels".into(),
     };
-    let verdict = match axis.seam {
-        Seam::Smooth => "yes".into(),
-        Seam::Pattern => "yes: the edge at the seam is one that the texture has inside".into(),
-        Seam::Doubled => format!("yes, but the last {line} repeats the first: leave one out"),
-        Seam::Constant if texels == 1 => "yes: one texel".into(),
-        Seam::Constant => "yes: constant".into(),
-        Seam::Visible => "no".into(),
-        Seam::Unknown => "unknown: no finite pair of texels".to_string(),
-    };
-    verdict + &numbers
+    format!("{verdict}{why}{}", axis_numbers(axis, line, verdict))
+}
+
+fn axis_numbers(axis: &Axis, line: &str, verdict: Verdict) -> String {
+    let (Some(seam), Some(interior)) = (axis.seam_rms, axis.interior_rms) else { return String::new() };
+    let mut text = format!(" (seam {seam:.6}, interior {interior:.6}");
+    if let Some(ratio) = axis.ratio {
+        let _ = write!(text, ", ratio {ratio:.3}");
+    }
+    if let Some((rank, largest)) = axis.rank.and_then(|r| Some((r, r.of_largest?))) {
+        let share = 100.0 * rank.share;
+        let _ = write!(text, "; larger than {share:.1} % of the steps inside, {largest:.2} of the largest");
+    }
+    if let Some(period) = axis.period.filter(|_| verdict != Verdict::Unknown) {
+        let _ = write!(text, "; repeats every {}", counted(period.texels, line));
+    }
+    text + ")"
 }

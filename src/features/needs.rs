@@ -72,9 +72,9 @@ pub fn bounces(scene: &PackedScene) -> bool {
     scene.header.size[3] > 0 && (has_model(scene, Model::Mirror) || has_model(scene, Model::Dielectric))
 }
 
-/// Whether anything but the sample's position is left to chance.
+/// Whether look-ups take texels at random.
 pub fn chooses(scene: &PackedScene) -> bool {
-    has_model(scene, Model::Dielectric) || filters(scene) & bit(Filter::Stochastic as u32) != 0
+    filters(scene) & bit(Filter::Stochastic as u32) != 0
 }
 
 pub fn filters(scene: &PackedScene) -> u32 {

@@ -22,7 +22,7 @@ named_enum! {
         StorageBuffer = "storage buffer",
         /// `uniform { … }`
         UniformBuffer = "uniform buffer",
-        /// `usamplerBuffer`
+        /// `usamplerBuffer`, by itself or an array
         TexelBuffer = "texel buffer",
         /// `sampler2D`, by itself or an array
         SampledImage = "sampled image",
@@ -43,7 +43,7 @@ pub enum Bound<'a> {
     Buffer(&'a Buffer),
     /// The first bytes of a storage buffer, as many as given, as uniforms.
     Head(&'a Buffer, u64),
-    Texels(&'a Buffer),
+    Texels(&'a [Buffer]),
     Images(&'a [(&'a Image, &'a Sampler)]),
 }
 
@@ -59,7 +59,8 @@ impl Bound<'_> {
 
     fn count(&self) -> u32 {
         match self {
-            Bound::Buffer(_) | Bound::Head(..) | Bound::Texels(_) => 1,
+            Bound::Buffer(_) | Bound::Head(..) => 1,
+            Bound::Texels(buffers) => buffers.len() as u32,
             Bound::Images(images) => images.len() as u32,
         }
     }
@@ -142,9 +143,9 @@ impl BindGroup {
                 buffers.push(vk::DescriptorBufferInfo::default().buffer(buffer.handle()).range(range));
                 write.buffer_info(&buffers)
             }
-            Bound::Texels(buffer) => {
-                self._buffers.push((*buffer).clone());
-                views.push(buffer.texel_view());
+            Bound::Texels(buffers) => {
+                self._buffers.extend_from_slice(buffers);
+                views.extend(buffers.iter().map(Buffer::texel_view));
                 write.texel_buffer_view(&views)
             }
             Bound::Images(pairs) => {
@@ -225,7 +226,9 @@ fn check_resource(core: &Arc<Core>, pipeline: &str, binding: u32, bound: &Bound<
             }
             check_buffer(buffer, BufferUse::Storage)
         }
-        Bound::Texels(buffer) => check_buffer(buffer, BufferUse::TexelUint),
+        Bound::Texels(buffers) => {
+            buffers.iter().try_for_each(|buffer| check_buffer(buffer, BufferUse::TexelUint))
+        }
         Bound::Images(pairs) => pairs.iter().try_for_each(|(image, sampler)| {
             check_core(image.core())?;
             check_core(sampler.core())?;

@@ -3,15 +3,22 @@
 
 use std::path::Path;
 
-use crate::color::{srgb_to_linear, srgb8_table};
+use crate::color::srgb_table;
 use crate::error::Result;
-use crate::film::Film;
+use crate::film::{Film, Placement};
 use crate::texture::data::Component;
-use crate::texture::read_file::{self, Texels};
+use crate::texture::read_file::{self, Part, Texels};
+use crate::texture::source::Reading;
 
 /// `samples` is 0: a file does not say how many stand behind it.
 pub fn read_picture(path: &Path) -> Result<Film> {
-    Ok(film_of(&read_file::read(path)?))
+    read_placed(path).map(|(film, _)| film)
+}
+
+/// Also where it lies in the file's whole picture.
+pub fn read_placed(path: &Path) -> Result<(Film, Placement)> {
+    let picture = read_file::read_part(path, &Reading::default(), Part::Data)?;
+    Ok((film_of(&picture.texels), picture.placement))
 }
 
 /// The texels of a file as a picture.
@@ -19,12 +26,13 @@ pub(crate) fn film_of(texels: &Texels) -> Film {
     let channels = texels.format.channels();
     let pixels = match texels.format.component() {
         Component::Unorm8 => {
-            let table = srgb8_table();
+            let table = srgb_table(256);
             pixels::<1>(&texels.bytes, channels, |[v]| table[usize::from(v)])
         }
-        Component::Unorm16 => pixels::<2>(&texels.bytes, channels, |v| {
-            srgb_to_linear(f64::from(u16::from_ne_bytes(v)) / 65_535.0) as f32
-        }),
+        Component::Unorm16 => {
+            let table = srgb_table(65_536);
+            pixels::<2>(&texels.bytes, channels, |v| table[usize::from(u16::from_ne_bytes(v))])
+        }
         Component::Float32 => pixels::<4>(&texels.bytes, channels, f32::from_ne_bytes),
     };
     Film { width: texels.width, height: texels.height, pixels, samples: 0 }

@@ -6,8 +6,8 @@
 use glam::DVec3;
 
 use super::forms::{
-    Frame, Region, coordinates, may_meet_sphere, mirrored_frame, pixel_frame, shadow_region, shape_plane,
-    shape_region,
+    Frame, Region, add, coordinates, may_meet_sphere, mirrored_frame, pixel_frame, shadow_region,
+    shape_plane, shape_region,
 };
 use super::math::xyz;
 use super::paint::{GaveUp, Paint, Result, integral, is_lit, is_simple, links, may_shade};
@@ -92,8 +92,7 @@ impl Pixel<'_> {
                 } else {
                     let kept = piece.stage == 0;
                     let by = &met[if kept { own } else { piece.stage - 1 }];
-                    let first =
-                        if kept { beam.beyond_mirror(by) } else { before(by, &met[own], &piece.polygon) };
+                    let first = (!kept).then(|| before(by, &met[own], &piece.polygon));
                     carve(&mut self.pieces, piece, &by.region, first, kept)?;
                 }
             }
@@ -173,6 +172,7 @@ impl Pixel<'_> {
             }
             Some(_) => {}
         }
+        let least = if paint.frame.parallel { negligible(paint.near, polygon) } else { COPLANAR };
         while self.pieces.len() > bottom {
             let Some(piece) = self.pieces.pop() else { break };
             let (by, Some(light)) = (piece.stage as u32, light.filter(|_| piece.stage < shapes)) else {
@@ -191,23 +191,30 @@ impl Pixel<'_> {
                 continue;
             }
             let region = shadow_region(scene, &paint.frame, paint.near, by, light);
+            // What lies in the surface's own plane, or beyond it, keeps no light away.
+            if range(&piece.polygon, region.lines[0]).1 <= least {
+                push(&mut self.pieces, Piece { stage: piece.stage + 1, ..piece })?;
+                continue;
+            }
             carve(&mut self.pieces, piece, &region, None, false)?;
         }
         Ok(sum)
     }
 }
 
-impl Beam {
-    /// Positive beyond the mirror that the beam left.
-    fn beyond_mirror(&self, met: &Met) -> Option<Form> {
-        (self.skip != NO_SHAPE).then(|| self.limit - met.region.nearness)
-    }
+/// Differences of nearness that are none.
+fn negligible(nearness: Form, polygon: &Polygon) -> f64 {
+    let (low, high) = range(polygon, nearness);
+    COPLANAR * high.max(-low)
 }
 
-/// All that the beam may meet.
+/// All that the beam may meet. Behind a mirror that is what lies beyond it: what lies before it neither is seen
+/// nor hides anything.
 fn shapes_met(scene: &PackedScene, beam: &Beam) -> Result<Vec<Met>> {
     let [planes, spheres, triangles, _] = scene.header.counts;
     let mut met = Vec::new();
+    let mirrored = beam.skip != NO_SHAPE;
+    let least = if mirrored { negligible(beam.limit, &beam.polygon) } else { 0.0 };
     for shape in 0..planes + spheres + triangles {
         if shape == beam.skip {
             continue;
@@ -218,7 +225,17 @@ fn shapes_met(scene: &PackedScene, beam: &Beam) -> Result<Vec<Met>> {
             }
             continue;
         }
-        let region = shape_region(scene, &beam.frame, shape);
+        let mut region = shape_region(scene, &beam.frame, shape);
+        if mirrored {
+            let beyond = beam.limit - region.nearness;
+            let (low, high) = range(&beam.polygon, beyond);
+            if high <= least {
+                continue;
+            }
+            if low < 0.0 {
+                add(&mut region, beyond);
+            }
+        }
         let touches = region.lines[..region.count].iter().all(|&line| range(&beam.polygon, line).1 > 0.0);
         if touches {
             if met.len() == MAX_MET {
@@ -231,14 +248,13 @@ fn shapes_met(scene: &PackedScene, beam: &Beam) -> Result<Vec<Met>> {
 }
 
 /// Positive where `by` lies before `own`.
-fn before(by: &Met, own: &Met, polygon: &Polygon) -> Option<Form> {
+fn before(by: &Met, own: &Met, polygon: &Polygon) -> Form {
     let apart = by.region.nearness - own.region.nearness;
     let (low, high) = range(polygon, apart);
-    let (least, most) = range(polygon, own.region.nearness);
-    if high.max(-low) > COPLANAR * most.max(-least) {
-        return Some(apart);
+    if high.max(-low) > negligible(own.region.nearness, polygon) {
+        return apart;
     }
-    Some(if by.shape < own.shape { Form::Z } else { -Form::Z })
+    if by.shape < own.shape { Form::Z } else { -Form::Z }
 }
 
 /// Cuts the piece along the lines of a region, of which `first` is one more. What lies within them all is

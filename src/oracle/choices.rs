@@ -1,11 +1,11 @@
 //! What a sample chooses beside its place in the pixel, each by a pair of dimensions of the same pattern:
 //! 0 place in the pixel, 1 lens, 2 time (its first dimension), 3 + 2d light and 4 + 2d lobe of the hit after
-//! d bounces. From the seventh hit on the pairs begin again, shifted; further lights of one hit shift the
+//! d bounces; of glass 3 + 2d is whether it mirrors (its first dimension). From the seventh hit on the pairs begin again, shifted; further lights of one hit shift the
 //! pair of the first. Twin of `glsl/shared/choices.glsl`.
 
 use glam::DVec2;
 
-use super::patterns::{Points, pair_points, sample_pair};
+use super::patterns::{Points, pair_points, sample_line, sample_pair};
 use super::rng::{mix_bits, pcg3d};
 use super::strata::UNIT;
 use crate::layout::Header;
@@ -22,6 +22,7 @@ pub struct Choices {
     pub time: [u32; 2],
     pub light: [u32; 2],
     pub lobe: [u32; 2],
+    pub fresnel: u32,
 }
 
 impl Choices {
@@ -32,11 +33,16 @@ impl Choices {
         time: [1 << 23; 2],
         light: [1 << 23; 2],
         lobe: [1 << 23; 2],
+        fresnel: 1 << 23,
     };
 }
 
+pub fn unit_line(position: u32) -> f64 {
+    f64::from(position) * UNIT
+}
+
 pub fn unit_square(position: [u32; 2]) -> DVec2 {
-    DVec2::from_array(position.map(|x| f64::from(x) * UNIT))
+    DVec2::from_array(position.map(unit_line))
 }
 
 /// The same positions shifted, by another number for each `salt` but 0.
@@ -63,14 +69,18 @@ pub fn choose(header: &Header, points: &Points, s: u32, depth: u32, starts: bool
         if header.chances[0] >> choice as u32 & 1 == 0 || !(of_hit || starts) {
             continue;
         }
-        let pair = 1 + choice as u32 + if of_hit { 2 * (depth - round * HITS_APART) } else { 0 };
-        let position = sample_pair(&pair_points(points, pair), s);
+        let first = if choice == Choice::Fresnel { Choice::Light } else { choice };
+        let pair = 1 + first as u32 + if of_hit { 2 * (depth - round * HITS_APART) } else { 0 };
+        let drawn = pair_points(points, pair);
+        let position =
+            if choice == Choice::Fresnel { [sample_line(&drawn, s), 0] } else { sample_pair(&drawn, s) };
         let position = apart(points, position, if of_hit { round } else { 0 });
         match choice {
             Choice::Lens => choices.lens = position,
             Choice::Time => choices.time = position,
             Choice::Light => choices.light = position,
             Choice::Lobe => choices.lobe = position,
+            Choice::Fresnel => choices.fresnel = position[0],
         }
     }
     choices

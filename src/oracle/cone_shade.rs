@@ -16,6 +16,7 @@ use super::light::phong_lobe;
 use super::math::xyz;
 use super::pieces::{gather, lay_over};
 use super::shade::{bumped_normal, surface_color};
+use super::shading_normal::{on_its_side, settle_normal};
 use super::surface::{Surface, hit_surface};
 use crate::layout::{Light, Material, NO_MATERIAL, NO_SHAPE};
 use crate::pack::{LightKind, PackedScene};
@@ -135,7 +136,9 @@ fn bent_branch(branch: &Branch, met: &Met<'_>, ratio: f64, share: f64, skip: u32
     };
     let direction = branch.ray.direction;
     let (beam, direction, side) = if through {
-        (refracted_beam(&beam, &meeting, ratio), refracted(direction, surface.normal, ratio), -1.0)
+        let way = refracted(direction, surface.normal, ratio);
+        let way = on_its_side(direction, way, -surface.normal, -surface.geometric_normal);
+        (refracted_beam(&beam, &meeting, ratio), way, -1.0)
     } else {
         (mirrored_beam(&beam, &meeting), mirrored(direction, surface.normal), 1.0)
     };
@@ -176,9 +179,12 @@ fn shade_part(waiting: &mut Waiting, scene: &PackedScene, mut branch: Branch, sh
     }
     let carried = branch.weight;
     branch.weight *= surface_color(scene, material, map, (&ray, &surface, &print), [0; 2]);
-    let met = Met { hit, surface, print, material, carried };
     let inside = surface.inside;
     let model = Model::ALL[material.link[0] as usize];
+    if matches!(model, Model::Mirror | Model::Dielectric) {
+        settle_normal(ray.direction, &mut surface);
+    }
+    let met = Met { hit, surface, print, material, carried };
     if model == Model::Unlit {
         return branch.weight;
     }

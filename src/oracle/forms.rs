@@ -117,7 +117,7 @@ pub fn along(frame: &Frame, nearness: Form, row: DVec4) -> Form {
     }
 }
 
-fn add(region: &mut Region, line: Form) {
+pub(super) fn add(region: &mut Region, line: Form) {
     region.lines[region.count] = line;
     region.count += 1;
 }

@@ -9,6 +9,7 @@ use super::camera::Ray;
 use super::footprint::around;
 use super::intersect::{FAR, occluded, offset_origin};
 use super::math::xyz;
+use super::rectangle::{LEAST_SOLID_ANGLE, on_rectangle};
 use super::surface::Surface;
 use super::warps::{concentric_disc, on_cap};
 use crate::layout::Light;
@@ -42,10 +43,23 @@ pub fn sphere_aim(light: &Light, point: DVec3, square: DVec2) -> Aim {
     Aim { way: around(way / squared.sqrt(), local), reach: reach * BEFORE_LIGHT, density }
 }
 
-/// Uniform over the area.
+/// Uniform over the solid angle, or where that is small and over slanted sides over the area.
 pub fn rectangle_aim(light: &Light, point: DVec3, square: DVec2) -> Aim {
     let [u, v] = [light.edge_u, light.edge_v].map(xyz);
-    let way = xyz(light.place) - point + (square.x - 0.5) * u + (square.y - 0.5) * v;
+    let to_middle = xyz(light.place) - point;
+    let sides = DVec2::new(light.edge_u[3], light.edge_v[3]);
+    if sides.x > 0.0 {
+        let (x, y) = (u / sides.x, v / sides.y);
+        let n = x.cross(y);
+        let height = -to_middle.dot(n);
+        let middle = DVec2::new(to_middle.dot(x), to_middle.dot(y));
+        let (place, solid_angle) = on_rectangle(middle, 0.5 * sides, height.max(0.0), square);
+        if height > 0.0 && solid_angle >= LEAST_SOLID_ANGLE {
+            let way = place.x * x + place.y * y + place.z * n;
+            return Aim { way, reach: BEFORE_LIGHT, density: solid_angle / way.length() };
+        }
+    }
+    let way = to_middle + (square.x - 0.5) * u + (square.y - 0.5) * v;
     let density = -way.dot(u.cross(v)) / way.length_squared().powi(2);
     Aim { way, reach: BEFORE_LIGHT, density: density.max(0.0) }
 }

@@ -17,6 +17,8 @@ pub struct Seen {
     pub entity_change: [DVec3; 2],
     pub own: DVec2,
     pub own_change: [DVec2; 2],
+    /// The changes are along unit vectors, not over a footprint.
+    pub gradients: bool,
 }
 
 /// A texture coordinate (u, v, w), or a direction for a cube texture, and its changes.
@@ -98,9 +100,13 @@ pub fn face_uv_change(stm: DVec3, change: DVec3) -> DVec2 {
 }
 
 /// Angles change without bound towards the pole; a footprint never covers more than one turn.
-pub fn turn_change(local: DVec3, change: DVec3, around: f64) -> f64 {
+fn within_turn(change: f64, gradients: bool) -> f64 {
+    if gradients { change } else { change.clamp(-1.0, 1.0) }
+}
+
+pub fn turn_change(local: DVec3, change: DVec3, around: f64, gradients: bool) -> f64 {
     let area = local.x * change.z - local.z * change.x;
-    (area / (around.max(1e-30) * (2.0 * PI))).clamp(-1.0, 1.0)
+    within_turn(area / (around.max(1e-30) * (2.0 * PI)), gradients)
 }
 
 fn turn(local: DVec3) -> f64 {
@@ -109,25 +115,28 @@ fn turn(local: DVec3) -> f64 {
 }
 
 /// (turn, height) and its change: φ/2π and y.
-pub fn cylindrical(map: &Map, local: DVec3, change: [DVec3; 2]) -> Coordinate {
+pub fn cylindrical(map: &Map, local: DVec3, change: [DVec3; 2], gradients: bool) -> Coordinate {
     let around = local.x * local.x + local.z * local.z;
-    let of = |d: DVec3| DVec2::new(turn_change(local, d, around), d.y);
+    let of = |d: DVec3| DVec2::new(turn_change(local, d, around, gradients), d.y);
     placed_coordinate(map, DVec2::new(turn(local), local.y), change.map(of))
 }
 
 /// θ / π changes by (y dρ - ρ dy) / (ρ² + y²), where dρ = (x dx + z dz) / ρ.
-pub fn polar_change(local: DVec3, change: DVec3, across: f64, squared: f64) -> f64 {
+pub fn polar_change(local: DVec3, change: DVec3, across: f64, squared: f64, gradients: bool) -> f64 {
     let outward = (local.x * change.x + local.z * change.z) / across.max(1e-30);
-    ((local.y * outward - across * change.y) / (squared.max(1e-30) * PI)).clamp(-1.0, 1.0)
+    within_turn((local.y * outward - across * change.y) / (squared.max(1e-30) * PI), gradients)
 }
 
 /// (θ/π, φ/2π) and its change.
-pub fn spherical(map: &Map, local: DVec3, change: [DVec3; 2]) -> Coordinate {
+pub fn spherical(map: &Map, local: DVec3, change: [DVec3; 2], gradients: bool) -> Coordinate {
     let around = local.x * local.x + local.z * local.z;
     let across = around.sqrt();
     let uv = DVec2::new(atan2_accurate(across, local.y) / PI, turn(local));
     let squared = around + local.y * local.y;
-    let of = |d: DVec3| DVec2::new(polar_change(local, d, across, squared), turn_change(local, d, around));
+    let of = |d: DVec3| {
+        let polar = polar_change(local, d, across, squared, gradients);
+        DVec2::new(polar, turn_change(local, d, around, gradients))
+    };
     placed_coordinate(map, uv, change.map(of))
 }
 
@@ -151,7 +160,7 @@ pub fn texture_coordinate(map: &Map, seen: &Seen) -> Coordinate {
             let of = |d| face_uv_change(stm, along_cube_face(d, face));
             placed_coordinate(map, face_uv(stm), change.map(of))
         }
-        MapKind::Cylindrical => cylindrical(map, local(), change),
-        MapKind::Spherical => spherical(map, local(), change),
+        MapKind::Cylindrical => cylindrical(map, local(), change, seen.gradients),
+        MapKind::Spherical => spherical(map, local(), change, seen.gradients),
     }
 }

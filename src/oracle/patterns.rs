@@ -7,7 +7,7 @@ use super::halton::halton;
 use super::permute::{multi_jittered, n_rooks, permute};
 use super::rng::{mix_bits, pcg3d, pixel_key, sample_bits};
 use super::sobol::{morton, shuffled_index, shuffled_place, sobol_owen};
-use super::strata::stratum_position;
+use super::strata::{fine_position, stratum_position};
 use crate::layout::Header;
 use crate::scene::model::Pattern;
 
@@ -114,4 +114,15 @@ pub fn sample_pair(points: &Points, s: u32) -> [u32; 2] {
         Pattern::Center | Pattern::Random | Pattern::Halton => s,
     };
     sample_point(points, s)
+}
+
+/// Sample s of a pair of which one number is asked for. n × n strata have only n different columns: such patterns
+/// stratify the line itself.
+pub fn sample_line(points: &Points, s: u32) -> u32 {
+    if !matches!(points.pattern, Pattern::Grid | Pattern::Stratified) {
+        return sample_pair(points, s)[0];
+    }
+    let s = permute(s, points.count, points.order);
+    let jitter = if points.pattern == Pattern::Grid { 1 << 23 } else { sample_bits(points.key, s)[0] >> 8 };
+    fine_position(s, jitter, points.count)
 }

@@ -1,7 +1,7 @@
 //! The shapes that a cone touches, in order of depth, and what is seen of each. Twin of
 //! `glsl/shared/pieces.glsl`.
 
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
 use super::cone::{Cone, Flat, Shape, covered_by, cut_shape, flat_in, meet, shape_of};
 use super::coverage::{Covered, Cuts, LEAST_SHARE, NOTHING};
@@ -11,6 +11,8 @@ use crate::pack::PackedScene;
 
 /// Shapes that a cone keeps: the nearest.
 pub const MOST_PIECES: usize = 8;
+/// Planes whose depths differ by less, relatively, lie in each other: the first of the list is seen.
+const COPLANAR: f64 = 4e-6;
 
 /// A shape in the cone.
 #[derive(Clone, Copy, Debug)]
@@ -94,7 +96,8 @@ pub fn gather(scene: &PackedScene, cone: &Cone, skip: u32, t_max: f64) -> Pieces
     pieces
 }
 
-/// How two pieces lie over each other: where a hides b, or where b hides a; and whether both are so.
+/// How two pieces lie over each other: where a hides b, or where b hides a; and whether b does so anywhere in the
+/// disc, be it as their planes cross or as b's centroid lies behind a's while b lies before a where both are.
 fn hidden(scene: &PackedScene, cone: &Cone, a: &Piece, b: &Piece, turned: bool) -> (Covered, bool) {
     let mut cuts = Cuts::default();
     let mut has_lines = |p: &Piece| p.area >= 1.0 || cut_shape(&mut cuts, scene, cone, p.shape);
@@ -107,9 +110,12 @@ fn hidden(scene: &PackedScene, cone: &Cone, a: &Piece, b: &Piece, turned: bool) 
     let [p, q] = [a, b].map(|piece| depth_of(scene, cone, piece.shape, piece.t, piece.area));
     let tilt = (q.height * cone.spread + cone.width * q.facing) * p.tilt
         - (p.height * cone.spread + cone.width * p.facing) * q.tilt;
-    let before = tilt.extend(q.height * p.facing - p.height * q.facing);
+    let mut before = tilt.extend(q.height * p.facing - p.height * q.facing);
+    if before.abs().element_sum() <= COPLANAR * (q.height * p.facing).abs() {
+        before = if a.shape < b.shape { DVec3::Z } else { -DVec3::Z };
+    }
     cuts.by(if turned { -before } else { before });
-    (cuts.covered(), before.z * before.z < tilt.length_squared())
+    (cuts.covered(), before.z < before.truncate().length())
 }
 
 fn within_disc(center: DVec2) -> DVec2 {
@@ -125,17 +131,16 @@ pub fn lay_over(pieces: &mut Pieces, scene: &PackedScene, cone: &Cone) -> Covere
         let piece = list[i];
         let (mut seen, mut moment) = (piece.area, piece.area * piece.center);
         for other in &mut list[..i] {
-            let (lost, crossing) = hidden(scene, cone, other, &piece, false);
+            let (lost, turns) = hidden(scene, cone, other, &piece, false);
             let share = lost.share * (other.seen / other.area);
             seen -= share;
             moment -= share * lost.center;
-            if crossing {
-                // The piece behind comes through the one before it.
+            if turns {
                 let (lost, _) = hidden(scene, cone, other, &piece, true);
                 let left = (other.seen - lost.share).max(0.0);
                 rest += other.seen - left;
                 if left > LEAST_SHARE {
-                    other.center = (other.seen * other.center - lost.share * lost.center) / left;
+                    other.center = within_disc((other.seen * other.center - lost.share * lost.center) / left);
                 }
                 other.seen = left;
             }
@@ -149,6 +154,16 @@ pub fn lay_over(pieces: &mut Pieces, scene: &PackedScene, cone: &Cone) -> Covere
             piece.seen = 0.0;
         }
         rest -= piece.seen;
+    }
+    // Through what covers a place nothing is seen, however many lie over each other there: the place is one of
+    // those that are hidden.
+    let most = list.iter().map(|p| p.area).fold(0.0, f64::max);
+    let concealed: f64 = list.iter().map(|p| p.area - p.seen).sum();
+    let excess = rest - (1.0 - most);
+    if excess > LEAST_SHARE && concealed > 0.0 {
+        let shown = excess / concealed;
+        list.iter_mut().for_each(|p| p.seen += shown * (p.area - p.seen));
+        rest -= excess;
     }
     if rest.is_nan() || rest <= LEAST_SHARE {
         return NOTHING;

@@ -18,7 +18,7 @@ use super::shade::{advance, camera_path};
 use crate::error::{Error, Result};
 use crate::film::Film;
 use crate::layout::Header;
-use crate::pack::{PackedScene, divisor};
+use crate::pack::{PackedScene, filtered_mean};
 use crate::progress::Progress;
 use crate::scene::model::Algorithm;
 
@@ -27,21 +27,23 @@ pub fn pixel(scene: &PackedScene, x: u32, y: u32) -> DVec3 {
     if scene.algorithm == Algorithm::Cone {
         return cone_shade::pixel(scene, x, y).0;
     }
-    let (mut sum, mut signs) = (DVec3::ZERO, 0.0);
+    let (mut sum, mut negative, mut signs) = (DVec3::ZERO, DVec3::ZERO, 0.0);
     for s in 0..scene.samples {
         let (radiance, sign) = sample(scene, &scene.header, [x, y], 0, s);
         sum += sign * radiance;
+        negative += if sign < 0.0 { radiance } else { DVec3::ZERO };
         signs += sign;
     }
     let samples = f64::from(scene.samples);
-    sum / scene.mean_sign.map_or(samples, |mean| divisor(signs, samples, mean))
+    let Some(mean) = scene.mean_sign else { return sum / samples };
+    DVec3::from_array([0, 1, 2].map(|c| filtered_mean(sum[c], negative[c], signs, samples, mean)))
 }
 
 /// The radiance of one sample and the pixel filter's sign there, by a header that may differ from the scene's in the samples' share of the
 /// pixel. The second half of an adaptive picture has another seed.
-pub fn sample(scene: &PackedScene, header: &Header, [x, y]: [u32; 2], half: u32, s: u32) -> (DVec3, f64) {
+pub fn sample(scene: &PackedScene, header: &Header, [x, y]: [u32; 2], stream: u32, s: u32) -> (DVec3, f64) {
     let place = [x + header.image[2], y + header.image[3]];
-    let seed = header.sampling[3].wrapping_add(half.wrapping_mul(0x9E37_79B9));
+    let seed = header.sampling[3].wrapping_add(stream.wrapping_mul(0x9E37_79B9));
     let key = pixel_key(place, seed, header.key[0] != 0);
     let points = pixel_points(header, place, key);
     let choices = choose(header, &points, s, 0, true);

@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3, DVec4};
 
 use super::camera::Ray;
-use super::choices::{Choices, choose, chosen_light, unit_square};
+use super::choices::{Choices, choose, chosen_light, unit_line, unit_square};
 use super::filter::look_up;
 use super::footprint::{
     Beam, Footprint, Meeting, any_tangent, endless_footprint, footprint_at, is_filtered, mirrored,
@@ -16,6 +16,7 @@ use super::mapping::{Coordinate, Seen, texture_coordinate};
 use super::math::xyz;
 use super::patterns::Points;
 use super::rng::pcg2d;
+use super::shading_normal::{on_its_side, settle_normal};
 use super::surface::{Surface, hit_surface};
 use crate::layout::{Header, Map, Material, NO_MATERIAL, NO_SHAPE, NO_TEXTURE};
 use crate::pack::{EntityKind, PackedScene};
@@ -29,6 +30,7 @@ pub fn seen_by_map(map: &Map, ray: &Ray, surface: &Surface, print: &Footprint) -
         entity_change: print.point,
         own: surface.own_uv,
         own_change: print.point.map(own),
+        gradients: false,
     };
     let bent = print.point.map(|d| surface.bend * d);
     let (mut way, mut change) = (ray.direction, print.direction);
@@ -39,8 +41,11 @@ pub fn seen_by_map(map: &Map, ray: &Ray, surface: &Surface, print: &Footprint) -
             return seen;
         }
         EntityKind::Reflection => {
-            change = [0, 1].map(|i| mirrored_change(way, surface.normal, change[i], bent[i]));
-            way = mirrored(way, surface.normal);
+            let mut mirror = *surface;
+            settle_normal(way, &mut mirror);
+            let bent = print.point.map(|d| mirror.bend * d);
+            change = [0, 1].map(|i| mirrored_change(way, mirror.normal, change[i], bent[i]));
+            way = mirrored(way, mirror.normal);
         }
         EntityKind::Direction => {}
     }
@@ -58,8 +63,14 @@ pub fn uv_gradients(map: &Map, ray: &Ray, surface: &Surface) -> [DVec3; 2] {
     let first = any_tangent(n);
     let second = n.cross(first);
     let print = Footprint { point: [first, second], direction: [DVec3::ZERO; 2] };
-    let [x, y] = texture_coordinate(map, &seen_by_map(map, ray, surface, &print)).change;
+    let seen = Seen { gradients: true, ..seen_by_map(map, ray, surface, &print) };
+    let [x, y] = texture_coordinate(map, &seen).change;
     [first * x.x + second * y.x, first * x.y + second * y.y]
+}
+
+/// A map of normals, not of heights.
+fn is_normal_map(material: &Material) -> bool {
+    ReliefKind::ALL[material.detail[3] as usize].is_normal_map()
 }
 
 fn detail(scene: &PackedScene, material: &Material, c: &Coordinate, random: [u32; 2]) -> DVec4 {
@@ -85,9 +96,12 @@ pub fn bumped_normal(
     let strength = f64::from(material.color[3]);
     let [u, v] = uv_gradients(map, ray, surface);
     let c = texture_coordinate(map, &seen_by_map(map, ray, surface, print));
-    let result = if kind == ReliefKind::Normal as u32 {
+    let result = if is_normal_map(material) {
         let handed = if u.cross(v).dot(n) < 0.0 { -1.0 } else { 1.0 };
-        let m = 2.0 * detail(scene, material, &c, random).truncate() - 1.0;
+        let mut m = 2.0 * detail(scene, material, &c, random).truncate() - 1.0;
+        if kind == ReliefKind::NormalDown as u32 {
+            m.y = -m.y;
+        }
         let t = v.cross(n).normalize_or_zero();
         let b = n.cross(u).normalize_or_zero();
         n * m.z + (t * m.x + b * m.y) * strength * handed
@@ -132,7 +146,7 @@ pub struct Path {
     pub ray: Ray,
     pub beam: Beam,
     pub throughput: DVec3,
-    /// Bits for the choices at the next hit.
+    /// Bits by which look-ups at the next hit take texels.
     pub random: [u32; 2],
     pub skip: u32,
     pub depth: u32,
@@ -151,10 +165,10 @@ pub fn camera_path(ray: Ray, beam: Beam, random: [u32; 2]) -> Path {
 fn bounced(
     header: &Header,
     hit: &Hit,
-    surface: &Surface,
+    mut surface: Surface,
     print: Footprint,
     material: &Material,
-    lobe: DVec2,
+    choices: &Choices,
     path: &mut Path,
 ) -> bool {
     let model = Model::ALL[material.link[0] as usize];
@@ -164,11 +178,12 @@ fn bounced(
     let ior = f64::from(material.specular[3]);
     let ratio = if surface.inside { ior } else { 1.0 / ior };
     let direction = path.ray.direction;
+    settle_normal(direction, &mut surface);
     let alpha = f64::from(material.specular[0]);
     let glossy = alpha > 0.0;
+    let lobe = unit_square(choices.lobe);
     let normal = if glossy { visible_normal(direction, surface.normal, alpha, lobe) } else { surface.normal };
-    let chance = f64::from(pcg2d(path.random)[0] >> 8) / 16_777_216.0;
-    let mirror = model == Model::Mirror || chance < reflectance(direction, normal, ratio);
+    let mirror = model == Model::Mirror || unit_line(choices.fresnel) < reflectance(direction, normal, ratio);
     let meeting =
         Meeting { ray: path.ray, t: hit.t, print, normal, bend: surface.bend, curvature: surface.curvature };
     if mirror {
@@ -180,10 +195,13 @@ fn bounced(
         path.ray = Ray { origin, direction: refracted(direction, normal, ratio), time: path.ray.time };
         path.beam = refracted_beam(&path.beam, &meeting, ratio);
     }
+    let side = if mirror { 1.0 } else { -1.0 };
+    path.ray.direction =
+        on_its_side(direction, path.ray.direction, side * surface.normal, side * surface.geometric_normal);
     if !glossy {
         return true;
     }
-    let way = if mirror { path.ray.direction } else { -path.ray.direction };
+    let way = side * path.ray.direction;
     let seen = (-direction.dot(surface.normal) / direction.length()).max(0.0);
     let leaving = way.dot(surface.normal) / way.length();
     // What a facet sends into the surface is lost.
@@ -250,7 +268,7 @@ pub fn advance(scene: &PackedScene, path: &mut Path) -> DVec3 {
         let highlight = if model == Model::Phong { lit.specular } else { DVec3::ZERO };
         return path.throughput * lit.diffuse + carried * xyz(material.specular) * highlight;
     }
-    let goes_on = bounced(header, &hit, &surface, print, material, unit_square(choices.lobe), path);
+    let goes_on = bounced(header, &hit, surface, print, material, &choices, path);
     path.skip = hit.shape;
     path.goes_on = goes_on && path.depth < header.size[3];
     path.depth += 1;

@@ -10,14 +10,14 @@ use std::io::{Cursor, Write};
 use std::path::Path;
 
 use crate::error::{Error, Result};
-use crate::film::Film;
+use crate::film::{Film, Placement};
 use crate::panics;
 pub use encode::Format;
 pub use folder::prepare_folder;
 use target::Target;
 
 /// Every ending that names a format.
-pub const ENDINGS: &[(&str, Format)] = &[
+pub const ENDINGS: [(&str, Format); 7] = [
     ("exr", Format::Exr),
     ("hdr", Format::Hdr),
     ("png", Format::Png),
@@ -26,16 +26,27 @@ pub const ENDINGS: &[(&str, Format)] = &[
     ("tif", Format::Tiff),
     ("tiff", Format::Tiff),
 ];
+pub const ENDING_NAMES: [&str; 7] = {
+    let mut names = [""; 7];
+    let mut i = 0;
+    while i < names.len() {
+        names[i] = ENDINGS[i].0;
+        i += 1;
+    }
+    names
+};
 
 #[derive(Clone, Copy, Debug)]
 pub struct WriteOptions {
     /// Bits per channel of PNG files: 8 or 16.
     pub png_bits: u8,
+    /// Where the film lies in its picture, for formats that can say so (EXR).
+    pub placement: Option<Placement>,
 }
 
 impl Default for WriteOptions {
     fn default() -> Self {
-        WriteOptions { png_bits: 8 }
+        WriteOptions { png_bits: 8, placement: None }
     }
 }
 
@@ -47,8 +58,19 @@ pub fn write(film: &Film, path: &Path, options: &WriteOptions) -> Result<()> {
 /// Writes `film` to every path. All files are complete before the first one takes its place, so that
 /// a full disk leaves none of them.
 pub fn write_all(film: &Film, paths: &[impl AsRef<Path>], options: &WriteOptions) -> Result<()> {
+    write_all_after(film, paths, options, || Ok(()))
+}
+
+/// The same; no file takes its place where `first` fails, which is called once they are complete.
+pub fn write_all_after(
+    film: &Film,
+    paths: &[impl AsRef<Path>],
+    options: &WriteOptions,
+    first: impl FnOnce() -> Result<()>,
+) -> Result<()> {
     let prepared =
         paths.iter().map(|path| prepare(film, path.as_ref(), options)).collect::<Result<Vec<_>>>()?;
+    first()?;
     prepared.into_iter().try_for_each(Target::finish)
 }
 
@@ -89,9 +111,16 @@ pub fn write_file(path: &Path, bytes: &[u8]) -> Result<()> {
 
 /// The bytes of a picture file.
 pub fn to_bytes(film: &Film, format: Format) -> Result<Vec<u8>> {
+    to_bytes_with(film, format, &WriteOptions::default())
+}
+
+/// The bytes of a picture file that is written with these options.
+pub fn to_bytes_with(film: &Film, format: Format, options: &WriteOptions) -> Result<Vec<u8>> {
     let mut bytes = Cursor::new(Vec::new());
-    encode::encode(film, format, &WriteOptions::default(), &mut bytes)
-        .map_err(|e| Error::new(format!("a {format} picture of {}×{}: {e}", film.width, film.height)))?;
+    let failed = |e| Error::new(format!("a {format} picture of {}×{}: {e}", film.width, film.height));
+    panics::contain(&format_args!("writing a {format} picture"), || {
+        encode::encode(film, format, options, &mut bytes).map_err(failed)
+    })?;
     Ok(bytes.into_inner())
 }
 
@@ -107,11 +136,15 @@ pub fn check_writable(path: &Path) -> Result<()> {
     Target::create(path).map(drop)
 }
 
+/// Returns the format that an ending in lower case names.
+pub fn format_named(ending: &str) -> Option<Format> {
+    ENDINGS.iter().find(|(name, _)| ending == *name).map(|(_, format)| *format)
+}
+
 /// By the ending, in upper or lower case.
 pub fn format_of(path: &Path) -> Result<Format> {
     let ending = path.extension().map(|e| e.to_string_lossy().to_lowercase());
-    let known = ENDINGS.iter().find(|(name, _)| ending.as_deref() == Some(*name));
-    known.map(|(_, format)| *format).ok_or_else(|| {
+    ending.as_deref().and_then(format_named).ok_or_else(|| {
         let found = ending.map_or("the name has no ending".into(), |e| format!("the ending .{e} is unknown"));
         let endings: Vec<String> = ENDINGS.iter().map(|(name, _)| format!(".{name}")).collect();
         Error::with_help(

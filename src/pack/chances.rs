@@ -4,7 +4,7 @@
 use glam::DVec4;
 
 use super::Choice;
-use crate::scene::model::Scene;
+use crate::scene::model::{Model, Scene};
 
 /// What samples choose beside their place in the pixel.
 pub fn chances(scene: &Scene) -> u32 {
@@ -13,6 +13,9 @@ pub fn chances(scene: &Scene) -> u32 {
         Choice::Time => scene.moves(),
         Choice::Lobe => scene.sampling.max_depth > 0 && scene.is_glossy(),
         Choice::Light => scene.has_wide_lights(),
+        Choice::Fresnel => {
+            scene.sampling.max_depth > 0 && scene.materials.iter().any(|m| m.model == Model::Dielectric)
+        }
     };
     Choice::ALL.iter().filter(|c| of(c)).fold(0, |bits, &choice| bits | 1 << choice as u32)
 }

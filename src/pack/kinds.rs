@@ -20,6 +20,8 @@ named_enum! {
         Light = "light",
         /// A direction of a glossy surface.
         Lobe = "lobe",
+        /// Whether glass mirrors or refracts.
+        Fresnel = "fresnel",
     }
 }
 

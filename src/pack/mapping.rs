@@ -121,7 +121,9 @@ pub fn environment_map(environment: &Environment) -> Map {
         }
         EnvironmentLayout::Cube => ([DVec3::X, DVec3::Y, DVec3::Z], MapKind::Cube, [1.0, 0.0, 0.0, 1.0]),
     };
-    let [x, y, z] = axes.map(|axis| real4((turn * axis).extend(0.0)));
+    // A direction is read where the mirrored picture has it: at its own mirror image.
+    let across = DVec3::new(if environment.mirror { -1.0 } else { 1.0 }, 1.0, 1.0);
+    let [x, y, z] = axes.map(|axis| real4((turn * (across * axis)).extend(0.0)));
     Map { x, y, z, matrix, link: [kind as u32, EntityKind::Direction as u32, 0, 0], ..Default::default() }
 }
 

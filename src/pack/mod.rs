@@ -2,6 +2,7 @@
 //! f32: positions relative to the eye, texture coordinates with whole tiles taken out, so that what
 //! the device sees is small and near wherever the scene lies in the world.
 
+mod bright;
 mod chances;
 mod header;
 mod kinds;
@@ -34,11 +35,11 @@ use pixel_filter::Warp;
 pub use header::camera_basis;
 use header::header;
 pub use kinds::{Choice, EntityKind, Guard, LightKind, MapKind, ProjectionKind, Schedule, TextureKind};
-pub use pixel_filter::{divisor, kernel};
+pub use pixel_filter::{filtered_mean, kernel};
 pub use procedural::procedural;
 pub use pyramids::{Pyramids, reads_levels};
 pub use sections::Sections;
-pub use textures::{MAX_SLOTS, Slot, row_sums};
+pub use textures::{MAX_SLOTS, Slot, row_sum_words, row_sums};
 
 /// A part of the picture, in pixels of the full picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -102,18 +103,25 @@ pub struct PackedScene {
     pub beam_textures: Option<Arc<Vec<TextureData>>>,
     /// Whether a device counts what goes beyond a limit.
     pub guarded: bool,
+    /// Of adaptive sampling: the share of a texture that is far brighter than the rest and yet has much of its light;
+    /// else none.
+    pub bright_share: Option<f64>,
     /// The table by which samples are placed about their pixel; empty where there is a closed form.
     pub pixel_filter: Vec<f32>,
     /// Mean of the samples' signs, where the pixel filter has negative lobes.
     pub mean_sign: Option<f64>,
 }
 
-/// Image descriptors of each kind.
+/// Image descriptors of each kind, and texel buffers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct SlotCounts {
     pub flat: u32,
     pub volumes: u32,
     pub cubes: u32,
+    /// Buffers that the texels lie in.
+    pub texel_blocks: u32,
+    /// Words of each but the last, where there are several.
+    pub block_log2: u32,
 }
 
 /// Packs what the scene shows; textures and samplers that no shape reaches are not in `scene`.
@@ -153,9 +161,17 @@ pub fn pack_with(
     packed.sampler_specs = scene.samplers.clone();
     packed.beams = scene.sampling.algorithm == Algorithm::Beam && suits_beams;
     nonfinite::admit(&mut packed, scene, &textures)?;
+    if schedule == Schedule::Jobs {
+        packed.bright_share = bright::share(scene, &textures);
+    }
     if packed.beams {
         packed.row_sums = textures::row_sums(&textures);
-    } else if algorithm == Algorithm::Auto && suits_beams && !packed.has_nonfinite() {
+    } else if algorithm == Algorithm::Auto
+        && suits_beams
+        && !packed.has_nonfinite()
+        // No buffer is longer.
+        && row_sum_words(&textures) <= i32::MAX as u64
+    {
         packed.beam_textures = Some(Arc::new(textures.clone()));
     }
     packed.samplers = scene.samplers.iter().map(|spec| textures::sampler(spec, filtered)).collect();
@@ -266,11 +282,13 @@ impl PackedScene {
         self.summed_tables || self.textures.iter().any(|t| solids.contains(&t.link[3]))
     }
 
+    /// Of images alone.
     pub fn slot_counts(&self) -> SlotCounts {
         SlotCounts {
             flat: self.slots.len() as u32,
             volumes: self.volume_slots.len() as u32,
             cubes: self.cube_slots.len() as u32,
+            ..SlotCounts::default()
         }
     }
 }

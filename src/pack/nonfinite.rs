@@ -3,6 +3,7 @@
 
 use super::textures::{readers, reads};
 use super::{PackedScene, TextureKind, textures};
+use crate::counted::{counted, verb};
 use crate::error::{Error, Result};
 use crate::scene::model::Scene;
 use crate::texture::data::{MipKernel, TextureData};
@@ -14,7 +15,12 @@ pub fn admit(packed: &mut PackedScene, scene: &Scene, textures: &[TextureData]) 
     for (i, texture) in textures.iter().enumerate().filter(|(i, _)| packed.nonfinite_texels[*i] > 0) {
         let count = packed.nonfinite_texels[i];
         let refused = |what: &str, instead: &str| {
-            let message = format!("texture \"{}\": {count} texels are not finite, and {what}", texture.name);
+            let message = format!(
+                "texture \"{}\": {} {} not finite, and {what}",
+                texture.name,
+                counted(count, "texel"),
+                verb(count, "is", "are")
+            );
             Err(Error::with_help(message, instead))
         };
         if packed.beams && textures::kind(texture) == TextureKind::Flat {

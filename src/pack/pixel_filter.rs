@@ -84,10 +84,14 @@ impl Warp {
     }
 }
 
-/// By which the sum of samples, each with its sign, becomes their mean: the sum of the signs, so that a picture
-/// of one colour keeps it exactly. By few samples that sum can be anything, even 0; then what it is on average.
-pub fn divisor(signs: f64, samples: f64, mean_sign: f64) -> f64 {
-    if 2.0 * signs.abs() >= samples { signs } else { samples * mean_sign }
+/// Returns the filtered mean of one channel: `sum` of the samples, each with its sign, `negative` of those whose
+/// sign is negative, `signs` of the signs alone. Dividing by the sum of the signs keeps one colour but explodes
+/// where they cancel; dividing by what they are on average does neither. So the plain mean is taken out first and
+/// what remains, which is 0 in a picture of one colour, is divided by the average (a control variate; Owen 2013,
+/// "Monte Carlo theory, methods and examples", 8.9).
+pub fn filtered_mean(sum: f64, negative: f64, signs: f64, samples: f64, mean_sign: f64) -> f64 {
+    let plain = (sum + 2.0 * negative) / samples;
+    plain + (sum - plain * signs) / (samples * mean_sign)
 }
 
 /// Of a filter from its middle to its radius, by Simpson's rule.

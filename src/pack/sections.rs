@@ -1,7 +1,6 @@
 //! Lists of a packed scene → the bytes of its scene buffer, and where each list begins.
 
-use super::{PackedScene, textures};
-use crate::color::srgb8_table;
+use super::PackedScene;
 use crate::layout::{self, Header, bytes_of};
 
 /// Room in which short lists end.
@@ -20,20 +19,17 @@ pub struct Sections {
     pub samplers: u32,
     pub procedurals: u32,
     pub motions: u32,
-    pub srgb: u32,
     pub pixel_filter: u32,
 }
 
 impl PackedScene {
     /// The scene buffer and where its lists begin: that of the pixel filter and then the short ones first, so
     /// that all of them lie in the head. Close together, as devices cache few of them; or, where there is
-    /// room, in steps, so that all small scenes have one compiled pipeline that keeps everything. The sRGB
-    /// table is there only when a texture of 8 bits needs it.
+    /// room, in steps, so that all small scenes have one compiled pipeline that keeps everything.
     pub fn scene_bytes(&self, in_steps: bool) -> (Vec<u8>, Sections) {
-        let srgb: &[f32] = if textures::needs_srgb_table(&self.textures) { srgb8_table() } else { &[] };
         let mut sections = Sections::default();
         let double = self.double;
-        let mut lists: [(Vec<u8>, &mut u32); 11] = [
+        let mut lists: [(Vec<u8>, &mut u32); 10] = [
             (bytes_of(&self.planes, double), &mut sections.planes),
             (bytes_of(&self.spheres, double), &mut sections.spheres),
             (bytes_of(&self.triangles, double), &mut sections.triangles),
@@ -44,7 +40,6 @@ impl PackedScene {
             (bytes_of(&self.samplers, double), &mut sections.samplers),
             (bytes_of(&self.procedurals, double), &mut sections.procedurals),
             (bytes_of(&self.motions, double), &mut sections.motions),
-            (bytemuck::cast_slice(srgb).to_vec(), &mut sections.srgb),
         ];
         lists.sort_by_key(|(list, _)| if in_steps { room(list) } else { list.len() });
         let mut bytes = self.header_bytes(&self.header);

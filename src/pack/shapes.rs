@@ -169,6 +169,9 @@ fn triangle_bounds(triangle: &Triangle) -> Bounds {
     Bounds { min: a.min(b).min(c), max: a.max(b).max(c) }
 }
 
+/// The largest cosine of sides that count as at right angles: what f32 rounds them to.
+const RIGHT_ANGLE: f64 = 1e-6;
+
 pub fn light(light: &Light, eye: DVec3) -> layout::Light {
     let record = |kind: LightKind, place: DVec4, power: DVec3| layout::Light {
         place: real4(place),
@@ -186,11 +189,18 @@ pub fn light(light: &Light, eye: DVec3) -> layout::Light {
         Light::Sphere { position, radius, intensity } => {
             record(LightKind::Sphere, (position - eye).extend(radius), intensity)
         }
-        Light::Rectangle { position, edge_u, edge_v, radiance } => layout::Light {
-            edge_u: real4(edge_u.extend(0.0)),
-            edge_v: real4(edge_v.extend(0.0)),
-            ..record(LightKind::Rectangle, (position - eye).extend(0.0), radiance)
-        },
+        Light::Rectangle { position, edge_u, edge_v, radiance } => {
+            let wide = edge_u.length_squared() >= edge_v.length_squared();
+            // The same rectangle, which shines to the same side.
+            let sides = if wide { [edge_u, edge_v] } else { [edge_v, -edge_u] };
+            let right = edge_u.normalize().dot(edge_v.normalize()).abs() <= RIGHT_ANGLE;
+            let [edge_u, edge_v] = sides.map(|s| real4(s.extend(if right { s.length() } else { 0.0 })));
+            layout::Light {
+                edge_u,
+                edge_v,
+                ..record(LightKind::Rectangle, (position - eye).extend(0.0), radiance)
+            }
+        }
         Light::Sun { direction, angle, irradiance } => {
             // A cap of height h has the solid angle 2 pi h, and a surface that faces its middle receives
             // pi h (2 - h) of its radiance.

@@ -1,5 +1,7 @@
 //! Textures and samplers → texel bytes, records and image slots.
 
+use crate::color::srgb_table;
+use crate::counted::counted;
 use crate::error::{Error, Result};
 use crate::layout::{self, Texture};
 use crate::scene::model::{Footprint, Scene};
@@ -33,8 +35,8 @@ pub fn sampler(spec: &SamplerSpec, filtered: bool) -> layout::Sampler {
     }
 }
 
-/// Puts all texels into the pool, first those that images cannot hold. The texels of a lone texture of one
-/// level are moved, not copied.
+/// Puts all texels into the pool, first those that images cannot hold. The texels of the first texture are
+/// moved, not copied.
 pub fn pack_textures(
     packed: &mut PackedScene,
     scene: &Scene,
@@ -62,7 +64,8 @@ pub fn pack_textures(
             continue;
         }
         let texture = without_equal_channels(texture);
-        let texture = if needs_linear_floats(&texture) { linear_floats(&texture) } else { texture };
+        let texture =
+            if needs_linear_floats(&texture, scene, index) { linear_floats(&texture) } else { texture };
         let kind = kind(&texture);
         let kernel = scene.textures.get(index).map_or(MipKernel::Box, |t| t.mip_kernel);
         let levels = if !reads(packed, scene, index, SamplerSpec::reads_levels) {
@@ -105,6 +108,12 @@ pub fn row_sums(textures: &[TextureData]) -> Vec<u32> {
         words.extend(table);
     }
     words
+}
+
+/// Words of all of those.
+pub fn row_sum_words(textures: &[TextureData]) -> u64 {
+    let flat = textures.iter().filter(|t| t.dimension == Dimension::Two);
+    textures.len() as u64 + 1 + flat.map(row_sums::words).sum::<u64>()
 }
 
 /// Whether some sampler that minifies this texture is such.
@@ -152,13 +161,14 @@ fn append(
             "use smaller textures, or fewer",
         ));
     }
-    for &word in words.iter().rev() {
-        packed.texels.extend_from_slice(&(word as u32).to_ne_bytes());
-    }
+    let pointers: Vec<u8> = words.iter().rev().flat_map(|&word| (word as u32).to_ne_bytes()).collect();
     if packed.texels.is_empty() {
         packed.texels = texture.texels;
+        packed.texels.reserve_exact(end * 4 - packed.texels.len());
+        packed.texels.splice(0..0, pointers);
     } else {
-        packed.texels.reserve_exact((end - start) * 4);
+        packed.texels.reserve_exact(end * 4 - packed.texels.len());
+        packed.texels.extend(pointers);
         packed.texels.extend_from_slice(&texture.texels);
     }
     let fill = |texels: &mut Vec<u8>| texels.resize(texels.len().next_multiple_of(4), 0);
@@ -199,9 +209,11 @@ fn opaque_greys<const WIDTH: usize>(texels: &[u8], one: [u8; 4]) -> Option<Vec<u
     pixels.iter().all(grey).then(|| pixels.iter().flat_map(|p| p[0]).collect())
 }
 
-/// Drivers know sRGB with 8 bits only, and the shader's table has 256 entries.
-pub fn needs_linear_floats(texture: &TextureData) -> bool {
-    texture.color_space == ColorSpace::Srgb && texture.format.component() == Component::Unorm16
+/// Drivers know sRGB with 8 bits only.
+fn needs_linear_floats(texture: &TextureData, scene: &Scene, index: usize) -> bool {
+    texture.color_space == ColorSpace::Srgb
+        && texture.format.component() == Component::Unorm16
+        && readers(scene, index).any(|sampler| sampler.method == Method::Hardware)
 }
 
 fn linear_floats(texture: &TextureData) -> TextureData {
@@ -227,14 +239,25 @@ pub fn slot(packed: &mut PackedScene, texture: usize, sampler: usize) -> u32 {
     index as u32
 }
 
-pub fn needs_srgb_table(textures: &[layout::Texture]) -> bool {
-    textures.iter().any(|t| {
-        t.link[0] == ColorSpace::Srgb as u32
-            && TexelFormat::ALL[t.place[3] as usize].component() == Component::Unorm8
-    })
-}
-
 impl PackedScene {
+    /// Linear light of all codes of 8-bit sRGB, and then of 16-bit sRGB, as far as the scene has any.
+    pub fn srgb_light(&self) -> Vec<f32> {
+        let of = |component: Component| srgb_table(component.codes());
+        match (self.has_srgb(Component::Unorm8), self.has_srgb(Component::Unorm16)) {
+            (false, false) => Vec::new(),
+            (true, false) => of(Component::Unorm8).to_vec(),
+            (_, true) => [of(Component::Unorm8), of(Component::Unorm16)].concat(),
+        }
+    }
+
+    /// Whether colours of some texture are sRGB codes of this type.
+    pub fn has_srgb(&self, component: Component) -> bool {
+        self.textures.iter().any(|t| {
+            t.link[0] == ColorSpace::Srgb as u32
+                && TexelFormat::ALL[t.place[3] as usize].component() == component
+        })
+    }
+
     /// Width, height and depth of a level (Vulkan 1.3, "Image Miplevel Sizing"); of a cube the depth is 6.
     pub fn level_size(&self, texture: usize, level: u32) -> [u32; 3] {
         let Texture { place: [_, width, height, _], link: [_, _, depth, kind] } = self.textures[texture];
@@ -278,7 +301,7 @@ impl PackedScene {
             let levels = if levels > 1 { format!(", {levels} levels") } else { String::new() };
             let nonfinite = match self.nonfinite_texels[i] {
                 0 => String::new(),
-                count => format!(", {count} texels not finite"),
+                count => format!(", {} not finite", counted(count, "texel")),
             };
             format!(
                 "\"{name}\": {width}×{height}{depth}{levels}, {channels}-channel file, held as {format} ({space}), {kib} KiB{nonfinite}"

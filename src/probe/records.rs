@@ -83,16 +83,21 @@ pub struct WarpQuery {
     pub height: f32,
     pub alpha: f32,
     pub direction: [f32; 4],
+    /// Last, the height of a point over a rectangle's plane.
     pub normal: [f32; 4],
+    /// Middle and half sides of that rectangle, as seen from the point.
+    pub rectangle: [f32; 4],
 }
 
-/// Where that point lies; the facet's normal, and the share of what it mirrors.
+/// Where that point lies; the facet's normal, and the share of what it mirrors; the place on the rectangle and its
+/// solid angle.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 pub struct WarpAnswer {
     pub disc: [f32; 4],
     pub cap: [f32; 4],
     pub facet: [f32; 4],
+    pub rectangle: [f32; 4],
 }
 
 /// A ray that meets a surface between two refractive indices: in front over behind. The normal is of unit

@@ -35,7 +35,7 @@ impl Teller<'_> {
         let mut plan = slices::Plan::starting_with(FIRST_TILES, 1, 1, self.film.tiles());
         for band in self.film.bands() {
             self.renderer.band(&band, &mut plan, report, progress)?;
-            self.film.read_with(self.renderer.gpu, &band, |_, pixel, _| pixels.push(pixel))?;
+            self.film.read_with(self.renderer.gpu, &band, |_, pixel| pixels.push(pixel.sum))?;
         }
         Ok(pixels)
     }
@@ -50,9 +50,9 @@ impl Teller<'_> {
         let seconds = clock.elapsed().as_secs_f64() * self.film.tiles() as f64 / f64::from(tiles);
         let tried: Vec<bool> = band.first_tiles(tiles);
         let mut pixels = Vec::new();
-        self.film.read_with(self.renderer.gpu, &band, |i, pixel, _| {
+        self.film.read_with(self.renderer.gpu, &band, |i, pixel| {
             if tried[band.tile_of(i as u32, self.film.width())] {
-                pixels.push((i as u32, pixel[3] == 0.0));
+                pixels.push((i as u32, pixel.sum[3] == 0.0));
             }
         })?;
         Ok(Trial { seconds, pixels })

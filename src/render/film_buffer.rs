@@ -1,5 +1,5 @@
-//! The film on the device: sums of radiance, four floats a pixel, twice that with compensation. A
-//! picture larger than the device's buffers is rendered in bands of whole tile rows, one buffer
+//! The film on the device: sums of radiance, four floats a pixel, as many more with compensation and with a pixel
+//! filter that has negative lobes. A picture larger than the device's buffers is rendered in bands of whole tile rows, one buffer
 //! serving all; each band is read back into the host's film as means.
 
 use crate::error::{Error, Result};
@@ -7,7 +7,7 @@ use crate::features::Features;
 use crate::film::Film;
 use crate::gpu::{Buffer, BufferUse, DeviceKind, Gpu};
 use crate::layout::{Slice, TILE};
-use crate::pack::{PackedScene, divisor};
+use crate::pack::{PackedScene, filtered_mean};
 
 use super::slices::tile_stride;
 
@@ -22,8 +22,19 @@ pub struct FilmBuffer {
     height: u32,
     band_rows: u32,
     compensated: bool,
-    /// Mean of the samples' signs, where they have any: a pixel's fourth float is their sum.
+    /// Mean of the samples' signs, where they have any: a pixel's fourth float is their sum, and samples whose sign
+    /// is negative have a sum of their own.
     mean_sign: Option<f64>,
+}
+
+/// What the film holds of a pixel.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct PixelSums {
+    pub sum: [f32; 4],
+    /// What rounding has added to the sum.
+    lost: [f32; 4],
+    /// Of samples whose sign is negative.
+    negative: [f32; 4],
 }
 
 /// Some rows of the picture.
@@ -69,7 +80,8 @@ impl FilmBuffer {
         let limits = &gpu.info().limits;
         let cap = if gpu.info().kind == DeviceKind::Cpu { MAX_BYTES_CPU } else { MAX_BYTES_GPU };
         let cap = cap.min(limits.max_storage_buffer_range).min(limits.heap_bytes / 4);
-        let row = u64::from(width) * PIXEL_BYTES * if features.compensated { 2 } else { 1 };
+        let planes = 1 + u64::from(features.compensated) + u64::from(scene.mean_sign.is_some());
+        let row = u64::from(width) * PIXEL_BYTES * planes;
         let tile_rows = cap / (row * u64::from(TILE));
         if tile_rows == 0 {
             return Err(Error::with_help(
@@ -110,40 +122,39 @@ impl FilmBuffer {
     pub fn read(&self, gpu: &Gpu, band: &Band, film: &mut Film) -> Result<f64> {
         let samples = f64::from(film.samples);
         let mut fourth = 0.0;
-        self.read_with(gpu, band, |i, sum, lost| {
-            fourth += f64::from(sum[3]);
-            let by = self.mean_sign.map_or(samples, |mean| divisor(f64::from(sum[3]), samples, mean));
-            film.pixels[i] = std::array::from_fn(|c| ((f64::from(sum[c]) - f64::from(lost[c])) / by) as f32);
+        self.read_with(gpu, band, |i, sums| {
+            let of = |floats: [f32; 4]| floats.map(f64::from);
+            let (sum, lost, negative) = (of(sums.sum), of(sums.lost), of(sums.negative));
+            fourth += sum[3];
+            let mean = |c: usize| match self.mean_sign {
+                None => (sum[c] - lost[c]) / samples,
+                Some(mean) => filtered_mean(sum[c] - lost[c], negative[c], sum[3], samples, mean),
+            };
+            film.pixels[i] = [0, 1, 2].map(|c| mean(c) as f32);
         })?;
         Ok(fourth)
     }
 
-    /// Each pixel of a band by its place in the picture, with what rounding has lost of it; a few rows at a
-    /// time.
-    pub fn read_with(
-        &self,
-        gpu: &Gpu,
-        band: &Band,
-        mut each: impl FnMut(usize, [f32; 4], [f32; 4]),
-    ) -> Result<()> {
+    /// Each pixel of a band by its place in the picture; a few rows at a time.
+    pub fn read_with(&self, gpu: &Gpu, band: &Band, mut each: impl FnMut(usize, &PixelSums)) -> Result<()> {
         let row_bytes = u64::from(self.width) * PIXEL_BYTES;
         let rows_at_once = ((4 << 20) / row_bytes).clamp(1, u64::from(band.height)) as u32;
-        let mut sums = vec![[0f32; 4]; (self.width * rows_at_once) as usize];
-        let mut lost = if self.compensated { sums.clone() } else { Vec::new() };
+        let plane = || vec![[0f32; 4]; (self.width * rows_at_once) as usize];
+        let mut sums = plane();
+        let mut lost = if self.compensated { plane() } else { Vec::new() };
+        let mut negative = if self.mean_sign.is_some() { plane() } else { Vec::new() };
         for y in (0..band.height).step_by(rows_at_once as usize) {
             let count = (rows_at_once.min(band.height - y) * self.width) as usize;
-            gpu.read_buffer(
-                &self.buffer,
-                u64::from(y) * row_bytes,
-                bytemuck::cast_slice_mut(&mut sums[..count]),
-            )?;
-            if self.compensated {
-                let second = u64::from(band.height + y) * row_bytes;
-                gpu.read_buffer(&self.buffer, second, bytemuck::cast_slice_mut(&mut lost[..count]))?;
+            let planes = [&mut sums, &mut lost, &mut negative].into_iter().filter(|p| !p.is_empty());
+            for (plane, floats) in (0..).zip(planes) {
+                let first = u64::from(plane * band.height + y) * row_bytes;
+                gpu.read_buffer(&self.buffer, first, bytemuck::cast_slice_mut(&mut floats[..count]))?;
             }
             let first = (band.y + y) as usize * self.width as usize;
-            for (i, &sum) in sums[..count].iter().enumerate() {
-                each(first + i, sum, lost.get(i).copied().unwrap_or_default());
+            let of = |floats: &[[f32; 4]], i: usize| floats.get(i).copied().unwrap_or_default();
+            for i in 0..count {
+                let [sum, lost, negative] = [&sums, &lost, &negative].map(|floats| of(floats, i));
+                each(first + i, &PixelSums { sum, lost, negative });
             }
         }
         Ok(())

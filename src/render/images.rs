@@ -64,6 +64,17 @@ impl<'a> Uploads<'a> {
     }
 }
 
+/// Whether images hold all flat textures of a scene as its look-ups of method shader read them.
+pub fn hold(gpu: &Gpu, packed: &PackedScene) -> bool {
+    let most = gpu.info().limits.max_image_2d;
+    let holds = |slot: &Slot| {
+        let [_, width, height, format] = packed.textures[slot.texture].place;
+        width.max(height) <= most
+            && gpu.supports(image_format(TexelFormat::ALL[format as usize], false), false)
+    };
+    packed.slots.len() <= MAX_SLOTS && packed.slots.iter().all(holds)
+}
+
 /// One texel of each face.
 fn unread(kind: TextureKind) -> ImageDesc<'static> {
     const TEXELS: [&[u8]; 2] = [&[0], &[0; 6]];
@@ -155,7 +166,7 @@ fn upload_image(
                 "texture `{name}`: device \"{}\" does not support {stored} images {filtering}",
                 gpu.info().name
             ),
-            "use method = \"shader\" with --texels buffer, or store the texture with 8 bits",
+            "use method = \"shader\" with --texels auto or buffer, or store the texture with 8 bits",
         ));
     }
     let desc = ImageDesc {

@@ -10,13 +10,17 @@ use crate::adaptive::{Sums, Tracer, Trial};
 use crate::error::{Error, Result};
 use crate::gpu::{BindGroup, Buffer, BufferUse, Gpu, Pipeline};
 use crate::layout::{Job, Slice, TILE};
-use crate::pack::{PackedScene, Schedule, divisor};
+use crate::pack::{PackedScene, Schedule, filtered_mean};
 use crate::progress::Progress;
 use crate::shaders::Shader;
 
 /// Four floats, of each half.
 const PIXEL_BYTES: u64 = 32;
 const MAX_PAGE_BYTES: u64 = 64 << 20;
+/// Samples of a job beside the film that one thread takes.
+const PART_SAMPLES: u32 = 64;
+/// Jobs beside the film whose sums a buffer holds.
+const MAX_PARTS: usize = 1 << 20;
 const JOBS_PER_TILE: usize = (TILE * TILE) as usize;
 
 struct Page {
@@ -45,7 +49,9 @@ pub struct JobTracer<'a> {
     pages: Vec<Page>,
     size: [u32; 2],
     prefilters: bool,
-    /// Mean of the samples' signs, where they have any: the film holds their sums behind those of radiance.
+    bright_share: f64,
+    /// Mean of the samples' signs, where they have any: behind the sums of radiance the film holds those of samples
+    /// whose sign is negative, and behind these the counts.
     mean_sign: Option<f64>,
     /// A thread takes no more samples at once.
     chunk: u32,
@@ -67,7 +73,7 @@ impl<'a> JobTracer<'a> {
     ) -> Result<JobTracer<'a>> {
         let limits = &gpu.info().limits;
         let [width, height, _, _] = scene.header.size;
-        let planes = if scene.mean_sign.is_some() { 2 } else { 1 };
+        let planes = if scene.mean_sign.is_some() { 3 } else { 1 };
         let row = u64::from(width) * PIXEL_BYTES * planes;
         let rows =
             (MAX_PAGE_BYTES.min(limits.max_storage_buffer_range) / row).clamp(1, u64::from(height)) as u32;
@@ -84,6 +90,7 @@ impl<'a> JobTracer<'a> {
             pages,
             size: [width, height],
             prefilters: scene.prefilters(),
+            bright_share: scene.bright_share.unwrap_or(1.0),
             mean_sign: scene.mean_sign,
             chunk: scene.chunk,
             report,
@@ -121,9 +128,9 @@ impl<'a> JobTracer<'a> {
     fn page(&mut self, index: usize, list: &[Job], progress: &dyn Progress) -> Result<()> {
         let jobs = self.gpu.upload_buffer("jobs", BufferUse::Storage, bytemuck::cast_slice(list))?;
         let slice = Slice { tiles: list.len() as u32, ..self.pages[index].slice() };
-        let costs =
-            list.chunks(JOBS_PER_TILE).map(|tile| tile.iter().map(|j| f64::from(j.count)).sum()).collect();
-        self.submit(index, slice, Some(&jobs), costs, progress)
+        let costs = costs(list);
+        let film = self.pages[index].film.clone();
+        self.submit(&film, slice, Some(&jobs), costs, progress)
     }
 
     /// As many samples of both halves of all pixels of a page.
@@ -133,19 +140,40 @@ impl<'a> JobTracer<'a> {
         let slice = Slice { tiles: jobs, first_sample: first, sample_count: count, ..page.slice() };
         let cost = (JOBS_PER_TILE * count as usize) as f64;
         let costs = vec![cost; (jobs as usize).div_ceil(JOBS_PER_TILE)];
-        self.submit(index, slice, None, costs, progress)
+        let film = page.film.clone();
+        self.submit(&film, slice, None, costs, progress)
+    }
+
+    /// Sums of jobs that a thread takes at once, beside the film: of radiance, and where samples have signs those of
+    /// negative ones, and the counts.
+    fn parts_apart(&mut self, parts: &[(usize, Job)], progress: &dyn Progress) -> Result<Vec<Vec<[f32; 4]>>> {
+        let list: Vec<Job> = parts.iter().map(|(_, job)| *job).collect();
+        let planes = if self.mean_sign.is_some() { 3 } else { 1 };
+        let plane = (list.len() * size_of::<[f32; 4]>()) as u64;
+        let film = self.gpu.buffer("audit", planes * plane, BufferUse::Storage)?;
+        let jobs = self.gpu.upload_buffer("jobs", BufferUse::Storage, bytemuck::cast_slice(&list))?;
+        // Places are those of the whole picture.
+        let whole = Page { y: 0, height: self.size[1], film: film.clone() };
+        let slice = Slice { tiles: list.len() as u32, ..whole.slice() };
+        self.submit(&film, slice, Some(&jobs), costs(&list), progress)?;
+        let read = |kind: u64| {
+            let mut sums = vec![[0f32; 4]; list.len()];
+            self.gpu.read_buffer(&film, kind * plane, bytemuck::cast_slice_mut(&mut sums))?;
+            Ok(sums)
+        };
+        (0..planes).map(read).collect()
     }
 
     /// Tiles of so many samples, in submissions as long as the last ones allow.
     fn submit(
         &mut self,
-        index: usize,
+        film: &Buffer,
         slice: Slice,
         jobs: Option<&Buffer>,
         costs: Vec<f64>,
         progress: &dyn Progress,
     ) -> Result<()> {
-        let group = self.binder.bind(self.gpu, &self.pages[index].film, jobs)?;
+        let group = self.binder.bind(self.gpu, film, jobs)?;
         let mut first = 0;
         while first < costs.len() {
             let (mut tiles, mut samples) = (1, costs[first]);
@@ -168,6 +196,18 @@ impl<'a> JobTracer<'a> {
         }
         Ok(())
     }
+}
+
+/// Samples of each tile of jobs.
+fn costs(list: &[Job]) -> Vec<f64> {
+    list.chunks(JOBS_PER_TILE).map(|tile| tile.iter().map(|j| f64::from(j.count)).sum()).collect()
+}
+
+/// Sums of radiance as if no sample had a sign, from those with signs, those of negative samples alone, and the
+/// sum of the signs and number of samples.
+fn weighed([sums, negative, [signs, samples, _, _]]: [[f64; 4]; 3], mean_sign: f64) -> [f32; 4] {
+    let filtered = |c: usize| samples * filtered_mean(sums[c], negative[c], signs, samples, mean_sign);
+    [filtered(0), filtered(1), filtered(2), sums[3]].map(|v| v as f32)
 }
 
 impl Page {
@@ -208,6 +248,36 @@ impl Tracer for JobTracer<'_> {
         Ok(())
     }
 
+    fn sample_apart(&mut self, jobs: &[Job], progress: &dyn Progress) -> Result<Vec<[f32; 4]>> {
+        // Each part that a thread takes at once has a place of its own: short ones, so that neighbouring threads are of
+        // one pixel, and follow the same paths.
+        let most = self.chunk.min(PART_SAMPLES);
+        let mut parts: Vec<(usize, Job)> = Vec::new();
+        for (i, job) in jobs.iter().enumerate() {
+            let firsts = (0..job.count).step_by(most as usize);
+            parts.extend(firsts.map(|first| {
+                (i, Job { first: job.first + first, count: most.min(job.count - first), ..*job })
+            }));
+        }
+        let mut sums = vec![[[0f64; 4]; 3]; jobs.len()];
+        for parts in parts.chunks(MAX_PARTS) {
+            for (kind, plane) in self.parts_apart(parts, progress)?.iter().enumerate() {
+                for (&(i, _), sum) in parts.iter().zip(plane) {
+                    (0..4).for_each(|c| sums[i][kind][c] += f64::from(sum[c]));
+                }
+            }
+        }
+        let finish = |sums: [[f64; 4]; 3]| match self.mean_sign {
+            Some(mean) => weighed(sums, mean),
+            None => sums[0].map(|v| v as f32),
+        };
+        Ok(sums.into_iter().map(finish).collect())
+    }
+
+    fn bright_share(&self) -> f64 {
+        self.bright_share
+    }
+
     fn prefilters(&self) -> bool {
         self.prefilters
     }
@@ -220,13 +290,16 @@ impl Tracer for JobTracer<'_> {
                 let out = &mut out[first..first + pixels];
                 let offset = |plane: usize| (plane * pixels * size_of::<[f32; 4]>()) as u64;
                 self.gpu.read_buffer(&page.film, offset(half), bytemuck::cast_slice_mut(out))?;
-                let Some(mean) = self.mean_sign else { continue };
-                let mut counts = vec![[0f32; 4]; pixels];
-                self.gpu.read_buffer(&page.film, offset(2 + half), bytemuck::cast_slice_mut(&mut counts))?;
-                for (sums, [signs, samples, _, _]) in out.iter_mut().zip(counts) {
-                    let samples = f64::from(samples);
-                    let scale = samples / divisor(f64::from(signs), samples, mean);
-                    sums[..3].iter_mut().for_each(|sum| *sum = (f64::from(*sum) * scale) as f32);
+                if let Some(mean) = self.mean_sign {
+                    let mut planes = [(); 2].map(|()| vec![[0f32; 4]; pixels]);
+                    for (kind, plane) in planes.iter_mut().enumerate() {
+                        let offset = offset(2 * (1 + kind) + half);
+                        self.gpu.read_buffer(&page.film, offset, bytemuck::cast_slice_mut(plane))?;
+                    }
+                    let [negative, counts] = &planes;
+                    for ((sums, negative), counts) in out.iter_mut().zip(negative).zip(counts) {
+                        *sums = weighed([*sums, *negative, *counts].map(|v| v.map(f64::from)), mean);
+                    }
                 }
             }
         }
@@ -245,14 +318,10 @@ impl Tracer for JobTracer<'_> {
         let clock = Instant::now();
         self.teller = session.beside_samples()?;
         self.report.seconds.compile += clock.elapsed().as_secs_f64();
-        let Some(teller) = &self.teller else { return Ok(None) };
-        teller.trial(self.report, progress).map(Some)
+        self.teller.as_ref().map(|teller| teller.trial(self.report, progress)).transpose()
     }
 
     fn tell(&mut self, progress: &dyn Progress) -> Result<Vec<[f32; 4]>> {
-        match &self.teller {
-            Some(teller) => teller.tell(self.report, progress),
-            None => Ok(Vec::new()),
-        }
+        self.teller.as_ref().map_or(Ok(Vec::new()), |teller| teller.tell(self.report, progress))
     }
 }

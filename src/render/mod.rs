@@ -113,7 +113,7 @@ pub fn render_to_goal(
     Session::open(gpu, scene, keep_everything, tuning)?.prepare()?.render_to_goal(goal, progress)
 }
 
-/// A pipeline of `shader` with these constants; the scene has so many image descriptors.
+/// A pipeline of `shader` with these constants; the scene has so many descriptors.
 pub(crate) fn build_pipeline(
     gpu: &Gpu,
     shader: &Shader,
@@ -126,17 +126,21 @@ pub(crate) fn build_pipeline(
             (BindingKind::SampledImage, resources::VOLUMES) => slots.volumes.max(1),
             (BindingKind::SampledImage, resources::CUBES) => slots.cubes.max(1),
             (BindingKind::SampledImage, _) => slots.flat.max(1),
+            (BindingKind::TexelBuffer, resources::TEXELS) => slots.texel_blocks.max(1),
             _ => 1,
         };
         BindingDesc { binding: b.binding, kind: b.kind, count }
     };
     let bindings: Vec<BindingDesc> = shader.bindings.iter().map(describe).collect();
+    let opaque = shader.constant("OPAQUE_UNIFORMS").map(|c| (c.id, Tuning::opaque_uniforms(gpu.info())));
+    let constants: Vec<(u32, u32)> =
+        constants.iter().copied().chain(opaque.map(|(id, is)| (id, u32::from(is)))).collect();
     gpu.pipeline(&PipelineDesc {
         name: shader.name,
-        spirv: &specialise(shader.spirv, constants),
+        spirv: &specialise(shader.spirv, &constants),
         bindings: &bindings,
         push_constant_bytes: push_constant_bytes as u32,
-        constants,
+        constants: &constants,
     })
 }
 

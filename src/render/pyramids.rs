@@ -2,13 +2,13 @@
 //! a whole word on, as the pool holds them. One dispatch a level, all in one submission; between levels the
 //! numbers stay unrounded f32, as in `texture::mips`, whose codes these are.
 
-use crate::color::srgb8_table;
+use crate::color::srgb_table;
 use crate::error::Result;
 use crate::gpu::{Bound, Buffer, BufferUse, Gpu, Pipeline};
 use crate::layout::Halving;
 use crate::pack::{PackedScene, SlotCounts};
 use crate::shaders;
-use crate::texture::data::{ColorSpace, Component, TexelFormat};
+use crate::texture::data::{ColorSpace, TexelFormat};
 use crate::texture::mips;
 
 const GROUP: u32 = 64;
@@ -40,7 +40,8 @@ pub fn sizes(packed: &PackedScene, texture: usize) -> Vec<[u32; 3]> {
 /// Textures of one format share a pipeline.
 pub struct Maker<'a> {
     gpu: &'a Gpu,
-    tables: Option<Buffer>,
+    /// Of each number of sRGB codes, and of textures that have none.
+    tables: Vec<(usize, Buffer)>,
     pipelines: Vec<((TexelFormat, ColorSpace), Pipeline)>,
     /// Device time of all passes so far, if there were any.
     pub seconds: Option<f64>,
@@ -48,7 +49,7 @@ pub struct Maker<'a> {
 
 impl<'a> Maker<'a> {
     pub fn new(gpu: &'a Gpu) -> Maker<'a> {
-        Maker { gpu, tables: None, pipelines: Vec::new(), seconds: None }
+        Maker { gpu, tables: Vec::new(), pipelines: Vec::new(), seconds: None }
     }
 
     pub fn make(&mut self, top: &Top<'_>) -> Result<Pyramid> {
@@ -65,7 +66,7 @@ impl<'a> Maker<'a> {
         gpu.write_buffer(&buffer, 0, top.texels)?;
         let numbers: u64 = texels.iter().skip(1).take(2).sum::<u64>() * channels;
         let numbers = gpu.buffer("numbers of two levels", numbers * 4, BufferUse::Storage)?;
-        let tables = self.tables()?;
+        let tables = self.tables(codes(top.format, top.space))?;
         let pipeline = self.pipeline(top.format, top.space)?;
         let bound = [(0, Bound::Buffer(&buffer)), (1, Bound::Buffer(&numbers)), (2, Bound::Buffer(&tables))];
         let group = gpu.bind(pipeline, &bound)?;
@@ -77,14 +78,17 @@ impl<'a> Maker<'a> {
         Ok(Pyramid { buffer, starts })
     }
 
-    fn tables(&mut self) -> Result<Buffer> {
-        if let Some(tables) = &self.tables {
+    fn tables(&mut self, codes: usize) -> Result<Buffer> {
+        if let Some((_, tables)) = self.tables.iter().find(|(other, _)| *other == codes) {
             return Ok(tables.clone());
         }
-        let tables = [*srgb8_table(), mips::srgb8_middles()].concat();
+        // A binding has to hold something.
+        let tables =
+            if codes == 0 { vec![0.0] } else { [srgb_table(codes), &mips::srgb_middles(codes)].concat() };
         let buffer =
             self.gpu.upload_buffer("sRGB codes", BufferUse::Storage, bytemuck::cast_slice(&tables))?;
-        Ok(self.tables.insert(buffer).clone())
+        self.tables.push((codes, buffer.clone()));
+        Ok(buffer)
     }
 
     fn pipeline(&mut self, format: TexelFormat, space: ColorSpace) -> Result<&Pipeline> {
@@ -101,15 +105,19 @@ impl<'a> Maker<'a> {
     }
 }
 
+/// Of its colours, where they are sRGB.
+fn codes(format: TexelFormat, space: ColorSpace) -> usize {
+    if space == ColorSpace::Srgb { format.component().codes() } else { 0 }
+}
+
 fn build(gpu: &Gpu, format: TexelFormat, space: ColorSpace) -> Result<Pipeline> {
     let shader = &shaders::MIPS;
-    let coded = space == ColorSpace::Srgb && format.component() == Component::Unorm8;
     let values = [
         ("GROUP_X", GROUP),
         ("GROUP_Y", 1),
         ("CHANNELS", format.channels() as u32),
         ("COMPONENT_BYTES", format.component().bytes() as u32),
-        ("SRGB", u32::from(coded)),
+        ("SRGB", u32::from(codes(format, space) > 0)),
     ];
     let constants: Vec<(u32, u32)> =
         values.iter().filter_map(|&(name, value)| Some((shader.constant(name)?.id, value))).collect();

@@ -5,13 +5,13 @@ use std::cell::OnceCell;
 
 use super::guards::Guards;
 use super::images::Uploads;
-use super::pool;
+use super::pool::{self, Pool};
 use super::pyramids::Maker;
 use crate::error::Result;
 use crate::features::{Features, TexelSource};
 use crate::gpu::{BindGroup, BindingKind, Bound, Buffer, BufferUse, Gpu, Image, Pipeline, Sampler};
 use crate::layout::{HEAD_BYTES, Header};
-use crate::pack::{PackedScene, Sections, TextureKind};
+use crate::pack::{PackedScene, Sections, SlotCounts, TextureKind};
 use crate::scene::model::Algorithm;
 use crate::shaders::{self, ReflectedBinding, Shader};
 
@@ -42,6 +42,10 @@ pub fn shader_for(algorithm: Algorithm, features: &Features) -> &'static Shader 
     }
 }
 
+/// Binding of the light of sRGB codes.
+const SRGB: u32 = 3;
+/// Binding of the texels of textures.
+pub const TEXELS: u32 = 6;
 /// Bindings of the images of volumes and of cubes; 2 has those of flat textures.
 pub const VOLUMES: u32 = 7;
 pub const CUBES: u32 = 8;
@@ -54,10 +58,13 @@ const GUARDS: u32 = 11;
 
 pub struct Resources {
     pub sections: Sections,
+    pub slots: SlotCounts,
     /// Device time of making levels, if any were.
     pub mips_seconds: Option<f64>,
     scene: Buffer,
-    texels: Option<Buffer>,
+    /// Light of sRGB codes.
+    srgb: Buffer,
+    texels: Option<Pool>,
     /// Once beams are wanted.
     row_sums: OnceCell<Buffer>,
     /// Once there are any lists of triangles.
@@ -70,15 +77,32 @@ pub struct Resources {
 }
 
 impl Resources {
-    pub fn upload(gpu: &Gpu, packed: &PackedScene, features: &Features) -> Result<Resources> {
+    /// A texel buffer has at most `most_words`.
+    pub fn upload(
+        gpu: &Gpu,
+        packed: &PackedScene,
+        features: &Features,
+        most_words: u64,
+    ) -> Result<Resources> {
         let (bytes, sections) = packed.scene_bytes(features.everything);
         let scene = gpu.upload_buffer("scene", BufferUse::Storage, &bytes)?;
+        let srgb = packed.srgb_light();
+        // A binding has to hold something.
+        let srgb = if srgb.is_empty() { &[0.0] } else { srgb.as_slice() };
+        let srgb =
+            gpu.upload_buffer("light of sRGB codes", BufferUse::TexelUint, bytemuck::cast_slice(srgb))?;
         let mut maker = Maker::new(gpu);
-        let texels = match features.source {
-            TexelSource::Buffer => Some(pool::upload(gpu, packed, packed.texels.len(), &mut maker)?),
-            TexelSource::Solids => Some(pool::upload(gpu, packed, packed.solid_bytes, &mut maker)?),
+        let pooled = match features.source {
+            TexelSource::Buffer => Some(packed.texels.len()),
+            TexelSource::Solids => Some(packed.solid_bytes),
             TexelSource::None | TexelSource::Image => None,
         };
+        let upload = |bytes| Pool::upload(gpu, packed, bytes, most_words, &mut maker);
+        let texels = pooled.map(upload).transpose()?;
+        let mut slots = packed.slot_counts();
+        if let Some(pool) = &texels {
+            (slots.texel_blocks, slots.block_log2) = (pool.blocks.len() as u32, pool.block_log2);
+        }
         let row_sums = OnceCell::new();
         if packed.beams {
             // Never set twice: it is empty.
@@ -95,8 +119,10 @@ impl Resources {
         }
         Ok(Resources {
             sections,
+            slots,
             mips_seconds: uploads.mips_seconds(),
             scene,
+            srgb,
             texels,
             row_sums,
             survey: OnceCell::new(),
@@ -107,14 +133,18 @@ impl Resources {
         })
     }
 
-    /// The sums along rows of a scene that was not packed for beams; false where the device cannot hold them.
-    pub fn add_row_sums(&self, gpu: &Gpu, packed: &PackedScene, words: &[u32]) -> Result<bool> {
-        let fits = pool::fits(gpu, words.len());
-        if fits && self.row_sums.get().is_none() {
+    /// The sums along rows of a scene that was not packed for beams, made where they are not there yet.
+    pub fn add_row_sums(
+        &self,
+        gpu: &Gpu,
+        packed: &PackedScene,
+        make: impl FnOnce() -> Vec<u32>,
+    ) -> Result<()> {
+        if self.row_sums.get().is_none() {
             // Never set twice: it was empty just now.
-            let _ = self.row_sums.set(pool::upload_row_sums(gpu, packed, words)?);
+            let _ = self.row_sums.set(pool::upload_row_sums(gpu, packed, &make())?);
         }
-        Ok(fits)
+        Ok(())
     }
 
     /// Replaces what the scene buffer begins with.
@@ -145,8 +175,11 @@ impl Resources {
                 }
                 (BindingKind::StorageBuffer, _) => Bound::Buffer(&self.scene),
                 (BindingKind::UniformBuffer, _) => Bound::Head(&self.scene, HEAD_BYTES as u64),
-                (BindingKind::TexelBuffer, ROW_SUMS) => Bound::Texels(self.row_sums.get()?),
-                (BindingKind::TexelBuffer, _) => Bound::Texels(self.texels.as_ref()?),
+                (BindingKind::TexelBuffer, SRGB) => Bound::Texels(std::slice::from_ref(&self.srgb)),
+                (BindingKind::TexelBuffer, ROW_SUMS) => {
+                    Bound::Texels(std::slice::from_ref(self.row_sums.get()?))
+                }
+                (BindingKind::TexelBuffer, _) => Bound::Texels(&self.texels.as_ref()?.blocks),
                 (BindingKind::SampledImage, VOLUMES) => Bound::Images(&volumes),
                 (BindingKind::SampledImage, CUBES) => Bound::Images(&cubes),
                 (BindingKind::SampledImage, _) => Bound::Images(&images),

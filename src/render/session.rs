@@ -20,6 +20,7 @@ use crate::shaders::{self, Shader};
 use super::beams::{Beams, Fallback, Sampler, Teller};
 use super::film_buffer::FilmBuffer;
 use super::jobs::JobTracer;
+use super::pool;
 use super::resources::{Resources, shader_for};
 use super::survey::Survey;
 use super::turns::samples_at_once;
@@ -31,6 +32,8 @@ pub struct Session<'a> {
     scene: PackedScene,
     resources: Resources,
     keep_everything: bool,
+    /// Look-ups of method shader read images.
+    image_source: bool,
     tuning: Tuning,
     /// What the device lacks.
     warnings: Vec<String>,
@@ -71,8 +74,9 @@ impl<'a> Session<'a> {
         let clock = Instant::now();
         let warnings = scene.suit_device(gpu.info().limits.float64).into_iter().collect();
         scene.chunk = samples_at_once(gpu.info(), &scene)?;
-        let features = features_of(gpu, &scene, keep_everything, tuning);
-        let resources = Resources::upload(gpu, &scene, &features)?;
+        let image_source = tuning.image_source(gpu, &scene);
+        let features = Features::new(&scene, image_source, keep_everything);
+        let resources = Resources::upload(gpu, &scene, &features, tuning.texel_words(gpu))?;
         let films = RefCell::new([None, None]);
         let survey = OnceCell::new();
         (scene.texels, scene.row_sums) = (Vec::new(), Vec::new());
@@ -83,6 +87,7 @@ impl<'a> Session<'a> {
             scene,
             resources,
             keep_everything,
+            image_source,
             tuning: *tuning,
             warnings,
             header,
@@ -105,7 +110,7 @@ impl<'a> Session<'a> {
     }
 
     fn prepare_packed(&self, scene: &PackedScene) -> Result<Prepared<'_, 'a>> {
-        let features = features_of(self.gpu, scene, self.keep_everything, &self.tuning);
+        let features = self.features_of(scene);
         let mut report = Report {
             left_out: features.left_out.clone(),
             device_mips_seconds: self.resources.mips_seconds,
@@ -148,7 +153,7 @@ impl<'a> Session<'a> {
         features: &Features,
         shader: &'static Shader,
     ) -> Result<(Renderer<'a>, Rc<FilmBuffer>)> {
-        let (pipeline, groups_per_tile) = self.pipeline(scene, features, shader)?;
+        let (pipeline, groups_per_tile) = self.pipeline(features, shader)?;
         let film = self.film(scene, features)?;
         let group = self.resources.bind(self.gpu, &pipeline, shader, &film.buffer, None)?;
         let renderer = Renderer { gpu: self.gpu, pipeline, group, groups_per_tile };
@@ -158,19 +163,14 @@ impl<'a> Session<'a> {
 
     fn sampler(&self, scene: &PackedScene, features: &Features) -> Result<Sampler> {
         let shader = shader_for(scene.algorithm, features);
-        let (pipeline, groups_per_tile) = self.pipeline(scene, features, shader)?;
+        let (pipeline, groups_per_tile) = self.pipeline(features, shader)?;
         Ok(Sampler { pipeline, shader, groups_per_tile })
     }
 
     /// And its workgroups a tile.
-    fn pipeline(
-        &self,
-        scene: &PackedScene,
-        features: &Features,
-        shader: &'static Shader,
-    ) -> Result<(Pipeline, u32)> {
+    fn pipeline(&self, features: &Features, shader: &'static Shader) -> Result<(Pipeline, u32)> {
         let group_size = self.tuning.group_size(self.gpu.info())?;
-        let slots = scene.slot_counts();
+        let slots = self.resources.slots;
         let mut constants =
             features::constants(shader, features, &self.resources.sections, group_size, slots);
         if let Some(constant) = shader.constant("TABLES_IN_HEAD") {
@@ -178,6 +178,10 @@ impl<'a> Session<'a> {
         }
         let pipeline = build_pipeline(self.gpu, shader, &constants, slots, size_of::<Slice>())?;
         Ok((pipeline, tuning::groups_per_tile(group_size)))
+    }
+
+    fn features_of(&self, scene: &PackedScene) -> Features {
+        Features::new(scene, self.image_source, self.keep_everything)
     }
 
     pub(super) fn survey(&self) -> Option<&Survey> {
@@ -192,18 +196,20 @@ impl<'a> Session<'a> {
     /// What samples the pixels that beams leave.
     fn beside_beams(&self, scene: &PackedScene) -> Result<Sampler> {
         let scene = PackedScene { schedule: Schedule::Jobs, ..scene.clone() };
-        self.sampler(&scene, &features_of(self.gpu, &scene, self.keep_everything, &self.tuning))
+        self.sampler(&scene, &self.features_of(&scene))
     }
 
     /// What tells pixels beside samples; none for a scene that beams do not suit, or whose textures' sums the
     /// device cannot hold.
     pub(super) fn beside_samples(&self) -> Result<Option<Teller<'a>>> {
         let Some(textures) = &self.scene.beam_textures else { return Ok(None) };
-        if !self.resources.add_row_sums(self.gpu, &self.scene, &pack::row_sums(textures))? {
+        // Asked before they are made: of large textures they take far more memory than the texels.
+        if !pool::fits(self.gpu, pack::row_sum_words(textures)) {
             return Ok(None);
         }
+        self.resources.add_row_sums(self.gpu, &self.scene, || pack::row_sums(textures))?;
         let scene = PackedScene { schedule: Schedule::Tiles, beams: true, ..self.scene.clone() };
-        let features = features_of(self.gpu, &scene, self.keep_everything, &self.tuning);
+        let features = self.features_of(&scene);
         self.teller(&scene, features).map(Some)
     }
 
@@ -319,8 +325,4 @@ impl Prepared<'_, '_> {
         tracer.session = Some(session);
         Ok(tracer)
     }
-}
-
-fn features_of(gpu: &Gpu, scene: &PackedScene, keep_everything: bool, tuning: &Tuning) -> Features {
-    Features::new(scene, tuning.image_source(gpu.info(), scene), keep_everything)
 }

@@ -27,7 +27,7 @@ pub struct Survey {
 impl Survey {
     pub fn new(gpu: &Gpu, scene: &PackedScene, resources: &Resources, features: &Features) -> Result<Survey> {
         let shader = if features.double { &shaders::SURVEY_WIDE } else { &shaders::SURVEY };
-        let slots = scene.slot_counts();
+        let slots = resources.slots;
         let constants = features::constants(shader, features, &resources.sections, [GROUP, 1], slots);
         let pipeline = build_pipeline(gpu, shader, &constants, slots, size_of::<Part>())?;
         let [width, height, _, _] = scene.header.size;

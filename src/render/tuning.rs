@@ -1,8 +1,9 @@
 //! What measures best on a kind of device: where texels are read from and the workgroup's shape.
 //! Both can be fixed for a measurement; neither changes the picture.
 
+use super::{images, pool};
 use crate::error::{Error, Result};
-use crate::gpu::{DeviceInfo, DeviceKind};
+use crate::gpu::{DeviceInfo, DeviceKind, Gpu};
 use crate::layout::TILE;
 use crate::named::named_enum;
 use crate::pack::{MAX_SLOTS, PackedScene, Pyramids};
@@ -49,11 +50,13 @@ pub struct Tuning {
     pub texels: TexelChoice,
     /// Width and height of a workgroup; `None` chooses by the device.
     pub group: Option<[u32; 2]>,
+    /// Words of a texel buffer, where there shall be fewer than the device allows.
+    pub texel_words: Option<u64>,
 }
 
 impl Default for Tuning {
     fn default() -> Self {
-        Tuning { texels: TexelChoice::Auto, group: None }
+        Tuning { texels: TexelChoice::Auto, group: None, texel_words: None }
     }
 }
 
@@ -70,21 +73,34 @@ impl Tuning {
         }
     }
 
-    /// Images are the only source of the device's samplers. Without any of those, CPU drivers read a
-    /// buffer fastest and GPUs an image, but descriptors are few and a buffer holds any number.
-    pub fn image_source(&self, device: &DeviceInfo, scene: &PackedScene) -> bool {
-        let fits = scene.slots.len() <= MAX_SLOTS;
+    /// Images are the only source of the device's samplers. Without any of those, GPUs read an image fastest,
+    /// and CPU drivers a buffer as long as one holds all texels; but descriptors are few and images have limits,
+    /// and buffers hold any number of any size.
+    pub fn image_source(&self, gpu: &Gpu, scene: &PackedScene) -> bool {
+        let one_buffer = scene.texels.len() as u64 / 4 <= self.texel_words(gpu);
+        let buffer_first = gpu.info().kind == DeviceKind::Cpu && one_buffer;
         scene.uses_hardware_samplers()
             || match self.texels {
-                TexelChoice::Auto => device.kind != DeviceKind::Cpu && fits,
+                TexelChoice::Auto => !buffer_first && images::hold(gpu, scene),
                 TexelChoice::Buffer => false,
-                TexelChoice::Image => fits,
+                TexelChoice::Image => scene.slots.len() <= MAX_SLOTS,
             }
+    }
+
+    /// At most so many are in one texel buffer.
+    pub fn texel_words(&self, gpu: &Gpu) -> u64 {
+        self.texel_words.unwrap_or(u64::MAX).min(pool::most_words(gpu))
     }
 
     /// Whether a table that threads read at scattered places is fastest among the uniforms: 1.3 times on
     /// lavapipe, where a GPU takes 15 times as long.
     pub fn tables_in_head(device: &DeviceInfo) -> bool {
+        device.kind == DeviceKind::Cpu
+    }
+
+    /// Whether the driver makes a shader again at each submission where it knows that conditions depend on
+    /// uniforms alone: lavapipe does, see `glsl/shared/opaque.glsl`.
+    pub fn opaque_uniforms(device: &DeviceInfo) -> bool {
         device.kind == DeviceKind::Cpu
     }
 
@@ -126,7 +142,7 @@ mod tests {
             suitable: Ok(()),
         };
         device.limits.max_workgroup_invocations = 128;
-        let tuning = |group| Tuning { texels: TexelChoice::Auto, group };
+        let tuning = |group| Tuning { group, ..Tuning::default() };
         assert_eq!(tuning(None).group_size(&device).unwrap(), [8, 8]);
         assert_eq!(tuning(Some([16, 8])).group_size(&device).unwrap(), [16, 8]);
         let error = tuning(Some([32, 8])).group_size(&device).unwrap_err().to_string();

@@ -6,7 +6,7 @@ use crate::error::{Error, Result};
 use crate::features::bounces;
 use crate::gpu::{DeviceInfo, DeviceKind};
 use crate::layout::{CHUNK, NO_TEXTURE, Procedural, Sampler};
-use crate::pack::{PackedScene, TextureKind};
+use crate::pack::{Choice, PackedScene, TextureKind};
 use crate::scene::model::Algorithm;
 use crate::texture::sampler_spec::Filter;
 
@@ -79,7 +79,9 @@ fn turns_of_a_sample(scene: &PackedScene, ellipse: u64) -> u64 {
     let bumped = scene.materials.iter().any(|m| m.detail[0] != NO_TEXTURE);
     let taps = if bumped { TAPS } else { 1 };
     let hit = 1 + shapes + records + count(scene.lights.len()) * (1 + shapes);
-    let choices = if scene.header.chances[0] == 0 { 0 } else { 4 * (1 + POINTS) };
+    let chances = scene.header.chances[0];
+    let glass = u64::from(chances >> Choice::Fresnel as u32 & 1);
+    let choices = if chances == 0 { 0 } else { (4 + glass) * (1 + POINTS) };
     rays * (choices + hit + taps * turns_of_a_look_up(scene, ellipse))
 }
 

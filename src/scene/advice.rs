@@ -1,12 +1,13 @@
 //! Scene → what a person should know before looking at the picture: settings that are valid, and yet do
 //! not do what their names promise in this scene or on this device.
 
-use super::model::{Algorithm, Footprint, PixelFilter, Scene};
+use super::model::{Algorithm, Footprint, Light, Material, PixelFilter, Scene};
 use crate::texture::sampler_spec::{Filter, Method, MipMode, SamplerSpec};
 
 /// Of the scene alone. Samplers that nothing reads have been dropped before.
 pub fn of_scene(scene: &Scene) -> Vec<String> {
     let mut told = without_effect(scene.sampling.footprint, &scene.samplers);
+    told.extend(without_light(scene));
     let algorithm = scene.sampling.algorithm;
     match scene.dropped_triangles {
         0 => {}
@@ -15,6 +16,12 @@ pub fn of_scene(scene: &Scene) -> Vec<String> {
             "{count} triangles have no area and were left out, the first in line {}",
             scene.first_dropped
         )),
+    }
+    if let Some(address) = scene.background.environment.and_then(|e| e.idle_address) {
+        told.push(format!(
+            "an equirectangular environment goes on over its poles: address \"{address}\" of its sampler has no effect \
+             on v; write address = [\"repeat\", \"clamp-to-edge\"]"
+        ));
     }
     if algorithm == Algorithm::Beam && !scene.suits_beams() {
         told.push(
@@ -55,6 +62,43 @@ fn without_effect(footprint: Footprint, samplers: &[SamplerSpec]) -> Vec<String>
          set footprint = \"cone\" under [sampling], or --footprint cone",
         distinct.join(", ")
     )]
+}
+
+/// Materials that show what lights send, where no light sends any.
+fn without_light(scene: &Scene) -> Option<String> {
+    if scene.lights.iter().any(shines) {
+        return None;
+    }
+    let waits = |m: &&Material| m.model.is_lit() && m.color.max_element() > 0.0;
+    let dark: Vec<String> = scene
+        .materials
+        .iter()
+        .filter(waits)
+        .map(|m| format!("\"{}\" (model \"{}\")", m.name, m.model))
+        .collect();
+    if dark.is_empty() {
+        return None;
+    }
+    let (plural, verb) = if dark.len() == 1 { ("", "is") } else { ("s", "are") };
+    let reason = match (scene.lights.is_empty(), scene.background.environment) {
+        (false, _) => "all lights have zero power",
+        (true, Some(_)) => "the scene has no [[light]], and its environment is seen but lights nothing",
+        (true, None) => "the scene has no [[light]]",
+    };
+    let names = dark.join(", ");
+    Some(format!(
+        "nothing lights material{plural} {names}, which {verb} black: {reason}; add a [[light]], or set \
+         model = \"unlit\" to show the colour itself"
+    ))
+}
+
+fn shines(light: &Light) -> bool {
+    let power = match *light {
+        Light::Point { intensity, .. } | Light::Sphere { intensity, .. } => intensity,
+        Light::Directional { irradiance, .. } | Light::Sun { irradiance, .. } => irradiance,
+        Light::Rectangle { radiance, .. } => radiance,
+    };
+    power.max_element() > 0.0
 }
 
 /// Settings that only minification uses.

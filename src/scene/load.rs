@@ -2,13 +2,13 @@
 //! validated scene, with every reference an index, or the first error.
 
 use std::fs::File;
-use std::io::Read;
+use std::io::{ErrorKind, Read};
 use std::path::Path;
 
 use toml::de::DeTable;
 
 use super::materials;
-use super::model::{Background, Material, Plane, Scene, Sphere, TextureSource, Triangle};
+use super::model::{Background, EnvironmentLayout, Material, Plane, Scene, Sphere, TextureSource, Triangle};
 use super::names::Names;
 use super::pixel_filter::pixel_filter;
 use super::procedural::PROCEDURAL;
@@ -21,7 +21,8 @@ use super::textures;
 use super::validate::{MAX_SHAPES, MAX_TEXTURES, check_filters};
 use crate::error::{Error, Result};
 use crate::panics;
-use crate::texture::sampler_spec::SamplerSpec;
+use crate::texture::read_file::odd_path;
+use crate::texture::sampler_spec::{Address, SamplerSpec};
 
 /// 65535 triangles with texture coordinates take 7 MB of text.
 const MAX_BYTES: u64 = 64 << 20;
@@ -39,10 +40,25 @@ const SECTIONS: &[&str] = &[
     "light",
 ];
 
-/// Reads a scene file. Textures are named, not opened.
+/// What a scene is called that was not read from a file.
+pub const STANDARD_INPUT: &str = "<stdin>";
+
+/// Whether a path stands for standard input.
+pub fn is_standard_input(path: &Path) -> bool {
+    path == Path::new("-")
+}
+
+/// Reads a scene file, or standard input where the path is `-`: paths in it are then relative to the current
+/// folder. Textures are named, not opened.
 pub fn load(path: &Path) -> Result<Scene> {
-    let stage = format!("{}: reading this scene", path.display());
-    panics::contain(&stage, || parse(path, &read(path)?))
+    let is_stdin = is_standard_input(path);
+    let stage = if is_stdin { STANDARD_INPUT.into() } else { path.display().to_string() };
+    panics::contain(&format_args!("{stage}: reading this scene"), || {
+        if is_stdin {
+            return parse(Path::new(STANDARD_INPUT), &text_of(std::io::stdin().lock(), STANDARD_INPUT)?);
+        }
+        parse(path, &read(path)?)
+    })
 }
 
 /// Parses scene text. Paths in it are relative to the folder of `path_for_messages`.
@@ -59,10 +75,19 @@ fn read(path: &Path) -> Result<String> {
         let message = format!("cannot read scene {shown}: it is a folder");
         return Err(Error::with_help(message, "name a scene file (TOML) in it"));
     }
-    let unreadable = |error: std::io::Error| Error::new(format!("cannot read scene {shown}: {error}"));
+    let file = File::open(path).map_err(|error| Error::Plain {
+        message: format!("cannot read scene {shown}: {error}"),
+        help: odd_path(path).filter(|_| error.kind() == ErrorKind::NotFound),
+    })?;
+    text_of(file, &shown.to_string())
+}
+
+fn text_of(source: impl Read, shown: &str) -> Result<String> {
     let mut bytes = Vec::new();
-    let file = File::open(path).map_err(unreadable)?;
-    file.take(MAX_BYTES + 1).read_to_end(&mut bytes).map_err(unreadable)?;
+    source
+        .take(MAX_BYTES + 1)
+        .read_to_end(&mut bytes)
+        .map_err(|error| Error::new(format!("cannot read scene {shown}: {error}")))?;
     if bytes.len() as u64 > MAX_BYTES {
         return Err(Error::new(format!(
             "cannot read scene {shown}: it is larger than {} MiB, the most a scene file may have",
@@ -86,7 +111,19 @@ fn syntax_error(source: Source<'_>, error: &toml::de::Error) -> Error {
         empty if empty.is_empty() => String::new(),
         excerpt => format!(", found {excerpt}"),
     };
-    source.error(span, &format!("TOML syntax: {}{found}", error.message()), error.message())
+    let place = span.start;
+    let mut told = source.error(span, &format!("TOML syntax: {}{found}", error.message()), error.message());
+    if let Error::Scene { help, .. } = &mut told
+        && error.message().contains("escape")
+        && source.line(place).contains('\\')
+    {
+        *help = Some(
+            "within \"…\" a backslash begins an escape; write folders with / (textures/brick.png), or the path in \
+             single quotes ('textures\\brick.png')"
+                .into(),
+        );
+    }
+    told
 }
 
 fn assemble(path: &Path, root: &Table<'_>) -> Result<Scene> {
@@ -160,6 +197,7 @@ fn surfaces<'a>(path: &Path, root: &Table<'a>) -> Result<Surfaces<'a>> {
 
     let tables = root.repeated("sampler", samplers::SAMPLER)?;
     let sampler_names = Names::collect("sampler", &tables)?;
+    let states_address: Vec<bool> = tables.iter().map(|table| table.get("address").is_some()).collect();
     let mut samplers = each(tables, samplers::sampler)?;
 
     let tables = root.repeated("material", materials::MATERIAL)?;
@@ -173,7 +211,14 @@ fn surfaces<'a>(path: &Path, root: &Table<'a>) -> Result<Surfaces<'a>> {
     };
     let materials = each(tables, |table| materials::material(table, &known))?;
     let table = root.single("background", samplers::BACKGROUND)?;
-    let background = samplers::background(table.as_ref(), &known)?;
+    let mut background = samplers::background(table.as_ref(), &known)?;
+    if let Some(environment) = &mut background.environment
+        && environment.layout == EnvironmentLayout::Equirectangular
+        && states_address.get(environment.sampler) == Some(&true)
+    {
+        let [_, v] = samplers[environment.sampler].address;
+        environment.idle_address = (v != Address::ClampToEdge).then_some(v);
+    }
     let mut used = materials.iter().filter(|m: &&Material| m.is_mapped()).map(|m| m.sampler);
     if used.any(|s| s == fallback) || background.environment.is_some_and(|e| e.sampler == fallback) {
         samplers.push(SamplerSpec::default());

@@ -20,13 +20,15 @@ pub(super) const MATERIAL: &[&str] = &[
     "mapping",
     "normal_map",
     "bump_map",
+    "green",
     "strength",
     "specular",
     "exponent",
     "ior",
     "roughness",
 ];
-const MAPPING: &[&str] = &["kind", "entity", "space", "origin", "axis", "scale", "offset", "rotate"];
+pub(super) const MAPPING: &[&str] =
+    &["kind", "entity", "space", "origin", "axis", "scale", "offset", "rotate"];
 /// Keys of the frame that only projecting maps have.
 const FRAME: [&str; 4] = ["origin", "axis", "space", "entity"];
 
@@ -115,13 +117,24 @@ fn relief<'a>(
         (Some(field), None) => (field, ReliefKind::Normal),
         (None, Some(field)) => (field, ReliefKind::Bump),
         (None, None) => {
-            return match table.get("strength") {
-                Some(field) => {
+            return match (table.get("strength"), table.get("green")) {
+                (Some(field), _) => {
                     Err(field.error("this needs a normal_map or a bump_map beside it", "no relief"))
                 }
-                None => Ok(None),
+                (_, Some(field)) => Err(field.error("this needs a normal_map beside it", "no normal map")),
+                (None, None) => Ok(None),
             };
         }
+    };
+    let kind = match table.get("green") {
+        Some(green) if kind == ReliefKind::Bump => {
+            return Err(green.error("a bump_map holds heights, which have no direction", "no normal map"));
+        }
+        Some(green) => match green.choice(Green::NAMES, Green::ALL)? {
+            Green::Up => ReliefKind::Normal,
+            Green::Down => ReliefKind::NormalDown,
+        },
+        None => kind,
     };
     let strength = table.get("strength").map_or(Ok(1.0), |field| field.number(&COORDINATE))?;
     material.relief = Some(Relief { kind, texture: known.textures.resolve(field)?, strength });

@@ -18,10 +18,13 @@ mod sampling;
 mod sections;
 mod shapes;
 mod source;
+pub mod synonyms;
 mod table;
+pub mod texture_advice;
 mod textures;
 mod validate;
+mod vocabulary;
 
-pub use load::{load, parse};
+pub use load::{STANDARD_INPUT, is_standard_input, load, parse};
 pub use pixel_filter::MAX_RADIUS;
 pub use validate::{MAX_DEPTH, MAX_SIZE, MAX_SPP, both_filters, check_filters, check_shared, check_spp};

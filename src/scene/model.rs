@@ -53,6 +53,10 @@ pub struct Environment {
     pub layout: EnvironmentLayout,
     /// Degrees about +y, counter-clockwise from above.
     pub rotate: f64,
+    /// The address of v that the scene states and that has no effect: rows go on over the poles.
+    pub idle_address: Option<Address>,
+    /// Left and right exchanged, before it is turned: what the picture has at +x lies at -x.
+    pub mirror: bool,
 }
 
 named_enum! {
@@ -91,6 +95,24 @@ named_enum! {
         Normal = "normal",
         /// Heights.
         Bump = "bump",
+        /// Unit normals whose green runs against v.
+        NormalDown = "normal-down",
+    }
+}
+
+named_enum! {
+    /// Where the green of a normal map points, along v.
+    pub enum Green {
+        /// Along growing v.
+        Up = "up",
+        /// Against it.
+        Down = "down",
+    }
+}
+
+impl ReliefKind {
+    pub const fn is_normal_map(self) -> bool {
+        matches!(self, ReliefKind::Normal | ReliefKind::NormalDown)
     }
 }
 

@@ -1,7 +1,9 @@
 //! Scene → the same picture's scene without what no ray can meet: materials on no shape, textures
-//! and samplers behind no material, lights that shine on nothing that scatters. Indices follow.
+//! and samplers behind no material, lights that shine on nothing that scatters; and with one texture in place of
+//! several that read the same texels. Indices follow.
 
-use super::model::Scene;
+use super::model::{Scene, TextureSource};
+use crate::counted::{counted, verb};
 
 /// What was dropped, for `-v`.
 pub fn prune(scene: &mut Scene) -> Vec<String> {
@@ -35,6 +37,45 @@ pub fn prune(scene: &mut Scene) -> Vec<String> {
     let samplers = keep(&mut scene.samplers, &samplers_used);
     for material in &mut scene.materials {
         material.sampler = if material.is_mapped() { samplers[material.sampler] } else { 0 };
+    }
+    if let Some(environment) = &mut scene.background.environment {
+        environment.sampler = samplers[environment.sampler];
+    }
+    point_to_textures(scene, &textures);
+    note(&mut dropped, "texture", &textures);
+    note(&mut dropped, "sampler", &samplers);
+    merge_textures(scene, &mut dropped);
+
+    if !scene.lights.is_empty() && !scene.materials.iter().any(|m| m.model.is_lit()) {
+        let count = scene.lights.len();
+        dropped.push(format!(
+            "{} that {} on nothing",
+            counted(count, "light"),
+            verb(count, "shines", "shine")
+        ));
+        scene.lights.clear();
+    }
+    dropped
+}
+
+/// The first of several textures that read the same texels stands for all of them: it is decoded once, and
+/// devices hold it once.
+fn merge_textures(scene: &mut Scene, dropped: &mut Vec<String>) {
+    let identities: Vec<TextureSource> = scene.textures.iter().map(TextureSource::identity).collect();
+    let first = |i: usize| identities.iter().position(|other| *other == identities[i]).unwrap_or(i);
+    let firsts: Vec<usize> = (0..identities.len()).map(first).collect();
+    for (i, &first) in firsts.iter().enumerate().filter(|(i, first)| i != *first) {
+        let [this, other] = [i, first].map(|index| &scene.textures[index].name);
+        dropped.push(format!("texture \"{this}\", which reads the texels of \"{other}\""));
+    }
+    let kept = keep(&mut scene.textures, &firsts);
+    let merged: Vec<usize> = firsts.iter().map(|&first| kept[first]).collect();
+    point_to_textures(scene, &merged);
+}
+
+/// `textures`: old index → new index.
+fn point_to_textures(scene: &mut Scene, textures: &[usize]) {
+    for material in &mut scene.materials {
         material.texture = material.texture.map(|t| textures[t]);
         if let Some(relief) = &mut material.relief {
             relief.texture = textures[relief.texture];
@@ -42,16 +83,7 @@ pub fn prune(scene: &mut Scene) -> Vec<String> {
     }
     if let Some(environment) = &mut scene.background.environment {
         environment.texture = textures[environment.texture];
-        environment.sampler = samplers[environment.sampler];
     }
-    note(&mut dropped, "texture", &textures);
-    note(&mut dropped, "sampler", &samplers);
-
-    if !scene.lights.is_empty() && !scene.materials.iter().any(|m| m.model.is_lit()) {
-        dropped.push(format!("{} lights that shine on nothing", scene.lights.len()));
-        scene.lights.clear();
-    }
-    dropped
 }
 
 const GONE: usize = usize::MAX;

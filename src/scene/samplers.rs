@@ -24,7 +24,7 @@ pub(super) const SAMPLER: &[&str] = &[
     "max_anisotropy",
     "cubic",
 ];
-pub(super) const BACKGROUND: &[&str] = &["color", "environment", "sampler", "layout", "rotate"];
+pub(super) const BACKGROUND: &[&str] = &["color", "environment", "sampler", "layout", "rotate", "mirror"];
 const FILTER: &[&str] = &["mag", "min"];
 /// Cubic filters by name, with B and C (Mitchell & Netravali 1988).
 const CUBICS: [(&str, [f32; 2]); 3] =
@@ -106,7 +106,7 @@ pub(super) fn background(table: Option<&Table<'_>>, known: &Known<'_, '_>) -> Re
     let Some(table) = table else { return Ok(background) };
     let color = table.get("color").map(|field| field.vec3(&COLOR)).transpose()?;
     let Some(field) = table.get("environment") else {
-        if let Some(field) = ["sampler", "layout", "rotate"].iter().find_map(|key| table.get(key)) {
+        if let Some(field) = ["sampler", "layout", "rotate", "mirror"].iter().find_map(|key| table.get(key)) {
             return Err(field.error("this needs an environment = \"TEXTURE\" beside it", "no environment"));
         }
         background.color = color.unwrap_or(DVec3::ZERO);
@@ -131,12 +131,15 @@ pub(super) fn background(table: Option<&Table<'_>>, known: &Known<'_, '_>) -> Re
     }
     let sampler = table.get("sampler").map(|field| known.samplers.resolve(field)).transpose()?;
     let rotate = table.get("rotate").map_or(Ok(0.0), |field| field.number(&COORDINATE))?;
+    let mirror = table.get("mirror").map_or(Ok(false), |field| field.boolean())?;
     background.color = color.unwrap_or(DVec3::ONE);
     background.environment = Some(Environment {
         texture,
         sampler: sampler.unwrap_or(known.default_sampler),
         layout: natural,
         rotate,
+        idle_address: None,
+        mirror,
     });
     Ok(background)
 }

@@ -8,6 +8,7 @@ use std::sync::Arc;
 
 use miette::NamedSource;
 
+use super::synonyms::meant;
 use crate::error::Error;
 
 /// Longest excerpt or name that a message repeats, in characters.
@@ -34,6 +35,13 @@ impl Source<'_> {
             span: (start, end - start).into(),
             help: None,
         }
+    }
+
+    /// The line that a place is on.
+    pub fn line(&self, at: usize) -> &str {
+        let at = floor_char(self.text, at);
+        let start = self.text[..at].rfind('\n').map_or(0, |newline| newline + 1);
+        self.text[start..].lines().next().unwrap_or_default()
     }
 
     pub fn line_column(self, offset: usize) -> (usize, usize) {
@@ -82,9 +90,13 @@ pub(super) fn quoted(name: &str) -> String {
     format!("\"{}\"", shorten(name))
 }
 
-/// `; did you mean "x"?` for the candidate that `word` most probably misspells, else nothing.
-pub(super) fn suggestion<'c>(word: &str, candidates: impl IntoIterator<Item = &'c str>) -> String {
+/// `; did you mean "x"?` for the candidate that `word` means elsewhere or most probably misspells, else nothing.
+pub(super) fn suggestion<'c>(word: &str, candidates: impl IntoIterator<Item = &'c str> + Clone) -> String {
     let word = word.to_lowercase();
+    if let Some((name, also)) = meant(&word, candidates.clone()) {
+        let also = also.map_or(String::new(), |(key, value)| format!(" with {key} = \"{value}\""));
+        return format!("; did you mean {}{also}?", quoted(name));
+    }
     let near =
         candidates.into_iter().filter_map(|candidate| Some((unlikeness(&word, candidate)?, candidate)));
     let best = near.min_by_key(|(unlikeness, _)| *unlikeness);

@@ -8,6 +8,7 @@ use toml::de::{DeTable, DeValue};
 
 use super::reader::Field;
 use super::source::{Source, quoted, suggestion};
+use super::vocabulary::home_of;
 use crate::error::{Error, Result};
 
 /// How a table is written, for messages.
@@ -144,8 +145,11 @@ impl<'a> Table<'a> {
 
     fn unknown(&self, stray: Stray<'_>, keys: &[&str], place: &str) -> Error {
         let name = stray.get_ref().as_ref();
-        let near = suggestion(name, keys.iter().copied());
-        let end = if near.is_empty() { ";" } else { "" };
+        let near = home_of(self.section, name).map_or_else(
+            || suggestion(name, keys.iter().copied()),
+            |home| format!("; it belongs into {home}"),
+        );
+        let end = if near.ends_with('?') { "" } else { ";" };
         let what = format!("unknown key {} {place}{near}{end} allowed: {}", quoted(name), keys.join(", "));
         self.source.error(stray.span(), &what, format!("unknown key{near}"))
     }

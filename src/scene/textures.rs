@@ -8,7 +8,9 @@ use super::reader::{COORDINATE, Field};
 use super::table::Table;
 use crate::error::Result;
 use crate::texture::data::{ColorSpace, Dimension, MipKernel, TexelFormat};
-use crate::texture::source::{CubeLayout, Endian, TextureContent, TextureSource, VolumeSource};
+use crate::texture::source::{
+    CubeLayout, Endian, OrientationUse, Reading, TextureContent, TextureSource, VolumeSource,
+};
 
 pub(super) const TEXTURE: &[&str] = &[
     "name",
@@ -20,6 +22,8 @@ pub(super) const TEXTURE: &[&str] = &[
     "dimension",
     "layout",
     "color_space",
+    "orientation",
+    "layer",
     "flip_v",
     "mip_filter",
 ];
@@ -40,8 +44,16 @@ pub(super) fn texture(table: &Table<'_>, folder: &Path) -> Result<TextureSource>
         table.allow_only(&[&["name"], PROCEDURAL].concat())?;
         let content = TextureContent::Procedural(procedural(table)?);
         let (dimension, color_space) = (Dimension::Two, ColorSpace::Linear);
-        let mip_kernel = MipKernel::Box;
-        return Ok(TextureSource { name, content, dimension, color_space, flip_v: false, mip_kernel });
+        return Ok(TextureSource {
+            name,
+            content,
+            dimension,
+            color_space,
+            color_space_stated: false,
+            reading: Reading::default(),
+            flip_v: false,
+            mip_kernel: MipKernel::Box,
+        });
     }
     let field = only_content(table)?;
     table.allow_only(TEXTURE)?;
@@ -56,6 +68,7 @@ pub(super) fn texture(table: &Table<'_>, folder: &Path) -> Result<TextureSource>
             return Err(given.error(what, "ramps are linear"));
         }
     }
+    let reading = reading(table, &content, dimension)?;
     let mut flip_v = false;
     if let Some(given) = table.get("flip_v") {
         flip_v = given.boolean()?;
@@ -74,7 +87,37 @@ pub(super) fn texture(table: &Table<'_>, folder: &Path) -> Result<TextureSource>
         Some(given) => given.choice(MipKernel::NAMES, MipKernel::ALL)?,
         None => MipKernel::Box,
     };
-    Ok(TextureSource { name, content, dimension, color_space, flip_v, mip_kernel })
+    Ok(TextureSource {
+        name,
+        content,
+        dimension,
+        color_space,
+        color_space_stated: table.get("color_space").is_some(),
+        reading,
+        flip_v,
+        mip_kernel,
+    })
+}
+
+/// What only files of pictures have.
+fn reading(table: &Table<'_>, content: &TextureContent, dimension: Dimension) -> Result<Reading> {
+    let mut reading = Reading::default();
+    let is_picture = match content {
+        TextureContent::File(_) => dimension != Dimension::Three,
+        TextureContent::CubeFile(..) | TextureContent::Faces(_) | TextureContent::Slices(_) => true,
+        TextureContent::Ramp(_) | TextureContent::Volume(_) | TextureContent::Procedural(_) => false,
+    };
+    if let (false, Some(field)) = (is_picture, ["orientation", "layer"].iter().find_map(|k| table.get(k))) {
+        let what = "it says how a file of a picture is read, and these texels come from none; leave it out";
+        return Err(field.error(what, "no picture"));
+    }
+    if let Some(field) = table.get("orientation") {
+        reading.orientation = field.choice(OrientationUse::NAMES, OrientationUse::ALL)?;
+    }
+    if let Some(field) = table.get("layer") {
+        reading.layer = Some(field.string()?.to_owned());
+    }
+    Ok(reading)
 }
 
 fn only_content<'a>(table: &Table<'a>) -> Result<Field<'a>> {

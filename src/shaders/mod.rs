@@ -22,13 +22,26 @@ pub struct SpecConstant {
     pub default: u32,
 }
 
+/// SPIR-V as the build wrote it, aligned as words are.
+#[derive(Debug)]
+#[repr(C, align(4))]
+pub struct Words<Bytes: ?Sized = [u8]>(Bytes);
+
+impl std::ops::Deref for Words {
+    type Target = [u32];
+
+    fn deref(&self) -> &[u32] {
+        bytemuck::cast_slice(&self.0)
+    }
+}
+
 /// One `glsl/*.comp`.
 #[derive(Debug)]
 pub struct Shader {
     pub name: &'static str,
     pub bindings: &'static [ReflectedBinding],
     pub constants: &'static [SpecConstant],
-    pub spirv: &'static [u32],
+    pub spirv: &'static Words,
 }
 
 impl Shader {

@@ -4,6 +4,7 @@
 use std::fmt::Write as _;
 
 use super::report::{Report, Row};
+use crate::counted::counted;
 
 const HEAD: [&str; 6] = ["case", "parameter", "worst error", "bound", "reached at", "verdict"];
 /// Longer places are cut in the table.
@@ -45,8 +46,12 @@ pub fn text(report: &Report) -> String {
 pub fn summary(report: &Report) -> String {
     let s = &report.summary;
     format!(
-        "{} cases, {} points, {:.1} s: {} within, {} broken",
-        s.cases, s.points, report.seconds, s.within, s.broken
+        "{}, {}, {:.1} s: {} within, {} broken",
+        counted(s.cases, "case"),
+        counted(s.points, "point"),
+        report.seconds,
+        s.within,
+        s.broken
     )
 }
 

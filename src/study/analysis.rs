@@ -1,11 +1,13 @@
 //! What follows from the measured points. In: (rays, seconds, error) by method. Out: the slope of each
-//! method's variance over its rays with 95 % intervals, the winner of each time budget, the time to reach
-//! each error, and one sentence.
+//! method's variance over its rays with 95 % intervals, the winner of each time budget and the recommended point
+//! (`choice.rs`), the time to reach each error, and one sentence.
 
 use serde::Serialize;
 
 use super::bootstrap::interval;
+pub use super::choice::{Choice, Winner, recommended, winners};
 use super::record::{PointRecord, Record};
+use super::student;
 use super::words::advice;
 use crate::plot::axis::steps;
 
@@ -17,6 +19,8 @@ const FEWEST: usize = 3;
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Analysis {
     pub recommendation: String,
+    /// None where nothing was measured.
+    pub recommended: Option<Choice>,
     pub slopes: Vec<MethodSlope>,
     pub winners: Vec<Winner>,
     pub reach: Reach,
@@ -43,19 +47,6 @@ pub struct MethodSlope {
     pub theory_text: String,
 }
 
-/// The least error within a time.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Winner {
-    pub budget: f64,
-    pub method: String,
-    pub spp: u32,
-    pub seconds: f64,
-    pub rmse: f64,
-    /// Beyond the method's longest point, along its slope. A method that is slow for its samples would
-    /// otherwise win all the time in which nothing else was measured.
-    pub estimated: bool,
-}
-
 /// Seconds to each error, by method; none where no measured point is as good.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Reach {
@@ -80,7 +71,13 @@ pub fn analyse(record: &Record) -> Analysis {
     };
     let slopes: Vec<MethodSlope> = record.methods.iter().map(slope).collect();
     let winners = winners(&record.points, &slopes);
-    Analysis { recommendation: advice(record, &winners), slopes, winners, reach: reach(record) }
+    Analysis {
+        recommendation: advice(record, &winners),
+        recommended: recommended(&record.points, &winners).map(Choice::of),
+        slopes,
+        winners,
+        reach: reach(record),
+    }
 }
 
 /// Of the variance over the number of samples: independent ones −1; one jittered sample in each of n strata
@@ -108,7 +105,7 @@ pub fn slope(points: &[(f64, f64)], floor: f64) -> Option<Slope> {
         return None;
     }
     let Line { value, residual, sxx } = least_squares(&logs);
-    let half_width = student(logs.len() - 2) * (residual / (logs.len() as f64 - 2.0) / sxx).sqrt();
+    let half_width = student::quantile(logs.len() - 2) * (residual / (logs.len() as f64 - 2.0) / sxx).sqrt();
     Some(Slope { value, half_width: (half_width > 1e-9).then_some(half_width), points: logs.len() })
 }
 
@@ -142,16 +139,6 @@ pub(super) fn least_squares(points: &[(f64, f64)]) -> Line {
     Line { value, residual, sxx }
 }
 
-/// 97.5 % quantile of Student's t with this many degrees of freedom.
-fn student(freedom: usize) -> f64 {
-    const TABLE: [f64; 10] = [12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228];
-    match freedom {
-        1..=10 => TABLE[freedom - 1],
-        11..=30 => 2.12,
-        _ => 1.96,
-    }
-}
-
 pub fn median(values: &[f64]) -> f64 {
     let mut sorted = values.to_vec();
     sorted.sort_by(f64::total_cmp);
@@ -161,43 +148,6 @@ pub fn median(values: &[f64]) -> f64 {
         n if n % 2 == 1 => sorted[middle],
         _ => 0.5 * (sorted[middle - 1] + sorted[middle]),
     }
-}
-
-pub fn winners(points: &[PointRecord], slopes: &[MethodSlope]) -> Vec<Winner> {
-    let usable: Vec<&PointRecord> =
-        points.iter().filter(|p| p.median_seconds() > 0.0 && p.errors.rmse.is_finite()).collect();
-    let times = || usable.iter().map(|p| p.median_seconds());
-    let budgets = steps(times().fold(f64::INFINITY, f64::min), times().fold(0.0, f64::max));
-    let winner = |budget: f64| {
-        let fitting = usable.iter().filter(|p| p.median_seconds() <= budget);
-        let measured = fitting.map(|p| Winner {
-            budget,
-            method: p.method.clone(),
-            spp: p.spp,
-            seconds: p.median_seconds(),
-            rmse: p.errors.rmse,
-            estimated: false,
-        });
-        let estimated = slopes.iter().filter_map(|slope| beyond(&usable, slope, budget));
-        measured.chain(estimated).min_by(|a, b| a.rmse.total_cmp(&b.rmse))
-    };
-    budgets.into_iter().filter_map(winner).collect()
-}
-
-/// What a method with a law would come to in a time longer than it was measured for.
-fn beyond(points: &[&PointRecord], slope: &MethodSlope, budget: f64) -> Option<Winner> {
-    let own = points.iter().filter(|p| p.method == slope.method);
-    let last = own.max_by(|a, b| a.median_seconds().total_cmp(&b.median_seconds()))?;
-    let longer = budget / last.median_seconds();
-    let law = slope.fitted.filter(|f| !slope.theory.is_empty() && f.value < 0.0)?;
-    (longer > 1.0).then(|| Winner {
-        budget,
-        method: slope.method.clone(),
-        spp: (f64::from(last.spp) * longer) as u32,
-        seconds: budget,
-        rmse: last.errors.rmse * longer.powf(0.5 * law.value),
-        estimated: true,
-    })
 }
 
 fn reach(record: &Record) -> Reach {

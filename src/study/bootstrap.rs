@@ -1,5 +1,5 @@
-//! How well a slope is known. In: mean squared errors of blocks of pixels, at each number of samples. Out: the
-//! interval that the slope of their sum keeps to when blocks are drawn anew, with repetition (Efron 1979). A
+//! How well a slope, or a ratio of two errors, is known. In: squared errors of blocks of pixels, at each number of
+//! samples. Out: the interval that the slope or ratio of their sums keeps to when blocks are drawn anew, with repetition (Efron 1979). A
 //! draw takes the same blocks at all numbers: what they have in common there, such as the first samples of one
 //! sequence, tells in no other way.
 
@@ -32,14 +32,39 @@ pub fn interval(points: &[(f64, &[f32])], confidence: f64) -> Option<[f64; 2]> {
     }
     let mut slopes: Vec<f64> = (0..DRAWS).filter_map(|draw| drawn(points, count, draw)).collect();
     slopes.sort_by(f64::total_cmp);
-    let at = |part: f64| slopes.get((part * (slopes.len() as f64 - 1.0)).round() as usize).copied();
-    Some([at(0.5 - 0.5 * confidence)?, at(0.5 + 0.5 * confidence)?])
+    (!slopes.is_empty()).then(|| middle(&slopes, confidence))
+}
+
+/// Of the sum of `a` over that of `b`: the middle part of all draws. None without three blocks of each, or where a
+/// draw has no error.
+pub fn ratio(a: &[f32], b: &[f32], confidence: f64) -> Option<[f64; 2]> {
+    if a.len() < 3 || a.len() != b.len() {
+        return None;
+    }
+    let sum = |blocks: &[f32], chosen: &[usize]| chosen.iter().map(|&i| f64::from(blocks[i])).sum::<f64>();
+    let of = |draw| {
+        let chosen = chosen(a.len(), draw);
+        Some(sum(a, &chosen) / sum(b, &chosen)).filter(|ratio| ratio.is_finite() && *ratio > 0.0)
+    };
+    let mut ratios = (0..DRAWS).map(of).collect::<Option<Vec<f64>>>()?;
+    ratios.sort_by(f64::total_cmp);
+    Some(middle(&ratios, confidence))
+}
+
+/// Blocks drawn with repetition, as many as there are.
+fn chosen(count: usize, draw: u32) -> Vec<usize> {
+    (0..count).map(|k| mix_bits(mix_bits(draw) ^ k as u32) as usize % count).collect()
+}
+
+/// The ends of the middle part of sorted values, of which there is one at least.
+fn middle(sorted: &[f64], confidence: f64) -> [f64; 2] {
+    let at = |part: f64| sorted[(part * (sorted.len() as f64 - 1.0)).round() as usize];
+    [at(0.5 - 0.5 * confidence), at(0.5 + 0.5 * confidence)]
 }
 
 /// None where all blocks that were drawn are without error.
 fn drawn(points: &[(f64, &[f32])], count: usize, draw: u32) -> Option<f64> {
-    let chosen = (0..count).map(|k| mix_bits(mix_bits(draw) ^ k as u32) as usize % count);
-    let chosen: Vec<usize> = chosen.collect();
+    let chosen = chosen(count, draw);
     let sum = |blocks: &[f32]| chosen.iter().map(|&i| f64::from(blocks[i])).sum::<f64>();
     let logs: Vec<(f64, f64)> = points.iter().map(|(n, blocks)| (n.ln(), sum(blocks).ln())).collect();
     logs.iter().all(|p| p.1.is_finite()).then(|| least_squares(&logs).value)

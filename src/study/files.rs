@@ -9,7 +9,7 @@ use crate::plot::chart::{Chart, Series};
 
 use super::record::{self, PointRecord, Record};
 use super::showcase::Showcase;
-use super::words::{error, samples, seconds};
+use super::words::{error, seconds, taken};
 use super::{page, stages};
 
 /// What an interrupted study goes on from.
@@ -72,7 +72,7 @@ fn series(record: &Record, x: &dyn Fn(&PointRecord) -> f64) -> Vec<Series> {
             format!(
                 "{}, {}: RMSE {} in {}",
                 p.method,
-                samples(p.samples),
+                taken(p),
                 error(p.errors.rmse),
                 seconds(p.median_seconds())
             )
@@ -95,7 +95,7 @@ fn description(record: &Record, over: &str) -> String {
             "{} reaches {} with {} in {}",
             m.name,
             error(least.errors.rmse),
-            samples(least.samples),
+            taken(least),
             seconds(least.median_seconds())
         ))
     };
@@ -103,7 +103,7 @@ fn description(record: &Record, over: &str) -> String {
     format!("Root mean square error over {over}, both logarithmic, by method. {}.", all.join("; "))
 }
 
-const COLUMNS: &str = "method,algorithm,pattern,footprint,filter,spp,rays_per_pixel,repeats,\
+const COLUMNS: &str = "method,algorithm,pattern,footprint,filter,spp,rays_per_pixel,sampled,repeats,\
 render_seconds,render_seconds_min,render_seconds_max,device_seconds,pack_seconds,upload_seconds,\
 compile_seconds,readback_seconds,rmse,relative_mse,max,over_1_255,flip,command";
 
@@ -122,7 +122,8 @@ fn csv(record: &Record) -> String {
                 method.filter.as_deref().unwrap_or(""),
             ];
             let words = words.map(|w: &str| field(w)).join(",");
-            let counts = format!("{},{},{}", p.spp, p.samples, p.seconds.len());
+            let sampled = p.sampled.map_or(String::new(), |part| part.to_string());
+            let counts = format!("{},{},{sampled},{}", p.spp, p.samples, p.seconds.len());
             let times = [
                 p.median_seconds(),
                 least,

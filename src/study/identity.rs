@@ -5,9 +5,13 @@ use std::fs;
 use std::path::Path;
 
 use crate::error::{Error, Result};
+use crate::film::Film;
 use crate::scene::model::Scene;
 
 use super::record::Conditions;
+
+/// Of the points: those of another one lack what is told of them now.
+const FORMAT: &str = "points 2";
 
 /// FNV-1a in 64 bits (Fowler, Noll, Vo): stable over versions of the compiler, fast, and nobody forges here.
 #[derive(Clone, Copy, Debug)]
@@ -31,6 +35,11 @@ impl Hash {
         self.bytes(text.as_bytes())
     }
 
+    #[must_use]
+    pub fn picture(self, film: &Film) -> Hash {
+        self.text(&format!("{}×{}", film.width, film.height)).bytes(bytemuck::cast_slice(&film.pixels))
+    }
+
     pub fn hex(self) -> String {
         format!("{:016x}", self.0)
     }
@@ -40,6 +49,7 @@ impl Hash {
 pub fn of(conditions: &Conditions, scene: &Scene) -> Result<Hash> {
     let device = &conditions.device;
     let mut hash = Hash::new()
+        .text(FORMAT)
         .text(&conditions.program)
         .text(&device.name)
         .text(&device.driver)

@@ -9,18 +9,25 @@ use crate::film::Film;
 use crate::metrics::compare;
 use crate::metrics::flip::Seen;
 use crate::progress::{Part, Progress};
-use crate::render::Prepared;
-use crate::scene::model::Scene;
+use crate::render::{Prepared, Report};
+use crate::scene::model::{Algorithm, Scene};
 
 use super::bootstrap::blocks;
 use super::identity::Hash;
+use super::limit::Limit;
 use super::looks::Looks;
 use super::method::Method;
 use super::plan::{Forecast, Point};
 use super::record::{Errors, PointRecord, Record, Stages};
 use super::reference::Reference;
+use super::showcase::SAMPLES;
 use super::{Options, files, quote, quoted};
+use crate::counted::{counted, plural, verb};
 
+/// The part of the time that the pages' pictures may ask for in advance, and about how many there are of plain
+/// samples.
+const MOST_RESERVED: f64 = 0.25;
+const PANELS: f64 = 6.0;
 /// Between two writes of the record; what an interruption by force may lose.
 const SAVE_SECONDS: f64 = 1.0;
 
@@ -32,7 +39,7 @@ pub struct Measurement<'a> {
     pub points: &'a [Point],
     pub reference: &'a Reference,
     pub identity: &'a Hash,
-    pub started: Instant,
+    pub limit: &'a Limit,
     pub progress: &'a dyn Progress,
 }
 
@@ -90,8 +97,10 @@ impl<'a> Measurement<'a> {
                 if tasks[i].record.seconds.len() > round || tasks[i].left_out {
                     continue;
                 }
-                let needed = if round == 0 { self.upkeep(tasks, i, &forecast) } else { 0.0 };
-                if self.started.elapsed().as_secs_f64() + needed > self.options.limit {
+                let next = forecast.seconds(&tasks[i].point);
+                let needed = if round == 0 { self.upkeep(tasks, i, &forecast) } else { next };
+                let end = self.limit.seconds - self.reserve(&forecast);
+                if self.limit.spent() + needed > end {
                     tasks[i].left_out |= round == 0;
                     continue;
                 }
@@ -101,10 +110,18 @@ impl<'a> Measurement<'a> {
                     let from = self.reference.progress;
                     from + (1.0 - from) * (seconds / (spent + left).max(1e-9)).min(1.0)
                 };
-                let next = forecast.seconds(&tasks[i].point);
                 let part = Part { whole: self.progress, from: share(spent), to: share(spent + next) };
-                self.measure(&mut tasks[i], &part)?;
-                forecast.learn(&tasks[i].point, tasks[i].record.median_seconds());
+                let clock = Instant::now();
+                let Some(rendering) =
+                    self.limit.until(end, &part, |part| self.measure(&mut tasks[i], part))?
+                else {
+                    tasks[i].left_out |= round == 0;
+                    continue;
+                };
+                forecast.learn(&tasks[i].point, rendering);
+                if round == 0 {
+                    forecast.learn_beside(clock.elapsed().as_secs_f64() - rendering);
+                }
                 if saved.elapsed().as_secs_f64() > SAVE_SECONDS {
                     collect(record, tasks, self.methods);
                     files::save(&self.options.out, record)?;
@@ -115,12 +132,25 @@ impl<'a> Measurement<'a> {
         Ok(())
     }
 
+    /// Seconds that the pictures of the page will take.
+    fn reserve(&self, forecast: &Forecast) -> f64 {
+        let panel = |method: usize| {
+            forecast.seconds(&Point { method, spp: SAMPLES, samples: SAMPLES }) + forecast.beside()
+        };
+        let of = |plain: bool| {
+            let all = self.methods.iter().enumerate();
+            all.filter(move |(_, m)| (m.algorithm == Algorithm::Samples) == plain).map(|(i, _)| panel(i))
+        };
+        let seconds = of(false).sum::<f64>() + PANELS * of(true).fold(0.0, f64::max);
+        seconds.min(MOST_RESERVED * self.limit.seconds)
+    }
+
     /// Seconds that point `i` needs if it is taken up now: all its repeats, and those that the points before
     /// it still lack.
     fn upkeep(&self, tasks: &[Task<'_>], i: usize, forecast: &Forecast) -> f64 {
         let own = forecast.seconds(&tasks[i].point) * f64::from(self.options.repeats);
         let before = tasks[..i].iter().filter(|t| !t.left_out && t.judged);
-        own + before.map(|t| self.lacking(t) * forecast.seconds(&t.point)).sum::<f64>()
+        own + forecast.beside() + before.map(|t| self.lacking(t) * forecast.seconds(&t.point)).sum::<f64>()
     }
 
     fn lacking(&self, task: &Task<'_>) -> f64 {
@@ -130,10 +160,11 @@ impl<'a> Measurement<'a> {
     fn remaining(&self, tasks: &[Task<'_>], forecast: &Forecast) -> f64 {
         let left = tasks.iter().filter(|t| !t.left_out);
         let sum: f64 = left.map(|t| self.lacking(t) * forecast.seconds(&t.point)).sum();
-        sum.min((self.options.limit - self.started.elapsed().as_secs_f64()).max(0.0))
+        sum.min(self.limit.left())
     }
 
-    fn measure(&self, task: &mut Task<'a>, progress: &dyn Progress) -> Result<()> {
+    /// Returns the seconds of the render stage.
+    fn measure(&self, task: &mut Task<'a>, progress: &dyn Progress) -> Result<f64> {
         if progress.cancelled() {
             return Err(Error::Interrupted);
         }
@@ -157,9 +188,16 @@ impl<'a> Measurement<'a> {
         if first {
             task.record.errors = judge(&film, self.reference)?;
             task.record.blocks = blocks(&film, &self.reference.film);
+            task.record.picture = Hash::new().picture(&film).hex();
+            task.record.sampled =
+                sampled_part(self.methods[task.point.method].algorithm, &report, film.pixels.len());
+            if let Some(part) = task.record.sampled {
+                // One beam, or what stands for it.
+                task.record.samples = (part * f64::from(task.point.samples)).ceil().max(1.0) as u32;
+            }
             task.judged = true;
         }
-        Ok(())
+        Ok(seconds.render)
     }
 
     fn command(&self, point: &Point) -> String {
@@ -178,9 +216,10 @@ impl<'a> Measurement<'a> {
             let counts: Vec<String> = left.map(|t| t.point.spp.to_string()).collect();
             if !counts.is_empty() {
                 notes.push(format!(
-                    "{} with {} samples was left out: no room within --seconds {limit}",
+                    "{} with {} {} was left out: no room within --seconds {limit}",
                     method.name(),
-                    counts.join(", ")
+                    counts.join(", "),
+                    plural(if counts == ["1"] { 1 } else { 2 }, "sample")
                 ));
             }
         }
@@ -188,11 +227,19 @@ impl<'a> Measurement<'a> {
         let short = tasks.iter().filter(|t| t.judged && t.record.seconds.len() < wanted).count();
         if short > 0 {
             notes.push(format!(
-                "{short} points have fewer than {wanted} repeats: no room within --seconds {limit}"
+                "{} {} fewer than {wanted} repeats: no room within --seconds {limit}",
+                counted(short, "point"),
+                verb(short, "has", "have")
             ));
         }
         notes
     }
+}
+
+/// Of beams: the part of the pixels that took samples; all of them in a scene that suits no beam.
+pub fn sampled_part(algorithm: Algorithm, report: &Report, pixels: usize) -> Option<f64> {
+    let part = || report.sampled_pixels.map_or(1.0, |count| count as f64 / pixels as f64);
+    (algorithm == Algorithm::Beam).then(part)
 }
 
 fn judge(film: &Film, reference: &Reference) -> Result<Errors> {

@@ -5,6 +5,7 @@
 use crate::error::{Error, Result};
 use crate::scene::cone;
 use crate::scene::model::{Algorithm, Footprint, Pattern, Scene};
+use crate::scene::synonyms::meant;
 use crate::scene::{both_filters, check_filters, check_shared, check_spp};
 use crate::texture::sampler_spec::{Filter, MipMode, SamplerSpec};
 
@@ -189,6 +190,9 @@ fn filtered(scene: &Scene, notes: &mut Vec<String>) -> Vec<Method> {
 
 fn unknown(word: &str) -> String {
     let list = |names: &[&str]| names.join(", ");
+    let near = [Algorithm::NAMES, Pattern::NAMES, Footprint::NAMES, Filter::NAMES]
+        .into_iter()
+        .find_map(|names| meant(word, names.iter().copied()));
     format!(
         "\"{word}\" has no meaning there: a method is PATTERN, PATTERN+FOOTPRINT or PATTERN+FOOTPRINT+FILTER, \
          with an algorithm before it or alone; patterns: {}; footprints: {}; filters: {}; algorithms: {}",
@@ -196,5 +200,5 @@ fn unknown(word: &str) -> String {
         list(Footprint::NAMES),
         list(Filter::NAMES),
         list(Algorithm::NAMES)
-    )
+    ) + &near.map_or(String::new(), |(name, _)| format!("; did you mean {name}?"))
 }

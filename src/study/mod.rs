@@ -9,8 +9,10 @@
 
 pub mod analysis;
 pub mod bootstrap;
+pub mod choice;
 mod files;
 mod identity;
+mod limit;
 mod looks;
 mod measure;
 pub mod method;
@@ -21,8 +23,9 @@ pub mod record;
 mod reference;
 mod showcase;
 mod stages;
+pub mod student;
 mod tables;
-mod words;
+pub mod words;
 
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -33,6 +36,7 @@ use crate::progress::Progress;
 use crate::scene::model::Scene;
 use crate::texture;
 
+use limit::Limit;
 use looks::Looks;
 use method::Method;
 use record::{Conditions, Record};
@@ -47,8 +51,9 @@ pub struct Options {
     /// Renders a point; their median counts.
     pub repeats: u32,
     pub reference: ReferenceChoice,
-    /// Wall seconds for all of it.
+    /// Wall seconds for all of it, from `started` on.
     pub limit: f64,
+    pub started: Instant,
     /// An existing folder.
     pub out: PathBuf,
     /// What commands have to say beside a method: `--size`, `--device`.
@@ -68,7 +73,7 @@ pub enum ReferenceChoice {
 /// Measures what the folder does not have yet and writes everything. Interrupted or failed, it leaves a
 /// folder from which the same call goes on.
 pub fn run(gpu: &Gpu, scene: &Scene, options: &Options, progress: &dyn Progress) -> Result<Record> {
-    let started = Instant::now();
+    let limit = Limit::new(options.started, options.limit);
     let (methods, notes) = match &options.methods {
         Some(methods) => (methods.clone(), Vec::new()),
         None => Method::all_for(scene),
@@ -82,7 +87,7 @@ pub fn run(gpu: &Gpu, scene: &Scene, options: &Options, progress: &dyn Progress)
     let kept = record::read(&options.out);
 
     let looks = Looks::open(gpu, scene, textures, &methods)?;
-    let reference = reference::obtain(&looks, scene, options, &identity, kept.reference, started, progress)?;
+    let reference = reference::obtain(&looks, scene, options, &identity, kept.reference, &limit, progress)?;
     record.reference = reference.record.clone();
     measure::Measurement {
         looks: &looks,
@@ -92,12 +97,14 @@ pub fn run(gpu: &Gpu, scene: &Scene, options: &Options, progress: &dyn Progress)
         points: &points,
         reference: &reference,
         identity: &identity,
-        started,
+        limit: &limit,
         progress,
     }
     .run(&mut record, kept.points)?;
     record.analyse();
-    let showcase = showcase::render(&looks, scene, &record, &reference.film, progress)?;
+    let showcase = showcase::render(&looks, scene, &record, &reference.film, &limit, progress)?;
+    record.notes.extend(showcase.note(&limit));
+    record.notes.extend(limit.note());
     files::write_all(&options.out, &record, &showcase)?;
     Ok(record)
 }

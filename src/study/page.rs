@@ -6,12 +6,13 @@ use crate::output::Format;
 use crate::plot::html::{Header, SCRIPT, code, document, scroll, section};
 use crate::plot::svg::escape;
 
+use super::choice::recommended;
 use super::files::Plots;
 use super::pictures::{crop, data_uri, differences, false_color, ramp_css, scale, shrunk};
 use super::record::Record;
 use super::showcase::Showcase;
 use super::tables;
-use super::words::{error, recommended};
+use super::words::error;
 
 /// Widest picture within the page.
 const MOST: u32 = 420;
@@ -29,7 +30,7 @@ pub fn html(record: &Record, showcase: &Showcase, plots: &Plots) -> Result<Strin
         escape(&c.device.driver),
         escape(&c.program)
     );
-    let best = recommended(record, &analysis.winners).map(|(_, point)| point.command.as_str());
+    let best = recommended(&record.points, &analysis.winners).map(|point| point.command.as_str());
     let command = best.map_or(String::new(), |c| scroll("The recommended setting as a command", &code(c)));
     let sections = [
         section("faults", "Three faults and what helps", &faults(showcase)?),
@@ -91,14 +92,15 @@ fn faults(showcase: &Showcase) -> Result<String> {
     );
     figures += &figure(&frame, "The scene.", "The frame is where the pictures beside it differ most.");
     for panel in &showcase.panels {
-        let samples =
-            if panel.samples == 1 { "1 sample".into() } else { format!("{} samples", panel.samples) };
-        let alt =
-            format!("{}: {} with {samples}, magnified part of the picture", panel.heading, panel.method);
+        let alt = format!(
+            "{}: {} with {}, magnified part of the picture",
+            panel.heading, panel.method, panel.taken
+        );
         let part = data_uri(&crop(&panel.film, w), Format::Png)?;
         let text = format!(
-            "<code>{}</code>, {samples}, RMSE {}. {}",
+            "<code>{}</code>, {}, RMSE {}. {}",
             escape(&panel.method),
+            escape(&panel.taken),
             error(panel.rmse),
             escape(panel.text)
         );
@@ -113,7 +115,7 @@ fn faults(showcase: &Showcase) -> Result<String> {
     figures +=
         &figure(&image(&part, [w.width, w.height], alt, "pixels"), "Reference.", "What all of them aim at.");
     Ok(format!(
-        "<p>{}×{} pixels from column {}, row {}, at the same sample count, where the errors add up to most.</p>\n\
+        "<p>{}×{} pixels from column {}, row {}, where the errors add up to most.</p>\n\
          <div class=\"grid\">\n{figures}</div>\n",
         w.width, w.height, w.x, w.y
     ))
@@ -127,13 +129,13 @@ fn difference_pictures(showcase: &Showcase) -> Result<String> {
     for (panel, values) in showcase.panels.iter().zip(&values) {
         let picture = shrunk(&false_color(values, showcase.reference.width, scale), MOST);
         let alt = format!(
-            "Error of {} with {} samples at each pixel, from dark (none) to light ({})",
+            "Error of {} with {} at each pixel, from dark (none) to light ({})",
             panel.method,
-            panel.samples,
+            panel.taken,
             error(f64::from(scale))
         );
         let picture = image(&data_uri(&picture, Format::Jpeg)?, [picture.width, picture.height], &alt, "");
-        let text = format!("{} samples, RMSE {}.", panel.samples, error(panel.rmse));
+        let text = format!("{}, RMSE {}.", escape(&panel.taken), error(panel.rmse));
         figures += &figure(&picture, &format!("<code>{}</code>", escape(&panel.method)), &text);
     }
     Ok(format!(

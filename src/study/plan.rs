@@ -54,11 +54,26 @@ pub fn points(methods: &[Method], scene: &Scene, counts: &[u32]) -> Result<Vec<P
 pub struct Forecast {
     /// (method, samples, seconds) of one render.
     seen: Vec<(usize, u32, f64)>,
+    /// Seconds beside rendering that points took when they were measured first: compiling, comparing.
+    beside: Vec<f64>,
 }
+
+/// As many points tell how long the next will take beside rendering.
+const RECENT: usize = 8;
 
 impl Forecast {
     pub fn learn(&mut self, point: &Point, seconds: f64) {
         self.seen.push((point.method, point.samples, seconds));
+    }
+
+    pub fn learn_beside(&mut self, seconds: f64) {
+        self.beside.push(seconds.max(0.0));
+    }
+
+    /// Seconds beside rendering of a point that is measured first: the mean of the last ones.
+    pub fn beside(&self) -> f64 {
+        let recent = &self.beside[self.beside.len().saturating_sub(RECENT)..];
+        recent.iter().sum::<f64>() / recent.len().max(1) as f64
     }
 
     /// Seconds of one render. Time grows with the samples; of a method that was not seen yet, it is that of
@@ -69,7 +84,8 @@ impl Forecast {
             // Fewer samples save less than their share: launching, reading back.
             seconds * if ratio < 1.0 { ratio.sqrt() } else { ratio }
         };
-        let own = self.seen.iter().filter(|s| s.0 == point.method);
+        // The last of equals: the machine may have become slower.
+        let own = self.seen.iter().rev().filter(|s| s.0 == point.method);
         match own.min_by_key(|s| s.1.abs_diff(point.samples)) {
             Some(nearest) => scaled(nearest),
             None => self.seen.iter().map(scaled).fold(0.0, f64::max),

@@ -79,8 +79,14 @@ pub struct PointRecord {
     pub hash: String,
     pub method: String,
     pub spp: u32,
-    /// Camera rays a pixel.
+    /// Camera rays a pixel, those of beams and cones among them; a mean where pixels differ.
     pub samples: u32,
+    /// Of beams: the part of the pixels that took samples, `spp` each.
+    #[serde(default)]
+    pub sampled: Option<f64>,
+    /// Hash of the picture: equal ones have one.
+    #[serde(default)]
+    pub picture: String,
     /// Wall seconds of the render stage, one for each repeat.
     pub seconds: Vec<f64>,
     pub device_seconds: Vec<f64>,

@@ -18,6 +18,7 @@ use crate::scene::model::{Pattern, Scene};
 use crate::texture;
 
 use super::identity::{self, Hash};
+use super::limit::Limit;
 use super::looks::Looks;
 use super::method::Method;
 use super::plan::next_count;
@@ -30,6 +31,9 @@ pub const FILE: &str = "reference.exr";
 const TIMES: u32 = 64;
 /// The part of a study's time that a reference may take.
 const SHARE: f64 = 0.25;
+/// When its first try and its second have to be done, and how many times fewer samples a side the second takes.
+const LATER: [f64; 2] = [0.45, 0.6];
+const FEWER: u32 = 4;
 /// Added to the scene's seed: no half shares its samples with a measured point.
 const SEEDS: [u32; 2] = [1_000_003, 2_000_003];
 
@@ -47,7 +51,7 @@ pub fn obtain(
     options: &Options,
     identity: &Hash,
     kept: Option<ReferenceRecord>,
-    started: Instant,
+    limit: &Limit,
     progress: &dyn Progress,
 ) -> Result<Reference> {
     if let ReferenceChoice::File(path) = &options.reference {
@@ -63,7 +67,7 @@ pub fn obtain(
     {
         return Ok(finished(film, record, 0.0));
     }
-    let allowed = (SHARE * options.limit - started.elapsed().as_secs_f64()).max(0.0);
+    let allowed = (SHARE * limit.seconds - limit.spent()).max(0.0);
     let (film, mut record, progress) = if oracle {
         let textures = scene.textures.iter().map(texture::load::load).collect::<Result<Vec<_>>>()?;
         let half = |samples: u32, seed: u32, progress: &dyn Progress| {
@@ -72,14 +76,14 @@ pub fn obtain(
                 progress,
             )
         };
-        in_halves(scene, &half, wanted, allowed, options, progress)?
+        in_halves(scene, &half, wanted, allowed, options, limit, progress)?
     } else {
         let half = |samples: u32, seed: u32, progress: &dyn Progress| {
             let scene = half_of(scene, samples, seed)?;
             let (prepared, _) = looks.prepare(&scene, &Method::of_pattern(Pattern::Stratified), samples)?;
             prepared.render(progress).map(|(film, _)| film)
         };
-        in_halves(scene, &half, wanted, allowed, options, progress)?
+        in_halves(scene, &half, wanted, allowed, options, limit, progress)?
     };
     output::write(&film, &path, &WriteOptions::default())?;
     let who = if oracle { "the float64 oracle" } else { "the device" };
@@ -138,13 +142,14 @@ fn in_halves(
     wanted: u32,
     allowed: f64,
     options: &Options,
+    limit: &Limit,
     progress: &dyn Progress,
 ) -> Result<(Film, ReferenceRecord, f64)> {
     let clock = Instant::now();
     let rate = seconds_per_sample(half, wanted, &Part { whole: progress, from: 0.0, to: 0.0 })?;
     let fitting = (0.5 * (allowed - clock.elapsed().as_secs_f64()).max(0.0) / rate)
         .clamp(1.0, f64::from(wanted)) as u32;
-    let samples = match next_count(Pattern::Stratified, fitting) {
+    let mut samples = match next_count(Pattern::Stratified, fitting) {
         Some(next) if fitting == wanted => next,
         _ => fitting.isqrt().pow(2),
     };
@@ -153,8 +158,26 @@ fn in_halves(
     let methods = options.methods.as_ref().map_or_else(|| Method::all_for(scene).0.len(), Vec::len);
     let rest = f64::from(points) * f64::from(options.repeats) * methods as f64;
     let end = f64::from(2 * samples) / (f64::from(2 * samples) + rest);
-    let a = half(samples, SEEDS[0], &Part { whole: progress, from: 0.0, to: 0.5 * end })?;
-    let b = half(samples, SEEDS[1], &Part { whole: progress, from: 0.5 * end, to: end })?;
+    let both = |samples: u32, progress: &dyn Progress| {
+        let a = half(samples, SEEDS[0], &Part { whole: progress, from: 0.0, to: 0.5 * end })?;
+        let b = half(samples, SEEDS[1], &Part { whole: progress, from: 0.5 * end, to: end })?;
+        Ok((a, b))
+    };
+    // A machine that has become slower gets fewer samples; one a half there is in any case.
+    let mut halves = None;
+    for share in LATER {
+        if halves.is_none() && samples > 1 {
+            halves = limit.until(share * limit.seconds, progress, |progress| both(samples, progress))?;
+            samples = if halves.is_none() { (samples.isqrt() / FEWER).max(1).pow(2) } else { samples };
+        }
+    }
+    let (a, b) = match halves {
+        Some(halves) => halves,
+        None => {
+            samples = 1;
+            both(samples, progress)?
+        }
+    };
     let record = ReferenceRecord {
         samples: 2 * samples,
         seconds: clock.elapsed().as_secs_f64(),

@@ -8,23 +8,27 @@ use crate::metrics::compare;
 use crate::progress::{Part, Progress};
 use crate::scene::model::{Algorithm, Pattern, Scene};
 
+use super::choice::recommended;
+use super::limit::Limit;
 use super::looks::Looks;
+use super::measure::sampled_part;
 use super::method::Method;
 use super::pictures::{self, Window};
 use super::plan::next_count;
 use super::record::{MethodRecord, Record};
-use super::words::recommended;
+use super::words::taken_by;
+use crate::counted::{counted, verb};
 
 /// Pixels along a side of the magnified crops.
 const CROP: u32 = 64;
-const SAMPLES: u32 = 16;
+pub const SAMPLES: u32 = 16;
 
 pub struct Panel {
     pub heading: &'static str,
     pub text: &'static str,
     pub method: String,
-    /// Samples that were taken.
-    pub samples: u32,
+    /// What each pixel took, in words.
+    pub taken: String,
     pub film: Film,
     pub rmse: f64,
 }
@@ -33,6 +37,18 @@ pub struct Showcase {
     pub panels: Vec<Panel>,
     pub reference: Film,
     pub window: Window,
+    /// Panels for which there was no time.
+    left_out: usize,
+}
+
+impl Showcase {
+    pub fn note(&self, limit: &Limit) -> Option<String> {
+        let (count, seconds) = (self.left_out, limit.seconds);
+        let pictures = counted(count, "picture");
+        let was = verb(count, "was", "were");
+        (count > 0)
+            .then(|| format!("{pictures} of the page {was} left out: no room within --seconds {seconds}"))
+    }
 }
 
 /// (heading, what is seen, pattern): the faults, and the first remedy.
@@ -69,6 +85,7 @@ pub fn render(
     scene: &Scene,
     record: &Record,
     reference: &Film,
+    limit: &Limit,
     progress: &dyn Progress,
 ) -> Result<Showcase> {
     let distance = |n: &u32| (f64::from(*n).ln() - f64::from(SAMPLES).ln()).abs();
@@ -83,23 +100,38 @@ pub fn render(
     for method in record.methods.iter().filter_map(named).filter(|m| m.algorithm != Algorithm::Samples) {
         chosen.push((ALGORITHM.0, ALGORITHM.1, method));
     }
-    let winner = record.analysis.as_ref().and_then(|a| recommended(record, &a.winners));
-    if let Some(method) = winner.and_then(|(name, _)| Method::parse(name).ok())
+    let winner = record.analysis.as_ref().and_then(|a| recommended(&record.points, &a.winners));
+    if let Some(method) = winner.and_then(|point| Method::parse(&point.method).ok())
         && !chosen.iter().any(|c| c.2 == method)
     {
         chosen.push((WINNER.0, WINNER.1, method));
     }
     let still = Part { whole: progress, from: 1.0, to: 1.0 };
-    let mut panels = Vec::new();
+    let mut panels: Vec<Panel> = Vec::new();
+    let mut left_out = 0;
     for (heading, text, method) in chosen.into_iter().filter(|c| looks.has(&c.2)) {
         let Some(spp) = next_count(method.pattern_in(scene), count) else { continue };
-        let (film, _) = looks.prepare(scene, &method, spp)?.0.render(&still)?;
+        // One there is in any case.
+        let seconds = if panels.is_empty() { f64::INFINITY } else { limit.seconds };
+        if limit.spent() >= seconds {
+            left_out += 1;
+            continue;
+        }
+        let drawn =
+            limit.until(seconds, &still, |still| looks.prepare(scene, &method, spp)?.0.render(still))?;
+        let Some((film, report)) = drawn else {
+            left_out += 1;
+            continue;
+        };
+        let sampled = sampled_part(method.algorithm, &report, film.pixels.len());
+        let spp = if method.algorithm == Algorithm::Beam { spp } else { film.samples };
+        let taken = taken_by(method.algorithm, spp, sampled);
         let rmse = compare(&film, reference)?.rmse;
-        panels.push(Panel { heading, text, method: method.name(), samples: film.samples, film, rmse });
+        panels.push(Panel { heading, text, method: method.name(), taken, film, rmse });
     }
     let films: Vec<(&Film, f64)> = panels.iter().map(|p| (&p.film, p.rmse)).collect();
     let window = pictures::worst_window(&films, reference, CROP);
-    Ok(Showcase { panels, reference: reference.clone(), window })
+    Ok(Showcase { panels, reference: reference.clone(), window, left_out })
 }
 
 /// The method with the least error at about this count.

@@ -3,28 +3,32 @@
 use super::analysis::{Analysis, MethodSlope};
 use super::quote;
 use super::record::{PointRecord, Record};
-use super::words::{error, percent, samples, seconds, times};
+use super::words::{error, percent, seconds, taken, times};
 use crate::plot::html::{code, scroll, table};
 use crate::plot::svg::escape;
 
 pub fn winners(analysis: &Analysis) -> String {
     let row = |w: &super::analysis::Winner| {
         let about = if w.estimated { "about " } else { "" };
-        let [count, rmse] = [samples(w.spp), error(w.rmse)].map(|text| format!("{about}{text}"));
-        vec![seconds(w.budget), method(&w.method), count, rmse, seconds(w.seconds)]
+        let rmse = format!("{about}{}", error(w.rmse));
+        let names = std::iter::once(&w.method).chain(&w.ties).map(|name| method(name));
+        let names = names.collect::<Vec<_>>().join(" = ");
+        vec![seconds(w.budget), names, escape(&w.taken), rmse, seconds(w.seconds)]
     };
     let rows: Vec<Vec<String>> = analysis.winners.iter().map(row).collect();
-    let text = if analysis.winners.iter().any(|w| w.estimated) {
-        "<p>“about”: beyond what was measured of the method, along its fitted slope.</p>\n"
-    } else {
-        ""
-    };
-    text.to_owned()
-        + &table(
-            "The least error within each time",
-            &["time", "winner", "samples", "RMSE", "it takes"],
-            &rows,
-        )
+    let mut text = String::new();
+    if analysis.winners.iter().any(|w| w.estimated) {
+        text += "<p>“about”: beyond what was measured of the method, along its fitted slope.</p>\n";
+    }
+    if analysis.winners.iter().any(|w| !w.ties.is_empty()) {
+        text +=
+            "<p>“=”: the same picture, or errors whose difference has a 95 % interval that holds 0.</p>\n";
+    }
+    text + &table(
+        "The least error within each time",
+        &["time", "winner", "a pixel takes", "RMSE", "it takes"],
+        &rows,
+    )
 }
 
 pub fn slopes(analysis: &Analysis) -> String {
@@ -83,6 +87,7 @@ pub fn points(record: &Record) -> String {
         vec![
             method(&p.method),
             p.samples.to_string(),
+            escape(&taken(p)),
             times(p),
             seconds(p.median_device_seconds()),
             error(e.rmse),
@@ -96,6 +101,7 @@ pub fn points(record: &Record) -> String {
     let head = [
         "method",
         "rays",
+        "a pixel takes",
         "render",
         "device",
         "RMSE",

@@ -1,18 +1,32 @@
 //! Numbers as words: the sentence that recommends a setting, and how times, errors and counts are written on
 //! the page.
 
-use super::analysis::{Winner, time_to};
+use super::analysis::time_to;
+use super::choice::{Winner, no_different, recommended};
+use super::method::Method;
 use super::record::{PointRecord, Record};
+use crate::counted::counted;
+use crate::scene::model::Algorithm;
 
-/// The method that wins most of the times, with its best measured count, and who is better with less and with
-/// more time.
+/// The recommended point, and who is better with less and with more time.
 pub fn advice(record: &Record, winners: &[Winner]) -> String {
-    let Some((method, best)) = recommended(record, winners) else {
+    let Some(best) = recommended(&record.points, winners) else {
         return "Nothing was measured.".into();
     };
+    let method = best.method.as_str();
+    let mut equals: Vec<&str> = Vec::new();
+    for point in record.points.iter().filter(|p| p.method != method && p.spp == best.spp) {
+        if no_different(point, best) && !equals.contains(&point.method.as_str()) {
+            equals.push(&point.method);
+        }
+    }
+    let equals = match equals.is_empty() {
+        true => String::new(),
+        false => format!(" ({} errs the same but for noise)", equals.join(" or ")),
+    };
     let mut text = format!(
-        "Use {method} with {}: RMSE {} in {}",
-        samples(best.spp),
+        "Use {method} with {}{equals}: RMSE {} in {}",
+        taken(best),
         error(best.errors.rmse),
         seconds(best.median_seconds())
     );
@@ -20,10 +34,10 @@ pub fn advice(record: &Record, winners: &[Winner]) -> String {
         text += &format!(", {times} times as fast as random samples come to that error");
     }
     let mut others = Vec::new();
-    if let Some(first) = winners.first().filter(|w| w.method != method) {
+    if let Some(first) = winners.first().filter(|w| !w.is_or_ties(method)) {
         others.push(format!("if there is time for {} only, {}", seconds(first.budget), setting(first)));
     }
-    if let Some(last) = winners.last().filter(|w| w.method != method) {
+    if let Some(last) = winners.last().filter(|w| !w.is_or_ties(method)) {
         others.push(format!("with {}, {}", seconds(last.budget), setting(last)));
     }
     others.iter().for_each(|other| text += &format!("; {other}"));
@@ -32,16 +46,35 @@ pub fn advice(record: &Record, winners: &[Winner]) -> String {
 
 fn setting(winner: &Winner) -> String {
     let about = if winner.estimated { "about " } else { "" };
-    format!("{} with {about}{} (RMSE {about}{})", winner.method, samples(winner.spp), error(winner.rmse))
+    format!("{} with {} (RMSE {about}{})", names(winner), winner.taken, error(winner.rmse))
 }
 
-/// The method that has the least error in most of the times, and its best point.
-pub fn recommended<'a>(record: &'a Record, winners: &'a [Winner]) -> Option<(&'a str, &'a PointRecord)> {
-    let won = |name: &str| winners.iter().filter(|w| w.method == name).count();
-    // The last among equals: it was measured for the longer times.
-    let method = winners.iter().max_by_key(|w| won(&w.method))?.method.as_str();
-    let best = record.points_of(method).min_by(|a, b| a.errors.rmse.total_cmp(&b.errors.rmse))?;
-    Some((method, best))
+/// The winning method, or all that tie.
+pub fn names(winner: &Winner) -> String {
+    let all = std::iter::once(&winner.method).chain(&winner.ties);
+    all.map(String::as_str).collect::<Vec<_>>().join(" or ")
+}
+
+/// What each pixel of a point took.
+pub fn taken(point: &PointRecord) -> String {
+    let algorithm = Method::parse(&point.method).map_or(Algorithm::Samples, |method| method.algorithm);
+    let count = if algorithm == Algorithm::Beam { point.spp } else { point.samples };
+    taken_by(algorithm, count, point.sampled)
+}
+
+/// What each pixel took of an algorithm that takes `count` samples; `sampled` is the part of the pixels in which
+/// beams took them.
+pub fn taken_by(algorithm: Algorithm, count: u32, sampled: Option<f64>) -> String {
+    match (algorithm, sampled.unwrap_or(0.0)) {
+        (Algorithm::Cone, _) => "one cone a pixel".into(),
+        (Algorithm::Beam, 0.0) => "one beam a pixel".into(),
+        (Algorithm::Beam, 1.0) => format!("{} in every pixel, as beams suit none", samples(count)),
+        (Algorithm::Beam, part) => {
+            format!("one beam a pixel, and {} in {} of them", samples(count), percent(part))
+        }
+        (Algorithm::Adaptive, _) => format!("{} on average", samples(count)),
+        _ => samples(count),
+    }
 }
 
 /// How many times as long random samples take to the same error.
@@ -64,7 +97,7 @@ fn saved(record: &Record, best: &PointRecord) -> Option<String> {
 }
 
 pub fn samples(spp: u32) -> String {
-    if spp == 1 { "1 sample".into() } else { format!("{spp} samples") }
+    counted(spp, "sample")
 }
 
 pub fn seconds(seconds: f64) -> String {

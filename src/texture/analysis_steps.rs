@@ -1,46 +1,107 @@
-//! Sums over the steps of one axis: pairs of neighbouring texels go in, the RMS of the seam and of the
-//! interior come out, and how near an interior step comes to the seam. A pair with a value that is
-//! not finite is left out.
+//! Sizes of the steps of one axis: pairs of neighbouring texels go in, line by line, and the size of the seam
+//! and of every interior step comes out. Two sizes are kept of each step: the mean of |d| over its pairs, and
+//! that of |mean of d| over runs of pairs along the step, in which grain cancels and an offset does not.
+//! |d| counts up to a little more than what the seam has, so that a sun beside the seam weighs no more
+//! than an edge. A pair with a value that is not finite is left out.
+
+/// Pairs along the step that are averaged before their size is taken.
+const RUN: usize = 16;
+/// Differences count up to this many times the seam's large ones, which are its quantile `LARGE`.
+const HEADROOM: f64 = 1.5;
+const LARGE: f64 = 0.9;
+
+/// The pairs across the seam: differences of stored values and of values as they are weighed.
+#[derive(Clone, Debug, Default)]
+pub struct Pairs {
+    pub stored: Vec<f64>,
+    pub weighed: Vec<f64>,
+}
 
 /// Of the steps between columns i and i + 1 (or rows).
-#[derive(Clone, Copy, Default)]
+#[derive(Clone, Debug, Default)]
 struct Step {
-    /// Σ d², d the difference of a pair.
+    /// Σ d² of stored and of weighed values.
     square: f64,
+    weighed_square: f64,
     pairs: u64,
+    /// Σ min(|d|, cap), weighed.
+    size: f64,
     /// Σ (|d| − |s|)², s the difference of the seam's pair in the same row and channel.
     against_seam: f64,
     pairs_with_seam: u64,
+    /// Σ d of the run that is not complete yet, by channel, and the texels in it.
+    run: [f64; 4],
+    in_run: usize,
+    /// Σ min(|mean d|, cap) over complete runs.
+    run_size: f64,
+    runs: u64,
 }
 
 pub struct Steps {
     interior: Vec<Step>,
     seam: Step,
+    limits: Limits,
+}
+
+struct Limits {
+    /// Where |d| and |mean of a run| are cut off.
+    pair: f64,
+    run: f64,
+    channels: usize,
+}
+
+/// What the verdict on an axis is made from.
+#[derive(Clone, Debug, Default)]
+pub struct Sizes {
+    pub seam: f64,
+    /// Ascending.
+    pub interior: Vec<f64>,
+    /// The same of runs; the seam's and the largest interior one. None where runs are few.
+    pub runs: Option<[f64; 2]>,
+}
+
+impl Step {
+    /// Differences of pairs, channel by channel, beside those of the seam.
+    fn add(&mut self, limits: &Limits, stored: &[f64], weighed: &[f64], seam: Option<&[f64]>) {
+        for (i, (d, e)) in stored.iter().zip(weighed).enumerate() {
+            let channel = i % limits.channels;
+            if d.is_finite() && e.is_finite() {
+                self.square += d * d;
+                self.weighed_square += e * e;
+                self.pairs += 1;
+                self.size += e.abs().min(limits.pair);
+                self.run[channel] += e;
+                if let Some(s) = seam.map(|s| s[i]).filter(|s| s.is_finite()) {
+                    self.against_seam += (e.abs() - s.abs()).powi(2);
+                    self.pairs_with_seam += 1;
+                }
+            }
+            if channel + 1 == limits.channels {
+                self.in_run += 1;
+                if self.in_run == RUN {
+                    let means = self.run[..limits.channels].iter().map(|sum| (sum / RUN as f64).abs());
+                    self.run_size += means.map(|mean| mean.min(limits.run)).sum::<f64>();
+                    self.runs += 1;
+                    (self.run, self.in_run) = ([0.0; 4], 0);
+                }
+            }
+        }
+    }
 }
 
 impl Steps {
-    pub fn new(interior: usize) -> Steps {
-        Steps { interior: vec![Step::default(); interior], seam: Step::default() }
+    pub fn new(interior: usize, channels: usize, pairs: &Pairs) -> Steps {
+        let whole_runs = pairs.weighed.chunks_exact(RUN * channels);
+        let means = whole_runs.flat_map(|run| (0..channels).map(move |c| mean_of(run, c, channels)));
+        let limits = Limits { pair: cap(pairs.weighed.iter().copied()), run: cap(means), channels };
+        let mut seam = Step::default();
+        seam.add(&limits, &pairs.stored, &pairs.weighed, None);
+        Steps { interior: vec![Step::default(); interior], seam, limits }
     }
 
-    pub fn add_seam(&mut self, differences: &[f64]) {
-        let finite = || differences.iter().filter(|d| d.is_finite());
-        self.seam.square += finite().map(|d| d * d).sum::<f64>();
-        self.seam.pairs += finite().count() as u64;
-    }
-
-    /// Each difference with that of the seam.
-    pub fn add<'a>(&mut self, at: usize, differences: impl Iterator<Item = (f64, &'a f64)>) {
-        let step = &mut self.interior[at];
-        for (d, s) in differences.filter(|(d, _)| d.is_finite()) {
-            step.square += d * d;
-            step.pairs += 1;
-            if s.is_finite() {
-                let apart = d.abs() - s.abs();
-                step.against_seam += apart * apart;
-                step.pairs_with_seam += 1;
-            }
-        }
+    /// Differences along step `at`, in the order of the seam's pairs, each beside that of the seam.
+    pub fn add(&mut self, at: usize, stored: &[f64], weighed: &[f64], seam: &[f64]) {
+        self.interior[at].add(&self.limits, stored, weighed, Some(seam));
     }
 
     /// An axis of one texel.
@@ -48,26 +109,53 @@ impl Steps {
         self.interior.is_empty()
     }
 
-    /// √(Σ s² ⁄ pairs)
+    /// √(Σ s² ⁄ pairs) of stored values.
     pub fn seam_rms(&self) -> Option<f64> {
         rms(self.seam.square, self.seam.pairs)
     }
 
-    /// √(Σ d² ⁄ pairs) over all interior steps.
+    /// √(Σ d² ⁄ pairs) of stored values over all interior steps.
     pub fn interior_rms(&self) -> Option<f64> {
         rms(self.interior.iter().map(|s| s.square).sum(), self.interior.iter().map(|s| s.pairs).sum())
     }
 
-    /// The smallest √(Σ (|d| − |s|)² ⁄ pairs) of a step that has every pair of the seam.
-    pub fn nearest_to_seam(&self) -> Option<f64> {
+    pub fn sizes(&self) -> Option<Sizes> {
+        let size = |s: &Step| (s.pairs > 0).then(|| s.size / s.pairs as f64);
+        let mut interior: Vec<f64> = self.interior.iter().filter_map(size).collect();
+        interior.sort_by(f64::total_cmp);
+        let of_runs = |s: &Step| s.run_size / s.runs.max(1) as f64;
+        let largest = self.interior.iter().map(of_runs).fold(0.0, f64::max);
+        let runs = (self.seam.runs >= 4).then(|| [of_runs(&self.seam), largest]);
+        (!interior.is_empty()).then_some(Sizes { seam: size(&self.seam)?, interior, runs })
+    }
+
+    /// The smallest √(Σ (|d| − |s|)² ⁄ pairs) of a step that has every pair of the seam, and the middle of all
+    /// steps' RMS, both over the RMS of the seam.
+    pub fn nearest_to_seam(&self) -> Option<[f64; 2]> {
+        let seam = rms(self.seam.weighed_square, self.seam.pairs).filter(|seam| *seam > 0.0)?;
         let complete = self.interior.iter().filter(|s| s.pairs_with_seam == self.seam.pairs);
-        complete.filter_map(|s| rms(s.against_seam, s.pairs_with_seam)).min_by(f64::total_cmp)
+        let nearest =
+            complete.filter_map(|s| rms(s.against_seam, s.pairs_with_seam)).min_by(f64::total_cmp)?;
+        let mut all: Vec<f64> = self.interior.iter().filter_map(|s| rms(s.weighed_square, s.pairs)).collect();
+        all.sort_by(f64::total_cmp);
+        Some([nearest / seam, all.get(all.len() / 2)? / seam])
     }
 
     /// No two neighbours inside are equal.
     pub fn all_differ(&self) -> bool {
         self.interior.iter().all(|s| s.square > 0.0)
     }
+}
+
+fn mean_of(run: &[f64], channel: usize, channels: usize) -> f64 {
+    let own = run[channel..].iter().step_by(channels).filter(|d| d.is_finite());
+    own.sum::<f64>() / RUN as f64
+}
+
+fn cap(differences: impl Iterator<Item = f64>) -> f64 {
+    let mut sizes: Vec<f64> = differences.map(f64::abs).filter(|d| *d > 0.0 && d.is_finite()).collect();
+    sizes.sort_by(f64::total_cmp);
+    sizes.get((LARGE * sizes.len() as f64) as usize).map_or(f64::INFINITY, |large| HEADROOM * large)
 }
 
 fn rms(square: f64, pairs: u64) -> Option<f64> {

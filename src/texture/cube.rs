@@ -14,6 +14,13 @@
 //!      └────┘                      ├────┤
 //!                                  │ −z │ turned by 180°
 //!                                  └────┘
+//!
+//! grid 3:2
+//! ┌────┬────┬────┐
+//! │ +x │ −x │ +y │      right, left, up; down, front, back: the order of ffmpeg's layout `c3x2`
+//! ├────┼────┼────┤
+//! │ −y │ +z │ −z │
+//! └────┴────┴────┘
 //! ```
 //!
 //! so that neighbours in a cross share the edge they share on the cube. The cells beside a cross are
@@ -24,7 +31,7 @@ use std::path::{Path, PathBuf};
 use super::data::ColorSpace;
 use super::decode::Values;
 use super::read_file::{Picture, Texels};
-use super::source::CubeLayout;
+use super::source::{CubeLayout, Reading};
 use super::stack;
 use crate::error::{Error, Result};
 
@@ -36,6 +43,7 @@ impl CubeLayout {
             CubeLayout::VerticalCross => [3, 4],
             CubeLayout::HorizontalStrip => [6, 1],
             CubeLayout::VerticalStrip => [1, 6],
+            CubeLayout::Grid => [3, 2],
         }
     }
 
@@ -46,6 +54,7 @@ impl CubeLayout {
             CubeLayout::VerticalCross => [[2, 1], [0, 1], [1, 0], [1, 2], [1, 1], [1, 3]],
             CubeLayout::HorizontalStrip => [0, 1, 2, 3, 4, 5].map(|i| [i, 0]),
             CubeLayout::VerticalStrip => [0, 1, 2, 3, 4, 5].map(|i| [0, i]),
+            CubeLayout::Grid => [0, 1, 2, 3, 4, 5].map(|i| [i % 3, i / 3]),
         }
     }
 
@@ -55,8 +64,13 @@ impl CubeLayout {
     }
 }
 
-pub(super) fn join(files: &[PathBuf; 6], space: ColorSpace, values: Values) -> Result<Picture> {
-    let picture = stack::read(files, space, values, "face")?;
+pub(super) fn join(
+    files: &[PathBuf; 6],
+    reading: &Reading,
+    space: ColorSpace,
+    values: Values,
+) -> Result<Picture> {
+    let picture = stack::read(files, reading, space, values, "face")?;
     let faces = &picture.texels;
     if faces.width == faces.height {
         return Ok(picture);
@@ -119,7 +133,7 @@ fn misfit(picture: &Texels, layout: CubeLayout, path: &Path) -> Error {
 fn no_layout(picture: &Texels, path: &Path) -> Error {
     Error::with_help(
         format!(
-            "{}: {}×{} texels are no cube: crosses have 4:3 or 3:4, strips 6:1 or 1:6",
+            "{}: {}×{} texels are no cube: crosses have 4:3 or 3:4, strips 6:1 or 1:6, grids 3:2",
             path.display(),
             picture.width,
             picture.height

@@ -63,6 +63,15 @@ impl Component {
         }
     }
 
+    /// How many values an integer has.
+    pub const fn codes(self) -> usize {
+        match self {
+            Component::Unorm8 => 1 << 8,
+            Component::Unorm16 => 1 << 16,
+            Component::Float32 => 0,
+        }
+    }
+
     /// The stored form of 1: the first `bytes()` of the array.
     pub const fn one(self) -> [u8; 4] {
         match self {

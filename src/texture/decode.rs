@@ -6,6 +6,7 @@ use std::path::Path;
 
 use super::data::{ColorSpace, Component, Dimension, TexelFormat, TextureData};
 use super::read_file::{self, Picture, Texels};
+use super::source::Reading;
 use crate::error::{Error, Result};
 
 /// Which numbers a file of floats may hold.
@@ -19,8 +20,8 @@ pub enum Values {
 
 /// A 2D texture from one picture.
 pub fn decode(path: &Path, name: &str, color_space: ColorSpace, flip_v: bool) -> Result<TextureData> {
-    let picture = read_checked(path, color_space, Values::Finite).map_err(|e| in_texture(name, e))?;
-    let mut texels = picture.texels;
+    let picture = read_checked(path, &Reading::default(), color_space, Values::Finite);
+    let mut texels = picture.map_err(|e| in_texture(name, e))?.texels;
     if flip_v {
         let height = texels.height;
         reverse_rows(&mut texels, height);
@@ -49,8 +50,13 @@ pub(super) fn texture_of(
     }
 }
 
-pub(super) fn read_checked(path: &Path, color_space: ColorSpace, values: Values) -> Result<Picture> {
-    let picture = read_file::read_noted(path)?;
+pub(super) fn read_checked(
+    path: &Path,
+    reading: &Reading,
+    color_space: ColorSpace,
+    values: Values,
+) -> Result<Picture> {
+    let picture = read_file::read_as(path, reading)?;
     check_meaning(picture.texels.format, color_space, path)?;
     check_values(&picture.texels, values, path)?;
     Ok(picture)

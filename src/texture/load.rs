@@ -40,7 +40,8 @@ pub fn load_noted(source: &TextureSource, values: Values) -> Result<(TextureData
 /// The texels and how many slices or faces they are.
 fn read(source: &TextureSource, values: Values) -> Result<(Picture, u32)> {
     let space = source.color_space;
-    let picture = |path: &Path| read_checked(path, space, values);
+    let reading = &source.reading;
+    let picture = |path: &Path| read_checked(path, reading, space, values);
     let volume = |path: &Path, (texels, depth): (Texels, u32)| {
         check_meaning(texels.format, space, path)?;
         check_values(&texels, values, path)?;
@@ -57,13 +58,12 @@ fn read(source: &TextureSource, values: Values) -> Result<(Picture, u32)> {
         }
         TextureContent::Ramp(colors) => Ok((ramp(colors).into(), 1)),
         TextureContent::CubeFile(file, layout) => {
-            let Picture { texels, notes } = picture(file)?;
-            let texels = cube::cut(&texels, *layout, file)?;
-            Ok((Picture { texels, notes }, 6))
+            let Picture { texels, notes, .. } = picture(file)?;
+            Ok((Picture::noted(cube::cut(&texels, *layout, file)?, notes), 6))
         }
-        TextureContent::Faces(files) => cube::join(files, space, values).map(|t| (t, 6)),
+        TextureContent::Faces(files) => cube::join(files, reading, space, values).map(|t| (t, 6)),
         TextureContent::Slices(files) => {
-            stack::read(files, space, values, "slice").map(|t| (t, files.len() as u32))
+            stack::read(files, reading, space, values, "slice").map(|t| (t, files.len() as u32))
         }
         TextureContent::Procedural(_) => Ok((ramp(&[[0.0; 4]]).into(), 1)),
         TextureContent::Volume(raw) => volume(&raw.file, (volume::read(raw)?, raw.size[2])),

@@ -10,8 +10,8 @@
 //!   at edges: no level leaves the range of level 0.
 //!
 //! Between levels all stays in f32 and unrounded, so that a stored level is off by one rounding, however
-//! many levels lie above it: half a step of its format, and halves round up. Colour is weighted by
-//! alpha: the mean of what is seen, and where nothing is seen the plain mean.
+//! many levels lie above it: half a step of its format, and halves round up. Each channel is averaged by
+//! itself, alpha too: no material takes it for coverage, so a colour counts whatever its alpha.
 
 mod codec;
 mod halve;
@@ -22,7 +22,7 @@ use rayon::prelude::*;
 
 use super::data::{Dimension, MipKernel, TextureData};
 use codec::Codec;
-pub use codec::srgb8_middles;
+pub use codec::srgb_middles;
 use halve::halve;
 pub use nonfinite::pyramid_of_finite;
 use resample::{Axis, resample};

@@ -1,14 +1,21 @@
 //! Textures as data: what a file holds, what a sampler does with it.
 
 pub mod analysis;
+mod analysis_period;
+mod analysis_rows;
 mod analysis_steps;
+mod analysis_verdict;
 mod cube;
 pub mod data;
 pub mod decode;
+mod exr_color;
+mod exr_layers;
+mod exr_subsampled;
 mod fixed_point;
 pub mod load;
 pub mod mips;
 mod nrrd;
+pub mod orientation;
 pub mod procedural;
 mod read_exr;
 pub(crate) mod read_file;

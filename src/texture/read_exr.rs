@@ -1,129 +1,224 @@
-//! OpenEXR into texels: the first flat layer with channels R, G, B (and A), else Y (and A), half
-//! and float alike as f32. The picture is the display window; what the data window leaves out is
-//! black, and transparent where the file has alpha.
+//! OpenEXR into texels: one layer of one part, at its largest level, half, float and unsigned integers alike
+//! as f32. The picture is the display window; what the data window leaves out is black, and transparent
+//! where the layer has alpha. Or it is what both windows have, and where that lies.
 
-use std::io::{BufRead, Seek};
+use std::io::{BufRead, Cursor, Seek};
 use std::path::Path;
 
+use exr::block::reader::{ChunksReader, Reader};
+use exr::meta::attribute::{Chromaticities, SampleType};
 use exr::meta::header::Header;
-use exr::prelude::*;
+use exr::prelude::{Vec2, f16};
 
 use super::data::{Component, TexelFormat};
-use super::read_file::{Texels, check_memory, check_size, damaged};
+use super::exr_color;
+use super::exr_layers::{self, Colors, Layer};
+use super::exr_subsampled::{self, Patched};
+use super::read_file::{Texels, check_memory, check_size, damaged, unreadable};
 use crate::error::{Error, Result};
+use crate::film::Placement;
 
-/// Where a layer lies in the picture.
-#[derive(Clone, Copy)]
-struct Window {
-    width: usize,
-    height: usize,
-    /// Data window's corner within the display window.
-    offset: (i32, i32),
-    channels: usize,
+/// Which part of the file is the picture.
+#[derive(Clone, Copy, PartialEq)]
+pub enum Part {
+    Display,
+    /// What the data window has of the display window.
+    Data,
 }
 
-impl Window {
-    /// Byte offset of a data-window pixel's texel; none outside the picture.
-    fn texel(&self, at: Vec2<usize>) -> Option<usize> {
-        let x = usize::try_from(self.offset.0 as i64 + at.0 as i64).ok()?;
-        let y = usize::try_from(self.offset.1 as i64 + at.1 as i64).ok()?;
-        (x < self.width && y < self.height).then(|| (y * self.width + x) * self.channels * 4)
-    }
-
-    fn bytes(&self) -> usize {
-        self.width * self.height * self.channels * 4
-    }
-}
-
-pub(super) fn read(source: impl BufRead + Seek, path: &Path) -> Result<Texels> {
-    let reader = exr::block::read(source, false).map_err(|e| exr_error(path, e))?;
-    let headers = reader.headers();
-    let layer_with =
-        |names: &[&str]| headers.iter().find(|h| !h.deep && names.iter().all(|name| has_channel(h, name)));
-    let (header, grey) = match (layer_with(&["R", "G", "B"]), layer_with(&["Y"])) {
-        (Some(header), _) => (header, false),
-        (None, Some(header)) => (header, true),
-        (None, None) => return Err(no_layer(path, headers)),
+pub(super) fn read(
+    mut source: impl BufRead + Seek,
+    layer: Option<&str>,
+    part: Part,
+    path: &Path,
+) -> Result<(Texels, Placement)> {
+    let refused = match exr::block::read(&mut source, false) {
+        Ok(reader) => return read_layer(reader, layer, part, path),
+        Err(error) => error,
     };
-
-    let has_alpha = has_channel(header, "A");
-    let display = header.shared_attributes.display_window;
-    let layer = header.layer_size;
-    check_size(path, layer.0 as u64, layer.1 as u64, 4)?;
-    let channels = if !grey { 4 } else { 1 + usize::from(has_alpha) };
-    check_size(path, display.size.0 as u64, display.size.1 as u64, channels * 4)?;
-    let corner = header.own_attributes.layer_position - display.position;
-    let window =
-        Window { width: display.size.0, height: display.size.1, offset: (corner.0, corner.1), channels };
-
-    check_memory(path, window.bytes())?;
-    let read_layer = exr::prelude::read().no_deep_data().largest_resolution_level();
-    let mut bytes = if grey {
-        read_layer
-            .specific_channels()
-            .required("Y")
-            .optional("A", 1f32)
-            .collect_pixels(
-                move |_, _| vec![0; window.bytes()],
-                move |bytes: &mut Vec<u8>, at, (y, a): (f32, f32)| put(bytes, window, at, &[y, a]),
-            )
-            .first_valid_layer()
-            .all_attributes()
-            .from_chunks(reader)
-            .map(|image| image.layer_data.channel_data.pixels)
-    } else {
-        read_layer
-            .rgba_channels(
-                move |_, _| vec![0; window.bytes()],
-                move |bytes: &mut Vec<u8>, at, (r, g, b, a): (f32, f32, f32, f32)| {
-                    put(bytes, window, at, &[r, g, b, a]);
-                },
-            )
-            .first_valid_layer()
-            .all_attributes()
-            .from_chunks(reader)
-            .map(|image| image.layer_data.channel_data.pixels)
+    // Perhaps for its chroma, of which there are fewer samples than texels.
+    let mut bytes = Vec::new();
+    source.rewind().and_then(|()| source.read_to_end(&mut bytes)).map_err(|e| unreadable(path, &e))?;
+    let Some(Patched { bytes, samplings }) = exr_subsampled::patch(bytes) else {
+        return Err(exr_error(path, refused));
+    };
+    let reader = exr::block::read(Cursor::new(bytes), false).map_err(|e| exr_error(path, e))?;
+    let choice = exr_layers::choose(reader.headers(), layer, path)?;
+    match samplings.get(choice.part) {
+        Some(samplings) if samplings.iter().any(|s| *s != Vec2(1, 1)) => {
+            read_subsampled(reader, choice, samplings, part, path)
+        }
+        _ => read_chosen(reader, choice, part, path),
     }
-    .map_err(|e| exr_error(path, e))?;
-    // Afterwards, so that a damaged header cannot make the program fill gigabytes.
-    if !grey && !has_alpha && layer != display.size {
-        bytes.chunks_exact_mut(16).for_each(|t| t[12..].copy_from_slice(&1f32.to_ne_bytes()));
-    }
+}
 
-    Ok(Texels {
-        width: window.width as u32,
-        height: window.height as u32,
-        format: TexelFormat::new(channels, Component::Float32),
-        file_channels: if grey { channels } else { 3 + usize::from(has_alpha) },
-        bytes,
+fn read_layer<R: BufRead + Seek>(
+    reader: Reader<R>,
+    layer: Option<&str>,
+    part: Part,
+    path: &Path,
+) -> Result<(Texels, Placement)> {
+    let choice = exr_layers::choose(reader.headers(), layer, path)?;
+    read_chosen(reader, choice, part, path)
+}
+
+fn read_chosen<R: BufRead + Seek>(
+    reader: Reader<R>,
+    layer: Layer,
+    part: Part,
+    path: &Path,
+) -> Result<(Texels, Placement)> {
+    let header = &reader.headers()[layer.part];
+    let mut picture = Picture::new(header, &layer, part, path)?;
+    let chromaticities = header.shared_attributes.chromaticities;
+    let channels = layer.channels();
+    let largest =
+        |_: &_, _, block: exr::block::BlockIndex| block.layer == layer.part && block.level == Vec2(0, 0);
+    reader
+        .filter_chunks(false, largest)
+        .and_then(|chunks| {
+            chunks.decompress_sequential(false, |meta, block| {
+                let list = &meta.headers[layer.part].channels;
+                for line in block.lines(list) {
+                    let Some(to) = channels.iter().position(|&c| c == line.location.channel) else {
+                        continue;
+                    };
+                    let kind = list.list[line.location.channel].sample_type;
+                    picture.put_line(to, line.location.position, samples(line.value, kind));
+                }
+                Ok(())
+            })
+        })
+        .map_err(|e| exr_error(path, e))?;
+    picture.finish(&layer, chromaticities, path)
+}
+
+fn read_subsampled<R: BufRead + Seek>(
+    reader: Reader<R>,
+    layer: Layer,
+    samplings: &[Vec2<usize>],
+    part: Part,
+    path: &Path,
+) -> Result<(Texels, Placement)> {
+    let header = reader.headers()[layer.part].clone();
+    let mut picture = Picture::new(&header, &layer, part, path)?;
+    let planes = exr_subsampled::planes(reader, layer.part, &layer.channels(), samplings)
+        .map_err(|e| exr_error(path, e))?;
+    for (to, plane) in planes.iter().enumerate() {
+        for y in 0..header.layer_size.height() {
+            let row = (0..header.layer_size.width()).map(|x| plane.at(x, y));
+            picture.put_line(to, Vec2(0, y), row);
+        }
+    }
+    picture.finish(&layer, header.shared_attributes.chromaticities, path)
+}
+
+/// Returns the values of a line of one channel.
+pub(super) fn samples(line: &[u8], kind: SampleType) -> impl Iterator<Item = f32> {
+    line.chunks_exact(kind.bytes_per_sample()).map(move |b| match kind {
+        SampleType::F16 => f16::from_ne_bytes([b[0], b[1]]).to_f32(),
+        SampleType::F32 => f32::from_ne_bytes([b[0], b[1], b[2], b[3]]),
+        SampleType::U32 => u32::from_ne_bytes([b[0], b[1], b[2], b[3]]) as f32,
     })
 }
 
-fn put(bytes: &mut [u8], window: Window, at: Vec2<usize>, values: &[f32]) {
-    if let Some(start) = window.texel(at) {
-        let texel = bytes[start..start + window.channels * 4].chunks_exact_mut(4);
-        texel.zip(values).for_each(|(to, value)| to.copy_from_slice(&value.to_ne_bytes()));
+/// The texels of the display window, or of a part of it, as they are filled.
+struct Picture {
+    width: usize,
+    height: usize,
+    /// Data window's corner within that part.
+    corner: Vec2<i32>,
+    channels: usize,
+    bytes: Vec<u8>,
+    /// Where that part lies in the display window.
+    placement: Placement,
+}
+
+impl Picture {
+    fn new(header: &Header, layer: &Layer, part: Part, path: &Path) -> Result<Self> {
+        let display = header.shared_attributes.display_window;
+        let data = header.layer_size;
+        check_size(path, data.0 as u64, data.1 as u64, 4)?;
+        let channels = match layer.colors {
+            Colors::Grey(_) => 1 + usize::from(layer.alpha.is_some()),
+            Colors::Rgb(_) | Colors::LuminanceChroma(_) => 4,
+        };
+        let corner = header.own_attributes.layer_position - display.position;
+        let (first, size) = match part {
+            Part::Display => ([0; 2], display.size),
+            Part::Data => shared_part(corner, data, display.size).ok_or_else(|| {
+                Error::with_help(
+                    format!("{}: its data window lies outside its display window", path.display()),
+                    "write the picture again with a data window that the display window shows",
+                )
+            })?,
+        };
+        let Vec2(width, height) = size;
+        check_size(path, width as u64, height as u64, channels * 4)?;
+        let bytes = width * height * channels * 4;
+        check_memory(path, bytes)?;
+        let corner = Vec2(corner.0 - first[0] as i32, corner.1 - first[1] as i32);
+        let placement =
+            Placement { corner: first, full: [display.size.0, display.size.1].map(|side| side as u32) };
+        Ok(Picture { width, height, corner, channels, bytes: vec![0; bytes], placement })
+    }
+
+    /// Fills a channel along a row of the data window, as far as it lies in the picture.
+    fn put_line(&mut self, channel: usize, at: Vec2<usize>, values: impl Iterator<Item = f32>) {
+        let Some(y) =
+            usize::try_from(i64::from(self.corner.1) + at.1 as i64).ok().filter(|y| *y < self.height)
+        else {
+            return;
+        };
+        let left = i64::from(self.corner.0) + at.0 as i64;
+        for (x, value) in (left..).zip(values) {
+            if let Some(x) = usize::try_from(x).ok().filter(|x| *x < self.width) {
+                let start = ((y * self.width + x) * self.channels + channel) * 4;
+                self.bytes[start..start + 4].copy_from_slice(&value.to_ne_bytes());
+            }
+        }
+    }
+
+    fn finish(
+        mut self,
+        layer: &Layer,
+        file: Option<Chromaticities>,
+        path: &Path,
+    ) -> Result<(Texels, Placement)> {
+        if let Colors::LuminanceChroma(_) = layer.colors {
+            exr_color::to_rgb(&mut self.bytes, exr_color::luminances(file, path)?);
+        }
+        let has_alpha = layer.alpha.is_some();
+        // Afterwards, so that a damaged header cannot make the program fill gigabytes.
+        if self.channels == 4 && !has_alpha {
+            self.bytes.chunks_exact_mut(16).for_each(|t| t[12..].copy_from_slice(&1f32.to_ne_bytes()));
+        }
+        let colors = if self.channels == 4 { 3 } else { 1 };
+        let texels = Texels {
+            width: self.width as u32,
+            height: self.height as u32,
+            format: TexelFormat::new(self.channels, Component::Float32),
+            file_channels: colors + usize::from(has_alpha),
+            bytes: self.bytes,
+        };
+        Ok((texels, self.placement))
     }
 }
 
-fn has_channel(header: &Header, name: &str) -> bool {
-    header.channels.find_index_of_channel(&Text::from(name)).is_some()
-}
-
-fn no_layer(path: &Path, headers: &[Header]) -> Error {
-    let names: Vec<String> = headers
-        .iter()
-        .flat_map(|h| h.channels.list.iter().map(move |c| (h.deep, c.name.to_string())))
-        .map(|(deep, name)| if deep { format!("{name} (deep)") } else { name })
-        .collect();
-    Error::with_help(
-        format!(
-            "{}: no layer that can be read; the file's channels are {}",
-            path.display(),
-            names.join(", ")
-        ),
-        "write a flat layer with the channels R, G, B and perhaps A, or Y for grey",
-    )
+/// Corner and size of what a data window at `corner` has of a display window at the origin.
+fn shared_part(
+    corner: Vec2<i32>,
+    data: Vec2<usize>,
+    display: Vec2<usize>,
+) -> Option<([u32; 2], Vec2<usize>)> {
+    let along = |corner: i32, data: usize, display: usize| {
+        let first = i64::from(corner).max(0);
+        let end = (i64::from(corner) + data as i64).min(display as i64);
+        (end > first).then_some((first as u32, (end - first) as usize))
+    };
+    let (x, width) = along(corner.0, data.0, display.0)?;
+    let (y, height) = along(corner.1, data.1, display.1)?;
+    Some(([x, y], Vec2(width, height)))
 }
 
 fn exr_error(path: &Path, error: exr::error::Error) -> Error {

@@ -1,6 +1,5 @@
 //! A picture file into texels as stored: 8 bits stay 8, 16 stay 16, float stays float, grey stays
-//! grey, three channels become four with opaque alpha. Profiles, gamma and orientation tags are
-//! ignored. Whatever is wrong with the file is an error that names it and says what to do.
+//! grey, three channels become four with opaque alpha. Profiles and gamma are ignored. Whatever is wrong with the file is an error that names it and says what to do.
 
 use std::fs::{self, File};
 use std::io::{BufReader, Cursor, ErrorKind, Read, Seek};
@@ -10,9 +9,13 @@ use image::codecs::tga::TgaDecoder;
 use image::{ColorType, ImageDecoder, ImageError, ImageFormat};
 
 use super::data::{Component, TexelFormat};
+use super::orientation::orientation_of;
+pub use super::read_exr::Part;
 use super::sniff::{self, Content};
+use super::source::{OrientationUse, Reading};
 use super::{read_exr, read_hdr, read_jpeg, read_png, tiff};
 use crate::error::{Error, Result};
+use crate::film::Placement;
 use crate::panics;
 
 /// Twice the largest image side of current GPUs; checked in the header, before any allocation.
@@ -36,40 +39,55 @@ pub struct Texels {
 /// What a file holds, and what a person should know about how it was read: each note names the file.
 pub struct Picture {
     pub texels: Texels,
+    /// Where they lie in the file's picture.
+    pub placement: Placement,
     pub notes: Vec<String>,
+}
+
+impl Picture {
+    /// All of a picture.
+    pub(super) fn noted(texels: Texels, notes: Vec<String>) -> Picture {
+        let placement = Placement::whole(texels.width, texels.height);
+        Picture { texels, placement, notes }
+    }
 }
 
 impl From<Texels> for Picture {
     fn from(texels: Texels) -> Self {
-        Picture { texels, notes: Vec::new() }
+        Picture::noted(texels, Vec::new())
     }
 }
 
-pub fn read(path: &Path) -> Result<Texels> {
-    read_noted(path).map(|picture| picture.texels)
+/// Reads a picture as it is asked for: by default upright and, where it has layers, the one without a name.
+pub fn read_as(path: &Path, reading: &Reading) -> Result<Picture> {
+    read_part(path, reading, Part::Display)
 }
 
-pub fn read_noted(path: &Path) -> Result<Picture> {
+/// The same; of OpenEXR files this part.
+pub fn read_part(path: &Path, reading: &Reading, part: Part) -> Result<Picture> {
     let stage = format!("{}: reading this picture", path.display());
-    panics::contain(&stage, || read_by_content(open(path)?, path))
+    panics::contain(&stage, || read_by_content(open(path)?, path, reading, part))
 }
 
-fn read_by_content(mut source: File, path: &Path) -> Result<Picture> {
+fn read_by_content(mut source: File, path: &Path, reading: &Reading, part: Part) -> Result<Picture> {
     let failed = |e: std::io::Error| unreadable(path, &e);
-    let mut file = Vec::with_capacity(sniff::HEAD_BYTES);
-    source.by_ref().take(sniff::HEAD_BYTES as u64).read_to_end(&mut file).map_err(failed)?;
-    let format = match sniff::identify(&file) {
+    let format = match identify(&mut source).map_err(failed)? {
         Content::Picture(format) => format,
         Content::Other(what) => return Err(no_picture(path, &what)),
     };
     if format == ImageFormat::OpenExr {
-        source.rewind().map_err(failed)?;
-        return read_exr::read(BufReader::new(source), path).map(Picture::from);
+        let layer = reading.layer.as_deref();
+        let (texels, placement) = read_exr::read(BufReader::new(source), layer, part, path)?;
+        return Ok(Picture { texels, placement, notes: Vec::new() });
+    }
+    if let Some(layer) = &reading.layer {
+        return Err(no_layers(path, format, layer));
     }
     let length = source.metadata().map_err(failed)?.len() as usize;
-    file.try_reserve_exact(length.saturating_sub(file.len())).map_err(|_| out_of_memory(path))?;
+    let mut file = Vec::new();
+    file.try_reserve_exact(length).map_err(|_| out_of_memory(path))?;
     source.read_to_end(&mut file).map_err(failed)?;
-    match format {
+    let picture = match format {
         ImageFormat::Png => read_png::read(&file, path),
         ImageFormat::Jpeg => read_jpeg::read(&file, path),
         ImageFormat::Tiff => tiff::read(&file, path),
@@ -78,6 +96,30 @@ fn read_by_content(mut source: File, path: &Path) -> Result<Picture> {
             decode_with(TgaDecoder::new(Cursor::new(&file)), "TGA", file.len(), path).map(Picture::from)
         }
         _ => Err(no_picture(path, &format!("is {format:?}"))),
+    }?;
+    let orientation = match reading.orientation {
+        OrientationUse::Apply => orientation_of(&mut Cursor::new(&file), format),
+        OrientationUse::Ignore => None,
+    };
+    drop(file);
+    let Some(orientation) = orientation else { return Ok(picture) };
+    check_memory(path, picture.texels.bytes.len())?;
+    Ok(Picture::noted(orientation.apply(picture.texels), picture.notes))
+}
+
+fn identify(source: &mut (impl Read + Seek)) -> std::io::Result<Content> {
+    let mut head = Vec::with_capacity(sniff::HEAD_BYTES);
+    source.by_ref().take(sniff::HEAD_BYTES as u64).read_to_end(&mut head)?;
+    source.rewind()?;
+    Ok(sniff::identify(&head))
+}
+
+/// Whether the file says that the picture is stored turned or mirrored.
+pub fn is_turned(path: &Path) -> bool {
+    let Ok(mut source) = open(path).map(BufReader::new) else { return false };
+    match identify(&mut source) {
+        Ok(Content::Picture(format)) => orientation_of(&mut source, format).is_some(),
+        _ => false,
     }
 }
 
@@ -197,7 +239,8 @@ pub(super) fn check_memory(path: &Path, bytes: usize) -> Result<()> {
 pub(super) fn open(path: &Path) -> Result<File> {
     let metadata = fs::metadata(path).map_err(|e| match e.kind() {
         ErrorKind::NotFound => {
-            Error::Plain { message: format!("{}: there is no such file", path.display()), help: hint(path) }
+            let shown: String = path.to_string_lossy().chars().flat_map(escaped).collect();
+            Error::Plain { message: format!("{shown}: there is no such file"), help: hint(path) }
         }
         _ => unreadable(path, &e),
     })?;
@@ -211,8 +254,11 @@ pub(super) fn open(path: &Path) -> Result<File> {
     File::open(path).map_err(|e| unreadable(path, &e))
 }
 
-/// Which part of a missing path is missing, or the name in that folder that comes closest.
+/// What is odd about a missing path, which part of it is missing, or the name in that folder that comes closest.
 fn hint(path: &Path) -> Option<String> {
+    if let Some(odd) = odd_path(path) {
+        return Some(odd);
+    }
     let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let Ok(entries) = fs::read_dir(folder) else {
         return Some(format!("the folder {} does not exist or cannot be read", folder.display()));
@@ -222,6 +268,26 @@ fn hint(path: &Path) -> Option<String> {
     let scored = names.map(|name| (strsim::jaro_winkler(&wanted, &name.to_lowercase()), name));
     let (score, name) = scored.max_by(|a, b| a.0.total_cmp(&b.0))?;
     (score > 0.85).then(|| format!("did you mean {}?", folder.join(name).display()))
+}
+
+/// A character as one line shows it.
+fn escaped(c: char) -> Vec<char> {
+    if c.is_control() { c.escape_default().collect() } else { vec![c] }
+}
+
+/// What to do about a path that was written with backslashes: TOML turns some of them into other characters, and
+/// only Windows divides folders by them.
+pub fn odd_path(path: &Path) -> Option<String> {
+    let text = path.to_string_lossy();
+    if text.contains(char::is_control) {
+        return Some(
+            "the name has a control character: within \"…\" of TOML, \\t, \\n, \\b and \\f are escapes; write \
+             folder/name, or 'folder\\name' in single quotes"
+                .into(),
+        );
+    }
+    (cfg!(not(windows)) && text.contains('\\'))
+        .then(|| format!("folders are divided by / here: {}", text.replace('\\', "/")))
 }
 
 pub(super) fn unreadable(path: &Path, error: &std::io::Error) -> Error {
@@ -235,6 +301,14 @@ pub(super) fn damaged(path: &Path, kind: &str, error: &dyn std::fmt::Display) ->
     Error::with_help(
         format!("{}: the {kind} data is damaged or truncated: {error}", path.display()),
         "fetch or export the picture again",
+    )
+}
+
+fn no_layers(path: &Path, format: ImageFormat, layer: &str) -> Error {
+    let kind = format!("{format:?}").to_uppercase();
+    Error::with_help(
+        format!("{}: layer \"{layer}\" of a {kind} file: only OpenEXR files have layers", path.display()),
+        "leave layer out",
     )
 }
 

@@ -52,7 +52,7 @@ pub(super) fn read(file: &[u8], path: &Path) -> Result<Picture> {
             path.display()
         ));
     }
-    Ok(Picture { texels, notes })
+    Ok(Picture::noted(texels, notes))
 }
 
 /// Up to a line feed, without it and a carriage return before.

@@ -35,7 +35,7 @@ pub(super) fn read(file: &[u8], path: &Path) -> Result<Picture> {
         }
     }
     let note = format!("{}: the JPEG data has no end-of-image marker; all texels are there", path.display());
-    Ok(Picture { texels, notes: vec![note] })
+    Ok(Picture::noted(texels, vec![note]))
 }
 
 /// The name of a kind of JPEG that is not read (table B.1 and B.2.2: the start-of-frame markers, precision).

@@ -26,7 +26,7 @@ pub(super) fn read(file: &[u8], path: &Path) -> Result<Picture> {
     let Some(ended) = with_end(file) else { return decode(file).map(Picture::from) };
     let texels = decode(&ended)?;
     let note = format!("{}: the PNG data has no end (IEND); all texels are there", path.display());
-    Ok(Picture { texels, notes: vec![note] })
+    Ok(Picture::noted(texels, vec![note]))
 }
 
 /// A file without an end, with one; of a last chunk that is cut off what there is of its pixels is kept.

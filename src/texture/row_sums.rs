@@ -8,6 +8,18 @@ use super::mips;
 
 /// Steps of the fixed point over the range of values.
 const STEPS: u32 = 65_535;
+/// Words before those that say where levels begin.
+const HEAD: u64 = 4;
+
+/// Words of the table of a texture.
+pub fn words(texture: &TextureData) -> u64 {
+    let channels = if texture.format.channels() < 3 { 1 } else { 3 };
+    let levels = (0..mips::level_count(texture)).map(|level| {
+        let [width, height, _] = mips::level_size(texture, level).map(u64::from);
+        1 + (width + 1) * height * channels
+    });
+    HEAD + levels.sum::<u64>()
+}
 
 /// As a device reads it, if it begins at word `start`: the number of channels (1 or 3), the number of levels,
 /// the least value and a step (f32 bits), the first word of each level. A level has rows of `width + 1`

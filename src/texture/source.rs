@@ -7,15 +7,42 @@ use super::data::{ColorSpace, Dimension, MipKernel, TexelFormat};
 use super::procedural::Procedural;
 use crate::named::named_enum;
 
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct TextureSource {
     pub name: String,
     pub content: TextureContent,
     pub dimension: Dimension,
     pub color_space: ColorSpace,
+    /// Whether the scene says what the stored values mean.
+    pub color_space_stated: bool,
+    pub reading: Reading,
     /// False: v = 0 is the file's first row. True: v grows upwards (the lecture's loader).
     pub flip_v: bool,
     pub mip_kernel: MipKernel,
+}
+
+/// Which picture of a file is read, and which way up.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Reading {
+    pub orientation: OrientationUse,
+    /// Of an OpenEXR file: a layer, a part, or a channel that is read as grey.
+    pub layer: Option<String>,
+}
+
+impl Default for Reading {
+    fn default() -> Self {
+        Reading { orientation: OrientationUse::Apply, layer: None }
+    }
+}
+
+named_enum! {
+    /// What is done about a file that says how it is turned (Exif, TIFF tag 274).
+    pub enum OrientationUse {
+        /// The texels are turned, as programs that show pictures do.
+        Apply = "apply",
+        /// The texels stay as they are stored.
+        Ignore = "ignore",
+    }
 }
 
 /// Files are already joined with the scene file's folder.
@@ -43,6 +70,7 @@ named_enum! {
         VerticalCross = "vertical-cross",
         HorizontalStrip = "horizontal-strip",
         VerticalStrip = "vertical-strip",
+        Grid = "grid",
     }
 }
 
@@ -66,6 +94,21 @@ pub struct VolumeSource {
     pub endian: Endian,
 }
 
+impl TextureSource {
+    /// The same under another name for every one that has the same texels: without its own name, and with its
+    /// files as the system knows them.
+    pub fn identity(&self) -> TextureSource {
+        let mut identity = TextureSource { name: String::new(), ..self.clone() };
+        for file in identity.content.files_mut() {
+            // What is not there is told when it is read.
+            if let Ok(path) = file.canonicalize() {
+                *file = path;
+            }
+        }
+        identity
+    }
+}
+
 impl TextureContent {
     pub fn procedural(&self) -> Option<&Procedural> {
         match self {
@@ -82,6 +125,16 @@ impl TextureContent {
             TextureContent::Faces(files) => files.iter().map(PathBuf::as_path).collect(),
             TextureContent::Slices(files) => files.iter().map(PathBuf::as_path).collect(),
             TextureContent::Volume(volume) => vec![&volume.file],
+        }
+    }
+
+    fn files_mut(&mut self) -> Vec<&mut PathBuf> {
+        match self {
+            TextureContent::Ramp(_) | TextureContent::Procedural(_) => Vec::new(),
+            TextureContent::File(file) | TextureContent::CubeFile(file, _) => vec![file],
+            TextureContent::Faces(files) => files.iter_mut().collect(),
+            TextureContent::Slices(files) => files.iter_mut().collect(),
+            TextureContent::Volume(volume) => vec![&mut volume.file],
         }
     }
 }

@@ -11,12 +11,19 @@ use rayon::prelude::*;
 use super::data::{ColorSpace, Component, TexelFormat};
 use super::decode::{Values, read_checked};
 use super::read_file::{Picture, Texels, check_volume};
+use super::source::Reading;
 use crate::error::{Error, Result};
 
 /// `what` a file is, for messages: its ordinal follows, from 1.
-pub(super) fn read(files: &[PathBuf], space: ColorSpace, values: Values, what: &str) -> Result<Picture> {
+pub(super) fn read(
+    files: &[PathBuf],
+    reading: &Reading,
+    space: ColorSpace,
+    values: Values,
+    what: &str,
+) -> Result<Picture> {
     let pictures: Vec<Result<Picture>> =
-        files.par_iter().map(|file| read_checked(file, space, values)).collect();
+        files.par_iter().map(|file| read_checked(file, reading, space, values)).collect();
     // The first mistake in the order of the files, whichever was found first.
     let pictures = pictures.into_iter().collect::<Result<Vec<_>>>()?;
     let (pictures, notes): (Vec<Texels>, Vec<Vec<String>>) =
@@ -56,7 +63,7 @@ pub(super) fn read(files: &[PathBuf], space: ColorSpace, values: Values, what: &
     for picture in pictures {
         append(&mut bytes, &picture, format);
     }
-    Ok(Picture { texels: Texels { width, height, format, file_channels, bytes }, notes: notes.concat() })
+    Ok(Picture::noted(Texels { width, height, format, file_channels, bytes }, notes.concat()))
 }
 
 fn append(bytes: &mut Vec<u8>, picture: &Texels, format: TexelFormat) {

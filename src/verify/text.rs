@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 
 use super::groups::{Line, lines};
 use super::report::{Limits, Report, Row, Verdict};
+use crate::counted::counted;
 
 /// Failing variants that are listed one by one.
 const MOST_LISTED: usize = 20;
@@ -32,9 +33,9 @@ pub fn text(report: &Report) -> String {
     line(String::new());
     let summary = &report.summary;
     line(format!(
-        "{} variants, {} look-ups, {:.1} s: {} within, {} with a known fault, {} outside, {} not offered",
-        summary.variants,
-        summary.look_ups,
+        "{}, {}, {:.1} s: {} within, {} with a known fault, {} outside, {} not offered",
+        counted(summary.variants, "variant"),
+        counted(summary.look_ups, "look-up"),
         report.seconds,
         summary.within,
         summary.known_faults,
@@ -45,7 +46,7 @@ pub fn text(report: &Report) -> String {
         line(text);
     }
     for (fault, count) in faults(&report.rows) {
-        line(format!("known fault ({count} variants): {fault}"));
+        line(format!("known fault ({}): {fault}", counted(count, "variant")));
     }
     let failing: Vec<&Row> = report.rows.iter().filter(|r| r.verdict == Verdict::Outside).collect();
     for row in failing.iter().take(MOST_LISTED) {

@@ -1,6 +1,8 @@
 //! Sampling to a goal: which samples jobs take, that device and oracle take the same, that the error asked
 //! for is the error reached, and that samples spent where they lower it lower it further.
 
+mod rare;
+
 use moire::adaptive::{self, Goal, Outcome, Sums, Tracer, Trial};
 use moire::film::Film;
 use moire::gpu::DeviceKind;
@@ -153,7 +155,7 @@ fn a_time_to_keep_is_kept() {
     let clock = std::time::Instant::now();
     let (_, outcome) = to_goal(&scene, Goal::Seconds(1.5), false);
     let seconds = clock.elapsed().as_secs_f64();
-    assert!(outcome.passes > 1 && outcome.mean_samples > 16.0, "{outcome:?}");
+    assert!(outcome.passes > 1 && outcome.mean_samples >= 16.0, "{outcome:?}");
     // Compiling is not part of it; a loaded machine is slower than its first pass said.
     assert!(seconds < 20.0, "{seconds} s for 1.5 s");
 }
@@ -167,7 +169,7 @@ fn the_bias_of_a_prefilter_is_seen_and_without_a_footprint_there_is_none() {
     let reference = converged(&scene);
     let (film, blurred) = to_goal(&packed(scene.clone(), None), Goal::Samples(16), false);
     let error = rmse(&film, &reference);
-    let estimated = blurred.estimated_rmse.hypot(blurred.estimated_bias);
+    let estimated = blurred.estimated_rmse;
     assert!(blurred.estimated_bias > 2e-3, "{blurred:?}");
     // 512 pixels of very different bias.
     assert!((0.6..1.6).contains(&(estimated / error)), "{error:e}, {blurred:?}");
@@ -184,21 +186,38 @@ struct Slow {
 
 const TOLD: [f32; 3] = [0.5, 0.25, 0.125];
 
-impl Tracer for Slow {
-    fn sample(&mut self, jobs: &[Job], _: &dyn Progress) -> moire::error::Result<()> {
+impl Slow {
+    fn wait(jobs: &[Job]) {
         let samples: u32 = jobs.iter().map(|j| j.count).sum();
         std::thread::sleep(std::time::Duration::from_nanos(500) * samples);
+    }
+
+    fn add(job: &Job, sum: &mut [f32; 4]) {
+        for s in job.first..job.first + job.count {
+            let noise = sample_bits([job.place, job.stream()], s)[0] as f32 / u32::MAX as f32 - 0.5;
+            let seen = TOLD.map(|v| v + noise);
+            (0..3).for_each(|c| sum[c] += seen[c]);
+            sum[3] += seen.iter().map(|v| v * v / 3.0).sum::<f32>();
+        }
+    }
+}
+
+impl Tracer for Slow {
+    fn sample(&mut self, jobs: &[Job], _: &dyn Progress) -> moire::error::Result<()> {
+        Slow::wait(jobs);
         for job in jobs {
             let [x, y] = job.column_and_row();
-            let sum = &mut self.sums.halves[(job.part & 1) as usize][(y * self.sums.width + x) as usize];
-            for s in job.first..job.first + job.count {
-                let noise = sample_bits([job.place, job.part & 1], s)[0] as f32 / u32::MAX as f32 - 0.5;
-                let seen = TOLD.map(|v| v + noise);
-                (0..3).for_each(|c| sum[c] += seen[c]);
-                sum[3] += seen.iter().map(|v| v * v / 3.0).sum::<f32>();
-            }
+            let at = (y * self.sums.width + x) as usize;
+            Slow::add(job, &mut self.sums.halves[(job.part & 1) as usize][at]);
         }
         Ok(())
+    }
+
+    fn sample_apart(&mut self, jobs: &[Job], _: &dyn Progress) -> moire::error::Result<Vec<[f32; 4]>> {
+        Slow::wait(jobs);
+        let mut sums = vec![[0.0; 4]; jobs.len()];
+        jobs.iter().zip(&mut sums).for_each(|(job, sum)| Slow::add(job, sum));
+        Ok(sums)
     }
 
     fn prefilters(&self) -> bool {
@@ -264,7 +283,7 @@ fn time_enough_for_beams_is_spent_on_beams() {
     let scene = small("s1a", 256, 4);
     let (film, outcome) = to_goal(&with(scene.clone(), Algorithm::Auto, 16), Goal::Seconds(4.0), false);
     assert_eq!(outcome.beam_pixels, 256 * 256, "{outcome:?}");
-    assert!(outcome.reached && outcome.estimated_rmse == 5e-5, "{outcome:?}");
+    assert!(outcome.reached && outcome.estimated_noise == 5e-5, "{outcome:?}");
     let beams = render(&with(scene, Algorithm::Beam, 4));
     assert!(rmse(&film, &beams) < 1e-7, "{:e}", rmse(&film, &beams)); // a product and a quotient in f32
 }

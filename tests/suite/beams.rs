@@ -3,6 +3,7 @@
 
 mod areas;
 mod integrals;
+mod mirrors;
 
 use moire::film::Film;
 use moire::metrics::compare;

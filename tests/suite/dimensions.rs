@@ -11,7 +11,7 @@ use image::{DynamicImage, GrayImage, ImageBuffer, Luma, LumaA, Rgba};
 use moire::error::Result;
 use moire::texture::data::{ColorSpace, Dimension, MipKernel, TextureData};
 use moire::texture::load::load;
-use moire::texture::source::{TextureContent, TextureSource};
+use moire::texture::source::{Reading, TextureContent, TextureSource};
 
 /// Where a texel's centre lies, by the columns sc and tc of Vulkan's cube table solved for the direction.
 pub fn direction(face: u32, x: u32, y: u32, side: u32) -> [f32; 3] {
@@ -33,6 +33,8 @@ fn source(dimension: Dimension, content: TextureContent) -> TextureSource {
         content,
         dimension,
         color_space: ColorSpace::Linear,
+        color_space_stated: true,
+        reading: Reading::default(),
         flip_v: false,
         mip_kernel: MipKernel::Box,
     }

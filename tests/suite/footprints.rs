@@ -1,6 +1,7 @@
 //! Look-ups over footprints: the device against the oracle for every filter, mip mode, kind of texture
 //! and address mode; which level is read; and the footprints themselves against exact ones of pixels.
 
+mod alpha;
 pub mod bench;
 mod chance;
 mod exact;

@@ -110,6 +110,8 @@ fn expected_numbers() -> BTreeMap<String, u32> {
     all.insert("NO_SHAPE".into(), mirror::NO_SHAPE);
     all.insert("GUARDS".into(), Guard::ALL.len() as u32);
     all.insert("JOB_BARE".into(), mirror::JOB_BARE);
+    all.insert("JOB_APART".into(), mirror::JOB_APART);
+    all.insert("JOB_STREAM_SHIFT".into(), mirror::JOB_STREAM_SHIFT);
     all.insert("CELL_WORDS".into(), mirror::CELL_WORDS);
     all.insert("MOST_LISTED".into(), mirror::MOST_LISTED);
     all.insert("CELL_EMPTY".into(), mirror::CELL_EMPTY);
@@ -249,8 +251,8 @@ const SHADERS: [&Shader; 24] = [
 
 /// Constants that say where lists begin and how work is divided.
 fn is_place(name: &str) -> bool {
-    let others = ["GROUP_X", "GROUP_Y", "SLOTS", "VOLUME_SLOTS", "CUBE_SLOTS", "TABLES_IN_HEAD"];
-    name.ends_with("_AT") || others.contains(&name)
+    let others = ["GROUP_X", "GROUP_Y", "TEXEL_BLOCKS", "BLOCK_LOG2", "TABLES_IN_HEAD", "OPAQUE_UNIFORMS"];
+    name.ends_with("_AT") || name.ends_with("SLOTS") || others.contains(&name)
 }
 
 #[test]

@@ -41,7 +41,7 @@ fn same_bits_whatever_is_left_out(name: &str) {
     // Two tiles wide, with a ragged edge.
     let packed = packed(small(name, 70, 4), None);
     let [buffer, image] = [TexelChoice::Buffer, TexelChoice::Image].map(|texels| {
-        let tuning = Tuning { texels, group: None };
+        let tuning = Tuning { texels, ..Tuning::default() };
         let (lean, lean_report) = render_with(&packed, false, &tuning);
         assert!(!lean_report.left_out.is_empty(), "{name} leaves nothing out");
         let own_images = ["formats", "samplers", "volume", "environment_cube", "hardware"];
@@ -62,7 +62,7 @@ fn same_bits_whatever_is_left_out(name: &str) {
 #[test]
 fn the_default_source_of_texels_is_one_of_the_two() {
     let packed = packed(small("lecture", 70, 4), None);
-    let film = |texels| render_with(&packed, false, &Tuning { texels, group: None }).0;
+    let film = |texels| render_with(&packed, false, &Tuning { texels, ..Tuning::default() }).0;
     let default = film(TexelChoice::Auto);
     assert!([TexelChoice::Buffer, TexelChoice::Image].iter().any(|&texels| film(texels) == default));
 }
@@ -138,7 +138,7 @@ fn an_untextured_scene_has_no_source_of_texels() {
 #[test]
 fn shape_of_the_workgroup_changes_no_bit() {
     let packed = packed(small("lights", 130, 4), None);
-    let of = |group| render_with(&packed, false, &Tuning { texels: TexelChoice::Auto, group }).0;
+    let of = |group| render_with(&packed, false, &Tuning { group, ..Tuning::default() }).0;
     let default = of(None);
     for group in [[64, 1], [8, 8], [1, 8], [16, 64]] {
         assert_same_bits(&of(Some(group)), &default, &format!("workgroups of {group:?}"));

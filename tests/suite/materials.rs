@@ -1,9 +1,12 @@
 //! Materials by numbers worked out by hand: what glass mirrors and lets through, the highlight of Phong,
-//! reliefs; on device and oracle.
+//! reliefs, normals that lean; on device and oracle.
 
 mod glass;
+mod leaning;
+mod mirrored;
 mod phong;
 mod relief;
+mod scales;
 
 use std::path::Path;
 

@@ -166,6 +166,39 @@ fn command_exits_0_within_and_1_above_the_bound() {
 }
 
 #[test]
+fn command_holds_each_figure_against_its_own_bound() {
+    let folder = tempdir().unwrap();
+    let mut film = flat([0.5; 3]);
+    let a = file(&folder, "a.exr", &film);
+    film.pixels[7] = [0.5, 0.5, 1.0];
+    let b = file(&folder, "b.exr", &film);
+    let (_, out, _) = run(&a, &b, &["--json"]);
+    let flip = serde_json::from_str::<serde_json::Value>(&out).unwrap()["flip"].as_f64().unwrap();
+    for (option, within, beyond, name) in
+        [("--max-diff", 0.5, 0.499, "max"), ("--max-flip", flip * 1.01, flip * 0.99, "FLIP")]
+    {
+        assert_eq!(run(&a, &b, &[option, &within.to_string()]).0, Some(0), "{option} {within}");
+        let (code, _, err) = run(&a, &b, &[option, &beyond.to_string()]);
+        assert_eq!((code, err.lines().count()), (Some(1), 1), "{option} {beyond}: {err}");
+        assert!(err.starts_with(name) && err.contains("above the bound"), "{err}");
+    }
+    let (code, _, err) = run(&a, &b, &["--max-diff", "0", "--max-flip", "0", "--max-rmse", "0"]);
+    assert_eq!((code, err.lines().count()), (Some(1), 3), "{err}");
+}
+
+#[test]
+fn quiet_command_prints_only_what_is_above_a_bound() {
+    let folder = tempdir().unwrap();
+    let a = file(&folder, "a.exr", &flat([0.5; 3]));
+    let b = file(&folder, "b.exr", &flat([0.625; 3]));
+    assert_eq!(run(&a, &b, &["-q"]), (Some(0), String::new(), String::new()));
+    let (code, out, err) = run(&a, &b, &["-q", "--max-rmse", "0.1"]);
+    assert_eq!((code, out.as_str()), (Some(1), ""));
+    assert!(err.contains("RMSE") && err.lines().count() == 1, "{err}");
+    assert!(run(&a, &b, &["-q", "--json"]).1.contains("\"rmse\""));
+}
+
+#[test]
 fn command_exits_1_on_a_nan_without_any_bound() {
     let folder = tempdir().unwrap();
     let mut film = flat([0.5; 3]);
@@ -174,7 +207,7 @@ fn command_exits_1_on_a_nan_without_any_bound() {
     let b = file(&folder, "b.exr", &film);
     let (code, out, err) = run(&a, &b, &[]);
     assert_eq!(code, Some(1));
-    assert!(out.contains("NaN pixels    1") && err.contains("NaN in 1 pixels"), "{out}{err}");
+    assert!(out.contains("NaN pixels    1") && err.contains("NaN in 1 pixel\n"), "{out}{err}");
 }
 
 #[test]

@@ -138,7 +138,7 @@ fn what_one_such_texel_would_spoil_as_a_whole_is_refused_with_what_to_use() {
         let (code, _, said) = run(&folder, &[options, &["--allow-nonfinite"]].concat());
         assert_eq!(code, Some(2), "{options:?}: {said}");
         let said = said.replace(|c: char| c.is_whitespace() || c == '│', "");
-        for part in wanted.into_iter().chain(["\"measured\"", "1 texels are not finite"]) {
+        for part in wanted.into_iter().chain(["\"measured\"", "1 texel is not finite"]) {
             assert!(said.contains(&part.replace(' ', "")), "{part} not in {said}");
         }
         assert!(!folder.path().join("out.exr").exists());
@@ -257,16 +257,16 @@ fn a_level_is_the_mean_of_the_texels_that_are_numbers() {
     let levels = mips::pyramid_of_finite(&grey);
     assert_eq!((levels[0].value(0, 0, 0), levels[1].value(0, 0, 0)), (3.0, 3.0));
     assert!(levels[0].value(1, 0, 0).is_nan(), "a mean of nothing");
-    // Colours are weighted by alpha; a texel without one channel counts in none.
+    // A texel without one channel counts in none.
     let color = texture(
         TexelFormat::RgbaFloat,
         [2, 2],
         &[2.0, 1.0, 0.0, 0.25, 4.0, 1.0, 0.0, 0.75, 9.0, nan, 9.0, 1.0, 8.0, 8.0, 8.0, 0.0],
     );
     let level = &mips::pyramid_of_finite(&color)[0];
-    let expected = [3.5, 1.0, 0.0, 1.0 / 3.0];
+    let expected = [14.0 / 3.0, 10.0 / 3.0, 8.0 / 3.0, 1.0 / 3.0];
     for (c, expected) in expected.into_iter().enumerate() {
-        // A rounding of f32 each for weight, sum and share; 2^-30 for what is not seen.
+        // A rounding of f32 each for sum, share and quotient.
         assert!((level.value(0, 0, c) - expected).abs() < 1e-6, "{c}: {}", level.value(0, 0, c));
     }
     // Without such texels it is the pyramid of all others.
@@ -275,7 +275,7 @@ fn a_level_is_the_mean_of_the_texels_that_are_numbers() {
     for (a, b) in mips::pyramid_of_finite(&plain).iter().zip(&usual) {
         let values = |t: &TextureData| bytemuck::pod_collect_to_vec::<u8, f32>(&t.texels);
         for (a, b) in values(a).iter().zip(values(b)) {
-            assert!((a - b).abs() <= 4.0 * f32::EPSILON * 8.0, "{a} and {b}"); // alpha taken out and in again
+            assert!((a - b).abs() <= 4.0 * f32::EPSILON * 8.0, "{a} and {b}"); // sums over shares of 1, up to 8
         }
     }
 }

@@ -4,8 +4,8 @@ use std::fs;
 use std::path::Path;
 
 use moire::color::{linear_to_srgb, srgb_to_linear};
-use moire::film::Film;
-use moire::metrics::read_picture;
+use moire::film::{Film, Placement};
+use moire::metrics::{read_picture, read_placed};
 use moire::output::{WriteOptions, check_writable, write, write_all};
 use moire::texture::data::{ColorSpace, TexelFormat, TextureData};
 use moire::texture::decode::decode;
@@ -36,6 +36,37 @@ fn exr_round_trip_is_bit_exact_with_nan_infinity_and_negative_values() {
     let bits = |f: &Film| f.pixels.iter().flat_map(|p| p.map(f32::to_bits)).collect::<Vec<_>>();
     assert_eq!((back.width, back.height), (37, 11));
     assert_eq!(bits(&back), bits(&film));
+}
+
+/// The four numbers of a box in an EXR header: attribute name, type "box2i", length 16, then little-endian.
+fn exr_box(bytes: &[u8], name: &str) -> [i32; 4] {
+    let head = [name.as_bytes(), b"\0box2i\0\x10\0\0\0"].concat();
+    let start =
+        bytes.windows(head.len()).position(|w| w == head).unwrap_or_else(|| panic!("no {name}")) + head.len();
+    let (numbers, _) = bytes[start..start + 16].as_chunks::<4>();
+    std::array::from_fn(|i| i32::from_le_bytes(numbers[i]))
+}
+
+#[test]
+fn exr_of_a_part_has_its_data_window_within_the_picture() {
+    let folder = tempdir().unwrap();
+    let path = folder.path().join("part.exr");
+    let film = gradient(5, 3);
+    let placement = Placement { corner: [7, 2], full: [20, 11] };
+    write(&film, &path, &WriteOptions { placement: Some(placement), ..Default::default() }).unwrap();
+    let bytes = fs::read(&path).unwrap();
+    assert_eq!(exr_box(&bytes, "dataWindow"), [7, 2, 11, 4]);
+    assert_eq!(exr_box(&bytes, "displayWindow"), [0, 0, 19, 10]);
+    let (back, at) = read_placed(&path).unwrap();
+    assert_eq!((&back.pixels, at), (&film.pixels, placement));
+    // As a texture: the whole picture, black around the part.
+    let texture = stored(&path);
+    assert_eq!((texture.width, texture.height), (20, 11));
+    for (x, y) in [(0, 0), (7, 2), (11, 4), (12, 4), (19, 10)] {
+        let inside = (7..12).contains(&x) && (2..5).contains(&y);
+        let want = if inside { film.pixels[((y - 2) * 5 + x - 7) as usize] } else { [0.0; 3] };
+        assert_eq!([0, 1, 2].map(|c| texture.value(x, y, c) as f32), want, "at ({x}, {y})");
+    }
 }
 
 #[test]
@@ -80,7 +111,7 @@ fn sixteen_bit_png_holds_the_rounded_srgb_value() {
     let folder = tempdir().unwrap();
     let path = folder.path().join("a.png");
     let film = gradient(64, 64);
-    write(&film, &path, &WriteOptions { png_bits: 16 }).unwrap();
+    write(&film, &path, &WriteOptions { png_bits: 16, ..Default::default() }).unwrap();
     let texture = stored(&path);
     assert_eq!(texture.format, TexelFormat::Rgba16);
     for (i, p) in film.pixels.iter().enumerate() {
@@ -199,7 +230,10 @@ fn existing_file_is_replaced_and_nothing_else_appears() {
 fn bit_depths_other_than_8_and_16_are_refused() {
     let folder = tempdir().unwrap();
     let path = folder.path().join("a.png");
-    assert!(told(write(&gradient(2, 2), &path, &WriteOptions { png_bits: 12 })).contains("12 bits"));
+    assert!(
+        told(write(&gradient(2, 2), &path, &WriteOptions { png_bits: 12, ..Default::default() }))
+            .contains("12 bits")
+    );
 }
 
 #[cfg(unix)]

@@ -14,7 +14,7 @@ use moire::error::Result;
 use moire::texture::data::{ColorSpace, Dimension, MipKernel, TextureData};
 use moire::texture::decode::Values;
 use moire::texture::load::load_noted;
-use moire::texture::source::{TextureContent, TextureSource};
+use moire::texture::source::{Reading, TextureContent, TextureSource};
 use tempfile::tempdir;
 
 use crate::support::{data, told};
@@ -30,6 +30,8 @@ fn load(path: &Path, dimension: Dimension) -> Result<(TextureData, Vec<String>)>
         content: TextureContent::File(path.to_path_buf()),
         dimension,
         color_space: ColorSpace::Linear,
+        color_space_stated: true,
+        reading: Reading::default(),
         flip_v: false,
         mip_kernel: MipKernel::Box,
     };

@@ -14,6 +14,7 @@ use moire::scene::model::*;
 use moire::scene::{load, parse};
 use moire::texture::data::ColorSpace;
 use moire::texture::sampler_spec::{Address, Filter, Method, MipMode, SamplerSpec, TexelCenter};
+use moire::texture::source::{OrientationUse, Reading};
 
 const HEAD: &str = "\
 [camera]
@@ -53,6 +54,8 @@ color = [0.1, 0.3, 0.6]
 name = "ground"
 file = "textures/grass.png"
 color_space = "srgb"
+orientation = "ignore"
+layer = "diffuse"
 flip_v = true
 
 [[texture]]
@@ -149,6 +152,8 @@ fn keys_left_out_have_the_documented_defaults() {
     let texture = &scene.textures[0];
     assert_eq!(texture.content.files(), ["scenes/t.png"].map(Path::new));
     assert_eq!((texture.color_space, texture.flip_v), (ColorSpace::Linear, false));
+    assert_eq!((texture.color_space_stated, &texture.reading), (false, &Reading::default()));
+    assert_eq!(texture.reading.orientation, OrientationUse::Apply);
     let sampler = SamplerSpec {
         address: [Address::Repeat; 2],
         mag: Filter::Linear,
@@ -198,6 +203,8 @@ fn every_key_of_a_full_scene_arrives() {
     let [ground, plain] = scene.textures.as_slice() else { panic!("two textures") };
     assert_eq!(ground.content.files(), ["scenes/textures/grass.png"].map(Path::new));
     assert_eq!((ground.color_space, ground.flip_v), (ColorSpace::Srgb, true));
+    let reading = Reading { orientation: OrientationUse::Ignore, layer: Some("diffuse".into()) };
+    assert_eq!((ground.color_space_stated, &ground.reading), (true, &reading));
     assert_eq!(plain.content.files(), ["/absolute/plain.png"].map(Path::new));
 
     let [per_axis, near, appended] = scene.samplers.as_slice() else { panic!("three samplers") };
@@ -274,12 +281,12 @@ fn every_key_listed_as_allowed_is_read() {
     let material = "[[texture]]\nname = 't'\nfile = 't'\n[[material]]\nname = 'm'\n";
     let sections = [
         ("[camera]\neye = [0, 0, 1]\nlook_at = [0, 0, 0]\nvertical_fov = 60\n", 10),
-        ("[[texture]]\nname = 'x'\nfile = 'x'\n", 23),
+        ("[[texture]]\nname = 'x'\nfile = 'x'\n", 25),
         ("[[texture]]\nname = 'x'\n[texture.volume]\nfile = 'x'\nsize = [1, 1, 1]\nformat = 'grey8'\n", 5),
         ("[[sampler]]\nname = 'x'\n", 9),
-        ("[[material]]\nname = 'x'\n", 13),
+        ("[[material]]\nname = 'x'\n", 14),
         ("[sampling]\n", 8),
-        ("[background]\n", 5),
+        ("[background]\n", 6),
         ("[image]\nwidth = 1\nheight = 1\n", 4),
         ("[[plane]]\norigin = [0, 0, 0]\ntangent = [1, 0, 0]\nbitangent = [0, 1, 0]\n", 6),
         ("[[sphere]]\ncenter = [0, 0, 0]\nradius = 1\n", 4),

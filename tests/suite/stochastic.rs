@@ -1,10 +1,12 @@
 //! What samples choose beside their place in the pixel: a point of the lens, of a light, a time, a lobe. The
 //! maps behind the choices, what theory says of the pictures, and how much patterns gain in each.
 
+mod fresnel;
 mod glossy;
 mod lens;
 mod lights;
 mod motion;
+mod rectangles;
 mod warps;
 
 use std::path::Path;

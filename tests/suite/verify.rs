@@ -227,7 +227,7 @@ fn the_text_names_what_is_outside_and_strictness_decides_about_known_faults() {
     assert_eq!([&sound, &known, &broken, &blunt].map(|r| r.passes(true)), [true, false, false, false]);
     for (report, expected) in [
         (&sound, "1 within, 0 with a known fault, 0 outside, 1 not offered"),
-        (&known, "known fault (1 variants): lavapipe filters"),
+        (&known, "known fault (1 variant): lavapipe filters"),
         (&broken, "outside: sampler 2d repeat/repeat mag=linear"),
         (&broken, "1 of 1 wrong, worst 1.0e-1"),
         (&blunt, "weights of 6 bits, 8 declared"),

@@ -1,25 +1,16 @@
-//! Stored texels to the numbers that are averaged, and back. Those numbers are f32, linear in light
-//! and in coverage: colours times alpha, and alpha; so a mean of them is a mean of what is seen.
-//! Integers that are not sRGB keep their codes as units, so that grey and opaque texels come back
-//! exactly.
+//! Stored texels to the numbers that are averaged, and back. Those numbers are f32 and linear in light; alpha
+//! is a channel like the others, as no material takes it for coverage. What is not sRGB, alpha among it,
+//! keeps its codes as units, so that a mean of equal codes is that code.
 
 use rayon::prelude::*;
 
-use crate::color::{linear_to_srgb, srgb_to_linear, srgb8_table};
+use crate::color::{srgb_table, srgb_to_linear};
 use crate::texture::data::{ColorSpace, Component, TexelFormat, TextureData};
-
-/// Added to alpha as the weight of a colour: nothing beside any alpha that can be seen, and the same
-/// for all where alpha is 0. A power of two, so that it goes in and out without rounding.
-pub(super) const UNSEEN: f32 = 1.0 / (1u32 << 30) as f32;
-/// Steps of the table behind [`Encoder8`].
-const STEPS: usize = 4096;
 
 pub(super) struct Codec {
     format: TexelFormat,
-    srgb: bool,
-    encoder: Encoder8,
-    /// Linear light of 16-bit codes, where they are sRGB.
-    table16: Vec<f32>,
+    /// Of colours that are sRGB.
+    srgb: Option<SrgbCodes>,
     /// What each channel is clamped to.
     range: [[f32; 2]; 4],
 }
@@ -27,16 +18,11 @@ pub(super) struct Codec {
 impl Codec {
     /// `clamped`: nothing that is encoded leaves the range of this texture.
     pub fn new(texture: &TextureData, clamped: bool) -> Codec {
-        let srgb = texture.color_space == ColorSpace::Srgb;
-        let wide = srgb && texture.format.component() == Component::Unorm16;
-        let table16 = if wide {
-            (0..=u16::MAX).map(|c| srgb_to_linear(f64::from(c) / 65_535.0) as f32).collect()
-        } else {
-            Vec::new()
-        };
-        let everything = [[f32::NEG_INFINITY, f32::INFINITY]; 4];
-        let mut codec =
-            Codec { format: texture.format, srgb, encoder: Encoder8::new(), table16, range: everything };
+        let format = texture.format;
+        let codes = format.component().codes();
+        let coded = texture.color_space == ColorSpace::Srgb && codes > 0;
+        let srgb = coded.then(|| SrgbCodes::new(codes));
+        let mut codec = Codec { format, srgb, range: [[f32::NEG_INFINITY, f32::INFINITY]; 4] };
         if clamped {
             codec.range = codec.range_of(texture);
         }
@@ -57,25 +43,19 @@ impl Codec {
 
     fn decode_channels<const C: usize>(&self, texels: &[u8], out: &mut [f32]) {
         let out = out.as_chunks_mut::<C>().0;
-        let table8 = srgb8_table();
-        let wide = |code: [u8; 2]| u16::from_ne_bytes(code);
-        match (self.format.component(), self.srgb) {
-            (Component::Unorm8, false) => {
-                weigh::<1, C>(texels, out, |[c]| f32::from(c), |[a]| f32::from(a) / 255.0);
+        let code8 = |[code]: [u8; 1]| f32::from(code);
+        let code16 = |code| f32::from(u16::from_ne_bytes(code));
+        match (self.format.component(), &self.srgb) {
+            (Component::Unorm8, None) => decode::<1, C>(texels, out, code8, code8),
+            (Component::Unorm8, Some(srgb)) => {
+                decode::<1, C>(texels, out, |[code]| srgb.light[usize::from(code)], code8);
             }
-            (Component::Unorm8, true) => {
-                weigh::<1, C>(texels, out, |[c]| table8[usize::from(c)], |[a]| f32::from(a) / 255.0);
+            (Component::Unorm16, None) => decode::<2, C>(texels, out, code16, code16),
+            (Component::Unorm16, Some(srgb)) => {
+                let light = |code| srgb.light[usize::from(u16::from_ne_bytes(code))];
+                decode::<2, C>(texels, out, light, code16);
             }
-            (Component::Unorm16, false) => {
-                weigh::<2, C>(texels, out, |c| f32::from(wide(c)), |a| f32::from(wide(a)) / 65_535.0);
-            }
-            (Component::Unorm16, true) => {
-                let color = |c| self.table16[usize::from(wide(c))];
-                weigh::<2, C>(texels, out, color, |a| f32::from(wide(a)) / 65_535.0);
-            }
-            (Component::Float32, _) => {
-                weigh::<4, C>(texels, out, f32::from_ne_bytes, f32::from_ne_bytes);
-            }
+            (Component::Float32, _) => decode::<4, C>(texels, out, f32::from_ne_bytes, f32::from_ne_bytes),
         }
     }
 
@@ -96,29 +76,24 @@ impl Codec {
     fn encode_channels<const C: usize>(&self, values: &[f32], texels: &mut [u8]) {
         let values = values.as_chunks::<C>().0;
         let range = &self.range;
-        let unit8 = |v: f32| [(v * 255.0 + 0.5) as u8];
-        let unit16 = |v: f32| ((v * 65_535.0 + 0.5) as u16).to_ne_bytes();
-        match (self.format.component(), self.srgb) {
-            (Component::Unorm8, false) => {
-                unweigh::<1, C>(values, texels, range, |v| [(v + 0.5) as u8], unit8)
+        let code8 = |v: f32| [(v + 0.5) as u8];
+        let code16 = |v: f32| ((v + 0.5) as u16).to_ne_bytes();
+        match (self.format.component(), &self.srgb) {
+            (Component::Unorm8, None) => encode::<1, C>(values, texels, range, code8, code8),
+            (Component::Unorm8, Some(srgb)) => {
+                encode::<1, C>(values, texels, range, |v| [srgb.code(v) as u8], code8);
             }
-            (Component::Unorm8, true) => {
-                unweigh::<1, C>(values, texels, range, |v| [self.encoder.code(v)], unit8);
-            }
-            (Component::Unorm16, false) => {
-                unweigh::<2, C>(values, texels, range, |v| ((v + 0.5) as u16).to_ne_bytes(), unit16);
-            }
-            (Component::Unorm16, true) => {
-                let color = |v: f32| ((linear_to_srgb(f64::from(v)) * 65_535.0 + 0.5) as u16).to_ne_bytes();
-                unweigh::<2, C>(values, texels, range, color, unit16);
+            (Component::Unorm16, None) => encode::<2, C>(values, texels, range, code16, code16),
+            (Component::Unorm16, Some(srgb)) => {
+                encode::<2, C>(values, texels, range, |v| srgb.code(v).to_ne_bytes(), code16);
             }
             (Component::Float32, _) => {
-                unweigh::<4, C>(values, texels, range, f32::to_ne_bytes, f32::to_ne_bytes)
+                encode::<4, C>(values, texels, range, f32::to_ne_bytes, f32::to_ne_bytes);
             }
         }
     }
 
-    /// Smallest and largest value of each channel, colours not weighted.
+    /// Smallest and largest value of each channel.
     fn range_of(&self, texture: &TextureData) -> [[f32; 2]; 4] {
         let row = texture.width as usize * self.format.bytes_per_texel();
         let channels = self.channels();
@@ -128,10 +103,8 @@ impl Codec {
             self.decode(texels, &mut values);
             let mut range = nothing();
             for texel in values.chunks_exact(channels) {
-                let weight = if channels == 1 { 1.0 } else { weight(texel[channels - 1]) };
-                for (c, value) in texel.iter().enumerate() {
-                    let value = if c + 1 == channels && channels > 1 { *value } else { value / weight };
-                    range[c] = [range[c][0].min(value), range[c][1].max(value)];
+                for (range, value) in range.iter_mut().zip(texel) {
+                    *range = [range[0].min(*value), range[1].max(*value)];
                 }
             }
             range
@@ -143,13 +116,9 @@ impl Codec {
     }
 }
 
-fn weight(alpha: f32) -> f32 {
-    alpha.max(0.0) + UNSEEN
-}
-
 /// Texels of `C` channels of `N` bytes: the last of several is alpha.
 #[inline(always)]
-fn weigh<const N: usize, const C: usize>(
+fn decode<const N: usize, const C: usize>(
     texels: &[u8],
     out: &mut [[f32; C]],
     color: impl Fn([u8; N]) -> f32,
@@ -157,21 +126,12 @@ fn weigh<const N: usize, const C: usize>(
 ) {
     let texels = texels.as_chunks::<N>().0.as_chunks::<C>().0;
     for (texel, out) in texels.iter().zip(out) {
-        if C == 1 {
-            out[0] = color(texel[0]);
-            continue;
-        }
-        let a = alpha(texel[C - 1]);
-        let weight = weight(a);
-        for c in 0..C - 1 {
-            out[c] = color(texel[c]) * weight;
-        }
-        out[C - 1] = a;
+        *out = std::array::from_fn(|c| if is_alpha::<C>(c) { alpha(texel[c]) } else { color(texel[c]) });
     }
 }
 
 #[inline(always)]
-fn unweigh<const N: usize, const C: usize>(
+fn encode<const N: usize, const C: usize>(
     values: &[[f32; C]],
     texels: &mut [u8],
     range: &[[f32; 2]; 4],
@@ -179,46 +139,54 @@ fn unweigh<const N: usize, const C: usize>(
     alpha: impl Fn(f32) -> [u8; N],
 ) {
     let texels = texels.as_chunks_mut::<N>().0.as_chunks_mut::<C>().0;
-    let clamped = |value: f32, c: usize| value.max(range[c][0]).min(range[c][1]);
     for (value, texel) in values.iter().zip(texels) {
-        if C == 1 {
-            texel[0] = color(clamped(value[0], 0));
-            continue;
-        }
-        let a = value[C - 1];
-        let weight = weight(a);
-        for c in 0..C - 1 {
-            texel[c] = color(clamped(value[c] / weight, c));
-        }
-        texel[C - 1] = alpha(clamped(a, C - 1));
+        *texel = std::array::from_fn(|c| {
+            let value = value[c].max(range[c][0]).min(range[c][1]);
+            if is_alpha::<C>(c) { alpha(value) } else { color(value) }
+        });
     }
+}
+
+const fn is_alpha<const C: usize>(channel: usize) -> bool {
+    C > 1 && channel + 1 == C
 }
 
 /// Linear light from which on the code after is nearer; none after the last.
-pub fn srgb8_middles() -> [f32; 256] {
-    let middle = |code: usize| srgb_to_linear((code as f64 + 0.5) / 255.0) as f32;
-    std::array::from_fn(|code| if code < 255 { middle(code) } else { f32::INFINITY })
+pub fn srgb_middles(codes: usize) -> Vec<f32> {
+    let last = codes - 1;
+    let middle = |code: usize| srgb_to_linear((code as f64 + 0.5) / last as f64) as f32;
+    (0..codes).map(|code| if code < last { middle(code) } else { f32::INFINITY }).collect()
 }
 
-/// Linear light to the nearest 8-bit sRGB code, without a power: a table says which code the light
-/// has at least, and the middles between codes say the rest.
-struct Encoder8 {
+/// Linear light of sRGB codes, and of light the nearest code without a power: a table says which code the
+/// light has at least, and the middles between codes say the rest.
+struct SrgbCodes {
+    light: &'static [f32],
     /// Codes at the beginning of each step.
-    least: Vec<u8>,
-    middles: [f32; 256],
+    least: Vec<u16>,
+    middles: Vec<f32>,
 }
 
-impl Encoder8 {
-    fn new() -> Encoder8 {
-        let middles = srgb8_middles();
-        let below = |light: f32| middles.iter().filter(|&&m| m <= light).count() as u8;
-        let least = (0..=STEPS).map(|step| below(step as f32 / STEPS as f32)).collect();
-        Encoder8 { least, middles }
+impl SrgbCodes {
+    /// Equal steps of light for each code; where the codes lie closest, 12.92 are as wide as a mean one.
+    const STEPS: usize = 16;
+
+    fn new(codes: usize) -> SrgbCodes {
+        let (steps, middles) = (codes * Self::STEPS, srgb_middles(codes));
+        let mut code = 0;
+        let least = (0..=steps).map(|step| {
+            while step as f32 / steps as f32 >= middles[code] {
+                code += 1;
+            }
+            code as u16
+        });
+        SrgbCodes { light: srgb_table(codes), least: least.collect(), middles }
     }
 
-    fn code(&self, light: f32) -> u8 {
-        let step = (light * STEPS as f32) as usize;
-        let mut code = self.least[step.min(STEPS)];
+    fn code(&self, light: f32) -> u16 {
+        let steps = self.least.len() - 1;
+        let step = (light * steps as f32) as usize;
+        let mut code = self.least[step.min(steps)];
         while light >= self.middles[usize::from(code)] {
             code += 1;
         }
@@ -229,18 +197,24 @@ impl Encoder8 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::color::linear_to_srgb;
 
     #[test]
     fn table_encoding_is_the_nearest_code() {
-        let encoder = Encoder8::new();
-        for i in 0..=100_000u32 {
-            let light = i as f32 / 100_000.0;
-            let exact = linear_to_srgb(f64::from(light)) * 255.0;
-            let code = f64::from(encoder.code(light));
-            // 2e-5 of a step: the standard's two pieces do not meet exactly.
-            assert!((code - exact).abs() <= 0.5 + 2e-5, "{light}: {code}, not {exact}");
+        for codes in [256, 65_536] {
+            let srgb = SrgbCodes::new(codes);
+            let last = (codes - 1) as u16;
+            for i in 0..=100_000u32 {
+                let light = i as f32 / 100_000.0;
+                let exact = linear_to_srgb(f64::from(light)) * f64::from(last);
+                let code = f64::from(srgb.code(light));
+                // 2e-5 of an 8-bit step: the standard's two pieces do not meet exactly; and middles are
+                // rounded to f32, by 2⁻²⁵ near 1, where light 1 / 65535 high has 0.44 codes.
+                let tolerance = f64::from(last) * (2e-5 / 255.0 + 0.44 / f64::from(1 << 25));
+                assert!((code - exact).abs() <= 0.5 + tolerance, "{light}: {code}, not {exact}");
+            }
+            assert_eq!((srgb.code(-1.0), srgb.code(2.0), srgb.code(f32::NAN)), (0, last, 0));
+            assert!((0..=last).all(|code| srgb.code(srgb.light[usize::from(code)]) == code));
         }
-        assert_eq!((encoder.code(-1.0), encoder.code(2.0), encoder.code(f32::NAN)), (0, 255, 0));
-        assert!((0..=255u8).all(|c| encoder.code(srgb8_table()[usize::from(c)]) == c));
     }
 }

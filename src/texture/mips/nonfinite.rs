@@ -2,7 +2,6 @@
 //! those that it covers and that are numbers in every channel, NaN where none is. So one of them stays
 //! where it is, and does not reach the last level, which far footprints read.
 
-use super::codec::UNSEEN;
 use super::pyramid;
 use crate::texture::data::{MipKernel, TextureData};
 
@@ -10,7 +9,7 @@ use crate::texture::data::{MipKernel, TextureData};
 pub fn pyramid_of_finite(texture: &TextureData) -> Vec<TextureData> {
     let channels = texture.format.channels();
     let present = |x, y| (0..channels).all(|c| texture.value(x, y, c).is_finite());
-    // What is missing counts as transparent black; its share says how much of a mean that is.
+    // What is missing counts as 0; its share says how much of a mean that is.
     let filled = texture
         .with_floats(channels, |x, y, c| if present(x, y) { texture.value(x, y, c) as f32 } else { 0.0 });
     let shares = texture.with_floats(1, |x, y, _| if present(x, y) { 1.0 } else { 0.0 });
@@ -22,16 +21,6 @@ fn mean_of_present(level: &TextureData, share: &TextureData) -> TextureData {
     let channels = level.format.channels();
     level.with_floats(channels, |x, y, c| {
         let share = share.value(x, y, 0);
-        let value = level.value(x, y, c);
-        if share == 0.0 {
-            return f32::NAN;
-        }
-        if c + 1 == channels {
-            return (value / share) as f32;
-        }
-        // Colours are means weighted by alpha, and by a little more where nothing is seen.
-        let alpha = level.value(x, y, channels - 1).max(0.0);
-        let unseen = f64::from(UNSEEN);
-        (value * (alpha + unseen) / (alpha + unseen * share)) as f32
+        if share == 0.0 { f32::NAN } else { (level.value(x, y, c) / share) as f32 }
     })
 }

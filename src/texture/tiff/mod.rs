@@ -58,7 +58,7 @@ pub(super) fn read(file: &[u8], path: &Path) -> Result<Picture> {
     let jpeg_tables = tags.bytes(tag::JPEG_TABLES).map_err(named)?;
     check_memory(path, layout.width as usize * layout.height as usize * format.bytes_per_texel())?;
     let texels = picture::decode(file, &layout, jpeg_tables).map_err(named)?;
-    Ok(Picture { texels, notes: notes(&tags, path) })
+    Ok(Picture::noted(texels, notes(&tags, path)))
 }
 
 fn notes(tags: &Directory<'_>, path: &Path) -> Vec<String> {

@@ -107,7 +107,10 @@ fn texture_over_the_limit_of_the_device_is_refused_where_it_must_be_an_image() {
     case.texture(limit + 1, 1);
     for options in [["--method", "hardware"], ["--texels", "image"]] {
         let size = format!("texture `tiles` {}×1", limit + 1);
-        case.refused(&options, &[&size, "too large", &format!("at most {limit}×{limit}"), "--texels buffer"]);
+        case.refused(
+            &options,
+            &[&size, "too large", &format!("at most {limit}×{limit}"), "--texels auto or buffer"],
+        );
     }
     case.renders(&["--texels", "buffer"]);
 }

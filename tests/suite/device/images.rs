@@ -44,7 +44,7 @@ impl Look {
             .bind(
                 &pipeline,
                 &[
-                    (4, Bound::Texels(&texels)),
+                    (4, Bound::Texels(std::slice::from_ref(&texels))),
                     (0, Bound::Buffer(&output)),
                     (1, Bound::Images(&[(sampled, &sampler), (fetched, &sampler)])),
                 ],

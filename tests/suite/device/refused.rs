@@ -76,7 +76,7 @@ fn pipelines_groups_and_runs_that_do_not_fit_are_refused() {
     let texels = gpu.buffer("texels", 256, BufferUse::TexelUint).unwrap();
     for (resources, word) in [
         (&[][..], "missing"),
-        (&[(0, Bound::Texels(&texels))][..], "texel buffer"),
+        (&[(0, Bound::Texels(std::slice::from_ref(&texels)))][..], "texel buffer"),
         (&[(0, Bound::Buffer(&texels))][..], "`texels`"),
         (&[(0, Bound::Buffer(&storage)), (1, Bound::Buffer(&storage))][..], "no binding 1"),
         (&[(0, Bound::Buffer(&storage)), (0, Bound::Buffer(&storage))][..], "twice"),

@@ -46,6 +46,12 @@ const UPRIGHT_STRIP: &str = "
     50 51
     52 53";
 
+const GRID: &str = "
+    00 01 10 11 20 21
+    02 03 12 13 22 23
+    30 31 40 41 50 51
+    32 33 42 43 52 53";
+
 fn picture(text: &str) -> (u32, u32, Vec<u8>) {
     let rows: Vec<Vec<u8>> = text
         .trim()
@@ -59,15 +65,16 @@ fn faces() -> Vec<u8> {
     (0..6).flat_map(|face| (0..4).map(move |texel| face * 10 + texel)).collect()
 }
 
-const ALL: [(CubeLayout, &str); 4] = [
+const ALL: [(CubeLayout, &str); 5] = [
     (CubeLayout::HorizontalCross, HORIZONTAL),
     (CubeLayout::VerticalCross, VERTICAL),
     (CubeLayout::HorizontalStrip, STRIP),
     (CubeLayout::VerticalStrip, UPRIGHT_STRIP),
+    (CubeLayout::Grid, GRID),
 ];
 
 #[test]
-fn crosses_and_strips_are_cut_as_drawn() {
+fn crosses_strips_and_grids_are_cut_as_drawn() {
     let folder = tempdir().unwrap();
     for (layout, text) in ALL {
         let (width, height, texels) = picture(text);
@@ -152,7 +159,7 @@ fn pictures_that_fit_no_layout_are_refused() {
     let folder = tempdir().unwrap();
     let square = grey(folder.path(), "square.png", 4, 4, vec![0; 16]);
     let message = told(read(Dimension::Cube, TextureContent::CubeFile(square.clone(), None)));
-    assert_says(&message, &["square.png", "4×4", "4:3 or 3:4", "6:1 or 1:6", "faces ="]);
+    assert_says(&message, &["square.png", "4×4", "4:3 or 3:4", "6:1 or 1:6", "3:2", "faces ="]);
     let layout = Some(CubeLayout::VerticalCross);
     let message = told(read(Dimension::Cube, TextureContent::CubeFile(square, layout)));
     assert_says(&message, &["square.png", "4×4", "\"vertical-cross\"", "3×4"]);

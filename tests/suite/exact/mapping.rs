@@ -199,13 +199,15 @@ fn planted_errors_of_maps_are_told() {
     .fails("rotation the other way");
 }
 
-/// Equirectangular: the middle of the picture looks along −z, +x lies to its right, v = 0 at +y.
+/// Equirectangular: the middle of the picture looks along −z, +x lies to its right, or mirrored to its left,
+/// v = 0 at +y.
 fn environment(read: impl Fn(&Map, DVec3) -> DVec2) -> Worst {
     let mut dice = Dice::new(53);
     let mut worst = Worst::default();
-    for rotate in [0.0, 90.0, -33.3] {
-        let text =
-            format!("{AHEAD}{TEXTURED}[background]\nenvironment = 't'\nsampler = 's'\nrotate = {rotate:?}\n");
+    for (rotate, mirror) in [(0.0, false), (90.0, false), (-33.3, false), (0.0, true), (-33.3, true)] {
+        let text = format!(
+            "{AHEAD}{TEXTURED}[background]\nenvironment = 't'\nsampler = 's'\nrotate = {rotate:?}\nmirror = {mirror}\n"
+        );
         let (_, scene) = packed(&text);
         let map = scene.maps[scene.header.key[3] as usize];
         for i in 0..40 {
@@ -219,7 +221,8 @@ fn environment(read: impl Fn(&Map, DVec3) -> DVec2) -> Worst {
             let across = V([x.clone(), frac(0, 1), z.clone()]).length();
             // Turned about +y: what is seen moves with the picture, against the direction's own angle.
             let turn = frac(2, 1) * pi();
-            let u = frac(1, 2) + angle(&x, &-z) / &turn + degrees(rotate) / turn;
+            let around = angle(&x, &-z) / &turn + degrees(rotate) / turn;
+            let u = if mirror { frac(1, 2) - around } else { frac(1, 2) + around };
             let polar = angle(&across, &y) / pi();
             let at = read(&map, d);
             let bound = 8.0 * U * (1.0 + 1.0 / approx(&across)); // the axes, their products and the angle

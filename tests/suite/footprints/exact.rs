@@ -9,7 +9,6 @@ use moire::oracle::footprint::{Footprint, camera_beam, mirrored, refracted};
 use moire::oracle::intersect::{nearest_hit, offset_origin};
 use moire::oracle::mapping::texture_coordinate;
 use moire::oracle::math::xyz;
-use moire::oracle::rng::pcg2d;
 use moire::oracle::shade::{advance, camera_path, seen_by_map};
 use moire::oracle::spread::in_texture;
 use moire::oracle::surface::{Surface, hit_surface};
@@ -99,19 +98,6 @@ fn exact_level(scene: &PackedScene, at: DVec2) -> Option<f64> {
     Some((0.5 * squared.log2()).clamp(0.0, f64::from(image.link[1] - 1)))
 }
 
-/// Random bits by which every surface of glass refracts that reflects less than half of the light.
-fn refracting() -> [u32; 2] {
-    let refracts = |start: &[u32; 2]| {
-        let mut bits = *start;
-        (0..5).all(|_| {
-            bits = pcg2d(bits);
-            bits[0] >> 31 == 1
-        })
-    };
-    // The choice is made by the first word of the next bits.
-    (0..).map(|i| [i, 77]).find(refracts).unwrap()
-}
-
 /// (level read by the oracle's ray, exact one) of pixels all over the picture.
 fn levels(scene: &PackedScene) -> Vec<(f64, f64, DVec2)> {
     let [width, height, ..] = scene.header.image;
@@ -120,7 +106,8 @@ fn levels(scene: &PackedScene) -> Vec<(f64, f64, DVec2)> {
         let at = DVec2::new(f64::from(pixel[0]) + 0.5, f64::from(pixel[1]) + 0.5);
         let Some(exact) = exact_level(scene, at) else { continue };
         let ray = camera_ray(&scene.header, pixel, DVec2::splat(0.5));
-        let mut path = camera_path(ray, camera_beam(&scene.header, &ray), refracting());
+        // Without points every choice is the middle one: glass refracts that mirrors less than half.
+        let mut path = camera_path(ray, camera_beam(&scene.header, &ray), [0; 2]);
         let mut read = DVec3::ZERO;
         while path.goes_on {
             read += advance(scene, &mut path);

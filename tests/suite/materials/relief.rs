@@ -54,6 +54,27 @@ fn a_normal_map_tilts_towards_growing_u_and_v() {
     expect([1.0, 0.0], [0.6, 0.0, 0.8], "scale = [0.1, 10]", 1.0);
 }
 
+/// The same tilt where green points the other way: u stays, v is reversed.
+#[test]
+fn green_downwards_reverses_v_alone() {
+    let tilted = |x: f32, y: f32| floats(2, 2, move |_, _| [0.5 + 0.3 * x, 0.5 + 0.3 * y, 0.9, 1.0]);
+    let expect = |green: &str, map: [f32; 2], light: [f64; 3], mapping: &str, right: f64| {
+        let keys = format!("normal_map = 't'\ngreen = '{green}'");
+        for value in cosine(&keys, tilted(map[0], map[1]), light, mapping) {
+            assert!(
+                (value - right).abs() < 1e-5,
+                "{green} {map:?} {light:?} {mapping}: {value}, by hand {right}"
+            );
+        }
+    };
+    expect("up", [0.0, 1.0], [0.0, 0.6, 0.8], "offset = [0.3, 0.3]", 1.0);
+    expect("down", [0.0, 1.0], [0.0, -0.6, 0.8], "offset = [0.3, 0.3]", 1.0);
+    expect("down", [0.0, 1.0], [0.0, 0.6, 0.8], "offset = [0.3, 0.3]", 0.28); // 0.64 - 0.36
+    expect("down", [1.0, 0.0], [0.6, 0.0, 0.8], "offset = [0.3, 0.3]", 1.0);
+    // v grows towards -y: green upwards in the picture, which v runs down.
+    expect("down", [0.0, 1.0], [0.0, 0.6, 0.8], "scale = [1, -1]", 1.0);
+}
+
 /// Heights k / 16 over 16 texels a unit of u: a slope of 1 a unit of u, times strength and scale.
 #[test]
 fn a_ramp_of_heights_tilts_by_its_slope() {

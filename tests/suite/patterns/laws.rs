@@ -1,11 +1,12 @@
 //! What each pattern promises about which parts of the pixel hold how many points.
 
+use moire::oracle::patterns::sample_line;
 use moire::oracle::permute::permute;
 use moire::oracle::rng::sample_bits;
 use moire::oracle::sobol::{second_dimension, shuffled_quarter};
 use moire::scene::model::Pattern;
 
-use super::set;
+use super::{header, points, set};
 
 /// The largest number of points in any of `columns` × `rows` equal cells, and how many hold one.
 fn cells(positions: &[[u32; 2]], columns: u32, rows: u32) -> (u32, u32) {
@@ -35,6 +36,21 @@ fn stratified_and_grid_fill_every_stratum_in_every_pair() {
             for side in [1, 2, 3, 7, 16] {
                 let positions = set(pattern, side * side, seed, pixel, pair);
                 assert_one_each(&format!("{pattern}, pair {pair}"), &positions, side, side);
+            }
+        }
+    }
+}
+
+/// Where one number is asked for, N points lie in N strata of the line.
+#[test]
+fn lines_have_one_point_in_each_stratum() {
+    use Pattern::{BlueNoise, Grid, MultiJittered, NRooks, SobolOwen, Stratified};
+    for pattern in [Grid, Stratified, MultiJittered, NRooks, SobolOwen, BlueNoise] {
+        for (seed, pixel, pair) in PLACES {
+            for count in [1, 4, 16, 256, 1024] {
+                let points = points(&header(pattern, count, false, seed), pixel, pair);
+                let line: Vec<[u32; 2]> = (0..count).map(|s| [sample_line(&points, s), 0]).collect();
+                assert_one_each(&format!("{pattern}, pair {pair}"), &line, count, 1);
             }
         }
     }

@@ -22,11 +22,9 @@ const VIEW: &str = "[camera]\neye = [0, 1, 5]\nlook_at = [0, 0, 0]\nvertical_fov
 
 /// Far more texels than pixels: all look-ups are of levels.
 fn textures() -> Vec<TextureData> {
-    let mut colour = noise(Dimension::Two, [256, 256, 1], TexelFormat::Rgba8, ColorSpace::Linear, 2);
-    colour.texels.chunks_mut(4).for_each(|texel| texel[3] = 255);
     vec![
         noise(Dimension::Two, [128, 64, 1], TexelFormat::Grey8, ColorSpace::Srgb, 1),
-        colour,
+        noise(Dimension::Two, [256, 256, 1], TexelFormat::Rgba8, ColorSpace::Linear, 2),
         noise(Dimension::Three, [32, 32, 32], TexelFormat::Grey8, ColorSpace::Linear, 3),
         noise(Dimension::Cube, [64, 64, 6], TexelFormat::Grey16, ColorSpace::Linear, 4),
     ]
@@ -80,7 +78,7 @@ fn pictures_with_levels_of_the_device_are_those_with_levels_of_the_host() {
         left.sort();
         assert_eq!(left, (0..scene.textures.len()).collect::<Vec<_>>(), "{what}");
         assert!(host.texels != device.texels, "{what}: the host has made the levels all the same");
-        let tuning = Tuning { texels, group: None };
+        let tuning = Tuning { texels, ..Tuning::default() };
         let (expected, report) = render_with(&host, false, &tuning);
         assert_eq!(report.device_mips_seconds, None, "{what}");
         let (found, report) = render_with(&device, false, &tuning);
@@ -124,21 +122,26 @@ fn only_what_halves_and_fits_is_left_to_the_device() {
     assert!(odd([8, 8, 1], TexelFormat::Grey8, ColorSpace::Srgb));
     assert!(!odd([6, 8, 1], TexelFormat::Grey8, ColorSpace::Srgb), "6 → 3 → 1");
     assert!(!odd([1, 1, 1], TexelFormat::Grey8, ColorSpace::Srgb));
-    assert!(odd([8, 8, 1], TexelFormat::Grey16, ColorSpace::Srgb), "held as floats");
+    assert!(odd([8, 8, 1], TexelFormat::Grey16, ColorSpace::Srgb));
 }
 
-/// 16-bit sRGB goes to the device as the linear floats that it is held as.
+/// 16-bit sRGB is held as it is, unless the device's samplers read it.
 #[test]
-fn deep_srgb_is_left_to_the_device_as_floats() {
-    let scene = scene("", false);
-    let film = |pyramids| {
-        let mut all: Vec<TextureData> = textures().into_iter().take(2).collect();
-        all[0] = noise(Dimension::Two, [64, 64, 1], TexelFormat::Grey16, ColorSpace::Srgb, 7);
-        let packed = pack::pack_with(&scene, all, None, pyramids).unwrap();
-        assert_eq!(TexelFormat::ALL[packed.textures[0].place[3] as usize].component(), Component::Float32);
-        render_with(&packed, false, &Tuning::default()).0
-    };
-    assert_same_bits(&film(Pyramids::DEVICE), &film(Pyramids::Host), "grey16 sRGB");
+fn deep_srgb_is_left_to_the_device_as_codes_or_as_floats() {
+    for (sampler, component) in
+        [("", Component::Unorm16), ("method = 'hardware'\nfilter = 'nearest'", Component::Float32)]
+    {
+        let scene = scene(sampler, false);
+        let film = |pyramids| {
+            let mut all: Vec<TextureData> = textures().into_iter().take(2).collect();
+            all[0] = noise(Dimension::Two, [64, 64, 1], TexelFormat::Grey16, ColorSpace::Srgb, 7);
+            let packed = pack::pack_with(&scene, all, None, pyramids).unwrap();
+            let format = TexelFormat::ALL[packed.textures[0].place[3] as usize];
+            assert_eq!(format.component(), component);
+            render_with(&packed, false, &Tuning::default()).0
+        };
+        assert_same_bits(&film(Pyramids::DEVICE), &film(Pyramids::Host), "grey16 sRGB");
+    }
 }
 
 #[test]

@@ -1,9 +1,13 @@
 //! Bad cameras, images, sampling and backgrounds.
 
-use moire::scene::model::Pattern;
-use moire::scene::{check_shared, check_spp};
+use std::path::Path;
 
-use super::errors::{check, check_behind_head, check_replaced};
+use moire::scene::advice::of_scene;
+use moire::scene::model::Pattern;
+use moire::scene::{check_shared, check_spp, parse};
+
+use super::HEAD;
+use super::errors::{PATH, check, check_behind_head, check_replaced};
 
 #[test]
 fn camera_and_image_rules() {
@@ -117,12 +121,45 @@ fn sampling_and_background_rules() {
             &["background.layout", "2d, which needs layout \"equirectangular\""],
         ),
         ("turned nothing", "[background]\nrotate = 90", &["background.rotate", "needs an environment"]),
+        ("mirrored nothing", "[background]\nmirror = true", &["background.mirror", "needs an environment"]),
+        (
+            "mirrored how",
+            "[[texture]]\nname = 't'\nfile = 'f'\n[background]\nenvironment = 't'\nmirror = 'x'",
+            &["background.mirror", "true or false"],
+        ),
         (
             "sampler of nothing",
             "[background]\nsampler = 's'",
             &["background.sampler", "needs an environment"],
         ),
     ]);
+}
+
+/// Rows of an environment go on over its poles: another address of v that the scene states is told, the default not.
+#[test]
+fn an_address_that_poles_replace_is_told() {
+    let told = |sampler: &str, texture: &str| {
+        let text = format!(
+            "{HEAD}[[texture]]\nname = 't'\n{texture}\n[[sampler]]\nname = 's'\n{sampler}\n\
+             [background]\nenvironment = 't'\nsampler = 's'\n"
+        );
+        let told = of_scene(&parse(Path::new(PATH), &text).unwrap());
+        told.into_iter().filter(|t| t.contains("over its poles")).collect::<Vec<_>>()
+    };
+    let flat = "file = 'f'";
+    for (stated, name) in [
+        ("address = 'mirrored-repeat'", "\"mirrored-repeat\""),
+        ("address = ['clamp-to-edge', 'clamp-to-border']", "\"clamp-to-border\""),
+        ("address = 'repeat'", "\"repeat\""),
+    ] {
+        let told = told(stated, flat);
+        assert!(told.len() == 1 && told[0].contains(name), "{stated}: {told:?}");
+    }
+    for silent in ["", "address = 'clamp-to-edge'", "address = ['repeat', 'clamp-to-edge']"] {
+        assert!(told(silent, flat).is_empty(), "{silent}");
+    }
+    let cube = "file = 'f'\ndimension = 'cube'\nlayout = 'horizontal-cross'";
+    assert!(told("address = 'mirrored-repeat'", cube).is_empty());
 }
 
 #[test]

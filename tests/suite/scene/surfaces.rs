@@ -32,6 +32,16 @@ fn texture_sampler_and_material_rules() {
             "[[texture]]\nname = 'x'\nfile = 'y'\nflip_v = 1",
             &["texture.flip_v", "true or false, found 1"],
         ),
+        (
+            "orientation",
+            "[[texture]]\nname = 'x'\nfile = 'y'\norientation = 'ignored'",
+            &["texture.orientation", "did you mean \"ignore\"", "apply, ignore"],
+        ),
+        (
+            "orientation of a ramp",
+            "[[texture]]\nname = 'x'\nramp = [[0, 0, 0]]\norientation = 'apply'",
+            &["texture.orientation", "these texels come from none"],
+        ),
         ("texture twice", &textures, &[":13:8:", "texture.name", "\"a\"", "line 10"]),
         ("sampler twice", &samplers, &["sampler.name", "\"a\"", "line 10"]),
         ("material twice", &materials, &["material.name", "\"a\"", "line 10"]),
@@ -100,6 +110,17 @@ fn texture_sampler_and_material_rules() {
             "[[material]]\nname = 'm'\nmodel = 'mirror'\nior = 1.5",
             &["material.ior", "only model \"dielectric\" has ior", "\"mirror\""],
         ),
+        ("green of nothing", "[[material]]\nname = 'm'\ngreen = 'down'", &["material.green", "normal_map"]),
+        (
+            "green of heights",
+            "[[texture]]\nname = 't'\nfile = 'f'\n[[material]]\nname = 'm'\nbump_map = 't'\ngreen = 'down'",
+            &["material.green", "heights"],
+        ),
+        (
+            "green where",
+            "[[texture]]\nname = 't'\nfile = 'f'\n[[material]]\nname = 'm'\nnormal_map = 't'\ngreen = 'dwn'",
+            &["material.green", "did you mean \"down\"", "up, down"],
+        ),
         ("strength of nothing", "[[material]]\nname = 'm'\nstrength = 2", &["material.strength", "bump_map"]),
         (
             "two reliefs",
@@ -164,7 +185,9 @@ fn mapping_rules() {
         (
             "kind",
             "{ kind = 'box' }",
-            &["\"box\"; allowed: surface, planar, cylindrical, spherical, cube, solid"],
+            &[
+                "\"box\"; did you mean \"cube\"? allowed: surface, planar, cylindrical, spherical, cube, solid",
+            ],
         ),
         ("kind near", "{ kind = 'spheric' }", &["material.mapping.kind", "did you mean \"spherical\""]),
         (

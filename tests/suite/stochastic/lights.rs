@@ -145,6 +145,57 @@ fn a_rectangle_follows_lamberts_polygon_formula() {
     assert_near(found, lambert(&above) * radiance.x / PI, 1e-2, "half under the floor");
 }
 
+/// Lambert's formula for the middle of a square ceiling, from next to it to where it is sampled by its area: 1/1024 of
+/// a solid angle is at 32 times its side. Every pixel is near, not only their mean.
+#[test]
+fn a_rectangle_is_as_bright_as_lambert_says_near_and_far() {
+    for height in [1e-4, 1e-3, 0.01, 0.1, 0.5, 1.0, 4.0, 16.0, 31.9, 32.1, 64.0] {
+        for (x, y) in [(0.0, 0.0), (0.3, 0.45), (0.499, -0.499)] {
+            let position = DVec3::new(x, y, height);
+            let [edge_u, edge_v] = [DVec3::Y, DVec3::X];
+            let expected = lambert(&corners(position, edge_u, edge_v)) / PI;
+            let mut scene = floor(1e-6, 1e-3, 4, "");
+            scene.lights = vec![Light::Rectangle { position, edge_u, edge_v, radiance: DVec3::ONE }];
+            let film = render(&packed(&scene));
+            for pixel in &film.pixels {
+                // 1024 Sobol points; f32 at most 2e-4.
+                assert_near(pixel[0].into(), expected, 5e-3, &format!("one pixel at {position}"));
+            }
+            assert_near(mean(&film), expected, 1e-3, &format!("at {position}"));
+        }
+    }
+}
+
+/// Standing on the floor, and wholly beside it: the point looks along it.
+#[test]
+fn a_grazing_rectangle_is_as_bright_as_lambert_says() {
+    for away in [1e-3, 0.01, 0.1, 1.0] {
+        let position = DVec3::new(-away, 0.2, 0.5);
+        let [edge_u, edge_v] = [DVec3::Y, DVec3::Z];
+        let expected = lambert(&corners(position, edge_u, edge_v)) / PI;
+        let found = lit(Light::Rectangle { position, edge_u, edge_v, radiance: DVec3::ONE });
+        assert_near(found, expected, 2e-3, &format!("a wall {away} away"));
+    }
+    // A ceiling that begins `aside` of the point, at 1/20 of that.
+    for aside in [0.1, 1.0] {
+        let position = DVec3::new(aside + 0.5, 0.1, aside / 20.0);
+        let [edge_u, edge_v] = [DVec3::Y, DVec3::X];
+        let expected = lambert(&corners(position, edge_u, edge_v)) / PI;
+        let found = lit(Light::Rectangle { position, edge_u, edge_v, radiance: DVec3::ONE });
+        assert_near(found, expected, 1e-2, &format!("a ceiling {aside} aside"));
+    }
+}
+
+/// Slanted sides have no rectangle's parametrisation: by their area, as ever.
+#[test]
+fn a_slanted_light_follows_lamberts_polygon_formula() {
+    let [edge_u, edge_v] = [DVec3::new(0.3, 1.0, 0.0), DVec3::X];
+    let position = DVec3::new(0.2, 0.1, 1.0);
+    let expected = lambert(&corners(position, edge_u, edge_v)) / PI;
+    let found = lit(Light::Rectangle { position, edge_u, edge_v, radiance: DVec3::ONE });
+    assert_near(found, expected, 4e-3, "slanted");
+}
+
 fn lit_or_dark(light: Light) -> f64 {
     let mut scene = floor(1e-4, 0.1, 4, "");
     scene.lights = vec![light];

@@ -32,7 +32,14 @@ fn queries() -> Vec<WarpQuery> {
         let normal = direction();
         let against = -around(normal, direction());
         let [direction, normal] = [against, normal].map(|v| v.as_vec3().extend(0.0).to_array());
-        WarpQuery { square, height: HEIGHTS[i % 5], alpha: ALPHAS[i % 4], direction, normal }
+        WarpQuery {
+            square,
+            height: HEIGHTS[i % 5],
+            alpha: ALPHAS[i % 4],
+            direction,
+            normal,
+            ..Default::default()
+        }
     };
     places.into_iter().enumerate().map(query).collect()
 }

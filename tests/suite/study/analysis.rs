@@ -1,7 +1,9 @@
 //! Slopes, winners and times to errors of points that are made up, so that the answers are known.
 
+use moire::oracle::rng::mix_bits;
 use moire::plot::axis::steps;
-use moire::study::analysis::{MethodSlope, Slope, median, slope, time_to, winners};
+use moire::study::analysis::{MethodSlope, Slope, median, recommended, slope, time_to, winners};
+use moire::study::choice::no_different;
 use moire::study::record::{Errors, PointRecord};
 
 /// RMSE whose square falls with this slope, with a ripple of some per cent as measured points have.
@@ -104,6 +106,76 @@ fn slow_method_does_not_win_the_times_in_which_nothing_else_was_measured() {
     assert_eq!(found.spp, 1600);
     // What has no law is not prolonged.
     assert_eq!(last(&[law("fast", -1.0, &[])]).method, "slow");
+}
+
+#[test]
+fn no_measured_point_beats_the_recommended_one_in_both_error_and_time() {
+    let random = |seed: u32, k: u32| f64::from(mix_bits(mix_bits(seed) ^ k)) / f64::from(u32::MAX);
+    for seed in 0..300 {
+        let methods = ["random", "stratified", "adaptive", "cone"];
+        let points: Vec<PointRecord> = (0..12)
+            .map(|i| {
+                let [time, error] = [random(seed, 2 * i), random(seed, 2 * i + 1)];
+                let method = methods[(random(seed, 100 + i) * 3.999) as usize];
+                point(method, 4 + i, 1e-3 * 1e3f64.powf(time), 1e-3 * 1e2f64.powf(error))
+            })
+            .collect();
+        // Steep laws: most of the longer times are won by what was not measured.
+        let slopes =
+            ["random", "stratified", "adaptive"].map(|m| law(m, -1.0 - 2.0 * random(seed, 7), &[-1.0]));
+        for slopes in [&[][..], &slopes] {
+            let best = recommended(&points, &winners(&points, slopes)).unwrap();
+            let beats = |p: &&PointRecord| {
+                p.median_seconds() < best.median_seconds() && p.errors.rmse < best.errors.rmse
+            };
+            assert_eq!(points.iter().find(beats), None, "{seed}: beats {best:?}");
+        }
+    }
+}
+
+#[test]
+fn method_that_wins_only_beyond_what_was_measured_is_not_recommended_with_a_beaten_point() {
+    let points = [
+        point("sobol-owen", 256, 0.1, 0.01),
+        point("adaptive", 64, 0.1 - 1e-6, 0.0025),
+        point("adaptive", 256, 0.4, 0.0009),
+    ];
+    let best = recommended(&points, &winners(&points, &[law("sobol-owen", -6.0, &[-3.0])])).unwrap();
+    assert_eq!((best.method.as_str(), best.spp), ("adaptive", 256));
+}
+
+#[test]
+fn equal_pictures_and_errors_that_noise_explains_are_named_together() {
+    let with = |method: &str, seconds: f64, picture: &str, blocks: &[f32]| PointRecord {
+        picture: picture.into(),
+        blocks: blocks.to_vec(),
+        ..point(method, 1, seconds, f64::from(blocks.iter().sum::<f32>()).sqrt())
+    };
+    let a = [1.0, 2.0, 3.0, 4.0, 2.0, 1.0, 3.0, 2.0f32];
+    let nearly = [1.1, 1.9, 3.2, 3.7, 2.1, 1.0, 2.9, 2.2];
+    let more = a.map(|b| b * 2.0);
+    let points = [
+        with("center", 0.010, "p", &a),
+        with("grid", 0.011, "p", &a),
+        with("random", 0.009, "q", &more),
+        with("halton", 0.009, "r", &nearly),
+    ];
+    assert!(no_different(&points[0], &points[1]) && no_different(&points[0], &points[3]));
+    assert!(!no_different(&points[0], &points[2]) && !no_different(&points[2], &points[3]));
+    // In 10 ms grid does not fit by its median, but it took as long as center in some repeat.
+    for winner in winners(&points, &[]).iter().filter(|w| w.budget > 0.0099) {
+        for method in ["center", "grid", "halton"] {
+            assert!(winner.is_or_ties(method), "{method} in {winner:?}");
+        }
+        assert!(!winner.is_or_ties("random"), "{winner:?}");
+    }
+    // A part that errs a hundred times as much as the others hides nothing.
+    let skewed = |factor: f32| -> Vec<f32> {
+        a.iter().enumerate().map(|(i, b)| b * factor * if i == 3 { 100.0 } else { 1.0 }).collect()
+    };
+    assert!(!no_different(&with("a", 0.01, "s", &skewed(1.0)), &with("b", 0.01, "t", &skewed(1.5))));
+    let unknown = point("old", 1, 0.01, 0.1);
+    assert!(!no_different(&unknown, &unknown), "without parts and picture nothing is known");
 }
 
 #[test]

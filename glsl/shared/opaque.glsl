@@ -1,0 +1,12 @@
+// Numbers that are the same for all threads, in a form that hides this from the driver. Where a condition or
+// the end of a loop depends on nothing but uniforms and push constants, lavapipe (Mesa 22.3.6,
+// lvp_inline_uniforms.c) puts their values into the shader, and makes it again at each submission.
+#ifndef OPAQUE_GLSL
+#define OPAQUE_GLSL
+
+layout(constant_id = 90) const bool OPAQUE_UNIFORMS = true; // src/render/mod.rs: on lavapipe alone
+
+// Workgroups lie in x and y, so that this adds a zero that is known at run time.
+#define OPAQUE(number) ((number) + (OPAQUE_UNIFORMS ? gl_WorkGroupID.z : 0u))
+
+#endif

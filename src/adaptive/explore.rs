@@ -1,0 +1,109 @@
+//! Some samples for pixels drawn at random, in every pass: a pixel whose samples are all equal may have missed what is
+//! rare. Where such a pixel turns out to vary, those around it are taken to vary too, until their own samples say
+//! otherwise: what one of them finds spreads from pass to pass.
+
+use super::MOST;
+use super::audit::raise;
+use super::estimate::Estimate;
+
+/// One pixel of so many, one after the other.
+const APART: usize = 128;
+/// By how much the count of a visited pixel grows.
+const GROWTH: u32 = 4;
+/// A visited pixel has found something where its samples vary so many times more than before.
+const FOUND: f32 = 4.0;
+/// Pixels around such a one that are taken to be like it.
+const RADIUS: usize = 3;
+
+pub struct Explorer {
+    rng: fastrand::Rng,
+    /// Pixels that are looked at, and how their samples varied before.
+    visited: Vec<(u32, f32)>,
+}
+
+impl Default for Explorer {
+    fn default() -> Explorer {
+        Explorer { rng: fastrand::Rng::with_seed(0), visited: Vec::new() }
+    }
+}
+
+impl Explorer {
+    /// Raises the variances around those visited pixels that have found something, and looks at these too.
+    pub fn spread(&mut self, estimate: &mut Estimate, counts: &[u32], width: usize) {
+        let mut raised = Vec::new();
+        for (pixel, before) in std::mem::take(&mut self.visited) {
+            let now = estimate.spreads[pixel as usize];
+            if now > FOUND * before {
+                raise(&mut estimate.variances, counts, width, pixel as usize, now, RADIUS, &mut raised);
+            }
+        }
+        self.look_at(&raised, estimate);
+    }
+
+    /// These pixels have been given a variance that their samples do not show.
+    pub fn look_at(&mut self, pixels: &[u32], estimate: &Estimate) {
+        self.visited.extend(pixels.iter().map(|&i| (i, estimate.spreads[i as usize])));
+    }
+
+    /// Gives some samples to pixels drawn at random, one of each run.
+    pub fn visit(&mut self, next: &mut [u32], now: &[u32], estimate: &Estimate) {
+        for first in (0..next.len()).step_by(APART) {
+            let pixel = self.rng.usize(first..(first + APART).min(next.len()));
+            next[pixel] = next[pixel].max((GROWTH * now[pixel]).min(MOST));
+            self.visited.push((pixel as u32, estimate.spreads[pixel]));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn flat(pixels: usize) -> Estimate {
+        Estimate { variances: vec![0.0; pixels], spreads: vec![0.0; pixels], mse: 0.0 }
+    }
+
+    #[test]
+    fn every_run_of_pixels_is_visited_and_no_pixel_is_left_out_for_ever() {
+        let (now, estimate) = (vec![8; 1000], flat(1000));
+        let mut ever = vec![false; 1000];
+        let mut explorer = Explorer::default();
+        for _ in 0..2000 {
+            let mut next = now.clone();
+            explorer.visit(&mut next, &now, &estimate);
+            for (run, counts) in next.chunks(APART).enumerate() {
+                assert_eq!(counts.iter().filter(|n| **n == 32).count(), 1, "run {run}");
+            }
+            next.iter().zip(&mut ever).for_each(|(n, ever)| *ever |= *n > 8);
+        }
+        // A pixel is missed 2000 times with a probability of (127/128)^2000 = 1.5e-7.
+        assert!(ever.iter().all(|e| *e));
+    }
+
+    /// A texture of rare bright texels that no first pass has met: whoever finds one tells its neighbours, these theirs.
+    #[test]
+    fn what_one_pixel_finds_spreads_until_pixels_see_that_there_is_nothing() {
+        const WIDTH: usize = 64;
+        let counts = vec![8; WIDTH * 8];
+        let mut explorer = Explorer::default();
+        let mut estimate = flat(WIDTH * 8);
+        let found = 4 * WIDTH + 20;
+        explorer.look_at(&[found as u32], &estimate);
+        estimate.spreads[found] = 1.0;
+        explorer.spread(&mut estimate, &counts, WIDTH);
+        let raised = |estimate: &Estimate| estimate.variances.iter().filter(|v| **v > 0.0).count();
+        assert_eq!(raised(&estimate), 49);
+        assert_eq!(estimate.variances[found], 1.0 / 16.0);
+        assert_eq!(estimate.variances[found + 3], 0.25 / 16.0);
+        // One of them finds some too: its surroundings are raised in turn; the others have seen nothing.
+        estimate.variances.fill(0.0);
+        estimate.spreads[found + 3] = 1.0;
+        explorer.spread(&mut estimate, &counts, WIDTH);
+        assert!(estimate.variances[found + 6] > 0.0);
+        assert_eq!(raised(&estimate), 49);
+        // And where no one does, it ends.
+        estimate.variances.fill(0.0);
+        explorer.spread(&mut estimate, &counts, WIDTH);
+        assert_eq!(raised(&estimate), 0);
+    }
+}

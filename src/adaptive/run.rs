@@ -1,0 +1,328 @@
+//! The loop of passes: samples, estimate, audit, and the next counts, until the goal is met.
+
+use std::collections::BTreeMap;
+use std::time::Instant;
+
+use super::allocate::{Aim, Allocation};
+use super::audit::{Audit, Audited, CONFIDENCE};
+use super::estimate::{Estimate, Exponent};
+use super::exact::{Exact, OWN_ERROR, Outlook, needed};
+use super::explore::Explorer;
+use super::pace::{PLANNED, Pace};
+use super::{Goal, MOST, Outcome, Sums, Tracer};
+use crate::error::Result;
+use crate::film::Film;
+use crate::layout::Job;
+use crate::progress::Progress;
+
+/// Samples of each half in the first pass: enough to meet the edge of a shape that covers a tenth of the
+/// pixel with a chance of 4 in 5.
+const FIRST: u32 = 8;
+/// Where something small and bright is known to be, a pixel that sees all of it takes this many samples a share of it
+/// in its first pass: it is missed with a chance of 1 in 50.
+const FIRST_OF_BRIGHT: f64 = 4.0;
+/// But no more than so many, nor than so many in the whole picture.
+const MOST_FIRST: f64 = 1024.0;
+const MOST_FIRST_IN_ALL: f64 = (1u64 << 25) as f64;
+/// Part of the remaining time that a pass or an audit is planned for.
+const OF_TIME: f64 = 0.85;
+const AUDIT_OF_TIME: f64 = 0.5;
+/// Part of the whole time that is kept for the last audit.
+const AUDIT_TIME: f64 = 0.08;
+/// A time is kept where it is exceeded by no more than this factor.
+const KEPT: f64 = 1.05;
+/// Samples of an audit over those of the picture; a picture of few has more, up to so many in all.
+const AUDIT_SHARE: f64 = 1.0 / 24.0;
+const SMALL_AUDIT: f64 = (1u64 << 19) as f64;
+/// Of a picture with a number of samples to keep an audit has a quarter, or so many.
+const LITTLE_AUDIT: f64 = (1u64 << 18) as f64;
+/// With fewer an audit says nothing.
+const LEAST_AUDIT: f64 = 4096.0;
+/// A goal is met where the audit's estimate is below it, and the interval ends not far above it.
+const SURE: f64 = 1.25;
+/// Audits that may refuse the goal, each with more samples, before it counts as not to be met.
+const MOST_REFUSALS: u32 = 12;
+
+/// Samples until the goal is met. Audits do not touch the film.
+pub fn run(
+    tracer: &mut dyn Tracer,
+    [width, height]: [u32; 2],
+    goal: Goal,
+    progress: &dyn Progress,
+) -> Result<(Film, Outcome)> {
+    let start = Instant::now();
+    let pixels = width as usize * height as usize;
+    let half = || vec![[0.0; 4]; pixels];
+    let mut sums = Sums { width, height, halves: [half(), half()] };
+    let mut counts = vec![0u32; pixels];
+    let first = first_count(goal, tracer.bright_share(), pixels);
+    let mut next = tracer.first_samples(if let Goal::Seconds(_) = goal { 1 } else { first }, pixels)?;
+    let mut outcome = Outcome { confidence: CONFIDENCE, ..Outcome::default() };
+    let mut taken;
+    let mut exponent = Exponent::default();
+    let mut exact = Exact::default();
+    let mut explorer = Explorer::default();
+    let mut auditor = Auditor::default();
+    let mut pace = Pace::default();
+    loop {
+        if next != counts {
+            let clock = Instant::now();
+            match (equal(&counts), equal(&next)) {
+                (Some(now), Some(next)) => tracer.sample_all([width, height], now, next - now, progress)?,
+                _ => tracer.sample(&jobs(&counts, &next, width), progress)?,
+            }
+            pace.learn(total(&next) - total(&counts), clock.elapsed().as_secs_f64());
+            counts.clone_from(&next);
+            outcome.passes += 1;
+        }
+        let clock = Instant::now();
+        tracer.read(&mut sums)?;
+        exact.replace(&mut sums, &counts);
+        taken = total(&counts);
+
+        let mut estimate = Estimate::new(&sums, &counts);
+        exact.settle(&mut estimate);
+        exponent.learn(taken, estimate.mse);
+        outcome.beam_pixels = exact.told() as u64;
+        let told = outcome.beam_pixels as f64 / pixels as f64;
+        let noise = estimate.mse + OWN_ERROR.powi(2) * told;
+        outcome.estimated_noise = noise.sqrt();
+        pace.hosting = clock.elapsed().as_secs_f64();
+        let all = match goal {
+            Goal::Samples(spp) => f64::from(spp) * pixels as f64,
+            Goal::Error(_) => f64::INFINITY,
+            Goal::Seconds(limit) => {
+                let left = limit * (1.0 - AUDIT_TIME) - start.elapsed().as_secs_f64() - pace.hosting;
+                taken + pace.rate * left.max(0.0) * OF_TIME
+            }
+        };
+        let enough = match goal {
+            Goal::Error(rmse) => outcome.estimated_noise <= rmse,
+            Goal::Samples(_) | Goal::Seconds(_) => taken * 1.02 >= all || estimate.mse == 0.0 && told == 1.0,
+        };
+
+        let left = match goal {
+            Goal::Seconds(limit) => AUDIT_OF_TIME * pace.rate * (limit - start.elapsed().as_secs_f64()),
+            Goal::Samples(_) => (taken / 4.0).max(LITTLE_AUDIT),
+            Goal::Error(_) => f64::INFINITY,
+        };
+        let budget = auditor.budget(taken).min(left);
+        let audited = Audited { sums: &sums, counts: &counts, estimate: &estimate, exact: &exact };
+        let owed = budget >= LEAST_AUDIT || matches!(goal, Goal::Error(_));
+        let audit = if enough && owed {
+            Some(auditor.audit(&audited, tracer, budget, &mut outcome, progress)?)
+        } else {
+            None
+        };
+        outcome.tell(noise, audit.as_ref(), tracer.prefilters());
+        let weight = estimate.weight();
+        if enough {
+            let Goal::Error(rmse) = goal else { break };
+            let sure = outcome.interval.is_none_or(|[_, high]| high <= SURE * rmse);
+            outcome.reached = outcome.estimated_rmse <= rmse && sure;
+            // More samples do not lower the bias of a footprint as they lower noise.
+            if outcome.reached || tracer.prefilters() || auditor.refusals == MOST_REFUSALS {
+                break;
+            }
+            auditor.refusals += 1;
+        }
+
+        explorer.spread(&mut estimate, &counts, width as usize);
+        if let Some(audit) = &audit {
+            let raised = audit.raise(&mut estimate.variances, &counts, width as usize);
+            explorer.look_at(&raised, &estimate);
+        }
+        let aim = match goal {
+            Goal::Samples(_) | Goal::Seconds(_) => Aim::Samples(all),
+            // In the allocation's measure, which weighs what may have been missed too.
+            Goal::Error(rmse) => Aim::Mse((rmse * PLANNED).powi(2) * weight * auditor.strictness(noise)),
+        };
+        let allocation = Allocation::new(&estimate, &counts, exponent.value());
+        let needed = needed(&allocation, aim);
+        let elapsed = start.elapsed().as_secs_f64();
+        let outlook = Outlook {
+            goal,
+            passes: outcome.passes,
+            elapsed,
+            mse: estimate.mse,
+            exponent: exponent.value(),
+            left: Outlook::left(goal, elapsed, (needed - taken) / pace.rate),
+        };
+        if exact.tell(tracer, &outlook, &estimate, &allocation, progress)? {
+            continue;
+        }
+        let idle = pace.idle(goal, elapsed, outcome.estimated_noise, exponent.value());
+        let short = equal(&counts).filter(|now| *now < first);
+        next = match (short.or(equal(&counts)), idle) {
+            // A budget begins with one sample of each half, to see how long these take.
+            (Some(now), _) if short.is_some() => {
+                let most = all / (2 * pixels) as f64;
+                vec![(most as u32).clamp(now, first); pixels]
+            }
+            (Some(now), Some(factor)) => vec![(now * factor).min(MOST); pixels],
+            _ => {
+                let mut next = allocation.counts(aim, &counts, growth(goal), MOST);
+                // Where none of those that matter may have more, looking around does not help either.
+                if next != counts || enough {
+                    explorer.visit(&mut next, &counts, &estimate);
+                }
+                next
+            }
+        };
+        if next == counts {
+            // No pixel that matters may have more samples: what was reached is told all the same.
+            if audit.is_none() {
+                let audited = Audited { sums: &sums, counts: &counts, estimate: &estimate, exact: &exact };
+                let audit = auditor.audit(&audited, tracer, budget, &mut outcome, progress)?;
+                outcome.tell(noise, Some(&audit), tracer.prefilters());
+            }
+            break;
+        }
+        progress.advance((taken / total(&next)).min(1.0));
+    }
+    outcome.mean_samples = taken / pixels as f64;
+    outcome.least_samples = 2 * counts.iter().copied().min().unwrap_or(0);
+    outcome.most_samples = 2 * counts.iter().copied().max().unwrap_or(0);
+    outcome.reached = match goal {
+        Goal::Samples(_) => true,
+        Goal::Error(_) => outcome.reached,
+        Goal::Seconds(limit) => start.elapsed().as_secs_f64() <= KEPT * limit,
+    };
+    Ok((film(&sums, &counts), outcome))
+}
+
+/// When to audit, how much, and what the last audit said.
+#[derive(Default)]
+struct Auditor {
+    rounds: u32,
+    refusals: u32,
+    /// Mean squared error by the last audit.
+    mse: f64,
+}
+
+impl Auditor {
+    /// Samples of the next audit.
+    fn budget(&self, taken: f64) -> f64 {
+        let share = AUDIT_SHARE * f64::from(1 << self.refusals.min(3));
+        (share * taken).max(SMALL_AUDIT)
+    }
+
+    fn audit(
+        &mut self,
+        audited: &Audited,
+        tracer: &mut dyn Tracer,
+        budget: f64,
+        outcome: &mut Outcome,
+        progress: &dyn Progress,
+    ) -> Result<Audit> {
+        let audit = audited.audit(tracer, budget, self.rounds, progress)?;
+        self.rounds += 1;
+        self.mse = audit.mse;
+        outcome.audited_pixels += audit.pixels as u64;
+        outcome.audit_samples += audit.samples as u64;
+        Ok(audit)
+    }
+
+    /// What the aim is lowered by: audits found more than the halves, or were not sure.
+    fn strictness(&self, noise: f64) -> f64 {
+        if self.refusals == 0 {
+            return 1.0;
+        }
+        (noise / self.mse.max(noise)) * 0.8f64.powi(self.refusals as i32 - 1)
+    }
+}
+
+impl Outcome {
+    /// Both estimates err by chance: the larger one is told.
+    fn tell(&mut self, noise: f64, audit: Option<&Audit>, prefilters: bool) {
+        let mse = audit.map_or(noise, |audit| audit.mse.max(noise));
+        self.estimated_rmse = mse.sqrt();
+        self.estimated_bias = if prefilters { (mse - noise).max(0.0).sqrt() } else { 0.0 };
+        self.interval = audit
+            .and_then(|audit| audit.interval)
+            .map(|[low, high]| [low.min(mse).sqrt(), high.max(mse).sqrt()]);
+    }
+}
+
+/// A pixel's count grows at most so much from one pass to the next: what is known of it is that rough. Towards a
+/// fixed number of samples each one counts; else fewer passes do.
+fn growth(goal: Goal) -> f64 {
+    if let Goal::Samples(_) = goal { 8.0 } else { 16.0 }
+}
+
+/// Of each half, before anything is known of the pixels.
+fn first_count(goal: Goal, bright_share: f64, pixels: usize) -> u32 {
+    let most = (MOST_FIRST_IN_ALL / pixels as f64).min(MOST_FIRST) / 2.0;
+    let bright = (FIRST_OF_BRIGHT / bright_share / 2.0).min(most) as u32;
+    let first = if bright_share < 1.0 { bright.max(FIRST).next_power_of_two() } else { FIRST };
+    match goal {
+        Goal::Samples(spp) => {
+            (spp / 8).clamp(1, FIRST).max(if bright_share < 1.0 { (spp / 4).min(first) } else { 1 })
+        }
+        Goal::Error(_) | Goal::Seconds(_) => first,
+    }
+}
+
+/// The count of all pixels, if it is one.
+fn equal(counts: &[u32]) -> Option<u32> {
+    counts.first().copied().filter(|first| counts.iter().all(|n| n == first))
+}
+
+/// Of both halves.
+fn total(counts: &[u32]) -> f64 {
+    2.0 * counts.iter().map(|&n| f64::from(n)).sum::<f64>()
+}
+
+/// From `counts` to `next` samples in each half of each pixel, longest first: neighbouring threads then
+/// have equally much to do.
+fn jobs(counts: &[u32], next: &[u32], width: u32) -> Vec<Job> {
+    // Few lengths occur, so pixels are dealt out by length instead of sorted.
+    let mut lengths: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
+    for (i, (&now, &next)) in (0..).zip(counts.iter().zip(next)) {
+        if next > now {
+            lengths.entry(next - now).or_default().push(i);
+        }
+    }
+    let job = |i: u32, half, count| Job {
+        place: Job::place_of(i, width),
+        part: Job::part_of(half),
+        first: counts[i as usize],
+        count,
+    };
+    let both = |(count, pixels): (u32, Vec<u32>)| {
+        let pair = |i: u32| [job(i, 0, count), job(i, 1, count)];
+        pixels.into_iter().flat_map(pair).collect::<Vec<_>>()
+    };
+    lengths.into_iter().rev().flat_map(both).collect()
+}
+
+fn film(sums: &Sums, counts: &[u32]) -> Film {
+    let mean = total(counts) / counts.len() as f64;
+    let mut film = Film::new(sums.width, sums.height, mean.round() as u32);
+    for (i, pixel) in film.pixels.iter_mut().enumerate() {
+        let sum = |c: usize| f64::from(sums.halves[0][i][c]) + f64::from(sums.halves[1][i][c]);
+        *pixel = std::array::from_fn(|c| (sum(c) / (2.0 * f64::from(counts[i]))) as f32);
+    }
+    film
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_count_is_told_from_several() {
+        assert_eq!([equal(&[3, 3, 3]), equal(&[3, 4, 3]), equal(&[])], [Some(3), None, None]);
+    }
+
+    #[test]
+    fn what_is_small_and_bright_is_looked_for_from_the_first_pass_on() {
+        let first = |goal, share| first_count(goal, share, 1 << 14);
+        assert_eq!(first(Goal::Error(1e-3), 1.0), 8);
+        assert_eq!(first(Goal::Error(1e-3), 0.01), 256, "400 samples a pixel");
+        assert_eq!(first(Goal::Error(1e-3), 1e-6), 512, "no more than 1024");
+        assert_eq!(first_count(Goal::Error(1e-3), 1e-6, 1 << 22), 8, "nor than 2^25 in the picture");
+        assert_eq!(first(Goal::Samples(64), 1.0), 8);
+        assert_eq!(first(Goal::Samples(64), 0.01), 16, "half of what there is");
+    }
+}

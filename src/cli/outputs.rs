@@ -1,0 +1,81 @@
+//! Where a render's pictures go. In: the options `-o` and `--format`. Out: the files, and the format of what goes to
+//! standard output; or an error before anything is rendered.
+
+use std::io::{self, IsTerminal};
+use std::path::{Path, PathBuf};
+
+use crate::error::{Error, Result};
+use crate::film::Film;
+use crate::output::{self, ENDING_NAMES, Format, WriteOptions};
+use crate::scene::is_standard_input;
+
+/// In messages.
+const STANDARD_OUTPUT: &str = "standard output";
+
+pub struct Outputs {
+    pub files: Vec<PathBuf>,
+    pub stream: Option<Format>,
+}
+
+impl Outputs {
+    pub fn new(scene: &Path, asked: &[PathBuf], format: Option<Format>, json: bool) -> Result<Outputs> {
+        let (streams, mut files): (Vec<_>, Vec<_>) =
+            asked.iter().cloned().partition(|path| path == Path::new("-"));
+        let formats = || format!("name one with --format: {}", ENDING_NAMES.join(", "));
+        let stream = match (streams.len(), format) {
+            (0, None) => None,
+            (0, Some(_)) => {
+                return Err(Error::with_help(
+                    "--format chooses the format of standard output, and nothing goes there",
+                    "use -o - with it; of a file the ending chooses the format",
+                ));
+            }
+            (1, None) => {
+                return Err(Error::with_help(
+                    "-o -: standard output has no ending that chooses a format",
+                    formats(),
+                ));
+            }
+            (1, format) => format,
+            _ => return Err(Error::with_help("-o - is given twice", "one picture goes to standard output")),
+        };
+        if stream.is_some() && json {
+            return Err(Error::with_help(
+                "--json and -o - both write to standard output",
+                "write the picture to a file, or leave --json out",
+            ));
+        }
+        if stream.is_some() && io::stdout().is_terminal() {
+            return Err(Error::with_help(
+                "-o -: standard output is a terminal, which shows no pictures",
+                "redirect it: moire render … -o - --format png > picture.png",
+            ));
+        }
+        if asked.is_empty() {
+            files.push(default_name(scene));
+        }
+        Ok(Outputs { files, stream })
+    }
+
+    /// All files, or none; what goes to standard output before any of them takes its place.
+    pub fn write(&self, film: &Film, options: &WriteOptions) -> Result<()> {
+        output::write_all_after(film, &self.files, options, || match self.stream {
+            Some(format) => super::print_bytes(&output::to_bytes_with(film, format, options)?),
+            None => Ok(()),
+        })
+    }
+
+    /// In words, the files as they were named.
+    pub fn names(&self) -> Vec<String> {
+        let files = self.files.iter().map(|path| path.display().to_string());
+        files.chain(self.stream.map(|_| STANDARD_OUTPUT.into())).collect()
+    }
+}
+
+/// The scene's name with `.png`, in the current folder.
+fn default_name(scene: &Path) -> PathBuf {
+    let stem = if is_standard_input(scene) { None } else { scene.file_stem() };
+    let mut name = stem.unwrap_or("scene".as_ref()).to_owned();
+    name.push(".png");
+    PathBuf::from(name)
+}

@@ -1,0 +1,81 @@
+//! Scene and decoded textures → what a person should know about textures that are valid, and yet are hardly
+//! what was meant: pictures for a screen read as linear light, normal maps that hold no normals.
+
+use super::model::{Relief, Scene};
+use crate::texture::data::{ColorSpace, Component, Dimension, TextureData};
+use crate::texture::source::{TextureContent, TextureSource};
+
+/// Returns one message for each kind of doubt. `textures` are those of the scene, in its order.
+pub fn of_textures(scene: &Scene, textures: &[TextureData]) -> Vec<String> {
+    let all = || scene.textures.iter().zip(textures).enumerate();
+    let named = |keep: &dyn Fn(usize, &TextureSource, &TextureData) -> bool| -> Vec<&str> {
+        all().filter(|(i, (s, t))| keep(*i, s, t)).map(|(_, (s, _))| s.name.as_str()).collect()
+    };
+    let normals = |i: usize| scene.materials.iter().filter_map(|m| m.relief).any(|r| is_normals(r, i));
+    let encoded = named(&|i, _, t| normals(i) && t.color_space == ColorSpace::Srgb);
+    let grey = named(&|i, _, t| normals(i) && is_grey(t));
+    let pale = named(&|i, s, t| is_color(scene, i) && may_be_pale(s, t));
+    let mut told = Vec::new();
+    if !encoded.is_empty() {
+        told.push(format!(
+            "{} declared color_space = \"srgb\", which bends the normals: they are directions, not colours; \
+             set color_space = \"linear\"",
+            subject("normal map", &encoded)
+        ));
+    }
+    if !grey.is_empty() {
+        told.push(format!(
+            "{} grey, red equal to green and blue in every texel: those are no normals; heights belong in \
+             bump_map",
+            subject("normal map", &grey)
+        ));
+    }
+    if !pale.is_empty() {
+        told.push(format!(
+            "{} read as linear light, as color_space is not stated; 8-bit pictures are mostly sRGB and look pale \
+             so: set color_space = \"srgb\", or \"linear\" where that is meant",
+            subject("texture", &pale)
+        ));
+    }
+    told
+}
+
+fn is_normals(relief: Relief, texture: usize) -> bool {
+    relief.kind.is_normal_map() && relief.texture == texture
+}
+
+fn is_color(scene: &Scene, texture: usize) -> bool {
+    let environment = scene.background.environment.map(|e| e.texture);
+    scene.materials.iter().map(|m| m.texture).chain([environment]).any(|t| t == Some(texture))
+}
+
+/// A picture of 8 bits of which the scene does not say whether it is encoded. Blacks and whites are the same
+/// either way.
+fn may_be_pale(source: &TextureSource, texture: &TextureData) -> bool {
+    let is_picture = match source.content {
+        TextureContent::File(_) => source.dimension != Dimension::Three,
+        TextureContent::CubeFile(..) | TextureContent::Faces(_) | TextureContent::Slices(_) => true,
+        _ => false,
+    };
+    let stated = source.color_space_stated || source.color_space == ColorSpace::Srgb;
+    if !is_picture || stated || texture.format.component() != Component::Unorm8 {
+        return false;
+    }
+    let channels = texture.format.channels();
+    let colors = if channels == 2 { 1 } else { channels.min(3) };
+    texture.texels.chunks_exact(channels).any(|t| t[..colors].iter().any(|&v| v != 0 && v != u8::MAX))
+}
+
+/// Whether red, green and blue are equal everywhere; so they are in a file of one colour channel.
+fn is_grey(texture: &TextureData) -> bool {
+    let size = texture.format.component().bytes();
+    let equal = |t: &[u8]| t[..size] == t[size..2 * size] && t[..size] == t[2 * size..3 * size];
+    texture.format.channels() < 3 || texture.texels.chunks_exact(4 * size).all(equal)
+}
+
+/// The names and their verb: `texture "a" is`, `textures "a", "b" are`.
+fn subject(what: &str, names: &[&str]) -> String {
+    let quoted: Vec<String> = names.iter().map(|name| format!("\"{name}\"")).collect();
+    let (plural, verb) = if names.len() == 1 { ("", "is") } else { ("s", "are") };
+    format!("{what}{plural} {} {verb}", quoted.join(", "))
+}

@@ -1,0 +1,116 @@
+//! A texture's values as its analysis takes them. In: the texels. Out: rows of stored values, of what a look-up
+//! sees, and of weighed ones, whose steps are spaced about evenly to the eye; the pairs across a seam; the sizes
+//! of the steps along single lines.
+
+use super::analysis_steps::Pairs;
+use super::data::{ColorSpace, Component, TextureData};
+use crate::color::srgb_to_linear;
+
+/// Lines of the texture in which a period is looked for, and the texels in all of them.
+const LINES: (usize, usize) = (16, 64);
+const PERIOD_TEXELS: usize = 64 * 4096;
+/// Values from which the middle one is taken.
+const MIDDLE_OF: usize = 1 << 16;
+
+/// The texels of a texture row by row, without channels that the file does not have.
+pub struct Rows<'a> {
+    texture: &'a TextureData,
+    /// Linear light of every stored integer; empty where stored values are linear.
+    table: Vec<f64>,
+    /// The middle |v| of floats.
+    middle: Option<f64>,
+}
+
+impl Rows<'_> {
+    pub fn new(texture: &TextureData) -> Rows<'_> {
+        Rows { texture, table: linear_table(texture), middle: middle(texture) }
+    }
+
+    /// A stored value as steps are judged by it.
+    fn weight(&self, value: f64) -> f64 {
+        self.middle.map_or(value, |middle| (value / middle).asinh())
+    }
+
+    pub fn weigh(&self, row: &[f64]) -> Vec<f64> {
+        row.iter().map(|&value| self.weight(value)).collect()
+    }
+
+    /// Texel `i` of line `line`: along u a line is a row.
+    fn texel(&self, i: usize, line: usize, along_u: bool, channel: usize) -> f64 {
+        let (x, y) = if along_u { (i, line) } else { (line, i) };
+        self.texture.value(x as u32, y as u32, channel)
+    }
+
+    /// The pairs of the seam of an axis of `length` texels and `lines` lines.
+    pub fn seam(&self, length: usize, lines: usize, along_u: bool) -> Pairs {
+        let mut pairs = Pairs::default();
+        for line in 0..lines {
+            for channel in 0..self.texture.file_channels {
+                let [last, first] = [length - 1, 0].map(|i| self.texel(i, line, along_u, channel));
+                pairs.stored.push(first - last);
+                pairs.weighed.push(self.weight(first) - self.weight(last));
+            }
+        }
+        pairs
+    }
+
+    /// Sizes of the steps along lines spread over the texture, that of the seam last.
+    pub fn lines(&self, length: usize, lines: usize, along_u: bool) -> Vec<Vec<f32>> {
+        let wanted = (PERIOD_TEXELS / length).clamp(LINES.0, LINES.1).min(lines);
+        let count = self.texture.file_channels;
+        let value = |i: usize, line: usize, c: usize| self.weight(self.texel(i % length, line, along_u, c));
+        let step = |i: usize, line: usize| {
+            let sizes = (0..count).map(|c| (value(i + 1, line, c) - value(i, line, c)).abs());
+            sizes.filter(|size| size.is_finite()).sum::<f64>() as f32
+        };
+        let of_line = |k: usize| (0..length).map(|i| step(i, k * lines / wanted)).collect();
+        (0..wanted).map(of_line).collect()
+    }
+
+    pub fn stored(&self, y: usize) -> Vec<f64> {
+        let (t, count) = (self.texture, self.texture.file_channels);
+        let mut row = Vec::with_capacity(t.width as usize * count);
+        for x in 0..t.width {
+            row.extend((0..count).map(|channel| t.value(x, y as u32, channel)));
+        }
+        row
+    }
+
+    /// Alpha is never encoded.
+    pub fn seen(&self, stored: f64, channel: usize) -> f64 {
+        let is_alpha =
+            self.texture.file_channels.is_multiple_of(2) && channel + 1 == self.texture.file_channels;
+        if self.table.is_empty() || is_alpha {
+            return stored;
+        }
+        self.table[(stored * (self.table.len() - 1) as f64).round() as usize]
+    }
+}
+
+fn linear_table(texture: &TextureData) -> Vec<f64> {
+    let largest = match (texture.color_space, texture.format.component()) {
+        (ColorSpace::Linear, _) | (_, Component::Float32) => return Vec::new(),
+        (ColorSpace::Srgb, Component::Unorm8) => u8::MAX.into(),
+        (ColorSpace::Srgb, Component::Unorm16) => u16::MAX,
+    };
+    (0..=largest).map(|i| srgb_to_linear(f64::from(i) / f64::from(largest))).collect()
+}
+
+/// The middle of |v| over values of a float texture that are finite and not 0; none of integers.
+fn middle(texture: &TextureData) -> Option<f64> {
+    if texture.format.component() != Component::Float32 {
+        return None;
+    }
+    let count = texture.file_channels;
+    let values = texture.width as usize * texture.height as usize * count;
+    let value = |i: usize| {
+        let texel = i / count;
+        let (x, y) = (texel % texture.width as usize, texel / texture.width as usize);
+        texture.value(x as u32, y as u32, i % count).abs()
+    };
+    // An odd stride meets every column of a texture whose width is a power of two.
+    let spread = (0..values).step_by(values.div_ceil(MIDDLE_OF) | 1).map(value);
+    let mut sizes: Vec<f64> = spread.filter(|v| *v > 0.0 && v.is_finite()).collect();
+    sizes.sort_by(f64::total_cmp);
+    sizes.get(sizes.len() / 2).copied()
+}

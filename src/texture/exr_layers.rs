@@ -1,0 +1,271 @@
+//! Which channels of an OpenEXR file are a picture. In: the headers of its parts and the name of a layer, if
+//! one is asked for. Out: the part and the channels of one layer, or an error that lists what there is.
+//!
+//! A layer is what shares a name before the last dot of its channels (`diffuse.R`), in a part of the file; a
+//! part's name comes first where there are several.
+
+use std::path::Path;
+
+use exr::meta::header::Header;
+
+use crate::error::{Error, Result};
+
+/// A message lists no more layers than this.
+const MOST_LISTED: usize = 12;
+
+/// Indices into the channels of one part.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Colors {
+    Grey(usize),
+    /// Also positions and directions, X, Y and Z.
+    Rgb([usize; 3]),
+    /// Y, RY and BY.
+    LuminanceChroma([usize; 3]),
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Layer {
+    pub part: usize,
+    pub colors: Colors,
+    pub alpha: Option<usize>,
+}
+
+impl Layer {
+    /// Returns the file's channel behind each channel of a texel, without what is not in the file.
+    pub fn channels(&self) -> Vec<usize> {
+        let colors = match &self.colors {
+            Colors::Grey(channel) => std::slice::from_ref(channel),
+            Colors::Rgb(channels) | Colors::LuminanceChroma(channels) => channels,
+        };
+        colors.iter().copied().chain(self.alpha).collect()
+    }
+}
+
+/// Channels that share part and prefix.
+struct Group {
+    part: usize,
+    part_name: Option<String>,
+    /// Part and prefix as a scene names them; empty for channels without either.
+    name: String,
+    prefix: String,
+    deep: bool,
+    /// What follows the prefix, and the channel's index.
+    channels: Vec<(String, usize)>,
+}
+
+/// Returns the layer of this name, or without one the only layer with colours, or the one without a name.
+pub(super) fn choose(headers: &[Header], wanted: Option<&str>, path: &Path) -> Result<Layer> {
+    let groups = groups(headers);
+    match wanted {
+        Some(wanted) => named(&groups, wanted, path),
+        None => unnamed(&groups, path),
+    }
+}
+
+fn groups(headers: &[Header]) -> Vec<Group> {
+    let mut groups: Vec<Group> = Vec::new();
+    for (part, header) in headers.iter().enumerate() {
+        let part_name = header.own_attributes.layer_name.as_ref().map(ToString::to_string);
+        for (index, channel) in header.channels.list.iter().enumerate() {
+            let full = channel.name.to_string();
+            let (prefix, base) = full.rsplit_once('.').unwrap_or(("", &full));
+            let same = groups.iter_mut().find(|g| g.part == part && g.prefix == prefix);
+            if let Some(group) = same {
+                group.channels.push((base.to_owned(), index));
+                continue;
+            }
+            let of_part = part_name.clone().filter(|_| headers.len() > 1).unwrap_or_default();
+            groups.push(Group {
+                part,
+                part_name: part_name.clone(),
+                name: joined(&of_part, prefix),
+                prefix: prefix.to_owned(),
+                deep: header.deep,
+                channels: vec![(base.to_owned(), index)],
+            });
+        }
+    }
+    groups
+}
+
+/// Some programs repeat the part's name in its channels.
+fn joined(part: &str, prefix: &str) -> String {
+    let repeats = prefix.strip_prefix(part).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'));
+    match (part, prefix) {
+        ("", _) => prefix.to_owned(),
+        (_, "") => part.to_owned(),
+        _ if repeats => prefix.to_owned(),
+        _ => format!("{part}.{prefix}"),
+    }
+}
+
+impl Group {
+    fn find(&self, names: &[&str]) -> Option<usize> {
+        let is_one = |base: &str| names.iter().any(|name| base.eq_ignore_ascii_case(name));
+        self.channels.iter().find(|(base, _)| is_one(base)).map(|(_, index)| *index)
+    }
+
+    fn find_three(&self, names: [&[&str]; 3]) -> Option<[usize; 3]> {
+        let [first, second, third] = names.map(|names| self.find(names));
+        Some([first?, second?, third?])
+    }
+
+    /// Returns what the names say; none for channels that are no colours together.
+    fn colors(&self) -> Option<Layer> {
+        const RGB: [&[&str]; 3] = [&["R", "red"], &["G", "green"], &["B", "blue"]];
+        if self.deep {
+            return None;
+        }
+        let has = |name| self.find(&[name]).is_some();
+        let colors =
+            if let Some(rgb) = self.find_three(RGB).or_else(|| self.find_three([&["X"], &["Y"], &["Z"]])) {
+                Colors::Rgb(rgb)
+            } else if let Some(ryb) = self.find_three([&["Y"], &["RY"], &["BY"]]) {
+                Colors::LuminanceChroma(ryb)
+            } else if has("X") || has("RY") || has("BY") {
+                return None;
+            } else {
+                Colors::Grey(self.find(&["Y"])?)
+            };
+        Some(Layer { part: self.part, colors, alpha: self.alpha() })
+    }
+
+    /// As [`colors`](Self::colors), and a lone channel of any name as grey.
+    fn colors_or_one(&self) -> Option<Layer> {
+        let alpha = self.alpha();
+        let mut others = self.channels.iter().map(|(_, index)| *index).filter(|i| Some(*i) != alpha);
+        let lone = match (others.next(), others.next()) {
+            (Some(channel), None) if !self.deep => {
+                Some(Layer { part: self.part, colors: Colors::Grey(channel), alpha })
+            }
+            _ => None,
+        };
+        self.colors().or(lone)
+    }
+
+    fn alpha(&self) -> Option<usize> {
+        self.find(&["A", "alpha"])
+    }
+
+    /// Whether a scene may call it so: in full, or by the half of its name that tells it.
+    fn is_called(&self, wanted: &str) -> bool {
+        let of_part = self.prefix.is_empty() && self.part_name.as_deref() == Some(wanted);
+        self.name == wanted || self.prefix == wanted || of_part
+    }
+
+    /// For messages: the name, or that there is none, and the channels.
+    fn described(&self) -> String {
+        let bases: Vec<&str> = self.channels.iter().map(|(base, _)| base.as_str()).collect();
+        let deep = if self.deep { ", deep" } else { "" };
+        let name =
+            if self.name.is_empty() { "one without a name".into() } else { format!("\"{}\"", self.name) };
+        format!("{name} ({}{deep})", bases.join(", "))
+    }
+}
+
+fn unnamed(groups: &[Group], path: &Path) -> Result<Layer> {
+    let colored: Vec<(&Group, Layer)> = groups.iter().filter_map(|g| Some((g, g.colors()?))).collect();
+    let plain = || colored.iter().filter(|(group, _)| group.prefix.is_empty());
+    let in_color = || plain().filter(|(_, layer)| !matches!(layer.colors, Colors::Grey(_)));
+    for (count, first) in [
+        (colored.len(), colored.first()),
+        (in_color().count(), in_color().next()),
+        (plain().count(), plain().next()),
+    ] {
+        if let (1, Some((_, layer))) = (count, first) {
+            return Ok(*layer);
+        }
+    }
+    if colored.is_empty() {
+        return Err(no_colors(groups, path));
+    }
+    Err(Error::with_help(
+        format!("{}: the file has several layers: {}", path.display(), listed(groups)),
+        "choose one by its name: layer = \"…\" in [[texture]]",
+    ))
+}
+
+fn named(groups: &[Group], wanted: &str, path: &Path) -> Result<Layer> {
+    let exact = groups.iter().filter(|g| g.name == wanted);
+    let called = groups.iter().filter(|g| g.is_called(wanted));
+    let found: Vec<&Group> = if exact.clone().count() > 0 { exact.collect() } else { called.collect() };
+    let shown = path.display();
+    match found.as_slice() {
+        [group] if group.deep => Err(Error::with_help(
+            format!("{shown}: layer \"{wanted}\" is deep data, which is not read"),
+            "flatten it, or choose another layer",
+        )),
+        [group] => group.colors_or_one().ok_or_else(|| {
+            Error::with_help(
+                format!("{shown}: the channels of layer {} are no colours together", group.described()),
+                "choose one channel: layer = \"NAME\" with its whole name reads it as grey",
+            )
+        }),
+        [] => channel(groups, wanted).ok_or_else(|| {
+            let near = near(wanted, groups.iter().map(|g| g.name.as_str()));
+            let end = if near.is_empty() { ";" } else { "" };
+            Error::with_help(
+                format!("{shown}: no layer is named \"{wanted}\"{near}{end} its layers: {}", listed(groups)),
+                "name one of them, or a single channel, which is read as grey",
+            )
+        }),
+        several => {
+            let names: Vec<String> = several.iter().map(|g| format!("\"{}\"", g.name)).collect();
+            Err(Error::with_help(
+                format!("{shown}: several layers may be meant by \"{wanted}\": {}", names.join(", ")),
+                "give the whole name of one",
+            ))
+        }
+    }
+}
+
+/// One channel by its whole name, as grey.
+fn channel(groups: &[Group], wanted: &str) -> Option<Layer> {
+    let whole = |group: &Group, base: &str| joined(&group.name, base);
+    let grey = |group: &Group, index| Layer { part: group.part, colors: Colors::Grey(index), alpha: None };
+    let mut found = groups.iter().filter(|g| !g.deep).flat_map(|group| {
+        let named = |(base, _): &&(String, usize)| {
+            wanted == format!("{}{}{base}", group.prefix, if group.prefix.is_empty() { "" } else { "." })
+                || wanted == whole(group, base)
+        };
+        group.channels.iter().filter(named).map(move |(_, index)| grey(group, *index))
+    });
+    found.next()
+}
+
+fn listed(groups: &[Group]) -> String {
+    let names: Vec<String> = groups.iter().take(MOST_LISTED).map(Group::described).collect();
+    let rest = match groups.len().saturating_sub(MOST_LISTED) {
+        0 => String::new(),
+        more => format!(" and {more} more"),
+    };
+    names.join(", ") + &rest
+}
+
+/// Of names that look alike the nearest.
+fn near<'a>(wanted: &str, names: impl Iterator<Item = &'a str>) -> String {
+    let wanted = wanted.to_lowercase();
+    let scored = names.map(|name| (strsim::jaro_winkler(&wanted, &name.to_lowercase()), name));
+    match scored.max_by(|a, b| a.0.total_cmp(&b.0)) {
+        Some((score, name)) if score > 0.85 => format!("; did you mean \"{name}\"?"),
+        _ => String::new(),
+    }
+}
+
+fn no_colors(groups: &[Group], path: &Path) -> Error {
+    let whole = |g: &Group, base: &str| {
+        let name = joined(&g.name, base);
+        if g.deep { format!("{name} (deep)") } else { name }
+    };
+    let names: Vec<String> =
+        groups.iter().flat_map(|g| g.channels.iter().map(|(base, _)| whole(g, base))).collect();
+    Error::with_help(
+        format!(
+            "{}: no layer that can be read; the file's channels are {}",
+            path.display(),
+            names.join(", ")
+        ),
+        "write a flat layer with the channels R, G, B and perhaps A, or Y for grey; or choose one channel, which \
+         is read as grey: layer = \"NAME\" in [[texture]]",
+    )
+}

@@ -1,0 +1,36 @@
+//! Random scenes of polygons by beams and by cones, on the device and in float64, against the path tracer in
+//! float64, which shares none of their code.
+
+mod beams;
+mod cones;
+mod scenes;
+mod truth;
+
+use glam::DVec3;
+use moire::film::Film;
+use moire::scene::model::{Algorithm, Footprint, Scene};
+
+use crate::stage::{packed, render};
+use scenes::Kind;
+
+/// Scenes that every run tries, two of each kind; and those of the long run.
+const FEW: u64 = 12;
+const MANY: u64 = 204;
+
+fn kind_of(seed: u64) -> Kind {
+    Kind::ALL[(seed % 6) as usize]
+}
+
+fn with(mut scene: Scene, algorithm: Algorithm) -> Scene {
+    scene.sampling.algorithm = algorithm;
+    scene.sampling.footprint = Footprint::None;
+    scene
+}
+
+fn film(scene: &Scene, algorithm: Algorithm) -> Film {
+    render(&packed(with(scene.clone(), algorithm), None))
+}
+
+fn color(pixel: [f32; 3]) -> DVec3 {
+    DVec3::from_array(pixel.map(f64::from))
+}
