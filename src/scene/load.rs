@@ -21,7 +21,7 @@ use super::textures;
 use super::validate::{MAX_SHAPES, MAX_TEXTURES, check_filters};
 use crate::error::{Error, Result};
 use crate::panics;
-use crate::texture::read_file::odd_path;
+use crate::texture::open_file::odd_path;
 use crate::texture::sampler_spec::{Address, SamplerSpec};
 
 /// 65535 triangles with texture coordinates take 7 MB of text.

@@ -15,6 +15,7 @@ mod fixed_point;
 pub mod load;
 pub mod mips;
 mod nrrd;
+pub(crate) mod open_file;
 pub mod orientation;
 pub mod procedural;
 mod read_exr;

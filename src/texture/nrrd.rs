@@ -10,7 +10,8 @@ use std::path::{Path, PathBuf};
 
 use flate2::bufread::MultiGzDecoder;
 
-use super::read_file::{Texels, open, unreadable};
+use super::open_file::open;
+use super::read_file::{Texels, unreadable};
 use super::scalar::{Kind, Scalar};
 use super::source::Endian;
 use super::volume::Bare;

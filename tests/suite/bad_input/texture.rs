@@ -57,7 +57,7 @@ fn texture_without_its_last_bytes_is_rendered_with_a_warning() {
         assert_eq!(code, Some(0), "{stderr}");
         let report: serde_json::Value = serde_json::from_str(&stdout).unwrap();
         let warning = "texture \"tiles\": tiles.png: the PNG data has no end (IEND); all texels are there";
-        assert_eq!(report["warnings"], serde_json::json!([warning]));
+        assert_eq!(report["warnings"][0], warning);
         assert!(stderr.contains("warning: texture \"tiles\""), "{stderr}");
     }
 }
