@@ -12,7 +12,7 @@ mod samples;
 
 use std::path::Path;
 
-use super::read_file::{Picture, check_memory, check_size, damaged, out_of_memory};
+use super::read_file::{Picture, Texels, check_memory, check_size, damaged, out_of_memory};
 use crate::error::{Error, Result};
 use directory::{Directory, tag};
 use layout::Layout;
@@ -58,7 +58,21 @@ pub(super) fn read(file: &[u8], path: &Path) -> Result<Picture> {
     let jpeg_tables = tags.bytes(tag::JPEG_TABLES).map_err(named)?;
     check_memory(path, layout.width as usize * layout.height as usize * format.bytes_per_texel())?;
     let texels = picture::decode(file, &layout, jpeg_tables).map_err(named)?;
-    Ok(Picture::noted(texels, notes(&tags, path)))
+    let mut notes = notes(&tags, path);
+    if layout.alpha.is_some_and(|alpha| alpha.associated) && !is_opaque(&texels) {
+        let shown = path.display();
+        notes.push(format!(
+            "{shown}: the colours are multiplied by alpha (associated); they are used as stored"
+        ));
+    }
+    Ok(Picture::noted(texels, notes))
+}
+
+/// Whether alpha, the last channel, is 1 everywhere.
+fn is_opaque(texels: &Texels) -> bool {
+    let component = texels.format.component();
+    let one = &component.one()[..component.bytes()];
+    texels.bytes.chunks_exact(texels.format.bytes_per_texel()).all(|texel| texel.ends_with(one))
 }
 
 fn notes(tags: &Directory<'_>, path: &Path) -> Vec<String> {

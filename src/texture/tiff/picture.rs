@@ -1,6 +1,6 @@
 //! Strips and tiles into a picture: the layout and the bytes of the file in, texels out. Bands of strips or tiles
-//! are decoded at the same time. CMYK becomes RGB by (1 − C)(1 − K); colours that are multiplied by alpha are
-//! divided by it, so that texels have the colour of the surface, as those of PNG files have.
+//! are decoded at the same time. CMYK becomes RGB by (1 − C)(1 − K); colours that are multiplied by alpha
+//! (associated) stay so.
 
 use rayon::prelude::*;
 
@@ -217,14 +217,7 @@ impl<'a> Writer<'a> {
             Color::Palette(_) => self.map[number(0) as usize],
             Color::Cmyk => [0, 1, 2].map(|ink| (1.0 - fraction(ink)) * (1.0 - fraction(3))),
         };
-        let Some(alpha) = self.layout.alpha else { return [r, g, b, 1.0] };
-        let a = fraction(alpha.sample);
-        if !alpha.associated || a <= 0.0 {
-            return [r, g, b, a];
-        }
-        let bounded = self.format.component() != Component::Float32;
-        let own = |v: f64| if bounded { (v / a).min(1.0) } else { v / a };
-        [own(r), own(g), own(b), a]
+        [r, g, b, self.layout.alpha.map_or(1.0, |alpha| fraction(alpha.sample))]
     }
 }
 
@@ -236,7 +229,7 @@ fn copied(layout: &Layout, format: TexelFormat) -> Option<Vec<Option<usize>>> {
         _ => return None,
     };
     let is_same = layout.scalar == Scalar::of(format.component()) && cfg!(target_endian = "little");
-    if !is_same || layout.alpha.is_some_and(|alpha| alpha.associated) {
+    if !is_same {
         return None;
     }
     let alpha = std::iter::once(layout.alpha.map(|alpha| alpha.sample));

@@ -4,11 +4,12 @@
 use std::fs;
 use std::time::{Duration, Instant};
 
+use moire::metrics::read_picture;
 use moire::texture::data::Dimension;
 use tempfile::tempdir;
 
 use super::load;
-use crate::support::{data, told};
+use crate::support::{data, moire, told};
 
 /// PCG, as `glsl` has it.
 struct Dice(u32);
@@ -49,20 +50,28 @@ fn mutated(whole: &[u8], dice: &mut Dice) -> Vec<u8> {
     bytes
 }
 
+/// All pictures of `data/pictures`, and OpenEXR files of one part, of several, and with subsampled chroma.
+fn fixtures() -> Vec<(String, Vec<u8>)> {
+    let entries = fs::read_dir(data().join("pictures")).unwrap().map(|e| e.unwrap());
+    let mut fixtures: Vec<_> = entries
+        .map(|e| (e.file_name().into_string().unwrap(), fs::read(e.path()).unwrap()))
+        .filter(|(name, _)| !name.ends_with(".py"))
+        .collect();
+    fixtures.push(("layers.exr".into(), include_bytes!("../exr/layers.exr").to_vec()));
+    fixtures.push(("parts.exr".into(), include_bytes!("../exr/parts.exr").to_vec()));
+    fixtures.push(("yc.exr".into(), include_bytes!("../exr/yc-piz.exr").to_vec()));
+    fixtures.sort();
+    assert!(fixtures.len() > 30, "only {} pictures", fixtures.len());
+    fixtures
+}
+
 fn run(rounds: usize, seed: u32) {
     let folder = tempdir().unwrap();
     let path = folder.path().join("a.picture");
     let mut dice = Dice(seed);
-    let mut fixtures: Vec<_> =
-        fs::read_dir(data().join("pictures")).unwrap().map(|e| e.unwrap().path()).collect();
-    fixtures.retain(|path| path.extension().is_some_and(|e| e != "py"));
-    fixtures.sort();
-    assert!(fixtures.len() > 30, "only {} pictures", fixtures.len());
     let (mut read, mut refused) = (0, 0);
-    for fixture in &fixtures {
-        let whole = fs::read(fixture).unwrap();
-        let volume = fixture.extension().is_some_and(|e| e == "nrrd");
-        let dimension = if volume { Dimension::Three } else { Dimension::Two };
+    for (fixture, whole) in fixtures() {
+        let dimension = if fixture.ends_with(".nrrd") { Dimension::Three } else { Dimension::Two };
         for round in 0..rounds {
             let bytes = mutated(&whole, &mut dice);
             fs::write(&path, &bytes).unwrap();
@@ -71,16 +80,13 @@ fn run(rounds: usize, seed: u32) {
                 Ok(_) => read += 1,
                 Err(e) => {
                     let message = told::<()>(Err(e));
-                    assert!(message.contains("a.picture"), "{fixture:?} {round}: {message}");
-                    assert!(
-                        !message.contains("failed where it should not"),
-                        "{fixture:?} {round}: {message}"
-                    );
+                    assert!(message.contains("a.picture"), "{fixture} {round}: {message}");
+                    assert!(!message.contains("failed where it should not"), "{fixture} {round}: {message}");
                     refused += 1;
                 }
             }
             // A file of a few KB that other work holds up; a hang is longer.
-            assert!(clock.elapsed() < Duration::from_secs(20), "{fixture:?} {round}: {:?}", clock.elapsed());
+            assert!(clock.elapsed() < Duration::from_secs(20), "{fixture} {round}: {:?}", clock.elapsed());
         }
     }
     assert!(read > rounds && refused > rounds, "{read} read, {refused} refused");
@@ -89,6 +95,30 @@ fn run(rounds: usize, seed: u32) {
 #[test]
 fn thousands_of_mutated_pictures_are_read_or_refused() {
     run(100, 1);
+}
+
+/// The program itself: exit code 0 with the picture, or 2 with nothing beside the input.
+#[test]
+fn the_program_ends_in_order_and_leaves_a_whole_picture_or_none() {
+    let folder = tempdir().unwrap();
+    let mut dice = Dice(3);
+    for (fixture, whole) in fixtures().into_iter().filter(|(name, _)| !name.ends_with(".nrrd")) {
+        for round in 0..5 {
+            fs::write(folder.path().join("a.picture"), mutated(&whole, &mut dice)).unwrap();
+            let args = ["texture", "a.picture", "-o", "b.png"];
+            let output = moire().current_dir(folder.path()).args(args).output().unwrap();
+            let (code, message) =
+                (output.status.code(), String::from_utf8_lossy(&output.stderr).into_owned());
+            assert!([Some(0), Some(2)].contains(&code), "{fixture} {round}: {code:?} {message}");
+            assert!(!message.contains("failed where it should not"), "{fixture} {round}: {message}");
+            let files = fs::read_dir(folder.path()).unwrap().count();
+            assert_eq!(files, if code == Some(0) { 2 } else { 1 }, "{fixture} {round}: {message}");
+            if code == Some(0) {
+                read_picture(&folder.path().join("b.png")).unwrap();
+                fs::remove_file(folder.path().join("b.png")).unwrap();
+            }
+        }
+    }
 }
 
 #[test]

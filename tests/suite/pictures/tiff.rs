@@ -101,11 +101,11 @@ fn extra_samples_are_alpha_only_where_they_are_declared_so() {
     check("rgb16-xa-tiled.tif", TexelFormat::Rgba16, 4, |x, y| {
         vec![value16(x, y, 0), value16(x, y, 1), value16(x, y, 2), value16(x, y, 4)]
     });
-    check("rgba8-associated.tif", TexelFormat::Rgba8, 4, |x, y| {
-        let a = value(x, y, 3);
-        let own = |c| if a > 0.0 { value(x, y, c).min(a) / a } else { 0.0 };
-        vec![own(0), own(1), own(2), a]
-    });
+    let (t, notes) = load(&fixture("rgba8-associated.tif"), Dimension::Two).unwrap();
+    let stored = |x, y| [0, 1, 2, 3].map(|c| code(x, y, c, 8).min(code(x, y, 3, 8)) as u8);
+    let want: Vec<u8> = (0..18).flat_map(|y| (0..21).flat_map(move |x| stored(x, y))).collect();
+    assert_eq!((t.format, t.file_channels, t.texels), (TexelFormat::Rgba8, 4, want));
+    assert!(notes.len() == 1 && notes[0].contains("multiplied by alpha"), "{notes:?}");
 }
 
 #[test]
