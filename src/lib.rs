@@ -30,6 +30,7 @@ mod named;
 pub mod oracle;
 pub mod output;
 pub mod pack;
+pub mod panics;
 pub mod pattern;
 pub mod plot;
 pub mod probe;

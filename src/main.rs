@@ -1,11 +1,12 @@
 //! Parses the command line, calls the library, prints the error. Exit 0: done; 1: a comparison
-//! failed; 2: an error; 130: interrupted by Ctrl-C.
+//! failed; 2: an error, also where the program itself fails; 130: interrupted by Ctrl-C.
 
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 use moire::cli::{self, compare, devices, pattern, render, stability, study, texture, verify};
-use moire::error::Error;
+use moire::error::Result;
+use moire::panics;
 
 /// Renders textured scenes with Vulkan compute, with or without a GPU
 #[derive(Parser)]
@@ -37,19 +38,37 @@ enum Command {
 
 fn main() -> ExitCode {
     cli::prepare_process();
-    let result = match Cli::parse().command {
-        Command::Render(args) => render::run(&args),
-        Command::Study(args) => study::run(&args),
-        Command::Compare(args) => compare::run(&args),
-        Command::Devices(args) => devices::run(&args),
-        Command::Texture(args) => texture::run(&args),
-        Command::Pattern(args) => pattern::run(&args),
-        Command::Verify(args) => verify::run(&args),
-        Command::Stability(args) => stability::run(&args),
-    };
-    result.unwrap_or_else(|error| {
-        let code = if matches!(error, Error::Interrupted) { 130 } else { 2 };
-        cli::tell(format_args!("{:?}", miette::Report::new(error)));
-        ExitCode::from(code)
-    })
+    panics::record();
+    cli::exit_code(panics::contain(&"moire", || {
+        let command = Cli::parse().command;
+        panics::contain(&format_args!("moire {}", command.name()), || command.run())
+    }))
+}
+
+impl Command {
+    fn name(&self) -> &'static str {
+        match self {
+            Command::Render(_) => "render",
+            Command::Study(_) => "study",
+            Command::Compare(_) => "compare",
+            Command::Devices(_) => "devices",
+            Command::Texture(_) => "texture",
+            Command::Pattern(_) => "pattern",
+            Command::Verify(_) => "verify",
+            Command::Stability(_) => "stability",
+        }
+    }
+
+    fn run(self) -> Result<ExitCode> {
+        match self {
+            Command::Render(args) => render::run(&args),
+            Command::Study(args) => study::run(&args),
+            Command::Compare(args) => compare::run(&args),
+            Command::Devices(args) => devices::run(&args),
+            Command::Texture(args) => texture::run(&args),
+            Command::Pattern(args) => pattern::run(&args),
+            Command::Verify(args) => verify::run(&args),
+            Command::Stability(args) => stability::run(&args),
+        }
+    }
 }

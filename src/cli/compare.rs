@@ -19,7 +19,7 @@ use crate::output::{self, WriteOptions};
 /// present or a figure is above its bound.
 #[derive(Debug, clap::Args)]
 pub struct CompareArgs {
-    /// First picture (PNG, JPEG, TIFF, HDR or EXR)
+    /// First picture (PNG, JPEG, TIFF, TGA, HDR or EXR)
     pub a: PathBuf,
     /// Second picture, usually the reference
     pub b: PathBuf,

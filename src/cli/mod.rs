@@ -17,11 +17,13 @@ use std::ffi::OsStr;
 use std::fmt::Display;
 use std::io::{self, ErrorKind, IsTerminal, Write};
 use std::path::Path;
+use std::process::ExitCode;
 
 use clap::builder::{PossibleValue, PossibleValuesParser, StyledStr, TypedValueParser};
 use clap::error::{ContextKind, ContextValue};
 
 use crate::error::{Error, Result};
+use crate::panics;
 use crate::scene::synonyms::meant;
 
 /// Groups of options in the help.
@@ -52,6 +54,18 @@ pub fn prepare_process() {
 /// tell either: the work goes on and the exit code still says how it ended.
 pub fn tell(line: impl Display) {
     let _ = writeln!(io::stderr().lock(), "{line}");
+}
+
+/// The code of a command that has ended; an error is told.
+pub fn exit_code(result: Result<ExitCode>) -> ExitCode {
+    result.unwrap_or_else(|error| {
+        let code = if matches!(error, Error::Interrupted) { 130 } else { 2 };
+        let plain = error.to_string();
+        // Showing lines of a scene file is work for a library too.
+        let report = panics::contain(&"an error message", || Ok(format!("{:?}", miette::Report::new(error))));
+        tell(report.unwrap_or(plain));
+        ExitCode::from(code)
+    })
 }
 
 /// A result on stdout. A reader that stops early, such as `head`, is no error.

@@ -26,7 +26,7 @@ use crate::scene::model::{Algorithm, Scene};
 use crate::scene::prune::prune;
 use crate::scene::texture_advice::of_textures;
 use crate::texture::decode::Values;
-use crate::texture::load::load_with;
+use crate::texture::load::load_noted;
 use crate::texture::read_file::is_turned;
 use crate::texture::source::OrientationUse;
 use crate::verify::known::anisotropy_fault;
@@ -221,8 +221,9 @@ fn load(
     pyramids: impl FnOnce() -> Pyramids,
 ) -> Result<(PackedScene, Vec<String>)> {
     let values = if args.allow_nonfinite { Values::Any } else { Values::Finite };
-    let textures = scene.textures.iter().map(|t| load_with(t, values)).collect::<Result<Vec<_>>>()?;
-    let doubts = of_textures(scene, &textures);
+    let textures = scene.textures.iter().map(|t| load_noted(t, values)).collect::<Result<Vec<_>>>()?;
+    let (textures, notes): (Vec<_>, Vec<_>) = textures.into_iter().unzip();
+    let doubts = [notes.concat(), of_textures(scene, &textures)].concat();
     let pyramids = if pack::reads_levels(scene) { pyramids() } else { Pyramids::Host };
     Ok((pack::pack_with(scene, textures, args.crop, pyramids)?, doubts))
 }

@@ -15,7 +15,7 @@ use crate::metrics::read::film_of;
 use crate::output::{self, WriteOptions};
 use crate::texture::analysis::{Analysis, Axis, Channel, Seam, Verdict, analyse};
 use crate::texture::data::{ColorSpace, Component, Dimension, TextureData};
-use crate::texture::read_file::{self, Texels};
+use crate::texture::read_file::{self, Picture, Texels};
 use crate::texture::source::{OrientationUse, Reading};
 
 /// Describe a texture file: size, format, range and mean, non-finite texels, whether it tiles
@@ -24,7 +24,7 @@ use crate::texture::source::{OrientationUse, Reading};
 /// has inside as well, and if what repeats inside goes on across it: yes, no, or perhaps.
 #[derive(Debug, clap::Args)]
 pub struct TextureArgs {
-    /// PNG, JPEG, TIFF, HDR or EXR
+    /// PNG, JPEG, TIFF, TGA, HDR or EXR
     pub file: PathBuf,
     /// Write the texture repeated 2×2, looking like the file; alpha is left out
     #[arg(short, long, value_name = "OUT.png")]
@@ -51,7 +51,10 @@ pub fn run(args: &TextureArgs) -> Result<ExitCode> {
         super::check_input_kept(path, &args.file, "the texture that is described")?;
     }
     let reading = Reading { orientation: args.orientation, layer: args.layer.clone() };
-    let texels = read_file::read_as(&args.file, &reading)?;
+    let Picture { texels, notes, .. } = read_file::read_as(&args.file, &reading)?;
+    for note in notes {
+        super::tell(format_args!("warning: {note}"));
+    }
     if texels.format.component() == Component::Float32 && args.color_space == ColorSpace::Srgb {
         return Err(Error::with_help(
             format!("{}: float texels are linear light, not sRGB", args.file.display()),

@@ -17,8 +17,8 @@ pub fn read_picture(path: &Path) -> Result<Film> {
 
 /// Also where it lies in the file's whole picture.
 pub fn read_placed(path: &Path) -> Result<(Film, Placement)> {
-    let (texels, placement) = read_file::read_part(path, &Reading::default(), Part::Data)?;
-    Ok((film_of(&texels), placement))
+    let picture = read_file::read_part(path, &Reading::default(), Part::Data)?;
+    Ok((film_of(&picture.texels), picture.placement))
 }
 
 /// The texels of a file as a picture.

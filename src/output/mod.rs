@@ -11,6 +11,7 @@ use std::path::Path;
 
 use crate::error::{Error, Result};
 use crate::film::{Film, Placement};
+use crate::panics;
 pub use encode::Format;
 pub use folder::prepare_folder;
 use target::Target;
@@ -83,7 +84,7 @@ fn prepare(film: &Film, path: &Path, options: &WriteOptions) -> Result<Target> {
         ));
     }
     let mut target = Target::create(path)?;
-    encode::encode(film, format, options, target.writer()).map_err(|e| {
+    let failed = |e| {
         Error::with_help(
             format!(
                 "{}: the {}×{} picture cannot be written as {format}: {e}",
@@ -93,7 +94,9 @@ fn prepare(film: &Film, path: &Path, options: &WriteOptions) -> Result<Target> {
             ),
             "nothing was written; check the disk's free space, or choose another format by its ending",
         )
-    })?;
+    };
+    let stage = format!("{}: writing this picture", path.display());
+    panics::contain(&stage, || encode::encode(film, format, options, target.writer()).map_err(failed))?;
     target.complete()?;
     Ok(target)
 }
@@ -114,8 +117,10 @@ pub fn to_bytes(film: &Film, format: Format) -> Result<Vec<u8>> {
 /// The bytes of a picture file that is written with these options.
 pub fn to_bytes_with(film: &Film, format: Format, options: &WriteOptions) -> Result<Vec<u8>> {
     let mut bytes = Cursor::new(Vec::new());
-    encode::encode(film, format, options, &mut bytes)
-        .map_err(|e| Error::new(format!("a {format} picture of {}×{}: {e}", film.width, film.height)))?;
+    let failed = |e| Error::new(format!("a {format} picture of {}×{}: {e}", film.width, film.height));
+    panics::contain(&format_args!("writing a {format} picture"), || {
+        encode::encode(film, format, options, &mut bytes).map_err(failed)
+    })?;
     Ok(bytes.into_inner())
 }
 

@@ -20,7 +20,8 @@ use super::table::Table;
 use super::textures;
 use super::validate::{MAX_SHAPES, MAX_TEXTURES, check_filters};
 use crate::error::{Error, Result};
-use crate::texture::read_file::odd_path;
+use crate::panics;
+use crate::texture::open_file::odd_path;
 use crate::texture::sampler_spec::{Address, SamplerSpec};
 
 /// 65535 triangles with texture coordinates take 7 MB of text.
@@ -50,10 +51,14 @@ pub fn is_standard_input(path: &Path) -> bool {
 /// Reads a scene file, or standard input where the path is `-`: paths in it are then relative to the current
 /// folder. Textures are named, not opened.
 pub fn load(path: &Path) -> Result<Scene> {
-    if is_standard_input(path) {
-        return parse(Path::new(STANDARD_INPUT), &text_of(std::io::stdin().lock(), STANDARD_INPUT)?);
-    }
-    parse(path, &read(path)?)
+    let is_stdin = is_standard_input(path);
+    let stage = if is_stdin { STANDARD_INPUT.into() } else { path.display().to_string() };
+    panics::contain(&format_args!("{stage}: reading this scene"), || {
+        if is_stdin {
+            return parse(Path::new(STANDARD_INPUT), &text_of(std::io::stdin().lock(), STANDARD_INPUT)?);
+        }
+        parse(path, &read(path)?)
+    })
 }
 
 /// Parses scene text. Paths in it are relative to the folder of `path_for_messages`.

@@ -30,7 +30,7 @@ use std::path::{Path, PathBuf};
 
 use super::data::ColorSpace;
 use super::decode::Values;
-use super::read_file::Texels;
+use super::read_file::{Picture, Texels};
 use super::source::{CubeLayout, Reading};
 use super::stack;
 use crate::error::{Error, Result};
@@ -69,10 +69,11 @@ pub(super) fn join(
     reading: &Reading,
     space: ColorSpace,
     values: Values,
-) -> Result<Texels> {
-    let faces = stack::read(files, reading, space, values, "face")?;
+) -> Result<Picture> {
+    let picture = stack::read(files, reading, space, values, "face")?;
+    let faces = &picture.texels;
     if faces.width == faces.height {
-        return Ok(faces);
+        return Ok(picture);
     }
     Err(Error::with_help(
         format!(

@@ -5,7 +5,7 @@
 use std::path::Path;
 
 use super::data::{ColorSpace, Component, Dimension, TexelFormat, TextureData};
-use super::read_file::{self, Texels};
+use super::read_file::{self, Picture, Texels};
 use super::source::Reading;
 use crate::error::{Error, Result};
 
@@ -20,8 +20,8 @@ pub enum Values {
 
 /// A 2D texture from one picture.
 pub fn decode(path: &Path, name: &str, color_space: ColorSpace, flip_v: bool) -> Result<TextureData> {
-    let texels = read_checked(path, &Reading::default(), color_space, Values::Finite);
-    let mut texels = texels.map_err(|e| in_texture(name, e))?;
+    let picture = read_checked(path, &Reading::default(), color_space, Values::Finite);
+    let mut texels = picture.map_err(|e| in_texture(name, e))?.texels;
     if flip_v {
         let height = texels.height;
         reverse_rows(&mut texels, height);
@@ -55,11 +55,11 @@ pub(super) fn read_checked(
     reading: &Reading,
     color_space: ColorSpace,
     values: Values,
-) -> Result<Texels> {
-    let texels = read_file::read_as(path, reading)?;
-    check_meaning(texels.format, color_space, path)?;
-    check_values(&texels, values, path)?;
-    Ok(texels)
+) -> Result<Picture> {
+    let picture = read_file::read_as(path, reading)?;
+    check_meaning(picture.texels.format, color_space, path)?;
+    check_values(&picture.texels, values, path)?;
+    Ok(picture)
 }
 
 pub(super) fn in_texture(name: &str, error: Error) -> Error {

@@ -48,7 +48,6 @@ struct Group {
     /// Part and prefix as a scene names them; empty for channels without either.
     name: String,
     prefix: String,
-    deep: bool,
     /// What follows the prefix, and the channel's index.
     channels: Vec<(String, usize)>,
 }
@@ -80,7 +79,6 @@ fn groups(headers: &[Header]) -> Vec<Group> {
                 part_name: part_name.clone(),
                 name: joined(&of_part, prefix),
                 prefix: prefix.to_owned(),
-                deep: header.deep,
                 channels: vec![(base.to_owned(), index)],
             });
         }
@@ -113,9 +111,6 @@ impl Group {
     /// Returns what the names say; none for channels that are no colours together.
     fn colors(&self) -> Option<Layer> {
         const RGB: [&[&str]; 3] = [&["R", "red"], &["G", "green"], &["B", "blue"]];
-        if self.deep {
-            return None;
-        }
         let has = |name| self.find(&[name]).is_some();
         let colors =
             if let Some(rgb) = self.find_three(RGB).or_else(|| self.find_three([&["X"], &["Y"], &["Z"]])) {
@@ -135,9 +130,7 @@ impl Group {
         let alpha = self.alpha();
         let mut others = self.channels.iter().map(|(_, index)| *index).filter(|i| Some(*i) != alpha);
         let lone = match (others.next(), others.next()) {
-            (Some(channel), None) if !self.deep => {
-                Some(Layer { part: self.part, colors: Colors::Grey(channel), alpha })
-            }
+            (Some(channel), None) => Some(Layer { part: self.part, colors: Colors::Grey(channel), alpha }),
             _ => None,
         };
         self.colors().or(lone)
@@ -156,10 +149,9 @@ impl Group {
     /// For messages: the name, or that there is none, and the channels.
     fn described(&self) -> String {
         let bases: Vec<&str> = self.channels.iter().map(|(base, _)| base.as_str()).collect();
-        let deep = if self.deep { ", deep" } else { "" };
         let name =
             if self.name.is_empty() { "one without a name".into() } else { format!("\"{}\"", self.name) };
-        format!("{name} ({}{deep})", bases.join(", "))
+        format!("{name} ({})", bases.join(", "))
     }
 }
 
@@ -186,51 +178,55 @@ fn unnamed(groups: &[Group], path: &Path) -> Result<Layer> {
 }
 
 fn named(groups: &[Group], wanted: &str, path: &Path) -> Result<Layer> {
-    let exact = groups.iter().filter(|g| g.name == wanted);
-    let called = groups.iter().filter(|g| g.is_called(wanted));
-    let found: Vec<&Group> = if exact.clone().count() > 0 { exact.collect() } else { called.collect() };
     let shown = path.display();
-    match found.as_slice() {
-        [group] if group.deep => Err(Error::with_help(
-            format!("{shown}: layer \"{wanted}\" is deep data, which is not read"),
-            "flatten it, or choose another layer",
-        )),
-        [group] => group.colors_or_one().ok_or_else(|| {
+    let exact: Vec<&Group> = groups.iter().filter(|g| g.name == wanted).collect();
+    let called: Vec<&Group> = groups.iter().filter(|g| g.is_called(wanted)).collect();
+    match (exact.as_slice(), called.as_slice()) {
+        ([group], _) | ([], [group]) => group.colors_or_one().ok_or_else(|| {
             Error::with_help(
                 format!("{shown}: the channels of layer {} are no colours together", group.described()),
                 "choose one channel: layer = \"NAME\" with its whole name reads it as grey",
             )
         }),
-        [] => channel(groups, wanted).ok_or_else(|| {
-            let near = near(wanted, groups.iter().map(|g| g.name.as_str()));
-            let end = if near.is_empty() { ";" } else { "" };
-            Error::with_help(
-                format!("{shown}: no layer is named \"{wanted}\"{near}{end} its layers: {}", listed(groups)),
-                "name one of them, or a single channel, which is read as grey",
-            )
-        }),
-        several => {
-            let names: Vec<String> = several.iter().map(|g| format!("\"{}\"", g.name)).collect();
-            Err(Error::with_help(
-                format!("{shown}: several layers may be meant by \"{wanted}\": {}", names.join(", ")),
-                "give the whole name of one",
-            ))
+        ([], []) => channel(groups, wanted, path),
+        ([], several) | (several, _) => {
+            Err(ambiguous(wanted, several.iter().map(|g| g.name.clone()).collect(), path))
         }
     }
 }
 
-/// One channel by its whole name, as grey.
-fn channel(groups: &[Group], wanted: &str) -> Option<Layer> {
-    let whole = |group: &Group, base: &str| joined(&group.name, base);
-    let grey = |group: &Group, index| Layer { part: group.part, colors: Colors::Grey(index), alpha: None };
-    let mut found = groups.iter().filter(|g| !g.deep).flat_map(|group| {
-        let named = |(base, _): &&(String, usize)| {
-            wanted == format!("{}{}{base}", group.prefix, if group.prefix.is_empty() { "" } else { "." })
-                || wanted == whole(group, base)
-        };
-        group.channels.iter().filter(named).map(move |(_, index)| grey(group, *index))
+/// One channel as grey: by its name in the file, before which the part's name may stand.
+fn channel(groups: &[Group], wanted: &str, path: &Path) -> Result<Layer> {
+    let all =
+        groups.iter().flat_map(|group| group.channels.iter().map(move |(base, index)| (group, base, *index)));
+    let called = all.filter(|(group, base, _)| {
+        joined(&group.name, base) == wanted || joined(&group.prefix, base) == wanted
     });
-    found.next()
+    match called.collect::<Vec<_>>().as_slice() {
+        [(group, _, index)] => Ok(Layer { part: group.part, colors: Colors::Grey(*index), alpha: None }),
+        [] => {
+            let near = near(wanted, groups.iter().map(|g| g.name.as_str()));
+            let end = if near.is_empty() { ";" } else { "" };
+            Err(Error::with_help(
+                format!(
+                    "{}: no layer is named \"{wanted}\"{near}{end} its layers: {}",
+                    path.display(),
+                    listed(groups)
+                ),
+                "name one of them, or a single channel, which is read as grey",
+            ))
+        }
+        several => {
+            Err(ambiguous(wanted, several.iter().map(|(g, base, _)| joined(&g.name, base)).collect(), path))
+        }
+    }
+}
+
+fn ambiguous(wanted: &str, names: Vec<String>, path: &Path) -> Error {
+    Error::with_help(
+        format!("{}: \"{wanted}\" may mean each of {}", path.display(), names.join(", ")),
+        "give the whole name of one",
+    )
 }
 
 fn listed(groups: &[Group]) -> String {
@@ -253,12 +249,10 @@ fn near<'a>(wanted: &str, names: impl Iterator<Item = &'a str>) -> String {
 }
 
 fn no_colors(groups: &[Group], path: &Path) -> Error {
-    let whole = |g: &Group, base: &str| {
-        let name = joined(&g.name, base);
-        if g.deep { format!("{name} (deep)") } else { name }
+    let channels = |group: &Group| -> Vec<String> {
+        group.channels.iter().map(|(base, _)| joined(&group.name, base)).collect()
     };
-    let names: Vec<String> =
-        groups.iter().flat_map(|g| g.channels.iter().map(|(base, _)| whole(g, base))).collect();
+    let names: Vec<String> = groups.iter().flat_map(channels).collect();
     Error::with_help(
         format!(
             "{}: no layer that can be read; the file's channels are {}",

@@ -7,10 +7,11 @@ use super::data::{Component, Dimension, TexelFormat, TextureData};
 use super::decode::{
     Values, check_meaning, check_values, in_texture, read_checked, reverse_rows, texture_of,
 };
-use super::read_file::Texels;
+use super::read_file::{Picture, Texels};
 use super::source::{TextureContent, TextureSource};
 use super::{cube, nrrd, stack, volume};
 use crate::error::{Error, Result};
+use crate::panics;
 
 /// Of a procedural texture, which has no texels, one that nobody reads.
 pub fn load(source: &TextureSource) -> Result<TextureData> {
@@ -19,40 +20,52 @@ pub fn load(source: &TextureSource) -> Result<TextureData> {
 
 /// The same, with such numbers.
 pub fn load_with(source: &TextureSource, values: Values) -> Result<TextureData> {
-    let (mut texels, depth) = read(source, values).map_err(|e| in_texture(&source.name, e))?;
+    load_noted(source, values).map(|(texture, _)| texture)
+}
+
+/// The same, with what a person should know about how its files were read.
+pub fn load_noted(source: &TextureSource, values: Values) -> Result<(TextureData, Vec<String>)> {
+    let stage = format!("texture \"{}\"", source.name);
+    let (picture, depth) =
+        panics::contain(&stage, || read(source, values).map_err(|e| in_texture(&source.name, e)))?;
+    let mut texels = picture.texels;
     if source.flip_v {
         let height = texels.height;
         reverse_rows(&mut texels, height);
     }
-    Ok(texture_of(&source.name, source.dimension, source.color_space, texels, depth))
+    let texture = texture_of(&source.name, source.dimension, source.color_space, texels, depth);
+    Ok((texture, picture.notes.iter().map(|note| format!("texture \"{}\": {note}", source.name)).collect()))
 }
 
 /// The texels and how many slices or faces they are.
-fn read(source: &TextureSource, values: Values) -> Result<(Texels, u32)> {
+fn read(source: &TextureSource, values: Values) -> Result<(Picture, u32)> {
     let space = source.color_space;
     let reading = &source.reading;
     let picture = |path: &Path| read_checked(path, reading, space, values);
     let volume = |path: &Path, (texels, depth): (Texels, u32)| {
         check_meaning(texels.format, space, path)?;
         check_values(&texels, values, path)?;
-        Ok((texels, depth))
+        Ok((texels.into(), depth))
     };
     match &source.content {
         TextureContent::File(file) if source.dimension == Dimension::Three => volume(file, nrrd::read(file)?),
         TextureContent::File(file) => {
-            let texels = picture(file)?;
+            let picture = picture(file)?;
             if source.dimension == Dimension::One {
-                check_row(&texels, file)?;
+                check_row(&picture.texels, file)?;
             }
-            Ok((texels, 1))
+            Ok((picture, 1))
         }
-        TextureContent::Ramp(colors) => Ok((ramp(colors), 1)),
-        TextureContent::CubeFile(file, layout) => cube::cut(&picture(file)?, *layout, file).map(|t| (t, 6)),
+        TextureContent::Ramp(colors) => Ok((ramp(colors).into(), 1)),
+        TextureContent::CubeFile(file, layout) => {
+            let Picture { texels, notes, .. } = picture(file)?;
+            Ok((Picture::noted(cube::cut(&texels, *layout, file)?, notes), 6))
+        }
         TextureContent::Faces(files) => cube::join(files, reading, space, values).map(|t| (t, 6)),
         TextureContent::Slices(files) => {
             stack::read(files, reading, space, values, "slice").map(|t| (t, files.len() as u32))
         }
-        TextureContent::Procedural(_) => Ok((ramp(&[[0.0; 4]]), 1)),
+        TextureContent::Procedural(_) => Ok((ramp(&[[0.0; 4]]).into(), 1)),
         TextureContent::Volume(raw) => volume(&raw.file, (volume::read(raw)?, raw.size[2])),
     }
 }

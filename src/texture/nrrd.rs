@@ -1,5 +1,5 @@
 //! NRRD volumes (teem, "Definition of NRRD File Format", versions 1 to 5): three axes, or four with
-//! 1 to 4 channels on the first, of unsigned 8- and 16-bit integers or 32-bit floats, raw or gzip,
+//! 1 to 4 channels on the first, of integers of 8 to 64 bits or floats of 32 or 64, raw or gzip,
 //! behind the header or in a file of their own. Fields that only place the volume in the world
 //! (spacings, space, kinds of the other axes, …) are read over. Mistakes name line and field.
 
@@ -10,21 +10,24 @@ use std::path::{Path, PathBuf};
 
 use flate2::bufread::MultiGzDecoder;
 
-use super::data::Component;
-use super::read_file::{Texels, open, unreadable};
+use super::open_file::open;
+use super::read_file::{Texels, unreadable};
+use super::scalar::{Kind, Scalar};
 use super::source::Endian;
 use super::volume::Bare;
 use crate::error::{Error, Result};
 
 /// A header line longer than this is no header line.
 const LONGEST_LINE: u64 = 64 << 10;
+/// Deflate gives no more bytes for one.
+const MAX_GZIP_RATIO: u64 = 1032;
 const MOST_LINES: usize = 10_000;
 
 pub(super) fn read(path: &Path) -> Result<(Texels, u32)> {
     let mut file = BufReader::new(open(path)?);
     let header = Header::read(&mut file, path)?;
     let layout = header.layout()?;
-    let (endian, skips) = (header.endian(layout.component)?, header.skips()?);
+    let (endian, skips) = (header.endian(layout.scalar)?, header.skips()?);
     let gzip = header.choice("encoding", &[("raw", false), ("gzip", true), ("gz", true)])?;
     let depth = layout.size[2];
     let data_file = header.data_file()?;
@@ -55,15 +58,16 @@ fn read_data(
     for _ in 0..skips.lines {
         source.skip_until(b'\n').map_err(failed)?;
     }
+    let length = source.get_ref().metadata().map_err(failed)?.len();
     if skips.bytes < 0 {
-        let length = source.get_ref().metadata().map_err(failed)?.len();
         source.seek(SeekFrom::Start(length.saturating_sub(layout.bytes()))).map_err(failed)?;
     }
     let mut source: Box<dyn Read> =
         if gzip { Box::new(MultiGzDecoder::new(source)) } else { Box::new(source) };
     let before = u64::try_from(skips.bytes).unwrap_or(0);
     io::copy(&mut source.by_ref().take(before), &mut io::sink()).map_err(failed)?;
-    layout.read(source, endian, path)
+    let available = if gzip { length.saturating_mul(MAX_GZIP_RATIO) } else { length };
+    layout.read(source, endian, available, path)
 }
 
 struct Header<'a> {
@@ -122,7 +126,7 @@ impl<'a> Header<'a> {
     }
 
     fn layout(&self) -> Result<Bare> {
-        let component = self.component()?;
+        let scalar = self.scalar()?;
         let dimension = self.choice("dimension", &[("3", 3), ("4", 4)])?;
         let (_, sizes) = self.required("sizes")?;
         let sizes: Vec<u32> = sizes.split_whitespace().map_while(|n| n.parse().ok()).collect();
@@ -145,30 +149,56 @@ impl<'a> Header<'a> {
             _ => {
                 let (channels, size) = if channels_first { (sizes[0], &sizes[1..]) } else { (1, &sizes[..]) };
                 let size = [size[0], size[1], size[2]];
-                Ok(Bare { size, channels: channels as usize, component })
+                Ok(Bare { size, channels: channels as usize, scalar })
             }
         }
     }
 
-    fn component(&self) -> Result<Component> {
-        const TYPES: [(&str, Component); 10] = [
-            ("uchar", Component::Unorm8),
-            ("unsigned char", Component::Unorm8),
-            ("uint8", Component::Unorm8),
-            ("uint8_t", Component::Unorm8),
-            ("ushort", Component::Unorm16),
-            ("unsigned short", Component::Unorm16),
-            ("unsigned short int", Component::Unorm16),
-            ("uint16", Component::Unorm16),
-            ("uint16_t", Component::Unorm16),
-            ("float", Component::Float32),
+    /// By all the names that the format has for a type.
+    fn scalar(&self) -> Result<Scalar> {
+        const TYPES: [(&[&str], u32, Kind); 10] = [
+            (&["uchar", "unsigned char", "uint8", "uint8_t"], 8, Kind::Unsigned),
+            (&["signed char", "int8", "int8_t"], 8, Kind::Signed),
+            (&["ushort", "unsigned short", "unsigned short int", "uint16", "uint16_t"], 16, Kind::Unsigned),
+            (
+                &["short", "short int", "signed short", "signed short int", "int16", "int16_t"],
+                16,
+                Kind::Signed,
+            ),
+            (&["uint", "unsigned int", "uint32", "uint32_t"], 32, Kind::Unsigned),
+            (&["int", "signed int", "int32", "int32_t"], 32, Kind::Signed),
+            (
+                &["ulonglong", "unsigned long long", "unsigned long long int", "uint64", "uint64_t"],
+                64,
+                Kind::Unsigned,
+            ),
+            (
+                &[
+                    "longlong",
+                    "long long",
+                    "long long int",
+                    "signed long long",
+                    "signed long long int",
+                    "int64",
+                    "int64_t",
+                ],
+                64,
+                Kind::Signed,
+            ),
+            (&["float"], 32, Kind::Float),
+            (&["double"], 64, Kind::Float),
         ];
-        self.choice("type", &TYPES)
+        let (_, word) = self.required("type")?;
+        let found = TYPES.iter().find(|(names, ..)| names.iter().any(|name| name.eq_ignore_ascii_case(word)));
+        found.map(|(_, bits, kind)| Scalar { bits: *bits, kind: *kind }).ok_or_else(|| {
+            let names: Vec<&str> = TYPES.iter().map(|(names, ..)| names[0]).collect();
+            self.wrong("type", &format!("one of {}", names.join(", ")))
+        })
     }
 
     /// The format wants it wherever an order exists.
-    fn endian(&self, component: Component) -> Result<Endian> {
-        if component == Component::Unorm8 {
+    fn endian(&self, scalar: Scalar) -> Result<Endian> {
+        if scalar.bits == 8 {
             return Ok(Endian::Little);
         }
         self.choice("endian", &[("little", Endian::Little), ("big", Endian::Big)])

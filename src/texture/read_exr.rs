@@ -165,17 +165,15 @@ impl Picture {
 
     /// Fills a channel along a row of the data window, as far as it lies in the picture.
     fn put_line(&mut self, channel: usize, at: Vec2<usize>, values: impl Iterator<Item = f32>) {
-        let Some(y) =
-            usize::try_from(i64::from(self.corner.1) + at.1 as i64).ok().filter(|y| *y < self.height)
-        else {
-            return;
-        };
         let left = i64::from(self.corner.0) + at.0 as i64;
-        for (x, value) in (left..).zip(values) {
-            if let Some(x) = usize::try_from(x).ok().filter(|x| *x < self.width) {
-                let start = ((y * self.width + x) * self.channels + channel) * 4;
-                self.bytes[start..start + 4].copy_from_slice(&value.to_ne_bytes());
-            }
+        let top = usize::try_from(i64::from(self.corner.1) + at.1 as i64);
+        let Some(y) = top.ok().filter(|y| *y < self.height) else { return };
+        let outside = usize::try_from(-left).unwrap_or(0);
+        let first = usize::try_from(left).unwrap_or(0).min(self.width);
+        let texel = self.channels * 4;
+        let row = &mut self.bytes[(y * self.width + first) * texel..(y + 1) * self.width * texel];
+        for (to, value) in row.chunks_exact_mut(texel).zip(values.skip(outside)) {
+            to[channel * 4..channel * 4 + 4].copy_from_slice(&value.to_ne_bytes());
         }
     }
 

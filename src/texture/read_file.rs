@@ -1,26 +1,31 @@
 //! A picture file into texels as stored: 8 bits stay 8, 16 stay 16, float stays float, grey stays
 //! grey, three channels become four with opaque alpha. Profiles and gamma are ignored. Whatever is wrong with the file is an error that names it and says what to do.
 
-use std::fs::{self, File};
-use std::io::{BufReader, ErrorKind, Read, Seek};
+use std::fs::File;
+use std::io::{BufReader, Cursor, ErrorKind, Read, Seek};
 use std::path::Path;
 
-use image::{ColorType, ImageDecoder, ImageError, ImageFormat, ImageReader, Limits};
+use image::codecs::tga::TgaDecoder;
+use image::{ColorType, ImageDecoder, ImageError, ImageFormat};
 
 use super::data::{Component, TexelFormat};
+use super::open_file::open;
 use super::orientation::orientation_of;
 pub use super::read_exr::Part;
 use super::sniff::{self, Content};
 use super::source::{OrientationUse, Reading};
-use super::{jpeg_end, read_exr};
+use super::{read_exr, read_hdr, read_jpeg, read_png, tiff};
 use crate::error::{Error, Result};
 use crate::film::Placement;
+use crate::panics;
 
 /// Twice the largest image side of current GPUs; checked in the header, before any allocation.
 const MAX_SIDE: u64 = 65_536;
 /// Decoded size; the image crate's own default of 512 MiB refuses an 8192² float texture.
-const MAX_BYTES: u64 = 16 << 30;
-pub const SUPPORTED: &str = "PNG, JPEG, TIFF, Radiance HDR and OpenEXR";
+pub(super) const MAX_BYTES: u64 = 16 << 30;
+/// PNG: Deflate gives 1032 bytes for one at most, of 8 texels each. The others give less.
+const MAX_TEXELS_PER_BYTE: u64 = 1032 * 8;
+pub const SUPPORTED: &str = "PNG, JPEG, TIFF, TGA, Radiance HDR and OpenEXR";
 
 /// Tightly packed rows, first row of the file first, native endian.
 pub struct Texels {
@@ -32,40 +37,75 @@ pub struct Texels {
     pub bytes: Vec<u8>,
 }
 
-/// Reads a picture as it is asked for: by default upright and, where it has layers, the one without a name.
-pub fn read_as(path: &Path, reading: &Reading) -> Result<Texels> {
-    read_part(path, reading, Part::Display).map(|(texels, _)| texels)
+/// What a file holds, and what a person should know about how it was read: each note names the file.
+pub struct Picture {
+    pub texels: Texels,
+    /// Where they lie in the file's picture.
+    pub placement: Placement,
+    pub notes: Vec<String>,
 }
 
-/// Reads it, and where its texels lie in the file's picture.
-pub fn read_part(path: &Path, reading: &Reading, part: Part) -> Result<(Texels, Placement)> {
-    let mut source = BufReader::new(open(path)?);
-    match identify(&mut source).map_err(|e| unreadable(path, &e))? {
-        Content::Picture(ImageFormat::OpenExr) => {
-            read_exr::read(source, reading.layer.as_deref(), part, path)
-        }
-        Content::Picture(format) => {
-            if let Some(layer) = &reading.layer {
-                return Err(no_layers(path, format, layer));
-            }
-            let orientation = match reading.orientation {
-                OrientationUse::Apply => orientation_of(&mut source, format),
-                OrientationUse::Ignore => None,
-            };
-            source.rewind().map_err(|e| unreadable(path, &e))?;
-            let mut texels = read_with_image(source, format, path)?;
-            if let Some(orientation) = orientation {
-                check_memory(path, texels.bytes.len())?;
-                texels = orientation.apply(texels);
-            }
-            let placement = Placement::whole(texels.width, texels.height);
-            Ok((texels, placement))
-        }
-        Content::Other(what) => Err(Error::with_help(
-            format!("{}: not a picture that can be read: the content {what}", path.display()),
-            format!("supported are {SUPPORTED}, whatever the ending of the name"),
-        )),
+impl Picture {
+    /// All of a picture.
+    pub(super) fn noted(texels: Texels, notes: Vec<String>) -> Picture {
+        let placement = Placement::whole(texels.width, texels.height);
+        Picture { texels, placement, notes }
     }
+}
+
+impl From<Texels> for Picture {
+    fn from(texels: Texels) -> Self {
+        Picture::noted(texels, Vec::new())
+    }
+}
+
+/// Reads a picture as it is asked for: by default upright and, where it has layers, the one without a name.
+pub fn read_as(path: &Path, reading: &Reading) -> Result<Picture> {
+    read_part(path, reading, Part::Display)
+}
+
+/// The same; of OpenEXR files this part.
+pub fn read_part(path: &Path, reading: &Reading, part: Part) -> Result<Picture> {
+    let stage = format!("{}: reading this picture", path.display());
+    panics::contain(&stage, || read_by_content(open(path)?, path, reading, part))
+}
+
+fn read_by_content(mut source: File, path: &Path, reading: &Reading, part: Part) -> Result<Picture> {
+    let failed = |e: std::io::Error| unreadable(path, &e);
+    let format = match identify(&mut source).map_err(failed)? {
+        Content::Picture(format) => format,
+        Content::Other(what) => return Err(no_picture(path, &what)),
+    };
+    if format == ImageFormat::OpenExr {
+        let layer = reading.layer.as_deref();
+        let (texels, placement) = read_exr::read(BufReader::new(source), layer, part, path)?;
+        return Ok(Picture { texels, placement, notes: Vec::new() });
+    }
+    if let Some(layer) = &reading.layer {
+        return Err(no_layers(path, format, layer));
+    }
+    let length = source.metadata().map_err(failed)?.len() as usize;
+    let mut file = Vec::new();
+    file.try_reserve_exact(length).map_err(|_| out_of_memory(path))?;
+    source.read_to_end(&mut file).map_err(failed)?;
+    let picture = match format {
+        ImageFormat::Png => read_png::read(&file, path),
+        ImageFormat::Jpeg => read_jpeg::read(&file, path),
+        ImageFormat::Tiff => tiff::read(&file, path),
+        ImageFormat::Hdr => read_hdr::read(&file, path),
+        ImageFormat::Tga => {
+            decode_with(TgaDecoder::new(Cursor::new(&file)), "TGA", file.len(), path).map(Picture::from)
+        }
+        _ => Err(no_picture(path, &format!("is {format:?}"))),
+    }?;
+    let orientation = match reading.orientation {
+        OrientationUse::Apply => orientation_of(&mut Cursor::new(&file), format),
+        OrientationUse::Ignore => None,
+    };
+    drop(file);
+    let Some(orientation) = orientation else { return Ok(picture) };
+    check_memory(path, picture.texels.bytes.len())?;
+    Ok(Picture::noted(orientation.apply(picture.texels), picture.notes))
 }
 
 fn identify(source: &mut (impl Read + Seek)) -> std::io::Result<Content> {
@@ -84,20 +124,21 @@ pub fn is_turned(path: &Path) -> bool {
     }
 }
 
-fn read_with_image(mut source: BufReader<File>, format: ImageFormat, path: &Path) -> Result<Texels> {
-    let kind = format!("{format:?}").to_uppercase();
-    if format == ImageFormat::Jpeg {
-        let complete = jpeg_end::is_complete(&mut source).and_then(|yes| source.rewind().map(|()| yes));
-        if !complete.map_err(|e| unreadable(path, &e))? {
-            return Err(damaged(path, &kind, &"the file ends before the end-of-image marker"));
-        }
-    }
-    let mut reader = ImageReader::with_format(source, format);
-    let mut limits = Limits::no_limits();
-    limits.max_alloc = Some(MAX_BYTES);
-    reader.limits(limits);
-    let decoder = reader.into_decoder().map_err(|e| image_error(path, &kind, e))?;
+fn no_picture(path: &Path, what: &str) -> Error {
+    Error::with_help(
+        format!("{}: not a picture that can be read: the content {what}", path.display()),
+        format!("supported are {SUPPORTED}, whatever the ending of the name"),
+    )
+}
 
+/// Texels by a decoder of the image crate that has read the header of `file_bytes` bytes of this kind.
+pub(super) fn decode_with(
+    decoder: std::result::Result<impl ImageDecoder, ImageError>,
+    kind: &str,
+    file_bytes: usize,
+    path: &Path,
+) -> Result<Texels> {
+    let decoder = decoder.map_err(|e| image_error(path, kind, e))?;
     let (width, height) = decoder.dimensions();
     let (file_channels, component) = layout(decoder.color_type()).ok_or_else(|| {
         let found = decoder.color_type();
@@ -109,13 +150,16 @@ fn read_with_image(mut source: BufReader<File>, format: ImageFormat, path: &Path
     let channels = if file_channels == 3 { 4 } else { file_channels };
     let texel_format = TexelFormat::new(channels, component);
     check_size(path, width.into(), height.into(), texel_format.bytes_per_texel())?;
+    let pixels = width as usize * height as usize;
+    if pixels as u64 > (file_bytes as u64).saturating_mul(MAX_TEXELS_PER_BYTE) {
+        return Err(damaged(path, kind, &format!("{file_bytes} bytes cannot hold {width}×{height} texels")));
+    }
 
     // Decoded into the front of the final buffer and widened there: no second copy.
-    let pixels = width as usize * height as usize;
     check_memory(path, pixels * texel_format.bytes_per_texel())?;
     let mut bytes = vec![0; pixels * texel_format.bytes_per_texel()];
     let decoded = decoder.total_bytes() as usize;
-    decoder.read_image(&mut bytes[..decoded]).map_err(|e| image_error(path, &kind, e))?;
+    decoder.read_image(&mut bytes[..decoded]).map_err(|e| image_error(path, kind, e))?;
     if file_channels == 3 {
         widen_rgb(&mut bytes, component);
     }
@@ -132,8 +176,6 @@ fn layout(color: ColorType) -> Option<(usize, Component)> {
         ColorType::La16 => (2, Component::Unorm16),
         ColorType::Rgb16 => (3, Component::Unorm16),
         ColorType::Rgba16 => (4, Component::Unorm16),
-        ColorType::Rgb32F => (3, Component::Float32),
-        ColorType::Rgba32F => (4, Component::Float32),
         _ => return None,
     })
 }
@@ -195,60 +237,6 @@ pub(super) fn check_memory(path: &Path, bytes: usize) -> Result<()> {
     Vec::<u8>::new().try_reserve_exact(bytes).map_err(|_| out_of_memory(path))
 }
 
-pub(super) fn open(path: &Path) -> Result<File> {
-    let metadata = fs::metadata(path).map_err(|e| match e.kind() {
-        ErrorKind::NotFound => {
-            let shown: String = path.to_string_lossy().chars().flat_map(escaped).collect();
-            Error::Plain { message: format!("{shown}: there is no such file"), help: hint(path) }
-        }
-        _ => unreadable(path, &e),
-    })?;
-    if !metadata.is_file() {
-        let what = if metadata.is_dir() { "a folder" } else { "not a regular file" };
-        return Err(Error::with_help(
-            format!("{}: this is {what}, where a picture is needed", path.display()),
-            format!("name a picture file; supported are {SUPPORTED}"),
-        ));
-    }
-    File::open(path).map_err(|e| unreadable(path, &e))
-}
-
-/// What is odd about a missing path, which part of it is missing, or the name in that folder that comes closest.
-fn hint(path: &Path) -> Option<String> {
-    if let Some(odd) = odd_path(path) {
-        return Some(odd);
-    }
-    let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let Ok(entries) = fs::read_dir(folder) else {
-        return Some(format!("the folder {} does not exist or cannot be read", folder.display()));
-    };
-    let wanted = path.file_name()?.to_string_lossy().to_lowercase();
-    let names = entries.flatten().map(|e| e.file_name().to_string_lossy().into_owned());
-    let scored = names.map(|name| (strsim::jaro_winkler(&wanted, &name.to_lowercase()), name));
-    let (score, name) = scored.max_by(|a, b| a.0.total_cmp(&b.0))?;
-    (score > 0.85).then(|| format!("did you mean {}?", folder.join(name).display()))
-}
-
-/// A character as one line shows it.
-fn escaped(c: char) -> Vec<char> {
-    if c.is_control() { c.escape_default().collect() } else { vec![c] }
-}
-
-/// What to do about a path that was written with backslashes: TOML turns some of them into other characters, and
-/// only Windows divides folders by them.
-pub fn odd_path(path: &Path) -> Option<String> {
-    let text = path.to_string_lossy();
-    if text.contains(char::is_control) {
-        return Some(
-            "the name has a control character: within \"…\" of TOML, \\t, \\n, \\b and \\f are escapes; write \
-             folder/name, or 'folder\\name' in single quotes"
-                .into(),
-        );
-    }
-    (cfg!(not(windows)) && text.contains('\\'))
-        .then(|| format!("folders are divided by / here: {}", text.replace('\\', "/")))
-}
-
 pub(super) fn unreadable(path: &Path, error: &std::io::Error) -> Error {
     Error::with_help(
         format!("{}: cannot be read: {error}", path.display()),
@@ -278,10 +266,18 @@ fn zero_size(path: &Path) -> Error {
     )
 }
 
-fn out_of_memory(path: &Path) -> Error {
+pub(super) fn out_of_memory(path: &Path) -> Error {
     Error::with_help(
         format!("{}: the decoded picture does not fit into memory", path.display()),
         format!("at most {} GiB of texels are read; scale the picture down", MAX_BYTES >> 30),
+    )
+}
+
+/// `name`: what the file is, with its article if it has one.
+pub(super) fn unsupported_kind(path: &Path, name: &str) -> Error {
+    Error::with_help(
+        format!("{}: this file is {name}, which is not read", path.display()),
+        "convert it, for example to PNG of 8 or 16 bits, or to OpenEXR",
     )
 }
 

@@ -20,7 +20,8 @@ const PICTURES: &[(&[u8], ImageFormat)] = &[
     (b"MM\0*", ImageFormat::Tiff),
     (b"II+\0", ImageFormat::Tiff),
     (b"MM\0+", ImageFormat::Tiff),
-    (b"#?RADIANCE", ImageFormat::Hdr),
+    // Mostly #?RADIANCE or #?RGBE: the program that began to write such files put its own name there.
+    (b"#?", ImageFormat::Hdr),
     (b"\x76\x2f\x31\x01", ImageFormat::OpenExr),
 ];
 
@@ -40,7 +41,6 @@ const OTHERS: &[(usize, &[u8], &str)] = &[
     (4, b"ftypmif1", "is HEIF"),
     (0, b"\0\0\x01\0", "is a Windows icon"),
     (0, b"qoif", "is QOI"),
-    (0, b"#?RGBE", "is Radiance HDR with the old signature #?RGBE"),
     (0, b"NRRD000", "is an NRRD volume (dimension \"3d\", and an ending .nrrd or .nhdr)"),
     (0, b"PK\x03\x04", "is a ZIP archive"),
     (0, b"\x1f\x8b", "is gzip-compressed"),
@@ -58,17 +58,37 @@ pub fn identify(head: &[u8]) -> Content {
     if let Some((_, format)) = PICTURES.iter().find(|(magic, _)| head.starts_with(magic)) {
         return Content::Picture(*format);
     }
-    Content::Other(describe(head))
+    match described(head) {
+        Some(what) => Content::Other(what.into()),
+        None if is_tga(head) => Content::Picture(ImageFormat::Tga),
+        None => Content::Other(describe(head)),
+    }
+}
+
+fn described(head: &[u8]) -> Option<&'static str> {
+    let known =
+        |(at, magic, _): &&(usize, &[u8], &str)| head.get(*at..).is_some_and(|h| h.starts_with(magic));
+    OTHERS.iter().find(known).map(|(_, _, what)| *what)
+}
+
+/// TGA has no signature, but a header of 18 bytes where few values are possible (Truevision TGA 2.0,
+/// "TGA File Header"): no other file is likely to have such ones in all these places.
+fn is_tga(head: &[u8]) -> bool {
+    let Some(h) = head.get(..18) else { return false };
+    let (map_type, kind, map_bits, bits, flags) = (h[1], h[2], h[7], h[16], h[17]);
+    let has_size = h[12] | h[13] > 0 && h[14] | h[15] > 0;
+    let map_fits = match kind {
+        1 | 9 => map_type == 1 && [15, 16, 24, 32].contains(&map_bits) && [8, 16].contains(&bits),
+        2 | 10 => map_type <= 1 && [15, 16, 24, 32].contains(&bits),
+        3 | 11 => map_type == 0 && [8, 16].contains(&bits),
+        _ => false,
+    };
+    map_fits && has_size && flags & 0xc0 == 0
 }
 
 fn describe(head: &[u8]) -> String {
     if head.is_empty() {
         return "is empty".into();
-    }
-    let known =
-        |(at, magic, _): &&(usize, &[u8], &str)| head.get(*at..).is_some_and(|h| h.starts_with(magic));
-    if let Some((_, _, what)) = OTHERS.iter().find(known) {
-        return (*what).into();
     }
     if PICTURES.iter().any(|(magic, _)| magic.starts_with(head)) {
         return "ends within a picture's signature (truncated)".into();
@@ -107,6 +127,15 @@ mod tests {
         ] {
             assert_eq!(identify(head), Content::Other(want.into()));
         }
-        assert_eq!(identify(b"II*\0rest"), Content::Picture(ImageFormat::Tiff));
+        let tga = b"\0\0\x02\0\0\0\0\0\0\0\0\0\x04\0\x02\0\x18\0\x01\x02\x03";
+        for (head, want) in [
+            (&b"II*\0rest"[..], ImageFormat::Tiff),
+            (b"#?RGBE\n", ImageFormat::Hdr),
+            (b"#?RADIANCE\n", ImageFormat::Hdr),
+            (tga, ImageFormat::Tga),
+        ] {
+            assert_eq!(identify(head), Content::Picture(want));
+        }
+        assert!(!is_tga(&tga[..17]) && !is_tga(b"\0\0\x02\0\0\0\0\0\0\0\0\0\x04\0\x02\0\x07\0"));
     }
 }

@@ -10,7 +10,7 @@ use rayon::prelude::*;
 
 use super::data::{ColorSpace, Component, TexelFormat};
 use super::decode::{Values, read_checked};
-use super::read_file::{Texels, check_volume};
+use super::read_file::{Picture, Texels, check_volume};
 use super::source::Reading;
 use crate::error::{Error, Result};
 
@@ -21,11 +21,13 @@ pub(super) fn read(
     space: ColorSpace,
     values: Values,
     what: &str,
-) -> Result<Texels> {
-    let pictures: Vec<Result<Texels>> =
+) -> Result<Picture> {
+    let pictures: Vec<Result<Picture>> =
         files.par_iter().map(|file| read_checked(file, reading, space, values)).collect();
     // The first mistake in the order of the files, whichever was found first.
     let pictures = pictures.into_iter().collect::<Result<Vec<_>>>()?;
+    let (pictures, notes): (Vec<Texels>, Vec<Vec<String>>) =
+        pictures.into_iter().map(|picture| (picture.texels, picture.notes)).unzip();
     let Some(first) = pictures.first() else { return Err(Error::new(format!("no {what} is given"))) };
     let (width, height) = (first.width, first.height);
     let mut channels = 0;
@@ -61,7 +63,7 @@ pub(super) fn read(
     for picture in pictures {
         append(&mut bytes, &picture, format);
     }
-    Ok(Texels { width, height, format, file_channels, bytes })
+    Ok(Picture::noted(Texels { width, height, format, file_channels, bytes }, notes.concat()))
 }
 
 fn append(bytes: &mut Vec<u8>, picture: &Texels, format: TexelFormat) {

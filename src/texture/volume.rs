@@ -5,8 +5,10 @@
 use std::io::{BufReader, ErrorKind, Read, Seek, SeekFrom};
 use std::path::Path;
 
-use super::data::{Component, TexelFormat};
-use super::read_file::{Texels, check_memory, check_volume, open, unreadable, widen_rgb};
+use super::data::TexelFormat;
+use super::open_file::open;
+use super::read_file::{Texels, check_memory, check_volume, unreadable, widen_rgb};
+use super::scalar::Scalar;
 use super::source::{Endian, VolumeSource};
 use crate::error::{Error, Result};
 
@@ -34,44 +36,80 @@ pub(super) fn read(volume: &VolumeSource) -> Result<Texels> {
         ));
     }
     file.seek(SeekFrom::Start(volume.offset)).map_err(|e| unreadable(path, &e))?;
-    let layout =
-        Bare { size: volume.size, channels: volume.format.channels(), component: volume.format.component() };
-    layout.read(file, volume.endian, path)
+    let scalar = Scalar::of(volume.format.component());
+    let layout = Bare { size: volume.size, channels: volume.format.channels(), scalar };
+    layout.read(file, volume.endian, needed as u64, path)
 }
 
 /// What a stream of texels holds; three channels are expanded to four.
 pub(super) struct Bare {
     pub size: [u32; 3],
     pub channels: usize,
-    pub component: Component,
+    /// Of whole bytes.
+    pub scalar: Scalar,
 }
+
+/// Numbers that are converted at a time.
+const BLOCK: usize = 1 << 16;
 
 impl Bare {
     pub fn bytes(&self) -> u64 {
-        let texels: u64 = self.size.iter().map(|&n| u64::from(n)).product();
-        texels * (self.channels * self.component.bytes()) as u64
+        let texels = self.size.iter().fold(1u64, |n, &side| n.saturating_mul(side.into()));
+        texels.saturating_mul((self.channels * self.stored_bytes()) as u64)
     }
 
-    pub fn read(&self, mut from: impl Read, endian: Endian, path: &Path) -> Result<Texels> {
+    /// Of one number.
+    fn stored_bytes(&self) -> usize {
+        self.scalar.bits as usize / 8
+    }
+
+    /// The source holds `available` bytes at most: what it cannot fill is not allocated.
+    pub fn read(&self, mut from: impl Read, endian: Endian, available: u64, path: &Path) -> Result<Texels> {
         let [width, height, depth] = self.size;
-        let format = TexelFormat::new(self.channels, self.component);
+        let component = self.scalar.component();
+        let format = TexelFormat::new(self.channels, component);
         check_volume(path, self.size, format.bytes_per_texel())?;
+        if self.bytes() > available {
+            return Err(short(path, self));
+        }
         let held = width as usize * height as usize * depth as usize * format.bytes_per_texel();
         check_memory(path, held)?;
         let mut bytes = vec![0; held];
-        let stored = &mut bytes[..self.bytes() as usize];
-        from.read_exact(stored).map_err(|e| match e.kind() {
-            ErrorKind::UnexpectedEof => short(path, self),
-            _ => unreadable(path, &e),
+        let numbers = self.bytes() as usize / self.stored_bytes();
+        let mut places = bytes[..numbers * component.bytes()].chunks_mut(BLOCK * component.bytes());
+        let mut block = vec![0; BLOCK * self.stored_bytes()];
+        places.try_for_each(|places| {
+            let stored = &mut block[..places.len() / component.bytes() * self.stored_bytes()];
+            from.read_exact(stored).map_err(|e| match e.kind() {
+                ErrorKind::UnexpectedEof => short(path, self),
+                _ => unreadable(path, &e),
+            })?;
+            self.convert(stored, endian, places);
+            Ok(())
         })?;
-        let native = if cfg!(target_endian = "big") { Endian::Big } else { Endian::Little };
-        if endian != native && self.component != Component::Unorm8 {
-            stored.chunks_exact_mut(self.component.bytes()).for_each(<[u8]>::reverse);
-        }
         if self.channels == 3 {
-            widen_rgb(&mut bytes, self.component);
+            widen_rgb(&mut bytes, component);
         }
         Ok(Texels { width, height, format, file_channels: self.channels, bytes })
+    }
+
+    /// Numbers that textures hold are only brought into the machine's own byte order.
+    fn convert(&self, stored: &mut [u8], endian: Endian, places: &mut [u8]) {
+        let component = self.scalar.component();
+        let native = if cfg!(target_endian = "big") { Endian::Big } else { Endian::Little };
+        let is_kept = self.scalar == Scalar::of(component);
+        if endian != if is_kept { native } else { Endian::Little } {
+            stored.chunks_exact_mut(self.stored_bytes()).for_each(<[u8]>::reverse);
+        }
+        if is_kept {
+            return places.copy_from_slice(stored);
+        }
+        let places = places.chunks_exact_mut(component.bytes());
+        for (number, place) in stored.chunks_exact(self.stored_bytes()).zip(places) {
+            let mut code = [0; 8];
+            code[..number.len()].copy_from_slice(number);
+            component.store(self.scalar.fraction(self.scalar.number(u64::from_le_bytes(code))), place);
+        }
     }
 }
 

@@ -141,3 +141,15 @@ impl Case {
 fn nothing_wrong_renders() {
     Case::new().renders(&[]);
 }
+
+/// What `main` does with a command that panics, itself or in a thread that it waits for.
+#[test]
+fn a_panic_ends_a_command_with_exit_code_2() {
+    use std::process::ExitCode;
+    let exit = |command: fn() -> moire::error::Result<ExitCode>| {
+        format!("{:?}", moire::cli::exit_code(moire::panics::contain(&"moire test", command)))
+    };
+    assert_eq!(exit(|| panic!("planted")), format!("{:?}", ExitCode::from(2)));
+    assert_eq!(exit(|| std::thread::scope(|_| unreachable!("planted"))), format!("{:?}", ExitCode::from(2)));
+    assert_eq!(exit(|| Ok(ExitCode::SUCCESS)), format!("{:?}", ExitCode::SUCCESS));
+}

@@ -97,6 +97,7 @@ fn what_cannot_be_chosen_is_listed() {
             Some("difuse"),
             &["no layer is named \"difuse\"; did you mean \"diffuse\"?", "\"depth\" (Z)"],
         ),
+        (PARTS, Some("G"), &["\"G\" may mean each of left.G, right.G"]),
         (LAYERS, Some("Z"), &["no layer is named \"Z\"", "without a name (B, G, R, id)"]),
     ] {
         let message = told(read(file, layer));

@@ -43,6 +43,7 @@ mod oracle;
 mod orientation;
 mod output;
 mod patterns;
+mod pictures;
 mod pixel_filters;
 mod pool;
 mod procedural;

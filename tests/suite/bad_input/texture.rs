@@ -45,6 +45,23 @@ fn a_readable_format_under_a_wrong_ending_is_read() {
     case.renders(&[]);
 }
 
+#[test]
+fn texture_without_its_last_bytes_is_rendered_with_a_warning() {
+    let case = Case::new();
+    let whole = fs::read(case.path("tiles.png")).unwrap();
+    case.put("tiles.png", &whole[..whole.len() - 12]);
+    let device = device_name();
+    for device in [device.as_str(), "oracle"] {
+        let args = ["render", "scene.toml", "--json", "-o", "new.png", "--device", device];
+        let (code, stdout, stderr) = case.run(&[], &args);
+        assert_eq!(code, Some(0), "{stderr}");
+        let report: serde_json::Value = serde_json::from_str(&stdout).unwrap();
+        let warning = "texture \"tiles\": tiles.png: the PNG data has no end (IEND); all texels are there";
+        assert_eq!(report["warnings"][0], warning);
+        assert!(stderr.contains("warning: texture \"tiles\""), "{stderr}");
+    }
+}
+
 fn chunk(kind: &[u8; 4], data: &[u8]) -> Vec<u8> {
     let body = [&kind[..], data].concat();
     [&(data.len() as u32).to_be_bytes()[..], &body, &crc32fast::hash(&body).to_be_bytes()].concat()

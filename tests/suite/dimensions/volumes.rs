@@ -175,7 +175,7 @@ fn bad_nrrd_headers_name_line_and_field() {
     for (from, to, words) in [
         ("NRRD0004", "NRRD0009", &["bad.nrrd", "NRRD0001 to NRRD0005"][..]),
         ("NRRD0004", "NRRD", &["no NRRD volume"]),
-        ("unsigned short", "double", &[":3: field \"type\"", "one of uchar", "found \"double\""]),
+        ("unsigned short", "block", &[":3: field \"type\"", "one of uchar", "found \"block\""]),
         ("type: unsigned short\n", "", &["no field \"type\"", "dimension, sizes"]),
         ("dimension: 3", "dimension: 2", &[":4: field \"dimension\"", "one of 3, 4", "found \"2\""]),
         ("3 2 4", "3 2", &[":5: field \"sizes\"", "3 whole numbers", "found \"3 2\""]),

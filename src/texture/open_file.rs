@@ -1,0 +1,63 @@
+//! The path of a picture in; the open file out, or an error that says what is odd about the path, or which file may be
+//! meant.
+
+use std::fs::{self, File};
+use std::io::ErrorKind;
+use std::path::Path;
+
+use super::read_file::{SUPPORTED, unreadable};
+use crate::error::{Error, Result};
+
+pub(super) fn open(path: &Path) -> Result<File> {
+    let metadata = fs::metadata(path).map_err(|e| match e.kind() {
+        ErrorKind::NotFound => {
+            let shown: String = path.to_string_lossy().chars().flat_map(escaped).collect();
+            Error::Plain { message: format!("{shown}: there is no such file"), help: hint(path) }
+        }
+        _ => unreadable(path, &e),
+    })?;
+    if !metadata.is_file() {
+        let what = if metadata.is_dir() { "a folder" } else { "not a regular file" };
+        return Err(Error::with_help(
+            format!("{}: this is {what}, where a picture is needed", path.display()),
+            format!("name a picture file; supported are {SUPPORTED}"),
+        ));
+    }
+    File::open(path).map_err(|e| unreadable(path, &e))
+}
+
+/// What is odd about a missing path, which part of it is missing, or the name in that folder that comes closest.
+fn hint(path: &Path) -> Option<String> {
+    if let Some(odd) = odd_path(path) {
+        return Some(odd);
+    }
+    let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let Ok(entries) = fs::read_dir(folder) else {
+        return Some(format!("the folder {} does not exist or cannot be read", folder.display()));
+    };
+    let wanted = path.file_name()?.to_string_lossy().to_lowercase();
+    let names = entries.flatten().map(|e| e.file_name().to_string_lossy().into_owned());
+    let scored = names.map(|name| (strsim::jaro_winkler(&wanted, &name.to_lowercase()), name));
+    let (score, name) = scored.max_by(|a, b| a.0.total_cmp(&b.0))?;
+    (score > 0.85).then(|| format!("did you mean {}?", folder.join(name).display()))
+}
+
+/// A character as one line shows it.
+fn escaped(c: char) -> Vec<char> {
+    if c.is_control() { c.escape_default().collect() } else { vec![c] }
+}
+
+/// What to do about a path that was written with backslashes: TOML turns some of them into other characters, and
+/// only Windows divides folders by them.
+pub fn odd_path(path: &Path) -> Option<String> {
+    let text = path.to_string_lossy();
+    if text.contains(char::is_control) {
+        return Some(
+            "the name has a control character: within \"…\" of TOML, \\t, \\n, \\b and \\f are escapes; write \
+             folder/name, or 'folder\\name' in single quotes"
+                .into(),
+        );
+    }
+    (cfg!(not(windows)) && text.contains('\\'))
+        .then(|| format!("folders are divided by / here: {}", text.replace('\\', "/")))
+}

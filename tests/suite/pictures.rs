@@ -1,0 +1,54 @@
+//! Picture files of every structure that their formats allow: right values, made by other programs
+//! (`data/pictures/make.py`) or by the letter of the standard, and what is refused by its name.
+
+mod hdr;
+mod mutated;
+mod others;
+mod tiff;
+mod unfinished;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use moire::error::Result;
+use moire::texture::data::{ColorSpace, Dimension, MipKernel, TextureData};
+use moire::texture::decode::Values;
+use moire::texture::load::load_noted;
+use moire::texture::source::{Reading, TextureContent, TextureSource};
+use tempfile::tempdir;
+
+use crate::support::{data, told};
+
+fn fixture(name: &str) -> PathBuf {
+    data().join("pictures").join(name)
+}
+
+/// The texture, and the notes on how its file was read.
+fn load(path: &Path, dimension: Dimension) -> Result<(TextureData, Vec<String>)> {
+    let source = TextureSource {
+        name: "t".into(),
+        content: TextureContent::File(path.to_path_buf()),
+        dimension,
+        color_space: ColorSpace::Linear,
+        color_space_stated: true,
+        reading: Reading::default(),
+        flip_v: false,
+        mip_kernel: MipKernel::Box,
+    };
+    load_noted(&source, Values::Finite)
+}
+
+fn load_bytes(bytes: &[u8]) -> Result<(TextureData, Vec<String>)> {
+    let folder = tempdir().unwrap();
+    let path = folder.path().join("a.picture");
+    fs::write(&path, bytes).unwrap();
+    load(&path, Dimension::Two)
+}
+
+/// The message refuses the file for this, and does not send the user for another copy.
+fn assert_refused_as(bytes: &[u8], name: &str) {
+    let message = told(load_bytes(bytes));
+    assert!(message.contains(name) && message.contains("is not read"), "{name}: {message}");
+    assert!(!message.contains("damaged") && !message.contains("again"), "{name}: {message}");
+    assert!(message.contains("a.picture") && message.contains("texture \"t\""), "{message}");
+}
