@@ -18,7 +18,12 @@ struct Cone {
     vec3 y;
     float width; // radius at the origin
     float spread;
+    vec4 floor; // row·(p, 1) is positive above the flat surface that the cone leaves; 0 where it leaves none
 };
+
+const bool FLOORS = BOUNCES || SHADOWS;
+// What rises above a surface by less, relatively, lies in its plane.
+const float LEVEL = 4e-6;
 
 // Around a ray; of the camera's, `across` is the way to the next pixel, else 0.
 Cone cone_of(Ray ray, Beam beam, vec3 across) {
@@ -26,7 +31,33 @@ Cone cone_of(Ray ray, Beam beam, vec3 across) {
     vec3 x = across - dot3(across, unit) * unit;
     float squared = dot3(x, x);
     x = squared > 0.0 ? x * inversesqrt(squared) : any_tangent(unit);
-    return Cone(ray, x, cross3(unit, x), DISC_RADIUS * beam.width, DISC_RADIUS * beam.spread);
+    return Cone(ray, x, cross3(unit, x), DISC_RADIUS * beam.width, DISC_RADIUS * beam.spread, vec4(0.0));
+}
+
+// The same cone, which leaves a shape.
+Cone leaving(Header header, Cone cone, uint shape) {
+    if (!FLOORS || shape == NO_SHAPE) return cone;
+    uint planes = COUNT(PLANES, header.counts.x);
+    uint spheres = COUNT(SPHERES, header.counts.y);
+    uint triangles = COUNT(TRIANGLES, header.counts.z);
+    vec3 up = vec3(0.0);
+    if (planes > 0u && (spheres + triangles == 0u || shape < planes)) {
+        up = plane_at(shape).normal.xyz;
+    } else if (triangles > 0u && (spheres == 0u || shape >= planes + spheres)) {
+        up = triangle_at(shape - planes - spheres).normal.xyz;
+    } else {
+        return cone;
+    }
+    Ray ray = cone.ray;
+    if (dot3(up, ray.direction) < 0.0) up = -up;
+    float level = LEVEL * max(abs(ray.origin.x), max(abs(ray.origin.y), abs(ray.origin.z)));
+    cone.floor = vec4(up, -(dot3(up, ray.origin) + level));
+    return cone;
+}
+
+// Half of a disc around a point of a surface lies behind the surface, and would meet what is there.
+bool rises_to(Cone cone, vec3 point) {
+    return !FLOORS || cone.floor == vec4(0.0) || dot3(cone.floor.xyz, point) + cone.floor.w > 0.0;
 }
 
 Ray ray_at(Cone cone, vec2 u) {

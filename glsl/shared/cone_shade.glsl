@@ -170,6 +170,7 @@ vec4 trace_cone(Header header, Ray ray, Beam beam) {
         Branch branch = waiting[waiting_count];
         vec3 across = branch.depth == 0u ? header.step_x.xyz : vec3(0.0);
         Cone cone = cone_of(branch.ray, cone_beam(branch.width, branch.spread), across);
+        cone = leaving(header, cone, branch.skip);
         bool to_light = SHADOWS && branch.depth >= TO_POINT_LIGHT;
         gather(header, cone, branch.skip, to_light && branch.depth == TO_POINT_LIGHT ? 1.0 : FAR);
         Covered rest = lay_over(header, cone);

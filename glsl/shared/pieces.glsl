@@ -86,8 +86,10 @@ vec2 depths(Cone cone, Flat depth) {
 
 // Keeps the piece among the nearest.
 void keep(Header header, Cone cone, uint shape, Covered covered, float t_max) {
-    float t = meet(header, ray_at(cone, covered.center), shape).t;
+    Ray ray = ray_at(cone, covered.center);
+    float t = meet(header, ray, shape).t;
     if (!(covered.share > LEAST_SHARE && t > 0.0 && t < t_max)) return;
+    if (!rises_to(cone, ray.origin + t * ray.direction)) return;
     vec2 range = depths(cone, depth_of(header, cone, shape, t, covered.share));
     Piece next = Piece(shape, t, range.x, range.y, covered.share, covered.share, covered.center);
 #define INSERT(k)                              \

@@ -9,7 +9,7 @@ use super::coverage::{Covered, Cuts, ball_overlap, circle_line};
 use super::footprint::any_tangent;
 use super::intersect::{Hit, plane_distance, sphere_distance};
 use super::math::{vec4, xyz};
-use crate::layout::{Plane, Sphere, Triangle};
+use crate::layout::{NO_SHAPE, Plane, Sphere, Triangle};
 use crate::pack::PackedScene;
 
 /// Radius of a disc of area 1: 1 / √π.
@@ -24,14 +24,36 @@ pub struct Cone {
     /// Radius at the origin, and its growth a unit of t.
     pub width: f64,
     pub spread: f64,
+    /// row·(p, 1) is positive above the flat surface that the cone leaves; 0 where it leaves none.
+    pub floor: DVec4,
 }
+
+/// What rises above a surface by less, relatively, lies in its plane.
+const LEVEL: f64 = 4e-6;
 
 /// `width` and `spread` are those of a beam: the side of a square. Of the camera's, `across` is the way to
 /// the next pixel, else 0.
 pub fn cone_of(ray: Ray, width: f64, spread: f64, across: DVec3) -> Cone {
     let unit = ray.direction.normalize();
     let x = (across - across.dot(unit) * unit).try_normalize().unwrap_or_else(|| any_tangent(unit));
-    Cone { ray, x, y: unit.cross(x), width: DISC_RADIUS * width, spread: DISC_RADIUS * spread }
+    let [width, spread] = [width, spread].map(|w| DISC_RADIUS * w);
+    Cone { ray, x, y: unit.cross(x), width, spread, floor: DVec4::ZERO }
+}
+
+/// The same cone, which leaves a shape.
+pub fn leaving(scene: &PackedScene, cone: Cone, shape: u32) -> Cone {
+    if shape == NO_SHAPE {
+        return cone;
+    }
+    let normal = match shape_of(scene, shape) {
+        Shape::Plane(plane) => xyz(plane.normal),
+        Shape::Triangle(triangle) => xyz(triangle.normal),
+        Shape::Sphere(_) => return cone,
+    };
+    let Ray { origin, direction, .. } = cone.ray;
+    let up = if normal.dot(direction) < 0.0 { -normal } else { normal };
+    let level = LEVEL * origin.abs().max_element();
+    Cone { floor: up.extend(-(up.dot(origin) + level)), ..cone }
 }
 
 impl Cone {
@@ -42,6 +64,11 @@ impl Cone {
             direction: self.ray.direction + self.spread * aside,
             time: 0.0,
         }
+    }
+
+    /// Half of a disc around a point of a surface lies behind the surface, and would meet what is there.
+    pub(super) fn rises_to(&self, point: DVec3) -> bool {
+        self.floor == DVec4::ZERO || self.floor.dot(point.extend(1.0)) > 0.0
     }
 
     fn aside(&self, v: DVec3) -> DVec2 {

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use glam::{DVec2, DVec3};
 
 use super::camera::{Ray, camera_ray};
-use super::cone::{Cone, cone_of, meet};
+use super::cone::{Cone, cone_of, leaving, meet};
 use super::coverage::{Covered, LEAST_SHARE};
 use super::footprint::{
     Beam, Footprint, Meeting, camera_beam, endless_footprint, footprint_at, mirrored, mirrored_beam,
@@ -247,6 +247,7 @@ pub fn trace_cone(scene: &PackedScene, ray: Ray, beam: Beam) -> (DVec3, f64) {
         let from_camera = matches!(branch.goal, Goal::Color(0));
         let across = if from_camera { xyz(scene.header.step_x) } else { DVec3::ZERO };
         let cone = cone_of(branch.ray, branch.width, branch.spread, across);
+        let cone = leaving(scene, cone, branch.skip);
         let t_max = if let Goal::Light(t_max) = branch.goal { t_max } else { FAR };
         let mut pieces = gather(scene, &cone, branch.skip, t_max);
         let mut rest = lay_over(&mut pieces, scene, &cone);

@@ -62,8 +62,9 @@ fn depths(cone: &Cone, depth: &Flat) -> [f64; 2] {
 
 fn keep(pieces: &mut Pieces, scene: &PackedScene, cone: &Cone, shape: u32, covered: Covered, t_max: f64) {
     let Covered { share, center } = covered;
-    let t = meet(scene, &cone.ray_at(center), shape).t;
-    if !(share > LEAST_SHARE && t > 0.0 && t < t_max) {
+    let ray = cone.ray_at(center);
+    let t = meet(scene, &ray, shape).t;
+    if !(share > LEAST_SHARE && t > 0.0 && t < t_max && cone.rises_to(ray.origin + t * ray.direction)) {
         return;
     }
     let [near, far] = depths(cone, &depth_of(scene, cone, shape, t, share));

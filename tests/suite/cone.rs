@@ -2,6 +2,7 @@
 
 mod coverage;
 mod extremes;
+mod floors;
 mod scenes;
 
 use std::path::Path;

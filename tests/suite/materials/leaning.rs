@@ -199,7 +199,6 @@ fn rays_that_leave_glass_go_above_its_surface() {
 }
 
 #[test]
-#[ignore = "known fault: over a mirror with a normal map a cone shows 0.36 of what lies behind it"]
 fn cones_mirror_by_the_same_normal() {
     let material = "model = 'mirror'\n[sampling]\nalgorithm = 'cone'";
     for scene in leaning(VIEWS[0], material) {
