@@ -20,8 +20,11 @@ const NOTHING: f32 = 16.0;
 const CONTRADICTIONS: u32 = 8;
 const SHARE: f64 = 0.1;
 /// And halves must be no more alike than by such a correlation, for what the picture itself varies both see: where
-/// nothing is known of the scene, and where it has something small and bright.
+/// they have few samples and nothing is known of the scene, and where they have many, or the scene something small and
+/// bright.
 const ALIKE: [f64; 2] = [0.25, 0.5];
+/// So many are meant.
+const MANY: usize = 64;
 
 /// What a pixel's halves say: the variance of one sample by each.
 pub type Spreads = [f32; 2];
@@ -49,7 +52,7 @@ impl Class {
     }
 
     /// What is made of its pixels' spreads; none where that is no matter.
-    fn rule(&self, bright: bool) -> Option<Rule> {
+    fn rule(&self, sure: bool) -> Option<Rule> {
         let floor = self.unseen / f64::from(self.partners.max(1));
         let halves = f64::from(2 * self.pixels);
         let mean = self.spread / halves;
@@ -60,8 +63,7 @@ impl Class {
         let alike = (covariance / variance.max(f64::MIN_POSITIVE) - by_chance).clamp(0.0, 1.0);
         let reliability = 2.0 * alike / (1.0 + alike);
         let many = self.contradictions >= CONTRADICTIONS;
-        let matters =
-            many && alike < ALIKE[usize::from(bright)] && self.means * floor > SHARE * self.variance;
+        let matters = many && alike < ALIKE[usize::from(sure)] && self.means * floor > SHARE * self.variance;
         matters.then_some(Rule { floor: floor as f32, mean: mean as f32, reliability: reliability as f32 })
     }
 }
@@ -119,7 +121,7 @@ pub fn settle(variances: &mut [f32], halves: &[Spreads], counts: &[u32], width: 
                     }
                 }
             }
-            classes.map(|class| class.rule(bright))
+            std::array::from_fn(|octave| classes[octave].rule(bright || 1 << octave >= MANY))
         })
         .collect();
     variances.par_chunks_mut(width).enumerate().for_each(|(y, row)| {

@@ -62,6 +62,7 @@ const SYNONYMS: &[Synonym] = &[
     ("constant", "unlit", None),
     // Mappings and layouts.
     ("uv", "surface", None),
+    ("box", "cube", None),
     ("3d", "solid", None),
     ("latlong", "equirectangular", None),
     ("lat-long", "equirectangular", None),

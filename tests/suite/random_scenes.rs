@@ -2,6 +2,7 @@
 //! float64, which shares none of their code.
 
 mod beams;
+mod causes;
 mod cones;
 mod scenes;
 mod truth;
@@ -15,7 +16,14 @@ use scenes::Kind;
 
 /// Scenes that every run tries, two of each kind; and those of the long run.
 const FEW: u64 = 12;
-const MANY: u64 = 204;
+const MANY: u64 = 252;
+
+/// Seeds of the long run: `MOIRE_SEEDS=FROM..TO`, else all.
+fn many() -> std::ops::Range<u64> {
+    let Ok(seeds) = std::env::var("MOIRE_SEEDS") else { return 0..MANY };
+    let ends = seeds.split_once("..").and_then(|(from, to)| Some(from.parse().ok()?..to.parse().ok()?));
+    ends.unwrap_or_else(|| panic!("MOIRE_SEEDS={seeds}: FROM..TO wanted"))
+}
 
 fn kind_of(seed: u64) -> Kind {
     Kind::ALL[(seed % 6) as usize]

