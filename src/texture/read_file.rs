@@ -84,10 +84,7 @@ fn read_by_content(mut source: File, path: &Path, reading: &Reading, part: Part)
     if let Some(layer) = &reading.layer {
         return Err(no_layers(path, format, layer));
     }
-    let length = source.metadata().map_err(failed)?.len() as usize;
-    let mut file = Vec::new();
-    file.try_reserve_exact(length).map_err(|_| out_of_memory(path))?;
-    source.read_to_end(&mut file).map_err(failed)?;
+    let file = read_whole(source, path)?;
     let picture = match format {
         ImageFormat::Png => read_png::read(&file, path),
         ImageFormat::Jpeg => read_jpeg::read(&file, path),
@@ -99,13 +96,22 @@ fn read_by_content(mut source: File, path: &Path, reading: &Reading, part: Part)
         _ => Err(no_picture(path, &format!("is {format:?}"))),
     }?;
     let orientation = match reading.orientation {
-        OrientationUse::Apply => orientation_of(&mut Cursor::new(&file), format),
+        OrientationUse::Apply => orientation_of(&file, format),
         OrientationUse::Ignore => None,
     };
     drop(file);
     let Some(orientation) = orientation else { return Ok(picture) };
     check_memory(path, picture.texels.bytes.len())?;
     Ok(Picture::noted(orientation.apply(picture.texels), picture.notes))
+}
+
+fn read_whole(mut source: File, path: &Path) -> Result<Vec<u8>> {
+    let failed = |e: std::io::Error| unreadable(path, &e);
+    let length = source.metadata().map_err(failed)?.len() as usize;
+    let mut file = Vec::new();
+    file.try_reserve_exact(length).map_err(|_| out_of_memory(path))?;
+    source.read_to_end(&mut file).map_err(failed)?;
+    Ok(file)
 }
 
 fn identify(source: &mut (impl Read + Seek)) -> std::io::Result<Content> {
@@ -117,9 +123,12 @@ fn identify(source: &mut (impl Read + Seek)) -> std::io::Result<Content> {
 
 /// Whether the file says that the picture is stored turned or mirrored.
 pub fn is_turned(path: &Path) -> bool {
-    let Ok(mut source) = open(path).map(BufReader::new) else { return false };
+    let Ok(mut source) = open(path) else { return false };
     match identify(&mut source) {
-        Ok(Content::Picture(format)) => orientation_of(&mut source, format).is_some(),
+        Ok(Content::Picture(ImageFormat::OpenExr)) => false,
+        Ok(Content::Picture(format)) => {
+            read_whole(source, path).is_ok_and(|file| orientation_of(&file, format).is_some())
+        }
         _ => false,
     }
 }

@@ -53,6 +53,15 @@ pub(super) fn unsupported(jpeg: &[u8]) -> Option<&'static str> {
     }
 }
 
+/// The Exif data before the first scan, without the mark before it.
+pub(super) fn exif(jpeg: &[u8]) -> Option<&[u8]> {
+    const APP1: u8 = 0xe1;
+    let before_scans = segments(jpeg).take_while(|(marker, _)| *marker != START_OF_SCAN);
+    before_scans
+        .filter(|(marker, _)| *marker == APP1)
+        .find_map(|(_, segment)| segment.strip_prefix(b"Exif\0\0"))
+}
+
 fn is_frame(marker: u8) -> bool {
     // c4, c8 and cc define tables, or nothing; f7 is that of ISO/IEC 14495.
     matches!(marker, 0xc0..=0xcf | 0xf7) && !matches!(marker, 0xc4 | 0xc8 | 0xcc)

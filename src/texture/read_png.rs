@@ -29,31 +29,48 @@ pub(super) fn read(file: &[u8], path: &Path) -> Result<Picture> {
     Ok(Picture::noted(texels, vec![note]))
 }
 
+/// The Exif data, which may stand before or after the pixels.
+pub(super) fn exif(png: &[u8]) -> Option<&[u8]> {
+    chunks(png).find(|chunk| chunk.name == b"eXIf").map(|chunk| chunk.data)
+}
+
+struct Chunk<'a> {
+    name: &'a [u8],
+    data: &'a [u8],
+    /// Where the next one begins.
+    end: usize,
+}
+
+/// Those that the file has to their ends.
+fn chunks(png: &[u8]) -> impl Iterator<Item = Chunk<'_>> {
+    let mut at = SIGNATURE_BYTES;
+    std::iter::from_fn(move || {
+        let rest = png.get(at..)?;
+        let length = u32::from_be_bytes(*rest.first_chunk()?) as usize;
+        let whole = rest.get(..length.checked_add(CHUNK_BYTES)?)?;
+        at += whole.len();
+        Some(Chunk { name: &whole[4..8], data: &whole[8..8 + length], end: at })
+    })
+}
+
 /// A file without an end, with one; of a last chunk that is cut off what there is of its pixels is kept.
-/// None for a file that has its end, or whose chunks cannot be followed.
+/// None for a file that has its end.
 fn with_end(file: &[u8]) -> Option<Vec<u8>> {
     let mut at = SIGNATURE_BYTES;
-    loop {
-        let rest = file.get(at..)?;
-        let (length, name) = match rest.split_first_chunk::<4>() {
-            Some((length, name)) => (u32::from_be_bytes(*length) as usize, name.get(..4).unwrap_or(&[])),
-            None => (0, &[][..]),
-        };
-        let is_whole = rest.len() >= CHUNK_BYTES && rest.len() - CHUNK_BYTES >= length;
-        if is_whole && name == b"IEND" {
+    for chunk in chunks(file) {
+        if chunk.name == b"IEND" {
             return None;
         }
-        if is_whole {
-            at += CHUNK_BYTES + length;
-            continue;
-        }
-        let mut ended = file[..at].to_vec();
-        if name == b"IDAT" {
-            ended.extend(chunk(*b"IDAT", &rest[8..rest.len().min(8 + length)]));
-        }
-        ended.extend(chunk(*b"IEND", &[]));
-        return Some(ended);
+        at = chunk.end;
     }
+    let cut = file.get(at..)?;
+    let mut ended = file[..at].to_vec();
+    if let (Some(length), Some(b"IDAT")) = (cut.first_chunk::<4>(), cut.get(4..8)) {
+        let length = u32::from_be_bytes(*length) as usize;
+        ended.extend(chunk(*b"IDAT", &cut[8..cut.len().min(length.saturating_add(8))]));
+    }
+    ended.extend(chunk(*b"IEND", &[]));
+    Some(ended)
 }
 
 fn chunk(name: [u8; 4], data: &[u8]) -> Vec<u8> {

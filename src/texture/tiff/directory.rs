@@ -13,6 +13,7 @@ pub(super) mod tag {
     pub const PHOTOMETRIC: u16 = 262;
     pub const FILL_ORDER: u16 = 266;
     pub const STRIP_OFFSETS: u16 = 273;
+    pub const ORIENTATION: u16 = 274;
     pub const SAMPLES_PER_PIXEL: u16 = 277;
     pub const ROWS_PER_STRIP: u16 = 278;
     pub const STRIP_BYTE_COUNTS: u16 = 279;
@@ -63,6 +64,9 @@ impl<'a> Directory<'a> {
         let ends = || Fault::damaged("it ends within the header");
         let little = file.first() == Some(&b'I');
         let version = number(file, 2, 2, little).ok_or_else(ends)?;
+        if ![42, 43].contains(&version) {
+            return Err(Fault::damaged(format!("its version is {version}, not 42 or 43")));
+        }
         let form = Form { little, big: version == 43 };
         if form.big && number(file, 4, 2, little) != Some(8) {
             return Err(Fault::damaged("its offsets are not 8 bytes long"));
@@ -76,7 +80,7 @@ impl<'a> Directory<'a> {
         while next != 0 && seen.len() < MAX_PAGES && !seen.contains(&next) {
             seen.push(next);
             let Some((entries, after)) = read_entries(file, form, next) else { break };
-            let page = Directory { entries, ..Directory { file, form, entries: Vec::new(), pages: 0 } };
+            let page = Directory { file, form, entries, pages: 1 };
             first.pages += usize::from(!page.is_reduced());
             next = after;
         }

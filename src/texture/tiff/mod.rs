@@ -68,6 +68,12 @@ pub(super) fn read(file: &[u8], path: &Path) -> Result<Picture> {
     Ok(Picture::noted(texels, notes))
 }
 
+/// The value of the tag that says which way up a picture is stored; of Exif data too, which is such a structure.
+pub(super) fn orientation(file: &[u8]) -> Option<u16> {
+    let value = Directory::first(file).ok()?.number(tag::ORIENTATION).ok()??;
+    u16::try_from(value).ok()
+}
+
 /// Whether alpha, the last channel, is 1 everywhere.
 fn is_opaque(texels: &Texels) -> bool {
     let component = texels.format.component();
