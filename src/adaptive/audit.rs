@@ -9,7 +9,7 @@ use rayon::prelude::*;
 
 use super::estimate::Estimate;
 use super::exact::{Exact, OWN_ERROR};
-use super::{MOST, Sums, Tracer};
+use super::{MOST, OCTAVES, Sums, Tracer, octave};
 use crate::error::Result;
 use crate::layout::{JOB_APART, JOB_BARE, JOB_STREAM_SHIFT, Job};
 use crate::progress::Progress;
@@ -31,8 +31,6 @@ const EVEN: f64 = 0.5;
 const CHUNK: usize = 1 << 15;
 /// Cells along each side of the picture.
 const CELLS: usize = 32;
-/// Counts are told apart by their octave.
-const OCTAVES: usize = 18;
 /// Samples have not seen what varies so many times more in an audit.
 const UNSEEN: f32 = 4.0;
 /// Pixels around an audited one that are taken to be like it.
@@ -209,10 +207,6 @@ pub fn raise(
 /// Samples of each of both means.
 fn wanted(count: u32) -> u32 {
     (2 * count).clamp(MIN_SAMPLES, MOST)
-}
-
-fn octave(count: u32) -> usize {
-    (count.max(1).ilog2() as usize).min(OCTAVES - 1)
 }
 
 /// How many draws each pixel may expect: an even share of half of them, and of the other half in proportion to its

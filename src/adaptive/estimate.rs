@@ -52,8 +52,7 @@ impl Estimate {
         };
         let spread = |(seen, &count): (&Seen, &u32)| seen.spread * (2.0 * count as f32);
         let mut variances: Vec<f32> = (0..seen.len()).into_par_iter().map(variance).collect();
-        let halves: Vec<Spreads> = seen.iter().map(|s| s.halves).collect();
-        unseen::settle(&mut variances, &halves, counts, width, bright);
+        unseen::settle(&mut variances, |i| seen[i].halves, counts, width, bright);
         Estimate { variances, spreads: seen.par_iter().zip(counts).map(spread).collect(), mse }
     }
 }

@@ -36,6 +36,13 @@ pub enum Goal {
     Seconds(f64),
 }
 
+/// Counts are told apart by their octave.
+const OCTAVES: usize = 18;
+
+fn octave(count: u32) -> usize {
+    (count.max(1).ilog2() as usize).min(OCTAVES - 1)
+}
+
 /// Who takes the samples.
 pub trait Tracer {
     /// Adds the samples of each job to its pixel of its half. No two jobs of a call are of one pixel and

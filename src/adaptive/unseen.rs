@@ -9,10 +9,10 @@
 
 use rayon::prelude::*;
 
+use super::{OCTAVES, octave};
+
 /// Pixels along each side of a part of the picture.
 const SIDE: usize = 32;
-/// Counts are told apart by their octave.
-const OCTAVES: usize = 18;
 /// A half has seen nothing where it varies so many times less than the mean half.
 const NOTHING: f32 = 16.0;
 /// So many halves must contradict their partners, and what they say must be such a share of the variance: a few
@@ -89,7 +89,13 @@ impl Rule {
 
 /// Changes the variances of means where half of the samples do not know what the other half has seen; `bright` where
 /// the scene is known to have something small and bright.
-pub fn settle(variances: &mut [f32], halves: &[Spreads], counts: &[u32], width: usize, bright: bool) {
+pub fn settle(
+    variances: &mut [f32],
+    halves: impl Fn(usize) -> Spreads + Sync,
+    counts: &[u32],
+    width: usize,
+    bright: bool,
+) {
     let (across, height) = (width.div_ceil(SIDE), counts.len() / width.max(1));
     let rules: Vec<[Option<Rule>; OCTAVES]> = (0..across * height.div_ceil(SIDE))
         .into_par_iter()
@@ -103,15 +109,15 @@ pub fn settle(variances: &mut [f32], halves: &[Spreads], counts: &[u32], width: 
             for i in pixels() {
                 let class = &mut classes[octave(counts[i])];
                 class.pixels += 1;
-                class.spread += halves[i].iter().map(|&s| f64::from(s)).sum::<f64>();
-                class.squares += halves[i].iter().map(|&s| f64::from(s).powi(2)).sum::<f64>();
-                class.products += f64::from(halves[i][0]) * f64::from(halves[i][1]);
+                class.spread += halves(i).iter().map(|&s| f64::from(s)).sum::<f64>();
+                class.squares += halves(i).iter().map(|&s| f64::from(s).powi(2)).sum::<f64>();
+                class.products += f64::from(halves(i)[0]) * f64::from(halves(i)[1]);
                 class.variance += f64::from(variances[i]);
             }
             for i in pixels() {
                 let class = &mut classes[octave(counts[i])];
                 let nothing = class.nothing();
-                let [a, b] = halves[i];
+                let [a, b] = halves(i);
                 for (own, partner) in [(a, b), (b, a)] {
                     if own <= nothing {
                         class.partners += 1;
@@ -128,13 +134,9 @@ pub fn settle(variances: &mut [f32], halves: &[Spreads], counts: &[u32], width: 
         for (x, variance) in row.iter_mut().enumerate() {
             let i = y * width + x;
             let rule = rules[y / SIDE * across + x / SIDE][octave(counts[i])];
-            *variance = rule.map_or(*variance, |rule| rule.apply(*variance, halves[i], counts[i]));
+            *variance = rule.map_or(*variance, |rule| rule.apply(*variance, halves(i), counts[i]));
         }
     });
-}
-
-fn octave(count: u32) -> usize {
-    (count.max(1).ilog2() as usize).min(OCTAVES - 1)
 }
 
 #[cfg(test)]
@@ -147,7 +149,7 @@ mod tests {
         let counts = vec![count; halves.len()];
         let mut variances: Vec<f32> =
             halves.iter().map(|[a, b]| 0.5 * (a + b) / (2.0 * count as f32)).collect();
-        settle(&mut variances, halves, &counts, WIDTH, false);
+        settle(&mut variances, |i| halves[i], &counts, WIDTH, false);
         variances
     }
 
