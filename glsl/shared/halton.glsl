@@ -7,12 +7,11 @@
 
 #include "sobol.glsl"
 
-// Pairs of bases; a path longer than these has random points.
-const uint HALTON_PAIRS = 16u;
-
 const uint PRIMES[32] = uint[32](2u, 3u, 5u, 7u, 11u, 13u, 17u, 19u, 23u, 29u, 31u, 37u, 41u, 43u, 47u, 53u,
                                  59u, 61u, 67u, 71u, 73u, 79u, 83u, 89u, 97u, 101u, 103u, 107u, 109u, 113u,
                                  127u, 131u);
+// A path longer than these pairs of bases has random points.
+const uint HALTON_PAIRS = uint(PRIMES.length()) / 2u;
 // The largest power of each prime below 2^30, and 2^56 over it.
 const uint TOTALS[32] = uint[32](536870912u, 387420489u, 244140625u, 282475249u, 214358881u, 815730721u,
                                  410338673u, 893871739u, 148035889u, 594823321u, 887503681u, 69343957u,

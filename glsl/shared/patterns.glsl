@@ -74,13 +74,13 @@ uvec2 sample_point(Points points, uint s, bool line) {
     uvec2 key = points.key;
     if (MODE_IS(PATTERNS, PATTERN_SOBOL_OWEN, points.pattern)) return sobol_owen(s, key);
     if (MODE_IS(PATTERNS, PATTERN_BLUE_NOISE, points.pattern)) return sobol_owen(points.block + s, key);
-    bool based = MODE_IS(PATTERNS, PATTERN_HALTON, points.pattern);
-    if (based && points.pair < HALTON_PAIRS) return halton(s, points.pair, key);
+    bool is_halton = MODE_IS(PATTERNS, PATTERN_HALTON, points.pattern);
+    if (is_halton && points.pair < HALTON_PAIRS) return halton(s, points.pair, key);
     if (MODE_IS(PATTERNS, PATTERN_N_ROOKS, points.pattern)) return n_rooks(s, points.count, key);
     if (MODE_IS(PATTERNS, PATTERN_MULTI_JITTERED, points.pattern)) {
         return multi_jittered(s, points.side, points.count, key);
     }
-    if (based || MODE_IS(PATTERNS, PATTERN_RANDOM, points.pattern)) return sample_bits(key, s) >> 8u;
+    if (is_halton || MODE_IS(PATTERNS, PATTERN_RANDOM, points.pattern)) return sample_bits(key, s) >> 8u;
     uint side = points.side;
     // The number of bits of side - 1 is ceil(log2 side).
     uint side_log2 = uint(findMSB(side - 1u) + 1);

@@ -1,7 +1,7 @@
 //! What a sample chooses beside its place in the pixel, each by a pair of dimensions of the same pattern:
 //! 0 place in the pixel, 1 lens, 2 time (its first dimension), 3 + 2d light and 4 + 2d lobe of the hit after
-//! d bounces; of glass 3 + 2d is whether it mirrors (its first dimension).
-//! Further lights of one hit shift the pair of the first. Twin of `glsl/shared/choices.glsl`.
+//! d bounces; of glass 3 + 2d is whether it mirrors (its first dimension). Further lights of one hit shift the pair of
+//! the first. Twin of `glsl/shared/choices.glsl`.
 
 use glam::DVec2;
 

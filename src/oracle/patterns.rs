@@ -3,7 +3,7 @@
 //! points are drawn up once a pixel and pair (`pixel_points`, `pair_points`), then asked for sample by
 //! sample. Twin of `glsl/shared/patterns.glsl`.
 
-use super::halton::halton;
+use super::halton::{PRIMES, halton};
 use super::permute::{multi_jittered, n_rooks, permute};
 use super::rng::{mix_bits, pcg3d, pixel_key, sample_bits};
 use super::sobol::{morton, shuffled_index, shuffled_place, sobol_owen};
@@ -11,8 +11,8 @@ use super::strata::{fine_position, stratum_position};
 use crate::layout::Header;
 use crate::scene::model::Pattern;
 
-/// Halton's bases are the first 32 primes; a path longer than these pairs has random points.
-pub const HALTON_PAIRS: u32 = 16;
+/// A path longer than these pairs of bases has random points.
+pub const HALTON_PAIRS: u32 = PRIMES.len() as u32 / 2;
 
 #[derive(Clone, Copy, Debug)]
 pub struct Points {
