@@ -9,9 +9,11 @@ use std::path::{Path, PathBuf};
 
 use image::{DynamicImage, GrayImage, ImageBuffer, Luma, LumaA, Rgba};
 use moire::error::Result;
-use moire::texture::data::{ColorSpace, Dimension, MipKernel, TextureData};
+use moire::texture::data::{Dimension, TextureData};
 use moire::texture::load::load;
 use moire::texture::source::{Reading, TextureContent, TextureSource};
+
+use crate::support::{texture_source, told};
 
 /// Where a texel's centre lies, by the columns sc and tc of Vulkan's cube table solved for the direction.
 pub fn direction(face: u32, x: u32, y: u32, side: u32) -> [f32; 3] {
@@ -28,16 +30,7 @@ pub fn direction(face: u32, x: u32, y: u32, side: u32) -> [f32; 3] {
 }
 
 fn source(dimension: Dimension, content: TextureContent) -> TextureSource {
-    TextureSource {
-        name: "t".into(),
-        content,
-        dimension,
-        color_space: ColorSpace::Linear,
-        color_space_stated: true,
-        reading: Reading::default(),
-        flip_v: false,
-        mip_kernel: MipKernel::Box,
-    }
+    texture_source(content, dimension, Reading::default())
 }
 
 fn read(dimension: Dimension, content: TextureContent) -> Result<TextureData> {
@@ -75,7 +68,7 @@ fn a_picture_of_one_row_is_a_1d_texture_and_no_other() {
     let t = read(Dimension::One, TextureContent::File(row)).unwrap();
     assert_eq!((t.dimension, t.width, t.texels), (Dimension::One, 4, vec![1, 2, 3, 4]));
     let square = grey(folder.path(), "square.png", 2, 2, vec![0; 4]);
-    let message = crate::support::told(read(Dimension::One, TextureContent::File(square)));
+    let message = told(read(Dimension::One, TextureContent::File(square)));
     assert_says(&message, &["texture \"t\"", "square.png", "2×2", "one texel high", "\"2d\""]);
 }
 

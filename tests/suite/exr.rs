@@ -5,12 +5,12 @@ use std::fs;
 use std::path::Path;
 
 use moire::error::Result;
-use moire::texture::data::{ColorSpace, Dimension, MipKernel, TextureData};
+use moire::texture::data::{Dimension, TextureData};
 use moire::texture::load::load;
-use moire::texture::source::{Reading, TextureContent, TextureSource};
+use moire::texture::source::{Reading, TextureContent};
 use tempfile::tempdir;
 
-use crate::support::told;
+use crate::support::{texture_source, told};
 
 const LAYERS: &[u8] = include_bytes!("exr/layers.exr");
 const NAMED: &[u8] = include_bytes!("exr/named.exr");
@@ -24,16 +24,8 @@ fn read(file: &[u8], layer: Option<&str>) -> Result<TextureData> {
 }
 
 fn read_path(path: &Path, layer: Option<&str>) -> Result<TextureData> {
-    load(&TextureSource {
-        name: "t".into(),
-        content: TextureContent::File(path.to_owned()),
-        dimension: Dimension::Two,
-        color_space: ColorSpace::Linear,
-        color_space_stated: true,
-        reading: Reading { layer: layer.map(str::to_owned), ..Reading::default() },
-        flip_v: false,
-        mip_kernel: MipKernel::Box,
-    })
+    let reading = Reading { layer: layer.map(str::to_owned), ..Reading::default() };
+    load(&texture_source(TextureContent::File(path.to_owned()), Dimension::Two, reading))
 }
 
 /// Of `layers`, `named`, `parts` and `xyz`: 8 × 6 texels.

@@ -6,10 +6,12 @@ use std::path::{Path, PathBuf};
 
 use image::codecs::jpeg::JpegEncoder;
 use image::{GrayImage, ImageFormat};
-use moire::texture::data::{ColorSpace, Dimension, MipKernel, TextureData};
+use moire::texture::data::{Dimension, TextureData};
 use moire::texture::load::load;
-use moire::texture::source::{OrientationUse, Reading, TextureContent, TextureSource};
+use moire::texture::source::{OrientationUse, Reading, TextureContent};
 use tempfile::tempdir;
+
+use crate::support::texture_source;
 
 const WIDTH: u32 = 24;
 const HEIGHT: u32 = 16;
@@ -98,17 +100,7 @@ fn tiff(folder: &Path, tag: u8) -> PathBuf {
 
 fn texture(content: TextureContent, dimension: Dimension, orientation: OrientationUse) -> TextureData {
     let reading = Reading { orientation, ..Reading::default() };
-    load(&TextureSource {
-        name: "t".into(),
-        content,
-        dimension,
-        color_space: ColorSpace::Linear,
-        color_space_stated: true,
-        reading,
-        flip_v: false,
-        mip_kernel: MipKernel::Box,
-    })
-    .unwrap()
+    load(&texture_source(content, dimension, reading)).unwrap()
 }
 
 #[test]

@@ -11,13 +11,13 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use moire::error::Result;
-use moire::texture::data::{ColorSpace, Dimension, MipKernel, TextureData};
+use moire::texture::data::{Dimension, TextureData};
 use moire::texture::decode::Values;
 use moire::texture::load::load_noted;
-use moire::texture::source::{Reading, TextureContent, TextureSource};
+use moire::texture::source::{Reading, TextureContent};
 use tempfile::tempdir;
 
-use crate::support::{data, told};
+use crate::support::{data, texture_source, told};
 
 fn fixture(name: &str) -> PathBuf {
     data().join("pictures").join(name)
@@ -25,16 +25,7 @@ fn fixture(name: &str) -> PathBuf {
 
 /// The texture, and the notes on how its file was read.
 fn load(path: &Path, dimension: Dimension) -> Result<(TextureData, Vec<String>)> {
-    let source = TextureSource {
-        name: "t".into(),
-        content: TextureContent::File(path.to_path_buf()),
-        dimension,
-        color_space: ColorSpace::Linear,
-        color_space_stated: true,
-        reading: Reading::default(),
-        flip_v: false,
-        mip_kernel: MipKernel::Box,
-    };
+    let source = texture_source(TextureContent::File(path.to_path_buf()), dimension, Reading::default());
     load_noted(&source, Values::Finite)
 }
 

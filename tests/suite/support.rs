@@ -4,6 +4,8 @@
 use std::path::{Path, PathBuf};
 
 use moire::film::Film;
+use moire::texture::data::{ColorSpace, Dimension, MipKernel};
+use moire::texture::source::{Reading, TextureContent, TextureSource};
 
 /// The program under test: `MOIRE_BIN`, else `moire` beside this binary or one folder up.
 pub fn moire() -> assert_cmd::Command {
@@ -18,6 +20,20 @@ pub fn program() -> PathBuf {
     let name = format!("moire{}", std::env::consts::EXE_SUFFIX);
     let mut candidates = own.ancestors().skip(1).take(2).map(|folder| folder.join(&name));
     candidates.find(|path| path.is_file()).expect("no program `moire` near the test binary: set MOIRE_BIN")
+}
+
+/// A texture `t` of linear texels.
+pub fn texture_source(content: TextureContent, dimension: Dimension, reading: Reading) -> TextureSource {
+    TextureSource {
+        name: "t".into(),
+        content,
+        dimension,
+        color_space: ColorSpace::Linear,
+        color_space_stated: true,
+        reading,
+        flip_v: false,
+        mip_kernel: MipKernel::Box,
+    }
 }
 
 /// The folder `data`: `MOIRE_DATA`, else in the current folder, else above this binary.
