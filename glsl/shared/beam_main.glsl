@@ -5,6 +5,7 @@
 #ifndef BEAM_MAIN_GLSL
 #define BEAM_MAIN_GLSL
 
+#define HIDE_UNIFORMS
 #include "features.glsl"
 #include "paint.glsl"
 #include "slice.glsl"
@@ -30,6 +31,10 @@ uint stages[MAX_PIECES]; // a waiting piece: how many tests are done
 uint waiting;
 Beam beams[MAX_BEAMS];
 uint waiting_beams;
+
+// The pixel's colour so far. What is painted is added here, not handed back through the loops, where NVIDIA's compiler
+// (driver 580) loses sums of some threads.
+vec3 color;
 
 // The polygon at the end of the waiting ones becomes one of them.
 void keep_piece(uint stage) {
@@ -120,12 +125,11 @@ void carve(uint stage, uint by, bool has_first, vec3 first, bool kept) {
     if (kept && !gone) push_piece(rest, stage + 1u);
 }
 
-// The integral over those parts of SEEN that see the light; without one, over all of it.
-vec3 lit_by(Header header, Paint paint, uint shape, bool has_light, Light light) {
+// Adds the integral over those parts of SEEN that see the light; without one, over all of it.
+void lit_by(Header header, Paint paint, uint shape, bool has_light, Light light) {
     uint planes = COUNT(PLANES, header.counts.x);
     uint before_triangles = planes + COUNT(SPHERES, header.counts.y);
     uint shapes = before_triangles + COUNT(TRIANGLES, header.counts.z);
-    vec3 sum = vec3(0.0);
     uint bottom = waiting;
     if (!has_light) push_piece(SEEN, shapes);
     else if (is_lit(header, paint, SEEN, light)) push_piece(SEEN, 0u);
@@ -133,7 +137,7 @@ vec3 lit_by(Header header, Paint paint, uint shape, bool has_light, Light light)
     while (waiting > bottom && !gave_up) {
         uint by = pop_piece();
         if (LIGHTS == 0u || by == shapes) {
-            sum += integral(header, paint, has_light, light);
+            color += paint.carried * integral(header, paint, has_light, light);
             continue;
         }
         bool is_sphere = SPHERES != 0u && by >= planes && by < before_triangles;
@@ -146,11 +150,10 @@ vec3 lit_by(Header header, Paint paint, uint shape, bool has_light, Light light)
             else carve(by, MAX_MET, false, vec3(0.0), false);
         }
     }
-    return sum;
 }
 
-// SEEN, a visible piece: its colour, or the beam that goes on.
-vec3 shade(Header header, Beam beam, uint own) {
+// Adds the colour of SEEN, a visible piece, or sends its beam on.
+void shade(Header header, Beam beam, uint own) {
     uint shape = met_shapes[own];
     uvec2 link = shape_links(header, shape);
     Material record = material_at(link.x);
@@ -158,45 +161,42 @@ vec3 shade(Header header, Beam beam, uint own) {
     vec3 near = met[own].nearness;
     if (!is_simple(header, shape, record, map)) {
         gave_up = true;
-        return vec3(0.0);
+        return;
     }
     vec3 carried = beam.carried * record.color.xyz;
     if (MODE_IS(MODELS, MODEL_MIRROR, record.link.x)) {
-        if (!BOUNCES || beam.depth >= header.size.w) return vec3(0.0);
+        if (!BOUNCES || beam.depth >= header.size.w) return;
         if (waiting_beams == MAX_BEAMS) {
             gave_up = true;
-            return vec3(0.0);
+            return;
         }
         vec4 plane = shape_plane(header, shape);
         Frame frame = mirrored_frame(header, beam.frame, plane.xyz, plane.w);
         copy(SEEN, BEAMS_AT + waiting_beams);
         beams[waiting_beams] = Beam(frame, carried, shape, near, beam.depth + 1u);
         waiting_beams++;
-        return vec3(0.0);
+        return;
     }
     Quotient quotient = Quotient(near, near, near);
     if (TEXTURED && record.link.y != NO_TEXTURE) quotient = coordinates(header, beam.frame, shape, map, near);
-    Paint paint = Paint(record, quotient, shape_plane(header, shape), beam.frame, near);
+    Paint paint = Paint(record, carried, quotient, shape_plane(header, shape), beam.frame, near);
     bool unlit = MODE_IS(MODELS, MODEL_UNLIT, record.link.x);
     uint lights = unlit ? 1u : COUNT(LIGHTS, header.key.y);
-    vec3 sum = vec3(0.0);
     uint i = 0u;
     for (; i < lights && !gave_up; i++) {
         Light light = NO_LIGHT;
         if (LIGHTS != 0u && !unlit) light = light_at(i);
         // Of lights with an extent beams do not know the penumbra.
         if (AREA_LIGHTS && light.link.x >= LIGHT_SPHERE) gave_up = true;
-        sum += lit_by(header, paint, shape, LIGHTS != 0u && !unlit, light);
+        lit_by(header, paint, shape, LIGHTS != 0u && !unlit, light);
     }
     if (i < lights) gave_up = true;
-    return carried * sum;
 }
 
-// Everything that one beam sees but for what its mirrors send on.
-vec3 follow(Header header, Beam beam) {
+// Adds all that one beam sees but for what its mirrors send on.
+void follow(Header header, Beam beam) {
     find_shapes(header, beam);
     float left = area(WHOLE);
-    vec3 sum = vec3(0.0);
     uint own = 0u;
     for (; own < met_count && !gave_up; own++) {
         push_piece(WHOLE, 0u);
@@ -206,7 +206,7 @@ vec3 follow(Header header, Beam beam) {
             if (stage > met_count) {
                 left -= area(PIECE);
                 copy(PIECE, SEEN);
-                sum += shade(header, beam, own);
+                shade(header, beam, own);
             } else if (stage == own + 1u) {
                 push_piece(PIECE, stage + 1u);
             } else {
@@ -221,9 +221,8 @@ vec3 follow(Header header, Beam beam) {
     if (own < met_count || waiting > 0u) gave_up = true;
     if (left > LEAST_AREA) {
         if (ENVIRONMENT && header.counts.w != NO_MATERIAL) gave_up = true;
-        sum += left * beam.carried * header.background.xyz;
+        color += left * beam.carried * header.background.xyz;
     }
-    return sum;
 }
 
 void main() {
@@ -236,12 +235,12 @@ void main() {
     crossed = 0u;
     waiting = 0u;
     waiting_beams = 0u;
-    vec3 color = vec3(0.0);
+    color = vec3(0.0);
     unit_square(WHOLE);
     Beam beam = Beam(pixel_frame(header, pixel), vec3(1.0), NO_SHAPE, vec3(0.0), 0u);
     bool more = true;
     while (more && !gave_up) {
-        color += follow(header, beam);
+        follow(header, beam);
         more = BOUNCES && waiting_beams > 0u;
         if (more) {
             waiting_beams--;

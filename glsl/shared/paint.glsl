@@ -29,6 +29,7 @@ const Light NO_LIGHT = Light(vec4(0.0), vec4(0.0), uvec4(0u), vec4(0.0), vec4(0.
 // What a piece is painted with.
 struct Paint {
     Material record;
+    vec3 carried; // its colour, and those of the mirrors that show it
     Quotient quotient;
     vec4 plane;
     Frame frame;

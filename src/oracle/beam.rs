@@ -77,6 +77,7 @@ struct Pixel<'a> {
 }
 
 impl Pixel<'_> {
+    /// Adds all that one beam sees but for what its mirrors send on.
     fn follow(&mut self, beam: &Beam, waiting: &mut Vec<Beam>) -> Result<()> {
         let met = shapes_met(self.scene, beam)?;
         let mut left = area(&beam.polygon);
@@ -106,7 +107,7 @@ impl Pixel<'_> {
         Ok(())
     }
 
-    /// A visible piece: its colour, or the beam that goes on.
+    /// Adds the colour of a visible piece, or sends its beam on.
     fn shade(&mut self, beam: &Beam, seen: &Met, polygon: &Polygon, waiting: &mut Vec<Beam>) -> Result<()> {
         let scene = self.scene;
         let [material, map] = links(scene, seen.shape);
@@ -136,8 +137,14 @@ impl Pixel<'_> {
             return Ok(());
         }
         let quotient = textured.then(|| coordinates(scene, &beam.frame, seen.shape, map, near));
-        let paint =
-            Paint { record, quotient, plane: shape_plane(scene, seen.shape), frame: beam.frame, near };
+        let paint = Paint {
+            record,
+            carried,
+            quotient,
+            plane: shape_plane(scene, seen.shape),
+            frame: beam.frame,
+            near,
+        };
         let unlit = model == Model::Unlit;
         let lights = if unlit { 1 } else { scene.lights.len() };
         for i in 0..lights {
@@ -146,24 +153,16 @@ impl Pixel<'_> {
             if light.is_some_and(|l| l.link[0] >= LightKind::Sphere as u32) {
                 return Err(GaveUp);
             }
-            let lit = self.lit_by(&paint, seen.shape, polygon, light)?;
-            self.color += carried * lit;
+            self.lit_by(&paint, seen.shape, polygon, light)?;
         }
         Ok(())
     }
 
-    /// The integral over those parts of a piece that see the light; without one, over all of it.
-    fn lit_by(
-        &mut self,
-        paint: &Paint,
-        shape: u32,
-        polygon: &Polygon,
-        light: Option<&Light>,
-    ) -> Result<DVec3> {
+    /// Adds the integral over those parts of a piece that see the light; without one, over all of it.
+    fn lit_by(&mut self, paint: &Paint, shape: u32, polygon: &Polygon, light: Option<&Light>) -> Result<()> {
         let scene = self.scene;
         let [planes, spheres, triangles, _] = scene.header.counts;
         let shapes = (planes + spheres + triangles) as usize;
-        let mut sum = DVec3::ZERO;
         let bottom = self.pieces.len();
         match light {
             None => push(&mut self.pieces, Piece { polygon: *polygon, stage: shapes })?,
@@ -176,7 +175,8 @@ impl Pixel<'_> {
         while self.pieces.len() > bottom {
             let Some(piece) = self.pieces.pop() else { break };
             let (by, Some(light)) = (piece.stage as u32, light.filter(|_| piece.stage < shapes)) else {
-                sum += integral(scene, paint, &piece.polygon, light, &mut self.crossed)?;
+                let color = integral(scene, paint, &piece.polygon, light, &mut self.crossed)?;
+                self.color += paint.carried * color;
                 continue;
             };
             let is_sphere = by >= planes && by < planes + spheres;
@@ -198,7 +198,7 @@ impl Pixel<'_> {
             }
             carve(&mut self.pieces, piece, &region, None, false)?;
         }
-        Ok(sum)
+        Ok(())
     }
 }
 

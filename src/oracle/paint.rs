@@ -26,6 +26,8 @@ pub type Result<T> = std::result::Result<T, GaveUp>;
 /// What a piece is painted with.
 pub struct Paint<'a> {
     pub record: &'a Material,
+    /// Its colour, and those of the mirrors that show it.
+    pub carried: DVec3,
     pub quotient: Option<Quotient>,
     pub plane: DVec4,
     pub frame: Frame,

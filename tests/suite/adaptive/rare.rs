@@ -133,11 +133,12 @@ impl Rare {
         scene
     }
 
-    fn reference(&self) -> Film {
+    /// Of two of them each errs by itself: the product of a picture's distances to both has no error of theirs.
+    fn reference(&self, seed: u32) -> Film {
         let mut scene = self.scene();
         scene.sampling.algorithm = Algorithm::Samples;
         scene.sampling.spp = 1 << 16;
-        scene.sampling.seed = 77;
+        scene.sampling.seed = seed;
         render(&packed(scene, None))
     }
 
@@ -152,14 +153,21 @@ impl Rare {
     }
 }
 
+fn rmse_beside(film: &Film, [a, b]: &[Film; 2]) -> f64 {
+    let off = |i: usize, c: usize, from: &Film| f64::from(film.pixels[i][c]) - f64::from(from.pixels[i][c]);
+    let pixel = |i: usize| (0..3).map(|c| off(i, c, a) * off(i, c, b)).sum::<f64>() / 3.0;
+    let mse = (0..film.pixels.len()).map(pixel).sum::<f64>() / film.pixels.len() as f64;
+    mse.max(0.0).sqrt()
+}
+
 /// How often, of `seeds` runs, the interval holds the true error; and how often the goal was said to be reached
 /// where the error is beyond it by more than a tenth.
 fn judge(rare: &Rare, goal: Goal, seeds: u32) -> (u32, u32) {
-    let reference = rare.reference();
+    let references = [77, 78].map(|seed| rare.reference(seed));
     let (mut held, mut wrong) = (0, 0);
     for seed in 1..=seeds {
         let (film, outcome) = rare.adaptive(Algorithm::Auto, goal, seed);
-        let error = rmse(&film, &reference);
+        let error = rmse_beside(&film, &references);
         let [low, high] = outcome.interval.unwrap();
         held += u32::from((low..=high).contains(&error));
         let missed = matches!(goal, Goal::Error(wanted) if outcome.reached && error > 1.1 * wanted);
@@ -211,7 +219,7 @@ fn intervals_hold_the_truth_in_eighteen_of_twenty_runs() {
 #[test]
 fn no_pixel_of_rare_texels_is_left_with_its_first_samples() {
     let stars = scenes().into_iter().find(|r| r.name == "stars far away").unwrap();
-    let reference = stars.reference();
+    let reference = stars.reference(77);
     let (film, outcome) = stars.adaptive(Algorithm::Adaptive, Goal::Samples(4096), 3);
     let mut equal = stars.scene();
     equal.sampling.algorithm = Algorithm::Samples;
