@@ -2,11 +2,13 @@
 //!
 //! Halves of the same samples agree on what both have missed; an audit does not know what they have seen. For the
 //! value x of a pixel and two independent means a and b of it, (x − a)(x − b) has the mean (x − µ)², whatever led to
-//! x. Half of the draws go evenly over the picture, half by the variance that the film says, and each counts by
-//! 1 over how often its pixel was to be drawn (Hansen & Hurwitz 1943). They lie at equal steps along the counts and the picture.
+//! x. Each finding counts by 1 over how often its pixel was to be drawn (Hansen & Hurwitz 1943).
+
+use std::cmp::Reverse;
 
 use rayon::prelude::*;
 
+use super::draws::{Masses, wanted};
 use super::estimate::Estimate;
 use super::exact::{Exact, OWN_ERROR};
 use super::{MOST, OCTAVES, Sums, Tracer, octave};
@@ -18,21 +20,14 @@ use crate::progress::Progress;
 pub const CONFIDENCE: f64 = 0.99;
 /// The normal deviate of that probability, two-sided.
 const DEVIATE: f64 = 2.5758;
-/// Draws of an audit.
-const MIN_DRAWS: f64 = 256.0;
-const MAX_DRAWS: f64 = 4096.0;
 /// Fewer have no interval.
 const FEW: usize = 16;
-/// Samples of each of the two means where the film has fewer.
-const MIN_SAMPLES: u32 = 512;
-/// The share of draws that goes evenly over the picture.
-const EVEN: f64 = 0.5;
-/// Pixels that one thread takes at once.
-const CHUNK: usize = 1 << 15;
-/// Cells along each side of the picture.
-const CELLS: usize = 32;
 /// Samples have not seen what varies so many times more in an audit.
 const UNSEEN: f32 = 4.0;
+/// Samples that are all due to meet something meet none of it with a chance of e^-8.
+const MISSED: f64 = 8.0;
+/// Of a polygon that beams cut in f32, in pixels.
+const AREA_ERROR: f64 = 1e-6;
 /// Pixels around an audited one that are taken to be like it.
 const RADIUS: usize = 4;
 
@@ -95,14 +90,18 @@ impl Audited<'_> {
             first: 0,
             count: samples(pixel),
         };
-        let jobs: Vec<Job> = places.iter().flat_map(|p| [job(p, 0), job(p, 1)]).collect();
+        // Longest first: neighbouring threads then have equally much to do.
+        let mut order: Vec<usize> = (0..places.len()).collect();
+        order.sort_by_key(|&at| Reverse(samples(places[at])));
+        let jobs: Vec<Job> =
+            order.iter().flat_map(|&at| [job(&places[at], 0), job(&places[at], 1)]).collect();
         let sums = tracer.sample_apart(&jobs, progress)?;
-        let pairs = sums.chunks_exact(2).zip(jobs.chunks_exact(2)).zip(&places);
-        let findings: Vec<Option<Finding>> = pairs
-            .map(|((sums, jobs), &pixel)| {
-                self.finding(pixel, [sums[0], sums[1]], jobs[0].count, 1.0 / masses.draws_of(self, pixel))
-            })
-            .collect();
+        let brightest = sums.iter().map(brightness).fold(0.0, f64::max);
+        let mut findings: Vec<Option<Finding>> = vec![None; places.len()];
+        for ((sums, jobs), at) in sums.chunks_exact(2).zip(jobs.chunks_exact(2)).zip(order) {
+            let weight = 1.0 / masses.draws_of(self, places[at]);
+            findings[at] = self.finding(places[at], [sums[0], sums[1]], jobs[0].count, weight, brightest);
+        }
         // In the order of the draws, so that neighbours are alike.
         let of_draws = |of: fn(&Finding) -> f64| {
             let value = |pixel: &usize| {
@@ -122,8 +121,16 @@ impl Audited<'_> {
         })
     }
 
-    /// The squared error of a pixel and what is found there; none where the film or the audit has no number.
-    fn finding(&self, pixel: usize, sums: [[f32; 4]; 2], samples: u32, weight: f64) -> Option<Finding> {
+    /// The squared error of a pixel and what is found there; none where the film or the audit has no number. Nothing
+    /// in the picture is taken to be brighter than `brightest`.
+    fn finding(
+        &self,
+        pixel: usize,
+        sums: [[f32; 4]; 2],
+        samples: u32,
+        weight: f64,
+        brightest: f64,
+    ) -> Option<Finding> {
         let n = 2.0 * f64::from(self.counts[pixel]);
         let k = f64::from(samples);
         let both =
@@ -136,11 +143,12 @@ impl Audited<'_> {
         let off = |m: [f64; 4]| std::array::from_fn(|c| film[c] - m[c]);
         let spread = (middle[3] - dot(rgb(middle), rgb(middle))).max(0.0);
         let (error, bound, unseen) = if self.exact.tells(pixel) {
-            // Samples cannot resolve the error of what is told without them, but find what contradicts it.
-            let noise = spread / (2.0 * k);
-            let excess = (dot(off(middle), off(middle)) - 16.0 * noise).max(0.0);
-            let error = excess + OWN_ERROR.powi(2);
-            (error, error, false)
+            // Samples cannot resolve the error of what is told without them, but find what contradicts it: beyond
+            // four times their noise, and more than if they had missed the brightest where it was due so often.
+            let squared = dot(off(middle), off(middle));
+            let noise = (16.0 * spread).max(MISSED * brightest * squared.sqrt()) / (2.0 * k);
+            let excess = (squared - noise).max(0.0);
+            (excess, excess + OWN_ERROR.powi(2) + (AREA_ERROR * brightest).powi(2), false)
         } else {
             let error = dot(off(means[0]), off(means[1]));
             let seen = (film[3] - dot(rgb(film), rgb(film))).max(0.0);
@@ -204,93 +212,10 @@ pub fn raise(
     }
 }
 
-/// Samples of each of both means.
-fn wanted(count: u32) -> u32 {
-    (2 * count).clamp(MIN_SAMPLES, MOST)
-}
-
-/// How many draws each pixel may expect: an even share of half of them, and of the other half in proportion to its
-/// variance, one at most. In sum, of each cell of the picture and each octave of counts.
-struct Masses {
-    cells: Vec<[f64; OCTAVES]>,
-    even: f64,
-    of_variance: f64,
-}
-
-impl Masses {
-    fn new(of: &Audited, budget: f64) -> Masses {
-        let pixels = of.counts.len() as f64;
-        let sum = |f: &(dyn Fn(usize) -> f64 + Sync)| -> f64 {
-            let chunks = (0..of.counts.len().div_ceil(CHUNK))
-                .into_par_iter()
-                .map(|chunk| (chunk * CHUNK..((chunk + 1) * CHUNK).min(of.counts.len())).map(f).sum::<f64>());
-            chunks.collect::<Vec<f64>>().iter().sum()
-        };
-        let variance = |i: usize| f64::from(of.estimate.variances[i]);
-        let cost = |i: usize| 2.0 * f64::from(wanted(of.counts[i]));
-        let all = sum(&variance);
-        let even_cost = sum(&cost) / pixels;
-        let own_cost = if all > 0.0 { sum(&|i| cost(i) * variance(i)) / all } else { even_cost };
-        let draws = budget / (EVEN * even_cost + (1.0 - EVEN) * own_cost);
-        let draws = draws.clamp(MIN_DRAWS, MAX_DRAWS).min(pixels);
-        let mut of_variance = 0.0;
-        if all > 0.0 {
-            let wanted = (1.0 - EVEN) * draws;
-            of_variance = wanted / all;
-            for _ in 0..4 {
-                of_variance *= wanted / sum(&|i| (of_variance * variance(i)).min(1.0)).max(f64::MIN_POSITIVE);
-            }
-        }
-        let even = if all > 0.0 { EVEN } else { 1.0 } * draws / pixels;
-        let mut masses = Masses { cells: Vec::new(), even, of_variance };
-        let cell = |cell: usize| {
-            let mut mass = [0.0; OCTAVES];
-            pixels_of(of, cell).for_each(|i| mass[octave(of.counts[i])] += masses.draws_of(of, i));
-            mass
-        };
-        masses.cells = (0..CELLS * CELLS).into_par_iter().map(cell).collect();
-        masses
-    }
-
-    fn draws_of(&self, of: &Audited, pixel: usize) -> f64 {
-        (self.even + self.of_variance * f64::from(of.estimate.variances[pixel])).min(1.0)
-    }
-
-    /// Pixels at equal steps along the whole mass, in the order of octaves and cells: none of them twice.
-    fn draw(&self, of: &Audited, rng: &mut fastrand::Rng) -> Vec<usize> {
-        let mut drawn: Vec<usize> = Vec::new();
-        let start = rng.f64();
-        let mut wanted = start;
-        let mut before = 0.0;
-        for o in 0..OCTAVES {
-            for cell in 0..CELLS * CELLS {
-                let mut at = before;
-                before += self.cells[cell][o];
-                if wanted >= before {
-                    continue;
-                }
-                for i in pixels_of(of, cell).filter(|&i| octave(of.counts[i]) == o) {
-                    at += self.draws_of(of, i);
-                    while wanted < at {
-                        drawn.push(i);
-                        wanted = start + drawn.len() as f64;
-                    }
-                }
-            }
-        }
-        drawn
-    }
-}
-
-/// Cells follow each other along a line that turns at the borders, so that neighbours in it are neighbours.
-fn pixels_of<'a>(of: &Audited<'a>, cell: usize) -> impl Iterator<Item = usize> + use<'a> {
-    let width = of.sums.width as usize;
-    let height = of.counts.len() / width;
-    let (row, along) = (cell / CELLS, cell % CELLS);
-    let column = if row % 2 == 0 { along } else { CELLS - 1 - along };
-    let part = |k: usize, size: usize| k * size / CELLS..(k + 1) * size / CELLS;
-    let columns = part(column, width);
-    part(row, height).flat_map(move |y| columns.clone().map(move |x| y * width + x))
+/// What samples of either something or nothing would show where it is: the mean of their squares over their mean.
+fn brightness([r, g, b, squares]: &[f32; 4]) -> f64 {
+    let mean = f64::from(r.abs().max(g.abs()).max(b.abs()));
+    if mean > 0.0 { f64::from(*squares) / mean } else { 0.0 }
 }
 
 /// A sum over draws, one from each of many parts of the picture.

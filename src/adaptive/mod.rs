@@ -5,6 +5,7 @@
 
 mod allocate;
 mod audit;
+mod draws;
 mod estimate;
 mod exact;
 mod explore;
