@@ -72,7 +72,8 @@ fn seen(sums: &Sums, count: u32, i: usize) -> Seen {
     let [a, b] = [sums.halves[0][i], sums.halves[1][i]];
     let mean: [f32; 3] = std::array::from_fn(|c| (a[c] + b[c]) / (2.0 * n));
     let apart: [f32; 3] = std::array::from_fn(|c| (a[c] - b[c]) / n);
-    let halves = [a, b].map(|[r, g, b, squares]| (squares / n - square([r, g, b].map(|v| v / n))).max(0.0));
+    let half = |[r, g, b, squares]: [f32; 4]| (squares - (r * r + g * g + b * b) / (3.0 * n)).max(0.0) / n;
+    let halves = [half(a), half(b)];
     let spread = ((a[3] + b[3]) / (2.0 * n) - square(mean)).max(0.0);
     let seen = Seen { mean, difference: square(apart) / 4.0, spread: spread / (2.0 * n), halves };
     // What is no number stays none: more samples would not help, and no neighbour has contrast to it.

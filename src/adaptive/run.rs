@@ -31,9 +31,12 @@ const AUDIT_OF_TIME: f64 = 0.5;
 const AUDIT_TIME: f64 = 0.08;
 /// A time is kept where it is exceeded by no more than this factor.
 const KEPT: f64 = 1.05;
-/// Samples of an audit over those of the picture; a picture of few has more, up to so many in all.
+/// Samples of an audit over those of the picture; a picture of few has more, up to so many in all. Where something small
+/// and bright is known to be, that is what audits must meet too.
 const AUDIT_SHARE: f64 = 1.0 / 24.0;
+const AUDIT_SHARE_OF_BRIGHT: f64 = 1.0 / 4.0;
 const SMALL_AUDIT: f64 = (1u64 << 19) as f64;
+const SMALL_AUDIT_OF_BRIGHT: f64 = (1u64 << 21) as f64;
 /// Of a picture with a number of samples to keep an audit has a quarter, or so many.
 const LITTLE_AUDIT: f64 = (1u64 << 18) as f64;
 /// With fewer an audit says nothing.
@@ -56,6 +59,7 @@ pub fn run(
     let mut sums = Sums { width, height, halves: [half(), half()] };
     let mut counts = vec![0u32; pixels];
     let first = first_count(goal, tracer.bright_share(), pixels);
+    let bright = tracer.bright_share() < 1.0;
     let mut next = tracer.first_samples(if let Goal::Seconds(_) = goal { 1 } else { first }, pixels)?;
     let mut outcome = Outcome { confidence: CONFIDENCE, ..Outcome::default() };
     let mut taken;
@@ -80,7 +84,7 @@ pub fn run(
         exact.replace(&mut sums, &counts);
         taken = total(&counts);
 
-        let mut estimate = Estimate::new(&sums, &counts, tracer.bright_share() < 1.0);
+        let mut estimate = Estimate::new(&sums, &counts, bright);
         exact.settle(&mut estimate);
         exponent.learn(taken, estimate.mse);
         outcome.beam_pixels = exact.told() as u64;
@@ -106,7 +110,7 @@ pub fn run(
             Goal::Samples(_) => (taken / 4.0).max(LITTLE_AUDIT),
             Goal::Error(_) => f64::INFINITY,
         };
-        let budget = auditor.budget(taken).min(left);
+        let budget = auditor.budget(taken, bright).min(left);
         let audited = Audited { sums: &sums, counts: &counts, estimate: &estimate, exact: &exact };
         let owed = budget >= LEAST_AUDIT || matches!(goal, Goal::Error(_));
         let audit = if enough && owed {
@@ -202,9 +206,12 @@ struct Auditor {
 
 impl Auditor {
     /// Samples of the next audit.
-    fn budget(&self, taken: f64) -> f64 {
-        let share = AUDIT_SHARE * f64::from(1 << self.refusals.min(3));
-        (share * taken).max(SMALL_AUDIT)
+    fn budget(&self, taken: f64, bright: bool) -> f64 {
+        let (share, least) = match bright {
+            true => (AUDIT_SHARE_OF_BRIGHT, SMALL_AUDIT_OF_BRIGHT),
+            false => (AUDIT_SHARE, SMALL_AUDIT),
+        };
+        (share * f64::from(1 << self.refusals.min(3)) * taken).max(least)
     }
 
     fn audit(

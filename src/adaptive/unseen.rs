@@ -47,23 +47,44 @@ struct Class {
 }
 
 impl Class {
-    fn nothing(&self) -> f32 {
-        (self.spread / f64::from(2 * self.pixels)) as f32 / NOTHING
+    fn add(&mut self, [a, b]: Spreads, variance: f32) {
+        let [a, b] = [f64::from(a), f64::from(b)];
+        self.pixels += 1;
+        self.spread += a + b;
+        self.squares += a * a + b * b;
+        self.products += a * b;
+        self.variance += f64::from(variance);
     }
 
-    /// What is made of its pixels' spreads; none where that is no matter.
-    fn rule(&self, sure: bool) -> Option<Rule> {
-        let floor = self.unseen / f64::from(self.partners.max(1));
+    /// What halves say of their partners, once all pixels are there.
+    fn compare(&mut self, [a, b]: Spreads, count: u32) {
+        let nothing = (self.spread / f64::from(2 * self.pixels)) as f32 / NOTHING;
+        for (own, partner) in [(a, b), (b, a)] {
+            if own <= nothing {
+                self.partners += 1;
+                self.unseen += f64::from(partner);
+                self.means += 0.5 / (2.0 * f64::from(count));
+                self.contradictions += u32::from(partner > NOTHING * nothing);
+            }
+        }
+    }
+
+    /// The correlation of halves, less one standard deviation of that of so many pairs.
+    fn alike(&self) -> f64 {
         let halves = f64::from(2 * self.pixels);
         let mean = self.spread / halves;
         let variance = self.squares / halves - mean * mean;
-        // Less one standard deviation of the correlation of so many pairs.
-        let by_chance = 1.0 / f64::from(self.pixels).sqrt();
         let covariance = 2.0 * self.products / halves - mean * mean;
-        let alike = (covariance / variance.max(f64::MIN_POSITIVE) - by_chance).clamp(0.0, 1.0);
-        let reliability = 2.0 * alike / (1.0 + alike);
-        let many = self.contradictions >= CONTRADICTIONS;
-        let matters = many && alike < ALIKE[usize::from(sure)] && self.means * floor > SHARE * self.variance;
+        let by_chance = 1.0 / f64::from(self.pixels).sqrt();
+        (covariance / variance.max(f64::MIN_POSITIVE) - by_chance).clamp(0.0, 1.0)
+    }
+
+    /// What is made of its pixels' spreads; none where that is no matter.
+    fn rule(&self) -> Option<Rule> {
+        let floor = self.unseen / f64::from(self.partners.max(1));
+        let mean = self.spread / f64::from(2 * self.pixels);
+        let reliability = 2.0 * self.alike() / (1.0 + self.alike());
+        let matters = self.contradictions >= CONTRADICTIONS && self.means * floor > SHARE * self.variance;
         matters.then_some(Rule { floor: floor as f32, mean: mean as f32, reliability: reliability as f32 })
     }
 }
@@ -97,46 +118,58 @@ pub fn settle(
     bright: bool,
 ) {
     let (across, height) = (width.div_ceil(SIDE), counts.len() / width.max(1));
-    let rules: Vec<[Option<Rule>; OCTAVES]> = (0..across * height.div_ceil(SIDE))
+    let rules: Vec<Option<Box<Rules>>> = (0..across * height.div_ceil(SIDE))
         .into_par_iter()
         .map(|part| {
-            let pixels = || {
-                let (left, top) = (part % across * SIDE, part / across * SIDE);
-                let columns = left..(left + SIDE).min(width);
-                (top..(top + SIDE).min(height)).flat_map(move |y| columns.clone().map(move |x| y * width + x))
-            };
-            let mut classes = [Class::default(); OCTAVES];
-            for i in pixels() {
-                let class = &mut classes[octave(counts[i])];
-                class.pixels += 1;
-                class.spread += halves(i).iter().map(|&s| f64::from(s)).sum::<f64>();
-                class.squares += halves(i).iter().map(|&s| f64::from(s).powi(2)).sum::<f64>();
-                class.products += f64::from(halves(i)[0]) * f64::from(halves(i)[1]);
-                class.variance += f64::from(variances[i]);
-            }
-            for i in pixels() {
-                let class = &mut classes[octave(counts[i])];
-                let nothing = class.nothing();
-                let [a, b] = halves(i);
-                for (own, partner) in [(a, b), (b, a)] {
-                    if own <= nothing {
-                        class.partners += 1;
-                        class.unseen += f64::from(partner);
-                        class.means += 0.5 / (2.0 * f64::from(counts[i]));
-                        class.contradictions += u32::from(partner > NOTHING * nothing);
-                    }
-                }
-            }
-            std::array::from_fn(|octave| classes[octave].rule(bright || 1 << octave >= MANY))
+            let (left, top) = (part % across * SIDE, part / across * SIDE);
+            let columns = left..(left + SIDE).min(width);
+            let rows = top..(top + SIDE).min(height);
+            let pixels = || rows.clone().flat_map(|y| columns.clone().map(move |x| y * width + x));
+            part_rules(variances, &halves, counts, pixels, bright)
         })
         .collect();
+    if rules.iter().all(|rules| rules.is_none()) {
+        return;
+    }
     variances.par_chunks_mut(width).enumerate().for_each(|(y, row)| {
-        for (x, variance) in row.iter_mut().enumerate() {
-            let i = y * width + x;
-            let rule = rules[y / SIDE * across + x / SIDE][octave(counts[i])];
-            *variance = rule.map_or(*variance, |rule| rule.apply(*variance, halves(i), counts[i]));
+        for (part, pixels) in row.chunks_mut(SIDE).enumerate() {
+            let Some(rules) = &rules[y / SIDE * across + part] else { continue };
+            for (x, variance) in pixels.iter_mut().enumerate() {
+                let i = y * width + part * SIDE + x;
+                if let Some(rule) = rules[octave(counts[i])] {
+                    *variance = rule.apply(*variance, halves(i), counts[i]);
+                }
+            }
         }
     });
+}
+
+type Rules = [Option<Rule>; OCTAVES];
+
+/// For one part of the picture; none where there is none for any class.
+fn part_rules<P: Iterator<Item = usize>>(
+    variances: &[f32],
+    halves: &(impl Fn(usize) -> Spreads + Sync),
+    counts: &[u32],
+    pixels: impl Fn() -> P,
+    bright: bool,
+) -> Option<Box<Rules>> {
+    let mut classes = [Class::default(); OCTAVES];
+    for i in pixels() {
+        classes[octave(counts[i])].add(halves(i), variances[i]);
+    }
+    let apart: [bool; OCTAVES] = std::array::from_fn(|octave| {
+        classes[octave].pixels > 0
+            && classes[octave].alike() < ALIKE[usize::from(bright || 1 << octave >= MANY)]
+    });
+    if !apart.contains(&true) {
+        return None;
+    }
+    for i in pixels().filter(|&i| apart[octave(counts[i])]) {
+        classes[octave(counts[i])].compare(halves(i), counts[i]);
+    }
+    let rules = std::array::from_fn(|octave| classes[octave].rule().filter(|_| apart[octave]));
+    rules.iter().any(Option::is_some).then(|| Box::new(rules))
 }
 
 #[cfg(test)]
