@@ -153,7 +153,8 @@ mod tests {
     use super::*;
 
     fn allocation(variances: &[f32], counts: &[u32], exponent: f64) -> Allocation {
-        let estimate = Estimate { variances: variances.to_vec(), spreads: Vec::new(), mse: 0.0 };
+        let estimate =
+            Estimate { variances: variances.to_vec(), spreads: Vec::new(), mse: 0.0, deviation: 0.0 };
         Allocation::new(&estimate, counts, exponent)
     }
 

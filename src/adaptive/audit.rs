@@ -19,7 +19,7 @@ use crate::progress::Progress;
 /// The interval holds the truth with this probability.
 pub const CONFIDENCE: f64 = 0.99;
 /// The normal deviate of that probability, two-sided.
-const DEVIATE: f64 = 2.5758;
+pub const DEVIATE: f64 = 2.5758;
 /// Fewer have no interval.
 const FEW: usize = 16;
 /// Samples have not seen what varies so many times more in an audit.

@@ -23,6 +23,8 @@ pub struct Estimate {
     /// Of one sample.
     pub spreads: Vec<f32>,
     pub mse: f64,
+    /// A standard deviation of it: differences d of variance v have d⁴ = 3v² in the mean, and d² the variance 2v².
+    pub deviation: f64,
 }
 
 /// Of one pixel.
@@ -42,7 +44,9 @@ impl Estimate {
     pub fn new(sums: &Sums, counts: &[u32], bright: bool) -> Estimate {
         let (width, height) = (sums.width as usize, sums.height as usize);
         let seen: Vec<Seen> = (0..counts.len()).into_par_iter().map(|i| seen(sums, counts[i], i)).collect();
-        let mse = seen.iter().map(|s| f64::from(s.difference)).sum::<f64>() / seen.len() as f64;
+        let differences = seen.iter().map(|s| f64::from(s.difference));
+        let (sum, squares) = differences.fold((0.0, 0.0), |(sum, squares), d| (sum + d, squares + d * d));
+        let [mse, deviation] = [sum, (2.0 / 3.0 * squares).sqrt()].map(|v| v / seen.len() as f64);
         let windows = window_sums(&seen, width, height);
         let variance = |i: usize| {
             let [difference, spread] = windows[i];
@@ -53,7 +57,7 @@ impl Estimate {
         let spread = |(seen, &count): (&Seen, &u32)| seen.spread * (2.0 * count as f32);
         let mut variances: Vec<f32> = (0..seen.len()).into_par_iter().map(variance).collect();
         unseen::settle(&mut variances, |i| seen[i].halves, counts, width, bright);
-        Estimate { variances, spreads: seen.par_iter().zip(counts).map(spread).collect(), mse }
+        Estimate { variances, spreads: seen.par_iter().zip(counts).map(spread).collect(), mse, deviation }
     }
 }
 

@@ -201,7 +201,8 @@ mod tests {
             assert_eq!(half[0][..3], [1.0, 2.0, 4.0]);
             assert_eq!(half[1], [1.0, 2.0, 3.0, 4.0], "a sampled pixel has changed");
         }
-        let mut estimate = Estimate { variances: vec![0.5, 0.5], spreads: Vec::new(), mse: 0.0 };
+        let mut estimate =
+            Estimate { variances: vec![0.5, 0.5], spreads: Vec::new(), mse: 0.0, deviation: 0.0 };
         exact.settle(&mut estimate);
         assert_eq!((estimate.variances, exact.told()), (vec![0.0, 0.5], 1));
     }

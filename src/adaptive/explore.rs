@@ -60,7 +60,7 @@ mod tests {
     use super::*;
 
     fn flat(pixels: usize) -> Estimate {
-        Estimate { variances: vec![0.0; pixels], spreads: vec![0.0; pixels], mse: 0.0 }
+        Estimate { variances: vec![0.0; pixels], spreads: vec![0.0; pixels], mse: 0.0, deviation: 0.0 }
     }
 
     #[test]

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::time::Instant;
 
 use super::allocate::{Aim, Allocation};
-use super::audit::{Audit, Audited, CONFIDENCE};
+use super::audit::{Audit, Audited, CONFIDENCE, DEVIATE};
 use super::estimate::{Estimate, Exponent};
 use super::exact::{Exact, OWN_ERROR, Outlook, needed};
 use super::explore::Explorer;
@@ -118,7 +118,7 @@ pub fn run(
         } else {
             None
         };
-        outcome.tell(noise, audit.as_ref(), tracer.prefilters());
+        outcome.tell(noise, estimate.deviation, audit.as_ref(), tracer.prefilters());
         let weight = estimate.weight();
         if enough {
             let Goal::Error(rmse) = goal else { break };
@@ -178,7 +178,7 @@ pub fn run(
             if audit.is_none() {
                 let audited = Audited { sums: &sums, counts: &counts, estimate: &estimate, exact: &exact };
                 let audit = auditor.audit(&audited, tracer, budget, &mut outcome, progress)?;
-                outcome.tell(noise, Some(&audit), tracer.prefilters());
+                outcome.tell(noise, estimate.deviation, Some(&audit), tracer.prefilters());
             }
             break;
         }
@@ -240,14 +240,14 @@ impl Auditor {
 }
 
 impl Outcome {
-    /// Both estimates err by chance: the larger one is told.
-    fn tell(&mut self, noise: f64, audit: Option<&Audit>, prefilters: bool) {
+    /// Both estimates err by chance: the larger one is told, and the larger of their bounds.
+    fn tell(&mut self, noise: f64, deviation: f64, audit: Option<&Audit>, prefilters: bool) {
         let mse = audit.map_or(noise, |audit| audit.mse.max(noise));
         self.estimated_rmse = mse.sqrt();
         self.estimated_bias = if prefilters { (mse - noise).max(0.0).sqrt() } else { 0.0 };
         self.interval = audit
             .and_then(|audit| audit.interval)
-            .map(|[low, high]| [low.min(mse).sqrt(), high.max(mse).sqrt()]);
+            .map(|[low, high]| [low.min(mse).sqrt(), high.max(noise + DEVIATE * deviation).sqrt()]);
     }
 }
 
