@@ -9,6 +9,8 @@ mod adaptive;
 mod advice;
 mod bad_input;
 mod beams;
+#[cfg(unix)]
+mod child;
 mod cli;
 mod cone;
 mod data;
