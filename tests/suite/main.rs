@@ -49,6 +49,8 @@ mod pictures;
 mod pixel_filters;
 mod pool;
 mod procedural;
+#[cfg(unix)]
+mod programs;
 mod pyramids;
 mod random_scenes;
 mod rays;
