@@ -20,6 +20,8 @@ mod device;
 mod device_shaders;
 mod dimensions;
 mod double;
+#[cfg(unix)]
+mod driver_cache;
 mod error;
 mod exact;
 mod exr;
