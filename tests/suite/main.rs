@@ -57,6 +57,7 @@ mod pyramids;
 mod random_scenes;
 mod rays;
 mod readme;
+mod resubmit;
 mod scene;
 mod shared_gpu;
 mod slopes;
