@@ -9,6 +9,7 @@
 # Quiet when nothing is missing. MOIRE_SETUP_DRY_RUN=1 prints what would be installed and stops.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
+HOME=${HOME:-~} # of the user who runs this, where the environment has none
 
 RUN_PACKAGES="libvulkan1 mesa-vulkan-drivers"
 TEST_PACKAGES="vulkan-validationlayers"
@@ -24,7 +25,9 @@ version_at_least() { # version_at_least HAVE WANT
 }
 
 check_cargo() {
-    [ -f "$HOME/.cargo/env" ] && . "$HOME/.cargo/env"
+    local paths="${CARGO_HOME:-$HOME/.cargo}/env"
+    # shellcheck disable=SC1090
+    if [ -f "$paths" ]; then . "$paths"; fi
     local have=""
     if command -v cargo >/dev/null; then have=$(cargo --version | cut -d' ' -f2); fi
     if [ -z "$have" ] || ! version_at_least "$have" "$MIN_CARGO"; then
@@ -42,13 +45,17 @@ missing_of() {
 }
 
 as_root() {
-    if [ "$(id -u)" = 0 ]; then "$@"
-    elif command -v sudo >/dev/null; then sudo "$@"
-    else say "not root and no sudo; run as root: $*"; exit 1
-    fi
+    if [ "$(id -u)" = 0 ]; then "$@"; else sudo "$@"; fi
 }
 
+can_install() { [ "$(id -u)" = 0 ] || command -v sudo >/dev/null; }
+
 apt_install() { # apt_install PACKAGES...
+    if ! can_install; then
+        say "not root and no sudo; run as root: apt-get install $*"
+        return 1
+    fi
+    say "installing $*"
     if [ -z "$(find /var/lib/apt/lists -maxdepth 1 -name '*_Packages*' -mtime -1 -print -quit 2>/dev/null)" ]; then
         as_root apt-get update -qq
     fi
@@ -82,8 +89,9 @@ merge_shaderc() {
     [ -f "$out" ] && [ "$out" -nt "$dir/libshaderc_combined.a" ] && return 0
     mkdir -p .cargo/shaderc
     tmp=$(mktemp -d)
+    # ar's scripts know no quotes: it works where the file is to lie, whatever the folder's name.
     {
-        echo "create $tmp/libshaderc_combined.a"
+        echo "create libshaderc_combined.a"
         for lib in libshaderc_combined libshaderc libshaderc_util libglslang libSPIRV libMachineIndependent \
             libGenericCodeGen libOSDependent libOGLCompiler libHLSL libSPIRV-Tools-opt libSPIRV-Tools; do
             # libshaderc_combined already holds libshaderc and libshaderc_util.
@@ -96,7 +104,7 @@ merge_shaderc() {
         echo save
         echo end
     } >"$tmp/merge.mri"
-    if ! ar -M <"$tmp/merge.mri" || ! links "$tmp/libshaderc_combined.a"; then
+    if ! (cd "$tmp" && ar -M <merge.mri) || ! links "$tmp/libshaderc_combined.a"; then
         rm -rf "$tmp" "$out"
         return 1
     fi
@@ -117,12 +125,12 @@ if command -v apt-get >/dev/null && command -v dpkg-query >/dev/null; then
         exit 0
     fi
     if [ -n "$missing" ]; then
-        say "installing $missing"
+        # Who has to ask for them asks once.
+        can_install || missing=$missing$archives
         # shellcheck disable=SC2086
         apt_install $missing
     fi
     if [ -n "$archives" ]; then
-        say "installing $archives"
         # shellcheck disable=SC2086
         apt_install $archives || say "not all of them are to be had here"
     fi

@@ -23,6 +23,7 @@ use clap::builder::{PossibleValue, PossibleValuesParser, StyledStr, TypedValuePa
 use clap::error::{ContextKind, ContextValue};
 
 use crate::error::{Error, Result};
+use crate::gpu;
 use crate::panics;
 use crate::scene::synonyms::meant;
 
@@ -34,9 +35,11 @@ const DEVICE: &str = "Device";
 const MEASURING: &str = "Measuring";
 
 /// To be called once, before anything else: a write beyond the size limit of files (`ulimit -f`) is then an error
-/// like that of a full disk, where it would end the program and leave a temporary file; and where no person reads
-/// stderr, messages keep to their own lines, so that what they quote stays whole.
+/// like that of a full disk, where it would end the program and leave a temporary file; drivers find a cache that
+/// they can write; and where no person reads stderr, messages keep to their own lines, so that what they quote
+/// stays whole.
 pub fn prepare_process() {
+    gpu::settle_driver_cache();
     #[cfg(unix)]
     {
         let noticed = std::sync::Arc::default();

@@ -14,6 +14,8 @@ mod copy;
 mod debug;
 mod descriptor;
 mod device;
+#[cfg(unix)]
+mod driver_cache;
 mod image;
 mod image_check;
 mod info;
@@ -33,6 +35,8 @@ use std::sync::{Arc, Mutex};
 pub use buffer::{Buffer, BufferUse};
 pub use debug::{MessageLog, validation_available};
 pub use descriptor::{BindGroup, BindingDesc, BindingKind, Bound};
+#[cfg(unix)]
+pub use driver_cache::settle as settle_driver_cache;
 pub use image::{Image, ImageDesc, ImageFormat, ImageShape, Swizzle};
 pub use info::{DeviceInfo, DeviceKind, DeviceLimits};
 pub use instance::list_devices;
@@ -47,6 +51,10 @@ use command::{Commands, barrier};
 use device::{Core, lock};
 use image_check::Texels;
 use staging::Staging;
+
+/// Does nothing: Mesa keeps a cache on Unix alone.
+#[cfg(not(unix))]
+pub fn settle_driver_cache() {}
 
 /// How a device is opened.
 #[derive(Clone, Copy, Debug, Default)]

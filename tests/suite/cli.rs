@@ -424,9 +424,7 @@ fn a_report_that_cannot_be_printed_is_an_error_but_a_closed_pipe_is_none() {
             .args(["render", "-q", "--json", "--size", "8x8", "--device", "oracle"])
             .arg(absolute(&path("horizon")))
             .stdout(stdout)
-            .stderr(std::process::Stdio::piped())
-            .spawn()
-            .and_then(|child| child.wait_with_output())
+            .output()
             .unwrap();
         let told = text(&output.stderr);
         assert_eq!(output.status.code(), Some(code), "{told}");

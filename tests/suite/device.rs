@@ -13,6 +13,7 @@ use moire::gpu::{
 };
 
 use crate::device_shaders::FILL;
+use crate::support::untested;
 
 /// An open device whose validation messages fail the test, also those of its closing.
 struct Checked {
@@ -27,7 +28,7 @@ impl Checked {
         let gpu = Gpu::open_with(&select, OpenOptions { validation: true }).unwrap();
         assert_eq!(gpu.validation_active(), validation_available());
         if !gpu.validation_active() {
-            eprintln!("the validation layer is not installed: its silence was not tested");
+            untested("what the validation layer would say: it is not installed");
         }
         let log = gpu.message_log();
         Checked { gpu: Some(gpu), log }
@@ -193,7 +194,7 @@ fn a_planted_mistake_reaches_the_messages() {
         assert!(messages.iter().any(|m| m.contains("VUID-VkComputePipelineCreateInfo")), "{messages:#?}");
     } else {
         assert!(messages.is_empty());
-        eprintln!("the validation layer is not installed: the planted mistake was not reported");
+        untested("what the validation layer would say: it is not installed");
     }
 }
 

@@ -9,6 +9,8 @@ mod adaptive;
 mod advice;
 mod bad_input;
 mod beams;
+#[cfg(unix)]
+mod child;
 mod cli;
 mod cone;
 mod data;
@@ -18,6 +20,8 @@ mod device;
 mod device_shaders;
 mod dimensions;
 mod double;
+#[cfg(unix)]
+mod driver_cache;
 mod error;
 mod exact;
 mod exr;
@@ -47,10 +51,13 @@ mod pictures;
 mod pixel_filters;
 mod pool;
 mod procedural;
+#[cfg(unix)]
+mod programs;
 mod pyramids;
 mod random_scenes;
 mod rays;
 mod readme;
+mod resubmit;
 mod scene;
 mod shared_gpu;
 mod slopes;

@@ -4,7 +4,7 @@
 use std::fs;
 use std::process::Command;
 
-use crate::support::{data, program};
+use crate::support::{data, program, untested};
 
 /// `moire …` lines of ```sh blocks, without comments and without the file that takes the output.
 fn commands(readme: &str) -> Vec<String> {
@@ -31,7 +31,7 @@ fn needs_another_device(command: &str, device: &str) -> bool {
 fn every_command_of_the_readme_works() {
     let path = data().join("../README.md");
     let Ok(readme) = fs::read_to_string(&path) else {
-        eprintln!("no README.md beside the data: not tested");
+        untested("the commands of README.md: it is not beside the data");
         return;
     };
     let folder = tempfile::tempdir().unwrap();

@@ -2,6 +2,7 @@
 //! terminal, and a limit on the size of files.
 
 use std::fs;
+use std::path::{Path, absolute};
 use std::process::Output;
 
 use image::{GrayImage, Luma};
@@ -161,17 +162,28 @@ fn a_key_in_the_wrong_table_is_sent_to_the_right_one() {
     }
 }
 
-/// `ulimit -f` counts blocks of 512 bytes or of 1024.
+/// A limit holds for a whole process and what it becomes: the test starts itself once more, which becomes the program.
 #[cfg(unix)]
 #[test]
 fn a_limit_on_the_size_of_files_is_an_error_that_leaves_none() {
+    use std::os::unix::process::CommandExt;
+    use std::process::Command;
+
+    use nix::sys::resource::{Resource, setrlimit};
+
+    const OWN: &str = "streams::a_limit_on_the_size_of_files_is_an_error_that_leaves_none";
+    const AGAIN: &str = "MOIRE_TEST_LIMITED";
+    if std::env::var_os(AGAIN).is_some() {
+        setrlimit(Resource::RLIMIT_FSIZE, 1024, 1024).unwrap();
+        let options = ["render", "s.toml", "--size", "64x64", "-q", "-o", "a.exr", "-o", "b.png"];
+        panic!("{}", Command::new(program()).args(options).args(["--device", "oracle"]).exec());
+    }
     let folder = place();
     fs::write(folder.path().join("s.toml"), SCENE).unwrap();
-    let line = "ulimit -f 1 && exec \"$0\" render s.toml --size 64x64 -q -o a.exr -o b.png --device oracle";
-    let output = std::process::Command::new("sh")
+    let output = Command::new(std::env::current_exe().unwrap())
+        .args([OWN, "--exact", "--nocapture"])
         .current_dir(folder.path())
-        .args(["-c", line])
-        .arg(std::path::absolute(program()).unwrap())
+        .envs([(AGAIN, Path::new("1")), ("MOIRE_BIN", &absolute(program()).unwrap())])
         .output()
         .unwrap();
     assert_eq!(output.status.code(), Some(2), "{}", told(&output));

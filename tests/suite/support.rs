@@ -1,7 +1,10 @@
 //! What several test files need: the program and the data, found when the tests run (never where they
 //! were compiled), so that the binaries can be carried to another machine; small pictures.
 
+use std::collections::BTreeSet;
+use std::io::Write;
 use std::path::{Path, PathBuf};
+use std::sync::Mutex;
 
 use moire::film::Film;
 use moire::texture::data::{ColorSpace, Dimension, MipKernel};
@@ -47,6 +50,14 @@ pub fn data() -> PathBuf {
     candidates
         .find(|path| path.is_dir())
         .expect("no folder `data` here or above the test binary: set MOIRE_DATA")
+}
+
+/// Says once on stderr what was left out, past the output that a passing test keeps to itself.
+pub fn untested(what: &'static str) {
+    static SAID: Mutex<BTreeSet<&str>> = Mutex::new(BTreeSet::new());
+    if SAID.lock().unwrap().insert(what) {
+        let _ = writeln!(std::io::stderr(), "not tested: {what}");
+    }
 }
 
 /// Every pixel and channel different, values in [0, 1].

@@ -11,6 +11,7 @@ use moire::verify::variants::SIZES;
 use super::assert_none;
 use super::bench::{BASIC, Dice, coordinates, pairs, query, texture};
 use crate::shared_gpu::gpu;
+use crate::support::untested;
 
 const FORMATS: [(TexelFormat, ColorSpace); 6] = [
     (TexelFormat::Rgba8, ColorSpace::Linear),
@@ -91,7 +92,7 @@ fn border_colours_of_the_devices_samplers() {
     if gpu().info().limits.custom_border_color {
         colors.push([0.9, 0.1, 0.6, 0.3]);
     } else {
-        eprintln!("no custom border colours on this device: not tested");
+        untested("custom border colours: the device has none");
     }
     let mut list = Vec::new();
     for (i, &border_color) in colors.iter().enumerate() {

@@ -9,6 +9,7 @@ use serde_json::Value;
 use tempfile::tempdir;
 
 use super::studied;
+use crate::support::untested;
 
 /// Frames as wide as a phone and as a desk's screen; what is found in them ends up in the document.
 const PROBE: &str = r#"<!doctype html><title>probe</title>
@@ -106,7 +107,7 @@ fn check(found: &Value, phone: bool) {
 #[test]
 fn page_works_in_a_browser_on_a_phone_and_in_the_dark() {
     if Command::new("chromium").arg("--version").output().is_err() {
-        eprintln!("chromium is not installed: the page was not tried in a browser");
+        untested("the page in a browser: chromium is not installed");
         return;
     }
     let folder = tempdir().unwrap();

@@ -10,6 +10,21 @@ use super::{points, studied, study, told};
 use crate::stage::device_name;
 use crate::support::{gradient, moire};
 
+/// The words of a line as a POSIX shell takes them, of what `moire::study::quote` writes.
+fn words(line: &str) -> Vec<String> {
+    let mut words = vec![String::new()];
+    let (mut quoted, mut letters) = (false, line.chars());
+    while let Some(letter) = letters.next() {
+        match letter {
+            '\'' => quoted = !quoted,
+            ' ' if !quoted => words.push(String::new()),
+            '\\' if !quoted => words.last_mut().unwrap().extend(letters.next()),
+            _ => words.last_mut().unwrap().push(letter),
+        }
+    }
+    words
+}
+
 #[test]
 fn each_command_renders_its_point_again() {
     let folder = tempdir().unwrap();
@@ -21,7 +36,7 @@ fn each_command_renders_its_point_again() {
     assert_eq!(points(&record).len(), 4);
     for point in points(&record) {
         let command = point["command"].as_str().unwrap();
-        let words: Vec<&str> = command.split(' ').collect();
+        let words = words(command);
         assert_eq!(words[0], "moire");
         let output = moire().current_dir(folder.path()).args(&words[1..]).output().unwrap();
         assert!(output.status.success(), "{command}: {}", told(&output));
@@ -46,6 +61,8 @@ fn paths_with_spaces_are_quoted_in_commands() {
     assert_eq!(moire::study::quote("my scene.toml"), "'my scene.toml'");
     assert_eq!(moire::study::quote("it's"), "'it'\\''s'");
     assert_eq!(moire::study::quote(""), "''");
+    let texts = ["my scene.toml", "it's", "a/b-c.toml", "", "back\\slash ü"];
+    assert_eq!(words(&texts.map(moire::study::quote).join(" ")), texts);
 }
 
 #[test]

@@ -10,6 +10,7 @@ use serde_json::Value;
 use tempfile::tempdir;
 
 use super::{points, scene, studied};
+use crate::child::Running;
 use crate::stage::device_name;
 use crate::support::program;
 
@@ -82,7 +83,8 @@ fn points_of_another_scene_size_or_reference_are_measured_anew() {
 }
 
 fn interrupt(out: &Path) -> std::process::Output {
-    let mut child = Command::new(std::path::absolute(program()).unwrap())
+    let mut command = Command::new(std::path::absolute(program()).unwrap());
+    command
         .arg("study")
         .arg(scene())
         .arg("--out")
@@ -90,17 +92,16 @@ fn interrupt(out: &Path) -> std::process::Output {
         .args(["--size", "160x120", "--methods", METHODS, "--spp", "1,4,16", "--repeats", "1000"])
         .args(["--device", &device_name()])
         .stdout(Stdio::null())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap();
+        .stderr(Stdio::piped());
+    let mut study = Running::start(&mut command);
     let start = Instant::now();
     while !out.join("study.json").is_file() {
-        assert_eq!(child.try_wait().unwrap(), None, "it should still be measuring");
+        assert_eq!(study.ended(), None, "it should still be measuring");
         assert!(start.elapsed() < Duration::from_secs(30), "no record after 30 s");
         std::thread::sleep(Duration::from_millis(20));
     }
-    assert!(Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
-    child.wait_with_output().unwrap()
+    study.interrupt();
+    study.output(Duration::from_secs(60))
 }
 
 #[test]

@@ -1,0 +1,67 @@
+//! Where Mesa's drivers keep the shaders that they have compiled. In: the environment. Out: the same, with
+//! a temporary folder where theirs cannot be written, so that the next start is as quick as elsewhere and
+//! nothing of it reaches stderr. Paths as in Mesa's `disk_cache_generate_cache_dir`.
+
+use std::fs::{self, DirBuilder};
+use std::os::unix::fs::{DirBuilderExt, MetadataExt};
+use std::path::{Path, PathBuf};
+use std::{env, io};
+
+use nix::unistd::{User, getuid};
+
+/// The folder that drivers make in another one for their cache.
+const CACHE: &str = "mesa_shader_cache";
+
+/// Sets the folder for this process, where it has to be another one. Does nothing once there are other
+/// threads, which might read the environment just then.
+pub fn settle() {
+    let decided = ["MESA_SHADER_CACHE_DISABLE", "MESA_GLSL_CACHE_DISABLE"].map(env::var_os);
+    if decided.iter().any(Option::is_some) || wanted().is_some_and(|folder| is_usable(&folder)) || !is_alone()
+    {
+        return;
+    }
+    let (name, value) = match private_folder(&env::temp_dir()) {
+        Ok(folder) => ("MESA_SHADER_CACHE_DIR", folder.into_os_string()),
+        Err(_) => ("MESA_SHADER_CACHE_DISABLE", "true".into()),
+    };
+    // SAFETY: this is the only thread of the process.
+    unsafe { env::set_var(name, value) };
+}
+
+/// The folder in which Mesa makes its own; none for a user without a home.
+fn wanted() -> Option<PathBuf> {
+    let named =
+        ["MESA_SHADER_CACHE_DIR", "MESA_GLSL_CACHE_DIR", "XDG_CACHE_HOME"].into_iter().find_map(env::var_os);
+    let home = || Some(User::from_uid(getuid()).ok()??.dir.join(".cache"));
+    named.map(PathBuf::from).or_else(home)
+}
+
+/// Whether the cache in `folder` can be written, or made: of the folders above, at most one may be missing.
+fn is_usable(folder: &Path) -> bool {
+    if folder.as_os_str().is_empty() {
+        return false;
+    }
+    let own = folder.join(CACHE);
+    let above = folder.parent().filter(|path| !path.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let first = [&own, folder, above].into_iter().find(|path| path.symlink_metadata().is_ok());
+    first.is_some_and(|path| tempfile::tempfile_in(path).is_ok())
+}
+
+/// A folder with a fixed name in which nobody else may write: what lies there is run.
+fn private_folder(temporary: &Path) -> io::Result<PathBuf> {
+    let folder = temporary.join(format!("moire-{}", getuid()));
+    match DirBuilder::new().mode(0o700).create(&folder) {
+        Err(error) if error.kind() != io::ErrorKind::AlreadyExists => return Err(error),
+        _ => {}
+    }
+    let found = fs::symlink_metadata(&folder)?;
+    if !found.is_dir() || found.uid() != getuid().as_raw() || found.mode() & 0o022 != 0 || !is_usable(&folder)
+    {
+        return Err(io::ErrorKind::PermissionDenied.into());
+    }
+    Ok(folder)
+}
+
+fn is_alone() -> bool {
+    fs::read_dir("/proc/self/task").is_ok_and(|threads| threads.count() == 1)
+}

@@ -1,0 +1,54 @@
+//! Programs that a test starts beside itself. In: a command. Out: how it ended and what it wrote. However the
+//! test ends, they end with it; signals are sent without `kill`, which a bare system lacks.
+
+use std::process::{Child, Command, ExitStatus, Output};
+use std::time::{Duration, Instant};
+
+use nix::sys::signal::{Signal, kill};
+use nix::unistd::Pid;
+
+pub struct Running(Option<Child>);
+
+impl Running {
+    pub fn start(command: &mut Command) -> Running {
+        Running(Some(command.spawn().unwrap()))
+    }
+
+    pub fn id(&self) -> Pid {
+        Pid::from_raw(self.0.as_ref().unwrap().id() as i32)
+    }
+
+    fn child(&mut self) -> &mut Child {
+        self.0.as_mut().unwrap()
+    }
+
+    /// How it ended, once it has.
+    pub fn ended(&mut self) -> Option<ExitStatus> {
+        self.child().try_wait().unwrap()
+    }
+
+    /// Sends what a terminal sends for Ctrl-C.
+    pub fn interrupt(&self) {
+        kill(self.id(), Signal::SIGINT).unwrap();
+    }
+
+    /// Waits for its end, at most so long, and takes what it wrote.
+    pub fn output(mut self, most: Duration) -> Output {
+        let start = Instant::now();
+        while self.ended().is_none() {
+            assert!(start.elapsed() < most, "still running after {most:?}");
+            std::thread::sleep(Duration::from_millis(20));
+        }
+        self.0.take().unwrap().wait_with_output().unwrap()
+    }
+}
+
+impl Drop for Running {
+    fn drop(&mut self) {
+        if let Some(child) = &mut self.0 {
+            // It may have ended by itself.
+            let _ = child.kill();
+            let _ = child.wait();
+        }
+    }
+}

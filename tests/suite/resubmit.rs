@@ -1,0 +1,117 @@
+//! A driver compiles a shader once, not at each submission: pictures of a few pixels take a small part of
+//! the time that their pipelines took to be built. lavapipe needs help for this (`glsl/shared/opaque.glsl`).
+
+use std::time::Instant;
+
+use moire::gpu::{DeviceKind, DeviceSelect, Gpu};
+use moire::probe::Pyramids;
+use moire::progress::Silent;
+use moire::render::{Session, Tuning};
+use moire::scene::model::{Algorithm, Pattern};
+use moire::texture::data::{ColorSpace, Dimension, TexelFormat, TextureData};
+
+use crate::stage::{device_name, packed, small};
+use crate::support::untested;
+
+/// Compiling anew takes a third or more of what building a pipeline took; without it, a hundredth.
+const MOST: f64 = 0.1;
+
+/// A device of its own: tests that share one wait for each other, which would look like compiling. None but a
+/// CPU's drivers compile for so long that times tell anything.
+fn cpu() -> Option<Gpu> {
+    let gpu = Gpu::open(&DeviceSelect::parse(&device_name()).unwrap()).unwrap();
+    if gpu.info().kind != DeviceKind::Cpu {
+        untested("whether shaders are compiled once: the device is no CPU");
+        return None;
+    }
+    Some(gpu)
+}
+
+/// The least of some numbers: other tests share the cores.
+fn least(times: u32, act: impl FnMut(u32) -> f64) -> f64 {
+    (0..times).map(act).fold(f64::INFINITY, f64::min)
+}
+
+fn seconds(act: impl FnOnce()) -> f64 {
+    let clock = Instant::now();
+    act();
+    clock.elapsed().as_secs_f64()
+}
+
+/// Seconds to render once more, over those to build the pipelines.
+fn share(gpu: &Gpu, name: &str, algorithm: Algorithm, keep_everything: bool) -> f64 {
+    let mut scene = small(name, 8, 16);
+    scene.sampling.algorithm = algorithm;
+    scene.sampling.pattern = Pattern::SobolOwen;
+    scene.sampling.shared = false;
+    let session = Session::open(gpu, packed(scene, None), keep_everything, &Tuning::default()).unwrap();
+    let mut again = 0.0;
+    let build = least(2, |_| {
+        let prepared = session.prepare().unwrap();
+        // Beams build the pipeline of what they leave to samples when they find it.
+        let (_, report) = prepared.render(&Silent).unwrap();
+        again = least(20, |_| seconds(|| drop(prepared.render(&Silent).unwrap())));
+        report.seconds.compile
+    });
+    again / build
+}
+
+fn check(algorithm: Algorithm, names: &[&str]) {
+    let Some(gpu) = cpu() else { return };
+    for name in names {
+        let share = share(&gpu, name, algorithm, false);
+        assert!(share < MOST, "{name} by {algorithm}: {share:.3} of the time to build it");
+    }
+}
+
+#[test]
+fn tiles_are_compiled_once() {
+    check(Algorithm::Samples, &["s1a", "s2", "lecture"]);
+}
+
+#[test]
+fn jobs_are_compiled_once() {
+    check(Algorithm::Adaptive, &["s1a", "s2", "lecture"]);
+}
+
+#[test]
+fn beams_are_compiled_once() {
+    check(Algorithm::Beam, &["s1a", "beams", "lecture"]);
+}
+
+#[test]
+fn cones_are_compiled_once() {
+    check(Algorithm::Cone, &["beams", "lecture"]);
+}
+
+#[test]
+fn a_pipeline_with_everything_is_compiled_once() {
+    let Some(gpu) = cpu() else { return };
+    let share = share(&gpu, "s1a", Algorithm::Samples, true);
+    assert!(share < MOST, "{share:.3} of the time to build it");
+}
+
+#[test]
+fn passes_of_a_pyramid_are_compiled_once() {
+    let Some(gpu) = cpu() else { return };
+    let texture = TextureData {
+        name: "grey".into(),
+        dimension: Dimension::Two,
+        width: 64,
+        height: 64,
+        depth: 1,
+        format: TexelFormat::Grey8,
+        color_space: ColorSpace::Linear,
+        file_channels: 1,
+        texels: vec![128; 64 * 64],
+    };
+    let mut again = 0.0;
+    let first = least(2, |_| {
+        let mut pyramids = Pyramids::new(&gpu);
+        let mut make = || seconds(|| drop(pyramids.make(&texture).unwrap()));
+        let first = make();
+        again = least(20, |_| make());
+        first
+    });
+    assert!(again < MOST * first, "{again} s, the first time {first} s");
+}
