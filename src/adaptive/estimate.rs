@@ -7,6 +7,7 @@
 //! An edge that all n samples missed covers less than about 1/n of the pixel, of which the square's mean is
 //! 1/3n²: no variance is taken for less than that times the contrast to the nearest pixels, squared.
 
+use glam::{Vec3A, Vec4};
 use rayon::prelude::*;
 
 use super::Sums;
@@ -30,7 +31,7 @@ pub struct Estimate {
 /// Of one pixel.
 #[derive(Clone, Copy, Default)]
 struct Seen {
-    mean: [f32; 3],
+    mean: Vec3A,
     /// The mean's variance by the difference of the halves.
     difference: f32,
     /// And by the spread of the samples.
@@ -72,22 +73,24 @@ impl Estimate {
 }
 
 fn seen(sums: &Sums, count: u32, i: usize) -> Seen {
-    let n = count as f32;
-    let [a, b] = [sums.halves[0][i], sums.halves[1][i]];
-    let mean: [f32; 3] = std::array::from_fn(|c| (a[c] + b[c]) / (2.0 * n));
-    let apart: [f32; 3] = std::array::from_fn(|c| (a[c] - b[c]) / n);
-    let half = |[r, g, b, squares]: [f32; 4]| (squares - (r * r + g * g + b * b) / (3.0 * n)).max(0.0) / n;
-    let halves = [half(a), half(b)];
-    let spread = ((a[3] + b[3]) / (2.0 * n) - square(mean)).max(0.0);
-    let seen = Seen { mean, difference: square(apart) / 4.0, spread: spread / (2.0 * n), halves };
+    let part = 1.0 / count as f32;
+    let [a, b] = [0, 1].map(|half| part * Vec4::from_array(sums.halves[half][i]));
+    let (own, other) = (Vec3A::from_vec4(a), Vec3A::from_vec4(b));
+    let mean = 0.5 * (own + other);
+    let difference = 0.25 * square(own - other);
+    let spread = 0.5 * part * (0.5 * (a.w + b.w) - square(mean)).max(0.0);
+    let halves = [(a.w - square(own)).max(0.0), (b.w - square(other)).max(0.0)];
     // What is no number stays none: more samples would not help, and no neighbour has contrast to it.
-    let number = mean.iter().chain([&seen.difference, &seen.spread]).all(|v| v.is_finite());
-    if number { seen } else { Seen { mean: [f32::NAN; 3], ..Seen::default() } }
+    if mean.is_finite() && difference.is_finite() && spread.is_finite() {
+        Seen { mean, difference, spread, halves }
+    } else {
+        Seen { mean: Vec3A::NAN, ..Seen::default() }
+    }
 }
 
 /// A channel's mean.
-fn square(v: [f32; 3]) -> f32 {
-    (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) / 3.0
+fn square(v: Vec3A) -> f32 {
+    v.length_squared() * (1.0 / 3.0)
 }
 
 /// Of each pixel's window: sums of what the halves and the spread say.
@@ -114,7 +117,7 @@ fn window_sums(seen: &[Seen], width: usize, height: usize) -> Vec<[f32; 2]> {
 /// The largest squared difference to one of the four nearest pixels.
 fn contrast(seen: &[Seen], i: usize, width: usize, height: usize) -> f32 {
     let (x, y) = (i % width, i / width);
-    let to = |j: usize| square(std::array::from_fn(|c| seen[i].mean[c] - seen[j].mean[c]));
+    let to = |j: usize| square(seen[i].mean - seen[j].mean);
     let mut most = 0.0f32;
     for (there, j) in [
         (x > 0, i.wrapping_sub(1)),

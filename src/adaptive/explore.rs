@@ -8,8 +8,10 @@ use super::estimate::Estimate;
 
 /// One pixel of so many, one after the other.
 const APART: usize = 128;
-/// By how much the count of a visited pixel grows.
+/// By how much the count of a visited pixel grows that has few samples in each half; one of more gains a half of the
+/// power of two in it.
 const GROWTH: u32 = 4;
+const FEW: u32 = 64;
 /// A visited pixel has found something where its samples vary so many times more than before.
 const FOUND: f32 = 4.0;
 /// Pixels around such a one that are taken to be like it.
@@ -49,10 +51,14 @@ impl Explorer {
     pub fn visit(&mut self, next: &mut [u32], now: &[u32], estimate: &Estimate) {
         for first in (0..next.len()).step_by(APART) {
             let pixel = self.rng.usize(first..(first + APART).min(next.len()));
-            next[pixel] = next[pixel].max((GROWTH * now[pixel]).min(MOST));
+            next[pixel] = next[pixel].max(grown(now[pixel]).min(MOST));
             self.visited.push((pixel as u32, estimate.spreads[pixel]));
         }
     }
+}
+
+fn grown(now: u32) -> u32 {
+    if now < FEW { GROWTH * now } else { now + (1 << now.ilog2()) / 2 }
 }
 
 #[cfg(test)]
@@ -78,6 +84,11 @@ mod tests {
         }
         // A pixel is missed 2000 times with a probability of (127/128)^2000 = 1.5e-7.
         assert!(ever.iter().all(|e| *e));
+    }
+
+    #[test]
+    fn visited_pixels_keep_counts_of_two_bits_and_grow_less_where_they_have_many() {
+        assert_eq!([1, 8, 48, 64, 96, 1024].map(grown), [4, 32, 192, 96, 128, 1536]);
     }
 
     /// A texture of rare bright texels that no first pass has met: whoever finds one tells its neighbours, these theirs.

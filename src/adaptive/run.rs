@@ -33,7 +33,7 @@ const AUDIT_TIME: f64 = 0.08;
 const KEPT: f64 = 1.05;
 /// Samples of an audit over those of the picture; a picture of few has more, up to so many in all. Where something small
 /// and bright is known to be, that is what audits must meet too.
-const AUDIT_SHARE: f64 = 1.0 / 24.0;
+const AUDIT_SHARE: f64 = 1.0 / 48.0;
 const AUDIT_SHARE_OF_BRIGHT: f64 = 1.0 / 4.0;
 const SMALL_AUDIT: f64 = (1u64 << 19) as f64;
 const SMALL_AUDIT_OF_BRIGHT: f64 = (1u64 << 21) as f64;
