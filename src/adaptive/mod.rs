@@ -5,6 +5,7 @@
 
 mod allocate;
 mod audit;
+mod auditor;
 mod draws;
 mod estimate;
 mod exact;

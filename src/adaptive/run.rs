@@ -5,6 +5,7 @@ use std::time::Instant;
 
 use super::allocate::{Aim, Allocation};
 use super::audit::{Audit, Audited, CONFIDENCE, DEVIATE};
+use super::auditor::Auditor;
 use super::estimate::{Estimate, Exponent};
 use super::exact::{Exact, OWN_ERROR, Outlook, needed};
 use super::explore::Explorer;
@@ -31,12 +32,6 @@ const AUDIT_OF_TIME: f64 = 0.5;
 const AUDIT_TIME: f64 = 0.08;
 /// A time is kept where it is exceeded by no more than this factor.
 const KEPT: f64 = 1.05;
-/// Samples of an audit over those of the picture; a picture of few has more, up to so many in all. Where something small
-/// and bright is known to be, that is what audits must meet too.
-const AUDIT_SHARE: f64 = 1.0 / 48.0;
-const AUDIT_SHARE_OF_BRIGHT: f64 = 1.0 / 4.0;
-const SMALL_AUDIT: f64 = (1u64 << 19) as f64;
-const SMALL_AUDIT_OF_BRIGHT: f64 = (1u64 << 21) as f64;
 /// Of a picture with a number of samples to keep an audit has a quarter, or so many.
 const LITTLE_AUDIT: f64 = (1u64 << 18) as f64;
 /// With fewer an audit says nothing.
@@ -193,50 +188,6 @@ pub fn run(
         Goal::Seconds(limit) => start.elapsed().as_secs_f64() <= KEPT * limit,
     };
     Ok((film(&sums, &counts), outcome))
-}
-
-/// When to audit, how much, and what the last audit said.
-#[derive(Default)]
-struct Auditor {
-    rounds: u32,
-    refusals: u32,
-    /// Mean squared error by the last audit.
-    mse: f64,
-}
-
-impl Auditor {
-    /// Samples of the next audit.
-    fn budget(&self, taken: f64, bright: bool) -> f64 {
-        let (share, least) = match bright {
-            true => (AUDIT_SHARE_OF_BRIGHT, SMALL_AUDIT_OF_BRIGHT),
-            false => (AUDIT_SHARE, SMALL_AUDIT),
-        };
-        (share * f64::from(1 << self.refusals.min(3)) * taken).max(least)
-    }
-
-    fn audit(
-        &mut self,
-        audited: &Audited,
-        tracer: &mut dyn Tracer,
-        budget: f64,
-        outcome: &mut Outcome,
-        progress: &dyn Progress,
-    ) -> Result<Audit> {
-        let audit = audited.audit(tracer, budget, self.rounds, progress)?;
-        self.rounds += 1;
-        self.mse = audit.mse;
-        outcome.audited_pixels += audit.pixels as u64;
-        outcome.audit_samples += audit.samples as u64;
-        Ok(audit)
-    }
-
-    /// What the aim is lowered by: audits found more than the halves, or were not sure.
-    fn strictness(&self, noise: f64) -> f64 {
-        if self.refusals == 0 {
-            return 1.0;
-        }
-        (noise / self.mse.max(noise)) * 0.8f64.powi(self.refusals as i32 - 1)
-    }
 }
 
 impl Outcome {
