@@ -17,7 +17,7 @@ const CHUNK: usize = 1 << 15;
 /// Cells along each side of the picture.
 const CELLS: usize = 32;
 
-/// Samples of each of both means.
+/// Returns the samples of each of both means for a pixel with `count` samples in each half.
 pub fn wanted(count: u32) -> u32 {
     (2 * count).clamp(MIN_SAMPLES, MOST)
 }
@@ -31,8 +31,9 @@ fn samples_of(count: u32) -> f64 {
 /// most. In sum, of each cell of the picture and each octave of counts.
 pub struct Masses {
     cells: Vec<[f64; OCTAVES]>,
-    /// Samples for each pixel, and draws a variance.
+    /// Samples that each pixel may expect whatever its variance.
     even: f64,
+    /// Draws for a variance of 1.
     of_variance: f64,
 }
 
@@ -69,6 +70,7 @@ impl Masses {
         masses
     }
 
+    /// Returns how often the pixel may expect to be drawn, at most once.
     pub fn draws_of(&self, of: &Audited, pixel: usize) -> f64 {
         let even = self.even / samples_of(of.counts[pixel]);
         (even + self.of_variance * f64::from(of.estimate.variances[pixel])).min(1.0)

@@ -80,10 +80,10 @@ impl Class {
     }
 
     /// What is made of its pixels' spreads; none where that is no matter.
-    fn rule(&self) -> Option<Rule> {
+    fn rule(&self, alike: f64) -> Option<Rule> {
         let floor = self.unseen / f64::from(self.partners.max(1));
         let mean = self.spread / f64::from(2 * self.pixels);
-        let reliability = 2.0 * self.alike() / (1.0 + self.alike());
+        let reliability = 2.0 * alike / (1.0 + alike);
         let matters = self.contradictions >= CONTRADICTIONS && self.means * floor > SHARE * self.variance;
         matters.then_some(Rule { floor: floor as f32, mean: mean as f32, reliability: reliability as f32 })
     }
@@ -158,17 +158,18 @@ fn part_rules<P: Iterator<Item = usize>>(
     for i in pixels() {
         classes[octave(counts[i])].add(halves(i), variances[i]);
     }
-    let apart: [bool; OCTAVES] = std::array::from_fn(|octave| {
-        classes[octave].pixels > 0
-            && classes[octave].alike() < ALIKE[usize::from(bright || 1 << octave >= MANY)]
+    // None where halves agree on what tells pixels apart, or where there is no pixel.
+    let alike: [Option<f64>; OCTAVES] = std::array::from_fn(|octave| {
+        let most = ALIKE[usize::from(bright || 1 << octave >= MANY)];
+        (classes[octave].pixels > 0).then(|| classes[octave].alike()).filter(|alike| *alike < most)
     });
-    if !apart.contains(&true) {
+    if alike.iter().all(Option::is_none) {
         return None;
     }
-    for i in pixels().filter(|&i| apart[octave(counts[i])]) {
+    for i in pixels().filter(|&i| alike[octave(counts[i])].is_some()) {
         classes[octave(counts[i])].compare(halves(i), counts[i]);
     }
-    let rules = std::array::from_fn(|octave| classes[octave].rule().filter(|_| apart[octave]));
+    let rules = std::array::from_fn(|octave| alike[octave].and_then(|alike| classes[octave].rule(alike)));
     rules.iter().any(Option::is_some).then(|| Box::new(rules))
 }
 
