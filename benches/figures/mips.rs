@@ -5,7 +5,7 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use moire::gpu::{DeviceSelect, Gpu};
-use moire::probe::Pyramids;
+use moire::lab::probe::Pyramids;
 use moire::texture::data::{ColorSpace, Dimension, MipKernel, TexelFormat, TextureData};
 use moire::texture::mips;
 

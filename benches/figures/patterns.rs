@@ -27,9 +27,10 @@ pub fn table(bench: &Bench) -> Outcome<()> {
         let mut row = format!("| `{pattern}` |");
         for name in SCENES {
             bench.run(name, &["--spp", "64", "--pattern", pattern.name()], &[])?;
-            let reference = moire::metrics::read_picture(Path::new(&format!("data/reference/{name}.exr")))?;
-            let picture = moire::metrics::read_picture(Path::new(&bench.out()))?;
-            row += &format!(" {:.2e} |", moire::metrics::compare(&picture, &reference)?.rmse);
+            let reference =
+                moire::lab::metrics::read_picture(Path::new(&format!("data/reference/{name}.exr")))?;
+            let picture = moire::lab::metrics::read_picture(Path::new(&bench.out()))?;
+            row += &format!(" {:.2e} |", moire::lab::metrics::compare(&picture, &reference)?.rmse);
         }
         println!("{row} {:.2} |", fastest(times) / base);
     }

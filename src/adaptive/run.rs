@@ -11,10 +11,10 @@ use super::exact::{Exact, OWN_ERROR, Outlook, needed};
 use super::explore::Explorer;
 use super::pace::{PLANNED, Pace};
 use super::{Goal, MOST, Outcome, Sums, Tracer};
-use crate::error::Result;
-use crate::film::Film;
-use crate::layout::Job;
-use crate::progress::Progress;
+use crate::core::error::Result;
+use crate::core::film::Film;
+use crate::core::progress::Progress;
+use crate::schema::layout::Job;
 
 /// Samples of each half in the first pass: enough to meet the edge of a shape that covers a tenth of the
 /// pixel with a chance of 4 in 5.

@@ -22,9 +22,9 @@ use std::process::ExitCode;
 use clap::builder::{PossibleValue, PossibleValuesParser, StyledStr, TypedValueParser};
 use clap::error::{ContextKind, ContextValue};
 
-use crate::error::{Error, Result};
+use crate::core::error::{Error, Result};
+use crate::core::panics;
 use crate::gpu;
-use crate::panics;
 use crate::scene::synonyms::meant;
 
 /// Groups of options in the help.

@@ -4,7 +4,7 @@ use clap::Args;
 use serde_json::{Value, json};
 
 use crate::adaptive::Goal;
-use crate::error::{Error, Result};
+use crate::core::error::{Error, Result};
 use crate::pack::Crop;
 use crate::scene::cone;
 use crate::scene::model::{

@@ -14,9 +14,10 @@ use super::progress::Bar;
 use super::report::{self, Ran};
 use super::{DEVICE, MEASURING, OUTPUT, TEXTURES};
 use crate::adaptive::{self, Goal};
-use crate::error::{Error, Result};
-use crate::film::Placement;
+use crate::core::error::{Error, Result};
+use crate::core::film::Placement;
 use crate::gpu::{DeviceSelect, Gpu};
+use crate::lab::verify::known::anisotropy_fault;
 use crate::oracle;
 use crate::output::{self, ENDING_NAMES, Format, WriteOptions};
 use crate::pack::{self, Crop, PackedScene, Pyramids, Schedule};
@@ -29,7 +30,6 @@ use crate::texture::decode::Values;
 use crate::texture::load::load_noted;
 use crate::texture::read_file::is_turned;
 use crate::texture::source::OrientationUse;
-use crate::verify::known::anisotropy_fault;
 
 #[derive(Args, Debug)]
 pub struct RenderArgs {

@@ -5,8 +5,8 @@ use std::fs;
 use serde_json::{Map, Value, json};
 
 use super::tell;
-use crate::counted::{counted, verb};
-use crate::film::Film;
+use crate::core::counted::{counted, verb};
+use crate::core::film::Film;
 use crate::pack::Guard;
 use crate::render::Report;
 use crate::scene::model::Precision;

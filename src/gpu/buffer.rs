@@ -10,8 +10,8 @@ use gpu_allocator::vulkan::Allocation;
 use super::convert;
 use super::device::Core;
 use super::result::{Doing, size_text};
-use crate::error::{Error, Result};
-use crate::named::named_enum;
+use crate::core::error::{Error, Result};
+use crate::core::named::named_enum;
 
 named_enum! {
     /// How shaders see a buffer.

@@ -9,7 +9,7 @@ use ash::vk;
 use super::device::Core;
 use super::result::{Doing, failed, lost};
 use super::timing::{RunTime, Timestamps};
-use crate::error::Result;
+use crate::core::error::Result;
 
 /// Dispatches are sliced to well under a second; one that takes this long never ends.
 const TIME_OUT: Duration = Duration::from_secs(120);

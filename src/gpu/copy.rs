@@ -6,7 +6,7 @@ use super::buffer::Buffer;
 use super::command::Commands;
 use super::image::Image;
 use super::upload::{Transition, transition};
-use crate::error::{Error, Result};
+use crate::core::error::{Error, Result};
 
 pub(super) fn to_buffer(
     commands: &mut Commands,

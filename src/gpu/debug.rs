@@ -8,7 +8,7 @@ use ash::vk;
 
 use super::device::lock;
 use super::result::Doing;
-use crate::error::Result;
+use crate::core::error::Result;
 
 pub(super) const VALIDATION_LAYER: &CStr = c"VK_LAYER_KHRONOS_validation";
 

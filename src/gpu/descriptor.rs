@@ -12,8 +12,8 @@ use super::image::Image;
 use super::pipeline::Pipeline;
 use super::result::Doing;
 use super::sampler::Sampler;
-use crate::error::{Error, Result};
-use crate::named::named_enum;
+use crate::core::error::{Error, Result};
+use crate::core::named::named_enum;
 
 named_enum! {
     /// What a shader declares at a binding.

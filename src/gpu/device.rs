@@ -15,7 +15,7 @@ use super::instance::Instance;
 use super::memory::Memory;
 use super::result::Doing;
 use super::select::DeviceSelect;
-use crate::error::{Error, Result};
+use crate::core::error::{Error, Result};
 
 /// A panic elsewhere leaves these locks' data whole: they guard complete operations.
 pub(super) fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {

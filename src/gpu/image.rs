@@ -11,8 +11,8 @@ use super::convert;
 use super::device::Core;
 use super::image_check::{Texels, check};
 use super::result::Doing;
-use crate::error::Result;
-use crate::named::named_enum;
+use crate::core::error::Result;
+use crate::core::named::named_enum;
 
 named_enum! {
     /// Channels × component; unsigned normalized unless float.

@@ -4,7 +4,7 @@
 use super::buffer::Buffer;
 use super::device::Core;
 use super::image::{Extent, ImageDesc, ImageFormat, ImageShape};
-use crate::error::{Error, Result};
+use crate::core::error::{Error, Result};
 
 /// Where the levels of an image come from.
 pub(super) enum Texels<'a> {

@@ -6,7 +6,7 @@ use serde::{Serialize, Serializer, ser::SerializeStruct};
 
 use super::convert;
 use super::instance::API_VERSION;
-use crate::named::named_enum;
+use crate::core::named::named_enum;
 
 named_enum! {
     /// In the order of preference.

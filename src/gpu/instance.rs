@@ -6,7 +6,7 @@ use ash::vk;
 use super::debug::{MessageLog, Messenger, VALIDATION_LAYER, layer_present};
 use super::info::{self, DeviceInfo};
 use super::result::{Doing, INSTALL, failed};
-use crate::error::{Error, Result};
+use crate::core::error::{Error, Result};
 
 pub(super) const API_VERSION: u32 = vk::API_VERSION_1_2;
 

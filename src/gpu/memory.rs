@@ -11,7 +11,7 @@ use gpu_allocator::{AllocationError, AllocationSizes, MemoryLocation};
 
 use super::device::lock;
 use super::result::{LESS_MEMORY, size_text};
-use crate::error::{Error, Result};
+use crate::core::error::{Error, Result};
 
 const MIB: u64 = 1024 * 1024;
 

@@ -26,6 +26,7 @@ mod readback;
 mod result;
 mod sampler;
 mod select;
+pub mod shaders;
 mod staging;
 mod timing;
 mod upload;
@@ -45,7 +46,7 @@ pub use sampler::Sampler;
 pub use select::DeviceSelect;
 pub use timing::RunTime;
 
-use crate::error::{Error, Result};
+use crate::core::error::{Error, Result};
 use crate::texture::sampler_spec::SamplerSpec;
 use command::{Commands, barrier};
 use device::{Core, lock};

@@ -9,7 +9,7 @@ use super::convert;
 use super::descriptor::{BindGroup, BindingDesc, BindingKind};
 use super::device::Core;
 use super::result::{Doing, size_text};
-use crate::error::{Error, Result};
+use crate::core::error::{Error, Result};
 
 const SPIRV_MAGIC: u32 = 0x0723_0203;
 

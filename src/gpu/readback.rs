@@ -6,7 +6,7 @@ use ash::vk;
 use super::buffer::Buffer;
 use super::command::Commands;
 use super::staging::{CHUNK, Staging};
-use crate::error::Result;
+use crate::core::error::Result;
 
 pub(super) fn from_buffer(
     staging: &mut Staging,

@@ -3,7 +3,7 @@
 
 use ash::vk;
 
-use crate::error::{Error, Result};
+use crate::core::error::{Error, Result};
 
 /// Adds to a failed Vulkan call what it was doing: `creating buffer `film``.
 pub(super) trait Doing<T> {

@@ -8,7 +8,7 @@ use ash::vk;
 use super::convert;
 use super::device::Core;
 use super::result::Doing;
-use crate::error::{Error, Result};
+use crate::core::error::{Error, Result};
 use crate::texture::sampler_spec::{Address, Filter, MipMode, SamplerSpec};
 
 /// Cheap to clone: clones are the same sampler.

@@ -2,7 +2,7 @@
 //! suitable device or an error that lists what there is. Pure functions.
 
 use super::info::{DeviceInfo, DeviceKind};
-use crate::error::{Error, Result};
+use crate::core::error::{Error, Result};
 
 /// What `--device` asked for.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

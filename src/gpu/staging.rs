@@ -9,7 +9,7 @@ use gpu_allocator::MemoryLocation;
 
 use super::buffer::RawBuffer;
 use super::device::Core;
-use crate::error::Result;
+use crate::core::error::Result;
 
 /// Most bytes of one transfer.
 pub(super) const CHUNK: usize = 16 << 20;

@@ -6,7 +6,7 @@ use ash::vk;
 
 use super::device::Core;
 use super::result::Doing;
-use crate::error::Result;
+use crate::core::error::Result;
 
 /// How long one submission took.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

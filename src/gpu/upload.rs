@@ -7,7 +7,7 @@ use super::buffer::Buffer;
 use super::command::Commands;
 use super::image::{Extent, Image, ImageShape};
 use super::staging::{CHUNK, Staging};
-use crate::error::Result;
+use crate::core::error::Result;
 
 /// Copies in a chunk start at multiples of this: the largest texel (Vulkan 1.2, "Copying Data
 /// Between Buffers and Images": a multiple of the texel size, and of 4).

@@ -12,9 +12,9 @@ use super::forms::{
 use super::math::xyz;
 use super::paint::{GaveUp, Paint, Result, integral, is_lit, is_simple, links, may_shade};
 use super::polygon::{Form, LEAST_AREA, MAX_CORNERS, Polygon, area, range, split, unit_square};
-use crate::layout::{Light, NO_MATERIAL, NO_SHAPE, NO_TEXTURE};
 use crate::pack::{LightKind, PackedScene};
 use crate::scene::model::Model;
+use crate::schema::layout::{Light, NO_MATERIAL, NO_SHAPE, NO_TEXTURE};
 
 /// Shapes that a beam may meet.
 const MAX_MET: usize = 8;

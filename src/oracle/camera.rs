@@ -4,8 +4,8 @@ use glam::{DVec2, DVec3};
 
 use super::math::xyz;
 use super::warps::concentric_disc;
-use crate::layout::Header;
 use crate::pack::ProjectionKind;
+use crate::schema::layout::Header;
 
 #[derive(Clone, Copy, Debug)]
 pub struct Ray {

@@ -8,9 +8,9 @@ use glam::DVec2;
 use super::patterns::{Points, pair_points, sample_line, sample_pair};
 use super::rng::{mix_bits, pcg3d};
 use super::strata::UNIT;
-use crate::layout::Header;
 use crate::pack::Choice;
 use crate::scene::model::Pattern;
+use crate::schema::layout::Header;
 
 /// Positions as integers in [0, 2^24).
 #[derive(Clone, Copy, Debug, Default)]

@@ -18,9 +18,9 @@ use super::pieces::{gather, lay_over};
 use super::shade::{bumped_normal, surface_color};
 use super::shading_normal::{on_its_side, settle_normal};
 use super::surface::{Surface, hit_surface};
-use crate::layout::{Light, Material, NO_MATERIAL, NO_SHAPE};
 use crate::pack::{LightKind, PackedScene};
 use crate::scene::model::Model;
+use crate::schema::layout::{Light, Material, NO_MATERIAL, NO_SHAPE};
 
 /// Cones that wait, cones of a pixel, and the least weight of one. What goes beyond is dropped.
 const MOST_WAITING: usize = 32;

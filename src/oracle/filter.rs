@@ -12,8 +12,8 @@ use super::rng::pcg3d;
 use super::spread::{in_texture, kind_of, texel_spread};
 use super::summed::summed_area;
 use super::texture::{add_weighted, level_at};
-use crate::layout::{Sampler, Texture};
 use crate::pack::{PackedScene, TextureKind};
+use crate::schema::layout::{Sampler, Texture};
 use crate::texture::sampler_spec::{Filter, MipMode};
 
 /// Three numbers in [0, 1) from a sample's random bits.

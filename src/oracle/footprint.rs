@@ -5,9 +5,9 @@ use glam::{DMat3, DVec3};
 
 use super::camera::Ray;
 use super::math::xyz;
-use crate::layout::Header;
 use crate::pack::ProjectionKind;
 use crate::scene::model::Footprint as FootprintKind;
+use crate::schema::layout::Header;
 
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Beam {

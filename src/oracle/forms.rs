@@ -7,8 +7,8 @@ use glam::{DMat3, DVec2, DVec3, DVec4};
 
 use super::math::{vec4, xyz};
 use super::polygon::{Form, Polygon, at, middle};
-use crate::layout::{Header, Light, Plane, Sphere, Triangle};
 use crate::pack::{LightKind, MapKind, PackedScene, ProjectionKind};
+use crate::schema::layout::{Header, Light, Plane, Sphere, Triangle};
 
 pub const MAX_LINES: usize = 6;
 

@@ -5,7 +5,7 @@ use glam::{DVec2, DVec3};
 
 use super::footprint::{Beam, any_tangent, around};
 use super::warps::{concentric_disc, on_cap};
-use crate::layout::Header;
+use crate::schema::layout::Header;
 
 /// The normal of a facet that a ray along `direction` meets, on a surface with unit normal n against the ray.
 pub fn visible_normal(direction: DVec3, n: DVec3, alpha: f64, square: DVec2) -> DVec3 {

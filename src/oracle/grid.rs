@@ -5,7 +5,7 @@ use glam::DVec2;
 
 use super::address::addressed_texel;
 use super::texture::addresses;
-use crate::layout::{Sampler, Texture};
+use crate::schema::layout::{Sampler, Texture};
 use crate::texture::sampler_spec::{Address, Filter, TexelCenter};
 
 /// What is walked: a level of a texture, or a checker of unit squares.

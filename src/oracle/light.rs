@@ -12,8 +12,8 @@ use super::math::xyz;
 use super::rectangle::{LEAST_SOLID_ANGLE, on_rectangle};
 use super::surface::Surface;
 use super::warps::{concentric_disc, on_cap};
-use crate::layout::Light;
 use crate::pack::{LightKind, PackedScene};
+use crate::schema::layout::Light;
 
 /// Shapes as near to a place of a light as this share of the way are taken for the light itself.
 const BEFORE_LIGHT: f64 = 4095.0 / 4096.0;

@@ -6,8 +6,8 @@ use std::f64::consts::PI;
 use glam::{DVec2, DVec3};
 
 use super::math::{affine, atan2_accurate, vec4, xyz};
-use crate::layout::Map;
 use crate::pack::MapKind;
+use crate::schema::layout::Map;
 
 /// What a map can look at: the entity that its kind projects, the shape's own coordinate, and the
 /// changes of both over the footprint.

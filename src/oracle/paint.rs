@@ -10,9 +10,9 @@ use super::grid::{Grid, checker_grid, coarser, texture_grid};
 use super::math::xyz;
 use super::polygon::{Form, MAX_CORNERS, Polygon, area, at, middle, range, split};
 use super::rows::{SMALLEST, in_grid, longest_edge, mean_over};
-use crate::layout::{Light, Material, NO_TEXTURE};
 use crate::pack::{EntityKind, LightKind, MapKind, PackedScene, TextureKind};
 use crate::scene::model::Model;
+use crate::schema::layout::{Light, Material, NO_TEXTURE};
 use crate::texture::procedural::ProceduralKind;
 use crate::texture::sampler_spec::{Address, Filter};
 

@@ -8,8 +8,8 @@ use super::permute::{multi_jittered, n_rooks, permute};
 use super::rng::{mix_bits, pcg3d, pixel_key, sample_bits};
 use super::sobol::{morton, shuffled_index, shuffled_place, sobol_owen};
 use super::strata::{fine_position, stratum_position};
-use crate::layout::Header;
 use crate::scene::model::Pattern;
+use crate::schema::layout::Header;
 
 /// A path longer than these pairs of bases has random points.
 pub const HALTON_PAIRS: u32 = PRIMES.len() as u32 / 2;

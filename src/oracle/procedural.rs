@@ -8,7 +8,7 @@ use glam::DVec3;
 
 use super::math::{sine_turns, xyz};
 use super::noise::{cell_distance, cell_mean, kept, octave_sum};
-use crate::layout::Procedural;
+use crate::schema::layout::Procedural;
 use crate::texture::procedural::ProceduralKind;
 
 /// Boxes along a footprint's major axis, at most.

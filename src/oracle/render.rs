@@ -15,12 +15,12 @@ use super::patterns::pixel_points;
 use super::pixel_filter::filtered_place;
 use super::rng::{pcg2d, pixel_key, sample_bits};
 use super::shade::{advance, camera_path};
-use crate::error::{Error, Result};
-use crate::film::Film;
-use crate::layout::Header;
+use crate::core::error::{Error, Result};
+use crate::core::film::Film;
+use crate::core::progress::Progress;
 use crate::pack::{PackedScene, filtered_mean};
-use crate::progress::Progress;
 use crate::scene::model::Algorithm;
+use crate::schema::layout::Header;
 
 /// The mean radiance of pixel (x, y) of the film: of the crop, where there is one.
 pub fn pixel(scene: &PackedScene, x: u32, y: u32) -> DVec3 {

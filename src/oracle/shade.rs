@@ -18,9 +18,9 @@ use super::patterns::Points;
 use super::rng::pcg2d;
 use super::shading_normal::{on_its_side, settle_normal};
 use super::surface::{Surface, hit_surface};
-use crate::layout::{Header, Map, Material, NO_MATERIAL, NO_SHAPE, NO_TEXTURE};
 use crate::pack::{EntityKind, PackedScene};
 use crate::scene::model::{Model, ReliefKind};
+use crate::schema::layout::{Header, Map, Material, NO_MATERIAL, NO_SHAPE, NO_TEXTURE};
 
 /// What the surface's map looks at.
 pub fn seen_by_map(map: &Map, ray: &Ray, surface: &Surface, print: &Footprint) -> Seen {

@@ -3,8 +3,8 @@
 use glam::{DVec2, DVec3};
 
 use super::mapping::{Coordinate, along_cube_face, face_uv_change, on_cube_face, within_face};
-use crate::layout::Texture;
 use crate::pack::TextureKind;
+use crate::schema::layout::Texture;
 
 /// The footprint in texels of level 0.
 #[derive(Clone, Copy, Debug)]

@@ -6,8 +6,8 @@ use super::address::reduced_coordinate;
 use super::mapping::Coordinate;
 use super::math::vec4;
 use super::texture::addresses;
-use crate::layout::{Sampler, Texture};
 use crate::pack::PackedScene;
+use crate::schema::layout::{Sampler, Texture};
 use crate::texture::sampler_spec::{Address, TexelCenter};
 
 /// An interval of texels that stands for a part of the box along one axis, and how much of it.

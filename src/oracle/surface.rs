@@ -6,8 +6,8 @@ use glam::{DMat3, DVec2, DVec3};
 use super::camera::Ray;
 use super::intersect::{Hit, moved_by};
 use super::math::xyz;
-use crate::layout::{Plane, Sphere, Triangle};
 use crate::pack::PackedScene;
+use crate::schema::layout::{Plane, Sphere, Triangle};
 
 /// Where a ray met a shape, and what it needs to know of it.
 #[derive(Clone, Copy, Debug, Default)]

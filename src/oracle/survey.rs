@@ -5,8 +5,8 @@ use glam::{DVec2, DVec3};
 
 use super::forms::{Frame, frame_over, ray_at};
 use super::math::xyz;
-use crate::layout::{Header, Triangle};
 use crate::pack::PackedScene;
+use crate::schema::layout::{Header, Triangle};
 
 /// Triangles of the cell whose first pixel of the film is `place`.
 pub fn triangles_of(scene: &PackedScene, place: [u32; 2]) -> Vec<u32> {

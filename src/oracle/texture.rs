@@ -5,9 +5,9 @@ use glam::DVec4;
 
 use super::address::addressed_texel;
 use super::math::vec4;
-use crate::color::srgb_to_linear;
-use crate::layout::{Sampler, Texture};
+use crate::core::color::srgb_to_linear;
 use crate::pack::{PackedScene, TextureKind};
+use crate::schema::layout::{Sampler, Texture};
 use crate::texture::data::{ColorSpace, Component, TexelFormat};
 use crate::texture::sampler_spec::Address;
 

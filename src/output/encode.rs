@@ -15,8 +15,8 @@ use image::{ExtendedColorType, ImageEncoder, Rgb};
 
 use super::WriteOptions;
 use super::quantise::{rgbe, srgb8, srgb16};
-use crate::film::{Film, Placement};
-use crate::named::named_enum;
+use crate::core::film::{Film, Placement};
+use crate::core::named::named_enum;
 
 named_enum! {
     /// A file format; several endings may mean the same.

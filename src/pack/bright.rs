@@ -3,7 +3,7 @@
 
 use rayon::prelude::*;
 
-use crate::color::srgb_to_linear;
+use crate::core::color::srgb_to_linear;
 use crate::scene::model::{Model, Scene};
 use crate::texture::data::{ColorSpace, Component, TextureData};
 

@@ -4,8 +4,8 @@ use glam::DVec3;
 
 use super::pixel_filter::Warp;
 use super::{Crop, ProjectionKind, chances, real4, vec4};
-use crate::layout::{self, Header};
 use crate::scene::model::{Algorithm, Footprint, Projection, Scene};
+use crate::schema::layout::{self, Header};
 use crate::texture::sampler_spec::SamplerSpec;
 
 /// Right-handed basis of the camera: right, up, forward, all of unit length.

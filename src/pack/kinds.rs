@@ -1,6 +1,6 @@
 //! Numbers by which records say what they are, in the order of the shader's constants.
 
-use crate::named::named_enum;
+use crate::core::named::named_enum;
 
 named_enum! {
     /// `PROJECTION_*` of the shader.

@@ -6,8 +6,8 @@
 use glam::{DMat2, DQuat, DVec2, DVec3, DVec4};
 
 use super::{EntityKind, MapKind, real4};
-use crate::layout::Map;
 use crate::scene::model::{Entity, Environment, EnvironmentLayout, Mapping, MappingKind, Space};
+use crate::schema::layout::Map;
 use crate::texture::sampler_spec::{Address, SamplerSpec};
 
 /// An axis-aligned box around a shape.

@@ -4,6 +4,7 @@
 
 mod bright;
 mod chances;
+pub mod features;
 mod header;
 mod kinds;
 mod mapping;
@@ -22,12 +23,12 @@ use std::sync::Arc;
 
 use glam::{DVec3, DVec4};
 
-use crate::error::Result;
-use crate::layout::{self, CHUNK, Header};
+use crate::core::error::Result;
 use crate::scene::cone;
 use crate::scene::model::{
     Algorithm, Environment, EnvironmentLayout, Footprint, Material, Model, PixelFilter, Precision, Scene,
 };
+use crate::schema::layout::{self, CHUNK, Header};
 use crate::texture::data::TextureData;
 use crate::texture::sampler_spec::{Address, Method, SamplerSpec};
 use pixel_filter::Warp;

@@ -7,8 +7,8 @@ use glam::{DVec2, DVec3};
 use super::header::{camera_basis, half_height};
 use super::mapping::uv_matrix;
 use super::{PackedScene, shapes};
-use crate::layout::{self, Record};
 use crate::scene::model::{Entity, Mapping, MappingKind, Material, Plane, Scene, Sphere, Triangle};
+use crate::schema::layout::{self, Record};
 
 /// Unit roundoff of f32.
 const U: f64 = 1.0 / 16_777_216.0;

@@ -3,8 +3,8 @@
 use super::header::header;
 use super::pixel_filter::Warp;
 use super::{Crop, PackedScene, schedule};
-use crate::layout::{Header, Record};
 use crate::scene::model::Scene;
+use crate::schema::layout::{Header, Record};
 
 impl PackedScene {
     /// Takes the samples of `scene`, which is the one it was packed from but for algorithm, pattern, number,

@@ -4,11 +4,11 @@ use glam::{DVec2, DVec3, DVec4};
 
 use super::mapping::{self, Bounds, Place};
 use super::{LightKind, MapKind, PackedScene, TextureKind, real4, vec4};
-use crate::error::{Error, Result};
-use crate::layout;
+use crate::core::error::{Error, Result};
 use crate::scene::model::{
     Entity, Light, Mapping, MappingKind, Material, Plane, Scene, Space, Sphere, Triangle,
 };
+use crate::schema::layout;
 use crate::texture::sampler_spec::SamplerSpec;
 
 pub fn pack_shapes(packed: &mut PackedScene, scene: &Scene) -> Result<()> {

@@ -1,7 +1,7 @@
 //! Whether a picture is surveyed before it is sampled, and in how large cells.
 
-use crate::layout::CELL_WORDS;
 use crate::scene::model::Scene;
+use crate::schema::layout::CELL_WORDS;
 
 /// More triangles than this are worth listing: so few are unrolled code.
 const FEW: usize = 16;

@@ -1,10 +1,10 @@
 //! Textures and samplers → texel bytes, records and image slots.
 
-use crate::color::srgb_table;
-use crate::counted::counted;
-use crate::error::{Error, Result};
-use crate::layout::{self, Texture};
+use crate::core::color::srgb_table;
+use crate::core::counted::counted;
+use crate::core::error::{Error, Result};
 use crate::scene::model::{Footprint, Scene};
+use crate::schema::layout::{self, Texture};
 use crate::texture::data::{ColorSpace, Component, Dimension, MipKernel, TexelFormat, TextureData};
 use crate::texture::sampler_spec::{Filter, Method, MipMode, SamplerSpec};
 use crate::texture::{mips, row_sums, summed};

@@ -1,7 +1,7 @@
 //! Counters on the device: a buffer that pipelines add to where they are built to count, cleared before a render
 //! and read after it.
 
-use crate::error::Result;
+use crate::core::error::Result;
 use crate::gpu::{Buffer, BufferUse, Gpu};
 use crate::pack::Guard;
 

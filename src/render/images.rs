@@ -4,7 +4,7 @@
 use std::borrow::Cow;
 
 use super::pyramids::{Maker, Top, sizes};
-use crate::error::{Error, Result};
+use crate::core::error::{Error, Result};
 use crate::gpu::{Gpu, Image, ImageDesc, ImageFormat, ImageShape, Sampler, Swizzle};
 use crate::pack::{MAX_SLOTS, PackedScene, Slot, TextureKind};
 use crate::texture::data::{ColorSpace, TexelFormat};

@@ -18,13 +18,13 @@ mod turns;
 use serde::Serialize;
 
 use crate::adaptive::{Goal, Outcome};
-use crate::error::{Error, Result};
-use crate::film::Film;
+use crate::core::error::{Error, Result};
+use crate::core::film::Film;
+use crate::core::progress::Progress;
+use crate::gpu::shaders::{ReflectedBinding, Shader, specialise};
 use crate::gpu::{BindGroup, BindingDesc, BindingKind, Gpu, Pipeline, PipelineDesc, RunTime};
-use crate::layout::Slice;
 use crate::pack::{PackedScene, SlotCounts};
-use crate::progress::Progress;
-use crate::shaders::{ReflectedBinding, Shader, specialise};
+use crate::schema::layout::Slice;
 
 use film_buffer::{Band, FilmBuffer};
 

@@ -4,7 +4,7 @@
 use std::ops::Range;
 
 use super::pyramids::{Maker, Top, sizes};
-use crate::error::{Error, Result};
+use crate::core::error::{Error, Result};
 use crate::gpu::{Buffer, BufferUse, Gpu};
 use crate::pack::PackedScene;
 use crate::texture::data::{ColorSpace, TexelFormat};

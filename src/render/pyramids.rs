@@ -2,12 +2,12 @@
 //! a whole word on, as the pool holds them. One dispatch a level, all in one submission; between levels the
 //! numbers stay unrounded f32, as in `texture::mips`, whose codes these are.
 
-use crate::color::srgb_table;
-use crate::error::Result;
+use crate::core::color::srgb_table;
+use crate::core::error::Result;
+use crate::gpu::shaders;
 use crate::gpu::{Bound, Buffer, BufferUse, Gpu, Pipeline};
-use crate::layout::Halving;
 use crate::pack::{PackedScene, SlotCounts};
-use crate::shaders;
+use crate::schema::layout::Halving;
 use crate::texture::data::{ColorSpace, TexelFormat};
 use crate::texture::mips;
 

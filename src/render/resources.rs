@@ -7,13 +7,13 @@ use super::guards::Guards;
 use super::images::Uploads;
 use super::pool::{self, Pool};
 use super::pyramids::Maker;
-use crate::error::Result;
-use crate::features::{Features, TexelSource};
+use crate::core::error::Result;
+use crate::gpu::shaders::{self, ReflectedBinding, Shader};
 use crate::gpu::{BindGroup, BindingKind, Bound, Buffer, BufferUse, Gpu, Image, Pipeline, Sampler};
-use crate::layout::{HEAD_BYTES, Header};
+use crate::pack::features::{Features, TexelSource};
 use crate::pack::{PackedScene, Sections, SlotCounts, TextureKind};
 use crate::scene::model::Algorithm;
-use crate::shaders::{self, ReflectedBinding, Shader};
+use crate::schema::layout::{HEAD_BYTES, Header};
 
 /// The shader of an algorithm, by where its texels come from and the numbers of its geometry.
 pub fn shader_for(algorithm: Algorithm, features: &Features) -> &'static Shader {

@@ -7,15 +7,15 @@ use std::rc::Rc;
 use std::time::Instant;
 
 use crate::adaptive::{self, Goal};
-use crate::error::{Error, Result};
-use crate::features::{self, Features};
-use crate::film::Film;
+use crate::core::error::{Error, Result};
+use crate::core::film::Film;
+use crate::core::progress::Progress;
+use crate::gpu::shaders::{self, Shader};
 use crate::gpu::{Gpu, Pipeline};
-use crate::layout::{Header, Slice};
+use crate::pack::features::{self, Features};
 use crate::pack::{self, PackedScene, Schedule};
-use crate::progress::Progress;
 use crate::scene::model::{Algorithm, Scene};
-use crate::shaders::{self, Shader};
+use crate::schema::layout::{Header, Slice};
 
 use super::beams::{Beams, Fallback, Sampler, Teller};
 use super::film_buffer::FilmBuffer;

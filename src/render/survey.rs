@@ -3,12 +3,12 @@
 //! read, and the samples that each pixel begins with.
 
 use super::{Report, Resources, build_pipeline};
-use crate::error::Result;
-use crate::features::{self, Features};
+use crate::core::error::Result;
+use crate::gpu::shaders;
 use crate::gpu::{BindGroup, Buffer, BufferUse, Gpu, Pipeline};
-use crate::layout::{CELL_CALM, CELL_EMPTY, CELL_WORDS, Part};
 use crate::pack::PackedScene;
-use crate::shaders;
+use crate::pack::features::{self, Features};
+use crate::schema::layout::{CELL_CALM, CELL_EMPTY, CELL_WORDS, Part};
 
 const GROUP: u32 = 64;
 /// Triangles times cells that one submission tests: some tenths of a second on a slow device.

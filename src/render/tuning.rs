@@ -2,11 +2,11 @@
 //! Both can be fixed for a measurement; neither changes the picture.
 
 use super::{images, pool};
-use crate::error::{Error, Result};
+use crate::core::error::{Error, Result};
+use crate::core::named::named_enum;
 use crate::gpu::{DeviceInfo, DeviceKind, Gpu};
-use crate::layout::TILE;
-use crate::named::named_enum;
 use crate::pack::{MAX_SLOTS, PackedScene, Pyramids};
+use crate::schema::layout::TILE;
 
 named_enum! {
     /// Where look-ups of method shader read their texels.

@@ -2,12 +2,12 @@
 //! turns (`LP_MAX_TGSI_LOOP_ITERATIONS` of its shader compiler), whatever they have left to do; so in go a
 //! scene and a device, and out comes the number of samples whose loops stay below that.
 
-use crate::error::{Error, Result};
-use crate::features::bounces;
+use crate::core::error::{Error, Result};
 use crate::gpu::{DeviceInfo, DeviceKind};
-use crate::layout::{CHUNK, NO_TEXTURE, Procedural, Sampler};
+use crate::pack::features::bounces;
 use crate::pack::{Choice, PackedScene, TextureKind};
 use crate::scene::model::Algorithm;
+use crate::schema::layout::{CHUNK, NO_TEXTURE, Procedural, Sampler};
 use crate::texture::sampler_spec::Filter;
 
 const MOST_TURNS: u64 = 65_535;

@@ -19,8 +19,8 @@ use super::source::Source;
 use super::table::Table;
 use super::textures;
 use super::validate::{MAX_SHAPES, MAX_TEXTURES, check_filters};
-use crate::error::{Error, Result};
-use crate::panics;
+use crate::core::error::{Error, Result};
+use crate::core::panics;
 use crate::texture::open_file::odd_path;
 use crate::texture::sampler_spec::{Address, SamplerSpec};
 

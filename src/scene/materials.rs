@@ -8,7 +8,7 @@ use super::model::*;
 use super::reader::{COLOR, COORDINATE, EXPONENT, Field, IOR, SCALE, UNIT};
 use super::samplers::Known;
 use super::table::Table;
-use crate::error::Result;
+use crate::core::error::Result;
 use crate::texture::data::Dimension;
 
 pub(super) const MATERIAL: &[&str] = &[

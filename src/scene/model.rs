@@ -9,7 +9,7 @@ pub use super::camera::{Camera, Lens, Projection};
 pub use super::mapping::{Entity, Mapping, MappingKind, Space};
 pub use super::pixel_filter::{PixelFilter, PixelFilterKind};
 pub use super::sampling::{Algorithm, Footprint, Pattern, Precision, Sampling};
-use crate::named::named_enum;
+use crate::core::named::named_enum;
 use crate::texture::sampler_spec::{Address, SamplerSpec};
 pub use crate::texture::source::{TextureContent, TextureSource};
 

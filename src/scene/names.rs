@@ -7,7 +7,7 @@ use std::collections::hash_map::Entry;
 use super::reader::Field;
 use super::source::{quoted, suggestion};
 use super::table::Table;
-use crate::error::Result;
+use crate::core::error::Result;
 
 /// A message lists no more names than this.
 const MOST_LISTED: usize = 12;

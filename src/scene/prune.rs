@@ -3,7 +3,7 @@
 //! several that read the same texels. Indices follow.
 
 use super::model::{Scene, TextureSource};
-use crate::counted::{counted, verb};
+use crate::core::counted::{counted, verb};
 
 /// What was dropped, for `-v`.
 pub fn prune(scene: &mut Scene) -> Vec<String> {

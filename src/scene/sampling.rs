@@ -1,7 +1,7 @@
 //! How a picture is sampled, as data: algorithm, pattern, number and what each sample is averaged over. Part of
 //! the model.
 
-use crate::named::named_enum;
+use crate::core::named::named_enum;
 
 named_enum! {
     /// How many rays a pixel sends and what becomes of them (`[sampling] algorithm`).

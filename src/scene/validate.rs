@@ -4,7 +4,7 @@
 use glam::DVec3;
 
 use super::model::{Pattern, Scene};
-use crate::error::{Error, Result};
+use crate::core::error::{Error, Result};
 use crate::texture::data::Dimension;
 use crate::texture::sampler_spec::{Filter, Method, SamplerSpec};
 

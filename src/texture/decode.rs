@@ -7,7 +7,7 @@ use std::path::Path;
 use super::data::{ColorSpace, Component, Dimension, TexelFormat, TextureData};
 use super::read_file::{self, Picture, Texels};
 use super::source::Reading;
-use crate::error::{Error, Result};
+use crate::core::error::{Error, Result};
 
 /// Which numbers a file of floats may hold.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

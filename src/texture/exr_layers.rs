@@ -8,7 +8,7 @@ use std::path::Path;
 
 use exr::meta::header::Header;
 
-use crate::error::{Error, Result};
+use crate::core::error::{Error, Result};
 
 /// A message lists no more layers than this.
 const MOST_LISTED: usize = 12;

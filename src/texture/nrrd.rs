@@ -15,7 +15,7 @@ use super::read_file::{Texels, unreadable};
 use super::scalar::{Kind, Scalar};
 use super::source::Endian;
 use super::volume::Bare;
-use crate::error::{Error, Result};
+use crate::core::error::{Error, Result};
 
 /// A header line longer than this is no header line.
 const LONGEST_LINE: u64 = 64 << 10;

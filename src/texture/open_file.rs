@@ -6,7 +6,7 @@ use std::io::ErrorKind;
 use std::path::Path;
 
 use super::read_file::{SUPPORTED, unreadable};
-use crate::error::{Error, Result};
+use crate::core::error::{Error, Result};
 
 pub(super) fn open(path: &Path) -> Result<File> {
     let metadata = fs::metadata(path).map_err(|e| match e.kind() {

@@ -7,7 +7,7 @@ use std::path::Path;
 use image::codecs::jpeg::JpegDecoder;
 
 use super::read_file::{Picture, damaged, decode_with, unsupported_kind};
-use crate::error::Result;
+use crate::core::error::Result;
 
 const START_OF_IMAGE: u8 = 0xd8;
 const END_OF_IMAGE: u8 = 0xd9;

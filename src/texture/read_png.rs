@@ -8,7 +8,7 @@ use flate2::Crc;
 use image::codecs::png::PngDecoder;
 
 use super::read_file::{MAX_BYTES, Picture, decode_with, unsupported_kind};
-use crate::error::Result;
+use crate::core::error::Result;
 
 const SIGNATURE_BYTES: usize = 8;
 /// Length, name and checksum.

@@ -5,8 +5,8 @@ mod areas;
 mod integrals;
 mod mirrors;
 
-use moire::film::Film;
-use moire::metrics::compare;
+use moire::core::film::Film;
+use moire::lab::metrics::compare;
 use moire::pack::PackedScene;
 use moire::render::Tuning;
 use moire::scene::model::{Algorithm, Footprint, Pattern, PixelFilterKind, Scene};

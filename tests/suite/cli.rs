@@ -5,8 +5,8 @@ use std::fs;
 use std::path::Path;
 use std::process::Output;
 
-use moire::film::Film;
-use moire::metrics::{compare, read_picture};
+use moire::core::film::Film;
+use moire::lab::metrics::{compare, read_picture};
 use moire::pack::Crop;
 use serde_json::Value;
 use tempfile::{TempDir, tempdir};

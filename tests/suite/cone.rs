@@ -7,8 +7,8 @@ mod scenes;
 
 use std::path::Path;
 
-use moire::film::Film;
-use moire::metrics::compare;
+use moire::core::film::Film;
+use moire::lab::metrics::compare;
 use moire::scene::model::{Algorithm, Footprint, Pattern, Scene};
 use moire::scene::{cone, parse};
 

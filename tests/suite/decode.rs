@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 
 use image::codecs::jpeg::JpegEncoder;
 use image::{DynamicImage, ImageBuffer, Luma, LumaA, Rgb, Rgba};
-use moire::color::{linear_to_srgb, srgb_table, srgb_to_linear};
-use moire::film::Film;
+use moire::core::color::{linear_to_srgb, srgb_table, srgb_to_linear};
+use moire::core::film::Film;
 use moire::output::{self, WriteOptions};
 use moire::texture::data::{ColorSpace, TexelFormat, TextureData};
 use moire::texture::decode::decode;
@@ -15,7 +15,7 @@ use tempfile::{TempDir, tempdir};
 const W: u32 = 5;
 const H: u32 = 3;
 
-fn load(path: &Path) -> moire::error::Result<TextureData> {
+fn load(path: &Path) -> moire::core::error::Result<TextureData> {
     decode(path, "t", ColorSpace::Linear, false)
 }
 

@@ -12,7 +12,7 @@ use tempfile::{TempDir, tempdir};
 
 use crate::support::{gradient, told};
 
-fn load(path: &Path) -> moire::error::Result<TextureData> {
+fn load(path: &Path) -> moire::core::error::Result<TextureData> {
     decode(path, "t", ColorSpace::Linear, false)
 }
 

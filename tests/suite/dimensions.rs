@@ -8,7 +8,7 @@ mod volumes;
 use std::path::{Path, PathBuf};
 
 use image::{DynamicImage, GrayImage, ImageBuffer, Luma, LumaA, Rgba};
-use moire::error::Result;
+use moire::core::error::Result;
 use moire::texture::data::{Dimension, TextureData};
 use moire::texture::load::load;
 use moire::texture::source::{Reading, TextureContent, TextureSource};

@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use moire::features::Features;
+use moire::pack::features::Features;
 use moire::pack::{self, PackedScene};
 use moire::render::Tuning;
 use moire::scene::model::{Algorithm, Precision, Scene};

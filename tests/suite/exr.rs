@@ -4,7 +4,7 @@
 use std::fs;
 use std::path::Path;
 
-use moire::error::Result;
+use moire::core::error::Result;
 use moire::texture::data::{Dimension, TextureData};
 use moire::texture::load::load;
 use moire::texture::source::{Reading, TextureContent};

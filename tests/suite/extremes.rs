@@ -1,8 +1,8 @@
 //! Every case of the stability report on the device under test: no error above its bound.
 
-use moire::progress::Silent;
-use moire::stability::all;
-use moire::stability::case::Bench;
+use moire::core::progress::Silent;
+use moire::lab::stability::all;
+use moire::lab::stability::case::Bench;
 
 use crate::shared_gpu::gpu;
 

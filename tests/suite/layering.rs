@@ -273,7 +273,7 @@ fn planted_violations_are_found_and_look_alikes_are_not() {
         ("src/oracle/shade.rs", "use crate::gpu::Gpu;", "layer oracle uses `gpu::Gpu`"),
         (
             "src/oracle/shade.rs",
-            "use crate::{error::Error, render::Tuning};",
+            "use crate::{core::error::Error, render::Tuning};",
             "layer oracle uses `render::Tuning`",
         ),
         ("src/oracle/shade.rs", "fn f() { crate::render::render() }", "layer oracle uses"),
@@ -286,19 +286,19 @@ fn planted_violations_are_found_and_look_alikes_are_not() {
         ),
         (
             "src/gpu/image.rs",
-            "use crate::{\n    error::Error,\n    oracle,\n};",
+            "use crate::{\n    error::Error, \n    oracle, \n};",
             "the device layer uses `oracle`",
         ),
         ("src/gpu/image.rs", "fn f() {\n    a();\n    unsafe { b() }\n}", ":4: unsafe without"),
         ("src/gpu/image.rs", "// SAFETY: a is.\nlet a = 1;\nunsafe { b() }", ":4: unsafe without"),
         ("src/metrics/mod.rs", "use crate::cli;", "layer metrics uses `cli`"),
         ("src/verify/run.rs", "use crate::render::Resources;", "layer verify uses `render::Resources`"),
-        ("src/probe.rs", "use crate::verify::judge::Judge;", "layer probe uses `verify::judge`"),
+        ("src/probe.rs", "use crate::lab::verify::judge::Judge;", "layer probe uses `verify::judge`"),
         ("src/study/plan.rs", "use crate::cli::render;", "layer study uses `cli::render`"),
-        ("src/study/plan.rs", "use crate::shaders::Shader;", "layer study uses `shaders::Shader`"),
-        ("src/render/mod.rs", "use crate::study::Options;", "layer render uses `study::Options`"),
+        ("src/study/plan.rs", "use crate::gpu::shaders::Shader;", "layer study uses `shaders::Shader`"),
+        ("src/render/mod.rs", "use crate::lab::study::Options;", "layer render uses `study::Options`"),
         ("src/stability/sums.rs", "use crate::cli::verify;", "layer stability uses `cli::verify`"),
-        ("src/plot/html.rs", "use crate::study::record;", "layer plot uses `study::record`"),
+        ("src/plot/html.rs", "use crate::lab::study::record;", "layer plot uses `study::record`"),
         ("src/film.rs", "// TODO: more", "TODO left"),
         ("src/film.rs", "fn f() { dbg!(1); }", "dbg! left"),
     ];
@@ -313,7 +313,7 @@ fn planted_violations_are_found_and_look_alikes_are_not() {
         ("src/gpu/image.rs", "// SAFETY: it lives.\nlet x =\n    unsafe { f() };"),
         (
             "src/gpu/image.rs",
-            "use crate::{error::Error, texture::sampler_spec::Filter};\nuse super::memory::Block;",
+            "use crate::{core::error::Error, texture::sampler_spec::Filter};\nuse super::memory::Block;",
         ),
         ("src/oracle/shade.rs", "use crate::pack::PackedScene;\nuse super::render::pixel;"),
     ];

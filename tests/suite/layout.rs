@@ -5,15 +5,15 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 
-use moire::features::TextureSize;
-use moire::layout::{self as mirror, Record};
+use moire::gpu::shaders::{self, Shader};
+use moire::pack::features::TextureSize;
 use moire::pack::{Choice, EntityKind, Guard, LightKind, MapKind, ProjectionKind, Schedule, TextureKind};
 use moire::scene::model::{Footprint, Model, Pattern, PixelFilterKind, ReliefKind};
-use moire::shaders::{self, Shader};
+use moire::schema::layout::{self as mirror, Record};
 use moire::texture::data::{ColorSpace, TexelFormat};
 use moire::texture::procedural::ProceduralKind;
 use moire::texture::sampler_spec::{Address, Filter, Method, MipMode, TexelCenter};
-use moire::{features, oracle};
+use moire::{oracle, pack::features};
 
 use crate::layering::source_root;
 

@@ -3,16 +3,16 @@
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
 
 use glam::{DVec2, DVec3};
-use moire::film::Film;
-use moire::layout::NO_SHAPE;
+use moire::core::film::Film;
+use moire::core::progress::Silent;
+use moire::lab::probe::{self, RayQuery};
 use moire::oracle::camera::camera_ray;
 use moire::oracle::footprint::mirrored;
 use moire::oracle::mapping::{Seen, texture_coordinate};
 use moire::oracle::math::{atan_unit_f32, xyz};
 use moire::pack::PackedScene;
-use moire::probe::{self, RayQuery};
-use moire::progress::Silent;
 use moire::render::{self, Tuning};
+use moire::schema::layout::NO_SHAPE;
 use moire::texture::data::{ColorSpace, TexelFormat};
 
 use crate::lookup::bench::texture;

@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use moire::error::Error;
+use moire::core::error::Error;
 use moire::scene::model::Pattern;
 use moire::scene::{check_spp, parse};
 

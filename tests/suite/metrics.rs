@@ -5,9 +5,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use image::{DynamicImage, ImageBuffer, Luma, Rgb, Rgba};
-use moire::color::srgb_to_linear;
-use moire::film::Film;
-use moire::metrics::{compare, difference_picture, read_picture};
+use moire::core::color::srgb_to_linear;
+use moire::core::film::Film;
+use moire::lab::metrics::{compare, difference_picture, read_picture};
 use moire::output::{WriteOptions, write};
 use tempfile::{TempDir, tempdir};
 

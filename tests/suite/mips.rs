@@ -1,7 +1,7 @@
 //! Mip pyramids against levels worked out by hand, and what holds for every texture: the size rule,
 //! means that stay, constants that stay.
 
-use moire::color::{linear_to_srgb, srgb_to_linear};
+use moire::core::color::{linear_to_srgb, srgb_to_linear};
 use moire::texture::data::{ColorSpace, Component, Dimension, MipKernel, TexelFormat, TextureData};
 use moire::texture::mips::{level_count, level_size, pyramid};
 use proptest::prelude::*;

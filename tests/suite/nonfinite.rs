@@ -6,8 +6,8 @@ mod look_ups;
 use std::fs;
 use std::path::Path;
 
-use moire::film::Film;
-use moire::metrics::read_picture;
+use moire::core::film::Film;
+use moire::lab::metrics::read_picture;
 use moire::output::{Format, WriteOptions, to_bytes, write};
 use moire::texture::data::{ColorSpace, Dimension, MipKernel, TexelFormat, TextureData};
 use moire::texture::mips;
@@ -270,7 +270,7 @@ fn a_level_is_the_mean_of_the_texels_that_are_numbers() {
         assert!((level.value(0, 0, c) - expected).abs() < 1e-6, "{c}: {}", level.value(0, 0, c));
     }
     // Without such texels it is the pyramid of all others.
-    let plain = moire::verify::queries::texture(13, 6, TexelFormat::RgbaFloat, ColorSpace::Linear, 3);
+    let plain = moire::lab::verify::queries::texture(13, 6, TexelFormat::RgbaFloat, ColorSpace::Linear, 3);
     let usual = mips::pyramid(&plain, MipKernel::Box);
     for (a, b) in mips::pyramid_of_finite(&plain).iter().zip(&usual) {
         let values = |t: &TextureData| bytemuck::pod_collect_to_vec::<u8, f32>(&t.texels);

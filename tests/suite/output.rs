@@ -3,9 +3,9 @@
 use std::fs;
 use std::path::Path;
 
-use moire::color::{linear_to_srgb, srgb_to_linear};
-use moire::film::{Film, Placement};
-use moire::metrics::{read_picture, read_placed};
+use moire::core::color::{linear_to_srgb, srgb_to_linear};
+use moire::core::film::{Film, Placement};
+use moire::lab::metrics::{read_picture, read_placed};
 use moire::output::{WriteOptions, check_writable, write, write_all};
 use moire::texture::data::{ColorSpace, TexelFormat, TextureData};
 use moire::texture::decode::decode;

@@ -10,7 +10,7 @@ mod unfinished;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use moire::error::Result;
+use moire::core::error::Result;
 use moire::texture::data::{Dimension, TextureData};
 use moire::texture::decode::Values;
 use moire::texture::load::load_noted;

@@ -5,18 +5,18 @@ use std::fs;
 use std::path::Path;
 
 use image::{ImageBuffer, Luma, Rgb};
-use moire::color::srgb_table;
+use moire::core::color::srgb_table;
+use moire::core::progress::Silent;
+use moire::lab::probe;
+use moire::lab::verify::queries::noise;
 use moire::oracle::filter::look_up;
 use moire::oracle::mapping::Coordinate;
 use moire::pack::{self, PackedScene, Pyramids};
-use moire::probe;
-use moire::progress::Silent;
 use moire::render::{TexelChoice, Tuning, render};
 use moire::scene::parse;
 use moire::scene::prune::prune;
 use moire::texture::data::{ColorSpace, Dimension, TexelFormat, TextureData};
 use moire::texture::sampler_spec::{Filter, SamplerSpec};
-use moire::verify::queries::noise;
 use serde_json::Value;
 use tempfile::tempdir;
 

@@ -8,9 +8,9 @@ mod points;
 mod text;
 
 use glam::DVec3;
-use moire::layout;
 use moire::oracle::procedural::{figure_share, procedural_color};
 use moire::pack;
+use moire::schema::layout;
 use moire::texture::procedural::{Procedural, ProceduralKind};
 
 use crate::lookup::bench::Dice;

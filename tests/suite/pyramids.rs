@@ -3,10 +3,10 @@
 
 mod scenes;
 
-use moire::probe::Pyramids;
+use moire::lab::probe::Pyramids;
+use moire::lab::verify::queries::noise;
 use moire::texture::data::{ColorSpace, Component, Dimension, MipKernel, TexelFormat, TextureData};
 use moire::texture::mips;
-use moire::verify::queries::noise;
 
 use crate::shared_gpu::gpu;
 

@@ -8,7 +8,7 @@ mod scenes;
 mod truth;
 
 use glam::DVec3;
-use moire::film::Film;
+use moire::core::film::Film;
 use moire::scene::model::{Algorithm, Footprint, Scene};
 
 use crate::stage::{packed, render};

@@ -3,14 +3,14 @@
 //! no ray between two triangles that share an edge.
 
 use glam::{DVec2, DVec3};
-use moire::layout::NO_SHAPE;
+use moire::lab::probe::{self, RayAnswer, RayQuery};
 use moire::oracle::camera::Ray;
 use moire::oracle::intersect::{Hit, nearest_hit, occluded};
 use moire::oracle::mapping::{Seen, texture_coordinate};
 use moire::oracle::math::xyz;
 use moire::oracle::surface::hit_surface;
 use moire::pack::{MapKind, PackedScene};
-use moire::probe::{self, RayAnswer, RayQuery};
+use moire::schema::layout::NO_SHAPE;
 
 use crate::lookup::bench::Dice;
 use crate::shared_gpu::gpu;

@@ -3,9 +3,9 @@
 
 use std::time::Instant;
 
+use moire::core::progress::Silent;
 use moire::gpu::{DeviceKind, DeviceSelect, Gpu};
-use moire::probe::Pyramids;
-use moire::progress::Silent;
+use moire::lab::probe::Pyramids;
 use moire::render::{Session, Tuning};
 use moire::scene::model::{Algorithm, Pattern};
 use moire::texture::data::{ColorSpace, Dimension, TexelFormat, TextureData};

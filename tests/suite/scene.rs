@@ -9,7 +9,7 @@ mod text;
 use std::path::Path;
 
 use glam::{DVec2, DVec3};
-use moire::error::Error;
+use moire::core::error::Error;
 use moire::scene::model::*;
 use moire::scene::{load, parse};
 use moire::texture::data::ColorSpace;

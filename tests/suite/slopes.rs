@@ -2,9 +2,9 @@
 //! every pixel, busy in every pixel. Jittered strata have slopes of -2, -3/2 and -1 (Mitchell 1996), independent
 //! samples -1 on all three. Intervals come from the errors themselves: blocks of pixels are drawn anew.
 
-use moire::film::Film;
+use moire::core::film::Film;
+use moire::lab::study::bootstrap::{blocks, interval};
 use moire::scene::model::Pattern;
-use moire::study::bootstrap::{blocks, interval};
 
 use crate::stage::{packed, render};
 use crate::support::data;

@@ -5,10 +5,10 @@
 use std::io::Write;
 use std::process::{Command, Stdio};
 
-use moire::features::{Features, constants, widest};
+use moire::gpu::shaders::{self, Shader, specialise};
+use moire::pack::features::{Features, constants, widest};
 use moire::pack::{self, PackedScene, SlotCounts};
 use moire::scene;
-use moire::shaders::{self, Shader, specialise};
 use moire::texture::load::load;
 
 use crate::support::{data, untested};

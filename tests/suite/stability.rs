@@ -5,10 +5,10 @@ mod command;
 mod page;
 mod verdicts;
 
-use moire::error::Result;
+use moire::core::error::Result;
 use moire::gpu::{DeviceInfo, DeviceKind};
-use moire::stability::case::{Bench, Case, Point};
-use moire::stability::report::{Report, Row};
+use moire::lab::stability::case::{Bench, Case, Point};
+use moire::lab::stability::report::{Report, Row};
 
 type Run = fn(&Bench<'_>) -> Result<Vec<Point>>;
 

@@ -6,11 +6,11 @@ use std::ops::Deref;
 use std::path::PathBuf;
 use std::sync::OnceLock;
 
-use moire::film::Film;
+use moire::core::film::Film;
+use moire::core::progress::Silent;
 use moire::gpu::{DeviceSelect, Gpu, OpenOptions, validation_available};
 use moire::oracle;
 use moire::pack::{self, Crop, PackedScene};
-use moire::progress::Silent;
 use moire::render::{self, Report, Tuning};
 use moire::scene::model::{Pattern, Scene};
 use moire::scene::{self, prune::prune};

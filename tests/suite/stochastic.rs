@@ -11,8 +11,8 @@ mod warps;
 
 use std::path::Path;
 
-use moire::film::Film;
-use moire::metrics::compare;
+use moire::core::film::Film;
+use moire::lab::metrics::compare;
 use moire::pack::{self, PackedScene};
 use moire::scene::model::{Pattern, Scene};
 use moire::scene::parse;

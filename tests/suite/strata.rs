@@ -1,13 +1,13 @@
 //! Sample positions: the device's against the oracle's and both against the formula, bit for bit;
 //! one sample in every stratum; sets shared or not; and their jitter as random as it must be.
 
-use moire::layout::Header;
+use moire::lab::probe::{self, Positions};
 use moire::oracle::patterns::{pixel_points, sample_point};
 use moire::oracle::rng::{pixel_key, sample_bits};
 use moire::oracle::strata::stratum_position;
 use moire::pack::PackedScene;
-use moire::probe::{self, Positions};
 use moire::scene::model::Pattern;
+use moire::schema::layout::Header;
 
 use crate::shared_gpu::gpu;
 

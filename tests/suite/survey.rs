@@ -3,13 +3,13 @@
 
 use glam::DVec3;
 use moire::adaptive::Goal;
-use moire::film::Film;
-use moire::layout::{CELL_BUSY, CELL_CALM, CELL_EMPTY, CELL_WORDS, MOST_LISTED};
+use moire::core::film::Film;
+use moire::core::progress::Silent;
 use moire::oracle::survey::triangles_of;
 use moire::pack::{Crop, PackedScene};
-use moire::progress::Silent;
 use moire::render::{self, Session, Tuning};
 use moire::scene::model::{Algorithm, Model, Pattern, Projection, Scene, Triangle};
+use moire::schema::layout::{CELL_BUSY, CELL_CALM, CELL_EMPTY, CELL_WORDS, MOST_LISTED};
 
 use crate::lookup::bench::Dice;
 use crate::stage::{assert_same_bits, device, packed, render, render_with, small};
@@ -163,6 +163,6 @@ fn calm_cells_begin_with_fewer_samples_and_nothing_thin_is_missed() {
     let mut converged = scene.clone();
     (converged.sampling.pattern, converged.sampling.spp) = (Pattern::SobolOwen, 4096);
     let reference = render(&packed(converged, None));
-    let error = moire::metrics::compare(&film, &reference).unwrap().rmse;
+    let error = moire::lab::metrics::compare(&film, &reference).unwrap().rmse;
     assert!(error < 1.1 * 2e-3, "{error:e}");
 }

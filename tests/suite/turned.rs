@@ -6,8 +6,8 @@ use std::f64::consts::TAU;
 use std::path::Path;
 
 use glam::{DQuat, DVec3};
-use moire::film::Film;
-use moire::metrics::compare;
+use moire::core::film::Film;
+use moire::lab::metrics::compare;
 use moire::pack;
 use moire::scene::model::{Light, MappingKind, Scene};
 use moire::scene::parse;

@@ -1,8 +1,8 @@
 //! Scenes whose loops are long: Mesa's CPU driver ends all loops of a thread after 65 535 turns, so threads
 //! there take fewer samples at once.
 
+use moire::core::progress::Silent;
 use moire::gpu::DeviceKind;
-use moire::progress::Silent;
 use moire::render::{self, Tuning};
 use moire::scene::model::{Footprint, Scene, Triangle};
 use moire::texture::sampler_spec::{Filter, MipMode};

@@ -5,18 +5,20 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use glam::DVec2;
 use moire::gpu::{DeviceInfo, DeviceKind, DeviceLimits};
+use moire::lab::verify::groups::lines;
+use moire::lab::verify::judge::{Judge, Judgement, Precision};
+use moire::lab::verify::queries::{
+    Axis, Dice, coordinates, pairs, query, ramp, ramp_texture, texture, uv_of,
+};
+use moire::lab::verify::report::{Report, Row, Verdict};
+use moire::lab::verify::run::Tally;
+use moire::lab::verify::text::text;
+use moire::lab::verify::variants::{FormatClass, Reader, Scale, Variant, sampler_variants, shader_variants};
+use moire::lab::verify::weights::{RAMP_STEPS, WeightBits, weight_bits};
 use moire::oracle::filter::look_up;
 use moire::oracle::mapping::Coordinate;
 use moire::texture::data::Dimension;
 use moire::texture::sampler_spec::{Address, Filter, SamplerSpec};
-use moire::verify::groups::lines;
-use moire::verify::judge::{Judge, Judgement, Precision};
-use moire::verify::queries::{Axis, Dice, coordinates, pairs, query, ramp, ramp_texture, texture, uv_of};
-use moire::verify::report::{Report, Row, Verdict};
-use moire::verify::run::Tally;
-use moire::verify::text::text;
-use moire::verify::variants::{FormatClass, Reader, Scale, Variant, sampler_variants, shader_variants};
-use moire::verify::weights::{RAMP_STEPS, WeightBits, weight_bits};
 
 mod command;
 mod levels;

@@ -4,7 +4,7 @@
 use std::path::Path;
 
 use moire::adaptive::{Goal, Outcome};
-use moire::film::Film;
+use moire::core::film::Film;
 use moire::scene::model::{Algorithm, Pattern, Scene};
 use moire::scene::parse;
 

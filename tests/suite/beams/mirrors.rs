@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use glam::DVec3;
-use moire::film::Film;
+use moire::core::film::Film;
 use moire::scene::model::{Scene, Triangle};
 use moire::scene::parse;
 

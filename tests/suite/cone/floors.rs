@@ -1,7 +1,7 @@
 //! Cones that leave flat surfaces, mirrored or towards a light: what lies behind the surface is not met, what stands
 //! on it is met down to its foot.
 
-use moire::film::Film;
+use moire::core::film::Film;
 use moire::scene::model::Scene;
 
 use super::{central, exact_film, film, parallel, with_samples};

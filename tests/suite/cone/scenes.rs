@@ -1,6 +1,6 @@
 //! Pictures by cones against those by many samples, and against the same cones in float64.
 
-use moire::metrics::read_picture;
+use moire::lab::metrics::read_picture;
 use moire::render::Tuning;
 use moire::scene::model::{Pattern, Scene};
 use moire::texture::sampler_spec::{Filter, MipMode};

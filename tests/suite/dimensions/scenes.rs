@@ -10,7 +10,7 @@ use moire::texture::source::{CubeLayout, Endian, VolumeSource};
 
 use super::assert_says;
 
-fn texture(keys: &str) -> moire::error::Result<TextureSource> {
+fn texture(keys: &str) -> moire::core::error::Result<TextureSource> {
     let head =
         "[camera]\neye = [0, 0, 1]\nlook_at = [0, 0, 0]\nvertical_fov = 60\n[image]\nwidth = 8\nheight = 8\n";
     let text = format!("{head}[[texture]]\nname = 't'\n{keys}\n");

@@ -38,7 +38,7 @@ fn put(folder: &Path, name: &str, content: &[u8]) -> PathBuf {
     path
 }
 
-fn file(path: &Path) -> moire::error::Result<TextureData> {
+fn file(path: &Path) -> moire::core::error::Result<TextureData> {
     read(Dimension::Three, TextureContent::File(path.to_path_buf()))
 }
 

@@ -1,9 +1,9 @@
 //! Faults that were there once, one test each: the cases of the stability report that show them, over part of their
 //! sweep's time.
 
-use moire::progress::Silent;
-use moire::stability::all;
-use moire::stability::case::{Bench, Point};
+use moire::core::progress::Silent;
+use moire::lab::stability::all;
+use moire::lab::stability::case::{Bench, Point};
 
 use crate::stage::device;
 

@@ -1,11 +1,11 @@
 //! Cube textures: the face that a direction meets and the place on it by Vulkan's table, and the texel there.
 
 use glam::{DVec2, DVec3};
+use moire::lab::verify::queries::{self, Dice};
 use moire::oracle::filter::look_up;
 use moire::oracle::mapping::{Coordinate, on_cube_face, within_face};
 use moire::texture::data::Dimension;
 use moire::texture::sampler_spec::{Filter, SamplerSpec};
-use moire::verify::queries::{self, Dice};
 use num_traits::Signed;
 
 use super::numbers::{Q, direction, frac, v};

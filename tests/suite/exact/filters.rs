@@ -2,16 +2,16 @@
 //! 256 bits, the mean of two levels of an exact pyramid, and the Gaussian over an ellipse.
 
 use glam::{DVec2, DVec3};
-use moire::layout::Texture;
+use moire::lab::verify::queries::{self, Dice};
 use moire::oracle::ellipse::ellipse_weight;
 use moire::oracle::filter::look_up;
 use moire::oracle::mapping::Coordinate;
 use moire::oracle::spread::{Spread, texel_spread};
 use moire::pack::PackedScene;
 use moire::scene::model::Footprint;
+use moire::schema::layout::Texture;
 use moire::texture::data::Dimension;
 use moire::texture::sampler_spec::{Filter, MipMode, SamplerSpec};
-use moire::verify::queries::{self, Dice};
 use num_traits::{Signed, Zero};
 
 use super::numbers::{Q, approx, exp, frac, log2, modulo, q, sqrt};

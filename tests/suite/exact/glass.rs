@@ -4,8 +4,8 @@
 use std::sync::OnceLock;
 
 use glam::DVec3;
+use moire::lab::verify::queries::Dice;
 use moire::oracle::footprint::{mirrored, reflectance, refracted};
-use moire::verify::queries::Dice;
 use num_traits::Signed;
 
 use super::numbers::{Q, V, approx, direction, frac, q, sqrt, v};

@@ -3,13 +3,13 @@
 //! texels by 256 bits.
 
 use glam::DVec3;
-use moire::color::srgb_to_linear;
+use moire::core::color::srgb_to_linear;
+use moire::lab::verify::queries::{self, Dice};
 use moire::oracle::filter::look_up;
 use moire::oracle::mapping::Coordinate;
 use moire::pack::PackedScene;
 use moire::texture::data::{ColorSpace, Dimension, TexelFormat};
 use moire::texture::sampler_spec::{Address, CATMULL_ROM, Filter, SamplerSpec, TexelCenter};
-use moire::verify::queries::{self, Dice};
 use num_traits::{Signed, Zero};
 
 use super::address::walked;

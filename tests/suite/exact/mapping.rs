@@ -4,9 +4,9 @@
 use std::sync::OnceLock;
 
 use glam::{DVec2, DVec3, Vec2Swizzles};
-use moire::layout::Map;
+use moire::lab::verify::queries::Dice;
 use moire::oracle::mapping::{Coordinate, Seen, texture_coordinate};
-use moire::verify::queries::Dice;
+use moire::schema::layout::Map;
 
 use super::numbers::{
     Q, V, angle, approx, cos, degrees, direction, frac, nearest_turn, pi, q, sin, v, vector,

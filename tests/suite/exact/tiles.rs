@@ -2,7 +2,7 @@
 //! modulo 1 (`repeat`) or modulo 2 (`mirrored-repeat`) is what is looked up.
 
 use glam::{DVec2, DVec3};
-use moire::layout::NO_SHAPE;
+use moire::lab::verify::queries::Dice;
 use moire::oracle::camera::Ray;
 use moire::oracle::footprint::Footprint;
 use moire::oracle::intersect::nearest_hit;
@@ -10,7 +10,7 @@ use moire::oracle::mapping::texture_coordinate;
 use moire::oracle::shade::seen_by_map;
 use moire::oracle::surface::hit_surface;
 use moire::pack::PackedScene;
-use moire::verify::queries::Dice;
+use moire::schema::layout::NO_SHAPE;
 
 use super::mapping::placed;
 use super::numbers::{Q, approx, frac, modulo, nearest_turn, q, v};

@@ -4,16 +4,16 @@
 use std::path::Path;
 
 use glam::{DMat2, DVec2, DVec3};
+use moire::lab::probe::{self, LookUp};
+use moire::lab::verify::queries;
 use moire::oracle::filter::look_up;
 use moire::oracle::mapping::Coordinate;
 use moire::pack::{self, PackedScene};
-use moire::probe::{self, LookUp};
 use moire::scene::model::{Footprint, TextureSource};
 use moire::scene::parse;
 use moire::scene::prune::prune;
 use moire::texture::data::{ColorSpace, Dimension, TexelFormat, TextureData};
 use moire::texture::sampler_spec::SamplerSpec;
-use moire::verify::queries;
 
 use crate::lookup::bench::{Dice, texture};
 use crate::shared_gpu::gpu;

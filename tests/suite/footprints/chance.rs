@@ -2,9 +2,9 @@
 //! the smooth filter gives (Fajardo et al. 2023).
 
 use glam::DVec3;
+use moire::lab::probe::LookUp;
 use moire::oracle::texture::{fetch_texel, level_at};
 use moire::pack::PackedScene;
-use moire::probe::LookUp;
 use moire::scene::model::Footprint;
 use moire::texture::data::{Dimension, TexelFormat};
 use moire::texture::sampler_spec::{Address, Filter, MipMode, SamplerSpec};

@@ -3,7 +3,6 @@
 //! entity, around seams and poles, directly, in mirrors and through glass.
 
 use glam::{DVec2, DVec3};
-use moire::layout::{NO_MATERIAL, NO_SHAPE};
 use moire::oracle::camera::{Ray, camera_ray};
 use moire::oracle::footprint::{Footprint, camera_beam, mirrored, refracted};
 use moire::oracle::intersect::{nearest_hit, offset_origin};
@@ -14,6 +13,7 @@ use moire::oracle::spread::in_texture;
 use moire::oracle::surface::{Surface, hit_surface};
 use moire::pack::{MapKind, PackedScene};
 use moire::scene::model::Model;
+use moire::schema::layout::{NO_MATERIAL, NO_SHAPE};
 
 use super::bench::{level_scene, place_of};
 use crate::stage;

@@ -2,8 +2,8 @@
 //! footprints that are no numbers, far longer textures than wide, directions of any length.
 
 use glam::DVec3;
+use moire::lab::probe::LookUp;
 use moire::pack::PackedScene;
-use moire::probe::LookUp;
 use moire::scene::model::Footprint;
 use moire::texture::data::{Dimension, TexelFormat, TextureData};
 use moire::texture::sampler_spec::{Address, Filter, MipMode, SamplerSpec};

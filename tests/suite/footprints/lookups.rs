@@ -4,9 +4,9 @@
 //! is right; such look-ups are few.
 
 use glam::DVec3;
+use moire::lab::probe::LookUp;
 use moire::oracle::mapping::Coordinate;
 use moire::pack::PackedScene;
-use moire::probe::LookUp;
 use moire::scene::model::Footprint;
 use moire::texture::data::{Dimension, TexelFormat};
 use moire::texture::sampler_spec::{Address, Filter, MipMode, SamplerSpec};

@@ -4,10 +4,10 @@
 use std::path::Path;
 
 use glam::{DVec2, DVec3};
+use moire::lab::probe::LookUp;
 use moire::oracle::mapping::{face_uv, on_cube_face};
 use moire::oracle::texture::{fetch_texel, level_at};
 use moire::pack::{self, PackedScene};
-use moire::probe::LookUp;
 use moire::scene::model::Footprint;
 use moire::scene::parse;
 use moire::texture::data::{Dimension, TexelFormat};

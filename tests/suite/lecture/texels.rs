@@ -1,9 +1,9 @@
 //! Look-ups by the lecture's two formulas, and the five address modes on a row of two texels, at
 //! coordinates worked out by hand.
 
+use moire::lab::probe::{self, LookUp};
 use moire::oracle::filter::look_up;
 use moire::oracle::mapping::Coordinate;
-use moire::probe::{self, LookUp};
 use moire::texture::data::{ColorSpace, Dimension, TexelFormat, TextureData};
 use moire::texture::sampler_spec::{Address, Filter, SamplerSpec, TexelCenter};
 

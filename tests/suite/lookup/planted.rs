@@ -3,14 +3,14 @@
 //! with the widest tolerance in use.
 
 use glam::DVec2;
-use moire::layout::{Sampler, Texture};
+use moire::lab::probe::LookUp;
+use moire::lab::verify::judge::{Precision, complaints as judge};
 use moire::oracle::filter::look_up;
 use moire::oracle::mapping::Coordinate;
 use moire::pack::PackedScene;
-use moire::probe::LookUp;
+use moire::schema::layout::{Sampler, Texture};
 use moire::texture::data::{ColorSpace, TexelFormat};
 use moire::texture::sampler_spec::{Address, Filter, SamplerSpec};
-use moire::verify::judge::{Precision, complaints as judge};
 
 use super::bench::{BASIC, CERTAIN, Dice, coordinates, pairs, query, texture, uv_of};
 

@@ -1,12 +1,12 @@
 //! Method shader.
 
+use moire::lab::probe::{self, LookUp};
+use moire::lab::verify::judge::{Precision, complaints as judge};
 use moire::oracle::filter::look_up;
 use moire::oracle::mapping::Coordinate;
 use moire::pack::PackedScene;
-use moire::probe::{self, LookUp};
 use moire::texture::data::{ColorSpace, TexelFormat, TextureData};
 use moire::texture::sampler_spec::{Address, SamplerSpec, TexelCenter};
-use moire::verify::judge::{Precision, complaints as judge};
 
 use super::assert_none;
 use super::bench::{CERTAIN, Dice, coordinates, formats, pairs, query, texture, uv_of};

@@ -2,14 +2,14 @@
 //! smooth and by rough surfaces, on device and oracle, by samples and cones.
 
 use glam::DVec3;
-use moire::film::Film;
-use moire::layout::Map;
+use moire::core::film::Film;
 use moire::oracle::camera::Ray;
 use moire::oracle::footprint::{Footprint, mirrored, refracted};
 use moire::oracle::shade::seen_by_map;
 use moire::oracle::shading_normal::{on_its_side, settle_normal};
 use moire::oracle::surface::Surface;
 use moire::pack::{EntityKind, MapKind, PackedScene};
+use moire::schema::layout::Map;
 
 use super::{floats, scene};
 use crate::lookup::bench::{Dice, Vectors};

@@ -1,7 +1,7 @@
 //! A mirrored environment is the same as one whose pictures are mirrored themselves, and for a cube the faces
 //! +x and −x exchanged; on device and oracle, seen directly and in a ball, turned or not.
 
-use moire::film::Film;
+use moire::core::film::Film;
 use moire::texture::data::{Dimension, TextureData};
 
 use super::{floats, scene};

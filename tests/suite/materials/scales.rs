@@ -3,7 +3,7 @@
 //! difference comes from a length that is written into the program.
 
 use glam::{DVec2, DVec3};
-use moire::metrics::compare;
+use moire::lab::metrics::compare;
 use moire::oracle::camera::Ray;
 use moire::oracle::footprint::{Footprint, any_tangent};
 use moire::oracle::intersect::nearest_hit;

@@ -2,8 +2,8 @@
 //! the same bits as without it everywhere else. Which weight it has tells a texture that is 1 there and 0
 //! elsewhere.
 
+use moire::lab::probe::LookUp;
 use moire::pack::PackedScene;
-use moire::probe::LookUp;
 use moire::scene::model::Footprint;
 use moire::texture::data::{Dimension, TexelFormat, TextureData};
 use moire::texture::sampler_spec::{Address, Filter, SamplerSpec};

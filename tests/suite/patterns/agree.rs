@@ -1,7 +1,7 @@
 //! Positions of every pattern on the device against the oracle, bit for bit.
 
+use moire::lab::probe::{self, Positions};
 use moire::oracle::patterns::{HALTON_PAIRS, sample_pair};
-use moire::probe::{self, Positions};
 use moire::scene::model::Pattern;
 
 use super::{points, scene};

@@ -1,7 +1,7 @@
 //! Errors of pixels: how each pattern does on a smooth function and on an edge, against random points.
 
+use moire::lab::pattern::measures::star_discrepancy;
 use moire::oracle::patterns::sample_pair;
-use moire::pattern::measures::star_discrepancy;
 use moire::scene::model::Pattern;
 
 use super::{SCATTERED, header, points, set, unit};

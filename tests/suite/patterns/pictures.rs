@@ -1,7 +1,7 @@
 //! Pictures of every pattern: what is left out changes no bit, and the oracle sees the same, also where
 //! samples come in several chunks.
 
-use moire::metrics::compare;
+use moire::lab::metrics::compare;
 use moire::render::Tuning;
 use moire::scene::model::{Pattern, Scene};
 

@@ -3,8 +3,8 @@
 
 use std::f64::consts::PI;
 
-use moire::pattern::points::Set;
-use moire::pattern::spectrum::{Spectrum, mean};
+use moire::lab::pattern::points::Set;
+use moire::lab::pattern::spectrum::{Spectrum, mean};
 use moire::scene::model::Pattern;
 
 const REALISATIONS: u32 = 400;

@@ -4,7 +4,7 @@
 use std::fs;
 use std::time::{Duration, Instant};
 
-use moire::metrics::read_picture;
+use moire::lab::metrics::read_picture;
 use moire::texture::data::Dimension;
 use tempfile::tempdir;
 

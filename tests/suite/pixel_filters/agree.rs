@@ -1,11 +1,11 @@
 //! Device and oracle, lean pipelines and such with everything, parts and the whole: the same picture.
 
 use moire::adaptive::{self, Goal};
-use moire::features::Features;
-use moire::metrics::compare;
+use moire::core::progress::Silent;
+use moire::lab::metrics::compare;
 use moire::oracle::jobs::JobTracer;
 use moire::pack::Crop;
-use moire::progress::Silent;
+use moire::pack::features::Features;
 use moire::render::{self, Tuning};
 use moire::scene::model::{Algorithm, Footprint, Pattern, PixelFilter, PixelFilterKind, Scene};
 

@@ -1,7 +1,7 @@
 //! Pictures with a filter against the definition: a finely sampled picture, convolved with the analytic kernel
 //! in float64.
 
-use moire::film::Film;
+use moire::core::film::Film;
 use moire::scene::model::{Pattern, PixelFilter, PixelFilterKind, Projection, Scene};
 
 use super::{filters, integral, with};

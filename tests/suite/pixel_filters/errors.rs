@@ -7,7 +7,7 @@ use moire::scene::parse;
 
 use crate::support::{moire, told};
 
-fn image(keys: &str) -> moire::error::Result<PixelFilter> {
+fn image(keys: &str) -> moire::core::error::Result<PixelFilter> {
     let text = format!(
         "[camera]\neye = [0, 0, 5]\nlook_at = [0, 0, 0]\nvertical_fov = 40\n[image]\nwidth = 8\nheight = 8\n{keys}\n"
     );

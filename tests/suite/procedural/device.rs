@@ -1,11 +1,11 @@
 //! The device against the oracle, for every kind, near and far, with and without a footprint.
 
 use glam::DVec3;
-use moire::layout::{self, Header};
+use moire::lab::probe::{self, ProceduralQuery};
 use moire::oracle::procedural::{box_count, principal_axes, procedural_color};
 use moire::pack::PackedScene;
-use moire::probe::{self, ProceduralQuery};
 use moire::scene::model::Footprint;
+use moire::schema::layout::{self, Header};
 use moire::texture::procedural::ProceduralKind::{self, *};
 
 use super::{default_record, record};

@@ -7,7 +7,7 @@ use moire::texture::procedural::{Procedural, ProceduralKind};
 
 use crate::support::told;
 
-fn parse(keys: &str) -> moire::error::Result<Procedural> {
+fn parse(keys: &str) -> moire::core::error::Result<Procedural> {
     let rest =
         "[camera]\neye = [0, 0, 1]\nlook_at = [0, 0, 0]\nvertical_fov = 40\n[image]\nwidth = 1\nheight = 1\n";
     let text = format!("[[texture]]\nname = \"t\"\n{keys}\n{rest}");

@@ -3,14 +3,14 @@
 
 use std::path::Path;
 
+use moire::core::progress::Silent;
+use moire::lab::verify::queries::noise;
 use moire::oracle;
 use moire::pack::{self, PackedScene, Pyramids};
-use moire::progress::Silent;
 use moire::render::{TexelChoice, Tuning};
 use moire::scene::model::Scene;
 use moire::scene::parse;
 use moire::texture::data::{ColorSpace, Component, Dimension, TexelFormat, TextureData};
-use moire::verify::queries::noise;
 use serde_json::Value;
 use tempfile::tempdir;
 

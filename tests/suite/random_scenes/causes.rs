@@ -4,7 +4,6 @@
 use std::collections::BTreeMap;
 
 use glam::{DVec2, DVec3};
-use moire::layout::NO_SHAPE;
 use moire::oracle::camera::camera_ray;
 use moire::oracle::cone::{cone_of, leaving};
 use moire::oracle::footprint::{camera_beam, mirrored};
@@ -15,6 +14,7 @@ use moire::oracle::paint::links;
 use moire::oracle::pieces::{gather, lay_over};
 use moire::pack::PackedScene;
 use moire::scene::model::{Algorithm, Model};
+use moire::schema::layout::NO_SHAPE;
 use rayon::prelude::*;
 
 use super::cones::plain;

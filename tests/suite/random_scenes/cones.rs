@@ -2,8 +2,8 @@
 //! that share a cone, and that nothing is seen through a third.
 
 use glam::{DVec2, DVec3};
-use moire::film::Film;
-use moire::metrics::compare;
+use moire::core::film::Film;
+use moire::lab::metrics::compare;
 use moire::oracle::camera::camera_ray;
 use moire::oracle::cone::{Cone, cone_of};
 use moire::oracle::footprint::camera_beam;
@@ -76,8 +76,11 @@ fn by_rays(scene: &PackedScene, cone: &Cone, shapes: usize) -> Vec<f64> {
     for (ring, k) in (0..RINGS).flat_map(|ring| (0..around).map(move |k| (ring, k))) {
         let radius = ((f64::from(ring) + 0.5) / f64::from(RINGS)).sqrt();
         let angle = std::f64::consts::TAU * (f64::from(k) + 0.37 * f64::from(ring)) / f64::from(around);
-        let hit =
-            nearest_hit(scene, &cone.ray_at(radius * DVec2::from_angle(angle)), moire::layout::NO_SHAPE);
+        let hit = nearest_hit(
+            scene,
+            &cone.ray_at(radius * DVec2::from_angle(angle)),
+            moire::schema::layout::NO_SHAPE,
+        );
         shares[(hit.shape as usize).min(shapes)] += 1.0 / f64::from(RINGS * around);
     }
     shares
@@ -94,7 +97,7 @@ fn shares_off(scene: &Scene) -> [f64; 3] {
         let ray = camera_ray(header, place, DVec2::splat(0.5));
         let beam = camera_beam(header, &ray);
         let cone = cone_of(ray, beam.width, beam.spread, xyz(header.step_x));
-        let mut pieces = gather(&packed, &cone, moire::layout::NO_SHAPE, FAR);
+        let mut pieces = gather(&packed, &cone, moire::schema::layout::NO_SHAPE, FAR);
         let rest = lay_over(&mut pieces, &packed, &cone).share;
         if pieces.list.iter().any(|p| p.area >= 1.0) {
             off[2] = off[2].max(rest);

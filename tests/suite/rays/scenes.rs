@@ -4,8 +4,8 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use glam::{DVec3, Vec3};
+use moire::lab::probe::RayQuery;
 use moire::pack::{self, PackedScene};
-use moire::probe::RayQuery;
 use moire::scene;
 use moire::texture::data::{ColorSpace, TexelFormat};
 

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use miette::GraphicalReportHandler;
-use moire::error::Error;
+use moire::core::error::Error;
 use moire::scene::parse;
 
 use super::HEAD;

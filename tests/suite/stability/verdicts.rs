@@ -1,12 +1,12 @@
 //! Who is within its bound and who is not, and how a run of cases goes on or ends.
 
-use moire::error::{Error, Result};
-use moire::progress::{Progress, Silent};
-use moire::stability::case::{Bench, Point};
-use moire::stability::report::Verdict;
-use moire::stability::run::run;
-use moire::stability::text::text;
-use moire::stability::{all, case::Case};
+use moire::core::error::{Error, Result};
+use moire::core::progress::{Progress, Silent};
+use moire::lab::stability::case::{Bench, Point};
+use moire::lab::stability::report::Verdict;
+use moire::lab::stability::run::run;
+use moire::lab::stability::text::text;
+use moire::lab::stability::{all, case::Case};
 
 use super::{case, none, points, report, row};
 use crate::shared_gpu::gpu;

@@ -1,8 +1,8 @@
 //! Whether glass mirrors or refracts is a choice by the pattern: as even as the pattern is, the middle one where the
 //! pattern has no chance.
 
-use moire::film::Film;
-use moire::metrics::compare;
+use moire::core::film::Film;
+use moire::lab::metrics::compare;
 use moire::scene::model::{Algorithm, Pattern, Scene};
 
 use super::{packed, parsed, sampled, variance};

@@ -4,8 +4,8 @@
 use std::f64::consts::{PI, TAU};
 
 use glam::{DVec2, DVec3};
-use moire::film::Film;
-use moire::metrics::compare;
+use moire::core::film::Film;
+use moire::lab::metrics::compare;
 use moire::oracle::footprint::{Beam, mirrored};
 use moire::oracle::glossy::{mirrored_share, smith, visible_normal, widened_beam};
 use moire::scene::model::{Pattern, Scene};

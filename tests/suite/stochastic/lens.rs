@@ -1,8 +1,8 @@
 //! The thin lens: what lies in focus, how wide what lies elsewhere is blurred, what patterns gain.
 
-use moire::film::Film;
+use moire::core::film::Film;
+use moire::core::progress::Silent;
 use moire::oracle::render::render as on_oracle;
-use moire::progress::Silent;
 use moire::scene::model::{Lens, Scene};
 use moire::scene::parse;
 
@@ -43,7 +43,7 @@ fn what_lies_in_the_plane_of_focus_looks_as_through_a_pinhole() {
     let apart = a.pixels.iter().zip(&b.pixels).filter(|(p, q)| p != q).count();
     assert!(apart <= 2, "{apart} pixels differ on the device: rounding at an edge");
     let blurred = on_oracle(&packed(&with_lens(card, 0.4, 2.0)), &Silent).unwrap();
-    assert!(moire::metrics::compare(&blurred, &b).unwrap().rmse > 0.05, "out of focus");
+    assert!(moire::lab::metrics::compare(&blurred, &b).unwrap().rmse > 0.05, "out of focus");
 }
 
 /// Variance of the light's place in the picture along x and y, in pixels squared.

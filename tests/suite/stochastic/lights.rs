@@ -4,7 +4,7 @@
 use std::f64::consts::{PI, TAU};
 
 use glam::DVec3;
-use moire::film::Film;
+use moire::core::film::Film;
 use moire::scene::model::{Light, Pattern, Scene};
 use moire::scene::parse;
 

@@ -2,11 +2,11 @@
 //! patterns gain.
 
 use glam::DVec3;
-use moire::film::Film;
-use moire::metrics::compare;
+use moire::core::film::Film;
+use moire::core::progress::Silent;
+use moire::lab::metrics::compare;
 use moire::oracle::render::render as on_oracle;
 use moire::pack::PackedScene;
-use moire::progress::Silent;
 use moire::scene::model::Scene;
 use moire::scene::parse;
 use moire::texture::load::load;

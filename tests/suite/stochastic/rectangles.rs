@@ -2,8 +2,8 @@
 //! and grazing.
 
 use glam::{DVec2, DVec3};
+use moire::lab::probe::{self, WarpQuery};
 use moire::oracle::rectangle::{LEAST_SOLID_ANGLE, on_rectangle};
-use moire::probe::{self, WarpQuery};
 use moire::scene::model::Pattern;
 
 use crate::lookup::bench::Dice;

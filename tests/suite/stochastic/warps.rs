@@ -3,11 +3,11 @@
 use std::f64::consts::TAU;
 
 use glam::{DVec2, DVec3};
+use moire::lab::probe::{self, WarpAnswer, WarpQuery};
 use moire::oracle::footprint::{around, mirrored};
 use moire::oracle::glossy::{mirrored_share, visible_normal};
 use moire::oracle::math::xyz;
 use moire::oracle::warps::{concentric_disc, on_cap};
-use moire::probe::{self, WarpAnswer, WarpQuery};
 use moire::scene::model::Pattern;
 
 use crate::lookup::bench::Dice;

@@ -1,9 +1,9 @@
 //! Names of methods, what they do to a scene, which ones a scene gets, and which counts are measured.
 
+use moire::lab::study::method::Method;
+use moire::lab::study::plan::{Forecast, next_count, points};
 use moire::scene::check_spp;
 use moire::scene::model::{Algorithm, Footprint, Pattern, Scene};
-use moire::study::method::Method;
-use moire::study::plan::{Forecast, next_count, points};
 use moire::texture::sampler_spec::{Filter, MipMode};
 
 use crate::stage;

@@ -1,8 +1,8 @@
 //! Renders that share what is on the device are the same, bit for bit, as renders of their own.
 
-use moire::film::Film;
+use moire::core::film::Film;
+use moire::core::progress::Silent;
 use moire::pack::pack;
-use moire::progress::Silent;
 use moire::render::{Session, Tuning, render};
 use moire::scene::model::{Algorithm, Pattern, Scene};
 use moire::texture;

@@ -1,8 +1,8 @@
 //! `moire verify` on the device under test: what it prints, how it exits and how it stops.
 
-use moire::error::Error;
-use moire::progress::Progress;
-use moire::verify::verify;
+use moire::core::error::Error;
+use moire::core::progress::Progress;
+use moire::lab::verify::verify;
 use serde_json::Value;
 
 use crate::shared_gpu::gpu;

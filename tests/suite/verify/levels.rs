@@ -2,19 +2,19 @@
 
 use std::collections::BTreeSet;
 
-use moire::layout::Sampler;
+use moire::lab::probe::LookUp;
+use moire::lab::verify::judge::{Judge, Precision};
+use moire::lab::verify::level_variants::{anisotropic_variants, level_variants};
+use moire::lab::verify::queries::{Dice, noise, pairs_over, place_of, query};
+use moire::lab::verify::reading::readings;
+use moire::lab::verify::sweeps::{level_sweep, long_footprints, paint_levels};
+use moire::lab::verify::variants::{FormatClass, Reader, Scale, Variant};
 use moire::oracle::filter::look_up;
 use moire::pack::PackedScene;
-use moire::probe::LookUp;
 use moire::scene::model::Footprint;
+use moire::schema::layout::Sampler;
 use moire::texture::data::Dimension;
 use moire::texture::sampler_spec::{Address, Filter, Method, MipMode, SamplerSpec};
-use moire::verify::judge::{Judge, Precision};
-use moire::verify::level_variants::{anisotropic_variants, level_variants};
-use moire::verify::queries::{Dice, noise, pairs_over, place_of, query};
-use moire::verify::reading::readings;
-use moire::verify::sweeps::{level_sweep, long_footprints, paint_levels};
-use moire::verify::variants::{FormatClass, Reader, Scale, Variant};
 
 use super::device;
 
