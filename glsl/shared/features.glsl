@@ -1,4 +1,4 @@
-// What this scene uses, as specialization constants. The defaults keep everything; src/features.rs
+// What this scene uses, as specialization constants. The defaults keep everything; src/pack/features.rs
 // narrows them. A constant that names modes is a bit mask: one bit set means the mode is known when
 // the pipeline is built and no test is left; several mean a test at run time.
 #ifndef FEATURES_GLSL

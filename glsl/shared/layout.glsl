@@ -1,5 +1,5 @@
 // The one layout contract: what lies where in the scene buffer, in units of uvec4 (16 bytes).
-// src/layout.rs mirrors every struct and asserts its size. Positions are relative to the eye.
+// src/schema/layout.rs mirrors every struct and asserts its size. Positions are relative to the eye.
 // Numbers of modes equal the order of the Rust enums; a test compares both.
 #ifndef LAYOUT_GLSL
 #define LAYOUT_GLSL

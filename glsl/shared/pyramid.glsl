@@ -18,7 +18,7 @@ layout(std430, set = 0, binding = 0) buffer Words { uint words[]; };
 layout(std430, set = 0, binding = 1) buffer Numbers { float numbers[]; };
 layout(std430, set = 0, binding = 2) readonly buffer Tables { float tables[]; };
 
-// src/layout.rs mirrors it.
+// src/schema/layout.rs mirrors it.
 layout(push_constant) uniform Halving {
     uint from_codes;
     uint above;

@@ -9,9 +9,9 @@ use bytemuck::Pod;
 use crate::core::error::{Error, Result};
 use crate::gpu::shaders::{self, Shader};
 use crate::gpu::{BufferUse, Gpu, Pipeline};
-use crate::pack::features::{self, Features, TexelSource};
+use crate::pack::features::{Features, TexelSource};
 use crate::pack::{PackedScene, SlotCounts};
-use crate::render::{Maker, Resources, Top, Tuning, build_pipeline};
+use crate::render::{Maker, Resources, Top, Tuning, build_pipeline, specialization};
 use crate::texture::data::TextureData;
 use crate::texture::mips;
 
@@ -73,7 +73,7 @@ impl<'a> LookUps<'a> {
         let resources =
             Resources::upload(self.gpu, scene, &features, Tuning::default().texel_words(self.gpu))?;
         let slots = resources.slots;
-        let constants = features::constants(shader, &features, &resources.sections, [GROUP, 1], slots);
+        let constants = specialization::constants(shader, &features, &resources.sections, [GROUP, 1], slots);
         let code = Code { shader: shader.name, constants, slots };
         let known = self.pipelines.iter().position(|(other, _)| *other == code);
         let index = match known {
@@ -212,7 +212,7 @@ fn run<T: Pod>(
 ) -> Result<Vec<T>> {
     let resources = Resources::upload(gpu, scene, features, Tuning::default().texel_words(gpu))?;
     let slots = resources.slots;
-    let constants = features::constants(shader, features, &resources.sections, [GROUP, 1], slots);
+    let constants = specialization::constants(shader, features, &resources.sections, [GROUP, 1], slots);
     let pipeline = build_pipeline(gpu, shader, &constants, slots, (1 + push.len()) * size_of::<u32>())?;
     dispatch(gpu, &pipeline, &resources, shader, queries, count, push)
 }

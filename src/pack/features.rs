@@ -1,14 +1,12 @@
 //! What a packed scene needs → the specialization constants of its pipelines, and the list of what
 //! was left out. `FEATURES` is the one table; every constant of `features.glsl` stands in it or
-//! among the places and sizes that [`constants`] adds.
+//! among the places and sizes that a pipeline adds.
 
 mod needs;
 
 use crate::core::named::named_enum;
-use crate::gpu::shaders::Shader;
 use crate::pack::{
-    Choice, EntityKind, LightKind, MapKind, PackedScene, ProjectionKind, Schedule, Sections, SlotCounts,
-    TextureKind,
+    Choice, EntityKind, LightKind, MapKind, PackedScene, ProjectionKind, Schedule, TextureKind,
 };
 use crate::scene::model::{Footprint, Model, Pattern, PixelFilterKind, ReliefKind};
 use crate::schema::layout::{NO_MATERIAL, NO_TEXTURE};
@@ -218,39 +216,6 @@ fn left_out(what: &str, narrow: Narrow, value: u32) -> Option<String> {
         Count(_) => (value != DYNAMIC).then(|| what.to_string()),
         Switch(_) => (value == 0).then(|| what.to_string()),
     }
-}
-
-/// (specialization id, value) for a shader: the features, the lists' places, the workgroup's size
-/// and the number of descriptors. A constant that the shader does not have is not set.
-pub fn constants(
-    shader: &Shader,
-    features: &Features,
-    sections: &Sections,
-    group: [u32; 2],
-    slots: SlotCounts,
-) -> Vec<(u32, u32)> {
-    let places = [
-        ("PLANES_AT", sections.planes),
-        ("SPHERES_AT", sections.spheres),
-        ("TRIANGLES_AT", sections.triangles),
-        ("LIGHTS_AT", sections.lights),
-        ("MATERIALS_AT", sections.materials),
-        ("MAPS_AT", sections.maps),
-        ("TEXTURES_AT", sections.textures),
-        ("SAMPLERS_AT", sections.samplers),
-        ("PROCEDURALS_AT", sections.procedurals),
-        ("MOTIONS_AT", sections.motions),
-        ("PIXEL_FILTER_AT", sections.pixel_filter),
-        ("GROUP_X", group[0]),
-        ("GROUP_Y", group[1]),
-        ("SLOTS", slots.flat.max(1)),
-        ("VOLUME_SLOTS", slots.volumes.max(1)),
-        ("CUBE_SLOTS", slots.cubes.max(1)),
-        ("TEXEL_BLOCKS", slots.texel_blocks.max(1)),
-        ("BLOCK_LOG2", slots.block_log2),
-    ];
-    let all = features.values.iter().copied().chain(places);
-    all.filter_map(|(name, value)| Some((shader.constant(name)?.id, value))).collect()
 }
 
 /// Names of the constants that describe features, in the order of the table.

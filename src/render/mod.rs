@@ -11,6 +11,7 @@ mod pyramids;
 mod resources;
 mod session;
 mod slices;
+pub mod specialization;
 mod survey;
 mod tuning;
 mod turns;

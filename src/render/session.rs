@@ -12,7 +12,7 @@ use crate::core::film::Film;
 use crate::core::progress::Progress;
 use crate::gpu::shaders::{self, Shader};
 use crate::gpu::{Gpu, Pipeline};
-use crate::pack::features::{self, Features};
+use crate::pack::features::Features;
 use crate::pack::{self, PackedScene, Schedule};
 use crate::scene::model::{Algorithm, Scene};
 use crate::schema::layout::{Header, Slice};
@@ -24,7 +24,7 @@ use super::pool;
 use super::resources::{Resources, shader_for};
 use super::survey::Survey;
 use super::turns::samples_at_once;
-use super::{Renderer, Report, Tuning, build_pipeline, slices, tuning};
+use super::{Renderer, Report, Tuning, build_pipeline, slices, specialization, tuning};
 
 pub struct Session<'a> {
     gpu: &'a Gpu,
@@ -172,7 +172,7 @@ impl<'a> Session<'a> {
         let group_size = self.tuning.group_size(self.gpu.info())?;
         let slots = self.resources.slots;
         let mut constants =
-            features::constants(shader, features, &self.resources.sections, group_size, slots);
+            specialization::constants(shader, features, &self.resources.sections, group_size, slots);
         if let Some(constant) = shader.constant("TABLES_IN_HEAD") {
             constants.push((constant.id, u32::from(Tuning::tables_in_head(self.gpu.info()))));
         }

@@ -2,12 +2,12 @@
 //! how calm it is. In: a scene of many triangles on a device. Out: the lists that camera rays
 //! read, and the samples that each pixel begins with.
 
-use super::{Report, Resources, build_pipeline};
+use super::{Report, Resources, build_pipeline, specialization};
 use crate::core::error::Result;
 use crate::gpu::shaders;
 use crate::gpu::{BindGroup, Buffer, BufferUse, Gpu, Pipeline};
 use crate::pack::PackedScene;
-use crate::pack::features::{self, Features};
+use crate::pack::features::Features;
 use crate::schema::layout::{CELL_CALM, CELL_EMPTY, CELL_WORDS, Part};
 
 const GROUP: u32 = 64;
@@ -28,7 +28,7 @@ impl Survey {
     pub fn new(gpu: &Gpu, scene: &PackedScene, resources: &Resources, features: &Features) -> Result<Survey> {
         let shader = if features.double { &shaders::SURVEY_WIDE } else { &shaders::SURVEY };
         let slots = resources.slots;
-        let constants = features::constants(shader, features, &resources.sections, [GROUP, 1], slots);
+        let constants = specialization::constants(shader, features, &resources.sections, [GROUP, 1], slots);
         let pipeline = build_pipeline(gpu, shader, &constants, slots, size_of::<Part>())?;
         let [width, height, _, _] = scene.header.size;
         let side = scene.header.chances[3];

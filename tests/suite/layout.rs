@@ -171,7 +171,7 @@ fn differences(glsl: &str, rust: &str) -> Vec<String> {
 fn shader_structs_strides_and_mode_numbers_equal_their_mirrors() {
     let Some(root) = source_root() else { return };
     let glsl = fs::read_to_string(root.join("glsl/shared/layout.glsl")).unwrap();
-    let rust = fs::read_to_string(root.join("src/layout.rs")).unwrap();
+    let rust = fs::read_to_string(root.join("src/schema/layout.rs")).unwrap();
     let found = differences(&glsl, &rust);
     assert!(found.is_empty(), "{}", found.join("\n"));
     let far = glsl.split_once("const float FAR = ").unwrap().1.split(';').next().unwrap();
@@ -182,7 +182,7 @@ fn shader_structs_strides_and_mode_numbers_equal_their_mirrors() {
 fn planted_differences_of_layout_are_found() {
     let Some(root) = source_root() else { return };
     let glsl = fs::read_to_string(root.join("glsl/shared/layout.glsl")).unwrap();
-    let rust = fs::read_to_string(root.join("src/layout.rs")).unwrap();
+    let rust = fs::read_to_string(root.join("src/schema/layout.rs")).unwrap();
     let plants = [
         ("real4 axis_u;", "real4 axis_w;", "Plane"),
         ("    real4 axis_u;", "    vec4 axis_u;", "Plane"),
@@ -208,7 +208,7 @@ fn planted_differences_of_layout_are_found() {
 fn push_constants_equal_their_mirrors() {
     let Some(root) = source_root() else { return };
     let glsl = fs::read_to_string(root.join("glsl/shared/slice.glsl")).unwrap();
-    let rust = fs::read_to_string(root.join("src/layout.rs")).unwrap();
+    let rust = fs::read_to_string(root.join("src/schema/layout.rs")).unwrap();
     let here = glsl_struct(&glsl, "uniform Slice").unwrap();
     assert_eq!(Some(&here), rust_struct(&rust, "pub struct Slice").as_ref());
     assert_eq!(size_of::<mirror::Slice>(), here.len() * 4);

@@ -6,8 +6,9 @@ use std::io::Write;
 use std::process::{Command, Stdio};
 
 use moire::gpu::shaders::{self, Shader, specialise};
-use moire::pack::features::{Features, constants, widest};
+use moire::pack::features::{Features, widest};
 use moire::pack::{self, PackedScene, SlotCounts};
+use moire::render::specialization::constants;
 use moire::scene;
 use moire::texture::load::load;
 
