@@ -47,7 +47,7 @@ float largest(vec3 v) {
 
 void send(Branch branch) {
     if (waiting_count == MAX_WAITING) {
-        count_diagnostic(DIAGNOSTIC_FRAGMENTS, true);
+        count_diagnostic(DIAGNOSTIC_PIECES, true);
         dropped += largest(branch.weight);
         return;
     }
@@ -182,7 +182,7 @@ vec4 trace_cone(Header header, Ray ray, RayDifferential beam) {
         float replaced = rest.share * (1.0 - clear);
         float norm = 1.0 + replaced / max(1.0 - rest.share, MIN_SHARE);
         dropped += largest(branch.weight) * replaced;
-        count_diagnostic(DIAGNOSTIC_FRAGMENTS, replaced > 0.0);
+        count_diagnostic(DIAGNOSTIC_PIECES, replaced > 0.0);
         rest.share -= replaced;
         // An environment is one part more, behind all fragments.
         bool surrounded = ENVIRONMENT && header.counts.w != NO_MATERIAL;

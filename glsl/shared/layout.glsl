@@ -140,7 +140,7 @@ const uint DIAGNOSTIC_LEVELS = 1u;
 const uint DIAGNOSTIC_ANISOTROPY = 2u;
 const uint DIAGNOSTIC_GRAZING = 3u;
 const uint DIAGNOSTIC_DEPTH = 4u;
-const uint DIAGNOSTIC_FRAGMENTS = 5u;
+const uint DIAGNOSTIC_PIECES = 5u;
 const uint DIAGNOSTIC_RADIANCE = 6u;
 const uint DIAGNOSTICS = 7u;
 
