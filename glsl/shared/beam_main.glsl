@@ -63,9 +63,9 @@ float negligible(vec3 inverse_depth, uint polygon) {
 // All that the beam may meet. Behind a mirror that is what lies beyond it: what lies before it neither is seen
 // nor hides anything.
 void find_shapes(Header header, PixelBeam beam) {
-    uint planes = COUNT(PLANES, header.counts.x);
-    uint before_triangles = planes + COUNT(SPHERES, header.counts.y);
-    uint shapes = before_triangles + COUNT(TRIANGLES, header.counts.z);
+    uint planes = COUNT(PLANES, header.plane_count);
+    uint before_triangles = planes + COUNT(SPHERES, header.sphere_count);
+    uint shapes = before_triangles + COUNT(TRIANGLES, header.triangle_count);
     met_count = 0u;
     bool mirrored = BOUNCES && beam.skip != NO_SHAPE;
     float least = mirrored ? negligible(beam.limit, WHOLE) : 0.0;
@@ -127,9 +127,9 @@ void carve(uint stage, uint by, bool has_first, vec3 first, bool kept) {
 
 // Adds the integral over those parts of SEEN that see the light; without one, over all of it.
 void lit_by(Header header, ShadingIntegral paint, uint shape, bool has_light, Light light) {
-    uint planes = COUNT(PLANES, header.counts.x);
-    uint before_triangles = planes + COUNT(SPHERES, header.counts.y);
-    uint shapes = before_triangles + COUNT(TRIANGLES, header.counts.z);
+    uint planes = COUNT(PLANES, header.plane_count);
+    uint before_triangles = planes + COUNT(SPHERES, header.sphere_count);
+    uint shapes = before_triangles + COUNT(TRIANGLES, header.triangle_count);
     uint bottom = waiting;
     if (!has_light) push_piece(SEEN, shapes);
     else if (is_lit(header, paint, SEEN, light)) push_piece(SEEN, 0u);
@@ -157,15 +157,15 @@ void shade(Header header, PixelBeam beam, uint own) {
     uint shape = met_shapes[own];
     uvec2 link = shape_links(header, shape);
     Material record = material_at(link.x);
-    UvProjection map = map_at(link.y);
+    UvProjection map = uv_projection_at(link.y);
     vec3 near = met[own].inverse_depth;
     if (!is_simple(header, shape, record, map)) {
         gave_up = true;
         return;
     }
-    vec3 carried = beam.carried * record.color.xyz;
-    if (MODE_IS(MODELS, MODEL_MIRROR, record.link.x)) {
-        if (!BOUNCES || beam.depth >= header.size.w) return;
+    vec3 carried = beam.carried * record.color;
+    if (MODE_IS(MODELS, MODEL_MIRROR, record.model)) {
+        if (!BOUNCES || beam.depth >= header.max_depth) return;
         if (waiting_beams == MAX_BEAMS) {
             gave_up = true;
             return;
@@ -178,16 +178,16 @@ void shade(Header header, PixelBeam beam, uint own) {
         return;
     }
     RationalMap quotient = RationalMap(near, near, near);
-    if (TEXTURED && record.link.y != NO_TEXTURE) quotient = coordinates(header, beam.frame, shape, map, near);
+    if (TEXTURED && record.texture_index != NO_TEXTURE) quotient = coordinates(header, beam.frame, shape, map, near);
     ShadingIntegral paint = ShadingIntegral(record, carried, quotient, shape_plane(header, shape), beam.frame, near);
-    bool unlit = MODE_IS(MODELS, MODEL_UNLIT, record.link.x);
-    uint lights = unlit ? 1u : COUNT(LIGHTS, header.key.y);
+    bool unlit = MODE_IS(MODELS, MODEL_UNLIT, record.model);
+    uint lights = unlit ? 1u : COUNT(LIGHTS, header.light_count);
     uint i = 0u;
     for (; i < lights && !gave_up; i++) {
         Light light = NO_LIGHT;
         if (LIGHTS != 0u && !unlit) light = light_at(i);
         // Of lights with an extent beams do not know the penumbra.
-        if (AREA_LIGHTS && light.link.x >= LIGHT_SPHERE) gave_up = true;
+        if (AREA_LIGHTS && light.kind >= LIGHT_SPHERE) gave_up = true;
         lit_by(header, paint, shape, LIGHTS != 0u && !unlit, light);
     }
     if (i < lights) gave_up = true;
@@ -220,8 +220,8 @@ void follow(Header header, PixelBeam beam) {
     }
     if (own < met_count || waiting > 0u) gave_up = true;
     if (left > MIN_AREA) {
-        if (ENVIRONMENT && header.counts.w != NO_MATERIAL) gave_up = true;
-        color += left * beam.carried * header.background.xyz;
+        if (ENVIRONMENT && header.environment_material != NO_MATERIAL) gave_up = true;
+        color += left * beam.carried * header.background;
     }
 }
 

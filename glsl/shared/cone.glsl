@@ -37,14 +37,14 @@ Cone cone_of(Ray ray, RayDifferential beam, vec3 across) {
 // The same cone, which leaves a shape.
 Cone leaving(Header header, Cone cone, uint shape) {
     if (!FLOORS || shape == NO_SHAPE) return cone;
-    uint planes = COUNT(PLANES, header.counts.x);
-    uint spheres = COUNT(SPHERES, header.counts.y);
-    uint triangles = COUNT(TRIANGLES, header.counts.z);
+    uint planes = COUNT(PLANES, header.plane_count);
+    uint spheres = COUNT(SPHERES, header.sphere_count);
+    uint triangles = COUNT(TRIANGLES, header.triangle_count);
     vec3 up = vec3(0.0);
     if (planes > 0u && (spheres + triangles == 0u || shape < planes)) {
-        up = plane_at(shape).normal.xyz;
+        up = plane_at(shape).normal;
     } else if (triangles > 0u && (spheres == 0u || shape >= planes + spheres)) {
-        up = triangle_at(shape - planes - spheres).normal.xyz;
+        up = triangle_at(shape - planes - spheres).normal;
     } else {
         return cone;
     }
@@ -96,13 +96,13 @@ void cut_bounds(Cone cone, Flat plane, vec4 row, float extent) {
 }
 
 void cut_plane(Cone cone, Plane plane) {
-    Flat seen = flat_in(cone, plane.normal.xyz, plane.normal.w);
+    Flat seen = flat_in(cone, plane.normal, plane.distance);
     cut_by(vec3(-cone.width * seen.tilt, seen.height));
-    if (BOUNDED_PLANES && plane.link.w != 0u) {
+    if (BOUNDED_PLANES && plane.half_extent >= 0.0) {
         // Together they leave nothing above the horizon.
-        float extent = REAL_BITS(plane.link.zw);
-        cut_bounds(cone, seen, plane.axis_u, extent);
-        cut_bounds(cone, seen, plane.axis_v, extent);
+        float extent = plane.half_extent;
+        cut_bounds(cone, seen, vec4(plane.axis_u, plane.eye_u), extent);
+        cut_bounds(cone, seen, vec4(plane.axis_v, plane.eye_v), extent);
     } else {
         cut_by(vec3(cone.spread * seen.tilt, seen.facing));
     }
@@ -117,12 +117,12 @@ vec3 in_disc(Cone cone, vec3 point) {
 
 // Two triangles at a shared edge get the same line with opposite sign.
 void cut_triangle(Cone cone, Triangle triangle) {
-    vec3 a = in_disc(cone, triangle.a.xyz);
-    vec3 b = in_disc(cone, triangle.b.xyz);
-    vec3 c = in_disc(cone, triangle.c.xyz);
-    float height = triangle.normal.w - dot3(triangle.normal.xyz, cone.ray.origin);
+    vec3 a = in_disc(cone, triangle.a);
+    vec3 b = in_disc(cone, triangle.b);
+    vec3 c = in_disc(cone, triangle.c);
+    float height = triangle.distance - dot3(triangle.normal, cone.ray.origin);
     float side = height < 0.0 ? -1.0 : 1.0;
-    vec2 tilt = vec2(dot3(triangle.normal.xyz, cone.x), dot3(triangle.normal.xyz, cone.y));
+    vec2 tilt = vec2(dot3(triangle.normal, cone.x), dot3(triangle.normal, cone.y));
     cut_by(vec3((-side * cone.width) * tilt, side * height));
     cut_by(side * cross3(a, b));
     cut_by(side * cross3(b, c));
@@ -137,8 +137,8 @@ struct Circle {
 };
 
 Circle circle_of(Cone cone, Sphere sphere) {
-    vec3 f = cone.ray.origin - sphere.ball.xyz;
-    float radius = sphere.ball.w;
+    vec3 f = cone.ray.origin - sphere.center;
+    float radius = sphere.radius;
     float t = -dot3(f, cone.ray.direction) / dot3(cone.ray.direction, cone.ray.direction);
     // From the inside it is all around, from behind nowhere.
     if (dot3(f, f) <= radius * radius) return Circle(vec2(0.0), 1e6, 1e6);
@@ -153,9 +153,9 @@ Circle circle_of(Cone cone, Sphere sphere) {
 
 // Cuts the disc to what the shape covers; false for a ball that no line stands for: smaller than the cone.
 bool cut_shape(Header header, Cone cone, uint shape) {
-    uint planes = COUNT(PLANES, header.counts.x);
-    uint spheres = COUNT(SPHERES, header.counts.y);
-    uint triangles = COUNT(TRIANGLES, header.counts.z);
+    uint planes = COUNT(PLANES, header.plane_count);
+    uint spheres = COUNT(SPHERES, header.sphere_count);
+    uint triangles = COUNT(TRIANGLES, header.triangle_count);
     if (planes > 0u && (spheres + triangles == 0u || shape < planes)) {
         cut_plane(cone, plane_at(shape));
     } else if (spheres > 0u && (triangles == 0u || shape < planes + spheres)) {
@@ -170,9 +170,9 @@ bool cut_shape(Header header, Cone cone, uint shape) {
 
 // What the shape covers.
 Covered covered_by(Header header, Cone cone, uint shape) {
-    uint planes = COUNT(PLANES, header.counts.x);
-    uint spheres = COUNT(SPHERES, header.counts.y);
-    uint triangles = COUNT(TRIANGLES, header.counts.z);
+    uint planes = COUNT(PLANES, header.plane_count);
+    uint spheres = COUNT(SPHERES, header.sphere_count);
+    uint triangles = COUNT(TRIANGLES, header.triangle_count);
     if (spheres > 0u && shape >= planes && shape < planes + spheres) {
         Circle circle = circle_of(cone, sphere_at(shape - planes));
         return ball_overlap(circle.middle, circle.radius, circle.edge);
@@ -185,23 +185,24 @@ Covered covered_by(Header header, Cone cone, uint shape) {
 
 // Where a ray within the shape's outline meets it; rounding may have put it just beside.
 Hit meet(Header header, Ray ray, uint shape) {
-    uint planes = COUNT(PLANES, header.counts.x);
-    uint spheres = COUNT(SPHERES, header.counts.y);
-    uint triangles = COUNT(TRIANGLES, header.counts.z);
+    uint planes = COUNT(PLANES, header.plane_count);
+    uint spheres = COUNT(SPHERES, header.sphere_count);
+    uint triangles = COUNT(TRIANGLES, header.triangle_count);
     Hit hit = Hit(-1.0, shape, vec2(0.0));
     vec4 plane = vec4(0.0);
     if (planes > 0u && (spheres + triangles == 0u || shape < planes)) {
         Plane found = plane_at(shape);
-        plane = found.normal;
+        plane = vec4(found.normal, found.distance);
         plane_distance(found, ray, false, hit.local);
     } else if (spheres > 0u && (triangles == 0u || shape < planes + spheres)) {
         Sphere sphere = sphere_at(shape - planes);
         hit.t = sphere_distance(sphere, ray, false);
-        float nearest = dot3(sphere.ball.xyz - ray.origin, ray.direction) / dot3(ray.direction, ray.direction);
+        float nearest = dot3(sphere.center - ray.origin, ray.direction) / dot3(ray.direction, ray.direction);
         hit.t = hit.t > 0.0 ? hit.t : nearest;
         return hit;
     } else if (triangles > 0u) {
-        plane = triangle_at(shape - planes - spheres).normal;
+        Triangle found = triangle_at(shape - planes - spheres);
+        plane = vec4(found.normal, found.distance);
     }
     float above = plane.w - dot3(plane.xyz, ray.origin);
     hit.t = above / dot3(plane.xyz, ray.direction);

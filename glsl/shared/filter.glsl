@@ -27,16 +27,16 @@ vec3 look_up_dice(uvec2 random) {
 }
 
 vec4 sample_texture(Texture image, Sampler how, uint slot, TexCoord mapped, uvec2 random) {
-    if (MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_PROCEDURAL, image.link.w)) {
-        return vec4(procedural_color(procedural_at(image.place.x), mapped.at, mapped.dx, mapped.dy), 1.0);
+    if (MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_PROCEDURAL, image.kind)) {
+        return vec4(procedural_color(procedural_at(image.procedural), mapped.at, mapped.dx, mapped.dy), 1.0);
     }
     count_diagnostic(DIAGNOSTIC_COORDINATES, no_number(mapped.at));
     Coordinate place = near_coordinate(image, how, mapped);
     bool hardware = false;
 #if HAS_IMAGES
-    hardware = MODE_IS(METHODS, METHOD_HARDWARE, how.link.x);
+    hardware = MODE_IS(METHODS, METHOD_HARDWARE, how.method);
 #endif
-    uint mode = how.modes.z;
+    uint mode = how.mag_filter;
     vec3 dice = vec3(0.0);
     if (HAS(FILTERS, FILTER_STOCHASTIC)) dice = look_up_dice(random);
     uint face;
@@ -50,15 +50,15 @@ vec4 sample_texture(Texture image, Sampler how, uint slot, TexCoord mapped, uvec
 
     FootprintEllipse spread = texel_spread(image, c);
     bool magnified = spread.major <= 1.0;
-    mode = magnified ? mode : how.link.y;
+    mode = magnified ? mode : how.min_filter;
     if (HAS(FILTERS, FILTER_EWA) && mode == FILTER_EWA) return ellipse(image, how, slot, c, spread);
 #if HAS_TEXELS
     if (HAS(FILTERS, FILTER_SUMMED_AREA) && mode == FILTER_SUMMED_AREA) return summed_area(image, how, c);
 #endif
-    int last = int(image.link.y) - 1;
+    int last = int(image.levels) - 1;
     uint probes = 1u;
     if (HAS(FILTERS, FILTER_ANISOTROPIC) && mode == FILTER_ANISOTROPIC) {
-        float most = float(how.link.w);
+        float most = float(how.max_anisotropy);
         float ratio = spread.major / max(spread.minor, 1e-30);
         count_diagnostic(DIAGNOSTIC_ANISOTROPY, ratio > most * most);
         probes = uint(ceil(sqrt(min(ratio, most * most)) - 1e-3));
@@ -78,10 +78,10 @@ vec4 sample_texture(Texture image, Sampler how, uint slot, TexCoord mapped, uvec
 #endif
     int low = 0;
     float rest = 0.0; // share of the next level
-    if (MIPMAPPED && MODE_IS(MIPS, MIP_LINEAR, how.link.z)) {
+    if (MIPMAPPED && MODE_IS(MIPS, MIP_LINEAR, how.mip_mode)) {
         low = int(floor(level));
         rest = level - float(low);
-    } else if (MIPMAPPED && MODE_IS(MIPS, MIP_NEAREST, how.link.z)) {
+    } else if (MIPMAPPED && MODE_IS(MIPS, MIP_NEAREST, how.mip_mode)) {
         low = int(ceil(level + 0.5)) - 1;
     }
     if (HAS(FILTERS, FILTER_STOCHASTIC) && mode == FILTER_STOCHASTIC) {
@@ -114,7 +114,7 @@ vec4 sample_texture(Texture image, Sampler how, uint slot, TexCoord mapped, uvec
             float way = (float(order) + 0.5) * each - 0.5;
             vec3 moved = c.at + way * (spread.along.x * c.dx + spread.along.y * c.dy);
             at = moved;
-            if (MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_CUBE, image.link.w)) at = refaced(at, at_face);
+            if (MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_CUBE, image.kind)) at = refaced(at, at_face);
         }
         int index = upper ? min(low + 1, last) : low;
         sum = add_weighted(weight, filtered_level(image, how, slot, mode, level_at(image, index), at, at_face, dice), sum);

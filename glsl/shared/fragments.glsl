@@ -6,11 +6,9 @@
 
 #include "cone.glsl"
 
-// Shapes that a cone keeps: the nearest.
-const uint MAX_FRAGMENTS = 8u;
 // Planes whose depths differ by less, relatively, lie in each other: the first of the list is seen.
 const float COPLANAR = 4e-6;
-const uint FRAGMENTS = CONE_SHAPES == DYNAMIC ? MAX_FRAGMENTS : CONE_SHAPES;
+const uint FRAGMENTS = CONE_SHAPES == DYNAMIC ? MAX_CONE_FRAGMENTS : CONE_SHAPES;
 
 // A shape in the cone.
 struct Fragment {
@@ -25,7 +23,7 @@ struct Fragment {
 
 // In order. Only constants index them, so that they are registers: memory that each thread indexes for
 // itself is slow.
-Fragment fragments[MAX_FRAGMENTS];
+Fragment fragments[MAX_CONE_FRAGMENTS];
 uint piece_count;
 float clear; // what fragments that were not kept leave of a place, if they lie anywhere
 
@@ -52,22 +50,24 @@ void set_seen(uint index, float seen, vec2 center) {
 // How deep a shape lies over the disc: its own plane, that which touches a ball, and where a ball ends
 // its distance alone.
 Flat depth_of(Header header, Cone cone, uint shape, float t, float area) {
-    uint planes = COUNT(PLANES, header.counts.x);
-    uint spheres = COUNT(SPHERES, header.counts.y);
-    uint triangles = COUNT(TRIANGLES, header.counts.z);
+    uint planes = COUNT(PLANES, header.plane_count);
+    uint spheres = COUNT(SPHERES, header.sphere_count);
+    uint triangles = COUNT(TRIANGLES, header.triangle_count);
     vec4 plane = vec4(0.0);
     bool ends = false;
     if (planes > 0u && (spheres + triangles == 0u || shape < planes)) {
-        plane = plane_at(shape).normal;
+        Plane found = plane_at(shape);
+        plane = vec4(found.normal, found.distance);
     } else if (spheres > 0u && (triangles == 0u || shape < planes + spheres)) {
         Sphere sphere = sphere_at(shape - planes);
-        vec3 out_of = (cone.ray.origin + t * cone.ray.direction) - sphere.ball.xyz;
+        vec3 out_of = (cone.ray.origin + t * cone.ray.direction) - sphere.center;
         vec3 normal = out_of * inversesqrt(dot3(out_of, out_of));
-        float height = dot3(normal, sphere.ball.xyz) + sphere.ball.w;
+        float height = dot3(normal, sphere.center) + sphere.radius;
         plane = vec4(normal, height);
         ends = area < 1.0;
     } else if (triangles > 0u) {
-        plane = triangle_at(shape - planes - spheres).normal;
+        Triangle found = triangle_at(shape - planes - spheres);
+        plane = vec4(found.normal, found.distance);
     }
     Flat depth = flat_in(cone, plane.xyz, plane.w);
     if (ends) depth = Flat(t, 1.0, vec2(0.0));
@@ -106,9 +106,9 @@ void keep(Header header, Cone cone, uint shape, Covered covered, float t_max) {
 
 // Whether the cone may touch the shape.
 bool touched(Header header, Cone cone, uint shape) {
-    uint planes = COUNT(PLANES, header.counts.x);
-    uint spheres = COUNT(SPHERES, header.counts.y);
-    uint triangles = COUNT(TRIANGLES, header.counts.z);
+    uint planes = COUNT(PLANES, header.plane_count);
+    uint spheres = COUNT(SPHERES, header.sphere_count);
+    uint triangles = COUNT(TRIANGLES, header.triangle_count);
     if (spheres > 0u && (planes + triangles == 0u || (shape >= planes && shape < planes + spheres))) {
         Circle circle = circle_of(cone, sphere_at(shape - planes));
         vec2 apart = abs(circle.middle);
@@ -125,9 +125,9 @@ const uint BATCH = 32u;
 // All shapes but `skip` that the cone touches before t_max; the nearest ones, in order. Most are missed,
 // which is found out first: measuring what is covered takes longer, for all threads while one does it.
 void collect_fragments(Header header, Cone cone, uint skip, float t_max) {
-    uint planes = COUNT(PLANES, header.counts.x);
-    uint spheres = COUNT(SPHERES, header.counts.y);
-    uint triangles = COUNT(TRIANGLES, header.counts.z);
+    uint planes = COUNT(PLANES, header.plane_count);
+    uint spheres = COUNT(SPHERES, header.sphere_count);
+    uint triangles = COUNT(TRIANGLES, header.triangle_count);
     uint shapes = planes + spheres + triangles;
     piece_count = 0u;
     clear = 1.0;

@@ -25,7 +25,7 @@ struct Hit {
 real3 moved_by(Header header, Ray ray, uint shape) {
     real3 shift = real3(0.0);
     if (MOTIONS != 0u) {
-        if (header.chances.y != 0u) shift = ray.time * motion_at(shape).shift.xyz;
+        if (header.motion_count != 0u) shift = ray.time * motion_at(shape).shift;
     }
     return shift;
 }
@@ -37,18 +37,18 @@ Ray at_rest(Header header, Ray ray, uint shape) {
 
 // t = (n·o' - n·o) / n·d, kept when the point lies within the half extent on both axes.
 real plane_distance(Plane plane, Ray ray, bool from_eye, out real2 local) {
-    real slope = dot3(plane.normal.xyz, ray.direction);
-    real height = plane.normal.w;
+    real slope = dot3(plane.normal, ray.direction);
+    real height = plane.distance;
     if (!from_eye) {
-        real above = height - dot3(plane.normal.xyz, ray.origin);
+        real above = height - dot3(plane.normal, ray.origin);
         height = above;
     }
     real t = height / slope;
     real3 p = from_eye ? t * ray.direction : ray.origin + t * ray.direction;
-    local = real2(dot3(plane.axis_u.xyz, p), dot3(plane.axis_v.xyz, p));
-    if (BOUNDED_PLANES && plane.link.w != 0u) {
-        real extent = REAL_BITS(plane.link.zw);
-        real2 place = local + real2(plane.axis_u.w, plane.axis_v.w);
+    local = real2(dot3(plane.axis_u, p), dot3(plane.axis_v, p));
+    if (BOUNDED_PLANES && plane.half_extent >= 0.0) {
+        real extent = plane.half_extent;
+        real2 place = local + real2(plane.eye_u, plane.eye_v);
         t = abs(place.x) <= extent && abs(place.y) <= extent ? t : -1.0;
     }
     return t;
@@ -57,8 +57,8 @@ real plane_distance(Plane plane, Ray ray, bool from_eye, out real2 local) {
 // Haines, Günther & Akenine-Möller 2019: the discriminant from the vector of closest approach, and
 // of the two roots c/q and q/a the one that does not cancel.
 real sphere_distance(Sphere sphere, Ray ray, bool from_eye) {
-    real3 f = from_eye ? -sphere.ball.xyz : ray.origin - sphere.ball.xyz;
-    real radius = sphere.ball.w;
+    real3 f = from_eye ? -sphere.center : ray.origin - sphere.center;
+    real radius = sphere.radius;
     real a = dot3(ray.direction, ray.direction);
     real b = -dot3(f, ray.direction);
     real3 closest = f + (b / a) * ray.direction;
@@ -74,29 +74,29 @@ real sphere_distance(Sphere sphere, Ray ray, bool from_eye) {
 // Edge functions as volumes d·(p × q): the two triangles at a shared edge compute the same value
 // with opposite sign, so no ray passes between them. t from the geometric plane.
 real triangle_distance(Triangle triangle, Ray ray, bool from_eye) {
-    real3 a = from_eye ? triangle.a.xyz : triangle.a.xyz - ray.origin;
-    real3 b = from_eye ? triangle.b.xyz : triangle.b.xyz - ray.origin;
-    real3 c = from_eye ? triangle.c.xyz : triangle.c.xyz - ray.origin;
+    real3 a = from_eye ? triangle.a : triangle.a - ray.origin;
+    real3 b = from_eye ? triangle.b : triangle.b - ray.origin;
+    real3 c = from_eye ? triangle.c : triangle.c - ray.origin;
     real3 edges = real3(dot3(ray.direction, cross3(b, c)), dot3(ray.direction, cross3(c, a)),
                  dot3(ray.direction, cross3(a, b)));
     bool front = edges.x >= 0.0 && edges.y >= 0.0 && edges.z >= 0.0;
     bool back = edges.x <= 0.0 && edges.y <= 0.0 && edges.z <= 0.0;
     bool degenerate = edges == real3(0.0);
-    real height = triangle.normal.w;
+    real height = triangle.distance;
     if (!from_eye) {
-        real above = height - dot3(triangle.normal.xyz, ray.origin);
+        real above = height - dot3(triangle.normal, ray.origin);
         height = above;
     }
-    real t = height / dot3(triangle.normal.xyz, ray.direction);
+    real t = height / dot3(triangle.normal, ray.direction);
     return (front || back) && !degenerate ? t : -1.0;
 }
 
 // `list`: of the survey's cell in which a camera ray lies, else NO_LIST.
 Hit nearest_hit(Header header, Ray ray, uint skip, uint list) {
     Hit hit = Hit(FAR, NO_SHAPE, real2(0.0));
-    uint planes = COUNT(PLANES, header.counts.x);
-    uint spheres = COUNT(SPHERES, header.counts.y);
-    uint triangles = COUNT(TRIANGLES, header.counts.z);
+    uint planes = COUNT(PLANES, header.plane_count);
+    uint spheres = COUNT(SPHERES, header.sphere_count);
+    uint triangles = COUNT(TRIANGLES, header.triangle_count);
     for (uint i = 0u; i < planes; i++) {
         real2 local;
         real t = plane_distance(plane_at(i), at_rest(header, ray, i), ORIGIN_IS_EYE, local);
@@ -131,9 +131,9 @@ Hit nearest_hit(Header header, Ray ray, uint skip, uint list) {
 // True when a shape lies at 0 < t < t_max.
 bool occluded(Header header, Ray ray, real t_max, uint skip) {
     bool blocked = false;
-    uint planes = COUNT(PLANES, header.counts.x);
-    uint spheres = COUNT(SPHERES, header.counts.y);
-    uint triangles = COUNT(TRIANGLES, header.counts.z);
+    uint planes = COUNT(PLANES, header.plane_count);
+    uint spheres = COUNT(SPHERES, header.sphere_count);
+    uint triangles = COUNT(TRIANGLES, header.triangle_count);
     for (uint i = 0u; i < planes; i++) {
         real2 local;
         real t = plane_distance(plane_at(i), at_rest(header, ray, i), false, local);
@@ -150,7 +150,7 @@ bool occluded(Header header, Ray ray, real t_max, uint skip) {
     return blocked;
 }
 
-#ifdef DOUBLE
+#ifdef F64_MATH
 const double CLEARANCE = 1.4210854715202004e-14lf; // 2^-46
 #else
 const float CLEARANCE = 3.8146972656e-6; // 2^-18

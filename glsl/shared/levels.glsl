@@ -21,10 +21,10 @@ vec4 linear_flat(Texture image, Sampler how, uint slot, Level level, vec2 texel)
         sum = add_weighted(a.x * b.y, flat_texel(image, how, slot, level, first + ivec2(0, 1)), sum);
         return add_weighted(b.x * b.y, flat_texel(image, how, slot, level, first + ivec2(1, 1)), sum);
     }
-    ivec2 u = ivec2(addressed_texel(ADDRESSES_U, how.modes.x, first.x, level.size.x),
-                    addressed_texel(ADDRESSES_U, how.modes.x, first.x + 1, level.size.x));
-    ivec2 v = ivec2(addressed_texel(ADDRESSES_V, how.modes.y, first.y, level.size.y),
-                    addressed_texel(ADDRESSES_V, how.modes.y, first.y + 1, level.size.y));
+    ivec2 u = ivec2(addressed_texel(ADDRESSES_U, how.address_u, first.x, level.size.x),
+                    addressed_texel(ADDRESSES_U, how.address_u, first.x + 1, level.size.x));
+    ivec2 v = ivec2(addressed_texel(ADDRESSES_V, how.address_v, first.y, level.size.y),
+                    addressed_texel(ADDRESSES_V, how.address_v, first.y + 1, level.size.y));
     vec4 sum = weighted(a.x * a.y, fetch_or_border(image, how, slot, level, ivec3(u.x, v.x, 0)));
     sum = add_weighted(b.x * a.y, fetch_or_border(image, how, slot, level, ivec3(u.y, v.x, 0)), sum);
     sum = add_weighted(a.x * b.y, fetch_or_border(image, how, slot, level, ivec3(u.x, v.y, 0)), sum);
@@ -49,7 +49,7 @@ vec4 cubic_weights(float t, vec2 bc) {
 vec4 cubic_flat(Texture image, Sampler how, uint slot, Level level, vec2 texel) {
     vec2 low = floor(texel);
     vec2 t = texel - low;
-    vec2 bc = uintBitsToFloat(how.more.zw);
+    vec2 bc = vec2(how.cubic_b, how.cubic_c);
     vec4 wx = cubic_weights(t.x, bc);
     vec4 wy = cubic_weights(t.y, bc);
     ivec2 first = ivec2(low) - 1;
@@ -57,9 +57,9 @@ vec4 cubic_flat(Texture image, Sampler how, uint slot, Level level, vec2 texel) 
     for (int j = 0; j < 4; j++) {
         for (int i = 0; i < 4; i++) {
             ivec2 at = first + ivec2(i, j);
-            if (!POLES || how.more.y == 0u) {
-                at.x = wrapped_texel(ADDRESSES_U, how.modes.x, at.x, level.size.x);
-                at.y = wrapped_texel(ADDRESSES_V, how.modes.y, at.y, level.size.y);
+            if (!POLES || !how.crosses_poles) {
+                at.x = wrapped_texel(ADDRESSES_U, how.address_u, at.x, level.size.x);
+                at.y = wrapped_texel(ADDRESSES_V, how.address_v, at.y, level.size.y);
             }
             vec4 value = POLES ? flat_texel(image, how, slot, level, at)
                                : fetch_or_border(image, how, slot, level, ivec3(at, 0));
@@ -76,9 +76,9 @@ vec4 linear_volume(Texture image, Sampler how, uint slot, Level level, vec3 texe
     for (int k = 0; k < 8; k++) {
         ivec3 corner = ivec3(k & 1, (k >> 1) & 1, k >> 2);
         ivec3 at = ivec3(low) + corner;
-        at = ivec3(addressed_texel(ADDRESSES_U, how.modes.x, at.x, level.size.x),
-                   addressed_texel(ADDRESSES_V, how.modes.y, at.y, level.size.y),
-                   addressed_texel(ADDRESSES_W, how.more.x, at.z, level.size.z));
+        at = ivec3(addressed_texel(ADDRESSES_U, how.address_u, at.x, level.size.x),
+                   addressed_texel(ADDRESSES_V, how.address_v, at.y, level.size.y),
+                   addressed_texel(ADDRESSES_W, how.address_w, at.z, level.size.z));
         vec3 w = mix(1.0 - t, t, vec3(corner));
         sum = add_weighted(w.x * w.y * w.z, fetch_or_border(image, how, slot, level, at), sum);
     }
@@ -136,17 +136,17 @@ vec4 linear_cube(Texture image, uint slot, Level level, uint face, vec2 texel) {
 
 // A place of one level by one filter; `dice` in [0, 1) are of the stochastic one.
 vec4 filtered_level(Texture image, Sampler how, uint slot, uint mode, Level level, vec3 at, uint face, vec3 dice) {
-    bool cube = MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_CUBE, image.link.w);
-    bool volume = MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_VOLUME, image.link.w);
+    bool cube = MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_CUBE, image.kind);
+    bool volume = MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_VOLUME, image.kind);
     vec3 texel;
     if (cube) {
         texel = at * float(level.size.x);
     } else {
-        texel = vec3(reduced_coordinate(ADDRESSES_U, how.modes.x, at.x, float(level.size.x)),
-                     reduced_coordinate(ADDRESSES_V, how.modes.y, at.y, float(level.size.y)),
-                     volume ? reduced_coordinate(ADDRESSES_W, how.more.x, at.z, float(level.size.z)) : 0.0);
+        texel = vec3(reduced_coordinate(ADDRESSES_U, how.address_u, at.x, float(level.size.x)),
+                     reduced_coordinate(ADDRESSES_V, how.address_v, at.y, float(level.size.y)),
+                     volume ? reduced_coordinate(ADDRESSES_W, how.address_w, at.z, float(level.size.z)) : 0.0);
         // Integer centres move texel i from i + 1/2 to i: half a texel is added before addressing.
-        if (MODE_IS(TEXEL_CENTERS, TEXEL_CENTER_INTEGER, how.modes.w)) texel += 0.5;
+        if (MODE_IS(TEXEL_CENTERS, TEXEL_CENTER_INTEGER, how.texel_center)) texel += 0.5;
     }
     // Linear weights as chances: the nearest texel of a place moved by up to half a texel.
     if (MODE_IS(FILTERS, FILTER_STOCHASTIC, mode)) texel += dice - 0.5;
@@ -167,9 +167,9 @@ vec4 filtered_level(Texture image, Sampler how, uint slot, uint mode, Level leve
         }
         if (!volume) return flat_texel(image, how, slot, level, nearest.xy);
         return fetch_or_border(image, how, slot, level,
-                               ivec3(addressed_texel(ADDRESSES_U, how.modes.x, nearest.x, level.size.x),
-                                     addressed_texel(ADDRESSES_V, how.modes.y, nearest.y, level.size.y),
-                                     addressed_texel(ADDRESSES_W, how.more.x, nearest.z, level.size.z)));
+                               ivec3(addressed_texel(ADDRESSES_U, how.address_u, nearest.x, level.size.x),
+                                     addressed_texel(ADDRESSES_V, how.address_v, nearest.y, level.size.y),
+                                     addressed_texel(ADDRESSES_W, how.address_w, nearest.z, level.size.z)));
     }
     texel -= 0.5;
     if (cube) return linear_cube(image, slot, level, face, texel.xy);

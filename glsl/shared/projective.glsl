@@ -30,19 +30,19 @@ struct RationalMap {
     vec3 below;
 };
 
-bool is_parallel(Header header) { return MODE_IS(PROJECTIONS, PROJECTION_ORTHOGRAPHIC, header.size.z); }
+bool is_parallel(Header header) { return MODE_IS(PROJECTIONS, PROJECTION_ORTHOGRAPHIC, header.projection); }
 
 // All rays of the pixels from the first to `more` columns and rows on, and of a margin around them.
 PixelFrustum frame_over(Header header, uvec2 pixel, float more, float margin) {
     // The unit square stands for the pixel filter's box.
-    float radius = uintBitsToFloat(header.pixel_filter.y) + margin;
+    float radius = header.filter_radius + margin;
     float wide = 2.0 * radius + more;
-    vec2 corner = (vec2(pixel) - 0.5 * vec2(header.image.xy)) + (0.5 - radius);
-    vec3 x = header.step_x.xyz;
-    vec3 y = header.step_y.xyz;
+    vec2 corner = (vec2(pixel) - 0.5 * vec2(header.image_size)) + (0.5 - radius);
+    vec3 x = header.step_x;
+    vec3 y = header.step_y;
     vec3 base = corner.x * x + corner.y * y;
-    if (is_parallel(header)) return PixelFrustum(mat3(wide * x, wide * y, base), header.forward.xyz);
-    return PixelFrustum(mat3(wide * x, wide * y, base + header.forward.xyz), vec3(0.0));
+    if (is_parallel(header)) return PixelFrustum(mat3(wide * x, wide * y, base), header.forward);
+    return PixelFrustum(mat3(wide * x, wide * y, base + header.forward), vec3(0.0));
 }
 
 PixelFrustum pixel_frame(Header header, uvec2 pixel) { return frame_over(header, pixel, 0.0, 0.0); }
@@ -98,9 +98,9 @@ mat3 edge_forms(Header header, PixelFrustum frame, Triangle triangle) {
     bool parallel = is_parallel(header);
     vec3 way = frame.same;
     vec3 start = parallel ? vec3(0.0) : way;
-    vec3 a = triangle.a.xyz - start;
-    vec3 b = triangle.b.xyz - start;
-    vec3 c = triangle.c.xyz - start;
+    vec3 a = triangle.a - start;
+    vec3 b = triangle.b - start;
+    vec3 c = triangle.c - start;
     if (parallel) {
         float side = sign(dot3(way, cross3(b - a, c - a)));
         vec3 ea = form(frame, cross3(b - c, way)) + vec3(0.0, 0.0, dot3(way, cross3(b, c)));
@@ -114,16 +114,24 @@ mat3 edge_forms(Header header, PixelFrustum frame, Triangle triangle) {
 
 // Unit normal, and height of the plane in which a flat shape lies.
 vec4 shape_plane(Header header, uint shape) {
-    uint planes = COUNT(PLANES, header.counts.x);
-    if (TRIANGLES == 0u || shape < planes) return plane_at(shape).normal;
-    return triangle_at(shape - planes - COUNT(SPHERES, header.counts.y)).normal;
+    uint planes = COUNT(PLANES, header.plane_count);
+    if (TRIANGLES == 0u || shape < planes) {
+        Plane plane = plane_at(shape);
+        return vec4(plane.normal, plane.distance);
+    }
+    Triangle triangle = triangle_at(shape - planes - COUNT(SPHERES, header.sphere_count));
+    return vec4(triangle.normal, triangle.distance);
 }
 
 // Material and map.
 uvec2 shape_links(Header header, uint shape) {
-    uint planes = COUNT(PLANES, header.counts.x);
-    if (TRIANGLES == 0u || shape < planes) return plane_at(shape).link.xy;
-    return triangle_at(shape - planes - COUNT(SPHERES, header.counts.y)).link.xy;
+    uint planes = COUNT(PLANES, header.plane_count);
+    if (TRIANGLES == 0u || shape < planes) {
+        Plane plane = plane_at(shape);
+        return uvec2(plane.material, plane.uv_projection);
+    }
+    Triangle triangle = triangle_at(shape - planes - COUNT(SPHERES, header.sphere_count));
+    return uvec2(triangle.material, triangle.uv_projection);
 }
 
 vec3 nearness_of(Header header, PixelFrustum frame, uint shape) {
@@ -133,8 +141,8 @@ vec3 nearness_of(Header header, PixelFrustum frame, uint shape) {
 
 // Planes first, then spheres, then triangles; spheres have no region.
 ConvexRegion shape_region(Header header, PixelFrustum frame, uint shape) {
-    uint planes = COUNT(PLANES, header.counts.x);
-    uint before_triangles = planes + COUNT(SPHERES, header.counts.y);
+    uint planes = COUNT(PLANES, header.plane_count);
+    uint before_triangles = planes + COUNT(SPHERES, header.sphere_count);
     ConvexRegion region;
     region.count = 1u;
     vec3 near = nearness_of(header, frame, shape);
@@ -142,10 +150,10 @@ ConvexRegion shape_region(Header header, PixelFrustum frame, uint shape) {
     region.lines[0] = in_front(header, near);
     if (TRIANGLES == 0u || shape < planes) {
         Plane record = plane_at(shape);
-        if (BOUNDED_PLANES && record.link.w != 0u) {
-            vec3 extent = REAL_BITS(record.link.zw) * below(header, near);
-            vec3 u = along(header, frame, near, record.axis_u);
-            vec3 v = along(header, frame, near, record.axis_v);
+        if (BOUNDED_PLANES && record.half_extent >= 0.0) {
+            vec3 extent = record.half_extent * below(header, near);
+            vec3 u = along(header, frame, near, vec4(record.axis_u, record.eye_u));
+            vec3 v = along(header, frame, near, vec4(record.axis_v, record.eye_v));
             region.lines[1] = extent - u;
             region.lines[2] = extent + u;
             region.lines[3] = extent - v;
@@ -164,31 +172,31 @@ ConvexRegion shape_region(Header header, PixelFrustum frame, uint shape) {
 
 // Texture coordinates on a flat shape, for maps that are affine there.
 RationalMap coordinates(Header header, PixelFrustum frame, uint shape, UvProjection map, vec3 near) {
-    uint planes = COUNT(PLANES, header.counts.x);
+    uint planes = COUNT(PLANES, header.plane_count);
     vec3 under = below(header, near);
-    if (MODE_IS(MAPPINGS, MAP_VERTEX_UV, map.link.x)) {
-        Triangle triangle = triangle_at(shape - planes - COUNT(SPHERES, header.counts.y));
+    if (MODE_IS(MAPPINGS, MAP_VERTEX_UV, map.kind)) {
+        Triangle triangle = triangle_at(shape - planes - COUNT(SPHERES, header.sphere_count));
         mat3 e = edge_forms(header, frame, triangle);
-        vec3 u = triangle.a.w * e[0] + triangle.b.w * e[1] + triangle.c.w * e[2];
+        vec3 u = triangle.u_a * e[0] + triangle.u_b * e[1] + triangle.u_c * e[2];
         vec3 v = triangle.v.x * e[0] + triangle.v.y * e[1] + triangle.v.z * e[2];
         return RationalMap(u, v, e[0] + e[1] + e[2]);
     }
-    if (MODE_IS(MAPPINGS, MAP_AFFINE, map.link.x)) {
+    if (MODE_IS(MAPPINGS, MAP_AFFINE, map.kind)) {
         return RationalMap(along(header, frame, near, map.x), along(header, frame, near, map.y), under);
     }
     // Counted from the eye.
     Plane plane = plane_at(shape);
-    vec3 u = along(header, frame, near, vec4(plane.axis_u.xyz, 0.0));
-    vec3 v = along(header, frame, near, vec4(plane.axis_v.xyz, 0.0));
-    return RationalMap(map.matrix.x * u + map.matrix.y * v + map.offset.x * under,
-                    map.matrix.z * u + map.matrix.w * v + map.offset.y * under, under);
+    vec3 u = along(header, frame, near, vec4(plane.axis_u, 0.0));
+    vec3 v = along(header, frame, near, vec4(plane.axis_v, 0.0));
+    return RationalMap(map.m00 * u + map.m01 * v + map.offset.x * under,
+                    map.m10 * u + map.m11 * v + map.offset.y * under, under);
 }
 
 // Where, on the plane of this inverse depth, a flat shape keeps a light away.
 ConvexRegion shadow_region(Header header, PixelFrustum frame, vec3 near, uint shape, Light light) {
-    uint planes = COUNT(PLANES, header.counts.x);
-    vec3 place = light.place.xyz;
-    bool point_light = MODE_IS(LIGHT_KINDS, LIGHT_POINT, light.link.x);
+    uint planes = COUNT(PLANES, header.plane_count);
+    bool point_light = MODE_IS(LIGHT_KINDS, LIGHT_POINT, light.kind);
+    vec3 place = point_light ? light.position : light.direction;
     vec4 plane = shape_plane(header, shape);
     vec3 n = plane.xyz;
     // Of the light before the shape's plane, or of a way's length towards it.
@@ -201,12 +209,12 @@ ConvexRegion shadow_region(Header header, PixelFrustum frame, vec3 near, uint sh
     region.lines[0] = along(header, frame, near, (point_light ? side : -side) * vec4(n, -plane.w));
     if (TRIANGLES == 0u || shape < planes) {
         Plane record = plane_at(shape);
-        if (!BOUNDED_PLANES || record.link.w == 0u) return region;
+        if (!BOUNDED_PLANES || record.half_extent < 0.0) return region;
         // A place's distance below the light, in |rise|, or its own height.
         vec4 depth = point_light ? side * vec4(n, -dot3(n, place)) : vec4(0.0, 0.0, 0.0, abs(rise));
-        vec3 extent = REAL_BITS(record.link.zw) * along(header, frame, near, depth);
+        vec3 extent = record.half_extent * along(header, frame, near, depth);
         for (uint k = 0u; k < 2u; k++) {
-            vec4 row = k == 0u ? record.axis_u : record.axis_v;
+            vec4 row = k == 0u ? vec4(record.axis_u, record.eye_u) : vec4(record.axis_v, record.eye_v);
             float across = dot3(row.xyz, place);
             // u of light + (p - light) rise / (n·(p - light)), times the depth; u of p + way (height -
             // n·p) / rise, times |rise|.
@@ -219,9 +227,9 @@ ConvexRegion shadow_region(Header header, PixelFrustum frame, vec3 near, uint sh
         region.count = 5u;
         return region;
     }
-    Triangle triangle = triangle_at(shape - planes - COUNT(SPHERES, header.counts.y));
+    Triangle triangle = triangle_at(shape - planes - COUNT(SPHERES, header.sphere_count));
     vec3 start = point_light ? place : vec3(0.0);
-    mat3 corners = mat3(triangle.a.xyz - start, triangle.b.xyz - start, triangle.c.xyz - start);
+    mat3 corners = mat3(triangle.a - start, triangle.b - start, triangle.c - start);
     vec3 doubled = cross3(corners[1] - corners[0], corners[2] - corners[0]);
     float turn = sign(point_light ? dot3(corners[0], cross3(corners[1], corners[2])) : dot3(place, doubled));
     for (uint k = 0u; k < 3u; k++) {
@@ -241,8 +249,8 @@ bool may_meet_sphere(Header header, PixelFrustum frame, uint polygon, Sphere sph
     vec3 origin;
     ray_at(header, frame, middle(polygon), way, origin);
     vec3 unit = way * inversesqrt(dot3(way, way));
-    vec3 to = sphere.ball.xyz - origin;
-    float radius = sphere.ball.w;
+    vec3 to = sphere.center - origin;
+    float radius = sphere.radius;
     float ahead = dot3(to, unit);
     if (dot3(to, to) <= radius * radius) return true;
     if (ahead <= -radius) return false;

@@ -31,29 +31,29 @@ const bool NEEDS_SHAPE_OPERATOR = FILTERED || CURVED_BUMP;
 real largest_part(real3 v) { return max(max(abs(v.x), abs(v.y)), abs(v.z)); }
 
 Surface plane_surface(Plane plane, real3 point, real2 uv) {
-    return Surface(point, plane.normal.xyz, plane.normal.xyz, uv, vec3(plane.axis_u.xyz), vec3(plane.axis_v.xyz), FLAT,
-                   0.0, false, plane.link.xy, point, largest_part(point));
+    return Surface(point, plane.normal, plane.normal, uv, vec3(plane.axis_u), vec3(plane.axis_v), FLAT,
+                   0.0, false, uvec2(plane.material, plane.uv_projection), point, largest_part(point));
 }
 
 // The hit is put back on the sphere: the error of t does not reach the normal or the next ray.
 Surface sphere_surface(Sphere sphere, real3 point) {
-    real3 radial = point - sphere.ball.xyz;
+    real3 radial = point - sphere.center;
     real scale = inverse_root(dot3(radial, radial));
     real3 normal = radial * scale;
-    real3 on_sphere = sphere.ball.xyz + sphere.ball.w * normal;
-    float curvature = 1.0 / float(sphere.ball.w);
-    real size = largest_part(sphere.ball.xyz) + sphere.ball.w;
+    real3 on_sphere = sphere.center + sphere.radius * normal;
+    float curvature = 1.0 / float(sphere.radius);
+    real size = largest_part(sphere.center) + sphere.radius;
     return Surface(on_sphere, normal, normal, real2(0.0), vec3(0.0), vec3(0.0), mat3(curvature), curvature,
-                   false, sphere.link.xy, on_sphere, size);
+                   false, uvec2(sphere.material, sphere.uv_projection), on_sphere, size);
 }
 
 // Barycentric weights of a point of the triangle, from the vectors to its corners: a ray's edge functions err
 // by its distance, these by the triangle's own size.
 real3 weights(Triangle triangle, real3 point) {
-    real3 a = triangle.a.xyz - point;
-    real3 b = triangle.b.xyz - point;
-    real3 c = triangle.c.xyz - point;
-    real3 n = triangle.normal.xyz;
+    real3 a = triangle.a - point;
+    real3 b = triangle.b - point;
+    real3 c = triangle.c - point;
+    real3 n = triangle.normal;
     real3 areas = real3(dot3(n, cross3(b, c)), dot3(n, cross3(c, a)), dot3(n, cross3(a, b)));
     real scale = 1.0 / ((areas.x + areas.y) + areas.z);
     return areas * scale;
@@ -61,8 +61,8 @@ real3 weights(Triangle triangle, real3 point) {
 
 Surface triangle_surface(Triangle triangle, real3 point) {
     real3 w = weights(triangle, point);
-    real2 uv = real2(dot3(w, real3(triangle.a.w, triangle.b.w, triangle.c.w)), dot3(w, triangle.v.xyz));
-    real3 n = triangle.normal.xyz;
+    real2 uv = real2(dot3(w, real3(triangle.u_a, triangle.u_b, triangle.u_c)), dot3(w, triangle.v));
+    real3 n = triangle.normal;
     real3 normal = n;
     mat3 shape_operator = FLAT;
     vec3 own_u = vec3(0.0);
@@ -72,39 +72,39 @@ Surface triangle_surface(Triangle triangle, real3 point) {
     vec3 wc = vec3(0.0);
     if (FILTERED || BUMPED) {
         // Gradients of the weights: at right angles to the opposite side, 1 over the height.
-        real3 ab = triangle.b.xyz - triangle.a.xyz;
-        real3 bc = triangle.c.xyz - triangle.b.xyz;
-        real3 ca = triangle.a.xyz - triangle.c.xyz;
+        real3 ab = triangle.b - triangle.a;
+        real3 bc = triangle.c - triangle.b;
+        real3 ca = triangle.a - triangle.c;
         real twice_area = dot3(n, cross3(ab, bc));
         wa = vec3(cross3(n, bc) / twice_area);
         wb = vec3(cross3(n, ca) / twice_area);
         wc = vec3(cross3(n, ab) / twice_area);
-        own_u = wa * float(triangle.a.w) + wb * float(triangle.b.w) + wc * float(triangle.c.w);
+        own_u = wa * float(triangle.u_a) + wb * float(triangle.u_b) + wc * float(triangle.u_c);
         own_v = wa * float(triangle.v.x) + wb * float(triangle.v.y) + wc * float(triangle.v.z);
     }
-    if (SMOOTH_NORMALS && triangle.v.w != 0.0) {
-        real3 blend = (w.x * triangle.normal_a.xyz + w.y * triangle.normal_b.xyz) + w.z * triangle.normal_c.xyz;
+    if (SMOOTH_NORMALS && triangle.is_smooth) {
+        real3 blend = (w.x * triangle.normal_a + w.y * triangle.normal_b) + w.z * triangle.normal_c;
         real squared = dot3(blend, blend);
         real length_scale = inverse_root(squared);
         real3 unit = blend * length_scale;
         normal = squared > 0.0 ? unit : normal;
         if (NEEDS_SHAPE_OPERATOR && squared > 0.0) {
-            mat3 change = outerProduct(vec3(triangle.normal_a.xyz), wa) + outerProduct(vec3(triangle.normal_b.xyz), wb) +
-                          outerProduct(vec3(triangle.normal_c.xyz), wc);
+            mat3 change = outerProduct(vec3(triangle.normal_a), wa) + outerProduct(vec3(triangle.normal_b), wb) +
+                          outerProduct(vec3(triangle.normal_c), wc);
             // Of unit length: what is along the normal itself is lost.
             vec3 along = vec3(normal);
             shape_operator = (change - outerProduct(along, along * change)) * float(length_scale);
         }
     }
     float curvature = 0.5 * (shape_operator[0][0] + shape_operator[1][1] + shape_operator[2][2]);
-    return Surface(point, n, normal, uv, own_u, own_v, shape_operator, curvature, false, triangle.link.xy, point, largest_part(point));
+    return Surface(point, n, normal, uv, own_u, own_v, shape_operator, curvature, false, uvec2(triangle.material, triangle.uv_projection), point, largest_part(point));
 }
 
 Surface hit_surface(Header header, Ray moving, Hit hit) {
     Ray ray = at_rest(header, moving, hit.shape);
-    uint planes = COUNT(PLANES, header.counts.x);
-    uint spheres = COUNT(SPHERES, header.counts.y);
-    uint triangles = COUNT(TRIANGLES, header.counts.z);
+    uint planes = COUNT(PLANES, header.plane_count);
+    uint spheres = COUNT(SPHERES, header.sphere_count);
+    uint triangles = COUNT(TRIANGLES, header.triangle_count);
     real3 point = ORIGIN_IS_EYE ? hit.t * ray.direction : ray.origin + hit.t * ray.direction;
     const real3 up = real3(0.0, 0.0, 1.0);
     Surface surface = Surface(point, up, up, real2(0.0), vec3(0.0), vec3(0.0), FLAT, 0.0, false, uvec2(0u), point, 0.0);

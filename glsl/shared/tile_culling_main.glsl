@@ -4,17 +4,15 @@
 #ifndef TILE_CULLING_MAIN_GLSL
 #define TILE_CULLING_MAIN_GLSL
 
+#include "schema/blocks.glsl"
 #include "features.glsl"
 #include "projective.glsl"
 
 layout(local_size_x_id = 0, local_size_y_id = 1, local_size_z = 1) in;
 
-layout(std430, set = 0, binding = 0) writeonly buffer Found { uint found[]; };
+layout(std430, set = 0, binding = BINDING_OUTPUT) writeonly buffer Found { uint found[]; };
 
-layout(push_constant) uniform Part {
-    uint first; // cell
-    uint end;
-} part;
+layout(push_constant) uniform Push { CellRange part; };
 
 // Pixels around a cell, against rounding.
 const float MARGIN = 0.0625;
@@ -25,8 +23,8 @@ const uint SQUARE = 0u; // the polygon of the cell
 // A ray meets a triangle where all three edge functions have one sign (intersect.glsl). These are affine in the
 // ray's place, so that their corners' extremes bound them.
 bool may_meet_triangle(Header header, PixelFrustum frame, Triangle triangle) {
-    vec3 ahead = vec3(dot3(triangle.a.xyz, header.forward.xyz), dot3(triangle.b.xyz, header.forward.xyz),
-                      dot3(triangle.c.xyz, header.forward.xyz));
+    vec3 ahead = vec3(dot3(triangle.a, header.forward), dot3(triangle.b, header.forward),
+                      dot3(triangle.c, header.forward));
     if (max(max(ahead.x, ahead.y), ahead.z) <= 0.0) return false;
     vec3 least = vec3(3e38);
     vec3 most = vec3(-3e38);
@@ -34,9 +32,9 @@ bool may_meet_triangle(Header header, PixelFrustum frame, Triangle triangle) {
         vec3 way;
         vec3 origin;
         ray_at(header, frame, corner(SQUARE, k), way, origin);
-        vec3 a = triangle.a.xyz - origin;
-        vec3 b = triangle.b.xyz - origin;
-        vec3 c = triangle.c.xyz - origin;
+        vec3 a = triangle.a - origin;
+        vec3 b = triangle.b - origin;
+        vec3 c = triangle.c - origin;
         vec3 edges = vec3(dot3(way, cross3(b, c)), dot3(way, cross3(c, a)), dot3(way, cross3(a, b)));
         vec3 squares = vec3(dot3(a, a), dot3(b, b), dot3(c, c));
         vec3 slack = ROUNDING * sqrt(dot3(way, way)) * sqrt(squares.yzx) * sqrt(squares.zxy);
@@ -57,11 +55,11 @@ float texels_across(Header header, PixelFrustum frame, uint shape, UvProjection 
         float under = at(q.below, place);
         vec2 du = (q.u.xy * under - at(q.u, place) * q.below.xy) / (under * under);
         vec2 dv = (q.v.xy * under - at(q.v, place) * q.below.xy) / (under * under);
-        vec2 size = vec2(image.place.yz);
+        vec2 size = vec2(image.size.xy);
         float span = max(max(abs(du.x), abs(du.y)) * size.x, max(abs(dv.x), abs(dv.y)) * size.y);
         most = max(most, span);
     }
-    return most / float(header.chances.w);
+    return most / float(header.cell_side);
 }
 
 // Whether one shape, with all lines of its region around the cell, shows a colour that changes little.
@@ -71,16 +69,16 @@ bool is_calm(Header header, PixelFrustum frame, uint shape, ConvexRegion region)
     }
     uvec2 link = shape_links(header, shape);
     Material record = material_at(link.x);
-    bool unlit = MODE_IS(MODELS, MODEL_UNLIT, record.link.x);
-    bool plain = MODE_IS(MODELS, MODEL_LAMBERT, record.link.x) && !SHADOWS;
+    bool unlit = MODE_IS(MODELS, MODEL_UNLIT, record.model);
+    bool plain = MODE_IS(MODELS, MODEL_LAMBERT, record.model) && !SHADOWS;
     if (!unlit && !plain) return false;
-    if (BUMPED && record.detail.x != NO_TEXTURE) return false;
-    if (!TEXTURED || record.link.y == NO_TEXTURE) return true;
-    UvProjection map = map_at(link.y);
-    bool affine = MODE_IS(MAPPINGS, MAP_PLANE, map.link.x) || MODE_IS(MAPPINGS, MAP_AFFINE, map.link.x) ||
-                  MODE_IS(MAPPINGS, MAP_VERTEX_UV, map.link.x);
-    Texture image = texture_at(record.link.y);
-    if (!affine || !MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_FLAT, image.link.w)) return false;
+    if (BUMPED && record.bump_texture_index != NO_TEXTURE) return false;
+    if (!TEXTURED || record.texture_index == NO_TEXTURE) return true;
+    UvProjection map = uv_projection_at(link.y);
+    bool affine = MODE_IS(MAPPINGS, MAP_PLANE, map.kind) || MODE_IS(MAPPINGS, MAP_AFFINE, map.kind) ||
+                  MODE_IS(MAPPINGS, MAP_VERTEX_UV, map.kind);
+    Texture image = texture_at(record.texture_index);
+    if (!affine || !MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_FLAT, image.kind)) return false;
     return texels_across(header, frame, shape, map, image) <= 1.0;
 }
 
@@ -89,14 +87,14 @@ void main() {
     preload_records();
     uint cell = part.first + gl_WorkGroupID.x * gl_WorkGroupSize.x * gl_WorkGroupSize.y + gl_LocalInvocationIndex;
     if (cell >= part.end) return;
-    uint side = header.chances.w;
-    uint across = (header.size.x + side - 1u) / side;
-    uvec2 pixel = uvec2(cell % across, cell / across) * side + header.image.zw;
+    uint side = header.cell_side;
+    uint across = (header.film_size.x + side - 1u) / side;
+    uvec2 pixel = uvec2(cell % across, cell / across) * side + header.crop;
     PixelFrustum frame = frame_over(header, pixel, float(side - 1u), MARGIN);
     unit_square(SQUARE);
-    uint planes = COUNT(PLANES, header.counts.x);
-    uint before_triangles = planes + COUNT(SPHERES, header.counts.y);
-    uint triangles = COUNT(TRIANGLES, header.counts.z);
+    uint planes = COUNT(PLANES, header.plane_count);
+    uint before_triangles = planes + COUNT(SPHERES, header.sphere_count);
+    uint triangles = COUNT(TRIANGLES, header.triangle_count);
     uint seen = 0u;
     uint alone = 0u;
     for (uint i = 0u; i < planes; i++) {
@@ -120,7 +118,7 @@ void main() {
         }
     }
     seen += listed;
-    bool empty = seen == 0u && !round && !(ENVIRONMENT && header.counts.w != NO_MATERIAL);
+    bool empty = seen == 0u && !round && !(ENVIRONMENT && header.environment_material != NO_MATERIAL);
     uint calmness = empty ? CELL_EMPTY : CELL_BUSY;
     if (seen == 1u && !round) {
         if (is_calm(header, frame, alone, shape_region(header, frame, alone))) calmness = CELL_UNIFORM;

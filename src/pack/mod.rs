@@ -5,7 +5,6 @@
 mod bright;
 pub mod features;
 mod header;
-mod kinds;
 mod mapping;
 mod mip_chain;
 mod nonfinite;
@@ -33,11 +32,11 @@ use crate::texture::data::TextureData;
 use crate::texture::sampler_spec::{Address, Method, SamplerSpec};
 use pixel_filter::Warp;
 
-pub use header::camera_basis;
-use header::header;
-pub use kinds::{
+pub use crate::schema::enums::{
     Diagnostic, EntityKind, LightKind, MapKind, ProjectionKind, SampleDimension, Schedule, TextureKind,
 };
+pub use header::camera_basis;
+use header::header;
 pub use mip_chain::{MipPlacement, reads_levels};
 pub use pixel_filter::{filtered_mean, kernel};
 pub use procedural::procedural;

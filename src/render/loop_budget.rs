@@ -7,12 +7,12 @@ use crate::gpu::{DeviceInfo, DeviceKind};
 use crate::pack::features::bounces;
 use crate::pack::{PackedScene, SampleDimension, TextureKind};
 use crate::scene::model::Algorithm;
+use crate::schema::constants::{MAX_BOXES, MAX_CONE_FRAGMENTS, MAX_CONES, MAX_ELLIPSE_STEPS};
 use crate::schema::layout::{CHUNK, NO_TEXTURE, Procedural, Sampler};
 use crate::texture::sampler_spec::Filter;
 
 const MAX_TURNS: u64 = 65_535;
-/// `MAX_ELLIPSE_STEPS` of `ellipse.glsl`.
-const ELLIPSE: u64 = 8192;
+const ELLIPSE: u64 = MAX_ELLIPSE_STEPS as u64;
 /// Corners of nine boxes of four rows.
 const SUMMED_AREA: u64 = 9 * 24;
 /// Four by four texels.
@@ -21,10 +21,8 @@ const CUBIC: u64 = 20;
 const SOLID: u64 = 10;
 /// Look-ups of a bump map, and the colour.
 const TAPS: u64 = 5;
-/// `MAX_BOXES` of `procedural.glsl`.
-const BOXES: u64 = 16;
-/// `MAX_CONES` of `cone_shade.glsl`.
-const MAX_CONES: u64 = 64;
+const BOXES: u64 = MAX_BOXES as u64;
+const CONES: u64 = MAX_CONES as u64;
 /// Digits of Halton's points, or turns in which an order is found, with room to spare.
 const POINTS: u64 = 64;
 
@@ -51,11 +49,11 @@ pub fn samples_at_once(device: &DeviceInfo, scene: &PackedScene) -> Result<u32> 
 /// An upper bound of the turns for a pixel's cones, but for how many pieces each one sees: where cones are
 /// many, few of them see more than three.
 fn turns_of_cones(scene: &PackedScene, ellipse: u64) -> u64 {
-    const PIECES: u64 = 8;
+    const PIECES: u64 = MAX_CONE_FRAGMENTS as u64;
     const SEEN: u64 = 3;
     let shapes = (scene.planes.len() + scene.spheres.len() + scene.triangles.len()) as u64;
     let lights = scene.lights.len() as u64;
-    let cones = if bounces(scene) { MAX_CONES } else { MAX_CONES.min(1 + PIECES * lights) };
+    let cones = if bounces(scene) { CONES } else { CONES.min(1 + PIECES * lights) };
     let gathered = 4 + shapes + shapes / 16 + 2 * PIECES;
     // Each pair both ways, and two shapes each time.
     let laid_over = 3 * SEEN * (SEEN - 1);

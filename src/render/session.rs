@@ -15,7 +15,9 @@ use crate::gpu::{Gpu, Pipeline};
 use crate::pack::features::Features;
 use crate::pack::{self, PackedScene, Schedule};
 use crate::scene::model::{Algorithm, Scene};
+use crate::schema::enums::TexelSource;
 use crate::schema::layout::{Header, Slice};
+use crate::schema::specialization::Constant;
 
 use super::beams::{Beams, Fallback, Sampler, Teller};
 use super::film_buffer::FilmBuffer;
@@ -135,7 +137,7 @@ impl<'a> Session<'a> {
             }
             Schedule::Tiles => {
                 let (renderer, film) =
-                    self.renderer(scene, &features, shader_for(scene.algorithm, &features))?;
+                    self.renderer(scene, &features, shader_for(scene.algorithm, &features)?)?;
                 Work::Tiles { renderer, film }
             }
             Schedule::Jobs => Work::Jobs { sampler: self.sampler(scene, &features)? },
@@ -162,7 +164,7 @@ impl<'a> Session<'a> {
     }
 
     fn sampler(&self, scene: &PackedScene, features: &Features) -> Result<Sampler> {
-        let shader = shader_for(scene.algorithm, features);
+        let shader = shader_for(scene.algorithm, features)?;
         let (pipeline, groups_per_tile) = self.pipeline(features, shader)?;
         Ok(Sampler { pipeline, shader, groups_per_tile })
     }
@@ -173,9 +175,8 @@ impl<'a> Session<'a> {
         let slots = self.resources.slots;
         let mut constants =
             specialization::constants(shader, features, &self.resources.sections, group_size, slots);
-        if let Some(constant) = shader.constant("TABLES_IN_HEAD") {
-            constants.push((constant.id, u32::from(Tuning::tables_in_head(self.gpu.info()))));
-        }
+        let tables_in_head = u32::from(Tuning::tables_in_head(self.gpu.info()));
+        constants.extend(shader.values([(Constant::TablesInHead, tables_in_head)]));
         let pipeline = build_pipeline(self.gpu, shader, &constants, slots, size_of::<Slice>())?;
         Ok((pipeline, tuning::groups_per_tile(group_size)))
     }
@@ -215,11 +216,8 @@ impl<'a> Session<'a> {
 
     fn teller(&self, scene: &PackedScene, features: Features) -> Result<Teller<'a>> {
         let features = Features { compensated: false, ..features };
-        let (renderer, film) = self.renderer(
-            scene,
-            &features,
-            if features.double { &shaders::BEAM_WIDE } else { &shaders::BEAM },
-        )?;
+        let shader = shaders::BEAM_FAMILY.shader(TexelSource::None, features.records())?;
+        let (renderer, film) = self.renderer(scene, &features, shader)?;
         Ok(Teller { renderer, film })
     }
 

@@ -10,6 +10,7 @@ pub use super::mapping::{Entity, Mapping, MappingKind, Space};
 pub use super::pixel_filter::{PixelFilter, PixelFilterKind};
 pub use super::sampling::{Algorithm, Footprint, Pattern, Precision, Sampling};
 use crate::core::named::named_enum;
+pub use crate::schema::enums::{BumpKind, Model};
 use crate::texture::sampler_spec::{Address, SamplerSpec};
 pub use crate::texture::source::{TextureContent, TextureSource};
 
@@ -68,35 +69,10 @@ named_enum! {
     }
 }
 
-named_enum! {
-    /// Reflection model of a material.
-    pub enum Model {
-        Unlit = "unlit",
-        Lambert = "lambert",
-        Mirror = "mirror",
-        /// Mirrors or refracts, by Fresnel's share of each.
-        Dielectric = "dielectric",
-        /// Lambert with a highlight.
-        Phong = "phong",
-    }
-}
-
 impl Model {
     /// Whether lights shine on it.
     pub const fn is_lit(self) -> bool {
         matches!(self, Model::Lambert | Model::Phong)
-    }
-}
-
-named_enum! {
-    /// What a material's bump texture holds.
-    pub enum BumpKind {
-        /// Unit normals as 2 rgb - 1: along growing u, along growing v, outward.
-        Normal = "normal",
-        /// Heights.
-        Bump = "bump",
-        /// Unit normals whose green runs against v.
-        NormalDown = "normal-down",
     }
 }
 

@@ -4,17 +4,10 @@
 
 mod record;
 
-use bytemuck::{Pod, Zeroable};
-
+pub use super::blocks::{CellRange, Halving, Job, Slice};
+pub use super::constants::*;
 use record::Member;
 pub use record::{Record, bytes_of};
-
-/// In place of an index: the material has no texture.
-pub const NO_TEXTURE: u32 = u32::MAX;
-/// In place of an index: no shape is hit, or none is left out.
-pub const NO_SHAPE: u32 = u32::MAX;
-/// In place of an index: there is no environment.
-pub const NO_MATERIAL: u32 = u32::MAX;
 
 /// Declares a mirror. Its members lie one behind the other.
 macro_rules! mirror {
@@ -177,114 +170,9 @@ mirror!(Motion, {
     shift: [f64; 4],
 });
 
-/// Mirror of the push constants of `slice.glsl`.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
-pub struct Slice {
-    pub tiles_x: u32,
-    pub tiles: u32,
-    pub tile_stride: u32,
-    pub first_tile: u32,
-    pub band_y: u32,
-    pub band_height: u32,
-    pub first_sample: u32,
-    pub sample_count: u32,
-    /// Tiles of the film, or a list of jobs: `tiles` is their number then.
-    pub schedule: u32,
-}
-const _: () = assert!(size_of::<Slice>() == 36);
-
-/// Mirror of the push constants of `tile_culling_main.glsl`: cells `first` .. `end`.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
-pub struct Part {
-    pub first: u32,
-    pub end: u32,
-}
-const _: () = assert!(size_of::<Part>() == 8);
-
-/// In a job's part: without a footprint.
-pub const JOB_BARE: u32 = 2;
-/// In a job's part: its sums go to its own place in the list, not to the pixel's half.
-pub const JOB_APART: u32 = 4;
-/// Above it in a job's part: the stream of samples, each as good as another seed.
-pub const JOB_STREAM_SHIFT: u32 = 8;
-
-/// Mirror of the jobs of `slice.glsl`: samples `first` .. `first + count` of a pixel's half.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
-pub struct Job {
-    /// Column in the low half, row in the high one; rows count from the band's first.
-    pub place: u32,
-    /// The half (0 or 1), `JOB_BARE`, `JOB_APART`, and the stream of samples.
-    pub part: u32,
-    pub first: u32,
-    pub count: u32,
-}
-const _: () = assert!(size_of::<Job>() == 16);
-
-impl Job {
-    /// The `place` of a film's pixel by its index.
-    pub fn place_of(index: u32, width: u32) -> u32 {
-        (index / width) << 16 | (index % width)
-    }
-
-    /// The `part` of a half of the film: its samples are the stream of the same number.
-    pub fn part_of(half: u32) -> u32 {
-        half | half << JOB_STREAM_SHIFT
-    }
-
-    /// The stream of samples.
-    pub fn stream(&self) -> u32 {
-        self.part >> JOB_STREAM_SHIFT
-    }
-
-    /// Column and row.
-    pub fn column_and_row(&self) -> [u32; 2] {
-        [self.place & 0xFFFF, self.place >> 16]
-    }
-}
-
-/// Mirror of the push constants of `mip_chain.glsl`: one level from the one above.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
-pub struct Halving {
-    /// 1: the level above is level 0, words of codes; 0: numbers.
-    pub from_codes: u32,
-    /// First word or number of the level above.
-    pub above: u32,
-    /// Where the new level begins as words, and as numbers.
-    pub word: u32,
-    pub number: u32,
-    /// Of the new level.
-    pub texels: u32,
-    pub columns_log2: u32,
-    pub rows_log2: u32,
-    /// One bit an axis: the length above is twice as long.
-    pub halved: u32,
-}
-const _: () = assert!(size_of::<Halving>() == 32);
-
-/// The part of the scene buffer that is also bound as uniforms: `maxUniformBufferRange` is at least
-/// this on every device.
-pub const HEAD_BYTES: usize = 16 << 10;
+/// Bytes at the front of the scene buffer that are also bound as uniforms.
+pub const HEAD_BYTES: usize = HEAD_UNITS as usize * 16;
 
 /// Samples that are summed in f32 before the sum goes to the film, at most. More samples arrive in chunks
 /// and are added with compensation (Kahan 1965).
 pub const CHUNK: u32 = 256;
-
-/// Cells of the table by which samples are placed about a pixel.
-pub const PIXEL_FILTER_CELLS: u32 = 512;
-
-/// Words of a cell of the survey (`tile_culling_main.glsl`): number of triangles, calmness, up to `MAX_LISTED` triangles.
-pub const CELL_WORDS: u32 = 64;
-pub const MAX_LISTED: u32 = 62;
-/// In place of where a cell begins: all triangles are tested.
-pub const NO_LIST: u32 = u32::MAX;
-/// Calmness of a cell.
-pub const CELL_EMPTY: u32 = 0;
-pub const CELL_UNIFORM: u32 = 1;
-pub const CELL_BUSY: u32 = 2;
-
-/// Pixels along the side of the square tiles in which work is handed out.
-pub const TILE: u32 = 64;

@@ -1,8 +1,10 @@
 //! What a packed scene uses: a bit mask of modes, a number or yes and no for each entry of the table of features.
 
-use super::{DYNAMIC, TextureSize, UNROLL};
+use super::UNROLL;
 use crate::pack::{PackedScene, Schedule, TextureKind};
 use crate::scene::model::{Model, Pattern, PixelFilterKind};
+use crate::schema::constants::{DYNAMIC, MAX_CONE_FRAGMENTS};
+use crate::schema::enums::TextureSize;
 use crate::schema::layout::{self, NO_TEXTURE};
 use crate::texture::sampler_spec::Filter;
 
@@ -22,10 +24,8 @@ pub fn counted_samples(scene: &PackedScene) -> u32 {
 
 /// Shapes that a cone can touch, up to those that it keeps.
 pub fn cone_shapes(scene: &PackedScene) -> u32 {
-    // Of `fragments.glsl`.
-    const MAX_FRAGMENTS: usize = 8;
     let shapes = scene.planes.len() + scene.spheres.len() + scene.triangles.len();
-    if shapes < MAX_FRAGMENTS { shapes.max(1) as u32 } else { DYNAMIC }
+    if shapes < MAX_CONE_FRAGMENTS as usize { shapes.max(1) as u32 } else { DYNAMIC }
 }
 
 pub fn unrolled(count: usize) -> u32 {
