@@ -22,6 +22,12 @@ mod constants;
 mod enums;
 #[path = "build/generate.rs"]
 mod generate;
+#[path = "src/schema/packing.rs"]
+mod packing;
+#[path = "build/records.rs"]
+mod record_text;
+#[path = "src/schema/records.rs"]
+mod records;
 #[path = "build/reflect.rs"]
 mod reflect;
 #[path = "build/shaders.rs"]

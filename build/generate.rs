@@ -5,19 +5,24 @@ use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
 
-use crate::{AnyError, record_text as records};
 use crate::bindings::BINDINGS;
 use crate::blocks::BLOCKS;
 use crate::constants::CONSTANTS;
 use crate::enums::ENUMS;
 use crate::specialization::SPECIALIZATION;
 use crate::tables::Number;
+use crate::{AnyError, record_text as records};
 
 /// Writes all generated files below `folder`.
 pub fn generate(folder: &Path) -> Result<(), AnyError> {
     fs::create_dir_all(folder)?;
     let numbers = [enums(), constants(), bindings()].concat();
-    for (name, text) in [("numbers", numbers), ("features", features()?), ("blocks", blocks()), ("records", records::records())] {
+    for (name, text) in [
+        ("numbers", numbers),
+        ("features", features()?),
+        ("blocks", blocks()),
+        ("records", records::records()),
+    ] {
         let guard = format!("SCHEMA_{}_GLSL", name.to_uppercase());
         let text = format!("#ifndef {guard}\n#define {guard}\n\n{text}\n#endif\n");
         let path = folder.join(name).with_extension("glsl");

@@ -18,7 +18,8 @@ fn record(record: &Record) -> String {
     let fields: String = record.fields.iter().map(|(f, t)| format!("    {} {f};\n", glsl_type(t))).collect();
     let shapes: Vec<_> = record.fields.iter().map(|(_, t)| shape(t)).collect();
     let (reals, words) = Packer::units(&shapes);
-    let units = format!("const uint {}_UNITS = {reals}u * REAL_UNITS + {words}u;\n", snake(name).to_uppercase());
+    let units =
+        format!("const uint {}_UNITS = {reals}u * REAL_UNITS + {words}u;\n", snake(name).to_uppercase());
     let mut text = format!("struct {name} {{\n{fields}}};\n{units}");
     text += &loader(record, "head");
     if !record.list.is_empty() {

@@ -196,7 +196,7 @@ fn render_on_oracle(args: &RenderArgs, scene: &Scene, bar: &Bar, start: Instant)
     let clock = Instant::now();
     let film = if packed.schedule == Schedule::Jobs {
         let goal = args.overrides.goal().unwrap_or(Goal::Samples(packed.samples));
-        let [width, height, _, _] = packed.header.size;
+        let [width, height] = packed.header.film_size.to_array();
         let mut tracer = oracle::jobs::JobTracer::new(&packed);
         let (film, outcome) = adaptive::run(&mut tracer, [width, height], goal, bar)?;
         report.outcome = Some(outcome);

@@ -5,7 +5,6 @@
 
 use glam::DVec3;
 
-use super::math::xyz;
 use super::polygon::{AffineFunction, MAX_CORNERS, MIN_AREA, Polygon, area, range, split, unit_square};
 use super::projective::{
     ConvexRegion, PixelFrustum, add, coordinates, may_meet_sphere, mirrored_frame, pixel_frame,
@@ -53,7 +52,7 @@ struct Met {
 /// The colour of a pixel of the film; none where it takes samples.
 pub fn beam(scene: &PackedScene, [x, y]: [u32; 2]) -> Option<DVec3> {
     let header = &scene.header;
-    let frame = pixel_frame(header, [x + header.image[2], y + header.image[3]]);
+    let frame = pixel_frame(header, [x + header.crop.x, y + header.crop.y]);
     let first = PixelBeam {
         polygon: unit_square(),
         frame,
@@ -101,10 +100,10 @@ impl Pixel<'_> {
             }
         }
         if left > MIN_AREA {
-            if self.scene.header.counts[3] != NO_MATERIAL {
+            if self.scene.header.environment_material != NO_MATERIAL {
                 return Err(GaveUp);
             }
-            self.color += left * beam.carried * xyz(self.scene.header.background);
+            self.color += left * beam.carried * self.scene.header.background.as_dvec3();
         }
         Ok(())
     }
@@ -121,14 +120,14 @@ impl Pixel<'_> {
         let [material, map] = links(scene, seen.shape);
         let record = &scene.materials[material as usize];
         let near = seen.region.inverse_depth;
-        let carried = beam.carried * xyz(record.color);
-        let model = Model::ALL[record.link[0] as usize];
-        let textured = record.link[1] != NO_TEXTURE;
+        let carried = beam.carried * record.color.as_dvec3();
+        let model = record.model;
+        let textured = record.texture_index != NO_TEXTURE;
         if !is_simple(scene, seen.shape, record, map) {
             return Err(GaveUp);
         }
         if model == Model::Mirror {
-            if beam.depth < scene.header.size[3] {
+            if beam.depth < scene.header.max_depth {
                 if waiting.len() == MAX_BEAMS {
                     return Err(GaveUp);
                 }
@@ -158,7 +157,7 @@ impl Pixel<'_> {
         for i in 0..lights {
             let light = if unlit { None } else { Some(&scene.lights[i]) };
             // Of lights with an extent beams do not know the penumbra.
-            if light.is_some_and(|l| l.link[0] >= LightKind::Sphere as u32) {
+            if light.is_some_and(|l| l.kind >= LightKind::Sphere) {
                 return Err(GaveUp);
             }
             self.lit_by(&paint, seen.shape, polygon, light)?;
@@ -175,7 +174,8 @@ impl Pixel<'_> {
         light: Option<&Light>,
     ) -> Result<()> {
         let scene = self.scene;
-        let [planes, spheres, triangles, _] = scene.header.counts;
+        let (planes, spheres, triangles) =
+            (scene.header.plane_count, scene.header.sphere_count, scene.header.triangle_count);
         let shapes = (planes + spheres + triangles) as usize;
         let bottom = self.fragments.len();
         match light {
@@ -196,7 +196,7 @@ impl Pixel<'_> {
             let is_sphere = by >= planes && by < planes + spheres;
             if is_sphere {
                 let sphere = &scene.spheres[(by - planes) as usize];
-                if may_shade(paint, &fragment.polygon, light, xyz(sphere.ball), sphere.ball[3]) {
+                if may_shade(paint, &fragment.polygon, light, sphere.center, sphere.radius) {
                     return Err(GaveUp);
                 }
             }
@@ -225,7 +225,8 @@ fn negligible(inverse_depth: AffineFunction, polygon: &Polygon) -> f64 {
 /// All that the beam may meet. Behind a mirror that is what lies beyond it: what lies before it neither is seen
 /// nor hides anything.
 fn shapes_met(scene: &PackedScene, beam: &PixelBeam) -> Result<Vec<Met>> {
-    let [planes, spheres, triangles, _] = scene.header.counts;
+    let (planes, spheres, triangles) =
+        (scene.header.plane_count, scene.header.sphere_count, scene.header.triangle_count);
     let mut met = Vec::new();
     let mirrored = beam.skip != NO_SHAPE;
     let least = if mirrored { negligible(beam.limit, &beam.polygon) } else { 0.0 };

@@ -8,7 +8,6 @@ use super::camera::Ray;
 use super::coverage::{Covered, Cuts, ball_overlap, circle_line};
 use super::footprint::any_tangent;
 use super::intersect::{Hit, plane_distance, sphere_distance};
-use super::math::{vec4, xyz};
 use crate::pack::PackedScene;
 use crate::schema::layout::{NO_SHAPE, Plane, Sphere, Triangle};
 
@@ -46,8 +45,8 @@ pub fn leaving(scene: &PackedScene, cone: Cone, shape: u32) -> Cone {
         return cone;
     }
     let normal = match shape_of(scene, shape) {
-        Shape::Plane(plane) => xyz(plane.normal),
-        Shape::Triangle(triangle) => xyz(triangle.normal),
+        Shape::Plane(plane) => plane.normal,
+        Shape::Triangle(triangle) => triangle.normal,
         Shape::Sphere(_) => return cone,
     };
     let Ray { origin, direction, .. } = cone.ray;
@@ -106,11 +105,11 @@ fn cut_bounds(cuts: &mut Cuts, cone: &Cone, plane: &Flat, row: DVec4, extent: f6
 }
 
 fn cut_plane(cuts: &mut Cuts, cone: &Cone, plane: &Plane) {
-    let seen = flat_in(cone, xyz(plane.normal), plane.normal[3]);
+    let seen = flat_in(cone, plane.normal, plane.distance);
     cuts.by((-cone.width * seen.tilt).extend(seen.height));
-    if let Some(extent) = plane.half_extent() {
-        cut_bounds(cuts, cone, &seen, vec4(plane.axis_u), extent);
-        cut_bounds(cuts, cone, &seen, vec4(plane.axis_v), extent);
+    if let Some(extent) = plane.bounds() {
+        cut_bounds(cuts, cone, &seen, plane.axis_u.extend(plane.eye_u), extent);
+        cut_bounds(cuts, cone, &seen, plane.axis_v.extend(plane.eye_v), extent);
     } else {
         cuts.by((cone.spread * seen.tilt).extend(seen.facing));
     }
@@ -124,9 +123,9 @@ fn in_disc(cone: &Cone, point: DVec3) -> DVec3 {
 }
 
 fn cut_triangle(cuts: &mut Cuts, cone: &Cone, triangle: &Triangle) {
-    let [a, b, c] = [triangle.a, triangle.b, triangle.c].map(|v| in_disc(cone, xyz(v)));
-    let normal = xyz(triangle.normal);
-    let height = triangle.normal[3] - normal.dot(cone.ray.origin);
+    let [a, b, c] = [triangle.a, triangle.b, triangle.c].map(|v| in_disc(cone, v));
+    let normal = triangle.normal;
+    let height = triangle.distance - normal.dot(cone.ray.origin);
     let side = if height < 0.0 { -1.0 } else { 1.0 };
     cuts.by(((-side * cone.width) * cone.aside(normal)).extend(side * height));
     cuts.by(side * a.cross(b));
@@ -144,8 +143,8 @@ struct Circle {
 }
 
 fn circle_of(cone: &Cone, sphere: &Sphere) -> Circle {
-    let f = cone.ray.origin - xyz(sphere.ball);
-    let radius = sphere.ball[3];
+    let f = cone.ray.origin - sphere.center;
+    let radius = sphere.radius;
     let t = -f.dot(cone.ray.direction) / cone.ray.direction.length_squared();
     // From the inside it is all around, from behind nowhere.
     if f.length_squared() <= radius * radius {
@@ -171,7 +170,7 @@ pub(super) enum Shape<'a> {
 }
 
 pub(super) fn shape_of(scene: &PackedScene, shape: u32) -> Shape<'_> {
-    let [planes, spheres, _, _] = scene.header.counts;
+    let (planes, spheres) = (scene.header.plane_count, scene.header.sphere_count);
     if shape < planes {
         Shape::Plane(&scene.planes[shape as usize])
     } else if shape < planes + spheres {
@@ -209,13 +208,17 @@ pub(super) fn covered_by(scene: &PackedScene, cone: &Cone, shape: u32) -> Covere
 /// Where a ray within the shape's outline meets it; rounding may have put it just beside.
 pub fn meet(scene: &PackedScene, ray: &Ray, shape: u32) -> Hit {
     let on_plane =
-        |normal: [f64; 4]| (normal[3] - xyz(normal).dot(ray.origin)) / xyz(normal).dot(ray.direction);
+        |normal: DVec3, distance: f64| (distance - normal.dot(ray.origin)) / normal.dot(ray.direction);
     match shape_of(scene, shape) {
-        Shape::Plane(plane) => Hit { t: on_plane(plane.normal), shape, local: plane_distance(plane, ray).1 },
-        Shape::Triangle(triangle) => Hit { t: on_plane(triangle.normal), shape, local: DVec2::ZERO },
+        Shape::Plane(plane) => {
+            Hit { t: on_plane(plane.normal, plane.distance), shape, local: plane_distance(plane, ray).1 }
+        }
+        Shape::Triangle(triangle) => {
+            Hit { t: on_plane(triangle.normal, triangle.distance), shape, local: DVec2::ZERO }
+        }
         Shape::Sphere(sphere) => {
             let t = sphere_distance(sphere, ray);
-            let nearest = (xyz(sphere.ball) - ray.origin).dot(ray.direction) / ray.direction.length_squared();
+            let nearest = (sphere.center - ray.origin).dot(ray.direction) / ray.direction.length_squared();
             Hit { t: if t > 0.0 { t } else { nearest }, shape, local: DVec2::ZERO }
         }
     }

@@ -5,7 +5,6 @@
 use glam::{DVec2, DVec3};
 
 use super::camera::Ray;
-use super::math::xyz;
 use crate::pack::PackedScene;
 use crate::schema::layout::{NO_SHAPE, Plane, Sphere, Triangle};
 
@@ -25,7 +24,7 @@ pub struct Hit {
 /// How far a shape has moved at the ray's time. Shapes are met, and textured, where they are at time 0, by rays
 /// that start as far back.
 pub fn moved_by(scene: &PackedScene, ray: &Ray, shape: u32) -> DVec3 {
-    scene.motions.get(shape as usize).map_or(DVec3::ZERO, |motion| ray.time * xyz(motion.shift))
+    scene.motions.get(shape as usize).map_or(DVec3::ZERO, |motion| ray.time * motion.shift)
 }
 
 pub fn at_rest(scene: &PackedScene, ray: &Ray, shape: u32) -> Ray {
@@ -34,13 +33,13 @@ pub fn at_rest(scene: &PackedScene, ray: &Ray, shape: u32) -> Ray {
 
 /// Distance, and the plane's own coordinates of the point counted from the eye.
 pub fn plane_distance(plane: &Plane, ray: &Ray) -> (f64, DVec2) {
-    let normal = xyz(plane.normal);
-    let height = plane.normal[3] - normal.dot(ray.origin);
+    let normal = plane.normal;
+    let height = plane.distance - normal.dot(ray.origin);
     let t = height / normal.dot(ray.direction);
     let p = ray.origin + t * ray.direction;
-    let local = DVec2::new(xyz(plane.axis_u).dot(p), xyz(plane.axis_v).dot(p));
-    if let Some(extent) = plane.half_extent() {
-        let (u, v) = (local.x + plane.axis_u[3], local.y + plane.axis_v[3]);
+    let local = DVec2::new(plane.axis_u.dot(p), plane.axis_v.dot(p));
+    if let Some(extent) = plane.bounds() {
+        let (u, v) = (local.x + plane.eye_u, local.y + plane.eye_v);
         let inside = u.abs() <= extent && v.abs() <= extent;
         return (if inside { t } else { -1.0 }, local);
     }
@@ -49,8 +48,8 @@ pub fn plane_distance(plane: &Plane, ray: &Ray) -> (f64, DVec2) {
 
 /// Haines, Günther & Akenine-Möller 2019; -1 on a miss.
 pub fn sphere_distance(sphere: &Sphere, ray: &Ray) -> f64 {
-    let f = ray.origin - xyz(sphere.ball);
-    let radius = sphere.ball[3];
+    let f = ray.origin - sphere.center;
+    let radius = sphere.radius;
     let a = ray.direction.dot(ray.direction);
     let b = -f.dot(ray.direction);
     let closest = f + (b / a) * ray.direction;
@@ -66,7 +65,7 @@ pub fn sphere_distance(sphere: &Sphere, ray: &Ray) -> f64 {
 
 /// -1 on a miss: the edge functions d·(p × q) have one sign within the triangle.
 pub fn triangle_distance(triangle: &Triangle, ray: &Ray) -> f64 {
-    let [a, b, c] = [triangle.a, triangle.b, triangle.c].map(|v| xyz(v) - ray.origin);
+    let [a, b, c] = [triangle.a, triangle.b, triangle.c].map(|v| v - ray.origin);
     let d = ray.direction;
     let edges = DVec3::new(d.dot(b.cross(c)), d.dot(c.cross(a)), d.dot(a.cross(b)));
     let front = edges.cmpge(DVec3::ZERO).all();
@@ -74,8 +73,8 @@ pub fn triangle_distance(triangle: &Triangle, ray: &Ray) -> f64 {
     if !(front || back) || edges == DVec3::ZERO {
         return -1.0;
     }
-    let normal = xyz(triangle.normal);
-    let height = triangle.normal[3] - normal.dot(ray.origin);
+    let normal = triangle.normal;
+    let height = triangle.distance - normal.dot(ray.origin);
     height / normal.dot(ray.direction)
 }
 
@@ -87,7 +86,7 @@ pub fn nearest_hit(scene: &PackedScene, ray: &Ray, skip: u32) -> Hit {
             hit = Hit { t, shape, local };
         }
     };
-    let [planes, spheres, _, _] = scene.header.counts;
+    let (planes, spheres) = (scene.header.plane_count, scene.header.sphere_count);
     for (i, plane) in scene.planes.iter().enumerate() {
         let shape = i as u32;
         offer(plane_distance(plane, &at_rest(scene, ray, shape)), shape, true);
@@ -106,7 +105,7 @@ pub fn nearest_hit(scene: &PackedScene, ray: &Ray, skip: u32) -> Hit {
 /// True when a shape lies at 0 < t < t_max.
 pub fn occluded(scene: &PackedScene, ray: &Ray, t_max: f64, skip: u32) -> bool {
     let between = |t: f64| t > 0.0 && t < t_max;
-    let [planes, spheres, _, _] = scene.header.counts;
+    let (planes, spheres) = (scene.header.plane_count, scene.header.sphere_count);
     let at_rest = |shape: u32| at_rest(scene, ray, shape);
     let mut flat = (0..).zip(&scene.planes);
     if flat.any(|(i, plane)| i != skip && between(plane_distance(plane, &at_rest(i)).0)) {

@@ -20,7 +20,7 @@ pub struct JobTracer<'a> {
 
 impl JobTracer<'_> {
     pub fn new(scene: &PackedScene) -> JobTracer<'_> {
-        let [width, height, _, _] = scene.header.size;
+        let [width, height] = scene.header.film_size.to_array();
         let half = || vec![[0.0; 9]; width as usize * height as usize];
         JobTracer { scene, halves: [half(), half()] }
     }
@@ -31,7 +31,7 @@ impl JobTracer<'_> {
         let mut header = self.scene.header;
         let samples = 2.0 * f64::from(job.first + job.count);
         let share = filter_width(&header) / samples.sqrt();
-        header.step_x[3] = if job.part & JOB_BARE != 0 { 0.0 } else { share };
+        header.sample_side = if job.part & JOB_BARE != 0 { 0.0 } else { share };
         for s in job.first..job.first + job.count {
             let (seen, sign) = sample(self.scene, &header, place, job.stream(), s);
             let [x, y, z] = (sign * seen).to_array();
@@ -60,7 +60,7 @@ impl Tracer for JobTracer<'_> {
         if progress.cancelled() {
             return Err(Error::Interrupted);
         }
-        let width = self.scene.header.size[0];
+        let width = self.scene.header.film_size.x;
         for (job, sum) in jobs.iter().zip(sums) {
             let [x, y] = job.column_and_row();
             let at = (y * width + x) as usize;

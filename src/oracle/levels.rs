@@ -35,7 +35,7 @@ impl Reader<'_> {
     fn cubic_flat(&self, level: &Level, texel: DVec2) -> DVec4 {
         let low = texel.floor();
         let t = texel - low;
-        let [b, c] = [self.how.more[2], self.how.more[3]].map(|bits| f64::from(f32::from_bits(bits)));
+        let [b, c] = [self.how.cubic_b, self.how.cubic_c].map(f64::from);
         let (wx, wy) = (cubic_weights(t.x, b, c), cubic_weights(t.y, b, c));
         let mut sum = DVec4::ZERO;
         for (j, wy) in wy.into_iter().enumerate() {
@@ -90,7 +90,7 @@ impl Reader<'_> {
             at * size.x
         } else {
             let [u, v, w] = addresses(self.how);
-            let integer_centers = self.how.modes[3] == TexelCenter::Integer as u32;
+            let integer_centers = self.how.texel_center == TexelCenter::Integer;
             let depth = if kind == TextureKind::Volume { reduced_coordinate(w, at.z, size.z) } else { 0.0 };
             DVec3::new(reduced_coordinate(u, at.x, size.x), reduced_coordinate(v, at.y, size.y), depth)
                 + if integer_centers { 0.5 } else { 0.0 }

@@ -5,7 +5,6 @@
 
 use glam::{DMat3, DVec2, DVec3, DVec4};
 
-use super::math::{vec4, xyz};
 use super::polygon::{AffineFunction, Polygon, at, middle};
 use crate::pack::{LightKind, MapKind, PackedScene, ProjectionKind};
 use crate::schema::layout::{Header, Light, Plane, Sphere, Triangle};
@@ -44,14 +43,14 @@ pub fn pixel_frame(header: &Header, pixel: [u32; 2]) -> PixelFrustum {
 /// All rays of the pixels from the first to `more` columns and rows on, and of a margin around them.
 pub fn frame_over(header: &Header, pixel: [u32; 2], more: f64, margin: f64) -> PixelFrustum {
     let corner = DVec2::new(
-        f64::from(pixel[0]) - 0.5 * f64::from(header.image[0]),
-        f64::from(pixel[1]) - 0.5 * f64::from(header.image[1]),
+        f64::from(pixel[0]) - 0.5 * f64::from(header.image_size.x),
+        f64::from(pixel[1]) - 0.5 * f64::from(header.image_size.y),
     );
     // The unit square stands for the pixel filter's box.
-    let radius = f64::from(f32::from_bits(header.pixel_filter[1])) + margin;
+    let radius = f64::from(header.filter_radius) + margin;
     let corner = corner + (0.5 - radius);
-    let (x, y, forward) = (xyz(header.step_x), xyz(header.step_y), xyz(header.forward));
-    let parallel = header.size[2] == ProjectionKind::Orthographic as u32;
+    let (x, y, forward) = (header.step_x, header.step_y, header.forward);
+    let parallel = header.projection == ProjectionKind::Orthographic;
     let (base, wide) = (corner.x * x + corner.y * y, 2.0 * radius + more);
     if parallel {
         PixelFrustum { rays: DMat3::from_cols(wide * x, wide * y, base), same: forward, parallel }
@@ -127,13 +126,13 @@ pub(super) fn add(region: &mut ConvexRegion, line: AffineFunction) {
 }
 
 pub fn plane_region(frame: &PixelFrustum, plane: &Plane) -> ConvexRegion {
-    let near = inverse_depth(frame, xyz(plane.normal), plane.normal[3]);
+    let near = inverse_depth(frame, plane.normal, plane.distance);
     let mut region = ConvexRegion { count: 0, lines: [AffineFunction::ZERO; MAX_LINES], inverse_depth: near };
     add(&mut region, in_front(frame, near));
-    if let Some(half_extent) = plane.half_extent() {
+    if let Some(half_extent) = plane.bounds() {
         let extent = half_extent * below(frame, near);
-        for row in [plane.axis_u, plane.axis_v] {
-            let own = along(frame, near, vec4(row));
+        for row in [plane.axis_u.extend(plane.eye_u), plane.axis_v.extend(plane.eye_v)] {
+            let own = along(frame, near, row);
             add(&mut region, extent - own);
             add(&mut region, extent + own);
         }
@@ -142,7 +141,7 @@ pub fn plane_region(frame: &PixelFrustum, plane: &Plane) -> ConvexRegion {
 }
 
 pub fn triangle_region(frame: &PixelFrustum, triangle: &Triangle) -> ConvexRegion {
-    let near = inverse_depth(frame, xyz(triangle.normal), triangle.normal[3]);
+    let near = inverse_depth(frame, triangle.normal, triangle.distance);
     let mut region = ConvexRegion { count: 0, lines: [AffineFunction::ZERO; MAX_LINES], inverse_depth: near };
     add(&mut region, in_front(frame, near));
     for edge in edge_forms(frame, triangle) {
@@ -153,7 +152,7 @@ pub fn triangle_region(frame: &PixelFrustum, triangle: &Triangle) -> ConvexRegio
 
 /// Barycentric weights of a triangle's corners times their sum, positive within it.
 pub fn edge_forms(frame: &PixelFrustum, triangle: &Triangle) -> [AffineFunction; 3] {
-    let [a, b, c] = [triangle.a, triangle.b, triangle.c].map(xyz);
+    let [a, b, c] = [triangle.a, triangle.b, triangle.c];
     let way = frame.same;
     if frame.parallel {
         let side = way.dot((b - a).cross(c - a)).signum();
@@ -168,7 +167,7 @@ pub fn edge_forms(frame: &PixelFrustum, triangle: &Triangle) -> [AffineFunction;
 
 /// Planes first, then spheres, then triangles; spheres have no region.
 pub fn shape_region(scene: &PackedScene, frame: &PixelFrustum, shape: u32) -> ConvexRegion {
-    let [planes, spheres, _, _] = scene.header.counts;
+    let (planes, spheres) = (scene.header.plane_count, scene.header.sphere_count);
     if shape < planes {
         plane_region(frame, &scene.planes[shape as usize])
     } else {
@@ -178,11 +177,13 @@ pub fn shape_region(scene: &PackedScene, frame: &PixelFrustum, shape: u32) -> Co
 
 /// Unit normal, and height of the plane in which a flat shape lies.
 pub fn shape_plane(scene: &PackedScene, shape: u32) -> DVec4 {
-    let [planes, spheres, _, _] = scene.header.counts;
+    let (planes, spheres) = (scene.header.plane_count, scene.header.sphere_count);
     if shape < planes {
-        vec4(scene.planes[shape as usize].normal)
+        let plane = &scene.planes[shape as usize];
+        plane.normal.extend(plane.distance)
     } else {
-        vec4(scene.triangles[(shape - planes - spheres) as usize].normal)
+        let triangle = &scene.triangles[(shape - planes - spheres) as usize];
+        triangle.normal.extend(triangle.distance)
     }
 }
 
@@ -194,33 +195,30 @@ pub fn coordinates(
     map: u32,
     near: AffineFunction,
 ) -> RationalMap {
-    let [planes, spheres, _, _] = scene.header.counts;
-    let map = &scene.maps[map as usize];
+    let (planes, spheres) = (scene.header.plane_count, scene.header.sphere_count);
+    let map = &scene.uv_projections[map as usize];
     let under = below(frame, near);
-    if map.link[0] == MapKind::VertexUv as u32 {
+    if map.kind == MapKind::VertexUv {
         let triangle = &scene.triangles[(shape - planes - spheres) as usize];
         let e = edge_forms(frame, triangle);
-        let [a, b, c] = [triangle.a, triangle.b, triangle.c].map(vec4);
-        let v = vec4(triangle.v);
+        let v = triangle.v;
         return RationalMap {
-            u: a.w * e[0] + b.w * e[1] + c.w * e[2],
+            u: triangle.u_a * e[0] + triangle.u_b * e[1] + triangle.u_c * e[2],
             v: v.x * e[0] + v.y * e[1] + v.z * e[2],
             below: e[0] + e[1] + e[2],
         };
     }
-    if map.link[0] == MapKind::Affine as u32 {
-        let [u, v] = [map.x, map.y].map(|row| along(frame, near, vec4(row)));
+    if map.kind == MapKind::Affine {
+        let [u, v] = [map.x, map.y].map(|row| along(frame, near, row));
         return RationalMap { u, v, below: under };
     }
     let plane = &scene.planes[shape as usize];
     // Counted from the eye.
-    let own = |row: [f64; 4]| along(frame, near, xyz(row).extend(0.0));
+    let own = |axis: DVec3| along(frame, near, axis.extend(0.0));
     let (u, v) = (own(plane.axis_u), own(plane.axis_v));
-    let m = vec4(map.matrix);
-    let offset = vec4(map.offset);
     RationalMap {
-        u: m.x * u + m.y * v + offset.x * under,
-        v: m.z * u + m.w * v + offset.y * under,
+        u: map.m00 * u + map.m01 * v + map.offset.x * under,
+        v: map.m10 * u + map.m11 * v + map.offset.y * under,
         below: under,
     }
 }
@@ -233,9 +231,9 @@ pub fn shadow_region(
     shape: u32,
     light: &Light,
 ) -> ConvexRegion {
-    let [planes, spheres, _, _] = scene.header.counts;
-    let place = xyz(light.place);
-    let point = light.link[0] == LightKind::Point as u32;
+    let (planes, spheres) = (scene.header.plane_count, scene.header.sphere_count);
+    let point = light.kind == LightKind::Point;
+    let place = if point { light.position } else { light.direction };
     let plane = shape_plane(scene, shape);
     let n = plane.truncate();
     // Of the light before the shape's plane, or of a way's length towards it.
@@ -247,10 +245,10 @@ pub fn shadow_region(
     add(&mut region, along(frame, near, beyond));
     if shape < planes {
         let record = &scene.planes[shape as usize];
-        let Some(extent) = record.half_extent() else { return region };
+        let Some(extent) = record.bounds() else { return region };
         // A place's distance below the light, in |rise|, or its own height.
         let depth = if point { side * n.extend(-n.dot(place)) } else { DVec4::W * rise.abs() };
-        for row in [record.axis_u, record.axis_v].map(vec4) {
+        for row in [record.axis_u.extend(record.eye_u), record.axis_v.extend(record.eye_v)] {
             let axis = row.truncate();
             let own = if point {
                 // u of light + (p - light) rise / (n·(p - light)), times the depth.
@@ -265,7 +263,7 @@ pub fn shadow_region(
         return region;
     }
     let triangle = &scene.triangles[(shape - planes - spheres) as usize];
-    let [a, b, c] = [triangle.a, triangle.b, triangle.c].map(xyz);
+    let [a, b, c] = [triangle.a, triangle.b, triangle.c];
     let turn =
         if point { (a - place).dot((b - place).cross(c - place)) } else { place.dot((b - a).cross(c - a)) };
     for (p, q) in [(b, c), (c, a), (a, b)] {
@@ -284,8 +282,8 @@ pub fn shadow_region(
 pub fn may_meet_sphere(frame: &PixelFrustum, polygon: &Polygon, sphere: &Sphere) -> bool {
     let (way, origin) = ray_at(frame, middle(polygon));
     let unit = way.normalize();
-    let to = xyz(sphere.ball) - origin;
-    let radius = sphere.ball[3];
+    let to = sphere.center - origin;
+    let radius = sphere.radius;
     let along = to.dot(unit);
     if to.length_squared() <= radius * radius {
         return true;

@@ -5,7 +5,6 @@ use glam::{DMat3, DVec2, DVec3};
 
 use super::camera::Ray;
 use super::intersect::{Hit, moved_by};
-use super::math::xyz;
 use crate::pack::PackedScene;
 use crate::schema::layout::{Plane, Sphere, Triangle};
 
@@ -34,7 +33,7 @@ pub struct Surface {
     pub size: f64,
 }
 
-fn surface(point: DVec3, geometric: DVec3, normal: DVec3, link: [u32; 4]) -> Surface {
+fn surface(point: DVec3, geometric: DVec3, normal: DVec3, [material, map]: [u32; 2]) -> Surface {
     Surface {
         point,
         geometric_normal: geometric,
@@ -44,22 +43,26 @@ fn surface(point: DVec3, geometric: DVec3, normal: DVec3, link: [u32; 4]) -> Sur
         shape_operator: DMat3::ZERO,
         curvature: 0.0,
         inside: false,
-        material: link[0],
-        map: link[1],
+        material,
+        map,
         at_rest: point,
         size: point.abs().max_element(),
     }
 }
 
 fn plane_surface(plane: &Plane, point: DVec3, uv: DVec2) -> Surface {
-    let normal = xyz(plane.normal).normalize();
-    let own_gradients = [xyz(plane.axis_u), xyz(plane.axis_v)];
-    Surface { own_uv: uv, own_gradients, ..surface(point, normal, normal, plane.link) }
+    let normal = plane.normal.normalize();
+    let own_gradients = [plane.axis_u, plane.axis_v];
+    Surface {
+        own_uv: uv,
+        own_gradients,
+        ..surface(point, normal, normal, [plane.material, plane.uv_projection])
+    }
 }
 
 fn sphere_surface(sphere: &Sphere, point: DVec3) -> Surface {
-    let center = xyz(sphere.ball);
-    let radius = sphere.ball[3];
+    let center = sphere.center;
+    let radius = sphere.radius;
     let normal = (point - center).normalize();
     let curvature = 1.0 / radius;
     let shape_operator = DMat3::from_diagonal(DVec3::splat(curvature));
@@ -68,33 +71,33 @@ fn sphere_surface(sphere: &Sphere, point: DVec3) -> Surface {
         shape_operator,
         curvature,
         size,
-        ..surface(center + radius * normal, normal, normal, sphere.link)
+        ..surface(center + radius * normal, normal, normal, [sphere.material, sphere.uv_projection])
     }
 }
 
 /// Barycentric weights of a point of the triangle, from the vectors to its corners.
 fn weights(triangle: &Triangle, point: DVec3) -> DVec3 {
-    let [a, b, c] = [triangle.a, triangle.b, triangle.c].map(|v| xyz(v) - point);
-    let n = xyz(triangle.normal);
+    let [a, b, c] = [triangle.a, triangle.b, triangle.c].map(|v| v - point);
+    let n = triangle.normal;
     let areas = DVec3::new(n.dot(b.cross(c)), n.dot(c.cross(a)), n.dot(a.cross(b)));
     areas / areas.element_sum()
 }
 
 fn triangle_surface(triangle: &Triangle, point: DVec3) -> Surface {
     let w = weights(triangle, point);
-    let u = DVec3::new(triangle.a[3], triangle.b[3], triangle.c[3]);
-    let v = xyz(triangle.v);
-    let n = xyz(triangle.normal).normalize();
-    let [a, b, c] = [triangle.a, triangle.b, triangle.c].map(xyz);
+    let u = DVec3::new(triangle.u_a, triangle.u_b, triangle.u_c);
+    let v = triangle.v;
+    let n = triangle.normal.normalize();
+    let [a, b, c] = [triangle.a, triangle.b, triangle.c];
     // Gradients of the weights: at right angles to the opposite side, 1 over the height.
     let twice_area = n.dot((b - a).cross(c - b));
     let [wa, wb, wc] = [c - b, a - c, b - a].map(|side| n.cross(side) / twice_area);
     let gradient = |value: DVec3| wa * value.x + wb * value.y + wc * value.z;
-    let mut result = surface(point, n, n, triangle.link);
+    let mut result = surface(point, n, n, [triangle.material, triangle.uv_projection]);
     result.own_uv = DVec2::new(w.dot(u), w.dot(v));
     result.own_gradients = [gradient(u), gradient(v)];
-    if triangle.v[3] != 0.0 {
-        let normals = [triangle.normal_a, triangle.normal_b, triangle.normal_c].map(xyz);
+    if triangle.is_smooth {
+        let normals = [triangle.normal_a, triangle.normal_b, triangle.normal_c];
         let blend = w.x * normals[0] + w.y * normals[1] + w.z * normals[2];
         if let Some(normal) = blend.try_normalize() {
             let outer = |p: DVec3, q: DVec3| DMat3::from_cols(p * q.x, p * q.y, p * q.z);
@@ -116,7 +119,7 @@ fn triangle_surface(triangle: &Triangle, point: DVec3) -> Surface {
 pub fn hit_surface(scene: &PackedScene, ray: &Ray, hit: &Hit) -> Surface {
     let shift = moved_by(scene, ray, hit.shape);
     let point = ray.origin - shift + hit.t * ray.direction;
-    let [planes, spheres, _, _] = scene.header.counts;
+    let (planes, spheres) = (scene.header.plane_count, scene.header.sphere_count);
     let mut surface = if hit.shape < planes {
         plane_surface(&scene.planes[hit.shape as usize], point, hit.local)
     } else if hit.shape < planes + spheres {

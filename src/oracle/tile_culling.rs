@@ -3,7 +3,6 @@
 
 use glam::{DVec2, DVec3};
 
-use super::math::xyz;
 use super::projective::{PixelFrustum, frame_over, ray_at};
 use crate::pack::PackedScene;
 use crate::schema::layout::{Header, Triangle};
@@ -11,8 +10,8 @@ use crate::schema::layout::{Header, Triangle};
 /// Triangles of the cell whose first pixel of the film is `place`.
 pub fn triangles_of(scene: &PackedScene, place: [u32; 2]) -> Vec<u32> {
     let header = &scene.header;
-    let pixel = [place[0] + header.image[2], place[1] + header.image[3]];
-    let frame = frame_over(header, pixel, f64::from(header.chances[3] - 1), 0.0);
+    let pixel = [place[0] + header.crop.x, place[1] + header.crop.y];
+    let frame = frame_over(header, pixel, f64::from(header.cell_side - 1), 0.0);
     let triangles = (0..).zip(&scene.triangles);
     triangles.filter(|(_, t)| may_meet_triangle(header, &frame, t)).map(|(i, _)| i).collect()
 }
@@ -20,8 +19,8 @@ pub fn triangles_of(scene: &PackedScene, place: [u32; 2]) -> Vec<u32> {
 /// A ray meets a triangle where all three edge functions have one sign. These are affine in the ray's place,
 /// so that their corners' extremes bound them.
 fn may_meet_triangle(header: &Header, frame: &PixelFrustum, triangle: &Triangle) -> bool {
-    let vertices = [triangle.a, triangle.b, triangle.c].map(xyz);
-    if vertices.iter().all(|v| v.dot(xyz(header.forward)) <= 0.0) {
+    let vertices = [triangle.a, triangle.b, triangle.c];
+    if vertices.iter().all(|v| v.dot(header.forward) <= 0.0) {
         return false;
     }
     let (mut least, mut most) = (DVec3::INFINITY, DVec3::NEG_INFINITY);

@@ -302,15 +302,11 @@ impl PackedScene {
             list.iter_mut().for_each(|record| *record = record.quantize_f32());
         }
         self.header = self.header.quantize_f32();
-        for plane in &mut self.planes {
-            let extent = plane.half_extent();
-            plane.link[2..].copy_from_slice(&layout::Plane::extent_words(extent, false));
-        }
         round(&mut self.planes);
         round(&mut self.spheres);
         round(&mut self.triangles);
         round(&mut self.lights);
-        round(&mut self.maps);
+        round(&mut self.uv_projections);
         round(&mut self.procedurals);
         round(&mut self.motions);
         self.double = false;

@@ -3,12 +3,12 @@
 use glam::{DVec2, DVec3, DVec4};
 
 use super::mapping::{self, Bounds, Place};
-use super::{LightKind, MapKind, PackedScene, TextureKind, real4, vec4};
+use super::{LightKind, MapKind, PackedScene, TextureKind};
 use crate::core::error::{Error, Result};
 use crate::scene::model::{
     Entity, Light, Mapping, MappingKind, Material, Plane, Scene, Space, Sphere, Triangle,
 };
-use crate::schema::layout;
+use crate::schema::layout::{self, RealBits};
 use crate::texture::sampler_spec::SamplerSpec;
 
 pub fn pack_shapes(packed: &mut PackedScene, scene: &Scene) -> Result<()> {
@@ -25,8 +25,10 @@ pub fn pack_shapes(packed: &mut PackedScene, scene: &Scene) -> Result<()> {
             mapping::projecting_map(mapping, sampler, eye, &place, flat)
         });
         packed.spheres.push(layout::Sphere {
-            ball: real4((sphere.center - eye).extend(sphere.radius)),
-            link: [sphere.material as u32, map, 0, 0],
+            center: sphere.center - eye,
+            radius: sphere.radius,
+            material: sphere.material as u32,
+            uv_projection: map,
         });
     }
     for triangle in &scene.triangles {
@@ -85,14 +87,15 @@ fn pack_plane(packed: &mut PackedScene, scene: &Scene, plane: &Plane, eye: DVec3
         _ => mapping::projecting_map(mapping, sampler, eye, &place, flat),
     });
     Ok(layout::Plane {
-        normal: real4(normal.extend(normal.dot(plane.origin - eye))),
-        axis_u: real4(u),
-        axis_v: real4(v),
-        // Of f64 until the numbers are rounded.
-        link: {
-            let [low, high] = layout::Plane::extent_words(plane.half_extent, true);
-            [plane.material as u32, map, low, high]
-        },
+        normal,
+        distance: normal.dot(plane.origin - eye),
+        axis_u: u.truncate(),
+        eye_u: u.w,
+        axis_v: v.truncate(),
+        eye_v: v.w,
+        material: plane.material as u32,
+        uv_projection: map,
+        half_extent: RealBits(plane.half_extent.unwrap_or(-1.0)),
     })
 }
 
@@ -111,22 +114,26 @@ fn pack_triangle(
         bounds: Some(triangle_bounds(triangle)),
     };
     let map = add_map(packed, scene, triangle.material, |mapping, sampler, flat| match mapping.kind {
-        MappingKind::Surface => {
-            layout::UvProjection { link: [MapKind::VertexUv as u32, 0, 0, 0], ..Default::default() }
-        }
+        MappingKind::Surface => layout::UvProjection { kind: MapKind::VertexUv, ..Default::default() },
         _ => mapping::projecting_map(mapping, sampler, eye, &place, flat),
     });
-    let shading = triangle.normals.unwrap_or([normal; 3]).map(|n| real4(n.normalize().extend(0.0)));
+    let shading = triangle.normals.unwrap_or([normal; 3]).map(DVec3::normalize);
     layout::Triangle {
-        a: real4(a.extend(uvs[0].x)),
-        b: real4(b.extend(uvs[1].x)),
-        c: real4(c.extend(uvs[2].x)),
-        v: real4(DVec4::new(uvs[0].y, uvs[1].y, uvs[2].y, f64::from(u8::from(triangle.normals.is_some())))),
-        normal: real4(normal.extend(normal.dot(a))),
+        a,
+        u_a: uvs[0].x,
+        b,
+        u_b: uvs[1].x,
+        c,
+        u_c: uvs[2].x,
+        v: DVec3::new(uvs[0].y, uvs[1].y, uvs[2].y),
+        normal,
+        distance: normal.dot(a),
         normal_a: shading[0],
         normal_b: shading[1],
         normal_c: shading[2],
-        link: [triangle.material as u32, map, 0, 0],
+        material: triangle.material as u32,
+        uv_projection: map,
+        is_smooth: triangle.normals.is_some(),
     }
 }
 
@@ -148,10 +155,10 @@ fn add_map(
 ) -> u32 {
     let material = &scene.materials[material];
     let Some(texture) = material.texture.or(material.bump.map(|r| r.texture)) else { return 0 };
-    let kind = TextureKind::ALL[packed.textures[texture].link[3] as usize];
+    let kind = packed.textures[texture].kind;
     let flat = matches!(kind, TextureKind::Flat | TextureKind::Procedural);
-    packed.maps.push(make(&material.mapping, &scene.sampler_of(material), flat));
-    packed.maps.len() as u32 - 1
+    packed.uv_projections.push(make(&material.mapping, &scene.sampler_of(material), flat));
+    packed.uv_projections.len() as u32 - 1
 }
 
 fn sphere_bounds(sphere: &Sphere) -> Bounds {
@@ -173,40 +180,42 @@ fn triangle_bounds(triangle: &Triangle) -> Bounds {
 const RIGHT_ANGLE: f64 = 1e-6;
 
 pub fn light(light: &Light, eye: DVec3) -> layout::Light {
-    let record = |kind: LightKind, place: DVec4, power: DVec3| layout::Light {
-        place: real4(place),
-        power: vec4(power.extend(0.0)),
-        link: [kind as u32, 0, 0, 0],
+    let at = |kind: LightKind, position: DVec3, power: DVec3| layout::Light {
+        position: position - eye,
+        power: power.as_vec3(),
+        kind,
+        ..Default::default()
+    };
+    let towards = |kind: LightKind, direction: DVec3, power: DVec3| layout::Light {
+        direction: direction.normalize(),
+        power: power.as_vec3(),
+        kind,
         ..Default::default()
     };
     match *light {
-        Light::Point { position, intensity } => {
-            record(LightKind::Point, (position - eye).extend(0.0), intensity)
-        }
+        Light::Point { position, intensity } => at(LightKind::Point, position, intensity),
         Light::Directional { direction, irradiance } => {
-            record(LightKind::Directional, direction.normalize().extend(0.0), irradiance)
+            towards(LightKind::Directional, direction, irradiance)
         }
         Light::Sphere { position, radius, intensity } => {
-            record(LightKind::Sphere, (position - eye).extend(radius), intensity)
+            layout::Light { radius, ..at(LightKind::Sphere, position, intensity) }
         }
         Light::Rectangle { position, edge_u, edge_v, radiance } => {
             let wide = edge_u.length_squared() >= edge_v.length_squared();
             // The same rectangle, which shines to the same side.
             let sides = if wide { [edge_u, edge_v] } else { [edge_v, -edge_u] };
             let right = edge_u.normalize().dot(edge_v.normalize()).abs() <= RIGHT_ANGLE;
-            let [edge_u, edge_v] = sides.map(|s| real4(s.extend(if right { s.length() } else { 0.0 })));
-            layout::Light {
-                edge_u,
-                edge_v,
-                ..record(LightKind::Rectangle, (position - eye).extend(0.0), radiance)
-            }
+            let [length_u, length_v] = sides.map(|s| if right { s.length() } else { 0.0 });
+            let [edge_u, edge_v] = sides;
+            let light = at(LightKind::Rectangle, position, radiance);
+            layout::Light { edge_u, length_u, edge_v, length_v, ..light }
         }
         Light::Sun { direction, angle, irradiance } => {
             // A cap of height h has the solid angle 2 pi h, and a surface that faces its middle receives
             // pi h (2 - h) of its radiance.
             let height = 2.0 * (0.25 * angle.to_radians()).sin().powi(2);
             let power = irradiance * (2.0 / (2.0 - height));
-            record(LightKind::Sun, direction.normalize().extend(height), power)
+            layout::Light { cap_height: height, ..towards(LightKind::Sun, direction, power) }
         }
     }
 }

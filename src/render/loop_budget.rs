@@ -57,9 +57,9 @@ fn turns_of_cones(scene: &PackedScene, ellipse: u64) -> u64 {
     let gathered = 4 + shapes + shapes / 16 + 2 * PIECES;
     // Each pair both ways, and two shapes each time.
     let laid_over = 3 * SEEN * (SEEN - 1);
-    let bumped = scene.materials.iter().any(|m| m.detail[0] != NO_TEXTURE);
+    let bumped = scene.materials.iter().any(|m| m.bump_texture_index != NO_TEXTURE);
     let look_ups = if bumped { TAPS } else { 1 } * turns_of_a_look_up(scene, 0);
-    let records = (scene.materials.len() + scene.maps.len()) as u64;
+    let records = (scene.materials.len() + scene.uv_projections.len()) as u64;
     let shaded = SEEN * (1 + records + look_ups + lights.max(2) * (2 + lights));
     // Ellipses of that size fill the horizon, and that is seen by few of them.
     cones * (gathered + laid_over + shaded) + ellipse
@@ -72,12 +72,12 @@ fn turns_of_a_sample(scene: &PackedScene, ellipse: u64) -> u64 {
     }
     let count = |n: usize| n as u64;
     let shapes = count(scene.planes.len() + scene.spheres.len() + scene.triangles.len()) + 3;
-    let records = count(scene.materials.len() + scene.maps.len() + scene.motions.len());
-    let rays = if bounces(scene) { 1 + u64::from(scene.header.size[3]) } else { 1 };
-    let bumped = scene.materials.iter().any(|m| m.detail[0] != NO_TEXTURE);
+    let records = count(scene.materials.len() + scene.uv_projections.len() + scene.motions.len());
+    let rays = if bounces(scene) { 1 + u64::from(scene.header.max_depth) } else { 1 };
+    let bumped = scene.materials.iter().any(|m| m.bump_texture_index != NO_TEXTURE);
     let taps = if bumped { TAPS } else { 1 };
     let hit = 1 + shapes + records + count(scene.lights.len()) * (1 + shapes);
-    let chances = scene.header.chances[0];
+    let chances = scene.header.sample_dimensions;
     let glass = u64::from(chances >> SampleDimension::Fresnel as u32 & 1);
     let choices = if chances == 0 { 0 } else { (4 + glass) * (1 + POINTS) };
     rays * (choices + hit + taps * turns_of_a_look_up(scene, ellipse))
@@ -85,14 +85,14 @@ fn turns_of_a_sample(scene: &PackedScene, ellipse: u64) -> u64 {
 
 fn turns_of_a_look_up(scene: &PackedScene, ellipse: u64) -> u64 {
     let records = (scene.textures.len() + scene.samplers.len() + scene.procedurals.len()) as u64;
-    let is = |kind: TextureKind| scene.textures.iter().any(|t| t.link[3] == kind as u32);
+    let is = |kind: TextureKind| scene.textures.iter().any(|t| t.kind == kind);
     let procedural = scene.procedurals.iter().map(turns_of_a_pattern).max().unwrap_or(0);
     let solid = if is(TextureKind::Volume) || is(TextureKind::Cube) { SOLID } else { 1 };
     let of_sampler = |sampler: &Sampler| {
-        let filters = [sampler.modes[2], sampler.link[1]];
-        let has = |filter: Filter| filters.contains(&(filter as u32));
+        let filters = [sampler.mag_filter, sampler.min_filter];
+        let has = |filter: Filter| filters.contains(&filter);
         let place = if has(Filter::Cubic) { CUBIC.max(solid) } else { solid };
-        let probes = if has(Filter::Anisotropic) { u64::from(sampler.link[3]) + 2 } else { 2 };
+        let probes = if has(Filter::Anisotropic) { u64::from(sampler.max_anisotropy) + 2 } else { 2 };
         let walked = probes * (1 + place);
         if has(Filter::Ewa) {
             ellipse.max(walked)
@@ -108,5 +108,5 @@ fn turns_of_a_look_up(scene: &PackedScene, ellipse: u64) -> u64 {
 
 /// Octaves, the 27 cells around a place, or boxes along a footprint.
 fn turns_of_a_pattern(pattern: &Procedural) -> u64 {
-    u64::from(pattern.link[2]).max(27) + BOXES
+    u64::from(pattern.octaves).max(27) + BOXES
 }

@@ -255,7 +255,7 @@ impl Prepared<'_, '_> {
     pub fn render_to_goal(&self, goal: Option<Goal>, progress: &dyn Progress) -> Result<(Film, Report)> {
         self.session.write_header(&self.scene.header)?;
         let mut report = self.report.clone();
-        let [width, height, _, _] = self.scene.header.size;
+        let [width, height] = self.scene.header.film_size.to_array();
         if let Some(guards) = &self.session.resources.guards {
             guards.clear(self.session.gpu)?;
         }

@@ -20,7 +20,7 @@ pub fn constants(
         (Constant::TrianglesAt, sections.triangles),
         (Constant::LightsAt, sections.lights),
         (Constant::MaterialsAt, sections.materials),
-        (Constant::UvProjectionsAt, sections.maps),
+        (Constant::UvProjectionsAt, sections.uv_projections),
         (Constant::TexturesAt, sections.textures),
         (Constant::SamplersAt, sections.samplers),
         (Constant::ProceduralsAt, sections.procedurals),

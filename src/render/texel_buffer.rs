@@ -34,15 +34,15 @@ impl TexelBuffer {
         let mut written = 0;
         for &texture in &packed.device_levels {
             let record = &packed.textures[texture];
-            let start = record.place[0] as usize * 4;
+            let start = record.first_word as usize * 4;
             if start >= bytes {
                 continue;
             }
             texel_buffer.write(gpu, written, &texels[written..start])?;
             let mip_chain = maker.make(&MipSource {
                 name: &packed.texture_names[texture],
-                format: TexelFormat::ALL[record.place[3] as usize],
-                space: ColorSpace::ALL[record.link[0] as usize],
+                format: record.format,
+                space: record.color_space,
                 sizes: &sizes(packed, texture),
                 texels: packed.level_texels(texture, 0),
             })?;

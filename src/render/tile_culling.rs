@@ -36,8 +36,8 @@ impl TileCulling {
         let slots = resources.slots;
         let constants = specialization::constants(shader, features, &resources.sections, [GROUP, 1], slots);
         let pipeline = build_pipeline(gpu, shader, &constants, slots, size_of::<CellRange>())?;
-        let [width, height, _, _] = scene.header.size;
-        let side = scene.header.chances[3];
+        let [width, height] = scene.header.film_size.to_array();
+        let side = scene.header.cell_side;
         let cells = [width, height].map(|pixels| pixels.div_ceil(side));
         let bytes = cells.map(u64::from).iter().product::<u64>() * u64::from(CELL_WORDS) * 4;
         let buffer = gpu.buffer("survey", bytes, BufferUse::Storage)?;

@@ -10,4 +10,7 @@ pub mod constants;
 pub mod enums;
 mod job;
 pub mod layout;
+pub mod packing;
+pub mod record;
+pub mod records;
 pub mod specialization;

@@ -11,6 +11,12 @@ macro_rules! enums {
                 pub enum $enum { $($(#[$vmeta])* $variant = $name,)+ }
             }
 
+            impl super::record::Field for $enum {
+                fn write(self, double: bool, bytes: &mut Vec<u8>) {
+                    (self as u32).write(double, bytes);
+                }
+            }
+
             impl Default for $enum {
                 /// Returns the variant that is 0 in device memory.
                 fn default() -> $enum {
@@ -111,5 +117,34 @@ macro_rules! kind {
     };
     (id) => {
         Kind::Parameter
+    };
+}
+
+/// Records of the scene buffer, and the word for the code that goes through a list of them.
+macro_rules! records {
+    ($($(#[$meta:meta])* $record:ident $(in $list:ident as $what:literal)? { $($(#[$fmeta:meta])* $field:ident: $type:ident,)+ })+) => {
+        use super::enums::*;
+        use super::packing::{Packer, shape};
+        use super::record::{Field as _, RealBits, Record, Writer};
+        use glam::{DVec2, DVec3, DVec4, UVec2, UVec3, Vec3, Vec4};
+        $(
+            $(#[$meta])*
+            #[derive(Clone, Copy, Debug, Default, PartialEq)]
+            pub struct $record { $($(#[$fmeta])* pub $field: $type,)+ }
+
+            impl Record for $record {
+                const UNITS: (u32, u32) = Packer::units(&[$(shape(stringify!($type)),)+]);
+
+                fn write(&self, double: bool, bytes: &mut Vec<u8>) {
+                    let mut writer = Writer::new(double, bytes);
+                    $(writer.field(shape(stringify!($type)), self.$field);)+
+                    writer.end();
+                }
+
+                fn quantize_f32(&self) -> Self {
+                    $record { $($field: self.$field.quantize_f32(),)+ }
+                }
+            }
+        )+
     };
 }
