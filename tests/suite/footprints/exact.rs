@@ -3,8 +3,10 @@
 //! entity, around seams and poles, directly, in mirrors and through glass.
 
 use glam::{DVec2, DVec3};
+use moire::oracle::bsdf::dielectric::refracted;
+use moire::oracle::bsdf::mirror::mirrored;
 use moire::oracle::camera::{Ray, camera_ray};
-use moire::oracle::footprint::{Footprint, camera_differential, mirrored, refracted};
+use moire::oracle::footprint::{Footprint, camera_differential};
 use moire::oracle::footprint_axes::in_texture;
 use moire::oracle::intersect::{nearest_hit, offset_origin};
 use moire::oracle::mapping::texture_coordinate;

@@ -6,8 +6,8 @@ use std::f64::consts::{PI, TAU};
 use glam::{DVec2, DVec3};
 use moire::core::film::Film;
 use moire::lab::metrics::compare;
+use moire::oracle::bsdf::facets::{smith, smith_g2_over_g1, visible_normal, widened_differential};
 use moire::oracle::footprint::{RayDifferential, mirrored};
-use moire::oracle::glossy::{smith, smith_g2_over_g1, visible_normal, widened_differential};
 use moire::scene::model::{Pattern, Scene};
 use moire::scene::parse;
 

@@ -4,9 +4,9 @@ use std::f64::consts::TAU;
 
 use glam::{DVec2, DVec3};
 use moire::lab::probe::{self, WarpAnswer, WarpQuery};
+use moire::oracle::bsdf::facets::{smith_g2_over_g1, visible_normal};
 use moire::oracle::disk_sampling::{concentric_disc, on_cap};
 use moire::oracle::footprint::{around, mirrored};
-use moire::oracle::glossy::{smith_g2_over_g1, visible_normal};
 use moire::oracle::math::xyz;
 use moire::scene::model::Pattern;
 
