@@ -4,9 +4,10 @@
 use std::collections::BTreeMap;
 
 use glam::{DVec2, DVec3};
+use moire::internal::oracle::bsdf::mirror::mirrored;
 use moire::internal::oracle::camera::camera_ray;
 use moire::internal::oracle::cone::{cone_of, leaving};
-use moire::internal::oracle::footprint::{camera_differential, mirrored};
+use moire::internal::oracle::footprint::camera_differential;
 use moire::internal::oracle::fragments::{collect_fragments, composite};
 use moire::internal::oracle::intersect::FAR;
 use moire::internal::oracle::math::xyz;
