@@ -19,6 +19,8 @@ mod decode_errors;
 mod device;
 mod device_shaders;
 mod dimensions;
+#[cfg(unix)]
+mod docs;
 mod double;
 #[cfg(unix)]
 mod driver_cache;
@@ -56,7 +58,6 @@ mod programs;
 mod pyramids;
 mod random_scenes;
 mod rays;
-mod readme;
 mod resubmit;
 mod scene;
 mod shared_gpu;

@@ -1,0 +1,76 @@
+//! README.md and docs: every command works, every link leads somewhere, the scene format and the command line
+//! are those of the code, and every formula has its functions and its test. In: the pages beside the data.
+//! `MOIRE_UPDATE_DOCS=1` rewrites what is generated in them and still fails: read the change, then test again.
+
+mod cli;
+mod commands;
+mod formulas;
+mod links;
+mod probe;
+mod scene_format;
+mod synonyms;
+mod table;
+
+use std::fs;
+use std::path::PathBuf;
+
+use crate::layering::files_under;
+use crate::support::{data, untested};
+
+/// The README leads to the docs; it does not hold them.
+const MOST_README_LINES: usize = 250;
+
+pub struct Page {
+    /// Relative to the root of the repository: `docs/cli.md`.
+    pub name: String,
+    pub text: String,
+}
+
+/// The root of the repository; `None` where only binaries and data were carried.
+pub fn root() -> Option<PathBuf> {
+    let root = data().join("..");
+    let there = root.join("README.md").is_file() && root.join("docs").is_dir();
+    if !there {
+        untested("README.md and docs: they are not beside the data");
+    }
+    there.then_some(root)
+}
+
+/// README.md first, then the files of `docs` by name.
+pub fn pages() -> Vec<Page> {
+    let Some(root) = root() else { return Vec::new() };
+    let mut files = Vec::new();
+    files_under(&root.join("docs"), &mut files);
+    files.retain(|file| file.extension().is_some_and(|e| e == "md"));
+    files.sort();
+    files.insert(0, root.join("README.md"));
+    let page = |file: PathBuf| Page {
+        name: file.strip_prefix(&root).unwrap().to_string_lossy().replace('\\', "/"),
+        text: fs::read_to_string(&file).unwrap(),
+    };
+    files.into_iter().map(page).collect()
+}
+
+/// Fails with the faults of a page. Where `MOIRE_UPDATE_DOCS` is set the page becomes `right` first.
+pub fn judge(page: &str, faults: &[String], right: &str) {
+    if faults.is_empty() {
+        return;
+    }
+    let update = std::env::var_os("MOIRE_UPDATE_DOCS").is_some();
+    if update {
+        fs::write(data().join("..").join(page), right).unwrap();
+    }
+    let next = if update {
+        "rewritten: read the change, fill in what is marked \"?\", then test again without MOIRE_UPDATE_DOCS"
+    } else {
+        "MOIRE_UPDATE_DOCS=1 rewrites what is generated"
+    };
+    panic!("{page}:\n{}\n{next}", faults.join("\n"));
+}
+
+#[test]
+fn the_readme_is_short() {
+    let Some(readme) = pages().into_iter().next() else { return };
+    let lines = readme.text.lines().count();
+    assert!(lines <= MOST_README_LINES, "README.md has {lines} lines, more than {MOST_README_LINES}");
+}
