@@ -22,5 +22,5 @@ void main() {
     if (i >= range.count) return;
     vec4 d = queries[i].direction;
     vec3 n = queries[i].normal.xyz;
-    answers[i] = vec4(refracted(d.xyz, n, d.w), reflectance(d.xyz, n, d.w));
+    answers[i] = vec4(refracted(d.xyz, n, d.w), fresnel_dielectric(d.xyz, n, d.w));
 }

@@ -4,7 +4,7 @@
 #ifndef GLOSSY_GLSL
 #define GLOSSY_GLSL
 
-#include "choices.glsl"
+#include "sample_dimensions.glsl"
 #include "footprint.glsl"
 
 // The normal of a facet that a ray along `direction` meets, on a surface with unit normal n against the ray.
@@ -25,23 +25,23 @@ float smith(float cosine, float alpha) {
 }
 
 // G2 / G1 of reflection, heights correlated (Heitz 2014).
-float mirrored_share(float seen, float leaving, float alpha) {
+float smith_g2_over_g1(float seen, float leaving, float alpha) {
     float a = smith(seen, alpha);
     return leaving * (seen + a) / (a * leaving + smith(leaving, alpha) * seen);
 }
 
 // G2 / G1 of refraction, whose two sides are taken as independent: G1 of the way that leaves.
-float refracted_share(float leaving, float alpha) {
+float smith_g1_refracted(float leaving, float alpha) {
     return 2.0 * leaving / (leaving + smith(leaving, alpha));
 }
 
 // The beam as wide as the part of the lobe that a sample stands for: about half of a lobe's light lies within
 // 2 alpha, as mirrors turn a ray by twice what their normal turns.
-Beam widened_beam(Header header, Beam beam, vec3 direction, float alpha) {
+RayDifferential widened_differential(Header header, RayDifferential beam, vec3 direction, float alpha) {
     if (!FILTERED) return beam;
     float size = sqrt(dot3(direction, direction));
     float by = 2.0 * alpha * float(header.step_x.w) * size;
-    Beam next = beam;
+    RayDifferential next = beam;
     if (DIFFERENTIALS) {
         vec3 unit = direction / size;
         vec3 x = beam.direction_x - dot3(unit, beam.direction_x) * unit;

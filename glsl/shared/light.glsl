@@ -5,7 +5,7 @@
 #ifndef LIGHT_GLSL
 #define LIGHT_GLSL
 
-#include "choices.glsl"
+#include "sample_dimensions.glsl"
 #include "rectangle.glsl"
 #include "surface.glsl"
 
@@ -50,7 +50,7 @@ Aim rectangle_aim(Light light, real3 point, vec2 square) {
         vec3 m = vec3(to_middle);
         float height = -dot3(m, n);
         vec4 seen = on_rectangle(vec2(dot3(m, x), dot3(m, y)), 0.5 * sides, max(height, 0.0), square);
-        if (height > 0.0 && seen.w >= LEAST_SOLID_ANGLE) {
+        if (height > 0.0 && seen.w >= MIN_SOLID_ANGLE) {
             vec3 way = (seen.x * x + seen.y * y) + seen.z * n;
             return Aim(real3(way), BEFORE_LIGHT, seen.w * inversesqrt(dot3(way, way)));
         }
@@ -81,7 +81,7 @@ float phong_lobe(vec3 mirror, vec3 way, float exponent) {
 }
 
 Lit direct_light(Header header, Surface surface, float time, uint shape, vec3 mirror, float exponent, Points points,
-                 Choices choices) {
+                 SampleDimensions dimensions) {
     Lit sum = Lit(vec3(0.0), vec3(0.0));
     uint lights = COUNT(LIGHTS, header.key.y);
     real3 start = surface.point;
@@ -93,7 +93,7 @@ Lit direct_light(Header header, Surface surface, float time, uint shape, vec3 mi
         Aim aim = Aim(way, point_light ? 1.0 : FAR, 1.0);
         if (AREA_LIGHTS) {
             if (light.link.x >= LIGHT_SPHERE) {
-                vec2 square = chosen_light(points, choices, i);
+                vec2 square = chosen_light(points, dimensions, i);
                 if (MODE_IS(LIGHT_KINDS, LIGHT_SPHERE, light.link.x)) {
                     aim = sphere_aim(light, surface.point, square);
                 } else if (MODE_IS(LIGHT_KINDS, LIGHT_RECTANGLE, light.link.x)) {

@@ -39,7 +39,7 @@ const MEASURING: &str = "Measuring";
 /// they can write; and where no person reads stderr, messages keep to their own lines, so that what they quote
 /// stays whole.
 pub fn prepare_process() {
-    gpu::settle_driver_cache();
+    gpu::prepare_driver_cache();
     #[cfg(unix)]
     {
         let noticed = std::sync::Arc::default();

@@ -10,9 +10,9 @@ pub trait Progress: Sync {
 }
 
 /// Says nothing, never stops.
-pub struct Silent;
+pub struct NoProgress;
 
-impl Progress for Silent {
+impl Progress for NoProgress {
     fn advance(&self, _done: f64) {}
 
     fn cancelled(&self) -> bool {
@@ -21,13 +21,13 @@ impl Progress for Silent {
 }
 
 /// A part of a longer computation, from `from` to `to` of it.
-pub struct Part<'a> {
+pub struct SubProgress<'a> {
     pub whole: &'a dyn Progress,
     pub from: f64,
     pub to: f64,
 }
 
-impl Progress for Part<'_> {
+impl Progress for SubProgress<'_> {
     fn advance(&self, done: f64) {
         self.whole.advance(self.from + done * (self.to - self.from));
     }

@@ -14,7 +14,7 @@ const CACHE: &str = "mesa_shader_cache";
 
 /// Sets the folder for this process, where it has to be another one. Does nothing once there are other
 /// threads, which might read the environment just then.
-pub fn settle() {
+pub fn prepare() {
     let decided = ["MESA_SHADER_CACHE_DISABLE", "MESA_GLSL_CACHE_DISABLE"].map(env::var_os);
     if decided.iter().any(Option::is_some) || wanted().is_some_and(|folder| is_usable(&folder)) || !is_alone()
     {

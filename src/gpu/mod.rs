@@ -37,7 +37,7 @@ pub use buffer::{Buffer, BufferUse};
 pub use debug::{MessageLog, validation_available};
 pub use descriptor::{BindGroup, BindingDesc, BindingKind, Bound};
 #[cfg(unix)]
-pub use driver_cache::settle as settle_driver_cache;
+pub use driver_cache::prepare as prepare_driver_cache;
 pub use image::{Image, ImageDesc, ImageFormat, ImageShape, Swizzle};
 pub use info::{DeviceInfo, DeviceKind, DeviceLimits};
 pub use instance::list_devices;
@@ -55,7 +55,7 @@ use staging::Staging;
 
 /// Does nothing: Mesa keeps a cache on Unix alone.
 #[cfg(not(unix))]
-pub fn settle_driver_cache() {}
+pub fn prepare_driver_cache() {}
 
 /// How a device is opened.
 #[derive(Clone, Copy, Debug, Default)]

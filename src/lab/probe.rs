@@ -1,5 +1,5 @@
 //! Parts of the renderer by themselves, on a device: look-ups, procedural textures, rays and sample
-//! positions from lists of queries; mip pyramids. What tests and conformance reports compare with the oracle; the
+//! positions from lists of queries; mip mip_chains. What tests and conformance reports compare with the oracle; the
 //! shaders run the very functions that rendering runs.
 
 mod records;
@@ -11,7 +11,7 @@ use crate::gpu::shaders::{self, Shader};
 use crate::gpu::{BufferUse, Gpu, Pipeline};
 use crate::pack::features::{Features, TexelSource};
 use crate::pack::{PackedScene, SlotCounts};
-use crate::render::{Maker, Resources, Top, Tuning, build_pipeline, specialization};
+use crate::render::{MipGenerator, MipSource, Resources, Tuning, build_pipeline, specialization};
 use crate::texture::data::TextureData;
 use crate::texture::mips;
 
@@ -89,39 +89,39 @@ impl<'a> LookUps<'a> {
     }
 }
 
-/// Box pyramids of one texture after the other. Formats share pipelines.
-pub struct Pyramids<'a>(&'a Gpu, Maker<'a>);
+/// Box mip chains of one texture after the other. Formats share pipelines.
+pub struct MipPlacement<'a>(&'a Gpu, MipGenerator<'a>);
 
-impl<'a> Pyramids<'a> {
-    pub fn new(gpu: &'a Gpu) -> Pyramids<'a> {
-        Pyramids(gpu, Maker::new(gpu))
+impl<'a> MipPlacement<'a> {
+    pub fn new(gpu: &'a Gpu) -> MipPlacement<'a> {
+        MipPlacement(gpu, MipGenerator::new(gpu))
     }
 
     /// Levels 1 to the last, as `texture::mips` makes them, and the device's seconds.
     pub fn make(&mut self, texture: &TextureData) -> Result<(Vec<TextureData>, f64)> {
-        let Pyramids(gpu, maker) = self;
+        let MipPlacement(gpu, maker) = self;
         let mut levels = mips::blank(texture);
         if levels.is_empty() {
             return Ok((levels, 0.0));
         }
         if !mips::halves_throughout(texture) {
             return Err(Error::new(format!(
-                "texture \"{}\": devices make pyramids of lengths that are powers of two",
+                "texture \"{}\": devices make mip_chains of lengths that are powers of two",
                 texture.name
             )));
         }
         let sizes: Vec<[u32; 3]> =
             (0..mips::level_count(texture)).map(|level| mips::level_size(texture, level)).collect();
         maker.seconds = None;
-        let pyramid = maker.make(&Top {
+        let mip_chain = maker.make(&MipSource {
             name: &texture.name,
             format: texture.format,
             space: texture.color_space,
             sizes: &sizes,
             texels: &texture.texels,
         })?;
-        for (level, start) in levels.iter_mut().zip(&pyramid.starts[1..]) {
-            gpu.read_buffer(&pyramid.buffer, *start, &mut level.texels)?;
+        for (level, start) in levels.iter_mut().zip(&mip_chain.starts[1..]) {
+            gpu.read_buffer(&mip_chain.buffer, *start, &mut level.texels)?;
         }
         Ok((levels, maker.seconds.unwrap_or(0.0)))
     }
@@ -166,7 +166,7 @@ pub fn procedurals(
 pub fn warps(gpu: &Gpu, scene: &PackedScene, queries: &[WarpQuery]) -> Result<Vec<WarpAnswer>> {
     let features = Features::new(scene, false, false);
     let list = Some(bytemuck::cast_slice(queries));
-    run(gpu, scene, &features, &shaders::PROBE_WARPS, list, queries.len(), &[])
+    run(gpu, scene, &features, &shaders::PROBE_DISK_SAMPLING, list, queries.len(), &[])
 }
 
 /// The direction behind the surface, and the share of light that is mirrored.

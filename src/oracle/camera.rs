@@ -2,8 +2,8 @@
 
 use glam::{DVec2, DVec3};
 
+use super::disk_sampling::concentric_disc;
 use super::math::xyz;
-use super::warps::concentric_disc;
 use crate::pack::ProjectionKind;
 use crate::schema::layout::Header;
 

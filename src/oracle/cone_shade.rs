@@ -6,26 +6,26 @@ use glam::{DVec2, DVec3};
 
 use super::camera::{Ray, camera_ray};
 use super::cone::{Cone, cone_of, leaving, meet};
-use super::coverage::{Covered, LEAST_SHARE};
+use super::coverage::{Covered, MIN_SHARE};
 use super::footprint::{
-    Beam, Footprint, Meeting, camera_beam, endless_footprint, footprint_at, mirrored, mirrored_beam,
-    reflectance, refracted, refracted_beam,
+    Footprint, Meeting, RayDifferential, camera_differential, endless_footprint, footprint_at,
+    fresnel_dielectric, mirrored, reflected_differential, refracted, refracted_differential,
 };
+use super::fragments::{collect_fragments, composite};
 use super::intersect::{FAR, Hit, offset_origin};
 use super::light::phong_lobe;
 use super::math::xyz;
-use super::pieces::{gather, lay_over};
 use super::shade::{bumped_normal, surface_color};
-use super::shading_normal::{on_its_side, settle_normal};
+use super::shading_normal::{consistent_normal, on_its_side};
 use super::surface::{Surface, hit_surface};
 use crate::pack::{LightKind, PackedScene};
 use crate::scene::model::Model;
 use crate::schema::layout::{Light, Material, NO_MATERIAL, NO_SHAPE};
 
 /// Cones that wait, cones of a pixel, and the least weight of one. What goes beyond is dropped.
-const MOST_WAITING: usize = 32;
-const MOST_CONES: u32 = 64;
-const LEAST_WEIGHT: f64 = 1.0 / 1024.0;
+const MAX_WAITING: usize = 32;
+const MAX_CONES: u32 = 64;
+const MIN_WEIGHT: f64 = 1.0 / 1024.0;
 
 /// What a cone is traced for.
 #[derive(Clone, Copy, Debug)]
@@ -61,7 +61,7 @@ fn largest(v: DVec3) -> f64 {
 
 impl Waiting {
     fn send(&mut self, branch: Branch) {
-        if self.list.len() == MOST_WAITING {
+        if self.list.len() == MAX_WAITING {
             self.dropped += largest(branch.weight);
         } else {
             self.list.push(branch);
@@ -69,8 +69,8 @@ impl Waiting {
     }
 }
 
-fn cone_beam(branch: &Branch) -> Beam {
-    Beam { width: branch.width, spread: branch.spread, ..Beam::default() }
+fn cone_beam(branch: &Branch) -> RayDifferential {
+    RayDifferential { width: branch.width, spread: branch.spread, ..RayDifferential::default() }
 }
 
 /// Where a part of a cone meets a shape.
@@ -131,16 +131,16 @@ fn bent_branch(branch: &Branch, met: &Met<'_>, ratio: f64, share: f64, skip: u32
         t: met.hit.t,
         print: met.print,
         normal: surface.normal,
-        bend: surface.bend,
+        shape_operator: surface.shape_operator,
         curvature: surface.curvature,
     };
     let direction = branch.ray.direction;
     let (beam, direction, side) = if through {
         let way = refracted(direction, surface.normal, ratio);
         let way = on_its_side(direction, way, -surface.normal, -surface.geometric_normal);
-        (refracted_beam(&beam, &meeting, ratio), way, -1.0)
+        (refracted_differential(&beam, &meeting, ratio), way, -1.0)
     } else {
-        (mirrored_beam(&beam, &meeting), mirrored(direction, surface.normal), 1.0)
+        (reflected_differential(&beam, &meeting), mirrored(direction, surface.normal), 1.0)
     };
     let origin = offset_origin(surface.point, side * surface.geometric_normal, surface.size);
     let depth = if let Goal::Color(depth) = branch.goal { depth + 1 } else { 0 };
@@ -182,7 +182,7 @@ fn shade_part(waiting: &mut Waiting, scene: &PackedScene, mut branch: Branch, sh
     let inside = surface.inside;
     let model = Model::ALL[material.link[0] as usize];
     if matches!(model, Model::Mirror | Model::Dielectric) {
-        settle_normal(ray.direction, &mut surface);
+        consistent_normal(ray.direction, &mut surface);
     }
     let met = Met { hit, surface, print, material, carried };
     if model == Model::Unlit {
@@ -203,13 +203,13 @@ fn shade_part(waiting: &mut Waiting, scene: &PackedScene, mut branch: Branch, sh
     let ior = f64::from(material.specular[3]);
     let ratio = if inside { ior } else { 1.0 / ior };
     let glass = model == Model::Dielectric;
-    let back = if glass { reflectance(ray.direction, surface.normal, ratio) } else { 1.0 };
+    let back = if glass { fresnel_dielectric(ray.direction, surface.normal, ratio) } else { 1.0 };
     // What goes through glass and then what it returns, which as the last is traced first.
     for (through, share) in [(true, 1.0 - back), (false, back)] {
         let skip = left_shape(scene, shape, inside != through);
         let next = bent_branch(&branch, &met, ratio, share, skip, through);
         let weight = largest(next.weight);
-        if weight >= LEAST_WEIGHT {
+        if weight >= MIN_WEIGHT {
             waiting.send(next);
         } else {
             waiting.dropped += weight;
@@ -231,7 +231,7 @@ fn part_of(branch: &Branch, cone: &Cone, covered: Covered, norm: f64) -> Branch 
 }
 
 /// What the cone around a ray from the camera sees, and the weight of what was dropped.
-pub fn trace_cone(scene: &PackedScene, ray: Ray, beam: Beam) -> (DVec3, f64) {
+pub fn trace_cone(scene: &PackedScene, ray: Ray, beam: RayDifferential) -> (DVec3, f64) {
     let first = Branch {
         ray,
         width: beam.width,
@@ -242,27 +242,27 @@ pub fn trace_cone(scene: &PackedScene, ray: Ray, beam: Beam) -> (DVec3, f64) {
     };
     let mut waiting = Waiting { list: vec![first], dropped: 0.0 };
     let mut sum = DVec3::ZERO;
-    for _ in 0..MOST_CONES {
+    for _ in 0..MAX_CONES {
         let Some(branch) = waiting.list.pop() else { break };
         let from_camera = matches!(branch.goal, Goal::Color(0));
         let across = if from_camera { xyz(scene.header.step_x) } else { DVec3::ZERO };
         let cone = cone_of(branch.ray, branch.width, branch.spread, across);
         let cone = leaving(scene, cone, branch.skip);
         let t_max = if let Goal::Light(t_max) = branch.goal { t_max } else { FAR };
-        let mut pieces = gather(scene, &cone, branch.skip, t_max);
-        let mut rest = lay_over(&mut pieces, scene, &cone);
+        let mut fragments = collect_fragments(scene, &cone, branch.skip, t_max);
+        let mut rest = composite(&mut fragments, scene, &cone);
         if let Goal::Light(_) = branch.goal {
-            sum += branch.weight * rest.share * pieces.clear;
+            sum += branch.weight * rest.share * fragments.clear;
             continue;
         }
         // Those that are kept stand for shapes that are not.
-        let replaced = rest.share * (1.0 - pieces.clear);
-        let norm = 1.0 + replaced / (1.0 - rest.share).max(LEAST_SHARE);
+        let replaced = rest.share * (1.0 - fragments.clear);
+        let norm = 1.0 + replaced / (1.0 - rest.share).max(MIN_SHARE);
         waiting.dropped += largest(branch.weight) * replaced;
         rest.share -= replaced;
-        for piece in pieces.list.iter().filter(|p| p.seen > 0.0) {
-            let part = Covered { share: piece.seen, center: piece.center };
-            sum += shade_part(&mut waiting, scene, part_of(&branch, &cone, part, norm), piece.shape);
+        for fragment in fragments.list.iter().filter(|p| p.seen > 0.0) {
+            let part = Covered { share: fragment.seen, center: fragment.center };
+            sum += shade_part(&mut waiting, scene, part_of(&branch, &cone, part, norm), fragment.shape);
         }
         if rest.share > 0.0 {
             sum += shade_part(&mut waiting, scene, part_of(&branch, &cone, rest, 1.0), NO_SHAPE);
@@ -277,5 +277,5 @@ pub fn pixel(scene: &PackedScene, x: u32, y: u32) -> (DVec3, f64) {
     const MIDDLE: DVec2 = DVec2::splat(0.5);
     let header = &scene.header;
     let ray = camera_ray(header, [x + header.image[2], y + header.image[3]], MIDDLE);
-    trace_cone(scene, ray, camera_beam(header, &ray))
+    trace_cone(scene, ray, camera_differential(header, &ray))
 }

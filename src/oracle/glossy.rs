@@ -3,8 +3,8 @@
 
 use glam::{DVec2, DVec3};
 
-use super::footprint::{Beam, any_tangent, around};
-use super::warps::{concentric_disc, on_cap};
+use super::disk_sampling::{concentric_disc, on_cap};
+use super::footprint::{RayDifferential, any_tangent, around};
 use crate::schema::layout::Header;
 
 /// The normal of a facet that a ray along `direction` meets, on a surface with unit normal n against the ray.
@@ -23,18 +23,23 @@ pub fn smith(cosine: f64, alpha: f64) -> f64 {
 }
 
 /// G2 / G1 of reflection, heights correlated (Heitz 2014).
-pub fn mirrored_share(seen: f64, leaving: f64, alpha: f64) -> f64 {
+pub fn smith_g2_over_g1(seen: f64, leaving: f64, alpha: f64) -> f64 {
     let a = smith(seen, alpha);
     leaving * (seen + a) / (a * leaving + smith(leaving, alpha) * seen)
 }
 
 /// G2 / G1 of refraction, whose two sides are taken as independent: G1 of the way that leaves.
-pub fn refracted_share(leaving: f64, alpha: f64) -> f64 {
+pub fn smith_g1_refracted(leaving: f64, alpha: f64) -> f64 {
     2.0 * leaving / (leaving + smith(leaving, alpha))
 }
 
 /// The beam as wide as the part of the lobe that a sample stands for.
-pub fn widened_beam(header: &Header, beam: &Beam, direction: DVec3, alpha: f64) -> Beam {
+pub fn widened_differential(
+    header: &Header,
+    beam: &RayDifferential,
+    direction: DVec3,
+    alpha: f64,
+) -> RayDifferential {
     let size = direction.length();
     let by = 2.0 * alpha * header.step_x[3] * size;
     let unit = direction / size;
@@ -42,5 +47,5 @@ pub fn widened_beam(header: &Header, beam: &Beam, direction: DVec3, alpha: f64) 
     let first = (x - unit.dot(x) * unit).try_normalize().unwrap_or_else(|| any_tangent(unit));
     let second = unit.cross(first);
     let side = if second.dot(y) < 0.0 { -by } else { by };
-    Beam { direction: [x + by * first, y + side * second], spread: beam.spread + by, ..*beam }
+    RayDifferential { direction: [x + by * first, y + side * second], spread: beam.spread + by, ..*beam }
 }

@@ -13,7 +13,7 @@ use crate::texture::sampler_spec::{Address, Filter, TexelCenter};
 pub struct Grid<'a> {
     sums: &'a [u32],
     pub checker: bool,
-    /// Seen from so far that all has the colour of the mean.
+    /// MapInput from so far that all has the colour of the mean.
     pub even: bool,
     /// Of a texture that does not repeat, coarser levels are no prefilter beyond its edges.
     pub unknown: bool,

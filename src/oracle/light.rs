@@ -6,12 +6,12 @@ use std::f64::consts::PI;
 use glam::{DVec2, DVec3};
 
 use super::camera::Ray;
+use super::disk_sampling::{concentric_disc, on_cap};
 use super::footprint::around;
 use super::intersect::{FAR, occluded, offset_origin};
 use super::math::xyz;
-use super::rectangle::{LEAST_SOLID_ANGLE, on_rectangle};
+use super::rectangle::{MIN_SOLID_ANGLE, on_rectangle};
 use super::surface::Surface;
-use super::warps::{concentric_disc, on_cap};
 use crate::pack::{LightKind, PackedScene};
 use crate::schema::layout::Light;
 
@@ -54,7 +54,7 @@ pub fn rectangle_aim(light: &Light, point: DVec3, square: DVec2) -> Aim {
         let height = -to_middle.dot(n);
         let middle = DVec2::new(to_middle.dot(x), to_middle.dot(y));
         let (place, solid_angle) = on_rectangle(middle, 0.5 * sides, height.max(0.0), square);
-        if height > 0.0 && solid_angle >= LEAST_SOLID_ANGLE {
+        if height > 0.0 && solid_angle >= MIN_SOLID_ANGLE {
             let way = place.x * x + place.y * y + place.z * n;
             return Aim { way, reach: BEFORE_LIGHT, density: solid_angle / way.length() };
         }

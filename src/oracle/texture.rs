@@ -11,7 +11,7 @@ use crate::schema::layout::{Sampler, Texture};
 use crate::texture::data::{ColorSpace, Component, TexelFormat};
 use crate::texture::sampler_spec::Address;
 
-/// One level of a texture's pyramid.
+/// One level of a texture's mip_chain.
 #[derive(Clone, Copy, Debug)]
 pub struct Level {
     /// Of a cube: width, height, 6.

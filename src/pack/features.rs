@@ -6,9 +6,9 @@ mod needs;
 
 use crate::core::named::named_enum;
 use crate::pack::{
-    Choice, EntityKind, LightKind, MapKind, PackedScene, ProjectionKind, Schedule, TextureKind,
+    EntityKind, LightKind, MapKind, PackedScene, ProjectionKind, SampleDimension, Schedule, TextureKind,
 };
-use crate::scene::model::{Footprint, Model, Pattern, PixelFilterKind, ReliefKind};
+use crate::scene::model::{BumpKind, Footprint, Model, Pattern, PixelFilterKind};
 use crate::schema::layout::{NO_MATERIAL, NO_TEXTURE};
 use crate::texture::data::{ColorSpace, Component, TexelFormat};
 use crate::texture::procedural::ProceduralKind;
@@ -16,8 +16,8 @@ use crate::texture::sampler_spec::{Address, Filter, Method, MipMode, TexelCenter
 
 pub use needs::bounces;
 use needs::{
-    bit, bits, casts_shadows, chooses, compensates, cone_shapes, counted_samples, filters,
-    filters_procedurals, reliefs, rotates, size_kind, stored, unrolled, warps,
+    bit, bits, bump_kinds, casts_shadows, chooses, compensates, cone_shapes, counted_samples, filters,
+    filters_procedurals, rotates, size_kind, stored, unrolled, warps,
 };
 
 named_enum! {
@@ -88,8 +88,8 @@ const FEATURES: &[(&str, &str, Narrow)] = &[
     ("ROTATED_UV", "rotation of texture coordinates", Switch(|s| s.maps.iter().any(rotates))),
     ("TEXTURED", "texture look-ups", Switch(|s| s.materials.iter().any(|m| m.link[1] != NO_TEXTURE))),
     ("UNTEXTURED", "plain materials", Switch(|s| s.materials.iter().any(|m| m.link[1] == NO_TEXTURE))),
-    ("BUMPED", "relief", Switch(|s| s.materials.iter().any(|m| m.detail[0] != NO_TEXTURE))),
-    ("RELIEFS", "relief", Modes(ReliefKind::NAMES, reliefs)),
+    ("BUMPED", "bump or normal map", Switch(|s| s.materials.iter().any(|m| m.detail[0] != NO_TEXTURE))),
+    ("BUMP_KINDS", "bump or normal map", Modes(BumpKind::NAMES, bump_kinds)),
     ("METHODS", "look-up method", Modes(Method::NAMES, |s| bits(s.samplers.iter().map(|x| x.link[0])))),
     ("ADDRESSES_U", "address u", Modes(Address::NAMES, |s| bits(s.samplers.iter().map(|x| x.modes[0])))),
     ("ADDRESSES_V", "address v", Modes(Address::NAMES, |s| bits(s.samplers.iter().map(|x| x.modes[1])))),
@@ -121,16 +121,16 @@ const FEATURES: &[(&str, &str, Narrow)] = &[
     ),
     ("PROCEDURAL_FILTERED", "filter of procedural textures", Switch(filters_procedurals)),
     ("COMPENSATED", "second film for rounding errors", Switch(compensates)),
-    // More than `MOST_PLAIN` of `render_main.glsl`.
+    // More than `MAX_PLAIN` of `render_main.glsl`.
     ("BLOCKS", "sums by blocks", Switch(|s| s.samples > 64 || s.schedule == Schedule::Jobs)),
     ("CONE_SHAPES", "cones through more shapes", Count(cone_shapes)),
-    ("CHOICES", "choice of a sample", Modes(Choice::NAMES, |s| s.header.chances[0])),
+    ("SAMPLE_DIMENSIONS", "choice of a sample", Modes(SampleDimension::NAMES, |s| s.header.chances[0])),
     ("MOTIONS", "choice among motions", Count(|s| unrolled(s.motions.len()))),
     ("MOVING_CAMERA", "motion of the camera", Switch(|s| s.header.chances[2] != 0)),
     ("SCHEDULES", "schedule", Modes(Schedule::NAMES, |s| bit(s.schedule as u32))),
     ("PIXEL_FILTERS", "pixel filter", Modes(PixelFilterKind::NAMES, |s| bit(s.header.pixel_filter[0]))),
-    ("GUARDED", "counters of what goes beyond a limit", Switch(|s| s.guarded)),
-    ("SURVEYED", "triangles by cells of the picture", Switch(PackedScene::surveyed)),
+    ("DIAGNOSED", "counters of what goes beyond a limit", Switch(|s| s.guarded)),
+    ("TILE_CULLED", "triangles by cells of the picture", Switch(PackedScene::culls_tiles)),
     ("WARPED", "samples beyond their pixels", Switch(warps)),
 ];
 

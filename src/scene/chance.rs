@@ -33,7 +33,7 @@ impl Scene {
 
     /// Whether one beam can stand for all rays of a pixel: those from its square, by equal weights, from one
     /// place at one time.
-    pub fn suits_beams(&self) -> bool {
+    pub fn supports_beams(&self) -> bool {
         self.pixel_filter.kind == PixelFilterKind::Box && self.camera.lens.is_none() && !self.moves()
     }
 

@@ -44,7 +44,7 @@ pub(super) fn material(table: &Table<'_>, known: &Known<'_, '_>) -> Result<Mater
     of_model(table, &mut material)?;
     let texture_field = table.get("texture");
     material.texture = texture_field.map(|field| known.textures.resolve(field)).transpose()?;
-    let relief_field = relief(table, &mut material, known)?;
+    let bump_field = bump(table, &mut material, known)?;
     material.sampler = match (table.get("sampler"), material.is_mapped()) {
         (Some(field), _) => known.samplers.resolve(field)?,
         (None, true) => known.default_sampler,
@@ -59,15 +59,15 @@ pub(super) fn material(table: &Table<'_>, known: &Known<'_, '_>) -> Result<Mater
             fits(field, &material.mapping, source.dimension)?;
         }
     }
-    if let (Some(field), Some(relief)) = (relief_field, material.relief) {
-        let source = &known.sources[relief.texture];
+    if let (Some(field), Some(bump)) = (bump_field, material.bump) {
+        let source = &known.sources[bump.texture];
         let dimension = source.dimension;
         if source.content.procedural().is_some() {
-            let what = "a relief is read from texels; bake the pattern into a picture";
+            let what = "a bump or normal map is read from texels; bake the pattern into a picture";
             return Err(field.error(what, "procedural"));
         }
         if !matches!(dimension, Dimension::One | Dimension::Two) {
-            let what = format!("a relief is a 2d texture; this one is {dimension}");
+            let what = format!("a bump or normal map is a 2d texture; this one is {dimension}");
             return Err(field.error(&what, "not 2d"));
         }
         fits(field, &material.mapping, dimension)?;
@@ -104,22 +104,18 @@ fn of_model(table: &Table<'_>, material: &mut Material) -> Result<()> {
     Ok(())
 }
 
-/// The field that names the relief's texture.
-fn relief<'a>(
-    table: &Table<'a>,
-    material: &mut Material,
-    known: &Known<'_, '_>,
-) -> Result<Option<Field<'a>>> {
+/// The field that names the bump map's texture.
+fn bump<'a>(table: &Table<'a>, material: &mut Material, known: &Known<'_, '_>) -> Result<Option<Field<'a>>> {
     let (field, kind) = match (table.get("normal_map"), table.get("bump_map")) {
         (Some(_), Some(bump)) => {
             return Err(bump.error("normal_map is given too; keep one of the two", "excludes normal_map"));
         }
-        (Some(field), None) => (field, ReliefKind::Normal),
-        (None, Some(field)) => (field, ReliefKind::Bump),
+        (Some(field), None) => (field, BumpKind::Normal),
+        (None, Some(field)) => (field, BumpKind::Bump),
         (None, None) => {
             return match (table.get("strength"), table.get("green")) {
                 (Some(field), _) => {
-                    Err(field.error("this needs a normal_map or a bump_map beside it", "no relief"))
+                    Err(field.error("this needs a normal_map or a bump_map beside it", "no map"))
                 }
                 (_, Some(field)) => Err(field.error("this needs a normal_map beside it", "no normal map")),
                 (None, None) => Ok(None),
@@ -127,17 +123,17 @@ fn relief<'a>(
         }
     };
     let kind = match table.get("green") {
-        Some(green) if kind == ReliefKind::Bump => {
+        Some(green) if kind == BumpKind::Bump => {
             return Err(green.error("a bump_map holds heights, which have no direction", "no normal map"));
         }
         Some(green) => match green.choice(Green::NAMES, Green::ALL)? {
-            Green::Up => ReliefKind::Normal,
-            Green::Down => ReliefKind::NormalDown,
+            Green::Up => BumpKind::Normal,
+            Green::Down => BumpKind::NormalDown,
         },
         None => kind,
     };
     let strength = table.get("strength").map_or(Ok(1.0), |field| field.number(&COORDINATE))?;
-    material.relief = Some(Relief { kind, texture: known.textures.resolve(field)?, strength });
+    material.bump = Some(BumpMap { kind, texture: known.textures.resolve(field)?, strength });
     Ok(Some(field))
 }
 

@@ -89,8 +89,8 @@ impl Model {
 }
 
 named_enum! {
-    /// What a material's relief texture holds.
-    pub enum ReliefKind {
+    /// What a material's bump texture holds.
+    pub enum BumpKind {
         /// Unit normals as 2 rgb - 1: along growing u, along growing v, outward.
         Normal = "normal",
         /// Heights.
@@ -110,16 +110,16 @@ named_enum! {
     }
 }
 
-impl ReliefKind {
+impl BumpKind {
     pub const fn is_normal_map(self) -> bool {
-        matches!(self, ReliefKind::Normal | ReliefKind::NormalDown)
+        matches!(self, BumpKind::Normal | BumpKind::NormalDown)
     }
 }
 
 /// A texture that turns the shading normal.
 #[derive(Clone, Copy, Debug)]
-pub struct Relief {
-    pub kind: ReliefKind,
+pub struct BumpMap {
+    pub kind: BumpKind,
     /// Index into `Scene::textures`.
     pub texture: usize,
     /// Normal map: factor of the two components along the surface. Bump map: height of a texel of 1, in
@@ -135,10 +135,10 @@ pub struct Material {
     pub color: DVec3,
     /// Index into `Scene::textures`.
     pub texture: Option<usize>,
-    /// Index into `Scene::samplers`; meaningful where a texture or a relief is set.
+    /// Index into `Scene::samplers`; meaningful where a texture or a bump map is set.
     pub sampler: usize,
     pub mapping: Mapping,
-    pub relief: Option<Relief>,
+    pub bump: Option<BumpMap>,
     /// Of the highlight of `phong`.
     pub specular: DVec3,
     pub exponent: f64,
@@ -157,7 +157,7 @@ impl Default for Material {
             texture: None,
             sampler: 0,
             mapping: Mapping::default(),
-            relief: None,
+            bump: None,
             specular: DVec3::splat(0.5),
             exponent: 32.0,
             ior: 1.5,
@@ -169,7 +169,7 @@ impl Default for Material {
 impl Material {
     /// Whether a map leads to a texture of this material.
     pub fn is_mapped(&self) -> bool {
-        self.texture.is_some() || self.relief.is_some()
+        self.texture.is_some() || self.bump.is_some()
     }
 }
 

@@ -30,8 +30,8 @@ macro_rules! mirror {
                 $(self.$field.write(double, bytes);)+
             }
 
-            fn rounded(&self) -> Self {
-                $name { $($field: self.$field.rounded(),)+ }
+            fn quantize_f32(&self) -> Self {
+                $name { $($field: self.$field.quantize_f32(),)+ }
             }
         }
     };
@@ -130,12 +130,12 @@ mirror!(Material, {
     color: [f32; 4],
     /// Model, texture or `NO_TEXTURE`, sampler, image slot.
     link: [u32; 4],
-    /// Of the relief: texture or `NO_TEXTURE`, sampler, image slot, kind.
+    /// Of the bump map: texture or `NO_TEXTURE`, sampler, image slot, kind.
     detail: [u32; 4],
     specular: [f32; 4],
 });
 
-mirror!(Map, {
+mirror!(UvProjection, {
     x: [f64; 4],
     y: [f64; 4],
     z: [f64; 4],
@@ -194,7 +194,7 @@ pub struct Slice {
 }
 const _: () = assert!(size_of::<Slice>() == 36);
 
-/// Mirror of the push constants of `survey_main.glsl`: cells `first` .. `end`.
+/// Mirror of the push constants of `tile_culling_main.glsl`: cells `first` .. `end`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
 pub struct Part {
@@ -245,7 +245,7 @@ impl Job {
     }
 }
 
-/// Mirror of the push constants of `pyramid.glsl`: one level from the one above.
+/// Mirror of the push constants of `mip_chain.glsl`: one level from the one above.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
 pub struct Halving {
@@ -276,14 +276,14 @@ pub const CHUNK: u32 = 256;
 /// Cells of the table by which samples are placed about a pixel.
 pub const PIXEL_FILTER_CELLS: u32 = 512;
 
-/// Words of a cell of the survey (`survey_main.glsl`): number of triangles, calmness, up to `MOST_LISTED` triangles.
+/// Words of a cell of the survey (`tile_culling_main.glsl`): number of triangles, calmness, up to `MAX_LISTED` triangles.
 pub const CELL_WORDS: u32 = 64;
-pub const MOST_LISTED: u32 = 62;
+pub const MAX_LISTED: u32 = 62;
 /// In place of where a cell begins: all triangles are tested.
 pub const NO_LIST: u32 = u32::MAX;
 /// Calmness of a cell.
 pub const CELL_EMPTY: u32 = 0;
-pub const CELL_CALM: u32 = 1;
+pub const CELL_UNIFORM: u32 = 1;
 pub const CELL_BUSY: u32 = 2;
 
 /// Pixels along the side of the square tiles in which work is handed out.

@@ -5,7 +5,7 @@ mod rare;
 
 use moire::adaptive::{self, Goal, Outcome, Sums, Tracer, Trial};
 use moire::core::film::Film;
-use moire::core::progress::{Progress, Silent};
+use moire::core::progress::{NoProgress, Progress};
 use moire::gpu::DeviceKind;
 use moire::lab::metrics::compare;
 use moire::oracle::jobs::JobTracer;
@@ -30,7 +30,7 @@ fn with(mut scene: Scene, algorithm: Algorithm, spp: u32) -> PackedScene {
 fn to_goal(scene: &PackedScene, goal: Goal, keep_everything: bool) -> (Film, Outcome) {
     let tuning = Tuning::default();
     let rendered =
-        render::render_to_goal(&device(), scene.clone(), keep_everything, &tuning, Some(goal), &Silent);
+        render::render_to_goal(&device(), scene.clone(), keep_everything, &tuning, Some(goal), &NoProgress);
     let (film, report) = rendered.unwrap();
     (film, report.outcome.unwrap())
 }
@@ -87,7 +87,7 @@ fn device_and_oracle_spend_the_same_samples() {
     let (film, outcome) = to_goal(&scene, Goal::Samples(64), false);
     let mut tracer = JobTracer::new(&scene);
     let size = [scene.header.size[0], scene.header.size[1]];
-    let (exact, expected) = adaptive::run(&mut tracer, size, Goal::Samples(64), &Silent).unwrap();
+    let (exact, expected) = adaptive::run(&mut tracer, size, Goal::Samples(64), &NoProgress).unwrap();
     // Counts follow estimates in f32: a pixel in a hundred may round to another.
     assert!((outcome.mean_samples / expected.mean_samples - 1.0).abs() < 0.01, "{outcome:?} {expected:?}");
     assert_eq!(outcome.passes, expected.passes);
@@ -244,7 +244,7 @@ fn slowly(tells: bool, prefilters: bool, goal: Goal) -> (Film, Outcome) {
     const SIZE: [u32; 2] = [32, 16];
     let half = || vec![[0.0; 4]; 512];
     let sums = Sums { width: SIZE[0], height: SIZE[1], halves: [half(), half()] };
-    adaptive::run(&mut Slow { sums, tells, prefilters }, SIZE, goal, &Silent).unwrap()
+    adaptive::run(&mut Slow { sums, tells, prefilters }, SIZE, goal, &NoProgress).unwrap()
 }
 
 /// 4e-3 takes some 5000 random samples a pixel: 2.6 s, by the time of the first passes.

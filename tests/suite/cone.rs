@@ -33,7 +33,7 @@ fn central(side: u32, text: &str) -> Scene {
 
 fn with_cones(mut scene: Scene) -> Scene {
     scene.sampling.algorithm = Algorithm::Cone;
-    cone::suit(&mut scene);
+    cone::adapt_for_cone(&mut scene);
     scene
 }
 

@@ -1,6 +1,6 @@
 //! Every case of the stability report on the device under test: no error above its bound.
 
-use moire::core::progress::Silent;
+use moire::core::progress::NoProgress;
 use moire::lab::stability::all;
 use moire::lab::stability::case::Bench;
 
@@ -8,7 +8,7 @@ use crate::shared_gpu::gpu;
 
 fn holds(group: &str) {
     let gpu = gpu();
-    let bench = Bench::new(&gpu, &Silent);
+    let bench = Bench::new(&gpu, &NoProgress);
     let mut complaints = Vec::new();
     for case in all().iter().filter(|case| case.group == group) {
         let points = (case.run)(&bench).unwrap();

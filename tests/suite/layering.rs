@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use crate::support;
 
 /// More lines than this want a second file.
-const MOST_LINES: usize = 330;
+const MAX_LINES: usize = 330;
 
 /// (room, all that it may use of the crate beside itself), lowest first. A room is a folder of `src`, or of one
 /// that [`SPLIT`] names; what is not listed is not allowed, so that a new room has to be entered here.
@@ -18,7 +18,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("scene", &["core", "texture"]),
     ("schema", &["core"]),
     ("pack", &["core", "texture", "scene", "schema"]),
-    ("oracle", &["core", "texture", "scene", "schema", "pack"]),
+    ("oracle", &["core", "texture", "scene", "schema", "pack", "adaptive"]),
     ("gpu", &["core::error", "core::named", "texture::sampler_spec"]),
     ("adaptive", &["core", "schema"]),
     ("render", &["core", "texture", "scene", "schema", "pack", "gpu", "adaptive"]),
@@ -261,8 +261,8 @@ fn violations(path: &str, text: &str) -> Vec<String> {
     let mut found = Vec::new();
     let mut complain = |line: usize, what: String| found.push(format!("{path}:{line}: {what}"));
     let lines = text.lines().count();
-    if lines > MOST_LINES {
-        complain(lines, format!("{lines} lines, more than {MOST_LINES}"));
+    if lines > MAX_LINES {
+        complain(lines, format!("{lines} lines, more than {MAX_LINES}"));
     }
     for (i, line) in text.lines().enumerate() {
         for word in UNFINISHED.iter().filter(|word| line.contains(**word)) {
@@ -382,7 +382,7 @@ fn planted_violations_are_found_and_look_alikes_are_not() {
         ("src/gpu/image.rs", "fn f() {\n    a();\n    unsafe { b() }\n}", ":4: unsafe without"),
         ("src/gpu/image.rs", "// SAFETY: a is.\nlet a = 1;\nunsafe { b() }", ":4: unsafe without"),
         ("src/lab/metrics/mod.rs", "use crate::cli;", "lab::metrics uses `cli`"),
-        ("src/lab/metrics/mod.rs", "use super::super::plot::Chart;", "lab::metrics uses `lab::plot::Chart`"),
+        ("src/lab/metrics/mod.rs", "use super::plot::Chart;", "lab::metrics uses `lab::plot::Chart`"),
         ("src/lab/verify/run.rs", "use crate::render::Resources;", "lab::verify uses `render::Resources`"),
         ("src/lab/probe.rs", "use crate::lab::verify::judge::Judge;", "lab::probe uses `lab::verify::judge`"),
         ("src/lab/probe.rs", "use super::verify::judge::Judge;", "lab::probe uses `lab::verify::judge`"),
@@ -423,6 +423,6 @@ fn planted_violations_are_found_and_look_alikes_are_not() {
     assert!(violations("src/a/a.css", "body {}\n")[0].contains("does not open with /*"));
     assert!(violations("glsl/shared/a.glsl", "#ifndef A\n")[0].contains("does not open with //"));
     assert!(violations("glsl/shared/a.glsl", "// A.\nfloat x = y / sqrt(z);\n")[0].contains(":2: 1 / sqrt"));
-    let long = format!("{doc}{}", "\n".repeat(MOST_LINES));
+    let long = format!("{doc}{}", "\n".repeat(MAX_LINES));
     assert!(violations("src/core/film.rs", &long)[0].contains("lines, more than"));
 }

@@ -85,7 +85,7 @@ fn a_ground_without_light_pays_for_nothing_else() {
         "UNTEXTURED",
         "COMPENSATED",
         "SMOOTH_NORMALS",
-        "CHOICES",
+        "SAMPLE_DIMENSIONS",
         "MOTIONS",
         "MOVING_CAMERA",
     ] {

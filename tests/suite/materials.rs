@@ -1,5 +1,5 @@
 //! Materials by numbers worked out by hand: what glass mirrors and lets through, the highlight of Phong,
-//! reliefs, normals that lean; on device and oracle.
+//! bump maps, normals that lean; on device and oracle.
 
 mod glass;
 mod leaning;

@@ -3,9 +3,9 @@
 
 use std::time::Instant;
 
-use moire::core::progress::Silent;
+use moire::core::progress::NoProgress;
 use moire::gpu::{DeviceKind, DeviceSelect, Gpu};
-use moire::lab::probe::Pyramids;
+use moire::lab::probe::MipPlacement;
 use moire::render::{Session, Tuning};
 use moire::scene::model::{Algorithm, Pattern};
 use moire::texture::data::{ColorSpace, Dimension, TexelFormat, TextureData};
@@ -49,8 +49,8 @@ fn share(gpu: &Gpu, name: &str, algorithm: Algorithm, keep_everything: bool) -> 
     let build = least(2, |_| {
         let prepared = session.prepare().unwrap();
         // Beams build the pipeline of what they leave to samples when they find it.
-        let (_, report) = prepared.render(&Silent).unwrap();
-        again = least(20, |_| seconds(|| drop(prepared.render(&Silent).unwrap())));
+        let (_, report) = prepared.render(&NoProgress).unwrap();
+        again = least(20, |_| seconds(|| drop(prepared.render(&NoProgress).unwrap())));
         report.seconds.compile
     });
     again / build
@@ -107,8 +107,8 @@ fn passes_of_a_pyramid_are_compiled_once() {
     };
     let mut again = 0.0;
     let first = least(2, |_| {
-        let mut pyramids = Pyramids::new(&gpu);
-        let mut make = || seconds(|| drop(pyramids.make(&texture).unwrap()));
+        let mut mip_chains = MipPlacement::new(&gpu);
+        let mut make = || seconds(|| drop(mip_chains.make(&texture).unwrap()));
         let first = make();
         again = least(20, |_| make());
         first

@@ -15,7 +15,7 @@ use moire::lab::verify::run::Tally;
 use moire::lab::verify::text::text;
 use moire::lab::verify::variants::{FormatClass, Reader, Scale, Variant, sampler_variants, shader_variants};
 use moire::lab::verify::weights::{RAMP_STEPS, WeightBits, weight_bits};
-use moire::oracle::filter::look_up;
+use moire::oracle::filter::sample_texture;
 use moire::oracle::mapping::Coordinate;
 use moire::texture::data::Dimension;
 use moire::texture::sampler_spec::{Address, Filter, SamplerSpec};
@@ -62,9 +62,10 @@ fn row(driver: &str, variant: &Variant, shift: f64) -> Row {
     for uv in coordinates(&mut Dice::new(3), [8, 6], 100, false) {
         let query = query(&scene, 0, uv);
         let at = uv_of(&query) + DVec2::X * shift / 8.0;
-        let answer = look_up(&scene, &scene.textures[0], &scene.samplers[0], &Coordinate::flat(at), [0; 2])
-            .as_vec4()
-            .to_array();
+        let answer =
+            sample_texture(&scene, &scene.textures[0], &scene.samplers[0], &Coordinate::flat(at), [0; 2])
+                .as_vec4()
+                .to_array();
         tally.add(judge.judge(&query, answer));
     }
     Row::new(&device, variant, tally)
@@ -168,8 +169,13 @@ fn the_ramp_runs_from_one_texel_to_the_other_in_equal_exact_steps() {
             let scene = pairs(vec![texture], &[spec], &[(0, 0)]).unwrap();
             for (k, uv) in ramp(axis, 1024).enumerate() {
                 let uv = uv_of(&query(&scene, 0, uv));
-                let value =
-                    look_up(&scene, &scene.textures[0], &scene.samplers[0], &Coordinate::flat(uv), [0; 2]);
+                let value = sample_texture(
+                    &scene,
+                    &scene.textures[0],
+                    &scene.samplers[0],
+                    &Coordinate::flat(uv),
+                    [0; 2],
+                );
                 assert_eq!(value.x, k as f64 / 1024.0, "{format} along {axis} at step {k}");
             }
         }

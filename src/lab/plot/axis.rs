@@ -4,7 +4,7 @@
 /// Pixels between the end of the logarithms and what has none.
 const APART: f64 = 26.0;
 /// Numbers along an axis.
-const MOST_NUMBERS: usize = 10;
+const MAX_NUMBERS: usize = 10;
 
 pub struct Axis {
     pub low: f64,
@@ -57,12 +57,12 @@ impl Axis {
     /// Places with their numbers: all steps where there is room, else whole decades, of long axes some of them.
     pub fn ticks(&self) -> Vec<(f64, Option<String>)> {
         let all = steps(self.low, self.high);
-        let crowded = all.len() > MOST_NUMBERS;
+        let crowded = all.len() > MAX_NUMBERS;
         let decade = |v: f64| (v.log10() - v.log10().round()).abs() < 1e-6;
         let decades = all.iter().filter(|v| decade(**v)).count();
-        let every = decades.div_ceil(MOST_NUMBERS).max(1) as i64;
+        let every = decades.div_ceil(MAX_NUMBERS).max(1) as i64;
         let numbered = |v: f64| !crowded || (decade(v) && v.log10().round() as i64 % every == 0);
-        let shown = all.into_iter().filter(|v| decades <= MOST_NUMBERS || decade(*v));
+        let shown = all.into_iter().filter(|v| decades <= MAX_NUMBERS || decade(*v));
         let mut ticks: Vec<(f64, Option<String>)> =
             shown.map(|v| (self.at(v), numbered(v).then(|| number(v)))).collect();
         ticks.extend(self.zero.map(|at| (at, Some("0".into()))));

@@ -8,7 +8,7 @@ use super::areas::box_mean;
 use super::case::{Bench, Case, Point};
 use super::probing::{decades, described, noise, oracle, over, places, scene, worst};
 use crate::core::error::Result;
-use crate::core::progress::Silent;
+use crate::core::progress::NoProgress;
 use crate::lab::probe::{LookUp, LookUps};
 use crate::lab::verify::queries::Dice;
 use crate::oracle::render::render as oracle_render;
@@ -233,8 +233,8 @@ fn incidence(bench: &Bench<'_>) -> Result<Vec<Point>> {
         );
         let scene = parse(Path::new("incidence.toml"), &text)?;
         let packed = pack::pack(&scene, vec![noise(SIDE, SIDE)], None)?;
-        let exact = oracle_render(&packed, &Silent)?;
-        let (film, _) = render(bench.gpu, packed, false, &Tuning::default(), &Silent)?;
+        let exact = oracle_render(&packed, &NoProgress)?;
+        let (film, _) = render(bench.gpu, packed, false, &Tuning::default(), &NoProgress)?;
         let errors = film.pixels.iter().zip(&exact.pixels).enumerate().map(|(i, (a, b))| {
             (f64::from((a[0] - b[0]).abs()) / RANGE, format!("pixel ({}, {})", i % 3, i / 3))
         });

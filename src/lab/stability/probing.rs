@@ -5,7 +5,7 @@ use super::case::Point;
 use crate::core::error::Result;
 use crate::lab::probe::{LookUp, LookUps};
 use crate::lab::verify::queries::{Dice, pairs_over, place_of, query, texture};
-use crate::oracle::filter::look_up;
+use crate::oracle::filter::sample_texture;
 use crate::oracle::rng::pcg2d;
 use crate::pack::PackedScene;
 use crate::scene::model::Footprint;
@@ -54,7 +54,7 @@ pub fn over(scene: &PackedScene, sampler: usize, uv: [f32; 2], [dx, dy]: [[f64; 
 /// The oracle's answer to query number `index` of a list.
 pub fn oracle(scene: &PackedScene, index: usize, query: &LookUp) -> f64 {
     let (image, how) = (&scene.textures[query.texture as usize], &scene.samplers[query.sampler as usize]);
-    look_up(scene, image, how, &place_of(query), pcg2d([index as u32, query.seed])).x
+    sample_texture(scene, image, how, &place_of(query), pcg2d([index as u32, query.seed])).x
 }
 
 /// The worst difference of the first channel, in units, between the device's answers and `exact`.

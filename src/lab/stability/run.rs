@@ -6,7 +6,7 @@ use std::time::Instant;
 use super::case::{Bench, Case};
 use super::report::{Report, Row};
 use crate::core::error::{Error, Result};
-use crate::core::progress::{Part, Progress};
+use crate::core::progress::{Progress, SubProgress};
 use crate::gpu::{BufferUse, Gpu};
 
 /// Runs the cases whose label, such as `sums/colour`, contains `only`.
@@ -26,7 +26,7 @@ pub fn run(gpu: &Gpu, mut cases: Vec<Case>, only: Option<&str>, progress: &dyn P
     let mut rows = Vec::with_capacity(cases.len());
     for (done, case) in cases.iter().enumerate() {
         let from = done as f64 * share;
-        let part = Part { whole: progress, from, to: from + share };
+        let part = SubProgress { whole: progress, from, to: from + share };
         let bench = Bench::new(gpu, &part);
         bench.go_on()?;
         let clock = Instant::now();

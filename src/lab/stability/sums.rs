@@ -15,11 +15,11 @@ const UNIT: &str = "of the mean";
 /// 2²⁴, the most that a scene may ask for.
 const MOST: u32 = 24;
 /// Each chunk of 256 samples is a submission: 2²⁴ take as long as all the others together.
-const MOST_GRID: u32 = 22;
+const MAX_GRID: u32 = 22;
 /// The oracle takes a microsecond a sample.
-const MOST_IN_ORACLE: u32 = 18;
+const MAX_IN_ORACLE: u32 = 18;
 /// An adaptive picture takes at most 2¹⁶ samples in each of two halves.
-const MOST_BY_JOBS: u32 = 17;
+const MAX_BY_JOBS: u32 = 17;
 /// Texels along each side.
 const SIDE: u32 = 16;
 
@@ -107,7 +107,7 @@ fn texels(bench: &Bench<'_>) -> Result<Vec<Point>> {
         let scene = packed(&textured("grid", "samples", spp, "nearest"), vec![texture.clone()], None)?;
         Ok(point(spp, &on_device(bench, &scene)?, mean))
     };
-    counts(MOST_GRID).map(run).collect()
+    counts(MAX_GRID).map(run).collect()
 }
 
 fn noise(bench: &Bench<'_>) -> Result<Vec<Point>> {
@@ -116,7 +116,7 @@ fn noise(bench: &Bench<'_>) -> Result<Vec<Point>> {
         let exact = in_oracle(bench, &scene)?;
         Ok(point(spp, &on_device(bench, &scene)?, exact.pixels[0].map(f64::from)))
     };
-    counts(MOST_IN_ORACLE).map(run).collect()
+    counts(MAX_IN_ORACLE).map(run).collect()
 }
 
 /// Terms that are nearly equal are rounded nearly alike: the worst that a sum may meet.
@@ -140,5 +140,5 @@ fn by_jobs(bench: &Bench<'_>, decades: f64) -> Result<Vec<Point>> {
 }
 
 fn job_counts() -> impl Iterator<Item = u32> {
-    (9..=MOST_BY_JOBS).step_by(2).map(|bits| 1 << bits)
+    (9..=MAX_BY_JOBS).step_by(2).map(|bits| 1 << bits)
 }

@@ -5,7 +5,7 @@
 use serde::Serialize;
 
 use super::bootstrap::interval;
-pub use super::choice::{Choice, Winner, recommended, winners};
+pub use super::choice::{SampleDimension, Winner, recommended, winners};
 use super::record::{PointRecord, Record};
 use super::student;
 use super::words::advice;
@@ -20,7 +20,7 @@ const FEWEST: usize = 3;
 pub struct Analysis {
     pub recommendation: String,
     /// None where nothing was measured.
-    pub recommended: Option<Choice>,
+    pub recommended: Option<SampleDimension>,
     pub slopes: Vec<MethodSlope>,
     pub winners: Vec<Winner>,
     pub reach: Reach,
@@ -73,7 +73,7 @@ pub fn analyse(record: &Record) -> Analysis {
     let winners = winners(&record.points, &slopes);
     Analysis {
         recommendation: advice(record, &winners),
-        recommended: recommended(&record.points, &winners).map(Choice::of),
+        recommended: recommended(&record.points, &winners).map(SampleDimension::of),
         slopes,
         winners,
         reach: reach(record),

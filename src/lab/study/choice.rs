@@ -31,17 +31,17 @@ pub struct Winner {
 
 /// The recommended point.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Choice {
+pub struct SampleDimension {
     pub method: String,
     pub spp: u32,
     pub seconds: f64,
     pub rmse: f64,
 }
 
-impl Choice {
-    pub fn of(point: &PointRecord) -> Choice {
+impl SampleDimension {
+    pub fn of(point: &PointRecord) -> SampleDimension {
         let (method, seconds) = (point.method.clone(), point.median_seconds());
-        Choice { method, spp: point.spp, seconds, rmse: point.errors.rmse }
+        SampleDimension { method, spp: point.spp, seconds, rmse: point.errors.rmse }
     }
 }
 

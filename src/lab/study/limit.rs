@@ -56,7 +56,7 @@ impl Limit {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::core::progress::Silent;
+    use crate::core::progress::NoProgress;
 
     fn asked(progress: &dyn Progress) -> Result<()> {
         if progress.cancelled() { Err(Error::Interrupted) } else { Ok(()) }
@@ -76,8 +76,8 @@ mod tests {
     #[test]
     fn work_ends_with_the_time_and_with_the_persons_patience() {
         let limit = Limit::new(Instant::now(), 1e300);
-        assert!(matches!(limit.until(1e300, &Silent, asked), Ok(Some(()))));
-        assert!(matches!(limit.until(0.0, &Silent, asked), Ok(None)));
+        assert!(matches!(limit.until(1e300, &NoProgress, asked), Ok(Some(()))));
+        assert!(matches!(limit.until(0.0, &NoProgress, asked), Ok(None)));
         assert!(matches!(limit.until(1e300, &Stopped, asked), Err(Error::Interrupted)));
         assert!(limit.left() > 0.0 && Limit::new(Instant::now(), 0.0).left() == 0.0);
         assert!(limit.note().is_none() && Limit::new(Instant::now(), 1e-9).note().is_some());

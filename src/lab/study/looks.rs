@@ -24,25 +24,25 @@ struct Look<'a> {
     pack_seconds: f64,
 }
 
-pub struct Looks<'a> {
+pub struct SessionCache<'a> {
     looks: Vec<Look<'a>>,
 }
 
-impl<'a> Looks<'a> {
+impl<'a> SessionCache<'a> {
     /// Also the one without a footprint, which references are made with.
     pub fn open(
         gpu: &'a Gpu,
         scene: &Scene,
         textures: Vec<TextureData>,
         methods: &[Method],
-    ) -> Result<Looks<'a>> {
+    ) -> Result<SessionCache<'a>> {
         let mut keys = vec![PLAIN];
         methods.iter().map(key).for_each(|k| {
             if !keys.contains(&k) {
                 keys.push(k)
             }
         });
-        let pyramids = MipChoice::Auto.pyramids(gpu.info());
+        let mip_chains = MipChoice::Auto.mip_chains(gpu.info());
         let mut looks = Vec::with_capacity(keys.len());
         for key in keys {
             let clock = Instant::now();
@@ -50,12 +50,12 @@ impl<'a> Looks<'a> {
             let pattern = Some(scene.sampling.pattern);
             let reading = Method { algorithm, pattern, footprint, filter };
             let reading = reading.apply(scene, scene.sampling.spp)?;
-            let packed = pack::pack_with(&reading, textures.clone(), None, pyramids)?;
+            let packed = pack::pack_with(&reading, textures.clone(), None, mip_chains)?;
             let pack_seconds = clock.elapsed().as_secs_f64();
             let session = Session::open(gpu, packed, false, &Tuning::default())?;
             looks.push(Look { key, session, pack_seconds });
         }
-        Ok(Looks { looks })
+        Ok(SessionCache { looks })
     }
 
     /// A pipeline for a method with a count, and the seconds that packing its look took.

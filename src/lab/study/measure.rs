@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use crate::core::error::{Error, Result};
 use crate::core::film::Film;
-use crate::core::progress::{Part, Progress};
+use crate::core::progress::{Progress, SubProgress};
 use crate::lab::metrics::compare;
 use crate::lab::metrics::flip::Seen;
 use crate::render::{Prepared, Report};
@@ -15,7 +15,7 @@ use crate::scene::model::{Algorithm, Scene};
 use super::bootstrap::blocks;
 use super::identity::Hash;
 use super::limit::Limit;
-use super::looks::Looks;
+use super::looks::SessionCache;
 use super::method::Method;
 use super::plan::{Forecast, Point};
 use super::record::{Errors, PointRecord, Record, Stages};
@@ -26,13 +26,13 @@ use crate::core::counted::{counted, plural, verb};
 
 /// The part of the time that the pages' pictures may ask for in advance, and about how many there are of plain
 /// samples.
-const MOST_RESERVED: f64 = 0.25;
+const MAX_RESERVED: f64 = 0.25;
 const PANELS: f64 = 6.0;
 /// Between two writes of the record; what an interruption by force may lose.
 const SAVE_SECONDS: f64 = 1.0;
 
 pub struct Measurement<'a> {
-    pub looks: &'a Looks<'a>,
+    pub looks: &'a SessionCache<'a>,
     pub scene: &'a Scene,
     pub options: &'a Options,
     pub methods: &'a [Method],
@@ -110,7 +110,7 @@ impl<'a> Measurement<'a> {
                     let from = self.reference.progress;
                     from + (1.0 - from) * (seconds / (spent + left).max(1e-9)).min(1.0)
                 };
-                let part = Part { whole: self.progress, from: share(spent), to: share(spent + next) };
+                let part = SubProgress { whole: self.progress, from: share(spent), to: share(spent + next) };
                 let clock = Instant::now();
                 let Some(rendering) =
                     self.limit.until(end, &part, |part| self.measure(&mut tasks[i], part))?
@@ -142,7 +142,7 @@ impl<'a> Measurement<'a> {
             all.filter(move |(_, m)| (m.algorithm == Algorithm::Samples) == plain).map(|(i, _)| panel(i))
         };
         let seconds = of(false).sum::<f64>() + PANELS * of(true).fold(0.0, f64::max);
-        seconds.min(MOST_RESERVED * self.limit.seconds)
+        seconds.min(MAX_RESERVED * self.limit.seconds)
     }
 
     /// Seconds that point `i` needs if it is taken up now: all its repeats, and those that the points before

@@ -120,9 +120,9 @@ impl Method {
             scene.samplers.iter_mut().for_each(|sampler| with_filter(sampler, filter));
         }
         if self.filter.is_none() {
-            cone::suit(&mut scene);
+            cone::adapt_for_cone(&mut scene);
         }
-        cone::suit_footprint(&mut scene);
+        cone::adapt_footprint(&mut scene);
         check_filters(&scene)?;
         Ok(scene)
     }

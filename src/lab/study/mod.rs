@@ -37,7 +37,7 @@ use crate::scene::model::Scene;
 use crate::texture;
 
 use limit::Limit;
-use looks::Looks;
+use looks::SessionCache;
 use method::Method;
 use record::{Conditions, Record};
 
@@ -86,7 +86,7 @@ pub fn run(gpu: &Gpu, scene: &Scene, options: &Options, progress: &dyn Progress)
     record.notes = notes;
     let kept = record::read(&options.out);
 
-    let looks = Looks::open(gpu, scene, textures, &methods)?;
+    let looks = SessionCache::open(gpu, scene, textures, &methods)?;
     let reference = reference::obtain(&looks, scene, options, &identity, kept.reference, &limit, progress)?;
     record.reference = reference.record.clone();
     measure::Measurement {

@@ -7,7 +7,7 @@ use std::time::Instant;
 
 use crate::core::error::{Error, Result};
 use crate::core::film::Film;
-use crate::core::progress::{Part, Progress};
+use crate::core::progress::{Progress, SubProgress};
 use crate::lab::metrics::flip::Seen;
 use crate::lab::metrics::{compare, read_picture};
 use crate::oracle;
@@ -19,7 +19,7 @@ use crate::texture;
 
 use super::identity::{self, Hash};
 use super::limit::Limit;
-use super::looks::Looks;
+use super::looks::SessionCache;
 use super::method::Method;
 use super::plan::next_count;
 use super::record::ReferenceRecord;
@@ -46,7 +46,7 @@ pub struct Reference {
 }
 
 pub fn obtain(
-    looks: &Looks<'_>,
+    looks: &SessionCache<'_>,
     scene: &Scene,
     options: &Options,
     identity: &Hash,
@@ -146,7 +146,7 @@ fn in_halves(
     progress: &dyn Progress,
 ) -> Result<(Film, ReferenceRecord, f64)> {
     let clock = Instant::now();
-    let rate = seconds_per_sample(half, wanted, &Part { whole: progress, from: 0.0, to: 0.0 })?;
+    let rate = seconds_per_sample(half, wanted, &SubProgress { whole: progress, from: 0.0, to: 0.0 })?;
     let fitting = (0.5 * (allowed - clock.elapsed().as_secs_f64()).max(0.0) / rate)
         .clamp(1.0, f64::from(wanted)) as u32;
     let mut samples = match next_count(Pattern::Stratified, fitting) {
@@ -159,8 +159,8 @@ fn in_halves(
     let rest = f64::from(points) * f64::from(options.repeats) * methods as f64;
     let end = f64::from(2 * samples) / (f64::from(2 * samples) + rest);
     let both = |samples: u32, progress: &dyn Progress| {
-        let a = half(samples, SEEDS[0], &Part { whole: progress, from: 0.0, to: 0.5 * end })?;
-        let b = half(samples, SEEDS[1], &Part { whole: progress, from: 0.5 * end, to: end })?;
+        let a = half(samples, SEEDS[0], &SubProgress { whole: progress, from: 0.0, to: 0.5 * end })?;
+        let b = half(samples, SEEDS[1], &SubProgress { whole: progress, from: 0.5 * end, to: end })?;
         Ok((a, b))
     };
     // A machine that has become slower gets fewer samples; one a half there is in any case.

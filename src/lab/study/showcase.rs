@@ -4,13 +4,13 @@
 
 use crate::core::error::Result;
 use crate::core::film::Film;
-use crate::core::progress::{Part, Progress};
+use crate::core::progress::{Progress, SubProgress};
 use crate::lab::metrics::compare;
 use crate::scene::model::{Algorithm, Pattern, Scene};
 
 use super::choice::recommended;
 use super::limit::Limit;
-use super::looks::Looks;
+use super::looks::SessionCache;
 use super::measure::sampled_part;
 use super::method::Method;
 use super::pictures::{self, Window};
@@ -81,7 +81,7 @@ const WINNER: (&str, &str) =
     ("The recommended method", "It has the least error within most of the times that were measured.");
 
 pub fn render(
-    looks: &Looks<'_>,
+    looks: &SessionCache<'_>,
     scene: &Scene,
     record: &Record,
     reference: &Film,
@@ -106,7 +106,7 @@ pub fn render(
     {
         chosen.push((WINNER.0, WINNER.1, method));
     }
-    let still = Part { whole: progress, from: 1.0, to: 1.0 };
+    let still = SubProgress { whole: progress, from: 1.0, to: 1.0 };
     let mut panels: Vec<Panel> = Vec::new();
     let mut left_out = 0;
     for (heading, text, method) in chosen.into_iter().filter(|c| looks.has(&c.2)) {

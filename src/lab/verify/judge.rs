@@ -10,7 +10,7 @@ use super::queries::place_of;
 use super::reading::{Reading, levels_of_detail, readings};
 use crate::gpu::{DeviceInfo, DeviceKind};
 use crate::lab::probe::LookUp;
-use crate::oracle::filter::look_up;
+use crate::oracle::filter::sample_texture;
 use crate::oracle::footprint::is_filtered;
 use crate::pack::{PackedScene, TextureKind};
 use crate::schema::layout::Sampler;
@@ -191,7 +191,7 @@ impl<'a> Judge<'a> {
         let smooth = !readings.iter().any(by_nearest)
             && how.link[1] != Filter::Anisotropic as u32
             && (how.link[2] != MipMode::Nearest as u32 || readings.len() == 1);
-        let exact = smooth.then(|| look_up(scene, image, how, &place_of(query), [query.seed, 0]));
+        let exact = smooth.then(|| sample_texture(scene, image, how, &place_of(query), [query.seed, 0]));
         Allowed { boxes, slack, arithmetic, unit, exact, levels }
     }
 

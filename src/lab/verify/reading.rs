@@ -4,8 +4,8 @@
 
 use glam::DVec3;
 
+use crate::oracle::footprint_axes::texel_spread;
 use crate::oracle::mapping::Coordinate;
-use crate::oracle::spread::texel_spread;
 use crate::schema::layout::{Sampler, Texture};
 use crate::texture::sampler_spec::{Filter, Method, MipMode};
 

@@ -43,7 +43,7 @@ impl Tally {
     }
 
     /// Judges one look-up, and keeps the first wrong one.
-    fn look_up(&mut self, judge: &Judge<'_>, query: &LookUp, answer: [f32; 4]) {
+    fn sample_texture(&mut self, judge: &Judge<'_>, query: &LookUp, answer: [f32; 4]) {
         let found = judge.judge(query, answer);
         self.add(found);
         if !found.right && self.example.is_none() {
@@ -72,7 +72,7 @@ fn noise_of(seed: u64) -> impl Fn(&Variant) -> TextureData {
 fn judged(judge: &Judge<'_>, queries: &[LookUp], answers: &[[f32; 4]]) -> Tally {
     let mut tally = Tally::default();
     for (query, answer) in queries.iter().zip(answers) {
-        tally.look_up(judge, query, *answer);
+        tally.sample_texture(judge, query, *answer);
     }
     tally
 }
@@ -192,7 +192,7 @@ fn bits(answers: &[[f32; 4]]) -> WeightBits {
 fn judged_here_and_there(judge: &Judge<'_>, queries: &[LookUp], answers: &[[f32; 4]]) -> Tally {
     let mut tally = Tally::default();
     for (query, answer) in queries.iter().zip(answers).step_by(JUDGED_EVERY) {
-        tally.look_up(judge, query, *answer);
+        tally.sample_texture(judge, query, *answer);
     }
     tally
 }

@@ -8,7 +8,7 @@ use super::report::{Limits, Report, Row, Verdict};
 use crate::core::counted::counted;
 
 /// Failing variants that are listed one by one.
-const MOST_LISTED: usize = 20;
+const MAX_LISTED: usize = 20;
 
 pub fn text(report: &Report) -> String {
     let mut out = String::new();
@@ -49,11 +49,11 @@ pub fn text(report: &Report) -> String {
         line(format!("known fault ({}): {fault}", counted(count, "variant")));
     }
     let failing: Vec<&Row> = report.rows.iter().filter(|r| r.verdict == Verdict::Outside).collect();
-    for row in failing.iter().take(MOST_LISTED) {
+    for row in failing.iter().take(MAX_LISTED) {
         line(format!("outside: {}: {}", row.variant.label(), reason(row, limits)));
     }
-    if failing.len() > MOST_LISTED {
-        line(format!("and {} more outside; --json lists all", failing.len() - MOST_LISTED));
+    if failing.len() > MAX_LISTED {
+        line(format!("and {} more outside; --json lists all", failing.len() - MAX_LISTED));
     }
     out
 }

@@ -17,22 +17,22 @@ pub fn bits(modes: impl Iterator<Item = u32>) -> u32 {
 /// The number of samples, where positions depend on it: pipelines without it serve any number.
 pub fn counted_samples(scene: &PackedScene) -> u32 {
     let [pattern, _, samples, _] = scene.header.sampling;
-    if Pattern::ALL[pattern as usize].goes_on() { 0 } else { samples }
+    if Pattern::ALL[pattern as usize].is_progressive() { 0 } else { samples }
 }
 
 /// Shapes that a cone can touch, up to those that it keeps.
 pub fn cone_shapes(scene: &PackedScene) -> u32 {
-    // Of `pieces.glsl`.
-    const MOST_PIECES: usize = 8;
+    // Of `fragments.glsl`.
+    const MAX_FRAGMENTS: usize = 8;
     let shapes = scene.planes.len() + scene.spheres.len() + scene.triangles.len();
-    if shapes < MOST_PIECES { shapes.max(1) as u32 } else { DYNAMIC }
+    if shapes < MAX_FRAGMENTS { shapes.max(1) as u32 } else { DYNAMIC }
 }
 
 pub fn unrolled(count: usize) -> u32 {
     if count <= UNROLL { count as u32 } else { DYNAMIC }
 }
 
-pub fn rotates(map: &layout::Map) -> bool {
+pub fn rotates(map: &layout::UvProjection) -> bool {
     map.matrix[1] != 0.0 || map.matrix[2] != 0.0
 }
 
@@ -81,7 +81,7 @@ pub fn filters(scene: &PackedScene) -> u32 {
     bits(scene.samplers.iter().flat_map(|s| [s.modes[2], s.link[1]]))
 }
 
-pub fn reliefs(scene: &PackedScene) -> u32 {
+pub fn bump_kinds(scene: &PackedScene) -> u32 {
     bits(scene.materials.iter().filter(|m| m.detail[0] != NO_TEXTURE).map(|m| m.detail[3]))
 }
 

@@ -8,7 +8,7 @@ pub trait Member: Copy {
     fn write(self, double: bool, bytes: &mut Vec<u8>);
 
     /// As memory of f32 holds it.
-    fn rounded(self) -> Self;
+    fn quantize_f32(self) -> Self;
 }
 
 impl Member for [f64; 4] {
@@ -22,7 +22,7 @@ impl Member for [f64; 4] {
         }
     }
 
-    fn rounded(self) -> Self {
+    fn quantize_f32(self) -> Self {
         self.map(|x| f64::from(x as f32))
     }
 }
@@ -37,7 +37,7 @@ macro_rules! plain {
                 bytes.extend_from_slice(bytemuck::bytes_of(&self));
             }
 
-            fn rounded(self) -> Self {
+            fn quantize_f32(self) -> Self {
                 self
             }
         })+
@@ -55,7 +55,7 @@ pub trait Record {
     fn write(&self, double: bool, bytes: &mut Vec<u8>);
 
     /// The record with the f32 numbers that the shader reads unless it reads f64.
-    fn rounded(&self) -> Self;
+    fn quantize_f32(&self) -> Self;
 }
 
 /// The bytes of a list of records.

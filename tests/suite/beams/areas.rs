@@ -1,4 +1,4 @@
-//! Areas of visible pieces: they fill the pixel whatever lies before what, and they are right.
+//! Areas of visible fragments: they fill the pixel whatever lies before what, and they are right.
 
 use glam::{DVec2, DVec3};
 use moire::oracle::polygon::{area, split, unit_square};
@@ -54,7 +54,7 @@ fn pieces_fill_the_pixel() {
         let mut scene = soup(7, seed, |_| DVec3::ONE);
         scene.background.color = DVec3::ONE;
         for pixel in render_on_oracle(&with_beams(scene)).pixels.iter().flatten() {
-            // Dropped pieces: 1e-7 each.
+            // Dropped fragments: 1e-7 each.
             assert!((pixel - 1.0).abs() < 5e-6, "seed {seed}: {pixel}");
         }
     }

@@ -5,7 +5,7 @@
 use glam::DVec3;
 use moire::core::color::srgb_to_linear;
 use moire::lab::verify::queries::{self, Dice};
-use moire::oracle::filter::look_up;
+use moire::oracle::filter::sample_texture;
 use moire::oracle::mapping::Coordinate;
 use moire::pack::PackedScene;
 use moire::texture::data::{ColorSpace, Dimension, TexelFormat};
@@ -104,7 +104,7 @@ fn specs(flat: bool) -> Vec<SamplerSpec> {
 
 fn read(scene: &PackedScene, sampler: usize, at: DVec3) -> f64 {
     let place = Coordinate { at, ..Default::default() };
-    look_up(scene, &scene.textures[0], &scene.samplers[sampler], &place, [3, 4]).x
+    sample_texture(scene, &scene.textures[0], &scene.samplers[sampler], &place, [3, 4]).x
 }
 
 fn compare(read: impl Fn(&PackedScene, usize, DVec3) -> f64) -> Worst {

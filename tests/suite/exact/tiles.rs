@@ -7,7 +7,7 @@ use moire::oracle::camera::Ray;
 use moire::oracle::footprint::Footprint;
 use moire::oracle::intersect::nearest_hit;
 use moire::oracle::mapping::texture_coordinate;
-use moire::oracle::shade::seen_by_map;
+use moire::oracle::shade::map_input;
 use moire::oracle::surface::hit_surface;
 use moire::pack::PackedScene;
 use moire::schema::layout::NO_SHAPE;
@@ -102,7 +102,7 @@ fn compare(change: impl Fn(DVec2) -> DVec2) -> Worst {
                 let hit = nearest_hit(&scene, &ray, NO_SHAPE);
                 let surface = hit_surface(&scene, &ray, &hit);
                 let map = &scene.maps[surface.map as usize];
-                let at = texture_coordinate(map, &seen_by_map(map, &ray, &surface, &Footprint::default())).at;
+                let at = texture_coordinate(map, &map_input(map, &ray, &surface, &Footprint::default())).at;
                 let at = change(at.truncate());
                 let (exact, bound) = case.exact(d);
                 // Small, and the same place of the same tile.

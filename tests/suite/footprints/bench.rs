@@ -6,7 +6,7 @@ use std::path::Path;
 use glam::{DMat2, DVec2, DVec3};
 use moire::lab::probe::{self, LookUp};
 use moire::lab::verify::queries;
-use moire::oracle::filter::look_up;
+use moire::oracle::filter::sample_texture;
 use moire::oracle::mapping::Coordinate;
 use moire::pack::{self, PackedScene};
 use moire::scene::model::{Footprint, TextureSource};
@@ -59,7 +59,7 @@ pub fn narrow(v: DVec3) -> [f32; 4] {
 pub fn expected(scene: &PackedScene, query: &LookUp, index: usize, c: &Coordinate) -> [f64; 4] {
     let (image, how) = (&scene.textures[query.texture as usize], &scene.samplers[query.sampler as usize]);
     let random = moire::oracle::rng::pcg2d([index as u32, query.seed]);
-    look_up(scene, image, how, c, random).to_array()
+    sample_texture(scene, image, how, c, random).to_array()
 }
 
 pub fn answers(scene: &PackedScene, queries: &[LookUp]) -> Vec<[f32; 4]> {

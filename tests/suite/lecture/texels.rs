@@ -2,7 +2,7 @@
 //! coordinates worked out by hand.
 
 use moire::lab::probe::{self, LookUp};
-use moire::oracle::filter::look_up;
+use moire::oracle::filter::sample_texture;
 use moire::oracle::mapping::Coordinate;
 use moire::texture::data::{ColorSpace, Dimension, TexelFormat, TextureData};
 use moire::texture::sampler_spec::{Address, Filter, SamplerSpec, TexelCenter};
@@ -31,7 +31,7 @@ fn assert_reads(texture: TextureData, spec: SamplerSpec, cases: &[([f32; 2], f64
     let queries: Vec<LookUp> = cases.iter().map(|c| query(&scene, 0, c.0)).collect();
     let mut answers: Vec<(&str, Vec<f64>)> = Vec::new();
     let oracle = |q: &LookUp| {
-        look_up(&scene, &scene.textures[0], &scene.samplers[0], &Coordinate::flat(uv_of(q)), [0; 2]).x
+        sample_texture(&scene, &scene.textures[0], &scene.samplers[0], &Coordinate::flat(uv_of(q)), [0; 2]).x
     };
     answers.push(("oracle", queries.iter().map(oracle).collect()));
     for (who, image_source) in [("device, buffer", false), ("device, image", true)] {

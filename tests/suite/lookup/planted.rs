@@ -5,7 +5,7 @@
 use glam::DVec2;
 use moire::lab::probe::LookUp;
 use moire::lab::verify::judge::{Precision, complaints as judge};
-use moire::oracle::filter::look_up;
+use moire::oracle::filter::sample_texture;
 use moire::oracle::mapping::Coordinate;
 use moire::pack::PackedScene;
 use moire::schema::layout::{Sampler, Texture};
@@ -40,7 +40,7 @@ fn caught(
     let answer = |query: &LookUp| {
         let (mut image, mut how) = (scene.textures[0], scene.samplers[0]);
         let uv = tamper(&mut image, &mut how, uv_of(query));
-        look_up(scene, &image, &how, &Coordinate::flat(uv), [0; 2]).as_vec4().to_array()
+        sample_texture(scene, &image, &how, &Coordinate::flat(uv), [0; 2]).as_vec4().to_array()
     };
     let answers: Vec<[f32; 4]> = queries.iter().map(answer).collect();
     judge(scene, queries, &answers, precision).len() as f64 / queries.len() as f64

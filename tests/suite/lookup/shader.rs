@@ -2,7 +2,7 @@
 
 use moire::lab::probe::{self, LookUp};
 use moire::lab::verify::judge::{Precision, complaints as judge};
-use moire::oracle::filter::look_up;
+use moire::oracle::filter::sample_texture;
 use moire::oracle::mapping::Coordinate;
 use moire::pack::PackedScene;
 use moire::texture::data::{ColorSpace, TexelFormat, TextureData};
@@ -128,7 +128,7 @@ fn coordinates_that_are_no_numbers_read_a_texel_and_the_oracles() {
         for (query, answer) in queries.iter().zip(&answers) {
             let (image, how) =
                 (&scene.textures[query.texture as usize], &scene.samplers[query.sampler as usize]);
-            let expected = look_up(&scene, image, how, &Coordinate::flat(uv_of(query)), [0; 2]);
+            let expected = sample_texture(&scene, image, how, &Coordinate::flat(uv_of(query)), [0; 2]);
             assert!(expected.is_finite(), "the oracle at {:?}", query.uv);
             let label = scene.sampler_specs[query.sampler as usize].label();
             for (got, expected) in answer.iter().zip(expected.to_array()) {

@@ -8,7 +8,7 @@ use moire::oracle::camera::Ray;
 use moire::oracle::footprint::{Footprint, any_tangent};
 use moire::oracle::intersect::nearest_hit;
 use moire::oracle::mapping::texture_coordinate;
-use moire::oracle::shade::{seen_by_map, uv_gradients};
+use moire::oracle::shade::{map_input, uv_gradients};
 use moire::oracle::surface::hit_surface;
 use moire::pack::PackedScene;
 
@@ -114,7 +114,7 @@ fn gradients_are_those_of_the_coordinates() {
                 let surface = meet(&ray);
                 let map = &scene.maps[surface.map as usize];
                 let coordinate = |ray: &Ray| {
-                    texture_coordinate(map, &seen_by_map(map, ray, &meet(ray), &Footprint::default())).at
+                    texture_coordinate(map, &map_input(map, ray, &meet(ray), &Footprint::default())).at
                 };
                 let gradients = uv_gradients(map, &ray, &surface);
                 tried += 1;

@@ -1,7 +1,7 @@
 //! Device and oracle, lean pipelines and such with everything, parts and the whole: the same picture.
 
 use moire::adaptive::{self, Goal};
-use moire::core::progress::Silent;
+use moire::core::progress::NoProgress;
 use moire::lab::metrics::compare;
 use moire::oracle::jobs::JobTracer;
 use moire::pack::Crop;
@@ -120,14 +120,15 @@ fn adaptive_samples_are_filtered_alike_by_device_and_oracle() {
             let scene = packed(adaptively(filter, footprint), None);
             let (width, height) = (scene.header.size[0], scene.header.size[1]);
             let mut tracer = JobTracer::new(&scene);
-            let (oracle, _) = adaptive::run(&mut tracer, [width, height], Goal::Samples(2), &Silent).unwrap();
+            let (oracle, _) =
+                adaptive::run(&mut tracer, [width, height], Goal::Samples(2), &NoProgress).unwrap();
             let rendered = render::render_to_goal(
                 &device(),
                 scene,
                 false,
                 &Tuning::default(),
                 Some(Goal::Samples(2)),
-                &Silent,
+                &NoProgress,
             );
             let found = compare(&rendered.unwrap().0, &oracle).unwrap();
             assert!(found.rmse < 2e-3, "{filter:?}, {footprint}: {:e}", found.rmse);
@@ -145,7 +146,7 @@ fn adaptive_pictures_converge_to_the_filtered_one() {
         let scene = packed(scene, None);
         let goal = Goal::Error(4e-3);
         let rendered =
-            render::render_to_goal(&device(), scene, false, &Tuning::default(), Some(goal), &Silent);
+            render::render_to_goal(&device(), scene, false, &Tuning::default(), Some(goal), &NoProgress);
         let (film, report) = rendered.unwrap();
         let error = compare(&film, &reference).unwrap().rmse;
         // The estimate has a sigma of 5 % at this size.

@@ -6,10 +6,10 @@ use moire::core::film::Film;
 use moire::lab::metrics::compare;
 use moire::oracle::camera::camera_ray;
 use moire::oracle::cone::{Cone, cone_of};
-use moire::oracle::footprint::camera_beam;
+use moire::oracle::footprint::camera_differential;
+use moire::oracle::fragments::{collect_fragments, composite};
 use moire::oracle::intersect::{FAR, nearest_hit};
 use moire::oracle::math::xyz;
-use moire::oracle::pieces::{gather, lay_over};
 use moire::pack::PackedScene;
 use moire::scene::model::{Algorithm, Scene};
 
@@ -95,10 +95,10 @@ fn shares_off(scene: &Scene) -> [f64; 3] {
     let mut off = [0.0f64; 3];
     for place in (0..scene.width * scene.height).map(|i| [i % scene.width, i / scene.width]) {
         let ray = camera_ray(header, place, DVec2::splat(0.5));
-        let beam = camera_beam(header, &ray);
+        let beam = camera_differential(header, &ray);
         let cone = cone_of(ray, beam.width, beam.spread, xyz(header.step_x));
-        let mut pieces = gather(&packed, &cone, moire::schema::layout::NO_SHAPE, FAR);
-        let rest = lay_over(&mut pieces, &packed, &cone).share;
+        let mut pieces = collect_fragments(&packed, &cone, moire::schema::layout::NO_SHAPE, FAR);
+        let rest = composite(&mut pieces, &packed, &cone).share;
         if pieces.list.iter().any(|p| p.area >= 1.0) {
             off[2] = off[2].max(rest);
         }

@@ -101,7 +101,7 @@ fn triangle(scene: &PackedScene, index: usize, ray: &Ray) -> Estimate {
     let unsure = edges.iter().any(|(e, error)| e.abs() <= *error);
     let weights = 4.0 * worst / sum.abs() + DIVIDE * U;
     let t_plane = if t > 0.0 { t } else { 1.0 };
-    let bend = if triangle.v[3] != 0.0 { 2.0 * weights } else { 0.0 };
+    let shape_operator = if triangle.v[3] != 0.0 { 2.0 * weights } else { 0.0 };
     let error = flat_error(triangle.normal, ray, t_plane);
-    Estimate { t, error, unsure, curvature: 0.0, weights: weights.max(bend) }
+    Estimate { t, error, unsure, curvature: 0.0, weights: weights.max(shape_operator) }
 }

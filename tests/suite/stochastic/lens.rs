@@ -1,7 +1,7 @@
 //! The thin lens: what lies in focus, how wide what lies elsewhere is blurred, what patterns gain.
 
 use moire::core::film::Film;
-use moire::core::progress::Silent;
+use moire::core::progress::NoProgress;
 use moire::oracle::render::render as on_oracle;
 use moire::scene::model::{Lens, Scene};
 use moire::scene::parse;
@@ -37,12 +37,12 @@ fn what_lies_in_the_plane_of_focus_looks_as_through_a_pinhole() {
     let sharp = with_lens(card, 0.4, 3.0);
     let pinhole =
         Scene { camera: moire::scene::model::Camera { lens: None, ..sharp.camera }, ..sharp.clone() };
-    let [a, b] = [&sharp, &pinhole].map(|s| on_oracle(&packed(s), &Silent).unwrap());
+    let [a, b] = [&sharp, &pinhole].map(|s| on_oracle(&packed(s), &NoProgress).unwrap());
     assert_eq!(a, b, "in focus");
     let [a, b] = [&sharp, &pinhole].map(|s| render(&packed(s)));
     let apart = a.pixels.iter().zip(&b.pixels).filter(|(p, q)| p != q).count();
     assert!(apart <= 2, "{apart} pixels differ on the device: rounding at an edge");
-    let blurred = on_oracle(&packed(&with_lens(card, 0.4, 2.0)), &Silent).unwrap();
+    let blurred = on_oracle(&packed(&with_lens(card, 0.4, 2.0)), &NoProgress).unwrap();
     assert!(moire::lab::metrics::compare(&blurred, &b).unwrap().rmse > 0.05, "out of focus");
 }
 

@@ -220,7 +220,7 @@ fn penumbrae_are_as_wide_as_geometry_says() {
         let x = (i as f64 + 0.5) / 32.0 * 0.5 - 0.25;
         let expected = (x / edge + 0.5).clamp(0.0, 1.0);
         let found = f64::from(pixel[0]) / open;
-        // Pixels at the two ends of the penumbra are averages over its bend.
+        // Pixels at the two ends of the penumbra are averages over its shape_operator.
         assert!((found - expected).abs() < 0.02, "at {x}: {found}, expected {expected}");
     }
 }

@@ -3,7 +3,7 @@
 
 use glam::DVec3;
 use moire::core::film::Film;
-use moire::core::progress::Silent;
+use moire::core::progress::NoProgress;
 use moire::lab::metrics::compare;
 use moire::oracle::render::render as on_oracle;
 use moire::pack::PackedScene;
@@ -104,7 +104,7 @@ fn a_moment_shows_everything_where_it_is_then() {
         }
         let [frozen, still] = [textured(&frozen), textured(&still)];
         assert!(still.motions.is_empty());
-        let [a, b] = [&frozen, &still].map(|s| on_oracle(s, &Silent).unwrap());
+        let [a, b] = [&frozen, &still].map(|s| on_oracle(s, &NoProgress).unwrap());
         let apart = compare(&a, &b).unwrap();
         assert!(apart.rmse < 2e-3, "oracle at {time}: {:e}", apart.rmse);
         let [a, b] = [&frozen, &still].map(render);
@@ -138,7 +138,7 @@ fn a_camera_that_moves_sees_what_shapes_moving_the_other_way_show() {
     shapes.planes.iter_mut().for_each(|s| s.motion = -way);
     shapes.spheres.iter_mut().for_each(|s| s.motion = -way);
     shapes.triangles.iter_mut().for_each(|s| s.motion = -way);
-    let [a, b] = [&camera, &shapes].map(|s| on_oracle(&textured(s), &Silent).unwrap());
+    let [a, b] = [&camera, &shapes].map(|s| on_oracle(&textured(s), &NoProgress).unwrap());
     assert!(compare(&a, &b).unwrap().rmse < 2e-3, "{:e}", compare(&a, &b).unwrap().rmse);
     let [a, b] = [&camera, &shapes].map(|s| render(&textured(s)));
     assert!(compare(&a, &b).unwrap().rmse < 5e-3, "{:e}", compare(&a, &b).unwrap().rmse);

@@ -43,7 +43,7 @@ fn points_at_the_references_own_error_bend_no_slope() {
     let bent = |(n, e): (f64, f64)| (n, e.hypot(floor));
     let points: Vec<(f64, f64)> = curve(-1.5, 0.0).into_iter().map(bent).collect();
     let blind = slope(&points, 0.0).unwrap();
-    assert!(blind.value > -1.4, "the planted floor does not bend: {blind:?}");
+    assert!(blind.value > -1.4, "the planted floor does not shape_operator: {blind:?}");
     let fitted = slope(&points, floor).unwrap();
     assert!(fitted.points < 5 && (fitted.value + 1.5).abs() < 0.05, "{fitted:?}");
 }

@@ -1,7 +1,7 @@
 //! Renders that share what is on the device are the same, bit for bit, as renders of their own.
 
 use moire::core::film::Film;
-use moire::core::progress::Silent;
+use moire::core::progress::NoProgress;
 use moire::pack::pack;
 use moire::render::{Session, Tuning, render};
 use moire::scene::model::{Algorithm, Pattern, Scene};
@@ -23,7 +23,7 @@ fn packed(scene: &Scene) -> moire::pack::PackedScene {
 
 fn alone(scene: &Scene) -> Film {
     let gpu = shared_gpu::gpu();
-    render(&gpu, packed(scene), false, &Tuning::default(), &Silent).unwrap().0
+    render(&gpu, packed(scene), false, &Tuning::default(), &NoProgress).unwrap().0
 }
 
 /// What beams leave takes the samples of its own choice, not those that the scene was packed with.
@@ -41,7 +41,7 @@ fn samples_beside_beams_are_those_that_are_asked_for() {
     for scene in
         [variant(Pattern::Stratified, 1), variant(Pattern::Random, 5), variant(Pattern::Stratified, 64)]
     {
-        let (film, report) = session.prepare_sampling(&scene).unwrap().render(&Silent).unwrap();
+        let (film, report) = session.prepare_sampling(&scene).unwrap().render(&NoProgress).unwrap();
         assert!(report.sampled_pixels > Some(0));
         assert!(film == alone(&scene), "{:?}", scene.sampling);
     }
@@ -68,7 +68,7 @@ fn renders_in_turn_equal_renders_alone() {
         let alone: Vec<Film> = scenes.iter().map(alone).collect();
         for round in 0..2 {
             for ((scene, expected), prepared) in scenes.iter().zip(&alone).zip(&prepared) {
-                let (film, report) = prepared.render(&Silent).unwrap();
+                let (film, report) = prepared.render(&NoProgress).unwrap();
                 assert!(film == *expected, "{name}, round {round}, {:?}", scene.sampling);
                 assert!(report.seconds.render > 0.0 && report.seconds.compile > 0.0);
             }

@@ -9,7 +9,7 @@ use moire::lab::verify::queries::{Dice, noise, pairs_over, place_of, query};
 use moire::lab::verify::reading::readings;
 use moire::lab::verify::sweeps::{level_sweep, long_footprints, paint_levels};
 use moire::lab::verify::variants::{FormatClass, Reader, Scale, Variant};
-use moire::oracle::filter::look_up;
+use moire::oracle::filter::sample_texture;
 use moire::pack::PackedScene;
 use moire::scene::model::Footprint;
 use moire::schema::layout::Sampler;
@@ -43,7 +43,7 @@ fn wrong(variant: &Variant, precision: Precision, tamper: impl Fn(&mut LookUp, &
     let is_wrong = |query: &&LookUp| {
         let (mut asked, mut how) = (**query, scene.samplers[0]);
         tamper(&mut asked, &mut how);
-        let answer = look_up(&scene, &scene.textures[0], &how, &place_of(&asked), [0; 2]);
+        let answer = sample_texture(&scene, &scene.textures[0], &how, &place_of(&asked), [0; 2]);
         !judge.judge(query, answer.as_vec4().to_array()).right
     };
     queries.iter().filter(is_wrong).count() as f64 / queries.len() as f64
