@@ -2,6 +2,7 @@
 //! are those of the code, and every formula has its functions and its test. In: the pages beside the data.
 //! `MOIRE_UPDATE_DOCS=1` rewrites what is generated in them and still fails: read the change, then test again.
 
+mod architecture;
 mod cli;
 mod commands;
 mod formulas;

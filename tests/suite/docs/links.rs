@@ -57,11 +57,25 @@ fn resolved(page: &str, target: &str) -> String {
     path.to_string_lossy().replace('\\', "/")
 }
 
+/// Paths of the repository that stand as code in sentences: `src/scene/load.rs`.
+fn paths(text: &str) -> Vec<String> {
+    const FOLDERS: [&str; 7] = ["src/", "glsl/", "tests/", "data/", "docs/", "benches/", "examples/"];
+    let is_path = |span: &&str| {
+        let plain = |c: char| c.is_ascii_alphanumeric() || "/._-".contains(c);
+        FOLDERS.iter().any(|folder| span.starts_with(folder)) && span.chars().all(plain)
+    };
+    let lines = prose(text);
+    let spans = lines.iter().flat_map(|line| line.split('`').skip(1).step_by(2));
+    spans.filter(is_path).filter(|span| !span.contains("NAME")).map(String::from).collect()
+}
+
 /// What is wrong with the links of the pages; `exists` tells of any other file.
 fn faults(pages: &[Page], exists: impl Fn(&str) -> bool) -> Vec<String> {
     let anchors_of = |name: &str| pages.iter().find(|p| p.name == name).map(|p| anchors(&p.text));
     let mut found = Vec::new();
     for page in pages {
+        let strange = paths(&page.text).into_iter().filter(|path| !exists(path.trim_end_matches('/')));
+        found.extend(strange.map(|path| format!("{}: there is no {path}", page.name)));
         for target in targets(&page.text).iter().filter(|t| !t.contains("://")) {
             let (path, anchor) =
                 target.split_once('#').map_or((target.as_str(), None), |(p, a)| (p, Some(a)));
@@ -124,4 +138,6 @@ fn planted_faults_are_found() {
     for anchor in ["b.md#no-heading", "b.md#twice-2", "b.md#none", "#own"] {
         assert_eq!(told(&format!("[x]({anchor})")).len(), 1, "{anchor}");
     }
+    assert_eq!(told("As `src/none.rs` says."), ["docs/a.md: there is no src/none.rs"]);
+    assert_eq!(told("As `docs/b.md` says, not `src/….rs`, `data/a NAME` or `src/*.rs`."), [""; 0]);
 }

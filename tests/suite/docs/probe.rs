@@ -72,9 +72,11 @@ impl Context {
         parse(Path::new("scene.toml"), &self.scene(kind, key, value)).err().map(|e| e.to_string())
     }
 
-    /// The scene as it is read.
+    /// The scene as it is read, of the first kind that has the key.
     pub fn read(&self, key: &str, value: Option<&str>) -> Option<String> {
-        parse(Path::new("scene.toml"), &self.scene(None, key, value)).ok().map(|scene| format!("{scene:?}"))
+        let kinds = self.able(key);
+        let text = self.scene(kinds.first().map(String::as_str), key, value);
+        parse(Path::new("scene.toml"), &text).ok().map(|scene| format!("{scene:?}"))
     }
 
     /// The keys that the table may have, in the code's order. Those of another kind of table of the same name,
@@ -94,17 +96,20 @@ impl Context {
         self.kinds.and_then(|key| self.error(None, key, Some(NO_WORD))).map_or(Vec::new(), |e| listed(&e))
     }
 
+    /// The kinds that have a key.
+    fn able(&self, key: &str) -> Vec<String> {
+        let has = |kind: &String| !self.error(Some(kind), key, Some(NO_WORD)).is_some_and(|e| is_refused(&e));
+        self.words().into_iter().filter(has).collect()
+    }
+
     /// What a key takes, as the reference states it; of some kinds only where it is so.
     pub fn values(&self, key: &str) -> String {
-        let words = self.words();
-        let has =
-            |kind: &&String| !self.error(Some(kind), key, Some(NO_WORD)).is_some_and(|e| is_refused(&e));
-        let able: Vec<&String> = words.iter().filter(has).collect();
-        if able.len() == words.len() {
+        let able = self.able(key);
+        if able.len() == self.words().len() {
             return self.values_of(None, key);
         }
         let kinds: Vec<String> = able.iter().map(|kind| format!("`{kind}`")).collect();
-        format!("of {}: {}", kinds.join(", "), self.values_of(able.first().map(|k| k.as_str()), key))
+        format!("of {}: {}", kinds.join(", "), self.values_of(able.first().map(String::as_str), key))
     }
 
     fn values_of(&self, kind: Option<&str>, key: &str) -> String {
@@ -157,7 +162,7 @@ fn expected(told: &str) -> Option<String> {
 }
 
 fn is_unknown(told: &str) -> bool {
-    told.contains("unknown key")
+    told.contains("unknown key") || told.contains("keep procedural or this")
 }
 
 /// The key is not one of this kind of table.

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 
 use super::probe::{Context, NO_WORD, listed};
 use super::table::{correct, rows};
-use super::{judge, pages};
+use super::{judge, pages, synonyms};
 
 const PAGE: &str = "docs/scene-format.md";
 /// Key, values, default, meaning; the first two are generated.
@@ -181,6 +181,7 @@ fn every_table_key_and_word_stands_in_the_reference() {
     let headings = page.text.lines().filter(|l| l.starts_with('#') && l.contains("`["));
     let strange = headings.filter(|heading| !CONTEXTS.iter().any(|c| c.heading == *heading));
     faults.extend(strange.map(|heading| format!("\"{heading}\" is no table of the format")));
+    synonyms::correct(&mut text, &mut faults);
     judge(PAGE, &faults, &text);
 }
 
@@ -188,7 +189,7 @@ fn every_table_key_and_word_stands_in_the_reference() {
 #[test]
 fn the_contexts_reach_the_whole_format() {
     let headers: BTreeSet<String> = CONTEXTS.iter().map(|c| bare(c.header).to_string()).collect();
-    let none = Context { header: "[[?]]", ..NONE };
+    let none = Context { header: "[[\"?\"]]", ..NONE };
     let told = none.error(None, "name", Some("1")).unwrap();
     assert_eq!(headers, listed(&told).into_iter().collect(), "sections: {told}");
     for header in &headers {

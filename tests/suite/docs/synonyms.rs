@@ -1,14 +1,14 @@
-//! The words of other programs in docs/scene-format.md: the table of the code, and each word answered as it says.
+//! The words of other programs in the reference of scenes. In: the page and the table of the code, whose every
+//! word is answered as it says. Out: the page with that table between its markers.
 
 use std::fs;
 use std::path::PathBuf;
 
 use moire::scene::synonyms::meant;
 
-use super::{judge, pages, root};
+use super::root;
 use crate::layering::files_under;
 
-const PAGE: &str = "docs/scene-format.md";
 const BEGIN: &str = "<!-- synonyms: generated -->";
 const END: &str = "<!-- end of synonyms -->";
 
@@ -58,21 +58,22 @@ fn source() -> Option<String> {
     Some(fs::read_to_string(file).unwrap())
 }
 
-#[test]
-fn words_of_other_programs_stand_in_the_reference() {
+/// Holds the words of the page against the table of the code, and corrects them.
+pub fn correct(page: &mut String, faults: &mut Vec<String>) {
     let Some(source) = source() else { return };
-    let page = pages().into_iter().find(|page| page.name == PAGE).unwrap();
     let rows = table(&source);
     assert!(rows.len() > 50, "only {} words were found", rows.len());
     for (_, word, name) in &rows {
         let (here, _) = meant(word, [name.as_str()]).unwrap_or_else(|| panic!("{word} means nothing"));
         assert_eq!(here, name);
     }
-    let (before, rest) = page.text.split_once(BEGIN).expect("no marker of the synonyms");
+    let (before, rest) = page.split_once(BEGIN).expect("no marker of the synonyms");
     let (found, after) = rest.split_once(END).expect("no marker of the synonyms' end");
     let right = format!("\n{}", generated(&rows));
-    let faults = if found == right { vec![] } else { vec!["the words of other programs differ".to_string()] };
-    judge(PAGE, &faults, &format!("{before}{BEGIN}{right}{END}{after}"));
+    if found != right {
+        faults.push("the words of other programs differ".into());
+        *page = format!("{before}{BEGIN}{right}{END}{after}");
+    }
 }
 
 #[test]
