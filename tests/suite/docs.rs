@@ -52,6 +52,31 @@ pub fn pages() -> Vec<Page> {
     files.into_iter().map(page).collect()
 }
 
+/// A page's paragraphs, rows of tables and headings, each as one line, without its blocks of code.
+pub fn prose(text: &str) -> Vec<String> {
+    let mut inside = false;
+    let mut found = vec![String::new()];
+    for line in text.lines() {
+        let fence = line.trim_start().starts_with("```");
+        inside ^= fence;
+        if inside || fence || line.trim().is_empty() {
+            found.push(String::new());
+        } else if line.starts_with(['|', '#', '-']) || found.last().is_none_or(|p| p.starts_with(['|', '#']))
+        {
+            found.push(line.to_string());
+        } else if let Some(paragraph) = found.last_mut() {
+            *paragraph += &format!(" {}", line.trim());
+        }
+    }
+    found.retain(|paragraph| !paragraph.is_empty());
+    found
+}
+
+/// What stands in backticks in a paragraph.
+pub fn spans(paragraph: &str) -> impl Iterator<Item = &str> {
+    paragraph.split('`').skip(1).step_by(2)
+}
+
 /// Fails with the faults of a page. Where `MOIRE_UPDATE_DOCS` is set the page becomes `right` first.
 pub fn judge(page: &str, faults: &[String], right: &str) {
     if faults.is_empty() {
@@ -74,4 +99,11 @@ fn the_readme_is_short() {
     let Some(readme) = pages().into_iter().next() else { return };
     let lines = readme.text.lines().count();
     assert!(lines <= MOST_README_LINES, "README.md has {lines} lines, more than {MOST_README_LINES}");
+}
+
+#[test]
+fn paragraphs_are_joined_and_code_is_left_out() {
+    let text = "# A\nB\n`c\nd` e\n```sh\nf\n```\n- g\n  h\n- i\n| j |\n| k |\nl\n";
+    assert_eq!(prose(text), ["# A", "B `c d` e", "- g h", "- i", "| j |", "| k |", "l"]);
+    assert_eq!(spans("B `c d` e `f`").collect::<Vec<_>>(), ["c d", "f"]);
 }

@@ -8,7 +8,7 @@ use std::os::unix::fs::{PermissionsExt, symlink};
 use std::path::Path;
 use std::process::Command;
 
-use super::{Page, pages};
+use super::{Page, pages, prose, spans};
 use crate::stage::device_name;
 use crate::support::{data, program};
 
@@ -44,13 +44,11 @@ fn commands(text: &str) -> Vec<String> {
                 block = None;
             }
             (Some(lines), line) => lines.push(line),
-            (None, line) => {
-                let spans = line.split('`').skip(1).step_by(2);
-                let is_command = |span: &&str| span.starts_with("moire ") && span.contains("data/");
-                found.extend(spans.filter(is_command).map(String::from));
-            }
+            (None, _) => {}
         }
     }
+    let is_command = |span: &&str| span.starts_with("moire ") && span.contains("data/");
+    found.extend(prose(text).iter().flat_map(|p| spans(p)).filter(is_command).map(String::from));
     found
 }
 

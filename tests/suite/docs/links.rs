@@ -5,18 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Component, Path, PathBuf};
 
-use super::{Page, pages, root};
-
-/// A page's lines without its blocks of code.
-fn prose(text: &str) -> Vec<&str> {
-    let mut inside = false;
-    let is_prose = |line: &&str| {
-        let fence = line.trim_start().starts_with("```");
-        inside ^= fence;
-        !inside && !fence
-    };
-    text.lines().filter(is_prose).collect()
-}
+use super::{Page, pages, prose, root, spans};
 
 /// What `](…)` leads to, beside `` `code` ``.
 fn targets(text: &str) -> Vec<String> {
@@ -30,14 +19,15 @@ fn targets(text: &str) -> Vec<String> {
 /// The anchors of a page's headings, as GitHub names them.
 fn anchors(text: &str) -> BTreeSet<String> {
     let mut seen: BTreeMap<String, usize> = BTreeMap::new();
-    let headings = prose(text).into_iter().filter(|line| line.starts_with('#'));
+    let prose = prose(text);
+    let headings = prose.iter().filter(|line| line.starts_with('#'));
     let slug = |heading: &str| {
         let words = heading.trim_start_matches('#').trim().to_lowercase();
         let kept = words.chars().filter(|c| c.is_alphanumeric() || [' ', '-', '_'].contains(c));
         kept.map(|c| if c == ' ' { '-' } else { c }).collect::<String>()
     };
     let mut found = BTreeSet::new();
-    for slug in headings.map(slug) {
+    for slug in headings.map(|heading| slug(heading)) {
         let count = seen.entry(slug.clone()).or_default();
         found.insert(if *count == 0 { slug } else { format!("{slug}-{count}") });
         *count += 1;
@@ -64,9 +54,14 @@ fn paths(text: &str) -> Vec<String> {
         let plain = |c: char| c.is_ascii_alphanumeric() || "/._-".contains(c);
         FOLDERS.iter().any(|folder| span.starts_with(folder)) && span.chars().all(plain)
     };
-    let lines = prose(text);
-    let spans = lines.iter().flat_map(|line| line.split('`').skip(1).step_by(2));
-    spans.filter(is_path).filter(|span| !span.contains("NAME")).map(String::from).collect()
+    let prose = prose(text);
+    prose
+        .iter()
+        .flat_map(|paragraph| spans(paragraph))
+        .filter(is_path)
+        .filter(|span| !span.contains("NAME"))
+        .map(String::from)
+        .collect()
 }
 
 /// What is wrong with the links of the pages; `exists` tells of any other file.
