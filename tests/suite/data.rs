@@ -6,7 +6,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use image::{DynamicImage, ImageReader};
-use moire::texture::synth;
+use moire::internal::texture::synth;
 
 use crate::support::data;
 

@@ -3,10 +3,10 @@
 
 use std::path::Path;
 
-use moire::adaptive::{Goal, Outcome};
-use moire::core::film::Film;
-use moire::scene::model::{Algorithm, Pattern, Scene};
-use moire::scene::parse;
+use moire::internal::adaptive::{Goal, Outcome};
+use moire::internal::core::film::Film;
+use moire::internal::scene::model::{Algorithm, Pattern, Scene};
+use moire::internal::scene::parse;
 
 use super::{rmse, to_goal};
 use crate::stage::{packed, render};

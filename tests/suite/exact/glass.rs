@@ -4,8 +4,8 @@
 use std::sync::OnceLock;
 
 use glam::DVec3;
-use moire::lab::verify::queries::Dice;
-use moire::oracle::footprint::{fresnel_dielectric, mirrored, refracted};
+use moire::internal::lab::verify::queries::Dice;
+use moire::internal::oracle::footprint::{fresnel_dielectric, mirrored, refracted};
 use num_traits::Signed;
 
 use super::numbers::{Q, V, approx, direction, frac, q, sqrt, v};

@@ -4,17 +4,17 @@
 use std::collections::BTreeMap;
 
 use glam::{DVec2, DVec3};
-use moire::oracle::camera::camera_ray;
-use moire::oracle::cone::{cone_of, leaving};
-use moire::oracle::footprint::{camera_differential, mirrored};
-use moire::oracle::fragments::{collect_fragments, composite};
-use moire::oracle::intersect::FAR;
-use moire::oracle::math::xyz;
-use moire::oracle::projective::shape_plane;
-use moire::oracle::shading_integral::links;
-use moire::pack::PackedScene;
-use moire::scene::model::{Algorithm, Model};
-use moire::schema::layout::NO_SHAPE;
+use moire::internal::oracle::camera::camera_ray;
+use moire::internal::oracle::cone::{cone_of, leaving};
+use moire::internal::oracle::footprint::{camera_differential, mirrored};
+use moire::internal::oracle::fragments::{collect_fragments, composite};
+use moire::internal::oracle::intersect::FAR;
+use moire::internal::oracle::math::xyz;
+use moire::internal::oracle::projective::shape_plane;
+use moire::internal::oracle::shading_integral::links;
+use moire::internal::pack::PackedScene;
+use moire::internal::scene::model::{Algorithm, Model};
+use moire::internal::schema::layout::NO_SHAPE;
 use rayon::prelude::*;
 
 use super::cones::plain;
