@@ -100,10 +100,11 @@ fn one_or_two_shapes_cost_no_more_than_a_disc_for_a_square() {
     assert!(all.len() == 4, "{:?}", all.keys());
 }
 
-/// Prints the README's figures by cause: share of the pixels, RMSE, the error that one in 1000 exceeds, the worst.
+/// Prints the figures of docs/guide/learn/11-cones.md by cause: share of the pixels, RMSE, the error that one in
+/// 1000 exceeds, the worst.
 #[test]
 #[ignore = "minutes"]
-fn the_readmes_causes() {
+fn causes_for_the_docs() {
     let all = errors(many(), 64);
     let count: usize = all.values().map(Vec::len).sum();
     for (cause, mut errors) in all {
