@@ -55,13 +55,6 @@ void send(Branch branch) {
     waiting_count++;
 }
 
-// The shape that a ray must not meet again at once. From inside a ball its other side is met.
-uint left_shape(Header header, uint shape, bool within) {
-    uint planes = COUNT(PLANES, header.counts.x);
-    bool ball = shape >= planes && shape < planes + COUNT(SPHERES, header.counts.y);
-    return ball && within ? NO_SHAPE : shape;
-}
-
 // What an unhidden light sends through a surface to the eye, and the cone in which it may be hidden: as
 // wide as the footprint looks from the light, where it ends in a point.
 Branch lit_branch(Branch branch, vec3 carried, Hit hit, Surface surface, Footprint print, Material material, uint skip, Light light) {

@@ -8,7 +8,7 @@
 #include "filter.glsl"
 #include "light.glsl"
 #include "shading_normal.glsl"
-#include "surface.glsl"
+#include "geometry/rays.glsl"
 
 // What the surface's map looks at.
 MapInput map_input(UvProjection map, Ray ray, Surface surface, Footprint print) {

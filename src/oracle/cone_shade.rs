@@ -9,18 +9,19 @@ use super::bsdf::mirror::mirrored;
 use super::bsdf::models::{Lit, bsdf_at, emitted, evaluate, is_lit, is_specular, reflected};
 use super::bsdf::specular::{index_ratio, mirrored_share};
 use super::camera::{Ray, camera_ray};
-use super::cone::{Cone, cone_of, leaving, meet};
+use super::cone::{Cone, cone_of};
 use super::coverage::{Covered, MIN_SHARE};
 use super::footprint::{
     Footprint, Meeting, RayDifferential, camera_differential, endless_footprint, footprint_at,
     reflected_differential, refracted_differential,
 };
 use super::fragments::{collect_fragments, composite};
-use super::intersect::{FAR, Hit, offset_origin};
+use super::geometry::cones::{leaving, left_shape, meet};
+use super::geometry::hit::{FAR, Hit, Surface};
+use super::geometry::rays::{hit_surface, offset_origin};
 use super::math::xyz;
 use super::shade::{bumped_normal, surface_color};
 use super::shading_normal::{consistent_normal, on_its_side};
-use super::surface::{Surface, hit_surface};
 use crate::pack::{LightKind, PackedScene};
 use crate::schema::layout::{Light, Material, NO_MATERIAL, NO_SHAPE};
 
@@ -113,13 +114,6 @@ fn lit_branch(branch: &Branch, met: &Met<'_>, skip: u32, light: &Light) -> Branc
         skip,
         goal: Goal::Light(t_max),
     }
-}
-
-/// The shape that a ray must not meet again at once. From inside a ball its other side is met.
-fn left_shape(scene: &PackedScene, shape: u32, within: bool) -> u32 {
-    let [planes, spheres, _, _] = scene.header.counts;
-    let ball = (planes..planes + spheres).contains(&shape);
-    if ball && within { NO_SHAPE } else { shape }
 }
 
 /// The cone that leaves a mirror or glass, `through` it or not.

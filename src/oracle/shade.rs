@@ -12,7 +12,8 @@ use super::footprint::{
     Footprint, Meeting, RayDifferential, any_tangent, endless_footprint, footprint_at, is_filtered,
     mirrored_change, reflected_differential, refracted_differential,
 };
-use super::intersect::{Hit, nearest_hit, offset_origin};
+use super::geometry::hit::{Hit, Surface};
+use super::geometry::rays::{hit_surface, nearest_hit, offset_origin};
 use super::light::direct_light;
 use super::mapping::{Coordinate, MapInput, texture_coordinate};
 use super::math::xyz;
@@ -20,7 +21,6 @@ use super::patterns::Points;
 use super::rng::pcg2d;
 use super::sample_dimensions::{SampleDimensions, choose, chosen_light};
 use super::shading_normal::consistent_normal;
-use super::surface::{Surface, hit_surface};
 use crate::pack::{EntityKind, PackedScene};
 use crate::scene::model::BumpKind;
 use crate::schema::layout::{Header, Material, NO_MATERIAL, NO_SHAPE, NO_TEXTURE, UvProjection};

@@ -53,7 +53,7 @@ pub fn samples_at_once(device: &DeviceInfo, scene: &PackedScene) -> Result<u32> 
 fn turns_of_cones(scene: &PackedScene, ellipse: u64) -> u64 {
     const PIECES: u64 = 8;
     const SEEN: u64 = 3;
-    let shapes = (scene.planes.len() + scene.spheres.len() + scene.triangles.len()) as u64;
+    let shapes = scene.shape_count() as u64;
     let lights = scene.lights.len() as u64;
     let cones = if bounces(scene) { MAX_CONES } else { MAX_CONES.min(1 + PIECES * lights) };
     let gathered = 4 + shapes + shapes / 16 + 2 * PIECES;
@@ -73,7 +73,7 @@ fn turns_of_a_sample(scene: &PackedScene, ellipse: u64) -> u64 {
         return turns_of_cones(scene, ellipse);
     }
     let count = |n: usize| n as u64;
-    let shapes = count(scene.planes.len() + scene.spheres.len() + scene.triangles.len()) + 3;
+    let shapes = count(scene.shape_count()) + 3;
     let records = count(scene.materials.len() + scene.maps.len() + scene.motions.len());
     let rays = if bounces(scene) { 1 + u64::from(scene.header.size[3]) } else { 1 };
     let bumped = scene.materials.iter().any(|m| m.detail[0] != NO_TEXTURE);

@@ -13,8 +13,6 @@ pub const MAX_SIZE: u32 = 16384;
 /// Samples per pixel: sample positions are multiples of 2⁻²⁴, more could not be told apart.
 pub const MAX_SPP: u32 = 1 << 24;
 pub const MAX_DEPTH: u32 = 64;
-/// Planes, spheres and triangles together.
-pub(super) const MAX_SHAPES: usize = 65535;
 pub(super) const MAX_TEXTURES: usize = 1024;
 
 /// Footprints longer than this many widths are blurred.

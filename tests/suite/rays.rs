@@ -5,10 +5,10 @@
 use glam::{DVec2, DVec3};
 use moire::lab::probe::{self, RayAnswer, RayQuery};
 use moire::oracle::camera::Ray;
-use moire::oracle::intersect::{Hit, nearest_hit, occluded};
+use moire::oracle::geometry::rays::hit_surface;
+use moire::oracle::geometry::rays::{Hit, nearest_hit, occluded};
 use moire::oracle::mapping::{MapInput, texture_coordinate};
 use moire::oracle::math::xyz;
-use moire::oracle::surface::hit_surface;
 use moire::pack::{MapKind, PackedScene};
 use moire::schema::layout::NO_SHAPE;
 
@@ -116,7 +116,7 @@ fn wrong_hit(
 
 fn wrong_uv(
     scene: &PackedScene,
-    surface: &moire::oracle::surface::Surface,
+    surface: &moire::oracle::geometry::hit::Surface,
     answer: &RayAnswer,
     point_error: f64,
     weights: f64,

@@ -4,7 +4,7 @@
 use glam::DVec3;
 use moire::lab::verify::queries::Dice;
 use moire::oracle::camera::Ray;
-use moire::oracle::intersect::sphere_distance;
+use moire::oracle::geometry::sphere::sphere_distance;
 use moire::schema::layout::Sphere;
 use num_traits::Signed;
 

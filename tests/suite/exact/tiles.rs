@@ -5,10 +5,10 @@ use glam::{DVec2, DVec3};
 use moire::lab::verify::queries::Dice;
 use moire::oracle::camera::Ray;
 use moire::oracle::footprint::Footprint;
-use moire::oracle::intersect::nearest_hit;
+use moire::oracle::geometry::rays::hit_surface;
+use moire::oracle::geometry::rays::nearest_hit;
 use moire::oracle::mapping::texture_coordinate;
 use moire::oracle::shade::map_input;
-use moire::oracle::surface::hit_surface;
 use moire::pack::PackedScene;
 use moire::schema::layout::NO_SHAPE;
 

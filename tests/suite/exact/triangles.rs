@@ -4,8 +4,9 @@
 use glam::{DVec2, DVec3, Vec2Swizzles};
 use moire::lab::verify::queries::Dice;
 use moire::oracle::camera::Ray;
-use moire::oracle::intersect::{Hit, nearest_hit, triangle_distance};
-use moire::oracle::surface::hit_surface;
+use moire::oracle::geometry::rays::hit_surface;
+use moire::oracle::geometry::rays::{Hit, nearest_hit};
+use moire::oracle::geometry::triangle::triangle_distance;
 use moire::pack::PackedScene;
 use moire::schema::layout::NO_SHAPE;
 use moire::schema::layout::Triangle;

@@ -5,9 +5,9 @@ use glam::DVec3;
 use moire::core::film::Film;
 use moire::oracle::camera::Ray;
 use moire::oracle::footprint::{Footprint, mirrored, refracted};
+use moire::oracle::geometry::hit::Surface;
 use moire::oracle::shade::map_input;
 use moire::oracle::shading_normal::{consistent_normal, on_its_side};
-use moire::oracle::surface::Surface;
 use moire::pack::{EntityKind, MapKind, PackedScene};
 use moire::schema::layout::UvProjection;
 

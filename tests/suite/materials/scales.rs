@@ -6,10 +6,10 @@ use glam::{DVec2, DVec3};
 use moire::lab::metrics::compare;
 use moire::oracle::camera::Ray;
 use moire::oracle::footprint::{Footprint, any_tangent};
-use moire::oracle::intersect::nearest_hit;
+use moire::oracle::geometry::rays::hit_surface;
+use moire::oracle::geometry::rays::nearest_hit;
 use moire::oracle::mapping::texture_coordinate;
 use moire::oracle::shade::{map_input, uv_gradients};
-use moire::oracle::surface::hit_surface;
 use moire::pack::PackedScene;
 
 use super::{floats, scene};

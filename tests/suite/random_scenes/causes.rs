@@ -5,13 +5,14 @@ use std::collections::BTreeMap;
 
 use glam::{DVec2, DVec3};
 use moire::oracle::camera::camera_ray;
-use moire::oracle::cone::{cone_of, leaving};
+use moire::oracle::cone::cone_of;
 use moire::oracle::footprint::{camera_differential, mirrored};
 use moire::oracle::fragments::{collect_fragments, composite};
-use moire::oracle::intersect::FAR;
+use moire::oracle::geometry::beams::shape_links;
+use moire::oracle::geometry::beams::shape_plane;
+use moire::oracle::geometry::cones::leaving;
+use moire::oracle::geometry::rays::FAR;
 use moire::oracle::math::xyz;
-use moire::oracle::projective::shape_plane;
-use moire::oracle::shading_integral::links;
 use moire::pack::PackedScene;
 use moire::scene::model::{Algorithm, Model};
 use moire::schema::layout::NO_SHAPE;
@@ -41,7 +42,7 @@ fn cause(scene: &PackedScene, place: [u32; 2]) -> Cause {
     let mut cone = cone_of(ray, width, beam.spread, xyz(header.step_x));
     let mut skip = NO_SHAPE;
     let model = |shape: u32| {
-        let [material, _] = links(scene, shape);
+        let [material, _] = shape_links(scene, shape);
         Model::ALL[scene.materials[material as usize].link[0] as usize]
     };
     for _ in 0..=header.size[3] {

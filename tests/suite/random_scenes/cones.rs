@@ -8,7 +8,7 @@ use moire::oracle::camera::camera_ray;
 use moire::oracle::cone::{Cone, cone_of};
 use moire::oracle::footprint::camera_differential;
 use moire::oracle::fragments::{collect_fragments, composite};
-use moire::oracle::intersect::{FAR, nearest_hit};
+use moire::oracle::geometry::rays::{FAR, nearest_hit};
 use moire::oracle::math::xyz;
 use moire::pack::PackedScene;
 use moire::scene::model::{Algorithm, Scene};
