@@ -5,7 +5,7 @@
 #define SHADE_GLSL
 
 #include "bsdf/specular.glsl"
-#include "filter.glsl"
+#include "filter/sample_texture.glsl"
 #include "light.glsl"
 #include "shading_normal.glsl"
 #include "geometry/rays.glsl"

@@ -5,6 +5,7 @@
 
 #include "features.glsl"
 #include "bsdf/models.glsl"
+#include "filter/kinds.glsl"
 #include "geometry/beams.glsl"
 #include "prefix_sums.glsl"
 #include "sample_dimensions.glsl"
@@ -38,7 +39,6 @@ struct ShadingIntegral {
     vec3 near;
 };
 
-const uint STEPPED = (1u << FILTER_NEAREST) | (1u << FILTER_LINEAR);
 const uint TILED = (1u << ADDRESS_REPEAT) | (1u << ADDRESS_MIRRORED_REPEAT) | (1u << ADDRESS_CLAMP_TO_EDGE);
 
 // Whether the integral of a shape's colour is known: of a material that has one, with a checker or a flat texture
@@ -57,7 +57,7 @@ bool is_simple(Header header, uint shape, Material record, UvProjection map) {
     }
     Sampler how = sampler_at(record.link.z);
     bool tiled = HAS(TILED, how.modes.x) && HAS(TILED, how.modes.y);
-    return HAS(STEPPED, how.modes.z) && tiled && word(int(record.link.y)) > 0;
+    return is_integrable(how) && tiled && word(int(record.link.y)) > 0;
 }
 
 // A light behind the surface, as its beam sees it, gives nothing.

@@ -6,6 +6,7 @@ use std::f64::consts::PI;
 use glam::{DVec3, DVec4};
 
 use super::bsdf::models::{is_integrable_over_region, is_specular};
+use super::filter::kinds::is_integrable;
 use super::geometry::beams::is_smooth;
 use super::grid::{Grid, checker_grid, coarser, texture_grid};
 use super::math::xyz;
@@ -15,7 +16,7 @@ use super::projective::{PixelFrustum, RationalMap, ray_at};
 use crate::pack::{EntityKind, LightKind, MapKind, PackedScene, TextureKind};
 use crate::schema::layout::{Light, Material, NO_TEXTURE};
 use crate::texture::procedural::ProceduralKind;
-use crate::texture::sampler_spec::{Address, Filter};
+use crate::texture::sampler_spec::Address;
 
 /// Cells of textures that a pixel's edges may cross.
 const MAX_CELLS: u32 = 40_000;
@@ -60,7 +61,7 @@ pub fn is_simple(scene: &PackedScene, shape: u32, record: &Material, map: u32) -
         use Address::{ClampToEdge, MirroredRepeat, Repeat};
         [Repeat as u32, MirroredRepeat as u32, ClampToEdge as u32].contains(&address)
     };
-    let steps = [Filter::Nearest as u32, Filter::Linear as u32].contains(&sampler.modes[2]);
+    let steps = is_integrable(sampler);
     steps && known(sampler.modes[0]) && known(sampler.modes[1]) && scene.prefix_sums[texture as usize] > 0
 }
 

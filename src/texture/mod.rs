@@ -11,6 +11,7 @@ pub mod decode;
 mod exr_color;
 mod exr_layers;
 mod exr_subsampled;
+pub mod filter;
 mod fixed_point;
 pub mod load;
 pub mod mips;

@@ -74,7 +74,8 @@ pub fn bounces(scene: &PackedScene) -> bool {
 
 /// Whether look-ups take texels at random.
 pub fn chooses(scene: &PackedScene) -> bool {
-    filters(scene) & bit(Filter::Stochastic as u32) != 0
+    let mask = filters(scene);
+    Filter::ALL.iter().any(|&f| f.traits().is_random && mask & bit(f as u32) != 0)
 }
 
 pub fn filters(scene: &PackedScene) -> u32 {

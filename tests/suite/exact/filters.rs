@@ -3,7 +3,7 @@
 
 use glam::{DVec2, DVec3};
 use moire::lab::verify::queries::{self, Dice};
-use moire::oracle::ellipse::ellipse_weight;
+use moire::oracle::filter::ewa::ellipse_weight;
 use moire::oracle::filter::sample_texture;
 use moire::oracle::footprint_axes::{FootprintEllipse, texel_spread};
 use moire::oracle::mapping::Coordinate;
