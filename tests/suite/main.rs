@@ -20,6 +20,7 @@ mod device;
 mod device_shaders;
 mod diagnostics;
 mod dimensions;
+mod doors;
 mod double;
 #[cfg(unix)]
 mod driver_cache;
