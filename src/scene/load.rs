@@ -76,9 +76,9 @@ fn read(path: &Path) -> Result<String> {
         let message = format!("cannot read scene {shown}: it is a folder");
         return Err(Error::with_help(message, "name a scene file (TOML) in it"));
     }
-    let file = File::open(path).map_err(|error| Error::Plain {
-        message: format!("cannot read scene {shown}: {error}"),
-        help: odd_path(path).filter(|_| error.kind() == ErrorKind::NotFound),
+    let file = File::open(path).map_err(|error| {
+        let help = odd_path(path).filter(|_| error.kind() == ErrorKind::NotFound);
+        Error::new(format!("cannot read scene {shown}: {error}")).and_help(help)
     })?;
     text_of(file, &shown.to_string())
 }

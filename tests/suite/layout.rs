@@ -5,17 +5,17 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 
-use moire::gpu::shaders::{self, Shader};
-use moire::pack::features::TextureSize;
-use moire::pack::{
+use moire::internal::gpu::shaders::{self, Shader};
+use moire::internal::pack::features::TextureSize;
+use moire::internal::pack::{
     Diagnostic, EntityKind, LightKind, MapKind, ProjectionKind, SampleDimension, Schedule, TextureKind,
 };
-use moire::scene::model::{BumpKind, Footprint, Model, Pattern, PixelFilterKind};
-use moire::schema::layout::{self as mirror, Record};
-use moire::texture::data::{ColorSpace, TexelFormat};
-use moire::texture::procedural::ProceduralKind;
-use moire::texture::sampler_spec::{Address, Filter, Method, MipMode, TexelCenter};
-use moire::{oracle, pack::features};
+use moire::internal::scene::model::{BumpKind, Footprint, Model, Pattern, PixelFilterKind};
+use moire::internal::schema::layout::{self as mirror, Record};
+use moire::internal::texture::data::{ColorSpace, TexelFormat};
+use moire::internal::texture::procedural::ProceduralKind;
+use moire::internal::texture::sampler_spec::{Address, Filter, Method, MipMode, TexelCenter};
+use moire::internal::{oracle, pack::features};
 
 use crate::layering::source_root;
 

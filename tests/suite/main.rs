@@ -20,6 +20,8 @@ mod device;
 mod device_shaders;
 mod diagnostics;
 mod dimensions;
+#[cfg(unix)]
+mod docs;
 mod doors;
 mod double;
 #[cfg(unix)]
@@ -57,7 +59,6 @@ mod procedural;
 mod programs;
 mod random_scenes;
 mod rays;
-mod readme;
 mod resubmit;
 mod scene;
 mod shared_gpu;

@@ -2,10 +2,10 @@
 //! of 2^-200, where a quotient of rationals cancels nothing.
 
 use glam::DVec3;
-use moire::lab::verify::queries::Dice;
-use moire::oracle::camera::camera_ray;
-use moire::oracle::footprint::{Footprint, camera_differential, footprint_at};
-use moire::oracle::geometry::kinds::Shape;
+use moire::internal::lab::verify::queries::Dice;
+use moire::internal::oracle::camera::camera_ray;
+use moire::internal::oracle::footprint::{Footprint, camera_differential, footprint_at};
+use moire::internal::oracle::geometry::kinds::Shape;
 use num_bigint::BigInt;
 
 use super::numbers::{Q, V, approx, direction, v, vector};

@@ -3,12 +3,12 @@
 //! be off by 2.5 ulp, a square root by about as much (Vulkan 1.3, "Precision and Operation of SPIR-V
 //! Instructions").
 
-use moire::oracle::camera::Ray;
-use moire::oracle::geometry::kinds::Shape;
-use moire::oracle::geometry::sphere::sphere_distance;
-use moire::oracle::geometry::triangle::triangle_distance;
-use moire::oracle::math::{affine, xyz};
-use moire::pack::PackedScene;
+use moire::internal::oracle::camera::Ray;
+use moire::internal::oracle::geometry::kinds::Shape;
+use moire::internal::oracle::geometry::sphere::sphere_distance;
+use moire::internal::oracle::geometry::triangle::triangle_distance;
+use moire::internal::oracle::math::{affine, xyz};
+use moire::internal::pack::PackedScene;
 
 /// Unit roundoff of f32.
 pub const U: f64 = 1.0 / 16_777_216.0;
@@ -52,7 +52,8 @@ fn flat_error(normal: [f64; 4], ray: &Ray, t: f64) -> f64 {
 
 fn plane(scene: &PackedScene, index: usize, ray: &Ray) -> Estimate {
     let plane = &scene.planes[index];
-    let unbounded = moire::schema::layout::Plane { link: [plane.link[0], plane.link[1], 0, 0], ..*plane };
+    let unbounded =
+        moire::internal::schema::layout::Plane { link: [plane.link[0], plane.link[1], 0, 0], ..*plane };
     let (t, _) = unbounded.distance_to(ray);
     let error = flat_error(plane.normal, ray, t);
     let point = ray.origin + t * ray.direction;
