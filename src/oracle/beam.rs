@@ -5,7 +5,7 @@
 
 use glam::DVec3;
 
-use super::bsdf::models::{is_lit, is_specular};
+use super::bsdf::{is_lit, is_specular};
 use super::geometry::beams::{
     coordinates, has_region, may_meet, may_shade, shadow_region, shape_links, shape_plane, shape_region,
 };

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 
 use glam::{DVec2, DVec3};
 
-use super::bsdf::models::{Bsdf, Lit, evaluate};
+use super::bsdf::{Bsdf, Lit, evaluate};
 use super::camera::Ray;
 use super::disk_sampling::{concentric_disc, on_cap};
 use super::footprint::around;

@@ -4,8 +4,8 @@ use glam::{DVec2, DVec3, DVec4};
 
 use super::bsdf::facets::widened_differential;
 use super::bsdf::mirror::mirrored;
-use super::bsdf::models::{bsdf_at, emitted, is_lit, is_specular, reflected};
 use super::bsdf::specular::sample_bsdf;
+use super::bsdf::{bsdf_at, emitted, is_lit, is_specular, reflected};
 use super::camera::Ray;
 use super::filter::sample_texture;
 use super::footprint::{
@@ -245,9 +245,10 @@ pub fn advance(scene: &PackedScene, path: &mut Path) -> DVec3 {
         surface.normal = bumped_normal(scene, material, map, (&ray, &surface, &print), path.random);
     }
     let carried = path.throughput;
-    path.throughput *= surface_color(scene, material, map, (&ray, &surface, &print), path.random);
+    let albedo = surface_color(scene, material, map, (&ray, &surface, &print), path.random);
+    path.throughput *= albedo;
     if is_lit(material) {
-        let bsdf = bsdf_at(material, surface.normal, ray.direction);
+        let bsdf = bsdf_at(material, albedo, surface.normal, ray.direction);
         let points = path.points.as_ref().map(|(points, _)| points);
         let chosen = |i: u32| chosen_light(points, &dimensions, i);
         let lit = direct_light(scene, &surface, ray.time, hit.shape, &bsdf, &chosen);

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 
 use glam::{DVec3, DVec4};
 
-use super::bsdf::models::{is_integrable_over_region, is_specular};
+use super::bsdf::{is_integrable_over_region, is_specular};
 use super::filter::kinds::is_integrable;
 use super::geometry::beams::is_smooth;
 use super::grid::{Grid, checker_grid, coarser, texture_grid};

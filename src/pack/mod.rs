@@ -217,7 +217,7 @@ fn material(packed: &mut PackedScene, source: &Material) -> layout::Material {
     let bump_texture = bump.map(|r| r.texture);
     let facets = DVec3::new(source.roughness.powi(2), 0.0, 0.0);
     let specular = if source.model.is_specular() { facets } else { source.specular };
-    let fourth = if source.model.transmits() { source.ior } else { source.exponent };
+    let fourth = source.model.number_of(source);
     layout::Material {
         color: vec4(source.color.extend(bump.map_or(0.0, |r| r.strength))),
         link: [source.model as u32, index(source.texture), source.sampler as u32, slot(source.texture)],

@@ -41,6 +41,11 @@ impl Model {
         matches!(self, Model::Mirror | Model::Dielectric)
     }
 
+    /// The number by which it is told from others of its kind.
+    pub const fn number_of(self, material: &Material) -> f64 {
+        if self.transmits() { material.ior } else { material.exponent }
+    }
+
     /// Whether rays go on through it, too.
     pub const fn transmits(self) -> bool {
         matches!(self, Model::Dielectric)
