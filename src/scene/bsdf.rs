@@ -41,7 +41,7 @@ impl Model {
         matches!(self, Model::Mirror | Model::Dielectric)
     }
 
-    /// The number by which it is told from others of its kind.
+    /// Returns the number that its record holds beside the colours: a refractive index, or the highlight's exponent.
     pub const fn number_of(self, material: &Material) -> f64 {
         if self.transmits() { material.ior } else { material.exponent }
     }

@@ -47,7 +47,7 @@ pub fn freeze_time(scene: &Scene) -> Scene {
             other => other,
         };
     }
-    settled.materials.iter_mut().for_each(|m| m.roughness = 0.0);
+    settled.materials.iter_mut().filter(|m| m.model.is_specular()).for_each(|m| m.roughness = 0.0);
     settled
 }
 
