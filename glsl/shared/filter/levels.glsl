@@ -2,7 +2,7 @@
 #ifndef LEVELS_GLSL
 #define LEVELS_GLSL
 
-#include "cubic.glsl"
+#include "kernels.glsl"
 #include "linear.glsl"
 #include "nearest.glsl"
 #include "stochastic.glsl"
@@ -31,7 +31,7 @@ vec4 filtered_level(Texture image, Sampler how, uint slot, uint mode, Level leve
     texel -= 0.5;
     if (cube) return linear_cube(image, slot, level, face, texel.xy);
     if (volume) return linear_volume(image, how, slot, level, texel);
-    if (MODE_IS(FILTERS, FILTER_CUBIC, mode)) return cubic_flat(image, how, slot, level, texel.xy);
+    if (has_kernel(mode)) return kernel_flat(image, how, slot, mode, level, texel.xy);
     return linear_flat(image, how, slot, level, texel.xy);
 }
 #endif

@@ -2,6 +2,7 @@
 
 use glam::{DVec3, DVec4};
 
+use super::kernels::has_kernel;
 use super::stochastic::stochastic_place;
 use crate::oracle::address::reduced_coordinate;
 use crate::oracle::footprint_axes::kind_of;
@@ -46,8 +47,8 @@ impl Reader<'_> {
         match kind {
             TextureKind::Cube => self.linear_cube(level, face, texel.truncate()),
             TextureKind::Volume => self.linear_volume(level, texel),
-            TextureKind::Flat | TextureKind::Procedural if filter == Filter::Cubic => {
-                self.cubic_flat(level, texel.truncate())
+            TextureKind::Flat | TextureKind::Procedural if has_kernel(filter) => {
+                self.kernel_flat(filter, level, texel.truncate())
             }
             TextureKind::Flat | TextureKind::Procedural => self.linear_flat(level, texel.truncate()),
         }

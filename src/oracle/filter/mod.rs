@@ -3,8 +3,8 @@
 
 pub mod anisotropic;
 pub mod cube;
-pub mod cubic;
 pub mod ewa;
+pub mod kernels;
 pub mod kinds;
 pub mod levels;
 pub mod linear;

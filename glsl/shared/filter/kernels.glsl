@@ -1,6 +1,7 @@
-// Filter `cubic`: 4 by 4 texels (Mitchell & Netravali 1988). Twin: src/oracle/filter/cubic.rs.
-#ifndef CUBIC_GLSL
-#define CUBIC_GLSL
+// Filters by a kernel wider than that of `linear`, the same along both axes of a flat texture: `cubic`, 4 by 4 texels
+// (Mitchell & Netravali 1988). Twin: src/oracle/filter/kernels.rs.
+#ifndef KERNELS_GLSL
+#define KERNELS_GLSL
 
 #include "../texture.glsl"
 
@@ -21,16 +22,24 @@ vec4 cubic_weights(float t, vec2 bc) {
     return vec4(w0, w1, ((1.0 - w0) - w1) - w3, w3);
 }
 
-vec4 cubic_flat(Texture image, Sampler how, uint slot, Level level, vec2 texel) {
+// Whether a filter has such a kernel.
+bool has_kernel(uint mode) { return MODE_IS(FILTERS, FILTER_CUBIC, mode); }
+
+// Texels along an axis.
+int kernel_taps(uint mode) { return 4; }
+
+vec4 kernel_weights(uint mode, Sampler how, float t) { return cubic_weights(t, uintBitsToFloat(how.more.zw)); }
+
+vec4 kernel_flat(Texture image, Sampler how, uint slot, uint mode, Level level, vec2 texel) {
     vec2 low = floor(texel);
     vec2 t = texel - low;
-    vec2 bc = uintBitsToFloat(how.more.zw);
-    vec4 wx = cubic_weights(t.x, bc);
-    vec4 wy = cubic_weights(t.y, bc);
-    ivec2 first = ivec2(low) - 1;
+    vec4 wx = kernel_weights(mode, how, t.x);
+    vec4 wy = kernel_weights(mode, how, t.y);
+    int taps = kernel_taps(mode);
+    ivec2 first = ivec2(low) - (taps / 2 - 1);
     vec4 sum = vec4(0.0);
-    for (int j = 0; j < 4; j++) {
-        for (int i = 0; i < 4; i++) {
+    for (int j = 0; j < taps; j++) {
+        for (int i = 0; i < taps; i++) {
             ivec2 at = first + ivec2(i, j);
             if (!POLES || how.more.y == 0u) {
                 at.x = wrapped_texel(ADDRESSES_U, how.modes.x, at.x, level.size.x);
