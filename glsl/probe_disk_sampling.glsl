@@ -2,7 +2,7 @@
 #include "schema/blocks.glsl"
 #include "shared/features.glsl"
 #include "shared/layout.glsl"
-#include "shared/glossy.glsl"
+#include "shared/bsdf/facets.glsl"
 #include "shared/rectangle.glsl"
 
 layout(local_size_x_id = 0, local_size_y_id = 1, local_size_z = 1) in;

@@ -3,7 +3,7 @@
 #include "schema/blocks.glsl"
 #include "features.glsl"
 #include "layout.glsl"
-#include "filter.glsl"
+#include "filter/sample_texture.glsl"
 #include "rng.glsl"
 
 layout(local_size_x_id = 0, local_size_y_id = 1, local_size_z = 1) in;

@@ -4,6 +4,9 @@
 #define SHADING_INTEGRAL_GLSL
 
 #include "features.glsl"
+#include "bsdf/models.glsl"
+#include "filter/kinds.glsl"
+#include "geometry/beams.glsl"
 #include "prefix_sums.glsl"
 #include "sample_dimensions.glsl"
 
@@ -36,28 +39,17 @@ struct ShadingIntegral {
     vec3 near;
 };
 
-bool is_smooth(Header header, uint shape) {
-    uint planes = COUNT(PLANES, header.plane_count);
-    if (!SMOOTH_NORMALS || TRIANGLES == 0u || shape < planes) return false;
-    return triangle_at(shape - planes - COUNT(SPHERES, header.sphere_count)).is_smooth;
-}
-
-const uint STEPPED = (1u << FILTER_NEAREST) | (1u << FILTER_LINEAR);
 const uint TILED = (1u << ADDRESS_REPEAT) | (1u << ADDRESS_MIRRORED_REPEAT) | (1u << ADDRESS_CLAMP_TO_EDGE);
 
-// Whether the integral of a shape's colour is known: of one that is unlit, diffuse or a plane mirror, with a
-// checker or a flat texture that is affine on it.
+// Whether the integral of a shape's colour is known: of a material that has one, with a checker or a flat texture
+// that is affine on the shape.
 bool is_simple(Header header, uint shape, Material record, UvProjection map) {
-    bool unlit = MODE_IS(MODELS, MODEL_UNLIT, record.model);
-    bool mirror = MODE_IS(MODELS, MODEL_MIRROR, record.model);
-    bool plain = mirror || MODE_IS(MODELS, MODEL_LAMBERT, record.model);
-    if (!unlit && (!plain || is_smooth(header, shape))) return false;
-    if (GLOSSY && mirror && record.alpha > 0.0) return false;
+    if (!is_integrable_over_region(record, is_smooth(header, shape))) return false;
     if (BUMPED && record.bump_texture_index != NO_TEXTURE) return false;
     if (record.texture_index == NO_TEXTURE) return true;
     bool flat_map = MODE_IS(MAPPINGS, MAP_PLANE, map.kind) || MODE_IS(MAPPINGS, MAP_VERTEX_UV, map.kind) ||
                     MODE_IS(MAPPINGS, MAP_AFFINE, map.kind);
-    if (!flat_map || map.entity != ENTITY_POSITION || mirror) return false;
+    if (!flat_map || map.entity != ENTITY_POSITION || is_specular(record)) return false;
     Texture image = texture_at(record.texture_index);
     if (MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_PROCEDURAL, image.kind)) {
         Procedural what = procedural_at(image.procedural);
@@ -65,11 +57,11 @@ bool is_simple(Header header, uint shape, Material record, UvProjection map) {
     }
     Sampler how = sampler_at(record.sampler_index);
     bool tiled = HAS(TILED, how.address_u) && HAS(TILED, how.address_v);
-    return HAS(STEPPED, how.mag_filter) && tiled && word(int(record.texture_index)) > 0;
+    return is_integrable(how) && tiled && word(int(record.texture_index)) > 0;
 }
 
 // A light behind the surface, as its beam sees it, gives nothing.
-bool is_lit(Header header, ShadingIntegral paint, uint polygon, Light light) {
+bool is_facing(Header header, ShadingIntegral paint, uint polygon, Light light) {
     vec3 way;
     vec3 origin;
     ray_at(header, paint.frame, middle(polygon), way, origin);
@@ -93,23 +85,6 @@ vec3 irradiance(Header header, ShadingIntegral paint, uint strip, Light light) {
     float squared = dot3(way, way);
     float scale = parallel ? 1.0 : near * near;
     return power * (scale * abs(dot3(n, way)) / (squared * sqrt(squared)));
-}
-
-// False where no way from the fragment to the light can pass the sphere.
-bool may_shade(Header header, ShadingIntegral paint, uint polygon, Light light, Sphere sphere) {
-    vec3 from = point_at(header, paint.frame, paint.near, middle(polygon));
-    float wide = 0.0;
-    for (uint k = 0u; k < counts[polygon]; k++) {
-        vec3 apart = point_at(header, paint.frame, paint.near, corner(polygon, k)) - from;
-        wide = max(wide, sqrt(dot3(apart, apart)));
-    }
-    bool point_light = MODE_IS(LIGHT_KINDS, LIGHT_POINT, light.kind);
-    vec3 way = point_light ? light.position - from : light.direction;
-    vec3 to = sphere.center - from;
-    float ahead = max(dot3(to, way) / dot3(way, way), 0.0);
-    vec3 aside = to - (point_light ? min(ahead, 1.0) : ahead) * way;
-    // What is not a number may.
-    return !(sqrt(dot3(aside, aside)) > sphere.radius + wide);
 }
 
 // Strips that a fragment is cut into: the root of STRIPS times the logarithm of the ratio of depths.

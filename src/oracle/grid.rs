@@ -4,9 +4,10 @@
 use glam::DVec2;
 
 use super::address::addressed_texel;
+use super::filter::kinds::is_continuous;
 use super::texture::addresses;
 use crate::schema::layout::{Sampler, Texture};
-use crate::texture::sampler_spec::{Address, Filter, TexelCenter};
+use crate::texture::sampler_spec::{Address, TexelCenter};
 
 /// What is walked: a level of a texture, or a checker of unit squares.
 #[derive(Clone, Copy, Debug)]
@@ -41,7 +42,7 @@ pub fn texture_grid<'a>(sums: &'a [u32], index: u32, texture: &Texture, sampler:
     let head = i64::from(sums[index as usize]);
     let word = |i: i64| sums[(head + i) as usize];
     let [width, height, _] = texture.size.to_array();
-    let linear = sampler.mag_filter == Filter::Linear;
+    let linear = is_continuous(sampler);
     let [u, v, _] = addresses(sampler);
     let integer = sampler.texel_center == TexelCenter::Integer;
     Grid {

@@ -5,15 +5,17 @@ use std::f64::consts::PI;
 
 use glam::{DVec3, DVec4};
 
+use super::bsdf::{is_integrable_over_region, is_specular};
+use super::filter::kinds::is_integrable;
+use super::geometry::beams::is_smooth;
 use super::grid::{Grid, checker_grid, coarser, texture_grid};
 use super::polygon::{AffineFunction, MAX_CORNERS, Polygon, area, at, middle, range, split};
 use super::prefix_sums::{SMALLEST, in_grid, longest_edge, mean_over};
-use super::projective::{PixelFrustum, RationalMap, point_at, ray_at};
+use super::projective::{PixelFrustum, RationalMap, ray_at};
 use crate::pack::{EntityKind, LightKind, MapKind, PackedScene, TextureKind};
-use crate::scene::model::Model;
 use crate::schema::layout::{Light, Material, NO_TEXTURE};
 use crate::texture::procedural::ProceduralKind;
-use crate::texture::sampler_spec::{Address, Filter};
+use crate::texture::sampler_spec::Address;
 
 /// Cells of textures that a pixel's edges may cross.
 const MAX_CELLS: u32 = 40_000;
@@ -33,29 +35,12 @@ pub struct ShadingIntegral<'a> {
     pub near: AffineFunction,
 }
 
-/// Material and map.
-pub fn links(scene: &PackedScene, shape: u32) -> [u32; 2] {
-    let (planes, spheres) = (scene.header.plane_count, scene.header.sphere_count);
-    if shape < planes {
-        let plane = &scene.planes[shape as usize];
-        [plane.material, plane.uv_projection]
-    } else {
-        let triangle = &scene.triangles[(shape - planes - spheres) as usize];
-        [triangle.material, triangle.uv_projection]
-    }
-}
-
-/// Whether the integral of a shape's colour is known: of one that is unlit, diffuse or a plane mirror, with a
-/// checker or a flat texture that is affine on it.
+/// Whether the integral of a shape's colour is known: of a material that has one, with a checker or a flat texture
+/// that is affine on the shape.
 pub fn is_simple(scene: &PackedScene, shape: u32, record: &Material, map: u32) -> bool {
-    let (planes, spheres) = (scene.header.plane_count, scene.header.sphere_count);
-    let (model, texture) = (record.model, record.texture_index);
-    let smooth = shape >= planes && scene.triangles[(shape - planes - spheres) as usize].is_smooth;
-    let shades = model == Model::Unlit || (matches!(model, Model::Lambert | Model::Mirror) && !smooth);
-    if !shades || record.bump_texture_index != NO_TEXTURE {
-        return false;
-    }
-    if model == Model::Mirror && record.alpha > 0.0 {
+    let texture = record.texture_index;
+    if !is_integrable_over_region(record, is_smooth(scene, shape)) || record.bump_texture_index != NO_TEXTURE
+    {
         return false;
     }
     if texture == NO_TEXTURE {
@@ -63,7 +48,7 @@ pub fn is_simple(scene: &PackedScene, shape: u32, record: &Material, map: u32) -
     }
     let map = &scene.uv_projections[map as usize];
     let flat = matches!(map.kind, MapKind::Plane | MapKind::VertexUv | MapKind::Affine);
-    if !flat || map.entity != EntityKind::Position || model == Model::Mirror {
+    if !flat || map.entity != EntityKind::Position || is_specular(record) {
         return false;
     }
     let image = &scene.textures[texture as usize];
@@ -75,7 +60,7 @@ pub fn is_simple(scene: &PackedScene, shape: u32, record: &Material, map: u32) -
     let known = |address: Address| {
         matches!(address, Address::Repeat | Address::MirroredRepeat | Address::ClampToEdge)
     };
-    let steps = matches!(sampler.mag_filter, Filter::Nearest | Filter::Linear);
+    let steps = is_integrable(sampler);
     steps && known(sampler.address_u) && known(sampler.address_v) && scene.prefix_sums[texture as usize] > 0
 }
 
@@ -104,7 +89,7 @@ fn mean_color(
 }
 
 /// A light behind the surface, as its beam sees it, gives nothing.
-pub fn is_lit(paint: &ShadingIntegral, polygon: &Polygon, light: &Light) -> bool {
+pub fn is_facing(paint: &ShadingIntegral, polygon: &Polygon, light: &Light) -> bool {
     let n = paint.plane.truncate();
     let (way, _) = ray_at(&paint.frame, middle(polygon));
     let above = if light.kind == LightKind::Point {
@@ -131,29 +116,6 @@ fn irradiance(paint: &ShadingIntegral, strip: &Polygon, light: &Light) -> DVec3 
     let squared = way.length_squared();
     let scale = if parallel { 1.0 } else { near * near };
     power * scale * n.dot(way).abs() / (squared * squared.sqrt())
-}
-
-/// False where no way from the fragment to the light can pass the sphere.
-pub fn may_shade(
-    paint: &ShadingIntegral,
-    polygon: &Polygon,
-    light: &Light,
-    center: DVec3,
-    radius: f64,
-) -> bool {
-    let from = point_at(&paint.frame, paint.near, middle(polygon));
-    let point = |k: usize| point_at(&paint.frame, paint.near, polygon.corners[k]);
-    let wide = (0..polygon.count).map(|k| (point(k) - from).length()).fold(0.0, f64::max);
-    let way = if light.kind == LightKind::Point { light.position - from } else { light.direction };
-    let to = center - from;
-    let squared = way.length_squared();
-    let mut along = (to.dot(way) / squared).max(0.0);
-    if light.kind == LightKind::Point {
-        along = along.min(1.0);
-    }
-    let apart = (to - along * way).length();
-    // What is not a number may.
-    apart.is_nan() || apart <= radius + wide
 }
 
 /// Strips that a fragment is cut into: √(STRIPS · logarithm of the ratio of depths).

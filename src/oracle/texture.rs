@@ -7,7 +7,7 @@ use super::address::addressed_texel;
 use crate::core::color::srgb_to_linear;
 use crate::pack::{PackedScene, TextureKind};
 use crate::schema::layout::{Sampler, Texture};
-use crate::texture::data::{ColorSpace, Component, TexelFormat};
+use crate::texture::data::{ColorSpace, Component};
 use crate::texture::sampler_spec::Address;
 
 /// One level of a texture's mip_chain.

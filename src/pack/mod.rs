@@ -4,7 +4,9 @@
 
 mod bright;
 pub mod features;
+mod geometry;
 mod header;
+mod lights;
 mod mapping;
 mod mip_chain;
 mod nonfinite;
@@ -14,7 +16,6 @@ mod procedural;
 mod resample;
 mod sample_dimensions;
 mod sections;
-mod shapes;
 mod textures;
 mod tile_culling;
 
@@ -181,22 +182,15 @@ pub fn pack_with(
         let material = material(&mut packed, source);
         packed.materials.push(material);
     }
-    shapes::pack_shapes(&mut packed, scene)?;
+    geometry::pack_shapes(&mut packed, scene)?;
     if let Some(environment) = &scene.background.environment {
         pack_environment(&mut packed, scene, environment);
     }
-    packed.lights = scene.lights.iter().map(|l| shapes::light(l, scene.camera.eye)).collect();
+    packed.lights = scene.lights.iter().map(|l| lights::light(l, scene.camera.eye)).collect();
     packed.header.light_count = packed.lights.len() as u32;
-    if scene.shapes_move() {
-        packed.motions = scene.motions().map(|m| layout::Motion { shift: m }).collect();
-    }
     packed.header.sample_dimensions = sample_dimensions::sample_dimensions(scene);
     packed.header.camera_moves = scene.camera.moves();
     packed.header.cell_side = tile_culling::cell_side(scene, [crop.width, crop.height]);
-    packed.header.plane_count = packed.planes.len() as u32;
-    packed.header.sphere_count = packed.spheres.len() as u32;
-    packed.header.triangle_count = packed.triangles.len() as u32;
-    packed.header.motion_count = packed.motions.len() as u32;
     if !packed.double {
         packed.round_reals();
     }
@@ -218,7 +212,6 @@ fn material(packed: &mut PackedScene, source: &Material) -> layout::Material {
     let index = |texture: Option<usize>| texture.map_or(layout::NO_TEXTURE, |t| t as u32);
     let bump = source.bump;
     let bump_texture = bump.map(|r| r.texture);
-    let has_facets = matches!(source.model, Model::Mirror | Model::Dielectric);
     layout::Material {
         color: source.color.as_vec3(),
         bump_strength: bump.map_or(0.0, |r| r.strength) as f32,
@@ -229,7 +222,7 @@ fn material(packed: &mut PackedScene, source: &Material) -> layout::Material {
         bump_texture_index: index(bump_texture),
         bump_image_slot: slot(bump_texture),
         bump_kind: bump.map_or(BumpKind::default(), |r| r.kind),
-        alpha: if has_facets { source.roughness.powi(2) as f32 } else { 0.0 },
+        alpha: source.roughness.powi(2) as f32,
         specular: source.specular.as_vec3(),
         exponent: source.exponent as f32,
         ior: source.ior as f32,
@@ -256,7 +249,7 @@ fn pack_environment(packed: &mut PackedScene, scene: &Scene, environment: &Envir
     packed.uv_projections.push(mapping::environment_map(environment));
     packed.materials.push(layout::Material {
         color: scene.background.color.as_vec3(),
-        model: Model::Unlit,
+        model: Model::PLAIN,
         texture_index: environment.texture as u32,
         sampler_index: sampler as u32,
         image_slot: slot,

@@ -7,7 +7,6 @@ use super::mip_chain::{MipGenerator, MipSource, sizes};
 use crate::core::error::{Error, Result};
 use crate::gpu::{Buffer, BufferUse, Gpu};
 use crate::pack::PackedScene;
-use crate::texture::data::{ColorSpace, TexelFormat};
 
 /// At most this many buffers hold the texels (`READ_BLOCK` in `texel_buffer.glsl`).
 const MAX_BLOCKS: u64 = 16;

@@ -3,14 +3,16 @@
 
 use std::path::PathBuf;
 
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 
+pub use super::bsdf::Model;
 pub use super::camera::{Camera, Lens, Projection};
+pub use super::geometry::{Bounds, Plane, Shape, Sphere, Triangle};
 pub use super::mapping::{Entity, Mapping, MappingKind, Space};
 pub use super::pixel_filter::{PixelFilter, PixelFilterKind};
 pub use super::sampling::{Algorithm, Footprint, Pattern, Precision, Sampling};
 use crate::core::named::named_enum;
-pub use crate::schema::enums::{BumpKind, Model};
+pub use crate::schema::enums::BumpKind;
 use crate::texture::sampler_spec::{Address, SamplerSpec};
 pub use crate::texture::source::{TextureContent, TextureSource};
 
@@ -69,13 +71,6 @@ named_enum! {
     }
 }
 
-impl Model {
-    /// Whether lights shine on it.
-    pub const fn is_lit(self) -> bool {
-        matches!(self, Model::Lambert | Model::Phong)
-    }
-}
-
 named_enum! {
     /// Where the green of a normal map points, along v.
     pub enum Green {
@@ -128,7 +123,7 @@ impl Default for Material {
     fn default() -> Self {
         Material {
             name: "default".to_owned(),
-            model: Model::Lambert,
+            model: Model::default(),
             color: DVec3::ONE,
             texture: None,
             sampler: 0,
@@ -147,36 +142,6 @@ impl Material {
     pub fn is_mapped(&self) -> bool {
         self.texture.is_some() || self.bump.is_some()
     }
-}
-
-#[derive(Clone, Copy, Debug)]
-pub struct Plane {
-    pub origin: DVec3,
-    pub tangent: DVec3,
-    pub bitangent: DVec3,
-    /// Bounds |u| and |v|, measured in tangents and bitangents; infinite without.
-    pub half_extent: Option<f64>,
-    pub material: usize,
-    /// How far it moves between the times 0 and 1.
-    pub motion: DVec3,
-}
-
-#[derive(Clone, Copy, Debug)]
-pub struct Sphere {
-    pub center: DVec3,
-    pub radius: f64,
-    pub material: usize,
-    pub motion: DVec3,
-}
-
-#[derive(Clone, Copy, Debug)]
-pub struct Triangle {
-    pub vertices: [DVec3; 3],
-    pub uvs: [DVec2; 3],
-    /// Shading normals (any length, not zero); the geometric normal without.
-    pub normals: Option<[DVec3; 3]>,
-    pub material: usize,
-    pub motion: DVec3,
 }
 
 #[derive(Clone, Copy, Debug)]

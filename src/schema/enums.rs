@@ -3,13 +3,17 @@
 
 enums! {
     /// How the camera's rays run.
+    #[derive(Default)]
     PROJECTION: ProjectionKind {
+        #[default]
         Perspective = "perspective",
         Orthographic = "orthographic",
     }
 
     /// Where in the pixel the samples lie (`[sampling] pattern`).
+    #[derive(Default)]
     PATTERN: Pattern {
+        #[default]
         Center = "center",
         Grid = "grid",
         Random = "random",
@@ -27,15 +31,19 @@ enums! {
     }
 
     /// How samples are handed out to threads.
+    #[derive(Default)]
     SCHEDULE: Schedule {
         /// Equally many to each pixel, tile by tile.
+        #[default]
         Tiles = "tiles",
         /// By a list of jobs.
         Jobs = "jobs",
     }
 
     /// The shape of a pixel filter; the same along both axes, whose product it is.
+    #[derive(Default)]
     PIXEL_FILTER: PixelFilterKind {
+        #[default]
         Box = "box",
         Tent = "tent",
         /// exp(-x²/2σ²) less its value at the radius, which is 3σ.
@@ -47,8 +55,10 @@ enums! {
     }
 
     /// What a sample chooses beside its place in the pixel; from `Light` on anew at every hit.
+    #[derive(Default)]
     DIMENSION: SampleDimension {
         /// A point of the lens.
+        #[default]
         Lens = "lens",
         Time = "time",
         /// A place of lights with an extent.
@@ -60,7 +70,9 @@ enums! {
     }
 
     /// Over what a texture look-up is averaged (`[sampling] footprint`).
+    #[derive(Default)]
     FOOTPRINT: Footprint {
+        #[default]
         None = "none",
         /// A width and a spread (Amanatides 1984; Akenine-Möller et al. 2021).
         Cone = "cone",
@@ -69,8 +81,10 @@ enums! {
     }
 
     /// Reflection model of a material.
+    #[derive(Default)]
     MODEL: Model {
         Unlit = "unlit",
+        #[default]
         Lambert = "lambert",
         Mirror = "mirror",
         /// Mirrors or refracts, by Fresnel's share of each.
@@ -80,8 +94,10 @@ enums! {
     }
 
     /// What a material's bump texture holds.
+    #[derive(Default)]
     BUMP: BumpKind {
         /// Unit normals as 2 rgb - 1: along growing u, along growing v, outward.
+        #[default]
         Normal = "normal",
         /// Heights.
         Bump = "bump",
@@ -90,7 +106,9 @@ enums! {
     }
 
     /// What shines; from `Sphere` on the lights have an extent.
+    #[derive(Default)]
     LIGHT: LightKind {
+        #[default]
         Point = "point",
         Directional = "directional",
         Sphere = "sphere",
@@ -100,8 +118,10 @@ enums! {
     }
 
     /// How a device forms a texture coordinate.
+    #[derive(Default)]
     MAP: MapKind {
         /// The plane's own coordinates.
+        #[default]
         Plane = "plane",
         /// Affine in the position: planar.
         Affine = "affine",
@@ -118,7 +138,9 @@ enums! {
     }
 
     /// The vector that a map looks at.
+    #[derive(Default)]
     ENTITY: EntityKind {
+        #[default]
         Position = "position",
         Normal = "normal",
         Reflection = "reflection",
@@ -127,8 +149,10 @@ enums! {
     }
 
     /// Where the shader finds its texels.
+    #[derive(Default)]
     SOURCE: TexelSource {
         /// No texture in the scene.
+        #[default]
         None = "none",
         /// A texel buffer with all textures one after the other.
         Buffer = "buffer",
@@ -139,7 +163,9 @@ enums! {
     }
 
     /// In which numbers geometry is read and computed.
+    #[derive(Default)]
     REALS: Reals {
+        #[default]
         F32 = "f32",
         /// Records hold f64, rays are of f64.
         F64Math = "f64-math",
@@ -148,8 +174,10 @@ enums! {
     }
 
     /// How a texture is read.
+    #[derive(Default)]
     TEXTURE_KIND: TextureKind {
         /// One or two dimensions.
+        #[default]
         Flat = "flat",
         Volume = "volume",
         Cube = "cube",
@@ -158,13 +186,17 @@ enums! {
     }
 
     /// Powers of two wrap by a mask.
+    #[derive(Default)]
     TEXTURE_SIZE: TextureSize {
+        #[default]
         PowerOfTwo = "power-of-two",
         Any = "any",
     }
 
     /// Channels × number type. One channel reads as (g, g, g, 1), two as (g, g, g, a).
+    #[derive(Default)]
     TEXEL_FORMAT: TexelFormat {
+        #[default]
         Grey8 = "grey8",
         GreyAlpha8 = "grey-alpha8",
         Rgba8 = "rgba8",
@@ -177,14 +209,18 @@ enums! {
     }
 
     /// How stored values become linear light; sRGB is decoded before filtering.
+    #[derive(Default)]
     COLOR_SPACE: ColorSpace {
+        #[default]
         Linear = "linear",
         Srgb = "srgb",
     }
 
     /// Pattern of a procedural texture. Hard-edged ones first, then those made of noise.
+    #[derive(Default)]
     PROCEDURAL: ProceduralKind {
         /// Unit cubes; the figure where floor(x) + floor(y) + floor(z) is odd.
+        #[default]
         Checker = "checker",
         /// The figure where the fraction of x is below `width`.
         Stripes = "stripes",
@@ -207,13 +243,17 @@ enums! {
     }
 
     /// Who filters: our shader in f32, or the device's texture unit.
+    #[derive(Default)]
     METHOD: Method {
+        #[default]
         Shader = "shader",
         Hardware = "hardware",
     }
 
     /// What a coordinate outside [0, 1) reads (Vulkan 1.3, "Wrapping Operation").
+    #[derive(Default)]
     ADDRESS: Address {
+        #[default]
         Repeat = "repeat",
         MirroredRepeat = "mirrored-repeat",
         ClampToEdge = "clamp-to-edge",
@@ -222,7 +262,9 @@ enums! {
     }
 
     /// How the texels around a place, or under a footprint, become one value.
+    #[derive(Default)]
     FILTER: Filter {
+        #[default]
         Nearest = "nearest",
         Linear = "linear",
         /// Four by four texels, by B and C of Mitchell & Netravali 1988.
@@ -238,21 +280,27 @@ enums! {
     }
 
     /// How levels of a mip chain become one value.
+    #[derive(Default)]
     MIP: MipMode {
+        #[default]
         None = "none",
         Nearest = "nearest",
         Linear = "linear",
     }
 
     /// Half: texel i is centred at i + ½ (Vulkan). Integer: at i (the lecture's formulas).
+    #[derive(Default)]
     TEXEL_CENTER: TexelCenter {
+        #[default]
         Half = "half",
         Integer = "integer",
     }
 
     /// What is counted where it goes beyond a limit.
+    #[derive(Default)]
     DIAGNOSTIC: Diagnostic {
         /// Look-ups at coordinates that are no numbers.
+        #[default]
         Coordinates = "coordinates",
         /// Look-ups that wanted a level beyond the texture's last.
         Levels = "levels",

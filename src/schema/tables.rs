@@ -16,13 +16,6 @@ macro_rules! enums {
                     (self as u32).write(double, bytes);
                 }
             }
-
-            impl Default for $enum {
-                /// Returns the variant that is 0 in device memory.
-                fn default() -> $enum {
-                    $enum::ALL[0]
-                }
-            }
         )+
     };
 }

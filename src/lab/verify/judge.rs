@@ -14,7 +14,7 @@ use crate::oracle::filter::sample_texture;
 use crate::oracle::footprint::is_filtered;
 use crate::pack::{PackedScene, TextureKind};
 use crate::schema::layout::Sampler;
-use crate::texture::data::{ColorSpace, Component, TexelFormat};
+use crate::texture::data::{ColorSpace, Component};
 use crate::texture::sampler_spec::{Address, Filter, MipMode};
 
 pub(super) const F32_ULP: f64 = 1.0 / 8_388_608.0; // of 1: 2⁻²³

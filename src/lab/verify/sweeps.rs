@@ -8,7 +8,7 @@ use super::queries::{Dice, coordinates};
 use super::variants::Variant;
 use crate::lab::probe::LookUp;
 use crate::pack::PackedScene;
-use crate::texture::data::{Component, Dimension, TexelFormat};
+use crate::texture::data::{Component, Dimension};
 
 /// Places a variant; each is read at a level of its own.
 const RANDOM: usize = 40;

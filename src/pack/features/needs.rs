@@ -2,7 +2,7 @@
 
 use super::UNROLL;
 use crate::pack::{PackedScene, Schedule, TextureKind};
-use crate::scene::model::{Model, Pattern, PixelFilterKind};
+use crate::scene::model::{Model, PixelFilterKind};
 use crate::schema::constants::{DYNAMIC, MAX_CONE_FRAGMENTS};
 use crate::schema::enums::TextureSize;
 use crate::schema::layout::{self, NO_TEXTURE};
@@ -23,7 +23,7 @@ pub fn counted_samples(scene: &PackedScene) -> u32 {
 
 /// Shapes that a cone can touch, up to those that it keeps.
 pub fn cone_shapes(scene: &PackedScene) -> u32 {
-    let shapes = scene.planes.len() + scene.spheres.len() + scene.triangles.len();
+    let shapes = scene.shape_count();
     if shapes < MAX_CONE_FRAGMENTS as usize { shapes.max(1) as u32 } else { DYNAMIC }
 }
 
@@ -55,8 +55,8 @@ pub fn warps(scene: &PackedScene) -> bool {
     scene.header.pixel_filter != PixelFilterKind::Box || scene.header.filter_radius != 0.5
 }
 
-pub fn has_model(scene: &PackedScene, model: Model) -> bool {
-    scene.materials.iter().any(|m| m.model == model)
+fn has_model(scene: &PackedScene, does: fn(Model) -> bool) -> bool {
+    scene.materials.iter().any(|m| does(m.model))
 }
 
 /// Without a footprint, look-ups of procedural textures pass one of zero.
@@ -66,12 +66,13 @@ pub fn filters_procedurals(scene: &PackedScene) -> bool {
 
 /// Mirrors and glass, if their rays may go on.
 pub fn bounces(scene: &PackedScene) -> bool {
-    scene.header.max_depth > 0 && (has_model(scene, Model::Mirror) || has_model(scene, Model::Dielectric))
+    scene.header.max_depth > 0 && has_model(scene, Model::is_specular)
 }
 
 /// Whether look-ups take texels at random.
 pub fn chooses(scene: &PackedScene) -> bool {
-    filters(scene) & bit(Filter::Stochastic as u32) != 0
+    let mask = filters(scene);
+    Filter::ALL.iter().any(|&f| f.traits().is_random && mask & bit(f as u32) != 0)
 }
 
 pub fn filters(scene: &PackedScene) -> u32 {
@@ -84,8 +85,6 @@ pub fn bump_kinds(scene: &PackedScene) -> u32 {
 
 /// A lone flat shape cannot lie between itself and a light.
 pub fn casts_shadows(scene: &PackedScene) -> bool {
-    let flat = scene.planes.len() + scene.triangles.len();
-    let alone = scene.spheres.is_empty() && flat <= 1;
-    let lit = has_model(scene, Model::Lambert) || has_model(scene, Model::Phong);
-    !scene.lights.is_empty() && lit && !alone
+    let lit = has_model(scene, Model::is_lit);
+    !scene.lights.is_empty() && lit && scene.shapes_occlude()
 }

@@ -1,0 +1,51 @@
+//! Lights → their device records, relative to the eye.
+
+use glam::DVec3;
+
+use super::LightKind;
+use crate::scene::model::Light;
+use crate::schema::layout;
+
+/// The largest cosine of sides that count as at right angles: what f32 rounds them to.
+const RIGHT_ANGLE: f64 = 1e-6;
+
+pub fn light(light: &Light, eye: DVec3) -> layout::Light {
+    let at = |kind: LightKind, position: DVec3, power: DVec3| layout::Light {
+        position: position - eye,
+        power: power.as_vec3(),
+        kind,
+        ..Default::default()
+    };
+    let towards = |kind: LightKind, direction: DVec3, power: DVec3| layout::Light {
+        direction: direction.normalize(),
+        power: power.as_vec3(),
+        kind,
+        ..Default::default()
+    };
+    match *light {
+        Light::Point { position, intensity } => at(LightKind::Point, position, intensity),
+        Light::Directional { direction, irradiance } => {
+            towards(LightKind::Directional, direction, irradiance)
+        }
+        Light::Sphere { position, radius, intensity } => {
+            layout::Light { radius, ..at(LightKind::Sphere, position, intensity) }
+        }
+        Light::Rectangle { position, edge_u, edge_v, radiance } => {
+            let wide = edge_u.length_squared() >= edge_v.length_squared();
+            // The same rectangle, which shines to the same side.
+            let sides = if wide { [edge_u, edge_v] } else { [edge_v, -edge_u] };
+            let right = edge_u.normalize().dot(edge_v.normalize()).abs() <= RIGHT_ANGLE;
+            let [length_u, length_v] = sides.map(|s| if right { s.length() } else { 0.0 });
+            let [edge_u, edge_v] = sides;
+            let light = at(LightKind::Rectangle, position, radiance);
+            layout::Light { edge_u, length_u, edge_v, length_v, ..light }
+        }
+        Light::Sun { direction, angle, irradiance } => {
+            // A cap of height h has the solid angle 2 pi h, and a surface that faces its middle receives
+            // pi h (2 - h) of its radiance.
+            let height = 2.0 * (0.25 * angle.to_radians()).sin().powi(2);
+            let power = irradiance * (2.0 / (2.0 - height));
+            layout::Light { cap_height: height, ..towards(LightKind::Sun, direction, power) }
+        }
+    }
+}
