@@ -4,6 +4,7 @@
 //! Instructions").
 
 use moire::internal::oracle::camera::Ray;
+use glam::DVec3;
 use moire::internal::oracle::geometry::kinds::Shape;
 use moire::internal::oracle::geometry::sphere::sphere_distance;
 use moire::internal::oracle::geometry::triangle::triangle_distance;

@@ -74,7 +74,7 @@ fn device_and_oracle_agree_to_a_few_ulp() {
 
 /// A sum of numbers up to 2 that is turned by it, and by 1 / alpha where the facet leans.
 fn facet_agrees(query: &WarpQuery, answer: &WarpAnswer) -> bool {
-    let [d, n] = [query.direction, query.normal].map(xyz);
+    let [d, n] = [query.direction, query.normal].map(|v| DVec4::from_array(v.map(f64::from)).truncate());
     let (alpha, square) = (f64::from(query.alpha), DVec2::from_array(query.square.map(f64::from)));
     let facet = visible_normal(d, n, alpha, square);
     let off = (DVec4::from_array(answer.facet.map(f64::from)).truncate() - facet).length();
