@@ -25,6 +25,7 @@ pub mod oracle;
 pub mod output;
 pub mod pack;
 pub mod render;
+pub mod sampling;
 pub mod scene;
 pub mod schema;
 pub mod texture;

@@ -18,6 +18,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("scene", &["core", "texture"]),
     ("schema", &["core"]),
     ("pack", &["core", "texture", "scene", "schema"]),
+    ("sampling", &["core", "schema", "pack::filtered_mean"]),
     ("oracle", &["core", "texture", "scene", "schema", "pack", "adaptive"]),
     ("gpu", &["core::error", "core::named", "texture::sampler_spec"]),
     ("adaptive", &["core", "schema"]),

@@ -1,0 +1,6 @@
+//! Sums of samples, and who takes them: what a picture is made from, whatever takes the samples. In: ranges of
+//! pixels and samples. Out: sums, merged in an order that depends on nothing but the ranges.
+
+mod sums;
+
+pub use sums::{Block, Count, FilmSums, Signed};
