@@ -16,10 +16,10 @@
 //! Only [`gpu`] names Vulkan. Each file of [`oracle`] is the float64 twin of a file of `glsl/shared/`;
 //! [`schema::layout`] and [`pack::features`] are the host's side of the two that hold declarations.
 
-pub mod adaptive;
 pub mod cli;
 pub mod core;
 pub mod gpu;
+pub mod integrators;
 pub mod lab;
 pub mod oracle;
 pub mod output;

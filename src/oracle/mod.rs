@@ -4,6 +4,7 @@
 //! integers and equal bit for bit; everything after them differs by the rounding of f32 only.
 
 pub mod address;
+pub mod backend;
 pub mod beam;
 pub mod camera;
 pub mod cone;
@@ -19,7 +20,7 @@ pub mod glossy;
 pub mod grid;
 pub mod halton;
 pub mod intersect;
-pub mod jobs;
+
 pub mod levels;
 pub mod light;
 pub mod mapping;

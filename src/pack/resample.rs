@@ -2,7 +2,8 @@
 
 use super::header::header;
 use super::pixel_filter::Warp;
-use super::{Crop, PackedScene, schedule};
+use super::{PackedScene, schedule};
+use crate::core::range::Rect;
 use crate::scene::model::Scene;
 use crate::schema::layout::{Header, Record};
 
@@ -13,7 +14,7 @@ impl PackedScene {
         let [_, _, x, y] = self.header.image;
         let [width, height, _, _] = self.header.size;
         let Header { step_x, sampling, key: [shared, ..], .. } =
-            header(scene, Crop { x, y, width, height }, &Warp::new(scene.pixel_filter));
+            header(scene, Rect { x, y, width, height }, &Warp::new(scene.pixel_filter));
         let step_x =
             if self.double { step_x } else { Header { step_x, ..self.header }.quantize_f32().step_x };
         (self.header.step_x, self.header.sampling, self.header.key[0]) = (step_x, sampling, shared);

@@ -3,8 +3,8 @@
 
 use std::path::Path;
 
-use moire::adaptive::{Goal, Outcome};
 use moire::core::film::Film;
+use moire::integrators::adaptive::{Goal, Outcome};
 use moire::scene::model::{Algorithm, Pattern, Scene};
 use moire::scene::parse;
 
