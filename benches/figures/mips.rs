@@ -4,10 +4,10 @@
 use std::hint::black_box;
 use std::time::Instant;
 
-use moire::gpu::{DeviceSelect, Gpu};
-use moire::lab::probe::MipPlacement;
-use moire::texture::data::{ColorSpace, Dimension, MipKernel, TexelFormat, TextureData};
-use moire::texture::mips;
+use moire::internal::gpu::{DeviceSelect, Gpu};
+use moire::internal::lab::probe::MipPlacement;
+use moire::internal::texture::data::{ColorSpace, Dimension, MipKernel, TexelFormat, TextureData};
+use moire::internal::texture::mips;
 
 use crate::{Bench, Outcome};
 

@@ -7,7 +7,7 @@ use std::fmt::Display;
 use std::panic::{self, AssertUnwindSafe};
 use std::sync::Mutex;
 
-use crate::core::error::{Error, Result};
+use crate::core::error::{Error, ErrorKind, Result};
 
 /// What the last panic said and where, of whichever thread: one in a thread that is joined reaches the guard
 /// without its place.
@@ -32,7 +32,8 @@ pub fn contain<T>(stage: &dyn Display, work: impl FnOnce() -> Result<T>) -> Resu
         Err(Error::with_help(
             format!("{stage}: the program failed where it should not: {said}"),
             "this is a fault of moire or of a library that it uses: please report it with the input that it fails on",
-        ))
+        )
+        .of_kind(ErrorKind::Internal))
     })
 }
 

@@ -3,20 +3,20 @@
 
 mod rare;
 
-use moire::core::error::{Error, Result};
-use moire::core::film::Film;
-use moire::core::progress::{NoProgress, Progress};
-use moire::core::range::{Range, Rect};
-use moire::gpu::DeviceKind;
-use moire::integrators::adaptive::{self, Goal, Outcome};
-use moire::lab::metrics::compare;
-use moire::oracle::backend::OracleBackend;
-use moire::oracle::rng::sample_bits;
-use moire::pack::PackedScene;
-use moire::render::{self, Tuning};
-use moire::sampling::{Backend, FilmSums, HalfSums, PilotRun};
-use moire::scene::model::{Algorithm, Footprint, Pattern, Scene};
-use moire::schema::layout::Job;
+use moire::internal::core::error::{Error, Result};
+use moire::internal::core::film::Film;
+use moire::internal::core::progress::{NoProgress, Progress};
+use moire::internal::core::range::{Range, Rect};
+use moire::internal::gpu::DeviceKind;
+use moire::internal::integrators::adaptive::{self, Goal, Outcome};
+use moire::internal::lab::metrics::compare;
+use moire::internal::oracle::backend::OracleBackend;
+use moire::internal::oracle::rng::sample_bits;
+use moire::internal::pack::PackedScene;
+use moire::internal::render::{self, Tuning};
+use moire::internal::sampling::{Backend, FilmSums, HalfSums, PilotRun};
+use moire::internal::scene::model::{Algorithm, Footprint, Pattern, Scene};
+use moire::internal::schema::layout::Job;
 
 use crate::stage::{assert_same_bits, device, packed, render, small};
 

@@ -1,18 +1,18 @@
 //! Several backends render one picture: which of them has which part does not show, and depends on nothing but the
 //! part's place. Tested with two sessions on the device under test, and with the device beside the oracle.
 
-use moire::core::error::{Error, Result};
-use moire::core::film::Film;
-use moire::core::progress::{NoProgress, Progress};
-use moire::core::range::{Range, Rect};
-use moire::gpu::DeviceSelect;
-use moire::lab::metrics::compare;
-use moire::render::{DeviceBackend, On, Options, Picture, Session, Tuning, render_scene};
-use moire::sampling::{Backend, FilmSums, HalfSums, PilotRun, Scheduler};
-use moire::scene::cone::adapt_for_cone;
-use moire::scene::model::{Algorithm, Pattern, PixelFilter, PixelFilterKind, Scene};
-use moire::scene::prune::prune;
-use moire::schema::layout::{Job, TILE};
+use moire::internal::core::error::{Error, Result};
+use moire::internal::core::film::Film;
+use moire::internal::core::progress::{NoProgress, Progress};
+use moire::internal::core::range::{Range, Rect};
+use moire::internal::gpu::DeviceSelect;
+use moire::internal::lab::metrics::compare;
+use moire::internal::render::{DeviceBackend, On, Options, Picture, Session, Tuning, render_scene};
+use moire::internal::sampling::{Backend, FilmSums, HalfSums, PilotRun, Scheduler};
+use moire::internal::scene::cone::adapt_for_cone;
+use moire::internal::scene::model::{Algorithm, Pattern, PixelFilter, PixelFilterKind, Scene};
+use moire::internal::scene::prune::prune;
+use moire::internal::schema::layout::{Job, TILE};
 
 use crate::stage::{assert_same_bits, cut, device, device_name, packed, small};
 

@@ -5,9 +5,9 @@ use std::fs;
 use std::path::Path;
 use std::process::Output;
 
-use moire::core::film::Film;
-use moire::core::range::Rect;
-use moire::lab::metrics::{compare, read_picture};
+use moire::internal::core::film::Film;
+use moire::internal::core::range::Rect;
+use moire::internal::lab::metrics::{compare, read_picture};
 use serde_json::Value;
 use tempfile::{TempDir, tempdir};
 

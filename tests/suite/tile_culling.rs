@@ -2,15 +2,15 @@
 //! pictures are the same bit for bit, and calm cells begin with fewer samples.
 
 use glam::DVec3;
-use moire::core::film::Film;
-use moire::core::progress::NoProgress;
-use moire::core::range::Rect;
-use moire::integrators::adaptive::Goal;
-use moire::oracle::tile_culling::triangles_of;
-use moire::pack::PackedScene;
-use moire::render::{self, Session, Tuning};
-use moire::scene::model::{Algorithm, Model, Pattern, Projection, Scene, Triangle};
-use moire::schema::layout::{CELL_BUSY, CELL_EMPTY, CELL_UNIFORM, CELL_WORDS, MAX_LISTED};
+use moire::internal::core::film::Film;
+use moire::internal::core::progress::NoProgress;
+use moire::internal::core::range::Rect;
+use moire::internal::integrators::adaptive::Goal;
+use moire::internal::oracle::tile_culling::triangles_of;
+use moire::internal::pack::PackedScene;
+use moire::internal::render::{self, Session, Tuning};
+use moire::internal::scene::model::{Algorithm, Model, Pattern, Projection, Scene, Triangle};
+use moire::internal::schema::layout::{CELL_BUSY, CELL_EMPTY, CELL_UNIFORM, CELL_WORDS, MAX_LISTED};
 
 use crate::lookup::bench::Dice;
 use crate::stage::{assert_same_bits, device, packed, render, render_with, small};
@@ -114,7 +114,7 @@ fn lists_hold_what_float64_says() {
     assert!(exact > 100 && listed < exact + exact / 10, "{listed} listed, {exact} needed");
 }
 
-fn to_goal(scene: &Scene, goal: Goal) -> (Film, moire::integrators::adaptive::Outcome) {
+fn to_goal(scene: &Scene, goal: Goal) -> (Film, moire::internal::integrators::adaptive::Outcome) {
     let mut scene = scene.clone();
     scene.sampling.algorithm = Algorithm::Adaptive;
     scene.sampling.pattern = Pattern::SobolOwen;
@@ -164,6 +164,6 @@ fn calm_cells_begin_with_fewer_samples_and_nothing_thin_is_missed() {
     let mut converged = scene.clone();
     (converged.sampling.pattern, converged.sampling.spp) = (Pattern::SobolOwen, 4096);
     let reference = render(&packed(converged, None));
-    let error = moire::lab::metrics::compare(&film, &reference).unwrap().rmse;
+    let error = moire::internal::lab::metrics::compare(&film, &reference).unwrap().rmse;
     assert!(error < 1.1 * 2e-3, "{error:e}");
 }

@@ -3,14 +3,14 @@
 //! with the widest tolerance in use.
 
 use glam::DVec2;
-use moire::lab::probe::LookUp;
-use moire::lab::verify::judge::{Precision, complaints as judge};
-use moire::oracle::filter::sample_texture;
-use moire::oracle::mapping::Coordinate;
-use moire::pack::PackedScene;
-use moire::schema::layout::{Sampler, Texture};
-use moire::texture::data::{ColorSpace, TexelFormat};
-use moire::texture::sampler_spec::{Address, Filter, SamplerSpec};
+use moire::internal::lab::probe::LookUp;
+use moire::internal::lab::verify::judge::{Precision, complaints as judge};
+use moire::internal::oracle::filter::sample_texture;
+use moire::internal::oracle::mapping::Coordinate;
+use moire::internal::pack::PackedScene;
+use moire::internal::schema::layout::{Sampler, Texture};
+use moire::internal::texture::data::{ColorSpace, TexelFormat};
+use moire::internal::texture::sampler_spec::{Address, Filter, SamplerSpec};
 
 use super::bench::{BASIC, CERTAIN, Dice, coordinates, pairs, query, texture, uv_of};
 

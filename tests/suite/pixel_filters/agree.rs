@@ -1,13 +1,13 @@
 //! Device and oracle, lean pipelines and such with everything, parts and the whole: the same picture.
 
-use moire::core::progress::NoProgress;
-use moire::core::range::Rect;
-use moire::integrators::adaptive::{self, Goal};
-use moire::lab::metrics::compare;
-use moire::oracle::backend::OracleBackend;
-use moire::pack::features::Features;
-use moire::render::{self, Tuning};
-use moire::scene::model::{Algorithm, Footprint, Pattern, PixelFilter, PixelFilterKind, Scene};
+use moire::internal::core::progress::NoProgress;
+use moire::internal::core::range::Rect;
+use moire::internal::integrators::adaptive::{self, Goal};
+use moire::internal::lab::metrics::compare;
+use moire::internal::oracle::backend::OracleBackend;
+use moire::internal::pack::features::Features;
+use moire::internal::render::{self, Tuning};
+use moire::internal::scene::model::{Algorithm, Footprint, Pattern, PixelFilter, PixelFilterKind, Scene};
 
 use super::{filters, with};
 use crate::stage::{
