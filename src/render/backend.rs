@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use super::Report;
-use super::batches::{BatchSampler, SamplePipeline};
+use super::batches::BatchSampler;
 use super::beams::BeamPass;
 use super::dispatch_plan::DispatchPlan;
 use super::film_buffer::FilmBuffer;
@@ -72,28 +72,23 @@ impl<'p> DeviceBackend<'p> {
         Ok(report)
     }
 
-    /// Runs one workgroup of a batch: whatever the driver compiles late, it compiles now.
-    pub fn warm_up(&mut self) -> Result<()> {
-        self.batches()?.0.warm_up()
-    }
-
     /// What takes batches, made where it is not there yet; and the report.
     fn batches(&mut self) -> Result<(&mut BatchSampler<'p>, &mut Report)> {
         let Prepared { session, scene, work, .. } = self.prepared;
         if self.batches.is_none() {
             self.batches = Some(match work {
-                Work::Batches(pipeline) => sampler(pipeline, self.prepared)?,
+                Work::Batches(pipeline) => self.prepared.sampler(pipeline)?,
                 Work::Beams(_, pipeline) => {
                     let clock = Instant::now();
                     if pipeline.get().is_none() {
                         let built = session.samples_beside_beams(scene)?;
-                        sampler(&built, self.prepared)?.warm_up()?;
+                        self.prepared.sampler(&built)?.warm_up()?;
                         // Never set twice: it was empty just now.
                         let _ = pipeline.set(built);
                     }
                     self.report.seconds.compile += clock.elapsed().as_secs_f64();
                     let built = pipeline.get().ok_or_else(|| Error::new("no pipeline for samples"))?;
-                    sampler(built, self.prepared)?
+                    self.prepared.sampler(built)?
                 }
                 Work::Tiles { .. } => {
                     return Err(Error::new("a scene that is rendered tile by tile has no batches"));
@@ -141,11 +136,6 @@ impl<'p> DeviceBackend<'p> {
             self.prepared.scene.samples
         )))
     }
-}
-
-fn sampler<'a>(pipeline: &'a SamplePipeline, prepared: &'a Prepared<'_, '_>) -> Result<BatchSampler<'a>> {
-    let Prepared { session, scene, .. } = prepared;
-    BatchSampler::new(session.gpu, pipeline, &session.resources, scene)
 }
 
 impl Backend for DeviceBackend<'_> {

@@ -4,9 +4,10 @@
 use std::sync::Arc;
 use std::time::Instant;
 
+use super::Report;
 use super::dispatch_plan::DispatchPlan;
 use super::film_buffer::FilmBuffer;
-use super::{Renderer, Report};
+use super::tiles::TileRenderer;
 use crate::core::error::Result;
 use crate::core::progress::Progress;
 use crate::core::range::Rect;
@@ -19,7 +20,7 @@ const PILOT_PART: u32 = 8;
 
 /// What resolves pixels by beams.
 pub struct BeamPass<'a> {
-    pub renderer: Renderer<'a>,
+    pub renderer: TileRenderer<'a>,
     pub film: Arc<FilmBuffer>,
 }
 

@@ -18,7 +18,7 @@ use crate::scene::model::Scene;
 use crate::schema::layout::{Header, Slice};
 
 use super::backend::DeviceBackend;
-use super::batches::SamplePipeline;
+use super::batches::{BatchSampler, SamplePipeline};
 use super::beams::BeamPass;
 use super::film_buffer::FilmBuffer;
 use super::loop_budget::samples_at_once;
@@ -159,8 +159,8 @@ impl<'a> Session<'a> {
             Schedule::Jobs => Work::Batches(self.sample_pipeline(scene, &features)?),
         };
         let mut prepared = Prepared { session: self, scene: scene.clone(), work, report };
-        drop(turn);
         prepared.warm_up()?;
+        drop(turn);
         prepared.report.seconds.compile = clock.elapsed().as_secs_f64();
         Ok(prepared)
     }
@@ -293,12 +293,17 @@ impl Prepared<'_, '_> {
         Ok((report.take(integrated), report))
     }
 
+    /// What takes batches of samples by a pipeline of this choice of samples.
+    pub(super) fn sampler<'a>(&'a self, pipeline: &'a SamplePipeline) -> Result<BatchSampler<'a>> {
+        BatchSampler::new(self.session.gpu, pipeline, &self.session.resources, &self.scene)
+    }
+
     /// Whatever the driver compiles late, it compiles now.
     fn warm_up(&self) -> Result<()> {
-        match self.work {
+        match &self.work {
             // Done by the renderer.
             Work::Tiles { .. } | Work::Beams(..) => Ok(()),
-            Work::Batches(_) => DeviceBackend::new(self)?.warm_up(),
+            Work::Batches(pipeline) => self.sampler(pipeline)?.warm_up(),
         }
     }
 }
