@@ -204,10 +204,10 @@ mod tests {
         let spread = |i: usize| if i % WIDTH < WIDTH / 2 { 0.1 } else { 1.0 };
         let estimate = Estimate::new(&sums(&counts, |_| 0.5, spread), &counts, false);
         // Half the pixels 0.01 / 64, half 1 / 64; 4096 squares of a normal deviate: 3 sigma are 9 %.
-        let analytic = 0.505 / 64.0;
+        let exact = 0.505 / 64.0;
         assert!((estimate.mse / exact - 1.0).abs() < 0.09, "{:e}, exactly {exact:e}", estimate.mse);
         for (i, v) in estimate.variances.iter().enumerate() {
-            let analytic = spread(i) * spread(i) / 64.0;
+            let exact = spread(i) * spread(i) / 64.0;
             // In a corner a window has 16 such squares: p = 1e-5 below 0.15 and above 3.2; spreads vary too.
             assert!((0.1..4.0).contains(&(v / exact)), "{i}: {v:e}, exactly {exact:e}");
         }
