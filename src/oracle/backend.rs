@@ -132,7 +132,7 @@ impl Backend for OracleBackend<'_> {
     }
 
     fn sample(&mut self, batches: &[Job], progress: &dyn Progress) -> Result<()> {
-        let [width, height, _, _] = self.scene.header.size;
+        let [width, height] = self.scene.header.film_size.to_array();
         let sums = self.of_batches(batches, progress)?;
         for half in self.halves.iter_mut().filter(|half| half.is_empty()) {
             half.resize(width as usize * height as usize, (PixelSums::default(), 0.0));

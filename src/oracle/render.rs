@@ -8,7 +8,6 @@ use super::backend::OracleBackend;
 use super::camera::{camera_at, camera_ray, through_lens};
 use super::cone_shade;
 use super::footprint::camera_differential;
-use super::math::xyz;
 use super::patterns::pixel_points;
 use super::pixel_filter::filtered_place;
 use super::rng::{pcg2d, pixel_key, sample_bits};
@@ -69,23 +68,23 @@ pub fn pixel(scene: &PackedScene, x: u32, y: u32) -> DVec3 {
 /// The radiance of one sample and the pixel filter's sign there, by a header that may differ from the scene's in the samples' share of the
 /// pixel. The second half of an adaptive picture has another seed.
 pub fn sample(scene: &PackedScene, header: &Header, [x, y]: [u32; 2], stream: u32, s: u32) -> (DVec3, f64) {
-    let place = [x + header.image[2], y + header.image[3]];
-    let seed = header.sampling[3].wrapping_add(stream.wrapping_mul(0x9E37_79B9));
-    let key = pixel_key(place, seed, header.key[0] != 0);
+    let place = [x + header.crop.x, y + header.crop.y];
+    let seed = header.seed.wrapping_add(stream.wrapping_mul(0x9E37_79B9));
+    let key = pixel_key(place, seed, header.shares_pattern);
     let points = pixel_points(header, place, key);
     let dimensions = choose(header, &points, s, 0, true);
-    let moves = header.chances[2] != 0;
-    let [_, _, opens, open] = header.lens.map(f64::from);
+    let moves = header.camera_moves;
+    let [opens, open] = [header.shutter_opens, header.shutter_time].map(f64::from);
     let time = opens + open * unit_square(dimensions.time).x;
     let camera = if moves { &camera_at(header, time) } else { header };
     let at = filtered_place(scene, dimensions.place);
     let mut ray = camera_ray(camera, place, at.inside);
-    if header.lens[0] > 0.0 {
+    if header.lens_radius > 0.0 {
         ray = through_lens(camera, &ray, unit_square(dimensions.lens));
     }
     ray.time = time;
     if moves {
-        ray.origin += time * xyz(header.eye_motion);
+        ray.origin += time * header.eye_motion;
     }
     // Bits that have nothing to do with the sample's position.
     let random = pcg2d(sample_bits(key, s).map(|bits| bits ^ 0x5BD1_E995));
@@ -101,7 +100,7 @@ pub fn sample(scene: &PackedScene, header: &Header, [x, y]: [u32; 2], stream: u3
 /// The whole film, with as many samples of each pixel as the scene was packed with; by beams, where it was packed for
 /// these.
 pub fn render(scene: &PackedScene, progress: &dyn Progress) -> Result<Film> {
-    let [width, height, _, _] = scene.header.size;
+    let [width, height] = scene.header.film_size.to_array();
     let whole = Rect::whole([width, height]);
     let mut backend = OracleBackend::new(scene)?;
     let range = Range { pixels: whole, samples: 0..scene.samples };

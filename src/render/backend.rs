@@ -125,7 +125,7 @@ impl<'p> DeviceBackend<'p> {
 
     /// Fails where a range is not one of whole rows of the picture, and of the samples that the scene was packed with.
     fn check(&self, pixels: &Rect, samples_end: u32) -> Result<()> {
-        let [width, height, _, _] = self.prepared.scene.header.size;
+        let [width, height] = self.prepared.scene.header.film_size.to_array();
         let rows = pixels.x == 0 && pixels.width == width && pixels.y + pixels.height <= height;
         if rows && samples_end <= self.prepared.scene.samples {
             return Ok(());
@@ -199,7 +199,7 @@ impl Backend for DeviceBackend<'_> {
 
     fn first_samples(&self, most: u32, pixels: usize) -> Result<Vec<u32>> {
         let Prepared { session, scene, .. } = self.prepared;
-        let [width, height, _, _] = scene.header.size;
+        let [width, height] = scene.header.film_size.to_array();
         match session.survey() {
             Some(survey) => survey.first_samples(session.gpu, [width, height], most),
             None => Ok(vec![most; pixels]),

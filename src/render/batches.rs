@@ -70,7 +70,7 @@ impl<'a> BatchSampler<'a> {
         scene: &PackedScene,
     ) -> Result<BatchSampler<'a>> {
         let limits = &gpu.info().limits;
-        let [width, height, _, _] = scene.header.size;
+        let [width, height] = scene.header.film_size.to_array();
         let planes = if scene.mean_sign.is_some() { 3 } else { 1 };
         let row = u64::from(width) * PIXEL_BYTES * planes;
         let rows =

@@ -77,7 +77,7 @@ impl Band {
 
 impl FilmBuffer {
     pub fn new(gpu: &Gpu, scene: &PackedScene, features: &Features) -> Result<FilmBuffer> {
-        let [width, height, _, _] = scene.header.size;
+        let [width, height] = scene.header.film_size.to_array();
         let limits = &gpu.info().limits;
         let cap = if gpu.info().kind == DeviceKind::Cpu { MAX_BYTES_CPU } else { MAX_BYTES_GPU };
         let cap = cap.min(limits.max_storage_buffer_range).min(limits.heap_bytes / 4);

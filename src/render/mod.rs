@@ -31,6 +31,8 @@ use crate::gpu::{BindingDesc, BindingKind, Gpu, Pipeline, PipelineDesc, RunTime}
 use crate::integrators::Integrated;
 use crate::integrators::adaptive::{Goal, Outcome};
 use crate::pack::{PackedScene, SlotCounts};
+use crate::schema::bindings;
+use crate::schema::specialization::Constant;
 
 pub use backend::DeviceBackend;
 pub use images::can_sample;
@@ -161,18 +163,17 @@ pub(crate) fn build_pipeline(
 ) -> Result<Pipeline> {
     let describe = |b: &ReflectedBinding| {
         let count = match (b.kind, b.binding) {
-            (BindingKind::SampledImage, resources::VOLUMES) => slots.volumes.max(1),
-            (BindingKind::SampledImage, resources::CUBES) => slots.cubes.max(1),
+            (BindingKind::SampledImage, bindings::VOLUMES) => slots.volumes.max(1),
+            (BindingKind::SampledImage, bindings::CUBES) => slots.cubes.max(1),
             (BindingKind::SampledImage, _) => slots.flat.max(1),
-            (BindingKind::TexelBuffer, resources::TEXELS) => slots.texel_blocks.max(1),
+            (BindingKind::TexelBuffer, bindings::TEXELS) => slots.texel_blocks.max(1),
             _ => 1,
         };
         BindingDesc { binding: b.binding, kind: b.kind, count }
     };
     let bindings: Vec<BindingDesc> = shader.bindings.iter().map(describe).collect();
-    let opaque = shader.constant("OPAQUE_UNIFORMS").map(|c| (c.id, Tuning::opaque_uniforms(gpu.info())));
-    let constants: Vec<(u32, u32)> =
-        constants.iter().copied().chain(opaque.map(|(id, is)| (id, u32::from(is)))).collect();
+    let opaque = (Constant::OpaqueUniforms, u32::from(Tuning::opaque_uniforms(gpu.info())));
+    let constants = [constants, &shader.values([opaque])].concat();
     gpu.pipeline(&PipelineDesc {
         name: shader.name,
         spirv: &specialise(shader.spirv, &constants),

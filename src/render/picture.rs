@@ -122,7 +122,7 @@ impl Working<'_> {
 pub fn render_scene(scene: &Scene, options: &Options, on: &[On], progress: &dyn Progress) -> Result<Picture> {
     let Loaded { gpus, mut packed, doubts, startup, load } = load(scene, options, on)?;
     packed.guarded = options.guarded;
-    let [width, height, _, _] = packed.header.size;
+    let [width, height] = packed.header.film_size.to_array();
     let texture_lines = packed.texture_lines();
     let nonfinite =
         packed.texture_names.iter().cloned().zip(packed.nonfinite_texels.iter().copied()).collect();

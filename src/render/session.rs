@@ -15,7 +15,9 @@ use crate::integrators::adaptive::Goal;
 use crate::pack::features::Features;
 use crate::pack::{self, PackedScene, Schedule};
 use crate::scene::model::Scene;
+use crate::schema::enums::TexelSource;
 use crate::schema::layout::{Header, Slice};
+use crate::schema::specialization::Constant;
 
 use super::backend::DeviceBackend;
 use super::batches::{BatchSampler, SamplePipeline};
@@ -153,7 +155,7 @@ impl<'a> Session<'a> {
             Schedule::Tiles if scene.beams => Work::Beams(self.beam_pass(scene, features)?, OnceLock::new()),
             Schedule::Tiles => {
                 let (renderer, film) =
-                    self.renderer(scene, &features, shader_for(scene.algorithm, &features))?;
+                    self.renderer(scene, &features, shader_for(scene.algorithm, &features)?)?;
                 Work::Tiles { renderer, film }
             }
             Schedule::Jobs => Work::Batches(self.sample_pipeline(scene, &features)?),
@@ -181,7 +183,7 @@ impl<'a> Session<'a> {
     }
 
     fn sample_pipeline(&self, scene: &PackedScene, features: &Features) -> Result<SamplePipeline> {
-        let shader = shader_for(scene.algorithm, features);
+        let shader = shader_for(scene.algorithm, features)?;
         let (pipeline, groups_per_tile) = self.pipeline(features, shader)?;
         Ok(SamplePipeline { pipeline, shader, groups_per_tile })
     }
@@ -192,9 +194,8 @@ impl<'a> Session<'a> {
         let slots = self.resources.slots;
         let mut constants =
             specialization::constants(shader, features, &self.resources.sections, group_size, slots);
-        if let Some(constant) = shader.constant("TABLES_IN_HEAD") {
-            constants.push((constant.id, u32::from(Tuning::tables_in_head(self.gpu.info()))));
-        }
+        let tables_in_head = u32::from(Tuning::tables_in_head(self.gpu.info()));
+        constants.extend(shader.values([(Constant::TablesInHead, tables_in_head)]));
         let pipeline = build_pipeline(self.gpu, shader, &constants, slots, size_of::<Slice>())?;
         Ok((pipeline, tuning::groups_per_tile(group_size)))
     }
@@ -234,11 +235,8 @@ impl<'a> Session<'a> {
 
     fn beam_pass(&self, scene: &PackedScene, features: Features) -> Result<BeamPass<'a>> {
         let features = Features { compensated: false, ..features };
-        let (renderer, film) = self.renderer(
-            scene,
-            &features,
-            if features.double { &shaders::BEAM_WIDE } else { &shaders::BEAM },
-        )?;
+        let shader = shaders::BEAM_FAMILY.shader(TexelSource::None, features.records())?;
+        let (renderer, film) = self.renderer(scene, &features, shader)?;
         Ok(BeamPass { renderer, film })
     }
 
@@ -286,7 +284,7 @@ impl Prepared<'_, '_> {
 
     /// The same; of a scene that is sampled by batches, until the goal is met, by default the number of samples.
     pub fn render_to_goal(&self, goal: Option<Goal>, progress: &dyn Progress) -> Result<(Film, Report)> {
-        let [width, height, _, _] = self.scene.header.size;
+        let [width, height] = self.scene.header.film_size.to_array();
         let mut backend = DeviceBackend::new(self)?;
         let integrated = integrator(&self.scene, goal).render(&mut backend, [width, height], progress)?;
         let mut report = backend.finish()?;

@@ -89,7 +89,7 @@ fn device_and_oracle_spend_the_same_samples() {
     let scene = with(small("s2", 48, 4), Algorithm::Adaptive, 64);
     let (film, outcome) = to_goal(&scene, Goal::Samples(64), false);
     let mut backend = OracleBackend::new(&scene).unwrap();
-    let size = [scene.header.size[0], scene.header.size[1]];
+    let size = [scene.header.film_size.x, scene.header.film_size.y];
     let (exact, expected) = adaptive::run(&mut backend, size, Goal::Samples(64), &NoProgress).unwrap();
     // Counts follow estimates in f32: a pixel in a hundred may round to another.
     assert!((outcome.mean_samples / expected.mean_samples - 1.0).abs() < 0.01, "{outcome:?} {expected:?}");

@@ -39,7 +39,7 @@ fn soup(count: usize, side: u32) -> Scene {
 
 fn without(scene: &PackedScene) -> PackedScene {
     let mut scene = scene.clone();
-    scene.header.chances[3] = 0;
+    scene.header.cell_side = 0;
     scene
 }
 
@@ -98,7 +98,7 @@ fn culls_tiles(scene: &PackedScene) -> (Film, Vec<u32>) {
 fn lists_hold_what_float64_says() {
     let scene = packed(soup(60, 70), None);
     let (_, words) = culls_tiles(&scene);
-    let side = scene.header.chances[3];
+    let side = scene.header.cell_side;
     let (mut listed, mut exact) = (0, 0);
     let across = 70u32.div_ceil(side);
     for (k, cell) in (0..).zip(words.chunks(CELL_WORDS as usize)) {

@@ -118,7 +118,7 @@ fn adaptive_samples_are_filtered_alike_by_device_and_oracle() {
     for filter in filters() {
         for footprint in [Footprint::None, Footprint::Cone] {
             let scene = packed(adaptively(filter, footprint), None);
-            let (width, height) = (scene.header.size[0], scene.header.size[1]);
+            let (width, height) = (scene.header.film_size.x, scene.header.film_size.y);
             let mut backend = OracleBackend::new(&scene).unwrap();
             let (oracle, _) =
                 adaptive::run(&mut backend, [width, height], Goal::Samples(2), &NoProgress).unwrap();

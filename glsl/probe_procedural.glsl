@@ -1,7 +1,5 @@
-#version 460
-#define SOURCE 0
-#extension GL_GOOGLE_include_directive : require
 // Look-ups of procedural textures from a list: one thread a query, RGB out.
+#include "schema/blocks.glsl"
 #include "shared/features.glsl"
 #include "shared/layout.glsl"
 #include "shared/procedural.glsl"
@@ -15,9 +13,9 @@ struct Query {
     vec4 dy;
 };
 
-layout(std430, set = 0, binding = 0) writeonly buffer Results { vec4 results[]; };
-layout(std430, set = 0, binding = 4) readonly buffer Queries { Query queries[]; };
-layout(push_constant) uniform Range { uint count; } range;
+layout(std430, set = 0, binding = BINDING_OUTPUT) writeonly buffer Results { vec4 results[]; };
+layout(std430, set = 0, binding = BINDING_LIST) readonly buffer Queries { Query queries[]; };
+layout(push_constant) uniform Push { QueryRange range; };
 
 void main() {
     preload_records();

@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // One level of a mip_chain: one thread a word of it, or a texel where that is larger.
 #include "shared/mip_chain.glsl"
 

@@ -1,7 +1,6 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Rays that meet glass, from a list: one thread a query, the direction behind the surface and the share of what
 // is mirrored.
+#include "schema/blocks.glsl"
 #include "shared/features.glsl"
 #include "shared/layout.glsl"
 #include "shared/bsdf/dielectric.glsl"
@@ -13,9 +12,9 @@ struct Query {
     vec4 normal;
 };
 
-layout(std430, set = 0, binding = 0) writeonly buffer Answers { vec4 answers[]; };
-layout(std430, set = 0, binding = 4) readonly buffer Queries { Query queries[]; };
-layout(push_constant) uniform Range { uint count; } range;
+layout(std430, set = 0, binding = BINDING_OUTPUT) writeonly buffer Answers { vec4 answers[]; };
+layout(std430, set = 0, binding = BINDING_LIST) readonly buffer Queries { Query queries[]; };
+layout(push_constant) uniform Push { QueryRange range; };
 
 void main() {
     uint i = gl_GlobalInvocationID.x;

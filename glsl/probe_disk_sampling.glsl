@@ -1,6 +1,5 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Warps from a list: one thread a query, where a point of the unit square comes to lie.
+#include "schema/blocks.glsl"
 #include "shared/features.glsl"
 #include "shared/layout.glsl"
 #include "shared/bsdf/facets.glsl"
@@ -24,9 +23,9 @@ struct Answer {
     vec4 rectangle;
 };
 
-layout(std430, set = 0, binding = 0) writeonly buffer Answers { Answer answers[]; };
-layout(std430, set = 0, binding = 4) readonly buffer Queries { Query queries[]; };
-layout(push_constant) uniform Range { uint count; } range;
+layout(std430, set = 0, binding = BINDING_OUTPUT) writeonly buffer Answers { Answer answers[]; };
+layout(std430, set = 0, binding = BINDING_LIST) readonly buffer Queries { Query queries[]; };
+layout(push_constant) uniform Push { QueryRange range; };
 
 void main() {
     uint i = gl_GlobalInvocationID.x;
