@@ -3,7 +3,8 @@
 use glam::{DVec3, UVec2};
 
 use super::pixel_filter::Warp;
-use super::{Crop, ProjectionKind, sample_dimensions};
+use super::{ProjectionKind, sample_dimensions};
+use crate::core::range::Rect;
 use crate::scene::model::{Algorithm, Footprint, Projection, Scene};
 use crate::schema::layout::{self, Header};
 use crate::texture::sampler_spec::SamplerSpec;
@@ -24,7 +25,7 @@ pub(super) fn half_height(scene: &Scene) -> (f64, bool) {
     }
 }
 
-pub(super) fn header(scene: &Scene, crop: Crop, warp: &Warp) -> Header {
+pub(super) fn header(scene: &Scene, crop: Rect, warp: &Warp) -> Header {
     let [right, up, forward] = camera_basis(scene);
     let (half_height, parallel) = half_height(scene);
     let projection = if parallel { ProjectionKind::Orthographic } else { ProjectionKind::Perspective };

@@ -22,6 +22,7 @@ mod tile_culling;
 use std::sync::Arc;
 
 use crate::core::error::Result;
+use crate::core::range::Rect;
 use crate::scene::cone;
 use crate::scene::model::{
     Algorithm, BumpKind, Environment, EnvironmentLayout, Footprint, Material, Model, PixelFilter, Precision,
@@ -42,15 +43,6 @@ pub use pixel_filter::{filtered_mean, kernel};
 pub use procedural::procedural;
 pub use sections::Sections;
 pub use textures::{MAX_SLOTS, Slot, prefix_sum_words, prefix_sums};
-
-/// A part of the picture, in pixels of the full picture.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Crop {
-    pub x: u32,
-    pub y: u32,
-    pub width: u32,
-    pub height: u32,
-}
 
 /// All that is rendered from: the lists behind the scene buffer, and the texels.
 #[derive(Clone, Debug, Default)]
@@ -127,7 +119,7 @@ pub struct SlotCounts {
 }
 
 /// Packs what the scene shows; textures and samplers that no shape reaches are not in `scene`.
-pub fn pack(scene: &Scene, textures: Vec<TextureData>, crop: Option<Crop>) -> Result<PackedScene> {
+pub fn pack(scene: &Scene, textures: Vec<TextureData>, crop: Option<Rect>) -> Result<PackedScene> {
     pack_with(scene, textures, crop, MipPlacement::Host)
 }
 
@@ -135,12 +127,12 @@ pub fn pack(scene: &Scene, textures: Vec<TextureData>, crop: Option<Crop>) -> Re
 pub fn pack_with(
     scene: &Scene,
     textures: Vec<TextureData>,
-    crop: Option<Crop>,
+    crop: Option<Rect>,
     mip_chains: MipPlacement,
 ) -> Result<PackedScene> {
     let settled = (scene.sampling.algorithm == Algorithm::Cone).then(|| cone::freeze_time(scene));
     let scene = settled.as_ref().unwrap_or(scene);
-    let crop = crop.unwrap_or(Crop { x: 0, y: 0, width: scene.width, height: scene.height });
+    let crop = crop.unwrap_or(Rect::whole([scene.width, scene.height]));
     let samples = scene.sampling.samples();
     let schedule = schedule(scene);
     let algorithm = scene.sampling.algorithm;

@@ -2,7 +2,8 @@
 
 use super::header::header;
 use super::pixel_filter::Warp;
-use super::{Crop, PackedScene, schedule};
+use super::{PackedScene, schedule};
+use crate::core::range::Rect;
 use crate::scene::model::Scene;
 use crate::schema::record::Field;
 
@@ -12,7 +13,7 @@ impl PackedScene {
     pub fn set_sampling(&mut self, scene: &Scene) {
         let [x, y] = self.header.crop.to_array();
         let [width, height] = self.header.film_size.to_array();
-        let fresh = header(scene, Crop { x, y, width, height }, &Warp::new(scene.pixel_filter));
+        let fresh = header(scene, Rect { x, y, width, height }, &Warp::new(scene.pixel_filter));
         let side = fresh.sample_side;
         self.header.sample_side = if self.double { side } else { side.quantize_f32() };
         self.header.pattern = fresh.pattern;

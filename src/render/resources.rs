@@ -1,7 +1,7 @@
 //! Packed scene → buffers and images on the device: only what the features name, and of the
 //! textures only the source in use.
 
-use std::cell::OnceCell;
+use std::sync::OnceLock;
 
 use super::diagnostics::Guards;
 use super::images::Uploads;
@@ -37,9 +37,9 @@ pub struct Resources {
     srgb: Buffer,
     texels: Option<TexelBuffer>,
     /// Once beams are wanted.
-    prefix_sums: OnceCell<Buffer>,
+    prefix_sums: OnceLock<Buffer>,
     /// Once there are any lists of triangles.
-    pub survey: OnceCell<Buffer>,
+    pub survey: OnceLock<Buffer>,
     /// Where the pipelines count.
     pub guards: Option<Guards>,
     images: Vec<(Image, Sampler)>,
@@ -75,7 +75,7 @@ impl Resources {
             (slots.texel_blocks, slots.block_log2) =
                 (texel_buffer.blocks.len() as u32, texel_buffer.block_log2);
         }
-        let prefix_sums = OnceCell::new();
+        let prefix_sums = OnceLock::new();
         if packed.beams {
             // Never set twice: it is empty.
             let _ = prefix_sums.set(texel_buffer::upload_row_sums(gpu, packed, &packed.prefix_sums)?);
@@ -97,7 +97,7 @@ impl Resources {
             srgb,
             texels,
             prefix_sums,
-            survey: OnceCell::new(),
+            survey: OnceLock::new(),
             guards: features.has(Constant::Diagnosed).then(|| Guards::new(gpu)).transpose()?,
             images,
             volumes,

@@ -13,7 +13,7 @@ const MAX_DRAWS: f64 = 2048.0;
 /// Samples of each of the two means where the film has fewer: what few pixels show is found by many draws.
 const MIN_SAMPLES: u32 = 64;
 /// Pixels that one thread takes at once.
-const CHUNK: usize = 1 << 15;
+const PIXELS_PER_TASK: usize = 1 << 15;
 /// Cells along each side of the picture.
 const CELLS: usize = 32;
 
@@ -41,9 +41,11 @@ impl Masses {
     pub fn new(of: &Audited, budget: f64) -> Masses {
         let pixels = of.counts.len() as f64;
         let sum = |f: &(dyn Fn(usize) -> f64 + Sync)| -> f64 {
-            let chunks = (0..of.counts.len().div_ceil(CHUNK))
-                .into_par_iter()
-                .map(|chunk| (chunk * CHUNK..((chunk + 1) * CHUNK).min(of.counts.len())).map(f).sum::<f64>());
+            let chunks = (0..of.counts.len().div_ceil(PIXELS_PER_TASK)).into_par_iter().map(|chunk| {
+                (chunk * PIXELS_PER_TASK..((chunk + 1) * PIXELS_PER_TASK).min(of.counts.len()))
+                    .map(f)
+                    .sum::<f64>()
+            });
             chunks.collect::<Vec<f64>>().iter().sum()
         };
         let draws = |wanted: f64| wanted.clamp(MIN_DRAWS, MAX_DRAWS).min(pixels);

@@ -8,12 +8,13 @@ use std::cmp::Reverse;
 
 use rayon::prelude::*;
 
+use super::analytic::{AnalyticPixels, OWN_ERROR};
 use super::draws::{Masses, wanted};
 use super::estimate::Estimate;
-use super::exact::{Exact, OWN_ERROR};
-use super::{MOST, OCTAVES, Sums, Tracer, octave};
+use super::{MOST, OCTAVES, octave};
 use crate::core::error::Result;
 use crate::core::progress::Progress;
+use crate::sampling::{Backend, HalfSums};
 use crate::schema::layout::{JOB_APART, JOB_BARE, JOB_STREAM_SHIFT, Job};
 
 /// The interval holds the truth with this probability.
@@ -33,10 +34,10 @@ const RADIUS: usize = 4;
 
 /// What is audited.
 pub struct Audited<'a> {
-    pub sums: &'a Sums,
+    pub sums: &'a HalfSums,
     pub counts: &'a [u32],
     pub estimate: &'a Estimate,
-    pub exact: &'a Exact,
+    pub analytic: &'a AnalyticPixels,
 }
 
 /// What an audit found.
@@ -69,7 +70,7 @@ impl Audited<'_> {
     /// another.
     pub fn audit(
         &self,
-        tracer: &mut dyn Tracer,
+        backend: &mut dyn Backend,
         budget: f64,
         round: u32,
         progress: &dyn Progress,
@@ -83,7 +84,7 @@ impl Audited<'_> {
         let cost: f64 = places.iter().map(|&p| 2.0 * f64::from(wanted(self.counts[p]))).sum();
         let part = (budget / cost).min(1.0);
         let samples = |pixel: usize| ((f64::from(wanted(self.counts[pixel])) * part) as u32).clamp(16, MOST);
-        let bare = if tracer.prefilters() { JOB_BARE } else { 0 };
+        let bare = if backend.prefilters() { JOB_BARE } else { 0 };
         let job = |&pixel: &usize, mean: u32| Job {
             place: Job::place_of(pixel as u32, self.sums.width),
             part: JOB_APART | bare | (2 + 2 * round + mean) << JOB_STREAM_SHIFT,
@@ -95,7 +96,7 @@ impl Audited<'_> {
         order.sort_by_key(|&at| Reverse(samples(places[at])));
         let jobs: Vec<Job> =
             order.iter().flat_map(|&at| [job(&places[at], 0), job(&places[at], 1)]).collect();
-        let sums = tracer.sample_apart(&jobs, progress)?;
+        let sums = backend.sample_apart(&jobs, progress)?;
         let brightest = sums.iter().map(brightness).fold(0.0, f64::max);
         let mut findings: Vec<Option<Finding>> = vec![None; places.len()];
         for ((sums, jobs), at) in sums.chunks_exact(2).zip(jobs.chunks_exact(2)).zip(order) {
@@ -142,8 +143,8 @@ impl Audited<'_> {
         let rgb = |v: [f64; 4]| [v[0], v[1], v[2]];
         let off = |m: [f64; 4]| std::array::from_fn(|c| film[c] - m[c]);
         let spread = (middle[3] - dot(rgb(middle), rgb(middle))).max(0.0);
-        let (error, bound, unseen) = if self.exact.tells(pixel) {
-            // Samples cannot resolve the error of what is told without them, but find what contradicts it: beyond
+        let (error, bound, unseen) = if self.analytic.has(pixel) {
+            // Samples cannot resolve the error of what beams resolve, but find what contradicts it: beyond
             // four times their noise, and more than if they had missed the brightest where it was due so often.
             let squared = dot(off(middle), off(middle));
             let noise = (16.0 * spread).max(MISSED * brightest * squared.sqrt()) / (2.0 * k);

@@ -4,16 +4,18 @@ use std::collections::BTreeMap;
 use std::time::Instant;
 
 use super::allocate::{Aim, Allocation};
+use super::analytic::{AnalyticPixels, OWN_ERROR, Outlook, needed};
 use super::audit::{Audit, Audited, CONFIDENCE, DEVIATE};
 use super::auditor::Auditor;
 use super::estimate::{Estimate, Exponent};
-use super::exact::{Exact, OWN_ERROR, Outlook, needed};
 use super::explore::Explorer;
 use super::pace::{PLANNED, Pace};
-use super::{Goal, MOST, Outcome, Sums, Tracer};
+use super::{Goal, MOST, Outcome};
 use crate::core::error::Result;
 use crate::core::film::Film;
 use crate::core::progress::Progress;
+use crate::core::range::{Range, Rect};
+use crate::sampling::{Backend, Block, Count, FilmSums, HalfSums};
 use crate::schema::layout::Job;
 
 /// Samples of each half in the first pass: enough to meet the edge of a shape that covers a tenth of the
@@ -25,17 +27,14 @@ const FIRST_OF_BRIGHT: f64 = 4.0;
 /// But no more than so many, nor than so many in the whole picture.
 const MAX_FIRST: f64 = 1024.0;
 const MAX_FIRST_IN_ALL: f64 = (1u64 << 25) as f64;
-/// Part of the remaining time that a pass or an audit is planned for.
+/// Part of the remaining time that a pass is planned for.
 const OF_TIME: f64 = 0.85;
-const AUDIT_OF_TIME: f64 = 0.5;
 /// Part of the whole time that is kept for the last audit.
 const AUDIT_TIME: f64 = 0.08;
 /// A time is kept where it is exceeded by no more than this factor.
 const KEPT: f64 = 1.05;
-/// Of a picture with a number of samples to keep an audit has a quarter, or so many.
-const LITTLE_AUDIT: f64 = (1u64 << 18) as f64;
-/// With fewer an audit says nothing.
-const MIN_AUDIT: f64 = 4096.0;
+/// Rows of the film that are made at once.
+const FILM_ROWS: u32 = 64;
 /// A goal is met where the audit's estimate is below it, and the interval ends not far above it.
 const SURE: f64 = 1.25;
 /// Audits that may refuse the goal, each with more samples, before it counts as not to be met.
@@ -43,23 +42,22 @@ const MAX_REFUSALS: u32 = 12;
 
 /// Samples until the goal is met. Audits do not touch the film.
 pub fn run(
-    tracer: &mut dyn Tracer,
+    backend: &mut dyn Backend,
     [width, height]: [u32; 2],
     goal: Goal,
     progress: &dyn Progress,
 ) -> Result<(Film, Outcome)> {
     let start = Instant::now();
     let pixels = width as usize * height as usize;
-    let half = || vec![[0.0; 4]; pixels];
-    let mut sums = Sums { width, height, halves: [half(), half()] };
+    let mut sums = HalfSums::new([width, height]);
     let mut counts = vec![0u32; pixels];
-    let first = first_count(goal, tracer.bright_share(), pixels);
-    let bright = tracer.bright_share() < 1.0;
-    let mut next = tracer.first_samples(if let Goal::Seconds(_) = goal { 1 } else { first }, pixels)?;
+    let first = first_count(goal, backend.bright_share(), pixels);
+    let bright = backend.bright_share() < 1.0;
+    let mut next = backend.first_samples(if let Goal::Seconds(_) = goal { 1 } else { first }, pixels)?;
     let mut outcome = Outcome { confidence: CONFIDENCE, ..Outcome::default() };
     let mut taken;
     let mut exponent = Exponent::default();
-    let mut exact = Exact::default();
+    let mut analytic = AnalyticPixels::default();
     let mut explorer = Explorer::default();
     let mut auditor = Auditor::default();
     let mut pace = Pace::default();
@@ -67,24 +65,24 @@ pub fn run(
         if next != counts {
             let clock = Instant::now();
             match (equal(&counts), equal(&next)) {
-                (Some(now), Some(next)) => tracer.sample_all([width, height], now, next - now, progress)?,
-                _ => tracer.sample(&jobs(&counts, &next, width), progress)?,
+                (Some(now), Some(next)) => backend.sample_all([width, height], now, next - now, progress)?,
+                _ => backend.sample(&jobs(&counts, &next, width), progress)?,
             }
             pace.learn(total(&next) - total(&counts), clock.elapsed().as_secs_f64());
             counts.clone_from(&next);
             outcome.passes += 1;
         }
         let clock = Instant::now();
-        tracer.read(&mut sums)?;
-        exact.replace(&mut sums, &counts);
+        backend.read(&mut sums)?;
+        analytic.replace(&mut sums, &counts);
         taken = total(&counts);
 
         let mut estimate = Estimate::new(&sums, &counts, bright);
-        exact.settle(&mut estimate);
+        analytic.settle(&mut estimate);
         exponent.learn(taken, estimate.mse);
-        outcome.beam_pixels = exact.told() as u64;
-        let told = outcome.beam_pixels as f64 / pixels as f64;
-        let noise = estimate.mse + OWN_ERROR.powi(2) * told;
+        outcome.beam_pixels = analytic.resolved() as u64;
+        let resolved = outcome.beam_pixels as f64 / pixels as f64;
+        let noise = estimate.mse + OWN_ERROR.powi(2) * resolved;
         outcome.estimated_noise = noise.sqrt();
         pace.hosting = clock.elapsed().as_secs_f64();
         let all = match goal {
@@ -97,30 +95,26 @@ pub fn run(
         };
         let enough = match goal {
             Goal::Error(rmse) => outcome.estimated_noise <= rmse,
-            Goal::Samples(_) | Goal::Seconds(_) => taken * 1.02 >= all || estimate.mse == 0.0 && told == 1.0,
+            Goal::Samples(_) | Goal::Seconds(_) => {
+                taken * 1.02 >= all || estimate.mse == 0.0 && resolved == 1.0
+            }
         };
 
-        let left = match goal {
-            Goal::Seconds(limit) => AUDIT_OF_TIME * pace.rate * (limit - start.elapsed().as_secs_f64()),
-            Goal::Samples(_) => (taken / 4.0).max(LITTLE_AUDIT),
-            Goal::Error(_) => f64::INFINITY,
-        };
-        let budget = auditor.budget(taken, bright).min(left);
-        let audited = Audited { sums: &sums, counts: &counts, estimate: &estimate, exact: &exact };
-        let owed = budget >= MIN_AUDIT || matches!(goal, Goal::Error(_));
-        let audit = if enough && owed {
-            Some(auditor.audit(&audited, tracer, budget, &mut outcome, progress)?)
+        let budget = auditor.budget(goal, taken, bright, pace.rate, start.elapsed().as_secs_f64());
+        let audited = Audited { sums: &sums, counts: &counts, estimate: &estimate, analytic: &analytic };
+        let audit = if enough && auditor.is_owed(goal, budget) {
+            Some(auditor.audit(&audited, backend, budget, &mut outcome, progress)?)
         } else {
             None
         };
-        outcome.tell(noise, estimate.deviation, audit.as_ref(), tracer.prefilters());
+        outcome.note(noise, estimate.deviation, audit.as_ref(), backend.prefilters());
         let weight = estimate.weight();
         if enough {
             let Goal::Error(rmse) = goal else { break };
             let sure = outcome.interval.is_none_or(|[_, high]| high <= SURE * rmse);
             outcome.reached = outcome.estimated_rmse <= rmse && sure;
             // More samples do not lower the bias of a footprint as they lower noise.
-            if outcome.reached || tracer.prefilters() || auditor.refusals == MAX_REFUSALS {
+            if outcome.reached || backend.prefilters() || auditor.refusals == MAX_REFUSALS {
                 break;
             }
             auditor.refusals += 1;
@@ -147,7 +141,8 @@ pub fn run(
             exponent: exponent.value(),
             left: Outlook::left(goal, elapsed, (needed - taken) / pace.rate),
         };
-        if exact.tell(tracer, &outlook, &estimate, &allocation, progress)? {
+        let whole = Rect::whole([width, height]);
+        if analytic.resolve(backend, whole, &outlook, &estimate, &allocation, progress)? {
             continue;
         }
         let idle = pace.idle(goal, elapsed, outcome.estimated_noise, exponent.value());
@@ -169,11 +164,12 @@ pub fn run(
             }
         };
         if next == counts {
-            // No pixel that matters may have more samples: what was reached is told all the same.
+            // No pixel that matters may have more samples: what was reached is noted all the same.
             if audit.is_none() {
-                let audited = Audited { sums: &sums, counts: &counts, estimate: &estimate, exact: &exact };
-                let audit = auditor.audit(&audited, tracer, budget, &mut outcome, progress)?;
-                outcome.tell(noise, estimate.deviation, Some(&audit), tracer.prefilters());
+                let audited =
+                    Audited { sums: &sums, counts: &counts, estimate: &estimate, analytic: &analytic };
+                let audit = auditor.audit(&audited, backend, budget, &mut outcome, progress)?;
+                outcome.note(noise, estimate.deviation, Some(&audit), backend.prefilters());
             }
             break;
         }
@@ -187,12 +183,12 @@ pub fn run(
         Goal::Error(_) => outcome.reached,
         Goal::Seconds(limit) => start.elapsed().as_secs_f64() <= KEPT * limit,
     };
-    Ok((film(&sums, &counts), outcome))
+    Ok((film(&sums, &counts)?, outcome))
 }
 
 impl Outcome {
-    /// Both estimates err by chance: the larger one is told, and the larger of their bounds.
-    fn tell(&mut self, noise: f64, deviation: f64, audit: Option<&Audit>, prefilters: bool) {
+    /// Both estimates err by chance: the larger one is noted, and the larger of their bounds.
+    fn note(&mut self, noise: f64, deviation: f64, audit: Option<&Audit>, prefilters: bool) {
         let mse = audit.map_or(noise, |audit| audit.mse.max(noise));
         self.estimated_rmse = mse.sqrt();
         self.estimated_bias = if prefilters { (mse - noise).max(0.0).sqrt() } else { 0.0 };
@@ -254,14 +250,27 @@ fn jobs(counts: &[u32], next: &[u32], width: u32) -> Vec<Job> {
     lengths.into_iter().rev().flat_map(both).collect()
 }
 
-fn film(sums: &Sums, counts: &[u32]) -> Film {
+/// The means over both halves, whose samples count one half after the other.
+fn film(sums: &HalfSums, counts: &[u32]) -> Result<Film> {
     let mean = total(counts) / counts.len() as f64;
+    let most = counts.iter().copied().max().unwrap_or(0);
     let mut film = Film::new(sums.width, sums.height, mean.round() as u32);
-    for (i, pixel) in film.pixels.iter_mut().enumerate() {
-        let sum = |c: usize| f64::from(sums.halves[0][i][c]) + f64::from(sums.halves[1][i][c]);
-        *pixel = std::array::from_fn(|c| (sum(c) / (2.0 * f64::from(counts[i]))) as f32);
+    for pixels in Rect::whole([sums.width, sums.height]).strips(FILM_ROWS) {
+        let first = pixels.y as usize * sums.width as usize;
+        let places = first..first + pixels.area();
+        let half = |half: u32| {
+            let own = &sums.halves[half as usize][places.clone()];
+            let mut block = Block::new(Range { pixels, samples: half * most..(half + 1) * most });
+            block.sums = own.iter().map(|&[r, g, b, _]| [r, g, b].map(f64::from)).collect();
+            block.squares = own.iter().map(|&[.., squares]| f64::from(squares)).collect();
+            block.count = Count::Each(counts[places.clone()].to_vec());
+            FilmSums::from(block)
+        };
+        let mut both = half(0);
+        both.merge(half(1))?;
+        both.write_to(&mut film);
     }
-    film
+    Ok(film)
 }
 
 #[cfg(test)]

@@ -1,6 +1,8 @@
-//! How much of a picture one submission renders: enough that submitting costs nothing, little
-//! enough that progress moves, Ctrl-C is heard and no watchdog fires. Tiles and chunks of samples
+//! How much of a range one submission renders: enough that submitting costs nothing, little
+//! enough that progress moves, Ctrl-C is heard and no watchdog fires. Tiles and blocks of samples
 //! go in; how many tiles to dispatch next comes out, learnt from how long the last ones took.
+
+use std::ops::Range;
 
 use crate::schema::layout::TILE;
 
@@ -13,30 +15,31 @@ const GROWTH: f64 = 16.0;
 /// `maxComputeWorkGroupCount` is at least this on every device.
 pub(super) const MAX_TILES: u32 = 65_535;
 
-pub struct Plan {
-    samples: u32,
-    chunk: u32,
-    /// Tile-samples of the whole picture and how many are done.
+/// How the tiles and samples of a range are spread over dispatches.
+pub struct DispatchPlan {
+    samples: Range<u32>,
+    block: u32,
+    /// Tile-samples of the range and how many are done.
     total: f64,
     done: f64,
     /// Tile-samples of the next slice.
     next: f64,
 }
 
-impl Plan {
-    pub fn new(samples: u32, chunk: u32, tiles: u64) -> Plan {
-        Plan::starting_with(FIRST_SAMPLES / f64::from(TILE * TILE), samples, chunk, tiles)
+impl DispatchPlan {
+    /// Tile-samples of a first slice, before anything is known of their costs.
+    pub const FIRST: f64 = FIRST_SAMPLES / (TILE * TILE) as f64;
+
+    /// With `next` tile-samples in the first slice; a thread takes no more than `block` samples of a pixel at once.
+    pub fn new(next: f64, samples: Range<u32>, block: u32, tiles: u64) -> DispatchPlan {
+        let count = samples.end.saturating_sub(samples.start);
+        DispatchPlan { samples, block, total: tiles as f64 * f64::from(count), done: 0.0, next }
     }
 
-    /// With so many tile-samples in the first slice.
-    pub fn starting_with(next: f64, samples: u32, chunk: u32, tiles: u64) -> Plan {
-        Plan { samples, chunk, total: tiles as f64 * f64::from(samples), done: 0.0, next }
-    }
-
-    /// (first sample, number) of each chunk, in the order in which the film adds them.
-    pub fn chunks(&self) -> impl Iterator<Item = (u32, u32)> + use<> {
-        let (samples, chunk) = (self.samples, self.chunk);
-        (0..samples).step_by(chunk as usize).map(move |first| (first, chunk.min(samples - first)))
+    /// (first sample, number) of each block, in the order in which the film adds them.
+    pub fn blocks(&self) -> impl Iterator<Item = (u32, u32)> + use<> {
+        let (Range { start, end }, block) = (self.samples.clone(), self.block);
+        (start..end).step_by(block as usize).map(move |first| (first, block.min(end - first)))
     }
 
     /// How many of the `left` tiles the next slice takes.
@@ -46,12 +49,19 @@ impl Plan {
         if left <= tiles + tiles / 4 && left <= MAX_TILES { left } else { tiles.min(left) }
     }
 
+    /// Notes how long a slice took.
     pub fn learn(&mut self, tiles: u32, sample_count: u32, seconds: f64) {
         let work = f64::from(tiles) * f64::from(sample_count);
         self.done += work;
         self.next = next_work(work, seconds);
     }
 
+    /// Returns the tile-samples of the next slice.
+    pub fn next(&self) -> f64 {
+        self.next
+    }
+
+    /// Returns the share of the range that is done.
     pub fn done(&self) -> f64 {
         self.done / self.total
     }
@@ -92,29 +102,31 @@ mod tests {
     }
 
     #[test]
-    fn chunks_cover_all_samples_in_order() {
-        for (samples, chunk) in [1, 255, 256, 257, 1000, 65_536].into_iter().zip([256, 256, 7, 256, 1, 256]) {
-            let plan = Plan::new(samples, chunk, 1);
-            let mut next = 0;
-            for (first, count) in plan.chunks() {
-                assert_eq!(first, next);
-                assert!((1..=chunk).contains(&count));
-                next += count;
+    fn blocks_cover_all_samples_in_order() {
+        for (samples, block) in [1, 255, 256, 257, 1000, 65_536].into_iter().zip([256, 256, 7, 256, 1, 256]) {
+            for start in [0, samples / 3] {
+                let plan = DispatchPlan::new(DispatchPlan::FIRST, start..samples, block, 1);
+                let mut next = start;
+                for (first, count) in plan.blocks() {
+                    assert_eq!(first, next);
+                    assert!((1..=block).contains(&count));
+                    next += count;
+                }
+                assert_eq!(next, samples);
             }
-            assert_eq!(next, samples);
         }
     }
 
     #[test]
     fn a_slow_slice_makes_the_next_one_short() {
-        let mut plan = Plan::new(64, 256, 10_000);
+        let mut plan = DispatchPlan::new(DispatchPlan::FIRST, 0..64, 256, 10_000);
         plan.learn(100, 64, 1.5);
         assert_eq!(plan.tiles(9_000, 64), 10);
     }
 
     #[test]
     fn growth_is_bounded_even_when_the_clock_says_nothing() {
-        let mut plan = Plan::new(64, 256, 10_000);
+        let mut plan = DispatchPlan::new(DispatchPlan::FIRST, 0..64, 256, 10_000);
         plan.learn(4, 64, 0.0);
         assert_eq!(plan.tiles(9_000, 64), 64);
     }

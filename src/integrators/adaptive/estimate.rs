@@ -1,4 +1,4 @@
-//! Sums of two halves → the variance of each pixel's mean, and the picture's mean squared error.
+//! HalfSums of two halves → the variance of each pixel's mean, and the picture's mean squared error.
 //!
 //! A pixel's own halves say little: the square of one difference. The spread of its samples is known well,
 //! but well placed samples err less than it says. So the spread tells pixels apart, and the halves of a
@@ -10,11 +10,11 @@
 use glam::{Vec3A, Vec4};
 use rayon::prelude::*;
 
-use super::Sums;
 use super::unseen::{self, Spreads};
+use crate::sampling::HalfSums;
 
 /// Pixels that one thread takes at once.
-const CHUNK: usize = 1 << 15;
+const PIXELS_PER_TASK: usize = 1 << 15;
 /// Pixels on each side of the window's middle.
 const RADIUS: usize = 3;
 
@@ -42,7 +42,7 @@ struct Seen {
 
 impl Estimate {
     /// `bright`: the scene is known to have something small and bright.
-    pub fn new(sums: &Sums, counts: &[u32], bright: bool) -> Estimate {
+    pub fn new(sums: &HalfSums, counts: &[u32], bright: bool) -> Estimate {
         let (width, height) = (sums.width as usize, sums.height as usize);
         let seen: Vec<Seen> = (0..counts.len()).into_par_iter().map(|i| seen(sums, counts[i], i)).collect();
         let differences = seen.iter().map(|s| f64::from(s.difference));
@@ -65,14 +65,17 @@ impl Estimate {
 impl Estimate {
     /// The variances' mean over the error that the halves tell.
     pub fn weight(&self) -> f64 {
-        let chunks: Vec<f64> =
-            self.variances.par_chunks(CHUNK).map(|chunk| chunk.iter().map(|&v| f64::from(v)).sum()).collect();
+        let chunks: Vec<f64> = self
+            .variances
+            .par_chunks(PIXELS_PER_TASK)
+            .map(|chunk| chunk.iter().map(|&v| f64::from(v)).sum())
+            .collect();
         let mean = chunks.iter().sum::<f64>() / self.variances.len() as f64;
         if self.mse > 0.0 { mean / self.mse } else { 1.0 }
     }
 }
 
-fn seen(sums: &Sums, count: u32, i: usize) -> Seen {
+fn seen(sums: &HalfSums, count: u32, i: usize) -> Seen {
     let part = 1.0 / count as f32;
     let [a, b] = [0, 1].map(|half| part * Vec4::from_array(sums.halves[half][i]));
     let (own, other) = (Vec3A::from_vec4(a), Vec3A::from_vec4(b));
@@ -179,7 +182,7 @@ mod tests {
     }
 
     /// A picture whose samples deviate by `spread` from `mean`.
-    fn sums(counts: &[u32], mean: impl Fn(usize) -> f32, spread: impl Fn(usize) -> f32) -> Sums {
+    fn sums(counts: &[u32], mean: impl Fn(usize) -> f32, spread: impl Fn(usize) -> f32) -> HalfSums {
         let half = |half: usize| {
             let sum = |i: usize| {
                 let mut sum = [0.0; 4];
@@ -192,7 +195,7 @@ mod tests {
             };
             (0..counts.len()).map(sum).collect()
         };
-        Sums { width: WIDTH as u32, height: (counts.len() / WIDTH) as u32, halves: [half(0), half(1)] }
+        HalfSums { width: WIDTH as u32, height: (counts.len() / WIDTH) as u32, halves: [half(0), half(1)] }
     }
 
     #[test]

@@ -46,7 +46,7 @@ fn worth(now: f64) -> f64 {
 }
 
 /// Pixels that one thread takes at once.
-const CHUNK: usize = 1 << 15;
+const PIXELS_PER_TASK: usize = 1 << 15;
 const BINS: usize = 1024;
 const BINS_AN_OCTAVE: f64 = 8.0;
 
@@ -54,8 +54,9 @@ impl Allocation {
     pub fn new(estimate: &Estimate, counts: &[u32], exponent: f64) -> Allocation {
         let p = exponent as f32;
         let mut weights = vec![0.0; counts.len()];
-        let chunks = weights.par_chunks_mut(CHUNK).zip(estimate.variances.par_chunks(CHUNK));
-        let bins = chunks.zip(counts.par_chunks(CHUNK)).map(|((weights, variances), counts)| {
+        let chunks =
+            weights.par_chunks_mut(PIXELS_PER_TASK).zip(estimate.variances.par_chunks(PIXELS_PER_TASK));
+        let bins = chunks.zip(counts.par_chunks(PIXELS_PER_TASK)).map(|((weights, variances), counts)| {
             let mut bins = vec![Bin::default(); BINS];
             for ((weight, &variance), &count) in weights.iter_mut().zip(variances).zip(counts) {
                 let n = count as f32;
