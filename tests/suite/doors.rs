@@ -19,7 +19,7 @@ const WITHOUT_TWIN: &[(&str, &str)] = &[
     ("texel_buffer", "buffers of the device"),
 ];
 /// Files of `src/oracle` without a twin, and why.
-const WITHOUT_SHADER: &[(&str, &str)] = &[("jobs", "the other half of `render_main`")];
+const WITHOUT_SHADER: &[(&str, &str)] = &[("backend", "who takes the samples of `render_main`")];
 
 /// `main` of a shader stands in `X_main.glsl`, its twin in `X.rs`.
 fn twin_of(glsl: &str) -> &str {

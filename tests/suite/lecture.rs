@@ -237,7 +237,7 @@ fn parallel_camera_rays() {
 fn assert_radiance(what: &str, text: &str, by_hand: DVec3) {
     let scene = packed(text);
     let mut films: Vec<(&str, Film)> =
-        vec![("oracle", moire::internal::oracle::render::render(&scene, &NoProgress).unwrap())];
+        vec![("oracle", moire::internal::oracle::backend::render(&scene, &NoProgress).unwrap())];
     for (name, keep_everything) in [("device", false), ("device, everything kept", true)] {
         let film = render::render(&gpu(), scene.clone(), keep_everything, &Tuning::default(), &NoProgress)
             .unwrap()

@@ -147,7 +147,7 @@ fn deep_srgb_is_left_to_the_device_as_codes_or_as_floats() {
 #[test]
 fn the_oracle_refuses_levels_that_nobody_has_made() {
     let packed = packed(&scene("", false), MipPlacement::DEVICE);
-    let error = told(oracle::render::render(&packed, &NoProgress));
+    let error = told(oracle::backend::render(&packed, &NoProgress));
     assert!(error.contains("grey8 srgb 128x64") && error.contains("left to a device"), "{error}");
 }
 
