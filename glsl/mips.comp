@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// One level of a pyramid: one thread a word of it, or a texel where that is larger.
-#include "shared/pyramid.glsl"
+// One level of a mip_chain: one thread a word of it, or a texel where that is larger.
+#include "shared/mip_chain.glsl"
 
 layout(local_size_x_id = 0, local_size_y_id = 1, local_size_z = 1) in;
 

@@ -4,7 +4,7 @@
 // is mirrored.
 #include "shared/features.glsl"
 #include "shared/layout.glsl"
-#include "shared/footprint.glsl"
+#include "shared/bsdf/dielectric.glsl"
 
 layout(local_size_x_id = 0, local_size_y_id = 1, local_size_z = 1) in;
 
@@ -22,5 +22,5 @@ void main() {
     if (i >= range.count) return;
     vec4 d = queries[i].direction;
     vec3 n = queries[i].normal.xyz;
-    answers[i] = vec4(refracted(d.xyz, n, d.w), reflectance(d.xyz, n, d.w));
+    answers[i] = vec4(refracted(d.xyz, n, d.w), fresnel_dielectric(d.xyz, n, d.w));
 }

@@ -20,7 +20,7 @@ layout(std430, set = 0, binding = 4) readonly buffer Queries { Query queries[]; 
 layout(push_constant) uniform Range { uint count; } range;
 
 void main() {
-    hold_scene();
+    preload_records();
     uint i = gl_GlobalInvocationID.x;
     if (i >= range.count) return;
     Query query = queries[i];

@@ -14,31 +14,20 @@
 //! ```
 //!
 //! Only [`gpu`] names Vulkan. Each file of [`oracle`] is the float64 twin of a file of `glsl/shared/`;
-//! [`layout`] and [`features`] are the host's side of the two that hold declarations.
+//! [`schema::layout`] and [`pack::features`] are the host's side of the two that hold declarations.
 
-pub mod adaptive;
-pub mod cli;
-pub mod color;
-mod counted;
-pub mod error;
-pub mod features;
-pub mod film;
-pub mod gpu;
-pub mod layout;
-pub mod metrics;
-mod named;
-pub mod oracle;
-pub mod output;
-pub mod pack;
-pub mod panics;
-pub mod pattern;
-pub mod plot;
-pub mod probe;
-pub mod progress;
-pub mod render;
-pub mod scene;
-pub mod shaders;
-pub mod stability;
-pub mod study;
-pub mod texture;
-pub mod verify;
+#[doc(hidden)]
+pub mod internal;
+
+mod adaptive;
+mod cli;
+mod core;
+mod gpu;
+mod lab;
+mod oracle;
+mod output;
+mod pack;
+mod render;
+mod scene;
+mod schema;
+mod texture;

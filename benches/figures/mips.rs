@@ -4,10 +4,10 @@
 use std::hint::black_box;
 use std::time::Instant;
 
-use moire::gpu::{DeviceSelect, Gpu};
-use moire::probe::Pyramids;
-use moire::texture::data::{ColorSpace, Dimension, MipKernel, TexelFormat, TextureData};
-use moire::texture::mips;
+use moire::internal::gpu::{DeviceSelect, Gpu};
+use moire::internal::lab::probe::MipPlacement;
+use moire::internal::texture::data::{ColorSpace, Dimension, MipKernel, TexelFormat, TextureData};
+use moire::internal::texture::mips;
 
 use crate::{Bench, Outcome};
 
@@ -39,7 +39,7 @@ fn median(bench: &Bench, mut seconds: impl FnMut() -> Outcome<f64>) -> Outcome<f
 
 pub fn table(bench: &Bench) -> Outcome<()> {
     let gpu = Gpu::open(&DeviceSelect::parse(&bench.device)?)?;
-    let mut made = Pyramids::new(&gpu);
+    let mut made = MipPlacement::new(&gpu);
     println!("\n| pyramid, {SIDE}² rgba8 | box, host s | Kaiser, host s | box, device ms |");
     println!("| --- | --- | --- | --- |");
     for &space in ColorSpace::ALL {
@@ -47,7 +47,7 @@ pub fn table(bench: &Bench) -> Outcome<()> {
         let host = |kernel| {
             median(bench, || {
                 let clock = Instant::now();
-                black_box(mips::pyramid(&texture, kernel));
+                black_box(mips::mip_chain(&texture, kernel));
                 Ok(clock.elapsed().as_secs_f64())
             })
         };

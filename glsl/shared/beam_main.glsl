@@ -1,35 +1,35 @@
 // One beam a pixel (Heckbert & Hanrahan 1984): the pixel's square, cut along the edges of the polygons that it
-// meets and where they pass through each other; of each visible piece the exact area in the pixel, and the
-// exact integral of its colour. Mirrors send the piece on. What this cannot do is left to samples:
+// meets and where they pass through each other; of each visible fragment the exact area in the pixel, and the
+// exact integral of its colour. Mirrors send the fragment on. What this cannot do is left to samples:
 // film[pixel].w = 1. Twin: src/oracle/beam.rs.
 #ifndef BEAM_MAIN_GLSL
 #define BEAM_MAIN_GLSL
 
 #define HIDE_UNIFORMS
 #include "features.glsl"
-#include "paint.glsl"
+#include "shading_integral.glsl"
 #include "slice.glsl"
 
 const uint MAX_MET = 8u;      // shapes that a beam may meet
-// Planes whose nearness differs by less, relatively, lie in each other: the first of the list is seen.
+// Planes whose inverse depth differs by less, relatively, lie in each other: the first of the list is seen.
 const float COPLANAR = 4e-6;
 
 // How the rays of a part of the pixel go.
-struct Beam {
-    Frame frame;
+struct PixelBeam {
+    PixelFrustum frame;
     vec3 carried;
-    uint skip;  // the mirror that it left, and that one's nearness
+    uint skip;  // the mirror that it left, and that one's inverse depth
     vec3 limit;
     uint depth;
 };
 
 // Lists of one thread. Too much for a beam: it gives up.
-Region met[MAX_MET + 1u]; // the last: of a shadow
+ConvexRegion met[MAX_MET + 1u]; // the last: of a shadow
 uint met_shapes[MAX_MET];
 uint met_count;
-uint stages[MAX_PIECES]; // a waiting piece: how many tests are done
+uint stages[MAX_FRAGMENTS]; // a waiting fragment: how many tests are done
 uint waiting;
-Beam beams[MAX_BEAMS];
+PixelBeam beams[MAX_BEAMS];
 uint waiting_beams;
 
 // The pixel's colour so far. What is painted is added here, not handed back through the loops, where NVIDIA's compiler
@@ -38,7 +38,7 @@ vec3 color;
 
 // The polygon at the end of the waiting ones becomes one of them.
 void keep_piece(uint stage) {
-    if (waiting < MAX_PIECES) stages[waiting++] = stage;
+    if (waiting < MAX_FRAGMENTS) stages[waiting++] = stage;
     else gave_up = true;
 }
 
@@ -54,15 +54,15 @@ uint pop_piece() {
     return stages[waiting];
 }
 
-// Differences of nearness that are none.
-float negligible(vec3 nearness, uint polygon) {
-    vec2 ends = range(polygon, nearness);
+// Differences of inverse depth that are none.
+float negligible(vec3 inverse_depth, uint polygon) {
+    vec2 ends = range(polygon, inverse_depth);
     return COPLANAR * max(ends.y, -ends.x);
 }
 
 // All that the beam may meet. Behind a mirror that is what lies beyond it: what lies before it neither is seen
 // nor hides anything.
-void find_shapes(Header header, Beam beam) {
+void find_shapes(Header header, PixelBeam beam) {
     uint planes = COUNT(PLANES, header.counts.x);
     uint before_triangles = planes + COUNT(SPHERES, header.counts.y);
     uint shapes = before_triangles + COUNT(TRIANGLES, header.counts.z);
@@ -75,9 +75,9 @@ void find_shapes(Header header, Beam beam) {
             if (may_meet_sphere(header, beam.frame, WHOLE, sphere_at(shape - planes))) gave_up = true;
             continue;
         }
-        Region region = shape_region(header, beam.frame, shape);
+        ConvexRegion region = shape_region(header, beam.frame, shape);
         if (mirrored) {
-            vec3 beyond = beam.limit - region.nearness;
+            vec3 beyond = beam.limit - region.inverse_depth;
             vec2 ends = range(WHOLE, beyond);
             if (ends.y <= least) continue;
             if (ends.x < 0.0) region.lines[region.count++] = beyond;
@@ -87,7 +87,7 @@ void find_shapes(Header header, Beam beam) {
         if (!touches) continue;
         if (met_count < MAX_MET) {
             met[met_count].count = region.count;
-            met[met_count].nearness = region.nearness;
+            met[met_count].inverse_depth = region.inverse_depth;
             for (uint k = 0u; k < region.count; k++) met[met_count].lines[k] = region.lines[k];
             met_shapes[met_count] = shape;
             met_count++;
@@ -99,9 +99,9 @@ void find_shapes(Header header, Beam beam) {
 
 // Positive where `by` lies before `own`.
 vec3 before(uint by, uint own, uint polygon) {
-    vec3 apart = met[by].nearness - met[own].nearness;
+    vec3 apart = met[by].inverse_depth - met[own].inverse_depth;
     vec2 ends = range(polygon, apart);
-    if (max(ends.y, -ends.x) > negligible(met[own].nearness, polygon)) return apart;
+    if (max(ends.y, -ends.x) > negligible(met[own].inverse_depth, polygon)) return apart;
     return vec3(0.0, 0.0, by < own ? 1.0 : -1.0);
 }
 
@@ -118,21 +118,21 @@ void carve(uint stage, uint by, bool has_first, vec3 first, bool kept) {
         if (range(rest, line).x >= 0.0) continue;
         uint inside = PIECE + OTHER - rest;
         if (!split(rest, line, inside, waiting)) gave_up = true;
-        if (!kept && area(waiting) > LEAST_AREA) keep_piece(stage + 1u);
+        if (!kept && area(waiting) > MIN_AREA) keep_piece(stage + 1u);
         rest = inside;
-        gone = area(rest) <= LEAST_AREA;
+        gone = area(rest) <= MIN_AREA;
     }
     if (kept && !gone) push_piece(rest, stage + 1u);
 }
 
 // Adds the integral over those parts of SEEN that see the light; without one, over all of it.
-void lit_by(Header header, Paint paint, uint shape, bool has_light, Light light) {
+void lit_by(Header header, ShadingIntegral paint, uint shape, bool has_light, Light light) {
     uint planes = COUNT(PLANES, header.counts.x);
     uint before_triangles = planes + COUNT(SPHERES, header.counts.y);
     uint shapes = before_triangles + COUNT(TRIANGLES, header.counts.z);
     uint bottom = waiting;
     if (!has_light) push_piece(SEEN, shapes);
-    else if (is_lit(header, paint, SEEN, light)) push_piece(SEEN, 0u);
+    else if (is_facing(header, paint, SEEN, light)) push_piece(SEEN, 0u);
     float least = is_parallel(header) ? negligible(paint.near, SEEN) : COPLANAR;
     while (waiting > bottom && !gave_up) {
         uint by = pop_piece();
@@ -152,35 +152,35 @@ void lit_by(Header header, Paint paint, uint shape, bool has_light, Light light)
     }
 }
 
-// Adds the colour of SEEN, a visible piece, or sends its beam on.
-void shade(Header header, Beam beam, uint own) {
+// Adds the colour of SEEN, a visible fragment, or sends its beam on.
+void shade(Header header, PixelBeam beam, uint own) {
     uint shape = met_shapes[own];
     uvec2 link = shape_links(header, shape);
     Material record = material_at(link.x);
-    Map map = map_at(link.y);
-    vec3 near = met[own].nearness;
+    UvProjection map = map_at(link.y);
+    vec3 near = met[own].inverse_depth;
     if (!is_simple(header, shape, record, map)) {
         gave_up = true;
         return;
     }
     vec3 carried = beam.carried * record.color.xyz;
-    if (MODE_IS(MODELS, MODEL_MIRROR, record.link.x)) {
+    if (is_specular(record)) {
         if (!BOUNCES || beam.depth >= header.size.w) return;
         if (waiting_beams == MAX_BEAMS) {
             gave_up = true;
             return;
         }
         vec4 plane = shape_plane(header, shape);
-        Frame frame = mirrored_frame(header, beam.frame, plane.xyz, plane.w);
+        PixelFrustum frame = mirrored_frame(header, beam.frame, plane.xyz, plane.w);
         copy(SEEN, BEAMS_AT + waiting_beams);
-        beams[waiting_beams] = Beam(frame, carried, shape, near, beam.depth + 1u);
+        beams[waiting_beams] = PixelBeam(frame, carried, shape, near, beam.depth + 1u);
         waiting_beams++;
         return;
     }
-    Quotient quotient = Quotient(near, near, near);
+    RationalMap quotient = RationalMap(near, near, near);
     if (TEXTURED && record.link.y != NO_TEXTURE) quotient = coordinates(header, beam.frame, shape, map, near);
-    Paint paint = Paint(record, carried, quotient, shape_plane(header, shape), beam.frame, near);
-    bool unlit = MODE_IS(MODELS, MODEL_UNLIT, record.link.x);
+    ShadingIntegral paint = ShadingIntegral(record, carried, quotient, shape_plane(header, shape), beam.frame, near);
+    bool unlit = !is_lit(record);
     uint lights = unlit ? 1u : COUNT(LIGHTS, header.key.y);
     uint i = 0u;
     for (; i < lights && !gave_up; i++) {
@@ -194,7 +194,7 @@ void shade(Header header, Beam beam, uint own) {
 }
 
 // Adds all that one beam sees but for what its mirrors send on.
-void follow(Header header, Beam beam) {
+void follow(Header header, PixelBeam beam) {
     find_shapes(header, beam);
     float left = area(WHOLE);
     uint own = 0u;
@@ -219,7 +219,7 @@ void follow(Header header, Beam beam) {
         }
     }
     if (own < met_count || waiting > 0u) gave_up = true;
-    if (left > LEAST_AREA) {
+    if (left > MIN_AREA) {
         if (ENVIRONMENT && header.counts.w != NO_MATERIAL) gave_up = true;
         color += left * beam.carried * header.background.xyz;
     }
@@ -227,7 +227,7 @@ void follow(Header header, Beam beam) {
 
 void main() {
     Header header = load_header();
-    hold_scene();
+    preload_records();
     uvec2 place = film_pixel();
     if (!in_film(header, place)) return;
     uvec2 pixel = picture_pixel(header, place);
@@ -237,7 +237,7 @@ void main() {
     waiting_beams = 0u;
     color = vec3(0.0);
     unit_square(WHOLE);
-    Beam beam = Beam(pixel_frame(header, pixel), vec3(1.0), NO_SHAPE, vec3(0.0), 0u);
+    PixelBeam beam = PixelBeam(pixel_frame(header, pixel), vec3(1.0), NO_SHAPE, vec3(0.0), 0u);
     bool more = true;
     while (more && !gave_up) {
         follow(header, beam);

@@ -4,8 +4,8 @@
 #ifndef CAMERA_GLSL
 #define CAMERA_GLSL
 
-#include "choices.glsl"
-#include "warps.glsl"
+#include "sample_dimensions.glsl"
+#include "disk_sampling.glsl"
 
 struct Ray {
     real3 origin;

@@ -26,7 +26,7 @@ const bool FLOORS = BOUNCES || SHADOWS;
 const float LEVEL = 4e-6;
 
 // Around a ray; of the camera's, `across` is the way to the next pixel, else 0.
-Cone cone_of(Ray ray, Beam beam, vec3 across) {
+Cone cone_of(Ray ray, RayDifferential beam, vec3 across) {
     vec3 unit = ray.direction * inversesqrt(dot3(ray.direction, ray.direction));
     vec3 x = across - dot3(across, unit) * unit;
     float squared = dot3(x, x);

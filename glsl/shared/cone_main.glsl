@@ -12,14 +12,14 @@ const vec2 MIDDLE = vec2(8388608.0); // of a pixel, in units of 2^-24
 
 void main() {
     Header header = load_header();
-    hold_scene();
+    preload_records();
     clear_notices();
     uvec2 place = film_pixel();
     if (!in_film(header, place)) return;
     uvec2 pixel = picture_pixel(header, place);
     Ray ray = camera_ray(header, pixel, MIDDLE);
     uint at = film_index(header, place);
-    film[at] = trace_cone(header, ray, camera_beam(header, ray));
+    film[at] = trace_cone(header, ray, camera_differential(header, ray));
     if (COMPENSATED) film[at + header.size.x * slice.band_height] = vec4(0.0);
     report_notices();
 }

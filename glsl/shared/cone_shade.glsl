@@ -1,4 +1,4 @@
-// Cone -> radiance: each piece that it sees is shaded once, at the centroid of what is seen, with a
+// Cone -> radiance: each fragment that it sees is shaded once, at the centroid of what is seen, with a
 // footprint of that size; mirrors and glass send narrower cones on, glass two of them, weighted by
 // Fresnel. A light is one more cone, from the footprint to it, so that a shadow's edge is a share. All wait
 // in one list and are traced by one piece of code: threads run through all code whether they use it or not.
@@ -6,13 +6,13 @@
 #ifndef CONE_SHADE_GLSL
 #define CONE_SHADE_GLSL
 
-#include "pieces.glsl"
+#include "fragments.glsl"
 #include "shade.glsl"
 
 // Cones that wait, cones of a pixel, and the least weight of one. What goes beyond is dropped.
-const uint MOST_WAITING = BOUNCES || SHADOWS ? 32u : 1u;
-const uint MOST_CONES = BOUNCES || SHADOWS ? 64u : 1u;
-const float LEAST_WEIGHT = 1.0 / 1024.0;
+const uint MAX_WAITING = BOUNCES || SHADOWS ? 32u : 1u;
+const uint MAX_CONES = BOUNCES || SHADOWS ? 64u : 1u;
+const float MIN_WEIGHT = 1.0 / 1024.0;
 
 // A cone that is still to be traced.
 struct Branch {
@@ -28,12 +28,12 @@ struct Branch {
 const uint TO_POINT_LIGHT = 0x80000000u;
 const uint TO_FAR_LIGHT = 0x80000001u;
 
-Branch waiting[MOST_WAITING];
+Branch waiting[MAX_WAITING];
 uint waiting_count;
 float dropped; // weight of all that was
 
-Beam cone_beam(float width, float spread) {
-    return Beam(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), width, spread);
+RayDifferential cone_beam(float width, float spread) {
+    return RayDifferential(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), width, spread);
 }
 
 // The largest channel, of either sign; what is no number is seen, too.
@@ -46,8 +46,8 @@ float largest(vec3 v) {
 }
 
 void send(Branch branch) {
-    if (waiting_count == MOST_WAITING) {
-        notice(GUARD_PIECES, true);
+    if (waiting_count == MAX_WAITING) {
+        count_diagnostic(DIAGNOSTIC_PIECES, true);
         dropped += largest(branch.weight);
         return;
     }
@@ -73,11 +73,9 @@ Branch lit_branch(Branch branch, vec3 carried, Hit hit, Surface surface, Footpri
     float above = dot3(surface.geometric_normal, way);
     if (!(facing > 0.0 && above > 0.0)) share = 0.0;
     vec3 more = light.power.xyz * (share * (1.0 / PI));
-    vec3 seen = branch.weight * more;
-    if (MODE_IS(MODELS, MODEL_PHONG, material.link.x)) {
-        vec3 mirror = mirrored(branch.ray.direction, surface.normal);
-        seen = with_highlight(seen, carried, material.specular.xyz, more * phong_lobe(mirror, way, material.specular.w));
-    }
+    Bsdf bsdf = bsdf_at(material, surface.normal, branch.ray.direction);
+    vec2 lobes = evaluate(bsdf, way);
+    vec3 seen = reflected(bsdf, branch.weight, carried, Lit(more * lobes.x, more * lobes.y));
     if (!SHADOWS) return Branch(branch.ray, 0.0, 0.0, seen, skip, 0u);
     vec3 start = offset_origin(surface.point, surface.geometric_normal, surface.size);
     vec3 to_light = point_light ? light.place.xyz - start : light.place.xyz;
@@ -90,14 +88,14 @@ Branch lit_branch(Branch branch, vec3 carried, Hit hit, Surface surface, Footpri
 // The cone that leaves a mirror or glass, `through` it or not.
 Branch bent_branch(Header header, Branch branch, Hit hit, Surface surface, Footprint print, float ratio, float share, uint skip, bool through) {
     Ray ray = branch.ray;
-    Beam beam = cone_beam(branch.width, branch.spread);
+    RayDifferential beam = cone_beam(branch.width, branch.spread);
     vec3 direction;
     if (through) {
-        beam = refracted_beam(header, beam, ray, hit.t, print, surface.normal, surface.bend, surface.curvature, ratio);
+        beam = refracted_differential(header, beam, ray, hit.t, print, surface.normal, surface.shape_operator, surface.curvature, ratio);
         direction = refracted(ray.direction, surface.normal, ratio);
         if (LEANING) direction = on_its_side(ray.direction, direction, -surface.normal, -surface.geometric_normal);
     } else {
-        beam = mirrored_beam(header, beam, ray, hit.t, print, surface.normal, surface.bend, surface.curvature);
+        beam = reflected_differential(header, beam, ray, hit.t, print, surface.normal, surface.shape_operator, surface.curvature);
         direction = mirrored(ray.direction, surface.normal);
     }
     vec3 start = offset_origin(surface.point, through ? -surface.geometric_normal : surface.geometric_normal, surface.size);
@@ -111,7 +109,7 @@ vec3 shade_part(Header header, Branch branch, uint shape) {
     Hit hit = Hit(1.0, 0u, vec2(0.0));
     if (!missed) hit = meet(header, ray, shape);
     Surface surface = hit_surface(header, ray, hit);
-    Beam beam = cone_beam(branch.width, branch.spread);
+    RayDifferential beam = cone_beam(branch.width, branch.spread);
     Footprint print = footprint_at(header, beam, ray, hit.t, surface.geometric_normal);
     if (missed) {
         surface.link = uvec2(header.counts.w, header.key.w);
@@ -120,14 +118,11 @@ vec3 shade_part(Header header, Branch branch, uint shape) {
     Material material = material_at(surface.link.x);
     vec3 carried = branch.weight;
     branch.weight *= surface_color(material, map_at(surface.link.y), ray, surface, print, uvec2(0u));
-    bool mirror = MODE_IS(MODELS, MODEL_MIRROR, material.link.x);
-    bool glass = MODE_IS(MODELS, MODEL_DIELECTRIC, material.link.x);
-    bool lit = MODE_IS(MODELS, MODEL_PHONG, material.link.x) || MODE_IS(MODELS, MODEL_LAMBERT, material.link.x);
-    if (!mirror && !glass && !lit) return branch.weight;
-    if (!lit) settle_normal(ray.direction, surface);
-    float ratio = surface.inside ? material.specular.w : 1.0 / material.specular.w;
-    float back = 1.0;
-    if (glass) back = reflectance(ray.direction, surface.normal, ratio);
+    bool lit = is_lit(material);
+    if (!lit && !is_specular(material)) return emitted(material, branch.weight);
+    if (!lit) consistent_normal(ray.direction, surface);
+    float ratio = index_ratio(material, surface.inside);
+    float back = mirrored_share(material, ray.direction, surface.normal, ratio);
     // What follows: cones to the lights, or what goes through glass and then what it returns, which as the
     // last is traced first.
     uint branches = lit ? COUNT(LIGHTS, header.key.y) : (BOUNCES && branch.depth < header.size.w ? 2u : 0u);
@@ -143,7 +138,7 @@ vec3 shade_part(Header header, Branch branch, uint shape) {
         }
         float weight = largest(next.weight);
         if (lit && !SHADOWS) sum += next.weight;
-        else if (weight > 0.0 && (lit || weight >= LEAST_WEIGHT)) send(next);
+        else if (weight > 0.0 && (lit || weight >= MIN_WEIGHT)) send(next);
         else if (!lit) dropped += weight;
     }
     return sum;
@@ -160,46 +155,46 @@ Branch part_of(Branch branch, Cone cone, Covered covered, float norm) {
 }
 
 // What the cone around a ray from the camera sees; last, the weight of what was dropped.
-vec4 trace_cone(Header header, Ray ray, Beam beam) {
+vec4 trace_cone(Header header, Ray ray, RayDifferential beam) {
     vec3 sum = vec3(0.0);
     dropped = 0.0;
     waiting[0] = Branch(ray, beam.width, beam.spread, vec3(1.0), NO_SHAPE, 0u);
     waiting_count = 1u;
-    for (uint traced = 0u; traced < MOST_CONES && waiting_count > 0u; traced++) {
+    for (uint traced = 0u; traced < MAX_CONES && waiting_count > 0u; traced++) {
         waiting_count--;
         Branch branch = waiting[waiting_count];
         vec3 across = branch.depth == 0u ? header.step_x.xyz : vec3(0.0);
         Cone cone = cone_of(branch.ray, cone_beam(branch.width, branch.spread), across);
         cone = leaving(header, cone, branch.skip);
         bool to_light = SHADOWS && branch.depth >= TO_POINT_LIGHT;
-        gather(header, cone, branch.skip, to_light && branch.depth == TO_POINT_LIGHT ? 1.0 : FAR);
-        Covered rest = lay_over(header, cone);
+        collect_fragments(header, cone, branch.skip, to_light && branch.depth == TO_POINT_LIGHT ? 1.0 : FAR);
+        Covered rest = composite(header, cone);
         if (to_light) {
             sum += branch.weight * (rest.share * clear);
             continue;
         }
         // Those that are kept stand for shapes that are not.
         float replaced = rest.share * (1.0 - clear);
-        float norm = 1.0 + replaced / max(1.0 - rest.share, LEAST_SHARE);
+        float norm = 1.0 + replaced / max(1.0 - rest.share, MIN_SHARE);
         dropped += largest(branch.weight) * replaced;
-        notice(GUARD_PIECES, replaced > 0.0);
+        count_diagnostic(DIAGNOSTIC_PIECES, replaced > 0.0);
         rest.share -= replaced;
-        // An environment is one part more, behind all pieces.
+        // An environment is one part more, behind all fragments.
         bool surrounded = ENVIRONMENT && header.counts.w != NO_MATERIAL;
         uint parts = piece_count + (surrounded && rest.share > 0.0 ? 1u : 0u);
         for (uint i = 0u; i < parts; i++) {
             Covered part = rest;
             uint shape = NO_SHAPE;
             if (!ENVIRONMENT || i < piece_count) {
-                Piece piece = piece_at(i);
-                part = Covered(piece.seen, piece.center);
-                shape = piece.shape;
+                Fragment fragment = piece_at(i);
+                part = Covered(fragment.seen, fragment.center);
+                shape = fragment.shape;
             }
             if (part.share > 0.0) sum += shade_part(header, part_of(branch, cone, part, shape == NO_SHAPE ? 1.0 : norm), shape);
         }
         if (!surrounded) sum += (branch.weight * rest.share) * header.background.xyz;
     }
-    for (uint k = 0u; k < MOST_WAITING; k++) if (k < waiting_count) dropped += largest(waiting[k].weight);
+    for (uint k = 0u; k < MAX_WAITING; k++) if (k < waiting_count) dropped += largest(waiting[k].weight);
     return vec4(sum, dropped);
 }
 

@@ -2,7 +2,7 @@
 // lines, or overlapped by a circle. Exact: the area inside a closed border is half the integral of
 // x dy - y dx along it, its first moment a third of that of (x, y) (x dy - y dx); the border is pieces of
 // lines and arcs of the disc's own rim. All arcs together span the angle about the centre that the
-// pieces of lines leave, and the integrals over an arc depend on its ends alone, so that nothing is
+// fragments of lines leave, and the integrals over an arc depend on its ends alone, so that nothing is
 // sorted. Twin: src/oracle/coverage.rs.
 #ifndef COVERAGE_GLSL
 #define COVERAGE_GLSL
@@ -19,7 +19,7 @@ const Covered NOTHING = Covered(0.0, vec2(0.0));
 const Covered EVERYTHING = Covered(1.0, vec2(0.0));
 
 // Shares below this are none.
-const float LEAST_SHARE = 1e-5;
+const float MIN_SHARE = 1e-5;
 
 // The lines that cross the disc now, the newest first: covered is where a x + b y + c >= 0; (a, b) has
 // unit length. Registers, as an array with an index that differs between threads is slow. Of more lines
@@ -53,7 +53,7 @@ const float BESIDE = 1e-9;
 void cut_by(vec3 line) {
     float squared = dot2(line.xy, line.xy);
     vec3 unit = line * inversesqrt(squared > 0.0 ? squared : 1.0);
-    // A line through the centre passes beside it: seen from there, its piece has an angle.
+    // A line through the centre passes beside it: seen from there, its fragment has an angle.
     if (abs(unit.z) < BESIDE) unit.z = BESIDE;
     // A line at infinity leaves everything or nothing.
     float beyond = squared > 0.0 ? unit.z : (line.z > 0.0 ? 1.0 : -1.0);
@@ -79,48 +79,48 @@ struct Border {
 // close.
 const float PARALLEL = 1e-4;
 
-// The piece of a line, from x to y counted from its foot, that another line leaves.
-vec2 clipped(vec2 piece, vec3 line, vec3 other, bool again) {
+// The fragment of a line, from x to y counted from its foot, that another line leaves.
+vec2 clipped(vec2 fragment, vec3 line, vec3 other, bool again) {
     vec2 way = vec2(line.y, -line.x); // with what is covered on its left
     float slope = dot2(other.xy, way);
     float cosine = dot2(other.xy, line.xy);
     bool parallel = abs(slope) < PARALLEL;
     float end = (line.z * cosine - other.z) / (parallel ? 1.0 : slope);
-    float from = !parallel && slope > 0.0 ? max(piece.x, end) : piece.x;
-    float to = !parallel && slope < 0.0 ? min(piece.y, end) : piece.y;
+    float from = !parallel && slope > 0.0 ? max(fragment.x, end) : fragment.x;
+    float to = !parallel && slope < 0.0 ? min(fragment.y, end) : fragment.y;
     // Of two equal lines the second counts for nothing; two opposite ones see the same gap.
     float gap = cosine > 0.0 ? other.z - line.z : other.z + line.z;
     bool empty = parallel && (gap < 0.0 || (again && gap == 0.0 && cosine > 0.0));
     return vec2(from, empty ? from : to);
 }
 
-void add_border(inout Border sum, vec3 line, vec2 piece) {
+void add_border(inout Border sum, vec3 line, vec2 fragment) {
     float rim = sqrt(max(1.0 - line.z * line.z, 0.0));
-    if (piece.x < piece.y) {
+    if (fragment.x < fragment.y) {
         vec2 way = vec2(line.y, -line.x);
         vec2 foot = -line.z * line.xy;
-        vec2 p = foot + piece.x * way;
-        vec2 q = foot + piece.y * way;
-        float twice = line.z * (piece.y - piece.x);
+        vec2 p = foot + fragment.x * way;
+        vec2 q = foot + fragment.y * way;
+        float twice = line.z * (fragment.y - fragment.x);
         sum.twice_area += twice;
         sum.turn += atan2_accurate(twice, dot2(p, q));
         vec2 moment = twice * (p + q);
-        if (piece.x == -rim) moment += 2.0 * vec2(p.y, -p.x);
-        if (piece.y == rim) moment -= 2.0 * vec2(q.y, -q.x);
+        if (fragment.x == -rim) moment += 2.0 * vec2(p.y, -p.x);
+        if (fragment.y == rim) moment -= 2.0 * vec2(q.y, -q.x);
         sum.moment += moment;
     }
 }
 
-// The piece of a line within the disc and five others; `true` follows those that count before it.
+// The fragment of a line within the disc and five others; `true` follows those that count before it.
 #define BORDER(line, o1, n1, o2, n2, o3, n3, o4, n4, o5, n5)                      \
     {                                                                            \
         float rim = sqrt(max(1.0 - line.z * line.z, 0.0));                       \
-        vec2 piece = clipped(vec2(-rim, rim), line, o1, n1);                      \
-        piece = clipped(piece, line, o2, n2);                                     \
-        piece = clipped(piece, line, o3, n3);                                     \
-        piece = clipped(piece, line, o4, n4);                                     \
-        piece = clipped(piece, line, o5, n5);                                     \
-        add_border(border, line, piece);                                          \
+        vec2 fragment = clipped(vec2(-rim, rim), line, o1, n1);                      \
+        fragment = clipped(fragment, line, o2, n2);                                     \
+        fragment = clipped(fragment, line, o3, n3);                                     \
+        fragment = clipped(fragment, line, o4, n4);                                     \
+        fragment = clipped(fragment, line, o5, n5);                                     \
+        add_border(border, line, fragment);                                          \
     }
 
 // What the lines leave of the disc.
@@ -136,7 +136,7 @@ Covered cut_disc() {
     float arcs = (least >= 0.0 ? 2.0 * PI : 0.0) - border.turn;
     float share = cut_away ? 0.0 : min((border.twice_area + arcs) * (0.5 / PI), 1.0);
     if (cut_a.z > 1.0) share = cut_away ? 0.0 : 1.0;
-    bool some = share > LEAST_SHARE;
+    bool some = share > MIN_SHARE;
     vec2 center = border.moment * (1.0 / (6.0 * PI)) / (some ? share : 1.0);
     return some ? Covered(share, center) : NOTHING;
 }
@@ -158,7 +158,7 @@ Covered circle_overlap(vec2 middle, float radius, float edge) {
     float apart = sqrt(dot2(middle, middle));
     if (radius + apart <= 1.0) {
         float share = radius * radius;
-        if (!(share > LEAST_SHARE)) return NOTHING;
+        if (!(share > MIN_SHARE)) return NOTHING;
         return Covered(share, middle);
     }
     // The chord through both crossings, from the disc's centre.
@@ -171,7 +171,7 @@ Covered circle_overlap(vec2 middle, float radius, float edge) {
     float other = segment(sine, min(abs(apart - chord) / radius, 1.0));
     other = (apart < chord ? PI - other : other) * (radius * radius);
     float share = min((own + other) * (1.0 / PI), 1.0);
-    if (!(share > LEAST_SHARE)) return NOTHING;
+    if (!(share > MIN_SHARE)) return NOTHING;
     // The moments of the two segments about their circles' centres cancel.
     vec2 center = middle * (other / (PI * share));
     return Covered(share, center);
@@ -187,7 +187,7 @@ Covered small_overlap(vec2 middle, float radius) {
     vec2 to = min(middle + side, SQUARE);
     vec2 size = max(to - from, 0.0);
     float share = size.x * size.y * (1.0 / PI);
-    if (!(share > LEAST_SHARE)) return NOTHING;
+    if (!(share > MIN_SHARE)) return NOTHING;
     return Covered(share, 0.5 * (from + to));
 }
 
@@ -198,7 +198,7 @@ Covered ball_overlap(vec2 middle, float radius, float edge) {
     Covered b = circle_overlap(middle, radius, edge);
     float from_a = (1.0 - large) * a.share;
     float share = from_a + large * b.share;
-    if (!(share > LEAST_SHARE)) return NOTHING;
+    if (!(share > MIN_SHARE)) return NOTHING;
     vec2 center = (from_a * a.center + (large * b.share) * b.center) / share;
     return large >= 1.0 ? b : Covered(share, center);
 }

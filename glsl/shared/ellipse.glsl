@@ -3,7 +3,7 @@
 #ifndef ELLIPSE_GLSL
 #define ELLIPSE_GLSL
 
-#include "spread.glsl"
+#include "footprint_axes.glsl"
 
 #if SOURCE != SOURCE_NONE
 
@@ -12,7 +12,7 @@ const float ELLIPSE_LEVEL = 0.0;
 // Beyond the longest ellipse: no loop is endless, whatever its numbers are.
 const int MAX_ELLIPSE_STEPS = 8192;
 // Area over pi of the largest: with its rows, fewer texels than steps.
-const float MOST_ELLIPSE = 2048.0;
+const float MAX_ELLIPSE = 2048.0;
 
 // exp(-2 r²) - exp(-2) for r² in [0, 1], as a polynomial: 1 at the centre but for scale, 0 at the rim.
 float ellipse_weight(float squared) {
@@ -22,10 +22,10 @@ float ellipse_weight(float squared) {
 
 // All texels of the footprint's ellipse, weighted by a Gaussian. The level is that on which the minor
 // axis is about one texel; where the ellipse is longer than the maximum anisotropy its minor axis grows.
-vec4 ellipse(Texture image, Sampler how, uint slot, Coordinate c, Spread spread) {
+vec4 ellipse(Texture image, Sampler how, uint slot, Coordinate c, FootprintEllipse spread) {
     float most = float(how.link.w);
     float minor = max(spread.minor, spread.major / (most * most));
-    notice(GUARD_ANISOTROPY, minor > spread.minor);
+    count_diagnostic(DIAGNOSTIC_ANISOTROPY, minor > spread.minor);
     int index = clamp(int(floor(0.5 * log2_accurate(max(minor, 1e-30)) + ELLIPSE_LEVEL)), 0, int(image.link.y) - 1);
     Level level = level_at(image, index);
     vec2 size = vec2(level.size.xy);
@@ -39,10 +39,10 @@ vec4 ellipse(Texture image, Sampler how, uint slot, Coordinate c, Spread spread)
     float widen = gap > 0.0 ? (minor - spread.minor) / gap : 0.0;
     m += widen * (vec3(spread.major * scale, 0.0, spread.major * scale) - m);
     // On the last level there is nothing wider to see.
-    notice(GUARD_LEVELS, m.x + m.z > 16.0 * most * most);
+    count_diagnostic(DIAGNOSTIC_LEVELS, m.x + m.z > 16.0 * most * most);
     m *= min(1.0, 16.0 * most * most / max(m.x + m.z, 1e-30));
     // Where one side of the texture is far longer, levels shrink along that one alone.
-    m *= min(1.0, MOST_ELLIPSE * inversesqrt(max(m.x * m.z - m.y * m.y, 1.0)));
+    m *= min(1.0, MAX_ELLIPSE * inversesqrt(max(m.x * m.z - m.y * m.y, 1.0)));
     // The texels' own width, which reconstruction adds.
     m += vec3(1.0, 0.0, 1.0);
     float inverse = 1.0 / (m.x * m.z - m.y * m.y);

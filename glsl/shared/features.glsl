@@ -1,4 +1,4 @@
-// What this scene uses, as specialization constants. The defaults keep everything; src/features.rs
+// What this scene uses, as specialization constants. The defaults keep everything; src/pack/features.rs
 // narrows them. A constant that names modes is a bit mask: one bit set means the mode is known when
 // the pipeline is built and no test is left; several mean a test at run time.
 #ifndef FEATURES_GLSL
@@ -41,7 +41,7 @@ layout(constant_id = 38) const bool MIPMAPPED = true;   // some texture has more
 layout(constant_id = 39) const bool ENVIRONMENT = true;
 layout(constant_id = 49) const bool POLES = true;       // environments whose rows go on over the poles
 layout(constant_id = 50) const bool BUMPED = true;
-layout(constant_id = 51) const uint RELIEFS = 0x7u;
+layout(constant_id = 51) const uint BUMP_KINDS = 0x7u;
 layout(constant_id = 52) const bool RANDOM = true;      // look-ups take texels at random
 layout(constant_id = 26) const uint TEXEL_CENTERS = 0x3u;
 layout(constant_id = 32) const uint TEXTURE_SIZES = 0x3u;
@@ -50,7 +50,7 @@ layout(constant_id = 27) const uint TEXEL_FORMATS = 0x1FFu;
 layout(constant_id = 28) const uint COLOR_SPACES = 0x3u;
 layout(constant_id = 55) const bool DEEP_SRGB = true;   // some texture has sRGB of 16 bits
 layout(constant_id = 29) const bool COMPENSATED = true; // more samples than one chunk holds
-layout(constant_id = 82) const bool BLOCKS = true;      // a thread may sum more than MOST_PLAIN samples
+layout(constant_id = 82) const bool BLOCKS = true;      // a thread may sum more than MAX_PLAIN samples
 layout(constant_id = 30) const uint SLOTS = 1u;         // image descriptors: flat, volumes, cubes
 layout(constant_id = 53) const uint VOLUME_SLOTS = 1u;
 layout(constant_id = 54) const uint CUBE_SLOTS = 1u;
@@ -62,12 +62,12 @@ layout(constant_id = 61) const uint PROCEDURAL_KINDS = 0x3FFu;
 layout(constant_id = 62) const bool PROCEDURAL_FILTERED = true; // averaged over footprints
 layout(constant_id = 65) const uint SCHEDULES = 0x3u;
 layout(constant_id = 66) const uint PIXEL_FILTERS = 0x1Fu;
-layout(constant_id = 77) const bool SURVEYED = true;    // triangles are listed by cells of the picture
+layout(constant_id = 77) const bool TILE_CULLED = true;    // triangles are listed by cells of the picture
 layout(constant_id = 67) const bool WARPED = true;      // a pixel filter that is not the pixel's own square
 layout(constant_id = 80) const uint CONE_SHAPES = DYNAMIC; // of the scene, where a cone can hold all
 
-layout(constant_id = 81) const bool GUARDED = true;     // counts what goes beyond a limit
-layout(constant_id = 70) const uint CHOICES = 0x1Fu; // what samples choose beside their place in the pixel
+layout(constant_id = 81) const bool DIAGNOSED = true;     // counts what goes beyond a limit
+layout(constant_id = 70) const uint SAMPLE_DIMENSIONS = 0x1Fu; // what samples choose beside their place in the pixel
 layout(constant_id = 71) const uint MOTIONS = DYNAMIC;     // as many as shapes where some move, else none
 layout(constant_id = 72) const bool MOVING_CAMERA = true;
 

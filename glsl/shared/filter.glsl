@@ -6,12 +6,12 @@
 #define FILTER_GLSL
 
 #include "ellipse.glsl"
-#include "guards.glsl"
+#include "diagnostics.glsl"
 #include "levels.glsl"
 #include "procedural.glsl"
 #include "rng.glsl"
-#include "spread.glsl"
-#include "summed.glsl"
+#include "footprint_axes.glsl"
+#include "summed_area.glsl"
 
 #if SOURCE != SOURCE_NONE
 
@@ -26,11 +26,11 @@ vec3 look_up_dice(uvec2 random) {
     return vec3(bits >> 8u) * (1.0 / 16777216.0);
 }
 
-vec4 look_up(Texture image, Sampler how, uint slot, Mapped mapped, uvec2 random) {
+vec4 sample_texture(Texture image, Sampler how, uint slot, TexCoord mapped, uvec2 random) {
     if (MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_PROCEDURAL, image.link.w)) {
         return vec4(procedural_color(procedural_at(image.place.x), mapped.at, mapped.dx, mapped.dy), 1.0);
     }
-    notice(GUARD_COORDINATES, no_number(mapped.at));
+    count_diagnostic(DIAGNOSTIC_COORDINATES, no_number(mapped.at));
     Coordinate place = near_coordinate(image, how, mapped);
     bool hardware = false;
 #if HAS_IMAGES
@@ -48,7 +48,7 @@ vec4 look_up(Texture image, Sampler how, uint slot, Mapped mapped, uvec2 random)
         return filtered_level(image, how, slot, mode, level_at(image, 0), c.at, face, dice);
     }
 
-    Spread spread = texel_spread(image, c);
+    FootprintEllipse spread = texel_spread(image, c);
     bool magnified = spread.major <= 1.0;
     mode = magnified ? mode : how.link.y;
     if (HAS(FILTERS, FILTER_EWA) && mode == FILTER_EWA) return ellipse(image, how, slot, c, spread);
@@ -60,7 +60,7 @@ vec4 look_up(Texture image, Sampler how, uint slot, Mapped mapped, uvec2 random)
     if (HAS(FILTERS, FILTER_ANISOTROPIC) && mode == FILTER_ANISOTROPIC) {
         float most = float(how.link.w);
         float ratio = spread.major / max(spread.minor, 1e-30);
-        notice(GUARD_ANISOTROPY, ratio > most * most);
+        count_diagnostic(DIAGNOSTIC_ANISOTROPY, ratio > most * most);
         probes = uint(ceil(sqrt(min(ratio, most * most)) - 1e-3));
         probes = max(probes, 1u);
     }
@@ -69,7 +69,7 @@ vec4 look_up(Texture image, Sampler how, uint slot, Mapped mapped, uvec2 random)
         // A look-up is as wide as the minor axis, though more of them than needed lie along the major one.
         float least = probes > 1u ? spread.minor : 0.0;
         level = 0.5 * log2_accurate(max(spread.major / float(probes * probes), least));
-        notice(GUARD_LEVELS, level > float(last));
+        count_diagnostic(DIAGNOSTIC_LEVELS, level > float(last));
         // The device's sampler knows its own last level, and minifies with one level too.
         level = clamp(level, 0.0, hardware ? 32.0 : float(last));
     }

@@ -7,14 +7,14 @@
 #define FOOTPRINT_GLSL
 
 #include "camera.glsl"
-#include "guards.glsl"
+#include "diagnostics.glsl"
 #include "math.glsl"
 
 const bool FILTERED = FOOTPRINTS != (1u << FOOTPRINT_NONE);
 const bool CONES = HAS(FOOTPRINTS, FOOTPRINT_CONE);
 const bool DIFFERENTIALS = HAS(FOOTPRINTS, FOOTPRINT_DIFFERENTIALS);
 
-struct Beam {
+struct RayDifferential {
     vec3 origin_x; // change of the ray's origin over the share of the pixel, to the right and down
     vec3 origin_y;
     vec3 direction_x;
@@ -37,8 +37,8 @@ bool uses_cones(Header header) { return MODE_IS(FOOTPRINTS, FOOTPRINT_CONE, head
 
 // `share` is the side of the part of a pixel that one sample stands for: that of a box with the
 // pixel filter's variance over √samples.
-Beam camera_beam(Header header, Ray ray) {
-    Beam beam = Beam(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), 0.0, 0.0);
+RayDifferential camera_differential(Header header, Ray ray) {
+    RayDifferential beam = RayDifferential(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), 0.0, 0.0);
     if (!FILTERED || MODE_IS(FOOTPRINTS, FOOTPRINT_NONE, header.key.z)) return beam;
     bool orthographic = MODE_IS(PROJECTIONS, PROJECTION_ORTHOGRAPHIC, header.size.z);
     float share = float(header.step_x.w);
@@ -52,7 +52,7 @@ Beam camera_beam(Header header, Ray ray) {
     }
     if (CONES) {
         float side = float(header.step_y.w) * share; // of the pixel's share, at t = 1
-        // Seen from the eye a pixel off the axis is narrower by the cosine in one direction: the cone
+        // MapInput from the eye a pixel off the axis is narrower by the cosine in one direction: the cone
         // has the root of it, and so the same cross-section.
         beam.width = orthographic ? side : 0.0;
         beam.spread = orthographic ? 0.0 : side * inversesqrt(sqrt(float(dot3(ray.direction, ray.direction))));
@@ -79,7 +79,7 @@ vec3 around(vec3 n, vec3 v) {
 const float MAX_STRETCH = 65536.0;
 
 // The footprint around the point origin + t direction with unit normal n.
-Footprint footprint_at(Header header, Beam beam, Ray ray, real distance, real3 normal) {
+Footprint footprint_at(Header header, RayDifferential beam, Ray ray, real distance, real3 normal) {
     Footprint print = NO_FOOTPRINT;
     if (!FILTERED) return print;
     vec3 n = vec3(normal);
@@ -88,7 +88,7 @@ Footprint footprint_at(Header header, Beam beam, Ray ray, real distance, real3 n
     float facing = float(dot3(normal, ray.direction));
     float squared = dot3(direction, direction);
     float least = sqrt(squared) / MAX_STRETCH;
-    notice(GUARD_GRAZING, abs(facing) < least);
+    count_diagnostic(DIAGNOSTIC_GRAZING, abs(facing) < least);
     facing = abs(facing) < least ? (facing < 0.0 ? -least : least) : facing;
     if (DIFFERENTIALS && (!CONES || !uses_cones(header))) {
         vec3 x = beam.origin_x + t * beam.direction_x;
@@ -117,7 +117,7 @@ Footprint footprint_at(Header header, Beam beam, Ray ray, real distance, real3 n
 }
 
 // The footprint of a ray that goes on for ever: all that counts is the change of its direction.
-Footprint endless_footprint(Header header, Beam beam, Ray ray) {
+Footprint endless_footprint(Header header, RayDifferential beam, Ray ray) {
     if (!FILTERED) return NO_FOOTPRINT;
     if (DIFFERENTIALS && (!CONES || !uses_cones(header))) {
         return Footprint(vec3(0.0), vec3(0.0), beam.direction_x, beam.direction_y);
@@ -128,12 +128,6 @@ Footprint endless_footprint(Header header, Beam beam, Ray ray) {
     return Footprint(vec3(0.0), vec3(0.0), side * beam.spread, cross3(d, side) * beam.spread);
 }
 
-// d - 2 (d·n) n, for unit n.
-real3 mirrored(real3 direction, real3 normal) {
-    real3 result = direction - (2.0 * dot3(direction, normal)) * normal;
-    return result;
-}
-
 // Change of the mirrored direction d - 2 (d·n) n, where the normal changes by `normal_change`.
 vec3 mirrored_change(vec3 direction, vec3 n, vec3 change, vec3 normal_change) {
     float d = dot3(direction, n);
@@ -142,26 +136,26 @@ vec3 mirrored_change(vec3 direction, vec3 n, vec3 change, vec3 normal_change) {
     return result;
 }
 
-// bend · v, summed in a stated order.
-vec3 bent(mat3 bend, vec3 v) {
-    vec3 change = (bend[0] * v.x + bend[1] * v.y) + bend[2] * v.z;
+// shape_operator · v, summed in a stated order.
+vec3 normal_change(mat3 shape_operator, vec3 v) {
+    vec3 change = (shape_operator[0] * v.x + shape_operator[1] * v.y) + shape_operator[2] * v.z;
     return change;
 }
 
-// The beam that leaves a mirror. `bend` is the change of the unit normal a unit of way along the surface;
+// The beam that leaves a mirror. `shape_operator` is the change of the unit normal a unit of way along the surface;
 // a cone takes its mean, the curvature.
-Beam mirrored_beam(Header header, Beam beam, Ray ray, real distance, Footprint print, real3 normal, mat3 bend,
+RayDifferential reflected_differential(Header header, RayDifferential beam, Ray ray, real distance, Footprint print, real3 normal, mat3 shape_operator,
                    float curvature) {
     if (!FILTERED) return beam;
     vec3 n = vec3(normal);
     vec3 direction = vec3(ray.direction);
     float t = float(distance);
-    Beam next = beam;
+    RayDifferential next = beam;
     if (DIFFERENTIALS) {
         next.origin_x = print.point_x;
         next.origin_y = print.point_y;
-        next.direction_x = mirrored_change(direction, n, print.direction_x, bent(bend, print.point_x));
-        next.direction_y = mirrored_change(direction, n, print.direction_y, bent(bend, print.point_y));
+        next.direction_x = mirrored_change(direction, n, print.direction_x, normal_change(shape_operator, print.point_x));
+        next.direction_y = mirrored_change(direction, n, print.direction_y, normal_change(shape_operator, print.point_y));
     }
     if (CONES) {
         float width = beam.width + beam.spread * t;
@@ -170,38 +164,6 @@ Beam mirrored_beam(Header header, Beam beam, Ray ray, real distance, Footprint p
         next.spread = spread;
     }
     return next;
-}
-
-// Square of what of a ray as long as d goes along the normal behind a surface; `ratio` of refractive indices, in
-// front over behind. Not above 0 where everything is reflected. Of the sine, not the cosine: 1 - r² (1 - cos²)
-// loses all digits where r is large.
-real straight_behind(real3 direction, real3 n, real ratio) {
-    real3 across = cross3(direction, n);
-    real sine = ratio * sqrt(dot3(across, across));
-    real size = sqrt(dot3(direction, direction));
-    real under = (size - sine) * (size + sine);
-    return under;
-}
-
-// Snell: the direction behind a surface with unit normal n against the ray. As long as d; d itself where
-// everything is reflected.
-real3 refracted(real3 direction, real3 n, real ratio) {
-    real under = straight_behind(direction, n, ratio);
-    real3 along = cross3(n, cross3(direction, n)); // the surface
-    real3 result = ratio * along - sqrt(max(under, 0.0)) * n;
-    return under > 0.0 ? result : direction;
-}
-
-// Share of unpolarised light that is mirrored (Fresnel); 1 beyond the critical angle.
-real reflectance(real3 direction, real3 n, real ratio) {
-    real under = straight_behind(direction, n, ratio);
-    if (under <= 0.0) return 1.0;
-    real before = abs(dot3(direction, n));
-    real behind = sqrt(under);
-    real s = (ratio * before - behind) / (ratio * before + behind);
-    real p = (before - ratio * behind) / (before + ratio * behind);
-    real mean = 0.5 * (s * s + p * p);
-    return mean;
 }
 
 // Change of the refracted direction r d - (r d·n + k) n with k² = d² - r² (d² - (d·n)²).
@@ -217,18 +179,18 @@ vec3 refracted_change(vec3 direction, vec3 n, float ratio, vec3 change, vec3 nor
 }
 
 // The beam behind a refracting surface. A cone is as wide as the ellipse that it becomes has area.
-Beam refracted_beam(Header header, Beam beam, Ray ray, real distance, Footprint print, real3 normal, mat3 bend,
+RayDifferential refracted_differential(Header header, RayDifferential beam, Ray ray, real distance, Footprint print, real3 normal, mat3 shape_operator,
                     float curvature, float ratio) {
     if (!FILTERED) return beam;
     vec3 n = vec3(normal);
     vec3 direction = vec3(ray.direction);
     float t = float(distance);
-    Beam next = beam;
+    RayDifferential next = beam;
     if (DIFFERENTIALS) {
         next.origin_x = print.point_x;
         next.origin_y = print.point_y;
-        next.direction_x = refracted_change(direction, n, ratio, print.direction_x, bent(bend, print.point_x));
-        next.direction_y = refracted_change(direction, n, ratio, print.direction_y, bent(bend, print.point_y));
+        next.direction_x = refracted_change(direction, n, ratio, print.direction_x, normal_change(shape_operator, print.point_x));
+        next.direction_y = refracted_change(direction, n, ratio, print.direction_y, normal_change(shape_operator, print.point_y));
     }
     if (CONES) {
         float size = sqrt(dot3(direction, direction));

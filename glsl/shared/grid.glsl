@@ -7,7 +7,7 @@
 
 // Where each texture's sums begin, then those: channels, levels, least value, step, first word of each
 // level; a level's rows of width + 1 sums.
-layout(set = 0, binding = 9) uniform usamplerBuffer row_sums;
+layout(set = 0, binding = 9) uniform usamplerBuffer prefix_sums;
 
 const int HEADER_WORDS = 4;
 
@@ -28,7 +28,7 @@ struct Grid {
     float step;
 };
 
-int word(int index) { return int(texelFetch(row_sums, index).x); }
+int word(int index) { return int(texelFetch(prefix_sums, index).x); }
 
 // Level 0.
 Grid texture_grid(uint index, Texture image, Sampler how) {
@@ -38,8 +38,8 @@ Grid texture_grid(uint index, Texture image, Sampler how) {
     // Linear cells lie between texel centres, of which the integer rule moves all by half a texel.
     float shift = (linear ? -0.5 : 0.0) + (integer ? 0.5 : 0.0);
     return Grid(false, false, false, ivec2(image.place.yz), word(head), word(head + HEADER_WORDS), head, how.modes.xy,
-                linear, vec2(image.place.yz), shift, uintBitsToFloat(texelFetch(row_sums, head + 2).x),
-                uintBitsToFloat(texelFetch(row_sums, head + 3).x));
+                linear, vec2(image.place.yz), shift, uintBitsToFloat(texelFetch(prefix_sums, head + 2).x),
+                uintBitsToFloat(texelFetch(prefix_sums, head + 3).x));
 }
 
 Grid checker_grid() {
@@ -69,9 +69,9 @@ int floor_div(int a, int b) { return a < 0 ? -1 - (-1 - a) / b : a / b; }
 // Codes of a row, which begins at word `first`, summed from column 0 to before column i, modulo 2^32.
 uvec3 stored_sum(Grid grid, int first, int i) {
     int at_word = first + i * grid.channels;
-    uint code = texelFetch(row_sums, at_word).x;
+    uint code = texelFetch(prefix_sums, at_word).x;
     if (grid.channels == 1) return uvec3(code);
-    return uvec3(code, texelFetch(row_sums, at_word + 1).x, texelFetch(row_sums, at_word + 2).x);
+    return uvec3(code, texelFetch(prefix_sums, at_word + 1).x, texelFetch(prefix_sums, at_word + 2).x);
 }
 
 // The first word of the texture's row that an addressed one shows; of a checker whether cells are odd.

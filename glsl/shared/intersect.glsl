@@ -6,7 +6,7 @@
 
 #include "camera.glsl"
 #include "math.glsl"
-#include "survey.glsl"
+#include "tile_culling.glsl"
 
 struct Hit {
     real t; // in units of the direction's length; FAR on a miss
@@ -112,12 +112,12 @@ Hit nearest_hit(Header header, Ray ray, uint skip, uint list) {
         hit.shape = nearer ? planes + i : hit.shape;
     }
     uint tested = triangles;
-    if (SURVEYED) {
+    if (TILE_CULLED) {
         if (list != NO_LIST) tested = survey[list];
     }
     for (uint k = 0u; k < tested; k++) {
         uint i = k;
-        if (SURVEYED) {
+        if (TILE_CULLED) {
             if (list != NO_LIST) i = survey[list + 2u + k];
         }
         real t = triangle_distance(triangle_at(i), at_rest(header, ray, planes + spheres + i), ORIGIN_IS_EYE);

@@ -1,5 +1,5 @@
 // The one layout contract: what lies where in the scene buffer, in units of uvec4 (16 bytes).
-// src/layout.rs mirrors every struct and asserts its size. Positions are relative to the eye.
+// src/schema/layout.rs mirrors every struct and asserts its size. Positions are relative to the eye.
 // Numbers of modes equal the order of the Rust enums; a test compares both.
 #ifndef LAYOUT_GLSL
 #define LAYOUT_GLSL
@@ -26,10 +26,10 @@ const uint JOB_BARE = 2u; // without a footprint
 const uint JOB_APART = 4u; // sums go to the place of the job in its list, not to the pixel's half
 const uint JOB_STREAM_SHIFT = 8u; // above it: which stream of samples, each as good as another seed
 
-const uint CELL_WORDS = 64u; // of a cell of the survey: number of triangles, calmness, up to MOST_LISTED triangles
-const uint MOST_LISTED = 62u;
+const uint CELL_WORDS = 64u; // of a cell of the survey: number of triangles, calmness, up to MAX_LISTED triangles
+const uint MAX_LISTED = 62u;
 const uint CELL_EMPTY = 0u;
-const uint CELL_CALM = 1u;
+const uint CELL_UNIFORM = 1u;
 const uint CELL_BUSY = 2u;
 const uint NO_LIST = 0xFFFFFFFFu;
 
@@ -39,11 +39,11 @@ const uint PIXEL_FILTER_GAUSSIAN = 2u;
 const uint PIXEL_FILTER_MITCHELL = 3u;
 const uint PIXEL_FILTER_BLACKMAN_HARRIS = 4u;
 const uint PIXEL_FILTER_CELLS = 512u; // of the table by which samples are placed
-const uint CHOICE_LENS = 0u;
-const uint CHOICE_TIME = 1u;
-const uint CHOICE_LIGHT = 2u; // from here on choices are made at every hit
-const uint CHOICE_LOBE = 3u;
-const uint CHOICE_FRESNEL = 4u; // by the pair of the light: where there is glass no light is chosen
+const uint DIMENSION_LENS = 0u;
+const uint DIMENSION_TIME = 1u;
+const uint DIMENSION_LIGHT = 2u; // from here on dimensions are made at every hit
+const uint DIMENSION_LOBE = 3u;
+const uint DIMENSION_FRESNEL = 4u; // by the pair of the light: where there is glass no light is chosen
 
 const uint MODEL_UNLIT = 0u;
 const uint MODEL_LAMBERT = 1u;
@@ -60,9 +60,9 @@ const uint ENTITY_NORMAL = 1u;
 const uint ENTITY_REFLECTION = 2u;
 const uint ENTITY_DIRECTION = 3u; // of the ray: an environment's
 
-const uint RELIEF_NORMAL = 0u;
-const uint RELIEF_BUMP = 1u;
-const uint RELIEF_NORMAL_DOWN = 2u;
+const uint BUMP_NORMAL = 0u;
+const uint BUMP_BUMP = 1u;
+const uint BUMP_NORMAL_DOWN = 2u;
 
 const uint LIGHT_POINT = 0u;
 const uint LIGHT_DIRECTIONAL = 1u;
@@ -135,14 +135,14 @@ const uint PROCEDURAL_MARBLE = 7u;
 const uint PROCEDURAL_WOOD = 8u;
 const uint PROCEDURAL_CELLULAR = 9u;
 
-const uint GUARD_COORDINATES = 0u;
-const uint GUARD_LEVELS = 1u;
-const uint GUARD_ANISOTROPY = 2u;
-const uint GUARD_GRAZING = 3u;
-const uint GUARD_DEPTH = 4u;
-const uint GUARD_PIECES = 5u;
-const uint GUARD_RADIANCE = 6u;
-const uint GUARDS = 7u;
+const uint DIAGNOSTIC_COORDINATES = 0u;
+const uint DIAGNOSTIC_LEVELS = 1u;
+const uint DIAGNOSTIC_ANISOTROPY = 2u;
+const uint DIAGNOSTIC_GRAZING = 3u;
+const uint DIAGNOSTIC_DEPTH = 4u;
+const uint DIAGNOSTIC_PIECES = 5u;
+const uint DIAGNOSTIC_RADIANCE = 6u;
+const uint DIAGNOSTICS = 7u;
 
 const uint NO_TEXTURE = 0xFFFFFFFFu;
 const uint NO_SHAPE = 0xFFFFFFFFu;
@@ -205,14 +205,14 @@ struct Light {
 };
 
 struct Material {
-    vec4 color;    // w: strength of the relief
+    vec4 color;    // w: strength of the bump
     uvec4 link;    // model, texture or NO_TEXTURE, sampler, image slot
-    uvec4 detail;  // the relief's texture or NO_TEXTURE, sampler, image slot; normal or bump map
+    uvec4 detail;  // the bump's texture or NO_TEXTURE, sampler, image slot; normal or bump map
     vec4 specular; // colour of the highlight, of mirrors and glass x: alpha of their facets; w: the highlight's
                    // exponent, or the refractive index
 };
 
-struct Map {
+struct UvProjection {
     real4 x;      // frame coordinates of an eye-relative point p: xyz·p + w
     real4 y;
     real4 z;
@@ -278,7 +278,7 @@ Header load_header() {
 #define MATERIAL(read, at) \
     Material(F(read, at, 0u, 0u), U(read, at, 0u, 1u), U(read, at, 0u, 2u), F(read, at, 0u, 3u))
 #define MAP(read, at)                                                                           \
-    Map(R(read, at, 0u, 0u), R(read, at, 1u, 0u), R(read, at, 2u, 0u), R(read, at, 3u, 0u), R(read, at, 4u, 0u), \
+    UvProjection(R(read, at, 0u, 0u), R(read, at, 1u, 0u), R(read, at, 2u, 0u), R(read, at, 3u, 0u), R(read, at, 4u, 0u), \
         U(read, at, 5u, 0u))
 #define TEXTURE(read, at) Texture(U(read, at, 0u, 0u), U(read, at, 0u, 1u))
 #define SAMPLER(read, at) \
@@ -292,12 +292,12 @@ const uint SPHERE_UNITS = 1u * REAL_UNITS + 1u;
 const uint TRIANGLE_UNITS = 8u * REAL_UNITS + 1u;
 const uint LIGHT_UNITS = 3u * REAL_UNITS + 2u;
 const uint MATERIAL_UNITS = 4u;
-const uint MAP_UNITS = 5u * REAL_UNITS + 1u;
+const uint UVPROJECTION_UNITS = 5u * REAL_UNITS + 1u;
 const uint TEXTURE_UNITS = 2u;
 const uint SAMPLER_UNITS = 4u;
 const uint PROCEDURAL_UNITS = 1u * REAL_UNITS + 4u;
 const uint MOTION_UNITS = 1u * REAL_UNITS;
 
-#include "held.glsl"
+#include "record_cache.glsl"
 
 #endif

@@ -16,7 +16,7 @@ const bool DERIVATIVES = FILTERED || BUMPED;
 
 // What a map can look at: the entity that its kind projects, the shape's own coordinate, and the
 // changes of both over the footprint.
-struct Seen {
+struct MapInput {
     real3 entity;
     vec3 entity_x;
     vec3 entity_y;
@@ -27,7 +27,7 @@ struct Seen {
 };
 
 // A texture coordinate (u, v, w), or a direction for a cube texture, as the map gives it.
-struct Mapped {
+struct TexCoord {
     real3 at;
     vec3 dx;
     vec3 dy;
@@ -41,7 +41,7 @@ struct Coordinate {
 };
 
 // matrix · uv: scale and rotation. Most scenes neither rotate nor shear.
-real2 turned_uv(Map map, real2 uv) {
+real2 turned_uv(UvProjection map, real2 uv) {
     real2 mapped;
     if (ROTATED_UV) {
         mapped = real2(map.matrix.x * uv.x + map.matrix.y * uv.y, map.matrix.w * uv.y + map.matrix.z * uv.x);
@@ -52,14 +52,14 @@ real2 turned_uv(Map map, real2 uv) {
 }
 
 // matrix · uv + offset.
-real2 placed(Map map, real2 uv) {
+real2 placed(UvProjection map, real2 uv) {
     real2 mapped = turned_uv(map, uv) + map.offset.xy;
     return mapped;
 }
 
 // A coordinate of a map that ends with `placed`.
-Mapped placed_coordinate(Map map, real2 uv, vec2 dx, vec2 dy) {
-    Mapped c = Mapped(real3(placed(map, uv), 0.0), vec3(0.0), vec3(0.0));
+TexCoord placed_coordinate(UvProjection map, real2 uv, vec2 dx, vec2 dy) {
+    TexCoord c = TexCoord(real3(placed(map, uv), 0.0), vec3(0.0), vec3(0.0));
     if (DERIVATIVES) {
         c.dx = vec3(turned_uv(map, real2(dx)), 0.0);
         c.dy = vec3(turned_uv(map, real2(dy)), 0.0);
@@ -68,11 +68,11 @@ Mapped placed_coordinate(Map map, real2 uv, vec2 dx, vec2 dy) {
 }
 
 // The linear part of the frame.
-vec3 in_frame(Map map, vec3 v) {
+vec3 in_frame(UvProjection map, vec3 v) {
     return vec3(dot3(vec3(map.x.xyz), v), dot3(vec3(map.y.xyz), v), dot3(vec3(map.z.xyz), v));
 }
 
-// Which face of a cube a direction meets, and where on it, (s, t) in [-1, 1] (Vulkan 1.3, "Cube Map Face
+// Which face of a cube a direction meets, and where on it, (s, t) in [-1, 1] (Vulkan 1.3, "Cube UvProjection Face
 // Selection"; ties go to z, then y). The third number is the length along the face's axis.
 #define ON_CUBE_FACE(scalar, vector)                                                             \
     vector on_cube_face(vector d, out uint face) {                                               \
@@ -138,7 +138,7 @@ float turn_change(vec3 local, vec3 change, float around, bool gradients) {
 }
 
 // (turn, height) and its change: phi/2pi and y.
-Mapped cylindrical(Map map, real3 local, vec3 x, vec3 y, bool gradients) {
+TexCoord cylindrical(UvProjection map, real3 local, vec3 x, vec3 y, bool gradients) {
     real turn = atan2_accurate(local.z, local.x) * (0.5 / REAL_PI);
     turn = turn < 0.0 ? turn + 1.0 : turn;
     vec2 dx = vec2(0.0);
@@ -159,7 +159,7 @@ float polar_change(vec3 local, vec3 change, float across, float squared, bool gr
 }
 
 // (theta/pi, phi/2pi) and its change.
-Mapped spherical(Map map, real3 local, vec3 x, vec3 y, bool gradients) {
+TexCoord spherical(UvProjection map, real3 local, vec3 x, vec3 y, bool gradients) {
     real turn = atan2_accurate(local.z, local.x) * (0.5 / REAL_PI);
     turn = turn < 0.0 ? turn + 1.0 : turn;
     real around = local.x * local.x + local.z * local.z;
@@ -176,10 +176,10 @@ Mapped spherical(Map map, real3 local, vec3 x, vec3 y, bool gradients) {
     return placed_coordinate(map, uv, dx, dy);
 }
 
-Mapped texture_coordinate(Map map, Seen seen) {
+TexCoord texture_coordinate(UvProjection map, MapInput seen) {
     uint kind = map.link.x;
     if (MODE_IS(MAPPINGS, MAP_VERTEX_UV, kind)) {
-        return Mapped(real3(seen.own, 0.0), vec3(seen.own_x, 0.0), vec3(seen.own_y, 0.0));
+        return TexCoord(real3(seen.own, 0.0), vec3(seen.own_x, 0.0), vec3(seen.own_y, 0.0));
     }
     if (MODE_IS(MAPPINGS, MAP_PLANE, kind)) return placed_coordinate(map, seen.own, seen.own_x, seen.own_y);
     vec3 x = vec3(0.0);
@@ -190,10 +190,10 @@ Mapped texture_coordinate(Map map, Seen seen) {
     }
     real2 xy = real2(affine(map.x, seen.entity), affine(map.y, seen.entity));
     if (MODE_IS(MAPPINGS, MAP_AFFINE, kind)) {
-        return Mapped(real3(xy, 0.0), vec3(x.xy, 0.0), vec3(y.xy, 0.0));
+        return TexCoord(real3(xy, 0.0), vec3(x.xy, 0.0), vec3(y.xy, 0.0));
     }
     real3 local = real3(xy, affine(map.z, seen.entity));
-    if (MODE_IS(MAPPINGS, MAP_SOLID, kind) || MODE_IS(MAPPINGS, MAP_CUBE, kind)) return Mapped(local, x, y);
+    if (MODE_IS(MAPPINGS, MAP_SOLID, kind) || MODE_IS(MAPPINGS, MAP_CUBE, kind)) return TexCoord(local, x, y);
     if (MODE_IS(MAPPINGS, MAP_BOX, kind)) {
         uint face;
         real3 stm = on_cube_face(local, face);

@@ -1,5 +1,5 @@
 // Positions of samples as integers in [0, 2^24) on each axis, from the pixel and the sample's number alone.
-// Pair 0 is the place in the pixel; further pairs are other choices of the same samples. A pixel's
+// Pair 0 is the place in the pixel; further pairs are other dimensions of the same samples. A pixel's
 // points are drawn up once a pixel and pair (`pixel_points`, `pair_points`), then asked for sample by sample.
 #ifndef PATTERNS_GLSL
 #define PATTERNS_GLSL

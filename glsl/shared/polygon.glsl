@@ -8,7 +8,7 @@
 const uint MAX_CORNERS = 12u;
 
 // What is smaller is dropped, in pixels².
-const float LEAST_AREA = 1e-7;
+const float MIN_AREA = 1e-7;
 
 // A thread's polygons lie in one list, and go by their number in it: compilers move structures that hold lists
 // element by element. Corners in order; fewer than three are no area.

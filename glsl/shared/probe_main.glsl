@@ -19,10 +19,10 @@ layout(std430, set = 0, binding = 4) readonly buffer Queries { Query queries[]; 
 layout(push_constant) uniform Range { uint count; } range;
 
 void main() {
-    hold_scene();
+    preload_records();
     uint i = gl_GlobalInvocationID.x;
     if (i >= range.count) return;
     Query query = queries[i];
-    results[i] = look_up(texture_at(query.link.x), sampler_at(query.link.y), query.link.z,
-                         Mapped(query.at.xyz, query.dx.xyz, query.dy.xyz), pcg2d(uvec2(i, query.link.w)));
+    results[i] = sample_texture(texture_at(query.link.x), sampler_at(query.link.y), query.link.z,
+                         TexCoord(query.at.xyz, query.dx.xyz, query.dy.xyz), pcg2d(uvec2(i, query.link.w)));
 }

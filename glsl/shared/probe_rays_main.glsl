@@ -24,7 +24,7 @@ layout(std430, set = 0, binding = 4) readonly buffer Queries { Query queries[]; 
 layout(push_constant) uniform Range { uint count; } range;
 
 void main() {
-    hold_scene();
+    preload_records();
     uint i = gl_GlobalInvocationID.x;
     if (i >= range.count) return;
     Header header = load_header();
@@ -34,8 +34,8 @@ void main() {
     Answer answer = Answer(real4(0.0, 0.0, 0.0, FAR), real4(0.0), real4(0.0), uvec4(NO_SHAPE, uint(blocked), 0u, 0u));
     if (hit.shape != NO_SHAPE) {
         Surface surface = hit_surface(header, ray, hit);
-        Map map = map_at(surface.link.y);
-        real2 uv = texture_coordinate(map, seen_by_map(map, ray, surface, NO_FOOTPRINT)).at.xy;
+        UvProjection map = map_at(surface.link.y);
+        real2 uv = texture_coordinate(map, map_input(map, ray, surface, NO_FOOTPRINT)).at.xy;
         answer = Answer(real4(surface.point, hit.t), real4(surface.normal, 0.0), real4(uv, 0.0, 0.0),
                         uvec4(hit.shape, uint(blocked), 0u, 0u));
     }

@@ -8,7 +8,7 @@
 #include "noise.glsl"
 
 // Boxes along a footprint's major axis, at most.
-const float MOST_BOXES = 16.0;
+const float MAX_BOXES = 16.0;
 // Footprints wider than this are averaged as if they were as wide.
 const float WIDEST = 1e9;
 
@@ -41,7 +41,7 @@ float box_count(vec3 major, vec3 minor) {
     vec3 reach = abs(major);
     float oblique = max(min(reach.x, reach.y), min(max(reach.x, reach.y), reach.z)); // the median
     float ratio = oblique / max(sqrt(dot3(minor, minor)), 1e-20);
-    return clamp(min(ratio, 1.0 + MOST_BOXES * oblique), 1.0, MOST_BOXES);
+    return clamp(min(ratio, 1.0 + MAX_BOXES * oblique), 1.0, MAX_BOXES);
 }
 
 // Mean over [x - w/2, x + w/2] of a pulse train: 1 within duty/2 of whole x, else 0. Whole periods

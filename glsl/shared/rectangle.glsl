@@ -8,8 +8,8 @@
 
 #include "math.glsl"
 
-// Seen under less it is too flat for f32, whose angles err by 1.6e-7, and its area is as good.
-const float LEAST_SOLID_ANGLE = 1.0 / 1024.0;
+// MapInput under less it is too flat for f32, whose angles err by 1.6e-7, and its area is as good.
+const float MIN_SOLID_ANGLE = 1.0 / 1024.0;
 
 // y1 r0 - y0 r1, where r² = y² + d².
 float height_gap(vec2 y, vec2 r, float squared) {

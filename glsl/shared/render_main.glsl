@@ -7,7 +7,7 @@
 
 #include "features.glsl"
 #include "layout.glsl"
-#include "choices.glsl"
+#include "sample_dimensions.glsl"
 #include "pixel_filter.glsl"
 #include "shade.glsl"
 #include "slice.glsl"
@@ -51,12 +51,12 @@ Task job_task(Header header) {
 
 // n equal terms summed in f32 are off by 1.5e-8 n at worst: no more samples than the first number are summed as
 // they are, of more so many as the second.
-const uint MOST_PLAIN = 64u;
+const uint MAX_PLAIN = 64u;
 const uint BLOCK = 32u;
 
 void main() {
     Header header = load_header();
-    hold_scene();
+    preload_records();
     clear_notices();
     bool is_job = MODE_IS(SCHEDULES, SCHEDULE_JOBS, schedule());
     Task task;
@@ -73,7 +73,7 @@ void main() {
     uint stream = task.part >> JOB_STREAM_SHIFT;
     uvec2 key = pixel_key(pixel, header.sampling.w + stream * 0x9E3779B9u, header.key.x != 0u);
     Points points = pixel_points(header, pixel, key);
-    uint list = SURVEYED ? cell_list(header, task.place + uvec2(0u, slice.band_y)) : NO_LIST;
+    uint list = TILE_CULLED ? cell_list(header, task.place + uvec2(0u, slice.band_y)) : NO_LIST;
 
     // One loop for samples and bounces: a turn follows one ray, and a pixel whose path has ended
     // starts its next sample while its neighbours' paths go on.
@@ -85,25 +85,25 @@ void main() {
     vec3 negative = vec3(0.0); // sum of the samples whose sign is negative, without it
     uint s = task.first;
     Path path;
-    path.goes_on = false;
+    path.is_alive = false;
     // Long sums go by blocks: a block's samples as they are, the blocks with compensation. No do-while: lavapipe
     // (Mesa 22.3.6) loses lanes that leave a loop around another by a condition after its body.
-    uint block = task.end - task.first > MOST_PLAIN ? BLOCK : MOST_PLAIN;
+    uint block = task.end - task.first > MAX_PLAIN ? BLOCK : MAX_PLAIN;
     vec3 lost = vec3(0.0); // what rounding has added to the sum
     while (true) {
         uint stop = BLOCKS ? min(s + block, task.end) : task.end;
         vec3 part = vec3(0.0);
         while (s < stop) {
-            bool starts = !BOUNCES || !path.goes_on;
-            Choices choices = NO_CHOICES;
-            if (CHOICES != 0u) choices = choose(header, points, s, starts ? 0u : path.depth, starts);
+            bool starts = !BOUNCES || !path.is_alive;
+            SampleDimensions dimensions = NO_CHOICES;
+            if (SAMPLE_DIMENSIONS != 0u) dimensions = choose(header, points, s, starts ? 0u : path.depth, starts);
             if (starts) {
                 uvec2 position;
-                if (CHOICES == 0u) position = sample_point(points, s, false);
-                else position = choices.place;
+                if (SAMPLE_DIMENSIONS == 0u) position = sample_point(points, s, false);
+                else position = dimensions.place;
                 Header camera = header;
                 float time = 0.0;
-                if (TIMED) time = header.lens.z + header.lens.w * unit_square(choices.time).x;
+                if (TIMED) time = header.lens.z + header.lens.w * unit_square(dimensions.time).x;
                 if (MOVING_CAMERA) {
                     if (header.chances.z != 0u) camera = camera_at(header, time);
                 }
@@ -112,7 +112,7 @@ void main() {
                 signs += sign;
                 Ray ray = camera_ray(camera, pixel, place.inside);
                 if (LENS) {
-                    if (header.lens.x > 0.0) ray = through_lens(camera, ray, unit_square(choices.lens));
+                    if (header.lens.x > 0.0) ray = through_lens(camera, ray, unit_square(dimensions.lens));
                 }
                 if (TIMED) ray.time = time;
                 if (MOVING_CAMERA) {
@@ -120,10 +120,10 @@ void main() {
                 }
                 // Bits that have nothing to do with the sample's position.
                 uvec2 random = RANDOM ? pcg2d(sample_bits(key, s) ^ 0x5BD1E995u) : uvec2(0u);
-                path = camera_path(ray, camera_beam(camera, ray), random, list);
+                path = camera_path(ray, camera_differential(camera, ray), random, list);
             }
-            vec3 more = advance(header, points, choices, path);
-            notice(GUARD_RADIANCE, no_number(more));
+            vec3 more = advance(header, points, dimensions, path);
+            count_diagnostic(DIAGNOSTIC_RADIANCE, no_number(more));
             if (SIGNED) {
                 negative += sign < 0.0 ? more : vec3(0.0);
                 more *= sign;
@@ -131,12 +131,12 @@ void main() {
             part += more;
             if (is_job) {
                 seen += more;
-                if (!path.goes_on) {
+                if (!path.is_alive) {
                     squares += dot3(seen, seen) * (1.0 / 3.0);
                     seen = vec3(0.0);
                 }
             }
-            s += path.goes_on ? 0u : 1u;
+            s += path.is_alive ? 0u : 1u;
         }
         vec3 term = part - lost;
         vec3 total = sum + term;

@@ -4,15 +4,15 @@
 #ifndef SHADE_GLSL
 #define SHADE_GLSL
 
+#include "bsdf/specular.glsl"
 #include "filter.glsl"
-#include "glossy.glsl"
 #include "light.glsl"
 #include "shading_normal.glsl"
 #include "surface.glsl"
 
 // What the surface's map looks at.
-Seen seen_by_map(Map map, Ray ray, Surface surface, Footprint print) {
-    Seen seen = Seen(surface.at_rest, vec3(0.0), vec3(0.0), surface.own_uv, vec2(0.0), vec2(0.0), false);
+MapInput map_input(UvProjection map, Ray ray, Surface surface, Footprint print) {
+    MapInput seen = MapInput(surface.at_rest, vec3(0.0), vec3(0.0), surface.own_uv, vec2(0.0), vec2(0.0), false);
     uint entity = map.link.y;
     if (DERIVATIVES) {
         seen.entity_x = print.point_x;
@@ -21,8 +21,8 @@ Seen seen_by_map(Map map, Ray ray, Surface surface, Footprint print) {
         seen.own_y = vec2(dot3(surface.own_u, print.point_y), dot3(surface.own_v, print.point_y));
     }
     if (MODE_IS(ENTITIES, ENTITY_POSITION, entity)) return seen;
-    vec3 bent_x = bent(surface.bend, print.point_x);
-    vec3 bent_y = bent(surface.bend, print.point_y);
+    vec3 bent_x = normal_change(surface.shape_operator, print.point_x);
+    vec3 bent_y = normal_change(surface.shape_operator, print.point_y);
     if (MODE_IS(ENTITIES, ENTITY_NORMAL, entity)) {
         seen.entity = surface.normal;
         seen.entity_x = bent_x;
@@ -34,9 +34,9 @@ Seen seen_by_map(Map map, Ray ray, Surface surface, Footprint print) {
     vec3 way_y = print.direction_y;
     if (MODE_IS(ENTITIES, ENTITY_REFLECTION, entity)) {
         Surface mirror = surface;
-        settle_normal(ray.direction, mirror);
-        way_x = mirrored_change(vec3(way), vec3(mirror.normal), way_x, bent(mirror.bend, print.point_x));
-        way_y = mirrored_change(vec3(way), vec3(mirror.normal), way_y, bent(mirror.bend, print.point_y));
+        consistent_normal(ray.direction, mirror);
+        way_x = mirrored_change(vec3(way), vec3(mirror.normal), way_x, normal_change(mirror.shape_operator, print.point_x));
+        way_y = mirrored_change(vec3(way), vec3(mirror.normal), way_y, normal_change(mirror.shape_operator, print.point_y));
         way = mirrored(way, mirror.normal);
     }
     // Of unit length; its change is at right angles to it.
@@ -53,14 +53,14 @@ Seen seen_by_map(Map map, Ray ray, Surface surface, Footprint print) {
 
 #if SOURCE != SOURCE_NONE
 // Gradients of u and v along the surface, from their changes along two tangents.
-void uv_gradients(Map map, Ray ray, Surface surface, out vec3 u, out vec3 v) {
+void uv_gradients(UvProjection map, Ray ray, Surface surface, out vec3 u, out vec3 v) {
     vec3 n = vec3(surface.geometric_normal);
     vec3 first = any_tangent(n);
     vec3 second = cross3(n, first);
     Footprint print = Footprint(first, second, vec3(0.0), vec3(0.0));
-    Seen seen = seen_by_map(map, ray, surface, print);
+    MapInput seen = map_input(map, ray, surface, print);
     seen.gradients = true;
-    Mapped c = texture_coordinate(map, seen);
+    TexCoord c = texture_coordinate(map, seen);
     vec3 along_u = first * c.dx.x + second * c.dy.x;
     vec3 along_v = first * c.dx.y + second * c.dy.y;
     u = along_u;
@@ -69,19 +69,19 @@ void uv_gradients(Map map, Ray ray, Surface surface, out vec3 u, out vec3 v) {
 
 // A map of normals, not of heights.
 bool is_normal_map(Material material) {
-    return MODE_IS(RELIEFS, RELIEF_NORMAL, material.detail.w) || MODE_IS(RELIEFS, RELIEF_NORMAL_DOWN, material.detail.w);
+    return MODE_IS(BUMP_KINDS, BUMP_NORMAL, material.detail.w) || MODE_IS(BUMP_KINDS, BUMP_NORMAL_DOWN, material.detail.w);
 }
 
 // Places at which a bump map is read, two on each axis, a texel or half the footprint away.
-vec2 relief_step(Material material, Mapped c) {
+vec2 bump_step(Material material, TexCoord c) {
     vec2 texel = 1.0 / vec2(texture_at(material.detail.x).place.yz);
     return max(texel, 0.5 * max(abs(c.dx.xy), abs(c.dy.xy)));
 }
 
-// The shading normal after the material's relief, from what was read there. Normal map: 2 rgb - 1 along
+// The shading normal after the material's bump map, from what was read there. Normal map: 2 rgb - 1 along
 // growing u, growing v (or against it) and the normal. Bump map: n - grad h, the height's gradient along the surface
 // (Blinn 1978; Mikkelsen 2020), h from central differences.
-vec3 relief_normal(Material material, Map map, Ray ray, Surface surface, vec4 read, vec2 step) {
+vec3 bump_normal(Material material, UvProjection map, Ray ray, Surface surface, vec4 read, vec2 step) {
     float side = surface.inside ? -1.0 : 1.0;
     vec3 n = side * vec3(surface.normal);
     float strength = material.color.w;
@@ -94,7 +94,7 @@ vec3 relief_normal(Material material, Map map, Ray ray, Surface surface, vec4 re
         vec3 b = cross3(n, u);
         float handed = dot3(cross3(u, v), n) < 0.0 ? -strength : strength;
         vec3 m = 2.0 * read.xyz - 1.0;
-        if (MODE_IS(RELIEFS, RELIEF_NORMAL_DOWN, material.detail.w)) m.y = -m.y;
+        if (MODE_IS(BUMP_KINDS, BUMP_NORMAL_DOWN, material.detail.w)) m.y = -m.y;
         vec2 scale = vec2(dot3(t, t), dot3(b, b));
         result = n * m.z;
         result += t * (scale.x > 0.0 ? handed * m.x * inversesqrt(scale.x) : 0.0);
@@ -108,30 +108,30 @@ vec3 relief_normal(Material material, Map map, Ray ray, Surface surface, vec4 re
 }
 #endif
 
-// The material's colour, times its texture where it has one; before that its relief turns the normal.
+// The material's colour, times its texture where it has one; before that its bump map turns the normal.
 // One loop for all look-ups of a hit: they are most of the code.
-vec3 surface_color(Material material, Map map, Ray ray, inout Surface surface, Footprint print, uvec2 random) {
+vec3 surface_color(Material material, UvProjection map, Ray ray, inout Surface surface, Footprint print, uvec2 random) {
     vec3 color = material.color.xyz;
 #if SOURCE != SOURCE_NONE
-    bool relief = BUMPED && material.detail.x != NO_TEXTURE;
+    bool bump = BUMPED && material.detail.x != NO_TEXTURE;
     uint taps = 0u;
-    if (relief) taps = is_normal_map(material) ? 1u : 4u;
+    if (bump) taps = is_normal_map(material) ? 1u : 4u;
     vec4 read = vec4(0.0);
     vec2 step = vec2(0.0);
     uint tap = 0u;
     if (!TEXTURED && !BUMPED) return color;
     do {
         bool last = tap == taps;
-        if (relief && last) surface.normal = relief_normal(material, map, ray, surface, read, step);
+        if (bump && last) surface.normal = bump_normal(material, map, ray, surface, read, step);
         if (!UNTEXTURED || !last || material.link.y != NO_TEXTURE) {
-            Mapped c = texture_coordinate(map, seen_by_map(map, ray, surface, print));
+            TexCoord c = texture_coordinate(map, map_input(map, ray, surface, print));
             uvec3 link = material.link.yzw;
             if (BUMPED && !last) {
                 link = material.detail.xyz;
-                step = relief_step(material, c);
+                step = bump_step(material, c);
                 if (taps == 4u) c.at[tap >> 1u] += (tap & 1u) == 0u ? step[tap >> 1u] : -step[tap >> 1u];
             }
-            vec4 texel = look_up(texture_at(link.x), sampler_at(link.y), link.z, c, random);
+            vec4 texel = sample_texture(texture_at(link.x), sampler_at(link.y), link.z, c, random);
             if (BUMPED && !last) {
                 if (taps == 4u) read[tap] = texel.x;
                 else read = texel;
@@ -146,79 +146,56 @@ vec3 surface_color(Material material, Map map, Ray ray, inout Surface surface, F
     return color;
 }
 
-vec3 with_highlight(vec3 diffuse, vec3 carried, vec3 specular, vec3 light) {
-    vec3 sum = diffuse + carried * specular * light;
-    return sum;
-}
-
 // A path between two hits: the ray, how wide it is, what it still carries, the shape that it leaves.
 struct Path {
     Ray ray;
-    Beam beam;
+    RayDifferential beam;
     vec3 throughput;
     uvec2 random; // bits by which look-ups at the next hit take texels
     uint skip;
     uint list; // the survey's, of a camera ray
     uint depth;
-    bool goes_on; // false: the path has ended, the next one starts at the camera
+    bool is_alive; // false: the path has ended, the next one starts at the camera
 };
 
-Path camera_path(Ray ray, Beam beam, uvec2 random, uint list) {
+Path camera_path(Ray ray, RayDifferential beam, uvec2 random, uint list) {
     return Path(ray, beam, vec3(1.0), random, NO_SHAPE, list, 0u, true);
 }
 
 // Where a mirrored or refracted path goes on; false where the material ends it.
-bool bounced(Header header, Hit hit, Surface surface, Footprint print, Material material, Choices choices,
+bool bounced(Header header, Hit hit, Surface surface, Footprint print, Material material, SampleDimensions dimensions,
              inout Path path) {
-    bool mirror = MODE_IS(MODELS, MODEL_MIRROR, material.link.x);
-    bool glass = MODE_IS(MODELS, MODEL_DIELECTRIC, material.link.x);
-    if (!mirror && !glass) return false;
+    if (!is_specular(material)) return false;
     Ray ray = path.ray;
-    settle_normal(ray.direction, surface);
-    float alpha = GLOSSY ? material.specular.x : 0.0;
-    real3 normal = surface.normal;
-    if (GLOSSY) {
-        if (alpha > 0.0) {
-            normal = visible_normal(vec3(ray.direction), vec3(surface.normal), alpha, unit_square(choices.lobe));
+    consistent_normal(ray.direction, surface);
+    Bounce bounce = sample_bsdf(material, surface, ray.direction, dimensions);
+    real3 normal = bounce.mirrored ? surface.geometric_normal : -surface.geometric_normal;
+    path.ray = Ray(offset_origin(surface.point, normal, surface.size), bounce.direction, ray.time);
+    if (FILTERED) {
+        RayDifferential beam = path.beam;
+        if (bounce.mirrored) {
+            path.beam = reflected_differential(header, beam, ray, hit.t, print, bounce.normal, surface.shape_operator,
+                                               surface.curvature);
+        } else {
+            path.beam = refracted_differential(header, beam, ray, hit.t, print, bounce.normal, surface.shape_operator,
+                                               surface.curvature, bounce.ratio);
         }
     }
-    float ratio = surface.inside ? material.specular.w : 1.0 / material.specular.w;
-    if (glass) mirror = unit_line(choices.fresnel) < reflectance(ray.direction, normal, ratio);
-    real3 start = offset_origin(surface.point, mirror ? surface.geometric_normal : -surface.geometric_normal, surface.size);
-    Beam beam = path.beam;
-    if (mirror) {
-        path.ray = Ray(start, mirrored(ray.direction, normal), ray.time);
-        if (FILTERED) path.beam = mirrored_beam(header, beam, ray, hit.t, print, normal, surface.bend, surface.curvature);
-    } else {
-        path.ray = Ray(start, refracted(ray.direction, normal, ratio), ray.time);
-        if (FILTERED) path.beam = refracted_beam(header, beam, ray, hit.t, print, normal, surface.bend, surface.curvature, ratio);
-    }
-    bool leaves = true;
-    real side = mirror ? 1.0 : -1.0;
-    if (LEANING) {
-        path.ray.direction = on_its_side(ray.direction, path.ray.direction, side * surface.normal, side * surface.geometric_normal);
-    }
     if (GLOSSY) {
-        if (alpha > 0.0) {
-            real3 way = side * path.ray.direction;
-            float seen = float(-dot3(ray.direction, surface.normal) * inverse_root(dot3(ray.direction, ray.direction)));
-            float leaving = float(dot3(way, surface.normal) * inverse_root(dot3(way, way)));
-            // What a facet sends into the surface is lost.
-            leaves = leaving > 0.0 && dot3(way, surface.geometric_normal) > 0.0;
-            float share = mirror ? mirrored_share(max(seen, 0.0), leaving, alpha) : refracted_share(leaving, alpha);
-            path.throughput *= leaves ? share : 0.0;
-            path.beam = widened_beam(header, path.beam, vec3(path.ray.direction), alpha);
+        if (bounce.alpha > 0.0) {
+            path.throughput *= bounce.leaves ? bounce.weight : 0.0;
+            path.beam = widened_differential(header, path.beam, vec3(path.ray.direction), bounce.alpha);
         }
     }
-    return leaves;
+    return bounce.leaves;
 }
 
 // Follows the path to its next hit; what that adds to the sample is returned.
-vec3 advance(Header header, Points points, Choices choices, inout Path path) {
+vec3 advance(Header header, Points points, SampleDimensions dimensions, inout Path path) {
     Hit hit = nearest_hit(header, path.ray, path.skip, path.list);
     bool missed = hit.shape == NO_SHAPE;
     vec3 seen = path.throughput * header.background.xyz;
-    bool goes_on = false;
+    bool is_alive = false;
     // What hits nothing is then as good as a hit.
     bool surrounded = ENVIRONMENT && header.counts.w != NO_MATERIAL;
     if (surrounded || !missed) {
@@ -230,25 +207,22 @@ vec3 advance(Header header, Points points, Choices choices, inout Path path) {
             print = endless_footprint(header, path.beam, path.ray);
         }
         Material material = material_at(surface.link.x);
-        Map map = map_at(surface.link.y);
+        UvProjection map = map_at(surface.link.y);
         vec3 carried = path.throughput;
         path.throughput *= surface_color(material, map, path.ray, surface, print, path.random);
         real3 direction = path.ray.direction;
-        goes_on = BOUNCES && bounced(header, hit, surface, print, material, choices, path);
-        bool ends_in_mirror = MODE_IS(MODELS, MODEL_MIRROR, material.link.x) || MODE_IS(MODELS, MODEL_DIELECTRIC, material.link.x);
-        seen = ends_in_mirror ? vec3(0.0) : path.throughput;
-        bool phong = MODE_IS(MODELS, MODEL_PHONG, material.link.x);
-        if (phong || MODE_IS(MODELS, MODEL_LAMBERT, material.link.x)) {
-            vec3 mirror = HAS(MODELS, MODEL_PHONG) ? vec3(mirrored(direction, surface.normal)) : vec3(0.0);
-            Lit lit = direct_light(header, surface, path.ray.time, hit.shape, mirror, material.specular.w, points, choices);
-            seen = path.throughput * lit.diffuse;
-            if (phong) seen = with_highlight(seen, carried, material.specular.xyz, lit.specular);
+        is_alive = BOUNCES && bounced(header, hit, surface, print, material, dimensions, path);
+        seen = emitted(material, path.throughput);
+        if (is_lit(material)) {
+            Bsdf bsdf = bsdf_at(material, surface.normal, direction);
+            Lit lit = direct_light(header, surface, path.ray.time, hit.shape, bsdf, points, dimensions);
+            seen = reflected(bsdf, path.throughput, carried, lit);
         }
     }
     path.skip = hit.shape;
     path.list = NO_LIST;
-    notice(GUARD_DEPTH, goes_on && path.depth >= header.size.w);
-    path.goes_on = goes_on && path.depth < header.size.w;
+    count_diagnostic(DIAGNOSTIC_DEPTH, is_alive && path.depth >= header.size.w);
+    path.is_alive = is_alive && path.depth < header.size.w;
     path.depth++;
     if (BOUNCES && RANDOM) path.random = pcg2d(path.random);
     return seen;

@@ -1,10 +1,11 @@
-// Shading normals that lean away from the surface, interpolated or by a relief: a ray mirrored by one may go
+// Shading normals that lean away from the surface, interpolated or by a bump map: a ray mirrored by one may go
 // through the surface, one refracted may not. Such rays are raised to the horizon, and the normal becomes the one
 // that mirrors them there (Keller et al. 2017, "The Iray Light Transport Simulation and Rendering System"); how
 // far above it is as in Cycles (`ensure_valid_specular_reflection`). Twin: src/oracle/shading_normal.rs.
 #ifndef SHADING_NORMAL_GLSL
 #define SHADING_NORMAL_GLSL
 
+#include "bsdf/mirror.glsl"
 #include "footprint.glsl"
 #include "surface.glsl"
 
@@ -26,12 +27,12 @@ real3 raised(real3 way, real3 g, real least) {
 
 // Turns the shading normal towards the ray, and as far towards the geometric one that it mirrors the ray to the
 // surface's own side.
-void settle_normal(real3 direction, inout Surface surface) {
+void consistent_normal(real3 direction, inout Surface surface) {
     if (!LEANING) return;
     real3 view = -inverse_root(dot3(direction, direction)) * direction;
     if (dot3(view, surface.normal) < 0.0) {
         surface.normal = -surface.normal;
-        surface.bend = -surface.bend;
+        surface.shape_operator = -surface.shape_operator;
         surface.curvature = -surface.curvature;
     }
     real least = least_cosine(dot3(view, surface.geometric_normal));

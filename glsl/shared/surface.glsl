@@ -13,7 +13,7 @@ struct Surface {
     real2 own_uv;          // the plane's coordinates or the vertices' interpolated uv
     vec3 own_u;            // gradients of the two along the surface
     vec3 own_v;
-    mat3 bend;             // change of the normal a unit of way along the surface
+    mat3 shape_operator;             // change of the normal a unit of way along the surface
     float curvature;       // its mean; positive where the shape bulges towards the ray
     bool inside;           // the ray comes from behind the shape's own normal
     uvec2 link;            // material, map
@@ -23,10 +23,10 @@ struct Surface {
 
 const mat3 FLAT = mat3(0.0);
 
-// Whether anything asks how normals bend: footprints that leave a mirror, or reliefs mapped by directions.
+// Whether anything asks for the change of normals: footprints that leave a mirror, or bump maps that are mapped by directions.
 const bool BY_DIRECTION = (ENTITIES & ((1u << ENTITY_NORMAL) | (1u << ENTITY_REFLECTION))) != 0u;
-const bool BENT_RELIEF = BUMPED && BY_DIRECTION;
-const bool BENT = FILTERED || BENT_RELIEF;
+const bool CURVED_BUMP = BUMPED && BY_DIRECTION;
+const bool NEEDS_SHAPE_OPERATOR = FILTERED || CURVED_BUMP;
 
 real largest_part(real3 v) { return max(max(abs(v.x), abs(v.y)), abs(v.z)); }
 
@@ -64,7 +64,7 @@ Surface triangle_surface(Triangle triangle, real3 point) {
     real2 uv = real2(dot3(w, real3(triangle.a.w, triangle.b.w, triangle.c.w)), dot3(w, triangle.v.xyz));
     real3 n = triangle.normal.xyz;
     real3 normal = n;
-    mat3 bend = FLAT;
+    mat3 shape_operator = FLAT;
     vec3 own_u = vec3(0.0);
     vec3 own_v = vec3(0.0);
     vec3 wa = vec3(0.0);
@@ -88,16 +88,16 @@ Surface triangle_surface(Triangle triangle, real3 point) {
         real length_scale = inverse_root(squared);
         real3 unit = blend * length_scale;
         normal = squared > 0.0 ? unit : normal;
-        if (BENT && squared > 0.0) {
+        if (NEEDS_SHAPE_OPERATOR && squared > 0.0) {
             mat3 change = outerProduct(vec3(triangle.normal_a.xyz), wa) + outerProduct(vec3(triangle.normal_b.xyz), wb) +
                           outerProduct(vec3(triangle.normal_c.xyz), wc);
             // Of unit length: what is along the normal itself is lost.
             vec3 along = vec3(normal);
-            bend = (change - outerProduct(along, along * change)) * float(length_scale);
+            shape_operator = (change - outerProduct(along, along * change)) * float(length_scale);
         }
     }
-    float curvature = 0.5 * (bend[0][0] + bend[1][1] + bend[2][2]);
-    return Surface(point, n, normal, uv, own_u, own_v, bend, curvature, false, triangle.link.xy, point, largest_part(point));
+    float curvature = 0.5 * (shape_operator[0][0] + shape_operator[1][1] + shape_operator[2][2]);
+    return Surface(point, n, normal, uv, own_u, own_v, shape_operator, curvature, false, triangle.link.xy, point, largest_part(point));
 }
 
 Surface hit_surface(Header header, Ray moving, Hit hit) {
@@ -121,8 +121,8 @@ Surface hit_surface(Header header, Ray moving, Hit hit) {
     surface.inside = away;
     surface.geometric_normal = away ? -surface.geometric_normal : surface.geometric_normal;
     surface.normal = away ? -surface.normal : surface.normal;
-    if (BENT && SPHERES + TRIANGLES != 0u) {
-        surface.bend = away ? -surface.bend : surface.bend;
+    if (NEEDS_SHAPE_OPERATOR && SPHERES + TRIANGLES != 0u) {
+        surface.shape_operator = away ? -surface.shape_operator : surface.shape_operator;
         surface.curvature = away ? -surface.curvature : surface.curvature;
     }
     return surface;

@@ -24,11 +24,11 @@ layout(set = 0, binding = 8) uniform samplerCube cubes[CUBE_SLOTS];
 #endif
 
 #if HAS_TEXELS
-#include "pool.glsl"
+#include "texel_buffer.glsl"
 #endif
 
 #if SOURCE != SOURCE_NONE
-Coordinate near_coordinate(Texture image, Sampler how, Mapped c) {
+Coordinate near_coordinate(Texture image, Sampler how, TexCoord c) {
 #ifdef DOUBLE
     if (MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_CUBE, image.link.w)) return Coordinate(vec3(c.at), c.dx, c.dy);
     vec3 at = vec3(near_tile(ADDRESSES_U, how.modes.x, c.at.x), near_tile(ADDRESSES_V, how.modes.y, c.at.y),
@@ -51,7 +51,7 @@ vec3 decode_srgb16(uvec3 codes) {
     return vec3(decode_srgb16(codes.x), decode_srgb16(codes.y), decode_srgb16(codes.z));
 }
 
-// One level of a texture's pyramid.
+// One level of a texture's mip_chain.
 struct Level {
     ivec3 size; // of a cube: width, height, 6
     int index;

@@ -12,9 +12,9 @@ use super::draws::{Masses, wanted};
 use super::estimate::Estimate;
 use super::exact::{Exact, OWN_ERROR};
 use super::{MOST, OCTAVES, Sums, Tracer, octave};
-use crate::error::Result;
-use crate::layout::{JOB_APART, JOB_BARE, JOB_STREAM_SHIFT, Job};
-use crate::progress::Progress;
+use crate::core::error::Result;
+use crate::core::progress::Progress;
+use crate::schema::layout::{JOB_APART, JOB_BARE, JOB_STREAM_SHIFT, Job};
 
 /// The interval holds the truth with this probability.
 pub const CONFIDENCE: f64 = 0.99;

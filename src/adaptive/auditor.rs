@@ -3,8 +3,8 @@
 
 use super::audit::{Audit, Audited};
 use super::{Outcome, Tracer};
-use crate::error::Result;
-use crate::progress::Progress;
+use crate::core::error::Result;
+use crate::core::progress::Progress;
 
 /// Samples of an audit over those of the picture; a picture of few has more, up to so many in all. Where something small
 /// and bright is known to be, that is what audits must meet too.

@@ -4,8 +4,8 @@
 use super::allocate::{Aim, Allocation};
 use super::estimate::Estimate;
 use super::{Goal, Sums, Tracer};
-use crate::error::Result;
-use crate::progress::Progress;
+use crate::core::error::Result;
+use crate::core::progress::Progress;
 
 /// Seconds that samples must still take for a trial to be worth its pipeline.
 const TRIAL: f64 = 1.0;

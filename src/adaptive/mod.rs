@@ -16,9 +16,9 @@ mod unseen;
 
 use serde::Serialize;
 
-use crate::error::Result;
-use crate::layout::Job;
-use crate::progress::Progress;
+use crate::core::error::Result;
+use crate::core::progress::Progress;
+use crate::schema::layout::Job;
 
 pub use audit::CONFIDENCE;
 pub use exact::Trial;

@@ -3,7 +3,7 @@
 use super::Goal;
 
 /// Counts of a device that is idle grow at most so much at once.
-const MOST_IDLE: f64 = 64.0;
+const MAX_IDLE: f64 = 64.0;
 /// The error that passes are planned for, over the goal: an audit shall find it met, so that few are needed.
 pub const PLANNED: f64 = 0.93;
 
@@ -27,10 +27,10 @@ impl Pace {
         let (time, most) = match goal {
             Goal::Samples(_) => return None,
             Goal::Error(wanted) => (f64::INFINITY, (rmse / (PLANNED * wanted)).powf(2.0 / exponent)),
-            Goal::Seconds(limit) => (0.5 * (limit - elapsed), MOST_IDLE),
+            Goal::Seconds(limit) => (0.5 * (limit - elapsed), MAX_IDLE),
         };
         let factor = self.hosting.min(time) / self.sampling.max(1e-9);
-        let factor = factor.min(most.max(2.0)).min(MOST_IDLE);
+        let factor = factor.min(most.max(2.0)).min(MAX_IDLE);
         (factor >= 2.0).then(|| 1 << (factor as u32).ilog2())
     }
 }

@@ -11,10 +11,10 @@ use super::exact::{Exact, OWN_ERROR, Outlook, needed};
 use super::explore::Explorer;
 use super::pace::{PLANNED, Pace};
 use super::{Goal, MOST, Outcome, Sums, Tracer};
-use crate::error::Result;
-use crate::film::Film;
-use crate::layout::Job;
-use crate::progress::Progress;
+use crate::core::error::Result;
+use crate::core::film::Film;
+use crate::core::progress::Progress;
+use crate::schema::layout::Job;
 
 /// Samples of each half in the first pass: enough to meet the edge of a shape that covers a tenth of the
 /// pixel with a chance of 4 in 5.
@@ -23,8 +23,8 @@ const FIRST: u32 = 8;
 /// in its first pass: it is missed with a chance of 1 in 50.
 const FIRST_OF_BRIGHT: f64 = 4.0;
 /// But no more than so many, nor than so many in the whole picture.
-const MOST_FIRST: f64 = 1024.0;
-const MOST_FIRST_IN_ALL: f64 = (1u64 << 25) as f64;
+const MAX_FIRST: f64 = 1024.0;
+const MAX_FIRST_IN_ALL: f64 = (1u64 << 25) as f64;
 /// Part of the remaining time that a pass or an audit is planned for.
 const OF_TIME: f64 = 0.85;
 const AUDIT_OF_TIME: f64 = 0.5;
@@ -35,11 +35,11 @@ const KEPT: f64 = 1.05;
 /// Of a picture with a number of samples to keep an audit has a quarter, or so many.
 const LITTLE_AUDIT: f64 = (1u64 << 18) as f64;
 /// With fewer an audit says nothing.
-const LEAST_AUDIT: f64 = 4096.0;
+const MIN_AUDIT: f64 = 4096.0;
 /// A goal is met where the audit's estimate is below it, and the interval ends not far above it.
 const SURE: f64 = 1.25;
 /// Audits that may refuse the goal, each with more samples, before it counts as not to be met.
-const MOST_REFUSALS: u32 = 12;
+const MAX_REFUSALS: u32 = 12;
 
 /// Samples until the goal is met. Audits do not touch the film.
 pub fn run(
@@ -107,7 +107,7 @@ pub fn run(
         };
         let budget = auditor.budget(taken, bright).min(left);
         let audited = Audited { sums: &sums, counts: &counts, estimate: &estimate, exact: &exact };
-        let owed = budget >= LEAST_AUDIT || matches!(goal, Goal::Error(_));
+        let owed = budget >= MIN_AUDIT || matches!(goal, Goal::Error(_));
         let audit = if enough && owed {
             Some(auditor.audit(&audited, tracer, budget, &mut outcome, progress)?)
         } else {
@@ -120,7 +120,7 @@ pub fn run(
             let sure = outcome.interval.is_none_or(|[_, high]| high <= SURE * rmse);
             outcome.reached = outcome.estimated_rmse <= rmse && sure;
             // More samples do not lower the bias of a footprint as they lower noise.
-            if outcome.reached || tracer.prefilters() || auditor.refusals == MOST_REFUSALS {
+            if outcome.reached || tracer.prefilters() || auditor.refusals == MAX_REFUSALS {
                 break;
             }
             auditor.refusals += 1;
@@ -210,7 +210,7 @@ fn growth(goal: Goal) -> f64 {
 
 /// Of each half, before anything is known of the pixels.
 fn first_count(goal: Goal, bright_share: f64, pixels: usize) -> u32 {
-    let most = (MOST_FIRST_IN_ALL / pixels as f64).min(MOST_FIRST) / 2.0;
+    let most = (MAX_FIRST_IN_ALL / pixels as f64).min(MAX_FIRST) / 2.0;
     let bright = (FIRST_OF_BRIGHT / bright_share / 2.0).min(most) as u32;
     let first = if bright_share < 1.0 { bright.max(FIRST).next_power_of_two() } else { FIRST };
     match goal {

@@ -6,10 +6,10 @@ use std::process::ExitCode;
 
 use serde::Serialize;
 
-use crate::counted::counted;
-use crate::error::{Error, Result};
-use crate::film::Placement;
-use crate::metrics::{Comparison, common, compare, difference, flip, read_placed};
+use crate::core::counted::counted;
+use crate::core::error::{Error, Result};
+use crate::core::film::Placement;
+use crate::lab::metrics::{Comparison, common, compare, difference, flip, read_placed};
 use crate::output::{self, WriteOptions};
 
 /// Compare two pictures of the same size in linear RGB

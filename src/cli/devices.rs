@@ -6,7 +6,7 @@ use std::process::ExitCode;
 
 use serde::Serialize;
 
-use crate::error::{Error, Result};
+use crate::core::error::{Error, Result};
 use crate::gpu::{DeviceInfo, DeviceSelect, list_devices};
 
 #[derive(clap::Args, Clone, Debug)]

@@ -22,9 +22,9 @@ use std::process::ExitCode;
 use clap::builder::{PossibleValue, PossibleValuesParser, StyledStr, TypedValueParser};
 use clap::error::{ContextKind, ContextValue};
 
-use crate::error::{Error, Result};
+use crate::core::error::{Error, Result};
+use crate::core::panics;
 use crate::gpu;
-use crate::panics;
 use crate::scene::synonyms::meant;
 
 /// Groups of options in the help.
@@ -39,7 +39,7 @@ const MEASURING: &str = "Measuring";
 /// they can write; and where no person reads stderr, messages keep to their own lines, so that what they quote
 /// stays whole.
 pub fn prepare_process() {
-    gpu::settle_driver_cache();
+    gpu::prepare_driver_cache();
     #[cfg(unix)]
     {
         let noticed = std::sync::Arc::default();

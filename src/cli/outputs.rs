@@ -4,8 +4,8 @@
 use std::io::{self, IsTerminal};
 use std::path::{Path, PathBuf};
 
-use crate::error::{Error, Result};
-use crate::film::Film;
+use crate::core::error::{Error, Result};
+use crate::core::film::Film;
 use crate::output::{self, ENDING_NAMES, Format, WriteOptions};
 use crate::scene::is_standard_input;
 

@@ -4,7 +4,7 @@ use clap::Args;
 use serde_json::{Value, json};
 
 use crate::adaptive::Goal;
-use crate::error::{Error, Result};
+use crate::core::error::{Error, Result};
 use crate::pack::Crop;
 use crate::scene::cone;
 use crate::scene::model::{
@@ -88,7 +88,7 @@ impl Overrides {
         sampling.footprint = self.footprint.unwrap_or(free);
         sampling.shared = self.shared.unwrap_or(sampling.shared);
         sampling.precision = self.precision.unwrap_or(sampling.precision);
-        self.suit_adaptive(sampling)?;
+        self.adapt_for_adaptive(sampling)?;
         check_shared(sampling.pattern, sampling.shared).map_err(Error::new)?;
         check_spp(sampling.pattern, sampling.spp).map_err(|m| Error::new(format!("--spp: {m}")))?;
         for sampler in &mut scene.samplers {
@@ -100,8 +100,8 @@ impl Overrides {
         }
         // What the command line names is meant.
         let free = self.filter.is_none() && self.mip.is_none();
-        let chosen = if free { cone::suit(scene) } else { None };
-        cone::suit_footprint(scene);
+        let chosen = if free { cone::adapt_for_cone(scene) } else { None };
+        cone::adapt_footprint(scene);
         check_filters(scene)?;
         Ok(chosen)
     }
@@ -112,7 +112,7 @@ impl Overrides {
     }
 
     /// Sampling that differs from pixel to pixel needs a sequence that may end anywhere.
-    fn suit_adaptive(&self, sampling: &mut Sampling) -> Result<()> {
+    fn adapt_for_adaptive(&self, sampling: &mut Sampling) -> Result<()> {
         if !sampling.algorithm.is_adaptive() {
             if self.goal().is_some() {
                 let fixed = match sampling.algorithm {

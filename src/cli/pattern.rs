@@ -8,14 +8,14 @@ use std::process::ExitCode;
 use serde_json::json;
 
 use super::named_parser;
-use crate::counted::counted;
-use crate::error::{Error, Result};
+use crate::core::counted::counted;
+use crate::core::error::{Error, Result};
+use crate::lab::pattern::measures::{mean_nearest_distance, occupied, star_discrepancy};
+use crate::lab::pattern::picture::picture;
+use crate::lab::pattern::points::Set;
+use crate::lab::pattern::spectrum::{self, Spectrum};
 use crate::oracle::patterns::HALTON_PAIRS;
 use crate::output::{self, WriteOptions};
-use crate::pattern::measures::{mean_nearest_distance, occupied, star_discrepancy};
-use crate::pattern::picture::picture;
-use crate::pattern::points::Set;
-use crate::pattern::spectrum::{self, Spectrum};
 use crate::scene::check_spp;
 use crate::scene::model::Pattern;
 

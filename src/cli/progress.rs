@@ -4,8 +4,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-use crate::error::{Error, Result};
-use crate::progress::Progress;
+use crate::core::error::{Error, Result};
+use crate::core::progress::Progress;
 
 static CANCELLED: AtomicBool = AtomicBool::new(false);
 const STEPS: u64 = 1000;

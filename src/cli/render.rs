@@ -11,15 +11,16 @@ use clap::Args;
 use super::outputs::Outputs;
 use super::overrides::Overrides;
 use super::progress::Bar;
-use super::report::{self, Ran};
+use super::report::{self, RenderOutcome};
 use super::{DEVICE, MEASURING, OUTPUT, TEXTURES};
 use crate::adaptive::{self, Goal};
-use crate::error::{Error, Result};
-use crate::film::Placement;
+use crate::core::error::{Error, Result};
+use crate::core::film::Placement;
 use crate::gpu::{DeviceSelect, Gpu};
+use crate::lab::verify::known::anisotropy_fault;
 use crate::oracle;
 use crate::output::{self, ENDING_NAMES, Format, WriteOptions};
-use crate::pack::{self, Crop, PackedScene, Pyramids, Schedule};
+use crate::pack::{self, Crop, MipPlacement, PackedScene, Schedule};
 use crate::render::{self, MipChoice, Report, TexelChoice, Tuning};
 use crate::scene::advice;
 use crate::scene::model::{Algorithm, Scene};
@@ -29,7 +30,6 @@ use crate::texture::decode::Values;
 use crate::texture::load::load_noted;
 use crate::texture::read_file::is_turned;
 use crate::texture::source::OrientationUse;
-use crate::verify::known::anisotropy_fault;
 
 #[derive(Args, Debug)]
 pub struct RenderArgs {
@@ -62,7 +62,7 @@ pub struct RenderArgs {
     /// Where look-ups of method shader read texels
     #[arg(long, value_name = "SOURCE", help_heading = MEASURING, default_value = "auto", value_parser = super::named_parser(TexelChoice::NAMES, TexelChoice::from_name))]
     texels: TexelChoice,
-    /// Where box pyramids of textures are made, if their lengths are powers of two
+    /// Where box mip chains of textures are made, if their lengths are powers of two
     #[arg(long, value_name = "PLACE", help_heading = MEASURING, default_value = "auto", value_parser = super::named_parser(MipChoice::NAMES, MipChoice::from_name))]
     mips: MipChoice,
     /// Workgroup shape, for measurements [default: by device]
@@ -149,7 +149,7 @@ fn render_on_device(
     select: &DeviceSelect,
     bar: &Bar,
     start: Instant,
-) -> Result<Ran> {
+) -> Result<RenderOutcome> {
     let (gpu, (mut packed, doubts), startup, load) = std::thread::scope(|scope| {
         let (tell, told) = mpsc::channel();
         let loading = scope.spawn(move || {
@@ -159,7 +159,7 @@ fn render_on_device(
         let clock = Instant::now();
         let gpu = Gpu::open(select);
         // Nobody listens where the scene has no use for it.
-        let _ = tell.send(gpu.as_ref().map_or(Pyramids::Host, |gpu| args.mips.pyramids(gpu.info())));
+        let _ = tell.send(gpu.as_ref().map_or(MipPlacement::Host, |gpu| args.mips.mip_chains(gpu.info())));
         let startup = clock.elapsed().as_secs_f64();
         let (packed, load) = loading.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
         // A mistake in the scene is told before one of the machine.
@@ -178,7 +178,7 @@ fn render_on_device(
     for message in gpu.messages() {
         super::tell(format_args!("validation: {message}"));
     }
-    Ok(Ran {
+    Ok(RenderOutcome {
         device: gpu.info().name.clone(),
         driver: gpu.info().driver.clone(),
         film,
@@ -188,8 +188,8 @@ fn render_on_device(
     })
 }
 
-fn render_on_oracle(args: &RenderArgs, scene: &Scene, bar: &Bar, start: Instant) -> Result<Ran> {
-    let (packed, doubts) = load(scene, args, || Pyramids::Host)?;
+fn render_on_oracle(args: &RenderArgs, scene: &Scene, bar: &Bar, start: Instant) -> Result<RenderOutcome> {
+    let (packed, doubts) = load(scene, args, || MipPlacement::Host)?;
     let nonfinite = say_textures(args, scene, &packed);
     let mut report = Report { double: packed.double, warnings: doubts, ..Report::default() };
     report.seconds.load = start.elapsed().as_secs_f64();
@@ -210,22 +210,22 @@ fn render_on_oracle(args: &RenderArgs, scene: &Scene, bar: &Bar, start: Instant)
     };
     report.seconds.render = clock.elapsed().as_secs_f64();
     let driver = format!("moire {} in float64", env!("CARGO_PKG_VERSION"));
-    Ok(Ran { device: "oracle".into(), driver, film, report, nonfinite, dropped_triangles: 0 })
+    Ok(RenderOutcome { device: "oracle".into(), driver, film, report, nonfinite, dropped_triangles: 0 })
 }
 
-/// The scene to render, and what is doubtful about its textures. `pyramids` says who makes those, and may wait
+/// The scene to render, and what is doubtful about its textures. `mip_chains` says who makes those, and may wait
 /// for a device to be known.
 fn load(
     scene: &Scene,
     args: &RenderArgs,
-    pyramids: impl FnOnce() -> Pyramids,
+    mip_chains: impl FnOnce() -> MipPlacement,
 ) -> Result<(PackedScene, Vec<String>)> {
     let values = if args.allow_nonfinite { Values::Any } else { Values::Finite };
     let textures = scene.textures.iter().map(|t| load_noted(t, values)).collect::<Result<Vec<_>>>()?;
     let (textures, notes): (Vec<_>, Vec<_>) = textures.into_iter().unzip();
     let doubts = [notes.concat(), of_textures(scene, &textures)].concat();
-    let pyramids = if pack::reads_levels(scene) { pyramids() } else { Pyramids::Host };
-    Ok((pack::pack_with(scene, textures, args.crop, pyramids)?, doubts))
+    let mip_chains = if pack::reads_levels(scene) { mip_chains() } else { MipPlacement::Host };
+    Ok((pack::pack_with(scene, textures, args.crop, mip_chains)?, doubts))
 }
 
 /// A picture must not replace a file that it is made from.

@@ -5,14 +5,14 @@ use std::fs;
 use serde_json::{Map, Value, json};
 
 use super::tell;
-use crate::counted::{counted, verb};
-use crate::film::Film;
-use crate::pack::Guard;
+use crate::core::counted::{counted, verb};
+use crate::core::film::Film;
+use crate::pack::Diagnostic;
 use crate::render::Report;
 use crate::scene::model::Precision;
 
 /// What a render ran on, and what came of it.
-pub struct Ran {
+pub struct RenderOutcome {
     pub device: String,
     pub driver: String,
     pub film: Film,
@@ -35,7 +35,7 @@ fn device_seconds(report: &Report) -> Value {
     seconds.into()
 }
 
-pub fn json(ran: &Ran, options: Value, outputs: &[String]) -> Value {
+pub fn json(ran: &RenderOutcome, options: Value, outputs: &[String]) -> Value {
     let mut all = json!({
         "device": ran.device,
         "driver": ran.driver,
@@ -67,19 +67,21 @@ pub fn json(ran: &Ran, options: Value, outputs: &[String]) -> Value {
 }
 
 /// What is counted: the noun, and what is said of it.
-fn said(guard: Guard) -> (&'static str, &'static str) {
+fn said(guard: Diagnostic) -> (&'static str, &'static str) {
     match guard {
-        Guard::Coordinates => ("look-up", "at coordinates that are no numbers, read at 0"),
-        Guard::Levels => ("look-up", "over more than a texel of the last level"),
-        Guard::Anisotropy => ("look-up", "over footprints longer than max_anisotropy widths, blurred"),
-        Guard::Grazing => ("footprint", "of rays that graze a surface, cut off at 65536 times their width"),
-        Guard::Depth => ("path", "at max_depth, ended in black"),
-        Guard::Pieces => ("cone", "for which there was no room"),
-        Guard::Radiance => ("sample", "whose radiance is no number"),
+        Diagnostic::Coordinates => ("look-up", "at coordinates that are no numbers, read at 0"),
+        Diagnostic::Levels => ("look-up", "over more than a texel of the last level"),
+        Diagnostic::Anisotropy => ("look-up", "over footprints longer than max_anisotropy widths, blurred"),
+        Diagnostic::Grazing => {
+            ("footprint", "of rays that graze a surface, cut off at 65536 times their width")
+        }
+        Diagnostic::Depth => ("path", "at max_depth, ended in black"),
+        Diagnostic::Pieces => ("cone", "for which there was no room"),
+        Diagnostic::Radiance => ("sample", "whose radiance is no number"),
     }
 }
 
-pub fn say(ran: &Ran, outputs: &[String], verbose: bool) {
+pub fn say(ran: &RenderOutcome, outputs: &[String], verbose: bool) {
     let (report, seconds) = (&ran.report, &ran.report.seconds);
     for warning in &report.warnings {
         tell(format_args!("warning: {warning}"));
@@ -121,7 +123,7 @@ pub fn say(ran: &Ran, outputs: &[String], verbose: bool) {
             tell(format_args!("device time of the survey: {survey:.4} s"));
         }
         if let Some(mips) = report.device_mips_seconds {
-            tell(format_args!("device time of mip pyramids: {mips:.4} s"));
+            tell(format_args!("device time of mip mip_chains: {mips:.4} s"));
         }
     }
     if let Some(sampled) = report.sampled_pixels {

@@ -5,10 +5,10 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use super::progress::Bar;
-use crate::error::{Error, Result};
+use crate::core::error::{Error, Result};
 use crate::gpu::{DeviceSelect, Gpu};
+use crate::lab::stability::{all, page, run::run as run_cases, text::text};
 use crate::output::prepare_folder;
-use crate::stability::{all, page, run::run as run_cases, text::text};
 
 /// Sweep extreme cases on a device, with errors against float64
 ///

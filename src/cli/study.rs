@@ -7,16 +7,16 @@ use std::time::Instant;
 
 use super::overrides::parse_size;
 use super::progress::Bar;
-use crate::counted::{counted, verb};
-use crate::error::{Error, Result};
+use crate::core::counted::{counted, verb};
+use crate::core::error::{Error, Result};
 use crate::gpu::{DeviceSelect, Gpu};
+use crate::lab::study::method::Method;
+use crate::lab::study::record::{self, Record};
+use crate::lab::study::words::names;
+use crate::lab::study::{self, Options, ReferenceChoice};
 use crate::output;
 use crate::scene::prune::prune;
 use crate::scene::{MAX_SPP, is_standard_input};
-use crate::study::method::Method;
-use crate::study::record::{self, Record};
-use crate::study::words::names;
-use crate::study::{self, Options, ReferenceChoice};
 
 /// Measure which anti-aliasing method gives the least error in the time there is
 ///

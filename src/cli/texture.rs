@@ -8,10 +8,10 @@ use std::process::ExitCode;
 use serde_json::{Value, json};
 
 use super::named_parser;
-use crate::counted::{counted, plural};
-use crate::error::{Error, Result};
-use crate::film::Film;
-use crate::metrics::read::film_of;
+use crate::core::counted::{counted, plural};
+use crate::core::error::{Error, Result};
+use crate::core::film::Film;
+use crate::lab::metrics::read::film_of;
 use crate::output::{self, WriteOptions};
 use crate::texture::analysis::{Analysis, Axis, Channel, Seam, Verdict, analyse};
 use crate::texture::data::{ColorSpace, Component, Dimension, TextureData};

@@ -5,9 +5,9 @@
 use std::process::ExitCode;
 
 use super::progress::Bar;
-use crate::error::{Error, Result};
+use crate::core::error::{Error, Result};
 use crate::gpu::{DeviceSelect, Gpu};
-use crate::verify::{report::Report, text::text, verify};
+use crate::lab::verify::{report::Report, text::text, verify};
 
 /// Hold a device's samplers against the float64 oracle
 ///

@@ -1,67 +1,69 @@
 //! One beam a pixel (Heckbert & Hanrahan 1984): the pixel's square, cut along the edges of the polygons that it
-//! meets and where they pass through each other; of each visible piece the exact area in the pixel, and the
-//! exact integral of its colour. Mirrors send the piece on. What this cannot do is left to samples. Twin of
+//! meets and where they pass through each other; of each visible fragment the exact area in the pixel, and the
+//! exact integral of its colour. Mirrors send the fragment on. What this cannot do is left to samples. Twin of
 //! `glsl/shared/beam_main.glsl`.
 
 use glam::DVec3;
 
-use super::forms::{
-    Frame, Region, add, coordinates, may_meet_sphere, mirrored_frame, pixel_frame, shadow_region,
-    shape_plane, shape_region,
-};
+use super::bsdf::models::{is_lit, is_specular};
 use super::math::xyz;
-use super::paint::{GaveUp, Paint, Result, integral, is_lit, is_simple, links, may_shade};
-use super::polygon::{Form, LEAST_AREA, MAX_CORNERS, Polygon, area, range, split, unit_square};
-use crate::layout::{Light, NO_MATERIAL, NO_SHAPE, NO_TEXTURE};
+use super::polygon::{AffineFunction, MAX_CORNERS, MIN_AREA, Polygon, area, range, split, unit_square};
+use super::projective::{
+    ConvexRegion, PixelFrustum, add, coordinates, may_meet_sphere, mirrored_frame, pixel_frame,
+    shadow_region, shape_plane, shape_region,
+};
+use super::shading_integral::{
+    GaveUp, Result, ShadingIntegral, integral, is_facing, is_simple, links, may_shade,
+};
 use crate::pack::{LightKind, PackedScene};
-use crate::scene::model::Model;
+use crate::schema::layout::{Light, NO_MATERIAL, NO_SHAPE, NO_TEXTURE};
 
 /// Shapes that a beam may meet.
 const MAX_MET: usize = 8;
 /// Pieces that wait at a time.
-const MAX_PIECES: usize = 12;
+const MAX_FRAGMENTS: usize = 12;
 /// Mirrored beams that wait at a time.
 const MAX_BEAMS: usize = 6;
-/// Planes whose nearness differs by less, relatively, lie in each other: the first of the list is seen.
+/// Planes whose inverse depth differs by less, relatively, lie in each other: the first of the list is seen.
 const COPLANAR: f64 = 4e-6;
 
 /// A part of the pixel, and how its rays go.
-struct Beam {
+struct PixelBeam {
     polygon: Polygon,
-    frame: Frame,
+    frame: PixelFrustum,
     carried: DVec3,
-    /// The mirror that it left, and that one's nearness.
+    /// The mirror that it left, and that one's inverse_depth.
     skip: u32,
-    limit: Form,
+    limit: AffineFunction,
     depth: u32,
 }
 
 /// A part of the picture, of which the first `stage` tests are done.
 #[derive(Clone, Copy)]
-struct Piece {
+struct Fragment {
     polygon: Polygon,
     stage: usize,
 }
 
 struct Met {
     shape: u32,
-    region: Region,
+    region: ConvexRegion,
 }
 
 /// The colour of a pixel of the film; none where it takes samples.
 pub fn beam(scene: &PackedScene, [x, y]: [u32; 2]) -> Option<DVec3> {
     let header = &scene.header;
     let frame = pixel_frame(header, [x + header.image[2], y + header.image[3]]);
-    let first = Beam {
+    let first = PixelBeam {
         polygon: unit_square(),
         frame,
         carried: DVec3::ONE,
         skip: NO_SHAPE,
-        limit: Form::ZERO,
+        limit: AffineFunction::ZERO,
         depth: 0,
     };
     let mut waiting = vec![first];
-    let mut pixel = Pixel { scene, color: DVec3::ZERO, crossed: 0, pieces: Vec::new() };
+    let mut pixel = Pixel { scene, color: DVec3::ZERO, crossed: 0, fragments: Vec::new() };
     while let Some(beam) = waiting.pop() {
         pixel.follow(&beam, &mut waiting).ok()?;
     }
@@ -73,32 +75,32 @@ struct Pixel<'a> {
     color: DVec3,
     crossed: u32,
     /// Those that wait.
-    pieces: Vec<Piece>,
+    fragments: Vec<Fragment>,
 }
 
 impl Pixel<'_> {
     /// Adds all that one beam sees but for what its mirrors send on.
-    fn follow(&mut self, beam: &Beam, waiting: &mut Vec<Beam>) -> Result<()> {
+    fn follow(&mut self, beam: &PixelBeam, waiting: &mut Vec<PixelBeam>) -> Result<()> {
         let met = shapes_met(self.scene, beam)?;
         let mut left = area(&beam.polygon);
         for own in 0..met.len() {
-            self.pieces.push(Piece { polygon: beam.polygon, stage: 0 });
-            while let Some(piece) = self.pieces.pop() {
+            self.fragments.push(Fragment { polygon: beam.polygon, stage: 0 });
+            while let Some(fragment) = self.fragments.pop() {
                 // Stage 0 cuts out the shape itself, the others take away what lies before it.
-                if piece.stage > met.len() {
-                    left -= area(&piece.polygon);
-                    self.shade(beam, &met[own], &piece.polygon, waiting)?;
-                } else if piece.stage == own + 1 {
-                    push(&mut self.pieces, Piece { stage: piece.stage + 1, ..piece })?;
+                if fragment.stage > met.len() {
+                    left -= area(&fragment.polygon);
+                    self.shade(beam, &met[own], &fragment.polygon, waiting)?;
+                } else if fragment.stage == own + 1 {
+                    push(&mut self.fragments, Fragment { stage: fragment.stage + 1, ..fragment })?;
                 } else {
-                    let kept = piece.stage == 0;
-                    let by = &met[if kept { own } else { piece.stage - 1 }];
-                    let first = (!kept).then(|| before(by, &met[own], &piece.polygon));
-                    carve(&mut self.pieces, piece, &by.region, first, kept)?;
+                    let kept = fragment.stage == 0;
+                    let by = &met[if kept { own } else { fragment.stage - 1 }];
+                    let first = (!kept).then(|| before(by, &met[own], &fragment.polygon));
+                    carve(&mut self.fragments, fragment, &by.region, first, kept)?;
                 }
             }
         }
-        if left > LEAST_AREA {
+        if left > MIN_AREA {
             if self.scene.header.counts[3] != NO_MATERIAL {
                 return Err(GaveUp);
             }
@@ -107,25 +109,30 @@ impl Pixel<'_> {
         Ok(())
     }
 
-    /// Adds the colour of a visible piece, or sends its beam on.
-    fn shade(&mut self, beam: &Beam, seen: &Met, polygon: &Polygon, waiting: &mut Vec<Beam>) -> Result<()> {
+    /// Adds the colour of a visible fragment, or sends its beam on.
+    fn shade(
+        &mut self,
+        beam: &PixelBeam,
+        seen: &Met,
+        polygon: &Polygon,
+        waiting: &mut Vec<PixelBeam>,
+    ) -> Result<()> {
         let scene = self.scene;
         let [material, map] = links(scene, seen.shape);
         let record = &scene.materials[material as usize];
-        let near = seen.region.nearness;
+        let near = seen.region.inverse_depth;
         let carried = beam.carried * xyz(record.color);
-        let model = Model::ALL[record.link[0] as usize];
         let textured = record.link[1] != NO_TEXTURE;
         if !is_simple(scene, seen.shape, record, map) {
             return Err(GaveUp);
         }
-        if model == Model::Mirror {
+        if is_specular(record) {
             if beam.depth < scene.header.size[3] {
                 if waiting.len() == MAX_BEAMS {
                     return Err(GaveUp);
                 }
                 let plane = shape_plane(scene, seen.shape);
-                waiting.push(Beam {
+                waiting.push(PixelBeam {
                     polygon: *polygon,
                     frame: mirrored_frame(&beam.frame, plane.truncate(), plane.w),
                     carried,
@@ -137,7 +144,7 @@ impl Pixel<'_> {
             return Ok(());
         }
         let quotient = textured.then(|| coordinates(scene, &beam.frame, seen.shape, map, near));
-        let paint = Paint {
+        let paint = ShadingIntegral {
             record,
             carried,
             quotient,
@@ -145,7 +152,7 @@ impl Pixel<'_> {
             frame: beam.frame,
             near,
         };
-        let unlit = model == Model::Unlit;
+        let unlit = !is_lit(record);
         let lights = if unlit { 1 } else { scene.lights.len() };
         for i in 0..lights {
             let light = if unlit { None } else { Some(&scene.lights[i]) };
@@ -158,59 +165,65 @@ impl Pixel<'_> {
         Ok(())
     }
 
-    /// Adds the integral over those parts of a piece that see the light; without one, over all of it.
-    fn lit_by(&mut self, paint: &Paint, shape: u32, polygon: &Polygon, light: Option<&Light>) -> Result<()> {
+    /// Adds the integral over those parts of a fragment that see the light; without one, over all of it.
+    fn lit_by(
+        &mut self,
+        paint: &ShadingIntegral,
+        shape: u32,
+        polygon: &Polygon,
+        light: Option<&Light>,
+    ) -> Result<()> {
         let scene = self.scene;
         let [planes, spheres, triangles, _] = scene.header.counts;
         let shapes = (planes + spheres + triangles) as usize;
-        let bottom = self.pieces.len();
+        let bottom = self.fragments.len();
         match light {
-            None => push(&mut self.pieces, Piece { polygon: *polygon, stage: shapes })?,
-            Some(light) if is_lit(paint, polygon, light) => {
-                push(&mut self.pieces, Piece { polygon: *polygon, stage: 0 })?;
+            None => push(&mut self.fragments, Fragment { polygon: *polygon, stage: shapes })?,
+            Some(light) if is_facing(paint, polygon, light) => {
+                push(&mut self.fragments, Fragment { polygon: *polygon, stage: 0 })?;
             }
             Some(_) => {}
         }
         let least = if paint.frame.parallel { negligible(paint.near, polygon) } else { COPLANAR };
-        while self.pieces.len() > bottom {
-            let Some(piece) = self.pieces.pop() else { break };
-            let (by, Some(light)) = (piece.stage as u32, light.filter(|_| piece.stage < shapes)) else {
-                let color = integral(scene, paint, &piece.polygon, light, &mut self.crossed)?;
+        while self.fragments.len() > bottom {
+            let Some(fragment) = self.fragments.pop() else { break };
+            let (by, Some(light)) = (fragment.stage as u32, light.filter(|_| fragment.stage < shapes)) else {
+                let color = integral(scene, paint, &fragment.polygon, light, &mut self.crossed)?;
                 self.color += paint.carried * color;
                 continue;
             };
             let is_sphere = by >= planes && by < planes + spheres;
             if is_sphere {
                 let sphere = &scene.spheres[(by - planes) as usize];
-                if may_shade(paint, &piece.polygon, light, xyz(sphere.ball), sphere.ball[3]) {
+                if may_shade(paint, &fragment.polygon, light, xyz(sphere.ball), sphere.ball[3]) {
                     return Err(GaveUp);
                 }
             }
             if by == shape || is_sphere {
-                push(&mut self.pieces, Piece { stage: piece.stage + 1, ..piece })?;
+                push(&mut self.fragments, Fragment { stage: fragment.stage + 1, ..fragment })?;
                 continue;
             }
             let region = shadow_region(scene, &paint.frame, paint.near, by, light);
             // What lies in the surface's own plane, or beyond it, keeps no light away.
-            if range(&piece.polygon, region.lines[0]).1 <= least {
-                push(&mut self.pieces, Piece { stage: piece.stage + 1, ..piece })?;
+            if range(&fragment.polygon, region.lines[0]).1 <= least {
+                push(&mut self.fragments, Fragment { stage: fragment.stage + 1, ..fragment })?;
                 continue;
             }
-            carve(&mut self.pieces, piece, &region, None, false)?;
+            carve(&mut self.fragments, fragment, &region, None, false)?;
         }
         Ok(())
     }
 }
 
-/// Differences of nearness that are none.
-fn negligible(nearness: Form, polygon: &Polygon) -> f64 {
-    let (low, high) = range(polygon, nearness);
+/// Differences of inverse depth that are none.
+fn negligible(inverse_depth: AffineFunction, polygon: &Polygon) -> f64 {
+    let (low, high) = range(polygon, inverse_depth);
     COPLANAR * high.max(-low)
 }
 
 /// All that the beam may meet. Behind a mirror that is what lies beyond it: what lies before it neither is seen
 /// nor hides anything.
-fn shapes_met(scene: &PackedScene, beam: &Beam) -> Result<Vec<Met>> {
+fn shapes_met(scene: &PackedScene, beam: &PixelBeam) -> Result<Vec<Met>> {
     let [planes, spheres, triangles, _] = scene.header.counts;
     let mut met = Vec::new();
     let mirrored = beam.skip != NO_SHAPE;
@@ -227,7 +240,7 @@ fn shapes_met(scene: &PackedScene, beam: &Beam) -> Result<Vec<Met>> {
         }
         let mut region = shape_region(scene, &beam.frame, shape);
         if mirrored {
-            let beyond = beam.limit - region.nearness;
+            let beyond = beam.limit - region.inverse_depth;
             let (low, high) = range(&beam.polygon, beyond);
             if high <= least {
                 continue;
@@ -248,46 +261,46 @@ fn shapes_met(scene: &PackedScene, beam: &Beam) -> Result<Vec<Met>> {
 }
 
 /// Positive where `by` lies before `own`.
-fn before(by: &Met, own: &Met, polygon: &Polygon) -> Form {
-    let apart = by.region.nearness - own.region.nearness;
+fn before(by: &Met, own: &Met, polygon: &Polygon) -> AffineFunction {
+    let apart = by.region.inverse_depth - own.region.inverse_depth;
     let (low, high) = range(polygon, apart);
-    if high.max(-low) > negligible(own.region.nearness, polygon) {
+    if high.max(-low) > negligible(own.region.inverse_depth, polygon) {
         return apart;
     }
-    if by.shape < own.shape { Form::Z } else { -Form::Z }
+    if by.shape < own.shape { AffineFunction::Z } else { -AffineFunction::Z }
 }
 
-/// Cuts the piece along the lines of a region, of which `first` is one more. What lies within them all is
+/// Cuts the fragment along the lines of a region, of which `first` is one more. What lies within them all is
 /// kept, or all else is.
 fn carve(
-    pieces: &mut Vec<Piece>,
-    piece: Piece,
-    region: &Region,
-    first: Option<Form>,
+    fragments: &mut Vec<Fragment>,
+    fragment: Fragment,
+    region: &ConvexRegion,
+    first: Option<AffineFunction>,
     kept: bool,
 ) -> Result<()> {
-    let mut rest = piece.polygon;
+    let mut rest = fragment.polygon;
     let lines = first.into_iter().chain(region.lines[..region.count].iter().copied());
     for line in lines {
         let [inside, outside] = split(&rest, line);
         if inside.count > MAX_CORNERS || outside.count > MAX_CORNERS {
             return Err(GaveUp);
         }
-        if !kept && area(&outside) > LEAST_AREA {
-            push(pieces, Piece { polygon: outside, stage: piece.stage + 1 })?;
+        if !kept && area(&outside) > MIN_AREA {
+            push(fragments, Fragment { polygon: outside, stage: fragment.stage + 1 })?;
         }
         rest = inside;
-        if area(&rest) <= LEAST_AREA {
+        if area(&rest) <= MIN_AREA {
             return Ok(());
         }
     }
-    if kept { push(pieces, Piece { polygon: rest, stage: piece.stage + 1 }) } else { Ok(()) }
+    if kept { push(fragments, Fragment { polygon: rest, stage: fragment.stage + 1 }) } else { Ok(()) }
 }
 
-fn push(pieces: &mut Vec<Piece>, piece: Piece) -> Result<()> {
-    if pieces.len() == MAX_PIECES {
+fn push(fragments: &mut Vec<Fragment>, fragment: Fragment) -> Result<()> {
+    if fragments.len() == MAX_FRAGMENTS {
         return Err(GaveUp);
     }
-    pieces.push(piece);
+    fragments.push(fragment);
     Ok(())
 }

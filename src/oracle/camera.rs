@@ -2,10 +2,10 @@
 
 use glam::{DVec2, DVec3};
 
+use super::disk_sampling::concentric_disc;
 use super::math::xyz;
-use super::warps::concentric_disc;
-use crate::layout::Header;
 use crate::pack::ProjectionKind;
+use crate::schema::layout::Header;
 
 #[derive(Clone, Copy, Debug)]
 pub struct Ray {

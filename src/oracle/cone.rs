@@ -9,8 +9,8 @@ use super::coverage::{Covered, Cuts, ball_overlap, circle_line};
 use super::footprint::any_tangent;
 use super::intersect::{Hit, plane_distance, sphere_distance};
 use super::math::{vec4, xyz};
-use crate::layout::{NO_SHAPE, Plane, Sphere, Triangle};
 use crate::pack::PackedScene;
+use crate::schema::layout::{NO_SHAPE, Plane, Sphere, Triangle};
 
 /// Radius of a disc of area 1: 1 / √π.
 const DISC_RADIUS: f64 = 0.5 * FRAC_2_SQRT_PI;

@@ -4,28 +4,30 @@ use std::f64::consts::PI;
 
 use glam::{DVec2, DVec3};
 
+use super::bsdf::dielectric::refracted;
+use super::bsdf::mirror::mirrored;
+use super::bsdf::models::{Lit, bsdf_at, emitted, evaluate, is_lit, is_specular, reflected};
+use super::bsdf::specular::{index_ratio, mirrored_share};
 use super::camera::{Ray, camera_ray};
 use super::cone::{Cone, cone_of, leaving, meet};
-use super::coverage::{Covered, LEAST_SHARE};
+use super::coverage::{Covered, MIN_SHARE};
 use super::footprint::{
-    Beam, Footprint, Meeting, camera_beam, endless_footprint, footprint_at, mirrored, mirrored_beam,
-    reflectance, refracted, refracted_beam,
+    Footprint, Meeting, RayDifferential, camera_differential, endless_footprint, footprint_at,
+    reflected_differential, refracted_differential,
 };
+use super::fragments::{collect_fragments, composite};
 use super::intersect::{FAR, Hit, offset_origin};
-use super::light::phong_lobe;
 use super::math::xyz;
-use super::pieces::{gather, lay_over};
 use super::shade::{bumped_normal, surface_color};
-use super::shading_normal::{on_its_side, settle_normal};
+use super::shading_normal::{consistent_normal, on_its_side};
 use super::surface::{Surface, hit_surface};
-use crate::layout::{Light, Material, NO_MATERIAL, NO_SHAPE};
 use crate::pack::{LightKind, PackedScene};
-use crate::scene::model::Model;
+use crate::schema::layout::{Light, Material, NO_MATERIAL, NO_SHAPE};
 
 /// Cones that wait, cones of a pixel, and the least weight of one. What goes beyond is dropped.
-const MOST_WAITING: usize = 32;
-const MOST_CONES: u32 = 64;
-const LEAST_WEIGHT: f64 = 1.0 / 1024.0;
+const MAX_WAITING: usize = 32;
+const MAX_CONES: u32 = 64;
+const MIN_WEIGHT: f64 = 1.0 / 1024.0;
 
 /// What a cone is traced for.
 #[derive(Clone, Copy, Debug)]
@@ -61,7 +63,7 @@ fn largest(v: DVec3) -> f64 {
 
 impl Waiting {
     fn send(&mut self, branch: Branch) {
-        if self.list.len() == MOST_WAITING {
+        if self.list.len() == MAX_WAITING {
             self.dropped += largest(branch.weight);
         } else {
             self.list.push(branch);
@@ -69,8 +71,8 @@ impl Waiting {
     }
 }
 
-fn cone_beam(branch: &Branch) -> Beam {
-    Beam { width: branch.width, spread: branch.spread, ..Beam::default() }
+fn cone_beam(branch: &Branch) -> RayDifferential {
+    RayDifferential { width: branch.width, spread: branch.spread, ..RayDifferential::default() }
 }
 
 /// Where a part of a cone meets a shape.
@@ -94,12 +96,10 @@ fn lit_branch(branch: &Branch, met: &Met<'_>, skip: u32, light: &Light) -> Branc
     let shines = facing > 0.0 && above > 0.0;
     let share = if point_light { facing / length.powi(3) } else { facing };
     let more = xyz(light.power) * (if shines { share } else { 0.0 } / PI);
-    let mut seen = branch.weight * more;
-    if Model::ALL[material.link[0] as usize] == Model::Phong {
-        let mirror = mirrored(branch.ray.direction, surface.normal);
-        let lobe = phong_lobe(mirror, way, material.specular[3].into());
-        seen += met.carried * xyz(material.specular) * more * lobe;
-    }
+    let bsdf = bsdf_at(material, surface.normal, branch.ray.direction);
+    let [first, second] = evaluate(&bsdf, way);
+    let lit = Lit { first: more * first, second: more * second };
+    let seen = reflected(&bsdf, branch.weight, met.carried, lit);
     let origin = offset_origin(surface.point, surface.geometric_normal, surface.size);
     let direction = if point_light { xyz(light.place) - origin } else { xyz(light.place) };
     let area = met.print.point[0].cross(met.print.point[1]).length();
@@ -131,16 +131,16 @@ fn bent_branch(branch: &Branch, met: &Met<'_>, ratio: f64, share: f64, skip: u32
         t: met.hit.t,
         print: met.print,
         normal: surface.normal,
-        bend: surface.bend,
+        shape_operator: surface.shape_operator,
         curvature: surface.curvature,
     };
     let direction = branch.ray.direction;
     let (beam, direction, side) = if through {
         let way = refracted(direction, surface.normal, ratio);
         let way = on_its_side(direction, way, -surface.normal, -surface.geometric_normal);
-        (refracted_beam(&beam, &meeting, ratio), way, -1.0)
+        (refracted_differential(&beam, &meeting, ratio), way, -1.0)
     } else {
-        (mirrored_beam(&beam, &meeting), mirrored(direction, surface.normal), 1.0)
+        (reflected_differential(&beam, &meeting), mirrored(direction, surface.normal), 1.0)
     };
     let origin = offset_origin(surface.point, side * surface.geometric_normal, surface.size);
     let depth = if let Goal::Color(depth) = branch.goal { depth + 1 } else { 0 };
@@ -180,15 +180,14 @@ fn shade_part(waiting: &mut Waiting, scene: &PackedScene, mut branch: Branch, sh
     let carried = branch.weight;
     branch.weight *= surface_color(scene, material, map, (&ray, &surface, &print), [0; 2]);
     let inside = surface.inside;
-    let model = Model::ALL[material.link[0] as usize];
-    if matches!(model, Model::Mirror | Model::Dielectric) {
-        settle_normal(ray.direction, &mut surface);
+    if is_specular(material) {
+        consistent_normal(ray.direction, &mut surface);
     }
     let met = Met { hit, surface, print, material, carried };
-    if model == Model::Unlit {
-        return branch.weight;
+    if !is_lit(material) && !is_specular(material) {
+        return emitted(material, branch.weight);
     }
-    if model.is_lit() {
+    if is_lit(material) {
         for light in &scene.lights {
             let next = lit_branch(&branch, &met, left_shape(scene, shape, inside), light);
             if largest(next.weight) > 0.0 {
@@ -200,16 +199,14 @@ fn shade_part(waiting: &mut Waiting, scene: &PackedScene, mut branch: Branch, sh
     if matches!(branch.goal, Goal::Color(depth) if depth >= header.size[3]) {
         return DVec3::ZERO;
     }
-    let ior = f64::from(material.specular[3]);
-    let ratio = if inside { ior } else { 1.0 / ior };
-    let glass = model == Model::Dielectric;
-    let back = if glass { reflectance(ray.direction, surface.normal, ratio) } else { 1.0 };
+    let ratio = index_ratio(material, inside);
+    let back = mirrored_share(material, ray.direction, surface.normal, ratio);
     // What goes through glass and then what it returns, which as the last is traced first.
     for (through, share) in [(true, 1.0 - back), (false, back)] {
         let skip = left_shape(scene, shape, inside != through);
         let next = bent_branch(&branch, &met, ratio, share, skip, through);
         let weight = largest(next.weight);
-        if weight >= LEAST_WEIGHT {
+        if weight >= MIN_WEIGHT {
             waiting.send(next);
         } else {
             waiting.dropped += weight;
@@ -231,7 +228,7 @@ fn part_of(branch: &Branch, cone: &Cone, covered: Covered, norm: f64) -> Branch 
 }
 
 /// What the cone around a ray from the camera sees, and the weight of what was dropped.
-pub fn trace_cone(scene: &PackedScene, ray: Ray, beam: Beam) -> (DVec3, f64) {
+pub fn trace_cone(scene: &PackedScene, ray: Ray, beam: RayDifferential) -> (DVec3, f64) {
     let first = Branch {
         ray,
         width: beam.width,
@@ -242,27 +239,27 @@ pub fn trace_cone(scene: &PackedScene, ray: Ray, beam: Beam) -> (DVec3, f64) {
     };
     let mut waiting = Waiting { list: vec![first], dropped: 0.0 };
     let mut sum = DVec3::ZERO;
-    for _ in 0..MOST_CONES {
+    for _ in 0..MAX_CONES {
         let Some(branch) = waiting.list.pop() else { break };
         let from_camera = matches!(branch.goal, Goal::Color(0));
         let across = if from_camera { xyz(scene.header.step_x) } else { DVec3::ZERO };
         let cone = cone_of(branch.ray, branch.width, branch.spread, across);
         let cone = leaving(scene, cone, branch.skip);
         let t_max = if let Goal::Light(t_max) = branch.goal { t_max } else { FAR };
-        let mut pieces = gather(scene, &cone, branch.skip, t_max);
-        let mut rest = lay_over(&mut pieces, scene, &cone);
+        let mut fragments = collect_fragments(scene, &cone, branch.skip, t_max);
+        let mut rest = composite(&mut fragments, scene, &cone);
         if let Goal::Light(_) = branch.goal {
-            sum += branch.weight * rest.share * pieces.clear;
+            sum += branch.weight * rest.share * fragments.clear;
             continue;
         }
         // Those that are kept stand for shapes that are not.
-        let replaced = rest.share * (1.0 - pieces.clear);
-        let norm = 1.0 + replaced / (1.0 - rest.share).max(LEAST_SHARE);
+        let replaced = rest.share * (1.0 - fragments.clear);
+        let norm = 1.0 + replaced / (1.0 - rest.share).max(MIN_SHARE);
         waiting.dropped += largest(branch.weight) * replaced;
         rest.share -= replaced;
-        for piece in pieces.list.iter().filter(|p| p.seen > 0.0) {
-            let part = Covered { share: piece.seen, center: piece.center };
-            sum += shade_part(&mut waiting, scene, part_of(&branch, &cone, part, norm), piece.shape);
+        for fragment in fragments.list.iter().filter(|p| p.seen > 0.0) {
+            let part = Covered { share: fragment.seen, center: fragment.center };
+            sum += shade_part(&mut waiting, scene, part_of(&branch, &cone, part, norm), fragment.shape);
         }
         if rest.share > 0.0 {
             sum += shade_part(&mut waiting, scene, part_of(&branch, &cone, rest, 1.0), NO_SHAPE);
@@ -277,5 +274,5 @@ pub fn pixel(scene: &PackedScene, x: u32, y: u32) -> (DVec3, f64) {
     const MIDDLE: DVec2 = DVec2::splat(0.5);
     let header = &scene.header;
     let ray = camera_ray(header, [x + header.image[2], y + header.image[3]], MIDDLE);
-    trace_cone(scene, ray, camera_beam(header, &ray))
+    trace_cone(scene, ray, camera_differential(header, &ray))
 }

@@ -15,12 +15,12 @@ pub const NOTHING: Covered = Covered { share: 0.0, center: DVec2::ZERO };
 pub const EVERYTHING: Covered = Covered { share: 1.0, center: DVec2::ZERO };
 
 /// Shares below this are none.
-pub const LEAST_SHARE: f64 = 1e-5;
+pub const MIN_SHARE: f64 = 1e-5;
 
 /// Of more lines the oldest are left out.
-const MOST_CUTS: usize = 6;
+const MAX_CUTS: usize = 6;
 
-/// A line through the centre passes beside it: seen from there, its piece has an angle.
+/// A line through the centre passes beside it: seen from there, its fragment has an angle.
 const BESIDE: f64 = 1e-9;
 
 /// Lines whose sine is below this count as parallel.
@@ -50,7 +50,7 @@ impl Cuts {
         self.away |= beyond.is_nan() || beyond <= -1.0;
         if beyond > -1.0 && beyond < 1.0 {
             self.lines.insert(0, unit);
-            self.lines.truncate(MOST_CUTS);
+            self.lines.truncate(MAX_CUTS);
         }
     }
 
@@ -68,7 +68,7 @@ impl Cuts {
             let way = DVec2::new(line.y, -line.x);
             let foot = -c * line.truncate();
             let rim = (1.0 - c * c).max(0.0).sqrt();
-            let (from, to) = self.piece(i, foot, way, rim);
+            let (from, to) = self.fragment(i, foot, way, rim);
             if from >= to {
                 continue;
             }
@@ -86,14 +86,14 @@ impl Cuts {
         let holds_center = self.lines.iter().all(|line| line.z >= 0.0);
         let arcs = if holds_center { 2.0 * PI } else { 0.0 } - turn;
         let share = ((twice_area + arcs) / (2.0 * PI)).min(1.0);
-        if share.is_nan() || share <= LEAST_SHARE {
+        if share.is_nan() || share <= MIN_SHARE {
             return NOTHING;
         }
         Covered { share, center: moment / (6.0 * PI * share) }
     }
 
     /// From where to where line `i` borders what is covered, counted from its foot.
-    fn piece(&self, i: usize, foot: DVec2, way: DVec2, rim: f64) -> (f64, f64) {
+    fn fragment(&self, i: usize, foot: DVec2, way: DVec2, rim: f64) -> (f64, f64) {
         let (mut from, mut to) = (-rim, rim);
         let line = self.lines[i];
         for (j, other) in self.lines.iter().enumerate().filter(|(j, _)| *j != i) {
@@ -139,7 +139,7 @@ pub fn circle_overlap(middle: DVec2, radius: f64, edge: f64) -> Covered {
     }
     let apart = middle.length();
     let found = |share: f64, center: DVec2| {
-        if share > LEAST_SHARE { Covered { share, center } } else { NOTHING }
+        if share > MIN_SHARE { Covered { share, center } } else { NOTHING }
     };
     if radius + apart <= 1.0 {
         return found(radius * radius, middle);
@@ -164,7 +164,7 @@ pub fn small_overlap(middle: DVec2, radius: f64) -> Covered {
     let from = (middle - side).max(DVec2::splat(-SQUARE));
     let to = (middle + side).min(DVec2::splat(SQUARE));
     let share = (to - from).max(DVec2::ZERO).element_product() / PI;
-    if share > LEAST_SHARE { Covered { share, center: 0.5 * (from + to) } } else { NOTHING }
+    if share > MIN_SHARE { Covered { share, center: 0.5 * (from + to) } } else { NOTHING }
 }
 
 /// A circle of any size.
@@ -177,7 +177,7 @@ pub fn ball_overlap(middle: DVec2, radius: f64, edge: f64) -> Covered {
     let a = small_overlap(middle, radius);
     let (from_a, from_b) = ((1.0 - large) * a.share, large * b.share);
     let share = from_a + from_b;
-    if share > LEAST_SHARE {
+    if share > MIN_SHARE {
         Covered { share, center: (from_a * a.center + from_b * b.center) / share }
     } else {
         NOTHING

@@ -3,9 +3,9 @@
 use glam::{DVec2, DVec3, DVec4};
 
 use super::address::reduced_coordinate;
+use super::footprint_axes::FootprintEllipse;
 use super::levels::Reader;
 use super::mapping::Coordinate;
-use super::spread::Spread;
 use super::texture::{add_weighted, addresses, level_at};
 use crate::texture::sampler_spec::TexelCenter;
 
@@ -13,7 +13,7 @@ use crate::texture::sampler_spec::TexelCenter;
 const ELLIPSE_LEVEL: f64 = 0.0;
 const MAX_ELLIPSE_STEPS: u32 = 8192;
 /// Area over π of the largest: with its rows, fewer texels than steps.
-const MOST_ELLIPSE: f64 = 2048.0;
+const MAX_ELLIPSE: f64 = 2048.0;
 
 /// exp(-2 r²) - exp(-2) for r² in [0, 1], as a polynomial.
 pub fn ellipse_weight(squared: f64) -> f64 {
@@ -22,7 +22,7 @@ pub fn ellipse_weight(squared: f64) -> f64 {
 }
 
 /// All texels of the footprint's ellipse, weighted by a Gaussian.
-pub fn ellipse(reader: &Reader<'_>, c: &Coordinate, spread: &Spread) -> DVec4 {
+pub fn ellipse(reader: &Reader<'_>, c: &Coordinate, spread: &FootprintEllipse) -> DVec4 {
     let (image, how) = (reader.image, reader.how);
     let most = f64::from(how.link[3]);
     let minor = spread.minor.max(spread.major / (most * most));
@@ -37,7 +37,7 @@ pub fn ellipse(reader: &Reader<'_>, c: &Coordinate, spread: &Spread) -> DVec4 {
     let widen = if gap > 0.0 { (minor - spread.minor) / gap } else { 0.0 };
     m += widen * (DVec3::new(spread.major * scale, 0.0, spread.major * scale) - m);
     m *= (16.0 * most * most / (m.x + m.z).max(1e-30)).min(1.0);
-    m *= (MOST_ELLIPSE / (m.x * m.z - m.y * m.y).max(1.0).sqrt()).min(1.0);
+    m *= (MAX_ELLIPSE / (m.x * m.z - m.y * m.y).max(1.0).sqrt()).min(1.0);
     m += DVec3::new(1.0, 0.0, 1.0);
     let determinant = m.x * m.z - m.y * m.y;
     let (a, b, d) = (m.z / determinant, -m.y / determinant, m.x / determinant);

@@ -5,15 +5,15 @@ use glam::{DVec3, DVec4};
 
 use super::ellipse::ellipse;
 use super::footprint::is_filtered;
+use super::footprint_axes::{in_texture, kind_of, texel_spread};
 use super::levels::{Reader, refaced};
 use super::mapping::Coordinate;
 use super::procedural::procedural_color;
 use super::rng::pcg3d;
-use super::spread::{in_texture, kind_of, texel_spread};
-use super::summed::summed_area;
+use super::summed_area::summed_area;
 use super::texture::{add_weighted, level_at};
-use crate::layout::{Sampler, Texture};
 use crate::pack::{PackedScene, TextureKind};
+use crate::schema::layout::{Sampler, Texture};
 use crate::texture::sampler_spec::{Filter, MipMode};
 
 /// Three numbers in [0, 1) from a sample's random bits.
@@ -23,7 +23,7 @@ pub fn look_up_dice(random: [u32; 2]) -> DVec3 {
 }
 
 /// Without a footprint in the scene all is magnification.
-pub fn look_up(
+pub fn sample_texture(
     scene: &PackedScene,
     image: &Texture,
     how: &Sampler,

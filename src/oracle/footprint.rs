@@ -5,12 +5,12 @@ use glam::{DMat3, DVec3};
 
 use super::camera::Ray;
 use super::math::xyz;
-use crate::layout::Header;
 use crate::pack::ProjectionKind;
 use crate::scene::model::Footprint as FootprintKind;
+use crate::schema::layout::Header;
 
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Beam {
+pub struct RayDifferential {
     /// Change of the ray's origin over the share of the pixel, to the right and down.
     pub origin: [DVec3; 2],
     pub direction: [DVec3; 2],
@@ -35,16 +35,21 @@ pub fn uses_cones(header: &Header) -> bool {
     header.key[2] == FootprintKind::Cone as u32
 }
 
-pub fn camera_beam(header: &Header, ray: &Ray) -> Beam {
+pub fn camera_differential(header: &Header, ray: &Ray) -> RayDifferential {
     let orthographic = header.size[2] == ProjectionKind::Orthographic as u32;
     let share = header.step_x[3];
     let steps = [xyz(header.step_x) * share, xyz(header.step_y) * share];
     let side = header.step_y[3] * share;
     let none = [DVec3::ZERO; 2];
     if orthographic {
-        Beam { origin: steps, direction: none, width: side, spread: 0.0 }
+        RayDifferential { origin: steps, direction: none, width: side, spread: 0.0 }
     } else {
-        Beam { origin: none, direction: steps, width: 0.0, spread: side / ray.direction.length().sqrt() }
+        RayDifferential {
+            origin: none,
+            direction: steps,
+            width: 0.0,
+            spread: side / ray.direction.length().sqrt(),
+        }
     }
 }
 
@@ -65,7 +70,7 @@ pub fn around(n: DVec3, v: DVec3) -> DVec3 {
 const MAX_STRETCH: f64 = 65536.0;
 
 /// The footprint around the point origin + t direction with unit normal n.
-pub fn footprint_at(header: &Header, beam: &Beam, ray: &Ray, t: f64, n: DVec3) -> Footprint {
+pub fn footprint_at(header: &Header, beam: &RayDifferential, ray: &Ray, t: f64, n: DVec3) -> Footprint {
     let length = ray.direction.length();
     let mut facing = n.dot(ray.direction);
     let least = length / MAX_STRETCH;
@@ -93,18 +98,13 @@ pub fn footprint_at(header: &Header, beam: &Beam, ray: &Ray, t: f64, n: DVec3) -
 }
 
 /// The footprint of a ray that goes on for ever: all that counts is the change of its direction.
-pub fn endless_footprint(header: &Header, beam: &Beam, ray: &Ray) -> Footprint {
+pub fn endless_footprint(header: &Header, beam: &RayDifferential, ray: &Ray) -> Footprint {
     if !uses_cones(header) {
         return Footprint { point: [DVec3::ZERO; 2], direction: beam.direction };
     }
     let d = ray.direction.normalize();
     let side = any_tangent(d);
     Footprint { point: [DVec3::ZERO; 2], direction: [side * beam.spread, d.cross(side) * beam.spread] }
-}
-
-/// d - 2 (d·n) n, for unit n.
-pub fn mirrored(direction: DVec3, normal: DVec3) -> DVec3 {
-    direction - 2.0 * direction.dot(normal) * normal
 }
 
 /// Change of the mirrored direction, where the normal changes by `normal_change`.
@@ -122,50 +122,23 @@ pub struct Meeting {
     /// Unit, against the ray.
     pub normal: DVec3,
     /// Change of the unit normal a unit of way along the surface, and its mean.
-    pub bend: DMat3,
+    pub shape_operator: DMat3,
     pub curvature: f64,
 }
 
 /// The beam that leaves a mirror.
-pub fn mirrored_beam(beam: &Beam, at: &Meeting) -> Beam {
+pub fn reflected_differential(beam: &RayDifferential, at: &Meeting) -> RayDifferential {
     let d = at.ray.direction;
-    let change = |i: usize| mirrored_change(d, at.normal, at.print.direction[i], at.bend * at.print.point[i]);
+    let change = |i: usize| {
+        mirrored_change(d, at.normal, at.print.direction[i], at.shape_operator * at.print.point[i])
+    };
     let width = beam.width + beam.spread * at.t;
-    Beam {
+    RayDifferential {
         origin: at.print.point,
         direction: [change(0), change(1)],
         width,
         spread: beam.spread + 2.0 * at.curvature * width * d.length(),
     }
-}
-
-/// Square of what of a ray as long as d goes along the normal behind a surface; `ratio` of refractive indices, in
-/// front over behind. Not above 0 where everything is reflected.
-fn straight_behind(direction: DVec3, n: DVec3, ratio: f64) -> f64 {
-    let sine = ratio * direction.cross(n).length();
-    let size = direction.length();
-    (size - sine) * (size + sine)
-}
-
-/// Snell: the direction behind a surface with unit normal n against the ray. As long as d; d itself where
-/// everything is reflected.
-pub fn refracted(direction: DVec3, n: DVec3, ratio: f64) -> DVec3 {
-    let under = straight_behind(direction, n, ratio);
-    let along = n.cross(direction.cross(n)); // the surface
-    if under > 0.0 { ratio * along - under.sqrt() * n } else { direction }
-}
-
-/// Share of unpolarised light that is mirrored (Fresnel); 1 beyond the critical angle.
-pub fn reflectance(direction: DVec3, n: DVec3, ratio: f64) -> f64 {
-    let under = straight_behind(direction, n, ratio);
-    if under <= 0.0 {
-        return 1.0;
-    }
-    let before = direction.dot(n).abs();
-    let behind = under.sqrt();
-    let s = (ratio * before - behind) / (ratio * before + behind);
-    let p = (before - ratio * behind) / (before + ratio * behind);
-    0.5 * (s * s + p * p)
 }
 
 /// Change of the refracted direction r d - (r d·n + k) n with k² = d² - r² (d² - (d·n)²).
@@ -186,15 +159,16 @@ pub fn refracted_change(
 }
 
 /// The beam behind a refracting surface.
-pub fn refracted_beam(beam: &Beam, at: &Meeting, ratio: f64) -> Beam {
+pub fn refracted_differential(beam: &RayDifferential, at: &Meeting, ratio: f64) -> RayDifferential {
     let d = at.ray.direction;
-    let change =
-        |i: usize| refracted_change(d, at.normal, ratio, at.print.direction[i], at.bend * at.print.point[i]);
+    let change = |i: usize| {
+        refracted_change(d, at.normal, ratio, at.print.direction[i], at.shape_operator * at.print.point[i])
+    };
     let before = (d.dot(at.normal).abs() / d.length()).min(1.0);
     let behind = (1.0 - ratio * ratio * (1.0 - before * before)).max(1e-6).sqrt();
     let squeeze = (behind / before.max(1e-6)).sqrt();
     let width = (beam.width + beam.spread * at.t) * squeeze;
-    Beam {
+    RayDifferential {
         origin: at.print.point,
         direction: [change(0), change(1)],
         width,

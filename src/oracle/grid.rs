@@ -5,7 +5,7 @@ use glam::DVec2;
 
 use super::address::addressed_texel;
 use super::texture::addresses;
-use crate::layout::{Sampler, Texture};
+use crate::schema::layout::{Sampler, Texture};
 use crate::texture::sampler_spec::{Address, Filter, TexelCenter};
 
 /// What is walked: a level of a texture, or a checker of unit squares.
@@ -13,7 +13,7 @@ use crate::texture::sampler_spec::{Address, Filter, TexelCenter};
 pub struct Grid<'a> {
     sums: &'a [u32],
     pub checker: bool,
-    /// Seen from so far that all has the colour of the mean.
+    /// MapInput from so far that all has the colour of the mean.
     pub even: bool,
     /// Of a texture that does not repeat, coarser levels are no prefilter beyond its edges.
     pub unknown: bool,

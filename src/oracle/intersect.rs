@@ -6,8 +6,8 @@ use glam::{DVec2, DVec3};
 
 use super::camera::Ray;
 use super::math::xyz;
-use crate::layout::{NO_SHAPE, Plane, Sphere, Triangle};
 use crate::pack::PackedScene;
+use crate::schema::layout::{NO_SHAPE, Plane, Sphere, Triangle};
 
 /// Farther than any hit that counts.
 pub const FAR: f64 = 1e30;

@@ -6,10 +6,10 @@ use rayon::prelude::*;
 use super::pixel_filter::filter_width;
 use super::render::sample;
 use crate::adaptive::{Sums, Tracer};
-use crate::error::{Error, Result};
-use crate::layout::{JOB_BARE, Job};
+use crate::core::error::{Error, Result};
+use crate::core::progress::Progress;
 use crate::pack::{PackedScene, filtered_mean};
-use crate::progress::Progress;
+use crate::schema::layout::{JOB_BARE, Job};
 
 pub struct JobTracer<'a> {
     scene: &'a PackedScene,

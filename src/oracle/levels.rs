@@ -3,11 +3,11 @@
 use glam::{DVec2, DVec3, DVec4};
 
 use super::address::reduced_coordinate;
+use super::footprint_axes::kind_of;
 use super::mapping::{face_uv, on_cube_face, within_face};
-use super::spread::kind_of;
 use super::texture::{Level, add_weighted, addresses, fetch_or_border, fetch_texel, flat_texel, weighted};
-use crate::layout::{Sampler, Texture};
 use crate::pack::{PackedScene, TextureKind};
+use crate::schema::layout::{Sampler, Texture};
 use crate::texture::sampler_spec::{Filter, TexelCenter};
 
 /// What a look-up of one level needs to know.

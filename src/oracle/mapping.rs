@@ -6,13 +6,13 @@ use std::f64::consts::PI;
 use glam::{DVec2, DVec3};
 
 use super::math::{affine, atan2_accurate, vec4, xyz};
-use crate::layout::Map;
 use crate::pack::MapKind;
+use crate::schema::layout::UvProjection;
 
 /// What a map can look at: the entity that its kind projects, the shape's own coordinate, and the
 /// changes of both over the footprint.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Seen {
+pub struct MapInput {
     pub entity: DVec3,
     pub entity_change: [DVec3; 2],
     pub own: DVec2,
@@ -36,27 +36,27 @@ impl Coordinate {
 }
 
 /// matrix · uv: scale and rotation.
-pub fn turned_uv(map: &Map, uv: DVec2) -> DVec2 {
+pub fn turned_uv(map: &UvProjection, uv: DVec2) -> DVec2 {
     let m = vec4(map.matrix);
     DVec2::new(m.x * uv.x + m.y * uv.y, m.z * uv.x + m.w * uv.y)
 }
 
 /// matrix · uv + offset.
-pub fn placed(map: &Map, uv: DVec2) -> DVec2 {
+pub fn placed(map: &UvProjection, uv: DVec2) -> DVec2 {
     turned_uv(map, uv) + xyz(map.offset).truncate()
 }
 
 /// A coordinate of a map that ends with `placed`.
-pub fn placed_coordinate(map: &Map, uv: DVec2, change: [DVec2; 2]) -> Coordinate {
+pub fn placed_coordinate(map: &UvProjection, uv: DVec2, change: [DVec2; 2]) -> Coordinate {
     Coordinate { at: placed(map, uv).extend(0.0), change: change.map(|d| turned_uv(map, d).extend(0.0)) }
 }
 
 /// The linear part of the frame.
-pub fn in_frame(map: &Map, v: DVec3) -> DVec3 {
+pub fn in_frame(map: &UvProjection, v: DVec3) -> DVec3 {
     DVec3::new(xyz(map.x).dot(v), xyz(map.y).dot(v), xyz(map.z).dot(v))
 }
 
-/// Which face of a cube a direction meets, and where on it, (s, t) in [-1, 1] (Vulkan 1.3, "Cube Map
+/// Which face of a cube a direction meets, and where on it, (s, t) in [-1, 1] (Vulkan 1.3, "Cube UvProjection
 /// Face Selection"; ties go to z, then y). The third number is the length along the face's axis.
 pub fn on_cube_face(d: DVec3) -> (DVec3, u32) {
     let a = d.abs();
@@ -115,7 +115,7 @@ fn turn(local: DVec3) -> f64 {
 }
 
 /// (turn, height) and its change: φ/2π and y.
-pub fn cylindrical(map: &Map, local: DVec3, change: [DVec3; 2], gradients: bool) -> Coordinate {
+pub fn cylindrical(map: &UvProjection, local: DVec3, change: [DVec3; 2], gradients: bool) -> Coordinate {
     let around = local.x * local.x + local.z * local.z;
     let of = |d: DVec3| DVec2::new(turn_change(local, d, around, gradients), d.y);
     placed_coordinate(map, DVec2::new(turn(local), local.y), change.map(of))
@@ -128,7 +128,7 @@ pub fn polar_change(local: DVec3, change: DVec3, across: f64, squared: f64, grad
 }
 
 /// (θ/π, φ/2π) and its change.
-pub fn spherical(map: &Map, local: DVec3, change: [DVec3; 2], gradients: bool) -> Coordinate {
+pub fn spherical(map: &UvProjection, local: DVec3, change: [DVec3; 2], gradients: bool) -> Coordinate {
     let around = local.x * local.x + local.z * local.z;
     let across = around.sqrt();
     let uv = DVec2::new(atan2_accurate(across, local.y) / PI, turn(local));
@@ -140,7 +140,7 @@ pub fn spherical(map: &Map, local: DVec3, change: [DVec3; 2], gradients: bool) -
     placed_coordinate(map, uv, change.map(of))
 }
 
-pub fn texture_coordinate(map: &Map, seen: &Seen) -> Coordinate {
+pub fn texture_coordinate(map: &UvProjection, seen: &MapInput) -> Coordinate {
     let kind = MapKind::ALL[map.link[0] as usize];
     let local =
         || DVec3::new(affine(map.x, seen.entity), affine(map.y, seen.entity), affine(map.z, seen.entity));

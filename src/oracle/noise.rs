@@ -5,7 +5,7 @@
 use glam::DVec3;
 
 use super::rng::pcg3d;
-use crate::layout::Procedural;
+use crate::schema::layout::Procedural;
 
 /// Statistics of gradient noise over space, from 3·10⁶ random places.
 pub const NOISE_VARIANCE: f64 = 0.0729;

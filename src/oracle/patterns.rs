@@ -1,5 +1,5 @@
 //! Positions of samples as integers in [0, 2^24) on each axis, from the pixel and the sample's number alone.
-//! Pair 0 is the place in the pixel; further pairs are other choices of the same samples. A pixel's
+//! Pair 0 is the place in the pixel; further pairs are other dimensions of the same samples. A pixel's
 //! points are drawn up once a pixel and pair (`pixel_points`, `pair_points`), then asked for sample by
 //! sample. Twin of `glsl/shared/patterns.glsl`.
 
@@ -8,8 +8,8 @@ use super::permute::{multi_jittered, n_rooks, permute};
 use super::rng::{mix_bits, pcg3d, pixel_key, sample_bits};
 use super::sobol::{morton, shuffled_index, shuffled_place, sobol_owen};
 use super::strata::{fine_position, stratum_position};
-use crate::layout::Header;
 use crate::scene::model::Pattern;
+use crate::schema::layout::Header;
 
 /// A path longer than these pairs of bases has random points.
 pub const HALTON_PAIRS: u32 = PRIMES.len() as u32 / 2;

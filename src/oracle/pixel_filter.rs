@@ -4,9 +4,9 @@
 use glam::DVec2;
 
 use super::strata::UNIT;
-use crate::layout::{Header, PIXEL_FILTER_CELLS};
 use crate::pack::PackedScene;
 use crate::scene::model::PixelFilterKind;
+use crate::schema::layout::{Header, PIXEL_FILTER_CELLS};
 
 #[derive(Clone, Copy, Debug)]
 pub struct Place {

@@ -4,12 +4,12 @@
 use glam::{DVec2, DVec3};
 
 /// f(x, y) = f.x x + f.y y + f.z.
-pub type Form = DVec3;
+pub type AffineFunction = DVec3;
 
 pub const MAX_CORNERS: usize = 12;
 
 /// What is smaller is dropped, in pixels².
-pub const LEAST_AREA: f64 = 1e-7;
+pub const MIN_AREA: f64 = 1e-7;
 
 /// Corners in order; fewer than three are no area.
 #[derive(Clone, Copy, Debug, Default)]
@@ -18,7 +18,7 @@ pub struct Polygon {
     pub corners: [DVec2; MAX_CORNERS],
 }
 
-pub fn at(form: Form, place: DVec2) -> f64 {
+pub fn at(form: AffineFunction, place: DVec2) -> f64 {
     form.dot(place.extend(1.0))
 }
 
@@ -38,7 +38,7 @@ fn push(polygon: &mut Polygon, corner: DVec2) {
 
 /// Where the form is positive, and where it is negative. A side with more than `MAX_CORNERS` corners has lost
 /// some.
-pub fn split(polygon: &Polygon, form: Form) -> [Polygon; 2] {
+pub fn split(polygon: &Polygon, form: AffineFunction) -> [Polygon; 2] {
     let mut sides = [Polygon::default(); 2];
     for k in 0..polygon.count {
         let a = polygon.corners[k];
@@ -75,7 +75,7 @@ pub fn middle(polygon: &Polygon) -> DVec2 {
 }
 
 /// The least and the greatest value of a form on a polygon.
-pub fn range(polygon: &Polygon, form: Form) -> (f64, f64) {
+pub fn range(polygon: &Polygon, form: AffineFunction) -> (f64, f64) {
     let values = polygon.corners[..polygon.count].iter().map(|&c| at(form, c));
     values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)))
 }

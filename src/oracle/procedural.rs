@@ -8,11 +8,11 @@ use glam::DVec3;
 
 use super::math::{sine_turns, xyz};
 use super::noise::{cell_distance, cell_mean, kept, octave_sum};
-use crate::layout::Procedural;
+use crate::schema::layout::Procedural;
 use crate::texture::procedural::ProceduralKind;
 
 /// Boxes along a footprint's major axis, at most.
-pub const MOST_BOXES: f64 = 16.0;
+pub const MAX_BOXES: f64 = 16.0;
 /// Footprints wider than this are averaged as if they were as wide.
 pub const WIDEST: f64 = 1e9;
 
@@ -42,7 +42,7 @@ pub fn box_count(major: DVec3, minor: DVec3) -> f64 {
     let reach = major.abs();
     let oblique = reach.x.min(reach.y).max(reach.x.max(reach.y).min(reach.z));
     let ratio = oblique / minor.length().max(1e-20);
-    ratio.min(1.0 + MOST_BOXES * oblique).clamp(1.0, MOST_BOXES)
+    ratio.min(1.0 + MAX_BOXES * oblique).clamp(1.0, MAX_BOXES)
 }
 
 /// Mean over [x − w/2, x + w/2] of a pulse train: 1 within duty/2 of whole x, else 0.

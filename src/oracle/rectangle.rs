@@ -8,8 +8,8 @@ use glam::{DVec2, DVec3};
 
 use super::math::atan2_accurate;
 
-/// Seen under less it is too flat for f32, whose angles err by 1.6e-7, and its area is as good.
-pub const LEAST_SOLID_ANGLE: f64 = 1.0 / 1024.0;
+/// MapInput under less it is too flat for f32, whose angles err by 1.6e-7, and its area is as good.
+pub const MIN_SOLID_ANGLE: f64 = 1.0 / 1024.0;
 
 /// y₁ r₀ - y₀ r₁, where r² = y² + d².
 fn height_gap(y: [f64; 2], [r0, r1]: [f64; 2], squared: f64) -> f64 {

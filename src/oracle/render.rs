@@ -7,20 +7,20 @@ use rayon::prelude::*;
 
 use super::beam::beam;
 use super::camera::{camera_at, camera_ray, through_lens};
-use super::choices::{choose, unit_square};
 use super::cone_shade;
-use super::footprint::camera_beam;
+use super::footprint::camera_differential;
 use super::math::xyz;
 use super::patterns::pixel_points;
 use super::pixel_filter::filtered_place;
 use super::rng::{pcg2d, pixel_key, sample_bits};
+use super::sample_dimensions::{choose, unit_square};
 use super::shade::{advance, camera_path};
-use crate::error::{Error, Result};
-use crate::film::Film;
-use crate::layout::Header;
+use crate::core::error::{Error, Result};
+use crate::core::film::Film;
+use crate::core::progress::Progress;
 use crate::pack::{PackedScene, filtered_mean};
-use crate::progress::Progress;
 use crate::scene::model::Algorithm;
+use crate::schema::layout::Header;
 
 /// The mean radiance of pixel (x, y) of the film: of the crop, where there is one.
 pub fn pixel(scene: &PackedScene, x: u32, y: u32) -> DVec3 {
@@ -46,15 +46,15 @@ pub fn sample(scene: &PackedScene, header: &Header, [x, y]: [u32; 2], stream: u3
     let seed = header.sampling[3].wrapping_add(stream.wrapping_mul(0x9E37_79B9));
     let key = pixel_key(place, seed, header.key[0] != 0);
     let points = pixel_points(header, place, key);
-    let choices = choose(header, &points, s, 0, true);
+    let dimensions = choose(header, &points, s, 0, true);
     let moves = header.chances[2] != 0;
     let [_, _, opens, open] = header.lens.map(f64::from);
-    let time = opens + open * unit_square(choices.time).x;
+    let time = opens + open * unit_square(dimensions.time).x;
     let camera = if moves { &camera_at(header, time) } else { header };
-    let at = filtered_place(scene, choices.place);
+    let at = filtered_place(scene, dimensions.place);
     let mut ray = camera_ray(camera, place, at.inside);
     if header.lens[0] > 0.0 {
-        ray = through_lens(camera, &ray, unit_square(choices.lens));
+        ray = through_lens(camera, &ray, unit_square(dimensions.lens));
     }
     ray.time = time;
     if moves {
@@ -62,10 +62,10 @@ pub fn sample(scene: &PackedScene, header: &Header, [x, y]: [u32; 2], stream: u3
     }
     // Bits that have nothing to do with the sample's position.
     let random = pcg2d(sample_bits(key, s).map(|bits| bits ^ 0x5BD1_E995));
-    let mut path = camera_path(ray, camera_beam(camera, &ray), random);
+    let mut path = camera_path(ray, camera_differential(camera, &ray), random);
     path.points = Some((points, s));
     let mut sum = DVec3::ZERO;
-    while path.goes_on {
+    while path.is_alive {
         sum += advance(scene, &mut path);
     }
     (sum, at.sign)

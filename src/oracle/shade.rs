@@ -2,37 +2,40 @@
 
 use glam::{DVec2, DVec3, DVec4};
 
+use super::bsdf::facets::widened_differential;
+use super::bsdf::mirror::mirrored;
+use super::bsdf::models::{bsdf_at, emitted, is_lit, is_specular, reflected};
+use super::bsdf::specular::sample_bsdf;
 use super::camera::Ray;
-use super::choices::{Choices, choose, chosen_light, unit_line, unit_square};
-use super::filter::look_up;
+use super::filter::sample_texture;
 use super::footprint::{
-    Beam, Footprint, Meeting, any_tangent, endless_footprint, footprint_at, is_filtered, mirrored,
-    mirrored_beam, mirrored_change, reflectance, refracted, refracted_beam,
+    Footprint, Meeting, RayDifferential, any_tangent, endless_footprint, footprint_at, is_filtered,
+    mirrored_change, reflected_differential, refracted_differential,
 };
-use super::glossy::{mirrored_share, refracted_share, visible_normal, widened_beam};
 use super::intersect::{Hit, nearest_hit, offset_origin};
 use super::light::direct_light;
-use super::mapping::{Coordinate, Seen, texture_coordinate};
+use super::mapping::{Coordinate, MapInput, texture_coordinate};
 use super::math::xyz;
 use super::patterns::Points;
 use super::rng::pcg2d;
-use super::shading_normal::{on_its_side, settle_normal};
+use super::sample_dimensions::{SampleDimensions, choose, chosen_light};
+use super::shading_normal::consistent_normal;
 use super::surface::{Surface, hit_surface};
-use crate::layout::{Header, Map, Material, NO_MATERIAL, NO_SHAPE, NO_TEXTURE};
 use crate::pack::{EntityKind, PackedScene};
-use crate::scene::model::{Model, ReliefKind};
+use crate::scene::model::BumpKind;
+use crate::schema::layout::{Header, Material, NO_MATERIAL, NO_SHAPE, NO_TEXTURE, UvProjection};
 
 /// What the surface's map looks at.
-pub fn seen_by_map(map: &Map, ray: &Ray, surface: &Surface, print: &Footprint) -> Seen {
+pub fn map_input(map: &UvProjection, ray: &Ray, surface: &Surface, print: &Footprint) -> MapInput {
     let own = |d: DVec3| DVec2::from_array(surface.own_gradients.map(|g| g.dot(d)));
-    let mut seen = Seen {
+    let mut seen = MapInput {
         entity: surface.at_rest,
         entity_change: print.point,
         own: surface.own_uv,
         own_change: print.point.map(own),
         gradients: false,
     };
-    let bent = print.point.map(|d| surface.bend * d);
+    let bent = print.point.map(|d| surface.shape_operator * d);
     let (mut way, mut change) = (ray.direction, print.direction);
     match EntityKind::ALL[map.link[1] as usize] {
         EntityKind::Position => return seen,
@@ -42,8 +45,8 @@ pub fn seen_by_map(map: &Map, ray: &Ray, surface: &Surface, print: &Footprint) -
         }
         EntityKind::Reflection => {
             let mut mirror = *surface;
-            settle_normal(way, &mut mirror);
-            let bent = print.point.map(|d| mirror.bend * d);
+            consistent_normal(way, &mut mirror);
+            let bent = print.point.map(|d| mirror.shape_operator * d);
             change = [0, 1].map(|i| mirrored_change(way, mirror.normal, change[i], bent[i]));
             way = mirrored(way, mirror.normal);
         }
@@ -58,31 +61,31 @@ pub fn seen_by_map(map: &Map, ray: &Ray, surface: &Surface, print: &Footprint) -
 }
 
 /// Gradients of u and v along the surface, from their changes along two tangents.
-pub fn uv_gradients(map: &Map, ray: &Ray, surface: &Surface) -> [DVec3; 2] {
+pub fn uv_gradients(map: &UvProjection, ray: &Ray, surface: &Surface) -> [DVec3; 2] {
     let n = surface.geometric_normal;
     let first = any_tangent(n);
     let second = n.cross(first);
     let print = Footprint { point: [first, second], direction: [DVec3::ZERO; 2] };
-    let seen = Seen { gradients: true, ..seen_by_map(map, ray, surface, &print) };
+    let seen = MapInput { gradients: true, ..map_input(map, ray, surface, &print) };
     let [x, y] = texture_coordinate(map, &seen).change;
     [first * x.x + second * y.x, first * x.y + second * y.y]
 }
 
 /// A map of normals, not of heights.
 fn is_normal_map(material: &Material) -> bool {
-    ReliefKind::ALL[material.detail[3] as usize].is_normal_map()
+    BumpKind::ALL[material.detail[3] as usize].is_normal_map()
 }
 
 fn detail(scene: &PackedScene, material: &Material, c: &Coordinate, random: [u32; 2]) -> DVec4 {
     let [texture, sampler, _, _] = material.detail;
-    look_up(scene, &scene.textures[texture as usize], &scene.samplers[sampler as usize], c, random)
+    sample_texture(scene, &scene.textures[texture as usize], &scene.samplers[sampler as usize], c, random)
 }
 
-/// The shading normal after the material's relief.
+/// The shading normal after the material's bump map.
 pub fn bumped_normal(
     scene: &PackedScene,
     material: &Material,
-    map: &Map,
+    map: &UvProjection,
     at: (&Ray, &Surface, &Footprint),
     random: [u32; 2],
 ) -> DVec3 {
@@ -95,11 +98,11 @@ pub fn bumped_normal(
     let n = side * surface.normal;
     let strength = f64::from(material.color[3]);
     let [u, v] = uv_gradients(map, ray, surface);
-    let c = texture_coordinate(map, &seen_by_map(map, ray, surface, print));
+    let c = texture_coordinate(map, &map_input(map, ray, surface, print));
     let result = if is_normal_map(material) {
         let handed = if u.cross(v).dot(n) < 0.0 { -1.0 } else { 1.0 };
         let mut m = 2.0 * detail(scene, material, &c, random).truncate() - 1.0;
-        if kind == ReliefKind::NormalDown as u32 {
+        if kind == BumpKind::NormalDown as u32 {
             m.y = -m.y;
         }
         let t = v.cross(n).normalize_or_zero();
@@ -128,7 +131,7 @@ pub fn bumped_normal(
 pub fn surface_color(
     scene: &PackedScene,
     material: &Material,
-    map: Option<&Map>,
+    map: Option<&UvProjection>,
     at: (&Ray, &Surface, &Footprint),
     random: [u32; 2],
 ) -> DVec3 {
@@ -136,29 +139,29 @@ pub fn surface_color(
     let [_, texture, sampler, _] = material.link;
     let (Some(map), true) = (map, texture != NO_TEXTURE) else { return color };
     let (ray, surface, print) = at;
-    let c = texture_coordinate(map, &seen_by_map(map, ray, surface, print));
+    let c = texture_coordinate(map, &map_input(map, ray, surface, print));
     let image = &scene.textures[texture as usize];
-    color * look_up(scene, image, &scene.samplers[sampler as usize], &c, random).truncate()
+    color * sample_texture(scene, image, &scene.samplers[sampler as usize], &c, random).truncate()
 }
 
 /// A path between two hits: the ray, how wide it is, what it still carries, the shape that it leaves.
 pub struct Path {
     pub ray: Ray,
-    pub beam: Beam,
+    pub beam: RayDifferential,
     pub throughput: DVec3,
     /// Bits by which look-ups at the next hit take texels.
     pub random: [u32; 2],
     pub skip: u32,
     pub depth: u32,
     /// False: the path has ended.
-    pub goes_on: bool,
+    pub is_alive: bool,
     /// The pixel's points and the sample; None: every choice is the middle one.
     pub points: Option<(Points, u32)>,
 }
 
-pub fn camera_path(ray: Ray, beam: Beam, random: [u32; 2]) -> Path {
+pub fn camera_path(ray: Ray, beam: RayDifferential, random: [u32; 2]) -> Path {
     let throughput = DVec3::ONE;
-    Path { ray, beam, throughput, random, skip: NO_SHAPE, depth: 0, goes_on: true, points: None }
+    Path { ray, beam, throughput, random, skip: NO_SHAPE, depth: 0, is_alive: true, points: None }
 }
 
 /// Where a mirrored or refracted path goes on; false where the material ends it.
@@ -168,48 +171,36 @@ fn bounced(
     mut surface: Surface,
     print: Footprint,
     material: &Material,
-    choices: &Choices,
+    dimensions: &SampleDimensions,
     path: &mut Path,
 ) -> bool {
-    let model = Model::ALL[material.link[0] as usize];
-    if !matches!(model, Model::Mirror | Model::Dielectric) {
+    if !is_specular(material) {
         return false;
     }
-    let ior = f64::from(material.specular[3]);
-    let ratio = if surface.inside { ior } else { 1.0 / ior };
     let direction = path.ray.direction;
-    settle_normal(direction, &mut surface);
-    let alpha = f64::from(material.specular[0]);
-    let glossy = alpha > 0.0;
-    let lobe = unit_square(choices.lobe);
-    let normal = if glossy { visible_normal(direction, surface.normal, alpha, lobe) } else { surface.normal };
-    let mirror = model == Model::Mirror || unit_line(choices.fresnel) < reflectance(direction, normal, ratio);
-    let meeting =
-        Meeting { ray: path.ray, t: hit.t, print, normal, bend: surface.bend, curvature: surface.curvature };
-    if mirror {
-        let origin = offset_origin(surface.point, surface.geometric_normal, surface.size);
-        path.ray = Ray { origin, direction: mirrored(direction, normal), time: path.ray.time };
-        path.beam = mirrored_beam(&path.beam, &meeting);
+    consistent_normal(direction, &mut surface);
+    let bounce = sample_bsdf(material, &surface, direction, dimensions);
+    let meeting = Meeting {
+        ray: path.ray,
+        t: hit.t,
+        print,
+        normal: bounce.normal,
+        shape_operator: surface.shape_operator,
+        curvature: surface.curvature,
+    };
+    let normal = if bounce.mirrored { surface.geometric_normal } else { -surface.geometric_normal };
+    let origin = offset_origin(surface.point, normal, surface.size);
+    path.ray = Ray { origin, direction: bounce.direction, time: path.ray.time };
+    path.beam = if bounce.mirrored {
+        reflected_differential(&path.beam, &meeting)
     } else {
-        let origin = offset_origin(surface.point, -surface.geometric_normal, surface.size);
-        path.ray = Ray { origin, direction: refracted(direction, normal, ratio), time: path.ray.time };
-        path.beam = refracted_beam(&path.beam, &meeting, ratio);
+        refracted_differential(&path.beam, &meeting, bounce.ratio)
+    };
+    if bounce.alpha > 0.0 {
+        path.throughput *= if bounce.leaves { bounce.weight } else { 0.0 };
+        path.beam = widened_differential(header, &path.beam, path.ray.direction, bounce.alpha);
     }
-    let side = if mirror { 1.0 } else { -1.0 };
-    path.ray.direction =
-        on_its_side(direction, path.ray.direction, side * surface.normal, side * surface.geometric_normal);
-    if !glossy {
-        return true;
-    }
-    let way = side * path.ray.direction;
-    let seen = (-direction.dot(surface.normal) / direction.length()).max(0.0);
-    let leaving = way.dot(surface.normal) / way.length();
-    // What a facet sends into the surface is lost.
-    let leaves = leaving > 0.0 && way.dot(surface.geometric_normal) > 0.0;
-    let share = if mirror { mirrored_share(seen, leaving, alpha) } else { refracted_share(leaving, alpha) };
-    path.throughput *= if leaves { share } else { 0.0 };
-    path.beam = widened_beam(header, &path.beam, path.ray.direction, alpha);
-    leaves
+    bounce.leaves
 }
 
 /// What a ray sees that hits nothing.
@@ -232,14 +223,14 @@ fn background(scene: &PackedScene, path: &Path) -> DVec3 {
 /// Follows the path to its next hit; what that adds to the sample is returned.
 pub fn advance(scene: &PackedScene, path: &mut Path) -> DVec3 {
     let hit = nearest_hit(scene, &path.ray, path.skip);
-    path.goes_on = false;
+    path.is_alive = false;
     if hit.shape == NO_SHAPE {
         return background(scene, path);
     }
     let header = &scene.header;
-    let choices = match &path.points {
+    let dimensions = match &path.points {
         Some((points, s)) => choose(header, points, *s, path.depth, false),
-        None => Choices::MIDDLE,
+        None => SampleDimensions::MIDDLE,
     };
     let mut surface = hit_surface(scene, &path.ray, &hit);
     let print = if is_filtered(header) {
@@ -255,22 +246,19 @@ pub fn advance(scene: &PackedScene, path: &mut Path) -> DVec3 {
     }
     let carried = path.throughput;
     path.throughput *= surface_color(scene, material, map, (&ray, &surface, &print), path.random);
-    let model = Model::ALL[material.link[0] as usize];
-    if model == Model::Unlit {
-        return path.throughput;
-    }
-    if model.is_lit() {
-        let mirror = mirrored(ray.direction, surface.normal);
-        let exponent = material.specular[3].into();
+    if is_lit(material) {
+        let bsdf = bsdf_at(material, surface.normal, ray.direction);
         let points = path.points.as_ref().map(|(points, _)| points);
-        let chosen = |i: u32| chosen_light(points, &choices, i);
-        let lit = direct_light(scene, &surface, ray.time, hit.shape, mirror, exponent, &chosen);
-        let highlight = if model == Model::Phong { lit.specular } else { DVec3::ZERO };
-        return path.throughput * lit.diffuse + carried * xyz(material.specular) * highlight;
+        let chosen = |i: u32| chosen_light(points, &dimensions, i);
+        let lit = direct_light(scene, &surface, ray.time, hit.shape, &bsdf, &chosen);
+        return reflected(&bsdf, path.throughput, carried, lit);
     }
-    let goes_on = bounced(header, &hit, surface, print, material, &choices, path);
+    if !is_specular(material) {
+        return emitted(material, path.throughput);
+    }
+    let is_alive = bounced(header, &hit, surface, print, material, &dimensions, path);
     path.skip = hit.shape;
-    path.goes_on = goes_on && path.depth < header.size[3];
+    path.is_alive = is_alive && path.depth < header.size[3];
     path.depth += 1;
     path.random = pcg2d(path.random);
     DVec3::ZERO

@@ -1,10 +1,10 @@
-//! Shading normals that lean away from the surface, interpolated or by a relief: rays that they send to the wrong
+//! Shading normals that lean away from the surface, interpolated or by a bump map: rays that they send to the wrong
 //! side of the surface are raised to the horizon (Keller et al. 2017, "The Iray Light Transport Simulation and
 //! Rendering System"), as far above it as in Cycles. Twin of `glsl/shared/shading_normal.glsl`.
 
 use glam::DVec3;
 
-use super::footprint::mirrored;
+use super::bsdf::mirror::mirrored;
 use super::surface::Surface;
 
 /// The least cosine with the geometric normal, where `flat_cosine` is what a surface that does not lean would give:
@@ -25,11 +25,11 @@ fn raised(way: DVec3, g: DVec3, least: f64) -> DVec3 {
 
 /// Turns the shading normal towards the ray, and as far towards the geometric one that it mirrors the ray to the
 /// surface's own side.
-pub fn settle_normal(direction: DVec3, surface: &mut Surface) {
+pub fn consistent_normal(direction: DVec3, surface: &mut Surface) {
     let view = -direction.normalize();
     if view.dot(surface.normal) < 0.0 {
         surface.normal = -surface.normal;
-        surface.bend = -surface.bend;
+        surface.shape_operator = -surface.shape_operator;
         surface.curvature = -surface.curvature;
     }
     let least = least_cosine(view.dot(surface.geometric_normal));

@@ -6,8 +6,8 @@ use glam::{DMat3, DVec2, DVec3};
 use super::camera::Ray;
 use super::intersect::{Hit, moved_by};
 use super::math::xyz;
-use crate::layout::{Plane, Sphere, Triangle};
 use crate::pack::PackedScene;
+use crate::schema::layout::{Plane, Sphere, Triangle};
 
 /// Where a ray met a shape, and what it needs to know of it.
 #[derive(Clone, Copy, Debug, Default)]
@@ -22,7 +22,7 @@ pub struct Surface {
     pub own_gradients: [DVec3; 2],
     /// Change of the normal a unit of way along the surface, and its mean; positive where the shape
     /// bulges towards the ray.
-    pub bend: DMat3,
+    pub shape_operator: DMat3,
     pub curvature: f64,
     /// The ray comes from behind the shape's own normal.
     pub inside: bool,
@@ -41,7 +41,7 @@ fn surface(point: DVec3, geometric: DVec3, normal: DVec3, link: [u32; 4]) -> Sur
         normal,
         own_uv: DVec2::ZERO,
         own_gradients: [DVec3::ZERO; 2],
-        bend: DMat3::ZERO,
+        shape_operator: DMat3::ZERO,
         curvature: 0.0,
         inside: false,
         material: link[0],
@@ -62,9 +62,14 @@ fn sphere_surface(sphere: &Sphere, point: DVec3) -> Surface {
     let radius = sphere.ball[3];
     let normal = (point - center).normalize();
     let curvature = 1.0 / radius;
-    let bend = DMat3::from_diagonal(DVec3::splat(curvature));
+    let shape_operator = DMat3::from_diagonal(DVec3::splat(curvature));
     let size = center.abs().max_element() + radius;
-    Surface { bend, curvature, size, ..surface(center + radius * normal, normal, normal, sphere.link) }
+    Surface {
+        shape_operator,
+        curvature,
+        size,
+        ..surface(center + radius * normal, normal, normal, sphere.link)
+    }
 }
 
 /// Barycentric weights of a point of the triangle, from the vectors to its corners.
@@ -97,8 +102,11 @@ fn triangle_surface(triangle: &Triangle, point: DVec3) -> Surface {
             // Of unit length: what is along the normal itself is lost.
             let lost = outer(normal, change.transpose() * normal);
             result.normal = normal;
-            result.bend = (change - lost) * (1.0 / blend.length());
-            result.curvature = 0.5 * (result.bend.x_axis.x + result.bend.y_axis.y + result.bend.z_axis.z);
+            result.shape_operator = (change - lost) * (1.0 / blend.length());
+            result.curvature = 0.5
+                * (result.shape_operator.x_axis.x
+                    + result.shape_operator.y_axis.y
+                    + result.shape_operator.z_axis.z);
         }
     }
     result
@@ -120,7 +128,7 @@ pub fn hit_surface(scene: &PackedScene, ray: &Ray, hit: &Hit) -> Surface {
     if surface.geometric_normal.dot(ray.direction) > 0.0 {
         surface.geometric_normal = -surface.geometric_normal;
         surface.normal = -surface.normal;
-        surface.bend = -surface.bend;
+        surface.shape_operator = -surface.shape_operator;
         surface.curvature = -surface.curvature;
         surface.inside = true;
     }

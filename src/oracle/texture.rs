@@ -5,13 +5,13 @@ use glam::DVec4;
 
 use super::address::addressed_texel;
 use super::math::vec4;
-use crate::color::srgb_to_linear;
-use crate::layout::{Sampler, Texture};
+use crate::core::color::srgb_to_linear;
 use crate::pack::{PackedScene, TextureKind};
+use crate::schema::layout::{Sampler, Texture};
 use crate::texture::data::{ColorSpace, Component, TexelFormat};
 use crate::texture::sampler_spec::Address;
 
-/// One level of a texture's pyramid.
+/// One level of a texture's mip_chain.
 #[derive(Clone, Copy, Debug)]
 pub struct Level {
     /// Of a cube: width, height, 6.

@@ -11,8 +11,8 @@ use jpeg_encoder::{ColorType, Encoder};
 
 use super::quantise::{srgb8, srgb16};
 use super::{WriteOptions, hdr, tiff};
-use crate::film::{Film, Placement};
-use crate::named::named_enum;
+use crate::core::film::{Film, Placement};
+use crate::core::named::named_enum;
 
 named_enum! {
     /// A file format; several endings may mean the same.

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use super::check_file_writable;
-use crate::error::{Error, Result};
+use crate::core::error::{Error, Result};
 
 /// Makes the folder where only its last part is missing; an error where `file` cannot be created in it.
 pub fn prepare_folder(folder: &Path, file: &str) -> Result<()> {

@@ -6,7 +6,7 @@ use std::io::{self, Write};
 use rayon::prelude::*;
 
 use super::quantise::rgbe;
-use crate::film::Film;
+use crate::core::film::Film;
 
 /// Widths whose scan lines may have runs.
 const WIDTHS_WITH_RUNS: std::ops::RangeInclusive<usize> = 8..=32_767;

@@ -11,9 +11,9 @@ mod tiff;
 use std::io::{Cursor, Write};
 use std::path::Path;
 
-use crate::error::{Error, Result};
-use crate::film::{Film, Placement};
-use crate::panics;
+use crate::core::error::{Error, Result};
+use crate::core::film::{Film, Placement};
+use crate::core::panics;
 pub use encode::Format;
 pub use folder::prepare_folder;
 use target::Target;

@@ -3,7 +3,7 @@
 
 use std::sync::OnceLock;
 
-use crate::color::{linear_to_srgb, srgb_to_linear};
+use crate::core::color::{linear_to_srgb, srgb_to_linear};
 
 /// `round(255 · srgb(clip(v)))`: counts the 255 rounding boundaries at or below `v`, which is exact
 /// and several times cheaper than a power per channel. NaN is at or above none of them: 0.

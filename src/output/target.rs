@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 
 use tempfile::NamedTempFile;
 
-use crate::error::{Error, Result};
+use crate::core::error::{Error, Result};
 
 /// Several scan lines of a common picture a system call: EXR arrives line by line.
 const BUFFER: usize = 64 << 10;

@@ -3,9 +3,9 @@
 use glam::DVec3;
 
 use super::pixel_filter::Warp;
-use super::{Crop, ProjectionKind, chances, real4, vec4};
-use crate::layout::{self, Header};
+use super::{Crop, ProjectionKind, real4, sample_dimensions, vec4};
 use crate::scene::model::{Algorithm, Footprint, Projection, Scene};
+use crate::schema::layout::{self, Header};
 use crate::texture::sampler_spec::SamplerSpec;
 
 /// Right-handed basis of the camera: right, up, forward, all of unit length.
@@ -54,7 +54,7 @@ pub(super) fn header(scene: &Scene, crop: Crop, warp: &Warp) -> Header {
         ],
         counts: [0, 0, 0, layout::NO_MATERIAL],
         chances: [0; 4],
-        lens: vec4(chances::lens(scene, pixel)),
+        lens: vec4(sample_dimensions::lens(scene, pixel)),
         view: real4((scene.camera.look_at - scene.camera.eye).extend(0.0)),
         up: real4(scene.camera.up.normalize().extend(0.0)),
         eye_motion: real4(scene.camera.motion[0].extend(0.0)),

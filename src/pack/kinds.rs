@@ -1,6 +1,6 @@
 //! Numbers by which records say what they are, in the order of the shader's constants.
 
-use crate::named::named_enum;
+use crate::core::named::named_enum;
 
 named_enum! {
     /// `PROJECTION_*` of the shader.
@@ -11,8 +11,8 @@ named_enum! {
 }
 
 named_enum! {
-    /// `CHOICE_*` of the shader: what a sample chooses beside its place in the pixel.
-    pub enum Choice {
+    /// `DIMENSION_*` of the shader: what a sample chooses beside its place in the pixel.
+    pub enum SampleDimension {
         /// A point of the lens.
         Lens = "lens",
         Time = "time",
@@ -75,8 +75,8 @@ named_enum! {
 }
 
 named_enum! {
-    /// `GUARD_*` of the shader: what is counted where it goes beyond a limit.
-    pub enum Guard {
+    /// `DIAGNOSTIC_*` of the shader: what is counted where it goes beyond a limit.
+    pub enum Diagnostic {
         /// Look-ups at coordinates that are no numbers.
         Coordinates = "coordinates",
         /// Look-ups that wanted a level beyond the texture's last.

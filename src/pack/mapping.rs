@@ -6,8 +6,8 @@
 use glam::{DMat2, DQuat, DVec2, DVec3, DVec4};
 
 use super::{EntityKind, MapKind, real4};
-use crate::layout::Map;
 use crate::scene::model::{Entity, Environment, EnvironmentLayout, Mapping, MappingKind, Space};
+use crate::schema::layout::UvProjection;
 use crate::texture::sampler_spec::{Address, SamplerSpec};
 
 /// An axis-aligned box around a shape.
@@ -51,28 +51,28 @@ pub fn whole_tiles(value: DVec2, periods: DVec2) -> DVec2 {
 }
 
 /// uv = matrix · (u, v) + offset, where u and v are the affine functions `row · (p, 1)`.
-pub fn affine_map(mapping: &Mapping, sampler: &SamplerSpec, u: DVec4, v: DVec4) -> Map {
+pub fn affine_map(mapping: &Mapping, sampler: &SamplerSpec, u: DVec4, v: DVec4) -> UvProjection {
     let m = uv_matrix(mapping);
     let mut x = m.x_axis.x * u + m.y_axis.x * v;
     let mut y = m.x_axis.y * u + m.y_axis.y * v;
     let constant = DVec2::new(x.w, y.w) + mapping.offset;
     let constant = constant - whole_tiles(constant, periods(sampler));
     (x.w, y.w) = (constant.x, constant.y);
-    Map { x: real4(x), y: real4(y), link: [MapKind::Affine as u32, 0, 0, 0], ..Default::default() }
+    UvProjection { x: real4(x), y: real4(y), link: [MapKind::Affine as u32, 0, 0, 0], ..Default::default() }
 }
 
 /// `surface` on a plane: uv = matrix · (own + at_eye) + offset, where the plane's own coordinates are
 /// counted from the eye's place `at_eye` on it.
-pub fn plane_map(mapping: &Mapping, sampler: &SamplerSpec, at_eye: DVec2) -> Map {
+pub fn plane_map(mapping: &Mapping, sampler: &SamplerSpec, at_eye: DVec2) -> UvProjection {
     let constant = uv_matrix(mapping) * at_eye + mapping.offset;
     let constant = constant - whole_tiles(constant, periods(sampler));
-    Map { offset: real4(constant.extend(0.0).extend(0.0)), ..matrix_map(mapping, MapKind::Plane) }
+    UvProjection { offset: real4(constant.extend(0.0).extend(0.0)), ..matrix_map(mapping, MapKind::Plane) }
 }
 
 /// A map whose matrix is the mapping's scale and rotation.
-fn matrix_map(mapping: &Mapping, kind: MapKind) -> Map {
+fn matrix_map(mapping: &Mapping, kind: MapKind) -> UvProjection {
     let m = uv_matrix(mapping);
-    Map {
+    UvProjection {
         matrix: real4(DVec4::new(m.x_axis.x, m.y_axis.x, m.x_axis.y, m.y_axis.y)),
         link: [kind as u32, 0, 0, 0],
         ..Default::default()
@@ -87,7 +87,7 @@ pub fn projecting_map(
     eye: DVec3,
     place: &Place,
     flat: bool,
-) -> Map {
+) -> UvProjection {
     let [x, y, z] = frame_rows(mapping, eye, place);
     let map = match mapping.kind {
         MappingKind::Planar => affine_map(mapping, sampler, x, y),
@@ -99,7 +99,7 @@ pub fn projecting_map(
         MappingKind::Cube if flat => angular_map(mapping, sampler, MapKind::Box, [x, y, z]),
         MappingKind::Cube => {
             let rows = turned_about_axis(mapping, [x, y, z]);
-            Map { x: real4(rows[0]), y: real4(rows[1]), z: real4(rows[2]), ..of_kind(MapKind::Cube) }
+            UvProjection { x: real4(rows[0]), y: real4(rows[1]), z: real4(rows[2]), ..of_kind(MapKind::Cube) }
         }
         MappingKind::Solid => solid_map(mapping, sampler, [x, y, z]),
     };
@@ -108,11 +108,11 @@ pub fn projecting_map(
         Entity::Normal => EntityKind::Normal,
         Entity::Reflection => EntityKind::Reflection,
     };
-    Map { link: [map.link[0], entity as u32, 0, 0], ..map }
+    UvProjection { link: [map.link[0], entity as u32, 0, 0], ..map }
 }
 
 /// The map of an environment: `spherical` with the equator's angle as u, or the direction for a cube.
-pub fn environment_map(environment: &Environment) -> Map {
+pub fn environment_map(environment: &Environment) -> UvProjection {
     let turn = DQuat::from_rotation_y(environment.rotate.to_radians());
     let (axes, kind, matrix) = match environment.layout {
         // The angle grows from +z towards -x, so that -z is in the middle and +x to its right.
@@ -124,16 +124,28 @@ pub fn environment_map(environment: &Environment) -> Map {
     // A direction is read where the mirrored picture has it: at its own mirror image.
     let across = DVec3::new(if environment.mirror { -1.0 } else { 1.0 }, 1.0, 1.0);
     let [x, y, z] = axes.map(|axis| real4((turn * (across * axis)).extend(0.0)));
-    Map { x, y, z, matrix, link: [kind as u32, EntityKind::Direction as u32, 0, 0], ..Default::default() }
+    UvProjection {
+        x,
+        y,
+        z,
+        matrix,
+        link: [kind as u32, EntityKind::Direction as u32, 0, 0],
+        ..Default::default()
+    }
 }
 
-fn of_kind(kind: MapKind) -> Map {
-    Map { link: [kind as u32, 0, 0, 0], ..Default::default() }
+fn of_kind(kind: MapKind) -> UvProjection {
+    UvProjection { link: [kind as u32, 0, 0, 0], ..Default::default() }
 }
 
-fn angular_map(mapping: &Mapping, sampler: &SamplerSpec, kind: MapKind, [x, y, z]: [DVec4; 3]) -> Map {
+fn angular_map(
+    mapping: &Mapping,
+    sampler: &SamplerSpec,
+    kind: MapKind,
+    [x, y, z]: [DVec4; 3],
+) -> UvProjection {
     let offset = mapping.offset - whole_tiles(mapping.offset, periods(sampler));
-    Map {
+    UvProjection {
         x: real4(x),
         y: real4(y),
         z: real4(z),
@@ -143,7 +155,7 @@ fn angular_map(mapping: &Mapping, sampler: &SamplerSpec, kind: MapKind, [x, y, z
 }
 
 /// Scale, rotation about the frame's axis, offset, without whole tiles.
-fn solid_map(mapping: &Mapping, sampler: &SamplerSpec, rows: [DVec4; 3]) -> Map {
+fn solid_map(mapping: &Mapping, sampler: &SamplerSpec, rows: [DVec4; 3]) -> UvProjection {
     let scale = mapping.scale.extend(mapping.scale_w).to_array();
     let offset = mapping.offset.extend(mapping.offset_w).to_array();
     let mut rows = turned_about_axis(mapping, rows);
@@ -155,7 +167,7 @@ fn solid_map(mapping: &Mapping, sampler: &SamplerSpec, rows: [DVec4; 3]) -> Map 
             row.w -= (row.w / period[i]).floor() * period[i];
         }
     }
-    Map { x: real4(rows[0]), y: real4(rows[1]), z: real4(rows[2]), ..of_kind(MapKind::Solid) }
+    UvProjection { x: real4(rows[0]), y: real4(rows[1]), z: real4(rows[2]), ..of_kind(MapKind::Solid) }
 }
 
 /// Frame coordinates after a turn by `rotate` about the frame's y, from z towards x.

@@ -3,43 +3,46 @@
 //! the device sees is small and near wherever the scene lies in the world.
 
 mod bright;
-mod chances;
+pub mod features;
 mod header;
 mod kinds;
 mod mapping;
+mod mip_chain;
 mod nonfinite;
 mod pixel_filter;
 mod precision;
 mod procedural;
-mod pyramids;
 mod resample;
+mod sample_dimensions;
 mod sections;
 mod shapes;
-mod survey;
 mod textures;
+mod tile_culling;
 
 use std::sync::Arc;
 
 use glam::{DVec3, DVec4};
 
-use crate::error::Result;
-use crate::layout::{self, CHUNK, Header};
+use crate::core::error::Result;
 use crate::scene::cone;
 use crate::scene::model::{
     Algorithm, Environment, EnvironmentLayout, Footprint, Material, Model, PixelFilter, Precision, Scene,
 };
+use crate::schema::layout::{self, CHUNK, Header};
 use crate::texture::data::TextureData;
 use crate::texture::sampler_spec::{Address, Method, SamplerSpec};
 use pixel_filter::Warp;
 
 pub use header::camera_basis;
 use header::header;
-pub use kinds::{Choice, EntityKind, Guard, LightKind, MapKind, ProjectionKind, Schedule, TextureKind};
+pub use kinds::{
+    Diagnostic, EntityKind, LightKind, MapKind, ProjectionKind, SampleDimension, Schedule, TextureKind,
+};
+pub use mip_chain::{MipPlacement, reads_levels};
 pub use pixel_filter::{filtered_mean, kernel};
 pub use procedural::procedural;
-pub use pyramids::{Pyramids, reads_levels};
 pub use sections::Sections;
-pub use textures::{MAX_SLOTS, Slot, row_sum_words, row_sums};
+pub use textures::{MAX_SLOTS, Slot, prefix_sum_words, prefix_sums};
 
 /// A part of the picture, in pixels of the full picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -59,7 +62,7 @@ pub struct PackedScene {
     pub triangles: Vec<layout::Triangle>,
     pub lights: Vec<layout::Light>,
     pub materials: Vec<layout::Material>,
-    pub maps: Vec<layout::Map>,
+    pub maps: Vec<layout::UvProjection>,
     pub textures: Vec<layout::Texture>,
     pub samplers: Vec<layout::Sampler>,
     pub procedurals: Vec<layout::Procedural>,
@@ -98,7 +101,7 @@ pub struct PackedScene {
     /// One beam a pixel, and samples where that cannot tell.
     pub beams: bool,
     /// For beams: where each texture's sums along rows begin, 0 for none; then those.
-    pub row_sums: Vec<u32>,
+    pub prefix_sums: Vec<u32>,
     /// What those sums are made from, where beams may still be wanted.
     pub beam_textures: Option<Arc<Vec<TextureData>>>,
     /// Whether a device counts what goes beyond a limit.
@@ -126,7 +129,7 @@ pub struct SlotCounts {
 
 /// Packs what the scene shows; textures and samplers that no shape reaches are not in `scene`.
 pub fn pack(scene: &Scene, textures: Vec<TextureData>, crop: Option<Crop>) -> Result<PackedScene> {
-    pack_with(scene, textures, crop, Pyramids::Host)
+    pack_with(scene, textures, crop, MipPlacement::Host)
 }
 
 /// The same, with some levels of textures left to the device.
@@ -134,9 +137,9 @@ pub fn pack_with(
     scene: &Scene,
     textures: Vec<TextureData>,
     crop: Option<Crop>,
-    pyramids: Pyramids,
+    mip_chains: MipPlacement,
 ) -> Result<PackedScene> {
-    let settled = (scene.sampling.algorithm == Algorithm::Cone).then(|| cone::settle(scene));
+    let settled = (scene.sampling.algorithm == Algorithm::Cone).then(|| cone::freeze_time(scene));
     let scene = settled.as_ref().unwrap_or(scene);
     let crop = crop.unwrap_or(Crop { x: 0, y: 0, width: scene.width, height: scene.height });
     let samples = scene.sampling.samples();
@@ -151,7 +154,7 @@ pub fn pack_with(
         (_, Precision::Auto) => need.outlines || need.texels,
     };
     // Beams are of f32 always.
-    let suits_beams = scene.suits_beams() && !(need.outlines && packed.double);
+    let supports_beams = scene.supports_beams() && !(need.outlines && packed.double);
     // A cone stands for its pixel's own square.
     let filter = if algorithm == Algorithm::Cone { PixelFilter::default() } else { scene.pixel_filter };
     let warp = Warp::new(filter);
@@ -159,23 +162,23 @@ pub fn pack_with(
     (packed.pixel_filter, packed.mean_sign) = (warp.table, warp.mean_sign);
     let filtered = packed.prefilters();
     packed.sampler_specs = scene.samplers.clone();
-    packed.beams = scene.sampling.algorithm == Algorithm::Beam && suits_beams;
+    packed.beams = scene.sampling.algorithm == Algorithm::Beam && supports_beams;
     nonfinite::admit(&mut packed, scene, &textures)?;
     if schedule == Schedule::Jobs {
         packed.bright_share = bright::share(scene, &textures);
     }
     if packed.beams {
-        packed.row_sums = textures::row_sums(&textures);
+        packed.prefix_sums = textures::prefix_sums(&textures);
     } else if algorithm == Algorithm::Auto
-        && suits_beams
+        && supports_beams
         && !packed.has_nonfinite()
         // No buffer is longer.
-        && row_sum_words(&textures) <= i32::MAX as u64
+        && prefix_sum_words(&textures) <= i32::MAX as u64
     {
         packed.beam_textures = Some(Arc::new(textures.clone()));
     }
     packed.samplers = scene.samplers.iter().map(|spec| textures::sampler(spec, filtered)).collect();
-    textures::pack_textures(&mut packed, scene, textures, pyramids)?;
+    textures::pack_textures(&mut packed, scene, textures, mip_chains)?;
     for source in &scene.materials {
         let material = material(&mut packed, source);
         packed.materials.push(material);
@@ -190,8 +193,9 @@ pub fn pack_with(
         packed.motions = scene.motions().map(|m| layout::Motion { shift: real4(m.extend(0.0)) }).collect();
     }
     let moves = u32::from(scene.camera.moves());
-    let side = survey::cell_side(scene, [crop.width, crop.height]);
-    packed.header.chances = [chances::chances(scene), packed.motions.len() as u32, moves, side];
+    let side = tile_culling::cell_side(scene, [crop.width, crop.height]);
+    packed.header.chances =
+        [sample_dimensions::sample_dimensions(scene), packed.motions.len() as u32, moves, side];
     let counts = [packed.planes.len(), packed.spheres.len(), packed.triangles.len()].map(|n| n as u32);
     packed.header.counts[..3].copy_from_slice(&counts);
     if !packed.double {
@@ -213,21 +217,19 @@ fn material(packed: &mut PackedScene, source: &Material) -> layout::Material {
         None => 0,
     };
     let index = |texture: Option<usize>| texture.map_or(layout::NO_TEXTURE, |t| t as u32);
-    let relief = source.relief;
-    let relief_texture = relief.map(|r| r.texture);
-    let specular = match source.model {
-        Model::Mirror | Model::Dielectric => DVec3::new(source.roughness.powi(2), 0.0, 0.0),
-        _ => source.specular,
-    };
-    let fourth = if source.model == Model::Dielectric { source.ior } else { source.exponent };
+    let bump = source.bump;
+    let bump_texture = bump.map(|r| r.texture);
+    let facets = DVec3::new(source.roughness.powi(2), 0.0, 0.0);
+    let specular = if source.model.is_specular() { facets } else { source.specular };
+    let fourth = if source.model.transmits() { source.ior } else { source.exponent };
     layout::Material {
-        color: vec4(source.color.extend(relief.map_or(0.0, |r| r.strength))),
+        color: vec4(source.color.extend(bump.map_or(0.0, |r| r.strength))),
         link: [source.model as u32, index(source.texture), source.sampler as u32, slot(source.texture)],
         detail: [
-            index(relief_texture),
+            index(bump_texture),
             source.sampler as u32,
-            slot(relief_texture),
-            relief.map_or(0, |r| r.kind as u32),
+            slot(bump_texture),
+            bump.map_or(0, |r| r.kind as u32),
         ],
         specular: vec4(specular.extend(fourth)),
     }
@@ -253,7 +255,7 @@ fn pack_environment(packed: &mut PackedScene, scene: &Scene, environment: &Envir
     packed.maps.push(mapping::environment_map(environment));
     packed.materials.push(layout::Material {
         color: vec4(scene.background.color.extend(0.0)),
-        link: [Model::Unlit as u32, environment.texture as u32, sampler as u32, slot],
+        link: [Model::PLAIN as u32, environment.texture as u32, sampler as u32, slot],
         detail: [layout::NO_TEXTURE, 0, 0, 0],
         specular: [0.0; 4],
     });
@@ -266,7 +268,7 @@ impl PackedScene {
     }
 
     /// Whether camera rays find their triangles in lists.
-    pub fn surveyed(&self) -> bool {
+    pub fn culls_tiles(&self) -> bool {
         self.header.chances[3] != 0 && self.algorithm != Algorithm::Cone && !self.beams
     }
 

@@ -3,8 +3,8 @@
 
 use super::textures::{readers, reads};
 use super::{PackedScene, TextureKind, textures};
-use crate::counted::{counted, verb};
-use crate::error::{Error, Result};
+use crate::core::counted::{counted, verb};
+use crate::core::error::{Error, Result};
 use crate::scene::model::Scene;
 use crate::texture::data::{MipKernel, TextureData};
 use crate::texture::sampler_spec::{Filter, Method, SamplerSpec};

@@ -10,8 +10,8 @@
 
 use std::f64::consts::PI;
 
-use crate::layout::PIXEL_FILTER_CELLS;
 use crate::scene::model::{PixelFilter, PixelFilterKind};
+use crate::schema::layout::PIXEL_FILTER_CELLS;
 
 /// Steps of the integrals from the middle to the radius.
 const STEPS: usize = 1 << 14;

@@ -7,8 +7,8 @@ use glam::{DVec2, DVec3};
 use super::header::{camera_basis, half_height};
 use super::mapping::uv_matrix;
 use super::{PackedScene, shapes};
-use crate::layout::{self, Record};
 use crate::scene::model::{Entity, Mapping, MappingKind, Material, Plane, Scene, Sphere, Triangle};
+use crate::schema::layout::{self, Record};
 
 /// Unit roundoff of f32.
 const U: f64 = 1.0 / 16_777_216.0;
@@ -23,7 +23,7 @@ const PART_OF_PIXEL: f64 = 1.0 / 32.0;
 /// An edge of a triangle by this one.
 const PART_FOR_EDGES: f64 = 0.25;
 /// Triangles smaller than this part of a pixel have no outline that could be seen.
-const LEAST_PART: f64 = 0.25;
+const MIN_PART: f64 = 0.25;
 /// A look-up may be off by this part of a texel ...
 const PART_OF_TEXEL: f64 = 1.0 / 256.0;
 /// ... but in this part of the picture: towards a horizon texels are far smaller than pixels.
@@ -132,7 +132,7 @@ pub fn need(scene: &Scene, sizes: &[[u32; 3]]) -> Need {
 
 /// Of the finest texture that the material reads.
 fn texels_per_tile(scene: &Scene, sizes: &[[u32; 3]], material: &Material) -> Option<f64> {
-    let textures = [material.texture, material.relief.map(|r| r.texture)];
+    let textures = [material.texture, material.bump.map(|r| r.texture)];
     let texels = |texture: usize| {
         let procedural = scene.textures[texture].content.procedural().is_some();
         if procedural { PROCEDURAL_TEXELS } else { f64::from(sizes[texture].into_iter().max().unwrap_or(1)) }
@@ -164,7 +164,7 @@ fn misses_triangle(camera: &Camera, triangle: &Triangle) -> bool {
         (seen / reach / camera.pixel, error / camera.pixel)
     });
     let size = edges.iter().map(|e| e.0).fold(0.0, f64::max);
-    size > LEAST_PART && edges.iter().any(|e| e.1 > PART_FOR_EDGES)
+    size > MIN_PART && edges.iter().any(|e| e.1 > PART_FOR_EDGES)
 }
 
 /// Error of a plane's texture coordinate where the ray meets it, in tiles.
@@ -299,9 +299,9 @@ impl PackedScene {
     /// The numbers that a device reads as f32.
     pub fn round_reals(&mut self) {
         fn round<R: Record>(list: &mut [R]) {
-            list.iter_mut().for_each(|record| *record = record.rounded());
+            list.iter_mut().for_each(|record| *record = record.quantize_f32());
         }
-        self.header = self.header.rounded();
+        self.header = self.header.quantize_f32();
         for plane in &mut self.planes {
             let extent = plane.half_extent();
             plane.link[2..].copy_from_slice(&layout::Plane::extent_words(extent, false));

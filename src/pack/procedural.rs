@@ -1,7 +1,7 @@
 //! Procedural textures → records of the scene buffer, with what is the same for every look-up
 //! worked out: the norm of a sum of octaves.
 
-use crate::layout;
+use crate::schema::layout;
 use crate::texture::procedural::Procedural;
 
 pub fn procedural(texture: &Procedural) -> layout::Procedural {

@@ -1,7 +1,7 @@
 //! Lists of a packed scene → the bytes of its scene buffer, and where each list begins.
 
 use super::PackedScene;
-use crate::layout::{self, Header, bytes_of};
+use crate::schema::layout::{self, Header, bytes_of};
 
 /// Room in which short lists end.
 const LIST_BYTES: usize = 64 * 16;

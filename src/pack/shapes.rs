@@ -4,11 +4,11 @@ use glam::{DVec2, DVec3, DVec4};
 
 use super::mapping::{self, Bounds, Place};
 use super::{LightKind, MapKind, PackedScene, TextureKind, real4, vec4};
-use crate::error::{Error, Result};
-use crate::layout;
+use crate::core::error::{Error, Result};
 use crate::scene::model::{
     Entity, Light, Mapping, MappingKind, Material, Plane, Scene, Space, Sphere, Triangle,
 };
+use crate::schema::layout;
 use crate::texture::sampler_spec::SamplerSpec;
 
 pub fn pack_shapes(packed: &mut PackedScene, scene: &Scene) -> Result<()> {
@@ -112,7 +112,7 @@ fn pack_triangle(
     };
     let map = add_map(packed, scene, triangle.material, |mapping, sampler, flat| match mapping.kind {
         MappingKind::Surface => {
-            layout::Map { link: [MapKind::VertexUv as u32, 0, 0, 0], ..Default::default() }
+            layout::UvProjection { link: [MapKind::VertexUv as u32, 0, 0, 0], ..Default::default() }
         }
         _ => mapping::projecting_map(mapping, sampler, eye, &place, flat),
     });
@@ -144,10 +144,10 @@ fn add_map(
     packed: &mut PackedScene,
     scene: &Scene,
     material: usize,
-    make: impl Fn(&Mapping, &SamplerSpec, bool) -> layout::Map,
+    make: impl Fn(&Mapping, &SamplerSpec, bool) -> layout::UvProjection,
 ) -> u32 {
     let material = &scene.materials[material];
-    let Some(texture) = material.texture.or(material.relief.map(|r| r.texture)) else { return 0 };
+    let Some(texture) = material.texture.or(material.bump.map(|r| r.texture)) else { return 0 };
     let kind = TextureKind::ALL[packed.textures[texture].link[3] as usize];
     let flat = matches!(kind, TextureKind::Flat | TextureKind::Procedural);
     packed.maps.push(make(&material.mapping, &scene.sampler_of(material), flat));

@@ -1,15 +1,15 @@
 //! Textures and samplers → texel bytes, records and image slots.
 
-use crate::color::srgb_table;
-use crate::counted::counted;
-use crate::error::{Error, Result};
-use crate::layout::{self, Texture};
+use crate::core::color::srgb_table;
+use crate::core::counted::counted;
+use crate::core::error::{Error, Result};
 use crate::scene::model::{Footprint, Scene};
+use crate::schema::layout::{self, Texture};
 use crate::texture::data::{ColorSpace, Component, Dimension, MipKernel, TexelFormat, TextureData};
 use crate::texture::sampler_spec::{Filter, Method, MipMode, SamplerSpec};
-use crate::texture::{mips, row_sums, summed};
+use crate::texture::{mips, prefix_sums, summed};
 
-use super::{PackedScene, Pyramids, TextureKind};
+use super::{MipPlacement, PackedScene, TextureKind};
 
 /// One image descriptor: a texture and the sampler it is read through. Look-ups of method shader
 /// fetch texels and ignore the sampler, so all of them share one slot a texture.
@@ -41,7 +41,7 @@ pub fn pack_textures(
     packed: &mut PackedScene,
     scene: &Scene,
     textures: Vec<TextureData>,
-    pyramids: Pyramids,
+    mip_chains: MipPlacement,
 ) -> Result<()> {
     let mut order: Vec<usize> = (0..textures.len()).collect();
     let tables = |i: usize, packed: &PackedScene| {
@@ -72,11 +72,11 @@ pub fn pack_textures(
             Vec::new()
         } else if packed.nonfinite_texels[index] > 0 {
             mips::pyramid_of_finite(&texture)
-        } else if pyramids.leaves(&texture, kernel) {
+        } else if mip_chains.leaves(&texture, kernel) {
             packed.device_levels.push(index);
             mips::blank(&texture)
         } else {
-            mips::pyramid(&texture, kernel)
+            mips::mip_chain(&texture, kernel)
         };
         let link = [texture.color_space as u32, 1 + levels.len() as u32, texture.depth, kind as u32];
         let [width, height, format] = [texture.width, texture.height, texture.format as u32];
@@ -99,21 +99,21 @@ pub fn kind(texture: &TextureData) -> TextureKind {
 }
 
 /// For each texture where its sums along rows begin, 0 for one that is not flat; then those sums.
-pub fn row_sums(textures: &[TextureData]) -> Vec<u32> {
+pub fn prefix_sums(textures: &[TextureData]) -> Vec<u32> {
     // One word more than needed: no table begins at 0, and a buffer holds something.
     let mut words = vec![0; textures.len() + 1];
     for (i, texture) in textures.iter().enumerate().filter(|(_, t)| t.dimension == Dimension::Two) {
         words[i] = words.len() as u32;
-        let table = row_sums::table(texture, words.len());
+        let table = prefix_sums::table(texture, words.len());
         words.extend(table);
     }
     words
 }
 
 /// Words of all of those.
-pub fn row_sum_words(textures: &[TextureData]) -> u64 {
+pub fn prefix_sum_words(textures: &[TextureData]) -> u64 {
     let flat = textures.iter().filter(|t| t.dimension == Dimension::Two);
-    textures.len() as u64 + 1 + flat.map(row_sums::words).sum::<u64>()
+    textures.len() as u64 + 1 + flat.map(prefix_sums::words).sum::<u64>()
 }
 
 /// Whether some sampler that minifies this texture is such.
@@ -129,8 +129,8 @@ pub(super) fn reads(
 /// The samplers that this texture is read through.
 pub(super) fn readers(scene: &Scene, texture: usize) -> impl Iterator<Item = &SamplerSpec> {
     let materials = scene.materials.iter();
-    let read = materials
-        .filter(move |m| m.texture == Some(texture) || m.relief.is_some_and(|r| r.texture == texture));
+    let read =
+        materials.filter(move |m| m.texture == Some(texture) || m.bump.is_some_and(|r| r.texture == texture));
     let environment = scene.background.environment.filter(|e| e.texture == texture).map(|e| e.sampler);
     read.map(|m| m.sampler).chain(environment).map(|sampler| &scene.samplers[sampler])
 }

@@ -9,13 +9,13 @@ use super::film_buffer::FilmBuffer;
 use super::jobs::{Binder, JobTracer};
 use super::{Renderer, Report, Resources, slices};
 use crate::adaptive::{Sums, Tracer, Trial};
-use crate::error::{Error, Result};
-use crate::film::Film;
+use crate::core::error::{Error, Result};
+use crate::core::film::Film;
+use crate::core::progress::Progress;
+use crate::gpu::shaders::Shader;
 use crate::gpu::{Gpu, Pipeline};
-use crate::layout::Job;
 use crate::pack::PackedScene;
-use crate::progress::Progress;
-use crate::shaders::Shader;
+use crate::schema::layout::Job;
 
 /// A beam takes as long as many samples.
 const FIRST_TILES: f64 = 2.0;

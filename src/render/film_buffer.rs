@@ -2,12 +2,12 @@
 //! filter that has negative lobes. A picture larger than the device's buffers is rendered in bands of whole tile rows, one buffer
 //! serving all; each band is read back into the host's film as means.
 
-use crate::error::{Error, Result};
-use crate::features::Features;
-use crate::film::Film;
+use crate::core::error::{Error, Result};
+use crate::core::film::Film;
 use crate::gpu::{Buffer, BufferUse, DeviceKind, Gpu};
-use crate::layout::{Slice, TILE};
+use crate::pack::features::Features;
 use crate::pack::{PackedScene, filtered_mean};
+use crate::schema::layout::{Slice, TILE};
 
 use super::slices::tile_stride;
 

@@ -3,8 +3,8 @@
 
 use std::borrow::Cow;
 
-use super::pyramids::{Maker, Top, sizes};
-use crate::error::{Error, Result};
+use super::mip_chain::{MipGenerator, MipSource, sizes};
+use crate::core::error::{Error, Result};
 use crate::gpu::{Gpu, Image, ImageDesc, ImageFormat, ImageShape, Sampler, Swizzle};
 use crate::pack::{MAX_SLOTS, PackedScene, Slot, TextureKind};
 use crate::texture::data::{ColorSpace, TexelFormat};
@@ -14,12 +14,12 @@ use crate::texture::sampler_spec::{Address, Filter, SamplerSpec};
 pub struct Uploads<'a> {
     gpu: &'a Gpu,
     packed: &'a PackedScene,
-    maker: Maker<'a>,
+    maker: MipGenerator<'a>,
     images: Vec<((usize, Form), Image)>,
 }
 
 impl<'a> Uploads<'a> {
-    pub fn new(gpu: &'a Gpu, packed: &'a PackedScene, maker: Maker<'a>) -> Uploads<'a> {
+    pub fn new(gpu: &'a Gpu, packed: &'a PackedScene, maker: MipGenerator<'a>) -> Uploads<'a> {
         Uploads { gpu, packed, maker, images: Vec::new() }
     }
 
@@ -141,7 +141,7 @@ pub fn can_sample(gpu: &Gpu, spec: &SamplerSpec, format: TexelFormat, space: Col
 fn upload_image(
     gpu: &Gpu,
     packed: &PackedScene,
-    maker: &mut Maker<'_>,
+    maker: &mut MipGenerator<'_>,
     index: usize,
     form: Form,
 ) -> Result<Image> {
@@ -187,9 +187,9 @@ fn upload_image(
         return gpu.image(&desc);
     }
     let space = ColorSpace::ALL[record.link[0] as usize];
-    let top = Top { name, format, space, sizes: &sizes(packed, index), texels: levels[0] };
-    let pyramid = maker.make(&top)?;
-    gpu.image_from(&desc, &pyramid.buffer, &pyramid.starts)
+    let top = MipSource { name, format, space, sizes: &sizes(packed, index), texels: levels[0] };
+    let mip_chain = maker.make(&top)?;
+    gpu.image_from(&desc, &mip_chain.buffer, &mip_chain.starts)
 }
 
 /// The texels of a grey format with four channels.

@@ -7,12 +7,12 @@ use super::beams::Teller;
 use super::slices::{FIRST_SAMPLES, MAX_TILES, next_work};
 use super::{Report, Resources, Session};
 use crate::adaptive::{Sums, Tracer, Trial};
-use crate::error::{Error, Result};
+use crate::core::error::{Error, Result};
+use crate::core::progress::Progress;
+use crate::gpu::shaders::Shader;
 use crate::gpu::{BindGroup, Buffer, BufferUse, Gpu, Pipeline};
-use crate::layout::{Job, Slice, TILE};
 use crate::pack::{PackedScene, Schedule, filtered_mean};
-use crate::progress::Progress;
-use crate::shaders::Shader;
+use crate::schema::layout::{Job, Slice, TILE};
 
 /// Four floats, of each half.
 const PIXEL_BYTES: u64 = 32;

@@ -2,34 +2,35 @@
 //! slices, film read back. Orchestrates `gpu`'s own types and knows nothing of Vulkan's.
 
 mod beams;
+mod diagnostics;
 mod film_buffer;
-mod guards;
 mod images;
 mod jobs;
-mod pool;
-mod pyramids;
+mod loop_budget;
+mod mip_chain;
 mod resources;
 mod session;
 mod slices;
-mod survey;
+pub mod specialization;
+mod texel_buffer;
+mod tile_culling;
 mod tuning;
-mod turns;
 
 use serde::Serialize;
 
 use crate::adaptive::{Goal, Outcome};
-use crate::error::{Error, Result};
-use crate::film::Film;
+use crate::core::error::{Error, Result};
+use crate::core::film::Film;
+use crate::core::progress::Progress;
+use crate::gpu::shaders::{ReflectedBinding, Shader, specialise};
 use crate::gpu::{BindGroup, BindingDesc, BindingKind, Gpu, Pipeline, PipelineDesc, RunTime};
-use crate::layout::Slice;
 use crate::pack::{PackedScene, SlotCounts};
-use crate::progress::Progress;
-use crate::shaders::{ReflectedBinding, Shader, specialise};
+use crate::schema::layout::Slice;
 
 use film_buffer::{Band, FilmBuffer};
 
 pub use images::can_sample;
-pub(crate) use pyramids::{Maker, Top};
+pub(crate) use mip_chain::{MipGenerator, MipSource};
 pub(crate) use resources::Resources;
 pub use session::{Prepared, Session};
 pub use tuning::{MipChoice, TexelChoice, Tuning};
@@ -67,7 +68,7 @@ pub struct Report {
     /// Geometry was of f64.
     pub double: bool,
     /// How often what went beyond a limit, where that is counted.
-    pub guards: Option<guards::Counts>,
+    pub guards: Option<diagnostics::Counts>,
     /// Device timestamps around the slices, summed.
     pub device_render_seconds: f64,
     /// The same around the passes that make levels of textures, if there were any.

@@ -3,17 +3,17 @@
 
 use std::cell::OnceCell;
 
-use super::guards::Guards;
+use super::diagnostics::Guards;
 use super::images::Uploads;
-use super::pool::{self, Pool};
-use super::pyramids::Maker;
-use crate::error::Result;
-use crate::features::{Features, TexelSource};
+use super::mip_chain::MipGenerator;
+use super::texel_buffer::{self, TexelBuffer};
+use crate::core::error::Result;
+use crate::gpu::shaders::{self, ReflectedBinding, Shader};
 use crate::gpu::{BindGroup, BindingKind, Bound, Buffer, BufferUse, Gpu, Image, Pipeline, Sampler};
-use crate::layout::{HEAD_BYTES, Header};
+use crate::pack::features::{Features, TexelSource};
 use crate::pack::{PackedScene, Sections, SlotCounts, TextureKind};
 use crate::scene::model::Algorithm;
-use crate::shaders::{self, ReflectedBinding, Shader};
+use crate::schema::layout::{HEAD_BYTES, Header};
 
 /// The shader of an algorithm, by where its texels come from and the numbers of its geometry.
 pub fn shader_for(algorithm: Algorithm, features: &Features) -> &'static Shader {
@@ -50,11 +50,11 @@ pub const TEXELS: u32 = 6;
 pub const VOLUMES: u32 = 7;
 pub const CUBES: u32 = 8;
 /// Binding of the sums along rows of textures.
-const ROW_SUMS: u32 = 9;
+const PREFIX_SUMS: u32 = 9;
 /// Binding of the survey's lists.
 const SURVEY: u32 = 10;
 /// Binding of the counters of what goes beyond a limit.
-const GUARDS: u32 = 11;
+const DIAGNOSTICS: u32 = 11;
 
 pub struct Resources {
     pub sections: Sections,
@@ -64,9 +64,9 @@ pub struct Resources {
     scene: Buffer,
     /// Light of sRGB codes.
     srgb: Buffer,
-    texels: Option<Pool>,
+    texels: Option<TexelBuffer>,
     /// Once beams are wanted.
-    row_sums: OnceCell<Buffer>,
+    prefix_sums: OnceCell<Buffer>,
     /// Once there are any lists of triangles.
     pub survey: OnceCell<Buffer>,
     /// Where the pipelines count.
@@ -91,22 +91,23 @@ impl Resources {
         let srgb = if srgb.is_empty() { &[0.0] } else { srgb.as_slice() };
         let srgb =
             gpu.upload_buffer("light of sRGB codes", BufferUse::TexelUint, bytemuck::cast_slice(srgb))?;
-        let mut maker = Maker::new(gpu);
+        let mut maker = MipGenerator::new(gpu);
         let pooled = match features.source {
             TexelSource::Buffer => Some(packed.texels.len()),
             TexelSource::Solids => Some(packed.solid_bytes),
             TexelSource::None | TexelSource::Image => None,
         };
-        let upload = |bytes| Pool::upload(gpu, packed, bytes, most_words, &mut maker);
+        let upload = |bytes| TexelBuffer::upload(gpu, packed, bytes, most_words, &mut maker);
         let texels = pooled.map(upload).transpose()?;
         let mut slots = packed.slot_counts();
-        if let Some(pool) = &texels {
-            (slots.texel_blocks, slots.block_log2) = (pool.blocks.len() as u32, pool.block_log2);
+        if let Some(texel_buffer) = &texels {
+            (slots.texel_blocks, slots.block_log2) =
+                (texel_buffer.blocks.len() as u32, texel_buffer.block_log2);
         }
-        let row_sums = OnceCell::new();
+        let prefix_sums = OnceCell::new();
         if packed.beams {
             // Never set twice: it is empty.
-            let _ = row_sums.set(pool::upload_row_sums(gpu, packed, &packed.row_sums)?);
+            let _ = prefix_sums.set(texel_buffer::upload_row_sums(gpu, packed, &packed.prefix_sums)?);
         }
         let mut uploads = Uploads::new(gpu, packed, maker);
         let [mut images, mut volumes, mut cubes] = [const { Vec::new() }; 3];
@@ -124,9 +125,9 @@ impl Resources {
             scene,
             srgb,
             texels,
-            row_sums,
+            prefix_sums,
             survey: OnceCell::new(),
-            guards: features.has("GUARDED").then(|| Guards::new(gpu)).transpose()?,
+            guards: features.has("DIAGNOSED").then(|| Guards::new(gpu)).transpose()?,
             images,
             volumes,
             cubes,
@@ -140,9 +141,9 @@ impl Resources {
         packed: &PackedScene,
         make: impl FnOnce() -> Vec<u32>,
     ) -> Result<()> {
-        if self.row_sums.get().is_none() {
+        if self.prefix_sums.get().is_none() {
             // Never set twice: it was empty just now.
-            let _ = self.row_sums.set(pool::upload_row_sums(gpu, packed, &make())?);
+            let _ = self.prefix_sums.set(texel_buffer::upload_row_sums(gpu, packed, &make())?);
         }
         Ok(())
     }
@@ -170,14 +171,14 @@ impl Resources {
                 (BindingKind::StorageBuffer, SURVEY) => {
                     Bound::Buffer(self.survey.get().unwrap_or(&self.scene))
                 }
-                (BindingKind::StorageBuffer, GUARDS) => {
+                (BindingKind::StorageBuffer, DIAGNOSTICS) => {
                     Bound::Buffer(self.guards.as_ref().map_or(&self.scene, |guards| &guards.buffer))
                 }
                 (BindingKind::StorageBuffer, _) => Bound::Buffer(&self.scene),
                 (BindingKind::UniformBuffer, _) => Bound::Head(&self.scene, HEAD_BYTES as u64),
                 (BindingKind::TexelBuffer, SRGB) => Bound::Texels(std::slice::from_ref(&self.srgb)),
-                (BindingKind::TexelBuffer, ROW_SUMS) => {
-                    Bound::Texels(std::slice::from_ref(self.row_sums.get()?))
+                (BindingKind::TexelBuffer, PREFIX_SUMS) => {
+                    Bound::Texels(std::slice::from_ref(self.prefix_sums.get()?))
                 }
                 (BindingKind::TexelBuffer, _) => Bound::Texels(&self.texels.as_ref()?.blocks),
                 (BindingKind::SampledImage, VOLUMES) => Bound::Images(&volumes),

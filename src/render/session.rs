@@ -7,24 +7,24 @@ use std::rc::Rc;
 use std::time::Instant;
 
 use crate::adaptive::{self, Goal};
-use crate::error::{Error, Result};
-use crate::features::{self, Features};
-use crate::film::Film;
+use crate::core::error::{Error, Result};
+use crate::core::film::Film;
+use crate::core::progress::Progress;
+use crate::gpu::shaders::{self, Shader};
 use crate::gpu::{Gpu, Pipeline};
-use crate::layout::{Header, Slice};
+use crate::pack::features::Features;
 use crate::pack::{self, PackedScene, Schedule};
-use crate::progress::Progress;
 use crate::scene::model::{Algorithm, Scene};
-use crate::shaders::{self, Shader};
+use crate::schema::layout::{Header, Slice};
 
 use super::beams::{Beams, Fallback, Sampler, Teller};
 use super::film_buffer::FilmBuffer;
 use super::jobs::JobTracer;
-use super::pool;
+use super::loop_budget::samples_at_once;
 use super::resources::{Resources, shader_for};
-use super::survey::Survey;
-use super::turns::samples_at_once;
-use super::{Renderer, Report, Tuning, build_pipeline, slices, tuning};
+use super::texel_buffer;
+use super::tile_culling::TileCulling;
+use super::{Renderer, Report, Tuning, build_pipeline, slices, specialization, tuning};
 
 pub struct Session<'a> {
     gpu: &'a Gpu,
@@ -40,7 +40,7 @@ pub struct Session<'a> {
     /// What the scene buffer begins with now.
     header: Cell<Header>,
     /// Of a scene of many triangles.
-    survey: OnceCell<Survey>,
+    survey: OnceCell<TileCulling>,
     /// Films of this size, without compensation and with it.
     films: RefCell<[Option<Rc<FilmBuffer>>; 2]>,
     upload_seconds: f64,
@@ -79,7 +79,7 @@ impl<'a> Session<'a> {
         let resources = Resources::upload(gpu, &scene, &features, tuning.texel_words(gpu))?;
         let films = RefCell::new([None, None]);
         let survey = OnceCell::new();
-        (scene.texels, scene.row_sums) = (Vec::new(), Vec::new());
+        (scene.texels, scene.prefix_sums) = (Vec::new(), Vec::new());
         let header = Cell::new(scene.header);
         let upload_seconds = clock.elapsed().as_secs_f64();
         Ok(Session {
@@ -123,8 +123,8 @@ impl<'a> Session<'a> {
         report.seconds.upload = self.upload_seconds + clock.elapsed().as_secs_f64();
 
         let clock = Instant::now();
-        if scene.surveyed() && self.survey.get().is_none() {
-            let survey = Survey::new(self.gpu, scene, &self.resources, &features)?;
+        if scene.culls_tiles() && self.survey.get().is_none() {
+            let survey = TileCulling::new(self.gpu, scene, &self.resources, &features)?;
             // Never set twice: both were empty just now.
             let _ = self.resources.survey.set(survey.buffer.clone());
             let _ = self.survey.set(survey);
@@ -172,7 +172,7 @@ impl<'a> Session<'a> {
         let group_size = self.tuning.group_size(self.gpu.info())?;
         let slots = self.resources.slots;
         let mut constants =
-            features::constants(shader, features, &self.resources.sections, group_size, slots);
+            specialization::constants(shader, features, &self.resources.sections, group_size, slots);
         if let Some(constant) = shader.constant("TABLES_IN_HEAD") {
             constants.push((constant.id, u32::from(Tuning::tables_in_head(self.gpu.info()))));
         }
@@ -184,7 +184,7 @@ impl<'a> Session<'a> {
         Features::new(scene, self.image_source, self.keep_everything)
     }
 
-    pub(super) fn survey(&self) -> Option<&Survey> {
+    pub(super) fn survey(&self) -> Option<&TileCulling> {
         self.survey.get()
     }
 
@@ -204,10 +204,10 @@ impl<'a> Session<'a> {
     pub(super) fn beside_samples(&self) -> Result<Option<Teller<'a>>> {
         let Some(textures) = &self.scene.beam_textures else { return Ok(None) };
         // Asked before they are made: of large textures they take far more memory than the texels.
-        if !pool::fits(self.gpu, pack::row_sum_words(textures)) {
+        if !texel_buffer::fits(self.gpu, pack::prefix_sum_words(textures)) {
             return Ok(None);
         }
-        self.resources.add_row_sums(self.gpu, &self.scene, || pack::row_sums(textures))?;
+        self.resources.add_row_sums(self.gpu, &self.scene, || pack::prefix_sums(textures))?;
         let scene = PackedScene { schedule: Schedule::Tiles, beams: true, ..self.scene.clone() };
         let features = self.features_of(&scene);
         self.teller(&scene, features).map(Some)
@@ -262,7 +262,7 @@ impl Prepared<'_, '_> {
             guards.clear(self.session.gpu)?;
         }
         let clock = Instant::now();
-        if let Some(survey) = self.session.survey().filter(|_| self.scene.surveyed()) {
+        if let Some(survey) = self.session.survey().filter(|_| self.scene.culls_tiles()) {
             survey.run(self.session.gpu, &mut report)?;
         }
         let surveying = clock.elapsed().as_secs_f64();

@@ -2,7 +2,7 @@
 //! enough that progress moves, Ctrl-C is heard and no watchdog fires. Tiles and chunks of samples
 //! go in; how many tiles to dispatch next comes out, learnt from how long the last ones took.
 
-use crate::layout::TILE;
+use crate::schema::layout::TILE;
 
 /// What a slice aims at. Costs differ over a picture, so the aim is well below the bound of 0.5 s.
 const TARGET_SECONDS: f64 = 0.15;

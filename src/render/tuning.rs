@@ -1,12 +1,12 @@
 //! What measures best on a kind of device: where texels are read from and the workgroup's shape.
 //! Both can be fixed for a measurement; neither changes the picture.
 
-use super::{images, pool};
-use crate::error::{Error, Result};
+use super::{images, texel_buffer};
+use crate::core::error::{Error, Result};
+use crate::core::named::named_enum;
 use crate::gpu::{DeviceInfo, DeviceKind, Gpu};
-use crate::layout::TILE;
-use crate::named::named_enum;
-use crate::pack::{MAX_SLOTS, PackedScene, Pyramids};
+use crate::pack::{MAX_SLOTS, MipPlacement, PackedScene};
+use crate::schema::layout::TILE;
 
 named_enum! {
     /// Where look-ups of method shader read their texels.
@@ -18,7 +18,7 @@ named_enum! {
 }
 
 named_enum! {
-    /// Where box pyramids are made.
+    /// Where box mip chains are made.
     pub enum MipChoice {
         Auto = "auto",
         Host = "host",
@@ -26,20 +26,20 @@ named_enum! {
     }
 }
 
-/// From how many texels on the host takes longer for a pyramid than a driver for the pipeline of it.
+/// From how many texels on the host takes longer for a mip chain than a driver for the pipeline of it.
 const LARGE: u64 = 1 << 20;
 
 impl MipChoice {
-    /// CPU devices run on the host's own cores. The buffers that pyramids pass through take a part of the
+    /// CPU devices run on the host's own cores. The buffers that mip chains pass through take a part of the
     /// device's memory for themselves.
-    pub fn pyramids(self, device: &DeviceInfo) -> Pyramids {
+    pub fn mip_chains(self, device: &DeviceInfo) -> MipPlacement {
         let most_bytes = device.limits.max_storage_buffer_range.min(device.limits.heap_bytes / 8);
         match self {
             MipChoice::Auto if device.kind != DeviceKind::Cpu => {
-                Pyramids::Device { least_texels: LARGE, most_bytes }
+                MipPlacement::Device { least_texels: LARGE, most_bytes }
             }
-            MipChoice::Device => Pyramids::Device { least_texels: 0, most_bytes },
-            MipChoice::Auto | MipChoice::Host => Pyramids::Host,
+            MipChoice::Device => MipPlacement::Device { least_texels: 0, most_bytes },
+            MipChoice::Auto | MipChoice::Host => MipPlacement::Host,
         }
     }
 }
@@ -89,7 +89,7 @@ impl Tuning {
 
     /// At most so many are in one texel buffer.
     pub fn texel_words(&self, gpu: &Gpu) -> u64 {
-        self.texel_words.unwrap_or(u64::MAX).min(pool::most_words(gpu))
+        self.texel_words.unwrap_or(u64::MAX).min(texel_buffer::most_words(gpu))
     }
 
     /// Whether a table that threads read at scattered places is fastest among the uniforms: 1.3 times on

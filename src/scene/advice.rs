@@ -23,7 +23,7 @@ pub fn of_scene(scene: &Scene) -> Vec<String> {
              on v; write address = [\"repeat\", \"clamp-to-edge\"]"
         ));
     }
-    if algorithm == Algorithm::Beam && !scene.suits_beams() {
+    if algorithm == Algorithm::Beam && !scene.supports_beams() {
         told.push(
             "one beam a pixel takes all rays of a square alike, from one place at one time: with another pixel \
              filter than \"box\", a lens or motion every pixel takes samples"

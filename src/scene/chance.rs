@@ -28,12 +28,12 @@ impl Scene {
 
     /// Whether some mirror or glass is rough.
     pub fn is_glossy(&self) -> bool {
-        self.materials.iter().any(|m| m.roughness > 0.0)
+        self.materials.iter().any(|m| m.model.is_specular() && m.roughness > 0.0)
     }
 
     /// Whether one beam can stand for all rays of a pixel: those from its square, by equal weights, from one
     /// place at one time.
-    pub fn suits_beams(&self) -> bool {
+    pub fn supports_beams(&self) -> bool {
         self.pixel_filter.kind == PixelFilterKind::Box && self.camera.lens.is_none() && !self.moves()
     }
 

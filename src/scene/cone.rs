@@ -8,7 +8,7 @@ use crate::texture::sampler_spec::{Filter, Method, MipMode, SamplerSpec};
 const ANISOTROPY: u32 = 64;
 
 /// Forces the footprint of cones.
-pub fn suit_footprint(scene: &mut Scene) {
+pub fn adapt_footprint(scene: &mut Scene) {
     if scene.sampling.algorithm == Algorithm::Cone {
         scene.sampling.footprint = Footprint::Cone;
     }
@@ -16,10 +16,10 @@ pub fn suit_footprint(scene: &mut Scene) {
 
 /// The same, and a filter for every sampler that names none for minification: one whose filter does not
 /// depend on the footprint. What was chosen is told.
-pub fn suit(scene: &mut Scene) -> Option<&'static str> {
-    suit_footprint(scene);
+pub fn adapt_for_cone(scene: &mut Scene) -> Option<&'static str> {
+    adapt_footprint(scene);
     let chosen = scene.sampling.algorithm == Algorithm::Cone
-        && scene.samplers.iter_mut().map(suit_sampler).fold(false, |any, one| any | one);
+        && scene.samplers.iter_mut().map(adapt_sampler).fold(false, |any, one| any | one);
     chosen.then_some(
         "algorithm = \"cone\" averages over footprints: samplers without a filter for that read blended levels, \
          of method \"shader\" along the footprint's longer axis (min = \"anisotropic\", mip = \"linear\")",
@@ -28,7 +28,7 @@ pub fn suit(scene: &mut Scene) -> Option<&'static str> {
 
 /// What samples leave to chance has one value for a cone: a pinhole, everything where it is in the middle of the
 /// shutter's time, lights at their middles, sharp reflections.
-pub fn settle(scene: &Scene) -> Scene {
+pub fn freeze_time(scene: &Scene) -> Scene {
     let mut settled = scene.clone();
     let [opens, closes] = scene.camera.shutter;
     let time = 0.5 * (opens + closes);
@@ -60,7 +60,7 @@ pub fn settle(scene: &Scene) -> Scene {
     settled
 }
 
-fn suit_sampler(sampler: &mut SamplerSpec) -> bool {
+fn adapt_sampler(sampler: &mut SamplerSpec) -> bool {
     if sampler.needs_footprint() || sampler.min.only_minifies() {
         return false;
     }

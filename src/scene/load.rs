@@ -19,8 +19,8 @@ use super::source::Source;
 use super::table::Table;
 use super::textures;
 use super::validate::{MAX_SHAPES, MAX_TEXTURES, check_filters};
-use crate::error::{Error, Result};
-use crate::panics;
+use crate::core::error::{Error, Result};
+use crate::core::panics;
 use crate::texture::open_file::odd_path;
 use crate::texture::sampler_spec::{Address, SamplerSpec};
 
@@ -75,9 +75,9 @@ fn read(path: &Path) -> Result<String> {
         let message = format!("cannot read scene {shown}: it is a folder");
         return Err(Error::with_help(message, "name a scene file (TOML) in it"));
     }
-    let file = File::open(path).map_err(|error| Error::Plain {
-        message: format!("cannot read scene {shown}: {error}"),
-        help: odd_path(path).filter(|_| error.kind() == ErrorKind::NotFound),
+    let file = File::open(path).map_err(|error| {
+        let help = odd_path(path).filter(|_| error.kind() == ErrorKind::NotFound);
+        Error::new(format!("cannot read scene {shown}: {error}")).and_help(help)
     })?;
     text_of(file, &shown.to_string())
 }

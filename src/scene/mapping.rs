@@ -3,7 +3,7 @@
 
 use glam::{DVec2, DVec3};
 
-use crate::named::named_enum;
+use crate::core::named::named_enum;
 
 named_enum! {
     /// How a surface point becomes a texture coordinate.

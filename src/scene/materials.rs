@@ -4,11 +4,12 @@
 use glam::DVec2;
 use toml::de::DeValue;
 
+use super::bsdf::read_model_keys;
 use super::model::*;
-use super::reader::{COLOR, COORDINATE, EXPONENT, Field, IOR, SCALE, UNIT};
+use super::reader::{COLOR, COORDINATE, Field, SCALE};
 use super::samplers::Known;
 use super::table::Table;
-use crate::error::Result;
+use crate::core::error::Result;
 use crate::texture::data::Dimension;
 
 pub(super) const MATERIAL: &[&str] = &[
@@ -41,10 +42,10 @@ pub(super) fn material(table: &Table<'_>, known: &Known<'_, '_>) -> Result<Mater
     if let Some(field) = table.get("color") {
         material.color = field.vec3(&COLOR)?;
     }
-    of_model(table, &mut material)?;
+    read_model_keys(table, &mut material)?;
     let texture_field = table.get("texture");
     material.texture = texture_field.map(|field| known.textures.resolve(field)).transpose()?;
-    let relief_field = relief(table, &mut material, known)?;
+    let bump_field = bump(table, &mut material, known)?;
     material.sampler = match (table.get("sampler"), material.is_mapped()) {
         (Some(field), _) => known.samplers.resolve(field)?,
         (None, true) => known.default_sampler,
@@ -59,15 +60,15 @@ pub(super) fn material(table: &Table<'_>, known: &Known<'_, '_>) -> Result<Mater
             fits(field, &material.mapping, source.dimension)?;
         }
     }
-    if let (Some(field), Some(relief)) = (relief_field, material.relief) {
-        let source = &known.sources[relief.texture];
+    if let (Some(field), Some(bump)) = (bump_field, material.bump) {
+        let source = &known.sources[bump.texture];
         let dimension = source.dimension;
         if source.content.procedural().is_some() {
-            let what = "a relief is read from texels; bake the pattern into a picture";
+            let what = "a bump or normal map is read from texels; bake the pattern into a picture";
             return Err(field.error(what, "procedural"));
         }
         if !matches!(dimension, Dimension::One | Dimension::Two) {
-            let what = format!("a relief is a 2d texture; this one is {dimension}");
+            let what = format!("a bump or normal map is a 2d texture; this one is {dimension}");
             return Err(field.error(&what, "not 2d"));
         }
         fits(field, &material.mapping, dimension)?;
@@ -75,51 +76,18 @@ pub(super) fn material(table: &Table<'_>, known: &Known<'_, '_>) -> Result<Mater
     Ok(material)
 }
 
-/// Keys that one model has.
-fn of_model(table: &Table<'_>, material: &mut Material) -> Result<()> {
-    const OWNED: [(&str, Model); 3] =
-        [("specular", Model::Phong), ("exponent", Model::Phong), ("ior", Model::Dielectric)];
-    for (key, model) in OWNED {
-        let Some(field) = table.get(key) else { continue };
-        if material.model != model {
-            let what = format!("only model \"{model}\" has {key}; this one is \"{}\"", material.model);
-            return Err(field.error(&what, format!("needs model \"{model}\"")));
-        }
-        match key {
-            "specular" => material.specular = field.vec3(&COLOR)?,
-            "exponent" => material.exponent = field.number(&EXPONENT)?,
-            _ => material.ior = field.number(&IOR)?,
-        }
-    }
-    if let Some(field) = table.get("roughness") {
-        if !matches!(material.model, Model::Mirror | Model::Dielectric) {
-            let what = format!(
-                "only models \"mirror\" and \"dielectric\" have roughness; this one is \"{}\"",
-                material.model
-            );
-            return Err(field.error(&what, "needs model \"mirror\" or \"dielectric\""));
-        }
-        material.roughness = field.number(&UNIT)?;
-    }
-    Ok(())
-}
-
-/// The field that names the relief's texture.
-fn relief<'a>(
-    table: &Table<'a>,
-    material: &mut Material,
-    known: &Known<'_, '_>,
-) -> Result<Option<Field<'a>>> {
+/// The field that names the bump map's texture.
+fn bump<'a>(table: &Table<'a>, material: &mut Material, known: &Known<'_, '_>) -> Result<Option<Field<'a>>> {
     let (field, kind) = match (table.get("normal_map"), table.get("bump_map")) {
         (Some(_), Some(bump)) => {
             return Err(bump.error("normal_map is given too; keep one of the two", "excludes normal_map"));
         }
-        (Some(field), None) => (field, ReliefKind::Normal),
-        (None, Some(field)) => (field, ReliefKind::Bump),
+        (Some(field), None) => (field, BumpKind::Normal),
+        (None, Some(field)) => (field, BumpKind::Bump),
         (None, None) => {
             return match (table.get("strength"), table.get("green")) {
                 (Some(field), _) => {
-                    Err(field.error("this needs a normal_map or a bump_map beside it", "no relief"))
+                    Err(field.error("this needs a normal_map or a bump_map beside it", "no map"))
                 }
                 (_, Some(field)) => Err(field.error("this needs a normal_map beside it", "no normal map")),
                 (None, None) => Ok(None),
@@ -127,17 +95,17 @@ fn relief<'a>(
         }
     };
     let kind = match table.get("green") {
-        Some(green) if kind == ReliefKind::Bump => {
+        Some(green) if kind == BumpKind::Bump => {
             return Err(green.error("a bump_map holds heights, which have no direction", "no normal map"));
         }
         Some(green) => match green.choice(Green::NAMES, Green::ALL)? {
-            Green::Up => ReliefKind::Normal,
-            Green::Down => ReliefKind::NormalDown,
+            Green::Up => BumpKind::Normal,
+            Green::Down => BumpKind::NormalDown,
         },
         None => kind,
     };
     let strength = table.get("strength").map_or(Ok(1.0), |field| field.number(&COORDINATE))?;
-    material.relief = Some(Relief { kind, texture: known.textures.resolve(field)?, strength });
+    material.bump = Some(BumpMap { kind, texture: known.textures.resolve(field)?, strength });
     Ok(Some(field))
 }
 

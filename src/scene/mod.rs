@@ -1,6 +1,7 @@
 //! Scene files: TOML text in, validated [`model::Scene`] out.
 
 pub mod advice;
+mod bsdf;
 mod camera;
 mod chance;
 pub mod cone;

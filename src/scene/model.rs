@@ -5,11 +5,12 @@ use std::path::PathBuf;
 
 use glam::{DVec2, DVec3};
 
+pub use super::bsdf::Model;
 pub use super::camera::{Camera, Lens, Projection};
 pub use super::mapping::{Entity, Mapping, MappingKind, Space};
 pub use super::pixel_filter::{PixelFilter, PixelFilterKind};
 pub use super::sampling::{Algorithm, Footprint, Pattern, Precision, Sampling};
-use crate::named::named_enum;
+use crate::core::named::named_enum;
 use crate::texture::sampler_spec::{Address, SamplerSpec};
 pub use crate::texture::source::{TextureContent, TextureSource};
 
@@ -69,28 +70,8 @@ named_enum! {
 }
 
 named_enum! {
-    /// Reflection model of a material.
-    pub enum Model {
-        Unlit = "unlit",
-        Lambert = "lambert",
-        Mirror = "mirror",
-        /// Mirrors or refracts, by Fresnel's share of each.
-        Dielectric = "dielectric",
-        /// Lambert with a highlight.
-        Phong = "phong",
-    }
-}
-
-impl Model {
-    /// Whether lights shine on it.
-    pub const fn is_lit(self) -> bool {
-        matches!(self, Model::Lambert | Model::Phong)
-    }
-}
-
-named_enum! {
-    /// What a material's relief texture holds.
-    pub enum ReliefKind {
+    /// What a material's bump texture holds.
+    pub enum BumpKind {
         /// Unit normals as 2 rgb - 1: along growing u, along growing v, outward.
         Normal = "normal",
         /// Heights.
@@ -110,16 +91,16 @@ named_enum! {
     }
 }
 
-impl ReliefKind {
+impl BumpKind {
     pub const fn is_normal_map(self) -> bool {
-        matches!(self, ReliefKind::Normal | ReliefKind::NormalDown)
+        matches!(self, BumpKind::Normal | BumpKind::NormalDown)
     }
 }
 
 /// A texture that turns the shading normal.
 #[derive(Clone, Copy, Debug)]
-pub struct Relief {
-    pub kind: ReliefKind,
+pub struct BumpMap {
+    pub kind: BumpKind,
     /// Index into `Scene::textures`.
     pub texture: usize,
     /// Normal map: factor of the two components along the surface. Bump map: height of a texel of 1, in
@@ -135,10 +116,10 @@ pub struct Material {
     pub color: DVec3,
     /// Index into `Scene::textures`.
     pub texture: Option<usize>,
-    /// Index into `Scene::samplers`; meaningful where a texture or a relief is set.
+    /// Index into `Scene::samplers`; meaningful where a texture or a bump map is set.
     pub sampler: usize,
     pub mapping: Mapping,
-    pub relief: Option<Relief>,
+    pub bump: Option<BumpMap>,
     /// Of the highlight of `phong`.
     pub specular: DVec3,
     pub exponent: f64,
@@ -152,12 +133,12 @@ impl Default for Material {
     fn default() -> Self {
         Material {
             name: "default".to_owned(),
-            model: Model::Lambert,
+            model: Model::default(),
             color: DVec3::ONE,
             texture: None,
             sampler: 0,
             mapping: Mapping::default(),
-            relief: None,
+            bump: None,
             specular: DVec3::splat(0.5),
             exponent: 32.0,
             ior: 1.5,
@@ -169,7 +150,7 @@ impl Default for Material {
 impl Material {
     /// Whether a map leads to a texture of this material.
     pub fn is_mapped(&self) -> bool {
-        self.texture.is_some() || self.relief.is_some()
+        self.texture.is_some() || self.bump.is_some()
     }
 }
 

@@ -7,10 +7,10 @@ use std::collections::hash_map::Entry;
 use super::reader::Field;
 use super::source::{quoted, suggestion};
 use super::table::Table;
-use crate::error::Result;
+use crate::core::error::Result;
 
 /// A message lists no more names than this.
-const MOST_LISTED: usize = 12;
+const MAX_LISTED: usize = 12;
 
 pub(super) struct Names<'a> {
     kind: &'static str,
@@ -55,8 +55,8 @@ impl<'a> Names<'a> {
         }
         let near = suggestion(name, self.ordered.iter().copied());
         let end = if near.is_empty() { ";" } else { "" };
-        let listed: Vec<String> = self.ordered.iter().take(MOST_LISTED).map(|name| quoted(name)).collect();
-        let rest = match self.ordered.len().saturating_sub(MOST_LISTED) {
+        let listed: Vec<String> = self.ordered.iter().take(MAX_LISTED).map(|name| quoted(name)).collect();
+        let rest = match self.ordered.len().saturating_sub(MAX_LISTED) {
             0 => String::new(),
             more => format!(" and {more} more"),
         };

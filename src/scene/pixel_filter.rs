@@ -3,8 +3,8 @@
 
 use super::reader::Limits;
 use super::table::Table;
-use crate::error::Result;
-use crate::named::named_enum;
+use crate::core::error::Result;
+use crate::core::named::named_enum;
 
 named_enum! {
     /// The shape of a pixel filter; the same along both axes, whose product it is.

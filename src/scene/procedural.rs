@@ -4,7 +4,7 @@
 
 use super::reader::{COLOR, Field, Limits};
 use super::table::Table;
-use crate::error::Result;
+use crate::core::error::Result;
 use crate::texture::procedural::ProceduralKind::{
     self, Brick, Cellular, Fbm, Grid, Marble, Noise, Stripes, Turbulence, Wood,
 };

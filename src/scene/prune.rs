@@ -3,7 +3,7 @@
 //! several that read the same texels. Indices follow.
 
 use super::model::{Scene, TextureSource};
-use crate::counted::{counted, verb};
+use crate::core::counted::{counted, verb};
 
 /// What was dropped, for `-v`.
 pub fn prune(scene: &mut Scene) -> Vec<String> {
@@ -29,7 +29,7 @@ pub fn prune(scene: &mut Scene) -> Vec<String> {
 
     let mapped = || scene.materials.iter().filter(|m| m.is_mapped());
     let environment = scene.background.environment;
-    let of = mapped().flat_map(|m| [m.texture, m.relief.map(|r| r.texture)]).flatten();
+    let of = mapped().flat_map(|m| [m.texture, m.bump.map(|r| r.texture)]).flatten();
     let used: Vec<usize> = of.chain(environment.map(|e| e.texture)).collect();
     let samplers_used: Vec<usize> =
         mapped().map(|m| m.sampler).chain(environment.map(|e| e.sampler)).collect();
@@ -77,8 +77,8 @@ fn merge_textures(scene: &mut Scene, dropped: &mut Vec<String>) {
 fn point_to_textures(scene: &mut Scene, textures: &[usize]) {
     for material in &mut scene.materials {
         material.texture = material.texture.map(|t| textures[t]);
-        if let Some(relief) = &mut material.relief {
-            relief.texture = textures[relief.texture];
+        if let Some(bump) = &mut material.bump {
+            bump.texture = textures[bump.texture];
         }
     }
     if let Some(environment) = &mut scene.background.environment {

@@ -8,7 +8,7 @@ use toml::Spanned;
 use toml::de::DeValue;
 
 use super::source::{Source, quoted, suggestion};
-use crate::error::{Error, Result};
+use crate::core::error::{Error, Result};
 
 /// Which finite numbers a key takes. Everything stays below 1e30, so that single precision has
 /// room left (it ends at 3.4e38), and lengths above 1e-30, where it would reach zero.

@@ -9,7 +9,7 @@ use super::names::Names;
 use super::reader::{COLOR, COORDINATE, Field};
 use super::table::Table;
 use super::validate::{MAX_ANISOTROPY, both_filters, check_mag, check_method};
-use crate::error::Result;
+use crate::core::error::Result;
 use crate::texture::data::Dimension;
 use crate::texture::sampler_spec::{Address, CATMULL_ROM, Filter, Method, MipMode, SamplerSpec, TexelCenter};
 

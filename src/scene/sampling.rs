@@ -1,7 +1,7 @@
 //! How a picture is sampled, as data: algorithm, pattern, number and what each sample is averaged over. Part of
 //! the model.
 
-use crate::named::named_enum;
+use crate::core::named::named_enum;
 
 named_enum! {
     /// How many rays a pixel sends and what becomes of them (`[sampling] algorithm`).
@@ -44,13 +44,13 @@ named_enum! {
 impl Pattern {
     /// A sequence: positions do not depend on how many samples there are, so that any number of them, from
     /// the first on, is a set of the same kind.
-    pub const fn goes_on(self) -> bool {
+    pub const fn is_progressive(self) -> bool {
         matches!(self, Pattern::Center | Pattern::Random | Pattern::Halton | Pattern::SobolOwen)
     }
 
     /// Whether each pixel may stop at another number of samples.
     pub fn stops_anywhere(self) -> bool {
-        self.goes_on() && self != Pattern::Center
+        self.is_progressive() && self != Pattern::Center
     }
 
     /// Strata along each side of a pixel, of `multi-jittered` columns; 1 where the pattern has none.

@@ -7,7 +7,7 @@ use super::model::*;
 use super::reader::{COORDINATE, FOV, Field, LENGTH, NOT_NEGATIVE, UNIT};
 use super::table::Table;
 use super::validate::{MAX_DEPTH, MAX_SIZE, MAX_SPP, check_shared, check_spp, parallel};
-use crate::error::Result;
+use crate::core::error::Result;
 
 pub(super) const CAMERA: &[&str] = &[
     "eye",

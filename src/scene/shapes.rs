@@ -9,7 +9,7 @@ use super::reader::{CAP, COLOR, COORDINATE, Field, LENGTH, NOT_NEGATIVE};
 use super::source::quoted;
 use super::table::Table;
 use super::validate::{collinear, parallel};
-use crate::error::Result;
+use crate::core::error::Result;
 
 pub(super) const PLANE: &[&str] = &["origin", "tangent", "bitangent", "half_extent", "material", "motion"];
 pub(super) const SPHERE: &[&str] = &["center", "radius", "material", "motion"];

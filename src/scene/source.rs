@@ -9,7 +9,7 @@ use std::sync::Arc;
 use miette::NamedSource;
 
 use super::synonyms::meant;
-use crate::error::Error;
+use crate::core::error::Error;
 
 /// Longest excerpt or name that a message repeats, in characters.
 const LONGEST_EXCERPT: usize = 60;

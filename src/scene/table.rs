@@ -9,7 +9,7 @@ use toml::de::{DeTable, DeValue};
 use super::reader::Field;
 use super::source::{Source, quoted, suggestion};
 use super::vocabulary::home_of;
-use crate::error::{Error, Result};
+use crate::core::error::{Error, Result};
 
 /// How a table is written, for messages.
 #[derive(Clone, Copy, PartialEq)]

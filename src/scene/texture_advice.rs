@@ -1,7 +1,7 @@
 //! Scene and decoded textures → what a person should know about textures that are valid, and yet are hardly
 //! what was meant: pictures for a screen read as linear light, normal maps that hold no normals.
 
-use super::model::{Relief, Scene};
+use super::model::{BumpMap, Scene};
 use crate::texture::data::{ColorSpace, Component, Dimension, TextureData};
 use crate::texture::source::{TextureContent, TextureSource};
 
@@ -11,7 +11,7 @@ pub fn of_textures(scene: &Scene, textures: &[TextureData]) -> Vec<String> {
     let named = |keep: &dyn Fn(usize, &TextureSource, &TextureData) -> bool| -> Vec<&str> {
         all().filter(|(i, (s, t))| keep(*i, s, t)).map(|(_, (s, _))| s.name.as_str()).collect()
     };
-    let normals = |i: usize| scene.materials.iter().filter_map(|m| m.relief).any(|r| is_normals(r, i));
+    let normals = |i: usize| scene.materials.iter().filter_map(|m| m.bump).any(|r| is_normals(r, i));
     let encoded = named(&|i, _, t| normals(i) && t.color_space == ColorSpace::Srgb);
     let grey = named(&|i, _, t| normals(i) && is_grey(t));
     let pale = named(&|i, s, t| is_color(scene, i) && may_be_pale(s, t));
@@ -40,8 +40,8 @@ pub fn of_textures(scene: &Scene, textures: &[TextureData]) -> Vec<String> {
     told
 }
 
-fn is_normals(relief: Relief, texture: usize) -> bool {
-    relief.kind.is_normal_map() && relief.texture == texture
+fn is_normals(bump: BumpMap, texture: usize) -> bool {
+    bump.kind.is_normal_map() && bump.texture == texture
 }
 
 fn is_color(scene: &Scene, texture: usize) -> bool {

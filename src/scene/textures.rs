@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use super::procedural::{PROCEDURAL, procedural};
 use super::reader::{COORDINATE, Field};
 use super::table::Table;
-use crate::error::Result;
+use crate::core::error::Result;
 use crate::texture::data::{ColorSpace, Dimension, MipKernel, TexelFormat};
 use crate::texture::source::{
     CubeLayout, Endian, OrientationUse, Reading, TextureContent, TextureSource, VolumeSource,

@@ -4,7 +4,7 @@
 use glam::DVec3;
 
 use super::model::{Pattern, Scene};
-use crate::error::{Error, Result};
+use crate::core::error::{Error, Result};
 use crate::texture::data::Dimension;
 use crate::texture::sampler_spec::{Filter, Method, SamplerSpec};
 
@@ -22,9 +22,9 @@ pub const MAX_ANISOTROPY: u32 = 64;
 
 /// Two directions whose sine is below this count as parallel: far below any intended angle, far
 /// above what rounding of double precision components can produce.
-const LEAST_SINE: f64 = 1e-9;
+const MIN_SINE: f64 = 1e-9;
 /// A triangle whose height is below this part of its longest edge counts as a line.
-const LEAST_HEIGHT: f64 = 1e-12;
+const MIN_HEIGHT: f64 = 1e-12;
 
 /// `grid` and `stratified` divide the pixel into n × n cells: `spp` must be a square there. Blocks of
 /// `blue-noise` are powers of two.
@@ -120,7 +120,7 @@ pub fn check_shared(pattern: Pattern, shared: bool) -> Result<(), String> {
 
 /// |a × b| = |a| |b| sin of the angle between them.
 pub(super) fn parallel(a: DVec3, b: DVec3) -> bool {
-    a.cross(b).length() <= LEAST_SINE * a.length() * b.length()
+    a.cross(b).length() <= MIN_SINE * a.length() * b.length()
 }
 
 /// Twice the area is |e₁ × e₂|: longest edge times height. Vertices far from the origin are known
@@ -129,7 +129,7 @@ pub(super) fn collinear(vertices: [DVec3; 3]) -> bool {
     let [a, b, c] = vertices;
     let longest = (b - a).length().max((c - a).length()).max((c - b).length());
     let largest = vertices.iter().map(|v| v.abs().max_element()).fold(0.0, f64::max);
-    let height = LEAST_HEIGHT * longest + 4.0 * f64::EPSILON * largest;
+    let height = MIN_HEIGHT * longest + 4.0 * f64::EPSILON * largest;
     (b - a).cross(c - a).length() <= longest * height
 }
 

@@ -80,17 +80,17 @@ pub fn analyse(texture: &TextureData) -> Analysis {
         for (x, (d, e)) in stored.chunks_exact(count).zip(by_weight.chunks_exact(count)).enumerate() {
             u.add(x, d, e, seam);
         }
-        let mut row_sums = vec![0.0; count];
+        let mut prefix_sums = vec![0.0; count];
         for (x, texel) in row.chunks_exact(count).enumerate() {
             for (c, &stored) in texel.iter().enumerate() {
-                row_sums[c] += channels[c].add(rows.seen(stored, c));
+                prefix_sums[c] += channels[c].add(rows.seen(stored, c));
             }
             if texel.iter().any(|value| !value.is_finite()) {
                 non_finite_texels += 1;
                 first_non_finite = first_non_finite.or(Some([x as u32, y as u32]));
             }
         }
-        sums.iter_mut().zip(row_sums).for_each(|(sum, of_row)| *sum += of_row);
+        sums.iter_mut().zip(prefix_sums).for_each(|(sum, of_row)| *sum += of_row);
         if y + 1 < height {
             let next = rows.stored(y + 1);
             let next_weighed = rows.weigh(&next);

@@ -4,7 +4,7 @@
 
 use super::analysis_steps::Pairs;
 use super::data::{ColorSpace, Component, TextureData};
-use crate::color::srgb_to_linear;
+use crate::core::color::srgb_to_linear;
 
 /// Lines of the texture in which a period is looked for, and the texels in all of them.
 const LINES: (usize, usize) = (16, 64);

@@ -4,7 +4,7 @@
 
 use super::analysis_period::Period;
 use super::analysis_steps::Sizes;
-use crate::named::named_enum;
+use crate::core::named::named_enum;
 
 /// A seam larger than this many times the largest step inside is seen; one a little above it may be. Of
 /// textures that tile and have no edges the seam reached 0.98 of the largest.

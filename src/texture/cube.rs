@@ -33,7 +33,7 @@ use super::decode::Values;
 use super::read_file::{Picture, Texels};
 use super::source::{CubeLayout, Reading};
 use super::stack;
-use crate::error::{Error, Result};
+use crate::core::error::{Error, Result};
 
 impl CubeLayout {
     /// Faces side by side and one above the other.

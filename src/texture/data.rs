@@ -1,7 +1,7 @@
 //! A decoded texture: exact texels as the file has them, in one of the formats a device can hold.
 //! Grey stays one channel, grey with alpha two; three channels are expanded to four.
 
-use crate::named::named_enum;
+use crate::core::named::named_enum;
 
 named_enum! {
     /// How stored values become linear light; sRGB is decoded before filtering.

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use super::data::{Component, TexelFormat};
 use super::read_file::{Texels, check_memory, check_size, damaged, out_of_memory, zero_size};
-use crate::error::{Error, Result};
+use crate::core::error::{Error, Result};
 
 /// PNG: Deflate gives 1032 bytes for one at most, of 8 texels each. The others give less.
 const MAX_TEXELS_PER_BYTE: u64 = 1032 * 8;

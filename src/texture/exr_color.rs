@@ -8,7 +8,7 @@ use exr::math::Vec2;
 use exr::meta::attribute::Chromaticities;
 use glam::{DMat3, DVec3};
 
-use crate::error::{Error, Result};
+use crate::core::error::{Error, Result};
 
 /// What a file without an attribute of its own means: Rec. ITU-R BT.709.
 const REC_709: Chromaticities = Chromaticities {

@@ -8,10 +8,10 @@ use std::path::Path;
 
 use exr::meta::header::Header;
 
-use crate::error::{Error, Result};
+use crate::core::error::{Error, Result};
 
 /// A message lists no more layers than this.
-const MOST_LISTED: usize = 12;
+const MAX_LISTED: usize = 12;
 
 /// Indices into the channels of one part.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -230,8 +230,8 @@ fn ambiguous(wanted: &str, names: Vec<String>, path: &Path) -> Error {
 }
 
 fn listed(groups: &[Group]) -> String {
-    let names: Vec<String> = groups.iter().take(MOST_LISTED).map(Group::described).collect();
-    let rest = match groups.len().saturating_sub(MOST_LISTED) {
+    let names: Vec<String> = groups.iter().take(MAX_LISTED).map(Group::described).collect();
+    let rest = match groups.len().saturating_sub(MAX_LISTED) {
         0 => String::new(),
         more => format!(" and {more} more"),
     };

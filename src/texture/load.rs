@@ -10,8 +10,8 @@ use super::decode::{
 use super::read_file::{Picture, Texels};
 use super::source::{TextureContent, TextureSource};
 use super::{cube, nrrd, stack, volume};
-use crate::error::{Error, Result};
-use crate::panics;
+use crate::core::error::{Error, Result};
+use crate::core::panics;
 
 /// Of a procedural texture, which has no texels, one that nobody reads.
 pub fn load(source: &TextureSource) -> Result<TextureData> {

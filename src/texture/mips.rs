@@ -28,7 +28,7 @@ pub use nonfinite::pyramid_of_finite;
 use resample::{Axis, resample};
 
 /// Levels 1 to the last; none of a texture of one texel.
-pub fn pyramid(texture: &TextureData, kernel: MipKernel) -> Vec<TextureData> {
+pub fn mip_chain(texture: &TextureData, kernel: MipKernel) -> Vec<TextureData> {
     let codec = Codec::new(texture, kernel == MipKernel::Kaiser);
     let stored =
         Level { size: size(texture, 0), rows: Rows::Stored { texels: &texture.texels, codec: &codec } };

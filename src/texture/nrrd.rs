@@ -15,13 +15,13 @@ use super::read_file::{Texels, unreadable};
 use super::scalar::{Kind, Scalar};
 use super::source::Endian;
 use super::volume::Bare;
-use crate::error::{Error, Result};
+use crate::core::error::{Error, Result};
 
 /// A header line longer than this is no header line.
 const LONGEST_LINE: u64 = 64 << 10;
 /// Deflate gives no more bytes for one.
 const MAX_GZIP_RATIO: u64 = 1032;
-const MOST_LINES: usize = 10_000;
+const MAX_LINES: usize = 10_000;
 
 pub(super) fn read(path: &Path) -> Result<(Texels, u32)> {
     let mut file = BufReader::new(open(path)?);
@@ -80,7 +80,7 @@ impl<'a> Header<'a> {
     /// Up to the empty line before the data, or to the end of a header that stands alone.
     fn read(file: &mut impl BufRead, path: &'a Path) -> Result<Header<'a>> {
         let mut header = Header { path, fields: HashMap::new() };
-        for number in 1..=MOST_LINES {
+        for number in 1..=MAX_LINES {
             let mut line = Vec::new();
             file.by_ref()
                 .take(LONGEST_LINE)

@@ -1,7 +1,7 @@
 //! Procedural solid textures as data: which pattern, its two colours and its parameters. One cell,
 //! period or lattice cell of every pattern is one unit of texture space; a mapping scales it.
 
-use crate::named::named_enum;
+use crate::core::named::named_enum;
 
 named_enum! {
     /// Pattern of a procedural texture. Hard-edged ones first, then those made of noise.

@@ -15,8 +15,8 @@ use super::exr_color;
 use super::exr_layers::{self, Colors, Layer};
 use super::exr_subsampled::{self, Patched};
 use super::read_file::{Texels, check_memory, check_size, damaged, unreadable};
-use crate::error::{Error, Result};
-use crate::film::Placement;
+use crate::core::error::{Error, Result};
+use crate::core::film::Placement;
 
 /// Which part of the file is the picture.
 #[derive(Clone, Copy, PartialEq)]

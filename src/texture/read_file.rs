@@ -12,9 +12,9 @@ pub use super::read_exr::Part;
 use super::sniff::{self, Content, PictureFormat};
 use super::source::{OrientationUse, Reading};
 use super::{read_exr, read_hdr, read_jpeg, read_png, read_tga, tiff};
-use crate::error::{Error, Result};
-use crate::film::Placement;
-use crate::panics;
+use crate::core::error::{Error, Result};
+use crate::core::film::Placement;
+use crate::core::panics;
 
 /// Twice the largest image side of current GPUs; checked in the header, before any allocation.
 const MAX_SIDE: u64 = 65_536;

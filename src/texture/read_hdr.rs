@@ -8,7 +8,7 @@ use std::path::Path;
 
 use super::data::{Component, TexelFormat};
 use super::read_file::{Picture, Texels, check_size, damaged, out_of_memory, unsupported_kind};
-use crate::error::Result;
+use crate::core::error::Result;
 
 /// A header line longer than this is no header line.
 const LONGEST_LINE: usize = 64 << 10;

@@ -6,7 +6,7 @@ use std::path::Path;
 use super::decoder;
 use super::jpeg_data::JpegData;
 use super::read_file::{Picture, Texels, damaged, unsupported_kind};
-use crate::error::Result;
+use crate::core::error::Result;
 
 const START_OF_IMAGE: u8 = 0xd8;
 const END_OF_IMAGE: u8 = 0xd9;

@@ -10,7 +10,7 @@ use png::{BitDepth, DecodingError, Transformations};
 use super::data::Component;
 use super::decoder::{self, Fault, Header};
 use super::read_file::{MAX_BYTES, Picture, Texels, unsupported_kind};
-use crate::error::Result;
+use crate::core::error::Result;
 
 const SIGNATURE_BYTES: usize = 8;
 /// Length, name and checksum.

@@ -7,7 +7,7 @@ use std::path::Path;
 use super::data::Component;
 use super::decoder::{self, Fault, Header};
 use super::read_file::Picture;
-use crate::error::Result;
+use crate::core::error::Result;
 
 const HEADER_BYTES: usize = 18;
 

@@ -1,7 +1,7 @@
 //! What a sampler does, as data: the table from which scene vocabulary, `VkSampler` objects,
 //! shader constants, oracle and test names are all generated.
 
-use crate::named::named_enum;
+use crate::core::named::named_enum;
 
 named_enum! {
     /// What a coordinate outside [0, 1) reads (Vulkan 1.3, "Wrapping Operation").

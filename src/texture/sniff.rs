@@ -1,7 +1,7 @@
 //! What a file is, judged by its first bytes and never by the ending of its name. A file that is
 //! no picture we read gets a short description for the error message.
 
-use crate::named::named_enum;
+use crate::core::named::named_enum;
 
 named_enum! {
     /// A file format that is read; the name is the one in messages.

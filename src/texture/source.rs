@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use super::data::{ColorSpace, Dimension, MipKernel, TexelFormat};
 use super::procedural::Procedural;
-use crate::named::named_enum;
+use crate::core::named::named_enum;
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct TextureSource {

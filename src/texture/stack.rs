@@ -12,7 +12,7 @@ use super::data::{ColorSpace, Component, TexelFormat};
 use super::decode::{Values, read_checked};
 use super::read_file::{Picture, Texels, check_volume};
 use super::source::Reading;
-use crate::error::{Error, Result};
+use crate::core::error::{Error, Result};
 
 /// `what` a file is, for messages: its ordinal follows, from 1.
 pub(super) fn read(

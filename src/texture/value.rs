@@ -4,7 +4,7 @@
 use rayon::prelude::*;
 
 use super::data::{ColorSpace, Component, TexelFormat, TextureData};
-use crate::color::srgb_to_linear;
+use crate::core::color::srgb_to_linear;
 
 impl TextureData {
     /// Stored value of one of the format's own channels: integers scaled to [0, 1] by 2ⁿ − 1

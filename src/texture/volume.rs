@@ -11,7 +11,7 @@ use super::open_file::open;
 use super::read_file::{Texels, check_memory, check_volume, unreadable};
 use super::scalar::Scalar;
 use super::source::{Endian, VolumeSource};
-use crate::error::{Error, Result};
+use crate::core::error::{Error, Result};
 
 /// A file that is shorter or longer than the description says is most likely described wrongly.
 pub(super) fn read(volume: &VolumeSource) -> Result<Texels> {

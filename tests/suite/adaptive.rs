@@ -3,17 +3,17 @@
 
 mod rare;
 
-use moire::adaptive::{self, Goal, Outcome, Sums, Tracer, Trial};
-use moire::film::Film;
-use moire::gpu::DeviceKind;
-use moire::layout::Job;
-use moire::metrics::compare;
-use moire::oracle::jobs::JobTracer;
-use moire::oracle::rng::sample_bits;
-use moire::pack::PackedScene;
-use moire::progress::{Progress, Silent};
-use moire::render::{self, Tuning};
-use moire::scene::model::{Algorithm, Footprint, Pattern, Scene};
+use moire::internal::adaptive::{self, Goal, Outcome, Sums, Tracer, Trial};
+use moire::internal::core::film::Film;
+use moire::internal::core::progress::{NoProgress, Progress};
+use moire::internal::gpu::DeviceKind;
+use moire::internal::lab::metrics::compare;
+use moire::internal::oracle::jobs::JobTracer;
+use moire::internal::oracle::rng::sample_bits;
+use moire::internal::pack::PackedScene;
+use moire::internal::render::{self, Tuning};
+use moire::internal::scene::model::{Algorithm, Footprint, Pattern, Scene};
+use moire::internal::schema::layout::Job;
 
 use crate::stage::{assert_same_bits, device, packed, render, small};
 
@@ -30,7 +30,7 @@ fn with(mut scene: Scene, algorithm: Algorithm, spp: u32) -> PackedScene {
 fn to_goal(scene: &PackedScene, goal: Goal, keep_everything: bool) -> (Film, Outcome) {
     let tuning = Tuning::default();
     let rendered =
-        render::render_to_goal(&device(), scene.clone(), keep_everything, &tuning, Some(goal), &Silent);
+        render::render_to_goal(&device(), scene.clone(), keep_everything, &tuning, Some(goal), &NoProgress);
     let (film, report) = rendered.unwrap();
     (film, report.outcome.unwrap())
 }
@@ -87,7 +87,7 @@ fn device_and_oracle_spend_the_same_samples() {
     let (film, outcome) = to_goal(&scene, Goal::Samples(64), false);
     let mut tracer = JobTracer::new(&scene);
     let size = [scene.header.size[0], scene.header.size[1]];
-    let (exact, expected) = adaptive::run(&mut tracer, size, Goal::Samples(64), &Silent).unwrap();
+    let (exact, expected) = adaptive::run(&mut tracer, size, Goal::Samples(64), &NoProgress).unwrap();
     // Counts follow estimates in f32: a pixel in a hundred may round to another.
     assert!((outcome.mean_samples / expected.mean_samples - 1.0).abs() < 0.01, "{outcome:?} {expected:?}");
     assert_eq!(outcome.passes, expected.passes);
@@ -203,7 +203,7 @@ impl Slow {
 }
 
 impl Tracer for Slow {
-    fn sample(&mut self, jobs: &[Job], _: &dyn Progress) -> moire::error::Result<()> {
+    fn sample(&mut self, jobs: &[Job], _: &dyn Progress) -> moire::internal::core::error::Result<()> {
         Slow::wait(jobs);
         for job in jobs {
             let [x, y] = job.column_and_row();
@@ -213,7 +213,11 @@ impl Tracer for Slow {
         Ok(())
     }
 
-    fn sample_apart(&mut self, jobs: &[Job], _: &dyn Progress) -> moire::error::Result<Vec<[f32; 4]>> {
+    fn sample_apart(
+        &mut self,
+        jobs: &[Job],
+        _: &dyn Progress,
+    ) -> moire::internal::core::error::Result<Vec<[f32; 4]>> {
         Slow::wait(jobs);
         let mut sums = vec![[0.0; 4]; jobs.len()];
         jobs.iter().zip(&mut sums).for_each(|(job, sum)| Slow::add(job, sum));
@@ -224,17 +228,17 @@ impl Tracer for Slow {
         self.prefilters
     }
 
-    fn read(&mut self, sums: &mut Sums) -> moire::error::Result<()> {
+    fn read(&mut self, sums: &mut Sums) -> moire::internal::core::error::Result<()> {
         sums.halves.clone_from(&self.sums.halves);
         Ok(())
     }
 
-    fn trial(&mut self, _: &dyn Progress) -> moire::error::Result<Option<Trial>> {
+    fn trial(&mut self, _: &dyn Progress) -> moire::internal::core::error::Result<Option<Trial>> {
         let pixels = (0..64).map(|i| (i, i % 2 == 0)).collect();
         Ok(self.tells.then_some(Trial { seconds: 0.1, pixels }))
     }
 
-    fn tell(&mut self, _: &dyn Progress) -> moire::error::Result<Vec<[f32; 4]>> {
+    fn tell(&mut self, _: &dyn Progress) -> moire::internal::core::error::Result<Vec<[f32; 4]>> {
         let [r, g, b] = TOLD;
         Ok((0..self.sums.halves[0].len()).map(|i| [r, g, b, (i % 2) as f32]).collect())
     }
@@ -244,7 +248,7 @@ fn slowly(tells: bool, prefilters: bool, goal: Goal) -> (Film, Outcome) {
     const SIZE: [u32; 2] = [32, 16];
     let half = || vec![[0.0; 4]; 512];
     let sums = Sums { width: SIZE[0], height: SIZE[1], halves: [half(), half()] };
-    adaptive::run(&mut Slow { sums, tells, prefilters }, SIZE, goal, &Silent).unwrap()
+    adaptive::run(&mut Slow { sums, tells, prefilters }, SIZE, goal, &NoProgress).unwrap()
 }
 
 /// 4e-3 takes some 5000 random samples a pixel: 2.6 s, by the time of the first passes.

@@ -1,14 +1,14 @@
 //! Every case of the stability report on the device under test: no error above its bound.
 
-use moire::progress::Silent;
-use moire::stability::all;
-use moire::stability::case::Bench;
+use moire::internal::core::progress::NoProgress;
+use moire::internal::lab::stability::all;
+use moire::internal::lab::stability::case::Bench;
 
 use crate::shared_gpu::gpu;
 
 fn holds(group: &str) {
     let gpu = gpu();
-    let bench = Bench::new(&gpu, &Silent);
+    let bench = Bench::new(&gpu, &NoProgress);
     let mut complaints = Vec::new();
     for case in all().iter().filter(|case| case.group == group) {
         let points = (case.run)(&bench).unwrap();

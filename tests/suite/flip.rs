@@ -1,9 +1,9 @@
 //! FLIP against values that its authors' program gives (FLIP.h of version 1.7, CPU, default parameters,
 //! linear input), and its laws.
 
-use moire::film::Film;
-use moire::metrics::flip;
-use moire::metrics::flip::Seen;
+use moire::internal::core::film::Film;
+use moire::internal::lab::metrics::flip;
+use moire::internal::lab::metrics::flip::Seen;
 
 use crate::support::{gradient, told};
 

@@ -5,15 +5,17 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 
-use moire::features::TextureSize;
-use moire::layout::{self as mirror, Record};
-use moire::pack::{Choice, EntityKind, Guard, LightKind, MapKind, ProjectionKind, Schedule, TextureKind};
-use moire::scene::model::{Footprint, Model, Pattern, PixelFilterKind, ReliefKind};
-use moire::shaders::{self, Shader};
-use moire::texture::data::{ColorSpace, TexelFormat};
-use moire::texture::procedural::ProceduralKind;
-use moire::texture::sampler_spec::{Address, Filter, Method, MipMode, TexelCenter};
-use moire::{features, oracle};
+use moire::internal::gpu::shaders::{self, Shader};
+use moire::internal::pack::features::TextureSize;
+use moire::internal::pack::{
+    Diagnostic, EntityKind, LightKind, MapKind, ProjectionKind, SampleDimension, Schedule, TextureKind,
+};
+use moire::internal::scene::model::{BumpKind, Footprint, Model, Pattern, PixelFilterKind};
+use moire::internal::schema::layout::{self as mirror, Record};
+use moire::internal::texture::data::{ColorSpace, TexelFormat};
+use moire::internal::texture::procedural::ProceduralKind;
+use moire::internal::texture::sampler_spec::{Address, Filter, Method, MipMode, TexelCenter};
+use moire::internal::{oracle, pack::features};
 
 use crate::layering::source_root;
 
@@ -76,16 +78,16 @@ fn glsl_numbers(text: &str) -> BTreeMap<String, u32> {
 /// Every number that layout.glsl must define, and no other: modes, and strides in units of 16 bytes.
 fn expected_numbers() -> BTreeMap<String, u32> {
     let tables: [(&str, &[&str]); 22] = [
-        ("GUARD", Guard::NAMES),
+        ("DIAGNOSTIC", Diagnostic::NAMES),
         ("PROJECTION", ProjectionKind::NAMES),
         ("PATTERN", Pattern::NAMES),
         ("SCHEDULE", Schedule::NAMES),
         ("PIXEL_FILTER", PixelFilterKind::NAMES),
-        ("CHOICE", Choice::NAMES),
+        ("DIMENSION", SampleDimension::NAMES),
         ("MODEL", Model::NAMES),
         ("FOOTPRINT", Footprint::NAMES),
         ("ENTITY", EntityKind::NAMES),
-        ("RELIEF", ReliefKind::NAMES),
+        ("BUMP", BumpKind::NAMES),
         ("LIGHT", LightKind::NAMES),
         ("MAP", MapKind::NAMES),
         ("METHOD", Method::NAMES),
@@ -108,14 +110,14 @@ fn expected_numbers() -> BTreeMap<String, u32> {
         .collect();
     all.insert("NO_TEXTURE".into(), mirror::NO_TEXTURE);
     all.insert("NO_SHAPE".into(), mirror::NO_SHAPE);
-    all.insert("GUARDS".into(), Guard::ALL.len() as u32);
+    all.insert("DIAGNOSTICS".into(), Diagnostic::ALL.len() as u32);
     all.insert("JOB_BARE".into(), mirror::JOB_BARE);
     all.insert("JOB_APART".into(), mirror::JOB_APART);
     all.insert("JOB_STREAM_SHIFT".into(), mirror::JOB_STREAM_SHIFT);
     all.insert("CELL_WORDS".into(), mirror::CELL_WORDS);
-    all.insert("MOST_LISTED".into(), mirror::MOST_LISTED);
+    all.insert("MAX_LISTED".into(), mirror::MAX_LISTED);
     all.insert("CELL_EMPTY".into(), mirror::CELL_EMPTY);
-    all.insert("CELL_CALM".into(), mirror::CELL_CALM);
+    all.insert("CELL_UNIFORM".into(), mirror::CELL_UNIFORM);
     all.insert("CELL_BUSY".into(), mirror::CELL_BUSY);
     all.insert("NO_LIST".into(), mirror::NO_LIST);
     all.insert("NO_MATERIAL".into(), mirror::NO_MATERIAL);
@@ -138,7 +140,7 @@ const MIRRORS: &[(&str, [u32; 2])] = &[
     ("Triangle", units::<mirror::Triangle>()),
     ("Light", units::<mirror::Light>()),
     ("Material", units::<mirror::Material>()),
-    ("Map", units::<mirror::Map>()),
+    ("UvProjection", units::<mirror::UvProjection>()),
     ("Texture", units::<mirror::Texture>()),
     ("Sampler", units::<mirror::Sampler>()),
     ("Procedural", units::<mirror::Procedural>()),
@@ -171,7 +173,7 @@ fn differences(glsl: &str, rust: &str) -> Vec<String> {
 fn shader_structs_strides_and_mode_numbers_equal_their_mirrors() {
     let Some(root) = source_root() else { return };
     let glsl = fs::read_to_string(root.join("glsl/shared/layout.glsl")).unwrap();
-    let rust = fs::read_to_string(root.join("src/layout.rs")).unwrap();
+    let rust = fs::read_to_string(root.join("src/schema/layout.rs")).unwrap();
     let found = differences(&glsl, &rust);
     assert!(found.is_empty(), "{}", found.join("\n"));
     let far = glsl.split_once("const float FAR = ").unwrap().1.split(';').next().unwrap();
@@ -182,7 +184,7 @@ fn shader_structs_strides_and_mode_numbers_equal_their_mirrors() {
 fn planted_differences_of_layout_are_found() {
     let Some(root) = source_root() else { return };
     let glsl = fs::read_to_string(root.join("glsl/shared/layout.glsl")).unwrap();
-    let rust = fs::read_to_string(root.join("src/layout.rs")).unwrap();
+    let rust = fs::read_to_string(root.join("src/schema/layout.rs")).unwrap();
     let plants = [
         ("real4 axis_u;", "real4 axis_w;", "Plane"),
         ("    real4 axis_u;", "    vec4 axis_u;", "Plane"),
@@ -208,15 +210,15 @@ fn planted_differences_of_layout_are_found() {
 fn push_constants_equal_their_mirrors() {
     let Some(root) = source_root() else { return };
     let glsl = fs::read_to_string(root.join("glsl/shared/slice.glsl")).unwrap();
-    let rust = fs::read_to_string(root.join("src/layout.rs")).unwrap();
+    let rust = fs::read_to_string(root.join("src/schema/layout.rs")).unwrap();
     let here = glsl_struct(&glsl, "uniform Slice").unwrap();
     assert_eq!(Some(&here), rust_struct(&rust, "pub struct Slice").as_ref());
     assert_eq!(size_of::<mirror::Slice>(), here.len() * 4);
-    let glsl = fs::read_to_string(root.join("glsl/shared/pyramid.glsl")).unwrap();
+    let glsl = fs::read_to_string(root.join("glsl/shared/mip_chain.glsl")).unwrap();
     let here = glsl_struct(&glsl, "uniform Halving").unwrap();
     assert_eq!(Some(&here), rust_struct(&rust, "pub struct Halving").as_ref());
     assert_eq!(size_of::<mirror::Halving>(), here.len() * 4);
-    let glsl = fs::read_to_string(root.join("glsl/shared/survey_main.glsl")).unwrap();
+    let glsl = fs::read_to_string(root.join("glsl/shared/tile_culling_main.glsl")).unwrap();
     let here = glsl_struct(&glsl, "uniform Part").unwrap();
     assert_eq!(Some(&here), rust_struct(&rust, "pub struct Part").as_ref());
     assert_eq!(size_of::<mirror::Part>(), here.len() * 4);
@@ -225,8 +227,8 @@ fn push_constants_equal_their_mirrors() {
 const SHADERS: [&Shader; 24] = [
     &shaders::BEAM,
     &shaders::BEAM_WIDE,
-    &shaders::SURVEY,
-    &shaders::SURVEY_WIDE,
+    &shaders::TILE_CULLING,
+    &shaders::TILE_CULLING_WIDE,
     &shaders::RENDER_NONE_DOUBLE,
     &shaders::RENDER_TEXELS_DOUBLE,
     &shaders::RENDER_IMAGES_DOUBLE,
@@ -244,7 +246,7 @@ const SHADERS: [&Shader; 24] = [
     &shaders::PROBE_SOLIDS,
     &shaders::PROBE_RAYS,
     &shaders::PROBE_RAYS_DOUBLE,
-    &shaders::PROBE_WARPS,
+    &shaders::PROBE_DISK_SAMPLING,
     &shaders::PROBE_GLASS,
     &shaders::PROBE_PROCEDURAL,
 ];

@@ -1,10 +1,10 @@
 //! What is left out changes no bit of the picture, and neither does anything else that only concerns
 //! speed: where texels are read, the workgroup's shape, slices, bands, crops.
 
-use moire::features::{Features, TexelSource};
-use moire::pack::Crop;
-use moire::render::{TexelChoice, Tuning};
-use moire::scene::model::Pattern;
+use moire::internal::pack::Crop;
+use moire::internal::pack::features::{Features, TexelSource};
+use moire::internal::render::{TexelChoice, Tuning};
+use moire::internal::scene::model::Pattern;
 
 use crate::stage::{
     assert_same_bits, cut, every_scene, packed, render, render_on_oracle, render_with, scene, small,
@@ -85,7 +85,7 @@ fn a_ground_without_light_pays_for_nothing_else() {
         "UNTEXTURED",
         "COMPENSATED",
         "SMOOTH_NORMALS",
-        "CHOICES",
+        "SAMPLE_DIMENSIONS",
         "MOTIONS",
         "MOVING_CAMERA",
     ] {
@@ -194,7 +194,7 @@ fn many_samples_are_summed_as_the_oracle_sums_them() {
     let (device, oracle) = (render(&packed), render_on_oracle(&packed));
     let (full, _) = render_with(&packed, true, &Tuning::default());
     assert_same_bits(&device, &full, "1000 samples");
-    let compared = moire::metrics::compare(&device, &oracle).unwrap();
+    let compared = moire::internal::lab::metrics::compare(&device, &oracle).unwrap();
     // One sample in a thousand on the other side of an edge moves a pixel by up to 1e-3.
     assert!(
         compared.rmse <= 2e-5 && compared.max <= 1e-3,

@@ -1,9 +1,9 @@
-//! Mip pyramids against levels worked out by hand, and what holds for every texture: the size rule,
+//! Mip mip chains against levels worked out by hand, and what holds for every texture: the size rule,
 //! means that stay, constants that stay.
 
-use moire::color::{linear_to_srgb, srgb_to_linear};
-use moire::texture::data::{ColorSpace, Component, Dimension, MipKernel, TexelFormat, TextureData};
-use moire::texture::mips::{level_count, level_size, pyramid};
+use moire::internal::core::color::{linear_to_srgb, srgb_to_linear};
+use moire::internal::texture::data::{ColorSpace, Component, Dimension, MipKernel, TexelFormat, TextureData};
+use moire::internal::texture::mips::{level_count, level_size, mip_chain};
 use proptest::prelude::*;
 
 fn texture(dimension: Dimension, size: [u32; 3], format: TexelFormat, texels: Vec<u8>) -> TextureData {
@@ -29,7 +29,7 @@ fn floats(dimension: Dimension, size: [u32; 3], values: &[f32]) -> TextureData {
 
 /// The values of each level.
 fn boxes(dimension: Dimension, size: [u32; 3], values: &[f32]) -> Vec<Vec<f32>> {
-    let levels = pyramid(&floats(dimension, size, values), MipKernel::Box);
+    let levels = mip_chain(&floats(dimension, size, values), MipKernel::Box);
     let values =
         |t: &TextureData| t.texels.as_chunks::<4>().0.iter().map(|b| f32::from_ne_bytes(*b)).collect();
     levels.iter().map(values).collect()
@@ -95,7 +95,7 @@ fn a_texture_of_one_texel_has_no_more_levels() {
 fn level1(format: TexelFormat, color_space: ColorSpace, texels: &[u8]) -> Vec<u8> {
     let width = (texels.len() / format.bytes_per_texel()) as u32;
     let t = TextureData { color_space, ..texture(TWO, [width, 1, 1], format, texels.to_vec()) };
-    pyramid(&t, MipKernel::Box)[0].texels.clone()
+    mip_chain(&t, MipKernel::Box)[0].texels.clone()
 }
 
 #[test]
@@ -130,7 +130,7 @@ fn alpha_is_a_channel_like_the_others() {
 #[test]
 fn levels_are_rounded_once() {
     let t = texture(TWO, [4, 1, 1], TexelFormat::Grey8, vec![0, 0, 0, 1]);
-    let levels = pyramid(&t, MipKernel::Box);
+    let levels = mip_chain(&t, MipKernel::Box);
     assert_eq!((&levels[0].texels[..], &levels[1].texels[..]), (&[0, 1][..], &[0][..]));
 }
 
@@ -141,7 +141,7 @@ fn the_kaiser_kernel_is_sharper_and_aliases_less_than_the_box() {
     let height = |period: f64, kernel| {
         let wave = |i: u32| (std::f64::consts::TAU * f64::from(i) / period).sin() as f32;
         let t = floats(TWO, [256, 1, 1], &(0..256).map(wave).collect::<Vec<_>>());
-        let level = pyramid(&t, kernel).swap_remove(0);
+        let level = mip_chain(&t, kernel).swap_remove(0);
         // Away from the border, whose texels go on as they are.
         (16..112).map(|x| level.value(x, 0, 0).abs()).fold(0.0, f64::max)
     };
@@ -160,7 +160,7 @@ fn the_kaiser_kernel_is_sharper_and_aliases_less_than_the_box() {
 #[test]
 fn kaiser_levels_stay_in_the_range_of_the_texture() {
     let edge: Vec<f32> = (0..64).map(|i| if i < 32 { 2.0 } else { 5.0 }).collect();
-    for level in pyramid(&floats(TWO, [64, 1, 1], &edge), MipKernel::Kaiser) {
+    for level in mip_chain(&floats(TWO, [64, 1, 1], &edge), MipKernel::Kaiser) {
         let range = (0..level.width).map(|x| level.value(x, 0, 0));
         assert!(range.clone().all(|v| (2.0..=5.0).contains(&v)), "{:?}", range.collect::<Vec<_>>());
     }
@@ -210,7 +210,7 @@ proptest! {
 
     #[test]
     fn sizes_follow_vulkans_rule(t in any_texture()) {
-        let levels = pyramid(&t, MipKernel::Box);
+        let levels = mip_chain(&t, MipKernel::Box);
         let depth = if t.dimension == Dimension::Three { t.depth } else { 1 };
         let longest = t.width.max(t.height).max(depth);
         prop_assert_eq!(levels.len() as u32, longest.ilog2());
@@ -228,7 +228,7 @@ proptest! {
 
     #[test]
     fn box_levels_keep_the_mean_of_every_channel(t in any_texture()) {
-        for (l, level) in pyramid(&t, MipKernel::Box).iter().enumerate() {
+        for (l, level) in mip_chain(&t, MipKernel::Box).iter().enumerate() {
             for channel in 0..t.format.channels() {
                 let (before, after) = (mean(&t, channel), mean(level, channel));
                 // Stored levels are rounded to half a step; sRGB steps are at most 2.3 times as wide in
@@ -248,7 +248,7 @@ proptest! {
         let texel = t.texels[..t.format.bytes_per_texel()].to_vec();
         let constant = TextureData { texels: texel.repeat(t.texels.len() / texel.len()), ..t };
         for kernel in [MipKernel::Box, MipKernel::Kaiser] {
-            for level in pyramid(&constant, kernel) {
+            for level in mip_chain(&constant, kernel) {
                 for channel in 0..constant.format.channels() {
                     let (exact, found) = (constant.value(0, 0, channel), level.value(0, 0, channel));
                     // A rounding to f32 at each of up to six Kaiser levels.

@@ -3,14 +3,14 @@
 //! no ray between two triangles that share an edge.
 
 use glam::{DVec2, DVec3};
-use moire::layout::NO_SHAPE;
-use moire::oracle::camera::Ray;
-use moire::oracle::intersect::{Hit, nearest_hit, occluded};
-use moire::oracle::mapping::{Seen, texture_coordinate};
-use moire::oracle::math::xyz;
-use moire::oracle::surface::hit_surface;
-use moire::pack::{MapKind, PackedScene};
-use moire::probe::{self, RayAnswer, RayQuery};
+use moire::internal::lab::probe::{self, RayAnswer, RayQuery};
+use moire::internal::oracle::camera::Ray;
+use moire::internal::oracle::intersect::{Hit, nearest_hit, occluded};
+use moire::internal::oracle::mapping::{MapInput, texture_coordinate};
+use moire::internal::oracle::math::xyz;
+use moire::internal::oracle::surface::hit_surface;
+use moire::internal::pack::{MapKind, PackedScene};
+use moire::internal::schema::layout::NO_SHAPE;
 
 use crate::lookup::bench::Dice;
 use crate::shared_gpu::gpu;
@@ -104,25 +104,28 @@ fn wrong_hit(
     if (normal.length() - 1.0).abs() > 8.0 * U {
         return Some(format!("normal of length {}", normal.length())); // 8 roundings of a unit vector
     }
-    let bend = estimate.curvature * point_error + estimate.weights + 16.0 * U; // turn of the normal by the error
-    let grazing = surface.geometric_normal.dot(ray.direction).abs() <= bend * ray.direction.length();
+    let shape_operator = estimate.curvature * point_error + estimate.weights + 16.0 * U; // turn of the normal by the error
+    let grazing =
+        surface.geometric_normal.dot(ray.direction).abs() <= shape_operator * ray.direction.length();
     let off = normal.distance(surface.normal);
-    if off > bend && !grazing {
-        return Some(format!("normal off by {off:e} from {}, {bend:e} allowed", surface.normal));
+    if off > shape_operator && !grazing {
+        return Some(format!("normal off by {off:e} from {}, {shape_operator:e} allowed", surface.normal));
     }
     wrong_uv(scene, &surface, answer, point_error, estimate.weights)
 }
 
 fn wrong_uv(
     scene: &PackedScene,
-    surface: &moire::oracle::surface::Surface,
+    surface: &moire::internal::oracle::surface::Surface,
     answer: &RayAnswer,
     point_error: f64,
     weights: f64,
 ) -> Option<String> {
     let map = &scene.maps[surface.map as usize];
-    let expected =
-        texture_coordinate(map, &Seen { entity: surface.point, own: surface.own_uv, ..Default::default() });
+    let expected = texture_coordinate(
+        map,
+        &MapInput { entity: surface.point, own: surface.own_uv, ..Default::default() },
+    );
     let expected = expected.at.truncate();
     let got = DVec2::new(answer.uv[0].into(), answer.uv[1].into());
     let rows = [map.x, map.y, map.z];

@@ -3,12 +3,12 @@
 
 use std::time::Instant;
 
-use moire::gpu::{DeviceKind, DeviceSelect, Gpu};
-use moire::probe::Pyramids;
-use moire::progress::Silent;
-use moire::render::{Session, Tuning};
-use moire::scene::model::{Algorithm, Pattern};
-use moire::texture::data::{ColorSpace, Dimension, TexelFormat, TextureData};
+use moire::internal::core::progress::NoProgress;
+use moire::internal::gpu::{DeviceKind, DeviceSelect, Gpu};
+use moire::internal::lab::probe::MipPlacement;
+use moire::internal::render::{Session, Tuning};
+use moire::internal::scene::model::{Algorithm, Pattern};
+use moire::internal::texture::data::{ColorSpace, Dimension, TexelFormat, TextureData};
 
 use crate::stage::{device_name, packed, small};
 use crate::support::untested;
@@ -49,8 +49,8 @@ fn share(gpu: &Gpu, name: &str, algorithm: Algorithm, keep_everything: bool) -> 
     let build = least(2, |_| {
         let prepared = session.prepare().unwrap();
         // Beams build the pipeline of what they leave to samples when they find it.
-        let (_, report) = prepared.render(&Silent).unwrap();
-        again = least(20, |_| seconds(|| drop(prepared.render(&Silent).unwrap())));
+        let (_, report) = prepared.render(&NoProgress).unwrap();
+        again = least(20, |_| seconds(|| drop(prepared.render(&NoProgress).unwrap())));
         report.seconds.compile
     });
     again / build
@@ -107,8 +107,8 @@ fn passes_of_a_pyramid_are_compiled_once() {
     };
     let mut again = 0.0;
     let first = least(2, |_| {
-        let mut pyramids = Pyramids::new(&gpu);
-        let mut make = || seconds(|| drop(pyramids.make(&texture).unwrap()));
+        let mut mip_chains = MipPlacement::new(&gpu);
+        let mut make = || seconds(|| drop(mip_chains.make(&texture).unwrap()));
         let first = make();
         again = least(20, |_| make());
         first

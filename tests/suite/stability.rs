@@ -5,10 +5,10 @@ mod command;
 mod page;
 mod verdicts;
 
-use moire::error::Result;
-use moire::gpu::{DeviceInfo, DeviceKind};
-use moire::stability::case::{Bench, Case, Point};
-use moire::stability::report::{Report, Row};
+use moire::internal::core::error::Result;
+use moire::internal::gpu::{DeviceInfo, DeviceKind};
+use moire::internal::lab::stability::case::{Bench, Case, Point};
+use moire::internal::lab::stability::report::{Report, Row};
 
 type Run = fn(&Bench<'_>) -> Result<Vec<Point>>;
 

@@ -6,15 +6,15 @@ use std::ops::Deref;
 use std::path::PathBuf;
 use std::sync::OnceLock;
 
-use moire::film::Film;
-use moire::gpu::{DeviceSelect, Gpu, OpenOptions, validation_available};
-use moire::oracle;
-use moire::pack::{self, Crop, PackedScene};
-use moire::progress::Silent;
-use moire::render::{self, Report, Tuning};
-use moire::scene::model::{Pattern, Scene};
-use moire::scene::{self, prune::prune};
-use moire::texture::load::load;
+use moire::internal::core::film::Film;
+use moire::internal::core::progress::NoProgress;
+use moire::internal::gpu::{DeviceSelect, Gpu, OpenOptions, validation_available};
+use moire::internal::oracle;
+use moire::internal::pack::{self, Crop, PackedScene};
+use moire::internal::render::{self, Report, Tuning};
+use moire::internal::scene::model::{Pattern, Scene};
+use moire::internal::scene::{self, prune::prune};
+use moire::internal::texture::load::load;
 
 use crate::support::{data, untested};
 
@@ -82,7 +82,7 @@ pub fn small(name: &str, side: u32, spp: u32) -> Scene {
 
 pub fn packed(mut scene: Scene, crop: Option<Crop>) -> PackedScene {
     prune(&mut scene);
-    scene::cone::suit(&mut scene);
+    scene::cone::adapt_for_cone(&mut scene);
     let textures = scene.textures.iter().map(|t| load(t).unwrap()).collect();
     pack::pack(&scene, textures, crop).unwrap()
 }
@@ -135,7 +135,7 @@ impl Drop for Device {
 }
 
 pub fn render_with(scene: &PackedScene, keep_everything: bool, tuning: &Tuning) -> (Film, Report) {
-    render::render(&device(), scene.clone(), keep_everything, tuning, &Silent).unwrap()
+    render::render(&device(), scene.clone(), keep_everything, tuning, &NoProgress).unwrap()
 }
 
 pub fn render(scene: &PackedScene) -> Film {
@@ -143,7 +143,7 @@ pub fn render(scene: &PackedScene) -> Film {
 }
 
 pub fn render_on_oracle(scene: &PackedScene) -> Film {
-    oracle::render::render(scene, &Silent).unwrap()
+    oracle::render::render(scene, &NoProgress).unwrap()
 }
 
 /// The pixels of `crop`, as rendering with that crop would give them.

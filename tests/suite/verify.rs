@@ -4,19 +4,23 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use glam::DVec2;
-use moire::gpu::{DeviceInfo, DeviceKind, DeviceLimits};
-use moire::oracle::filter::look_up;
-use moire::oracle::mapping::Coordinate;
-use moire::texture::data::Dimension;
-use moire::texture::sampler_spec::{Address, Filter, SamplerSpec};
-use moire::verify::groups::lines;
-use moire::verify::judge::{Judge, Judgement, Precision};
-use moire::verify::queries::{Axis, Dice, coordinates, pairs, query, ramp, ramp_texture, texture, uv_of};
-use moire::verify::report::{Report, Row, Verdict};
-use moire::verify::run::Tally;
-use moire::verify::text::text;
-use moire::verify::variants::{FormatClass, Reader, Scale, Variant, sampler_variants, shader_variants};
-use moire::verify::weights::{RAMP_STEPS, WeightBits, weight_bits};
+use moire::internal::gpu::{DeviceInfo, DeviceKind, DeviceLimits};
+use moire::internal::lab::verify::groups::lines;
+use moire::internal::lab::verify::judge::{Judge, Judgement, Precision};
+use moire::internal::lab::verify::queries::{
+    Axis, Dice, coordinates, pairs, query, ramp, ramp_texture, texture, uv_of,
+};
+use moire::internal::lab::verify::report::{Report, Row, Verdict};
+use moire::internal::lab::verify::run::Tally;
+use moire::internal::lab::verify::text::text;
+use moire::internal::lab::verify::variants::{
+    FormatClass, Reader, Scale, Variant, sampler_variants, shader_variants,
+};
+use moire::internal::lab::verify::weights::{RAMP_STEPS, WeightBits, weight_bits};
+use moire::internal::oracle::filter::sample_texture;
+use moire::internal::oracle::mapping::Coordinate;
+use moire::internal::texture::data::Dimension;
+use moire::internal::texture::sampler_spec::{Address, Filter, SamplerSpec};
 
 mod command;
 mod levels;
@@ -60,9 +64,10 @@ fn row(driver: &str, variant: &Variant, shift: f64) -> Row {
     for uv in coordinates(&mut Dice::new(3), [8, 6], 100, false) {
         let query = query(&scene, 0, uv);
         let at = uv_of(&query) + DVec2::X * shift / 8.0;
-        let answer = look_up(&scene, &scene.textures[0], &scene.samplers[0], &Coordinate::flat(at), [0; 2])
-            .as_vec4()
-            .to_array();
+        let answer =
+            sample_texture(&scene, &scene.textures[0], &scene.samplers[0], &Coordinate::flat(at), [0; 2])
+                .as_vec4()
+                .to_array();
         tally.add(judge.judge(&query, answer));
     }
     Row::new(&device, variant, tally)
@@ -166,8 +171,13 @@ fn the_ramp_runs_from_one_texel_to_the_other_in_equal_exact_steps() {
             let scene = pairs(vec![texture], &[spec], &[(0, 0)]).unwrap();
             for (k, uv) in ramp(axis, 1024).enumerate() {
                 let uv = uv_of(&query(&scene, 0, uv));
-                let value =
-                    look_up(&scene, &scene.textures[0], &scene.samplers[0], &Coordinate::flat(uv), [0; 2]);
+                let value = sample_texture(
+                    &scene,
+                    &scene.textures[0],
+                    &scene.samplers[0],
+                    &Coordinate::flat(uv),
+                    [0; 2],
+                );
                 assert_eq!(value.x, k as f64 / 1024.0, "{format} along {axis} at step {k}");
             }
         }

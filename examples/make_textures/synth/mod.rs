@@ -5,11 +5,11 @@
 //! every platform makes the same bytes.
 
 mod axes;
+mod bump;
 mod coded;
 mod grass;
 mod lettering;
 mod poster;
-mod relief;
 mod sky;
 mod solid;
 mod tiles;
@@ -35,8 +35,8 @@ pub fn all() -> Vec<Asset> {
         Asset { path: "axes.png", image: axes::axes().into() },
         Asset { path: "sky.png", image: sky::equirectangular().into() },
         Asset { path: "sky-cross.png", image: sky::cross().into() },
-        Asset { path: "studs.png", image: relief::heights().into() },
-        Asset { path: "studs-normal.png", image: relief::normals().into() },
+        Asset { path: "studs.png", image: bump::heights().into() },
+        Asset { path: "studs-normal.png", image: bump::normals().into() },
         Asset { path: "bench/checker.png", image: coded::checker().into() },
     ];
     assets.extend(coded::small());

@@ -4,7 +4,7 @@
 
 use rayon::prelude::*;
 
-use crate::color::{srgb_table, srgb_to_linear};
+use crate::core::color::{srgb_table, srgb_to_linear};
 use crate::texture::data::{ColorSpace, Component, TexelFormat, TextureData};
 
 pub(super) struct Codec {
@@ -197,7 +197,7 @@ impl SrgbCodes {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::color::linear_to_srgb;
+    use crate::core::color::linear_to_srgb;
 
     #[test]
     fn table_encoding_is_the_nearest_code() {

@@ -1,8 +1,8 @@
-//! The box pyramid of a texture in which some texels are NaN or infinite: a coarser texel is the mean over
+//! The box mip chain of a texture in which some texels are NaN or infinite: a coarser texel is the mean over
 //! those that it covers and that are numbers in every channel, NaN where none is. So one of them stays
 //! where it is, and does not reach the last level, which far footprints read.
 
-use super::pyramid;
+use super::mip_chain;
 use crate::texture::data::{MipKernel, TextureData};
 
 /// Levels 1 to the last of a texture of floats.
@@ -13,7 +13,7 @@ pub fn pyramid_of_finite(texture: &TextureData) -> Vec<TextureData> {
     let filled = texture
         .with_floats(channels, |x, y, c| if present(x, y) { texture.value(x, y, c) as f32 } else { 0.0 });
     let shares = texture.with_floats(1, |x, y, _| if present(x, y) { 1.0 } else { 0.0 });
-    let levels = pyramid(&filled, MipKernel::Box).into_iter().zip(pyramid(&shares, MipKernel::Box));
+    let levels = mip_chain(&filled, MipKernel::Box).into_iter().zip(mip_chain(&shares, MipKernel::Box));
     levels.map(|(level, share)| mean_of_present(&level, &share)).collect()
 }
 

@@ -13,7 +13,7 @@ mod samples;
 use std::path::Path;
 
 use super::read_file::{Picture, Texels, check_memory, check_size, damaged, out_of_memory};
-use crate::error::{Error, Result};
+use crate::core::error::{Error, Result};
 use directory::{Directory, tag};
 use layout::Layout;
 

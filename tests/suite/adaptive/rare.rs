@@ -3,10 +3,10 @@
 
 use std::path::Path;
 
-use moire::adaptive::{Goal, Outcome};
-use moire::film::Film;
-use moire::scene::model::{Algorithm, Pattern, Scene};
-use moire::scene::parse;
+use moire::internal::adaptive::{Goal, Outcome};
+use moire::internal::core::film::Film;
+use moire::internal::scene::model::{Algorithm, Pattern, Scene};
+use moire::internal::scene::parse;
 
 use super::{rmse, to_goal};
 use crate::stage::{packed, render};
@@ -231,6 +231,6 @@ fn no_pixel_of_rare_texels_is_left_with_its_first_samples() {
     equal.sampling.spp = 4096;
     equal.sampling.seed = 3;
     let (error, of_equal) = (rmse(&film, &reference), rmse(&render(&packed(equal, None)), &reference));
-    // 1.12 were measured: counts that follow the samples bend the picture a little.
+    // 1.12 were measured: counts that follow the samples shape_operator the picture a little.
     assert!(error < 1.15 * of_equal, "{error:e}, for all alike {of_equal:e}: {outcome:?}");
 }

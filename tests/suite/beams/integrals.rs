@@ -1,16 +1,16 @@
-//! Integrals of textures over pieces: every address mode, filter and centre, near and far, against means of
+//! Integrals of textures over fragments: every address mode, filter and centre, near and far, against means of
 //! very many look-ups; checkers against closed forms.
 
 use glam::DVec2;
-use moire::oracle::beam::beam;
-use moire::oracle::forms::Quotient;
-use moire::oracle::grid::checker_grid;
-use moire::oracle::polygon::unit_square;
-use moire::oracle::render::sample;
-use moire::oracle::rows::mean_over;
-use moire::pack::PackedScene;
-use moire::scene::model::{Pattern, Scene};
-use moire::texture::sampler_spec::{Address, Filter, TexelCenter};
+use moire::internal::oracle::beam::beam;
+use moire::internal::oracle::grid::checker_grid;
+use moire::internal::oracle::polygon::unit_square;
+use moire::internal::oracle::prefix_sums::mean_over;
+use moire::internal::oracle::projective::RationalMap;
+use moire::internal::oracle::render::sample;
+use moire::internal::pack::PackedScene;
+use moire::internal::scene::model::{Pattern, Scene};
+use moire::internal::texture::sampler_spec::{Address, Filter, TexelCenter};
 
 use super::{beams, rmse, with_beams};
 use crate::stage::{packed, render, render_on_oracle, small};
@@ -89,7 +89,7 @@ fn a_checker_has_its_exact_mean() {
     for (x, y, w, h) in
         [(0.2, 0.3, 0.5, 0.4), (0.7, -1.4, 3.3, 2.9), (-5.1, 8.2, 40.7, 0.3), (100.5, 3.0, 1.0, 7.5)]
     {
-        let quotient = Quotient {
+        let quotient = RationalMap {
             u: glam::DVec3::new(w, 0.0, x),
             v: glam::DVec3::new(0.0, h, y),
             below: glam::DVec3::Z,
@@ -101,7 +101,7 @@ fn a_checker_has_its_exact_mean() {
     }
 }
 
-/// Clamped textures have no pyramid beyond their edges.
+/// Clamped textures have no mip chain beyond their edges.
 #[test]
 fn distant_clamped_textures_are_left_to_samples() {
     let mut scene = small("s1b", 32, 4);
@@ -116,8 +116,9 @@ fn textures_of_any_size_and_format() {
     for file in ["rgb16.png", "grey16.png", "rgba8.png", "ramp.exr"] {
         let mut scene = small("s1b", 32, 4);
         let texture = &mut scene.textures[0];
-        texture.content =
-            moire::scene::model::TextureContent::File(crate::support::data().join("textures").join(file));
+        texture.content = moire::internal::scene::model::TextureContent::File(
+            crate::support::data().join("textures").join(file),
+        );
         super::assert_meets_samples(&scene, file);
         let beamed = with_beams(scene);
         let apart = rmse(&render(&beamed), &render_on_oracle(&beamed));

@@ -1,7 +1,7 @@
 //! Cones in places where their geometry ends: within balls, along planes, among shapes smaller than they
 //! are, in shadows.
 
-use moire::film::Film;
+use moire::internal::core::film::Film;
 
 use super::{central, exact_film, film, parallel, with_samples};
 

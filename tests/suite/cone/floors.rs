@@ -1,8 +1,8 @@
 //! Cones that leave flat surfaces, mirrored or towards a light: what lies behind the surface is not met, what stands
 //! on it is met down to its foot.
 
-use moire::film::Film;
-use moire::scene::model::Scene;
+use moire::internal::core::film::Film;
+use moire::internal::scene::model::Scene;
 
 use super::{central, exact_film, film, parallel, with_samples};
 

@@ -1,7 +1,7 @@
 //! What the device layer refuses before Vulkan sees it: sizes over the limits, texels that do not fit,
 //! pipelines and runs that do not match, resources of another device. Each by name.
 
-use moire::gpu::{
+use moire::internal::gpu::{
     BindingDesc, BindingKind, Bound, BufferUse, ImageDesc, ImageFormat, ImageShape, PipelineDesc, Swizzle,
 };
 

@@ -1,11 +1,11 @@
 //! Volumes and cubes of the device layer: every texel of every slice, face and level arrives at its
 //! place, faces are picked by Vulkan's table, and edges of a cube are filtered across.
 
-use moire::gpu::{
+use moire::internal::gpu::{
     BindGroup, BindingKind, Bound, Buffer, BufferUse, Gpu, ImageDesc, ImageFormat, ImageShape, Pipeline,
     PipelineDesc, Swizzle,
 };
-use moire::texture::sampler_spec::{Address, Filter, MipMode, SamplerSpec};
+use moire::internal::texture::sampler_spec::{Address, Filter, MipMode, SamplerSpec};
 
 use super::{Checked, bytes_of, error_of, one, read_u32};
 use crate::device_shaders::SOLIDS;

@@ -1,9 +1,9 @@
 //! Faults that were there once, one test each: the cases of the stability report that show them, over part of their
 //! sweep's time.
 
-use moire::progress::Silent;
-use moire::stability::all;
-use moire::stability::case::{Bench, Point};
+use moire::internal::core::progress::NoProgress;
+use moire::internal::lab::stability::all;
+use moire::internal::lab::stability::case::{Bench, Point};
 
 use crate::stage::device;
 
@@ -11,7 +11,7 @@ use crate::stage::device;
 fn worst(group: &str, name: &str, rounded: bool) -> (f64, Vec<Point>) {
     let case = all().into_iter().find(|c| (c.group, c.name) == (group, name)).unwrap();
     let device = device();
-    let points = (case.run)(&Bench { rounded, ..Bench::new(&device, &Silent) }).unwrap();
+    let points = (case.run)(&Bench { rounded, ..Bench::new(&device, &NoProgress) }).unwrap();
     assert!(!points.is_empty());
     (points.iter().map(|p| p.error - case.bound).fold(f64::NEG_INFINITY, f64::max), points)
 }

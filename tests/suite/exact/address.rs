@@ -1,9 +1,9 @@
 //! Address modes: the texel at every whole place, by walking along the texture and back instead of by
 //! remainders; and coordinates brought near the texture, exactly.
 
-use moire::oracle::address::{addressed_texel, reduced_coordinate};
-use moire::texture::sampler_spec::Address;
-use moire::verify::queries::Dice;
+use moire::internal::lab::verify::queries::Dice;
+use moire::internal::oracle::address::{addressed_texel, reduced_coordinate};
+use moire::internal::texture::sampler_spec::Address;
 use num_traits::Signed;
 
 use super::numbers::{Q, approx, frac, modulo, q};

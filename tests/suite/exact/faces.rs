@@ -1,11 +1,11 @@
 //! Cube textures: the face that a direction meets and the place on it by Vulkan's table, and the texel there.
 
 use glam::{DVec2, DVec3};
-use moire::oracle::filter::look_up;
-use moire::oracle::mapping::{Coordinate, on_cube_face, within_face};
-use moire::texture::data::Dimension;
-use moire::texture::sampler_spec::{Filter, SamplerSpec};
-use moire::verify::queries::{self, Dice};
+use moire::internal::lab::verify::queries::{self, Dice};
+use moire::internal::oracle::filter::sample_texture;
+use moire::internal::oracle::mapping::{Coordinate, on_cube_face, within_face};
+use moire::internal::texture::data::Dimension;
+use moire::internal::texture::sampler_spec::{Filter, SamplerSpec};
 use num_traits::Signed;
 
 use super::numbers::{Q, direction, frac, v};
@@ -94,7 +94,7 @@ fn every_texel_of_a_cube_is_read_along_the_direction_to_its_middle() {
                 d[axis.unsigned_abs() as usize - 1] = along * f64::from(axis.signum());
             }
             let place = Coordinate { at: d, ..Default::default() };
-            let read = look_up(&scene, &scene.textures[0], &scene.samplers[0], &place, [0, 0]).x;
+            let read = sample_texture(&scene, &scene.textures[0], &scene.samplers[0], &place, [0, 0]).x;
             assert_eq!(read, f64::from((face as i32 * size + y) * size + x), "face {face}, texel {x} {y}");
         }
     }

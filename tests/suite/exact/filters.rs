@@ -1,17 +1,17 @@
 //! Look-ups over footprints: the singular values of a footprint by an exact root, the level by a logarithm to
-//! 256 bits, the mean of two levels of an exact pyramid, and the Gaussian over an ellipse.
+//! 256 bits, the mean of two levels of an exact mip chain, and the Gaussian over an ellipse.
 
 use glam::{DVec2, DVec3};
-use moire::layout::Texture;
-use moire::oracle::ellipse::ellipse_weight;
-use moire::oracle::filter::look_up;
-use moire::oracle::mapping::Coordinate;
-use moire::oracle::spread::{Spread, texel_spread};
-use moire::pack::PackedScene;
-use moire::scene::model::Footprint;
-use moire::texture::data::Dimension;
-use moire::texture::sampler_spec::{Filter, MipMode, SamplerSpec};
-use moire::verify::queries::{self, Dice};
+use moire::internal::lab::verify::queries::{self, Dice};
+use moire::internal::oracle::ellipse::ellipse_weight;
+use moire::internal::oracle::filter::sample_texture;
+use moire::internal::oracle::footprint_axes::{FootprintEllipse, texel_spread};
+use moire::internal::oracle::mapping::Coordinate;
+use moire::internal::pack::PackedScene;
+use moire::internal::scene::model::Footprint;
+use moire::internal::schema::layout::Texture;
+use moire::internal::texture::data::Dimension;
+use moire::internal::texture::sampler_spec::{Filter, MipMode, SamplerSpec};
 use num_traits::{Signed, Zero};
 
 use super::numbers::{Q, approx, exp, frac, log2, modulo, q, sqrt};
@@ -64,7 +64,7 @@ fn footprints(longest: f64) -> Vec<[DVec2; 2]> {
     all
 }
 
-fn spreads(read: impl Fn(&Texture, &Coordinate) -> Spread) -> Worst {
+fn spreads(read: impl Fn(&Texture, &Coordinate) -> FootprintEllipse) -> Worst {
     let scene = scene(&[SamplerSpec::default()]);
     let mut worst = Worst::default();
     for changes in footprints(0.5) {
@@ -84,7 +84,7 @@ fn the_axes_of_a_footprint_are_its_singular_values() {
     let longer = |image: &Texture, c: &Coordinate| {
         let [x, y] = c.change.map(|d| d * DVec3::new(16.0, 8.0, 0.0));
         let major = x.length_squared().max(y.length_squared());
-        Spread { major, ..texel_spread(image, c) }
+        FootprintEllipse { major, ..texel_spread(image, c) }
     };
     spreads(longer).fails("the longer of two vectors");
 }
@@ -136,7 +136,7 @@ fn two_levels(read: impl Fn(&PackedScene, &Coordinate) -> f64) -> Worst {
 }
 
 fn answer(scene: &PackedScene, c: &Coordinate) -> f64 {
-    look_up(scene, &scene.textures[0], &scene.samplers[0], c, [1, 2]).x
+    sample_texture(scene, &scene.textures[0], &scene.samplers[0], c, [1, 2]).x
 }
 
 #[test]

@@ -2,10 +2,10 @@
 //! of 2^-200, where a quotient of rationals cancels nothing.
 
 use glam::DVec3;
-use moire::oracle::camera::camera_ray;
-use moire::oracle::footprint::{Footprint, camera_beam, footprint_at};
-use moire::oracle::intersect::plane_distance;
-use moire::verify::queries::Dice;
+use moire::internal::lab::verify::queries::Dice;
+use moire::internal::oracle::camera::camera_ray;
+use moire::internal::oracle::footprint::{Footprint, camera_differential, footprint_at};
+use moire::internal::oracle::intersect::plane_distance;
 use num_bigint::BigInt;
 
 use super::numbers::{Q, V, approx, direction, v, vector};
@@ -36,7 +36,7 @@ fn compare(change: impl Fn(Footprint) -> Footprint) -> Worst {
         let (distance, _) = plane_distance(&scene.planes[0], &ray);
         let n = v(t).cross(&v(b)).unit().approx();
         let n = if n.dot(ray.direction) > 0.0 { -n } else { n };
-        let beam = camera_beam(&scene.header, &ray);
+        let beam = camera_differential(&scene.header, &ray);
         let print = change(footprint_at(&scene.header, &beam, &ray, distance, n));
         let slope = n.dot(ray.direction).abs();
         if distance <= 0.0 || slope < 1e-3 {

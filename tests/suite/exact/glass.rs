@@ -4,8 +4,8 @@
 use std::sync::OnceLock;
 
 use glam::DVec3;
-use moire::oracle::footprint::{mirrored, reflectance, refracted};
-use moire::verify::queries::Dice;
+use moire::internal::lab::verify::queries::Dice;
+use moire::internal::oracle::footprint::{fresnel_dielectric, mirrored, refracted};
 use num_traits::Signed;
 
 use super::numbers::{Q, V, approx, direction, frac, q, sqrt, v};
@@ -93,7 +93,7 @@ fn known() -> &'static [Known] {
 
 fn compare(
     share: impl Fn(DVec3, DVec3, f64) -> f64,
-    bend: impl Fn(DVec3, DVec3, f64) -> DVec3,
+    shape_operator: impl Fn(DVec3, DVec3, f64) -> DVec3,
 ) -> (Worst, u32) {
     let mut worst = Worst::default();
     let mut open = 0;
@@ -104,7 +104,7 @@ fn compare(
             continue;
         };
         worst.add(share(d, n, ratio), &exact.share, exact.bound);
-        let way = bend(d, n, ratio);
+        let way = shape_operator(d, n, ratio);
         for k in 0..3 {
             worst.add(way[k], &exact.way.0[k], exact.way_bound);
         }
@@ -114,7 +114,7 @@ fn compare(
 
 #[test]
 fn fresnel_and_snell_are_exact_to_their_condition() {
-    let (worst, open) = compare(reflectance, refracted);
+    let (worst, open) = compare(fresnel_dielectric, refracted);
     worst.holds("glass");
     println!("glass: {open} directions within rounding of the critical angle");
     assert!(open < 100, "{open} were not decided");
@@ -122,12 +122,14 @@ fn fresnel_and_snell_are_exact_to_their_condition() {
 
 #[test]
 fn planted_errors_of_glass_are_told() {
-    compare(|d, n, r| reflectance(d, n, 1.0 / r), refracted).0.fails("indices the wrong way round");
-    compare(|d, n, r| reflectance(d, n, r) * (1.0 + 1e-12), refracted)
+    compare(|d, n, r| fresnel_dielectric(d, n, 1.0 / r), refracted).0.fails("indices the wrong way round");
+    compare(|d, n, r| fresnel_dielectric(d, n, r) * (1.0 + 1e-12), refracted)
         .0
         .fails("a trillionth more is mirrored");
-    compare(reflectance, |d, n, r| refracted(d, n, r).reflect(n)).0.fails("a ray that stays in front");
-    compare(reflectance, |d, n, r| refracted(d, n, r * (1.0 + 1e-12))).0.fails("a trillionth more of index");
+    compare(fresnel_dielectric, |d, n, r| refracted(d, n, r).reflect(n)).0.fails("a ray that stays in front");
+    compare(fresnel_dielectric, |d, n, r| refracted(d, n, r * (1.0 + 1e-12)))
+        .0
+        .fails("a trillionth more of index");
     // Schlick's approximation.
     let schlick = |d: DVec3, n: DVec3, r: f64| {
         let zero = ((1.0 - r) / (1.0 + r)).powi(2);

@@ -3,13 +3,13 @@
 //! texels by 256 bits.
 
 use glam::DVec3;
-use moire::color::srgb_to_linear;
-use moire::oracle::filter::look_up;
-use moire::oracle::mapping::Coordinate;
-use moire::pack::PackedScene;
-use moire::texture::data::{ColorSpace, Dimension, TexelFormat};
-use moire::texture::sampler_spec::{Address, CATMULL_ROM, Filter, SamplerSpec, TexelCenter};
-use moire::verify::queries::{self, Dice};
+use moire::internal::core::color::srgb_to_linear;
+use moire::internal::lab::verify::queries::{self, Dice};
+use moire::internal::oracle::filter::sample_texture;
+use moire::internal::oracle::mapping::Coordinate;
+use moire::internal::pack::PackedScene;
+use moire::internal::texture::data::{ColorSpace, Dimension, TexelFormat};
+use moire::internal::texture::sampler_spec::{Address, CATMULL_ROM, Filter, SamplerSpec, TexelCenter};
 use num_traits::{Signed, Zero};
 
 use super::address::walked;
@@ -104,7 +104,7 @@ fn specs(flat: bool) -> Vec<SamplerSpec> {
 
 fn read(scene: &PackedScene, sampler: usize, at: DVec3) -> f64 {
     let place = Coordinate { at, ..Default::default() };
-    look_up(scene, &scene.textures[0], &scene.samplers[sampler], &place, [3, 4]).x
+    sample_texture(scene, &scene.textures[0], &scene.samplers[sampler], &place, [3, 4]).x
 }
 
 fn compare(read: impl Fn(&PackedScene, usize, DVec3) -> f64) -> Worst {

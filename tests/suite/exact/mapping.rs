@@ -4,9 +4,9 @@
 use std::sync::OnceLock;
 
 use glam::{DVec2, DVec3, Vec2Swizzles};
-use moire::layout::Map;
-use moire::oracle::mapping::{Coordinate, Seen, texture_coordinate};
-use moire::verify::queries::Dice;
+use moire::internal::lab::verify::queries::Dice;
+use moire::internal::oracle::mapping::{Coordinate, MapInput, texture_coordinate};
+use moire::internal::schema::layout::UvProjection;
 
 use super::numbers::{
     Q, V, angle, approx, cos, degrees, direction, frac, nearest_turn, pi, q, sin, v, vector,
@@ -79,7 +79,7 @@ fn cases() -> Vec<Case> {
 }
 
 impl Case {
-    fn map(&self) -> Map {
+    fn map(&self) -> UvProjection {
         let [axis, origin] = [self.axis, self.origin].map(list);
         let pair = |p: DVec2| format!("[{:?}, {:?}]", p.x, p.y);
         let text = format!(
@@ -132,7 +132,7 @@ impl Case {
 }
 
 /// A map, a place, its exact coordinate and a bound.
-type Known = (Map, DVec3, [Q; 2], f64);
+type Known = (UvProjection, DVec3, [Q; 2], f64);
 
 fn known() -> &'static [Known] {
     static KNOWN: OnceLock<Vec<Known>> = OnceLock::new();
@@ -164,10 +164,10 @@ fn known() -> &'static [Known] {
     })
 }
 
-fn compare(read: impl Fn(&Map, &Seen) -> Coordinate) -> Worst {
+fn compare(read: impl Fn(&UvProjection, &MapInput) -> Coordinate) -> Worst {
     let mut worst = Worst::default();
     for (map, p, exact, bound) in known() {
-        let at = read(map, &Seen { entity: *p, ..Default::default() }).at;
+        let at = read(map, &MapInput { entity: *p, ..Default::default() }).at;
         for (got, exact) in [at.x, at.y].into_iter().zip(exact) {
             // `repeat` tells no two whole tiles apart.
             worst.add(got, &nearest_turn(exact, got, 1), *bound);
@@ -184,7 +184,7 @@ fn angles_and_heights_about_any_axis_are_exact_to_their_condition() {
 #[test]
 fn planted_errors_of_maps_are_told() {
     let with = |f: fn(DVec3) -> DVec3| {
-        move |map: &Map, seen: &Seen| Coordinate {
+        move |map: &UvProjection, seen: &MapInput| Coordinate {
             at: f(texture_coordinate(map, seen).at),
             ..Default::default()
         }
@@ -193,7 +193,8 @@ fn planted_errors_of_maps_are_told() {
     compare(with(|c| c.truncate().yx().extend(0.0))).fails("swapped axes");
     compare(with(|c| c + 1e-6)).fails("a millionth of a tile");
     compare(|map, seen| {
-        let turned = Map { matrix: [map.matrix[0], map.matrix[2], map.matrix[1], map.matrix[3]], ..*map };
+        let turned =
+            UvProjection { matrix: [map.matrix[0], map.matrix[2], map.matrix[1], map.matrix[3]], ..*map };
         texture_coordinate(&turned, seen)
     })
     .fails("rotation the other way");
@@ -201,7 +202,7 @@ fn planted_errors_of_maps_are_told() {
 
 /// Equirectangular: the middle of the picture looks along −z, +x lies to its right, or mirrored to its left,
 /// v = 0 at +y.
-fn environment(read: impl Fn(&Map, DVec3) -> DVec2) -> Worst {
+fn environment(read: impl Fn(&UvProjection, DVec3) -> DVec2) -> Worst {
     let mut dice = Dice::new(53);
     let mut worst = Worst::default();
     for (rotate, mirror) in [(0.0, false), (90.0, false), (-33.3, false), (0.0, true), (-33.3, true)] {
@@ -233,8 +234,8 @@ fn environment(read: impl Fn(&Map, DVec3) -> DVec2) -> Worst {
     worst
 }
 
-fn looked_up(map: &Map, d: DVec3) -> DVec2 {
-    texture_coordinate(map, &Seen { entity: d, ..Default::default() }).at.truncate()
+fn looked_up(map: &UvProjection, d: DVec3) -> DVec2 {
+    texture_coordinate(map, &MapInput { entity: d, ..Default::default() }).at.truncate()
 }
 
 #[test]

@@ -2,10 +2,10 @@
 //! of any length and nearly any angle.
 
 use glam::{DVec2, DVec3, Vec2Swizzles};
-use moire::layout::Plane;
-use moire::oracle::camera::Ray;
-use moire::oracle::intersect::plane_distance;
-use moire::verify::queries::Dice;
+use moire::internal::lab::verify::queries::Dice;
+use moire::internal::oracle::camera::Ray;
+use moire::internal::oracle::intersect::plane_distance;
+use moire::internal::schema::layout::Plane;
 use num_traits::{Signed, Zero};
 
 use super::numbers::{Q, V, approx, determinant, direction, frac, q, v, vector};

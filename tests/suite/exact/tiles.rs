@@ -2,15 +2,15 @@
 //! modulo 1 (`repeat`) or modulo 2 (`mirrored-repeat`) is what is looked up.
 
 use glam::{DVec2, DVec3};
-use moire::layout::NO_SHAPE;
-use moire::oracle::camera::Ray;
-use moire::oracle::footprint::Footprint;
-use moire::oracle::intersect::nearest_hit;
-use moire::oracle::mapping::texture_coordinate;
-use moire::oracle::shade::seen_by_map;
-use moire::oracle::surface::hit_surface;
-use moire::pack::PackedScene;
-use moire::verify::queries::Dice;
+use moire::internal::lab::verify::queries::Dice;
+use moire::internal::oracle::camera::Ray;
+use moire::internal::oracle::footprint::Footprint;
+use moire::internal::oracle::intersect::nearest_hit;
+use moire::internal::oracle::mapping::texture_coordinate;
+use moire::internal::oracle::shade::map_input;
+use moire::internal::oracle::surface::hit_surface;
+use moire::internal::pack::PackedScene;
+use moire::internal::schema::layout::NO_SHAPE;
 
 use super::mapping::placed;
 use super::numbers::{Q, approx, frac, modulo, nearest_turn, q, v};
@@ -102,7 +102,7 @@ fn compare(change: impl Fn(DVec2) -> DVec2) -> Worst {
                 let hit = nearest_hit(&scene, &ray, NO_SHAPE);
                 let surface = hit_surface(&scene, &ray, &hit);
                 let map = &scene.maps[surface.map as usize];
-                let at = texture_coordinate(map, &seen_by_map(map, &ray, &surface, &Footprint::default())).at;
+                let at = texture_coordinate(map, &map_input(map, &ray, &surface, &Footprint::default())).at;
                 let at = change(at.truncate());
                 let (exact, bound) = case.exact(d);
                 // Small, and the same place of the same tile.

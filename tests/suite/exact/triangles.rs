@@ -2,13 +2,13 @@
 //! barycentric coordinates, of needles too.
 
 use glam::{DVec2, DVec3, Vec2Swizzles};
-use moire::layout::NO_SHAPE;
-use moire::layout::Triangle;
-use moire::oracle::camera::Ray;
-use moire::oracle::intersect::{Hit, nearest_hit, triangle_distance};
-use moire::oracle::surface::hit_surface;
-use moire::pack::PackedScene;
-use moire::verify::queries::Dice;
+use moire::internal::lab::verify::queries::Dice;
+use moire::internal::oracle::camera::Ray;
+use moire::internal::oracle::intersect::{Hit, nearest_hit, triangle_distance};
+use moire::internal::oracle::surface::hit_surface;
+use moire::internal::pack::PackedScene;
+use moire::internal::schema::layout::NO_SHAPE;
+use moire::internal::schema::layout::Triangle;
 use num_traits::{Signed, Zero};
 
 use super::numbers::{approx, determinant, direction, v, vector};

@@ -3,17 +3,19 @@
 //! entity, around seams and poles, directly, in mirrors and through glass.
 
 use glam::{DVec2, DVec3};
-use moire::layout::{NO_MATERIAL, NO_SHAPE};
-use moire::oracle::camera::{Ray, camera_ray};
-use moire::oracle::footprint::{Footprint, camera_beam, mirrored, refracted};
-use moire::oracle::intersect::{nearest_hit, offset_origin};
-use moire::oracle::mapping::texture_coordinate;
-use moire::oracle::math::xyz;
-use moire::oracle::shade::{advance, camera_path, seen_by_map};
-use moire::oracle::spread::in_texture;
-use moire::oracle::surface::{Surface, hit_surface};
-use moire::pack::{MapKind, PackedScene};
-use moire::scene::model::Model;
+use moire::internal::oracle::bsdf::dielectric::refracted;
+use moire::internal::oracle::bsdf::mirror::mirrored;
+use moire::internal::oracle::camera::{Ray, camera_ray};
+use moire::internal::oracle::footprint::{Footprint, camera_differential};
+use moire::internal::oracle::footprint_axes::in_texture;
+use moire::internal::oracle::intersect::{nearest_hit, offset_origin};
+use moire::internal::oracle::mapping::texture_coordinate;
+use moire::internal::oracle::math::xyz;
+use moire::internal::oracle::shade::{advance, camera_path, map_input};
+use moire::internal::oracle::surface::{Surface, hit_surface};
+use moire::internal::pack::{MapKind, PackedScene};
+use moire::internal::scene::model::Model;
+use moire::internal::schema::layout::{NO_MATERIAL, NO_SHAPE};
 
 use super::bench::{level_scene, place_of};
 use crate::stage;
@@ -56,7 +58,7 @@ fn end_of_ray(scene: &PackedScene, at: DVec2) -> Option<(Vec<u32>, u32, DVec3)> 
             },
             _ => {
                 let map_record = &scene.maps[map as usize];
-                let seen = seen_by_map(map_record, &ray, &surface, &Footprint::default());
+                let seen = map_input(map_record, &ray, &surface, &Footprint::default());
                 let image = &scene.textures[material.link[1] as usize];
                 let (c, face) = in_texture(image, &texture_coordinate(map_record, &seen));
                 way.push(face);
@@ -107,9 +109,9 @@ fn levels(scene: &PackedScene) -> Vec<(f64, f64, DVec2)> {
         let Some(exact) = exact_level(scene, at) else { continue };
         let ray = camera_ray(&scene.header, pixel, DVec2::splat(0.5));
         // Without points every choice is the middle one: glass refracts that mirrors less than half.
-        let mut path = camera_path(ray, camera_beam(&scene.header, &ray), [0; 2]);
+        let mut path = camera_path(ray, camera_differential(&scene.header, &ray), [0; 2]);
         let mut read = DVec3::ZERO;
-        while path.goes_on {
+        while path.is_alive {
             read += advance(scene, &mut path);
         }
         all.push((read.x, exact, at));

@@ -1,10 +1,10 @@
 //! Which level is read: textures whose levels hold their own number tell it. Footprints are made from
 //! their axes, so that the right level, log2 of an axis in texels (Williams 1983), is known beforehand.
 
-use moire::probe::LookUp;
-use moire::scene::model::Footprint;
-use moire::texture::data::{Dimension, TexelFormat};
-use moire::texture::sampler_spec::{Filter, MipMode, SamplerSpec};
+use moire::internal::lab::probe::LookUp;
+use moire::internal::scene::model::Footprint;
+use moire::internal::texture::data::{Dimension, TexelFormat};
+use moire::internal::texture::sampler_spec::{Filter, MipMode, SamplerSpec};
 
 use super::bench::{angle, answers, axes, paint_levels, pairs_of, solid};
 use crate::lookup::bench::{Dice, query};

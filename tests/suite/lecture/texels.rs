@@ -1,11 +1,11 @@
 //! Look-ups by the lecture's two formulas, and the five address modes on a row of two texels, at
 //! coordinates worked out by hand.
 
-use moire::oracle::filter::look_up;
-use moire::oracle::mapping::Coordinate;
-use moire::probe::{self, LookUp};
-use moire::texture::data::{ColorSpace, Dimension, TexelFormat, TextureData};
-use moire::texture::sampler_spec::{Address, Filter, SamplerSpec, TexelCenter};
+use moire::internal::lab::probe::{self, LookUp};
+use moire::internal::oracle::filter::sample_texture;
+use moire::internal::oracle::mapping::Coordinate;
+use moire::internal::texture::data::{ColorSpace, Dimension, TexelFormat, TextureData};
+use moire::internal::texture::sampler_spec::{Address, Filter, SamplerSpec, TexelCenter};
 
 use crate::lookup::bench::{pairs, query, uv_of};
 use crate::shared_gpu::gpu;
@@ -31,7 +31,7 @@ fn assert_reads(texture: TextureData, spec: SamplerSpec, cases: &[([f32; 2], f64
     let queries: Vec<LookUp> = cases.iter().map(|c| query(&scene, 0, c.0)).collect();
     let mut answers: Vec<(&str, Vec<f64>)> = Vec::new();
     let oracle = |q: &LookUp| {
-        look_up(&scene, &scene.textures[0], &scene.samplers[0], &Coordinate::flat(uv_of(q)), [0; 2]).x
+        sample_texture(&scene, &scene.textures[0], &scene.samplers[0], &Coordinate::flat(uv_of(q)), [0; 2]).x
     };
     answers.push(("oracle", queries.iter().map(oracle).collect()));
     for (who, image_source) in [("device, buffer", false), ("device, image", true)] {

@@ -1,12 +1,12 @@
-//! What `moire::verify` looks things up with, as tests want it: failures end the test, random
+//! What `moire::internal::lab::verify` looks things up with, as tests want it: failures end the test, random
 //! directions, and the list of all formats.
 
 use glam::DVec3;
-use moire::pack::PackedScene;
-use moire::texture::data::{ColorSpace, Component, TexelFormat, TextureData};
-use moire::texture::sampler_spec::{Filter, SamplerSpec};
-use moire::verify::queries;
-pub use moire::verify::queries::{Dice, coordinates, query, texture, uv_of};
+use moire::internal::lab::verify::queries;
+pub use moire::internal::lab::verify::queries::{Dice, coordinates, query, texture, uv_of};
+use moire::internal::pack::PackedScene;
+use moire::internal::texture::data::{ColorSpace, Component, TexelFormat, TextureData};
+use moire::internal::texture::sampler_spec::{Filter, SamplerSpec};
 
 /// Filters that magnify, without chance.
 pub const CERTAIN: [Filter; 3] = [Filter::Nearest, Filter::Linear, Filter::Cubic];

@@ -1,12 +1,12 @@
 //! Method hardware: every `VkSampler` variant at level 0, by the interval rule.
 
-use moire::gpu::{DeviceKind, Gpu};
-use moire::pack::MAX_SLOTS;
-use moire::probe::{self, LookUp};
-use moire::texture::data::{ColorSpace, TexelFormat, TextureData};
-use moire::texture::sampler_spec::{Address, Method, SamplerSpec, TexelCenter};
-use moire::verify::judge::{Precision, complaints as judge};
-use moire::verify::variants::SIZES;
+use moire::internal::gpu::{DeviceKind, Gpu};
+use moire::internal::lab::probe::{self, LookUp};
+use moire::internal::lab::verify::judge::{Precision, complaints as judge};
+use moire::internal::lab::verify::variants::SIZES;
+use moire::internal::pack::MAX_SLOTS;
+use moire::internal::texture::data::{ColorSpace, TexelFormat, TextureData};
+use moire::internal::texture::sampler_spec::{Address, Method, SamplerSpec, TexelCenter};
 
 use super::assert_none;
 use super::bench::{BASIC, Dice, coordinates, pairs, query, texture};

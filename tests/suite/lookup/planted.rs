@@ -3,14 +3,14 @@
 //! with the widest tolerance in use.
 
 use glam::DVec2;
-use moire::layout::{Sampler, Texture};
-use moire::oracle::filter::look_up;
-use moire::oracle::mapping::Coordinate;
-use moire::pack::PackedScene;
-use moire::probe::LookUp;
-use moire::texture::data::{ColorSpace, TexelFormat};
-use moire::texture::sampler_spec::{Address, Filter, SamplerSpec};
-use moire::verify::judge::{Precision, complaints as judge};
+use moire::internal::lab::probe::LookUp;
+use moire::internal::lab::verify::judge::{Precision, complaints as judge};
+use moire::internal::oracle::filter::sample_texture;
+use moire::internal::oracle::mapping::Coordinate;
+use moire::internal::pack::PackedScene;
+use moire::internal::schema::layout::{Sampler, Texture};
+use moire::internal::texture::data::{ColorSpace, TexelFormat};
+use moire::internal::texture::sampler_spec::{Address, Filter, SamplerSpec};
 
 use super::bench::{BASIC, CERTAIN, Dice, coordinates, pairs, query, texture, uv_of};
 
@@ -40,7 +40,7 @@ fn caught(
     let answer = |query: &LookUp| {
         let (mut image, mut how) = (scene.textures[0], scene.samplers[0]);
         let uv = tamper(&mut image, &mut how, uv_of(query));
-        look_up(scene, &image, &how, &Coordinate::flat(uv), [0; 2]).as_vec4().to_array()
+        sample_texture(scene, &image, &how, &Coordinate::flat(uv), [0; 2]).as_vec4().to_array()
     };
     let answers: Vec<[f32; 4]> = queries.iter().map(answer).collect();
     judge(scene, queries, &answers, precision).len() as f64 / queries.len() as f64

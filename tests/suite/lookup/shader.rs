@@ -1,12 +1,12 @@
 //! Method shader.
 
-use moire::oracle::filter::look_up;
-use moire::oracle::mapping::Coordinate;
-use moire::pack::PackedScene;
-use moire::probe::{self, LookUp};
-use moire::texture::data::{ColorSpace, TexelFormat, TextureData};
-use moire::texture::sampler_spec::{Address, SamplerSpec, TexelCenter};
-use moire::verify::judge::{Precision, complaints as judge};
+use moire::internal::lab::probe::{self, LookUp};
+use moire::internal::lab::verify::judge::{Precision, complaints as judge};
+use moire::internal::oracle::filter::sample_texture;
+use moire::internal::oracle::mapping::Coordinate;
+use moire::internal::pack::PackedScene;
+use moire::internal::texture::data::{ColorSpace, TexelFormat, TextureData};
+use moire::internal::texture::sampler_spec::{Address, SamplerSpec, TexelCenter};
 
 use super::assert_none;
 use super::bench::{CERTAIN, Dice, coordinates, formats, pairs, query, texture, uv_of};
@@ -128,7 +128,7 @@ fn coordinates_that_are_no_numbers_read_a_texel_and_the_oracles() {
         for (query, answer) in queries.iter().zip(&answers) {
             let (image, how) =
                 (&scene.textures[query.texture as usize], &scene.samplers[query.sampler as usize]);
-            let expected = look_up(&scene, image, how, &Coordinate::flat(uv_of(query)), [0; 2]);
+            let expected = sample_texture(&scene, image, how, &Coordinate::flat(uv_of(query)), [0; 2]);
             assert!(expected.is_finite(), "the oracle at {:?}", query.uv);
             let label = scene.sampler_specs[query.sampler as usize].label();
             for (got, expected) in answer.iter().zip(expected.to_array()) {

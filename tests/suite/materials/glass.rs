@@ -2,7 +2,7 @@
 //! which is the share of what is mirrored and the rest of what is seen through it.
 
 use glam::DVec3;
-use moire::oracle::footprint::{reflectance, refracted};
+use moire::internal::oracle::bsdf::dielectric::{fresnel_dielectric, refracted};
 
 use super::scene;
 use crate::stage;
@@ -17,7 +17,7 @@ fn meeting(degrees: f64) -> DVec3 {
 
 #[test]
 fn shares_of_fresnel_worked_out_by_hand() {
-    let at = |degrees, ratio| reflectance(meeting(degrees), DVec3::Z, ratio);
+    let at = |degrees, ratio| fresnel_dielectric(meeting(degrees), DVec3::Z, ratio);
     // ((n - 1) / (n + 1))² = 1/25 at right angles, from either side.
     assert!((at(0.0, 1.0 / 1.5) - 0.04).abs() < 1e-15);
     assert!((at(0.0, 1.5) - 0.04).abs() < 1e-15);
@@ -39,8 +39,8 @@ fn shares_of_fresnel_worked_out_by_hand() {
 #[test]
 fn the_critical_angle_divides_refraction_from_total_reflection() {
     let critical = (1.0f64 / 1.5).asin().to_degrees();
-    assert_eq!(reflectance(meeting(critical + 1e-3), DVec3::Z, 1.5), 1.0);
-    assert!(reflectance(meeting(critical - 1.0), DVec3::Z, 1.5) < 0.5);
+    assert_eq!(fresnel_dielectric(meeting(critical + 1e-3), DVec3::Z, 1.5), 1.0);
+    assert!(fresnel_dielectric(meeting(critical - 1.0), DVec3::Z, 1.5) < 0.5);
 }
 
 #[test]
@@ -80,7 +80,7 @@ fn means_of_many_samples_are_the_shares_on_device_and_oracle() {
         [(0.0, 1.0, 1.0 / 1.5), (45.0, 1.0, 1.0 / 1.5), (75.0, 1.0, 1.0 / 1.5), (35.0, -1.0, 1.5)]
     {
         let packed = scene(&pane(degrees, side, SAMPLES), Vec::new());
-        let right = reflectance(meeting(degrees), DVec3::Z, ratio);
+        let right = fresnel_dielectric(meeting(degrees), DVec3::Z, ratio);
         let count = f64::from(SAMPLES) * 16.0;
         let sigma = (right * (1.0 - right) / count).sqrt();
         for (film, who) in [(stage::render(&packed), "device"), (stage::render_on_oracle(&packed), "oracle")]

@@ -2,14 +2,14 @@
 //! smooth and by rough surfaces, on device and oracle, by samples and cones.
 
 use glam::DVec3;
-use moire::film::Film;
-use moire::layout::Map;
-use moire::oracle::camera::Ray;
-use moire::oracle::footprint::{Footprint, mirrored, refracted};
-use moire::oracle::shade::seen_by_map;
-use moire::oracle::shading_normal::{on_its_side, settle_normal};
-use moire::oracle::surface::Surface;
-use moire::pack::{EntityKind, MapKind, PackedScene};
+use moire::internal::core::film::Film;
+use moire::internal::oracle::camera::Ray;
+use moire::internal::oracle::footprint::{Footprint, mirrored, refracted};
+use moire::internal::oracle::shade::map_input;
+use moire::internal::oracle::shading_normal::{consistent_normal, on_its_side};
+use moire::internal::oracle::surface::Surface;
+use moire::internal::pack::{EntityKind, MapKind, PackedScene};
+use moire::internal::schema::layout::UvProjection;
 
 use super::{floats, scene};
 use crate::lookup::bench::{Dice, Vectors};
@@ -33,7 +33,7 @@ fn mirrored_rays_stay_above_and_refracted_ones_go_below() {
         let direction = dice.direction() * dice.between(0.1, 10.0);
         let direction = if direction.dot(g) > 0.0 { -direction } else { direction };
         let mut settled = surface(g, n);
-        settle_normal(direction, &mut settled);
+        consistent_normal(direction, &mut settled);
         let view = -direction.normalize();
         let way = mirrored(direction, settled.normal);
         let least = f64::min(0.9 * view.dot(g), 0.01);
@@ -70,7 +70,7 @@ fn rays_of_a_surface_that_does_not_lean_keep_every_bit() {
         let direction = dice.direction();
         let direction = if direction.dot(n) > 0.0 { -direction } else { direction };
         let mut settled = surface(n, n);
-        settle_normal(direction, &mut settled);
+        consistent_normal(direction, &mut settled);
         assert_eq!(settled.normal, n);
         let way = mirrored(direction, n);
         assert_eq!(on_its_side(direction, way, n, n), way);
@@ -101,7 +101,7 @@ const VIEWS: [&str; 3] = [
     "eye = [6, -2, 0.4], look_at = [0, 0, 0], vertical_fov = 20",
 ];
 
-fn tilted() -> moire::texture::data::TextureData {
+fn tilted() -> moire::internal::texture::data::TextureData {
     floats(4, 4, |x, y| [if x % 2 == 0 { 0.05 } else { 0.95 }, if y % 2 == 0 { 0.1 } else { 0.9 }, 0.6, 1.0])
 }
 
@@ -187,7 +187,7 @@ fn rays_that_leave_glass_go_above_its_surface() {
         let direction = dice.direction();
         let direction = if direction.z > 0.0 { -direction } else { direction };
         let mut settled = surface(g, n);
-        settle_normal(direction, &mut settled);
+        consistent_normal(direction, &mut settled);
         let way = refracted(direction, settled.normal, 1.5);
         if way != direction && way.z > 0.0 {
             lowered += 1;
@@ -212,7 +212,10 @@ fn cones_mirror_by_the_same_normal() {
 /// What `entity = "reflection"` looks at is where a mirror's ray goes.
 #[test]
 fn a_map_of_the_reflection_looks_where_a_mirror_does() {
-    let map = Map { link: [MapKind::Solid as u32, EntityKind::Reflection as u32, 0, 0], ..Map::default() };
+    let map = UvProjection {
+        link: [MapKind::Solid as u32, EntityKind::Reflection as u32, 0, 0],
+        ..UvProjection::default()
+    };
     let mut dice = Dice::new(44);
     for _ in 0..2000 {
         let g = dice.direction();
@@ -221,8 +224,8 @@ fn a_map_of_the_reflection_looks_where_a_mirror_does() {
         let direction = if direction.dot(g) > 0.0 { -direction } else { direction };
         let ray = Ray { origin: DVec3::ZERO, direction, time: 0.0 };
         let mut settled = leaning;
-        settle_normal(direction, &mut settled);
-        let seen = seen_by_map(&map, &ray, &leaning, &Footprint::default());
+        consistent_normal(direction, &mut settled);
+        let seen = map_input(&map, &ray, &leaning, &Footprint::default());
         assert!((seen.entity - mirrored(direction, settled.normal)).length() < 1e-12); // a few roundings
         assert!(seen.entity.dot(g) > 0.0);
     }

@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use glam::DVec3;
-use moire::oracle::light::phong_lobe;
+use moire::internal::oracle::bsdf::phong::phong_lobe;
 
 use super::scene;
 use crate::stage;
@@ -53,7 +53,7 @@ fn no_more_light_leaves_than_arrives() {
 
 #[test]
 fn a_plane_lit_from_the_side_has_the_value_worked_out_by_hand() {
-    // Seen straight from above; the light 30° off the normal; E = 2, so E cos θ = √3.
+    // MapInput straight from above; the light 30° off the normal; E = 2, so E cos θ = √3.
     let text = "camera = { eye = [0, 0, 3], look_at = [0, 0, 0], orthographic_height = 0.1 }
         image = { width = 2, height = 2 }
         sampling = { pattern = 'center' }

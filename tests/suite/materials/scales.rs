@@ -3,14 +3,14 @@
 //! difference comes from a length that is written into the program.
 
 use glam::{DVec2, DVec3};
-use moire::metrics::compare;
-use moire::oracle::camera::Ray;
-use moire::oracle::footprint::{Footprint, any_tangent};
-use moire::oracle::intersect::nearest_hit;
-use moire::oracle::mapping::texture_coordinate;
-use moire::oracle::shade::{seen_by_map, uv_gradients};
-use moire::oracle::surface::hit_surface;
-use moire::pack::PackedScene;
+use moire::internal::lab::metrics::compare;
+use moire::internal::oracle::camera::Ray;
+use moire::internal::oracle::footprint::{Footprint, any_tangent};
+use moire::internal::oracle::intersect::nearest_hit;
+use moire::internal::oracle::mapping::texture_coordinate;
+use moire::internal::oracle::shade::{map_input, uv_gradients};
+use moire::internal::oracle::surface::hit_surface;
+use moire::internal::pack::PackedScene;
 
 use super::{floats, scene};
 use crate::lookup::bench::{Dice, Vectors};
@@ -108,13 +108,13 @@ fn gradients_are_those_of_the_coordinates() {
                 let near_pole = DVec3::new(dice.between(-1e-3, 1e-3), 1.0, dice.between(-1e-3, 1e-3));
                 let out = if tried % 4 == 0 { near_pole.normalize() } else { dice.direction() };
                 // Towards the first ball's middle.
-                let center = moire::oracle::math::xyz(scene.spheres[0].ball);
+                let center = moire::internal::oracle::math::xyz(scene.spheres[0].ball);
                 let ray = Ray { origin: center + 0.9 * k * out, direction: -out, time: 0.0 };
                 let meet = |ray: &Ray| hit_surface(&scene, ray, &nearest_hit(&scene, ray, u32::MAX));
                 let surface = meet(&ray);
                 let map = &scene.maps[surface.map as usize];
                 let coordinate = |ray: &Ray| {
-                    texture_coordinate(map, &seen_by_map(map, ray, &meet(ray), &Footprint::default())).at
+                    texture_coordinate(map, &map_input(map, ray, &meet(ray), &Footprint::default())).at
                 };
                 let gradients = uv_gradients(map, &ray, &surface);
                 tried += 1;

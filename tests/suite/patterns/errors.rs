@@ -1,8 +1,8 @@
 //! Errors of pixels: how each pattern does on a smooth function and on an edge, against random points.
 
-use moire::oracle::patterns::sample_pair;
-use moire::pattern::measures::star_discrepancy;
-use moire::scene::model::Pattern;
+use moire::internal::lab::pattern::measures::star_discrepancy;
+use moire::internal::oracle::patterns::sample_pair;
+use moire::internal::scene::model::Pattern;
 
 use super::{SCATTERED, header, points, set, unit};
 

@@ -1,10 +1,10 @@
 //! What each pattern promises about which parts of the pixel hold how many points.
 
-use moire::oracle::patterns::sample_line;
-use moire::oracle::permute::permute;
-use moire::oracle::rng::sample_bits;
-use moire::oracle::sobol::{second_dimension, shuffled_quarter};
-use moire::scene::model::Pattern;
+use moire::internal::oracle::patterns::sample_line;
+use moire::internal::oracle::permute::permute;
+use moire::internal::oracle::rng::sample_bits;
+use moire::internal::oracle::sobol::{second_dimension, shuffled_quarter};
+use moire::internal::scene::model::Pattern;
 
 use super::{header, points, set};
 
@@ -169,14 +169,14 @@ fn halton_fills_intervals_of_its_bases() {
 /// Sequences give the same first samples whatever the count is; the others do not claim to.
 #[test]
 fn sequences_can_be_stopped_and_continued() {
-    for &pattern in Pattern::ALL.iter().filter(|p| p.goes_on() && **p != Pattern::Center) {
+    for &pattern in Pattern::ALL.iter().filter(|p| p.is_progressive() && **p != Pattern::Center) {
         let long = set(pattern, 1000, 1, [2, 3], 1);
         for count in [1, 7, 64, 999] {
             assert_eq!(long[..count as usize], set(pattern, count, 1, [2, 3], 1), "{pattern}, {count}");
         }
     }
     for pattern in [Pattern::MultiJittered, Pattern::NRooks] {
-        assert!(!pattern.goes_on());
+        assert!(!pattern.is_progressive());
         assert_ne!(set(pattern, 1000, 1, [2, 3], 0)[..64], set(pattern, 64, 1, [2, 3], 0), "{pattern}");
     }
 }

@@ -1,9 +1,9 @@
 //! Pictures of every pattern: what is left out changes no bit, and the oracle sees the same, also where
 //! samples come in several chunks.
 
-use moire::metrics::compare;
-use moire::render::Tuning;
-use moire::scene::model::{Pattern, Scene};
+use moire::internal::lab::metrics::compare;
+use moire::internal::render::Tuning;
+use moire::internal::scene::model::{Pattern, Scene};
 
 use crate::stage::{assert_same_bits, packed, render, render_on_oracle, render_with, small};
 

@@ -1,7 +1,7 @@
 //! Radiance pictures: signatures, line ends, variables of the header, the eight ways rows can lie, and the three
 //! codings of a scan line.
 
-use moire::texture::data::TexelFormat;
+use moire::internal::texture::data::TexelFormat;
 
 use super::{assert_refused_as, load_bytes};
 use crate::support::told;

@@ -1,13 +1,13 @@
 //! Device and oracle, lean pipelines and such with everything, parts and the whole: the same picture.
 
-use moire::adaptive::{self, Goal};
-use moire::features::Features;
-use moire::metrics::compare;
-use moire::oracle::jobs::JobTracer;
-use moire::pack::Crop;
-use moire::progress::Silent;
-use moire::render::{self, Tuning};
-use moire::scene::model::{Algorithm, Footprint, Pattern, PixelFilter, PixelFilterKind, Scene};
+use moire::internal::adaptive::{self, Goal};
+use moire::internal::core::progress::NoProgress;
+use moire::internal::lab::metrics::compare;
+use moire::internal::oracle::jobs::JobTracer;
+use moire::internal::pack::Crop;
+use moire::internal::pack::features::Features;
+use moire::internal::render::{self, Tuning};
+use moire::internal::scene::model::{Algorithm, Footprint, Pattern, PixelFilter, PixelFilterKind, Scene};
 
 use super::{filters, with};
 use crate::stage::{
@@ -120,14 +120,15 @@ fn adaptive_samples_are_filtered_alike_by_device_and_oracle() {
             let scene = packed(adaptively(filter, footprint), None);
             let (width, height) = (scene.header.size[0], scene.header.size[1]);
             let mut tracer = JobTracer::new(&scene);
-            let (oracle, _) = adaptive::run(&mut tracer, [width, height], Goal::Samples(2), &Silent).unwrap();
+            let (oracle, _) =
+                adaptive::run(&mut tracer, [width, height], Goal::Samples(2), &NoProgress).unwrap();
             let rendered = render::render_to_goal(
                 &device(),
                 scene,
                 false,
                 &Tuning::default(),
                 Some(Goal::Samples(2)),
-                &Silent,
+                &NoProgress,
             );
             let found = compare(&rendered.unwrap().0, &oracle).unwrap();
             assert!(found.rmse < 2e-3, "{filter:?}, {footprint}: {:e}", found.rmse);
@@ -145,7 +146,7 @@ fn adaptive_pictures_converge_to_the_filtered_one() {
         let scene = packed(scene, None);
         let goal = Goal::Error(4e-3);
         let rendered =
-            render::render_to_goal(&device(), scene, false, &Tuning::default(), Some(goal), &Silent);
+            render::render_to_goal(&device(), scene, false, &Tuning::default(), Some(goal), &NoProgress);
         let (film, report) = rendered.unwrap();
         let error = compare(&film, &reference).unwrap().rmse;
         // The estimate has a sigma of 5 % at this size.

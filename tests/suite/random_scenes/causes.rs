@@ -4,17 +4,17 @@
 use std::collections::BTreeMap;
 
 use glam::{DVec2, DVec3};
-use moire::layout::NO_SHAPE;
-use moire::oracle::camera::camera_ray;
-use moire::oracle::cone::{cone_of, leaving};
-use moire::oracle::footprint::{camera_beam, mirrored};
-use moire::oracle::forms::shape_plane;
-use moire::oracle::intersect::FAR;
-use moire::oracle::math::xyz;
-use moire::oracle::paint::links;
-use moire::oracle::pieces::{gather, lay_over};
-use moire::pack::PackedScene;
-use moire::scene::model::{Algorithm, Model};
+use moire::internal::oracle::camera::camera_ray;
+use moire::internal::oracle::cone::{cone_of, leaving};
+use moire::internal::oracle::footprint::{camera_differential, mirrored};
+use moire::internal::oracle::fragments::{collect_fragments, composite};
+use moire::internal::oracle::intersect::FAR;
+use moire::internal::oracle::math::xyz;
+use moire::internal::oracle::projective::shape_plane;
+use moire::internal::oracle::shading_integral::links;
+use moire::internal::pack::PackedScene;
+use moire::internal::scene::model::{Algorithm, Model};
+use moire::internal::schema::layout::NO_SHAPE;
 use rayon::prelude::*;
 
 use super::cones::plain;
@@ -36,7 +36,7 @@ enum Cause {
 fn cause(scene: &PackedScene, place: [u32; 2]) -> Cause {
     let header = &scene.header;
     let ray = camera_ray(header, place, DVec2::splat(0.5));
-    let beam = camera_beam(header, &ray);
+    let beam = camera_differential(header, &ray);
     let mut width = beam.width;
     let mut cone = cone_of(ray, width, beam.spread, xyz(header.step_x));
     let mut skip = NO_SHAPE;
@@ -45,8 +45,8 @@ fn cause(scene: &PackedScene, place: [u32; 2]) -> Cause {
         Model::ALL[scene.materials[material as usize].link[0] as usize]
     };
     for _ in 0..=header.size[3] {
-        let mut pieces = gather(scene, &cone, skip, FAR);
-        lay_over(&mut pieces, scene, &cone);
+        let mut pieces = collect_fragments(scene, &cone, skip, FAR);
+        composite(&mut pieces, scene, &cone);
         let list = &pieces.list;
         if list.len() > 2 {
             return Cause::Crowd;

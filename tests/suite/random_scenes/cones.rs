@@ -2,16 +2,16 @@
 //! that share a cone, and that nothing is seen through a third.
 
 use glam::{DVec2, DVec3};
-use moire::film::Film;
-use moire::metrics::compare;
-use moire::oracle::camera::camera_ray;
-use moire::oracle::cone::{Cone, cone_of};
-use moire::oracle::footprint::camera_beam;
-use moire::oracle::intersect::{FAR, nearest_hit};
-use moire::oracle::math::xyz;
-use moire::oracle::pieces::{gather, lay_over};
-use moire::pack::PackedScene;
-use moire::scene::model::{Algorithm, Scene};
+use moire::internal::core::film::Film;
+use moire::internal::lab::metrics::compare;
+use moire::internal::oracle::camera::camera_ray;
+use moire::internal::oracle::cone::{Cone, cone_of};
+use moire::internal::oracle::footprint::camera_differential;
+use moire::internal::oracle::fragments::{collect_fragments, composite};
+use moire::internal::oracle::intersect::{FAR, nearest_hit};
+use moire::internal::oracle::math::xyz;
+use moire::internal::pack::PackedScene;
+use moire::internal::scene::model::{Algorithm, Scene};
 
 use super::scenes::{scene, text};
 use super::{FEW, color, film, kind_of, many, with};
@@ -76,8 +76,11 @@ fn by_rays(scene: &PackedScene, cone: &Cone, shapes: usize) -> Vec<f64> {
     for (ring, k) in (0..RINGS).flat_map(|ring| (0..around).map(move |k| (ring, k))) {
         let radius = ((f64::from(ring) + 0.5) / f64::from(RINGS)).sqrt();
         let angle = std::f64::consts::TAU * (f64::from(k) + 0.37 * f64::from(ring)) / f64::from(around);
-        let hit =
-            nearest_hit(scene, &cone.ray_at(radius * DVec2::from_angle(angle)), moire::layout::NO_SHAPE);
+        let hit = nearest_hit(
+            scene,
+            &cone.ray_at(radius * DVec2::from_angle(angle)),
+            moire::internal::schema::layout::NO_SHAPE,
+        );
         shares[(hit.shape as usize).min(shapes)] += 1.0 / f64::from(RINGS * around);
     }
     shares
@@ -92,10 +95,10 @@ fn shares_off(scene: &Scene) -> [f64; 3] {
     let mut off = [0.0f64; 3];
     for place in (0..scene.width * scene.height).map(|i| [i % scene.width, i / scene.width]) {
         let ray = camera_ray(header, place, DVec2::splat(0.5));
-        let beam = camera_beam(header, &ray);
+        let beam = camera_differential(header, &ray);
         let cone = cone_of(ray, beam.width, beam.spread, xyz(header.step_x));
-        let mut pieces = gather(&packed, &cone, moire::layout::NO_SHAPE, FAR);
-        let rest = lay_over(&mut pieces, &packed, &cone).share;
+        let mut pieces = collect_fragments(&packed, &cone, moire::internal::schema::layout::NO_SHAPE, FAR);
+        let rest = composite(&mut pieces, &packed, &cone).share;
         if pieces.list.iter().any(|p| p.area >= 1.0) {
             off[2] = off[2].max(rest);
         }

@@ -3,10 +3,10 @@
 //! be off by 2.5 ulp, a square root by about as much (Vulkan 1.3, "Precision and Operation of SPIR-V
 //! Instructions").
 
-use moire::oracle::camera::Ray;
-use moire::oracle::intersect::{plane_distance, sphere_distance, triangle_distance};
-use moire::oracle::math::{affine, xyz};
-use moire::pack::PackedScene;
+use moire::internal::oracle::camera::Ray;
+use moire::internal::oracle::intersect::{plane_distance, sphere_distance, triangle_distance};
+use moire::internal::oracle::math::{affine, xyz};
+use moire::internal::pack::PackedScene;
 
 /// Unit roundoff of f32.
 pub const U: f64 = 1.0 / 16_777_216.0;
@@ -50,7 +50,8 @@ fn flat_error(normal: [f64; 4], ray: &Ray, t: f64) -> f64 {
 
 fn plane(scene: &PackedScene, index: usize, ray: &Ray) -> Estimate {
     let plane = &scene.planes[index];
-    let unbounded = moire::layout::Plane { link: [plane.link[0], plane.link[1], 0, 0], ..*plane };
+    let unbounded =
+        moire::internal::schema::layout::Plane { link: [plane.link[0], plane.link[1], 0, 0], ..*plane };
     let (t, _) = plane_distance(&unbounded, ray);
     let error = flat_error(plane.normal, ray, t);
     let point = ray.origin + t * ray.direction;
@@ -101,7 +102,7 @@ fn triangle(scene: &PackedScene, index: usize, ray: &Ray) -> Estimate {
     let unsure = edges.iter().any(|(e, error)| e.abs() <= *error);
     let weights = 4.0 * worst / sum.abs() + DIVIDE * U;
     let t_plane = if t > 0.0 { t } else { 1.0 };
-    let bend = if triangle.v[3] != 0.0 { 2.0 * weights } else { 0.0 };
+    let shape_operator = if triangle.v[3] != 0.0 { 2.0 * weights } else { 0.0 };
     let error = flat_error(triangle.normal, ray, t_plane);
-    Estimate { t, error, unsure, curvature: 0.0, weights: weights.max(bend) }
+    Estimate { t, error, unsure, curvature: 0.0, weights: weights.max(shape_operator) }
 }

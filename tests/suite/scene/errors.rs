@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use miette::GraphicalReportHandler;
-use moire::error::Error;
-use moire::scene::parse;
+use moire::internal::core::error::Error;
+use moire::internal::scene::parse;
 
 use super::HEAD;
 

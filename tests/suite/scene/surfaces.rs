@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use moire::scene::parse;
+use moire::internal::scene::parse;
 
 use super::HEAD;
 use super::errors::{PATH, check_behind_head};
@@ -130,7 +130,7 @@ fn texture_sampler_and_material_rules() {
         (
             "relief of a cube",
             "[[texture]]\nname = 't'\nfile = 'f'\ndimension = 'cube'\n[[material]]\nname = 'm'\nbump_map = 't'",
-            &["material.bump_map", "a relief is a 2d texture; this one is cube"],
+            &["material.bump_map", "a bump or normal map is a 2d texture; this one is cube"],
         ),
         (
             "relief of a pattern",

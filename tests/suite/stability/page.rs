@@ -2,13 +2,13 @@
 
 use std::fs;
 
-use moire::stability::page::{html, json, write};
+use moire::internal::lab::stability::page::{html, json, write};
 use roxmltree::{Document, Node};
 use serde_json::Value;
 use tempfile::tempdir;
 
 use super::{report, row};
-use moire::stability::report::{Report, Row};
+use moire::internal::lab::stability::report::{Report, Row};
 
 fn planted() -> Report {
     let mut other = row("zeros", &[0.0, 0.0]);

@@ -1,12 +1,12 @@
 //! Who is within its bound and who is not, and how a run of cases goes on or ends.
 
-use moire::error::{Error, Result};
-use moire::progress::{Progress, Silent};
-use moire::stability::case::{Bench, Point};
-use moire::stability::report::Verdict;
-use moire::stability::run::run;
-use moire::stability::text::text;
-use moire::stability::{all, case::Case};
+use moire::internal::core::error::{Error, Result};
+use moire::internal::core::progress::{NoProgress, Progress};
+use moire::internal::lab::stability::case::{Bench, Point};
+use moire::internal::lab::stability::report::Verdict;
+use moire::internal::lab::stability::run::run;
+use moire::internal::lab::stability::text::text;
+use moire::internal::lab::stability::{all, case::Case};
 
 use super::{case, none, points, report, row};
 use crate::shared_gpu::gpu;
@@ -88,7 +88,7 @@ fn cases() -> Vec<Case> {
 
 #[test]
 fn a_case_that_fails_is_broken_with_its_message_and_the_others_go_on() {
-    let report = run(&gpu(), cases(), None, &Silent).unwrap();
+    let report = run(&gpu(), cases(), None, &NoProgress).unwrap();
     let verdicts: Vec<&str> = report.rows.iter().map(|r| r.verdict.name()).collect();
     assert_eq!(verdicts, ["within", "broken", "broken"]);
     assert_eq!(report.rows[1].worst.place, "the picture is too wide (make it smaller)");
@@ -98,12 +98,12 @@ fn a_case_that_fails_is_broken_with_its_message_and_the_others_go_on() {
 #[test]
 fn only_chooses_by_a_part_of_the_name_and_an_unknown_one_lists_all_names() {
     let labels = |only| {
-        let report = run(&gpu(), cases(), Some(only), &Silent).unwrap();
+        let report = run(&gpu(), cases(), Some(only), &NoProgress).unwrap();
         report.rows.iter().map(|r| r.label()).collect::<Vec<_>>()
     };
     assert_eq!(labels("one"), ["a/one", "b/one"]);
     assert_eq!(labels("b/"), ["b/one"]);
-    let told = told(run(&gpu(), cases(), Some("three"), &Silent));
+    let told = told(run(&gpu(), cases(), Some("three"), &NoProgress));
     assert!(told.contains("\"three\"") && told.contains("a/one, a/two, b/one"), "{told}");
 }
 
@@ -123,7 +123,7 @@ fn a_wish_to_stop_ends_the_run_before_and_within_a_case() {
         matches!(run(&gpu(), cases, None, progress), Err(Error::Interrupted))
     };
     assert!(stopped(vec![case("a", "one", 1.0, none)], &Stop));
-    assert!(stopped(vec![case("a", "one", 1.0, interrupted)], &Silent));
+    assert!(stopped(vec![case("a", "one", 1.0, interrupted)], &NoProgress));
     // All cases ask between values.
     let gpu = gpu();
     for case in all() {

@@ -1,9 +1,9 @@
 //! Whether glass mirrors or refracts is a choice by the pattern: as even as the pattern is, the middle one where the
 //! pattern has no chance.
 
-use moire::film::Film;
-use moire::metrics::compare;
-use moire::scene::model::{Algorithm, Pattern, Scene};
+use moire::internal::core::film::Film;
+use moire::internal::lab::metrics::compare;
+use moire::internal::scene::model::{Algorithm, Pattern, Scene};
 
 use super::{packed, parsed, sampled, variance};
 use crate::stage::{render, render_on_oracle};

@@ -4,12 +4,12 @@
 use std::f64::consts::{PI, TAU};
 
 use glam::{DVec2, DVec3};
-use moire::film::Film;
-use moire::metrics::compare;
-use moire::oracle::footprint::{Beam, mirrored};
-use moire::oracle::glossy::{mirrored_share, smith, visible_normal, widened_beam};
-use moire::scene::model::{Pattern, Scene};
-use moire::scene::parse;
+use moire::internal::core::film::Film;
+use moire::internal::lab::metrics::compare;
+use moire::internal::oracle::bsdf::facets::{smith, smith_g2_over_g1, visible_normal, widened_differential};
+use moire::internal::oracle::footprint::{RayDifferential, mirrored};
+use moire::internal::scene::model::{Pattern, Scene};
+use moire::internal::scene::parse;
 
 use super::lens::VIEW;
 use super::{assert_patterns_gain, packed, parsed};
@@ -53,7 +53,7 @@ fn albedo(v: DVec3, alpha: f64) -> f64 {
 fn sampled_albedo(v: DVec3, alpha: f64) -> f64 {
     let term = |square: DVec2| {
         let o = mirrored(-v, visible_normal(-v, DVec3::Z, alpha, square));
-        if o.z > 0.0 { mirrored_share(v.z, o.z, alpha) } else { 0.0 }
+        if o.z > 0.0 { smith_g2_over_g1(v.z, o.z, alpha) } else { 0.0 }
     };
     grid().map(term).sum::<f64>() / f64::from(STEPS * STEPS)
 }
@@ -161,8 +161,12 @@ fn little_roughness_changes_little_and_much_blurs() {
 fn beams_grow_by_the_samples_share_of_the_lobe() {
     let mut scene = packed(&room("model = 'mirror'\nroughness = 0.5"));
     scene.header.step_x[3] = 0.25;
-    let beam = Beam { direction: [DVec3::X * 0.01, DVec3::Y * -0.01], spread: 0.01, ..Beam::default() };
-    let wide = widened_beam(&scene.header, &beam, DVec3::Z * 2.0, 0.09);
+    let beam = RayDifferential {
+        direction: [DVec3::X * 0.01, DVec3::Y * -0.01],
+        spread: 0.01,
+        ..RayDifferential::default()
+    };
+    let wide = widened_differential(&scene.header, &beam, DVec3::Z * 2.0, 0.09);
     let by = 2.0 * 0.09 * 0.25 * 2.0;
     assert!((wide.spread - 0.01 - by).abs() < 1e-9);
     assert!((wide.direction[0] - DVec3::X * (0.01 + by)).length() < 1e-9, "{:?}", wide.direction);

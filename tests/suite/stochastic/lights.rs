@@ -4,9 +4,9 @@
 use std::f64::consts::{PI, TAU};
 
 use glam::DVec3;
-use moire::film::Film;
-use moire::scene::model::{Light, Pattern, Scene};
-use moire::scene::parse;
+use moire::internal::core::film::Film;
+use moire::internal::scene::model::{Light, Pattern, Scene};
+use moire::internal::scene::parse;
 
 use super::{assert_patterns_gain, packed, parsed, sampled};
 use crate::stage::render;
@@ -37,7 +37,7 @@ fn lit(light: Light) -> f64 {
     alone
 }
 
-fn parsed_sphere() -> moire::scene::model::Sphere {
+fn parsed_sphere() -> moire::internal::scene::model::Sphere {
     parsed(&format!("{}[[sphere]]\ncenter = [0, 0, -9]\nradius = 1\n", super::lens::VIEW)).spheres[0]
 }
 
@@ -220,7 +220,7 @@ fn penumbrae_are_as_wide_as_geometry_says() {
         let x = (i as f64 + 0.5) / 32.0 * 0.5 - 0.25;
         let expected = (x / edge + 0.5).clamp(0.0, 1.0);
         let found = f64::from(pixel[0]) / open;
-        // Pixels at the two ends of the penumbra are averages over its bend.
+        // Pixels at the two ends of the penumbra are averages over its shape_operator.
         assert!((found - expected).abs() < 0.02, "at {x}: {found}, expected {expected}");
     }
 }

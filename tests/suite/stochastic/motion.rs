@@ -2,14 +2,14 @@
 //! patterns gain.
 
 use glam::DVec3;
-use moire::film::Film;
-use moire::metrics::compare;
-use moire::oracle::render::render as on_oracle;
-use moire::pack::PackedScene;
-use moire::progress::Silent;
-use moire::scene::model::Scene;
-use moire::scene::parse;
-use moire::texture::load::load;
+use moire::internal::core::film::Film;
+use moire::internal::core::progress::NoProgress;
+use moire::internal::lab::metrics::compare;
+use moire::internal::oracle::render::render as on_oracle;
+use moire::internal::pack::PackedScene;
+use moire::internal::scene::model::Scene;
+use moire::internal::scene::parse;
+use moire::internal::texture::load::load;
 
 use super::lens::{VIEW, spread};
 use super::{assert_patterns_gain, packed, parsed};
@@ -74,7 +74,7 @@ const CROWD: &str = "
 
 fn textured(scene: &Scene) -> PackedScene {
     let textures = scene.textures.iter().map(|t| load(t).unwrap()).collect();
-    moire::pack::pack(scene, textures, None).unwrap()
+    moire::internal::pack::pack(scene, textures, None).unwrap()
 }
 
 #[test]
@@ -104,7 +104,7 @@ fn a_moment_shows_everything_where_it_is_then() {
         }
         let [frozen, still] = [textured(&frozen), textured(&still)];
         assert!(still.motions.is_empty());
-        let [a, b] = [&frozen, &still].map(|s| on_oracle(s, &Silent).unwrap());
+        let [a, b] = [&frozen, &still].map(|s| on_oracle(s, &NoProgress).unwrap());
         let apart = compare(&a, &b).unwrap();
         assert!(apart.rmse < 2e-3, "oracle at {time}: {:e}", apart.rmse);
         let [a, b] = [&frozen, &still].map(render);
@@ -123,7 +123,7 @@ fn a_camera_that_moves_sees_what_shapes_moving_the_other_way_show() {
         .materials
         .iter_mut()
         .filter(|m| m.name == "default")
-        .for_each(|m| m.model = moire::scene::model::Model::Unlit);
+        .for_each(|m| m.model = moire::internal::scene::model::Model::Unlit);
     let mut shapes = camera.clone();
     camera.camera.motion = [way; 2];
     for motion in camera
@@ -138,7 +138,7 @@ fn a_camera_that_moves_sees_what_shapes_moving_the_other_way_show() {
     shapes.planes.iter_mut().for_each(|s| s.motion = -way);
     shapes.spheres.iter_mut().for_each(|s| s.motion = -way);
     shapes.triangles.iter_mut().for_each(|s| s.motion = -way);
-    let [a, b] = [&camera, &shapes].map(|s| on_oracle(&textured(s), &Silent).unwrap());
+    let [a, b] = [&camera, &shapes].map(|s| on_oracle(&textured(s), &NoProgress).unwrap());
     assert!(compare(&a, &b).unwrap().rmse < 2e-3, "{:e}", compare(&a, &b).unwrap().rmse);
     let [a, b] = [&camera, &shapes].map(|s| render(&textured(s)));
     assert!(compare(&a, &b).unwrap().rmse < 5e-3, "{:e}", compare(&a, &b).unwrap().rmse);

@@ -2,9 +2,9 @@
 //! and grazing.
 
 use glam::{DVec2, DVec3};
-use moire::oracle::rectangle::{LEAST_SOLID_ANGLE, on_rectangle};
-use moire::probe::{self, WarpQuery};
-use moire::scene::model::Pattern;
+use moire::internal::lab::probe::{self, WarpQuery};
+use moire::internal::oracle::rectangle::{MIN_SOLID_ANGLE, on_rectangle};
+use moire::internal::scene::model::Pattern;
 
 use crate::lookup::bench::Dice;
 use crate::shared_gpu::gpu;
@@ -31,7 +31,7 @@ fn rectangles(count: usize, seed: u64) -> Vec<(DVec2, DVec2, f64)> {
         let narrow = |x: f64| f64::from((x * scale) as f32);
         let [m, h] = [middle, half].map(|v| DVec2::new(narrow(v.x), narrow(v.y)));
         let z = narrow(height);
-        if solid_angle(m - h, m + h, z) >= LEAST_SOLID_ANGLE {
+        if solid_angle(m - h, m + h, z) >= MIN_SOLID_ANGLE {
             all.push((m, h, z));
         }
     }

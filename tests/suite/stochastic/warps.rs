@@ -3,12 +3,12 @@
 use std::f64::consts::TAU;
 
 use glam::{DVec2, DVec3};
-use moire::oracle::footprint::{around, mirrored};
-use moire::oracle::glossy::{mirrored_share, visible_normal};
-use moire::oracle::math::xyz;
-use moire::oracle::warps::{concentric_disc, on_cap};
-use moire::probe::{self, WarpAnswer, WarpQuery};
-use moire::scene::model::Pattern;
+use moire::internal::lab::probe::{self, WarpAnswer, WarpQuery};
+use moire::internal::oracle::bsdf::facets::{smith_g2_over_g1, visible_normal};
+use moire::internal::oracle::disk_sampling::{concentric_disc, on_cap};
+use moire::internal::oracle::footprint::{around, mirrored};
+use moire::internal::oracle::math::xyz;
+use moire::internal::scene::model::Pattern;
 
 use crate::lookup::bench::Dice;
 use crate::shared_gpu::gpu;
@@ -80,7 +80,7 @@ fn facet_agrees(query: &WarpQuery, answer: &WarpAnswer) -> bool {
     let off = (xyz(answer.facet) - facet).length();
     let sine = facet.cross(n).length();
     let leaving = mirrored(d, facet).dot(n);
-    let share = mirrored_share(-d.dot(n), leaving, alpha);
+    let share = smith_g2_over_g1(-d.dot(n), leaving, alpha);
     let slips = (f64::from(answer.facet[3]) - share).abs() <= 2e-5 * (1.0 + 1.0 / leaving.abs());
     off <= 2e-6 + 2e-6 * sine / alpha && (slips || leaving < 0.01)
 }

@@ -1,10 +1,12 @@
 //! Slopes, winners and times to errors of points that are made up, so that the answers are known.
 
-use moire::oracle::rng::mix_bits;
-use moire::plot::axis::steps;
-use moire::study::analysis::{MethodSlope, Slope, median, recommended, slope, time_to, winners};
-use moire::study::choice::no_different;
-use moire::study::record::{Errors, PointRecord};
+use moire::internal::lab::plot::axis::steps;
+use moire::internal::lab::study::analysis::{
+    MethodSlope, Slope, median, recommended, slope, time_to, winners,
+};
+use moire::internal::lab::study::choice::no_different;
+use moire::internal::lab::study::record::{Errors, PointRecord};
+use moire::internal::oracle::rng::mix_bits;
 
 /// RMSE whose square falls with this slope, with a ripple of some per cent as measured points have.
 fn curve(exponent: f64, ripple: f64) -> Vec<(f64, f64)> {
@@ -43,7 +45,7 @@ fn points_at_the_references_own_error_bend_no_slope() {
     let bent = |(n, e): (f64, f64)| (n, e.hypot(floor));
     let points: Vec<(f64, f64)> = curve(-1.5, 0.0).into_iter().map(bent).collect();
     let blind = slope(&points, 0.0).unwrap();
-    assert!(blind.value > -1.4, "the planted floor does not bend: {blind:?}");
+    assert!(blind.value > -1.4, "the planted floor does not shape_operator: {blind:?}");
     let fitted = slope(&points, floor).unwrap();
     assert!(fitted.points < 5 && (fitted.value + 1.5).abs() < 0.05, "{fitted:?}");
 }

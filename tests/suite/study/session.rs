@@ -1,11 +1,11 @@
 //! Renders that share what is on the device are the same, bit for bit, as renders of their own.
 
-use moire::film::Film;
-use moire::pack::pack;
-use moire::progress::Silent;
-use moire::render::{Session, Tuning, render};
-use moire::scene::model::{Algorithm, Pattern, Scene};
-use moire::texture;
+use moire::internal::core::film::Film;
+use moire::internal::core::progress::NoProgress;
+use moire::internal::pack::pack;
+use moire::internal::render::{Session, Tuning, render};
+use moire::internal::scene::model::{Algorithm, Pattern, Scene};
+use moire::internal::texture;
 
 use crate::shared_gpu;
 use crate::stage;
@@ -13,17 +13,17 @@ use crate::stage;
 fn load(name: &str) -> Scene {
     let mut scene = stage::scene(name);
     (scene.width, scene.height) = (24, 18);
-    moire::scene::prune::prune(&mut scene);
+    moire::internal::scene::prune::prune(&mut scene);
     scene
 }
 
-fn packed(scene: &Scene) -> moire::pack::PackedScene {
+fn packed(scene: &Scene) -> moire::internal::pack::PackedScene {
     pack(scene, scene.textures.iter().map(|t| texture::load::load(t).unwrap()).collect(), None).unwrap()
 }
 
 fn alone(scene: &Scene) -> Film {
     let gpu = shared_gpu::gpu();
-    render(&gpu, packed(scene), false, &Tuning::default(), &Silent).unwrap().0
+    render(&gpu, packed(scene), false, &Tuning::default(), &NoProgress).unwrap().0
 }
 
 /// What beams leave takes the samples of its own choice, not those that the scene was packed with.
@@ -33,7 +33,7 @@ fn samples_beside_beams_are_those_that_are_asked_for() {
     base.sampling.algorithm = Algorithm::Beam;
     let variant = |pattern, spp| {
         let mut scene = base.clone();
-        scene.sampling = moire::scene::model::Sampling { pattern, spp, ..scene.sampling };
+        scene.sampling = moire::internal::scene::model::Sampling { pattern, spp, ..scene.sampling };
         scene
     };
     let gpu = shared_gpu::gpu();
@@ -41,7 +41,7 @@ fn samples_beside_beams_are_those_that_are_asked_for() {
     for scene in
         [variant(Pattern::Stratified, 1), variant(Pattern::Random, 5), variant(Pattern::Stratified, 64)]
     {
-        let (film, report) = session.prepare_sampling(&scene).unwrap().render(&Silent).unwrap();
+        let (film, report) = session.prepare_sampling(&scene).unwrap().render(&NoProgress).unwrap();
         assert!(report.sampled_pixels > Some(0));
         assert!(film == alone(&scene), "{:?}", scene.sampling);
     }
@@ -53,7 +53,7 @@ fn renders_in_turn_equal_renders_alone() {
         let base = load(name);
         let variant = |pattern, spp, seed| {
             let mut scene = base.clone();
-            scene.sampling = moire::scene::model::Sampling { pattern, spp, seed, ..scene.sampling };
+            scene.sampling = moire::internal::scene::model::Sampling { pattern, spp, seed, ..scene.sampling };
             scene
         };
         // More than 256 samples need the film's second half.
@@ -68,7 +68,7 @@ fn renders_in_turn_equal_renders_alone() {
         let alone: Vec<Film> = scenes.iter().map(alone).collect();
         for round in 0..2 {
             for ((scene, expected), prepared) in scenes.iter().zip(&alone).zip(&prepared) {
-                let (film, report) = prepared.render(&Silent).unwrap();
+                let (film, report) = prepared.render(&NoProgress).unwrap();
                 assert!(film == *expected, "{name}, round {round}, {:?}", scene.sampling);
                 assert!(report.seconds.render > 0.0 && report.seconds.compile > 0.0);
             }

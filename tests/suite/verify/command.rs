@@ -1,8 +1,8 @@
 //! `moire verify` on the device under test: what it prints, how it exits and how it stops.
 
-use moire::error::Error;
-use moire::progress::Progress;
-use moire::verify::verify;
+use moire::internal::core::error::Error;
+use moire::internal::core::progress::Progress;
+use moire::internal::lab::verify::verify;
 use serde_json::Value;
 
 use crate::shared_gpu::gpu;

@@ -2,19 +2,19 @@
 
 use std::collections::BTreeSet;
 
-use moire::layout::Sampler;
-use moire::oracle::filter::look_up;
-use moire::pack::PackedScene;
-use moire::probe::LookUp;
-use moire::scene::model::Footprint;
-use moire::texture::data::Dimension;
-use moire::texture::sampler_spec::{Address, Filter, Method, MipMode, SamplerSpec};
-use moire::verify::judge::{Judge, Precision};
-use moire::verify::level_variants::{anisotropic_variants, level_variants};
-use moire::verify::queries::{Dice, noise, pairs_over, place_of, query};
-use moire::verify::reading::readings;
-use moire::verify::sweeps::{level_sweep, long_footprints, paint_levels};
-use moire::verify::variants::{FormatClass, Reader, Scale, Variant};
+use moire::internal::lab::probe::LookUp;
+use moire::internal::lab::verify::judge::{Judge, Precision};
+use moire::internal::lab::verify::level_variants::{anisotropic_variants, level_variants};
+use moire::internal::lab::verify::queries::{Dice, noise, pairs_over, place_of, query};
+use moire::internal::lab::verify::reading::readings;
+use moire::internal::lab::verify::sweeps::{level_sweep, long_footprints, paint_levels};
+use moire::internal::lab::verify::variants::{FormatClass, Reader, Scale, Variant};
+use moire::internal::oracle::filter::sample_texture;
+use moire::internal::pack::PackedScene;
+use moire::internal::scene::model::Footprint;
+use moire::internal::schema::layout::Sampler;
+use moire::internal::texture::data::Dimension;
+use moire::internal::texture::sampler_spec::{Address, Filter, Method, MipMode, SamplerSpec};
 
 use super::device;
 
@@ -43,7 +43,7 @@ fn wrong(variant: &Variant, precision: Precision, tamper: impl Fn(&mut LookUp, &
     let is_wrong = |query: &&LookUp| {
         let (mut asked, mut how) = (**query, scene.samplers[0]);
         tamper(&mut asked, &mut how);
-        let answer = look_up(&scene, &scene.textures[0], &how, &place_of(&asked), [0; 2]);
+        let answer = sample_texture(&scene, &scene.textures[0], &how, &place_of(&asked), [0; 2]);
         !judge.judge(query, answer.as_vec4().to_array()).right
     };
     queries.iter().filter(is_wrong).count() as f64 / queries.len() as f64

@@ -1,0 +1,45 @@
+// Counters of what went beyond a limit: look-ups at coordinates that are no numbers, levels beyond a texture's last,
+// footprints longer than a sampler follows, rays that graze, paths that end by depth, cones without room. Each thread
+// counts for itself and adds to the device's 64-bit counters at its end. Without DIAGNOSED none of it is there.
+#ifndef DIAGNOSTICS_GLSL
+#define DIAGNOSTICS_GLSL
+
+#include "features.glsl"
+#include "layout.glsl"
+
+layout(std430, set = 0, binding = 11) buffer Guards { uint guards[]; }; // low and high half of each
+
+uint noticed[DIAGNOSTICS];
+
+void clear_notices() {
+    if (DIAGNOSED) {
+        for (uint k = 0u; k < DIAGNOSTICS; k++) noticed[k] = 0u;
+    }
+}
+
+void count_diagnostic(uint what, bool happened) {
+    if (DIAGNOSED) noticed[what] += happened ? 1u : 0u;
+}
+
+void report_notices() {
+    if (DIAGNOSED) {
+        for (uint k = 0u; k < DIAGNOSTICS; k++) {
+            if (noticed[k] > 0u) {
+                uint before = atomicAdd(guards[2u * k], noticed[k]);
+                if (before + noticed[k] < before) atomicAdd(guards[2u * k + 1u], 1u);
+            }
+        }
+    }
+}
+
+// By its bits: compilers take comparisons for those of numbers.
+bool no_number(vec3 v) { return any(equal(floatBitsToUint(v) & 0x7F800000u, uvec3(0x7F800000u))); }
+
+#ifdef DOUBLE
+bool no_number(dvec3 v) {
+    uvec3 high = uvec3(unpackDouble2x32(v.x).y, unpackDouble2x32(v.y).y, unpackDouble2x32(v.z).y);
+    return any(equal(high & 0x7FF00000u, uvec3(0x7FF00000u)));
+}
+#endif
+
+#endif

@@ -1,0 +1,65 @@
+// A footprint in texture coordinates -> its axes in texels, alike for flat textures, volumes and the
+// faces of cubes. Twin: src/oracle/footprint_axes.rs.
+#ifndef FOOTPRINT_AXES_GLSL
+#define FOOTPRINT_AXES_GLSL
+
+#include "texture.glsl"
+
+#if SOURCE != SOURCE_NONE
+
+// Squares of the footprint's axes (singular values of its Jacobian) in texels of level 0, and the unit
+// vector whose combination of dx and dy is the major axis.
+struct FootprintEllipse {
+    float major;
+    float minor;
+    vec2 along;
+};
+
+// What is not a number, or endless, is as wide as the widest: so many tiles, of which squares in texels are
+// numbers still.
+const float WIDEST_CHANGE = 1e9;
+
+vec3 bounded_change(vec3 d) { return mix(vec3(WIDEST_CHANGE), d, lessThanEqual(abs(d), vec3(WIDEST_CHANGE))); }
+
+// A direction on the cube as a place on its face; a flat or solid coordinate as it is. Footprints are numbers.
+Coordinate in_texture(Texture image, Coordinate c, out uint face) {
+    face = 0u;
+    if (!MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_CUBE, image.link.w)) {
+        if (FILTERED) {
+            c.dx = bounded_change(c.dx);
+            c.dy = bounded_change(c.dy);
+        }
+        return c;
+    }
+    vec3 stm = on_cube_face(c.at, face);
+    Coordinate on_face = Coordinate(vec3(within_face(stm), 0.0), vec3(0.0), vec3(0.0));
+    if (FILTERED) {
+        // Directions of any length: none is squared.
+        vec3 unit = vec3(stm.xy / stm.z, 1.0);
+        on_face.dx = bounded_change(vec3(face_uv_change(unit, along_cube_face(c.dx, face) / stm.z), 0.0));
+        on_face.dy = bounded_change(vec3(face_uv_change(unit, along_cube_face(c.dy, face) / stm.z), 0.0));
+    }
+    return on_face;
+}
+
+FootprintEllipse texel_spread(Texture image, Coordinate c) {
+    vec3 size = vec3(image.place.yz, MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_VOLUME, image.link.w) ? image.link.z : 0u);
+    vec3 x = c.dx * size;
+    vec3 y = c.dy * size;
+    float xx = dot3(x, x);
+    float yy = dot3(y, y);
+    float xy = dot3(x, y);
+    float middle = 0.5 * (xx + yy);
+    float half_difference = 0.5 * (xx - yy);
+    float radius = sqrt(half_difference * half_difference + xy * xy);
+    float major = middle + radius;
+    float minor = max(xx * (yy / major) - xy * (xy / major), 0.0);
+    // Of two forms of the eigenvector the one that does not cancel.
+    vec2 along = half_difference >= 0.0 ? vec2(half_difference + radius, xy) : vec2(xy, radius - half_difference);
+    float squared = along.x * along.x + along.y * along.y;
+    along = squared > 0.0 ? along * inversesqrt(squared) : vec2(1.0, 0.0);
+    return FootprintEllipse(major, minor >= 0.0 ? minor : 0.0, along);
+}
+#endif
+
+#endif

@@ -1,0 +1,270 @@
+// The shapes that a cone touches, in order of depth, and what is seen of each. The nearest fragments are kept
+// and laid over each other: exactly for two that overlap or cut each other, and for any number that lie
+// side by side. Twin: src/oracle/fragments.rs.
+#ifndef FRAGMENTS_GLSL
+#define FRAGMENTS_GLSL
+
+#include "cone.glsl"
+
+// Shapes that a cone keeps: the nearest.
+const uint MAX_FRAGMENTS = 8u;
+// Planes whose depths differ by less, relatively, lie in each other: the first of the list is seen.
+const float COPLANAR = 4e-6;
+const uint FRAGMENTS = CONE_SHAPES == DYNAMIC ? MAX_FRAGMENTS : CONE_SHAPES;
+
+// A shape in the cone.
+struct Fragment {
+    uint shape;
+    float t;     // at the centroid
+    float near;  // least and largest t over the disc
+    float far;
+    float area;  // share of the cone's cross-section
+    float seen;  // of that, what nothing nearer hides
+    vec2 center; // centroid of what is seen
+};
+
+// In order. Only constants index them, so that they are registers: memory that each thread indexes for
+// itself is slow.
+Fragment fragments[MAX_FRAGMENTS];
+uint piece_count;
+float clear; // what fragments that were not kept leave of a place, if they lie anywhere
+
+#define EACH_PIECE(DO) DO(0u) DO(1u) DO(2u) DO(3u) DO(4u) DO(5u) DO(6u) DO(7u)
+
+Fragment piece_at(uint index) {
+    Fragment found = fragments[0];
+#define SELECT(k) if (k < FRAGMENTS && k == index) found = fragments[k];
+    EACH_PIECE(SELECT)
+#undef SELECT
+    return found;
+}
+
+void set_seen(uint index, float seen, vec2 center) {
+#define SET(k)                         \
+    if (k < FRAGMENTS && k == index) {    \
+        fragments[k].seen = seen;         \
+        fragments[k].center = center;     \
+    }
+    EACH_PIECE(SET)
+#undef SET
+}
+
+// How deep a shape lies over the disc: its own plane, that which touches a ball, and where a ball ends
+// its distance alone.
+Flat depth_of(Header header, Cone cone, uint shape, float t, float area) {
+    uint planes = COUNT(PLANES, header.counts.x);
+    uint spheres = COUNT(SPHERES, header.counts.y);
+    uint triangles = COUNT(TRIANGLES, header.counts.z);
+    vec4 plane = vec4(0.0);
+    bool ends = false;
+    if (planes > 0u && (spheres + triangles == 0u || shape < planes)) {
+        plane = plane_at(shape).normal;
+    } else if (spheres > 0u && (triangles == 0u || shape < planes + spheres)) {
+        Sphere sphere = sphere_at(shape - planes);
+        vec3 out_of = (cone.ray.origin + t * cone.ray.direction) - sphere.ball.xyz;
+        vec3 normal = out_of * inversesqrt(dot3(out_of, out_of));
+        float height = dot3(normal, sphere.ball.xyz) + sphere.ball.w;
+        plane = vec4(normal, height);
+        ends = area < 1.0;
+    } else if (triangles > 0u) {
+        plane = triangle_at(shape - planes - spheres).normal;
+    }
+    Flat depth = flat_in(cone, plane.xyz, plane.w);
+    if (ends) depth = Flat(t, 1.0, vec2(0.0));
+    return depth;
+}
+
+// t of a flat at the two ends of the disc between which it changes.
+vec2 depths(Cone cone, Flat depth) {
+    float tilt = sqrt(dot2(depth.tilt, depth.tilt));
+    vec2 high = depth.height - vec2(tilt, -tilt) * cone.width;
+    vec2 facing = depth.facing + vec2(tilt, -tilt) * cone.spread;
+    float first = facing.x > 0.0 ? max(high.x / facing.x, 0.0) : FAR;
+    float second = facing.y > 0.0 ? max(high.y / facing.y, 0.0) : FAR;
+    return vec2(min(first, second), max(first, second));
+}
+
+// Keeps the fragment among the nearest.
+void keep(Header header, Cone cone, uint shape, Covered covered, float t_max) {
+    Ray ray = ray_at(cone, covered.center);
+    float t = meet(header, ray, shape).t;
+    if (!(covered.share > MIN_SHARE && t > 0.0 && t < t_max)) return;
+    if (!rises_to(cone, ray.origin + t * ray.direction)) return;
+    vec2 range = depths(cone, depth_of(header, cone, shape, t, covered.share));
+    Fragment next = Fragment(shape, t, range.x, range.y, covered.share, covered.share, covered.center);
+#define INSERT(k)                              \
+    if (k < FRAGMENTS && next.t < fragments[k].t) {  \
+        Fragment here = fragments[k];                \
+        fragments[k] = next;                      \
+        next = here;                           \
+    }
+    EACH_PIECE(INSERT)
+#undef INSERT
+    clear *= 1.0 - next.area;
+    piece_count = min(piece_count + 1u, FRAGMENTS);
+}
+
+// Whether the cone may touch the shape.
+bool touched(Header header, Cone cone, uint shape) {
+    uint planes = COUNT(PLANES, header.counts.x);
+    uint spheres = COUNT(SPHERES, header.counts.y);
+    uint triangles = COUNT(TRIANGLES, header.counts.z);
+    if (spheres > 0u && (planes + triangles == 0u || (shape >= planes && shape < planes + spheres))) {
+        Circle circle = circle_of(cone, sphere_at(shape - planes));
+        vec2 apart = abs(circle.middle);
+        bool reaches = max(apart.x, apart.y) < SQUARE * (1.0 + circle.radius);
+        return circle.edge > -1.0 || (circle.radius < 1.0 && reaches);
+    }
+    whole_disc();
+    cut_shape(header, cone, shape);
+    return !cut_away;
+}
+
+const uint BATCH = 32u;
+
+// All shapes but `skip` that the cone touches before t_max; the nearest ones, in order. Most are missed,
+// which is found out first: measuring what is covered takes longer, for all threads while one does it.
+void collect_fragments(Header header, Cone cone, uint skip, float t_max) {
+    uint planes = COUNT(PLANES, header.counts.x);
+    uint spheres = COUNT(SPHERES, header.counts.y);
+    uint triangles = COUNT(TRIANGLES, header.counts.z);
+    uint shapes = planes + spheres + triangles;
+    piece_count = 0u;
+    clear = 1.0;
+#define CLEAR(k) fragments[k] = Fragment(NO_SHAPE, FAR, FAR, FAR, 0.0, 0.0, vec2(0.0));
+    EACH_PIECE(CLEAR)
+#undef CLEAR
+    for (uint first = 0u; first < shapes; first += BATCH) {
+        uint found = 0u;
+        for (uint i = 0u; i < BATCH && first + i < shapes; i++) {
+            if (first + i != skip && touched(header, cone, first + i)) found |= 1u << i;
+        }
+        while (found != 0u) {
+            uint shape = first + uint(findLSB(found));
+            found &= found - 1u;
+            keep(header, cone, shape, covered_by(header, cone, shape), t_max);
+        }
+    }
+    // Nothing behind the first that covers all is seen, if nothing of it lies before that.
+    float far = FAR;
+    uint count = 0u;
+#define TRIM(k)                                                                \
+    if (k < FRAGMENTS && k < piece_count) {                                       \
+        count = fragments[k].near < far ? k + 1u : count;                         \
+        far = fragments[k].area >= 1.0 ? min(far, fragments[k].far) : far;           \
+    }
+    EACH_PIECE(TRIM)
+#undef TRIM
+    piece_count = count;
+}
+
+// How two fragments lie over each other: where a hides b, or where b hides a. `turns`: b does so anywhere in the
+// disc, be it as their planes cross or as b's centroid lies behind a's while b lies before a where both are.
+Covered hidden(Header header, Cone cone, Fragment a, Fragment b, bool turned, out bool turns) {
+    whole_disc();
+    turns = false;
+    bool a_has_lines = true;
+    bool b_has_lines = true;
+    Flat p = Flat(0.0, 0.0, vec2(0.0));
+    Flat q = p;
+    // The shapes in turn, by the same code.
+    for (uint k = 0u; k < 2u; k++) {
+        Fragment fragment = b;
+        if (k == 0u) fragment = a;
+        bool has_lines = true;
+        if (fragment.area < 1.0) has_lines = cut_shape(header, cone, fragment.shape);
+        p = q;
+        a_has_lines = b_has_lines;
+        q = depth_of(header, cone, fragment.shape, fragment.t, fragment.area);
+        b_has_lines = has_lines;
+    }
+    vec2 tilt = (q.height * cone.spread + cone.width * q.facing) * p.tilt;
+    tilt -= (p.height * cone.spread + cone.width * p.facing) * q.tilt;
+    vec3 before = vec3(tilt, q.height * p.facing - p.height * q.facing);
+    if (abs(before.x) + abs(before.y) + abs(before.z) <= COPLANAR * abs(q.height * p.facing)) {
+        before = vec3(0.0, 0.0, a.shape < b.shape ? 1.0 : -1.0);
+    }
+    cut_by(turned ? -before : before);
+    Covered both = cut_disc();
+    if (!a_has_lines || !b_has_lines) {
+        // As good as anywhere.
+        both = Covered(turned ? 0.0 : a.area * b.area, a_has_lines ? b.center : a.center);
+    } else {
+        turns = before.z < sqrt(dot2(before.xy, before.xy));
+    }
+    return both;
+}
+
+vec2 within_disc(vec2 center) {
+    float outside = dot2(center, center);
+    return outside > 1.0 ? center * inversesqrt(outside) : center;
+}
+
+// What is seen of each fragment, and its centroid; what nothing covers, and that centroid, is the answer. A
+// fragment that is seen in part hides in proportion. One loop over all pairs: a turn looks at one.
+Covered composite(Header header, Cone cone) {
+    float rest = 1.0 - (piece_count > 0u ? fragments[0].area : 0.0);
+    uint i = 1u;
+    uint j = 0u;
+    bool turned = false;
+    float seen = 0.0;
+    vec2 moment = vec2(0.0);
+    while (FRAGMENTS > 1u && i < piece_count) {
+        Fragment fragment = piece_at(i);
+        Fragment other = piece_at(j);
+        if (j == 0u && !turned) {
+            seen = fragment.area;
+            moment = fragment.area * fragment.center;
+        }
+        bool turns = false;
+        Covered lost = hidden(header, cone, other, fragment, turned, turns);
+        float weight = turned ? fragment.seen / fragment.area : other.seen / other.area;
+        lost.share *= weight;
+        if (turned) {
+            float left = max(other.seen - lost.share, 0.0);
+            vec2 left_moment = other.seen * other.center - lost.share * lost.center;
+            set_seen(j, left, left > MIN_SHARE ? within_disc(left_moment / left) : other.center);
+            rest += other.seen - left;
+        } else {
+            seen -= lost.share;
+            moment -= lost.share * lost.center;
+        }
+        turned = turns && !turned;
+        j += turned ? 0u : 1u;
+        if (j == i) {
+            seen = min(seen, rest);
+            seen = seen > MIN_SHARE ? seen : 0.0;
+            set_seen(i, seen, seen > 0.0 ? within_disc(moment / seen) : fragment.center);
+            rest -= seen;
+            i++;
+            j = 0u;
+        }
+    }
+    // Through what covers a place nothing is seen, however many lie over each other there: the place is one of
+    // those that are hidden.
+    float most = 0.0;
+    float concealed = 0.0;
+#define CONCEAL(k)                                     \
+    if (k < FRAGMENTS && k < piece_count) {               \
+        most = max(most, fragments[k].area);              \
+        concealed += fragments[k].area - fragments[k].seen;  \
+    }
+    EACH_PIECE(CONCEAL)
+#undef CONCEAL
+    float excess = rest - (1.0 - most);
+    if (excess > MIN_SHARE && concealed > 0.0) {
+        float shown = excess / concealed;
+#define SHOW(k) if (k < FRAGMENTS && k < piece_count) fragments[k].seen += shown * (fragments[k].area - fragments[k].seen);
+        EACH_PIECE(SHOW)
+#undef SHOW
+        rest -= excess;
+    }
+    if (!(rest > MIN_SHARE)) return NOTHING;
+    vec2 rest_moment = vec2(0.0);
+#define SUBTRACT(k) if (k < FRAGMENTS && k < piece_count) rest_moment -= fragments[k].seen * fragments[k].center;
+    EACH_PIECE(SUBTRACT)
+#undef SUBTRACT
+    return Covered(rest, within_disc(rest_moment / rest));
+}
+
+#endif

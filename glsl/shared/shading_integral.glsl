@@ -1,0 +1,176 @@
+// The colour of a visible fragment: which materials have an integral that is known, and that integral, of texture
+// times irradiance over strips of the fragment. Twin: src/oracle/shading_integral.rs.
+#ifndef SHADING_INTEGRAL_GLSL
+#define SHADING_INTEGRAL_GLSL
+
+#include "features.glsl"
+#include "bsdf/models.glsl"
+#include "prefix_sums.glsl"
+#include "sample_dimensions.glsl"
+
+const uint MAX_FRAGMENTS = 12u;  // that wait at a time
+const uint MAX_BEAMS = 6u;    // mirrored ones that wait at a time
+
+// Polygons: the waiting fragments with room for one more, those of waiting beams, and
+const uint BEAMS_AT = MAX_FRAGMENTS + 1u;
+const uint WHOLE = BEAMS_AT + MAX_BEAMS; // of the beam
+const uint PIECE = WHOLE + 1u;           // that was taken from the waiting ones
+const uint OTHER = PIECE + 1u;           // the fragment with the next part cut away
+const uint SEEN = OTHER + 1u;            // a visible one
+const uint STRIP = SEEN + 1u;            // of a fragment
+
+const uint MAX_CELLS = 40000u; // of textures that a pixel's edges may cross
+
+// Of one thread: too much for a beam, and what its edges have crossed.
+bool gave_up;
+uint crossed;
+
+const Light NO_LIGHT = Light(vec4(0.0), vec4(0.0), uvec4(0u), vec4(0.0), vec4(0.0));
+
+// What a fragment is painted with.
+struct ShadingIntegral {
+    Material record;
+    vec3 carried; // its colour, and those of the mirrors that show it
+    RationalMap quotient;
+    vec4 plane;
+    PixelFrustum frame;
+    vec3 near;
+};
+
+bool is_smooth(Header header, uint shape) {
+    uint planes = COUNT(PLANES, header.counts.x);
+    if (!SMOOTH_NORMALS || TRIANGLES == 0u || shape < planes) return false;
+    return triangle_at(shape - planes - COUNT(SPHERES, header.counts.y)).v.w != 0.0;
+}
+
+const uint STEPPED = (1u << FILTER_NEAREST) | (1u << FILTER_LINEAR);
+const uint TILED = (1u << ADDRESS_REPEAT) | (1u << ADDRESS_MIRRORED_REPEAT) | (1u << ADDRESS_CLAMP_TO_EDGE);
+
+// Whether the integral of a shape's colour is known: of a material that has one, with a checker or a flat texture
+// that is affine on the shape.
+bool is_simple(Header header, uint shape, Material record, UvProjection map) {
+    if (!is_integrable_over_region(record, is_smooth(header, shape))) return false;
+    if (BUMPED && record.detail.x != NO_TEXTURE) return false;
+    if (record.link.y == NO_TEXTURE) return true;
+    bool flat_map = MODE_IS(MAPPINGS, MAP_PLANE, map.link.x) || MODE_IS(MAPPINGS, MAP_VERTEX_UV, map.link.x) ||
+                    MODE_IS(MAPPINGS, MAP_AFFINE, map.link.x);
+    if (!flat_map || map.link.y != ENTITY_POSITION || is_specular(record)) return false;
+    Texture image = texture_at(record.link.y);
+    if (MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_PROCEDURAL, image.link.w)) {
+        uvec4 link = procedural_at(image.place.x).link;
+        return MODE_IS(PROCEDURAL_KINDS, PROCEDURAL_CHECKER, link.x) && link.w < 3u;
+    }
+    Sampler how = sampler_at(record.link.z);
+    bool tiled = HAS(TILED, how.modes.x) && HAS(TILED, how.modes.y);
+    return HAS(STEPPED, how.modes.z) && tiled && word(int(record.link.y)) > 0;
+}
+
+// A light behind the surface, as its beam sees it, gives nothing.
+bool is_facing(Header header, ShadingIntegral paint, uint polygon, Light light) {
+    vec3 way;
+    vec3 origin;
+    ray_at(header, paint.frame, middle(polygon), way, origin);
+    bool point_light = MODE_IS(LIGHT_KINDS, LIGHT_POINT, light.link.x);
+    float above = dot3(paint.plane.xyz, light.place.xyz) - (point_light ? paint.plane.w : 0.0);
+    return above * dot3(paint.plane.xyz, way) < 0.0;
+}
+
+// Irradiance over pi at the middle of a strip, of a light that it sees.
+vec3 irradiance(Header header, ShadingIntegral paint, uint strip, Light light) {
+    vec3 n = paint.plane.xyz;
+    vec3 power = light.power.xyz * (1.0 / PI);
+    if (!MODE_IS(LIGHT_KINDS, LIGHT_POINT, light.link.x)) return power * abs(dot3(n, light.place.xyz));
+    // The way to the light times the inverse_depth: towards the horizon both stay finite.
+    vec3 direction;
+    vec3 origin;
+    ray_at(header, paint.frame, middle(strip), direction, origin);
+    float near = at(paint.near, middle(strip));
+    bool parallel = is_parallel(header);
+    vec3 way = parallel ? (light.place.xyz - origin) + near * direction : near * (light.place.xyz - origin) - direction;
+    float squared = dot3(way, way);
+    float scale = parallel ? 1.0 : near * near;
+    return power * (scale * abs(dot3(n, way)) / (squared * sqrt(squared)));
+}
+
+// False where no way from the fragment to the light can pass the sphere.
+bool may_shade(Header header, ShadingIntegral paint, uint polygon, Light light, Sphere sphere) {
+    vec3 from = point_at(header, paint.frame, paint.near, middle(polygon));
+    float wide = 0.0;
+    for (uint k = 0u; k < counts[polygon]; k++) {
+        vec3 apart = point_at(header, paint.frame, paint.near, corner(polygon, k)) - from;
+        wide = max(wide, sqrt(dot3(apart, apart)));
+    }
+    bool point_light = MODE_IS(LIGHT_KINDS, LIGHT_POINT, light.link.x);
+    vec3 way = point_light ? light.place.xyz - from : light.place.xyz;
+    vec3 to = sphere.ball.xyz - from;
+    float ahead = max(dot3(to, way) / dot3(way, way), 0.0);
+    vec3 aside = to - (point_light ? min(ahead, 1.0) : ahead) * way;
+    // What is not a number may.
+    return !(sqrt(dot3(aside, aside)) > sphere.ball.w + wide);
+}
+
+// Strips that a fragment is cut into: the root of STRIPS times the logarithm of the ratio of depths.
+const float STRIPS = 2000.0;
+const float MAX_STRIPS = 64.0;
+// What lies e^7 times as deep as the fragment's nearest part counts as one strip.
+const float DEEPEST = 7.0;
+const float LOG2_E = 1.44269504088896;
+// Cells that an edge of a strip may cross, and what all strips of a fragment share beyond that.
+const float CELLS_OF_AN_EDGE = 32.0;
+const float CELLS_OF_ALL = 512.0;
+
+vec3 mean_color(Material record, Grid grid, uint strip, RationalMap quotient, float most, inout bool ended) {
+    float reach = longest_edge(strip, in_grid(grid, quotient, ivec2(0)));
+    // The level at which it is short enough.
+    if (reach > most) grid = coarser(grid, int(ceil(log2_accurate(reach / most))));
+    if (grid.unknown) {
+        gave_up = true;
+        return vec3(0.0);
+    }
+    vec3 mean = mean_over(grid, strip, quotient, reach < SMALLEST, crossed, ended);
+    if (grid.checker) {
+        Procedural what = procedural_at(texture_at(record.link.y).place.x);
+        return what.background.xyz + mean.x * (what.figure.xyz - what.background.xyz);
+    }
+    return vec3(grid.least) + grid.step * mean;
+}
+
+// Texture times irradiance / pi, integrated over PIECE, in strips within which the depth hardly changes: there
+// equal areas of the texture are equal areas of the picture.
+vec3 integral(Header header, ShadingIntegral paint, bool has_light, Light light) {
+    bool textured = TEXTURED && paint.record.link.y != NO_TEXTURE;
+    vec3 depth = textured ? paint.quotient.below : below(header, paint.near);
+    vec2 ends = range(PIECE, depth);
+    float span = min(log2_accurate(ends.y / max(ends.x, 1e-30 * ends.y)) / LOG2_E, DEEPEST);
+    float strips = 1.0;
+    if (textured || has_light) strips = clamp(ceil(sqrt(STRIPS * span)), 1.0, MAX_STRIPS);
+    float most = CELLS_OF_AN_EDGE + CELLS_OF_ALL / strips;
+    Grid grid = checker_grid();
+    if (textured) {
+        Texture image = texture_at(paint.record.link.y);
+        bool checker = MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_PROCEDURAL, image.link.w);
+        if (!checker) grid = texture_grid(paint.record.link.y, image, sampler_at(paint.record.link.z));
+    }
+    uint rest = PIECE;
+    vec3 sum = vec3(0.0);
+    bool ended = true;
+    float k = 1.0;
+    for (; k <= strips && !gave_up; k += 1.0) {
+        // Beyond the last strip lies nothing.
+        float limit = k < strips ? ends.y * exp2_accurate(-span * k / strips * LOG2_E) : -1.0;
+        uint beyond = PIECE + OTHER - rest;
+        if (!split(rest, depth - vec3(0.0, 0.0, limit), STRIP, beyond)) gave_up = true;
+        rest = beyond;
+        float share = area(STRIP);
+        if (!(share > 0.0)) continue;
+        vec3 color = vec3(1.0);
+        if (textured) color = mean_color(paint.record, grid, STRIP, paint.quotient, most, ended);
+        if (crossed > MAX_CELLS) gave_up = true;
+        if (LIGHTS != 0u && has_light) color *= irradiance(header, paint, STRIP, light);
+        sum += share * color;
+    }
+    if (!ended || k <= strips) gave_up = true;
+    return sum;
+}
+
+#endif

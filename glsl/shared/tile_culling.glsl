@@ -1,0 +1,20 @@
+// What the survey found: for each square cell of pixels the number of triangles that its camera rays may meet,
+// how calm it is, and the triangles in the order of the scene.
+#ifndef TILE_CULLING_GLSL
+#define TILE_CULLING_GLSL
+
+#include "layout.glsl"
+
+layout(std430, set = 0, binding = 10) readonly buffer Survey { uint survey[]; };
+
+// The words of the cell in which a pixel of the film lies; NO_LIST for a scene without a survey, or a cell with
+// more triangles than it can list.
+uint cell_list(Header header, uvec2 place) {
+    uint side = header.chances.w;
+    if (side == 0u) return NO_LIST;
+    uint across = (header.size.x + side - 1u) / side;
+    uint at = ((place.y / side) * across + place.x / side) * CELL_WORDS;
+    return survey[at] <= MAX_LISTED ? at : NO_LIST;
+}
+
+#endif

@@ -1,0 +1,9 @@
+//! What every other part may use: colour, film, errors, names, progress.
+
+pub mod color;
+pub mod counted;
+pub mod error;
+pub mod film;
+pub mod named;
+pub mod panics;
+pub mod progress;

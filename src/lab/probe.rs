@@ -1,0 +1,237 @@
+//! Parts of the renderer by themselves, on a device: look-ups, procedural textures, rays and sample
+//! positions from lists of queries; mip mip_chains. What tests and conformance reports compare with the oracle; the
+//! shaders run the very functions that rendering runs.
+
+mod records;
+
+use bytemuck::Pod;
+
+use crate::core::error::{Error, Result};
+use crate::gpu::shaders::{self, Shader};
+use crate::gpu::{BufferUse, Gpu, Pipeline};
+use crate::pack::features::{Features, TexelSource};
+use crate::pack::{PackedScene, SlotCounts};
+use crate::render::{MipGenerator, MipSource, Resources, Tuning, build_pipeline, specialization};
+use crate::texture::data::TextureData;
+use crate::texture::mips;
+
+pub use crate::render::can_sample;
+pub use records::{
+    DoubleAnswer, DoubleRay, GlassQuery, LookUp, ProceduralQuery, RayAnswer, RayQuery, WarpAnswer, WarpQuery,
+};
+
+const GROUP: u32 = 64;
+
+/// RGBA of each look-up, by the pipeline that rendering this scene would build.
+pub fn look_ups(
+    gpu: &Gpu,
+    scene: &PackedScene,
+    image_source: bool,
+    keep_everything: bool,
+    queries: &[LookUp],
+) -> Result<Vec<[f32; 4]>> {
+    let features = Features::new(scene, image_source, keep_everything);
+    let shader = look_up_shader(&features);
+    run(gpu, scene, &features, shader, Some(bytemuck::cast_slice(queries)), queries.len(), &[])
+}
+
+fn look_up_shader(features: &Features) -> &'static Shader {
+    match features.source {
+        TexelSource::Image => &shaders::PROBE_IMAGES,
+        TexelSource::Solids => &shaders::PROBE_SOLIDS,
+        TexelSource::None | TexelSource::Buffer => &shaders::PROBE_TEXELS,
+    }
+}
+
+/// Look-ups of one scene after the other. Scenes that need the same code share a pipeline.
+pub struct LookUps<'a> {
+    gpu: &'a Gpu,
+    pipelines: Vec<(Code, Pipeline)>,
+}
+
+/// All that a pipeline of look-ups depends on.
+#[derive(PartialEq)]
+struct Code {
+    shader: &'static str,
+    constants: Vec<(u32, u32)>,
+    slots: SlotCounts,
+}
+
+impl<'a> LookUps<'a> {
+    pub fn new(gpu: &'a Gpu) -> LookUps<'a> {
+        LookUps { gpu, pipelines: Vec::new() }
+    }
+
+    pub fn answer(
+        &mut self,
+        scene: &PackedScene,
+        image_source: bool,
+        queries: &[LookUp],
+    ) -> Result<Vec<[f32; 4]>> {
+        let features = Features::new(scene, image_source, false);
+        let shader = look_up_shader(&features);
+        let resources =
+            Resources::upload(self.gpu, scene, &features, Tuning::default().texel_words(self.gpu))?;
+        let slots = resources.slots;
+        let constants = specialization::constants(shader, &features, &resources.sections, [GROUP, 1], slots);
+        let code = Code { shader: shader.name, constants, slots };
+        let known = self.pipelines.iter().position(|(other, _)| *other == code);
+        let index = match known {
+            Some(index) => index,
+            None => {
+                let pipeline = build_pipeline(self.gpu, shader, &code.constants, slots, size_of::<u32>())?;
+                self.pipelines.push((code, pipeline));
+                self.pipelines.len() - 1
+            }
+        };
+        let list = Some(bytemuck::cast_slice(queries));
+        dispatch(self.gpu, &self.pipelines[index].1, &resources, shader, list, queries.len(), &[])
+    }
+}
+
+/// Box mip chains of one texture after the other. Formats share pipelines.
+pub struct MipPlacement<'a>(&'a Gpu, MipGenerator<'a>);
+
+impl<'a> MipPlacement<'a> {
+    pub fn new(gpu: &'a Gpu) -> MipPlacement<'a> {
+        MipPlacement(gpu, MipGenerator::new(gpu))
+    }
+
+    /// Levels 1 to the last, as `texture::mips` makes them, and the device's seconds.
+    pub fn make(&mut self, texture: &TextureData) -> Result<(Vec<TextureData>, f64)> {
+        let MipPlacement(gpu, maker) = self;
+        let mut levels = mips::blank(texture);
+        if levels.is_empty() {
+            return Ok((levels, 0.0));
+        }
+        if !mips::halves_throughout(texture) {
+            return Err(Error::new(format!(
+                "texture \"{}\": devices make mip_chains of lengths that are powers of two",
+                texture.name
+            )));
+        }
+        let sizes: Vec<[u32; 3]> =
+            (0..mips::level_count(texture)).map(|level| mips::level_size(texture, level)).collect();
+        maker.seconds = None;
+        let mip_chain = maker.make(&MipSource {
+            name: &texture.name,
+            format: texture.format,
+            space: texture.color_space,
+            sizes: &sizes,
+            texels: &texture.texels,
+        })?;
+        for (level, start) in levels.iter_mut().zip(&mip_chain.starts[1..]) {
+            gpu.read_buffer(&mip_chain.buffer, *start, &mut level.texels)?;
+        }
+        Ok((levels, maker.seconds.unwrap_or(0.0)))
+    }
+}
+
+/// What each ray hits. Shapes need a texture for their coordinate to mean anything.
+pub fn rays(
+    gpu: &Gpu,
+    scene: &PackedScene,
+    keep_everything: bool,
+    queries: &[RayQuery],
+) -> Result<Vec<RayAnswer>> {
+    let features = Features::new(scene, false, keep_everything);
+    run(gpu, scene, &features, &shaders::PROBE_RAYS, Some(bytemuck::cast_slice(queries)), queries.len(), &[])
+}
+
+/// The same for a scene whose geometry is in f64.
+pub fn double_rays(gpu: &Gpu, scene: &PackedScene, queries: &[DoubleRay]) -> Result<Vec<DoubleAnswer>> {
+    if !scene.double || !gpu.info().limits.float64 {
+        return Err(Error::new(
+            "rays in f64 need a scene that is packed for them, and a device that has f64",
+        ));
+    }
+    let features = Features::new(scene, false, false);
+    let list = Some(bytemuck::cast_slice(queries));
+    run(gpu, scene, &features, &shaders::PROBE_RAYS_DOUBLE, list, queries.len(), &[])
+}
+
+/// Linear RGB of each look-up of a procedural texture, and 1.
+pub fn procedurals(
+    gpu: &Gpu,
+    scene: &PackedScene,
+    keep_everything: bool,
+    queries: &[ProceduralQuery],
+) -> Result<Vec<[f32; 4]>> {
+    let features = Features::new(scene, false, keep_everything);
+    let list = Some(bytemuck::cast_slice(queries));
+    run(gpu, scene, &features, &shaders::PROBE_PROCEDURAL, list, queries.len(), &[])
+}
+
+/// Where points of the unit square come to lie on disc and cap.
+pub fn warps(gpu: &Gpu, scene: &PackedScene, queries: &[WarpQuery]) -> Result<Vec<WarpAnswer>> {
+    let features = Features::new(scene, false, false);
+    let list = Some(bytemuck::cast_slice(queries));
+    run(gpu, scene, &features, &shaders::PROBE_DISK_SAMPLING, list, queries.len(), &[])
+}
+
+/// The direction behind the surface, and the share of light that is mirrored.
+pub fn glass(gpu: &Gpu, scene: &PackedScene, queries: &[GlassQuery]) -> Result<Vec<[f32; 4]>> {
+    let features = Features::new(scene, false, false);
+    let list = Some(bytemuck::cast_slice(queries));
+    run(gpu, scene, &features, &shaders::PROBE_GLASS, list, queries.len(), &[])
+}
+
+/// Which positions: those of `samples` samples from `first` on of the first `pixels` pixels of a picture
+/// `width` wide.
+#[derive(Clone, Copy, Debug)]
+pub struct Positions {
+    pub pair: u32,
+    pub width: u32,
+    pub pixels: u32,
+    pub first: u32,
+    pub samples: u32,
+}
+
+/// Positions sample by sample within a pixel, as integers of 24 bits.
+pub fn positions(
+    gpu: &Gpu,
+    scene: &PackedScene,
+    keep_everything: bool,
+    which: &Positions,
+) -> Result<Vec<[u32; 2]>> {
+    let features = Features::new(scene, false, keep_everything);
+    let count = which.pixels as usize * which.samples as usize;
+    let push = [which.samples, which.width, which.pair, which.first];
+    run(gpu, scene, &features, &shaders::STRATA, None, count, &push)
+}
+
+/// One dispatch with a thread an answer. The push constants are the count and then `push`.
+fn run<T: Pod>(
+    gpu: &Gpu,
+    scene: &PackedScene,
+    features: &Features,
+    shader: &Shader,
+    queries: Option<&[u8]>,
+    count: usize,
+    push: &[u32],
+) -> Result<Vec<T>> {
+    let resources = Resources::upload(gpu, scene, features, Tuning::default().texel_words(gpu))?;
+    let slots = resources.slots;
+    let constants = specialization::constants(shader, features, &resources.sections, [GROUP, 1], slots);
+    let pipeline = build_pipeline(gpu, shader, &constants, slots, (1 + push.len()) * size_of::<u32>())?;
+    dispatch(gpu, &pipeline, &resources, shader, queries, count, push)
+}
+
+fn dispatch<T: Pod>(
+    gpu: &Gpu,
+    pipeline: &Pipeline,
+    resources: &Resources,
+    shader: &Shader,
+    queries: Option<&[u8]>,
+    count: usize,
+    push: &[u32],
+) -> Result<Vec<T>> {
+    let mut answers = vec![T::zeroed(); count];
+    let output = gpu.buffer("answers", size_of_val(answers.as_slice()) as u64, BufferUse::Storage)?;
+    let queries = queries.map(|q| gpu.upload_buffer("queries", BufferUse::Storage, q)).transpose()?;
+    let push: Vec<u32> = std::iter::once(count as u32).chain(push.iter().copied()).collect();
+    let group = resources.bind(gpu, pipeline, shader, &output, queries.as_ref())?;
+    gpu.run(pipeline, &group, bytemuck::cast_slice(&push), [(count as u32).div_ceil(GROUP), 1, 1])?;
+    gpu.read_buffer(&output, 0, bytemuck::cast_slice_mut(&mut answers))?;
+    Ok(answers)
+}

@@ -1,0 +1,57 @@
+//! A device and cases in, a report out. A case that fails is a broken case; a wish to stop, or a device that no
+//! longer answers, ends all of it.
+
+use std::time::Instant;
+
+use super::case::{Bench, Case};
+use super::report::{Report, Row};
+use crate::core::error::{Error, Result};
+use crate::core::progress::{Progress, SubProgress};
+use crate::gpu::{BufferUse, Gpu};
+
+/// Runs the cases whose label, such as `sums/colour`, contains `only`.
+pub fn run(gpu: &Gpu, mut cases: Vec<Case>, only: Option<&str>, progress: &dyn Progress) -> Result<Report> {
+    let start = Instant::now();
+    if let Some(text) = only {
+        let names: Vec<String> = cases.iter().map(Case::label).collect();
+        cases.retain(|c| c.label().contains(text));
+        if cases.is_empty() {
+            return Err(Error::with_help(
+                format!("no case has \"{text}\" in its name"),
+                format!("the cases are {}", names.join(", ")),
+            ));
+        }
+    }
+    let share = 1.0 / cases.len().max(1) as f64;
+    let mut rows = Vec::with_capacity(cases.len());
+    for (done, case) in cases.iter().enumerate() {
+        let from = done as f64 * share;
+        let part = SubProgress { whole: progress, from, to: from + share };
+        let bench = Bench::new(gpu, &part);
+        bench.go_on()?;
+        let clock = Instant::now();
+        let outcome = match (case.run)(&bench) {
+            Err(Error::Interrupted) => return Err(Error::Interrupted),
+            Err(error) => {
+                check_alive(gpu)?;
+                Err(told(&error))
+            }
+            Ok(points) => Ok(points),
+        };
+        rows.push(Row::new(case, outcome, clock.elapsed().as_secs_f64()));
+        progress.advance(from + share);
+    }
+    Ok(Report::new(gpu.info(), rows, start.elapsed().as_secs_f64()))
+}
+
+/// A lost device fails at whatever it is asked.
+fn check_alive(gpu: &Gpu) -> Result<()> {
+    let mut word = [0; 4];
+    let buffer = gpu.upload_buffer("a sign of life", BufferUse::Storage, &[0; 4])?;
+    gpu.read_buffer(&buffer, 0, &mut word)
+}
+
+/// The message with its advice.
+fn told(error: &Error) -> String {
+    error.help().map_or(error.to_string(), |help| format!("{error} ({help})"))
+}

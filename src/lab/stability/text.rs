@@ -1,0 +1,125 @@
+//! A report → a table for people, one line a case, then a summary and the reasons of the bounds that are
+//! broken. Numbers as words, which the page uses too.
+
+use std::fmt::Write as _;
+
+use super::report::{Report, Row};
+use crate::core::counted::counted;
+
+const HEAD: [&str; 6] = ["case", "parameter", "worst error", "bound", "reached at", "verdict"];
+/// Longer places are cut in the table.
+const LONGEST_PLACE: usize = 44;
+
+pub fn text(report: &Report) -> String {
+    let mut out = String::new();
+    let mut line = |text: &str| {
+        let _ = writeln!(out, "{}", text.trim_end());
+    };
+    line(&format!("{} ({}, Vulkan {})", report.device, report.driver, report.api_version));
+    line("");
+    let lines: Vec<[String; 6]> =
+        std::iter::once(HEAD.map(String::from)).chain(report.rows.iter().map(cells)).collect();
+    let widths: [usize; 6] =
+        std::array::from_fn(|c| lines.iter().map(|l| l[c].chars().count()).max().unwrap_or(0));
+    for cells in &lines {
+        let padded: Vec<String> =
+            cells.iter().zip(widths).map(|(cell, width)| format!("{cell:<width$}")).collect();
+        line(&padded.join("  "));
+    }
+    line("");
+    line(&summary(report));
+    for row in report.broken() {
+        line(&format!(
+            "broken: {}: {} {} at {}; the bound is {}: {}",
+            row.label(),
+            number(row.worst.error),
+            row.unit,
+            place(row),
+            number(row.bound),
+            row.reason
+        ));
+    }
+    out
+}
+
+/// `9 cases, 120 points, 31.4 s: 9 within, 0 broken`
+pub fn summary(report: &Report) -> String {
+    let s = &report.summary;
+    format!(
+        "{}, {}, {:.1} s: {} within, {} broken",
+        counted(s.cases, "case"),
+        counted(s.points, "point"),
+        report.seconds,
+        s.within,
+        s.broken
+    )
+}
+
+fn cells(row: &Row) -> [String; 6] {
+    [
+        row.label(),
+        swept(row),
+        format!("{} {}", number(row.worst.error), row.unit),
+        number(row.bound),
+        shortened(&place(row)),
+        row.verdict.name().into(),
+    ]
+}
+
+/// `samples, 256 to 1.68e7`
+pub fn swept(row: &Row) -> String {
+    match row.range() {
+        Some([from, to]) if from < to => format!("{}, {} to {}", row.parameter, number(from), number(to)),
+        Some([only, _]) => format!("{}, {}", row.parameter, number(only)),
+        None => row.parameter.into(),
+    }
+}
+
+/// The parameter's value and the place there.
+pub fn place(row: &Row) -> String {
+    let worst = &row.worst;
+    if worst.parameter.is_nan() {
+        worst.place.clone()
+    } else {
+        format!("{}, {}", number(worst.parameter), worst.place)
+    }
+}
+
+fn shortened(text: &str) -> String {
+    if text.chars().count() <= LONGEST_PLACE {
+        return text.into();
+    }
+    text.chars().take(LONGEST_PLACE - 1).chain(['…']).collect()
+}
+
+/// Three digits; whole numbers as they are while they are short.
+pub fn number(x: f64) -> String {
+    if x.is_infinite() {
+        return if x > 0.0 { "∞" } else { "-∞" }.into();
+    }
+    if x.fract() == 0.0 && x.abs() < 1e5 {
+        return format!("{x}");
+    }
+    if (0.01..1e4).contains(&x.abs()) {
+        let text = format!("{x:.3}");
+        return text.trim_end_matches('0').into();
+    }
+    let text = format!("{x:.2e}");
+    match text.split_once('e') {
+        Some((digits, exponent)) => {
+            format!("{}e{exponent}", digits.trim_end_matches('0').trim_end_matches('.'))
+        }
+        None => text,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::number;
+
+    #[test]
+    fn numbers_have_three_digits_at_most_and_whole_ones_none_behind_the_point() {
+        let written = [0.0, 16384.0, 16777216.0, 1e-6, 1.234e-8, 0.5, 89.999, f64::INFINITY].map(number);
+        assert_eq!(written, ["0", "16384", "1.68e7", "1e-6", "1.23e-8", "0.5", "89.999", "∞"]);
+    }
+}

@@ -1,0 +1,144 @@
+//! Which point to choose. In: the measured points. Out: the least error within each time, with the methods that do
+//! as well but for noise; and one point to recommend, which no other beats in both error and time.
+
+use serde::Serialize;
+
+use super::analysis::MethodSlope;
+use super::bootstrap::ratio;
+use super::record::PointRecord;
+use super::words::taken;
+use crate::lab::plot::axis::steps;
+
+/// Errors that are so many times apart differ.
+const FAR: f64 = 2.0;
+
+/// The least error within a time.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Winner {
+    pub budget: f64,
+    pub method: String,
+    /// Other methods that fit into the time and err the same, but for noise.
+    pub ties: Vec<String>,
+    pub spp: u32,
+    /// What each pixel took, in words.
+    pub taken: String,
+    pub seconds: f64,
+    pub rmse: f64,
+    /// Beyond the method's longest point, along its slope. A method that is slow for its samples would
+    /// otherwise win all the time in which nothing else was measured.
+    pub estimated: bool,
+}
+
+/// The recommended point.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SampleDimension {
+    pub method: String,
+    pub spp: u32,
+    pub seconds: f64,
+    pub rmse: f64,
+}
+
+impl SampleDimension {
+    pub fn of(point: &PointRecord) -> SampleDimension {
+        let (method, seconds) = (point.method.clone(), point.median_seconds());
+        SampleDimension { method, spp: point.spp, seconds, rmse: point.errors.rmse }
+    }
+}
+
+impl Winner {
+    pub fn is_or_ties(&self, method: &str) -> bool {
+        self.method == method || self.ties.iter().any(|tie| tie == method)
+    }
+}
+
+fn usable(points: &[PointRecord]) -> impl Iterator<Item = &PointRecord> {
+    points.iter().filter(|p| p.median_seconds() > 0.0 && p.errors.rmse.is_finite())
+}
+
+pub fn winners(points: &[PointRecord], slopes: &[MethodSlope]) -> Vec<Winner> {
+    let usable: Vec<&PointRecord> = usable(points).collect();
+    let times = || usable.iter().map(|p| p.median_seconds());
+    let budgets = steps(times().fold(f64::INFINITY, f64::min), times().fold(0.0, f64::max));
+    let winner = |budget: f64| {
+        let fitting = usable.iter().filter(|p| p.median_seconds() <= budget);
+        let least = fitting.min_by(|a, b| a.errors.rmse.total_cmp(&b.errors.rmse))?;
+        let estimated = slopes.iter().filter_map(|slope| beyond(&usable, slope, budget));
+        let estimated = estimated.min_by(|a, b| a.rmse.total_cmp(&b.rmse));
+        Some(estimated.filter(|e| e.rmse < least.errors.rmse).unwrap_or_else(|| Winner {
+            budget,
+            method: least.method.clone(),
+            ties: ties(least, &usable, budget),
+            spp: least.spp,
+            taken: taken(least),
+            seconds: least.median_seconds(),
+            rmse: least.errors.rmse,
+            estimated: false,
+        }))
+    };
+    budgets.into_iter().filter_map(winner).collect()
+}
+
+/// Methods that come to the same error in the same time, as far as can be told. A time that is as long as the
+/// point's in some repeat fits like the point's own.
+fn ties(point: &PointRecord, all: &[&PointRecord], budget: f64) -> Vec<String> {
+    let longest = point.seconds.iter().copied().fold(0.0, f64::max);
+    let shortest = |p: &PointRecord| p.seconds.iter().copied().fold(f64::INFINITY, f64::min);
+    let fits = |p: &PointRecord| p.median_seconds() <= budget || shortest(p) <= longest;
+    let mut methods: Vec<String> = Vec::new();
+    for other in all.iter().filter(|p| p.method != point.method && fits(p) && no_different(p, point)) {
+        if !methods.contains(&other.method) {
+            methods.push(other.method.clone());
+        }
+    }
+    methods
+}
+
+/// Whether two points have one picture, or errors whose ratio has a 95 % interval that holds 1, when the parts of
+/// the picture are drawn anew.
+pub fn no_different(a: &PointRecord, b: &PointRecord) -> bool {
+    if !a.picture.is_empty() && a.picture == b.picture {
+        return true;
+    }
+    // Noise explains no such ratio, and drawing takes its time.
+    let near = a.errors.rmse.max(b.errors.rmse) <= FAR * a.errors.rmse.min(b.errors.rmse);
+    near && ratio(&a.blocks, &b.blocks, 0.95).is_some_and(|[low, high]| low <= 1.0 && high >= 1.0)
+}
+
+/// What a method with a law would come to in a time longer than it was measured for.
+fn beyond(points: &[&PointRecord], slope: &MethodSlope, budget: f64) -> Option<Winner> {
+    let own = points.iter().filter(|p| p.method == slope.method);
+    let last = own.max_by(|a, b| a.median_seconds().total_cmp(&b.median_seconds()))?;
+    let longer = budget / last.median_seconds();
+    let law = slope.fitted.filter(|f| !slope.theory.is_empty() && f.value < 0.0)?;
+    let spp = (f64::from(last.spp) * longer) as u32;
+    (longer > 1.0).then(|| Winner {
+        budget,
+        method: slope.method.clone(),
+        ties: Vec::new(),
+        spp,
+        taken: format!("about {}", taken(&PointRecord { spp, samples: spp, ..(*last).clone() })),
+        seconds: budget,
+        rmse: last.errors.rmse * longer.powf(0.5 * law.value),
+        estimated: true,
+    })
+}
+
+/// Of the points that no other beats in both error and time: the best one of the method that wins most of the
+/// times.
+pub fn recommended<'a>(points: &'a [PointRecord], winners: &[Winner]) -> Option<&'a PointRecord> {
+    let beats = |q: &PointRecord, p: &PointRecord| {
+        q.median_seconds() < p.median_seconds() && q.errors.rmse < p.errors.rmse
+    };
+    let front: Vec<&PointRecord> = usable(points).filter(|p| !usable(points).any(|q| beats(q, p))).collect();
+    let best = |such: &dyn Fn(&PointRecord) -> bool| {
+        let own = front.iter().copied().filter(|p| such(p));
+        own.min_by(|a, b| a.errors.rmse.total_cmp(&b.errors.rmse))
+    };
+    let won = |name: &str| winners.iter().filter(|w| w.is_or_ties(name)).count();
+    let on_front = winners.iter().filter(|w| front.iter().any(|p| p.method == w.method));
+    // The last among equals: it was measured for the longer times.
+    match on_front.max_by_key(|w| won(&w.method)) {
+        Some(winner) => best(&|p| p.method == winner.method),
+        None => best(&|_| true),
+    }
+}

@@ -1,0 +1,80 @@
+//! One session on the device for each way in which methods read textures: patterns share it. In: scene,
+//! textures and methods. Out: for each method and count what renders it.
+
+use std::time::Instant;
+
+use crate::core::error::{Error, Result};
+use crate::gpu::Gpu;
+use crate::pack;
+use crate::render::{MipChoice, Prepared, Session, Tuning};
+use crate::scene::model::{Algorithm, Footprint, Scene};
+use crate::texture::data::TextureData;
+use crate::texture::sampler_spec::Filter;
+
+use super::method::Method;
+
+/// Footprint and filter; beams and cones read textures in ways of their own.
+type Key = (Algorithm, Footprint, Option<Filter>);
+
+const PLAIN: Key = (Algorithm::Samples, Footprint::None, None);
+
+struct Look<'a> {
+    key: Key,
+    session: Session<'a>,
+    pack_seconds: f64,
+}
+
+pub struct SessionCache<'a> {
+    looks: Vec<Look<'a>>,
+}
+
+impl<'a> SessionCache<'a> {
+    /// Also the one without a footprint, which references are made with.
+    pub fn open(
+        gpu: &'a Gpu,
+        scene: &Scene,
+        textures: Vec<TextureData>,
+        methods: &[Method],
+    ) -> Result<SessionCache<'a>> {
+        let mut keys = vec![PLAIN];
+        methods.iter().map(key).for_each(|k| {
+            if !keys.contains(&k) {
+                keys.push(k)
+            }
+        });
+        let mip_chains = MipChoice::Auto.mip_chains(gpu.info());
+        let mut looks = Vec::with_capacity(keys.len());
+        for key in keys {
+            let clock = Instant::now();
+            let (algorithm, footprint, filter) = key;
+            let pattern = Some(scene.sampling.pattern);
+            let reading = Method { algorithm, pattern, footprint, filter };
+            let reading = reading.apply(scene, scene.sampling.spp)?;
+            let packed = pack::pack_with(&reading, textures.clone(), None, mip_chains)?;
+            let pack_seconds = clock.elapsed().as_secs_f64();
+            let session = Session::open(gpu, packed, false, &Tuning::default())?;
+            looks.push(Look { key, session, pack_seconds });
+        }
+        Ok(SessionCache { looks })
+    }
+
+    /// A pipeline for a method with a count, and the seconds that packing its look took.
+    pub fn prepare(&self, scene: &Scene, method: &Method, spp: u32) -> Result<(Prepared<'_, 'a>, f64)> {
+        let key = key(method);
+        let missing = || Error::new(format!("method {} was not opened", method.name()));
+        let look = self.looks.iter().find(|look| look.key == key).ok_or_else(missing)?;
+        Ok((look.session.prepare_sampling(&method.apply(scene, spp)?)?, look.pack_seconds))
+    }
+
+    pub fn has(&self, method: &Method) -> bool {
+        self.looks.iter().any(|look| look.key == key(method))
+    }
+}
+
+fn key(method: &Method) -> Key {
+    let algorithm = match method.algorithm {
+        own @ (Algorithm::Beam | Algorithm::Cone) => own,
+        Algorithm::Samples | Algorithm::Adaptive | Algorithm::Auto => Algorithm::Samples,
+    };
+    (algorithm, method.footprint, method.filter)
+}

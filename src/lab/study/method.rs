@@ -1,0 +1,204 @@
+//! A method of anti-aliasing and its name: `pattern`, `pattern+footprint`, `pattern+footprint+filter`, each
+//! with an algorithm before it where that is not `samples`. In: a name, or a scene whose tables say what can
+//! be tried. Out: the scene rendered so, and the options of `moire render` that do the same.
+
+use crate::core::error::{Error, Result};
+use crate::scene::cone;
+use crate::scene::model::{Algorithm, Footprint, Pattern, Scene};
+use crate::scene::synonyms::meant;
+use crate::scene::{both_filters, check_filters, check_shared, check_spp};
+use crate::texture::sampler_spec::{Filter, MipMode, SamplerSpec};
+
+use super::record::MethodRecord;
+
+/// A footprint that is named with a filter makes every sampler read levels linearly: `linear` is trilinear.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Method {
+    pub algorithm: Algorithm,
+    /// None: the scene's.
+    pub pattern: Option<Pattern>,
+    pub footprint: Footprint,
+    /// None: the scene's samplers as they are.
+    pub filter: Option<Filter>,
+}
+
+/// The filters that are tried where the scene has textures.
+const FILTERS: [Filter; 3] = [Filter::Linear, Filter::Anisotropic, Filter::Ewa];
+
+impl Method {
+    /// Of one cone or beam a pixel; the pattern is the scene's, for what beams leave to samples.
+    const fn of_algorithm(algorithm: Algorithm) -> Method {
+        Method { algorithm, pattern: None, footprint: Footprint::None, filter: None }
+    }
+
+    pub const fn of_pattern(pattern: Pattern) -> Method {
+        Method {
+            algorithm: Algorithm::Samples,
+            pattern: Some(pattern),
+            footprint: Footprint::None,
+            filter: None,
+        }
+    }
+
+    /// Everything worth trying in this scene, and what was left out and why.
+    pub fn all_for(scene: &Scene) -> (Vec<Method>, Vec<String>) {
+        let (mut methods, mut notes) = (Vec::new(), Vec::new());
+        for &algorithm in Algorithm::ALL {
+            match algorithm {
+                Algorithm::Samples => {
+                    methods.extend(Pattern::ALL.iter().map(|&p| Method::of_pattern(p)));
+                    methods.extend(filtered(scene, &mut notes));
+                }
+                Algorithm::Adaptive => {
+                    methods.push(Method { algorithm, ..Method::of_pattern(Pattern::SobolOwen) });
+                }
+                Algorithm::Beam | Algorithm::Cone => methods.push(Method::of_algorithm(algorithm)),
+                // Chooses by a goal, not by a number of samples.
+                Algorithm::Auto => {}
+            }
+        }
+        (methods, notes)
+    }
+
+    /// A word is an algorithm where it stands first, else a pattern, then a footprint, then a filter.
+    pub fn parse(text: &str) -> Result<Method, String> {
+        let mut words = text.split('+').peekable();
+        let mut take = |known: &dyn Fn(&str) -> bool| words.next_if(|word| known(word));
+        let algorithm = take(&|w| Algorithm::from_name(w).is_some()).and_then(Algorithm::from_name);
+        let pattern = take(&|w| Pattern::from_name(w).is_some()).and_then(Pattern::from_name);
+        let started = algorithm.is_some() || pattern.is_some();
+        let footprint =
+            take(&|w| started && Footprint::from_name(w).is_some()).and_then(Footprint::from_name);
+        let filter =
+            take(&|w| footprint.is_some_and(|f| f != Footprint::None) && Filter::from_name(w).is_some())
+                .and_then(Filter::from_name);
+        match words.next() {
+            Some(word) => Err(unknown(word)),
+            None => Ok(Method {
+                algorithm: algorithm.unwrap_or(Algorithm::Samples),
+                pattern,
+                footprint: footprint.unwrap_or(Footprint::None),
+                filter,
+            }),
+        }
+    }
+
+    pub fn name(&self) -> String {
+        let algorithm = (self.algorithm != Algorithm::Samples).then_some(self.algorithm.name());
+        let footprint = (self.footprint != Footprint::None).then_some(self.footprint.name());
+        let words = [algorithm, self.pattern.map(Pattern::name), footprint, self.filter.map(Filter::name)];
+        let named: Vec<&str> = words.into_iter().flatten().collect();
+        if named.is_empty() { self.algorithm.name().to_owned() } else { named.join("+") }
+    }
+
+    pub fn pattern_in(&self, scene: &Scene) -> Pattern {
+        self.pattern.unwrap_or(scene.sampling.pattern)
+    }
+
+    pub fn describe(&self, scene: &Scene) -> MethodRecord {
+        MethodRecord {
+            name: self.name(),
+            algorithm: self.algorithm.name().to_owned(),
+            pattern: self.pattern_in(scene).name().to_owned(),
+            footprint: self.footprint.name().to_owned(),
+            filter: self.filter.map(|f| f.name().to_owned()),
+        }
+    }
+
+    /// `base` rendered by this method.
+    pub fn apply(&self, base: &Scene, spp: u32) -> Result<Scene> {
+        let mut scene = base.clone();
+        let sampling = &mut scene.sampling;
+        sampling.algorithm = self.algorithm;
+        sampling.pattern = self.pattern_in(base);
+        sampling.shared = self.shares(base);
+        sampling.spp = spp;
+        sampling.footprint = self.footprint;
+        check_shared(sampling.pattern, sampling.shared).map_err(Error::new)?;
+        check_spp(sampling.pattern, sampling.spp).map_err(Error::new)?;
+        if let Some(filter) = self.filter {
+            scene.samplers.iter_mut().for_each(|sampler| with_filter(sampler, filter));
+        }
+        if self.filter.is_none() {
+            cone::adapt_for_cone(&mut scene);
+        }
+        cone::adapt_footprint(&mut scene);
+        check_filters(&scene)?;
+        Ok(scene)
+    }
+
+    /// Only jittered strata can be the same in all pixels.
+    fn shares(&self, base: &Scene) -> bool {
+        base.sampling.shared && self.pattern_in(base) == Pattern::Stratified
+    }
+
+    /// The options of `moire render` that turn `base` into [`Method::apply`]'s scene.
+    pub fn arguments(&self, base: &Scene, spp: u32) -> Vec<String> {
+        let count = spp.to_string();
+        let mut options = vec!["--pattern", self.pattern_in(base).name(), "--spp", &count];
+        if self.algorithm != base.sampling.algorithm {
+            options.extend(["--algorithm", self.algorithm.name()]);
+        }
+        if self.footprint != base.sampling.footprint {
+            options.extend(["--footprint", self.footprint.name()]);
+        }
+        if let Some(filter) = self.filter {
+            options.extend(["--filter", filter.name(), "--mip", MipMode::Linear.name()]);
+        }
+        if self.shares(base) != base.sampling.shared {
+            options.extend(["--shared", "false"]);
+        }
+        options.into_iter().map(str::to_owned).collect()
+    }
+}
+
+fn with_filter(sampler: &mut SamplerSpec, filter: Filter) {
+    (sampler.mag, sampler.min) = both_filters(filter);
+    sampler.mip = MipMode::Linear;
+}
+
+/// The scene's pattern with each filter, and with the scene's own footprint if it has one.
+fn filtered(scene: &Scene, notes: &mut Vec<String>) -> Vec<Method> {
+    let base = Method::of_pattern(scene.sampling.pattern);
+    let procedural = scene.textures.iter().any(|t| t.content.procedural().is_some());
+    let stored = scene.textures.iter().any(|t| t.content.procedural().is_none());
+    let mut methods = Vec::new();
+    if scene.sampling.footprint != Footprint::None {
+        methods.push(Method { footprint: scene.sampling.footprint, ..base.clone() });
+    } else if procedural && !stored {
+        methods.push(Method { footprint: Footprint::Cone, ..base.clone() });
+    }
+    if !stored {
+        return methods;
+    }
+    if scene.samplers.iter().any(|s| s.mag != Filter::Linear) {
+        notes.push(
+            "filters were left out: --filter would also change how textures are magnified, which the scene does otherwise than linearly"
+                .into(),
+        );
+        return methods;
+    }
+    for filter in FILTERS {
+        let method = Method { footprint: Footprint::Cone, filter: Some(filter), ..base.clone() };
+        match method.apply(scene, scene.sampling.spp) {
+            Ok(_) => methods.push(method),
+            Err(why) => notes.push(format!("{} was left out: {why}", method.name())),
+        }
+    }
+    methods
+}
+
+fn unknown(word: &str) -> String {
+    let list = |names: &[&str]| names.join(", ");
+    let near = [Algorithm::NAMES, Pattern::NAMES, Footprint::NAMES, Filter::NAMES]
+        .into_iter()
+        .find_map(|names| meant(word, names.iter().copied()));
+    format!(
+        "\"{word}\" has no meaning there: a method is PATTERN, PATTERN+FOOTPRINT or PATTERN+FOOTPRINT+FILTER, \
+         with an algorithm before it or alone; patterns: {}; footprints: {}; filters: {}; algorithms: {}",
+        list(Pattern::NAMES),
+        list(Footprint::NAMES),
+        list(Filter::NAMES),
+        list(Algorithm::NAMES)
+    ) + &near.map_or(String::new(), |(name, _)| format!("; did you mean {name}?"))
+}

@@ -1,0 +1,124 @@
+//! Error against time for one scene on one device. In: a scene, the methods and sample counts to try, a
+//! reference or how to make one. Out: a folder with the measured points as CSV and JSON, plots as SVG, and
+//! one HTML page that says which setting to use.
+//!
+//! ```text
+//! method ─ plan ─▶ measure (render, metrics) ─▶ record ─▶ analysis ─▶ plots · stages · page
+//!                     ▲ reference
+//! ```
+
+pub mod analysis;
+pub mod bootstrap;
+pub mod choice;
+mod files;
+mod identity;
+mod limit;
+mod looks;
+mod measure;
+pub mod method;
+mod page;
+mod pictures;
+pub mod plan;
+pub mod record;
+mod reference;
+mod showcase;
+mod stages;
+pub mod student;
+mod tables;
+pub mod words;
+
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use crate::core::error::Result;
+use crate::core::progress::Progress;
+use crate::gpu::Gpu;
+use crate::scene::model::Scene;
+use crate::texture;
+
+use limit::Limit;
+use looks::SessionCache;
+use method::Method;
+use record::{Conditions, Record};
+
+/// What a study is asked for.
+#[derive(Clone, Debug)]
+pub struct Options {
+    /// None: those of [`Method::all_for`].
+    pub methods: Option<Vec<Method>>,
+    /// Samples a pixel, each rounded up to what a pattern takes.
+    pub counts: Vec<u32>,
+    /// Renders a point; their median counts.
+    pub repeats: u32,
+    pub reference: ReferenceChoice,
+    /// Wall seconds for all of it, from `started` on.
+    pub limit: f64,
+    pub started: Instant,
+    /// An existing folder.
+    pub out: PathBuf,
+    /// What commands have to say beside a method: `--size`, `--device`.
+    pub arguments: Vec<String>,
+}
+
+/// What errors are measured against.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum ReferenceChoice {
+    /// Many samples on the device.
+    Device,
+    /// Many samples by the float64 oracle.
+    Oracle,
+    File(PathBuf),
+}
+
+/// Measures what the folder does not have yet and writes everything. Interrupted or failed, it leaves a
+/// folder from which the same call goes on.
+pub fn run(gpu: &Gpu, scene: &Scene, options: &Options, progress: &dyn Progress) -> Result<Record> {
+    let limit = Limit::new(options.started, options.limit);
+    let (methods, notes) = match &options.methods {
+        Some(methods) => (methods.clone(), Vec::new()),
+        None => Method::all_for(scene),
+    };
+    let points = plan::points(&methods, scene, &options.counts)?;
+    let textures = scene.textures.iter().map(texture::load::load).collect::<Result<Vec<_>>>()?;
+    let conditions = Conditions::new(gpu, scene, options);
+    let identity = identity::of(&conditions, scene)?;
+    let mut record = Record::new(conditions, methods.iter().map(|m| m.describe(scene)).collect());
+    record.notes = notes;
+    let kept = record::read(&options.out);
+
+    let looks = SessionCache::open(gpu, scene, textures, &methods)?;
+    let reference = reference::obtain(&looks, scene, options, &identity, kept.reference, &limit, progress)?;
+    record.reference = reference.record.clone();
+    measure::Measurement {
+        looks: &looks,
+        scene,
+        options,
+        methods: &methods,
+        points: &points,
+        reference: &reference,
+        identity: &identity,
+        limit: &limit,
+        progress,
+    }
+    .run(&mut record, kept.points)?;
+    record.analyse();
+    let showcase = showcase::render(&looks, scene, &record, &reference.film, &limit, progress)?;
+    record.notes.extend(showcase.note(&limit));
+    record.notes.extend(limit.note());
+    files::write_all(&options.out, &record, &showcase)?;
+    Ok(record)
+}
+
+/// A path as a shell takes it.
+fn quoted(path: &Path) -> String {
+    quote(&path.display().to_string())
+}
+
+/// An argument as a POSIX shell takes it.
+pub fn quote(text: &str) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "-_./+,=:@%".contains(c);
+    if !text.is_empty() && text.chars().all(plain) {
+        return text.to_owned();
+    }
+    format!("'{}'", text.replace('\'', "'\\''"))
+}

@@ -1,0 +1,192 @@
+//! What a study knows, as `study.json` holds it: where it was measured, the reference, every point with its
+//! times and errors, and what follows from them. Points are read back to go on after an interruption; each
+//! carries a hash of all that it depends on.
+
+use std::fs;
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+
+use crate::gpu::{DeviceInfo, Gpu};
+use crate::lab::metrics::Comparison;
+use crate::scene::model::Scene;
+
+use super::Options;
+use super::analysis::{self, Analysis};
+
+pub const FILE: &str = "study.json";
+
+/// Everything beside the scene that a point depends on.
+#[derive(Clone, Debug, Serialize)]
+pub struct Conditions {
+    pub program: String,
+    pub scene: String,
+    pub size: [u32; 2],
+    pub seed: u32,
+    pub device: DeviceInfo,
+    pub repeats: u32,
+    /// Seconds that the study was allowed.
+    pub limit: f64,
+    pub counts: Vec<u32>,
+    /// What every command says beside its method.
+    pub arguments: Vec<String>,
+    pub folder: String,
+}
+
+impl Conditions {
+    pub fn new(gpu: &Gpu, scene: &Scene, options: &Options) -> Conditions {
+        Conditions {
+            program: format!("moire {}", env!("CARGO_PKG_VERSION")),
+            scene: scene.path.display().to_string(),
+            size: [scene.width, scene.height],
+            seed: scene.sampling.seed,
+            device: gpu.info().clone(),
+            repeats: options.repeats,
+            limit: options.limit,
+            counts: options.counts.clone(),
+            arguments: options.arguments.clone(),
+            folder: options.out.display().to_string(),
+        }
+    }
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct MethodRecord {
+    pub name: String,
+    pub algorithm: String,
+    pub pattern: String,
+    pub footprint: String,
+    pub filter: Option<String>,
+}
+
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct ReferenceRecord {
+    /// Of scene, device and kind; with the number of samples, what errors depend on.
+    pub hash: String,
+    /// In words.
+    pub kind: String,
+    /// The picture, for `moire compare`.
+    pub file: String,
+    /// Samples a pixel; 0 where a file does not say.
+    pub samples: u32,
+    pub seconds: f64,
+    /// RMSE of the reference itself, from its two independent halves.
+    pub rmse: Option<f64>,
+}
+
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct PointRecord {
+    pub hash: String,
+    pub method: String,
+    pub spp: u32,
+    /// Camera rays a pixel, those of beams and cones among them; a mean where pixels differ.
+    pub samples: u32,
+    /// Of beams: the part of the pixels that took samples, `spp` each.
+    #[serde(default)]
+    pub sampled: Option<f64>,
+    /// Hash of the picture: equal ones have one.
+    #[serde(default)]
+    pub picture: String,
+    /// Wall seconds of the render stage, one for each repeat.
+    pub seconds: Vec<f64>,
+    pub device_seconds: Vec<f64>,
+    pub stages: Stages,
+    pub errors: Errors,
+    /// Sums of squared errors of parts of the picture; none where an older study left the point.
+    #[serde(default)]
+    pub blocks: Vec<f32>,
+    pub command: String,
+}
+
+/// Wall seconds of what comes before and after rendering. Textures are packed and uploaded once for all
+/// methods that read them alike.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Stages {
+    pub pack: f64,
+    pub upload: f64,
+    pub compile: f64,
+    pub readback: f64,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Errors {
+    pub rmse: f64,
+    pub relative_mse: f64,
+    pub max: f64,
+    pub over_1_255: f64,
+    pub flip: f64,
+}
+
+impl Errors {
+    pub fn new(comparison: &Comparison, flip: f64) -> Errors {
+        Errors {
+            rmse: comparison.rmse,
+            relative_mse: comparison.relative_mse,
+            max: comparison.max,
+            over_1_255: comparison.over_1_255,
+            flip,
+        }
+    }
+}
+
+impl PointRecord {
+    pub fn median_seconds(&self) -> f64 {
+        analysis::median(&self.seconds)
+    }
+
+    pub fn median_device_seconds(&self) -> f64 {
+        analysis::median(&self.device_seconds)
+    }
+}
+
+#[derive(Clone, Debug, Serialize)]
+pub struct Record {
+    #[serde(flatten)]
+    pub conditions: Conditions,
+    pub methods: Vec<MethodRecord>,
+    pub reference: ReferenceRecord,
+    /// Points that the time did not allow, and methods that the scene does not.
+    pub notes: Vec<String>,
+    pub points: Vec<PointRecord>,
+    pub analysis: Option<Analysis>,
+}
+
+impl Record {
+    pub fn new(conditions: Conditions, methods: Vec<MethodRecord>) -> Record {
+        Record {
+            conditions,
+            methods,
+            reference: ReferenceRecord::default(),
+            notes: Vec::new(),
+            points: Vec::new(),
+            analysis: None,
+        }
+    }
+
+    pub fn analyse(&mut self) {
+        self.analysis = Some(analysis::analyse(self));
+    }
+
+    /// The measured points of a method, fewest samples first.
+    pub fn points_of<'a>(&'a self, method: &'a str) -> impl Iterator<Item = &'a PointRecord> {
+        self.points.iter().filter(move |p| p.method == method)
+    }
+}
+
+/// What an earlier run left.
+#[derive(Debug, Default)]
+pub struct Kept {
+    pub reference: Option<ReferenceRecord>,
+    pub points: Vec<PointRecord>,
+}
+
+/// What cannot be read is measured anew.
+pub fn read(folder: &Path) -> Kept {
+    let text = fs::read_to_string(folder.join(FILE)).unwrap_or_default();
+    let json: serde_json::Value = serde_json::from_str(&text).unwrap_or_default();
+    let points = json["points"].as_array().cloned().unwrap_or_default();
+    Kept {
+        reference: serde_json::from_value(json["reference"].clone()).ok(),
+        points: points.into_iter().filter_map(|p| serde_json::from_value(p).ok()).collect(),
+    }
+}

@@ -1,0 +1,215 @@
+//! What errors are measured against. In: a picture file, or the scene rendered with many samples in two
+//! independent halves, on the device or by the oracle. Out: the picture, and how far off it is itself: the
+//! halves a and b give the error of their mean as RMSE(a, b) / 2.
+
+use std::path::Path;
+use std::time::Instant;
+
+use crate::core::error::{Error, Result};
+use crate::core::film::Film;
+use crate::core::progress::{Progress, SubProgress};
+use crate::lab::metrics::flip::Seen;
+use crate::lab::metrics::{compare, read_picture};
+use crate::oracle;
+use crate::output::{self, WriteOptions};
+use crate::pack;
+use crate::scene::MAX_SPP;
+use crate::scene::model::{Pattern, Scene};
+use crate::texture;
+
+use super::identity::{self, Hash};
+use super::limit::Limit;
+use super::looks::SessionCache;
+use super::method::Method;
+use super::plan::next_count;
+use super::record::ReferenceRecord;
+use super::{Options, ReferenceChoice};
+
+pub const FILE: &str = "reference.exr";
+/// Samples of a reference over those of the longest point: with errors that fall by the root of the number
+/// at least, the reference's own is an eighth.
+const TIMES: u32 = 64;
+/// The part of a study's time that a reference may take.
+const SHARE: f64 = 0.25;
+/// When its first try and its second have to be done, and how many times fewer samples a side the second takes.
+const LATER: [f64; 2] = [0.45, 0.6];
+const FEWER: u32 = 4;
+/// Added to the scene's seed: no half shares its samples with a measured point.
+const SEEDS: [u32; 2] = [1_000_003, 2_000_003];
+
+pub struct Reference {
+    pub film: Film,
+    pub seen: Seen,
+    pub record: ReferenceRecord,
+    /// How far the study's progress is.
+    pub progress: f64,
+}
+
+pub fn obtain(
+    looks: &SessionCache<'_>,
+    scene: &Scene,
+    options: &Options,
+    identity: &Hash,
+    kept: Option<ReferenceRecord>,
+    limit: &Limit,
+    progress: &dyn Progress,
+) -> Result<Reference> {
+    if let ReferenceChoice::File(path) = &options.reference {
+        return from_file(path, scene, identity);
+    }
+    let most = options.counts.iter().copied().max().unwrap_or(1);
+    let wanted = most.saturating_mul(TIMES / 2).min(MAX_SPP);
+    let oracle = options.reference == ReferenceChoice::Oracle;
+    let hash = identity.text(if oracle { "oracle" } else { "device" }).text(&wanted.to_string()).hex();
+    let path = options.out.join(FILE);
+    if let Some(record) = kept.filter(|record| record.hash == hash)
+        && let Some(film) = read_picture(&path).ok().filter(|film| fits(film, scene))
+    {
+        return Ok(finished(film, record, 0.0));
+    }
+    let allowed = (SHARE * limit.seconds - limit.spent()).max(0.0);
+    let (film, mut record, progress) = if oracle {
+        let textures = scene.textures.iter().map(texture::load::load).collect::<Result<Vec<_>>>()?;
+        let half = |samples: u32, seed: u32, progress: &dyn Progress| {
+            oracle::render::render(
+                &pack::pack(&half_of(scene, samples, seed)?, textures.clone(), None)?,
+                progress,
+            )
+        };
+        in_halves(scene, &half, wanted, allowed, options, limit, progress)?
+    } else {
+        let half = |samples: u32, seed: u32, progress: &dyn Progress| {
+            let scene = half_of(scene, samples, seed)?;
+            let (prepared, _) = looks.prepare(&scene, &Method::of_pattern(Pattern::Stratified), samples)?;
+            prepared.render(progress).map(|(film, _)| film)
+        };
+        in_halves(scene, &half, wanted, allowed, options, limit, progress)?
+    };
+    output::write(&film, &path, &WriteOptions::default())?;
+    let who = if oracle { "the float64 oracle" } else { "the device" };
+    record.kind =
+        format!("{} stratified samples a pixel by {who}, in two independent halves", record.samples);
+    (record.hash, record.file) = (hash, path.display().to_string());
+    Ok(finished(film, record, progress))
+}
+
+fn finished(film: Film, record: ReferenceRecord, progress: f64) -> Reference {
+    Reference { seen: Seen::of(&film), film, record, progress }
+}
+
+fn fits(film: &Film, scene: &Scene) -> bool {
+    (film.width, film.height) == (scene.width, scene.height)
+}
+
+fn from_file(path: &Path, scene: &Scene, identity: &Hash) -> Result<Reference> {
+    let film = read_picture(path)?;
+    if !fits(&film, scene) {
+        return Err(Error::with_help(
+            format!(
+                "reference {}: {}×{} pixels, and the study renders {}×{}",
+                path.display(),
+                film.width,
+                film.height,
+                scene.width,
+                scene.height
+            ),
+            "name a reference of the same size, or set the study's with --size",
+        ));
+    }
+    let record = ReferenceRecord {
+        hash: identity::file(*identity, path)?.hex(),
+        kind: "a given picture".into(),
+        file: path.display().to_string(),
+        ..ReferenceRecord::default()
+    };
+    Ok(finished(film, record, 0.0))
+}
+
+/// The scene without any footprint, with jittered samples of its own in each pixel.
+fn half_of(scene: &Scene, samples: u32, seed: u32) -> Result<Scene> {
+    let mut scene = scene.clone();
+    scene.sampling.shared = false;
+    scene.sampling.seed = scene.sampling.seed.wrapping_add(seed);
+    Method::of_pattern(Pattern::Stratified).apply(&scene, samples)
+}
+
+type Half<'a> = dyn Fn(u32, u32, &dyn Progress) -> Result<Film> + 'a;
+
+/// As many samples as wanted, or as the time allows.
+fn in_halves(
+    scene: &Scene,
+    half: &Half<'_>,
+    wanted: u32,
+    allowed: f64,
+    options: &Options,
+    limit: &Limit,
+    progress: &dyn Progress,
+) -> Result<(Film, ReferenceRecord, f64)> {
+    let clock = Instant::now();
+    let rate = seconds_per_sample(half, wanted, &SubProgress { whole: progress, from: 0.0, to: 0.0 })?;
+    let fitting = (0.5 * (allowed - clock.elapsed().as_secs_f64()).max(0.0) / rate)
+        .clamp(1.0, f64::from(wanted)) as u32;
+    let mut samples = match next_count(Pattern::Stratified, fitting) {
+        Some(next) if fitting == wanted => next,
+        _ => fitting.isqrt().pow(2),
+    };
+    // What the points will take, if all methods are alike.
+    let points: u32 = options.counts.iter().fold(0, |sum, n| sum.saturating_add(*n));
+    let methods = options.methods.as_ref().map_or_else(|| Method::all_for(scene).0.len(), Vec::len);
+    let rest = f64::from(points) * f64::from(options.repeats) * methods as f64;
+    let end = f64::from(2 * samples) / (f64::from(2 * samples) + rest);
+    let both = |samples: u32, progress: &dyn Progress| {
+        let a = half(samples, SEEDS[0], &SubProgress { whole: progress, from: 0.0, to: 0.5 * end })?;
+        let b = half(samples, SEEDS[1], &SubProgress { whole: progress, from: 0.5 * end, to: end })?;
+        Ok((a, b))
+    };
+    // A machine that has become slower gets fewer samples; one a half there is in any case.
+    let mut halves = None;
+    for share in LATER {
+        if halves.is_none() && samples > 1 {
+            halves = limit.until(share * limit.seconds, progress, |progress| both(samples, progress))?;
+            samples = if halves.is_none() { (samples.isqrt() / FEWER).max(1).pow(2) } else { samples };
+        }
+    }
+    let (a, b) = match halves {
+        Some(halves) => halves,
+        None => {
+            samples = 1;
+            both(samples, progress)?
+        }
+    };
+    let record = ReferenceRecord {
+        samples: 2 * samples,
+        seconds: clock.elapsed().as_secs_f64(),
+        rmse: Some(0.5 * compare(&a, &b)?.rmse),
+        ..ReferenceRecord::default()
+    };
+    Ok((mean(&a, &b), record, end))
+}
+
+/// From renders of 1, 4, 16, … samples, until they take so long that neither what every render takes nor a
+/// hiccup of the machine counts.
+fn seconds_per_sample(half: &Half<'_>, wanted: u32, progress: &dyn Progress) -> Result<f64> {
+    const CLEAR: f64 = 0.1;
+    let timed = |samples: u32| {
+        let clock = Instant::now();
+        half(samples, 0, progress).map(|_| clock.elapsed().as_secs_f64())
+    };
+    let one = timed(1)?;
+    let mut samples = 4;
+    loop {
+        let more = timed(samples)? - one;
+        if more >= CLEAR || samples >= wanted.isqrt().pow(2) {
+            return Ok(more.max(1e-9) / f64::from(samples - 1));
+        }
+        samples *= 4;
+    }
+}
+
+fn mean(a: &Film, b: &Film) -> Film {
+    let middle = |(p, q): (&[f32; 3], &[f32; 3])| {
+        [0, 1, 2].map(|c: usize| (0.5 * (f64::from(p[c]) + f64::from(q[c]))) as f32)
+    };
+    let pixels = a.pixels.iter().zip(&b.pixels).map(middle).collect();
+    Film { pixels, samples: a.samples + b.samples, ..*a }
+}

@@ -1,0 +1,145 @@
+//! The scene under the lecture's three faults and their remedies, at one sample count: what the page opens
+//! with. In: the study's looks, record and reference. Out: films with their errors, and the place where they
+//! differ most. Nothing here is timed.
+
+use crate::core::error::Result;
+use crate::core::film::Film;
+use crate::core::progress::{Progress, SubProgress};
+use crate::lab::metrics::compare;
+use crate::scene::model::{Algorithm, Pattern, Scene};
+
+use super::choice::recommended;
+use super::limit::Limit;
+use super::looks::SessionCache;
+use super::measure::sampled_part;
+use super::method::Method;
+use super::pictures::{self, Window};
+use super::plan::next_count;
+use super::record::{MethodRecord, Record};
+use super::words::taken_by;
+use crate::core::counted::{counted, verb};
+
+/// Pixels along a side of the magnified crops.
+const CROP: u32 = 64;
+pub const SAMPLES: u32 = 16;
+
+pub struct Panel {
+    pub heading: &'static str,
+    pub text: &'static str,
+    pub method: String,
+    /// What each pixel took, in words.
+    pub taken: String,
+    pub film: Film,
+    pub rmse: f64,
+}
+
+pub struct Showcase {
+    pub panels: Vec<Panel>,
+    pub reference: Film,
+    pub window: Window,
+    /// Panels for which there was no time.
+    left_out: usize,
+}
+
+impl Showcase {
+    pub fn note(&self, limit: &Limit) -> Option<String> {
+        let (count, seconds) = (self.left_out, limit.seconds);
+        let pictures = counted(count, "picture");
+        let was = verb(count, "was", "were");
+        (count > 0)
+            .then(|| format!("{pictures} of the page {was} left out: no room within --seconds {seconds}"))
+    }
+}
+
+/// (heading, what is seen, pattern): the faults, and the first remedy.
+const PATTERNS: [(&str, &str, Pattern); 4] = [
+    (
+        "Jaggies",
+        "Every ray through the pixel's centre: stairs along edges, false waves where detail is fine.",
+        Pattern::Center,
+    ),
+    (
+        "Regular patterns",
+        "The same grid in every pixel: fewer stairs, but what is left repeats and stands out.",
+        Pattern::Grid,
+    ),
+    (
+        "Noise",
+        "Independent random places: no pattern, and grain that falls only with the root of the count.",
+        Pattern::Random,
+    ),
+    (
+        "Stratified jitter",
+        "One random place in each cell of a grid: no pattern, and less grain at the same cost.",
+        Pattern::Stratified,
+    ),
+];
+const FILTERED: (&str, &str) =
+    ("Filtering", "Each sample reads its texture averaged over its share of the pixel: no grain, some blur.");
+const ALGORITHM: (&str, &str) = ("Another algorithm", "The pixel is not sampled at points alone.");
+const WINNER: (&str, &str) =
+    ("The recommended method", "It has the least error within most of the times that were measured.");
+
+pub fn render(
+    looks: &SessionCache<'_>,
+    scene: &Scene,
+    record: &Record,
+    reference: &Film,
+    limit: &Limit,
+    progress: &dyn Progress,
+) -> Result<Showcase> {
+    let distance = |n: &u32| (f64::from(*n).ln() - f64::from(SAMPLES).ln()).abs();
+    let counts = record.conditions.counts.iter();
+    let count = counts.copied().min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(SAMPLES);
+    let mut chosen: Vec<(&str, &str, Method)> =
+        PATTERNS.iter().map(|&(h, t, p)| (h, t, Method::of_pattern(p))).collect();
+    let named = |m: &MethodRecord| Method::parse(&m.name).ok();
+    if let Some(method) = best(record, count, |m| m.footprint != "none").and_then(named) {
+        chosen.push((FILTERED.0, FILTERED.1, method));
+    }
+    for method in record.methods.iter().filter_map(named).filter(|m| m.algorithm != Algorithm::Samples) {
+        chosen.push((ALGORITHM.0, ALGORITHM.1, method));
+    }
+    let winner = record.analysis.as_ref().and_then(|a| recommended(&record.points, &a.winners));
+    if let Some(method) = winner.and_then(|point| Method::parse(&point.method).ok())
+        && !chosen.iter().any(|c| c.2 == method)
+    {
+        chosen.push((WINNER.0, WINNER.1, method));
+    }
+    let still = SubProgress { whole: progress, from: 1.0, to: 1.0 };
+    let mut panels: Vec<Panel> = Vec::new();
+    let mut left_out = 0;
+    for (heading, text, method) in chosen.into_iter().filter(|c| looks.has(&c.2)) {
+        let Some(spp) = next_count(method.pattern_in(scene), count) else { continue };
+        // One there is in any case.
+        let seconds = if panels.is_empty() { f64::INFINITY } else { limit.seconds };
+        if limit.spent() >= seconds {
+            left_out += 1;
+            continue;
+        }
+        let drawn =
+            limit.until(seconds, &still, |still| looks.prepare(scene, &method, spp)?.0.render(still))?;
+        let Some((film, report)) = drawn else {
+            left_out += 1;
+            continue;
+        };
+        let sampled = sampled_part(method.algorithm, &report, film.pixels.len());
+        let spp = if method.algorithm == Algorithm::Beam { spp } else { film.samples };
+        let taken = taken_by(method.algorithm, spp, sampled);
+        let rmse = compare(&film, reference)?.rmse;
+        panels.push(Panel { heading, text, method: method.name(), taken, film, rmse });
+    }
+    let films: Vec<(&Film, f64)> = panels.iter().map(|p| (&p.film, p.rmse)).collect();
+    let window = pictures::worst_window(&films, reference, CROP);
+    Ok(Showcase { panels, reference: reference.clone(), window, left_out })
+}
+
+/// The method with the least error at about this count.
+fn best(record: &Record, count: u32, such: impl Fn(&MethodRecord) -> bool) -> Option<&MethodRecord> {
+    let error = |m: &&MethodRecord| {
+        let points = record.points_of(&m.name);
+        let nearest = points.min_by_key(|p| p.samples.abs_diff(count));
+        nearest.map_or(f64::INFINITY, |p| p.errors.rmse)
+    };
+    record.methods.iter().filter(|m| such(m)).min_by(|a, b| error(a).total_cmp(&error(b)))
+}

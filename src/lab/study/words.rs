@@ -1,0 +1,153 @@
+//! Numbers as words: the sentence that recommends a setting, and how times, errors and counts are written on
+//! the page.
+
+use super::analysis::time_to;
+use super::choice::{Winner, no_different, recommended};
+use super::method::Method;
+use super::record::{PointRecord, Record};
+use crate::core::counted::counted;
+use crate::scene::model::Algorithm;
+
+/// The recommended point, and who is better with less and with more time.
+pub fn advice(record: &Record, winners: &[Winner]) -> String {
+    let Some(best) = recommended(&record.points, winners) else {
+        return "Nothing was measured.".into();
+    };
+    let method = best.method.as_str();
+    let mut equals: Vec<&str> = Vec::new();
+    for point in record.points.iter().filter(|p| p.method != method && p.spp == best.spp) {
+        if no_different(point, best) && !equals.contains(&point.method.as_str()) {
+            equals.push(&point.method);
+        }
+    }
+    let equals = match equals.is_empty() {
+        true => String::new(),
+        false => format!(" ({} errs the same but for noise)", equals.join(" or ")),
+    };
+    let mut text = format!(
+        "Use {method} with {}{equals}: RMSE {} in {}",
+        taken(best),
+        error(best.errors.rmse),
+        seconds(best.median_seconds())
+    );
+    if let Some(times) = saved(record, best) {
+        text += &format!(", {times} times as fast as random samples come to that error");
+    }
+    let mut others = Vec::new();
+    if let Some(first) = winners.first().filter(|w| !w.is_or_ties(method)) {
+        others.push(format!("if there is time for {} only, {}", seconds(first.budget), setting(first)));
+    }
+    if let Some(last) = winners.last().filter(|w| !w.is_or_ties(method)) {
+        others.push(format!("with {}, {}", seconds(last.budget), setting(last)));
+    }
+    others.iter().for_each(|other| text += &format!("; {other}"));
+    text + "."
+}
+
+fn setting(winner: &Winner) -> String {
+    let about = if winner.estimated { "about " } else { "" };
+    format!("{} with {} (RMSE {about}{})", names(winner), winner.taken, error(winner.rmse))
+}
+
+/// The winning method, or all that tie.
+pub fn names(winner: &Winner) -> String {
+    let all = std::iter::once(&winner.method).chain(&winner.ties);
+    all.map(String::as_str).collect::<Vec<_>>().join(" or ")
+}
+
+/// What each pixel of a point took.
+pub fn taken(point: &PointRecord) -> String {
+    let algorithm = Method::parse(&point.method).map_or(Algorithm::Samples, |method| method.algorithm);
+    let count = if algorithm == Algorithm::Beam { point.spp } else { point.samples };
+    taken_by(algorithm, count, point.sampled)
+}
+
+/// What each pixel took of an algorithm that takes `count` samples; `sampled` is the part of the pixels in which
+/// beams took them.
+pub fn taken_by(algorithm: Algorithm, count: u32, sampled: Option<f64>) -> String {
+    match (algorithm, sampled.unwrap_or(0.0)) {
+        (Algorithm::Cone, _) => "one cone a pixel".into(),
+        (Algorithm::Beam, 0.0) => "one beam a pixel".into(),
+        (Algorithm::Beam, 1.0) => format!("{} in every pixel, as beams suit none", samples(count)),
+        (Algorithm::Beam, part) => {
+            format!("one beam a pixel, and {} in {} of them", samples(count), percent(part))
+        }
+        (Algorithm::Adaptive, _) => format!("{} on average", samples(count)),
+        _ => samples(count),
+    }
+}
+
+/// How many times as long random samples take to the same error.
+fn saved(record: &Record, best: &PointRecord) -> Option<String> {
+    let curve: Vec<(f64, f64)> =
+        record.points_of("random").map(|p| (p.median_seconds(), p.errors.rmse)).collect();
+    if best.method == "random" {
+        return None;
+    }
+    let (time, at_least) = match time_to(&curve, best.errors.rmse) {
+        Some(time) => (time, ""),
+        // Independent samples halve their error with four times the number.
+        None => {
+            let (time, rmse) = *curve.last()?;
+            (time * (rmse / best.errors.rmse).powi(2), "about ")
+        }
+    };
+    let ratio = time / best.median_seconds();
+    (ratio.is_finite() && ratio >= 1.05).then(|| format!("{at_least}{}", significant(ratio)))
+}
+
+pub fn samples(spp: u32) -> String {
+    counted(spp, "sample")
+}
+
+pub fn seconds(seconds: f64) -> String {
+    match seconds {
+        s if !s.is_finite() => "–".into(),
+        s if s >= 0.9995 => format!("{} s", significant(s)),
+        s if s >= 0.999_5e-3 => format!("{} ms", significant(s * 1e3)),
+        s => format!("{} µs", significant(s * 1e6)),
+    }
+}
+
+/// Three digits, with an exponent where a picture's errors have one.
+pub fn error(value: f64) -> String {
+    if !value.is_finite() {
+        return "–".into();
+    }
+    if value == 0.0 || value >= 0.1 {
+        return format!("{value:.3}");
+    }
+    format!("{value:.2e}").replace('-', "−")
+}
+
+fn significant(value: f64) -> String {
+    match value {
+        v if v >= 99.5 => format!("{v:.0}"),
+        v if v >= 9.95 => format!("{v:.1}"),
+        v => format!("{v:.2}"),
+    }
+}
+
+pub fn percent(share: f64) -> String {
+    format!("{} %", significant(share * 100.0))
+}
+
+/// Times of one point: median, and the spread of its repeats.
+pub fn times(point: &PointRecord) -> String {
+    let least = point.seconds.iter().copied().fold(f64::INFINITY, f64::min);
+    let most = point.seconds.iter().copied().fold(0.0, f64::max);
+    format!("{} ({} to {})", seconds(point.median_seconds()), seconds(least), seconds(most))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_written_with_three_digits_and_a_unit() {
+        let written = [12.34, 1.0, 0.9996, 0.5, 0.001, 2.5e-5].map(seconds);
+        assert_eq!(written, ["12.3 s", "1.00 s", "1.00 s", "500 ms", "1.00 ms", "25.0 µs"]);
+        assert_eq!([0.25, 0.0123, 0.0].map(error), ["0.250", "1.23e−2", "0.000"]);
+        assert_eq!(percent(0.1234), "12.3 %");
+    }
+}

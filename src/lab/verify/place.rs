@@ -1,0 +1,177 @@
+//! A place of a texture → the values that a filter gives in it and around it, as far as the coordinate is
+//! known: boxes of least and greatest values.
+
+use glam::{DVec3, DVec4};
+
+use super::judge::F32_ULP;
+use super::reading::Reading;
+use crate::oracle::footprint_axes::{in_texture, kind_of};
+use crate::oracle::levels::Reader;
+use crate::oracle::mapping::Coordinate;
+use crate::oracle::texture::{Level, fetch_texel, level_at};
+use crate::pack::{PackedScene, TextureKind};
+use crate::schema::layout::{Sampler, Texture};
+use crate::texture::sampler_spec::{Filter, TexelCenter};
+
+/// How exactly a coordinate is known.
+#[derive(Clone, Copy, Debug)]
+pub enum Reach {
+    /// To size · 2⁻²² texels.
+    Shader,
+    /// To a part of a texel beside the rounding of u · size in f32, with half a texel added.
+    Hardware { sub_texel: f64 },
+}
+
+pub struct Place<'a> {
+    reader: Reader<'a>,
+    pub kind: TextureKind,
+    /// Of a cube: on a face.
+    pub at: Coordinate,
+    face: u32,
+}
+
+impl<'a> Place<'a> {
+    pub fn new(
+        scene: &'a PackedScene,
+        image: &'a Texture,
+        how: &'a Sampler,
+        place: &Coordinate,
+    ) -> Place<'a> {
+        let (at, face) = in_texture(image, place);
+        Place { reader: Reader { scene, image, how }, kind: kind_of(image), at, face }
+    }
+
+    fn axes(&self) -> usize {
+        if self.kind == TextureKind::Volume { 3 } else { 2 }
+    }
+
+    /// Mixes of two values, one after the other.
+    pub fn mixes(&self, reading: &Reading) -> usize {
+        let along = if reading.filter == Filter::Nearest { 0 } else { self.axes() };
+        along + usize::from(reading.is_mixed())
+    }
+
+    pub fn is_cubic(&self) -> bool {
+        self.reader.how.modes[2] == Filter::Cubic as u32 || self.reader.how.link[1] == Filter::Cubic as u32
+    }
+
+    pub fn longest(&self) -> f64 {
+        self.size(&self.level(0)).max_element()
+    }
+
+    fn level(&self, index: u32) -> Level {
+        level_at(self.reader.scene, self.reader.image, index)
+    }
+
+    /// On the axes that count; on the others 1.
+    fn size(&self, level: &Level) -> DVec3 {
+        let [width, height, depth] = level.size.map(|n| n as f64);
+        DVec3::new(width, height, if self.kind == TextureKind::Volume { depth } else { 1.0 })
+    }
+
+    /// In texels of a level.
+    fn reach(&self, level: &Level, reach: Reach) -> DVec3 {
+        let size = self.size(level);
+        match reach {
+            Reach::Shader => size * (2.0 * F32_ULP),
+            Reach::Hardware { sub_texel } => (self.at.at.abs() + 1.0) * size * F32_ULP + sub_texel,
+        }
+    }
+
+    /// Least and greatest values that a reading allows; nearest texels one by one.
+    pub fn values(&self, reading: &Reading, reach: Reach) -> Vec<[DVec4; 2]> {
+        let first = self.level_values(reading.filter, &self.level(reading.levels[0]), reach);
+        if !reading.is_mixed() {
+            return first;
+        }
+        let second = self.level_values(reading.filter, &self.level(reading.levels[1]), reach);
+        let mixed = |a: &[DVec4; 2], b: &[DVec4; 2]| {
+            let ends = |side: usize| reading.share.map(|share| a[side] * (1.0 - share) + b[side] * share);
+            let ([a, b], [c, d]) = (ends(0), ends(1));
+            [a.min(b), c.max(d)]
+        };
+        first.iter().flat_map(|a| second.iter().map(move |b| mixed(a, b))).collect()
+    }
+
+    fn level_values(&self, filter: Filter, level: &Level, reach: Reach) -> Vec<[DVec4; 2]> {
+        let size = self.size(level);
+        let texel = self.at.at * size;
+        let around = self.reach(level, reach);
+        let integer = self.reader.how.modes[3] == TexelCenter::Integer as u32;
+        let half = if integer && self.kind != TextureKind::Cube { 0.0 } else { 0.5 };
+        let stops = |axis: usize| {
+            let (at, reach_here) = (texel[axis], around[axis]);
+            let (from, to) = (at - reach_here, at + reach_here);
+            match (filter, reach) {
+                _ if axis >= self.axes() => vec![at],
+                (Filter::Nearest, _) => vec![from, to],
+                (_, Reach::Shader) => vec![at],
+                _ => stops(from, to, half),
+            }
+        };
+        let [xs, ys, zs] = [0, 1, 2].map(stops);
+        let mut values = Vec::with_capacity(xs.len() * ys.len() * zs.len());
+        for &z in &zs {
+            for &y in &ys {
+                for &x in &xs {
+                    let at = DVec3::new(x, y, z) / size;
+                    values.push(self.reader.level(filter, level, at, self.face, DVec3::ZERO));
+                }
+            }
+        }
+        if filter == Filter::Nearest {
+            values
+                .sort_by(|a, b| a.to_array().partial_cmp(&b.to_array()).unwrap_or(std::cmp::Ordering::Equal));
+            values.dedup();
+            return values.into_iter().map(|value| [value; 2]).collect();
+        }
+        let start = [DVec4::MAX, DVec4::MIN];
+        vec![values.into_iter().fold(start, |[low, high], v| [low.min(v), high.max(v)])]
+    }
+
+    /// Weight of the texel that a cube has not, beyond a corner: devices may spread it as they like
+    /// (Vulkan 1.3, "Cube Map Edge Handling").
+    pub fn beyond_corner(&self, reading: &Reading, reach: Reach) -> f64 {
+        if self.kind != TextureKind::Cube
+            || reading.filter == Filter::Nearest
+            || matches!(reach, Reach::Shader)
+        {
+            return 0.0;
+        }
+        let of = |index: u32| {
+            let level = self.level(index);
+            let (size, reach) = (self.size(&level), self.reach(&level, reach));
+            let beyond = |axis: usize| {
+                let texel = self.at.at[axis] * size[axis] - 0.5;
+                ((-texel).max(texel - (size[axis] - 1.0)) + reach[axis]).max(0.0)
+            };
+            beyond(0) * beyond(1)
+        };
+        reading.levels.map(of).into_iter().fold(0.0, f64::max)
+    }
+}
+
+/// The ends of an interval, and the texel centre in it; intervals are shorter than a texel. Between
+/// them linear filters have no extremes.
+fn stops(from: f64, to: f64, half: f64) -> Vec<f64> {
+    let crossed = (from - half).ceil() + half;
+    let mut all = vec![from, to];
+    all.extend((crossed < to).then_some(crossed));
+    all
+}
+
+/// Least and greatest value of each channel over all texels of all levels.
+pub fn span(scene: &PackedScene, texture: usize) -> [DVec4; 2] {
+    let record = &scene.textures[texture];
+    let mut span = [DVec4::MAX, DVec4::MIN];
+    for index in 0..record.link[1] {
+        let level = level_at(scene, record, index);
+        let [width, height, depth] = level.size;
+        for texel in 0..width * height * depth {
+            let at = [texel % width, texel / width % height, texel / (width * height)];
+            let value = fetch_texel(scene, record, &level, at);
+            span = [span[0].min(value), span[1].max(value)];
+        }
+    }
+    span
+}

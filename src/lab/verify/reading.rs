@@ -1,0 +1,85 @@
+//! A look-up → the filters and levels that it may be read with. The level of detail, known as exactly as
+//! declared, decides between magnification and minification, which levels are read, and how two are
+//! mixed (Vulkan 1.3, "Scale Factor Operation, Level-of-Detail Operation and Image Level(s) Selection").
+
+use glam::DVec3;
+
+use crate::oracle::footprint_axes::texel_spread;
+use crate::oracle::mapping::Coordinate;
+use crate::schema::layout::{Sampler, Texture};
+use crate::texture::sampler_spec::{Filter, Method, MipMode};
+
+/// Of levels that our shader forms in f32.
+const ROUNDING: f64 = 1e-5;
+
+/// One filter at one level, or a mix of two.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Reading {
+    pub filter: Filter,
+    pub levels: [u32; 2],
+    /// Least and greatest share of the second level.
+    pub share: [f64; 2],
+}
+
+impl Reading {
+    pub fn at(filter: Filter, level: u32) -> Reading {
+        Reading { filter, levels: [level; 2], share: [0.0; 2] }
+    }
+
+    pub fn is_mixed(&self) -> bool {
+        self.share[1] > 0.0
+    }
+}
+
+/// The level of detail, before it is limited to levels that exist, at a place of the texture. Our shader
+/// forms it from the footprint's major axis; where the device filters anisotropically, it forms it
+/// itself.
+pub fn levels_of_detail(image: &Texture, how: &Sampler, c: &Coordinate, precision: f64) -> [f64; 2] {
+    let anisotropic = how.link[1] == Filter::Anisotropic as u32;
+    if how.link[0] == Method::Hardware as u32 && anisotropic {
+        let [low, high] = anisotropic_levels(image, how, c);
+        return [low - precision, high + precision];
+    }
+    let major = texel_spread(image, c).major;
+    let level = 0.5 * major.log2();
+    // Magnification is told to the device as level 0, which has no rounding.
+    if level < -ROUNDING { [level; 2] } else { [level - ROUNDING - precision, level + ROUNDING + precision] }
+}
+
+/// How many samples along the major axis are taken, up to the sampler's limit, is the device's choice, and
+/// so is the scale factor of a footprint that is not along an axis: between the largest component of
+/// its change and the sum of all.
+fn anisotropic_levels(image: &Texture, how: &Sampler, c: &Coordinate) -> [f64; 2] {
+    let size = DVec3::new(f64::from(image.place[1]), f64::from(image.place[2]), 0.0);
+    let changes = c.change.map(|d| (d * size).abs());
+    let [least, most] = [changes.map(DVec3::max_element), changes.map(DVec3::element_sum)];
+    let minor = least[0].min(least[1]);
+    let narrowest = minor.max(least[0].max(least[1]) / f64::from(how.link[3]));
+    [narrowest.log2(), most[0].max(most[1]).log2()]
+}
+
+/// What may be read at a level of detail in [from, to], of a texture with `levels` levels.
+pub fn readings(how: &Sampler, levels: u32, [from, to]: [f64; 2]) -> Vec<Reading> {
+    let [mag, min] = [how.modes[2], how.link[1]].map(|filter| Filter::ALL[filter as usize]);
+    let last = levels - 1;
+    let mut all = Vec::new();
+    if from <= 0.0 {
+        all.push(Reading::at(mag, 0));
+    }
+    if to <= 0.0 {
+        return all;
+    }
+    let [from, to] = [from, to].map(|level| level.clamp(0.0, f64::from(last)));
+    match MipMode::ALL[how.link[2] as usize] {
+        MipMode::None => all.push(Reading::at(min, 0)),
+        MipMode::Nearest => {
+            let nearest = (from + 0.5).ceil() as u32 - 1..=(to + 0.5).floor() as u32;
+            all.extend(nearest.map(|level| Reading::at(min, level.min(last))));
+        }
+        MipMode::Linear => all.extend((from.floor() as u32..=to.floor() as u32).map(|level| {
+            let share = [from, to].map(|end| (end - f64::from(level)).clamp(0.0, 1.0));
+            Reading { filter: min, levels: [level, (level + 1).min(last)], share }
+        })),
+    }
+    all
+}

@@ -1,0 +1,28 @@
+//! Scene → which choices its samples make beside their place in the pixel, and the header's numbers of lens and
+//! shutter.
+
+use glam::DVec4;
+
+use super::SampleDimension;
+use crate::scene::model::Scene;
+
+/// What samples choose beside their place in the pixel.
+pub fn sample_dimensions(scene: &Scene) -> u32 {
+    let of = |choice: &SampleDimension| match choice {
+        SampleDimension::Lens => scene.camera.lens.is_some(),
+        SampleDimension::Time => scene.moves(),
+        SampleDimension::Lobe => scene.sampling.max_depth > 0 && scene.is_glossy(),
+        SampleDimension::Light => scene.has_wide_lights(),
+        SampleDimension::Fresnel => {
+            scene.sampling.max_depth > 0 && scene.materials.iter().any(|m| m.model.transmits())
+        }
+    };
+    SampleDimension::ALL.iter().filter(|c| of(c)).fold(0, |bits, &choice| bits | 1 << choice as u32)
+}
+
+/// Radius over a pixel's side at distance 1; 1 / focus distance; when the shutter opens, how long it is open.
+pub fn lens(scene: &Scene, pixel: f64) -> DVec4 {
+    let [opens, closes] = scene.camera.shutter;
+    let lens = scene.camera.lens.map_or([0.0; 2], |l| [l.radius / pixel, 1.0 / l.focus_distance]);
+    DVec4::new(lens[0], lens[1], opens, closes - opens)
+}

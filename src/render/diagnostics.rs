@@ -1,0 +1,33 @@
+//! Counters on the device: a buffer that pipelines add to where they are built to count, cleared before a render
+//! and read after it.
+
+use crate::core::error::Result;
+use crate::gpu::{Buffer, BufferUse, Gpu};
+use crate::pack::Diagnostic;
+
+/// How often each thing happened in a render.
+pub type Counts = Vec<(Diagnostic, u64)>;
+
+pub struct Guards {
+    pub(super) buffer: Buffer,
+}
+
+impl Guards {
+    pub fn new(gpu: &Gpu) -> Result<Guards> {
+        Ok(Guards {
+            buffer: gpu.upload_buffer("guards", BufferUse::Storage, &[0; 8 * Diagnostic::ALL.len()])?,
+        })
+    }
+
+    pub fn clear(&self, gpu: &Gpu) -> Result<()> {
+        gpu.write_buffer(&self.buffer, 0, &[0; 8 * Diagnostic::ALL.len()])
+    }
+
+    /// Low and high half of each count, in the order of the guards.
+    pub fn read(&self, gpu: &Gpu) -> Result<Counts> {
+        let mut halves = [[0u32; 2]; Diagnostic::ALL.len()];
+        gpu.read_buffer(&self.buffer, 0, bytemuck::cast_slice_mut(&mut halves))?;
+        let count = |[low, high]: [u32; 2]| u64::from(high) << 32 | u64::from(low);
+        Ok(Diagnostic::ALL.iter().copied().zip(halves.map(count)).collect())
+    }
+}

@@ -1,0 +1,114 @@
+//! How many samples one thread may take at once. Mesa's CPU driver ends all loops of a thread after 65 535
+//! turns (`LP_MAX_TGSI_LOOP_ITERATIONS` of its shader compiler), whatever they have left to do; so in go a
+//! scene and a device, and out comes the number of samples whose loops stay below that.
+
+use crate::core::error::{Error, Result};
+use crate::gpu::{DeviceInfo, DeviceKind};
+use crate::pack::features::bounces;
+use crate::pack::{PackedScene, SampleDimension, TextureKind};
+use crate::scene::model::Algorithm;
+use crate::schema::layout::{CHUNK, NO_TEXTURE, Procedural, Sampler};
+use crate::texture::sampler_spec::Filter;
+
+const MAX_TURNS: u64 = 65_535;
+/// `MAX_ELLIPSE_STEPS` of `ellipse.glsl`.
+const ELLIPSE: u64 = 8192;
+/// Corners of nine boxes of four rows.
+const SUMMED_AREA: u64 = 9 * 24;
+/// Four by four texels.
+const CUBIC: u64 = 20;
+/// Eight texels, or twice four.
+const SOLID: u64 = 10;
+/// Look-ups of a bump map, and the colour.
+const TAPS: u64 = 5;
+/// `MAX_BOXES` of `procedural.glsl`.
+const BOXES: u64 = 16;
+/// `MAX_CONES` of `cone_shade.glsl`.
+const MAX_CONES: u64 = 64;
+/// Digits of Halton's points, or turns in which an order is found, with room to spare.
+const POINTS: u64 = 64;
+
+/// Samples of a thread, from 1 to `CHUNK`.
+pub fn samples_at_once(device: &DeviceInfo, scene: &PackedScene) -> Result<u32> {
+    if device.kind != DeviceKind::Cpu {
+        return Ok(CHUNK);
+    }
+    let turns = turns_of_a_sample(scene, ELLIPSE);
+    // Ellipses of that size fill the horizon, not each of many look-ups of one path.
+    let without_ellipses = turns_of_a_sample(scene, 0);
+    if without_ellipses > MAX_TURNS {
+        return Err(Error::with_help(
+            format!(
+                "device \"{}\" ends a shader's loops after {MAX_TURNS} turns; one sample of this scene may take {without_ellipses}",
+                device.name
+            ),
+            "use fewer shapes, lights or bounces, another device, or --device oracle",
+        ));
+    }
+    Ok((MAX_TURNS / turns).clamp(1, u64::from(CHUNK)) as u32)
+}
+
+/// An upper bound of the turns for a pixel's cones, but for how many pieces each one sees: where cones are
+/// many, few of them see more than three.
+fn turns_of_cones(scene: &PackedScene, ellipse: u64) -> u64 {
+    const PIECES: u64 = 8;
+    const SEEN: u64 = 3;
+    let shapes = (scene.planes.len() + scene.spheres.len() + scene.triangles.len()) as u64;
+    let lights = scene.lights.len() as u64;
+    let cones = if bounces(scene) { MAX_CONES } else { MAX_CONES.min(1 + PIECES * lights) };
+    let gathered = 4 + shapes + shapes / 16 + 2 * PIECES;
+    // Each pair both ways, and two shapes each time.
+    let laid_over = 3 * SEEN * (SEEN - 1);
+    let bumped = scene.materials.iter().any(|m| m.detail[0] != NO_TEXTURE);
+    let look_ups = if bumped { TAPS } else { 1 } * turns_of_a_look_up(scene, 0);
+    let records = (scene.materials.len() + scene.maps.len()) as u64;
+    let shaded = SEEN * (1 + records + look_ups + lights.max(2) * (2 + lights));
+    // Ellipses of that size fill the horizon, and that is seen by few of them.
+    cones * (gathered + laid_over + shaded) + ellipse
+}
+
+/// An upper bound, with so many for an ellipse.
+fn turns_of_a_sample(scene: &PackedScene, ellipse: u64) -> u64 {
+    if scene.algorithm == Algorithm::Cone {
+        return turns_of_cones(scene, ellipse);
+    }
+    let count = |n: usize| n as u64;
+    let shapes = count(scene.planes.len() + scene.spheres.len() + scene.triangles.len()) + 3;
+    let records = count(scene.materials.len() + scene.maps.len() + scene.motions.len());
+    let rays = if bounces(scene) { 1 + u64::from(scene.header.size[3]) } else { 1 };
+    let bumped = scene.materials.iter().any(|m| m.detail[0] != NO_TEXTURE);
+    let taps = if bumped { TAPS } else { 1 };
+    let hit = 1 + shapes + records + count(scene.lights.len()) * (1 + shapes);
+    let chances = scene.header.chances[0];
+    let glass = u64::from(chances >> SampleDimension::Fresnel as u32 & 1);
+    let choices = if chances == 0 { 0 } else { (4 + glass) * (1 + POINTS) };
+    rays * (choices + hit + taps * turns_of_a_look_up(scene, ellipse))
+}
+
+fn turns_of_a_look_up(scene: &PackedScene, ellipse: u64) -> u64 {
+    let records = (scene.textures.len() + scene.samplers.len() + scene.procedurals.len()) as u64;
+    let is = |kind: TextureKind| scene.textures.iter().any(|t| t.link[3] == kind as u32);
+    let procedural = scene.procedurals.iter().map(turns_of_a_pattern).max().unwrap_or(0);
+    let solid = if is(TextureKind::Volume) || is(TextureKind::Cube) { SOLID } else { 1 };
+    let of_sampler = |sampler: &Sampler| {
+        let filters = [sampler.modes[2], sampler.link[1]];
+        let has = |filter: Filter| filters.contains(&(filter as u32));
+        let place = if has(Filter::Cubic) { CUBIC.max(solid) } else { solid };
+        let probes = if has(Filter::Anisotropic) { u64::from(sampler.link[3]) + 2 } else { 2 };
+        let walked = probes * (1 + place);
+        if has(Filter::Ewa) {
+            ellipse.max(walked)
+        } else if has(Filter::SummedArea) {
+            SUMMED_AREA.max(walked)
+        } else {
+            walked
+        }
+    };
+    let stored = scene.samplers.iter().map(of_sampler).max().unwrap_or(0);
+    records + stored.max(procedural)
+}
+
+/// Octaves, the 27 cells around a place, or boxes along a footprint.
+fn turns_of_a_pattern(pattern: &Procedural) -> u64 {
+    u64::from(pattern.link[2]).max(27) + BOXES
+}

@@ -1,0 +1,150 @@
+//! Box mip chains on the device: level 0 in, out comes a buffer with all levels one after the other, each from
+//! a whole word on, as the texel buffer holds them. One dispatch a level, all in one submission; between levels the
+//! numbers stay unrounded f32, as in `texture::mips`, whose codes these are.
+
+use crate::core::color::srgb_table;
+use crate::core::error::Result;
+use crate::gpu::shaders;
+use crate::gpu::{Bound, Buffer, BufferUse, Gpu, Pipeline};
+use crate::pack::{PackedScene, SlotCounts};
+use crate::schema::layout::Halving;
+use crate::texture::data::{ColorSpace, TexelFormat};
+use crate::texture::mips;
+
+const GROUP: u32 = 64;
+/// Of workgroups; every device takes 65535.
+const LONGEST_ROW: u32 = 1 << 15;
+
+/// What a mip chain is made from.
+pub struct MipSource<'a> {
+    pub name: &'a str,
+    pub format: TexelFormat,
+    pub space: ColorSpace,
+    /// Of all levels, at least two, each length the same as above or half of it.
+    pub sizes: &'a [[u32; 3]],
+    /// Of level 0.
+    pub texels: &'a [u8],
+}
+
+pub struct Pyramid {
+    pub buffer: Buffer,
+    /// Byte at which each level begins.
+    pub starts: Vec<u64>,
+}
+
+/// Sizes of all levels of a texture.
+pub fn sizes(packed: &PackedScene, texture: usize) -> Vec<[u32; 3]> {
+    (0..packed.textures[texture].link[1]).map(|level| packed.level_size(texture, level)).collect()
+}
+
+/// Textures of one format share a pipeline.
+pub struct MipGenerator<'a> {
+    gpu: &'a Gpu,
+    /// Of each number of sRGB codes, and of textures that have none.
+    tables: Vec<(usize, Buffer)>,
+    pipelines: Vec<((TexelFormat, ColorSpace), Pipeline)>,
+    /// Device time of all passes so far, if there were any.
+    pub seconds: Option<f64>,
+}
+
+impl<'a> MipGenerator<'a> {
+    pub fn new(gpu: &'a Gpu) -> MipGenerator<'a> {
+        MipGenerator { gpu, tables: Vec::new(), pipelines: Vec::new(), seconds: None }
+    }
+
+    pub fn make(&mut self, top: &MipSource<'_>) -> Result<Pyramid> {
+        let channels = top.format.channels() as u64;
+        let texels: Vec<u64> = top.sizes.iter().map(|size| size.map(u64::from).iter().product()).collect();
+        let mut starts = Vec::with_capacity(texels.len());
+        let mut end = 0;
+        for count in &texels {
+            starts.push(end);
+            end += (count * top.format.bytes_per_texel() as u64).next_multiple_of(4);
+        }
+        let gpu = self.gpu;
+        let buffer = gpu.buffer(top.name, end, BufferUse::Storage)?;
+        gpu.write_buffer(&buffer, 0, top.texels)?;
+        let numbers: u64 = texels.iter().skip(1).take(2).sum::<u64>() * channels;
+        let numbers = gpu.buffer("numbers of two levels", numbers * 4, BufferUse::Storage)?;
+        let tables = self.tables(codes(top.format, top.space))?;
+        let pipeline = self.pipeline(top.format, top.space)?;
+        let bound = [(0, Bound::Buffer(&buffer)), (1, Bound::Buffer(&numbers)), (2, Bound::Buffer(&tables))];
+        let group = gpu.bind(pipeline, &bound)?;
+        let passes = passes(top, &texels, &starts);
+        let dispatches: Vec<(&[u8], [u32; 3])> =
+            passes.iter().map(|(pass, groups)| (bytemuck::bytes_of(pass), *groups)).collect();
+        let time = gpu.run_all(pipeline, &group, &dispatches)?;
+        self.seconds = Some(self.seconds.unwrap_or(0.0) + time.device_seconds);
+        Ok(Pyramid { buffer, starts })
+    }
+
+    fn tables(&mut self, codes: usize) -> Result<Buffer> {
+        if let Some((_, tables)) = self.tables.iter().find(|(other, _)| *other == codes) {
+            return Ok(tables.clone());
+        }
+        // A binding has to hold something.
+        let tables =
+            if codes == 0 { vec![0.0] } else { [srgb_table(codes), &mips::srgb_middles(codes)].concat() };
+        let buffer =
+            self.gpu.upload_buffer("sRGB codes", BufferUse::Storage, bytemuck::cast_slice(&tables))?;
+        self.tables.push((codes, buffer.clone()));
+        Ok(buffer)
+    }
+
+    fn pipeline(&mut self, format: TexelFormat, space: ColorSpace) -> Result<&Pipeline> {
+        let key = (format, space);
+        let known = self.pipelines.iter().position(|(other, _)| *other == key);
+        let index = match known {
+            Some(index) => index,
+            None => {
+                self.pipelines.push((key, build(self.gpu, format, space)?));
+                self.pipelines.len() - 1
+            }
+        };
+        Ok(&self.pipelines[index].1)
+    }
+}
+
+/// Of its colours, where they are sRGB.
+fn codes(format: TexelFormat, space: ColorSpace) -> usize {
+    if space == ColorSpace::Srgb { format.component().codes() } else { 0 }
+}
+
+fn build(gpu: &Gpu, format: TexelFormat, space: ColorSpace) -> Result<Pipeline> {
+    let shader = &shaders::MIPS;
+    let values = [
+        ("GROUP_X", GROUP),
+        ("GROUP_Y", 1),
+        ("CHANNELS", format.channels() as u32),
+        ("COMPONENT_BYTES", format.component().bytes() as u32),
+        ("SRGB", u32::from(codes(format, space) > 0)),
+    ];
+    let constants: Vec<(u32, u32)> =
+        values.iter().filter_map(|&(name, value)| Some((shader.constant(name)?.id, value))).collect();
+    super::build_pipeline(gpu, shader, &constants, SlotCounts::default(), size_of::<Halving>())
+}
+
+/// Each level from the one before. The numbers of odd levels begin at 0, those of even ones after level 1.
+fn passes(top: &MipSource<'_>, texels: &[u64], starts: &[u64]) -> Vec<(Halving, [u32; 3])> {
+    let texel_bytes = top.format.bytes_per_texel() as u64;
+    let number = |level: usize| if level % 2 == 1 { 0 } else { texels[1] * top.format.channels() as u64 };
+    let pass = |level: usize| {
+        let (from, to) = (top.sizes[level - 1], top.sizes[level]);
+        let halved = (0..3).filter(|&axis| from[axis] != to[axis]).map(|axis| 1 << axis).sum();
+        let halving = Halving {
+            from_codes: u32::from(level == 1),
+            above: if level == 1 { 0 } else { number(level - 1) as u32 },
+            word: (starts[level] / 4) as u32,
+            number: number(level) as u32,
+            texels: texels[level] as u32,
+            columns_log2: to[0].ilog2(),
+            rows_log2: to[1].ilog2(),
+            halved,
+        };
+        let threads = (texels[level] * texel_bytes).div_ceil(texel_bytes.max(4)) as u32;
+        let groups = threads.div_ceil(GROUP);
+        let row = groups.min(LONGEST_ROW);
+        (halving, [row, groups.div_ceil(row), 1])
+    };
+    (1..top.sizes.len()).map(pass).collect()
+}

@@ -1,0 +1,91 @@
+//! The survey of a picture, before any sample: for each cell of pixels which triangles its rays may meet, and
+//! how uniform it is. In: a scene of many triangles on a device. Out: the lists that camera rays
+//! read, and the samples that each pixel begins with.
+
+use super::{Report, Resources, build_pipeline, specialization};
+use crate::core::error::Result;
+use crate::gpu::shaders;
+use crate::gpu::{BindGroup, Buffer, BufferUse, Gpu, Pipeline};
+use crate::pack::PackedScene;
+use crate::pack::features::Features;
+use crate::schema::layout::{CELL_EMPTY, CELL_UNIFORM, CELL_WORDS, Part};
+
+const GROUP: u32 = 64;
+/// Triangles times cells that one submission tests: some tenths of a second on a slow device.
+const MAX_TESTS: u64 = 1 << 24;
+
+pub struct TileCulling {
+    pub buffer: Buffer,
+    pipeline: Pipeline,
+    group: BindGroup,
+    /// Pixels along a cell's side, cells across and down.
+    side: u32,
+    cells: [u32; 2],
+    cells_at_once: u32,
+}
+
+impl TileCulling {
+    pub fn new(
+        gpu: &Gpu,
+        scene: &PackedScene,
+        resources: &Resources,
+        features: &Features,
+    ) -> Result<TileCulling> {
+        let shader = if features.double { &shaders::TILE_CULLING_WIDE } else { &shaders::TILE_CULLING };
+        let slots = resources.slots;
+        let constants = specialization::constants(shader, features, &resources.sections, [GROUP, 1], slots);
+        let pipeline = build_pipeline(gpu, shader, &constants, slots, size_of::<Part>())?;
+        let [width, height, _, _] = scene.header.size;
+        let side = scene.header.chances[3];
+        let cells = [width, height].map(|pixels| pixels.div_ceil(side));
+        let bytes = cells.map(u64::from).iter().product::<u64>() * u64::from(CELL_WORDS) * 4;
+        let buffer = gpu.buffer("survey", bytes, BufferUse::Storage)?;
+        let group = resources.bind(gpu, &pipeline, shader, &buffer, None)?;
+        let tests = scene.triangles.len().max(1) as u64;
+        let cells_at_once = (MAX_TESTS / tests).clamp(u64::from(GROUP), 1 << 20) as u32;
+        let survey = TileCulling { buffer, pipeline, group, side, cells, cells_at_once };
+        // Whatever the driver compiles late, it compiles now.
+        survey.part(gpu, Part { first: 0, end: 1 }, &mut Report::default())?;
+        Ok(survey)
+    }
+
+    /// Fills the lists.
+    pub fn run(&self, gpu: &Gpu, report: &mut Report) -> Result<()> {
+        let cells = self.cells[0] * self.cells[1];
+        for first in (0..cells).step_by(self.cells_at_once as usize) {
+            self.part(gpu, Part { first, end: cells.min(first + self.cells_at_once) }, report)?;
+        }
+        Ok(())
+    }
+
+    fn part(&self, gpu: &Gpu, part: Part, report: &mut Report) -> Result<()> {
+        let groups = [(part.end - part.first).div_ceil(GROUP), 1, 1];
+        let time = gpu.run(&self.pipeline, &self.group, bytemuck::bytes_of(&part), groups)?;
+        report.device_survey_seconds =
+            Some(report.device_survey_seconds.unwrap_or(0.0) + time.device_seconds);
+        report.longest_slice_seconds = report.longest_slice_seconds.max(time.wall_seconds);
+        Ok(())
+    }
+
+    /// Of each cell `CELL_WORDS` words.
+    pub fn words(&self, gpu: &Gpu) -> Result<Vec<u32>> {
+        let mut words = vec![0u32; (self.cells[0] * self.cells[1] * CELL_WORDS) as usize];
+        gpu.read_buffer(&self.buffer, 0, bytemuck::cast_slice_mut(&mut words))?;
+        Ok(words)
+    }
+
+    /// Of each pixel: one sample where nothing but the background is seen, two where a single surface that
+    /// changes little fills the cell, else `most`.
+    pub fn first_samples(&self, gpu: &Gpu, [width, height]: [u32; 2], most: u32) -> Result<Vec<u32>> {
+        let words = self.words(gpu)?;
+        let of_cell = |x: u32, y: u32| {
+            let cell = y / self.side * self.cells[0] + x / self.side;
+            match words[(cell * CELL_WORDS + 1) as usize] {
+                CELL_EMPTY => 1,
+                CELL_UNIFORM => most.min(2),
+                _ => most,
+            }
+        };
+        Ok((0..height).flat_map(|y| (0..width).map(move |x| (x, y))).map(|(x, y)| of_cell(x, y)).collect())
+    }
+}

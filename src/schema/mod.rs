@@ -1,0 +1,3 @@
+//! What host and device share.
+
+pub mod layout;

@@ -1,0 +1,168 @@
+//! The survey of scenes with many triangles: no list lacks a triangle that a ray of its cell meets, so that
+//! pictures are the same bit for bit, and calm cells begin with fewer samples.
+
+use glam::DVec3;
+use moire::internal::adaptive::Goal;
+use moire::internal::core::film::Film;
+use moire::internal::core::progress::NoProgress;
+use moire::internal::oracle::tile_culling::triangles_of;
+use moire::internal::pack::{Crop, PackedScene};
+use moire::internal::render::{self, Session, Tuning};
+use moire::internal::scene::model::{Algorithm, Model, Pattern, Projection, Scene, Triangle};
+use moire::internal::schema::layout::{CELL_BUSY, CELL_EMPTY, CELL_UNIFORM, CELL_WORDS, MAX_LISTED};
+
+use crate::lookup::bench::Dice;
+use crate::stage::{assert_same_bits, device, packed, render, render_with, small};
+
+/// Triangles in disorder before a mirror, a checkered ground and a background: far and near, some behind the
+/// eye, some through the eye's plane, every fifth a needle.
+fn soup(count: usize, side: u32) -> Scene {
+    let mut scene = small("s2", side, 4);
+    let mut dice = Dice::new(11);
+    let first = scene.triangles[0];
+    let eye = scene.camera.eye;
+    let mut place = |reach: f64| DVec3::from_array([0; 3].map(|_| reach * (2.0 * dice.unit() - 1.0)));
+    scene.triangles = (0..count)
+        .map(|i| {
+            let middle = if i % 7 == 0 { eye + place(0.5) } else { DVec3::new(0.0, 0.6, 0.0) + place(1.2) };
+            let reach = if i % 3 == 0 { 0.4 } else { 0.1 };
+            let mut vertices = [0; 3].map(|_| middle + place(reach));
+            if i % 5 == 0 {
+                vertices[2] = vertices[0] + 1e-4 * place(1.0);
+            }
+            Triangle { vertices, ..first }
+        })
+        .collect();
+    scene
+}
+
+fn without(scene: &PackedScene) -> PackedScene {
+    let mut scene = scene.clone();
+    scene.header.chances[3] = 0;
+    scene
+}
+
+fn assert_same(scene: &PackedScene, what: &str) {
+    assert!(scene.culls_tiles(), "{what} is not culls_tiles");
+    assert_same_bits(&render(scene), &render(&without(scene)), what);
+}
+
+#[test]
+fn pictures_are_the_same_with_and_without() {
+    let mut scene = soup(60, 70);
+    assert_same(&packed(scene.clone(), None), "perspective");
+    assert_same(&packed(scene.clone(), Some(Crop { x: 13, y: 7, width: 41, height: 50 })), "a crop");
+    scene.camera.projection = Projection::Orthographic(2.5);
+    assert_same(&packed(scene.clone(), None), "parallel rays");
+    scene.pixel_filter.radius = 2.25;
+    assert_same(&packed(scene, None), "a wide box");
+}
+
+#[test]
+fn crowded_cells_fall_back_to_all_triangles() {
+    let scene = packed(soup(400, 40), None);
+    let (_, words) = culls_tiles(&scene);
+    assert!(words.chunks(CELL_WORDS as usize).any(|cell| cell[0] > MAX_LISTED), "no cell is crowded");
+    assert_same(&scene, "400 triangles");
+}
+
+#[test]
+fn nothing_is_left_out_without_a_difference() {
+    let scene = packed(soup(40, 24), None);
+    let (kept, _) = render_with(&scene, true, &Tuning::default());
+    assert_same_bits(&render(&scene), &kept, "with everything kept");
+    let (kept, _) = render_with(&without(&scene), true, &Tuning::default());
+    assert_same_bits(&render(&scene), &kept, "with everything kept but the survey");
+}
+
+#[test]
+fn few_triangles_lenses_motion_and_other_filters_have_no_survey() {
+    assert!(!packed(small("lecture", 32, 4), None).culls_tiles());
+    let mut scene = soup(40, 32);
+    scene.camera.motion[0] = DVec3::X;
+    assert!(!packed(scene, None).culls_tiles());
+}
+
+/// The film, and what the survey found.
+fn culls_tiles(scene: &PackedScene) -> (Film, Vec<u32>) {
+    let device = device();
+    let session = Session::open(&device, scene.clone(), false, &Tuning::default()).unwrap();
+    let (film, report) = session.prepare().unwrap().render(&NoProgress).unwrap();
+    assert!(report.device_survey_seconds.is_some());
+    (film, session.survey_words().unwrap().unwrap())
+}
+
+/// In f64, and no more than a few beside: slack and margin are small.
+#[test]
+fn lists_hold_what_float64_says() {
+    let scene = packed(soup(60, 70), None);
+    let (_, words) = culls_tiles(&scene);
+    let side = scene.header.chances[3];
+    let (mut listed, mut exact) = (0, 0);
+    let across = 70u32.div_ceil(side);
+    for (k, cell) in (0..).zip(words.chunks(CELL_WORDS as usize)) {
+        let found = &cell[2..2 + cell[0] as usize];
+        assert!(found.is_sorted(), "ties are for the lowest number: {found:?}");
+        let expected = triangles_of(&scene, [k % across * side, k / across * side]);
+        for triangle in &expected {
+            assert!(found.contains(triangle), "cell {k} lacks triangle {triangle}");
+        }
+        listed += found.len();
+        exact += expected.len();
+    }
+    assert!(exact > 100 && listed < exact + exact / 10, "{listed} listed, {exact} needed");
+}
+
+fn to_goal(scene: &Scene, goal: Goal) -> (Film, moire::internal::adaptive::Outcome) {
+    let mut scene = scene.clone();
+    scene.sampling.algorithm = Algorithm::Adaptive;
+    scene.sampling.pattern = Pattern::SobolOwen;
+    let scene = packed(scene, None);
+    let (film, report) =
+        render::render_to_goal(&device(), scene, false, &Tuning::default(), Some(goal), &NoProgress).unwrap();
+    (film, report.outcome.unwrap())
+}
+
+/// How many cells are empty, calm and busy.
+fn calmness(scene: Scene) -> [usize; 3] {
+    let (_, words) = culls_tiles(&packed(scene, None));
+    [CELL_EMPTY, CELL_UNIFORM, CELL_BUSY]
+        .map(|class| words.chunks(CELL_WORDS as usize).filter(|cell| cell[1] == class).count())
+}
+
+/// A ground alone is calm where it is near enough for its texels to span a pixel, and plain wherever it fills the
+/// cell; lit, another shape may shade it.
+#[test]
+fn ground_is_calm_by_its_texels_and_its_light() {
+    let mut lit = soup(20, 128);
+    lit.spheres.clear();
+    let mut unlit = lit.clone();
+    unlit.materials.iter_mut().for_each(|m| m.model = Model::Unlit);
+    let mut fine = unlit.clone();
+    fine.materials.iter_mut().for_each(|m| m.mapping.scale *= 1e3);
+    let mut coarse = unlit.clone();
+    coarse.materials.iter_mut().for_each(|m| m.mapping.scale *= 1e-3);
+    let mut plain = unlit.clone();
+    plain.materials.iter_mut().for_each(|m| m.texture = None);
+    let [lit, fine, coarse, plain] = [lit, fine, coarse, plain].map(calmness);
+    assert_eq!([lit[1], fine[1]], [0, 0], "shaded, minified");
+    assert!(coarse[1] > 20 && plain[1] >= coarse[1], "{coarse:?} {plain:?}");
+    for counts in [fine, coarse, plain] {
+        assert!(counts[0] == lit[0] && counts[0] > 0 && counts[2] > 0, "{counts:?}");
+    }
+}
+
+/// Needles of a hundredth of a pixel before an empty background: the cells that they cross are not empty.
+#[test]
+fn calm_cells_begin_with_fewer_samples_and_nothing_thin_is_missed() {
+    let mut scene = soup(40, 128);
+    scene.planes.clear();
+    scene.spheres.clear();
+    let (film, outcome) = to_goal(&scene, Goal::Error(2e-3));
+    assert!(outcome.reached && outcome.least_samples == 2, "{outcome:?}");
+    let mut converged = scene.clone();
+    (converged.sampling.pattern, converged.sampling.spp) = (Pattern::SobolOwen, 4096);
+    let reference = render(&packed(converged, None));
+    let error = moire::internal::lab::metrics::compare(&film, &reference).unwrap().rmse;
+    assert!(error < 1.1 * 2e-3, "{error:e}");
+}
