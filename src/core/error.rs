@@ -175,31 +175,3 @@ mod tests {
         assert_eq!(Error::with_help("a", "b").within("c").to_string(), "c: a");
     }
 }
-
-/// What is shown of an error beside its message. Written out: the derive macro is ten seconds of a first build.
-impl Diagnostic for Error {
-    fn help(&self) -> Option<Box<dyn Display + '_>> {
-        match self {
-            Error::Scene { help, .. } | Error::Plain { help, .. } => {
-                help.as_ref().map(|help| Box::new(help) as Box<dyn Display + '_>)
-            }
-            Error::Interrupted => None,
-        }
-    }
-
-    fn source_code(&self) -> Option<&dyn SourceCode> {
-        match self {
-            Error::Scene { source_code, .. } => Some(source_code),
-            _ => None,
-        }
-    }
-
-    fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
-        match self {
-            Error::Scene { label, span, .. } => {
-                Some(Box::new(iter::once(LabeledSpan::new_with_span(Some(label.clone()), *span))))
-            }
-            _ => None,
-        }
-    }
-}
