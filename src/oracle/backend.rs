@@ -85,7 +85,7 @@ impl OracleBackend<'_> {
 /// The whole film, with as many samples of each pixel as the scene was packed with; by beams, where it was packed for
 /// these.
 pub fn render(scene: &PackedScene, progress: &dyn Progress) -> Result<Film> {
-    let [width, height, _, _] = scene.header.size;
+    let [width, height] = scene.header.film_size.to_array();
     let whole = Rect::whole([width, height]);
     let mut backend = OracleBackend::new(scene)?;
     let range = Range { pixels: whole, samples: 0..scene.samples };

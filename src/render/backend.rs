@@ -28,7 +28,7 @@ impl Prepared<'_, '_> {
 
     /// The same; of a scene that is sampled by batches, until the goal is met, by default the number of samples.
     pub fn render_to_goal(&self, goal: Option<Goal>, progress: &dyn Progress) -> Result<(Film, Report)> {
-        let [width, height, _, _] = self.scene.header.size;
+        let [width, height] = self.scene.header.film_size.to_array();
         let mut backend = DeviceBackend::new(self)?;
         let integrated = integrator(&self.scene, goal).render(&mut backend, [width, height], progress)?;
         let mut report = backend.finish()?;

@@ -64,6 +64,7 @@ mod resubmit;
 mod scene;
 mod shared_gpu;
 mod slopes;
+mod sources;
 mod specialise;
 mod stability;
 mod stage;

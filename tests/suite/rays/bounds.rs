@@ -3,8 +3,8 @@
 //! be off by 2.5 ulp, a square root by about as much (Vulkan 1.3, "Precision and Operation of SPIR-V
 //! Instructions").
 
-use moire::internal::oracle::camera::Ray;
 use glam::DVec3;
+use moire::internal::oracle::camera::Ray;
 use moire::internal::oracle::geometry::kinds::Shape;
 use moire::internal::oracle::geometry::sphere::sphere_distance;
 use moire::internal::oracle::geometry::triangle::triangle_distance;
