@@ -1,5 +1,5 @@
-//! Buffers: in go a name, a size and a use, out comes a buffer with memory behind it, and a texel
-//! view where the use wants one.
+//! Device buffers. Creates a buffer with bound memory from a name, a size and a use; a texel buffer
+//! also gets its buffer view.
 
 use std::sync::Arc;
 
@@ -9,21 +9,22 @@ use gpu_allocator::vulkan::Allocation;
 
 use super::convert;
 use super::device::Core;
-use super::result::{Doing, size_text};
+use super::result::{WithOperation, size_text};
 use crate::core::error::{Error, Result};
 use crate::core::named::named_enum;
 
 named_enum! {
-    /// How shaders see a buffer.
+    /// The descriptor types under which shaders read a buffer.
     pub enum BufferUse {
-        /// `buffer` block, read and written; its head also as a `uniform` block.
+        /// A `buffer` block, read and written; its first bytes may also be bound as a `uniform`
+        /// block.
         Storage = "storage",
-        /// `usamplerBuffer` of 32-bit unsigned texels.
+        /// A `usamplerBuffer` of 32-bit unsigned texels.
         TexelUint = "texel-uint",
     }
 }
 
-/// Cheap to clone: clones are the same buffer.
+/// A device-local buffer. Clones share the same Vulkan object.
 #[derive(Clone)]
 pub struct Buffer {
     raw: Arc<RawBuffer>,
@@ -47,7 +48,7 @@ impl Buffer {
         &self.raw.name
     }
 
-    /// The size it was made with.
+    /// Returns the size with which the buffer was created.
     pub fn bytes(&self) -> u64 {
         self.raw.bytes
     }
@@ -64,12 +65,12 @@ impl Buffer {
         self.raw.handle
     }
 
-    /// Null unless the use is texels.
+    /// Returns the buffer view, which is null unless the use is a texel buffer.
     pub(super) fn texel_view(&self) -> vk::BufferView {
         self.raw.view
     }
 
-    /// `offset .. offset + len` must lie inside.
+    /// Refuses a range `offset .. offset + len` that does not lie inside the buffer.
     pub(super) fn check_range(&self, offset: u64, len: usize) -> Result<()> {
         if offset.checked_add(len as u64).is_some_and(|end| end <= self.bytes()) {
             return Ok(());
@@ -103,7 +104,7 @@ fn check_size(core: &Core, name: &str, bytes: u64, usage: BufferUse) -> Result<(
     }
 }
 
-/// Handle, view and memory; also what the staging buffer is made of.
+/// A handle with its view and memory; the staging buffer is one too.
 pub(super) struct RawBuffer {
     core: Arc<Core>,
     name: String,
@@ -121,15 +122,15 @@ impl RawBuffer {
         usage: vk::BufferUsageFlags,
         location: MemoryLocation,
     ) -> Result<RawBuffer> {
-        // Whole words: texel views work on multiples of four bytes.
+        // Texel views need a size that is a multiple of four bytes.
         let info = vk::BufferCreateInfo::default()
             .size(bytes.next_multiple_of(4))
             .usage(usage)
             .sharing_mode(vk::SharingMode::EXCLUSIVE);
-        let what = || format!("buffer `{name}`");
+        let label = || format!("buffer `{name}`");
         // SAFETY: the device is live; the size is not zero (checked by the callers).
         let handle =
-            unsafe { core.device.create_buffer(&info, None) }.doing(|| format!("creating {}", what()))?;
+            unsafe { core.device.create_buffer(&info, None) }.during(|| format!("creating {}", label()))?;
         let mut raw = RawBuffer {
             core: Arc::clone(core),
             name: name.into(),
@@ -138,15 +139,15 @@ impl RawBuffer {
             view: vk::BufferView::null(),
             allocation: None,
         };
-        core.set_name(handle, what);
+        core.set_name(handle, label);
         // SAFETY: the handle was created just now.
         let requirements = unsafe { core.device.get_buffer_memory_requirements(handle) };
         let allocation =
-            raw.allocation.insert(core.memory.allocate(&what(), requirements, location, true)?);
+            raw.allocation.insert(core.memory.allocate(&label(), requirements, location, true)?);
         // SAFETY: memory of the required size, type and alignment, bound once, and freed after
         // the buffer is destroyed.
         unsafe { core.device.bind_buffer_memory(handle, allocation.memory(), allocation.offset()) }
-            .doing(|| format!("binding memory to {}", what()))?;
+            .during(|| format!("binding memory to {}", label()))?;
         Ok(raw)
     }
 
@@ -158,7 +159,7 @@ impl RawBuffer {
         // SAFETY: the buffer has memory and the uniform texel usage; R32_UINT is always supported
         // for it (Vulkan 1.2, "Required Format Support").
         self.view = unsafe { self.core.device.create_buffer_view(&info, None) }
-            .doing(|| format!("creating the texel view of buffer `{}`", self.name))?;
+            .during(|| format!("creating the texel view of buffer `{}`", self.name))?;
         self.core.set_name(self.view, || format!("texels of `{}`", self.name));
         Ok(())
     }
@@ -167,7 +168,7 @@ impl RawBuffer {
         self.handle
     }
 
-    /// The mapped bytes, in host-visible memory.
+    /// Returns the mapped bytes of host-visible memory.
     pub(super) fn mapped(&mut self) -> Result<&mut [u8]> {
         let slice = self.allocation.as_mut().and_then(Allocation::mapped_slice_mut);
         slice.ok_or_else(|| Error::new(format!("buffer `{}` is not mapped to host memory", self.name)))

@@ -1,5 +1,6 @@
-//! One command buffer, used over and over: in goes a recording, out comes the time it took, once
-//! the device has finished. All writes are visible to whatever comes next.
+//! The one command buffer of a device, recorded and submitted again for each piece of work. Takes a
+//! recording, returns its run time once the device has finished. A closing barrier makes all writes
+//! visible to later submissions and to the host.
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -7,11 +8,11 @@ use std::time::{Duration, Instant};
 use ash::vk;
 
 use super::device::Core;
-use super::result::{Doing, failed, lost};
+use super::result::{WithOperation, device_lost, failed};
 use super::timing::{RunTime, Timestamps};
 use crate::core::error::Result;
 
-/// Dispatches are sliced to well under a second; one that takes this long never ends.
+/// The time after which a submission counts as hung: dispatches are sliced to well under a second.
 const TIME_OUT: Duration = Duration::from_secs(120);
 
 pub(super) struct Commands {
@@ -31,7 +32,7 @@ impl Commands {
             fence: vk::Fence::null(),
             timestamps: Timestamps::new(core)?,
         };
-        commands.create().doing(|| "creating the command buffer".into())?;
+        commands.create().during(|| "creating the command buffer".into())?;
         core.set_name(commands.pool, || "command pool".into());
         core.set_name(commands.buffer, || "commands".into());
         core.set_name(commands.fence, || "commands done".into());
@@ -57,22 +58,22 @@ impl Commands {
         Ok(())
     }
 
-    /// Records, submits and waits. `what` names the work in errors.
+    /// Records, submits and waits for the fence. `name` names the work in errors.
     pub(super) fn run(
         &mut self,
-        what: &str,
+        name: &str,
         record: impl FnOnce(&ash::Device, vk::CommandBuffer),
     ) -> Result<RunTime> {
         if self.core.is_hung() {
-            return Err(lost(&format!("`{what}`: the device does not answer since an earlier call")));
+            return Err(device_lost(&format!("`{name}`: the device does not answer since an earlier call")));
         }
         let start = Instant::now();
-        self.record(record).doing(|| format!("recording `{what}`"))?;
-        self.submit().doing(|| format!("submitting `{what}`"))?;
-        self.wait(what)?;
+        self.record(record).during(|| format!("recording `{name}`"))?;
+        self.submit().during(|| format!("submitting `{name}`"))?;
+        self.wait(name)?;
         let wall_seconds = start.elapsed().as_secs_f64();
         let device_seconds = match &self.timestamps {
-            Some(timestamps) => timestamps.seconds().doing(|| format!("reading the times of `{what}`"))?,
+            Some(timestamps) => timestamps.seconds().during(|| format!("reading the times of `{name}`"))?,
             None => wall_seconds,
         };
         Ok(RunTime { device_seconds, wall_seconds })
@@ -92,7 +93,7 @@ impl Commands {
         }
         record(device, self.buffer);
         barrier(device, self.buffer);
-        // After the barrier: a driver may let an earlier closing timestamp overtake the work.
+        // The timestamp follows the barrier: a driver may let an earlier one overtake the work.
         if let Some(timestamps) = &self.timestamps {
             timestamps.close(self.buffer);
         }
@@ -111,30 +112,32 @@ impl Commands {
         }
     }
 
-    fn wait(&self, what: &str) -> Result<()> {
+    fn wait(&self, name: &str) -> Result<()> {
         // SAFETY: the fence is of this device and was submitted.
         let waited =
             unsafe { self.core.device.wait_for_fences(&[self.fence], true, TIME_OUT.as_nanos() as u64) };
         match waited {
             Ok(()) => Ok(()),
-            // A lost device executes nothing any more: its objects may be destroyed as usual.
+            // A lost device executes nothing any more, so that its objects may be destroyed as
+            // usual.
             Err(vk::Result::ERROR_DEVICE_LOST) => {
-                Err(failed(&format!("running `{what}`"), vk::Result::ERROR_DEVICE_LOST))
+                Err(failed(&format!("running `{name}`"), vk::Result::ERROR_DEVICE_LOST))
             }
             Err(vk::Result::TIMEOUT) => {
                 self.core.set_hung();
                 let seconds = TIME_OUT.as_secs();
-                Err(lost(&format!("running `{what}`: the device did not finish within {seconds} s")))
+                Err(device_lost(&format!("running `{name}`: the device did not finish within {seconds} s")))
             }
             Err(code) => {
                 self.core.set_hung();
-                Err(failed(&format!("waiting for `{what}`"), code))
+                Err(failed(&format!("waiting for `{name}`"), code))
             }
         }
     }
 }
 
-/// All writes so far before all accesses that follow, also those of later submissions and of the host.
+/// Records a memory barrier between all earlier writes and all later accesses, including those of
+/// later submissions and of the host.
 pub(super) fn barrier(device: &ash::Device, commands: vk::CommandBuffer) {
     use vk::{AccessFlags as Access, PipelineStageFlags as Stage};
     let memory = vk::MemoryBarrier::default()

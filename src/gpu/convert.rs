@@ -1,4 +1,4 @@
-//! Own vocabulary to Vulkan's and back: the only place that pairs the two.
+//! Conversions from this crate's types to Vulkan's enums and back. No other file pairs the two.
 
 use ash::vk;
 
@@ -33,7 +33,7 @@ pub(super) fn format(format: ImageFormat) -> vk::Format {
     }
 }
 
-/// Of the image and of its view. A cube is a 2D image of six layers.
+/// Returns image type, view type and create flags. A cube is a 2D image of six layers.
 pub(super) fn shape(shape: ImageShape) -> (vk::ImageType, vk::ImageViewType, vk::ImageCreateFlags) {
     let none = vk::ImageCreateFlags::empty();
     match shape {
@@ -84,14 +84,15 @@ pub(super) fn address(address: Address) -> vk::SamplerAddressMode {
 pub(super) fn filter(filter: Filter) -> vk::Filter {
     match filter {
         Filter::Nearest => vk::Filter::NEAREST,
-        // Anisotropy is a setting of its own, beside the filter; the others are refused before.
+        // Anisotropy is a sampler state beside the filter; the remaining filters were refused
+        // earlier.
         _ => vk::Filter::LINEAR,
     }
 }
 
-/// Mip mode and largest level. Without mips the level is clamped to 1/4, not 0: it rounds to level
-/// 0 all the same, and the minification filter stays reachable (Vulkan 1.2, `VkSamplerCreateInfo`,
-/// "Mapping of OpenGL to Vulkan filter modes").
+/// Returns mip mode and largest level of detail. Without mips the level is clamped to 1/4, not to
+/// 0: it still rounds to level 0, and the minification filter stays reachable (Vulkan 1.2,
+/// `VkSamplerCreateInfo`, "Mapping of OpenGL to Vulkan filter modes").
 pub(super) fn mip(mip: MipMode) -> (vk::SamplerMipmapMode, f32) {
     match mip {
         MipMode::None => (vk::SamplerMipmapMode::NEAREST, 0.25),
@@ -100,7 +101,7 @@ pub(super) fn mip(mip: MipMode) -> (vk::SamplerMipmapMode, f32) {
     }
 }
 
-/// Custom where none of the three standard colours is meant exactly.
+/// Returns a custom border color unless the color equals one of the three standard ones exactly.
 pub(super) fn border_color(color: [f32; 4]) -> vk::BorderColor {
     match color {
         [0.0, 0.0, 0.0, 0.0] => vk::BorderColor::FLOAT_TRANSPARENT_BLACK,

@@ -1,4 +1,4 @@
-//! Device to device: bytes of a buffer into another one or into all levels of an image.
+//! Copies on the device: bytes of one buffer into another, or into all levels of an image.
 
 use ash::vk;
 
@@ -19,8 +19,8 @@ pub(super) fn to_buffer(
     from.check_range(start, bytes as usize)?;
     to.check_range(at, bytes as usize)?;
     if bytes == 0 || from.handle() == to.handle() {
-        let what = if bytes == 0 { "no bytes" } else { "onto itself" };
-        return Err(Error::new(format!("copying buffer `{}` to `{}`: {what}", from.name(), to.name())));
+        let reason = if bytes == 0 { "no bytes" } else { "onto itself" };
+        return Err(Error::new(format!("copying buffer `{}` to `{}`: {reason}", from.name(), to.name())));
     }
     let region = vk::BufferCopy { src_offset: start, dst_offset: at, size: bytes };
     commands.run(to.name(), |device, commands| {
@@ -30,7 +30,7 @@ pub(super) fn to_buffer(
     Ok(())
 }
 
-/// Ranges and alignment were checked when the image was created.
+/// Fills all levels of an image. Ranges and alignment were checked when the image was created.
 pub(super) fn to_image(commands: &mut Commands, image: &Image, from: &Buffer, starts: &[u64]) -> Result<()> {
     let regions: Vec<vk::BufferImageCopy> =
         (0..).zip(starts).map(|(level, &start)| region(image, level, start)).collect();
@@ -47,7 +47,7 @@ pub(super) fn to_image(commands: &mut Commands, image: &Image, from: &Buffer, st
     Ok(())
 }
 
-/// A whole level with all its slices or faces, tightly packed.
+/// Returns the region of a whole level with all its slices or faces, tightly packed.
 fn region(image: &Image, level: u32, start: u64) -> vk::BufferImageCopy {
     let size = image.extent().at_level(level);
     let depth = size.depth / size.layers();

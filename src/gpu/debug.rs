@@ -1,5 +1,5 @@
-//! The validation layer: whether it is there, what it says, and the names that its messages use for
-//! our objects. Nothing of it is loaded in normal operation, for the sake of start-up time.
+//! The Khronos validation layer: its availability, its messages and the object names that they
+//! show. Nothing of it is loaded unless validation is requested, which keeps start-up short.
 
 use std::ffi::{CStr, CString, c_void};
 use std::sync::{Arc, Mutex};
@@ -7,12 +7,13 @@ use std::sync::{Arc, Mutex};
 use ash::vk;
 
 use super::device::lock;
-use super::result::Doing;
+use super::result::WithOperation;
 use crate::core::error::Result;
 
 pub(super) const VALIDATION_LAYER: &CStr = c"VK_LAYER_KHRONOS_validation";
 
-/// Whether [`OpenOptions::validation`](super::OpenOptions) can have an effect here.
+/// Returns true if [`OpenOptions::validation`](super::OpenOptions) can have an effect on this
+/// machine.
 pub fn validation_available() -> bool {
     super::instance::load().is_ok_and(|entry| layer_present(&entry))
 }
@@ -23,7 +24,7 @@ pub(super) fn layer_present(entry: &ash::Entry) -> bool {
     layers.iter().any(|layer| layer.layer_name_as_c_str() == Ok(VALIDATION_LAYER))
 }
 
-/// Collected warnings and errors, shared with the messenger's callback.
+/// Warnings and errors collected so far, shared with the messenger's callback.
 #[derive(Clone, Debug, Default)]
 pub struct MessageLog(Arc<Mutex<Vec<String>>>);
 
@@ -32,7 +33,7 @@ impl MessageLog {
         lock(&self.0).clone()
     }
 
-    /// What a messenger is created with; `self` must live until that messenger is gone.
+    /// Returns the create info of a messenger. `self` must outlive that messenger.
     pub(super) fn messenger_info(&self) -> vk::DebugUtilsMessengerCreateInfoEXT<'static> {
         use vk::{DebugUtilsMessageSeverityFlagsEXT as Severity, DebugUtilsMessageTypeFlagsEXT as Type};
         vk::DebugUtilsMessengerCreateInfoEXT::default()
@@ -61,7 +62,7 @@ unsafe extern "system" fn collect(
     vk::FALSE
 }
 
-/// Feeds a [`MessageLog`], which its owner keeps for longer.
+/// A debug messenger that writes to a [`MessageLog`], which the owner must keep alive longer.
 pub(super) struct Messenger {
     loader: ash::ext::debug_utils::Instance,
     handle: vk::DebugUtilsMessengerEXT,
@@ -72,18 +73,18 @@ impl Messenger {
         let loader = ash::ext::debug_utils::Instance::new(entry, instance);
         // SAFETY: the instance was created with VK_EXT_debug_utils; the instance's owner keeps `log`.
         let handle = unsafe { loader.create_debug_utils_messenger(&log.messenger_info(), None) }
-            .doing(|| "listening to the validation layer".into())?;
+            .during(|| "listening to the validation layer".into())?;
         Ok(Messenger { loader, handle })
     }
 
-    /// To be called once, before the instance is destroyed.
+    /// Destroys the messenger. Must be called once, before the instance is destroyed.
     pub(super) fn destroy(&self) {
         // SAFETY: the handle is ours, and the only owner calls this once, in its drop.
         unsafe { self.loader.destroy_debug_utils_messenger(self.handle, None) };
     }
 }
 
-/// Gives Vulkan objects the names that messages and debuggers show.
+/// The function that gives Vulkan objects the names shown by messages and debuggers.
 pub(super) struct Names(ash::ext::debug_utils::Device);
 
 impl Names {

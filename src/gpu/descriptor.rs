@@ -1,5 +1,5 @@
-//! What a pipeline reads and writes: in go the pipeline's declared bindings and the resources for
-//! them, out comes a bound descriptor set that keeps its resources alive.
+//! Descriptor sets. Takes a pipeline's declared bindings and a resource for each, checks one
+//! against the other and returns a bound set that keeps its resources alive.
 
 use std::sync::Arc;
 
@@ -10,26 +10,26 @@ use super::convert;
 use super::device::Core;
 use super::image::Image;
 use super::pipeline::Pipeline;
-use super::result::Doing;
+use super::result::WithOperation;
 use super::sampler::Sampler;
 use crate::core::error::{Error, Result};
 use crate::core::named::named_enum;
 
 named_enum! {
-    /// What a shader declares at a binding.
+    /// The kind of resource that a shader declares at a binding.
     pub enum BindingKind {
         /// `buffer { … }`
         StorageBuffer = "storage buffer",
         /// `uniform { … }`
         UniformBuffer = "uniform buffer",
-        /// `usamplerBuffer`, by itself or an array
+        /// `usamplerBuffer`, single or an array
         TexelBuffer = "texel buffer",
-        /// `sampler2D`, by itself or an array
+        /// `sampler2D`, single or an array
         SampledImage = "sampled image",
     }
 }
 
-/// One binding of descriptor set 0; `count` is 1 but for arrays.
+/// One binding of descriptor set 0. `count` is above 1 for arrays only.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BindingDesc {
     pub binding: u32,
@@ -37,11 +37,11 @@ pub struct BindingDesc {
     pub count: u32,
 }
 
-/// What is put at a binding.
+/// The resource bound at a binding.
 #[derive(Clone, Copy)]
 pub enum Bound<'a> {
     Buffer(&'a Buffer),
-    /// The first bytes of a storage buffer, as many as given, as uniforms.
+    /// The given number of first bytes of a storage buffer, bound as uniforms.
     Head(&'a Buffer, u64),
     Texels(&'a [Buffer]),
     Images(&'a [(&'a Image, &'a Sampler)]),
@@ -66,13 +66,13 @@ impl Bound<'_> {
     }
 }
 
-/// A descriptor set for a pipeline, and for any other with the same bindings.
+/// A descriptor set for a pipeline, and for any other pipeline with the same bindings.
 pub struct BindGroup {
     core: Arc<Core>,
     bindings: Vec<BindingDesc>,
     pool: vk::DescriptorPool,
     set: vk::DescriptorSet,
-    /// The set refers to them for as long as it lives.
+    /// The resources to which the set refers; they live as long as the set.
     _buffers: Vec<Buffer>,
     _images: Vec<(Image, Sampler)>,
 }
@@ -91,7 +91,7 @@ impl BindGroup {
         };
         if !group.bindings.is_empty() {
             let doing = || format!("creating the descriptor set of `{}`", pipeline.name());
-            group.allocate(pipeline.set_layout()).doing(doing)?;
+            group.allocate(pipeline.set_layout()).during(doing)?;
             core.set_name(group.pool, || format!("descriptor pool of `{}`", pipeline.name()));
             core.set_name(group.set, || format!("descriptors of `{}`", pipeline.name()));
         }
@@ -173,7 +173,8 @@ impl Drop for BindGroup {
     }
 }
 
-/// Every declared binding once, with its kind, count, use and a format that its sampler can filter.
+/// Checks that every declared binding is given once, with its kind, count and use, and with a
+/// format that its sampler can filter.
 fn check(pipeline: &Pipeline, resources: &[(u32, Bound<'_>)]) -> Result<()> {
     let name = pipeline.name();
     for (index, (binding, _)) in resources.iter().enumerate() {
@@ -203,26 +204,26 @@ fn check(pipeline: &Pipeline, resources: &[(u32, Bound<'_>)]) -> Result<()> {
 }
 
 fn check_resource(core: &Arc<Core>, pipeline: &str, binding: u32, bound: &Bound<'_>) -> Result<()> {
-    let place = format!("binding {binding} of pipeline `{pipeline}`");
+    let label = format!("binding {binding} of pipeline `{pipeline}`");
     let check_core = |other: &Arc<Core>| {
         if Arc::ptr_eq(core, other) {
             return Ok(());
         }
-        Err(Error::new(format!("{place} was given a resource of another open device")))
+        Err(Error::new(format!("{label} was given a resource of another open device")))
     };
     let check_buffer = |buffer: &Buffer, usage: BufferUse| {
         check_core(buffer.core())?;
         if buffer.usage() == usage {
             return Ok(());
         }
-        Err(Error::new(format!("{place} needs a {usage} buffer; `{}` is {}", buffer.name(), buffer.usage())))
+        Err(Error::new(format!("{label} needs a {usage} buffer; `{}` is {}", buffer.name(), buffer.usage())))
     };
     match bound {
         Bound::Buffer(buffer) => check_buffer(buffer, BufferUse::Storage),
         Bound::Head(buffer, bytes) => {
-            let most = buffer.bytes().min(core.info.limits.max_uniform_buffer_range);
-            if *bytes == 0 || *bytes > most {
-                return Err(Error::new(format!("{place}: {bytes} bytes of uniforms, of at most {most}")));
+            let limit = buffer.bytes().min(core.info.limits.max_uniform_buffer_range);
+            if *bytes == 0 || *bytes > limit {
+                return Err(Error::new(format!("{label}: {bytes} bytes of uniforms, of at most {limit}")));
             }
             check_buffer(buffer, BufferUse::Storage)
         }

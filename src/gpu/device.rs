@@ -1,5 +1,5 @@
-//! The device core that every object shares: instance, device, queue, allocator. In goes a
-//! selection, out comes an open device; it is destroyed when the last object lets go of it.
+//! The device core that every object shares: instance, device, queue and allocator. Opens a device
+//! from a selection; the device is destroyed when the last object drops its reference.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -13,11 +13,12 @@ use super::image::ImageFormat;
 use super::info::{DeviceInfo, compute_queue};
 use super::instance::Instance;
 use super::memory::Memory;
-use super::result::Doing;
+use super::result::WithOperation;
 use super::select::DeviceSelect;
 use crate::core::error::{Error, Result};
 
-/// A panic elsewhere leaves these locks' data whole: they guard complete operations.
+/// Locks a mutex even if a thread panicked while holding it: these locks guard complete operations,
+/// so that the data is consistent.
 pub(super) fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
@@ -59,7 +60,7 @@ impl Core {
         Ok(Arc::new(Core { memory, device, queue, queue_family, info, physical, names, hung, instance }))
     }
 
-    /// `name` is only asked for where names are in use.
+    /// Names an object. `name` is evaluated only if debug names are in use.
     pub(super) fn set_name<H: vk::Handle>(&self, handle: H, name: impl FnOnce() -> String) {
         if let Some(names) = &self.names {
             names.set(handle, &name());
@@ -82,15 +83,15 @@ impl Core {
         self.hung.load(Ordering::Relaxed)
     }
 
-    /// Work never finished: from now on the device may touch any object at any time, so that
-    /// nothing may be destroyed any more. The core is leaked, and [`Core::release`] does nothing.
+    /// Marks the device as hung. Its work may then touch any object at any time, so that no object
+    /// may be destroyed any more: the core is leaked, and [`Core::release`] does nothing.
     pub(super) fn set_hung(self: &Arc<Core>) {
         if !self.hung.swap(true, Ordering::Relaxed) {
             std::mem::forget(Arc::clone(self));
         }
     }
 
-    /// What every object's drop goes through.
+    /// Runs `destroy` unless the device is hung. Every object's drop calls it.
     pub(super) fn release(&self, destroy: impl FnOnce(&ash::Device)) {
         if !self.is_hung() {
             destroy(&self.device);
@@ -133,5 +134,5 @@ fn create(
     }
     // SAFETY: the features and the extension are ones that the device lists.
     unsafe { instance.create_device(physical, &create_info, None) }
-        .doing(|| format!("opening Vulkan device {} ({})", info.index, info.name))
+        .during(|| format!("opening Vulkan device {} ({})", info.index, info.name))
 }

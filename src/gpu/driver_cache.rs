@@ -1,6 +1,6 @@
-//! Where Mesa's drivers keep the shaders that they have compiled. In: the environment. Out: the same, with
-//! a temporary folder where theirs cannot be written, so that the next start is as quick as elsewhere and
-//! nothing of it reaches stderr. Paths as in Mesa's `disk_cache_generate_cache_dir`.
+//! The shader cache folder of Mesa's drivers. Reads the environment and, if the default folder
+//! cannot be written, sets it to a temporary one, so that the next start finds its shaders compiled
+//! and Mesa prints no warning. Paths follow Mesa's `disk_cache_generate_cache_dir`.
 
 use std::fs::{self, DirBuilder};
 use std::os::unix::fs::{DirBuilderExt, MetadataExt};
@@ -9,11 +9,11 @@ use std::{env, io};
 
 use nix::unistd::{User, getuid};
 
-/// The folder that drivers make in another one for their cache.
+/// The subfolder that the drivers create for their cache.
 const CACHE: &str = "mesa_shader_cache";
 
-/// Sets the folder for this process, where it has to be another one. Does nothing once there are other
-/// threads, which might read the environment just then.
+/// Sets the cache folder of this process if the default cannot be written. Does nothing once there
+/// are other threads, which might read the environment at the same time.
 pub fn prepare() {
     let decided = ["MESA_SHADER_CACHE_DISABLE", "MESA_GLSL_CACHE_DISABLE"].map(env::var_os);
     if decided.iter().any(Option::is_some) || wanted().is_some_and(|folder| is_usable(&folder)) || !is_alone()
@@ -28,7 +28,8 @@ pub fn prepare() {
     unsafe { env::set_var(name, value) };
 }
 
-/// The folder in which Mesa makes its own; none for a user without a home.
+/// Returns the folder in which Mesa creates its cache, or `None` for a user without a home
+/// directory.
 fn wanted() -> Option<PathBuf> {
     let named =
         ["MESA_SHADER_CACHE_DIR", "MESA_GLSL_CACHE_DIR", "XDG_CACHE_HOME"].into_iter().find_map(env::var_os);
@@ -36,7 +37,8 @@ fn wanted() -> Option<PathBuf> {
     named.map(PathBuf::from).or_else(home)
 }
 
-/// Whether the cache in `folder` can be written, or made: of the folders above, at most one may be missing.
+/// Returns true if the cache in `folder` exists and is writable or can be created: of the folders
+/// above it, at most one may be missing.
 fn is_usable(folder: &Path) -> bool {
     if folder.as_os_str().is_empty() {
         return false;
@@ -47,7 +49,8 @@ fn is_usable(folder: &Path) -> bool {
     first.is_some_and(|path| tempfile::tempfile_in(path).is_ok())
 }
 
-/// A folder with a fixed name in which nobody else may write: what lies there is run.
+/// Returns a folder with a fixed name that no other user can write to, because the drivers execute
+/// the code stored there.
 fn private_folder(temporary: &Path) -> io::Result<PathBuf> {
     let folder = temporary.join(format!("moire-{}", getuid()));
     match DirBuilder::new().mode(0o700).create(&folder) {

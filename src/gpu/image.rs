@@ -1,5 +1,5 @@
-//! Sampled images, flat, volumes and cubes: in go size, format and the levels' texels, out comes an
-//! optimally tiled image with a view. `upload` fills it.
+//! Sampled images in two and three dimensions and cubes. Creates an optimally tiled image with a
+//! view from size, format and levels; `upload` fills it.
 
 use std::sync::Arc;
 
@@ -10,12 +10,12 @@ use gpu_allocator::vulkan::Allocation;
 use super::convert;
 use super::device::Core;
 use super::image_check::{Texels, check};
-use super::result::Doing;
+use super::result::WithOperation;
 use crate::core::error::Result;
 use crate::core::named::named_enum;
 
 named_enum! {
-    /// Channels × component; unsigned normalized unless float.
+    /// Channels and component type; unsigned normalized unless float.
     pub enum ImageFormat {
         R8 = "r8",
         Rg8 = "rg8",
@@ -43,9 +43,10 @@ impl ImageFormat {
 }
 
 named_enum! {
-    /// What a shader reads from the stored channels, by `texture` and by `texelFetch`. Border
-    /// colours go through it too, where the driver defines that at all
-    /// (VK_EXT_border_color_swizzle): with another swizzle than `Rgba` do not rely on them.
+    /// The component mapping with which shaders read the stored channels, by `texture` and by
+    /// `texelFetch`. It applies to border colors only where the driver defines that
+    /// (VK_EXT_border_color_swizzle): do not rely on border colors with a mapping other than
+    /// `Rgba`.
     pub enum Swizzle {
         Rgba = "rgba",
         /// (r, r, r, 1)
@@ -61,7 +62,7 @@ named_enum! {
         Flat = "2d",
         /// `sampler3D`
         Volume = "3d",
-        /// `samplerCube`, which Vulkan filters across edges and corners.
+        /// `samplerCube`, which Vulkan filters across edges and corners
         Cube = "cube",
     }
 }
@@ -72,22 +73,23 @@ pub struct ImageDesc<'a> {
     pub shape: ImageShape,
     pub width: u32,
     pub height: u32,
-    /// Slices of a volume; 6 for a cube; else 1.
+    /// Slices of a volume, 6 for a cube, otherwise 1.
     pub depth: u32,
     pub format: ImageFormat,
     pub swizzle: Swizzle,
-    /// Tightly packed rows of each mip level, slices or faces one after the other, the full size first;
-    /// each next level is half as wide, high and (a volume) deep, rounded down, at least 1.
+    /// Tightly packed rows of each mip level, slices or faces one after the other, the full size
+    /// first; each next level is half as wide, high and (for a volume) deep, rounded down, at least
+    /// 1.
     pub levels: &'a [&'a [u8]],
 }
 
-/// Cheap to clone: clones are the same image.
+/// A sampled image. Clones share the same Vulkan object.
 #[derive(Clone)]
 pub struct Image(Arc<RawImage>);
 
 struct RawImage {
     core: Arc<Core>,
-    /// `texture `ground` 1024×1024 rgba8`
+    /// Name, size and format for messages: `texture `ground` 1024×1024 rgba8`.
     label: String,
     extent: Extent,
     levels: u32,
@@ -98,7 +100,7 @@ struct RawImage {
 }
 
 impl Image {
-    /// The content is undefined until uploaded.
+    /// Creates an image whose content is undefined until it is uploaded.
     pub(super) fn new(core: &Arc<Core>, desc: &ImageDesc<'_>, texels: &Texels<'_>) -> Result<Image> {
         let extent = Extent { shape: desc.shape, width: desc.width, height: desc.height, depth: desc.depth };
         let label = format!("texture `{}` {extent} {}", desc.name, desc.format);
@@ -151,18 +153,19 @@ impl Image {
     }
 }
 
-/// Shape and size of an image or of one of its levels.
+/// The shape and size of an image or of one of its levels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Extent {
     pub shape: ImageShape,
     pub width: u32,
     pub height: u32,
-    /// Slices or faces.
+    /// The number of slices or faces.
     pub depth: u32,
 }
 
 impl Extent {
-    /// Vulkan 1.2, "Image Miplevel Sizing": halved and rounded down, at least 1; faces stay six.
+    /// Returns the size of a level: halved and rounded down, at least 1, while faces stay six
+    /// (Vulkan 1.2, "Image Miplevel Sizing").
     pub(super) fn at_level(self, level: u32) -> Extent {
         let half = |size: u32| size.checked_shr(level).unwrap_or(0).max(1);
         let depth = if self.shape == ImageShape::Volume { half(self.depth) } else { self.depth };
@@ -205,7 +208,7 @@ impl RawImage {
         let device = &self.core.device;
         // SAFETY: size, level count and format were checked against the device.
         self.handle =
-            unsafe { device.create_image(&info, None) }.doing(|| format!("creating {}", self.label))?;
+            unsafe { device.create_image(&info, None) }.during(|| format!("creating {}", self.label))?;
         self.core.set_name(self.handle, || self.label.clone());
         // SAFETY: the handle was created just now.
         let requirements = unsafe { device.get_image_memory_requirements(self.handle) };
@@ -214,7 +217,7 @@ impl RawImage {
         // SAFETY: memory of the required size, type and alignment, bound once, and freed after the
         // image is destroyed.
         unsafe { device.bind_image_memory(self.handle, memory.memory(), memory.offset()) }
-            .doing(|| format!("binding memory to {}", self.label))
+            .during(|| format!("binding memory to {}", self.label))
     }
 
     fn create_view(&mut self, swizzle: Swizzle) -> Result<()> {
@@ -226,7 +229,7 @@ impl RawImage {
             .subresource_range(self.all_levels());
         // SAFETY: the image has memory, and the view has its format and levels.
         self.view = unsafe { self.core.device.create_image_view(&info, None) }
-            .doing(|| format!("creating the view of {}", self.label))?;
+            .during(|| format!("creating the view of {}", self.label))?;
         self.core.set_name(self.view, || format!("view of {}", self.label));
         Ok(())
     }

@@ -1,15 +1,15 @@
-//! What must hold before an image is created: in go its description, where its texels come from and the
-//! device, out comes nothing or an error by the image's name.
+//! The preconditions of creating an image. Checks its description and the source of its texels
+//! against the device's limits; errors name the image.
 
 use super::buffer::Buffer;
 use super::device::Core;
 use super::image::{Extent, ImageDesc, ImageFormat, ImageShape};
 use crate::core::error::{Error, Result};
 
-/// Where the levels of an image come from.
+/// The source of an image's texels.
 pub(super) enum Texels<'a> {
     Host(&'a [&'a [u8]]),
-    /// The byte at which each level begins.
+    /// A buffer and the byte offset of each level.
     Device(&'a Buffer, &'a [u64]),
 }
 
@@ -21,8 +21,8 @@ impl Texels<'_> {
         }
     }
 
-    /// Whether a level has exactly so many bytes, in a buffer from a whole texel and word on (Vulkan 1.2,
-    /// "Copying Data Between Buffers and Images").
+    /// Checks that a level has exactly the bytes of its size and, in a buffer, begins at a multiple
+    /// of the texel size and of 4 (Vulkan 1.2, "Copying Data Between Buffers and Images").
     fn check(
         &self,
         level: usize,
@@ -71,13 +71,13 @@ pub(super) fn check(
         return Err(Error::new(format!("{label}: {reason}")));
     }
     if extent.longest() > limit {
-        let most = match desc.shape {
+        let limit_text = match desc.shape {
             ImageShape::Flat => format!("images there have at most {limit}×{limit} texels"),
             ImageShape::Volume => format!("3D images there have at most {limit}×{limit}×{limit} texels"),
             ImageShape::Cube => format!("faces of cubes there have at most {limit}×{limit} texels"),
         };
         return Err(Error::with_help(
-            format!("{label} is too large for {}: {most}", core.info.name),
+            format!("{label} is too large for {}: {limit_text}", core.info.name),
             "Scale the texture down, use method = \"shader\" with --texels auto or buffer, or another device.",
         ));
     }
@@ -87,10 +87,10 @@ pub(super) fn check(
             "Use method = \"shader\", or a texture with other channels or another component type.",
         ));
     }
-    let most = u32::BITS - extent.longest().leading_zeros();
+    let max_levels = u32::BITS - extent.longest().leading_zeros();
     let levels = texels.levels();
-    if levels == 0 || levels > most as usize {
-        return Err(Error::new(format!("{label} has {levels} levels; it can have 1 to {most}")));
+    if levels == 0 || levels > max_levels as usize {
+        return Err(Error::new(format!("{label} has {levels} levels; it can have 1 to {max_levels}")));
     }
     let mut total = 0;
     for level in 0..levels {

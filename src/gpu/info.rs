@@ -1,5 +1,5 @@
-//! What a device is and can do: in goes a physical device, out comes plain data that listings
-//! print, selection chooses from and size checks compare with.
+//! Properties, limits and features of a physical device as plain data, for listings, for device
+//! selection and for size checks.
 
 use ash::vk;
 use serde::{Serialize, Serializer, ser::SerializeStruct};
@@ -9,7 +9,7 @@ use super::instance::API_VERSION;
 use crate::core::named::named_enum;
 
 named_enum! {
-    /// In the order of preference.
+    /// The device types in order of preference.
     pub enum DeviceKind {
         Discrete = "discrete",
         Integrated = "integrated",
@@ -27,33 +27,34 @@ impl Serialize for DeviceKind {
 
 #[derive(Clone, Debug, Serialize)]
 pub struct DeviceInfo {
-    /// Position in the listing; `--device INDEX`.
+    /// The index in the listing, as given to `--device INDEX`.
     pub index: usize,
     pub name: String,
     pub kind: DeviceKind,
-    /// The driver's name and version as the driver words them.
+    /// The driver's name and version as the driver reports them.
     pub driver: String,
     pub api_version: String,
-    /// Hexadecimal; absent before Vulkan 1.1.
+    /// The device UUID in hexadecimal; absent before Vulkan 1.1.
     pub uuid: Option<String>,
     pub limits: DeviceLimits,
-    /// Why the device cannot be used, if so. Serialized as `{"ok": …, "reason": …}`.
+    /// The reason why the device cannot be used, if any. Serialized as `{"ok": …, "reason": …}`.
     #[serde(serialize_with = "serialize_suitable")]
     pub suitable: Result<(), String>,
 }
 
-/// `VkPhysicalDeviceLimits` as far as it is used, and the optional features.
+/// The limits and optional features that are used (`VkPhysicalDeviceLimits` and feature
+/// structures).
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct DeviceLimits {
     pub max_image_2d: u32,
     pub max_image_3d: u32,
     pub max_image_cube: u32,
-    /// Bytes.
+    /// In bytes.
     pub max_storage_buffer_range: u64,
-    /// Bytes.
+    /// In bytes.
     pub max_uniform_buffer_range: u64,
     pub max_texel_buffer_elements: u64,
-    /// Bytes.
+    /// In bytes.
     pub max_push_constants: u32,
     pub max_workgroup_invocations: u32,
     pub max_workgroup_count: [u32; 3],
@@ -61,21 +62,21 @@ pub struct DeviceLimits {
     pub sub_texel_bits: u32,
     /// Fraction bits of the level in mip selection.
     pub mip_bits: u32,
-    /// 1 where anisotropic filtering is absent.
+    /// The largest sampler anisotropy; 1 if anisotropic filtering is not supported.
     pub max_anisotropy: f32,
-    /// Shaders may compute in f64.
+    /// True if shaders may compute in f64.
     pub float64: bool,
     pub timestamp_period_ns: f64,
-    /// 0 where the compute queue has no timestamps.
+    /// Valid bits of the compute queue's timestamps; 0 if it has none.
     pub timestamp_valid_bits: u32,
     pub max_storage_buffers_per_stage: u32,
     pub max_sampled_images_per_stage: u32,
     pub max_samplers_per_stage: u32,
-    /// 0 before Vulkan 1.1.
+    /// The subgroup size; 0 before Vulkan 1.1.
     pub subgroup_size: u32,
-    /// The largest device-local heap.
+    /// The size of the largest device-local heap.
     pub heap_bytes: u64,
-    /// Any border colour, not only the three standard ones.
+    /// True if any border color is supported, not only the three standard ones.
     pub custom_border_color: bool,
     pub mirror_clamp_to_edge: bool,
 }
@@ -87,7 +88,8 @@ fn serialize_suitable<S: Serializer>(suitable: &Result<(), String>, s: S) -> Res
     out.end()
 }
 
-/// The queue family that work goes to: compute, with timestamps if any family has both.
+/// Returns the queue family for all work: one with compute and, if any such family has them,
+/// timestamps.
 pub(super) fn compute_queue(instance: &ash::Instance, device: vk::PhysicalDevice) -> Option<(u32, u32)> {
     // SAFETY: `device` is of this live instance.
     let families = unsafe { instance.get_physical_device_queue_family_properties(device) };
@@ -178,7 +180,7 @@ fn largest_heap(instance: &ash::Instance, device: vk::PhysicalDevice) -> u64 {
         .unwrap_or(0)
 }
 
-/// Driver text and UUID; fills in the subgroup size.
+/// Returns driver text and UUID, and fills in the subgroup size.
 fn identify(
     instance: &ash::Instance,
     device: vk::PhysicalDevice,

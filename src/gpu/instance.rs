@@ -1,21 +1,21 @@
-//! The loader and the Vulkan instance: in goes whether to validate, out comes what devices are
-//! listed and opened from.
+//! The Vulkan loader and instance, with or without validation; devices are listed and opened from
+//! it.
 
 use ash::vk;
 
 use super::debug::{MessageLog, Messenger, VALIDATION_LAYER, layer_present};
 use super::info::{self, DeviceInfo};
-use super::result::{Doing, INSTALL, failed};
+use super::result::{INSTALL, WithOperation, failed};
 use crate::core::error::{Error, Result};
 
 pub(super) const API_VERSION: u32 = vk::API_VERSION_1_2;
 
-/// Every Vulkan device of this machine, in the loader's order, the unsuitable ones included.
+/// Returns every Vulkan device of this machine in the loader's order, including unsuitable ones.
 pub fn list_devices() -> Result<Vec<DeviceInfo>> {
     Ok(Instance::new(false)?.devices()?.into_iter().map(|(_, info)| info).collect())
 }
 
-/// `MOIRE_VULKAN_LIBRARY` names a loader to use in place of the system's.
+/// Loads the system's Vulkan loader, or the one that `MOIRE_VULKAN_LIBRARY` names.
 pub(super) fn load() -> Result<ash::Entry> {
     let Some(path) = std::env::var_os("MOIRE_VULKAN_LIBRARY") else {
         // SAFETY: this runs the initialisers of the system's Vulkan loader, a library that is made
@@ -23,7 +23,7 @@ pub(super) fn load() -> Result<ash::Entry> {
         return unsafe { ash::Entry::load() }
             .map_err(|error| Error::with_help(format!("no Vulkan loader was found ({error})"), INSTALL));
     };
-    // SAFETY: as above; that the named library is a Vulkan loader is the user's word.
+    // SAFETY: as above; the user vouches that the named library is a Vulkan loader.
     unsafe { ash::Entry::load_from(&path) }.map_err(|error| {
         Error::with_help(
             format!("no Vulkan loader was found at MOIRE_VULKAN_LIBRARY = {} ({error})", path.display()),
@@ -32,8 +32,8 @@ pub(super) fn load() -> Result<ash::Entry> {
     })
 }
 
-/// Dropped last of all objects: messenger, then instance, then the loader. Destroying the instance
-/// can still add to the log.
+/// The instance, dropped last of all objects in the order messenger, instance, loader. Destroying
+/// the instance can still add to the log.
 pub(super) struct Instance {
     messenger: Option<Messenger>,
     log: Option<MessageLog>,
@@ -53,20 +53,20 @@ impl Instance {
         Ok(instance)
     }
 
-    /// The validation messages; none where the layer is not loaded.
+    /// Returns the validation messages, or `None` if the layer is not loaded.
     pub(super) fn messages(&self) -> Option<&MessageLog> {
         self.log.as_ref()
     }
 
-    /// At least one.
+    /// Returns all physical devices; an empty list is an error.
     pub(super) fn devices(&self) -> Result<Vec<(vk::PhysicalDevice, DeviceInfo)>> {
         // SAFETY: the instance is live.
         let found = unsafe { self.raw.enumerate_physical_devices() };
         let handles = match found {
-            // A loader without a driver says either.
+            // A loader without a driver returns one or the other.
             Ok(handles) if handles.is_empty() => return Err(no_device()),
             Err(vk::Result::ERROR_INITIALIZATION_FAILED) => return Err(no_device()),
-            other => other.doing(|| "listing Vulkan devices".into())?,
+            other => other.during(|| "listing Vulkan devices".into())?,
         };
         let describe = |(index, handle)| (handle, info::describe(&self.raw, handle, index));
         Ok(handles.into_iter().enumerate().map(describe).collect())

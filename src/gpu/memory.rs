@@ -1,5 +1,5 @@
-//! Device memory: in go an object's requirements and its name, out comes a piece of memory or an
-//! error that says what did not fit where.
+//! Device memory. Allocates memory for an object's requirements, or returns an error that names the
+//! object, its size and the heap.
 
 use std::sync::Mutex;
 
@@ -15,13 +15,14 @@ use crate::core::error::{Error, Result};
 
 const MIB: u64 = 1024 * 1024;
 
-/// Objects up to a block's size share blocks; larger ones get, and give back, memory of their own.
-/// Blocks start small: with a CPU driver they are this process's own memory.
+/// The size of the first memory block. Objects smaller than a block share blocks; larger ones get
+/// dedicated memory, which is freed with them. Blocks start small because a CPU driver takes them
+/// from this process's own memory.
 const FIRST_BLOCK: u64 = 4 * MIB;
 const LAST_BLOCK: u64 = 64 * MIB;
 
 pub(super) struct Memory {
-    /// None once closed.
+    /// The allocator, `None` once closed.
     allocator: Mutex<Option<Allocator>>,
     heap_bytes: u64,
 }
@@ -47,24 +48,24 @@ impl Memory {
         Ok(Memory { allocator: Mutex::new(Some(allocator)), heap_bytes })
     }
 
-    /// An early check, before an object of this size is created at all.
-    pub(super) fn check_heap(&self, what: &str, bytes: u64) -> Result<()> {
+    /// Refuses an object that is larger than the heap before it is created.
+    pub(super) fn check_heap(&self, object: &str, bytes: u64) -> Result<()> {
         if bytes <= self.heap_bytes {
             return Ok(());
         }
-        Err(self.error(what, bytes, "out of device memory"))
+        Err(self.error(object, bytes, "out of device memory"))
     }
 
-    /// `what` names the object: `texture `ground` 1024×1024 rgba8`.
+    /// Allocates memory for the object that `object` names, such as `texture `ground` 1024×1024 rgba8`.
     pub(super) fn allocate(
         &self,
-        what: &str,
+        object: &str,
         requirements: vk::MemoryRequirements,
         location: MemoryLocation,
         linear: bool,
     ) -> Result<Allocation> {
         let desc = AllocationCreateDesc {
-            name: what,
+            name: object,
             requirements,
             location,
             linear,
@@ -75,14 +76,15 @@ impl Memory {
             None => Err(AllocationError::Internal("the device is closed".into())),
         };
         result.map_err(|error| match error {
-            AllocationError::OutOfMemory => self.error(what, requirements.size, "out of device memory"),
-            other => self.error(what, requirements.size, &other.to_string()),
+            AllocationError::OutOfMemory => self.error(object, requirements.size, "out of device memory"),
+            other => self.error(object, requirements.size, &other.to_string()),
         })
     }
 
     pub(super) fn free(&self, allocation: Allocation) {
         if let Some(allocator) = lock(&self.allocator).as_mut() {
-            // Fails only for an allocation of another allocator, and then there is nothing to free.
+            // This fails only for an allocation of another allocator, in which case there is
+            // nothing to free.
             let _ = allocator.free(allocation);
         }
     }
@@ -93,15 +95,15 @@ impl Memory {
             .map_or(0, |allocator| allocator.generate_report().total_allocated_bytes)
     }
 
-    /// Gives all blocks back; to be called before the device is destroyed.
+    /// Frees all blocks. Must be called before the device is destroyed.
     pub(super) fn close(&self) {
         drop(lock(&self.allocator).take());
     }
 
-    fn error(&self, what: &str, bytes: u64, reason: &str) -> Error {
+    fn error(&self, object: &str, bytes: u64, reason: &str) -> Error {
         Error::with_help(
             format!(
-                "allocating {what} ({}): {reason}; the device has {}, of which {} are in use here",
+                "allocating {object} ({}): {reason}; the device has {}, of which {} are in use here",
                 size_text(bytes),
                 size_text(self.heap_bytes),
                 size_text(self.in_use()),

@@ -1,11 +1,11 @@
-//! The Vulkan device layer: a safe, small interface in own types over `ash` and `gpu-allocator`.
-//! In: bytes, texels, SPIR-V words, sampler descriptions. Out: bytes and times. It knows buffers,
-//! images, samplers, compute pipelines and dispatches, and nothing of scenes. Every call is
-//! synchronous: when it returns, the device is idle.
+//! The Vulkan device layer: a small safe interface over `ash` and `gpu-allocator` with its own
+//! types. It takes bytes, texels, SPIR-V words and sampler descriptions and returns bytes and
+//! times. It knows buffers, images, samplers, compute pipelines and dispatches, but no scenes.
+//! Every call is synchronous: when it returns, the device is idle.
 //!
 //! Ownership: each object owns its Vulkan handles and memory and holds an `Arc` of the device core,
-//! so objects and the [`Gpu`] may be dropped in any order; a [`BindGroup`] keeps what it binds. The
-//! core goes last: allocator, then device, then messenger and instance, then the loader.
+//! so that objects and the [`Gpu`] may be dropped in any order; a [`BindGroup`] keeps its resources
+//! alive. The core is destroyed last: allocator, device, messenger, instance, loader.
 
 mod buffer;
 mod command;
@@ -53,27 +53,27 @@ use device::{Core, lock};
 use image_check::Texels;
 use staging::Staging;
 
-/// Does nothing: Mesa keeps a cache on Unix alone.
+/// Does nothing: Mesa has a shader cache on Unix only.
 #[cfg(not(unix))]
 pub fn prepare_driver_cache() {}
 
-/// How a device is opened.
+/// Options for opening a device.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct OpenOptions {
-    /// Load the Khronos validation layer, with synchronization validation, if it is installed.
+    /// Loads the Khronos validation layer with synchronization validation, if it is installed.
     pub validation: bool,
 }
 
 impl OpenOptions {
-    /// Validation when the environment says `MOIRE_VALIDATION=1`.
+    /// Returns the default options, with validation if the environment sets `MOIRE_VALIDATION=1`.
     pub fn from_env() -> OpenOptions {
         OpenOptions { validation: std::env::var_os("MOIRE_VALIDATION").is_some_and(|v| v == "1") }
     }
 }
 
-/// One open device with one compute queue.
+/// An open device with one compute queue.
 pub struct Gpu {
-    // The order of a run: staging before commands, so that no two calls can wait on each other.
+    // Lock order: staging before commands, so that no two calls can deadlock.
     staging: Mutex<Staging>,
     commands: Mutex<Commands>,
     core: Arc<Core>,
@@ -97,27 +97,28 @@ impl Gpu {
         &self.core.info
     }
 
-    /// False where validation was not asked for or the layer is not installed.
+    /// Returns false if validation was not requested or the layer is not installed.
     pub fn validation_active(&self) -> bool {
         self.core.instance.messages().is_some()
     }
 
-    /// Warnings and errors of the validation layer so far.
+    /// Returns the warnings and errors of the validation layer so far.
     pub fn messages(&self) -> Vec<String> {
         self.core.instance.messages().map(MessageLog::to_vec).unwrap_or_default()
     }
 
-    /// Where those messages go; it outlives the device, so it also hears of objects left alive.
+    /// Returns the log of those messages. It outlives the device and therefore also records objects
+    /// that were never destroyed.
     pub fn message_log(&self) -> MessageLog {
         self.core.instance.messages().cloned().unwrap_or_default()
     }
 
-    /// Bytes of device and staging memory that objects hold now.
+    /// Returns the bytes of device and staging memory that objects use at present.
     pub fn memory_in_use(&self) -> u64 {
         self.core.memory.in_use()
     }
 
-    /// A buffer of undefined content.
+    /// Creates a buffer with undefined content.
     pub fn buffer(&self, name: &str, bytes: u64, usage: BufferUse) -> Result<Buffer> {
         Buffer::new(&self.core, name, bytes, usage)
     }
@@ -134,7 +135,7 @@ impl Gpu {
         upload::to_buffer(&mut staging, &mut commands, buffer, offset, data)
     }
 
-    /// Fills `out` from `offset` on.
+    /// Reads into `out` the bytes from `offset` on.
     pub fn read_buffer(&self, buffer: &Buffer, offset: u64, out: &mut [u8]) -> Result<()> {
         self.owns(buffer.core(), buffer.name())?;
         let (mut staging, mut commands) = (lock(&self.staging), lock(&self.commands));
@@ -148,12 +149,12 @@ impl Gpu {
         copy::to_buffer(&mut lock(&self.commands), from, start, to, at, bytes)
     }
 
-    /// Whether images of this format can be sampled, with linear filtering if asked for.
+    /// Returns true if images of this format can be sampled and, on request, filtered linearly.
     pub fn supports(&self, format: ImageFormat, linear_filter: bool) -> bool {
         self.core.supports(format, linear_filter)
     }
 
-    /// A sampled image with its texels uploaded.
+    /// Creates a sampled image and uploads its texels.
     pub fn image(&self, desc: &ImageDesc<'_>) -> Result<Image> {
         let image = Image::new(&self.core, desc, &Texels::Host(desc.levels))?;
         let (mut staging, mut commands) = (lock(&self.staging), lock(&self.commands));
@@ -161,8 +162,8 @@ impl Gpu {
         Ok(image)
     }
 
-    /// A sampled image whose levels begin at these bytes of a buffer; `levels` of the description is not
-    /// read.
+    /// Creates a sampled image whose levels begin at the byte offsets `starts` of a buffer;
+    /// `desc.levels` is ignored.
     pub fn image_from(&self, desc: &ImageDesc<'_>, buffer: &Buffer, starts: &[u64]) -> Result<Image> {
         self.owns(buffer.core(), buffer.name())?;
         let image = Image::new(&self.core, desc, &Texels::Device(buffer, starts))?;
@@ -178,13 +179,13 @@ impl Gpu {
         Pipeline::new(&self.core, desc)
     }
 
-    /// One resource list for every binding that the pipeline declares.
+    /// Binds a list of resources, one entry for each binding that the pipeline declares.
     pub fn bind(&self, pipeline: &Pipeline, resources: &[(u32, Bound<'_>)]) -> Result<BindGroup> {
         self.owns(pipeline.core(), pipeline.name())?;
         BindGroup::new(pipeline, resources)
     }
 
-    /// One dispatch, waited for. `push` has exactly the pipeline's push constant bytes.
+    /// Runs one dispatch and waits for it. `push` has exactly the pipeline's push constant bytes.
     pub fn run(
         &self,
         pipeline: &Pipeline,
@@ -195,8 +196,8 @@ impl Gpu {
         self.run_all(pipeline, group, &[(push, groups)])
     }
 
-    /// Several dispatches, given by push constants and workgroups, in one submission; each sees what the
-    /// ones before it wrote.
+    /// Runs several dispatches, each with its push constants and workgroup counts, in one
+    /// submission; each sees the writes of the ones before it.
     pub fn run_all(
         &self,
         pipeline: &Pipeline,

@@ -1,5 +1,6 @@
-//! Compute pipelines: in go SPIR-V words with their bindings, push constants and specialization
-//! constants, out comes a pipeline that `run` dispatches. Drivers cache compiled code by themselves.
+//! Compute pipelines. Creates one from SPIR-V words, bindings, push constants and specialization
+//! constants; `run` dispatches it. Drivers cache compiled code themselves, so that there is no
+//! `VkPipelineCache`.
 
 use std::sync::Arc;
 
@@ -8,7 +9,7 @@ use ash::vk;
 use super::convert;
 use super::descriptor::{BindGroup, BindingDesc, BindingKind};
 use super::device::Core;
-use super::result::{Doing, size_text};
+use super::result::{WithOperation, size_text};
 use crate::core::error::{Error, Result};
 
 const SPIRV_MAGIC: u32 = 0x0723_0203;
@@ -16,14 +17,14 @@ const SPIRV_MAGIC: u32 = 0x0723_0203;
 #[derive(Clone, Copy, Debug)]
 pub struct PipelineDesc<'a> {
     pub name: &'a str,
-    /// A valid module whose entry point is `main`, and whose interface is what the rest of this
-    /// description says: the driver trusts both.
+    /// A valid module with the entry point `main`, whose interface matches the rest of this
+    /// description; the driver validates neither.
     pub spirv: &'a [u32],
-    /// Of descriptor set 0.
+    /// The bindings of descriptor set 0.
     pub bindings: &'a [BindingDesc],
-    /// A multiple of four.
+    /// The size of the push constant block, a multiple of four.
     pub push_constant_bytes: u32,
-    /// Specialization constants: id and value; a boolean is 0 or 1.
+    /// Specialization constants as pairs of id and value; a boolean is 0 or 1.
     pub constants: &'a [(u32, u32)],
 }
 
@@ -49,8 +50,8 @@ impl Pipeline {
             layout: vk::PipelineLayout::null(),
             handle: vk::Pipeline::null(),
         };
-        pipeline.create_layouts().doing(|| format!("creating the layout of pipeline `{}`", desc.name))?;
-        pipeline.create(desc).doing(|| format!("compiling pipeline `{}`", desc.name))?;
+        pipeline.create_layouts().during(|| format!("creating the layout of pipeline `{}`", desc.name))?;
+        pipeline.create(desc).during(|| format!("compiling pipeline `{}`", desc.name))?;
         core.set_name(pipeline.set_layout, || format!("bindings of `{}`", desc.name));
         core.set_name(pipeline.layout, || format!("layout of `{}`", desc.name));
         core.set_name(pipeline.handle, || format!("pipeline `{}`", desc.name));
@@ -127,19 +128,19 @@ impl Pipeline {
         let info = [vk::ComputePipelineCreateInfo::default().stage(stage).layout(self.layout)];
         // SAFETY: module and layout are live, and all that `info` points to lives until after it.
         let created = unsafe { device.create_compute_pipelines(vk::PipelineCache::null(), &info, None) };
-        // SAFETY: a module may go once the pipelines made from it are created.
+        // SAFETY: a module may be destroyed once the pipelines created from it exist.
         unsafe { device.destroy_shader_module(module, None) };
         match created {
             Ok(pipelines) => {
                 self.handle = pipelines.first().copied().ok_or(vk::Result::ERROR_UNKNOWN)?;
                 Ok(())
             }
-            // A failed creation returns null handles only: there is one pipeline.
+            // A failed creation returns null handles only, since there is one pipeline.
             Err((_, code)) => Err(code),
         }
     }
 
-    /// What must hold before [`Pipeline::record`].
+    /// Checks the preconditions of [`Pipeline::record`].
     pub(super) fn check_run(&self, group: &BindGroup, push: &[u8], groups: [u32; 3]) -> Result<()> {
         let name = &self.name;
         if group.bindings() != self.bindings {
@@ -154,10 +155,10 @@ impl Pipeline {
                 push.len()
             )));
         }
-        let most = self.core.info.limits.max_workgroup_count;
-        if groups.iter().zip(&most).any(|(wanted, limit)| wanted > limit) {
+        let limits = self.core.info.limits.max_workgroup_count;
+        if groups.iter().zip(&limits).any(|(wanted, limit)| wanted > limit) {
             return Err(Error::new(format!(
-                "pipeline `{name}`: {groups:?} workgroups are too many for {}, which takes {most:?}",
+                "pipeline `{name}`: {groups:?} workgroups are too many for {}, which takes {limits:?}",
                 self.core.info.name
             )));
         }
@@ -228,14 +229,17 @@ fn check(core: &Core, desc: &PipelineDesc<'_>) -> Result<()> {
     let samplers = count(BindingKind::SampledImage);
     let images = samplers + count(BindingKind::TexelBuffer);
     let buffers = count(BindingKind::StorageBuffer);
-    for (what, wanted, most) in [
+    for (resources, wanted, limit) in [
         ("sampled textures", samplers, limits.max_samplers_per_stage),
         ("textures and texel buffers", images, limits.max_sampled_images_per_stage),
         ("storage buffers", buffers, limits.max_storage_buffers_per_stage),
     ] {
-        if wanted > u64::from(most) {
+        if wanted > u64::from(limit) {
             return Err(Error::with_help(
-                format!("pipeline `{}` needs {wanted} {what}; {} takes {most}", desc.name, core.info.name),
+                format!(
+                    "pipeline `{}` needs {wanted} {resources}; {} takes {limit}",
+                    desc.name, core.info.name
+                ),
                 "Use fewer textures with method = \"hardware\"; method = \"shader\" has no such limit.",
             ));
         }

@@ -1,11 +1,10 @@
-//! Device to host: in go a buffer and an offset, out come its bytes, chunk by chunk through the
-//! staging buffer.
+//! Reads back bytes of a buffer, chunk by chunk through the staging buffer.
 
 use ash::vk;
 
 use super::buffer::Buffer;
 use super::command::Commands;
-use super::staging::{CHUNK, Staging};
+use super::staging::{STAGING_BYTES, Staging};
 use crate::core::error::Result;
 
 pub(super) fn from_buffer(
@@ -17,7 +16,7 @@ pub(super) fn from_buffer(
 ) -> Result<()> {
     buffer.check_range(offset, out.len())?;
     let mut src_offset = offset;
-    for chunk in out.chunks_mut(CHUNK) {
+    for chunk in out.chunks_mut(STAGING_BYTES) {
         let target = staging.get(chunk.len())?;
         let handle = target.handle();
         let size = chunk.len() as u64;

@@ -1,18 +1,18 @@
-//! Vulkan's result codes as errors a person can act on: in goes what was being done and to which
-//! object, out comes one sentence on what happened and one on what to do about it.
+//! Vulkan's result codes as errors: one sentence states which operation on which object failed and
+//! why, another operation the user can do about it.
 
 use ash::vk;
 
 use crate::core::error::{Error, Result};
 
-/// Adds to a failed Vulkan call what it was doing: `creating buffer `film``.
-pub(super) trait Doing<T> {
-    fn doing(self, what: impl FnOnce() -> String) -> Result<T>;
+/// Adds to a failed Vulkan call the operation that failed: `creating buffer `film``.
+pub(super) trait WithOperation<T> {
+    fn during(self, operation: impl FnOnce() -> String) -> Result<T>;
 }
 
-impl<T> Doing<T> for Result<T, vk::Result> {
-    fn doing(self, what: impl FnOnce() -> String) -> Result<T> {
-        self.map_err(|code| failed(&what(), code))
+impl<T> WithOperation<T> for Result<T, vk::Result> {
+    fn during(self, operation: impl FnOnce() -> String) -> Result<T> {
+        self.map_err(|code| failed(&operation(), code))
     }
 }
 
@@ -21,31 +21,32 @@ pub(super) const LESS_MEMORY: &str = "Use smaller textures or a smaller picture 
 pub(super) const INSTALL: &str =
     "Run ./setup.sh, or install the loader and a driver: apt install libvulkan1 mesa-vulkan-drivers";
 
-pub(super) fn failed(what: &str, code: vk::Result) -> Error {
+pub(super) fn failed(operation: &str, code: vk::Result) -> Error {
     match code {
         vk::Result::ERROR_OUT_OF_DEVICE_MEMORY => {
-            Error::with_help(format!("{what}: out of device memory"), LESS_MEMORY)
+            Error::with_help(format!("{operation}: out of device memory"), LESS_MEMORY)
         }
         vk::Result::ERROR_OUT_OF_HOST_MEMORY => Error::with_help(
-            format!("{what}: out of host memory"),
+            format!("{operation}: out of host memory"),
             "Close other programs, or use smaller textures or a smaller picture.",
         ),
-        vk::Result::ERROR_DEVICE_LOST => lost(&format!("{what}: the device was lost")),
+        vk::Result::ERROR_DEVICE_LOST => device_lost(&format!("{operation}: the device was lost")),
         vk::Result::ERROR_INCOMPATIBLE_DRIVER => {
-            Error::with_help(format!("{what}: no usable Vulkan driver is installed"), INSTALL)
+            Error::with_help(format!("{operation}: no usable Vulkan driver is installed"), INSTALL)
         }
         vk::Result::ERROR_INITIALIZATION_FAILED => Error::with_help(
-            format!("{what}: the driver failed to initialize"),
+            format!("{operation}: the driver failed to initialize"),
             "Check the driver's installation, or choose another device: `moire devices` lists them.",
         ),
-        vk::Result::ERROR_TOO_MANY_OBJECTS => {
-            Error::with_help(format!("{what}: the device has too many objects of this kind"), LESS_MEMORY)
-        }
-        other => Error::new(format!("{what}: Vulkan reports {other:?}")),
+        vk::Result::ERROR_TOO_MANY_OBJECTS => Error::with_help(
+            format!("{operation}: the device has too many objects of this kind"),
+            LESS_MEMORY,
+        ),
+        other => Error::new(format!("{operation}: Vulkan reports {other:?}")),
     }
 }
 
-pub(super) fn lost(message: &str) -> Error {
+pub(super) fn device_lost(message: &str) -> Error {
     Error::with_help(
         message,
         "The driver crashed or a watchdog reset the device. Try again with fewer samples or a smaller \
@@ -53,7 +54,7 @@ pub(super) fn lost(message: &str) -> Error {
     )
 }
 
-/// `4.0 MiB`.
+/// Formats a size in binary units: `4.0 MiB`.
 pub(super) fn size_text(bytes: u64) -> String {
     const UNITS: [&str; 4] = ["KiB", "MiB", "GiB", "TiB"];
     if bytes < 1024 {

@@ -1,5 +1,5 @@
-//! Samplers: in goes a sampler description, out comes the `VkSampler` that does exactly that, or an
-//! error that says what the device lacks. Normalized coordinates.
+//! Samplers with normalized coordinates. Creates the `VkSampler` of a sampler description, or
+//! returns an error that names the missing device feature.
 
 use std::sync::Arc;
 
@@ -7,11 +7,11 @@ use ash::vk;
 
 use super::convert;
 use super::device::Core;
-use super::result::Doing;
+use super::result::WithOperation;
 use crate::core::error::{Error, Result};
 use crate::texture::sampler_spec::{Address, Filter, MipMode, SamplerSpec};
 
-/// Cheap to clone: clones are the same sampler.
+/// A sampler. Clones share the same Vulkan object.
 #[derive(Clone)]
 pub struct Sampler(Arc<RawSampler>);
 
@@ -45,9 +45,9 @@ impl Sampler {
         if border == vk::BorderColor::FLOAT_CUSTOM_EXT {
             info = info.push_next(&mut custom);
         }
-        // SAFETY: what needs a feature was checked.
+        // SAFETY: features that the create info needs were checked.
         let handle = unsafe { core.device.create_sampler(&info, None) }
-            .doing(|| format!("creating sampler {}", spec.label()))?;
+            .during(|| format!("creating sampler {}", spec.label()))?;
         core.set_name(handle, || format!("sampler {}", spec.label()));
         let linear =
             [spec.mag, spec.min].iter().any(|&f| f != Filter::Nearest) || spec.mip == MipMode::Linear;
@@ -62,7 +62,7 @@ impl Sampler {
         self.0.handle
     }
 
-    /// Whether it filters, which not every format allows.
+    /// Returns true if the sampler filters linearly, which not every format supports.
     pub(super) fn is_linear(&self) -> bool {
         self.0.linear
     }
@@ -72,7 +72,7 @@ fn anisotropic(spec: &SamplerSpec) -> bool {
     spec.min == Filter::Anisotropic
 }
 
-/// The colour counts only where an axis reads it.
+/// Returns the border color. The requested color matters only if some axis clamps to the border.
 fn border_color(spec: &SamplerSpec) -> vk::BorderColor {
     if spec.has(Address::ClampToBorder) {
         convert::border_color(spec.border_color)

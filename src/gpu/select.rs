@@ -1,25 +1,25 @@
-//! Which device to use: in go the devices' descriptions and what the user asked for, out comes one
-//! suitable device or an error that lists what there is. Pure functions.
+//! Device selection: chooses one suitable device from the list for the user's request, or returns
+//! an error that lists the devices. Pure functions.
 
 use super::info::{DeviceInfo, DeviceKind};
 use crate::core::error::{Error, Result};
 
-/// What `--device` asked for.
+/// A device as requested by `--device`.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum DeviceSelect {
     /// The first discrete GPU, else integrated, else virtual, else a CPU.
     #[default]
     Default,
-    /// Position in the listing.
+    /// The index in the listing.
     Index(usize),
-    /// A part of the device's name, in any case.
+    /// Part of the device's name, compared without regard to case.
     Name(String),
     Cpu,
     Gpu,
 }
 
 impl DeviceSelect {
-    /// `cpu`, `gpu`, an index, or else a part of a name.
+    /// Parses `cpu`, `gpu`, an index, or else part of a name.
     pub fn parse(text: &str) -> Result<DeviceSelect> {
         let text = text.trim();
         if text.is_empty() {
@@ -34,17 +34,17 @@ impl DeviceSelect {
         })
     }
 
-    /// Position in `devices` of the device to use.
+    /// Returns the index in `devices` of the chosen device.
     pub fn choose(&self, devices: &[DeviceInfo]) -> Result<usize> {
         let candidates: Vec<usize> = (0..devices.len()).filter(|&i| self.admits(&devices[i])).collect();
-        // Stable: among equals the first in the listing.
+        // The minimum is stable: among equals the first in the listing wins.
         let best = candidates
             .iter()
             .copied()
             .filter(|&i| devices[i].suitable.is_ok())
             .min_by_key(|&i| devices[i].kind);
         best.ok_or_else(|| match candidates.first() {
-            None => Error::with_help(format!("no Vulkan device is {}", self.wish()), listing(devices)),
+            None => Error::with_help(format!("no Vulkan device is {}", self.request()), listing(devices)),
             Some(&first) => {
                 let device = &devices[first];
                 let reason = device.suitable.as_ref().err().map_or("", String::as_str);
@@ -66,7 +66,7 @@ impl DeviceSelect {
         }
     }
 
-    fn wish(&self) -> String {
+    fn request(&self) -> String {
         match self {
             DeviceSelect::Default => "installed".into(),
             DeviceSelect::Index(index) => format!("at index {index}"),

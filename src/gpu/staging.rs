@@ -1,6 +1,5 @@
-//! The one host-visible buffer that all transfers go through, in chunks: in go sizes, out comes a
-//! buffer at least that large, up to the chunk size. It grows when needed and is never larger than
-//! a chunk, so that peak memory stays low however large the transfers are.
+//! The one host-visible staging buffer through which all transfers go in chunks. It grows on demand
+//! up to the chunk size, so that peak memory stays low however large the transfers are.
 
 use std::sync::Arc;
 
@@ -11,8 +10,8 @@ use super::buffer::RawBuffer;
 use super::device::Core;
 use crate::core::error::Result;
 
-/// Most bytes of one transfer.
-pub(super) const CHUNK: usize = 16 << 20;
+/// The largest size of one transfer in bytes.
+pub(super) const STAGING_BYTES: usize = 16 << 20;
 const SMALLEST: usize = 64 << 10;
 
 pub(super) struct Staging {
@@ -26,16 +25,16 @@ impl Staging {
         Staging { core: Arc::clone(core), buffer: None, bytes: 0 }
     }
 
-    /// A buffer of at least `min(bytes, CHUNK)`.
+    /// Returns a buffer of at least `min(bytes, STAGING_BYTES)` bytes.
     pub(super) fn get(&mut self, bytes: usize) -> Result<&mut RawBuffer> {
-        let wanted = bytes.min(CHUNK);
+        let wanted = bytes.min(STAGING_BYTES);
         let current = self.buffer.take().filter(|_| self.bytes >= wanted);
         let buffer = match current {
             Some(buffer) => buffer,
             None => {
                 self.bytes = wanted.next_power_of_two().max(SMALLEST);
-                // Cached memory: reading it back is then as fast as any host memory, and writing
-                // no slower; the allocator asks for coherent memory besides.
+                // Host-cached memory: reads are as fast as from any host memory, and writes no
+                // slower; the allocator requests coherent memory in addition.
                 RawBuffer::new(
                     &self.core,
                     "staging",

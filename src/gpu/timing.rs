@@ -1,19 +1,19 @@
-//! Device time: two timestamps around a submission in, seconds out.
+//! Device time of a submission in seconds, measured with two timestamp queries.
 
 use std::sync::Arc;
 
 use ash::vk;
 
 use super::device::Core;
-use super::result::Doing;
+use super::result::WithOperation;
 use crate::core::error::Result;
 
-/// How long one submission took.
+/// The time that one submission took.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct RunTime {
-    /// By the device's timestamps; the wall time on a queue without any.
+    /// Device time by timestamps, or the wall time on a queue without timestamps.
     pub device_seconds: f64,
-    /// From recording to the end of the wait.
+    /// Wall time from the start of recording to the end of the wait.
     pub wall_seconds: f64,
 }
 
@@ -23,7 +23,7 @@ pub(super) struct Timestamps {
 }
 
 impl Timestamps {
-    /// None where the queue has no timestamps.
+    /// Creates the query pool, or returns `None` if the queue has no timestamps.
     pub(super) fn new(core: &Arc<Core>) -> Result<Option<Timestamps>> {
         if core.info.limits.timestamp_valid_bits == 0 {
             return Ok(None);
@@ -31,7 +31,7 @@ impl Timestamps {
         let info = vk::QueryPoolCreateInfo::default().query_type(vk::QueryType::TIMESTAMP).query_count(2);
         // SAFETY: the device is live.
         let pool = unsafe { core.device.create_query_pool(&info, None) }
-            .doing(|| "creating the timestamp queries".into())?;
+            .during(|| "creating the timestamp queries".into())?;
         core.set_name(pool, || "timestamps".into());
         Ok(Some(Timestamps { core: Arc::clone(core), pool }))
     }
@@ -52,7 +52,7 @@ impl Timestamps {
         }
     }
 
-    /// To be called once the submission was waited for.
+    /// Returns the time between the queries. The submission must have completed.
     pub(super) fn seconds(&self) -> Result<f64, vk::Result> {
         let mut ticks = [0u64; 2];
         let flags = vk::QueryResultFlags::TYPE_64 | vk::QueryResultFlags::WAIT;
@@ -70,7 +70,7 @@ impl Drop for Timestamps {
     }
 }
 
-/// Counters have `valid_bits` bits and wrap around.
+/// Returns the difference of two counters of `valid_bits` bits, which wrap around.
 fn elapsed_ticks([open, close]: [u64; 2], valid_bits: u32) -> u64 {
     let mask = if valid_bits >= 64 { u64::MAX } else { (1 << valid_bits) - 1 };
     close.wrapping_sub(open) & mask

@@ -1,16 +1,16 @@
-//! Host to device: in go bytes or texels, out come filled buffers and images, ready for shaders.
-//! Everything goes through the staging buffer, chunk by chunk; small mip levels share a chunk.
+//! Uploads bytes or texels into buffers and images and leaves them ready for shaders. All data goes
+//! through the staging buffer in chunks; small mip levels share a chunk.
 
 use ash::vk;
 
 use super::buffer::Buffer;
 use super::command::Commands;
 use super::image::{Extent, Image, ImageShape};
-use super::staging::{CHUNK, Staging};
+use super::staging::{STAGING_BYTES, Staging};
 use crate::core::error::Result;
 
-/// Copies in a chunk start at multiples of this: the largest texel (Vulkan 1.2, "Copying Data
-/// Between Buffers and Images": a multiple of the texel size, and of 4).
+/// The alignment of copies within a chunk: the largest texel size (Vulkan 1.2, "Copying Data
+/// Between Buffers and Images", requires a multiple of the texel size and of 4).
 const ALIGNMENT: usize = 16;
 
 pub(super) fn to_buffer(
@@ -22,7 +22,7 @@ pub(super) fn to_buffer(
 ) -> Result<()> {
     buffer.check_range(offset, data.len())?;
     let mut dst_offset = offset;
-    for chunk in data.chunks(CHUNK) {
+    for chunk in data.chunks(STAGING_BYTES) {
         let source = staging.get(chunk.len())?;
         source.mapped()?[..chunk.len()].copy_from_slice(chunk);
         let source = source.handle();
@@ -37,7 +37,7 @@ pub(super) fn to_buffer(
     Ok(())
 }
 
-/// The levels' sizes were checked when the image was created.
+/// Uploads all levels of an image. Their sizes were checked when the image was created.
 pub(super) fn to_image(
     staging: &mut Staging,
     commands: &mut Commands,
@@ -46,19 +46,19 @@ pub(super) fn to_image(
 ) -> Result<()> {
     let texel_bytes = image.format().texel_bytes();
     let extent = image.extent();
-    let chunks = plan(extent, image.levels(), texel_bytes, CHUNK);
-    for (index, pieces) in chunks.iter().enumerate() {
-        let bytes = pieces.last().map_or(0, Piece::end);
+    let chunks = plan(extent, image.levels(), texel_bytes, STAGING_BYTES);
+    for (index, blocks) in chunks.iter().enumerate() {
+        let bytes = blocks.last().map_or(0, RowBlock::end);
         let source = staging.get(bytes)?;
         let mapped = source.mapped()?;
-        for piece in pieces {
-            let from = piece.from();
-            mapped[piece.at..piece.end()]
-                .copy_from_slice(&levels[piece.level as usize][from..from + piece.bytes()]);
+        for block in blocks {
+            let start = block.level_offset();
+            mapped[block.offset..block.end()]
+                .copy_from_slice(&levels[block.level as usize][start..start + block.bytes()]);
         }
         let source = source.handle();
         let regions: Vec<vk::BufferImageCopy> =
-            pieces.iter().map(|piece| piece.region(extent.shape)).collect();
+            blocks.iter().map(|block| block.region(extent.shape)).collect();
         let (first, last) = (index == 0, index + 1 == chunks.len());
         commands.run(image.label(), |device, commands| {
             if first {
@@ -109,45 +109,46 @@ pub(super) fn transition(device: &ash::Device, commands: vk::CommandBuffer, imag
             Stage::COMPUTE_SHADER,
         ),
     };
-    // SAFETY: the command buffer is recording; old layouts are what earlier commands left.
+    // SAFETY: the command buffer is recording; the old layouts are those that earlier commands
+    // left.
     unsafe {
         let flags = vk::DependencyFlags::empty();
         device.cmd_pipeline_barrier(commands, from_stage, to_stage, flags, &[], &[], &[barrier]);
     }
 }
 
-/// Whole rows of one slice or face of a level, at byte `at` of a chunk.
+/// Whole rows of one slice or face of a level, at byte `offset` of a chunk.
 #[derive(Clone, Debug, PartialEq)]
-struct Piece {
+struct RowBlock {
     level: u32,
     slice: u32,
     row: u32,
     rows: u32,
-    /// Of the level.
+    /// The width of the level.
     width: u32,
     height: u32,
     row_bytes: usize,
-    at: usize,
+    offset: usize,
 }
 
-impl Piece {
+impl RowBlock {
     fn bytes(&self) -> usize {
         self.rows as usize * self.row_bytes
     }
 
     fn end(&self) -> usize {
-        self.at + self.bytes()
+        self.offset + self.bytes()
     }
 
-    /// Where in the level's texels it begins.
-    fn from(&self) -> usize {
+    /// Returns the byte offset of the block in the level's texels.
+    fn level_offset(&self) -> usize {
         (self.slice as usize * self.height as usize + self.row as usize) * self.row_bytes
     }
 
     fn region(&self, shape: ImageShape) -> vk::BufferImageCopy {
         let (layer, z) = if shape == ImageShape::Cube { (self.slice, 0) } else { (0, self.slice) };
         vk::BufferImageCopy::default()
-            .buffer_offset(self.at as u64)
+            .buffer_offset(self.offset as u64)
             .image_subresource(
                 vk::ImageSubresourceLayers::default()
                     .aspect_mask(vk::ImageAspectFlags::COLOR)
@@ -160,28 +161,28 @@ impl Piece {
     }
 }
 
-/// Cuts all levels into chunks of at most `capacity` bytes; a row is never cut.
-fn plan(extent: Extent, levels: u32, texel_bytes: usize, capacity: usize) -> Vec<Vec<Piece>> {
+/// Splits all levels into chunks of at most `capacity` bytes without splitting a row.
+fn plan(extent: Extent, levels: u32, texel_bytes: usize, capacity: usize) -> Vec<Vec<RowBlock>> {
     let mut chunks = vec![Vec::new()];
-    let mut at = 0;
+    let mut offset = 0;
     let sizes = (0..levels).map(|level| (level, extent.at_level(level)));
     let slices = sizes.flat_map(|(level, size)| (0..size.depth).map(move |slice| (level, slice, size)));
     for (level, slice, Extent { width, height, .. }) in slices {
         let row_bytes = width as usize * texel_bytes;
         let mut row = 0;
         while row < height {
-            let room = (capacity.saturating_sub(at) / row_bytes) as u32;
-            if room == 0 && at > 0 {
+            let room = (capacity.saturating_sub(offset) / row_bytes) as u32;
+            if room == 0 && offset > 0 {
                 chunks.push(Vec::new());
-                at = 0;
+                offset = 0;
                 continue;
             }
             let rows = room.clamp(1, height - row);
-            let piece = Piece { level, slice, row, rows, width, height, row_bytes, at };
-            at = piece.end().next_multiple_of(ALIGNMENT);
+            let block = RowBlock { level, slice, row, rows, width, height, row_bytes, offset };
+            offset = block.end().next_multiple_of(ALIGNMENT);
             row += rows;
             if let Some(chunk) = chunks.last_mut() {
-                chunk.push(piece);
+                chunk.push(block);
             }
         }
     }
@@ -192,26 +193,27 @@ fn plan(extent: Extent, levels: u32, texel_bytes: usize, capacity: usize) -> Vec
 mod tests {
     use super::*;
 
-    /// Every row of every slice of every level once, inside the capacity, aligned, without overlap.
+    /// Checks that the plan covers every row of every slice of every level exactly once, within the
+    /// capacity, aligned and without overlap.
     fn check(extent: Extent, levels: u32, texel_bytes: usize, capacity: usize) -> usize {
         let chunks = plan(extent, levels, texel_bytes, capacity);
         let mut next = (0, 0, 0);
-        for pieces in &chunks {
+        for blocks in &chunks {
             let mut free = 0;
-            for piece in pieces {
-                assert_eq!((piece.level, piece.slice, piece.row), next, "rows in order");
+            for block in blocks {
+                assert_eq!((block.level, block.slice, block.row), next, "rows in order");
                 assert!(
-                    piece.at >= free && piece.at % ALIGNMENT == 0,
-                    "{piece:?} overlaps or is not aligned"
+                    block.offset >= free && block.offset % ALIGNMENT == 0,
+                    "{block:?} overlaps or is not aligned"
                 );
-                assert!(piece.end() <= capacity, "{piece:?} is outside of {capacity}");
-                free = piece.end();
-                let size = extent.at_level(piece.level);
-                let row = piece.row + piece.rows;
-                next = match (row == size.height, piece.slice + 1 == size.depth) {
-                    (false, _) => (piece.level, piece.slice, row),
-                    (true, false) => (piece.level, piece.slice + 1, 0),
-                    (true, true) => (piece.level + 1, 0, 0),
+                assert!(block.end() <= capacity, "{block:?} is outside of {capacity}");
+                free = block.end();
+                let size = extent.at_level(block.level);
+                let row = block.row + block.rows;
+                next = match (row == size.height, block.slice + 1 == size.depth) {
+                    (false, _) => (block.level, block.slice, row),
+                    (true, false) => (block.level, block.slice + 1, 0),
+                    (true, true) => (block.level + 1, 0, 0),
                 };
             }
         }
@@ -225,13 +227,16 @@ mod tests {
 
     #[test]
     fn a_small_image_with_all_levels_is_one_chunk() {
-        assert_eq!(check(flat(64, 64), 7, 4, CHUNK), 1);
-        assert_eq!(check(flat(5, 3), 3, 1, CHUNK), 1);
+        assert_eq!(check(flat(64, 64), 7, 4, STAGING_BYTES), 1);
+        assert_eq!(check(flat(5, 3), 3, 1, STAGING_BYTES), 1);
         assert_eq!(
-            check(Extent { shape: ImageShape::Volume, width: 5, height: 3, depth: 9 }, 4, 1, CHUNK),
+            check(Extent { shape: ImageShape::Volume, width: 5, height: 3, depth: 9 }, 4, 1, STAGING_BYTES),
             1
         );
-        assert_eq!(check(Extent { shape: ImageShape::Cube, width: 8, height: 8, depth: 6 }, 4, 4, CHUNK), 1);
+        assert_eq!(
+            check(Extent { shape: ImageShape::Cube, width: 8, height: 8, depth: 6 }, 4, 4, STAGING_BYTES),
+            1
+        );
     }
 
     #[test]
