@@ -6,4 +6,4 @@ macro_rules! rooms {
     ($($room:ident)+) => { $(pub mod $room { pub use crate::$room::*; })+ };
 }
 
-rooms! { adaptive cli core gpu lab oracle output pack render scene schema texture }
+rooms! { adaptive cli core face gpu lab oracle output pack render scene schema texture }

@@ -97,7 +97,7 @@ pub fn run(args: &RenderArgs) -> Result<ExitCode> {
     let outputs = Outputs::new(&args.scene, &args.output, args.format, args.json)?;
     let mut scene = crate::scene::load(&args.scene)?;
     let chosen = args.overrides.apply(&mut scene)?;
-    check_crop(args.crop, &scene)?;
+    args.crop.map_or(Ok(()), |crop| crop.check(scene.width, scene.height))?;
     for path in &outputs.files {
         output::check_writable(path)?;
         check_inputs_kept(path, &scene)?;
@@ -245,18 +245,6 @@ fn parse_crop(text: &str) -> Result<Crop, String> {
         }
         _ => Err("expected X,Y,W,H in whole pixels, with W and H at least 1".into()),
     }
-}
-
-fn check_crop(crop: Option<Crop>, scene: &Scene) -> Result<()> {
-    let Some(c) = crop else { return Ok(()) };
-    let fits = |at: u32, size: u32, whole: u32| at.checked_add(size).is_some_and(|end| end <= whole);
-    if fits(c.x, c.width, scene.width) && fits(c.y, c.height, scene.height) {
-        return Ok(());
-    }
-    Err(Error::new(format!(
-        "--crop {},{},{},{} reaches outside the picture of {}×{} pixels",
-        c.x, c.y, c.width, c.height, scene.width, scene.height
-    )))
 }
 
 /// Where they are let in, what each texture has of texels that are not finite.

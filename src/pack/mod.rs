@@ -23,7 +23,7 @@ use std::sync::Arc;
 
 use glam::{DVec3, DVec4};
 
-use crate::core::error::Result;
+use crate::core::error::{Error, Result};
 use crate::scene::cone;
 use crate::scene::model::{
     Algorithm, Environment, EnvironmentLayout, Footprint, Material, Model, PixelFilter, Precision, Scene,
@@ -51,6 +51,20 @@ pub struct Crop {
     pub y: u32,
     pub width: u32,
     pub height: u32,
+}
+
+impl Crop {
+    /// Refuses a part that reaches outside a picture of this size.
+    pub fn check(self, width: u32, height: u32) -> Result<()> {
+        let Crop { x, y, width: w, height: h } = self;
+        let fits = |at: u32, size: u32, whole: u32| at.checked_add(size).is_some_and(|end| end <= whole);
+        if fits(x, w, width) && fits(y, h, height) && w > 0 && h > 0 {
+            return Ok(());
+        }
+        Err(Error::new(format!(
+            "--crop {x},{y},{w},{h} reaches outside the picture of {width}×{height} pixels"
+        )))
+    }
 }
 
 /// All that is rendered from: the lists behind the scene buffer, and the texels.

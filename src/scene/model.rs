@@ -29,9 +29,9 @@ pub struct Scene {
     pub planes: Vec<Plane>,
     pub spheres: Vec<Sphere>,
     pub triangles: Vec<Triangle>,
-    /// Triangles of the file that have no area, and the line of the first: no ray meets them.
+    /// Triangles that have no area, and where the first was: no ray meets them.
     pub dropped_triangles: usize,
-    pub first_dropped: usize,
+    pub first_dropped: String,
     pub lights: Vec<Light>,
 }
 

@@ -1,9 +1,6 @@
-//! `[image] pixel_filter` and `pixel_filter_radius`: by which weights the light around a pixel becomes its
-//! colour. In: those keys, each with a default of its own. Out: a filter and how far it reaches.
+//! By which weights the light around a pixel becomes its colour, as data: a filter and how far it reaches. Part of the
+//! model.
 
-use super::reader::Limits;
-use super::table::Table;
-use crate::core::error::Result;
 use crate::core::named::named_enum;
 
 named_enum! {
@@ -35,11 +32,6 @@ impl PixelFilterKind {
     }
 }
 
-/// Pixels that a filter may reach to each side.
-pub const MAX_RADIUS: f64 = 8.0;
-const RADIUS: Limits =
-    Limits { words: "above 0 and at most 8 (pixels)", allow: |x| (1e-30..=MAX_RADIUS).contains(&x) };
-
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PixelFilter {
     pub kind: PixelFilterKind,
@@ -58,13 +50,4 @@ impl Default for PixelFilter {
     fn default() -> Self {
         PixelFilter::new(PixelFilterKind::Box, None)
     }
-}
-
-pub(super) fn pixel_filter(image: &Table<'_>) -> Result<PixelFilter> {
-    let kind = match image.get("pixel_filter") {
-        Some(field) => field.choice(PixelFilterKind::NAMES, PixelFilterKind::ALL)?,
-        None => PixelFilterKind::default(),
-    };
-    let radius = image.get("pixel_filter_radius").map(|field| field.number(&RADIUS)).transpose()?;
-    Ok(PixelFilter::new(kind, radius))
 }

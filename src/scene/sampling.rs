@@ -114,6 +114,21 @@ pub struct Sampling {
     pub precision: Precision,
 }
 
+impl Default for Sampling {
+    fn default() -> Self {
+        Sampling {
+            algorithm: Algorithm::Samples,
+            pattern: Pattern::Stratified,
+            spp: 16,
+            shared: false,
+            seed: 1,
+            max_depth: 5,
+            footprint: Footprint::None,
+            precision: Precision::Auto,
+        }
+    }
+}
+
 impl Sampling {
     /// Samples that are really taken: all of `center` lie at one place, so one is enough, and a cone is one.
     pub fn samples(&self) -> u32 {

@@ -2,6 +2,7 @@
 //! scene, a raw volume. Nothing is opened here; `load` makes [`TextureData`](super::data) of it.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use super::data::{ColorSpace, Dimension, MipKernel, TexelFormat};
 use super::procedural::Procedural;
@@ -59,6 +60,8 @@ pub enum TextureContent {
     /// Pictures of one size, the first at w = 0.
     Slices(Vec<PathBuf>),
     Volume(VolumeSource),
+    /// One picture, not of a file.
+    Texels(Arc<PlainTexels>),
     /// No texels: computed where it is read.
     Procedural(Procedural),
 }
@@ -80,6 +83,19 @@ named_enum! {
         Little = "little",
         Big = "big",
     }
+}
+
+/// A picture in memory.
+#[derive(Debug, PartialEq, Eq)]
+pub struct PlainTexels {
+    /// Texels in a row.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+    /// Channels and number type of a texel.
+    pub format: TexelFormat,
+    /// Tightly packed rows, the first one on top, in the machine's byte order.
+    pub bytes: Vec<u8>,
 }
 
 /// A file of bare texels: x runs fastest, then y, then z.
@@ -120,7 +136,7 @@ impl TextureContent {
     /// All files named in the scene.
     pub fn files(&self) -> Vec<&Path> {
         match self {
-            TextureContent::Ramp(_) | TextureContent::Procedural(_) => Vec::new(),
+            TextureContent::Ramp(_) | TextureContent::Texels(_) | TextureContent::Procedural(_) => Vec::new(),
             TextureContent::File(file) | TextureContent::CubeFile(file, _) => vec![file],
             TextureContent::Faces(files) => files.iter().map(PathBuf::as_path).collect(),
             TextureContent::Slices(files) => files.iter().map(PathBuf::as_path).collect(),
@@ -130,7 +146,7 @@ impl TextureContent {
 
     fn files_mut(&mut self) -> Vec<&mut PathBuf> {
         match self {
-            TextureContent::Ramp(_) | TextureContent::Procedural(_) => Vec::new(),
+            TextureContent::Ramp(_) | TextureContent::Texels(_) | TextureContent::Procedural(_) => Vec::new(),
             TextureContent::File(file) | TextureContent::CubeFile(file, _) => vec![file],
             TextureContent::Faces(files) => files.iter_mut().collect(),
             TextureContent::Slices(files) => files.iter_mut().collect(),

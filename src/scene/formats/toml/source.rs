@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use miette::NamedSource;
 
-use super::synonyms::meant;
+use crate::scene::synonyms::meant;
 use crate::core::error::Error;
 
 /// Longest excerpt or name that a message repeats, in characters.
