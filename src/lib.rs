@@ -45,9 +45,9 @@ mod scene;
 mod schema;
 mod texture;
 
-pub use core::error::{Error, ErrorKind, Result};
-pub use core::film::Film;
-pub use core::progress::Progress;
-pub use face::{RenderOptions, RenderReport, Renderer};
-pub use lab::metrics::Comparison;
-pub use scene::{Scene, SceneBuilder};
+pub use crate::core::error::{Error, ErrorKind, Result};
+pub use crate::core::film::Film;
+pub use crate::core::progress::Progress;
+pub use crate::face::{RenderOptions, RenderReport, Renderer};
+pub use crate::lab::metrics::Comparison;
+pub use crate::scene::{Scene, SceneBuilder};

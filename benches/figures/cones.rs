@@ -22,7 +22,8 @@ pub fn table(bench: &Bench) -> Outcome<()> {
     println!("| method | {} |\n| --- | --- | --- | --- |", SCENES.join(" | "));
     let mut cells = vec![Vec::new(); METHODS.len()];
     for name in SCENES {
-        let reference = moire::internal::lab::metrics::read_picture(Path::new(&format!("data/reference/{name}.exr")))?;
+        let reference =
+            moire::internal::lab::metrics::read_picture(Path::new(&format!("data/reference/{name}.exr")))?;
         let mut times = vec![Vec::new(); METHODS.len()];
         let mut errors = vec![0.0; METHODS.len()];
         for run in 0..=bench.runs {

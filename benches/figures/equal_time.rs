@@ -48,7 +48,8 @@ impl Pair {
             .replace("filter = \"linear\"", "filter = \"linear\"\nmip = \"linear\"");
         let mipped = bench.picture.path().join(format!("{name}.toml"));
         fs::write(&mipped, text)?;
-        let reference = moire::internal::lab::metrics::read_picture(Path::new(&format!("data/reference/{name}.exr")))?;
+        let reference =
+            moire::internal::lab::metrics::read_picture(Path::new(&format!("data/reference/{name}.exr")))?;
         Ok(Pair { plain, mipped: mipped.display().to_string(), reference })
     }
 

@@ -1,7 +1,7 @@
-//! The figures that the README states, measured anew: `cargo bench`, `cargo bench -- filters` for the
+//! The figures that docs state, measured anew: `cargo bench`, `cargo bench -- filters` for the
 //! errors of filters at equal time, `cargo bench -- patterns` for those of sample patterns, `cargo bench --
 //! pixel-filters` for those of pixel filters, `cargo bench -- cones` for cones against samples, `cargo bench --
-//! mips` for mip pyramids alone. Runs the program itself on the scenes of `data/scenes/bench` and prints Markdown:
+//! mips` for mip chains alone. Runs the program itself on the scenes of `data/scenes/bench` and prints Markdown:
 //! medians over whole processes, the ratio of lean to full pipelines from runs in turn, errors against the
 //! float64 references.
 //! `MOIRE_DEVICE` chooses the device (default cpu), `MOIRE_BENCH_RUNS` the number of runs (default 5).
@@ -133,13 +133,15 @@ impl Bench {
     fn errors(&self) -> Outcome<()> {
         println!("\n| scene | RMSE at 64 | 256 | 1024 samples |\n| --- | --- | --- | --- |");
         for name in ["s1a", "s1b", "s2"] {
-            let reference =
-                moire::internal::lab::metrics::read_picture(Path::new(&format!("data/reference/{name}.exr")))?;
+            let reference = moire::internal::lab::metrics::read_picture(Path::new(&format!(
+                "data/reference/{name}.exr"
+            )))?;
             let mut row = format!("| {name} ");
             for spp in ["64", "256", "1024"] {
                 self.run(name, &["--spp", spp], &[])?;
                 let picture = moire::internal::lab::metrics::read_picture(Path::new(&self.out()))?;
-                row += &format!("| {:.3e} ", moire::internal::lab::metrics::compare(&picture, &reference)?.rmse);
+                row +=
+                    &format!("| {:.3e} ", moire::internal::lab::metrics::compare(&picture, &reference)?.rmse);
             }
             println!("{row}|");
         }

@@ -27,8 +27,9 @@ pub fn table(bench: &Bench) -> Outcome<()> {
         let mut row = format!("| `{pattern}` |");
         for name in SCENES {
             bench.run(name, &["--spp", "64", "--pattern", pattern.name()], &[])?;
-            let reference =
-                moire::internal::lab::metrics::read_picture(Path::new(&format!("data/reference/{name}.exr")))?;
+            let reference = moire::internal::lab::metrics::read_picture(Path::new(&format!(
+                "data/reference/{name}.exr"
+            )))?;
             let picture = moire::internal::lab::metrics::read_picture(Path::new(&bench.out()))?;
             row += &format!(" {:.2e} |", moire::internal::lab::metrics::compare(&picture, &reference)?.rmse);
         }

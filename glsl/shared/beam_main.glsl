@@ -132,7 +132,7 @@ void lit_by(Header header, ShadingIntegral paint, uint shape, bool has_light, Li
     uint shapes = before_triangles + COUNT(TRIANGLES, header.counts.z);
     uint bottom = waiting;
     if (!has_light) push_piece(SEEN, shapes);
-    else if (is_lit(header, paint, SEEN, light)) push_piece(SEEN, 0u);
+    else if (is_facing(header, paint, SEEN, light)) push_piece(SEEN, 0u);
     float least = is_parallel(header) ? negligible(paint.near, SEEN) : COPLANAR;
     while (waiting > bottom && !gave_up) {
         uint by = pop_piece();
@@ -164,7 +164,7 @@ void shade(Header header, PixelBeam beam, uint own) {
         return;
     }
     vec3 carried = beam.carried * record.color.xyz;
-    if (MODE_IS(MODELS, MODEL_MIRROR, record.link.x)) {
+    if (is_specular(record)) {
         if (!BOUNCES || beam.depth >= header.size.w) return;
         if (waiting_beams == MAX_BEAMS) {
             gave_up = true;
@@ -180,7 +180,7 @@ void shade(Header header, PixelBeam beam, uint own) {
     RationalMap quotient = RationalMap(near, near, near);
     if (TEXTURED && record.link.y != NO_TEXTURE) quotient = coordinates(header, beam.frame, shape, map, near);
     ShadingIntegral paint = ShadingIntegral(record, carried, quotient, shape_plane(header, shape), beam.frame, near);
-    bool unlit = MODE_IS(MODELS, MODEL_UNLIT, record.link.x);
+    bool unlit = !is_lit(record);
     uint lights = unlit ? 1u : COUNT(LIGHTS, header.key.y);
     uint i = 0u;
     for (; i < lights && !gave_up; i++) {

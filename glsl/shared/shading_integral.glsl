@@ -4,6 +4,7 @@
 #define SHADING_INTEGRAL_GLSL
 
 #include "features.glsl"
+#include "bsdf/models.glsl"
 #include "prefix_sums.glsl"
 #include "sample_dimensions.glsl"
 
@@ -45,19 +46,15 @@ bool is_smooth(Header header, uint shape) {
 const uint STEPPED = (1u << FILTER_NEAREST) | (1u << FILTER_LINEAR);
 const uint TILED = (1u << ADDRESS_REPEAT) | (1u << ADDRESS_MIRRORED_REPEAT) | (1u << ADDRESS_CLAMP_TO_EDGE);
 
-// Whether the integral of a shape's colour is known: of one that is unlit, diffuse or a plane mirror, with a
-// checker or a flat texture that is affine on it.
+// Whether the integral of a shape's colour is known: of a material that has one, with a checker or a flat texture
+// that is affine on the shape.
 bool is_simple(Header header, uint shape, Material record, UvProjection map) {
-    bool unlit = MODE_IS(MODELS, MODEL_UNLIT, record.link.x);
-    bool mirror = MODE_IS(MODELS, MODEL_MIRROR, record.link.x);
-    bool plain = mirror || MODE_IS(MODELS, MODEL_LAMBERT, record.link.x);
-    if (!unlit && (!plain || is_smooth(header, shape))) return false;
-    if (GLOSSY && mirror && record.specular.x > 0.0) return false;
+    if (!is_integrable_over_region(record, is_smooth(header, shape))) return false;
     if (BUMPED && record.detail.x != NO_TEXTURE) return false;
     if (record.link.y == NO_TEXTURE) return true;
     bool flat_map = MODE_IS(MAPPINGS, MAP_PLANE, map.link.x) || MODE_IS(MAPPINGS, MAP_VERTEX_UV, map.link.x) ||
                     MODE_IS(MAPPINGS, MAP_AFFINE, map.link.x);
-    if (!flat_map || map.link.y != ENTITY_POSITION || mirror) return false;
+    if (!flat_map || map.link.y != ENTITY_POSITION || is_specular(record)) return false;
     Texture image = texture_at(record.link.y);
     if (MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_PROCEDURAL, image.link.w)) {
         uvec4 link = procedural_at(image.place.x).link;
@@ -69,7 +66,7 @@ bool is_simple(Header header, uint shape, Material record, UvProjection map) {
 }
 
 // A light behind the surface, as its beam sees it, gives nothing.
-bool is_lit(Header header, ShadingIntegral paint, uint polygon, Light light) {
+bool is_facing(Header header, ShadingIntegral paint, uint polygon, Light light) {
     vec3 way;
     vec3 origin;
     ray_at(header, paint.frame, middle(polygon), way, origin);

@@ -5,6 +5,7 @@
 #ifndef SHADING_NORMAL_GLSL
 #define SHADING_NORMAL_GLSL
 
+#include "bsdf/mirror.glsl"
 #include "footprint.glsl"
 #include "surface.glsl"
 

@@ -5,6 +5,7 @@
 #define TILE_CULLING_MAIN_GLSL
 
 #include "features.glsl"
+#include "bsdf/models.glsl"
 #include "projective.glsl"
 
 layout(local_size_x_id = 0, local_size_y_id = 1, local_size_z = 1) in;
@@ -71,8 +72,8 @@ bool is_calm(Header header, PixelFrustum frame, uint shape, ConvexRegion region)
     }
     uvec2 link = shape_links(header, shape);
     Material record = material_at(link.x);
-    bool unlit = MODE_IS(MODELS, MODEL_UNLIT, record.link.x);
-    bool plain = MODE_IS(MODELS, MODEL_LAMBERT, record.link.x) && !SHADOWS;
+    bool unlit = !is_lit(record) && !is_specular(record);
+    bool plain = is_diffuse(record) && !SHADOWS;
     if (!unlit && !plain) return false;
     if (BUMPED && record.detail.x != NO_TEXTURE) return false;
     if (!TEXTURED || record.link.y == NO_TEXTURE) return true;

@@ -5,6 +5,7 @@
 
 use glam::DVec3;
 
+use super::bsdf::models::{is_lit, is_specular};
 use super::math::xyz;
 use super::polygon::{AffineFunction, MAX_CORNERS, MIN_AREA, Polygon, area, range, split, unit_square};
 use super::projective::{
@@ -12,10 +13,9 @@ use super::projective::{
     shadow_region, shape_plane, shape_region,
 };
 use super::shading_integral::{
-    GaveUp, Result, ShadingIntegral, integral, is_lit, is_simple, links, may_shade,
+    GaveUp, Result, ShadingIntegral, integral, is_facing, is_simple, links, may_shade,
 };
 use crate::pack::{LightKind, PackedScene};
-use crate::scene::model::Model;
 use crate::schema::layout::{Light, NO_MATERIAL, NO_SHAPE, NO_TEXTURE};
 
 /// Shapes that a beam may meet.
@@ -122,12 +122,11 @@ impl Pixel<'_> {
         let record = &scene.materials[material as usize];
         let near = seen.region.inverse_depth;
         let carried = beam.carried * xyz(record.color);
-        let model = Model::ALL[record.link[0] as usize];
         let textured = record.link[1] != NO_TEXTURE;
         if !is_simple(scene, seen.shape, record, map) {
             return Err(GaveUp);
         }
-        if model == Model::Mirror {
+        if is_specular(record) {
             if beam.depth < scene.header.size[3] {
                 if waiting.len() == MAX_BEAMS {
                     return Err(GaveUp);
@@ -153,7 +152,7 @@ impl Pixel<'_> {
             frame: beam.frame,
             near,
         };
-        let unlit = model == Model::Unlit;
+        let unlit = !is_lit(record);
         let lights = if unlit { 1 } else { scene.lights.len() };
         for i in 0..lights {
             let light = if unlit { None } else { Some(&scene.lights[i]) };
@@ -180,7 +179,7 @@ impl Pixel<'_> {
         let bottom = self.fragments.len();
         match light {
             None => push(&mut self.fragments, Fragment { polygon: *polygon, stage: shapes })?,
-            Some(light) if is_lit(paint, polygon, light) => {
+            Some(light) if is_facing(paint, polygon, light) => {
                 push(&mut self.fragments, Fragment { polygon: *polygon, stage: 0 })?;
             }
             Some(_) => {}

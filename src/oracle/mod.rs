@@ -5,6 +5,7 @@
 
 pub mod address;
 pub mod beam;
+pub mod bsdf;
 pub mod camera;
 pub mod cone;
 pub mod cone_shade;
@@ -15,7 +16,6 @@ pub mod filter;
 pub mod footprint;
 pub mod footprint_axes;
 pub mod fragments;
-pub mod glossy;
 pub mod grid;
 pub mod halton;
 pub mod intersect;

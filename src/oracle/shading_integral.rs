@@ -5,13 +5,13 @@ use std::f64::consts::PI;
 
 use glam::{DVec3, DVec4};
 
+use super::bsdf::models::{is_integrable_over_region, is_specular};
 use super::grid::{Grid, checker_grid, coarser, texture_grid};
 use super::math::xyz;
 use super::polygon::{AffineFunction, MAX_CORNERS, Polygon, area, at, middle, range, split};
 use super::prefix_sums::{SMALLEST, in_grid, longest_edge, mean_over};
 use super::projective::{PixelFrustum, RationalMap, point_at, ray_at};
 use crate::pack::{EntityKind, LightKind, MapKind, PackedScene, TextureKind};
-use crate::scene::model::Model;
 use crate::schema::layout::{Light, Material, NO_TEXTURE};
 use crate::texture::procedural::ProceduralKind;
 use crate::texture::sampler_spec::{Address, Filter};
@@ -45,18 +45,13 @@ pub fn links(scene: &PackedScene, shape: u32) -> [u32; 2] {
     [material, map]
 }
 
-/// Whether the integral of a shape's colour is known: of one that is unlit, diffuse or a plane mirror, with a
-/// checker or a flat texture that is affine on it.
+/// Whether the integral of a shape's colour is known: of a material that has one, with a checker or a flat texture
+/// that is affine on the shape.
 pub fn is_simple(scene: &PackedScene, shape: u32, record: &Material, map: u32) -> bool {
     let [planes, spheres, _, _] = scene.header.counts;
-    let [model, texture, sampler, _] = record.link;
+    let [_, texture, sampler, _] = record.link;
     let smooth = shape >= planes && scene.triangles[(shape - planes - spheres) as usize].v[3] != 0.0;
-    let model = Model::ALL[model as usize];
-    let shades = model == Model::Unlit || (matches!(model, Model::Lambert | Model::Mirror) && !smooth);
-    if !shades || record.detail[0] != NO_TEXTURE {
-        return false;
-    }
-    if model == Model::Mirror && record.specular[0] > 0.0 {
+    if !is_integrable_over_region(record, smooth) || record.detail[0] != NO_TEXTURE {
         return false;
     }
     if texture == NO_TEXTURE {
@@ -64,7 +59,7 @@ pub fn is_simple(scene: &PackedScene, shape: u32, record: &Material, map: u32) -
     }
     let [kind, entity, _, _] = scene.maps[map as usize].link;
     let flat = [MapKind::Plane as u32, MapKind::VertexUv as u32, MapKind::Affine as u32].contains(&kind);
-    if !flat || entity != EntityKind::Position as u32 || model == Model::Mirror {
+    if !flat || entity != EntityKind::Position as u32 || is_specular(record) {
         return false;
     }
     let image = &scene.textures[texture as usize];
@@ -106,7 +101,7 @@ fn mean_color(
 }
 
 /// A light behind the surface, as its beam sees it, gives nothing.
-pub fn is_lit(paint: &ShadingIntegral, polygon: &Polygon, light: &Light) -> bool {
+pub fn is_facing(paint: &ShadingIntegral, polygon: &Polygon, light: &Light) -> bool {
     let n = paint.plane.truncate();
     let (way, _) = ray_at(&paint.frame, middle(polygon));
     let place = xyz(light.place);

@@ -4,7 +4,7 @@
 
 use glam::DVec3;
 
-use super::footprint::mirrored;
+use super::bsdf::mirror::mirrored;
 use super::surface::Surface;
 
 /// The least cosine with the geometric normal, where `flat_cosine` is what a surface that does not lean would give:

@@ -233,11 +233,9 @@ fn material(packed: &mut PackedScene, source: &Material) -> layout::Material {
     let index = |texture: Option<usize>| texture.map_or(layout::NO_TEXTURE, |t| t as u32);
     let bump = source.bump;
     let bump_texture = bump.map(|r| r.texture);
-    let specular = match source.model {
-        Model::Mirror | Model::Dielectric => DVec3::new(source.roughness.powi(2), 0.0, 0.0),
-        _ => source.specular,
-    };
-    let fourth = if source.model == Model::Dielectric { source.ior } else { source.exponent };
+    let facets = DVec3::new(source.roughness.powi(2), 0.0, 0.0);
+    let specular = if source.model.is_specular() { facets } else { source.specular };
+    let fourth = if source.model.transmits() { source.ior } else { source.exponent };
     layout::Material {
         color: vec4(source.color.extend(bump.map_or(0.0, |r| r.strength))),
         link: [source.model as u32, index(source.texture), source.sampler as u32, slot(source.texture)],
@@ -271,7 +269,7 @@ fn pack_environment(packed: &mut PackedScene, scene: &Scene, environment: &Envir
     packed.maps.push(mapping::environment_map(environment));
     packed.materials.push(layout::Material {
         color: vec4(scene.background.color.extend(0.0)),
-        link: [Model::Unlit as u32, environment.texture as u32, sampler as u32, slot],
+        link: [Model::PLAIN as u32, environment.texture as u32, sampler as u32, slot],
         detail: [layout::NO_TEXTURE, 0, 0, 0],
         specular: [0.0; 4],
     });

@@ -28,7 +28,7 @@ impl Scene {
 
     /// Whether some mirror or glass is rough.
     pub fn is_glossy(&self) -> bool {
-        self.materials.iter().any(|m| m.roughness > 0.0)
+        self.materials.iter().any(|m| m.model.is_specular() && m.roughness > 0.0)
     }
 
     /// Whether one beam can stand for all rays of a pixel: those from its square, by equal weights, from one

@@ -1,6 +1,7 @@
 //! Scenes: a file of some format, or parts from code, in; the whole [`model::Scene`], every rule kept, out.
 
 pub mod advice;
+mod bsdf;
 pub mod builder;
 mod camera;
 mod chance;

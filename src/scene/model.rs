@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use glam::{DVec2, DVec3};
 
+pub use super::bsdf::Model;
 pub use super::camera::{Camera, Lens, Projection};
 pub use super::mapping::{Entity, Mapping, MappingKind, Space};
 pub use super::pixel_filter::{PixelFilter, PixelFilterKind};
@@ -65,26 +66,6 @@ named_enum! {
         /// The image's centre looks along -z, +x to its right, v = 0 at +y.
         Equirectangular = "equirectangular",
         Cube = "cube",
-    }
-}
-
-named_enum! {
-    /// Reflection model of a material.
-    pub enum Model {
-        Unlit = "unlit",
-        Lambert = "lambert",
-        Mirror = "mirror",
-        /// Mirrors or refracts, by Fresnel's share of each.
-        Dielectric = "dielectric",
-        /// Lambert with a highlight.
-        Phong = "phong",
-    }
-}
-
-impl Model {
-    /// Whether lights shine on it.
-    pub const fn is_lit(self) -> bool {
-        matches!(self, Model::Lambert | Model::Phong)
     }
 }
 
@@ -152,7 +133,7 @@ impl Default for Material {
     fn default() -> Self {
         Material {
             name: "default".to_owned(),
-            model: Model::Lambert,
+            model: Model::default(),
             color: DVec3::ONE,
             texture: None,
             sampler: 0,

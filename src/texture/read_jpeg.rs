@@ -1,12 +1,11 @@
 //! A JPEG file into texels (ISO/IEC 10918-1). What kind of JPEG it is and whether it is all there are read off
 //! its markers first: the decoder does not know some kinds, and fills what a truncated file lacks with grey.
 
-use std::io::Cursor;
 use std::path::Path;
 
-use image::codecs::jpeg::JpegDecoder;
-
-use super::read_file::{Picture, damaged, decode_with, unsupported_kind};
+use super::decoder;
+use super::jpeg_data::JpegData;
+use super::read_file::{Picture, Texels, damaged, unsupported_kind};
 use crate::core::error::Result;
 
 const START_OF_IMAGE: u8 = 0xd8;
@@ -17,7 +16,7 @@ pub(super) fn read(file: &[u8], path: &Path) -> Result<Picture> {
     if let Some(name) = unsupported(file) {
         return Err(unsupported_kind(path, name));
     }
-    let decode = |file: &[u8]| decode_with(JpegDecoder::new(Cursor::new(file)), "JPEG", file.len(), path);
+    let decode = |file: &[u8]| decode(file, path);
     if ends(file) {
         return decode(file).map(Picture::from);
     }
@@ -36,6 +35,11 @@ pub(super) fn read(file: &[u8], path: &Path) -> Result<Picture> {
     }
     let note = format!("{}: the JPEG data has no end-of-image marker; all texels are there", path.display());
     Ok(Picture::noted(texels, vec![note]))
+}
+
+fn decode(file: &[u8], path: &Path) -> Result<Texels> {
+    let data = JpegData::new(file).map_err(|fault| fault.in_file(path, "JPEG"))?;
+    decoder::texels(data.header, "JPEG", file.len(), path, |texels| data.read(texels))
 }
 
 /// The name of a kind of JPEG that is not read (table B.1 and B.2.2: the start-of-frame markers, precision).

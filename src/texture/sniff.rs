@@ -1,28 +1,40 @@
 //! What a file is, judged by its first bytes and never by the ending of its name. A file that is
 //! no picture we read gets a short description for the error message.
 
-use image::ImageFormat;
+use crate::core::named::named_enum;
+
+named_enum! {
+    /// A file format that is read; the name is the one in messages.
+    pub enum PictureFormat {
+        Png = "PNG",
+        Jpeg = "JPEG",
+        Tiff = "TIFF",
+        Tga = "TGA",
+        Hdr = "HDR",
+        OpenExr = "OpenEXR",
+    }
+}
 
 /// Enough bytes for every signature below and for a fair guess at text.
 pub const HEAD_BYTES: usize = 64;
 
 #[derive(Debug, PartialEq)]
 pub enum Content {
-    Picture(ImageFormat),
+    Picture(PictureFormat),
     /// Completes the sentence "the content …".
     Other(String),
 }
 
-const PICTURES: &[(&[u8], ImageFormat)] = &[
-    (b"\x89PNG\r\n\x1a\n", ImageFormat::Png),
-    (b"\xff\xd8\xff", ImageFormat::Jpeg),
-    (b"II*\0", ImageFormat::Tiff),
-    (b"MM\0*", ImageFormat::Tiff),
-    (b"II+\0", ImageFormat::Tiff),
-    (b"MM\0+", ImageFormat::Tiff),
+const PICTURES: &[(&[u8], PictureFormat)] = &[
+    (b"\x89PNG\r\n\x1a\n", PictureFormat::Png),
+    (b"\xff\xd8\xff", PictureFormat::Jpeg),
+    (b"II*\0", PictureFormat::Tiff),
+    (b"MM\0*", PictureFormat::Tiff),
+    (b"II+\0", PictureFormat::Tiff),
+    (b"MM\0+", PictureFormat::Tiff),
     // Mostly #?RADIANCE or #?RGBE: the program that began to write such files put its own name there.
-    (b"#?", ImageFormat::Hdr),
-    (b"\x76\x2f\x31\x01", ImageFormat::OpenExr),
+    (b"#?", PictureFormat::Hdr),
+    (b"\x76\x2f\x31\x01", PictureFormat::OpenExr),
 ];
 
 /// Offset, signature, name.
@@ -60,7 +72,7 @@ pub fn identify(head: &[u8]) -> Content {
     }
     match described(head) {
         Some(what) => Content::Other(what.into()),
-        None if is_tga(head) => Content::Picture(ImageFormat::Tga),
+        None if is_tga(head) => Content::Picture(PictureFormat::Tga),
         None => Content::Other(describe(head)),
     }
 }
@@ -129,10 +141,10 @@ mod tests {
         }
         let tga = b"\0\0\x02\0\0\0\0\0\0\0\0\0\x04\0\x02\0\x18\0\x01\x02\x03";
         for (head, want) in [
-            (&b"II*\0rest"[..], ImageFormat::Tiff),
-            (b"#?RGBE\n", ImageFormat::Hdr),
-            (b"#?RADIANCE\n", ImageFormat::Hdr),
-            (tga, ImageFormat::Tga),
+            (&b"II*\0rest"[..], PictureFormat::Tiff),
+            (b"#?RGBE\n", PictureFormat::Hdr),
+            (b"#?RADIANCE\n", PictureFormat::Hdr),
+            (tga, PictureFormat::Tga),
         ] {
             assert_eq!(identify(head), Content::Picture(want));
         }

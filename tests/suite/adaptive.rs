@@ -213,7 +213,11 @@ impl Tracer for Slow {
         Ok(())
     }
 
-    fn sample_apart(&mut self, jobs: &[Job], _: &dyn Progress) -> moire::internal::core::error::Result<Vec<[f32; 4]>> {
+    fn sample_apart(
+        &mut self,
+        jobs: &[Job],
+        _: &dyn Progress,
+    ) -> moire::internal::core::error::Result<Vec<[f32; 4]>> {
         Slow::wait(jobs);
         let mut sums = vec![[0.0; 4]; jobs.len()];
         jobs.iter().zip(&mut sums).for_each(|(job, sum)| Slow::add(job, sum));

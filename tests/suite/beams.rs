@@ -153,9 +153,10 @@ fn crowded_pixels_are_left_to_samples() {
     let first = scene.triangles[0];
     for k in 0..12 {
         let by = glam::DVec3::new(0.0, 0.02 * f64::from(k), 0.01 * f64::from(k));
-        scene
-            .triangles
-            .push(moire::internal::scene::model::Triangle { vertices: first.vertices.map(|v| v + by), ..first });
+        scene.triangles.push(moire::internal::scene::model::Triangle {
+            vertices: first.vertices.map(|v| v + by),
+            ..first
+        });
     }
     let (film, sampled) = beams(&with_beams(scene.clone()));
     assert!(sampled > 0 && sampled < 600, "{sampled}");

@@ -300,8 +300,9 @@ fn failures_show_actual_expected_and_difference() {
     write(&film, &golden, &WriteOptions::default()).unwrap();
     // 2 of 10000 pixels may be two or three steps away, none four.
     let step = |film: &mut Film, at: usize, steps: f64| {
-        let code =
-            (moire::internal::core::color::linear_to_srgb(f64::from(film.pixels[at][1])) * 255.0).round() + steps;
+        let code = (moire::internal::core::color::linear_to_srgb(f64::from(film.pixels[at][1])) * 255.0)
+            .round()
+            + steps;
         film.pixels[at][1] = moire::internal::core::color::srgb_to_linear(code / 255.0) as f32;
     };
     step(&mut film, 4000, 3.0);

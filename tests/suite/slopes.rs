@@ -15,7 +15,8 @@ const SEEDS: u32 = 3;
 const CONFIDENCE: f64 = 0.99;
 
 fn film(name: &str, pattern: Pattern, spp: u32, seed: u32) -> Film {
-    let mut scene = moire::internal::scene::load(&data().join(format!("scenes/slopes/slope-{name}.toml"))).unwrap();
+    let mut scene =
+        moire::internal::scene::load(&data().join(format!("scenes/slopes/slope-{name}.toml"))).unwrap();
     (scene.sampling.pattern, scene.sampling.spp, scene.sampling.seed) = (pattern, spp, seed);
     render(&packed(scene, None))
 }
@@ -72,7 +73,8 @@ fn random_samples_fall_with_their_number_whatever_they_show() {
 
 /// Squared errors whose mean falls by a power, each the square of a normal deviate: sums of 12 uniform numbers.
 fn planted(exponent: f64, seed: u32) -> Vec<Vec<f32>> {
-    let uniform = |i: u32| f64::from(moire::internal::oracle::rng::mix_bits(i ^ seed << 20)) / f64::from(u32::MAX);
+    let uniform =
+        |i: u32| f64::from(moire::internal::oracle::rng::mix_bits(i ^ seed << 20)) / f64::from(u32::MAX);
     let normal = |i: u32| (0..12).map(|k| uniform(12 * i + k)).sum::<f64>() - 6.0;
     let of = |(k, n): (u32, &u32)| {
         (0..192).map(|b| (normal(192 * k + b) * f64::from(*n).powf(0.5 * exponent)).powi(2) as f32).collect()

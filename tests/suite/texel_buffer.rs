@@ -259,7 +259,9 @@ fn what_reads_a_texture_of_two_names_reads_it_still() {
     let names: Vec<&str> = scene.textures.iter().map(|t| t.name.as_str()).collect();
     assert_eq!(names, ["a", "b", "d"]);
     let [m, n] = [&scene.materials[0], &scene.materials[1]];
-    let read = |material: &moire::internal::scene::model::Material| (material.texture, material.bump.unwrap().texture);
+    let read = |material: &moire::internal::scene::model::Material| {
+        (material.texture, material.bump.unwrap().texture)
+    };
     assert_eq!((read(m), read(n)), ((Some(0), 2), (Some(0), 1)));
     assert_eq!(scene.background.environment.unwrap().texture, 1);
 }

@@ -13,7 +13,9 @@ use moire::internal::lab::verify::queries::{
 use moire::internal::lab::verify::report::{Report, Row, Verdict};
 use moire::internal::lab::verify::run::Tally;
 use moire::internal::lab::verify::text::text;
-use moire::internal::lab::verify::variants::{FormatClass, Reader, Scale, Variant, sampler_variants, shader_variants};
+use moire::internal::lab::verify::variants::{
+    FormatClass, Reader, Scale, Variant, sampler_variants, shader_variants,
+};
 use moire::internal::lab::verify::weights::{RAMP_STEPS, WeightBits, weight_bits};
 use moire::internal::oracle::filter::sample_texture;
 use moire::internal::oracle::mapping::Coordinate;

@@ -58,8 +58,8 @@ pub fn warps(scene: &PackedScene) -> bool {
     kind != PixelFilterKind::Box as u32 || f32::from_bits(radius) != 0.5
 }
 
-pub fn has_model(scene: &PackedScene, model: Model) -> bool {
-    scene.materials.iter().any(|m| m.link[0] == model as u32)
+fn has_model(scene: &PackedScene, does: fn(Model) -> bool) -> bool {
+    scene.materials.iter().any(|m| does(Model::ALL[m.link[0] as usize]))
 }
 
 /// Without a footprint, look-ups of procedural textures pass one of zero.
@@ -69,7 +69,7 @@ pub fn filters_procedurals(scene: &PackedScene) -> bool {
 
 /// Mirrors and glass, if their rays may go on.
 pub fn bounces(scene: &PackedScene) -> bool {
-    scene.header.size[3] > 0 && (has_model(scene, Model::Mirror) || has_model(scene, Model::Dielectric))
+    scene.header.size[3] > 0 && has_model(scene, Model::is_specular)
 }
 
 /// Whether look-ups take texels at random.
@@ -89,6 +89,6 @@ pub fn bump_kinds(scene: &PackedScene) -> u32 {
 pub fn casts_shadows(scene: &PackedScene) -> bool {
     let flat = scene.planes.len() + scene.triangles.len();
     let alone = scene.spheres.is_empty() && flat <= 1;
-    let lit = has_model(scene, Model::Lambert) || has_model(scene, Model::Phong);
+    let lit = has_model(scene, Model::is_lit);
     !scene.lights.is_empty() && lit && !alone
 }

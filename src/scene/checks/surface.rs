@@ -1,8 +1,7 @@
 //! Samplers, materials with their mappings, and the background: what they are and whether their textures fit.
 
-use super::super::limits::{
-    ANISOTROPY, COLOR, COORDINATE, EXPONENT, IOR, SCALE, UNIT, check_mag, check_method,
-};
+use super::super::bsdf::check_model_keys;
+use super::super::limits::{ANISOTROPY, COLOR, COORDINATE, SCALE, check_mag, check_method};
 use super::super::model::{
     Background, EnvironmentLayout, Mapping, MappingKind, Material, Plane, Space, TextureSource,
 };
@@ -20,10 +19,7 @@ pub fn sampler(key: Key, spec: &SamplerSpec) -> Check {
 
 pub fn material(key: Key, material: &Material, textures: &[TextureSource], samplers: usize) -> Check {
     key.of("color").vector(material.color, &COLOR)?;
-    key.of("specular").vector(material.specular, &COLOR)?;
-    key.of("exponent").number(material.exponent, &EXPONENT)?;
-    key.of("ior").number(material.ior, &IOR)?;
-    key.of("roughness").number(material.roughness, &UNIT)?;
+    check_model_keys(key, material)?;
     if material.is_mapped() {
         key.of("sampler").index(material.sampler, samplers, "sampler")?;
     }

@@ -2,17 +2,17 @@
 //! stream may be longer or lack its end code; one that gives fewer bytes is damaged.
 
 use std::borrow::Cow;
-use std::io::{Cursor, Read};
+use std::io::Read;
 
 use fax::decoder::{DecodeStatus, Group4Decoder};
 use flate2::read::ZlibDecoder;
-use image::ImageDecoder;
-use image::codecs::jpeg::JpegDecoder;
 use weezl::{BitOrder, LzwStatus, decode::Decoder};
 
 use super::Fault;
 use super::color::Color;
 use super::layout::{Compression, Layout};
+use crate::texture::decoder;
+use crate::texture::jpeg_data::JpegData;
 
 /// Plain bytes that one byte of such data can stand for at most. LZW: a code of 12 bits for a string of 3838
 /// bytes. JPEG: a block of 8×8 texels takes a bit of each channel, and chroma may stand for four blocks.
@@ -135,10 +135,8 @@ fn expand_jpeg(
     if let Some(name) = super::super::read_jpeg::unsupported(&jpeg) {
         return Err(Fault::unsupported(format!("{name} within a TIFF file")));
     }
-    let failed = |e| Fault::damaged(format!("JPEG data: {e}"));
-    let decoder = JpegDecoder::new(Cursor::new(jpeg)).map_err(failed)?;
-    let (width, height) = decoder.dimensions();
-    let channels = decoder.color_type().channel_count() as usize;
+    let data = JpegData::new(&jpeg).map_err(within_tiff)?;
+    let decoder::Header { width, height, channels, .. } = data.header;
     if width != layout.chunks.width || height < rows || channels != layout.samples_in_chunk() {
         return Err(Fault::damaged(format!(
             "JPEG data of {width}×{height} texels with {channels} channels, in a place of {}×{rows} with {}",
@@ -146,15 +144,24 @@ fn expand_jpeg(
             layout.samples_in_chunk()
         )));
     }
-    let bytes = decoder.total_bytes() as usize;
+    let bytes = width as usize * height as usize * channels;
     if bytes > wanted.saturating_mul(2).max(1 << 20) {
         return Err(Fault::damaged(format!("JPEG data of {height} rows, in a place of {rows}")));
     }
     plain.try_reserve_exact(bytes).map_err(|_| Fault::Memory)?;
     plain.resize(bytes, 0);
-    decoder.read_image(plain).map_err(failed)?;
+    data.read(plain).map_err(within_tiff)?;
     plain.truncate(wanted);
     Ok(())
+}
+
+fn within_tiff(fault: decoder::Fault) -> Fault {
+    match fault {
+        decoder::Fault::Damaged(what) => Fault::damaged(format!("JPEG data: {what}")),
+        decoder::Fault::Unsupported(what) => Fault::unsupported(format!("JPEG data of {what}")),
+        decoder::Fault::Memory => Fault::Memory,
+        decoder::Fault::ZeroSize => Fault::damaged("JPEG data of zero size"),
+    }
 }
 
 /// ITU-T T.6: runs of white, which is 0, and of black.

@@ -34,7 +34,11 @@ fn soup(count: usize, seed: u32, colors: impl Fn(usize) -> DVec3) -> Scene {
     let mut dice = Dice::new(seed.into());
     let plain = scene.materials.iter().find(|m| m.name == "brown").unwrap().clone();
     scene.materials = (0..count)
-        .map(|i| moire::internal::scene::model::Material { model: Model::Unlit, color: colors(i), ..plain.clone() })
+        .map(|i| moire::internal::scene::model::Material {
+            model: Model::Unlit,
+            color: colors(i),
+            ..plain.clone()
+        })
         .collect();
     let first = scene.triangles[0];
     let mut corner = || DVec3::new(dice.between(-0.9, 0.9), dice.between(-0.4, 1.4), dice.between(-0.9, 0.9));

@@ -116,8 +116,9 @@ fn textures_of_any_size_and_format() {
     for file in ["rgb16.png", "grey16.png", "rgba8.png", "ramp.exr"] {
         let mut scene = small("s1b", 32, 4);
         let texture = &mut scene.textures[0];
-        texture.content =
-            moire::internal::scene::model::TextureContent::File(crate::support::data().join("textures").join(file));
+        texture.content = moire::internal::scene::model::TextureContent::File(
+            crate::support::data().join("textures").join(file),
+        );
         super::assert_meets_samples(&scene, file);
         let beamed = with_beams(scene);
         let apart = rmse(&render(&beamed), &render_on_oracle(&beamed));

@@ -5,7 +5,8 @@ use std::sync::OnceLock;
 
 use glam::DVec3;
 use moire::internal::lab::verify::queries::Dice;
-use moire::internal::oracle::footprint::{fresnel_dielectric, mirrored, refracted};
+use moire::internal::oracle::bsdf::dielectric::{fresnel_dielectric, refracted};
+use moire::internal::oracle::bsdf::mirror::mirrored;
 use num_traits::Signed;
 
 use super::numbers::{Q, V, approx, direction, frac, q, sqrt, v};

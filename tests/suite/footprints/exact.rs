@@ -3,8 +3,10 @@
 //! entity, around seams and poles, directly, in mirrors and through glass.
 
 use glam::{DVec2, DVec3};
+use moire::internal::oracle::bsdf::dielectric::refracted;
+use moire::internal::oracle::bsdf::mirror::mirrored;
 use moire::internal::oracle::camera::{Ray, camera_ray};
-use moire::internal::oracle::footprint::{Footprint, camera_differential, mirrored, refracted};
+use moire::internal::oracle::footprint::{Footprint, camera_differential};
 use moire::internal::oracle::footprint_axes::in_texture;
 use moire::internal::oracle::intersect::{nearest_hit, offset_origin};
 use moire::internal::oracle::mapping::texture_coordinate;

@@ -100,7 +100,13 @@ fn as_many_images_as_there_are_slots_are_read_and_one_more_is_told_or_read_from_
     render(&scene(MAX_SLOTS, "hardware"));
     let over = scene(MAX_SLOTS + 1, "hardware");
     let tuning = moire::internal::render::Tuning::default();
-    let refused = moire::internal::render::render(&device(), over, false, &tuning, &moire::internal::core::progress::NoProgress);
+    let refused = moire::internal::render::render(
+        &device(),
+        over,
+        false,
+        &tuning,
+        &moire::internal::core::progress::NoProgress,
+    );
     let message = told(refused.map(|_| ()));
     assert!(message.contains(&MAX_SLOTS.to_string()) && message.contains("17"), "{message}");
 }

@@ -2,7 +2,7 @@
 //! which is the share of what is mirrored and the rest of what is seen through it.
 
 use glam::DVec3;
-use moire::internal::oracle::footprint::{fresnel_dielectric, refracted};
+use moire::internal::oracle::bsdf::dielectric::{fresnel_dielectric, refracted};
 
 use super::scene;
 use crate::stage;

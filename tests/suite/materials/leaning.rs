@@ -3,8 +3,10 @@
 
 use glam::DVec3;
 use moire::internal::core::film::Film;
+use moire::internal::oracle::bsdf::dielectric::refracted;
+use moire::internal::oracle::bsdf::mirror::mirrored;
 use moire::internal::oracle::camera::Ray;
-use moire::internal::oracle::footprint::{Footprint, mirrored, refracted};
+use moire::internal::oracle::footprint::Footprint;
 use moire::internal::oracle::shade::map_input;
 use moire::internal::oracle::shading_normal::{consistent_normal, on_its_side};
 use moire::internal::oracle::surface::Surface;

@@ -4,9 +4,10 @@
 use std::collections::BTreeMap;
 
 use glam::{DVec2, DVec3};
+use moire::internal::oracle::bsdf::mirror::mirrored;
 use moire::internal::oracle::camera::camera_ray;
 use moire::internal::oracle::cone::{cone_of, leaving};
-use moire::internal::oracle::footprint::{camera_differential, mirrored};
+use moire::internal::oracle::footprint::camera_differential;
 use moire::internal::oracle::fragments::{collect_fragments, composite};
 use moire::internal::oracle::intersect::FAR;
 use moire::internal::oracle::math::xyz;
@@ -99,10 +100,11 @@ fn one_or_two_shapes_cost_no_more_than_a_disc_for_a_square() {
     assert!(all.len() == 4, "{:?}", all.keys());
 }
 
-/// Prints the README's figures by cause: share of the pixels, RMSE, the error that one in 1000 exceeds, the worst.
+/// Prints the figures of docs/guide/learn/11-cones.md by cause: share of the pixels, RMSE, the error that one in
+/// 1000 exceeds, the worst.
 #[test]
 #[ignore = "minutes"]
-fn the_readmes_causes() {
+fn causes_for_the_docs() {
     let all = errors(many(), 64);
     let count: usize = all.values().map(Vec::len).sum();
     for (cause, mut errors) in all {

@@ -33,20 +33,20 @@ fn error(scene: &Scene) -> [f64; 2] {
     [compare(&cones, &truth).unwrap().rmse, worst]
 }
 
-/// As the README has it.
+/// As docs/guide/learn/11-cones.md has it.
 const WORST_RMSE: f64 = 0.02;
 const WORST_PIXEL: f64 = 0.4;
 
 #[test]
-fn cones_err_as_the_readme_says() {
+fn cones_err_as_documented() {
     let errors: Vec<[f64; 2]> = (0..FEW / 2).map(|seed| error(&plain(seed, 32))).collect();
     assert!(errors.iter().all(|e| e[0] < WORST_RMSE && e[1] < WORST_PIXEL), "{errors:?}");
 }
 
-/// Prints the README's figures: medians and worst of both errors, by kind, lit or not.
+/// Prints the figures of docs/guide/learn/11-cones.md: medians and worst of both errors, by kind, lit or not.
 #[test]
 #[ignore = "minutes"]
-fn the_readmes_figures() {
+fn figures_for_the_docs() {
     let mut all = Vec::new();
     for seed in many() {
         let scene = plain(seed, 64);

@@ -50,7 +50,8 @@ fn flat_error(normal: [f64; 4], ray: &Ray, t: f64) -> f64 {
 
 fn plane(scene: &PackedScene, index: usize, ray: &Ray) -> Estimate {
     let plane = &scene.planes[index];
-    let unbounded = moire::internal::schema::layout::Plane { link: [plane.link[0], plane.link[1], 0, 0], ..*plane };
+    let unbounded =
+        moire::internal::schema::layout::Plane { link: [plane.link[0], plane.link[1], 0, 0], ..*plane };
     let (t, _) = plane_distance(&unbounded, ray);
     let error = flat_error(plane.normal, ray, t);
     let point = ray.origin + t * ray.direction;

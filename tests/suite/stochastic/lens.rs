@@ -35,8 +35,10 @@ fn with_lens(text: &str, radius: f64, focus_distance: f64) -> Scene {
 fn what_lies_in_the_plane_of_focus_looks_as_through_a_pinhole() {
     let card = "[[triangle]]\nvertices = [[-1.2, -0.7, 2], [1, -0.4, 2], [-0.3, 1, 2]]\nmaterial = 'white'\n";
     let sharp = with_lens(card, 0.4, 3.0);
-    let pinhole =
-        Scene { camera: moire::internal::scene::model::Camera { lens: None, ..sharp.camera }, ..sharp.clone() };
+    let pinhole = Scene {
+        camera: moire::internal::scene::model::Camera { lens: None, ..sharp.camera },
+        ..sharp.clone()
+    };
     let [a, b] = [&sharp, &pinhole].map(|s| on_oracle(&packed(s), &NoProgress).unwrap());
     assert_eq!(a, b, "in focus");
     let [a, b] = [&sharp, &pinhole].map(|s| render(&packed(s)));

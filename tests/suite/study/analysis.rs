@@ -1,7 +1,9 @@
 //! Slopes, winners and times to errors of points that are made up, so that the answers are known.
 
 use moire::internal::lab::plot::axis::steps;
-use moire::internal::lab::study::analysis::{MethodSlope, Slope, median, recommended, slope, time_to, winners};
+use moire::internal::lab::study::analysis::{
+    MethodSlope, Slope, median, recommended, slope, time_to, winners,
+};
 use moire::internal::lab::study::choice::no_different;
 use moire::internal::lab::study::record::{Errors, PointRecord};
 use moire::internal::oracle::rng::mix_bits;

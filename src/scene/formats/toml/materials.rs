@@ -7,6 +7,7 @@ use super::reader::Field;
 use super::samplers::Known;
 use super::table::Table;
 use crate::core::error::Result;
+use crate::scene::bsdf::{KEYS, ModelKey, Value};
 use crate::scene::builder::DEFAULT;
 use crate::scene::model::*;
 
@@ -40,7 +41,7 @@ pub(super) fn material(table: &Table<'_>, known: &Known<'_, '_>) -> Result<Mater
     if let Some(field) = table.get("color") {
         material.color = field.vec3()?;
     }
-    of_model(table, &mut material)?;
+    read_model_keys(table, &mut material)?;
     material.texture = table.get("texture").map(|field| known.textures.resolve(field)).transpose()?;
     material.bump = bump(table, known)?;
     material.sampler = table.get("sampler").map_or(Ok(DEFAULT), |field| known.samplers.resolve(field))?;
@@ -50,31 +51,22 @@ pub(super) fn material(table: &Table<'_>, known: &Known<'_, '_>) -> Result<Mater
     Ok(material)
 }
 
-/// Keys that one model has.
-fn of_model(table: &Table<'_>, material: &mut Material) -> Result<()> {
-    const OWNED: [(&str, Model); 3] =
-        [("specular", Model::Phong), ("exponent", Model::Phong), ("ior", Model::Dielectric)];
-    for (key, model) in OWNED {
-        let Some(field) = table.get(key) else { continue };
-        if material.model != model {
-            let what = format!("only model \"{model}\" has {key}; this one is \"{}\"", material.model);
-            return Err(field.error(&what, format!("needs model \"{model}\"")));
+/// Reads the keys that the material's model has.
+fn read_model_keys(table: &Table<'_>, material: &mut Material) -> Result<()> {
+    for ModelKey { name, models, value, .. } in KEYS {
+        let Some(field) = table.get(name) else { continue };
+        if !models.contains(&material.model) {
+            let quoted =
+                |between| models.iter().map(|m| format!("\"{m}\"")).collect::<Vec<_>>().join(between);
+            let (noun, verb) = if models.len() > 1 { ("models", "have") } else { ("model", "has") };
+            let what =
+                format!("only {noun} {} {verb} {name}; this one is \"{}\"", quoted(" and "), material.model);
+            return Err(field.error(&what, format!("needs model {}", quoted(" or "))));
         }
-        match key {
-            "specular" => material.specular = field.vec3()?,
-            "exponent" => material.exponent = field.number()?,
-            _ => material.ior = field.number()?,
+        match value {
+            Value::Number(of) => *of(material) = field.number()?,
+            Value::Color(of) => *of(material) = field.vec3()?,
         }
-    }
-    if let Some(field) = table.get("roughness") {
-        if !matches!(material.model, Model::Mirror | Model::Dielectric) {
-            let what = format!(
-                "only models \"mirror\" and \"dielectric\" have roughness; this one is \"{}\"",
-                material.model
-            );
-            return Err(field.error(&what, "needs model \"mirror\" or \"dielectric\""));
-        }
-        material.roughness = field.number()?;
     }
     Ok(())
 }

@@ -1,10 +1,10 @@
 //! Glossy mirrors and glass: facets whose normals follow GGX (Walter et al. 2007), of which a sample takes one
-//! that its ray can see, weighted by G2 / G1 of Smith. alpha = roughness². Twin of `glsl/shared/glossy.glsl`.
+//! that its ray can see, weighted by G2 / G1 of Smith. alpha = roughness². Twin of `glsl/shared/bsdf/facets.glsl`.
 
 use glam::{DVec2, DVec3};
 
-use super::disk_sampling::{concentric_disc, on_cap};
-use super::footprint::{RayDifferential, any_tangent, around};
+use crate::oracle::disk_sampling::{concentric_disc, on_cap};
+use crate::oracle::footprint::{RayDifferential, any_tangent, around};
 use crate::schema::layout::Header;
 
 /// The normal of a facet that a ray along `direction` meets, on a surface with unit normal n against the ray.

@@ -1,11 +1,12 @@
 // Glossy mirrors and glass: facets whose normals follow GGX (Walter et al. 2007). A sample takes one of those
 // that its ray can see (Heitz 2018; sampled as by Dupuy & Benyoub 2023) and is weighted by how much of that
-// facet's light others do not hold back, G2 / G1 of Smith. alpha = roughness². Twin: src/oracle/glossy.rs.
-#ifndef GLOSSY_GLSL
-#define GLOSSY_GLSL
+// facet's light others do not hold back, G2 / G1 of Smith. alpha = roughness². Twin: src/oracle/bsdf/facets.rs.
+#ifndef FACETS_GLSL
+#define FACETS_GLSL
 
-#include "sample_dimensions.glsl"
-#include "footprint.glsl"
+#include "../sample_dimensions.glsl"
+#include "../footprint.glsl"
+#include "mirror.glsl"
 
 // The normal of a facet that a ray along `direction` meets, on a surface with unit normal n against the ray.
 // In a space stretched by alpha the facets are those of a sphere: the half vectors of a cap and the view.

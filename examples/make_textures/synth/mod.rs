@@ -1,6 +1,6 @@
 //! The textures of `data/textures`, made by arithmetic alone: `all()` gives every picture and
-//! `volumes()` every volume that `cargo run --release --example make_textures` writes, and a test holds
-//! the files against them.
+//! `volumes()` every volume that `cargo run --release --example make_textures` writes, and a test, which
+//! contains this module too, holds the files against them.
 //! Only integers and the correctly rounded f64 operations (+ − × ÷ √ floor) are used, so that
 //! every platform makes the same bytes.
 

@@ -2,6 +2,8 @@
 //! `cargo run --release --example make_textures [FOLDER]`. PNG files carry no gAMA, sRGB or iCCP
 //! chunk: what the numbers mean is said by the scene (`color_space`), not guessed by a reader.
 
+mod synth;
+
 use std::error::Error;
 use std::fs;
 use std::io::Cursor;
@@ -9,7 +11,6 @@ use std::path::{Path, PathBuf};
 
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{DynamicImage, ImageFormat};
-use moire::internal::texture::synth;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let folder = std::env::args_os().nth(1).map_or_else(|| PathBuf::from("data/textures"), PathBuf::from);
