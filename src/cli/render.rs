@@ -14,7 +14,7 @@ use super::progress::Bar;
 use super::report::{self, RenderOutcome};
 use super::{DEVICE, MEASURING, OUTPUT, TEXTURES};
 use crate::adaptive::{self, Goal};
-use crate::core::error::{Error, Result};
+use crate::core::error::Result;
 use crate::core::film::Placement;
 use crate::gpu::{DeviceSelect, Gpu};
 use crate::lab::verify::known::anisotropy_fault;

@@ -85,8 +85,14 @@ impl Renderer {
         let samples = packed.samples;
         let (film, outcome, seconds, warnings) = match &self.gpu {
             Some(gpu) => {
-                let rendered =
-                    render::render_to_goal(gpu, packed, false, &Tuning::default(), self.options.goal, progress);
+                let rendered = render::render_to_goal(
+                    gpu,
+                    packed,
+                    false,
+                    &Tuning::default(),
+                    self.options.goal,
+                    progress,
+                );
                 let (film, report) = rendered.map_err(|error| error.or_kind(ErrorKind::Unsupported))?;
                 (film, report.outcome, report.seconds.render, report.warnings)
             }

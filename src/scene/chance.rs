@@ -12,6 +12,7 @@ impl Scene {
         planes.chain(spheres).chain(self.triangles.iter().map(|t| t.motion))
     }
 
+    /// Returns whether any shape moves.
     pub fn shapes_move(&self) -> bool {
         self.motions().any(|motion| motion != DVec3::ZERO)
     }

@@ -1,12 +1,10 @@
 //! Options that replace values of a scene, checked by the same rules: the command line's and those of a
 //! `RenderOptions`. In: a scene and what is asked for. Out: the scene to render.
 
+use super::both_filters;
 use super::cone;
 use super::limits::{check_filters, check_shared, check_spp};
-use super::model::{
-    Algorithm, Footprint, Pattern, PixelFilter, PixelFilterKind, Precision, Sampling, Scene,
-};
-use super::both_filters;
+use super::model::{Algorithm, Footprint, Pattern, PixelFilter, PixelFilterKind, Precision, Sampling, Scene};
 use crate::core::error::{Error, Result};
 use crate::texture::sampler_spec::{Filter, Method, MipMode};
 

@@ -59,8 +59,7 @@ pub(super) const IOR: Limits = Limits { words: "from 0.01 to 100", allow: |x| (0
 pub(super) const EXPONENT: Limits = Limits { words: "from 1 to 1e6", allow: |x| (1.0..=1e6).contains(&x) };
 pub(super) const RADIUS: Limits =
     Limits { words: "above 0 and at most 8 (pixels)", allow: |x| (1e-30..=MAX_RADIUS).contains(&x) };
-pub(super) const LACUNARITY: Limits =
-    Limits { words: "from 1 to 16", allow: |x| (1.0..=16.0).contains(&x) };
+pub(super) const LACUNARITY: Limits = Limits { words: "from 1 to 16", allow: |x| (1.0..=16.0).contains(&x) };
 pub(super) const GAIN: Limits = Limits { words: "from 0.01 to 1", allow: |x| (0.01..=1.0).contains(&x) };
 pub(super) const DISTORTION: Limits =
     Limits { words: "from 0 to 100", allow: |x| (0.0..=100.0).contains(&x) };

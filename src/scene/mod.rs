@@ -5,6 +5,7 @@ mod bsdf;
 pub mod builder;
 mod camera;
 mod chance;
+#[allow(missing_docs)]
 pub mod changes;
 mod checks;
 pub mod cone;

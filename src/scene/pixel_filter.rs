@@ -32,8 +32,10 @@ impl PixelFilterKind {
     }
 }
 
+/// By which weights the samples around a pixel become its colour.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PixelFilter {
+    /// Its shape.
     pub kind: PixelFilterKind,
     /// Half the filter's width, in pixels. Its shape is stretched with it.
     pub radius: f64,

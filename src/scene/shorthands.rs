@@ -29,11 +29,7 @@ impl Camera {
 
 impl Plane {
     /// Returns an infinite plane: u and v are 0 at the origin, and 1 at the ends of tangent and bitangent.
-    pub fn new(
-        origin: impl Into<DVec3>,
-        tangent: impl Into<DVec3>,
-        bitangent: impl Into<DVec3>,
-    ) -> Plane {
+    pub fn new(origin: impl Into<DVec3>, tangent: impl Into<DVec3>, bitangent: impl Into<DVec3>) -> Plane {
         let (origin, tangent, bitangent) = (origin.into(), tangent.into(), bitangent.into());
         Plane { origin, tangent, bitangent, half_extent: None, material: DEFAULT, motion: DVec3::ZERO }
     }
@@ -71,7 +67,11 @@ impl Triangle {
 }
 
 impl TextureSource {
-    fn of_content(name: impl Into<String>, content: TextureContent, color_space: ColorSpace) -> TextureSource {
+    fn of_content(
+        name: impl Into<String>,
+        content: TextureContent,
+        color_space: ColorSpace,
+    ) -> TextureSource {
         TextureSource {
             name: name.into(),
             content,
@@ -85,11 +85,7 @@ impl TextureSource {
     }
 
     /// Returns the texture of a picture file. The name is for messages.
-    pub fn file(
-        name: impl Into<String>,
-        path: impl Into<PathBuf>,
-        color_space: ColorSpace,
-    ) -> TextureSource {
+    pub fn file(name: impl Into<String>, path: impl Into<PathBuf>, color_space: ColorSpace) -> TextureSource {
         TextureSource::of_content(name, TextureContent::File(path.into()), color_space)
     }
 
@@ -105,8 +101,13 @@ impl TextureSource {
     }
 
     /// Returns a texture of `width · height` texels of linear light, red, green, blue and alpha, the first row on top.
-    pub fn rgba_float(name: impl Into<String>, [width, height]: [u32; 2], texels: &[[f32; 4]]) -> TextureSource {
-        let (format, bytes) = (TexelFormat::new(4, Component::Float32), bytemuck::cast_slice(texels).to_vec());
+    pub fn rgba_float(
+        name: impl Into<String>,
+        [width, height]: [u32; 2],
+        texels: &[[f32; 4]],
+    ) -> TextureSource {
+        let (format, bytes) =
+            (TexelFormat::new(4, Component::Float32), bytemuck::cast_slice(texels).to_vec());
         let texels = PlainTexels { width, height, format, bytes };
         TextureSource::of_content(name, TextureContent::Texels(Arc::new(texels)), ColorSpace::Linear)
     }

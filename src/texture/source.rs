@@ -8,23 +8,31 @@ use super::data::{ColorSpace, Dimension, MipKernel, TexelFormat};
 use super::procedural::Procedural;
 use crate::core::named::named_enum;
 
+/// A texture as a scene has it: its texels may still be in files.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TextureSource {
+    /// For messages.
     pub name: String,
+    /// Where the texels come from.
     pub content: TextureContent,
+    /// The axes of its texels.
     pub dimension: Dimension,
+    /// What the stored values mean.
     pub color_space: ColorSpace,
     /// Whether the scene says what the stored values mean.
     pub color_space_stated: bool,
+    /// How files of pictures are read.
     pub reading: Reading,
     /// False: v = 0 is the file's first row. True: v grows upwards (the lecture's loader).
     pub flip_v: bool,
+    /// What coarser levels are means over.
     pub mip_kernel: MipKernel,
 }
 
 /// Which picture of a file is read, and which way up.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Reading {
+    /// What is done about a picture that is stored turned.
     pub orientation: OrientationUse,
     /// Of an OpenEXR file: a layer, a part, or a channel that is read as grey.
     pub layer: Option<String>,
@@ -59,6 +67,7 @@ pub enum TextureContent {
     Faces([PathBuf; 6]),
     /// Pictures of one size, the first at w = 0.
     Slices(Vec<PathBuf>),
+    /// A file of bare texels.
     Volume(VolumeSource),
     /// One picture, not of a file.
     Texels(Arc<PlainTexels>),
@@ -101,12 +110,15 @@ pub struct PlainTexels {
 /// A file of bare texels: x runs fastest, then y, then z.
 #[derive(Clone, Debug, PartialEq)]
 pub struct VolumeSource {
+    /// The file.
     pub file: PathBuf,
     /// Width, height, depth.
     pub size: [u32; 3],
+    /// Channels and number type of a texel.
     pub format: TexelFormat,
     /// Bytes before the first texel.
     pub offset: u64,
+    /// The byte order of its numbers.
     pub endian: Endian,
 }
 
@@ -126,6 +138,7 @@ impl TextureSource {
 }
 
 impl TextureContent {
+    /// Returns the pattern, if it is one.
     pub fn procedural(&self) -> Option<&Procedural> {
         match self {
             TextureContent::Procedural(procedural) => Some(procedural),

@@ -38,8 +38,7 @@ pub fn triangle(key: Key, triangle: &Triangle) -> Check {
 
 pub fn light(key: Key, light: &Light) -> Check {
     let [position, direction] = ["position", "direction"].map(|name| key.of(name));
-    let [intensity, irradiance, radiance] =
-        ["intensity", "irradiance", "radiance"].map(|name| key.of(name));
+    let [intensity, irradiance, radiance] = ["intensity", "irradiance", "radiance"].map(|name| key.of(name));
     match *light {
         Light::Point { position: place, intensity: power } => {
             position.vector(place, &COORDINATE)?;

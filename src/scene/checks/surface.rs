@@ -73,8 +73,9 @@ fn fits(key: Key, mapping: &Mapping, dimension: Dimension) -> Check {
 fn mapping(key: Key, mapping: &Mapping) -> Check {
     let entity = mapping.entity;
     if mapping.space == Space::Bounds && entity.is_direction() {
-        let what =
-            format!("entity \"{entity}\" is a direction, which is nowhere; remove the key or use entity \"position\"");
+        let what = format!(
+            "entity \"{entity}\" is a direction, which is nowhere; remove the key or use entity \"position\""
+        );
         return key.of("mapping.space").refuse(what, "a direction has no box");
     }
     key.of("mapping.origin").vector(mapping.origin, &COORDINATE)?;
@@ -108,12 +109,7 @@ pub fn bounds(key: Key, plane: &Plane, material: &Material) -> Check {
     key.of("half_extent").refuse(what, "infinite plane")
 }
 
-pub fn background(
-    key: Key,
-    background: &Background,
-    textures: &[TextureSource],
-    samplers: usize,
-) -> Check {
+pub fn background(key: Key, background: &Background, textures: &[TextureSource], samplers: usize) -> Check {
     key.of("color").vector(background.color, &COLOR)?;
     let Some(environment) = background.environment else { return Ok(()) };
     key.of("environment").index(environment.texture, textures.len(), "texture")?;

@@ -72,8 +72,7 @@ fn dimension(key: Key, source: &TextureSource) -> Check {
         }
         TextureContent::CubeFile(_, None) => ("file", Dimension::Cube, "its picture holds the six faces"),
         TextureContent::File(_) if source.dimension == Dimension::Three => {
-            let what =
-                "a picture is no volume; give slices = [files], volume = { … } or an NRRD file (.nrrd, .nhdr)";
+            let what = "a picture is no volume; give slices = [files], volume = { … } or an NRRD file (.nrrd, .nhdr)";
             return key.refuse(what, "not from one picture");
         }
         TextureContent::Texels(_) => ("texels", Dimension::Two, "texels are one picture"),
@@ -82,10 +81,8 @@ fn dimension(key: Key, source: &TextureSource) -> Check {
     if source.dimension == implied {
         return Ok(());
     }
-    let what = format!(
-        "\"{}\" contradicts {name}: {reason}, so the dimension is \"{implied}\"",
-        source.dimension
-    );
+    let what =
+        format!("\"{}\" contradicts {name}: {reason}, so the dimension is \"{implied}\"", source.dimension);
     key.refuse(what, format!("is \"{implied}\""))
 }
 

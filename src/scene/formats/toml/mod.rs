@@ -59,7 +59,8 @@ fn read(path: &Path, bytes: Vec<u8>) -> Result<Scene> {
         let message = format!(
             "cannot read scene {shown}: not UTF-8 text (byte 0x{byte:02x} at offset {valid}, line {line})"
         );
-        Error::with_help(message, "scene files are TOML text: save the file as UTF-8").of_kind(ErrorKind::File)
+        Error::with_help(message, "scene files are TOML text: save the file as UTF-8")
+            .of_kind(ErrorKind::File)
     })?;
     parse(path, &text)
 }
@@ -120,8 +121,7 @@ fn surfaces<'a>(path: &Path, root: &Table<'a>, builder: &mut SceneBuilder) -> Re
     let tables = root.repeated("texture", &[textures::TEXTURE, PROCEDURAL].concat())?;
     let texture_names = Names::collect("texture", &tables)?;
     let folder = path.parent().unwrap_or(Path::new(""));
-    let textures =
-        tables.iter().map(|table| textures::texture(table, folder)).collect::<Result<Vec<_>>>()?;
+    let textures = tables.iter().map(|table| textures::texture(table, folder)).collect::<Result<Vec<_>>>()?;
 
     let tables = root.repeated("sampler", samplers::SAMPLER)?;
     let sampler_names = Names::collect("sampler", &tables)?;

@@ -60,8 +60,7 @@ pub(super) fn sphere(table: &Table<'_>, materials: &Names<'_>) -> Result<Sphere>
 
 pub(super) fn triangle(table: &Table<'_>, materials: &Names<'_>) -> Result<Triangle> {
     let field = table.required("vertices")?;
-    let vertices =
-        field.array("3 vertices of 3 finite numbers each", [DVec3::ZERO; 3], Field::vec3)?;
+    let vertices = field.array("3 vertices of 3 finite numbers each", [DVec3::ZERO; 3], Field::vec3)?;
     let mut uvs = [DVec2::ZERO, DVec2::X, DVec2::Y];
     if let Some(field) = table.get("uvs") {
         let wanted = "3 texture coordinates of 2 finite numbers each";

@@ -155,7 +155,9 @@ fn content(
         "slices" => TextureContent::Slices(field.list("files", MAX_TEXELS, file)?),
         "volume" => TextureContent::Volume(volume(&Table::inline(field, "texture.volume", VOLUME)?, folder)?),
         "ramp" => TextureContent::Ramp(field.list("colors", MAX_TEXELS, color)?),
-        _ if dimension == Dimension::Cube || layout.is_some() => TextureContent::CubeFile(file(field)?, layout),
+        _ if dimension == Dimension::Cube || layout.is_some() => {
+            TextureContent::CubeFile(file(field)?, layout)
+        }
         _ => TextureContent::File(file(field)?),
     })
 }
