@@ -1,9 +1,11 @@
 //! The one error type: what kind of thing went wrong, where, and what to do about it. Every variant but an
 //! interruption ends a command with exit code 2; none is ever a panic.
 
+use std::fmt::Display;
+use std::iter;
 use std::sync::Arc;
 
-use miette::{Diagnostic, NamedSource, SourceSpan};
+use miette::{Diagnostic, LabeledSpan, NamedSource, SourceCode, SourceSpan};
 
 /// The result of whatever may fail with an [`Error`].
 pub type Result<T, E = Error> = std::result::Result<T, E>;
@@ -43,7 +45,7 @@ impl ErrorKind {
 }
 
 /// What went wrong. Its `Display` is one sentence that names the place; [`help`](Error::help) says what to do.
-#[derive(Debug, thiserror::Error, Diagnostic)]
+#[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
     /// A mistake at a known place of a scene file. `message` already names file, line, column and
@@ -56,13 +58,10 @@ pub enum Error {
         /// What stands beside the caret.
         label: String,
         /// The scene file's text.
-        #[source_code]
         source_code: Arc<NamedSource<String>>,
         /// Where in the text.
-        #[label("{label}")]
         span: SourceSpan,
         /// What to do about it, where the message does not say so.
-        #[help]
         help: Option<String>,
     },
     /// Anything else a person can act on.
@@ -74,7 +73,6 @@ pub enum Error {
         /// What was being done, to which object, and what is wrong.
         message: String,
         /// What to do about it, where the message does not say so.
-        #[help]
         help: Option<String>,
     },
     /// Ctrl-C: the device has finished its slice, nothing was written.
@@ -152,5 +150,33 @@ mod tests {
         assert_eq!(Error::Interrupted.of_kind(ErrorKind::File).kind(), ErrorKind::Interrupted);
         assert!(lost().kind().is_transient() && !Error::new("x").kind().is_transient());
         assert_eq!(Error::with_help("a", "b").within("c").to_string(), "c: a");
+    }
+}
+
+/// What is shown of an error beside its message. Written out: the derive macro is ten seconds of a first build.
+impl Diagnostic for Error {
+    fn help(&self) -> Option<Box<dyn Display + '_>> {
+        match self {
+            Error::Scene { help, .. } | Error::Plain { help, .. } => {
+                help.as_ref().map(|help| Box::new(help) as Box<dyn Display + '_>)
+            }
+            Error::Interrupted => None,
+        }
+    }
+
+    fn source_code(&self) -> Option<&dyn SourceCode> {
+        match self {
+            Error::Scene { source_code, .. } => Some(source_code),
+            _ => None,
+        }
+    }
+
+    fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
+        match self {
+            Error::Scene { label, span, .. } => {
+                Some(Box::new(iter::once(LabeledSpan::new_with_span(Some(label.clone()), *span))))
+            }
+            _ => None,
+        }
     }
 }

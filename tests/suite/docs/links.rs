@@ -10,7 +10,7 @@ use super::{Page, pages, prose, root, spans};
 /// What `](…)` leads to, beside `` `code` ``.
 fn targets(text: &str) -> Vec<String> {
     let without_code =
-        |line: &&str| -> String { line.split('`').step_by(2).collect::<Vec<_>>().join("code") };
+        |line: &String| -> String { line.split('`').step_by(2).collect::<Vec<_>>().join("code") };
     let lines: Vec<String> = prose(text).iter().map(without_code).collect();
     let text = lines.join(" ");
     text.split("](").skip(1).filter_map(|rest| rest.split(')').next()).map(String::from).collect()

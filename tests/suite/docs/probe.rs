@@ -4,7 +4,7 @@
 
 use std::path::Path;
 
-use moire::scene::parse;
+use moire::internal::scene::parse;
 
 /// A table of the format, with the least that it takes to be read.
 pub struct Context {

@@ -233,5 +233,5 @@ fn defaults_of_the_reference_are_those_of_the_reader() {
 fn the_scene_of_the_reference_can_be_read() {
     let Some(page) = pages().into_iter().find(|page| page.name == PAGE) else { return };
     let scene = page.text.split("```toml\n").nth(1).and_then(|rest| rest.split("```").next()).unwrap();
-    moire::scene::parse(std::path::Path::new("docs/scene.toml"), scene).unwrap();
+    moire::internal::scene::parse(std::path::Path::new("docs/scene.toml"), scene).unwrap();
 }

@@ -4,7 +4,7 @@
 use std::fs;
 use std::path::PathBuf;
 
-use moire::scene::synonyms::meant;
+use moire::internal::scene::synonyms::meant;
 
 use super::root;
 use crate::layering::files_under;
