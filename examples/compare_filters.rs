@@ -26,7 +26,7 @@ fn main() -> ExitCode {
 pub fn compare(device: &str, size: [u32; 2]) -> Result<Vec<(Filter, f64)>> {
     // The reference needs no filter: it has enough samples for the smallest texel.
     let reference = render(device, size, None)?;
-    let errors = [Filter::Linear, Filter::Ewa].map(|filter| {
+    let errors = [Filter::Linear, Filter::Ewa].map(|filter| -> Result<(Filter, f64)> {
         let film = render(device, size, Some(filter))?;
         Ok((filter, film.compare(&reference)?.rmse))
     });

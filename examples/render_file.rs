@@ -3,16 +3,17 @@
 
 use std::env;
 use std::process::ExitCode;
+use std::sync::atomic::{AtomicU32, Ordering};
 
 use moire::{Error, ErrorKind, Progress, RenderOptions, Renderer, Scene};
 
 /// Prints a dot for each tenth of the work.
-struct Dots(std::sync::atomic::AtomicU32);
+struct Dots(AtomicU32);
 
 impl Progress for Dots {
     fn advance(&self, done: f64) {
         let tenths = (done * 10.0) as u32;
-        if self.0.fetch_max(tenths, std::sync::atomic::Ordering::Relaxed) < tenths {
+        if self.0.fetch_max(tenths, Ordering::Relaxed) < tenths {
             eprint!(".");
         }
     }
@@ -51,7 +52,7 @@ pub fn render(scene: &str, out: &str, device: Option<&str>) -> Result<(), Error>
     if let Some(device) = device {
         options = options.device(device);
     }
-    let dots = Dots(0.into());
+    let dots = Dots(AtomicU32::new(0));
     let rendered = Renderer::new(options.clone())
         .and_then(|renderer| renderer.render_with(&scene, &dots))
         .or_else(|error| match error.kind() {

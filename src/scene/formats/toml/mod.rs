@@ -47,7 +47,7 @@ const SECTIONS: &[&str] = &[
 ];
 
 pub(super) const FORMAT: Format =
-    Format { name: "TOML", endings: &["toml"], max_bytes: MAX_BYTES, read: |path, bytes| read(path, bytes) };
+    Format { name: "TOML", endings: &["toml"], max_bytes: MAX_BYTES, read: read };
 
 /// Paths in the file are relative to the folder of `path`.
 fn read(path: &Path, bytes: Vec<u8>) -> Result<Scene> {
