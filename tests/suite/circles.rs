@@ -24,7 +24,6 @@ const ONE_JOB: &[(&[&str], &str)] = &[
     (&["scene.builder", "scene.whole"], "a scene and its builder name each other"),
     (&["adaptive.audit", "adaptive.draws"], "the pixels drawn for an audit"),
     (&["lab.verify"], "a report names the place and the variant that it judges"),
-    (&["lab.study"], "records, what is computed from them and the words for it make one page"),
     (
         &["render.beams", "render.jobs"],
         "pixels that beams leave are sampled, and sampled ones may be left to beams",
