@@ -49,7 +49,7 @@ fn render(device: &str, [width, height]: [u32; 2], filter: Option<Filter>) -> Re
         sampler,
         ..Material::default()
     });
-    scene.plane(Plane::new([0.0; 3], [2.0, 0.0, 0.0], [0.0, 0.0, -2.0]).with_material(floor));
+    scene.shape(Plane::new([0.0; 3], [2.0, 0.0, 0.0], [0.0, 0.0, -2.0]).with_material(floor));
     scene.sampling(Sampling {
         spp: if filter.is_some() { 1 } else { 256 },
         footprint: if filter.is_some() { Footprint::Differentials } else { Footprint::None },

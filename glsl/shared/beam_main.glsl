@@ -6,6 +6,7 @@
 #define BEAM_MAIN_GLSL
 
 #define HIDE_UNIFORMS
+#define SHAPES_IN_BEAMS
 #include "features.glsl"
 #include "shading_integral.glsl"
 #include "slice.glsl"
@@ -63,16 +64,14 @@ float negligible(vec3 inverse_depth, uint polygon) {
 // All that the beam may meet. Behind a mirror that is what lies beyond it: what lies before it neither is seen
 // nor hides anything.
 void find_shapes(Header header, PixelBeam beam) {
-    uint planes = COUNT(PLANES, header.counts.x);
-    uint before_triangles = planes + COUNT(SPHERES, header.counts.y);
-    uint shapes = before_triangles + COUNT(TRIANGLES, header.counts.z);
+    uint shapes = shape_count(header);
     met_count = 0u;
     bool mirrored = BOUNCES && beam.skip != NO_SHAPE;
     float least = mirrored ? negligible(beam.limit, WHOLE) : 0.0;
     for (uint shape = 0u; shape < shapes; shape++) {
         if (shape == beam.skip) continue;
-        if (SPHERES != 0u && shape >= planes && shape < before_triangles) {
-            if (may_meet_sphere(header, beam.frame, WHOLE, sphere_at(shape - planes))) gave_up = true;
+        if (!has_region(header, shape)) {
+            if (may_meet(header, beam.frame, WHOLE, shape)) gave_up = true;
             continue;
         }
         ConvexRegion region = shape_region(header, beam.frame, shape);
@@ -127,9 +126,7 @@ void carve(uint stage, uint by, bool has_first, vec3 first, bool kept) {
 
 // Adds the integral over those parts of SEEN that see the light; without one, over all of it.
 void lit_by(Header header, ShadingIntegral paint, uint shape, bool has_light, Light light) {
-    uint planes = COUNT(PLANES, header.counts.x);
-    uint before_triangles = planes + COUNT(SPHERES, header.counts.y);
-    uint shapes = before_triangles + COUNT(TRIANGLES, header.counts.z);
+    uint shapes = shape_count(header);
     uint bottom = waiting;
     if (!has_light) push_piece(SEEN, shapes);
     else if (is_facing(header, paint, SEEN, light)) push_piece(SEEN, 0u);
@@ -140,9 +137,9 @@ void lit_by(Header header, ShadingIntegral paint, uint shape, bool has_light, Li
             color += paint.carried * integral(header, paint, has_light, light);
             continue;
         }
-        bool is_sphere = SPHERES != 0u && by >= planes && by < before_triangles;
-        if (is_sphere && may_shade(header, paint, PIECE, light, sphere_at(by - planes))) gave_up = true;
-        if (by == shape || is_sphere) push_piece(PIECE, by + 1u);
+        bool is_round = !has_region(header, by);
+        if (is_round && may_shade(header, paint.frame, paint.near, PIECE, light, by)) gave_up = true;
+        if (by == shape || is_round) push_piece(PIECE, by + 1u);
         else {
             met[MAX_MET] = shadow_region(header, paint.frame, paint.near, by, light);
             // What lies in the surface's own plane, or beyond it, keeps no light away.

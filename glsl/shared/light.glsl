@@ -6,7 +6,7 @@
 #include "bsdf/models.glsl"
 #include "sample_dimensions.glsl"
 #include "rectangle.glsl"
-#include "surface.glsl"
+#include "geometry/rays.glsl"
 
 // Shapes as near to a place of a light as this share of the way are taken for the light itself.
 const float BEFORE_LIGHT = 4095.0 / 4096.0;

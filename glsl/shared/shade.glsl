@@ -5,10 +5,10 @@
 #define SHADE_GLSL
 
 #include "bsdf/specular.glsl"
-#include "filter.glsl"
+#include "filter/sample_texture.glsl"
 #include "light.glsl"
 #include "shading_normal.glsl"
-#include "surface.glsl"
+#include "geometry/rays.glsl"
 
 // What the surface's map looks at.
 MapInput map_input(UvProjection map, Ray ray, Surface surface, Footprint print) {
@@ -209,12 +209,13 @@ vec3 advance(Header header, Points points, SampleDimensions dimensions, inout Pa
         Material material = material_at(surface.link.x);
         UvProjection map = map_at(surface.link.y);
         vec3 carried = path.throughput;
-        path.throughput *= surface_color(material, map, path.ray, surface, print, path.random);
+        vec3 albedo = surface_color(material, map, path.ray, surface, print, path.random);
+        path.throughput *= albedo;
         real3 direction = path.ray.direction;
         is_alive = BOUNCES && bounced(header, hit, surface, print, material, dimensions, path);
         seen = emitted(material, path.throughput);
         if (is_lit(material)) {
-            Bsdf bsdf = bsdf_at(material, surface.normal, direction);
+            Bsdf bsdf = bsdf_at(material, albedo, surface.normal, direction);
             Lit lit = direct_light(header, surface, path.ray.time, hit.shape, bsdf, points, dimensions);
             seen = reflected(bsdf, path.throughput, carried, lit);
         }

@@ -5,6 +5,8 @@
 
 #include "features.glsl"
 #include "bsdf/models.glsl"
+#include "filter/kinds.glsl"
+#include "geometry/beams.glsl"
 #include "prefix_sums.glsl"
 #include "sample_dimensions.glsl"
 
@@ -37,13 +39,6 @@ struct ShadingIntegral {
     vec3 near;
 };
 
-bool is_smooth(Header header, uint shape) {
-    uint planes = COUNT(PLANES, header.counts.x);
-    if (!SMOOTH_NORMALS || TRIANGLES == 0u || shape < planes) return false;
-    return triangle_at(shape - planes - COUNT(SPHERES, header.counts.y)).v.w != 0.0;
-}
-
-const uint STEPPED = (1u << FILTER_NEAREST) | (1u << FILTER_LINEAR);
 const uint TILED = (1u << ADDRESS_REPEAT) | (1u << ADDRESS_MIRRORED_REPEAT) | (1u << ADDRESS_CLAMP_TO_EDGE);
 
 // Whether the integral of a shape's colour is known: of a material that has one, with a checker or a flat texture
@@ -62,7 +57,7 @@ bool is_simple(Header header, uint shape, Material record, UvProjection map) {
     }
     Sampler how = sampler_at(record.link.z);
     bool tiled = HAS(TILED, how.modes.x) && HAS(TILED, how.modes.y);
-    return HAS(STEPPED, how.modes.z) && tiled && word(int(record.link.y)) > 0;
+    return is_integrable(how) && tiled && word(int(record.link.y)) > 0;
 }
 
 // A light behind the surface, as its beam sees it, gives nothing.
@@ -90,23 +85,6 @@ vec3 irradiance(Header header, ShadingIntegral paint, uint strip, Light light) {
     float squared = dot3(way, way);
     float scale = parallel ? 1.0 : near * near;
     return power * (scale * abs(dot3(n, way)) / (squared * sqrt(squared)));
-}
-
-// False where no way from the fragment to the light can pass the sphere.
-bool may_shade(Header header, ShadingIntegral paint, uint polygon, Light light, Sphere sphere) {
-    vec3 from = point_at(header, paint.frame, paint.near, middle(polygon));
-    float wide = 0.0;
-    for (uint k = 0u; k < counts[polygon]; k++) {
-        vec3 apart = point_at(header, paint.frame, paint.near, corner(polygon, k)) - from;
-        wide = max(wide, sqrt(dot3(apart, apart)));
-    }
-    bool point_light = MODE_IS(LIGHT_KINDS, LIGHT_POINT, light.link.x);
-    vec3 way = point_light ? light.place.xyz - from : light.place.xyz;
-    vec3 to = sphere.ball.xyz - from;
-    float ahead = max(dot3(to, way) / dot3(way, way), 0.0);
-    vec3 aside = to - (point_light ? min(ahead, 1.0) : ahead) * way;
-    // What is not a number may.
-    return !(sqrt(dot3(aside, aside)) > sphere.ball.w + wide);
 }
 
 // Strips that a fragment is cut into: the root of STRIPS times the logarithm of the ratio of depths.

@@ -6,8 +6,7 @@
 #define SHADING_NORMAL_GLSL
 
 #include "bsdf/mirror.glsl"
-#include "footprint.glsl"
-#include "surface.glsl"
+#include "geometry/hit.glsl"
 
 const bool LEANING = SMOOTH_NORMALS || BUMPED;
 

@@ -23,7 +23,7 @@ use crate::texture::load::load_noted;
 ///
 /// # fn main() -> moire::Result<()> {
 /// let mut scene = Scene::builder(Camera::looking([0.0, 0.0, 5.0], [0.0, 0.0, 0.0], 40.0), 16, 16);
-/// scene.sphere(Sphere::new([0.0, 0.0, 0.0], 1.0));
+/// scene.shape(Sphere::new([0.0, 0.0, 0.0], 1.0));
 /// let renderer = Renderer::new(RenderOptions::new().device("oracle").samples(4))?;
 /// let film = renderer.render(&scene.build()?)?;
 /// assert_eq!([film.width, film.height], [16, 16]);

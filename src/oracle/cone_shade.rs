@@ -6,21 +6,22 @@ use glam::{DVec2, DVec3};
 
 use super::bsdf::dielectric::refracted;
 use super::bsdf::mirror::mirrored;
-use super::bsdf::models::{Lit, bsdf_at, emitted, evaluate, is_lit, is_specular, reflected};
 use super::bsdf::specular::{index_ratio, mirrored_share};
+use super::bsdf::{Lit, bsdf_at, emitted, evaluate, is_lit, is_specular, reflected};
 use super::camera::{Ray, camera_ray};
-use super::cone::{Cone, cone_of, leaving, meet};
+use super::cone::{Cone, cone_of};
 use super::coverage::{Covered, MIN_SHARE};
 use super::footprint::{
     Footprint, Meeting, RayDifferential, camera_differential, endless_footprint, footprint_at,
     reflected_differential, refracted_differential,
 };
 use super::fragments::{collect_fragments, composite};
-use super::intersect::{FAR, Hit, offset_origin};
+use super::geometry::cones::{leaving, left_shape, meet};
+use super::geometry::hit::{FAR, Hit, Surface};
+use super::geometry::rays::{hit_surface, offset_origin};
 use super::math::xyz;
 use super::shade::{bumped_normal, surface_color};
 use super::shading_normal::{consistent_normal, on_its_side};
-use super::surface::{Surface, hit_surface};
 use crate::pack::{LightKind, PackedScene};
 use crate::schema::layout::{Light, Material, NO_MATERIAL, NO_SHAPE};
 
@@ -81,7 +82,8 @@ struct Met<'a> {
     surface: Surface,
     print: Footprint,
     material: &'a Material,
-    /// The weight before the surface's colour.
+    /// The surface's colour, and the weight before it.
+    albedo: DVec3,
     carried: DVec3,
 }
 
@@ -96,7 +98,7 @@ fn lit_branch(branch: &Branch, met: &Met<'_>, skip: u32, light: &Light) -> Branc
     let shines = facing > 0.0 && above > 0.0;
     let share = if point_light { facing / length.powi(3) } else { facing };
     let more = xyz(light.power) * (if shines { share } else { 0.0 } / PI);
-    let bsdf = bsdf_at(material, surface.normal, branch.ray.direction);
+    let bsdf = bsdf_at(material, met.albedo, surface.normal, branch.ray.direction);
     let [first, second] = evaluate(&bsdf, way);
     let lit = Lit { first: more * first, second: more * second };
     let seen = reflected(&bsdf, branch.weight, met.carried, lit);
@@ -113,13 +115,6 @@ fn lit_branch(branch: &Branch, met: &Met<'_>, skip: u32, light: &Light) -> Branc
         skip,
         goal: Goal::Light(t_max),
     }
-}
-
-/// The shape that a ray must not meet again at once. From inside a ball its other side is met.
-fn left_shape(scene: &PackedScene, shape: u32, within: bool) -> u32 {
-    let [planes, spheres, _, _] = scene.header.counts;
-    let ball = (planes..planes + spheres).contains(&shape);
-    if ball && within { NO_SHAPE } else { shape }
 }
 
 /// The cone that leaves a mirror or glass, `through` it or not.
@@ -178,12 +173,13 @@ fn shade_part(waiting: &mut Waiting, scene: &PackedScene, mut branch: Branch, sh
         surface.normal = bumped_normal(scene, material, map, (&ray, &surface, &print), [0; 2]);
     }
     let carried = branch.weight;
-    branch.weight *= surface_color(scene, material, map, (&ray, &surface, &print), [0; 2]);
+    let albedo = surface_color(scene, material, map, (&ray, &surface, &print), [0; 2]);
+    branch.weight *= albedo;
     let inside = surface.inside;
     if is_specular(material) {
         consistent_normal(ray.direction, &mut surface);
     }
-    let met = Met { hit, surface, print, material, carried };
+    let met = Met { hit, surface, print, material, albedo, carried };
     if !is_lit(material) && !is_specular(material) {
         return emitted(material, branch.weight);
     }

@@ -5,14 +5,14 @@ use std::f64::consts::PI;
 
 use glam::{DVec2, DVec3};
 
-use super::bsdf::models::{Bsdf, Lit, evaluate};
+use super::bsdf::{Bsdf, Lit, evaluate};
 use super::camera::Ray;
 use super::disk_sampling::{concentric_disc, on_cap};
 use super::footprint::around;
-use super::intersect::{FAR, occluded, offset_origin};
+use super::geometry::hit::{FAR, Surface};
+use super::geometry::rays::{occluded, offset_origin};
 use super::math::xyz;
 use super::rectangle::{MIN_SOLID_ANGLE, on_rectangle};
-use super::surface::Surface;
 use crate::pack::{LightKind, PackedScene};
 use crate::schema::layout::Light;
 

@@ -4,15 +4,16 @@ use glam::{DVec2, DVec3, DVec4};
 
 use super::bsdf::facets::widened_differential;
 use super::bsdf::mirror::mirrored;
-use super::bsdf::models::{bsdf_at, emitted, is_lit, is_specular, reflected};
 use super::bsdf::specular::sample_bsdf;
+use super::bsdf::{bsdf_at, emitted, is_lit, is_specular, reflected};
 use super::camera::Ray;
 use super::filter::sample_texture;
 use super::footprint::{
     Footprint, Meeting, RayDifferential, any_tangent, endless_footprint, footprint_at, is_filtered,
     mirrored_change, reflected_differential, refracted_differential,
 };
-use super::intersect::{Hit, nearest_hit, offset_origin};
+use super::geometry::hit::{Hit, Surface};
+use super::geometry::rays::{hit_surface, nearest_hit, offset_origin};
 use super::light::direct_light;
 use super::mapping::{Coordinate, MapInput, texture_coordinate};
 use super::math::xyz;
@@ -20,7 +21,6 @@ use super::patterns::Points;
 use super::rng::pcg2d;
 use super::sample_dimensions::{SampleDimensions, choose, chosen_light};
 use super::shading_normal::consistent_normal;
-use super::surface::{Surface, hit_surface};
 use crate::pack::{EntityKind, PackedScene};
 use crate::scene::model::BumpKind;
 use crate::schema::layout::{Header, Material, NO_MATERIAL, NO_SHAPE, NO_TEXTURE, UvProjection};
@@ -245,9 +245,10 @@ pub fn advance(scene: &PackedScene, path: &mut Path) -> DVec3 {
         surface.normal = bumped_normal(scene, material, map, (&ray, &surface, &print), path.random);
     }
     let carried = path.throughput;
-    path.throughput *= surface_color(scene, material, map, (&ray, &surface, &print), path.random);
+    let albedo = surface_color(scene, material, map, (&ray, &surface, &print), path.random);
+    path.throughput *= albedo;
     if is_lit(material) {
-        let bsdf = bsdf_at(material, surface.normal, ray.direction);
+        let bsdf = bsdf_at(material, albedo, surface.normal, ray.direction);
         let points = path.points.as_ref().map(|(points, _)| points);
         let chosen = |i: u32| chosen_light(points, &dimensions, i);
         let lit = direct_light(scene, &surface, ray.time, hit.shape, &bsdf, &chosen);

@@ -42,6 +42,11 @@ impl Model {
         matches!(self, Model::Mirror | Model::Dielectric)
     }
 
+    /// Returns the number that its record holds beside the colours: a refractive index, or the highlight's exponent.
+    pub const fn number_of(self, material: &Material) -> f64 {
+        if self.transmits() { material.ior } else { material.exponent }
+    }
+
     /// Whether rays go on through it, too.
     pub const fn transmits(self) -> bool {
         matches!(self, Model::Dielectric)

@@ -5,10 +5,9 @@
 use std::path::{Path, PathBuf};
 
 use super::checks;
-use super::limits::{MAX_SHAPES, MAX_TEXTURES, check_filters, collinear};
-use super::model::{
-    Background, Camera, Light, Material, PixelFilter, Plane, Sampling, Scene, Sphere, TextureSource, Triangle,
-};
+use super::geometry::{self, Kind};
+use super::limits::{MAX_TEXTURES, check_filters};
+use super::model::{Background, Camera, Light, Material, PixelFilter, Sampling, Scene, TextureSource};
 use super::refusal::{Check, Key};
 use super::whole;
 use crate::core::error::Result;
@@ -88,22 +87,10 @@ impl SceneBuilder {
         push(&mut self.scene.materials, material)
     }
 
-    /// Adds a plane.
-    pub fn plane(&mut self, plane: Plane) -> &mut Self {
-        let item = push(&mut self.scene.planes, plane);
-        self.count_shape("plane", item)
-    }
-
-    /// Adds a sphere.
-    pub fn sphere(&mut self, sphere: Sphere) -> &mut Self {
-        let item = push(&mut self.scene.spheres, sphere);
-        self.count_shape("sphere", item)
-    }
-
-    /// Adds a triangle.
-    pub fn triangle(&mut self, triangle: Triangle) -> &mut Self {
-        let item = push(&mut self.scene.triangles, triangle);
-        self.count_shape("triangle", item)
+    /// Adds a plane, a sphere or a triangle.
+    pub fn shape(&mut self, shape: impl Kind) -> &mut Self {
+        self.over = self.over.or(geometry::add(&mut self.scene, shape));
+        self
     }
 
     /// Adds a light.
@@ -132,40 +119,10 @@ impl SceneBuilder {
         let (textures, samplers) = (&scene.textures, scene.samplers.len());
         each("material", &scene.materials, |key, m| checks::material(key, m, textures, samplers))?;
         checks::background(Key::item("background", 0), &scene.background, textures, samplers)?;
-        let materials = &scene.materials;
-        let material = |key: Key, index| key.of("material").index(index, materials.len(), "material");
-        each("plane", &scene.planes, |key, plane| {
-            checks::plane(key, plane)?;
-            material(key, plane.material)?;
-            checks::bounds(key, plane, &materials[plane.material])
-        })?;
-        each("sphere", &scene.spheres, |key, sphere| {
-            checks::sphere(key, sphere)?;
-            material(key, sphere.material)
-        })?;
-        each("triangle", &scene.triangles, |key, triangle| {
-            checks::triangle(key, triangle)?;
-            material(key, triangle.material)
-        })?;
+        geometry::check(scene)?;
         each("light", &scene.lights, checks::light)?;
         self.simplify();
         Ok(self.scene)
-    }
-
-    /// Which triangles have no area.
-    pub(super) fn is_dropped(triangle: &Triangle) -> bool {
-        collinear(triangle.vertices)
-    }
-
-    fn count_shape(&mut self, section: &'static str, item: usize) -> &mut Self {
-        if self.shapes() == MAX_SHAPES + 1 {
-            self.over = Some(Key::item(section, item));
-        }
-        self
-    }
-
-    fn shapes(&self) -> usize {
-        self.scene.planes.len() + self.scene.spheres.len() + self.scene.triangles.len()
     }
 
     fn check_counts(&self) -> Check {
@@ -176,8 +133,7 @@ impl SceneBuilder {
         if textures > MAX_TEXTURES {
             return refuse(Key::item("texture", MAX_TEXTURES), textures, "textures", MAX_TEXTURES);
         }
-        let shapes = "planes, spheres and triangles";
-        self.over.map_or(Ok(()), |key| refuse(key, self.shapes(), shapes, MAX_SHAPES))
+        geometry::check_count(&self.scene, self.over)
     }
 
     /// Adds the default sampler and the default material where something has them.
@@ -201,11 +157,12 @@ impl SceneBuilder {
             scene.samplers.push(SamplerSpec::default());
         }
         let added = scene.materials.len();
-        let planes = scene.planes.iter_mut().map(|p| &mut p.material);
-        let spheres = scene.spheres.iter_mut().map(|s| &mut s.material);
-        let triangles = scene.triangles.iter_mut().map(|t| &mut t.material);
-        let materials = planes.chain(spheres).chain(triangles).filter(|material| **material == DEFAULT);
-        if materials.map(|material| *material = added).count() > 0 {
+        let mut uses_default = false;
+        for shape in scene.shapes_mut().filter(|shape| shape.material() == DEFAULT) {
+            *shape.material_mut() = added;
+            uses_default = true;
+        }
+        if uses_default {
             scene.materials.push(Material::default());
         }
     }
@@ -223,11 +180,8 @@ impl SceneBuilder {
                 light => light,
             };
         }
-        let all = scene.triangles.len();
-        let first = scene.triangles.iter().position(SceneBuilder::is_dropped);
+        let first = geometry::drop_empty(scene);
         scene.first_dropped = first.map_or(String::new(), |first| format!("number {first}"));
-        scene.triangles.retain(|triangle| !SceneBuilder::is_dropped(triangle));
-        scene.dropped_triangles = all - scene.triangles.len();
     }
 }
 

@@ -5,11 +5,9 @@ use glam::DVec3;
 use super::model::{Light, PixelFilterKind, Scene};
 
 impl Scene {
-    /// Of all shapes: planes, spheres, triangles.
+    /// Of all shapes.
     pub fn motions(&self) -> impl Iterator<Item = DVec3> {
-        let planes = self.planes.iter().map(|p| p.motion);
-        let spheres = self.spheres.iter().map(|s| s.motion);
-        planes.chain(spheres).chain(self.triangles.iter().map(|t| t.motion))
+        self.shapes().map(|shape| shape.motion())
     }
 
     /// Returns whether any shape moves.

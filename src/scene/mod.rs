@@ -10,6 +10,7 @@ pub mod changes;
 mod checks;
 pub mod cone;
 mod formats;
+pub mod geometry;
 mod limits;
 mod mapping;
 pub mod model;

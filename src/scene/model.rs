@@ -3,10 +3,11 @@
 
 use std::path::PathBuf;
 
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 
 pub use super::bsdf::Model;
 pub use super::camera::{Camera, Lens, Projection};
+pub use super::geometry::{Bounds, Plane, Shape, Sphere, Triangle};
 pub use super::mapping::{Entity, Mapping, MappingKind, Space};
 pub use super::pixel_filter::{PixelFilter, PixelFilterKind};
 pub use super::sampling::{Algorithm, Footprint, Pattern, Precision, Sampling};
@@ -177,51 +178,6 @@ impl Material {
     pub fn is_mapped(&self) -> bool {
         self.texture.is_some() || self.bump.is_some()
     }
-}
-
-/// A plane, or a parallelogram of it.
-#[derive(Clone, Copy, Debug)]
-pub struct Plane {
-    /// Where u and v are 0.
-    pub origin: DVec3,
-    /// From u = 0 to u = 1.
-    pub tangent: DVec3,
-    /// From v = 0 to v = 1.
-    pub bitangent: DVec3,
-    /// Bounds |u| and |v|, measured in tangents and bitangents; infinite without.
-    pub half_extent: Option<f64>,
-    /// Index of its material.
-    pub material: usize,
-    /// How far it moves between the times 0 and 1.
-    pub motion: DVec3,
-}
-
-/// A sphere.
-#[derive(Clone, Copy, Debug)]
-pub struct Sphere {
-    /// Its middle.
-    pub center: DVec3,
-    /// In scene units.
-    pub radius: f64,
-    /// Index of its material.
-    pub material: usize,
-    /// How far it moves between the times 0 and 1.
-    pub motion: DVec3,
-}
-
-/// A triangle.
-#[derive(Clone, Copy, Debug)]
-pub struct Triangle {
-    /// Its corners; counter-clockwise as seen from its front.
-    pub vertices: [DVec3; 3],
-    /// Their texture coordinates.
-    pub uvs: [DVec2; 3],
-    /// Shading normals (any length, not zero); the geometric normal without.
-    pub normals: Option<[DVec3; 3]>,
-    /// Index of its material.
-    pub material: usize,
-    /// How far it moves between the times 0 and 1.
-    pub motion: DVec3,
 }
 
 /// What shines on surfaces.

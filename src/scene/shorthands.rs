@@ -4,10 +4,9 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 
-use super::builder::DEFAULT;
-use super::model::{Camera, Plane, Projection, Sphere, TextureContent, TextureSource, Triangle};
+use super::model::{Camera, Projection, TextureContent, TextureSource};
 use crate::texture::data::{ColorSpace, Component, Dimension, MipKernel, TexelFormat};
 use crate::texture::source::{PlainTexels, Reading};
 
@@ -24,45 +23,6 @@ impl Camera {
             shutter: [0.0, 1.0],
             motion: [DVec3::ZERO; 2],
         }
-    }
-}
-
-impl Plane {
-    /// Returns an infinite plane: u and v are 0 at the origin, and 1 at the ends of tangent and bitangent.
-    pub fn new(origin: impl Into<DVec3>, tangent: impl Into<DVec3>, bitangent: impl Into<DVec3>) -> Plane {
-        let (origin, tangent, bitangent) = (origin.into(), tangent.into(), bitangent.into());
-        Plane { origin, tangent, bitangent, half_extent: None, material: DEFAULT, motion: DVec3::ZERO }
-    }
-
-    /// Returns it with the material of this index.
-    pub fn with_material(self, material: usize) -> Plane {
-        Plane { material, ..self }
-    }
-}
-
-impl Sphere {
-    /// Returns a sphere.
-    pub fn new(center: impl Into<DVec3>, radius: f64) -> Sphere {
-        Sphere { center: center.into(), radius, material: DEFAULT, motion: DVec3::ZERO }
-    }
-
-    /// Returns it with the material of this index.
-    pub fn with_material(self, material: usize) -> Sphere {
-        Sphere { material, ..self }
-    }
-}
-
-impl Triangle {
-    /// Returns a flat triangle whose corners have the texture coordinates (0, 0), (1, 0) and (0, 1).
-    pub fn new(vertices: [impl Into<DVec3>; 3]) -> Triangle {
-        let uvs = [DVec2::ZERO, DVec2::X, DVec2::Y];
-        let vertices = vertices.map(Into::into);
-        Triangle { vertices, uvs, normals: None, material: DEFAULT, motion: DVec3::ZERO }
-    }
-
-    /// Returns it with the material of this index.
-    pub fn with_material(self, material: usize) -> Triangle {
-        Triangle { material, ..self }
     }
 }
 

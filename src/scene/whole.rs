@@ -14,7 +14,7 @@ use crate::core::error::Result;
 /// use moire::Scene;
 ///
 /// let mut scene = Scene::builder(Camera::looking([0.0, 0.0, 5.0], [0.0, 0.0, 0.0], 40.0), 64, 64);
-/// scene.sphere(Sphere::new([0.0, 0.0, 0.0], 0.0));
+/// scene.shape(Sphere::new([0.0, 0.0, 0.0], 0.0));
 /// let error = scene.build().unwrap_err();
 /// assert_eq!(error.kind(), moire::ErrorKind::Scene);
 /// assert!(error.to_string().contains("radius"), "{error}");

@@ -15,6 +15,7 @@ mod decoder;
 mod exr_color;
 mod exr_layers;
 mod exr_subsampled;
+pub mod filter;
 mod fixed_point;
 mod jpeg_data;
 pub mod load;

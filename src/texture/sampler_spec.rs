@@ -32,13 +32,6 @@ named_enum! {
     }
 }
 
-impl Filter {
-    /// Filters that only mean something where a footprint covers more than a texel.
-    pub const fn only_minifies(self) -> bool {
-        matches!(self, Filter::Anisotropic | Filter::Ewa | Filter::SummedArea)
-    }
-}
-
 named_enum! {
     /// Which levels of a texture a look-up reads.
     pub enum MipMode {
@@ -121,6 +114,21 @@ impl SamplerSpec {
         self.mag != self.min || self.mip != MipMode::None
     }
 
+    /// Whether it mixes texels.
+    pub fn blends(&self) -> bool {
+        self.mag.traits().blends || self.min.traits().blends
+    }
+
+    /// Whether it follows the longer axis of footprints.
+    pub fn follows_axis(&self) -> bool {
+        self.min.traits().follows_axis
+    }
+
+    /// Whether it reads sums over rectangles.
+    pub fn needs_sums(&self) -> bool {
+        self.min.traits().needs_sums
+    }
+
     /// Whether some axis has this address mode.
     pub fn has(&self, mode: Address) -> bool {
         self.address.contains(&mode) || self.address_w == mode
@@ -128,7 +136,7 @@ impl SamplerSpec {
 
     /// Whether it reads levels below the texture itself.
     pub fn reads_levels(&self) -> bool {
-        self.mip != MipMode::None || self.min == Filter::Ewa
+        self.mip != MipMode::None || self.min.traits().chooses_levels
     }
 
     /// Every variant of a device's sampler that differs in more than its border colour, texel centre or

@@ -84,7 +84,7 @@ fn errors_have_kinds() {
     let tiny = || {
         let camera = Camera::looking([0.0, 0.0, 5.0], [0.0; 3], 40.0);
         let mut scene = Scene::builder(camera, 8, 8);
-        scene.sphere(Sphere::new([0.0; 3], 1.0));
+        scene.shape(Sphere::new([0.0; 3], 1.0));
         scene
     };
     let render = |scene: &Scene, options: RenderOptions| {
@@ -97,7 +97,7 @@ fn errors_have_kinds() {
         let texture =
             Some(scene.texture(TextureSource::file("t", "no/such.png", moire::model::ColorSpace::Srgb)));
         let material = scene.material(Material { model: Model::Unlit, texture, ..Material::default() });
-        scene.sphere(Sphere::new([0.0; 3], 1.0).with_material(material));
+        scene.shape(Sphere::new([0.0; 3], 1.0).with_material(material));
         scene.build().unwrap()
     };
     let film = Film::new(2, 2, 1);
@@ -160,7 +160,7 @@ fn the_example_finds_the_filter_that_errs_less() {
 fn what_is_not_set_is_the_scenes_own() {
     let camera = Camera::looking([0.0, 0.0, 5.0], [0.0; 3], 40.0);
     let mut builder = Scene::builder(camera, 8, 8);
-    builder.plane(Plane::new([0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]));
+    builder.shape(Plane::new([0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]));
     let scene = builder.build().unwrap();
     assert_eq!(scene.size(), [8, 8]);
     let report = |options: RenderOptions| {

@@ -177,7 +177,7 @@ fn shader_structs_strides_and_mode_numbers_equal_their_mirrors() {
     let found = differences(&glsl, &rust);
     assert!(found.is_empty(), "{}", found.join("\n"));
     let far = glsl.split_once("const float FAR = ").unwrap().1.split(';').next().unwrap();
-    assert_eq!(far.parse::<f64>().unwrap(), oracle::intersect::FAR);
+    assert_eq!(far.parse::<f64>().unwrap(), oracle::geometry::rays::FAR);
 }
 
 #[test]

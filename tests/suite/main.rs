@@ -23,6 +23,7 @@ mod diagnostics;
 mod dimensions;
 #[cfg(unix)]
 mod docs;
+mod doors;
 mod double;
 #[cfg(unix)]
 mod driver_cache;

@@ -5,10 +5,10 @@
 use glam::{DVec2, DVec3};
 use moire::internal::lab::probe::{self, RayAnswer, RayQuery};
 use moire::internal::oracle::camera::Ray;
-use moire::internal::oracle::intersect::{Hit, nearest_hit, occluded};
+use moire::internal::oracle::geometry::rays::hit_surface;
+use moire::internal::oracle::geometry::rays::{Hit, nearest_hit, occluded};
 use moire::internal::oracle::mapping::{MapInput, texture_coordinate};
 use moire::internal::oracle::math::xyz;
-use moire::internal::oracle::surface::hit_surface;
 use moire::internal::pack::{MapKind, PackedScene};
 use moire::internal::schema::layout::NO_SHAPE;
 
@@ -116,7 +116,7 @@ fn wrong_hit(
 
 fn wrong_uv(
     scene: &PackedScene,
-    surface: &moire::internal::oracle::surface::Surface,
+    surface: &moire::internal::oracle::geometry::hit::Surface,
     answer: &RayAnswer,
     point_error: f64,
     weights: f64,

@@ -1,6 +1,6 @@
 // The door to the reflection models: what a material sends by itself, what it sends on of a light, whether it sends
 // rays on, and whether beams know the integral over a region. The one place that tells models apart, with
-// `specular.glsl` for the rays that go on. Twin: src/oracle/bsdf/models.rs.
+// `specular.glsl` for the rays that go on. Twin: src/oracle/bsdf/mod.rs.
 #ifndef MODELS_GLSL
 #define MODELS_GLSL
 
@@ -14,7 +14,10 @@
 // A material at a hit: what its lobes need beside the direction of the light.
 struct Bsdf {
     Material material;
-    vec3 mirror; // where a mirror would send the ray
+    vec3 albedo;    // the material's colour, times its texture
+    vec3 normal;    // unit, for shading
+    vec3 direction; // of the ray
+    vec3 mirror;    // where a mirror would send it
 };
 
 // Irradiance over pi from all lights, weighted by two lobes: the one that the albedo colours, and that of a colour
@@ -42,8 +45,9 @@ vec3 emitted(Material material, vec3 color) {
     return MODE_IS(MODELS, MODEL_UNLIT, material.link.x) ? unlit_emitted(color) : vec3(0.0);
 }
 
-Bsdf bsdf_at(Material material, real3 normal, real3 direction) {
-    return Bsdf(material, SECOND_LOBE ? vec3(mirrored(direction, normal)) : vec3(0.0));
+Bsdf bsdf_at(Material material, vec3 albedo, real3 normal, real3 direction) {
+    vec3 mirror = HAS(MODELS, MODEL_PHONG) ? vec3(mirrored(direction, normal)) : vec3(0.0);
+    return Bsdf(material, albedo, vec3(normal), vec3(direction), mirror);
 }
 
 // The two lobes over 1/pi, for light from `way`, which need not be a unit vector.

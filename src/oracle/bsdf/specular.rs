@@ -6,9 +6,9 @@ use glam::DVec3;
 use super::dielectric::{fresnel_dielectric, refracted};
 use super::facets::{smith_g1_refracted, smith_g2_over_g1, visible_normal};
 use super::mirror::mirrored;
+use crate::oracle::geometry::hit::Surface;
 use crate::oracle::sample_dimensions::{SampleDimensions, unit_line, unit_square};
 use crate::oracle::shading_normal::on_its_side;
-use crate::oracle::surface::Surface;
 use crate::scene::model::Model;
 use crate::schema::layout::Material;
 

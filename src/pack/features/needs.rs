@@ -24,7 +24,7 @@ pub fn counted_samples(scene: &PackedScene) -> u32 {
 pub fn cone_shapes(scene: &PackedScene) -> u32 {
     // Of `fragments.glsl`.
     const MAX_FRAGMENTS: usize = 8;
-    let shapes = scene.planes.len() + scene.spheres.len() + scene.triangles.len();
+    let shapes = scene.shape_count();
     if shapes < MAX_FRAGMENTS { shapes.max(1) as u32 } else { DYNAMIC }
 }
 
@@ -74,7 +74,8 @@ pub fn bounces(scene: &PackedScene) -> bool {
 
 /// Whether look-ups take texels at random.
 pub fn chooses(scene: &PackedScene) -> bool {
-    filters(scene) & bit(Filter::Stochastic as u32) != 0
+    let mask = filters(scene);
+    Filter::ALL.iter().any(|&f| f.traits().is_random && mask & bit(f as u32) != 0)
 }
 
 pub fn filters(scene: &PackedScene) -> u32 {
@@ -87,8 +88,6 @@ pub fn bump_kinds(scene: &PackedScene) -> u32 {
 
 /// A lone flat shape cannot lie between itself and a light.
 pub fn casts_shadows(scene: &PackedScene) -> bool {
-    let flat = scene.planes.len() + scene.triangles.len();
-    let alone = scene.spheres.is_empty() && flat <= 1;
     let lit = has_model(scene, Model::is_lit);
-    !scene.lights.is_empty() && lit && !alone
+    !scene.lights.is_empty() && lit && scene.shapes_occlude()
 }

@@ -3,7 +3,7 @@
 use super::super::bsdf::check_model_keys;
 use super::super::limits::{ANISOTROPY, COLOR, COORDINATE, SCALE, check_mag, check_method};
 use super::super::model::{
-    Background, EnvironmentLayout, Mapping, MappingKind, Material, Plane, Space, TextureSource,
+    Background, EnvironmentLayout, Mapping, MappingKind, Material, Space, TextureSource,
 };
 use super::super::refusal::{Check, Key};
 use crate::texture::data::Dimension;
@@ -94,19 +94,6 @@ fn mapping(key: Key, mapping: &Mapping) -> Check {
         offset.numbers(mapping.offset.to_array(), &COORDINATE)?;
     }
     key.of("mapping.rotate").number(mapping.rotate, &COORDINATE)
-}
-
-/// A map in `space = "bounds"` measures in the shape's box, which an infinite plane lacks.
-pub fn bounds(key: Key, plane: &Plane, material: &Material) -> Check {
-    if plane.half_extent.is_some() || material.mapping.space != Space::Bounds {
-        return Ok(());
-    }
-    let what = format!(
-        "material \"{}\" maps in space \"bounds\", and an infinite plane has no bounds; set half_extent, or use \
-         space \"world\"",
-        material.name
-    );
-    key.of("half_extent").refuse(what, "infinite plane")
 }
 
 pub fn background(key: Key, background: &Background, textures: &[TextureSource], samplers: usize) -> Check {

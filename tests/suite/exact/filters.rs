@@ -3,7 +3,7 @@
 
 use glam::{DVec2, DVec3};
 use moire::internal::lab::verify::queries::{self, Dice};
-use moire::internal::oracle::ellipse::ellipse_weight;
+use moire::internal::oracle::filter::ewa::ellipse_weight;
 use moire::internal::oracle::filter::sample_texture;
 use moire::internal::oracle::footprint_axes::{FootprintEllipse, texel_spread};
 use moire::internal::oracle::mapping::Coordinate;

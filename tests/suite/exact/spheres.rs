@@ -4,7 +4,7 @@
 use glam::DVec3;
 use moire::internal::lab::verify::queries::Dice;
 use moire::internal::oracle::camera::Ray;
-use moire::internal::oracle::intersect::sphere_distance;
+use moire::internal::oracle::geometry::sphere::sphere_distance;
 use moire::internal::schema::layout::Sphere;
 use num_traits::Signed;
 

@@ -4,8 +4,9 @@
 use glam::{DVec2, DVec3, Vec2Swizzles};
 use moire::internal::lab::verify::queries::Dice;
 use moire::internal::oracle::camera::Ray;
-use moire::internal::oracle::intersect::{Hit, nearest_hit, triangle_distance};
-use moire::internal::oracle::surface::hit_surface;
+use moire::internal::oracle::geometry::rays::hit_surface;
+use moire::internal::oracle::geometry::rays::{Hit, nearest_hit};
+use moire::internal::oracle::geometry::triangle::triangle_distance;
 use moire::internal::pack::PackedScene;
 use moire::internal::schema::layout::NO_SHAPE;
 use moire::internal::schema::layout::Triangle;

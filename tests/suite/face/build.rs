@@ -49,21 +49,21 @@ fn every_kind_of_rule_stands_for_scenes_in_code() {
         (
             "nan",
             |s| {
-                s.sphere(Sphere::new([0.0, f64::NAN, 0.0], 1.0));
+                s.shape(Sphere::new([0.0, f64::NAN, 0.0], 1.0));
             },
             &["sphere 0: center[1]", "3 finite numbers, found NaN"],
         ),
         (
             "infinite",
             |s| {
-                s.sphere(Sphere::new([0.0; 3], f64::INFINITY));
+                s.shape(Sphere::new([0.0; 3], f64::INFINITY));
             },
             &["sphere 0: radius", "a finite number"],
         ),
         (
             "parallel",
             |s| {
-                s.plane(plane()).plane(Plane { bitangent: [2.0, 0.0, 0.0].into(), ..plane() });
+                s.shape(plane()).shape(Plane { bitangent: [2.0, 0.0, 0.0].into(), ..plane() });
             },
             &["plane 1: bitangent", "parallel"],
         ),
@@ -71,7 +71,7 @@ fn every_kind_of_rule_stands_for_scenes_in_code() {
             "zero normal",
             |s| {
                 let t = Triangle::new([[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]);
-                s.triangle(Triangle { normals: Some([[0.0; 3].into(); 3]), ..t });
+                s.shape(Triangle { normals: Some([[0.0; 3].into(); 3]), ..t });
             },
             &["triangle 0: normals[0]", "not zero"],
         ),
@@ -96,7 +96,7 @@ fn every_kind_of_rule_stands_for_scenes_in_code() {
         (
             "material",
             |s| {
-                s.plane(plane().with_material(3));
+                s.shape(plane().with_material(3));
             },
             &["plane 0: material", "no material 3"],
         ),
@@ -168,7 +168,7 @@ fn every_kind_of_rule_stands_for_scenes_in_code() {
                     },
                     ..Material::default()
                 });
-                s.plane(plane().with_material(m));
+                s.shape(plane().with_material(m));
             },
             &["plane 0: half_extent", "infinite plane has no bounds"],
         ),
@@ -224,9 +224,9 @@ fn limits_of_single_precision_are_met_exactly() {
 fn too_many_shapes_are_refused_at_the_first_one_over() {
     let message = refused(|scene| {
         for _ in 0..65535 {
-            scene.sphere(Sphere::new([0.0; 3], 1.0));
+            scene.shape(Sphere::new([0.0; 3], 1.0));
         }
-        scene.plane(plane());
+        scene.shape(plane());
     });
     assert!(message.starts_with("plane 0: 65536 planes, spheres and triangles"), "{message}");
 }
@@ -234,8 +234,8 @@ fn too_many_shapes_are_refused_at_the_first_one_over() {
 #[test]
 fn what_has_no_extent_is_simplified_and_told() {
     let mut scene = builder();
-    scene.triangle(Triangle::new([[0.0; 3], [1.0, 0.0, 0.0], [2.0, 0.0, 0.0]]));
-    scene.sphere(Sphere::new([0.0; 3], 1.0));
+    scene.shape(Triangle::new([[0.0; 3], [1.0, 0.0, 0.0], [2.0, 0.0, 0.0]]));
+    scene.shape(Sphere::new([0.0; 3], 1.0));
     let scene = scene.build().unwrap();
     let options = RenderOptions::new().device("oracle").samples(1).size(4, 4);
     let (_, report) = Renderer::new(options)
@@ -260,7 +260,7 @@ fn code_and_file_make_one_scene() {
     let texture = Some(built.texture(ramp));
     let material = Material { name: "m".into(), model: Model::Unlit, texture, ..Material::default() };
     let material = built.material(material);
-    built.plane(plane().with_material(material)).sphere(Sphere::new([0.0, 1.0, 0.0], 0.5));
+    built.shape(plane().with_material(material)).shape(Sphere::new([0.0, 1.0, 0.0], 0.5));
     built.light(Light::Directional { direction: [0.0, 1.0, 1.0].into(), irradiance: [3.0; 3].into() });
     let renderer = Renderer::new(RenderOptions::new().device("oracle").samples(4)).unwrap();
     let render = |scene: &Scene| renderer.render(scene).unwrap();

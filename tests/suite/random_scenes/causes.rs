@@ -6,13 +6,14 @@ use std::collections::BTreeMap;
 use glam::{DVec2, DVec3};
 use moire::internal::oracle::bsdf::mirror::mirrored;
 use moire::internal::oracle::camera::camera_ray;
-use moire::internal::oracle::cone::{cone_of, leaving};
+use moire::internal::oracle::cone::cone_of;
 use moire::internal::oracle::footprint::camera_differential;
 use moire::internal::oracle::fragments::{collect_fragments, composite};
-use moire::internal::oracle::intersect::FAR;
+use moire::internal::oracle::geometry::beams::shape_links;
+use moire::internal::oracle::geometry::beams::shape_plane;
+use moire::internal::oracle::geometry::cones::leaving;
+use moire::internal::oracle::geometry::rays::FAR;
 use moire::internal::oracle::math::xyz;
-use moire::internal::oracle::projective::shape_plane;
-use moire::internal::oracle::shading_integral::links;
 use moire::internal::pack::PackedScene;
 use moire::internal::scene::model::{Algorithm, Model};
 use moire::internal::schema::layout::NO_SHAPE;
@@ -42,7 +43,7 @@ fn cause(scene: &PackedScene, place: [u32; 2]) -> Cause {
     let mut cone = cone_of(ray, width, beam.spread, xyz(header.step_x));
     let mut skip = NO_SHAPE;
     let model = |shape: u32| {
-        let [material, _] = links(scene, shape);
+        let [material, _] = shape_links(scene, shape);
         Model::ALL[scene.materials[material as usize].link[0] as usize]
     };
     for _ in 0..=header.size[3] {

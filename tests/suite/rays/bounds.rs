@@ -4,7 +4,9 @@
 //! Instructions").
 
 use moire::internal::oracle::camera::Ray;
-use moire::internal::oracle::intersect::{plane_distance, sphere_distance, triangle_distance};
+use moire::internal::oracle::geometry::kinds::Shape;
+use moire::internal::oracle::geometry::sphere::sphere_distance;
+use moire::internal::oracle::geometry::triangle::triangle_distance;
 use moire::internal::oracle::math::{affine, xyz};
 use moire::internal::pack::PackedScene;
 
@@ -52,7 +54,7 @@ fn plane(scene: &PackedScene, index: usize, ray: &Ray) -> Estimate {
     let plane = &scene.planes[index];
     let unbounded =
         moire::internal::schema::layout::Plane { link: [plane.link[0], plane.link[1], 0, 0], ..*plane };
-    let (t, _) = plane_distance(&unbounded, ray);
+    let (t, _) = unbounded.distance_to(ray);
     let error = flat_error(plane.normal, ray, t);
     let point = ray.origin + t * ray.direction;
     let point_error = error * ray.direction.length() + 2.0 * U * (ray.origin.length() + point.length());
@@ -61,7 +63,7 @@ fn plane(scene: &PackedScene, index: usize, ray: &Ray) -> Estimate {
         let own = 4.0 * U * ((xyz(*row) * point).abs().element_sum() + row[3].abs());
         (affine(*row, point).abs() - extent).abs() <= own + xyz(*row).length() * point_error
     });
-    let (t, _) = plane_distance(plane, ray);
+    let (t, _) = plane.distance_to(ray);
     Estimate { t, error, unsure: plane.link[3] != 0 && near_edge, curvature: 0.0, weights: 0.0 }
 }
 

@@ -1,6 +1,7 @@
 //! Scene files in TOML. In: the bytes of a file and the path it is known by. Out: the scene that the builder makes of
 //! them; or the first error, with the line and the key that it is about.
 
+mod lights;
 mod materials;
 mod names;
 mod place;
@@ -27,24 +28,14 @@ use crate::texture::sampler_spec::Address;
 use names::Names;
 use procedural::PROCEDURAL;
 use samplers::Known;
+use shapes::SHAPES;
 use source::Source;
 use table::Table;
 
 /// 65535 triangles with texture coordinates take 7 MB of text.
 const MAX_BYTES: u64 = 64 << 20;
-const SECTIONS: &[&str] = &[
-    "camera",
-    "image",
-    "sampling",
-    "background",
-    "texture",
-    "sampler",
-    "material",
-    "plane",
-    "sphere",
-    "triangle",
-    "light",
-];
+const SECTIONS: &[&str] =
+    &["camera", "image", "sampling", "background", "texture", "sampler", "material", "light"];
 
 pub(super) const FORMAT: Format =
     Format { name: "TOML", endings: &["toml"], max_bytes: MAX_BYTES, read: read };
@@ -69,7 +60,8 @@ fn read(path: &Path, bytes: Vec<u8>) -> Result<Scene> {
 pub fn parse(path_for_messages: &Path, text: &str) -> Result<Scene> {
     let source = Source { path: path_for_messages, text };
     let document = DeTable::parse(text).map_err(|error| syntax_error(source, &error))?;
-    let root = Table::root(source, document.get_ref(), SECTIONS)?;
+    let sections = [SECTIONS, &SHAPES.map(|(section, ..)| section)].concat();
+    let root = Table::root(source, document.get_ref(), &sections)?;
     assemble(path_for_messages, &root)
 }
 
@@ -104,9 +96,9 @@ fn assemble(path: &Path, root: &Table<'_>) -> Result<Scene> {
     builder.pixel_filter(sections::pixel_filter(&image)?);
     builder.sampling(sections::sampling(root.single("sampling", sections::SAMPLING)?.as_ref())?);
     let materials = surfaces(path, root, &mut builder)?;
-    let dropped = add_shapes(root, &materials, &mut builder)?;
-    for table in root.repeated("light", shapes::LIGHT)? {
-        builder.light(shapes::light(&table)?);
+    let dropped = shapes::add_all(root, &materials, &mut builder)?;
+    for table in root.repeated("light", lights::LIGHT)? {
+        builder.light(lights::light(&table)?);
     }
     let mut scene = builder.check().map_err(|refusal| place::error(root, &refusal))?;
     check_filters(&scene)?;
@@ -151,29 +143,4 @@ fn surfaces<'a>(path: &Path, root: &Table<'a>, builder: &mut SceneBuilder) -> Re
         builder.texture(texture);
     }
     Ok(names)
-}
-
-/// Adds shapes in the order of the file, so that of too many the first one over is the one told. Returns the line of
-/// the first triangle without area.
-fn add_shapes(root: &Table<'_>, materials: &Names<'_>, builder: &mut SceneBuilder) -> Result<Option<usize>> {
-    let planes = root.repeated("plane", shapes::PLANE)?;
-    let spheres = root.repeated("sphere", shapes::SPHERE)?;
-    let triangles = root.repeated("triangle", shapes::TRIANGLE)?;
-    let mut tables: Vec<_> = planes.iter().chain(&spheres).chain(&triangles).collect();
-    tables.sort_by_key(|table| table.span.start);
-    let mut dropped = None;
-    for table in tables {
-        match table.section {
-            "plane" => builder.plane(shapes::plane(table, materials)?),
-            "sphere" => builder.sphere(shapes::sphere(table, materials)?),
-            _ => {
-                let triangle = shapes::triangle(table, materials)?;
-                if dropped.is_none() && SceneBuilder::is_dropped(&triangle) {
-                    dropped = Some(table.line());
-                }
-                builder.triangle(triangle)
-            }
-        };
-    }
-    Ok(dropped)
 }

@@ -1,11 +1,11 @@
-//! The mean over a box from a summed-area table. Twin of `glsl/shared/summed_area.glsl`.
+//! The mean over a box from a summed-area table. Twin of `glsl/shared/filter/summed_area.glsl`.
 
 use glam::{DVec2, DVec4};
 
-use super::address::reduced_coordinate;
-use super::mapping::Coordinate;
-use super::math::vec4;
-use super::texture::addresses;
+use crate::oracle::address::reduced_coordinate;
+use crate::oracle::mapping::Coordinate;
+use crate::oracle::math::vec4;
+use crate::oracle::texture::addresses;
 use crate::pack::PackedScene;
 use crate::schema::layout::{Sampler, Texture};
 use crate::texture::sampler_spec::{Address, TexelCenter};

@@ -1,26 +1,21 @@
 //! (texture, sampler, coordinate, footprint) → linear RGBA in f64, from the packed bytes. Twin of
-//! `glsl/shared/filter.glsl`.
+//! `glsl/shared/filter/sample_texture.glsl`.
 
-use glam::{DVec3, DVec4};
+use glam::DVec4;
 
-use super::ellipse::ellipse;
-use super::footprint::is_filtered;
-use super::footprint_axes::{in_texture, kind_of, texel_spread};
-use super::levels::{Reader, refaced};
-use super::mapping::Coordinate;
-use super::procedural::procedural_color;
-use super::rng::pcg3d;
+use super::anisotropic::{anisotropic_place, anisotropic_probes};
+use super::ewa::ellipse;
+use super::levels::Reader;
+use super::stochastic::{look_up_dice, stochastic_level};
 use super::summed_area::summed_area;
-use super::texture::{add_weighted, level_at};
+use crate::oracle::footprint::is_filtered;
+use crate::oracle::footprint_axes::{in_texture, kind_of, texel_spread};
+use crate::oracle::mapping::Coordinate;
+use crate::oracle::procedural::procedural_color;
+use crate::oracle::texture::{add_weighted, level_at};
 use crate::pack::{PackedScene, TextureKind};
 use crate::schema::layout::{Sampler, Texture};
 use crate::texture::sampler_spec::{Filter, MipMode};
-
-/// Three numbers in [0, 1) from a sample's random bits.
-pub fn look_up_dice(random: [u32; 2]) -> DVec3 {
-    let bits = pcg3d([random[0], random[1], 0x7E41]);
-    DVec3::from_array(bits.map(|b| f64::from(b >> 8) / 16_777_216.0))
-}
 
 /// Without a footprint in the scene all is magnification.
 pub fn sample_texture(
@@ -53,9 +48,7 @@ pub fn sample_texture(
     let last = image.link[1] - 1;
     let mut probes = 1.0;
     if mode == Filter::Anisotropic {
-        let most = f64::from(how.link[3]);
-        let ratio = spread.major / spread.minor.max(1e-30);
-        probes = (ratio.min(most * most).sqrt() - 1e-3).ceil().max(1.0);
+        probes = anisotropic_probes(how, &spread);
     }
     let level = if magnified {
         0.0
@@ -71,25 +64,16 @@ pub fn sample_texture(
     };
     let mut low = low as u32;
     if mode == Filter::Stochastic {
-        low += u32::from(dice.z < rest);
+        low = stochastic_level(low, rest, &mut dice);
         rest = 0.0;
-        dice.z = (dice.z * 4096.0).fract();
     }
     // Of `probes` a share `rest` reads the next level, the one between reads both.
     let share = rest * probes;
     let mut sum = DVec4::ZERO;
     for probe in 0..probes as u32 {
-        let probes_less_one = probes as u32 - 1;
-        // From both ends inwards.
-        let order = if probe & 1 != 0 { probes_less_one - probe / 2 } else { probe / 2 };
-        let way = (f64::from(order) + 0.5) / probes - 0.5;
-        let mut at = c.at;
-        let mut at_face = face;
+        let (mut at, mut at_face) = (c.at, face);
         if mode == Filter::Anisotropic {
-            at += way * (spread.along.x * c.change[0] + spread.along.y * c.change[1]);
-            if kind_of(image) == TextureKind::Cube {
-                (at, at_face) = refaced(at, face);
-            }
+            (at, at_face) = anisotropic_place(image, &c, &spread, [probe, probes as u32], face);
         }
         let upper = (share - f64::from(probe)).clamp(0.0, 1.0);
         for (index, weight) in [((low + 1).min(last), upper), (low, 1.0 - upper)] {

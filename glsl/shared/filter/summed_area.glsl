@@ -1,11 +1,11 @@
-// Summed-area table (Crow 1984): the mean over the footprint's bounding box, whatever its size, from sums
+// Filter `summed-area`, by a summed-area table (Crow 1984): the mean over the footprint's bounding box, whatever its size, from sums
 // over rectangles that begin at the texture's corner. Sums are 64-bit integers of the linear values in
 // fixed point, so that differences are exact; texels count as squares of one colour, which a box cuts
-// where it ends. Twin: src/oracle/summed_area.rs.
+// where it ends. Twin: src/oracle/filter/summed_area.rs.
 #ifndef SUMMED_AREA_GLSL
 #define SUMMED_AREA_GLSL
 
-#include "texture.glsl"
+#include "../texture.glsl"
 
 #if HAS_TEXELS
 

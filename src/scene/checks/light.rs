@@ -1,40 +1,8 @@
-//! Planes, spheres, triangles and lights: none of them degenerate. A triangle without area is no mistake: meshes have
-//! such ones, and no ray meets them.
+//! Lights: none of them degenerate.
 
-use super::super::limits::{CAP, COLOR, COORDINATE, LENGTH, NOT_NEGATIVE, parallel};
-use super::super::model::{Light, Plane, Sphere, Triangle};
+use super::super::limits::{CAP, COLOR, COORDINATE, NOT_NEGATIVE, parallel};
+use super::super::model::Light;
 use super::super::refusal::{Check, Key};
-
-pub fn plane(key: Key, plane: &Plane) -> Check {
-    key.of("origin").vector(plane.origin, &COORDINATE)?;
-    key.of("tangent").direction(plane.tangent)?;
-    key.of("bitangent").direction(plane.bitangent)?;
-    if parallel(plane.tangent, plane.bitangent) {
-        let what = "tangent and bitangent are parallel and span no plane; turn one of them";
-        return key.of("bitangent").refuse(what, "parallel to tangent");
-    }
-    plane.half_extent.map_or(Ok(()), |extent| key.of("half_extent").number(extent, &LENGTH))?;
-    key.of("motion").vector(plane.motion, &COORDINATE)
-}
-
-pub fn sphere(key: Key, sphere: &Sphere) -> Check {
-    key.of("center").vector(sphere.center, &COORDINATE)?;
-    key.of("radius").number(sphere.radius, &LENGTH)?;
-    key.of("motion").vector(sphere.motion, &COORDINATE)
-}
-
-pub fn triangle(key: Key, triangle: &Triangle) -> Check {
-    for (i, vertex) in triangle.vertices.iter().enumerate() {
-        key.of("vertices").at(i).vector(*vertex, &COORDINATE)?;
-    }
-    for (i, uv) in triangle.uvs.iter().enumerate() {
-        key.of("uvs").at(i).numbers(uv.to_array(), &COORDINATE)?;
-    }
-    for (i, normal) in triangle.normals.iter().flatten().enumerate() {
-        key.of("normals").at(i).direction(*normal)?;
-    }
-    key.of("motion").vector(triangle.motion, &COORDINATE)
-}
 
 pub fn light(key: Key, light: &Light) -> Check {
     let [position, direction] = ["position", "direction"].map(|name| key.of(name));

@@ -1,16 +1,16 @@
 // (texture, sampler, coordinate, footprint) -> linear RGBA. A footprint of less than a texel is
 // magnification; wider ones choose a level (Williams 1983), walk the major axis with several look-ups
 // (McCormack et al. 1999, as texture units do), or weigh all texels of an ellipse (EWA: Heckbert 1989).
-// Method hardware: the device's own sampler at our level. Twin: src/oracle/filter.rs.
-#ifndef FILTER_GLSL
-#define FILTER_GLSL
+// Method hardware: the device's own sampler at our level. Twin: src/oracle/filter/sample_texture.rs.
+#ifndef SAMPLE_TEXTURE_GLSL
+#define SAMPLE_TEXTURE_GLSL
 
-#include "ellipse.glsl"
-#include "diagnostics.glsl"
+#include "../diagnostics.glsl"
+#include "../footprint_axes.glsl"
+#include "../procedural.glsl"
+#include "anisotropic.glsl"
+#include "ewa.glsl"
 #include "levels.glsl"
-#include "procedural.glsl"
-#include "rng.glsl"
-#include "footprint_axes.glsl"
 #include "summed_area.glsl"
 
 #if SOURCE != SOURCE_NONE
@@ -19,12 +19,6 @@
 // chains of && and || over specialization constants.
 const uint LEVEL_BLENDS = MIPMAPPED ? MIPS & (1u << MIP_LINEAR) : 0u;
 const bool ONE_PLACE = (LEVEL_BLENDS | (FILTERS & (1u << FILTER_ANISOTROPIC))) == 0u;
-
-// Three numbers in [0, 1) from a sample's random bits.
-vec3 look_up_dice(uvec2 random) {
-    uvec3 bits = pcg3d(uvec3(random, 0x7E41u));
-    return vec3(bits >> 8u) * (1.0 / 16777216.0);
-}
 
 vec4 sample_texture(Texture image, Sampler how, uint slot, TexCoord mapped, uvec2 random) {
     if (MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_PROCEDURAL, image.link.w)) {
@@ -58,11 +52,7 @@ vec4 sample_texture(Texture image, Sampler how, uint slot, TexCoord mapped, uvec
     int last = int(image.link.y) - 1;
     uint probes = 1u;
     if (HAS(FILTERS, FILTER_ANISOTROPIC) && mode == FILTER_ANISOTROPIC) {
-        float most = float(how.link.w);
-        float ratio = spread.major / max(spread.minor, 1e-30);
-        count_diagnostic(DIAGNOSTIC_ANISOTROPY, ratio > most * most);
-        probes = uint(ceil(sqrt(min(ratio, most * most)) - 1e-3));
-        probes = max(probes, 1u);
+        probes = anisotropic_probes(how, spread);
     }
     float level = 0.0;
     if (!magnified && (MIPMAPPED || hardware)) {
@@ -85,9 +75,7 @@ vec4 sample_texture(Texture image, Sampler how, uint slot, TexCoord mapped, uvec
         low = int(ceil(level + 0.5)) - 1;
     }
     if (HAS(FILTERS, FILTER_STOCHASTIC) && mode == FILTER_STOCHASTIC) {
-        low += dice.z < rest ? 1 : 0;
-        rest = 0.0;
-        dice.z = fract(dice.z * 4096.0);
+        stochastic_level(low, rest, dice);
     }
     if (ONE_PLACE) {
         return filtered_level(image, how, slot, mode, level_at(image, low), c.at, face, dice);
@@ -109,12 +97,7 @@ vec4 sample_texture(Texture image, Sampler how, uint slot, TexCoord mapped, uvec
         vec3 at = c.at;
         uint at_face = face;
         if (HAS(FILTERS, FILTER_ANISOTROPIC) && mode == FILTER_ANISOTROPIC) {
-            // From both ends inwards.
-            uint order = (probe & 1u) != 0u ? probes - 1u - probe / 2u : probe / 2u;
-            float way = (float(order) + 0.5) * each - 0.5;
-            vec3 moved = c.at + way * (spread.along.x * c.dx + spread.along.y * c.dy);
-            at = moved;
-            if (MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_CUBE, image.link.w)) at = refaced(at, at_face);
+            at = anisotropic_place(image, c, spread, probe, probes, each, at_face);
         }
         int index = upper ? min(low + 1, last) : low;
         sum = add_weighted(weight, filtered_level(image, how, slot, mode, level_at(image, index), at, at_face, dice), sum);

@@ -1,12 +1,12 @@
-//! Elliptical weighted average. Twin of `glsl/shared/ellipse.glsl`.
+//! Filter `ewa`, the elliptical weighted average (Heckbert 1989). Twin of `glsl/shared/filter/ewa.glsl`.
 
 use glam::{DVec2, DVec3, DVec4};
 
-use super::address::reduced_coordinate;
-use super::footprint_axes::FootprintEllipse;
 use super::levels::Reader;
-use super::mapping::Coordinate;
-use super::texture::{add_weighted, addresses, level_at};
+use crate::oracle::address::reduced_coordinate;
+use crate::oracle::footprint_axes::FootprintEllipse;
+use crate::oracle::mapping::Coordinate;
+use crate::oracle::texture::{add_weighted, addresses, level_at};
 use crate::texture::sampler_spec::TexelCenter;
 
 /// The level on which the minor axis, full width, lies between 2^-ELLIPSE_LEVEL and twice that in texels.

@@ -1,9 +1,11 @@
-// Elliptical weighted average (Heckbert 1989): all texels under the footprint, weighted by a Gaussian, on
-// the level where the minor axis is about a texel. Twin: src/oracle/ellipse.rs.
-#ifndef ELLIPSE_GLSL
-#define ELLIPSE_GLSL
+// Filter `ewa`, the elliptical weighted average (Heckbert 1989): all texels under the footprint, weighted by a Gaussian, on
+// the level where the minor axis is about a texel. Twin: src/oracle/filter/ewa.rs.
+#ifndef EWA_GLSL
+#define EWA_GLSL
 
-#include "footprint_axes.glsl"
+#include "../diagnostics.glsl"
+#include "../footprint_axes.glsl"
+#include "../texture.glsl"
 
 #if SOURCE != SOURCE_NONE
 
