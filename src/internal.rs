@@ -6,4 +6,4 @@ macro_rules! rooms {
     ($($room:ident)+) => { $(pub mod $room { pub use crate::$room::*; })+ };
 }
 
-rooms! { adaptive cli core face gpu lab oracle output pack render scene schema texture }
+rooms! { cli core face gpu integrators lab oracle output pack render sampling scene schema texture }

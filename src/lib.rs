@@ -23,13 +23,13 @@ pub mod internal;
 pub mod model;
 
 #[allow(missing_docs)]
-mod adaptive;
-#[allow(missing_docs)]
 mod cli;
 mod core;
 mod face;
 #[allow(missing_docs)]
 mod gpu;
+#[allow(missing_docs)]
+mod integrators;
 #[allow(missing_docs)]
 mod lab;
 #[allow(missing_docs)]
@@ -40,6 +40,8 @@ mod output;
 mod pack;
 #[allow(missing_docs)]
 mod render;
+#[allow(missing_docs)]
+mod sampling;
 mod scene;
 #[allow(missing_docs)]
 mod schema;

@@ -8,20 +8,8 @@ use super::tell;
 use crate::core::counted::{counted, verb};
 use crate::core::film::Film;
 use crate::pack::Diagnostic;
-use crate::render::Report;
-use crate::scene::model::Precision;
-
-/// What a render ran on, and what came of it.
-pub struct RenderOutcome {
-    pub device: String,
-    pub driver: String,
-    pub film: Film,
-    pub report: Report,
-    /// Texels that are not finite, by texture, where those are let in.
-    pub nonfinite: Option<Vec<(String, u64)>>,
-    /// Triangles without area, which no ray meets.
-    pub dropped_triangles: usize,
-}
+use crate::render::{Picture, Report};
+use crate::scene::model::{Precision, Scene};
 
 fn nonfinite_pixels(film: &Film) -> usize {
     film.pixels.iter().filter(|pixel| !pixel.iter().all(|v| v.is_finite())).count()
@@ -35,7 +23,7 @@ fn device_seconds(report: &Report) -> Value {
     seconds.into()
 }
 
-pub fn json(ran: &RenderOutcome, options: Value, outputs: &[String]) -> Value {
+pub fn json(ran: &Picture, scene: &Scene, options: Value, outputs: &[String], nonfinite: bool) -> Value {
     let mut all = json!({
         "device": ran.device,
         "driver": ran.driver,
@@ -47,7 +35,7 @@ pub fn json(ran: &RenderOutcome, options: Value, outputs: &[String]) -> Value {
         "reached": ran.report.outcome,
         "sampled_pixels": ran.report.sampled_pixels,
         "dropped": ran.report.dropped,
-        "dropped_triangles": ran.dropped_triangles,
+        "dropped_triangles": scene.dropped_triangles,
         "guards": ran.report.guards.as_ref().map(|counts| {
             counts.iter().map(|(guard, count)| (guard.name().to_owned(), json!(count))).collect::<Map<_, _>>()
         }),
@@ -59,8 +47,9 @@ pub fn json(ran: &RenderOutcome, options: Value, outputs: &[String]) -> Value {
         "device_bytes": ran.report.device_bytes,
         "process": { "cpu_seconds": cpu_seconds(), "peak_host_bytes": peak_host_bytes() },
     });
-    if let Some(textures) = &ran.nonfinite {
-        let texels: Map<String, Value> = textures.iter().map(|(name, n)| (name.clone(), json!(n))).collect();
+    if nonfinite {
+        let texels: Map<String, Value> =
+            ran.nonfinite.iter().map(|(name, n)| (name.clone(), json!(n))).collect();
         all["nonfinite"] = json!({ "texels": texels, "pixels": nonfinite_pixels(&ran.film) });
     }
     all
@@ -81,7 +70,7 @@ fn said(guard: Diagnostic) -> (&'static str, &'static str) {
     }
 }
 
-pub fn say(ran: &RenderOutcome, outputs: &[String], verbose: bool) {
+pub fn say(ran: &Picture, outputs: &[String], verbose: bool) {
     let (report, seconds) = (&ran.report, &ran.report.seconds);
     for warning in &report.warnings {
         tell(format_args!("warning: {warning}"));

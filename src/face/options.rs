@@ -1,16 +1,14 @@
 //! What a render may be asked for beside its scene. In: nothing, or the options of a command line by their names. Out:
 //! the changes of the scene, the device and the goal.
 
-use crate::adaptive::Goal;
 use crate::core::error::{Error, Result};
+use crate::core::range::Rect;
 use crate::gpu::DeviceSelect;
-use crate::pack::Crop;
+use crate::integrators::adaptive::Goal;
+use crate::render::{On, Options};
 use crate::scene::changes::Changes;
 use crate::scene::model::{Algorithm, Footprint, Pattern, PixelFilterKind};
 use crate::texture::sampler_spec::{Filter, MipMode};
-
-/// The word that selects float64 on the CPU in place of a device.
-const ORACLE: &str = "oracle";
 
 /// Where and how scenes are rendered. What is not set is the scene's own.
 ///
@@ -22,17 +20,9 @@ const ORACLE: &str = "oracle";
 /// ```
 #[derive(Clone, Debug, Default)]
 pub struct RenderOptions {
-    device: Option<String>,
-    pub(super) changes: Changes,
-    pub(super) crop: Option<Crop>,
-    pub(super) goal: Option<Goal>,
-    pub(super) allow_nonfinite: bool,
-}
-
-/// What renders.
-pub(super) enum Place {
-    Device(DeviceSelect),
-    Oracle,
+    devices: Vec<String>,
+    changes: Changes,
+    pub(super) with: Options,
 }
 
 impl RenderOptions {
@@ -41,10 +31,11 @@ impl RenderOptions {
         RenderOptions::default()
     }
 
-    /// Selects a device: its index, a part of its name, `cpu` or `gpu`; or `oracle`, which is float64 on the CPU. By
-    /// default the first discrete GPU, else an integrated one, else a CPU driver.
+    /// Adds a device that renders: by its index, a part of its name, `cpu` or `gpu`; or `oracle`, which is float64 on
+    /// the CPU. Several take strips of the picture in turn. Without any it is the first discrete GPU, else an
+    /// integrated one, else a CPU driver.
     pub fn device(mut self, select: impl Into<String>) -> Self {
-        self.device = Some(select.into());
+        self.devices.push(select.into());
         self
     }
 
@@ -56,7 +47,7 @@ impl RenderOptions {
 
     /// Renders a part of the picture alone: the pixel of its top left corner, its width and height.
     pub fn crop(mut self, [x, y, width, height]: [u32; 4]) -> Self {
-        self.crop = Some(Crop { x, y, width, height });
+        self.with.crop = Some(Rect { x, y, width, height });
         self
     }
 
@@ -110,39 +101,39 @@ impl RenderOptions {
 
     /// Renders for so many seconds and then stops, instead of at a number of samples.
     pub fn budget(mut self, seconds: f64) -> Self {
-        self.goal = Some(Goal::Seconds(seconds));
+        self.with.goal = Some(Goal::Seconds(seconds));
         self
     }
 
     /// Renders until the picture's RMSE is estimated to be this, instead of to a number of samples.
     pub fn target_error(mut self, rmse: f64) -> Self {
-        self.goal = Some(Goal::Error(rmse));
+        self.with.goal = Some(Goal::Error(rmse));
         self
     }
 
     /// Lets in textures with NaN and infinite texels, which are errors else.
     pub fn allow_nonfinite(mut self) -> Self {
-        self.allow_nonfinite = true;
+        self.with.allow_nonfinite = true;
         self
     }
 
-    pub(super) fn place(&self) -> Result<Place> {
-        Ok(match self.device.as_deref() {
-            None => Place::Device(DeviceSelect::Default),
-            Some(ORACLE) => Place::Oracle,
-            Some(text) => Place::Device(DeviceSelect::parse(text)?),
-        })
+    /// What renders.
+    pub(super) fn on(&self) -> Result<Vec<On>> {
+        if self.devices.is_empty() {
+            return Ok(vec![On::Device(DeviceSelect::Default)]);
+        }
+        self.devices.iter().map(|text| On::parse(text)).collect()
     }
 
     /// What replaces the scene's own values.
     pub(super) fn changes(&self) -> Result<Changes> {
-        let positive = match self.goal {
+        let positive = match self.with.goal {
             Some(Goal::Seconds(x) | Goal::Error(x)) => x.is_finite() && x > 0.0,
             Some(Goal::Samples(_)) | None => true,
         };
         if !positive {
             return Err(Error::new("a budget and a target error are numbers above 0"));
         }
-        Ok(Changes { has_goal: self.goal.is_some(), ..self.changes.clone() })
+        Ok(Changes { has_goal: self.with.goal.is_some(), ..self.changes.clone() })
     }
 }

@@ -37,9 +37,9 @@ pub fn look_ups(
 
 fn look_up_shader(features: &Features) -> &'static Shader {
     match features.source {
-        TexelSource::Image => &shaders::PROBE_IMAGES,
+        TexelSource::Image => &shaders::PROBE_IMAGE,
         TexelSource::Solids => &shaders::PROBE_SOLIDS,
-        TexelSource::None | TexelSource::Buffer => &shaders::PROBE_TEXELS,
+        TexelSource::None | TexelSource::Buffer => &shaders::PROBE_BUFFER,
     }
 }
 
@@ -147,7 +147,7 @@ pub fn double_rays(gpu: &Gpu, scene: &PackedScene, queries: &[DoubleRay]) -> Res
     }
     let features = Features::new(scene, false, false);
     let list = Some(bytemuck::cast_slice(queries));
-    run(gpu, scene, &features, &shaders::PROBE_RAYS_DOUBLE, list, queries.len(), &[])
+    run(gpu, scene, &features, &shaders::PROBE_RAYS_F64_MATH, list, queries.len(), &[])
 }
 
 /// Linear RGB of each look-up of a procedural texture, and 1.

@@ -6,22 +6,7 @@ use glam::DVec3;
 use super::limits::{COLOR, EXPONENT, IOR, Limits, UNIT};
 use super::model::Material;
 use super::refusal::{Check, Key};
-use crate::core::named::named_enum;
-
-named_enum! {
-    /// Reflection model of a material.
-    #[derive(Default)]
-    pub enum Model {
-        Unlit = "unlit",
-        #[default]
-        Lambert = "lambert",
-        Mirror = "mirror",
-        /// Mirrors or refracts, by Fresnel's share of each.
-        Dielectric = "dielectric",
-        /// Lambert with a highlight.
-        Phong = "phong",
-    }
-}
+pub use crate::schema::enums::Model;
 
 impl Model {
     /// Shows its colour as it is: an environment, a texture that is looked at.
@@ -40,11 +25,6 @@ impl Model {
     /// Whether rays go on from it.
     pub const fn is_specular(self) -> bool {
         matches!(self, Model::Mirror | Model::Dielectric)
-    }
-
-    /// Returns the number that its record holds beside the colours: a refractive index, or the highlight's exponent.
-    pub const fn number_of(self, material: &Material) -> f64 {
-        if self.transmits() { material.ior } else { material.exponent }
     }
 
     /// Whether rays go on through it, too.

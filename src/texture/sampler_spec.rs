@@ -1,61 +1,7 @@
 //! What a sampler does, as data: the table from which scene vocabulary, `VkSampler` objects,
 //! shader constants, oracle and test names are all generated.
 
-use crate::core::named::named_enum;
-
-named_enum! {
-    /// What a coordinate outside [0, 1) reads (Vulkan 1.3, "Wrapping Operation").
-    pub enum Address {
-        Repeat = "repeat",
-        MirroredRepeat = "mirrored-repeat",
-        ClampToEdge = "clamp-to-edge",
-        ClampToBorder = "clamp-to-border",
-        MirrorClampToEdge = "mirror-clamp-to-edge",
-    }
-}
-
-named_enum! {
-    /// How the texels around a place, or under a footprint, become one value.
-    pub enum Filter {
-        Nearest = "nearest",
-        Linear = "linear",
-        /// Four by four texels, by B and C of Mitchell & Netravali 1988.
-        Cubic = "cubic",
-        /// One texel, by chance, with the weights of `linear` (Fajardo et al. 2023).
-        Stochastic = "stochastic",
-        /// Look-ups along the footprint's major axis (McCormack et al. 1999); as texture units do it.
-        Anisotropic = "anisotropic",
-        /// All texels under the footprint's ellipse (Heckbert 1989).
-        Ewa = "ewa",
-        /// The mean over the footprint's bounding box (Crow 1984).
-        SummedArea = "summed-area",
-    }
-}
-
-named_enum! {
-    /// Which levels of a texture a look-up reads.
-    pub enum MipMode {
-        None = "none",
-        Nearest = "nearest",
-        Linear = "linear",
-    }
-}
-
-named_enum! {
-    /// Who filters: our shader in f32, or the device's texture unit.
-    pub enum Method {
-        Shader = "shader",
-        Hardware = "hardware",
-    }
-}
-
-named_enum! {
-    /// Half: texel i is centred at i + ½ (Vulkan). Integer: at i (the lecture's formulas).
-    pub enum TexelCenter {
-        Half = "half",
-        Integer = "integer",
-    }
-}
+pub use crate::schema::enums::{Address, Filter, Method, MipMode, TexelCenter};
 
 /// How a texture is read.
 #[derive(Clone, Copy, Debug, PartialEq)]

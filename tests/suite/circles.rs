@@ -22,12 +22,8 @@ const ONE_JOB: &[(&[&str], &str)] = &[
         "types of a scene, and the limits of their values",
     ),
     (&["scene.builder", "scene.whole"], "a scene and its builder name each other"),
-    (&["adaptive.audit", "adaptive.draws"], "the pixels drawn for an audit"),
+    (&["integrators.adaptive.audit", "integrators.adaptive.draws"], "the pixels drawn for an audit"),
     (&["lab.verify"], "a report names the place and the variant that it judges"),
-    (
-        &["render.beams", "render.jobs"],
-        "pixels that beams leave are sampled, and sampled ones may be left to beams",
-    ),
 ];
 
 /// Paths of the crate that code of module `of` names, also those of grouped and nested imports.
