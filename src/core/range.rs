@@ -9,9 +9,13 @@ use crate::core::error::{Error, Result};
 /// A rectangle of pixels.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Rect {
+    /// The column of its first pixel.
     pub x: u32,
+    /// The row of its first pixel.
     pub y: u32,
+    /// Pixels in a row.
     pub width: u32,
+    /// Rows.
     pub height: u32,
 }
 
@@ -39,10 +43,12 @@ impl Rect {
         self.width as usize * self.height as usize
     }
 
+    /// Returns its columns.
     pub const fn columns(&self) -> ops::Range<u32> {
         self.x..self.x + self.width
     }
 
+    /// Returns its rows.
     pub const fn rows(&self) -> ops::Range<u32> {
         self.y..self.y + self.height
     }
@@ -75,7 +81,9 @@ impl Rect {
 /// Samples `samples` of each pixel of a rectangle.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Range {
+    /// Which pixels.
     pub pixels: Rect,
+    /// Which samples of each.
     pub samples: ops::Range<u32>,
 }
 

@@ -10,11 +10,11 @@ use super::limits::{COORDINATE, Limits};
 use crate::core::error::{Error, ErrorKind};
 
 /// The result of a check.
-pub(crate) type Check<T = ()> = Result<T, Box<Refusal>>;
+pub(super) type Check<T = ()> = Result<T, Box<Refusal>>;
 
 /// A value within a scene: a key of the vocabulary, of an item of a section.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Key {
+pub(super) struct Key {
     pub section: &'static str,
     /// Which of the section's items; 0 where there is one.
     pub item: usize,
@@ -29,7 +29,7 @@ pub(crate) struct Key {
 }
 
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) enum Fault {
+pub(super) enum Fault {
     /// Another value was expected than the one that was found.
     Expected { wanted: String, found: String },
     /// `label` says it in a few words.
@@ -37,7 +37,7 @@ pub(crate) enum Fault {
 }
 
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) struct Refusal {
+pub(super) struct Refusal {
     pub key: Key,
     pub fault: Fault,
 }

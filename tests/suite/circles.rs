@@ -18,11 +18,15 @@ const ONE_JOB: &[(&[&str], &str)] = &[
         "a table names the section that a stray key belongs to, by the sections' own lists",
     ),
     (
-        &["scene.bsdf", "scene.limits", "scene.model", "scene.refusal"],
+        &["scene.bsdf", "scene.geometry", "scene.limits", "scene.model", "scene.refusal"],
         "types of a scene, and the limits of their values",
     ),
     (&["scene.builder", "scene.whole"], "a scene and its builder name each other"),
     (&["integrators.adaptive.audit", "integrators.adaptive.draws"], "the pixels drawn for an audit"),
+    (&["oracle.filter"], "a kernel reads levels, and levels are read by kernels"),
+    (&["oracle.backend", "oracle.render"], "the oracle as a backend, and the picture that it makes alone"),
+    (&["render.backend", "render.session"], "a session's renders, and the backend that they are"),
+    (&["pack.geometry", "pack.precision"], "how shapes are packed depends on the numbers that they need"),
     (&["lab.verify"], "a report names the place and the variant that it judges"),
 ];
 

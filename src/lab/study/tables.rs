@@ -8,7 +8,7 @@ use crate::lab::plot::html::{code, scroll, table};
 use crate::lab::plot::svg::escape;
 
 pub fn winners(analysis: &Analysis) -> String {
-    let row = |w: &super::analysis::Winner| {
+    let row = |w: &super::results::Winner| {
         let about = if w.estimated { "about " } else { "" };
         let rmse = format!("{about}{}", error(w.rmse));
         let names = std::iter::once(&w.method).chain(&w.ties).map(|name| method(name));

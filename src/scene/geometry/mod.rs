@@ -73,9 +73,11 @@ pub trait Kind: Shape + Sized {
 
     /// The same, to add to.
     fn list_mut(scene: &mut Scene) -> &mut Vec<Self>;
+}
 
+/// What the builder checks of a kind.
+pub(super) trait Checked: Kind {
     /// Refuses a shape that is degenerate, or that its material does not suit.
-    #[doc(hidden)]
     fn check(&self, key: Key, material: &Material) -> Check;
 }
 
@@ -105,7 +107,7 @@ pub(super) fn check(scene: &Scene) -> Check {
     check_kind::<Triangle>(scene)
 }
 
-fn check_kind<K: Kind>(scene: &Scene) -> Check {
+fn check_kind<K: Checked>(scene: &Scene) -> Check {
     K::list(scene).iter().enumerate().try_for_each(|(item, shape)| {
         let key = Key::item(K::SECTION, item);
         key.of("material").index(shape.material(), scene.materials.len(), "material")?;

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::{Bounds, Kind, Shape};
+use super::{Bounds, Checked, Kind, Shape};
 use crate::scene::builder::DEFAULT;
 use crate::scene::limits::{COORDINATE, LENGTH, parallel};
 use crate::scene::model::{Material, Scene, Space};
@@ -76,7 +76,9 @@ impl Kind for Plane {
     fn list_mut(scene: &mut Scene) -> &mut Vec<Self> {
         &mut scene.planes
     }
+}
 
+impl Checked for Plane {
     fn check(&self, key: Key, material: &Material) -> Check {
         key.of("origin").vector(self.origin, &COORDINATE)?;
         key.of("tangent").direction(self.tangent)?;

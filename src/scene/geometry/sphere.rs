@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::{Bounds, Kind, Shape};
+use super::{Bounds, Checked, Kind, Shape};
 use crate::scene::builder::DEFAULT;
 use crate::scene::limits::{COORDINATE, LENGTH};
 use crate::scene::model::{Material, Scene};
@@ -71,7 +71,9 @@ impl Kind for Sphere {
     fn list_mut(scene: &mut Scene) -> &mut Vec<Self> {
         &mut scene.spheres
     }
+}
 
+impl Checked for Sphere {
     fn check(&self, key: Key, _material: &Material) -> Check {
         key.of("center").vector(self.center, &COORDINATE)?;
         key.of("radius").number(self.radius, &LENGTH)

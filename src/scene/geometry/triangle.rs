@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
-use super::{Bounds, Kind, Shape};
+use super::{Bounds, Checked, Kind, Shape};
 use crate::scene::builder::DEFAULT;
 use crate::scene::limits::{COORDINATE, collinear};
 use crate::scene::model::{Material, Scene};
@@ -80,7 +80,9 @@ impl Kind for Triangle {
     fn list_mut(scene: &mut Scene) -> &mut Vec<Self> {
         &mut scene.triangles
     }
+}
 
+impl Checked for Triangle {
     fn check(&self, key: Key, _material: &Material) -> Check {
         for (i, vertex) in self.vertices.iter().enumerate() {
             key.of("vertices").at(i).vector(*vertex, &COORDINATE)?;
