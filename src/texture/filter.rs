@@ -35,6 +35,7 @@ pub struct Traits {
     pub needs_sums: bool,
     /// It mixes neighbouring texels.
     pub blends: bool,
+    /// How often its loops run.
     pub turns: Turns,
 }
 
@@ -52,6 +53,7 @@ const ONE_TEXEL: Traits = Traits {
 const MIXED: Traits = Traits { blends: true, ..ONE_TEXEL };
 
 impl Filter {
+    /// Returns what sets the filter apart.
     pub const fn traits(self) -> Traits {
         match self {
             Filter::Nearest => Traits { in_hardware: true, ..ONE_TEXEL },

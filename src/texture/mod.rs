@@ -1,12 +1,15 @@
 //! Textures as data: what a file holds, what a sampler does with it.
 
+#[allow(missing_docs)]
 pub mod analysis;
 mod analysis_period;
 mod analysis_rows;
 mod analysis_steps;
+#[allow(missing_docs)]
 mod analysis_verdict;
 mod cube;
 pub mod data;
+#[allow(missing_docs)]
 pub mod decode;
 mod decoder;
 mod exr_color;

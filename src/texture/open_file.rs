@@ -47,6 +47,11 @@ fn escaped(c: char) -> Vec<char> {
     if c.is_control() { c.escape_default().collect() } else { vec![c] }
 }
 
+/// Whether a file is a volume, by the ending of its name: nothing is opened.
+pub fn is_volume(path: &Path) -> bool {
+    path.extension().is_some_and(|e| e.eq_ignore_ascii_case("nrrd") || e.eq_ignore_ascii_case("nhdr"))
+}
+
 /// What to do about a path that was written with backslashes: TOML turns some of them into other characters, and
 /// only Windows divides folders by them.
 pub fn odd_path(path: &Path) -> Option<String> {

@@ -16,8 +16,10 @@ impl ProceduralKind {
 /// Octaves of a sum: beyond 2²³ times the base frequency single precision holds no fraction.
 pub const MAX_OCTAVES: u32 = 16;
 
+/// A pattern that is computed where it is read.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Procedural {
+    /// Which one.
     pub kind: ProceduralKind,
     /// Linear RGB of background and figure; patterns made of noise blend between the two.
     pub colors: [[f32; 3]; 2],

@@ -3,19 +3,26 @@
 
 pub use crate::schema::enums::{Address, Filter, Method, MipMode, TexelCenter};
 
+/// How a texture is read.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SamplerSpec {
     /// Along u and v.
     pub address: [Address; 2],
     /// Along w, of 3D textures.
     pub address_w: Address,
+    /// The filter where a texel covers more than a pixel.
     pub mag: Filter,
+    /// The filter where a footprint covers more than a texel.
     pub min: Filter,
+    /// Which levels are read.
     pub mip: MipMode,
     /// The device's samplers only: least level of detail. Above 0, every look-up minifies.
     pub min_lod: f32,
+    /// What `clamp-to-border` reads, red, green, blue and alpha.
     pub border_color: [f32; 4],
+    /// Who filters.
     pub method: Method,
+    /// Where texels have their centres.
     pub texel_center: TexelCenter,
     /// Longest footprint, in widths, that `anisotropic` and `ewa` follow; wider ones are blurred.
     pub max_anisotropy: u32,

@@ -2,28 +2,37 @@
 //! scene, a raw volume. Nothing is opened here; `load` makes [`TextureData`](super::data) of it.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use super::data::{ColorSpace, Dimension, MipKernel, TexelFormat};
 use super::procedural::Procedural;
 use crate::core::named::named_enum;
 
+/// A texture as a scene has it: its texels may still be in files.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TextureSource {
+    /// For messages.
     pub name: String,
+    /// Where the texels come from.
     pub content: TextureContent,
+    /// The axes of its texels.
     pub dimension: Dimension,
+    /// What the stored values mean.
     pub color_space: ColorSpace,
     /// Whether the scene says what the stored values mean.
     pub color_space_stated: bool,
+    /// How files of pictures are read.
     pub reading: Reading,
     /// False: v = 0 is the file's first row. True: v grows upwards (the lecture's loader).
     pub flip_v: bool,
+    /// What coarser levels are means over.
     pub mip_kernel: MipKernel,
 }
 
 /// Which picture of a file is read, and which way up.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Reading {
+    /// What is done about a picture that is stored turned.
     pub orientation: OrientationUse,
     /// Of an OpenEXR file: a layer, a part, or a channel that is read as grey.
     pub layer: Option<String>,
@@ -58,7 +67,10 @@ pub enum TextureContent {
     Faces([PathBuf; 6]),
     /// Pictures of one size, the first at w = 0.
     Slices(Vec<PathBuf>),
+    /// A file of bare texels.
     Volume(VolumeSource),
+    /// One picture, not of a file.
+    Texels(Arc<PlainTexels>),
     /// No texels: computed where it is read.
     Procedural(Procedural),
 }
@@ -82,15 +94,31 @@ named_enum! {
     }
 }
 
+/// A picture in memory.
+#[derive(Debug, PartialEq, Eq)]
+pub struct PlainTexels {
+    /// Texels in a row.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+    /// Channels and number type of a texel.
+    pub format: TexelFormat,
+    /// Tightly packed rows, the first one on top, in the machine's byte order.
+    pub bytes: Vec<u8>,
+}
+
 /// A file of bare texels: x runs fastest, then y, then z.
 #[derive(Clone, Debug, PartialEq)]
 pub struct VolumeSource {
+    /// The file.
     pub file: PathBuf,
     /// Width, height, depth.
     pub size: [u32; 3],
+    /// Channels and number type of a texel.
     pub format: TexelFormat,
     /// Bytes before the first texel.
     pub offset: u64,
+    /// The byte order of its numbers.
     pub endian: Endian,
 }
 
@@ -110,6 +138,7 @@ impl TextureSource {
 }
 
 impl TextureContent {
+    /// Returns the pattern, if it is one.
     pub fn procedural(&self) -> Option<&Procedural> {
         match self {
             TextureContent::Procedural(procedural) => Some(procedural),
@@ -120,7 +149,7 @@ impl TextureContent {
     /// All files named in the scene.
     pub fn files(&self) -> Vec<&Path> {
         match self {
-            TextureContent::Ramp(_) | TextureContent::Procedural(_) => Vec::new(),
+            TextureContent::Ramp(_) | TextureContent::Texels(_) | TextureContent::Procedural(_) => Vec::new(),
             TextureContent::File(file) | TextureContent::CubeFile(file, _) => vec![file],
             TextureContent::Faces(files) => files.iter().map(PathBuf::as_path).collect(),
             TextureContent::Slices(files) => files.iter().map(PathBuf::as_path).collect(),
@@ -130,7 +159,7 @@ impl TextureContent {
 
     fn files_mut(&mut self) -> Vec<&mut PathBuf> {
         match self {
-            TextureContent::Ramp(_) | TextureContent::Procedural(_) => Vec::new(),
+            TextureContent::Ramp(_) | TextureContent::Texels(_) | TextureContent::Procedural(_) => Vec::new(),
             TextureContent::File(file) | TextureContent::CubeFile(file, _) => vec![file],
             TextureContent::Faces(files) => files.iter_mut().collect(),
             TextureContent::Slices(files) => files.iter_mut().collect(),

@@ -12,6 +12,7 @@ mod bad_input;
 mod beams;
 #[cfg(unix)]
 mod child;
+mod circles;
 mod cli;
 mod cone;
 mod data;
@@ -31,6 +32,7 @@ mod error;
 mod exact;
 mod exr;
 mod extremes;
+mod face;
 mod flip;
 mod footprints;
 mod golden;

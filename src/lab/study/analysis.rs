@@ -2,57 +2,20 @@
 //! method's variance over its rays with 95 % intervals, the winner of each time budget and the recommended point
 //! (`choice.rs`), the time to reach each error, and one sentence.
 
-use serde::Serialize;
-
+use super::advice::advice;
 use super::bootstrap::interval;
-pub use super::choice::{SampleDimension, Winner, recommended, winners};
+pub use super::choice::{recommended, winners};
+use super::fit::{Line, least_squares};
+pub use super::fit::{median, time_to};
 use super::record::{PointRecord, Record};
+pub use super::results::{Analysis, MethodSlope, Reach, SampleDimension, Slope};
 use super::student;
-use super::words::advice;
 use crate::lab::plot::axis::steps;
 
 /// Points nearer to the reference's own error than this many times bend towards it and count in no slope.
 const ABOVE_FLOOR: f64 = 3.0;
 /// Fewest points that have a slope.
 const FEWEST: usize = 3;
-
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Analysis {
-    pub recommendation: String,
-    /// None where nothing was measured.
-    pub recommended: Option<SampleDimension>,
-    pub slopes: Vec<MethodSlope>,
-    pub winners: Vec<Winner>,
-    pub reach: Reach,
-}
-
-/// log MSE over log rays, fitted by least squares.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Slope {
-    pub value: f64,
-    /// Half of the 95 % interval (Student's t); none from points that lie on a line by number.
-    pub half_width: Option<f64>,
-    pub points: usize,
-}
-
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct MethodSlope {
-    pub method: String,
-    pub fitted: Option<Slope>,
-    /// 95 % of the slopes when blocks of pixels are drawn anew: what noise leaves open, whether or not the points
-    /// lie on a line.
-    pub interval: Option<[f64; 2]>,
-    /// What theory says of the variance, steepest last; none where there is no law.
-    pub theory: Vec<f64>,
-    pub theory_text: String,
-}
-
-/// Seconds to each error, by method; none where no measured point is as good.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
-pub struct Reach {
-    pub errors: Vec<f64>,
-    pub methods: Vec<(String, Vec<Option<f64>>)>,
-}
 
 pub fn analyse(record: &Record) -> Analysis {
     let floor = record.reference.rmse.unwrap_or(0.0);
@@ -121,35 +84,6 @@ fn noise_interval(points: &[&PointRecord], floor: f64) -> Option<[f64; 2]> {
     interval(&points, 0.95)
 }
 
-pub(super) struct Line {
-    pub value: f64,
-    /// Sum of the squares that are left.
-    residual: f64,
-    sxx: f64,
-}
-
-/// The straight line through (x, y) of at least two x.
-pub(super) fn least_squares(points: &[(f64, f64)]) -> Line {
-    let n = points.len() as f64;
-    let mean = |f: fn(&(f64, f64)) -> f64| points.iter().map(f).sum::<f64>() / n;
-    let (x, y) = (mean(|p| p.0), mean(|p| p.1));
-    let sxx: f64 = points.iter().map(|p| (p.0 - x).powi(2)).sum();
-    let value = points.iter().map(|p| (p.0 - x) * (p.1 - y)).sum::<f64>() / sxx;
-    let residual = points.iter().map(|p| (p.1 - y - value * (p.0 - x)).powi(2)).sum();
-    Line { value, residual, sxx }
-}
-
-pub fn median(values: &[f64]) -> f64 {
-    let mut sorted = values.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    let middle = sorted.len() / 2;
-    match sorted.len() {
-        0 => f64::NAN,
-        n if n % 2 == 1 => sorted[middle],
-        _ => 0.5 * (sorted[middle - 1] + sorted[middle]),
-    }
-}
-
 fn reach(record: &Record) -> Reach {
     let errors = || record.points.iter().map(|p| p.errors.rmse).filter(|e| *e > 0.0 && e.is_finite());
     let mut levels = steps(errors().fold(f64::INFINITY, f64::min), errors().fold(0.0, f64::max));
@@ -160,16 +94,4 @@ fn reach(record: &Record) -> Reach {
         (m.name.clone(), levels.iter().map(|level| time_to(&curve, *level)).collect())
     };
     Reach { methods: record.methods.iter().map(times).collect(), errors: levels }
-}
-
-/// When a curve of (seconds, RMSE) first comes down to `error`, on straight lines between the logarithms.
-pub fn time_to(curve: &[(f64, f64)], error: f64) -> Option<f64> {
-    let mut curve = curve.to_vec();
-    curve.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let after = curve.iter().position(|p| p.1 <= error)?;
-    let (b, Some(a)) = (curve[after], after.checked_sub(1).map(|i| curve[i])) else {
-        return Some(curve[after].0);
-    };
-    let share = (a.1 / error).ln() / (a.1 / b.1).ln();
-    Some(if b.1 > 0.0 { a.0 * (b.0 / a.0).powf(share) } else { b.0 })
 }

@@ -3,7 +3,7 @@
 //! draw takes the same blocks at all numbers: what they have in common there, such as the first samples of one
 //! sequence, tells in no other way.
 
-use super::analysis::least_squares;
+use super::fit::least_squares;
 use crate::core::film::Film;
 use crate::oracle::rng::mix_bits;
 

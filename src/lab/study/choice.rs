@@ -1,53 +1,19 @@
 //! Which point to choose. In: the measured points. Out: the least error within each time, with the methods that do
 //! as well but for noise; and one point to recommend, which no other beats in both error and time.
 
-use serde::Serialize;
-
-use super::analysis::MethodSlope;
 use super::bootstrap::ratio;
 use super::record::PointRecord;
+use super::results::{MethodSlope, SampleDimension, Winner};
 use super::words::taken;
 use crate::lab::plot::axis::steps;
 
 /// Errors that are so many times apart differ.
 const FAR: f64 = 2.0;
 
-/// The least error within a time.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Winner {
-    pub budget: f64,
-    pub method: String,
-    /// Other methods that fit into the time and err the same, but for noise.
-    pub ties: Vec<String>,
-    pub spp: u32,
-    /// What each pixel took, in words.
-    pub taken: String,
-    pub seconds: f64,
-    pub rmse: f64,
-    /// Beyond the method's longest point, along its slope. A method that is slow for its samples would
-    /// otherwise win all the time in which nothing else was measured.
-    pub estimated: bool,
-}
-
-/// The recommended point.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct SampleDimension {
-    pub method: String,
-    pub spp: u32,
-    pub seconds: f64,
-    pub rmse: f64,
-}
-
 impl SampleDimension {
     pub fn of(point: &PointRecord) -> SampleDimension {
         let (method, seconds) = (point.method.clone(), point.median_seconds());
         SampleDimension { method, spp: point.spp, seconds, rmse: point.errors.rmse }
-    }
-}
-
-impl Winner {
-    pub fn is_or_ties(&self, method: &str) -> bool {
-        self.method == method || self.ties.iter().any(|tie| tie == method)
     }
 }
 

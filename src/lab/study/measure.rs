@@ -9,13 +9,13 @@ use crate::core::film::Film;
 use crate::core::progress::{Progress, SubProgress};
 use crate::lab::metrics::compare;
 use crate::lab::metrics::flip::Seen;
-use crate::render::{Prepared, Report};
+use crate::render::Prepared;
 use crate::scene::model::{Algorithm, Scene};
 
 use super::bootstrap::blocks;
 use super::identity::Hash;
 use super::limit::Limit;
-use super::looks::SessionCache;
+use super::looks::{SessionCache, sampled_part};
 use super::method::Method;
 use super::plan::{Forecast, Point};
 use super::record::{Errors, PointRecord, Record, Stages};
@@ -234,12 +234,6 @@ impl<'a> Measurement<'a> {
         }
         notes
     }
-}
-
-/// Of beams: the part of the pixels that took samples; all of them in a scene that suits no beam.
-pub fn sampled_part(algorithm: Algorithm, report: &Report, pixels: usize) -> Option<f64> {
-    let part = || report.sampled_pixels.map_or(1.0, |count| count as f64 / pixels as f64);
-    (algorithm == Algorithm::Beam).then(part)
 }
 
 fn judge(film: &Film, reference: &Reference) -> Result<Errors> {

@@ -7,10 +7,12 @@
 //!                     ▲ reference
 //! ```
 
+mod advice;
 pub mod analysis;
 pub mod bootstrap;
 pub mod choice;
 mod files;
+mod fit;
 mod identity;
 mod limit;
 mod looks;
@@ -21,6 +23,7 @@ mod pictures;
 pub mod plan;
 pub mod record;
 mod reference;
+pub mod results;
 mod showcase;
 mod stages;
 pub mod student;
@@ -101,7 +104,7 @@ pub fn run(gpu: &Gpu, scene: &Scene, options: &Options, progress: &dyn Progress)
         progress,
     }
     .run(&mut record, kept.points)?;
-    record.analyse();
+    record.analysis = Some(analysis::analyse(&record));
     let showcase = showcase::render(&looks, scene, &record, &reference.film, &limit, progress)?;
     record.notes.extend(showcase.note(&limit));
     record.notes.extend(limit.note());

@@ -6,12 +6,18 @@ use crate::lab::plot::html::{Header, Html, SCRIPT, code, document, html, scroll,
 use crate::output::Format;
 
 use super::choice::recommended;
-use super::files::Plots;
 use super::pictures::{crop, data_uri, differences, false_color, ramp_css, scale, shrunk};
 use super::record::Record;
 use super::showcase::Showcase;
 use super::tables;
 use super::words::error;
+
+/// The charts of the page, each as SVG.
+pub struct Plots {
+    pub time: String,
+    pub rays: String,
+    pub stages: String,
+}
 
 /// Widest picture within the page.
 const MOST: u32 = 420;

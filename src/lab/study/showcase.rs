@@ -10,8 +10,7 @@ use crate::scene::model::{Algorithm, Pattern, Scene};
 
 use super::choice::recommended;
 use super::limit::Limit;
-use super::looks::SessionCache;
-use super::measure::sampled_part;
+use super::looks::{SessionCache, sampled_part};
 use super::method::Method;
 use super::pictures::{self, Window};
 use super::plan::next_count;

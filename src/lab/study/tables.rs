@@ -7,7 +7,7 @@ use super::words::{error, percent, seconds, taken, times};
 use crate::lab::plot::html::{Html, code, html, scroll, table};
 
 pub fn winners(analysis: &Analysis) -> Html {
-    let row = |w: &super::analysis::Winner| {
+    let row = |w: &super::results::Winner| {
         let about = if w.estimated { "about " } else { "" };
         let rmse = format!("{about}{}", error(w.rmse));
         let names = std::iter::once(&w.method).chain(&w.ties).map(|name| method(name));
