@@ -91,6 +91,8 @@ enums! {
         Dielectric = "dielectric",
         /// Lambert with a highlight.
         Phong = "phong",
+        /// Rough and diffuse; keeps all light.
+        OrenNayar = "oren-nayar",
     }
 
     /// What a material's bump texture holds.

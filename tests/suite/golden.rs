@@ -45,6 +45,7 @@ const GOLDENS: &[(&str, [u32; 2])] = &[
     ("procedural", [120, 53]),
     ("ramp", [120, 42]),
     ("reflection", [128, 54]),
+    ("rough", [160, 48]),
     ("samplers", [264, 108]),
     ("shared", [120, 90]),
     ("volume", [120, 50]),
@@ -195,7 +196,7 @@ macro_rules! goldens {
 goldens! {
     beams centroid cones environment environment_cube filters formats glass glossy hardware horizon inside
     lecture lens lights mappings materials mirrors motion normal penumbra position procedural ramp reflection
-    samplers shared volume zone_plate
+    rough samplers shared volume zone_plate
 }
 
 /// One texel a pixel: the very bytes of the texture.

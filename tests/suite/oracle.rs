@@ -47,6 +47,7 @@ const BOUNDS: &[(&str, f64, f64, f64)] = &[
     ("quad", STEP, 0.0, 0.0),
     ("ramp", STEP, 1e-5, 0.001),
     ("reflection", STEP, 1e-5, 0.001),
+    ("rough", STEP, 1e-5, 0.002),
     ("samplers", STEP, 1e-6, 0.0),
     ("shared", STEP, 5e-5, 0.03),
     ("volume", STEP, 1e-5, 0.001),
