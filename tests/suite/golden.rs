@@ -32,6 +32,7 @@ const GOLDENS: &[(&str, [u32; 2])] = &[
     ("hardware", [164, 84]),
     ("horizon", [128, 96]),
     ("inside", [96, 96]),
+    ("lanczos", [128, 64]),
     ("lecture", [128, 128]),
     ("lens", [64, 48]),
     ("lights", [120, 90]),
@@ -195,7 +196,7 @@ macro_rules! goldens {
 }
 goldens! {
     beams centroid cones environment environment_cube filters formats glass glossy hardware horizon inside
-    lecture lens lights mappings materials mirrors motion normal penumbra position procedural ramp reflection
+    lanczos lecture lens lights mappings materials mirrors motion normal penumbra position procedural ramp reflection
     rough samplers shared volume zone_plate
 }
 

@@ -33,6 +33,7 @@ const BOUNDS: &[(&str, f64, f64, f64)] = &[
     ("hardware", SUB_TEXEL_STEP, 2e-3, 0.01),
     ("horizon", STEP, 1e-4, 0.015),
     ("inside", STEP, 1e-5, 0.0005),
+    ("lanczos", STEP, 1e-5, 0.001),
     ("lecture", STEP, 1e-5, 0.0005),
     ("lens", STEP, 1e-5, 0.005),
     ("lights", STEP, 2e-6, 0.0005),
