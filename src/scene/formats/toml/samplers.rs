@@ -59,7 +59,7 @@ pub(super) fn sampler(table: &Table<'_>) -> Result<SamplerSpec> {
             }
             spec.min = both.get("min").map_or(Ok(spec.min), one)?;
         } else {
-            (spec.mag, spec.min) = one::<Filter>(field)?.both();
+            (spec.mag, spec.min) = one(field)?.both();
         }
     }
     if let Some(field) = table.get("max_anisotropy") {
