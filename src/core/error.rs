@@ -141,12 +141,7 @@ impl Error {
 /// What is shown of an error beside its message. Written out: the derive macro is ten seconds of a first build.
 impl Diagnostic for Error {
     fn help(&self) -> Option<Box<dyn Display + '_>> {
-        match self {
-            Error::Scene { help, .. } | Error::Plain { help, .. } => {
-                help.as_ref().map(|help| Box::new(help) as Box<dyn Display + '_>)
-            }
-            Error::Interrupted => None,
-        }
+        Error::help(self).map(|help| Box::new(help) as Box<dyn Display + '_>)
     }
 
     fn source_code(&self) -> Option<&dyn SourceCode> {

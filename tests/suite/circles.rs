@@ -4,7 +4,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 
-use crate::layering::{ALLOWED, code_of, files_under, module_of, source_root, tokens};
+use crate::layering::{ALLOWED, files_under, module_of, source_root};
+use crate::sources::tokens;
 
 type Module = Vec<String>;
 type Graph = BTreeMap<Module, BTreeSet<Module>>;
@@ -33,7 +34,8 @@ const ONE_JOB: &[(&[&str], &str)] = &[
 /// Paths of the crate that code of module `of` names, also those of grouped and nested imports.
 fn references(code: &str, of: &[&str]) -> Vec<Vec<String>> {
     let code = code.split("#[cfg(test)]").next().unwrap_or_default();
-    let words: Vec<&str> = tokens(code).into_iter().map(|(_, word)| word).collect();
+    let tokens = tokens(code).unwrap();
+    let words: Vec<&str> = tokens.iter().map(|token| token.text.as_str()).collect();
     let mut found = Vec::new();
     for i in 0..words.len() {
         let begins = i == 0 || words[i - 1] != "::";
@@ -93,7 +95,7 @@ fn graph(files: &BTreeMap<String, String>) -> Graph {
     let mut graph = Graph::new();
     for (path, text) in files {
         let (of, own) = (module_of(path), owned(path));
-        let imports = references(&code_of(text), &of).into_iter().filter_map(|mut path| {
+        let imports = references(text, &of).into_iter().filter_map(|mut path| {
             while !path.is_empty() && !modules.contains(&path) {
                 path.pop();
             }

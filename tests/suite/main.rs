@@ -66,6 +66,7 @@ mod resubmit;
 mod scene;
 mod shared_gpu;
 mod slopes;
+mod sources;
 mod specialise;
 mod stability;
 mod stage;

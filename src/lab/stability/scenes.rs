@@ -42,7 +42,7 @@ pub fn on_device(bench: &Bench<'_>, scene: &PackedScene) -> Result<Film> {
 
 pub fn in_oracle(bench: &Bench<'_>, scene: &PackedScene) -> Result<Film> {
     bench.go_on()?;
-    oracle::render::render(scene, bench.progress)
+    oracle::backend::render(scene, bench.progress)
 }
 
 /// Float texels, three channels and an alpha of 1, `value` of the channel's number in the texture.

@@ -71,7 +71,7 @@ pub fn obtain(
     let (film, mut record, progress) = if oracle {
         let textures = scene.textures.iter().map(texture::load::load).collect::<Result<Vec<_>>>()?;
         let half = |samples: u32, seed: u32, progress: &dyn Progress| {
-            oracle::render::render(
+            oracle::backend::render(
                 &pack::pack(&half_of(scene, samples, seed)?, textures.clone(), None)?,
                 progress,
             )

@@ -2,7 +2,8 @@
 
 use std::fs;
 
-use crate::layering::{code_of, source_root, tokens};
+use crate::layering::source_root;
+use crate::sources::tokens;
 
 /// Every name at the root, as the documentation lists them.
 const NAMES: [&str; 13] = [
@@ -23,8 +24,8 @@ const NAMES: [&str; 13] = [
 
 /// The names that `pub mod` and `pub use` of a file make.
 fn public_names(text: &str) -> Vec<String> {
-    let code = code_of(text);
-    let words: Vec<&str> = tokens(&code).into_iter().map(|(_, word)| word).collect();
+    let tokens = tokens(text).unwrap();
+    let words: Vec<&str> = tokens.iter().map(|token| token.text.as_str()).collect();
     let mut names = Vec::new();
     for at in (1..words.len())
         .filter(|&at| words[at - 1] == "pub" && ["mod", "use", "fn", "struct"].contains(&words[at]))

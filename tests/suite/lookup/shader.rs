@@ -53,7 +53,7 @@ fn everything(textures: Vec<TextureData>, random: usize, keep_one_in: usize) -> 
     let mut queries = Vec::new();
     for (t, record) in scene.textures.iter().enumerate() {
         for sampler in 0..specs.len() {
-            for uv in coordinates(&mut dice, [record.place[1], record.place[2]], random, true) {
+            for uv in coordinates(&mut dice, [record.size.x, record.size.y], random, true) {
                 if (dice.bits() as usize).is_multiple_of(keep_one_in) {
                     queries.push(LookUp { sampler: sampler as u32, ..query(&scene, t, uv) });
                 }
