@@ -86,6 +86,12 @@ impl Filter {
         }
     }
 
+    /// Returns the filters of magnification and minification that one name stands for: those that only minify
+    /// magnify linearly.
+    pub fn both(self) -> (Filter, Filter) {
+        (if self.only_minifies() { Filter::Linear } else { self }, self)
+    }
+
     /// Filters that only mean something where a footprint covers more than a texel.
     pub const fn only_minifies(self) -> bool {
         self.traits().only_minifies

@@ -66,7 +66,7 @@ pub fn bsdf_at(material: &Material, albedo: DVec3, normal: DVec3, direction: DVe
 /// The two lobes over 1/π, for light from `way`, which need not be a unit vector.
 pub fn evaluate(bsdf: &Bsdf<'_>, way: DVec3) -> [f64; 2] {
     match model(bsdf.material) {
-        Model::Phong => phong_lobes(bsdf.mirror, way, bsdf.material.specular[3].into()),
+        Model::Phong => phong_lobes(bsdf.mirror, way, bsdf.material.exponent.into()),
         _ => lambert_lobes(),
     }
 }
