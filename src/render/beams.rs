@@ -31,7 +31,7 @@ impl BeamPass<'_> {
         let mut plan = DispatchPlan::new(FIRST_TILES, 0..1, 1, self.film.tiles(rows));
         for band in self.film.bands(rows) {
             self.renderer.tiles(&band, band.tiles, &mut plan, report, progress)?;
-            self.film.read_with(self.renderer.gpu, &band, |_, pixel| pixels.push(pixel.sum))?;
+            self.film.read_with(self.renderer.gpu, &band, |_, sum| pixels.push(sum))?;
         }
         Ok(pixels)
     }
@@ -47,9 +47,9 @@ impl BeamPass<'_> {
         let seconds = clock.elapsed().as_secs_f64() * self.film.tiles(whole) as f64 / f64::from(tiles);
         let tried: Vec<bool> = band.first_tiles(tiles);
         let mut pixels = Vec::new();
-        self.film.read_with(self.renderer.gpu, &band, |i, pixel| {
+        self.film.read_with(self.renderer.gpu, &band, |i, sum| {
             if tried[band.tile_of(i as u32, self.film.width())] {
-                pixels.push((i as u32, pixel.sum[3] == 0.0));
+                pixels.push((i as u32, sum[3] == 0.0));
             }
         })?;
         Ok(PilotRun { seconds, pixels })

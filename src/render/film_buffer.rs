@@ -2,6 +2,8 @@
 //! filter that has negative lobes. A picture larger than the device's buffers is rendered in bands of whole tile rows, one buffer
 //! serving all; each band is read back as sums.
 
+use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelExtend, ParallelIterator};
+
 use crate::core::error::{Error, Result};
 use crate::core::range::{Range, Rect};
 use crate::gpu::{Buffer, BufferUse, DeviceKind, Gpu};
@@ -26,16 +28,6 @@ pub struct FilmBuffer {
     /// Mean of the samples' signs, where they have any: a pixel's fourth float is their sum, and samples whose sign
     /// is negative have a sum of their own.
     mean_sign: Option<f64>,
-}
-
-/// What the film holds of a pixel.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct PixelSums {
-    pub sum: [f32; 4],
-    /// What rounding has added to the sum.
-    lost: [f32; 4],
-    /// Of samples whose sign is negative.
-    negative: [f32; 4],
 }
 
 /// Some rows of the picture.
@@ -73,6 +65,13 @@ impl Band {
         let (x, y) = (pixel % width, pixel / width - self.y);
         (y / TILE * self.tiles_x + x / TILE) as usize
     }
+}
+
+/// What the film holds of some pixels; of planes that it has not, nothing.
+struct Planes<'a> {
+    sum: &'a [[f32; 4]],
+    lost: &'a [[f32; 4]],
+    negative: &'a [[f32; 4]],
 }
 
 impl FilmBuffer {
@@ -141,23 +140,38 @@ impl FilmBuffer {
 
     /// Appends the sums of a band's pixels.
     pub fn read(&self, gpu: &Gpu, band: &Band, block: &mut Block) -> Result<()> {
-        self.read_with(gpu, band, |_, sums| {
-            let of = |floats: [f32; 4]| floats.map(f64::from);
-            let (sum, lost, negative) = (of(sums.sum), of(sums.lost), of(sums.negative));
-            block.sums.push([0, 1, 2].map(|c| sum[c] - lost[c]));
+        self.read_rows(gpu, band, |_, planes| {
+            let of = |floats: &[f32; 4]| floats.map(f64::from);
+            let color = |floats: &[f32; 4]| [0, 1, 2].map(|c| f64::from(floats[c]));
+            if planes.lost.is_empty() {
+                block.sums.par_extend(planes.sum.par_iter().map(color));
+            } else {
+                let both = planes.sum.par_iter().zip(planes.lost);
+                block.sums.par_extend(both.map(|(sum, lost)| {
+                    let (sum, lost) = (of(sum), of(lost));
+                    [0, 1, 2].map(|c| sum[c] - lost[c])
+                }));
+            }
             match &mut block.signed {
                 Some(signed) => {
-                    signed.negative.push([negative[0], negative[1], negative[2]]);
-                    signed.weights.push(sum[3]);
+                    signed.negative.par_extend(planes.negative.par_iter().map(color));
+                    signed.weights.par_extend(planes.sum.par_iter().map(|sum| f64::from(sum[3])));
                 }
                 // Cones keep here what they drop.
-                None => block.dropped += sum[3],
+                None => planes.sum.iter().for_each(|sum| block.dropped += f64::from(sum[3])),
             }
         })
     }
 
-    /// Each pixel of a band by its place in the picture; a few rows at a time.
-    pub fn read_with(&self, gpu: &Gpu, band: &Band, mut each: impl FnMut(usize, &PixelSums)) -> Result<()> {
+    /// The sums of each pixel of a band, by its place in the picture.
+    pub fn read_with(&self, gpu: &Gpu, band: &Band, mut each: impl FnMut(usize, [f32; 4])) -> Result<()> {
+        self.read_rows(gpu, band, |first, planes| {
+            planes.sum.iter().zip(first..).for_each(|(sum, pixel)| each(pixel, *sum));
+        })
+    }
+
+    /// A few rows of a band at a time, by the place of their first pixel in the picture.
+    fn read_rows(&self, gpu: &Gpu, band: &Band, mut each: impl FnMut(usize, Planes<'_>)) -> Result<()> {
         let row_bytes = u64::from(self.width) * PIXEL_BYTES;
         let rows_at_once = ((4 << 20) / row_bytes).clamp(1, u64::from(band.height)) as u32;
         let plane = || vec![[0f32; 4]; (self.width * rows_at_once) as usize];
@@ -172,11 +186,15 @@ impl FilmBuffer {
                 gpu.read_buffer(&self.buffer, first, bytemuck::cast_slice_mut(&mut floats[..count]))?;
             }
             let first = (band.y + y) as usize * self.width as usize;
-            let of = |floats: &[[f32; 4]], i: usize| floats.get(i).copied().unwrap_or_default();
-            for i in 0..count {
-                let [sum, lost, negative] = [&sums, &lost, &negative].map(|floats| of(floats, i));
-                each(first + i, &PixelSums { sum, lost, negative });
-            }
+            let of = |floats: &'_ [[f32; 4]]| floats.len().min(count);
+            each(
+                first,
+                Planes {
+                    sum: &sums[..count],
+                    lost: &lost[..of(&lost)],
+                    negative: &negative[..of(&negative)],
+                },
+            );
         }
         Ok(())
     }

@@ -3,6 +3,9 @@
 //! first samples, so that merging is a union of sets: the film depends neither on who took which range, nor on the
 //! order in which ranges arrive.
 
+use rayon::iter::{IndexedParallelIterator, ParallelIterator};
+use rayon::slice::ParallelSliceMut;
+
 use crate::core::error::{Error, Result};
 use crate::core::film::Film;
 use crate::core::range::{Range, Rect};
@@ -100,6 +103,14 @@ impl Block {
         }
     }
 
+    /// Writes the means of its pixels into a row of the picture.
+    fn write_row(&self, y: u32, mean_sign: Option<f64>, pixels: &mut [[f32; 3]]) {
+        let columns = self.range.pixels.columns();
+        for (x, pixel) in columns.clone().zip(&mut pixels[columns.start as usize..]) {
+            *pixel = self.pixel(x, y).mean(mean_sign);
+        }
+    }
+
     /// By which blocks are ordered: a pixel's samples by their numbers.
     fn key(&self) -> (u32, u32, u32) {
         (self.range.samples.start, self.range.pixels.y, self.range.pixels.x)
@@ -153,23 +164,33 @@ impl FilmSums {
         let rows = self.blocks.iter().map(|b| b.range.pixels.rows());
         let [top, bottom] = rows.fold([height, 0], |[top, bottom], r| [top.min(r.start), bottom.max(r.end)]);
         let mean_sign = self.blocks.iter().find_map(|b| b.signed.as_ref()).map(|s| s.mean_sign);
-        let mut row: Vec<Option<PixelSums>> = vec![None; width as usize];
-        for y in top..bottom.min(height) {
-            row.fill(None);
-            for block in self.blocks.iter().filter(|b| b.range.pixels.rows().contains(&y)) {
-                for x in block.range.pixels.columns() {
-                    let next = block.pixel(x, y);
-                    match &mut row[x as usize] {
-                        Some(sums) => sums.add(next),
-                        empty => *empty = Some(next),
-                    }
+        let bottom = bottom.clamp(top, height);
+        let rows = top as usize * width as usize..bottom as usize * width as usize;
+        film.pixels[rows].par_chunks_mut(width as usize).zip(top..bottom).for_each(|(pixels, y)| {
+            let mut blocks = self.blocks.iter().filter(|b| b.range.pixels.rows().contains(&y));
+            match (blocks.next(), blocks.next()) {
+                (Some(block), None) => block.write_row(y, mean_sign, pixels),
+                (Some(_), Some(_)) => self.write_row(y, mean_sign, pixels),
+                (None, _) => {}
+            }
+        });
+    }
+
+    /// Writes the means of a row of which several blocks have sums.
+    fn write_row(&self, y: u32, mean_sign: Option<f64>, pixels: &mut [[f32; 3]]) {
+        let mut row: Vec<Option<PixelSums>> = vec![None; pixels.len()];
+        for block in self.blocks.iter().filter(|b| b.range.pixels.rows().contains(&y)) {
+            for x in block.range.pixels.columns() {
+                let next = block.pixel(x, y);
+                match &mut row[x as usize] {
+                    Some(sums) => sums.add(next),
+                    empty => *empty = Some(next),
                 }
             }
-            let first = y as usize * width as usize;
-            for (pixel, sums) in film.pixels[first..].iter_mut().zip(&row) {
-                if let Some(sums) = sums {
-                    *pixel = sums.mean(mean_sign);
-                }
+        }
+        for (pixel, sums) in pixels.iter_mut().zip(&row) {
+            if let Some(sums) = sums {
+                *pixel = sums.mean(mean_sign);
             }
         }
     }

@@ -83,7 +83,9 @@ fn mapping(key: Key, mapping: &Mapping) -> Check {
     let solid = mapping.kind == MappingKind::Solid;
     let (scale, offset) = (key.of("mapping.scale"), key.of("mapping.offset"));
     let [x, y, z] = [mapping.scale.x, mapping.scale.y, mapping.scale_w];
-    match x == y && y == z {
+    // By bits, so that one number that is NaN is one number.
+    let [first, second, third] = [x, y, z].map(f64::to_bits);
+    match first == second && second == third {
         true => scale.number(x, &SCALE)?,
         false if solid => scale.numbers([x, y, z], &SCALE)?,
         false => scale.numbers([x, y], &SCALE)?,

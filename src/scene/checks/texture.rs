@@ -114,5 +114,7 @@ fn joints_fit(key: Key, pattern: &Procedural) -> Check {
     }
     let what =
         format!("joints of width {width} leave nothing of bricks of {aspect} × 1; use a width below both");
-    key.of("width").or_default("0.1").refuse(what, "no room for bricks")
+    // Who left the joints as they are set the bricks.
+    let cause = if width == Procedural::new(pattern.kind).width { "aspect" } else { "width" };
+    key.of(cause).refuse(what, "no room for bricks")
 }

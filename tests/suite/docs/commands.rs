@@ -73,7 +73,7 @@ fn stage(folder: &Path, device: &str) {
 fn run(folder: &Path, command: &str) -> Result<(), String> {
     let path = format!("{}:{}", folder.join("bin").display(), std::env::var("PATH").unwrap_or_default());
     let output =
-        Command::new("sh").args(["-c", command]).current_dir(folder).env("PATH", path).output().unwrap();
+        Command::new("bash").args(["-c", command]).current_dir(folder).env("PATH", path).output().unwrap();
     let told = String::from_utf8_lossy(&output.stderr);
     if output.status.success() { Ok(()) } else { Err(format!("{command}\n{told}")) }
 }

@@ -19,13 +19,15 @@ fn furnace(direction: DVec3, albedo: f64, roughness: f64) -> f64 {
     const STEPS: u32 = 300;
     let second = scattered_albedo(DVec3::splat(albedo), roughness).x;
     let of = |i: u32| {
-        // Equal shares of the solid angle times the cosine.
-        let squared = (f64::from(i % STEPS) + 0.5) / f64::from(STEPS);
+        // The cosine is the cube of what is stepped through: a direction along the surface is lit from there most.
+        let step = (f64::from(i % STEPS) + 0.5) / f64::from(STEPS);
         let turn = TAU * (f64::from(i / STEPS) + 0.5) / f64::from(STEPS);
-        let out = squared.sqrt();
-        let way = DVec3::new(out * turn.cos(), out * turn.sin(), (1.0 - squared).sqrt());
+        let cosine = step.powi(3);
+        let out = (1.0 - cosine * cosine).sqrt();
+        let way = DVec3::new(out * turn.cos(), out * turn.sin(), cosine);
         let [first, more] = oren_nayar_lobes(DVec3::Z, direction, way, roughness);
-        albedo * first + second * more
+        // Solid angle times the cosine over pi, for a step.
+        6.0 * step.powi(5) * (albedo * first + second * more)
     };
     (0..STEPS * STEPS).map(of).sum::<f64>() / f64::from(STEPS * STEPS)
 }
