@@ -60,6 +60,6 @@ fn render(device: &str, [width, height]: [u32; 2], filter: Option<Filter>) -> Re
 
 /// 8 × 8 texels, black and white by turns.
 fn squares() -> Vec<[f32; 4]> {
-    let white = |i: usize| (i % 8 + i / 8) % 2 == 0;
+    let white = |i: usize| (i % 8 + i / 8).is_multiple_of(2);
     (0..64).map(|i| if white(i) { [1.0; 4] } else { [0.0, 0.0, 0.0, 1.0] }).collect()
 }

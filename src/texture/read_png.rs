@@ -38,8 +38,11 @@ fn decode(file: &[u8], path: &Path) -> Result<Texels> {
     })
 }
 
+/// The decoder, of a file in memory.
+type Reader<'a> = png::Reader<Cursor<&'a [u8]>>;
+
 /// A decoder that has read all up to the pixels, and what it will give: palettes and fewer than 8 bits expanded.
-fn open(file: &[u8]) -> std::result::Result<(png::Reader<Cursor<&[u8]>>, Header), Fault> {
+fn open(file: &[u8]) -> std::result::Result<(Reader<'_>, Header), Fault> {
     // Width and height; the decoder's own refusal does not say which is wrong.
     if file.get(16..24).is_some_and(|size| size.chunks(4).any(|side| side == [0; 4])) {
         return Err(Fault::ZeroSize);
