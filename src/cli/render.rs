@@ -26,7 +26,7 @@ use crate::scene::advice;
 use crate::scene::model::{Algorithm, Scene};
 use crate::scene::prune::prune;
 use crate::scene::texture_advice::of_textures;
-use crate::texture::decode::Values;
+use crate::texture::decode::AllowedFloats;
 use crate::texture::load::load_noted;
 use crate::texture::read_file::is_turned;
 use crate::texture::source::OrientationUse;
@@ -220,7 +220,7 @@ fn load(
     args: &RenderArgs,
     mip_chains: impl FnOnce() -> MipPlacement,
 ) -> Result<(PackedScene, Vec<String>)> {
-    let values = if args.allow_nonfinite { Values::Any } else { Values::Finite };
+    let values = if args.allow_nonfinite { AllowedFloats::Any } else { AllowedFloats::Finite };
     let textures = scene.textures.iter().map(|t| load_noted(t, values)).collect::<Result<Vec<_>>>()?;
     let (textures, notes): (Vec<_>, Vec<_>) = textures.into_iter().unzip();
     let doubts = [notes.concat(), of_textures(scene, &textures)].concat();

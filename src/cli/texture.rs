@@ -13,7 +13,7 @@ use crate::core::error::{Error, Result};
 use crate::core::film::Film;
 use crate::lab::metrics::read::film_of;
 use crate::output::{self, WriteOptions};
-use crate::texture::analysis::{Analysis, Axis, Channel, Seam, Verdict, analyse};
+use crate::texture::analysis::{Analysis, AxisAnalysis, Channel, Seam, Verdict, analyse};
 use crate::texture::data::{ColorSpace, Component, Dimension, TextureData};
 use crate::texture::read_file::{self, Picture, Texels};
 use crate::texture::source::{OrientationUse, Reading};
@@ -138,7 +138,7 @@ fn channel_json(channel: &Channel) -> Value {
     })
 }
 
-fn axis_json(axis: &Axis) -> Value {
+fn axis_json(axis: &AxisAnalysis) -> Value {
     json!({
         "tiles": axis.seam.tiles(),
         "verdict": axis.seam.verdict().name(),
@@ -212,7 +212,7 @@ fn channel_line(channel: &Channel) -> String {
     text
 }
 
-fn axis_line(axis: &Axis, texels: u32, line: &str) -> String {
+fn axis_line(axis: &AxisAnalysis, texels: u32, line: &str) -> String {
     let verdict = axis.seam.verdict();
     let why = match axis.seam {
         Seam::Smooth => String::new(),
@@ -228,7 +228,7 @@ fn axis_line(axis: &Axis, texels: u32, line: &str) -> String {
     format!("{verdict}{why}{}", axis_numbers(axis, line, verdict))
 }
 
-fn axis_numbers(axis: &Axis, line: &str, verdict: Verdict) -> String {
+fn axis_numbers(axis: &AxisAnalysis, line: &str, verdict: Verdict) -> String {
     let (Some(seam), Some(interior)) = (axis.seam_rms, axis.interior_rms) else { return String::new() };
     let mut text = format!(" (seam {seam:.6}, interior {interior:.6}");
     if let Some(ratio) = axis.ratio {

@@ -1,11 +1,11 @@
-//! A texture as a scene describes it, in; its texels, ready for upload, out. Mistakes in the files
-//! are errors that name the texture and the file.
+//! Loads the texels of a texture from its description in a scene, ready for upload. Errors in the
+//! files name the texture and the file.
 
 use std::path::Path;
 
 use super::data::{Component, Dimension, TexelFormat, TextureData};
 use super::decode::{
-    Values, check_meaning, check_values, in_texture, read_checked, reverse_rows, texture_of,
+    AllowedFloats, check_meaning, check_values, in_texture, read_checked, reverse_rows, texture_of,
 };
 use super::read_file::{Picture, Texels};
 use super::source::{TextureContent, TextureSource};
@@ -13,18 +13,19 @@ use super::{cube, nrrd, stack, volume};
 use crate::core::error::{Error, Result};
 use crate::core::panics;
 
-/// Of a procedural texture, which has no texels, one that nobody reads.
+/// Loads a texture. For a procedural one, which has no texels, returns a placeholder that is never
+/// read.
 pub fn load(source: &TextureSource) -> Result<TextureData> {
-    load_with(source, Values::Finite)
+    load_with(source, AllowedFloats::Finite)
 }
 
-/// The same, with such numbers.
-pub fn load_with(source: &TextureSource, values: Values) -> Result<TextureData> {
+/// Loads a texture whose float values may be those that `values` allows.
+pub fn load_with(source: &TextureSource, values: AllowedFloats) -> Result<TextureData> {
     load_noted(source, values).map(|(texture, _)| texture)
 }
 
-/// The same, with what a person should know about how its files were read.
-pub fn load_noted(source: &TextureSource, values: Values) -> Result<(TextureData, Vec<String>)> {
+/// Loads a texture and also returns notes about how its files were read.
+pub fn load_noted(source: &TextureSource, values: AllowedFloats) -> Result<(TextureData, Vec<String>)> {
     let stage = format!("texture \"{}\"", source.name);
     let (picture, depth) =
         panics::contain(&stage, || read(source, values).map_err(|e| in_texture(&source.name, e)))?;
@@ -37,8 +38,8 @@ pub fn load_noted(source: &TextureSource, values: Values) -> Result<(TextureData
     Ok((texture, picture.notes.iter().map(|note| format!("texture \"{}\": {note}", source.name)).collect()))
 }
 
-/// The texels and how many slices or faces they are.
-fn read(source: &TextureSource, values: Values) -> Result<(Picture, u32)> {
+/// Reads the texels and returns the number of slices or faces with them.
+fn read(source: &TextureSource, values: AllowedFloats) -> Result<(Picture, u32)> {
     let space = source.color_space;
     let reading = &source.reading;
     let picture = |path: &Path| read_checked(path, reading, space, values);

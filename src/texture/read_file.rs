@@ -1,5 +1,6 @@
-//! A picture file into texels as stored: 8 bits stay 8, 16 stay 16, float stays float, grey stays
-//! grey, three channels become four with opaque alpha. Profiles and gamma are ignored. Whatever is wrong with the file is an error that names it and says what to do.
+//! Reads a picture file into texels as stored: 8 bits stay 8, 16 stay 16, floats stay floats, grey
+//! stays grey, three channels become four with opaque alpha. Colour profiles and gamma are ignored.
+//! Errors name the file and state what to do.
 
 use std::fs::File;
 use std::io::{BufReader, Cursor, ErrorKind, Read, Seek};
@@ -11,7 +12,7 @@ use image::{ColorType, ImageDecoder, ImageError, ImageFormat};
 use super::data::{Component, TexelFormat};
 use super::open_file::open;
 use super::orientation::orientation_of;
-pub use super::read_exr::Part;
+pub use super::read_exr::ExrWindow;
 use super::sniff::{self, Content};
 use super::source::{OrientationUse, Reading};
 use super::{read_exr, read_hdr, read_jpeg, read_png, tiff};
@@ -21,32 +22,34 @@ use crate::core::panics;
 
 /// Twice the largest image side of current GPUs; checked in the header, before any allocation.
 const MAX_SIDE: u64 = 65_536;
-/// Decoded size; the image crate's own default of 512 MiB refuses an 8192² float texture.
+/// The limit of the decoded size; the image crate's default of 512 MiB refuses an 8192² float
+/// texture.
 pub(super) const MAX_BYTES: u64 = 16 << 30;
-/// PNG: Deflate gives 1032 bytes for one at most, of 8 texels each. The others give less.
+/// The largest number of texels per byte of a PNG file: Deflate expands a byte to at most 1032,
+/// each with 8 texels. The other formats compress less.
 const MAX_TEXELS_PER_BYTE: u64 = 1032 * 8;
 pub const SUPPORTED: &str = "PNG, JPEG, TIFF, TGA, Radiance HDR and OpenEXR";
 
-/// Tightly packed rows, first row of the file first, native endian.
+/// Tightly packed rows in native byte order, the file's first row first.
 pub struct Texels {
     pub width: u32,
     pub height: u32,
     pub format: TexelFormat,
-    /// Before three channels were expanded to four.
+    /// Channels of the file, before three were expanded to four.
     pub file_channels: usize,
     pub bytes: Vec<u8>,
 }
 
-/// What a file holds, and what a person should know about how it was read: each note names the file.
+/// The contents of a file, with notes for the user about how it was read; each note names the file.
 pub struct Picture {
     pub texels: Texels,
-    /// Where they lie in the file's picture.
+    /// The placement of the texels in the file's picture.
     pub placement: Placement,
     pub notes: Vec<String>,
 }
 
 impl Picture {
-    /// All of a picture.
+    /// Returns a complete picture with these notes.
     pub(super) fn noted(texels: Texels, notes: Vec<String>) -> Picture {
         let placement = Placement::whole(texels.width, texels.height);
         Picture { texels, placement, notes }
@@ -59,18 +62,19 @@ impl From<Texels> for Picture {
     }
 }
 
-/// Reads a picture as it is asked for: by default upright and, where it has layers, the one without a name.
+/// Reads a picture with the given options; by default it is turned upright and, if it has layers,
+/// the unnamed one is read.
 pub fn read_as(path: &Path, reading: &Reading) -> Result<Picture> {
-    read_part(path, reading, Part::Display)
+    read_window(path, reading, ExrWindow::Display)
 }
 
-/// The same; of OpenEXR files this part.
-pub fn read_part(path: &Path, reading: &Reading, part: Part) -> Result<Picture> {
+/// Reads a picture with the given options; of an OpenEXR file only this part.
+pub fn read_window(path: &Path, reading: &Reading, window: ExrWindow) -> Result<Picture> {
     let stage = format!("{}: reading this picture", path.display());
-    panics::contain(&stage, || read_by_content(open(path)?, path, reading, part))
+    panics::contain(&stage, || read_by_content(open(path)?, path, reading, window))
 }
 
-fn read_by_content(mut source: File, path: &Path, reading: &Reading, part: Part) -> Result<Picture> {
+fn read_by_content(mut source: File, path: &Path, reading: &Reading, window: ExrWindow) -> Result<Picture> {
     let failed = |e: std::io::Error| unreadable(path, &e);
     let format = match identify(&mut source).map_err(failed)? {
         Content::Picture(format) => format,
@@ -78,7 +82,7 @@ fn read_by_content(mut source: File, path: &Path, reading: &Reading, part: Part)
     };
     if format == ImageFormat::OpenExr {
         let layer = reading.layer.as_deref();
-        let (texels, placement) = read_exr::read(BufReader::new(source), layer, part, path)?;
+        let (texels, placement) = read_exr::read(BufReader::new(source), layer, window, path)?;
         return Ok(Picture { texels, placement, notes: Vec::new() });
     }
     if let Some(layer) = &reading.layer {
@@ -121,7 +125,7 @@ fn identify(source: &mut (impl Read + Seek)) -> std::io::Result<Content> {
     Ok(sniff::identify(&head))
 }
 
-/// Whether the file says that the picture is stored turned or mirrored.
+/// Returns true if the file's metadata states that the picture is stored rotated or mirrored.
 pub fn is_turned(path: &Path) -> bool {
     let Ok(mut source) = open(path) else { return false };
     match identify(&mut source) {
@@ -140,7 +144,8 @@ fn no_picture(path: &Path, what: &str) -> Error {
     )
 }
 
-/// Texels by a decoder of the image crate that has read the header of `file_bytes` bytes of this kind.
+/// Decodes texels with a decoder of the image crate that has read the header of a file of
+/// `file_bytes` bytes.
 pub(super) fn decode_with(
     decoder: std::result::Result<impl ImageDecoder, ImageError>,
     kind: &str,
@@ -164,7 +169,8 @@ pub(super) fn decode_with(
         return Err(damaged(path, kind, &format!("{file_bytes} bytes cannot hold {width}×{height} texels")));
     }
 
-    // Decoded into the front of the final buffer and widened there: no second copy.
+    // The texels are decoded into the front of the final buffer and widened in place, without a
+    // second copy.
     check_memory(path, pixels * texel_format.bytes_per_texel())?;
     let mut bytes = vec![0; pixels * texel_format.bytes_per_texel()];
     let decoded = decoder.total_bytes() as usize;
@@ -189,7 +195,7 @@ fn layout(color: ColorType) -> Option<(usize, Component)> {
     })
 }
 
-/// Three channels at the front of the buffer become four that fill it, with opaque alpha.
+/// Expands three channels at the front of the buffer to four that fill it, with opaque alpha.
 pub(super) fn widen_rgb(bytes: &mut [u8], component: Component) {
     match component {
         Component::Unorm8 => widen::<3, 4>(bytes, &[u8::MAX]),
@@ -198,7 +204,8 @@ pub(super) fn widen_rgb(bytes: &mut [u8], component: Component) {
     }
 }
 
-/// From `RGB` to `RGBA` bytes a texel, last texel first: a texel is read before its place is taken.
+/// Expands texels from `RGB` to `RGBA` bytes, the last texel first, so that each is read before it
+/// is overwritten.
 fn widen<const RGB: usize, const RGBA: usize>(bytes: &mut [u8], opaque: &[u8]) {
     let mut texel = [0u8; RGBA];
     texel[RGB..].copy_from_slice(opaque);
@@ -224,7 +231,7 @@ pub(super) fn check_size(path: &Path, width: u64, height: u64, bytes_per_texel: 
     Ok(())
 }
 
-/// Several slices or faces: the same limits, and one for all texels together.
+/// Checks several slices or faces: the limits of one, and that of all texels together.
 pub(super) fn check_volume(path: &Path, size: [u32; 3], bytes_per_texel: usize) -> Result<()> {
     let [width, height, depth] = size.map(u64::from);
     if depth > MAX_SIDE {
@@ -240,8 +247,9 @@ pub(super) fn check_volume(path: &Path, size: [u32; 3], bytes_per_texel: usize) 
     if depth == 0 { Err(zero_size(path)) } else { Ok(()) }
 }
 
-/// Asks the allocator before `vec!` does: a size that a damaged header made up is then an error, not
-/// an abort. Nothing is touched, and zeroed pages are touched only as they are filled.
+/// Asks the allocator for memory before `vec!` does, so that a size invented by a damaged header is
+/// an error and not an abort. The memory is not touched, and zeroed pages are touched only as they
+/// are filled.
 pub(super) fn check_memory(path: &Path, bytes: usize) -> Result<()> {
     Vec::<u8>::new().try_reserve_exact(bytes).map_err(|_| out_of_memory(path))
 }
@@ -282,7 +290,8 @@ pub(super) fn out_of_memory(path: &Path) -> Error {
     )
 }
 
-/// `name`: what the file is, with its article if it has one.
+/// Returns the error for an unsupported kind of file. `name` states the kind, with its article if
+/// it has one.
 pub(super) fn unsupported_kind(path: &Path, name: &str) -> Error {
     Error::with_help(
         format!("{}: this file is {name}, which is not read", path.display()),
@@ -298,7 +307,7 @@ fn image_error(path: &Path, kind: &str, error: ImageError) -> Error {
             "convert it to 8-bit, 16-bit or 32-bit float grey or RGB, with or without alpha",
         ),
         ImageError::IoError(e) if e.kind() != ErrorKind::UnexpectedEof => unreadable(path, &e),
-        // The PNG decoder refuses a width or height of 0 by itself.
+        // The PNG decoder itself refuses a width or height of 0.
         e if e.to_string().contains("Invalid image dimensions") => zero_size(path),
         e => damaged(path, kind, &e),
     }

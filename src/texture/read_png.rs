@@ -1,5 +1,5 @@
-//! A PNG file into texels (PNG specification, third edition). Its chunks are looked through first: a file that
-//! lacks only the end is read with a note, and one of Apple's own kind is refused as that.
+//! Reads PNG files (PNG specification, third edition). Its chunks are scanned first: a file that
+//! lacks only its end is read with a note, and Apple's proprietary variant is refused by name.
 
 use std::io::Cursor;
 use std::path::Path;
@@ -11,7 +11,7 @@ use super::read_file::{MAX_BYTES, Picture, decode_with, unsupported_kind};
 use crate::core::error::Result;
 
 const SIGNATURE_BYTES: usize = 8;
-/// Length, name and checksum.
+/// The bytes of a chunk's length, name and checksum.
 const CHUNK_BYTES: usize = 12;
 
 pub(super) fn read(file: &[u8], path: &Path) -> Result<Picture> {
@@ -29,7 +29,7 @@ pub(super) fn read(file: &[u8], path: &Path) -> Result<Picture> {
     Ok(Picture::noted(texels, vec![note]))
 }
 
-/// The Exif data, which may stand before or after the pixels.
+/// Returns the Exif data, which may precede or follow the pixels.
 pub(super) fn exif(png: &[u8]) -> Option<&[u8]> {
     chunks(png).find(|chunk| chunk.name == b"eXIf").map(|chunk| chunk.data)
 }
@@ -37,11 +37,11 @@ pub(super) fn exif(png: &[u8]) -> Option<&[u8]> {
 struct Chunk<'a> {
     name: &'a [u8],
     data: &'a [u8],
-    /// Where the next one begins.
+    /// The offset of the next chunk.
     end: usize,
 }
 
-/// Those that the file has to their ends.
+/// Iterates over the chunks that the file contains completely.
 fn chunks(png: &[u8]) -> impl Iterator<Item = Chunk<'_>> {
     let mut at = SIGNATURE_BYTES;
     std::iter::from_fn(move || {
@@ -53,8 +53,8 @@ fn chunks(png: &[u8]) -> impl Iterator<Item = Chunk<'_>> {
     })
 }
 
-/// A file without an end, with one; of a last chunk that is cut off what there is of its pixels is kept.
-/// None for a file that has its end.
+/// Returns a truncated file completed by an end, keeping the available pixels of a last, truncated
+/// chunk; `None` if the file has its end.
 fn with_end(file: &[u8]) -> Option<Vec<u8>> {
     let mut at = SIGNATURE_BYTES;
     for chunk in chunks(file) {

@@ -1,10 +1,10 @@
-//! What a sampler does, as data: the table from which scene vocabulary, `VkSampler` objects,
-//! shader constants, oracle and test names are all generated.
+//! The states of a sampler as data: the table from which scene vocabulary, `VkSampler` objects,
+//! shader constants, oracle and test names are generated.
 
 use crate::core::named::named_enum;
 
 named_enum! {
-    /// What a coordinate outside [0, 1) reads (Vulkan 1.3, "Wrapping Operation").
+    /// The wrapping of coordinates outside [0, 1) (Vulkan 1.3, "Wrapping Operation").
     pub enum Address {
         Repeat = "repeat",
         MirroredRepeat = "mirrored-repeat",
@@ -15,15 +15,16 @@ named_enum! {
 }
 
 named_enum! {
-    /// How the texels around a place, or under a footprint, become one value.
+    /// The filter that combines the texels around a position, or under a footprint.
     pub enum Filter {
         Nearest = "nearest",
         Linear = "linear",
-        /// Four by four texels, by B and C of Mitchell & Netravali 1988.
+        /// A kernel of four by four texels with parameters B and C (Mitchell & Netravali 1988).
         Cubic = "cubic",
-        /// One texel, by chance, with the weights of `linear` (Fajardo et al. 2023).
+        /// One texel, chosen stochastically with the weights of `linear` (Fajardo et al. 2023).
         Stochastic = "stochastic",
-        /// Look-ups along the footprint's major axis (McCormack et al. 1999); as texture units do it.
+        /// Lookups along the footprint's major axis (McCormack et al. 1999), as texture units
+        /// perform them.
         Anisotropic = "anisotropic",
         /// All texels under the footprint's ellipse (Heckbert 1989).
         Ewa = "ewa",
@@ -33,7 +34,7 @@ named_enum! {
 }
 
 impl Filter {
-    /// Filters that only mean something where a footprint covers more than a texel.
+    /// Returns true for filters that are defined only where a footprint covers more than a texel.
     pub const fn only_minifies(self) -> bool {
         matches!(self, Filter::Anisotropic | Filter::Ewa | Filter::SummedArea)
     }
@@ -48,7 +49,7 @@ named_enum! {
 }
 
 named_enum! {
-    /// Who filters: our shader in f32, or the device's texture unit.
+    /// The implementation that filters: this program's shader in f32, or the device's texture unit.
     pub enum Method {
         Shader = "shader",
         Hardware = "hardware",
@@ -56,7 +57,7 @@ named_enum! {
 }
 
 named_enum! {
-    /// Half: texel i is centred at i + ½ (Vulkan). Integer: at i (the lecture's formulas).
+    /// Texel i is centred at i + ½ (`half`, Vulkan) or at i (`integer`, the lecture's formulas).
     pub enum TexelCenter {
         Half = "half",
         Integer = "integer",
@@ -65,25 +66,26 @@ named_enum! {
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SamplerSpec {
-    /// Along u and v.
+    /// The address modes along u and v.
     pub address: [Address; 2],
-    /// Along w, of 3D textures.
+    /// The address mode along w of 3D textures.
     pub address_w: Address,
     pub mag: Filter,
     pub min: Filter,
     pub mip: MipMode,
-    /// The device's samplers only: least level of detail. Above 0, every look-up minifies.
+    /// The minimum level of detail, of hardware samplers only. Above 0, every lookup minifies.
     pub min_lod: f32,
     pub border_color: [f32; 4],
     pub method: Method,
     pub texel_center: TexelCenter,
-    /// Longest footprint, in widths, that `anisotropic` and `ewa` follow; wider ones are blurred.
+    /// The largest anisotropy, in footprint widths, that `anisotropic` and `ewa` resolve; wider
+    /// footprints are blurred.
     pub max_anisotropy: u32,
     /// B and C of the cubic filter.
     pub cubic: [f32; 2],
 }
 
-/// B = 0, C = ½: interpolates.
+/// B = 0, C = ½, which interpolates.
 pub const CATMULL_ROM: [f32; 2] = [0.0, 0.5];
 
 impl Default for SamplerSpec {
@@ -104,28 +106,28 @@ impl Default for SamplerSpec {
     }
 }
 
-/// What texture units have.
+/// The filters of texture units.
 const BASIC: [Filter; 2] = [Filter::Nearest, Filter::Linear];
 
 impl SamplerSpec {
-    /// Whether look-ups depend on what they are averaged over.
+    /// Returns true if lookups depend on the footprint.
     pub fn needs_footprint(&self) -> bool {
         self.mag != self.min || self.mip != MipMode::None
     }
 
-    /// Whether some axis has this address mode.
+    /// Returns true if some axis has this address mode.
     pub fn has(&self, mode: Address) -> bool {
         self.address.contains(&mode) || self.address_w == mode
     }
 
-    /// Whether it reads levels below the texture itself.
+    /// Returns true if lookups read mip levels other than the base level.
     pub fn reads_levels(&self) -> bool {
         self.mip != MipMode::None || self.min == Filter::Ewa
     }
 
-    /// Every variant of a device's sampler that differs in more than its border colour, texel centre or
-    /// anisotropy: 5 × 5 address modes, 2 × 2 filters, 3 mip modes. Hardware tests and reports walk this
-    /// table.
+    /// Returns every variant of a hardware sampler that differs in more than border colour, texel
+    /// centre or anisotropy: 5 × 5 address modes, 2 × 2 filters, 3 mip modes. Hardware tests and
+    /// reports iterate over this table.
     pub fn all() -> impl Iterator<Item = SamplerSpec> {
         let axes = Address::ALL.iter().flat_map(|&u| Address::ALL.iter().map(move |&v| [u, v]));
         axes.flat_map(|address| {
@@ -143,7 +145,8 @@ impl SamplerSpec {
         })
     }
 
-    /// `repeat/clamp-to-edge mag=linear min=nearest mip=none`: names tests and report rows.
+    /// Returns a name for tests and report rows: `repeat/clamp-to-edge mag=linear min=nearest
+    /// mip=none`.
     pub fn label(&self) -> String {
         let [u, v] = self.address;
         format!("{u}/{v} mag={} min={} mip={}", self.mag, self.min, self.mip)

@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 
 use moire::core::error::Result;
 use moire::texture::data::{Dimension, TextureData};
-use moire::texture::decode::Values;
+use moire::texture::decode::AllowedFloats;
 use moire::texture::load::load_noted;
 use moire::texture::source::{Reading, TextureContent};
 use tempfile::tempdir;
@@ -26,7 +26,7 @@ fn fixture(name: &str) -> PathBuf {
 /// The texture, and the notes on how its file was read.
 fn load(path: &Path, dimension: Dimension) -> Result<(TextureData, Vec<String>)> {
     let source = texture_source(TextureContent::File(path.to_path_buf()), dimension, Reading::default());
-    load_noted(&source, Values::Finite)
+    load_noted(&source, AllowedFloats::Finite)
 }
 
 fn load_bytes(bytes: &[u8]) -> Result<(TextureData, Vec<String>)> {

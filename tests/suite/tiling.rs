@@ -6,7 +6,7 @@
 use std::f64::consts::TAU;
 
 use moire::oracle::rng::mix_bits;
-use moire::texture::analysis::{Axis, Seam, Verdict, analyse};
+use moire::texture::analysis::{AxisAnalysis, Seam, Verdict, analyse};
 use moire::texture::data::{ColorSpace, Dimension, TexelFormat, TextureData};
 
 use crate::support::moire;
@@ -57,7 +57,7 @@ impl Texture {
         self
     }
 
-    fn verdicts(&self) -> [Axis; 2] {
+    fn verdicts(&self) -> [AxisAnalysis; 2] {
         let texels = if self.float {
             self.values.iter().flat_map(|v| (*v as f32).to_ne_bytes()).collect()
         } else {

@@ -7,7 +7,7 @@ use crate::core::color::srgb_table;
 use crate::core::error::Result;
 use crate::core::film::{Film, Placement};
 use crate::texture::data::Component;
-use crate::texture::read_file::{self, Part, Texels};
+use crate::texture::read_file::{self, ExrWindow, Texels};
 use crate::texture::source::Reading;
 
 /// `samples` is 0: a file does not say how many stand behind it.
@@ -17,7 +17,7 @@ pub fn read_picture(path: &Path) -> Result<Film> {
 
 /// Also where it lies in the file's whole picture.
 pub fn read_placed(path: &Path) -> Result<(Film, Placement)> {
-    let picture = read_file::read_part(path, &Reading::default(), Part::Data)?;
+    let picture = read_file::read_window(path, &Reading::default(), ExrWindow::Data)?;
     Ok((film_of(&picture.texels), picture.placement))
 }
 

@@ -4,7 +4,7 @@
 use std::time::{Duration, Instant};
 
 use crate::core::error::{Error, Result};
-use crate::core::progress::{Progress, Until};
+use crate::core::progress::{Progress, WithDeadline};
 
 /// A century: longer limits are none.
 const ENDLESS: f64 = 3e9;
@@ -46,7 +46,7 @@ impl Limit {
         work: impl FnOnce(&dyn Progress) -> Result<T>,
     ) -> Result<Option<T>> {
         let deadline = self.started + Duration::from_secs_f64(seconds.clamp(0.0, ENDLESS));
-        match work(&Until { whole: progress, deadline }) {
+        match work(&WithDeadline { whole: progress, deadline }) {
             Err(Error::Interrupted) if !progress.cancelled() => Ok(None),
             outcome => outcome.map(Some),
         }
