@@ -1,5 +1,5 @@
-//! Mip pyramids of a texture of 4096² rgba8 texels: `cargo bench -- mips`. Seconds of the host for both
-//! kernels, and of the device, by its timestamps, for the box.
+//! Mip chains of a texture of 4096² rgba8 texels: `cargo bench -- mips`. Measures seconds of the
+//! host for both kernels, and of the device, by its timestamps, for the box kernel.
 
 use std::hint::black_box;
 use std::time::Instant;

@@ -1,4 +1,4 @@
-//! Options of the command line that replace values of the scene file, checked by the same rules.
+//! Command line options that override values of the scene file, validated by the same rules.
 
 use clap::Args;
 use serde_json::{Value, json};
@@ -65,7 +65,8 @@ pub struct Overrides {
 }
 
 impl Overrides {
-    /// What was chosen beside what is named, in words.
+    /// Applies the options to the scene and returns a description of settings that were chosen
+    /// implicitly.
     pub fn apply(&self, scene: &mut Scene) -> Result<Option<&'static str>> {
         if let Some([width, height]) = self.size {
             (scene.width, scene.height) = (width, height);
@@ -78,12 +79,12 @@ impl Overrides {
         sampling.spp = self.spp.unwrap_or(sampling.spp);
         let wanted = if self.goal().is_some() { Algorithm::Auto } else { sampling.algorithm };
         sampling.algorithm = self.algorithm.unwrap_or(wanted);
-        // What errs least of those that stop anywhere.
+        // The algorithm with the smallest error among those that can stop at any sample.
         let wanted =
             if sampling.algorithm == Algorithm::Auto { Pattern::SobolOwen } else { sampling.pattern };
         sampling.pattern = self.pattern.unwrap_or(wanted);
         sampling.seed = self.seed.unwrap_or(sampling.seed);
-        // A prefilter's bias does not fall with the samples as their noise does.
+        // The bias of a prefilter does not decrease with the samples as noise does.
         let free = if sampling.algorithm == Algorithm::Auto { Footprint::None } else { sampling.footprint };
         sampling.footprint = self.footprint.unwrap_or(free);
         sampling.shared = self.shared.unwrap_or(sampling.shared);
@@ -98,7 +99,7 @@ impl Overrides {
                 (sampler.mag, sampler.min) = both_filters(filter);
             }
         }
-        // What the command line names is meant.
+        // Explicit options of the command line take precedence.
         let free = self.filter.is_none() && self.mip.is_none();
         let chosen = if free { cone::adapt_for_cone(scene) } else { None };
         cone::adapt_footprint(scene);
@@ -106,12 +107,13 @@ impl Overrides {
         Ok(chosen)
     }
 
-    /// What ends the sampling, if it is not a number of samples.
+    /// Returns the goal that ends the sampling, unless that is a number of samples.
     pub fn goal(&self) -> Option<Goal> {
         self.budget.map(Goal::Seconds).or(self.target_error.map(Goal::Error))
     }
 
-    /// Sampling that differs from pixel to pixel needs a sequence that may end anywhere.
+    /// Adapts the pattern: sampling that differs from pixel to pixel needs a sequence that can be
+    /// truncated anywhere.
     fn adapt_for_adaptive(&self, sampling: &mut Sampling) -> Result<()> {
         if !sampling.algorithm.is_adaptive() {
             if self.goal().is_some() {
@@ -144,7 +146,7 @@ impl Overrides {
         Ok(())
     }
 
-    /// What the render used, overridden or not.
+    /// Returns the settings that the render used, overridden or not.
     pub fn report(&self, scene: &Scene, crop: Option<Crop>, keep_everything: bool) -> Value {
         let s = &scene.sampling;
         let methods: Vec<&str> = scene.samplers.iter().map(|x| x.method.name()).collect();

@@ -1,5 +1,5 @@
-//! `moire render`: a scene file and options in, pictures and (with `--json`) one object of figures
-//! out. Everything that can be refused is refused before the device starts.
+//! `moire render`: renders a scene file with options into pictures and, with `--json`, one JSON
+//! object of statistics. All invalid input is refused before the device starts.
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -142,7 +142,8 @@ pub fn run(args: &RenderArgs) -> Result<ExitCode> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// The device opens while the textures are read: both wait for different things.
+/// Renders on a device, which opens while the textures are read, since both wait for different
+/// resources.
 fn render_on_device(
     args: &RenderArgs,
     scene: &Scene,
@@ -158,11 +159,11 @@ fn render_on_device(
         });
         let clock = Instant::now();
         let gpu = Gpu::open(select);
-        // Nobody listens where the scene has no use for it.
+        // The receiver is gone if the scene does not need the device's answer.
         let _ = tell.send(gpu.as_ref().map_or(MipPlacement::Host, |gpu| args.mips.mip_chains(gpu.info())));
         let startup = clock.elapsed().as_secs_f64();
         let (packed, load) = loading.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
-        // A mistake in the scene is told before one of the machine.
+        // An error in the scene is reported before one of the machine.
         packed.and_then(|loaded| Ok((gpu?, loaded, startup, load)))
     })?;
     let nonfinite = say_textures(args, scene, &packed);
@@ -213,8 +214,8 @@ fn render_on_oracle(args: &RenderArgs, scene: &Scene, bar: &Bar, start: Instant)
     Ok(RenderOutcome { device: "oracle".into(), driver, film, report, nonfinite, dropped_triangles: 0 })
 }
 
-/// The scene to render, and what is doubtful about its textures. `mip_chains` says who makes those, and may wait
-/// for a device to be known.
+/// Loads the scene to render, and returns warnings about its textures with it. `mip_chains` states
+/// where mip chains are generated, and may wait for the device to open.
 fn load(
     scene: &Scene,
     args: &RenderArgs,
@@ -228,7 +229,7 @@ fn load(
     Ok((pack::pack_with(scene, textures, args.crop, mip_chains)?, doubts))
 }
 
-/// A picture must not replace a file that it is made from.
+/// Refuses an output that would overwrite an input file.
 fn check_inputs_kept(output: &Path, scene: &Scene) -> Result<()> {
     super::check_input_kept(output, &scene.path, "the scene file")?;
     scene.textures.iter().try_for_each(|t| {
@@ -259,7 +260,7 @@ fn check_crop(crop: Option<Crop>, scene: &Scene) -> Result<()> {
     )))
 }
 
-/// Where they are let in, what each texture has of texels that are not finite.
+/// Prints and returns the number of non-finite texels of each texture, if they are allowed.
 fn say_textures(args: &RenderArgs, scene: &Scene, packed: &PackedScene) -> Option<Vec<(String, u64)>> {
     if args.verbose {
         for line in packed.texture_lines() {

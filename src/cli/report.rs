@@ -1,4 +1,4 @@
-//! What a render says when it is done: one JSON object on stdout, or lines for a person on stderr.
+//! The result of a render: one JSON object on stdout, or lines of text on stderr.
 
 use std::fs;
 
@@ -11,15 +11,15 @@ use crate::pack::Diagnostic;
 use crate::render::Report;
 use crate::scene::model::Precision;
 
-/// What a render ran on, and what came of it.
+/// The device of a render and its results.
 pub struct RenderOutcome {
     pub device: String,
     pub driver: String,
     pub film: Film,
     pub report: Report,
-    /// Texels that are not finite, by texture, where those are let in.
+    /// The number of non-finite texels by texture, if those are allowed.
     pub nonfinite: Option<Vec<(String, u64)>>,
-    /// Triangles without area, which no ray meets.
+    /// The number of triangles without area, which no ray can hit.
     pub dropped_triangles: usize,
 }
 
@@ -27,7 +27,8 @@ fn nonfinite_pixels(film: &Film) -> usize {
     film.pixels.iter().filter(|pixel| !pixel.iter().all(|v| v.is_finite())).count()
 }
 
-/// By the device's timestamps; survey and levels of textures only where the device made them.
+/// Returns seconds by the device's timestamps; tile culling and texture levels are included only if
+/// the device computed them.
 fn device_seconds(report: &Report) -> Value {
     let mut seconds = Map::from_iter([("render".into(), json!(report.device_render_seconds))]);
     seconds.extend(report.device_survey_seconds.map(|survey| ("survey".into(), json!(survey))));
@@ -66,7 +67,7 @@ pub fn json(ran: &RenderOutcome, options: Value, outputs: &[String]) -> Value {
     all
 }
 
-/// What is counted: the noun, and what is said of it.
+/// Returns the noun of a diagnostic and the text that follows its count.
 fn said(guard: Diagnostic) -> (&'static str, &'static str) {
     match guard {
         Diagnostic::Coordinates => ("look-up", "at coordinates that are no numbers, read at 0"),
@@ -178,8 +179,8 @@ fn range_of_samples(least: u32, most: u32) -> String {
     if least == most { counted(most, "sample") } else { format!("{least} to {}", counted(most, "sample")) }
 }
 
-/// User and system time of this process so far, where `/proc` tells (proc(5), fields 14 and 15, in
-/// hundredths of a second).
+/// Returns user and system time of this process so far, from `/proc` if available (proc(5), fields
+/// 14 and 15, in hundredths of a second).
 fn cpu_seconds() -> Option<f64> {
     let stat = fs::read_to_string("/proc/self/stat").ok()?;
     let after_name = stat.rsplit_once(')')?.1;
@@ -188,7 +189,7 @@ fn cpu_seconds() -> Option<f64> {
     Some((ticks(11)? + ticks(12)?) / 100.0)
 }
 
-/// The most memory this process has held at once, where `/proc` tells.
+/// Returns the peak memory of this process, from `/proc` if available.
 fn peak_host_bytes() -> Option<u64> {
     let status = fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find_map(|l| l.strip_prefix("VmHWM:"))?;

@@ -1,5 +1,5 @@
-//! `moire study SCENE --out DIR`: error against time by measurement. Everything that can be refused is
-//! refused before the device starts. Ctrl-C leaves a folder from which the same command goes on.
+//! `moire study SCENE --out DIR`: measures error against time. All invalid input is refused before
+//! the device starts. Ctrl-C leaves a folder from which the same command resumes.
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -10,9 +10,9 @@ use super::progress::Bar;
 use crate::core::counted::{counted, verb};
 use crate::core::error::{Error, Result};
 use crate::gpu::{DeviceSelect, Gpu};
+use crate::lab::study::format::names;
 use crate::lab::study::method::Method;
 use crate::lab::study::record::{self, Record};
-use crate::lab::study::words::names;
 use crate::lab::study::{self, Options, ReferenceChoice};
 use crate::output;
 use crate::scene::prune::prune;

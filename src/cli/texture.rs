@@ -1,5 +1,5 @@
-//! `moire texture FILE`: what a texture file holds, whether it tiles, and a picture of it repeated
-//! 2×2. A texture that does not tile or that holds NaN is described like any other: exit 0.
+//! `moire texture FILE`: describes a texture file, whether it tiles, and draws it repeated 2×2. A
+//! texture that does not tile or that contains NaN is described like any other, with exit code 0.
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -62,7 +62,7 @@ pub fn run(args: &TextureArgs) -> Result<ExitCode> {
         ));
     }
     if let Some(path) = &args.out {
-        // As many bits as the file has: its own values come back.
+        // As many bits as the file has, so that its values are preserved.
         let png_bits = if texels.format.component() == Component::Unorm16 { 16 } else { 8 };
         output::write(
             &repeated(&texels, &args.file)?,
@@ -90,8 +90,9 @@ fn named(texels: Texels, args: &TextureArgs) -> TextureData {
     }
 }
 
-/// Two by two copies. 8- and 16-bit values are decoded from sRGB, whatever they mean as a texture:
-/// writing encodes them again, so that the picture looks like the file. Float values stay.
+/// Returns two by two copies. 8- and 16-bit values are decoded from sRGB whatever their meaning as
+/// a texture: writing encodes them again, so that the picture looks like the file. Float values are
+/// unchanged.
 fn repeated(texels: &Texels, file: &Path) -> Result<Film> {
     let (width, height) = (texels.width * 2, texels.height * 2);
     let mut pixels = Vec::new();

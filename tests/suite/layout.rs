@@ -1,6 +1,6 @@
-//! The layout contract, read from both sides: structs and strides of `glsl/shared/layout.glsl`
-//! against their Rust mirrors, numbers of modes against the enums' order, and the specialization
-//! constants of the compiled shaders against the table of features.
+//! The layout contract from both sides: structs and strides of `glsl/shared/layout.glsl` against
+//! their Rust mirrors, numbers of modes against the enums' order, and the specialization constants
+//! of the compiled shaders against the table of features.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;

@@ -1,5 +1,5 @@
-//! The README's commands work as written: every `moire` line of its shell blocks runs, in order, in a
-//! folder that has `data` beside it. Lines that need a certain device are left to that device.
+//! The README's commands work as written: every `moire` line of its shell blocks runs, in order, in
+//! a folder that has `data` beside it. Lines for a specific device are left to that device.
 
 use std::fs;
 use std::process::Command;

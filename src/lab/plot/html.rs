@@ -1,22 +1,22 @@
-//! An HTML page that needs no other file: style and script are in it, boxes that are wider than a phone scroll
-//! by themselves. In: sections as HTML. Out: the page's text.
+//! A self-contained HTML page with embedded style and script, in which boxes wider than a phone's
+//! screen scroll on their own. Takes sections as HTML and returns the page's text.
 
 use super::svg::escape;
 
-/// Keys of plots that switch series off and on.
+/// The script that lets legends toggle their series.
 pub const SCRIPT: &str = include_str!("page/script.js");
 
-/// What a page opens with; all of it HTML.
+/// The head of a page; all fields are HTML.
 pub struct Header<'a> {
     pub title: &'a str,
-    /// Where and of what.
+    /// The conditions: device, scene and size.
     pub facts: &'a str,
-    /// The outcome in a sentence.
+    /// The result in one sentence.
     pub lead: &'a str,
     pub more: &'a str,
 }
 
-/// The page around `sections`; without a script where that is empty.
+/// Returns the page around `sections`, without a script if `script` is empty.
 pub fn document(header: &Header<'_>, sections: &str, script: &str) -> String {
     let Header { title, facts, lead, more } = header;
     let script = if script.is_empty() { String::new() } else { format!("<script>\n{script}</script>\n") };
@@ -35,12 +35,12 @@ pub fn section(id: &str, heading: &str, body: &str) -> String {
     format!("<section aria-labelledby=\"{id}-h\">\n<h2 id=\"{id}-h\">{heading}</h2>\n{body}</section>\n")
 }
 
-/// What is wider than a phone scrolls within its own box, by keyboard too.
+/// Returns a box that scrolls horizontally, by keyboard too.
 pub fn scroll(label: &str, body: &str) -> String {
     boxed("scroll", label, body)
 }
 
-/// The same of what is long.
+/// Returns a box that scrolls vertically.
 pub fn scroll_long(label: &str, body: &str) -> String {
     boxed("scroll long", label, body)
 }
@@ -54,7 +54,7 @@ pub fn code(command: &str) -> String {
     format!("<pre><code>{}</code></pre>\n", escape(command))
 }
 
-/// A table in a box. The first cell of a row is its heading; cells are HTML.
+/// Returns a table in a scrolling box. The first cell of a row is its heading; cells are HTML.
 pub fn table(caption: &str, head: &[&str], rows: &[Vec<String>]) -> String {
     scroll(caption, &bare_table(caption, head, rows))
 }

@@ -1,36 +1,37 @@
-//! What follows from the measured points. In: (rays, seconds, error) by method. Out: the slope of each
-//! method's variance over its rays with 95 % intervals, the winner of each time budget and the recommended point
-//! (`choice.rs`), the time to reach each error, and one sentence.
+//! Evaluation of the measured points (rays, seconds, error) of all methods: the slope of each
+//! method's variance over its rays with 95 % intervals, the winner of each time budget and the
+//! recommended point (`choice.rs`), the time to each error, and a summary.
 
 use serde::Serialize;
 
 use super::bootstrap::interval;
 pub use super::choice::{SampleDimension, Winner, recommended, winners};
+use super::format::advice;
 use super::record::{PointRecord, Record};
 use super::student;
-use super::words::advice;
 use crate::lab::plot::axis::steps;
 
-/// Points nearer to the reference's own error than this many times bend towards it and count in no slope.
-const ABOVE_FLOOR: f64 = 3.0;
-/// Fewest points that have a slope.
-const FEWEST: usize = 3;
+/// Points whose error is less than this multiple of the reference's own error are biased by it and
+/// excluded from slopes.
+const FLOOR_MARGIN: f64 = 3.0;
+/// The smallest number of points that define a slope.
+const MIN_SLOPE_POINTS: usize = 3;
 
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Analysis {
     pub recommendation: String,
-    /// None where nothing was measured.
+    /// The recommended point, absent if nothing was measured.
     pub recommended: Option<SampleDimension>,
     pub slopes: Vec<MethodSlope>,
     pub winners: Vec<Winner>,
     pub reach: Reach,
 }
 
-/// log MSE over log rays, fitted by least squares.
+/// The slope of log MSE over log rays, fitted by least squares.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Slope {
     pub value: f64,
-    /// Half of the 95 % interval (Student's t); none from points that lie on a line by number.
+    /// Half of the 95 % interval (Student's t); absent if there are too few points for a residual.
     pub half_width: Option<f64>,
     pub points: usize,
 }
@@ -39,15 +40,15 @@ pub struct Slope {
 pub struct MethodSlope {
     pub method: String,
     pub fitted: Option<Slope>,
-    /// 95 % of the slopes when blocks of pixels are drawn anew: what noise leaves open, whether or not the points
-    /// lie on a line.
+    /// The 95 % interval of the slopes over bootstrap samples of pixel blocks: the uncertainty due
+    /// to noise, whether or not the points lie on a line.
     pub interval: Option<[f64; 2]>,
-    /// What theory says of the variance, steepest last; none where there is no law.
+    /// The slopes that theory predicts for the variance, steepest last; empty if there is no law.
     pub theory: Vec<f64>,
     pub theory_text: String,
 }
 
-/// Seconds to each error, by method; none where no measured point is as good.
+/// Seconds to each error, by method; absent if no measured point is as good.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Reach {
     pub errors: Vec<f64>,
@@ -80,9 +81,9 @@ pub fn analyse(record: &Record) -> Analysis {
     }
 }
 
-/// Of the variance over the number of samples: independent ones −1; one jittered sample in each of n strata
-/// −1 where every stratum varies, −1.5 where edges cross √n of them, −2 where the picture is smooth (Mitchell
-/// 1996); scrambled nets up to −3 (Owen 1997).
+/// Returns the slope of the variance over the number of samples: independent ones −1; one jittered
+/// sample in each of n strata −1 if every stratum has variance, −1.5 if edges cross √n of them, −2
+/// if the picture is smooth (Mitchell 1996); scrambled nets up to −3 (Owen 1997).
 fn theory(pattern: &str, filtered: bool) -> (&'static [f64], &'static str) {
     match pattern {
         _ if filtered => (&[], "levels off where the filter blurs"),
@@ -97,11 +98,11 @@ fn theory(pattern: &str, filtered: bool) -> (&'static [f64], &'static str) {
     }
 }
 
-/// Of (rays, RMSE); the slope is that of the variance, RMSE².
+/// Fits (rays, RMSE); the slope is that of the variance, RMSE².
 pub fn slope(points: &[(f64, f64)], floor: f64) -> Option<Slope> {
     let logs: Vec<(f64, f64)> =
-        points.iter().filter(|p| is_fair(p.1, floor)).map(|p| (p.0.ln(), 2.0 * p.1.ln())).collect();
-    if logs.len() < FEWEST || logs.iter().all(|p| (p.0 - logs[0].0).abs() < 1e-5) {
+        points.iter().filter(|p| is_above_floor(p.1, floor)).map(|p| (p.0.ln(), 2.0 * p.1.ln())).collect();
+    if logs.len() < MIN_SLOPE_POINTS || logs.iter().all(|p| (p.0 - logs[0].0).abs() < 1e-5) {
         return None;
     }
     let Line { value, residual, sxx } = least_squares(&logs);
@@ -109,26 +110,26 @@ pub fn slope(points: &[(f64, f64)], floor: f64) -> Option<Slope> {
     Some(Slope { value, half_width: (half_width > 1e-9).then_some(half_width), points: logs.len() })
 }
 
-/// Whether an error says something of the method, and not of the reference.
-fn is_fair(rmse: f64, floor: f64) -> bool {
-    rmse > ABOVE_FLOOR * floor && rmse > 0.0 && rmse.is_finite()
+/// Returns true if an error is due to the method and not to the reference.
+fn is_above_floor(rmse: f64, floor: f64) -> bool {
+    rmse > FLOOR_MARGIN * floor && rmse > 0.0 && rmse.is_finite()
 }
 
-/// What the noise alone leaves open of a method's slope.
+/// Returns the uncertainty of a method's slope due to noise alone.
 fn noise_interval(points: &[&PointRecord], floor: f64) -> Option<[f64; 2]> {
-    let fair = points.iter().filter(|p| is_fair(p.errors.rmse, floor));
+    let fair = points.iter().filter(|p| is_above_floor(p.errors.rmse, floor));
     let points: Vec<(f64, &[f32])> = fair.map(|p| (f64::from(p.samples), p.blocks.as_slice())).collect();
     interval(&points, 0.95)
 }
 
 pub(super) struct Line {
     pub value: f64,
-    /// Sum of the squares that are left.
+    /// The residual sum of squares.
     residual: f64,
     sxx: f64,
 }
 
-/// The straight line through (x, y) of at least two x.
+/// Fits a straight line through (x, y) with at least two different x.
 pub(super) fn least_squares(points: &[(f64, f64)]) -> Line {
     let n = points.len() as f64;
     let mean = |f: fn(&(f64, f64)) -> f64| points.iter().map(f).sum::<f64>() / n;
@@ -162,7 +163,8 @@ fn reach(record: &Record) -> Reach {
     Reach { methods: record.methods.iter().map(times).collect(), errors: levels }
 }
 
-/// When a curve of (seconds, RMSE) first comes down to `error`, on straight lines between the logarithms.
+/// Returns the time at which a curve of (seconds, RMSE) first reaches `error`, interpolated
+/// linearly in the logarithms.
 pub fn time_to(curve: &[(f64, f64)], error: f64) -> Option<f64> {
     let mut curve = curve.to_vec();
     curve.sort_by(|a, b| a.0.total_cmp(&b.0));

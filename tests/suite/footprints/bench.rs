@@ -1,10 +1,10 @@
-//! Textures of every kind, scenes of (texture, sampler) pairs with footprints, and textures whose levels
-//! hold nothing but their own number.
+//! Textures of every kind, scenes of (texture, sampler) pairs with footprints, and textures whose
+//! levels contain only their own number.
 
 use std::path::Path;
 
 use glam::{DMat2, DVec2, DVec3};
-use moire::lab::probe::{self, LookUp};
+use moire::lab::probe::{self, LookupQuery};
 use moire::lab::verify::queries;
 use moire::oracle::filter::sample_texture;
 use moire::oracle::mapping::Coordinate;
@@ -15,7 +15,7 @@ use moire::scene::prune::prune;
 use moire::texture::data::{ColorSpace, Dimension, TexelFormat, TextureData};
 use moire::texture::sampler_spec::SamplerSpec;
 
-use crate::lookup::bench::{Dice, texture};
+use crate::lookup::bench::{Rng, texture};
 use crate::shared_gpu::gpu;
 
 /// Random texels; the third size counts slices, or the faces of a cube.
@@ -46,7 +46,7 @@ pub fn paint_levels(scene: &mut PackedScene, texture: usize) {
 }
 
 /// A query's place and footprint as the oracle takes them.
-pub fn coordinate(query: &LookUp) -> Coordinate {
+pub fn coordinate(query: &LookupQuery) -> Coordinate {
     let wide = |v: [f32; 4]| DVec3::new(v[0].into(), v[1].into(), v[2].into());
     Coordinate { at: wide(query.uv), change: [wide(query.dx), wide(query.dy)] }
 }
@@ -56,14 +56,14 @@ pub fn narrow(v: DVec3) -> [f32; 4] {
 }
 
 /// The oracle's answer to query number `index` of a list.
-pub fn expected(scene: &PackedScene, query: &LookUp, index: usize, c: &Coordinate) -> [f64; 4] {
+pub fn expected(scene: &PackedScene, query: &LookupQuery, index: usize, c: &Coordinate) -> [f64; 4] {
     let (image, how) = (&scene.textures[query.texture as usize], &scene.samplers[query.sampler as usize]);
     let random = moire::oracle::rng::pcg2d([index as u32, query.seed]);
     sample_texture(scene, image, how, c, random).to_array()
 }
 
-pub fn answers(scene: &PackedScene, queries: &[LookUp]) -> Vec<[f32; 4]> {
-    probe::look_ups(&gpu(), scene, false, false, queries).unwrap()
+pub fn answers(scene: &PackedScene, queries: &[LookupQuery]) -> Vec<[f32; 4]> {
+    probe::lookups(&gpu(), scene, false, false, queries).unwrap()
 }
 
 /// The changes over a footprint with these axes, turned by `angle` on the texture; `roll` says which way
@@ -75,8 +75,8 @@ pub fn axes(major: f64, minor: f64, angle: f64, roll: f64) -> [DVec2; 2] {
 }
 
 /// A random angle in radians.
-pub fn angle(dice: &mut Dice) -> f64 {
-    dice.between(0.0, std::f64::consts::TAU)
+pub fn angle(rng: &mut Rng) -> f64 {
+    rng.between(0.0, std::f64::consts::TAU)
 }
 
 const VIEW: &str = "camera = { eye = [0.5, 0.7, 6.0], look_at = [0, 0, 0], vertical_fov = 24 }

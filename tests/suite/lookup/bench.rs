@@ -1,9 +1,9 @@
-//! What `moire::lab::verify` looks things up with, as tests want it: failures end the test, random
-//! directions, and the list of all formats.
+//! Helpers around `moire::lab::verify` for lookup tests: failures end the test, random directions,
+//! and the list of all formats.
 
 use glam::DVec3;
 use moire::lab::verify::queries;
-pub use moire::lab::verify::queries::{Dice, coordinates, query, texture, uv_of};
+pub use moire::lab::verify::queries::{Rng, coordinates, query, texture, uv_of};
 use moire::pack::PackedScene;
 use moire::texture::data::{ColorSpace, Component, TexelFormat, TextureData};
 use moire::texture::sampler_spec::{Filter, SamplerSpec};
@@ -19,7 +19,7 @@ pub trait Vectors {
     fn direction(&mut self) -> DVec3;
 }
 
-impl Vectors for Dice {
+impl Vectors for Rng {
     fn vector(&mut self, reach: f64) -> DVec3 {
         DVec3::new(self.between(-reach, reach), self.between(-reach, reach), self.between(-reach, reach))
     }

@@ -1,14 +1,14 @@
-//! Numbers as words: the sentence that recommends a setting, and how times, errors and counts are written on
-//! the page.
+//! Text of the study: the sentence that recommends a setting, and the formats of times, errors and
+//! counts on the page.
 
 use super::analysis::time_to;
-use super::choice::{Winner, no_different, recommended};
+use super::choice::{Winner, not_significantly_different, recommended};
 use super::method::Method;
 use super::record::{PointRecord, Record};
 use crate::core::counted::counted;
 use crate::scene::model::Algorithm;
 
-/// The recommended point, and who is better with less and with more time.
+/// Returns the recommendation, and the better methods for less and for more time.
 pub fn advice(record: &Record, winners: &[Winner]) -> String {
     let Some(best) = recommended(&record.points, winners) else {
         return "Nothing was measured.".into();
@@ -16,7 +16,7 @@ pub fn advice(record: &Record, winners: &[Winner]) -> String {
     let method = best.method.as_str();
     let mut equals: Vec<&str> = Vec::new();
     for point in record.points.iter().filter(|p| p.method != method && p.spp == best.spp) {
-        if no_different(point, best) && !equals.contains(&point.method.as_str()) {
+        if not_significantly_different(point, best) && !equals.contains(&point.method.as_str()) {
             equals.push(&point.method);
         }
     }
@@ -26,7 +26,7 @@ pub fn advice(record: &Record, winners: &[Winner]) -> String {
     };
     let mut text = format!(
         "Use {method} with {}{equals}: RMSE {} in {}",
-        taken(best),
+        samples_taken(best),
         error(best.errors.rmse),
         seconds(best.median_seconds())
     );
@@ -49,22 +49,22 @@ fn setting(winner: &Winner) -> String {
     format!("{} with {} (RMSE {about}{})", names(winner), winner.taken, error(winner.rmse))
 }
 
-/// The winning method, or all that tie.
+/// Returns the winning method, or all that tie.
 pub fn names(winner: &Winner) -> String {
     let all = std::iter::once(&winner.method).chain(&winner.ties);
     all.map(String::as_str).collect::<Vec<_>>().join(" or ")
 }
 
-/// What each pixel of a point took.
-pub fn taken(point: &PointRecord) -> String {
+/// Returns the samples per pixel of a point as text.
+pub fn samples_taken(point: &PointRecord) -> String {
     let algorithm = Method::parse(&point.method).map_or(Algorithm::Samples, |method| method.algorithm);
     let count = if algorithm == Algorithm::Beam { point.spp } else { point.samples };
-    taken_by(algorithm, count, point.sampled)
+    samples_taken_by(algorithm, count, point.sampled)
 }
 
-/// What each pixel took of an algorithm that takes `count` samples; `sampled` is the part of the pixels in which
-/// beams took them.
-pub fn taken_by(algorithm: Algorithm, count: u32, sampled: Option<f64>) -> String {
+/// Returns the samples per pixel of an algorithm with `count` samples as text; `sampled` is the
+/// fraction of the pixels in which beams were sampled.
+pub fn samples_taken_by(algorithm: Algorithm, count: u32, sampled: Option<f64>) -> String {
     match (algorithm, sampled.unwrap_or(0.0)) {
         (Algorithm::Cone, _) => "one cone a pixel".into(),
         (Algorithm::Beam, 0.0) => "one beam a pixel".into(),
@@ -77,7 +77,7 @@ pub fn taken_by(algorithm: Algorithm, count: u32, sampled: Option<f64>) -> Strin
     }
 }
 
-/// How many times as long random samples take to the same error.
+/// Returns how many times as long random samples take to the same error.
 fn saved(record: &Record, best: &PointRecord) -> Option<String> {
     let curve: Vec<(f64, f64)> =
         record.points_of("random").map(|p| (p.median_seconds(), p.errors.rmse)).collect();
@@ -109,7 +109,7 @@ pub fn seconds(seconds: f64) -> String {
     }
 }
 
-/// Three digits, with an exponent where a picture's errors have one.
+/// Formats an error with three digits, with an exponent where errors of pictures need one.
 pub fn error(value: f64) -> String {
     if !value.is_finite() {
         return "–".into();
@@ -132,7 +132,7 @@ pub fn percent(share: f64) -> String {
     format!("{} %", significant(share * 100.0))
 }
 
-/// Times of one point: median, and the spread of its repeats.
+/// Returns the median time of a point and the spread of its repeats.
 pub fn times(point: &PointRecord) -> String {
     let least = point.seconds.iter().copied().fold(f64::INFINITY, f64::min);
     let most = point.seconds.iter().copied().fold(0.0, f64::max);
