@@ -3,7 +3,7 @@
 // Warps from a list: one thread a query, where a point of the unit square comes to lie.
 #include "shared/features.glsl"
 #include "shared/layout.glsl"
-#include "shared/glossy.glsl"
+#include "shared/bsdf/facets.glsl"
 #include "shared/rectangle.glsl"
 
 layout(local_size_x_id = 0, local_size_y_id = 1, local_size_z = 1) in;

@@ -4,7 +4,7 @@
 // is mirrored.
 #include "shared/features.glsl"
 #include "shared/layout.glsl"
-#include "shared/footprint.glsl"
+#include "shared/bsdf/dielectric.glsl"
 
 layout(local_size_x_id = 0, local_size_y_id = 1, local_size_z = 1) in;
 

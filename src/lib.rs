@@ -16,15 +16,18 @@
 //! Only [`gpu`] names Vulkan. Each file of [`oracle`] is the float64 twin of a file of `glsl/shared/`;
 //! [`schema::layout`] and [`pack::features`] are the host's side of the two that hold declarations.
 
-pub mod adaptive;
-pub mod cli;
-pub mod core;
-pub mod gpu;
-pub mod lab;
-pub mod oracle;
-pub mod output;
-pub mod pack;
-pub mod render;
-pub mod scene;
-pub mod schema;
-pub mod texture;
+#[doc(hidden)]
+pub mod internal;
+
+mod adaptive;
+mod cli;
+mod core;
+mod gpu;
+mod lab;
+mod oracle;
+mod output;
+mod pack;
+mod render;
+mod scene;
+mod schema;
+mod texture;

@@ -4,9 +4,9 @@
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
-use moire::cli::{self, compare, devices, pattern, render, stability, study, texture, verify};
-use moire::core::error::Result;
-use moire::core::panics;
+use moire::internal::cli::{self, compare, devices, pattern, render, stability, study, texture, verify};
+use moire::internal::core::error::Result;
+use moire::internal::core::panics;
 
 /// Renders textured scenes with Vulkan compute, with or without a GPU
 #[derive(Parser)]

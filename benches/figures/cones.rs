@@ -23,15 +23,16 @@ pub fn table(bench: &Bench) -> Outcome<()> {
     println!("| method | {} |\n| --- | --- | --- | --- |", SCENES.join(" | "));
     let mut cells = vec![Vec::new(); METHODS.len()];
     for name in SCENES {
-        let reference = moire::lab::metrics::read_picture(Path::new(&format!("data/reference/{name}.exr")))?;
+        let reference =
+            moire::internal::lab::metrics::read_picture(Path::new(&format!("data/reference/{name}.exr")))?;
         let mut times = vec![Vec::new(); METHODS.len()];
         let mut errors = vec![0.0; METHODS.len()];
         for run in 0..=bench.runs {
             for (i, (_, options)) in METHODS.iter().enumerate() {
                 let seconds = bench.run(name, options, &[])?.figure("/device_seconds/render");
                 if run == 0 {
-                    let picture = moire::lab::metrics::read_picture(Path::new(&bench.out()))?;
-                    errors[i] = moire::lab::metrics::compare(&picture, &reference)?.rmse;
+                    let picture = moire::internal::lab::metrics::read_picture(Path::new(&bench.out()))?;
+                    errors[i] = moire::internal::lab::metrics::compare(&picture, &reference)?.rmse;
                 } else {
                     times[i].push(seconds);
                 }

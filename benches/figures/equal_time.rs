@@ -7,7 +7,7 @@
 use std::fs;
 use std::path::Path;
 
-use moire::core::film::Film;
+use moire::internal::core::film::Film;
 
 use crate::{Bench, Outcome};
 
@@ -49,7 +49,8 @@ impl Pair {
             .replace("filter = \"linear\"", "filter = \"linear\"\nmip = \"linear\"");
         let mipped = bench.picture.path().join(format!("{name}.toml"));
         fs::write(&mipped, text)?;
-        let reference = moire::lab::metrics::read_picture(Path::new(&format!("data/reference/{name}.exr")))?;
+        let reference =
+            moire::internal::lab::metrics::read_picture(Path::new(&format!("data/reference/{name}.exr")))?;
         Ok(Pair { plain, mipped: mipped.display().to_string(), reference })
     }
 
@@ -58,8 +59,8 @@ impl Pair {
     }
 
     fn error(&self, bench: &Bench) -> Outcome<f64> {
-        let picture = moire::lab::metrics::read_picture(Path::new(&bench.out()))?;
-        Ok(moire::lab::metrics::compare(&picture, &self.reference)?.rmse)
+        let picture = moire::internal::lab::metrics::read_picture(Path::new(&bench.out()))?;
+        Ok(moire::internal::lab::metrics::compare(&picture, &self.reference)?.rmse)
     }
 
     fn point(&self, bench: &Bench, filter: &str, footprint: &str, side: u32) -> Outcome<Point> {

@@ -133,13 +133,15 @@ impl Bench {
     fn errors(&self) -> Outcome<()> {
         println!("\n| scene | RMSE at 64 | 256 | 1024 samples |\n| --- | --- | --- | --- |");
         for name in ["s1a", "s1b", "s2"] {
-            let reference =
-                moire::lab::metrics::read_picture(Path::new(&format!("data/reference/{name}.exr")))?;
+            let reference = moire::internal::lab::metrics::read_picture(Path::new(&format!(
+                "data/reference/{name}.exr"
+            )))?;
             let mut row = format!("| {name} ");
             for spp in ["64", "256", "1024"] {
                 self.run(name, &["--spp", spp], &[])?;
-                let picture = moire::lab::metrics::read_picture(Path::new(&self.out()))?;
-                row += &format!("| {:.3e} ", moire::lab::metrics::compare(&picture, &reference)?.rmse);
+                let picture = moire::internal::lab::metrics::read_picture(Path::new(&self.out()))?;
+                row +=
+                    &format!("| {:.3e} ", moire::internal::lab::metrics::compare(&picture, &reference)?.rmse);
             }
             println!("{row}|");
         }

@@ -4,10 +4,10 @@
 use std::hint::black_box;
 use std::time::Instant;
 
-use moire::gpu::{DeviceSelect, Gpu};
-use moire::lab::probe::MipPlacement;
-use moire::texture::data::{ColorSpace, Dimension, MipKernel, TexelFormat, TextureData};
-use moire::texture::mips;
+use moire::internal::gpu::{DeviceSelect, Gpu};
+use moire::internal::lab::probe::MipProbe;
+use moire::internal::texture::data::{ColorSpace, Dimension, MipKernel, TexelFormat, TextureData};
+use moire::internal::texture::mips;
 
 use crate::{Bench, Outcome};
 
@@ -39,7 +39,7 @@ fn median(bench: &Bench, mut seconds: impl FnMut() -> Outcome<f64>) -> Outcome<f
 
 pub fn table(bench: &Bench) -> Outcome<()> {
     let gpu = Gpu::open(&DeviceSelect::parse(&bench.device)?)?;
-    let mut made = MipPlacement::new(&gpu);
+    let mut made = MipProbe::new(&gpu);
     println!("\n| pyramid, {SIDE}² rgba8 | box, host s | Kaiser, host s | box, device ms |");
     println!("| --- | --- | --- | --- |");
     for &space in ColorSpace::ALL {

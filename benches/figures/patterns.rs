@@ -4,7 +4,7 @@
 
 use std::path::Path;
 
-use moire::scene::model::Pattern;
+use moire::internal::scene::model::Pattern;
 
 use crate::{Bench, Outcome};
 
@@ -27,10 +27,11 @@ pub fn table(bench: &Bench) -> Outcome<()> {
         let mut row = format!("| `{pattern}` |");
         for name in SCENES {
             bench.run(name, &["--spp", "64", "--pattern", pattern.name()], &[])?;
-            let reference =
-                moire::lab::metrics::read_picture(Path::new(&format!("data/reference/{name}.exr")))?;
-            let picture = moire::lab::metrics::read_picture(Path::new(&bench.out()))?;
-            row += &format!(" {:.2e} |", moire::lab::metrics::compare(&picture, &reference)?.rmse);
+            let reference = moire::internal::lab::metrics::read_picture(Path::new(&format!(
+                "data/reference/{name}.exr"
+            )))?;
+            let picture = moire::internal::lab::metrics::read_picture(Path::new(&bench.out()))?;
+            row += &format!(" {:.2e} |", moire::internal::lab::metrics::compare(&picture, &reference)?.rmse);
         }
         println!("{row} {:.2} |", fastest(times) / base);
     }

@@ -5,7 +5,7 @@
 
 use std::path::Path;
 
-use moire::scene::model::PixelFilterKind;
+use moire::internal::scene::model::PixelFilterKind;
 
 use crate::{Bench, Outcome};
 
@@ -28,12 +28,12 @@ pub fn table(bench: &Bench) -> Outcome<()> {
             let picture = |options: &[&str]| {
                 let all = [options, &["--pixel-filter", filter.name()]].concat();
                 bench.run(name, &all, &[])?;
-                Outcome::Ok(moire::lab::metrics::read_picture(Path::new(&bench.out()))?)
+                Outcome::Ok(moire::internal::lab::metrics::read_picture(Path::new(&bench.out()))?)
             };
             let reference = picture(&["--spp", "4096", "--seed", "77"])?;
             row += &format!(
                 " {:.2e} |",
-                moire::lab::metrics::compare(&picture(&["--spp", "64"])?, &reference)?.rmse
+                moire::internal::lab::metrics::compare(&picture(&["--spp", "64"])?, &reference)?.rmse
             );
         }
         println!("{row} {:.2} |", fastest(own) / fastest(&times[0]));

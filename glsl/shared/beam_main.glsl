@@ -6,6 +6,7 @@
 #define BEAM_MAIN_GLSL
 
 #define HIDE_UNIFORMS
+#define SHAPES_IN_BEAMS
 #include "features.glsl"
 #include "shading_integral.glsl"
 #include "slice.glsl"
@@ -63,16 +64,14 @@ float negligible(vec3 inverse_depth, uint polygon) {
 // All that the beam may meet. Behind a mirror that is what lies beyond it: what lies before it neither is seen
 // nor hides anything.
 void find_shapes(Header header, PixelBeam beam) {
-    uint planes = COUNT(PLANES, header.counts.x);
-    uint before_triangles = planes + COUNT(SPHERES, header.counts.y);
-    uint shapes = before_triangles + COUNT(TRIANGLES, header.counts.z);
+    uint shapes = shape_count(header);
     met_count = 0u;
     bool mirrored = BOUNCES && beam.skip != NO_SHAPE;
     float least = mirrored ? negligible(beam.limit, WHOLE) : 0.0;
     for (uint shape = 0u; shape < shapes; shape++) {
         if (shape == beam.skip) continue;
-        if (SPHERES != 0u && shape >= planes && shape < before_triangles) {
-            if (may_meet_sphere(header, beam.frame, WHOLE, sphere_at(shape - planes))) gave_up = true;
+        if (!has_region(header, shape)) {
+            if (may_meet(header, beam.frame, WHOLE, shape)) gave_up = true;
             continue;
         }
         ConvexRegion region = shape_region(header, beam.frame, shape);
@@ -127,12 +126,10 @@ void carve(uint stage, uint by, bool has_first, vec3 first, bool kept) {
 
 // Adds the integral over those parts of SEEN that see the light; without one, over all of it.
 void lit_by(Header header, ShadingIntegral paint, uint shape, bool has_light, Light light) {
-    uint planes = COUNT(PLANES, header.counts.x);
-    uint before_triangles = planes + COUNT(SPHERES, header.counts.y);
-    uint shapes = before_triangles + COUNT(TRIANGLES, header.counts.z);
+    uint shapes = shape_count(header);
     uint bottom = waiting;
     if (!has_light) push_piece(SEEN, shapes);
-    else if (is_lit(header, paint, SEEN, light)) push_piece(SEEN, 0u);
+    else if (is_facing(header, paint, SEEN, light)) push_piece(SEEN, 0u);
     float least = is_parallel(header) ? negligible(paint.near, SEEN) : COPLANAR;
     while (waiting > bottom && !gave_up) {
         uint by = pop_piece();
@@ -140,9 +137,9 @@ void lit_by(Header header, ShadingIntegral paint, uint shape, bool has_light, Li
             color += paint.carried * integral(header, paint, has_light, light);
             continue;
         }
-        bool is_sphere = SPHERES != 0u && by >= planes && by < before_triangles;
-        if (is_sphere && may_shade(header, paint, PIECE, light, sphere_at(by - planes))) gave_up = true;
-        if (by == shape || is_sphere) push_piece(PIECE, by + 1u);
+        bool is_round = !has_region(header, by);
+        if (is_round && may_shade(header, paint.frame, paint.near, PIECE, light, by)) gave_up = true;
+        if (by == shape || is_round) push_piece(PIECE, by + 1u);
         else {
             met[MAX_MET] = shadow_region(header, paint.frame, paint.near, by, light);
             // What lies in the surface's own plane, or beyond it, keeps no light away.
@@ -164,7 +161,7 @@ void shade(Header header, PixelBeam beam, uint own) {
         return;
     }
     vec3 carried = beam.carried * record.color.xyz;
-    if (MODE_IS(MODELS, MODEL_MIRROR, record.link.x)) {
+    if (is_specular(record)) {
         if (!BOUNCES || beam.depth >= header.size.w) return;
         if (waiting_beams == MAX_BEAMS) {
             gave_up = true;
@@ -180,7 +177,7 @@ void shade(Header header, PixelBeam beam, uint own) {
     RationalMap quotient = RationalMap(near, near, near);
     if (TEXTURED && record.link.y != NO_TEXTURE) quotient = coordinates(header, beam.frame, shape, map, near);
     ShadingIntegral paint = ShadingIntegral(record, carried, quotient, shape_plane(header, shape), beam.frame, near);
-    bool unlit = MODE_IS(MODELS, MODEL_UNLIT, record.link.x);
+    bool unlit = !is_lit(record);
     uint lights = unlit ? 1u : COUNT(LIGHTS, header.key.y);
     uint i = 0u;
     for (; i < lights && !gave_up; i++) {

@@ -3,6 +3,7 @@
 #ifndef CONE_MAIN_GLSL
 #define CONE_MAIN_GLSL
 
+#define SHAPES_IN_CONES
 #include "features.glsl"
 #include "layout.glsl"
 #include "cone_shade.glsl"

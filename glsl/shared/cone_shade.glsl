@@ -55,16 +55,9 @@ void send(Branch branch) {
     waiting_count++;
 }
 
-// The shape that a ray must not meet again at once. From inside a ball its other side is met.
-uint left_shape(Header header, uint shape, bool within) {
-    uint planes = COUNT(PLANES, header.counts.x);
-    bool ball = shape >= planes && shape < planes + COUNT(SPHERES, header.counts.y);
-    return ball && within ? NO_SHAPE : shape;
-}
-
 // What an unhidden light sends through a surface to the eye, and the cone in which it may be hidden: as
 // wide as the footprint looks from the light, where it ends in a point.
-Branch lit_branch(Branch branch, vec3 carried, Hit hit, Surface surface, Footprint print, Material material, uint skip, Light light) {
+Branch lit_branch(Branch branch, vec3 albedo, vec3 carried, Hit hit, Surface surface, Footprint print, Material material, uint skip, Light light) {
     bool point_light = MODE_IS(LIGHT_KINDS, LIGHT_POINT, light.link.x);
     vec3 way = point_light ? light.place.xyz - surface.point : light.place.xyz;
     float squared = dot3(way, way);
@@ -73,11 +66,9 @@ Branch lit_branch(Branch branch, vec3 carried, Hit hit, Surface surface, Footpri
     float above = dot3(surface.geometric_normal, way);
     if (!(facing > 0.0 && above > 0.0)) share = 0.0;
     vec3 more = light.power.xyz * (share * (1.0 / PI));
-    vec3 seen = branch.weight * more;
-    if (MODE_IS(MODELS, MODEL_PHONG, material.link.x)) {
-        vec3 mirror = mirrored(branch.ray.direction, surface.normal);
-        seen = with_highlight(seen, carried, material.specular.xyz, more * phong_lobe(mirror, way, material.specular.w));
-    }
+    Bsdf bsdf = bsdf_at(material, albedo, surface.normal, branch.ray.direction);
+    vec2 lobes = evaluate(bsdf, way);
+    vec3 seen = reflected(bsdf, branch.weight, carried, Lit(more * lobes.x, more * lobes.y));
     if (!SHADOWS) return Branch(branch.ray, 0.0, 0.0, seen, skip, 0u);
     vec3 start = offset_origin(surface.point, surface.geometric_normal, surface.size);
     vec3 to_light = point_light ? light.place.xyz - start : light.place.xyz;
@@ -119,15 +110,13 @@ vec3 shade_part(Header header, Branch branch, uint shape) {
     }
     Material material = material_at(surface.link.x);
     vec3 carried = branch.weight;
-    branch.weight *= surface_color(material, map_at(surface.link.y), ray, surface, print, uvec2(0u));
-    bool mirror = MODE_IS(MODELS, MODEL_MIRROR, material.link.x);
-    bool glass = MODE_IS(MODELS, MODEL_DIELECTRIC, material.link.x);
-    bool lit = MODE_IS(MODELS, MODEL_PHONG, material.link.x) || MODE_IS(MODELS, MODEL_LAMBERT, material.link.x);
-    if (!mirror && !glass && !lit) return branch.weight;
+    vec3 albedo = surface_color(material, map_at(surface.link.y), ray, surface, print, uvec2(0u));
+    branch.weight *= albedo;
+    bool lit = is_lit(material);
+    if (!lit && !is_specular(material)) return emitted(material, branch.weight);
     if (!lit) consistent_normal(ray.direction, surface);
-    float ratio = surface.inside ? material.specular.w : 1.0 / material.specular.w;
-    float back = 1.0;
-    if (glass) back = fresnel_dielectric(ray.direction, surface.normal, ratio);
+    float ratio = index_ratio(material, surface.inside);
+    float back = mirrored_share(material, ray.direction, surface.normal, ratio);
     // What follows: cones to the lights, or what goes through glass and then what it returns, which as the
     // last is traced first.
     uint branches = lit ? COUNT(LIGHTS, header.key.y) : (BOUNCES && branch.depth < header.size.w ? 2u : 0u);
@@ -137,7 +126,7 @@ vec3 shade_part(Header header, Branch branch, uint shape) {
         uint skip = left_shape(header, hit.shape, surface.inside != through);
         Branch next = branch;
         if (lit) {
-            next = lit_branch(branch, carried, hit, surface, print, material, skip, light_at(i));
+            next = lit_branch(branch, albedo, carried, hit, surface, print, material, skip, light_at(i));
         } else if (BOUNCES) {
             next = bent_branch(header, branch, hit, surface, print, ratio, through ? 1.0 - back : back, skip, through);
         }

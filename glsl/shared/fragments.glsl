@@ -4,7 +4,7 @@
 #ifndef FRAGMENTS_GLSL
 #define FRAGMENTS_GLSL
 
-#include "cone.glsl"
+#include "geometry/cones.glsl"
 
 // Shapes that a cone keeps: the nearest.
 const uint MAX_FRAGMENTS = 8u;
@@ -49,31 +49,6 @@ void set_seen(uint index, float seen, vec2 center) {
 #undef SET
 }
 
-// How deep a shape lies over the disc: its own plane, that which touches a ball, and where a ball ends
-// its distance alone.
-Flat depth_of(Header header, Cone cone, uint shape, float t, float area) {
-    uint planes = COUNT(PLANES, header.counts.x);
-    uint spheres = COUNT(SPHERES, header.counts.y);
-    uint triangles = COUNT(TRIANGLES, header.counts.z);
-    vec4 plane = vec4(0.0);
-    bool ends = false;
-    if (planes > 0u && (spheres + triangles == 0u || shape < planes)) {
-        plane = plane_at(shape).normal;
-    } else if (spheres > 0u && (triangles == 0u || shape < planes + spheres)) {
-        Sphere sphere = sphere_at(shape - planes);
-        vec3 out_of = (cone.ray.origin + t * cone.ray.direction) - sphere.ball.xyz;
-        vec3 normal = out_of * inversesqrt(dot3(out_of, out_of));
-        float height = dot3(normal, sphere.ball.xyz) + sphere.ball.w;
-        plane = vec4(normal, height);
-        ends = area < 1.0;
-    } else if (triangles > 0u) {
-        plane = triangle_at(shape - planes - spheres).normal;
-    }
-    Flat depth = flat_in(cone, plane.xyz, plane.w);
-    if (ends) depth = Flat(t, 1.0, vec2(0.0));
-    return depth;
-}
-
 // t of a flat at the two ends of the disc between which it changes.
 vec2 depths(Cone cone, Flat depth) {
     float tilt = sqrt(dot2(depth.tilt, depth.tilt));
@@ -104,31 +79,12 @@ void keep(Header header, Cone cone, uint shape, Covered covered, float t_max) {
     piece_count = min(piece_count + 1u, FRAGMENTS);
 }
 
-// Whether the cone may touch the shape.
-bool touched(Header header, Cone cone, uint shape) {
-    uint planes = COUNT(PLANES, header.counts.x);
-    uint spheres = COUNT(SPHERES, header.counts.y);
-    uint triangles = COUNT(TRIANGLES, header.counts.z);
-    if (spheres > 0u && (planes + triangles == 0u || (shape >= planes && shape < planes + spheres))) {
-        Circle circle = circle_of(cone, sphere_at(shape - planes));
-        vec2 apart = abs(circle.middle);
-        bool reaches = max(apart.x, apart.y) < SQUARE * (1.0 + circle.radius);
-        return circle.edge > -1.0 || (circle.radius < 1.0 && reaches);
-    }
-    whole_disc();
-    cut_shape(header, cone, shape);
-    return !cut_away;
-}
-
 const uint BATCH = 32u;
 
 // All shapes but `skip` that the cone touches before t_max; the nearest ones, in order. Most are missed,
 // which is found out first: measuring what is covered takes longer, for all threads while one does it.
 void collect_fragments(Header header, Cone cone, uint skip, float t_max) {
-    uint planes = COUNT(PLANES, header.counts.x);
-    uint spheres = COUNT(SPHERES, header.counts.y);
-    uint triangles = COUNT(TRIANGLES, header.counts.z);
-    uint shapes = planes + spheres + triangles;
+    uint shapes = shape_count(header);
     piece_count = 0u;
     clear = 1.0;
 #define CLEAR(k) fragments[k] = Fragment(NO_SHAPE, FAR, FAR, FAR, 0.0, 0.0, vec2(0.0));

@@ -4,6 +4,7 @@
 #define GRID_GLSL
 
 #include "address.glsl"
+#include "filter/kinds.glsl"
 
 // Where each texture's sums begin, then those: channels, levels, least value, step, first word of each
 // level; a level's rows of width + 1 sums.
@@ -33,7 +34,7 @@ int word(int index) { return int(texelFetch(prefix_sums, index).x); }
 // Level 0.
 Grid texture_grid(uint index, Texture image, Sampler how) {
     int head = word(int(index));
-    bool linear = MODE_IS(FILTERS, FILTER_LINEAR, how.modes.z);
+    bool linear = is_continuous(how);
     bool integer = MODE_IS(TEXEL_CENTERS, TEXEL_CENTER_INTEGER, how.modes.w);
     // Linear cells lie between texel centres, of which the integer rule moves all by half a texel.
     float shift = (linear ? -0.5 : 0.0) + (integer ? 0.5 : 0.0);

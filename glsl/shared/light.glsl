@@ -1,13 +1,12 @@
-// What lights send to a surface: Lambert, albedo/pi · I cos/r² (point) or albedo/pi · E cos
-// (directional); of a light with an extent that of one place, chosen by the sample; beside it the highlight
-// of Phong, energy-normalised: specular (n + 2)/2pi cos^n of the angle to the mirror direction (Lafortune &
-// Willems 1994). Twin: src/oracle/light.rs.
+// What lights send to a surface, times what its material returns of it (`bsdf`): I cos/r² of a point, E cos of a
+// directional light; of a light with an extent that of one place, chosen by the sample. Twin: src/oracle/light.rs.
 #ifndef LIGHT_GLSL
 #define LIGHT_GLSL
 
+#include "bsdf/models.glsl"
 #include "sample_dimensions.glsl"
 #include "rectangle.glsl"
-#include "surface.glsl"
+#include "geometry/rays.glsl"
 
 // Shapes as near to a place of a light as this share of the way are taken for the light itself.
 const float BEFORE_LIGHT = 4095.0 / 4096.0;
@@ -67,20 +66,7 @@ Aim sun_aim(Light light, vec2 square) {
     return Aim(around(vec3(light.place.xyz), on_cap(concentric_disc(square), float(light.place.w))), FAR, 1.0);
 }
 
-// Irradiance over pi from all lights: what an albedo of 1 sends on, and a specular colour of 1.
-struct Lit {
-    vec3 diffuse;
-    vec3 specular;
-};
-
-// cos^n alpha (n + 2) / 2 between the mirror direction and the way to the light.
-float phong_lobe(vec3 mirror, vec3 way, float exponent) {
-    float cosine = dot3(mirror, way) * inversesqrt(dot3(mirror, mirror) * dot3(way, way));
-    float power = cosine > 0.0 ? exponent * log2_accurate(max(min(cosine, 1.0), 1e-30)) : -126.0;
-    return power > -126.0 ? exp2_accurate(power) * (0.5 * exponent + 1.0) : 0.0;
-}
-
-Lit direct_light(Header header, Surface surface, float time, uint shape, vec3 mirror, float exponent, Points points,
+Lit direct_light(Header header, Surface surface, float time, uint shape, Bsdf bsdf, Points points,
                  SampleDimensions dimensions) {
     Lit sum = Lit(vec3(0.0), vec3(0.0));
     uint lights = COUNT(LIGHTS, header.key.y);
@@ -120,11 +106,12 @@ Lit direct_light(Header header, Surface surface, float time, uint shape, vec3 mi
                 lit = !occluded(header, Ray(start, to_light, time), aim.reach, shape);
             }
             vec3 more = light.power.xyz * (share * (1.0 / PI));
-            vec3 diffuse = sum.diffuse + more;
-            sum.diffuse = lit ? diffuse : sum.diffuse;
-            if (HAS(MODELS, MODEL_PHONG)) {
-                vec3 specular = sum.specular + more * phong_lobe(mirror, vec3(way), exponent);
-                sum.specular = lit ? specular : sum.specular;
+            vec2 lobes = evaluate(bsdf, vec3(way));
+            vec3 first = sum.first + more * lobes.x;
+            sum.first = lit ? first : sum.first;
+            if (SECOND_LOBE) {
+                vec3 second = sum.second + more * lobes.y;
+                sum.second = lit ? second : sum.second;
             }
         }
     }

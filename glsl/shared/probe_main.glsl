@@ -2,7 +2,7 @@
 // same code that shades a hit, without a scene around it.
 #include "features.glsl"
 #include "layout.glsl"
-#include "filter.glsl"
+#include "filter/sample_texture.glsl"
 #include "rng.glsl"
 
 layout(local_size_x_id = 0, local_size_y_id = 1, local_size_z = 1) in;

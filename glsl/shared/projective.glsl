@@ -1,5 +1,5 @@
-// Shapes as a pixel's rays see them: regions between lines of the picture, inverse depth that is affine there,
-// and texture coordinates as quotients of affine functions, also after plane mirrors. Perspective:
+// Flat surfaces as a pixel's rays see them: regions between lines of the picture, inverse depth that is affine there,
+// and texture coordinates as quotients of affine functions, also after plane mirrors; of shapes: geometry/beams.glsl. Perspective:
 // rays start at one point, the direction is affine in the place, inverse depth is 1 / t. Parallel: the
 // origin is affine, inverse depth is -t. Twin: src/oracle/projective.rs.
 #ifndef PROJECTIVE_GLSL
@@ -93,172 +93,14 @@ vec3 along(Header header, PixelFrustum frame, vec3 near, vec4 row) {
     return own + (same + row.w) * near;
 }
 
-// Barycentric weights of a triangle's corners times their sum, positive within it.
-mat3 edge_forms(Header header, PixelFrustum frame, Triangle triangle) {
-    bool parallel = is_parallel(header);
-    vec3 way = frame.same;
-    vec3 start = parallel ? vec3(0.0) : way;
-    vec3 a = triangle.a.xyz - start;
-    vec3 b = triangle.b.xyz - start;
-    vec3 c = triangle.c.xyz - start;
-    if (parallel) {
-        float side = sign(dot3(way, cross3(b - a, c - a)));
-        vec3 ea = form(frame, cross3(b - c, way)) + vec3(0.0, 0.0, dot3(way, cross3(b, c)));
-        vec3 eb = form(frame, cross3(c - a, way)) + vec3(0.0, 0.0, dot3(way, cross3(c, a)));
-        vec3 ec = form(frame, cross3(a - b, way)) + vec3(0.0, 0.0, dot3(way, cross3(a, b)));
-        return mat3(side * ea, side * eb, side * ec);
-    }
-    float side = sign(dot3(a, cross3(b, c)));
-    return mat3(side * form(frame, cross3(b, c)), side * form(frame, cross3(c, a)), side * form(frame, cross3(a, b)));
-}
-
-// Unit normal, and height of the plane in which a flat shape lies.
-vec4 shape_plane(Header header, uint shape) {
-    uint planes = COUNT(PLANES, header.counts.x);
-    if (TRIANGLES == 0u || shape < planes) return plane_at(shape).normal;
-    return triangle_at(shape - planes - COUNT(SPHERES, header.counts.y)).normal;
-}
-
-// Material and map.
-uvec2 shape_links(Header header, uint shape) {
-    uint planes = COUNT(PLANES, header.counts.x);
-    if (TRIANGLES == 0u || shape < planes) return plane_at(shape).link.xy;
-    return triangle_at(shape - planes - COUNT(SPHERES, header.counts.y)).link.xy;
-}
-
-vec3 nearness_of(Header header, PixelFrustum frame, uint shape) {
-    vec4 plane = shape_plane(header, shape);
-    return inverse_depth(header, frame, plane.xyz, plane.w);
-}
-
-// Planes first, then spheres, then triangles; spheres have no region.
-ConvexRegion shape_region(Header header, PixelFrustum frame, uint shape) {
-    uint planes = COUNT(PLANES, header.counts.x);
-    uint before_triangles = planes + COUNT(SPHERES, header.counts.y);
+// The places where a plane lies in front.
+ConvexRegion region_of_plane(Header header, PixelFrustum frame, vec4 plane) {
     ConvexRegion region;
     region.count = 1u;
-    vec3 near = nearness_of(header, frame, shape);
+    vec3 near = inverse_depth(header, frame, plane.xyz, plane.w);
     region.inverse_depth = near;
     region.lines[0] = in_front(header, near);
-    if (TRIANGLES == 0u || shape < planes) {
-        Plane record = plane_at(shape);
-        if (BOUNDED_PLANES && record.link.w != 0u) {
-            vec3 extent = REAL_BITS(record.link.zw) * below(header, near);
-            vec3 u = along(header, frame, near, record.axis_u);
-            vec3 v = along(header, frame, near, record.axis_v);
-            region.lines[1] = extent - u;
-            region.lines[2] = extent + u;
-            region.lines[3] = extent - v;
-            region.lines[4] = extent + v;
-            region.count = 5u;
-        }
-    } else {
-        mat3 edges = edge_forms(header, frame, triangle_at(shape - before_triangles));
-        region.lines[1] = edges[0];
-        region.lines[2] = edges[1];
-        region.lines[3] = edges[2];
-        region.count = 4u;
-    }
     return region;
-}
-
-// Texture coordinates on a flat shape, for maps that are affine there.
-RationalMap coordinates(Header header, PixelFrustum frame, uint shape, UvProjection map, vec3 near) {
-    uint planes = COUNT(PLANES, header.counts.x);
-    vec3 under = below(header, near);
-    if (MODE_IS(MAPPINGS, MAP_VERTEX_UV, map.link.x)) {
-        Triangle triangle = triangle_at(shape - planes - COUNT(SPHERES, header.counts.y));
-        mat3 e = edge_forms(header, frame, triangle);
-        vec3 u = triangle.a.w * e[0] + triangle.b.w * e[1] + triangle.c.w * e[2];
-        vec3 v = triangle.v.x * e[0] + triangle.v.y * e[1] + triangle.v.z * e[2];
-        return RationalMap(u, v, e[0] + e[1] + e[2]);
-    }
-    if (MODE_IS(MAPPINGS, MAP_AFFINE, map.link.x)) {
-        return RationalMap(along(header, frame, near, map.x), along(header, frame, near, map.y), under);
-    }
-    // Counted from the eye.
-    Plane plane = plane_at(shape);
-    vec3 u = along(header, frame, near, vec4(plane.axis_u.xyz, 0.0));
-    vec3 v = along(header, frame, near, vec4(plane.axis_v.xyz, 0.0));
-    return RationalMap(map.matrix.x * u + map.matrix.y * v + map.offset.x * under,
-                    map.matrix.z * u + map.matrix.w * v + map.offset.y * under, under);
-}
-
-// Where, on the plane of this inverse depth, a flat shape keeps a light away.
-ConvexRegion shadow_region(Header header, PixelFrustum frame, vec3 near, uint shape, Light light) {
-    uint planes = COUNT(PLANES, header.counts.x);
-    vec3 place = light.place.xyz;
-    bool point_light = MODE_IS(LIGHT_KINDS, LIGHT_POINT, light.link.x);
-    vec4 plane = shape_plane(header, shape);
-    vec3 n = plane.xyz;
-    // Of the light before the shape's plane, or of a way's length towards it.
-    float rise = point_light ? plane.w - dot3(n, place) : dot3(n, place);
-    float side = sign(rise);
-    ConvexRegion region;
-    region.count = 1u;
-    region.inverse_depth = near;
-    // Beyond the plane, seen from the light.
-    region.lines[0] = along(header, frame, near, (point_light ? side : -side) * vec4(n, -plane.w));
-    if (TRIANGLES == 0u || shape < planes) {
-        Plane record = plane_at(shape);
-        if (!BOUNDED_PLANES || record.link.w == 0u) return region;
-        // A place's distance below the light, in |rise|, or its own height.
-        vec4 depth = point_light ? side * vec4(n, -dot3(n, place)) : vec4(0.0, 0.0, 0.0, abs(rise));
-        vec3 extent = REAL_BITS(record.link.zw) * along(header, frame, near, depth);
-        for (uint k = 0u; k < 2u; k++) {
-            vec4 row = k == 0u ? record.axis_u : record.axis_v;
-            float across = dot3(row.xyz, place);
-            // u of light + (p - light) rise / (n·(p - light)), times the depth; u of p + way (height -
-            // n·p) / rise, times |rise|.
-            vec4 own = point_light ? (across + row.w) * depth + abs(rise) * vec4(row.xyz, -across)
-                                   : abs(rise) * row + (side * across) * vec4(-n, plane.w);
-            vec3 across_axis = along(header, frame, near, own);
-            region.lines[1u + 2u * k] = extent - across_axis;
-            region.lines[2u + 2u * k] = extent + across_axis;
-        }
-        region.count = 5u;
-        return region;
-    }
-    Triangle triangle = triangle_at(shape - planes - COUNT(SPHERES, header.counts.y));
-    vec3 start = point_light ? place : vec3(0.0);
-    mat3 corners = mat3(triangle.a.xyz - start, triangle.b.xyz - start, triangle.c.xyz - start);
-    vec3 doubled = cross3(corners[1] - corners[0], corners[2] - corners[0]);
-    float turn = sign(point_light ? dot3(corners[0], cross3(corners[1], corners[2])) : dot3(place, doubled));
-    for (uint k = 0u; k < 3u; k++) {
-        vec3 p = corners[(k + 1u) % 3u];
-        vec3 q = corners[(k + 2u) % 3u];
-        vec3 m = point_light ? cross3(p, q) : cross3(p - q, place);
-        float constant = point_light ? -dot3(m, place) : dot3(place, cross3(p, q));
-        region.lines[1u + k] = along(header, frame, near, turn * vec4(m, constant));
-    }
-    region.count = 4u;
-    return region;
-}
-
-// False where no ray of the polygon can meet the sphere.
-bool may_meet_sphere(Header header, PixelFrustum frame, uint polygon, Sphere sphere) {
-    vec3 way;
-    vec3 origin;
-    ray_at(header, frame, middle(polygon), way, origin);
-    vec3 unit = way * inversesqrt(dot3(way, way));
-    vec3 to = sphere.ball.xyz - origin;
-    float radius = sphere.ball.w;
-    float ahead = dot3(to, unit);
-    if (dot3(to, to) <= radius * radius) return true;
-    if (ahead <= -radius) return false;
-    // The tangent of the widest angle to a corner, or the farthest of the parallel rays.
-    float wide = 0.0;
-    bool parallel = is_parallel(header);
-    for (uint k = 0u; k < counts[polygon]; k++) {
-        vec3 w;
-        vec3 o;
-        ray_at(header, frame, corner(polygon, k), w, o);
-        vec3 apart = parallel ? o - origin : cross3(w, unit);
-        wide = max(wide, sqrt(dot3(apart, apart)) / (parallel ? 1.0 : dot3(w, unit)));
-    }
-    vec3 aside = to - ahead * unit;
-    float reach = parallel ? radius + wide : radius * sqrt(1.0 + wide * wide) + max(ahead, 0.0) * wide;
-    return sqrt(dot3(aside, aside)) <= 1.0001 * reach;
 }
 
 // The point of the plane of that inverse depth which a place shows.

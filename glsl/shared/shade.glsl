@@ -4,11 +4,11 @@
 #ifndef SHADE_GLSL
 #define SHADE_GLSL
 
-#include "filter.glsl"
-#include "glossy.glsl"
+#include "bsdf/specular.glsl"
+#include "filter/sample_texture.glsl"
 #include "light.glsl"
 #include "shading_normal.glsl"
-#include "surface.glsl"
+#include "geometry/rays.glsl"
 
 // What the surface's map looks at.
 MapInput map_input(UvProjection map, Ray ray, Surface surface, Footprint print) {
@@ -146,11 +146,6 @@ vec3 surface_color(Material material, UvProjection map, Ray ray, inout Surface s
     return color;
 }
 
-vec3 with_highlight(vec3 diffuse, vec3 carried, vec3 specular, vec3 light) {
-    vec3 sum = diffuse + carried * specular * light;
-    return sum;
-}
-
 // A path between two hits: the ray, how wide it is, what it still carries, the shape that it leaves.
 struct Path {
     Ray ray;
@@ -170,47 +165,29 @@ Path camera_path(Ray ray, RayDifferential beam, uvec2 random, uint list) {
 // Where a mirrored or refracted path goes on; false where the material ends it.
 bool bounced(Header header, Hit hit, Surface surface, Footprint print, Material material, SampleDimensions dimensions,
              inout Path path) {
-    bool mirror = MODE_IS(MODELS, MODEL_MIRROR, material.link.x);
-    bool glass = MODE_IS(MODELS, MODEL_DIELECTRIC, material.link.x);
-    if (!mirror && !glass) return false;
+    if (!is_specular(material)) return false;
     Ray ray = path.ray;
     consistent_normal(ray.direction, surface);
-    float alpha = GLOSSY ? material.specular.x : 0.0;
-    real3 normal = surface.normal;
-    if (GLOSSY) {
-        if (alpha > 0.0) {
-            normal = visible_normal(vec3(ray.direction), vec3(surface.normal), alpha, unit_square(dimensions.lobe));
+    Bounce bounce = sample_bsdf(material, surface, ray.direction, dimensions);
+    real3 normal = bounce.mirrored ? surface.geometric_normal : -surface.geometric_normal;
+    path.ray = Ray(offset_origin(surface.point, normal, surface.size), bounce.direction, ray.time);
+    if (FILTERED) {
+        RayDifferential beam = path.beam;
+        if (bounce.mirrored) {
+            path.beam = reflected_differential(header, beam, ray, hit.t, print, bounce.normal, surface.shape_operator,
+                                               surface.curvature);
+        } else {
+            path.beam = refracted_differential(header, beam, ray, hit.t, print, bounce.normal, surface.shape_operator,
+                                               surface.curvature, bounce.ratio);
         }
     }
-    float ratio = surface.inside ? material.specular.w : 1.0 / material.specular.w;
-    if (glass) mirror = unit_line(dimensions.fresnel) < fresnel_dielectric(ray.direction, normal, ratio);
-    real3 start = offset_origin(surface.point, mirror ? surface.geometric_normal : -surface.geometric_normal, surface.size);
-    RayDifferential beam = path.beam;
-    if (mirror) {
-        path.ray = Ray(start, mirrored(ray.direction, normal), ray.time);
-        if (FILTERED) path.beam = reflected_differential(header, beam, ray, hit.t, print, normal, surface.shape_operator, surface.curvature);
-    } else {
-        path.ray = Ray(start, refracted(ray.direction, normal, ratio), ray.time);
-        if (FILTERED) path.beam = refracted_differential(header, beam, ray, hit.t, print, normal, surface.shape_operator, surface.curvature, ratio);
-    }
-    bool leaves = true;
-    real side = mirror ? 1.0 : -1.0;
-    if (LEANING) {
-        path.ray.direction = on_its_side(ray.direction, path.ray.direction, side * surface.normal, side * surface.geometric_normal);
-    }
     if (GLOSSY) {
-        if (alpha > 0.0) {
-            real3 way = side * path.ray.direction;
-            float seen = float(-dot3(ray.direction, surface.normal) * inverse_root(dot3(ray.direction, ray.direction)));
-            float leaving = float(dot3(way, surface.normal) * inverse_root(dot3(way, way)));
-            // What a facet sends into the surface is lost.
-            leaves = leaving > 0.0 && dot3(way, surface.geometric_normal) > 0.0;
-            float share = mirror ? smith_g2_over_g1(max(seen, 0.0), leaving, alpha) : smith_g1_refracted(leaving, alpha);
-            path.throughput *= leaves ? share : 0.0;
-            path.beam = widened_differential(header, path.beam, vec3(path.ray.direction), alpha);
+        if (bounce.alpha > 0.0) {
+            path.throughput *= bounce.leaves ? bounce.weight : 0.0;
+            path.beam = widened_differential(header, path.beam, vec3(path.ray.direction), bounce.alpha);
         }
     }
-    return leaves;
+    return bounce.leaves;
 }
 
 // Follows the path to its next hit; what that adds to the sample is returned.
@@ -232,17 +209,15 @@ vec3 advance(Header header, Points points, SampleDimensions dimensions, inout Pa
         Material material = material_at(surface.link.x);
         UvProjection map = map_at(surface.link.y);
         vec3 carried = path.throughput;
-        path.throughput *= surface_color(material, map, path.ray, surface, print, path.random);
+        vec3 albedo = surface_color(material, map, path.ray, surface, print, path.random);
+        path.throughput *= albedo;
         real3 direction = path.ray.direction;
         is_alive = BOUNCES && bounced(header, hit, surface, print, material, dimensions, path);
-        bool ends_in_mirror = MODE_IS(MODELS, MODEL_MIRROR, material.link.x) || MODE_IS(MODELS, MODEL_DIELECTRIC, material.link.x);
-        seen = ends_in_mirror ? vec3(0.0) : path.throughput;
-        bool phong = MODE_IS(MODELS, MODEL_PHONG, material.link.x);
-        if (phong || MODE_IS(MODELS, MODEL_LAMBERT, material.link.x)) {
-            vec3 mirror = HAS(MODELS, MODEL_PHONG) ? vec3(mirrored(direction, surface.normal)) : vec3(0.0);
-            Lit lit = direct_light(header, surface, path.ray.time, hit.shape, mirror, material.specular.w, points, dimensions);
-            seen = path.throughput * lit.diffuse;
-            if (phong) seen = with_highlight(seen, carried, material.specular.xyz, lit.specular);
+        seen = emitted(material, path.throughput);
+        if (is_lit(material)) {
+            Bsdf bsdf = bsdf_at(material, albedo, surface.normal, direction);
+            Lit lit = direct_light(header, surface, path.ray.time, hit.shape, bsdf, points, dimensions);
+            seen = reflected(bsdf, path.throughput, carried, lit);
         }
     }
     path.skip = hit.shape;

@@ -4,6 +4,9 @@
 #define SHADING_INTEGRAL_GLSL
 
 #include "features.glsl"
+#include "bsdf/models.glsl"
+#include "filter/kinds.glsl"
+#include "geometry/beams.glsl"
 #include "prefix_sums.glsl"
 #include "sample_dimensions.glsl"
 
@@ -36,28 +39,17 @@ struct ShadingIntegral {
     vec3 near;
 };
 
-bool is_smooth(Header header, uint shape) {
-    uint planes = COUNT(PLANES, header.counts.x);
-    if (!SMOOTH_NORMALS || TRIANGLES == 0u || shape < planes) return false;
-    return triangle_at(shape - planes - COUNT(SPHERES, header.counts.y)).v.w != 0.0;
-}
-
-const uint STEPPED = (1u << FILTER_NEAREST) | (1u << FILTER_LINEAR);
 const uint TILED = (1u << ADDRESS_REPEAT) | (1u << ADDRESS_MIRRORED_REPEAT) | (1u << ADDRESS_CLAMP_TO_EDGE);
 
-// Whether the integral of a shape's colour is known: of one that is unlit, diffuse or a plane mirror, with a
-// checker or a flat texture that is affine on it.
+// Whether the integral of a shape's colour is known: of a material that has one, with a checker or a flat texture
+// that is affine on the shape.
 bool is_simple(Header header, uint shape, Material record, UvProjection map) {
-    bool unlit = MODE_IS(MODELS, MODEL_UNLIT, record.link.x);
-    bool mirror = MODE_IS(MODELS, MODEL_MIRROR, record.link.x);
-    bool plain = mirror || MODE_IS(MODELS, MODEL_LAMBERT, record.link.x);
-    if (!unlit && (!plain || is_smooth(header, shape))) return false;
-    if (GLOSSY && mirror && record.specular.x > 0.0) return false;
+    if (!is_integrable_over_region(record, is_smooth(header, shape))) return false;
     if (BUMPED && record.detail.x != NO_TEXTURE) return false;
     if (record.link.y == NO_TEXTURE) return true;
     bool flat_map = MODE_IS(MAPPINGS, MAP_PLANE, map.link.x) || MODE_IS(MAPPINGS, MAP_VERTEX_UV, map.link.x) ||
                     MODE_IS(MAPPINGS, MAP_AFFINE, map.link.x);
-    if (!flat_map || map.link.y != ENTITY_POSITION || mirror) return false;
+    if (!flat_map || map.link.y != ENTITY_POSITION || is_specular(record)) return false;
     Texture image = texture_at(record.link.y);
     if (MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_PROCEDURAL, image.link.w)) {
         uvec4 link = procedural_at(image.place.x).link;
@@ -65,11 +57,11 @@ bool is_simple(Header header, uint shape, Material record, UvProjection map) {
     }
     Sampler how = sampler_at(record.link.z);
     bool tiled = HAS(TILED, how.modes.x) && HAS(TILED, how.modes.y);
-    return HAS(STEPPED, how.modes.z) && tiled && word(int(record.link.y)) > 0;
+    return is_integrable(how) && tiled && word(int(record.link.y)) > 0;
 }
 
 // A light behind the surface, as its beam sees it, gives nothing.
-bool is_lit(Header header, ShadingIntegral paint, uint polygon, Light light) {
+bool is_facing(Header header, ShadingIntegral paint, uint polygon, Light light) {
     vec3 way;
     vec3 origin;
     ray_at(header, paint.frame, middle(polygon), way, origin);
@@ -93,23 +85,6 @@ vec3 irradiance(Header header, ShadingIntegral paint, uint strip, Light light) {
     float squared = dot3(way, way);
     float scale = parallel ? 1.0 : near * near;
     return power * (scale * abs(dot3(n, way)) / (squared * sqrt(squared)));
-}
-
-// False where no way from the fragment to the light can pass the sphere.
-bool may_shade(Header header, ShadingIntegral paint, uint polygon, Light light, Sphere sphere) {
-    vec3 from = point_at(header, paint.frame, paint.near, middle(polygon));
-    float wide = 0.0;
-    for (uint k = 0u; k < counts[polygon]; k++) {
-        vec3 apart = point_at(header, paint.frame, paint.near, corner(polygon, k)) - from;
-        wide = max(wide, sqrt(dot3(apart, apart)));
-    }
-    bool point_light = MODE_IS(LIGHT_KINDS, LIGHT_POINT, light.link.x);
-    vec3 way = point_light ? light.place.xyz - from : light.place.xyz;
-    vec3 to = sphere.ball.xyz - from;
-    float ahead = max(dot3(to, way) / dot3(way, way), 0.0);
-    vec3 aside = to - (point_light ? min(ahead, 1.0) : ahead) * way;
-    // What is not a number may.
-    return !(sqrt(dot3(aside, aside)) > sphere.ball.w + wide);
 }
 
 // Strips that a fragment is cut into: the root of STRIPS times the logarithm of the ratio of depths.

@@ -5,8 +5,8 @@
 #ifndef SHADING_NORMAL_GLSL
 #define SHADING_NORMAL_GLSL
 
-#include "footprint.glsl"
-#include "surface.glsl"
+#include "bsdf/mirror.glsl"
+#include "geometry/hit.glsl"
 
 const bool LEANING = SMOOTH_NORMALS || BUMPED;
 

@@ -5,6 +5,7 @@
 #define TEXTURE_GLSL
 
 #include "address.glsl"
+#include "filter/kinds.glsl"
 #include "mapping.glsl"
 
 #define SOURCE_NONE 0
@@ -160,7 +161,7 @@ vec4 read_image(uint slot, ivec2 at, int level) {
 
 // The device's sampler at a level; where it filters anisotropically, over the footprint.
 vec4 read_flat(Sampler how, uint slot, vec2 uv, Coordinate c, float level) {
-    if (FILTERED && HAS(FILTERS, FILTER_ANISOTROPIC) && how.link.y == FILTER_ANISOTROPIC) {
+    if (FILTERED && is_anisotropic(how)) {
 #define READ(i) textureGrad(SLOT(i), uv, c.dx.xy, c.dy.xy)
         SLOT_SWITCH(SLOTS, READ)
 #undef READ

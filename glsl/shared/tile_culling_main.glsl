@@ -4,8 +4,10 @@
 #ifndef TILE_CULLING_MAIN_GLSL
 #define TILE_CULLING_MAIN_GLSL
 
+#define SHAPES_IN_BEAMS
 #include "features.glsl"
-#include "projective.glsl"
+#include "bsdf/models.glsl"
+#include "geometry/beams.glsl"
 
 layout(local_size_x_id = 0, local_size_y_id = 1, local_size_z = 1) in;
 
@@ -18,35 +20,7 @@ layout(push_constant) uniform Part {
 
 // Pixels around a cell, against rounding.
 const float MARGIN = 0.0625;
-// Of edge functions in f32, relative to the lengths of their vectors: 32 ulps.
-const float ROUNDING = 4e-6;
 const uint SQUARE = 0u; // the polygon of the cell
-
-// A ray meets a triangle where all three edge functions have one sign (intersect.glsl). These are affine in the
-// ray's place, so that their corners' extremes bound them.
-bool may_meet_triangle(Header header, PixelFrustum frame, Triangle triangle) {
-    vec3 ahead = vec3(dot3(triangle.a.xyz, header.forward.xyz), dot3(triangle.b.xyz, header.forward.xyz),
-                      dot3(triangle.c.xyz, header.forward.xyz));
-    if (max(max(ahead.x, ahead.y), ahead.z) <= 0.0) return false;
-    vec3 least = vec3(3e38);
-    vec3 most = vec3(-3e38);
-    for (uint k = 0u; k < 4u; k++) {
-        vec3 way;
-        vec3 origin;
-        ray_at(header, frame, corner(SQUARE, k), way, origin);
-        vec3 a = triangle.a.xyz - origin;
-        vec3 b = triangle.b.xyz - origin;
-        vec3 c = triangle.c.xyz - origin;
-        vec3 edges = vec3(dot3(way, cross3(b, c)), dot3(way, cross3(c, a)), dot3(way, cross3(a, b)));
-        vec3 squares = vec3(dot3(a, a), dot3(b, b), dot3(c, c));
-        vec3 slack = ROUNDING * sqrt(dot3(way, way)) * sqrt(squares.yzx) * sqrt(squares.zxy);
-        least = min(least, edges - slack);
-        most = max(most, edges + slack);
-    }
-    bool front = most.x >= 0.0 && most.y >= 0.0 && most.z >= 0.0;
-    bool back = least.x <= 0.0 && least.y <= 0.0 && least.z <= 0.0;
-    return front || back;
-}
 
 // Texels that a pixel spans at most, at the cell's corners.
 float texels_across(Header header, PixelFrustum frame, uint shape, UvProjection map, Texture image) {
@@ -71,8 +45,8 @@ bool is_calm(Header header, PixelFrustum frame, uint shape, ConvexRegion region)
     }
     uvec2 link = shape_links(header, shape);
     Material record = material_at(link.x);
-    bool unlit = MODE_IS(MODELS, MODEL_UNLIT, record.link.x);
-    bool plain = MODE_IS(MODELS, MODEL_LAMBERT, record.link.x) && !SHADOWS;
+    bool unlit = !is_lit(record) && !is_specular(record);
+    bool plain = is_diffuse(record) && !SHADOWS;
     if (!unlit && !plain) return false;
     if (BUMPED && record.detail.x != NO_TEXTURE) return false;
     if (!TEXTURED || record.link.y == NO_TEXTURE) return true;
@@ -94,32 +68,24 @@ void main() {
     uvec2 pixel = uvec2(cell % across, cell / across) * side + header.image.zw;
     PixelFrustum frame = frame_over(header, pixel, float(side - 1u), MARGIN);
     unit_square(SQUARE);
-    uint planes = COUNT(PLANES, header.counts.x);
-    uint before_triangles = planes + COUNT(SPHERES, header.counts.y);
-    uint triangles = COUNT(TRIANGLES, header.counts.z);
-    uint seen = 0u;
-    uint alone = 0u;
-    for (uint i = 0u; i < planes; i++) {
-        ConvexRegion region = shape_region(header, frame, i);
-        bool met = true;
-        for (uint k = 0u; k < region.count; k++) met = met && range(SQUARE, region.lines[k]).y > 0.0;
-        alone = met ? i : alone;
-        seen += met ? 1u : 0u;
-    }
-    bool round = false;
-    for (uint i = planes; i < before_triangles; i++) {
-        round = round || may_meet_sphere(header, frame, SQUARE, sphere_at(i - planes));
-    }
+    COUNT_SHAPES(header)
     uint begin = cell * CELL_WORDS;
+    uint seen = 0u;
     uint listed = 0u;
-    for (uint i = 0u; i < triangles; i++) {
-        if (may_meet_triangle(header, frame, triangle_at(i))) {
-            if (listed < MAX_LISTED) found[begin + 2u + listed] = i;
-            alone = before_triangles + i;
-            listed++;
-        }
+    uint alone = 0u;
+    bool round = false;
+#define SURVEY(Type, at, first, count, is_flat, is_listed)                            \
+    for (uint i = 0u; i < count; i++) {                                               \
+        if (may_meet(header, frame, SQUARE, at(i))) {                                 \
+            if (is_listed && listed < MAX_LISTED) found[begin + 2u + listed] = i;     \
+            listed += is_listed ? 1u : 0u;                                            \
+            seen += is_flat ? 1u : 0u;                                                \
+            alone = is_flat ? (first) + i : alone;                                    \
+            round = round || !is_flat;                                                \
+        }                                                                             \
     }
-    seen += listed;
+    SHAPE_KINDS(SURVEY)
+#undef SURVEY
     bool empty = seen == 0u && !round && !(ENVIRONMENT && header.counts.w != NO_MATERIAL);
     uint calmness = empty ? CELL_EMPTY : CELL_BUSY;
     if (seen == 1u && !round) {

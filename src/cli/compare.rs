@@ -81,7 +81,7 @@ pub fn run(args: &CompareArgs) -> Result<ExitCode> {
     } else if !args.quiet {
         super::print(&table(args, &comparison, flip, both.placement))?;
     }
-    faults.iter().for_each(super::tell);
+    faults.iter().for_each(super::notify);
     Ok(ExitCode::from(u8::from(!faults.is_empty())))
 }
 

@@ -55,7 +55,7 @@ pub fn prepare_process() {
 
 /// Prints a line on stderr. If stderr cannot be written (a closed pipe, a full disk) the work
 /// continues, and the exit code still reports the result.
-pub fn tell(line: impl Display) {
+pub fn notify(line: impl Display) {
     let _ = writeln!(io::stderr().lock(), "{line}");
 }
 
@@ -66,7 +66,7 @@ pub fn exit_code(result: Result<ExitCode>) -> ExitCode {
         let plain = error.to_string();
         // The excerpt of a scene file is formatted by a library, whose panics are contained too.
         let report = panics::contain(&"an error message", || Ok(format!("{:?}", miette::Report::new(error))));
-        tell(report.unwrap_or(plain));
+        notify(report.unwrap_or(plain));
         ExitCode::from(code)
     })
 }

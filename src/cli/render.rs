@@ -104,7 +104,7 @@ pub fn run(args: &RenderArgs) -> Result<ExitCode> {
     }
     let dropped = prune(&mut scene);
     if let (Some(chosen), true) = (chosen, args.verbose) {
-        super::tell(chosen);
+        super::notify(chosen);
     }
 
     let mut ran = if oracle {
@@ -152,15 +152,16 @@ fn render_on_device(
     start: Instant,
 ) -> Result<RenderOutcome> {
     let (gpu, (mut packed, doubts), startup, load) = std::thread::scope(|scope| {
-        let (tell, told) = mpsc::channel();
+        let (mips_sender, mips_receiver) = mpsc::channel();
         let loading = scope.spawn(move || {
-            let packed = load(scene, args, || told.recv().unwrap_or_default());
+            let packed = load(scene, args, || mips_receiver.recv().unwrap_or_default());
             (packed, start.elapsed().as_secs_f64())
         });
         let clock = Instant::now();
         let gpu = Gpu::open(select);
         // The receiver is gone if the scene does not need the device's answer.
-        let _ = tell.send(gpu.as_ref().map_or(MipPlacement::Host, |gpu| args.mips.mip_chains(gpu.info())));
+        let _ =
+            mips_sender.send(gpu.as_ref().map_or(MipPlacement::Host, |gpu| args.mips.mip_chains(gpu.info())));
         let startup = clock.elapsed().as_secs_f64();
         let (packed, load) = loading.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
         // An error in the scene is reported before one of the machine.
@@ -177,7 +178,7 @@ fn render_on_device(
         report.warnings.push(format!("{fault}; --method shader reads the right ones"));
     }
     for message in gpu.messages() {
-        super::tell(format_args!("validation: {message}"));
+        super::notify(format_args!("validation: {message}"));
     }
     Ok(RenderOutcome {
         device: gpu.info().name.clone(),
@@ -264,12 +265,12 @@ fn check_crop(crop: Option<Crop>, scene: &Scene) -> Result<()> {
 fn say_textures(args: &RenderArgs, scene: &Scene, packed: &PackedScene) -> Option<Vec<(String, u64)>> {
     if args.verbose {
         for line in packed.texture_lines() {
-            super::tell(format_args!("texture {line}"));
+            super::notify(format_args!("texture {line}"));
         }
         for texture in scene.textures.iter().filter(|t| t.reading.orientation == OrientationUse::Apply) {
             for file in texture.content.files().into_iter().filter(|file| is_turned(file)) {
                 let (name, file) = (&texture.name, file.display());
-                super::tell(format_args!("texture \"{name}\": {file} was turned as its orientation says"));
+                super::notify(format_args!("texture \"{name}\": {file} was turned as its orientation says"));
             }
         }
     }

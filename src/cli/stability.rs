@@ -55,7 +55,7 @@ pub fn run(args: &StabilityArgs) -> Result<ExitCode> {
     bar.finish();
     let report = report?;
     for message in gpu.messages() {
-        super::tell(format_args!("validation: {message}"));
+        super::notify(format_args!("validation: {message}"));
     }
     if let Some(folder) = &args.out {
         page::write(folder, &report)?;

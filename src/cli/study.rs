@@ -94,12 +94,12 @@ pub fn run(args: &StudyArgs) -> Result<ExitCode> {
     let outcome = study::run(&gpu, &scene, &options, &bar);
     bar.finish();
     for message in gpu.messages() {
-        super::tell(format_args!("validation: {message}"));
+        super::notify(format_args!("validation: {message}"));
     }
     match outcome {
         Err(Error::Interrupted) => {
             let points = record::read(&args.out).points.len();
-            super::tell(format_args!(
+            super::notify(format_args!(
                 "interrupted: {} {} in {}; the same command goes on from there",
                 counted(points, "point"),
                 verb(points, "is", "are"),
@@ -155,7 +155,7 @@ fn report(args: &StudyArgs, record: &Record) -> Result<()> {
     let analysis = record.analysis.as_ref();
     if args.verbose {
         for w in analysis.iter().flat_map(|a| &a.winners) {
-            super::tell(format_args!(
+            super::notify(format_args!(
                 "within {:.3e} s: {} with {}, RMSE {:.3e}",
                 w.budget,
                 names(w),
@@ -163,12 +163,12 @@ fn report(args: &StudyArgs, record: &Record) -> Result<()> {
                 w.rmse
             ));
         }
-        record.notes.iter().for_each(|note| super::tell(format_args!("note: {note}")));
+        record.notes.iter().for_each(|note| super::notify(format_args!("note: {note}")));
     }
     if let Some(analysis) = analysis {
-        super::tell(&analysis.recommendation);
+        super::notify(&analysis.recommendation);
     }
-    super::tell(format_args!(
+    super::notify(format_args!(
         "{}: {}",
         args.out.join("index.html").display(),
         counted(record.points.len(), "point")

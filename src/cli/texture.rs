@@ -53,7 +53,7 @@ pub fn run(args: &TextureArgs) -> Result<ExitCode> {
     let reading = Reading { orientation: args.orientation, layer: args.layer.clone() };
     let Picture { texels, notes, .. } = read_file::read_as(&args.file, &reading)?;
     for note in notes {
-        super::tell(format_args!("warning: {note}"));
+        super::notify(format_args!("warning: {note}"));
     }
     if texels.format.component() == Component::Float32 && args.color_space == ColorSpace::Srgb {
         return Err(Error::with_help(

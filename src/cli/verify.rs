@@ -50,7 +50,7 @@ pub fn run(args: &VerifyArgs) -> Result<ExitCode> {
     bar.finish();
     let report = report?;
     for message in gpu.messages() {
-        super::tell(format_args!("validation: {message}"));
+        super::notify(format_args!("validation: {message}"));
     }
     super::print(if args.json { json(&report)? } else { text(&report) }.trim_end())?;
     Ok(ExitCode::from(if report.passes(args.strict) { 0 } else { 1 }))

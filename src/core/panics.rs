@@ -7,7 +7,7 @@ use std::fmt::Display;
 use std::panic::{self, AssertUnwindSafe};
 use std::sync::Mutex;
 
-use crate::core::error::{Error, Result};
+use crate::core::error::{Error, ErrorKind, Result};
 
 /// The message and location of the last panic of any thread: a panic in a joined thread reaches the
 /// guard without its location.
@@ -33,7 +33,8 @@ pub fn contain<T>(stage: &dyn Display, work: impl FnOnce() -> Result<T>) -> Resu
         Err(Error::with_help(
             format!("{stage}: the program failed where it should not: {said}"),
             "this is a fault of moire or of a library that it uses: please report it with the input that it fails on",
-        ))
+        )
+        .of_kind(ErrorKind::Internal))
     })
 }
 
@@ -52,7 +53,7 @@ fn short(file: &str) -> &str {
 mod tests {
     use super::*;
 
-    fn told(work: impl FnOnce() -> Result<()>) -> String {
+    fn message_of(work: impl FnOnce() -> Result<()>) -> String {
         contain(&"reading a.tif", work).expect_err("it panics").to_string()
     }
 
@@ -69,10 +70,10 @@ mod tests {
             })
         };
         for message in [
-            told(|| panic!("a literal")),
-            told(|| Err(Error::new(format!("{}", empty[0])))),
-            told(in_rayon),
-            told(in_scope),
+            message_of(|| panic!("a literal")),
+            message_of(|| Err(Error::new(format!("{}", empty[0])))),
+            message_of(in_rayon),
+            message_of(in_scope),
         ] {
             assert!(message.starts_with("reading a.tif: the program failed"), "{message}");
         }

@@ -80,7 +80,7 @@ mod tests {
             (vk::Result::ERROR_OUT_OF_HOST_MEMORY, "out of host memory"),
             (vk::Result::ERROR_DEVICE_LOST, "device was lost"),
         ] {
-            let Error::Plain { message, help } = failed("creating buffer `film`", code) else {
+            let Error::Plain { message, help, .. } = failed("creating buffer `film`", code) else {
                 panic!("not a plain error");
             };
             assert!(message.contains("`film`") && message.contains(word), "{message}");

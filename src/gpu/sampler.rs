@@ -9,7 +9,7 @@ use super::convert;
 use super::device::Core;
 use super::result::WithOperation;
 use crate::core::error::{Error, Result};
-use crate::texture::sampler_spec::{Address, Filter, MipMode, SamplerSpec};
+use crate::texture::sampler_spec::{Address, MipMode, SamplerSpec};
 
 /// A sampler. Clones share the same Vulkan object.
 #[derive(Clone)]
@@ -49,8 +49,7 @@ impl Sampler {
         let handle = unsafe { core.device.create_sampler(&info, None) }
             .during(|| format!("creating sampler {}", spec.label()))?;
         core.set_name(handle, || format!("sampler {}", spec.label()));
-        let linear =
-            [spec.mag, spec.min].iter().any(|&f| f != Filter::Nearest) || spec.mip == MipMode::Linear;
+        let linear = spec.blends() || spec.mip == MipMode::Linear;
         Ok(Sampler(Arc::new(RawSampler { core: Arc::clone(core), handle, linear })))
     }
 
@@ -69,7 +68,7 @@ impl Sampler {
 }
 
 fn anisotropic(spec: &SamplerSpec) -> bool {
-    spec.min == Filter::Anisotropic
+    spec.follows_axis()
 }
 
 /// Returns the border colour. The requested colour matters only if some axis clamps to the border.

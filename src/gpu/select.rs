@@ -153,7 +153,7 @@ mod tests {
         let devices = machine();
         for text in ["7", "voodoo"] {
             let error = DeviceSelect::parse(text).unwrap().choose(&devices).unwrap_err();
-            let Error::Plain { message, help: Some(help) } = error else { panic!("no help for {text}") };
+            let Error::Plain { message, help: Some(help), .. } = error else { panic!("no help for {text}") };
             assert!(message.contains(text), "{message}");
             assert!(help.contains("Some UHD Graphics"), "{help}");
         }

@@ -5,17 +5,16 @@
 
 use glam::DVec3;
 
+use super::bsdf::{is_lit, is_specular};
+use super::geometry::beams::{
+    coordinates, has_region, may_meet, may_shade, shadow_region, shape_links, shape_plane, shape_region,
+};
+use super::geometry::kinds::shape_count;
 use super::math::xyz;
 use super::polygon::{AffineFunction, MAX_CORNERS, MIN_AREA, Polygon, area, range, split, unit_square};
-use super::projective::{
-    ConvexRegion, PixelFrustum, add, coordinates, may_meet_sphere, mirrored_frame, pixel_frame,
-    shadow_region, shape_plane, shape_region,
-};
-use super::shading_integral::{
-    GaveUp, Result, ShadingIntegral, integral, is_lit, is_simple, links, may_shade,
-};
+use super::projective::{ConvexRegion, PixelFrustum, add, mirrored_frame, pixel_frame};
+use super::shading_integral::{GaveUp, Result, ShadingIntegral, integral, is_facing, is_simple};
 use crate::pack::{LightKind, PackedScene};
-use crate::scene::model::Model;
 use crate::schema::layout::{Light, NO_MATERIAL, NO_SHAPE, NO_TEXTURE};
 
 /// Shapes that a beam may meet.
@@ -118,16 +117,15 @@ impl Pixel<'_> {
         waiting: &mut Vec<PixelBeam>,
     ) -> Result<()> {
         let scene = self.scene;
-        let [material, map] = links(scene, seen.shape);
+        let [material, map] = shape_links(scene, seen.shape);
         let record = &scene.materials[material as usize];
         let near = seen.region.inverse_depth;
         let carried = beam.carried * xyz(record.color);
-        let model = Model::ALL[record.link[0] as usize];
         let textured = record.link[1] != NO_TEXTURE;
         if !is_simple(scene, seen.shape, record, map) {
             return Err(GaveUp);
         }
-        if model == Model::Mirror {
+        if is_specular(record) {
             if beam.depth < scene.header.size[3] {
                 if waiting.len() == MAX_BEAMS {
                     return Err(GaveUp);
@@ -153,7 +151,7 @@ impl Pixel<'_> {
             frame: beam.frame,
             near,
         };
-        let unlit = model == Model::Unlit;
+        let unlit = !is_lit(record);
         let lights = if unlit { 1 } else { scene.lights.len() };
         for i in 0..lights {
             let light = if unlit { None } else { Some(&scene.lights[i]) };
@@ -175,12 +173,11 @@ impl Pixel<'_> {
         light: Option<&Light>,
     ) -> Result<()> {
         let scene = self.scene;
-        let [planes, spheres, triangles, _] = scene.header.counts;
-        let shapes = (planes + spheres + triangles) as usize;
+        let shapes = shape_count(scene) as usize;
         let bottom = self.fragments.len();
         match light {
             None => push(&mut self.fragments, Fragment { polygon: *polygon, stage: shapes })?,
-            Some(light) if is_lit(paint, polygon, light) => {
+            Some(light) if is_facing(paint, polygon, light) => {
                 push(&mut self.fragments, Fragment { polygon: *polygon, stage: 0 })?;
             }
             Some(_) => {}
@@ -193,14 +190,11 @@ impl Pixel<'_> {
                 self.color += paint.carried * color;
                 continue;
             };
-            let is_sphere = by >= planes && by < planes + spheres;
-            if is_sphere {
-                let sphere = &scene.spheres[(by - planes) as usize];
-                if may_shade(paint, &fragment.polygon, light, xyz(sphere.ball), sphere.ball[3]) {
-                    return Err(GaveUp);
-                }
+            let round = !has_region(scene, by);
+            if round && may_shade(scene, (&paint.frame, paint.near), &fragment.polygon, light, by) {
+                return Err(GaveUp);
             }
-            if by == shape || is_sphere {
+            if by == shape || round {
                 push(&mut self.fragments, Fragment { stage: fragment.stage + 1, ..fragment })?;
                 continue;
             }
@@ -225,16 +219,15 @@ fn negligible(inverse_depth: AffineFunction, polygon: &Polygon) -> f64 {
 /// All that the beam may meet. Behind a mirror that is what lies beyond it: what lies before it neither is seen
 /// nor hides anything.
 fn shapes_met(scene: &PackedScene, beam: &PixelBeam) -> Result<Vec<Met>> {
-    let [planes, spheres, triangles, _] = scene.header.counts;
     let mut met = Vec::new();
     let mirrored = beam.skip != NO_SHAPE;
     let least = if mirrored { negligible(beam.limit, &beam.polygon) } else { 0.0 };
-    for shape in 0..planes + spheres + triangles {
+    for shape in 0..shape_count(scene) {
         if shape == beam.skip {
             continue;
         }
-        if shape >= planes && shape < planes + spheres {
-            if may_meet_sphere(&beam.frame, &beam.polygon, &scene.spheres[(shape - planes) as usize]) {
+        if !has_region(scene, shape) {
+            if may_meet(scene, &beam.frame, &beam.polygon, shape) {
                 return Err(GaveUp);
             }
             continue;

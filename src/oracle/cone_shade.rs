@@ -4,22 +4,25 @@ use std::f64::consts::PI;
 
 use glam::{DVec2, DVec3};
 
+use super::bsdf::dielectric::refracted;
+use super::bsdf::mirror::mirrored;
+use super::bsdf::specular::{index_ratio, mirrored_share};
+use super::bsdf::{Lit, bsdf_at, emitted, evaluate, is_lit, is_specular, reflected};
 use super::camera::{Ray, camera_ray};
-use super::cone::{Cone, cone_of, leaving, meet};
+use super::cone::{Cone, cone_of};
 use super::coverage::{Covered, MIN_SHARE};
 use super::footprint::{
     Footprint, Meeting, RayDifferential, camera_differential, endless_footprint, footprint_at,
-    fresnel_dielectric, mirrored, reflected_differential, refracted, refracted_differential,
+    reflected_differential, refracted_differential,
 };
 use super::fragments::{collect_fragments, composite};
-use super::intersect::{FAR, Hit, offset_origin};
-use super::light::phong_lobe;
+use super::geometry::cones::{leaving, left_shape, meet};
+use super::geometry::hit::{FAR, Hit, Surface};
+use super::geometry::rays::{hit_surface, offset_origin};
 use super::math::xyz;
 use super::shade::{bumped_normal, surface_color};
 use super::shading_normal::{consistent_normal, on_its_side};
-use super::surface::{Surface, hit_surface};
 use crate::pack::{LightKind, PackedScene};
-use crate::scene::model::Model;
 use crate::schema::layout::{Light, Material, NO_MATERIAL, NO_SHAPE};
 
 /// Cones that wait, cones of a pixel, and the least weight of one. What goes beyond is dropped.
@@ -79,7 +82,8 @@ struct Met<'a> {
     surface: Surface,
     print: Footprint,
     material: &'a Material,
-    /// The weight before the surface's colour.
+    /// The surface's colour, and the weight before it.
+    albedo: DVec3,
     carried: DVec3,
 }
 
@@ -94,12 +98,10 @@ fn lit_branch(branch: &Branch, met: &Met<'_>, skip: u32, light: &Light) -> Branc
     let shines = facing > 0.0 && above > 0.0;
     let share = if point_light { facing / length.powi(3) } else { facing };
     let more = xyz(light.power) * (if shines { share } else { 0.0 } / PI);
-    let mut seen = branch.weight * more;
-    if Model::ALL[material.link[0] as usize] == Model::Phong {
-        let mirror = mirrored(branch.ray.direction, surface.normal);
-        let lobe = phong_lobe(mirror, way, material.specular[3].into());
-        seen += met.carried * xyz(material.specular) * more * lobe;
-    }
+    let bsdf = bsdf_at(material, met.albedo, surface.normal, branch.ray.direction);
+    let [first, second] = evaluate(&bsdf, way);
+    let lit = Lit { first: more * first, second: more * second };
+    let seen = reflected(&bsdf, branch.weight, met.carried, lit);
     let origin = offset_origin(surface.point, surface.geometric_normal, surface.size);
     let direction = if point_light { xyz(light.place) - origin } else { xyz(light.place) };
     let area = met.print.point[0].cross(met.print.point[1]).length();
@@ -113,13 +115,6 @@ fn lit_branch(branch: &Branch, met: &Met<'_>, skip: u32, light: &Light) -> Branc
         skip,
         goal: Goal::Light(t_max),
     }
-}
-
-/// The shape that a ray must not meet again at once. From inside a ball its other side is met.
-fn left_shape(scene: &PackedScene, shape: u32, within: bool) -> u32 {
-    let [planes, spheres, _, _] = scene.header.counts;
-    let ball = (planes..planes + spheres).contains(&shape);
-    if ball && within { NO_SHAPE } else { shape }
 }
 
 /// The cone that leaves a mirror or glass, `through` it or not.
@@ -178,17 +173,17 @@ fn shade_part(waiting: &mut Waiting, scene: &PackedScene, mut branch: Branch, sh
         surface.normal = bumped_normal(scene, material, map, (&ray, &surface, &print), [0; 2]);
     }
     let carried = branch.weight;
-    branch.weight *= surface_color(scene, material, map, (&ray, &surface, &print), [0; 2]);
+    let albedo = surface_color(scene, material, map, (&ray, &surface, &print), [0; 2]);
+    branch.weight *= albedo;
     let inside = surface.inside;
-    let model = Model::ALL[material.link[0] as usize];
-    if matches!(model, Model::Mirror | Model::Dielectric) {
+    if is_specular(material) {
         consistent_normal(ray.direction, &mut surface);
     }
-    let met = Met { hit, surface, print, material, carried };
-    if model == Model::Unlit {
-        return branch.weight;
+    let met = Met { hit, surface, print, material, albedo, carried };
+    if !is_lit(material) && !is_specular(material) {
+        return emitted(material, branch.weight);
     }
-    if model.is_lit() {
+    if is_lit(material) {
         for light in &scene.lights {
             let next = lit_branch(&branch, &met, left_shape(scene, shape, inside), light);
             if largest(next.weight) > 0.0 {
@@ -200,10 +195,8 @@ fn shade_part(waiting: &mut Waiting, scene: &PackedScene, mut branch: Branch, sh
     if matches!(branch.goal, Goal::Color(depth) if depth >= header.size[3]) {
         return DVec3::ZERO;
     }
-    let ior = f64::from(material.specular[3]);
-    let ratio = if inside { ior } else { 1.0 / ior };
-    let glass = model == Model::Dielectric;
-    let back = if glass { fresnel_dielectric(ray.direction, surface.normal, ratio) } else { 1.0 };
+    let ratio = index_ratio(material, inside);
+    let back = mirrored_share(material, ray.direction, surface.normal, ratio);
     // What goes through glass and then what it returns, which as the last is traced first.
     for (through, share) in [(true, 1.0 - back), (false, back)] {
         let skip = left_shape(scene, shape, inside != through);

@@ -107,11 +107,6 @@ pub fn endless_footprint(header: &Header, beam: &RayDifferential, ray: &Ray) -> 
     Footprint { point: [DVec3::ZERO; 2], direction: [side * beam.spread, d.cross(side) * beam.spread] }
 }
 
-/// d - 2 (d·n) n, for unit n.
-pub fn mirrored(direction: DVec3, normal: DVec3) -> DVec3 {
-    direction - 2.0 * direction.dot(normal) * normal
-}
-
 /// Change of the mirrored direction, where the normal changes by `normal_change`.
 pub fn mirrored_change(direction: DVec3, n: DVec3, change: DVec3, normal_change: DVec3) -> DVec3 {
     let d_change = change.dot(n) + direction.dot(normal_change);
@@ -144,35 +139,6 @@ pub fn reflected_differential(beam: &RayDifferential, at: &Meeting) -> RayDiffer
         width,
         spread: beam.spread + 2.0 * at.curvature * width * d.length(),
     }
-}
-
-/// Square of what of a ray as long as d goes along the normal behind a surface; `ratio` of refractive indices, in
-/// front over behind. Not above 0 where everything is reflected.
-fn straight_behind(direction: DVec3, n: DVec3, ratio: f64) -> f64 {
-    let sine = ratio * direction.cross(n).length();
-    let size = direction.length();
-    (size - sine) * (size + sine)
-}
-
-/// Snell: the direction behind a surface with unit normal n against the ray. As long as d; d itself where
-/// everything is reflected.
-pub fn refracted(direction: DVec3, n: DVec3, ratio: f64) -> DVec3 {
-    let under = straight_behind(direction, n, ratio);
-    let along = n.cross(direction.cross(n)); // the surface
-    if under > 0.0 { ratio * along - under.sqrt() * n } else { direction }
-}
-
-/// Share of unpolarised light that is mirrored (Fresnel); 1 beyond the critical angle.
-pub fn fresnel_dielectric(direction: DVec3, n: DVec3, ratio: f64) -> f64 {
-    let under = straight_behind(direction, n, ratio);
-    if under <= 0.0 {
-        return 1.0;
-    }
-    let before = direction.dot(n).abs();
-    let behind = under.sqrt();
-    let s = (ratio * before - behind) / (ratio * before + behind);
-    let p = (before - ratio * behind) / (before + ratio * behind);
-    0.5 * (s * s + p * p)
 }
 
 /// Change of the refracted direction r d - (r d·n + k) n with k² = d² - r² (d² - (d·n)²).

@@ -3,10 +3,11 @@
 
 use glam::{DVec2, DVec3};
 
-use super::cone::{Cone, Flat, Shape, covered_by, cut_shape, flat_in, meet, shape_of};
+use super::cone::{Cone, FlatDepth};
 use super::coverage::{Covered, Cuts, MIN_SHARE, NOTHING};
-use super::intersect::FAR;
-use super::math::xyz;
+use super::geometry::cones::{covered_by, cut_shape, depth_of, meet};
+use super::geometry::hit::FAR;
+use super::geometry::kinds::shape_count;
 use crate::pack::PackedScene;
 
 /// Shapes that a cone keeps: the nearest.
@@ -36,22 +37,8 @@ pub struct Pieces {
     pub clear: f64,
 }
 
-/// How deep a shape lies over the disc.
-fn depth_of(scene: &PackedScene, cone: &Cone, shape: u32, t: f64, area: f64) -> Flat {
-    match shape_of(scene, shape) {
-        Shape::Plane(plane) => flat_in(cone, xyz(plane.normal), plane.normal[3]),
-        Shape::Triangle(triangle) => flat_in(cone, xyz(triangle.normal), triangle.normal[3]),
-        Shape::Sphere(_) if area < 1.0 => Flat { height: t, facing: 1.0, tilt: DVec2::ZERO },
-        Shape::Sphere(sphere) => {
-            let center = xyz(sphere.ball);
-            let normal = (cone.ray.origin + t * cone.ray.direction - center).normalize();
-            flat_in(cone, normal, normal.dot(center) + sphere.ball[3])
-        }
-    }
-}
-
 /// t of a flat at the two ends of the disc between which it changes.
-fn depths(cone: &Cone, depth: &Flat) -> [f64; 2] {
+fn depths(cone: &Cone, depth: &FlatDepth) -> [f64; 2] {
     let tilt = depth.tilt.length();
     let [first, second] = [tilt, -tilt].map(|tilt| {
         let facing = depth.facing + tilt * cone.spread;
@@ -80,8 +67,7 @@ fn keep(fragments: &mut Pieces, scene: &PackedScene, cone: &Cone, shape: u32, co
 /// All shapes but `skip` that the cone touches before t_max; the nearest ones, in order.
 pub fn collect_fragments(scene: &PackedScene, cone: &Cone, skip: u32, t_max: f64) -> Pieces {
     let mut fragments = Pieces { list: Vec::new(), clear: 1.0 };
-    let [planes, spheres, triangles, _] = scene.header.counts;
-    for shape in (0..planes + spheres + triangles).filter(|shape| *shape != skip) {
+    for shape in (0..shape_count(scene)).filter(|shape| *shape != skip) {
         let covered = covered_by(scene, cone, shape);
         if covered.share > 0.0 {
             keep(&mut fragments, scene, cone, shape, covered, t_max);

@@ -4,9 +4,10 @@
 use glam::DVec2;
 
 use super::address::addressed_texel;
+use super::filter::kinds::is_continuous;
 use super::texture::addresses;
 use crate::schema::layout::{Sampler, Texture};
-use crate::texture::sampler_spec::{Address, Filter, TexelCenter};
+use crate::texture::sampler_spec::{Address, TexelCenter};
 
 /// What is walked: a level of a texture, or a checker of unit squares.
 #[derive(Clone, Copy, Debug)]
@@ -41,7 +42,7 @@ pub fn texture_grid<'a>(sums: &'a [u32], index: u32, texture: &Texture, sampler:
     let head = i64::from(sums[index as usize]);
     let word = |i: i64| sums[(head + i) as usize];
     let [_, width, height, _] = texture.place;
-    let linear = sampler.modes[2] == Filter::Linear as u32;
+    let linear = is_continuous(sampler);
     let [u, v, _] = addresses(sampler);
     let integer = sampler.modes[3] == TexelCenter::Integer as u32;
     Grid {

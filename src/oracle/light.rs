@@ -1,17 +1,18 @@
-//! What lights send to a surface: Lambert and the highlight of Phong; of a light with an extent that of one
+//! What lights send to a surface, times what its material returns of it; of a light with an extent that of one
 //! place, chosen by the sample. Twin of `glsl/shared/light.glsl`.
 
 use std::f64::consts::PI;
 
 use glam::{DVec2, DVec3};
 
+use super::bsdf::{Bsdf, Lit, evaluate};
 use super::camera::Ray;
 use super::disk_sampling::{concentric_disc, on_cap};
 use super::footprint::around;
-use super::intersect::{FAR, occluded, offset_origin};
+use super::geometry::hit::{FAR, Surface};
+use super::geometry::rays::{occluded, offset_origin};
 use super::math::xyz;
 use super::rectangle::{MIN_SOLID_ANGLE, on_rectangle};
-use super::surface::Surface;
 use crate::pack::{LightKind, PackedScene};
 use crate::schema::layout::Light;
 
@@ -70,27 +71,13 @@ pub fn sun_aim(light: &Light, square: DVec2) -> Aim {
     Aim { way: around(xyz(light.place), local), reach: FAR, density: 1.0 }
 }
 
-/// Irradiance over π from all lights: what an albedo of 1 sends on, and a specular colour of 1.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Lit {
-    pub diffuse: DVec3,
-    pub specular: DVec3,
-}
-
-/// cosⁿ α (n + 2) / 2 between the mirror direction and the way to the light.
-pub fn phong_lobe(mirror: DVec3, way: DVec3, exponent: f64) -> f64 {
-    let cosine = mirror.dot(way) / (mirror.length() * way.length());
-    if cosine > 0.0 { cosine.min(1.0).powf(exponent) * (0.5 * exponent + 1.0) } else { 0.0 }
-}
-
 /// `chosen` is the place of the hit's choice on a light.
 pub fn direct_light(
     scene: &PackedScene,
     surface: &Surface,
     time: f64,
     shape: u32,
-    mirror: DVec3,
-    exponent: f64,
+    bsdf: &Bsdf<'_>,
     chosen: &dyn Fn(u32) -> DVec2,
 ) -> Lit {
     let mut sum = Lit::default();
@@ -115,8 +102,9 @@ pub fn direct_light(
             let to_light = if from_start { aim.way + (surface.point - start) } else { aim.way };
             if !occluded(scene, &Ray { origin: start, direction: to_light, time }, aim.reach, shape) {
                 let more = xyz(light.power) * (facing * aim.density / PI);
-                sum.diffuse += more;
-                sum.specular += more * phong_lobe(mirror, aim.way, exponent);
+                let [first, second] = evaluate(bsdf, aim.way);
+                sum.first += more * first;
+                sum.second += more * second;
             }
         }
     }

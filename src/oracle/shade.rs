@@ -2,24 +2,27 @@
 
 use glam::{DVec2, DVec3, DVec4};
 
+use super::bsdf::facets::widened_differential;
+use super::bsdf::mirror::mirrored;
+use super::bsdf::specular::sample_bsdf;
+use super::bsdf::{bsdf_at, emitted, is_lit, is_specular, reflected};
 use super::camera::Ray;
 use super::filter::sample_texture;
 use super::footprint::{
-    Footprint, Meeting, RayDifferential, any_tangent, endless_footprint, footprint_at, fresnel_dielectric,
-    is_filtered, mirrored, mirrored_change, reflected_differential, refracted, refracted_differential,
+    Footprint, Meeting, RayDifferential, any_tangent, endless_footprint, footprint_at, is_filtered,
+    mirrored_change, reflected_differential, refracted_differential,
 };
-use super::glossy::{smith_g1_refracted, smith_g2_over_g1, visible_normal, widened_differential};
-use super::intersect::{Hit, nearest_hit, offset_origin};
+use super::geometry::hit::{Hit, Surface};
+use super::geometry::rays::{hit_surface, nearest_hit, offset_origin};
 use super::light::direct_light;
 use super::mapping::{Coordinate, MapInput, texture_coordinate};
 use super::math::xyz;
 use super::patterns::Points;
 use super::rng::pcg2d;
-use super::sample_dimensions::{SampleDimensions, choose, chosen_light, unit_line, unit_square};
-use super::shading_normal::{consistent_normal, on_its_side};
-use super::surface::{Surface, hit_surface};
+use super::sample_dimensions::{SampleDimensions, choose, chosen_light};
+use super::shading_normal::consistent_normal;
 use crate::pack::{EntityKind, PackedScene};
-use crate::scene::model::{BumpKind, Model};
+use crate::scene::model::BumpKind;
 use crate::schema::layout::{Header, Material, NO_MATERIAL, NO_SHAPE, NO_TEXTURE, UvProjection};
 
 /// What the surface's map looks at.
@@ -171,53 +174,33 @@ fn bounced(
     dimensions: &SampleDimensions,
     path: &mut Path,
 ) -> bool {
-    let model = Model::ALL[material.link[0] as usize];
-    if !matches!(model, Model::Mirror | Model::Dielectric) {
+    if !is_specular(material) {
         return false;
     }
-    let ior = f64::from(material.specular[3]);
-    let ratio = if surface.inside { ior } else { 1.0 / ior };
     let direction = path.ray.direction;
     consistent_normal(direction, &mut surface);
-    let alpha = f64::from(material.specular[0]);
-    let glossy = alpha > 0.0;
-    let lobe = unit_square(dimensions.lobe);
-    let normal = if glossy { visible_normal(direction, surface.normal, alpha, lobe) } else { surface.normal };
-    let mirror = model == Model::Mirror
-        || unit_line(dimensions.fresnel) < fresnel_dielectric(direction, normal, ratio);
+    let bounce = sample_bsdf(material, &surface, direction, dimensions);
     let meeting = Meeting {
         ray: path.ray,
         t: hit.t,
         print,
-        normal,
+        normal: bounce.normal,
         shape_operator: surface.shape_operator,
         curvature: surface.curvature,
     };
-    if mirror {
-        let origin = offset_origin(surface.point, surface.geometric_normal, surface.size);
-        path.ray = Ray { origin, direction: mirrored(direction, normal), time: path.ray.time };
-        path.beam = reflected_differential(&path.beam, &meeting);
+    let normal = if bounce.mirrored { surface.geometric_normal } else { -surface.geometric_normal };
+    let origin = offset_origin(surface.point, normal, surface.size);
+    path.ray = Ray { origin, direction: bounce.direction, time: path.ray.time };
+    path.beam = if bounce.mirrored {
+        reflected_differential(&path.beam, &meeting)
     } else {
-        let origin = offset_origin(surface.point, -surface.geometric_normal, surface.size);
-        path.ray = Ray { origin, direction: refracted(direction, normal, ratio), time: path.ray.time };
-        path.beam = refracted_differential(&path.beam, &meeting, ratio);
+        refracted_differential(&path.beam, &meeting, bounce.ratio)
+    };
+    if bounce.alpha > 0.0 {
+        path.throughput *= if bounce.leaves { bounce.weight } else { 0.0 };
+        path.beam = widened_differential(header, &path.beam, path.ray.direction, bounce.alpha);
     }
-    let side = if mirror { 1.0 } else { -1.0 };
-    path.ray.direction =
-        on_its_side(direction, path.ray.direction, side * surface.normal, side * surface.geometric_normal);
-    if !glossy {
-        return true;
-    }
-    let way = side * path.ray.direction;
-    let seen = (-direction.dot(surface.normal) / direction.length()).max(0.0);
-    let leaving = way.dot(surface.normal) / way.length();
-    // What a facet sends into the surface is lost.
-    let leaves = leaving > 0.0 && way.dot(surface.geometric_normal) > 0.0;
-    let share =
-        if mirror { smith_g2_over_g1(seen, leaving, alpha) } else { smith_g1_refracted(leaving, alpha) };
-    path.throughput *= if leaves { share } else { 0.0 };
-    path.beam = widened_differential(header, &path.beam, path.ray.direction, alpha);
-    leaves
+    bounce.leaves
 }
 
 /// What a ray sees that hits nothing.
@@ -262,19 +245,17 @@ pub fn advance(scene: &PackedScene, path: &mut Path) -> DVec3 {
         surface.normal = bumped_normal(scene, material, map, (&ray, &surface, &print), path.random);
     }
     let carried = path.throughput;
-    path.throughput *= surface_color(scene, material, map, (&ray, &surface, &print), path.random);
-    let model = Model::ALL[material.link[0] as usize];
-    if model == Model::Unlit {
-        return path.throughput;
-    }
-    if model.is_lit() {
-        let mirror = mirrored(ray.direction, surface.normal);
-        let exponent = material.specular[3].into();
+    let albedo = surface_color(scene, material, map, (&ray, &surface, &print), path.random);
+    path.throughput *= albedo;
+    if is_lit(material) {
+        let bsdf = bsdf_at(material, albedo, surface.normal, ray.direction);
         let points = path.points.as_ref().map(|(points, _)| points);
         let chosen = |i: u32| chosen_light(points, &dimensions, i);
-        let lit = direct_light(scene, &surface, ray.time, hit.shape, mirror, exponent, &chosen);
-        let highlight = if model == Model::Phong { lit.specular } else { DVec3::ZERO };
-        return path.throughput * lit.diffuse + carried * xyz(material.specular) * highlight;
+        let lit = direct_light(scene, &surface, ray.time, hit.shape, &bsdf, &chosen);
+        return reflected(&bsdf, path.throughput, carried, lit);
+    }
+    if !is_specular(material) {
+        return emitted(material, path.throughput);
     }
     let is_alive = bounced(header, &hit, surface, print, material, &dimensions, path);
     path.skip = hit.shape;

@@ -5,16 +5,18 @@ use std::f64::consts::PI;
 
 use glam::{DVec3, DVec4};
 
+use super::bsdf::{is_integrable_over_region, is_specular};
+use super::filter::kinds::is_integrable;
+use super::geometry::beams::is_smooth;
 use super::grid::{Grid, checker_grid, coarser, texture_grid};
 use super::math::xyz;
 use super::polygon::{AffineFunction, MAX_CORNERS, Polygon, area, at, middle, range, split};
 use super::prefix_sums::{SMALLEST, in_grid, longest_edge, mean_over};
-use super::projective::{PixelFrustum, RationalMap, point_at, ray_at};
+use super::projective::{PixelFrustum, RationalMap, ray_at};
 use crate::pack::{EntityKind, LightKind, MapKind, PackedScene, TextureKind};
-use crate::scene::model::Model;
 use crate::schema::layout::{Light, Material, NO_TEXTURE};
 use crate::texture::procedural::ProceduralKind;
-use crate::texture::sampler_spec::{Address, Filter};
+use crate::texture::sampler_spec::Address;
 
 /// Cells of textures that a pixel's edges may cross.
 const MAX_CELLS: u32 = 40_000;
@@ -34,29 +36,11 @@ pub struct ShadingIntegral<'a> {
     pub near: AffineFunction,
 }
 
-/// Material and map.
-pub fn links(scene: &PackedScene, shape: u32) -> [u32; 2] {
-    let [planes, spheres, _, _] = scene.header.counts;
-    let [material, map, _, _] = if shape < planes {
-        scene.planes[shape as usize].link
-    } else {
-        scene.triangles[(shape - planes - spheres) as usize].link
-    };
-    [material, map]
-}
-
-/// Whether the integral of a shape's colour is known: of one that is unlit, diffuse or a plane mirror, with a
-/// checker or a flat texture that is affine on it.
+/// Whether the integral of a shape's colour is known: of a material that has one, with a checker or a flat texture
+/// that is affine on the shape.
 pub fn is_simple(scene: &PackedScene, shape: u32, record: &Material, map: u32) -> bool {
-    let [planes, spheres, _, _] = scene.header.counts;
-    let [model, texture, sampler, _] = record.link;
-    let smooth = shape >= planes && scene.triangles[(shape - planes - spheres) as usize].v[3] != 0.0;
-    let model = Model::ALL[model as usize];
-    let shades = model == Model::Unlit || (matches!(model, Model::Lambert | Model::Mirror) && !smooth);
-    if !shades || record.detail[0] != NO_TEXTURE {
-        return false;
-    }
-    if model == Model::Mirror && record.specular[0] > 0.0 {
+    let [_, texture, sampler, _] = record.link;
+    if !is_integrable_over_region(record, is_smooth(scene, shape)) || record.detail[0] != NO_TEXTURE {
         return false;
     }
     if texture == NO_TEXTURE {
@@ -64,7 +48,7 @@ pub fn is_simple(scene: &PackedScene, shape: u32, record: &Material, map: u32) -
     }
     let [kind, entity, _, _] = scene.maps[map as usize].link;
     let flat = [MapKind::Plane as u32, MapKind::VertexUv as u32, MapKind::Affine as u32].contains(&kind);
-    if !flat || entity != EntityKind::Position as u32 || model == Model::Mirror {
+    if !flat || entity != EntityKind::Position as u32 || is_specular(record) {
         return false;
     }
     let image = &scene.textures[texture as usize];
@@ -77,7 +61,7 @@ pub fn is_simple(scene: &PackedScene, shape: u32, record: &Material, map: u32) -
         use Address::{ClampToEdge, MirroredRepeat, Repeat};
         [Repeat as u32, MirroredRepeat as u32, ClampToEdge as u32].contains(&address)
     };
-    let steps = [Filter::Nearest as u32, Filter::Linear as u32].contains(&sampler.modes[2]);
+    let steps = is_integrable(sampler);
     steps && known(sampler.modes[0]) && known(sampler.modes[1]) && scene.prefix_sums[texture as usize] > 0
 }
 
@@ -106,7 +90,7 @@ fn mean_color(
 }
 
 /// A light behind the surface, as its beam sees it, gives nothing.
-pub fn is_lit(paint: &ShadingIntegral, polygon: &Polygon, light: &Light) -> bool {
+pub fn is_facing(paint: &ShadingIntegral, polygon: &Polygon, light: &Light) -> bool {
     let n = paint.plane.truncate();
     let (way, _) = ray_at(&paint.frame, middle(polygon));
     let place = xyz(light.place);
@@ -131,30 +115,6 @@ fn irradiance(paint: &ShadingIntegral, strip: &Polygon, light: &Light) -> DVec3 
     let squared = way.length_squared();
     let scale = if parallel { 1.0 } else { near * near };
     power * scale * n.dot(way).abs() / (squared * squared.sqrt())
-}
-
-/// False where no way from the fragment to the light can pass the sphere.
-pub fn may_shade(
-    paint: &ShadingIntegral,
-    polygon: &Polygon,
-    light: &Light,
-    center: DVec3,
-    radius: f64,
-) -> bool {
-    let from = point_at(&paint.frame, paint.near, middle(polygon));
-    let point = |k: usize| point_at(&paint.frame, paint.near, polygon.corners[k]);
-    let wide = (0..polygon.count).map(|k| (point(k) - from).length()).fold(0.0, f64::max);
-    let place = xyz(light.place);
-    let way = if light.link[0] == LightKind::Point as u32 { place - from } else { place };
-    let to = center - from;
-    let squared = way.length_squared();
-    let mut along = (to.dot(way) / squared).max(0.0);
-    if light.link[0] == LightKind::Point as u32 {
-        along = along.min(1.0);
-    }
-    let apart = (to - along * way).length();
-    // What is not a number may.
-    apart.is_nan() || apart <= radius + wide
 }
 
 /// Strips that a fragment is cut into: √(STRIPS · logarithm of the ratio of depths).

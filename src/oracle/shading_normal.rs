@@ -4,8 +4,8 @@
 
 use glam::DVec3;
 
-use super::footprint::mirrored;
-use super::surface::Surface;
+use super::bsdf::mirror::mirrored;
+use super::geometry::hit::Surface;
 
 /// The least cosine with the geometric normal, where `flat_cosine` is what a surface that does not lean would give:
 /// rays of such a surface stay as they are.

@@ -4,8 +4,10 @@
 
 mod encode;
 mod folder;
+mod hdr;
 mod quantise;
 mod target;
+mod tiff;
 
 use std::io::{Cursor, Write};
 use std::path::Path;

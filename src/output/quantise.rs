@@ -22,24 +22,28 @@ pub fn srgb16(value: f32) -> u16 {
     (linear_to_srgb(clipped) * 65_535.0).round() as u16
 }
 
-/// Returns the nearest colour that RGBE represents exactly (Ward 1991: three mantissas of 8 bits
-/// that share the largest channel's exponent). Encoders truncate, which would darken every pixel by
-/// half a step on average; exactly representable values pass through them unchanged. Negative
-/// values and NaN become 0, values above the range the largest one.
-pub fn rgbe(pixel: [f32; 3]) -> [f32; 3] {
+/// Returns the nearest colour that RGBE represents (Ward 1991: three mantissas of 8 bits that share
+/// the largest channel's exponent; a byte c and the exponent e stand for c · 2^(e − 136)).
+/// Truncation would darken every pixel by half a step on average. Negative values and NaN become 0,
+/// values above the range the largest one.
+pub fn rgbe(pixel: [f32; 3]) -> [u8; 4] {
     const LARGEST: f64 = 255.0 / 256.0 * (1u128 << 127) as f64;
     const SMALLEST: f64 = 1.0 / (1u128 << 127) as f64;
     let clipped = pixel.map(|v| if v > 0.0 { f64::from(v).min(LARGEST) } else { 0.0 });
     let largest = clipped.iter().fold(0.0, |a: f64, &b| a.max(b));
     if largest < SMALLEST {
-        return [0.0; 3];
+        return [0; 4];
     }
     // The exponent field of a normal f64: largest is in [2^(e-1), 2^e).
     let exponent = ((largest.to_bits() >> 52) as i32 & 0x7ff) - 1022;
-    let step = f64::powi(2.0, exponent - 8);
     // Rounding up to 256 steps moves the pixel to the next exponent.
-    let step = if (largest / step).round() >= 256.0 { step * 2.0 } else { step };
-    clipped.map(|v| ((v / step).round() * step) as f32)
+    let exponent = exponent + i32::from((largest / step(exponent)).round() >= 256.0);
+    let [r, g, b] = clipped.map(|v| (v / step(exponent)).round() as u8);
+    [r, g, b, (exponent + 128) as u8]
+}
+
+fn step(exponent: i32) -> f64 {
+    f64::powi(2.0, exponent - 8)
 }
 
 #[cfg(test)]
@@ -59,12 +63,16 @@ mod tests {
 
     #[test]
     fn rgbe_rounds_to_the_nearest_step_and_keeps_exact_values() {
-        assert_eq!(rgbe([1.0, 0.5, 0.25]), [1.0, 0.5, 0.25]);
+        let kept = |pixel| {
+            let [r, g, b, e] = rgbe(pixel);
+            [r, g, b].map(|c| (f64::from(c) * f64::powi(2.0, i32::from(e) - 136)) as f32)
+        };
+        assert_eq!(kept([1.0, 0.5, 0.25]), [1.0, 0.5, 0.25]);
         // Largest channel 1.0: steps of 1/128.
-        assert_eq!(rgbe([1.0, 0.0047, 0.0030]), [1.0, 1.0 / 128.0, 0.0]);
+        assert_eq!(kept([1.0, 0.0047, 0.0030]), [1.0, 1.0 / 128.0, 0.0]);
         // 255.6 steps of 1/256 round up to the next exponent.
-        assert_eq!(rgbe([0.9985, 0.0, 0.0]), [1.0, 0.0, 0.0]);
-        assert_eq!(rgbe([f32::NAN, -1.0, 1e-39]), [0.0; 3]);
-        assert!(rgbe([f32::INFINITY, 1.0, 0.0])[0] > 1.6e38);
+        assert_eq!(kept([0.9985, 0.0, 0.0]), [1.0, 0.0, 0.0]);
+        assert_eq!(kept([f32::NAN, -1.0, 1e-39]), [0.0; 3]);
+        assert!(kept([f32::INFINITY, 1.0, 0.0])[0] > 1.6e38);
     }
 }

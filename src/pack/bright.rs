@@ -4,7 +4,7 @@
 use rayon::prelude::*;
 
 use crate::core::color::srgb_to_linear;
-use crate::scene::model::{Model, Scene};
+use crate::scene::model::Scene;
 use crate::texture::data::{ColorSpace, Component, TextureData};
 
 /// Texels are bright where they exceed the mean by this factor,
@@ -18,7 +18,7 @@ const OF_EMITTER: f64 = 1.0 / 256.0;
 pub fn share(scene: &Scene, textures: &[TextureData]) -> Option<f64> {
     let of_textures = textures.iter().filter_map(share_of_texture);
     let shines = |color: glam::DVec3| color.max_element() >= FAR_ABOVE;
-    let emitters = scene.materials.iter().filter(|m| m.model == Model::Unlit && shines(m.color));
+    let emitters = scene.materials.iter().filter(|m| m.model.emits() && shines(m.color));
     of_textures.chain(emitters.map(|_| OF_EMITTER)).reduce(f64::min)
 }
 

@@ -6,16 +6,9 @@
 use glam::{DMat2, DQuat, DVec2, DVec3, DVec4};
 
 use super::{EntityKind, MapKind, real4};
-use crate::scene::model::{Entity, Environment, EnvironmentLayout, Mapping, MappingKind, Space};
+use crate::scene::model::{Bounds, Entity, Environment, EnvironmentLayout, Mapping, MappingKind, Space};
 use crate::schema::layout::UvProjection;
 use crate::texture::sampler_spec::{Address, SamplerSpec};
-
-/// An axis-aligned box around a shape.
-#[derive(Clone, Copy, Debug)]
-pub struct Bounds {
-    pub min: DVec3,
-    pub max: DVec3,
-}
 
 /// What a map may need to know of the shape.
 #[derive(Clone, Copy, Debug)]

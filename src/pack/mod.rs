@@ -4,8 +4,10 @@
 
 mod bright;
 pub mod features;
+mod geometry;
 mod header;
 mod kinds;
+mod lights;
 mod mapping;
 mod mip_chain;
 mod nonfinite;
@@ -15,7 +17,6 @@ mod procedural;
 mod resample;
 mod sample_dimensions;
 mod sections;
-mod shapes;
 mod textures;
 mod tile_culling;
 
@@ -183,21 +184,16 @@ pub fn pack_with(
         let material = material(&mut packed, source);
         packed.materials.push(material);
     }
-    shapes::pack_shapes(&mut packed, scene)?;
+    geometry::pack_shapes(&mut packed, scene)?;
     if let Some(environment) = &scene.background.environment {
         pack_environment(&mut packed, scene, environment);
     }
-    packed.lights = scene.lights.iter().map(|l| shapes::light(l, scene.camera.eye)).collect();
+    packed.lights = scene.lights.iter().map(|l| lights::light(l, scene.camera.eye)).collect();
     packed.header.key[1] = packed.lights.len() as u32;
-    if scene.shapes_move() {
-        packed.motions = scene.motions().map(|m| layout::Motion { shift: real4(m.extend(0.0)) }).collect();
-    }
     let moves = u32::from(scene.camera.moves());
     let side = tile_culling::cell_side(scene, [crop.width, crop.height]);
     packed.header.chances =
         [sample_dimensions::sample_dimensions(scene), packed.motions.len() as u32, moves, side];
-    let counts = [packed.planes.len(), packed.spheres.len(), packed.triangles.len()].map(|n| n as u32);
-    packed.header.counts[..3].copy_from_slice(&counts);
     if !packed.double {
         packed.round_reals();
     }
@@ -219,11 +215,9 @@ fn material(packed: &mut PackedScene, source: &Material) -> layout::Material {
     let index = |texture: Option<usize>| texture.map_or(layout::NO_TEXTURE, |t| t as u32);
     let bump = source.bump;
     let bump_texture = bump.map(|r| r.texture);
-    let specular = match source.model {
-        Model::Mirror | Model::Dielectric => DVec3::new(source.roughness.powi(2), 0.0, 0.0),
-        _ => source.specular,
-    };
-    let fourth = if source.model == Model::Dielectric { source.ior } else { source.exponent };
+    let facets = DVec3::new(source.roughness.powi(2), 0.0, 0.0);
+    let specular = if source.model.is_specular() { facets } else { source.specular };
+    let fourth = source.model.number_of(source);
     layout::Material {
         color: vec4(source.color.extend(bump.map_or(0.0, |r| r.strength))),
         link: [source.model as u32, index(source.texture), source.sampler as u32, slot(source.texture)],
@@ -257,7 +251,7 @@ fn pack_environment(packed: &mut PackedScene, scene: &Scene, environment: &Envir
     packed.maps.push(mapping::environment_map(environment));
     packed.materials.push(layout::Material {
         color: vec4(scene.background.color.extend(0.0)),
-        link: [Model::Unlit as u32, environment.texture as u32, sampler as u32, slot],
+        link: [Model::PLAIN as u32, environment.texture as u32, sampler as u32, slot],
         detail: [layout::NO_TEXTURE, 0, 0, 0],
         specular: [0.0; 4],
     });

@@ -7,7 +7,7 @@ use crate::core::counted::{counted, verb};
 use crate::core::error::{Error, Result};
 use crate::scene::model::Scene;
 use crate::texture::data::{MipKernel, TextureData};
-use crate::texture::sampler_spec::{Filter, Method, SamplerSpec};
+use crate::texture::sampler_spec::{Method, SamplerSpec};
 
 /// Counts them, and refuses what they would spoil as a whole.
 pub fn admit(packed: &mut PackedScene, scene: &Scene, textures: &[TextureData]) -> Result<()> {
@@ -29,7 +29,7 @@ pub fn admit(packed: &mut PackedScene, scene: &Scene, textures: &[TextureData]) 
                 "use --algorithm samples, adaptive or cone",
             );
         }
-        if reads(packed, scene, i, |s| s.min == Filter::SummedArea) {
+        if reads(packed, scene, i, SamplerSpec::needs_sums) {
             return refused(
                 "filter \"summed-area\" reads sums over the whole texture, which one of them spoils",
                 "use filter \"ewa\" or \"anisotropic\"",

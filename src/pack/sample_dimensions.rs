@@ -4,7 +4,7 @@
 use glam::DVec4;
 
 use super::SampleDimension;
-use crate::scene::model::{Model, Scene};
+use crate::scene::model::Scene;
 
 /// What samples choose beside their place in the pixel.
 pub fn sample_dimensions(scene: &Scene) -> u32 {
@@ -14,7 +14,7 @@ pub fn sample_dimensions(scene: &Scene) -> u32 {
         SampleDimension::Lobe => scene.sampling.max_depth > 0 && scene.is_glossy(),
         SampleDimension::Light => scene.has_wide_lights(),
         SampleDimension::Fresnel => {
-            scene.sampling.max_depth > 0 && scene.materials.iter().any(|m| m.model == Model::Dielectric)
+            scene.sampling.max_depth > 0 && scene.materials.iter().any(|m| m.model.transmits())
         }
     };
     SampleDimension::ALL.iter().filter(|c| of(c)).fold(0, |bits, &choice| bits | 1 << choice as u32)

@@ -6,7 +6,7 @@ use crate::core::error::{Error, Result};
 use crate::scene::model::{Footprint, Scene};
 use crate::schema::layout::{self, Texture};
 use crate::texture::data::{ColorSpace, Component, Dimension, MipKernel, TexelFormat, TextureData};
-use crate::texture::sampler_spec::{Filter, Method, MipMode, SamplerSpec};
+use crate::texture::sampler_spec::{Method, MipMode, SamplerSpec};
 use crate::texture::{mips, prefix_sums, summed};
 
 use super::{MipPlacement, PackedScene, TextureKind};
@@ -44,9 +44,7 @@ pub fn pack_textures(
     mip_chains: MipPlacement,
 ) -> Result<()> {
     let mut order: Vec<usize> = (0..textures.len()).collect();
-    let tables = |i: usize, packed: &PackedScene| {
-        reads(packed, scene, i, |s: &SamplerSpec| s.min == Filter::SummedArea)
-    };
+    let tables = |i: usize, packed: &PackedScene| reads(packed, scene, i, SamplerSpec::needs_sums);
     let pooled: Vec<bool> =
         order.iter().map(|&i| kind(&textures[i]) != TextureKind::Flat || tables(i, packed)).collect();
     order.sort_by_key(|&i| !pooled[i]);

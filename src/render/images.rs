@@ -8,7 +8,7 @@ use crate::core::error::{Error, Result};
 use crate::gpu::{Gpu, Image, ImageDesc, ImageFormat, ImageShape, Sampler, Swizzle};
 use crate::pack::{MAX_SLOTS, PackedScene, Slot, TextureKind};
 use crate::texture::data::{ColorSpace, TexelFormat};
-use crate::texture::sampler_spec::{Address, Filter, SamplerSpec};
+use crate::texture::sampler_spec::{Address, SamplerSpec};
 
 /// One image serves all slots that read a texture in the same form.
 pub struct Uploads<'a> {
@@ -123,7 +123,7 @@ impl Form {
         Form {
             decode: hardware && srgb,
             expand: hardware && (srgb || border),
-            filtered: hardware && (spec.mag != Filter::Nearest || spec.min != Filter::Nearest),
+            filtered: hardware && spec.blends(),
         }
     }
 }

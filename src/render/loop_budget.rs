@@ -8,15 +8,12 @@ use crate::pack::features::bounces;
 use crate::pack::{PackedScene, SampleDimension, TextureKind};
 use crate::scene::model::Algorithm;
 use crate::schema::layout::{CHUNK, NO_TEXTURE, Procedural, Sampler};
+use crate::texture::filter::Turns;
 use crate::texture::sampler_spec::Filter;
 
 const MAX_TURNS: u64 = 65_535;
-/// `MAX_ELLIPSE_STEPS` of `ellipse.glsl`.
+/// `MAX_ELLIPSE_STEPS` of `ewa.glsl`.
 const ELLIPSE: u64 = 8192;
-/// Corners of nine boxes of four rows.
-const SUMMED_AREA: u64 = 9 * 24;
-/// Four by four texels.
-const CUBIC: u64 = 20;
 /// Eight texels, or twice four.
 const SOLID: u64 = 10;
 /// Look-ups of a bump map, and the colour.
@@ -53,7 +50,7 @@ pub fn samples_at_once(device: &DeviceInfo, scene: &PackedScene) -> Result<u32> 
 fn turns_of_cones(scene: &PackedScene, ellipse: u64) -> u64 {
     const PIECES: u64 = 8;
     const SEEN: u64 = 3;
-    let shapes = (scene.planes.len() + scene.spheres.len() + scene.triangles.len()) as u64;
+    let shapes = scene.shape_count() as u64;
     let lights = scene.lights.len() as u64;
     let cones = if bounces(scene) { MAX_CONES } else { MAX_CONES.min(1 + PIECES * lights) };
     let gathered = 4 + shapes + shapes / 16 + 2 * PIECES;
@@ -73,7 +70,7 @@ fn turns_of_a_sample(scene: &PackedScene, ellipse: u64) -> u64 {
         return turns_of_cones(scene, ellipse);
     }
     let count = |n: usize| n as u64;
-    let shapes = count(scene.planes.len() + scene.spheres.len() + scene.triangles.len()) + 3;
+    let shapes = count(scene.shape_count()) + 3;
     let records = count(scene.materials.len() + scene.maps.len() + scene.motions.len());
     let rays = if bounces(scene) { 1 + u64::from(scene.header.size[3]) } else { 1 };
     let bumped = scene.materials.iter().any(|m| m.detail[0] != NO_TEXTURE);
@@ -91,18 +88,16 @@ fn turns_of_a_look_up(scene: &PackedScene, ellipse: u64) -> u64 {
     let procedural = scene.procedurals.iter().map(turns_of_a_pattern).max().unwrap_or(0);
     let solid = if is(TextureKind::Volume) || is(TextureKind::Cube) { SOLID } else { 1 };
     let of_sampler = |sampler: &Sampler| {
-        let filters = [sampler.modes[2], sampler.link[1]];
-        let has = |filter: Filter| filters.contains(&(filter as u32));
-        let place = if has(Filter::Cubic) { CUBIC.max(solid) } else { solid };
-        let probes = if has(Filter::Anisotropic) { u64::from(sampler.link[3]) + 2 } else { 2 };
-        let walked = probes * (1 + place);
-        if has(Filter::Ewa) {
-            ellipse.max(walked)
-        } else if has(Filter::SummedArea) {
-            SUMMED_AREA.max(walked)
-        } else {
-            walked
-        }
+        let turns = [sampler.modes[2], sampler.link[1]].map(|f| Filter::ALL[f as usize].traits().turns);
+        let most = |of: &dyn Fn(Turns) -> u64| turns.into_iter().map(of).max().unwrap_or(0);
+        let place = most(&|t| if let Turns::Place(turns) = t { turns.max(solid) } else { solid });
+        let probes = most(&|t| if t == Turns::Walk { u64::from(sampler.link[3]) + 2 } else { 2 });
+        let area = most(&|t| match t {
+            Turns::Ellipse => ellipse,
+            Turns::Footprint(turns) => turns,
+            Turns::Place(_) | Turns::Walk => 0,
+        });
+        area.max(probes * (1 + place))
     };
     let stored = scene.samplers.iter().map(of_sampler).max().unwrap_or(0);
     records + stored.max(procedural)

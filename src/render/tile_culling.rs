@@ -41,7 +41,7 @@ impl TileCulling {
         let bytes = cells.map(u64::from).iter().product::<u64>() * u64::from(CELL_WORDS) * 4;
         let buffer = gpu.buffer("survey", bytes, BufferUse::Storage)?;
         let group = resources.bind(gpu, &pipeline, shader, &buffer, None)?;
-        let tests = scene.triangles.len().max(1) as u64;
+        let tests = scene.listed_shapes().max(1) as u64;
         let cells_at_once = (MAX_TESTS / tests).clamp(u64::from(GROUP), 1 << 20) as u32;
         let survey = TileCulling { buffer, pipeline, group, side, cells, cells_at_once };
         // Whatever the driver compiles late, it compiles now.

@@ -2,7 +2,7 @@
 //! not do what their names promise in this scene or on this device.
 
 use super::model::{Algorithm, Footprint, Light, Material, PixelFilter, Scene};
-use crate::texture::sampler_spec::{Filter, Method, MipMode, SamplerSpec};
+use crate::texture::sampler_spec::{Method, MipMode, SamplerSpec};
 
 /// Of the scene alone. Samplers that nothing reads have been dropped before.
 pub fn of_scene(scene: &Scene) -> Vec<String> {
@@ -119,12 +119,13 @@ pub fn samples_anisotropically(scene: &Scene) -> bool {
 }
 
 fn follows_footprints(spec: &SamplerSpec) -> bool {
-    spec.method == Method::Hardware && spec.min == Filter::Anisotropic
+    spec.method == Method::Hardware && spec.follows_axis()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::texture::sampler_spec::Filter;
 
     #[test]
     fn filters_without_a_footprint_are_told() {

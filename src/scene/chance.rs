@@ -5,11 +5,9 @@ use glam::DVec3;
 use super::model::{Light, PixelFilterKind, Scene};
 
 impl Scene {
-    /// Of all shapes: planes, spheres, triangles.
+    /// Of all shapes.
     pub fn motions(&self) -> impl Iterator<Item = DVec3> {
-        let planes = self.planes.iter().map(|p| p.motion);
-        let spheres = self.spheres.iter().map(|s| s.motion);
-        planes.chain(spheres).chain(self.triangles.iter().map(|t| t.motion))
+        self.shapes().map(|shape| shape.motion())
     }
 
     pub fn shapes_move(&self) -> bool {
@@ -28,7 +26,7 @@ impl Scene {
 
     /// Whether some mirror or glass is rough.
     pub fn is_glossy(&self) -> bool {
-        self.materials.iter().any(|m| m.roughness > 0.0)
+        self.materials.iter().any(|m| m.model.is_specular() && m.roughness > 0.0)
     }
 
     /// Whether one beam can stand for all rays of a pixel: those from its square, by equal weights, from one

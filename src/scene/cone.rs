@@ -36,16 +36,7 @@ pub fn freeze_time(scene: &Scene) -> Scene {
     let [eye, look_at] = camera.motion;
     (camera.eye, camera.look_at) = (camera.eye + time * eye, camera.look_at + time * look_at);
     (camera.lens, camera.motion) = (None, Default::default());
-    for plane in &mut settled.planes {
-        plane.origin += time * std::mem::take(&mut plane.motion);
-    }
-    for sphere in &mut settled.spheres {
-        sphere.center += time * std::mem::take(&mut sphere.motion);
-    }
-    for triangle in &mut settled.triangles {
-        let way = time * std::mem::take(&mut triangle.motion);
-        triangle.vertices = triangle.vertices.map(|v| v + way);
-    }
+    settled.shapes_mut().for_each(|shape| shape.freeze(time));
     for light in &mut settled.lights {
         *light = match *light {
             Light::Sphere { position, intensity, .. } => Light::Point { position, intensity },
@@ -56,7 +47,7 @@ pub fn freeze_time(scene: &Scene) -> Scene {
             other => other,
         };
     }
-    settled.materials.iter_mut().for_each(|m| m.roughness = 0.0);
+    settled.materials.iter_mut().filter(|m| m.model.is_specular()).for_each(|m| m.roughness = 0.0);
     settled
 }
 

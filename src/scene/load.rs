@@ -7,18 +7,19 @@ use std::path::Path;
 
 use toml::de::DeTable;
 
+use super::geometry::{self, MaterialIndex, Shapes};
+use super::lights;
 use super::materials;
-use super::model::{Background, EnvironmentLayout, Material, Plane, Scene, Sphere, TextureSource, Triangle};
+use super::model::{Background, EnvironmentLayout, Material, Scene, TextureSource};
 use super::names::Names;
 use super::pixel_filter::pixel_filter;
 use super::procedural::PROCEDURAL;
 use super::samplers::{self, Known};
 use super::sections;
-use super::shapes::{self, MaterialIndex};
 use super::source::Source;
 use super::table::Table;
 use super::textures;
-use super::validate::{MAX_SHAPES, MAX_TEXTURES, check_filters};
+use super::validate::{MAX_TEXTURES, check_filters};
 use crate::core::error::{Error, Result};
 use crate::core::panics;
 use crate::texture::open_file::odd_path;
@@ -75,9 +76,9 @@ fn read(path: &Path) -> Result<String> {
         let message = format!("cannot read scene {shown}: it is a folder");
         return Err(Error::with_help(message, "name a scene file (TOML) in it"));
     }
-    let file = File::open(path).map_err(|error| Error::Plain {
-        message: format!("cannot read scene {shown}: {error}"),
-        help: odd_path(path).filter(|_| error.kind() == ErrorKind::NotFound),
+    let file = File::open(path).map_err(|error| {
+        let help = odd_path(path).filter(|_| error.kind() == ErrorKind::NotFound);
+        Error::new(format!("cannot read scene {shown}: {error}")).and_help(help)
     })?;
     text_of(file, &shown.to_string())
 }
@@ -128,7 +129,7 @@ fn syntax_error(source: Source<'_>, error: &toml::de::Error) -> Error {
 
 fn assemble(path: &Path, root: &Table<'_>) -> Result<Scene> {
     root.check_counts("textures", MAX_TEXTURES, &["texture"])?;
-    root.check_counts("planes, spheres and triangles", MAX_SHAPES, &["plane", "sphere", "triangle"])?;
+    geometry::check_count(root)?;
 
     const CAMERA_NEEDS: &str = "eye, look_at and one of vertical_fov, camera_constant, orthographic_height";
     let camera = sections::camera(&root.required_single("camera", sections::CAMERA, CAMERA_NEEDS)?)?;
@@ -138,23 +139,10 @@ fn assemble(path: &Path, root: &Table<'_>) -> Result<Scene> {
     let sampling = sections::sampling(root.single("sampling", sections::SAMPLING)?.as_ref())?;
     let Surfaces { textures, samplers, mut materials, background, names } = surfaces(path, root)?;
     let index = MaterialIndex { names: &names, fallback: materials.len() };
-    let planes = each(root.repeated("plane", shapes::PLANE)?, |table| {
-        let plane = shapes::plane(table, &index)?;
-        materials.get(plane.material).map_or(Ok(()), |m| shapes::check_bounds(table, &plane, m))?;
-        Ok(plane)
-    })?;
-    let spheres = each(root.repeated("sphere", shapes::SPHERE)?, |table| shapes::sphere(table, &index))?;
-    let tables = root.repeated("triangle", shapes::TRIANGLE)?;
-    let read = tables.iter().map(|table| shapes::triangle(table, &index)).collect::<Result<Vec<_>>>()?;
-    let first_dropped = read.iter().position(Option::is_none).map_or(0, |i| tables[i].line());
-    let triangles: Vec<Triangle> = read.into_iter().flatten().collect();
-    let dropped_triangles = tables.len() - triangles.len();
-    let lights = each(root.repeated("light", shapes::LIGHT)?, shapes::light)?;
-
-    let used = planes.iter().map(|plane: &Plane| plane.material);
-    let used = used.chain(spheres.iter().map(|sphere: &Sphere| sphere.material));
-    let mut used = used.chain(triangles.iter().map(|triangle: &Triangle| triangle.material));
-    if used.any(|material| material == materials.len()) {
+    let Shapes { planes, spheres, triangles, dropped_triangles, first_dropped, use_fallback } =
+        geometry::read(root, &index, &materials)?;
+    let lights = each(root.repeated("light", lights::LIGHT)?, lights::light)?;
+    if use_fallback {
         materials.push(Material::default());
     }
     let path = path.to_owned();

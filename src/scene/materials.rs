@@ -4,8 +4,9 @@
 use glam::DVec2;
 use toml::de::DeValue;
 
+use super::bsdf::read_model_keys;
 use super::model::*;
-use super::reader::{COLOR, COORDINATE, EXPONENT, Field, IOR, SCALE, UNIT};
+use super::reader::{COLOR, COORDINATE, Field, SCALE};
 use super::samplers::Known;
 use super::table::Table;
 use crate::core::error::Result;
@@ -41,7 +42,7 @@ pub(super) fn material(table: &Table<'_>, known: &Known<'_, '_>) -> Result<Mater
     if let Some(field) = table.get("color") {
         material.color = field.vec3(&COLOR)?;
     }
-    of_model(table, &mut material)?;
+    read_model_keys(table, &mut material)?;
     let texture_field = table.get("texture");
     material.texture = texture_field.map(|field| known.textures.resolve(field)).transpose()?;
     let bump_field = bump(table, &mut material, known)?;
@@ -73,35 +74,6 @@ pub(super) fn material(table: &Table<'_>, known: &Known<'_, '_>) -> Result<Mater
         fits(field, &material.mapping, dimension)?;
     }
     Ok(material)
-}
-
-/// Keys that one model has.
-fn of_model(table: &Table<'_>, material: &mut Material) -> Result<()> {
-    const OWNED: [(&str, Model); 3] =
-        [("specular", Model::Phong), ("exponent", Model::Phong), ("ior", Model::Dielectric)];
-    for (key, model) in OWNED {
-        let Some(field) = table.get(key) else { continue };
-        if material.model != model {
-            let what = format!("only model \"{model}\" has {key}; this one is \"{}\"", material.model);
-            return Err(field.error(&what, format!("needs model \"{model}\"")));
-        }
-        match key {
-            "specular" => material.specular = field.vec3(&COLOR)?,
-            "exponent" => material.exponent = field.number(&EXPONENT)?,
-            _ => material.ior = field.number(&IOR)?,
-        }
-    }
-    if let Some(field) = table.get("roughness") {
-        if !matches!(material.model, Model::Mirror | Model::Dielectric) {
-            let what = format!(
-                "only models \"mirror\" and \"dielectric\" have roughness; this one is \"{}\"",
-                material.model
-            );
-            return Err(field.error(&what, "needs model \"mirror\" or \"dielectric\""));
-        }
-        material.roughness = field.number(&UNIT)?;
-    }
-    Ok(())
 }
 
 /// The field that names the bump map's texture.

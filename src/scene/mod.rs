@@ -1,9 +1,12 @@
 //! Scene files: TOML text in, validated [`model::Scene`] out.
 
 pub mod advice;
+mod bsdf;
 mod camera;
 mod chance;
 pub mod cone;
+pub mod geometry;
+mod lights;
 mod load;
 mod mapping;
 mod materials;
@@ -16,7 +19,6 @@ mod reader;
 mod samplers;
 mod sampling;
 mod sections;
-mod shapes;
 mod source;
 pub mod synonyms;
 mod table;

@@ -3,9 +3,11 @@
 
 use std::path::PathBuf;
 
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 
+pub use super::bsdf::Model;
 pub use super::camera::{Camera, Lens, Projection};
+pub use super::geometry::{Bounds, Plane, Shape, Sphere, Triangle};
 pub use super::mapping::{Entity, Mapping, MappingKind, Space};
 pub use super::pixel_filter::{PixelFilter, PixelFilterKind};
 pub use super::sampling::{Algorithm, Footprint, Pattern, Precision, Sampling};
@@ -65,26 +67,6 @@ named_enum! {
         /// The image's centre looks along -z, +x to its right, v = 0 at +y.
         Equirectangular = "equirectangular",
         Cube = "cube",
-    }
-}
-
-named_enum! {
-    /// Reflection model of a material.
-    pub enum Model {
-        Unlit = "unlit",
-        Lambert = "lambert",
-        Mirror = "mirror",
-        /// Mirrors or refracts, by Fresnel's share of each.
-        Dielectric = "dielectric",
-        /// Lambert with a highlight.
-        Phong = "phong",
-    }
-}
-
-impl Model {
-    /// Whether lights shine on it.
-    pub const fn is_lit(self) -> bool {
-        matches!(self, Model::Lambert | Model::Phong)
     }
 }
 
@@ -152,7 +134,7 @@ impl Default for Material {
     fn default() -> Self {
         Material {
             name: "default".to_owned(),
-            model: Model::Lambert,
+            model: Model::default(),
             color: DVec3::ONE,
             texture: None,
             sampler: 0,
@@ -171,36 +153,6 @@ impl Material {
     pub fn is_mapped(&self) -> bool {
         self.texture.is_some() || self.bump.is_some()
     }
-}
-
-#[derive(Clone, Copy, Debug)]
-pub struct Plane {
-    pub origin: DVec3,
-    pub tangent: DVec3,
-    pub bitangent: DVec3,
-    /// Bounds |u| and |v|, measured in tangents and bitangents; infinite without.
-    pub half_extent: Option<f64>,
-    pub material: usize,
-    /// How far it moves between the times 0 and 1.
-    pub motion: DVec3,
-}
-
-#[derive(Clone, Copy, Debug)]
-pub struct Sphere {
-    pub center: DVec3,
-    pub radius: f64,
-    pub material: usize,
-    pub motion: DVec3,
-}
-
-#[derive(Clone, Copy, Debug)]
-pub struct Triangle {
-    pub vertices: [DVec3; 3],
-    pub uvs: [DVec2; 3],
-    /// Shading normals (any length, not zero); the geometric normal without.
-    pub normals: Option<[DVec3; 3]>,
-    pub material: usize,
-    pub motion: DVec3,
 }
 
 #[derive(Clone, Copy, Debug)]

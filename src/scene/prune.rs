@@ -8,22 +8,10 @@ use crate::core::counted::{counted, verb};
 /// What was dropped, for `-v`.
 pub fn prune(scene: &mut Scene) -> Vec<String> {
     let mut dropped = Vec::new();
-    let used: Vec<usize> = scene
-        .planes
-        .iter()
-        .map(|p| p.material)
-        .chain(scene.spheres.iter().map(|s| s.material))
-        .chain(scene.triangles.iter().map(|t| t.material))
-        .collect();
+    let used: Vec<usize> = scene.shapes().map(|shape| shape.material()).collect();
     let materials = keep(&mut scene.materials, &used);
-    for shape in &mut scene.planes {
-        shape.material = materials[shape.material];
-    }
-    for shape in &mut scene.spheres {
-        shape.material = materials[shape.material];
-    }
-    for shape in &mut scene.triangles {
-        shape.material = materials[shape.material];
+    for shape in scene.shapes_mut() {
+        *shape.material_mut() = materials[shape.material()];
     }
     note(&mut dropped, "material", &materials);
 

@@ -13,8 +13,6 @@ pub const MAX_SIZE: u32 = 16384;
 /// Samples per pixel: sample positions are multiples of 2⁻²⁴, more could not be told apart.
 pub const MAX_SPP: u32 = 1 << 24;
 pub const MAX_DEPTH: u32 = 64;
-/// Planes, spheres and triangles together.
-pub(super) const MAX_SHAPES: usize = 65535;
 pub(super) const MAX_TEXTURES: usize = 1024;
 
 /// Footprints longer than this many widths are blurred.
@@ -56,7 +54,8 @@ pub(super) fn check_mag(mag: Filter) -> Result<(), String> {
     if mag.only_minifies() {
         return Err(format!(
             "filter \"{mag}\" averages over footprints wider than a texel and cannot magnify; \
-             use it for min, and nearest, linear, cubic or stochastic for mag"
+             use it for min, and {} for mag",
+            Filter::names_with(|t| !t.only_minifies, "or")
         ));
     }
     Ok(())
@@ -64,10 +63,10 @@ pub(super) fn check_mag(mag: Filter) -> Result<(), String> {
 
 /// What texture units do not have.
 pub(super) fn check_method(spec: &SamplerSpec) -> Result<(), String> {
-    let own = |f: &Filter| matches!(f, Filter::Nearest | Filter::Linear | Filter::Anisotropic);
-    match [spec.mag, spec.min].iter().find(|f| !own(f)) {
+    match [spec.mag, spec.min].iter().find(|f| !f.traits().in_hardware) {
         Some(filter) if spec.method == Method::Hardware => Err(format!(
-            "no device's own sampler has filter \"{filter}\"; use method \"shader\", or filter nearest, linear or anisotropic"
+            "no device's own sampler has filter \"{filter}\"; use method \"shader\", or filter {}",
+            Filter::names_with(|t| t.in_hardware, "or")
         )),
         _ => Ok(()),
     }
@@ -86,14 +85,13 @@ pub fn check_filters(scene: &Scene) -> Result<()> {
         }
         check_method(spec).map_err(|what| Error::new(format!("texture \"{}\": {what}", source.name)))?;
         let flat = matches!(source.dimension, Dimension::One | Dimension::Two);
-        let needs_flat = |f: &Filter| matches!(f, Filter::Cubic | Filter::Ewa | Filter::SummedArea);
-        if let Some(filter) = [spec.mag, spec.min].iter().find(|f| !flat && needs_flat(f)) {
+        if let Some(filter) = [spec.mag, spec.min].iter().find(|f| !flat && f.traits().needs_flat) {
             return Err(Error::with_help(
                 format!(
                     "texture \"{}\" is {}: filter \"{filter}\" reads 2d textures only",
                     source.name, source.dimension
                 ),
-                "give it a sampler with filter nearest, linear, stochastic or anisotropic",
+                format!("give it a sampler with filter {}", Filter::names_with(|t| !t.needs_flat, "or")),
             ));
         }
     }

@@ -7,7 +7,7 @@ use std::path::Path;
 use super::data::{ColorSpace, Component, Dimension, TexelFormat, TextureData};
 use super::read_file::{self, Picture, Texels};
 use super::source::Reading;
-use crate::core::error::{Error, Result};
+use crate::core::error::{Error, ErrorKind, Result};
 
 /// The float values that a file may hold.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -63,12 +63,7 @@ pub(super) fn read_checked(
 }
 
 pub(super) fn in_texture(name: &str, error: Error) -> Error {
-    match error {
-        Error::Plain { message, help } => {
-            Error::Plain { message: format!("texture \"{name}\": {message}"), help }
-        }
-        other => other,
-    }
+    error.or_kind(ErrorKind::File).within(&format!("texture \"{name}\""))
 }
 
 pub(super) fn check_meaning(format: TexelFormat, color_space: ColorSpace, path: &Path) -> Result<()> {

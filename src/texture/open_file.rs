@@ -12,7 +12,7 @@ pub(super) fn open(path: &Path) -> Result<File> {
     let metadata = fs::metadata(path).map_err(|e| match e.kind() {
         ErrorKind::NotFound => {
             let shown: String = path.to_string_lossy().chars().flat_map(escaped).collect();
-            Error::Plain { message: format!("{shown}: there is no such file"), help: hint(path) }
+            Error::new(format!("{shown}: there is no such file")).and_help(hint(path))
         }
         _ => unreadable(path, &e),
     })?;

@@ -2,10 +2,9 @@
 //! 2.32, 4.6.4) and turns texels so that the first row is the top one. Exif data is a TIFF
 //! structure in an APP1 segment of a JPEG file or an eXIf chunk of a PNG file.
 
-use image::ImageFormat;
-
 use super::data::TexelFormat;
 use super::read_file::Texels;
+use super::sniff::PictureFormat;
 use super::{read_jpeg, read_png, tiff};
 
 /// The corner at which the picture's top left is stored, and the direction of its rows.
@@ -56,11 +55,11 @@ impl Orientation {
 }
 
 /// Returns the file's orientation; `None` if it has none or if the metadata is damaged.
-pub fn orientation_of(file: &[u8], format: ImageFormat) -> Option<Orientation> {
+pub fn orientation_of(file: &[u8], format: PictureFormat) -> Option<Orientation> {
     let tagged = match format {
-        ImageFormat::Jpeg => read_jpeg::exif(file)?,
-        ImageFormat::Png => read_png::exif(file)?,
-        ImageFormat::Tiff => file,
+        PictureFormat::Jpeg => read_jpeg::exif(file)?,
+        PictureFormat::Png => read_png::exif(file)?,
+        PictureFormat::Tiff => file,
         _ => return None,
     };
     tiff::orientation(tagged).and_then(Orientation::from_tag)
@@ -104,7 +103,7 @@ mod tests {
         let mut big = b"II+\0\x08\0\0\0\x10\0\0\0\0\0\0\0\x01\0\0\0\0\0\0\0".to_vec();
         big.extend_from_slice(b"\x12\x01\x03\0\x01\0\0\0\0\0\0\0\x06\0\0\0\0\0\0\0");
         for (name, file) in [("II", &little[..]), ("MM", big_endian), ("BigTIFF", &big)] {
-            let found = orientation_of(file, ImageFormat::Tiff);
+            let found = orientation_of(file, PictureFormat::Tiff);
             assert_eq!(found, Orientation::from_tag(6), "{name}");
         }
     }
@@ -112,9 +111,9 @@ mod tests {
     #[test]
     fn damaged_structures_say_nothing() {
         for file in [&b""[..], b"II", b"II*\0\xff\xff\xff\xff", b"II*\0\x08\0\0\0\xff\xff\x12\x01"] {
-            assert_eq!(orientation_of(file, ImageFormat::Tiff), None);
+            assert_eq!(orientation_of(file, PictureFormat::Tiff), None);
         }
         let endless = b"\xff\xd8\xff\xff\xff\xff\xff\xff";
-        assert_eq!(orientation_of(endless, ImageFormat::Jpeg), None);
+        assert_eq!(orientation_of(endless, PictureFormat::Jpeg), None);
     }
 }

@@ -3,19 +3,16 @@
 //! Errors name the file and state what to do.
 
 use std::fs::File;
-use std::io::{BufReader, Cursor, ErrorKind, Read, Seek};
+use std::io::{BufReader, Read, Seek};
 use std::path::Path;
 
-use image::codecs::tga::TgaDecoder;
-use image::{ColorType, ImageDecoder, ImageError, ImageFormat};
-
-use super::data::{Component, TexelFormat};
+use super::data::TexelFormat;
 use super::open_file::open;
 use super::orientation::orientation_of;
 pub use super::read_exr::ExrWindow;
-use super::sniff::{self, Content};
+use super::sniff::{self, Content, PictureFormat};
 use super::source::{OrientationUse, Reading};
-use super::{read_exr, read_hdr, read_jpeg, read_png, tiff};
+use super::{read_exr, read_hdr, read_jpeg, read_png, read_tga, tiff};
 use crate::core::error::{Error, Result};
 use crate::core::film::Placement;
 use crate::core::panics;
@@ -25,9 +22,6 @@ const MAX_SIDE: u64 = 65_536;
 /// The limit of the decoded size; the image crate's default of 512 MiB refuses an 8192² float
 /// texture.
 pub(super) const MAX_BYTES: u64 = 16 << 30;
-/// The largest number of texels per byte of a PNG file: Deflate expands a byte to at most 1032,
-/// each with 8 texels. The other formats compress less.
-const MAX_TEXELS_PER_BYTE: u64 = 1032 * 8;
 pub const SUPPORTED: &str = "PNG, JPEG, TIFF, TGA, Radiance HDR and OpenEXR";
 
 /// Tightly packed rows in native byte order, the file's first row first.
@@ -80,25 +74,23 @@ fn read_by_content(mut source: File, path: &Path, reading: &Reading, window: Exr
         Content::Picture(format) => format,
         Content::Other(what) => return Err(no_picture(path, &what)),
     };
-    if format == ImageFormat::OpenExr {
-        let layer = reading.layer.as_deref();
-        let (texels, placement) = read_exr::read(BufReader::new(source), layer, window, path)?;
-        return Ok(Picture { texels, placement, notes: Vec::new() });
-    }
+    let read: fn(&[u8], &Path) -> Result<Picture> = match format {
+        PictureFormat::OpenExr => {
+            let layer = reading.layer.as_deref();
+            let (texels, placement) = read_exr::read(BufReader::new(source), layer, window, path)?;
+            return Ok(Picture { texels, placement, notes: Vec::new() });
+        }
+        PictureFormat::Png => read_png::read,
+        PictureFormat::Jpeg => read_jpeg::read,
+        PictureFormat::Tiff => tiff::read,
+        PictureFormat::Hdr => read_hdr::read,
+        PictureFormat::Tga => read_tga::read,
+    };
     if let Some(layer) = &reading.layer {
         return Err(no_layers(path, format, layer));
     }
     let file = read_whole(source, path)?;
-    let picture = match format {
-        ImageFormat::Png => read_png::read(&file, path),
-        ImageFormat::Jpeg => read_jpeg::read(&file, path),
-        ImageFormat::Tiff => tiff::read(&file, path),
-        ImageFormat::Hdr => read_hdr::read(&file, path),
-        ImageFormat::Tga => {
-            decode_with(TgaDecoder::new(Cursor::new(&file)), "TGA", file.len(), path).map(Picture::from)
-        }
-        _ => Err(no_picture(path, &format!("is {format:?}"))),
-    }?;
+    let picture = read(&file, path)?;
     let orientation = match reading.orientation {
         OrientationUse::Apply => orientation_of(&file, format),
         OrientationUse::Ignore => None,
@@ -129,7 +121,7 @@ fn identify(source: &mut (impl Read + Seek)) -> std::io::Result<Content> {
 pub fn is_turned(path: &Path) -> bool {
     let Ok(mut source) = open(path) else { return false };
     match identify(&mut source) {
-        Ok(Content::Picture(ImageFormat::OpenExr)) => false,
+        Ok(Content::Picture(PictureFormat::OpenExr)) => false,
         Ok(Content::Picture(format)) => {
             read_whole(source, path).is_ok_and(|file| orientation_of(&file, format).is_some())
         }
@@ -142,77 +134,6 @@ fn no_picture(path: &Path, what: &str) -> Error {
         format!("{}: not a picture that can be read: the content {what}", path.display()),
         format!("supported are {SUPPORTED}, whatever the ending of the name"),
     )
-}
-
-/// Decodes texels with a decoder of the image crate that has read the header of a file of
-/// `file_bytes` bytes.
-pub(super) fn decode_with(
-    decoder: std::result::Result<impl ImageDecoder, ImageError>,
-    kind: &str,
-    file_bytes: usize,
-    path: &Path,
-) -> Result<Texels> {
-    let decoder = decoder.map_err(|e| image_error(path, kind, e))?;
-    let (width, height) = decoder.dimensions();
-    let (file_channels, component) = layout(decoder.color_type()).ok_or_else(|| {
-        let found = decoder.color_type();
-        Error::with_help(
-            format!("{}: {kind} with {found:?} texels is not supported", path.display()),
-            "convert it to 8 bits, 16 bits or 32-bit float",
-        )
-    })?;
-    let channels = if file_channels == 3 { 4 } else { file_channels };
-    let texel_format = TexelFormat::new(channels, component);
-    check_size(path, width.into(), height.into(), texel_format.bytes_per_texel())?;
-    let pixels = width as usize * height as usize;
-    if pixels as u64 > (file_bytes as u64).saturating_mul(MAX_TEXELS_PER_BYTE) {
-        return Err(damaged(path, kind, &format!("{file_bytes} bytes cannot hold {width}×{height} texels")));
-    }
-
-    // The texels are decoded into the front of the final buffer and widened in place, without a
-    // second copy.
-    check_memory(path, pixels * texel_format.bytes_per_texel())?;
-    let mut bytes = vec![0; pixels * texel_format.bytes_per_texel()];
-    let decoded = decoder.total_bytes() as usize;
-    decoder.read_image(&mut bytes[..decoded]).map_err(|e| image_error(path, kind, e))?;
-    if file_channels == 3 {
-        widen_rgb(&mut bytes, component);
-    }
-    Ok(Texels { width, height, format: texel_format, file_channels, bytes })
-}
-
-fn layout(color: ColorType) -> Option<(usize, Component)> {
-    Some(match color {
-        ColorType::L8 => (1, Component::Unorm8),
-        ColorType::La8 => (2, Component::Unorm8),
-        ColorType::Rgb8 => (3, Component::Unorm8),
-        ColorType::Rgba8 => (4, Component::Unorm8),
-        ColorType::L16 => (1, Component::Unorm16),
-        ColorType::La16 => (2, Component::Unorm16),
-        ColorType::Rgb16 => (3, Component::Unorm16),
-        ColorType::Rgba16 => (4, Component::Unorm16),
-        _ => return None,
-    })
-}
-
-/// Expands three channels at the front of the buffer to four that fill it, with opaque alpha.
-pub(super) fn widen_rgb(bytes: &mut [u8], component: Component) {
-    match component {
-        Component::Unorm8 => widen::<3, 4>(bytes, &[u8::MAX]),
-        Component::Unorm16 => widen::<6, 8>(bytes, &u16::MAX.to_ne_bytes()),
-        Component::Float32 => widen::<12, 16>(bytes, &1f32.to_ne_bytes()),
-    }
-}
-
-/// Expands texels from `RGB` to `RGBA` bytes, the last texel first, so that each is read before it
-/// is overwritten.
-fn widen<const RGB: usize, const RGBA: usize>(bytes: &mut [u8], opaque: &[u8]) {
-    let mut texel = [0u8; RGBA];
-    texel[RGB..].copy_from_slice(opaque);
-    for i in (0..bytes.len() / RGBA).rev() {
-        texel[..RGB].copy_from_slice(&bytes[i * RGB..(i + 1) * RGB]);
-        bytes[i * RGBA..(i + 1) * RGBA].copy_from_slice(&texel);
-    }
 }
 
 pub(super) fn check_size(path: &Path, width: u64, height: u64, bytes_per_texel: usize) -> Result<()> {
@@ -268,15 +189,15 @@ pub(super) fn damaged(path: &Path, kind: &str, error: &dyn std::fmt::Display) ->
     )
 }
 
-fn no_layers(path: &Path, format: ImageFormat, layer: &str) -> Error {
-    let kind = format!("{format:?}").to_uppercase();
+fn no_layers(path: &Path, format: PictureFormat, layer: &str) -> Error {
+    let kind = format.name();
     Error::with_help(
         format!("{}: layer \"{layer}\" of a {kind} file: only OpenEXR files have layers", path.display()),
         "leave layer out",
     )
 }
 
-fn zero_size(path: &Path) -> Error {
+pub(super) fn zero_size(path: &Path) -> Error {
     Error::with_help(
         format!("{}: the picture has zero size", path.display()),
         "a picture needs at least one texel in width and in height",
@@ -297,18 +218,4 @@ pub(super) fn unsupported_kind(path: &Path, name: &str) -> Error {
         format!("{}: this file is {name}, which is not read", path.display()),
         "convert it, for example to PNG of 8 or 16 bits, or to OpenEXR",
     )
-}
-
-fn image_error(path: &Path, kind: &str, error: ImageError) -> Error {
-    match error {
-        ImageError::Limits(_) => out_of_memory(path),
-        ImageError::Unsupported(e) => Error::with_help(
-            format!("{}: this kind of {kind} file is not supported: {e}", path.display()),
-            "convert it to 8-bit, 16-bit or 32-bit float grey or RGB, with or without alpha",
-        ),
-        ImageError::IoError(e) if e.kind() != ErrorKind::UnexpectedEof => unreadable(path, &e),
-        // The PNG decoder itself refuses a width or height of 0.
-        e if e.to_string().contains("Invalid image dimensions") => zero_size(path),
-        e => damaged(path, kind, &e),
-    }
 }

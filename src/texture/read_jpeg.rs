@@ -2,12 +2,11 @@
 //! completeness: the decoder does not identify some kinds, and fills missing data of a truncated
 //! file with grey.
 
-use std::io::Cursor;
 use std::path::Path;
 
-use image::codecs::jpeg::JpegDecoder;
-
-use super::read_file::{Picture, damaged, decode_with, unsupported_kind};
+use super::decoder;
+use super::jpeg_data::JpegData;
+use super::read_file::{Picture, Texels, damaged, unsupported_kind};
 use crate::core::error::Result;
 
 const START_OF_IMAGE: u8 = 0xd8;
@@ -18,7 +17,7 @@ pub(super) fn read(file: &[u8], path: &Path) -> Result<Picture> {
     if let Some(name) = unsupported(file) {
         return Err(unsupported_kind(path, name));
     }
-    let decode = |file: &[u8]| decode_with(JpegDecoder::new(Cursor::new(file)), "JPEG", file.len(), path);
+    let decode = |file: &[u8]| decode(file, path);
     if ends(file) {
         return decode(file).map(Picture::from);
     }
@@ -37,6 +36,11 @@ pub(super) fn read(file: &[u8], path: &Path) -> Result<Picture> {
     }
     let note = format!("{}: the JPEG data has no end-of-image marker; all texels are there", path.display());
     Ok(Picture::noted(texels, vec![note]))
+}
+
+fn decode(file: &[u8], path: &Path) -> Result<Texels> {
+    let data = JpegData::new(file).map_err(|fault| fault.in_file(path, "JPEG"))?;
+    decoder::texels(data.header, "JPEG", file.len(), path, |texels| data.read(texels))
 }
 
 /// Returns the name of an unsupported kind of JPEG (table B.1 and B.2.2: the start-of-frame

@@ -5,9 +5,11 @@ use std::io::Cursor;
 use std::path::Path;
 
 use flate2::Crc;
-use image::codecs::png::PngDecoder;
+use png::{BitDepth, DecodingError, Transformations};
 
-use super::read_file::{MAX_BYTES, Picture, decode_with, unsupported_kind};
+use super::data::Component;
+use super::decoder::{self, Fault, Header};
+use super::read_file::{MAX_BYTES, Picture, Texels, unsupported_kind};
 use crate::core::error::Result;
 
 const SIGNATURE_BYTES: usize = 8;
@@ -15,18 +17,54 @@ const SIGNATURE_BYTES: usize = 8;
 const CHUNK_BYTES: usize = 12;
 
 pub(super) fn read(file: &[u8], path: &Path) -> Result<Picture> {
-    let decode = |file: &[u8]| {
-        let mut limits = image::Limits::no_limits();
-        limits.max_alloc = Some(MAX_BYTES);
-        decode_with(PngDecoder::with_limits(Cursor::new(file), limits), "PNG", file.len(), path)
-    };
     if file.get(SIGNATURE_BYTES + 4..SIGNATURE_BYTES + 8) == Some(b"CgBI") {
         return Err(unsupported_kind(path, "a PNG of Apple's own kind (CgBI), as Xcode writes into apps"));
     }
-    let Some(ended) = with_end(file) else { return decode(file).map(Picture::from) };
-    let texels = decode(&ended)?;
+    let Some(ended) = with_end(file) else { return decode(file, path).map(Picture::from) };
+    let texels = decode(&ended, path)?;
     let note = format!("{}: the PNG data has no end (IEND); all texels are there", path.display());
     Ok(Picture::noted(texels, vec![note]))
+}
+
+fn decode(file: &[u8], path: &Path) -> Result<Texels> {
+    let named = |fault: Fault| fault.in_file(path, "PNG");
+    let (mut reader, header) = open(file).map_err(named)?;
+    decoder::texels(header, "PNG", file.len(), path, |texels| {
+        reader.next_frame(texels).map_err(fault)?;
+        if header.component == Component::Unorm16 {
+            texels.as_chunks_mut::<2>().0.iter_mut().for_each(|b| *b = u16::from_be_bytes(*b).to_ne_bytes());
+        }
+        Ok(())
+    })
+}
+
+/// Returns a decoder that has read up to the pixels, and the resulting format: palettes and fewer
+/// than 8 bits are expanded.
+fn open(file: &[u8]) -> std::result::Result<(png::Reader<Cursor<&[u8]>>, Header), Fault> {
+    // Width and height are checked here because the decoder's own error does not state which is
+    // wrong.
+    if file.get(16..24).is_some_and(|size| size.chunks(4).any(|side| side == [0; 4])) {
+        return Err(Fault::ZeroSize);
+    }
+    let bytes = usize::try_from(MAX_BYTES).unwrap_or(usize::MAX);
+    let mut decoder = png::Decoder::new_with_limits(Cursor::new(file), png::Limits { bytes });
+    decoder.set_ignore_text_chunk(true);
+    decoder.set_transformations(Transformations::EXPAND);
+    let reader = decoder.read_info().map_err(fault)?;
+    let (width, height) = reader.info().size();
+    let (channels, component) = match reader.output_color_type() {
+        (color, BitDepth::Eight) => (color.samples(), Component::Unorm8),
+        (color, BitDepth::Sixteen) => (color.samples(), Component::Unorm16),
+        (color, depth) => return Err(Fault::Unsupported(format!("{color:?} texels of {depth:?} bits"))),
+    };
+    Ok((reader, Header { width, height, channels, component }))
+}
+
+fn fault(error: DecodingError) -> Fault {
+    match error {
+        DecodingError::LimitsExceeded => Fault::Memory,
+        error => Fault::Damaged(error.to_string()),
+    }
 }
 
 /// Returns the Exif data, which may precede or follow the pixels.

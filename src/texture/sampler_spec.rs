@@ -33,13 +33,6 @@ named_enum! {
     }
 }
 
-impl Filter {
-    /// Returns true for filters that are defined only where a footprint covers more than a texel.
-    pub const fn only_minifies(self) -> bool {
-        matches!(self, Filter::Anisotropic | Filter::Ewa | Filter::SummedArea)
-    }
-}
-
 named_enum! {
     pub enum MipMode {
         None = "none",
@@ -115,6 +108,21 @@ impl SamplerSpec {
         self.mag != self.min || self.mip != MipMode::None
     }
 
+    /// Returns true if lookups blend several texels.
+    pub fn blends(&self) -> bool {
+        self.mag.traits().blends || self.min.traits().blends
+    }
+
+    /// Returns true if lookups follow the major axis of footprints.
+    pub fn follows_axis(&self) -> bool {
+        self.min.traits().follows_axis
+    }
+
+    /// Returns true if lookups read summed-area tables.
+    pub fn needs_sums(&self) -> bool {
+        self.min.traits().needs_sums
+    }
+
     /// Returns true if some axis has this address mode.
     pub fn has(&self, mode: Address) -> bool {
         self.address.contains(&mode) || self.address_w == mode
@@ -122,7 +130,7 @@ impl SamplerSpec {
 
     /// Returns true if lookups read mip levels other than the base level.
     pub fn reads_levels(&self) -> bool {
-        self.mip != MipMode::None || self.min == Filter::Ewa
+        self.mip != MipMode::None || self.min.traits().chooses_levels
     }
 
     /// Returns every variant of a hardware sampler that differs in more than border colour, texel

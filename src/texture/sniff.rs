@@ -1,29 +1,41 @@
 //! Identifies the format of a file by its first bytes, never by the extension of its name. A file
 //! that is not a supported picture gets a short description for the error message.
 
-use image::ImageFormat;
+use crate::core::named::named_enum;
+
+named_enum! {
+    /// A file format that is read; the name is the one in messages.
+    pub enum PictureFormat {
+        Png = "PNG",
+        Jpeg = "JPEG",
+        Tiff = "TIFF",
+        Tga = "TGA",
+        Hdr = "HDR",
+        OpenExr = "OpenEXR",
+    }
+}
 
 /// The number of bytes that suffice for every signature below and for recognising text.
 pub const HEAD_BYTES: usize = 64;
 
 #[derive(Debug, PartialEq)]
 pub enum Content {
-    Picture(ImageFormat),
+    Picture(PictureFormat),
     /// Another content, described so that it completes the sentence "the content …".
     Other(String),
 }
 
-const PICTURES: &[(&[u8], ImageFormat)] = &[
-    (b"\x89PNG\r\n\x1a\n", ImageFormat::Png),
-    (b"\xff\xd8\xff", ImageFormat::Jpeg),
-    (b"II*\0", ImageFormat::Tiff),
-    (b"MM\0*", ImageFormat::Tiff),
-    (b"II+\0", ImageFormat::Tiff),
-    (b"MM\0+", ImageFormat::Tiff),
+const PICTURES: &[(&[u8], PictureFormat)] = &[
+    (b"\x89PNG\r\n\x1a\n", PictureFormat::Png),
+    (b"\xff\xd8\xff", PictureFormat::Jpeg),
+    (b"II*\0", PictureFormat::Tiff),
+    (b"MM\0*", PictureFormat::Tiff),
+    (b"II+\0", PictureFormat::Tiff),
+    (b"MM\0+", PictureFormat::Tiff),
     // Usually #?RADIANCE or #?RGBE: the program that wrote the first such files put its own name
     // there.
-    (b"#?", ImageFormat::Hdr),
-    (b"\x76\x2f\x31\x01", ImageFormat::OpenExr),
+    (b"#?", PictureFormat::Hdr),
+    (b"\x76\x2f\x31\x01", PictureFormat::OpenExr),
 ];
 
 /// Offset, signature and name.
@@ -61,7 +73,7 @@ pub fn identify(head: &[u8]) -> Content {
     }
     match described(head) {
         Some(what) => Content::Other(what.into()),
-        None if is_tga(head) => Content::Picture(ImageFormat::Tga),
+        None if is_tga(head) => Content::Picture(PictureFormat::Tga),
         None => Content::Other(describe(head)),
     }
 }
@@ -130,10 +142,10 @@ mod tests {
         }
         let tga = b"\0\0\x02\0\0\0\0\0\0\0\0\0\x04\0\x02\0\x18\0\x01\x02\x03";
         for (head, want) in [
-            (&b"II*\0rest"[..], ImageFormat::Tiff),
-            (b"#?RGBE\n", ImageFormat::Hdr),
-            (b"#?RADIANCE\n", ImageFormat::Hdr),
-            (tga, ImageFormat::Tga),
+            (&b"II*\0rest"[..], PictureFormat::Tiff),
+            (b"#?RGBE\n", PictureFormat::Hdr),
+            (b"#?RADIANCE\n", PictureFormat::Hdr),
+            (tga, PictureFormat::Tga),
         ] {
             assert_eq!(identify(head), Content::Picture(want));
         }

@@ -5,8 +5,9 @@ use std::io::{BufReader, ErrorKind, Read, Seek, SeekFrom};
 use std::path::Path;
 
 use super::data::TexelFormat;
+use super::decoder::widen_rgb;
 use super::open_file::open;
-use super::read_file::{Texels, check_memory, check_volume, unreadable, widen_rgb};
+use super::read_file::{Texels, check_memory, check_volume, unreadable};
 use super::scalar::Scalar;
 use super::source::{Endian, VolumeSource};
 use crate::core::error::{Error, Result};

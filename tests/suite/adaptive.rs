@@ -4,17 +4,17 @@
 
 mod rare;
 
-use moire::adaptive::{self, Goal, Outcome, Sums, Tracer, Trial};
-use moire::core::film::Film;
-use moire::core::progress::{NoProgress, Progress};
-use moire::gpu::DeviceKind;
-use moire::lab::metrics::compare;
-use moire::oracle::jobs::JobTracer;
-use moire::oracle::rng::sample_bits;
-use moire::pack::PackedScene;
-use moire::render::{self, Tuning};
-use moire::scene::model::{Algorithm, Footprint, Pattern, Scene};
-use moire::schema::layout::Job;
+use moire::internal::adaptive::{self, Goal, Outcome, Sums, Tracer, Trial};
+use moire::internal::core::film::Film;
+use moire::internal::core::progress::{NoProgress, Progress};
+use moire::internal::gpu::DeviceKind;
+use moire::internal::lab::metrics::compare;
+use moire::internal::oracle::jobs::JobTracer;
+use moire::internal::oracle::rng::sample_bits;
+use moire::internal::pack::PackedScene;
+use moire::internal::render::{self, Tuning};
+use moire::internal::scene::model::{Algorithm, Footprint, Pattern, Scene};
+use moire::internal::schema::layout::Job;
 
 use crate::stage::{assert_same_bits, device, packed, render, small};
 
@@ -204,7 +204,7 @@ impl Slow {
 }
 
 impl Tracer for Slow {
-    fn sample(&mut self, jobs: &[Job], _: &dyn Progress) -> moire::core::error::Result<()> {
+    fn sample(&mut self, jobs: &[Job], _: &dyn Progress) -> moire::internal::core::error::Result<()> {
         Slow::wait(jobs);
         for job in jobs {
             let [x, y] = job.column_and_row();
@@ -214,7 +214,11 @@ impl Tracer for Slow {
         Ok(())
     }
 
-    fn sample_apart(&mut self, jobs: &[Job], _: &dyn Progress) -> moire::core::error::Result<Vec<[f32; 4]>> {
+    fn sample_apart(
+        &mut self,
+        jobs: &[Job],
+        _: &dyn Progress,
+    ) -> moire::internal::core::error::Result<Vec<[f32; 4]>> {
         Slow::wait(jobs);
         let mut sums = vec![[0.0; 4]; jobs.len()];
         jobs.iter().zip(&mut sums).for_each(|(job, sum)| Slow::add(job, sum));
@@ -225,17 +229,17 @@ impl Tracer for Slow {
         self.prefilters
     }
 
-    fn read(&mut self, sums: &mut Sums) -> moire::core::error::Result<()> {
+    fn read(&mut self, sums: &mut Sums) -> moire::internal::core::error::Result<()> {
         sums.halves.clone_from(&self.sums.halves);
         Ok(())
     }
 
-    fn trial(&mut self, _: &dyn Progress) -> moire::core::error::Result<Option<Trial>> {
+    fn trial(&mut self, _: &dyn Progress) -> moire::internal::core::error::Result<Option<Trial>> {
         let pixels = (0..64).map(|i| (i, i % 2 == 0)).collect();
         Ok(self.tells.then_some(Trial { seconds: 0.1, pixels }))
     }
 
-    fn tell(&mut self, _: &dyn Progress) -> moire::core::error::Result<Vec<[f32; 4]>> {
+    fn tell(&mut self, _: &dyn Progress) -> moire::internal::core::error::Result<Vec<[f32; 4]>> {
         let [r, g, b] = TOLD;
         Ok((0..self.sums.halves[0].len()).map(|i| [r, g, b, (i % 2) as f32]).collect())
     }

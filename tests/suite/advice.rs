@@ -5,10 +5,10 @@ use std::fs;
 use std::path::Path;
 
 use image::{GrayImage, ImageBuffer, Luma, Rgb, RgbImage};
-use moire::scene::advice::of_scene;
-use moire::scene::prune::prune;
-use moire::scene::texture_advice::of_textures;
-use moire::texture::load::load;
+use moire::internal::scene::advice::of_scene;
+use moire::internal::scene::prune::prune;
+use moire::internal::scene::texture_advice::of_textures;
+use moire::internal::texture::load::load;
 use tempfile::{TempDir, tempdir};
 
 use crate::support::{data, moire};
@@ -37,7 +37,7 @@ fn pictures() -> TempDir {
 
 /// All that is told of a scene, once unused things are dropped.
 fn told(path: &Path) -> Vec<String> {
-    let mut scene = moire::scene::load(path).unwrap();
+    let mut scene = moire::internal::scene::load(path).unwrap();
     prune(&mut scene);
     let textures: Vec<_> = scene.textures.iter().map(|t| load(t).unwrap()).collect();
     [of_scene(&scene), of_textures(&scene, &textures)].concat()

@@ -146,8 +146,11 @@ fn nothing_wrong_renders() {
 #[test]
 fn a_panic_ends_a_command_with_exit_code_2() {
     use std::process::ExitCode;
-    let exit = |command: fn() -> moire::core::error::Result<ExitCode>| {
-        format!("{:?}", moire::cli::exit_code(moire::core::panics::contain(&"moire test", command)))
+    let exit = |command: fn() -> moire::internal::core::error::Result<ExitCode>| {
+        format!(
+            "{:?}",
+            moire::internal::cli::exit_code(moire::internal::core::panics::contain(&"moire test", command))
+        )
     };
     assert_eq!(exit(|| panic!("planted")), format!("{:?}", ExitCode::from(2)));
     assert_eq!(exit(|| std::thread::scope(|_| unreachable!("planted"))), format!("{:?}", ExitCode::from(2)));

@@ -5,11 +5,11 @@ mod areas;
 mod integrals;
 mod mirrors;
 
-use moire::core::film::Film;
-use moire::lab::metrics::compare;
-use moire::pack::PackedScene;
-use moire::render::Tuning;
-use moire::scene::model::{Algorithm, Footprint, Pattern, PixelFilterKind, Scene};
+use moire::internal::core::film::Film;
+use moire::internal::lab::metrics::compare;
+use moire::internal::pack::PackedScene;
+use moire::internal::render::Tuning;
+use moire::internal::scene::model::{Algorithm, Footprint, Pattern, PixelFilterKind, Scene};
 
 use crate::stage::{assert_same_bits, packed, render, render_on_oracle, render_with, small};
 
@@ -153,9 +153,10 @@ fn crowded_pixels_are_left_to_samples() {
     let first = scene.triangles[0];
     for k in 0..12 {
         let by = glam::DVec3::new(0.0, 0.02 * f64::from(k), 0.01 * f64::from(k));
-        scene
-            .triangles
-            .push(moire::scene::model::Triangle { vertices: first.vertices.map(|v| v + by), ..first });
+        scene.triangles.push(moire::internal::scene::model::Triangle {
+            vertices: first.vertices.map(|v| v + by),
+            ..first
+        });
     }
     let (film, sampled) = beams(&with_beams(scene.clone()));
     assert!(sampled > 0 && sampled < 600, "{sampled}");
@@ -174,7 +175,7 @@ fn boxes_of_any_width_too() {
 #[test]
 fn other_pixel_filters_take_samples() {
     let mut scene = small("beams", 24, 16);
-    scene.pixel_filter = moire::scene::model::PixelFilter::new(PixelFilterKind::Gaussian, None);
+    scene.pixel_filter = moire::internal::scene::model::PixelFilter::new(PixelFilterKind::Gaussian, None);
     let beams = render(&with_beams(scene.clone()));
     scene.sampling.algorithm = Algorithm::Samples;
     scene.sampling.footprint = Footprint::None;
@@ -184,7 +185,7 @@ fn other_pixel_filters_take_samples() {
 #[test]
 fn orthographic_pictures_too() {
     let mut scene = small("beams", 64, 4);
-    scene.camera.projection = moire::scene::model::Projection::Orthographic(1.0);
+    scene.camera.projection = moire::internal::scene::model::Projection::Orthographic(1.0);
     assert_meets_samples(&scene, "parallel rays");
     let beamed = with_beams(scene);
     assert!(rmse(&render(&beamed), &render_on_oracle(&beamed)) < 1e-5);

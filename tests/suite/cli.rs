@@ -4,9 +4,9 @@ use std::fs;
 use std::path::Path;
 use std::process::Output;
 
-use moire::core::film::Film;
-use moire::lab::metrics::{compare, read_picture};
-use moire::pack::Crop;
+use moire::internal::core::film::Film;
+use moire::internal::lab::metrics::{compare, read_picture};
+use moire::internal::pack::Crop;
 use serde_json::Value;
 use tempfile::{TempDir, tempdir};
 

@@ -7,10 +7,10 @@ mod scenes;
 
 use std::path::Path;
 
-use moire::core::film::Film;
-use moire::lab::metrics::compare;
-use moire::scene::model::{Algorithm, Footprint, Pattern, Scene};
-use moire::scene::{cone, parse};
+use moire::internal::core::film::Film;
+use moire::internal::lab::metrics::compare;
+use moire::internal::scene::model::{Algorithm, Footprint, Pattern, Scene};
+use moire::internal::scene::{cone, parse};
 
 use crate::stage::{packed, render, render_on_oracle};
 
@@ -27,7 +27,7 @@ fn parallel(side: u32, text: &str) -> Scene {
 /// The same from a point.
 fn central(side: u32, text: &str) -> Scene {
     let mut scene = parallel(side, text);
-    scene.camera.projection = moire::scene::model::Projection::VerticalFov(40.0);
+    scene.camera.projection = moire::internal::scene::model::Projection::VerticalFov(40.0);
     scene
 }
 

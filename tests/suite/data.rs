@@ -7,9 +7,11 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use image::{DynamicImage, ImageReader};
-use moire::texture::synth;
 
 use crate::support::data;
+
+#[path = "../../examples/make_textures/synth/mod.rs"]
+mod synth;
 
 fn decode(path: &Path) -> DynamicImage {
     let reader = ImageReader::open(path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));

@@ -5,17 +5,17 @@ use std::path::{Path, PathBuf};
 
 use image::codecs::jpeg::JpegEncoder;
 use image::{DynamicImage, ImageBuffer, Luma, LumaA, Rgb, Rgba};
-use moire::core::color::{linear_to_srgb, srgb_table, srgb_to_linear};
-use moire::core::film::Film;
-use moire::output::{self, WriteOptions};
-use moire::texture::data::{ColorSpace, TexelFormat, TextureData};
-use moire::texture::decode::decode;
+use moire::internal::core::color::{linear_to_srgb, srgb_table, srgb_to_linear};
+use moire::internal::core::film::Film;
+use moire::internal::output::{self, WriteOptions};
+use moire::internal::texture::data::{ColorSpace, TexelFormat, TextureData};
+use moire::internal::texture::decode::decode;
 use tempfile::{TempDir, tempdir};
 
 const W: u32 = 5;
 const H: u32 = 3;
 
-fn load(path: &Path) -> moire::core::error::Result<TextureData> {
+fn load(path: &Path) -> moire::internal::core::error::Result<TextureData> {
     decode(path, "t", ColorSpace::Linear, false)
 }
 

@@ -4,14 +4,14 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use image::ImageFormat;
-use moire::output::{self, WriteOptions};
-use moire::texture::data::{ColorSpace, TextureData};
-use moire::texture::decode::decode;
+use moire::internal::output::{self, WriteOptions};
+use moire::internal::texture::data::{ColorSpace, TextureData};
+use moire::internal::texture::decode::decode;
 use tempfile::{TempDir, tempdir};
 
 use crate::support::{gradient, told};
 
-fn load(path: &Path) -> moire::core::error::Result<TextureData> {
+fn load(path: &Path) -> moire::internal::core::error::Result<TextureData> {
     decode(path, "t", ColorSpace::Linear, false)
 }
 

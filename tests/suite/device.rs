@@ -7,7 +7,7 @@ mod images;
 mod refused;
 mod solids;
 
-use moire::gpu::{
+use moire::internal::gpu::{
     BindingDesc, BindingKind, Bound, Buffer, BufferUse, DeviceSelect, Gpu, MessageLog, OpenOptions, Pipeline,
     PipelineDesc, list_devices, validation_available,
 };
@@ -82,7 +82,7 @@ fn noise(len: usize) -> Vec<u8> {
     (0..len as u32).map(|i| (i.wrapping_mul(0x9E37_79B9) >> 24) as u8).collect()
 }
 
-fn error_of<T>(result: moire::core::error::Result<T>) -> String {
+fn error_of<T>(result: moire::internal::core::error::Result<T>) -> String {
     result.err().expect("an error was expected").to_string()
 }
 

@@ -3,10 +3,10 @@
 
 use std::path::Path;
 
-use moire::pack::{Diagnostic, PackedScene, pack};
-use moire::render::Tuning;
-use moire::scene::parse;
-use moire::texture::data::{ColorSpace, Component, Dimension, TexelFormat, TextureData};
+use moire::internal::pack::{Diagnostic, PackedScene, pack};
+use moire::internal::render::Tuning;
+use moire::internal::scene::parse;
+use moire::internal::texture::data::{ColorSpace, Component, Dimension, TexelFormat, TextureData};
 
 use crate::stage::{assert_same_bits, render_with};
 

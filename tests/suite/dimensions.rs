@@ -8,10 +8,10 @@ mod volumes;
 use std::path::{Path, PathBuf};
 
 use image::{DynamicImage, GrayImage, ImageBuffer, Luma, LumaA, Rgba};
-use moire::core::error::Result;
-use moire::texture::data::{Dimension, TextureData};
-use moire::texture::load::load;
-use moire::texture::source::{Reading, TextureContent, TextureSource};
+use moire::internal::core::error::Result;
+use moire::internal::texture::data::{Dimension, TextureData};
+use moire::internal::texture::load::load;
+use moire::internal::texture::source::{Reading, TextureContent, TextureSource};
 
 use crate::support::{texture_source, told};
 

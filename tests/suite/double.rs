@@ -3,12 +3,12 @@
 
 use std::path::Path;
 
-use moire::pack::features::Features;
-use moire::pack::{self, PackedScene};
-use moire::render::Tuning;
-use moire::scene::model::{Algorithm, Precision, Scene};
-use moire::scene::{parse, prune::prune};
-use moire::texture::load::load;
+use moire::internal::pack::features::Features;
+use moire::internal::pack::{self, PackedScene};
+use moire::internal::render::Tuning;
+use moire::internal::scene::model::{Algorithm, Precision, Scene};
+use moire::internal::scene::{parse, prune::prune};
+use moire::internal::texture::load::load;
 
 use crate::stage::{
     assert_same_bits, device, every_scene, packed, render, render_on_oracle, render_with, small,

@@ -2,7 +2,7 @@
 //! float64 code against references of many thousand samples: a renderer that samples a wrong
 //! picture, or the right one unevenly, cannot reproduce it.
 
-use moire::lab::metrics::{compare, read_picture};
+use moire::internal::lab::metrics::{compare, read_picture};
 
 use crate::stage::{packed, render, scene};
 use crate::support::data;

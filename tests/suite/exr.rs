@@ -4,10 +4,10 @@
 use std::fs;
 use std::path::Path;
 
-use moire::core::error::Result;
-use moire::texture::data::{Dimension, TextureData};
-use moire::texture::load::load;
-use moire::texture::source::{Reading, TextureContent};
+use moire::internal::core::error::Result;
+use moire::internal::texture::data::{Dimension, TextureData};
+use moire::internal::texture::load::load;
+use moire::internal::texture::source::{Reading, TextureContent};
 use tempfile::tempdir;
 
 use crate::support::{texture_source, told};

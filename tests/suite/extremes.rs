@@ -1,8 +1,8 @@
 //! Every case of the stability report on the device under test: no error above its bound.
 
-use moire::core::progress::NoProgress;
-use moire::lab::stability::all;
-use moire::lab::stability::case::Bench;
+use moire::internal::core::progress::NoProgress;
+use moire::internal::lab::stability::all;
+use moire::internal::lab::stability::case::Bench;
 
 use crate::shared_gpu::gpu;
 

@@ -1,9 +1,9 @@
 //! FLIP against values of its authors' program (FLIP.h of version 1.7, CPU, default parameters,
 //! linear input), and its invariants.
 
-use moire::core::film::Film;
-use moire::lab::metrics::flip;
-use moire::lab::metrics::flip::PerceptualFeatures;
+use moire::internal::core::film::Film;
+use moire::internal::lab::metrics::flip;
+use moire::internal::lab::metrics::flip::PerceptualFeatures;
 
 use crate::support::{gradient, told};
 

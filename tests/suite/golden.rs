@@ -6,13 +6,13 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use moire::core::film::Film;
-use moire::gpu::DeviceKind;
-use moire::lab::metrics::{compare, difference_picture, read_picture};
-use moire::output::{WriteOptions, write};
-use moire::scene::model::{Model, Scene};
-use moire::texture::data::ColorSpace;
-use moire::texture::sampler_spec::TexelCenter;
+use moire::internal::core::film::Film;
+use moire::internal::gpu::DeviceKind;
+use moire::internal::lab::metrics::{compare, difference_picture, read_picture};
+use moire::internal::output::{WriteOptions, write};
+use moire::internal::scene::model::{Model, Scene};
+use moire::internal::texture::data::ColorSpace;
+use moire::internal::texture::sampler_spec::TexelCenter;
 use tempfile::tempdir;
 
 use crate::stage::{device, packed, render, scene};
@@ -300,9 +300,10 @@ fn failures_show_actual_expected_and_difference() {
     write(&film, &golden, &WriteOptions::default()).unwrap();
     // 2 of 10000 pixels may be two or three steps away, none four.
     let step = |film: &mut Film, at: usize, steps: f64| {
-        let code =
-            (moire::core::color::linear_to_srgb(f64::from(film.pixels[at][1])) * 255.0).round() + steps;
-        film.pixels[at][1] = moire::core::color::srgb_to_linear(code / 255.0) as f32;
+        let code = (moire::internal::core::color::linear_to_srgb(f64::from(film.pixels[at][1])) * 255.0)
+            .round()
+            + steps;
+        film.pixels[at][1] = moire::internal::core::color::srgb_to_linear(code / 255.0) as f32;
     };
     step(&mut film, 4000, 3.0);
     step(&mut film, 5000, 2.0);

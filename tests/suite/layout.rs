@@ -5,17 +5,17 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 
-use moire::gpu::shaders::{self, Shader};
-use moire::pack::features::TextureSize;
-use moire::pack::{
+use moire::internal::gpu::shaders::{self, Shader};
+use moire::internal::pack::features::TextureSize;
+use moire::internal::pack::{
     Diagnostic, EntityKind, LightKind, MapKind, ProjectionKind, SampleDimension, Schedule, TextureKind,
 };
-use moire::scene::model::{BumpKind, Footprint, Model, Pattern, PixelFilterKind};
-use moire::schema::layout::{self as mirror, Record};
-use moire::texture::data::{ColorSpace, TexelFormat};
-use moire::texture::procedural::ProceduralKind;
-use moire::texture::sampler_spec::{Address, Filter, Method, MipMode, TexelCenter};
-use moire::{oracle, pack::features};
+use moire::internal::scene::model::{BumpKind, Footprint, Model, Pattern, PixelFilterKind};
+use moire::internal::schema::layout::{self as mirror, Record};
+use moire::internal::texture::data::{ColorSpace, TexelFormat};
+use moire::internal::texture::procedural::ProceduralKind;
+use moire::internal::texture::sampler_spec::{Address, Filter, Method, MipMode, TexelCenter};
+use moire::internal::{oracle, pack::features};
 
 use crate::layering::source_root;
 
@@ -177,7 +177,7 @@ fn shader_structs_strides_and_mode_numbers_equal_their_mirrors() {
     let found = differences(&glsl, &rust);
     assert!(found.is_empty(), "{}", found.join("\n"));
     let far = glsl.split_once("const float FAR = ").unwrap().1.split(';').next().unwrap();
-    assert_eq!(far.parse::<f64>().unwrap(), oracle::intersect::FAR);
+    assert_eq!(far.parse::<f64>().unwrap(), oracle::geometry::rays::FAR);
 }
 
 #[test]

@@ -1,10 +1,10 @@
 //! Omitting unused features changes no bit of the picture, nor does anything else that concerns
 //! only speed: the source of texels, the workgroup's shape, slices, bands, crops.
 
-use moire::pack::Crop;
-use moire::pack::features::{Features, TexelSource};
-use moire::render::{TexelChoice, Tuning};
-use moire::scene::model::Pattern;
+use moire::internal::pack::Crop;
+use moire::internal::pack::features::{Features, TexelSource};
+use moire::internal::render::{TexelChoice, Tuning};
+use moire::internal::scene::model::Pattern;
 
 use crate::stage::{
     assert_same_bits, cut, every_scene, packed, render, render_on_oracle, render_with, scene, small,
@@ -194,7 +194,7 @@ fn many_samples_are_summed_as_the_oracle_sums_them() {
     let (device, oracle) = (render(&packed), render_on_oracle(&packed));
     let (full, _) = render_with(&packed, true, &Tuning::default());
     assert_same_bits(&device, &full, "1000 samples");
-    let compared = moire::lab::metrics::compare(&device, &oracle).unwrap();
+    let compared = moire::internal::lab::metrics::compare(&device, &oracle).unwrap();
     // One sample in a thousand on the other side of an edge moves a pixel by up to 1e-3.
     assert!(
         compared.rmse <= 2e-5 && compared.max <= 1e-3,

@@ -3,12 +3,12 @@
 
 use std::path::Path;
 
-use moire::pack::{self, PackedScene};
-use moire::render::Tuning;
-use moire::scene::parse;
-use moire::scene::prune::prune;
-use moire::texture::data::{Dimension, TexelFormat};
-use moire::texture::source::TextureSource;
+use moire::internal::pack::{self, PackedScene};
+use moire::internal::render::Tuning;
+use moire::internal::scene::parse;
+use moire::internal::scene::prune::prune;
+use moire::internal::texture::data::{Dimension, TexelFormat};
+use moire::internal::texture::source::TextureSource;
 
 use crate::footprints::bench::solid;
 use crate::stage::{assert_same_bits, render_with};

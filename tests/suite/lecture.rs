@@ -3,17 +3,17 @@
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
 
 use glam::{DVec2, DVec3};
-use moire::core::film::Film;
-use moire::core::progress::NoProgress;
-use moire::lab::probe::{self, RayQuery};
-use moire::oracle::camera::camera_ray;
-use moire::oracle::footprint::mirrored;
-use moire::oracle::mapping::{MapInput, texture_coordinate};
-use moire::oracle::math::{atan_unit_f32, xyz};
-use moire::pack::PackedScene;
-use moire::render::{self, Tuning};
-use moire::schema::layout::NO_SHAPE;
-use moire::texture::data::{ColorSpace, TexelFormat};
+use moire::internal::core::film::Film;
+use moire::internal::core::progress::NoProgress;
+use moire::internal::lab::probe::{self, RayQuery};
+use moire::internal::oracle::bsdf::mirror::mirrored;
+use moire::internal::oracle::camera::camera_ray;
+use moire::internal::oracle::mapping::{MapInput, texture_coordinate};
+use moire::internal::oracle::math::{atan_unit_f32, xyz};
+use moire::internal::pack::PackedScene;
+use moire::internal::render::{self, Tuning};
+use moire::internal::schema::layout::NO_SHAPE;
+use moire::internal::texture::data::{ColorSpace, TexelFormat};
 
 use crate::lookup::bench::texture;
 use crate::shared_gpu::gpu;
@@ -34,10 +34,10 @@ address = \"clamp-to-edge\"
 ";
 
 fn packed(text: &str) -> PackedScene {
-    let scene = moire::scene::parse(std::path::Path::new("lecture.toml"), text).unwrap();
+    let scene = moire::internal::scene::parse(std::path::Path::new("lecture.toml"), text).unwrap();
     let white = |_| texture(1, 1, TexelFormat::Grey8, ColorSpace::Linear, 1);
     let textures = scene.textures.iter().map(white).collect();
-    moire::pack::pack(&scene, textures, None).unwrap()
+    moire::internal::pack::pack(&scene, textures, None).unwrap()
 }
 
 /// (point, its texture coordinate) by map 0 of the oracle; and on the device where a ray along
@@ -234,7 +234,7 @@ fn parallel_camera_rays() {
 fn assert_radiance(what: &str, text: &str, by_hand: DVec3) {
     let scene = packed(text);
     let mut films: Vec<(&str, Film)> =
-        vec![("oracle", moire::oracle::render::render(&scene, &NoProgress).unwrap())];
+        vec![("oracle", moire::internal::oracle::render::render(&scene, &NoProgress).unwrap())];
     for (name, keep_everything) in [("device", false), ("device, everything kept", true)] {
         let film = render::render(&gpu(), scene.clone(), keep_everything, &Tuning::default(), &NoProgress)
             .unwrap()

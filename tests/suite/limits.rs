@@ -3,9 +3,9 @@
 
 use std::path::Path;
 
-use moire::core::error::Error;
-use moire::scene::model::Pattern;
-use moire::scene::{check_spp, parse};
+use moire::internal::core::error::Error;
+use moire::internal::scene::model::Pattern;
+use moire::internal::scene::{check_spp, parse};
 
 mod device;
 

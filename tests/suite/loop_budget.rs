@@ -1,11 +1,11 @@
 //! Scenes with long loops: Mesa's CPU driver ends all loops of a thread after 65 535 iterations, so
 //! that threads take fewer samples at once.
 
-use moire::core::progress::NoProgress;
-use moire::gpu::DeviceKind;
-use moire::render::{self, Tuning};
-use moire::scene::model::{Footprint, Scene, Triangle};
-use moire::texture::sampler_spec::{Filter, MipMode};
+use moire::internal::core::progress::NoProgress;
+use moire::internal::gpu::DeviceKind;
+use moire::internal::render::{self, Tuning};
+use moire::internal::scene::model::{Footprint, Scene, Triangle};
+use moire::internal::texture::sampler_spec::{Filter, MipMode};
 
 use crate::lookup::bench::Rng;
 use crate::stage::{device, packed, render, render_on_oracle, scene, small};

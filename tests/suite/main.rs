@@ -20,6 +20,9 @@ mod device;
 mod device_shaders;
 mod diagnostics;
 mod dimensions;
+#[cfg(unix)]
+mod docs;
+mod doors;
 mod double;
 #[cfg(unix)]
 mod driver_cache;
@@ -56,7 +59,6 @@ mod procedural;
 mod programs;
 mod random_scenes;
 mod rays;
-mod readme;
 mod resubmit;
 mod scene;
 mod shared_gpu;

@@ -10,10 +10,10 @@ mod scales;
 
 use std::path::Path;
 
-use moire::pack::{self, PackedScene};
-use moire::scene::parse;
-use moire::scene::prune::prune;
-use moire::texture::data::{ColorSpace, Dimension, TexelFormat, TextureData};
+use moire::internal::pack::{self, PackedScene};
+use moire::internal::scene::parse;
+use moire::internal::scene::prune::prune;
+use moire::internal::texture::data::{ColorSpace, Dimension, TexelFormat, TextureData};
 
 /// A float texture of `width` × `height` RGBA texels.
 fn floats(width: u32, height: u32, texel: impl Fn(u32, u32) -> [f32; 4]) -> TextureData {

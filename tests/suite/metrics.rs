@@ -5,10 +5,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use image::{DynamicImage, ImageBuffer, Luma, Rgb, Rgba};
-use moire::core::color::srgb_to_linear;
-use moire::core::film::Film;
-use moire::lab::metrics::{compare, difference_picture, read_picture};
-use moire::output::{WriteOptions, write};
+use moire::internal::core::color::srgb_to_linear;
+use moire::internal::core::film::Film;
+use moire::internal::lab::metrics::{compare, difference_picture, read_picture};
+use moire::internal::output::{WriteOptions, write};
 use tempfile::{TempDir, tempdir};
 
 use crate::support::{gradient, moire, told};

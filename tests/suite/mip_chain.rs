@@ -3,10 +3,10 @@
 
 mod scenes;
 
-use moire::lab::probe::MipProbe;
-use moire::lab::verify::queries::noise;
-use moire::texture::data::{ColorSpace, Component, Dimension, MipKernel, TexelFormat, TextureData};
-use moire::texture::mips;
+use moire::internal::lab::probe::MipProbe;
+use moire::internal::lab::verify::queries::noise;
+use moire::internal::texture::data::{ColorSpace, Component, Dimension, MipKernel, TexelFormat, TextureData};
+use moire::internal::texture::mips;
 
 use crate::shared_gpu::gpu;
 

@@ -1,9 +1,9 @@
 //! Mip chains against levels computed by hand, and invariants of every texture: the size rule,
 //! preserved means, preserved constants.
 
-use moire::core::color::{linear_to_srgb, srgb_to_linear};
-use moire::texture::data::{ColorSpace, Component, Dimension, MipKernel, TexelFormat, TextureData};
-use moire::texture::mips::{level_count, level_size, mip_chain};
+use moire::internal::core::color::{linear_to_srgb, srgb_to_linear};
+use moire::internal::texture::data::{ColorSpace, Component, Dimension, MipKernel, TexelFormat, TextureData};
+use moire::internal::texture::mips::{level_count, level_size, mip_chain};
 use proptest::prelude::*;
 
 fn texture(dimension: Dimension, size: [u32; 3], format: TexelFormat, texels: Vec<u8>) -> TextureData {

@@ -6,11 +6,11 @@ mod look_ups;
 use std::fs;
 use std::path::Path;
 
-use moire::core::film::Film;
-use moire::lab::metrics::read_picture;
-use moire::output::{Format, WriteOptions, to_bytes, write};
-use moire::texture::data::{ColorSpace, Dimension, MipKernel, TexelFormat, TextureData};
-use moire::texture::mips;
+use moire::internal::core::film::Film;
+use moire::internal::lab::metrics::read_picture;
+use moire::internal::output::{Format, WriteOptions, to_bytes, write};
+use moire::internal::texture::data::{ColorSpace, Dimension, MipKernel, TexelFormat, TextureData};
+use moire::internal::texture::mips;
 use serde_json::Value;
 use tempfile::TempDir;
 
@@ -270,7 +270,8 @@ fn a_level_is_the_mean_of_the_texels_that_are_numbers() {
         assert!((level.value(0, 0, c) - expected).abs() < 1e-6, "{c}: {}", level.value(0, 0, c));
     }
     // Without such texels it is the mip chain of all others.
-    let plain = moire::lab::verify::queries::texture(13, 6, TexelFormat::RgbaFloat, ColorSpace::Linear, 3);
+    let plain =
+        moire::internal::lab::verify::queries::texture(13, 6, TexelFormat::RgbaFloat, ColorSpace::Linear, 3);
     let usual = mips::mip_chain(&plain, MipKernel::Box);
     for (a, b) in mips::pyramid_of_finite(&plain).iter().zip(&usual) {
         let values = |t: &TextureData| bytemuck::pod_collect_to_vec::<u8, f32>(&t.texels);

@@ -3,7 +3,7 @@
 //! a texel of `nearest`, a sample within that rounding may fall on the other side, which moves its
 //! pixel by a visible step: such pixels are counted.
 
-use moire::core::film::Film;
+use moire::internal::core::film::Film;
 
 use crate::stage::{every_scene, packed, render, render_on_oracle, scene, small};
 

@@ -7,9 +7,9 @@ use std::path::{Path, PathBuf};
 
 use image::codecs::jpeg::JpegEncoder;
 use image::{GrayImage, ImageFormat};
-use moire::texture::data::{Dimension, TextureData};
-use moire::texture::load::load;
-use moire::texture::source::{OrientationUse, Reading, TextureContent};
+use moire::internal::texture::data::{Dimension, TextureData};
+use moire::internal::texture::load::load;
+use moire::internal::texture::source::{OrientationUse, Reading, TextureContent};
 use tempfile::tempdir;
 
 use crate::support::texture_source;

@@ -3,12 +3,12 @@
 use std::fs;
 use std::path::Path;
 
-use moire::core::color::{linear_to_srgb, srgb_to_linear};
-use moire::core::film::{Film, Placement};
-use moire::lab::metrics::{read_picture, read_placed};
-use moire::output::{WriteOptions, check_writable, write, write_all};
-use moire::texture::data::{ColorSpace, TexelFormat, TextureData};
-use moire::texture::decode::decode;
+use moire::internal::core::color::{linear_to_srgb, srgb_to_linear};
+use moire::internal::core::film::{Film, Placement};
+use moire::internal::lab::metrics::{read_picture, read_placed};
+use moire::internal::output::{WriteOptions, check_writable, write, write_all};
+use moire::internal::texture::data::{ColorSpace, TexelFormat, TextureData};
+use moire::internal::texture::decode::decode;
 use tempfile::tempdir;
 
 use crate::support::{gradient, told};

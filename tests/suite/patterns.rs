@@ -10,11 +10,11 @@ mod pictures;
 mod randomness;
 mod spectra;
 
-use moire::oracle::patterns::{Points, pair_points, pixel_points, sample_pair};
-use moire::oracle::rng::pixel_key;
-use moire::pack::PackedScene;
-use moire::scene::model::Pattern;
-use moire::schema::layout::Header;
+use moire::internal::oracle::patterns::{Points, pair_points, pixel_points, sample_pair};
+use moire::internal::oracle::rng::pixel_key;
+use moire::internal::pack::PackedScene;
+use moire::internal::scene::model::Pattern;
+use moire::internal::schema::layout::Header;
 
 /// All that have points of their own in each pixel.
 const SCATTERED: [Pattern; 7] = [

@@ -11,11 +11,11 @@ mod unfinished;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use moire::core::error::Result;
-use moire::texture::data::{Dimension, TextureData};
-use moire::texture::decode::AllowedFloats;
-use moire::texture::load::load_noted;
-use moire::texture::source::{Reading, TextureContent};
+use moire::internal::core::error::Result;
+use moire::internal::texture::data::{Dimension, TextureData};
+use moire::internal::texture::decode::AllowedFloats;
+use moire::internal::texture::load::load_noted;
+use moire::internal::texture::source::{Reading, TextureContent};
 use tempfile::tempdir;
 
 use crate::support::{data, texture_source, told};

@@ -9,9 +9,9 @@ mod weights;
 
 use std::path::Path;
 
-use moire::pack::{self, PackedScene, kernel};
-use moire::scene::model::{Pattern, PixelFilter, PixelFilterKind, Scene};
-use moire::scene::parse;
+use moire::internal::pack::{self, PackedScene, kernel};
+use moire::internal::scene::model::{Pattern, PixelFilter, PixelFilterKind, Scene};
+use moire::internal::scene::parse;
 
 /// All but the pixel's own square.
 fn filters() -> Vec<PixelFilter> {

@@ -8,10 +8,10 @@ mod points;
 mod text;
 
 use glam::DVec3;
-use moire::oracle::procedural::{figure_share, procedural_color};
-use moire::pack;
-use moire::schema::layout;
-use moire::texture::procedural::{Procedural, ProceduralKind};
+use moire::internal::oracle::procedural::{figure_share, procedural_color};
+use moire::internal::pack;
+use moire::internal::schema::layout;
+use moire::internal::texture::procedural::{Procedural, ProceduralKind};
 
 use crate::lookup::bench::Rng;
 

@@ -8,8 +8,8 @@ mod scenes;
 mod truth;
 
 use glam::DVec3;
-use moire::core::film::Film;
-use moire::scene::model::{Algorithm, Footprint, Scene};
+use moire::internal::core::film::Film;
+use moire::internal::scene::model::{Algorithm, Footprint, Scene};
 
 use crate::stage::{packed, render};
 use scenes::Kind;

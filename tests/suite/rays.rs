@@ -3,14 +3,14 @@
 //! no ray between two triangles that share an edge.
 
 use glam::{DVec2, DVec3};
-use moire::lab::probe::{self, RayAnswer, RayQuery};
-use moire::oracle::camera::Ray;
-use moire::oracle::intersect::{Hit, nearest_hit, occluded};
-use moire::oracle::mapping::{MapInput, texture_coordinate};
-use moire::oracle::math::xyz;
-use moire::oracle::surface::hit_surface;
-use moire::pack::{MapKind, PackedScene};
-use moire::schema::layout::NO_SHAPE;
+use moire::internal::lab::probe::{self, RayAnswer, RayQuery};
+use moire::internal::oracle::camera::Ray;
+use moire::internal::oracle::geometry::rays::hit_surface;
+use moire::internal::oracle::geometry::rays::{Hit, nearest_hit, occluded};
+use moire::internal::oracle::mapping::{MapInput, texture_coordinate};
+use moire::internal::oracle::math::xyz;
+use moire::internal::pack::{MapKind, PackedScene};
+use moire::internal::schema::layout::NO_SHAPE;
 
 use crate::lookup::bench::Rng;
 use crate::shared_gpu::gpu;
@@ -116,7 +116,7 @@ fn wrong_hit(
 
 fn wrong_uv(
     scene: &PackedScene,
-    surface: &moire::oracle::surface::Surface,
+    surface: &moire::internal::oracle::geometry::hit::Surface,
     answer: &RayAnswer,
     point_error: f64,
     weights: f64,

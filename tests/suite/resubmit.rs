@@ -4,12 +4,12 @@
 
 use std::time::Instant;
 
-use moire::core::progress::NoProgress;
-use moire::gpu::{DeviceKind, DeviceSelect, Gpu};
-use moire::lab::probe::MipProbe;
-use moire::render::{Session, Tuning};
-use moire::scene::model::{Algorithm, Pattern};
-use moire::texture::data::{ColorSpace, Dimension, TexelFormat, TextureData};
+use moire::internal::core::progress::NoProgress;
+use moire::internal::gpu::{DeviceKind, DeviceSelect, Gpu};
+use moire::internal::lab::probe::MipProbe;
+use moire::internal::render::{Session, Tuning};
+use moire::internal::scene::model::{Algorithm, Pattern};
+use moire::internal::texture::data::{ColorSpace, Dimension, TexelFormat, TextureData};
 
 use crate::stage::{device_name, packed, small};
 use crate::support::untested;

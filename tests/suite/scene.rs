@@ -10,12 +10,12 @@ mod text;
 use std::path::Path;
 
 use glam::{DVec2, DVec3};
-use moire::core::error::Error;
-use moire::scene::model::*;
-use moire::scene::{load, parse};
-use moire::texture::data::ColorSpace;
-use moire::texture::sampler_spec::{Address, Filter, Method, MipMode, SamplerSpec, TexelCenter};
-use moire::texture::source::{OrientationUse, Reading};
+use moire::internal::core::error::Error;
+use moire::internal::scene::model::*;
+use moire::internal::scene::{load, parse};
+use moire::internal::texture::data::ColorSpace;
+use moire::internal::texture::sampler_spec::{Address, Filter, Method, MipMode, SamplerSpec, TexelCenter};
+use moire::internal::texture::source::{OrientationUse, Reading};
 
 const HEAD: &str = "\
 [camera]

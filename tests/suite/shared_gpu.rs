@@ -4,7 +4,7 @@
 use std::ops::Deref;
 use std::sync::OnceLock;
 
-use moire::gpu::{DeviceSelect, Gpu, OpenOptions, validation_available};
+use moire::internal::gpu::{DeviceSelect, Gpu, OpenOptions, validation_available};
 
 use crate::support::untested;
 

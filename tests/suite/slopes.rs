@@ -3,9 +3,9 @@
 //! slopes of -2, -3/2 and -1 (Mitchell 1996), independent samples -1 on all three. Confidence
 //! intervals are bootstrapped from blocks of pixels.
 
-use moire::core::film::Film;
-use moire::lab::study::bootstrap::{blocks, interval};
-use moire::scene::model::Pattern;
+use moire::internal::core::film::Film;
+use moire::internal::lab::study::bootstrap::{blocks, interval};
+use moire::internal::scene::model::Pattern;
 
 use crate::stage::{packed, render};
 use crate::support::data;
@@ -16,7 +16,8 @@ const SEEDS: u32 = 3;
 const CONFIDENCE: f64 = 0.99;
 
 fn film(name: &str, pattern: Pattern, spp: u32, seed: u32) -> Film {
-    let mut scene = moire::scene::load(&data().join(format!("scenes/slopes/slope-{name}.toml"))).unwrap();
+    let mut scene =
+        moire::internal::scene::load(&data().join(format!("scenes/slopes/slope-{name}.toml"))).unwrap();
     (scene.sampling.pattern, scene.sampling.spp, scene.sampling.seed) = (pattern, spp, seed);
     render(&packed(scene, None))
 }
@@ -73,7 +74,8 @@ fn random_samples_fall_with_their_number_whatever_they_show() {
 
 /// Squared errors whose mean falls by a power, each the square of a normal deviate: sums of 12 uniform numbers.
 fn planted(exponent: f64, seed: u32) -> Vec<Vec<f32>> {
-    let uniform = |i: u32| f64::from(moire::oracle::rng::mix_bits(i ^ seed << 20)) / f64::from(u32::MAX);
+    let uniform =
+        |i: u32| f64::from(moire::internal::oracle::rng::mix_bits(i ^ seed << 20)) / f64::from(u32::MAX);
     let normal = |i: u32| (0..12).map(|k| uniform(12 * i + k)).sum::<f64>() - 6.0;
     let of = |(k, n): (u32, &u32)| {
         (0..192).map(|b| (normal(192 * k + b) * f64::from(*n).powf(0.5 * exponent)).powi(2) as f32).collect()

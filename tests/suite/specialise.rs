@@ -5,12 +5,12 @@
 use std::io::Write;
 use std::process::{Command, Stdio};
 
-use moire::gpu::shaders::{self, Shader, specialise};
-use moire::pack::features::{Features, widest};
-use moire::pack::{self, PackedScene, SlotCounts};
-use moire::render::specialization::constants;
-use moire::scene;
-use moire::texture::load::load;
+use moire::internal::gpu::shaders::{self, Shader, specialise};
+use moire::internal::pack::features::{Features, widest};
+use moire::internal::pack::{self, PackedScene, SlotCounts};
+use moire::internal::render::specialization::constants;
+use moire::internal::scene;
+use moire::internal::texture::load::load;
 
 use crate::support::{data, untested};
 

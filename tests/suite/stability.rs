@@ -5,10 +5,10 @@ mod command;
 mod page;
 mod verdicts;
 
-use moire::core::error::Result;
-use moire::gpu::{DeviceInfo, DeviceKind};
-use moire::lab::stability::case::{Bench, Case, Point};
-use moire::lab::stability::report::{Row, StabilityReport};
+use moire::internal::core::error::Result;
+use moire::internal::gpu::{DeviceInfo, DeviceKind};
+use moire::internal::lab::stability::case::{Bench, Case, Point};
+use moire::internal::lab::stability::report::{Row, StabilityReport};
 
 type Run = fn(&Bench<'_>) -> Result<Vec<Point>>;
 

@@ -7,15 +7,15 @@ use std::ops::Deref;
 use std::path::PathBuf;
 use std::sync::OnceLock;
 
-use moire::core::film::Film;
-use moire::core::progress::NoProgress;
-use moire::gpu::{DeviceSelect, Gpu, OpenOptions, validation_available};
-use moire::oracle;
-use moire::pack::{self, Crop, PackedScene};
-use moire::render::{self, Report, Tuning};
-use moire::scene::model::{Pattern, Scene};
-use moire::scene::{self, prune::prune};
-use moire::texture::load::load;
+use moire::internal::core::film::Film;
+use moire::internal::core::progress::NoProgress;
+use moire::internal::gpu::{DeviceSelect, Gpu, OpenOptions, validation_available};
+use moire::internal::oracle;
+use moire::internal::pack::{self, Crop, PackedScene};
+use moire::internal::render::{self, Report, Tuning};
+use moire::internal::scene::model::{Pattern, Scene};
+use moire::internal::scene::{self, prune::prune};
+use moire::internal::texture::load::load;
 
 use crate::support::{data, untested};
 

@@ -11,12 +11,12 @@ mod warps;
 
 use std::path::Path;
 
-use moire::core::film::Film;
-use moire::lab::metrics::compare;
-use moire::pack::{self, PackedScene};
-use moire::scene::model::{Pattern, Scene};
-use moire::scene::parse;
-use moire::scene::prune::prune;
+use moire::internal::core::film::Film;
+use moire::internal::lab::metrics::compare;
+use moire::internal::pack::{self, PackedScene};
+use moire::internal::scene::model::{Pattern, Scene};
+use moire::internal::scene::parse;
+use moire::internal::scene::prune::prune;
 
 use crate::stage::render;
 

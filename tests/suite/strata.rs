@@ -1,13 +1,13 @@
 //! Sample positions: the device's against the oracle's and both against the formula, bit for bit;
 //! one sample in every stratum; sets that pixels share or not; and the randomness of their jitter.
 
-use moire::lab::probe::{self, Positions};
-use moire::oracle::patterns::{pixel_points, sample_point};
-use moire::oracle::rng::{pixel_key, sample_bits};
-use moire::oracle::strata::stratum_position;
-use moire::pack::PackedScene;
-use moire::scene::model::Pattern;
-use moire::schema::layout::Header;
+use moire::internal::lab::probe::{self, Positions};
+use moire::internal::oracle::patterns::{pixel_points, sample_point};
+use moire::internal::oracle::rng::{pixel_key, sample_bits};
+use moire::internal::oracle::strata::stratum_position;
+use moire::internal::pack::PackedScene;
+use moire::internal::scene::model::Pattern;
+use moire::internal::schema::layout::Header;
 
 use crate::shared_gpu::gpu;
 

@@ -6,9 +6,9 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
-use moire::core::film::Film;
-use moire::texture::data::{ColorSpace, Dimension, MipKernel};
-use moire::texture::source::{Reading, TextureContent, TextureSource};
+use moire::internal::core::film::Film;
+use moire::internal::texture::data::{ColorSpace, Dimension, MipKernel};
+use moire::internal::texture::source::{Reading, TextureContent, TextureSource};
 
 /// The program under test: `MOIRE_BIN`, else `moire` beside this binary or one folder up.
 pub fn moire() -> assert_cmd::Command {
@@ -71,9 +71,9 @@ pub fn gradient(width: u32, height: u32) -> Film {
 }
 
 /// The message and its help, as one string.
-pub fn told<T>(result: moire::core::error::Result<T>) -> String {
+pub fn told<T>(result: moire::internal::core::error::Result<T>) -> String {
     match result.err().expect("an error was expected") {
-        moire::core::error::Error::Plain { message, help } => {
+        moire::internal::core::error::Error::Plain { message, help, .. } => {
             format!("{message}\n{}", help.unwrap_or_default())
         }
         other => other.to_string(),

@@ -6,18 +6,18 @@ use std::fs;
 use std::path::Path;
 
 use image::{ImageBuffer, Luma, Rgb};
-use moire::core::color::srgb_table;
-use moire::core::progress::NoProgress;
-use moire::lab::probe;
-use moire::lab::verify::queries::noise;
-use moire::oracle::filter::sample_texture;
-use moire::oracle::mapping::Coordinate;
-use moire::pack::{self, MipPlacement, PackedScene};
-use moire::render::{TexelChoice, Tuning, render};
-use moire::scene::parse;
-use moire::scene::prune::prune;
-use moire::texture::data::{ColorSpace, Dimension, TexelFormat, TextureData};
-use moire::texture::sampler_spec::{Filter, SamplerSpec};
+use moire::internal::core::color::srgb_table;
+use moire::internal::core::progress::NoProgress;
+use moire::internal::lab::probe;
+use moire::internal::lab::verify::queries::noise;
+use moire::internal::oracle::filter::sample_texture;
+use moire::internal::oracle::mapping::Coordinate;
+use moire::internal::pack::{self, MipPlacement, PackedScene};
+use moire::internal::render::{TexelChoice, Tuning, render};
+use moire::internal::scene::parse;
+use moire::internal::scene::prune::prune;
+use moire::internal::texture::data::{ColorSpace, Dimension, TexelFormat, TextureData};
+use moire::internal::texture::sampler_spec::{Filter, SamplerSpec};
 use serde_json::Value;
 use tempfile::tempdir;
 
@@ -260,7 +260,9 @@ fn what_reads_a_texture_of_two_names_reads_it_still() {
     let names: Vec<&str> = scene.textures.iter().map(|t| t.name.as_str()).collect();
     assert_eq!(names, ["a", "b", "d"]);
     let [m, n] = [&scene.materials[0], &scene.materials[1]];
-    let read = |material: &moire::scene::model::Material| (material.texture, material.bump.unwrap().texture);
+    let read = |material: &moire::internal::scene::model::Material| {
+        (material.texture, material.bump.unwrap().texture)
+    };
     assert_eq!((read(m), read(n)), ((Some(0), 2), (Some(0), 1)));
     assert_eq!(scene.background.environment.unwrap().texture, 1);
 }

@@ -4,8 +4,8 @@
 use std::path::{Path, PathBuf};
 
 use image::{ColorType, DynamicImage, ImageBuffer, Luma, Rgb, Rgb32FImage, RgbImage};
-use moire::texture::analysis::{Analysis, Seam, analyse};
-use moire::texture::data::{ColorSpace, Dimension, TexelFormat, TextureData};
+use moire::internal::texture::analysis::{Analysis, Seam, analyse};
+use moire::internal::texture::data::{ColorSpace, Dimension, TexelFormat, TextureData};
 use serde_json::{Value, json};
 use tempfile::tempdir;
 

@@ -2,14 +2,14 @@
 //! hits, so that pictures are bitwise equal, and uniform tiles begin with fewer samples.
 
 use glam::DVec3;
-use moire::adaptive::Goal;
-use moire::core::film::Film;
-use moire::core::progress::NoProgress;
-use moire::oracle::tile_culling::triangles_of;
-use moire::pack::{Crop, PackedScene};
-use moire::render::{self, Session, Tuning};
-use moire::scene::model::{Algorithm, Model, Pattern, Projection, Scene, Triangle};
-use moire::schema::layout::{CELL_BUSY, CELL_EMPTY, CELL_UNIFORM, CELL_WORDS, MAX_LISTED};
+use moire::internal::adaptive::Goal;
+use moire::internal::core::film::Film;
+use moire::internal::core::progress::NoProgress;
+use moire::internal::oracle::tile_culling::triangles_of;
+use moire::internal::pack::{Crop, PackedScene};
+use moire::internal::render::{self, Session, Tuning};
+use moire::internal::scene::model::{Algorithm, Model, Pattern, Projection, Scene, Triangle};
+use moire::internal::schema::layout::{CELL_BUSY, CELL_EMPTY, CELL_UNIFORM, CELL_WORDS, MAX_LISTED};
 
 use crate::lookup::bench::Rng;
 use crate::stage::{assert_same_bits, device, packed, render, render_with, small};
@@ -113,7 +113,7 @@ fn lists_hold_what_float64_says() {
     assert!(exact > 100 && listed < exact + exact / 10, "{listed} listed, {exact} needed");
 }
 
-fn to_goal(scene: &Scene, goal: Goal) -> (Film, moire::adaptive::Outcome) {
+fn to_goal(scene: &Scene, goal: Goal) -> (Film, moire::internal::adaptive::Outcome) {
     let mut scene = scene.clone();
     scene.sampling.algorithm = Algorithm::Adaptive;
     scene.sampling.pattern = Pattern::SobolOwen;
@@ -163,6 +163,6 @@ fn calm_cells_begin_with_fewer_samples_and_nothing_thin_is_missed() {
     let mut converged = scene.clone();
     (converged.sampling.pattern, converged.sampling.spp) = (Pattern::SobolOwen, 4096);
     let reference = render(&packed(converged, None));
-    let error = moire::lab::metrics::compare(&film, &reference).unwrap().rmse;
+    let error = moire::internal::lab::metrics::compare(&film, &reference).unwrap().rmse;
     assert!(error < 1.1 * 2e-3, "{error:e}");
 }

@@ -6,9 +6,9 @@
 
 use std::f64::consts::TAU;
 
-use moire::oracle::rng::mix_bits;
-use moire::texture::analysis::{AxisAnalysis, Seam, Verdict, analyse};
-use moire::texture::data::{ColorSpace, Dimension, TexelFormat, TextureData};
+use moire::internal::oracle::rng::mix_bits;
+use moire::internal::texture::analysis::{AxisAnalysis, Seam, Verdict, analyse};
+use moire::internal::texture::data::{ColorSpace, Dimension, TexelFormat, TextureData};
 
 use crate::support::moire;
 

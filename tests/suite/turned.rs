@@ -6,13 +6,13 @@ use std::f64::consts::TAU;
 use std::path::Path;
 
 use glam::{DQuat, DVec3};
-use moire::core::film::Film;
-use moire::lab::metrics::compare;
-use moire::pack;
-use moire::scene::model::{Light, MappingKind, Scene};
-use moire::scene::parse;
-use moire::scene::prune::prune;
-use moire::texture::data::{ColorSpace, Dimension, TexelFormat};
+use moire::internal::core::film::Film;
+use moire::internal::lab::metrics::compare;
+use moire::internal::pack;
+use moire::internal::scene::model::{Light, MappingKind, Scene};
+use moire::internal::scene::parse;
+use moire::internal::scene::prune::prune;
+use moire::internal::texture::data::{ColorSpace, Dimension, TexelFormat};
 
 use crate::lookup::bench::{Rng, Vectors, texture};
 use crate::stage::{render, render_on_oracle};

@@ -4,19 +4,23 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use glam::DVec2;
-use moire::gpu::{DeviceInfo, DeviceKind, DeviceLimits};
-use moire::lab::verify::groups::lines;
-use moire::lab::verify::judge::{Judge, Judgement, Precision};
-use moire::lab::verify::queries::{Axis, Rng, coordinates, pairs, query, ramp, ramp_texture, texture, uv_of};
-use moire::lab::verify::report::{ConformanceReport, Row, Verdict};
-use moire::lab::verify::run::Tally;
-use moire::lab::verify::text::text;
-use moire::lab::verify::variants::{FormatClass, Reader, Scale, Variant, sampler_variants, shader_variants};
-use moire::lab::verify::weights::{RAMP_STEPS, WeightBits, weight_bits};
-use moire::oracle::filter::sample_texture;
-use moire::oracle::mapping::Coordinate;
-use moire::texture::data::Dimension;
-use moire::texture::sampler_spec::{Address, Filter, SamplerSpec};
+use moire::internal::gpu::{DeviceInfo, DeviceKind, DeviceLimits};
+use moire::internal::lab::verify::groups::lines;
+use moire::internal::lab::verify::judge::{Judge, Judgement, Precision};
+use moire::internal::lab::verify::queries::{
+    Axis, Rng, coordinates, pairs, query, ramp, ramp_texture, texture, uv_of,
+};
+use moire::internal::lab::verify::report::{ConformanceReport, Row, Verdict};
+use moire::internal::lab::verify::run::Tally;
+use moire::internal::lab::verify::text::text;
+use moire::internal::lab::verify::variants::{
+    FormatClass, Reader, Scale, Variant, sampler_variants, shader_variants,
+};
+use moire::internal::lab::verify::weights::{RAMP_STEPS, WeightBits, weight_bits};
+use moire::internal::oracle::filter::sample_texture;
+use moire::internal::oracle::mapping::Coordinate;
+use moire::internal::texture::data::Dimension;
+use moire::internal::texture::sampler_spec::{Address, Filter, SamplerSpec};
 
 mod command;
 mod levels;

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use super::areas::box_mean;
 use super::case::{Bench, Case, Point};
-use super::probing::{decades, described, noise, oracle, over, places, scene, worst};
+use super::probing::{coordinates, decades, described, noise, oracle, over, scene, worst};
 use crate::core::error::Result;
 use crate::core::progress::NoProgress;
 use crate::lab::probe::{LookupProbe, LookupQuery};
@@ -129,9 +129,9 @@ fn shape(kind: usize, wide: f64) -> [[f64; 2]; 2] {
 }
 
 pub fn footprints(scene: &PackedScene, wide: f64) -> Vec<LookupQuery> {
-    let places = coordinates(&mut Rng::new(11), 240);
+    let uvs = coordinates(&mut Rng::new(11), 240);
     let wide = wide / f64::from(SIDE);
-    places.iter().enumerate().map(|(i, &uv)| over(scene, 0, uv, shape(i, wide))).collect()
+    uvs.iter().enumerate().map(|(i, &uv)| over(scene, 0, uv, shape(i, wide))).collect()
 }
 
 fn texel_mean() -> f64 {
@@ -200,8 +200,8 @@ fn lengths(bench: &Bench<'_>) -> Result<Vec<Point>> {
     let sweep = decades(0, 6, 2).map(|ratio| {
         bench.check_cancelled()?;
         let wide = OFF / f64::from(SIDE);
-        let places = coordinates(&mut Rng::new(12), 240);
-        let queries: Vec<LookupQuery> = places
+        let uvs = coordinates(&mut Rng::new(12), 240);
+        let queries: Vec<LookupQuery> = uvs
             .iter()
             .enumerate()
             .map(|(i, &uv)| {

@@ -61,11 +61,11 @@ fn an_answer_that_is_no_number_has_an_endless_error() {
 fn boxes_by_their_mean_tell_a_box_of_one_period_from_one_and_a_half() {
     let scene = filtered(Filter::SummedArea);
     let texels = noise(SIDE, SIDE);
-    for (wide, told) in [(1.5, true), (1.0, false)] {
+    for (wide, detected) in [(1.5, true), (1.0, false)] {
         let query = over(&scene, 0, [0.3, 0.6], [[wide, 0.0], [0.0, 0.2]]);
         let period = over(&scene, 0, [0.3, 0.6], [[1.0, 0.0], [0.0, 0.2]]);
         let error = (box_mean(&texels, &query) - box_mean(&texels, &period)).abs() / RANGE;
-        assert_eq!(error > 2e-5, told, "{wide}: {error}");
+        assert_eq!(error > 2e-5, detected, "{wide}: {error}");
         // The summed-area table agrees.
         assert!((oracle(&scene, 0, &query) - box_mean(&texels, &query)).abs() / RANGE < 1e-6);
     }

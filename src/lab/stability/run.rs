@@ -58,9 +58,5 @@ fn check_alive(gpu: &Gpu) -> Result<()> {
 
 /// Returns the message with its advice.
 fn message(error: &Error) -> String {
-    let help = match error {
-        Error::Scene { help, .. } | Error::Plain { help, .. } => help.as_deref(),
-        Error::Interrupted => None,
-    };
-    help.map_or(error.to_string(), |help| format!("{error} ({help})"))
+    error.help().map_or(error.to_string(), |help| format!("{error} ({help})"))
 }

@@ -14,7 +14,7 @@ const GROUP: &str = "sums";
 const PARAMETER: &str = "samples in one pixel";
 const UNIT: &str = "of the mean";
 /// The exponent of the largest sample count of a scene, 2²⁴.
-const MOST: u32 = 24;
+const MAX_EXPONENT: u32 = 24;
 /// The limit for grids. Each block of 256 samples is a submission: 2²⁴ take as long as all the
 /// others together.
 const MAX_GRID: u32 = 22;
@@ -95,7 +95,7 @@ fn colour(bench: &Bench<'_>) -> Result<Vec<Point>> {
         let film = on_device(bench, &packed(&coloured("stratified", "samples", spp), vec![], None)?)?;
         Ok(point(spp, &film, COLOUR.map(f64::from)))
     };
-    counts(MOST).map(run).collect()
+    counts(MAX_EXPONENT).map(run).collect()
 }
 
 /// Sweeps grids of samples whose side is a multiple of the texture's, so that each texel is hit

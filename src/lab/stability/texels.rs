@@ -2,7 +2,7 @@
 //! the error of lookups against weighted sums in f64.
 
 use super::case::{Bench, Case, Point};
-use super::probing::{ROUNDING, decades, grey, noise, oracle, over, places, scene, worst};
+use super::probing::{ROUNDING, coordinates, decades, grey, noise, oracle, over, scene, worst};
 use crate::core::error::Result;
 use crate::lab::probe::LookupProbe;
 use crate::lab::verify::queries::Rng;
@@ -94,8 +94,8 @@ fn brightness(bench: &Bench<'_>) -> Result<Vec<Point>> {
         bench.check_cancelled()?;
         let texels = grey(SIDE, SIDE, |x, y| (texels.value(x, y, 0) / 6.0 * size) as f32);
         let scene = scene(texels, &specs)?;
-        let places = coordinates(&mut Rng::new(3), 200);
-        let all = places.iter().flat_map(|&uv| (0..specs.len()).map(move |i| (i, uv)));
+        let uvs = coordinates(&mut Rng::new(3), 200);
+        let all = uvs.iter().flat_map(|&uv| (0..specs.len()).map(move |i| (i, uv)));
         let queries: Vec<_> = all.map(|(i, uv)| over(&scene, i, uv, footprints[i])).collect();
         let unit = size * ROUNDING;
         worst(&mut device, &scene, size, unit, &queries, |i, query| oracle(&scene, i, query))
@@ -151,9 +151,8 @@ fn bright_level(bench: &Bench<'_>) -> Result<Vec<Point>> {
         let size = f64::from(size as f32);
         let texels = grey(side, side, |x, y| if [x, y] == [37, 11] { size as f32 } else { 1.0 });
         let scene = scene(texels, &[spec(Filter::Linear, Filter::Linear)])?;
-        let places = coordinates(&mut Rng::new(5), 50);
-        let queries: Vec<_> =
-            places.iter().map(|&uv| over(&scene, 0, uv, [[3.0, 0.0], [0.0, 3.0]])).collect();
+        let uvs = coordinates(&mut Rng::new(5), 50);
+        let queries: Vec<_> = uvs.iter().map(|&uv| over(&scene, 0, uv, [[3.0, 0.0], [0.0, 3.0]])).collect();
         let texels = f64::from(side * side);
         let mean = (size + (texels - 1.0)) / texels;
         worst(&mut device, &scene, size, mean * ROUNDING, &queries, |_, _| mean)
@@ -170,8 +169,8 @@ fn bright_area(bench: &Bench<'_>) -> Result<Vec<Point>> {
         let texel = [9.0, 6.0];
         let texels = grey(SIDE, SIDE, |x, y| if [x, y] == [9, 6] { size as f32 } else { 1.0 });
         let scene = scene(texels, &[spec(Filter::Linear, Filter::SummedArea)])?;
-        let places = coordinates(&mut Rng::new(6), 200);
-        let queries: Vec<_> = places.iter().map(|&uv| over(&scene, 0, uv, ROUND)).collect();
+        let uvs = coordinates(&mut Rng::new(6), 200);
+        let queries: Vec<_> = uvs.iter().map(|&uv| over(&scene, 0, uv, ROUND)).collect();
         worst(&mut device, &scene, size, size * ROUNDING, &queries, |_, query| {
             let side = f64::from(SIDE);
             let covered = |axis: usize| {
@@ -203,8 +202,8 @@ fn no_number(bench: &Bench<'_>) -> Result<Vec<Point>> {
         let near = |k: u32| [k % 24, k / 24].map(|n| (n as f32 / 4.0 - 3.0) / side as f32);
         let center = at.map(|n| n as f32 / side as f32);
         let around = (0..576).map(near).map(|[x, y]| [center[0] + x, center[1] + y]);
-        let places: Vec<_> = around.chain(coordinates(&mut Rng::new(7), 200)).collect();
-        let all = places.iter().flat_map(|&uv| (0..specs.len()).map(move |i| (i, uv)));
+        let uvs: Vec<_> = around.chain(coordinates(&mut Rng::new(7), 200)).collect();
+        let all = uvs.iter().flat_map(|&uv| (0..specs.len()).map(move |i| (i, uv)));
         let queries: Vec<_> = all.map(|(i, uv)| over(&odd, i, uv, POINT)).collect();
         let answers = device.answer(&odd, false, &queries)?;
         let wrong = queries.iter().zip(&answers).enumerate().filter(|(i, (query, answer))| {

@@ -8,7 +8,7 @@ use crate::core::counted::counted;
 
 const HEAD: [&str; 6] = ["case", "parameter", "worst error", "bound", "reached at", "verdict"];
 /// The length to which positions are shortened in the table.
-const LONGEST_PLACE: usize = 44;
+const MAX_PLACE_LENGTH: usize = 44;
 
 pub fn text(report: &StabilityReport) -> String {
     let mut out = String::new();
@@ -86,10 +86,10 @@ pub fn place(row: &Row) -> String {
 }
 
 fn shortened(text: &str) -> String {
-    if text.chars().count() <= LONGEST_PLACE {
+    if text.chars().count() <= MAX_PLACE_LENGTH {
         return text.into();
     }
-    text.chars().take(LONGEST_PLACE - 1).chain(['…']).collect()
+    text.chars().take(MAX_PLACE_LENGTH - 1).chain(['…']).collect()
 }
 
 /// Formats a number with three digits; short integers stay exact.

@@ -140,7 +140,7 @@ fn shared_edges(bench: &Bench<'_>) -> Result<Vec<Point>> {
         for (direction, shape) in directions.iter().zip(hit_shapes(bench, &scene, &directions)?) {
             if shape == NO_SHAPE {
                 lost += 1.0;
-                first = format!("first: direction {way}");
+                first = format!("first: direction {direction}");
             }
         }
         sent += AT_ONCE;
@@ -161,7 +161,10 @@ fn far_edges(bench: &Bench<'_>) -> Result<Vec<Point>> {
             (0..100_000).map(|i| to_edge(&vertices, &faces, i)).filter(inside).collect();
         let shapes = hit_shapes(bench, &scene, &directions)?;
         let lost = directions.iter().zip(&shapes).filter(|(_, shape)| **shape == NO_SHAPE);
-        let first = lost.clone().next().map_or(String::new(), |(way, _)| format!("first: direction {way}"));
+        let first = lost
+            .clone()
+            .next()
+            .map_or(String::new(), |(direction, _)| format!("first: direction {direction}"));
         Ok(Point::worst(distance, [(lost.count() as f64, first)]))
     };
     (0..=6).map(run).collect()
@@ -192,7 +195,7 @@ fn ties(bench: &Bench<'_>) -> Result<Vec<Point>> {
     let shapes = hit_shapes(bench, &scene, &directions)?;
     let wrong = rays.iter().zip(&shapes).filter(|((_, lowest), shape)| **shape != *lowest);
     let first = wrong.clone().next().map_or(String::new(), |((direction, lowest), shape)| {
-        format!("first: direction {way} met {shape}, not {lowest}")
+        format!("first: direction {direction} met {shape}, not {lowest}")
     });
     Ok(vec![Point::worst(rays.len() as f64, [(wrong.count() as f64, first)])])
 }

@@ -5,8 +5,8 @@ use glam::{DVec3, DVec4};
 
 use super::judge::F32_ULP;
 use super::reading::Reading;
+use crate::oracle::filter::levels::Reader;
 use crate::oracle::footprint_axes::{in_texture, kind_of};
-use crate::oracle::levels::Reader;
 use crate::oracle::mapping::Coordinate;
 use crate::oracle::texture::{Level, fetch_texel, level_at};
 use crate::pack::{PackedScene, TextureKind};

@@ -138,7 +138,7 @@ pub fn pairs_over(
 ) -> Result<PackedScene> {
     let material = |&(texture, sampler): &(usize, usize)| Material {
         name: "pair".into(),
-        model: Model::Unlit,
+        model: Model::PLAIN,
         texture: Some(texture),
         sampler,
         ..Default::default()

@@ -24,7 +24,7 @@ pub fn counted_samples(scene: &PackedScene) -> u32 {
 pub fn cone_shapes(scene: &PackedScene) -> u32 {
     // Of `fragments.glsl`.
     const MAX_FRAGMENTS: usize = 8;
-    let shapes = scene.planes.len() + scene.spheres.len() + scene.triangles.len();
+    let shapes = scene.shape_count();
     if shapes < MAX_FRAGMENTS { shapes.max(1) as u32 } else { DYNAMIC }
 }
 
@@ -58,8 +58,8 @@ pub fn warps(scene: &PackedScene) -> bool {
     kind != PixelFilterKind::Box as u32 || f32::from_bits(radius) != 0.5
 }
 
-pub fn has_model(scene: &PackedScene, model: Model) -> bool {
-    scene.materials.iter().any(|m| m.link[0] == model as u32)
+fn has_model(scene: &PackedScene, does: fn(Model) -> bool) -> bool {
+    scene.materials.iter().any(|m| does(Model::ALL[m.link[0] as usize]))
 }
 
 /// Without a footprint, look-ups of procedural textures pass one of zero.
@@ -69,12 +69,13 @@ pub fn filters_procedurals(scene: &PackedScene) -> bool {
 
 /// Mirrors and glass, if their rays may go on.
 pub fn bounces(scene: &PackedScene) -> bool {
-    scene.header.size[3] > 0 && (has_model(scene, Model::Mirror) || has_model(scene, Model::Dielectric))
+    scene.header.size[3] > 0 && has_model(scene, Model::is_specular)
 }
 
 /// Whether look-ups take texels at random.
 pub fn chooses(scene: &PackedScene) -> bool {
-    filters(scene) & bit(Filter::Stochastic as u32) != 0
+    let mask = filters(scene);
+    Filter::ALL.iter().any(|&f| f.traits().is_random && mask & bit(f as u32) != 0)
 }
 
 pub fn filters(scene: &PackedScene) -> u32 {
@@ -87,8 +88,6 @@ pub fn bump_kinds(scene: &PackedScene) -> u32 {
 
 /// A lone flat shape cannot lie between itself and a light.
 pub fn casts_shadows(scene: &PackedScene) -> bool {
-    let flat = scene.planes.len() + scene.triangles.len();
-    let alone = scene.spheres.is_empty() && flat <= 1;
-    let lit = has_model(scene, Model::Lambert) || has_model(scene, Model::Phong);
-    !scene.lights.is_empty() && lit && !alone
+    let lit = has_model(scene, Model::is_lit);
+    !scene.lights.is_empty() && lit && scene.shapes_occlude()
 }

@@ -2,17 +2,17 @@
 //! be longer or lack its end code; one that yields fewer bytes is damaged.
 
 use std::borrow::Cow;
-use std::io::{Cursor, Read};
+use std::io::Read;
 
 use fax::decoder::{DecodeStatus, Group4Decoder};
 use flate2::read::ZlibDecoder;
-use image::ImageDecoder;
-use image::codecs::jpeg::JpegDecoder;
 use weezl::{BitOrder, LzwStatus, decode::Decoder};
 
 use super::Fault;
 use super::color::Color;
 use super::layout::{Compression, Layout};
+use crate::texture::decoder;
+use crate::texture::jpeg_data::JpegData;
 
 /// Returns the largest number of decompressed bytes per stored byte. LZW: a code of 12 bits for a
 /// string of 3838 bytes. JPEG: a block of 8×8 texels takes a bit of each channel, and chroma may
@@ -136,10 +136,8 @@ fn expand_jpeg(
     if let Some(name) = super::super::read_jpeg::unsupported(&jpeg) {
         return Err(Fault::unsupported(format!("{name} within a TIFF file")));
     }
-    let failed = |e| Fault::damaged(format!("JPEG data: {e}"));
-    let decoder = JpegDecoder::new(Cursor::new(jpeg)).map_err(failed)?;
-    let (width, height) = decoder.dimensions();
-    let channels = decoder.color_type().channel_count() as usize;
+    let data = JpegData::new(&jpeg).map_err(within_tiff)?;
+    let decoder::Header { width, height, channels, .. } = data.header;
     if width != layout.chunks.width || height < rows || channels != layout.samples_in_chunk() {
         return Err(Fault::damaged(format!(
             "JPEG data of {width}×{height} texels with {channels} channels, in a place of {}×{rows} with {}",
@@ -147,15 +145,24 @@ fn expand_jpeg(
             layout.samples_in_chunk()
         )));
     }
-    let bytes = decoder.total_bytes() as usize;
+    let bytes = width as usize * height as usize * channels;
     if bytes > wanted.saturating_mul(2).max(1 << 20) {
         return Err(Fault::damaged(format!("JPEG data of {height} rows, in a place of {rows}")));
     }
     plain.try_reserve_exact(bytes).map_err(|_| Fault::Memory)?;
     plain.resize(bytes, 0);
-    decoder.read_image(plain).map_err(failed)?;
+    data.read(plain).map_err(within_tiff)?;
     plain.truncate(wanted);
     Ok(())
+}
+
+fn within_tiff(fault: decoder::Fault) -> Fault {
+    match fault {
+        decoder::Fault::Damaged(what) => Fault::damaged(format!("JPEG data: {what}")),
+        decoder::Fault::Unsupported(what) => Fault::unsupported(format!("JPEG data of {what}")),
+        decoder::Fault::Memory => Fault::Memory,
+        decoder::Fault::ZeroSize => Fault::damaged("JPEG data of zero size"),
+    }
 }
 
 /// Decodes Group 4 (ITU-T T.6): runs of white, which is 0, and of black.
@@ -185,7 +192,7 @@ mod tests {
 
     #[test]
     fn packed_bits_are_those_of_the_specifications_example() {
-        // TIFF 6.0, section 9.
+        // Decodes PackBits (TIFF 6.0, section 9).
         let packed = b"\xfe\xaa\x02\x80\x00\x2a\xfd\xaa\x03\x80\x00\x2a\x22\xf7\xaa";
         let plain = b"\xaa\xaa\xaa\x80\x00\x2a\xaa\xaa\xaa\xaa\x80\x00\x2a\x22\xaa\xaa\xaa\xaa\xaa\xaa\xaa\xaa\xaa\xaa";
         for wanted in [plain.len(), 5, 0] {

@@ -3,10 +3,10 @@
 
 use std::path::Path;
 
-use moire::adaptive::{Goal, Outcome};
-use moire::core::film::Film;
-use moire::scene::model::{Algorithm, Pattern, Scene};
-use moire::scene::parse;
+use moire::internal::adaptive::{Goal, Outcome};
+use moire::internal::core::film::Film;
+use moire::internal::scene::model::{Algorithm, Pattern, Scene};
+use moire::internal::scene::parse;
 
 use super::{rmse, to_goal};
 use crate::stage::{packed, render};
@@ -203,7 +203,7 @@ fn a_goal_is_not_said_to_be_reached_where_rare_light_is_missing() {
 
 /// Twenty runs of each scene, towards an error and with a number of samples: minutes.
 #[test]
-#[ignore = "takes minutes; its figures stand in the README"]
+#[ignore = "takes minutes; its figures stand in docs/guide/render-to-a-goal.md"]
 fn intervals_hold_the_truth_in_eighteen_of_twenty_runs() {
     let mut bad = Vec::new();
     for rare in scenes() {

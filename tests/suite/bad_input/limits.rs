@@ -103,8 +103,8 @@ fn a_scene_file_of_64_mebibytes_is_read_and_a_longer_one_is_refused() {
 /// A volume one texel too long for the device's images is read from a buffer all the same.
 #[test]
 fn a_volume_too_long_for_images_is_told_by_the_devices_limit() {
-    let devices = moire::gpu::list_devices().unwrap();
-    let select = moire::gpu::DeviceSelect::parse(&device_name()).unwrap();
+    let devices = moire::internal::gpu::list_devices().unwrap();
+    let select = moire::internal::gpu::DeviceSelect::parse(&device_name()).unwrap();
     let limit = devices[select.choose(&devices).unwrap()].limits.max_image_3d;
     let case = |length: u32| {
         let volume = format!("volume = {{ file = \"v.raw\", size = [{length}, 1, 1], format = \"grey8\" }}");

@@ -3,7 +3,7 @@
 use std::fs;
 
 use image::{GrayImage, Luma};
-use moire::gpu::{DeviceSelect, list_devices};
+use moire::internal::gpu::{DeviceSelect, list_devices};
 
 use super::Case;
 use crate::stage::device_name;

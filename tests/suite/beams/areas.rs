@@ -2,8 +2,8 @@
 //! correct.
 
 use glam::{DVec2, DVec3};
-use moire::oracle::polygon::{area, split, unit_square};
-use moire::scene::model::{Model, Scene, Triangle};
+use moire::internal::oracle::polygon::{area, split, unit_square};
+use moire::internal::scene::model::{Model, Scene, Triangle};
 
 use super::{beams, rmse, with_beams, with_samples};
 use crate::lookup::bench::Rng;
@@ -35,7 +35,11 @@ fn soup(count: usize, seed: u32, colors: impl Fn(usize) -> DVec3) -> Scene {
     let mut rng = Rng::new(seed.into());
     let plain = scene.materials.iter().find(|m| m.name == "brown").unwrap().clone();
     scene.materials = (0..count)
-        .map(|i| moire::scene::model::Material { model: Model::Unlit, color: colors(i), ..plain.clone() })
+        .map(|i| moire::internal::scene::model::Material {
+            model: Model::Unlit,
+            color: colors(i),
+            ..plain.clone()
+        })
         .collect();
     let first = scene.triangles[0];
     let mut corner = || DVec3::new(rng.between(-0.9, 0.9), rng.between(-0.4, 1.4), rng.between(-0.9, 0.9));
@@ -82,7 +86,7 @@ fn the_nearest_of_triangles_in_disorder_is_seen() {
 fn a_triangle_covers_its_area() {
     let mut scene = soup(2, 5, |_| DVec3::ONE);
     scene.background.color = DVec3::ZERO;
-    scene.camera.projection = moire::scene::model::Projection::Orthographic(4.0);
+    scene.camera.projection = moire::internal::scene::model::Projection::Orthographic(4.0);
     scene.triangles.truncate(1);
     let forward = (scene.camera.look_at - scene.camera.eye).normalize();
     let [a, b, c] = scene.triangles[0].vertices;

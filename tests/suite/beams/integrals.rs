@@ -2,15 +2,15 @@
 //! against means of very many lookups; checkers against closed forms.
 
 use glam::DVec2;
-use moire::oracle::beam::beam;
-use moire::oracle::grid::checker_grid;
-use moire::oracle::polygon::unit_square;
-use moire::oracle::prefix_sums::mean_over;
-use moire::oracle::projective::RationalMap;
-use moire::oracle::render::sample;
-use moire::pack::PackedScene;
-use moire::scene::model::{Pattern, Scene};
-use moire::texture::sampler_spec::{Address, Filter, TexelCenter};
+use moire::internal::oracle::beam::beam;
+use moire::internal::oracle::grid::checker_grid;
+use moire::internal::oracle::polygon::unit_square;
+use moire::internal::oracle::prefix_sums::mean_over;
+use moire::internal::oracle::projective::RationalMap;
+use moire::internal::oracle::render::sample;
+use moire::internal::pack::PackedScene;
+use moire::internal::scene::model::{Pattern, Scene};
+use moire::internal::texture::sampler_spec::{Address, Filter, TexelCenter};
 
 use super::{beams, rmse, with_beams};
 use crate::stage::{packed, render, render_on_oracle, small};
@@ -116,8 +116,9 @@ fn textures_of_any_size_and_format() {
     for file in ["rgb16.png", "grey16.png", "rgba8.png", "ramp.exr"] {
         let mut scene = small("s1b", 32, 4);
         let texture = &mut scene.textures[0];
-        texture.content =
-            moire::scene::model::TextureContent::File(crate::support::data().join("textures").join(file));
+        texture.content = moire::internal::scene::model::TextureContent::File(
+            crate::support::data().join("textures").join(file),
+        );
         super::assert_meets_samples(&scene, file);
         let beamed = with_beams(scene);
         let apart = rmse(&render(&beamed), &render_on_oracle(&beamed));

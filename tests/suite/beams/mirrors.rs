@@ -3,9 +3,9 @@
 use std::path::Path;
 
 use glam::DVec3;
-use moire::core::film::Film;
-use moire::scene::model::{Scene, Triangle};
-use moire::scene::parse;
+use moire::internal::core::film::Film;
+use moire::internal::scene::model::{Scene, Triangle};
+use moire::internal::scene::parse;
 
 use super::{beams, with_beams};
 use crate::stage::render_on_oracle;

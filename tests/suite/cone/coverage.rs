@@ -4,7 +4,9 @@
 use std::f64::consts::PI;
 
 use glam::{DVec2, DVec3};
-use moire::oracle::coverage::{Covered, Cuts, EVERYTHING, NOTHING, ball_overlap, circle_overlap, segment};
+use moire::internal::oracle::coverage::{
+    Covered, Cuts, EVERYTHING, NOTHING, ball_overlap, circle_overlap, segment,
+};
 
 use crate::lookup::bench::Rng;
 

@@ -1,7 +1,7 @@
 //! Cones at the limits of their geometry: inside spheres, along planes, among shapes smaller than
 //! the cone, in shadows.
 
-use moire::core::film::Film;
+use moire::internal::core::film::Film;
 
 use super::{central, exact_film, film, parallel, with_samples};
 

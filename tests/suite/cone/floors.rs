@@ -1,8 +1,8 @@
 //! Cones that leave flat surfaces, as reflections or towards a light: shapes behind the surface are
 //! not hit, and shapes standing on it are hit down to their base.
 
-use moire::core::film::Film;
-use moire::scene::model::Scene;
+use moire::internal::core::film::Film;
+use moire::internal::scene::model::Scene;
 
 use super::{central, exact_film, film, parallel, with_samples};
 

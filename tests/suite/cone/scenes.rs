@@ -1,9 +1,9 @@
 //! Pictures by cones against pictures by many samples, and against the same cones in float64.
 
-use moire::lab::metrics::read_picture;
-use moire::render::Tuning;
-use moire::scene::model::{Pattern, Scene};
-use moire::texture::sampler_spec::{Filter, MipMode};
+use moire::internal::lab::metrics::read_picture;
+use moire::internal::render::Tuning;
+use moire::internal::scene::model::{Pattern, Scene};
+use moire::internal::texture::sampler_spec::{Filter, MipMode};
 
 use super::{central, exact_film, film, parallel, rmse, with_cones, with_samples};
 use crate::stage::{assert_same_bits, packed, render_with, scene, small};

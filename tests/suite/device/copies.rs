@@ -1,7 +1,7 @@
 //! Copies on the device and several dispatches in one submission.
 
-use moire::gpu::{Bound, BufferUse, ImageDesc, ImageFormat, ImageShape, Swizzle};
-use moire::texture::sampler_spec::{Filter, MipMode, SamplerSpec};
+use moire::internal::gpu::{Bound, BufferUse, ImageDesc, ImageFormat, ImageShape, Swizzle};
+use moire::internal::texture::sampler_spec::{Filter, MipMode, SamplerSpec};
 
 use super::images::{Look, floats};
 use super::{Checked, bytes_of, error_of, fill, read_u32};

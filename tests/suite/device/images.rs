@@ -1,11 +1,11 @@
 //! Images and samplers of the device layer: a shader samples and fetches the uploaded texels, in
 //! every format, at every level, with every sampler that the device supports.
 
-use moire::gpu::{
+use moire::internal::gpu::{
     BindGroup, BindingDesc, BindingKind, Bound, Buffer, BufferUse, Gpu, Image, ImageDesc, ImageFormat,
     ImageShape, Pipeline, PipelineDesc, Swizzle,
 };
-use moire::texture::sampler_spec::{Address, Filter, MipMode, SamplerSpec};
+use moire::internal::texture::sampler_spec::{Address, Filter, MipMode, SamplerSpec};
 
 use super::{Checked, bytes_of, error_of, noise, one, read_u32};
 use crate::device_shaders::LOOK;

@@ -2,7 +2,7 @@
 //! the wrong size, mismatched pipelines and dispatches, resources of another device. Each error
 //! names the object.
 
-use moire::gpu::{
+use moire::internal::gpu::{
     BindingDesc, BindingKind, Bound, BufferUse, ImageDesc, ImageFormat, ImageShape, PipelineDesc, Swizzle,
 };
 

@@ -1,11 +1,11 @@
 //! Volumes and cubes of the device layer: every texel of every slice, face and level is at its
 //! position, faces are selected by Vulkan's table, and a cube is filtered across its edges.
 
-use moire::gpu::{
+use moire::internal::gpu::{
     BindGroup, BindingKind, Bound, Buffer, BufferUse, Gpu, ImageDesc, ImageFormat, ImageShape, Pipeline,
     PipelineDesc, Swizzle,
 };
-use moire::texture::sampler_spec::{Address, Filter, MipMode, SamplerSpec};
+use moire::internal::texture::sampler_spec::{Address, Filter, MipMode, SamplerSpec};
 
 use super::{Checked, bytes_of, error_of, one, read_u32};
 use crate::device_shaders::SOLIDS;

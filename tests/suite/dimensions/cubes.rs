@@ -4,8 +4,8 @@
 use std::collections::HashMap;
 
 use image::{ImageBuffer, Luma, Rgb};
-use moire::texture::data::Dimension;
-use moire::texture::source::{CubeLayout, TextureContent};
+use moire::internal::texture::data::Dimension;
+use moire::internal::texture::source::{CubeLayout, TextureContent};
 use tempfile::tempdir;
 
 use super::{assert_says, direction, grey, read, save};

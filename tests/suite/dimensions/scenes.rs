@@ -3,14 +3,14 @@
 
 use std::path::{Path, PathBuf};
 
-use moire::scene::model::{TextureContent, TextureSource};
-use moire::scene::parse;
-use moire::texture::data::{Dimension, MipKernel, TexelFormat};
-use moire::texture::source::{CubeLayout, Endian, VolumeSource};
+use moire::internal::scene::model::{TextureContent, TextureSource};
+use moire::internal::scene::parse;
+use moire::internal::texture::data::{Dimension, MipKernel, TexelFormat};
+use moire::internal::texture::source::{CubeLayout, Endian, VolumeSource};
 
 use super::assert_says;
 
-fn texture(keys: &str) -> moire::core::error::Result<TextureSource> {
+fn texture(keys: &str) -> moire::internal::core::error::Result<TextureSource> {
     let head =
         "[camera]\neye = [0, 0, 1]\nlook_at = [0, 0, 0]\nvertical_fov = 60\n[image]\nwidth = 8\nheight = 8\n";
     let text = format!("{head}[[texture]]\nname = 't'\n{keys}\n");

@@ -7,9 +7,9 @@ use std::path::{Path, PathBuf};
 
 use flate2::Compression;
 use flate2::write::GzEncoder;
-use moire::texture::data::{ColorSpace, Dimension, TexelFormat, TextureData};
-use moire::texture::load::load;
-use moire::texture::source::{Endian, TextureContent, VolumeSource};
+use moire::internal::texture::data::{ColorSpace, Dimension, TexelFormat, TextureData};
+use moire::internal::texture::load::load;
+use moire::internal::texture::source::{Endian, TextureContent, VolumeSource};
 use tempfile::tempdir;
 
 use super::{assert_says, grey, read, source};
@@ -38,7 +38,7 @@ fn put(folder: &Path, name: &str, content: &[u8]) -> PathBuf {
     path
 }
 
-fn file(path: &Path) -> moire::core::error::Result<TextureData> {
+fn file(path: &Path) -> moire::internal::core::error::Result<TextureData> {
     read(Dimension::Three, TextureContent::File(path.to_path_buf()))
 }
 

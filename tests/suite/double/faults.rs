@@ -1,9 +1,9 @@
 //! Regression tests of past faults, one each: the cases of the stability report that exposed them,
 //! over part of their sweep.
 
-use moire::core::progress::NoProgress;
-use moire::lab::stability::all;
-use moire::lab::stability::case::{Bench, Point};
+use moire::internal::core::progress::NoProgress;
+use moire::internal::lab::stability::all;
+use moire::internal::lab::stability::case::{Bench, Point};
 
 use crate::stage::device;
 

@@ -1,9 +1,9 @@
 //! Address modes: the texel at every integer position, by stepping along the texture instead of by
 //! remainders; and coordinates reduced to the texture, exactly.
 
-use moire::lab::verify::queries::Rng;
-use moire::oracle::address::{addressed_texel, reduced_coordinate};
-use moire::texture::sampler_spec::Address;
+use moire::internal::lab::verify::queries::Rng;
+use moire::internal::oracle::address::{addressed_texel, reduced_coordinate};
+use moire::internal::texture::sampler_spec::Address;
 use num_traits::Signed;
 
 use super::numbers::{Q, approx, frac, modulo, q};

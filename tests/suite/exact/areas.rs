@@ -2,11 +2,11 @@
 //! as exact counts.
 
 use glam::DVec3;
-use moire::lab::verify::queries::Rng;
-use moire::oracle::procedural::figure_share;
-use moire::oracle::render::pixel;
-use moire::pack;
-use moire::texture::procedural::{Procedural, ProceduralKind};
+use moire::internal::lab::verify::queries::Rng;
+use moire::internal::oracle::procedural::figure_share;
+use moire::internal::oracle::render::pixel;
+use moire::internal::pack;
+use moire::internal::texture::procedural::{Procedural, ProceduralKind};
 use num_traits::{Signed, Zero};
 
 use super::numbers::{Q, approx, frac, q};
@@ -74,7 +74,7 @@ fn exact(what: &Procedural, at: DVec3, w: DVec3) -> Q {
     }
 }
 
-fn compare(share: impl Fn(&moire::schema::layout::Procedural, DVec3, DVec3) -> f64) -> Worst {
+fn compare(share: impl Fn(&moire::internal::schema::layout::Procedural, DVec3, DVec3) -> f64) -> Worst {
     let mut rng = Rng::new(121);
     let mut worst = Worst::default();
     for kind in [ProceduralKind::Checker, ProceduralKind::Stripes, ProceduralKind::Grid] {
@@ -99,7 +99,7 @@ fn compare(share: impl Fn(&moire::schema::layout::Procedural, DVec3, DVec3) -> f
     worst
 }
 
-fn of_box(what: &moire::schema::layout::Procedural, at: DVec3, w: DVec3) -> f64 {
+fn of_box(what: &moire::internal::schema::layout::Procedural, at: DVec3, w: DVec3) -> f64 {
     figure_share(what, at, DVec3::X * w.x, DVec3::Y * w.y)
 }
 

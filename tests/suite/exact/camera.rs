@@ -1,10 +1,10 @@
 //! Rays of the camera: w + r·X·T·(width/height) + u·Y·T, with r, u and w of unit length and exact.
 
 use glam::{DVec2, Vec2Swizzles};
-use moire::lab::verify::queries::Rng;
-use moire::oracle::camera::{Ray, camera_ray};
-use moire::scene::model::{Projection, Scene};
-use moire::schema::layout::Header;
+use moire::internal::lab::verify::queries::Rng;
+use moire::internal::oracle::camera::{Ray, camera_ray};
+use moire::internal::scene::model::{Projection, Scene};
+use moire::internal::schema::layout::Header;
 
 use super::numbers::{Q, V, approx, degrees, frac, q, tan, v};
 use super::scenes::packed_as;

@@ -2,11 +2,11 @@
 //! the texel there.
 
 use glam::{DVec2, DVec3};
-use moire::lab::verify::queries::{self, Rng};
-use moire::oracle::filter::sample_texture;
-use moire::oracle::mapping::{Coordinate, on_cube_face, within_face};
-use moire::texture::data::Dimension;
-use moire::texture::sampler_spec::{Filter, SamplerSpec};
+use moire::internal::lab::verify::queries::{self, Rng};
+use moire::internal::oracle::filter::sample_texture;
+use moire::internal::oracle::mapping::{Coordinate, on_cube_face, within_face};
+use moire::internal::texture::data::Dimension;
+use moire::internal::texture::sampler_spec::{Filter, SamplerSpec};
 use num_traits::Signed;
 
 use super::numbers::{Q, direction, frac, v};

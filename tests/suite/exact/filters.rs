@@ -3,16 +3,16 @@
 //! ellipse.
 
 use glam::{DVec2, DVec3};
-use moire::lab::verify::queries::{self, Rng};
-use moire::oracle::ellipse::ellipse_weight;
-use moire::oracle::filter::sample_texture;
-use moire::oracle::footprint_axes::{FootprintEllipse, texel_spread};
-use moire::oracle::mapping::Coordinate;
-use moire::pack::PackedScene;
-use moire::scene::model::Footprint;
-use moire::schema::layout::Texture;
-use moire::texture::data::Dimension;
-use moire::texture::sampler_spec::{Filter, MipMode, SamplerSpec};
+use moire::internal::lab::verify::queries::{self, Rng};
+use moire::internal::oracle::filter::ewa::ellipse_weight;
+use moire::internal::oracle::filter::sample_texture;
+use moire::internal::oracle::footprint_axes::{FootprintEllipse, texel_spread};
+use moire::internal::oracle::mapping::Coordinate;
+use moire::internal::pack::PackedScene;
+use moire::internal::scene::model::Footprint;
+use moire::internal::schema::layout::Texture;
+use moire::internal::texture::data::Dimension;
+use moire::internal::texture::sampler_spec::{Filter, MipMode, SamplerSpec};
 use num_traits::{Signed, Zero};
 
 use super::numbers::{Q, approx, exp, frac, log2, modulo, q, sqrt};

@@ -4,8 +4,9 @@
 use std::sync::OnceLock;
 
 use glam::DVec3;
-use moire::lab::verify::queries::Rng;
-use moire::oracle::footprint::{fresnel_dielectric, mirrored, refracted};
+use moire::internal::lab::verify::queries::Rng;
+use moire::internal::oracle::bsdf::dielectric::{fresnel_dielectric, refracted};
+use moire::internal::oracle::bsdf::mirror::mirrored;
 use num_traits::Signed;
 
 use super::numbers::{Q, V, approx, direction, frac, q, sqrt, v};

@@ -2,8 +2,8 @@
 //! directional one, on planes and triangles that a whole render sees, from either side.
 
 use glam::DVec3;
-use moire::lab::verify::queries::Rng;
-use moire::oracle::render::pixel;
+use moire::internal::lab::verify::queries::Rng;
+use moire::internal::oracle::render::pixel;
 use num_traits::{Signed, Zero};
 
 use super::numbers::{Q, approx, direction, frac, pi, q, v, vector};

@@ -3,13 +3,13 @@
 //! and 16-bit and sRGB texels to 256 bits.
 
 use glam::DVec3;
-use moire::core::color::srgb_to_linear;
-use moire::lab::verify::queries::{self, Rng};
-use moire::oracle::filter::sample_texture;
-use moire::oracle::mapping::Coordinate;
-use moire::pack::PackedScene;
-use moire::texture::data::{ColorSpace, Dimension, TexelFormat};
-use moire::texture::sampler_spec::{Address, CATMULL_ROM, Filter, SamplerSpec, TexelCenter};
+use moire::internal::core::color::srgb_to_linear;
+use moire::internal::lab::verify::queries::{self, Rng};
+use moire::internal::oracle::filter::sample_texture;
+use moire::internal::oracle::mapping::Coordinate;
+use moire::internal::pack::PackedScene;
+use moire::internal::texture::data::{ColorSpace, Dimension, TexelFormat};
+use moire::internal::texture::sampler_spec::{Address, CATMULL_ROM, Filter, SamplerSpec, TexelCenter};
 use num_traits::{Signed, Zero};
 
 use super::address::walked;

@@ -5,9 +5,9 @@
 use std::sync::OnceLock;
 
 use glam::{DVec2, DVec3, Vec2Swizzles};
-use moire::lab::verify::queries::Rng;
-use moire::oracle::mapping::{Coordinate, MapInput, texture_coordinate};
-use moire::schema::layout::UvProjection;
+use moire::internal::lab::verify::queries::Rng;
+use moire::internal::oracle::mapping::{Coordinate, MapInput, texture_coordinate};
+use moire::internal::schema::layout::UvProjection;
 
 use super::numbers::{
     Q, V, angle, approx, cos, degrees, direction, frac, nearest_turn, pi, q, sin, v, vector,

@@ -5,7 +5,7 @@ use std::cell::RefCell;
 
 use astro_float_num::{BigFloat, Consts, RoundingMode, Sign};
 use glam::DVec3;
-use moire::lab::verify::queries::Rng;
+use moire::internal::lab::verify::queries::Rng;
 use num_bigint::{BigInt, Sign as IntSign};
 use num_rational::BigRational;
 use num_traits::{Signed, ToPrimitive, Zero};

@@ -2,10 +2,10 @@
 //! of any length and nearly any angle.
 
 use glam::{DVec2, DVec3, Vec2Swizzles};
-use moire::lab::verify::queries::Rng;
-use moire::oracle::camera::Ray;
-use moire::oracle::intersect::plane_distance;
-use moire::schema::layout::Plane;
+use moire::internal::lab::verify::queries::Rng;
+use moire::internal::oracle::camera::Ray;
+use moire::internal::oracle::geometry::kinds::Shape;
+use moire::internal::schema::layout::Plane;
 use num_traits::{Signed, Zero};
 
 use super::numbers::{Q, V, approx, determinant, direction, frac, q, v, vector};
@@ -109,25 +109,25 @@ fn compare(solve: impl Fn(&Plane, &Ray) -> (f64, DVec2)) -> Worst {
 
 #[test]
 fn planes_of_any_axes_are_met_where_they_are() {
-    compare(plane_distance).holds("planes");
+    compare(|plane: &Plane, ray: &Ray| plane.distance_to(ray)).holds("planes");
 }
 
 #[test]
 fn planted_errors_of_planes_are_told() {
     let swapped = |plane: &Plane, ray: &Ray| {
-        let (t, local) = plane_distance(plane, ray);
+        let (t, local) = plane.distance_to(ray);
         (t, local.yx())
     };
     compare(swapped).fails("swapped axes");
     let shifted = |plane: &Plane, ray: &Ray| {
-        let (t, local) = plane_distance(plane, ray);
+        let (t, local) = plane.distance_to(ray);
         (t, local * (1.0 + 1e-12))
     };
     compare(shifted).fails("a trillionth more");
     // (x − origin)·tangent, which is right for unit orthogonal axes alone.
     let projected = |plane: &Plane, ray: &Ray| {
         let across = DVec3::from_slice(&plane.axis_u[..3]).cross(DVec3::from_slice(&plane.normal[..3]));
-        let (t, local) = plane_distance(plane, ray);
+        let (t, local) = plane.distance_to(ray);
         (t, DVec2::new(local.x, across.normalize().dot(t * ray.direction)))
     };
     compare(projected).fails("a projection in place of a solution");
@@ -160,7 +160,7 @@ fn a_plane_ends_where_its_half_extent_says() {
             }
             let inside = u.abs() <= q(extent) && w.abs() <= q(extent);
             let ray = Ray { origin: DVec3::ZERO, direction: d, time: 0.0 };
-            worst.agree((plane_distance(&plane, &ray).0 > 0.0) == inside);
+            worst.agree((plane.distance_to(&ray).0 > 0.0) == inside);
         }
     }
     worst.holds("half extents");

@@ -3,10 +3,10 @@
 use std::path::Path;
 
 use glam::DVec3;
-use moire::pack::{self, PackedScene};
-use moire::scene::model::Scene;
-use moire::scene::parse;
-use moire::texture::data::{ColorSpace, Dimension, TexelFormat, TextureData};
+use moire::internal::pack::{self, PackedScene};
+use moire::internal::scene::model::Scene;
+use moire::internal::scene::parse;
+use moire::internal::texture::data::{ColorSpace, Dimension, TexelFormat, TextureData};
 
 /// Looks along −z from the origin.
 pub const AHEAD: &str = "[camera]\neye = [0, 0, 0]\nlook_at = [0, 0, -1]\nvertical_fov = 90\n";

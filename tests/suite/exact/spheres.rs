@@ -2,10 +2,10 @@
 //! from within, and by rays that graze.
 
 use glam::DVec3;
-use moire::lab::verify::queries::Rng;
-use moire::oracle::camera::Ray;
-use moire::oracle::intersect::sphere_distance;
-use moire::schema::layout::Sphere;
+use moire::internal::lab::verify::queries::Rng;
+use moire::internal::oracle::camera::Ray;
+use moire::internal::oracle::geometry::sphere::sphere_distance;
+use moire::internal::schema::layout::Sphere;
 use num_traits::Signed;
 
 use super::numbers::{Q, approx, direction, q, sqrt, v, vector};

@@ -2,15 +2,15 @@
 //! coordinate modulo 1 (`repeat`) or modulo 2 (`mirrored-repeat`).
 
 use glam::{DVec2, DVec3};
-use moire::lab::verify::queries::Rng;
-use moire::oracle::camera::Ray;
-use moire::oracle::footprint::Footprint;
-use moire::oracle::intersect::nearest_hit;
-use moire::oracle::mapping::texture_coordinate;
-use moire::oracle::shade::map_input;
-use moire::oracle::surface::hit_surface;
-use moire::pack::PackedScene;
-use moire::schema::layout::NO_SHAPE;
+use moire::internal::lab::verify::queries::Rng;
+use moire::internal::oracle::camera::Ray;
+use moire::internal::oracle::footprint::Footprint;
+use moire::internal::oracle::geometry::rays::hit_surface;
+use moire::internal::oracle::geometry::rays::nearest_hit;
+use moire::internal::oracle::mapping::texture_coordinate;
+use moire::internal::oracle::shade::map_input;
+use moire::internal::pack::PackedScene;
+use moire::internal::schema::layout::NO_SHAPE;
 
 use super::mapping::placed;
 use super::numbers::{Q, approx, frac, modulo, nearest_turn, q, v};

@@ -2,13 +2,14 @@
 //! barycentric coordinates, of needles too.
 
 use glam::{DVec2, DVec3, Vec2Swizzles};
-use moire::lab::verify::queries::Rng;
-use moire::oracle::camera::Ray;
-use moire::oracle::intersect::{Hit, nearest_hit, triangle_distance};
-use moire::oracle::surface::hit_surface;
-use moire::pack::PackedScene;
-use moire::schema::layout::NO_SHAPE;
-use moire::schema::layout::Triangle;
+use moire::internal::lab::verify::queries::Rng;
+use moire::internal::oracle::camera::Ray;
+use moire::internal::oracle::geometry::rays::hit_surface;
+use moire::internal::oracle::geometry::rays::{Hit, nearest_hit};
+use moire::internal::oracle::geometry::triangle::triangle_distance;
+use moire::internal::pack::PackedScene;
+use moire::internal::schema::layout::NO_SHAPE;
+use moire::internal::schema::layout::Triangle;
 use num_traits::{Signed, Zero};
 
 use super::numbers::{approx, determinant, direction, v, vector};

@@ -3,9 +3,9 @@
 
 use std::path::Path;
 
-use moire::pack;
-use moire::scene::parse;
-use moire::texture::data::{ColorSpace, Dimension, TexelFormat, TextureData};
+use moire::internal::pack;
+use moire::internal::scene::parse;
+use moire::internal::texture::data::{ColorSpace, Dimension, TexelFormat, TextureData};
 
 use crate::stage::{render, render_on_oracle};
 

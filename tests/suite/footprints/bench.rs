@@ -4,16 +4,16 @@
 use std::path::Path;
 
 use glam::{DMat2, DVec2, DVec3};
-use moire::lab::probe::{self, LookupQuery};
-use moire::lab::verify::queries;
-use moire::oracle::filter::sample_texture;
-use moire::oracle::mapping::Coordinate;
-use moire::pack::{self, PackedScene};
-use moire::scene::model::{Footprint, TextureSource};
-use moire::scene::parse;
-use moire::scene::prune::prune;
-use moire::texture::data::{ColorSpace, Dimension, TexelFormat, TextureData};
-use moire::texture::sampler_spec::SamplerSpec;
+use moire::internal::lab::probe::{self, LookupQuery};
+use moire::internal::lab::verify::queries;
+use moire::internal::oracle::filter::sample_texture;
+use moire::internal::oracle::mapping::Coordinate;
+use moire::internal::pack::{self, PackedScene};
+use moire::internal::scene::model::{Footprint, TextureSource};
+use moire::internal::scene::parse;
+use moire::internal::scene::prune::prune;
+use moire::internal::texture::data::{ColorSpace, Dimension, TexelFormat, TextureData};
+use moire::internal::texture::sampler_spec::SamplerSpec;
 
 use crate::lookup::bench::{Rng, texture};
 use crate::shared_gpu::gpu;
@@ -58,7 +58,7 @@ pub fn narrow(v: DVec3) -> [f32; 4] {
 /// The oracle's answer to query number `index` of a list.
 pub fn expected(scene: &PackedScene, query: &LookupQuery, index: usize, c: &Coordinate) -> [f64; 4] {
     let (image, how) = (&scene.textures[query.texture as usize], &scene.samplers[query.sampler as usize]);
-    let random = moire::oracle::rng::pcg2d([index as u32, query.seed]);
+    let random = moire::internal::oracle::rng::pcg2d([index as u32, query.seed]);
     sample_texture(scene, image, how, c, random).to_array()
 }
 

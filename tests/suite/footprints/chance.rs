@@ -2,12 +2,12 @@
 //! equals the result of the smooth filter (Fajardo et al. 2023).
 
 use glam::DVec3;
-use moire::lab::probe::LookupQuery;
-use moire::oracle::texture::{fetch_texel, level_at};
-use moire::pack::PackedScene;
-use moire::scene::model::Footprint;
-use moire::texture::data::{Dimension, TexelFormat};
-use moire::texture::sampler_spec::{Address, Filter, MipMode, SamplerSpec};
+use moire::internal::lab::probe::LookupQuery;
+use moire::internal::oracle::texture::{fetch_texel, level_at};
+use moire::internal::pack::PackedScene;
+use moire::internal::scene::model::Footprint;
+use moire::internal::texture::data::{Dimension, TexelFormat};
+use moire::internal::texture::sampler_spec::{Address, Filter, MipMode, SamplerSpec};
 
 use super::bench::{answers, coordinate, expected, narrow, pairs_of, solid};
 use crate::lookup::bench::{Rng, Vectors, query};

@@ -3,17 +3,20 @@
 //! entity, around seams and poles, directly, in mirrors and through glass.
 
 use glam::{DVec2, DVec3};
-use moire::oracle::camera::{Ray, camera_ray};
-use moire::oracle::footprint::{Footprint, camera_differential, mirrored, refracted};
-use moire::oracle::footprint_axes::in_texture;
-use moire::oracle::intersect::{nearest_hit, offset_origin};
-use moire::oracle::mapping::texture_coordinate;
-use moire::oracle::math::xyz;
-use moire::oracle::shade::{advance, camera_path, map_input};
-use moire::oracle::surface::{Surface, hit_surface};
-use moire::pack::{MapKind, PackedScene};
-use moire::scene::model::Model;
-use moire::schema::layout::{NO_MATERIAL, NO_SHAPE};
+use moire::internal::oracle::bsdf::dielectric::refracted;
+use moire::internal::oracle::bsdf::mirror::mirrored;
+use moire::internal::oracle::camera::{Ray, camera_ray};
+use moire::internal::oracle::footprint::{Footprint, camera_differential};
+use moire::internal::oracle::footprint_axes::in_texture;
+use moire::internal::oracle::geometry::hit::Surface;
+use moire::internal::oracle::geometry::rays::hit_surface;
+use moire::internal::oracle::geometry::rays::{nearest_hit, offset_origin};
+use moire::internal::oracle::mapping::texture_coordinate;
+use moire::internal::oracle::math::xyz;
+use moire::internal::oracle::shade::{advance, camera_path, map_input};
+use moire::internal::pack::{MapKind, PackedScene};
+use moire::internal::scene::model::Model;
+use moire::internal::schema::layout::{NO_MATERIAL, NO_SHAPE};
 
 use super::bench::{level_scene, place_of};
 use crate::stage;

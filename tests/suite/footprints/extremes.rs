@@ -2,11 +2,11 @@
 //! footprints that are no numbers, far longer textures than wide, directions of any length.
 
 use glam::DVec3;
-use moire::lab::probe::LookupQuery;
-use moire::pack::PackedScene;
-use moire::scene::model::Footprint;
-use moire::texture::data::{Dimension, TexelFormat, TextureData};
-use moire::texture::sampler_spec::{Address, Filter, MipMode, SamplerSpec};
+use moire::internal::lab::probe::LookupQuery;
+use moire::internal::pack::PackedScene;
+use moire::internal::scene::model::Footprint;
+use moire::internal::texture::data::{Dimension, TexelFormat, TextureData};
+use moire::internal::texture::sampler_spec::{Address, Filter, MipMode, SamplerSpec};
 
 use super::bench::{answers, coordinate, expected, narrow, pairs_of, solid};
 use crate::lookup::bench::{Rng, Vectors, query};

@@ -2,10 +2,10 @@
 //! are constructed from their axes, so that the correct level, log2 of an axis in texels (Williams
 //! 1983), is known.
 
-use moire::lab::probe::LookupQuery;
-use moire::scene::model::Footprint;
-use moire::texture::data::{Dimension, TexelFormat};
-use moire::texture::sampler_spec::{Filter, MipMode, SamplerSpec};
+use moire::internal::lab::probe::LookupQuery;
+use moire::internal::scene::model::Footprint;
+use moire::internal::texture::data::{Dimension, TexelFormat};
+use moire::internal::texture::sampler_spec::{Filter, MipMode, SamplerSpec};
 
 use super::bench::{angle, answers, axes, paint_levels, pairs_of, solid};
 use crate::lookup::bench::{Rng, query};

@@ -4,12 +4,12 @@
 //! value between both sides is correct; such lookups are few.
 
 use glam::DVec3;
-use moire::lab::probe::LookupQuery;
-use moire::oracle::mapping::Coordinate;
-use moire::pack::PackedScene;
-use moire::scene::model::Footprint;
-use moire::texture::data::{Dimension, TexelFormat};
-use moire::texture::sampler_spec::{Address, Filter, MipMode, SamplerSpec};
+use moire::internal::lab::probe::LookupQuery;
+use moire::internal::oracle::mapping::Coordinate;
+use moire::internal::pack::PackedScene;
+use moire::internal::scene::model::Footprint;
+use moire::internal::texture::data::{Dimension, TexelFormat};
+use moire::internal::texture::sampler_spec::{Address, Filter, MipMode, SamplerSpec};
 
 use super::bench::{angle, answers, axes, coordinate, expected, narrow, pairs_of, solid};
 use crate::lookup::bench::{Rng, Vectors, query};

@@ -4,14 +4,14 @@
 use std::path::Path;
 
 use glam::{DVec2, DVec3};
-use moire::lab::probe::LookupQuery;
-use moire::oracle::mapping::{face_uv, on_cube_face};
-use moire::oracle::texture::{fetch_texel, level_at};
-use moire::pack::{self, PackedScene};
-use moire::scene::model::Footprint;
-use moire::scene::parse;
-use moire::texture::data::{Dimension, TexelFormat};
-use moire::texture::sampler_spec::{Filter, SamplerSpec};
+use moire::internal::lab::probe::LookupQuery;
+use moire::internal::oracle::mapping::{face_uv, on_cube_face};
+use moire::internal::oracle::texture::{fetch_texel, level_at};
+use moire::internal::pack::{self, PackedScene};
+use moire::internal::scene::model::Footprint;
+use moire::internal::scene::parse;
+use moire::internal::texture::data::{Dimension, TexelFormat};
+use moire::internal::texture::sampler_spec::{Filter, SamplerSpec};
 
 use super::bench::{answers, coordinate, expected, narrow, pairs_of, solid};
 use crate::lookup::bench::{Rng, Vectors, query};

@@ -1,11 +1,11 @@
 //! Lookups by the lecture's two formulas, and the five address modes on a row of two texels, at
 //! coordinates computed by hand.
 
-use moire::lab::probe::{self, LookupQuery};
-use moire::oracle::filter::sample_texture;
-use moire::oracle::mapping::Coordinate;
-use moire::texture::data::{ColorSpace, Dimension, TexelFormat, TextureData};
-use moire::texture::sampler_spec::{Address, Filter, SamplerSpec, TexelCenter};
+use moire::internal::lab::probe::{self, LookupQuery};
+use moire::internal::oracle::filter::sample_texture;
+use moire::internal::oracle::mapping::Coordinate;
+use moire::internal::texture::data::{ColorSpace, Dimension, TexelFormat, TextureData};
+use moire::internal::texture::sampler_spec::{Address, Filter, SamplerSpec, TexelCenter};
 
 use crate::lookup::bench::{pairs, query, uv_of};
 use crate::shared_gpu::gpu;

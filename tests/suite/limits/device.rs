@@ -4,11 +4,11 @@
 use std::path::Path;
 
 use glam::DVec3;
-use moire::gpu::{ImageDesc, ImageFormat, ImageShape, Swizzle};
-use moire::lab::verify::queries::texture;
-use moire::pack::{self, MAX_SLOTS, PackedScene};
-use moire::scene::parse;
-use moire::texture::data::{ColorSpace, TexelFormat};
+use moire::internal::gpu::{ImageDesc, ImageFormat, ImageShape, Swizzle};
+use moire::internal::lab::verify::queries::texture;
+use moire::internal::pack::{self, MAX_SLOTS, PackedScene};
+use moire::internal::scene::parse;
+use moire::internal::texture::data::{ColorSpace, TexelFormat};
 
 use super::{HEAD, IMAGE};
 use crate::stage::{device, render, render_on_oracle};
@@ -99,8 +99,14 @@ fn as_many_images_as_there_are_slots_are_read_and_one_more_is_told_or_read_from_
     device_is_oracle(&scene(MAX_SLOTS + 1, "shader"), "one texture more than slots, in a buffer");
     render(&scene(MAX_SLOTS, "hardware"));
     let over = scene(MAX_SLOTS + 1, "hardware");
-    let tuning = moire::render::Tuning::default();
-    let refused = moire::render::render(&device(), over, false, &tuning, &moire::core::progress::NoProgress);
+    let tuning = moire::internal::render::Tuning::default();
+    let refused = moire::internal::render::render(
+        &device(),
+        over,
+        false,
+        &tuning,
+        &moire::internal::core::progress::NoProgress,
+    );
     let message = told(refused.map(|_| ()));
     assert!(message.contains(&MAX_SLOTS.to_string()) && message.contains("17"), "{message}");
 }

@@ -2,11 +2,11 @@
 //! and the list of all formats.
 
 use glam::DVec3;
-use moire::lab::verify::queries;
-pub use moire::lab::verify::queries::{Rng, coordinates, query, texture, uv_of};
-use moire::pack::PackedScene;
-use moire::texture::data::{ColorSpace, Component, TexelFormat, TextureData};
-use moire::texture::sampler_spec::{Filter, SamplerSpec};
+use moire::internal::lab::verify::queries;
+pub use moire::internal::lab::verify::queries::{Rng, coordinates, query, texture, uv_of};
+use moire::internal::pack::PackedScene;
+use moire::internal::texture::data::{ColorSpace, Component, TexelFormat, TextureData};
+use moire::internal::texture::sampler_spec::{Filter, SamplerSpec};
 
 /// Filters that magnify, without chance.
 pub const CERTAIN: [Filter; 3] = [Filter::Nearest, Filter::Linear, Filter::Cubic];

@@ -1,12 +1,12 @@
 //! The hardware method: every `VkSampler` variant at level 0, by the interval rule.
 
-use moire::gpu::{DeviceKind, Gpu};
-use moire::lab::probe::{self, LookupQuery};
-use moire::lab::verify::judge::{Precision, messages as judge};
-use moire::lab::verify::variants::SIZES;
-use moire::pack::MAX_SLOTS;
-use moire::texture::data::{ColorSpace, TexelFormat, TextureData};
-use moire::texture::sampler_spec::{Address, Method, SamplerSpec, TexelCenter};
+use moire::internal::gpu::{DeviceKind, Gpu};
+use moire::internal::lab::probe::{self, LookupQuery};
+use moire::internal::lab::verify::judge::{Precision, messages as judge};
+use moire::internal::lab::verify::variants::SIZES;
+use moire::internal::pack::MAX_SLOTS;
+use moire::internal::texture::data::{ColorSpace, TexelFormat, TextureData};
+use moire::internal::texture::sampler_spec::{Address, Method, SamplerSpec, TexelCenter};
 
 use super::assert_none;
 use super::bench::{BASIC, Rng, coordinates, pairs, query, texture};

@@ -3,14 +3,14 @@
 //! tolerance in use.
 
 use glam::DVec2;
-use moire::lab::probe::LookupQuery;
-use moire::lab::verify::judge::{Precision, messages as judge};
-use moire::oracle::filter::sample_texture;
-use moire::oracle::mapping::Coordinate;
-use moire::pack::PackedScene;
-use moire::schema::layout::{Sampler, Texture};
-use moire::texture::data::{ColorSpace, TexelFormat};
-use moire::texture::sampler_spec::{Address, Filter, SamplerSpec};
+use moire::internal::lab::probe::LookupQuery;
+use moire::internal::lab::verify::judge::{Precision, messages as judge};
+use moire::internal::oracle::filter::sample_texture;
+use moire::internal::oracle::mapping::Coordinate;
+use moire::internal::pack::PackedScene;
+use moire::internal::schema::layout::{Sampler, Texture};
+use moire::internal::texture::data::{ColorSpace, TexelFormat};
+use moire::internal::texture::sampler_spec::{Address, Filter, SamplerSpec};
 
 use super::bench::{BASIC, CERTAIN, Rng, coordinates, pairs, query, texture, uv_of};
 

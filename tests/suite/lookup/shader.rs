@@ -1,12 +1,12 @@
 //! The shader method: every filter and address mode against the oracle.
 
-use moire::lab::probe::{self, LookupQuery};
-use moire::lab::verify::judge::{Precision, messages as judge};
-use moire::oracle::filter::sample_texture;
-use moire::oracle::mapping::Coordinate;
-use moire::pack::PackedScene;
-use moire::texture::data::{ColorSpace, TexelFormat, TextureData};
-use moire::texture::sampler_spec::{Address, SamplerSpec, TexelCenter};
+use moire::internal::lab::probe::{self, LookupQuery};
+use moire::internal::lab::verify::judge::{Precision, messages as judge};
+use moire::internal::oracle::filter::sample_texture;
+use moire::internal::oracle::mapping::Coordinate;
+use moire::internal::pack::PackedScene;
+use moire::internal::texture::data::{ColorSpace, TexelFormat, TextureData};
+use moire::internal::texture::sampler_spec::{Address, SamplerSpec, TexelCenter};
 
 use super::assert_none;
 use super::bench::{CERTAIN, Rng, coordinates, formats, pairs, query, texture, uv_of};

@@ -2,7 +2,7 @@
 //! many samples, which is the reflectance-weighted mean of reflection and transmission.
 
 use glam::DVec3;
-use moire::oracle::footprint::{fresnel_dielectric, refracted};
+use moire::internal::oracle::bsdf::dielectric::{fresnel_dielectric, refracted};
 
 use super::scene;
 use crate::stage;

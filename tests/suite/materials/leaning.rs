@@ -3,14 +3,16 @@
 //! cones.
 
 use glam::DVec3;
-use moire::core::film::Film;
-use moire::oracle::camera::Ray;
-use moire::oracle::footprint::{Footprint, mirrored, refracted};
-use moire::oracle::shade::map_input;
-use moire::oracle::shading_normal::{consistent_normal, on_its_side};
-use moire::oracle::surface::Surface;
-use moire::pack::{EntityKind, MapKind, PackedScene};
-use moire::schema::layout::UvProjection;
+use moire::internal::core::film::Film;
+use moire::internal::oracle::bsdf::dielectric::refracted;
+use moire::internal::oracle::bsdf::mirror::mirrored;
+use moire::internal::oracle::camera::Ray;
+use moire::internal::oracle::footprint::Footprint;
+use moire::internal::oracle::geometry::hit::Surface;
+use moire::internal::oracle::shade::map_input;
+use moire::internal::oracle::shading_normal::{consistent_normal, on_its_side};
+use moire::internal::pack::{EntityKind, MapKind, PackedScene};
+use moire::internal::schema::layout::UvProjection;
 
 use super::{floats, scene};
 use crate::lookup::bench::{Rng, Vectors};
@@ -102,7 +104,7 @@ const VIEWS: [&str; 3] = [
     "eye = [6, -2, 0.4], look_at = [0, 0, 0], vertical_fov = 20",
 ];
 
-fn tilted() -> moire::texture::data::TextureData {
+fn tilted() -> moire::internal::texture::data::TextureData {
     floats(4, 4, |x, y| [if x % 2 == 0 { 0.05 } else { 0.95 }, if y % 2 == 0 { 0.1 } else { 0.9 }, 0.6, 1.0])
 }
 

@@ -1,8 +1,8 @@
 //! A mirrored environment is the same as one whose pictures are mirrored themselves, and for a cube the faces
 //! +x and −x exchanged; on device and oracle, seen directly and in a ball, turned or not.
 
-use moire::core::film::Film;
-use moire::texture::data::{Dimension, TextureData};
+use moire::internal::core::film::Film;
+use moire::internal::texture::data::{Dimension, TextureData};
 
 use super::{floats, scene};
 use crate::stage;

@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use glam::DVec3;
-use moire::oracle::light::phong_lobe;
+use moire::internal::oracle::bsdf::phong::phong_lobe;
 
 use super::scene;
 use crate::stage;

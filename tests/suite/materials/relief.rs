@@ -4,7 +4,7 @@
 use std::f64::consts::PI;
 
 use glam::DVec2;
-use moire::texture::data::TextureData;
+use moire::internal::texture::data::TextureData;
 
 use super::{floats, scene};
 use crate::stage;

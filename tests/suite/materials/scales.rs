@@ -3,14 +3,14 @@
 //! digits, so that any difference is due to a length constant in the program.
 
 use glam::{DVec2, DVec3};
-use moire::lab::metrics::compare;
-use moire::oracle::camera::Ray;
-use moire::oracle::footprint::{Footprint, any_tangent};
-use moire::oracle::intersect::nearest_hit;
-use moire::oracle::mapping::texture_coordinate;
-use moire::oracle::shade::{map_input, uv_gradients};
-use moire::oracle::surface::hit_surface;
-use moire::pack::PackedScene;
+use moire::internal::lab::metrics::compare;
+use moire::internal::oracle::camera::Ray;
+use moire::internal::oracle::footprint::{Footprint, any_tangent};
+use moire::internal::oracle::geometry::rays::hit_surface;
+use moire::internal::oracle::geometry::rays::nearest_hit;
+use moire::internal::oracle::mapping::texture_coordinate;
+use moire::internal::oracle::shade::{map_input, uv_gradients};
+use moire::internal::pack::PackedScene;
 
 use super::{floats, scene};
 use crate::lookup::bench::{Rng, Vectors};
@@ -108,7 +108,7 @@ fn gradients_are_those_of_the_coordinates() {
                 let near_pole = DVec3::new(rng.between(-1e-3, 1e-3), 1.0, rng.between(-1e-3, 1e-3));
                 let out = if tried % 4 == 0 { near_pole.normalize() } else { rng.direction() };
                 // Towards the first ball's middle.
-                let center = moire::oracle::math::xyz(scene.spheres[0].ball);
+                let center = moire::internal::oracle::math::xyz(scene.spheres[0].ball);
                 let ray = Ray { origin: center + 0.9 * k * out, direction: -out, time: 0.0 };
                 let meet = |ray: &Ray| hit_surface(&scene, ray, &nearest_hit(&scene, ray, u32::MAX));
                 let surface = meet(&ray);

@@ -3,14 +3,14 @@
 
 use std::path::Path;
 
-use moire::core::progress::NoProgress;
-use moire::lab::verify::queries::noise;
-use moire::oracle;
-use moire::pack::{self, MipPlacement, PackedScene};
-use moire::render::{TexelChoice, Tuning};
-use moire::scene::model::Scene;
-use moire::scene::parse;
-use moire::texture::data::{ColorSpace, Component, Dimension, TexelFormat, TextureData};
+use moire::internal::core::progress::NoProgress;
+use moire::internal::lab::verify::queries::noise;
+use moire::internal::oracle;
+use moire::internal::pack::{self, MipPlacement, PackedScene};
+use moire::internal::render::{TexelChoice, Tuning};
+use moire::internal::scene::model::Scene;
+use moire::internal::scene::parse;
+use moire::internal::texture::data::{ColorSpace, Component, Dimension, TexelFormat, TextureData};
 use serde_json::Value;
 use tempfile::tempdir;
 
@@ -107,10 +107,10 @@ fn only_what_halves_and_fits_is_left_to_the_device() {
     assert_eq!(left(&scene, some(0, texels * 4 - 1)), [] as [usize; 0]);
 
     let mut sharper = scene.clone();
-    sharper.textures[1].mip_kernel = moire::texture::data::MipKernel::Kaiser;
+    sharper.textures[1].mip_kernel = moire::internal::texture::data::MipKernel::Kaiser;
     assert_eq!(left(&sharper, MipPlacement::DEVICE), [2, 3, 0]);
     let mut unfiltered = scene.clone();
-    unfiltered.sampling.footprint = moire::scene::model::Footprint::None;
+    unfiltered.sampling.footprint = moire::internal::scene::model::Footprint::None;
     assert_eq!(left(&unfiltered, MipPlacement::DEVICE), [] as [usize; 0]);
     assert!(pack::reads_levels(&scene) && !pack::reads_levels(&unfiltered));
 

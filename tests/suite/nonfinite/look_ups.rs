@@ -2,11 +2,11 @@
 //! weight, and bitwise unchanged everywhere else. A texture that is 1 at the texel and 0 elsewhere
 //! gives the weight.
 
-use moire::lab::probe::LookupQuery;
-use moire::pack::PackedScene;
-use moire::scene::model::Footprint;
-use moire::texture::data::{Dimension, TexelFormat, TextureData};
-use moire::texture::sampler_spec::{Address, Filter, SamplerSpec};
+use moire::internal::lab::probe::LookupQuery;
+use moire::internal::pack::PackedScene;
+use moire::internal::scene::model::Footprint;
+use moire::internal::texture::data::{Dimension, TexelFormat, TextureData};
+use moire::internal::texture::sampler_spec::{Address, Filter, SamplerSpec};
 
 use crate::footprints::bench::{answers, narrow, pairs_of, solid};
 use crate::lookup::bench::{Rng, Vectors, coordinates, query};
@@ -139,7 +139,7 @@ fn a_pipeline_that_multiplies_such_a_texel_by_0_is_caught() {
 fn coarser_levels_do_not_read_texels_that_are_no_numbers() {
     let specs = [Filter::Linear, Filter::Anisotropic].map(|min| SamplerSpec {
         min,
-        mip: moire::texture::sampler_spec::MipMode::Linear,
+        mip: moire::internal::texture::sampler_spec::MipMode::Linear,
         ..Default::default()
     });
     let texture = with_texel(&solid(Dimension::Two, [16, 16, 1], TexelFormat::RgbaFloat), [5, 5], f32::NAN);

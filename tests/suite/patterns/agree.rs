@@ -1,8 +1,8 @@
 //! Positions of every pattern on the device against the oracle, bit for bit.
 
-use moire::lab::probe::{self, Positions};
-use moire::oracle::patterns::{HALTON_PAIRS, sample_pair};
-use moire::scene::model::Pattern;
+use moire::internal::lab::probe::{self, Positions};
+use moire::internal::oracle::patterns::{HALTON_PAIRS, sample_pair};
+use moire::internal::scene::model::Pattern;
 
 use super::{points, scene};
 use crate::shared_gpu::gpu;
@@ -105,7 +105,7 @@ fn the_last_of_very_many_samples_agree() {
     let most = 1 << 24;
     for &pattern in &Pattern::ALL[1..] {
         for count in [most, most - 1, 9_999_999] {
-            if moire::scene::check_spp(pattern, count).is_err() {
+            if moire::internal::scene::check_spp(pattern, count).is_err() {
                 continue;
             }
             for (pair, keep) in [(0, false), (1, true)] {

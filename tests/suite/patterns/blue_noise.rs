@@ -3,7 +3,7 @@
 
 use std::f64::consts::TAU;
 
-use moire::scene::model::Pattern;
+use moire::internal::scene::model::Pattern;
 
 use super::{set, unit};
 

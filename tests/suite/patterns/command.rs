@@ -1,6 +1,6 @@
 //! `moire pattern`: its numbers, its picture, and its errors.
 
-use moire::scene::model::Pattern;
+use moire::internal::scene::model::Pattern;
 use serde_json::Value;
 use tempfile::tempdir;
 
@@ -61,7 +61,7 @@ fn the_picture_shows_points_and_spectrum() {
         assert!(String::from_utf8_lossy(&output.stdout).contains(path));
     }
     let picture = image::open(folder.path().join("p.png")).unwrap().to_rgb8();
-    let film = moire::lab::metrics::read_picture(&folder.path().join("p.exr")).unwrap();
+    let film = moire::internal::lab::metrics::read_picture(&folder.path().join("p.exr")).unwrap();
     assert_eq!(picture.dimensions(), (film.width, film.height));
     // In the middle of the spectrum it is dark, towards its corner grey.
     let mean = |x: u32, y: u32| {

@@ -1,8 +1,8 @@
 //! Errors of pixels: each pattern on a smooth function and on an edge, relative to random points.
 
-use moire::lab::pattern::measures::star_discrepancy;
-use moire::oracle::patterns::sample_pair;
-use moire::scene::model::Pattern;
+use moire::internal::lab::pattern::measures::star_discrepancy;
+use moire::internal::oracle::patterns::sample_pair;
+use moire::internal::scene::model::Pattern;
 
 use super::{SCATTERED, header, points, set, unit};
 

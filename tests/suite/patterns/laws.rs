@@ -1,10 +1,10 @@
 //! Stratification of each pattern: the number of points in each part of the pixel.
 
-use moire::oracle::patterns::sample_line;
-use moire::oracle::permute::permute;
-use moire::oracle::rng::sample_bits;
-use moire::oracle::sobol::{second_dimension, shuffled_quarter};
-use moire::scene::model::Pattern;
+use moire::internal::oracle::patterns::sample_line;
+use moire::internal::oracle::permute::permute;
+use moire::internal::oracle::rng::sample_bits;
+use moire::internal::oracle::sobol::{second_dimension, shuffled_quarter};
+use moire::internal::scene::model::Pattern;
 
 use super::{header, points, set};
 

@@ -1,9 +1,9 @@
 //! Pictures of every pattern: omitting unused features changes no bit, and the oracle renders the
 //! same picture, including with samples in several blocks.
 
-use moire::lab::metrics::compare;
-use moire::render::Tuning;
-use moire::scene::model::{Pattern, Scene};
+use moire::internal::lab::metrics::compare;
+use moire::internal::render::Tuning;
+use moire::internal::scene::model::{Pattern, Scene};
 
 use crate::stage::{assert_same_bits, packed, render, render_on_oracle, render_with, small};
 

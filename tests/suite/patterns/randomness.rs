@@ -1,6 +1,6 @@
 //! Points are uniform, and those of different pixels, dimension pairs and seeds are independent.
 
-use moire::scene::model::Pattern;
+use moire::internal::scene::model::Pattern;
 
 use super::{SCATTERED, set, unit};
 use crate::strata::assert_uniform;

@@ -3,9 +3,9 @@
 
 use std::f64::consts::PI;
 
-use moire::lab::pattern::points::Set;
-use moire::lab::pattern::spectrum::{Spectrum, mean};
-use moire::scene::model::Pattern;
+use moire::internal::lab::pattern::points::Set;
+use moire::internal::lab::pattern::spectrum::{Spectrum, mean};
+use moire::internal::scene::model::Pattern;
 
 const REALISATIONS: u32 = 400;
 

@@ -1,7 +1,7 @@
 //! Radiance pictures: signatures, line ends, header variables, the eight orientations, and the
 //! three encodings of a scan line.
 
-use moire::texture::data::TexelFormat;
+use moire::internal::texture::data::TexelFormat;
 
 use super::{assert_refused_as, load_bytes};
 use crate::support::told;

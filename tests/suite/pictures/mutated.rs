@@ -4,8 +4,8 @@
 use std::fs;
 use std::time::{Duration, Instant};
 
-use moire::lab::metrics::read_picture;
-use moire::texture::data::Dimension;
+use moire::internal::lab::metrics::read_picture;
+use moire::internal::texture::data::Dimension;
 use tempfile::tempdir;
 
 use super::load;

@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use moire::texture::data::{Dimension, TexelFormat};
+use moire::internal::texture::data::{Dimension, TexelFormat};
 use tempfile::tempdir;
 
 use super::{load, load_bytes};

@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use moire::texture::data::{Dimension, TexelFormat};
+use moire::internal::texture::data::{Dimension, TexelFormat};
 
 use super::{assert_refused_as, fixture, load, load_bytes};
 use crate::support::told;

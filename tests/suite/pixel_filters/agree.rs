@@ -1,13 +1,13 @@
 //! Device and oracle, lean and full pipelines, parts and the whole give the same picture.
 
-use moire::adaptive::{self, Goal};
-use moire::core::progress::NoProgress;
-use moire::lab::metrics::compare;
-use moire::oracle::jobs::JobTracer;
-use moire::pack::Crop;
-use moire::pack::features::Features;
-use moire::render::{self, Tuning};
-use moire::scene::model::{Algorithm, Footprint, Pattern, PixelFilter, PixelFilterKind, Scene};
+use moire::internal::adaptive::{self, Goal};
+use moire::internal::core::progress::NoProgress;
+use moire::internal::lab::metrics::compare;
+use moire::internal::oracle::jobs::JobTracer;
+use moire::internal::pack::Crop;
+use moire::internal::pack::features::Features;
+use moire::internal::render::{self, Tuning};
+use moire::internal::scene::model::{Algorithm, Footprint, Pattern, PixelFilter, PixelFilterKind, Scene};
 
 use super::{filters, with};
 use crate::stage::{

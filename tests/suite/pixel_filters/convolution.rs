@@ -1,8 +1,8 @@
 //! Pictures with a filter against the definition: a finely sampled picture, convolved with the analytic kernel
 //! in float64.
 
-use moire::core::film::Film;
-use moire::scene::model::{Pattern, PixelFilter, PixelFilterKind, Projection, Scene};
+use moire::internal::core::film::Film;
+use moire::internal::scene::model::{Pattern, PixelFilter, PixelFilterKind, Projection, Scene};
 
 use super::{filters, integral, with};
 use crate::stage::{packed, render_on_oracle, small};

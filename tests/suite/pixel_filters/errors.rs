@@ -2,12 +2,12 @@
 
 use std::path::Path;
 
-use moire::scene::model::{PixelFilter, PixelFilterKind};
-use moire::scene::parse;
+use moire::internal::scene::model::{PixelFilter, PixelFilterKind};
+use moire::internal::scene::parse;
 
 use crate::support::{moire, told};
 
-fn image(keys: &str) -> moire::core::error::Result<PixelFilter> {
+fn image(keys: &str) -> moire::internal::core::error::Result<PixelFilter> {
     let text = format!(
         "[camera]\neye = [0, 0, 5]\nlook_at = [0, 0, 0]\nvertical_fov = 40\n[image]\nwidth = 8\nheight = 8\n{keys}\n"
     );

@@ -1,9 +1,9 @@
 //! The kernels: their values, that the sampling distribution is the kernel's integral, that the
 //! prefilter's part has its variance, and that the response to a thin line is the kernel.
 
-use moire::oracle::pixel_filter::{filter_width, filtered_place};
-use moire::pack::{PackedScene, kernel};
-use moire::scene::model::{PixelFilter, PixelFilterKind};
+use moire::internal::oracle::pixel_filter::{filter_width, filtered_place};
+use moire::internal::pack::{PackedScene, kernel};
+use moire::internal::scene::model::{PixelFilter, PixelFilterKind};
 
 use super::{filters, integral, squares, with};
 use crate::stage::{render, render_on_oracle, small};

@@ -1,11 +1,11 @@
 //! Negative lobes: pictures from samples with signed weights. Pixels beside an edge overshoot, a
 //! constant colour is preserved, and no sum of few weights makes a pixel diverge.
 
-use moire::core::film::Film;
-use moire::output::{WriteOptions, write};
-use moire::pack::filtered_mean;
-use moire::scene::check_spp;
-use moire::scene::model::{Algorithm, Pattern, PixelFilter, PixelFilterKind};
+use moire::internal::core::film::Film;
+use moire::internal::output::{WriteOptions, write};
+use moire::internal::pack::filtered_mean;
+use moire::internal::scene::check_spp;
+use moire::internal::scene::model::{Algorithm, Pattern, PixelFilter, PixelFilterKind};
 
 use super::{filters, squares};
 use crate::stage::{packed, render, render_on_oracle, small};
@@ -70,7 +70,7 @@ fn an_edge_overshoots_on_both_sides_and_files_clip_it() {
         for (ending, least) in [("png", 0.0), ("jpg", 0.0), ("hdr", 0.0), ("exr", exact as f32 - 4e-3)] {
             let path = folder.path().join(format!("edge.{ending}"));
             write(&film, &path, &WriteOptions::default()).unwrap();
-            let read: Film = moire::lab::metrics::read_picture(&path).unwrap();
+            let read: Film = moire::internal::lab::metrics::read_picture(&path).unwrap();
             let darkest = read.pixels.iter().flatten().copied().fold(f32::INFINITY, f32::min);
             assert!(darkest >= least, "{ending}: {darkest}");
             assert_eq!(ending == "exr", darkest < 0.0, "{ending}: {darkest}");

@@ -1,12 +1,12 @@
 //! The device against the oracle, for every kind, near and far, with and without a footprint.
 
 use glam::DVec3;
-use moire::lab::probe::{self, ProceduralQuery};
-use moire::oracle::procedural::{box_count, principal_axes, procedural_color};
-use moire::pack::PackedScene;
-use moire::scene::model::Footprint;
-use moire::schema::layout::{self, Header};
-use moire::texture::procedural::ProceduralKind::{self, *};
+use moire::internal::lab::probe::{self, ProceduralQuery};
+use moire::internal::oracle::procedural::{box_count, principal_axes, procedural_color};
+use moire::internal::pack::PackedScene;
+use moire::internal::scene::model::Footprint;
+use moire::internal::schema::layout::{self, Header};
+use moire::internal::texture::procedural::ProceduralKind::{self, *};
 
 use super::{default_record, record};
 use crate::lookup::bench::{Rng, Vectors};

@@ -3,9 +3,9 @@
 //! far from the origin; and a checker up to the horizon.
 
 use glam::DVec3;
-use moire::oracle::procedural::{box_attenuation, figure_share, pulse_mean};
-use moire::schema::layout;
-use moire::texture::procedural::ProceduralKind::{self, *};
+use moire::internal::oracle::procedural::{box_attenuation, figure_share, pulse_mean};
+use moire::internal::schema::layout;
+use moire::internal::texture::procedural::ProceduralKind::{self, *};
 
 use super::{HARD_EDGED, default_record, mean_of_points, share_at};
 use crate::lookup::bench::{Rng, Vectors};

@@ -2,10 +2,10 @@
 //! by seed; the statistics that its filter relies on.
 
 use glam::DVec3;
-use moire::oracle::noise::{
+use moire::internal::oracle::noise::{
     FOLDED_MEAN, FOLDED_VARIANCE, NOISE_VARIANCE, cell_distance, cell_mean, gradient_noise,
 };
-use moire::texture::procedural::ProceduralKind::{self, *};
+use moire::internal::texture::procedural::ProceduralKind::{self, *};
 
 use super::{HARD_EDGED, default_record, record, share_at};
 use crate::lookup::bench::{Rng, Vectors};

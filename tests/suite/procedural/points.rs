@@ -2,7 +2,7 @@
 //! of bricks, whole rings and veins.
 
 use glam::DVec3;
-use moire::texture::procedural::ProceduralKind::*;
+use moire::internal::texture::procedural::ProceduralKind::*;
 
 use super::{default_record, record, share_at};
 

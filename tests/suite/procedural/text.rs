@@ -2,12 +2,12 @@
 
 use std::path::Path;
 
-use moire::scene;
-use moire::texture::procedural::{Procedural, ProceduralKind};
+use moire::internal::scene;
+use moire::internal::texture::procedural::{Procedural, ProceduralKind};
 
 use crate::support::told;
 
-fn parse(keys: &str) -> moire::core::error::Result<Procedural> {
+fn parse(keys: &str) -> moire::internal::core::error::Result<Procedural> {
     let rest =
         "[camera]\neye = [0, 0, 1]\nlook_at = [0, 0, 0]\nvertical_fov = 40\n[image]\nwidth = 1\nheight = 1\n";
     let text = format!("[[texture]]\nname = \"t\"\n{keys}\n{rest}");

@@ -2,9 +2,9 @@
 //! detected.
 
 use glam::DVec3;
-use moire::oracle::beam::beam;
-use moire::render::Tuning;
-use moire::scene::model::{Algorithm, Scene};
+use moire::internal::oracle::beam::beam;
+use moire::internal::render::Tuning;
+use moire::internal::scene::model::{Algorithm, Scene};
 use rayon::prelude::*;
 
 use super::scenes::{Kind, scene, text};

@@ -4,17 +4,19 @@
 use std::collections::BTreeMap;
 
 use glam::{DVec2, DVec3};
-use moire::oracle::camera::camera_ray;
-use moire::oracle::cone::{cone_of, leaving};
-use moire::oracle::footprint::{camera_differential, mirrored};
-use moire::oracle::fragments::{collect_fragments, composite};
-use moire::oracle::intersect::FAR;
-use moire::oracle::math::xyz;
-use moire::oracle::projective::shape_plane;
-use moire::oracle::shading_integral::links;
-use moire::pack::PackedScene;
-use moire::scene::model::{Algorithm, Model};
-use moire::schema::layout::NO_SHAPE;
+use moire::internal::oracle::bsdf::mirror::mirrored;
+use moire::internal::oracle::camera::camera_ray;
+use moire::internal::oracle::cone::cone_of;
+use moire::internal::oracle::footprint::camera_differential;
+use moire::internal::oracle::fragments::{collect_fragments, composite};
+use moire::internal::oracle::geometry::beams::shape_links;
+use moire::internal::oracle::geometry::beams::shape_plane;
+use moire::internal::oracle::geometry::cones::leaving;
+use moire::internal::oracle::geometry::rays::FAR;
+use moire::internal::oracle::math::xyz;
+use moire::internal::pack::PackedScene;
+use moire::internal::scene::model::{Algorithm, Model};
+use moire::internal::schema::layout::NO_SHAPE;
 use rayon::prelude::*;
 
 use super::cones::plain;
@@ -41,7 +43,7 @@ fn cause(scene: &PackedScene, place: [u32; 2]) -> Cause {
     let mut cone = cone_of(ray, width, beam.spread, xyz(header.step_x));
     let mut skip = NO_SHAPE;
     let model = |shape: u32| {
-        let [material, _] = links(scene, shape);
+        let [material, _] = shape_links(scene, shape);
         Model::ALL[scene.materials[material as usize].link[0] as usize]
     };
     for _ in 0..=header.size[3] {
@@ -99,10 +101,11 @@ fn one_or_two_shapes_cost_no_more_than_a_disc_for_a_square() {
     assert!(all.len() == 4, "{:?}", all.keys());
 }
 
-/// Prints the README's figures by cause: share of the pixels, RMSE, the error that one in 1000 exceeds, the worst.
+/// Prints the figures of docs/guide/learn/11-cones.md by cause: share of the pixels, RMSE, the error that one in
+/// 1000 exceeds, the worst.
 #[test]
 #[ignore = "minutes"]
-fn the_readmes_causes() {
+fn causes_for_the_docs() {
     let all = errors(many(), 64);
     let count: usize = all.values().map(Vec::len).sum();
     for (cause, mut errors) in all {

@@ -2,16 +2,16 @@
 //! cone, and no visibility through a third.
 
 use glam::{DVec2, DVec3};
-use moire::core::film::Film;
-use moire::lab::metrics::compare;
-use moire::oracle::camera::camera_ray;
-use moire::oracle::cone::{Cone, cone_of};
-use moire::oracle::footprint::camera_differential;
-use moire::oracle::fragments::{collect_fragments, composite};
-use moire::oracle::intersect::{FAR, nearest_hit};
-use moire::oracle::math::xyz;
-use moire::pack::PackedScene;
-use moire::scene::model::{Algorithm, Scene};
+use moire::internal::core::film::Film;
+use moire::internal::lab::metrics::compare;
+use moire::internal::oracle::camera::camera_ray;
+use moire::internal::oracle::cone::{Cone, cone_of};
+use moire::internal::oracle::footprint::camera_differential;
+use moire::internal::oracle::fragments::{collect_fragments, composite};
+use moire::internal::oracle::geometry::rays::{FAR, nearest_hit};
+use moire::internal::oracle::math::xyz;
+use moire::internal::pack::PackedScene;
+use moire::internal::scene::model::{Algorithm, Scene};
 
 use super::scenes::{scene, text};
 use super::{FEW, color, film, kind_of, many, with};
@@ -33,20 +33,20 @@ fn error(scene: &Scene) -> [f64; 2] {
     [compare(&cones, &truth).unwrap().rmse, worst]
 }
 
-/// As the README has it.
+/// As docs/guide/learn/11-cones.md has it.
 const WORST_RMSE: f64 = 0.02;
 const WORST_PIXEL: f64 = 0.4;
 
 #[test]
-fn cones_err_as_the_readme_says() {
+fn cones_err_as_documented() {
     let errors: Vec<[f64; 2]> = (0..FEW / 2).map(|seed| error(&plain(seed, 32))).collect();
     assert!(errors.iter().all(|e| e[0] < WORST_RMSE && e[1] < WORST_PIXEL), "{errors:?}");
 }
 
-/// Prints the README's figures: medians and worst of both errors, by kind, lit or not.
+/// Prints the figures of docs/guide/learn/11-cones.md: medians and worst of both errors, by kind, lit or not.
 #[test]
 #[ignore = "minutes"]
-fn the_readmes_figures() {
+fn figures_for_the_docs() {
     let mut all = Vec::new();
     for seed in many() {
         let scene = plain(seed, 64);
@@ -79,7 +79,7 @@ fn by_rays(scene: &PackedScene, cone: &Cone, shapes: usize) -> Vec<f64> {
         let hit = nearest_hit(
             scene,
             &cone.ray_at(radius * DVec2::from_angle(angle)),
-            moire::schema::layout::NO_SHAPE,
+            moire::internal::schema::layout::NO_SHAPE,
         );
         shares[(hit.shape as usize).min(shapes)] += 1.0 / f64::from(RINGS * around);
     }
@@ -97,7 +97,7 @@ fn shares_off(scene: &Scene) -> [f64; 3] {
         let ray = camera_ray(header, place, DVec2::splat(0.5));
         let beam = camera_differential(header, &ray);
         let cone = cone_of(ray, beam.width, beam.spread, xyz(header.step_x));
-        let mut pieces = collect_fragments(&packed, &cone, moire::schema::layout::NO_SHAPE, FAR);
+        let mut pieces = collect_fragments(&packed, &cone, moire::internal::schema::layout::NO_SHAPE, FAR);
         let rest = composite(&mut pieces, &packed, &cone).share;
         if pieces.list.iter().any(|p| p.area >= 1.0) {
             off[2] = off[2].max(rest);

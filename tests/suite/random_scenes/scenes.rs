@@ -5,9 +5,9 @@
 use std::path::Path;
 
 use glam::DVec3;
-use moire::lab::verify::queries::Rng;
-use moire::scene::model::Scene;
-use moire::scene::parse;
+use moire::internal::lab::verify::queries::Rng;
+use moire::internal::scene::model::Scene;
+use moire::internal::scene::parse;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Kind {

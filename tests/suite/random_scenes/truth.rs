@@ -2,9 +2,9 @@
 //! compared.
 
 use glam::DVec3;
-use moire::oracle::render::sample;
-use moire::pack::PackedScene;
-use moire::scene::model::{Algorithm, Footprint, Pattern, Scene};
+use moire::internal::oracle::render::sample;
+use moire::internal::pack::PackedScene;
+use moire::internal::scene::model::{Algorithm, Footprint, Pattern, Scene};
 
 use crate::stage::packed;
 

@@ -3,10 +3,12 @@
 //! 2.5 ulp, a square root by about as much (Vulkan 1.3, "Precision and Operation of SPIR-V
 //! Instructions").
 
-use moire::oracle::camera::Ray;
-use moire::oracle::intersect::{plane_distance, sphere_distance, triangle_distance};
-use moire::oracle::math::{affine, xyz};
-use moire::pack::PackedScene;
+use moire::internal::oracle::camera::Ray;
+use moire::internal::oracle::geometry::kinds::Shape;
+use moire::internal::oracle::geometry::sphere::sphere_distance;
+use moire::internal::oracle::geometry::triangle::triangle_distance;
+use moire::internal::oracle::math::{affine, xyz};
+use moire::internal::pack::PackedScene;
 
 /// Unit roundoff of f32.
 pub const U: f64 = 1.0 / 16_777_216.0;
@@ -50,8 +52,9 @@ fn flat_error(normal: [f64; 4], ray: &Ray, t: f64) -> f64 {
 
 fn plane(scene: &PackedScene, index: usize, ray: &Ray) -> Estimate {
     let plane = &scene.planes[index];
-    let unbounded = moire::schema::layout::Plane { link: [plane.link[0], plane.link[1], 0, 0], ..*plane };
-    let (t, _) = plane_distance(&unbounded, ray);
+    let unbounded =
+        moire::internal::schema::layout::Plane { link: [plane.link[0], plane.link[1], 0, 0], ..*plane };
+    let (t, _) = unbounded.distance_to(ray);
     let error = flat_error(plane.normal, ray, t);
     let point = ray.origin + t * ray.direction;
     let point_error = error * ray.direction.length() + 2.0 * U * (ray.origin.length() + point.length());
@@ -60,7 +63,7 @@ fn plane(scene: &PackedScene, index: usize, ray: &Ray) -> Estimate {
         let own = 4.0 * U * ((xyz(*row) * point).abs().element_sum() + row[3].abs());
         (affine(*row, point).abs() - extent).abs() <= own + xyz(*row).length() * point_error
     });
-    let (t, _) = plane_distance(plane, ray);
+    let (t, _) = plane.distance_to(ray);
     Estimate { t, error, unsure: plane.link[3] != 0 && near_edge, curvature: 0.0, weights: 0.0 }
 }
 

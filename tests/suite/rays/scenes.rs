@@ -4,10 +4,10 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use glam::{DVec3, Vec3};
-use moire::lab::probe::RayQuery;
-use moire::pack::{self, PackedScene};
-use moire::scene;
-use moire::texture::data::{ColorSpace, TexelFormat};
+use moire::internal::lab::probe::RayQuery;
+use moire::internal::pack::{self, PackedScene};
+use moire::internal::scene;
+use moire::internal::texture::data::{ColorSpace, TexelFormat};
 
 use crate::lookup::bench::{Rng, Vectors, texture};
 

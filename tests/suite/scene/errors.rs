@@ -4,8 +4,8 @@
 use std::path::Path;
 
 use miette::GraphicalReportHandler;
-use moire::core::error::Error;
-use moire::scene::parse;
+use moire::internal::core::error::Error;
+use moire::internal::scene::parse;
 
 use super::HEAD;
 

@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
-use moire::scene::advice::of_scene;
-use moire::scene::model::Pattern;
-use moire::scene::{check_shared, check_spp, parse};
+use moire::internal::scene::advice::of_scene;
+use moire::internal::scene::model::Pattern;
+use moire::internal::scene::{check_shared, check_spp, parse};
 
 use super::HEAD;
 use super::errors::{PATH, check, check_behind_head, check_replaced};

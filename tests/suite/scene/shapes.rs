@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use moire::scene::parse;
+use moire::internal::scene::parse;
 
 use super::HEAD;
 use super::errors::{PATH, check, check_behind_head};
@@ -150,7 +150,7 @@ fn triangles_without_area_are_dropped_with_a_count() {
     let first = text.lines().position(|line| line.contains("[1, 0, 0], [1, 0, 0]")).unwrap();
     // The table's header is the line before.
     assert_eq!(scene.first_dropped, first);
-    let told = moire::scene::advice::of_scene(&scene);
+    let told = moire::internal::scene::advice::of_scene(&scene);
     assert!(
         told.iter().any(|t| t.contains("3 triangles") && t.contains(&format!("line {first}"))),
         "{told:?}"

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use moire::scene::parse;
+use moire::internal::scene::parse;
 
 use super::HEAD;
 use super::errors::{PATH, check_behind_head};

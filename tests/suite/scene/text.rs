@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use moire::scene::parse;
+use moire::internal::scene::parse;
 use proptest::prelude::*;
 
 use super::errors::{PATH, check, check_behind_head, message};

@@ -2,13 +2,13 @@
 
 use std::fs;
 
-use moire::lab::stability::page::{html, json, write};
+use moire::internal::lab::stability::page::{html, json, write};
 use roxmltree::{Document, Node};
 use serde_json::Value;
 use tempfile::tempdir;
 
 use super::{report, row};
-use moire::lab::stability::report::{Row, StabilityReport};
+use moire::internal::lab::stability::report::{Row, StabilityReport};
 
 fn planted() -> StabilityReport {
     let mut other = row("zeros", &[0.0, 0.0]);

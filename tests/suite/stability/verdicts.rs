@@ -1,12 +1,12 @@
 //! Verdicts within and above bounds, and the continuation or end of a run after a failing case.
 
-use moire::core::error::{Error, Result};
-use moire::core::progress::{NoProgress, Progress};
-use moire::lab::stability::case::{Bench, Point};
-use moire::lab::stability::report::Verdict;
-use moire::lab::stability::run::run;
-use moire::lab::stability::text::text;
-use moire::lab::stability::{all, case::Case};
+use moire::internal::core::error::{Error, Result};
+use moire::internal::core::progress::{NoProgress, Progress};
+use moire::internal::lab::stability::case::{Bench, Point};
+use moire::internal::lab::stability::report::Verdict;
+use moire::internal::lab::stability::run::run;
+use moire::internal::lab::stability::text::text;
+use moire::internal::lab::stability::{all, case::Case};
 
 use super::{case, none, points, report, row};
 use crate::shared_gpu::gpu;

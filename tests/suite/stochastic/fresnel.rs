@@ -1,9 +1,9 @@
 //! Glass chooses stochastically between reflection and refraction by a sample dimension: stratified
 //! as the pattern is, and at ½ if the pattern is deterministic.
 
-use moire::core::film::Film;
-use moire::lab::metrics::compare;
-use moire::scene::model::{Algorithm, Pattern, Scene};
+use moire::internal::core::film::Film;
+use moire::internal::lab::metrics::compare;
+use moire::internal::scene::model::{Algorithm, Pattern, Scene};
 
 use super::{packed, parsed, sampled, variance};
 use crate::stage::{render, render_on_oracle};

@@ -4,12 +4,13 @@
 use std::f64::consts::{PI, TAU};
 
 use glam::{DVec2, DVec3};
-use moire::core::film::Film;
-use moire::lab::metrics::compare;
-use moire::oracle::footprint::{RayDifferential, mirrored};
-use moire::oracle::glossy::{smith, smith_g2_over_g1, visible_normal, widened_differential};
-use moire::scene::model::{Pattern, Scene};
-use moire::scene::parse;
+use moire::internal::core::film::Film;
+use moire::internal::lab::metrics::compare;
+use moire::internal::oracle::bsdf::facets::{smith, smith_g2_over_g1, visible_normal, widened_differential};
+use moire::internal::oracle::bsdf::mirror::mirrored;
+use moire::internal::oracle::footprint::RayDifferential;
+use moire::internal::scene::model::{Pattern, Scene};
+use moire::internal::scene::parse;
 
 use super::lens::VIEW;
 use super::{assert_patterns_gain, packed, parsed};

@@ -1,11 +1,11 @@
 //! The thin lens: points in focus, the circle of confusion elsewhere, and the gain by sample
 //! patterns.
 
-use moire::core::film::Film;
-use moire::core::progress::NoProgress;
-use moire::oracle::render::render as on_oracle;
-use moire::scene::model::{Lens, Scene};
-use moire::scene::parse;
+use moire::internal::core::film::Film;
+use moire::internal::core::progress::NoProgress;
+use moire::internal::oracle::render::render as on_oracle;
+use moire::internal::scene::model::{Lens, Scene};
+use moire::internal::scene::parse;
 
 use super::{assert_patterns_gain, packed, parsed};
 use crate::stage::render;
@@ -36,15 +36,17 @@ fn with_lens(text: &str, radius: f64, focus_distance: f64) -> Scene {
 fn what_lies_in_the_plane_of_focus_looks_as_through_a_pinhole() {
     let card = "[[triangle]]\nvertices = [[-1.2, -0.7, 2], [1, -0.4, 2], [-0.3, 1, 2]]\nmaterial = 'white'\n";
     let sharp = with_lens(card, 0.4, 3.0);
-    let pinhole =
-        Scene { camera: moire::scene::model::Camera { lens: None, ..sharp.camera }, ..sharp.clone() };
+    let pinhole = Scene {
+        camera: moire::internal::scene::model::Camera { lens: None, ..sharp.camera },
+        ..sharp.clone()
+    };
     let [a, b] = [&sharp, &pinhole].map(|s| on_oracle(&packed(s), &NoProgress).unwrap());
     assert_eq!(a, b, "in focus");
     let [a, b] = [&sharp, &pinhole].map(|s| render(&packed(s)));
     let apart = a.pixels.iter().zip(&b.pixels).filter(|(p, q)| p != q).count();
     assert!(apart <= 2, "{apart} pixels differ on the device: rounding at an edge");
     let blurred = on_oracle(&packed(&with_lens(card, 0.4, 2.0)), &NoProgress).unwrap();
-    assert!(moire::lab::metrics::compare(&blurred, &b).unwrap().rmse > 0.05, "out of focus");
+    assert!(moire::internal::lab::metrics::compare(&blurred, &b).unwrap().rmse > 0.05, "out of focus");
 }
 
 /// Variance of the light's place in the picture along x and y, in pixels squared.

@@ -4,9 +4,9 @@
 use std::f64::consts::{PI, TAU};
 
 use glam::DVec3;
-use moire::core::film::Film;
-use moire::scene::model::{Light, Pattern, Scene};
-use moire::scene::parse;
+use moire::internal::core::film::Film;
+use moire::internal::scene::model::{Light, Pattern, Scene};
+use moire::internal::scene::parse;
 
 use super::{assert_patterns_gain, packed, parsed, sampled};
 use crate::stage::render;
@@ -37,7 +37,7 @@ fn lit(light: Light) -> f64 {
     alone
 }
 
-fn parsed_sphere() -> moire::scene::model::Sphere {
+fn parsed_sphere() -> moire::internal::scene::model::Sphere {
     parsed(&format!("{}[[sphere]]\ncenter = [0, 0, -9]\nradius = 1\n", super::lens::VIEW)).spheres[0]
 }
 

@@ -2,14 +2,14 @@
 //! gain by sample patterns.
 
 use glam::DVec3;
-use moire::core::film::Film;
-use moire::core::progress::NoProgress;
-use moire::lab::metrics::compare;
-use moire::oracle::render::render as on_oracle;
-use moire::pack::PackedScene;
-use moire::scene::model::Scene;
-use moire::scene::parse;
-use moire::texture::load::load;
+use moire::internal::core::film::Film;
+use moire::internal::core::progress::NoProgress;
+use moire::internal::lab::metrics::compare;
+use moire::internal::oracle::render::render as on_oracle;
+use moire::internal::pack::PackedScene;
+use moire::internal::scene::model::Scene;
+use moire::internal::scene::parse;
+use moire::internal::texture::load::load;
 
 use super::lens::{VIEW, spread};
 use super::{assert_patterns_gain, packed, parsed};
@@ -74,7 +74,7 @@ const CROWD: &str = "
 
 fn textured(scene: &Scene) -> PackedScene {
     let textures = scene.textures.iter().map(|t| load(t).unwrap()).collect();
-    moire::pack::pack(scene, textures, None).unwrap()
+    moire::internal::pack::pack(scene, textures, None).unwrap()
 }
 
 #[test]
@@ -123,7 +123,7 @@ fn a_camera_that_moves_sees_what_shapes_moving_the_other_way_show() {
         .materials
         .iter_mut()
         .filter(|m| m.name == "default")
-        .for_each(|m| m.model = moire::scene::model::Model::Unlit);
+        .for_each(|m| m.model = moire::internal::scene::model::Model::Unlit);
     let mut shapes = camera.clone();
     camera.camera.motion = [way; 2];
     for motion in camera

@@ -2,9 +2,9 @@
 //! oracle, near, far and grazing.
 
 use glam::{DVec2, DVec3};
-use moire::lab::probe::{self, WarpQuery};
-use moire::oracle::rectangle::{MIN_SOLID_ANGLE, on_rectangle};
-use moire::scene::model::Pattern;
+use moire::internal::lab::probe::{self, WarpQuery};
+use moire::internal::oracle::rectangle::{MIN_SOLID_ANGLE, on_rectangle};
+use moire::internal::scene::model::Pattern;
 
 use crate::lookup::bench::Rng;
 use crate::shared_gpu::gpu;

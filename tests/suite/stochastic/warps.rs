@@ -4,12 +4,13 @@
 use std::f64::consts::TAU;
 
 use glam::{DVec2, DVec3};
-use moire::lab::probe::{self, WarpAnswer, WarpQuery};
-use moire::oracle::disk_sampling::{concentric_disc, on_cap};
-use moire::oracle::footprint::{around, mirrored};
-use moire::oracle::glossy::{smith_g2_over_g1, visible_normal};
-use moire::oracle::math::xyz;
-use moire::scene::model::Pattern;
+use moire::internal::lab::probe::{self, WarpAnswer, WarpQuery};
+use moire::internal::oracle::bsdf::facets::{smith_g2_over_g1, visible_normal};
+use moire::internal::oracle::bsdf::mirror::mirrored;
+use moire::internal::oracle::disk_sampling::{concentric_disc, on_cap};
+use moire::internal::oracle::footprint::around;
+use moire::internal::oracle::math::xyz;
+use moire::internal::scene::model::Pattern;
 
 use crate::lookup::bench::Rng;
 use crate::shared_gpu::gpu;

@@ -1,10 +1,12 @@
 //! Slopes, winners and times to errors of synthetic points with known answers.
 
-use moire::lab::plot::axis::steps;
-use moire::lab::study::analysis::{MethodSlope, Slope, median, recommended, slope, time_to, winners};
-use moire::lab::study::choice::not_significantly_different;
-use moire::lab::study::record::{Errors, PointRecord};
-use moire::oracle::rng::mix_bits;
+use moire::internal::lab::plot::axis::steps;
+use moire::internal::lab::study::analysis::{
+    MethodSlope, Slope, median, recommended, slope, time_to, winners,
+};
+use moire::internal::lab::study::choice::not_significantly_different;
+use moire::internal::lab::study::record::{Errors, PointRecord};
+use moire::internal::oracle::rng::mix_bits;
 
 /// RMSE whose square falls with this slope, with a ripple of some per cent as measured points have.
 fn curve(exponent: f64, ripple: f64) -> Vec<(f64, f64)> {

@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use moire::output::{WriteOptions, write};
+use moire::internal::output::{WriteOptions, write};
 use serde_json::Value;
 use tempfile::tempdir;
 
@@ -10,7 +10,7 @@ use super::{points, studied, study, told};
 use crate::stage::device_name;
 use crate::support::{gradient, moire};
 
-/// The words of a line as a POSIX shell takes them, of what `moire::lab::study::quote` writes.
+/// The words of a line as a POSIX shell takes them, of what `moire::internal::lab::study::quote` writes.
 fn words(line: &str) -> Vec<String> {
     let mut words = vec![String::new()];
     let (mut quoted, mut letters) = (false, line.chars());
@@ -57,12 +57,12 @@ fn each_command_renders_its_point_again() {
 
 #[test]
 fn paths_with_spaces_are_quoted_in_commands() {
-    assert_eq!(moire::lab::study::quote("a/b-c.toml"), "a/b-c.toml");
-    assert_eq!(moire::lab::study::quote("my scene.toml"), "'my scene.toml'");
-    assert_eq!(moire::lab::study::quote("it's"), "'it'\\''s'");
-    assert_eq!(moire::lab::study::quote(""), "''");
+    assert_eq!(moire::internal::lab::study::quote("a/b-c.toml"), "a/b-c.toml");
+    assert_eq!(moire::internal::lab::study::quote("my scene.toml"), "'my scene.toml'");
+    assert_eq!(moire::internal::lab::study::quote("it's"), "'it'\\''s'");
+    assert_eq!(moire::internal::lab::study::quote(""), "''");
     let texts = ["my scene.toml", "it's", "a/b-c.toml", "", "back\\slash ü"];
-    assert_eq!(words(&texts.map(moire::lab::study::quote).join(" ")), texts);
+    assert_eq!(words(&texts.map(moire::internal::lab::study::quote).join(" ")), texts);
 }
 
 #[test]

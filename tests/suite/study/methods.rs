@@ -1,11 +1,11 @@
 //! Names of methods, their effect on a scene, the methods of a scene, and the counts that are
 //! measured.
 
-use moire::lab::study::method::Method;
-use moire::lab::study::plan::{Forecast, next_count, points};
-use moire::scene::check_spp;
-use moire::scene::model::{Algorithm, Footprint, Pattern, Scene};
-use moire::texture::sampler_spec::{Filter, MipMode};
+use moire::internal::lab::study::method::Method;
+use moire::internal::lab::study::plan::{Forecast, next_count, points};
+use moire::internal::scene::check_spp;
+use moire::internal::scene::model::{Algorithm, Footprint, Pattern, Scene};
+use moire::internal::texture::sampler_spec::{Filter, MipMode};
 
 use crate::stage;
 
@@ -56,7 +56,7 @@ fn words_in_wrong_places_are_errors_that_list_the_names() {
 
 fn scene(name: &str) -> Scene {
     let mut scene = stage::scene(name);
-    moire::scene::prune::prune(&mut scene);
+    moire::internal::scene::prune::prune(&mut scene);
     scene
 }
 

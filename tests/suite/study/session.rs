@@ -1,11 +1,11 @@
 //! Renders that share device resources are bitwise equal to independent renders.
 
-use moire::core::film::Film;
-use moire::core::progress::NoProgress;
-use moire::pack::pack;
-use moire::render::{Session, Tuning, render};
-use moire::scene::model::{Algorithm, Pattern, Scene};
-use moire::texture;
+use moire::internal::core::film::Film;
+use moire::internal::core::progress::NoProgress;
+use moire::internal::pack::pack;
+use moire::internal::render::{Session, Tuning, render};
+use moire::internal::scene::model::{Algorithm, Pattern, Scene};
+use moire::internal::texture;
 
 use crate::shared_gpu;
 use crate::stage;
@@ -13,11 +13,11 @@ use crate::stage;
 fn load(name: &str) -> Scene {
     let mut scene = stage::scene(name);
     (scene.width, scene.height) = (24, 18);
-    moire::scene::prune::prune(&mut scene);
+    moire::internal::scene::prune::prune(&mut scene);
     scene
 }
 
-fn packed(scene: &Scene) -> moire::pack::PackedScene {
+fn packed(scene: &Scene) -> moire::internal::pack::PackedScene {
     pack(scene, scene.textures.iter().map(|t| texture::load::load(t).unwrap()).collect(), None).unwrap()
 }
 
@@ -33,7 +33,7 @@ fn samples_beside_beams_are_those_that_are_asked_for() {
     base.sampling.algorithm = Algorithm::Beam;
     let variant = |pattern, spp| {
         let mut scene = base.clone();
-        scene.sampling = moire::scene::model::Sampling { pattern, spp, ..scene.sampling };
+        scene.sampling = moire::internal::scene::model::Sampling { pattern, spp, ..scene.sampling };
         scene
     };
     let gpu = shared_gpu::gpu();
@@ -53,7 +53,7 @@ fn renders_in_turn_equal_renders_alone() {
         let base = load(name);
         let variant = |pattern, spp, seed| {
             let mut scene = base.clone();
-            scene.sampling = moire::scene::model::Sampling { pattern, spp, seed, ..scene.sampling };
+            scene.sampling = moire::internal::scene::model::Sampling { pattern, spp, seed, ..scene.sampling };
             scene
         };
         // More than 256 samples need the film's second half.

@@ -1,8 +1,8 @@
 //! `moire verify` on the device under test: its output, its exit code and its cancellation.
 
-use moire::core::error::Error;
-use moire::core::progress::Progress;
-use moire::lab::verify::verify;
+use moire::internal::core::error::Error;
+use moire::internal::core::progress::Progress;
+use moire::internal::lab::verify::verify;
 use serde_json::Value;
 
 use crate::shared_gpu::gpu;

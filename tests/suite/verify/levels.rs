@@ -2,19 +2,19 @@
 
 use std::collections::BTreeSet;
 
-use moire::lab::probe::LookupQuery;
-use moire::lab::verify::judge::{Judge, Precision};
-use moire::lab::verify::level_variants::{anisotropic_variants, level_variants};
-use moire::lab::verify::queries::{Rng, noise, pairs_over, place_of, query};
-use moire::lab::verify::reading::readings;
-use moire::lab::verify::sweeps::{level_sweep, long_footprints, paint_levels};
-use moire::lab::verify::variants::{FormatClass, Reader, Scale, Variant};
-use moire::oracle::filter::sample_texture;
-use moire::pack::PackedScene;
-use moire::scene::model::Footprint;
-use moire::schema::layout::Sampler;
-use moire::texture::data::Dimension;
-use moire::texture::sampler_spec::{Address, Filter, Method, MipMode, SamplerSpec};
+use moire::internal::lab::probe::LookupQuery;
+use moire::internal::lab::verify::judge::{Judge, Precision};
+use moire::internal::lab::verify::level_variants::{anisotropic_variants, level_variants};
+use moire::internal::lab::verify::queries::{Rng, noise, pairs_over, place_of, query};
+use moire::internal::lab::verify::reading::readings;
+use moire::internal::lab::verify::sweeps::{level_sweep, long_footprints, paint_levels};
+use moire::internal::lab::verify::variants::{FormatClass, Reader, Scale, Variant};
+use moire::internal::oracle::filter::sample_texture;
+use moire::internal::pack::PackedScene;
+use moire::internal::scene::model::Footprint;
+use moire::internal::schema::layout::Sampler;
+use moire::internal::texture::data::Dimension;
+use moire::internal::texture::sampler_spec::{Address, Filter, Method, MipMode, SamplerSpec};
 
 use super::device;
 

@@ -1,0 +1,82 @@
+// The door to the reflection models: what a material sends by itself, what it sends on of a light, whether it sends
+// rays on, and whether beams know the integral over a region. The one place that tells models apart, with
+// `specular.glsl` for the rays that go on. Twin: src/oracle/bsdf/mod.rs.
+#ifndef MODELS_GLSL
+#define MODELS_GLSL
+
+#include "../features.glsl"
+#include "../layout.glsl"
+#include "lambert.glsl"
+#include "mirror.glsl"
+#include "phong.glsl"
+#include "unlit.glsl"
+
+// A material at a hit: what its lobes need beside the direction of the light.
+struct Bsdf {
+    Material material;
+    vec3 albedo;    // the material's colour, times its texture
+    vec3 normal;    // unit, for shading
+    vec3 direction; // of the ray
+    vec3 mirror;    // where a mirror would send it
+};
+
+// Irradiance over pi from all lights, weighted by two lobes: the one that the albedo colours, and that of a colour
+// of its own.
+struct Lit {
+    vec3 first;
+    vec3 second;
+};
+
+// Some model has the second lobe.
+const bool SECOND_LOBE = HAS(MODELS, MODEL_PHONG);
+
+// Sends rays on, and nothing else.
+bool is_specular(Material material) {
+    return MODE_IS(MODELS, MODEL_MIRROR, material.link.x) || MODE_IS(MODELS, MODEL_DIELECTRIC, material.link.x);
+}
+
+// Sends light on.
+bool is_lit(Material material) {
+    return MODE_IS(MODELS, MODEL_PHONG, material.link.x) || MODE_IS(MODELS, MODEL_LAMBERT, material.link.x);
+}
+
+// Radiance that the material sends by itself, where its colour times what the path carries is `color`.
+vec3 emitted(Material material, vec3 color) {
+    return MODE_IS(MODELS, MODEL_UNLIT, material.link.x) ? unlit_emitted(color) : vec3(0.0);
+}
+
+Bsdf bsdf_at(Material material, vec3 albedo, real3 normal, real3 direction) {
+    vec3 mirror = HAS(MODELS, MODEL_PHONG) ? vec3(mirrored(direction, normal)) : vec3(0.0);
+    return Bsdf(material, albedo, vec3(normal), vec3(direction), mirror);
+}
+
+// The two lobes over 1/pi, for light from `way`, which need not be a unit vector.
+vec2 evaluate(Bsdf bsdf, vec3 way) {
+    vec2 lobes = lambert_lobes();
+    if (HAS(MODELS, MODEL_PHONG)) lobes = phong_lobes(bsdf.mirror, way, bsdf.material.specular.w);
+    return lobes;
+}
+
+// What a lit material sends to the eye; `color` is the albedo times what the path carries.
+vec3 reflected(Bsdf bsdf, vec3 color, vec3 carried, Lit lit) {
+    vec3 seen = color * lit.first;
+    if (MODE_IS(MODELS, MODEL_PHONG, bsdf.material.link.x)) {
+        seen = with_highlight(seen, carried, bsdf.material.specular.xyz, lit.second);
+    }
+    return seen;
+}
+
+// Whether radiance is the same in all directions, so that it changes with texture and light alone.
+bool is_diffuse(Material material) { return MODE_IS(MODELS, MODEL_LAMBERT, material.link.x); }
+
+// Whether beams know the integral over a region of a flat shape, without a texture; `smooth_normals`: of a shape
+// whose shading normals differ from place to place.
+bool is_integrable_over_region(Material material, bool smooth_normals) {
+    bool unlit = MODE_IS(MODELS, MODEL_UNLIT, material.link.x);
+    bool mirror = MODE_IS(MODELS, MODEL_MIRROR, material.link.x);
+    bool plain = mirror || MODE_IS(MODELS, MODEL_LAMBERT, material.link.x);
+    if (!unlit && (!plain || smooth_normals)) return false;
+    return !(HAS(SAMPLE_DIMENSIONS, DIMENSION_LOBE) && mirror && material.specular.x > 0.0);
+}
+
+#endif

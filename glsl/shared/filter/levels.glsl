@@ -1,0 +1,39 @@
+// One place of one level by one filter. Twin: src/oracle/filter/levels.rs.
+#ifndef LEVELS_GLSL
+#define LEVELS_GLSL
+
+#include "kernels.glsl"
+#include "linear.glsl"
+#include "nearest.glsl"
+#include "stochastic.glsl"
+
+#if SOURCE != SOURCE_NONE
+
+// `dice` in [0, 1) are of the stochastic one.
+vec4 filtered_level(Texture image, Sampler how, uint slot, uint mode, Level level, vec3 at, uint face, vec3 dice) {
+    bool cube = MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_CUBE, image.link.w);
+    bool volume = MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_VOLUME, image.link.w);
+    vec3 texel;
+    if (cube) {
+        texel = at * float(level.size.x);
+    } else {
+        texel = vec3(reduced_coordinate(ADDRESSES_U, how.modes.x, at.x, float(level.size.x)),
+                     reduced_coordinate(ADDRESSES_V, how.modes.y, at.y, float(level.size.y)),
+                     volume ? reduced_coordinate(ADDRESSES_W, how.more.x, at.z, float(level.size.z)) : 0.0);
+        // Integer centres move texel i from i + 1/2 to i: half a texel is added before addressing.
+        if (MODE_IS(TEXEL_CENTERS, TEXEL_CENTER_INTEGER, how.modes.w)) texel += 0.5;
+    }
+    bool chosen = MODE_IS(FILTERS, FILTER_STOCHASTIC, mode);
+    if (chosen) texel = stochastic_place(texel, dice);
+    if (chosen || MODE_IS(FILTERS, FILTER_NEAREST, mode)) {
+        return nearest(image, how, slot, level, texel, face, dice.z, !chosen);
+    }
+    texel -= 0.5;
+    if (cube) return linear_cube(image, slot, level, face, texel.xy);
+    if (volume) return linear_volume(image, how, slot, level, texel);
+    if (has_kernel(mode)) return kernel_flat(image, how, slot, mode, level, texel.xy);
+    return linear_flat(image, how, slot, level, texel.xy);
+}
+#endif
+
+#endif

@@ -1,0 +1,122 @@
+// Shapes as beams see them: of flat ones the plane, the region, texture coordinates and shadows; of others, and of all
+// for tile culling, whether they may lie in the way. Twin: src/oracle/geometry/beams.rs.
+#ifndef BEAMS_GLSL
+#define BEAMS_GLSL
+
+#include "kinds.glsl"
+
+// Whether a shape has a region; of others beams do not know the outline.
+bool has_region(Header header, uint shape) {
+    COUNT_SHAPES(header)
+    bool is_round = false;
+#define ROUND(Type, at, first, count) is_round = is_round || IS_WITHIN(shape, first, count);
+    ROUND_KINDS(ROUND)
+#undef ROUND
+    return !is_round;
+}
+
+// Unit normal, and height of the plane in which a flat shape lies.
+vec4 shape_plane(Header header, uint shape) {
+    COUNT_SHAPES(header)
+    vec4 plane = vec4(0.0);
+#define PLANE_OF(Type, at, first, count) if (IS_NEXT(shape, first, count)) plane = plane_of(at(shape - (first))); else
+    FLAT_KINDS(PLANE_OF) {}
+#undef PLANE_OF
+    return plane;
+}
+
+// Material and map.
+uvec2 shape_links(Header header, uint shape) {
+    COUNT_SHAPES(header)
+    uvec2 link = uvec2(0u);
+#define LINK(Type, at, first, count) if (IS_NEXT(shape, first, count)) link = at(shape - (first)).link.xy; else
+    FLAT_KINDS(LINK) {}
+#undef LINK
+    return link;
+}
+
+bool is_smooth(Header header, uint shape) {
+    COUNT_SHAPES(header)
+    bool smooth_normals = false;
+#define SMOOTH(Type, at, first, count) \
+    if (IS_NEXT(shape, first, count)) smooth_normals = has_smooth_normals(at(shape - (first))); else
+    FLAT_KINDS(SMOOTH) {}
+#undef SMOOTH
+    return smooth_normals;
+}
+
+vec3 nearness_of(Header header, PixelFrustum frame, uint shape) {
+    vec4 plane = shape_plane(header, shape);
+    return inverse_depth(header, frame, plane.xyz, plane.w);
+}
+
+ConvexRegion shape_region(Header header, PixelFrustum frame, uint shape) {
+    COUNT_SHAPES(header)
+    ConvexRegion region = region_of_plane(header, frame, shape_plane(header, shape));
+#define OUTLINE(Type, at, first, count) \
+    if (IS_NEXT(shape, first, count)) add_outline(header, frame, region.inverse_depth, at(shape - (first)), region); else
+    FLAT_KINDS(OUTLINE) {}
+#undef OUTLINE
+    return region;
+}
+
+// Texture coordinates on a flat shape, for maps that are affine there.
+RationalMap coordinates(Header header, PixelFrustum frame, uint shape, UvProjection map, vec3 near) {
+    if (MODE_IS(MAPPINGS, MAP_AFFINE, map.link.x)) {
+        return RationalMap(along(header, frame, near, map.x), along(header, frame, near, map.y), below(header, near));
+    }
+    COUNT_SHAPES(header)
+    RationalMap own = RationalMap(near, near, near);
+#define OWN(Type, at, first, count) \
+    if (IS_NEXT(shape, first, count)) own = own_coordinates(header, frame, near, at(shape - (first)), map); else
+    FLAT_KINDS(OWN) {}
+#undef OWN
+    return own;
+}
+
+// Where, on the plane of this inverse depth, a flat shape keeps a light away.
+ConvexRegion shadow_region(Header header, PixelFrustum frame, vec3 near, uint shape, Light light) {
+    COUNT_SHAPES(header)
+    vec3 place = light.place.xyz;
+    bool point_light = MODE_IS(LIGHT_KINDS, LIGHT_POINT, light.link.x);
+    vec4 plane = shape_plane(header, shape);
+    vec3 n = plane.xyz;
+    // Of the light before the shape's plane, or of a way's length towards it.
+    float rise = point_light ? plane.w - dot3(n, place) : dot3(n, place);
+    float side = sign(rise);
+    ConvexRegion region;
+    region.count = 1u;
+    region.inverse_depth = near;
+    // Beyond the plane, seen from the light.
+    region.lines[0] = along(header, frame, near, (point_light ? side : -side) * vec4(n, -plane.w));
+#define SHADOW(Type, at, first, count)                                                       \
+    if (IS_NEXT(shape, first, count)) {                                                      \
+        add_shadow(header, frame, near, light, plane, rise, region, at(shape - (first)));    \
+    } else
+    FLAT_KINDS(SHADOW) {}
+#undef SHADOW
+    return region;
+}
+
+// False where no ray of the polygon can meet the shape, which has no region.
+bool may_meet(Header header, PixelFrustum frame, uint polygon, uint shape) {
+    COUNT_SHAPES(header)
+#define MEETS(Type, at, first, count) \
+    if (IS_WITHIN(shape, first, count)) return may_meet(header, frame, polygon, at(shape - (first)));
+    ROUND_KINDS(MEETS)
+#undef MEETS
+    return false;
+}
+
+// False where no way from the polygon on a surface of this inverse depth to the light can pass the shape, which has no
+// region.
+bool may_shade(Header header, PixelFrustum frame, vec3 near, uint polygon, Light light, uint shape) {
+    COUNT_SHAPES(header)
+#define SHADES(Type, at, first, count) \
+    if (IS_WITHIN(shape, first, count)) return may_shade(header, frame, near, polygon, light, at(shape - (first)));
+    ROUND_KINDS(SHADES)
+#undef SHADES
+    return false;
+}
+
+#endif

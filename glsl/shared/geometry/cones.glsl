@@ -1,0 +1,112 @@
+// A cone and a shape: what it cuts out of the disc, how much that is, where a ray within meets it, and how deep it
+// lies. Twin: src/oracle/geometry/cones.rs.
+#ifndef CONES_GLSL
+#define CONES_GLSL
+
+#include "kinds.glsl"
+
+// The same cone, which leaves a shape.
+Cone leaving(Header header, Cone cone, uint shape) {
+    if (!FLOORS || shape == NO_SHAPE) return cone;
+    COUNT_SHAPES(header)
+    vec3 up = vec3(0.0);
+#define UP(Type, at, first, count) if (IS_WITHIN(shape, first, count)) up = plane_of(at(shape - (first))).xyz; else
+    FLAT_KINDS(UP) return cone;
+#undef UP
+    Ray ray = cone.ray;
+    if (dot3(up, ray.direction) < 0.0) up = -up;
+    float level = LEVEL * max(abs(ray.origin.x), max(abs(ray.origin.y), abs(ray.origin.z)));
+    cone.floor = vec4(up, -(dot3(up, ray.origin) + level));
+    return cone;
+}
+
+// The shape that a ray must not meet again at once. From inside a ball its other side is met.
+uint left_shape(Header header, uint shape, bool within) {
+    COUNT_SHAPES(header)
+    bool is_round = false;
+#define ROUND(Type, at, first, count) is_round = is_round || (shape >= (first) && shape < (first) + (count));
+    ROUND_KINDS(ROUND)
+#undef ROUND
+    return is_round && within ? NO_SHAPE : shape;
+}
+
+// Cuts the disc to what the shape covers; false for one that no lines stand for.
+bool cut_shape(Header header, Cone cone, uint shape) {
+    COUNT_SHAPES(header)
+    bool has_lines = true;
+#define CUT(Type, at, first, count, is_flat, is_listed) \
+    if (IS_NEXT(shape, first, count)) has_lines = cut_by_shape(cone, at(shape - (first))); else
+    SHAPE_KINDS(CUT) {}
+#undef CUT
+    return has_lines;
+}
+
+// What the shape covers.
+Covered covered_by(Header header, Cone cone, uint shape) {
+    COUNT_SHAPES(header)
+#define COVERED(Type, at, first, count) \
+    if (IS_WITHIN(shape, first, count)) return covered_by(cone, at(shape - (first)));
+    ROUND_KINDS(COVERED)
+#undef COVERED
+    if (0u FLAT_KINDS(ADD_COUNT) == 0u) return NOTHING;
+    whole_disc();
+    cut_shape(header, cone, shape);
+    return cut_disc();
+}
+
+// Whether the cone may touch the shape.
+bool touched(Header header, Cone cone, uint shape) {
+    COUNT_SHAPES(header)
+#define TOUCHED(Type, at, first, count) \
+    if (IS_WITHIN(shape, first, count)) return touched(cone, at(shape - (first)));
+    ROUND_KINDS(TOUCHED)
+#undef TOUCHED
+    whole_disc();
+    cut_shape(header, cone, shape);
+    return !cut_away;
+}
+
+// Where a ray within the shape's outline meets it; rounding may have put it just beside.
+Hit meet(Header header, Ray ray, uint shape) {
+    COUNT_SHAPES(header)
+    Hit hit = Hit(-1.0, shape, vec2(0.0));
+    vec4 plane = vec4(0.0);
+#define ROUND(Type, at, first, count)            \
+    if (IS_WITHIN(shape, first, count)) {        \
+        complete(at(shape - (first)), ray, hit); \
+        return hit;                              \
+    }
+    ROUND_KINDS(ROUND)
+#undef ROUND
+#define PLANAR(Type, at, first, count)       \
+    if (IS_WITHIN(shape, first, count)) {    \
+        Type found = at(shape - (first));    \
+        plane = plane_of(found);             \
+        complete(found, ray, hit);           \
+    } else
+    FLAT_KINDS(PLANAR) {}
+#undef PLANAR
+    float above = plane.w - dot3(plane.xyz, ray.origin);
+    hit.t = above / dot3(plane.xyz, ray.direction);
+    return hit;
+}
+
+// How deep a shape lies over the disc: its own plane, that which touches a ball, and where a ball ends
+// its distance alone.
+Flat depth_of(Header header, Cone cone, uint shape, float t, float area) {
+    COUNT_SHAPES(header)
+    vec4 plane = vec4(0.0);
+    bool ends = false;
+#define DEPTH(Type, at, first, count, is_flat, is_listed)          \
+    if (IS_NEXT(shape, first, count)) {                            \
+        plane = tangent_plane(at(shape - (first)), cone, t);       \
+        ends = !is_flat && area < 1.0;                             \
+    } else
+    SHAPE_KINDS(DEPTH) {}
+#undef DEPTH
+    Flat depth = flat_in(cone, plane.xyz, plane.w);
+    if (ends) depth = Flat(t, 1.0, vec2(0.0));
+    return depth;
+}
+
+#endif

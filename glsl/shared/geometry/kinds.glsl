@@ -1,0 +1,44 @@
+// The kinds of shapes. Outside this folder nobody knows them: a shape is a number, and those of one kind follow each
+// other. Twin: src/oracle/geometry/kinds.rs.
+#ifndef KINDS_GLSL
+#define KINDS_GLSL
+
+#include "plane.glsl"
+#include "sphere.glsl"
+#include "triangle.glsl"
+
+#define COUNT_SHAPES(header)                           \
+    uint planes = COUNT(PLANES, (header).counts.x);    \
+    uint spheres = COUNT(SPHERES, (header).counts.y);  \
+    uint triangles = COUNT(TRIANGLES, (header).counts.z); \
+    uint shapes = planes + spheres + triangles;
+
+// Of each kind: record, list, number of the first and of all, whether it lies in a plane (a ray never meets again the
+// one that it leaves), and whether lists of tiles hold it.
+#define SHAPE_KINDS(DO)                           \
+    DO(Plane, plane_at, 0u, planes, true, false)  \
+    DO(Sphere, sphere_at, planes, spheres, false, false) \
+    DO(Triangle, triangle_at, planes + spheres, triangles, true, true)
+
+// Those that lie in a plane within straight lines, and the others.
+#define FLAT_KINDS(DO)            \
+    DO(Plane, plane_at, 0u, planes) \
+    DO(Triangle, triangle_at, planes + spheres, triangles)
+#define ROUND_KINDS(DO) DO(Sphere, sphere_at, planes, spheres)
+
+// Of one kind, where all kinds before it have been asked: a scene of one kind of shape needs no test.
+#define IS_NEXT(shape, first, count) ((count) > 0u && ((first) + (count) == shapes || (shape) < (first) + (count)))
+#define IS_WITHIN(shape, first, count) \
+    ((count) > 0u && ((count) == shapes || ((shape) >= (first) && (shape) < (first) + (count))))
+
+// Some shape may have a normal that changes.
+const bool CURVED_SHAPES = (SPHERES | TRIANGLES) != 0u;
+
+#define ADD_COUNT(Type, at, first, count) + (count)
+
+uint shape_count(Header header) {
+    COUNT_SHAPES(header)
+    return shapes;
+}
+
+#endif

@@ -1,0 +1,139 @@
+// Planes, infinite or bounded by a parallelogram. Twin: src/oracle/geometry/plane.rs.
+#ifndef PLANE_GLSL
+#define PLANE_GLSL
+
+#include "../layout.glsl"
+
+// Unit normal, and height over the eye.
+vec4 plane_of(Plane plane) { return vec4(plane.normal); }
+
+#ifndef SHAPES_IN_BEAMS
+#include "hit.glsl"
+
+// t = (n·o' - n·o) / n·d, kept when the point lies within the half extent on both axes.
+real distance_to(Plane plane, Ray ray, bool from_eye, inout real2 local) {
+    real slope = dot3(plane.normal.xyz, ray.direction);
+    real height = plane.normal.w;
+    if (!from_eye) {
+        real above = height - dot3(plane.normal.xyz, ray.origin);
+        height = above;
+    }
+    real t = height / slope;
+    real3 p = from_eye ? t * ray.direction : ray.origin + t * ray.direction;
+    local = real2(dot3(plane.axis_u.xyz, p), dot3(plane.axis_v.xyz, p));
+    if (BOUNDED_PLANES && plane.link.w != 0u) {
+        real extent = REAL_BITS(plane.link.zw);
+        real2 place = local + real2(plane.axis_u.w, plane.axis_v.w);
+        t = abs(place.x) <= extent && abs(place.y) <= extent ? t : -1.0;
+    }
+    return t;
+}
+
+Surface surface_of(Plane plane, real3 point, real2 uv) {
+    return Surface(point, plane.normal.xyz, plane.normal.xyz, uv, vec3(plane.axis_u.xyz), vec3(plane.axis_v.xyz), FLAT,
+                   0.0, false, plane.link.xy, point, largest_part(point));
+}
+
+#endif
+
+#ifdef SHAPES_IN_CONES
+#include "../cone.glsl"
+
+// The plane's own coordinate row·p + row.w lies within ±extent.
+void cut_bounds(Cone cone, Flat plane, vec4 row, float extent) {
+    float start = dot3(row.xyz, cone.ray.origin) + row.w;
+    float along = dot3(row.xyz, cone.ray.direction);
+    vec2 aside = vec2(dot3(row.xyz, cone.x), dot3(row.xyz, cone.y));
+    vec2 tilt = (start * cone.spread - along * cone.width) * plane.tilt;
+    tilt += (cone.width * plane.facing + cone.spread * plane.height) * aside;
+    vec3 place = vec3(tilt, start * plane.facing + along * plane.height);
+    vec3 limit = extent * vec3(cone.spread * plane.tilt, plane.facing);
+    cut_by(limit - place);
+    cut_by(limit + place);
+}
+
+bool cut_by_shape(Cone cone, Plane plane) {
+    Flat seen = flat_in(cone, plane.normal.xyz, plane.normal.w);
+    cut_by(vec3(-cone.width * seen.tilt, seen.height));
+    if (BOUNDED_PLANES && plane.link.w != 0u) {
+        // Together they leave nothing above the horizon.
+        float extent = REAL_BITS(plane.link.zw);
+        cut_bounds(cone, seen, plane.axis_u, extent);
+        cut_bounds(cone, seen, plane.axis_v, extent);
+    } else {
+        cut_by(vec3(cone.spread * seen.tilt, seen.facing));
+    }
+    return true;
+}
+
+// A hit of a ray within the outline.
+void complete(Plane plane, Ray ray, inout Hit hit) { distance_to(plane, ray, false, hit.local); }
+
+vec4 tangent_plane(Plane plane, Cone cone, float t) { return plane.normal; }
+#endif
+
+#ifdef SHAPES_IN_BEAMS
+#include "../projective.glsl"
+
+bool has_smooth_normals(Plane plane) { return false; }
+
+// Adds the lines of its bounds.
+void add_outline(Header header, PixelFrustum frame, vec3 near, Plane record, inout ConvexRegion region) {
+    if (BOUNDED_PLANES && record.link.w != 0u) {
+        vec3 extent = REAL_BITS(record.link.zw) * below(header, near);
+        vec3 u = along(header, frame, near, record.axis_u);
+        vec3 v = along(header, frame, near, record.axis_v);
+        region.lines[1] = extent - u;
+        region.lines[2] = extent + u;
+        region.lines[3] = extent - v;
+        region.lines[4] = extent + v;
+        region.count = 5u;
+    }
+}
+
+// Texture coordinates by a map of its own coordinates, which count from the eye.
+RationalMap own_coordinates(Header header, PixelFrustum frame, vec3 near, Plane plane, UvProjection map) {
+    vec3 under = below(header, near);
+    vec3 u = along(header, frame, near, vec4(plane.axis_u.xyz, 0.0));
+    vec3 v = along(header, frame, near, vec4(plane.axis_v.xyz, 0.0));
+    return RationalMap(map.matrix.x * u + map.matrix.y * v + map.offset.x * under,
+                       map.matrix.z * u + map.matrix.w * v + map.offset.y * under, under);
+}
+
+// The lines of its bounds on another surface of this inverse depth, seen from the light. `rise`: of the light before
+// the plane, or of a way's length towards it.
+void add_shadow(Header header, PixelFrustum frame, vec3 near, Light light, vec4 plane, float rise,
+                inout ConvexRegion region, Plane record) {
+    vec3 n = plane.xyz;
+    vec3 place = light.place.xyz;
+    bool point_light = MODE_IS(LIGHT_KINDS, LIGHT_POINT, light.link.x);
+    float side = sign(rise);
+    if (!BOUNDED_PLANES || record.link.w == 0u) return;
+    // A place's distance below the light, in |rise|, or its own height.
+    vec4 depth = point_light ? side * vec4(n, -dot3(n, place)) : vec4(0.0, 0.0, 0.0, abs(rise));
+    vec3 extent = REAL_BITS(record.link.zw) * along(header, frame, near, depth);
+    for (uint k = 0u; k < 2u; k++) {
+        vec4 row = k == 0u ? record.axis_u : record.axis_v;
+        float across = dot3(row.xyz, place);
+        // u of light + (p - light) rise / (n·(p - light)), times the depth; u of p + way (height -
+        // n·p) / rise, times |rise|.
+        vec4 own = point_light ? (across + row.w) * depth + abs(rise) * vec4(row.xyz, -across)
+                               : abs(rise) * row + (side * across) * vec4(-n, plane.w);
+        vec3 across_axis = along(header, frame, near, own);
+        region.lines[1u + 2u * k] = extent - across_axis;
+        region.lines[2u + 2u * k] = extent + across_axis;
+    }
+    region.count = 5u;
+}
+
+// False where no ray of the polygon can meet the plane.
+bool may_meet(Header header, PixelFrustum frame, uint polygon, Plane plane) {
+    ConvexRegion region = region_of_plane(header, frame, plane.normal);
+    add_outline(header, frame, region.inverse_depth, plane, region);
+    bool met = true;
+    for (uint k = 0u; k < region.count; k++) met = met && range(polygon, region.lines[k]).y > 0.0;
+    return met;
+}
+#endif
+
+#endif

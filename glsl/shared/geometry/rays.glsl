@@ -1,0 +1,92 @@
+// A ray and all shapes: the nearest hit with t > 0, whether anything lies between, and the surface at a hit. One loop
+// a kind, in which an acceleration structure may take the place of the list. Flat shapes never hit the ray that left
+// them (`skip`); others rely on the offset origin. Twin: src/oracle/geometry/rays.rs.
+#ifndef RAYS_GLSL
+#define RAYS_GLSL
+
+#include "../tile_culling.glsl"
+#include "kinds.glsl"
+
+// `list`: of the cell of tile culling in which a camera ray lies, else NO_LIST.
+Hit nearest_hit(Header header, Ray ray, uint skip, uint list) {
+    Hit hit = Hit(FAR, NO_SHAPE, real2(0.0));
+    COUNT_SHAPES(header)
+#define NEAREST(Type, at, first, count, is_flat, is_listed)                                                  \
+    {                                                                                                        \
+        uint tested = count;                                                                                 \
+        if (is_listed && TILE_CULLED) {                                                                      \
+            if (list != NO_LIST) tested = survey[list];                                                      \
+        }                                                                                                    \
+        for (uint k = 0u; k < tested; k++) {                                                                 \
+            uint i = k;                                                                                      \
+            if (is_listed && TILE_CULLED) {                                                                  \
+                if (list != NO_LIST) i = survey[list + 2u + k];                                              \
+            }                                                                                                \
+            real2 local = hit.local;                                                                         \
+            real t = distance_to(at(i), at_rest(header, ray, (first) + i), ORIGIN_IS_EYE, local);            \
+            bool nearer = t > 0.0 && t < hit.t && !(is_flat && (first) + i == skip);                         \
+            hit.t = nearer ? t : hit.t;                                                                      \
+            hit.shape = nearer ? (first) + i : hit.shape;                                                    \
+            hit.local = nearer ? local : hit.local;                                                          \
+        }                                                                                                    \
+    }
+    SHAPE_KINDS(NEAREST)
+#undef NEAREST
+    return hit;
+}
+
+// True when a shape lies at 0 < t < t_max.
+bool occluded(Header header, Ray ray, real t_max, uint skip) {
+    bool blocked = false;
+    COUNT_SHAPES(header)
+#define OCCLUDES(Type, at, first, count, is_flat, is_listed)                                                 \
+    for (uint i = 0u; i < count; i++) {                                                                      \
+        real2 local;                                                                                         \
+        real t = distance_to(at(i), at_rest(header, ray, (first) + i), false, local);                        \
+        blocked = blocked || (t > 0.0 && t < t_max && !(is_flat && (first) + i == skip));                    \
+    }
+    SHAPE_KINDS(OCCLUDES)
+#undef OCCLUDES
+    return blocked;
+}
+
+Surface hit_surface(Header header, Ray moving, Hit hit) {
+    Ray ray = at_rest(header, moving, hit.shape);
+    COUNT_SHAPES(header)
+    real3 point = ORIGIN_IS_EYE ? hit.t * ray.direction : ray.origin + hit.t * ray.direction;
+    const real3 up = real3(0.0, 0.0, 1.0);
+    Surface surface = Surface(point, up, up, real2(0.0), vec3(0.0), vec3(0.0), FLAT, 0.0, false, uvec2(0u), point, 0.0);
+#define SURFACE(Type, at, first, count, is_flat, is_listed)                                                  \
+    if (IS_NEXT(hit.shape, first, count)) {                                                                  \
+        surface = surface_of(at(hit.shape - (first)), point, hit.local);                                     \
+    } else
+    SHAPE_KINDS(SURFACE) {}
+#undef SURFACE
+    if (MOTIONS != 0u) surface.point += moved_by(header, moving, hit.shape);
+    bool away = dot3(surface.geometric_normal, ray.direction) > 0.0;
+    surface.inside = away;
+    surface.geometric_normal = away ? -surface.geometric_normal : surface.geometric_normal;
+    surface.normal = away ? -surface.normal : surface.normal;
+    if (NEEDS_SHAPE_OPERATOR && CURVED_SHAPES) {
+        surface.shape_operator = away ? -surface.shape_operator : surface.shape_operator;
+        surface.curvature = away ? -surface.curvature : surface.curvature;
+    }
+    return surface;
+}
+
+#ifdef DOUBLE
+const double CLEARANCE = 1.4210854715202004e-14lf; // 2^-46
+#else
+const float CLEARANCE = 3.8146972656e-6; // 2^-18
+#endif
+
+// The start of a ray that leaves the surface at p along its unit geometric normal n: off it by far more than
+// the rounding of p and of the next ray's tests, which are a few parts in 2^24 of `size` (in f64, of 2^53), the
+// largest coordinate that p came from. As in Wächter & Binder 2019 the step grows with the numbers; alike at
+// every scale, it has no least length.
+real3 offset_origin(real3 p, real3 n, real size) {
+    real3 moved = p + n * (CLEARANCE * size);
+    return moved;
+}
+
+#endif

@@ -1,0 +1,93 @@
+//! The door to the reflection models: what a material sends by itself, what it sends on of a light, whether it sends
+//! rays on, and whether beams know the integral over a region. Twin of `glsl/shared/bsdf/models.glsl`.
+
+pub mod dielectric;
+pub mod facets;
+pub mod lambert;
+pub mod mirror;
+pub mod phong;
+pub mod specular;
+pub mod unlit;
+
+use glam::DVec3;
+
+use crate::oracle::math::xyz;
+use crate::scene::model::Model;
+use crate::schema::layout::Material;
+use lambert::lambert_lobes;
+use mirror::mirrored;
+use phong::{phong_lobes, with_highlight};
+use unlit::unlit_emitted;
+
+/// A material at a hit: what its lobes need beside the direction of the light.
+#[derive(Clone, Copy, Debug)]
+pub struct Bsdf<'a> {
+    pub material: &'a Material,
+    /// The material's colour, times its texture.
+    pub albedo: DVec3,
+    /// Unit, for shading.
+    pub normal: DVec3,
+    /// Of the ray.
+    pub direction: DVec3,
+    /// Where a mirror would send it.
+    pub mirror: DVec3,
+}
+
+/// Irradiance over π from all lights, weighted by two lobes: the one that the albedo colours, and that of a colour of
+/// its own.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Lit {
+    pub first: DVec3,
+    pub second: DVec3,
+}
+
+fn model(material: &Material) -> Model {
+    Model::ALL[material.link[0] as usize]
+}
+
+/// Sends rays on, and nothing else.
+pub fn is_specular(material: &Material) -> bool {
+    model(material).is_specular()
+}
+
+/// Sends light on.
+pub fn is_lit(material: &Material) -> bool {
+    model(material).is_lit()
+}
+
+/// Radiance that the material sends by itself, where its colour times what the path carries is `color`.
+pub fn emitted(material: &Material, color: DVec3) -> DVec3 {
+    if model(material) == Model::Unlit { unlit_emitted(color) } else { DVec3::ZERO }
+}
+
+pub fn bsdf_at(material: &Material, albedo: DVec3, normal: DVec3, direction: DVec3) -> Bsdf<'_> {
+    Bsdf { material, albedo, normal, direction, mirror: mirrored(direction, normal) }
+}
+
+/// The two lobes over 1/π, for light from `way`, which need not be a unit vector.
+pub fn evaluate(bsdf: &Bsdf<'_>, way: DVec3) -> [f64; 2] {
+    match model(bsdf.material) {
+        Model::Phong => phong_lobes(bsdf.mirror, way, bsdf.material.specular[3].into()),
+        _ => lambert_lobes(),
+    }
+}
+
+/// What a lit material sends to the eye; `color` is the albedo times what the path carries.
+pub fn reflected(bsdf: &Bsdf<'_>, color: DVec3, carried: DVec3, lit: Lit) -> DVec3 {
+    let seen = color * lit.first;
+    match model(bsdf.material) {
+        Model::Phong => with_highlight(seen, carried, xyz(bsdf.material.specular), lit.second),
+        _ => seen,
+    }
+}
+
+/// Whether beams know the integral over a region of a flat shape, without a texture; `smooth_normals`: of a shape
+/// whose shading normals differ from place to place.
+pub fn is_integrable_over_region(material: &Material, smooth_normals: bool) -> bool {
+    match model(material) {
+        Model::Unlit => true,
+        Model::Lambert => !smooth_normals,
+        Model::Mirror => !smooth_normals && material.specular[0] <= 0.0,
+        _ => false,
+    }
+}

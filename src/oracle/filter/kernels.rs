@@ -1,0 +1,48 @@
+//! Filters by a kernel wider than that of `linear`, the same along both axes of a flat texture: `cubic`, 4 by 4 texels
+//! (Mitchell & Netravali 1988). Twin of `glsl/shared/filter/kernels.glsl`.
+
+use glam::{DVec2, DVec4};
+
+use super::levels::Reader;
+use crate::oracle::texture::{Level, add_weighted};
+use crate::schema::layout::Sampler;
+use crate::texture::sampler_spec::Filter;
+
+/// Weights of the four texels around a place t between the middle two (Mitchell & Netravali 1988).
+pub fn cubic_weights(t: f64, b: f64, c: f64) -> [f64; 4] {
+    let r = 1.0 - t;
+    let outer = |near: f64, far: f64| near * near * (b / 6.0 * near - c * far);
+    let inner = |t: f64| 1.0 - b / 3.0 + t * t * ((-3.0 + 2.0 * b + c) + (2.0 - 1.5 * b - c) * t);
+    [outer(r, t), inner(t), inner(r), outer(t, r)]
+}
+
+/// Whether a filter has such a kernel.
+pub fn has_kernel(filter: Filter) -> bool {
+    filter == Filter::Cubic
+}
+
+/// Of each texel along an axis.
+fn kernel_weights(filter: Filter, how: &Sampler, t: f64) -> Vec<f64> {
+    let [b, c] = [how.more[2], how.more[3]].map(|bits| f64::from(f32::from_bits(bits)));
+    match filter {
+        Filter::Cubic => cubic_weights(t, b, c).to_vec(),
+        _ => vec![0.0, 1.0],
+    }
+}
+
+impl Reader<'_> {
+    pub(super) fn kernel_flat(&self, filter: Filter, level: &Level, texel: DVec2) -> DVec4 {
+        let low = texel.floor();
+        let t = texel - low;
+        let [wx, wy] = [t.x, t.y].map(|t| kernel_weights(filter, self.how, t));
+        let first = low - (wx.len() / 2 - 1) as f64;
+        let mut sum = DVec4::ZERO;
+        for (j, wy) in wy.iter().enumerate() {
+            for (i, wx) in wx.iter().enumerate() {
+                let texel = self.flat(level, first.x + i as f64, first.y + j as f64);
+                sum = add_weighted(wx * wy, texel, sum);
+            }
+        }
+        sum
+    }
+}

@@ -1,0 +1,14 @@
+//! What of the filters matters elsewhere: which of them a sampler has, by what it can do. Twin of
+//! `glsl/shared/filter/kinds.glsl`.
+
+use crate::schema::layout::Sampler;
+use crate::texture::sampler_spec::Filter;
+
+/// Whether beams know the integral of what it magnifies, and whether that has no steps.
+pub fn is_integrable(how: &Sampler) -> bool {
+    [Filter::Nearest as u32, Filter::Linear as u32].contains(&how.modes[2])
+}
+
+pub fn is_continuous(how: &Sampler) -> bool {
+    how.modes[2] == Filter::Linear as u32
+}

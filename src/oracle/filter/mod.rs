@@ -1,0 +1,16 @@
+//! The filters of textures, one file each, behind the door of [`sample_texture()`]; what of them matters elsewhere stands in
+//! [`kinds`].
+
+pub mod anisotropic;
+pub mod cube;
+pub mod ewa;
+pub mod kernels;
+pub mod kinds;
+pub mod levels;
+pub mod linear;
+pub mod nearest;
+pub mod sample_texture;
+pub mod stochastic;
+pub mod summed_area;
+
+pub use sample_texture::sample_texture;

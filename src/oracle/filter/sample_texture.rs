@@ -1,0 +1,87 @@
+//! (texture, sampler, coordinate, footprint) → linear RGBA in f64, from the packed bytes. Twin of
+//! `glsl/shared/filter/sample_texture.glsl`.
+
+use glam::DVec4;
+
+use super::anisotropic::{anisotropic_place, anisotropic_probes};
+use super::ewa::ellipse;
+use super::levels::Reader;
+use super::stochastic::{look_up_dice, stochastic_level};
+use super::summed_area::summed_area;
+use crate::oracle::footprint::is_filtered;
+use crate::oracle::footprint_axes::{in_texture, kind_of, texel_spread};
+use crate::oracle::mapping::Coordinate;
+use crate::oracle::procedural::procedural_color;
+use crate::oracle::texture::{add_weighted, level_at};
+use crate::pack::{PackedScene, TextureKind};
+use crate::schema::layout::{Sampler, Texture};
+use crate::texture::sampler_spec::{Filter, MipMode};
+
+/// Without a footprint in the scene all is magnification.
+pub fn sample_texture(
+    scene: &PackedScene,
+    image: &Texture,
+    how: &Sampler,
+    place: &Coordinate,
+    random: [u32; 2],
+) -> DVec4 {
+    if kind_of(image) == TextureKind::Procedural {
+        let [x, y] = place.change;
+        return procedural_color(&scene.procedurals[image.place[0] as usize], place.at, x, y).extend(1.0);
+    }
+    let reader = Reader { scene, image, how };
+    let mut dice = look_up_dice(random);
+    let (c, face) = in_texture(image, place);
+    let mag = Filter::ALL[how.modes[2] as usize];
+    if !is_filtered(&scene.header) {
+        return reader.level(mag, &level_at(scene, image, 0), c.at, face, dice);
+    }
+    let spread = texel_spread(image, &c);
+    let magnified = spread.major <= 1.0;
+    let mode = if magnified { mag } else { Filter::ALL[how.link[1] as usize] };
+    if mode == Filter::Ewa {
+        return ellipse(&reader, &c, &spread);
+    }
+    if mode == Filter::SummedArea {
+        return summed_area(scene, image, how, &c);
+    }
+    let last = image.link[1] - 1;
+    let mut probes = 1.0;
+    if mode == Filter::Anisotropic {
+        probes = anisotropic_probes(how, &spread);
+    }
+    let level = if magnified {
+        0.0
+    } else {
+        // A look-up is as wide as the minor axis, though more of them than needed lie along the major one.
+        let least = if probes > 1.0 { spread.minor } else { 0.0 };
+        (0.5 * (spread.major / (probes * probes)).max(least).log2()).clamp(0.0, last.into())
+    };
+    let (low, mut rest) = match MipMode::ALL[how.link[2] as usize] {
+        MipMode::None => (0.0, 0.0),
+        MipMode::Nearest => ((level + 0.5).ceil() - 1.0, 0.0),
+        MipMode::Linear => (level.floor(), level - level.floor()),
+    };
+    let mut low = low as u32;
+    if mode == Filter::Stochastic {
+        low = stochastic_level(low, rest, &mut dice);
+        rest = 0.0;
+    }
+    // Of `probes` a share `rest` reads the next level, the one between reads both.
+    let share = rest * probes;
+    let mut sum = DVec4::ZERO;
+    for probe in 0..probes as u32 {
+        let (mut at, mut at_face) = (c.at, face);
+        if mode == Filter::Anisotropic {
+            (at, at_face) = anisotropic_place(image, &c, &spread, [probe, probes as u32], face);
+        }
+        let upper = (share - f64::from(probe)).clamp(0.0, 1.0);
+        for (index, weight) in [((low + 1).min(last), upper), (low, 1.0 - upper)] {
+            if weight > 0.0 {
+                let value = reader.level(mode, &level_at(scene, image, index), at, at_face, dice);
+                sum = add_weighted(weight / probes, value, sum);
+            }
+        }
+    }
+    sum
+}

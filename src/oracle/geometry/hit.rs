@@ -1,0 +1,73 @@
+//! What a ray meets: the hit, and what shading and mapping need to know of the place; and shapes that move. Twin of
+//! `glsl/shared/geometry/hit.glsl`.
+
+use glam::{DMat3, DVec2, DVec3};
+
+use crate::oracle::camera::Ray;
+use crate::oracle::math::xyz;
+use crate::pack::PackedScene;
+
+/// Farther than any hit that counts.
+pub const FAR: f64 = 1e30;
+
+#[derive(Clone, Copy, Debug)]
+pub struct Hit {
+    /// In units of the direction's length; `FAR` on a miss.
+    pub t: f64,
+    /// Planes first, then spheres, then triangles; `NO_SHAPE` on a miss.
+    pub shape: u32,
+    /// The shape's own coordinates, where it has any.
+    pub local: DVec2,
+}
+
+/// How far a shape has moved at the ray's time. Shapes are met, and textured, where they are at time 0, by rays
+/// that start as far back.
+pub fn moved_by(scene: &PackedScene, ray: &Ray, shape: u32) -> DVec3 {
+    scene.motions.get(shape as usize).map_or(DVec3::ZERO, |motion| ray.time * xyz(motion.shift))
+}
+
+pub fn at_rest(scene: &PackedScene, ray: &Ray, shape: u32) -> Ray {
+    Ray { origin: ray.origin - moved_by(scene, ray, shape), ..*ray }
+}
+
+/// Where a ray met a shape, and what it needs to know of it.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Surface {
+    pub point: DVec3,
+    /// Unit, towards the incoming ray.
+    pub geometric_normal: DVec3,
+    /// Unit, for shading.
+    pub normal: DVec3,
+    /// The plane's coordinates or the vertices' interpolated uv, and their gradients along the surface.
+    pub own_uv: DVec2,
+    pub own_gradients: [DVec3; 2],
+    /// Change of the normal a unit of way along the surface, and its mean; positive where the shape
+    /// bulges towards the ray.
+    pub shape_operator: DMat3,
+    pub curvature: f64,
+    /// The ray comes from behind the shape's own normal.
+    pub inside: bool,
+    pub material: u32,
+    pub map: u32,
+    /// The point where the shape does not move.
+    pub at_rest: DVec3,
+    /// Of the largest coordinate that the point came from.
+    pub size: f64,
+}
+
+pub(super) fn surface(point: DVec3, geometric: DVec3, normal: DVec3, link: [u32; 4]) -> Surface {
+    Surface {
+        point,
+        geometric_normal: geometric,
+        normal,
+        own_uv: DVec2::ZERO,
+        own_gradients: [DVec3::ZERO; 2],
+        shape_operator: DMat3::ZERO,
+        curvature: 0.0,
+        inside: false,
+        material: link[0],
+        map: link[1],
+        at_rest: point,
+        size: point.abs().max_element(),
+    }
+}

@@ -1,0 +1,146 @@
+//! Planes, infinite or bounded by a parallelogram. Twin of `glsl/shared/geometry/plane.glsl`.
+
+use glam::{DVec2, DVec3, DVec4};
+
+use super::hit::{Hit, Surface, surface};
+use super::kinds::{Flat, Form, Shape};
+use crate::oracle::camera::Ray;
+use crate::oracle::cone::{Cone, FlatDepth, flat_in};
+use crate::oracle::coverage::Cuts;
+use crate::oracle::math::{vec4, xyz};
+use crate::oracle::polygon::{AffineFunction, Polygon, range};
+use crate::oracle::projective::{
+    ConvexRegion, PixelFrustum, RationalMap, add, along, below, region_of_plane,
+};
+use crate::pack::LightKind;
+use crate::schema::layout::{Header, Light, Plane, UvProjection};
+
+fn cut_bounds(cuts: &mut Cuts, cone: &Cone, plane: &FlatDepth, row: DVec4, extent: f64) {
+    let start = row.truncate().dot(cone.ray.origin) + row.w;
+    let along = row.truncate().dot(cone.ray.direction);
+    let tilt = (start * cone.spread - along * cone.width) * plane.tilt
+        + (cone.width * plane.facing + cone.spread * plane.height) * cone.aside(row.truncate());
+    let place = tilt.extend(start * plane.facing + along * plane.height);
+    let limit = extent * (cone.spread * plane.tilt).extend(plane.facing);
+    cuts.by(limit - place);
+    cuts.by(limit + place);
+}
+
+impl Shape for Plane {
+    fn links(&self) -> [u32; 2] {
+        [self.link[0], self.link[1]]
+    }
+
+    fn distance_to(&self, ray: &Ray) -> (f64, DVec2) {
+        let normal = xyz(self.normal);
+        let height = self.normal[3] - normal.dot(ray.origin);
+        let t = height / normal.dot(ray.direction);
+        let p = ray.origin + t * ray.direction;
+        let local = DVec2::new(xyz(self.axis_u).dot(p), xyz(self.axis_v).dot(p));
+        if let Some(extent) = self.half_extent() {
+            let (u, v) = (local.x + self.axis_u[3], local.y + self.axis_v[3]);
+            let inside = u.abs() <= extent && v.abs() <= extent;
+            return (if inside { t } else { -1.0 }, local);
+        }
+        (t, local)
+    }
+
+    fn surface_of(&self, point: DVec3, uv: DVec2) -> Surface {
+        let normal = xyz(self.normal).normalize();
+        let own_gradients = [xyz(self.axis_u), xyz(self.axis_v)];
+        Surface { own_uv: uv, own_gradients, ..surface(point, normal, normal, self.link) }
+    }
+
+    fn cut_by_shape(&self, cuts: &mut Cuts, cone: &Cone) -> bool {
+        let seen = flat_in(cone, xyz(self.normal), self.normal[3]);
+        cuts.by((-cone.width * seen.tilt).extend(seen.height));
+        if let Some(extent) = self.half_extent() {
+            cut_bounds(cuts, cone, &seen, vec4(self.axis_u), extent);
+            cut_bounds(cuts, cone, &seen, vec4(self.axis_v), extent);
+        } else {
+            cuts.by((cone.spread * seen.tilt).extend(seen.facing));
+        }
+        true
+    }
+
+    fn complete(&self, ray: &Ray, hit: &mut Hit) {
+        hit.local = self.distance_to(ray).1;
+    }
+
+    fn tangent_plane(&self, _: &Cone, _: f64) -> DVec4 {
+        vec4(self.normal)
+    }
+
+    fn may_meet(&self, _: &Header, frame: &PixelFrustum, polygon: &Polygon) -> bool {
+        let mut region = region_of_plane(frame, vec4(self.normal));
+        self.add_outline(frame, region.inverse_depth, &mut region);
+        region.lines[..region.count].iter().all(|&line| range(polygon, line).1 > 0.0)
+    }
+
+    fn form(&self) -> Form<'_> {
+        Form::Flat(self)
+    }
+}
+
+impl Flat for Plane {
+    fn plane_of(&self) -> DVec4 {
+        vec4(self.normal)
+    }
+
+    fn has_smooth_normals(&self) -> bool {
+        false
+    }
+
+    fn add_outline(&self, frame: &PixelFrustum, near: AffineFunction, region: &mut ConvexRegion) {
+        let Some(half_extent) = self.half_extent() else { return };
+        let extent = half_extent * below(frame, near);
+        for row in [self.axis_u, self.axis_v] {
+            let own = along(frame, near, vec4(row));
+            add(region, extent - own);
+            add(region, extent + own);
+        }
+    }
+
+    /// Its own coordinates count from the eye.
+    fn own_coordinates(&self, frame: &PixelFrustum, near: AffineFunction, map: &UvProjection) -> RationalMap {
+        let under = below(frame, near);
+        let own = |row: [f64; 4]| along(frame, near, xyz(row).extend(0.0));
+        let (u, v) = (own(self.axis_u), own(self.axis_v));
+        let m = vec4(map.matrix);
+        let offset = vec4(map.offset);
+        RationalMap {
+            u: m.x * u + m.y * v + offset.x * under,
+            v: m.z * u + m.w * v + offset.y * under,
+            below: under,
+        }
+    }
+
+    fn add_shadow(
+        &self,
+        (frame, near): (&PixelFrustum, AffineFunction),
+        light: &Light,
+        rise: f64,
+        region: &mut ConvexRegion,
+    ) {
+        let Some(extent) = self.half_extent() else { return };
+        let place = xyz(light.place);
+        let point = light.link[0] == LightKind::Point as u32;
+        let plane = self.plane_of();
+        let n = plane.truncate();
+        let side = if rise == 0.0 { 0.0 } else { rise.signum() };
+        // A place's distance below the light, in |rise|, or its own height.
+        let depth = if point { side * n.extend(-n.dot(place)) } else { DVec4::W * rise.abs() };
+        for row in [self.axis_u, self.axis_v].map(vec4) {
+            let axis = row.truncate();
+            let own = if point {
+                // u of light + (p - light) rise / (n·(p - light)), times the depth.
+                (axis.dot(place) + row.w) * depth + rise.abs() * axis.extend(-axis.dot(place))
+            } else {
+                // u of p + way (height - n·p) / rise, times |rise|.
+                rise.abs() * row + side * axis.dot(place) * (-n).extend(plane.w)
+            };
+            add(region, along(frame, near, extent * depth - own));
+            add(region, along(frame, near, extent * depth + own));
+        }
+    }
+}

@@ -1,0 +1,130 @@
+//! Triangles → their records, and how far f32 misplaces what is seen of them.
+
+use glam::{DVec2, DVec3, DVec4};
+
+use super::{Rounded, add_map, cross, reach};
+use crate::pack::mapping::{self, Place, uv_matrix};
+use crate::pack::precision::{Camera, RAY, U, tiles_a_unit};
+use crate::pack::{MapKind, PackedScene, real4};
+use crate::scene::model::{Mapping, MappingKind, Material, Scene, Shape, Triangle};
+use crate::schema::layout;
+use crate::texture::sampler_spec::SamplerSpec;
+
+/// Rounding errors of an edge function, as they add up.
+const EDGE: f64 = 3.0;
+/// An edge may be off by this part of a pixel.
+const PART_FOR_EDGES: f64 = 0.25;
+/// Triangles smaller than this part of a pixel have no outline that could be seen.
+const MIN_PART: f64 = 0.25;
+
+pub(super) fn pack(
+    packed: &mut PackedScene,
+    scene: &Scene,
+    triangle: &Triangle,
+    eye: DVec3,
+) -> layout::Triangle {
+    let [a, b, c] = triangle.vertices.map(|v| v - eye);
+    let normal = cross(b - a, c - a).normalize();
+    let material = &scene.materials[triangle.material];
+    let uvs = vertex_uvs(triangle, material, &scene.sampler_of(material));
+    let place = Place { centroid: triangle.centroid(), bounds: triangle.bounds() };
+    let map = add_map(packed, scene, triangle.material, |mapping, sampler, flat| match mapping.kind {
+        MappingKind::Surface => {
+            layout::UvProjection { link: [MapKind::VertexUv as u32, 0, 0, 0], ..Default::default() }
+        }
+        _ => mapping::projecting_map(mapping, sampler, eye, &place, flat),
+    });
+    let shading = triangle.normals.unwrap_or([normal; 3]).map(|n| real4(n.normalize().extend(0.0)));
+    layout::Triangle {
+        a: real4(a.extend(uvs[0].x)),
+        b: real4(b.extend(uvs[1].x)),
+        c: real4(c.extend(uvs[2].x)),
+        v: real4(DVec4::new(uvs[0].y, uvs[1].y, uvs[2].y, f64::from(u8::from(triangle.normals.is_some())))),
+        normal: real4(normal.extend(normal.dot(a))),
+        normal_a: shading[0],
+        normal_b: shading[1],
+        normal_c: shading[2],
+        link: [triangle.material as u32, map, 0, 0],
+    }
+}
+
+/// The vertices' coordinates after scale, rotation and offset, with the whole tiles of the first
+/// vertex taken out of all three.
+fn vertex_uvs(triangle: &Triangle, material: &Material, sampler: &SamplerSpec) -> [DVec2; 3] {
+    let matrix = mapping::uv_matrix(&material.mapping);
+    let uvs = triangle.uvs.map(|uv| matrix * uv + material.mapping.offset);
+    let whole = mapping::whole_tiles(uvs[0], mapping::periods(sampler));
+    uvs.map(|uv| uv - whole)
+}
+
+/// An edge function is the volume d·(p × q); it is off by a part of |d| |p| |q|, and vanishes along the edge.
+fn misses_triangle(camera: &Camera, triangle: &Triangle) -> bool {
+    let corners = triangle.vertices.map(|v| v - camera.eye);
+    if corners.iter().all(|v| v.dot(camera.forward) <= 0.0) {
+        return false;
+    }
+    let edges = [[1, 2], [2, 0], [0, 1]].map(|[i, j]| {
+        let (p, q) = (corners[i], corners[j]);
+        let seen = if camera.parallel { camera.forward.cross(q - p) } else { p.cross(q) }.length();
+        // Its length in pixels, and the error of its place.
+        let reach = if camera.parallel { 1.0 } else { p.length() * q.length() };
+        let error = EDGE * U * p.length() * q.length() / seen;
+        (seen / reach / camera.pixel, error / camera.pixel)
+    });
+    let size = edges.iter().map(|e| e.0).fold(0.0, f64::max);
+    size > MIN_PART && edges.iter().any(|e| e.1 > PART_FOR_EDGES)
+}
+
+/// At four points of the triangle.
+fn triangle_errors(camera: &Camera, triangle: &Triangle, mapping: &Mapping) -> [f64; 4] {
+    let [a, b, c] = triangle.vertices;
+    let doubled = (b - a).cross(c - a);
+    let normal = doubled.normalize();
+    let third = 1.0 / 3.0;
+    let weights = [[third; 3], [0.8, 0.1, 0.1], [0.1, 0.8, 0.1], [0.1, 0.1, 0.8]];
+    weights.map(|w| {
+        let place = w[0] * a + w[1] * b + w[2] * c;
+        let p = place - camera.eye;
+        let way = if camera.parallel { camera.forward } else { p };
+        if way.dot(camera.forward) <= 0.0 {
+            return 0.0;
+        }
+        // Rays that graze see no texels.
+        let slope = (normal.dot(way) / way.length()).abs().max(1e-3);
+        let reach = [a, b, c].map(|v| (v - camera.eye).length()).into_iter().fold(0.0, f64::max);
+        let error = RAY * U * (p.length() * (1.0 + 1.0 / slope) + reach);
+        let tiles = match mapping.kind {
+            MappingKind::Surface => {
+                let uvs = triangle.uvs.map(|uv| uv_matrix(mapping) * uv);
+                let longest = (uvs[1] - uvs[0]).length().max((uvs[2] - uvs[0]).length());
+                let longest = longest.max((uvs[2] - uvs[1]).length());
+                // Over the least height.
+                longest * (b - a).length().max((c - a).length()).max((c - b).length()) / doubled.length()
+            }
+            _ => tiles_a_unit(mapping, place, normal),
+        };
+        error * tiles
+    })
+}
+
+impl Rounded for Triangle {
+    fn material(&self) -> usize {
+        self.material
+    }
+
+    fn is_small(&self) -> bool {
+        true
+    }
+
+    fn extent(&self, eye: DVec3) -> f64 {
+        self.vertices.map(|v| reach(v, eye)).into_iter().fold(0.0, f64::max)
+    }
+
+    fn misses_outline(&self, camera: &Camera) -> bool {
+        misses_triangle(camera, self)
+    }
+
+    fn errors(&self, camera: &Camera, mapping: &Mapping, add: &mut dyn FnMut(f64)) {
+        triangle_errors(camera, self, mapping).into_iter().for_each(add);
+    }
+}

@@ -1,0 +1,80 @@
+//! docs/cli.md against the program's own help: each command, each option with the values that it takes and what
+//! it stands for when it is left out.
+
+use super::table::correct;
+use super::{judge, pages};
+use crate::support::moire;
+
+const PAGE: &str = "docs/cli.md";
+/// Option, values, default, meaning; the first three are generated.
+const COLUMNS: usize = 4;
+
+fn help(arguments: &[&str]) -> String {
+    let output = moire().args(arguments).arg("--help").output().unwrap();
+    assert!(output.status.success(), "{arguments:?}");
+    String::from_utf8(output.stdout).unwrap()
+}
+
+/// The commands that the help lists.
+fn commands(help: &str) -> Vec<String> {
+    let list = help.split_once("Commands:\n").map_or("", |(_, rest)| rest);
+    let lines = list.lines().take_while(|line| !line.is_empty());
+    let names = lines.filter_map(|line| line.split_whitespace().next());
+    names.filter(|name| *name != "help").map(String::from).collect()
+}
+
+/// Each option and argument with all that the help says of it, in one line.
+fn entries(help: &str) -> Vec<String> {
+    let mut found: Vec<String> = Vec::new();
+    for line in help.lines().skip_while(|line| !line.starts_with("Usage:")).skip(1) {
+        let text = line.trim_start();
+        let indent = line.len() - text.len();
+        if indent > 0 && indent <= 6 && (text.starts_with('-') || text.starts_with('<')) {
+            found.push(text.to_string());
+        } else if indent > 6
+            && let Some(entry) = found.last_mut()
+        {
+            *entry += &format!(" {text}");
+        }
+    }
+    found.retain(|entry| !entry.contains("--help") && !entry.contains("--version"));
+    found
+}
+
+fn between<'t>(text: &'t str, before: &str) -> Option<&'t str> {
+    text.split_once(before)?.1.split(']').next()
+}
+
+/// `-o, --output OUT`, `a`, `b`, default.
+fn row(entry: &str) -> Vec<String> {
+    let end = entry.find("  ").or(entry.find("> ").map(|i| i + 1)).unwrap_or(entry.len());
+    let spelling = entry[..end].replace(['<', '>'], "");
+    let list = between(entry, "[possible values: ").unwrap_or("");
+    let values = list.split(", ").filter(|v| !v.is_empty()).map(|v| format!("`{v}`"));
+    let default = between(entry, "[default: ").unwrap_or("");
+    vec![format!("`{}`", spelling.trim()), values.collect::<Vec<_>>().join(", "), default.to_string()]
+}
+
+#[test]
+fn every_command_and_option_stands_in_the_reference() {
+    let Some(page) = pages().into_iter().find(|page| page.name == PAGE) else { return };
+    let (mut text, mut faults) = (page.text.clone(), Vec::new());
+    let commands = commands(&help(&[]));
+    assert!(commands.len() >= 8, "{commands:?}");
+    for command in &commands {
+        let rows: Vec<Vec<String>> = entries(&help(&[command])).iter().map(|entry| row(entry)).collect();
+        correct(&mut text, &format!("## moire {command}"), COLUMNS, &rows, &mut faults);
+    }
+    let headings = page.text.lines().filter_map(|line| line.strip_prefix("## moire "));
+    let strange = headings.filter(|name| !commands.iter().any(|command| command == name));
+    faults.extend(strange.map(|name| format!("there is no command {name}")));
+    judge(PAGE, &faults, &text);
+}
+
+#[test]
+fn help_is_read_as_it_is_printed() {
+    let help = "Usage: x [OPTIONS] <A>\n\nArguments:\n  <A>  First\n\nOptions:\n  -o, --out <OUT>  Where, see\n                   below [default: 8] [possible values: 8, 16]\n      --json       As JSON\n  -h, --help       Print help\n";
+    let rows: Vec<Vec<String>> = entries(help).iter().map(|entry| row(entry)).collect();
+    let wanted = [["`A`", "", ""], ["`-o, --out OUT`", "`8`, `16`", "8"], ["`--json`", "", ""]];
+    assert_eq!(rows, wanted.map(|row| row.map(String::from).to_vec()));
+}
