@@ -19,15 +19,16 @@
 #[doc(hidden)]
 pub mod internal;
 
-mod adaptive;
 mod cli;
 mod core;
 mod gpu;
+mod integrators;
 mod lab;
 mod oracle;
 mod output;
 mod pack;
 mod render;
+mod sampling;
 mod scene;
 mod schema;
 mod texture;

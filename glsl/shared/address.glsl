@@ -23,7 +23,7 @@ float reduced_coordinate(uint mask, uint mode, float u, float size) {
     return texel;
 }
 
-#ifdef DOUBLE
+#ifdef F64_MATH
 // The same for a coordinate in tiles, which then fits an f32.
 float near_tile(uint mask, uint mode, double u) {
     double s = clamp(u, -2.0, 3.0);

@@ -154,15 +154,15 @@ void shade(Header header, PixelBeam beam, uint own) {
     uint shape = met_shapes[own];
     uvec2 link = shape_links(header, shape);
     Material record = material_at(link.x);
-    UvProjection map = map_at(link.y);
+    UvProjection map = uv_projection_at(link.y);
     vec3 near = met[own].inverse_depth;
     if (!is_simple(header, shape, record, map)) {
         gave_up = true;
         return;
     }
-    vec3 carried = beam.carried * record.color.xyz;
+    vec3 carried = beam.carried * record.color;
     if (is_specular(record)) {
-        if (!BOUNCES || beam.depth >= header.size.w) return;
+        if (!BOUNCES || beam.depth >= header.max_depth) return;
         if (waiting_beams == MAX_BEAMS) {
             gave_up = true;
             return;
@@ -175,16 +175,16 @@ void shade(Header header, PixelBeam beam, uint own) {
         return;
     }
     RationalMap quotient = RationalMap(near, near, near);
-    if (TEXTURED && record.link.y != NO_TEXTURE) quotient = coordinates(header, beam.frame, shape, map, near);
+    if (TEXTURED && record.texture_index != NO_TEXTURE) quotient = coordinates(header, beam.frame, shape, map, near);
     ShadingIntegral paint = ShadingIntegral(record, carried, quotient, shape_plane(header, shape), beam.frame, near);
     bool unlit = !is_lit(record);
-    uint lights = unlit ? 1u : COUNT(LIGHTS, header.key.y);
+    uint lights = unlit ? 1u : COUNT(LIGHTS, header.light_count);
     uint i = 0u;
     for (; i < lights && !gave_up; i++) {
         Light light = NO_LIGHT;
         if (LIGHTS != 0u && !unlit) light = light_at(i);
         // Of lights with an extent beams do not know the penumbra.
-        if (AREA_LIGHTS && light.link.x >= LIGHT_SPHERE) gave_up = true;
+        if (AREA_LIGHTS && light.kind >= LIGHT_SPHERE) gave_up = true;
         lit_by(header, paint, shape, LIGHTS != 0u && !unlit, light);
     }
     if (i < lights) gave_up = true;
@@ -217,8 +217,8 @@ void follow(Header header, PixelBeam beam) {
     }
     if (own < met_count || waiting > 0u) gave_up = true;
     if (left > MIN_AREA) {
-        if (ENVIRONMENT && header.counts.w != NO_MATERIAL) gave_up = true;
-        color += left * beam.carried * header.background.xyz;
+        if (ENVIRONMENT && header.environment_material != NO_MATERIAL) gave_up = true;
+        color += left * beam.carried * header.background;
     }
 }
 

@@ -16,37 +16,37 @@ struct Ray {
 // `inside` counts from the pixel's corner, in units of 2^-24 of a pixel.
 Ray camera_ray(Header header, uvec2 pixel, vec2 inside) {
     // Scaling by 2^-24 is exact wherever it happens: here once a pixel, not once a sample.
-    real3 fine_x = header.step_x.xyz * (1.0 / 16777216.0);
-    real3 fine_y = header.step_y.xyz * (1.0 / 16777216.0);
-    vec2 corner = vec2(pixel) - 0.5 * vec2(header.image.xy);
-    bool orthographic = MODE_IS(PROJECTIONS, PROJECTION_ORTHOGRAPHIC, header.size.z);
-    real3 start = orthographic ? real3(0.0) : header.forward.xyz;
+    real3 fine_x = header.step_x * (1.0 / 16777216.0);
+    real3 fine_y = header.step_y * (1.0 / 16777216.0);
+    vec2 corner = vec2(pixel) - 0.5 * vec2(header.image_size);
+    bool orthographic = MODE_IS(PROJECTIONS, PROJECTION_ORTHOGRAPHIC, header.projection);
+    real3 start = orthographic ? real3(0.0) : header.forward;
     // The sum up to the pixel's corner is the same for all its samples.
-    real3 base = (start + corner.x * header.step_x.xyz) + corner.y * header.step_y.xyz;
+    real3 base = (start + corner.x * header.step_x) + corner.y * header.step_y;
     real3 point = (base + inside.x * fine_x) + inside.y * fine_y;
-    return orthographic ? Ray(point, header.forward.xyz, 0.0) : Ray(real3(0.0), point, 0.0);
+    return orthographic ? Ray(point, header.forward, 0.0) : Ray(real3(0.0), point, 0.0);
 }
 
 // The pinhole's ray, bent by a thin lens: from a point of the lens to where the pinhole's ray meets the plane
 // in focus (Cook, Porter & Carpenter 1984). Per unit of t both come equally far along the view, so that a
 // pixel's step changes the direction as it does without a lens.
 Ray through_lens(Header header, Ray ray, vec2 square) {
-    vec2 place = header.lens.x * concentric_disc(square);
-    real3 aside = place.x * header.step_x.xyz + place.y * header.step_y.xyz;
-    return Ray(ray.origin + aside, ray.direction - header.lens.y * aside, ray.time);
+    vec2 place = header.lens_radius * concentric_disc(square);
+    real3 aside = place.x * header.step_x + place.y * header.step_y;
+    return Ray(ray.origin + aside, ray.direction - header.inverse_focus_distance * aside, ray.time);
 }
 
 // The camera at a time between 0 and 1: eye and what it looks at have moved, and its axes are formed anew. Rays
 // still start relative to where the eye is then.
 Header camera_at(Header header, float time) {
-    real3 view = header.view.xyz + time * header.view_motion.xyz;
+    real3 view = header.view + time * header.view_motion;
     real3 forward = view * inverse_root(dot3(view, view));
-    real3 across = cross3(forward, header.up.xyz);
+    real3 across = cross3(forward, header.up);
     real3 right = across * inverse_root(dot3(across, across));
-    real pixel = header.step_y.w;
-    header.forward.xyz = forward;
-    header.step_x.xyz = pixel * right;
-    header.step_y.xyz = pixel * cross3(forward, right);
+    real pixel = header.pixel_side;
+    header.forward = forward;
+    header.step_x = pixel * right;
+    header.step_y = pixel * cross3(forward, right);
     return header;
 }
 

@@ -21,7 +21,7 @@ void main() {
     Ray ray = camera_ray(header, pixel, MIDDLE);
     uint at = film_index(header, place);
     film[at] = trace_cone(header, ray, camera_differential(header, ray));
-    if (COMPENSATED) film[at + header.size.x * slice.band_height] = vec4(0.0);
+    if (COMPENSATED) film[at + header.film_size.x * slice.band_height] = vec4(0.0);
     report_notices();
 }
 

@@ -11,7 +11,7 @@
 
 // Cones that wait, cones of a pixel, and the least weight of one. What goes beyond is dropped.
 const uint MAX_WAITING = BOUNCES || SHADOWS ? 32u : 1u;
-const uint MAX_CONES = BOUNCES || SHADOWS ? 64u : 1u;
+const uint CONE_LIMIT = BOUNCES || SHADOWS ? MAX_CONES : 1u;
 const float MIN_WEIGHT = 1.0 / 1024.0;
 
 // A cone that is still to be traced.
@@ -58,20 +58,20 @@ void send(Branch branch) {
 // What an unhidden light sends through a surface to the eye, and the cone in which it may be hidden: as
 // wide as the footprint looks from the light, where it ends in a point.
 Branch lit_branch(Branch branch, vec3 albedo, vec3 carried, Hit hit, Surface surface, Footprint print, Material material, uint skip, Light light) {
-    bool point_light = MODE_IS(LIGHT_KINDS, LIGHT_POINT, light.link.x);
-    vec3 way = point_light ? light.place.xyz - surface.point : light.place.xyz;
+    bool point_light = MODE_IS(LIGHT_KINDS, LIGHT_POINT, light.kind);
+    vec3 way = point_light ? light.position - surface.point : light.direction;
     float squared = dot3(way, way);
     float facing = dot3(surface.normal, way);
     float share = point_light ? facing / (squared * sqrt(squared)) : facing;
     float above = dot3(surface.geometric_normal, way);
     if (!(facing > 0.0 && above > 0.0)) share = 0.0;
-    vec3 more = light.power.xyz * (share * (1.0 / PI));
+    vec3 more = light.power * (share * (1.0 / PI));
     Bsdf bsdf = bsdf_at(material, albedo, surface.normal, branch.ray.direction);
     vec2 lobes = evaluate(bsdf, way);
     vec3 seen = reflected(bsdf, branch.weight, carried, Lit(more * lobes.x, more * lobes.y));
     if (!SHADOWS) return Branch(branch.ray, 0.0, 0.0, seen, skip, 0u);
     vec3 start = offset_origin(surface.point, surface.geometric_normal, surface.size);
-    vec3 to_light = point_light ? light.place.xyz - start : light.place.xyz;
+    vec3 to_light = point_light ? light.position - start : light.direction;
     vec3 across = cross3(print.point_x, print.point_y);
     float width = sqrt(sqrt(dot3(across, across)) * (max(above, 0.0) * inversesqrt(squared)));
     return Branch(Ray(start, to_light, 0.0), width, point_light ? -width : 0.0, seen, skip,
@@ -105,12 +105,12 @@ vec3 shade_part(Header header, Branch branch, uint shape) {
     RayDifferential beam = cone_beam(branch.width, branch.spread);
     Footprint print = footprint_at(header, beam, ray, hit.t, surface.geometric_normal);
     if (missed) {
-        surface.link = uvec2(header.counts.w, header.key.w);
+        surface.link = uvec2(header.environment_material, header.environment_projection);
         print = endless_footprint(header, beam, ray);
     }
     Material material = material_at(surface.link.x);
     vec3 carried = branch.weight;
-    vec3 albedo = surface_color(material, map_at(surface.link.y), ray, surface, print, uvec2(0u));
+    vec3 albedo = surface_color(material, uv_projection_at(surface.link.y), ray, surface, print, uvec2(0u));
     branch.weight *= albedo;
     bool lit = is_lit(material);
     if (!lit && !is_specular(material)) return emitted(material, branch.weight);
@@ -119,7 +119,7 @@ vec3 shade_part(Header header, Branch branch, uint shape) {
     float back = mirrored_share(material, ray.direction, surface.normal, ratio);
     // What follows: cones to the lights, or what goes through glass and then what it returns, which as the
     // last is traced first.
-    uint branches = lit ? COUNT(LIGHTS, header.key.y) : (BOUNCES && branch.depth < header.size.w ? 2u : 0u);
+    uint branches = lit ? COUNT(LIGHTS, header.light_count) : (BOUNCES && branch.depth < header.max_depth ? 2u : 0u);
     vec3 sum = vec3(0.0);
     for (uint i = 0u; i < branches; i++) {
         bool through = BOUNCES && !lit && i == 0u;
@@ -154,10 +154,10 @@ vec4 trace_cone(Header header, Ray ray, RayDifferential beam) {
     dropped = 0.0;
     waiting[0] = Branch(ray, beam.width, beam.spread, vec3(1.0), NO_SHAPE, 0u);
     waiting_count = 1u;
-    for (uint traced = 0u; traced < MAX_CONES && waiting_count > 0u; traced++) {
+    for (uint traced = 0u; traced < CONE_LIMIT && waiting_count > 0u; traced++) {
         waiting_count--;
         Branch branch = waiting[waiting_count];
-        vec3 across = branch.depth == 0u ? header.step_x.xyz : vec3(0.0);
+        vec3 across = branch.depth == 0u ? header.step_x : vec3(0.0);
         Cone cone = cone_of(branch.ray, cone_beam(branch.width, branch.spread), across);
         cone = leaving(header, cone, branch.skip);
         bool to_light = SHADOWS && branch.depth >= TO_POINT_LIGHT;
@@ -174,7 +174,7 @@ vec4 trace_cone(Header header, Ray ray, RayDifferential beam) {
         count_diagnostic(DIAGNOSTIC_PIECES, replaced > 0.0);
         rest.share -= replaced;
         // An environment is one part more, behind all fragments.
-        bool surrounded = ENVIRONMENT && header.counts.w != NO_MATERIAL;
+        bool surrounded = ENVIRONMENT && header.environment_material != NO_MATERIAL;
         uint parts = piece_count + (surrounded && rest.share > 0.0 ? 1u : 0u);
         for (uint i = 0u; i < parts; i++) {
             Covered part = rest;
@@ -186,7 +186,7 @@ vec4 trace_cone(Header header, Ray ray, RayDifferential beam) {
             }
             if (part.share > 0.0) sum += shade_part(header, part_of(branch, cone, part, shape == NO_SHAPE ? 1.0 : norm), shape);
         }
-        if (!surrounded) sum += (branch.weight * rest.share) * header.background.xyz;
+        if (!surrounded) sum += (branch.weight * rest.share) * header.background;
     }
     for (uint k = 0u; k < MAX_WAITING; k++) if (k < waiting_count) dropped += largest(waiting[k].weight);
     return vec4(sum, dropped);

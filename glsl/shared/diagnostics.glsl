@@ -7,13 +7,13 @@
 #include "features.glsl"
 #include "layout.glsl"
 
-layout(std430, set = 0, binding = 11) buffer Guards { uint guards[]; }; // low and high half of each
+layout(std430, set = 0, binding = BINDING_DIAGNOSTICS) buffer Guards { uint guards[]; }; // low and high half of each
 
-uint noticed[DIAGNOSTICS];
+uint noticed[DIAGNOSTIC_COUNT];
 
 void clear_notices() {
     if (DIAGNOSED) {
-        for (uint k = 0u; k < DIAGNOSTICS; k++) noticed[k] = 0u;
+        for (uint k = 0u; k < DIAGNOSTIC_COUNT; k++) noticed[k] = 0u;
     }
 }
 
@@ -23,7 +23,7 @@ void count_diagnostic(uint what, bool happened) {
 
 void report_notices() {
     if (DIAGNOSED) {
-        for (uint k = 0u; k < DIAGNOSTICS; k++) {
+        for (uint k = 0u; k < DIAGNOSTIC_COUNT; k++) {
             if (noticed[k] > 0u) {
                 uint before = atomicAdd(guards[2u * k], noticed[k]);
                 if (before + noticed[k] < before) atomicAdd(guards[2u * k + 1u], 1u);
@@ -35,7 +35,7 @@ void report_notices() {
 // By its bits: compilers take comparisons for those of numbers.
 bool no_number(vec3 v) { return any(equal(floatBitsToUint(v) & 0x7F800000u, uvec3(0x7F800000u))); }
 
-#ifdef DOUBLE
+#ifdef F64_MATH
 bool no_number(dvec3 v) {
     uvec3 high = uvec3(unpackDouble2x32(v.x).y, unpackDouble2x32(v.y).y, unpackDouble2x32(v.z).y);
     return any(equal(high & 0x7FF00000u, uvec3(0x7FF00000u)));

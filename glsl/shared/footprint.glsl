@@ -33,25 +33,25 @@ struct Footprint {
 
 const Footprint NO_FOOTPRINT = Footprint(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
 
-bool uses_cones(Header header) { return MODE_IS(FOOTPRINTS, FOOTPRINT_CONE, header.key.z); }
+bool uses_cones(Header header) { return MODE_IS(FOOTPRINTS, FOOTPRINT_CONE, header.footprint); }
 
 // `share` is the side of the part of a pixel that one sample stands for: that of a box with the
 // pixel filter's variance over √samples.
 RayDifferential camera_differential(Header header, Ray ray) {
     RayDifferential beam = RayDifferential(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), 0.0, 0.0);
-    if (!FILTERED || MODE_IS(FOOTPRINTS, FOOTPRINT_NONE, header.key.z)) return beam;
-    bool orthographic = MODE_IS(PROJECTIONS, PROJECTION_ORTHOGRAPHIC, header.size.z);
-    float share = float(header.step_x.w);
+    if (!FILTERED || MODE_IS(FOOTPRINTS, FOOTPRINT_NONE, header.footprint)) return beam;
+    bool orthographic = MODE_IS(PROJECTIONS, PROJECTION_ORTHOGRAPHIC, header.projection);
+    float share = float(header.sample_side);
     if (DIFFERENTIALS) {
-        vec3 x = vec3(header.step_x.xyz) * share;
-        vec3 y = vec3(header.step_y.xyz) * share;
+        vec3 x = vec3(header.step_x) * share;
+        vec3 y = vec3(header.step_y) * share;
         beam.origin_x = orthographic ? x : vec3(0.0);
         beam.origin_y = orthographic ? y : vec3(0.0);
         beam.direction_x = orthographic ? vec3(0.0) : x;
         beam.direction_y = orthographic ? vec3(0.0) : y;
     }
     if (CONES) {
-        float side = float(header.step_y.w) * share; // of the pixel's share, at t = 1
+        float side = float(header.pixel_side) * share; // of the pixel's share, at t = 1
         // MapInput from the eye a pixel off the axis is narrower by the cosine in one direction: the cone
         // has the root of it, and so the same cross-section.
         beam.width = orthographic ? side : 0.0;

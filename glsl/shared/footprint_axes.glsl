@@ -24,7 +24,7 @@ vec3 bounded_change(vec3 d) { return mix(vec3(WIDEST_CHANGE), d, lessThanEqual(a
 // A direction on the cube as a place on its face; a flat or solid coordinate as it is. Footprints are numbers.
 Coordinate in_texture(Texture image, Coordinate c, out uint face) {
     face = 0u;
-    if (!MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_CUBE, image.link.w)) {
+    if (!MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_CUBE, image.kind)) {
         if (FILTERED) {
             c.dx = bounded_change(c.dx);
             c.dy = bounded_change(c.dy);
@@ -43,7 +43,7 @@ Coordinate in_texture(Texture image, Coordinate c, out uint face) {
 }
 
 FootprintEllipse texel_spread(Texture image, Coordinate c) {
-    vec3 size = vec3(image.place.yz, MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_VOLUME, image.link.w) ? image.link.z : 0u);
+    vec3 size = vec3(image.size.xy, MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_VOLUME, image.kind) ? image.size.z : 0u);
     vec3 x = c.dx * size;
     vec3 y = c.dy * size;
     float xx = dot3(x, x);

@@ -6,11 +6,9 @@
 
 #include "geometry/cones.glsl"
 
-// Shapes that a cone keeps: the nearest.
-const uint MAX_FRAGMENTS = 8u;
 // Planes whose depths differ by less, relatively, lie in each other: the first of the list is seen.
 const float COPLANAR = 4e-6;
-const uint FRAGMENTS = CONE_SHAPES == DYNAMIC ? MAX_FRAGMENTS : CONE_SHAPES;
+const uint FRAGMENTS = CONE_SHAPES == DYNAMIC ? MAX_CONE_FRAGMENTS : CONE_SHAPES;
 
 // A shape in the cone.
 struct Fragment {
@@ -25,7 +23,7 @@ struct Fragment {
 
 // In order. Only constants index them, so that they are registers: memory that each thread indexes for
 // itself is slow.
-Fragment fragments[MAX_FRAGMENTS];
+Fragment fragments[MAX_CONE_FRAGMENTS];
 uint piece_count;
 float clear; // what fragments that were not kept leave of a place, if they lie anywhere
 

@@ -8,7 +8,7 @@
 
 // Where each texture's sums begin, then those: channels, levels, least value, step, first word of each
 // level; a level's rows of width + 1 sums.
-layout(set = 0, binding = 9) uniform usamplerBuffer prefix_sums;
+layout(set = 0, binding = BINDING_PREFIX_SUMS) uniform usamplerBuffer prefix_sums;
 
 const int HEADER_WORDS = 4;
 
@@ -35,11 +35,11 @@ int word(int index) { return int(texelFetch(prefix_sums, index).x); }
 Grid texture_grid(uint index, Texture image, Sampler how) {
     int head = word(int(index));
     bool linear = is_continuous(how);
-    bool integer = MODE_IS(TEXEL_CENTERS, TEXEL_CENTER_INTEGER, how.modes.w);
+    bool integer = MODE_IS(TEXEL_CENTERS, TEXEL_CENTER_INTEGER, how.texel_center);
     // Linear cells lie between texel centres, of which the integer rule moves all by half a texel.
     float shift = (linear ? -0.5 : 0.0) + (integer ? 0.5 : 0.0);
-    return Grid(false, false, false, ivec2(image.place.yz), word(head), word(head + HEADER_WORDS), head, how.modes.xy,
-                linear, vec2(image.place.yz), shift, uintBitsToFloat(texelFetch(prefix_sums, head + 2).x),
+    return Grid(false, false, false, ivec2(image.size.xy), word(head), word(head + HEADER_WORDS), head, uvec2(how.address_u, how.address_v),
+                linear, vec2(image.size.xy), shift, uintBitsToFloat(texelFetch(prefix_sums, head + 2).x),
                 uintBitsToFloat(texelFetch(prefix_sums, head + 3).x));
 }
 

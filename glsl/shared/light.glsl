@@ -22,8 +22,8 @@ struct Aim {
 // Uniform over the cone in which the sphere is seen; from within it, over all directions. Of radiance
 // I / (pi R²) a direction stands for 2 pi h, the cone's solid angle, h = 1 - cos of its half angle.
 Aim sphere_aim(Light light, real3 point, vec2 square) {
-    vec3 way = vec3(light.place.xyz - point);
-    float radius = float(light.place.w);
+    vec3 way = vec3(light.position - point);
+    float radius = float(light.radius);
     float squared = max(dot3(way, way), 1e-30);
     float sine = radius * radius / squared; // squared
     bool outside = sine < 1.0;
@@ -40,11 +40,11 @@ Aim sphere_aim(Light light, real3 point, vec2 square) {
 // the sides' cross product: cos / r² with cos' of the light.
 Aim rectangle_aim(Light light, real3 point, vec2 square) {
     vec2 p = square - 0.5;
-    real3 to_middle = light.place.xyz - point;
-    vec2 sides = vec2(light.edge_u.w, light.edge_v.w);
+    real3 to_middle = light.position - point;
+    vec2 sides = vec2(light.length_u, light.length_v);
     if (sides.x > 0.0) {
-        vec3 x = vec3(light.edge_u.xyz) / sides.x;
-        vec3 y = vec3(light.edge_v.xyz) / sides.y;
+        vec3 x = vec3(light.edge_u) / sides.x;
+        vec3 y = vec3(light.edge_v) / sides.y;
         vec3 n = cross3(x, y);
         vec3 m = vec3(to_middle);
         float height = -dot3(m, n);
@@ -54,35 +54,35 @@ Aim rectangle_aim(Light light, real3 point, vec2 square) {
             return Aim(real3(way), BEFORE_LIGHT, seen.w * inversesqrt(dot3(way, way)));
         }
     }
-    real3 way = to_middle + (p.x * light.edge_u.xyz + p.y * light.edge_v.xyz);
+    real3 way = to_middle + (p.x * light.edge_u + p.y * light.edge_v);
     float squared = float(dot3(way, way));
-    float leaving = float(-dot3(way, cross3(light.edge_u.xyz, light.edge_v.xyz)));
+    float leaving = float(-dot3(way, cross3(light.edge_u, light.edge_v)));
     float density = leaving > 0.0 ? (leaving / squared) / squared : 0.0;
     return Aim(way, BEFORE_LIGHT, density);
 }
 
 // Uniform over the cap of the sky.
 Aim sun_aim(Light light, vec2 square) {
-    return Aim(around(vec3(light.place.xyz), on_cap(concentric_disc(square), float(light.place.w))), FAR, 1.0);
+    return Aim(around(vec3(light.direction), on_cap(concentric_disc(square), float(light.cap_height))), FAR, 1.0);
 }
 
 Lit direct_light(Header header, Surface surface, float time, uint shape, Bsdf bsdf, Points points,
                  SampleDimensions dimensions) {
     Lit sum = Lit(vec3(0.0), vec3(0.0));
-    uint lights = COUNT(LIGHTS, header.key.y);
+    uint lights = COUNT(LIGHTS, header.light_count);
     real3 start = surface.point;
     if (SHADOWS) start = offset_origin(surface.point, surface.geometric_normal, surface.size);
     for (uint i = 0u; i < lights; i++) {
         Light light = light_at(i);
-        bool point_light = MODE_IS(LIGHT_KINDS, LIGHT_POINT, light.link.x);
-        real3 way = point_light ? light.place.xyz - surface.point : light.place.xyz;
+        bool point_light = MODE_IS(LIGHT_KINDS, LIGHT_POINT, light.kind);
+        real3 way = point_light ? light.position - surface.point : light.direction;
         Aim aim = Aim(way, point_light ? 1.0 : FAR, 1.0);
         if (AREA_LIGHTS) {
-            if (light.link.x >= LIGHT_SPHERE) {
+            if (light.kind >= LIGHT_SPHERE) {
                 vec2 square = chosen_light(points, dimensions, i);
-                if (MODE_IS(LIGHT_KINDS, LIGHT_SPHERE, light.link.x)) {
+                if (MODE_IS(LIGHT_KINDS, LIGHT_SPHERE, light.kind)) {
                     aim = sphere_aim(light, surface.point, square);
-                } else if (MODE_IS(LIGHT_KINDS, LIGHT_RECTANGLE, light.link.x)) {
+                } else if (MODE_IS(LIGHT_KINDS, LIGHT_RECTANGLE, light.kind)) {
                     aim = rectangle_aim(light, surface.point, square);
                 } else {
                     aim = sun_aim(light, square);
@@ -98,14 +98,14 @@ Lit direct_light(Header header, Surface surface, float time, uint shape, Bsdf bs
         bool lit = facing > 0.0 && dot3(surface.geometric_normal, way) > 0.0;
         if (lit) {
             if (SHADOWS) {
-                real3 to_light = point_light ? light.place.xyz - start : way;
+                real3 to_light = point_light ? light.position - start : way;
                 if (HAS(LIGHT_KINDS, LIGHT_RECTANGLE)) {
                     // A place of it, seen from where the shadow ray starts.
-                    if (light.link.x == LIGHT_RECTANGLE) to_light += surface.point - start;
+                    if (light.kind == LIGHT_RECTANGLE) to_light += surface.point - start;
                 }
                 lit = !occluded(header, Ray(start, to_light, time), aim.reach, shape);
             }
-            vec3 more = light.power.xyz * (share * (1.0 / PI));
+            vec3 more = light.power * (share * (1.0 / PI));
             vec2 lobes = evaluate(bsdf, vec3(way));
             vec3 first = sum.first + more * lobes.x;
             sum.first = lit ? first : sum.first;

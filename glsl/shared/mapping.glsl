@@ -44,16 +44,16 @@ struct Coordinate {
 real2 turned_uv(UvProjection map, real2 uv) {
     real2 mapped;
     if (ROTATED_UV) {
-        mapped = real2(map.matrix.x * uv.x + map.matrix.y * uv.y, map.matrix.w * uv.y + map.matrix.z * uv.x);
+        mapped = real2(map.m00 * uv.x + map.m01 * uv.y, map.m11 * uv.y + map.m10 * uv.x);
     } else {
-        mapped = real2(map.matrix.x * uv.x, map.matrix.w * uv.y);
+        mapped = real2(map.m00 * uv.x, map.m11 * uv.y);
     }
     return mapped;
 }
 
 // matrix · uv + offset.
 real2 placed(UvProjection map, real2 uv) {
-    real2 mapped = turned_uv(map, uv) + map.offset.xy;
+    real2 mapped = turned_uv(map, uv) + map.offset;
     return mapped;
 }
 
@@ -89,7 +89,7 @@ vec3 in_frame(UvProjection map, vec3 v) {
     }
 
 ON_CUBE_FACE(float, vec3)
-#ifdef DOUBLE
+#ifdef F64_MATH
 ON_CUBE_FACE(double, dvec3)
 #endif
 
@@ -112,7 +112,7 @@ vec3 along_cube_face(vec3 d, uint face) {
     }
 
 FACE_UV(vec2, vec3)
-#ifdef DOUBLE
+#ifdef F64_MATH
 FACE_UV(dvec2, dvec3)
 #endif
 
@@ -177,7 +177,7 @@ TexCoord spherical(UvProjection map, real3 local, vec3 x, vec3 y, bool gradients
 }
 
 TexCoord texture_coordinate(UvProjection map, MapInput seen) {
-    uint kind = map.link.x;
+    uint kind = map.kind;
     if (MODE_IS(MAPPINGS, MAP_VERTEX_UV, kind)) {
         return TexCoord(real3(seen.own, 0.0), vec3(seen.own_x, 0.0), vec3(seen.own_y, 0.0));
     }

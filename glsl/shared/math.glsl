@@ -9,7 +9,7 @@
 #include "real.glsl"
 
 const float PI = 3.14159265358979;
-#ifdef DOUBLE
+#ifdef F64_MATH
 const double REAL_PI = 3.14159265358979323846lf;
 #else
 const float REAL_PI = PI;
@@ -71,7 +71,7 @@ float atan_unit(float x) {
 
 ATAN2(float, PI)
 
-#ifdef DOUBLE
+#ifdef F64_MATH
 DOT3(double, dvec3)
 AFFINE(double, dvec4, dvec3)
 CROSS3(dvec3)

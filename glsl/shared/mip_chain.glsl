@@ -4,31 +4,22 @@
 #ifndef MIP_CHAIN_GLSL
 #define MIP_CHAIN_GLSL
 
+#include "schema/blocks.glsl"
 #include "opaque.glsl"
 
-layout(constant_id = 2) const uint CHANNELS = 4u;
-layout(constant_id = 3) const uint COMPONENT_BYTES = 1u;
-layout(constant_id = 4) const bool SRGB = false; // colours, of 8 or 16 bits
+layout(constant_id = ID_CHANNELS) const uint CHANNELS = 4u;
+layout(constant_id = ID_COMPONENT_BYTES) const uint COMPONENT_BYTES = 1u;
+layout(constant_id = ID_SRGB) const bool SRGB = false; // colours, of 8 or 16 bits
 
 const uint CODES = COMPONENT_BYTES == 1u ? 256u : 65536u;
 
 // The texture as the pool holds it; numbers of two levels, between which the passes alternate; linear light
 // of all sRGB codes, and then for each the light from which on the next code is nearer.
-layout(std430, set = 0, binding = 0) buffer Words { uint words[]; };
-layout(std430, set = 0, binding = 1) buffer Numbers { float numbers[]; };
-layout(std430, set = 0, binding = 2) readonly buffer Tables { float tables[]; };
+layout(std430, set = 0, binding = BINDING_MIP_WORDS) buffer Words { uint words[]; };
+layout(std430, set = 0, binding = BINDING_MIP_NUMBERS) buffer Numbers { float numbers[]; };
+layout(std430, set = 0, binding = BINDING_MIP_TABLES) readonly buffer Tables { float tables[]; };
 
-// src/schema/layout.rs mirrors it.
-layout(push_constant) uniform Halving {
-    uint from_codes;
-    uint above;
-    uint word;
-    uint number;
-    uint texels;
-    uint columns_log2;
-    uint rows_log2;
-    uint halved;
-} halving;
+layout(push_constant) uniform Push { Halving halving; };
 
 // Of an axis, 1, 2 or 4, whether it has half as many texels as above.
 bool halves(uint axis) { return (OPAQUE(halving.halved) & axis) != 0u; }

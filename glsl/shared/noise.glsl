@@ -79,10 +79,10 @@ float gradient_noise(real3 p, uvec3 key) {
 vec2 octave_sum(Procedural what, real3 at, float size, vec3 widths, bool folded) {
     float sum = 0.0;
     float faded = 0.0;
-    float weight = what.octaves.z;
+    float weight = what.normalization;
     float frequency = 1.0;
-    for (uint k = 0u; k < what.link.z; k++) {
-        uvec3 key = pcg3d(uvec3(what.link.y, k, 0u));
+    for (uint k = 0u; k < what.octaves; k++) {
+        uvec3 key = pcg3d(uvec3(what.seed, k, 0u));
         vec3 shift = k == 0u ? vec3(0.0) : vec3(key >> 8u) * (1.0 / 16777216.0);
         real3 p = at * frequency + shift;
         float value = gradient_noise(p, key);
@@ -96,8 +96,8 @@ vec2 octave_sum(Procedural what, real3 at, float size, vec3 widths, bool folded)
         }
         sum += weight * (keep * value + (1.0 - keep) * mean);
         faded += weight * weight * variance * (1.0 - keep * keep);
-        weight *= what.octaves.y;
-        frequency *= what.octaves.x;
+        weight *= what.gain;
+        frequency *= what.lacunarity;
     }
     return vec2(sum, faded);
 }

@@ -6,10 +6,12 @@
 #ifndef OPAQUE_GLSL
 #define OPAQUE_GLSL
 
+#include "schema/numbers.glsl"
+
 #ifdef HIDE_UNIFORMS
 const bool OPAQUE_UNIFORMS = true;
 #else
-layout(constant_id = 90) const bool OPAQUE_UNIFORMS = true; // src/render/mod.rs: on lavapipe alone
+layout(constant_id = ID_OPAQUE_UNIFORMS) const bool OPAQUE_UNIFORMS = true; // src/render/mod.rs: on lavapipe alone
 #endif
 
 // Workgroups lie in x and y, so that this adds a zero that is known at run time.

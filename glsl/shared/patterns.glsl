@@ -40,12 +40,12 @@ uvec2 pattern_key(uint pattern, uvec2 key) {
 
 // The points of pair 0; `key` is the pixel's.
 Points pixel_points(Header header, uvec2 pixel, uvec2 key) {
-    uint side = COUNT(STRATA_SIDE, header.sampling.y);
-    uint count = COUNT(SAMPLES, header.sampling.z);
-    Points points = Points(header.sampling.x, side, count, 0u, key, 0u, 0u, 0u);
+    uint side = COUNT(STRATA_SIDE, header.strata_side);
+    uint count = COUNT(SAMPLES, header.samples);
+    Points points = Points(header.pattern, side, count, 0u, key, 0u, 0u, 0u);
     if (MODE_IS(PATTERNS, PATTERN_BLUE_NOISE, points.pattern)) {
         uint bits = tile_log2(count);
-        points.key = pixel_key(pixel >> bits, header.sampling.w, false);
+        points.key = pixel_key(pixel >> bits, header.seed, false);
         points.place = morton(pixel & ((1u << bits) - 1u));
         points.block = first_of_block(points, mix_bits(points.key.x ^ points.key.y));
     }

@@ -25,7 +25,7 @@ float tabled_distance(uint i) {
 // `rest` of 2^24 samples lie further from the middle.
 float distance_in_radii(Header header, uint rest) {
     float v = sqrt(float(rest) * (1.0 / 16777216.0));
-    if (MODE_IS(PIXEL_FILTERS, PIXEL_FILTER_TENT, header.pixel_filter.x)) return 1.0 - v;
+    if (MODE_IS(PIXEL_FILTERS, PIXEL_FILTER_TENT, header.pixel_filter)) return 1.0 - v;
     float at = v * float(PIXEL_FILTER_CELLS);
     uint cell = min(uint(at), PIXEL_FILTER_CELLS - 1u);
     float near = tabled_distance(cell);
@@ -40,8 +40,8 @@ uint from_middle(uint position) {
 }
 
 float filtered_position(Header header, uint position) {
-    float radius = uintBitsToFloat(header.pixel_filter.y);
-    if (MODE_IS(PIXEL_FILTERS, PIXEL_FILTER_BOX, header.pixel_filter.x)) {
+    float radius = header.filter_radius;
+    if (MODE_IS(PIXEL_FILTERS, PIXEL_FILTER_BOX, header.pixel_filter)) {
         return 8388608.0 + (float(position) - 8388608.0) * (2.0 * radius);
     }
     float offset = distance_in_radii(header, 0x1000000u - from_middle(position)) * (radius * 16777216.0);
@@ -49,8 +49,8 @@ float filtered_position(Header header, uint position) {
 }
 
 float filter_sign(Header header, uvec2 position) {
-    bool x = from_middle(position.x) >= header.pixel_filter.w;
-    bool y = from_middle(position.y) >= header.pixel_filter.w;
+    bool x = from_middle(position.x) >= header.first_negative_step;
+    bool y = from_middle(position.y) >= header.first_negative_step;
     return x == y ? 1.0 : -1.0;
 }
 
@@ -61,6 +61,6 @@ Place filtered_place(Header header, uvec2 position) {
 }
 
 // Side of the square, in pixels, over which a box has the filter's variance.
-float filter_width(Header header) { return WARPED ? uintBitsToFloat(header.pixel_filter.z) : 1.0; }
+float filter_width(Header header) { return WARPED ? header.filter_width : 1.0; }
 
 #endif

@@ -1,5 +1,6 @@
 // Texture look-ups from a list: one thread a query (texture, sampler, slot, u, v), RGBA out. The
 // same code that shades a hit, without a scene around it.
+#include "schema/blocks.glsl"
 #include "features.glsl"
 #include "layout.glsl"
 #include "filter/sample_texture.glsl"
@@ -14,9 +15,9 @@ struct Query {
     vec4 dy;
 };
 
-layout(std430, set = 0, binding = 0) writeonly buffer Results { vec4 results[]; };
-layout(std430, set = 0, binding = 4) readonly buffer Queries { Query queries[]; };
-layout(push_constant) uniform Range { uint count; } range;
+layout(std430, set = 0, binding = BINDING_OUTPUT) writeonly buffer Results { vec4 results[]; };
+layout(std430, set = 0, binding = BINDING_LIST) readonly buffer Queries { Query queries[]; };
+layout(push_constant) uniform Push { QueryRange range; };
 
 void main() {
     preload_records();

@@ -1,6 +1,7 @@
 // Rays from a list: one thread a query, what the ray hits and where out: distance, shape, point,
 // normal, texture coordinate, and whether anything lies between the origin and t_max.
 #define ORIGIN_IS_EYE false // these rays start anywhere
+#include "schema/blocks.glsl"
 #include "features.glsl"
 #include "layout.glsl"
 #include "shade.glsl"
@@ -19,9 +20,9 @@ struct Answer {
     uvec4 link;  // shape, 1 when occluded
 };
 
-layout(std430, set = 0, binding = 0) writeonly buffer Answers { Answer answers[]; };
-layout(std430, set = 0, binding = 4) readonly buffer Queries { Query queries[]; };
-layout(push_constant) uniform Range { uint count; } range;
+layout(std430, set = 0, binding = BINDING_OUTPUT) writeonly buffer Answers { Answer answers[]; };
+layout(std430, set = 0, binding = BINDING_LIST) readonly buffer Queries { Query queries[]; };
+layout(push_constant) uniform Push { QueryRange range; };
 
 void main() {
     preload_records();
@@ -34,7 +35,7 @@ void main() {
     Answer answer = Answer(real4(0.0, 0.0, 0.0, FAR), real4(0.0), real4(0.0), uvec4(NO_SHAPE, uint(blocked), 0u, 0u));
     if (hit.shape != NO_SHAPE) {
         Surface surface = hit_surface(header, ray, hit);
-        UvProjection map = map_at(surface.link.y);
+        UvProjection map = uv_projection_at(surface.link.y);
         real2 uv = texture_coordinate(map, map_input(map, ray, surface, NO_FOOTPRINT)).at.xy;
         answer = Answer(real4(surface.point, hit.t), real4(surface.normal, 0.0), real4(uv, 0.0, 0.0),
                         uvec4(hit.shape, uint(blocked), 0u, 0u));

@@ -8,7 +8,6 @@
 #include "noise.glsl"
 
 // Boxes along a footprint's major axis, at most.
-const float MAX_BOXES = 16.0;
 // Footprints wider than this are averaged as if they were as wide.
 const float WIDEST = 1e9;
 
@@ -41,7 +40,7 @@ float box_count(vec3 major, vec3 minor) {
     vec3 reach = abs(major);
     float oblique = max(min(reach.x, reach.y), min(max(reach.x, reach.y), reach.z)); // the median
     float ratio = oblique / max(sqrt(dot3(minor, minor)), 1e-20);
-    return clamp(min(ratio, 1.0 + MAX_BOXES * oblique), 1.0, MAX_BOXES);
+    return clamp(min(ratio, 1.0 + float(MAX_BOXES) * oblique), 1.0, float(MAX_BOXES));
 }
 
 // Mean over [x - w/2, x + w/2] of a pulse train: 1 within duty/2 of whole x, else 0. Whole periods
@@ -63,8 +62,8 @@ float pulse_mean(float x, float w, float duty) {
 
 // Share of the figure in a box around `at`; bricks count x in bricks here.
 float box_share(Procedural what, vec3 at, vec3 w) {
-    uint kind = what.link.x;
-    float width = float(what.shape.x);
+    uint kind = what.kind;
+    float width = float(what.width);
     if (MODE_IS(PROCEDURAL_KINDS, PROCEDURAL_CHECKER, kind)) {
         // The mean of a product of square waves of ±1 is the product of their means.
         vec3 middle = 0.5 * (at - 1.5);
@@ -79,14 +78,14 @@ float box_share(Procedural what, vec3 at, vec3 w) {
     }
     if (MODE_IS(PROCEDURAL_KINDS, PROCEDURAL_GRID, kind)) {
         float between = (1.0 - pulse_mean(at.x, w.x, width)) * (1.0 - pulse_mean(at.y, w.y, width));
-        if (what.link.w == 3u) between *= 1.0 - pulse_mean(at.z, w.z, width);
+        if (what.dimensions == 3u) between *= 1.0 - pulse_mean(at.z, w.z, width);
         float lines = 1.0 - between;
         return lines;
     }
     float row = 0.5 * (at.y - 0.5);
     float column = at.x - 0.5;
-    float shifted = column - float(what.shape.z);
-    float duty_x = 1.0 - width / float(what.shape.y);
+    float shifted = column - float(what.offset);
+    float duty_x = 1.0 - width / float(what.aspect);
     float duty_y = 0.5 * (1.0 - width);
     float bricks = pulse_mean(row, 0.5 * w.y, duty_y) * pulse_mean(column, w.x, duty_x)
                          + pulse_mean(row - 0.5, 0.5 * w.y, duty_y) * pulse_mean(shifted, w.x, duty_x);
@@ -96,7 +95,7 @@ float box_share(Procedural what, vec3 at, vec3 w) {
 // Share of the figure in the footprint. A box has the second moments of its piece of the footprint.
 float footprint_share(Procedural what, real3 at, vec3 major, vec3 minor) {
     real3 per_unit = real3(1.0);
-    if (MODE_IS(PROCEDURAL_KINDS, PROCEDURAL_BRICK, what.link.x)) per_unit.x = what.shape.y;
+    if (MODE_IS(PROCEDURAL_KINDS, PROCEDURAL_BRICK, what.kind)) per_unit.x = what.aspect;
     real3 far = at / per_unit;
     vec3 p = vec3(far - 2.0 * roundEven(0.5 * far)); // all patterns repeat after two units
     vec3 unit = vec3(per_unit);
@@ -130,7 +129,7 @@ float phase_attenuation(float variance) {
 // Veins at whole x + distortion · turbulence.
 float marble(Procedural what, real3 at, vec3 dx, vec3 dy, float size, vec3 widths) {
     vec2 turbulence = octave_sum(what, at, size, widths, true);
-    float distortion = what.octaves.w;
+    float distortion = what.distortion;
     float phase = float(at.x - roundEven(at.x)) + distortion * turbulence.x;
     float strength = 1.0;
     if (PROCEDURAL_FILTERED) {
@@ -154,7 +153,7 @@ float radial_width(vec2 at, float r, vec2 d) {
 // Rings at whole distances from the z axis + distortion · noise.
 float wood(Procedural what, real3 at, vec3 dx, vec3 dy, float size, vec3 widths) {
     vec2 noise = octave_sum(what, at, size, widths, false);
-    float distortion = what.octaves.w;
+    float distortion = what.distortion;
     real r = sqrt(at.x * at.x + at.y * at.y);
     float phase = float(r - roundEven(r)) + distortion * noise.x;
     float strength = 1.0;
@@ -170,7 +169,7 @@ float wood(Procedural what, real3 at, vec3 dx, vec3 dy, float size, vec3 widths)
 const uint HARD_EDGED = (2u << PROCEDURAL_BRICK) - 1u;
 
 float figure_share(Procedural what, real3 at, vec3 dx, vec3 dy) {
-    uint kind = what.link.x;
+    uint kind = what.kind;
     vec3 major = vec3(0.0);
     vec3 minor = vec3(0.0);
     if (PROCEDURAL_FILTERED) principal_axes(dx, dy, major, minor);
@@ -184,10 +183,10 @@ float figure_share(Procedural what, real3 at, vec3 dx, vec3 dy) {
     if (MODE_IS(PROCEDURAL_KINDS, PROCEDURAL_MARBLE, kind)) return marble(what, at, dx, dy, size, widths);
     if (MODE_IS(PROCEDURAL_KINDS, PROCEDURAL_WOOD, kind)) return wood(what, at, dx, dy, size, widths);
     if (MODE_IS(PROCEDURAL_KINDS, PROCEDURAL_CELLULAR, kind)) {
-        float value = cell_distance(at, what.link.y, float(what.shape.w));
+        float value = cell_distance(at, what.seed, float(what.jitter));
         if (!PROCEDURAL_FILTERED) return value;
         float keep = kept(size);
-        float faded = keep * value + (1.0 - keep) * cell_mean(at, widths, float(what.shape.w));
+        float faded = keep * value + (1.0 - keep) * cell_mean(at, widths, float(what.jitter));
         return faded;
     }
     float share = 0.5 + 0.5 * octave_sum(what, at, size, widths, false).x;
@@ -196,7 +195,7 @@ float figure_share(Procedural what, real3 at, vec3 dx, vec3 dy) {
 
 vec3 procedural_color(Procedural what, real3 at, vec3 dx, vec3 dy) {
     float share = figure_share(what, bounded_point(at), bounded_width(dx), bounded_width(dy));
-    vec3 color = (1.0 - share) * what.background.xyz + share * what.figure.xyz;
+    vec3 color = (1.0 - share) * what.background + share * what.figure;
     return color;
 }
 

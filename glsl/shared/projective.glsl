@@ -30,19 +30,19 @@ struct RationalMap {
     vec3 below;
 };
 
-bool is_parallel(Header header) { return MODE_IS(PROJECTIONS, PROJECTION_ORTHOGRAPHIC, header.size.z); }
+bool is_parallel(Header header) { return MODE_IS(PROJECTIONS, PROJECTION_ORTHOGRAPHIC, header.projection); }
 
 // All rays of the pixels from the first to `more` columns and rows on, and of a margin around them.
 PixelFrustum frame_over(Header header, uvec2 pixel, float more, float margin) {
     // The unit square stands for the pixel filter's box.
-    float radius = uintBitsToFloat(header.pixel_filter.y) + margin;
+    float radius = header.filter_radius + margin;
     float wide = 2.0 * radius + more;
-    vec2 corner = (vec2(pixel) - 0.5 * vec2(header.image.xy)) + (0.5 - radius);
-    vec3 x = header.step_x.xyz;
-    vec3 y = header.step_y.xyz;
+    vec2 corner = (vec2(pixel) - 0.5 * vec2(header.image_size)) + (0.5 - radius);
+    vec3 x = header.step_x;
+    vec3 y = header.step_y;
     vec3 base = corner.x * x + corner.y * y;
-    if (is_parallel(header)) return PixelFrustum(mat3(wide * x, wide * y, base), header.forward.xyz);
-    return PixelFrustum(mat3(wide * x, wide * y, base + header.forward.xyz), vec3(0.0));
+    if (is_parallel(header)) return PixelFrustum(mat3(wide * x, wide * y, base), header.forward);
+    return PixelFrustum(mat3(wide * x, wide * y, base + header.forward), vec3(0.0));
 }
 
 PixelFrustum pixel_frame(Header header, uvec2 pixel) { return frame_over(header, pixel, 0.0, 0.0); }

@@ -1,10 +1,10 @@
-// The numbers of geometry: f32, or f64 where DOUBLE is defined. Rays, shapes and texture coordinates are
+// The numbers of geometry: f32, or f64 where F64_MATH is defined. Rays, shapes and texture coordinates are
 // made of them until whole tiles have left; colours, footprints and look-ups are f32 always. Records hold
-// their real vectors in one or two units; WIDE reads those of f64 and computes in f32.
+// their real vectors in one or two units; F64_RECORDS reads those of f64 and computes in f32.
 #ifndef REAL_GLSL
 #define REAL_GLSL
 
-#if defined(DOUBLE) || defined(WIDE)
+#if defined(F64_MATH) || defined(F64_RECORDS)
 const uint REAL_UNITS = 2u;
 #define READ_DOUBLE(read, at)                                                  \
     dvec4(packDouble2x32(read(at).xy), packDouble2x32(read(at).zw),            \
@@ -15,7 +15,7 @@ const uint REAL_UNITS = 1u;
 #define REAL_BITS(link) uintBitsToFloat((link).x)
 #endif
 
-#ifdef DOUBLE
+#ifdef F64_MATH
 #define real double
 #define real2 dvec2
 #define real3 dvec3
@@ -26,7 +26,7 @@ const uint REAL_UNITS = 1u;
 #define real2 vec2
 #define real3 vec3
 #define real4 vec4
-#ifdef WIDE
+#ifdef F64_RECORDS
 #define READ_REAL(read, at) vec4(READ_DOUBLE(read, at))
 #else
 #define READ_REAL(read, at) uintBitsToFloat(read(at))

@@ -12,11 +12,10 @@
 #include "shade.glsl"
 #include "slice.glsl"
 
-// Samples of single pixels: place (x | y << 16), part (half, JOB_BARE, JOB_APART, stream), first sample, count. A
-// film of jobs holds two halves, each with sums of radiance and of its square's mean over the channels; where the
+// Samples of single pixels. A film of jobs holds two halves, each with sums of radiance and of its square's mean over the channels; where the
 // pixel filter has negative lobes two more with the sums of samples in these, and two with the sum of the signs and
 // the number of samples. With JOB_APART the film has one such entry for each job of the list in place of a half's.
-layout(std430, set = 0, binding = 4) readonly buffer Jobs { uvec4 jobs[]; };
+layout(std430, set = 0, binding = BINDING_LIST) readonly buffer Jobs { Job jobs[]; };
 
 // What one thread does: samples of one pixel, into one place of the film.
 struct Task {
@@ -41,18 +40,13 @@ Task job_task(Header header) {
     uint i = job_index();
     if (i >= slice.tiles) return Task(uvec2(0u, slice.band_height), 0u, 0u, 0u);
     if (sample_count() > 0u) {
-        uvec2 place = uvec2((i >> 1u) % header.size.x, (i >> 1u) / header.size.x);
+        uvec2 place = uvec2((i >> 1u) % header.film_size.x, (i >> 1u) / header.film_size.x);
         uint part = (i & 1u) | (i & 1u) << JOB_STREAM_SHIFT;
         return Task(place, part, first_sample(), first_sample() + sample_count());
     }
-    uvec4 job = jobs[i];
-    return Task(uvec2(job.x & 0xFFFFu, job.x >> 16u), job.y, job.z, job.z + job.w);
+    Job job = jobs[i];
+    return Task(uvec2(job.place & 0xFFFFu, job.place >> 16u), job.part, job.first, job.first + job.count);
 }
-
-// n equal terms summed in f32 are off by 1.5e-8 n at worst: no more samples than the first number are summed as
-// they are, of more so many as the second.
-const uint MAX_PLAIN = 64u;
-const uint BLOCK = 32u;
 
 void main() {
     Header header = load_header();
@@ -65,13 +59,13 @@ void main() {
     if (!in_film(header, task.place)) return;
     uvec2 pixel = picture_pixel(header, task.place);
     // Of a job, a sample's share of the pixel is by the samples that the pixel has at its end.
-    if (FILTERED && is_job && header.key.z != FOOTPRINT_NONE) {
+    if (FILTERED && is_job && header.footprint != FOOTPRINT_NONE) {
         float share = inversesqrt(2.0 * float(task.end)) * filter_width(header);
-        header.step_x.w = (task.part & JOB_BARE) != 0u ? 0.0 : share;
+        header.sample_side = (task.part & JOB_BARE) != 0u ? 0.0 : share;
     }
     // Each stream is as good as another seed.
     uint stream = task.part >> JOB_STREAM_SHIFT;
-    uvec2 key = pixel_key(pixel, header.sampling.w + stream * 0x9E3779B9u, header.key.x != 0u);
+    uvec2 key = pixel_key(pixel, header.seed + stream * 0x9E3779B9u, header.shares_pattern);
     Points points = pixel_points(header, pixel, key);
     uint list = TILE_CULLED ? cell_list(header, task.place + uvec2(0u, slice.band_y)) : NO_LIST;
 
@@ -103,20 +97,20 @@ void main() {
                 else position = dimensions.place;
                 Header camera = header;
                 float time = 0.0;
-                if (TIMED) time = header.lens.z + header.lens.w * unit_square(dimensions.time).x;
+                if (TIMED) time = header.shutter_opens + header.shutter_time * unit_square(dimensions.time).x;
                 if (MOVING_CAMERA) {
-                    if (header.chances.z != 0u) camera = camera_at(header, time);
+                    if (header.camera_moves) camera = camera_at(header, time);
                 }
                 Place place = filtered_place(header, position);
                 sign = place.sign;
                 signs += sign;
                 Ray ray = camera_ray(camera, pixel, place.inside);
                 if (LENS) {
-                    if (header.lens.x > 0.0) ray = through_lens(camera, ray, unit_square(dimensions.lens));
+                    if (header.lens_radius > 0.0) ray = through_lens(camera, ray, unit_square(dimensions.lens));
                 }
                 if (TIMED) ray.time = time;
                 if (MOVING_CAMERA) {
-                    if (header.chances.z != 0u) ray.origin += time * header.eye_motion.xyz;
+                    if (header.camera_moves) ray.origin += time * header.eye_motion;
                 }
                 // Bits that have nothing to do with the sample's position.
                 uvec2 random = RANDOM ? pcg2d(sample_bits(key, s) ^ 0x5BD1E995u) : uvec2(0u);
@@ -148,8 +142,8 @@ void main() {
     report_notices();
 
     uint at = film_index(header, task.place);
-    uint pixels = header.size.x * slice.band_height;
-    bool is_signed = MODE_IS(PIXEL_FILTERS, PIXEL_FILTER_MITCHELL, header.pixel_filter.x);
+    uint pixels = header.film_size.x * slice.band_height;
+    bool is_signed = MODE_IS(PIXEL_FILTERS, PIXEL_FILTER_MITCHELL, header.pixel_filter);
     if (is_job) {
         bool apart = (task.part & JOB_APART) != 0u;
         at = apart ? job_index() : at + (task.part & 1u) * pixels;

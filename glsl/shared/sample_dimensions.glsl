@@ -49,7 +49,7 @@ uvec2 apart(Points points, uvec2 position, uint salt) {
 // the camera needs. One loop: the patterns' code is there once.
 SampleDimensions choose(Header header, Points points, uint s, uint depth, bool starts) {
     SampleDimensions dimensions = NO_CHOICES;
-    uint wanted = (SAMPLE_DIMENSIONS & header.chances.x) << 1u;
+    uint wanted = (SAMPLE_DIMENSIONS & header.sample_dimensions) << 1u;
     wanted = starts ? wanted | 1u : wanted & (0xFFFFFFFFu << (1u + DIMENSION_LIGHT));
     while (wanted != 0u) {
         uint i = uint(findLSB(wanted));

@@ -13,7 +13,7 @@
 // What the surface's map looks at.
 MapInput map_input(UvProjection map, Ray ray, Surface surface, Footprint print) {
     MapInput seen = MapInput(surface.at_rest, vec3(0.0), vec3(0.0), surface.own_uv, vec2(0.0), vec2(0.0), false);
-    uint entity = map.link.y;
+    uint entity = map.entity;
     if (DERIVATIVES) {
         seen.entity_x = print.point_x;
         seen.entity_y = print.point_y;
@@ -69,12 +69,12 @@ void uv_gradients(UvProjection map, Ray ray, Surface surface, out vec3 u, out ve
 
 // A map of normals, not of heights.
 bool is_normal_map(Material material) {
-    return MODE_IS(BUMP_KINDS, BUMP_NORMAL, material.detail.w) || MODE_IS(BUMP_KINDS, BUMP_NORMAL_DOWN, material.detail.w);
+    return MODE_IS(BUMP_KINDS, BUMP_NORMAL, material.bump_kind) || MODE_IS(BUMP_KINDS, BUMP_NORMAL_DOWN, material.bump_kind);
 }
 
 // Places at which a bump map is read, two on each axis, a texel or half the footprint away.
 vec2 bump_step(Material material, TexCoord c) {
-    vec2 texel = 1.0 / vec2(texture_at(material.detail.x).place.yz);
+    vec2 texel = 1.0 / vec2(texture_at(material.bump_texture_index).size.xy);
     return max(texel, 0.5 * max(abs(c.dx.xy), abs(c.dy.xy)));
 }
 
@@ -84,7 +84,7 @@ vec2 bump_step(Material material, TexCoord c) {
 vec3 bump_normal(Material material, UvProjection map, Ray ray, Surface surface, vec4 read, vec2 step) {
     float side = surface.inside ? -1.0 : 1.0;
     vec3 n = side * vec3(surface.normal);
-    float strength = material.color.w;
+    float strength = material.bump_strength;
     vec3 u;
     vec3 v;
     uv_gradients(map, ray, surface, u, v);
@@ -94,7 +94,7 @@ vec3 bump_normal(Material material, UvProjection map, Ray ray, Surface surface, 
         vec3 b = cross3(n, u);
         float handed = dot3(cross3(u, v), n) < 0.0 ? -strength : strength;
         vec3 m = 2.0 * read.xyz - 1.0;
-        if (MODE_IS(BUMP_KINDS, BUMP_NORMAL_DOWN, material.detail.w)) m.y = -m.y;
+        if (MODE_IS(BUMP_KINDS, BUMP_NORMAL_DOWN, material.bump_kind)) m.y = -m.y;
         vec2 scale = vec2(dot3(t, t), dot3(b, b));
         result = n * m.z;
         result += t * (scale.x > 0.0 ? handed * m.x * inversesqrt(scale.x) : 0.0);
@@ -111,9 +111,9 @@ vec3 bump_normal(Material material, UvProjection map, Ray ray, Surface surface, 
 // The material's colour, times its texture where it has one; before that its bump map turns the normal.
 // One loop for all look-ups of a hit: they are most of the code.
 vec3 surface_color(Material material, UvProjection map, Ray ray, inout Surface surface, Footprint print, uvec2 random) {
-    vec3 color = material.color.xyz;
+    vec3 color = material.color;
 #if SOURCE != SOURCE_NONE
-    bool bump = BUMPED && material.detail.x != NO_TEXTURE;
+    bool bump = BUMPED && material.bump_texture_index != NO_TEXTURE;
     uint taps = 0u;
     if (bump) taps = is_normal_map(material) ? 1u : 4u;
     vec4 read = vec4(0.0);
@@ -123,15 +123,15 @@ vec3 surface_color(Material material, UvProjection map, Ray ray, inout Surface s
     do {
         bool last = tap == taps;
         if (bump && last) surface.normal = bump_normal(material, map, ray, surface, read, step);
-        if (!UNTEXTURED || !last || material.link.y != NO_TEXTURE) {
+        if (!UNTEXTURED || !last || material.texture_index != NO_TEXTURE) {
             TexCoord c = texture_coordinate(map, map_input(map, ray, surface, print));
-            uvec3 link = material.link.yzw;
+            uvec2 link = uvec2(material.texture_index, material.image_slot);
             if (BUMPED && !last) {
-                link = material.detail.xyz;
+                link = uvec2(material.bump_texture_index, material.bump_image_slot);
                 step = bump_step(material, c);
                 if (taps == 4u) c.at[tap >> 1u] += (tap & 1u) == 0u ? step[tap >> 1u] : -step[tap >> 1u];
             }
-            vec4 texel = sample_texture(texture_at(link.x), sampler_at(link.y), link.z, c, random);
+            vec4 texel = sample_texture(texture_at(link.x), sampler_at(material.sampler_index), link.y, c, random);
             if (BUMPED && !last) {
                 if (taps == 4u) read[tap] = texel.x;
                 else read = texel;
@@ -194,20 +194,20 @@ bool bounced(Header header, Hit hit, Surface surface, Footprint print, Material 
 vec3 advance(Header header, Points points, SampleDimensions dimensions, inout Path path) {
     Hit hit = nearest_hit(header, path.ray, path.skip, path.list);
     bool missed = hit.shape == NO_SHAPE;
-    vec3 seen = path.throughput * header.background.xyz;
+    vec3 seen = path.throughput * header.background;
     bool is_alive = false;
     // What hits nothing is then as good as a hit.
-    bool surrounded = ENVIRONMENT && header.counts.w != NO_MATERIAL;
+    bool surrounded = ENVIRONMENT && header.environment_material != NO_MATERIAL;
     if (surrounded || !missed) {
         if (ENVIRONMENT) hit.shape = missed ? 0u : hit.shape;
         Surface surface = hit_surface(header, path.ray, hit);
         Footprint print = footprint_at(header, path.beam, path.ray, hit.t, surface.geometric_normal);
         if (ENVIRONMENT && missed) {
-            surface.link = uvec2(header.counts.w, header.key.w);
+            surface.link = uvec2(header.environment_material, header.environment_projection);
             print = endless_footprint(header, path.beam, path.ray);
         }
         Material material = material_at(surface.link.x);
-        UvProjection map = map_at(surface.link.y);
+        UvProjection map = uv_projection_at(surface.link.y);
         vec3 carried = path.throughput;
         vec3 albedo = surface_color(material, map, path.ray, surface, print, path.random);
         path.throughput *= albedo;
@@ -222,8 +222,8 @@ vec3 advance(Header header, Points points, SampleDimensions dimensions, inout Pa
     }
     path.skip = hit.shape;
     path.list = NO_LIST;
-    count_diagnostic(DIAGNOSTIC_DEPTH, is_alive && path.depth >= header.size.w);
-    path.is_alive = is_alive && path.depth < header.size.w;
+    count_diagnostic(DIAGNOSTIC_DEPTH, is_alive && path.depth >= header.max_depth);
+    path.is_alive = is_alive && path.depth < header.max_depth;
     path.depth++;
     if (BOUNCES && RANDOM) path.random = pcg2d(path.random);
     return seen;

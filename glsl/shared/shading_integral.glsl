@@ -27,7 +27,7 @@ const uint MAX_CELLS = 40000u; // of textures that a pixel's edges may cross
 bool gave_up;
 uint crossed;
 
-const Light NO_LIGHT = Light(vec4(0.0), vec4(0.0), uvec4(0u), vec4(0.0), vec4(0.0));
+const Light NO_LIGHT = Light(vec3(0.0), 0.0, vec3(0.0), 0.0, vec3(0.0), 0.0, vec3(0.0), 0.0, vec3(0.0), 0u);
 
 // What a fragment is painted with.
 struct ShadingIntegral {
@@ -45,19 +45,19 @@ const uint TILED = (1u << ADDRESS_REPEAT) | (1u << ADDRESS_MIRRORED_REPEAT) | (1
 // that is affine on the shape.
 bool is_simple(Header header, uint shape, Material record, UvProjection map) {
     if (!is_integrable_over_region(record, is_smooth(header, shape))) return false;
-    if (BUMPED && record.detail.x != NO_TEXTURE) return false;
-    if (record.link.y == NO_TEXTURE) return true;
-    bool flat_map = MODE_IS(MAPPINGS, MAP_PLANE, map.link.x) || MODE_IS(MAPPINGS, MAP_VERTEX_UV, map.link.x) ||
-                    MODE_IS(MAPPINGS, MAP_AFFINE, map.link.x);
-    if (!flat_map || map.link.y != ENTITY_POSITION || is_specular(record)) return false;
-    Texture image = texture_at(record.link.y);
-    if (MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_PROCEDURAL, image.link.w)) {
-        uvec4 link = procedural_at(image.place.x).link;
-        return MODE_IS(PROCEDURAL_KINDS, PROCEDURAL_CHECKER, link.x) && link.w < 3u;
+    if (BUMPED && record.bump_texture_index != NO_TEXTURE) return false;
+    if (record.texture_index == NO_TEXTURE) return true;
+    bool flat_map = MODE_IS(MAPPINGS, MAP_PLANE, map.kind) || MODE_IS(MAPPINGS, MAP_VERTEX_UV, map.kind) ||
+                    MODE_IS(MAPPINGS, MAP_AFFINE, map.kind);
+    if (!flat_map || map.entity != ENTITY_POSITION || is_specular(record)) return false;
+    Texture image = texture_at(record.texture_index);
+    if (MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_PROCEDURAL, image.kind)) {
+        Procedural what = procedural_at(image.procedural);
+        return MODE_IS(PROCEDURAL_KINDS, PROCEDURAL_CHECKER, what.kind) && what.dimensions < 3u;
     }
-    Sampler how = sampler_at(record.link.z);
-    bool tiled = HAS(TILED, how.modes.x) && HAS(TILED, how.modes.y);
-    return is_integrable(how) && tiled && word(int(record.link.y)) > 0;
+    Sampler how = sampler_at(record.sampler_index);
+    bool tiled = HAS(TILED, how.address_u) && HAS(TILED, how.address_v);
+    return is_integrable(how) && tiled && word(int(record.texture_index)) > 0;
 }
 
 // A light behind the surface, as its beam sees it, gives nothing.
@@ -65,23 +65,23 @@ bool is_facing(Header header, ShadingIntegral paint, uint polygon, Light light) 
     vec3 way;
     vec3 origin;
     ray_at(header, paint.frame, middle(polygon), way, origin);
-    bool point_light = MODE_IS(LIGHT_KINDS, LIGHT_POINT, light.link.x);
-    float above = dot3(paint.plane.xyz, light.place.xyz) - (point_light ? paint.plane.w : 0.0);
+    bool point_light = MODE_IS(LIGHT_KINDS, LIGHT_POINT, light.kind);
+    float above = point_light ? dot3(paint.plane.xyz, light.position) - paint.plane.w : dot3(paint.plane.xyz, light.direction);
     return above * dot3(paint.plane.xyz, way) < 0.0;
 }
 
 // Irradiance over pi at the middle of a strip, of a light that it sees.
 vec3 irradiance(Header header, ShadingIntegral paint, uint strip, Light light) {
     vec3 n = paint.plane.xyz;
-    vec3 power = light.power.xyz * (1.0 / PI);
-    if (!MODE_IS(LIGHT_KINDS, LIGHT_POINT, light.link.x)) return power * abs(dot3(n, light.place.xyz));
+    vec3 power = light.power * (1.0 / PI);
+    if (!MODE_IS(LIGHT_KINDS, LIGHT_POINT, light.kind)) return power * abs(dot3(n, light.direction));
     // The way to the light times the inverse_depth: towards the horizon both stay finite.
     vec3 direction;
     vec3 origin;
     ray_at(header, paint.frame, middle(strip), direction, origin);
     float near = at(paint.near, middle(strip));
     bool parallel = is_parallel(header);
-    vec3 way = parallel ? (light.place.xyz - origin) + near * direction : near * (light.place.xyz - origin) - direction;
+    vec3 way = parallel ? (light.position - origin) + near * direction : near * (light.position - origin) - direction;
     float squared = dot3(way, way);
     float scale = parallel ? 1.0 : near * near;
     return power * (scale * abs(dot3(n, way)) / (squared * sqrt(squared)));
@@ -107,8 +107,8 @@ vec3 mean_color(Material record, Grid grid, uint strip, RationalMap quotient, fl
     }
     vec3 mean = mean_over(grid, strip, quotient, reach < SMALLEST, crossed, ended);
     if (grid.checker) {
-        Procedural what = procedural_at(texture_at(record.link.y).place.x);
-        return what.background.xyz + mean.x * (what.figure.xyz - what.background.xyz);
+        Procedural what = procedural_at(texture_at(record.texture_index).procedural);
+        return what.background + mean.x * (what.figure - what.background);
     }
     return vec3(grid.least) + grid.step * mean;
 }
@@ -116,7 +116,7 @@ vec3 mean_color(Material record, Grid grid, uint strip, RationalMap quotient, fl
 // Texture times irradiance / pi, integrated over PIECE, in strips within which the depth hardly changes: there
 // equal areas of the texture are equal areas of the picture.
 vec3 integral(Header header, ShadingIntegral paint, bool has_light, Light light) {
-    bool textured = TEXTURED && paint.record.link.y != NO_TEXTURE;
+    bool textured = TEXTURED && paint.record.texture_index != NO_TEXTURE;
     vec3 depth = textured ? paint.quotient.below : below(header, paint.near);
     vec2 ends = range(PIECE, depth);
     float span = min(log2_accurate(ends.y / max(ends.x, 1e-30 * ends.y)) / LOG2_E, DEEPEST);
@@ -125,9 +125,9 @@ vec3 integral(Header header, ShadingIntegral paint, bool has_light, Light light)
     float most = CELLS_OF_AN_EDGE + CELLS_OF_ALL / strips;
     Grid grid = checker_grid();
     if (textured) {
-        Texture image = texture_at(paint.record.link.y);
-        bool checker = MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_PROCEDURAL, image.link.w);
-        if (!checker) grid = texture_grid(paint.record.link.y, image, sampler_at(paint.record.link.z));
+        Texture image = texture_at(paint.record.texture_index);
+        bool checker = MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_PROCEDURAL, image.kind);
+        if (!checker) grid = texture_grid(paint.record.texture_index, image, sampler_at(paint.record.sampler_index));
     }
     uint rest = PIECE;
     vec3 sum = vec3(0.0);

@@ -4,25 +4,14 @@
 #ifndef SLICE_GLSL
 #define SLICE_GLSL
 
+#include "schema/blocks.glsl"
 #include "layout.glsl"
 
 layout(local_size_x_id = 0, local_size_y_id = 1, local_size_z = 1) in;
 
-layout(std430, set = 0, binding = 0) buffer Film { vec4 film[]; };
+layout(std430, set = 0, binding = BINDING_OUTPUT) buffer Film { vec4 film[]; };
 
-layout(push_constant) uniform Slice {
-    uint tiles_x;      // tiles across the picture
-    uint tiles;        // tiles in this band
-    uint tile_stride;  // coprime to `tiles`: the visiting order
-    uint first_tile;
-    uint band_y;       // first row of the band
-    uint band_height;
-    uint first_sample;
-    uint sample_count;
-    uint schedule;     // tiles of the film, or a list of `tiles` jobs
-} slice;
-
-const uint TILE = 64u;
+layout(push_constant) uniform Push { Slice slice; };
 
 uint schedule() { return OPAQUE(slice.schedule); }
 uint first_sample() { return OPAQUE(slice.first_sample); }
@@ -38,11 +27,11 @@ uvec2 film_pixel() {
 }
 
 // Tiles reach beyond the picture.
-bool in_film(Header header, uvec2 place) { return place.x < header.size.x && place.y < slice.band_height; }
+bool in_film(Header header, uvec2 place) { return place.x < header.film_size.x && place.y < slice.band_height; }
 
 // Of the whole picture, before any crop.
-uvec2 picture_pixel(Header header, uvec2 place) { return uvec2(place.x, place.y + slice.band_y) + header.image.zw; }
+uvec2 picture_pixel(Header header, uvec2 place) { return uvec2(place.x, place.y + slice.band_y) + header.crop; }
 
-uint film_index(Header header, uvec2 place) { return place.y * header.size.x + place.x; }
+uint film_index(Header header, uvec2 place) { return place.y * header.film_size.x + place.x; }
 
 #endif

@@ -5,7 +5,7 @@
 
 #include "features.glsl"
 
-layout(set = 0, binding = 6) uniform usamplerBuffer texels[TEXEL_BLOCKS];
+layout(set = 0, binding = BINDING_TEXELS) uniform usamplerBuffer texels[TEXEL_BLOCKS];
 
 // Not every device can index descriptors by a variable, so the block is compared with constants; those beyond the
 // count are left out.

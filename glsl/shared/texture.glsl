@@ -8,20 +8,15 @@
 #include "filter/kinds.glsl"
 #include "mapping.glsl"
 
-#define SOURCE_NONE 0
-#define SOURCE_BUFFER 1
-#define SOURCE_IMAGES 2 // flat textures only
-#define SOURCE_SOLIDS 3 // images of all kinds beside a texel buffer
-
-#define HAS_IMAGES (SOURCE == SOURCE_IMAGES || SOURCE == SOURCE_SOLIDS)
+#define HAS_IMAGES (SOURCE == SOURCE_IMAGE || SOURCE == SOURCE_SOLIDS)
 #define HAS_TEXELS (SOURCE == SOURCE_BUFFER || SOURCE == SOURCE_SOLIDS)
 
 #if HAS_IMAGES
-layout(set = 0, binding = 2) uniform sampler2D images[SLOTS];
+layout(set = 0, binding = BINDING_IMAGES) uniform sampler2D images[SLOTS];
 #endif
 #if SOURCE == SOURCE_SOLIDS
-layout(set = 0, binding = 7) uniform sampler3D volumes[VOLUME_SLOTS];
-layout(set = 0, binding = 8) uniform samplerCube cubes[CUBE_SLOTS];
+layout(set = 0, binding = BINDING_VOLUMES) uniform sampler3D volumes[VOLUME_SLOTS];
+layout(set = 0, binding = BINDING_CUBES) uniform samplerCube cubes[CUBE_SLOTS];
 #endif
 
 #if HAS_TEXELS
@@ -30,10 +25,10 @@ layout(set = 0, binding = 8) uniform samplerCube cubes[CUBE_SLOTS];
 
 #if SOURCE != SOURCE_NONE
 Coordinate near_coordinate(Texture image, Sampler how, TexCoord c) {
-#ifdef DOUBLE
-    if (MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_CUBE, image.link.w)) return Coordinate(vec3(c.at), c.dx, c.dy);
-    vec3 at = vec3(near_tile(ADDRESSES_U, how.modes.x, c.at.x), near_tile(ADDRESSES_V, how.modes.y, c.at.y),
-                   near_tile(ADDRESSES_W, how.more.x, c.at.z));
+#ifdef F64_MATH
+    if (MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_CUBE, image.kind)) return Coordinate(vec3(c.at), c.dx, c.dy);
+    vec3 at = vec3(near_tile(ADDRESSES_U, how.address_u, c.at.x), near_tile(ADDRESSES_V, how.address_v, c.at.y),
+                   near_tile(ADDRESSES_W, how.address_w, c.at.z));
     return Coordinate(at, c.dx, c.dy);
 #else
     return Coordinate(c.at, c.dx, c.dy);
@@ -42,7 +37,7 @@ Coordinate near_coordinate(Texture image, Sampler how, TexCoord c) {
 
 // Linear light of all codes of 8-bit sRGB, and then of 16-bit sRGB, as far as the scene has any. CPU drivers read
 // scattered texels faster than scattered places of a storage buffer.
-layout(set = 0, binding = 3) uniform usamplerBuffer srgb_light;
+layout(set = 0, binding = BINDING_SRGB_LIGHT) uniform usamplerBuffer srgb_light;
 
 float decode_srgb8(uint code) { return uintBitsToFloat(texelFetch(srgb_light, int(code)).x); }
 
@@ -62,12 +57,12 @@ struct Level {
 // Level sizes are halved and rounded down (Vulkan 1.3, "Image Miplevel Sizing"). The words before level 0
 // say where the others begin.
 Level level_at(Texture image, int index) {
-    ivec3 size = ivec3(image.place.yz, image.link.z);
-    if (!MIPMAPPED || index == 0) return Level(size, 0, image.place.x);
+    ivec3 size = ivec3(image.size);
+    if (!MIPMAPPED || index == 0) return Level(size, 0, image.first_word);
     ivec3 halved = max(size >> index, ivec3(1));
-    if (!MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_VOLUME, image.link.w)) halved.z = size.z;
+    if (!MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_VOLUME, image.kind)) halved.z = size.z;
 #if HAS_TEXELS
-    return Level(halved, index, texel_word(image.place.x - uint(index)));
+    return Level(halved, index, texel_word(image.first_word - uint(index)));
 #else
     return Level(halved, index, 0u);
 #endif
@@ -77,10 +72,10 @@ Level level_at(Texture image, int index) {
 #if HAS_TEXELS
 // One texel by column, row and slice; grey is replicated, missing alpha is 1, sRGB decoded.
 vec4 fetch_pooled(Texture image, Level level, ivec3 at) {
-    uint format = image.place.w;
+    uint format = image.format;
     uint texel = uint((at.z * level.size.y + at.y) * level.size.x + at.x);
     uint word = level.word;
-    bool srgb = MODE_IS(COLOR_SPACES, COLOR_SPACE_SRGB, image.link.x);
+    bool srgb = MODE_IS(COLOR_SPACES, COLOR_SPACE_SRGB, image.color_space);
     if (MODE_IS(TEXEL_FORMATS, TEXEL_FORMAT_RGBA8, format)) {
         uint packed = texel_word(word + texel);
         uvec4 code = uvec4(packed & 255u, (packed >> 8u) & 255u, (packed >> 16u) & 255u, packed >> 24u);
@@ -187,25 +182,25 @@ vec4 read_cube(uint slot, vec3 at, float level) {
 
 vec4 read_sampled(Texture image, Sampler how, uint slot, Coordinate c, float level) {
     vec3 shift = vec3(0.0);
-    if (MODE_IS(TEXEL_CENTERS, TEXEL_CENTER_INTEGER, how.modes.w)) {
-        shift = 0.5 / vec3(max(ivec3(image.place.yz, image.link.z) >> int(level), ivec3(1)));
+    if (MODE_IS(TEXEL_CENTERS, TEXEL_CENTER_INTEGER, how.texel_center)) {
+        shift = 0.5 / vec3(max(ivec3(image.size) >> int(level), ivec3(1)));
     }
 #if SOURCE == SOURCE_SOLIDS
-    if (MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_VOLUME, image.link.w)) return read_volume(slot, c.at + shift, level);
-    if (MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_CUBE, image.link.w)) return read_cube(slot, c.at, level);
+    if (MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_VOLUME, image.kind)) return read_volume(slot, c.at + shift, level);
+    if (MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_CUBE, image.kind)) return read_cube(slot, c.at, level);
 #endif
     return read_flat(how, slot, c.at.xy + shift.xy, c, level);
 }
 
 vec4 fetch_texel(Texture image, uint slot, Level level, ivec3 at) {
 #if HAS_TEXELS
-    if (!MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_FLAT, image.link.w)) return fetch_pooled(image, level, at);
+    if (!MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_FLAT, image.kind)) return fetch_pooled(image, level, at);
 #endif
     vec4 value = read_image(slot, at.xy, level.index);
     // The view replicates grey; where all textures are grey, two channels need no arithmetic.
     if (TEXEL_FORMATS == (1u << TEXEL_FORMAT_GREY8)) value = vec4(value.xxx, 1.0);
-    if (MODE_IS(COLOR_SPACES, COLOR_SPACE_SRGB, image.link.x)) {
-        if (DEEP_SRGB && image.place.w >= TEXEL_FORMAT_GREY16) {
+    if (MODE_IS(COLOR_SPACES, COLOR_SPACE_SRGB, image.color_space)) {
+        if (DEEP_SRGB && image.format >= TEXEL_FORMAT_GREY16) {
             value.xyz = decode_srgb16(uvec3(value.xyz * 65535.0 + 0.5));
             return value;
         }
@@ -252,16 +247,16 @@ vec4 add_weighted(float weight, vec4 value, vec4 sum) {
 // A flat texture's texel at (column, row), addressed. Over a pole of an environment the same row goes on,
 // half a turn away.
 vec4 flat_texel(Texture image, Sampler how, uint slot, Level level, ivec2 at) {
-    if (POLES && how.more.y != 0u) {
+    if (POLES && how.crosses_poles) {
         bool over = at.y < 0 || at.y >= level.size.y;
         at.x += over ? level.size.x / 2 : 0;
         at.y = at.y < 0 ? -1 - at.y : (over ? 2 * level.size.y - 1 - at.y : at.y);
-        at.x = wrapped_texel(ADDRESSES_U, how.modes.x, at.x, level.size.x);
+        at.x = wrapped_texel(ADDRESSES_U, how.address_u, at.x, level.size.x);
         return fetch_texel(image, slot, level, ivec3(at.x, clamp(at.y, 0, level.size.y - 1), 0));
     }
     return fetch_or_border(image, how, slot, level,
-                           ivec3(addressed_texel(ADDRESSES_U, how.modes.x, at.x, level.size.x),
-                                 addressed_texel(ADDRESSES_V, how.modes.y, at.y, level.size.y), 0));
+                           ivec3(addressed_texel(ADDRESSES_U, how.address_u, at.x, level.size.x),
+                                 addressed_texel(ADDRESSES_V, how.address_v, at.y, level.size.y), 0));
 }
 #endif
 

@@ -5,14 +5,14 @@
 
 #include "layout.glsl"
 
-layout(std430, set = 0, binding = 10) readonly buffer Survey { uint survey[]; };
+layout(std430, set = 0, binding = BINDING_TILE_LISTS) readonly buffer Survey { uint survey[]; };
 
 // The words of the cell in which a pixel of the film lies; NO_LIST for a scene without a survey, or a cell with
 // more triangles than it can list.
 uint cell_list(Header header, uvec2 place) {
-    uint side = header.chances.w;
+    uint side = header.cell_side;
     if (side == 0u) return NO_LIST;
-    uint across = (header.size.x + side - 1u) / side;
+    uint across = (header.film_size.x + side - 1u) / side;
     uint at = ((place.y / side) * across + place.x / side) * CELL_WORDS;
     return survey[at] <= MAX_LISTED ? at : NO_LIST;
 }

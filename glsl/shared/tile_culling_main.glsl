@@ -5,18 +5,16 @@
 #define TILE_CULLING_MAIN_GLSL
 
 #define SHAPES_IN_BEAMS
+#include "schema/blocks.glsl"
 #include "features.glsl"
 #include "bsdf/models.glsl"
 #include "geometry/beams.glsl"
 
 layout(local_size_x_id = 0, local_size_y_id = 1, local_size_z = 1) in;
 
-layout(std430, set = 0, binding = 0) writeonly buffer Found { uint found[]; };
+layout(std430, set = 0, binding = BINDING_OUTPUT) writeonly buffer Found { uint found[]; };
 
-layout(push_constant) uniform Part {
-    uint first; // cell
-    uint end;
-} part;
+layout(push_constant) uniform Push { CellRange part; };
 
 // Pixels around a cell, against rounding.
 const float MARGIN = 0.0625;
@@ -31,11 +29,11 @@ float texels_across(Header header, PixelFrustum frame, uint shape, UvProjection 
         float under = at(q.below, place);
         vec2 du = (q.u.xy * under - at(q.u, place) * q.below.xy) / (under * under);
         vec2 dv = (q.v.xy * under - at(q.v, place) * q.below.xy) / (under * under);
-        vec2 size = vec2(image.place.yz);
+        vec2 size = vec2(image.size.xy);
         float span = max(max(abs(du.x), abs(du.y)) * size.x, max(abs(dv.x), abs(dv.y)) * size.y);
         most = max(most, span);
     }
-    return most / float(header.chances.w);
+    return most / float(header.cell_side);
 }
 
 // Whether one shape, with all lines of its region around the cell, shows a colour that changes little.
@@ -48,13 +46,13 @@ bool is_calm(Header header, PixelFrustum frame, uint shape, ConvexRegion region)
     bool unlit = !is_lit(record) && !is_specular(record);
     bool plain = is_diffuse(record) && !SHADOWS;
     if (!unlit && !plain) return false;
-    if (BUMPED && record.detail.x != NO_TEXTURE) return false;
-    if (!TEXTURED || record.link.y == NO_TEXTURE) return true;
-    UvProjection map = map_at(link.y);
-    bool affine = MODE_IS(MAPPINGS, MAP_PLANE, map.link.x) || MODE_IS(MAPPINGS, MAP_AFFINE, map.link.x) ||
-                  MODE_IS(MAPPINGS, MAP_VERTEX_UV, map.link.x);
-    Texture image = texture_at(record.link.y);
-    if (!affine || !MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_FLAT, image.link.w)) return false;
+    if (BUMPED && record.bump_texture_index != NO_TEXTURE) return false;
+    if (!TEXTURED || record.texture_index == NO_TEXTURE) return true;
+    UvProjection map = uv_projection_at(link.y);
+    bool affine = MODE_IS(MAPPINGS, MAP_PLANE, map.kind) || MODE_IS(MAPPINGS, MAP_AFFINE, map.kind) ||
+                  MODE_IS(MAPPINGS, MAP_VERTEX_UV, map.kind);
+    Texture image = texture_at(record.texture_index);
+    if (!affine || !MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_FLAT, image.kind)) return false;
     return texels_across(header, frame, shape, map, image) <= 1.0;
 }
 
@@ -63,9 +61,9 @@ void main() {
     preload_records();
     uint cell = part.first + gl_WorkGroupID.x * gl_WorkGroupSize.x * gl_WorkGroupSize.y + gl_LocalInvocationIndex;
     if (cell >= part.end) return;
-    uint side = header.chances.w;
-    uint across = (header.size.x + side - 1u) / side;
-    uvec2 pixel = uvec2(cell % across, cell / across) * side + header.image.zw;
+    uint side = header.cell_side;
+    uint across = (header.film_size.x + side - 1u) / side;
+    uvec2 pixel = uvec2(cell % across, cell / across) * side + header.crop;
     PixelFrustum frame = frame_over(header, pixel, float(side - 1u), MARGIN);
     unit_square(SQUARE);
     COUNT_SHAPES(header)
@@ -86,7 +84,7 @@ void main() {
     }
     SHAPE_KINDS(SURVEY)
 #undef SURVEY
-    bool empty = seen == 0u && !round && !(ENVIRONMENT && header.counts.w != NO_MATERIAL);
+    bool empty = seen == 0u && !round && !(ENVIRONMENT && header.environment_material != NO_MATERIAL);
     uint calmness = empty ? CELL_EMPTY : CELL_BUSY;
     if (seen == 1u && !round) {
         if (is_calm(header, frame, alone, shape_region(header, frame, alone))) calmness = CELL_UNIFORM;

@@ -3,9 +3,9 @@
 use clap::Args;
 use serde_json::{Value, json};
 
-use crate::adaptive::Goal;
 use crate::core::error::{Error, Result};
-use crate::pack::Crop;
+use crate::core::range::Rect;
+use crate::integrators::adaptive::Goal;
 use crate::scene::cone;
 use crate::scene::model::{
     Algorithm, Footprint, Pattern, PixelFilter, PixelFilterKind, Precision, Sampling, Scene,
@@ -147,7 +147,7 @@ impl Overrides {
     }
 
     /// Returns the settings that the render used, overridden or not.
-    pub fn report(&self, scene: &Scene, crop: Option<Crop>, keep_everything: bool) -> Value {
+    pub fn report(&self, scene: &Scene, crop: Option<Rect>, keep_everything: bool) -> Value {
         let s = &scene.sampling;
         let methods: Vec<&str> = scene.samplers.iter().map(|x| x.method.name()).collect();
         json!({

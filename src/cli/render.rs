@@ -3,7 +3,6 @@
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use std::sync::mpsc;
 use std::time::Instant;
 
 use clap::Args;
@@ -11,23 +10,18 @@ use clap::Args;
 use super::outputs::Outputs;
 use super::overrides::Overrides;
 use super::progress::Bar;
-use super::report::{self, RenderOutcome};
+use super::report;
 use super::{DEVICE, MEASURING, OUTPUT, TEXTURES};
-use crate::adaptive::{self, Goal};
 use crate::core::error::{Error, Result};
 use crate::core::film::Placement;
-use crate::gpu::{DeviceSelect, Gpu};
+use crate::core::range::Rect;
+use crate::gpu::DeviceSelect;
 use crate::lab::verify::known::anisotropy_fault;
-use crate::oracle;
 use crate::output::{self, ENDING_NAMES, Format, WriteOptions};
-use crate::pack::{self, Crop, MipPlacement, PackedScene, Schedule};
-use crate::render::{self, MipChoice, Report, TexelChoice, Tuning};
+use crate::render::{self, MipChoice, On, Options, TexelChoice, Tuning};
 use crate::scene::advice;
 use crate::scene::model::{Algorithm, Scene};
 use crate::scene::prune::prune;
-use crate::scene::texture_advice::of_textures;
-use crate::texture::decode::AllowedFloats;
-use crate::texture::load::load_noted;
 use crate::texture::read_file::is_turned;
 use crate::texture::source::OrientationUse;
 
@@ -46,12 +40,13 @@ pub struct RenderArgs {
     #[command(flatten)]
     overrides: Overrides,
     /// Device: an index or a part of the name as `moire devices` lists them, cpu, gpu, or oracle
-    /// (float64 on the CPU) [default: discrete GPU, else integrated, else CPU]
+    /// (float64 on the CPU). May be given several times, also one device: the picture's strips go round them in turn
+    /// [default: discrete GPU, else integrated, else CPU]
     #[arg(long, value_name = "SEL", help_heading = DEVICE)]
-    device: Option<String>,
+    device: Vec<String>,
     /// Render only this part, in pixels of the full picture
     #[arg(long, value_name = "X,Y,W,H", help_heading = OUTPUT, allow_hyphen_values = true, value_parser = parse_crop)]
-    crop: Option<Crop>,
+    crop: Option<Rect>,
     /// Build the pipeline with all features, to measure what leaving them out gains
     #[arg(long, help_heading = MEASURING)]
     keep_everything: bool,
@@ -89,11 +84,10 @@ pub struct RenderArgs {
 pub fn run(args: &RenderArgs) -> Result<ExitCode> {
     let start = Instant::now();
     let bar = Bar::new(args.quiet)?;
-    let oracle = args.device.as_deref() == Some("oracle");
-    let select = match args.device.as_deref() {
-        Some(text) if !oracle => DeviceSelect::parse(text)?,
-        _ => DeviceSelect::Default,
-    };
+    let mut on = args.device.iter().map(|text| On::parse(text)).collect::<Result<Vec<On>>>()?;
+    if on.is_empty() {
+        on.push(On::Device(DeviceSelect::Default));
+    }
     let outputs = Outputs::new(&args.scene, &args.output, args.format, args.json)?;
     let mut scene = crate::scene::load(&args.scene)?;
     let chosen = args.overrides.apply(&mut scene)?;
@@ -107,13 +101,30 @@ pub fn run(args: &RenderArgs) -> Result<ExitCode> {
         super::notify(chosen);
     }
 
-    let mut ran = if oracle {
-        render_on_oracle(args, &scene, &bar, start)?
-    } else {
-        render_on_device(args, &scene, &select, &bar, start)?
+    let options = Options {
+        crop: args.crop,
+        goal: args.overrides.goal(),
+        allow_nonfinite: args.allow_nonfinite,
+        keep_everything: args.keep_everything,
+        guarded: args.guards || args.verbose,
+        mips: args.mips,
+        tuning: Tuning { texels: args.texels, group: args.workgroup, ..Tuning::default() },
     };
+    let loaded = start.elapsed().as_secs_f64();
+    let mut ran = render::render_scene(&scene, &options, &on, &bar)?;
+    // From the start of the process: reading the scene file is a part of loading.
+    ran.report.seconds.load += loaded;
+    let samples_anisotropically = advice::samples_anisotropically(&scene);
+    for fault in ran.devices.iter().filter(|_| samples_anisotropically).filter_map(anisotropy_fault) {
+        ran.report.warnings.push(format!("{fault}; --method shader reads the right ones"));
+    }
+    if args.verbose {
+        say_textures(&scene, &ran.texture_lines);
+    }
+    for message in &ran.messages {
+        super::notify(format_args!("validation: {message}"));
+    }
     ran.report.left_out.extend(dropped);
-    ran.dropped_triangles = scene.dropped_triangles;
     ran.report.warnings.splice(..0, advice::of_scene(&scene));
     let counts_follow_neighbours = matches!(scene.sampling.algorithm, Algorithm::Adaptive | Algorithm::Auto);
     if args.crop.is_some() && counts_follow_neighbours {
@@ -134,100 +145,12 @@ pub fn run(args: &RenderArgs) -> Result<ExitCode> {
     let outputs = outputs.names();
     if args.json {
         let options = args.overrides.report(&scene, args.crop, args.keep_everything);
-        super::print(&format!("{:#}", report::json(&ran, options, &outputs)))?;
+        super::print(&format!("{:#}", report::json(&ran, &scene, options, &outputs, args.allow_nonfinite)))?;
     }
     if !args.quiet {
         report::say(&ran, &outputs, args.verbose);
     }
     Ok(ExitCode::SUCCESS)
-}
-
-/// Renders on a device, which opens while the textures are read, since both wait for different
-/// resources.
-fn render_on_device(
-    args: &RenderArgs,
-    scene: &Scene,
-    select: &DeviceSelect,
-    bar: &Bar,
-    start: Instant,
-) -> Result<RenderOutcome> {
-    let (gpu, (mut packed, doubts), startup, load) = std::thread::scope(|scope| {
-        let (mips_sender, mips_receiver) = mpsc::channel();
-        let loading = scope.spawn(move || {
-            let packed = load(scene, args, || mips_receiver.recv().unwrap_or_default());
-            (packed, start.elapsed().as_secs_f64())
-        });
-        let clock = Instant::now();
-        let gpu = Gpu::open(select);
-        // The receiver is gone if the scene does not need the device's answer.
-        let _ =
-            mips_sender.send(gpu.as_ref().map_or(MipPlacement::Host, |gpu| args.mips.mip_chains(gpu.info())));
-        let startup = clock.elapsed().as_secs_f64();
-        let (packed, load) = loading.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
-        // An error in the scene is reported before one of the machine.
-        packed.and_then(|loaded| Ok((gpu?, loaded, startup, load)))
-    })?;
-    let nonfinite = say_textures(args, scene, &packed);
-    packed.guarded = args.guards || args.verbose;
-    let tuning = Tuning { texels: args.texels, group: args.workgroup, ..Tuning::default() };
-    let (film, mut report) =
-        render::render_to_goal(&gpu, packed, args.keep_everything, &tuning, args.overrides.goal(), bar)?;
-    (report.seconds.startup, report.seconds.load) = (startup, load);
-    report.warnings.splice(..0, doubts);
-    if let (true, Some(fault)) = (advice::samples_anisotropically(scene), anisotropy_fault(gpu.info())) {
-        report.warnings.push(format!("{fault}; --method shader reads the right ones"));
-    }
-    for message in gpu.messages() {
-        super::notify(format_args!("validation: {message}"));
-    }
-    Ok(RenderOutcome {
-        device: gpu.info().name.clone(),
-        driver: gpu.info().driver.clone(),
-        film,
-        report,
-        nonfinite,
-        dropped_triangles: 0,
-    })
-}
-
-fn render_on_oracle(args: &RenderArgs, scene: &Scene, bar: &Bar, start: Instant) -> Result<RenderOutcome> {
-    let (packed, doubts) = load(scene, args, || MipPlacement::Host)?;
-    let nonfinite = say_textures(args, scene, &packed);
-    let mut report = Report { double: packed.double, warnings: doubts, ..Report::default() };
-    report.seconds.load = start.elapsed().as_secs_f64();
-    let clock = Instant::now();
-    let film = if packed.schedule == Schedule::Jobs {
-        let goal = args.overrides.goal().unwrap_or(Goal::Samples(packed.samples));
-        let [width, height, _, _] = packed.header.size;
-        let mut tracer = oracle::jobs::JobTracer::new(&packed);
-        let (film, outcome) = adaptive::run(&mut tracer, [width, height], goal, bar)?;
-        report.outcome = Some(outcome);
-        film
-    } else if packed.beams {
-        let (film, sampled) = oracle::render::render_beams(&packed, bar)?;
-        report.sampled_pixels = Some(sampled);
-        film
-    } else {
-        oracle::render::render(&packed, bar)?
-    };
-    report.seconds.render = clock.elapsed().as_secs_f64();
-    let driver = format!("moire {} in float64", env!("CARGO_PKG_VERSION"));
-    Ok(RenderOutcome { device: "oracle".into(), driver, film, report, nonfinite, dropped_triangles: 0 })
-}
-
-/// Loads the scene to render, and returns warnings about its textures with it. `mip_chains` states
-/// where mip chains are generated, and may wait for the device to open.
-fn load(
-    scene: &Scene,
-    args: &RenderArgs,
-    mip_chains: impl FnOnce() -> MipPlacement,
-) -> Result<(PackedScene, Vec<String>)> {
-    let values = if args.allow_nonfinite { AllowedFloats::Any } else { AllowedFloats::Finite };
-    let textures = scene.textures.iter().map(|t| load_noted(t, values)).collect::<Result<Vec<_>>>()?;
-    let (textures, notes): (Vec<_>, Vec<_>) = textures.into_iter().unzip();
-    let doubts = [notes.concat(), of_textures(scene, &textures)].concat();
-    let mip_chains = if pack::reads_levels(scene) { mip_chains() } else { MipPlacement::Host };
-    Ok((pack::pack_with(scene, textures, args.crop, mip_chains)?, doubts))
 }
 
 /// Refuses an output that would overwrite an input file.
@@ -239,17 +162,17 @@ fn check_inputs_kept(output: &Path, scene: &Scene) -> Result<()> {
     })
 }
 
-fn parse_crop(text: &str) -> Result<Crop, String> {
+fn parse_crop(text: &str) -> Result<Rect, String> {
     let numbers: Vec<u32> = text.split(',').map_while(|n| n.trim().parse().ok()).collect();
     match numbers[..] {
         [x, y, width, height] if text.split(',').count() == 4 && width > 0 && height > 0 => {
-            Ok(Crop { x, y, width, height })
+            Ok(Rect { x, y, width, height })
         }
         _ => Err("expected X,Y,W,H in whole pixels, with W and H at least 1".into()),
     }
 }
 
-fn check_crop(crop: Option<Crop>, scene: &Scene) -> Result<()> {
+fn check_crop(crop: Option<Rect>, scene: &Scene) -> Result<()> {
     let Some(c) = crop else { return Ok(()) };
     let fits = |at: u32, size: u32, whole: u32| at.checked_add(size).is_some_and(|end| end <= whole);
     if fits(c.x, c.width, scene.width) && fits(c.y, c.height, scene.height) {
@@ -261,19 +184,15 @@ fn check_crop(crop: Option<Crop>, scene: &Scene) -> Result<()> {
     )))
 }
 
-/// Prints and returns the number of non-finite texels of each texture, if they are allowed.
-fn say_textures(args: &RenderArgs, scene: &Scene, packed: &PackedScene) -> Option<Vec<(String, u64)>> {
-    if args.verbose {
-        for line in packed.texture_lines() {
-            super::notify(format_args!("texture {line}"));
-        }
-        for texture in scene.textures.iter().filter(|t| t.reading.orientation == OrientationUse::Apply) {
-            for file in texture.content.files().into_iter().filter(|file| is_turned(file)) {
-                let (name, file) = (&texture.name, file.display());
-                super::notify(format_args!("texture \"{name}\": {file} was turned as its orientation says"));
-            }
+/// How each texture is stored, and which were turned.
+fn say_textures(scene: &Scene, lines: &[String]) {
+    for line in lines {
+        super::notify(format_args!("texture {line}"));
+    }
+    for texture in scene.textures.iter().filter(|t| t.reading.orientation == OrientationUse::Apply) {
+        for file in texture.content.files().into_iter().filter(|file| is_turned(file)) {
+            let (name, file) = (&texture.name, file.display());
+            super::notify(format_args!("texture \"{name}\": {file} was turned as its orientation says"));
         }
     }
-    let counts = packed.texture_names.iter().cloned().zip(packed.nonfinite_texels.iter().copied());
-    args.allow_nonfinite.then(|| counts.collect())
 }

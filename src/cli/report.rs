@@ -8,20 +8,8 @@ use super::notify;
 use crate::core::counted::{counted, verb};
 use crate::core::film::Film;
 use crate::pack::Diagnostic;
-use crate::render::Report;
-use crate::scene::model::Precision;
-
-/// The device of a render and its results.
-pub struct RenderOutcome {
-    pub device: String,
-    pub driver: String,
-    pub film: Film,
-    pub report: Report,
-    /// The number of non-finite texels by texture, if those are allowed.
-    pub nonfinite: Option<Vec<(String, u64)>>,
-    /// The number of triangles without area, which no ray can hit.
-    pub dropped_triangles: usize,
-}
+use crate::render::{Picture, Report};
+use crate::scene::model::{Precision, Scene};
 
 fn nonfinite_pixels(film: &Film) -> usize {
     film.pixels.iter().filter(|pixel| !pixel.iter().all(|v| v.is_finite())).count()
@@ -36,7 +24,7 @@ fn device_seconds(report: &Report) -> Value {
     seconds.into()
 }
 
-pub fn json(ran: &RenderOutcome, options: Value, outputs: &[String]) -> Value {
+pub fn json(ran: &Picture, scene: &Scene, options: Value, outputs: &[String], nonfinite: bool) -> Value {
     let mut all = json!({
         "device": ran.device,
         "driver": ran.driver,
@@ -48,7 +36,7 @@ pub fn json(ran: &RenderOutcome, options: Value, outputs: &[String]) -> Value {
         "reached": ran.report.outcome,
         "sampled_pixels": ran.report.sampled_pixels,
         "dropped": ran.report.dropped,
-        "dropped_triangles": ran.dropped_triangles,
+        "dropped_triangles": scene.dropped_triangles,
         "guards": ran.report.guards.as_ref().map(|counts| {
             counts.iter().map(|(guard, count)| (guard.name().to_owned(), json!(count))).collect::<Map<_, _>>()
         }),
@@ -60,8 +48,9 @@ pub fn json(ran: &RenderOutcome, options: Value, outputs: &[String]) -> Value {
         "device_bytes": ran.report.device_bytes,
         "process": { "cpu_seconds": cpu_seconds(), "peak_host_bytes": peak_host_bytes() },
     });
-    if let Some(textures) = &ran.nonfinite {
-        let texels: Map<String, Value> = textures.iter().map(|(name, n)| (name.clone(), json!(n))).collect();
+    if nonfinite {
+        let texels: Map<String, Value> =
+            ran.nonfinite.iter().map(|(name, n)| (name.clone(), json!(n))).collect();
         all["nonfinite"] = json!({ "texels": texels, "pixels": nonfinite_pixels(&ran.film) });
     }
     all
@@ -82,7 +71,7 @@ fn said(guard: Diagnostic) -> (&'static str, &'static str) {
     }
 }
 
-pub fn say(ran: &RenderOutcome, outputs: &[String], verbose: bool) {
+pub fn say(ran: &Picture, outputs: &[String], verbose: bool) {
     let (report, seconds) = (&ran.report, &ran.report.seconds);
     for warning in &report.warnings {
         notify(format_args!("warning: {warning}"));

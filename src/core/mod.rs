@@ -7,3 +7,4 @@ pub mod film;
 pub mod named;
 pub mod panics;
 pub mod progress;
+pub mod range;

@@ -38,9 +38,9 @@ pub fn lookups(
 
 fn look_up_shader(features: &Features) -> &'static Shader {
     match features.source {
-        TexelSource::Image => &shaders::PROBE_IMAGES,
+        TexelSource::Image => &shaders::PROBE_IMAGE,
         TexelSource::Solids => &shaders::PROBE_SOLIDS,
-        TexelSource::None | TexelSource::Buffer => &shaders::PROBE_TEXELS,
+        TexelSource::None | TexelSource::Buffer => &shaders::PROBE_BUFFER,
     }
 }
 
@@ -148,7 +148,7 @@ pub fn double_rays(gpu: &Gpu, scene: &PackedScene, queries: &[DoubleRay]) -> Res
     }
     let features = Features::new(scene, false, false);
     let list = Some(bytemuck::cast_slice(queries));
-    run(gpu, scene, &features, &shaders::PROBE_RAYS_DOUBLE, list, queries.len(), &[])
+    run(gpu, scene, &features, &shaders::PROBE_RAYS_F64_MATH, list, queries.len(), &[])
 }
 
 /// Returns linear RGB and an alpha of 1 for each lookup of a procedural texture.

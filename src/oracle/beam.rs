@@ -10,7 +10,6 @@ use super::geometry::beams::{
     coordinates, has_region, may_meet, may_shade, shadow_region, shape_links, shape_plane, shape_region,
 };
 use super::geometry::kinds::shape_count;
-use super::math::xyz;
 use super::polygon::{AffineFunction, MAX_CORNERS, MIN_AREA, Polygon, area, range, split, unit_square};
 use super::projective::{ConvexRegion, PixelFrustum, add, mirrored_frame, pixel_frame};
 use super::shading_integral::{GaveUp, Result, ShadingIntegral, integral, is_facing, is_simple};
@@ -52,7 +51,7 @@ struct Met {
 /// The colour of a pixel of the film; none where it takes samples.
 pub fn beam(scene: &PackedScene, [x, y]: [u32; 2]) -> Option<DVec3> {
     let header = &scene.header;
-    let frame = pixel_frame(header, [x + header.image[2], y + header.image[3]]);
+    let frame = pixel_frame(header, [x + header.crop.x, y + header.crop.y]);
     let first = PixelBeam {
         polygon: unit_square(),
         frame,
@@ -100,10 +99,10 @@ impl Pixel<'_> {
             }
         }
         if left > MIN_AREA {
-            if self.scene.header.counts[3] != NO_MATERIAL {
+            if self.scene.header.environment_material != NO_MATERIAL {
                 return Err(GaveUp);
             }
-            self.color += left * beam.carried * xyz(self.scene.header.background);
+            self.color += left * beam.carried * self.scene.header.background.as_dvec3();
         }
         Ok(())
     }
@@ -120,13 +119,13 @@ impl Pixel<'_> {
         let [material, map] = shape_links(scene, seen.shape);
         let record = &scene.materials[material as usize];
         let near = seen.region.inverse_depth;
-        let carried = beam.carried * xyz(record.color);
-        let textured = record.link[1] != NO_TEXTURE;
+        let carried = beam.carried * record.color.as_dvec3();
+        let textured = record.texture_index != NO_TEXTURE;
         if !is_simple(scene, seen.shape, record, map) {
             return Err(GaveUp);
         }
         if is_specular(record) {
-            if beam.depth < scene.header.size[3] {
+            if beam.depth < scene.header.max_depth {
                 if waiting.len() == MAX_BEAMS {
                     return Err(GaveUp);
                 }
@@ -156,7 +155,7 @@ impl Pixel<'_> {
         for i in 0..lights {
             let light = if unlit { None } else { Some(&scene.lights[i]) };
             // Of lights with an extent beams do not know the penumbra.
-            if light.is_some_and(|l| l.link[0] >= LightKind::Sphere as u32) {
+            if light.is_some_and(|l| l.kind >= LightKind::Sphere) {
                 return Err(GaveUp);
             }
             self.lit_by(&paint, seen.shape, polygon, light)?;

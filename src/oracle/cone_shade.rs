@@ -19,7 +19,6 @@ use super::fragments::{collect_fragments, composite};
 use super::geometry::cones::{leaving, left_shape, meet};
 use super::geometry::hit::{FAR, Hit, Surface};
 use super::geometry::rays::{hit_surface, offset_origin};
-use super::math::xyz;
 use super::shade::{bumped_normal, surface_color};
 use super::shading_normal::{consistent_normal, on_its_side};
 use crate::pack::{LightKind, PackedScene};
@@ -90,20 +89,20 @@ struct Met<'a> {
 /// What an unhidden light sends through a surface to the eye, and the cone in which it may be hidden.
 fn lit_branch(branch: &Branch, met: &Met<'_>, skip: u32, light: &Light) -> Branch {
     let Met { surface, material, .. } = met;
-    let point_light = light.link[0] == LightKind::Point as u32;
-    let way = if point_light { xyz(light.place) - surface.point } else { xyz(light.place) };
+    let point_light = light.kind == LightKind::Point;
+    let way = if point_light { light.position - surface.point } else { light.direction };
     let length = way.length();
     let facing = surface.normal.dot(way);
     let above = surface.geometric_normal.dot(way);
     let shines = facing > 0.0 && above > 0.0;
     let share = if point_light { facing / length.powi(3) } else { facing };
-    let more = xyz(light.power) * (if shines { share } else { 0.0 } / PI);
+    let more = light.power.as_dvec3() * (if shines { share } else { 0.0 } / PI);
     let bsdf = bsdf_at(material, met.albedo, surface.normal, branch.ray.direction);
     let [first, second] = evaluate(&bsdf, way);
     let lit = Lit { first: more * first, second: more * second };
     let seen = reflected(&bsdf, branch.weight, met.carried, lit);
     let origin = offset_origin(surface.point, surface.geometric_normal, surface.size);
-    let direction = if point_light { xyz(light.place) - origin } else { xyz(light.place) };
+    let direction = if point_light { light.position - origin } else { light.direction };
     let area = met.print.point[0].cross(met.print.point[1]).length();
     let width = (area * above.max(0.0) / length).sqrt();
     let (spread, t_max) = if point_light { (-width, 1.0) } else { (0.0, FAR) };
@@ -155,11 +154,11 @@ fn shade_part(waiting: &mut Waiting, scene: &PackedScene, mut branch: Branch, sh
     let ray = branch.ray;
     let beam = cone_beam(&branch);
     if shape == NO_SHAPE {
-        if header.counts[3] == NO_MATERIAL {
-            return branch.weight * xyz(header.background);
+        if header.environment_material == NO_MATERIAL {
+            return branch.weight * header.background.as_dvec3();
         }
-        let material = &scene.materials[header.counts[3] as usize];
-        let map = &scene.maps[header.key[3] as usize];
+        let material = &scene.materials[header.environment_material as usize];
+        let map = &scene.uv_projections[header.environment_projection as usize];
         let print = endless_footprint(header, &beam, &ray);
         let nowhere = Surface::default();
         return branch.weight * surface_color(scene, material, Some(map), (&ray, &nowhere, &print), [0; 2]);
@@ -168,7 +167,7 @@ fn shade_part(waiting: &mut Waiting, scene: &PackedScene, mut branch: Branch, sh
     let mut surface = hit_surface(scene, &ray, &hit);
     let print = footprint_at(header, &beam, &ray, hit.t, surface.geometric_normal);
     let material = &scene.materials[surface.material as usize];
-    let map = scene.maps.get(surface.map as usize);
+    let map = scene.uv_projections.get(surface.map as usize);
     if let Some(map) = map {
         surface.normal = bumped_normal(scene, material, map, (&ray, &surface, &print), [0; 2]);
     }
@@ -192,7 +191,7 @@ fn shade_part(waiting: &mut Waiting, scene: &PackedScene, mut branch: Branch, sh
         }
         return DVec3::ZERO;
     }
-    if matches!(branch.goal, Goal::Color(depth) if depth >= header.size[3]) {
+    if matches!(branch.goal, Goal::Color(depth) if depth >= header.max_depth) {
         return DVec3::ZERO;
     }
     let ratio = index_ratio(material, inside);
@@ -238,7 +237,7 @@ pub fn trace_cone(scene: &PackedScene, ray: Ray, beam: RayDifferential) -> (DVec
     for _ in 0..MAX_CONES {
         let Some(branch) = waiting.list.pop() else { break };
         let from_camera = matches!(branch.goal, Goal::Color(0));
-        let across = if from_camera { xyz(scene.header.step_x) } else { DVec3::ZERO };
+        let across = if from_camera { scene.header.step_x } else { DVec3::ZERO };
         let cone = cone_of(branch.ray, branch.width, branch.spread, across);
         let cone = leaving(scene, cone, branch.skip);
         let t_max = if let Goal::Light(t_max) = branch.goal { t_max } else { FAR };
@@ -269,6 +268,6 @@ pub fn trace_cone(scene: &PackedScene, ray: Ray, beam: RayDifferential) -> (DVec
 pub fn pixel(scene: &PackedScene, x: u32, y: u32) -> (DVec3, f64) {
     const MIDDLE: DVec2 = DVec2::splat(0.5);
     let header = &scene.header;
-    let ray = camera_ray(header, [x + header.image[2], y + header.image[3]], MIDDLE);
+    let ray = camera_ray(header, [x + header.crop.x, y + header.crop.y], MIDDLE);
     trace_cone(scene, ray, camera_differential(header, &ray))
 }

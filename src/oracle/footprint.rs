@@ -4,7 +4,6 @@
 use glam::{DMat3, DVec3};
 
 use super::camera::Ray;
-use super::math::xyz;
 use crate::pack::ProjectionKind;
 use crate::scene::model::Footprint as FootprintKind;
 use crate::schema::layout::Header;
@@ -28,18 +27,18 @@ pub struct Footprint {
 }
 
 pub fn is_filtered(header: &Header) -> bool {
-    header.key[2] != FootprintKind::None as u32
+    header.footprint != FootprintKind::None
 }
 
 pub fn uses_cones(header: &Header) -> bool {
-    header.key[2] == FootprintKind::Cone as u32
+    header.footprint == FootprintKind::Cone
 }
 
 pub fn camera_differential(header: &Header, ray: &Ray) -> RayDifferential {
-    let orthographic = header.size[2] == ProjectionKind::Orthographic as u32;
-    let share = header.step_x[3];
-    let steps = [xyz(header.step_x) * share, xyz(header.step_y) * share];
-    let side = header.step_y[3] * share;
+    let orthographic = header.projection == ProjectionKind::Orthographic;
+    let share = header.sample_side;
+    let steps = [header.step_x * share, header.step_y * share];
+    let side = header.pixel_side * share;
     let none = [DVec3::ZERO; 2];
     if orthographic {
         RayDifferential { origin: steps, direction: none, width: side, spread: 0.0 }

@@ -24,7 +24,7 @@ pub fn bounded_change(d: DVec3) -> DVec3 {
 }
 
 pub fn kind_of(image: &Texture) -> TextureKind {
-    TextureKind::ALL[image.link[3] as usize]
+    image.kind
 }
 
 /// A direction on the cube as a place on its face; a flat or solid coordinate as it is. Footprints are
@@ -40,8 +40,8 @@ pub fn in_texture(image: &Texture, c: &Coordinate) -> (Coordinate, u32) {
 }
 
 pub fn texel_spread(image: &Texture, c: &Coordinate) -> FootprintEllipse {
-    let depth = if kind_of(image) == TextureKind::Volume { image.link[2] } else { 0 };
-    let size = DVec3::new(image.place[1].into(), image.place[2].into(), depth.into());
+    let depth = if kind_of(image) == TextureKind::Volume { image.size.z } else { 0 };
+    let size = DVec3::new(image.size.x.into(), image.size.y.into(), depth.into());
     let [x, y] = c.change.map(|d| d * size);
     let (xx, yy, xy) = (x.dot(x), y.dot(y), x.dot(y));
     let half_difference = 0.5 * (xx - yy);

@@ -41,10 +41,10 @@ const HEADER_WORDS: i64 = 4;
 pub fn texture_grid<'a>(sums: &'a [u32], index: u32, texture: &Texture, sampler: &Sampler) -> Grid<'a> {
     let head = i64::from(sums[index as usize]);
     let word = |i: i64| sums[(head + i) as usize];
-    let [_, width, height, _] = texture.place;
+    let [width, height, _] = texture.size.to_array();
     let linear = is_continuous(sampler);
     let [u, v, _] = addresses(sampler);
-    let integer = sampler.modes[3] == TexelCenter::Integer as u32;
+    let integer = sampler.texel_center == TexelCenter::Integer;
     Grid {
         sums,
         checker: false,

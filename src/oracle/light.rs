@@ -11,7 +11,6 @@ use super::disk_sampling::{concentric_disc, on_cap};
 use super::footprint::around;
 use super::geometry::hit::{FAR, Surface};
 use super::geometry::rays::{occluded, offset_origin};
-use super::math::xyz;
 use super::rectangle::{MIN_SOLID_ANGLE, on_rectangle};
 use crate::pack::{LightKind, PackedScene};
 use crate::schema::layout::Light;
@@ -30,8 +29,8 @@ pub struct Aim {
 
 /// Uniform over the cone in which the sphere is seen; from within it, over all directions.
 pub fn sphere_aim(light: &Light, point: DVec3, square: DVec2) -> Aim {
-    let way = xyz(light.place) - point;
-    let radius = light.place[3];
+    let way = light.position - point;
+    let radius = light.radius;
     let squared = way.length_squared().max(1e-30);
     let sine = radius * radius / squared; // squared
     let outside = sine < 1.0;
@@ -46,9 +45,9 @@ pub fn sphere_aim(light: &Light, point: DVec3, square: DVec2) -> Aim {
 
 /// Uniform over the solid angle, or where that is small and over slanted sides over the area.
 pub fn rectangle_aim(light: &Light, point: DVec3, square: DVec2) -> Aim {
-    let [u, v] = [light.edge_u, light.edge_v].map(xyz);
-    let to_middle = xyz(light.place) - point;
-    let sides = DVec2::new(light.edge_u[3], light.edge_v[3]);
+    let [u, v] = [light.edge_u, light.edge_v];
+    let to_middle = light.position - point;
+    let sides = DVec2::new(light.length_u, light.length_v);
     if sides.x > 0.0 {
         let (x, y) = (u / sides.x, v / sides.y);
         let n = x.cross(y);
@@ -67,8 +66,8 @@ pub fn rectangle_aim(light: &Light, point: DVec3, square: DVec2) -> Aim {
 
 /// Uniform over the cap of the sky.
 pub fn sun_aim(light: &Light, square: DVec2) -> Aim {
-    let local = on_cap(concentric_disc(square), light.place[3]);
-    Aim { way: around(xyz(light.place), local), reach: FAR, density: 1.0 }
+    let local = on_cap(concentric_disc(square), light.cap_height);
+    Aim { way: around(light.direction, local), reach: FAR, density: 1.0 }
 }
 
 /// `chosen` is the place of the hit's choice on a light.
@@ -83,15 +82,14 @@ pub fn direct_light(
     let mut sum = Lit::default();
     let start = offset_origin(surface.point, surface.geometric_normal, surface.size);
     for (i, light) in (0..).zip(&scene.lights) {
-        let place = xyz(light.place);
         let square = || chosen(i);
-        let kind = LightKind::ALL[light.link[0] as usize];
+        let kind = light.kind;
         let aim = match kind {
             LightKind::Point => {
-                let way = place - surface.point;
+                let way = light.position - surface.point;
                 Aim { way, reach: 1.0, density: way.length().powi(-3) }
             }
-            LightKind::Directional => Aim { way: place, reach: FAR, density: 1.0 },
+            LightKind::Directional => Aim { way: light.direction, reach: FAR, density: 1.0 },
             LightKind::Sphere => sphere_aim(light, surface.point, square()),
             LightKind::Rectangle => rectangle_aim(light, surface.point, square()),
             LightKind::Sun => sun_aim(light, square()),
@@ -101,7 +99,7 @@ pub fn direct_light(
             let from_start = matches!(kind, LightKind::Point | LightKind::Rectangle);
             let to_light = if from_start { aim.way + (surface.point - start) } else { aim.way };
             if !occluded(scene, &Ray { origin: start, direction: to_light, time }, aim.reach, shape) {
-                let more = xyz(light.power) * (facing * aim.density / PI);
+                let more = light.power.as_dvec3() * (facing * aim.density / PI);
                 let [first, second] = evaluate(bsdf, aim.way);
                 sum.first += more * first;
                 sum.second += more * second;

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 
 use glam::{DVec2, DVec3};
 
-use super::math::{affine, atan2_accurate, vec4, xyz};
+use super::math::{affine, atan2_accurate};
 use crate::pack::MapKind;
 use crate::schema::layout::UvProjection;
 
@@ -37,13 +37,12 @@ impl Coordinate {
 
 /// matrix · uv: scale and rotation.
 pub fn turned_uv(map: &UvProjection, uv: DVec2) -> DVec2 {
-    let m = vec4(map.matrix);
-    DVec2::new(m.x * uv.x + m.y * uv.y, m.z * uv.x + m.w * uv.y)
+    DVec2::new(map.m00 * uv.x + map.m01 * uv.y, map.m10 * uv.x + map.m11 * uv.y)
 }
 
 /// matrix · uv + offset.
 pub fn placed(map: &UvProjection, uv: DVec2) -> DVec2 {
-    turned_uv(map, uv) + xyz(map.offset).truncate()
+    turned_uv(map, uv) + map.offset
 }
 
 /// A coordinate of a map that ends with `placed`.
@@ -53,7 +52,7 @@ pub fn placed_coordinate(map: &UvProjection, uv: DVec2, change: [DVec2; 2]) -> C
 
 /// The linear part of the frame.
 pub fn in_frame(map: &UvProjection, v: DVec3) -> DVec3 {
-    DVec3::new(xyz(map.x).dot(v), xyz(map.y).dot(v), xyz(map.z).dot(v))
+    DVec3::new(map.x.truncate().dot(v), map.y.truncate().dot(v), map.z.truncate().dot(v))
 }
 
 /// Which face of a cube a direction meets, and where on it, (s, t) in [-1, 1] (Vulkan 1.3, "Cube UvProjection
@@ -141,7 +140,7 @@ pub fn spherical(map: &UvProjection, local: DVec3, change: [DVec3; 2], gradients
 }
 
 pub fn texture_coordinate(map: &UvProjection, seen: &MapInput) -> Coordinate {
-    let kind = MapKind::ALL[map.link[0] as usize];
+    let kind = map.kind;
     let local =
         || DVec3::new(affine(map.x, seen.entity), affine(map.y, seen.entity), affine(map.z, seen.entity));
     let change = seen.entity_change.map(|d| in_frame(map, d));

@@ -3,17 +3,9 @@
 
 use glam::{DVec3, DVec4};
 
-pub fn xyz(v: [impl Into<f64>; 4]) -> DVec3 {
-    vec4(v).truncate()
-}
-
-pub fn vec4(v: [impl Into<f64>; 4]) -> DVec4 {
-    DVec4::from_array(v.map(Into::into))
-}
-
 /// row.xyz · p + row.w
-pub fn affine(row: [f64; 4], p: DVec3) -> f64 {
-    vec4(row).dot(p.extend(1.0))
+pub fn affine(row: DVec4, p: DVec3) -> f64 {
+    row.dot(p.extend(1.0))
 }
 
 /// The polynomial of `math.glsl`, in f32 and in its order: atan(x) for x in [0, 1].

@@ -4,6 +4,7 @@
 //! integers and equal bit for bit; everything after them differs by the rounding of f32 only.
 
 pub mod address;
+pub mod backend;
 pub mod beam;
 pub mod bsdf;
 pub mod camera;
@@ -18,7 +19,6 @@ pub mod fragments;
 pub mod geometry;
 pub mod grid;
 pub mod halton;
-pub mod jobs;
 pub mod light;
 pub mod mapping;
 pub mod math;

@@ -68,8 +68,8 @@ pub fn gradient_noise(p: DVec3, key: [u32; 3]) -> f64 {
 /// The weighted mean of the octaves of noise, or of |noise| where folded, and the variance that has
 /// faded out of it.
 pub fn octave_sum(what: &Procedural, at: DVec3, size: f64, widths: DVec3, folded: bool) -> (f64, f64) {
-    let [lacunarity, gain, norm, _] = what.octaves.map(f64::from);
-    let [_, seed, count, _] = what.link;
+    let [lacunarity, gain, norm] = [what.lacunarity, what.gain, what.normalization].map(f64::from);
+    let Procedural { seed, octaves: count, .. } = *what;
     let (mut sum, mut faded) = (0.0, 0.0);
     let (mut weight, mut frequency) = (norm, 1.0);
     for k in 0..count {

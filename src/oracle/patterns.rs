@@ -50,8 +50,7 @@ fn pattern_key(pattern: Pattern, key: [u32; 2]) -> [u32; 2] {
 
 /// The points of pair 0; `key` is the pixel's.
 pub fn pixel_points(header: &Header, pixel: [u32; 2], key: [u32; 2]) -> Points {
-    let [pattern, side, count, seed] = header.sampling;
-    let pattern = Pattern::ALL[pattern as usize];
+    let Header { pattern, strata_side: side, samples: count, seed, .. } = *header;
     let mut points = Points { pattern, side, count, pair: 0, key, order: 0, place: 0, block: 0 };
     if pattern == Pattern::BlueNoise {
         let bits = tile_log2(count);

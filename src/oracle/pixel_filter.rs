@@ -21,7 +21,7 @@ const WHOLE: u32 = 1 << 24;
 /// `rest` of 2²⁴ samples lie further from the middle.
 pub fn distance_in_radii(scene: &PackedScene, rest: u32) -> f64 {
     let v = (f64::from(rest) * UNIT).sqrt();
-    if scene.header.pixel_filter[0] == PixelFilterKind::Tent as u32 {
+    if scene.header.pixel_filter == PixelFilterKind::Tent {
         return 1.0 - v;
     }
     let at = v * f64::from(PIXEL_FILTER_CELLS);
@@ -36,8 +36,8 @@ pub fn from_middle(position: u32) -> u32 {
 }
 
 pub fn filtered_position(scene: &PackedScene, position: u32) -> f64 {
-    let radius = f64::from(f32::from_bits(scene.header.pixel_filter[1]));
-    if scene.header.pixel_filter[0] == PixelFilterKind::Box as u32 {
+    let radius = f64::from(scene.header.filter_radius);
+    if scene.header.pixel_filter == PixelFilterKind::Box {
         return 0.5 + (f64::from(position) * UNIT - 0.5) * 2.0 * radius;
     }
     let offset = distance_in_radii(scene, WHOLE - from_middle(position)) * radius;
@@ -45,7 +45,7 @@ pub fn filtered_position(scene: &PackedScene, position: u32) -> f64 {
 }
 
 pub fn filter_sign(header: &Header, position: [u32; 2]) -> f64 {
-    let [x, y] = position.map(|p| from_middle(p) >= header.pixel_filter[3]);
+    let [x, y] = position.map(|p| from_middle(p) >= header.first_negative_step);
     if x == y { 1.0 } else { -1.0 }
 }
 
@@ -56,5 +56,5 @@ pub fn filtered_place(scene: &PackedScene, position: [u32; 2]) -> Place {
 
 /// Side of the square, in pixels, over which a box has the filter's variance.
 pub fn filter_width(header: &Header) -> f64 {
-    f64::from(f32::from_bits(header.pixel_filter[2]))
+    f64::from(header.filter_width)
 }

@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 
 use glam::DVec3;
 
-use super::math::{sine_turns, xyz};
+use super::math::sine_turns;
 use super::noise::{cell_distance, cell_mean, kept, octave_sum};
 use crate::schema::layout::Procedural;
 use crate::texture::procedural::ProceduralKind;
@@ -62,7 +62,7 @@ pub fn pulse_mean(x: f64, w: f64, duty: f64) -> f64 {
 
 /// Share of the figure in a box around `at`; bricks count x in bricks here.
 fn box_share(what: &Procedural, kind: ProceduralKind, at: DVec3, w: DVec3) -> f64 {
-    let [width, aspect, offset, _] = what.shape.map(f64::from);
+    let Procedural { width, aspect, offset, .. } = *what;
     match kind {
         ProceduralKind::Checker => {
             let middle = 0.5 * (at - 1.5);
@@ -72,7 +72,7 @@ fn box_share(what: &Procedural, kind: ProceduralKind, at: DVec3, w: DVec3) -> f6
         ProceduralKind::Stripes => pulse_mean(at.x - 0.5 * width, w.x, width),
         ProceduralKind::Grid => {
             let between = |i: usize| 1.0 - pulse_mean(at[i], w[i], width);
-            let depth = if what.link[3] == 3 { between(2) } else { 1.0 };
+            let depth = if what.dimensions == 3 { between(2) } else { 1.0 };
             1.0 - between(0) * between(1) * depth
         }
         _ => {
@@ -89,7 +89,7 @@ fn box_share(what: &Procedural, kind: ProceduralKind, at: DVec3, w: DVec3) -> f6
 fn footprint_share(what: &Procedural, kind: ProceduralKind, at: DVec3, major: DVec3, minor: DVec3) -> f64 {
     let mut unit = DVec3::ONE;
     if kind == ProceduralKind::Brick {
-        unit.x = what.shape[1];
+        unit.x = what.aspect;
     }
     let p = at / unit;
     let p = p - 2.0 * DVec3::from_array((0.5 * p).to_array().map(f64::round_ties_even));
@@ -118,7 +118,7 @@ pub fn phase_attenuation(variance: f64) -> f64 {
 /// Veins at whole x + distortion · turbulence.
 fn marble(what: &Procedural, at: DVec3, dx: DVec3, dy: DVec3, size: f64, widths: DVec3) -> f64 {
     let (turbulence, faded) = octave_sum(what, at, size, widths, true);
-    let distortion = f64::from(what.octaves[3]);
+    let distortion = f64::from(what.distortion);
     let strength =
         box_attenuation(dx.x) * box_attenuation(dy.x) * phase_attenuation(distortion * distortion * faded);
     0.5 + 0.5 * strength * sine_turns(at.x + distortion * turbulence)
@@ -135,7 +135,7 @@ fn radial_width(at: DVec3, r: f64, d: DVec3) -> f64 {
 /// Rings at whole distances from the z axis + distortion · noise.
 fn wood(what: &Procedural, at: DVec3, dx: DVec3, dy: DVec3, size: f64, widths: DVec3) -> f64 {
     let (noise, faded) = octave_sum(what, at, size, widths, false);
-    let distortion = f64::from(what.octaves[3]);
+    let distortion = f64::from(what.distortion);
     let r = at.x.hypot(at.y);
     let strength = box_attenuation(radial_width(at, r, dx))
         * box_attenuation(radial_width(at, r, dy))
@@ -145,7 +145,7 @@ fn wood(what: &Procedural, at: DVec3, dx: DVec3, dy: DVec3, size: f64, widths: D
 
 /// Weight of the figure's colour, 0 to 1.
 pub fn figure_share(what: &Procedural, at: DVec3, dx: DVec3, dy: DVec3) -> f64 {
-    let kind = ProceduralKind::ALL[what.link[0] as usize];
+    let kind = what.kind;
     let (major, minor) = principal_axes(dx, dy);
     let size = major.length();
     let squares = major * major + minor * minor;
@@ -158,8 +158,8 @@ pub fn figure_share(what: &Procedural, at: DVec3, dx: DVec3, dy: DVec3) -> f64 {
         ProceduralKind::Marble => marble(what, at, dx, dy, size, widths),
         ProceduralKind::Wood => wood(what, at, dx, dy, size, widths),
         ProceduralKind::Cellular => {
-            let (keep, jitter) = (kept(size), what.shape[3]);
-            keep * cell_distance(at, what.link[1], jitter) + (1.0 - keep) * cell_mean(at, widths, jitter)
+            let (keep, jitter) = (kept(size), what.jitter);
+            keep * cell_distance(at, what.seed, jitter) + (1.0 - keep) * cell_mean(at, widths, jitter)
         }
         ProceduralKind::Noise | ProceduralKind::Fbm => {
             0.5 + 0.5 * octave_sum(what, at, size, widths, false).0
@@ -169,5 +169,5 @@ pub fn figure_share(what: &Procedural, at: DVec3, dx: DVec3, dy: DVec3) -> f64 {
 
 pub fn procedural_color(what: &Procedural, at: DVec3, dx: DVec3, dy: DVec3) -> DVec3 {
     let share = figure_share(what, bounded_point(at), bounded_width(dx), bounded_width(dy));
-    (1.0 - share) * xyz(what.background) + share * xyz(what.figure)
+    (1.0 - share) * what.background.as_dvec3() + share * what.figure.as_dvec3()
 }

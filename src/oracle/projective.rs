@@ -5,7 +5,6 @@
 
 use glam::{DMat3, DVec2, DVec3, DVec4};
 
-use super::math::xyz;
 use super::polygon::{AffineFunction, at};
 use crate::pack::ProjectionKind;
 use crate::schema::layout::Header;
@@ -44,14 +43,14 @@ pub fn pixel_frame(header: &Header, pixel: [u32; 2]) -> PixelFrustum {
 /// All rays of the pixels from the first to `more` columns and rows on, and of a margin around them.
 pub fn frame_over(header: &Header, pixel: [u32; 2], more: f64, margin: f64) -> PixelFrustum {
     let corner = DVec2::new(
-        f64::from(pixel[0]) - 0.5 * f64::from(header.image[0]),
-        f64::from(pixel[1]) - 0.5 * f64::from(header.image[1]),
+        f64::from(pixel[0]) - 0.5 * f64::from(header.image_size.x),
+        f64::from(pixel[1]) - 0.5 * f64::from(header.image_size.y),
     );
     // The unit square stands for the pixel filter's box.
-    let radius = f64::from(f32::from_bits(header.pixel_filter[1])) + margin;
+    let radius = f64::from(header.filter_radius) + margin;
     let corner = corner + (0.5 - radius);
-    let (x, y, forward) = (xyz(header.step_x), xyz(header.step_y), xyz(header.forward));
-    let parallel = header.size[2] == ProjectionKind::Orthographic as u32;
+    let (x, y, forward) = (header.step_x, header.step_y, header.forward);
+    let parallel = header.projection == ProjectionKind::Orthographic;
     let (base, wide) = (corner.x * x + corner.y * y, 2.0 * radius + more);
     if parallel {
         PixelFrustum { rays: DMat3::from_cols(wide * x, wide * y, base), same: forward, parallel }

@@ -63,7 +63,7 @@ pub fn choose(header: &Header, points: &Points, s: u32, depth: u32, starts: bool
     }
     for &choice in SampleDimension::ALL {
         let of_hit = choice as u32 >= SampleDimension::Light as u32;
-        if header.chances[0] >> choice as u32 & 1 == 0 || !(of_hit || starts) {
+        if header.sample_dimensions >> choice as u32 & 1 == 0 || !(of_hit || starts) {
             continue;
         }
         let first = if choice == SampleDimension::Fresnel { SampleDimension::Light } else { choice };

@@ -16,7 +16,6 @@ use super::geometry::hit::{Hit, Surface};
 use super::geometry::rays::{hit_surface, nearest_hit, offset_origin};
 use super::light::direct_light;
 use super::mapping::{Coordinate, MapInput, texture_coordinate};
-use super::math::xyz;
 use super::patterns::Points;
 use super::rng::pcg2d;
 use super::sample_dimensions::{SampleDimensions, choose, chosen_light};
@@ -37,7 +36,7 @@ pub fn map_input(map: &UvProjection, ray: &Ray, surface: &Surface, print: &Footp
     };
     let bent = print.point.map(|d| surface.shape_operator * d);
     let (mut way, mut change) = (ray.direction, print.direction);
-    match EntityKind::ALL[map.link[1] as usize] {
+    match map.entity {
         EntityKind::Position => return seen,
         EntityKind::Normal => {
             (seen.entity, seen.entity_change) = (surface.normal, bent);
@@ -73,12 +72,12 @@ pub fn uv_gradients(map: &UvProjection, ray: &Ray, surface: &Surface) -> [DVec3;
 
 /// A map of normals, not of heights.
 fn is_normal_map(material: &Material) -> bool {
-    BumpKind::ALL[material.detail[3] as usize].is_normal_map()
+    material.bump_kind.is_normal_map()
 }
 
 fn detail(scene: &PackedScene, material: &Material, c: &Coordinate, random: [u32; 2]) -> DVec4 {
-    let [texture, sampler, _, _] = material.detail;
-    sample_texture(scene, &scene.textures[texture as usize], &scene.samplers[sampler as usize], c, random)
+    let image = &scene.textures[material.bump_texture_index as usize];
+    sample_texture(scene, image, &scene.samplers[material.sampler_index as usize], c, random)
 }
 
 /// The shading normal after the material's bump map.
@@ -90,19 +89,19 @@ pub fn bumped_normal(
     random: [u32; 2],
 ) -> DVec3 {
     let (ray, surface, print) = at;
-    let [texture, _, _, kind] = material.detail;
+    let texture = material.bump_texture_index;
     if texture == NO_TEXTURE {
         return surface.normal;
     }
     let side = if surface.inside { -1.0 } else { 1.0 };
     let n = side * surface.normal;
-    let strength = f64::from(material.color[3]);
+    let strength = f64::from(material.bump_strength);
     let [u, v] = uv_gradients(map, ray, surface);
     let c = texture_coordinate(map, &map_input(map, ray, surface, print));
     let result = if is_normal_map(material) {
         let handed = if u.cross(v).dot(n) < 0.0 { -1.0 } else { 1.0 };
         let mut m = 2.0 * detail(scene, material, &c, random).truncate() - 1.0;
-        if kind == BumpKind::NormalDown as u32 {
+        if material.bump_kind == BumpKind::NormalDown {
             m.y = -m.y;
         }
         let t = v.cross(n).normalize_or_zero();
@@ -110,7 +109,7 @@ pub fn bumped_normal(
         n * m.z + (t * m.x + b * m.y) * strength * handed
     } else {
         let image = &scene.textures[texture as usize];
-        let texel = DVec2::new(1.0 / f64::from(image.place[1]), 1.0 / f64::from(image.place[2]));
+        let texel = DVec2::new(1.0 / f64::from(image.size.x), 1.0 / f64::from(image.size.y));
         let wide = 0.5 * c.change[0].abs().max(c.change[1].abs()).truncate();
         let step = texel.max(wide);
         let height = |x: f64, y: f64| {
@@ -135,8 +134,8 @@ pub fn surface_color(
     at: (&Ray, &Surface, &Footprint),
     random: [u32; 2],
 ) -> DVec3 {
-    let color = xyz(material.color);
-    let [_, texture, sampler, _] = material.link;
+    let color = material.color.as_dvec3();
+    let (texture, sampler) = (material.texture_index, material.sampler_index);
     let (Some(map), true) = (map, texture != NO_TEXTURE) else { return color };
     let (ray, surface, print) = at;
     let c = texture_coordinate(map, &map_input(map, ray, surface, print));
@@ -206,11 +205,11 @@ fn bounced(
 /// What a ray sees that hits nothing.
 fn background(scene: &PackedScene, path: &Path) -> DVec3 {
     let header = &scene.header;
-    if header.counts[3] == NO_MATERIAL {
-        return path.throughput * xyz(header.background);
+    if header.environment_material == NO_MATERIAL {
+        return path.throughput * header.background.as_dvec3();
     }
-    let material = &scene.materials[header.counts[3] as usize];
-    let map = &scene.maps[header.key[3] as usize];
+    let material = &scene.materials[header.environment_material as usize];
+    let map = &scene.uv_projections[header.environment_projection as usize];
     let print = if is_filtered(header) {
         endless_footprint(header, &path.beam, &path.ray)
     } else {
@@ -239,7 +238,7 @@ pub fn advance(scene: &PackedScene, path: &mut Path) -> DVec3 {
         Footprint::default()
     };
     let material = &scene.materials[surface.material as usize];
-    let map = scene.maps.get(surface.map as usize);
+    let map = scene.uv_projections.get(surface.map as usize);
     let ray = path.ray;
     if let Some(map) = map {
         surface.normal = bumped_normal(scene, material, map, (&ray, &surface, &print), path.random);
@@ -259,7 +258,7 @@ pub fn advance(scene: &PackedScene, path: &mut Path) -> DVec3 {
     }
     let is_alive = bounced(header, &hit, surface, print, material, &dimensions, path);
     path.skip = hit.shape;
-    path.is_alive = is_alive && path.depth < header.size[3];
+    path.is_alive = is_alive && path.depth < header.max_depth;
     path.depth += 1;
     path.random = pcg2d(path.random);
     DVec3::ZERO

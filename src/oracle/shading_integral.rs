@@ -9,7 +9,6 @@ use super::bsdf::{is_integrable_over_region, is_specular};
 use super::filter::kinds::is_integrable;
 use super::geometry::beams::is_smooth;
 use super::grid::{Grid, checker_grid, coarser, texture_grid};
-use super::math::xyz;
 use super::polygon::{AffineFunction, MAX_CORNERS, Polygon, area, at, middle, range, split};
 use super::prefix_sums::{SMALLEST, in_grid, longest_edge, mean_over};
 use super::projective::{PixelFrustum, RationalMap, ray_at};
@@ -39,30 +38,30 @@ pub struct ShadingIntegral<'a> {
 /// Whether the integral of a shape's colour is known: of a material that has one, with a checker or a flat texture
 /// that is affine on the shape.
 pub fn is_simple(scene: &PackedScene, shape: u32, record: &Material, map: u32) -> bool {
-    let [_, texture, sampler, _] = record.link;
-    if !is_integrable_over_region(record, is_smooth(scene, shape)) || record.detail[0] != NO_TEXTURE {
+    let texture = record.texture_index;
+    if !is_integrable_over_region(record, is_smooth(scene, shape)) || record.bump_texture_index != NO_TEXTURE
+    {
         return false;
     }
     if texture == NO_TEXTURE {
         return true;
     }
-    let [kind, entity, _, _] = scene.maps[map as usize].link;
-    let flat = [MapKind::Plane as u32, MapKind::VertexUv as u32, MapKind::Affine as u32].contains(&kind);
-    if !flat || entity != EntityKind::Position as u32 || is_specular(record) {
+    let map = &scene.uv_projections[map as usize];
+    let flat = matches!(map.kind, MapKind::Plane | MapKind::VertexUv | MapKind::Affine);
+    if !flat || map.entity != EntityKind::Position || is_specular(record) {
         return false;
     }
     let image = &scene.textures[texture as usize];
-    if image.link[3] == TextureKind::Procedural as u32 {
-        let [kind, _, _, dimensions] = scene.procedurals[image.place[0] as usize].link;
-        return kind == ProceduralKind::Checker as u32 && dimensions < 3;
+    if image.kind == TextureKind::Procedural {
+        let what = &scene.procedurals[image.procedural as usize];
+        return what.kind == ProceduralKind::Checker && what.dimensions < 3;
     }
-    let sampler = &scene.samplers[sampler as usize];
-    let known = |address: u32| {
-        use Address::{ClampToEdge, MirroredRepeat, Repeat};
-        [Repeat as u32, MirroredRepeat as u32, ClampToEdge as u32].contains(&address)
+    let sampler = &scene.samplers[record.sampler_index as usize];
+    let known = |address: Address| {
+        matches!(address, Address::Repeat | Address::MirroredRepeat | Address::ClampToEdge)
     };
     let steps = is_integrable(sampler);
-    steps && known(sampler.modes[0]) && known(sampler.modes[1]) && scene.prefix_sums[texture as usize] > 0
+    steps && known(sampler.address_u) && known(sampler.address_v) && scene.prefix_sums[texture as usize] > 0
 }
 
 fn mean_color(
@@ -81,10 +80,10 @@ fn mean_color(
         return None;
     }
     let mean = mean_over(&grid, strip, quotient, reach < SMALLEST, crossed);
-    let image = &scene.textures[record.link[1] as usize];
-    if image.link[3] == TextureKind::Procedural as u32 {
-        let what = &scene.procedurals[image.place[0] as usize];
-        return Some(xyz(what.background).lerp(xyz(what.figure), mean.x));
+    let image = &scene.textures[record.texture_index as usize];
+    if image.kind == TextureKind::Procedural {
+        let what = &scene.procedurals[image.procedural as usize];
+        return Some(what.background.as_dvec3().lerp(what.figure.as_dvec3(), mean.x));
     }
     Some(DVec3::splat(grid.least) + grid.step * mean)
 }
@@ -93,19 +92,21 @@ fn mean_color(
 pub fn is_facing(paint: &ShadingIntegral, polygon: &Polygon, light: &Light) -> bool {
     let n = paint.plane.truncate();
     let (way, _) = ray_at(&paint.frame, middle(polygon));
-    let place = xyz(light.place);
-    let above =
-        if light.link[0] == LightKind::Point as u32 { n.dot(place) - paint.plane.w } else { n.dot(place) };
+    let above = if light.kind == LightKind::Point {
+        n.dot(light.position) - paint.plane.w
+    } else {
+        n.dot(light.direction)
+    };
     above * n.dot(way) < 0.0
 }
 
 /// Irradiance over π at the middle of a strip, of a light that it sees.
 fn irradiance(paint: &ShadingIntegral, strip: &Polygon, light: &Light) -> DVec3 {
     let n = paint.plane.truncate();
-    let place = xyz(light.place);
-    let power = xyz(light.power) / PI;
-    if light.link[0] != LightKind::Point as u32 {
-        return power * n.dot(place).abs();
+    let place = light.position;
+    let power = light.power.as_dvec3() / PI;
+    if light.kind != LightKind::Point {
+        return power * n.dot(light.direction).abs();
     }
     // The way to the light times the inverse_depth: towards the horizon both stay finite.
     let (direction, origin) = ray_at(&paint.frame, middle(strip));
@@ -147,11 +148,16 @@ pub fn integral(
     let strips = if flat { 1.0 } else { (STRIPS * span).sqrt().ceil().clamp(1.0, MAX_STRIPS) };
     let most = CELLS_OF_AN_EDGE + CELLS_OF_ALL / strips;
     let grid = quotient.map(|_| {
-        let image = &scene.textures[record.link[1] as usize];
-        if image.link[3] == TextureKind::Procedural as u32 {
+        let image = &scene.textures[record.texture_index as usize];
+        if image.kind == TextureKind::Procedural {
             return checker_grid();
         }
-        texture_grid(&scene.prefix_sums, record.link[1], image, &scene.samplers[record.link[2] as usize])
+        texture_grid(
+            &scene.prefix_sums,
+            record.texture_index,
+            image,
+            &scene.samplers[record.sampler_index as usize],
+        )
     });
     let mut rest = *polygon;
     let mut sum = DVec3::ZERO;

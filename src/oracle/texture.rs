@@ -4,11 +4,10 @@
 use glam::DVec4;
 
 use super::address::addressed_texel;
-use super::math::vec4;
 use crate::core::color::srgb_to_linear;
 use crate::pack::{PackedScene, TextureKind};
 use crate::schema::layout::{Sampler, Texture};
-use crate::texture::data::{ColorSpace, Component, TexelFormat};
+use crate::texture::data::{ColorSpace, Component};
 use crate::texture::sampler_spec::Address;
 
 /// One level of a texture's mip_chain.
@@ -23,16 +22,16 @@ pub struct Level {
 
 /// Level sizes are halved and rounded down (Vulkan 1.3, "Image Miplevel Sizing").
 pub fn level_at(scene: &PackedScene, image: &Texture, index: u32) -> Level {
-    let [first_word, width, height, _] = image.place;
-    let [_, _, depth, kind] = image.link;
+    let [width, height, depth] = image.size.to_array();
     let halved = |n: u32| i64::from((n >> index).max(1));
-    let depth = if kind == TextureKind::Volume as u32 { halved(depth) } else { i64::from(depth) };
-    Level { size: [halved(width), halved(height), depth], index, word: scene.level_word(first_word, index) }
+    let depth = if image.kind == TextureKind::Volume { halved(depth) } else { i64::from(depth) };
+    let word = scene.level_word(image.first_word, index);
+    Level { size: [halved(width), halved(height), depth], index, word }
 }
 
 /// One texel by column, row and slice; grey is replicated, missing alpha is 1, sRGB decoded.
 pub fn fetch_texel(scene: &PackedScene, image: &Texture, level: &Level, at: [i64; 3]) -> DVec4 {
-    let format = TexelFormat::ALL[image.place[3] as usize];
+    let format = image.format;
     let texel = ((at[2] * level.size[1] + at[1]) * level.size[0] + at[0]) as usize;
     let start = level.word as usize * 4 + texel * format.bytes_per_texel();
     let bytes = &scene.texels[start..start + format.bytes_per_texel()];
@@ -44,7 +43,7 @@ pub fn fetch_texel(scene: &PackedScene, image: &Texture, level: &Level, at: [i64
             f64::from(f32::from_ne_bytes([b[0], b[1], b[2], b[3]]))
         }
     };
-    let srgb = image.link[0] == ColorSpace::Srgb as u32;
+    let srgb = image.color_space == ColorSpace::Srgb;
     let light = |i: usize| if srgb { srgb_to_linear(channel(i)) } else { channel(i) };
     match format.channels() {
         1 => DVec4::new(light(0), light(0), light(0), 1.0),
@@ -55,7 +54,7 @@ pub fn fetch_texel(scene: &PackedScene, image: &Texture, level: &Level, at: [i64
 
 /// The address modes of u, v and w.
 pub fn addresses(how: &Sampler) -> [Address; 3] {
-    [how.modes[0], how.modes[1], how.more[0]].map(|mode| Address::ALL[mode as usize])
+    [how.address_u, how.address_v, how.address_w]
 }
 
 /// The texel at a place, addressed, or the border colour; `axes` counts those that are addressed.
@@ -71,7 +70,7 @@ pub fn fetch_or_border(
     for (axis, mode) in addresses(how).into_iter().take(axes).enumerate() {
         match addressed_texel(mode, at[axis], level.size[axis]) {
             Some(texel) => place[axis] = texel,
-            None => return vec4(how.border),
+            None => return how.border.as_dvec4(),
         }
     }
     fetch_texel(scene, image, level, place)
@@ -92,7 +91,7 @@ pub fn add_weighted(weight: f64, value: DVec4, sum: DVec4) -> DVec4 {
 pub fn flat_texel(scene: &PackedScene, image: &Texture, how: &Sampler, level: &Level, at: [i64; 2]) -> DVec4 {
     let [mut x, mut y] = at;
     let [width, height, _] = level.size;
-    if how.more[1] == 0 {
+    if !how.crosses_poles {
         return fetch_or_border(scene, image, how, level, [x, y, 0], 2);
     }
     if !(0..height).contains(&y) {

@@ -9,8 +9,8 @@ use crate::pack::PackedScene;
 /// Triangles of the cell whose first pixel of the film is `place`.
 pub fn triangles_of(scene: &PackedScene, place: [u32; 2]) -> Vec<u32> {
     let header = &scene.header;
-    let pixel = [place[0] + header.image[2], place[1] + header.image[3]];
-    let frame = frame_over(header, pixel, f64::from(header.chances[3] - 1), 0.0);
+    let pixel = [place[0] + header.crop.x, place[1] + header.crop.y];
+    let frame = frame_over(header, pixel, f64::from(header.cell_side - 1), 0.0);
     let triangles = (0..).zip(&scene.triangles);
     triangles.filter(|(_, t)| t.may_meet(header, &frame, &unit_square())).map(|(i, _)| i).collect()
 }

@@ -1,9 +1,10 @@
 //! Camera, picture and sampling → the header of the scene buffer.
 
-use glam::DVec3;
+use glam::{DVec3, UVec2};
 
 use super::pixel_filter::Warp;
-use super::{Crop, ProjectionKind, real4, sample_dimensions, vec4};
+use super::{ProjectionKind, sample_dimensions};
+use crate::core::range::Rect;
 use crate::scene::model::{Algorithm, Footprint, Projection, Scene};
 use crate::schema::layout::{self, Header};
 use crate::texture::sampler_spec::SamplerSpec;
@@ -24,7 +25,7 @@ pub(super) fn half_height(scene: &Scene) -> (f64, bool) {
     }
 }
 
-pub(super) fn header(scene: &Scene, crop: Crop, warp: &Warp) -> Header {
+pub(super) fn header(scene: &Scene, crop: Rect, warp: &Warp) -> Header {
     let [right, up, forward] = camera_basis(scene);
     let (half_height, parallel) = half_height(scene);
     let projection = if parallel { ProjectionKind::Orthographic } else { ProjectionKind::Perspective };
@@ -33,33 +34,41 @@ pub(super) fn header(scene: &Scene, crop: Crop, warp: &Warp) -> Header {
         Footprint::None => 0.0,
         _ => warp.width / f64::from(scene.sampling.samples()).sqrt(),
     };
+    let [lens_radius, inverse_focus_distance, shutter_opens, shutter_time] =
+        sample_dimensions::lens(scene, pixel);
     Header {
-        forward: real4(forward.extend(0.0)),
-        step_x: real4((right * pixel).extend(share)),
-        step_y: real4((-up * pixel).extend(pixel)),
-        background: vec4(scene.background.color.extend(1.0)),
-        image: [scene.width, scene.height, crop.x, crop.y],
-        size: [crop.width, crop.height, projection as u32, scene.sampling.max_depth],
-        sampling: [
-            scene.sampling.pattern as u32,
-            scene.sampling.strata_side(),
-            scene.sampling.samples(),
-            scene.sampling.seed,
-        ],
-        key: [
-            u32::from(scene.sampling.shared && scene.sampling.pattern.can_be_shared()),
-            0,
-            footprint(scene) as u32,
-            0,
-        ],
-        counts: [0, 0, 0, layout::NO_MATERIAL],
-        chances: [0; 4],
-        lens: vec4(sample_dimensions::lens(scene, pixel)),
-        view: real4((scene.camera.look_at - scene.camera.eye).extend(0.0)),
-        up: real4(scene.camera.up.normalize().extend(0.0)),
-        eye_motion: real4(scene.camera.motion[0].extend(0.0)),
-        view_motion: real4((scene.camera.motion[1] - scene.camera.motion[0]).extend(0.0)),
-        pixel_filter: warp.record,
+        forward,
+        step_x: right * pixel,
+        sample_side: share,
+        step_y: -up * pixel,
+        pixel_side: pixel,
+        view: scene.camera.look_at - scene.camera.eye,
+        up: scene.camera.up.normalize(),
+        eye_motion: scene.camera.motion[0],
+        view_motion: scene.camera.motion[1] - scene.camera.motion[0],
+        background: scene.background.color.as_vec3(),
+        projection,
+        image_size: UVec2::new(scene.width, scene.height),
+        crop: UVec2::new(crop.x, crop.y),
+        film_size: UVec2::new(crop.width, crop.height),
+        max_depth: scene.sampling.max_depth,
+        footprint: footprint(scene),
+        pattern: scene.sampling.pattern,
+        strata_side: scene.sampling.strata_side(),
+        samples: scene.sampling.samples(),
+        seed: scene.sampling.seed,
+        shares_pattern: scene.sampling.shared && scene.sampling.pattern.can_be_shared(),
+        environment_material: layout::NO_MATERIAL,
+        lens_radius,
+        inverse_focus_distance,
+        shutter_opens,
+        shutter_time,
+        pixel_filter: warp.kind,
+        filter_radius: warp.radius as f32,
+        filter_width: warp.width as f32,
+        first_negative_step: warp.first_negative_step,
+        // Sample dimensions, cells and the lengths of lists follow when the scene is packed.
+        ..Header::default()
     }
 }
 

@@ -5,7 +5,7 @@
 
 use glam::{DMat2, DQuat, DVec2, DVec3, DVec4};
 
-use super::{EntityKind, MapKind, real4};
+use super::{EntityKind, MapKind};
 use crate::scene::model::{Bounds, Entity, Environment, EnvironmentLayout, Mapping, MappingKind, Space};
 use crate::schema::layout::UvProjection;
 use crate::texture::sampler_spec::{Address, SamplerSpec};
@@ -51,7 +51,7 @@ pub fn affine_map(mapping: &Mapping, sampler: &SamplerSpec, u: DVec4, v: DVec4) 
     let constant = DVec2::new(x.w, y.w) + mapping.offset;
     let constant = constant - whole_tiles(constant, periods(sampler));
     (x.w, y.w) = (constant.x, constant.y);
-    UvProjection { x: real4(x), y: real4(y), link: [MapKind::Affine as u32, 0, 0, 0], ..Default::default() }
+    UvProjection { x, y, ..of_kind(MapKind::Affine) }
 }
 
 /// `surface` on a plane: uv = matrix · (own + at_eye) + offset, where the plane's own coordinates are
@@ -59,17 +59,13 @@ pub fn affine_map(mapping: &Mapping, sampler: &SamplerSpec, u: DVec4, v: DVec4) 
 pub fn plane_map(mapping: &Mapping, sampler: &SamplerSpec, at_eye: DVec2) -> UvProjection {
     let constant = uv_matrix(mapping) * at_eye + mapping.offset;
     let constant = constant - whole_tiles(constant, periods(sampler));
-    UvProjection { offset: real4(constant.extend(0.0).extend(0.0)), ..matrix_map(mapping, MapKind::Plane) }
+    UvProjection { offset: constant, ..matrix_map(mapping, MapKind::Plane) }
 }
 
 /// A map whose matrix is the mapping's scale and rotation.
 fn matrix_map(mapping: &Mapping, kind: MapKind) -> UvProjection {
     let m = uv_matrix(mapping);
-    UvProjection {
-        matrix: real4(DVec4::new(m.x_axis.x, m.y_axis.x, m.x_axis.y, m.y_axis.y)),
-        link: [kind as u32, 0, 0, 0],
-        ..Default::default()
-    }
+    UvProjection { m00: m.x_axis.x, m01: m.y_axis.x, m10: m.x_axis.y, m11: m.y_axis.y, ..of_kind(kind) }
 }
 
 /// Every kind but `surface` on planes and triangles. `center` is the shape's centroid, `bounds` its box;
@@ -92,7 +88,7 @@ pub fn projecting_map(
         MappingKind::Cube if flat => angular_map(mapping, sampler, MapKind::Box, [x, y, z]),
         MappingKind::Cube => {
             let rows = turned_about_axis(mapping, [x, y, z]);
-            UvProjection { x: real4(rows[0]), y: real4(rows[1]), z: real4(rows[2]), ..of_kind(MapKind::Cube) }
+            UvProjection { x: rows[0], y: rows[1], z: rows[2], ..of_kind(MapKind::Cube) }
         }
         MappingKind::Solid => solid_map(mapping, sampler, [x, y, z]),
     };
@@ -101,13 +97,13 @@ pub fn projecting_map(
         Entity::Normal => EntityKind::Normal,
         Entity::Reflection => EntityKind::Reflection,
     };
-    UvProjection { link: [map.link[0], entity as u32, 0, 0], ..map }
+    UvProjection { entity, ..map }
 }
 
 /// The map of an environment: `spherical` with the equator's angle as u, or the direction for a cube.
 pub fn environment_map(environment: &Environment) -> UvProjection {
     let turn = DQuat::from_rotation_y(environment.rotate.to_radians());
-    let (axes, kind, matrix) = match environment.layout {
+    let (axes, kind, [m00, m01, m10, m11]) = match environment.layout {
         // The angle grows from +z towards -x, so that -z is in the middle and +x to its right.
         EnvironmentLayout::Equirectangular => {
             ([DVec3::Z, DVec3::Y, DVec3::NEG_X], MapKind::Spherical, [0.0, 1.0, 1.0, 0.0])
@@ -116,19 +112,12 @@ pub fn environment_map(environment: &Environment) -> UvProjection {
     };
     // A direction is read where the mirrored picture has it: at its own mirror image.
     let across = DVec3::new(if environment.mirror { -1.0 } else { 1.0 }, 1.0, 1.0);
-    let [x, y, z] = axes.map(|axis| real4((turn * (across * axis)).extend(0.0)));
-    UvProjection {
-        x,
-        y,
-        z,
-        matrix,
-        link: [kind as u32, EntityKind::Direction as u32, 0, 0],
-        ..Default::default()
-    }
+    let [x, y, z] = axes.map(|axis| (turn * (across * axis)).extend(0.0));
+    UvProjection { x, y, z, m00, m01, m10, m11, entity: EntityKind::Direction, ..of_kind(kind) }
 }
 
 fn of_kind(kind: MapKind) -> UvProjection {
-    UvProjection { link: [kind as u32, 0, 0, 0], ..Default::default() }
+    UvProjection { kind, ..Default::default() }
 }
 
 fn angular_map(
@@ -138,13 +127,7 @@ fn angular_map(
     [x, y, z]: [DVec4; 3],
 ) -> UvProjection {
     let offset = mapping.offset - whole_tiles(mapping.offset, periods(sampler));
-    UvProjection {
-        x: real4(x),
-        y: real4(y),
-        z: real4(z),
-        offset: real4(offset.extend(0.0).extend(0.0)),
-        ..matrix_map(mapping, kind)
-    }
+    UvProjection { x, y, z, offset, ..matrix_map(mapping, kind) }
 }
 
 /// Scale, rotation about the frame's axis, offset, without whole tiles.
@@ -160,7 +143,7 @@ fn solid_map(mapping: &Mapping, sampler: &SamplerSpec, rows: [DVec4; 3]) -> UvPr
             row.w -= (row.w / period[i]).floor() * period[i];
         }
     }
-    UvProjection { x: real4(rows[0]), y: real4(rows[1]), z: real4(rows[2]), ..of_kind(MapKind::Solid) }
+    UvProjection { x: rows[0], y: rows[1], z: rows[2], ..of_kind(MapKind::Solid) }
 }
 
 /// Frame coordinates after a turn by `rotate` about the frame's y, from z towards x.

@@ -6,7 +6,6 @@ mod bright;
 pub mod features;
 mod geometry;
 mod header;
-mod kinds;
 mod lights;
 mod mapping;
 mod mip_chain;
@@ -22,37 +21,28 @@ mod tile_culling;
 
 use std::sync::Arc;
 
-use glam::{DVec3, DVec4};
-
 use crate::core::error::Result;
+use crate::core::range::Rect;
 use crate::scene::cone;
 use crate::scene::model::{
-    Algorithm, Environment, EnvironmentLayout, Footprint, Material, Model, PixelFilter, Precision, Scene,
+    Algorithm, BumpKind, Environment, EnvironmentLayout, Footprint, Material, Model, PixelFilter, Precision,
+    Scene,
 };
 use crate::schema::layout::{self, CHUNK, Header};
 use crate::texture::data::TextureData;
 use crate::texture::sampler_spec::{Address, Method, SamplerSpec};
 use pixel_filter::Warp;
 
-pub use header::camera_basis;
-use header::header;
-pub use kinds::{
+pub use crate::schema::enums::{
     Diagnostic, EntityKind, LightKind, MapKind, ProjectionKind, SampleDimension, Schedule, TextureKind,
 };
+pub use header::camera_basis;
+use header::header;
 pub use mip_chain::{MipPlacement, reads_levels};
 pub use pixel_filter::{filtered_mean, kernel};
 pub use procedural::procedural;
 pub use sections::Sections;
 pub use textures::{MAX_SLOTS, Slot, prefix_sum_words, prefix_sums};
-
-/// A part of the picture, in pixels of the full picture.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Crop {
-    pub x: u32,
-    pub y: u32,
-    pub width: u32,
-    pub height: u32,
-}
 
 /// All that is rendered from: the lists behind the scene buffer, and the texels.
 #[derive(Clone, Debug, Default)]
@@ -63,7 +53,7 @@ pub struct PackedScene {
     pub triangles: Vec<layout::Triangle>,
     pub lights: Vec<layout::Light>,
     pub materials: Vec<layout::Material>,
-    pub maps: Vec<layout::UvProjection>,
+    pub uv_projections: Vec<layout::UvProjection>,
     pub textures: Vec<layout::Texture>,
     pub samplers: Vec<layout::Sampler>,
     pub procedurals: Vec<layout::Procedural>,
@@ -129,7 +119,7 @@ pub struct SlotCounts {
 }
 
 /// Packs what the scene shows; textures and samplers that no shape reaches are not in `scene`.
-pub fn pack(scene: &Scene, textures: Vec<TextureData>, crop: Option<Crop>) -> Result<PackedScene> {
+pub fn pack(scene: &Scene, textures: Vec<TextureData>, crop: Option<Rect>) -> Result<PackedScene> {
     pack_with(scene, textures, crop, MipPlacement::Host)
 }
 
@@ -137,12 +127,12 @@ pub fn pack(scene: &Scene, textures: Vec<TextureData>, crop: Option<Crop>) -> Re
 pub fn pack_with(
     scene: &Scene,
     textures: Vec<TextureData>,
-    crop: Option<Crop>,
+    crop: Option<Rect>,
     mip_chains: MipPlacement,
 ) -> Result<PackedScene> {
     let settled = (scene.sampling.algorithm == Algorithm::Cone).then(|| cone::freeze_time(scene));
     let scene = settled.as_ref().unwrap_or(scene);
-    let crop = crop.unwrap_or(Crop { x: 0, y: 0, width: scene.width, height: scene.height });
+    let crop = crop.unwrap_or(Rect::whole([scene.width, scene.height]));
     let samples = scene.sampling.samples();
     let schedule = schedule(scene);
     let algorithm = scene.sampling.algorithm;
@@ -189,11 +179,10 @@ pub fn pack_with(
         pack_environment(&mut packed, scene, environment);
     }
     packed.lights = scene.lights.iter().map(|l| lights::light(l, scene.camera.eye)).collect();
-    packed.header.key[1] = packed.lights.len() as u32;
-    let moves = u32::from(scene.camera.moves());
-    let side = tile_culling::cell_side(scene, [crop.width, crop.height]);
-    packed.header.chances =
-        [sample_dimensions::sample_dimensions(scene), packed.motions.len() as u32, moves, side];
+    packed.header.light_count = packed.lights.len() as u32;
+    packed.header.sample_dimensions = sample_dimensions::sample_dimensions(scene);
+    packed.header.camera_moves = scene.camera.moves();
+    packed.header.cell_side = tile_culling::cell_side(scene, [crop.width, crop.height]);
     if !packed.double {
         packed.round_reals();
     }
@@ -215,19 +204,20 @@ fn material(packed: &mut PackedScene, source: &Material) -> layout::Material {
     let index = |texture: Option<usize>| texture.map_or(layout::NO_TEXTURE, |t| t as u32);
     let bump = source.bump;
     let bump_texture = bump.map(|r| r.texture);
-    let facets = DVec3::new(source.roughness.powi(2), 0.0, 0.0);
-    let specular = if source.model.is_specular() { facets } else { source.specular };
-    let fourth = source.model.number_of(source);
     layout::Material {
-        color: vec4(source.color.extend(bump.map_or(0.0, |r| r.strength))),
-        link: [source.model as u32, index(source.texture), source.sampler as u32, slot(source.texture)],
-        detail: [
-            index(bump_texture),
-            source.sampler as u32,
-            slot(bump_texture),
-            bump.map_or(0, |r| r.kind as u32),
-        ],
-        specular: vec4(specular.extend(fourth)),
+        color: source.color.as_vec3(),
+        bump_strength: bump.map_or(0.0, |r| r.strength) as f32,
+        model: source.model,
+        texture_index: index(source.texture),
+        sampler_index: source.sampler as u32,
+        image_slot: slot(source.texture),
+        bump_texture_index: index(bump_texture),
+        bump_image_slot: slot(bump_texture),
+        bump_kind: bump.map_or(BumpKind::default(), |r| r.kind),
+        alpha: source.roughness.powi(2) as f32,
+        specular: source.specular.as_vec3(),
+        exponent: source.exponent as f32,
+        ior: source.ior as f32,
     }
 }
 
@@ -237,35 +227,38 @@ fn pack_environment(packed: &mut PackedScene, scene: &Scene, environment: &Envir
     if environment.layout == EnvironmentLayout::Equirectangular {
         // The same sampler on a shape does not go on over poles.
         let mut record = packed.samplers[sampler];
-        record.more[1] = 1;
+        record.crosses_poles = true;
         // From pole to pole: with `repeat` the lower half would be read as what lies above the upper one.
-        record.modes[1] = Address::ClampToEdge as u32;
+        record.address_v = Address::ClampToEdge;
         let spec = packed.sampler_specs[sampler];
         packed.samplers.push(record);
         packed.sampler_specs.push(SamplerSpec { address: [spec.address[0], Address::ClampToEdge], ..spec });
         sampler = packed.samplers.len() - 1;
     }
     let slot = textures::slot(packed, environment.texture, sampler);
-    packed.header.counts[3] = packed.materials.len() as u32;
-    packed.header.key[3] = packed.maps.len() as u32;
-    packed.maps.push(mapping::environment_map(environment));
+    packed.header.environment_material = packed.materials.len() as u32;
+    packed.header.environment_projection = packed.uv_projections.len() as u32;
+    packed.uv_projections.push(mapping::environment_map(environment));
     packed.materials.push(layout::Material {
-        color: vec4(scene.background.color.extend(0.0)),
-        link: [Model::PLAIN as u32, environment.texture as u32, sampler as u32, slot],
-        detail: [layout::NO_TEXTURE, 0, 0, 0],
-        specular: [0.0; 4],
+        color: scene.background.color.as_vec3(),
+        model: Model::PLAIN,
+        texture_index: environment.texture as u32,
+        sampler_index: sampler as u32,
+        image_slot: slot,
+        bump_texture_index: layout::NO_TEXTURE,
+        ..Default::default()
     });
 }
 
 impl PackedScene {
     /// Whether samples are averages over footprints.
     pub fn prefilters(&self) -> bool {
-        self.header.key[2] != Footprint::None as u32
+        self.header.footprint != Footprint::None
     }
 
     /// Whether camera rays find their triangles in lists.
     pub fn culls_tiles(&self) -> bool {
-        self.header.chances[3] != 0 && self.algorithm != Algorithm::Cone && !self.beams
+        self.header.cell_side != 0 && self.algorithm != Algorithm::Cone && !self.beams
     }
 
     /// Does any look-up go through the device's own samplers?
@@ -276,8 +269,8 @@ impl PackedScene {
 
     /// Is there anything to look up that images of flat textures do not hold?
     pub fn has_solids(&self) -> bool {
-        let solids = [TextureKind::Volume as u32, TextureKind::Cube as u32];
-        self.summed_tables || self.textures.iter().any(|t| solids.contains(&t.link[3]))
+        let solids = [TextureKind::Volume, TextureKind::Cube];
+        self.summed_tables || self.textures.iter().any(|t| solids.contains(&t.kind))
     }
 
     /// Of images alone.
@@ -289,12 +282,4 @@ impl PackedScene {
             ..SlotCounts::default()
         }
     }
-}
-
-fn real4(v: DVec4) -> [f64; 4] {
-    v.to_array()
-}
-
-fn vec4(v: DVec4) -> [f32; 4] {
-    v.as_vec4().to_array()
 }

@@ -47,8 +47,11 @@ fn zero(kind: PixelFilterKind) -> f64 {
 /// What samples of a filter are placed by.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Warp {
-    /// The header's.
-    pub record: [u32; 4],
+    pub kind: PixelFilterKind,
+    /// How far it reaches, in pixels.
+    pub radius: f64,
+    /// First step from the middle, of 2^24, where the filter is negative.
+    pub first_negative_step: u32,
     /// Side of the square over which a box has the same variance, in pixels: what a prefilter may cover.
     pub width: f64,
     /// Distance in radii at v = 0, 1/512, …, 1; empty where there is a closed form.
@@ -71,12 +74,9 @@ impl Warp {
         // An axis has its sign by an integer: device and oracle never differ in it.
         let first_negative = (integrals.below(zero(kind)) * 16_777_216.0).round() as u32;
         Warp {
-            record: [
-                kind as u32,
-                (radius as f32).to_bits(),
-                (width as f32).to_bits(),
-                if zero(kind) < 1.0 { first_negative } else { u32::MAX },
-            ],
+            kind,
+            radius,
+            first_negative_step: if zero(kind) < 1.0 { first_negative } else { u32::MAX },
             width,
             table: if tabled { (0..=cells).map(distance).collect() } else { Vec::new() },
             mean_sign: (zero(kind) < 1.0).then(|| integrals.mean_sign.powi(2)),

@@ -158,7 +158,7 @@ impl PackedScene {
         self.header = self.header.quantize_f32();
         self.round_shapes();
         round(&mut self.lights);
-        round(&mut self.maps);
+        round(&mut self.uv_projections);
         round(&mut self.procedurals);
         round(&mut self.motions);
         self.double = false;

@@ -2,21 +2,25 @@
 
 use super::header::header;
 use super::pixel_filter::Warp;
-use super::{Crop, PackedScene, schedule};
+use super::{PackedScene, schedule};
+use crate::core::range::Rect;
 use crate::scene::model::Scene;
-use crate::schema::layout::{Header, Record};
+use crate::schema::record::Field;
 
 impl PackedScene {
     /// Takes the samples of `scene`, which is the one it was packed from but for algorithm, pattern, number,
     /// seed and whether pixels share them.
     pub fn set_sampling(&mut self, scene: &Scene) {
-        let [_, _, x, y] = self.header.image;
-        let [width, height, _, _] = self.header.size;
-        let Header { step_x, sampling, key: [shared, ..], .. } =
-            header(scene, Crop { x, y, width, height }, &Warp::new(scene.pixel_filter));
-        let step_x =
-            if self.double { step_x } else { Header { step_x, ..self.header }.quantize_f32().step_x };
-        (self.header.step_x, self.header.sampling, self.header.key[0]) = (step_x, sampling, shared);
+        let [x, y] = self.header.crop.to_array();
+        let [width, height] = self.header.film_size.to_array();
+        let fresh = header(scene, Rect { x, y, width, height }, &Warp::new(scene.pixel_filter));
+        let side = fresh.sample_side;
+        self.header.sample_side = if self.double { side } else { side.quantize_f32() };
+        self.header.pattern = fresh.pattern;
+        self.header.strata_side = fresh.strata_side;
+        self.header.samples = fresh.samples;
+        self.header.seed = fresh.seed;
+        self.header.shares_pattern = fresh.shares_pattern;
         self.samples = scene.sampling.samples();
         self.schedule = schedule(scene);
         self.algorithm = scene.sampling.algorithm;

@@ -1,8 +1,6 @@
 //! Scene → which choices its samples make beside their place in the pixel, and the header's numbers of lens and
 //! shutter.
 
-use glam::DVec4;
-
 use super::SampleDimension;
 use crate::scene::model::Scene;
 
@@ -21,8 +19,8 @@ pub fn sample_dimensions(scene: &Scene) -> u32 {
 }
 
 /// Radius over a pixel's side at distance 1; 1 / focus distance; when the shutter opens, how long it is open.
-pub fn lens(scene: &Scene, pixel: f64) -> DVec4 {
+pub fn lens(scene: &Scene, pixel: f64) -> [f32; 4] {
     let [opens, closes] = scene.camera.shutter;
     let lens = scene.camera.lens.map_or([0.0; 2], |l| [l.radius / pixel, 1.0 / l.focus_distance]);
-    DVec4::new(lens[0], lens[1], opens, closes - opens)
+    [lens[0], lens[1], opens, closes - opens].map(|x| x as f32)
 }

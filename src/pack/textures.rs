@@ -1,5 +1,7 @@
 //! Textures and samplers → texel bytes, records and image slots.
 
+use glam::{UVec3, Vec4};
+
 use crate::core::color::srgb_table;
 use crate::core::counted::counted;
 use crate::core::error::{Error, Result};
@@ -28,10 +30,19 @@ pub const MAX_SLOTS: usize = 16;
 pub fn sampler(spec: &SamplerSpec, filtered: bool) -> layout::Sampler {
     let (min, mip) = if filtered { (spec.min, spec.mip) } else { (spec.mag, MipMode::None) };
     layout::Sampler {
-        border: spec.border_color,
-        modes: [spec.address[0] as u32, spec.address[1] as u32, spec.mag as u32, spec.texel_center as u32],
-        link: [spec.method as u32, min as u32, mip as u32, spec.max_anisotropy],
-        more: [spec.address_w as u32, 0, spec.cubic[0].to_bits(), spec.cubic[1].to_bits()],
+        border: Vec4::from_array(spec.border_color),
+        address_u: spec.address[0],
+        address_v: spec.address[1],
+        address_w: spec.address_w,
+        texel_center: spec.texel_center,
+        method: spec.method,
+        mag_filter: spec.mag,
+        min_filter: min,
+        mip_mode: mip,
+        max_anisotropy: spec.max_anisotropy,
+        crosses_poles: false,
+        cubic_b: spec.cubic[0],
+        cubic_c: spec.cubic[1],
     }
 }
 
@@ -55,9 +66,13 @@ pub fn pack_textures(
     for index in order {
         let Some(texture) = textures[index].take() else { continue };
         if let Some(procedural) = scene.textures.get(index).and_then(|t| t.content.procedural()) {
-            let link = [ColorSpace::Linear as u32, 1, 1, TextureKind::Procedural as u32];
-            packed.textures[index] =
-                layout::Texture { place: [packed.procedurals.len() as u32, 1, 1, 0], link };
+            packed.textures[index] = Texture {
+                size: UVec3::ONE,
+                levels: 1,
+                kind: TextureKind::Procedural,
+                procedural: packed.procedurals.len() as u32,
+                ..Texture::default()
+            };
             packed.procedurals.push(super::procedural(procedural));
             continue;
         }
@@ -76,11 +91,17 @@ pub fn pack_textures(
         } else {
             mips::mip_chain(&texture, kernel)
         };
-        let link = [texture.color_space as u32, 1 + levels.len() as u32, texture.depth, kind as u32];
-        let [width, height, format] = [texture.width, texture.height, texture.format as u32];
+        let record = Texture {
+            size: UVec3::new(texture.width, texture.height, texture.depth),
+            format: texture.format,
+            color_space: texture.color_space,
+            levels: 1 + levels.len() as u32,
+            kind,
+            ..Texture::default()
+        };
         let table = if tables(index, packed) { Some(summed::table(&texture)) } else { None };
         let first_word = append(packed, texture, levels, table)?;
-        packed.textures[index] = layout::Texture { place: [first_word, width, height, format], link };
+        packed.textures[index] = Texture { first_word, ..record };
         if pooled[index] {
             packed.solid_bytes = packed.texels.len();
         }
@@ -121,7 +142,7 @@ pub(super) fn reads(
     texture: usize,
     such: impl Fn(&SamplerSpec) -> bool,
 ) -> bool {
-    packed.header.key[2] != Footprint::None as u32 && readers(scene, texture).any(such)
+    packed.header.footprint != Footprint::None && readers(scene, texture).any(such)
 }
 
 /// The samplers that this texture is read through.
@@ -221,7 +242,7 @@ fn linear_floats(texture: &TextureData) -> TextureData {
 /// The slot of this pair among those of its kind, new or shared. What no image holds has none.
 pub fn slot(packed: &mut PackedScene, texture: usize, sampler: usize) -> u32 {
     let hardware = packed.sampler_specs[sampler].method == Method::Hardware;
-    let slots = match TextureKind::ALL[packed.textures[texture].link[3] as usize] {
+    let slots = match packed.textures[texture].kind {
         TextureKind::Flat => &mut packed.slots,
         TextureKind::Procedural => return 0,
         _ if !hardware => return 0,
@@ -250,26 +271,24 @@ impl PackedScene {
 
     /// Whether colours of some texture are sRGB codes of this type.
     pub fn has_srgb(&self, component: Component) -> bool {
-        self.textures.iter().any(|t| {
-            t.link[0] == ColorSpace::Srgb as u32
-                && TexelFormat::ALL[t.place[3] as usize].component() == component
-        })
+        self.textures.iter().any(|t| t.color_space == ColorSpace::Srgb && t.format.component() == component)
     }
 
     /// Width, height and depth of a level (Vulkan 1.3, "Image Miplevel Sizing"); of a cube the depth is 6.
     pub fn level_size(&self, texture: usize, level: u32) -> [u32; 3] {
-        let Texture { place: [_, width, height, _], link: [_, _, depth, kind] } = self.textures[texture];
+        let Texture { size, kind, .. } = self.textures[texture];
+        let [width, height, depth] = size.to_array();
         let halved = |n: u32| (n >> level).max(1);
-        let depth = if kind == TextureKind::Volume as u32 { halved(depth) } else { depth };
+        let depth = if kind == TextureKind::Volume { halved(depth) } else { depth };
         [halved(width), halved(height), depth]
     }
 
     /// The texels of a level.
     pub fn level_texels(&self, texture: usize, level: u32) -> &[u8] {
-        let [first_word, _, _, format] = self.textures[texture].place;
+        let Texture { first_word, format, .. } = self.textures[texture];
         let start = self.level_word(first_word, level) as usize * 4;
         let [width, height, depth] = self.level_size(texture, level).map(|n| n as usize);
-        let bytes = width * height * depth * TexelFormat::ALL[format as usize].bytes_per_texel();
+        let bytes = width * height * depth * format.bytes_per_texel();
         &self.texels[start..start + bytes]
     }
 
@@ -286,14 +305,12 @@ impl PackedScene {
     /// One line a texture: size, the file's channels, and how it is held.
     pub fn texture_lines(&self) -> Vec<String> {
         let line = |(i, ((name, record), channels)): (usize, ((&String, &Texture), &usize))| {
-            if record.link[3] == TextureKind::Procedural as u32 {
+            if record.kind == TextureKind::Procedural {
                 return format!("\"{name}\": procedural, no texels");
             }
-            let [_, width, height, format] = record.place;
-            let format = TexelFormat::ALL[format as usize];
-            let [space, levels, depth, kind] = record.link;
-            let space = ColorSpace::ALL[space as usize];
-            let depth = if kind == TextureKind::Flat as u32 { String::new() } else { format!("×{depth}") };
+            let Texture { size, format, color_space: space, levels, kind, .. } = *record;
+            let [width, height, depth] = size.to_array();
+            let depth = if kind == TextureKind::Flat { String::new() } else { format!("×{depth}") };
             let bytes: usize = (0..levels).map(|level| self.level_texels(i, level).len()).sum();
             let kib = bytes.div_ceil(1024);
             let levels = if levels > 1 { format!(", {levels} levels") } else { String::new() };

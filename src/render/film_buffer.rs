@@ -1,15 +1,16 @@
 //! The film on the device: sums of radiance, four floats a pixel, as many more with compensation and with a pixel
 //! filter that has negative lobes. A picture larger than the device's buffers is rendered in bands of whole tile rows, one buffer
-//! serving all; each band is read back into the host's film as means.
+//! serving all; each band is read back as sums.
 
 use crate::core::error::{Error, Result};
-use crate::core::film::Film;
+use crate::core::range::{Range, Rect};
 use crate::gpu::{Buffer, BufferUse, DeviceKind, Gpu};
+use crate::pack::PackedScene;
 use crate::pack::features::Features;
-use crate::pack::{PackedScene, filtered_mean};
+use crate::sampling::{Block, Signed};
 use crate::schema::layout::{Slice, TILE};
 
-use super::slices::tile_stride;
+use super::dispatch_plan::tile_stride;
 
 const PIXEL_BYTES: u64 = 16;
 /// Larger films gain nothing: on a CPU device this is host memory, on a GPU it is read back anyway.
@@ -76,7 +77,7 @@ impl Band {
 
 impl FilmBuffer {
     pub fn new(gpu: &Gpu, scene: &PackedScene, features: &Features) -> Result<FilmBuffer> {
-        let [width, height, _, _] = scene.header.size;
+        let [width, height] = scene.header.film_size.to_array();
         let limits = &gpu.info().limits;
         let cap = if gpu.info().kind == DeviceKind::Cpu { MAX_BYTES_CPU } else { MAX_BYTES_GPU };
         let cap = cap.min(limits.max_storage_buffer_range).min(limits.heap_bytes / 4);
@@ -100,39 +101,59 @@ impl FilmBuffer {
         Ok(FilmBuffer { buffer, width, height, band_rows, compensated, mean_sign })
     }
 
-    pub fn bands(&self) -> impl Iterator<Item = Band> + use<> {
-        let (width, height, rows) = (self.width, self.height, self.band_rows);
-        (0..height).step_by(rows as usize).map(move |y| {
-            let height = rows.min(height - y);
-            let tiles_x = width.div_ceil(TILE);
-            Band { y, height, tiles_x, tiles: tiles_x * height.div_ceil(TILE) }
+    /// The bands of some rows of the picture.
+    pub fn bands(&self, rows: Rect) -> impl Iterator<Item = Band> + use<> {
+        let tiles_x = self.width.div_ceil(TILE);
+        rows.strips(self.band_rows).map(move |Rect { y, height, .. }| Band {
+            y,
+            height,
+            tiles_x,
+            tiles: tiles_x * height.div_ceil(TILE),
         })
+    }
+
+    /// The whole picture.
+    pub fn whole(&self) -> Rect {
+        Rect::whole([self.width, self.height])
     }
 
     pub fn width(&self) -> u32 {
         self.width
     }
 
-    /// Tiles of the whole picture.
-    pub fn tiles(&self) -> u64 {
-        self.bands().map(|b| u64::from(b.tiles)).sum()
+    /// Returns the number of tiles of some rows.
+    pub fn tiles(&self, rows: Rect) -> u64 {
+        self.bands(rows).map(|b| u64::from(b.tiles)).sum()
     }
 
-    /// Sums of a band → means of its rows. The sum of the fourth floats is the answer: what cones dropped.
-    pub fn read(&self, gpu: &Gpu, band: &Band, film: &mut Film) -> Result<f64> {
-        let samples = f64::from(film.samples);
-        let mut fourth = 0.0;
-        self.read_with(gpu, band, |i, sums| {
+    /// Sets all sums of a band to 0. Sums that begin with a first sample need not be.
+    pub fn clear(&self, gpu: &Gpu, band: &Band) -> Result<()> {
+        let planes = 1 + u64::from(self.compensated) + u64::from(self.mean_sign.is_some());
+        let bytes = u64::from(self.width) * u64::from(band.height) * PIXEL_BYTES * planes;
+        gpu.write_buffer(&self.buffer, 0, &vec![0; bytes as usize])
+    }
+
+    /// No sums yet, of samples as this film has them.
+    pub fn block(&self, range: Range) -> Block {
+        let signed = |mean_sign| Signed { mean_sign, negative: Vec::new(), weights: Vec::new() };
+        Block { signed: self.mean_sign.map(signed), ..Block::new(range) }
+    }
+
+    /// Appends the sums of a band's pixels.
+    pub fn read(&self, gpu: &Gpu, band: &Band, block: &mut Block) -> Result<()> {
+        self.read_with(gpu, band, |_, sums| {
             let of = |floats: [f32; 4]| floats.map(f64::from);
             let (sum, lost, negative) = (of(sums.sum), of(sums.lost), of(sums.negative));
-            fourth += sum[3];
-            let mean = |c: usize| match self.mean_sign {
-                None => (sum[c] - lost[c]) / samples,
-                Some(mean) => filtered_mean(sum[c] - lost[c], negative[c], sum[3], samples, mean),
-            };
-            film.pixels[i] = [0, 1, 2].map(|c| mean(c) as f32);
-        })?;
-        Ok(fourth)
+            block.sums.push([0, 1, 2].map(|c| sum[c] - lost[c]));
+            match &mut block.signed {
+                Some(signed) => {
+                    signed.negative.push([negative[0], negative[1], negative[2]]);
+                    signed.weights.push(sum[3]);
+                }
+                // Cones keep here what they drop.
+                None => block.dropped += sum[3],
+            }
+        })
     }
 
     /// Each pixel of a band by its place in the picture; a few rows at a time.

@@ -68,9 +68,8 @@ impl<'a> Uploads<'a> {
 pub fn hold(gpu: &Gpu, packed: &PackedScene) -> bool {
     let most = gpu.info().limits.max_image_2d;
     let holds = |slot: &Slot| {
-        let [_, width, height, format] = packed.textures[slot.texture].place;
-        width.max(height) <= most
-            && gpu.supports(image_format(TexelFormat::ALL[format as usize], false), false)
+        let texture = &packed.textures[slot.texture];
+        texture.size.x.max(texture.size.y) <= most && gpu.supports(image_format(texture.format, false), false)
     };
     packed.slots.len() <= MAX_SLOTS && packed.slots.iter().all(holds)
 }
@@ -114,7 +113,7 @@ struct Form {
 impl Form {
     fn of(packed: &PackedScene, slot: &Slot, spec: &SamplerSpec) -> Form {
         let texture = &packed.textures[slot.texture];
-        let srgb = texture.link[0] == ColorSpace::Srgb as u32;
+        let srgb = texture.color_space == ColorSpace::Srgb;
         Form::new(slot.hardware, srgb, spec)
     }
 
@@ -146,11 +145,11 @@ fn upload_image(
     form: Form,
 ) -> Result<Image> {
     let record = &packed.textures[index];
-    let [_, width, height, format] = record.place;
-    let mut format = TexelFormat::ALL[format as usize];
+    let [width, height, depth] = record.size.to_array();
+    let mut format = record.format;
     let name = &packed.texture_names[index];
     let made_there = packed.device_levels.contains(&index);
-    let uploaded = if made_there { 1 } else { record.link[1] };
+    let uploaded = if made_there { 1 } else { record.levels };
     let mut levels: Vec<Cow<'_, [u8]>> =
         (0..uploaded).map(|level| Cow::Borrowed(packed.level_texels(index, level))).collect();
     if form.expand && format.channels() != 4 {
@@ -171,10 +170,10 @@ fn upload_image(
     }
     let desc = ImageDesc {
         name,
-        shape: shape(TextureKind::ALL[record.link[3] as usize]),
+        shape: shape(record.kind),
         width,
         height,
-        depth: record.link[2],
+        depth,
         format: stored,
         swizzle: match format.channels() {
             1 => Swizzle::Grey,
@@ -186,7 +185,7 @@ fn upload_image(
     if !made_there {
         return gpu.image(&desc);
     }
-    let space = ColorSpace::ALL[record.link[0] as usize];
+    let space = record.color_space;
     let top = MipSource { name, format, space, sizes: &sizes(packed, index), texels: levels[0] };
     let mip_chain = maker.make(&top)?;
     gpu.image_from(&desc, &mip_chain.buffer, &mip_chain.starts)

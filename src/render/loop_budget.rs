@@ -7,21 +7,18 @@ use crate::gpu::{DeviceInfo, DeviceKind};
 use crate::pack::features::bounces;
 use crate::pack::{PackedScene, SampleDimension, TextureKind};
 use crate::scene::model::Algorithm;
+use crate::schema::constants::{MAX_BOXES, MAX_CONE_FRAGMENTS, MAX_CONES, MAX_ELLIPSE_STEPS};
 use crate::schema::layout::{CHUNK, NO_TEXTURE, Procedural, Sampler};
 use crate::texture::filter::Turns;
-use crate::texture::sampler_spec::Filter;
 
 const MAX_TURNS: u64 = 65_535;
-/// `MAX_ELLIPSE_STEPS` of `ewa.glsl`.
-const ELLIPSE: u64 = 8192;
+const ELLIPSE: u64 = MAX_ELLIPSE_STEPS as u64;
 /// Eight texels, or twice four.
 const SOLID: u64 = 10;
 /// Look-ups of a bump map, and the colour.
 const TAPS: u64 = 5;
-/// `MAX_BOXES` of `procedural.glsl`.
-const BOXES: u64 = 16;
-/// `MAX_CONES` of `cone_shade.glsl`.
-const MAX_CONES: u64 = 64;
+const BOXES: u64 = MAX_BOXES as u64;
+const CONES: u64 = MAX_CONES as u64;
 /// Digits of Halton's points, or turns in which an order is found, with room to spare.
 const POINTS: u64 = 64;
 
@@ -48,17 +45,17 @@ pub fn samples_at_once(device: &DeviceInfo, scene: &PackedScene) -> Result<u32> 
 /// An upper bound of the turns for a pixel's cones, but for how many pieces each one sees: where cones are
 /// many, few of them see more than three.
 fn turns_of_cones(scene: &PackedScene, ellipse: u64) -> u64 {
-    const PIECES: u64 = 8;
+    const PIECES: u64 = MAX_CONE_FRAGMENTS as u64;
     const SEEN: u64 = 3;
     let shapes = scene.shape_count() as u64;
     let lights = scene.lights.len() as u64;
-    let cones = if bounces(scene) { MAX_CONES } else { MAX_CONES.min(1 + PIECES * lights) };
+    let cones = if bounces(scene) { CONES } else { CONES.min(1 + PIECES * lights) };
     let gathered = 4 + shapes + shapes / 16 + 2 * PIECES;
     // Each pair both ways, and two shapes each time.
     let laid_over = 3 * SEEN * (SEEN - 1);
-    let bumped = scene.materials.iter().any(|m| m.detail[0] != NO_TEXTURE);
+    let bumped = scene.materials.iter().any(|m| m.bump_texture_index != NO_TEXTURE);
     let look_ups = if bumped { TAPS } else { 1 } * turns_of_a_look_up(scene, 0);
-    let records = (scene.materials.len() + scene.maps.len()) as u64;
+    let records = (scene.materials.len() + scene.uv_projections.len()) as u64;
     let shaded = SEEN * (1 + records + look_ups + lights.max(2) * (2 + lights));
     // Ellipses of that size fill the horizon, and that is seen by few of them.
     cones * (gathered + laid_over + shaded) + ellipse
@@ -71,12 +68,12 @@ fn turns_of_a_sample(scene: &PackedScene, ellipse: u64) -> u64 {
     }
     let count = |n: usize| n as u64;
     let shapes = count(scene.shape_count()) + 3;
-    let records = count(scene.materials.len() + scene.maps.len() + scene.motions.len());
-    let rays = if bounces(scene) { 1 + u64::from(scene.header.size[3]) } else { 1 };
-    let bumped = scene.materials.iter().any(|m| m.detail[0] != NO_TEXTURE);
+    let records = count(scene.materials.len() + scene.uv_projections.len() + scene.motions.len());
+    let rays = if bounces(scene) { 1 + u64::from(scene.header.max_depth) } else { 1 };
+    let bumped = scene.materials.iter().any(|m| m.bump_texture_index != NO_TEXTURE);
     let taps = if bumped { TAPS } else { 1 };
     let hit = 1 + shapes + records + count(scene.lights.len()) * (1 + shapes);
-    let chances = scene.header.chances[0];
+    let chances = scene.header.sample_dimensions;
     let glass = u64::from(chances >> SampleDimension::Fresnel as u32 & 1);
     let choices = if chances == 0 { 0 } else { (4 + glass) * (1 + POINTS) };
     rays * (choices + hit + taps * turns_of_a_look_up(scene, ellipse))
@@ -84,14 +81,14 @@ fn turns_of_a_sample(scene: &PackedScene, ellipse: u64) -> u64 {
 
 fn turns_of_a_look_up(scene: &PackedScene, ellipse: u64) -> u64 {
     let records = (scene.textures.len() + scene.samplers.len() + scene.procedurals.len()) as u64;
-    let is = |kind: TextureKind| scene.textures.iter().any(|t| t.link[3] == kind as u32);
+    let is = |kind: TextureKind| scene.textures.iter().any(|t| t.kind == kind);
     let procedural = scene.procedurals.iter().map(turns_of_a_pattern).max().unwrap_or(0);
     let solid = if is(TextureKind::Volume) || is(TextureKind::Cube) { SOLID } else { 1 };
     let of_sampler = |sampler: &Sampler| {
-        let turns = [sampler.modes[2], sampler.link[1]].map(|f| Filter::ALL[f as usize].traits().turns);
+        let turns = [sampler.mag_filter, sampler.min_filter].map(|f| f.traits().turns);
         let most = |of: &dyn Fn(Turns) -> u64| turns.into_iter().map(of).max().unwrap_or(0);
         let place = most(&|t| if let Turns::Place(turns) = t { turns.max(solid) } else { solid });
-        let probes = most(&|t| if t == Turns::Walk { u64::from(sampler.link[3]) + 2 } else { 2 });
+        let probes = most(&|t| if t == Turns::Walk { u64::from(sampler.max_anisotropy) + 2 } else { 2 });
         let area = most(&|t| match t {
             Turns::Ellipse => ellipse,
             Turns::Footprint(turns) => turns,
@@ -105,5 +102,5 @@ fn turns_of_a_look_up(scene: &PackedScene, ellipse: u64) -> u64 {
 
 /// Octaves, the 27 cells around a place, or boxes along a footprint.
 fn turns_of_a_pattern(pattern: &Procedural) -> u64 {
-    u64::from(pattern.link[2]).max(27) + BOXES
+    u64::from(pattern.octaves).max(27) + BOXES
 }

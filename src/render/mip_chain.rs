@@ -7,7 +7,9 @@ use crate::core::error::Result;
 use crate::gpu::shaders;
 use crate::gpu::{Bound, Buffer, BufferUse, Gpu, Pipeline};
 use crate::pack::{PackedScene, SlotCounts};
+use crate::schema::bindings;
 use crate::schema::layout::Halving;
+use crate::schema::specialization::Constant;
 use crate::texture::data::{ColorSpace, TexelFormat};
 use crate::texture::mips;
 
@@ -34,7 +36,7 @@ pub struct Pyramid {
 
 /// Sizes of all levels of a texture.
 pub fn sizes(packed: &PackedScene, texture: usize) -> Vec<[u32; 3]> {
-    (0..packed.textures[texture].link[1]).map(|level| packed.level_size(texture, level)).collect()
+    (0..packed.textures[texture].levels).map(|level| packed.level_size(texture, level)).collect()
 }
 
 /// Textures of one format share a pipeline.
@@ -68,7 +70,11 @@ impl<'a> MipGenerator<'a> {
         let numbers = gpu.buffer("numbers of two levels", numbers * 4, BufferUse::Storage)?;
         let tables = self.tables(codes(top.format, top.space))?;
         let pipeline = self.pipeline(top.format, top.space)?;
-        let bound = [(0, Bound::Buffer(&buffer)), (1, Bound::Buffer(&numbers)), (2, Bound::Buffer(&tables))];
+        let bound = [
+            (bindings::MIP_WORDS, Bound::Buffer(&buffer)),
+            (bindings::MIP_NUMBERS, Bound::Buffer(&numbers)),
+            (bindings::MIP_TABLES, Bound::Buffer(&tables)),
+        ];
         let group = gpu.bind(pipeline, &bound)?;
         let passes = passes(top, &texels, &starts);
         let dispatches: Vec<(&[u8], [u32; 3])> =
@@ -113,14 +119,13 @@ fn codes(format: TexelFormat, space: ColorSpace) -> usize {
 fn build(gpu: &Gpu, format: TexelFormat, space: ColorSpace) -> Result<Pipeline> {
     let shader = &shaders::MIPS;
     let values = [
-        ("GROUP_X", GROUP),
-        ("GROUP_Y", 1),
-        ("CHANNELS", format.channels() as u32),
-        ("COMPONENT_BYTES", format.component().bytes() as u32),
-        ("SRGB", u32::from(codes(format, space) > 0)),
+        (Constant::GroupX, GROUP),
+        (Constant::GroupY, 1),
+        (Constant::MipChannels, format.channels() as u32),
+        (Constant::MipComponentBytes, format.component().bytes() as u32),
+        (Constant::MipSrgb, u32::from(codes(format, space) > 0)),
     ];
-    let constants: Vec<(u32, u32)> =
-        values.iter().filter_map(|&(name, value)| Some((shader.constant(name)?.id, value))).collect();
+    let constants = shader.values(values);
     super::build_pipeline(gpu, shader, &constants, SlotCounts::default(), size_of::<Halving>())
 }
 

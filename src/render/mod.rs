@@ -1,36 +1,44 @@
-//! Packed scene → film on a device: resources from the features, one pipeline, work handed out in
-//! slices, film read back. Orchestrates `gpu`'s own types and knows nothing of Vulkan's.
+//! Scene → film on any number of devices, the oracle among them: textures loaded, all packed, sessions opened, and an
+//! integrator run on their backends. On a device: resources from the features, one pipeline, work handed out in
+//! slices, sums read back. Orchestrates `gpu`'s own types and knows nothing of Vulkan's.
 
+mod backend;
+mod batches;
 mod beams;
 mod diagnostics;
+mod dispatch_plan;
 mod film_buffer;
 mod images;
-mod jobs;
 mod loop_budget;
 mod mip_chain;
+mod picture;
+mod plan;
 mod resources;
 mod session;
-mod slices;
 pub mod specialization;
 mod texel_buffer;
 mod tile_culling;
+mod tiles;
 mod tuning;
 
 use serde::Serialize;
 
-use crate::adaptive::{Goal, Outcome};
-use crate::core::error::{Error, Result};
+use crate::core::error::Result;
 use crate::core::film::Film;
 use crate::core::progress::Progress;
 use crate::gpu::shaders::{ReflectedBinding, Shader, specialise};
-use crate::gpu::{BindGroup, BindingDesc, BindingKind, Gpu, Pipeline, PipelineDesc, RunTime};
+use crate::gpu::{BindingDesc, BindingKind, Gpu, Pipeline, PipelineDesc, RunTime};
+use crate::integrators::Integrated;
+use crate::integrators::adaptive::{Goal, Outcome};
 use crate::pack::{PackedScene, SlotCounts};
-use crate::schema::layout::Slice;
+use crate::schema::bindings;
+use crate::schema::specialization::Constant;
 
-use film_buffer::{Band, FilmBuffer};
-
+pub use backend::DeviceBackend;
 pub use images::can_sample;
 pub(crate) use mip_chain::{MipGenerator, MipSource};
+pub use picture::{On, Options, Picture, render_scene};
+pub use plan::integrator;
 pub(crate) use resources::Resources;
 pub use session::{Prepared, Session};
 pub use tuning::{MipChoice, TexelChoice, Tuning};
@@ -83,6 +91,37 @@ pub struct Report {
 }
 
 impl Report {
+    /// Adds what another device of the same render did meanwhile; stages that ran side by side take as long as the
+    /// longest.
+    fn join(&mut self, other: &Report) {
+        let longest = |a: &mut f64, b: f64| *a = a.max(b);
+        longest(&mut self.seconds.compile, other.seconds.compile);
+        longest(&mut self.seconds.upload, other.seconds.upload);
+        longest(&mut self.seconds.readback, other.seconds.readback);
+        longest(&mut self.longest_slice_seconds, other.longest_slice_seconds);
+        let sum = |a: Option<f64>, b: Option<f64>| a.map_or(b, |a| Some(a + b.unwrap_or(0.0)));
+        self.device_mips_seconds = sum(self.device_mips_seconds, other.device_mips_seconds);
+        self.device_survey_seconds = sum(self.device_survey_seconds, other.device_survey_seconds);
+        self.device_render_seconds += other.device_render_seconds;
+        self.slices += other.slices;
+        self.device_bytes += other.device_bytes;
+        self.double |= other.double;
+        let news = other.warnings.iter().filter(|w| !self.warnings.contains(w)).cloned().collect::<Vec<_>>();
+        self.warnings.extend(news);
+        match (&mut self.guards, &other.guards) {
+            (Some(own), Some(others)) => own.iter_mut().zip(others).for_each(|(own, (_, n))| own.1 += n),
+            (own @ None, others) => own.clone_from(others),
+            (Some(_), None) => {}
+        }
+    }
+
+    /// Notes what an integrator found, and gives its film.
+    fn take(&mut self, integrated: Integrated) -> Film {
+        let Integrated { film, outcome, sampled_pixels, dropped } = integrated;
+        (self.outcome, self.sampled_pixels, self.dropped) = (outcome, sampled_pixels, dropped);
+        film
+    }
+
     fn add_slice(&mut self, time: RunTime) {
         self.device_render_seconds += time.device_seconds;
         self.slices += 1;
@@ -124,18 +163,17 @@ pub(crate) fn build_pipeline(
 ) -> Result<Pipeline> {
     let describe = |b: &ReflectedBinding| {
         let count = match (b.kind, b.binding) {
-            (BindingKind::SampledImage, resources::VOLUMES) => slots.volumes.max(1),
-            (BindingKind::SampledImage, resources::CUBES) => slots.cubes.max(1),
+            (BindingKind::SampledImage, bindings::VOLUMES) => slots.volumes.max(1),
+            (BindingKind::SampledImage, bindings::CUBES) => slots.cubes.max(1),
             (BindingKind::SampledImage, _) => slots.flat.max(1),
-            (BindingKind::TexelBuffer, resources::TEXELS) => slots.texel_blocks.max(1),
+            (BindingKind::TexelBuffer, bindings::TEXELS) => slots.texel_blocks.max(1),
             _ => 1,
         };
         BindingDesc { binding: b.binding, kind: b.kind, count }
     };
     let bindings: Vec<BindingDesc> = shader.bindings.iter().map(describe).collect();
-    let opaque = shader.constant("OPAQUE_UNIFORMS").map(|c| (c.id, Tuning::opaque_uniforms(gpu.info())));
-    let constants: Vec<(u32, u32)> =
-        constants.iter().copied().chain(opaque.map(|(id, is)| (id, u32::from(is)))).collect();
+    let opaque = (Constant::OpaqueUniforms, u32::from(Tuning::opaque_uniforms(gpu.info())));
+    let constants = [constants, &shader.values([opaque])].concat();
     gpu.pipeline(&PipelineDesc {
         name: shader.name,
         spirv: &specialise(shader.spirv, &constants),
@@ -143,61 +181,4 @@ pub(crate) fn build_pipeline(
         push_constant_bytes: push_constant_bytes as u32,
         constants: &constants,
     })
-}
-
-struct Renderer<'a> {
-    gpu: &'a Gpu,
-    pipeline: Pipeline,
-    group: BindGroup,
-    groups_per_tile: u32,
-}
-
-impl Renderer<'_> {
-    /// One workgroup of the first slice: whatever the driver compiles late, it compiles now.
-    fn warm_up(&self, film: &FilmBuffer) -> Result<()> {
-        if let Some(band) = film.bands().next() {
-            let slice = Slice { sample_count: 1, ..band.slice() };
-            self.gpu.run(&self.pipeline, &self.group, bytemuck::bytes_of(&slice), [1, 1, 1])?;
-        }
-        Ok(())
-    }
-
-    /// All samples of all tiles of a band, in slices as long as the plan allows.
-    fn band(
-        &self,
-        band: &Band,
-        plan: &mut slices::Plan,
-        report: &mut Report,
-        progress: &dyn Progress,
-    ) -> Result<()> {
-        self.tiles(band, band.tiles, plan, report, progress)
-    }
-
-    /// The first `count` tiles in line alone.
-    fn tiles(
-        &self,
-        band: &Band,
-        count: u32,
-        plan: &mut slices::Plan,
-        report: &mut Report,
-        progress: &dyn Progress,
-    ) -> Result<()> {
-        for (first_sample, sample_count) in plan.chunks() {
-            let mut first_tile = 0;
-            while first_tile < count {
-                let tiles = plan.tiles(count - first_tile, sample_count);
-                let slice = Slice { first_tile, first_sample, sample_count, ..band.slice() };
-                let groups = [self.groups_per_tile, tiles, 1];
-                let time = self.gpu.run(&self.pipeline, &self.group, bytemuck::bytes_of(&slice), groups)?;
-                plan.learn(tiles, sample_count, time.wall_seconds);
-                report.add_slice(time);
-                progress.advance(plan.done());
-                if progress.cancelled() {
-                    return Err(Error::Interrupted);
-                }
-                first_tile += tiles;
-            }
-        }
-        Ok(())
-    }
 }

@@ -1,7 +1,7 @@
 //! Packed scene → buffers and images on the device: only what the features name, and of the
 //! textures only the source in use.
 
-use std::cell::OnceCell;
+use std::sync::OnceLock;
 
 use super::diagnostics::Guards;
 use super::images::Uploads;
@@ -13,48 +13,19 @@ use crate::gpu::{BindGroup, BindingKind, Bound, Buffer, BufferUse, Gpu, Image, P
 use crate::pack::features::{Features, TexelSource};
 use crate::pack::{PackedScene, Sections, SlotCounts, TextureKind};
 use crate::scene::model::Algorithm;
+use crate::schema::bindings;
+use crate::schema::enums::Reals;
 use crate::schema::layout::{HEAD_BYTES, Header};
+use crate::schema::specialization::Constant;
 
 /// The shader of an algorithm, by where its texels come from and the numbers of its geometry.
-pub fn shader_for(algorithm: Algorithm, features: &Features) -> &'static Shader {
-    let source = features.source;
-    if algorithm == Algorithm::Cone {
-        return match source {
-            TexelSource::None => &shaders::CONE_NONE,
-            TexelSource::Buffer => &shaders::CONE_TEXELS,
-            TexelSource::Image => &shaders::CONE_IMAGES,
-            TexelSource::Solids => &shaders::CONE_SOLIDS,
-        };
-    }
-    if features.double {
-        return match source {
-            TexelSource::None => &shaders::RENDER_NONE_DOUBLE,
-            TexelSource::Buffer => &shaders::RENDER_TEXELS_DOUBLE,
-            TexelSource::Image => &shaders::RENDER_IMAGES_DOUBLE,
-            TexelSource::Solids => &shaders::RENDER_SOLIDS_DOUBLE,
-        };
-    }
-    match source {
-        TexelSource::None => &shaders::RENDER_NONE,
-        TexelSource::Buffer => &shaders::RENDER_TEXELS,
-        TexelSource::Image => &shaders::RENDER_IMAGES,
-        TexelSource::Solids => &shaders::RENDER_SOLIDS,
+pub fn shader_for(algorithm: Algorithm, features: &Features) -> Result<&'static Shader> {
+    let reals = if features.double { Reals::F64Math } else { Reals::F32 };
+    match algorithm {
+        Algorithm::Cone => shaders::CONE_FAMILY.shader(features.source, Reals::F32),
+        _ => shaders::RENDER_FAMILY.shader(features.source, reals),
     }
 }
-
-/// Binding of the light of sRGB codes.
-const SRGB: u32 = 3;
-/// Binding of the texels of textures.
-pub const TEXELS: u32 = 6;
-/// Bindings of the images of volumes and of cubes; 2 has those of flat textures.
-pub const VOLUMES: u32 = 7;
-pub const CUBES: u32 = 8;
-/// Binding of the sums along rows of textures.
-const PREFIX_SUMS: u32 = 9;
-/// Binding of the survey's lists.
-const SURVEY: u32 = 10;
-/// Binding of the counters of what goes beyond a limit.
-const DIAGNOSTICS: u32 = 11;
 
 pub struct Resources {
     pub sections: Sections,
@@ -66,9 +37,9 @@ pub struct Resources {
     srgb: Buffer,
     texels: Option<TexelBuffer>,
     /// Once beams are wanted.
-    prefix_sums: OnceCell<Buffer>,
+    prefix_sums: OnceLock<Buffer>,
     /// Once there are any lists of triangles.
-    pub survey: OnceCell<Buffer>,
+    pub survey: OnceLock<Buffer>,
     /// Where the pipelines count.
     pub guards: Option<Guards>,
     images: Vec<(Image, Sampler)>,
@@ -104,7 +75,7 @@ impl Resources {
             (slots.texel_blocks, slots.block_log2) =
                 (texel_buffer.blocks.len() as u32, texel_buffer.block_log2);
         }
-        let prefix_sums = OnceCell::new();
+        let prefix_sums = OnceLock::new();
         if packed.beams {
             // Never set twice: it is empty.
             let _ = prefix_sums.set(texel_buffer::upload_row_sums(gpu, packed, &packed.prefix_sums)?);
@@ -126,8 +97,8 @@ impl Resources {
             srgb,
             texels,
             prefix_sums,
-            survey: OnceCell::new(),
-            guards: features.has("DIAGNOSED").then(|| Guards::new(gpu)).transpose()?,
+            survey: OnceLock::new(),
+            guards: features.has(Constant::Diagnosed).then(|| Guards::new(gpu)).transpose()?,
             images,
             volumes,
             cubes,
@@ -153,8 +124,8 @@ impl Resources {
         gpu.write_buffer(&self.scene, 0, &packed.header_bytes(header))
     }
 
-    /// The shader's bindings with what they bind: 0 what it writes, 4 a list of queries or jobs (any buffer
-    /// where none is read), the other storage buffers the scene.
+    /// The shader's bindings with what they bind: what it writes, a list of queries or jobs (any buffer where none
+    /// is read), and the scene.
     pub fn bind(
         &self,
         gpu: &Gpu,
@@ -166,23 +137,25 @@ impl Resources {
         let [images, volumes, cubes] = [&self.images, &self.volumes, &self.cubes].map(|slots| pairs(slots));
         let resource = |b: &ReflectedBinding| {
             let resource = match (b.kind, b.binding) {
-                (BindingKind::StorageBuffer, 0) => Bound::Buffer(output),
-                (BindingKind::StorageBuffer, 4) => Bound::Buffer(queries.unwrap_or(&self.scene)),
-                (BindingKind::StorageBuffer, SURVEY) => {
+                (BindingKind::StorageBuffer, bindings::OUTPUT) => Bound::Buffer(output),
+                (BindingKind::StorageBuffer, bindings::LIST) => Bound::Buffer(queries.unwrap_or(&self.scene)),
+                (BindingKind::StorageBuffer, bindings::TILE_LISTS) => {
                     Bound::Buffer(self.survey.get().unwrap_or(&self.scene))
                 }
-                (BindingKind::StorageBuffer, DIAGNOSTICS) => {
+                (BindingKind::StorageBuffer, bindings::DIAGNOSTICS) => {
                     Bound::Buffer(self.guards.as_ref().map_or(&self.scene, |guards| &guards.buffer))
                 }
                 (BindingKind::StorageBuffer, _) => Bound::Buffer(&self.scene),
                 (BindingKind::UniformBuffer, _) => Bound::Head(&self.scene, HEAD_BYTES as u64),
-                (BindingKind::TexelBuffer, SRGB) => Bound::Texels(std::slice::from_ref(&self.srgb)),
-                (BindingKind::TexelBuffer, PREFIX_SUMS) => {
+                (BindingKind::TexelBuffer, bindings::SRGB_LIGHT) => {
+                    Bound::Texels(std::slice::from_ref(&self.srgb))
+                }
+                (BindingKind::TexelBuffer, bindings::PREFIX_SUMS) => {
                     Bound::Texels(std::slice::from_ref(self.prefix_sums.get()?))
                 }
                 (BindingKind::TexelBuffer, _) => Bound::Texels(&self.texels.as_ref()?.blocks),
-                (BindingKind::SampledImage, VOLUMES) => Bound::Images(&volumes),
-                (BindingKind::SampledImage, CUBES) => Bound::Images(&cubes),
+                (BindingKind::SampledImage, bindings::VOLUMES) => Bound::Images(&volumes),
+                (BindingKind::SampledImage, bindings::CUBES) => Bound::Images(&cubes),
                 (BindingKind::SampledImage, _) => Bound::Images(&images),
             };
             Some((b.binding, resource))

@@ -2,35 +2,40 @@
 //! once. Out: for each choice of samples a pipeline, and from it films. Renders of one session share the
 //! buffers of scene and film, so they take turns.
 
-use std::cell::{Cell, OnceCell, RefCell};
-use std::rc::Rc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use std::time::Instant;
 
-use crate::adaptive::{self, Goal};
 use crate::core::error::{Error, Result};
 use crate::core::film::Film;
 use crate::core::progress::Progress;
 use crate::gpu::shaders::{self, Shader};
 use crate::gpu::{Gpu, Pipeline};
+use crate::integrators::adaptive::Goal;
 use crate::pack::features::Features;
 use crate::pack::{self, PackedScene, Schedule};
-use crate::scene::model::{Algorithm, Scene};
+use crate::scene::model::Scene;
+use crate::schema::enums::TexelSource;
 use crate::schema::layout::{Header, Slice};
+use crate::schema::specialization::Constant;
 
-use super::beams::{Beams, Fallback, Sampler, Teller};
+use super::backend::DeviceBackend;
+use super::batches::{BatchSampler, SamplePipeline};
+use super::beams::BeamPass;
 use super::film_buffer::FilmBuffer;
-use super::jobs::JobTracer;
 use super::loop_budget::samples_at_once;
+use super::plan::integrator;
 use super::resources::{Resources, shader_for};
 use super::texel_buffer;
 use super::tile_culling::TileCulling;
-use super::{Renderer, Report, Tuning, build_pipeline, slices, specialization, tuning};
+use super::tiles::TileRenderer;
+use super::{Report, Tuning, build_pipeline, specialization, tuning};
 
 pub struct Session<'a> {
-    gpu: &'a Gpu,
+    pub(super) gpu: &'a Gpu,
     /// Without texels and their sums: the device has them.
     scene: PackedScene,
-    resources: Resources,
+    pub(super) resources: Resources,
     keep_everything: bool,
     /// Look-ups of method shader read images.
     image_source: bool,
@@ -38,29 +43,44 @@ pub struct Session<'a> {
     /// What the device lacks.
     warnings: Vec<String>,
     /// What the scene buffer begins with now.
-    header: Cell<Header>,
+    header: Mutex<Header>,
     /// Of a scene of many triangles.
-    survey: OnceCell<TileCulling>,
+    survey: OnceLock<TileCulling>,
     /// Films of this size, without compensation and with it.
-    films: RefCell<[Option<Rc<FilmBuffer>>; 2]>,
+    films: Mutex<[Option<Arc<FilmBuffer>>; 2]>,
+    /// Somebody writes those buffers now.
+    taken: AtomicBool,
     upload_seconds: f64,
+}
+
+/// The right to write what all renders of a session share.
+pub(super) struct Turn<'s>(&'s AtomicBool);
+
+impl Drop for Turn<'_> {
+    fn drop(&mut self) {
+        self.0.store(false, Ordering::Release);
+    }
 }
 
 /// A session's scene with one choice of samples.
 pub struct Prepared<'s, 'a> {
-    session: &'s Session<'a>,
+    pub(super) session: &'s Session<'a>,
     /// The session's with this choice.
-    scene: PackedScene,
-    work: Work<'a>,
+    pub(super) scene: PackedScene,
+    pub(super) work: Work<'a>,
     /// Of a render: its pipeline is compiled, nothing is rendered.
-    report: Report,
+    pub(super) report: Report,
 }
 
 /// How samples reach the film.
-enum Work<'a> {
-    Tiles { renderer: Renderer<'a>, film: Rc<FilmBuffer> },
-    Jobs { sampler: Sampler },
-    Beams(Beams<'a>),
+pub(super) enum Work<'a> {
+    Tiles {
+        renderer: TileRenderer<'a>,
+        film: Arc<FilmBuffer>,
+    },
+    Batches(SamplePipeline),
+    /// And the pipeline for pixels that beams leave, once there were any.
+    Beams(BeamPass<'a>, OnceLock<SamplePipeline>),
 }
 
 impl<'a> Session<'a> {
@@ -77,10 +97,10 @@ impl<'a> Session<'a> {
         let image_source = tuning.image_source(gpu, &scene);
         let features = Features::new(&scene, image_source, keep_everything);
         let resources = Resources::upload(gpu, &scene, &features, tuning.texel_words(gpu))?;
-        let films = RefCell::new([None, None]);
-        let survey = OnceCell::new();
+        let films = Mutex::new([None, None]);
+        let survey = OnceLock::new();
         (scene.texels, scene.prefix_sums) = (Vec::new(), Vec::new());
-        let header = Cell::new(scene.header);
+        let header = Mutex::new(scene.header);
         let upload_seconds = clock.elapsed().as_secs_f64();
         Ok(Session {
             gpu,
@@ -93,6 +113,7 @@ impl<'a> Session<'a> {
             header,
             survey,
             films,
+            taken: AtomicBool::new(false),
             upload_seconds,
         })
     }
@@ -118,6 +139,7 @@ impl<'a> Session<'a> {
             warnings: self.warnings.clone(),
             ..Report::default()
         };
+        let turn = self.turn()?;
         let clock = Instant::now();
         self.write_header(&scene.header)?;
         report.seconds.upload = self.upload_seconds + clock.elapsed().as_secs_f64();
@@ -130,18 +152,17 @@ impl<'a> Session<'a> {
             let _ = self.survey.set(survey);
         }
         let work = match scene.schedule {
-            Schedule::Tiles if scene.beams => {
-                Work::Beams(Beams { teller: self.teller(scene, features)?, sampler: OnceCell::new() })
-            }
+            Schedule::Tiles if scene.beams => Work::Beams(self.beam_pass(scene, features)?, OnceLock::new()),
             Schedule::Tiles => {
                 let (renderer, film) =
-                    self.renderer(scene, &features, shader_for(scene.algorithm, &features))?;
+                    self.renderer(scene, &features, shader_for(scene.algorithm, &features)?)?;
                 Work::Tiles { renderer, film }
             }
-            Schedule::Jobs => Work::Jobs { sampler: self.sampler(scene, &features)? },
+            Schedule::Jobs => Work::Batches(self.sample_pipeline(scene, &features)?),
         };
         let mut prepared = Prepared { session: self, scene: scene.clone(), work, report };
-        prepared.warm_up_jobs()?;
+        prepared.warm_up()?;
+        drop(turn);
         prepared.report.seconds.compile = clock.elapsed().as_secs_f64();
         Ok(prepared)
     }
@@ -152,19 +173,19 @@ impl<'a> Session<'a> {
         scene: &PackedScene,
         features: &Features,
         shader: &'static Shader,
-    ) -> Result<(Renderer<'a>, Rc<FilmBuffer>)> {
+    ) -> Result<(TileRenderer<'a>, Arc<FilmBuffer>)> {
         let (pipeline, groups_per_tile) = self.pipeline(features, shader)?;
         let film = self.film(scene, features)?;
         let group = self.resources.bind(self.gpu, &pipeline, shader, &film.buffer, None)?;
-        let renderer = Renderer { gpu: self.gpu, pipeline, group, groups_per_tile };
+        let renderer = TileRenderer { gpu: self.gpu, pipeline, group, groups_per_tile };
         renderer.warm_up(&film)?;
         Ok((renderer, film))
     }
 
-    fn sampler(&self, scene: &PackedScene, features: &Features) -> Result<Sampler> {
-        let shader = shader_for(scene.algorithm, features);
+    fn sample_pipeline(&self, scene: &PackedScene, features: &Features) -> Result<SamplePipeline> {
+        let shader = shader_for(scene.algorithm, features)?;
         let (pipeline, groups_per_tile) = self.pipeline(features, shader)?;
-        Ok(Sampler { pipeline, shader, groups_per_tile })
+        Ok(SamplePipeline { pipeline, shader, groups_per_tile })
     }
 
     /// And its workgroups a tile.
@@ -173,9 +194,8 @@ impl<'a> Session<'a> {
         let slots = self.resources.slots;
         let mut constants =
             specialization::constants(shader, features, &self.resources.sections, group_size, slots);
-        if let Some(constant) = shader.constant("TABLES_IN_HEAD") {
-            constants.push((constant.id, u32::from(Tuning::tables_in_head(self.gpu.info()))));
-        }
+        let tables_in_head = u32::from(Tuning::tables_in_head(self.gpu.info()));
+        constants.extend(shader.values([(Constant::TablesInHead, tables_in_head)]));
         let pipeline = build_pipeline(self.gpu, shader, &constants, slots, size_of::<Slice>())?;
         Ok((pipeline, tuning::groups_per_tile(group_size)))
     }
@@ -193,15 +213,15 @@ impl<'a> Session<'a> {
         self.survey().map(|survey| survey.words(self.gpu)).transpose()
     }
 
-    /// What samples the pixels that beams leave.
-    fn beside_beams(&self, scene: &PackedScene) -> Result<Sampler> {
+    /// Builds the pipeline that samples the pixels which beams leave.
+    pub(super) fn samples_beside_beams(&self, scene: &PackedScene) -> Result<SamplePipeline> {
         let scene = PackedScene { schedule: Schedule::Jobs, ..scene.clone() };
-        self.sampler(&scene, &self.features_of(&scene))
+        self.sample_pipeline(&scene, &self.features_of(&scene))
     }
 
-    /// What tells pixels beside samples; none for a scene that beams do not suit, or whose textures' sums the
-    /// device cannot hold.
-    pub(super) fn beside_samples(&self) -> Result<Option<Teller<'a>>> {
+    /// Builds what resolves pixels beside samples; `None` for a scene that beams do not support, or whose textures'
+    /// sums the device cannot hold.
+    pub(super) fn beams_beside_samples(&self) -> Result<Option<BeamPass<'a>>> {
         let Some(textures) = &self.scene.beam_textures else { return Ok(None) };
         // Asked before they are made: of large textures they take far more memory than the texels.
         if !texel_buffer::fits(self.gpu, pack::prefix_sum_words(textures)) {
@@ -210,35 +230,45 @@ impl<'a> Session<'a> {
         self.resources.add_row_sums(self.gpu, &self.scene, || pack::prefix_sums(textures))?;
         let scene = PackedScene { schedule: Schedule::Tiles, beams: true, ..self.scene.clone() };
         let features = self.features_of(&scene);
-        self.teller(&scene, features).map(Some)
+        self.beam_pass(&scene, features).map(Some)
     }
 
-    fn teller(&self, scene: &PackedScene, features: Features) -> Result<Teller<'a>> {
+    fn beam_pass(&self, scene: &PackedScene, features: Features) -> Result<BeamPass<'a>> {
         let features = Features { compensated: false, ..features };
-        let (renderer, film) = self.renderer(
-            scene,
-            &features,
-            if features.double { &shaders::BEAM_WIDE } else { &shaders::BEAM },
-        )?;
-        Ok(Teller { renderer, film })
+        let shader = shaders::BEAM_FAMILY.shader(TexelSource::None, features.records())?;
+        let (renderer, film) = self.renderer(scene, &features, shader)?;
+        Ok(BeamPass { renderer, film })
     }
 
-    fn film(&self, scene: &PackedScene, features: &Features) -> Result<Rc<FilmBuffer>> {
-        let slot = &mut self.films.borrow_mut()[usize::from(features.compensated)];
+    fn film(&self, scene: &PackedScene, features: &Features) -> Result<Arc<FilmBuffer>> {
+        let mut films = self.films.lock().unwrap_or_else(PoisonError::into_inner);
+        let slot = &mut films[usize::from(features.compensated)];
         if let Some(film) = slot {
             return Ok(film.clone());
         }
-        let film = Rc::new(FilmBuffer::new(self.gpu, scene, features)?);
+        let film = Arc::new(FilmBuffer::new(self.gpu, scene, features)?);
         *slot = Some(film.clone());
         Ok(film)
     }
 
-    fn write_header(&self, header: &Header) -> Result<()> {
-        if self.header.get() != *header {
+    pub(super) fn write_header(&self, header: &Header) -> Result<()> {
+        let mut there = self.header.lock().unwrap_or_else(PoisonError::into_inner);
+        if *there != *header {
             self.resources.write_header(self.gpu, &self.scene, header)?;
-            self.header.set(*header);
+            *there = *header;
         }
         Ok(())
+    }
+
+    /// Fails while another render of this session has the buffers.
+    pub(super) fn turn(&self) -> Result<Turn<'_>> {
+        if self.taken.swap(true, Ordering::Acquire) {
+            return Err(Error::with_help(
+                "renders of one session share its buffers: one is not finished",
+                "finish it first, or open a second session",
+            ));
+        }
+        Ok(Turn(&self.taken))
     }
 }
 
@@ -252,77 +282,26 @@ impl Prepared<'_, '_> {
         self.render_to_goal(None, progress)
     }
 
-    /// The same; where samples go to the film by jobs, until the goal is met, by default the number of
-    /// samples.
+    /// The same; of a scene that is sampled by batches, until the goal is met, by default the number of samples.
     pub fn render_to_goal(&self, goal: Option<Goal>, progress: &dyn Progress) -> Result<(Film, Report)> {
-        self.session.write_header(&self.scene.header)?;
-        let mut report = self.report.clone();
-        let [width, height, _, _] = self.scene.header.size;
-        if let Some(guards) = &self.session.resources.guards {
-            guards.clear(self.session.gpu)?;
-        }
-        let clock = Instant::now();
-        if let Some(survey) = self.session.survey().filter(|_| self.scene.culls_tiles()) {
-            survey.run(self.session.gpu, &mut report)?;
-        }
-        let surveying = clock.elapsed().as_secs_f64();
-        let film = match &self.work {
-            Work::Tiles { renderer, film: buffer } => {
-                let mut film = Film::new(width, height, self.scene.samples);
-                let mut dropped = 0.0;
-                let mut plan = slices::Plan::new(self.scene.samples, self.scene.chunk, buffer.tiles());
-                for band in buffer.bands() {
-                    let clock = Instant::now();
-                    renderer.band(&band, &mut plan, &mut report, progress)?;
-                    report.seconds.render += clock.elapsed().as_secs_f64();
-                    let clock = Instant::now();
-                    dropped += buffer.read(self.session.gpu, &band, &mut film)?;
-                    report.seconds.readback += clock.elapsed().as_secs_f64();
-                }
-                let cones = self.scene.algorithm == Algorithm::Cone;
-                report.dropped = cones.then(|| dropped / film.pixels.len() as f64);
-                film
-            }
-            Work::Beams(beams) => {
-                let session = self.session;
-                let fallback = Fallback { resources: &session.resources, scene: &self.scene };
-                let build = || session.beside_beams(&self.scene);
-                beams.render(session.gpu, [width, height], &fallback, build, &mut report, progress)?
-            }
-            Work::Jobs { .. } => {
-                let clock = Instant::now();
-                let goal = goal.unwrap_or(Goal::Samples(self.scene.samples));
-                let compiled = report.seconds.compile;
-                let mut tracer = self.tracer(&mut report)?;
-                let (film, outcome) = adaptive::run(&mut tracer, [width, height], goal, progress)?;
-                let compiling = report.seconds.compile - compiled;
-                report.seconds.render = clock.elapsed().as_secs_f64() - compiling;
-                report.outcome = Some(outcome);
-                film
-            }
-        };
-        report.seconds.render += surveying;
-        let guards = self.session.resources.guards.as_ref();
-        report.guards = guards.map(|guards| guards.read(self.session.gpu)).transpose()?;
-        report.device_bytes = self.session.gpu.memory_in_use();
-        Ok((film, report))
+        let [width, height] = self.scene.header.film_size.to_array();
+        let mut backend = DeviceBackend::new(self)?;
+        let integrated = integrator(&self.scene, goal).render(&mut backend, [width, height], progress)?;
+        let mut report = backend.finish()?;
+        Ok((report.take(integrated), report))
+    }
+
+    /// What takes batches of samples by a pipeline of this choice of samples.
+    pub(super) fn sampler<'a>(&'a self, pipeline: &'a SamplePipeline) -> Result<BatchSampler<'a>> {
+        BatchSampler::new(self.session.gpu, pipeline, &self.session.resources, &self.scene)
     }
 
     /// Whatever the driver compiles late, it compiles now.
-    fn warm_up_jobs(&self) -> Result<()> {
-        match self.work {
-            Work::Tiles { .. } | Work::Beams(_) => Ok(()),
-            Work::Jobs { .. } => self.tracer(&mut Report::default())?.warm_up(),
+    fn warm_up(&self) -> Result<()> {
+        match &self.work {
+            // Done by the renderer.
+            Work::Tiles { .. } | Work::Beams(..) => Ok(()),
+            Work::Batches(pipeline) => self.sampler(pipeline)?.warm_up(),
         }
-    }
-
-    fn tracer<'t>(&'t self, report: &'t mut Report) -> Result<JobTracer<'t>> {
-        let Work::Jobs { sampler } = &self.work else {
-            return Err(Error::new("a scene that is rendered tile by tile has no jobs"));
-        };
-        let session = self.session;
-        let mut tracer = sampler.tracer(session.gpu, &session.resources, &self.scene, report)?;
-        tracer.session = Some(session);
-        Ok(tracer)
     }
 }

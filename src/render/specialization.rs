@@ -3,6 +3,7 @@
 use crate::gpu::shaders::Shader;
 use crate::pack::features::Features;
 use crate::pack::{Sections, SlotCounts};
+use crate::schema::specialization::Constant;
 
 /// (specialization id, value) for a shader: the features, the lists' places, the workgroup's size
 /// and the number of descriptors. A constant that the shader does not have is not set.
@@ -13,26 +14,25 @@ pub fn constants(
     group: [u32; 2],
     slots: SlotCounts,
 ) -> Vec<(u32, u32)> {
-    let places = [
-        ("PLANES_AT", sections.planes),
-        ("SPHERES_AT", sections.spheres),
-        ("TRIANGLES_AT", sections.triangles),
-        ("LIGHTS_AT", sections.lights),
-        ("MATERIALS_AT", sections.materials),
-        ("MAPS_AT", sections.maps),
-        ("TEXTURES_AT", sections.textures),
-        ("SAMPLERS_AT", sections.samplers),
-        ("PROCEDURALS_AT", sections.procedurals),
-        ("MOTIONS_AT", sections.motions),
-        ("PIXEL_FILTER_AT", sections.pixel_filter),
-        ("GROUP_X", group[0]),
-        ("GROUP_Y", group[1]),
-        ("SLOTS", slots.flat.max(1)),
-        ("VOLUME_SLOTS", slots.volumes.max(1)),
-        ("CUBE_SLOTS", slots.cubes.max(1)),
-        ("TEXEL_BLOCKS", slots.texel_blocks.max(1)),
-        ("BLOCK_LOG2", slots.block_log2),
+    let parameters = [
+        (Constant::PlanesAt, sections.planes),
+        (Constant::SpheresAt, sections.spheres),
+        (Constant::TrianglesAt, sections.triangles),
+        (Constant::LightsAt, sections.lights),
+        (Constant::MaterialsAt, sections.materials),
+        (Constant::UvProjectionsAt, sections.uv_projections),
+        (Constant::TexturesAt, sections.textures),
+        (Constant::SamplersAt, sections.samplers),
+        (Constant::ProceduralsAt, sections.procedurals),
+        (Constant::MotionsAt, sections.motions),
+        (Constant::PixelFilterAt, sections.pixel_filter),
+        (Constant::GroupX, group[0]),
+        (Constant::GroupY, group[1]),
+        (Constant::Slots, slots.flat.max(1)),
+        (Constant::VolumeSlots, slots.volumes.max(1)),
+        (Constant::CubeSlots, slots.cubes.max(1)),
+        (Constant::TexelBlocks, slots.texel_blocks.max(1)),
+        (Constant::BlockLog2, slots.block_log2),
     ];
-    let all = features.values.iter().copied().chain(places);
-    all.filter_map(|(name, value)| Some((shader.constant(name)?.id, value))).collect()
+    shader.values(features.values.iter().copied().chain(parameters))
 }

@@ -7,7 +7,6 @@ use super::mip_chain::{MipGenerator, MipSource, sizes};
 use crate::core::error::{Error, Result};
 use crate::gpu::{Buffer, BufferUse, Gpu};
 use crate::pack::PackedScene;
-use crate::texture::data::{ColorSpace, TexelFormat};
 
 /// At most this many buffers hold the texels (`READ_BLOCK` in `texel_buffer.glsl`).
 const MAX_BLOCKS: u64 = 16;
@@ -34,15 +33,15 @@ impl TexelBuffer {
         let mut written = 0;
         for &texture in &packed.device_levels {
             let record = &packed.textures[texture];
-            let start = record.place[0] as usize * 4;
+            let start = record.first_word as usize * 4;
             if start >= bytes {
                 continue;
             }
             texel_buffer.write(gpu, written, &texels[written..start])?;
             let mip_chain = maker.make(&MipSource {
                 name: &packed.texture_names[texture],
-                format: TexelFormat::ALL[record.place[3] as usize],
-                space: ColorSpace::ALL[record.link[0] as usize],
+                format: record.format,
+                space: record.color_space,
                 sizes: &sizes(packed, texture),
                 texels: packed.level_texels(texture, 0),
             })?;

@@ -8,7 +8,8 @@ use crate::gpu::shaders;
 use crate::gpu::{BindGroup, Buffer, BufferUse, Gpu, Pipeline};
 use crate::pack::PackedScene;
 use crate::pack::features::Features;
-use crate::schema::layout::{CELL_EMPTY, CELL_UNIFORM, CELL_WORDS, Part};
+use crate::schema::enums::TexelSource;
+use crate::schema::layout::{CELL_EMPTY, CELL_UNIFORM, CELL_WORDS, CellRange};
 
 const GROUP: u32 = 64;
 /// Triangles times cells that one submission tests: some tenths of a second on a slow device.
@@ -31,12 +32,12 @@ impl TileCulling {
         resources: &Resources,
         features: &Features,
     ) -> Result<TileCulling> {
-        let shader = if features.double { &shaders::TILE_CULLING_WIDE } else { &shaders::TILE_CULLING };
+        let shader = shaders::TILE_CULLING_FAMILY.shader(TexelSource::None, features.records())?;
         let slots = resources.slots;
         let constants = specialization::constants(shader, features, &resources.sections, [GROUP, 1], slots);
-        let pipeline = build_pipeline(gpu, shader, &constants, slots, size_of::<Part>())?;
-        let [width, height, _, _] = scene.header.size;
-        let side = scene.header.chances[3];
+        let pipeline = build_pipeline(gpu, shader, &constants, slots, size_of::<CellRange>())?;
+        let [width, height] = scene.header.film_size.to_array();
+        let side = scene.header.cell_side;
         let cells = [width, height].map(|pixels| pixels.div_ceil(side));
         let bytes = cells.map(u64::from).iter().product::<u64>() * u64::from(CELL_WORDS) * 4;
         let buffer = gpu.buffer("survey", bytes, BufferUse::Storage)?;
@@ -45,7 +46,7 @@ impl TileCulling {
         let cells_at_once = (MAX_TESTS / tests).clamp(u64::from(GROUP), 1 << 20) as u32;
         let survey = TileCulling { buffer, pipeline, group, side, cells, cells_at_once };
         // Whatever the driver compiles late, it compiles now.
-        survey.part(gpu, Part { first: 0, end: 1 }, &mut Report::default())?;
+        survey.part(gpu, CellRange { first: 0, end: 1 }, &mut Report::default())?;
         Ok(survey)
     }
 
@@ -53,12 +54,12 @@ impl TileCulling {
     pub fn run(&self, gpu: &Gpu, report: &mut Report) -> Result<()> {
         let cells = self.cells[0] * self.cells[1];
         for first in (0..cells).step_by(self.cells_at_once as usize) {
-            self.part(gpu, Part { first, end: cells.min(first + self.cells_at_once) }, report)?;
+            self.part(gpu, CellRange { first, end: cells.min(first + self.cells_at_once) }, report)?;
         }
         Ok(())
     }
 
-    fn part(&self, gpu: &Gpu, part: Part, report: &mut Report) -> Result<()> {
+    fn part(&self, gpu: &Gpu, part: CellRange, report: &mut Report) -> Result<()> {
         let groups = [(part.end - part.first).div_ceil(GROUP), 1, 1];
         let time = gpu.run(&self.pipeline, &self.group, bytemuck::bytes_of(&part), groups)?;
         report.device_survey_seconds =

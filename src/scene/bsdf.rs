@@ -5,22 +5,7 @@ use super::model::Material;
 use super::reader::{COLOR, EXPONENT, Field, IOR, UNIT};
 use super::table::Table;
 use crate::core::error::Result;
-use crate::core::named::named_enum;
-
-named_enum! {
-    /// Reflection model of a material.
-    #[derive(Default)]
-    pub enum Model {
-        Unlit = "unlit",
-        #[default]
-        Lambert = "lambert",
-        Mirror = "mirror",
-        /// Mirrors or refracts, by Fresnel's share of each.
-        Dielectric = "dielectric",
-        /// Lambert with a highlight.
-        Phong = "phong",
-    }
-}
+pub use crate::schema::enums::Model;
 
 impl Model {
     /// Shows its colour as it is: an environment, a texture that is looked at.
@@ -39,11 +24,6 @@ impl Model {
     /// Whether rays go on from it.
     pub const fn is_specular(self) -> bool {
         matches!(self, Model::Mirror | Model::Dielectric)
-    }
-
-    /// Returns the number that its record holds beside the colours: a refractive index, or the highlight's exponent.
-    pub const fn number_of(self, material: &Material) -> f64 {
-        if self.transmits() { material.ior } else { material.exponent }
     }
 
     /// Whether rays go on through it, too.

@@ -12,6 +12,7 @@ pub use super::mapping::{Entity, Mapping, MappingKind, Space};
 pub use super::pixel_filter::{PixelFilter, PixelFilterKind};
 pub use super::sampling::{Algorithm, Footprint, Pattern, Precision, Sampling};
 use crate::core::named::named_enum;
+pub use crate::schema::enums::BumpKind;
 use crate::texture::sampler_spec::{Address, SamplerSpec};
 pub use crate::texture::source::{TextureContent, TextureSource};
 
@@ -67,18 +68,6 @@ named_enum! {
         /// The image's centre looks along -z, +x to its right, v = 0 at +y.
         Equirectangular = "equirectangular",
         Cube = "cube",
-    }
-}
-
-named_enum! {
-    /// What a material's bump texture holds.
-    pub enum BumpKind {
-        /// Unit normals as 2 rgb - 1: along growing u, along growing v, outward.
-        Normal = "normal",
-        /// Heights.
-        Bump = "bump",
-        /// Unit normals whose green runs against v.
-        NormalDown = "normal-down",
     }
 }
 

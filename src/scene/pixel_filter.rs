@@ -4,23 +4,7 @@
 use super::reader::Limits;
 use super::table::Table;
 use crate::core::error::Result;
-use crate::core::named::named_enum;
-
-named_enum! {
-    /// The shape of a pixel filter; the same along both axes, whose product it is.
-    #[derive(Default)]
-    pub enum PixelFilterKind {
-        #[default]
-        Box = "box",
-        Tent = "tent",
-        /// exp(-x²/2σ²) less its value at the radius, which is 3σ.
-        Gaussian = "gaussian",
-        /// The cubic of Mitchell & Netravali 1988 with B = C = 1/3; negative beyond 4/7 of the radius.
-        Mitchell = "mitchell",
-        /// The four terms of Harris 1978 with the least side lobes.
-        BlackmanHarris = "blackman-harris",
-    }
-}
+pub use crate::schema::enums::PixelFilterKind;
 
 impl PixelFilterKind {
     /// In pixels: a pixel's own square; the next pixel's centre; 3 σ of half a pixel (Pharr, Jakob & Humphreys

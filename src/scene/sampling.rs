@@ -2,6 +2,7 @@
 //! the model.
 
 use crate::core::named::named_enum;
+pub use crate::schema::enums::{Footprint, Pattern};
 
 named_enum! {
     /// How many rays a pixel sends and what becomes of them (`[sampling] algorithm`).
@@ -18,26 +19,6 @@ named_enum! {
         Auto = "auto",
         /// One cone a pixel and no sample (Amanatides 1984).
         Cone = "cone",
-    }
-}
-
-named_enum! {
-    /// Where in the pixel the samples lie (`[sampling] pattern`).
-    pub enum Pattern {
-        Center = "center",
-        Grid = "grid",
-        Random = "random",
-        Stratified = "stratified",
-        /// Kensler 2013, correlated.
-        MultiJittered = "multi-jittered",
-        /// Bases 2 and 3, nested scrambling.
-        Halton = "halton",
-        /// A (0,2)-sequence, nested scrambling (Burley 2020).
-        SobolOwen = "sobol-owen",
-        /// Blocks of one sequence along a shuffled Morton curve of pixels (Ahmed & Wonka 2020).
-        BlueNoise = "blue-noise",
-        /// Shirley 1991, also known as latin hypercube.
-        NRooks = "n-rooks",
     }
 }
 
@@ -65,17 +46,6 @@ impl Pattern {
     pub const fn can_be_shared(self) -> bool {
         use Pattern::{Halton, MultiJittered, NRooks, SobolOwen, Stratified};
         matches!(self, Stratified | MultiJittered | Halton | SobolOwen | NRooks)
-    }
-}
-
-named_enum! {
-    /// Over what a texture look-up is averaged (`[sampling] footprint`).
-    pub enum Footprint {
-        None = "none",
-        /// A width and a spread (Amanatides 1984; Akenine-Möller et al. 2021).
-        Cone = "cone",
-        /// Two vectors each of origin and direction (Igehy 1999).
-        Differentials = "differentials",
     }
 }
 

@@ -29,7 +29,7 @@
 use std::path::{Path, PathBuf};
 
 use super::data::ColorSpace;
-use super::decode::AllowedFloats;
+use super::decode::Values;
 use super::read_file::{Picture, Texels};
 use super::source::{CubeLayout, Reading};
 use super::stack;
@@ -68,7 +68,7 @@ pub(super) fn join(
     files: &[PathBuf; 6],
     reading: &Reading,
     space: ColorSpace,
-    values: AllowedFloats,
+    values: Values,
 ) -> Result<Picture> {
     let picture = stack::read(files, reading, space, values, "face")?;
     let faces = &picture.texels;

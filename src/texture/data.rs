@@ -2,14 +2,7 @@
 //! Grey stays one channel and grey with alpha two; three channels are expanded to four.
 
 use crate::core::named::named_enum;
-
-named_enum! {
-    /// The meaning of stored values; sRGB values are decoded to linear light before filtering.
-    pub enum ColorSpace {
-        Linear = "linear",
-        Srgb = "srgb",
-    }
-}
+pub use crate::schema::enums::{ColorSpace, TexelFormat};
 
 named_enum! {
     /// The dimensionality of the texel array.
@@ -28,21 +21,6 @@ named_enum! {
         Box = "box",
         /// A Kaiser-windowed sinc over a wider neighbourhood, which is sharper and aliases less.
         Kaiser = "kaiser",
-    }
-}
-
-named_enum! {
-    /// Channels and component type. One channel reads as (g, g, g, 1), two as (g, g, g, a).
-    pub enum TexelFormat {
-        Grey8 = "grey8",
-        GreyAlpha8 = "grey-alpha8",
-        Rgba8 = "rgba8",
-        Grey16 = "grey16",
-        GreyAlpha16 = "grey-alpha16",
-        Rgba16 = "rgba16",
-        GreyFloat = "grey-float",
-        GreyAlphaFloat = "grey-alpha-float",
-        RgbaFloat = "rgba-float",
     }
 }
 

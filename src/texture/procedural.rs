@@ -1,33 +1,7 @@
 //! Procedural solid textures as data: a pattern, its two colours and its parameters. One cell,
 //! period or lattice cell of every pattern is one unit of texture space; a mapping scales it.
 
-use crate::core::named::named_enum;
-
-named_enum! {
-    /// The pattern of a procedural texture: those with hard edges first, then those based on noise.
-    pub enum ProceduralKind {
-        /// Unit cubes; the foreground where floor(x) + floor(y) + floor(z) is odd.
-        Checker = "checker",
-        /// Stripes; the foreground where the fraction of x is below `width`.
-        Stripes = "stripes",
-        /// Lines of `width`, centred on integer x and y, and in three dimensions integer z.
-        Grid = "grid",
-        /// Bricks of `aspect` × 1 with joints of `width`, every other row shifted by `offset` bricks.
-        Brick = "brick",
-        /// Gradient noise (Perlin 2002).
-        Noise = "noise",
-        /// A sum of octaves of noise.
-        Fbm = "fbm",
-        /// A sum of octaves of |noise|.
-        Turbulence = "turbulence",
-        /// A sine of x, displaced by turbulence.
-        Marble = "marble",
-        /// Rings about the z axis, displaced by a sum of octaves.
-        Wood = "wood",
-        /// Distance to the nearest of random points, one per cell (Worley 1996, F1).
-        Cellular = "cellular",
-    }
-}
+pub use crate::schema::enums::ProceduralKind;
 
 impl ProceduralKind {
     /// Returns true for sums of octaves of noise that differ in scale; `noise` itself is a single

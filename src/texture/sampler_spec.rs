@@ -1,61 +1,7 @@
 //! The states of a sampler as data: the table from which scene vocabulary, `VkSampler` objects,
 //! shader constants, oracle and test names are generated.
 
-use crate::core::named::named_enum;
-
-named_enum! {
-    /// The wrapping of coordinates outside [0, 1) (Vulkan 1.3, "Wrapping Operation").
-    pub enum Address {
-        Repeat = "repeat",
-        MirroredRepeat = "mirrored-repeat",
-        ClampToEdge = "clamp-to-edge",
-        ClampToBorder = "clamp-to-border",
-        MirrorClampToEdge = "mirror-clamp-to-edge",
-    }
-}
-
-named_enum! {
-    /// The filter that combines the texels around a position, or under a footprint.
-    pub enum Filter {
-        Nearest = "nearest",
-        Linear = "linear",
-        /// A kernel of four by four texels with parameters B and C (Mitchell & Netravali 1988).
-        Cubic = "cubic",
-        /// One texel, chosen stochastically with the weights of `linear` (Fajardo et al. 2023).
-        Stochastic = "stochastic",
-        /// Lookups along the footprint's major axis (McCormack et al. 1999), as texture units
-        /// perform them.
-        Anisotropic = "anisotropic",
-        /// All texels under the footprint's ellipse (Heckbert 1989).
-        Ewa = "ewa",
-        /// The mean over the footprint's bounding box (Crow 1984).
-        SummedArea = "summed-area",
-    }
-}
-
-named_enum! {
-    pub enum MipMode {
-        None = "none",
-        Nearest = "nearest",
-        Linear = "linear",
-    }
-}
-
-named_enum! {
-    /// The implementation that filters: this program's shader in f32, or the device's texture unit.
-    pub enum Method {
-        Shader = "shader",
-        Hardware = "hardware",
-    }
-}
-
-named_enum! {
-    /// Texel i is centred at i + ½ (`half`, Vulkan) or at i (`integer`, the lecture's formulas).
-    pub enum TexelCenter {
-        Half = "half",
-        Integer = "integer",
-    }
-}
+pub use crate::schema::enums::{Address, Filter, Method, MipMode, TexelCenter};
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SamplerSpec {

@@ -9,7 +9,7 @@ use std::path::PathBuf;
 use rayon::prelude::*;
 
 use super::data::{ColorSpace, Component, TexelFormat};
-use super::decode::{AllowedFloats, read_checked};
+use super::decode::{Values, read_checked};
 use super::read_file::{Picture, Texels, check_volume};
 use super::source::Reading;
 use crate::core::error::{Error, Result};
@@ -19,7 +19,7 @@ pub(super) fn read(
     files: &[PathBuf],
     reading: &Reading,
     space: ColorSpace,
-    values: AllowedFloats,
+    values: Values,
     what: &str,
 ) -> Result<Picture> {
     let pictures: Vec<Result<Picture>> =

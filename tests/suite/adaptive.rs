@@ -4,15 +4,18 @@
 
 mod rare;
 
-use moire::internal::adaptive::{self, Goal, Outcome, Sums, Tracer, Trial};
+use moire::internal::core::error::{Error, Result};
 use moire::internal::core::film::Film;
 use moire::internal::core::progress::{NoProgress, Progress};
+use moire::internal::core::range::{Range, Rect};
 use moire::internal::gpu::DeviceKind;
+use moire::internal::integrators::adaptive::{self, Goal, Outcome};
 use moire::internal::lab::metrics::compare;
-use moire::internal::oracle::jobs::JobTracer;
+use moire::internal::oracle::backend::OracleBackend;
 use moire::internal::oracle::rng::sample_bits;
 use moire::internal::pack::PackedScene;
 use moire::internal::render::{self, Tuning};
+use moire::internal::sampling::{Backend, FilmSums, HalfSums, PilotRun};
 use moire::internal::scene::model::{Algorithm, Footprint, Pattern, Scene};
 use moire::internal::schema::layout::Job;
 
@@ -86,9 +89,9 @@ fn films_of_several_pages_have_the_same_pixels() {
 fn device_and_oracle_spend_the_same_samples() {
     let scene = with(small("s2", 48, 4), Algorithm::Adaptive, 64);
     let (film, outcome) = to_goal(&scene, Goal::Samples(64), false);
-    let mut tracer = JobTracer::new(&scene);
-    let size = [scene.header.size[0], scene.header.size[1]];
-    let (exact, expected) = adaptive::run(&mut tracer, size, Goal::Samples(64), &NoProgress).unwrap();
+    let mut backend = OracleBackend::new(&scene).unwrap();
+    let size = [scene.header.film_size.x, scene.header.film_size.y];
+    let (exact, expected) = adaptive::run(&mut backend, size, Goal::Samples(64), &NoProgress).unwrap();
     // Counts follow estimates in f32: a pixel in a hundred may round to another.
     assert!((outcome.mean_samples / expected.mean_samples - 1.0).abs() < 0.01, "{outcome:?} {expected:?}");
     assert_eq!(outcome.passes, expected.passes);
@@ -180,7 +183,7 @@ fn the_bias_of_a_prefilter_is_seen_and_without_a_footprint_there_is_none() {
 
 /// Samples of a constant and noise, slowly taken; half of the pixels can be told at once.
 struct Slow {
-    sums: Sums,
+    sums: HalfSums,
     tells: bool,
     prefilters: bool,
 }
@@ -203,8 +206,16 @@ impl Slow {
     }
 }
 
-impl Tracer for Slow {
-    fn sample(&mut self, jobs: &[Job], _: &dyn Progress) -> moire::internal::core::error::Result<()> {
+impl Backend for Slow {
+    fn name(&self) -> String {
+        "slow".into()
+    }
+
+    fn sum(&mut self, range: &Range, _: &dyn Progress) -> Result<FilmSums> {
+        Err(Error::new(format!("batches alone, not {range:?}")))
+    }
+
+    fn sample(&mut self, jobs: &[Job], _: &dyn Progress) -> Result<()> {
         Slow::wait(jobs);
         for job in jobs {
             let [x, y] = job.column_and_row();
@@ -214,11 +225,7 @@ impl Tracer for Slow {
         Ok(())
     }
 
-    fn sample_apart(
-        &mut self,
-        jobs: &[Job],
-        _: &dyn Progress,
-    ) -> moire::internal::core::error::Result<Vec<[f32; 4]>> {
+    fn sample_apart(&mut self, jobs: &[Job], _: &dyn Progress) -> Result<Vec<[f32; 4]>> {
         Slow::wait(jobs);
         let mut sums = vec![[0.0; 4]; jobs.len()];
         jobs.iter().zip(&mut sums).for_each(|(job, sum)| Slow::add(job, sum));
@@ -229,17 +236,17 @@ impl Tracer for Slow {
         self.prefilters
     }
 
-    fn read(&mut self, sums: &mut Sums) -> moire::internal::core::error::Result<()> {
+    fn read(&mut self, sums: &mut HalfSums) -> Result<()> {
         sums.halves.clone_from(&self.sums.halves);
         Ok(())
     }
 
-    fn trial(&mut self, _: &dyn Progress) -> moire::internal::core::error::Result<Option<Trial>> {
+    fn pilot(&mut self, _: &dyn Progress) -> Result<Option<PilotRun>> {
         let pixels = (0..64).map(|i| (i, i % 2 == 0)).collect();
-        Ok(self.tells.then_some(Trial { seconds: 0.1, pixels }))
+        Ok(self.tells.then_some(PilotRun { seconds: 0.1, pixels }))
     }
 
-    fn tell(&mut self, _: &dyn Progress) -> moire::internal::core::error::Result<Vec<[f32; 4]>> {
+    fn resolve(&mut self, _: Rect, _: &dyn Progress) -> Result<Vec<[f32; 4]>> {
         let [r, g, b] = TOLD;
         Ok((0..self.sums.halves[0].len()).map(|i| [r, g, b, (i % 2) as f32]).collect())
     }
@@ -247,8 +254,7 @@ impl Tracer for Slow {
 
 fn slowly(tells: bool, prefilters: bool, goal: Goal) -> (Film, Outcome) {
     const SIZE: [u32; 2] = [32, 16];
-    let half = || vec![[0.0; 4]; 512];
-    let sums = Sums { width: SIZE[0], height: SIZE[1], halves: [half(), half()] };
+    let sums = HalfSums::new(SIZE);
     adaptive::run(&mut Slow { sums, tells, prefilters }, SIZE, goal, &NoProgress).unwrap()
 }
 

@@ -5,8 +5,8 @@ use std::path::Path;
 use std::process::Output;
 
 use moire::internal::core::film::Film;
+use moire::internal::core::range::Rect;
 use moire::internal::lab::metrics::{compare, read_picture};
-use moire::internal::pack::Crop;
 use serde_json::Value;
 use tempfile::{TempDir, tempdir};
 
@@ -243,7 +243,7 @@ fn pattern_filter_and_method_change_what_they_should() {
 fn a_crop_writes_the_pixels_of_the_full_picture() {
     let full = film("lecture", &SMALL);
     let part = film("lecture", &with(&["--crop", "10,20,30,16"]));
-    assert_same_bits(&part, &cut(&full, Crop { x: 10, y: 20, width: 30, height: 16 }), "crop");
+    assert_same_bits(&part, &cut(&full, Rect { x: 10, y: 20, width: 30, height: 16 }), "crop");
 }
 
 #[test]

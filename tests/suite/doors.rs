@@ -227,7 +227,7 @@ fn planted_trespasses_are_found() {
         assert!(trespasses(door, door.inside[0], line).is_empty());
     }
     let good = [
-        (geometry, "src/render/jobs.rs", "let planes = (0..planes); self.planes_of(x); // scene.planes"),
+        (geometry, "src/render/batches.rs", "let planes = (0..planes); self.planes_of(x); // scene.planes"),
         (bsdf, "src/pack/mod.rs", "let m = Model::PLAIN;"),
         (filter, "src/pack/mod.rs", "PixelFilter::Nearest; PIXEL_FILTER_BOX;"),
     ];

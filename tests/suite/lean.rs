@@ -1,7 +1,7 @@
 //! Omitting unused features changes no bit of the picture, nor does anything else that concerns
 //! only speed: the source of texels, the workgroup's shape, slices, bands, crops.
 
-use moire::internal::pack::Crop;
+use moire::internal::core::range::Rect;
 use moire::internal::pack::features::{Features, TexelSource};
 use moire::internal::render::{TexelChoice, Tuning};
 use moire::internal::scene::model::Pattern;
@@ -152,9 +152,9 @@ fn a_crop_has_the_pixels_of_the_full_picture() {
         let (width, height) = (scene.width, scene.height);
         let full = render(&packed(scene.clone(), None));
         for crop in [
-            Crop { x: 0, y: 0, width: 1, height: 1 },
-            Crop { x: width - 1, y: height - 1, width: 1, height: 1 },
-            Crop { x: 17, y: 5, width: 66, height: height - 5 },
+            Rect { x: 0, y: 0, width: 1, height: 1 },
+            Rect { x: width - 1, y: height - 1, width: 1, height: 1 },
+            Rect { x: 17, y: 5, width: 66, height: height - 5 },
         ] {
             let part = render(&packed(scene.clone(), Some(crop)));
             assert_same_bits(&part, &cut(&full, crop), &format!("{name}, {crop:?}"));
@@ -168,7 +168,7 @@ fn slices_change_no_bit() {
     (scene.width, scene.height) = (300, 300);
     let (full, report) = render_with(&packed(scene.clone(), None), false, &Tuning::default());
     assert!(report.slices > 1, "one slice proves nothing");
-    let crop = Crop { x: 100, y: 130, width: 64, height: 64 };
+    let crop = Rect { x: 100, y: 130, width: 64, height: 64 };
     let (part, report) = render_with(&packed(scene, Some(crop)), false, &Tuning::default());
     assert_eq!(report.slices, 1);
     assert_same_bits(&part, &cut(&full, crop), "slices");
@@ -181,7 +181,7 @@ fn bands_change_no_bit() {
     (scene.width, scene.height) = (16_384, 330);
     let full = render(&packed(scene.clone(), None));
     for y in [200, 255, 300] {
-        let crop = Crop { x: 8000, y, width: 100, height: 30 };
+        let crop = Rect { x: 8000, y, width: 100, height: 30 };
         let part = render(&packed(scene.clone(), Some(crop)));
         assert_same_bits(&part, &cut(&full, crop), &format!("rows from {y}"));
     }

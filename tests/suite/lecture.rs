@@ -54,11 +54,14 @@ fn assert_mapped(scene: &PackedScene, way: impl Fn(DVec3) -> DVec3, cases: &[(DV
     for keep_everything in [false, true] {
         let answers = probe::rays(&gpu(), scene, keep_everything, &queries).unwrap();
         for (&(point, uv), answer) in cases.iter().zip(&answers) {
-            let own = scene.planes.first().map_or(DVec2::ZERO, |plane| {
-                DVec2::new(xyz(plane.axis_u).dot(point), xyz(plane.axis_v).dot(point))
-            });
-            let oracle =
-                texture_coordinate(&scene.maps[0], &MapInput { entity: point, own, ..Default::default() });
+            let own = scene
+                .planes
+                .first()
+                .map_or(DVec2::ZERO, |plane| DVec2::new(plane.axis_u.dot(point), plane.axis_v.dot(point)));
+            let oracle = texture_coordinate(
+                &scene.uv_projections[0],
+                &MapInput { entity: point, own, ..Default::default() },
+            );
             let oracle = oracle.at.truncate();
             assert!(oracle.distance(uv) < 1e-6, "oracle: {point} maps to {oracle}, by hand {uv}"); // packed rows are f32
             assert_ne!(answer.shape, NO_SHAPE, "{point} is not met");

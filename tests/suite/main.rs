@@ -7,6 +7,7 @@
 
 mod adaptive;
 mod advice;
+mod backends;
 mod bad_input;
 mod beams;
 #[cfg(unix)]

@@ -40,7 +40,7 @@ fn scene(pattern: Pattern, samples: u32, shared: bool, seed: u32) -> PackedScene
 }
 
 fn points(header: &Header, pixel: [u32; 2], pair: u32) -> Points {
-    let key = pixel_key(pixel, header.sampling[3], header.key[0] != 0);
+    let key = pixel_key(pixel, header.seed, header.shares_pattern);
     pair_points(&pixel_points(header, pixel, key), pair)
 }
 

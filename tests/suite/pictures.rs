@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 
 use moire::internal::core::error::Result;
 use moire::internal::texture::data::{Dimension, TextureData};
-use moire::internal::texture::decode::AllowedFloats;
+use moire::internal::texture::decode::Values;
 use moire::internal::texture::load::load_noted;
 use moire::internal::texture::source::{Reading, TextureContent};
 use tempfile::tempdir;
@@ -27,7 +27,7 @@ fn fixture(name: &str) -> PathBuf {
 /// The texture, and the notes on how its file was read.
 fn load(path: &Path, dimension: Dimension) -> Result<(TextureData, Vec<String>)> {
     let source = texture_source(TextureContent::File(path.to_path_buf()), dimension, Reading::default());
-    load_noted(&source, AllowedFloats::Finite)
+    load_noted(&source, Values::Finite)
 }
 
 fn load_bytes(bytes: &[u8]) -> Result<(TextureData, Vec<String>)> {

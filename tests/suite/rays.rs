@@ -121,7 +121,7 @@ fn wrong_uv(
     point_error: f64,
     weights: f64,
 ) -> Option<String> {
-    let map = &scene.maps[surface.map as usize];
+    let map = &scene.uv_projections[surface.map as usize];
     let expected = texture_coordinate(
         map,
         &MapInput { entity: surface.point, own: surface.own_uv, ..Default::default() },
@@ -136,7 +136,7 @@ fn wrong_uv(
         .map(|r| 4.0 * U * ((xyz(*r) * surface.point).abs().element_sum() + r[3].abs()))
         .fold(0.0, f64::max)
         + steep * point_error;
-    let kind = MapKind::ALL[map.link[0] as usize];
+    let kind = map.kind;
     let (tolerance, turn) = match kind {
         MapKind::Affine => (DVec2::splat(row_error), DVec2::ZERO),
         MapKind::Plane => {

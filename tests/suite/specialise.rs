@@ -22,7 +22,7 @@ fn packed(name: &str) -> PackedScene {
 }
 
 fn specialised(shader: &Shader, scene: &PackedScene, keep_everything: bool) -> Vec<u32> {
-    let features = Features::new(scene, shader.name.contains("images"), keep_everything);
+    let features = Features::new(scene, shader.name.contains("image"), keep_everything);
     let (_, sections) = scene.scene_bytes(false);
     specialise(shader.spirv, &constants(shader, &features, &sections, [64, 1], SlotCounts::default()))
 }
@@ -73,7 +73,7 @@ fn specialised_modules_are_valid() {
     }
     for name in SCENES {
         let scene = packed(name);
-        assert_valid(&specialised(&shaders::RENDER_TEXELS, &scene, false), name);
+        assert_valid(&specialised(&shaders::RENDER_BUFFER, &scene, false), name);
         assert_valid(&specialised(&shaders::RENDER_SOLIDS, &scene, false), name);
     }
     assert_valid(&specialised(&shaders::RENDER_SOLIDS, &packed("lecture.toml"), true), "everything");
@@ -97,7 +97,7 @@ fn specialised_modules_are_valid() {
 #[test]
 fn no_branch_on_a_constant_is_left() {
     for name in SCENES {
-        let words = specialised(&shaders::RENDER_TEXELS, &packed(name), false);
+        let words = specialised(&shaders::RENDER_BUFFER, &packed(name), false);
         let all = instructions(&words);
         let booleans: Vec<u32> = all
             .iter()
@@ -112,7 +112,7 @@ fn no_branch_on_a_constant_is_left() {
 
 #[test]
 fn only_the_workgroups_size_is_left_open() {
-    let words = specialised(&shaders::RENDER_TEXELS, &packed("lecture.toml"), false);
+    let words = specialised(&shaders::RENDER_BUFFER, &packed("lecture.toml"), false);
     let all = instructions(&words);
     assert_eq!(all.iter().filter(|(op, _)| SPEC_CONSTANTS.contains(op)).count(), 2);
     let ids: Vec<u32> =
@@ -126,7 +126,7 @@ fn only_the_workgroups_size_is_left_open() {
 fn all_float_arithmetic_is_uncontracted() {
     const NO_CONTRACTION: u32 = 42;
     const SUMS_AND_PRODUCTS: [u32; 8] = [129, 131, 133, 142, 143, 144, 145, 148];
-    for shader in [&shaders::RENDER_TEXELS, &shaders::RENDER_SOLIDS, &shaders::PROBE_RAYS] {
+    for shader in [&shaders::RENDER_BUFFER, &shaders::RENDER_SOLIDS, &shaders::PROBE_RAYS] {
         for words in [shader.spirv.to_vec(), specialised(shader, &packed("lecture.toml"), false)] {
             let all = instructions(&words);
             let decorated: std::collections::HashSet<u32> = all
@@ -146,7 +146,7 @@ fn all_float_arithmetic_is_uncontracted() {
 /// A flat unlit scene keeps a small part of the shader, and more features keep more.
 #[test]
 fn a_small_scene_has_a_small_shader() {
-    let size = |name: &str, all| specialised(&shaders::RENDER_TEXELS, &packed(name), all).len();
+    let size = |name: &str, all| specialised(&shaders::RENDER_BUFFER, &packed(name), all).len();
     let (s1a, lecture, everything) =
         (size("bench/s1a.toml", false), size("lecture.toml", false), size("lecture.toml", true));
     assert!(s1a < lecture && lecture < everything, "{s1a} {lecture} {everything}");

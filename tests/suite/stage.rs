@@ -9,9 +9,10 @@ use std::sync::OnceLock;
 
 use moire::internal::core::film::Film;
 use moire::internal::core::progress::NoProgress;
+use moire::internal::core::range::Rect;
 use moire::internal::gpu::{DeviceSelect, Gpu, OpenOptions, validation_available};
 use moire::internal::oracle;
-use moire::internal::pack::{self, Crop, PackedScene};
+use moire::internal::pack::{self, PackedScene};
 use moire::internal::render::{self, Report, Tuning};
 use moire::internal::scene::model::{Pattern, Scene};
 use moire::internal::scene::{self, prune::prune};
@@ -81,7 +82,7 @@ pub fn small(name: &str, side: u32, spp: u32) -> Scene {
     scene
 }
 
-pub fn packed(mut scene: Scene, crop: Option<Crop>) -> PackedScene {
+pub fn packed(mut scene: Scene, crop: Option<Rect>) -> PackedScene {
     prune(&mut scene);
     scene::cone::adapt_for_cone(&mut scene);
     let textures = scene.textures.iter().map(|t| load(t).unwrap()).collect();
@@ -148,7 +149,7 @@ pub fn render_on_oracle(scene: &PackedScene) -> Film {
 }
 
 /// The pixels of `crop`, as rendering with that crop would give them.
-pub fn cut(film: &Film, crop: Crop) -> Film {
+pub fn cut(film: &Film, crop: Rect) -> Film {
     let mut part = Film::new(crop.width, crop.height, film.samples);
     for (y, row) in part.pixels.chunks_mut(crop.width as usize).enumerate() {
         let first = (crop.y as usize + y) * film.width as usize + crop.x as usize;

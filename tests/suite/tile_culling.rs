@@ -2,11 +2,12 @@
 //! hits, so that pictures are bitwise equal, and uniform tiles begin with fewer samples.
 
 use glam::DVec3;
-use moire::internal::adaptive::Goal;
 use moire::internal::core::film::Film;
 use moire::internal::core::progress::NoProgress;
+use moire::internal::core::range::Rect;
+use moire::internal::integrators::adaptive::Goal;
 use moire::internal::oracle::tile_culling::triangles_of;
-use moire::internal::pack::{Crop, PackedScene};
+use moire::internal::pack::PackedScene;
 use moire::internal::render::{self, Session, Tuning};
 use moire::internal::scene::model::{Algorithm, Model, Pattern, Projection, Scene, Triangle};
 use moire::internal::schema::layout::{CELL_BUSY, CELL_EMPTY, CELL_UNIFORM, CELL_WORDS, MAX_LISTED};
@@ -38,7 +39,7 @@ fn soup(count: usize, side: u32) -> Scene {
 
 fn without(scene: &PackedScene) -> PackedScene {
     let mut scene = scene.clone();
-    scene.header.chances[3] = 0;
+    scene.header.cell_side = 0;
     scene
 }
 
@@ -51,7 +52,7 @@ fn assert_same(scene: &PackedScene, what: &str) {
 fn pictures_are_the_same_with_and_without() {
     let mut scene = soup(60, 70);
     assert_same(&packed(scene.clone(), None), "perspective");
-    assert_same(&packed(scene.clone(), Some(Crop { x: 13, y: 7, width: 41, height: 50 })), "a crop");
+    assert_same(&packed(scene.clone(), Some(Rect { x: 13, y: 7, width: 41, height: 50 })), "a crop");
     scene.camera.projection = Projection::Orthographic(2.5);
     assert_same(&packed(scene.clone(), None), "parallel rays");
     scene.pixel_filter.radius = 2.25;
@@ -97,7 +98,7 @@ fn culls_tiles(scene: &PackedScene) -> (Film, Vec<u32>) {
 fn lists_hold_what_float64_says() {
     let scene = packed(soup(60, 70), None);
     let (_, words) = culls_tiles(&scene);
-    let side = scene.header.chances[3];
+    let side = scene.header.cell_side;
     let (mut listed, mut exact) = (0, 0);
     let across = 70u32.div_ceil(side);
     for (k, cell) in (0..).zip(words.chunks(CELL_WORDS as usize)) {
@@ -113,7 +114,7 @@ fn lists_hold_what_float64_says() {
     assert!(exact > 100 && listed < exact + exact / 10, "{listed} listed, {exact} needed");
 }
 
-fn to_goal(scene: &Scene, goal: Goal) -> (Film, moire::internal::adaptive::Outcome) {
+fn to_goal(scene: &Scene, goal: Goal) -> (Film, moire::internal::integrators::adaptive::Outcome) {
     let mut scene = scene.clone();
     scene.sampling.algorithm = Algorithm::Adaptive;
     scene.sampling.pattern = Pattern::SobolOwen;

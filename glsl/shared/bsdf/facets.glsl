@@ -41,7 +41,7 @@ float smith_g1_refracted(float leaving, float alpha) {
 RayDifferential widened_differential(Header header, RayDifferential beam, vec3 direction, float alpha) {
     if (!FILTERED) return beam;
     float size = sqrt(dot3(direction, direction));
-    float by = 2.0 * alpha * float(header.step_x.w) * size;
+    float by = 2.0 * alpha * float(header.sample_side) * size;
     RayDifferential next = beam;
     if (DIFFERENTIALS) {
         vec3 unit = direction / size;

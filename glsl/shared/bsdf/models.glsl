@@ -32,17 +32,17 @@ const bool SECOND_LOBE = HAS(MODELS, MODEL_PHONG);
 
 // Sends rays on, and nothing else.
 bool is_specular(Material material) {
-    return MODE_IS(MODELS, MODEL_MIRROR, material.link.x) || MODE_IS(MODELS, MODEL_DIELECTRIC, material.link.x);
+    return MODE_IS(MODELS, MODEL_MIRROR, material.model) || MODE_IS(MODELS, MODEL_DIELECTRIC, material.model);
 }
 
 // Sends light on.
 bool is_lit(Material material) {
-    return MODE_IS(MODELS, MODEL_PHONG, material.link.x) || MODE_IS(MODELS, MODEL_LAMBERT, material.link.x);
+    return MODE_IS(MODELS, MODEL_PHONG, material.model) || MODE_IS(MODELS, MODEL_LAMBERT, material.model);
 }
 
 // Radiance that the material sends by itself, where its colour times what the path carries is `color`.
 vec3 emitted(Material material, vec3 color) {
-    return MODE_IS(MODELS, MODEL_UNLIT, material.link.x) ? unlit_emitted(color) : vec3(0.0);
+    return MODE_IS(MODELS, MODEL_UNLIT, material.model) ? unlit_emitted(color) : vec3(0.0);
 }
 
 Bsdf bsdf_at(Material material, vec3 albedo, real3 normal, real3 direction) {
@@ -53,30 +53,30 @@ Bsdf bsdf_at(Material material, vec3 albedo, real3 normal, real3 direction) {
 // The two lobes over 1/pi, for light from `way`, which need not be a unit vector.
 vec2 evaluate(Bsdf bsdf, vec3 way) {
     vec2 lobes = lambert_lobes();
-    if (HAS(MODELS, MODEL_PHONG)) lobes = phong_lobes(bsdf.mirror, way, bsdf.material.specular.w);
+    if (HAS(MODELS, MODEL_PHONG)) lobes = phong_lobes(bsdf.mirror, way, bsdf.material.exponent);
     return lobes;
 }
 
 // What a lit material sends to the eye; `color` is the albedo times what the path carries.
 vec3 reflected(Bsdf bsdf, vec3 color, vec3 carried, Lit lit) {
     vec3 seen = color * lit.first;
-    if (MODE_IS(MODELS, MODEL_PHONG, bsdf.material.link.x)) {
-        seen = with_highlight(seen, carried, bsdf.material.specular.xyz, lit.second);
+    if (MODE_IS(MODELS, MODEL_PHONG, bsdf.material.model)) {
+        seen = with_highlight(seen, carried, bsdf.material.specular, lit.second);
     }
     return seen;
 }
 
 // Whether radiance is the same in all directions, so that it changes with texture and light alone.
-bool is_diffuse(Material material) { return MODE_IS(MODELS, MODEL_LAMBERT, material.link.x); }
+bool is_diffuse(Material material) { return MODE_IS(MODELS, MODEL_LAMBERT, material.model); }
 
 // Whether beams know the integral over a region of a flat shape, without a texture; `smooth_normals`: of a shape
 // whose shading normals differ from place to place.
 bool is_integrable_over_region(Material material, bool smooth_normals) {
-    bool unlit = MODE_IS(MODELS, MODEL_UNLIT, material.link.x);
-    bool mirror = MODE_IS(MODELS, MODEL_MIRROR, material.link.x);
-    bool plain = mirror || MODE_IS(MODELS, MODEL_LAMBERT, material.link.x);
+    bool unlit = MODE_IS(MODELS, MODEL_UNLIT, material.model);
+    bool mirror = MODE_IS(MODELS, MODEL_MIRROR, material.model);
+    bool plain = mirror || MODE_IS(MODELS, MODEL_LAMBERT, material.model);
     if (!unlit && (!plain || smooth_normals)) return false;
-    return !(HAS(SAMPLE_DIMENSIONS, DIMENSION_LOBE) && mirror && material.specular.x > 0.0);
+    return !(HAS(SAMPLE_DIMENSIONS, DIMENSION_LOBE) && mirror && material.alpha > 0.0);
 }
 
 #endif

@@ -21,13 +21,13 @@ struct Bounce {
 
 // Ratio of the refractive indices before and behind a surface.
 float index_ratio(Material material, bool inside) {
-    return inside ? material.specular.w : 1.0 / material.specular.w;
+    return inside ? material.ior : 1.0 / material.ior;
 }
 
 // Share of the light that is mirrored; the rest is refracted.
 real mirrored_share(Material material, real3 direction, real3 normal, float ratio) {
     real share = 1.0;
-    if (MODE_IS(MODELS, MODEL_DIELECTRIC, material.link.x)) share = fresnel_dielectric(direction, normal, ratio);
+    if (MODE_IS(MODELS, MODEL_DIELECTRIC, material.model)) share = fresnel_dielectric(direction, normal, ratio);
     return share;
 }
 
@@ -43,7 +43,7 @@ real3 bounced_way(real3 direction, real3 normal, Surface surface, float ratio, b
 
 // A sample of what a specular material sends on.
 Bounce sample_bsdf(Material material, Surface surface, real3 direction, SampleDimensions dimensions) {
-    float alpha = GLOSSY ? material.specular.x : 0.0;
+    float alpha = GLOSSY ? material.alpha : 0.0;
     real3 normal = surface.normal;
     if (GLOSSY) {
         if (alpha > 0.0) normal = visible_normal(vec3(direction), vec3(surface.normal), alpha, unit_square(dimensions.lobe));

@@ -10,7 +10,7 @@
 #if SOURCE != SOURCE_NONE
 
 uint anisotropic_probes(Sampler how, FootprintEllipse spread) {
-    float most = float(how.link.w);
+    float most = float(how.max_anisotropy);
     float ratio = spread.major / max(spread.minor, 1e-30);
     count_diagnostic(DIAGNOSTIC_ANISOTROPY, ratio > most * most);
     uint probes = uint(ceil(sqrt(min(ratio, most * most)) - 1e-3));
@@ -23,7 +23,7 @@ vec3 anisotropic_place(Texture image, Coordinate c, FootprintEllipse spread, uin
     uint order = (probe & 1u) != 0u ? probes - 1u - probe / 2u : probe / 2u;
     float way = (float(order) + 0.5) * each - 0.5;
     vec3 at = c.at + way * (spread.along.x * c.dx + spread.along.y * c.dy);
-    if (MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_CUBE, image.link.w)) at = refaced(at, face);
+    if (MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_CUBE, image.kind)) at = refaced(at, face);
     return at;
 }
 #endif

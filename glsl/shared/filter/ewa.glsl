@@ -12,7 +12,6 @@
 // The level on which the minor axis, full width, lies between 2^-ELLIPSE_LEVEL and twice that in texels.
 const float ELLIPSE_LEVEL = 0.0;
 // Beyond the longest ellipse: no loop is endless, whatever its numbers are.
-const int MAX_ELLIPSE_STEPS = 8192;
 // Area over pi of the largest: with its rows, fewer texels than steps.
 const float MAX_ELLIPSE = 2048.0;
 
@@ -25,16 +24,16 @@ float ellipse_weight(float squared) {
 // All texels of the footprint's ellipse, weighted by a Gaussian. The level is that on which the minor
 // axis is about one texel; where the ellipse is longer than the maximum anisotropy its minor axis grows.
 vec4 ellipse(Texture image, Sampler how, uint slot, Coordinate c, FootprintEllipse spread) {
-    float most = float(how.link.w);
+    float most = float(how.max_anisotropy);
     float minor = max(spread.minor, spread.major / (most * most));
     count_diagnostic(DIAGNOSTIC_ANISOTROPY, minor > spread.minor);
-    int index = clamp(int(floor(0.5 * log2_accurate(max(minor, 1e-30)) + ELLIPSE_LEVEL)), 0, int(image.link.y) - 1);
+    int index = clamp(int(floor(0.5 * log2_accurate(max(minor, 1e-30)) + ELLIPSE_LEVEL)), 0, int(image.levels) - 1);
     Level level = level_at(image, index);
     vec2 size = vec2(level.size.xy);
     // Covariance J Jᵀ on this level; the thin axis is widened along its own direction.
     vec2 x = c.dx.xy * size;
     vec2 y = c.dy.xy * size;
-    float shrink = float(level.size.x) / float(image.place.y);
+    float shrink = float(level.size.x) / float(image.size.x);
     vec3 m = vec3(x.x * x.x + y.x * y.x, x.x * x.y + y.x * y.y, x.y * x.y + y.y * y.y);
     float scale = shrink * shrink;
     float gap = spread.major - spread.minor;
@@ -52,9 +51,9 @@ vec4 ellipse(Texture image, Sampler how, uint slot, Coordinate c, FootprintEllip
     float b = -m.y * inverse;
     float d = m.x * inverse;
 
-    vec2 center = vec2(reduced_coordinate(ADDRESSES_U, how.modes.x, c.at.x, size.x),
-                               reduced_coordinate(ADDRESSES_V, how.modes.y, c.at.y, size.y));
-    if (!MODE_IS(TEXEL_CENTERS, TEXEL_CENTER_INTEGER, how.modes.w)) center -= 0.5;
+    vec2 center = vec2(reduced_coordinate(ADDRESSES_U, how.address_u, c.at.x, size.x),
+                               reduced_coordinate(ADDRESSES_V, how.address_v, c.at.y, size.y));
+    if (!MODE_IS(TEXEL_CENTERS, TEXEL_CENTER_INTEGER, how.texel_center)) center -= 0.5;
     float reach = sqrt(m.z);
     int row = int(ceil(center.y - reach));
     int last_row = int(floor(center.y + reach));
@@ -64,7 +63,7 @@ vec4 ellipse(Texture image, Sampler how, uint slot, Coordinate c, FootprintEllip
     float weights = 0.0;
     row -= 1;
     // One loop over rows and columns: neighbouring lanes whose ellipses differ stay busy.
-    for (int turn = 0; turn < MAX_ELLIPSE_STEPS; turn++) {
+    for (int turn = 0; turn < int(MAX_ELLIPSE_STEPS); turn++) {
         if (column > last_column) {
             row++;
             if (row > last_row) break;
@@ -79,9 +78,9 @@ vec4 ellipse(Texture image, Sampler how, uint slot, Coordinate c, FootprintEllip
             float squared = a * offset.x * offset.x + 2.0 * b * offset.x * offset.y + d * offset.y * offset.y;
             float weight = ellipse_weight(clamp(squared, 0.0, 1.0));
             ivec2 at = ivec2(column, row);
-            if (!POLES || how.more.y == 0u) {
-                at.x = wrapped_texel(ADDRESSES_U, how.modes.x, at.x, level.size.x);
-                at.y = wrapped_texel(ADDRESSES_V, how.modes.y, at.y, level.size.y);
+            if (!POLES || !how.crosses_poles) {
+                at.x = wrapped_texel(ADDRESSES_U, how.address_u, at.x, level.size.x);
+                at.y = wrapped_texel(ADDRESSES_V, how.address_v, at.y, level.size.y);
             }
             vec4 value = POLES ? flat_texel(image, how, slot, level, at)
                                : fetch_or_border(image, how, slot, level, ivec3(at, 0));

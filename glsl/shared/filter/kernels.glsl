@@ -28,7 +28,7 @@ bool has_kernel(uint mode) { return MODE_IS(FILTERS, FILTER_CUBIC, mode); }
 // Texels along an axis.
 int kernel_taps(uint mode) { return 4; }
 
-vec4 kernel_weights(uint mode, Sampler how, float t) { return cubic_weights(t, uintBitsToFloat(how.more.zw)); }
+vec4 kernel_weights(uint mode, Sampler how, float t) { return cubic_weights(t, vec2(how.cubic_b, how.cubic_c)); }
 
 vec4 kernel_flat(Texture image, Sampler how, uint slot, uint mode, Level level, vec2 texel) {
     vec2 low = floor(texel);
@@ -41,9 +41,9 @@ vec4 kernel_flat(Texture image, Sampler how, uint slot, uint mode, Level level, 
     for (int j = 0; j < taps; j++) {
         for (int i = 0; i < taps; i++) {
             ivec2 at = first + ivec2(i, j);
-            if (!POLES || how.more.y == 0u) {
-                at.x = wrapped_texel(ADDRESSES_U, how.modes.x, at.x, level.size.x);
-                at.y = wrapped_texel(ADDRESSES_V, how.modes.y, at.y, level.size.y);
+            if (!POLES || !how.crosses_poles) {
+                at.x = wrapped_texel(ADDRESSES_U, how.address_u, at.x, level.size.x);
+                at.y = wrapped_texel(ADDRESSES_V, how.address_v, at.y, level.size.y);
             }
             vec4 value = POLES ? flat_texel(image, how, slot, level, at)
                                : fetch_or_border(image, how, slot, level, ivec3(at, 0));

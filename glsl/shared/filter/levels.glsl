@@ -11,17 +11,17 @@
 
 // `dice` in [0, 1) are of the stochastic one.
 vec4 filtered_level(Texture image, Sampler how, uint slot, uint mode, Level level, vec3 at, uint face, vec3 dice) {
-    bool cube = MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_CUBE, image.link.w);
-    bool volume = MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_VOLUME, image.link.w);
+    bool cube = MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_CUBE, image.kind);
+    bool volume = MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_VOLUME, image.kind);
     vec3 texel;
     if (cube) {
         texel = at * float(level.size.x);
     } else {
-        texel = vec3(reduced_coordinate(ADDRESSES_U, how.modes.x, at.x, float(level.size.x)),
-                     reduced_coordinate(ADDRESSES_V, how.modes.y, at.y, float(level.size.y)),
-                     volume ? reduced_coordinate(ADDRESSES_W, how.more.x, at.z, float(level.size.z)) : 0.0);
+        texel = vec3(reduced_coordinate(ADDRESSES_U, how.address_u, at.x, float(level.size.x)),
+                     reduced_coordinate(ADDRESSES_V, how.address_v, at.y, float(level.size.y)),
+                     volume ? reduced_coordinate(ADDRESSES_W, how.address_w, at.z, float(level.size.z)) : 0.0);
         // Integer centres move texel i from i + 1/2 to i: half a texel is added before addressing.
-        if (MODE_IS(TEXEL_CENTERS, TEXEL_CENTER_INTEGER, how.modes.w)) texel += 0.5;
+        if (MODE_IS(TEXEL_CENTERS, TEXEL_CENTER_INTEGER, how.texel_center)) texel += 0.5;
     }
     bool chosen = MODE_IS(FILTERS, FILTER_STOCHASTIC, mode);
     if (chosen) texel = stochastic_place(texel, dice);

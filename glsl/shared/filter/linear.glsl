@@ -20,10 +20,10 @@ vec4 linear_flat(Texture image, Sampler how, uint slot, Level level, vec2 texel)
         sum = add_weighted(a.x * b.y, flat_texel(image, how, slot, level, first + ivec2(0, 1)), sum);
         return add_weighted(b.x * b.y, flat_texel(image, how, slot, level, first + ivec2(1, 1)), sum);
     }
-    ivec2 u = ivec2(addressed_texel(ADDRESSES_U, how.modes.x, first.x, level.size.x),
-                    addressed_texel(ADDRESSES_U, how.modes.x, first.x + 1, level.size.x));
-    ivec2 v = ivec2(addressed_texel(ADDRESSES_V, how.modes.y, first.y, level.size.y),
-                    addressed_texel(ADDRESSES_V, how.modes.y, first.y + 1, level.size.y));
+    ivec2 u = ivec2(addressed_texel(ADDRESSES_U, how.address_u, first.x, level.size.x),
+                    addressed_texel(ADDRESSES_U, how.address_u, first.x + 1, level.size.x));
+    ivec2 v = ivec2(addressed_texel(ADDRESSES_V, how.address_v, first.y, level.size.y),
+                    addressed_texel(ADDRESSES_V, how.address_v, first.y + 1, level.size.y));
     vec4 sum = weighted(a.x * a.y, fetch_or_border(image, how, slot, level, ivec3(u.x, v.x, 0)));
     sum = add_weighted(b.x * a.y, fetch_or_border(image, how, slot, level, ivec3(u.y, v.x, 0)), sum);
     sum = add_weighted(a.x * b.y, fetch_or_border(image, how, slot, level, ivec3(u.x, v.y, 0)), sum);
@@ -37,9 +37,9 @@ vec4 linear_volume(Texture image, Sampler how, uint slot, Level level, vec3 texe
     for (int k = 0; k < 8; k++) {
         ivec3 corner = ivec3(k & 1, (k >> 1) & 1, k >> 2);
         ivec3 at = ivec3(low) + corner;
-        at = ivec3(addressed_texel(ADDRESSES_U, how.modes.x, at.x, level.size.x),
-                   addressed_texel(ADDRESSES_V, how.modes.y, at.y, level.size.y),
-                   addressed_texel(ADDRESSES_W, how.more.x, at.z, level.size.z));
+        at = ivec3(addressed_texel(ADDRESSES_U, how.address_u, at.x, level.size.x),
+                   addressed_texel(ADDRESSES_V, how.address_v, at.y, level.size.y),
+                   addressed_texel(ADDRESSES_W, how.address_w, at.z, level.size.z));
         vec3 w = mix(1.0 - t, t, vec3(corner));
         sum = add_weighted(w.x * w.y * w.z, fetch_or_border(image, how, slot, level, at), sum);
     }

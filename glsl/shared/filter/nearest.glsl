@@ -10,7 +10,7 @@
 // direction meets; of others one beyond a corner is one of the three texels there, by `die` in [0, 1).
 vec4 nearest(Texture image, Sampler how, uint slot, Level level, vec3 place, uint face, float die, bool stays) {
     ivec3 texel = ivec3(floor(place));
-    if (MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_CUBE, image.link.w)) {
+    if (MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_CUBE, image.kind)) {
         if (stays) texel = min(texel, ivec3(level.size.x - 1));
         bool corner = (texel.x < 0 || texel.x >= level.size.x) && (texel.y < 0 || texel.y >= level.size.x);
         if (corner && die < 2.0 / 3.0) {
@@ -21,11 +21,11 @@ vec4 nearest(Texture image, Sampler how, uint slot, Level level, vec3 place, uin
         }
         return fetch_texel(image, slot, level, cube_texel(face, texel.xy, level.size.x));
     }
-    if (!MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_VOLUME, image.link.w)) return flat_texel(image, how, slot, level, texel.xy);
+    if (!MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_VOLUME, image.kind)) return flat_texel(image, how, slot, level, texel.xy);
     return fetch_or_border(image, how, slot, level,
-                           ivec3(addressed_texel(ADDRESSES_U, how.modes.x, texel.x, level.size.x),
-                                 addressed_texel(ADDRESSES_V, how.modes.y, texel.y, level.size.y),
-                                 addressed_texel(ADDRESSES_W, how.more.x, texel.z, level.size.z)));
+                           ivec3(addressed_texel(ADDRESSES_U, how.address_u, texel.x, level.size.x),
+                                 addressed_texel(ADDRESSES_V, how.address_v, texel.y, level.size.y),
+                                 addressed_texel(ADDRESSES_W, how.address_w, texel.z, level.size.z)));
 }
 
 #endif

@@ -21,16 +21,16 @@ const uint LEVEL_BLENDS = MIPMAPPED ? MIPS & (1u << MIP_LINEAR) : 0u;
 const bool ONE_PLACE = (LEVEL_BLENDS | (FILTERS & (1u << FILTER_ANISOTROPIC))) == 0u;
 
 vec4 sample_texture(Texture image, Sampler how, uint slot, TexCoord mapped, uvec2 random) {
-    if (MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_PROCEDURAL, image.link.w)) {
-        return vec4(procedural_color(procedural_at(image.place.x), mapped.at, mapped.dx, mapped.dy), 1.0);
+    if (MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_PROCEDURAL, image.kind)) {
+        return vec4(procedural_color(procedural_at(image.procedural), mapped.at, mapped.dx, mapped.dy), 1.0);
     }
     count_diagnostic(DIAGNOSTIC_COORDINATES, no_number(mapped.at));
     Coordinate place = near_coordinate(image, how, mapped);
     bool hardware = false;
 #if HAS_IMAGES
-    hardware = MODE_IS(METHODS, METHOD_HARDWARE, how.link.x);
+    hardware = MODE_IS(METHODS, METHOD_HARDWARE, how.method);
 #endif
-    uint mode = how.modes.z;
+    uint mode = how.mag_filter;
     vec3 dice = vec3(0.0);
     if (HAS(FILTERS, FILTER_STOCHASTIC)) dice = look_up_dice(random);
     uint face;
@@ -44,12 +44,12 @@ vec4 sample_texture(Texture image, Sampler how, uint slot, TexCoord mapped, uvec
 
     FootprintEllipse spread = texel_spread(image, c);
     bool magnified = spread.major <= 1.0;
-    mode = magnified ? mode : how.link.y;
+    mode = magnified ? mode : how.min_filter;
     if (HAS(FILTERS, FILTER_EWA) && mode == FILTER_EWA) return ellipse(image, how, slot, c, spread);
 #if HAS_TEXELS
     if (HAS(FILTERS, FILTER_SUMMED_AREA) && mode == FILTER_SUMMED_AREA) return summed_area(image, how, c);
 #endif
-    int last = int(image.link.y) - 1;
+    int last = int(image.levels) - 1;
     uint probes = 1u;
     if (HAS(FILTERS, FILTER_ANISOTROPIC) && mode == FILTER_ANISOTROPIC) {
         probes = anisotropic_probes(how, spread);
@@ -68,10 +68,10 @@ vec4 sample_texture(Texture image, Sampler how, uint slot, TexCoord mapped, uvec
 #endif
     int low = 0;
     float rest = 0.0; // share of the next level
-    if (MIPMAPPED && MODE_IS(MIPS, MIP_LINEAR, how.link.z)) {
+    if (MIPMAPPED && MODE_IS(MIPS, MIP_LINEAR, how.mip_mode)) {
         low = int(floor(level));
         rest = level - float(low);
-    } else if (MIPMAPPED && MODE_IS(MIPS, MIP_NEAREST, how.link.z)) {
+    } else if (MIPMAPPED && MODE_IS(MIPS, MIP_NEAREST, how.mip_mode)) {
         low = int(ceil(level + 0.5)) - 1;
     }
     if (HAS(FILTERS, FILTER_STOCHASTIC) && mode == FILTER_STOCHASTIC) {

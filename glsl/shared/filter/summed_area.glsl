@@ -114,19 +114,19 @@ float rectangle(uint table, int width, vec2 from, vec2 to, ivec2 last) {
 
 // `place` is a coordinate of a flat texture that has a table: after its levels.
 vec4 summed_area(Texture image, Sampler how, Coordinate place) {
-    uint table = texel_word(image.place.x - image.link.y);
+    uint table = texel_word(image.first_word - image.levels);
     float least = uintBitsToFloat(texel_word(table));
     float step = uintBitsToFloat(texel_word(table + 1u));
     int channels = int(texel_word(table + 2u));
-    ivec2 size = ivec2(image.place.yz);
+    ivec2 size = ivec2(image.size.xy);
     vec2 wide = vec2(size);
     // No box is narrower than a texel, or wider than a million periods.
     vec2 reach = clamp(0.5 * (abs(place.dx.xy) + abs(place.dy.xy)) * wide, vec2(0.5), wide * 1e6);
-    vec2 center = vec2(reduced_coordinate(ADDRESSES_U, how.modes.x, place.at.x, wide.x),
-                               reduced_coordinate(ADDRESSES_V, how.modes.y, place.at.y, wide.y));
-    if (MODE_IS(TEXEL_CENTERS, TEXEL_CENTER_INTEGER, how.modes.w)) center += 0.5;
-    Parts u = axis_parts(ADDRESSES_U, how.modes.x, center.x - reach.x, center.x + reach.x, wide.x);
-    Parts v = axis_parts(ADDRESSES_V, how.modes.y, center.y - reach.y, center.y + reach.y, wide.y);
+    vec2 center = vec2(reduced_coordinate(ADDRESSES_U, how.address_u, place.at.x, wide.x),
+                               reduced_coordinate(ADDRESSES_V, how.address_v, place.at.y, wide.y));
+    if (MODE_IS(TEXEL_CENTERS, TEXEL_CENTER_INTEGER, how.texel_center)) center += 0.5;
+    Parts u = axis_parts(ADDRESSES_U, how.address_u, center.x - reach.x, center.x + reach.x, wide.x);
+    Parts v = axis_parts(ADDRESSES_V, how.address_v, center.y - reach.y, center.y + reach.y, wide.y);
     // What of the box is no border; shares of that, as amounts themselves may be large.
     float inside_u = u.amount.x + u.amount.y + u.amount.z;
     float inside_v = v.amount.x + v.amount.y + v.amount.z;
@@ -151,10 +151,10 @@ vec4 summed_area(Texture image, Sampler how, Coordinate place) {
     }
     // What neither axis covers is border.
     if (BORDERS) {
-        bool bordered = how.modes.x == ADDRESS_CLAMP_TO_BORDER || how.modes.y == ADDRESS_CLAMP_TO_BORDER;
+        bool bordered = how.address_u == ADDRESS_CLAMP_TO_BORDER || how.address_v == ADDRESS_CLAMP_TO_BORDER;
         // Along a periodic axis the parts cover one period for the whole.
-        float share_u = how.modes.x == ADDRESS_CLAMP_TO_BORDER ? inside_u / (2.0 * reach.x) : 1.0;
-        float share_v = how.modes.y == ADDRESS_CLAMP_TO_BORDER ? inside_v / (2.0 * reach.y) : 1.0;
+        float share_u = how.address_u == ADDRESS_CLAMP_TO_BORDER ? inside_u / (2.0 * reach.x) : 1.0;
+        float share_v = how.address_v == ADDRESS_CLAMP_TO_BORDER ? inside_v / (2.0 * reach.y) : 1.0;
         return bordered ? mix(how.border, sum, share_u * share_v) : sum;
     }
     return sum;

@@ -29,7 +29,7 @@ vec4 shape_plane(Header header, uint shape) {
 uvec2 shape_links(Header header, uint shape) {
     COUNT_SHAPES(header)
     uvec2 link = uvec2(0u);
-#define LINK(Type, at, first, count) if (IS_NEXT(shape, first, count)) link = at(shape - (first)).link.xy; else
+#define LINK(Type, at, first, count) if (IS_NEXT(shape, first, count)) link = links_of(at(shape - (first))); else
     FLAT_KINDS(LINK) {}
 #undef LINK
     return link;
@@ -62,7 +62,7 @@ ConvexRegion shape_region(Header header, PixelFrustum frame, uint shape) {
 
 // Texture coordinates on a flat shape, for maps that are affine there.
 RationalMap coordinates(Header header, PixelFrustum frame, uint shape, UvProjection map, vec3 near) {
-    if (MODE_IS(MAPPINGS, MAP_AFFINE, map.link.x)) {
+    if (MODE_IS(MAPPINGS, MAP_AFFINE, map.kind)) {
         return RationalMap(along(header, frame, near, map.x), along(header, frame, near, map.y), below(header, near));
     }
     COUNT_SHAPES(header)
@@ -77,8 +77,8 @@ RationalMap coordinates(Header header, PixelFrustum frame, uint shape, UvProject
 // Where, on the plane of this inverse depth, a flat shape keeps a light away.
 ConvexRegion shadow_region(Header header, PixelFrustum frame, vec3 near, uint shape, Light light) {
     COUNT_SHAPES(header)
-    vec3 place = light.place.xyz;
-    bool point_light = MODE_IS(LIGHT_KINDS, LIGHT_POINT, light.link.x);
+    bool point_light = MODE_IS(LIGHT_KINDS, LIGHT_POINT, light.kind);
+    vec3 place = point_light ? light.position : light.direction;
     vec4 plane = shape_plane(header, shape);
     vec3 n = plane.xyz;
     // Of the light before the shape's plane, or of a way's length towards it.

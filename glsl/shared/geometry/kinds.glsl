@@ -8,9 +8,9 @@
 #include "triangle.glsl"
 
 #define COUNT_SHAPES(header)                           \
-    uint planes = COUNT(PLANES, (header).counts.x);    \
-    uint spheres = COUNT(SPHERES, (header).counts.y);  \
-    uint triangles = COUNT(TRIANGLES, (header).counts.z); \
+    uint planes = COUNT(PLANES, (header).plane_count);          \
+    uint spheres = COUNT(SPHERES, (header).sphere_count);       \
+    uint triangles = COUNT(TRIANGLES, (header).triangle_count); \
     uint shapes = planes + spheres + triangles;
 
 // Of each kind: record, list, number of the first and of all, whether it lies in a plane (a ray never meets again the

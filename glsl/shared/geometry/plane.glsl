@@ -4,34 +4,37 @@
 
 #include "../layout.glsl"
 
+// Material and map.
+uvec2 links_of(Plane plane) { return uvec2(plane.material, plane.uv_projection); }
+
 // Unit normal, and height over the eye.
-vec4 plane_of(Plane plane) { return vec4(plane.normal); }
+vec4 plane_of(Plane plane) { return vec4(plane.normal, plane.distance); }
 
 #ifndef SHAPES_IN_BEAMS
 #include "hit.glsl"
 
 // t = (n·o' - n·o) / n·d, kept when the point lies within the half extent on both axes.
 real distance_to(Plane plane, Ray ray, bool from_eye, inout real2 local) {
-    real slope = dot3(plane.normal.xyz, ray.direction);
-    real height = plane.normal.w;
+    real slope = dot3(plane.normal, ray.direction);
+    real height = plane.distance;
     if (!from_eye) {
-        real above = height - dot3(plane.normal.xyz, ray.origin);
+        real above = height - dot3(plane.normal, ray.origin);
         height = above;
     }
     real t = height / slope;
     real3 p = from_eye ? t * ray.direction : ray.origin + t * ray.direction;
-    local = real2(dot3(plane.axis_u.xyz, p), dot3(plane.axis_v.xyz, p));
-    if (BOUNDED_PLANES && plane.link.w != 0u) {
-        real extent = REAL_BITS(plane.link.zw);
-        real2 place = local + real2(plane.axis_u.w, plane.axis_v.w);
+    local = real2(dot3(plane.axis_u, p), dot3(plane.axis_v, p));
+    if (BOUNDED_PLANES && plane.half_extent >= 0.0) {
+        real extent = plane.half_extent;
+        real2 place = local + real2(plane.eye_u, plane.eye_v);
         t = abs(place.x) <= extent && abs(place.y) <= extent ? t : -1.0;
     }
     return t;
 }
 
 Surface surface_of(Plane plane, real3 point, real2 uv) {
-    return Surface(point, plane.normal.xyz, plane.normal.xyz, uv, vec3(plane.axis_u.xyz), vec3(plane.axis_v.xyz), FLAT,
-                   0.0, false, plane.link.xy, point, largest_part(point));
+    return Surface(point, plane.normal, plane.normal, uv, vec3(plane.axis_u), vec3(plane.axis_v), FLAT,
+                   0.0, false, links_of(plane), point, largest_part(point));
 }
 
 #endif
@@ -53,13 +56,13 @@ void cut_bounds(Cone cone, Flat plane, vec4 row, float extent) {
 }
 
 bool cut_by_shape(Cone cone, Plane plane) {
-    Flat seen = flat_in(cone, plane.normal.xyz, plane.normal.w);
+    Flat seen = flat_in(cone, plane.normal, plane.distance);
     cut_by(vec3(-cone.width * seen.tilt, seen.height));
-    if (BOUNDED_PLANES && plane.link.w != 0u) {
+    if (BOUNDED_PLANES && plane.half_extent >= 0.0) {
         // Together they leave nothing above the horizon.
-        float extent = REAL_BITS(plane.link.zw);
-        cut_bounds(cone, seen, plane.axis_u, extent);
-        cut_bounds(cone, seen, plane.axis_v, extent);
+        float extent = plane.half_extent;
+        cut_bounds(cone, seen, vec4(plane.axis_u, plane.eye_u), extent);
+        cut_bounds(cone, seen, vec4(plane.axis_v, plane.eye_v), extent);
     } else {
         cut_by(vec3(cone.spread * seen.tilt, seen.facing));
     }
@@ -69,7 +72,7 @@ bool cut_by_shape(Cone cone, Plane plane) {
 // A hit of a ray within the outline.
 void complete(Plane plane, Ray ray, inout Hit hit) { distance_to(plane, ray, false, hit.local); }
 
-vec4 tangent_plane(Plane plane, Cone cone, float t) { return plane.normal; }
+vec4 tangent_plane(Plane plane, Cone cone, float t) { return plane_of(plane); }
 #endif
 
 #ifdef SHAPES_IN_BEAMS
@@ -79,10 +82,10 @@ bool has_smooth_normals(Plane plane) { return false; }
 
 // Adds the lines of its bounds.
 void add_outline(Header header, PixelFrustum frame, vec3 near, Plane record, inout ConvexRegion region) {
-    if (BOUNDED_PLANES && record.link.w != 0u) {
-        vec3 extent = REAL_BITS(record.link.zw) * below(header, near);
-        vec3 u = along(header, frame, near, record.axis_u);
-        vec3 v = along(header, frame, near, record.axis_v);
+    if (BOUNDED_PLANES && record.half_extent >= 0.0) {
+        vec3 extent = record.half_extent * below(header, near);
+        vec3 u = along(header, frame, near, vec4(record.axis_u, record.eye_u));
+        vec3 v = along(header, frame, near, vec4(record.axis_v, record.eye_v));
         region.lines[1] = extent - u;
         region.lines[2] = extent + u;
         region.lines[3] = extent - v;
@@ -94,10 +97,10 @@ void add_outline(Header header, PixelFrustum frame, vec3 near, Plane record, ino
 // Texture coordinates by a map of its own coordinates, which count from the eye.
 RationalMap own_coordinates(Header header, PixelFrustum frame, vec3 near, Plane plane, UvProjection map) {
     vec3 under = below(header, near);
-    vec3 u = along(header, frame, near, vec4(plane.axis_u.xyz, 0.0));
-    vec3 v = along(header, frame, near, vec4(plane.axis_v.xyz, 0.0));
-    return RationalMap(map.matrix.x * u + map.matrix.y * v + map.offset.x * under,
-                       map.matrix.z * u + map.matrix.w * v + map.offset.y * under, under);
+    vec3 u = along(header, frame, near, vec4(plane.axis_u, 0.0));
+    vec3 v = along(header, frame, near, vec4(plane.axis_v, 0.0));
+    return RationalMap(map.m00 * u + map.m01 * v + map.offset.x * under,
+                       map.m10 * u + map.m11 * v + map.offset.y * under, under);
 }
 
 // The lines of its bounds on another surface of this inverse depth, seen from the light. `rise`: of the light before
@@ -105,15 +108,15 @@ RationalMap own_coordinates(Header header, PixelFrustum frame, vec3 near, Plane 
 void add_shadow(Header header, PixelFrustum frame, vec3 near, Light light, vec4 plane, float rise,
                 inout ConvexRegion region, Plane record) {
     vec3 n = plane.xyz;
-    vec3 place = light.place.xyz;
-    bool point_light = MODE_IS(LIGHT_KINDS, LIGHT_POINT, light.link.x);
+    bool point_light = MODE_IS(LIGHT_KINDS, LIGHT_POINT, light.kind);
+    vec3 place = point_light ? light.position : light.direction;
     float side = sign(rise);
-    if (!BOUNDED_PLANES || record.link.w == 0u) return;
+    if (!BOUNDED_PLANES || record.half_extent < 0.0) return;
     // A place's distance below the light, in |rise|, or its own height.
     vec4 depth = point_light ? side * vec4(n, -dot3(n, place)) : vec4(0.0, 0.0, 0.0, abs(rise));
-    vec3 extent = REAL_BITS(record.link.zw) * along(header, frame, near, depth);
+    vec3 extent = record.half_extent * along(header, frame, near, depth);
     for (uint k = 0u; k < 2u; k++) {
-        vec4 row = k == 0u ? record.axis_u : record.axis_v;
+        vec4 row = k == 0u ? vec4(record.axis_u, record.eye_u) : vec4(record.axis_v, record.eye_v);
         float across = dot3(row.xyz, place);
         // u of light + (p - light) rise / (n·(p - light)), times the depth; u of p + way (height -
         // n·p) / rise, times |rise|.
@@ -128,7 +131,7 @@ void add_shadow(Header header, PixelFrustum frame, vec3 near, Light light, vec4 
 
 // False where no ray of the polygon can meet the plane.
 bool may_meet(Header header, PixelFrustum frame, uint polygon, Plane plane) {
-    ConvexRegion region = region_of_plane(header, frame, plane.normal);
+    ConvexRegion region = region_of_plane(header, frame, plane_of(plane));
     add_outline(header, frame, region.inverse_depth, plane, region);
     bool met = true;
     for (uint k = 0u; k < region.count; k++) met = met && range(polygon, region.lines[k]).y > 0.0;

@@ -74,7 +74,7 @@ Surface hit_surface(Header header, Ray moving, Hit hit) {
     return surface;
 }
 
-#ifdef DOUBLE
+#ifdef F64_MATH
 const double CLEARANCE = 1.4210854715202004e-14lf; // 2^-46
 #else
 const float CLEARANCE = 3.8146972656e-6; // 2^-18

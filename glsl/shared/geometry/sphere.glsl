@@ -5,14 +5,17 @@
 
 #include "../layout.glsl"
 
+// Material and map.
+uvec2 links_of(Sphere sphere) { return uvec2(sphere.material, sphere.uv_projection); }
+
 #ifndef SHAPES_IN_BEAMS
 #include "hit.glsl"
 
 // Haines, Günther & Akenine-Möller 2019: the discriminant from the vector of closest approach, and
 // of the two roots c/q and q/a the one that does not cancel.
 real distance_to(Sphere sphere, Ray ray, bool from_eye, inout real2 local) {
-    real3 f = from_eye ? -sphere.ball.xyz : ray.origin - sphere.ball.xyz;
-    real radius = sphere.ball.w;
+    real3 f = from_eye ? -sphere.center : ray.origin - sphere.center;
+    real radius = sphere.radius;
     real a = dot3(ray.direction, ray.direction);
     real b = -dot3(f, ray.direction);
     real3 closest = f + (b / a) * ray.direction;
@@ -27,14 +30,14 @@ real distance_to(Sphere sphere, Ray ray, bool from_eye, inout real2 local) {
 
 // The hit is put back on the sphere: the error of t does not reach the normal or the next ray.
 Surface surface_of(Sphere sphere, real3 point, real2 uv) {
-    real3 radial = point - sphere.ball.xyz;
+    real3 radial = point - sphere.center;
     real scale = inverse_root(dot3(radial, radial));
     real3 normal = radial * scale;
-    real3 on_sphere = sphere.ball.xyz + sphere.ball.w * normal;
-    float curvature = 1.0 / float(sphere.ball.w);
-    real size = largest_part(sphere.ball.xyz) + sphere.ball.w;
+    real3 on_sphere = sphere.center + sphere.radius * normal;
+    float curvature = 1.0 / float(sphere.radius);
+    real size = largest_part(sphere.center) + sphere.radius;
     return Surface(on_sphere, normal, normal, real2(0.0), vec3(0.0), vec3(0.0), mat3(curvature), curvature,
-                   false, sphere.link.xy, on_sphere, size);
+                   false, links_of(sphere), on_sphere, size);
 }
 
 #endif
@@ -50,8 +53,8 @@ struct Circle {
 };
 
 Circle circle_of(Cone cone, Sphere sphere) {
-    vec3 f = cone.ray.origin - sphere.ball.xyz;
-    float radius = sphere.ball.w;
+    vec3 f = cone.ray.origin - sphere.center;
+    float radius = sphere.radius;
     float t = -dot3(f, cone.ray.direction) / dot3(cone.ray.direction, cone.ray.direction);
     // From the inside it is all around, from behind nowhere.
     if (dot3(f, f) <= radius * radius) return Circle(vec2(0.0), 1e6, 1e6);
@@ -86,15 +89,15 @@ bool touched(Cone cone, Sphere sphere) {
 // A hit of a ray within the outline; rounding may have put it just beside.
 void complete(Sphere sphere, Ray ray, inout Hit hit) {
     hit.t = distance_to(sphere, ray, false, hit.local);
-    float nearest = dot3(sphere.ball.xyz - ray.origin, ray.direction) / dot3(ray.direction, ray.direction);
+    float nearest = dot3(sphere.center - ray.origin, ray.direction) / dot3(ray.direction, ray.direction);
     hit.t = hit.t > 0.0 ? hit.t : nearest;
 }
 
 // The plane that touches it at t.
 vec4 tangent_plane(Sphere sphere, Cone cone, float t) {
-    vec3 out_of = (cone.ray.origin + t * cone.ray.direction) - sphere.ball.xyz;
+    vec3 out_of = (cone.ray.origin + t * cone.ray.direction) - sphere.center;
     vec3 normal = out_of * inversesqrt(dot3(out_of, out_of));
-    float height = dot3(normal, sphere.ball.xyz) + sphere.ball.w;
+    float height = dot3(normal, sphere.center) + sphere.radius;
     return vec4(normal, height);
 }
 #endif
@@ -108,8 +111,8 @@ bool may_meet(Header header, PixelFrustum frame, uint polygon, Sphere sphere) {
     vec3 origin;
     ray_at(header, frame, middle(polygon), way, origin);
     vec3 unit = way * inversesqrt(dot3(way, way));
-    vec3 to = sphere.ball.xyz - origin;
-    float radius = sphere.ball.w;
+    vec3 to = sphere.center - origin;
+    float radius = sphere.radius;
     float ahead = dot3(to, unit);
     if (dot3(to, to) <= radius * radius) return true;
     if (ahead <= -radius) return false;
@@ -136,13 +139,13 @@ bool may_shade(Header header, PixelFrustum frame, vec3 near, uint polygon, Light
         vec3 apart = point_at(header, frame, near, corner(polygon, k)) - from;
         wide = max(wide, sqrt(dot3(apart, apart)));
     }
-    bool point_light = MODE_IS(LIGHT_KINDS, LIGHT_POINT, light.link.x);
-    vec3 way = point_light ? light.place.xyz - from : light.place.xyz;
-    vec3 to = sphere.ball.xyz - from;
+    bool point_light = MODE_IS(LIGHT_KINDS, LIGHT_POINT, light.kind);
+    vec3 way = point_light ? light.position - from : light.direction;
+    vec3 to = sphere.center - from;
     float ahead = max(dot3(to, way) / dot3(way, way), 0.0);
     vec3 aside = to - (point_light ? min(ahead, 1.0) : ahead) * way;
     // What is not a number may.
-    return !(sqrt(dot3(aside, aside)) > sphere.ball.w + wide);
+    return !(sqrt(dot3(aside, aside)) > sphere.radius + wide);
 }
 #endif
 

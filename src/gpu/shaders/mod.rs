@@ -3,7 +3,10 @@
 mod specialise;
 mod spirv;
 
+use crate::core::error::{Error, Result};
 use crate::gpu::BindingKind;
+use crate::schema::enums::{Reals, TexelSource};
+use crate::schema::specialization::Constant;
 
 pub use specialise::specialise;
 
@@ -35,7 +38,7 @@ impl std::ops::Deref for Words {
     }
 }
 
-/// One `glsl/*.comp`.
+/// One shader of `build/shaders.rs`.
 #[derive(Debug)]
 pub struct Shader {
     pub name: &'static str,
@@ -45,8 +48,37 @@ pub struct Shader {
 }
 
 impl Shader {
-    pub fn constant(&self, name: &str) -> Option<&'static SpecConstant> {
-        self.constants.iter().find(|c| c.name == name)
+    /// Whether the shader has a specialization constant.
+    pub fn has(&self, constant: Constant) -> bool {
+        self.constants.iter().any(|c| c.id == constant.id())
+    }
+
+    /// Returns (id, value) of the constants that the shader has.
+    pub fn values(&self, constants: impl IntoIterator<Item = (Constant, u32)>) -> Vec<(u32, u32)> {
+        let own = |(constant, value): (Constant, u32)| self.has(constant).then(|| (constant.id(), value));
+        constants.into_iter().filter_map(own).collect()
+    }
+}
+
+/// Shaders of one main file, by where their texels come from and the numbers of their geometry.
+#[derive(Debug)]
+pub struct Family {
+    pub name: &'static str,
+    pub shaders: &'static [(TexelSource, Reals, &'static Shader)],
+}
+
+impl Family {
+    pub fn shader(&self, source: TexelSource, reals: Reals) -> Result<&'static Shader> {
+        let wanted = self.shaders.iter().find(|(s, r, _)| (*s, *r) == (source, reals));
+        wanted.map(|(_, _, shader)| *shader).ok_or_else(|| {
+            Error::with_help(
+                format!(
+                    "there is no shader \"{}\" with texels from \"{source}\" and reals of \"{reals}\"",
+                    self.name
+                ),
+                "add it to build/shaders.rs",
+            )
+        })
     }
 }
 

@@ -20,8 +20,8 @@ impl Set {
     pub fn realisation(&self, number: u32) -> Vec<[f64; 2]> {
         let seed = self.seed.wrapping_add(number);
         let side = self.pattern.strata_side(self.samples);
-        let sampling = [self.pattern as u32, side, self.samples, seed];
-        let header = Header { sampling, ..Default::default() };
+        let Set { pattern, samples, .. } = *self;
+        let header = Header { pattern, strata_side: side, samples, seed, ..Default::default() };
         let first = pixel_points(&header, [0, 0], pixel_key([0, 0], seed, false));
         let points = pair_points(&first, self.pair);
         (0..self.samples).map(|s| sample_pair(&points, s).map(|x| f64::from(x) * UNIT)).collect()

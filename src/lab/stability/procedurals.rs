@@ -61,7 +61,7 @@ fn scene(kinds: &[ProceduralKind]) -> Result<PackedScene> {
     let mut scene = queries::pairs_over(Footprint::Differentials, vec![texture], &[spec], &[(0, 0)])?;
     scene.procedurals = kinds.iter().map(|&kind| pack::procedural(&Procedural::new(kind))).collect();
     // A scene has no footprint unless a sampler asks for one.
-    scene.header.key[2] = Footprint::Differentials as u32;
+    scene.header.footprint = Footprint::Differentials;
     Ok(scene)
 }
 

@@ -6,9 +6,10 @@ use std::path::Path;
 use super::case::Bench;
 use crate::core::error::Result;
 use crate::core::film::Film;
+use crate::core::range::Rect;
 use crate::oracle;
 use crate::oracle::rng::pcg2d;
-use crate::pack::{self, Crop, PackedScene};
+use crate::pack::{self, PackedScene};
 use crate::render::{self, Tuning};
 use crate::scene::model::Scene;
 use crate::texture::data::{ColorSpace, Component, Dimension, TexelFormat, TextureData};
@@ -26,7 +27,7 @@ pub fn parse(text: &str) -> Result<Scene> {
     crate::scene::parse(Path::new("stability.toml"), text)
 }
 
-pub fn packed(text: &str, textures: Vec<TextureData>, crop: Option<Crop>) -> Result<PackedScene> {
+pub fn packed(text: &str, textures: Vec<TextureData>, crop: Option<Rect>) -> Result<PackedScene> {
     pack::pack(&parse(text)?, textures, crop)
 }
 

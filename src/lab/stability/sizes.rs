@@ -7,7 +7,7 @@ use super::case::{Bench, Case, Point};
 use super::scenes::{hashed_unit, in_oracle, on_device, packed, texture};
 use crate::core::error::Result;
 use crate::core::film::Film;
-use crate::pack::Crop;
+use crate::core::range::Rect;
 use crate::scene::MAX_SIZE;
 use crate::texture::data::{Dimension, TextureData};
 
@@ -73,7 +73,7 @@ fn compared(
     bench: &Bench<'_>,
     text: &str,
     texture: TextureData,
-    crop: Option<Crop>,
+    crop: Option<Rect>,
 ) -> Result<Vec<(f64, String)>> {
     let longest = texture.width.max(texture.height).max(texture.depth);
     let scene = packed(text, vec![texture], crop)?;
@@ -114,7 +114,7 @@ fn corners(bench: &Bench<'_>) -> Result<Vec<Point>> {
     let point = |first: u32| {
         let at = |x: u32, y: u32| {
             let texture = noise(Dimension::Two, [TEXELS, TEXELS, 1]);
-            let crop = Crop { x, y, width: CROP, height: CROP };
+            let crop = Rect { x, y, width: CROP, height: CROP };
             compared(bench, &flat([MAX_SIZE; 2], 0.0), texture, Some(crop))
         };
         let errors = [at(first, 0)?, at(first, MAX_SIZE - CROP)?].concat();

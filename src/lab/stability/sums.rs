@@ -4,10 +4,10 @@
 
 use super::case::{Bench, Case, Point};
 use super::scenes::{SCREEN, hashed_unit, in_oracle, on_device, packed, texture};
-use crate::adaptive::{self, Goal};
 use crate::core::error::Result;
 use crate::core::film::Film;
-use crate::oracle::jobs::JobTracer;
+use crate::integrators::adaptive::{self, Goal};
+use crate::oracle::backend::OracleBackend;
 use crate::texture::data::{Dimension, TextureData};
 
 const GROUP: &str = "sums";
@@ -135,7 +135,7 @@ fn by_jobs(bench: &Bench<'_>, decades: f64) -> Result<Vec<Point>> {
         let scene =
             packed(&textured("random", "adaptive", spp, "linear"), vec![noise_texture(decades)], None)?;
         let goal = Goal::Samples(spp);
-        let (exact, _) = adaptive::run(&mut JobTracer::new(&scene), [1, 1], goal, bench.progress)?;
+        let (exact, _) = adaptive::run(&mut OracleBackend::new(&scene)?, [1, 1], goal, bench.progress)?;
         Ok(point(spp, &on_device(bench, &scene)?, exact.pixels[0].map(f64::from)))
     };
     job_counts().map(run).collect()

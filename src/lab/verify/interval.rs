@@ -53,7 +53,7 @@ impl<'a> LookupInterval<'a> {
     }
 
     pub fn is_cubic(&self) -> bool {
-        self.reader.how.modes[2] == Filter::Cubic as u32 || self.reader.how.link[1] == Filter::Cubic as u32
+        self.reader.how.mag_filter == Filter::Cubic || self.reader.how.min_filter == Filter::Cubic
     }
 
     pub fn longest(&self) -> f64 {
@@ -98,7 +98,7 @@ impl<'a> LookupInterval<'a> {
         let size = self.size(level);
         let texel = self.uv.at * size;
         let around = self.reach(level, uncertainty);
-        let integer = self.reader.how.modes[3] == TexelCenter::Integer as u32;
+        let integer = self.reader.how.texel_center == TexelCenter::Integer;
         let half = if integer && self.kind != TextureKind::Cube { 0.0 } else { 0.5 };
         let stops = |axis: usize| {
             let (at, reach_here) = (texel[axis], around[axis]);
@@ -165,7 +165,7 @@ fn stops(from: f64, to: f64, half: f64) -> Vec<f64> {
 pub fn span(scene: &PackedScene, texture: usize) -> [DVec4; 2] {
     let record = &scene.textures[texture];
     let mut span = [DVec4::MAX, DVec4::MIN];
-    for index in 0..record.link[1] {
+    for index in 0..record.levels {
         let level = level_at(scene, record, index);
         let [width, height, depth] = level.size;
         for texel in 0..width * height * depth {

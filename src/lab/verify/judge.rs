@@ -15,7 +15,7 @@ use crate::oracle::filter::sample_texture;
 use crate::oracle::footprint::is_filtered;
 use crate::pack::{PackedScene, TextureKind};
 use crate::schema::layout::Sampler;
-use crate::texture::data::{ColorSpace, Component, TexelFormat};
+use crate::texture::data::{ColorSpace, Component};
 use crate::texture::sampler_spec::{Address, Filter, MipMode};
 
 pub(super) const F32_ULP: f64 = 1.0 / 8_388_608.0; // of 1: 2⁻²³
@@ -163,14 +163,14 @@ impl<'a> Judge<'a> {
         let scene = self.scene;
         let image = &scene.textures[query.texture as usize];
         let how = &scene.samplers[query.sampler as usize];
-        let component = TexelFormat::ALL[image.place[3] as usize].component();
+        let component = image.format.component();
         let region = LookupInterval::new(scene, image, how, &place_of(query));
         let levels = is_filtered(&scene.header)
             .then(|| levels_of_detail(image, how, &region.uv, self.precision.level()));
-        let mag = Filter::ALL[how.modes[2] as usize];
-        let readings = levels.map_or(vec![Reading::at(mag, 0)], |l| readings(how, image.link[1], l));
+        let mag = how.mag_filter;
+        let readings = levels.map_or(vec![Reading::at(mag, 0)], |l| readings(how, image.levels, l));
 
-        let border = DVec4::from_array(how.border.map(f64::from));
+        let border = how.border.as_dvec4();
         let [least, most] = self.spans[query.texture as usize];
         let (least, most) = (least.min(border), most.max(border));
         let range = most - least;
@@ -182,7 +182,7 @@ impl<'a> Judge<'a> {
         let (uncertainty, slack) = match self.precision {
             Precision::Shader => (Uncertainty::Shader, self.shader_slack(&region, mixes > 0, range, ulps)),
             Precision::Hardware { sub_texel, decode, .. } => {
-                let srgb = image.link[0] == ColorSpace::Srgb as u32;
+                let srgb = image.color_space == ColorSpace::Srgb;
                 // The slope of the decoding curve is at most 2.4 / 1.055, at 1.
                 let decoding = if srgb { decode * 2.4 / 1.055 } else { 0.0 };
                 let slack = DVec4::splat(decoding + border_error(how, region.kind, component)) + ulps;
@@ -194,8 +194,8 @@ impl<'a> Judge<'a> {
         let boxes = readings.iter().flat_map(|r| region.values(r, uncertainty)).collect();
         let by_nearest = |r: &Reading| r.filter == Filter::Nearest;
         let smooth = !readings.iter().any(by_nearest)
-            && how.link[1] != Filter::Anisotropic as u32
-            && (how.link[2] != MipMode::Nearest as u32 || readings.len() == 1);
+            && how.min_filter != Filter::Anisotropic
+            && (how.mip_mode != MipMode::Nearest || readings.len() == 1);
         let exact = smooth.then(|| sample_texture(scene, image, how, &place_of(query), [query.seed, 0]));
         Allowed { boxes, slack, arithmetic, unit, exact, levels }
     }
@@ -212,9 +212,9 @@ impl<'a> Judge<'a> {
 /// Returns the error of the stored border colour: a device may store it in the texels' own format
 /// (VK_EXT_custom_border_color).
 fn border_error(how: &Sampler, kind: TextureKind, component: Component) -> f64 {
-    let axes = [how.modes[0], how.modes[1], how.more[0]];
+    let axes = [how.address_u, how.address_v, how.address_w];
     let read = if kind == TextureKind::Volume { &axes[..] } else { &axes[..2] };
-    let border = kind != TextureKind::Cube && read.contains(&(Address::ClampToBorder as u32));
+    let border = kind != TextureKind::Cube && read.contains(&Address::ClampToBorder);
     if border { half_step(component) + f64::from(f32::EPSILON) } else { 0.0 }
 }
 

@@ -183,7 +183,8 @@ pub fn pairs_over(
 
 /// Returns the lookup of a pair's material at (u, v).
 pub fn query(scene: &PackedScene, pair: usize, uv: [f32; 2]) -> LookupQuery {
-    let [_, texture, sampler, slot] = scene.materials[pair].link;
+    let material = &scene.materials[pair];
+    let (texture, sampler, slot) = (material.texture_index, material.sampler_index, material.image_slot);
     LookupQuery { texture, sampler, slot, uv: [uv[0], uv[1], 0.0, 0.0], ..Default::default() }
 }
 

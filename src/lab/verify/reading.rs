@@ -35,8 +35,8 @@ impl Reading {
 /// levels. The shader computes it from the footprint's major axis; with anisotropic filtering the
 /// device computes it itself.
 pub fn levels_of_detail(image: &Texture, how: &Sampler, c: &Coordinate, precision: f64) -> [f64; 2] {
-    let anisotropic = how.link[1] == Filter::Anisotropic as u32;
-    if how.link[0] == Method::Hardware as u32 && anisotropic {
+    let anisotropic = how.min_filter == Filter::Anisotropic;
+    if how.method == Method::Hardware && anisotropic {
         let [low, high] = anisotropic_levels(image, how, c);
         return [low - precision, high + precision];
     }
@@ -51,18 +51,18 @@ pub fn levels_of_detail(image: &Texture, how: &Sampler, c: &Coordinate, precisio
 /// factor of a footprint that is not along an axis: between the largest component of its change and
 /// the sum of all.
 fn anisotropic_levels(image: &Texture, how: &Sampler, c: &Coordinate) -> [f64; 2] {
-    let size = DVec3::new(f64::from(image.place[1]), f64::from(image.place[2]), 0.0);
+    let size = DVec3::new(f64::from(image.size.x), f64::from(image.size.y), 0.0);
     let changes = c.change.map(|d| (d * size).abs());
     let [least, most] = [changes.map(DVec3::max_element), changes.map(DVec3::element_sum)];
     let minor = least[0].min(least[1]);
-    let narrowest = minor.max(least[0].max(least[1]) / f64::from(how.link[3]));
+    let narrowest = minor.max(least[0].max(least[1]) / f64::from(how.max_anisotropy));
     [narrowest.log2(), most[0].max(most[1]).log2()]
 }
 
 /// Returns the possible readings for a level of detail in [from, to] of a texture with `levels`
 /// levels.
 pub fn readings(how: &Sampler, levels: u32, [from, to]: [f64; 2]) -> Vec<Reading> {
-    let [mag, min] = [how.modes[2], how.link[1]].map(|filter| Filter::ALL[filter as usize]);
+    let (mag, min) = (how.mag_filter, how.min_filter);
     let last = levels - 1;
     let mut all = Vec::new();
     if from <= 0.0 {
@@ -72,7 +72,7 @@ pub fn readings(how: &Sampler, levels: u32, [from, to]: [f64; 2]) -> Vec<Reading
         return all;
     }
     let [from, to] = [from, to].map(|level| level.clamp(0.0, f64::from(last)));
-    match MipMode::ALL[how.link[2] as usize] {
+    match how.mip_mode {
         MipMode::None => all.push(Reading::at(min, 0)),
         MipMode::Nearest => {
             let nearest = (from + 0.5).ceil() as u32 - 1..=(to + 0.5).floor() as u32;

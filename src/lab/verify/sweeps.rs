@@ -9,7 +9,7 @@ use super::queries::{Rng, coordinates};
 use super::variants::Variant;
 use crate::lab::probe::LookupQuery;
 use crate::pack::PackedScene;
-use crate::texture::data::{Component, Dimension, TexelFormat};
+use crate::texture::data::{Component, Dimension};
 
 /// The number of coordinates per variant; each is read at its own level.
 const RANDOM: usize = 40;
@@ -144,9 +144,8 @@ pub fn level_ramp(base: &LookupQuery, steps: u32) -> impl Iterator<Item = Lookup
 /// Gives every level one colour in all its channels: level / last.
 pub fn paint_levels(scene: &mut PackedScene, texture: usize) {
     let record = scene.textures[texture];
-    let [first_word, _, _, format] = record.place;
-    let component = TexelFormat::ALL[format as usize].component();
-    let levels = record.link[1];
+    let component = record.format.component();
+    let levels = record.levels;
     for level in 0..levels {
         let value = f64::from(level) / f64::from((levels - 1).max(1));
         let bytes = match component {
@@ -155,7 +154,7 @@ pub fn paint_levels(scene: &mut PackedScene, texture: usize) {
             Component::Float32 => (value as f32).to_ne_bytes().to_vec(),
         };
         let length = scene.level_texels(texture, level).len();
-        let start = scene.level_word(first_word, level) as usize * 4;
+        let start = scene.level_word(record.first_word, level) as usize * 4;
         for texel in scene.texels[start..start + length].chunks_exact_mut(bytes.len()) {
             texel.copy_from_slice(&bytes);
         }

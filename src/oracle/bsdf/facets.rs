@@ -41,7 +41,7 @@ pub fn widened_differential(
     alpha: f64,
 ) -> RayDifferential {
     let size = direction.length();
-    let by = 2.0 * alpha * header.step_x[3] * size;
+    let by = 2.0 * alpha * header.sample_side * size;
     let unit = direction / size;
     let [x, y] = beam.direction;
     let first = (x - unit.dot(x) * unit).try_normalize().unwrap_or_else(|| any_tangent(unit));

@@ -11,7 +11,6 @@ pub mod unlit;
 
 use glam::DVec3;
 
-use crate::oracle::math::xyz;
 use crate::scene::model::Model;
 use crate::schema::layout::Material;
 use lambert::lambert_lobes;
@@ -42,7 +41,7 @@ pub struct Lit {
 }
 
 fn model(material: &Material) -> Model {
-    Model::ALL[material.link[0] as usize]
+    material.model
 }
 
 /// Sends rays on, and nothing else.
@@ -76,7 +75,7 @@ pub fn evaluate(bsdf: &Bsdf<'_>, way: DVec3) -> [f64; 2] {
 pub fn reflected(bsdf: &Bsdf<'_>, color: DVec3, carried: DVec3, lit: Lit) -> DVec3 {
     let seen = color * lit.first;
     match model(bsdf.material) {
-        Model::Phong => with_highlight(seen, carried, xyz(bsdf.material.specular), lit.second),
+        Model::Phong => with_highlight(seen, carried, bsdf.material.specular.as_dvec3(), lit.second),
         _ => seen,
     }
 }
@@ -87,7 +86,7 @@ pub fn is_integrable_over_region(material: &Material, smooth_normals: bool) -> b
     match model(material) {
         Model::Unlit => true,
         Model::Lambert => !smooth_normals,
-        Model::Mirror => !smooth_normals && material.specular[0] <= 0.0,
+        Model::Mirror => !smooth_normals && material.alpha <= 0.0,
         _ => false,
     }
 }

@@ -31,17 +31,13 @@ pub struct Bounce {
 
 /// Ratio of the refractive indices before and behind a surface.
 pub fn index_ratio(material: &Material, inside: bool) -> f64 {
-    let ior = f64::from(material.specular[3]);
+    let ior = f64::from(material.ior);
     if inside { ior } else { 1.0 / ior }
 }
 
 /// Share of the light that is mirrored; the rest is refracted.
 pub fn mirrored_share(material: &Material, direction: DVec3, normal: DVec3, ratio: f64) -> f64 {
-    if material.link[0] == Model::Dielectric as u32 {
-        fresnel_dielectric(direction, normal, ratio)
-    } else {
-        1.0
-    }
+    if material.model == Model::Dielectric { fresnel_dielectric(direction, normal, ratio) } else { 1.0 }
 }
 
 /// The mirrored or the refracted way, on its own side of surfaces whose normals lean.
@@ -58,7 +54,7 @@ pub fn sample_bsdf(
     direction: DVec3,
     dimensions: &SampleDimensions,
 ) -> Bounce {
-    let alpha = f64::from(material.specular[0]);
+    let alpha = f64::from(material.alpha);
     let lobe = unit_square(dimensions.lobe);
     let normal =
         if alpha > 0.0 { visible_normal(direction, surface.normal, alpha, lobe) } else { surface.normal };

@@ -10,7 +10,7 @@ use crate::pack::TextureKind;
 use crate::schema::layout::{Sampler, Texture};
 
 pub fn anisotropic_probes(how: &Sampler, spread: &FootprintEllipse) -> f64 {
-    let most = f64::from(how.link[3]);
+    let most = f64::from(how.max_anisotropy);
     let ratio = spread.major / spread.minor.max(1e-30);
     (ratio.min(most * most).sqrt() - 1e-3).ceil().max(1.0)
 }

@@ -24,14 +24,14 @@ pub fn ellipse_weight(squared: f64) -> f64 {
 /// All texels of the footprint's ellipse, weighted by a Gaussian.
 pub fn ellipse(reader: &Reader<'_>, c: &Coordinate, spread: &FootprintEllipse) -> DVec4 {
     let (image, how) = (reader.image, reader.how);
-    let most = f64::from(how.link[3]);
+    let most = f64::from(how.max_anisotropy);
     let minor = spread.minor.max(spread.major / (most * most));
-    let last = f64::from(image.link[1] - 1);
+    let last = f64::from(image.levels - 1);
     let index = (0.5 * minor.max(1e-30).log2() + ELLIPSE_LEVEL).floor().clamp(0.0, last);
     let level = level_at(reader.scene, image, index as u32);
     let size = DVec2::new(level.size[0] as f64, level.size[1] as f64);
     let [x, y] = c.change.map(|d| d.truncate() * size);
-    let scale = (size.x / f64::from(image.place[1])).powi(2);
+    let scale = (size.x / f64::from(image.size.x)).powi(2);
     let mut m = DVec3::new(x.x * x.x + y.x * y.x, x.x * x.y + y.x * y.y, x.y * x.y + y.y * y.y);
     let gap = spread.major - spread.minor;
     let widen = if gap > 0.0 { (minor - spread.minor) / gap } else { 0.0 };
@@ -43,7 +43,7 @@ pub fn ellipse(reader: &Reader<'_>, c: &Coordinate, spread: &FootprintEllipse) -
     let (a, b, d) = (m.z / determinant, -m.y / determinant, m.x / determinant);
 
     let [u, v, _] = addresses(how);
-    let shift = if how.modes[3] == TexelCenter::Integer as u32 { 0.0 } else { 0.5 };
+    let shift = if how.texel_center == TexelCenter::Integer { 0.0 } else { 0.5 };
     let center =
         DVec2::new(reduced_coordinate(u, c.at.x, size.x), reduced_coordinate(v, c.at.y, size.y)) - shift;
     let reach = m.z.sqrt();

@@ -23,7 +23,7 @@ pub fn has_kernel(filter: Filter) -> bool {
 
 /// Of each texel along an axis.
 fn kernel_weights(filter: Filter, how: &Sampler, t: f64) -> Vec<f64> {
-    let [b, c] = [how.more[2], how.more[3]].map(|bits| f64::from(f32::from_bits(bits)));
+    let [b, c] = [how.cubic_b, how.cubic_c].map(f64::from);
     match filter {
         Filter::Cubic => cubic_weights(t, b, c).to_vec(),
         _ => vec![0.0, 1.0],

@@ -6,9 +6,9 @@ use crate::texture::sampler_spec::Filter;
 
 /// Whether beams know the integral of what it magnifies, and whether that has no steps.
 pub fn is_integrable(how: &Sampler) -> bool {
-    [Filter::Nearest as u32, Filter::Linear as u32].contains(&how.modes[2])
+    matches!(how.mag_filter, Filter::Nearest | Filter::Linear)
 }
 
 pub fn is_continuous(how: &Sampler) -> bool {
-    how.modes[2] == Filter::Linear as u32
+    how.mag_filter == Filter::Linear
 }

@@ -31,7 +31,7 @@ impl Reader<'_> {
             at * size.x
         } else {
             let [u, v, w] = addresses(self.how);
-            let integer_centers = self.how.modes[3] == TexelCenter::Integer as u32;
+            let integer_centers = self.how.texel_center == TexelCenter::Integer;
             let depth = if kind == TextureKind::Volume { reduced_coordinate(w, at.z, size.z) } else { 0.0 };
             DVec3::new(reduced_coordinate(u, at.x, size.x), reduced_coordinate(v, at.y, size.y), depth)
                 + if integer_centers { 0.5 } else { 0.0 }

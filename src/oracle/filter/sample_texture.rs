@@ -27,25 +27,25 @@ pub fn sample_texture(
 ) -> DVec4 {
     if kind_of(image) == TextureKind::Procedural {
         let [x, y] = place.change;
-        return procedural_color(&scene.procedurals[image.place[0] as usize], place.at, x, y).extend(1.0);
+        return procedural_color(&scene.procedurals[image.procedural as usize], place.at, x, y).extend(1.0);
     }
     let reader = Reader { scene, image, how };
     let mut dice = look_up_dice(random);
     let (c, face) = in_texture(image, place);
-    let mag = Filter::ALL[how.modes[2] as usize];
+    let mag = how.mag_filter;
     if !is_filtered(&scene.header) {
         return reader.level(mag, &level_at(scene, image, 0), c.at, face, dice);
     }
     let spread = texel_spread(image, &c);
     let magnified = spread.major <= 1.0;
-    let mode = if magnified { mag } else { Filter::ALL[how.link[1] as usize] };
+    let mode = if magnified { mag } else { how.min_filter };
     if mode == Filter::Ewa {
         return ellipse(&reader, &c, &spread);
     }
     if mode == Filter::SummedArea {
         return summed_area(scene, image, how, &c);
     }
-    let last = image.link[1] - 1;
+    let last = image.levels - 1;
     let mut probes = 1.0;
     if mode == Filter::Anisotropic {
         probes = anisotropic_probes(how, &spread);
@@ -57,7 +57,7 @@ pub fn sample_texture(
         let least = if probes > 1.0 { spread.minor } else { 0.0 };
         (0.5 * (spread.major / (probes * probes)).max(least).log2()).clamp(0.0, last.into())
     };
-    let (low, mut rest) = match MipMode::ALL[how.link[2] as usize] {
+    let (low, mut rest) = match how.mip_mode {
         MipMode::None => (0.0, 0.0),
         MipMode::Nearest => ((level + 0.5).ceil() - 1.0, 0.0),
         MipMode::Linear => (level.floor(), level - level.floor()),

@@ -4,7 +4,6 @@ use glam::{DVec2, DVec4};
 
 use crate::oracle::address::reduced_coordinate;
 use crate::oracle::mapping::Coordinate;
-use crate::oracle::math::vec4;
 use crate::oracle::texture::addresses;
 use crate::pack::PackedScene;
 use crate::schema::layout::{Sampler, Texture};
@@ -102,19 +101,19 @@ impl Table<'_> {
 
 /// `place` is a coordinate of a flat texture that has a table.
 pub fn summed_area(scene: &PackedScene, image: &Texture, how: &Sampler, place: &Coordinate) -> DVec4 {
-    let table = scene.level_word(image.place[0], image.link[1]) as usize * 4;
+    let table = scene.level_word(image.first_word, image.levels) as usize * 4;
     let word = |i: usize| {
         let b = &scene.texels[table + 4 * i..table + 4 * i + 4];
         u32::from_ne_bytes([b[0], b[1], b[2], b[3]])
     };
     let [least, step] = [word(0), word(1)].map(|bits| f64::from(f32::from_bits(bits)));
     let channels = word(2) as usize;
-    let [width, height] = [image.place[1], image.place[2]].map(|n| n as usize);
+    let [width, height] = [image.size.x, image.size.y].map(|n| n as usize);
     let wide = DVec2::new(width as f64, height as f64);
     let extent = 0.5 * (place.change[0].abs() + place.change[1].abs()).truncate() * wide;
     let reach = extent.clamp(DVec2::splat(0.5), wide * 1e6);
     let [mode_u, mode_v, _] = addresses(how);
-    let shift = if how.modes[3] == TexelCenter::Integer as u32 { 0.5 } else { 0.0 };
+    let shift = if how.texel_center == TexelCenter::Integer { 0.5 } else { 0.0 };
     let center = DVec2::new(
         reduced_coordinate(mode_u, place.at.x, wide.x),
         reduced_coordinate(mode_v, place.at.y, wide.y),
@@ -151,5 +150,5 @@ pub fn summed_area(scene: &PackedScene, image: &Texture, how: &Sampler, place: &
         _ => 1.0,
     };
     let covered = share(mode_u, inside_u, 2.0 * reach.x) * share(mode_v, inside_v, 2.0 * reach.y);
-    vec4(how.border).lerp(sum, covered)
+    how.border.as_dvec4().lerp(sum, covered)
 }

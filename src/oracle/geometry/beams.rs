@@ -4,7 +4,6 @@
 use glam::DVec4;
 
 use super::kinds::{Flat, Form, shape_of};
-use crate::oracle::math::{vec4, xyz};
 use crate::oracle::polygon::{AffineFunction, Polygon};
 use crate::oracle::projective::{
     ConvexRegion, MAX_LINES, PixelFrustum, RationalMap, add, along, below, region_of_plane,
@@ -54,11 +53,11 @@ pub fn coordinates(
     map: u32,
     near: AffineFunction,
 ) -> RationalMap {
-    let map = &scene.maps[map as usize];
+    let map = &scene.uv_projections[map as usize];
     match flat(scene, shape) {
-        Some(flat) if map.link[0] != MapKind::Affine as u32 => flat.own_coordinates(frame, near, map),
+        Some(flat) if map.kind != MapKind::Affine => flat.own_coordinates(frame, near, map),
         _ => {
-            let [u, v] = [map.x, map.y].map(|row| along(frame, near, vec4(row)));
+            let [u, v] = [map.x, map.y].map(|row| along(frame, near, row));
             RationalMap { u, v, below: below(frame, near) }
         }
     }
@@ -72,8 +71,8 @@ pub fn shadow_region(
     shape: u32,
     light: &Light,
 ) -> ConvexRegion {
-    let place = xyz(light.place);
-    let point = light.link[0] == LightKind::Point as u32;
+    let point = light.kind == LightKind::Point;
+    let place = if point { light.position } else { light.direction };
     let plane = shape_plane(scene, shape);
     let n = plane.truncate();
     // Of the light before the shape's plane, or of a way's length towards it.

@@ -4,7 +4,6 @@
 use glam::{DMat3, DVec2, DVec3};
 
 use crate::oracle::camera::Ray;
-use crate::oracle::math::xyz;
 use crate::pack::PackedScene;
 
 /// Farther than any hit that counts.
@@ -23,7 +22,7 @@ pub struct Hit {
 /// How far a shape has moved at the ray's time. Shapes are met, and textured, where they are at time 0, by rays
 /// that start as far back.
 pub fn moved_by(scene: &PackedScene, ray: &Ray, shape: u32) -> DVec3 {
-    scene.motions.get(shape as usize).map_or(DVec3::ZERO, |motion| ray.time * xyz(motion.shift))
+    scene.motions.get(shape as usize).map_or(DVec3::ZERO, |motion| ray.time * motion.shift)
 }
 
 pub fn at_rest(scene: &PackedScene, ray: &Ray, shape: u32) -> Ray {
@@ -55,7 +54,7 @@ pub struct Surface {
     pub size: f64,
 }
 
-pub(super) fn surface(point: DVec3, geometric: DVec3, normal: DVec3, link: [u32; 4]) -> Surface {
+pub(super) fn surface(point: DVec3, geometric: DVec3, normal: DVec3, [material, map]: [u32; 2]) -> Surface {
     Surface {
         point,
         geometric_normal: geometric,
@@ -65,8 +64,8 @@ pub(super) fn surface(point: DVec3, geometric: DVec3, normal: DVec3, link: [u32;
         shape_operator: DMat3::ZERO,
         curvature: 0.0,
         inside: false,
-        material: link[0],
-        map: link[1],
+        material,
+        map,
         at_rest: point,
         size: point.abs().max_element(),
     }

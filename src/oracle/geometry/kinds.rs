@@ -79,7 +79,7 @@ pub trait Round {
 /// For the list of each kind: `$body` with the number of its first shape.
 macro_rules! each_kind {
     ($scene:expr, |$first:ident, $list:ident| $body:expr) => {{
-        let [planes, spheres, _, _] = $scene.header.counts;
+        let (planes, spheres) = ($scene.header.plane_count, $scene.header.sphere_count);
         {
             let ($first, $list) = (0, &$scene.planes);
             $body
@@ -97,7 +97,7 @@ macro_rules! each_kind {
 pub(super) use each_kind;
 
 pub fn shape_of(scene: &PackedScene, shape: u32) -> &dyn Shape {
-    let [planes, spheres, _, _] = scene.header.counts;
+    let (planes, spheres) = (scene.header.plane_count, scene.header.sphere_count);
     if shape < planes {
         &scene.planes[shape as usize]
     } else if shape < planes + spheres {
@@ -108,5 +108,5 @@ pub fn shape_of(scene: &PackedScene, shape: u32) -> &dyn Shape {
 }
 
 pub fn shape_count(scene: &PackedScene) -> u32 {
-    scene.header.counts[..3].iter().sum()
+    scene.header.plane_count + scene.header.sphere_count + scene.header.triangle_count
 }

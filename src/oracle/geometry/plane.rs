@@ -7,7 +7,6 @@ use super::kinds::{Flat, Form, Shape};
 use crate::oracle::camera::Ray;
 use crate::oracle::cone::{Cone, FlatDepth, flat_in};
 use crate::oracle::coverage::Cuts;
-use crate::oracle::math::{vec4, xyz};
 use crate::oracle::polygon::{AffineFunction, Polygon, range};
 use crate::oracle::projective::{
     ConvexRegion, PixelFrustum, RationalMap, add, along, below, region_of_plane,
@@ -28,17 +27,17 @@ fn cut_bounds(cuts: &mut Cuts, cone: &Cone, plane: &FlatDepth, row: DVec4, exten
 
 impl Shape for Plane {
     fn links(&self) -> [u32; 2] {
-        [self.link[0], self.link[1]]
+        [self.material, self.uv_projection]
     }
 
     fn distance_to(&self, ray: &Ray) -> (f64, DVec2) {
-        let normal = xyz(self.normal);
-        let height = self.normal[3] - normal.dot(ray.origin);
+        let normal = self.normal;
+        let height = self.distance - normal.dot(ray.origin);
         let t = height / normal.dot(ray.direction);
         let p = ray.origin + t * ray.direction;
-        let local = DVec2::new(xyz(self.axis_u).dot(p), xyz(self.axis_v).dot(p));
-        if let Some(extent) = self.half_extent() {
-            let (u, v) = (local.x + self.axis_u[3], local.y + self.axis_v[3]);
+        let local = DVec2::new(self.axis_u.dot(p), self.axis_v.dot(p));
+        if let Some(extent) = self.bounds() {
+            let (u, v) = (local.x + self.eye_u, local.y + self.eye_v);
             let inside = u.abs() <= extent && v.abs() <= extent;
             return (if inside { t } else { -1.0 }, local);
         }
@@ -46,17 +45,17 @@ impl Shape for Plane {
     }
 
     fn surface_of(&self, point: DVec3, uv: DVec2) -> Surface {
-        let normal = xyz(self.normal).normalize();
-        let own_gradients = [xyz(self.axis_u), xyz(self.axis_v)];
-        Surface { own_uv: uv, own_gradients, ..surface(point, normal, normal, self.link) }
+        let normal = self.normal.normalize();
+        let own_gradients = [self.axis_u, self.axis_v];
+        Surface { own_uv: uv, own_gradients, ..surface(point, normal, normal, self.links()) }
     }
 
     fn cut_by_shape(&self, cuts: &mut Cuts, cone: &Cone) -> bool {
-        let seen = flat_in(cone, xyz(self.normal), self.normal[3]);
+        let seen = flat_in(cone, self.normal, self.distance);
         cuts.by((-cone.width * seen.tilt).extend(seen.height));
-        if let Some(extent) = self.half_extent() {
-            cut_bounds(cuts, cone, &seen, vec4(self.axis_u), extent);
-            cut_bounds(cuts, cone, &seen, vec4(self.axis_v), extent);
+        if let Some(extent) = self.bounds() {
+            cut_bounds(cuts, cone, &seen, self.axis_u.extend(self.eye_u), extent);
+            cut_bounds(cuts, cone, &seen, self.axis_v.extend(self.eye_v), extent);
         } else {
             cuts.by((cone.spread * seen.tilt).extend(seen.facing));
         }
@@ -68,11 +67,11 @@ impl Shape for Plane {
     }
 
     fn tangent_plane(&self, _: &Cone, _: f64) -> DVec4 {
-        vec4(self.normal)
+        self.normal.extend(self.distance)
     }
 
     fn may_meet(&self, _: &Header, frame: &PixelFrustum, polygon: &Polygon) -> bool {
-        let mut region = region_of_plane(frame, vec4(self.normal));
+        let mut region = region_of_plane(frame, self.normal.extend(self.distance));
         self.add_outline(frame, region.inverse_depth, &mut region);
         region.lines[..region.count].iter().all(|&line| range(polygon, line).1 > 0.0)
     }
@@ -84,7 +83,7 @@ impl Shape for Plane {
 
 impl Flat for Plane {
     fn plane_of(&self) -> DVec4 {
-        vec4(self.normal)
+        self.normal.extend(self.distance)
     }
 
     fn has_smooth_normals(&self) -> bool {
@@ -92,10 +91,10 @@ impl Flat for Plane {
     }
 
     fn add_outline(&self, frame: &PixelFrustum, near: AffineFunction, region: &mut ConvexRegion) {
-        let Some(half_extent) = self.half_extent() else { return };
+        let Some(half_extent) = self.bounds() else { return };
         let extent = half_extent * below(frame, near);
-        for row in [self.axis_u, self.axis_v] {
-            let own = along(frame, near, vec4(row));
+        for row in [self.axis_u.extend(self.eye_u), self.axis_v.extend(self.eye_v)] {
+            let own = along(frame, near, row);
             add(region, extent - own);
             add(region, extent + own);
         }
@@ -104,13 +103,11 @@ impl Flat for Plane {
     /// Its own coordinates count from the eye.
     fn own_coordinates(&self, frame: &PixelFrustum, near: AffineFunction, map: &UvProjection) -> RationalMap {
         let under = below(frame, near);
-        let own = |row: [f64; 4]| along(frame, near, xyz(row).extend(0.0));
+        let own = |axis: DVec3| along(frame, near, axis.extend(0.0));
         let (u, v) = (own(self.axis_u), own(self.axis_v));
-        let m = vec4(map.matrix);
-        let offset = vec4(map.offset);
         RationalMap {
-            u: m.x * u + m.y * v + offset.x * under,
-            v: m.z * u + m.w * v + offset.y * under,
+            u: map.m00 * u + map.m01 * v + map.offset.x * under,
+            v: map.m10 * u + map.m11 * v + map.offset.y * under,
             below: under,
         }
     }
@@ -122,15 +119,15 @@ impl Flat for Plane {
         rise: f64,
         region: &mut ConvexRegion,
     ) {
-        let Some(extent) = self.half_extent() else { return };
-        let place = xyz(light.place);
-        let point = light.link[0] == LightKind::Point as u32;
+        let Some(extent) = self.bounds() else { return };
+        let point = light.kind == LightKind::Point;
+        let place = if point { light.position } else { light.direction };
         let plane = self.plane_of();
         let n = plane.truncate();
         let side = if rise == 0.0 { 0.0 } else { rise.signum() };
         // A place's distance below the light, in |rise|, or its own height.
         let depth = if point { side * n.extend(-n.dot(place)) } else { DVec4::W * rise.abs() };
-        for row in [self.axis_u, self.axis_v].map(vec4) {
+        for row in [self.axis_u.extend(self.eye_u), self.axis_v.extend(self.eye_v)] {
             let axis = row.truncate();
             let own = if point {
                 // u of light + (p - light) rise / (n·(p - light)), times the depth.

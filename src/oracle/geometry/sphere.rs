@@ -8,7 +8,6 @@ use super::kinds::{Form, Round, Shape};
 use crate::oracle::camera::Ray;
 use crate::oracle::cone::Cone;
 use crate::oracle::coverage::{Covered, Cuts, ball_overlap, circle_line};
-use crate::oracle::math::xyz;
 use crate::oracle::polygon::{AffineFunction, Polygon, middle};
 use crate::oracle::projective::{PixelFrustum, point_at, ray_at};
 use crate::pack::LightKind;
@@ -16,8 +15,8 @@ use crate::schema::layout::{Header, Light, Sphere};
 
 /// Haines, Günther & Akenine-Möller 2019; -1 on a miss.
 pub fn sphere_distance(sphere: &Sphere, ray: &Ray) -> f64 {
-    let f = ray.origin - xyz(sphere.ball);
-    let radius = sphere.ball[3];
+    let f = ray.origin - sphere.center;
+    let radius = sphere.radius;
     let a = ray.direction.dot(ray.direction);
     let b = -f.dot(ray.direction);
     let closest = f + (b / a) * ray.direction;
@@ -41,8 +40,8 @@ struct Circle {
 }
 
 fn circle_of(cone: &Cone, sphere: &Sphere) -> Circle {
-    let f = cone.ray.origin - xyz(sphere.ball);
-    let radius = sphere.ball[3];
+    let f = cone.ray.origin - sphere.center;
+    let radius = sphere.radius;
     let t = -f.dot(cone.ray.direction) / cone.ray.direction.length_squared();
     // From the inside it is all around, from behind nowhere.
     if f.length_squared() <= radius * radius {
@@ -63,7 +62,7 @@ fn circle_of(cone: &Cone, sphere: &Sphere) -> Circle {
 
 impl Shape for Sphere {
     fn links(&self) -> [u32; 2] {
-        [self.link[0], self.link[1]]
+        [self.material, self.uv_projection]
     }
 
     fn distance_to(&self, ray: &Ray) -> (f64, DVec2) {
@@ -71,8 +70,8 @@ impl Shape for Sphere {
     }
 
     fn surface_of(&self, point: DVec3, _: DVec2) -> Surface {
-        let center = xyz(self.ball);
-        let radius = self.ball[3];
+        let center = self.center;
+        let radius = self.radius;
         let normal = (point - center).normalize();
         let curvature = 1.0 / radius;
         let shape_operator = DMat3::from_diagonal(DVec3::splat(curvature));
@@ -81,7 +80,7 @@ impl Shape for Sphere {
             shape_operator,
             curvature,
             size,
-            ..surface(center + radius * normal, normal, normal, self.link)
+            ..surface(center + radius * normal, normal, normal, self.links())
         }
     }
 
@@ -94,21 +93,21 @@ impl Shape for Sphere {
 
     fn complete(&self, ray: &Ray, hit: &mut Hit) {
         let t = sphere_distance(self, ray);
-        let nearest = (xyz(self.ball) - ray.origin).dot(ray.direction) / ray.direction.length_squared();
+        let nearest = (self.center - ray.origin).dot(ray.direction) / ray.direction.length_squared();
         hit.t = if t > 0.0 { t } else { nearest };
     }
 
     fn tangent_plane(&self, cone: &Cone, t: f64) -> DVec4 {
-        let center = xyz(self.ball);
+        let center = self.center;
         let normal = (cone.ray.origin + t * cone.ray.direction - center).normalize();
-        normal.extend(normal.dot(center) + self.ball[3])
+        normal.extend(normal.dot(center) + self.radius)
     }
 
     fn may_meet(&self, _: &Header, frame: &PixelFrustum, polygon: &Polygon) -> bool {
         let (way, origin) = ray_at(frame, middle(polygon));
         let unit = way.normalize();
-        let to = xyz(self.ball) - origin;
-        let radius = self.ball[3];
+        let to = self.center - origin;
+        let radius = self.radius;
         let along = to.dot(unit);
         if to.length_squared() <= radius * radius {
             return true;
@@ -150,16 +149,15 @@ impl Round for Sphere {
         polygon: &Polygon,
         light: &Light,
     ) -> bool {
-        let (center, radius) = (xyz(self.ball), self.ball[3]);
+        let (center, radius) = (self.center, self.radius);
         let from = point_at(frame, near, middle(polygon));
         let point = |k: usize| point_at(frame, near, polygon.corners[k]);
         let wide = (0..polygon.count).map(|k| (point(k) - from).length()).fold(0.0, f64::max);
-        let place = xyz(light.place);
-        let way = if light.link[0] == LightKind::Point as u32 { place - from } else { place };
+        let way = if light.kind == LightKind::Point { light.position - from } else { light.direction };
         let to = center - from;
         let squared = way.length_squared();
         let mut along = (to.dot(way) / squared).max(0.0);
-        if light.link[0] == LightKind::Point as u32 {
+        if light.kind == LightKind::Point {
             along = along.min(1.0);
         }
         let apart = (to - along * way).length();

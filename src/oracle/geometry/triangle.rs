@@ -8,7 +8,6 @@ use super::kinds::{Flat, Form, Shape};
 use crate::oracle::camera::Ray;
 use crate::oracle::cone::Cone;
 use crate::oracle::coverage::Cuts;
-use crate::oracle::math::{vec4, xyz};
 use crate::oracle::polygon::{AffineFunction, Polygon};
 use crate::oracle::projective::{ConvexRegion, PixelFrustum, RationalMap, add, along, form, ray_at};
 use crate::pack::LightKind;
@@ -16,7 +15,7 @@ use crate::schema::layout::{Header, Light, Triangle, UvProjection};
 
 /// -1 on a miss: the edge functions d·(p × q) have one sign within the triangle.
 pub fn triangle_distance(triangle: &Triangle, ray: &Ray) -> f64 {
-    let [a, b, c] = [triangle.a, triangle.b, triangle.c].map(|v| xyz(v) - ray.origin);
+    let [a, b, c] = [triangle.a, triangle.b, triangle.c].map(|v| v - ray.origin);
     let d = ray.direction;
     let edges = DVec3::new(d.dot(b.cross(c)), d.dot(c.cross(a)), d.dot(a.cross(b)));
     let front = edges.cmpge(DVec3::ZERO).all();
@@ -24,15 +23,15 @@ pub fn triangle_distance(triangle: &Triangle, ray: &Ray) -> f64 {
     if !(front || back) || edges == DVec3::ZERO {
         return -1.0;
     }
-    let normal = xyz(triangle.normal);
-    let height = triangle.normal[3] - normal.dot(ray.origin);
+    let normal = triangle.normal;
+    let height = triangle.distance - normal.dot(ray.origin);
     height / normal.dot(ray.direction)
 }
 
 /// Barycentric weights of a point of the triangle, from the vectors to its corners.
 fn weights(triangle: &Triangle, point: DVec3) -> DVec3 {
-    let [a, b, c] = [triangle.a, triangle.b, triangle.c].map(|v| xyz(v) - point);
-    let n = xyz(triangle.normal);
+    let [a, b, c] = [triangle.a, triangle.b, triangle.c].map(|v| v - point);
+    let n = triangle.normal;
     let areas = DVec3::new(n.dot(b.cross(c)), n.dot(c.cross(a)), n.dot(a.cross(b)));
     areas / areas.element_sum()
 }
@@ -46,7 +45,7 @@ fn in_disc(cone: &Cone, point: DVec3) -> DVec3 {
 
 /// Barycentric weights of a triangle's corners times their sum, positive within it.
 fn edge_forms(frame: &PixelFrustum, triangle: &Triangle) -> [AffineFunction; 3] {
-    let [a, b, c] = [triangle.a, triangle.b, triangle.c].map(xyz);
+    let [a, b, c] = [triangle.a, triangle.b, triangle.c];
     let way = frame.same;
     if frame.parallel {
         let side = way.dot((b - a).cross(c - a)).signum();
@@ -61,7 +60,7 @@ fn edge_forms(frame: &PixelFrustum, triangle: &Triangle) -> [AffineFunction; 3] 
 
 impl Shape for Triangle {
     fn links(&self) -> [u32; 2] {
-        [self.link[0], self.link[1]]
+        [self.material, self.uv_projection]
     }
 
     fn distance_to(&self, ray: &Ray) -> (f64, DVec2) {
@@ -70,19 +69,19 @@ impl Shape for Triangle {
 
     fn surface_of(&self, point: DVec3, _: DVec2) -> Surface {
         let w = weights(self, point);
-        let u = DVec3::new(self.a[3], self.b[3], self.c[3]);
-        let v = xyz(self.v);
-        let n = xyz(self.normal).normalize();
-        let [a, b, c] = [self.a, self.b, self.c].map(xyz);
+        let u = DVec3::new(self.u_a, self.u_b, self.u_c);
+        let v = self.v;
+        let n = self.normal.normalize();
+        let [a, b, c] = [self.a, self.b, self.c];
         // Gradients of the weights: at right angles to the opposite side, 1 over the height.
         let twice_area = n.dot((b - a).cross(c - b));
         let [wa, wb, wc] = [c - b, a - c, b - a].map(|side| n.cross(side) / twice_area);
         let gradient = |value: DVec3| wa * value.x + wb * value.y + wc * value.z;
-        let mut result = surface(point, n, n, self.link);
+        let mut result = surface(point, n, n, self.links());
         result.own_uv = DVec2::new(w.dot(u), w.dot(v));
         result.own_gradients = [gradient(u), gradient(v)];
-        if self.v[3] != 0.0 {
-            let normals = [self.normal_a, self.normal_b, self.normal_c].map(xyz);
+        if self.is_smooth {
+            let normals = [self.normal_a, self.normal_b, self.normal_c];
             let blend = w.x * normals[0] + w.y * normals[1] + w.z * normals[2];
             if let Some(normal) = blend.try_normalize() {
                 let outer = |p: DVec3, q: DVec3| DMat3::from_cols(p * q.x, p * q.y, p * q.z);
@@ -101,9 +100,9 @@ impl Shape for Triangle {
     }
 
     fn cut_by_shape(&self, cuts: &mut Cuts, cone: &Cone) -> bool {
-        let [a, b, c] = [self.a, self.b, self.c].map(|v| in_disc(cone, xyz(v)));
-        let normal = xyz(self.normal);
-        let height = self.normal[3] - normal.dot(cone.ray.origin);
+        let [a, b, c] = [self.a, self.b, self.c].map(|v| in_disc(cone, v));
+        let normal = self.normal;
+        let height = self.distance - normal.dot(cone.ray.origin);
         let side = if height < 0.0 { -1.0 } else { 1.0 };
         cuts.by(((-side * cone.width) * cone.aside(normal)).extend(side * height));
         cuts.by(side * a.cross(b));
@@ -115,14 +114,14 @@ impl Shape for Triangle {
     fn complete(&self, _: &Ray, _: &mut Hit) {}
 
     fn tangent_plane(&self, _: &Cone, _: f64) -> DVec4 {
-        vec4(self.normal)
+        self.normal.extend(self.distance)
     }
 
     /// A ray meets a triangle where all three edge functions have one sign. These are affine in the ray's place, so
     /// that their corners' extremes bound them.
     fn may_meet(&self, header: &Header, frame: &PixelFrustum, polygon: &Polygon) -> bool {
-        let vertices = [self.a, self.b, self.c].map(xyz);
-        if vertices.iter().all(|v| v.dot(xyz(header.forward)) <= 0.0) {
+        let vertices = [self.a, self.b, self.c];
+        if vertices.iter().all(|v| v.dot(header.forward) <= 0.0) {
             return false;
         }
         let (mut least, mut most) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
@@ -142,11 +141,11 @@ impl Shape for Triangle {
 
 impl Flat for Triangle {
     fn plane_of(&self) -> DVec4 {
-        vec4(self.normal)
+        self.normal.extend(self.distance)
     }
 
     fn has_smooth_normals(&self) -> bool {
-        self.v[3] != 0.0
+        self.is_smooth
     }
 
     fn add_outline(&self, frame: &PixelFrustum, _: AffineFunction, region: &mut ConvexRegion) {
@@ -158,10 +157,9 @@ impl Flat for Triangle {
     /// Interpolated between the corners.
     fn own_coordinates(&self, frame: &PixelFrustum, _: AffineFunction, _: &UvProjection) -> RationalMap {
         let e = edge_forms(frame, self);
-        let [a, b, c] = [self.a, self.b, self.c].map(vec4);
-        let v = vec4(self.v);
+        let v = self.v;
         RationalMap {
-            u: a.w * e[0] + b.w * e[1] + c.w * e[2],
+            u: self.u_a * e[0] + self.u_b * e[1] + self.u_c * e[2],
             v: v.x * e[0] + v.y * e[1] + v.z * e[2],
             below: e[0] + e[1] + e[2],
         }
@@ -174,9 +172,9 @@ impl Flat for Triangle {
         _: f64,
         region: &mut ConvexRegion,
     ) {
-        let place = xyz(light.place);
-        let point = light.link[0] == LightKind::Point as u32;
-        let [a, b, c] = [self.a, self.b, self.c].map(xyz);
+        let point = light.kind == LightKind::Point;
+        let place = if point { light.position } else { light.direction };
+        let [a, b, c] = [self.a, self.b, self.c];
         let turn = if point {
             (a - place).dot((b - place).cross(c - place))
         } else {

@@ -1,8 +1,10 @@
 //! What a packed scene uses: a bit mask of modes, a number or yes and no for each entry of the table of features.
 
-use super::{DYNAMIC, TextureSize, UNROLL};
+use super::UNROLL;
 use crate::pack::{PackedScene, Schedule, TextureKind};
-use crate::scene::model::{Model, Pattern, PixelFilterKind};
+use crate::scene::model::{Model, PixelFilterKind};
+use crate::schema::constants::{DYNAMIC, MAX_CONE_FRAGMENTS};
+use crate::schema::enums::TextureSize;
 use crate::schema::layout::{self, NO_TEXTURE};
 use crate::texture::sampler_spec::Filter;
 
@@ -16,16 +18,13 @@ pub fn bits(modes: impl Iterator<Item = u32>) -> u32 {
 
 /// The number of samples, where positions depend on it: pipelines without it serve any number.
 pub fn counted_samples(scene: &PackedScene) -> u32 {
-    let [pattern, _, samples, _] = scene.header.sampling;
-    if Pattern::ALL[pattern as usize].is_progressive() { 0 } else { samples }
+    if scene.header.pattern.is_progressive() { 0 } else { scene.header.samples }
 }
 
 /// Shapes that a cone can touch, up to those that it keeps.
 pub fn cone_shapes(scene: &PackedScene) -> u32 {
-    // Of `fragments.glsl`.
-    const MAX_FRAGMENTS: usize = 8;
     let shapes = scene.shape_count();
-    if shapes < MAX_FRAGMENTS { shapes.max(1) as u32 } else { DYNAMIC }
+    if shapes < MAX_CONE_FRAGMENTS as usize { shapes.max(1) as u32 } else { DYNAMIC }
 }
 
 pub fn unrolled(count: usize) -> u32 {
@@ -33,18 +32,17 @@ pub fn unrolled(count: usize) -> u32 {
 }
 
 pub fn rotates(map: &layout::UvProjection) -> bool {
-    map.matrix[1] != 0.0 || map.matrix[2] != 0.0
+    map.m01 != 0.0 || map.m10 != 0.0
 }
 
 pub fn size_kind(texture: &layout::Texture) -> u32 {
-    let [_, width, height, _] = texture.place;
-    let power = width.is_power_of_two() && height.is_power_of_two();
+    let power = texture.size.x.is_power_of_two() && texture.size.y.is_power_of_two();
     if power { TextureSize::PowerOfTwo as u32 } else { TextureSize::Any as u32 }
 }
 
 /// Textures that are texels.
 pub fn stored(scene: &PackedScene) -> impl Iterator<Item = &layout::Texture> {
-    scene.textures.iter().filter(|t| t.link[3] != TextureKind::Procedural as u32)
+    scene.textures.iter().filter(|t| t.kind != TextureKind::Procedural)
 }
 
 /// Jobs sum in chunks of their own.
@@ -54,12 +52,11 @@ pub fn compensates(scene: &PackedScene) -> bool {
 
 /// A box of one pixel leaves samples where they are.
 pub fn warps(scene: &PackedScene) -> bool {
-    let [kind, radius, _, _] = scene.header.pixel_filter;
-    kind != PixelFilterKind::Box as u32 || f32::from_bits(radius) != 0.5
+    scene.header.pixel_filter != PixelFilterKind::Box || scene.header.filter_radius != 0.5
 }
 
 fn has_model(scene: &PackedScene, does: fn(Model) -> bool) -> bool {
-    scene.materials.iter().any(|m| does(Model::ALL[m.link[0] as usize]))
+    scene.materials.iter().any(|m| does(m.model))
 }
 
 /// Without a footprint, look-ups of procedural textures pass one of zero.
@@ -69,7 +66,7 @@ pub fn filters_procedurals(scene: &PackedScene) -> bool {
 
 /// Mirrors and glass, if their rays may go on.
 pub fn bounces(scene: &PackedScene) -> bool {
-    scene.header.size[3] > 0 && has_model(scene, Model::is_specular)
+    scene.header.max_depth > 0 && has_model(scene, Model::is_specular)
 }
 
 /// Whether look-ups take texels at random.
@@ -79,11 +76,11 @@ pub fn chooses(scene: &PackedScene) -> bool {
 }
 
 pub fn filters(scene: &PackedScene) -> u32 {
-    bits(scene.samplers.iter().flat_map(|s| [s.modes[2], s.link[1]]))
+    bits(scene.samplers.iter().flat_map(|s| [s.mag_filter as u32, s.min_filter as u32]))
 }
 
 pub fn bump_kinds(scene: &PackedScene) -> u32 {
-    bits(scene.materials.iter().filter(|m| m.detail[0] != NO_TEXTURE).map(|m| m.detail[3]))
+    bits(scene.materials.iter().filter(|m| m.bump_texture_index != NO_TEXTURE).map(|m| m.bump_kind as u32))
 }
 
 /// A lone flat shape cannot lie between itself and a light.

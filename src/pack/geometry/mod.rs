@@ -8,7 +8,7 @@ mod triangle;
 use glam::DVec3;
 
 use super::precision::{Camera, round};
-use super::{PackedScene, TextureKind, real4};
+use super::{PackedScene, TextureKind};
 use crate::core::error::Result;
 use crate::scene::model::{Mapping, Scene};
 use crate::schema::layout;
@@ -32,10 +32,12 @@ pub fn pack_shapes(packed: &mut PackedScene, scene: &Scene) -> Result<()> {
         packed.triangles.push(record);
     }
     if scene.shapes_move() {
-        packed.motions = scene.motions().map(|m| layout::Motion { shift: real4(m.extend(0.0)) }).collect();
+        packed.motions = scene.motions().map(|m| layout::Motion { shift: m }).collect();
     }
-    let counts = [packed.planes.len(), packed.spheres.len(), packed.triangles.len()].map(|n| n as u32);
-    packed.header.counts[..3].copy_from_slice(&counts);
+    packed.header.plane_count = packed.planes.len() as u32;
+    packed.header.sphere_count = packed.spheres.len() as u32;
+    packed.header.triangle_count = packed.triangles.len() as u32;
+    packed.header.motion_count = packed.motions.len() as u32;
     Ok(())
 }
 
@@ -63,10 +65,10 @@ fn add_map(
 ) -> u32 {
     let material = &scene.materials[material];
     let Some(texture) = material.texture.or(material.bump.map(|r| r.texture)) else { return 0 };
-    let kind = TextureKind::ALL[packed.textures[texture].link[3] as usize];
+    let kind = packed.textures[texture].kind;
     let flat = matches!(kind, TextureKind::Flat | TextureKind::Procedural);
-    packed.maps.push(make(&material.mapping, &scene.sampler_of(material), flat));
-    packed.maps.len() as u32 - 1
+    packed.uv_projections.push(make(&material.mapping, &scene.sampler_of(material), flat));
+    packed.uv_projections.len() as u32 - 1
 }
 
 /// The largest coordinate, seen from the eye.
@@ -120,10 +122,6 @@ impl PackedScene {
 
     /// The numbers that a device reads as f32.
     pub(super) fn round_shapes(&mut self) {
-        for plane in &mut self.planes {
-            let extent = plane.half_extent();
-            plane.link[2..].copy_from_slice(&layout::Plane::extent_words(extent, false));
-        }
         round(&mut self.planes);
         round(&mut self.spheres);
         round(&mut self.triangles);

@@ -4,11 +4,11 @@ use glam::{DVec2, DVec3, DVec4};
 
 use super::{Rounded, add_map, cross};
 use crate::core::error::{Error, Result};
+use crate::pack::PackedScene;
 use crate::pack::mapping::{self, Place, uv_matrix};
 use crate::pack::precision::{Camera, RANGE, RAY, U, tiles_a_unit};
-use crate::pack::{PackedScene, real4};
 use crate::scene::model::{Entity, Mapping, MappingKind, Plane, Scene, Shape, Space};
-use crate::schema::layout;
+use crate::schema::layout::{self, RealBits};
 
 /// Rows u and v of the plane's own coordinates: p ↦ row·(p, 1) solves p + eye - origin =
 /// u tangent + v bitangent, also for axes that are neither unit nor orthogonal: with n = t × b, u is
@@ -54,14 +54,15 @@ pub(super) fn pack(
         _ => mapping::projecting_map(mapping, sampler, eye, &place, flat),
     });
     Ok(layout::Plane {
-        normal: real4(normal.extend(normal.dot(plane.origin - eye))),
-        axis_u: real4(u),
-        axis_v: real4(v),
-        // Of f64 until the numbers are rounded.
-        link: {
-            let [low, high] = layout::Plane::extent_words(plane.half_extent, true);
-            [plane.material as u32, map, low, high]
-        },
+        normal,
+        distance: normal.dot(plane.origin - eye),
+        axis_u: u.truncate(),
+        eye_u: u.w,
+        axis_v: v.truncate(),
+        eye_v: v.w,
+        material: plane.material as u32,
+        uv_projection: map,
+        half_extent: RealBits(plane.half_extent.unwrap_or(-1.0)),
     })
 }
 

@@ -3,9 +3,9 @@
 use glam::DVec3;
 
 use super::{Rounded, add_map, reach};
+use crate::pack::PackedScene;
 use crate::pack::mapping::{self, Place};
 use crate::pack::precision::{Camera, PART_OF_PIXEL, U, tiles_a_unit};
-use crate::pack::{PackedScene, real4};
 use crate::scene::model::{Mapping, MappingKind, Scene, Shape, Sphere};
 use crate::schema::layout;
 
@@ -20,8 +20,10 @@ pub(super) fn pack(packed: &mut PackedScene, scene: &Scene, sphere: &Sphere, eye
         mapping::projecting_map(mapping, sampler, eye, &place, flat)
     });
     layout::Sphere {
-        ball: real4((sphere.center - eye).extend(sphere.radius)),
-        link: [sphere.material as u32, map, 0, 0],
+        center: sphere.center - eye,
+        radius: sphere.radius,
+        material: sphere.material as u32,
+        uv_projection: map,
     }
 }
 

@@ -1,11 +1,11 @@
 //! Triangles → their records, and how far f32 misplaces what is seen of them.
 
-use glam::{DVec2, DVec3, DVec4};
+use glam::{DVec2, DVec3};
 
 use super::{Rounded, add_map, cross, reach};
 use crate::pack::mapping::{self, Place, uv_matrix};
 use crate::pack::precision::{Camera, RAY, U, tiles_a_unit};
-use crate::pack::{MapKind, PackedScene, real4};
+use crate::pack::{MapKind, PackedScene};
 use crate::scene::model::{Mapping, MappingKind, Material, Scene, Shape, Triangle};
 use crate::schema::layout;
 use crate::texture::sampler_spec::SamplerSpec;
@@ -29,22 +29,26 @@ pub(super) fn pack(
     let uvs = vertex_uvs(triangle, material, &scene.sampler_of(material));
     let place = Place { centroid: triangle.centroid(), bounds: triangle.bounds() };
     let map = add_map(packed, scene, triangle.material, |mapping, sampler, flat| match mapping.kind {
-        MappingKind::Surface => {
-            layout::UvProjection { link: [MapKind::VertexUv as u32, 0, 0, 0], ..Default::default() }
-        }
+        MappingKind::Surface => layout::UvProjection { kind: MapKind::VertexUv, ..Default::default() },
         _ => mapping::projecting_map(mapping, sampler, eye, &place, flat),
     });
-    let shading = triangle.normals.unwrap_or([normal; 3]).map(|n| real4(n.normalize().extend(0.0)));
+    let shading = triangle.normals.unwrap_or([normal; 3]).map(DVec3::normalize);
     layout::Triangle {
-        a: real4(a.extend(uvs[0].x)),
-        b: real4(b.extend(uvs[1].x)),
-        c: real4(c.extend(uvs[2].x)),
-        v: real4(DVec4::new(uvs[0].y, uvs[1].y, uvs[2].y, f64::from(u8::from(triangle.normals.is_some())))),
-        normal: real4(normal.extend(normal.dot(a))),
+        a,
+        u_a: uvs[0].x,
+        b,
+        u_b: uvs[1].x,
+        c,
+        u_c: uvs[2].x,
+        v: DVec3::new(uvs[0].y, uvs[1].y, uvs[2].y),
+        normal,
+        distance: normal.dot(a),
         normal_a: shading[0],
         normal_b: shading[1],
         normal_c: shading[2],
-        link: [triangle.material as u32, map, 0, 0],
+        material: triangle.material as u32,
+        uv_projection: map,
+        is_smooth: triangle.normals.is_some(),
     }
 }
 

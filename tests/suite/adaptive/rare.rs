@@ -3,8 +3,8 @@
 
 use std::path::Path;
 
-use moire::internal::adaptive::{Goal, Outcome};
 use moire::internal::core::film::Film;
+use moire::internal::integrators::adaptive::{Goal, Outcome};
 use moire::internal::scene::model::{Algorithm, Pattern, Scene};
 use moire::internal::scene::parse;
 

@@ -45,7 +45,7 @@ impl Context {
             .filter(|(k, _)| *k != key && !self.without.contains(&(key, k)))
             .map(|(k, v)| (k, v.to_string()))
             .collect();
-        if let (Some(kind), Some(kinds)) = (kind, self.kinds) {
+        if let (Some(kind), Some(kinds)) = (kind, self.kinds.filter(|kinds| *kinds != key)) {
             entries.retain(|(k, _)| *k != kinds);
             entries.push((kinds, format!("\"{kind}\"")));
         }
@@ -74,8 +74,9 @@ impl Context {
 
     /// The scene as it is read, of the first kind that has the key.
     pub fn read(&self, key: &str, value: Option<&str>) -> Option<String> {
-        let kinds = self.able(key);
-        let text = self.scene(kinds.first().map(String::as_str), key, value);
+        let able = self.able(key);
+        let kind = able.first().filter(|_| able.len() < self.words().len());
+        let text = self.scene(kind.map(String::as_str), key, value);
         parse(Path::new("scene.toml"), &text).ok().map(|scene| format!("{scene:?}"))
     }
 

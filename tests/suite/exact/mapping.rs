@@ -211,7 +211,7 @@ fn environment(read: impl Fn(&UvProjection, DVec3) -> DVec2) -> Worst {
             "{AHEAD}{TEXTURED}[background]\nenvironment = 't'\nsampler = 's'\nrotate = {rotate:?}\nmirror = {mirror}\n"
         );
         let (_, scene) = packed(&text);
-        let map = scene.maps[scene.header.key[3] as usize];
+        let map = scene.uv_projections[scene.header.environment_projection as usize];
         for i in 0..40 {
             let d = match i {
                 0 => DVec3::NEG_Z,

@@ -100,8 +100,8 @@ fn compare(solve: impl Fn(&Plane, &Ray) -> (f64, DVec2)) -> Worst {
             let (got, local) = solve(&plane, &ray);
             let (t_bound, bounds) = case.bounds(d, approx(&t));
             worst.add(got, &t, t_bound);
-            worst.add(local.x + plane.axis_u[3], &u, bounds.x);
-            worst.add(local.y + plane.axis_v[3], &w, bounds.y);
+            worst.add(local.x + plane.eye_u, &u, bounds.x);
+            worst.add(local.y + plane.eye_v, &w, bounds.y);
         }
     }
     worst

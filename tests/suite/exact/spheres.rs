@@ -120,7 +120,7 @@ fn planted_errors_of_spheres_are_told() {
     let schoolbook = |sphere: &Sphere, ray: &Ray| {
         let f = ray.origin - DVec3::from_slice(&sphere.ball[..3]);
         let (a, b) = (ray.direction.length_squared(), -f.dot(ray.direction));
-        let c = f.length_squared() - sphere.ball[3] * sphere.ball[3];
+        let c = f.length_squared() - sphere.radius * sphere.radius;
         let discriminant = b * b - a * c;
         let [near, far] = [-1.0, 1.0].map(|s| (b + s * discriminant.max(0.0).sqrt()) / a);
         if discriminant <= 0.0 {

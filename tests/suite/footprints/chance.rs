@@ -18,7 +18,7 @@ const SEEDS: u32 = 2048;
 fn texels(scene: &PackedScene, texture: usize) -> Vec<u32> {
     let image = &scene.textures[texture];
     let mut all = Vec::new();
-    for index in 0..image.link[1] {
+    for index in 0..image.levels {
         let level = level_at(scene, image, index);
         let [w, h, d] = level.size;
         for at in (0..w * h * d).map(|i| [i % w, i / w % h, i / (w * h)]) {

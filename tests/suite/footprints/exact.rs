@@ -25,8 +25,8 @@ use crate::stage;
 /// cube, map, and the place in [0, 1].
 fn end_of_ray(scene: &PackedScene, at: DVec2) -> Option<(Vec<u32>, u32, DVec3)> {
     let header = &scene.header;
-    let centered = at - 0.5 * DVec2::new(header.image[0].into(), header.image[1].into());
-    let direction = xyz(header.forward) + centered.x * xyz(header.step_x) + centered.y * xyz(header.step_y);
+    let centered = at - 0.5 * DVec2::new(header.image_size.x.into(), header.image_size.y.into());
+    let direction = header.forward + centered.x * header.step_x + centered.y * header.step_y;
     let mut ray = Ray { origin: DVec3::ZERO, direction, time: 0.0 };
     let mut way = Vec::new();
     let mut skip = NO_SHAPE;
@@ -35,14 +35,18 @@ fn end_of_ray(scene: &PackedScene, at: DVec2) -> Option<(Vec<u32>, u32, DVec3)> 
         way.push(hit.shape);
         skip = hit.shape;
         let (surface, material, map) = if hit.shape == NO_SHAPE {
-            let material = header.counts[3];
-            (material != NO_MATERIAL).then_some((Surface::default(), material, header.key[3]))?
+            let material = header.environment_material;
+            (material != NO_MATERIAL).then_some((
+                Surface::default(),
+                material,
+                header.environment_projection,
+            ))?
         } else {
             let surface = hit_surface(scene, &ray, &hit);
             (surface, surface.material, surface.map)
         };
         let material = &scene.materials[material as usize];
-        let model = Model::ALL[material.link[0] as usize];
+        let model = material.model;
         let n = surface.geometric_normal;
         let ior = f64::from(material.specular[3]);
         let ratio = if surface.inside { ior } else { 1.0 / ior };
@@ -58,9 +62,9 @@ fn end_of_ray(scene: &PackedScene, at: DVec2) -> Option<(Vec<u32>, u32, DVec3)> 
                 time: 0.0,
             },
             _ => {
-                let map_record = &scene.maps[map as usize];
+                let map_record = &scene.uv_projections[map as usize];
                 let seen = map_input(map_record, &ray, &surface, &Footprint::default());
-                let image = &scene.textures[material.link[1] as usize];
+                let image = &scene.textures[material.texture_index as usize];
                 let (c, face) = in_texture(image, &texture_coordinate(map_record, &seen));
                 way.push(face);
                 return Some((way, map, c.at));
@@ -75,7 +79,7 @@ fn exact_level(scene: &PackedScene, at: DVec2) -> Option<f64> {
     const STEP: f64 = 1e-4;
     let here = end_of_ray(scene, at)?;
     let image = &scene.textures[0];
-    let size = DVec3::new(image.place[1].into(), image.place[2].into(), image.link[2].into());
+    let size = DVec3::new(image.size.x.into(), image.size.y.into(), image.size.z.into());
     let mut changes = [DVec3::ZERO; 2];
     for (change, axis) in changes.iter_mut().zip([DVec2::X, DVec2::Y]) {
         let [a, b] = [axis, -axis].map(|d| end_of_ray(scene, at + STEP * d));
@@ -84,7 +88,7 @@ fn exact_level(scene: &PackedScene, at: DVec2) -> Option<f64> {
             return None;
         }
         let mut d = a.2 - b.2;
-        let kind = MapKind::ALL[scene.maps[here.1 as usize].link[0] as usize];
+        let kind = MapKind::ALL[scene.uv_projections[here.1 as usize].link[0] as usize];
         if matches!(kind, MapKind::Cylindrical | MapKind::Spherical) {
             d -= d.round();
         }
@@ -98,7 +102,7 @@ fn exact_level(scene: &PackedScene, at: DVec2) -> Option<f64> {
     let [x, y] = changes;
     let (xx, yy, xy) = (x.dot(x), y.dot(y), x.dot(y));
     let squared = 0.5 * (xx + yy) + (0.25 * (xx - yy).powi(2) + xy * xy).sqrt();
-    Some((0.5 * squared.log2()).clamp(0.0, f64::from(image.link[1] - 1)))
+    Some((0.5 * squared.log2()).clamp(0.0, f64::from(image.levels - 1)))
 }
 
 /// (level read by the oracle's ray, exact one) of pixels all over the picture.

@@ -119,7 +119,7 @@ fn environments_are_smooth_over_their_poles_and_around() {
         let scene = pack::pack(&scene, vec![texture], None).unwrap();
         let mut rng = Rng::new(53);
         let gap = 1e-4;
-        let one = query(&scene, scene.header.counts[3] as usize, [0.0; 2]);
+        let one = query(&scene, scene.header.environment_material as usize, [0.0; 2]);
         let mut queries = Vec::new();
         for i in 0..600 {
             let (u, v) = (rng.unit(), rng.unit());

@@ -112,7 +112,7 @@ fn gradients_are_those_of_the_coordinates() {
                 let ray = Ray { origin: center + 0.9 * k * out, direction: -out, time: 0.0 };
                 let meet = |ray: &Ray| hit_surface(&scene, ray, &nearest_hit(&scene, ray, u32::MAX));
                 let surface = meet(&ray);
-                let map = &scene.maps[surface.map as usize];
+                let map = &scene.uv_projections[surface.map as usize];
                 let coordinate = |ray: &Ray| {
                     texture_coordinate(map, &map_input(map, ray, &meet(ray), &Footprint::default())).at
                 };

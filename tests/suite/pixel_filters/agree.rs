@@ -1,10 +1,10 @@
 //! Device and oracle, lean and full pipelines, parts and the whole give the same picture.
 
-use moire::internal::adaptive::{self, Goal};
 use moire::internal::core::progress::NoProgress;
+use moire::internal::core::range::Rect;
+use moire::internal::integrators::adaptive::{self, Goal};
 use moire::internal::lab::metrics::compare;
-use moire::internal::oracle::jobs::JobTracer;
-use moire::internal::pack::Crop;
+use moire::internal::oracle::backend::OracleBackend;
 use moire::internal::pack::features::Features;
 use moire::internal::render::{self, Tuning};
 use moire::internal::scene::model::{Algorithm, Footprint, Pattern, PixelFilter, PixelFilterKind, Scene};
@@ -81,7 +81,7 @@ fn a_crop_of_a_filtered_picture_has_its_pixels() {
     for filter in filters() {
         let scene = with(small("lecture", 80, 4), filter);
         let full = render(&packed(scene.clone(), None));
-        for crop in [Crop { x: 0, y: 0, width: 3, height: 2 }, Crop { x: 17, y: 30, width: 30, height: 21 }] {
+        for crop in [Rect { x: 0, y: 0, width: 3, height: 2 }, Rect { x: 17, y: 30, width: 30, height: 21 }] {
             let part = render(&packed(scene.clone(), Some(crop)));
             assert_same_bits(&part, &cut(&full, crop), &format!("{filter:?}, {crop:?}"));
         }
@@ -97,7 +97,7 @@ fn bands_and_pages_change_no_bit_of_a_filtered_picture() {
         (scene.sampling.pattern, scene.sampling.spp) = (Pattern::SobolOwen, 2);
         scene.sampling.algorithm = algorithm;
         let full = render(&packed(scene.clone(), None));
-        let crop = Crop { x: 8000, y: 250, width: 100, height: 30 };
+        let crop = Rect { x: 8000, y: 250, width: 100, height: 30 };
         let part = render(&packed(scene, Some(crop)));
         assert_same_bits(&part, &cut(&full, crop), &format!("{algorithm}"));
     }
@@ -118,10 +118,10 @@ fn adaptive_samples_are_filtered_alike_by_device_and_oracle() {
     for filter in filters() {
         for footprint in [Footprint::None, Footprint::Cone] {
             let scene = packed(adaptively(filter, footprint), None);
-            let (width, height) = (scene.header.size[0], scene.header.size[1]);
-            let mut tracer = JobTracer::new(&scene);
+            let (width, height) = (scene.header.film_size.x, scene.header.film_size.y);
+            let mut backend = OracleBackend::new(&scene).unwrap();
             let (oracle, _) =
-                adaptive::run(&mut tracer, [width, height], Goal::Samples(2), &NoProgress).unwrap();
+                adaptive::run(&mut backend, [width, height], Goal::Samples(2), &NoProgress).unwrap();
             let rendered = render::render_to_goal(
                 &device(),
                 scene,

@@ -81,7 +81,7 @@ fn a_prefilter_covers_as_much_as_the_kernel_spreads() {
         assert!((filter_width(&scene.header) / width - 1.0).abs() < 1e-5, "{filter:?}");
         let filtered = crate::stage::packed(with(small("filters", 8, 16), filter), None);
         let side = f64::from(filtered.samples).sqrt();
-        assert!((filtered.header.step_x[3] * side / width - 1.0).abs() < 1e-5, "{filter:?}");
+        assert!((filtered.header.sample_side * side / width - 1.0).abs() < 1e-5, "{filter:?}");
     }
     assert_eq!(filter_width(&packed(PixelFilter::default()).header), 1.0);
 }

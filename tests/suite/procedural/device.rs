@@ -73,7 +73,7 @@ fn range(what: &layout::Procedural, query: &ProceduralQuery) -> (DVec3, DVec3) {
 /// of noise falls by 3 a cell; veins and rings turn a sine by 2π · distortion of that, over 2.
 fn tolerance(what: &layout::Procedural, query: &ProceduralQuery) -> f64 {
     const U: f64 = 1.0 / 16_777_216.0;
-    let kind = ProceduralKind::ALL[what.link[0] as usize];
+    let kind = what.kind;
     let [lacunarity, gain, norm, distortion] = what.octaves.map(f64::from);
     let far = wide(query.at).abs().max_element();
     let octave = |k: u32| {
@@ -101,7 +101,7 @@ fn complaints(
     let mut found = Vec::new();
     for (query, answer) in queries.iter().zip(answers) {
         let what = &records[query.procedural as usize];
-        let kind = ProceduralKind::ALL[what.link[0] as usize];
+        let kind = what.kind;
         let (low, high) = range(what, query);
         let (got, most) = (wide(*answer), tolerance(what, query));
         if !(got.cmpge(low - most).all() && got.cmple(high + most).all()) {

@@ -40,13 +40,13 @@ fn cause(scene: &PackedScene, place: [u32; 2]) -> Cause {
     let ray = camera_ray(header, place, DVec2::splat(0.5));
     let beam = camera_differential(header, &ray);
     let mut width = beam.width;
-    let mut cone = cone_of(ray, width, beam.spread, xyz(header.step_x));
+    let mut cone = cone_of(ray, width, beam.spread, header.step_x);
     let mut skip = NO_SHAPE;
     let model = |shape: u32| {
         let [material, _] = shape_links(scene, shape);
         Model::ALL[scene.materials[material as usize].link[0] as usize]
     };
-    for _ in 0..=header.size[3] {
+    for _ in 0..=header.max_depth {
         let mut pieces = collect_fragments(scene, &cone, skip, FAR);
         composite(&mut pieces, scene, &cone);
         let list = &pieces.list;

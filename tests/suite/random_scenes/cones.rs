@@ -96,7 +96,7 @@ fn shares_off(scene: &Scene) -> [f64; 3] {
     for place in (0..scene.width * scene.height).map(|i| [i % scene.width, i / scene.width]) {
         let ray = camera_ray(header, place, DVec2::splat(0.5));
         let beam = camera_differential(header, &ray);
-        let cone = cone_of(ray, beam.width, beam.spread, xyz(header.step_x));
+        let cone = cone_of(ray, beam.width, beam.spread, header.step_x);
         let mut pieces = collect_fragments(&packed, &cone, moire::internal::schema::layout::NO_SHAPE, FAR);
         let rest = composite(&mut pieces, &packed, &cone).share;
         if pieces.list.iter().any(|p| p.area >= 1.0) {

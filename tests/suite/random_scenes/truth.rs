@@ -60,7 +60,7 @@ impl Truth {
             packed(scene, None)
         };
         let few = with(FEW);
-        let [width, height, _, _] = few.header.size;
+        let [width, height] = few.header.film_size.to_array();
         let pixels = (0..width * height).step_by(7).map(|i| [i % width, i / width]);
         let brightest = pixels.map(|place| mean(&few, place).brightest).fold(0.0, f64::max);
         Truth { few, many: with(MANY), brightest }

@@ -30,7 +30,7 @@ pub struct Estimate {
 }
 
 pub fn estimate(scene: &PackedScene, shape: u32, ray: &Ray) -> Estimate {
-    let [planes, spheres, _, _] = scene.header.counts;
+    let (planes, spheres) = (scene.header.plane_count, scene.header.sphere_count);
     if shape < planes {
         plane(scene, shape as usize, ray)
     } else if shape < planes + spheres {
@@ -69,7 +69,7 @@ fn plane(scene: &PackedScene, index: usize, ray: &Ray) -> Estimate {
 
 fn sphere(scene: &PackedScene, index: usize, ray: &Ray) -> Estimate {
     let sphere = &scene.spheres[index];
-    let (center, r, d) = (xyz(sphere.ball), sphere.ball[3], ray.direction);
+    let (center, r, d) = (sphere.center, sphere.radius, ray.direction);
     let f = ray.origin - center;
     let (a, b) = (d.dot(d), -f.dot(d));
     let closest = f + (b / a) * d;
@@ -93,7 +93,7 @@ fn sphere(scene: &PackedScene, index: usize, ray: &Ray) -> Estimate {
 fn triangle(scene: &PackedScene, index: usize, ray: &Ray) -> Estimate {
     let triangle = &scene.triangles[index];
     let t = triangle_distance(triangle, ray);
-    let corners = [triangle.a, triangle.b, triangle.c].map(|v| xyz(v) - ray.origin);
+    let corners = [triangle.a, triangle.b, triangle.c].map(|v| v - ray.origin);
     let edges = [0, 1, 2].map(|i| {
         let (p, q) = (corners[(i + 1) % 3], corners[(i + 2) % 3]);
         // Subtractions, products, differences, and the dot product: 8 roundings at most.
@@ -104,7 +104,7 @@ fn triangle(scene: &PackedScene, index: usize, ray: &Ray) -> Estimate {
     let unsure = edges.iter().any(|(e, error)| e.abs() <= *error);
     let weights = 4.0 * worst / sum.abs() + DIVIDE * U;
     let t_plane = if t > 0.0 { t } else { 1.0 };
-    let shape_operator = if triangle.v[3] != 0.0 { 2.0 * weights } else { 0.0 };
+    let shape_operator = if triangle.is_smooth { 2.0 * weights } else { 0.0 };
     let error = flat_error(triangle.normal, ray, t_plane);
     Estimate { t, error, unsure, curvature: 0.0, weights: weights.max(shape_operator) }
 }

@@ -161,7 +161,7 @@ fn little_roughness_changes_little_and_much_blurs() {
 #[test]
 fn beams_grow_by_the_samples_share_of_the_lobe() {
     let mut scene = packed(&room("model = 'mirror'\nroughness = 0.5"));
-    scene.header.step_x[3] = 0.25;
+    scene.header.sample_side = 0.25;
     let beam = RayDifferential {
         direction: [DVec3::X * 0.01, DVec3::Y * -0.01],
         spread: 0.01,

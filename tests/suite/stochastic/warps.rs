@@ -50,7 +50,7 @@ fn queries() -> Vec<WarpQuery> {
 fn device_and_oracle_agree_to_a_few_ulp() {
     let queries = queries();
     let mut scene = super::packed(&super::parsed(super::lens::VIEW));
-    scene.header.sampling[0] = Pattern::Center as u32;
+    scene.header.pattern = Pattern::Center as u32;
     let answers = probe::warps(&gpu(), &scene, &queries).unwrap();
     let mut beyond = 0;
     for (query, answer) in queries.iter().zip(&answers) {

@@ -1,0 +1,117 @@
+//! The records of `src/schema/records.rs` → GLSL: a struct with the fields by name; functions that read it, each unit
+//! of 16 bytes once; and of records with a list its elements by index, from a cache where the list is short.
+
+use crate::packing::{Kind, Packer, shape};
+use crate::records::RECORDS;
+use crate::tables::Record;
+
+pub fn records() -> String {
+    let lists = || RECORDS.iter().filter(|record| !record.list.is_empty());
+    let preloads: String = lists().map(|record| format!("    preload_{}();\n", record.list)).collect();
+    let mut text: String = RECORDS.iter().map(record).collect();
+    text.extend(lists().map(list));
+    text + &format!("void preload_records() {{\n{preloads}}}\n")
+}
+
+fn record(record: &Record) -> String {
+    let name = record.name;
+    let fields: String = record.fields.iter().map(|(f, t)| format!("    {} {f};\n", glsl_type(t))).collect();
+    let shapes: Vec<_> = record.fields.iter().map(|(_, t)| shape(t)).collect();
+    let (reals, words) = Packer::units(&shapes);
+    let units =
+        format!("const uint {}_UNITS = {reals}u * REAL_UNITS + {words}u;\n", snake(name).to_uppercase());
+    let mut text = format!("struct {name} {{\n{fields}}};\n{units}");
+    text += &loader(record, "head");
+    if !record.list.is_empty() {
+        text += &loader(record, "scene");
+    }
+    text + "\n"
+}
+
+/// A function that reads the record at a unit of the head, or of the whole scene buffer.
+fn loader(record: &Record, from: &str) -> String {
+    let (mut units, mut parts) = (String::new(), Vec::new());
+    let mut packer = Packer::new();
+    for (_, field_type) in record.fields {
+        let shape = shape(field_type);
+        let (place, behind) = packer.place(shape);
+        packer = behind;
+        let at = format!("at + {}u * REAL_UNITS + {}u", place.reals, place.words);
+        let read = format!("READ_{}", from.to_uppercase());
+        let unit = match shape.kind {
+            Kind::Reals => format!("reals_{}", place.reals),
+            Kind::Words => format!("words_{}", place.words),
+        };
+        if place.lane == 0 {
+            units += &match shape.kind {
+                Kind::Reals => format!("    real4 {unit} = READ_REAL({read}, {at});\n"),
+                Kind::Words => format!("    uvec4 {unit} = {read}({at});\n"),
+            };
+        }
+        let lanes = &"xyzw"[place.lane as usize..(place.lane + shape.lanes) as usize];
+        let part = format!("{unit}.{lanes}");
+        parts.push(match *field_type {
+            "f32" | "Vec2" | "Vec3" | "Vec4" => format!("uintBitsToFloat({part})"),
+            "bool" => format!("{part} != 0u"),
+            "RealBits" => format!("REAL_BITS({part})"),
+            _ => part,
+        });
+    }
+    let (name, function) = (record.name, snake(record.name));
+    let parts = parts.join(",\n        ");
+    format!("{name} {function}_in_{from}(uint at) {{\n{units}    return {name}(\n        {parts});\n}}\n")
+}
+
+/// Lists of known, small length are read once, before any branch: some compilers (lavapipe's) read a buffer lane by
+/// lane inside control flow. An index that is not known at build time then selects among registers.
+fn list(record: &Record) -> String {
+    let (name, list, one) = (record.name, record.list, snake(record.name));
+    let length = list.to_uppercase();
+    let (begin, units) = (format!("{length}_AT"), format!("{}_UNITS", one.to_uppercase()));
+    format!(
+        "{name} cached_{list}[{length} == DYNAMIC || {length} == 0u ? 1u : {length}];
+void preload_{list}() {{
+    if ({length} == DYNAMIC) return;
+    for (uint i = 0u; i < {length}; i++) cached_{list}[i] = {one}_in_head({begin} + i * {units});
+}}
+{name} {one}_at(uint index) {{
+    if ({length} == DYNAMIC) return {one}_in_scene({begin} + index * {units});
+    {name} found = cached_{list}[0];
+    for (uint i = 1u; i < {length}; i++) {{
+        if (i == index) found = cached_{list}[i];
+    }}
+    return found;
+}}
+
+"
+    )
+}
+
+fn glsl_type(name: &str) -> &str {
+    match name {
+        "f32" => "float",
+        "Vec2" => "vec2",
+        "Vec3" => "vec3",
+        "Vec4" => "vec4",
+        "UVec2" => "uvec2",
+        "UVec3" => "uvec3",
+        "bool" => "bool",
+        "f64" | "RealBits" => "real",
+        "DVec2" => "real2",
+        "DVec3" => "real3",
+        "DVec4" => "real4",
+        _ => "uint",
+    }
+}
+
+/// `UvProjection` → `uv_projection`.
+fn snake(name: &str) -> String {
+    let mut text = String::new();
+    for letter in name.chars() {
+        if letter.is_uppercase() && !text.is_empty() {
+            text.push('_');
+        }
+        text.push(letter.to_ascii_lowercase());
+    }
+    text
+}

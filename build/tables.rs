@@ -1,0 +1,95 @@
+//! The macros of `src/schema/tables.rs` once more: here the same tables become lists of names, from which
+//! `generate.rs` writes GLSL.
+
+pub struct Enum {
+    pub prefix: &'static str,
+    pub name: &'static str,
+    /// As files and messages call the variants.
+    pub variants: &'static [&'static str],
+}
+
+pub enum Number {
+    Uint(u32),
+    Float(f64),
+}
+
+pub struct SpecializationConstant {
+    pub name: &'static str,
+    pub kind: &'static str,
+    /// What stands behind the kind in brackets.
+    pub of: &'static str,
+}
+
+pub struct Block {
+    pub name: &'static str,
+    pub fields: &'static [&'static str],
+}
+
+pub struct Record {
+    pub name: &'static str,
+    pub list: &'static str,
+    /// Name and type of each.
+    pub fields: &'static [(&'static str, &'static str)],
+}
+
+macro_rules! enums {
+    ($($(#[$meta:meta])* $prefix:ident: $enum:ident { $($(#[$vmeta:meta])* $variant:ident = $name:literal,)+ })+) => {
+        pub const ENUMS: &[crate::tables::Enum] = &[$(crate::tables::Enum {
+            prefix: stringify!($prefix),
+            name: stringify!($enum),
+            variants: &[$($name,)+],
+        },)+];
+    };
+}
+
+macro_rules! constants {
+    ($($(#[$meta:meta])* $name:ident: $type:ident = $value:expr;)+) => {
+        pub const CONSTANTS: &[(&str, crate::tables::Number)] =
+            &[$((stringify!($name), number!($type, $value)),)+];
+    };
+}
+
+macro_rules! number {
+    (u32, $value:expr) => {
+        crate::tables::Number::Uint($value)
+    };
+    (f64, $value:expr) => {
+        crate::tables::Number::Float($value)
+    };
+}
+
+macro_rules! bindings {
+    ($($(#[$meta:meta])* $name:ident = $number:literal;)+) => {
+        pub const BINDINGS: &[(&str, u32)] = &[$((stringify!($name), $number),)+];
+    };
+}
+
+macro_rules! blocks {
+    ($($(#[$meta:meta])* $block:ident { $($(#[$fmeta:meta])* $field:ident,)+ })+) => {
+        pub const BLOCKS: &[crate::tables::Block] = &[$(crate::tables::Block {
+            name: stringify!($block),
+            fields: &[$(stringify!($field),)+],
+        },)+];
+    };
+}
+
+macro_rules! specialization {
+    ($($(#[$meta:meta])* $variant:ident = $name:literal, $kind:ident $(($($of:tt)+))?, $what:literal;)+) => {
+        pub const SPECIALIZATION: &[crate::tables::SpecializationConstant] =
+            &[$(crate::tables::SpecializationConstant {
+                name: $name,
+                kind: stringify!($kind),
+                of: concat!($($(stringify!($of)),+)?),
+            },)+];
+    };
+}
+
+macro_rules! records {
+    ($($(#[$meta:meta])* $record:ident $(in $list:ident as $what:literal)? { $($(#[$fmeta:meta])* $field:ident: $type:ident,)+ })+) => {
+        pub const RECORDS: &[crate::tables::Record] = &[$(crate::tables::Record {
+            name: stringify!($record),
+            list: concat!($(stringify!($list))?),
+            fields: &[$((stringify!($field), stringify!($type)),)+],
+        },)+];
+    };
+}

@@ -1,5 +1,0 @@
-#version 460
-// Surveys the picture: which triangles the rays of each cell may meet of a scene in f64.
-#define WIDE
-#extension GL_GOOGLE_include_directive : require
-#include "shared/tile_culling_main.glsl"

@@ -1,0 +1,210 @@
+//! When pixels are worth resolving without samples. In: how far samples have come, and what a pilot run on a part
+//! of the picture found. Out: resolved pixels, which have no variance and gain no samples.
+
+use super::Goal;
+use super::allocate::{Aim, Allocation};
+use super::estimate::Estimate;
+use crate::core::error::Result;
+use crate::core::progress::Progress;
+use crate::core::range::Rect;
+use crate::sampling::{Backend, HalfSums, PilotRun};
+
+/// Seconds that samples must still take for a pilot run to be worth its pipeline.
+const WORTH_A_PILOT: f64 = 1.0;
+/// Passes that foretell those: one says nothing of how the error falls.
+const PASSES: u32 = 2;
+/// What resolving takes over what a pilot run foretells: parts of a picture differ.
+const MARGIN: f64 = 1.5;
+/// RMSE of what beams resolve. A goal of less than twice that is for samples.
+pub const OWN_ERROR: f64 = 5e-5;
+
+/// How far samples have come, and what they would still take.
+#[derive(Clone, Copy, Debug)]
+pub struct Outlook {
+    pub goal: Goal,
+    pub passes: u32,
+    /// Seconds of sampling so far, and what is left of the mean squared error.
+    pub elapsed: f64,
+    pub mse: f64,
+    /// By which it falls with the samples.
+    pub exponent: f64,
+    /// Seconds that samples alone would still take.
+    pub left: f64,
+}
+
+impl Outlook {
+    /// Seconds that samples alone would still take, by those that they need to an error.
+    pub fn left(goal: Goal, elapsed: f64, needed: f64) -> f64 {
+        match goal {
+            Goal::Samples(_) => 0.0,
+            Goal::Error(_) => needed.max(0.0),
+            Goal::Seconds(limit) => (limit - elapsed).max(0.0),
+        }
+    }
+
+    fn is_worth_a_pilot(&self) -> bool {
+        let far_enough = !matches!(self.goal, Goal::Error(rmse) if rmse < 2.0 * OWN_ERROR);
+        far_enough && self.passes >= PASSES && self.left > WORTH_A_PILOT
+    }
+
+    /// Whether resolving pixels and sampling the others comes first to the goal, or nearer to it. `cost` and
+    /// `error` are the shares of the samples to come and of the squared error that the resolved pixels have.
+    fn gains(&self, seconds: f64, cost: f64, error: f64) -> bool {
+        if let Goal::Error(_) = self.goal {
+            return seconds < cost * self.left;
+        }
+        let rest = self.left - seconds;
+        if rest <= 0.0 {
+            return false;
+        }
+        // All further time goes to the other pixels.
+        let fall = |seconds: f64, share: f64| {
+            (1.0 + seconds / (self.elapsed * share.max(1e-3))).powf(-self.exponent)
+        };
+        self.mse * (1.0 - error) * fall(rest, 1.0 - cost) + OWN_ERROR.powi(2)
+            < self.mse * fall(self.left, 1.0)
+    }
+}
+
+/// The pixels that are resolved.
+#[derive(Default)]
+pub struct AnalyticPixels {
+    /// Red, green, blue, and 1 where samples are needed. None before anything is resolved.
+    pixels: Vec<[f32; 4]>,
+    /// Once one was made: what it found, if pixels can be resolved at all.
+    pilot: Option<Option<PilotRun>>,
+}
+
+impl AnalyticPixels {
+    pub fn resolved(&self) -> usize {
+        self.pixels.iter().filter(|p| p[3] == 0.0).count()
+    }
+
+    /// Whether the pixel is resolved.
+    pub fn has(&self, pixel: usize) -> bool {
+        self.pixels.get(pixel).is_some_and(|p| p[3] == 0.0)
+    }
+
+    /// Resolves the pixels, if that looks worth it: by one pilot run, weighed anew as more becomes known.
+    pub fn resolve(
+        &mut self,
+        backend: &mut dyn Backend,
+        pixels: Rect,
+        outlook: &Outlook,
+        estimate: &Estimate,
+        allocation: &Allocation,
+        progress: &dyn Progress,
+    ) -> Result<bool> {
+        if !self.pixels.is_empty() || backend.prefilters() || !outlook.is_worth_a_pilot() {
+            return Ok(false);
+        }
+        if self.pilot.is_none() {
+            self.pilot = Some(backend.pilot(progress)?);
+        }
+        let Some(Some(pilot)) = &self.pilot else { return Ok(false) };
+        let cost = share(pilot, allocation.weights());
+        let error = share(pilot, &estimate.variances);
+        if !outlook.gains(MARGIN * pilot.seconds, cost, error) {
+            return Ok(false);
+        }
+        self.pixels = backend.resolve(pixels, progress)?;
+        Ok(true)
+    }
+
+    /// Puts what is resolved in the place of what was sampled.
+    pub fn replace(&self, sums: &mut HalfSums, counts: &[u32]) {
+        for (i, &[r, g, b, sampled]) in self.pixels.iter().enumerate() {
+            if sampled == 0.0 {
+                let n = counts[i] as f32;
+                let square = (r * r + g * g + b * b) / 3.0;
+                sums.halves.iter_mut().for_each(|half| half[i] = [n * r, n * g, n * b, n * square]);
+            }
+        }
+    }
+
+    /// No variance where there is no chance.
+    pub fn settle(&self, estimate: &mut Estimate) {
+        for (variance, pixel) in estimate.variances.iter_mut().zip(&self.pixels) {
+            *variance *= pixel[3];
+        }
+    }
+}
+
+/// Of the resolved pixels among those of a pilot run.
+fn share(pilot: &PilotRun, of: &[f32]) -> f64 {
+    let sum = |resolved: bool| {
+        let pixels = pilot.pixels.iter().filter(|p| p.1 || !resolved);
+        pixels.map(|p| f64::from(of[p.0 as usize])).sum::<f64>()
+    };
+    let all = sum(false);
+    if all > 0.0 { sum(true) / all } else { 0.0 }
+}
+
+/// Samples in sum, until the goal is met; of goals that name no error, none.
+pub fn needed(allocation: &Allocation, aim: Aim) -> f64 {
+    match aim {
+        Aim::Mse(_) => allocation.cost(aim),
+        Aim::Samples(_) => 0.0,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn outlook(goal: Goal, left: f64) -> Outlook {
+        Outlook { goal, passes: 2, elapsed: 0.5, mse: 1e-4, exponent: 1.3, left }
+    }
+
+    #[test]
+    fn an_error_is_met_by_what_takes_less_time() {
+        let of = outlook(Goal::Error(2e-4), 10.0);
+        assert!(of.is_worth_a_pilot());
+        assert!(of.gains(2.0, 1.0, 1.0), "all pixels resolved in a fifth of the time");
+        assert!(!of.gains(2.0, 0.1, 0.1), "nine tenths of the samples are still to be taken");
+        assert!(!of.gains(11.0, 1.0, 1.0), "resolving takes longer");
+    }
+
+    #[test]
+    fn a_time_is_spent_on_what_leaves_less_error() {
+        let of = outlook(Goal::Seconds(4.0), 3.5);
+        assert!(of.gains(2.0, 1.0, 1.0));
+        assert!(!of.gains(2.0, 0.05, 0.05));
+        assert!(!of.gains(3.6, 1.0, 1.0), "not in the time that is left");
+        let nearly = Outlook { mse: 1e-9, ..of };
+        assert!(!nearly.gains(2.0, 1.0, 1.0), "samples err less than what is resolved");
+    }
+
+    #[test]
+    fn goals_soon_met_or_below_what_beams_resolve_are_for_samples() {
+        assert!(!outlook(Goal::Error(2e-3), 0.2).is_worth_a_pilot());
+        assert!(!outlook(Goal::Error(0.9e-4), 100.0).is_worth_a_pilot());
+        assert!(!outlook(Goal::Samples(16), 0.0).is_worth_a_pilot());
+        let first = Outlook { passes: 1, ..outlook(Goal::Error(2e-4), 10.0) };
+        assert!(!first.is_worth_a_pilot(), "one pass foretells nothing");
+    }
+
+    #[test]
+    fn resolved_pixels_have_their_value_and_no_variance() {
+        let pixels = vec![[0.25, 0.5, 1.0, 0.0], [9.0, 9.0, 9.0, 1.0]];
+        let analytic = AnalyticPixels { pixels, pilot: None };
+        let half = || vec![[1.0, 2.0, 3.0, 4.0]; 2];
+        let mut sums = HalfSums { width: 2, height: 1, halves: [half(), half()] };
+        analytic.replace(&mut sums, &[4, 8]);
+        for half in &sums.halves {
+            assert_eq!(half[0][..3], [1.0, 2.0, 4.0]);
+            assert_eq!(half[1], [1.0, 2.0, 3.0, 4.0], "a sampled pixel has changed");
+        }
+        let mut estimate =
+            Estimate { variances: vec![0.5, 0.5], spreads: Vec::new(), mse: 0.0, deviation: 0.0 };
+        analytic.settle(&mut estimate);
+        assert_eq!((estimate.variances, analytic.resolved()), (vec![0.0, 0.5], 1));
+    }
+
+    #[test]
+    fn shares_are_weighed() {
+        let pilot = PilotRun { seconds: 1.0, pixels: vec![(0, true), (2, false)] };
+        assert_eq!(share(&pilot, &[3.0, 100.0, 1.0]), 0.75);
+        assert_eq!(share(&pilot, &[0.0; 3]), 0.0);
+    }
+}

@@ -1,0 +1,248 @@
+//! HalfSums of two halves → the variance of each pixel's mean, and the picture's mean squared error.
+//!
+//! A pixel's own halves say little: the square of one difference. The spread of its samples is known well,
+//! but well placed samples err less than it says. So the spread tells pixels apart, and the halves of a
+//! window around each how much less its samples err: v = s²/n · Σ d² / Σ s²/n, sums over the window.
+//!
+//! An edge that all n samples missed covers less than about 1/n of the pixel, of which the square's mean is
+//! 1/3n²: no variance is taken for less than that times the contrast to the nearest pixels, squared.
+
+use glam::{Vec3A, Vec4};
+use rayon::prelude::*;
+
+use super::unseen::{self, Spreads};
+use crate::sampling::HalfSums;
+
+/// Pixels that one thread takes at once.
+const PIXELS_PER_TASK: usize = 1 << 15;
+/// Pixels on each side of the window's middle.
+const RADIUS: usize = 3;
+
+pub struct Estimate {
+    /// Of the mean over both halves, a channel's mean.
+    pub variances: Vec<f32>,
+    /// Of one sample.
+    pub spreads: Vec<f32>,
+    pub mse: f64,
+    /// A standard deviation of it: differences d of variance v have d⁴ = 3v² in the mean, and d² the variance 2v².
+    pub deviation: f64,
+}
+
+/// Of one pixel.
+#[derive(Clone, Copy, Default)]
+struct Seen {
+    mean: Vec3A,
+    /// The mean's variance by the difference of the halves.
+    difference: f32,
+    /// And by the spread of the samples.
+    spread: f32,
+    /// The variance of one sample, by each half.
+    halves: Spreads,
+}
+
+impl Estimate {
+    /// `bright`: the scene is known to have something small and bright.
+    pub fn new(sums: &HalfSums, counts: &[u32], bright: bool) -> Estimate {
+        let (width, height) = (sums.width as usize, sums.height as usize);
+        let seen: Vec<Seen> = (0..counts.len()).into_par_iter().map(|i| seen(sums, counts[i], i)).collect();
+        let differences = seen.iter().map(|s| f64::from(s.difference));
+        let (sum, squares) = differences.fold((0.0, 0.0), |(sum, squares), d| (sum + d, squares + d * d));
+        let [mse, deviation] = [sum, (2.0 / 3.0 * squares).sqrt()].map(|v| v / seen.len() as f64);
+        let windows = window_sums(&seen, width, height);
+        let variance = |i: usize| {
+            let [difference, spread] = windows[i];
+            let own = if spread > 0.0 { seen[i].spread * (difference / spread) } else { seen[i].difference };
+            let n = 2.0 * counts[i] as f32;
+            own.max(contrast(&seen, i, width, height) / (3.0 * n * n))
+        };
+        let spread = |(seen, &count): (&Seen, &u32)| seen.spread * (2.0 * count as f32);
+        let mut variances: Vec<f32> = (0..seen.len()).into_par_iter().map(variance).collect();
+        unseen::settle(&mut variances, |i| seen[i].halves, counts, width, bright);
+        Estimate { variances, spreads: seen.par_iter().zip(counts).map(spread).collect(), mse, deviation }
+    }
+}
+
+impl Estimate {
+    /// The variances' mean over the error that the halves tell.
+    pub fn weight(&self) -> f64 {
+        let chunks: Vec<f64> = self
+            .variances
+            .par_chunks(PIXELS_PER_TASK)
+            .map(|chunk| chunk.iter().map(|&v| f64::from(v)).sum())
+            .collect();
+        let mean = chunks.iter().sum::<f64>() / self.variances.len() as f64;
+        if self.mse > 0.0 { mean / self.mse } else { 1.0 }
+    }
+}
+
+fn seen(sums: &HalfSums, count: u32, i: usize) -> Seen {
+    let part = 1.0 / count as f32;
+    let [a, b] = [0, 1].map(|half| part * Vec4::from_array(sums.halves[half][i]));
+    let (own, other) = (Vec3A::from_vec4(a), Vec3A::from_vec4(b));
+    let mean = 0.5 * (own + other);
+    let difference = 0.25 * square(own - other);
+    let spread = 0.5 * part * (0.5 * (a.w + b.w) - square(mean)).max(0.0);
+    let halves = [(a.w - square(own)).max(0.0), (b.w - square(other)).max(0.0)];
+    // What is no number stays none: more samples would not help, and no neighbour has contrast to it.
+    if mean.is_finite() && difference.is_finite() && spread.is_finite() {
+        Seen { mean, difference, spread, halves }
+    } else {
+        Seen { mean: Vec3A::NAN, ..Seen::default() }
+    }
+}
+
+/// A channel's mean.
+fn square(v: Vec3A) -> f32 {
+    v.length_squared() * (1.0 / 3.0)
+}
+
+/// Of each pixel's window: sums of what the halves and the spread say.
+fn window_sums(seen: &[Seen], width: usize, height: usize) -> Vec<[f32; 2]> {
+    let add = |a: [f32; 2], b: [f32; 2]| [a[0] + b[0], a[1] + b[1]];
+    let around = |at: usize, size: usize| at.saturating_sub(RADIUS)..(at + RADIUS + 1).min(size);
+    let mut rows = vec![[0.0; 2]; seen.len()];
+    rows.par_chunks_mut(width).zip(seen.par_chunks(width)).for_each(|(out, row)| {
+        for (x, out) in out.iter_mut().enumerate() {
+            *out = row[around(x, width)].iter().fold([0.0; 2], |sum, s| add(sum, [s.difference, s.spread]));
+        }
+    });
+    let mut sums = vec![[0.0; 2]; seen.len()];
+    sums.par_chunks_mut(width).enumerate().for_each(|(y, out)| {
+        for row in around(y, height) {
+            for (out, value) in out.iter_mut().zip(&rows[row * width..(row + 1) * width]) {
+                *out = add(*out, *value);
+            }
+        }
+    });
+    sums
+}
+
+/// The largest squared difference to one of the four nearest pixels.
+fn contrast(seen: &[Seen], i: usize, width: usize, height: usize) -> f32 {
+    let (x, y) = (i % width, i / width);
+    let to = |j: usize| square(seen[i].mean - seen[j].mean);
+    let mut most = 0.0f32;
+    for (there, j) in [
+        (x > 0, i.wrapping_sub(1)),
+        (x + 1 < width, i + 1),
+        (y > 0, i.wrapping_sub(width)),
+        (y + 1 < height, i + width),
+    ] {
+        if there {
+            most = most.max(to(j));
+        }
+    }
+    most
+}
+
+/// How the picture's error falls: MSE ~ samples^-p, by the last two passes.
+pub struct Exponent {
+    value: f64,
+    last: Option<(f64, f64)>,
+}
+
+impl Default for Exponent {
+    fn default() -> Self {
+        Exponent { value: 1.6, last: None }
+    }
+}
+
+impl Exponent {
+    pub fn learn(&mut self, samples: f64, mse: f64) {
+        if let Some((before, error)) = self.last
+            && samples > 1.2 * before
+            && mse > 0.0
+        {
+            self.value = ((error / mse).ln() / (samples / before).ln()).clamp(1.0, 2.0);
+        }
+        self.last = Some((samples, mse));
+    }
+
+    pub fn value(&self) -> f64 {
+        self.value
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const WIDTH: usize = 64;
+
+    /// Uniform numbers of variance 1 for each sample, at least for as many as are asked for here.
+    fn noise(pixel: usize, half: usize, s: u32) -> f32 {
+        // Two rounds of Jarzynski & Olano's pcg.
+        let pcg = |v: u32| {
+            let state = v.wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
+            let word = ((state >> ((state >> 28) + 4)) ^ state).wrapping_mul(277_803_737);
+            (word >> 22) ^ word
+        };
+        let bits = pcg(pcg(pixel as u32 * 2 + half as u32).wrapping_add(s)) >> 8;
+        (bits as f32 / 16_777_216.0 - 0.5) * 12f32.sqrt()
+    }
+
+    /// A picture whose samples deviate by `spread` from `mean`.
+    fn sums(counts: &[u32], mean: impl Fn(usize) -> f32, spread: impl Fn(usize) -> f32) -> HalfSums {
+        let half = |half: usize| {
+            let sum = |i: usize| {
+                let mut sum = [0.0; 4];
+                for s in 0..counts[i] {
+                    let value = mean(i) + spread(i) * noise(i, half, s);
+                    (0..3).for_each(|c| sum[c] += value);
+                    sum[3] += value * value;
+                }
+                sum
+            };
+            (0..counts.len()).map(sum).collect()
+        };
+        HalfSums { width: WIDTH as u32, height: (counts.len() / WIDTH) as u32, halves: [half(0), half(1)] }
+    }
+
+    #[test]
+    fn random_samples_err_as_their_spread_says() {
+        let counts = vec![32u32; WIDTH * WIDTH];
+        let spread = |i: usize| if i % WIDTH < WIDTH / 2 { 0.1 } else { 1.0 };
+        let estimate = Estimate::new(&sums(&counts, |_| 0.5, spread), &counts, false);
+        // Half the pixels 0.01 / 64, half 1 / 64; 4096 squares of a normal deviate: 3 sigma are 9 %.
+        let exact = 0.505 / 64.0;
+        assert!((estimate.mse / exact - 1.0).abs() < 0.09, "{:e}, exactly {exact:e}", estimate.mse);
+        for (i, v) in estimate.variances.iter().enumerate() {
+            let exact = spread(i) * spread(i) / 64.0;
+            // In a corner a window has 16 such squares: p = 1e-5 below 0.15 and above 3.2; spreads vary too.
+            assert!((0.1..4.0).contains(&(v / exact)), "{i}: {v:e}, exactly {exact:e}");
+        }
+    }
+
+    /// Where halves agree better than the spread says, samples were placed well.
+    #[test]
+    fn agreeing_halves_lower_the_variance() {
+        let counts = vec![32u32; WIDTH * WIDTH];
+        let mut same = sums(&counts, |_| 0.5, |_| 0.3);
+        same.halves[1] = same.halves[0].clone();
+        let estimate = Estimate::new(&same, &counts, false);
+        assert_eq!(estimate.mse, 0.0);
+        // Left is the contrast of neighbours.
+        assert!(estimate.variances.iter().all(|v| *v < 0.01 * 0.09 / 64.0));
+    }
+
+    #[test]
+    fn a_pixel_beside_an_edge_that_no_sample_met_keeps_a_variance() {
+        let counts = vec![8u32; WIDTH * 8];
+        let edge = |i: usize| if i % WIDTH < 20 { 0.0 } else { 1.0 };
+        let estimate = Estimate::new(&sums(&counts, edge, |_| 0.0), &counts, false);
+        for (i, v) in estimate.variances.iter().enumerate() {
+            let wanted = if [19, 20].contains(&(i % WIDTH)) { 1.0 / (3.0 * 256.0) } else { 0.0 };
+            assert!((v - wanted).abs() < 1e-6, "{i}: {v:e}, not {wanted:e}");
+        }
+    }
+
+    #[test]
+    fn the_exponent_follows_the_error_within_its_bounds() {
+        let mut exponent = Exponent::default();
+        exponent.learn(100.0, 1e-3);
+        exponent.learn(400.0, 1e-3 / 8.0);
+        assert!((exponent.value() - 1.5).abs() < 1e-9);
+        exponent.learn(1600.0, 1e-3);
+        assert_eq!(exponent.value(), 1.0);
+    }
+}

@@ -1,0 +1,295 @@
+//! The loop of passes: samples, estimate, audit, and the next counts, until the goal is met.
+
+use std::collections::BTreeMap;
+use std::time::Instant;
+
+use super::allocate::{Aim, Allocation};
+use super::analytic::{AnalyticPixels, OWN_ERROR, Outlook, needed};
+use super::audit::{Audit, Audited, CONFIDENCE, DEVIATE};
+use super::auditor::Auditor;
+use super::estimate::{Estimate, Exponent};
+use super::explore::Explorer;
+use super::pace::{PLANNED, Pace};
+use super::{Goal, MOST, Outcome};
+use crate::core::error::Result;
+use crate::core::film::Film;
+use crate::core::progress::Progress;
+use crate::core::range::{Range, Rect};
+use crate::sampling::{Backend, Block, Count, FilmSums, HalfSums};
+use crate::schema::layout::Job;
+
+/// Samples of each half in the first pass: enough to meet the edge of a shape that covers a tenth of the
+/// pixel with a chance of 4 in 5.
+const FIRST: u32 = 8;
+/// Where something small and bright is known to be, a pixel that sees all of it takes this many samples a share of it
+/// in its first pass: it is missed with a chance of 1 in 50.
+const FIRST_OF_BRIGHT: f64 = 4.0;
+/// But no more than so many, nor than so many in the whole picture.
+const MAX_FIRST: f64 = 1024.0;
+const MAX_FIRST_IN_ALL: f64 = (1u64 << 25) as f64;
+/// Part of the remaining time that a pass is planned for.
+const OF_TIME: f64 = 0.85;
+/// Part of the whole time that is kept for the last audit.
+const AUDIT_TIME: f64 = 0.08;
+/// A time is kept where it is exceeded by no more than this factor.
+const KEPT: f64 = 1.05;
+/// Rows of the film that are made at once.
+const FILM_ROWS: u32 = 64;
+/// A goal is met where the audit's estimate is below it, and the interval ends not far above it.
+const SURE: f64 = 1.25;
+/// Audits that may refuse the goal, each with more samples, before it counts as not to be met.
+const MAX_REFUSALS: u32 = 12;
+
+/// Samples until the goal is met. Audits do not touch the film.
+pub fn run(
+    backend: &mut dyn Backend,
+    [width, height]: [u32; 2],
+    goal: Goal,
+    progress: &dyn Progress,
+) -> Result<(Film, Outcome)> {
+    let start = Instant::now();
+    let pixels = width as usize * height as usize;
+    let mut sums = HalfSums::new([width, height]);
+    let mut counts = vec![0u32; pixels];
+    let first = first_count(goal, backend.bright_share(), pixels);
+    let bright = backend.bright_share() < 1.0;
+    let mut next = backend.first_samples(if let Goal::Seconds(_) = goal { 1 } else { first }, pixels)?;
+    let mut outcome = Outcome { confidence: CONFIDENCE, ..Outcome::default() };
+    let mut taken;
+    let mut exponent = Exponent::default();
+    let mut analytic = AnalyticPixels::default();
+    let mut explorer = Explorer::default();
+    let mut auditor = Auditor::default();
+    let mut pace = Pace::default();
+    loop {
+        if next != counts {
+            let clock = Instant::now();
+            match (equal(&counts), equal(&next)) {
+                (Some(now), Some(next)) => backend.sample_all([width, height], now, next - now, progress)?,
+                _ => backend.sample(&jobs(&counts, &next, width), progress)?,
+            }
+            pace.learn(total(&next) - total(&counts), clock.elapsed().as_secs_f64());
+            counts.clone_from(&next);
+            outcome.passes += 1;
+        }
+        let clock = Instant::now();
+        backend.read(&mut sums)?;
+        analytic.replace(&mut sums, &counts);
+        taken = total(&counts);
+
+        let mut estimate = Estimate::new(&sums, &counts, bright);
+        analytic.settle(&mut estimate);
+        exponent.learn(taken, estimate.mse);
+        outcome.beam_pixels = analytic.resolved() as u64;
+        let resolved = outcome.beam_pixels as f64 / pixels as f64;
+        let noise = estimate.mse + OWN_ERROR.powi(2) * resolved;
+        outcome.estimated_noise = noise.sqrt();
+        pace.hosting = clock.elapsed().as_secs_f64();
+        let all = match goal {
+            Goal::Samples(spp) => f64::from(spp) * pixels as f64,
+            Goal::Error(_) => f64::INFINITY,
+            Goal::Seconds(limit) => {
+                let left = limit * (1.0 - AUDIT_TIME) - start.elapsed().as_secs_f64() - pace.hosting;
+                taken + pace.rate * left.max(0.0) * OF_TIME
+            }
+        };
+        let enough = match goal {
+            Goal::Error(rmse) => outcome.estimated_noise <= rmse,
+            Goal::Samples(_) | Goal::Seconds(_) => {
+                taken * 1.02 >= all || estimate.mse == 0.0 && resolved == 1.0
+            }
+        };
+
+        let budget = auditor.budget(goal, taken, bright, pace.rate, start.elapsed().as_secs_f64());
+        let audited = Audited { sums: &sums, counts: &counts, estimate: &estimate, analytic: &analytic };
+        let audit = if enough && auditor.is_owed(goal, budget) {
+            Some(auditor.audit(&audited, backend, budget, &mut outcome, progress)?)
+        } else {
+            None
+        };
+        outcome.note(noise, estimate.deviation, audit.as_ref(), backend.prefilters());
+        let weight = estimate.weight();
+        if enough {
+            let Goal::Error(rmse) = goal else { break };
+            let sure = outcome.interval.is_none_or(|[_, high]| high <= SURE * rmse);
+            outcome.reached = outcome.estimated_rmse <= rmse && sure;
+            // More samples do not lower the bias of a footprint as they lower noise.
+            if outcome.reached || backend.prefilters() || auditor.refusals == MAX_REFUSALS {
+                break;
+            }
+            auditor.refusals += 1;
+        }
+
+        explorer.spread(&mut estimate, &counts, width as usize);
+        if let Some(audit) = &audit {
+            let raised = audit.raise(&mut estimate.variances, &counts, width as usize);
+            explorer.look_at(&raised, &estimate);
+        }
+        let aim = match goal {
+            Goal::Samples(_) | Goal::Seconds(_) => Aim::Samples(all),
+            // In the allocation's measure, which weighs what may have been missed too.
+            Goal::Error(rmse) => Aim::Mse((rmse * PLANNED).powi(2) * weight * auditor.strictness(noise)),
+        };
+        let allocation = Allocation::new(&estimate, &counts, exponent.value());
+        let needed = needed(&allocation, aim);
+        let elapsed = start.elapsed().as_secs_f64();
+        let outlook = Outlook {
+            goal,
+            passes: outcome.passes,
+            elapsed,
+            mse: estimate.mse,
+            exponent: exponent.value(),
+            left: Outlook::left(goal, elapsed, (needed - taken) / pace.rate),
+        };
+        let whole = Rect::whole([width, height]);
+        if analytic.resolve(backend, whole, &outlook, &estimate, &allocation, progress)? {
+            continue;
+        }
+        let idle = pace.idle(goal, elapsed, outcome.estimated_noise, exponent.value());
+        let short = equal(&counts).filter(|now| *now < first);
+        next = match (short.or(equal(&counts)), idle) {
+            // A budget begins with one sample of each half, to see how long these take.
+            (Some(now), _) if short.is_some() => {
+                let most = all / (2 * pixels) as f64;
+                vec![(most as u32).clamp(now, first); pixels]
+            }
+            (Some(now), Some(factor)) => vec![(now * factor).min(MOST); pixels],
+            _ => {
+                let mut next = allocation.counts(aim, &counts, growth(goal), MOST);
+                // Where none of those that matter may have more, looking around does not help either.
+                if next != counts || enough {
+                    explorer.visit(&mut next, &counts, &estimate);
+                }
+                next
+            }
+        };
+        if next == counts {
+            // No pixel that matters may have more samples: what was reached is noted all the same.
+            if audit.is_none() {
+                let audited =
+                    Audited { sums: &sums, counts: &counts, estimate: &estimate, analytic: &analytic };
+                let audit = auditor.audit(&audited, backend, budget, &mut outcome, progress)?;
+                outcome.note(noise, estimate.deviation, Some(&audit), backend.prefilters());
+            }
+            break;
+        }
+        progress.advance((taken / total(&next)).min(1.0));
+    }
+    outcome.mean_samples = taken / pixels as f64;
+    outcome.least_samples = 2 * counts.iter().copied().min().unwrap_or(0);
+    outcome.most_samples = 2 * counts.iter().copied().max().unwrap_or(0);
+    outcome.reached = match goal {
+        Goal::Samples(_) => true,
+        Goal::Error(_) => outcome.reached,
+        Goal::Seconds(limit) => start.elapsed().as_secs_f64() <= KEPT * limit,
+    };
+    Ok((film(&sums, &counts)?, outcome))
+}
+
+impl Outcome {
+    /// Both estimates err by chance: the larger one is noted, and the larger of their bounds.
+    fn note(&mut self, noise: f64, deviation: f64, audit: Option<&Audit>, prefilters: bool) {
+        let mse = audit.map_or(noise, |audit| audit.mse.max(noise));
+        self.estimated_rmse = mse.sqrt();
+        self.estimated_bias = if prefilters { (mse - noise).max(0.0).sqrt() } else { 0.0 };
+        self.interval = audit
+            .and_then(|audit| audit.interval)
+            .map(|[low, high]| [low.min(mse).sqrt(), high.max(noise + DEVIATE * deviation).sqrt()]);
+    }
+}
+
+/// A pixel's count grows at most so much from one pass to the next: what is known of it is that rough. Towards a
+/// fixed number of samples each one counts; else fewer passes do.
+fn growth(goal: Goal) -> f64 {
+    if let Goal::Samples(_) = goal { 8.0 } else { 16.0 }
+}
+
+/// Of each half, before anything is known of the pixels.
+fn first_count(goal: Goal, bright_share: f64, pixels: usize) -> u32 {
+    let most = (MAX_FIRST_IN_ALL / pixels as f64).min(MAX_FIRST) / 2.0;
+    let bright = (FIRST_OF_BRIGHT / bright_share / 2.0).min(most) as u32;
+    let first = if bright_share < 1.0 { bright.max(FIRST).next_power_of_two() } else { FIRST };
+    match goal {
+        Goal::Samples(spp) => {
+            (spp / 8).clamp(1, FIRST).max(if bright_share < 1.0 { (spp / 4).min(first) } else { 1 })
+        }
+        Goal::Error(_) | Goal::Seconds(_) => first,
+    }
+}
+
+/// The count of all pixels, if it is one.
+fn equal(counts: &[u32]) -> Option<u32> {
+    counts.first().copied().filter(|first| counts.iter().all(|n| n == first))
+}
+
+/// Of both halves.
+fn total(counts: &[u32]) -> f64 {
+    2.0 * counts.iter().map(|&n| f64::from(n)).sum::<f64>()
+}
+
+/// From `counts` to `next` samples in each half of each pixel, longest first: neighbouring threads then
+/// have equally much to do.
+fn jobs(counts: &[u32], next: &[u32], width: u32) -> Vec<Job> {
+    // Few lengths occur, so pixels are dealt out by length instead of sorted.
+    let mut lengths: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
+    for (i, (&now, &next)) in (0..).zip(counts.iter().zip(next)) {
+        if next > now {
+            lengths.entry(next - now).or_default().push(i);
+        }
+    }
+    let job = |i: u32, half, count| Job {
+        place: Job::place_of(i, width),
+        part: Job::part_of(half),
+        first: counts[i as usize],
+        count,
+    };
+    let both = |(count, pixels): (u32, Vec<u32>)| {
+        let pair = |i: u32| [job(i, 0, count), job(i, 1, count)];
+        pixels.into_iter().flat_map(pair).collect::<Vec<_>>()
+    };
+    lengths.into_iter().rev().flat_map(both).collect()
+}
+
+/// The means over both halves, whose samples count one half after the other.
+fn film(sums: &HalfSums, counts: &[u32]) -> Result<Film> {
+    let mean = total(counts) / counts.len() as f64;
+    let most = counts.iter().copied().max().unwrap_or(0);
+    let mut film = Film::new(sums.width, sums.height, mean.round() as u32);
+    for pixels in Rect::whole([sums.width, sums.height]).strips(FILM_ROWS) {
+        let first = pixels.y as usize * sums.width as usize;
+        let places = first..first + pixels.area();
+        let half = |half: u32| {
+            let own = &sums.halves[half as usize][places.clone()];
+            let mut block = Block::new(Range { pixels, samples: half * most..(half + 1) * most });
+            block.sums = own.iter().map(|&[r, g, b, _]| [r, g, b].map(f64::from)).collect();
+            block.squares = own.iter().map(|&[.., squares]| f64::from(squares)).collect();
+            block.count = Count::Each(counts[places.clone()].to_vec());
+            FilmSums::from(block)
+        };
+        let mut both = half(0);
+        both.merge(half(1))?;
+        both.write_to(&mut film);
+    }
+    Ok(film)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_count_is_told_from_several() {
+        assert_eq!([equal(&[3, 3, 3]), equal(&[3, 4, 3]), equal(&[])], [Some(3), None, None]);
+    }
+
+    #[test]
+    fn what_is_small_and_bright_is_looked_for_from_the_first_pass_on() {
+        let first = |goal, share| first_count(goal, share, 1 << 14);
+        assert_eq!(first(Goal::Error(1e-3), 1.0), 8);
+        assert_eq!(first(Goal::Error(1e-3), 0.01), 256, "400 samples a pixel");
+        assert_eq!(first(Goal::Error(1e-3), 1e-6), 512, "no more than 1024");
+        assert_eq!(first_count(Goal::Error(1e-3), 1e-6, 1 << 22), 8, "nor than 2^25 in the picture");
+        assert_eq!(first(Goal::Samples(64), 1.0), 8);
+        assert_eq!(first(Goal::Samples(64), 0.01), 16, "half of what there is");
+    }
+}

@@ -1,0 +1,47 @@
+//! One beam a pixel: the backend resolves all pixels and flags those that it cannot; these take samples.
+
+use super::{Integrated, Integrator};
+use crate::core::error::Result;
+use crate::core::film::Film;
+use crate::core::progress::Progress;
+use crate::core::range::Rect;
+use crate::sampling::{Backend, HalfSums};
+use crate::schema::layout::Job;
+
+/// A beam a pixel, and `samples` where that does not do.
+#[derive(Clone, Copy, Debug)]
+pub struct Beam {
+    pub samples: u32,
+}
+
+impl Integrator for Beam {
+    fn render(
+        &self,
+        backend: &mut dyn Backend,
+        size: [u32; 2],
+        progress: &dyn Progress,
+    ) -> Result<Integrated> {
+        let [width, height] = size;
+        let mut film = Film::new(width, height, 1);
+        let mut flagged: Vec<u32> = Vec::new();
+        for (i, [r, g, b, sampled]) in (0..).zip(backend.resolve(Rect::whole(size), progress)?) {
+            film.pixels[i as usize] = [r, g, b];
+            if sampled != 0.0 {
+                flagged.push(i);
+            }
+        }
+        let sampled_pixels = Some(flagged.len() as u64);
+        if !flagged.is_empty() {
+            let batch =
+                |&i: &u32| Job { place: Job::place_of(i, width), part: 0, first: 0, count: self.samples };
+            backend.sample(&flagged.iter().map(batch).collect::<Vec<_>>(), progress)?;
+            let mut sums = HalfSums::new(size);
+            backend.read(&mut sums)?;
+            for i in flagged {
+                let sum = sums.halves[0][i as usize];
+                film.pixels[i as usize] = std::array::from_fn(|c| sum[c] / self.samples as f32);
+            }
+        }
+        Ok(Integrated { sampled_pixels, ..Integrated::from(film) })
+    }
+}

@@ -1,0 +1,69 @@
+//! As many samples of each pixel, or one cone. The picture is asked for in ranges of some rows, whose sums become
+//! means at once: no more than one range's sums are in memory.
+
+use super::{Integrated, Integrator};
+use crate::core::error::Result;
+use crate::core::film::Film;
+use crate::core::progress::{Progress, SubProgress};
+use crate::core::range::{Range, Rect};
+use crate::sampling::Backend;
+use crate::schema::layout::TILE;
+
+/// Pixels of a range, up to whole rows of tiles.
+const MAX_PIXELS: u32 = 1 << 20;
+
+/// The mean of as many samples a pixel.
+#[derive(Clone, Copy, Debug)]
+pub struct Fixed {
+    pub samples: u32,
+}
+
+/// What one cone a pixel sees; `samples` is what the scene was packed with.
+#[derive(Clone, Copy, Debug)]
+pub struct Cone {
+    pub samples: u32,
+}
+
+impl Integrator for Fixed {
+    fn render(
+        &self,
+        backend: &mut dyn Backend,
+        size: [u32; 2],
+        progress: &dyn Progress,
+    ) -> Result<Integrated> {
+        means(backend, size, self.samples, progress).map(|(film, _)| film.into())
+    }
+}
+
+impl Integrator for Cone {
+    fn render(
+        &self,
+        backend: &mut dyn Backend,
+        size: [u32; 2],
+        progress: &dyn Progress,
+    ) -> Result<Integrated> {
+        let (film, dropped) = means(backend, size, self.samples, progress)?;
+        let dropped = Some(dropped / film.pixels.len() as f64);
+        Ok(Integrated { dropped, ..Integrated::from(film) })
+    }
+}
+
+/// Returns the film, and what cones dropped over all pixels.
+fn means(
+    backend: &mut dyn Backend,
+    [width, height]: [u32; 2],
+    samples: u32,
+    progress: &dyn Progress,
+) -> Result<(Film, f64)> {
+    let mut film = Film::new(width, height, samples);
+    let mut dropped = 0.0;
+    let tiles = MAX_PIXELS / TILE / width.max(1);
+    for pixels in Rect::whole([width, height]).strips(TILE * tiles.max(1)) {
+        let done = |rows: u32| f64::from(rows) / f64::from(height);
+        let part = SubProgress { whole: progress, from: done(pixels.y), to: done(pixels.y + pixels.height) };
+        let sums = backend.sum(&Range { pixels, samples: 0..samples }, &part)?;
+        sums.write_to(&mut film);
+        dropped += sums.dropped();
+    }
+    Ok((film, dropped))
+}

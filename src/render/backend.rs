@@ -1,0 +1,208 @@
+//! A device as a backend: ranges, batches and beams of a prepared session. In: what an integrator asks for. Out: sums
+//! and resolved pixels, and at the end a report of what the device did.
+
+use std::sync::Arc;
+use std::time::Instant;
+
+use super::Report;
+use super::batches::BatchSampler;
+use super::beams::BeamPass;
+use super::dispatch_plan::DispatchPlan;
+use super::film_buffer::FilmBuffer;
+use super::session::{Prepared, Turn, Work};
+use super::tiles::TileRenderer;
+use crate::core::error::{Error, Result};
+use crate::core::progress::Progress;
+use crate::core::range::{Range, Rect};
+use crate::sampling::{Backend, FilmSums, HalfSums, PilotRun};
+use crate::schema::layout::Job;
+
+pub struct DeviceBackend<'p> {
+    prepared: &'p Prepared<'p, 'p>,
+    /// Once batches were asked for.
+    batches: Option<BatchSampler<'p>>,
+    /// Of a scene that is sampled by batches, once a pilot run was asked for.
+    beams: Option<BeamPass<'p>>,
+    /// Tile-samples of the next slice, learnt from the last ones.
+    next: f64,
+    report: Report,
+    begun: Instant,
+    /// Seconds of compiling before the render.
+    compiled: f64,
+    _turn: Turn<'p>,
+}
+
+impl<'p> DeviceBackend<'p> {
+    /// Brings the device into the state in which a render begins. Fails while another render of the session is not
+    /// finished.
+    pub fn new(prepared: &'p Prepared<'p, 'p>) -> Result<DeviceBackend<'p>> {
+        let session = prepared.session;
+        let turn = session.turn()?;
+        session.write_header(&prepared.scene.header)?;
+        let mut report = prepared.report.clone();
+        if let Some(guards) = &session.resources.guards {
+            guards.clear(session.gpu)?;
+        }
+        let begun = Instant::now();
+        if let Some(survey) = session.survey().filter(|_| prepared.scene.culls_tiles()) {
+            survey.run(session.gpu, &mut report)?;
+        }
+        Ok(DeviceBackend {
+            prepared,
+            batches: None,
+            beams: None,
+            next: DispatchPlan::FIRST,
+            compiled: report.seconds.compile,
+            report,
+            begun,
+            _turn: turn,
+        })
+    }
+
+    /// Ends the render, and says what the device did.
+    pub fn finish(self) -> Result<Report> {
+        drop((self.batches, self.beams));
+        let mut report = self.report;
+        let beside = report.seconds.compile - self.compiled + report.seconds.readback;
+        report.seconds.render = self.begun.elapsed().as_secs_f64() - beside;
+        let session = self.prepared.session;
+        report.guards =
+            session.resources.guards.as_ref().map(|guards| guards.read(session.gpu)).transpose()?;
+        report.device_bytes = session.gpu.memory_in_use();
+        Ok(report)
+    }
+
+    /// What takes batches, made where it is not there yet; and the report.
+    fn batches(&mut self) -> Result<(&mut BatchSampler<'p>, &mut Report)> {
+        let Prepared { session, scene, work, .. } = self.prepared;
+        if self.batches.is_none() {
+            self.batches = Some(match work {
+                Work::Batches(pipeline) => self.prepared.sampler(pipeline)?,
+                Work::Beams(_, pipeline) => {
+                    let clock = Instant::now();
+                    if pipeline.get().is_none() {
+                        let built = session.samples_beside_beams(scene)?;
+                        self.prepared.sampler(&built)?.warm_up()?;
+                        // Never set twice: it was empty just now.
+                        let _ = pipeline.set(built);
+                    }
+                    self.report.seconds.compile += clock.elapsed().as_secs_f64();
+                    let built = pipeline.get().ok_or_else(|| Error::new("no pipeline for samples"))?;
+                    self.prepared.sampler(built)?
+                }
+                Work::Tiles { .. } => {
+                    return Err(Error::new("a scene that is rendered tile by tile has no batches"));
+                }
+            });
+        }
+        let batches = self.batches.as_mut().ok_or_else(|| Error::new("no pipeline for samples"))?;
+        Ok((batches, &mut self.report))
+    }
+
+    fn sum_tiles(
+        &mut self,
+        renderer: &TileRenderer<'_>,
+        film: &Arc<FilmBuffer>,
+        range: &Range,
+        progress: &dyn Progress,
+    ) -> Result<FilmSums> {
+        let Prepared { session, scene, .. } = self.prepared;
+        let mut block = film.block(range.clone());
+        let tiles = film.tiles(range.pixels);
+        let mut plan = DispatchPlan::new(self.next, range.samples.clone(), scene.chunk, tiles);
+        for band in film.bands(range.pixels) {
+            if range.samples.start > 0 {
+                film.clear(session.gpu, &band)?;
+            }
+            renderer.tiles(&band, band.tiles, &mut plan, &mut self.report, progress)?;
+            let clock = Instant::now();
+            film.read(session.gpu, &band, &mut block)?;
+            self.report.seconds.readback += clock.elapsed().as_secs_f64();
+        }
+        self.next = plan.next();
+        Ok(block.into())
+    }
+
+    /// Fails where a range is not one of whole rows of the picture, and of the samples that the scene was packed with.
+    fn check(&self, pixels: &Rect, samples_end: u32) -> Result<()> {
+        let [width, height] = self.prepared.scene.header.film_size.to_array();
+        let rows = pixels.x == 0 && pixels.width == width && pixels.y + pixels.height <= height;
+        if rows && samples_end <= self.prepared.scene.samples {
+            return Ok(());
+        }
+        Err(Error::new(format!(
+            "devices take whole rows of the picture of {width}×{height} pixels and at most {} samples, not {pixels:?} \
+             up to sample {samples_end}",
+            self.prepared.scene.samples
+        )))
+    }
+}
+
+impl Backend for DeviceBackend<'_> {
+    fn name(&self) -> String {
+        self.prepared.session.gpu.info().name.clone()
+    }
+
+    fn prefilters(&self) -> bool {
+        self.prepared.scene.prefilters()
+    }
+
+    fn bright_share(&self) -> f64 {
+        self.prepared.scene.bright_share.unwrap_or(1.0)
+    }
+
+    fn sum(&mut self, range: &Range, progress: &dyn Progress) -> Result<FilmSums> {
+        self.check(&range.pixels, range.samples.end)?;
+        let prepared = self.prepared;
+        match &prepared.work {
+            Work::Tiles { renderer, film } => self.sum_tiles(renderer, film, range, progress),
+            Work::Batches(_) | Work::Beams(..) => {
+                Err(Error::new("a scene that is packed for batches or beams has no sums of tiles"))
+            }
+        }
+    }
+
+    fn resolve(&mut self, pixels: Rect, progress: &dyn Progress) -> Result<Vec<[f32; 4]>> {
+        self.check(&pixels, 0)?;
+        let pass = match &self.prepared.work {
+            Work::Beams(pass, _) => Some(pass),
+            _ => self.beams.as_ref(),
+        };
+        pass.map_or(Ok(Vec::new()), |pass| pass.resolve(pixels, &mut self.report, progress))
+    }
+
+    fn pilot(&mut self, progress: &dyn Progress) -> Result<Option<PilotRun>> {
+        let clock = Instant::now();
+        self.beams = self.prepared.session.beams_beside_samples()?;
+        self.report.seconds.compile += clock.elapsed().as_secs_f64();
+        self.beams.as_ref().map(|pass| pass.pilot(&mut self.report, progress)).transpose()
+    }
+
+    fn sample(&mut self, batches: &[Job], progress: &dyn Progress) -> Result<()> {
+        let (sampler, report) = self.batches()?;
+        sampler.sample(batches, report, progress)
+    }
+
+    fn sample_all(&mut self, _: [u32; 2], first: u32, count: u32, progress: &dyn Progress) -> Result<()> {
+        let (sampler, report) = self.batches()?;
+        sampler.sample_all(first, count, report, progress)
+    }
+
+    fn sample_apart(&mut self, batches: &[Job], progress: &dyn Progress) -> Result<Vec<[f32; 4]>> {
+        let (sampler, report) = self.batches()?;
+        sampler.sample_apart(batches, report, progress)
+    }
+
+    fn read(&mut self, sums: &mut HalfSums) -> Result<()> {
+        self.batches()?.0.read(sums)
+    }
+
+    fn first_samples(&self, most: u32, pixels: usize) -> Result<Vec<u32>> {
+        let Prepared { session, scene, .. } = self.prepared;
+        let [width, height] = scene.header.film_size.to_array();
+        match session.survey() {
+            Some(survey) => survey.first_samples(session.gpu, [width, height], most),
+            None => Ok(vec![most; pixels]),
+        }
+    }
+}

@@ -1,0 +1,133 @@
+//! How much of a range one submission renders: enough that submitting costs nothing, little
+//! enough that progress moves, Ctrl-C is heard and no watchdog fires. Tiles and blocks of samples
+//! go in; how many tiles to dispatch next comes out, learnt from how long the last ones took.
+
+use std::ops::Range;
+
+use crate::schema::layout::TILE;
+
+/// What a slice aims at. Costs differ over a picture, so the aim is well below the bound of 0.5 s.
+const TARGET_SECONDS: f64 = 0.15;
+/// Samples in the first slice, before anything is known.
+pub(super) const FIRST_SAMPLES: f64 = (1u32 << 20) as f64;
+/// A slice is at most this many times longer than the one before it.
+const GROWTH: f64 = 16.0;
+/// `maxComputeWorkGroupCount` is at least this on every device.
+pub(super) const MAX_TILES: u32 = 65_535;
+
+/// How the tiles and samples of a range are spread over dispatches.
+pub struct DispatchPlan {
+    samples: Range<u32>,
+    block: u32,
+    /// Tile-samples of the range and how many are done.
+    total: f64,
+    done: f64,
+    /// Tile-samples of the next slice.
+    next: f64,
+}
+
+impl DispatchPlan {
+    /// Tile-samples of a first slice, before anything is known of their costs.
+    pub const FIRST: f64 = FIRST_SAMPLES / (TILE * TILE) as f64;
+
+    /// With `next` tile-samples in the first slice; a thread takes no more than `block` samples of a pixel at once.
+    pub fn new(next: f64, samples: Range<u32>, block: u32, tiles: u64) -> DispatchPlan {
+        let count = samples.end.saturating_sub(samples.start);
+        DispatchPlan { samples, block, total: tiles as f64 * f64::from(count), done: 0.0, next }
+    }
+
+    /// (first sample, number) of each block, in the order in which the film adds them.
+    pub fn blocks(&self) -> impl Iterator<Item = (u32, u32)> + use<> {
+        let (Range { start, end }, block) = (self.samples.clone(), self.block);
+        (start..end).step_by(block as usize).map(move |first| (first, block.min(end - first)))
+    }
+
+    /// How many of the `left` tiles the next slice takes.
+    pub fn tiles(&self, left: u32, sample_count: u32) -> u32 {
+        let tiles = (self.next / f64::from(sample_count)).clamp(1.0, f64::from(MAX_TILES)) as u32;
+        // Rather one slice a little longer than a tiny one at the end.
+        if left <= tiles + tiles / 4 && left <= MAX_TILES { left } else { tiles.min(left) }
+    }
+
+    /// Notes how long a slice took.
+    pub fn learn(&mut self, tiles: u32, sample_count: u32, seconds: f64) {
+        let work = f64::from(tiles) * f64::from(sample_count);
+        self.done += work;
+        self.next = next_work(work, seconds);
+    }
+
+    /// Returns the tile-samples of the next slice.
+    pub fn next(&self) -> f64 {
+        self.next
+    }
+
+    /// Returns the share of the range that is done.
+    pub fn done(&self) -> f64 {
+        self.done / self.total
+    }
+}
+
+/// The work of the next slice, after one that took so long.
+pub fn next_work(work: f64, seconds: f64) -> f64 {
+    (work * TARGET_SECONDS / seconds.max(1e-6)).min(work * GROWTH)
+}
+
+/// A step through `tiles` tiles that visits each once and neighbours far apart: the number nearest
+/// to the golden section that shares no factor with `tiles`.
+pub fn tile_stride(tiles: u32) -> u32 {
+    let golden = (f64::from(tiles) * 0.618_033_988_75) as u32;
+    let coprime = |n: &u32| gcd(*n, tiles) == 1;
+    (golden.max(1)..=tiles).find(coprime).unwrap_or(1)
+}
+
+fn gcd(a: u32, b: u32) -> u32 {
+    if b == 0 { a } else { gcd(b, a % b) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_tile_is_visited_once() {
+        for tiles in (1..300).chain([4095, 4096, 65_535, 65_536]) {
+            let stride = tile_stride(tiles);
+            let mut seen = vec![false; tiles as usize];
+            for i in 0..tiles {
+                let tile =
+                    (i.checked_mul(stride).expect("the shader multiplies in 32 bits") % tiles) as usize;
+                assert!(!std::mem::replace(&mut seen[tile], true), "{tiles} tiles, stride {stride}");
+            }
+        }
+    }
+
+    #[test]
+    fn blocks_cover_all_samples_in_order() {
+        for (samples, block) in [1, 255, 256, 257, 1000, 65_536].into_iter().zip([256, 256, 7, 256, 1, 256]) {
+            for start in [0, samples / 3] {
+                let plan = DispatchPlan::new(DispatchPlan::FIRST, start..samples, block, 1);
+                let mut next = start;
+                for (first, count) in plan.blocks() {
+                    assert_eq!(first, next);
+                    assert!((1..=block).contains(&count));
+                    next += count;
+                }
+                assert_eq!(next, samples);
+            }
+        }
+    }
+
+    #[test]
+    fn a_slow_slice_makes_the_next_one_short() {
+        let mut plan = DispatchPlan::new(DispatchPlan::FIRST, 0..64, 256, 10_000);
+        plan.learn(100, 64, 1.5);
+        assert_eq!(plan.tiles(9_000, 64), 10);
+    }
+
+    #[test]
+    fn growth_is_bounded_even_when_the_clock_says_nothing() {
+        let mut plan = DispatchPlan::new(DispatchPlan::FIRST, 0..64, 256, 10_000);
+        plan.learn(4, 64, 0.0);
+        assert_eq!(plan.tiles(9_000, 64), 64);
+    }
+}

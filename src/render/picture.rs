@@ -1,0 +1,245 @@
+//! A scene rendered, from its texture files to the film: the one way for all who render a scene once. In: a scene,
+//! options, and which backends take the samples. Out: the film, and what a person may want to know of it.
+
+use std::sync::mpsc;
+use std::time::Instant;
+
+use super::backend::DeviceBackend;
+use super::plan::integrator;
+use super::session::{Prepared, Session};
+use super::{MipChoice, Report, Tuning};
+use crate::core::error::Result;
+use crate::core::film::Film;
+use crate::core::progress::Progress;
+use crate::core::range::Rect;
+use crate::gpu::{DeviceInfo, DeviceSelect, Gpu};
+use crate::integrators::adaptive::Goal;
+use crate::oracle::backend::OracleBackend;
+use crate::pack::{self, MipPlacement, PackedScene};
+use crate::sampling::{Backend, Scheduler};
+use crate::scene::model::Scene;
+use crate::scene::texture_advice::of_textures;
+use crate::texture::decode::Values;
+use crate::texture::load::load_noted;
+
+/// Who takes samples.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum On {
+    Device(DeviceSelect),
+    /// The float64 renderer on the CPU.
+    Oracle,
+}
+
+impl On {
+    /// `oracle`, or what [`DeviceSelect::parse`] takes.
+    pub fn parse(text: &str) -> Result<On> {
+        if text == "oracle" { Ok(On::Oracle) } else { DeviceSelect::parse(text).map(On::Device) }
+    }
+}
+
+/// How a scene is rendered, beside what the scene says itself.
+#[derive(Clone, Debug, Default)]
+pub struct Options {
+    /// The part of the picture that is rendered; `None` is the whole.
+    pub crop: Option<Rect>,
+    /// When adaptive sampling ends; `None` is with the scene's number of samples.
+    pub goal: Option<Goal>,
+    /// Let in textures with NaN and infinite texels.
+    pub allow_nonfinite: bool,
+    /// Leave nothing out of the pipelines.
+    pub keep_everything: bool,
+    /// Count on the device what goes beyond a limit.
+    pub guarded: bool,
+    pub mips: MipChoice,
+    pub tuning: Tuning,
+}
+
+/// A film, and what was found on the way.
+#[derive(Clone, Debug)]
+pub struct Picture {
+    pub film: Film,
+    pub report: Report,
+    /// Names of the backends and of their drivers, each several joined by " + ".
+    pub device: String,
+    pub driver: String,
+    /// The devices among the backends.
+    pub devices: Vec<DeviceInfo>,
+    /// What the validation layer said.
+    pub messages: Vec<String>,
+    /// How each texture is stored.
+    pub texture_lines: Vec<String>,
+    /// Texels of each texture that are NaN or infinite.
+    pub nonfinite: Vec<(String, u64)>,
+}
+
+/// What a backend renders from.
+enum Member<'g> {
+    Device(Box<Session<'g>>),
+    Oracle(Box<PackedScene>),
+}
+
+/// The same with everything built.
+enum Ready<'m> {
+    Device(Prepared<'m, 'm>),
+    Oracle(&'m PackedScene),
+}
+
+/// A backend at work.
+enum Working<'p> {
+    Device(DeviceBackend<'p>),
+    Oracle(OracleBackend<'p>),
+}
+
+impl Member<'_> {
+    fn prepare(&self) -> Result<Ready<'_>> {
+        match self {
+            Member::Device(session) => session.prepare().map(Ready::Device),
+            Member::Oracle(scene) => Ok(Ready::Oracle(scene)),
+        }
+    }
+}
+
+impl Ready<'_> {
+    fn begin(&self) -> Result<Working<'_>> {
+        match self {
+            Ready::Device(prepared) => DeviceBackend::new(prepared).map(Working::Device),
+            Ready::Oracle(scene) => OracleBackend::new(scene).map(Working::Oracle),
+        }
+    }
+}
+
+impl Working<'_> {
+    fn backend(&mut self) -> &mut dyn Backend {
+        match self {
+            Working::Device(backend) => backend,
+            Working::Oracle(backend) => backend,
+        }
+    }
+}
+
+/// Renders a scene on one backend, or on several at once. Strips of the picture go round the backends in turn, so
+/// that the picture does not depend on how fast they are; see [`Scheduler`].
+pub fn render_scene(scene: &Scene, options: &Options, on: &[On], progress: &dyn Progress) -> Result<Picture> {
+    let Loaded { gpus, mut packed, doubts, startup, load } = load(scene, options, on)?;
+    packed.guarded = options.guarded;
+    let [width, height] = packed.header.film_size.to_array();
+    let texture_lines = packed.texture_lines();
+    let nonfinite =
+        packed.texture_names.iter().cloned().zip(packed.nonfinite_texels.iter().copied()).collect();
+    let integrator = integrator(&packed, options.goal);
+    let double = packed.double;
+
+    // One backend takes the scene itself, the others copies.
+    let mut scenes = vec![packed.clone(); on.len().saturating_sub(1)];
+    scenes.push(packed);
+    let mut free = gpus.iter().peekable();
+    let mut members = Vec::with_capacity(on.len());
+    for (on, scene) in on.iter().zip(scenes) {
+        members.push(match (on, free.next_if(|_| matches!(on, On::Device(_)))) {
+            (On::Device(_), Some(gpu)) => {
+                Member::Device(Box::new(Session::open(gpu, scene, options.keep_everything, &options.tuning)?))
+            }
+            _ => Member::Oracle(Box::new(scene)),
+        });
+    }
+    let mut prepared = Vec::with_capacity(on.len());
+    for member in &members {
+        prepared.push(member.prepare()?);
+    }
+    let clock = Instant::now();
+    let mut backends = Vec::with_capacity(on.len());
+    for ready in &prepared {
+        backends.push(ready.begin()?);
+    }
+    let mut scheduler = Scheduler::new(backends.iter_mut().map(Working::backend).collect())?;
+    let integrated = integrator.render(&mut scheduler, [width, height], progress)?;
+    let device = scheduler.name();
+    let rendering = clock.elapsed().as_secs_f64();
+
+    let mut reports = backends.into_iter().map(|backend| match backend {
+        Working::Device(backend) => backend.finish(),
+        Working::Oracle(_) => {
+            let mut report = Report { double, ..Report::default() };
+            report.seconds.render = rendering;
+            Ok(report)
+        }
+    });
+    let mut report = reports.next().unwrap_or_else(|| Ok(Report::default()))?;
+    reports.try_for_each(|other| other.map(|other| report.join(&other)))?;
+    (report.seconds.startup, report.seconds.load) = (startup, load);
+    report.warnings.splice(..0, doubts);
+    let film = report.take(integrated);
+    Ok(Picture {
+        film,
+        report,
+        device,
+        driver: drivers(on, &gpus),
+        devices: gpus.iter().map(|gpu| gpu.info().clone()).collect(),
+        messages: gpus.iter().flat_map(Gpu::messages).collect(),
+        texture_lines,
+        nonfinite,
+    })
+}
+
+/// What is there before anything is on a device.
+struct Loaded {
+    /// Of the devices among the backends, in their order.
+    gpus: Vec<Gpu>,
+    packed: PackedScene,
+    /// What is doubtful about the textures.
+    doubts: Vec<String>,
+    startup: f64,
+    load: f64,
+}
+
+/// The devices open while the textures are read: both wait for different things.
+fn load(scene: &Scene, options: &Options, on: &[On]) -> Result<Loaded> {
+    std::thread::scope(|scope| {
+        let start = Instant::now();
+        let (tell, told) = mpsc::channel();
+        let loading = scope.spawn(move || {
+            let packed = pack(scene, options, || told.recv().unwrap_or_default());
+            (packed, start.elapsed().as_secs_f64())
+        });
+        let selects = on.iter().filter_map(|on| match on {
+            On::Device(select) => Some(select),
+            On::Oracle => None,
+        });
+        let gpus: Result<Vec<Gpu>> = selects.map(Gpu::open).collect();
+        // Several backends, and the oracle, read the same levels: those of the host.
+        let mip_chains = match gpus.as_deref() {
+            Ok([gpu]) if on.len() == 1 => options.mips.mip_chains(gpu.info()),
+            _ => MipPlacement::Host,
+        };
+        // Nobody listens where the scene has no use for it.
+        let _ = tell.send(mip_chains);
+        let startup = if on == [On::Oracle] { 0.0 } else { start.elapsed().as_secs_f64() };
+        let (packed, load) = loading.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
+        // A mistake in the scene is told before one of the machine.
+        packed.and_then(|(packed, doubts)| Ok(Loaded { gpus: gpus?, packed, doubts, startup, load }))
+    })
+}
+
+/// The packed scene, and what is doubtful about its textures. `mip_chains` says who makes those, and may wait for a
+/// device to be known.
+fn pack(
+    scene: &Scene,
+    options: &Options,
+    mip_chains: impl FnOnce() -> MipPlacement,
+) -> Result<(PackedScene, Vec<String>)> {
+    let values = if options.allow_nonfinite { Values::Any } else { Values::Finite };
+    let textures = scene.textures.iter().map(|t| load_noted(t, values)).collect::<Result<Vec<_>>>()?;
+    let (textures, notes): (Vec<_>, Vec<_>) = textures.into_iter().unzip();
+    let doubts = [notes.concat(), of_textures(scene, &textures)].concat();
+    let mip_chains = if pack::reads_levels(scene) { mip_chains() } else { MipPlacement::Host };
+    Ok((pack::pack_with(scene, textures, options.crop, mip_chains)?, doubts))
+}
+
+fn drivers(on: &[On], gpus: &[Gpu]) -> String {
+    let mut gpus = gpus.iter();
+    let driver = |on: &On| match on {
+        On::Device(_) => gpus.next().map(|gpu| gpu.info().driver.clone()).unwrap_or_default(),
+        On::Oracle => format!("moire {} in float64", env!("CARGO_PKG_VERSION")),
+    };
+    on.iter().map(driver).collect::<Vec<_>>().join(" + ")
+}

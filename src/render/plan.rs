@@ -1,0 +1,18 @@
+//! Which integrator makes a packed scene's picture.
+
+use crate::integrators::adaptive::Goal;
+use crate::integrators::{Adaptive, Beam, Cone, Fixed, Integrator};
+use crate::pack::{PackedScene, Schedule};
+use crate::scene::model::Algorithm;
+
+/// Returns the integrator of the scene's algorithm. `goal` is for those that sample to one; without one it is the
+/// scene's number of samples.
+pub fn integrator(scene: &PackedScene, goal: Option<Goal>) -> Box<dyn Integrator> {
+    let samples = scene.samples;
+    match scene.schedule {
+        Schedule::Jobs => Box::new(Adaptive { goal: goal.unwrap_or(Goal::Samples(samples)) }),
+        Schedule::Tiles if scene.beams => Box::new(Beam { samples }),
+        Schedule::Tiles if scene.algorithm == Algorithm::Cone => Box::new(Cone { samples }),
+        Schedule::Tiles => Box::new(Fixed { samples }),
+    }
+}

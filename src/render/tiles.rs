@@ -1,0 +1,56 @@
+//! Tiles of a band on a device, in slices as long as the plan allows. In: a pipeline with what it binds, and which
+//! samples. Out: sums in the film's buffer.
+
+use super::Report;
+use super::dispatch_plan::DispatchPlan;
+use super::film_buffer::{Band, FilmBuffer};
+use crate::core::error::{Error, Result};
+use crate::core::progress::Progress;
+use crate::gpu::{BindGroup, Gpu, Pipeline};
+use crate::schema::layout::Slice;
+
+pub struct TileRenderer<'a> {
+    pub gpu: &'a Gpu,
+    pub pipeline: Pipeline,
+    pub group: BindGroup,
+    pub groups_per_tile: u32,
+}
+
+impl TileRenderer<'_> {
+    /// Runs one workgroup of the first slice: whatever the driver compiles late, it compiles now.
+    pub fn warm_up(&self, film: &FilmBuffer) -> Result<()> {
+        if let Some(band) = film.bands(film.whole()).next() {
+            let slice = Slice { sample_count: 1, ..band.slice() };
+            self.gpu.run(&self.pipeline, &self.group, bytemuck::bytes_of(&slice), [1, 1, 1])?;
+        }
+        Ok(())
+    }
+
+    /// Renders the first `count` tiles in line of a band.
+    pub fn tiles(
+        &self,
+        band: &Band,
+        count: u32,
+        plan: &mut DispatchPlan,
+        report: &mut Report,
+        progress: &dyn Progress,
+    ) -> Result<()> {
+        for (first_sample, sample_count) in plan.blocks() {
+            let mut first_tile = 0;
+            while first_tile < count {
+                let tiles = plan.tiles(count - first_tile, sample_count);
+                let slice = Slice { first_tile, first_sample, sample_count, ..band.slice() };
+                let groups = [self.groups_per_tile, tiles, 1];
+                let time = self.gpu.run(&self.pipeline, &self.group, bytemuck::bytes_of(&slice), groups)?;
+                plan.learn(tiles, sample_count, time.wall_seconds);
+                report.add_slice(time);
+                progress.advance(plan.done());
+                if progress.cancelled() {
+                    return Err(Error::Interrupted);
+                }
+                first_tile += tiles;
+            }
+        }
+        Ok(())
+    }
+}

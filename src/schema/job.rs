@@ -1,0 +1,26 @@
+//! A job's words: which pixel, which part of it.
+
+use super::blocks::Job;
+use super::constants::JOB_STREAM_SHIFT;
+
+impl Job {
+    /// The `place` of a film's pixel by its index.
+    pub fn place_of(index: u32, width: u32) -> u32 {
+        (index / width) << 16 | (index % width)
+    }
+
+    /// The `part` of a half of the film: its samples are the stream of the same number.
+    pub fn part_of(half: u32) -> u32 {
+        half | half << JOB_STREAM_SHIFT
+    }
+
+    /// The stream of samples.
+    pub fn stream(&self) -> u32 {
+        self.part >> JOB_STREAM_SHIFT
+    }
+
+    /// Column and row.
+    pub fn column_and_row(&self) -> [u32; 2] {
+        [self.place & 0xFFFF, self.place >> 16]
+    }
+}

@@ -1,0 +1,227 @@
+//! The records of the scene buffer. `f64` and vectors of it are reals: f32 on the device unless its geometry is in
+//! f64. All positions are relative to the eye. A record's list has a name, and a word for the code that goes
+//! through it.
+
+records! {
+    /// Camera, picture and sampling.
+    Header {
+        /// Unit view direction.
+        forward: DVec3,
+        /// One pixel to the right: added to the direction of perspective rays, to the origin of parallel ones.
+        step_x: DVec3,
+        /// Side of the part of a pixel that a sample stands for; 0 without a footprint.
+        sample_side: f64,
+        /// One pixel down.
+        step_y: DVec3,
+        /// Side of a pixel.
+        pixel_side: f64,
+        /// From the eye to what it looks at.
+        view: DVec3,
+        up: DVec3,
+        /// Between the times 0 and 1.
+        eye_motion: DVec3,
+        view_motion: DVec3,
+        /// Linear RGB.
+        background: Vec3,
+        projection: ProjectionKind,
+        image_size: UVec2,
+        /// Column and row at which the film begins.
+        crop: UVec2,
+        film_size: UVec2,
+        max_depth: u32,
+        footprint: Footprint,
+        pattern: Pattern,
+        strata_side: u32,
+        samples: u32,
+        seed: u32,
+        /// All pixels have the same displacements.
+        shares_pattern: bool,
+        /// One bit for each `SampleDimension` that samples choose.
+        sample_dimensions: u32,
+        camera_moves: bool,
+        /// Pixels along a side of the cells of triangles; 0 without them.
+        cell_side: u32,
+        plane_count: u32,
+        sphere_count: u32,
+        triangle_count: u32,
+        light_count: u32,
+        motion_count: u32,
+        /// Material of the environment, or `NO_MATERIAL`.
+        environment_material: u32,
+        environment_projection: u32,
+        pixel_filter: PixelFilterKind,
+        /// Over a pixel's side at distance 1; 0 without a lens.
+        lens_radius: f32,
+        inverse_focus_distance: f32,
+        shutter_opens: f32,
+        /// How long the shutter is open.
+        shutter_time: f32,
+        /// In pixels, as is the width.
+        filter_radius: f32,
+        /// Side of the square over which a box has the filter's variance.
+        filter_width: f32,
+        /// First step from the middle, of 2^24, where the filter is negative.
+        first_negative_step: u32,
+    }
+
+    /// A plane, or a square of it.
+    Plane in planes as "loop over planes" {
+        /// Unit normal n.
+        normal: DVec3,
+        /// n · (origin − eye).
+        distance: f64,
+        /// Own coordinate u of a point p: axis_u · p counts from the eye, plus `eye_u` from the plane's origin.
+        axis_u: DVec3,
+        eye_u: f64,
+        axis_v: DVec3,
+        eye_v: f64,
+        material: u32,
+        uv_projection: u32,
+        /// How many tangents it reaches; negative: it has no bounds.
+        half_extent: RealBits,
+    }
+
+    Sphere in spheres as "loop over spheres" {
+        center: DVec3,
+        radius: f64,
+        material: u32,
+        uv_projection: u32,
+    }
+
+    Triangle in triangles as "loop over triangles" {
+        a: DVec3,
+        u_a: f64,
+        b: DVec3,
+        u_b: f64,
+        c: DVec3,
+        u_c: f64,
+        /// v of the three vertices.
+        v: DVec3,
+        /// Unit geometric normal n.
+        normal: DVec3,
+        /// n · a.
+        distance: f64,
+        /// Unit shading normals.
+        normal_a: DVec3,
+        normal_b: DVec3,
+        normal_c: DVec3,
+        material: u32,
+        uv_projection: u32,
+        /// Has shading normals.
+        is_smooth: bool,
+    }
+
+    Light in lights as "loop over lights" {
+        /// Of point lights, spheres and the middle of rectangles.
+        position: DVec3,
+        /// Of a sphere.
+        radius: f64,
+        /// Towards a directional light or the middle of the sun; of unit length.
+        direction: DVec3,
+        /// Height of the sun's cap on the unit sphere.
+        cap_height: f64,
+        /// Sides of a rectangle, the longer first; it shines where edge_u × edge_v points.
+        edge_u: DVec3,
+        /// Their lengths; 0 where they are not at right angles.
+        length_u: f64,
+        edge_v: DVec3,
+        length_v: f64,
+        /// Intensity (W/sr) of points and spheres, irradiance of directional lights, radiance of rectangles.
+        power: Vec3,
+        kind: LightKind,
+    }
+
+    Material in materials as "choice among materials" {
+        color: Vec3,
+        bump_strength: f32,
+        model: Model,
+        /// Or `NO_TEXTURE`; its sampler serves the bump texture too.
+        texture_index: u32,
+        sampler_index: u32,
+        image_slot: u32,
+        /// Or `NO_TEXTURE`.
+        bump_texture_index: u32,
+        bump_image_slot: u32,
+        bump_kind: BumpKind,
+        /// Width of the distribution of a mirror's or glass's facets (GGX); 0: smooth.
+        alpha: f32,
+        /// Colour of Phong's highlight.
+        specular: Vec3,
+        /// Of Phong's highlight.
+        exponent: f32,
+        /// Index of refraction.
+        ior: f32,
+    }
+
+    /// How a surface point becomes a texture coordinate.
+    UvProjection in uv_projections as "choice among mappings" {
+        /// Frame coordinates of a point p: xyz · p + w.
+        x: DVec4,
+        y: DVec4,
+        z: DVec4,
+        /// uv' = (m00 u + m01 v, m10 u + m11 v) + offset.
+        m00: f64,
+        m01: f64,
+        m10: f64,
+        m11: f64,
+        offset: DVec2,
+        kind: MapKind,
+        entity: EntityKind,
+    }
+
+    Texture in textures as "choice among textures" {
+        /// Width, height, depth.
+        size: UVec3,
+        format: TexelFormat,
+        /// Of level 0 in the texel buffer.
+        first_word: u32,
+        color_space: ColorSpace,
+        levels: u32,
+        kind: TextureKind,
+        /// Of procedural textures, index into their list.
+        procedural: u32,
+    }
+
+    Sampler in samplers as "choice among samplers" {
+        border: Vec4,
+        address_u: Address,
+        address_v: Address,
+        address_w: Address,
+        texel_center: TexelCenter,
+        method: Method,
+        mag_filter: Filter,
+        min_filter: Filter,
+        mip_mode: MipMode,
+        max_anisotropy: u32,
+        /// Rows go on over the poles.
+        crosses_poles: bool,
+        /// B and C of the cubic filter (Mitchell & Netravali 1988).
+        cubic_b: f32,
+        cubic_c: f32,
+    }
+
+    Procedural in procedurals as "choice among procedural textures" {
+        width: f64,
+        aspect: f64,
+        offset: f64,
+        jitter: f64,
+        /// Linear RGB.
+        background: Vec3,
+        kind: ProceduralKind,
+        figure: Vec3,
+        seed: u32,
+        lacunarity: f32,
+        gain: f32,
+        /// 1 / sum of the gains.
+        normalization: f32,
+        distortion: f32,
+        octaves: u32,
+        dimensions: u32,
+    }
+
+    /// Of a shape, in their order: planes, spheres, triangles.
+    Motion in motions as "choice among motions" {
+        /// Between the times 0 and 1.
+        shift: DVec3,
+    }
+}

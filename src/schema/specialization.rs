@@ -1,0 +1,107 @@
+//! The specialization constants: name in the shader, what its value means, and what a person calls the code behind
+//! it. Ids follow the order. `modes` is a bit mask: one bit set means that the mode is known when the pipeline is
+//! built and no test is left; several mean a test at run time. `count` is a number or `DYNAMIC`, `switch` is code
+//! that is there or not; the defaults keep everything, and `src/pack/features.rs` narrows these three. A
+//! `parameter` is set by whoever builds the pipeline; of `id` the shader's file declares type and default itself.
+
+specialization! {
+    GroupX = "GROUP_X", id, "width of a workgroup";
+    GroupY = "GROUP_Y", id, "height of a workgroup";
+    Projections = "PROJECTIONS", modes(ProjectionKind), "projection";
+    Patterns = "PATTERNS", modes(Pattern), "pattern";
+    StrataSide = "STRATA_SIDE", count, "number of strata read at run time";
+    Samples = "SAMPLES", count, "number of samples read at run time";
+    Planes = "PLANES", count, "loop over planes";
+    Spheres = "SPHERES", count, "loop over spheres";
+    Triangles = "TRIANGLES", count, "loop over triangles";
+    Lights = "LIGHTS", count, "loop over lights";
+    Materials = "MATERIALS", count, "choice among materials";
+    UvProjections = "UV_PROJECTIONS", count, "choice among mappings";
+    Textures = "TEXTURES", count, "choice among textures";
+    Samplers = "SAMPLERS", count, "choice among samplers";
+    BoundedPlanes = "BOUNDED_PLANES", switch, "bounds of planes";
+    SmoothNormals = "SMOOTH_NORMALS", switch, "interpolated normals";
+    Models = "MODELS", modes(Model), "reflection model";
+    LightKinds = "LIGHT_KINDS", modes(LightKind), "light";
+    Shadows = "SHADOWS", switch, "shadow rays";
+    Bounces = "BOUNCES", switch, "bounces";
+    Environment = "ENVIRONMENT", switch, "environment";
+    Footprints = "FOOTPRINTS", modes(Footprint), "footprint";
+    /// Look-ups take texels at random.
+    Random = "RANDOM", switch, "random texels";
+    Mappings = "MAPPINGS", modes(MapKind), "mapping";
+    Entities = "ENTITIES", modes(EntityKind), "entity";
+    RotatedUv = "ROTATED_UV", switch, "rotation of texture coordinates";
+    /// Some material reads a texture.
+    Textured = "TEXTURED", switch, "texture look-ups";
+    /// Some material reads none.
+    Untextured = "UNTEXTURED", switch, "plain materials";
+    Bumped = "BUMPED", switch, "bump or normal map";
+    BumpKinds = "BUMP_KINDS", modes(BumpKind), "bump or normal map";
+    Methods = "METHODS", modes(Method), "look-up method";
+    AddressesU = "ADDRESSES_U", modes(Address), "address u";
+    AddressesV = "ADDRESSES_V", modes(Address), "address v";
+    AddressesW = "ADDRESSES_W", modes(Address), "address w";
+    /// Environments whose rows go on over the poles.
+    Poles = "POLES", switch, "rows over the poles";
+    Filters = "FILTERS", modes(Filter), "filter";
+    Mips = "MIPS", modes(MipMode), "mip mode";
+    TexelCenters = "TEXEL_CENTERS", modes(TexelCenter), "texel centre";
+    TextureSizes = "TEXTURE_SIZES", modes(TextureSize), "texture size";
+    TextureKinds = "TEXTURE_KINDS", modes(TextureKind), "texture kind";
+    /// Some texture has more than one level.
+    Mipmapped = "MIPMAPPED", switch, "levels of textures";
+    /// Some texels are NaN or infinite.
+    Nonfinite = "NONFINITE", switch, "texels that are no numbers";
+    TexelFormats = "TEXEL_FORMATS", modes(TexelFormat), "texel format";
+    ColorSpaces = "COLOR_SPACES", modes(ColorSpace), "colour space";
+    /// Some texture has sRGB of 16 bits.
+    DeepSrgb = "DEEP_SRGB", switch, "sRGB of 16 bits";
+    Procedurals = "PROCEDURALS", count, "choice among procedural textures";
+    ProceduralKinds = "PROCEDURAL_KINDS", modes(ProceduralKind), "procedural";
+    /// Averaged over footprints.
+    ProceduralFiltered = "PROCEDURAL_FILTERED", switch, "filter of procedural textures";
+    /// More samples than one thread takes at once.
+    Compensated = "COMPENSATED", switch, "second film for rounding errors";
+    /// A thread may sum more than `MAX_PLAIN` samples.
+    Blocks = "BLOCKS", switch, "sums by blocks";
+    /// Shapes of the scene, where a cone can hold all.
+    ConeShapes = "CONE_SHAPES", count, "cones through more shapes";
+    /// What samples choose beside their place in the pixel.
+    SampleDimensions = "SAMPLE_DIMENSIONS", modes(SampleDimension), "choice of a sample";
+    /// As many as shapes where some move, else none.
+    Motions = "MOTIONS", count, "choice among motions";
+    MovingCamera = "MOVING_CAMERA", switch, "motion of the camera";
+    Schedules = "SCHEDULES", modes(Schedule), "schedule";
+    PixelFilters = "PIXEL_FILTERS", modes(PixelFilterKind), "pixel filter";
+    /// Counts what goes beyond a limit.
+    Diagnosed = "DIAGNOSED", switch, "counters of what goes beyond a limit";
+    /// Triangles are listed by cells of the picture.
+    TileCulled = "TILE_CULLED", switch, "triangles by cells of the picture";
+    /// A pixel filter that is not the pixel's own square.
+    Warped = "WARPED", switch, "samples beyond their pixels";
+    PlanesAt = "PLANES_AT", parameter(0), "where planes begin in the scene buffer";
+    SpheresAt = "SPHERES_AT", parameter(0), "where spheres begin in the scene buffer";
+    TrianglesAt = "TRIANGLES_AT", parameter(0), "where triangles begin in the scene buffer";
+    LightsAt = "LIGHTS_AT", parameter(0), "where lights begin in the scene buffer";
+    MaterialsAt = "MATERIALS_AT", parameter(0), "where materials begin in the scene buffer";
+    UvProjectionsAt = "UV_PROJECTIONS_AT", parameter(0), "where projections begin in the scene buffer";
+    TexturesAt = "TEXTURES_AT", parameter(0), "where textures begin in the scene buffer";
+    SamplersAt = "SAMPLERS_AT", parameter(0), "where samplers begin in the scene buffer";
+    ProceduralsAt = "PROCEDURALS_AT", parameter(0), "where procedurals begin in the scene buffer";
+    MotionsAt = "MOTIONS_AT", parameter(0), "where motions begin in the scene buffer";
+    PixelFilterAt = "PIXEL_FILTER_AT", parameter(0), "where the table of the pixel filter begins";
+    /// Image descriptors: of flat textures, volumes, cubes.
+    Slots = "SLOTS", parameter(1), "flat images";
+    VolumeSlots = "VOLUME_SLOTS", parameter(1), "images of volumes";
+    CubeSlots = "CUBE_SLOTS", parameter(1), "images of cubes";
+    /// Buffers that the texels lie in, of 2^`BLOCK_LOG2` words but for the last.
+    TexelBlocks = "TEXEL_BLOCKS", parameter(16), "texel buffers";
+    BlockLog2 = "BLOCK_LOG2", parameter(16), "length of texel buffers";
+    /// 1 where tables are read from the head: what reads a table at scattered places differs by device.
+    TablesInHead = "TABLES_IN_HEAD", flag, "tables in uniforms";
+    OpaqueUniforms = "OPAQUE_UNIFORMS", id, "numbers whose uniformity is hidden";
+    MipChannels = "CHANNELS", id, "channels of a mip chain";
+    MipComponentBytes = "COMPONENT_BYTES", id, "bytes of a mip chain's channels";
+    MipSrgb = "SRGB", id, "a mip chain of sRGB codes";
+}
