@@ -1,34 +1,55 @@
-//! Headless Vulkan compute renderer for texture mapping and anti-aliasing.
+//! Headless Vulkan compute renderer for texture mapping and anti-aliasing, with or without a GPU.
 //!
-//! ```text
-//! argv ─ cli ──┬─ scene::load ────▶ Scene (plain f64 data) ──┐
-//!              └─ texture::decode ▶ TextureData ─────────────┤
-//!                                                            ▼
-//!               features: what this scene needs ◀─ pack ─▶ PackedScene (exact bytes)
-//!                        ┌───────────────────────────────────┴──────────────┐
-//!             render + gpu (ash, unsafe)                              oracle (f64, rayon)
-//!             upload ▶ pipeline ▶ slices ▶ readback                   reads the same bytes
-//!                        └────────▶ Film (linear RGB means) ◀───────────────┘
-//!                                             │
-//!                             output (PNG, EXR, …) · metrics ◀─ study (error against time)
+//! A [`Scene`] comes from a file or is built in code from the parts in [`model`]; a [`Renderer`], which is an open
+//! device with [`RenderOptions`], makes a [`Film`] of it, whose colours are linear light.
+//!
+//! ```no_run
+//! use moire::{RenderOptions, Renderer, Scene};
+//!
+//! # fn main() -> moire::Result<()> {
+//! let scene = Scene::from_file("scene.toml")?;
+//! let renderer = Renderer::new(RenderOptions::new().samples(64))?;
+//! renderer.render(&scene)?.save("picture.png")?;
+//! # Ok(())
+//! # }
 //! ```
 //!
-//! Only [`gpu`] names Vulkan. Each file of [`oracle`] is the float64 twin of a file of `glsl/shared/`;
-//! [`schema::layout`] and [`pack::features`] are the host's side of the two that hold declarations.
+//! What goes wrong is an [`Error`] whose message names the place and whose [`kind`](Error::kind) programs can act on.
+
+#![deny(missing_docs)]
 
 #[doc(hidden)]
 pub mod internal;
+pub mod model;
 
+#[allow(missing_docs)]
 mod cli;
 mod core;
+mod face;
+#[allow(missing_docs)]
 mod gpu;
+#[allow(missing_docs)]
 mod integrators;
+#[allow(missing_docs)]
 mod lab;
+#[allow(missing_docs)]
 mod oracle;
+#[allow(missing_docs)]
 mod output;
+#[allow(missing_docs)]
 mod pack;
+#[allow(missing_docs)]
 mod render;
+#[allow(missing_docs)]
 mod sampling;
 mod scene;
+#[allow(missing_docs)]
 mod schema;
 mod texture;
+
+pub use crate::core::error::{Error, ErrorKind, Result};
+pub use crate::core::film::Film;
+pub use crate::core::progress::Progress;
+pub use crate::face::{RenderOptions, RenderReport, Renderer};
+pub use crate::lab::metrics::Comparison;
+pub use crate::scene::{Scene, SceneBuilder};

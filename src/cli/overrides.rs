@@ -3,14 +3,12 @@
 use clap::Args;
 use serde_json::{Value, json};
 
-use crate::core::error::{Error, Result};
+use crate::core::error::Result;
 use crate::core::range::Rect;
 use crate::integrators::adaptive::Goal;
-use crate::scene::cone;
-use crate::scene::model::{
-    Algorithm, Footprint, Pattern, PixelFilter, PixelFilterKind, Precision, Sampling, Scene,
-};
-use crate::scene::{MAX_RADIUS, both_filters, check_filters, check_shared, check_spp};
+use crate::scene::MAX_RADIUS;
+use crate::scene::changes::Changes;
+use crate::scene::model::{Algorithm, Footprint, Pattern, PixelFilterKind, Precision, Scene};
 use crate::texture::sampler_spec::{Filter, Method, MipMode};
 
 use super::{DEVICE, OUTPUT, SAMPLING, TEXTURES, named_parser};
@@ -68,82 +66,28 @@ impl Overrides {
     /// Applies the options to the scene and returns a description of settings that were chosen
     /// implicitly.
     pub fn apply(&self, scene: &mut Scene) -> Result<Option<&'static str>> {
-        if let Some([width, height]) = self.size {
-            (scene.width, scene.height) = (width, height);
-        }
-        if let Some(kind) = self.pixel_filter {
-            scene.pixel_filter = PixelFilter::new(kind, None);
-        }
-        scene.pixel_filter.radius = self.pixel_filter_radius.unwrap_or(scene.pixel_filter.radius);
-        let sampling = &mut scene.sampling;
-        sampling.spp = self.spp.unwrap_or(sampling.spp);
-        let wanted = if self.goal().is_some() { Algorithm::Auto } else { sampling.algorithm };
-        sampling.algorithm = self.algorithm.unwrap_or(wanted);
-        // The algorithm with the smallest error among those that can stop at any sample.
-        let wanted =
-            if sampling.algorithm == Algorithm::Auto { Pattern::SobolOwen } else { sampling.pattern };
-        sampling.pattern = self.pattern.unwrap_or(wanted);
-        sampling.seed = self.seed.unwrap_or(sampling.seed);
-        // The bias of a prefilter does not decrease with the samples as noise does.
-        let free = if sampling.algorithm == Algorithm::Auto { Footprint::None } else { sampling.footprint };
-        sampling.footprint = self.footprint.unwrap_or(free);
-        sampling.shared = self.shared.unwrap_or(sampling.shared);
-        sampling.precision = self.precision.unwrap_or(sampling.precision);
-        self.adapt_for_adaptive(sampling)?;
-        check_shared(sampling.pattern, sampling.shared).map_err(Error::new)?;
-        check_spp(sampling.pattern, sampling.spp).map_err(|m| Error::new(format!("--spp: {m}")))?;
-        for sampler in &mut scene.samplers {
-            sampler.mip = self.mip.unwrap_or(sampler.mip);
-            sampler.method = self.method.unwrap_or(sampler.method);
-            if let Some(filter) = self.filter {
-                (sampler.mag, sampler.min) = both_filters(filter);
-            }
-        }
-        // Explicit options of the command line take precedence.
-        let free = self.filter.is_none() && self.mip.is_none();
-        let chosen = if free { cone::adapt_for_cone(scene) } else { None };
-        cone::adapt_footprint(scene);
-        check_filters(scene)?;
-        Ok(chosen)
+        let changes = Changes {
+            size: self.size,
+            spp: self.spp,
+            algorithm: self.algorithm,
+            has_goal: self.goal().is_some(),
+            pattern: self.pattern,
+            seed: self.seed,
+            method: self.method,
+            filter: self.filter,
+            mip: self.mip,
+            footprint: self.footprint,
+            precision: self.precision,
+            pixel_filter: self.pixel_filter,
+            pixel_filter_radius: self.pixel_filter_radius,
+            shared: self.shared,
+        };
+        changes.apply(scene)
     }
 
     /// Returns the goal that ends the sampling, unless that is a number of samples.
     pub fn goal(&self) -> Option<Goal> {
         self.budget.map(Goal::Seconds).or(self.target_error.map(Goal::Error))
-    }
-
-    /// Adapts the pattern: sampling that differs from pixel to pixel needs a sequence that can be
-    /// truncated anywhere.
-    fn adapt_for_adaptive(&self, sampling: &mut Sampling) -> Result<()> {
-        if !sampling.algorithm.is_adaptive() {
-            if self.goal().is_some() {
-                let fixed = match sampling.algorithm {
-                    Algorithm::Cone => "\"cone\" takes none",
-                    _ => "\"samples\" takes --spp",
-                };
-                return Err(Error::with_help(
-                    format!(
-                        "--budget and --target-error need an algorithm that may choose its samples; {fixed}"
-                    ),
-                    "leave --algorithm away, or use --algorithm adaptive",
-                ));
-            }
-            return Ok(());
-        }
-        if sampling.pattern.stops_anywhere() {
-            return Ok(());
-        }
-        if let Some(pattern) = self.pattern {
-            let able: Vec<&str> =
-                Pattern::ALL.iter().filter(|p| p.stops_anywhere()).map(|p| p.name()).collect();
-            return Err(Error::new(format!(
-                "--pattern {pattern}: algorithm \"{}\" stops each pixel at another count, which pattern \"{pattern}\" cannot; use one of {}",
-                sampling.algorithm,
-                able.join(", ")
-            )));
-        }
-        sampling.pattern = Pattern::SobolOwen;
-        Ok(())
     }
 
     /// Returns the settings that the render used, overridden or not.

@@ -12,7 +12,7 @@ use super::overrides::Overrides;
 use super::progress::Bar;
 use super::report;
 use super::{DEVICE, MEASURING, OUTPUT, TEXTURES};
-use crate::core::error::{Error, Result};
+use crate::core::error::Result;
 use crate::core::film::Placement;
 use crate::core::range::Rect;
 use crate::gpu::DeviceSelect;
@@ -91,7 +91,7 @@ pub fn run(args: &RenderArgs) -> Result<ExitCode> {
     let outputs = Outputs::new(&args.scene, &args.output, args.format, args.json)?;
     let mut scene = crate::scene::load(&args.scene)?;
     let chosen = args.overrides.apply(&mut scene)?;
-    check_crop(args.crop, &scene)?;
+    args.crop.map_or(Ok(()), |crop| crop.check_within([scene.width, scene.height]))?;
     for path in &outputs.files {
         output::check_writable(path)?;
         check_inputs_kept(path, &scene)?;
@@ -170,18 +170,6 @@ fn parse_crop(text: &str) -> Result<Rect, String> {
         }
         _ => Err("expected X,Y,W,H in whole pixels, with W and H at least 1".into()),
     }
-}
-
-fn check_crop(crop: Option<Rect>, scene: &Scene) -> Result<()> {
-    let Some(c) = crop else { return Ok(()) };
-    let fits = |at: u32, size: u32, whole: u32| at.checked_add(size).is_some_and(|end| end <= whole);
-    if fits(c.x, c.width, scene.width) && fits(c.y, c.height, scene.height) {
-        return Ok(());
-    }
-    Err(Error::new(format!(
-        "--crop {},{},{},{} reaches outside the picture of {}×{} pixels",
-        c.x, c.y, c.width, c.height, scene.width, scene.height
-    )))
 }
 
 /// How each texture is stored, and which were turned.

@@ -2,6 +2,10 @@
 
 use std::fs;
 
+#[cfg(unix)]
+use nix::sys::resource::{UsageWho, getrusage};
+#[cfg(unix)]
+use nix::sys::time::TimeVal;
 use serde_json::{Map, Value, json};
 
 use super::notify;
@@ -171,17 +175,22 @@ fn range_of_samples(least: u32, most: u32) -> String {
     if least == most { counted(most, "sample") } else { format!("{least} to {}", counted(most, "sample")) }
 }
 
-/// Returns user and system time of this process so far, from `/proc` if available (proc(5), fields
-/// 14 and 15, in hundredths of a second).
+/// User and system time of this process so far.
+#[cfg(unix)]
 fn cpu_seconds() -> Option<f64> {
-    let stat = fs::read_to_string("/proc/self/stat").ok()?;
-    let after_name = stat.rsplit_once(')')?.1;
-    let fields: Vec<&str> = after_name.split_whitespace().collect();
-    let ticks = |i: usize| fields.get(i)?.parse::<f64>().ok();
-    Some((ticks(11)? + ticks(12)?) / 100.0)
+    let usage = getrusage(UsageWho::RUSAGE_SELF).ok()?;
+    let seconds = |time: TimeVal| time.tv_sec() as f64 + time.tv_usec() as f64 * 1e-6;
+    Some(seconds(usage.user_time()) + seconds(usage.system_time()))
 }
 
-/// Returns the peak memory of this process, from `/proc` if available.
+/// Not known where there is no `getrusage`.
+#[cfg(not(unix))]
+fn cpu_seconds() -> Option<f64> {
+    None
+}
+
+/// The most memory this process has held at once, where `/proc` tells. That of `getrusage` is not it: it counts
+/// the memory of the process that started this one, too.
 fn peak_host_bytes() -> Option<u64> {
     let status = fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find_map(|l| l.strip_prefix("VmHWM:"))?;

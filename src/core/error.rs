@@ -138,30 +138,10 @@ impl Error {
     }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_kind_that_is_known_is_kept() {
-        let lost = || Error::new("lost").of_kind(ErrorKind::DeviceLost);
-        assert_eq!(lost().or_kind(ErrorKind::File).kind(), ErrorKind::DeviceLost);
-        assert_eq!(Error::new("x").or_kind(ErrorKind::File).kind(), ErrorKind::File);
-        assert_eq!(Error::Interrupted.of_kind(ErrorKind::File).kind(), ErrorKind::Interrupted);
-        assert!(lost().kind().is_transient() && !Error::new("x").kind().is_transient());
-        assert_eq!(Error::with_help("a", "b").within("c").to_string(), "c: a");
-    }
-}
-
 /// What is shown of an error beside its message. Written out: the derive macro is ten seconds of a first build.
 impl Diagnostic for Error {
     fn help(&self) -> Option<Box<dyn Display + '_>> {
-        match self {
-            Error::Scene { help, .. } | Error::Plain { help, .. } => {
-                help.as_ref().map(|help| Box::new(help) as Box<dyn Display + '_>)
-            }
-            Error::Interrupted => None,
-        }
+        Error::help(self).map(|help| Box::new(help) as Box<dyn Display + '_>)
     }
 
     fn source_code(&self) -> Option<&dyn SourceCode> {
@@ -178,5 +158,20 @@ impl Diagnostic for Error {
             }
             _ => None,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_kind_that_is_known_is_kept() {
+        let lost = || Error::new("lost").of_kind(ErrorKind::DeviceLost);
+        assert_eq!(lost().or_kind(ErrorKind::File).kind(), ErrorKind::DeviceLost);
+        assert_eq!(Error::new("x").or_kind(ErrorKind::File).kind(), ErrorKind::File);
+        assert_eq!(Error::Interrupted.of_kind(ErrorKind::File).kind(), ErrorKind::Interrupted);
+        assert!(lost().kind().is_transient() && !Error::new("x").kind().is_transient());
+        assert_eq!(Error::with_help("a", "b").within("c").to_string(), "c: a");
     }
 }

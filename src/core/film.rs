@@ -4,7 +4,9 @@
 /// A finished picture, also one that was read from a file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Film {
+    /// Pixels in a row.
     pub width: u32,
+    /// Rows.
     pub height: u32,
     /// `width · height` pixels, linear RGB, means over `samples`.
     pub pixels: Vec<[f32; 3]>,
@@ -13,6 +15,7 @@ pub struct Film {
 }
 
 impl Film {
+    /// Returns a black film of this size.
     pub fn new(width: u32, height: u32, samples: u32) -> Film {
         Film { width, height, pixels: vec![[0.0; 3]; width as usize * height as usize], samples }
     }

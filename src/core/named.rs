@@ -7,16 +7,22 @@ macro_rules! named_enum {
         $(#[$meta])*
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
         #[repr(u32)]
-        pub enum $enum { $($(#[$vmeta])* $variant,)+ }
+        pub enum $enum {
+            $($(#[$vmeta])* #[doc = concat!("Written `", $name, "`.")] $variant,)+
+        }
 
         impl $enum {
+            /// Every value, in the order of the vocabulary.
             pub const ALL: &'static [$enum] = &[$($enum::$variant,)+];
+            /// The names of all, in the same order.
             pub const NAMES: &'static [&'static str] = &[$($name,)+];
 
+            /// Returns the name that scene files, options and messages use.
             pub const fn name(self) -> &'static str {
                 Self::NAMES[self as usize]
             }
 
+            /// Returns the value of this name.
             pub fn from_name(name: &str) -> Option<Self> {
                 Self::ALL.iter().copied().find(|v| v.name() == name)
             }

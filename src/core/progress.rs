@@ -2,6 +2,7 @@
 
 use std::time::Instant;
 
+/// Hears how far a render is, and may stop it.
 pub trait Progress: Sync {
     /// Reports that the fraction `done` in [0, 1] of the work is finished.
     fn advance(&self, done: f64);
@@ -22,8 +23,11 @@ impl Progress for NoProgress {
 
 /// A part of a longer computation, from `from` to `to` of its progress.
 pub struct SubProgress<'a> {
+    /// The longer computation.
     pub whole: &'a dyn Progress,
+    /// Where the part begins, in [0, 1].
     pub from: f64,
+    /// Where it ends.
     pub to: f64,
 }
 
@@ -39,7 +43,9 @@ impl Progress for SubProgress<'_> {
 
 /// A computation that is also cancelled at a deadline.
 pub struct WithDeadline<'a> {
+    /// The computation.
     pub whole: &'a dyn Progress,
+    /// When its time is over.
     pub deadline: Instant,
 }
 

@@ -4,12 +4,18 @@
 
 use std::ops;
 
+use crate::core::error::{Error, Result};
+
 /// A rectangle of pixels.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Rect {
+    /// The column of its first pixel.
     pub x: u32,
+    /// The row of its first pixel.
     pub y: u32,
+    /// Pixels in a row.
     pub width: u32,
+    /// Rows.
     pub height: u32,
 }
 
@@ -19,15 +25,30 @@ impl Rect {
         Rect { x: 0, y: 0, width, height }
     }
 
+    /// Refuses a crop that is empty or reaches outside a picture of this size.
+    pub fn check_within(&self, [full_width, full_height]: [u32; 2]) -> Result<()> {
+        let Rect { x, y, width, height } = *self;
+        let fits =
+            |at: u32, size: u32, full: u32| size > 0 && at.checked_add(size).is_some_and(|end| end <= full);
+        if fits(x, width, full_width) && fits(y, height, full_height) {
+            return Ok(());
+        }
+        Err(Error::new(format!(
+            "--crop {x},{y},{width},{height} reaches outside the picture of {full_width}×{full_height} pixels"
+        )))
+    }
+
     /// Returns the number of pixels.
     pub const fn area(&self) -> usize {
         self.width as usize * self.height as usize
     }
 
+    /// Returns its columns.
     pub const fn columns(&self) -> ops::Range<u32> {
         self.x..self.x + self.width
     }
 
+    /// Returns its rows.
     pub const fn rows(&self) -> ops::Range<u32> {
         self.y..self.y + self.height
     }
@@ -60,7 +81,9 @@ impl Rect {
 /// Samples `samples` of each pixel of a rectangle.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Range {
+    /// Which pixels.
     pub pixels: Rect,
+    /// Which samples of each.
     pub samples: ops::Range<u32>,
 }
 

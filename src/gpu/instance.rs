@@ -6,7 +6,7 @@ use ash::vk;
 use super::debug::{MessageLog, Messenger, VALIDATION_LAYER, layer_present};
 use super::info::{self, DeviceInfo};
 use super::result::{INSTALL, WithOperation, failed};
-use crate::core::error::{Error, Result};
+use crate::core::error::{Error, ErrorKind, Result};
 
 pub(super) const API_VERSION: u32 = vk::API_VERSION_1_2;
 
@@ -21,13 +21,13 @@ pub(super) fn load() -> Result<ash::Entry> {
         // SAFETY: this runs the initialisers of the system's Vulkan loader, a library that is made
         // to be loaded so; nothing is unloaded before `Entry` is dropped, which owners do last.
         return unsafe { ash::Entry::load() }
-            .map_err(|error| Error::with_help(format!("no Vulkan loader was found ({error})"), INSTALL));
+            .map_err(|error| no_driver(format!("no Vulkan loader was found ({error})"), INSTALL));
     };
     // SAFETY: as above; the user vouches that the named library is a Vulkan loader.
     unsafe { ash::Entry::load_from(&path) }.map_err(|error| {
-        Error::with_help(
+        no_driver(
             format!("no Vulkan loader was found at MOIRE_VULKAN_LIBRARY = {} ({error})", path.display()),
-            format!("unset it to use the system's loader. {INSTALL}"),
+            &format!("unset it to use the system's loader. {INSTALL}"),
         )
     })
 }
@@ -83,8 +83,12 @@ impl Drop for Instance {
     }
 }
 
+fn no_driver(message: String, help: &str) -> Error {
+    Error::with_help(message, help).of_kind(ErrorKind::NoDevice)
+}
+
 fn no_device() -> Error {
-    Error::with_help("no Vulkan device was found: the loader has no working driver", INSTALL)
+    no_driver("no Vulkan device was found: the loader has no working driver".into(), INSTALL)
 }
 
 fn create(entry: &ash::Entry, log: Option<&MessageLog>) -> Result<ash::Instance> {

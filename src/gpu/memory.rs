@@ -11,7 +11,7 @@ use gpu_allocator::{AllocationError, AllocationSizes, MemoryLocation};
 
 use super::device::lock;
 use super::result::{LESS_MEMORY, size_text};
-use crate::core::error::{Error, Result};
+use crate::core::error::{Error, ErrorKind, Result};
 
 const MIB: u64 = 1024 * 1024;
 
@@ -110,5 +110,6 @@ impl Memory {
             ),
             LESS_MEMORY,
         )
+        .of_kind(ErrorKind::OutOfDeviceMemory)
     }
 }

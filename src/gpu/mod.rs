@@ -46,7 +46,7 @@ pub use sampler::Sampler;
 pub use select::DeviceSelect;
 pub use timing::RunTime;
 
-use crate::core::error::{Error, Result};
+use crate::core::error::{Error, ErrorKind, Result};
 use crate::texture::sampler_spec::SamplerSpec;
 use command::{Commands, barrier};
 use device::{Core, lock};
@@ -120,7 +120,7 @@ impl Gpu {
 
     /// Creates a buffer with undefined content.
     pub fn buffer(&self, name: &str, bytes: u64, usage: BufferUse) -> Result<Buffer> {
-        Buffer::new(&self.core, name, bytes, usage)
+        Buffer::new(&self.core, name, bytes, usage).map_err(unsupported)
     }
 
     pub fn upload_buffer(&self, name: &str, usage: BufferUse, data: &[u8]) -> Result<Buffer> {
@@ -156,7 +156,7 @@ impl Gpu {
 
     /// Creates a sampled image and uploads its texels.
     pub fn image(&self, desc: &ImageDesc<'_>) -> Result<Image> {
-        let image = Image::new(&self.core, desc, &Texels::Host(desc.levels))?;
+        let image = Image::new(&self.core, desc, &Texels::Host(desc.levels)).map_err(unsupported)?;
         let (mut staging, mut commands) = (lock(&self.staging), lock(&self.commands));
         upload::to_image(&mut staging, &mut commands, &image, desc.levels)?;
         Ok(image)
@@ -166,23 +166,23 @@ impl Gpu {
     /// `desc.levels` is ignored.
     pub fn image_from(&self, desc: &ImageDesc<'_>, buffer: &Buffer, starts: &[u64]) -> Result<Image> {
         self.owns(buffer.core(), buffer.name())?;
-        let image = Image::new(&self.core, desc, &Texels::Device(buffer, starts))?;
+        let image = Image::new(&self.core, desc, &Texels::Device(buffer, starts)).map_err(unsupported)?;
         copy::to_image(&mut lock(&self.commands), &image, buffer, starts)?;
         Ok(image)
     }
 
     pub fn sampler(&self, spec: &SamplerSpec) -> Result<Sampler> {
-        Sampler::new(&self.core, spec)
+        Sampler::new(&self.core, spec).map_err(unsupported)
     }
 
     pub fn pipeline(&self, desc: &PipelineDesc<'_>) -> Result<Pipeline> {
-        Pipeline::new(&self.core, desc)
+        Pipeline::new(&self.core, desc).map_err(unsupported)
     }
 
     /// Binds a list of resources, one entry for each binding that the pipeline declares.
     pub fn bind(&self, pipeline: &Pipeline, resources: &[(u32, Bound<'_>)]) -> Result<BindGroup> {
         self.owns(pipeline.core(), pipeline.name())?;
-        BindGroup::new(pipeline, resources)
+        BindGroup::new(pipeline, resources).map_err(unsupported)
     }
 
     /// Runs one dispatch and waits for it. `push` has exactly the pipeline's push constant bytes.
@@ -223,4 +223,9 @@ impl Gpu {
         }
         Err(Error::new(format!("`{name}` belongs to another open device than {}", self.core.info.name)))
     }
+}
+
+/// Returns an error without a kind as one of an object that the device cannot have.
+fn unsupported(error: Error) -> Error {
+    error.or_kind(ErrorKind::Unsupported)
 }

@@ -3,7 +3,7 @@
 
 use ash::vk;
 
-use crate::core::error::{Error, Result};
+use crate::core::error::{Error, ErrorKind, Result};
 
 /// Adds to a failed Vulkan call the operation that failed: `creating buffer `film``.
 pub(super) trait WithOperation<T> {
@@ -22,27 +22,31 @@ pub(super) const INSTALL: &str =
     "Run ./setup.sh, or install the loader and a driver: apt install libvulkan1 mesa-vulkan-drivers";
 
 pub(super) fn failed(operation: &str, code: vk::Result) -> Error {
+    let error = |what: &str, help: &str, kind: ErrorKind| {
+        Error::with_help(format!("{operation}: {what}"), help).of_kind(kind)
+    };
     match code {
         vk::Result::ERROR_OUT_OF_DEVICE_MEMORY => {
-            Error::with_help(format!("{operation}: out of device memory"), LESS_MEMORY)
+            error("out of device memory", LESS_MEMORY, ErrorKind::OutOfDeviceMemory)
         }
-        vk::Result::ERROR_OUT_OF_HOST_MEMORY => Error::with_help(
-            format!("{operation}: out of host memory"),
+        vk::Result::ERROR_OUT_OF_HOST_MEMORY => error(
+            "out of host memory",
             "Close other programs, or use smaller textures or a smaller picture.",
+            ErrorKind::OutOfHostMemory,
         ),
         vk::Result::ERROR_DEVICE_LOST => device_lost(&format!("{operation}: the device was lost")),
         vk::Result::ERROR_INCOMPATIBLE_DRIVER => {
-            Error::with_help(format!("{operation}: no usable Vulkan driver is installed"), INSTALL)
+            error("no usable Vulkan driver is installed", INSTALL, ErrorKind::NoDevice)
         }
-        vk::Result::ERROR_INITIALIZATION_FAILED => Error::with_help(
-            format!("{operation}: the driver failed to initialize"),
+        vk::Result::ERROR_INITIALIZATION_FAILED => error(
+            "the driver failed to initialize",
             "Check the driver's installation, or choose another device: `moire devices` lists them.",
+            ErrorKind::NoDevice,
         ),
-        vk::Result::ERROR_TOO_MANY_OBJECTS => Error::with_help(
-            format!("{operation}: the device has too many objects of this kind"),
-            LESS_MEMORY,
-        ),
-        other => Error::new(format!("{operation}: Vulkan reports {other:?}")),
+        vk::Result::ERROR_TOO_MANY_OBJECTS => {
+            error("the device has too many objects of this kind", LESS_MEMORY, ErrorKind::Unsupported)
+        }
+        other => Error::new(format!("{operation}: Vulkan reports {other:?}")).of_kind(ErrorKind::Internal),
     }
 }
 
@@ -52,6 +56,7 @@ pub(super) fn device_lost(message: &str) -> Error {
         "The driver crashed or a watchdog reset the device. Try again with fewer samples or a smaller \
          picture, or with --device cpu.",
     )
+    .of_kind(ErrorKind::DeviceLost)
 }
 
 /// Formats a size in binary units: `4.0 MiB`.
@@ -74,18 +79,21 @@ mod tests {
     use super::*;
 
     #[test]
-    fn memory_errors_name_the_object_and_help() {
-        for (code, word) in [
-            (vk::Result::ERROR_OUT_OF_DEVICE_MEMORY, "out of device memory"),
-            (vk::Result::ERROR_OUT_OF_HOST_MEMORY, "out of host memory"),
-            (vk::Result::ERROR_DEVICE_LOST, "device was lost"),
+    fn memory_errors_name_the_object_and_help_and_have_kinds() {
+        use ErrorKind::{DeviceLost, OutOfDeviceMemory, OutOfHostMemory};
+        for (code, word, kind) in [
+            (vk::Result::ERROR_OUT_OF_DEVICE_MEMORY, "out of device memory", OutOfDeviceMemory),
+            (vk::Result::ERROR_OUT_OF_HOST_MEMORY, "out of host memory", OutOfHostMemory),
+            (vk::Result::ERROR_DEVICE_LOST, "device was lost", DeviceLost),
         ] {
-            let Error::Plain { message, help, .. } = failed("creating buffer `film`", code) else {
-                panic!("not a plain error");
-            };
+            let error = failed("creating buffer `film`", code);
+            let message = error.to_string();
             assert!(message.contains("`film`") && message.contains(word), "{message}");
-            assert!(help.is_some(), "{message} has no help");
+            assert!(error.help().is_some(), "{message} has no help");
+            assert!(error.kind() == kind && kind.is_transient(), "{message}: {:?}", error.kind());
         }
+        let other = failed("creating buffer `film`", vk::Result::ERROR_UNKNOWN).kind();
+        assert!(other == ErrorKind::Internal && !other.is_transient());
     }
 
     #[test]

@@ -2,7 +2,7 @@
 //! an error that lists the devices. Pure functions.
 
 use super::info::{DeviceInfo, DeviceKind};
-use crate::core::error::{Error, Result};
+use crate::core::error::{Error, ErrorKind, Result};
 
 /// A device as requested by `--device`.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -14,24 +14,52 @@ pub enum DeviceSelect {
     Index(usize),
     /// Part of the device's name, compared without regard to case.
     Name(String),
+    /// Any driver that runs on the CPU.
     Cpu,
+    /// Any GPU, also a virtual one.
     Gpu,
 }
+
+/// A word that selects devices.
+struct Word {
+    word: &'static str,
+    select: DeviceSelect,
+    admits: fn(DeviceKind) -> bool,
+    /// Completes "no Vulkan device is".
+    request: &'static str,
+}
+
+/// Every word that `--device` understands beside indices and names.
+const WORDS: [Word; 2] = [
+    Word {
+        word: "cpu",
+        select: DeviceSelect::Cpu,
+        admits: |kind| matches!(kind, DeviceKind::Cpu),
+        request: "a CPU driver (lavapipe is one: apt install mesa-vulkan-drivers)",
+    },
+    Word {
+        word: "gpu",
+        select: DeviceSelect::Gpu,
+        admits: |kind| !matches!(kind, DeviceKind::Cpu | DeviceKind::Other),
+        request: "a GPU",
+    },
+];
 
 impl DeviceSelect {
     /// Parses `cpu`, `gpu`, an index, or else part of a name.
     pub fn parse(text: &str) -> Result<DeviceSelect> {
         let text = text.trim();
         if text.is_empty() {
-            return Err(Error::new(
-                "a device is chosen by an index, a part of its name, `cpu` or `gpu`; found nothing",
-            ));
+            let words = WORDS.map(|w| format!("`{}`", w.word)).join(" or ");
+            return Err(Error::new(format!(
+                "a device is chosen by an index, a part of its name, {words}; found nothing"
+            )));
         }
-        Ok(match text.to_ascii_lowercase().as_str() {
-            "cpu" => DeviceSelect::Cpu,
-            "gpu" => DeviceSelect::Gpu,
-            _ => text.parse().map_or_else(|_| DeviceSelect::Name(text.into()), DeviceSelect::Index),
-        })
+        let word = WORDS.into_iter().find(|w| text.eq_ignore_ascii_case(w.word));
+        Ok(word.map_or_else(
+            || text.parse().map_or_else(|_| DeviceSelect::Name(text.into()), DeviceSelect::Index),
+            |word| word.select,
+        ))
     }
 
     /// Returns the index in `devices` of the chosen device.
@@ -43,7 +71,11 @@ impl DeviceSelect {
             .copied()
             .filter(|&i| devices[i].suitable.is_ok())
             .min_by_key(|&i| devices[i].kind);
-        best.ok_or_else(|| match candidates.first() {
+        best.ok_or_else(|| self.refusal(devices, &candidates))
+    }
+
+    fn refusal(&self, devices: &[DeviceInfo], candidates: &[usize]) -> Error {
+        let error = match candidates.first() {
             None => Error::with_help(format!("no Vulkan device is {}", self.request()), listing(devices)),
             Some(&first) => {
                 let device = &devices[first];
@@ -53,7 +85,12 @@ impl DeviceSelect {
                     listing(devices),
                 )
             }
-        })
+        };
+        error.of_kind(ErrorKind::NoDevice)
+    }
+
+    fn word(&self) -> Option<Word> {
+        WORDS.into_iter().find(|word| word.select == *self)
     }
 
     fn admits(&self, device: &DeviceInfo) -> bool {
@@ -61,8 +98,7 @@ impl DeviceSelect {
             DeviceSelect::Default => true,
             DeviceSelect::Index(index) => device.index == *index,
             DeviceSelect::Name(part) => device.name.to_lowercase().contains(&part.to_lowercase()),
-            DeviceSelect::Cpu => device.kind == DeviceKind::Cpu,
-            DeviceSelect::Gpu => !matches!(device.kind, DeviceKind::Cpu | DeviceKind::Other),
+            DeviceSelect::Cpu | DeviceSelect::Gpu => self.word().is_some_and(|w| (w.admits)(device.kind)),
         }
     }
 
@@ -71,8 +107,7 @@ impl DeviceSelect {
             DeviceSelect::Default => "installed".into(),
             DeviceSelect::Index(index) => format!("at index {index}"),
             DeviceSelect::Name(part) => format!("named like `{part}`"),
-            DeviceSelect::Cpu => "a CPU driver (lavapipe is one: apt install mesa-vulkan-drivers)".into(),
-            DeviceSelect::Gpu => "a GPU".into(),
+            DeviceSelect::Cpu | DeviceSelect::Gpu => self.word().map_or("", |w| w.request).into(),
         }
     }
 }
@@ -153,7 +188,9 @@ mod tests {
         let devices = machine();
         for text in ["7", "voodoo"] {
             let error = DeviceSelect::parse(text).unwrap().choose(&devices).unwrap_err();
-            let Error::Plain { message, help: Some(help), .. } = error else { panic!("no help for {text}") };
+            let Error::Plain { message, help: Some(help), kind: ErrorKind::NoDevice } = error else {
+                panic!("no help for {text}")
+            };
             assert!(message.contains(text), "{message}");
             assert!(help.contains("Some UHD Graphics"), "{help}");
         }

@@ -8,8 +8,9 @@ use rayon::prelude::*;
 use super::beam::beam;
 use super::cone_shade;
 use super::pixel_filter::filter_width;
-use super::render::{PixelSums, sums};
+use super::render::{PixelSums, pixel, sums};
 use crate::core::error::{Error, Result};
+use crate::core::film::Film;
 use crate::core::progress::Progress;
 use crate::core::range::{Range, Rect};
 use crate::pack::{PackedScene, filtered_mean};
@@ -79,6 +80,25 @@ impl OracleBackend<'_> {
         };
         [channel(0), channel(1), channel(2), squares].map(|v| v as f32)
     }
+}
+
+/// The whole film, with as many samples of each pixel as the scene was packed with; by beams, where it was packed for
+/// these.
+pub fn render(scene: &PackedScene, progress: &dyn Progress) -> Result<Film> {
+    let [width, height] = scene.header.film_size.to_array();
+    let whole = Rect::whole([width, height]);
+    let mut backend = OracleBackend::new(scene)?;
+    let range = Range { pixels: whole, samples: 0..scene.samples };
+    if !scene.beams {
+        return backend.sum(&range, progress)?.to_film([width, height], scene.samples);
+    }
+    let mut film = Film::new(width, height, scene.samples);
+    let places = whole.rows().flat_map(|y| whole.columns().map(move |x| (x, y)));
+    let resolved = backend.resolve(whole, progress)?;
+    for ((out, [r, g, b, sampled]), (x, y)) in film.pixels.iter_mut().zip(resolved).zip(places) {
+        *out = if sampled == 0.0 { [r, g, b] } else { pixel(scene, x, y).as_vec3().to_array() };
+    }
+    Ok(film)
 }
 
 impl Backend for OracleBackend<'_> {

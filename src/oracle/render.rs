@@ -1,10 +1,9 @@
-//! Packed scene → picture, in f64 on all cores. Twin of `glsl/shared/render_main.glsl`.
+//! Packed scene → sums of samples and means of pixels, in f64. Twin of `glsl/shared/render_main.glsl`.
 
 use std::ops;
 
 use glam::DVec3;
 
-use super::backend::OracleBackend;
 use super::camera::{camera_at, camera_ray, through_lens};
 use super::cone_shade;
 use super::footprint::camera_differential;
@@ -13,12 +12,7 @@ use super::pixel_filter::filtered_place;
 use super::rng::{pcg2d, pixel_key, sample_bits};
 use super::sample_dimensions::{choose, unit_square};
 use super::shade::{advance, camera_path};
-use crate::core::error::Result;
-use crate::core::film::Film;
-use crate::core::progress::Progress;
-use crate::core::range::{Range, Rect};
 use crate::pack::{PackedScene, filtered_mean};
-use crate::sampling::Backend;
 use crate::scene::model::Algorithm;
 use crate::schema::layout::Header;
 
@@ -95,23 +89,4 @@ pub fn sample(scene: &PackedScene, header: &Header, [x, y]: [u32; 2], stream: u3
         sum += advance(scene, &mut path);
     }
     (sum, at.sign)
-}
-
-/// The whole film, with as many samples of each pixel as the scene was packed with; by beams, where it was packed for
-/// these.
-pub fn render(scene: &PackedScene, progress: &dyn Progress) -> Result<Film> {
-    let [width, height] = scene.header.film_size.to_array();
-    let whole = Rect::whole([width, height]);
-    let mut backend = OracleBackend::new(scene)?;
-    let range = Range { pixels: whole, samples: 0..scene.samples };
-    if !scene.beams {
-        return backend.sum(&range, progress)?.to_film([width, height], scene.samples);
-    }
-    let mut film = Film::new(width, height, scene.samples);
-    let places = whole.rows().flat_map(|y| whole.columns().map(move |x| (x, y)));
-    let resolved = backend.resolve(whole, progress)?;
-    for ((out, [r, g, b, sampled]), (x, y)) in film.pixels.iter_mut().zip(resolved).zip(places) {
-        *out = if sampled == 0.0 { [r, g, b] } else { pixel(scene, x, y).as_vec3().to_array() };
-    }
-    Ok(film)
 }

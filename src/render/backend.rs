@@ -9,14 +9,34 @@ use super::batches::BatchSampler;
 use super::beams::BeamPass;
 use super::dispatch_plan::DispatchPlan;
 use super::film_buffer::FilmBuffer;
+use super::plan::integrator;
 use super::session::{Prepared, Turn, Work};
 use super::tiles::TileRenderer;
 use crate::core::error::{Error, Result};
+use crate::core::film::Film;
 use crate::core::progress::Progress;
 use crate::core::range::{Range, Rect};
+use crate::integrators::adaptive::Goal;
 use crate::sampling::{Backend, FilmSums, HalfSums, PilotRun};
 use crate::schema::layout::Job;
 
+impl Prepared<'_, '_> {
+    /// Renders once more. The report's times of loading and compiling are those of the first.
+    pub fn render(&self, progress: &dyn Progress) -> Result<(Film, Report)> {
+        self.render_to_goal(None, progress)
+    }
+
+    /// The same; of a scene that is sampled by batches, until the goal is met, by default the number of samples.
+    pub fn render_to_goal(&self, goal: Option<Goal>, progress: &dyn Progress) -> Result<(Film, Report)> {
+        let [width, height] = self.scene.header.film_size.to_array();
+        let mut backend = DeviceBackend::new(self)?;
+        let integrated = integrator(&self.scene, goal).render(&mut backend, [width, height], progress)?;
+        let mut report = backend.finish()?;
+        Ok((report.take(integrated), report))
+    }
+}
+
+/// A prepared session while it renders.
 pub struct DeviceBackend<'p> {
     prepared: &'p Prepared<'p, 'p>,
     /// Once batches were asked for.

@@ -38,7 +38,7 @@ impl On {
 }
 
 /// How a scene is rendered, beside what the scene says itself.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct Options {
     /// The part of the picture that is rendered; `None` is the whole.
     pub crop: Option<Rect>,
@@ -52,6 +52,21 @@ pub struct Options {
     pub guarded: bool,
     pub mips: MipChoice,
     pub tuning: Tuning,
+}
+
+impl Default for Options {
+    /// The whole picture, with what measures best.
+    fn default() -> Options {
+        Options {
+            crop: None,
+            goal: None,
+            allow_nonfinite: false,
+            keep_everything: false,
+            guarded: false,
+            mips: MipChoice::Auto,
+            tuning: Tuning::default(),
+        }
+    }
 }
 
 /// A film, and what was found on the way.
@@ -80,20 +95,20 @@ enum Member<'g> {
 
 /// The same with everything built.
 enum Ready<'m> {
-    Device(Prepared<'m, 'm>),
+    Device(Box<Prepared<'m, 'm>>),
     Oracle(&'m PackedScene),
 }
 
 /// A backend at work.
 enum Working<'p> {
-    Device(DeviceBackend<'p>),
+    Device(Box<DeviceBackend<'p>>),
     Oracle(OracleBackend<'p>),
 }
 
 impl Member<'_> {
     fn prepare(&self) -> Result<Ready<'_>> {
         match self {
-            Member::Device(session) => session.prepare().map(Ready::Device),
+            Member::Device(session) => session.prepare().map(|prepared| Ready::Device(Box::new(prepared))),
             Member::Oracle(scene) => Ok(Ready::Oracle(scene)),
         }
     }
@@ -102,7 +117,9 @@ impl Member<'_> {
 impl Ready<'_> {
     fn begin(&self) -> Result<Working<'_>> {
         match self {
-            Ready::Device(prepared) => DeviceBackend::new(prepared).map(Working::Device),
+            Ready::Device(prepared) => {
+                DeviceBackend::new(prepared).map(|backend| Working::Device(Box::new(backend)))
+            }
             Ready::Oracle(scene) => OracleBackend::new(scene).map(Working::Oracle),
         }
     }
@@ -111,7 +128,7 @@ impl Ready<'_> {
 impl Working<'_> {
     fn backend(&mut self) -> &mut dyn Backend {
         match self {
-            Working::Device(backend) => backend,
+            Working::Device(backend) => &mut **backend,
             Working::Oracle(backend) => backend,
         }
     }

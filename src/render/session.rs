@@ -7,11 +7,8 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use std::time::Instant;
 
 use crate::core::error::{Error, Result};
-use crate::core::film::Film;
-use crate::core::progress::Progress;
 use crate::gpu::shaders::{self, Shader};
 use crate::gpu::{Gpu, Pipeline};
-use crate::integrators::adaptive::Goal;
 use crate::pack::features::Features;
 use crate::pack::{self, PackedScene, Schedule};
 use crate::scene::model::Scene;
@@ -19,12 +16,10 @@ use crate::schema::enums::TexelSource;
 use crate::schema::layout::{Header, Slice};
 use crate::schema::specialization::Constant;
 
-use super::backend::DeviceBackend;
 use super::batches::{BatchSampler, SamplePipeline};
 use super::beams::BeamPass;
 use super::film_buffer::FilmBuffer;
 use super::loop_budget::samples_at_once;
-use super::plan::integrator;
 use super::resources::{Resources, shader_for};
 use super::texel_buffer;
 use super::tile_culling::TileCulling;
@@ -275,20 +270,6 @@ impl<'a> Session<'a> {
 impl Prepared<'_, '_> {
     pub fn compile_seconds(&self) -> f64 {
         self.report.seconds.compile
-    }
-
-    /// Renders once more. The report's times of loading and compiling are those of the first.
-    pub fn render(&self, progress: &dyn Progress) -> Result<(Film, Report)> {
-        self.render_to_goal(None, progress)
-    }
-
-    /// The same; of a scene that is sampled by batches, until the goal is met, by default the number of samples.
-    pub fn render_to_goal(&self, goal: Option<Goal>, progress: &dyn Progress) -> Result<(Film, Report)> {
-        let [width, height] = self.scene.header.film_size.to_array();
-        let mut backend = DeviceBackend::new(self)?;
-        let integrated = integrator(&self.scene, goal).render(&mut backend, [width, height], progress)?;
-        let mut report = backend.finish()?;
-        Ok((report.take(integrated), report))
     }
 
     /// What takes batches of samples by a pipeline of this choice of samples.

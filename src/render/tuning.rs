@@ -26,12 +26,6 @@ named_enum! {
     }
 }
 
-impl Default for MipChoice {
-    fn default() -> MipChoice {
-        MipChoice::Auto
-    }
-}
-
 /// From how many texels on the host takes longer for a mip chain than a driver for the pipeline of it.
 const LARGE: u64 = 1 << 20;
 

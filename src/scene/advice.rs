@@ -11,9 +11,9 @@ pub fn of_scene(scene: &Scene) -> Vec<String> {
     let algorithm = scene.sampling.algorithm;
     match scene.dropped_triangles {
         0 => {}
-        1 => told.push(format!("a triangle (line {}) has no area and was left out", scene.first_dropped)),
+        1 => told.push(format!("a triangle ({}) has no area and was left out", scene.first_dropped)),
         count => told.push(format!(
-            "{count} triangles have no area and were left out, the first in line {}",
+            "{count} triangles have no area and were left out, the first in {}",
             scene.first_dropped
         )),
     }

@@ -1,10 +1,11 @@
 //! The reflection models: their names, what each one does with light, and the keys of `[[material]]` that not all of
 //! them have. All that a scene, its packing and its messages know of a model stands in these tables.
 
+use glam::DVec3;
+
+use super::limits::{COLOR, EXPONENT, IOR, Limits, UNIT};
 use super::model::Material;
-use super::reader::{COLOR, EXPONENT, Field, IOR, UNIT};
-use super::table::Table;
-use crate::core::error::Result;
+use super::refusal::{Check, Key};
 pub use crate::schema::enums::Model;
 
 impl Model {
@@ -32,29 +33,47 @@ impl Model {
     }
 }
 
-type Reader = fn(&mut Material, Field<'_>) -> Result<()>;
+/// A key of `[[material]]` that some models have.
+pub(super) struct ModelKey {
+    pub name: &'static str,
+    pub models: &'static [Model],
+    pub value: Value,
+    limits: Limits,
+}
 
-/// Key, the models that have it, how it is read.
-const KEYS: [(&str, &[Model], Reader); 4] = [
-    ("specular", &[Model::Phong], |m, field| Ok(m.specular = field.vec3(&COLOR)?)),
-    ("exponent", &[Model::Phong], |m, field| Ok(m.exponent = field.number(&EXPONENT)?)),
-    ("ior", &[Model::Dielectric], |m, field| Ok(m.ior = field.number(&IOR)?)),
-    ("roughness", &[Model::Mirror, Model::Dielectric], |m, field| Ok(m.roughness = field.number(&UNIT)?)),
+/// Where a material keeps it.
+pub(super) enum Value {
+    Number(fn(&mut Material) -> &mut f64),
+    Color(fn(&mut Material) -> &mut DVec3),
+}
+
+pub(super) const KEYS: [ModelKey; 4] = [
+    ModelKey {
+        name: "specular",
+        models: &[Model::Phong],
+        value: Value::Color(|m| &mut m.specular),
+        limits: COLOR,
+    },
+    ModelKey {
+        name: "exponent",
+        models: &[Model::Phong],
+        value: Value::Number(|m| &mut m.exponent),
+        limits: EXPONENT,
+    },
+    ModelKey { name: "ior", models: &[Model::Dielectric], value: Value::Number(|m| &mut m.ior), limits: IOR },
+    ModelKey {
+        name: "roughness",
+        models: &[Model::Mirror, Model::Dielectric],
+        value: Value::Number(|m| &mut m.roughness),
+        limits: UNIT,
+    },
 ];
 
-/// Reads the keys of the material's model.
-pub(super) fn read_model_keys(table: &Table<'_>, material: &mut Material) -> Result<()> {
-    for (key, models, read) in KEYS {
-        let Some(field) = table.get(key) else { continue };
-        if !models.contains(&material.model) {
-            let quoted =
-                |between| models.iter().map(|m| format!("\"{m}\"")).collect::<Vec<_>>().join(between);
-            let (noun, verb) = if models.len() > 1 { ("models", "have") } else { ("model", "has") };
-            let what =
-                format!("only {noun} {} {verb} {key}; this one is \"{}\"", quoted(" and "), material.model);
-            return Err(field.error(&what, format!("needs model {}", quoted(" or "))));
-        }
-        read(material, field)?;
-    }
-    Ok(())
+/// Checks what the material's model reads.
+pub(super) fn check_model_keys(key: Key, material: &Material) -> Check {
+    let (model, mut material) = (material.model, material.clone());
+    KEYS.iter().filter(|k| k.models.contains(&model)).try_for_each(|k| match k.value {
+        Value::Number(of) => key.of(k.name).number(*of(&mut material), &k.limits),
+        Value::Color(of) => key.of(k.name).vector(*of(&mut material), &k.limits),
+    })
 }

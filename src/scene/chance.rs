@@ -10,6 +10,7 @@ impl Scene {
         self.shapes().map(|shape| shape.motion())
     }
 
+    /// Returns whether any shape moves.
     pub fn shapes_move(&self) -> bool {
         self.motions().any(|motion| motion != DVec3::ZERO)
     }

@@ -51,16 +51,23 @@ named_enum! {
 /// the rotation is about the frame's axis.
 #[derive(Clone, Copy, Debug)]
 pub struct Mapping {
+    /// How a point becomes a coordinate.
     pub kind: MappingKind,
+    /// What is projected.
     pub entity: Entity,
+    /// Where the frame lives.
     pub space: Space,
     /// Frame of a projecting map: its origin and its axis (not necessarily of unit length).
     pub origin: DVec3,
+    /// Around it angles are measured, along it heights.
     pub axis: DVec3,
+    /// Factors of u and v.
     pub scale: DVec2,
+    /// Added last.
     pub offset: DVec2,
     /// Scale and offset of w: `solid` only.
     pub scale_w: f64,
+    /// Added to w last.
     pub offset_w: f64,
     /// Degrees, counter-clockwise in (u, v).
     pub rotate: f64,

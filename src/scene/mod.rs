@@ -1,32 +1,31 @@
-//! Scene files: TOML text in, validated [`model::Scene`] out.
+//! Scenes: a file of some format, or parts from code, in; the whole [`model::Scene`], every rule kept, out.
 
 pub mod advice;
 mod bsdf;
+pub mod builder;
 mod camera;
 mod chance;
+#[allow(missing_docs)]
+pub mod changes;
+mod checks;
 pub mod cone;
+mod formats;
 pub mod geometry;
-mod lights;
-mod load;
+mod limits;
 mod mapping;
-mod materials;
 pub mod model;
-mod names;
 mod pixel_filter;
-mod procedural;
 pub mod prune;
-mod reader;
-mod samplers;
+mod refusal;
 mod sampling;
-mod sections;
-mod source;
+mod shorthands;
 pub mod synonyms;
-mod table;
 pub mod texture_advice;
-mod textures;
-mod validate;
-mod vocabulary;
+mod whole;
 
-pub use load::{STANDARD_INPUT, is_standard_input, load, parse};
-pub use pixel_filter::MAX_RADIUS;
-pub use validate::{MAX_DEPTH, MAX_SIZE, MAX_SPP, both_filters, check_filters, check_shared, check_spp};
+pub use builder::SceneBuilder;
+pub use formats::{STANDARD_INPUT, is_standard_input, load, parse};
+pub use limits::{
+    MAX_DEPTH, MAX_RADIUS, MAX_SIZE, MAX_SPP, both_filters, check_filters, check_shared, check_spp,
+};
+pub use whole::Scene;

@@ -16,25 +16,40 @@ pub use crate::schema::enums::BumpKind;
 use crate::texture::sampler_spec::{Address, SamplerSpec};
 pub use crate::texture::source::{TextureContent, TextureSource};
 
+/// All that is rendered, every reference an index.
 #[derive(Clone, Debug)]
 pub struct Scene {
     /// The scene file, for messages and the default output name.
     pub path: PathBuf,
+    /// Where it is seen from.
     pub camera: Camera,
+    /// Pixels of the picture in a row.
     pub width: u32,
+    /// Rows of the picture.
     pub height: u32,
+    /// How samples around a pixel are weighted.
     pub pixel_filter: PixelFilter,
+    /// How the picture is sampled.
     pub sampling: Sampling,
+    /// What rays see that hit nothing.
     pub background: Background,
+    /// What materials and the environment show.
     pub textures: Vec<TextureSource>,
+    /// How they are read.
     pub samplers: Vec<SamplerSpec>,
+    /// What surfaces do with light.
     pub materials: Vec<Material>,
+    /// All planes.
     pub planes: Vec<Plane>,
+    /// All spheres.
     pub spheres: Vec<Sphere>,
+    /// All triangles that have an area.
     pub triangles: Vec<Triangle>,
-    /// Triangles of the file that have no area, and the line of the first: no ray meets them.
+    /// Triangles that have no area: no ray meets them.
     pub dropped_triangles: usize,
-    pub first_dropped: usize,
+    /// Where the first of them stood.
+    pub first_dropped: String,
+    /// All lights.
     pub lights: Vec<Light>,
 }
 
@@ -43,6 +58,7 @@ pub struct Scene {
 pub struct Background {
     /// Without an environment all there is; with one it multiplies the texture.
     pub color: DVec3,
+    /// A texture around the scene.
     pub environment: Option<Environment>,
 }
 
@@ -53,6 +69,7 @@ pub struct Environment {
     pub texture: usize,
     /// Index into `Scene::samplers`.
     pub sampler: usize,
+    /// How directions lie on the texture.
     pub layout: EnvironmentLayout,
     /// Degrees about +y, counter-clockwise from above.
     pub rotate: f64,
@@ -82,6 +99,7 @@ named_enum! {
 }
 
 impl BumpKind {
+    /// Returns whether it holds normals.
     pub const fn is_normal_map(self) -> bool {
         matches!(self, BumpKind::Normal | BumpKind::NormalDown)
     }
@@ -90,6 +108,7 @@ impl BumpKind {
 /// A texture that turns the shading normal.
 #[derive(Clone, Copy, Debug)]
 pub struct BumpMap {
+    /// What the texture holds.
     pub kind: BumpKind,
     /// Index into `Scene::textures`.
     pub texture: usize,
@@ -98,9 +117,12 @@ pub struct BumpMap {
     pub strength: f64,
 }
 
+/// What a surface does with light.
 #[derive(Clone, Debug)]
 pub struct Material {
+    /// For messages.
     pub name: String,
+    /// Its reflection model.
     pub model: Model,
     /// Multiplies the texture.
     pub color: DVec3,
@@ -108,10 +130,13 @@ pub struct Material {
     pub texture: Option<usize>,
     /// Index into `Scene::samplers`; meaningful where a texture or a bump map is set.
     pub sampler: usize,
+    /// How a point of the surface becomes a texture coordinate.
     pub mapping: Mapping,
+    /// A texture that turns its normals.
     pub bump: Option<BumpMap>,
     /// Of the highlight of `phong`.
     pub specular: DVec3,
+    /// The highlight's sharpness, of `phong`.
     pub exponent: f64,
     /// Refractive index of `dielectric` behind its surface, over that in front of it.
     pub ior: f64,
@@ -144,21 +169,56 @@ impl Material {
     }
 }
 
+/// What shines on surfaces.
 #[derive(Clone, Copy, Debug)]
 pub enum Light {
     /// Intensity in W/sr.
-    Point { position: DVec3, intensity: DVec3 },
+    Point {
+        /// Where its middle is.
+        position: DVec3,
+        /// W/sr, red, green and blue.
+        intensity: DVec3,
+    },
     /// Direction towards the light (any length); irradiance in W/m² on a facing surface.
-    Directional { direction: DVec3, irradiance: DVec3 },
+    Directional {
+        /// Towards the light; any length.
+        direction: DVec3,
+        /// W/m² on a facing surface, red, green and blue.
+        irradiance: DVec3,
+    },
     /// A ball that far away shines like a point of this intensity.
-    Sphere { position: DVec3, radius: f64, intensity: DVec3 },
+    Sphere {
+        /// Where its middle is.
+        position: DVec3,
+        /// In scene units.
+        radius: f64,
+        /// W/sr, red, green and blue.
+        intensity: DVec3,
+    },
     /// Its middle and sides; it shines where edge_u × edge_v points, alike in all directions.
-    Rectangle { position: DVec3, edge_u: DVec3, edge_v: DVec3, radiance: DVec3 },
+    Rectangle {
+        /// Where its middle is.
+        position: DVec3,
+        /// One side.
+        edge_u: DVec3,
+        /// The other side.
+        edge_v: DVec3,
+        /// W/(m² sr), red, green and blue.
+        radiance: DVec3,
+    },
     /// A disc of the sky of this angular diameter in degrees, above 0; irradiance on a facing surface.
-    Sun { direction: DVec3, angle: f64, irradiance: DVec3 },
+    Sun {
+        /// Towards the light; any length.
+        direction: DVec3,
+        /// Its angular diameter in degrees.
+        angle: f64,
+        /// W/m² on a facing surface, red, green and blue.
+        irradiance: DVec3,
+    },
 }
 
 impl Light {
+    /// Returns whether it shines from more than one place or direction.
     pub fn has_extent(&self) -> bool {
         matches!(self, Light::Sphere { .. } | Light::Rectangle { .. } | Light::Sun { .. })
     }

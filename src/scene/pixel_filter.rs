@@ -1,9 +1,6 @@
-//! `[image] pixel_filter` and `pixel_filter_radius`: by which weights the light around a pixel becomes its
-//! colour. In: those keys, each with a default of its own. Out: a filter and how far it reaches.
+//! By which weights the light around a pixel becomes its colour, as data: a filter and how far it reaches. Part of the
+//! model.
 
-use super::reader::Limits;
-use super::table::Table;
-use crate::core::error::Result;
 pub use crate::schema::enums::PixelFilterKind;
 
 impl PixelFilterKind {
@@ -19,13 +16,10 @@ impl PixelFilterKind {
     }
 }
 
-/// Pixels that a filter may reach to each side.
-pub const MAX_RADIUS: f64 = 8.0;
-const RADIUS: Limits =
-    Limits { words: "above 0 and at most 8 (pixels)", allow: |x| (1e-30..=MAX_RADIUS).contains(&x) };
-
+/// By which weights the samples around a pixel become its colour.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PixelFilter {
+    /// Its shape.
     pub kind: PixelFilterKind,
     /// Half the filter's width, in pixels. Its shape is stretched with it.
     pub radius: f64,
@@ -42,13 +36,4 @@ impl Default for PixelFilter {
     fn default() -> Self {
         PixelFilter::new(PixelFilterKind::Box, None)
     }
-}
-
-pub(super) fn pixel_filter(image: &Table<'_>) -> Result<PixelFilter> {
-    let kind = match image.get("pixel_filter") {
-        Some(field) => field.choice(PixelFilterKind::NAMES, PixelFilterKind::ALL)?,
-        None => PixelFilterKind::default(),
-    };
-    let radius = image.get("pixel_filter_radius").map(|field| field.number(&RADIUS)).transpose()?;
-    Ok(PixelFilter::new(kind, radius))
 }

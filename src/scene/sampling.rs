@@ -68,20 +68,41 @@ impl Algorithm {
     }
 }
 
+/// How a picture is sampled.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sampling {
+    /// What becomes of a pixel.
     pub algorithm: Algorithm,
+    /// Where in the pixel the samples lie.
     pub pattern: Pattern,
     /// Samples per pixel, at least 1; a square for `grid` and `stratified`, a power of two for
     /// `blue-noise`.
     pub spp: u32,
     /// True: one set of displacement vectors for all pixels (the lecture's variant).
     pub shared: bool,
+    /// Chooses one of 2³² sets of samples.
     pub seed: u32,
     /// Mirror bounces after the camera ray; exhausted means black.
     pub max_depth: u32,
+    /// Over what look-ups are averaged.
     pub footprint: Footprint,
+    /// In which numbers geometry is computed.
     pub precision: Precision,
+}
+
+impl Default for Sampling {
+    fn default() -> Self {
+        Sampling {
+            algorithm: Algorithm::Samples,
+            pattern: Pattern::Stratified,
+            spp: 16,
+            shared: false,
+            seed: 1,
+            max_depth: 5,
+            footprint: Footprint::None,
+            precision: Precision::Auto,
+        }
+    }
 }
 
 impl Sampling {
@@ -91,6 +112,7 @@ impl Sampling {
         if one { 1 } else { self.spp }
     }
 
+    /// Returns the strata along each side of a pixel; 1 where the pattern has none.
     pub fn strata_side(&self) -> u32 {
         self.pattern.strata_side(self.spp)
     }

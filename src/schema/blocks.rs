@@ -57,7 +57,7 @@ blocks! {
         count,
     }
 
-    /// Sample positions that `strata.comp` lists: of `samples` samples a pixel from `first_sample` on.
+    /// Sample positions that `strata.glsl` lists: of `samples` samples a pixel from `first_sample` on.
     PositionRange {
         count,
         samples,

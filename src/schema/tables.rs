@@ -1,5 +1,5 @@
 //! The tables of this folder → Rust. Each table is one macro call in a file of its own; `build/tables.rs` gives
-//! the same macros another body, by which the same files become the GLSL of `glsl/shared/layout.glsl`.
+//! the same macros another body, by which the same files become GLSL.
 
 /// Enums that the shader knows as `const uint PREFIX_VARIANT`, in the same order.
 macro_rules! enums {

@@ -25,6 +25,7 @@ named_enum! {
 }
 
 named_enum! {
+    /// The number type of a channel.
     pub enum Component {
         Unorm8 = "unorm8",
         Unorm16 = "unorm16",
@@ -33,6 +34,7 @@ named_enum! {
 }
 
 impl Component {
+    /// Returns the bytes of a number.
     pub const fn bytes(self) -> usize {
         match self {
             Component::Unorm8 => 1,
@@ -60,6 +62,7 @@ impl Component {
 }
 
 impl TexelFormat {
+    /// Returns the numbers of a texel.
     pub const fn channels(self) -> usize {
         match self as u32 % 3 {
             0 => 1,
@@ -68,6 +71,7 @@ impl TexelFormat {
         }
     }
 
+    /// Returns their type.
     pub const fn component(self) -> Component {
         match self as u32 / 3 {
             0 => Component::Unorm8,
@@ -76,10 +80,12 @@ impl TexelFormat {
         }
     }
 
+    /// Returns the bytes of a texel.
     pub const fn bytes_per_texel(self) -> usize {
         self.channels() * self.component().bytes()
     }
 
+    /// Returns the format of so many channels: 1, 2, or 4.
     pub fn new(channels: usize, component: Component) -> TexelFormat {
         let column = match channels {
             1 => 0,
@@ -94,14 +100,19 @@ impl TexelFormat {
 /// already applied.
 #[derive(Clone, Debug)]
 pub struct TextureData {
+    /// For messages.
     pub name: String,
+    /// Its axes.
     pub dimension: Dimension,
+    /// Texels in a row.
     pub width: u32,
     /// The height, which is 1 for a 1D texture.
     pub height: u32,
     /// Slices of a volume, 6 for a cube, otherwise 1.
     pub depth: u32,
+    /// Channels and number type of a texel.
     pub format: TexelFormat,
+    /// What the stored values mean.
     pub color_space: ColorSpace,
     /// Channels of the file, before three were expanded to four.
     pub file_channels: usize,

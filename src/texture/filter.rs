@@ -36,6 +36,7 @@ pub struct Traits {
     pub needs_sums: bool,
     /// True if it blends neighbouring texels.
     pub blends: bool,
+    /// How often its loops run.
     pub turns: Turns,
 }
 
@@ -53,6 +54,7 @@ const ONE_TEXEL: Traits = Traits {
 const MIXED: Traits = Traits { blends: true, ..ONE_TEXEL };
 
 impl Filter {
+    /// Returns what sets the filter apart.
     pub const fn traits(self) -> Traits {
         match self {
             Filter::Nearest => Traits { in_hardware: true, ..ONE_TEXEL },

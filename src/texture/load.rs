@@ -67,6 +67,18 @@ fn read(source: &TextureSource, values: Values) -> Result<(Picture, u32)> {
             stack::read(files, reading, space, values, "slice").map(|t| (t, files.len() as u32))
         }
         TextureContent::Procedural(_) => Ok((ramp(&[[0.0; 4]]).into(), 1)),
+        TextureContent::Texels(plain) => {
+            let texels = Texels {
+                width: plain.width,
+                height: plain.height,
+                format: plain.format,
+                file_channels: plain.format.channels(),
+                bytes: plain.bytes.clone(),
+            };
+            check_meaning(texels.format, space, Path::new("in memory"))?;
+            check_values(&texels, values, Path::new("in memory"))?;
+            Ok((texels.into(), 1))
+        }
         TextureContent::Volume(raw) => volume(&raw.file, (volume::read(raw)?, raw.size[2])),
     }
 }

@@ -1,12 +1,15 @@
 //! Textures as data: the contents of image files and the states of samplers.
 
+#[allow(missing_docs)]
 pub mod analysis;
 mod analysis_period;
 mod analysis_rows;
 mod analysis_steps;
+#[allow(missing_docs)]
 mod analysis_verdict;
 mod cube;
 pub mod data;
+#[allow(missing_docs)]
 pub mod decode;
 mod decoder;
 mod exr_color;

@@ -48,6 +48,11 @@ fn escaped(c: char) -> Vec<char> {
     if c.is_control() { c.escape_default().collect() } else { vec![c] }
 }
 
+/// Whether a file is a volume, by the ending of its name: nothing is opened.
+pub fn is_volume(path: &Path) -> bool {
+    path.extension().is_some_and(|e| e.eq_ignore_ascii_case("nrrd") || e.eq_ignore_ascii_case("nhdr"))
+}
+
 /// Returns advice for a path written with backslashes: TOML escapes turn some of them into other
 /// characters, and only Windows separates folders with them.
 pub fn odd_path(path: &Path) -> Option<String> {

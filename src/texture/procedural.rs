@@ -18,8 +18,10 @@ impl ProceduralKind {
 /// fraction bits left.
 pub const MAX_OCTAVES: u32 = 16;
 
+/// A pattern that is computed where it is read.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Procedural {
+    /// Which one.
     pub kind: ProceduralKind,
     /// Linear RGB of background and foreground; patterns based on noise blend between the two.
     pub colors: [[f32; 3]; 2],

@@ -3,19 +3,26 @@
 
 pub use crate::schema::enums::{Address, Filter, Method, MipMode, TexelCenter};
 
+/// How a texture is read.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SamplerSpec {
     /// The address modes along u and v.
     pub address: [Address; 2],
     /// The address mode along w of 3D textures.
     pub address_w: Address,
+    /// The filter where a texel covers more than a pixel.
     pub mag: Filter,
+    /// The filter where a footprint covers more than a texel.
     pub min: Filter,
+    /// Which levels are read.
     pub mip: MipMode,
     /// The minimum level of detail, of hardware samplers only. Above 0, every lookup minifies.
     pub min_lod: f32,
+    /// What `clamp-to-border` reads, red, green, blue and alpha.
     pub border_color: [f32; 4],
+    /// Who filters.
     pub method: Method,
+    /// Where texels have their centres.
     pub texel_center: TexelCenter,
     /// The largest anisotropy, in footprint widths, that `anisotropic` and `ewa` resolve; wider
     /// footprints are blurred.

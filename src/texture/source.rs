@@ -3,28 +3,37 @@
 //! it.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use super::data::{ColorSpace, Dimension, MipKernel, TexelFormat};
 use super::procedural::Procedural;
 use crate::core::named::named_enum;
 
+/// A texture as a scene has it: its texels may still be in files.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TextureSource {
+    /// For messages.
     pub name: String,
+    /// Where the texels come from.
     pub content: TextureContent,
+    /// The axes of its texels.
     pub dimension: Dimension,
+    /// What the stored values mean.
     pub color_space: ColorSpace,
     /// True if the scene states the meaning of stored values.
     pub color_space_stated: bool,
+    /// How files of pictures are read.
     pub reading: Reading,
     /// False: v = 0 is the file's first row. True: v grows upwards (the lecture's loader).
     pub flip_v: bool,
+    /// What coarser levels are means over.
     pub mip_kernel: MipKernel,
 }
 
 /// The options of reading a file: the layer and the orientation.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Reading {
+    /// What is done about a picture that is stored turned.
     pub orientation: OrientationUse,
     /// For OpenEXR files, a layer, a part, or a channel that is read as grey.
     pub layer: Option<String>,
@@ -59,7 +68,10 @@ pub enum TextureContent {
     Faces([PathBuf; 6]),
     /// Pictures of equal size, the first at w = 0.
     Slices(Vec<PathBuf>),
+    /// A file of bare texels.
     Volume(VolumeSource),
+    /// One picture, not of a file.
+    Texels(Arc<PlainTexels>),
     /// No texels; the pattern is evaluated at each lookup.
     Procedural(Procedural),
 }
@@ -83,15 +95,31 @@ named_enum! {
     }
 }
 
+/// A picture in memory.
+#[derive(Debug, PartialEq, Eq)]
+pub struct PlainTexels {
+    /// Texels in a row.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+    /// Channels and number type of a texel.
+    pub format: TexelFormat,
+    /// Tightly packed rows, the first one on top, in the machine's byte order.
+    pub bytes: Vec<u8>,
+}
+
 /// A file of raw texels: x runs fastest, then y, then z.
 #[derive(Clone, Debug, PartialEq)]
 pub struct VolumeSource {
+    /// The file.
     pub file: PathBuf,
     /// Width, height and depth.
     pub size: [u32; 3],
+    /// Channels and number type of a texel.
     pub format: TexelFormat,
     /// Bytes before the first texel.
     pub offset: u64,
+    /// The byte order of its numbers.
     pub endian: Endian,
 }
 
@@ -111,6 +139,7 @@ impl TextureSource {
 }
 
 impl TextureContent {
+    /// Returns the pattern, if it is one.
     pub fn procedural(&self) -> Option<&Procedural> {
         match self {
             TextureContent::Procedural(procedural) => Some(procedural),
@@ -121,7 +150,7 @@ impl TextureContent {
     /// Returns all files named in the scene.
     pub fn files(&self) -> Vec<&Path> {
         match self {
-            TextureContent::Ramp(_) | TextureContent::Procedural(_) => Vec::new(),
+            TextureContent::Ramp(_) | TextureContent::Texels(_) | TextureContent::Procedural(_) => Vec::new(),
             TextureContent::File(file) | TextureContent::CubeFile(file, _) => vec![file],
             TextureContent::Faces(files) => files.iter().map(PathBuf::as_path).collect(),
             TextureContent::Slices(files) => files.iter().map(PathBuf::as_path).collect(),
@@ -131,7 +160,7 @@ impl TextureContent {
 
     fn files_mut(&mut self) -> Vec<&mut PathBuf> {
         match self {
-            TextureContent::Ramp(_) | TextureContent::Procedural(_) => Vec::new(),
+            TextureContent::Ramp(_) | TextureContent::Texels(_) | TextureContent::Procedural(_) => Vec::new(),
             TextureContent::File(file) | TextureContent::CubeFile(file, _) => vec![file],
             TextureContent::Faces(files) => files.iter_mut().collect(),
             TextureContent::Slices(files) => files.iter_mut().collect(),

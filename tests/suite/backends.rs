@@ -105,7 +105,7 @@ fn ranges_of_samples_on_a_device_add_up_to_the_whole_in_whatever_order_they_arri
     let session = Session::open(&gpu, scene.clone(), false, &Tuning::default()).unwrap();
     let prepared = session.prepare().unwrap();
     let mut backend = DeviceBackend::new(&prepared).unwrap();
-    let [width, height, _, _] = scene.header.size;
+    let [width, height] = scene.header.film_size.to_array();
     let whole = Range { pixels: Rect::whole([width, height]), samples: 0..700 };
     let parts: Vec<FilmSums> =
         whole.by_samples(256).map(|range| backend.sum(&range, &NoProgress).unwrap()).collect();

@@ -15,12 +15,11 @@ const WITHOUT_TWIN: &[(&str, &str)] = &[
     ("mip_chain", "its twin makes levels on the host: `src/texture/mips`"),
     ("probe_main", "a list of look-ups"),
     ("probe_rays_main", "a list of rays"),
-    ("record_cache", "lists as registers"),
     ("slice", "which part of the work a thread does"),
     ("texel_buffer", "buffers of the device"),
 ];
 /// Files of `src/oracle` without a twin, and why.
-const WITHOUT_SHADER: &[(&str, &str)] = &[("jobs", "the other half of `render_main`")];
+const WITHOUT_SHADER: &[(&str, &str)] = &[("backend", "who takes the samples of `render_main`")];
 
 /// `main` of a shader stands in `X_main.glsl`, its twin in `X.rs`.
 fn twin_of(glsl: &str) -> &str {
@@ -29,7 +28,6 @@ fn twin_of(glsl: &str) -> &str {
 
 fn has_functions(glsl: &str) -> bool {
     glsl.lines().any(|line| line.starts_with(|c: char| c.is_ascii_lowercase()) && line.contains(") {"))
-        || glsl.lines().any(|line| line.starts_with("CACHED_LIST("))
 }
 
 /// Twins that are missing: (path below glsl/shared without its ending, text) against paths below src/oracle.
@@ -113,8 +111,8 @@ const DOORS: &[Door] = &[
             // Records, their lists and their constants.
             "glsl/shared/features.glsl",
             "glsl/shared/layout.glsl",
-            "glsl/shared/record_cache.glsl",
             "src/pack/features.rs",
+            "src/pack/features/narrowed.rs",
             "src/pack/sections.rs",
             "src/render/specialization.rs",
             "src/schema/",

@@ -5,6 +5,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use crate::sources::{crate_paths, tokens, undocumented_unsafe};
 use crate::support;
 
 /// More lines than this want a second file.
@@ -14,13 +15,13 @@ const MAX_LINES: usize = 330;
 /// that [`SPLIT`] names; what is not listed is not allowed, so that a new room has to be entered here.
 pub const ALLOWED: &[(&str, &[&str])] = &[
     ("core", &[]),
-    ("texture", &["core"]),
-    ("scene", &["core", "texture"]),
     ("schema", &["core"]),
+    ("texture", &["core", "schema"]),
+    ("scene", &["core", "texture", "schema"]),
     ("pack", &["core", "texture", "scene", "schema"]),
     ("sampling", &["core", "schema", "pack::filtered_mean"]),
     ("oracle", &["core", "texture", "scene", "schema", "pack", "sampling"]),
-    ("gpu", &["core::error", "core::named", "texture::sampler_spec"]),
+    ("gpu", &["core::error", "core::named", "texture::sampler_spec", "schema"]),
     ("integrators", &["core", "schema", "sampling"]),
     ("render", &["core", "texture", "scene", "schema", "pack", "sampling", "gpu", "oracle", "integrators"]),
     ("output", &["core"]),
@@ -62,6 +63,7 @@ pub const ALLOWED: &[(&str, &[&str])] = &[
             "lab::plot",
         ],
     ),
+    ("face", &["core", "texture", "scene", "gpu", "integrators", "render", "output", "lab::metrics"]),
     (
         "cli",
         &[
@@ -95,10 +97,10 @@ fn room_of(parts: &[&str]) -> String {
     }
 }
 
-/// Whether a room may use a path of the crate. The crate's own files, `lib.rs` and `main.rs`, are of no room.
+/// Whether a room may use a path of the crate. The crate's own files, `lib.rs`, `main.rs` and what they declare, are of no room.
 fn may_use(room: &str, used: &str) -> bool {
     let parts: Vec<&str> = used.split("::").collect();
-    if room_of(&parts) == room || ["lib", "main"].contains(&room) {
+    if room_of(&parts) == room || ["lib", "main", "internal", "model"].contains(&room) {
         return true;
     }
     let Some((_, allowed)) = ALLOWED.iter().find(|(name, _)| *name == room) else { return false };
@@ -108,153 +110,10 @@ fn may_use(room: &str, used: &str) -> bool {
 const DEVICE_WORDS: &[&str] = &["ash", "vk", "gpu_allocator", "unsafe"];
 const UNFINISHED: &[&str] = &["TODO", "FIXME", "XXX", "dbg!", "todo!", "unimplemented!"];
 
-/// The source with comments and the content of literals blanked, line by line as it was.
-fn code_of(text: &str) -> String {
-    let mut out = String::with_capacity(text.len());
-    let mut rest = text;
-    let blank =
-        |out: &mut String, part: &str| out.extend(part.chars().map(|c| if c == '\n' { c } else { ' ' }));
-    while let Some(c) = rest.chars().next() {
-        let length = if rest.starts_with("//") {
-            rest.find('\n').unwrap_or(rest.len())
-        } else if rest.starts_with("/*") {
-            rest.find("*/").map_or(rest.len(), |end| end + 2)
-        } else if let Some(hashes) = raw_string_hashes(rest, out.chars().last()) {
-            let close = format!("\"{}", "#".repeat(hashes));
-            let open = hashes + 2;
-            rest[open..].find(&close).map_or(rest.len(), |end| open + end + close.len())
-        } else if c == '"' {
-            quoted_length(rest, '"')
-        } else if c == '\'' && is_char_literal(rest) {
-            quoted_length(rest, '\'')
-        } else {
-            out.push(c);
-            rest = &rest[c.len_utf8()..];
-            continue;
-        };
-        blank(&mut out, &rest[..length]);
-        rest = &rest[length..];
-    }
-    out
-}
-
-fn raw_string_hashes(rest: &str, before: Option<char>) -> Option<usize> {
-    if before.is_some_and(is_word) {
-        return None;
-    }
-    let after = rest.strip_prefix('r')?;
-    let hashes = after.chars().take_while(|&c| c == '#').count();
-    after[hashes..].starts_with('"').then_some(hashes)
-}
-
-fn quoted_length(rest: &str, quote: char) -> usize {
-    let mut escaped = false;
-    for (i, c) in rest.char_indices().skip(1) {
-        match c {
-            _ if escaped => escaped = false,
-            '\\' => escaped = true,
-            _ if c == quote => return i + 1,
-            _ => {}
-        }
-    }
-    rest.len()
-}
-
-/// Not a lifetime: `'x'` or an escape.
-fn is_char_literal(rest: &str) -> bool {
-    let mut chars = rest.chars().skip(1);
-    match chars.next() {
-        Some('\\') => true,
-        Some(_) => chars.next() == Some('\''),
-        None => false,
-    }
-}
-
-fn is_word(c: char) -> bool {
-    c.is_alphanumeric() || c == '_'
-}
-
-/// Identifiers, `::`, braces and commas of blanked code, each with its line.
-fn tokens(code: &str) -> Vec<(usize, &str)> {
-    let mut found = Vec::new();
-    for (number, line) in code.lines().enumerate() {
-        let mut rest = line;
-        while let Some(c) = rest.chars().next() {
-            let length = if is_word(c) {
-                rest.find(|c| !is_word(c)).unwrap_or(rest.len())
-            } else if rest.starts_with("::") {
-                2
-            } else {
-                c.len_utf8()
-            };
-            if !c.is_whitespace() {
-                found.push((number + 1, &rest[..length]));
-            }
-            rest = &rest[length..];
-        }
-    }
-    found
-}
-
 /// The module that a file of `src` is: `src/a/b.rs` and `src/a/b/mod.rs` are `a::b`.
-fn module_of(path: &str) -> Vec<&str> {
+pub fn module_of(path: &str) -> Vec<&str> {
     let path = path.trim_start_matches("src/").trim_end_matches(".rs");
     path.split('/').filter(|part| *part != "mod").collect()
-}
-
-/// Paths into the crate, of up to three names, each with its line; also those of a grouped `use`, and those
-/// that climb by `super` from the module `of`.
-fn crate_paths(code: &str, of: &[&str]) -> Vec<(usize, String)> {
-    let tokens = tokens(code);
-    let word = |i: usize| tokens.get(i).map_or("", |t| t.1);
-    let path = |base: &[&str], i: usize| {
-        let mut parts = base.to_vec();
-        parts.push(word(i));
-        let mut at = i;
-        while parts.len() < 3 && word(at + 1) == "::" && word(at + 2).starts_with(is_word) {
-            at += 2;
-            parts.push(word(at));
-        }
-        (tokens[i].0, parts.join("::"))
-    };
-    let mut found = Vec::new();
-    let mut i = 0;
-    while i < tokens.len() {
-        let begins = i == 0 || word(i - 1) != "::";
-        let mut climbs = 0;
-        while begins && word(i + 2 * climbs) == "super" && word(i + 2 * climbs + 1) == "::" {
-            climbs += 1;
-        }
-        let base: &[&str] = match climbs {
-            0 if begins && word(i) == "crate" && word(i + 1) == "::" => &[],
-            0 => {
-                i += 1;
-                continue;
-            }
-            _ => &of[..of.len().saturating_sub(climbs)],
-        };
-        let first = i + 2 * climbs.max(1);
-        i = first;
-        if word(first) != "{" {
-            found.push(path(base, first));
-            continue;
-        }
-        let mut depth = 0;
-        for j in first..tokens.len() {
-            match word(j) {
-                "{" => depth += 1,
-                "}" => depth -= 1,
-                _ if depth == 1 && ["{", ","].contains(&word(j - 1)) && word(j) != "self" => {
-                    found.push(path(base, j));
-                }
-                _ => {}
-            }
-            if depth == 0 {
-                break;
-            }
-        }
-    }
-    found
 }
 
 /// What is wrong with one source file; `path` is relative to the folder of `src` and `glsl`.
@@ -284,37 +143,24 @@ fn violations(path: &str, text: &str) -> Vec<String> {
         }
         return found;
     }
-    let code = code_of(text);
+    let tokens = match tokens(text) {
+        Ok(tokens) => tokens,
+        Err(fault) => return vec![format!("{path}: {fault}")],
+    };
     let module = module_of(path);
     let room = room_of(&module);
     if room != "gpu" {
-        for (line, word) in tokens(&code).into_iter().filter(|(_, w)| DEVICE_WORDS.contains(w)) {
-            complain(line, format!("`{word}` outside `gpu`"));
+        for token in tokens.iter().filter(|t| DEVICE_WORDS.contains(&t.text.as_str())) {
+            complain(token.line, format!("`{}` outside `gpu`", token.text));
         }
     }
-    for (line, used) in crate_paths(&code, &module).into_iter().filter(|(_, used)| !may_use(&room, used)) {
+    for (line, used) in crate_paths(&tokens, &module).into_iter().filter(|(_, used)| !may_use(&room, used)) {
         complain(line, format!("{room} uses `{used}`"));
     }
-    for line in undocumented_unsafe(text, &code) {
+    for line in undocumented_unsafe(text, &tokens) {
         complain(line, "unsafe without // SAFETY:".into());
     }
     found
-}
-
-/// Lines with an unsafe block or impl whose statement has no `SAFETY:` comment on it or right above it.
-fn undocumented_unsafe(text: &str, code: &str) -> Vec<usize> {
-    let text: Vec<&str> = text.lines().collect();
-    let code: Vec<&str> = code.lines().collect();
-    let is_unsafe = |i: usize| {
-        let words: Vec<&str> = tokens(code[i]).iter().map(|t| t.1).collect();
-        let declares = |next: Option<&&str>| matches!(next, Some(&"fn" | &"extern"));
-        (0..words.len()).any(|w| words[w] == "unsafe" && !declares(words.get(w + 1)))
-    };
-    let documented = |i: usize| {
-        let above = (0..i).rev().take_while(|&j| !code[j].trim_end().ends_with([';', '}']));
-        std::iter::once(i).chain(above).any(|j| text[j].contains("SAFETY:"))
-    };
-    (0..code.len()).filter(|&i| is_unsafe(i) && !documented(i)).map(|i| i + 1).collect()
 }
 
 /// `src` and `glsl` beside the folder `data`; `None` where only binaries were carried.

@@ -68,7 +68,7 @@ fn the_default_source_of_texels_is_one_of_the_two() {
 }
 
 fn value(features: &Features, constant: &str) -> u32 {
-    let found = features.values.iter().find(|(name, _)| *name == constant);
+    let found = features.values.iter().find(|(known, _)| known.name() == constant);
     found.unwrap_or_else(|| panic!("no constant {constant}")).1
 }
 
@@ -91,7 +91,7 @@ fn a_ground_without_light_pays_for_nothing_else() {
     ] {
         assert_eq!(value(&features, absent), 0, "{absent}");
     }
-    for single in ["PLANES", "TEXTURES", "SAMPLERS", "MATERIALS", "MAPS"] {
+    for single in ["PLANES", "TEXTURES", "SAMPLERS", "MATERIALS", "UV_PROJECTIONS"] {
         assert_eq!(value(&features, single), 1, "{single}");
     }
     for mode in [

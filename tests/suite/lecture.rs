@@ -9,7 +9,7 @@ use moire::internal::lab::probe::{self, RayQuery};
 use moire::internal::oracle::bsdf::mirror::mirrored;
 use moire::internal::oracle::camera::camera_ray;
 use moire::internal::oracle::mapping::{MapInput, texture_coordinate};
-use moire::internal::oracle::math::{atan_unit_f32, xyz};
+use moire::internal::oracle::math::atan_unit_f32;
 use moire::internal::pack::PackedScene;
 use moire::internal::render::{self, Tuning};
 use moire::internal::schema::layout::NO_SHAPE;
@@ -79,7 +79,7 @@ fn the_ground_plane_maps_by_its_orthonormal_basis() {
 [[plane]]\norigin = [0.0, 0.0, 0.0]\ntangent = [-1.0, 0.0, 0.0]\nbitangent = [0.0, 0.0, 1.0]\nmaterial = \"m\"\n"
     ));
     // tangent × bitangent = (−1,0,0) × (0,0,1) = (0·1 − 0·0, 0·0 − (−1)·1, 0) = (0, 1, 0).
-    assert_eq!(xyz(scene.planes[0].normal), DVec3::Y);
+    assert_eq!(scene.planes[0].normal, DVec3::Y);
     assert_mapped(
         &scene,
         |_| DVec3::NEG_Y,
@@ -237,7 +237,7 @@ fn parallel_camera_rays() {
 fn assert_radiance(what: &str, text: &str, by_hand: DVec3) {
     let scene = packed(text);
     let mut films: Vec<(&str, Film)> =
-        vec![("oracle", moire::internal::oracle::render::render(&scene, &NoProgress).unwrap())];
+        vec![("oracle", moire::internal::oracle::backend::render(&scene, &NoProgress).unwrap())];
     for (name, keep_everything) in [("device", false), ("device, everything kept", true)] {
         let film = render::render(&gpu(), scene.clone(), keep_everything, &Tuning::default(), &NoProgress)
             .unwrap()

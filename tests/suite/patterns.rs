@@ -29,8 +29,11 @@ const SCATTERED: [Pattern; 7] = [
 
 fn header(pattern: Pattern, samples: u32, shared: bool, seed: u32) -> Header {
     Header {
-        sampling: [pattern as u32, pattern.strata_side(samples), samples, seed],
-        key: [u32::from(shared), 0, 0, 0],
+        pattern,
+        strata_side: pattern.strata_side(samples),
+        samples,
+        seed,
+        shares_pattern: shared,
         ..Default::default()
     }
 }

@@ -8,7 +8,6 @@ use moire::internal::oracle::camera::Ray;
 use moire::internal::oracle::geometry::rays::hit_surface;
 use moire::internal::oracle::geometry::rays::{Hit, nearest_hit, occluded};
 use moire::internal::oracle::mapping::{MapInput, texture_coordinate};
-use moire::internal::oracle::math::xyz;
 use moire::internal::pack::{MapKind, PackedScene};
 use moire::internal::schema::layout::NO_SHAPE;
 
@@ -41,8 +40,9 @@ impl Tally {
     fn add(&mut self, scene: &PackedScene, query: &RayQuery, answer: &RayAnswer) {
         let ray = ray_of(query);
         let hit = nearest_hit(scene, &ray, NO_SHAPE);
-        let estimates: Vec<Estimate> =
-            (0..scene.header.counts[..3].iter().sum()).map(|s| estimate(scene, s, &ray)).collect();
+        let estimates: Vec<Estimate> = (0..moire::internal::oracle::geometry::kinds::shape_count(scene))
+            .map(|s| estimate(scene, s, &ray))
+            .collect();
         self.rays += 1;
         self.hits += usize::from(hit.shape != NO_SHAPE);
         if let Some(what) = wrong_shape(&hit, answer, &estimates) {
@@ -129,11 +129,11 @@ fn wrong_uv(
     let expected = expected.at.truncate();
     let got = DVec2::new(answer.uv[0].into(), answer.uv[1].into());
     let rows = [map.x, map.y, map.z];
-    let steep = rows.iter().map(|r| xyz(*r).length()).fold(0.0, f64::max);
+    let steep = rows.iter().map(|r| r.truncate().length()).fold(0.0, f64::max);
     // Products and sums of a row, on top of the error of the point.
     let row_error = rows
         .iter()
-        .map(|r| 4.0 * U * ((xyz(*r) * surface.point).abs().element_sum() + r[3].abs()))
+        .map(|r| 4.0 * U * ((r.truncate() * surface.point).abs().element_sum() + r.w.abs()))
         .fold(0.0, f64::max)
         + steep * point_error;
     let kind = map.kind;
@@ -143,10 +143,10 @@ fn wrong_uv(
             let plane = &scene.planes[answer.shape as usize];
             // Products and sums of an axis, then of the matrix, on top of the error of the point.
             let own = [plane.axis_u, plane.axis_v].map(|axis| {
-                let size = (xyz(axis) * surface.point).abs().element_sum();
-                (size, 4.0 * U * size + xyz(axis).length() * point_error)
+                let size = (axis * surface.point).abs().element_sum();
+                (size, 4.0 * U * size + axis.length() * point_error)
             });
-            let m = map.matrix.map(|x| x.abs());
+            let m = [map.m00, map.m01, map.m10, map.m11].map(f64::abs);
             let offset = [0, 1].map(|i| map.offset[i].abs());
             let wide = [0, 1].map(|i| {
                 let (a, b) = (m[2 * i], m[2 * i + 1]);
@@ -159,7 +159,7 @@ fn wrong_uv(
             unreachable!("these rays meet 2d textures of other kinds")
         }
         MapKind::Cylindrical | MapKind::Spherical => {
-            let at = rows.map(|r| xyz(r).dot(surface.point) + r[3]);
+            let at = rows.map(|r| r.truncate().dot(surface.point) + r.w);
             let across = at[0].hypot(at[2]);
             // The angle by an error across the axis; 2e-7 for the polynomial and its steps.
             let angle = (row_error / across).min(1.0) + 2e-7;
@@ -167,7 +167,7 @@ fn wrong_uv(
                 MapKind::Cylindrical => (DVec2::new(angle, row_error), DVec2::X),
                 _ => (DVec2::new(row_error / across.hypot(at[1]) + 2e-7, angle), DVec2::Y),
             };
-            let m = map.matrix.map(f64::from);
+            let m = [map.m00, map.m01, map.m10, map.m11];
             let times = |v: DVec2| DVec2::new(m[0] * v.x + m[1] * v.y, m[2] * v.x + m[3] * v.y);
             let wide =
                 DVec2::new(m[0].abs() * own.x + m[1].abs() * own.y, m[2].abs() * own.x + m[3].abs() * own.y);

@@ -145,7 +145,7 @@ pub fn render(scene: &PackedScene) -> Film {
 }
 
 pub fn render_on_oracle(scene: &PackedScene) -> Film {
-    oracle::render::render(scene, &NoProgress).unwrap()
+    oracle::backend::render(scene, &NoProgress).unwrap()
 }
 
 /// The pixels of `crop`, as rendering with that crop would give them.

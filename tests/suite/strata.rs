@@ -18,11 +18,8 @@ fn log2_ceil(side: u32) -> u32 {
 }
 
 fn scene(pattern: Pattern, side: u32, shared: bool, seed: u32, samples: u32) -> PackedScene {
-    let header = Header {
-        sampling: [pattern as u32, side, samples, seed],
-        key: [u32::from(shared), 0, 0, 0],
-        ..Default::default()
-    };
+    let header =
+        Header { pattern, strata_side: side, samples, seed, shares_pattern: shared, ..Default::default() };
     PackedScene { header, samples, ..Default::default() }
 }
 

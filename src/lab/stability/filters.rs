@@ -11,7 +11,7 @@ use crate::core::error::Result;
 use crate::core::progress::NoProgress;
 use crate::lab::probe::{LookupProbe, LookupQuery};
 use crate::lab::verify::queries::Rng;
-use crate::oracle::render::render as oracle_render;
+use crate::oracle::backend::render as oracle_render;
 use crate::pack::{self, PackedScene};
 use crate::render::{Tuning, render};
 use crate::scene::parse;

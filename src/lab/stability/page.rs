@@ -8,8 +8,7 @@ use super::report::{Row, StabilityReport, Verdict};
 use super::text::{number, place, summary, swept};
 use crate::core::error::{Error, Result};
 use crate::lab::plot::chart::{Chart, Series};
-use crate::lab::plot::html::{Header, document, long_table, scroll, section, table};
-use crate::lab::plot::svg::escape;
+use crate::lab::plot::html::{Header, Html, document, html, long_table, scroll, section, table};
 use crate::output;
 
 /// The file that is written first.
@@ -35,18 +34,18 @@ pub fn html(report: &StabilityReport) -> String {
     }
     let of_group = |group: &str| {
         let rows = report.rows.iter().filter(|r| r.group == group);
-        section(group, &escape(&capital(group)), &rows.map(case).collect::<String>())
+        section(group, &capital(group), rows.map(case).collect())
     };
-    let sections: String = groups.iter().map(|g| of_group(g)).collect();
+    let sections: Html = groups.iter().map(|g| of_group(g)).collect();
     let facts = format!(
         "{} ({}), Vulkan {}, moire {}",
-        escape(&report.device),
-        escape(&report.driver),
-        escape(&report.api_version),
+        report.device,
+        report.driver,
+        report.api_version,
         env!("CARGO_PKG_VERSION")
     );
     let header =
-        Header { title: "Extreme cases", facts: &facts, lead: &summary(report), more: &overview(report) };
+        Header { title: "Extreme cases", facts: &facts, lead: &summary(report), more: overview(report) };
     document(&header, &sections, "")
 }
 
@@ -59,44 +58,51 @@ fn id(row: &Row) -> String {
     format!("{}-{}", row.group, row.name)
 }
 
-fn verdict(row: &Row) -> String {
+fn verdict(row: &Row) -> Html {
     let name = row.verdict.name();
-    if row.verdict == Verdict::Broken { format!("<span class=\"broken\">{name}</span>") } else { name.into() }
+    if row.verdict == Verdict::Broken {
+        html!("<span class=\"broken\">{}</span>", name)
+    } else {
+        html!("{}", name)
+    }
 }
 
-fn overview(report: &StabilityReport) -> String {
+fn overview(report: &StabilityReport) -> Html {
     let line = |row: &Row| {
         vec![
-            format!("<a href=\"#{}\">{}</a>", id(row), escape(&row.label())),
-            escape(&swept(row)),
-            escape(&format!("{} {}", number(row.worst.error), row.unit)),
-            number(row.bound),
-            escape(&place(row)),
+            html!("<a href=\"#{}\">{}</a>", id(row), row.label()),
+            html!("{}", swept(row)),
+            html!("{} {}", number(row.worst.error), row.unit),
+            html!("{}", number(row.bound)),
+            html!("{}", place(row)),
             verdict(row),
         ]
     };
-    let rows: Vec<Vec<String>> = report.rows.iter().map(line).collect();
+    let rows: Vec<Vec<Html>> = report.rows.iter().map(line).collect();
     table("All cases", &["case", "parameter", "worst error", "bound", "reached at", "verdict"], &rows)
 }
 
-fn case(row: &Row) -> String {
+fn case(row: &Row) -> Html {
     let label = row.label();
-    let points = row.points.iter().map(|p| vec![number(p.parameter), number(p.error), escape(&p.place)]);
-    let rows: Vec<Vec<String>> = points.collect();
+    let points = row.points.iter();
+    let points = points
+        .map(|p| vec![html!("{}", number(p.parameter)), html!("{}", number(p.error)), html!("{}", p.place)]);
+    let rows: Vec<Vec<Html>> = points.collect();
     let what = if row.points.is_empty() {
-        format!("<p>{}</p>\n", escape(&row.worst.place))
+        html!("<p>{}</p>\n", row.worst.place)
     } else {
-        scroll(&format!("Error of {label}"), &chart(row))
-            + &long_table(&format!("Points of {label}"), &[row.parameter, row.unit, "reached at"], &rows)
+        scroll(&format!("Error of {label}"), Html::trusted(chart(row)))
+            + long_table(&format!("Points of {label}"), &[row.parameter, row.unit, "reached at"], &rows)
     };
-    format!(
-        "<h3 id=\"{}\">{}: {}</h3>\n<p>Bound {} {}: {}</p>\n{what}",
+    html!(
+        "<h3 id=\"{}\">{}: {}</h3>\n<p>Bound {} {}: {}</p>\n{}",
         id(row),
-        escape(row.name),
+        row.name,
         verdict(row),
         number(row.bound),
-        escape(row.unit),
-        escape(row.reason)
+        row.unit,
+        row.reason,
+        what
     )
 }
 

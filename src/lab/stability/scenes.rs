@@ -42,7 +42,7 @@ pub fn on_device(bench: &Bench<'_>, scene: &PackedScene) -> Result<Film> {
 
 pub fn in_oracle(bench: &Bench<'_>, scene: &PackedScene) -> Result<Film> {
     bench.check_cancelled()?;
-    oracle::render::render(scene, bench.progress)
+    oracle::backend::render(scene, bench.progress)
 }
 
 /// Returns float texels of three channels and an alpha of 1, with `value` as a function of the

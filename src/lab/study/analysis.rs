@@ -2,12 +2,13 @@
 //! method's variance over its rays with 95 % intervals, the winner of each time budget and the
 //! recommended point (`choice.rs`), the time to each error, and a summary.
 
-use serde::Serialize;
-
+use super::advice::advice;
 use super::bootstrap::interval;
-pub use super::choice::{SampleDimension, Winner, recommended, winners};
-use super::format::advice;
+pub use super::choice::{recommended, winners};
+use super::fit::{Line, least_squares};
+pub use super::fit::{median, time_to};
 use super::record::{PointRecord, Record};
+pub use super::results::{Analysis, MethodSlope, Reach, SampleDimension, Slope};
 use super::student;
 use crate::lab::plot::axis::steps;
 
@@ -16,44 +17,6 @@ use crate::lab::plot::axis::steps;
 const FLOOR_MARGIN: f64 = 3.0;
 /// The smallest number of points that define a slope.
 const MIN_SLOPE_POINTS: usize = 3;
-
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Analysis {
-    pub recommendation: String,
-    /// The recommended point, absent if nothing was measured.
-    pub recommended: Option<SampleDimension>,
-    pub slopes: Vec<MethodSlope>,
-    pub winners: Vec<Winner>,
-    pub reach: Reach,
-}
-
-/// The slope of log MSE over log rays, fitted by least squares.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Slope {
-    pub value: f64,
-    /// Half of the 95 % interval (Student's t); absent if there are too few points for a residual.
-    pub half_width: Option<f64>,
-    pub points: usize,
-}
-
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct MethodSlope {
-    pub method: String,
-    pub fitted: Option<Slope>,
-    /// The 95 % interval of the slopes over bootstrap samples of pixel blocks: the uncertainty due
-    /// to noise, whether or not the points lie on a line.
-    pub interval: Option<[f64; 2]>,
-    /// The slopes that theory predicts for the variance, steepest last; empty if there is no law.
-    pub theory: Vec<f64>,
-    pub theory_text: String,
-}
-
-/// Seconds to each error, by method; absent if no measured point is as good.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
-pub struct Reach {
-    pub errors: Vec<f64>,
-    pub methods: Vec<(String, Vec<Option<f64>>)>,
-}
 
 pub fn analyse(record: &Record) -> Analysis {
     let floor = record.reference.rmse.unwrap_or(0.0);
@@ -122,35 +85,6 @@ fn noise_interval(points: &[&PointRecord], floor: f64) -> Option<[f64; 2]> {
     interval(&points, 0.95)
 }
 
-pub(super) struct Line {
-    pub value: f64,
-    /// The residual sum of squares.
-    residual: f64,
-    sxx: f64,
-}
-
-/// Fits a straight line through (x, y) with at least two different x.
-pub(super) fn least_squares(points: &[(f64, f64)]) -> Line {
-    let n = points.len() as f64;
-    let mean = |f: fn(&(f64, f64)) -> f64| points.iter().map(f).sum::<f64>() / n;
-    let (x, y) = (mean(|p| p.0), mean(|p| p.1));
-    let sxx: f64 = points.iter().map(|p| (p.0 - x).powi(2)).sum();
-    let value = points.iter().map(|p| (p.0 - x) * (p.1 - y)).sum::<f64>() / sxx;
-    let residual = points.iter().map(|p| (p.1 - y - value * (p.0 - x)).powi(2)).sum();
-    Line { value, residual, sxx }
-}
-
-pub fn median(values: &[f64]) -> f64 {
-    let mut sorted = values.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    let middle = sorted.len() / 2;
-    match sorted.len() {
-        0 => f64::NAN,
-        n if n % 2 == 1 => sorted[middle],
-        _ => 0.5 * (sorted[middle - 1] + sorted[middle]),
-    }
-}
-
 fn reach(record: &Record) -> Reach {
     let errors = || record.points.iter().map(|p| p.errors.rmse).filter(|e| *e > 0.0 && e.is_finite());
     let mut levels = steps(errors().fold(f64::INFINITY, f64::min), errors().fold(0.0, f64::max));
@@ -161,17 +95,4 @@ fn reach(record: &Record) -> Reach {
         (m.name.clone(), levels.iter().map(|level| time_to(&curve, *level)).collect())
     };
     Reach { methods: record.methods.iter().map(times).collect(), errors: levels }
-}
-
-/// Returns the time at which a curve of (seconds, RMSE) first reaches `error`, interpolated
-/// linearly in the logarithms.
-pub fn time_to(curve: &[(f64, f64)], error: f64) -> Option<f64> {
-    let mut curve = curve.to_vec();
-    curve.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let after = curve.iter().position(|p| p.1 <= error)?;
-    let (b, Some(a)) = (curve[after], after.checked_sub(1).map(|i| curve[i])) else {
-        return Some(curve[after].0);
-    };
-    let share = (a.1 / error).ln() / (a.1 / b.1).ln();
-    Some(if b.1 > 0.0 { a.0 * (b.0 / a.0).powf(share) } else { b.0 })
 }

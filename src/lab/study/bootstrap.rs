@@ -3,7 +3,7 @@
 //! resample uses the same blocks at all numbers, so that correlations between them, such as shared
 //! first samples of one sequence, are preserved.
 
-use super::analysis::least_squares;
+use super::fit::least_squares;
 use crate::core::film::Film;
 use crate::oracle::rng::mix_bits;
 

@@ -1,53 +1,19 @@
 //! The choice of a point: the smallest error within each time, with the methods that are not
 //! significantly different; and one recommended point, which no other beats in both error and time.
 
-use serde::Serialize;
-
-use super::analysis::MethodSlope;
 use super::bootstrap::ratio;
-use super::format::samples_taken;
 use super::record::PointRecord;
+use super::results::{MethodSlope, SampleDimension, Winner};
+use super::format::samples_taken;
 use crate::lab::plot::axis::steps;
 
 /// The ratio above which errors differ significantly in any case.
 const SIGNIFICANT_RATIO: f64 = 2.0;
 
-/// The smallest error within a time budget.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Winner {
-    pub budget: f64,
-    pub method: String,
-    /// Other methods within the budget whose errors are not significantly different.
-    pub ties: Vec<String>,
-    pub spp: u32,
-    /// The samples per pixel as text.
-    pub taken: String,
-    pub seconds: f64,
-    pub rmse: f64,
-    /// True if the error is extrapolated along the slope beyond the method's longest point. Without
-    /// that, a slow method would win all the time in which nothing else was measured.
-    pub estimated: bool,
-}
-
-/// The recommended point.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct SampleDimension {
-    pub method: String,
-    pub spp: u32,
-    pub seconds: f64,
-    pub rmse: f64,
-}
-
 impl SampleDimension {
     pub fn of(point: &PointRecord) -> SampleDimension {
         let (method, seconds) = (point.method.clone(), point.median_seconds());
         SampleDimension { method, spp: point.spp, seconds, rmse: point.errors.rmse }
-    }
-}
-
-impl Winner {
-    pub fn is_or_ties(&self, method: &str) -> bool {
-        self.method == method || self.ties.iter().any(|tie| tie == method)
     }
 }
 
@@ -85,9 +51,7 @@ fn ties(point: &PointRecord, all: &[&PointRecord], budget: f64) -> Vec<String> {
     let shortest = |p: &PointRecord| p.seconds.iter().copied().fold(f64::INFINITY, f64::min);
     let fits = |p: &PointRecord| p.median_seconds() <= budget || shortest(p) <= longest;
     let mut methods: Vec<String> = Vec::new();
-    for other in
-        all.iter().filter(|p| p.method != point.method && fits(p) && not_significantly_different(p, point))
-    {
+    for other in all.iter().filter(|p| p.method != point.method && fits(p) && not_significantly_different(p, point)) {
         if !methods.contains(&other.method) {
             methods.push(other.method.clone());
         }

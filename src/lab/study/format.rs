@@ -1,53 +1,10 @@
-//! Text of the study: the sentence that recommends a setting, and the formats of times, errors and
-//! counts on the page.
+//! Numbers as words: how times, errors and counts are written in sentences and on the page.
 
-use super::analysis::time_to;
-use super::choice::{Winner, not_significantly_different, recommended};
 use super::method::Method;
-use super::record::{PointRecord, Record};
+use super::record::PointRecord;
+use super::results::Winner;
 use crate::core::counted::counted;
 use crate::scene::model::Algorithm;
-
-/// Returns the recommendation, and the better methods for less and for more time.
-pub fn advice(record: &Record, winners: &[Winner]) -> String {
-    let Some(best) = recommended(&record.points, winners) else {
-        return "Nothing was measured.".into();
-    };
-    let method = best.method.as_str();
-    let mut equals: Vec<&str> = Vec::new();
-    for point in record.points.iter().filter(|p| p.method != method && p.spp == best.spp) {
-        if not_significantly_different(point, best) && !equals.contains(&point.method.as_str()) {
-            equals.push(&point.method);
-        }
-    }
-    let equals = match equals.is_empty() {
-        true => String::new(),
-        false => format!(" ({} errs the same but for noise)", equals.join(" or ")),
-    };
-    let mut text = format!(
-        "Use {method} with {}{equals}: RMSE {} in {}",
-        samples_taken(best),
-        error(best.errors.rmse),
-        seconds(best.median_seconds())
-    );
-    if let Some(times) = saved(record, best) {
-        text += &format!(", {times} times as fast as random samples come to that error");
-    }
-    let mut others = Vec::new();
-    if let Some(first) = winners.first().filter(|w| !w.is_or_ties(method)) {
-        others.push(format!("if there is time for {} only, {}", seconds(first.budget), setting(first)));
-    }
-    if let Some(last) = winners.last().filter(|w| !w.is_or_ties(method)) {
-        others.push(format!("with {}, {}", seconds(last.budget), setting(last)));
-    }
-    others.iter().for_each(|other| text += &format!("; {other}"));
-    text + "."
-}
-
-fn setting(winner: &Winner) -> String {
-    let about = if winner.estimated { "about " } else { "" };
-    format!("{} with {} (RMSE {about}{})", names(winner), winner.taken, error(winner.rmse))
-}
 
 /// Returns the winning method, or all that tie.
 pub fn names(winner: &Winner) -> String {
@@ -77,25 +34,6 @@ pub fn samples_taken_by(algorithm: Algorithm, count: u32, sampled: Option<f64>) 
     }
 }
 
-/// Returns how many times as long random samples take to the same error.
-fn saved(record: &Record, best: &PointRecord) -> Option<String> {
-    let curve: Vec<(f64, f64)> =
-        record.points_of("random").map(|p| (p.median_seconds(), p.errors.rmse)).collect();
-    if best.method == "random" {
-        return None;
-    }
-    let (time, at_least) = match time_to(&curve, best.errors.rmse) {
-        Some(time) => (time, ""),
-        // Independent samples halve their error with four times the number.
-        None => {
-            let (time, rmse) = *curve.last()?;
-            (time * (rmse / best.errors.rmse).powi(2), "about ")
-        }
-    };
-    let ratio = time / best.median_seconds();
-    (ratio.is_finite() && ratio >= 1.05).then(|| format!("{at_least}{}", significant(ratio)))
-}
-
 pub fn samples(spp: u32) -> String {
     counted(spp, "sample")
 }
@@ -120,7 +58,7 @@ pub fn error(value: f64) -> String {
     format!("{value:.2e}").replace('-', "−")
 }
 
-fn significant(value: f64) -> String {
+pub(super) fn significant(value: f64) -> String {
     match value {
         v if v >= 99.5 => format!("{v:.0}"),
         v if v >= 9.95 => format!("{v:.1}"),

@@ -10,17 +10,17 @@ use crate::core::film::Film;
 use crate::core::progress::{Progress, SubProgress};
 use crate::lab::metrics::compare;
 use crate::lab::metrics::flip::PerceptualFeatures;
-use crate::render::{Prepared, Report};
+use crate::render::Prepared;
 use crate::scene::model::{Algorithm, Scene};
 
 use super::bootstrap::blocks;
 use super::identity::Hash;
 use super::limit::Limit;
+use super::session_cache::{SessionCache, sampled_part};
 use super::method::Method;
 use super::plan::{Forecast, Point};
 use super::record::{Errors, PointRecord, Record, Stages};
 use super::reference::Reference;
-use super::session_cache::SessionCache;
 use super::showcase::SAMPLES;
 use super::{Options, files, quote, quoted};
 use crate::core::counted::{counted, plural, verb};
@@ -236,17 +236,9 @@ impl<'a> Measurement<'a> {
     }
 }
 
-/// Returns, for beams, the fraction of the pixels that were sampled; 1 in a scene that does not
-/// support beams.
-pub fn sampled_part(algorithm: Algorithm, report: &Report, pixels: usize) -> Option<f64> {
-    let part = || report.sampled_pixels.map_or(1.0, |count| count as f64 / pixels as f64);
-    (algorithm == Algorithm::Beam).then(part)
-}
-
 fn judge(film: &Film, reference: &Reference) -> Result<Errors> {
     let comparison = compare(film, &reference.film)?;
-    let flip =
-        if comparison.nan_pixels > 0 { f64::NAN } else { PerceptualFeatures::of(film).mean(&reference.seen) };
+    let flip = if comparison.nan_pixels > 0 { f64::NAN } else { PerceptualFeatures::of(film).mean(&reference.seen) };
     Ok(Errors::new(&comparison, flip))
 }
 

@@ -1,19 +1,21 @@
-//! A study of error against time for one scene on one device. Takes a scene, the methods and sample
-//! counts to try, and a reference picture or the way to render one. Writes a folder with the measured
-//! points as CSV and JSON, plots as SVG, and one HTML page that recommends a setting.
+//! Error against time for one scene on one device. In: a scene, the methods and sample counts to try, a
+//! reference or how to make one. Out: a folder with the measured points as CSV and JSON, plots as SVG, and
+//! one HTML page that says which setting to use.
 //!
 //! ```text
 //! method ─ plan ─▶ measure (render, metrics) ─▶ record ─▶ analysis ─▶ plots · stages · page
 //!                     ▲ reference
 //! ```
 
+mod advice;
 pub mod analysis;
 pub mod bootstrap;
 pub mod choice;
 mod files;
-pub mod format;
+mod fit;
 mod identity;
 mod limit;
+mod session_cache;
 mod measure;
 pub mod method;
 mod page;
@@ -21,11 +23,12 @@ mod pictures;
 pub mod plan;
 pub mod record;
 mod reference;
-mod session_cache;
+pub mod results;
 mod showcase;
 mod stages;
 pub mod student;
 mod tables;
+pub mod format;
 
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -37,9 +40,9 @@ use crate::scene::model::Scene;
 use crate::texture;
 
 use limit::Limit;
+use session_cache::SessionCache;
 use method::Method;
 use record::{Conditions, Record};
-use session_cache::SessionCache;
 
 /// The options of a study.
 #[derive(Clone, Debug)]
@@ -87,8 +90,7 @@ pub fn run(gpu: &Gpu, scene: &Scene, options: &Options, progress: &dyn Progress)
     let kept = record::read(&options.out);
 
     let sessions = SessionCache::open(gpu, scene, textures, &methods)?;
-    let reference =
-        reference::obtain(&sessions, scene, options, &identity, kept.reference, &limit, progress)?;
+    let reference = reference::obtain(&sessions, scene, options, &identity, kept.reference, &limit, progress)?;
     record.reference = reference.record.clone();
     measure::Measurement {
         sessions: &sessions,
@@ -102,7 +104,7 @@ pub fn run(gpu: &Gpu, scene: &Scene, options: &Options, progress: &dyn Progress)
         progress,
     }
     .run(&mut record, kept.points)?;
-    record.analyse();
+    record.analysis = Some(analysis::analyse(&record));
     let showcase = showcase::render(&sessions, scene, &record, &reference.film, &limit, progress)?;
     record.notes.extend(showcase.note(&limit));
     record.notes.extend(limit.note());

@@ -1,17 +1,22 @@
 //! The study as one self-contained HTML page with style, script, plots and pictures embedded.
 
 use crate::core::error::Result;
-use crate::lab::plot::html::{Header, SCRIPT, code, document, scroll, section};
-use crate::lab::plot::svg::escape;
+use crate::lab::plot::html::{Header, Html, SCRIPT, code, document, html, scroll, section};
 use crate::output::Format;
 
 use super::choice::recommended;
-use super::files::Plots;
-use super::format::error;
-use super::pictures::{crop, data_uri, differences, downscaled, false_color, ramp_css, scale};
+use super::pictures::{crop, data_uri, differences, false_color, ramp_css, scale, downscaled};
 use super::record::Record;
 use super::showcase::Showcase;
 use super::tables;
+use super::format::error;
+
+/// The charts of the page, each as SVG.
+pub struct Plots {
+    pub time: String,
+    pub rays: String,
+    pub stages: String,
+}
 
 /// The largest width of a picture in the page.
 const MAX_WIDTH: u32 = 420;
@@ -20,64 +25,65 @@ pub fn html(record: &Record, showcase: &Showcase, plots: &Plots) -> Result<Strin
     let Some(analysis) = &record.analysis else { return Ok(String::new()) };
     let c = &record.conditions;
     let name = std::path::Path::new(&c.scene).file_stem().unwrap_or_default().to_string_lossy();
-    let title = format!("Error against time: {}", escape(&name));
+    let title = format!("Error against time: {name}");
     let facts = format!(
         "{}×{} pixels on {} ({}), {}",
-        c.size[0],
-        c.size[1],
-        escape(&c.device.name),
-        escape(&c.device.driver),
-        escape(&c.program)
+        c.size[0], c.size[1], c.device.name, c.device.driver, c.program
     );
     let best = recommended(&record.points, &analysis.winners).map(|point| point.command.as_str());
-    let command = best.map_or(String::new(), |c| scroll("The recommended setting as a command", &code(c)));
+    let command = best.map(|c| scroll("The recommended setting as a command", code(c)));
     let sections = [
-        section("faults", "Three faults and what helps", &faults(showcase)?),
+        section("faults", "Three faults and what helps", faults(showcase)?),
         section(
             "time",
             "Error against time",
-            &(plot("Error over time", &plots.time) + &tables::winners(analysis)),
+            plot("Error over time", &plots.time) + tables::winners(analysis),
         ),
         section(
             "rays",
             "Error against rays",
-            &(plot("Error over rays", &plots.rays) + &tables::slopes(analysis)),
+            plot("Error over rays", &plots.rays) + tables::slopes(analysis),
         ),
-        section("reach", "Time to reach an error", &tables::reach(analysis)),
-        section("stages", "Where the time goes", &plot("Time by stage", &plots.stages)),
-        section("differences", "Where the error is", &difference_pictures(showcase)?),
-        section("points", "Every point", &tables::points(record)),
-        section("conditions", "Conditions", &tables::conditions(record)),
+        section("reach", "Time to reach an error", tables::reach(analysis)),
+        section("stages", "Where the time goes", plot("Time by stage", &plots.stages)),
+        section("differences", "Where the error is", difference_pictures(showcase)?),
+        section("points", "Every point", tables::points(record)),
+        section("conditions", "Conditions", tables::conditions(record)),
     ];
-    let header =
-        Header { title: &title, facts: &facts, lead: &escape(&analysis.recommendation), more: &command };
-    Ok(document(&header, &sections.concat(), SCRIPT))
+    let header = Header {
+        title: &title,
+        facts: &facts,
+        lead: &analysis.recommendation,
+        more: command.unwrap_or_default(),
+    };
+    Ok(document(&header, &sections.into_iter().collect(), SCRIPT))
 }
 
-fn plot(label: &str, svg: &str) -> String {
-    scroll(label, svg)
+fn plot(label: &str, svg: &str) -> Html {
+    scroll(label, Html::trusted(svg))
 }
 
-fn image(uri: &str, size: [u32; 2], alt: &str, class: &str) -> String {
-    format!(
-        "<img src=\"{uri}\" width=\"{}\" height=\"{}\" alt=\"{}\" class=\"{class}\"/>",
+fn image(uri: &str, size: [u32; 2], alt: &str, class: &str) -> Html {
+    html!(
+        "<img src=\"{}\" width=\"{}\" height=\"{}\" alt=\"{}\" class=\"{}\"/>",
+        uri,
         size[0],
         size[1],
-        escape(alt)
+        alt,
+        class
     )
 }
 
-fn figure(picture: &str, heading: &str, text: &str) -> String {
-    format!("<figure>{picture}<figcaption><b>{heading}</b> {text}</figcaption></figure>\n")
+fn figure(picture: Html, heading: Html, text: Html) -> Html {
+    html!("<figure>{}<figcaption><b>{}</b> {}</figcaption></figure>\n", picture, heading, text)
 }
 
-fn faults(showcase: &Showcase) -> Result<String> {
+fn faults(showcase: &Showcase) -> Result<Html> {
     let w = showcase.window;
-    let mut figures = String::new();
     let whole = downscaled(&showcase.reference, MAX_WIDTH);
-    let percent = |part: u32, all: u32| 100.0 * f64::from(part) / f64::from(all.max(1));
-    let frame = format!(
-        "<span class=\"whole\">{}<span class=\"frame\" style=\"left:{:.2}%;top:{:.2}%;width:{:.2}%;height:{:.2}%\"></span></span>",
+    let percent = |part: u32, all: u32| format!("{:.2}", 100.0 * f64::from(part) / f64::from(all.max(1)));
+    let frame = html!(
+        "<span class=\"whole\">{}<span class=\"frame\" style=\"left:{}%;top:{}%;width:{}%;height:{}%\"></span></span>",
         image(
             &data_uri(&whole, Format::Jpeg)?,
             [whole.width, whole.height],
@@ -89,42 +95,44 @@ fn faults(showcase: &Showcase) -> Result<String> {
         percent(w.width, showcase.reference.width),
         percent(w.height, showcase.reference.height)
     );
-    figures += &figure(&frame, "The scene.", "The frame is where the pictures beside it differ most.");
+    let scene = "The frame is where the pictures beside it differ most.";
+    let mut figures = vec![figure(frame, html!("The scene."), html!("{}", scene))];
     for panel in &showcase.panels {
         let alt = format!(
             "{}: {} with {}, magnified part of the picture",
             panel.heading, panel.method, panel.taken
         );
         let part = data_uri(&crop(&panel.film, w), Format::Png)?;
-        let text = format!(
+        let text = html!(
             "<code>{}</code>, {}, RMSE {}. {}",
-            escape(&panel.method),
-            escape(&panel.taken),
+            panel.method,
+            panel.taken,
             error(panel.rmse),
-            escape(panel.text)
+            panel.text
         );
-        figures += &figure(
-            &image(&part, [w.width, w.height], &alt, "pixels"),
-            &format!("{}.", panel.heading),
-            &text,
-        );
+        let picture = image(&part, [w.width, w.height], &alt, "pixels");
+        figures.push(figure(picture, html!("{}.", panel.heading), text));
     }
     let part = data_uri(&crop(&showcase.reference, w), Format::Png)?;
     let alt = "The same part of the reference picture, magnified";
-    figures +=
-        &figure(&image(&part, [w.width, w.height], alt, "pixels"), "Reference.", "What all of them aim at.");
-    Ok(format!(
+    let picture = image(&part, [w.width, w.height], alt, "pixels");
+    figures.push(figure(picture, html!("Reference."), html!("What all of them aim at.")));
+    Ok(html!(
         "<p>{}×{} pixels from column {}, row {}, where the errors add up to most.</p>\n\
-         <div class=\"grid\">\n{figures}</div>\n",
-        w.width, w.height, w.x, w.y
+         <div class=\"grid\">\n{}</div>\n",
+        w.width,
+        w.height,
+        w.x,
+        w.y,
+        figures.into_iter().collect::<Html>()
     ))
 }
 
-fn difference_pictures(showcase: &Showcase) -> Result<String> {
+fn difference_pictures(showcase: &Showcase) -> Result<Html> {
     let values: Vec<Vec<f32>> =
         showcase.panels.iter().map(|p| differences(&p.film, &showcase.reference)).collect();
     let scale = scale(&values);
-    let mut figures = String::new();
+    let mut figures = Vec::new();
     for (panel, values) in showcase.panels.iter().zip(&values) {
         let picture = downscaled(&false_color(values, showcase.reference.width, scale), MAX_WIDTH);
         let alt = format!(
@@ -134,14 +142,15 @@ fn difference_pictures(showcase: &Showcase) -> Result<String> {
             error(f64::from(scale))
         );
         let picture = image(&data_uri(&picture, Format::Jpeg)?, [picture.width, picture.height], &alt, "");
-        let text = format!("{}, RMSE {}.", escape(&panel.taken), error(panel.rmse));
-        figures += &figure(&picture, &format!("<code>{}</code>", escape(&panel.method)), &text);
+        let text = html!("{}, RMSE {}.", panel.taken, error(panel.rmse));
+        figures.push(figure(picture, html!("<code>{}</code>", panel.method), text));
     }
-    Ok(format!(
+    Ok(html!(
         "<p>Absolute difference from the reference, mean of three channels, all on one scale.</p>\n\
          <p class=\"ramp\"><span>0</span><span class=\"bar\" style=\"background:{}\"></span><span>{} or more</span></p>\n\
-         <div class=\"grid\">\n{figures}</div>\n",
+         <div class=\"grid\">\n{}</div>\n",
         ramp_css(),
-        error(f64::from(scale))
+        error(f64::from(scale)),
+        figures.into_iter().collect::<Html>()
     ))
 }

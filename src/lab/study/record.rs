@@ -12,7 +12,8 @@ use crate::lab::metrics::Comparison;
 use crate::scene::model::Scene;
 
 use super::Options;
-use super::analysis::{self, Analysis};
+use super::fit::median;
+use super::results::Analysis;
 
 pub const FILE: &str = "study.json";
 
@@ -132,11 +133,11 @@ impl Errors {
 
 impl PointRecord {
     pub fn median_seconds(&self) -> f64 {
-        analysis::median(&self.seconds)
+        median(&self.seconds)
     }
 
     pub fn median_device_seconds(&self) -> f64 {
-        analysis::median(&self.device_seconds)
+        median(&self.device_seconds)
     }
 }
 
@@ -162,10 +163,6 @@ impl Record {
             points: Vec::new(),
             analysis: None,
         }
-    }
-
-    pub fn analyse(&mut self) {
-        self.analysis = Some(analysis::analyse(self));
     }
 
     /// Returns the measured points of a method, fewest samples first.

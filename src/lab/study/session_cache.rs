@@ -6,7 +6,7 @@ use std::time::Instant;
 use crate::core::error::{Error, Result};
 use crate::gpu::Gpu;
 use crate::pack;
-use crate::render::{MipChoice, Prepared, Session, Tuning};
+use crate::render::{MipChoice, Prepared, Report, Session, Tuning};
 use crate::scene::model::{Algorithm, Footprint, Scene};
 use crate::texture::data::TextureData;
 use crate::texture::sampler_spec::Filter;
@@ -78,4 +78,11 @@ fn key(method: &Method) -> Key {
         Algorithm::Samples | Algorithm::Adaptive | Algorithm::Auto => Algorithm::Samples,
     };
     (algorithm, method.footprint, method.filter)
+}
+
+/// Returns, for beams, the fraction of the pixels that were sampled; 1 in a scene that does not
+/// support beams.
+pub fn sampled_part(algorithm: Algorithm, report: &Report, pixels: usize) -> Option<f64> {
+    let part = || report.sampled_pixels.map_or(1.0, |count| count as f64 / pixels as f64);
+    (algorithm == Algorithm::Beam).then(part)
 }

@@ -175,7 +175,7 @@ pub fn pairs_over(
         spheres: Vec::new(),
         triangles: Vec::new(),
         dropped_triangles: 0,
-        first_dropped: 0,
+        first_dropped: String::new(),
         lights: Vec::new(),
     };
     pack::pack(&scene, textures, None)

@@ -1,4 +1,4 @@
-//! The kinds of shapes that a scene has, one file each: keys, defaults, checks, box and motion. What is not here goes over
+//! The kinds of shapes that a scene has, one file each: defaults, checks, box and motion. What is not here goes over
 //! `Scene::shapes` and knows no kind.
 
 mod plane;
@@ -7,26 +7,23 @@ mod triangle;
 
 use glam::DVec3;
 
+use super::limits::{COORDINATE, MAX_SHAPES};
 use super::model::{Material, Scene};
-use super::names::Names;
-use super::reader::COORDINATE;
-use super::table::Table;
-use crate::core::error::Result;
+use super::refusal::{Check, Key};
 
 pub use plane::Plane;
 pub use sphere::Sphere;
 pub use triangle::Triangle;
 
-/// All shapes together: devices test each of them for every ray.
-const MAX_SHAPES: usize = 65535;
-/// Words by which a person knows them, and the sections in which they stand.
+/// Words by which a person knows them.
 const KINDS: &str = "planes, spheres and triangles";
-const SECTIONS: [&str; 3] = ["plane", "sphere", "triangle"];
 
 /// An axis-aligned box.
 #[derive(Clone, Copy, Debug)]
 pub struct Bounds {
+    /// Its least coordinates.
     pub min: DVec3,
+    /// Its greatest coordinates.
     pub max: DVec3,
 }
 
@@ -34,6 +31,7 @@ pub struct Bounds {
 pub trait Shape {
     /// Index into `Scene::materials`.
     fn material(&self) -> usize;
+    /// The same, to change it.
     fn material_mut(&mut self) -> &mut usize;
 
     /// How far it moves between the times 0 and 1.
@@ -57,6 +55,7 @@ impl Scene {
         planes.chain(spheres).chain(self.triangles.iter().map(|s| s as &dyn Shape))
     }
 
+    /// The same, to change them.
     pub fn shapes_mut(&mut self) -> impl Iterator<Item = &mut dyn Shape> {
         let planes = self.planes.iter_mut().map(|s| s as &mut dyn Shape);
         let spheres = self.spheres.iter_mut().map(|s| s as &mut dyn Shape);
@@ -64,55 +63,64 @@ impl Scene {
     }
 }
 
-/// The shapes of a scene file.
-pub(super) struct Shapes {
-    pub planes: Vec<Plane>,
-    pub spheres: Vec<Sphere>,
-    pub triangles: Vec<Triangle>,
-    pub dropped_triangles: usize,
-    pub first_dropped: usize,
-    /// Some shape has the material behind the last that the file names.
-    pub use_fallback: bool,
+/// A kind of shape: what a builder knows of it.
+pub trait Kind: Shape + Sized {
+    /// What such a shape is called, in scene files and messages.
+    const SECTION: &str;
+
+    /// Those that a scene has.
+    fn list(scene: &Scene) -> &Vec<Self>;
+
+    /// The same, to add to.
+    fn list_mut(scene: &mut Scene) -> &mut Vec<Self>;
 }
 
-/// Which material a shape has; `fallback` is where the default one stands or will stand.
-pub(super) struct MaterialIndex<'n, 'a> {
-    pub names: &'n Names<'a>,
-    pub fallback: usize,
+/// What the builder checks of a kind.
+pub(super) trait Checked: Kind {
+    /// Refuses a shape that is degenerate, or that its material does not suit.
+    fn check(&self, key: Key, material: &Material) -> Check;
 }
 
-impl MaterialIndex<'_, '_> {
-    fn of(&self, table: &Table<'_>) -> Result<usize> {
-        table.get("material").map_or(Ok(self.fallback), |field| self.names.resolve(field))
-    }
+/// Adds a shape. Returns its key where it is the first of too many.
+pub(super) fn add<K: Kind>(scene: &mut Scene, shape: K) -> Option<Key> {
+    let list = K::list_mut(scene);
+    list.push(shape);
+    let item = list.len() - 1;
+    (count(scene) == MAX_SHAPES + 1).then(|| Key::item(K::SECTION, item))
 }
 
-fn motion(table: &Table<'_>) -> Result<DVec3> {
-    table.get("motion").map_or(Ok(DVec3::ZERO), |field| field.vec3(&COORDINATE))
+fn count(scene: &Scene) -> usize {
+    scene.planes.len() + scene.spheres.len() + scene.triangles.len()
 }
 
-/// Refuses a file with too many shapes.
-pub(super) fn check_count(root: &Table<'_>) -> Result<()> {
-    root.check_counts(KINDS, MAX_SHAPES, &SECTIONS)
+/// Refuses more shapes than a scene may have; `over` is the first of them.
+pub(super) fn check_count(scene: &Scene, over: Option<Key>) -> Check {
+    let Some(key) = over else { return Ok(()) };
+    let count = count(scene);
+    key.refuse(format!("{count} {KINDS}; a scene may have {MAX_SHAPES} at most"), "one too many")
 }
 
-pub(super) fn read(
-    root: &Table<'_>,
-    index: &MaterialIndex<'_, '_>,
-    materials: &[Material],
-) -> Result<Shapes> {
-    let tables = root.repeated("plane", plane::KEYS)?;
-    let planes = tables.iter().map(|t| plane::read(t, index, materials)).collect::<Result<Vec<_>>>()?;
-    let tables = root.repeated("sphere", sphere::KEYS)?;
-    let spheres = tables.iter().map(|t| sphere::read(t, index)).collect::<Result<Vec<_>>>()?;
-    let tables = root.repeated("triangle", triangle::KEYS)?;
-    let read = tables.iter().map(|t| triangle::read(t, index)).collect::<Result<Vec<_>>>()?;
-    let first_dropped = read.iter().position(Option::is_none).map_or(0, |i| tables[i].line());
-    let triangles: Vec<Triangle> = read.into_iter().flatten().collect();
-    let dropped_triangles = tables.len() - triangles.len();
-    let fallback = index.fallback;
-    let use_fallback = planes.iter().any(|s| s.material == fallback)
-        || spheres.iter().any(|s| s.material == fallback)
-        || triangles.iter().any(|s| s.material == fallback);
-    Ok(Shapes { planes, spheres, triangles, dropped_triangles, first_dropped, use_fallback })
+/// Checks every shape.
+pub(super) fn check(scene: &Scene) -> Check {
+    check_kind::<Plane>(scene)?;
+    check_kind::<Sphere>(scene)?;
+    check_kind::<Triangle>(scene)
+}
+
+fn check_kind<K: Checked>(scene: &Scene) -> Check {
+    K::list(scene).iter().enumerate().try_for_each(|(item, shape)| {
+        let key = Key::item(K::SECTION, item);
+        key.of("material").index(shape.material(), scene.materials.len(), "material")?;
+        key.of("motion").vector(shape.motion(), &COORDINATE)?;
+        shape.check(key, &scene.materials[shape.material()])
+    })
+}
+
+/// Leaves out shapes that no ray meets. Returns which triangle was the first.
+pub(super) fn drop_empty(scene: &mut Scene) -> Option<usize> {
+    let all = scene.triangles.len();
+    let first = scene.triangles.iter().position(Triangle::is_empty);
+    scene.triangles.retain(|triangle| !triangle.is_empty());
+    scene.dropped_triangles = all - scene.triangles.len();
+    first
 }

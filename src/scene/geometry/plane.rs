@@ -2,27 +2,40 @@
 
 use glam::DVec3;
 
-use super::{Bounds, MaterialIndex, Shape, motion};
-use crate::core::error::Result;
-use crate::scene::model::{Material, Space};
-use crate::scene::reader::{COORDINATE, LENGTH};
-use crate::scene::source::quoted;
-use crate::scene::table::Table;
-use crate::scene::validate::parallel;
+use super::{Bounds, Checked, Kind, Shape};
+use crate::scene::builder::DEFAULT;
+use crate::scene::limits::{COORDINATE, LENGTH, parallel};
+use crate::scene::model::{Material, Scene, Space};
+use crate::scene::refusal::{Check, Key};
 
-pub(in crate::scene) const KEYS: &[&str] =
-    &["origin", "tangent", "bitangent", "half_extent", "material", "motion"];
-
+/// A plane, or a parallelogram of it.
 #[derive(Clone, Copy, Debug)]
 pub struct Plane {
+    /// Where u and v are 0.
     pub origin: DVec3,
+    /// From u = 0 to u = 1.
     pub tangent: DVec3,
+    /// From v = 0 to v = 1.
     pub bitangent: DVec3,
     /// Bounds |u| and |v|, measured in tangents and bitangents; infinite without.
     pub half_extent: Option<f64>,
+    /// Index of its material.
     pub material: usize,
     /// How far it moves between the times 0 and 1.
     pub motion: DVec3,
+}
+
+impl Plane {
+    /// Returns an infinite plane: u and v are 0 at the origin, and 1 at the ends of tangent and bitangent.
+    pub fn new(origin: impl Into<DVec3>, tangent: impl Into<DVec3>, bitangent: impl Into<DVec3>) -> Plane {
+        let (origin, tangent, bitangent) = (origin.into(), tangent.into(), bitangent.into());
+        Plane { origin, tangent, bitangent, half_extent: None, material: DEFAULT, motion: DVec3::ZERO }
+    }
+
+    /// Returns it with the material of this index.
+    pub fn with_material(self, material: usize) -> Plane {
+        Plane { material, ..self }
+    }
 }
 
 impl Shape for Plane {
@@ -53,39 +66,37 @@ impl Shape for Plane {
     }
 }
 
-pub(super) fn read(
-    table: &Table<'_>,
-    index: &MaterialIndex<'_, '_>,
-    materials: &[Material],
-) -> Result<Plane> {
-    let plane = plane(table, index)?;
-    materials.get(plane.material).map_or(Ok(()), |m| check_bounds(table, &plane, m))?;
-    Ok(plane)
+impl Kind for Plane {
+    const SECTION: &str = "plane";
+
+    fn list(scene: &Scene) -> &Vec<Self> {
+        &scene.planes
+    }
+
+    fn list_mut(scene: &mut Scene) -> &mut Vec<Self> {
+        &mut scene.planes
+    }
 }
 
-fn plane(table: &Table<'_>, materials: &MaterialIndex<'_, '_>) -> Result<Plane> {
-    let origin = table.required("origin")?.vec3(&COORDINATE)?;
-    let tangent = table.required("tangent")?.direction()?;
-    let bitangent_field = table.required("bitangent")?;
-    let bitangent = bitangent_field.direction()?;
-    if parallel(tangent, bitangent) {
-        let what = "tangent and bitangent are parallel and span no plane; turn one of them";
-        return Err(bitangent_field.error(what, "parallel to tangent"));
+impl Checked for Plane {
+    fn check(&self, key: Key, material: &Material) -> Check {
+        key.of("origin").vector(self.origin, &COORDINATE)?;
+        key.of("tangent").direction(self.tangent)?;
+        key.of("bitangent").direction(self.bitangent)?;
+        if parallel(self.tangent, self.bitangent) {
+            let what = "tangent and bitangent are parallel and span no plane; turn one of them";
+            return key.of("bitangent").refuse(what, "parallel to tangent");
+        }
+        self.half_extent.map_or(Ok(()), |extent| key.of("half_extent").number(extent, &LENGTH))?;
+        // A map in space "bounds" measures in the shape's box, which an infinite plane lacks.
+        if self.half_extent.is_some() || material.mapping.space != Space::Bounds {
+            return Ok(());
+        }
+        let what = format!(
+            "material \"{}\" maps in space \"bounds\", and an infinite plane has no bounds; set half_extent, or use \
+             space \"world\"",
+            material.name
+        );
+        key.of("half_extent").refuse(what, "infinite plane")
     }
-    let half_extent = table.get("half_extent").map(|field| field.number(&LENGTH)).transpose()?;
-    let (material, motion) = (materials.of(table)?, motion(table)?);
-    Ok(Plane { origin, tangent, bitangent, half_extent, material, motion })
-}
-
-/// A map in `space = "bounds"` measures in the shape's box, which an infinite plane lacks.
-fn check_bounds(table: &Table<'_>, plane: &Plane, material: &Material) -> Result<()> {
-    if plane.half_extent.is_some() || material.mapping.space != Space::Bounds {
-        return Ok(());
-    }
-    let what = format!(
-        "key \"plane.half_extent\" is missing in [[plane]]: material {} maps in space \"bounds\", and an \
-         infinite plane has no bounds; set half_extent, or use space \"world\"",
-        quoted(&material.name)
-    );
-    Err(table.error(&what, "infinite plane"))
 }

@@ -2,19 +2,35 @@
 
 use glam::DVec3;
 
-use super::{Bounds, MaterialIndex, Shape, motion};
-use crate::core::error::Result;
-use crate::scene::reader::{COORDINATE, LENGTH};
-use crate::scene::table::Table;
+use super::{Bounds, Checked, Kind, Shape};
+use crate::scene::builder::DEFAULT;
+use crate::scene::limits::{COORDINATE, LENGTH};
+use crate::scene::model::{Material, Scene};
+use crate::scene::refusal::{Check, Key};
 
-pub(in crate::scene) const KEYS: &[&str] = &["center", "radius", "material", "motion"];
-
+/// A sphere.
 #[derive(Clone, Copy, Debug)]
 pub struct Sphere {
+    /// Its middle.
     pub center: DVec3,
+    /// In scene units.
     pub radius: f64,
+    /// Index of its material.
     pub material: usize,
+    /// How far it moves between the times 0 and 1.
     pub motion: DVec3,
+}
+
+impl Sphere {
+    /// Returns a sphere.
+    pub fn new(center: impl Into<DVec3>, radius: f64) -> Sphere {
+        Sphere { center: center.into(), radius, material: DEFAULT, motion: DVec3::ZERO }
+    }
+
+    /// Returns it with the material of this index.
+    pub fn with_material(self, material: usize) -> Sphere {
+        Sphere { material, ..self }
+    }
 }
 
 impl Shape for Sphere {
@@ -45,8 +61,21 @@ impl Shape for Sphere {
     }
 }
 
-pub(super) fn read(table: &Table<'_>, materials: &MaterialIndex<'_, '_>) -> Result<Sphere> {
-    let center = table.required("center")?.vec3(&COORDINATE)?;
-    let radius = table.required("radius")?.number(&LENGTH)?;
-    Ok(Sphere { center, radius, material: materials.of(table)?, motion: motion(table)? })
+impl Kind for Sphere {
+    const SECTION: &str = "sphere";
+
+    fn list(scene: &Scene) -> &Vec<Self> {
+        &scene.spheres
+    }
+
+    fn list_mut(scene: &mut Scene) -> &mut Vec<Self> {
+        &mut scene.spheres
+    }
+}
+
+impl Checked for Sphere {
+    fn check(&self, key: Key, _material: &Material) -> Check {
+        key.of("center").vector(self.center, &COORDINATE)?;
+        key.of("radius").number(self.radius, &LENGTH)
+    }
 }

@@ -2,22 +2,44 @@
 
 use glam::{DVec2, DVec3};
 
-use super::{Bounds, MaterialIndex, Shape, motion};
-use crate::core::error::Result;
-use crate::scene::reader::{COORDINATE, Field};
-use crate::scene::table::Table;
-use crate::scene::validate::collinear;
+use super::{Bounds, Checked, Kind, Shape};
+use crate::scene::builder::DEFAULT;
+use crate::scene::limits::{COORDINATE, collinear};
+use crate::scene::model::{Material, Scene};
+use crate::scene::refusal::{Check, Key};
 
-pub(in crate::scene) const KEYS: &[&str] = &["vertices", "uvs", "normals", "material", "motion"];
-
+/// A triangle.
 #[derive(Clone, Copy, Debug)]
 pub struct Triangle {
+    /// Its corners; counter-clockwise as seen from its front.
     pub vertices: [DVec3; 3],
+    /// Their texture coordinates.
     pub uvs: [DVec2; 3],
     /// Shading normals (any length, not zero); the geometric normal without.
     pub normals: Option<[DVec3; 3]>,
+    /// Index of its material.
     pub material: usize,
+    /// How far it moves between the times 0 and 1.
     pub motion: DVec3,
+}
+
+impl Triangle {
+    /// Returns a flat triangle whose corners have the texture coordinates (0, 0), (1, 0) and (0, 1).
+    pub fn new(vertices: [impl Into<DVec3>; 3]) -> Triangle {
+        let uvs = [DVec2::ZERO, DVec2::X, DVec2::Y];
+        let vertices = vertices.map(Into::into);
+        Triangle { vertices, uvs, normals: None, material: DEFAULT, motion: DVec3::ZERO }
+    }
+
+    /// Returns whether its vertices lie on one line: meshes have such triangles, and no ray meets them.
+    pub fn is_empty(&self) -> bool {
+        collinear(self.vertices)
+    }
+
+    /// Returns it with the material of this index.
+    pub fn with_material(self, material: usize) -> Triangle {
+        Triangle { material, ..self }
+    }
 }
 
 impl Shape for Triangle {
@@ -48,21 +70,27 @@ impl Shape for Triangle {
     }
 }
 
-/// None where the vertices lie on one line: meshes have such triangles, and no ray meets them.
-pub(super) fn read(table: &Table<'_>, materials: &MaterialIndex<'_, '_>) -> Result<Option<Triangle>> {
-    let field = table.required("vertices")?;
-    let vertices =
-        field.array("3 vertices of 3 finite numbers each", [DVec3::ZERO; 3], |f| f.vec3(&COORDINATE))?;
-    let mut uvs = [DVec2::ZERO, DVec2::X, DVec2::Y];
-    if let Some(field) = table.get("uvs") {
-        let wanted = "3 texture coordinates of 2 finite numbers each";
-        uvs = field.array(wanted, uvs, |f| f.vec2(&COORDINATE))?;
+impl Kind for Triangle {
+    const SECTION: &str = "triangle";
+
+    fn list(scene: &Scene) -> &Vec<Self> {
+        &scene.triangles
     }
-    let normals = table
-        .get("normals")
-        .map(|field| field.array("3 normals of 3 finite numbers each", [DVec3::Z; 3], Field::direction))
-        .transpose()?;
-    let triangle =
-        Triangle { vertices, uvs, normals, material: materials.of(table)?, motion: motion(table)? };
-    Ok((!collinear(vertices)).then_some(triangle))
+
+    fn list_mut(scene: &mut Scene) -> &mut Vec<Self> {
+        &mut scene.triangles
+    }
+}
+
+impl Checked for Triangle {
+    fn check(&self, key: Key, _material: &Material) -> Check {
+        for (i, vertex) in self.vertices.iter().enumerate() {
+            key.of("vertices").at(i).vector(*vertex, &COORDINATE)?;
+        }
+        for (i, uv) in self.uvs.iter().enumerate() {
+            key.of("uvs").at(i).numbers(uv.to_array(), &COORDINATE)?;
+        }
+        let normals = self.normals.iter().flatten().enumerate();
+        normals.map(|(i, normal)| key.of("normals").at(i).direction(*normal)).collect()
+    }
 }

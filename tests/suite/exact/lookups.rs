@@ -151,7 +151,11 @@ fn planted_errors_of_look_ups_are_told() {
     compare(|scene, s, at| read(scene, s, DVec3::new(at.y, at.x, at.z))).fails("swapped axes");
     let other = |scene: &PackedScene, s: usize, at| {
         let mut scene = scene.clone();
-        scene.samplers[s].modes[3] ^= 1;
+        let center = &mut scene.samplers[s].texel_center;
+        *center = match *center {
+            TexelCenter::Half => TexelCenter::Integer,
+            TexelCenter::Integer => TexelCenter::Half,
+        };
         read(&scene, s, at)
     };
     compare(other).fails("the other texel centre");

@@ -93,7 +93,7 @@ impl Case {
             self.rotate,
             pair(self.offset)
         );
-        packed(&text).1.maps[0]
+        packed(&text).1.uv_projections[0]
     }
 
     fn local(&self, p: DVec3) -> V {
@@ -194,8 +194,7 @@ fn planted_errors_of_maps_are_told() {
     compare(with(|c| c.truncate().yx().extend(0.0))).fails("swapped axes");
     compare(with(|c| c + 1e-6)).fails("a millionth of a tile");
     compare(|map, seen| {
-        let turned =
-            UvProjection { matrix: [map.matrix[0], map.matrix[2], map.matrix[1], map.matrix[3]], ..*map };
+        let turned = UvProjection { m01: map.m10, m10: map.m01, ..*map };
         texture_coordinate(&turned, seen)
     })
     .fails("rotation the other way");

@@ -126,7 +126,7 @@ fn planted_errors_of_planes_are_told() {
     compare(shifted).fails("a trillionth more");
     // (x − origin)·tangent, which is right for unit orthogonal axes alone.
     let projected = |plane: &Plane, ray: &Ray| {
-        let across = DVec3::from_slice(&plane.axis_u[..3]).cross(DVec3::from_slice(&plane.normal[..3]));
+        let across = plane.axis_u.cross(plane.normal);
         let (t, local) = plane.distance_to(ray);
         (t, DVec2::new(local.x, across.normalize().dot(t * ray.direction)))
     };

@@ -118,7 +118,7 @@ fn spheres_far_tiny_and_grazed_are_met_where_they_are() {
 fn planted_errors_of_spheres_are_told() {
     // b² − a·c as the schoolbook has it: far spheres cancel.
     let schoolbook = |sphere: &Sphere, ray: &Ray| {
-        let f = ray.origin - DVec3::from_slice(&sphere.ball[..3]);
+        let f = ray.origin - sphere.center;
         let (a, b) = (ray.direction.length_squared(), -f.dot(ray.direction));
         let c = f.length_squared() - sphere.radius * sphere.radius;
         let discriminant = b * b - a * c;
@@ -132,8 +132,7 @@ fn planted_errors_of_spheres_are_told() {
     let longer = |sphere: &Sphere, ray: &Ray| sphere_distance(sphere, ray) * (1.0 + 1e-9);
     compare(longer).0.fails("a billionth more");
     let larger = |sphere: &Sphere, ray: &Ray| {
-        let [x, y, z, r] = sphere.ball;
-        sphere_distance(&Sphere { ball: [x, y, z, r * (1.0 + 1e-9)], ..*sphere }, ray)
+        sphere_distance(&Sphere { radius: sphere.radius * (1.0 + 1e-9), ..*sphere }, ray)
     };
     compare(larger).0.fails("a larger radius");
 }

@@ -12,6 +12,7 @@ use moire::internal::pack::{self, PackedScene};
 use moire::internal::scene::model::{Footprint, TextureSource};
 use moire::internal::scene::parse;
 use moire::internal::scene::prune::prune;
+use moire::internal::schema::layout::Texture;
 use moire::internal::texture::data::{ColorSpace, Dimension, TexelFormat, TextureData};
 use moire::internal::texture::sampler_spec::SamplerSpec;
 
@@ -35,9 +36,9 @@ pub fn pairs_of(
 
 /// Each texel of a grey float texture becomes the number of its level.
 pub fn paint_levels(scene: &mut PackedScene, texture: usize) {
-    let [first_word, _, _, format] = scene.textures[texture].place;
-    assert_eq!(format, TexelFormat::GreyFloat as u32);
-    for level in 0..scene.textures[texture].link[1] {
+    let Texture { first_word, format, levels, .. } = scene.textures[texture];
+    assert_eq!(format, TexelFormat::GreyFloat);
+    for level in 0..levels {
         let bytes = scene.level_texels(texture, level).len();
         let start = scene.level_word(first_word, level) as usize * 4;
         let texels = (level as f32).to_ne_bytes().repeat(bytes / 4);

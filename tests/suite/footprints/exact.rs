@@ -12,7 +12,6 @@ use moire::internal::oracle::geometry::hit::Surface;
 use moire::internal::oracle::geometry::rays::hit_surface;
 use moire::internal::oracle::geometry::rays::{nearest_hit, offset_origin};
 use moire::internal::oracle::mapping::texture_coordinate;
-use moire::internal::oracle::math::xyz;
 use moire::internal::oracle::shade::{advance, camera_path, map_input};
 use moire::internal::pack::{MapKind, PackedScene};
 use moire::internal::scene::model::Model;
@@ -88,7 +87,7 @@ fn exact_level(scene: &PackedScene, at: DVec2) -> Option<f64> {
             return None;
         }
         let mut d = a.2 - b.2;
-        let kind = MapKind::ALL[scene.uv_projections[here.1 as usize].link[0] as usize];
+        let kind = scene.uv_projections[here.1 as usize].kind;
         if matches!(kind, MapKind::Cylindrical | MapKind::Spherical) {
             d -= d.round();
         }
@@ -107,7 +106,7 @@ fn exact_level(scene: &PackedScene, at: DVec2) -> Option<f64> {
 
 /// (level read by the oracle's ray, exact one) of pixels all over the picture.
 fn levels(scene: &PackedScene) -> Vec<(f64, f64, DVec2)> {
-    let [width, height, ..] = scene.header.image;
+    let [width, height] = scene.header.image_size.to_array();
     let mut all = Vec::new();
     for pixel in (0..width * height).step_by(3).map(|i| [i % width, i / width]) {
         let at = DVec2::new(f64::from(pixel[0]) + 0.5, f64::from(pixel[1]) + 0.5);

@@ -84,7 +84,10 @@ fn planted_errors_of_look_ups_are_caught() {
                     caught(&bench, precision, |_, _, uv| DVec2::new(uv.x, 1.0 - uv.y)),
                 );
                 let mixed = caught(&bench, precision, |image, _, uv| {
-                    image.link[0] = 1 - image.link[0];
+                    image.color_space = match image.color_space {
+                        ColorSpace::Linear => ColorSpace::Srgb,
+                        ColorSpace::Srgb => ColorSpace::Linear,
+                    };
                     uv
                 });
                 assert_caught("colour space mixed up", mixed);
@@ -102,7 +105,7 @@ fn planted_address_modes_and_filters_are_caught() {
                 for &wrong in Address::ALL.iter().filter(|&&a| a != right) {
                     for axis in [0, 1] {
                         let share = caught(&bench, precision, |_, how, uv| {
-                            how.modes[axis] = wrong as u32;
+                            *[&mut how.address_u, &mut how.address_v][axis] = wrong;
                             uv
                         });
                         assert!(
@@ -113,7 +116,7 @@ fn planted_address_modes_and_filters_are_caught() {
                 }
                 for &wrong in filters(precision).iter().filter(|&&f| f != filter) {
                     let share = caught(&bench, precision, |_, how, uv| {
-                        how.modes[2] = wrong as u32;
+                        how.mag_filter = wrong;
                         uv
                     });
                     assert!(share > 0.05, "{filter} read as {wrong}: {share}, {precision:?}");

@@ -12,7 +12,7 @@ use super::assert_none;
 use super::bench::{CERTAIN, Rng, coordinates, formats, pairs, query, texture, uv_of};
 use crate::shared_gpu::gpu;
 
-/// Odd values, all different: a border channel taken from elsewhere shows.
+/// Uncommon, distinct values, so that a wrong border channel is detected.
 const BORDER: [f32; 4] = [0.9, 0.1, 0.6, 0.3];
 
 const SIZES: [[u32; 2]; 7] = [[1, 1], [1, 7], [6, 1], [2, 2], [5, 3], [7, 4], [64, 64]];
@@ -57,7 +57,7 @@ fn everything(
     let mut queries = Vec::new();
     for (t, record) in scene.textures.iter().enumerate() {
         for sampler in 0..specs.len() {
-            for uv in coordinates(&mut rng, [record.place[1], record.place[2]], random, true) {
+            for uv in coordinates(&mut rng, [record.size.x, record.size.y], random, true) {
                 if (rng.bits() as usize).is_multiple_of(keep_one_in) {
                     queries.push(LookupQuery { sampler: sampler as u32, ..query(&scene, t, uv) });
                 }

@@ -215,10 +215,8 @@ fn cones_mirror_by_the_same_normal() {
 /// What `entity = "reflection"` looks at is where a mirror's ray goes.
 #[test]
 fn a_map_of_the_reflection_looks_where_a_mirror_does() {
-    let map = UvProjection {
-        link: [MapKind::Solid as u32, EntityKind::Reflection as u32, 0, 0],
-        ..UvProjection::default()
-    };
+    let map =
+        UvProjection { kind: MapKind::Solid, entity: EntityKind::Reflection, ..UvProjection::default() };
     let mut rng = Rng::new(44);
     for _ in 0..2000 {
         let g = rng.direction();

@@ -108,7 +108,7 @@ fn gradients_are_those_of_the_coordinates() {
                 let near_pole = DVec3::new(rng.between(-1e-3, 1e-3), 1.0, rng.between(-1e-3, 1e-3));
                 let out = if tried % 4 == 0 { near_pole.normalize() } else { rng.direction() };
                 // Towards the first ball's middle.
-                let center = moire::internal::oracle::math::xyz(scene.spheres[0].ball);
+                let center = scene.spheres[0].center;
                 let ray = Ray { origin: center + 0.9 * k * out, direction: -out, time: 0.0 };
                 let meet = |ray: &Ray| hit_surface(&scene, ray, &nearest_hit(&scene, ray, u32::MAX));
                 let surface = meet(&ray);

@@ -15,7 +15,7 @@ use crate::stage::{
 };
 
 fn constant(features: &Features, name: &str) -> u32 {
-    features.values.iter().find(|(n, _)| *n == name).unwrap().1
+    features.values.iter().find(|(n, _)| n.name() == name).unwrap().1
 }
 
 #[test]

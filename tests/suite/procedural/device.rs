@@ -14,7 +14,7 @@ use crate::shared_gpu::gpu;
 
 fn scene(records: &[layout::Procedural], filtered: bool) -> PackedScene {
     let footprint = if filtered { Footprint::Differentials } else { Footprint::None };
-    let header = Header { key: [0, 0, footprint as u32, 0], ..Default::default() };
+    let header = Header { footprint, ..Default::default() };
     PackedScene { header, procedurals: records.to_vec(), ..Default::default() }
 }
 
@@ -74,13 +74,14 @@ fn range(what: &layout::Procedural, query: &ProceduralQuery) -> (DVec3, DVec3) {
 fn tolerance(what: &layout::Procedural, query: &ProceduralQuery) -> f64 {
     const U: f64 = 1.0 / 16_777_216.0;
     let kind = what.kind;
-    let [lacunarity, gain, norm, distortion] = what.octaves.map(f64::from);
+    let [lacunarity, gain, norm, distortion] =
+        [what.lacunarity, what.gain, what.normalization, what.distortion].map(f64::from);
     let far = wide(query.at).abs().max_element();
     let octave = |k: u32| {
         let (weight, frequency) = (norm * gain.powi(k as i32), lacunarity.powi(k as i32));
         weight * (20.0 + 3.0 * f64::from(2 + k) * (1.0 + far * frequency)) * U
     };
-    let octaves = (0..what.link[2]).map(octave).sum::<f64>();
+    let octaves = (0..what.octaves).map(octave).sum::<f64>();
     match kind {
         Checker | Stripes | Grid | Brick => {
             let (major, minor) = principal_axes(wide(query.dx), wide(query.dy));

@@ -13,7 +13,6 @@ use moire::internal::oracle::geometry::beams::shape_links;
 use moire::internal::oracle::geometry::beams::shape_plane;
 use moire::internal::oracle::geometry::cones::leaving;
 use moire::internal::oracle::geometry::rays::FAR;
-use moire::internal::oracle::math::xyz;
 use moire::internal::pack::PackedScene;
 use moire::internal::scene::model::{Algorithm, Model};
 use moire::internal::schema::layout::NO_SHAPE;
@@ -44,7 +43,7 @@ fn cause(scene: &PackedScene, place: [u32; 2]) -> Cause {
     let mut skip = NO_SHAPE;
     let model = |shape: u32| {
         let [material, _] = shape_links(scene, shape);
-        Model::ALL[scene.materials[material as usize].link[0] as usize]
+        scene.materials[material as usize].model
     };
     for _ in 0..=header.max_depth {
         let mut pieces = collect_fragments(scene, &cone, skip, FAR);

@@ -9,7 +9,6 @@ use moire::internal::oracle::cone::{Cone, cone_of};
 use moire::internal::oracle::footprint::camera_differential;
 use moire::internal::oracle::fragments::{collect_fragments, composite};
 use moire::internal::oracle::geometry::rays::{FAR, nearest_hit};
-use moire::internal::oracle::math::xyz;
 use moire::internal::pack::PackedScene;
 use moire::internal::scene::model::{Algorithm, Scene};
 

@@ -3,12 +3,14 @@
 //! 2.5 ulp, a square root by about as much (Vulkan 1.3, "Precision and Operation of SPIR-V
 //! Instructions").
 
+use glam::DVec3;
 use moire::internal::oracle::camera::Ray;
 use moire::internal::oracle::geometry::kinds::Shape;
 use moire::internal::oracle::geometry::sphere::sphere_distance;
 use moire::internal::oracle::geometry::triangle::triangle_distance;
-use moire::internal::oracle::math::{affine, xyz};
+use moire::internal::oracle::math::affine;
 use moire::internal::pack::PackedScene;
+use moire::internal::schema::layout::{Plane, RealBits};
 
 /// Unit roundoff of f32.
 pub const U: f64 = 1.0 / 16_777_216.0;
@@ -41,10 +43,9 @@ pub fn estimate(scene: &PackedScene, shape: u32, ray: &Ray) -> Estimate {
 }
 
 /// Error of t = (n·o' − n·o) / n·d.
-fn flat_error(normal: [f64; 4], ray: &Ray, t: f64) -> f64 {
-    let n = xyz(normal);
-    let (height, slope) = (normal[3] - n.dot(ray.origin), n.dot(ray.direction));
-    let size = normal[3].abs() + (n * ray.origin).abs().element_sum();
+fn flat_error(n: DVec3, distance: f64, ray: &Ray, t: f64) -> f64 {
+    let (height, slope) = (distance - n.dot(ray.origin), n.dot(ray.direction));
+    let size = distance.abs() + (n * ray.origin).abs().element_sum();
     let above = 4.0 * U * size / height.abs();
     let below = 3.0 * U * (n * ray.direction).abs().element_sum() / slope.abs();
     t.abs() * 1.01 * (above + below + DIVIDE * U)
@@ -52,19 +53,19 @@ fn flat_error(normal: [f64; 4], ray: &Ray, t: f64) -> f64 {
 
 fn plane(scene: &PackedScene, index: usize, ray: &Ray) -> Estimate {
     let plane = &scene.planes[index];
-    let unbounded =
-        moire::internal::schema::layout::Plane { link: [plane.link[0], plane.link[1], 0, 0], ..*plane };
+    let unbounded = Plane { half_extent: RealBits(-1.0), ..*plane };
     let (t, _) = unbounded.distance_to(ray);
-    let error = flat_error(plane.normal, ray, t);
+    let error = flat_error(plane.normal, plane.distance, ray, t);
     let point = ray.origin + t * ray.direction;
     let point_error = error * ray.direction.length() + 2.0 * U * (ray.origin.length() + point.length());
-    let extent = plane.half_extent().unwrap_or(0.0);
-    let near_edge = [plane.axis_u, plane.axis_v].iter().any(|row| {
-        let own = 4.0 * U * ((xyz(*row) * point).abs().element_sum() + row[3].abs());
-        (affine(*row, point).abs() - extent).abs() <= own + xyz(*row).length() * point_error
-    });
+    let extent = plane.bounds().unwrap_or(0.0);
+    let near_edge =
+        [plane.axis_u.extend(plane.eye_u), plane.axis_v.extend(plane.eye_v)].into_iter().any(|row| {
+            let own = 4.0 * U * ((row.truncate() * point).abs().element_sum() + row.w.abs());
+            (affine(row, point).abs() - extent).abs() <= own + row.truncate().length() * point_error
+        });
     let (t, _) = plane.distance_to(ray);
-    Estimate { t, error, unsure: plane.link[3] != 0 && near_edge, curvature: 0.0, weights: 0.0 }
+    Estimate { t, error, unsure: plane.bounds().is_some() && near_edge, curvature: 0.0, weights: 0.0 }
 }
 
 fn sphere(scene: &PackedScene, index: usize, ray: &Ray) -> Estimate {
@@ -105,6 +106,6 @@ fn triangle(scene: &PackedScene, index: usize, ray: &Ray) -> Estimate {
     let weights = 4.0 * worst / sum.abs() + DIVIDE * U;
     let t_plane = if t > 0.0 { t } else { 1.0 };
     let shape_operator = if triangle.is_smooth { 2.0 * weights } else { 0.0 };
-    let error = flat_error(triangle.normal, ray, t_plane);
+    let error = flat_error(triangle.normal, triangle.distance, ray, t_plane);
     Estimate { t, error, unsure, curvature: 0.0, weights: weights.max(shape_operator) }
 }

@@ -146,12 +146,11 @@ pub fn rays(rng: &mut Rng, count: usize) -> Vec<RayQuery> {
 /// Past the silhouettes of spheres, on either side by 1e-4 to 0.1 of the radius.
 pub fn grazing(rng: &mut Rng, scene: &PackedScene, count: usize) -> Vec<RayQuery> {
     let ray = |i: usize| {
-        let ball = scene.spheres[i % scene.spheres.len()].ball.map(f64::from);
-        let center = DVec3::new(ball[0], ball[1], ball[2]);
+        let sphere = &scene.spheres[i % scene.spheres.len()];
         let way = rng.direction();
         let side = way.cross(rng.direction()).normalize();
         let off = 10f64.powf(rng.between(-4.0, -1.0)) * if rng.unit() < 0.8 { -1.0 } else { 1.0 };
-        let origin = center + side * ball[3] * (1.0 + off) - way * rng.between(3.0, 10.0);
+        let origin = sphere.center + side * sphere.radius * (1.0 + off) - way * rng.between(3.0, 10.0);
         query(origin, way, rng.between(0.5, 20.0))
     };
     (0..count).map(ray).collect()

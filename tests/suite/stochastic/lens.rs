@@ -3,7 +3,7 @@
 
 use moire::internal::core::film::Film;
 use moire::internal::core::progress::NoProgress;
-use moire::internal::oracle::render::render as on_oracle;
+use moire::internal::oracle::backend::render as on_oracle;
 use moire::internal::scene::model::{Lens, Scene};
 use moire::internal::scene::parse;
 

@@ -5,7 +5,7 @@ use glam::DVec3;
 use moire::internal::core::film::Film;
 use moire::internal::core::progress::NoProgress;
 use moire::internal::lab::metrics::compare;
-use moire::internal::oracle::render::render as on_oracle;
+use moire::internal::oracle::backend::render as on_oracle;
 use moire::internal::pack::PackedScene;
 use moire::internal::scene::model::Scene;
 use moire::internal::scene::parse;

@@ -96,7 +96,7 @@ fn device_and_oracle_agree_in_solid_angle() {
         })
         .collect();
     let mut scene = super::packed(&super::parsed(super::lens::VIEW));
-    scene.header.pattern = Pattern::Center as u32;
+    scene.header.pattern = Pattern::Center;
     let answers = probe::warps(&gpu(), &scene, &queries).unwrap();
     for (((middle, half, z), square), answer) in cases.into_iter().zip(&answers) {
         let [x, y, below, angle] = answer.rectangle.map(f64::from);

@@ -3,13 +3,12 @@
 
 use std::f64::consts::TAU;
 
-use glam::{DVec2, DVec3};
+use glam::{DVec2, DVec3, DVec4};
 use moire::internal::lab::probe::{self, WarpAnswer, WarpQuery};
 use moire::internal::oracle::bsdf::facets::{smith_g2_over_g1, visible_normal};
 use moire::internal::oracle::bsdf::mirror::mirrored;
 use moire::internal::oracle::disk_sampling::{concentric_disc, on_cap};
 use moire::internal::oracle::footprint::around;
-use moire::internal::oracle::math::xyz;
 use moire::internal::scene::model::Pattern;
 
 use crate::lookup::bench::Rng;
@@ -50,7 +49,7 @@ fn queries() -> Vec<WarpQuery> {
 fn device_and_oracle_agree_to_a_few_ulp() {
     let queries = queries();
     let mut scene = super::packed(&super::parsed(super::lens::VIEW));
-    scene.header.pattern = Pattern::Center as u32;
+    scene.header.pattern = Pattern::Center;
     let answers = probe::warps(&gpu(), &scene, &queries).unwrap();
     let mut beyond = 0;
     for (query, answer) in queries.iter().zip(&answers) {
@@ -76,10 +75,10 @@ fn device_and_oracle_agree_to_a_few_ulp() {
 
 /// A sum of numbers up to 2 that is turned by it, and by 1 / alpha where the facet leans.
 fn facet_agrees(query: &WarpQuery, answer: &WarpAnswer) -> bool {
-    let [d, n] = [query.direction, query.normal].map(xyz);
+    let [d, n] = [query.direction, query.normal].map(|v| DVec4::from_array(v.map(f64::from)).truncate());
     let (alpha, square) = (f64::from(query.alpha), DVec2::from_array(query.square.map(f64::from)));
     let facet = visible_normal(d, n, alpha, square);
-    let off = (xyz(answer.facet) - facet).length();
+    let off = (DVec4::from_array(answer.facet.map(f64::from)).truncate() - facet).length();
     let sine = facet.cross(n).length();
     let leaving = mirrored(d, facet).dot(n);
     let share = smith_g2_over_g1(-d.dot(n), leaving, alpha);

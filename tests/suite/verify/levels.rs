@@ -87,13 +87,13 @@ fn another_mip_mode_or_filter_is_noticed() {
     for &dimension in Dimension::ALL {
         for precision in precisions() {
             let nearest = variant(dimension, Filter::Linear, MipMode::Nearest);
-            let other = |mip: MipMode| move |_: &mut LookupQuery, how: &mut Sampler| how.link[2] = mip as u32;
+            let other = |mip: MipMode| move |_: &mut LookupQuery, how: &mut Sampler| how.mip_mode = mip;
             assert!(
                 wrong(&nearest, precision, other(MipMode::Linear)) > many(dimension),
                 "{dimension} linear"
             );
             assert!(wrong(&nearest, precision, other(MipMode::None)) > many(dimension), "{dimension} none");
-            let min = |_: &mut LookupQuery, how: &mut Sampler| how.link[1] = Filter::Nearest as u32;
+            let min = |_: &mut LookupQuery, how: &mut Sampler| how.min_filter = Filter::Nearest;
             assert!(wrong(&nearest, precision, min) > many(dimension), "{dimension} minification");
         }
     }
@@ -108,7 +108,7 @@ fn swapped_faces_and_a_clamped_third_axis_are_noticed() {
         let mirrored = wrong(&cube, precision, |query, _| query.uv[0] = -query.uv[0]);
         assert!(mirrored > 0.4, "{mirrored}");
         let volume = variant(Dimension::Three, Filter::Linear, MipMode::None);
-        let clamped = wrong(&volume, precision, |_, how| how.more[0] = Address::ClampToEdge as u32);
+        let clamped = wrong(&volume, precision, |_, how| how.address_w = Address::ClampToEdge);
         assert!(clamped > 0.1, "{clamped}");
         let shifted = wrong(&volume, precision, |query, _| query.uv[2] += 0.5 / 8.0);
         assert!(shifted > 0.6, "{shifted}");

@@ -1,16 +1,15 @@
-//! `[[material]]` and its mapping. In: the table, and the textures and samplers it may name. Out: a
-//! material whose mapping fits its texture.
+//! `[[material]]` and its mapping. In: the table, and the textures and samplers it may name. Out: a material.
 
 use glam::DVec2;
 use toml::de::DeValue;
 
-use super::bsdf::read_model_keys;
-use super::model::*;
-use super::reader::{COLOR, COORDINATE, Field, SCALE};
+use super::reader::Field;
 use super::samplers::Known;
 use super::table::Table;
 use crate::core::error::Result;
-use crate::texture::data::Dimension;
+use crate::scene::bsdf::{KEYS, ModelKey, Value};
+use crate::scene::builder::DEFAULT;
+use crate::scene::model::*;
 
 pub(super) const MATERIAL: &[&str] = &[
     "name",
@@ -40,44 +39,39 @@ pub(super) fn material(table: &Table<'_>, known: &Known<'_, '_>) -> Result<Mater
         material.model = field.choice(Model::NAMES, Model::ALL)?;
     }
     if let Some(field) = table.get("color") {
-        material.color = field.vec3(&COLOR)?;
+        material.color = field.vec3()?;
     }
     read_model_keys(table, &mut material)?;
-    let texture_field = table.get("texture");
-    material.texture = texture_field.map(|field| known.textures.resolve(field)).transpose()?;
-    let bump_field = bump(table, &mut material, known)?;
-    material.sampler = match (table.get("sampler"), material.is_mapped()) {
-        (Some(field), _) => known.samplers.resolve(field)?,
-        (None, true) => known.default_sampler,
-        (None, false) => 0,
-    };
+    material.texture = table.get("texture").map(|field| known.textures.resolve(field)).transpose()?;
+    material.bump = bump(table, known)?;
+    material.sampler = table.get("sampler").map_or(Ok(DEFAULT), |field| known.samplers.resolve(field))?;
     if let Some(field) = table.get("mapping") {
         material.mapping = mapping(&Table::inline(field, "material.mapping", MAPPING)?)?;
-    }
-    if let (Some(field), Some(texture)) = (texture_field, material.texture) {
-        let source = &known.sources[texture];
-        if source.content.procedural().is_none() {
-            fits(field, &material.mapping, source.dimension)?;
-        }
-    }
-    if let (Some(field), Some(bump)) = (bump_field, material.bump) {
-        let source = &known.sources[bump.texture];
-        let dimension = source.dimension;
-        if source.content.procedural().is_some() {
-            let what = "a bump or normal map is read from texels; bake the pattern into a picture";
-            return Err(field.error(what, "procedural"));
-        }
-        if !matches!(dimension, Dimension::One | Dimension::Two) {
-            let what = format!("a bump or normal map is a 2d texture; this one is {dimension}");
-            return Err(field.error(&what, "not 2d"));
-        }
-        fits(field, &material.mapping, dimension)?;
     }
     Ok(material)
 }
 
-/// The field that names the bump map's texture.
-fn bump<'a>(table: &Table<'a>, material: &mut Material, known: &Known<'_, '_>) -> Result<Option<Field<'a>>> {
+/// Reads the keys that the material's model has.
+fn read_model_keys(table: &Table<'_>, material: &mut Material) -> Result<()> {
+    for ModelKey { name, models, value, .. } in KEYS {
+        let Some(field) = table.get(name) else { continue };
+        if !models.contains(&material.model) {
+            let quoted =
+                |between| models.iter().map(|m| format!("\"{m}\"")).collect::<Vec<_>>().join(between);
+            let (noun, verb) = if models.len() > 1 { ("models", "have") } else { ("model", "has") };
+            let what =
+                format!("only {noun} {} {verb} {name}; this one is \"{}\"", quoted(" and "), material.model);
+            return Err(field.error(&what, format!("needs model {}", quoted(" or "))));
+        }
+        match value {
+            Value::Number(of) => *of(material) = field.number()?,
+            Value::Color(of) => *of(material) = field.vec3()?,
+        }
+    }
+    Ok(())
+}
+
+fn bump(table: &Table<'_>, known: &Known<'_, '_>) -> Result<Option<BumpMap>> {
     let (field, kind) = match (table.get("normal_map"), table.get("bump_map")) {
         (Some(_), Some(bump)) => {
             return Err(bump.error("normal_map is given too; keep one of the two", "excludes normal_map"));
@@ -104,31 +98,8 @@ fn bump<'a>(table: &Table<'a>, material: &mut Material, known: &Known<'_, '_>) -
         },
         None => kind,
     };
-    let strength = table.get("strength").map_or(Ok(1.0), |field| field.number(&COORDINATE))?;
-    material.bump = Some(BumpMap { kind, texture: known.textures.resolve(field)?, strength });
-    Ok(Some(field))
-}
-
-/// A texture has to have the coordinates that the mapping makes.
-fn fits(field: Field<'_>, mapping: &Mapping, dimension: Dimension) -> Result<()> {
-    let what = match (dimension, mapping.kind) {
-        (Dimension::Three, MappingKind::Solid) | (Dimension::Cube, MappingKind::Cube) => return Ok(()),
-        (Dimension::Three, kind) => {
-            format!(
-                "a 3d texture needs a mapping of kind \"solid\", which has three coordinates; this one is \"{kind}\""
-            )
-        }
-        (Dimension::Cube, kind) => {
-            format!(
-                "a cube texture needs a mapping of kind \"cube\", which gives a direction; this one is \"{kind}\""
-            )
-        }
-        (Dimension::One | Dimension::Two, MappingKind::Solid) => {
-            format!("a {dimension} texture has no third coordinate for kind \"solid\"; use kind \"planar\"")
-        }
-        (Dimension::One | Dimension::Two, _) => return Ok(()),
-    };
-    Err(field.error(&what, "does not fit the mapping"))
+    let strength = table.get("strength").map_or(Ok(1.0), Field::number)?;
+    Ok(Some(BumpMap { kind, texture: known.textures.resolve(field)?, strength }))
 }
 
 fn mapping(table: &Table<'_>) -> Result<Mapping> {
@@ -148,43 +119,40 @@ fn mapping(table: &Table<'_>) -> Result<Mapping> {
     }
     if let Some(field) = table.get("space") {
         mapping.space = field.choice(Space::NAMES, Space::ALL)?;
-        if mapping.space == Space::Bounds && mapping.entity.is_direction() {
-            return Err(field.error(&no_place(mapping.entity), "a direction has no box"));
-        }
     }
     if let Some(field) = table.get("origin") {
-        mapping.origin = field.vec3(&COORDINATE)?;
+        mapping.origin = field.vec3()?;
         if mapping.entity.is_direction() {
             return Err(field.error(&no_place(mapping.entity), "a direction has no origin"));
         }
     }
     if let Some(field) = table.get("axis") {
-        mapping.axis = field.direction()?;
+        mapping.axis = field.vec3()?;
     }
     let solid = mapping.kind == MappingKind::Solid;
     if let Some(field) = table.get("scale") {
         match field.value() {
             DeValue::Array(_) if solid => {
-                let [x, y, z] = field.numbers::<3>(&SCALE)?;
+                let [x, y, z] = field.numbers::<3>()?;
                 (mapping.scale, mapping.scale_w) = (DVec2::new(x, y), z);
             }
-            DeValue::Array(_) => mapping.scale = field.vec2(&SCALE)?,
+            DeValue::Array(_) => mapping.scale = field.vec2()?,
             _ => {
-                mapping.scale_w = field.number(&SCALE)?;
+                mapping.scale_w = field.number()?;
                 mapping.scale = DVec2::splat(mapping.scale_w);
             }
         }
     }
     if let Some(field) = table.get("offset") {
         if solid {
-            let [x, y, z] = field.numbers::<3>(&COORDINATE)?;
+            let [x, y, z] = field.numbers::<3>()?;
             (mapping.offset, mapping.offset_w) = (DVec2::new(x, y), z);
         } else {
-            mapping.offset = field.vec2(&COORDINATE)?;
+            mapping.offset = field.vec2()?;
         }
     }
     if let Some(field) = table.get("rotate") {
-        mapping.rotate = field.number(&COORDINATE)?;
+        mapping.rotate = field.number()?;
     }
     Ok(mapping)
 }

@@ -1,13 +1,15 @@
 //! `[[texture]]`: where the texels come from and what they mean. In: the section's table and the
-//! scene file's folder. Out: a [`TextureSource`] whose keys fit together. Nothing is opened here.
+//! scene file's folder. Out: a [`TextureSource`]. Nothing is opened here.
 
 use std::path::{Path, PathBuf};
 
 use super::procedural::{PROCEDURAL, procedural};
-use super::reader::{COORDINATE, Field};
+use super::reader::Field;
 use super::table::Table;
 use crate::core::error::Result;
+use crate::scene::limits::{MAX_TEXELS, TEXELS};
 use crate::texture::data::{ColorSpace, Dimension, MipKernel, TexelFormat};
+use crate::texture::open_file::is_volume;
 use crate::texture::source::{
     CubeLayout, Endian, OrientationUse, Reading, TextureContent, TextureSource, VolumeSource,
 };
@@ -31,8 +33,6 @@ pub(super) const TEXTURE: &[&str] = &[
 const CONTENTS: [&str; 5] = ["file", "faces", "slices", "volume", "ramp"];
 const VOLUME: &[&str] = &["file", "size", "format", "offset", "endian"];
 const FACES: &str = "6 files, the faces +x, -x, +y, -y, +z and -z";
-/// Texels of a ramp, files of a stack, and texels along each side of a raw volume.
-const MOST: u32 = 65_536;
 
 pub(super) fn texture(table: &Table<'_>, folder: &Path) -> Result<TextureSource> {
     let name = table.required("name")?.string()?.to_owned();
@@ -63,25 +63,11 @@ pub(super) fn texture(table: &Table<'_>, folder: &Path) -> Result<TextureSource>
     let mut color_space = ColorSpace::Linear;
     if let Some(given) = table.get("color_space") {
         color_space = given.choice(ColorSpace::NAMES, ColorSpace::ALL)?;
-        if color_space == ColorSpace::Srgb && field.key == "ramp" {
-            let what = "the numbers of a ramp are linear light, not sRGB; leave color_space out";
-            return Err(given.error(what, "ramps are linear"));
-        }
     }
     let reading = reading(table, &content, dimension)?;
     let mut flip_v = false;
     if let Some(given) = table.get("flip_v") {
         flip_v = given.boolean()?;
-        let reason = match dimension {
-            Dimension::One => "a texture of dimension \"1d\" has no v to flip",
-            Dimension::Cube => {
-                "the rows of a cube's faces are fixed by its table; flip the pictures themselves"
-            }
-            Dimension::Two | Dimension::Three => "",
-        };
-        if flip_v && !reason.is_empty() {
-            return Err(given.error(&format!("{reason}; leave flip_v out"), "nothing to flip"));
-        }
     }
     let mip_kernel = match table.get("mip_filter") {
         Some(given) => given.choice(MipKernel::NAMES, MipKernel::ALL)?,
@@ -105,7 +91,7 @@ fn reading(table: &Table<'_>, content: &TextureContent, dimension: Dimension) ->
     let is_picture = match content {
         TextureContent::File(_) => dimension != Dimension::Three,
         TextureContent::CubeFile(..) | TextureContent::Faces(_) | TextureContent::Slices(_) => true,
-        TextureContent::Ramp(_) | TextureContent::Volume(_) | TextureContent::Procedural(_) => false,
+        _ => false,
     };
     if let (false, Some(field)) = (is_picture, ["orientation", "layer"].iter().find_map(|k| table.get(k))) {
         let what = "it says how a file of a picture is read, and these texels come from none; leave it out";
@@ -138,35 +124,19 @@ fn only_content<'a>(table: &Table<'a>) -> Result<Field<'a>> {
     }
 }
 
-/// What the content is, unless `dimension` says it; only a single file can be any of them.
+/// What the content is, unless `dimension` says it.
 fn dimension(table: &Table<'_>, content: Field<'_>) -> Result<Dimension> {
-    let (implied, reason) = match content.key {
-        "faces" => (Dimension::Cube, "faces are those of a cube"),
-        "slices" => (Dimension::Three, "slices are those of a volume"),
-        "volume" => (Dimension::Three, "volume has three axes"),
-        "ramp" => (Dimension::One, "ramp has one axis"),
-        _ if table.get("layout").is_some() => (Dimension::Cube, "layout says how a file holds a cube"),
-        _ if is_volume(Path::new(content.string()?)) => (Dimension::Three, "an NRRD file is a volume"),
-        _ => (Dimension::Two, ""),
-    };
-    let Some(field) = table.get("dimension") else { return Ok(implied) };
-    let given = field.choice(Dimension::NAMES, Dimension::ALL)?;
-    if given != implied && !reason.is_empty() {
-        let what =
-            format!("\"{given}\" contradicts {}: {reason}, so the dimension is \"{implied}\"", content.key);
-        return Err(field.error(&what, format!("is \"{implied}\"")));
+    if let Some(field) = table.get("dimension") {
+        return field.choice(Dimension::NAMES, Dimension::ALL);
     }
-    if given == Dimension::Three && content.key == "file" && !is_volume(Path::new(content.string()?)) {
-        let what =
-            "a picture is no volume; give slices = [files], volume = { … } or an NRRD file (.nrrd, .nhdr)";
-        return Err(field.error(what, "not from one picture"));
-    }
-    Ok(given)
-}
-
-/// By the ending: the file is not opened here.
-fn is_volume(path: &Path) -> bool {
-    path.extension().is_some_and(|e| e.eq_ignore_ascii_case("nrrd") || e.eq_ignore_ascii_case("nhdr"))
+    Ok(match content.key {
+        "faces" => Dimension::Cube,
+        "slices" | "volume" => Dimension::Three,
+        "ramp" => Dimension::One,
+        _ if table.get("layout").is_some() => Dimension::Cube,
+        _ if is_volume(Path::new(content.string()?)) => Dimension::Three,
+        _ => Dimension::Two,
+    })
 }
 
 fn content(
@@ -176,24 +146,26 @@ fn content(
     folder: &Path,
 ) -> Result<TextureContent> {
     let file = |field: Field<'_>| field.string().map(|name| folder.join(name));
-    let layout = layout(table, field, dimension)?;
+    let layout = layout(table, field)?;
     Ok(match field.key {
         "faces" => {
             let empty: [PathBuf; 6] = Default::default();
             TextureContent::Faces(field.array(FACES, empty, file)?)
         }
-        "slices" => TextureContent::Slices(field.list("files", MOST, file)?),
+        "slices" => TextureContent::Slices(field.list("files", MAX_TEXELS, file)?),
         "volume" => TextureContent::Volume(volume(&Table::inline(field, "texture.volume", VOLUME)?, folder)?),
-        "ramp" => TextureContent::Ramp(field.list("colors", MOST, color)?),
-        _ if dimension == Dimension::Cube => TextureContent::CubeFile(file(field)?, layout),
+        "ramp" => TextureContent::Ramp(field.list("colors", MAX_TEXELS, color)?),
+        _ if dimension == Dimension::Cube || layout.is_some() => {
+            TextureContent::CubeFile(file(field)?, layout)
+        }
         _ => TextureContent::File(file(field)?),
     })
 }
 
-fn layout(table: &Table<'_>, content: Field<'_>, dimension: Dimension) -> Result<Option<CubeLayout>> {
+fn layout(table: &Table<'_>, content: Field<'_>) -> Result<Option<CubeLayout>> {
     let Some(field) = table.get("layout") else { return Ok(None) };
     let layout = field.choice(CubeLayout::NAMES, CubeLayout::ALL)?;
-    if content.key != "file" || dimension != Dimension::Cube {
+    if content.key != "file" {
         let what = format!(
             "it says how one file holds the faces of a cube, and the texels come from {}; leave it out",
             content.key
@@ -208,9 +180,9 @@ fn volume(table: &Table<'_>, folder: &Path) -> Result<VolumeSource> {
     let endian = table.get("endian").map_or(Ok(Endian::Little), |f| f.choice(Endian::NAMES, Endian::ALL))?;
     Ok(VolumeSource {
         file: folder.join(table.required("file")?.string()?),
-        size: table.required("size")?.array(wanted, [0; 3], |f| f.integer(1..=MOST))?,
+        size: table.required("size")?.array(wanted, [0; 3], |f| f.integer(&TEXELS))?,
         format: table.required("format")?.choice(TexelFormat::NAMES, TexelFormat::ALL)?,
-        offset: table.get("offset").map_or(Ok(0), |f| f.integer(0..=u32::MAX))?.into(),
+        offset: table.get("offset").map_or(Ok(0), |f| f.integer(&(0..=u32::MAX)))?.into(),
         endian,
     })
 }
@@ -219,9 +191,9 @@ fn volume(table: &Table<'_>, folder: &Path) -> Result<VolumeSource> {
 fn color(field: Field<'_>) -> Result<[f32; 4]> {
     let has_alpha = field.value().as_array().is_some_and(|array| array.len() == 4);
     let [r, g, b, a] = if has_alpha {
-        field.numbers::<4>(&COORDINATE)?
+        field.numbers::<4>()?
     } else {
-        let [r, g, b] = field.numbers::<3>(&COORDINATE)?;
+        let [r, g, b] = field.numbers::<3>()?;
         [r, g, b, 1.0]
     };
     Ok([r, g, b, a].map(|value| value as f32))

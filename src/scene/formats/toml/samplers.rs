@@ -4,12 +4,13 @@
 use glam::DVec3;
 use toml::de::DeValue;
 
-use super::model::{Background, Environment, EnvironmentLayout, TextureSource};
 use super::names::Names;
-use super::reader::{COLOR, COORDINATE, Field};
+use super::reader::Field;
 use super::table::Table;
-use super::validate::{MAX_ANISOTROPY, both_filters, check_mag, check_method};
 use crate::core::error::Result;
+use crate::scene::builder::DEFAULT;
+use crate::scene::limits::{ANISOTROPY, both_filters};
+use crate::scene::model::{Background, Environment, EnvironmentLayout, TextureSource};
 use crate::texture::data::Dimension;
 use crate::texture::sampler_spec::{Address, CATMULL_ROM, Filter, Method, MipMode, SamplerSpec, TexelCenter};
 
@@ -55,7 +56,6 @@ pub(super) fn sampler(table: &Table<'_>) -> Result<SamplerSpec> {
             let both = Table::inline(field, "sampler.filter", FILTER)?;
             if let Some(field) = both.get("mag") {
                 spec.mag = one(field)?;
-                check_mag(spec.mag).map_err(|what| field.error(&what, "not for magnification"))?;
             }
             spec.min = both.get("min").map_or(Ok(spec.min), one)?;
         } else {
@@ -63,20 +63,19 @@ pub(super) fn sampler(table: &Table<'_>) -> Result<SamplerSpec> {
         }
     }
     if let Some(field) = table.get("max_anisotropy") {
-        spec.max_anisotropy = field.integer(1..=MAX_ANISOTROPY)?;
+        spec.max_anisotropy = field.integer(&ANISOTROPY)?;
     }
     if let Some(field) = table.get("cubic") {
         spec.cubic = cubic(field)?;
     }
     if let Some(field) = table.get("border_color") {
-        spec.border_color = field.numbers::<4>(&COLOR)?.map(|x| x as f32);
+        spec.border_color = field.numbers::<4>()?.map(|x| x as f32);
     }
     if let Some(field) = table.get("mip") {
         spec.mip = field.choice(MipMode::NAMES, MipMode::ALL)?;
     }
     if let Some(field) = table.get("method") {
         spec.method = field.choice(Method::NAMES, Method::ALL)?;
-        check_method(&spec).map_err(|what| field.error(&what, "not by the device"))?;
     }
     if let Some(field) = table.get("texel_center") {
         spec.texel_center = field.choice(TexelCenter::NAMES, TexelCenter::ALL)?;
@@ -87,24 +86,22 @@ pub(super) fn sampler(table: &Table<'_>) -> Result<SamplerSpec> {
 /// A name, or [B, C].
 fn cubic(field: Field<'_>) -> Result<[f32; 2]> {
     if let DeValue::Array(_) = field.value() {
-        return Ok(field.numbers::<2>(&COORDINATE)?.map(|x| x as f32));
+        return Ok(field.numbers::<2>()?.map(|x| x as f32));
     }
     field.choice(&CUBICS.map(|c| c.0), &CUBICS.map(|c| c.1))
 }
 
-/// What a reference to a texture or a sampler needs. The sampler of a texture without one stands or will
-/// stand at `default_sampler`.
+/// What a reference to a texture or a sampler needs.
 pub(super) struct Known<'n, 'a> {
     pub textures: &'n Names<'a>,
     pub sources: &'n [TextureSource],
     pub samplers: &'n Names<'a>,
-    pub default_sampler: usize,
 }
 
 pub(super) fn background(table: Option<&Table<'_>>, known: &Known<'_, '_>) -> Result<Background> {
     let mut background = Background { color: DVec3::ZERO, environment: None };
     let Some(table) = table else { return Ok(background) };
-    let color = table.get("color").map(|field| field.vec3(&COLOR)).transpose()?;
+    let color = table.get("color").map(Field::vec3).transpose()?;
     let Some(field) = table.get("environment") else {
         if let Some(field) = ["sampler", "layout", "rotate", "mirror"].iter().find_map(|key| table.get(key)) {
             return Err(field.error("this needs an environment = \"TEXTURE\" beside it", "no environment"));
@@ -113,30 +110,22 @@ pub(super) fn background(table: Option<&Table<'_>>, known: &Known<'_, '_>) -> Re
         return Ok(background);
     };
     let texture = known.textures.resolve(field)?;
-    let dimension = known.sources[texture].dimension;
-    let natural = match dimension {
-        Dimension::Two => EnvironmentLayout::Equirectangular,
+    // What the texture has, unless something else is said.
+    let mut layout = match known.sources[texture].dimension {
         Dimension::Cube => EnvironmentLayout::Cube,
-        Dimension::One | Dimension::Three => {
-            let what = format!("an environment is a 2d or a cube texture; this one is {dimension}");
-            return Err(field.error(&what, "neither 2d nor cube"));
-        }
+        _ => EnvironmentLayout::Equirectangular,
     };
     if let Some(field) = table.get("layout") {
-        let layout = field.choice(EnvironmentLayout::NAMES, EnvironmentLayout::ALL)?;
-        if layout != natural {
-            let what = format!("the texture is {dimension}, which needs layout \"{natural}\"");
-            return Err(field.error(&what, "does not fit the texture"));
-        }
+        layout = field.choice(EnvironmentLayout::NAMES, EnvironmentLayout::ALL)?;
     }
     let sampler = table.get("sampler").map(|field| known.samplers.resolve(field)).transpose()?;
-    let rotate = table.get("rotate").map_or(Ok(0.0), |field| field.number(&COORDINATE))?;
-    let mirror = table.get("mirror").map_or(Ok(false), |field| field.boolean())?;
+    let rotate = table.get("rotate").map_or(Ok(0.0), Field::number)?;
+    let mirror = table.get("mirror").map_or(Ok(false), Field::boolean)?;
     background.color = color.unwrap_or(DVec3::ONE);
     background.environment = Some(Environment {
         texture,
-        sampler: sampler.unwrap_or(known.default_sampler),
-        layout: natural,
+        sampler: sampler.unwrap_or(DEFAULT),
+        layout,
         rotate,
         idle_address: None,
         mirror,

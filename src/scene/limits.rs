@@ -1,10 +1,12 @@
-//! Limits and cross-checks that no single value shows. In: values already read and finite. Out:
-//! whether they make sense together, for scene files and for command line overrides alike.
+//! Every limit that a scene has to keep. In: single values, or several that have to make sense together. Out: whether
+//! they do, for scenes of any format, for those built in code and for options of the command line alike.
+
+use std::ops::RangeInclusive;
 
 use glam::DVec3;
 
 use super::model::{Pattern, Scene};
-use crate::core::error::{Error, Result};
+use crate::core::error::{Error, ErrorKind, Result};
 use crate::texture::data::Dimension;
 use crate::texture::sampler_spec::{Filter, Method, SamplerSpec};
 
@@ -12,11 +14,65 @@ use crate::texture::sampler_spec::{Filter, Method, SamplerSpec};
 pub const MAX_SIZE: u32 = 16384;
 /// Samples per pixel: sample positions are multiples of 2⁻²⁴, more could not be told apart.
 pub const MAX_SPP: u32 = 1 << 24;
+/// Bounces after the camera ray.
 pub const MAX_DEPTH: u32 = 64;
+/// Shapes of all kinds together: devices test each of them for every ray.
+pub(super) const MAX_SHAPES: usize = 65535;
 pub(super) const MAX_TEXTURES: usize = 1024;
-
+/// Texels of a ramp, files of a stack, and texels along each side of a raw volume.
+pub(super) const MAX_TEXELS: u32 = 65_536;
+/// Pixels that a filter may reach to each side.
+pub const MAX_RADIUS: f64 = 8.0;
 /// Footprints longer than this many widths are blurred.
 pub const MAX_ANISOTROPY: u32 = 64;
+
+pub(super) const SIZE: RangeInclusive<u32> = 1..=MAX_SIZE;
+pub(super) const SPP: RangeInclusive<u32> = 1..=MAX_SPP;
+pub(super) const DEPTH: RangeInclusive<u32> = 0..=MAX_DEPTH;
+pub(super) const ANISOTROPY: RangeInclusive<u32> = 1..=MAX_ANISOTROPY;
+pub(super) const TEXELS: RangeInclusive<u32> = 1..=MAX_TEXELS;
+pub(super) const DIMENSIONS: RangeInclusive<u32> = 2..=3;
+
+/// Which finite numbers a value may have. Everything stays below 1e30, so that single precision has
+/// room left (it ends at 3.4e38), and lengths above 1e-30, where it would reach zero.
+pub(super) struct Limits {
+    /// Completes "a number".
+    pub words: &'static str,
+    pub allow: fn(f64) -> bool,
+}
+
+pub(super) const COORDINATE: Limits = Limits { words: "between -1e30 and 1e30", allow: |x| x.abs() <= 1e30 };
+pub(super) const LENGTH: Limits =
+    Limits { words: "above 0 (1e-30 to 1e30)", allow: |x| (1e-30..=1e30).contains(&x) };
+pub(super) const NOT_NEGATIVE: Limits =
+    Limits { words: "that is not negative (0 to 1e30)", allow: |x| (0.0..=1e30).contains(&x) };
+pub(super) const UNIT: Limits = Limits { words: "from 0 to 1", allow: |x| (0.0..=1.0).contains(&x) };
+pub(super) const CAP: Limits =
+    Limits { words: "from 0 to 180 degrees", allow: |x| (0.0..=180.0).contains(&x) };
+pub(super) const COLOR: Limits =
+    Limits { words: "that are not negative (0 to 1e30)", allow: |x| (0.0..=1e30).contains(&x) };
+pub(super) const FOV: Limits =
+    Limits { words: "above 0 and below 180 degrees", allow: |x| x > 0.0 && x < 180.0 };
+pub(super) const SCALE: Limits =
+    Limits { words: "other than 0 (magnitude 1e-30 to 1e30)", allow: |x| (1e-30..=1e30).contains(&x.abs()) };
+pub(super) const IOR: Limits = Limits { words: "from 0.01 to 100", allow: |x| (0.01..=100.0).contains(&x) };
+pub(super) const EXPONENT: Limits = Limits { words: "from 1 to 1e6", allow: |x| (1.0..=1e6).contains(&x) };
+pub(super) const RADIUS: Limits =
+    Limits { words: "above 0 and at most 8 (pixels)", allow: |x| (1e-30..=MAX_RADIUS).contains(&x) };
+pub(super) const LACUNARITY: Limits = Limits { words: "from 1 to 16", allow: |x| (1.0..=16.0).contains(&x) };
+pub(super) const GAIN: Limits = Limits { words: "from 0.01 to 1", allow: |x| (0.01..=1.0).contains(&x) };
+pub(super) const DISTORTION: Limits =
+    Limits { words: "from 0 to 100", allow: |x| (0.0..=100.0).contains(&x) };
+pub(super) const ASPECT: Limits =
+    Limits { words: "from 0.01 to 100", allow: |x| (0.01..=100.0).contains(&x) };
+
+impl Limits {
+    /// Whether a value of single precision is one of those numbers, rounded.
+    pub fn allow_f32(&self, x: f32) -> bool {
+        let ulp = f64::from(f32::EPSILON);
+        [1.0, 1.0 - ulp, 1.0 + ulp].iter().any(|factor| (self.allow)(f64::from(x) * factor))
+    }
+}
 
 /// Two directions whose sine is below this count as parallel: far below any intended angle, far
 /// above what rounding of double precision components can produce.
@@ -83,7 +139,7 @@ pub fn check_filters(scene: &Scene) -> Result<()> {
         if source.content.procedural().is_some() {
             continue;
         }
-        check_method(spec).map_err(|what| Error::new(format!("texture \"{}\": {what}", source.name)))?;
+        check_method(spec).map_err(|what| scene_error(format!("texture \"{}\": {what}", source.name)))?;
         let flat = matches!(source.dimension, Dimension::One | Dimension::Two);
         if let Some(filter) = [spec.mag, spec.min].iter().find(|f| !flat && f.traits().needs_flat) {
             return Err(Error::with_help(
@@ -92,10 +148,15 @@ pub fn check_filters(scene: &Scene) -> Result<()> {
                     source.name, source.dimension
                 ),
                 format!("give it a sampler with filter {}", Filter::names_with(|t| !t.needs_flat, "or")),
-            ));
+            )
+            .of_kind(ErrorKind::Scene));
         }
     }
     Ok(())
+}
+
+fn scene_error(message: String) -> Error {
+    Error::new(message).of_kind(ErrorKind::Scene)
 }
 
 /// Only patterns with displacements that differ between pixels have anything to share.

@@ -1,10 +1,9 @@
-//! `[[light]]`. In: its table. Out: the light of the model, not degenerate.
+//! `[[light]]`. In: its table. Out: the light of the model.
 
-use super::model::Light;
-use super::reader::{CAP, COLOR, COORDINATE, NOT_NEGATIVE};
+use super::reader::Field;
 use super::table::Table;
-use super::validate::parallel;
 use crate::core::error::Result;
+use crate::scene::model::Light;
 
 pub(super) const LIGHT: &[&str] = &[
     "kind",
@@ -28,7 +27,6 @@ const LIGHT_KINDS: [(&str, &[&str], LightReader); 4] = [
     ("rectangle", &["kind", "position", "edge_u", "edge_v", "radiance", "intensity"], rectangle_light),
 ];
 
-/// Without an extent a sphere is a point, and a sun the directional light.
 pub(super) fn light(table: &Table<'_>) -> Result<Light> {
     let (kind, keys, read) =
         table.required("kind")?.choice(&LIGHT_KINDS.map(|kind| kind.0), &LIGHT_KINDS.map(|kind| kind))?;
@@ -37,45 +35,32 @@ pub(super) fn light(table: &Table<'_>) -> Result<Light> {
 }
 
 fn point_light(table: &Table<'_>) -> Result<Light> {
-    let position = table.required("position")?.vec3(&COORDINATE)?;
-    let intensity = table.required("intensity")?.vec3(&COLOR)?;
+    let position = table.required("position")?.vec3()?;
+    let intensity = table.required("intensity")?.vec3()?;
     Ok(Light::Point { position, intensity })
 }
 
 fn directional_light(table: &Table<'_>) -> Result<Light> {
-    let direction = table.required("direction")?.direction()?;
-    let irradiance = table.required("irradiance")?.vec3(&COLOR)?;
-    let angle = table.get("angle").map_or(Ok(0.0), |field| field.number(&CAP))?;
-    Ok(if angle > 0.0 {
-        Light::Sun { direction, angle, irradiance }
-    } else {
-        Light::Directional { direction, irradiance }
-    })
+    let direction = table.required("direction")?.vec3()?;
+    let irradiance = table.required("irradiance")?.vec3()?;
+    let angle = table.get("angle").map_or(Ok(0.0), Field::number)?;
+    Ok(Light::Sun { direction, angle, irradiance })
 }
 
 fn sphere_light(table: &Table<'_>) -> Result<Light> {
-    let position = table.required("position")?.vec3(&COORDINATE)?;
-    let intensity = table.required("intensity")?.vec3(&COLOR)?;
-    let radius = table.required("radius")?.number(&NOT_NEGATIVE)?;
-    Ok(if radius > 0.0 {
-        Light::Sphere { position, radius, intensity }
-    } else {
-        Light::Point { position, intensity }
-    })
+    let position = table.required("position")?.vec3()?;
+    let intensity = table.required("intensity")?.vec3()?;
+    let radius = table.required("radius")?.number()?;
+    Ok(Light::Sphere { position, radius, intensity })
 }
 
 fn rectangle_light(table: &Table<'_>) -> Result<Light> {
-    let position = table.required("position")?.vec3(&COORDINATE)?;
-    let edge_u = table.required("edge_u")?.direction()?;
-    let edge_v_field = table.required("edge_v")?;
-    let edge_v = edge_v_field.direction()?;
-    if parallel(edge_u, edge_v) {
-        let what = "edge_u and edge_v are parallel and span no area; turn one of them";
-        return Err(edge_v_field.error(what, "parallel to edge_u"));
-    }
+    let position = table.required("position")?.vec3()?;
+    let edge_u = table.required("edge_u")?.vec3()?;
+    let edge_v = table.required("edge_v")?.vec3()?;
     let radiance = match (table.get("radiance"), table.get("intensity")) {
-        (Some(field), None) => field.vec3(&COLOR)?,
-        (None, Some(field)) => field.vec3(&COLOR)? / edge_u.cross(edge_v).length(),
+        (Some(field), None) => field.vec3()?,
+        (None, Some(field)) => field.vec3()? / edge_u.cross(edge_v).length(),
         (Some(_), Some(field)) => {
             return Err(field.error("radiance is given too; keep one of the two", "excludes radiance"));
         }

@@ -10,31 +10,6 @@ use toml::de::DeValue;
 use super::source::{Source, quoted, suggestion};
 use crate::core::error::{Error, Result};
 
-/// Which finite numbers a key takes. Everything stays below 1e30, so that single precision has
-/// room left (it ends at 3.4e38), and lengths above 1e-30, where it would reach zero.
-pub(super) struct Limits {
-    pub words: &'static str,
-    pub allow: fn(f64) -> bool,
-}
-
-pub(super) const COORDINATE: Limits = Limits { words: "between -1e30 and 1e30", allow: |x| x.abs() <= 1e30 };
-pub(super) const LENGTH: Limits =
-    Limits { words: "above 0 (1e-30 to 1e30)", allow: |x| (1e-30..=1e30).contains(&x) };
-pub(super) const NOT_NEGATIVE: Limits =
-    Limits { words: "that is not negative (0 to 1e30)", allow: |x| (0.0..=1e30).contains(&x) };
-pub(super) const UNIT: Limits = Limits { words: "from 0 to 1", allow: |x| (0.0..=1.0).contains(&x) };
-pub(super) const CAP: Limits =
-    Limits { words: "from 0 to 180 degrees", allow: |x| (0.0..=180.0).contains(&x) };
-pub(super) const COLOR: Limits =
-    Limits { words: "that are not negative (0 to 1e30)", allow: |x| (0.0..=1e30).contains(&x) };
-pub(super) const FOV: Limits =
-    Limits { words: "above 0 and below 180 degrees", allow: |x| x > 0.0 && x < 180.0 };
-pub(super) const SCALE: Limits =
-    Limits { words: "other than 0 (magnitude 1e-30 to 1e30)", allow: |x| (1e-30..=1e30).contains(&x.abs()) };
-
-pub(super) const IOR: Limits = Limits { words: "from 0.01 to 100", allow: |x| (0.01..=100.0).contains(&x) };
-pub(super) const EXPONENT: Limits = Limits { words: "from 1 to 1e6", allow: |x| (1.0..=1e6).contains(&x) };
-
 #[derive(Clone, Copy)]
 pub(super) struct Field<'a> {
     pub source: Source<'a>,
@@ -59,7 +34,7 @@ impl<'a> Field<'a> {
         self.error_at(self.span(), what, label)
     }
 
-    fn error_at(&self, span: Range<usize>, what: &str, label: impl Into<String>) -> Error {
+    pub fn error_at(&self, span: Range<usize>, what: &str, label: impl Into<String>) -> Error {
         let dot = if self.section.is_empty() { "" } else { "." };
         let index = self.index.map_or_else(String::new, |index| format!("[{index}]"));
         let what = format!("key \"{}{dot}{}{index}\": {what}", self.section, self.key);
@@ -70,7 +45,7 @@ impl<'a> Field<'a> {
         self.expected_at(self.span(), wanted)
     }
 
-    fn expected_at(&self, span: Range<usize>, wanted: &str) -> Error {
+    pub fn expected_at(&self, span: Range<usize>, wanted: &str) -> Error {
         let kind = match self.value() {
             DeValue::String(_) => "the string ",
             DeValue::Datetime(_) => "the date-time ",
@@ -81,15 +56,12 @@ impl<'a> Field<'a> {
         self.error_at(span, &format!("expected {wanted}, found {kind}{found}"), format!("expected {wanted}"))
     }
 
-    pub fn number(self, limits: &Limits) -> Result<f64> {
-        match finite(self.value()) {
-            Some(x) if (limits.allow)(x) => Ok(x),
-            Some(_) => Err(self.expected(&format!("a number {}", limits.words))),
-            None => Err(self.expected("a finite number")),
-        }
+    /// A number of any size; the builder knows which are allowed.
+    pub fn number(self) -> Result<f64> {
+        real(self.value()).ok_or_else(|| self.expected("a finite number"))
     }
 
-    pub fn numbers<const N: usize>(self, limits: &Limits) -> Result<[f64; N]> {
+    pub fn numbers<const N: usize>(self) -> Result<[f64; N]> {
         let wanted = || format!("{N} finite numbers");
         let array = match self.value() {
             DeValue::Array(array) if array.len() == N => array,
@@ -97,32 +69,17 @@ impl<'a> Field<'a> {
         };
         let mut numbers = [0.0; N];
         for (number, item) in numbers.iter_mut().zip(array) {
-            *number = match finite(item.get_ref()) {
-                Some(x) if (limits.allow)(x) => x,
-                Some(_) => {
-                    return Err(self.expected_at(item.span(), &format!("{N} numbers {}", limits.words)));
-                }
-                None => return Err(self.expected_at(item.span(), &wanted())),
-            };
+            *number = real(item.get_ref()).ok_or_else(|| self.expected_at(item.span(), &wanted()))?;
         }
         Ok(numbers)
     }
 
-    pub fn vec2(self, limits: &Limits) -> Result<DVec2> {
-        self.numbers(limits).map(DVec2::from_array)
+    pub fn vec2(self) -> Result<DVec2> {
+        self.numbers().map(DVec2::from_array)
     }
 
-    pub fn vec3(self, limits: &Limits) -> Result<DVec3> {
-        self.numbers(limits).map(DVec3::from_array)
-    }
-
-    /// A vector of any length but zero.
-    pub fn direction(self) -> Result<DVec3> {
-        let vector = self.vec3(&COORDINATE)?;
-        if vector.abs().max_element() < 1e-30 {
-            return Err(self.expected("a vector that is not zero (shorter than 1e-30)"));
-        }
-        Ok(vector)
+    pub fn vec3(self) -> Result<DVec3> {
+        self.numbers().map(DVec3::from_array)
     }
 
     /// An array of exactly `N` elements, each read by `read` in place of one of `values`.
@@ -152,7 +109,7 @@ impl<'a> Field<'a> {
         array.iter().enumerate().map(element).collect()
     }
 
-    pub fn integer(self, range: RangeInclusive<u32>) -> Result<u32> {
+    pub fn integer(self, range: &RangeInclusive<u32>) -> Result<u32> {
         let found = match self.value() {
             DeValue::Integer(integer) => i128::from_str_radix(integer.as_str(), integer.radix()).ok(),
             _ => None,
@@ -189,13 +146,14 @@ impl<'a> Field<'a> {
     }
 }
 
-/// Integers count as numbers; `nan`, `inf` and what overflows double precision do not.
-fn finite(value: &DeValue<'_>) -> Option<f64> {
-    let number = match value {
-        DeValue::Float(float) => float.as_str().parse().ok()?,
-        DeValue::Integer(integer) if integer.radix() == 10 => integer.as_str().parse().ok()?,
-        DeValue::Integer(integer) => i128::from_str_radix(integer.as_str(), integer.radix()).ok()? as f64,
-        _ => return None,
-    };
-    f64::is_finite(number).then_some(number)
+/// Integers count as numbers.
+fn real(value: &DeValue<'_>) -> Option<f64> {
+    match value {
+        DeValue::Float(float) => float.as_str().parse().ok(),
+        DeValue::Integer(integer) if integer.radix() == 10 => integer.as_str().parse().ok(),
+        DeValue::Integer(integer) => {
+            i128::from_str_radix(integer.as_str(), integer.radix()).ok().map(|i| i as f64)
+        }
+        _ => None,
+    }
 }

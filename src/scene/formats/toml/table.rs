@@ -65,21 +65,6 @@ impl<'a> Table<'a> {
         })
     }
 
-    /// Refuses more than `limit` entries in the arrays of tables `sections` together.
-    pub fn check_counts(&self, what: &str, limit: usize, sections: &[&'static str]) -> Result<()> {
-        let arrays = sections.iter().filter_map(|section| self.get(section)?.value().as_array());
-        let total: usize = arrays.clone().map(|array| array.len()).sum();
-        if total <= limit {
-            return Ok(());
-        }
-        // Sections come in the order of the vocabulary, but entries over the limit in the file's.
-        let mut spans: Vec<_> = arrays.flat_map(|array| array.iter().map(|item| item.span())).collect();
-        spans.sort_by_key(|span| span.start);
-        let span = spans.swap_remove(limit);
-        let message = format!("{total} {what}; a scene may have {limit} at most");
-        Err(self.source.error(span, &message, "one too many"))
-    }
-
     /// The tables `[[section]]` in the order of the file.
     pub fn repeated(&self, section: &'static str, keys: &[&str]) -> Result<Vec<Table<'a>>> {
         let Some(field) = self.get(section) else { return Ok(Vec::new()) };

@@ -8,8 +8,8 @@ use std::sync::Arc;
 
 use miette::NamedSource;
 
-use super::synonyms::meant;
 use crate::core::error::Error;
+use crate::scene::synonyms::meant;
 
 /// Longest excerpt or name that a message repeats, in characters.
 const LONGEST_EXCERPT: usize = 60;

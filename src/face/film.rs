@@ -1,0 +1,33 @@
+//! What programs do with a film: files from it, films from files, and how far two are apart.
+
+use std::path::Path;
+
+use crate::core::error::{ErrorKind, Result};
+use crate::core::film::Film;
+use crate::lab::metrics::{self, Comparison};
+use crate::output::{self, WriteOptions};
+
+impl Film {
+    /// Writes the picture. The ending of the name chooses the format: `.exr` and `.hdr` hold linear light, `.png`,
+    /// `.jpg` and `.tif` are clipped and sRGB-encoded. The file appears complete or not at all.
+    pub fn save(&self, path: impl AsRef<Path>) -> Result<()> {
+        output::write(self, path.as_ref(), &WriteOptions::default()).map_err(|e| e.or_kind(ErrorKind::File))
+    }
+
+    /// Reads a picture file.
+    pub fn open(path: impl AsRef<Path>) -> Result<Film> {
+        metrics::read_picture(path.as_ref()).map_err(|e| e.or_kind(ErrorKind::File))
+    }
+
+    /// Measures how far the picture is from a reference of the same size, in linear light.
+    ///
+    /// ```
+    /// let (mut film, black) = (moire::Film::new(8, 8, 1), moire::Film::new(8, 8, 1));
+    /// film.pixels[9] = [0.0, 0.5, 0.0];
+    /// let compared = film.compare(&black).unwrap();
+    /// assert_eq!((compared.max, compared.max_at), (0.5, Some([1, 1])));
+    /// ```
+    pub fn compare(&self, reference: &Film) -> Result<Comparison> {
+        metrics::compare(self, reference)
+    }
+}

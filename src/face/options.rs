@@ -1,0 +1,139 @@
+//! What a render may be asked for beside its scene. In: nothing, or the options of a command line by their names. Out:
+//! the changes of the scene, the device and the goal.
+
+use crate::core::error::{Error, Result};
+use crate::core::range::Rect;
+use crate::gpu::DeviceSelect;
+use crate::integrators::adaptive::Goal;
+use crate::render::{On, Options};
+use crate::scene::changes::Changes;
+use crate::scene::model::{Algorithm, Footprint, Pattern, PixelFilterKind};
+use crate::texture::sampler_spec::{Filter, MipMode};
+
+/// Where and how scenes are rendered. What is not set is the scene's own.
+///
+/// ```
+/// use moire::RenderOptions;
+/// use moire::model::Pattern;
+///
+/// let options = RenderOptions::new().device("cpu").pattern(Pattern::SobolOwen).samples(64);
+/// ```
+#[derive(Clone, Debug, Default)]
+pub struct RenderOptions {
+    devices: Vec<String>,
+    changes: Changes,
+    pub(super) with: Options,
+}
+
+impl RenderOptions {
+    /// Returns options that set nothing.
+    pub fn new() -> RenderOptions {
+        RenderOptions::default()
+    }
+
+    /// Adds a device that renders: by its index, a part of its name, `cpu` or `gpu`; or `oracle`, which is float64 on
+    /// the CPU. Several take strips of the picture in turn. Without any it is the first discrete GPU, else an
+    /// integrated one, else a CPU driver.
+    pub fn device(mut self, select: impl Into<String>) -> Self {
+        self.devices.push(select.into());
+        self
+    }
+
+    /// Sets the picture's width and height in pixels.
+    pub fn size(mut self, width: u32, height: u32) -> Self {
+        self.changes.size = Some([width, height]);
+        self
+    }
+
+    /// Renders a part of the picture alone: the pixel of its top left corner, its width and height.
+    pub fn crop(mut self, [x, y, width, height]: [u32; 4]) -> Self {
+        self.with.crop = Some(Rect { x, y, width, height });
+        self
+    }
+
+    /// Sets the samples a pixel.
+    pub fn samples(mut self, samples: u32) -> Self {
+        self.changes.spp = Some(samples);
+        self
+    }
+
+    /// Sets where in a pixel its samples lie.
+    pub fn pattern(mut self, pattern: Pattern) -> Self {
+        self.changes.pattern = Some(pattern);
+        self
+    }
+
+    /// Sets the seed of the samples.
+    pub fn seed(mut self, seed: u32) -> Self {
+        self.changes.seed = Some(seed);
+        self
+    }
+
+    /// Sets how pixels are sampled, or that none are.
+    pub fn algorithm(mut self, algorithm: Algorithm) -> Self {
+        self.changes.algorithm = Some(algorithm);
+        self
+    }
+
+    /// Sets the filter of every sampler.
+    pub fn filter(mut self, filter: Filter) -> Self {
+        self.changes.filter = Some(filter);
+        self
+    }
+
+    /// Sets which levels every sampler reads.
+    pub fn mip(mut self, mip: MipMode) -> Self {
+        self.changes.mip = Some(mip);
+        self
+    }
+
+    /// Sets over what a texture look-up is averaged.
+    pub fn footprint(mut self, footprint: Footprint) -> Self {
+        self.changes.footprint = Some(footprint);
+        self
+    }
+
+    /// Sets the pixel filter.
+    pub fn pixel_filter(mut self, filter: PixelFilterKind) -> Self {
+        self.changes.pixel_filter = Some(filter);
+        self
+    }
+
+    /// Renders for so many seconds and then stops, instead of at a number of samples.
+    pub fn budget(mut self, seconds: f64) -> Self {
+        self.with.goal = Some(Goal::Seconds(seconds));
+        self
+    }
+
+    /// Renders until the picture's RMSE is estimated to be this, instead of to a number of samples.
+    pub fn target_error(mut self, rmse: f64) -> Self {
+        self.with.goal = Some(Goal::Error(rmse));
+        self
+    }
+
+    /// Lets in textures with NaN and infinite texels, which are errors else.
+    pub fn allow_nonfinite(mut self) -> Self {
+        self.with.allow_nonfinite = true;
+        self
+    }
+
+    /// What renders.
+    pub(super) fn on(&self) -> Result<Vec<On>> {
+        if self.devices.is_empty() {
+            return Ok(vec![On::Device(DeviceSelect::Default)]);
+        }
+        self.devices.iter().map(|text| On::parse(text)).collect()
+    }
+
+    /// What replaces the scene's own values.
+    pub(super) fn changes(&self) -> Result<Changes> {
+        let positive = match self.with.goal {
+            Some(Goal::Seconds(x) | Goal::Error(x)) => x.is_finite() && x > 0.0,
+            Some(Goal::Samples(_)) | None => true,
+        };
+        if !positive {
+            return Err(Error::new("a budget and a target error are numbers above 0"));
+        }
+        Ok(Changes { has_goal: self.with.goal.is_some(), ..self.changes.clone() })
+    }
+}

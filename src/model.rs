@@ -1,0 +1,17 @@
+//! What a scene consists of: the parts that a [`SceneBuilder`](crate::SceneBuilder) takes, in scene units, degrees and
+//! linear RGB. An index that a part has is one that the builder returned; [`DEFAULT`] stands for the default material
+//! and the default sampler.
+
+pub use crate::scene::builder::DEFAULT;
+pub use crate::scene::geometry::{Kind, Shape};
+pub use crate::scene::model::{
+    Algorithm, Background, Bounds, BumpKind, BumpMap, Camera, Entity, Environment, EnvironmentLayout,
+    Footprint, Lens, Light, Mapping, MappingKind, Material, Model, Pattern, PixelFilter, PixelFilterKind,
+    Plane, Precision, Projection, Sampling, Space, Sphere, Triangle,
+};
+pub use crate::texture::data::{ColorSpace, Dimension, MipKernel, TexelFormat};
+pub use crate::texture::procedural::{Procedural, ProceduralKind};
+pub use crate::texture::sampler_spec::{Address, Filter, Method, MipMode, SamplerSpec, TexelCenter};
+pub use crate::texture::source::{
+    CubeLayout, Endian, OrientationUse, PlainTexels, Reading, TextureContent, TextureSource, VolumeSource,
+};

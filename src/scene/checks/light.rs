@@ -1,0 +1,40 @@
+//! Lights: none of them degenerate.
+
+use super::super::limits::{CAP, COLOR, COORDINATE, NOT_NEGATIVE, parallel};
+use super::super::model::Light;
+use super::super::refusal::{Check, Key};
+
+pub fn light(key: Key, light: &Light) -> Check {
+    let [position, direction] = ["position", "direction"].map(|name| key.of(name));
+    let [intensity, irradiance, radiance] = ["intensity", "irradiance", "radiance"].map(|name| key.of(name));
+    match *light {
+        Light::Point { position: place, intensity: power } => {
+            position.vector(place, &COORDINATE)?;
+            intensity.vector(power, &COLOR)
+        }
+        Light::Sphere { position: place, radius, intensity: power } => {
+            position.vector(place, &COORDINATE)?;
+            intensity.vector(power, &COLOR)?;
+            key.of("radius").number(radius, &NOT_NEGATIVE)
+        }
+        Light::Directional { direction: towards, irradiance: power } => {
+            direction.direction(towards)?;
+            irradiance.vector(power, &COLOR)
+        }
+        Light::Sun { direction: towards, angle, irradiance: power } => {
+            direction.direction(towards)?;
+            irradiance.vector(power, &COLOR)?;
+            key.of("angle").number(angle, &CAP)
+        }
+        Light::Rectangle { position: place, edge_u, edge_v, radiance: power } => {
+            position.vector(place, &COORDINATE)?;
+            key.of("edge_u").direction(edge_u)?;
+            key.of("edge_v").direction(edge_v)?;
+            if parallel(edge_u, edge_v) {
+                let what = "edge_u and edge_v are parallel and span no area; turn one of them";
+                return key.of("edge_v").refuse(what, "parallel to edge_u");
+            }
+            radiance.vector(power, &COLOR)
+        }
+    }
+}

@@ -1,0 +1,89 @@
+//! The door for scene formats: one table. In: a path, or text and the path it is known by. Out: the whole scene, with
+//! every reference an index, or the first error. A format reads its bytes into a `SceneBuilder`, which knows every
+//! limit, and says where in its file that stands which the builder refuses.
+
+mod toml;
+
+use std::fs::File;
+use std::io::{ErrorKind as Io, Read};
+use std::path::Path;
+
+use super::model::Scene;
+use crate::core::error::{Error, ErrorKind, Result};
+use crate::core::panics;
+use crate::texture::open_file::odd_path;
+pub use toml::parse;
+
+/// A format of scene files.
+struct Format {
+    name: &'static str,
+    /// Of file names, in lower case.
+    endings: &'static [&'static str],
+    /// No file is longer.
+    max_bytes: u64,
+    /// Reads a scene from the bytes of the file at this path.
+    read: fn(&Path, Vec<u8>) -> Result<Scene>,
+}
+
+/// Every format that is read. The first one is that of standard input and of files with another ending.
+const FORMATS: [Format; 1] = [toml::FORMAT];
+
+/// What a scene is called that was not read from a file.
+pub const STANDARD_INPUT: &str = "<stdin>";
+
+/// Whether a path stands for standard input.
+pub fn is_standard_input(path: &Path) -> bool {
+    path == Path::new("-")
+}
+
+/// Reads a scene file, or standard input where the path is `-`: paths in it are then relative to the current
+/// folder. Textures are named, not opened.
+pub fn load(path: &Path) -> Result<Scene> {
+    let is_stdin = is_standard_input(path);
+    let stage = if is_stdin { STANDARD_INPUT.into() } else { path.display().to_string() };
+    panics::contain(&format_args!("{stage}: reading this scene"), || {
+        if is_stdin {
+            let [format, ..] = &FORMATS;
+            let path = Path::new(STANDARD_INPUT);
+            return (format.read)(path, bytes_of(std::io::stdin().lock(), path, format)?);
+        }
+        let format = format_of(path);
+        (format.read)(path, bytes_of(open(path)?, path, format)?)
+    })
+}
+
+fn format_of(path: &Path) -> &'static Format {
+    let ending = path.extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default();
+    let [first, ..] = &FORMATS;
+    FORMATS.iter().find(|format| format.endings.contains(&ending.as_str())).unwrap_or(first)
+}
+
+fn unreadable(path: &Path, what: &str) -> Error {
+    Error::new(format!("cannot read scene {}: {what}", path.display())).of_kind(ErrorKind::File)
+}
+
+fn open(path: &Path) -> Result<File> {
+    if path.is_dir() {
+        let names: Vec<&str> = FORMATS.iter().map(|format| format.name).collect();
+        let help = format!("name a scene file ({}) in it", names.join(", "));
+        return Err(unreadable(path, "it is a folder").and_help(Some(help)));
+    }
+    File::open(path).map_err(|error| {
+        let help = odd_path(path).filter(|_| error.kind() == Io::NotFound);
+        unreadable(path, &error.to_string()).and_help(help)
+    })
+}
+
+fn bytes_of(source: impl Read, path: &Path, format: &Format) -> Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    source
+        .take(format.max_bytes + 1)
+        .read_to_end(&mut bytes)
+        .map_err(|error| unreadable(path, &error.to_string()))?;
+    if bytes.len() as u64 > format.max_bytes {
+        let mib = format.max_bytes >> 20;
+        let what = format!("it is larger than {mib} MiB, the most a scene file may have");
+        return Err(unreadable(path, &what));
+    }
+    Ok(bytes)
+}

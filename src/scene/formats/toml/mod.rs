@@ -1,0 +1,146 @@
+//! Scene files in TOML. In: the bytes of a file and the path it is known by. Out: the scene that the builder makes of
+//! them; or the first error, with the line and the key that it is about.
+
+mod lights;
+mod materials;
+mod names;
+mod place;
+mod procedural;
+mod reader;
+mod samplers;
+mod sections;
+mod shapes;
+mod source;
+mod table;
+mod textures;
+mod vocabulary;
+
+use std::path::Path;
+
+use toml::de::DeTable;
+
+use super::Format;
+use crate::core::error::{Error, ErrorKind, Result};
+use crate::scene::builder::SceneBuilder;
+use crate::scene::limits::check_filters;
+use crate::scene::model::{EnvironmentLayout, Scene};
+use crate::texture::sampler_spec::Address;
+use names::Names;
+use procedural::PROCEDURAL;
+use samplers::Known;
+use shapes::SHAPES;
+use source::Source;
+use table::Table;
+
+/// 65535 triangles with texture coordinates take 7 MB of text.
+const MAX_BYTES: u64 = 64 << 20;
+const SECTIONS: &[&str] =
+    &["camera", "image", "sampling", "background", "texture", "sampler", "material", "light"];
+
+pub(super) const FORMAT: Format =
+    Format { name: "TOML", endings: &["toml"], max_bytes: MAX_BYTES, read: read };
+
+/// Paths in the file are relative to the folder of `path`.
+fn read(path: &Path, bytes: Vec<u8>) -> Result<Scene> {
+    let text = String::from_utf8(bytes).map_err(|error| {
+        let valid = error.utf8_error().valid_up_to();
+        let line = error.as_bytes()[..valid].iter().filter(|&&byte| byte == b'\n').count() + 1;
+        let byte = error.as_bytes()[valid];
+        let shown = path.display();
+        let message = format!(
+            "cannot read scene {shown}: not UTF-8 text (byte 0x{byte:02x} at offset {valid}, line {line})"
+        );
+        Error::with_help(message, "scene files are TOML text: save the file as UTF-8")
+            .of_kind(ErrorKind::File)
+    })?;
+    parse(path, &text)
+}
+
+/// Parses scene text. Paths in it are relative to the folder of `path_for_messages`.
+pub fn parse(path_for_messages: &Path, text: &str) -> Result<Scene> {
+    let source = Source { path: path_for_messages, text };
+    let document = DeTable::parse(text).map_err(|error| syntax_error(source, &error))?;
+    let sections = [SECTIONS, &SHAPES.map(|(section, ..)| section)].concat();
+    let root = Table::root(source, document.get_ref(), &sections)?;
+    assemble(path_for_messages, &root)
+}
+
+fn syntax_error(source: Source<'_>, error: &toml::de::Error) -> Error {
+    let span = error.span().unwrap_or(0..0);
+    let found = match source.excerpt(span.clone()) {
+        empty if empty.is_empty() => String::new(),
+        excerpt => format!(", found {excerpt}"),
+    };
+    let place = span.start;
+    let mut told = source.error(span, &format!("TOML syntax: {}{found}", error.message()), error.message());
+    if let Error::Scene { help, .. } = &mut told
+        && error.message().contains("escape")
+        && source.line(place).contains('\\')
+    {
+        *help = Some(
+            "within \"…\" a backslash begins an escape; write folders with / (textures/brick.png), or the path in \
+             single quotes ('textures\\brick.png')"
+                .into(),
+        );
+    }
+    told
+}
+
+fn assemble(path: &Path, root: &Table<'_>) -> Result<Scene> {
+    const CAMERA_NEEDS: &str = "eye, look_at and one of vertical_fov, camera_constant, orthographic_height";
+    let camera = sections::camera(&root.required_single("camera", sections::CAMERA, CAMERA_NEEDS)?)?;
+    let image = root.required_single("image", sections::IMAGE, "width and height")?;
+    let (width, height) = sections::image(&image)?;
+    let mut builder = SceneBuilder::new(camera, width, height);
+    builder.path(path);
+    builder.pixel_filter(sections::pixel_filter(&image)?);
+    builder.sampling(sections::sampling(root.single("sampling", sections::SAMPLING)?.as_ref())?);
+    let materials = surfaces(path, root, &mut builder)?;
+    let dropped = shapes::add_all(root, &materials, &mut builder)?;
+    for table in root.repeated("light", lights::LIGHT)? {
+        builder.light(lights::light(&table)?);
+    }
+    let mut scene = builder.check().map_err(|refusal| place::error(root, &refusal))?;
+    check_filters(&scene)?;
+    if let Some(line) = dropped {
+        scene.first_dropped = format!("line {line}");
+    }
+    Ok(scene)
+}
+
+/// Adds textures, samplers, materials and the background; returns the materials' names.
+fn surfaces<'a>(path: &Path, root: &Table<'a>, builder: &mut SceneBuilder) -> Result<Names<'a>> {
+    let tables = root.repeated("texture", &[textures::TEXTURE, PROCEDURAL].concat())?;
+    let texture_names = Names::collect("texture", &tables)?;
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let textures = tables.iter().map(|table| textures::texture(table, folder)).collect::<Result<Vec<_>>>()?;
+
+    let tables = root.repeated("sampler", samplers::SAMPLER)?;
+    let sampler_names = Names::collect("sampler", &tables)?;
+    let mut addresses = Vec::with_capacity(tables.len());
+    for table in &tables {
+        let sampler = samplers::sampler(table)?;
+        addresses.push(table.get("address").map(|_| sampler.address));
+        builder.sampler(sampler);
+    }
+
+    let tables = root.repeated("material", materials::MATERIAL)?;
+    let names = Names::collect("material", &tables)?;
+    let known = Known { textures: &texture_names, sources: &textures, samplers: &sampler_names };
+    for table in &tables {
+        builder.material(materials::material(table, &known)?);
+    }
+    let table = root.single("background", samplers::BACKGROUND)?;
+    let mut background = samplers::background(table.as_ref(), &known)?;
+    if let Some(environment) = &mut background.environment
+        && environment.layout == EnvironmentLayout::Equirectangular
+        && let Some(Some([_, v])) = addresses.get(environment.sampler)
+    {
+        environment.idle_address = (*v != Address::ClampToEdge).then_some(*v);
+    }
+    builder.background(background);
+    for texture in textures {
+        builder.texture(texture);
+    }
+    Ok(names)
+}

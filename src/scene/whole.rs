@@ -1,0 +1,60 @@
+//! A scene that is whole: only a builder makes it, from a file or from code, so that every rule is kept.
+
+use std::path::Path;
+
+use super::builder::SceneBuilder;
+use super::model::{self, Camera};
+use super::{load, parse};
+use crate::core::error::Result;
+
+/// A scene to render: what a [`Renderer`](crate::Renderer) takes. All its limits are checked.
+///
+/// ```
+/// use moire::model::{Camera, Sphere};
+/// use moire::Scene;
+///
+/// let mut scene = Scene::builder(Camera::looking([0.0, 0.0, 5.0], [0.0, 0.0, 0.0], 40.0), 64, 64);
+/// scene.shape(Sphere::new([0.0, 0.0, 0.0], 0.0));
+/// let error = scene.build().unwrap_err();
+/// assert_eq!(error.kind(), moire::ErrorKind::Scene);
+/// assert!(error.to_string().contains("radius"), "{error}");
+/// ```
+#[derive(Clone, Debug)]
+pub struct Scene(model::Scene);
+
+impl Scene {
+    /// Reads a scene file, or standard input where the path is `-`. The format is that of the file's ending. Textures
+    /// are named, not opened.
+    pub fn from_file(path: impl AsRef<Path>) -> Result<Scene> {
+        load(path.as_ref()).map(Scene)
+    }
+
+    /// Reads a scene from the text of a scene file. Paths in it are relative to the current folder.
+    ///
+    /// ```
+    /// let error = moire::Scene::from_toml("[camera]\neye = [0, 0, nan]\n").unwrap_err();
+    /// assert!(error.to_string().starts_with("scene.toml:1:1: key \"camera.look_at\" is missing"), "{error}");
+    /// ```
+    pub fn from_toml(text: &str) -> Result<Scene> {
+        parse(Path::new("scene.toml"), text).map(Scene)
+    }
+
+    /// Begins a scene that this camera sees on a picture of so many pixels.
+    pub fn builder(camera: Camera, width: u32, height: u32) -> SceneBuilder {
+        SceneBuilder::new(camera, width, height)
+    }
+
+    /// Returns width and height of the picture in pixels.
+    pub fn size(&self) -> [u32; 2] {
+        [self.0.width, self.0.height]
+    }
+
+    pub(super) fn new(scene: model::Scene) -> Scene {
+        Scene(scene)
+    }
+
+    /// Its parts.
+    pub(crate) fn parts(&self) -> &model::Scene {
+        &self.0
+    }
+}
