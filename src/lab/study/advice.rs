@@ -3,9 +3,9 @@
 
 use super::choice::{not_significantly_different, recommended};
 use super::fit::time_to;
+use super::format::{error, names, samples_taken, seconds, significant};
 use super::record::{PointRecord, Record};
 use super::results::Winner;
-use super::format::{error, names, seconds, significant, samples_taken};
 
 /// Returns the recommendation, and the better methods for less and for more time.
 pub fn advice(record: &Record, winners: &[Winner]) -> String {

@@ -2,9 +2,9 @@
 //! significantly different; and one recommended point, which no other beats in both error and time.
 
 use super::bootstrap::ratio;
+use super::format::samples_taken;
 use super::record::PointRecord;
 use super::results::{MethodSlope, SampleDimension, Winner};
-use super::format::samples_taken;
 use crate::lab::plot::axis::steps;
 
 /// The ratio above which errors differ significantly in any case.
@@ -51,7 +51,9 @@ fn ties(point: &PointRecord, all: &[&PointRecord], budget: f64) -> Vec<String> {
     let shortest = |p: &PointRecord| p.seconds.iter().copied().fold(f64::INFINITY, f64::min);
     let fits = |p: &PointRecord| p.median_seconds() <= budget || shortest(p) <= longest;
     let mut methods: Vec<String> = Vec::new();
-    for other in all.iter().filter(|p| p.method != point.method && fits(p) && not_significantly_different(p, point)) {
+    for other in
+        all.iter().filter(|p| p.method != point.method && fits(p) && not_significantly_different(p, point))
+    {
         if !methods.contains(&other.method) {
             methods.push(other.method.clone());
         }

@@ -7,10 +7,10 @@ use crate::core::error::{Error, Result};
 use crate::lab::plot::chart::{Chart, Series};
 use crate::output;
 
+use super::format::{error, samples_taken, seconds};
 use super::page::Plots;
 use super::record::{self, PointRecord, Record};
 use super::showcase::Showcase;
-use super::format::{error, seconds, samples_taken};
 use super::{page, stages};
 
 /// Saves the record from which an interrupted study is resumed.

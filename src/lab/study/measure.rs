@@ -16,11 +16,11 @@ use crate::scene::model::{Algorithm, Scene};
 use super::bootstrap::blocks;
 use super::identity::Hash;
 use super::limit::Limit;
-use super::session_cache::{SessionCache, sampled_part};
 use super::method::Method;
 use super::plan::{Forecast, Point};
 use super::record::{Errors, PointRecord, Record, Stages};
 use super::reference::Reference;
+use super::session_cache::{SessionCache, sampled_part};
 use super::showcase::SAMPLES;
 use super::{Options, files, quote, quoted};
 use crate::core::counted::{counted, plural, verb};
@@ -238,7 +238,8 @@ impl<'a> Measurement<'a> {
 
 fn judge(film: &Film, reference: &Reference) -> Result<Errors> {
     let comparison = compare(film, &reference.film)?;
-    let flip = if comparison.nan_pixels > 0 { f64::NAN } else { PerceptualFeatures::of(film).mean(&reference.seen) };
+    let flip =
+        if comparison.nan_pixels > 0 { f64::NAN } else { PerceptualFeatures::of(film).mean(&reference.seen) };
     Ok(Errors::new(&comparison, flip))
 }
 

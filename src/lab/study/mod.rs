@@ -13,9 +13,9 @@ pub mod bootstrap;
 pub mod choice;
 mod files;
 mod fit;
+pub mod format;
 mod identity;
 mod limit;
-mod session_cache;
 mod measure;
 pub mod method;
 mod page;
@@ -24,11 +24,11 @@ pub mod plan;
 pub mod record;
 mod reference;
 pub mod results;
+mod session_cache;
 mod showcase;
 mod stages;
 pub mod student;
 mod tables;
-pub mod format;
 
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -40,9 +40,9 @@ use crate::scene::model::Scene;
 use crate::texture;
 
 use limit::Limit;
-use session_cache::SessionCache;
 use method::Method;
 use record::{Conditions, Record};
+use session_cache::SessionCache;
 
 /// The options of a study.
 #[derive(Clone, Debug)]
@@ -90,7 +90,8 @@ pub fn run(gpu: &Gpu, scene: &Scene, options: &Options, progress: &dyn Progress)
     let kept = record::read(&options.out);
 
     let sessions = SessionCache::open(gpu, scene, textures, &methods)?;
-    let reference = reference::obtain(&sessions, scene, options, &identity, kept.reference, &limit, progress)?;
+    let reference =
+        reference::obtain(&sessions, scene, options, &identity, kept.reference, &limit, progress)?;
     record.reference = reference.record.clone();
     measure::Measurement {
         sessions: &sessions,

@@ -5,11 +5,11 @@ use crate::lab::plot::html::{Header, Html, SCRIPT, code, document, html, scroll,
 use crate::output::Format;
 
 use super::choice::recommended;
-use super::pictures::{crop, data_uri, differences, false_color, ramp_css, scale, downscaled};
+use super::format::error;
+use super::pictures::{crop, data_uri, differences, downscaled, false_color, ramp_css, scale};
 use super::record::Record;
 use super::showcase::Showcase;
 use super::tables;
-use super::format::error;
 
 /// The charts of the page, each as SVG.
 pub struct Plots {

@@ -19,10 +19,10 @@ use crate::texture;
 
 use super::identity::{self, Hash};
 use super::limit::Limit;
-use super::session_cache::SessionCache;
 use super::method::Method;
 use super::plan::next_count;
 use super::record::ReferenceRecord;
+use super::session_cache::SessionCache;
 use super::{Options, ReferenceChoice};
 
 pub const FILE: &str = "reference.exr";
@@ -81,7 +81,8 @@ pub fn obtain(
     } else {
         let half = |samples: u32, seed: u32, progress: &dyn Progress| {
             let scene = half_of(scene, samples, seed)?;
-            let (prepared, _) = sessions.prepare(&scene, &Method::of_pattern(Pattern::Stratified), samples)?;
+            let (prepared, _) =
+                sessions.prepare(&scene, &Method::of_pattern(Pattern::Stratified), samples)?;
             prepared.render(progress).map(|(film, _)| film)
         };
         in_halves(scene, &half, wanted, allowed, options, limit, progress)?

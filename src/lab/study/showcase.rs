@@ -9,13 +9,13 @@ use crate::lab::metrics::compare;
 use crate::scene::model::{Algorithm, Pattern, Scene};
 
 use super::choice::recommended;
+use super::format::samples_taken_by;
 use super::limit::Limit;
-use super::session_cache::{SessionCache, sampled_part};
 use super::method::Method;
 use super::pictures::{self, Window};
 use super::plan::next_count;
 use super::record::{MethodRecord, Record};
-use super::format::samples_taken_by;
+use super::session_cache::{SessionCache, sampled_part};
 use crate::core::counted::{counted, verb};
 
 /// The pixels along a side of the magnified crops.

@@ -1,8 +1,8 @@
 //! A chart of the time by stage as SVG: one bar per method, for the count closest to the middle of
 //! those requested.
 
-use super::record::{MethodRecord, PointRecord, Record};
 use super::format::{samples, seconds};
+use super::record::{MethodRecord, PointRecord, Record};
 use crate::lab::plot::svg;
 
 const WIDTH: f64 = 760.0;
@@ -20,7 +20,8 @@ pub fn svg<'a>(record: &'a Record) -> String {
     let mut body = String::new();
     for (i, stage) in STAGES.iter().enumerate() {
         let x = 20.0 + 130.0 * i as f64;
-        body += &format!("<rect x=\"{x}\" y=\"12\" width=\"14\" height=\"14\" class=\"f{}\"/>\n", color_index(i));
+        body +=
+            &format!("<rect x=\"{x}\" y=\"12\" width=\"14\" height=\"14\" class=\"f{}\"/>\n", color_index(i));
         body += &svg::text(x + 20.0, 24.0, "start", "", stage);
     }
     for (row, point) in rows.iter().enumerate() {

@@ -1,9 +1,9 @@
 //! The tables of the page: winners, slopes, times to errors, every point, and the conditions.
 
 use super::analysis::{Analysis, MethodSlope};
+use super::format::{error, percent, samples_taken, seconds, times};
 use super::quote;
 use super::record::{PointRecord, Record};
-use super::format::{error, percent, seconds, samples_taken, times};
 use crate::lab::plot::html::{Html, code, html, scroll, table};
 
 pub fn winners(analysis: &Analysis) -> Html {
