@@ -62,7 +62,7 @@ impl OracleBackend<'_> {
             let mut header = self.scene.header;
             let samples = 2.0 * f64::from(batch.first + batch.count);
             let share = filter_width(&header) / samples.sqrt();
-            header.step_x[3] = if batch.part & JOB_BARE != 0 { 0.0 } else { share };
+            header.sample_side = if batch.part & JOB_BARE != 0 { 0.0 } else { share };
             let range = batch.first..batch.first + batch.count;
             sums(self.scene, &header, batch.column_and_row(), batch.stream(), range)
         };

@@ -53,8 +53,7 @@ pub struct BatchSampler<'a> {
     groups_per_tile: u32,
     pages: Vec<Page>,
     size: [u32; 2],
-    /// Mean of the samples' signs, where they have any: behind the sums of radiance the film holds those of samples
-    /// whose sign is negative, and behind these the counts.
+    /// Mean of the samples' signs, where they have any: the film then also holds sums of negative samples, and counts.
     mean_sign: Option<f64>,
     /// A thread takes no more samples at once.
     block: u32,
@@ -315,13 +314,12 @@ impl BatchSampler<'_> {
                 let offset = |plane: usize| (plane * pixels * size_of::<[f32; 4]>()) as u64;
                 self.gpu.read_buffer(&page.film, offset(half), bytemuck::cast_slice_mut(out))?;
                 if let Some(mean) = self.mean_sign {
-                    let mut planes = [(); 2].map(|()| vec![[0f32; 4]; pixels]);
-                    for (kind, plane) in planes.iter_mut().enumerate() {
+                    let [mut negative, mut counts] = [(); 2].map(|()| vec![[0f32; 4]; pixels]);
+                    for (kind, plane) in [&mut negative, &mut counts].into_iter().enumerate() {
                         let offset = offset(2 * (1 + kind) + half);
                         self.gpu.read_buffer(&page.film, offset, bytemuck::cast_slice_mut(plane))?;
                     }
-                    let [negative, counts] = &planes;
-                    for ((sums, negative), counts) in out.iter_mut().zip(negative).zip(counts) {
+                    for ((sums, negative), counts) in out.iter_mut().zip(&negative).zip(&counts) {
                         *sums = weighed([*sums, *negative, *counts].map(|v| v.map(f64::from)), mean);
                     }
                 }

@@ -19,7 +19,7 @@ impl Model {
 
     /// Whether lights shine on it.
     pub const fn is_lit(self) -> bool {
-        matches!(self, Model::Lambert | Model::Phong)
+        matches!(self, Model::Lambert | Model::Phong | Model::OrenNayar)
     }
 
     /// Whether rays go on from it.
@@ -63,7 +63,7 @@ pub(super) const KEYS: [ModelKey; 4] = [
     ModelKey { name: "ior", models: &[Model::Dielectric], value: Value::Number(|m| &mut m.ior), limits: IOR },
     ModelKey {
         name: "roughness",
-        models: &[Model::Mirror, Model::Dielectric],
+        models: &[Model::Mirror, Model::Dielectric, Model::OrenNayar],
         value: Value::Number(|m| &mut m.roughness),
         limits: UNIT,
     },

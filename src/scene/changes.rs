@@ -1,7 +1,6 @@
 //! Options that replace values of a scene, checked by the same rules: the command line's and those of a
 //! `RenderOptions`. In: a scene and what is asked for. Out: the scene to render.
 
-use super::both_filters;
 use super::cone;
 use super::limits::{check_filters, check_shared, check_spp};
 use super::model::{Algorithm, Footprint, Pattern, PixelFilter, PixelFilterKind, Precision, Sampling, Scene};
@@ -60,7 +59,7 @@ impl Changes {
             sampler.mip = self.mip.unwrap_or(sampler.mip);
             sampler.method = self.method.unwrap_or(sampler.method);
             if let Some(filter) = self.filter {
-                (sampler.mag, sampler.min) = both_filters(filter);
+                (sampler.mag, sampler.min) = filter.both();
             }
         }
         // What the command line names is meant.

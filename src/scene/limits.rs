@@ -101,11 +101,6 @@ pub fn check_spp(pattern: Pattern, spp: u32) -> Result<(), String> {
     }
 }
 
-/// The filters that one name stands for: those that only minify magnify linearly.
-pub fn both_filters(filter: Filter) -> (Filter, Filter) {
-    (if filter.only_minifies() { Filter::Linear } else { filter }, filter)
-}
-
 pub(super) fn check_mag(mag: Filter) -> Result<(), String> {
     if mag.only_minifies() {
         return Err(format!(

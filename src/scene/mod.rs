@@ -25,7 +25,5 @@ mod whole;
 
 pub use builder::SceneBuilder;
 pub use formats::{STANDARD_INPUT, is_standard_input, load, parse};
-pub use limits::{
-    MAX_DEPTH, MAX_RADIUS, MAX_SIZE, MAX_SPP, both_filters, check_filters, check_shared, check_spp,
-};
+pub use limits::{MAX_DEPTH, MAX_RADIUS, MAX_SIZE, MAX_SPP, check_filters, check_shared, check_spp};
 pub use whole::Scene;

@@ -91,6 +91,8 @@ enums! {
         Dielectric = "dielectric",
         /// Lambert with a highlight.
         Phong = "phong",
+        /// Rough and diffuse; keeps all light.
+        OrenNayar = "oren-nayar",
     }
 
     /// What a material's bump texture holds.
@@ -277,6 +279,10 @@ enums! {
         Ewa = "ewa",
         /// The mean over the footprint's bounding box (Crow 1984).
         SummedArea = "summed-area",
+        /// Four by four texels, by a windowed sinc (Duchon 1979).
+        Lanczos2 = "lanczos-2",
+        /// Six by six.
+        Lanczos3 = "lanczos-3",
     }
 
     /// How levels of a mip chain become one value.

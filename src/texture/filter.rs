@@ -61,6 +61,8 @@ impl Filter {
             Filter::Linear => Traits { in_hardware: true, ..MIXED },
             // Four by four texels, and the rows.
             Filter::Cubic => Traits { needs_flat: true, turns: Turns::Place(20), ..MIXED },
+            Filter::Lanczos2 => Traits { needs_flat: true, turns: Turns::Place(20), ..MIXED },
+            Filter::Lanczos3 => Traits { needs_flat: true, turns: Turns::Place(42), ..MIXED },
             Filter::Stochastic => Traits { is_random: true, blends: true, ..ONE_TEXEL },
             Filter::Anisotropic => Traits {
                 only_minifies: true,
@@ -87,6 +89,12 @@ impl Filter {
         }
     }
 
+    /// Returns the filters of magnification and minification that one name stands for: those that only minify
+    /// magnify linearly.
+    pub fn both(self) -> (Filter, Filter) {
+        (if self.only_minifies() { Filter::Linear } else { self }, self)
+    }
+
     /// Returns true for filters that are defined only where a footprint covers more than a texel.
     pub const fn only_minifies(self) -> bool {
         self.traits().only_minifies
@@ -111,7 +119,10 @@ mod tests {
     #[test]
     fn lists_of_names_end_with_a_word() {
         assert_eq!(Filter::names_with(|t| t.in_hardware, "or"), "nearest, linear or anisotropic");
-        assert_eq!(Filter::names_with(|t| !t.only_minifies, "or"), "nearest, linear, cubic or stochastic");
+        assert_eq!(
+            Filter::names_with(|t| !t.only_minifies, "or"),
+            "nearest, linear, cubic, stochastic, lanczos-2 or lanczos-3"
+        );
         assert_eq!(Filter::names_with(|t| t.needs_sums, "or"), "summed-area");
     }
 }

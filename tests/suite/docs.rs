@@ -18,16 +18,16 @@ use std::path::PathBuf;
 use crate::layering::files_under;
 use crate::support::{data, untested};
 
-/// The README leads to the docs; it does not hold them.
+/// Bounds the README, which leads to the docs and does not hold them.
 const MOST_README_LINES: usize = 250;
 
 pub struct Page {
-    /// Relative to the root of the repository: `docs/cli.md`.
+    /// The path, relative to the root of the repository: `docs/cli.md`.
     pub name: String,
     pub text: String,
 }
 
-/// The root of the repository; `None` where only binaries and data were carried.
+/// Returns the root of the repository; `None` where only binaries and data were carried.
 pub fn root() -> Option<PathBuf> {
     let root = data().join("..");
     let there = root.join("README.md").is_file() && root.join("docs").is_dir();
@@ -37,7 +37,7 @@ pub fn root() -> Option<PathBuf> {
     there.then_some(root)
 }
 
-/// README.md first, then the files of `docs` by name.
+/// Returns README.md and then the files of `docs`, ordered by name.
 pub fn pages() -> Vec<Page> {
     let Some(root) = root() else { return Vec::new() };
     let mut files = Vec::new();
@@ -52,7 +52,7 @@ pub fn pages() -> Vec<Page> {
     files.into_iter().map(page).collect()
 }
 
-/// A page's paragraphs, rows of tables and headings, each as one line, without its blocks of code.
+/// Returns a page's paragraphs, rows of tables and headings, each as one line, without its blocks of code.
 pub fn prose(text: &str) -> Vec<String> {
     let mut inside = false;
     let mut found = vec![String::new()];
@@ -72,7 +72,7 @@ pub fn prose(text: &str) -> Vec<String> {
     found
 }
 
-/// What stands in backticks in a paragraph.
+/// Returns what stands in backticks in a paragraph.
 pub fn spans(paragraph: &str) -> impl Iterator<Item = &str> {
     paragraph.split('`').skip(1).step_by(2)
 }

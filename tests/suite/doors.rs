@@ -10,7 +10,6 @@ use crate::layering::{files_under, source_root};
 /// Files of `glsl/shared` without a twin, and why.
 const WITHOUT_TWIN: &[(&str, &str)] = &[
     ("bsdf/models", "the oracle's stands at the head of its folder: `bsdf/mod.rs`"),
-    ("cone_main", "calls what `cone_shade` has"),
     ("diagnostics", "counters of the device"),
     ("mip_chain", "its twin makes levels on the host: `src/texture/mips`"),
     ("probe_main", "a list of look-ups"),

@@ -32,6 +32,7 @@ const GOLDENS: &[(&str, [u32; 2])] = &[
     ("hardware", [164, 84]),
     ("horizon", [128, 96]),
     ("inside", [96, 96]),
+    ("lanczos", [128, 64]),
     ("lecture", [128, 128]),
     ("lens", [64, 48]),
     ("lights", [120, 90]),
@@ -45,6 +46,7 @@ const GOLDENS: &[(&str, [u32; 2])] = &[
     ("procedural", [120, 53]),
     ("ramp", [120, 42]),
     ("reflection", [128, 54]),
+    ("rough", [160, 48]),
     ("samplers", [264, 108]),
     ("shared", [120, 90]),
     ("volume", [120, 50]),
@@ -194,8 +196,8 @@ macro_rules! goldens {
 }
 goldens! {
     beams centroid cones environment environment_cube filters formats glass glossy hardware horizon inside
-    lecture lens lights mappings materials mirrors motion normal penumbra position procedural ramp reflection
-    samplers shared volume zone_plate
+    lanczos lecture lens lights mappings materials mirrors motion normal penumbra position procedural ramp reflection
+    rough samplers shared volume zone_plate
 }
 
 /// One texel a pixel: the very bytes of the texture.

@@ -4,6 +4,7 @@
 
 pub mod bench;
 mod hardware;
+mod lanczos;
 mod planted;
 mod shader;
 

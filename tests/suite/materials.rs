@@ -4,6 +4,7 @@
 mod glass;
 mod leaning;
 mod mirrored;
+mod oren_nayar;
 mod phong;
 mod relief;
 mod scales;

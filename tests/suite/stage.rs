@@ -33,8 +33,8 @@ macro_rules! with_scenes {
     ($($call:tt)*) => {
         $crate::stage::dispatch! {
             $($call)* beams centroid cones environment environment_cube filters formats glass glossy hardware
-            horizon inside lecture lens lights mappings materials mirrors motion normal penumbra position
-            procedural quad ramp reflection samplers shared volume zone_plate s1a s1b s2
+            horizon inside lanczos lecture lens lights mappings materials mirrors motion normal penumbra position
+            procedural quad ramp reflection rough samplers shared volume zone_plate s1a s1b s2
         }
     };
 }

@@ -8,6 +8,7 @@
 #include "../layout.glsl"
 #include "lambert.glsl"
 #include "mirror.glsl"
+#include "oren_nayar.glsl"
 #include "phong.glsl"
 #include "unlit.glsl"
 
@@ -28,7 +29,7 @@ struct Lit {
 };
 
 // Some model has the second lobe.
-const bool SECOND_LOBE = HAS(MODELS, MODEL_PHONG);
+const bool SECOND_LOBE = (MODELS & ((1u << MODEL_PHONG) | (1u << MODEL_OREN_NAYAR))) != 0u;
 
 // Sends rays on, and nothing else.
 bool is_specular(Material material) {
@@ -37,7 +38,8 @@ bool is_specular(Material material) {
 
 // Sends light on.
 bool is_lit(Material material) {
-    return MODE_IS(MODELS, MODEL_PHONG, material.model) || MODE_IS(MODELS, MODEL_LAMBERT, material.model);
+    return MODE_IS(MODELS, MODEL_PHONG, material.model) || MODE_IS(MODELS, MODEL_LAMBERT, material.model) ||
+           MODE_IS(MODELS, MODEL_OREN_NAYAR, material.model);
 }
 
 // Radiance that the material sends by itself, where its colour times what the path carries is `color`.
@@ -54,6 +56,9 @@ Bsdf bsdf_at(Material material, vec3 albedo, real3 normal, real3 direction) {
 vec2 evaluate(Bsdf bsdf, vec3 way) {
     vec2 lobes = lambert_lobes();
     if (HAS(MODELS, MODEL_PHONG)) lobes = phong_lobes(bsdf.mirror, way, bsdf.material.exponent);
+    if (MODE_IS(MODELS, MODEL_OREN_NAYAR, bsdf.material.model)) {
+        lobes = oren_nayar_lobes(bsdf.normal, bsdf.direction, way, sqrt(bsdf.material.alpha));
+    }
     return lobes;
 }
 
@@ -62,6 +67,9 @@ vec3 reflected(Bsdf bsdf, vec3 color, vec3 carried, Lit lit) {
     vec3 seen = color * lit.first;
     if (MODE_IS(MODELS, MODEL_PHONG, bsdf.material.model)) {
         seen = with_highlight(seen, carried, bsdf.material.specular, lit.second);
+    }
+    if (MODE_IS(MODELS, MODEL_OREN_NAYAR, bsdf.material.model)) {
+        seen += carried * scattered_albedo(bsdf.albedo, sqrt(bsdf.material.alpha)) * lit.second;
     }
     return seen;
 }

@@ -1,8 +1,9 @@
 // Filters by a kernel wider than that of `linear`, the same along both axes of a flat texture: `cubic`, 4 by 4 texels
-// (Mitchell & Netravali 1988). Twin: src/oracle/filter/kernels.rs.
+// (Mitchell & Netravali 1988), and `lanczos-2` and `lanczos-3`, twice the radius (Duchon 1979). Twin: src/oracle/filter/kernels.rs.
 #ifndef KERNELS_GLSL
 #define KERNELS_GLSL
 
+#include "../math.glsl"
 #include "../texture.glsl"
 
 #if SOURCE != SOURCE_NONE
@@ -22,19 +23,57 @@ vec4 cubic_weights(float t, vec2 bc) {
     return vec4(w0, w1, ((1.0 - w0) - w1) - w3, w3);
 }
 
+// Weights of the taps along an axis: four, and of wide kernels two more.
+struct KernelWeights {
+    vec4 first;
+    vec2 rest;
+};
+
+// sinc(x) sinc(x / radius), but for a factor, `x` from the place: sin(pi x) is that of t, with a sign.
+float lanczos_weight(float sine, float x, float radius) {
+    return x == 0.0 ? PI * PI / radius : sine * sine_turns(0.5 * x / radius) / (x * x);
+}
+
+// They are made to sum to 1, which a windowed sinc does not by itself.
+KernelWeights lanczos_weights(float t, float radius) {
+    float sine = sine_turns(0.5 * t);
+    float before = t + (radius - 1.0);
+    float side = radius == 2.0 ? -sine : sine; // at the first tap
+    vec4 first = vec4(lanczos_weight(side, before, radius), lanczos_weight(-side, before - 1.0, radius),
+                      lanczos_weight(side, before - 2.0, radius), lanczos_weight(-side, before - 3.0, radius));
+    vec2 rest = vec2(0.0);
+    if (radius > 2.0) rest = vec2(lanczos_weight(side, before - 4.0, radius), lanczos_weight(-side, before - 5.0, radius));
+    float scale = 1.0 / (((first.x + first.y) + (first.z + first.w)) + (rest.x + rest.y));
+    return KernelWeights(first * scale, rest * scale);
+}
+
 // Whether a filter has such a kernel.
-bool has_kernel(uint mode) { return MODE_IS(FILTERS, FILTER_CUBIC, mode); }
+bool has_kernel(uint mode) {
+    return MODE_IS(FILTERS, FILTER_CUBIC, mode) || MODE_IS(FILTERS, FILTER_LANCZOS_2, mode) ||
+           MODE_IS(FILTERS, FILTER_LANCZOS_3, mode);
+}
 
 // Texels along an axis.
-int kernel_taps(uint mode) { return 4; }
+int kernel_taps(uint mode) { return MODE_IS(FILTERS, FILTER_LANCZOS_3, mode) ? 6 : 4; }
 
-vec4 kernel_weights(uint mode, Sampler how, float t) { return cubic_weights(t, vec2(how.cubic_b, how.cubic_c)); }
+KernelWeights kernel_weights(uint mode, Sampler how, float t) {
+    if (MODE_IS(FILTERS, FILTER_LANCZOS_2, mode)) return lanczos_weights(t, 2.0);
+    if (MODE_IS(FILTERS, FILTER_LANCZOS_3, mode)) return lanczos_weights(t, 3.0);
+    return KernelWeights(cubic_weights(t, vec2(how.cubic_b, how.cubic_c)), vec2(0.0));
+}
+
+float tap_weight(KernelWeights weights, int tap) {
+    if (HAS(FILTERS, FILTER_LANCZOS_3)) {
+        if (tap >= 4) return weights.rest[tap - 4];
+    }
+    return weights.first[tap];
+}
 
 vec4 kernel_flat(Texture image, Sampler how, uint slot, uint mode, Level level, vec2 texel) {
     vec2 low = floor(texel);
     vec2 t = texel - low;
-    vec4 wx = kernel_weights(mode, how, t.x);
-    vec4 wy = kernel_weights(mode, how, t.y);
+    KernelWeights wx = kernel_weights(mode, how, t.x);
+    KernelWeights wy = kernel_weights(mode, how, t.y);
     int taps = kernel_taps(mode);
     ivec2 first = ivec2(low) - (taps / 2 - 1);
     vec4 sum = vec4(0.0);
@@ -47,7 +86,7 @@ vec4 kernel_flat(Texture image, Sampler how, uint slot, uint mode, Level level, 
             }
             vec4 value = POLES ? flat_texel(image, how, slot, level, at)
                                : fetch_or_border(image, how, slot, level, ivec3(at, 0));
-            sum = add_weighted(wx[i] * wy[j], value, sum);
+            sum = add_weighted(tap_weight(wx, i) * tap_weight(wy, j), value, sum);
         }
     }
     return sum;

@@ -7,7 +7,7 @@ use crate::core::error::{Error, Result};
 use crate::scene::cone;
 use crate::scene::model::{Algorithm, Footprint, Pattern, Scene};
 use crate::scene::synonyms::meant;
-use crate::scene::{both_filters, check_filters, check_shared, check_spp};
+use crate::scene::{check_filters, check_shared, check_spp};
 use crate::texture::sampler_spec::{Filter, MipMode, SamplerSpec};
 
 use super::record::MethodRecord;
@@ -157,7 +157,7 @@ impl Method {
 }
 
 fn with_filter(sampler: &mut SamplerSpec, filter: Filter) {
-    (sampler.mag, sampler.min) = both_filters(filter);
+    (sampler.mag, sampler.min) = filter.both();
     sampler.mip = MipMode::Linear;
 }
 

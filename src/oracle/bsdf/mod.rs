@@ -5,6 +5,7 @@ pub mod dielectric;
 pub mod facets;
 pub mod lambert;
 pub mod mirror;
+pub mod oren_nayar;
 pub mod phong;
 pub mod specular;
 pub mod unlit;
@@ -15,6 +16,7 @@ use crate::scene::model::Model;
 use crate::schema::layout::Material;
 use lambert::lambert_lobes;
 use mirror::mirrored;
+use oren_nayar::{oren_nayar_lobes, scattered_albedo};
 use phong::{phong_lobes, with_highlight};
 use unlit::unlit_emitted;
 
@@ -66,7 +68,10 @@ pub fn bsdf_at(material: &Material, albedo: DVec3, normal: DVec3, direction: DVe
 /// The two lobes over 1/π, for light from `way`, which need not be a unit vector.
 pub fn evaluate(bsdf: &Bsdf<'_>, way: DVec3) -> [f64; 2] {
     match model(bsdf.material) {
-        Model::Phong => phong_lobes(bsdf.mirror, way, bsdf.material.specular[3].into()),
+        Model::Phong => phong_lobes(bsdf.mirror, way, bsdf.material.exponent.into()),
+        Model::OrenNayar => {
+            oren_nayar_lobes(bsdf.normal, bsdf.direction, way, f64::from(bsdf.material.alpha).sqrt())
+        }
         _ => lambert_lobes(),
     }
 }
@@ -76,6 +81,10 @@ pub fn reflected(bsdf: &Bsdf<'_>, color: DVec3, carried: DVec3, lit: Lit) -> DVe
     let seen = color * lit.first;
     match model(bsdf.material) {
         Model::Phong => with_highlight(seen, carried, bsdf.material.specular.as_dvec3(), lit.second),
+        Model::OrenNayar => {
+            let color = scattered_albedo(bsdf.albedo, f64::from(bsdf.material.alpha).sqrt());
+            seen + carried * color * lit.second
+        }
         _ => seen,
     }
 }

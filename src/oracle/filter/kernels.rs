@@ -1,5 +1,7 @@
 //! Filters by a kernel wider than that of `linear`, the same along both axes of a flat texture: `cubic`, 4 by 4 texels
-//! (Mitchell & Netravali 1988). Twin of `glsl/shared/filter/kernels.glsl`.
+//! (Mitchell & Netravali 1988), and `lanczos-2` and `lanczos-3`, twice the radius (Duchon 1979). Twin of `glsl/shared/filter/kernels.glsl`.
+
+use std::f64::consts::PI;
 
 use glam::{DVec2, DVec4};
 
@@ -16,9 +18,25 @@ pub fn cubic_weights(t: f64, b: f64, c: f64) -> [f64; 4] {
     [outer(r, t), inner(t), inner(r), outer(t, r)]
 }
 
+/// sinc(x) sinc(x / radius).
+fn lanczos_weight(x: f64, radius: f64) -> f64 {
+    let sinc = |x: f64| if x == 0.0 { 1.0 } else { (PI * x).sin() / (PI * x) };
+    sinc(x) * sinc(x / radius)
+}
+
+/// Of the texels around a place t between the middle two; they are made to sum to 1, which a windowed sinc does not by
+/// itself.
+pub fn lanczos_weights(t: f64, radius: u32) -> Vec<f64> {
+    let before = t + f64::from(radius) - 1.0;
+    let weights: Vec<f64> =
+        (0..2 * radius).map(|i| lanczos_weight(before - f64::from(i), f64::from(radius))).collect();
+    let sum: f64 = weights.iter().sum();
+    weights.into_iter().map(|w| w / sum).collect()
+}
+
 /// Whether a filter has such a kernel.
 pub fn has_kernel(filter: Filter) -> bool {
-    filter == Filter::Cubic
+    matches!(filter, Filter::Cubic | Filter::Lanczos2 | Filter::Lanczos3)
 }
 
 /// Of each texel along an axis.
@@ -26,6 +44,8 @@ fn kernel_weights(filter: Filter, how: &Sampler, t: f64) -> Vec<f64> {
     let [b, c] = [how.cubic_b, how.cubic_c].map(f64::from);
     match filter {
         Filter::Cubic => cubic_weights(t, b, c).to_vec(),
+        Filter::Lanczos2 => lanczos_weights(t, 2),
+        Filter::Lanczos3 => lanczos_weights(t, 3),
         _ => vec![0.0, 1.0],
     }
 }

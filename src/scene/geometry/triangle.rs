@@ -90,7 +90,7 @@ impl Checked for Triangle {
         for (i, uv) in self.uvs.iter().enumerate() {
             key.of("uvs").at(i).numbers(uv.to_array(), &COORDINATE)?;
         }
-        let normals = self.normals.iter().flatten().enumerate();
-        normals.map(|(i, normal)| key.of("normals").at(i).direction(*normal)).collect()
+        let mut normals = self.normals.iter().flatten().enumerate();
+        normals.try_for_each(|(i, normal)| key.of("normals").at(i).direction(*normal))
     }
 }

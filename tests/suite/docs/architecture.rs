@@ -8,7 +8,7 @@ use super::{judge, pages, root};
 use crate::layering::ALLOWED;
 
 const PAGE: &str = "docs/architecture.md";
-/// Room, what it may use, what it holds; the first two are generated.
+/// The columns: room, what it may use, what it holds. The first two are generated.
 const COLUMNS: usize = 3;
 
 #[test]
@@ -25,12 +25,12 @@ fn the_rooms_and_what_they_may_use_are_those_of_the_layer_test() {
     judge(PAGE, &faults, &text);
 }
 
-/// What lies in backticks in the first cells.
+/// Returns what lies in backticks in the first cells.
 fn named(rows: &[Vec<String>]) -> BTreeSet<String> {
     rows.iter().flat_map(|row| row[0].split('`').skip(1).step_by(2).map(String::from)).collect()
 }
 
-/// The crates of all tables of dependencies in a manifest.
+/// Returns the crates of all tables of dependencies in a manifest.
 fn crates(manifest: &str) -> BTreeSet<String> {
     let table: toml::Table = manifest.parse().unwrap();
     let mut found = BTreeSet::new();

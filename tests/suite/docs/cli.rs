@@ -6,7 +6,7 @@ use super::{judge, pages};
 use crate::support::moire;
 
 const PAGE: &str = "docs/cli.md";
-/// Option, values, default, meaning; the first three are generated.
+/// The columns: option, values, default, meaning. The first three are generated.
 const COLUMNS: usize = 4;
 
 fn help(arguments: &[&str]) -> String {
@@ -15,7 +15,7 @@ fn help(arguments: &[&str]) -> String {
     String::from_utf8(output.stdout).unwrap()
 }
 
-/// The commands that the help lists.
+/// Returns the commands that the help lists.
 fn commands(help: &str) -> Vec<String> {
     let list = help.split_once("Commands:\n").map_or("", |(_, rest)| rest);
     let lines = list.lines().take_while(|line| !line.is_empty());
@@ -23,7 +23,7 @@ fn commands(help: &str) -> Vec<String> {
     names.filter(|name| *name != "help").map(String::from).collect()
 }
 
-/// Each option and argument with all that the help says of it, in one line.
+/// Returns each option and argument with all that the help says of it, in one line.
 fn entries(help: &str) -> Vec<String> {
     let mut found: Vec<String> = Vec::new();
     for line in help.lines().skip_while(|line| !line.starts_with("Usage:")).skip(1) {
@@ -45,7 +45,7 @@ fn between<'t>(text: &'t str, before: &str) -> Option<&'t str> {
     text.split_once(before)?.1.split(']').next()
 }
 
-/// `-o, --output OUT`, `a`, `b`, default.
+/// Returns the cells of an entry: its spelling (`-o, --output OUT`), its values and its default.
 fn row(entry: &str) -> Vec<String> {
     let end = entry.find("  ").or(entry.find("> ").map(|i| i + 1)).unwrap_or(entry.len());
     let spelling = entry[..end].replace(['<', '>'], "");

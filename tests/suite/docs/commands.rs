@@ -12,7 +12,7 @@ use super::{Page, pages, prose, spans};
 use crate::stage::device_name;
 use crate::support::{data, program};
 
-/// Lines that build the program, the tests or the textures; this very test runs after them.
+/// The starts of lines that build the program, the tests or the textures; this very test runs after them.
 const BUILDS: &[&str] =
     &["./setup.sh", "cargo ", "MOIRE_DEVICE=gpu cargo ", "MOIRE_SETUP_DRY_RUN=1 ./setup.sh"];
 
@@ -25,7 +25,7 @@ esac
 exec PROGRAM \"$@\"
 ";
 
-/// The commands of a page: lines of ```sh blocks, joined where one ends with a backslash, and commands with a
+/// Returns the commands of a page: lines of ```sh blocks, joined where one ends with a backslash, and commands with a
 /// file of `data` within a sentence. A block that opens with `set -e` is one script.
 fn commands(text: &str) -> Vec<String> {
     let mut found = Vec::new();
@@ -52,13 +52,13 @@ fn commands(text: &str) -> Vec<String> {
     found
 }
 
-/// Another device than the one under test or the oracle.
+/// Tells whether a command names another device than the one under test or the oracle.
 fn needs_another_device(command: &str, device: &str) -> bool {
     let named = command.split_once("--device ").and_then(|(_, rest)| rest.split_whitespace().next());
     named.is_some_and(|n| n != device && n != "oracle")
 }
 
-/// A folder with `data` and a `moire` of its own.
+/// Prepares a folder with `data` and a `moire` of its own.
 fn stage(folder: &Path, device: &str) {
     symlink(fs::canonicalize(data()).unwrap(), folder.join("data")).unwrap();
     let program = fs::canonicalize(program()).unwrap();
@@ -69,7 +69,7 @@ fn stage(folder: &Path, device: &str) {
     fs::set_permissions(&path, fs::Permissions::from_mode(0o755)).unwrap();
 }
 
-/// What a shell says of a command that fails.
+/// Runs a command in a shell, and returns what the shell says if it fails.
 fn run(folder: &Path, command: &str) -> Result<(), String> {
     let path = format!("{}:{}", folder.join("bin").display(), std::env::var("PATH").unwrap_or_default());
     let output =
@@ -78,7 +78,7 @@ fn run(folder: &Path, command: &str) -> Result<(), String> {
     if output.status.success() { Ok(()) } else { Err(format!("{command}\n{told}")) }
 }
 
-/// Runs each command of the pages once and tells those that fail.
+/// Runs each command of the pages once, and returns how many there are and which of them fail.
 fn failures(pages: &[Page]) -> (usize, Vec<String>) {
     let device = device_name();
     let folder = tempfile::tempdir().unwrap();

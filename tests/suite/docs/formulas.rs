@@ -10,13 +10,13 @@ use super::{judge, pages, root};
 use crate::layering::files_under;
 
 const PAGE: &str = "docs/formulas.md";
-/// Formula, shader, oracle, test.
+/// The columns: formula, shader, oracle, test.
 const COLUMNS: usize = 4;
 
-/// Where the functions of a column are looked for.
+/// The folders in which the functions of each column are looked for.
 const FOLDERS: [&str; 3] = ["glsl", "src", "tests"];
 
-/// Whether this source defines a function of that name: `fn name`, or in GLSL `type name(`.
+/// Tells whether this source defines a function of that name: `fn name`, or in GLSL `type name(`.
 fn defines(path: &Path, source: &str, name: &str) -> bool {
     if path.extension().is_some_and(|e| e == "rs") {
         return [format!("fn {name}("), format!("fn {name}<")].iter().any(|start| source.contains(start));
@@ -30,13 +30,13 @@ fn defines(path: &Path, source: &str, name: &str) -> bool {
     })
 }
 
-/// Whether that function of a test file runs as a test.
+/// Tells whether that function of a test file runs as a test.
 fn is_test(source: &str, name: &str) -> bool {
     let Some(at) = source.find(&format!("fn {name}(")) else { return false };
     source[..at].trim_end().ends_with("#[test]")
 }
 
-/// `[name](../file)` links of a cell.
+/// Returns the links of a cell, `[name](../file)`.
 fn links(cell: &str) -> Vec<(&str, &str)> {
     let link = |part: &'_ str| -> Option<(usize, usize)> { Some((part.find("](")?, part.find(')')?)) };
     cell.split('[')
@@ -48,7 +48,7 @@ fn links(cell: &str) -> Vec<(&str, &str)> {
         .collect()
 }
 
-/// The one file below a folder that defines a function.
+/// Returns the one file below a folder that defines a function.
 fn home(root: &Path, folder: &str, name: &str) -> Option<String> {
     let mut files: Vec<PathBuf> = Vec::new();
     files_under(&root.join(folder), &mut files);
@@ -58,7 +58,7 @@ fn home(root: &Path, folder: &str, name: &str) -> Option<String> {
     Some(format!("../{}", file.strip_prefix(root).ok()?.to_string_lossy().replace('\\', "/")))
 }
 
-/// What is wrong with one row, and the row with the files that its functions have moved to.
+/// Returns what is wrong with one row, and the row with the files that its functions have moved to.
 fn faults(root: &Path, line: &str) -> (Vec<String>, String) {
     let (cells, mut right) = (cells(line), line.to_string());
     if cells.len() != COLUMNS || cells.iter().any(String::is_empty) {
@@ -86,7 +86,7 @@ fn faults(root: &Path, line: &str) -> (Vec<String>, String) {
     (found, right)
 }
 
-/// The lines of the page's tables without their heads.
+/// Tells whether a line is a row of a table, and not its head.
 fn is_row(lines: &[&str], at: usize) -> bool {
     let is_rule = |i: usize| lines.get(i).is_some_and(|line| line.starts_with("| ---"));
     lines[at].starts_with('|') && !is_rule(at) && !is_rule(at + 1)

@@ -7,7 +7,7 @@ use std::path::{Component, Path, PathBuf};
 
 use super::{Page, pages, prose, root, spans};
 
-/// What `](…)` leads to, beside `` `code` ``.
+/// Returns what `](…)` leads to, beside `` `code` ``.
 fn targets(text: &str) -> Vec<String> {
     let without_code =
         |line: &String| -> String { line.split('`').step_by(2).collect::<Vec<_>>().join("code") };
@@ -16,7 +16,7 @@ fn targets(text: &str) -> Vec<String> {
     text.split("](").skip(1).filter_map(|rest| rest.split(')').next()).map(String::from).collect()
 }
 
-/// The anchors of a page's headings, as GitHub names them.
+/// Returns the anchors of a page's headings, as GitHub names them.
 fn anchors(text: &str) -> BTreeSet<String> {
     let mut seen: BTreeMap<String, usize> = BTreeMap::new();
     let prose = prose(text);
@@ -35,7 +35,7 @@ fn anchors(text: &str) -> BTreeSet<String> {
     found
 }
 
-/// `docs/guide/../cli.md` is `docs/cli.md`.
+/// Resolves a link from a page: `docs/guide/../cli.md` is `docs/cli.md`.
 fn resolved(page: &str, target: &str) -> String {
     let mut path = PathBuf::new();
     for part in Path::new(page).parent().unwrap().join(target).components() {
@@ -47,7 +47,7 @@ fn resolved(page: &str, target: &str) -> String {
     path.to_string_lossy().replace('\\', "/")
 }
 
-/// Paths of the repository that stand as code in sentences: `src/scene/load.rs`.
+/// Returns paths of the repository that stand as code in sentences: `src/scene/load.rs`.
 fn paths(text: &str) -> Vec<String> {
     const FOLDERS: [&str; 7] = ["src/", "glsl/", "tests/", "data/", "docs/", "benches/", "examples/"];
     let is_path = |span: &&str| {
@@ -64,7 +64,7 @@ fn paths(text: &str) -> Vec<String> {
         .collect()
 }
 
-/// What is wrong with the links of the pages; `exists` tells of any other file.
+/// Returns what is wrong with the links of the pages; `exists` tells of any other file.
 fn faults(pages: &[Page], exists: impl Fn(&str) -> bool) -> Vec<String> {
     let anchors_of = |name: &str| pages.iter().find(|p| p.name == name).map(|p| anchors(&p.text));
     let mut found = Vec::new();

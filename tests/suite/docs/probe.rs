@@ -10,7 +10,7 @@ use moire::internal::scene::parse;
 pub struct Context {
     /// The heading of its table in the reference.
     pub heading: &'static str,
-    /// `[camera]`, `[[plane]]`.
+    /// Its header: `[camera]`, `[[plane]]`.
     pub header: &'static str,
     /// Keys that it needs, with values.
     pub body: &'static [(&'static str, &'static str)],
@@ -34,7 +34,7 @@ const REST: [(&str, &str); 3] = [
 pub const NO_WORD: &str = "\"?\"";
 
 impl Context {
-    /// The scene with `key = value` in the table, in place of what is there; without a value the key is left out.
+    /// Returns the scene with `key = value` in the table, in place of what is there; without a value the key is left out.
     fn scene(&self, kind: Option<&str>, key: &str, value: Option<&str>) -> String {
         let own = self.inline.map_or(self.body, |(_, inner)| inner);
         let beside = self.beside.iter().filter(|(k, _)| *k == key).flat_map(|(_, b)| b.iter().copied());
@@ -67,12 +67,12 @@ impl Context {
         format!("{rest}{}\n{table}\n", self.header)
     }
 
-    /// What the reader says of that scene, if it refuses it.
+    /// Returns what the reader says of that scene, if it refuses it.
     pub fn error(&self, kind: Option<&str>, key: &str, value: Option<&str>) -> Option<String> {
         parse(Path::new("scene.toml"), &self.scene(kind, key, value)).err().map(|e| e.to_string())
     }
 
-    /// The scene as it is read, of the first kind that has the key.
+    /// Returns the scene as it is read, of the first kind that has the key.
     pub fn read(&self, key: &str, value: Option<&str>) -> Option<String> {
         let able = self.able(key);
         let kind = able.first().filter(|_| able.len() < self.words().len());
@@ -80,7 +80,7 @@ impl Context {
         parse(Path::new("scene.toml"), &text).ok().map(|scene| format!("{scene:?}"))
     }
 
-    /// The keys that the table may have, in the code's order. Those of another kind of table of the same name,
+    /// Returns the keys that the table may have, in the code's order. Those of another kind of table of the same name,
     /// which stand in a table of their own in the reference, are left out.
     pub fn keys(&self) -> Vec<String> {
         let told = self.error(None, "?", Some("1")).unwrap_or_default();
@@ -92,18 +92,18 @@ impl Context {
         listed(&told).into_iter().filter(is_known).collect()
     }
 
-    /// The words of the key that decides.
+    /// Returns the words of the key that decides.
     fn words(&self) -> Vec<String> {
         self.kinds.and_then(|key| self.error(None, key, Some(NO_WORD))).map_or(Vec::new(), |e| listed(&e))
     }
 
-    /// The kinds that have a key.
+    /// Returns the kinds that have a key.
     fn able(&self, key: &str) -> Vec<String> {
         let has = |kind: &String| !self.error(Some(kind), key, Some(NO_WORD)).is_some_and(|e| is_refused(&e));
         self.words().into_iter().filter(has).collect()
     }
 
-    /// What a key takes, as the reference states it; of some kinds only where it is so.
+    /// Returns what a key takes, as the reference states it; of some kinds only where it is so.
     pub fn values(&self, key: &str) -> String {
         let able = self.able(key);
         if able.len() == self.words().len() {
@@ -139,7 +139,7 @@ impl Context {
         zero.map_or(said.clone(), |_| format!("{said}, not all 0"))
     }
 
-    /// Whether the reader asks for this key alone where it is missing.
+    /// Tells whether the reader asks for this key alone where it is missing.
     pub fn is_required(&self, key: &str) -> bool {
         let told = self.error(None, key, None).unwrap_or_default();
         told.contains("is missing in ") && !told.contains("give ") && told.contains(&format!(".{key}\""))
@@ -150,7 +150,7 @@ fn quoted(key: &str) -> String {
     if key.chars().all(|c| c.is_alphanumeric() || c == '_') { key.into() } else { format!("{key:?}") }
 }
 
-/// The names after "allowed:".
+/// Returns the names after "allowed:".
 pub fn listed(told: &str) -> Vec<String> {
     let list = told.split_once("allowed: ").map_or("", |(_, list)| list);
     let line = list.lines().next().unwrap_or("");
@@ -166,7 +166,7 @@ fn is_unknown(told: &str) -> bool {
     told.contains("unknown key") || told.contains("keep procedural or this")
 }
 
-/// The key is not one of this kind of table.
+/// Tells whether the key is not one of this kind of table.
 fn is_refused(told: &str) -> bool {
     is_unknown(told)
         || told.contains("; this one is")

@@ -8,7 +8,7 @@ use super::table::{correct, rows};
 use super::{judge, pages, synonyms};
 
 const PAGE: &str = "docs/scene-format.md";
-/// Key, values, default, meaning; the first two are generated.
+/// The columns: key, values, default, meaning. The first two are generated.
 const COLUMNS: usize = 4;
 
 const NONE: Context =
@@ -163,7 +163,7 @@ const CONTEXTS: &[Context] = &[
     },
 ];
 
-/// `name` of `[[name]]`.
+/// Returns `name` of `[[name]]`.
 fn bare(header: &str) -> &str {
     header.trim_matches(['[', ']'])
 }

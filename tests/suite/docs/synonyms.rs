@@ -12,7 +12,7 @@ use crate::layering::files_under;
 const BEGIN: &str = "<!-- synonyms: generated -->";
 const END: &str = "<!-- end of synonyms -->";
 
-/// (what it is a word for, the word elsewhere, the word here), line by line of the table in the code.
+/// Returns (what it is a word for, the word elsewhere, the word here), line by line of the table in the code.
 fn table(source: &str) -> Vec<(String, String, String)> {
     let rows = source.split("SYNONYMS: &[").nth(1).and_then(|rest| rest.split("\n];").next()).unwrap_or("");
     let mut group = String::new();
@@ -28,7 +28,7 @@ fn table(source: &str) -> Vec<(String, String, String)> {
     found
 }
 
-/// A line for each group: `here` (`elsewhere`, `elsewhere`).
+/// Returns a line for each group: `here` (`elsewhere`, `elsewhere`).
 fn generated(rows: &[(String, String, String)]) -> String {
     let mut text = String::from("| of | called here (elsewhere) |\n| --- | --- |\n");
     let mut groups: Vec<&String> = rows.iter().map(|row| &row.0).collect();

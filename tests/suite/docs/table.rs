@@ -1,10 +1,10 @@
 //! Reference tables whose first columns are generated and whose last columns a person writes. In: a page, the
 //! heading above the table, and the rows of the code. Out: what differs, and the page as it should be.
 
-/// A row that is not yet described.
+/// The mark of a cell that is not yet written.
 const UNKNOWN: &str = "?";
 
-/// The cells of a table's line; `\|` stands for a bar.
+/// Returns the cells of a table's line; `\|` stands for a bar.
 pub fn cells(line: &str) -> Vec<String> {
     let inner = line.trim().trim_start_matches('|').trim_end_matches('|').replace("\\|", "\u{1}");
     inner.split('|').map(|cell| cell.trim().replace('\u{1}', "|")).collect()
@@ -14,7 +14,7 @@ fn line_of(cells: &[String]) -> String {
     format!("| {} |", cells.iter().map(|c| c.replace('|', "\\|")).collect::<Vec<_>>().join(" | "))
 }
 
-/// Where a heading is, and the lines of the first table below it, without its two lines of head.
+/// Returns the lines of the first table below a heading, without its two lines of head.
 fn rows_below(lines: &[String], heading: &str) -> Option<std::ops::Range<usize>> {
     let at = lines.iter().position(|line| line == heading)?;
     let end = (at + 1..lines.len()).find(|&i| lines[i].starts_with('#')).unwrap_or(lines.len());
@@ -23,14 +23,14 @@ fn rows_below(lines: &[String], heading: &str) -> Option<std::ops::Range<usize>>
     Some((first + 2).min(last)..last)
 }
 
-/// The rows of the table below a heading.
+/// Returns the rows of the table below a heading.
 pub fn rows(text: &str, heading: &str) -> Vec<Vec<String>> {
     let lines: Vec<String> = text.lines().map(String::from).collect();
     rows_below(&lines, heading).map_or(Vec::new(), |range| lines[range].iter().map(|l| cells(l)).collect())
 }
 
 /// Holds the table below `heading` against the `wanted` first cells of its rows, of which the very first names
-/// the row. `columns`: of the whole table. Text in `text` is corrected; faults are told.
+/// the row, and corrects `text`. The whole table has `columns`. Faults are added to `faults`.
 pub fn correct(
     text: &mut String,
     heading: &str,
@@ -73,7 +73,7 @@ pub fn correct(
     *text = lines.join("\n") + "\n";
 }
 
-/// The name of the row that has this cell.
+/// Returns the name of the row that has this cell.
 fn right_name<'a>(wanted: &'a [Vec<String>], cell: &str) -> &'a str {
     wanted.iter().find(|row| row.iter().any(|c| c == cell)).map_or("", |row| &row[0])
 }

@@ -47,7 +47,7 @@ fn end_of_ray(scene: &PackedScene, at: DVec2) -> Option<(Vec<u32>, u32, DVec3)> 
         let material = &scene.materials[material as usize];
         let model = material.model;
         let n = surface.geometric_normal;
-        let ior = f64::from(material.specular[3]);
+        let ior = f64::from(material.ior);
         let ratio = if surface.inside { ior } else { 1.0 / ior };
         ray = match model {
             Model::Mirror => Ray {

@@ -20,7 +20,7 @@ const DOUBT: f64 = 6.0 / 16_777_216.0;
 
 /// All filters that a kind of texture has, with all mip modes and address modes.
 fn specs(flat: bool) -> Vec<SamplerSpec> {
-    use Filter::{Anisotropic, Cubic, Ewa, Linear, Nearest, Stochastic};
+    use Filter::{Anisotropic, Cubic, Ewa, Lanczos2, Lanczos3, Linear, Nearest, Stochastic};
     let filters: &[(Filter, Filter)] = if flat {
         &[
             (Nearest, Nearest),
@@ -28,6 +28,8 @@ fn specs(flat: bool) -> Vec<SamplerSpec> {
             (Linear, Nearest),
             (Linear, Linear),
             (Cubic, Cubic),
+            (Lanczos2, Lanczos2),
+            (Lanczos3, Lanczos3),
             (Cubic, Linear),
             (Stochastic, Stochastic),
             (Linear, Anisotropic),

@@ -37,8 +37,7 @@ const MAX_BYTES: u64 = 64 << 20;
 const SECTIONS: &[&str] =
     &["camera", "image", "sampling", "background", "texture", "sampler", "material", "light"];
 
-pub(super) const FORMAT: Format =
-    Format { name: "TOML", endings: &["toml"], max_bytes: MAX_BYTES, read: read };
+pub(super) const FORMAT: Format = Format { name: "TOML", endings: &["toml"], max_bytes: MAX_BYTES, read };
 
 /// Paths in the file are relative to the folder of `path`.
 fn read(path: &Path, bytes: Vec<u8>) -> Result<Scene> {

@@ -9,7 +9,7 @@ use super::reader::Field;
 use super::table::Table;
 use crate::core::error::Result;
 use crate::scene::builder::DEFAULT;
-use crate::scene::limits::{ANISOTROPY, both_filters};
+use crate::scene::limits::ANISOTROPY;
 use crate::scene::model::{Background, Environment, EnvironmentLayout, TextureSource};
 use crate::texture::data::Dimension;
 use crate::texture::sampler_spec::{Address, CATMULL_ROM, Filter, Method, MipMode, SamplerSpec, TexelCenter};
@@ -59,7 +59,7 @@ pub(super) fn sampler(table: &Table<'_>) -> Result<SamplerSpec> {
             }
             spec.min = both.get("min").map_or(Ok(spec.min), one)?;
         } else {
-            (spec.mag, spec.min) = both_filters(one(field)?);
+            (spec.mag, spec.min) = one(field)?.both();
         }
     }
     if let Some(field) = table.get("max_anisotropy") {
