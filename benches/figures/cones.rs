@@ -1,5 +1,6 @@
-//! One cone a pixel against samples: `cargo bench -- cones`. For each scene of `data/scenes/bench` the RMSE
-//! against its reference and the render time, runs in turn.
+//! One cone per pixel against samples: `cargo bench -- cones`. For each scene of
+//! `data/scenes/bench`, measures the RMSE against its reference and the render time, in interleaved
+//! runs.
 
 use std::path::Path;
 

@@ -1,7 +1,8 @@
-//! Errors of filters at equal time: `cargo bench -- filters`. For each scene of `data/scenes/bench` and
-//! each filter, the RMSE that it reaches in the render time of 64 samples without a footprint. Counts of
-//! stratified samples are squares, so it stands between two of them: the logarithm of the error is
-//! interpolated over that of the time. Then what one sample in the pixel's centre gives. Times are ratios to the unfiltered scene, from runs in turn.
+//! Errors of filters at equal time: `cargo bench -- filters`. For each scene of `data/scenes/bench`
+//! and each filter, measures the RMSE reached in the render time of 64 samples without a footprint.
+//! Counts of stratified samples are squares, so that the time lies between two of them: the
+//! logarithm of the error is interpolated over that of the time. One sample at the pixel's centre
+//! is measured too. Times are ratios to the unfiltered scene, from interleaved runs.
 
 use std::fs;
 use std::path::Path;

@@ -1,11 +1,11 @@
-//! Mip pyramids of a texture of 4096² rgba8 texels: `cargo bench -- mips`. Seconds of the host for both
-//! kernels, and of the device, by its timestamps, for the box.
+//! Mip chains of a texture of 4096² rgba8 texels: `cargo bench -- mips`. Measures seconds of the
+//! host for both kernels, and of the device, by its timestamps, for the box kernel.
 
 use std::hint::black_box;
 use std::time::Instant;
 
 use moire::internal::gpu::{DeviceSelect, Gpu};
-use moire::internal::lab::probe::MipPlacement;
+use moire::internal::lab::probe::MipProbe;
 use moire::internal::texture::data::{ColorSpace, Dimension, MipKernel, TexelFormat, TextureData};
 use moire::internal::texture::mips;
 
@@ -39,7 +39,7 @@ fn median(bench: &Bench, mut seconds: impl FnMut() -> Outcome<f64>) -> Outcome<f
 
 pub fn table(bench: &Bench) -> Outcome<()> {
     let gpu = Gpu::open(&DeviceSelect::parse(&bench.device)?)?;
-    let mut made = MipPlacement::new(&gpu);
+    let mut made = MipProbe::new(&gpu);
     println!("\n| pyramid, {SIDE}² rgba8 | box, host s | Kaiser, host s | box, device ms |");
     println!("| --- | --- | --- | --- |");
     for &space in ColorSpace::ALL {

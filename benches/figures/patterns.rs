@@ -1,6 +1,6 @@
 //! Errors and times of sample patterns at 64 samples: `cargo bench -- patterns`. For each scene of
-//! `data/scenes/bench` the RMSE against its reference, and on s1a the render time over that of
-//! `stratified`, from runs in turn.
+//! `data/scenes/bench`, measures the RMSE against its reference, and on s1a the render time
+//! relative to that of `stratified`, in interleaved runs.
 
 use std::path::Path;
 

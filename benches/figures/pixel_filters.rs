@@ -1,6 +1,7 @@
-//! Noise and times of pixel filters at 64 samples: `cargo bench -- pixel-filters`. For each scene of
-//! `data/scenes/bench` the RMSE of each filter against its own picture of 4096 samples of another seed, and on
-//! s1a the render time over that of a box of one pixel, from runs in turn.
+//! Noise and times of pixel filters at 64 samples: `cargo bench -- pixel-filters`. For each scene
+//! of `data/scenes/bench`, measures the RMSE of each filter against its own picture of 4096 samples
+//! of another seed, and on s1a the render time relative to that of a box of one pixel, in
+//! interleaved runs.
 
 use std::path::Path;
 

@@ -1,5 +1,6 @@
-//! `moire compare A B`: prints how far two pictures are apart. Exit 0 when they agree well enough, 1
-//! when a figure is above its bound or a NaN is present, 2 when they cannot be compared.
+//! `moire compare A B`: prints error measures between two pictures. Exit code 0 if they agree
+//! within the bounds, 1 if a measure is above its bound or a NaN is present, 2 if they cannot be
+//! compared.
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -50,7 +51,7 @@ struct Report<'a> {
     #[serde(flatten)]
     comparison: &'a Comparison,
     flip: f64,
-    /// What was compared of the picture that both are parts of: x, y, width, height.
+    /// The compared region of the picture of which both are parts: x, y, width, height.
     part: Option<[u32; 4]>,
     max_rmse: Option<f64>,
     max_flip: Option<f64>,
@@ -80,7 +81,7 @@ pub fn run(args: &CompareArgs) -> Result<ExitCode> {
     } else if !args.quiet {
         super::print(&table(args, &comparison, flip, both.placement))?;
     }
-    faults.iter().for_each(super::tell);
+    faults.iter().for_each(super::notify);
     Ok(ExitCode::from(u8::from(!faults.is_empty())))
 }
 
@@ -113,7 +114,7 @@ fn json(
     serde_json::to_string_pretty(&report).map_err(|e| Error::new(format!("the report as JSON: {e}")))
 }
 
-/// None where all of the picture was compared.
+/// Returns the compared region, or `None` if it is the whole picture.
 fn part(c: &Comparison, placement: Placement) -> Option<[u32; 4]> {
     let [x, y] = placement.corner;
     (placement != Placement::whole(c.width, c.height)).then_some([x, y, c.width, c.height])
@@ -140,7 +141,7 @@ fn table(args: &CompareArgs, c: &Comparison, flip: f64, placement: Placement) ->
     rows.iter().map(|(name, value)| format!("{name:<14}{value}")).collect::<Vec<_>>().join("\n")
 }
 
-/// What makes the pictures disagree, a line each.
+/// Returns the reasons why the pictures disagree, one line each.
 fn faults(args: &CompareArgs, c: &Comparison, flip: f64) -> Vec<String> {
     if c.nan_pixels > 0 {
         return vec![format!("NaN in {}", counted(c.nan_pixels, "pixel"))];

@@ -1,5 +1,5 @@
-//! `moire devices`: lists the Vulkan devices of this machine, what they can do, and which one is
-//! taken by default.
+//! `moire devices`: lists the Vulkan devices of this machine, their capabilities, and the default
+//! one.
 
 use std::fmt::Write as _;
 use std::process::ExitCode;

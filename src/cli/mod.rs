@@ -1,4 +1,4 @@
-//! The command line: one file a subcommand, each with its arguments and a `run`.
+//! The command line: one file per subcommand, each with its arguments and a `run`.
 
 pub mod compare;
 pub mod devices;
@@ -27,51 +27,51 @@ use crate::core::panics;
 use crate::gpu;
 use crate::scene::synonyms::meant;
 
-/// Groups of options in the help.
+/// Headings of option groups in the help.
 const OUTPUT: &str = "Output";
 const SAMPLING: &str = "Sampling";
 const TEXTURES: &str = "Textures";
 const DEVICE: &str = "Device";
 const MEASURING: &str = "Measuring";
 
-/// To be called once, before anything else: a write beyond the size limit of files (`ulimit -f`) is then an error
-/// like that of a full disk, where it would end the program and leave a temporary file; drivers find a cache that
-/// they can write; and where no person reads stderr, messages keep to their own lines, so that what they quote
-/// stays whole.
+/// Prepares the process. Must be called once, before anything else: a write beyond the file size
+/// limit (`ulimit -f`) then returns an error like a full disk, instead of a signal that would end
+/// the program and leave a temporary file; drivers get a writable shader cache; and if stderr is
+/// not a terminal, messages are not wrapped, so that quoted text stays intact.
 pub fn prepare_process() {
     gpu::prepare_driver_cache();
     #[cfg(unix)]
     {
         let noticed = std::sync::Arc::default();
-        // Refused only for signals that cannot be caught, of which this is none.
+        // Registration fails only for signals that cannot be caught, of which this is none.
         let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, noticed);
     }
     let wrapped = io::stderr().is_terminal();
-    // An error only where a hook is set already.
+    // This fails only if a hook is set already.
     let _ = miette::set_hook(Box::new(move |_| {
         Box::new(miette::MietteHandlerOpts::new().wrap_lines(wrapped).break_words(false).build())
     }));
 }
 
-/// A line on stderr. Where nobody can read it any more (a closed pipe, a full disk) there is nobody to
-/// tell either: the work goes on and the exit code still says how it ended.
-pub fn tell(line: impl Display) {
+/// Prints a line on stderr. If stderr cannot be written (a closed pipe, a full disk) the work
+/// continues, and the exit code still reports the result.
+pub fn notify(line: impl Display) {
     let _ = writeln!(io::stderr().lock(), "{line}");
 }
 
-/// The code of a command that has ended; an error is told.
+/// Returns the exit code of a command and prints its error.
 pub fn exit_code(result: Result<ExitCode>) -> ExitCode {
     result.unwrap_or_else(|error| {
         let code = if matches!(error, Error::Interrupted) { 130 } else { 2 };
         let plain = error.to_string();
-        // Showing lines of a scene file is work for a library too.
+        // The excerpt of a scene file is formatted by a library, whose panics are contained too.
         let report = panics::contain(&"an error message", || Ok(format!("{:?}", miette::Report::new(error))));
-        tell(report.unwrap_or(plain));
+        notify(report.unwrap_or(plain));
         ExitCode::from(code)
     })
 }
 
-/// A result on stdout. A reader that stops early, such as `head`, is no error.
+/// Prints a result on stdout. A reader that stops early, such as `head`, is not an error.
 fn print(text: &str) -> Result<()> {
     let mut stdout = io::stdout().lock();
     match writeln!(stdout, "{text}").and_then(|()| stdout.flush()) {
@@ -80,7 +80,7 @@ fn print(text: &str) -> Result<()> {
     }
 }
 
-/// A picture on stdout, byte by byte.
+/// Writes a picture to stdout as bytes.
 fn print_bytes(bytes: &[u8]) -> Result<()> {
     let mut stdout = io::stdout().lock();
     match stdout.write_all(bytes).and_then(|()| stdout.flush()) {
@@ -89,7 +89,7 @@ fn print_bytes(bytes: &[u8]) -> Result<()> {
     }
 }
 
-/// Refuses to write over `input`, which is `what`.
+/// Refuses to overwrite `input`, described by `what` in the message.
 fn check_input_kept(output: &Path, input: &Path, what: &str) -> Result<()> {
     let same = output.canonicalize().is_ok_and(|o| input.canonicalize().is_ok_and(|i| i == o));
     if !same {
@@ -101,8 +101,8 @@ fn check_input_kept(output: &Path, input: &Path, what: &str) -> Result<()> {
     ))
 }
 
-/// A value parser over a vocabulary: clap lists the names and suggests the nearest, or the one that other programs
-/// call by the word that was given.
+/// Returns a value parser of a vocabulary: clap lists the names and suggests the most similar one,
+/// or the one known under the given word in other programs.
 fn named_parser<T: Clone + Send + Sync + 'static>(
     names: &'static [&'static str],
     from_name: fn(&str) -> Option<T>,

@@ -1,5 +1,5 @@
-//! Where a render's pictures go. In: the options `-o` and `--format`. Out: the files, and the format of what goes to
-//! standard output; or an error before anything is rendered.
+//! The outputs of a render: parses `-o` and `--format` into files and the format of standard
+//! output, or returns an error before anything is rendered.
 
 use std::io::{self, IsTerminal};
 use std::path::{Path, PathBuf};
@@ -9,7 +9,7 @@ use crate::core::film::Film;
 use crate::output::{self, ENDING_NAMES, Format, WriteOptions};
 use crate::scene::is_standard_input;
 
-/// In messages.
+/// The name in messages.
 const STANDARD_OUTPUT: &str = "standard output";
 
 pub struct Outputs {
@@ -57,7 +57,8 @@ impl Outputs {
         Ok(Outputs { files, stream })
     }
 
-    /// All files, or none; what goes to standard output before any of them takes its place.
+    /// Writes all files or none; standard output is written before any file is renamed to its final
+    /// name.
     pub fn write(&self, film: &Film, options: &WriteOptions) -> Result<()> {
         output::write_all_after(film, &self.files, options, || match self.stream {
             Some(format) => super::print_bytes(&output::to_bytes_with(film, format, options)?),
@@ -65,14 +66,14 @@ impl Outputs {
         })
     }
 
-    /// In words, the files as they were named.
+    /// Returns descriptions for messages, the files as the user named them.
     pub fn names(&self) -> Vec<String> {
         let files = self.files.iter().map(|path| path.display().to_string());
         files.chain(self.stream.map(|_| STANDARD_OUTPUT.into())).collect()
     }
 }
 
-/// The scene's name with `.png`, in the current folder.
+/// Returns the scene's name with `.png`, in the current folder.
 fn default_name(scene: &Path) -> PathBuf {
     let stem = if is_standard_input(scene) { None } else { scene.file_stem() };
     let mut name = stem.unwrap_or("scene".as_ref()).to_owned();

@@ -1,4 +1,4 @@
-//! Options of the command line that replace values of the scene file, checked by the same rules.
+//! Command line options that override values of the scene file, validated by the same rules.
 
 use clap::Args;
 use serde_json::{Value, json};
@@ -63,7 +63,8 @@ pub struct Overrides {
 }
 
 impl Overrides {
-    /// What was chosen beside what is named, in words.
+    /// Applies the options to the scene and returns a description of settings that were chosen
+    /// implicitly.
     pub fn apply(&self, scene: &mut Scene) -> Result<Option<&'static str>> {
         let changes = Changes {
             size: self.size,
@@ -84,12 +85,12 @@ impl Overrides {
         changes.apply(scene)
     }
 
-    /// What ends the sampling, if it is not a number of samples.
+    /// Returns the goal that ends the sampling, unless that is a number of samples.
     pub fn goal(&self) -> Option<Goal> {
         self.budget.map(Goal::Seconds).or(self.target_error.map(Goal::Error))
     }
 
-    /// What the render used, overridden or not.
+    /// Returns the settings that the render used, overridden or not.
     pub fn report(&self, scene: &Scene, crop: Option<Rect>, keep_everything: bool) -> Value {
         let s = &scene.sampling;
         let methods: Vec<&str> = scene.samplers.iter().map(|x| x.method.name()).collect();

@@ -1,5 +1,5 @@
-//! `moire pattern NAME`: the points that a sample pattern puts into a pixel, as a picture with their power
-//! spectrum, and as numbers.
+//! `moire pattern NAME`: shows the points of a sample pattern in a pixel, as a picture with their
+//! power spectrum, and as numbers.
 
 use std::fmt::Write as _;
 use std::path::PathBuf;
@@ -19,7 +19,7 @@ use crate::output::{self, WriteOptions};
 use crate::scene::check_spp;
 use crate::scene::model::Pattern;
 
-/// More points than this are a grey area, and their spectra take minutes.
+/// The largest number of points: more would merge into grey, and their spectra take minutes.
 const MAX_POINTS: u32 = 4096;
 
 /// Show a sample pattern: its points in a pixel, their power spectrum, measures of evenness
@@ -50,14 +50,14 @@ pub struct PatternArgs {
     json: bool,
 }
 
-/// Numbers of the first realisation, but for the radial mean.
+/// Measures of the first realisation, except for the radial mean, which is over all.
 struct Measures {
     star_discrepancy: f64,
     nearest_distance: Option<f64>,
     /// Columns and rows of about √N each.
     cells: [u32; 2],
     occupied: u32,
-    /// Of N columns and of N rows.
+    /// The occupied ones of N columns and of N rows.
     occupied_lines: [u32; 2],
     radial_mean: Vec<f64>,
 }
@@ -141,7 +141,7 @@ fn table(args: &PatternArgs, set: &Set, spectrum: &Spectrum, measures: &Measures
     let [x, y] = measures.occupied_lines;
     line("strata with points", format!("{} of {columns}×{rows}", measures.occupied));
     line("in N strips", format!("{}, {}", counted(x, "column"), counted(y, "row")));
-    // The mean over frequencies 1 … √N/2, where even patterns are quiet.
+    // The mean over frequencies 1 … √N/2, where blue-noise patterns have little power.
     let low = (set.samples.isqrt() as usize / 2).max(1);
     let mean = measures.radial_mean[..low].iter().sum::<f64>() / low as f64;
     line("low frequencies", format!("{mean:.4} of random's power, up to {low}"));

@@ -1,4 +1,5 @@
-//! The progress bar on a terminal, and Ctrl-C: the first one lets the slice on the device finish.
+//! The progress bar on a terminal, and cancellation by Ctrl-C: the first one lets the current slice
+//! on the device finish.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -10,7 +11,7 @@ use crate::core::progress::Progress;
 static CANCELLED: AtomicBool = AtomicBool::new(false);
 const STEPS: u64 = 1000;
 
-/// Drawn on stderr when that is a terminal; nothing in a pipe.
+/// A progress bar on stderr if that is a terminal; in a pipe nothing is drawn.
 pub struct Bar(ProgressBar);
 
 impl Bar {

@@ -1,5 +1,5 @@
-//! `moire render`: a scene file and options in, pictures and (with `--json`) one object of figures
-//! out. Everything that can be refused is refused before the device starts.
+//! `moire render`: renders a scene file with options into pictures and, with `--json`, one JSON
+//! object of statistics. All invalid input is refused before the device starts.
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -98,7 +98,7 @@ pub fn run(args: &RenderArgs) -> Result<ExitCode> {
     }
     let dropped = prune(&mut scene);
     if let (Some(chosen), true) = (chosen, args.verbose) {
-        super::tell(chosen);
+        super::notify(chosen);
     }
 
     let options = Options {
@@ -122,7 +122,7 @@ pub fn run(args: &RenderArgs) -> Result<ExitCode> {
         say_textures(&scene, &ran.texture_lines);
     }
     for message in &ran.messages {
-        super::tell(format_args!("validation: {message}"));
+        super::notify(format_args!("validation: {message}"));
     }
     ran.report.left_out.extend(dropped);
     ran.report.warnings.splice(..0, advice::of_scene(&scene));
@@ -153,7 +153,7 @@ pub fn run(args: &RenderArgs) -> Result<ExitCode> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// A picture must not replace a file that it is made from.
+/// Refuses an output that would overwrite an input file.
 fn check_inputs_kept(output: &Path, scene: &Scene) -> Result<()> {
     super::check_input_kept(output, &scene.path, "the scene file")?;
     scene.textures.iter().try_for_each(|t| {
@@ -175,12 +175,12 @@ fn parse_crop(text: &str) -> Result<Rect, String> {
 /// How each texture is stored, and which were turned.
 fn say_textures(scene: &Scene, lines: &[String]) {
     for line in lines {
-        super::tell(format_args!("texture {line}"));
+        super::notify(format_args!("texture {line}"));
     }
     for texture in scene.textures.iter().filter(|t| t.reading.orientation == OrientationUse::Apply) {
         for file in texture.content.files().into_iter().filter(|file| is_turned(file)) {
             let (name, file) = (&texture.name, file.display());
-            super::tell(format_args!("texture \"{name}\": {file} was turned as its orientation says"));
+            super::notify(format_args!("texture \"{name}\": {file} was turned as its orientation says"));
         }
     }
 }

@@ -1,4 +1,4 @@
-//! What a render says when it is done: one JSON object on stdout, or lines for a person on stderr.
+//! The result of a render: one JSON object on stdout, or lines of text on stderr.
 
 use std::fs;
 
@@ -8,7 +8,7 @@ use nix::sys::resource::{UsageWho, getrusage};
 use nix::sys::time::TimeVal;
 use serde_json::{Map, Value, json};
 
-use super::tell;
+use super::notify;
 use crate::core::counted::{counted, verb};
 use crate::core::film::Film;
 use crate::pack::Diagnostic;
@@ -19,7 +19,8 @@ fn nonfinite_pixels(film: &Film) -> usize {
     film.pixels.iter().filter(|pixel| !pixel.iter().all(|v| v.is_finite())).count()
 }
 
-/// By the device's timestamps; survey and levels of textures only where the device made them.
+/// Returns seconds by the device's timestamps; tile culling and texture levels are included only if
+/// the device computed them.
 fn device_seconds(report: &Report) -> Value {
     let mut seconds = Map::from_iter([("render".into(), json!(report.device_render_seconds))]);
     seconds.extend(report.device_survey_seconds.map(|survey| ("survey".into(), json!(survey))));
@@ -59,7 +60,7 @@ pub fn json(ran: &Picture, scene: &Scene, options: Value, outputs: &[String], no
     all
 }
 
-/// What is counted: the noun, and what is said of it.
+/// Returns the noun of a diagnostic and the text that follows its count.
 fn said(guard: Diagnostic) -> (&'static str, &'static str) {
     match guard {
         Diagnostic::Coordinates => ("look-up", "at coordinates that are no numbers, read at 0"),
@@ -77,11 +78,11 @@ fn said(guard: Diagnostic) -> (&'static str, &'static str) {
 pub fn say(ran: &Picture, outputs: &[String], verbose: bool) {
     let (report, seconds) = (&ran.report, &ran.report.seconds);
     for warning in &report.warnings {
-        tell(format_args!("warning: {warning}"));
+        notify(format_args!("warning: {warning}"));
     }
     match nonfinite_pixels(&ran.film) {
         0 => {}
-        count => tell(format_args!(
+        count => notify(format_args!(
             "warning: {} {} not finite; .exr keeps them, other formats have NaN as black and \
              infinity as their largest value",
             counted(count, "pixel"),
@@ -89,15 +90,15 @@ pub fn say(ran: &Picture, outputs: &[String], verbose: bool) {
         )),
     }
     if verbose {
-        tell("left out:");
+        notify("left out:");
         for line in &report.left_out {
-            tell(format_args!("  {line}"));
+            notify(format_args!("  {line}"));
         }
         for (guard, count) in report.guards.iter().flatten().filter(|(_, count)| *count > 0) {
             let (noun, rest) = said(*guard);
-            tell(format_args!("beyond a limit: {} {rest}", counted(*count, noun)));
+            notify(format_args!("beyond a limit: {} {rest}", counted(*count, noun)));
         }
-        tell(format_args!(
+        notify(format_args!(
             "seconds: startup {:.3}, load {:.3}, compile {:.3}, upload {:.3}, render {:.3}, readback {:.3}, write {:.3}",
             seconds.startup,
             seconds.load,
@@ -107,39 +108,42 @@ pub fn say(ran: &Picture, outputs: &[String], verbose: bool) {
             seconds.readback,
             seconds.write
         ));
-        tell(format_args!(
+        notify(format_args!(
             "device time of rendering: {:.4} s in {}",
             report.device_render_seconds,
             counted(report.slices, "slice")
         ));
         if let Some(survey) = report.device_survey_seconds {
-            tell(format_args!("device time of the survey: {survey:.4} s"));
+            notify(format_args!("device time of the survey: {survey:.4} s"));
         }
         if let Some(mips) = report.device_mips_seconds {
-            tell(format_args!("device time of mip mip_chains: {mips:.4} s"));
+            notify(format_args!("device time of mip mip_chains: {mips:.4} s"));
         }
     }
     if let Some(sampled) = report.sampled_pixels {
         let pixels = ran.film.pixels.len() as f64;
-        tell(format_args!(
-            "one beam a pixel; {} ({:.2} %) took samples, as beams cannot tell them",
+        notify(format_args!(
+            "one beam a pixel; {} ({:.2} %) took samples, as beams cannot resolve them",
             counted(sampled, "pixel"),
             100.0 * sampled as f64 / pixels
         ));
     }
     if let Some(dropped) = report.dropped.filter(|d| *d > 0.0) {
-        tell(format_args!(
+        notify(format_args!(
             "cones left out {:.2e} of the picture's weight: shapes beyond the nearest of a pixel, faint reflections",
             dropped
         ));
     }
     if let Some(o) = &report.outcome {
         if o.beam_pixels > 0 {
-            let told = 100.0 * o.beam_pixels as f64 / ran.film.pixels.len() as f64;
-            tell(format_args!("one beam a pixel told {} ({told:.2} %)", counted(o.beam_pixels, "pixel")));
+            let share = 100.0 * o.beam_pixels as f64 / ran.film.pixels.len() as f64;
+            notify(format_args!(
+                "one beam a pixel resolved {} ({share:.2} %)",
+                counted(o.beam_pixels, "pixel")
+            ));
         }
         if o.estimated_bias > 0.0 {
-            tell(format_args!(
+            notify(format_args!(
                 "the footprint's bias is about {:.2e} RMSE; --footprint none has none",
                 o.estimated_bias
             ));
@@ -147,7 +151,7 @@ pub fn say(ran: &Picture, outputs: &[String], verbose: bool) {
         let interval = o.interval.map_or(String::new(), |[low, high]| {
             format!(" ({:.0} %: {low:.2e} to {high:.2e})", 100.0 * o.confidence)
         });
-        tell(format_args!(
+        notify(format_args!(
             "estimated RMSE {:.2e}{interval} after {}, {} a pixel{}",
             o.estimated_rmse,
             counted(o.passes, "pass"),
@@ -155,7 +159,7 @@ pub fn say(ran: &Picture, outputs: &[String], verbose: bool) {
             if o.reached { "" } else { "; the goal was not reached" }
         ));
     }
-    tell(format_args!(
+    notify(format_args!(
         "{}: {}×{} pixels, {} a pixel on {}, render {:.3} s, total {:.3} s",
         outputs.join(", "),
         ran.film.width,

@@ -1,5 +1,5 @@
-//! `moire stability`: runs the extreme cases on a device and prints how far off each is at worst. Exit 0 when
-//! every case keeps its bound, 1 when one does not, 2 when the device could not be asked.
+//! `moire stability`: runs the extreme cases on a device and prints the largest error of each. Exit
+//! code 0 if every case is within its bound, 1 if one is not, 2 if the device cannot be used.
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -55,7 +55,7 @@ pub fn run(args: &StabilityArgs) -> Result<ExitCode> {
     bar.finish();
     let report = report?;
     for message in gpu.messages() {
-        super::tell(format_args!("validation: {message}"));
+        super::notify(format_args!("validation: {message}"));
     }
     if let Some(folder) = &args.out {
         page::write(folder, &report)?;

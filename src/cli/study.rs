@@ -1,5 +1,5 @@
-//! `moire study SCENE --out DIR`: error against time by measurement. Everything that can be refused is
-//! refused before the device starts. Ctrl-C leaves a folder from which the same command goes on.
+//! `moire study SCENE --out DIR`: measures error against time. All invalid input is refused before
+//! the device starts. Ctrl-C leaves a folder from which the same command resumes.
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -10,9 +10,9 @@ use super::progress::Bar;
 use crate::core::counted::{counted, verb};
 use crate::core::error::{Error, Result};
 use crate::gpu::{DeviceSelect, Gpu};
+use crate::lab::study::format::names;
 use crate::lab::study::method::Method;
 use crate::lab::study::record::{self, Record};
-use crate::lab::study::words::names;
 use crate::lab::study::{self, Options, ReferenceChoice};
 use crate::output;
 use crate::scene::prune::prune;
@@ -94,12 +94,12 @@ pub fn run(args: &StudyArgs) -> Result<ExitCode> {
     let outcome = study::run(&gpu, &scene, &options, &bar);
     bar.finish();
     for message in gpu.messages() {
-        super::tell(format_args!("validation: {message}"));
+        super::notify(format_args!("validation: {message}"));
     }
     match outcome {
         Err(Error::Interrupted) => {
             let points = record::read(&args.out).points.len();
-            super::tell(format_args!(
+            super::notify(format_args!(
                 "interrupted: {} {} in {}; the same command goes on from there",
                 counted(points, "point"),
                 verb(points, "is", "are"),
@@ -155,7 +155,7 @@ fn report(args: &StudyArgs, record: &Record) -> Result<()> {
     let analysis = record.analysis.as_ref();
     if args.verbose {
         for w in analysis.iter().flat_map(|a| &a.winners) {
-            super::tell(format_args!(
+            super::notify(format_args!(
                 "within {:.3e} s: {} with {}, RMSE {:.3e}",
                 w.budget,
                 names(w),
@@ -163,12 +163,12 @@ fn report(args: &StudyArgs, record: &Record) -> Result<()> {
                 w.rmse
             ));
         }
-        record.notes.iter().for_each(|note| super::tell(format_args!("note: {note}")));
+        record.notes.iter().for_each(|note| super::notify(format_args!("note: {note}")));
     }
     if let Some(analysis) = analysis {
-        super::tell(&analysis.recommendation);
+        super::notify(&analysis.recommendation);
     }
-    super::tell(format_args!(
+    super::notify(format_args!(
         "{}: {}",
         args.out.join("index.html").display(),
         counted(record.points.len(), "point")

@@ -1,5 +1,5 @@
-//! `moire texture FILE`: what a texture file holds, whether it tiles, and a picture of it repeated
-//! 2×2. A texture that does not tile or that holds NaN is described like any other: exit 0.
+//! `moire texture FILE`: describes a texture file, whether it tiles, and draws it repeated 2×2. A
+//! texture that does not tile or that contains NaN is described like any other, with exit code 0.
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -13,7 +13,7 @@ use crate::core::error::{Error, Result};
 use crate::core::film::Film;
 use crate::lab::metrics::read::film_of;
 use crate::output::{self, WriteOptions};
-use crate::texture::analysis::{Analysis, Axis, Channel, Seam, Verdict, analyse};
+use crate::texture::analysis::{Analysis, AxisAnalysis, Channel, Seam, Verdict, analyse};
 use crate::texture::data::{ColorSpace, Component, Dimension, TextureData};
 use crate::texture::read_file::{self, Picture, Texels};
 use crate::texture::source::{OrientationUse, Reading};
@@ -53,7 +53,7 @@ pub fn run(args: &TextureArgs) -> Result<ExitCode> {
     let reading = Reading { orientation: args.orientation, layer: args.layer.clone() };
     let Picture { texels, notes, .. } = read_file::read_as(&args.file, &reading)?;
     for note in notes {
-        super::tell(format_args!("warning: {note}"));
+        super::notify(format_args!("warning: {note}"));
     }
     if texels.format.component() == Component::Float32 && args.color_space == ColorSpace::Srgb {
         return Err(Error::with_help(
@@ -62,7 +62,7 @@ pub fn run(args: &TextureArgs) -> Result<ExitCode> {
         ));
     }
     if let Some(path) = &args.out {
-        // As many bits as the file has: its own values come back.
+        // As many bits as the file has, so that its values are preserved.
         let png_bits = if texels.format.component() == Component::Unorm16 { 16 } else { 8 };
         output::write(
             &repeated(&texels, &args.file)?,
@@ -90,8 +90,9 @@ fn named(texels: Texels, args: &TextureArgs) -> TextureData {
     }
 }
 
-/// Two by two copies. 8- and 16-bit values are decoded from sRGB, whatever they mean as a texture:
-/// writing encodes them again, so that the picture looks like the file. Float values stay.
+/// Returns two by two copies. 8- and 16-bit values are decoded from sRGB whatever their meaning as
+/// a texture: writing encodes them again, so that the picture looks like the file. Float values are
+/// unchanged.
 fn repeated(texels: &Texels, file: &Path) -> Result<Film> {
     let (width, height) = (texels.width * 2, texels.height * 2);
     let mut pixels = Vec::new();
@@ -138,7 +139,7 @@ fn channel_json(channel: &Channel) -> Value {
     })
 }
 
-fn axis_json(axis: &Axis) -> Value {
+fn axis_json(axis: &AxisAnalysis) -> Value {
     json!({
         "tiles": axis.seam.tiles(),
         "verdict": axis.seam.verdict().name(),
@@ -212,7 +213,7 @@ fn channel_line(channel: &Channel) -> String {
     text
 }
 
-fn axis_line(axis: &Axis, texels: u32, line: &str) -> String {
+fn axis_line(axis: &AxisAnalysis, texels: u32, line: &str) -> String {
     let verdict = axis.seam.verdict();
     let why = match axis.seam {
         Seam::Smooth => String::new(),
@@ -228,7 +229,7 @@ fn axis_line(axis: &Axis, texels: u32, line: &str) -> String {
     format!("{verdict}{why}{}", axis_numbers(axis, line, verdict))
 }
 
-fn axis_numbers(axis: &Axis, line: &str, verdict: Verdict) -> String {
+fn axis_numbers(axis: &AxisAnalysis, line: &str, verdict: Verdict) -> String {
     let (Some(seam), Some(interior)) = (axis.seam_rms, axis.interior_rms) else { return String::new() };
     let mut text = format!(" (seam {seam:.6}, interior {interior:.6}");
     if let Some(ratio) = axis.ratio {

@@ -1,13 +1,13 @@
-//! `moire verify`: holds a device's samplers against the oracle and prints what was found. Exit 0 when
-//! every variant is within what the device declares or has a fault that its driver is known for, 1 when
-//! one is outside (with --strict also for known faults), 2 when the device could not be asked.
+//! `moire verify`: compares a device's samplers with the oracle and prints the results. Exit code 0
+//! if every variant is within the device's declared precision or has a known fault of its driver, 1
+//! if one is not (with --strict also for known faults), 2 if the device cannot be used.
 
 use std::process::ExitCode;
 
 use super::progress::Bar;
 use crate::core::error::{Error, Result};
 use crate::gpu::{DeviceSelect, Gpu};
-use crate::lab::verify::{report::Report, text::text, verify};
+use crate::lab::verify::{report::ConformanceReport, text::text, verify};
 
 /// Hold a device's samplers against the float64 oracle
 ///
@@ -50,12 +50,12 @@ pub fn run(args: &VerifyArgs) -> Result<ExitCode> {
     bar.finish();
     let report = report?;
     for message in gpu.messages() {
-        super::tell(format_args!("validation: {message}"));
+        super::notify(format_args!("validation: {message}"));
     }
     super::print(if args.json { json(&report)? } else { text(&report) }.trim_end())?;
     Ok(ExitCode::from(if report.passes(args.strict) { 0 } else { 1 }))
 }
 
-fn json(report: &Report) -> Result<String> {
+fn json(report: &ConformanceReport) -> Result<String> {
     serde_json::to_string_pretty(report).map_err(|e| Error::new(format!("the report as JSON: {e}")))
 }

@@ -1,4 +1,4 @@
-//! Numbers of things in words. In: a number and the noun for one of them. Out: `1 sample`, `16 samples`.
+//! Counts with their nouns: `1 sample`, `16 samples`.
 
 /// Returns the number with its noun, in the plural unless there is exactly one.
 pub fn counted(number: impl TryInto<u128>, noun: &str) -> String {
@@ -6,7 +6,7 @@ pub fn counted(number: impl TryInto<u128>, noun: &str) -> String {
     format!("{number} {}", plural(number, noun))
 }
 
-/// Returns the noun alone, as it stands after `number`.
+/// Returns the noun alone, in the number that fits `number`.
 pub fn plural(number: impl TryInto<u128>, noun: &str) -> String {
     match number.try_into() {
         Ok(1) => noun.to_owned(),
@@ -17,7 +17,7 @@ pub fn plural(number: impl TryInto<u128>, noun: &str) -> String {
     }
 }
 
-/// Returns the verb that fits the number: `1 pixel is`, `2 pixels are`.
+/// Returns the verb in the number that fits `number`: `1 pixel is`, `2 pixels are`.
 pub fn verb(number: impl TryInto<u128>, one: &'static str, many: &'static str) -> &'static str {
     if matches!(number.try_into(), Ok(1)) { one } else { many }
 }

@@ -1,4 +1,4 @@
-//! What every other part may use: colour, film, errors, names, progress.
+//! Types that every other module may use: colour, film, errors, names, progress.
 
 pub mod color;
 pub mod counted;

@@ -1,5 +1,5 @@
 //! One table per vocabulary: an enum whose variants carry the names that scene files, the command
-//! line, messages and tests use. Names are written once, here at the enum.
+//! line, messages and tests use. Each name is written once, at the enum.
 
 /// Declares an enum with `ALL`, `name()`, `NAMES` and `from_name()`.
 macro_rules! named_enum {

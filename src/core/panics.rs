@@ -1,6 +1,6 @@
-//! Panics of this program and of the libraries it uses into errors: the work in, what it gives or an error that
-//! names the stage out. A decoder that meets a file its authors did not think of then ends the command with a
-//! message and exit code 2, like any other bad input.
+//! Converts panics of this program and of its libraries into errors that name the stage. A decoder
+//! that fails on an unexpected file then ends the command with a message and exit code 2, like any
+//! other invalid input.
 
 use std::any::Any;
 use std::fmt::Display;
@@ -9,11 +9,12 @@ use std::sync::Mutex;
 
 use crate::core::error::{Error, ErrorKind, Result};
 
-/// What the last panic said and where, of whichever thread: one in a thread that is joined reaches the guard
-/// without its place.
+/// The message and location of the last panic of any thread: a panic in a joined thread reaches the
+/// guard without its location.
 static LAST: Mutex<Option<String>> = Mutex::new(None);
 
-/// Keeps what a panic says for the error, in place of Rust's own lines on stderr. For a program, not a library.
+/// Records panic messages for the error instead of Rust's own output on stderr. Intended for a
+/// program, not for a library.
 pub fn record() {
     panic::set_hook(Box::new(|info| {
         let place =
@@ -23,8 +24,8 @@ pub fn record() {
     }));
 }
 
-/// Runs `work`; a panic in it, or in a thread that it joins, becomes an error. Nothing of the work's state is
-/// used afterwards.
+/// Runs `work` and returns a panic in it, or in a thread that it joins, as an error. The state of
+/// `work` is not used afterwards.
 pub fn contain<T>(stage: &dyn Display, work: impl FnOnce() -> Result<T>) -> Result<T> {
     panic::catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|payload| {
         let last = LAST.lock().unwrap_or_else(|poisoned| poisoned.into_inner()).take();
@@ -42,7 +43,7 @@ fn message(payload: &(dyn Any + Send)) -> String {
     text.or(payload.downcast_ref::<String>().map(String::as_str)).unwrap_or("no message").to_string()
 }
 
-/// The crate and the file within it, without the machine's own folders.
+/// Returns crate and file without the machine's own folders.
 fn short(file: &str) -> &str {
     let start = file.match_indices(['/', '\\']).map(|(at, _)| at + 1).rev().nth(2);
     start.map_or(file, |at| &file[at..])
@@ -52,7 +53,7 @@ fn short(file: &str) -> &str {
 mod tests {
     use super::*;
 
-    fn told(work: impl FnOnce() -> Result<()>) -> String {
+    fn message_of(work: impl FnOnce() -> Result<()>) -> String {
         contain(&"reading a.tif", work).expect_err("it panics").to_string()
     }
 
@@ -69,10 +70,10 @@ mod tests {
             })
         };
         for message in [
-            told(|| panic!("a literal")),
-            told(|| Err(Error::new(format!("{}", empty[0])))),
-            told(in_rayon),
-            told(in_scope),
+            message_of(|| panic!("a literal")),
+            message_of(|| Err(Error::new(format!("{}", empty[0])))),
+            message_of(in_rayon),
+            message_of(in_scope),
         ] {
             assert!(message.starts_with("reading a.tif: the program failed"), "{message}");
         }

@@ -1,16 +1,16 @@
-//! How a long computation tells how far it is, and learns that it shall stop.
+//! Progress reports of long computations, and their cancellation.
 
 use std::time::Instant;
 
 /// Hears how far a render is, and may stop it.
 pub trait Progress: Sync {
-    /// `done` of the work is finished, in [0, 1].
+    /// Reports that the fraction `done` in [0, 1] of the work is finished.
     fn advance(&self, done: f64);
-    /// True once the person asked to stop; the work then ends at the next safe place.
+    /// Returns true once the user has requested to stop; the work then ends at the next safe point.
     fn cancelled(&self) -> bool;
 }
 
-/// Says nothing, never stops.
+/// Reports nothing and is never cancelled.
 pub struct NoProgress;
 
 impl Progress for NoProgress {
@@ -21,7 +21,7 @@ impl Progress for NoProgress {
     }
 }
 
-/// A part of a longer computation, from `from` to `to` of it.
+/// A part of a longer computation, from `from` to `to` of its progress.
 pub struct SubProgress<'a> {
     /// The longer computation.
     pub whole: &'a dyn Progress,
@@ -41,15 +41,15 @@ impl Progress for SubProgress<'_> {
     }
 }
 
-/// A computation that also stops when its time is over.
-pub struct Until<'a> {
+/// A computation that is also cancelled at a deadline.
+pub struct WithDeadline<'a> {
     /// The computation.
     pub whole: &'a dyn Progress,
     /// When its time is over.
     pub deadline: Instant,
 }
 
-impl Progress for Until<'_> {
+impl Progress for WithDeadline<'_> {
     fn advance(&self, done: f64) {
         self.whole.advance(done);
     }

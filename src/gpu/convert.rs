@@ -101,7 +101,7 @@ pub(super) fn mip(mip: MipMode) -> (vk::SamplerMipmapMode, f32) {
     }
 }
 
-/// Returns a custom border color unless the color equals one of the three standard ones exactly.
+/// Returns a custom border colour unless the colour equals one of the three standard ones exactly.
 pub(super) fn border_color(color: [f32; 4]) -> vk::BorderColor {
     match color {
         [0.0, 0.0, 0.0, 0.0] => vk::BorderColor::FLOAT_TRANSPARENT_BLACK,

@@ -44,8 +44,8 @@ impl ImageFormat {
 
 named_enum! {
     /// The component mapping with which shaders read the stored channels, by `texture` and by
-    /// `texelFetch`. It applies to border colors only where the driver defines that
-    /// (VK_EXT_border_color_swizzle): do not rely on border colors with a mapping other than
+    /// `texelFetch`. It applies to border colours only where the driver defines that
+    /// (VK_EXT_border_color_swizzle): do not rely on border colours with a mapping other than
     /// `Rgba`.
     pub enum Swizzle {
         Rgba = "rgba",

@@ -76,7 +76,7 @@ pub struct DeviceLimits {
     pub subgroup_size: u32,
     /// The size of the largest device-local heap.
     pub heap_bytes: u64,
-    /// True if any border color is supported, not only the three standard ones.
+    /// True if any border colour is supported, not only the three standard ones.
     pub custom_border_color: bool,
     pub mirror_clamp_to_edge: bool,
 }

@@ -71,7 +71,7 @@ fn anisotropic(spec: &SamplerSpec) -> bool {
     spec.follows_axis()
 }
 
-/// Returns the border color. The requested color matters only if some axis clamps to the border.
+/// Returns the border colour. The requested colour matters only if some axis clamps to the border.
 fn border_color(spec: &SamplerSpec) -> vk::BorderColor {
     if spec.has(Address::ClampToBorder) {
         convert::border_color(spec.border_color)

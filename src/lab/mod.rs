@@ -1,4 +1,5 @@
-//! What measures: verification of samplers, stability, studies, patterns, metrics, and their charts.
+//! Measurement tools: sampler verification, stability sweeps, studies, pattern analysis, metrics,
+//! and their charts.
 
 pub mod metrics;
 pub mod pattern;

@@ -1,6 +1,6 @@
-//! Parts of the renderer by themselves, on a device: look-ups, procedural textures, rays and sample
-//! positions from lists of queries; mip mip_chains. What tests and conformance reports compare with the oracle; the
-//! shaders run the very functions that rendering runs.
+//! Runs single parts of the renderer on a device: texture lookups, procedural textures, rays and
+//! sample positions for lists of queries; mip chains. Tests and conformance reports compare the
+//! results with the oracle; the shaders call the same functions as rendering.
 
 mod records;
 
@@ -17,18 +17,19 @@ use crate::texture::mips;
 
 pub use crate::render::can_sample;
 pub use records::{
-    DoubleAnswer, DoubleRay, GlassQuery, LookUp, ProceduralQuery, RayAnswer, RayQuery, WarpAnswer, WarpQuery,
+    DoubleAnswer, DoubleRay, GlassQuery, LookupQuery, ProceduralQuery, RayAnswer, RayQuery, WarpAnswer,
+    WarpQuery,
 };
 
 const GROUP: u32 = 64;
 
-/// RGBA of each look-up, by the pipeline that rendering this scene would build.
-pub fn look_ups(
+/// Returns RGBA of each lookup, computed by the pipeline that rendering this scene would build.
+pub fn lookups(
     gpu: &Gpu,
     scene: &PackedScene,
     image_source: bool,
     keep_everything: bool,
-    queries: &[LookUp],
+    queries: &[LookupQuery],
 ) -> Result<Vec<[f32; 4]>> {
     let features = Features::new(scene, image_source, keep_everything);
     let shader = look_up_shader(&features);
@@ -43,13 +44,13 @@ fn look_up_shader(features: &Features) -> &'static Shader {
     }
 }
 
-/// Look-ups of one scene after the other. Scenes that need the same code share a pipeline.
-pub struct LookUps<'a> {
+/// Texture lookups of a sequence of scenes. Scenes with the same shader variant share a pipeline.
+pub struct LookupProbe<'a> {
     gpu: &'a Gpu,
     pipelines: Vec<(Code, Pipeline)>,
 }
 
-/// All that a pipeline of look-ups depends on.
+/// Everything on which a lookup pipeline depends.
 #[derive(PartialEq)]
 struct Code {
     shader: &'static str,
@@ -57,16 +58,16 @@ struct Code {
     slots: SlotCounts,
 }
 
-impl<'a> LookUps<'a> {
-    pub fn new(gpu: &'a Gpu) -> LookUps<'a> {
-        LookUps { gpu, pipelines: Vec::new() }
+impl<'a> LookupProbe<'a> {
+    pub fn new(gpu: &'a Gpu) -> LookupProbe<'a> {
+        LookupProbe { gpu, pipelines: Vec::new() }
     }
 
     pub fn answer(
         &mut self,
         scene: &PackedScene,
         image_source: bool,
-        queries: &[LookUp],
+        queries: &[LookupQuery],
     ) -> Result<Vec<[f32; 4]>> {
         let features = Features::new(scene, image_source, false);
         let shader = look_up_shader(&features);
@@ -89,17 +90,17 @@ impl<'a> LookUps<'a> {
     }
 }
 
-/// Box mip chains of one texture after the other. Formats share pipelines.
-pub struct MipPlacement<'a>(&'a Gpu, MipGenerator<'a>);
+/// Box mip chains of a sequence of textures. Textures of one format share pipelines.
+pub struct MipProbe<'a>(&'a Gpu, MipGenerator<'a>);
 
-impl<'a> MipPlacement<'a> {
-    pub fn new(gpu: &'a Gpu) -> MipPlacement<'a> {
-        MipPlacement(gpu, MipGenerator::new(gpu))
+impl<'a> MipProbe<'a> {
+    pub fn new(gpu: &'a Gpu) -> MipProbe<'a> {
+        MipProbe(gpu, MipGenerator::new(gpu))
     }
 
-    /// Levels 1 to the last, as `texture::mips` makes them, and the device's seconds.
+    /// Returns levels 1 to the last, like `texture::mips`, and the device time in seconds.
     pub fn make(&mut self, texture: &TextureData) -> Result<(Vec<TextureData>, f64)> {
-        let MipPlacement(gpu, maker) = self;
+        let MipProbe(gpu, maker) = self;
         let mut levels = mips::blank(texture);
         if levels.is_empty() {
             return Ok((levels, 0.0));
@@ -127,7 +128,7 @@ impl<'a> MipPlacement<'a> {
     }
 }
 
-/// What each ray hits. Shapes need a texture for their coordinate to mean anything.
+/// Returns the hit of each ray. Shapes need a texture for their coordinates to be defined.
 pub fn rays(
     gpu: &Gpu,
     scene: &PackedScene,
@@ -138,7 +139,7 @@ pub fn rays(
     run(gpu, scene, &features, &shaders::PROBE_RAYS, Some(bytemuck::cast_slice(queries)), queries.len(), &[])
 }
 
-/// The same for a scene whose geometry is in f64.
+/// Returns the hits for a scene with geometry in f64.
 pub fn double_rays(gpu: &Gpu, scene: &PackedScene, queries: &[DoubleRay]) -> Result<Vec<DoubleAnswer>> {
     if !scene.double || !gpu.info().limits.float64 {
         return Err(Error::new(
@@ -150,7 +151,7 @@ pub fn double_rays(gpu: &Gpu, scene: &PackedScene, queries: &[DoubleRay]) -> Res
     run(gpu, scene, &features, &shaders::PROBE_RAYS_F64_MATH, list, queries.len(), &[])
 }
 
-/// Linear RGB of each look-up of a procedural texture, and 1.
+/// Returns linear RGB and an alpha of 1 for each lookup of a procedural texture.
 pub fn procedurals(
     gpu: &Gpu,
     scene: &PackedScene,
@@ -162,22 +163,22 @@ pub fn procedurals(
     run(gpu, scene, &features, &shaders::PROBE_PROCEDURAL, list, queries.len(), &[])
 }
 
-/// Where points of the unit square come to lie on disc and cap.
+/// Returns the points on disc and cap to which points of the unit square are mapped.
 pub fn warps(gpu: &Gpu, scene: &PackedScene, queries: &[WarpQuery]) -> Result<Vec<WarpAnswer>> {
     let features = Features::new(scene, false, false);
     let list = Some(bytemuck::cast_slice(queries));
     run(gpu, scene, &features, &shaders::PROBE_DISK_SAMPLING, list, queries.len(), &[])
 }
 
-/// The direction behind the surface, and the share of light that is mirrored.
+/// Returns the refracted direction and the Fresnel reflectance.
 pub fn glass(gpu: &Gpu, scene: &PackedScene, queries: &[GlassQuery]) -> Result<Vec<[f32; 4]>> {
     let features = Features::new(scene, false, false);
     let list = Some(bytemuck::cast_slice(queries));
     run(gpu, scene, &features, &shaders::PROBE_GLASS, list, queries.len(), &[])
 }
 
-/// Which positions: those of `samples` samples from `first` on of the first `pixels` pixels of a picture
-/// `width` wide.
+/// The range of positions: `samples` samples from `first` on of the first `pixels` pixels of a
+/// picture `width` wide.
 #[derive(Clone, Copy, Debug)]
 pub struct Positions {
     pub pair: u32,
@@ -187,7 +188,7 @@ pub struct Positions {
     pub samples: u32,
 }
 
-/// Positions sample by sample within a pixel, as integers of 24 bits.
+/// Returns positions, sample by sample within a pixel, as integers of 24 bits.
 pub fn positions(
     gpu: &Gpu,
     scene: &PackedScene,
@@ -200,7 +201,7 @@ pub fn positions(
     run(gpu, scene, &features, &shaders::STRATA, None, count, &push)
 }
 
-/// One dispatch with a thread an answer. The push constants are the count and then `push`.
+/// Runs one dispatch with a thread per answer. The push constants are the count followed by `push`.
 fn run<T: Pod>(
     gpu: &Gpu,
     scene: &PackedScene,

@@ -1,5 +1,5 @@
-//! One film into the bytes of one file format. EXR and HDR keep linear light; PNG, JPEG and TIFF get
-//! values clipped to [0, 1] and sRGB-encoded, with neither dithering nor a tone map.
+//! Encodes a film as the bytes of one file format. EXR and HDR keep linear light; PNG, JPEG and
+//! TIFF get values clipped to [0, 1] and sRGB-encoded, with neither dithering nor a tone map.
 
 use std::io::{Seek, Write};
 
@@ -15,7 +15,7 @@ use crate::core::film::{Film, Placement};
 use crate::core::named::named_enum;
 
 named_enum! {
-    /// A file format; several endings may mean the same.
+    /// A file format; several extensions may name the same one.
     pub enum Format {
         Exr = "OpenEXR",
         Hdr = "Radiance HDR",
@@ -27,7 +27,7 @@ named_enum! {
 
 const JPEG_QUALITY: u8 = 95;
 
-/// The cause of a failure in words; the caller knows the file's name.
+/// Encodes a film. The error states only the cause; the caller knows the file's name.
 pub fn encode(
     film: &Film,
     format: Format,
@@ -53,7 +53,7 @@ fn srgb8_rows(film: &Film) -> Vec<u8> {
     film.pixels.iter().flat_map(|p| p.map(srgb8)).collect()
 }
 
-/// Big endian, as PNG has them.
+/// Returns big-endian rows, as PNG stores them.
 fn srgb16_rows(film: &Film) -> Vec<u8> {
     film.pixels.iter().flat_map(|p| p.map(|v| srgb16(v).to_be_bytes())).flatten().collect()
 }
@@ -62,7 +62,7 @@ fn png(film: &Film, bits: png::BitDepth, rows: &[u8], to: impl Write) -> Result<
     let mut encoder = png::Encoder::new(to, film.width, film.height);
     encoder.set_color(png::ColorType::Rgb);
     encoder.set_depth(bits);
-    // Fast deflate: at 512² half the time of the default level for a few per cent of size.
+    // Fast deflate takes half the time of the default level at 512² for a few per cent of size.
     encoder.set_compression(png::Compression::Fast);
     encoder.set_filter(png::Filter::Adaptive);
     let mut writer = encoder.write_header()?;
@@ -80,11 +80,12 @@ fn jpeg(film: &Film, to: impl Write) -> Result<(), String> {
         .map_err(|e| e.to_string())
 }
 
-/// Uncompressed scan lines: the low mantissa bits of a rendered f32 picture are noise, so that ZIP
-/// saves 4 % of a 512² file and takes 110 ms where this takes 4 (RLE: nothing, 15 ms; PIZ: 4 %,
-/// 170 ms). On the calling thread: without compression there is nothing to share among threads.
+/// Writes uncompressed scan lines: the low significand bits of a rendered f32 picture are noise, so
+/// that ZIP saves 4 % of a 512² file and takes 110 ms where this takes 4 (RLE: nothing, 15 ms; PIZ:
+/// 4 %, 170 ms). It runs on the calling thread, since without compression there is no work to
+/// share.
 ///
-/// The display window is the whole picture, the data window what the film has of it.
+/// The display window is the whole picture, the data window the film's part of it.
 fn exr(film: &Film, placement: Option<Placement>, to: impl Write + Seek) -> Result<(), String> {
     let (width, height) = (film.width as usize, film.height as usize);
     let placement = placement.unwrap_or(Placement::whole(film.width, film.height));

@@ -1,4 +1,4 @@
-//! A folder for the files of one command: `--out DIR`.
+//! The output folder of a command: `--out DIR`.
 
 use std::fs;
 use std::path::Path;
@@ -6,7 +6,8 @@ use std::path::Path;
 use super::check_file_writable;
 use crate::core::error::{Error, Result};
 
-/// Makes the folder where only its last part is missing; an error where `file` cannot be created in it.
+/// Creates the folder if only its last component is missing. Returns an error if `file` cannot be
+/// created in it.
 pub fn prepare_folder(folder: &Path, file: &str) -> Result<()> {
     let shown = folder.display();
     if !folder.exists() {

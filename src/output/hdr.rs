@@ -1,5 +1,5 @@
-//! A film as a Radiance picture (Radiance, "File Formats": Picture File Format): scan lines from the top, each
-//! as four planes (three mantissas and the exponent) of runs and literal bytes.
+//! Writes a film as a Radiance picture (Radiance, "File Formats": Picture File Format): scan lines
+//! from the top, each as four planes (three mantissas and the exponent) of runs and literal bytes.
 
 use std::io::{self, Write};
 
@@ -8,11 +8,11 @@ use rayon::prelude::*;
 use super::quantise::rgbe;
 use crate::core::film::Film;
 
-/// Widths whose scan lines may have runs.
+/// The widths whose scan lines may have runs.
 const WIDTHS_WITH_RUNS: std::ops::RangeInclusive<usize> = 8..=32_767;
-const LONGEST_RUN: usize = 127;
-const MOST_LITERALS: usize = 128;
-/// Scan lines that are made at once.
+const MAX_RUN: usize = 127;
+const MAX_LITERALS: usize = 128;
+/// The number of scan lines encoded in parallel.
 const BAND: usize = 256;
 
 pub(super) fn write(film: &Film, mut to: impl Write) -> io::Result<()> {
@@ -39,23 +39,24 @@ fn scan_line(pixels: &[[f32; 3]]) -> Vec<u8> {
     line
 }
 
-/// Three equal bytes or more are a run (128 + length, byte), what lies between runs is literal (length, bytes).
+/// Compresses a plane: three or more equal bytes are a run (128 + length, byte), bytes between runs
+/// are literal (length, bytes).
 fn compress(bytes: &[u8], line: &mut Vec<u8>) {
     let literals = |bytes: &[u8], line: &mut Vec<u8>| {
-        for part in bytes.chunks(MOST_LITERALS) {
+        for part in bytes.chunks(MAX_LITERALS) {
             line.push(part.len() as u8);
             line.extend_from_slice(part);
         }
     };
-    let (mut at, mut told) = (0, 0);
-    while let Some(&byte) = bytes.get(at) {
-        let run = bytes[at..].iter().take(LONGEST_RUN).take_while(|b| **b == byte).count();
+    let (mut start, mut written) = (0, 0);
+    while let Some(&byte) = bytes.get(start) {
+        let run = bytes[start..].iter().take(MAX_RUN).take_while(|b| **b == byte).count();
         if run > 2 {
-            literals(&bytes[told..at], line);
+            literals(&bytes[written..start], line);
             line.extend([128 + run as u8, byte]);
-            told = at + run;
+            written = start + run;
         }
-        at += run;
+        start += run;
     }
-    literals(&bytes[told..], line);
+    literals(&bytes[written..], line);
 }

@@ -1,5 +1,6 @@
-//! A finished film into a picture file whose ending names the format. The file appears complete or
-//! not at all: it is written beside its final place and renamed. Folders are created by `prepare_folder` alone.
+//! Writes a finished film to a picture file whose extension names the format. The file appears
+//! complete or not at all: it is written beside its final path and renamed. Folders are created by
+//! `prepare_folder` only.
 
 mod encode;
 mod folder;
@@ -18,7 +19,7 @@ pub use encode::Format;
 pub use folder::prepare_folder;
 use target::Target;
 
-/// Every ending that names a format.
+/// Every extension that names a format.
 pub const ENDINGS: [(&str, Format); 7] = [
     ("exr", Format::Exr),
     ("hdr", Format::Hdr),
@@ -42,7 +43,7 @@ pub const ENDING_NAMES: [&str; 7] = {
 pub struct WriteOptions {
     /// Bits per channel of PNG files: 8 or 16.
     pub png_bits: u8,
-    /// Where the film lies in its picture, for formats that can say so (EXR).
+    /// The film's placement in a larger picture, for formats that can store it (EXR).
     pub placement: Option<Placement>,
 }
 
@@ -52,18 +53,19 @@ impl Default for WriteOptions {
     }
 }
 
-/// Writes `film` to `path`, replacing a file that is there; on failure that file is as it was.
+/// Writes `film` to `path` and replaces an existing file; on failure that file is unchanged.
 pub fn write(film: &Film, path: &Path, options: &WriteOptions) -> Result<()> {
     prepare(film, path, options)?.finish()
 }
 
-/// Writes `film` to every path. All files are complete before the first one takes its place, so that
-/// a full disk leaves none of them.
+/// Writes `film` to every path. All files are complete before the first one is renamed to its final
+/// path, so that a full disk leaves none of them.
 pub fn write_all(film: &Film, paths: &[impl AsRef<Path>], options: &WriteOptions) -> Result<()> {
     write_all_after(film, paths, options, || Ok(()))
 }
 
-/// The same; no file takes its place where `first` fails, which is called once they are complete.
+/// Like [`write_all`], but calls `first` once all files are complete; if it fails, no file is
+/// renamed.
 pub fn write_all_after(
     film: &Film,
     paths: &[impl AsRef<Path>],
@@ -76,7 +78,7 @@ pub fn write_all_after(
     prepared.into_iter().try_for_each(Target::finish)
 }
 
-/// The whole file under its temporary name.
+/// Writes the whole file under its temporary name.
 fn prepare(film: &Film, path: &Path, options: &WriteOptions) -> Result<Target> {
     let format = format_of(path)?;
     if !matches!(options.png_bits, 8 | 16) {
@@ -103,7 +105,7 @@ fn prepare(film: &Film, path: &Path, options: &WriteOptions) -> Result<Target> {
     Ok(target)
 }
 
-/// Writes `bytes` as they are, by the same rules as pictures.
+/// Writes `bytes` unchanged, with the same guarantees as pictures.
 pub fn write_file(path: &Path, bytes: &[u8]) -> Result<()> {
     let mut target = Target::create(path)?;
     target.writer().write_all(bytes).map_err(|e| Error::new(format!("{}: {e}", path.display())))?;
@@ -111,12 +113,12 @@ pub fn write_file(path: &Path, bytes: &[u8]) -> Result<()> {
     target.finish()
 }
 
-/// The bytes of a picture file.
+/// Returns the bytes of a picture file.
 pub fn to_bytes(film: &Film, format: Format) -> Result<Vec<u8>> {
     to_bytes_with(film, format, &WriteOptions::default())
 }
 
-/// The bytes of a picture file that is written with these options.
+/// Returns the bytes of a picture file that is written with these options.
 pub fn to_bytes_with(film: &Film, format: Format, options: &WriteOptions) -> Result<Vec<u8>> {
     let mut bytes = Cursor::new(Vec::new());
     let failed = |e| Error::new(format!("a {format} picture of {}×{}: {e}", film.width, film.height));
@@ -126,24 +128,24 @@ pub fn to_bytes_with(film: &Film, format: Format, options: &WriteOptions) -> Res
     Ok(bytes.into_inner())
 }
 
-/// What [`write_file`] would complain about.
+/// Returns the error that [`write_file`] would return for this path.
 pub fn check_file_writable(path: &Path) -> Result<()> {
     Target::create(path).map(drop)
 }
 
-/// What [`write()`] would complain about that does not depend on the picture: to be called before a
-/// long render.
+/// Returns any error of [`write()`] that does not depend on the picture. Called before a long
+/// render.
 pub fn check_writable(path: &Path) -> Result<()> {
     format_of(path)?;
     Target::create(path).map(drop)
 }
 
-/// Returns the format that an ending in lower case names.
+/// Returns the format of a lower-case extension.
 pub fn format_named(ending: &str) -> Option<Format> {
     ENDINGS.iter().find(|(name, _)| ending == *name).map(|(_, format)| *format)
 }
 
-/// By the ending, in upper or lower case.
+/// Returns the format of the path's extension, in upper or lower case.
 pub fn format_of(path: &Path) -> Result<Format> {
     let ending = path.extension().map(|e| e.to_string_lossy().to_lowercase());
     ending.as_deref().and_then(format_named).ok_or_else(|| {

@@ -1,12 +1,14 @@
-//! Linear f32 pixels into the numbers a file format holds: sRGB-encoded integers for PNG, JPEG and
-//! TIFF, shared-exponent bytes for Radiance HDR. Always to the nearest value that can be stored.
+//! Quantises linear f32 pixels to the numbers of a file format: sRGB-encoded integers for PNG, JPEG
+//! and TIFF, shared-exponent bytes for Radiance HDR. Values are always rounded to the nearest
+//! representable one.
 
 use std::sync::OnceLock;
 
 use crate::core::color::{linear_to_srgb, srgb_to_linear};
 
-/// `round(255 · srgb(clip(v)))`: counts the 255 rounding boundaries at or below `v`, which is exact
-/// and several times cheaper than a power per channel. NaN is at or above none of them: 0.
+/// Returns `round(255 · srgb(clip(v)))`. It counts the 255 rounding boundaries at or below `v`,
+/// which is exact and several times cheaper than a power per channel. NaN is at or above none of
+/// them and becomes 0.
 pub fn srgb8(value: f32) -> u8 {
     static BOUNDARIES: OnceLock<[f64; 255]> = OnceLock::new();
     let boundaries =
@@ -14,15 +16,16 @@ pub fn srgb8(value: f32) -> u8 {
     boundaries.partition_point(|&b| f64::from(value) >= b) as u8
 }
 
-/// `round(65535 · srgb(clip(v)))`; NaN becomes 0.
+/// Returns `round(65535 · srgb(clip(v)))`; NaN becomes 0.
 pub fn srgb16(value: f32) -> u16 {
     let clipped = f64::from(value).clamp(0.0, 1.0);
     (linear_to_srgb(clipped) * 65_535.0).round() as u16
 }
 
-/// The nearest color that RGBE holds (Ward 1991: three mantissas of 8 bits that share the largest channel's
-/// exponent; a byte c and the exponent e stand for c · 2^(e − 136)). Truncation would darken every pixel by
-/// half a step on average. Negative values and NaN become 0, what is too bright the largest value.
+/// Returns the nearest colour that RGBE represents (Ward 1991: three mantissas of 8 bits that share
+/// the largest channel's exponent; a byte c and the exponent e stand for c · 2^(e − 136)).
+/// Truncation would darken every pixel by half a step on average. Negative values and NaN become 0,
+/// values above the range the largest one.
 pub fn rgbe(pixel: [f32; 3]) -> [u8; 4] {
     const LARGEST: f64 = 255.0 / 256.0 * (1u128 << 127) as f64;
     const SMALLEST: f64 = 1.0 / (1u128 << 127) as f64;

@@ -1,5 +1,5 @@
-//! The place a picture goes to: a temporary file in the same folder, renamed over the final name
-//! once complete (rename(2) replaces atomically within one file system) and removed otherwise.
+//! The destination of a file: a temporary file in the same folder, renamed to the final name once
+//! complete (rename(2) replaces atomically within one file system) and removed otherwise.
 
 use std::ffi::OsStr;
 use std::fs::{self, File, OpenOptions};
@@ -10,13 +10,14 @@ use tempfile::NamedTempFile;
 
 use crate::core::error::{Error, Result};
 
-/// Several scan lines of a common picture a system call: EXR arrives line by line.
+/// The buffer holds several scan lines of a common picture per system call: EXR is written line by
+/// line.
 const BUFFER: usize = 64 << 10;
 
 pub struct Target {
-    /// As the user wrote it, for messages.
+    /// The path as the user wrote it, for messages.
     path: PathBuf,
-    /// With symbolic links followed, so that a link stays a link.
+    /// The path with symbolic links resolved, so that a link stays a link.
     destination: PathBuf,
     file: BufWriter<NamedTempFile>,
 }
@@ -39,7 +40,7 @@ impl Target {
         &mut self.file
     }
 
-    /// All bytes to the temporary file: what a full disk refuses is refused here.
+    /// Writes all bytes to the temporary file, so that a full disk is detected before the rename.
     pub fn complete(&mut self) -> Result<()> {
         self.file.flush().map_err(|e| failed(&self.path, &e))
     }
@@ -58,8 +59,8 @@ fn failed(path: &Path, error: &std::io::Error) -> Error {
     )
 }
 
-/// Temporary files are private by default; a picture gets the permissions that any new file has,
-/// 0666 less the umask, which the system subtracts.
+/// Creates the temporary file. Such files are private by default; a picture gets the permissions of
+/// any new file, 0666 minus the umask, which the system subtracts.
 fn new_file(folder: &Path) -> std::io::Result<NamedTempFile> {
     let mut builder = tempfile::Builder::new();
     builder.prefix(".moire-").suffix(OsStr::new(".part"));
@@ -71,8 +72,8 @@ fn new_file(folder: &Path) -> std::io::Result<NamedTempFile> {
     builder.tempfile_in(folder)
 }
 
-/// Something that is there already must be a regular file that may be written to: a rename alone
-/// would silently replace a file that its owner has protected.
+/// Returns the resolved path. An existing destination must be a regular writable file: a rename
+/// alone would silently replace a file that its owner has protected.
 fn check_destination(path: &Path) -> Result<PathBuf> {
     let refused = |what: String, help: &str| Error::with_help(format!("{}: {what}", path.display()), help);
     if path.as_os_str().to_string_lossy().ends_with(std::path::is_separator) {

@@ -1,5 +1,5 @@
-//! RGB bytes as an uncompressed TIFF file (TIFF 6.0, baseline RGB): one strip behind the header, then the
-//! directory that describes it.
+//! Writes RGB bytes as an uncompressed TIFF file (TIFF 6.0, baseline RGB): one strip after the
+//! header, then the directory that describes it.
 
 use std::io::Write;
 
@@ -8,7 +8,7 @@ const SHORT: u16 = 3;
 const LONG: u16 = 4;
 const RATIONAL: u16 = 5;
 
-/// `rgb`: tightly packed rows.
+/// Writes the file; `rgb` has tightly packed rows.
 pub(super) fn write(width: u32, height: u32, rgb: &[u8], mut to: impl Write) -> Result<(), String> {
     // Entries begin on even bytes.
     let padding = rgb.len() % 2;
@@ -21,7 +21,8 @@ pub(super) fn write(width: u32, height: u32, rgb: &[u8], mut to: impl Write) -> 
         bytes[8..].copy_from_slice(&value.to_le_bytes());
         bytes
     };
-    // Behind 12 entries, their number and the place of a next directory: what does not fit into an entry.
+    // Values that do not fit into an entry follow the 12 entries, their number and the offset of
+    // the next directory.
     let behind = directory + 2 + 12 * 12 + 4;
     let Ok(end) = u32::try_from(behind + 14) else {
         return Err("TIFF files have at most 4 GiB; write OpenEXR or PNG".into());

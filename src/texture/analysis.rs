@@ -1,66 +1,67 @@
-//! A texture in numbers: range, mean and non-finite values of each channel, and whether it tiles. In
-//! go the texels, row by row, out comes an [`Analysis`]; all of it in f64 and in one pass.
+//! Statistics of a texture: range, mean and non-finite values of each channel, and whether it
+//! tiles. Reads the texels row by row, in one pass and in f64, and returns an [`Analysis`].
 //!
-//! A step is the difference of neighbouring texels along an axis; its size is the root of the mean
-//! square over all texel pairs between two neighbouring columns (rows) and all channels of the file.
-//! The step from the last column to the first is the seam. Steps are taken of stored values, which
-//! in an 8-bit picture are spaced about evenly to the eye; alpha counts like a colour. For the verdict floats
-//! v are weighed as asinh(v ⁄ m), m the middle |v|: about evenly above m as well.
+//! A step is the difference between two neighbouring columns (or rows); its size is the RMS of the
+//! differences over all texel pairs and all channels of the file. The step from the last column to
+//! the first is the seam. Steps are differences of stored values, which in an 8-bit picture are
+//! spaced about evenly to the eye; alpha counts like a colour. For the verdict, float values v are
+//! mapped to asinh(v ⁄ m) with m the median |v|, which is about even above m as well.
 
 use super::analysis_period::{Period, period};
 use super::analysis_rows::Rows;
 use super::analysis_steps::Steps;
-use super::analysis_verdict::{Rank, judge};
 pub use super::analysis_verdict::{Seam, Verdict};
+use super::analysis_verdict::{SeamRank, classify};
 use super::data::TextureData;
 
-/// Of one channel of the file; minimum, maximum and mean are those of its finite values.
+/// Statistics of one channel of the file; minimum, maximum and mean are over its finite values.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Channel {
     pub name: &'static str,
-    /// None without a finite value; so are `max` and `mean`.
+    /// The minimum; absent, like `max` and `mean`, if no value is finite.
     pub min: Option<f64>,
     pub max: Option<f64>,
-    /// Σ values ⁄ their number; rows are summed first.
+    /// Σ values ⁄ their number; each row is summed first.
     pub mean: Option<f64>,
     pub nan: u64,
     pub infinite: u64,
 }
 
-/// Whether repeating along one axis shows a seam.
+/// The steps along one axis, and whether repeating the texture along it shows a seam.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Axis {
-    /// RMS of the step from the last texels to the first.
+pub struct AxisAnalysis {
+    /// The RMS of the step from the last texels to the first.
     pub seam_rms: Option<f64>,
-    /// RMS of all steps between neighbours inside. None for an axis of one texel.
+    /// The RMS of all interior steps; absent for an axis of one texel.
     pub interior_rms: Option<f64>,
-    /// `seam_rms ⁄ interior_rms`; none where the interior is constant.
+    /// `seam_rms ⁄ interior_rms`; absent if the interior is constant.
     pub ratio: Option<f64>,
-    /// Where the seam stands among the steps inside.
-    pub rank: Option<Rank>,
-    /// Of the edges inside.
+    /// The rank of the seam among the interior steps.
+    pub rank: Option<SeamRank>,
+    /// The period of the interior edges.
     pub period: Option<Period>,
-    /// Smallest RMS of |seam step| − |interior step|, pair by pair, over the interior steps, relative
-    /// to the seam's: 0 for an edge that is found inside.
+    /// The smallest RMS of |seam step| − |interior step|, pair by pair, over the interior steps,
+    /// relative to the seam's RMS: 0 for an edge that also occurs in the interior.
     pub recurrence: Option<f64>,
     pub seam: Seam,
 }
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Analysis {
-    /// In the order of the file, without an alpha that only the device's format has.
+    /// The channels in the order of the file, without an alpha that only the device format has.
     pub channels: Vec<Channel>,
-    /// Texels with a NaN or an infinity in any channel.
+    /// The number of texels with a NaN or an infinity in any channel.
     pub non_finite_texels: u64,
-    /// Column and row, the first row being the one that v = 0 reads.
+    /// Column and row of the first such texel; row 0 is the one at v = 0.
     pub first_non_finite: Option<[u32; 2]>,
-    /// Along the rows, from column to column.
-    pub u: Axis,
-    /// Along the columns, from row to row.
-    pub v: Axis,
+    /// The axis along the rows, from column to column.
+    pub u: AxisAnalysis,
+    /// The axis along the columns, from row to row.
+    pub v: AxisAnalysis,
 }
 
-/// Range and mean are those of what a look-up returns: with `ColorSpace::Srgb` of linear light.
+/// Analyses a texture. Range and mean are those of the values a lookup returns: with
+/// `ColorSpace::Srgb` they are in linear light.
 pub fn analyse(texture: &TextureData) -> Analysis {
     let count = texture.file_channels;
     let (width, height) = (texture.width as usize, texture.height as usize);
@@ -73,29 +74,31 @@ pub fn analyse(texture: &TextureData) -> Analysis {
     let (seam_u, seam_v) = (rows.seam(width, height, true), rows.seam(height, width, false));
     let (mut u, mut v) = (Steps::new(width - 1, count, &seam_u), Steps::new(height - 1, count, &seam_v));
     let mut row = rows.stored(0);
-    let mut weighed = rows.weigh(&row);
+    let mut mapped = rows.map_row(&row);
     for y in 0..height {
-        let seam = &seam_u.weighed[y * count..][..count];
-        let (stored, by_weight) = (across(&row, count), across(&weighed, count));
-        for (x, (d, e)) in stored.chunks_exact(count).zip(by_weight.chunks_exact(count)).enumerate() {
+        let seam = &seam_u.mapped[y * count..][..count];
+        let (stored, mapped_differences) =
+            (neighbour_differences(&row, count), neighbour_differences(&mapped, count));
+        for (x, (d, e)) in stored.chunks_exact(count).zip(mapped_differences.chunks_exact(count)).enumerate()
+        {
             u.add(x, d, e, seam);
         }
-        let mut prefix_sums = vec![0.0; count];
+        let mut row_sums = vec![0.0; count];
         for (x, texel) in row.chunks_exact(count).enumerate() {
             for (c, &stored) in texel.iter().enumerate() {
-                prefix_sums[c] += channels[c].add(rows.seen(stored, c));
+                row_sums[c] += channels[c].add(rows.lookup_value(stored, c));
             }
             if texel.iter().any(|value| !value.is_finite()) {
                 non_finite_texels += 1;
                 first_non_finite = first_non_finite.or(Some([x as u32, y as u32]));
             }
         }
-        sums.iter_mut().zip(prefix_sums).for_each(|(sum, of_row)| *sum += of_row);
+        sums.iter_mut().zip(row_sums).for_each(|(sum, row_sum)| *sum += row_sum);
         if y + 1 < height {
             let next = rows.stored(y + 1);
-            let next_weighed = rows.weigh(&next);
-            v.add(y, &minus(&next, &row), &minus(&next_weighed, &weighed), &seam_v.weighed);
-            (row, weighed) = (next, next_weighed);
+            let next_mapped = rows.map_row(&next);
+            v.add(y, &differences(&next, &row), &differences(&next_mapped, &mapped), &seam_v.mapped);
+            (row, mapped) = (next, next_mapped);
         }
     }
 
@@ -108,17 +111,17 @@ pub fn analyse(texture: &TextureData) -> Analysis {
     Analysis { channels, non_finite_texels, first_non_finite, u, v }
 }
 
-/// Differences between neighbours of one row.
-fn across(row: &[f64], count: usize) -> Vec<f64> {
-    minus(&row[count..], &row[..row.len() - count])
+/// Returns the differences between neighbours of one row.
+fn neighbour_differences(row: &[f64], count: usize) -> Vec<f64> {
+    differences(&row[count..], &row[..row.len() - count])
 }
 
-fn minus(a: &[f64], b: &[f64]) -> Vec<f64> {
+fn differences(a: &[f64], b: &[f64]) -> Vec<f64> {
     a.iter().zip(b).map(|(a, b)| a - b).collect()
 }
 
 impl Channel {
-    /// Returns what the value adds to the sum.
+    /// Adds a value to the statistics and returns its contribution to the sum.
     fn add(&mut self, value: f64) -> f64 {
         if value.is_nan() {
             self.nan += 1;
@@ -139,15 +142,22 @@ fn names(file_channels: usize) -> &'static [&'static str] {
     &names[..file_channels]
 }
 
-fn axis(steps: &Steps, lines: impl Fn() -> Vec<Vec<f32>>) -> Axis {
+fn axis(steps: &Steps, lines: impl Fn() -> Vec<Vec<f32>>) -> AxisAnalysis {
     let (seam_rms, interior_rms) = (steps.seam_rms(), steps.interior_rms());
     let ratio = match (seam_rms, interior_rms) {
         (Some(seam), Some(interior)) if interior > 0.0 => Some(seam / interior),
         _ => None,
     };
-    let rank = steps.sizes().map(|sizes| Rank::new(&sizes));
-    let mut axis =
-        Axis { seam_rms, interior_rms, ratio, rank, period: None, recurrence: None, seam: Seam::Unknown };
+    let rank = steps.sizes().map(|sizes| SeamRank::new(&sizes));
+    let mut axis = AxisAnalysis {
+        seam_rms,
+        interior_rms,
+        ratio,
+        rank,
+        period: None,
+        recurrence: None,
+        seam: Seam::Unknown,
+    };
     axis.seam = match (seam_rms, rank) {
         _ if steps.is_empty() => Seam::Constant,
         (None, _) | (_, None) => Seam::Unknown,
@@ -157,7 +167,7 @@ fn axis(steps: &Steps, lines: impl Fn() -> Vec<Vec<f32>>) -> Axis {
             let nearest = steps.nearest_to_seam();
             axis.period = period(&lines());
             axis.recurrence = nearest.map(|n| n[0]);
-            judge(&rank, axis.period, nearest)
+            classify(&rank, axis.period, nearest)
         }
     };
     axis

@@ -1,30 +1,34 @@
-//! Whether what repeats inside a texture goes on across its seam. In: the sizes of the steps along some lines of
-//! the texture, each line closed to a ring. Out: the period of their edges, and how they fit a period later
-//! across the seam. Tones do not matter: bricks may differ, their joints lie at the same distance.
+//! Periodicity across the seam: finds the period of the edges along some lines of a texture, each
+//! closed to a ring, from the sizes of their steps, and how well the edges match one period later
+//! across the seam. Tones do not matter: bricks may differ while their joints are equally spaced.
 
 use rayon::prelude::*;
 
-/// Periods beyond these many texels are not looked for, nor those that the axis does not hold three times.
-const LONGEST: usize = 2048;
-/// Of the mismatch at any distance: what must be left of it a period later, in every window of a period.
+/// The longest period in texels that is searched; a period must also fit three times into the axis.
+const MAX_PERIOD: usize = 2048;
+/// A distance is a period if in every window of one period the mismatch there is at most this
+/// fraction of the mean mismatch over all distances.
 const PERIODIC: f64 = 0.9;
-/// Distances count from where the mismatch has come to this part of the usual: nearer ones tell of smoothness.
-const APART: f64 = 0.8;
-/// Edges that differ less than this from each other are no pattern.
+/// Only distances beyond the first one at which the mismatch reaches this fraction of the mean are
+/// candidates: at shorter ones the mismatch is small only because the texture is smooth.
+const DECORRELATED: f64 = 0.8;
+/// Edges that differ by less than this are not a pattern.
 const FLAT: f64 = 1e-3;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Period {
     pub texels: usize,
-    /// How much worse than inside the texture fits itself a period later across the seam: 0 as well as in the
-    /// worst window inside, 1 no better than at any distance.
+    /// The excess mismatch one period later across the seam over the worst window of the interior:
+    /// 0 if the seam fits as well as that window, 1 if it fits no better than an arbitrary
+    /// distance.
     pub misfit: f64,
-    /// How many times worse the seam's own edges fit those a period before or after it, whichever they fit better,
-    /// than the worst step inside.
-    pub stray: f64,
+    /// The mismatch of the seam's own edges with those one period before or after, the smaller of
+    /// both, over that of the worst interior step.
+    pub edge_misfit: f64,
 }
 
-/// Mismatches at one distance: mean and largest window inside, and the window across the seam.
+/// Mismatches at one distance: mean and largest window of the interior, and the window across the
+/// seam.
 #[derive(Clone, Copy)]
 struct Lag {
     mean: f64,
@@ -32,7 +36,8 @@ struct Lag {
     across: f64,
 }
 
-/// `lines` of equal length, each the sizes of its steps, the last one that of the seam.
+/// Returns the period of `lines`, which have equal length. Each holds the sizes of its steps, the
+/// seam's last.
 pub fn period(lines: &[Vec<f32>]) -> Option<Period> {
     let length = lines.first()?.len();
     let interior = || lines.iter().flat_map(|line| &line[..length - 1]);
@@ -41,33 +46,33 @@ pub fn period(lines: &[Vec<f32>]) -> Option<Period> {
     if scale <= 0.0 {
         return None;
     }
-    // Strong edges are alike, whatever their height; grain stays small.
+    // The root makes strong edges alike whatever their height and keeps grain small.
     let edges: Vec<Vec<f32>> =
         lines.iter().map(|line| line.iter().map(|e| e / (e + scale)).collect()).collect();
     let lags: Vec<Lag> =
-        (1..=(length / 3).min(LONGEST)).into_par_iter().map(|distance| lag(&edges, distance)).collect();
+        (1..=(length / 3).min(MAX_PERIOD)).into_par_iter().map(|distance| lag(&edges, distance)).collect();
     let mut means: Vec<f64> = lags.iter().map(|lag| lag.mean).collect();
     means.sort_by(f64::total_cmp);
-    let usual = *means.get(means.len() / 2)?;
-    if usual < FLAT {
+    let typical = *means.get(means.len() / 2)?;
+    if typical < FLAT {
         return None;
     }
-    let first = lags.iter().position(|lag| lag.mean >= APART * usual)?;
+    let first = lags.iter().position(|lag| lag.mean >= DECORRELATED * typical)?;
     let best = (first..lags.len()).min_by(|&a, &b| lags[a].worst.total_cmp(&lags[b].worst))?;
-    let [worst, across] = [lags[best].worst, lags[best].across].map(|mismatch| mismatch / usual);
+    let [worst, across] = [lags[best].worst, lags[best].across].map(|mismatch| mismatch / typical);
     (worst <= PERIODIC).then(|| Period {
         texels: best + 1,
         misfit: ((across - worst) / (1.0 - worst)).max(0.0),
-        stray: stray(&edges, best + 1),
+        edge_misfit: edge_misfit(&edges, best + 1),
     })
 }
 
-fn stray(lines: &[Vec<f32>], distance: usize) -> f64 {
+fn edge_misfit(lines: &[Vec<f32>], distance: usize) -> f64 {
     let (length, seam) = (lines[0].len(), lines[0].len() - 1);
     if seam <= 2 * distance {
         return 0.0;
     }
-    // Between a step and the one a period on.
+    // The mismatch between a step and the one a period later.
     let mismatch = |i: usize| {
         lines.iter().map(|line| f64::from((line[i] - line[(i + distance) % length]).abs())).sum::<f64>()
     };
@@ -113,23 +118,23 @@ mod tests {
     }
 
     #[test]
-    fn edges_that_go_on_fit_and_those_that_do_not_are_found() {
-        assert_eq!(period(&ring(64, every_eight)), Some(Period { texels: 8, misfit: 0.0, stray: 0.0 }));
+    fn edges_that_continue_fit_and_those_that_do_not_are_found() {
+        assert_eq!(period(&ring(64, every_eight)), Some(Period { texels: 8, misfit: 0.0, edge_misfit: 0.0 }));
         let cut = period(&ring(60, every_eight)).unwrap();
         assert!(cut.texels == 8 && cut.misfit > 0.4, "{cut:?}");
     }
 
     #[test]
-    fn a_seam_that_belongs_elsewhere_strays() {
+    fn a_seam_that_belongs_elsewhere_misfits() {
         let lines = |seam: [f32; 2]| {
             let line = |k: usize| {
                 (0..64).map(|i| if i == 63 { seam[k] } else { every_eight(i) * (k + 1) as f32 }).collect()
             };
             [line(0), line(1)]
         };
-        let stray = |seam| period(&lines(seam)).unwrap().stray;
-        assert_eq!(stray([1.0, 2.0]), 0.0);
-        assert!(stray([0.0, 0.5]) > 100.0, "nothing inside strays at all");
+        let edge_misfit = |seam| period(&lines(seam)).unwrap().edge_misfit;
+        assert_eq!(edge_misfit([1.0, 2.0]), 0.0);
+        assert!(edge_misfit([0.0, 0.5]) > 100.0, "every interior edge fits");
     }
 
     #[test]

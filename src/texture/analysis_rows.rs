@@ -1,64 +1,65 @@
-//! A texture's values as its analysis takes them. In: the texels. Out: rows of stored values, of what a look-up
-//! sees, and of weighed ones, whose steps are spaced about evenly to the eye; the pairs across a seam; the sizes
-//! of the steps along single lines.
+//! The values of a texture on which its analysis works: rows of stored values, of lookup results
+//! and of perceptually mapped values, whose steps are spaced about evenly to the eye; the pairs
+//! across a seam; the sizes of the steps along single lines.
 
 use super::analysis_steps::Pairs;
 use super::data::{ColorSpace, Component, TextureData};
 use crate::core::color::srgb_to_linear;
 
-/// Lines of the texture in which a period is looked for, and the texels in all of them.
+/// The number of lines in which a period is searched, and the texels in all of them together.
 const LINES: (usize, usize) = (16, 64);
 const PERIOD_TEXELS: usize = 64 * 4096;
-/// Values from which the middle one is taken.
-const MIDDLE_OF: usize = 1 << 16;
+/// The number of values from which the median is taken.
+const MEDIAN_SAMPLES: usize = 1 << 16;
 
 /// The texels of a texture row by row, without channels that the file does not have.
 pub struct Rows<'a> {
     texture: &'a TextureData,
-    /// Linear light of every stored integer; empty where stored values are linear.
+    /// Linear light of every stored integer; empty if stored values are linear.
     table: Vec<f64>,
-    /// The middle |v| of floats.
-    middle: Option<f64>,
+    /// The median |v| of float values.
+    median: Option<f64>,
 }
 
 impl Rows<'_> {
     pub fn new(texture: &TextureData) -> Rows<'_> {
-        Rows { texture, table: linear_table(texture), middle: middle(texture) }
+        Rows { texture, table: linear_table(texture), median: median(texture) }
     }
 
-    /// A stored value as steps are judged by it.
-    fn weight(&self, value: f64) -> f64 {
-        self.middle.map_or(value, |middle| (value / middle).asinh())
+    /// Maps a stored value to the scale on which steps are compared.
+    fn map_value(&self, value: f64) -> f64 {
+        self.median.map_or(value, |median| (value / median).asinh())
     }
 
-    pub fn weigh(&self, row: &[f64]) -> Vec<f64> {
-        row.iter().map(|&value| self.weight(value)).collect()
+    pub fn map_row(&self, row: &[f64]) -> Vec<f64> {
+        row.iter().map(|&value| self.map_value(value)).collect()
     }
 
-    /// Texel `i` of line `line`: along u a line is a row.
+    /// Returns texel `i` of line `line`; along u a line is a row.
     fn texel(&self, i: usize, line: usize, along_u: bool, channel: usize) -> f64 {
         let (x, y) = if along_u { (i, line) } else { (line, i) };
         self.texture.value(x as u32, y as u32, channel)
     }
 
-    /// The pairs of the seam of an axis of `length` texels and `lines` lines.
+    /// Returns the pairs across the seam of an axis of `length` texels and `lines` lines.
     pub fn seam(&self, length: usize, lines: usize, along_u: bool) -> Pairs {
         let mut pairs = Pairs::default();
         for line in 0..lines {
             for channel in 0..self.texture.file_channels {
                 let [last, first] = [length - 1, 0].map(|i| self.texel(i, line, along_u, channel));
                 pairs.stored.push(first - last);
-                pairs.weighed.push(self.weight(first) - self.weight(last));
+                pairs.mapped.push(self.map_value(first) - self.map_value(last));
             }
         }
         pairs
     }
 
-    /// Sizes of the steps along lines spread over the texture, that of the seam last.
+    /// Returns the sizes of the steps along lines spread over the texture, the seam's last.
     pub fn lines(&self, length: usize, lines: usize, along_u: bool) -> Vec<Vec<f32>> {
         let wanted = (PERIOD_TEXELS / length).clamp(LINES.0, LINES.1).min(lines);
         let count = self.texture.file_channels;
-        let value = |i: usize, line: usize, c: usize| self.weight(self.texel(i % length, line, along_u, c));
+        let value =
+            |i: usize, line: usize, c: usize| self.map_value(self.texel(i % length, line, along_u, c));
         let step = |i: usize, line: usize| {
             let sizes = (0..count).map(|c| (value(i + 1, line, c) - value(i, line, c)).abs());
             sizes.filter(|size| size.is_finite()).sum::<f64>() as f32
@@ -76,8 +77,8 @@ impl Rows<'_> {
         row
     }
 
-    /// Alpha is never encoded.
-    pub fn seen(&self, stored: f64, channel: usize) -> f64 {
+    /// Converts a stored value to the one that a lookup returns. Alpha is never sRGB-encoded.
+    pub fn lookup_value(&self, stored: f64, channel: usize) -> f64 {
         let is_alpha =
             self.texture.file_channels.is_multiple_of(2) && channel + 1 == self.texture.file_channels;
         if self.table.is_empty() || is_alpha {
@@ -96,8 +97,9 @@ fn linear_table(texture: &TextureData) -> Vec<f64> {
     (0..=largest).map(|i| srgb_to_linear(f64::from(i) / f64::from(largest))).collect()
 }
 
-/// The middle of |v| over values of a float texture that are finite and not 0; none of integers.
-fn middle(texture: &TextureData) -> Option<f64> {
+/// Returns the median |v| over the finite values of a float texture that are not 0, or `None` for
+/// integers.
+fn median(texture: &TextureData) -> Option<f64> {
     if texture.format.component() != Component::Float32 {
         return None;
     }
@@ -108,8 +110,8 @@ fn middle(texture: &TextureData) -> Option<f64> {
         let (x, y) = (texel % texture.width as usize, texel / texture.width as usize);
         texture.value(x as u32, y as u32, i % count).abs()
     };
-    // An odd stride meets every column of a texture whose width is a power of two.
-    let spread = (0..values).step_by(values.div_ceil(MIDDLE_OF) | 1).map(value);
+    // An odd stride visits every column of a texture whose width is a power of two.
+    let spread = (0..values).step_by(values.div_ceil(MEDIAN_SAMPLES) | 1).map(value);
     let mut sizes: Vec<f64> = spread.filter(|v| *v > 0.0 && v.is_finite()).collect();
     sizes.sort_by(f64::total_cmp);
     sizes.get(sizes.len() / 2).copied()

@@ -1,35 +1,37 @@
-//! Sizes of the steps of one axis: pairs of neighbouring texels go in, line by line, and the size of the seam
-//! and of every interior step comes out. Two sizes are kept of each step: the mean of |d| over its pairs, and
-//! that of |mean of d| over runs of pairs along the step, in which grain cancels and an offset does not.
-//! |d| counts up to a little more than what the seam has, so that a sun beside the seam weighs no more
-//! than an edge. A pair with a value that is not finite is left out.
+//! Sizes of the steps of one axis. Accumulates pairs of neighbouring texels, line by line, and
+//! returns the size of the seam and of every interior step. Each step has two sizes: the mean of
+//! |d| over its pairs, and the mean of |mean of d| over runs of pairs along the step, in which
+//! grain cancels but an offset does not.
+//!
+//! |d| is clamped to a little above the seam's values, so that a sun beside the seam weighs no more than an edge. Pairs with a non-finite value are left out.
 
-/// Pairs along the step that are averaged before their size is taken.
+/// The number of pairs along the step whose differences are averaged before taking the magnitude.
 const RUN: usize = 16;
-/// Differences count up to this many times the seam's large ones, which are its quantile `LARGE`.
+/// Differences are clamped to this multiple of the seam's large differences, which are its quantile
+/// `LARGE`.
 const HEADROOM: f64 = 1.5;
 const LARGE: f64 = 0.9;
 
-/// The pairs across the seam: differences of stored values and of values as they are weighed.
+/// The pairs across the seam: differences of stored values and of mapped values.
 #[derive(Clone, Debug, Default)]
 pub struct Pairs {
     pub stored: Vec<f64>,
-    pub weighed: Vec<f64>,
+    pub mapped: Vec<f64>,
 }
 
-/// Of the steps between columns i and i + 1 (or rows).
+/// The sums of the steps between columns (or rows) i and i + 1.
 #[derive(Clone, Debug, Default)]
 struct Step {
-    /// Σ d² of stored and of weighed values.
+    /// Σ d² of stored and of mapped values.
     square: f64,
     weighed_square: f64,
     pairs: u64,
-    /// Σ min(|d|, cap), weighed.
+    /// Σ min(|d|, cap) of mapped values.
     size: f64,
-    /// Σ (|d| − |s|)², s the difference of the seam's pair in the same row and channel.
+    /// Σ (|d| − |s|)², with s the difference of the seam's pair in the same row and channel.
     against_seam: f64,
     pairs_with_seam: u64,
-    /// Σ d of the run that is not complete yet, by channel, and the texels in it.
+    /// Σ d of the current incomplete run of each channel, and the texels in it.
     run: [f64; 4],
     in_run: usize,
     /// Σ min(|mean d|, cap) over complete runs.
@@ -44,26 +46,27 @@ pub struct Steps {
 }
 
 struct Limits {
-    /// Where |d| and |mean of a run| are cut off.
+    /// The clamping limits of |d| and of |mean of a run|.
     pair: f64,
     run: f64,
     channels: usize,
 }
 
-/// What the verdict on an axis is made from.
+/// The step sizes from which the verdict on an axis is derived.
 #[derive(Clone, Debug, Default)]
 pub struct Sizes {
     pub seam: f64,
-    /// Ascending.
+    /// The sizes of the interior steps in ascending order.
     pub interior: Vec<f64>,
-    /// The same of runs; the seam's and the largest interior one. None where runs are few.
+    /// The sizes by runs of the seam and of the largest interior step; absent if there are few
+    /// runs.
     pub runs: Option<[f64; 2]>,
 }
 
 impl Step {
-    /// Differences of pairs, channel by channel, beside those of the seam.
-    fn add(&mut self, limits: &Limits, stored: &[f64], weighed: &[f64], seam: Option<&[f64]>) {
-        for (i, (d, e)) in stored.iter().zip(weighed).enumerate() {
+    /// Adds the differences of pairs, channel by channel, with those of the seam.
+    fn add(&mut self, limits: &Limits, stored: &[f64], mapped: &[f64], seam: Option<&[f64]>) {
+        for (i, (d, e)) in stored.iter().zip(mapped).enumerate() {
             let channel = i % limits.channels;
             if d.is_finite() && e.is_finite() {
                 self.square += d * d;
@@ -91,30 +94,31 @@ impl Step {
 
 impl Steps {
     pub fn new(interior: usize, channels: usize, pairs: &Pairs) -> Steps {
-        let whole_runs = pairs.weighed.chunks_exact(RUN * channels);
+        let whole_runs = pairs.mapped.chunks_exact(RUN * channels);
         let means = whole_runs.flat_map(|run| (0..channels).map(move |c| mean_of(run, c, channels)));
-        let limits = Limits { pair: cap(pairs.weighed.iter().copied()), run: cap(means), channels };
+        let limits = Limits { pair: cap(pairs.mapped.iter().copied()), run: cap(means), channels };
         let mut seam = Step::default();
-        seam.add(&limits, &pairs.stored, &pairs.weighed, None);
+        seam.add(&limits, &pairs.stored, &pairs.mapped, None);
         Steps { interior: vec![Step::default(); interior], seam, limits }
     }
 
-    /// Differences along step `at`, in the order of the seam's pairs, each beside that of the seam.
-    pub fn add(&mut self, at: usize, stored: &[f64], weighed: &[f64], seam: &[f64]) {
-        self.interior[at].add(&self.limits, stored, weighed, Some(seam));
+    /// Adds the differences along step `at`, in the order of the seam's pairs, each with that of
+    /// the seam.
+    pub fn add(&mut self, at: usize, stored: &[f64], mapped: &[f64], seam: &[f64]) {
+        self.interior[at].add(&self.limits, stored, mapped, Some(seam));
     }
 
-    /// An axis of one texel.
+    /// Returns true for an axis of one texel.
     pub fn is_empty(&self) -> bool {
         self.interior.is_empty()
     }
 
-    /// √(Σ s² ⁄ pairs) of stored values.
+    /// Returns √(Σ s² ⁄ pairs) of stored values.
     pub fn seam_rms(&self) -> Option<f64> {
         rms(self.seam.square, self.seam.pairs)
     }
 
-    /// √(Σ d² ⁄ pairs) of stored values over all interior steps.
+    /// Returns √(Σ d² ⁄ pairs) of stored values over all interior steps.
     pub fn interior_rms(&self) -> Option<f64> {
         rms(self.interior.iter().map(|s| s.square).sum(), self.interior.iter().map(|s| s.pairs).sum())
     }
@@ -129,8 +133,8 @@ impl Steps {
         (!interior.is_empty()).then_some(Sizes { seam: size(&self.seam)?, interior, runs })
     }
 
-    /// The smallest √(Σ (|d| − |s|)² ⁄ pairs) of a step that has every pair of the seam, and the middle of all
-    /// steps' RMS, both over the RMS of the seam.
+    /// Returns the smallest √(Σ (|d| − |s|)² ⁄ pairs) of a step that has every pair of the seam,
+    /// and the median RMS of all steps, both relative to the RMS of the seam.
     pub fn nearest_to_seam(&self) -> Option<[f64; 2]> {
         let seam = rms(self.seam.weighed_square, self.seam.pairs).filter(|seam| *seam > 0.0)?;
         let complete = self.interior.iter().filter(|s| s.pairs_with_seam == self.seam.pairs);
@@ -141,7 +145,7 @@ impl Steps {
         Some([nearest / seam, all.get(all.len() / 2)? / seam])
     }
 
-    /// No two neighbours inside are equal.
+    /// Returns true if no two interior neighbours are equal.
     pub fn all_differ(&self) -> bool {
         self.interior.iter().all(|s| s.square > 0.0)
     }

@@ -1,62 +1,67 @@
-//! Whether an axis tiles. In: the sizes of its steps and the period of its edges. Out: what the seam is. The
-//! thresholds are from some 500 axes of textures made for it (noise of octaves, grain, gradients, skies,
-//! bricks, tiles, planks, stones, checkers, stripes, letters; tileable, rolled, cut, short of one texel).
+//! The verdict on whether an axis tiles: classifies the seam from the sizes of the steps and the
+//! period of the edges. The thresholds were calibrated on some 500 axes of textures made for the
+//! purpose (octave noise, grain, gradients, skies, bricks, tiles, planks, stones, checkers,
+//! stripes, letters; tileable, rolled, cropped, short of one texel).
 
 use super::analysis_period::Period;
 use super::analysis_steps::Sizes;
 use crate::core::named::named_enum;
 
-/// A seam larger than this many times the largest step inside is seen; one a little above it may be. Of
-/// textures that tile and have no edges the seam reached 0.98 of the largest.
-pub const SEEN: f64 = 1.25;
-/// The same of means over runs of pairs, of which there are fewer.
-pub const SEEN_RUNS: f64 = 1.5;
+/// A seam above this multiple of the largest interior step is visible; one slightly above the
+/// largest may be. On textures that tile and have no edges the seam reached 0.98 of the largest.
+pub const VISIBLE: f64 = 1.25;
+/// The same threshold for means over runs of pairs, of which there are fewer.
+pub const VISIBLE_RUNS: f64 = 1.5;
 pub const DOUBTFUL: f64 = 1.05;
-/// Up to this many times the middle step inside, or larger than this part of all steps at most, a seam is one
-/// step of many.
-pub const USUAL: f64 = 1.5;
-pub const USUAL_RANK: f64 = 0.9;
-/// Misfit of the period across the seam: below the first the pattern goes on, above the second it does not.
-/// Textures that tile reached 0.08, others began at 0.45.
-pub const FITS: f64 = 0.2;
+/// A seam up to this multiple of the median interior step, or larger than at most this fraction of
+/// all steps, is an ordinary step.
+pub const ORDINARY: f64 = 1.5;
+pub const ORDINARY_RANK: f64 = 0.9;
+/// Thresholds of the period's misfit across the seam: below the first the pattern continues, above
+/// the second it does not. Textures that tile reached 0.08; the others began at 0.45.
+pub const CONTINUES: f64 = 0.2;
 pub const BREAKS: f64 = 0.35;
-/// A seam that strays this much is no line of the pattern, whatever lies beside it. Those that are reached 1.11; last
-/// columns that were shifted along themselves mostly lay above 2.
-pub const STRAYS: f64 = 1.5;
-/// The seam is an edge that is found inside if their sizes, pair by pair, differ by this part of the seam, and by as
-/// much again for grain, if the middle step inside has it.
+/// A seam whose own edges mismatch by this factor is no line of the pattern, whatever its
+/// neighbours. Lines of a pattern reached 1.11; last columns shifted along themselves mostly were
+/// above 2.
+pub const MISPLACED: f64 = 1.5;
+/// The seam is an edge that recurs in the interior if their sizes, pair by pair, differ by at most
+/// this fraction of the seam, and by as much again for grain if the median interior step has it.
 pub const RECURS: f64 = 0.1;
-/// Up to this part it may be, with other tones.
+/// Up to this fraction it may be such an edge with other tones.
 pub const RESEMBLES: f64 = 0.5;
-/// What resembles no step inside is seen if it is so many times as large as nearly all of them. Of 5000 borders of
-/// stones, leaves and letters that tile, rolled to anywhere, one had more.
-pub const ALONE: f64 = 1.6;
+/// A seam that resembles no interior step is visible if it exceeds nearly all of them by this
+/// factor. Of 5000 borders of tileable stones, leaves and letters, rolled arbitrarily, one exceeded
+/// it.
+pub const ISOLATED: f64 = 1.6;
 const NEARLY_ALL: f64 = 0.98;
 
 named_enum! {
-    /// What the seam of one axis is.
+    /// The class of the seam of one axis.
     pub enum Seam {
-        /// One step of many inside.
+        /// An ordinary step like those of the interior.
         Smooth = "smooth",
-        /// An edge, but one that the picture has inside as well, or that belongs to what repeats inside.
+        /// An edge that also occurs in the interior, or that belongs to a pattern repeating there.
         Pattern = "pattern",
-        /// Last and first are equal where no neighbours inside are: each repeat stutters by a texel.
+        /// Last and first texels are equal although no interior neighbours are: each repeat doubles
+        /// a texel.
         Doubled = "doubled",
-        /// All texels along the axis are equal, or there is one.
+        /// All texels along the axis are equal, or there is only one.
         Constant = "constant",
-        /// A step that the picture does not have inside.
+        /// A step that does not occur in the interior.
         Visible = "visible",
-        /// What repeats inside does not go on across the seam.
+        /// The interior pattern does not continue across the seam.
         Broken = "broken",
-        /// Among the largest steps inside, or a little above them, and only roughly like one of them.
+        /// A step among the largest of the interior or slightly above them, which only roughly
+        /// resembles one of them.
         Uncertain = "uncertain",
-        /// Every pair of the seam, or of the interior, has a value that is not finite.
+        /// Every pair of the seam, or of the interior, has a non-finite value.
         Unknown = "unknown",
     }
 }
 
 named_enum! {
-    /// Whether the axis tiles.
+    /// The verdict on whether the axis tiles.
     pub enum Verdict {
         Yes = "yes",
         Perhaps = "perhaps",
@@ -75,7 +80,7 @@ impl Seam {
         }
     }
 
-    /// None: it cannot be told.
+    /// Returns the verdict as a boolean, or `None` if it cannot be decided.
     pub fn tiles(self) -> Option<bool> {
         match self.verdict() {
             Verdict::Yes => Some(true),
@@ -85,55 +90,55 @@ impl Seam {
     }
 }
 
-/// Where the seam stands among the steps inside.
+/// The size of the seam relative to the interior steps.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Rank {
-    /// Part of the steps inside that are smaller; equal ones count half.
+pub struct SeamRank {
+    /// The fraction of interior steps that are smaller; equal ones count half.
     pub share: f64,
-    /// Over the largest step inside; none where that is 0.
+    /// The ratio to the largest interior step; absent if that is 0.
     pub of_largest: Option<f64>,
-    /// Over the middle step inside.
-    of_middle: f64,
-    /// Of runs of pairs, over the largest inside.
+    /// The ratio to the median interior step.
+    of_median: f64,
+    /// The ratio to the largest interior step, both by runs of pairs.
     runs_of_largest: f64,
-    /// Over the step that nearly all are smaller than.
+    /// The ratio to the step that exceeds nearly all others.
     of_nearly_all: f64,
 }
 
-impl Rank {
-    pub fn new(sizes: &Sizes) -> Rank {
+impl SeamRank {
+    pub fn new(sizes: &Sizes) -> SeamRank {
         let (seam, interior) = (sizes.seam, &sizes.interior);
         let smaller = interior.partition_point(|s| *s < seam);
         let equal = interior.partition_point(|s| *s <= seam) - smaller;
         let share = (smaller as f64 + 0.5 * equal as f64) / interior.len() as f64;
         let largest = interior.last().copied().unwrap_or(0.0);
         let ratio = |a: f64, b: f64| if a == b { 1.0 } else { a / b };
-        Rank {
+        SeamRank {
             share,
             of_largest: (largest > 0.0).then(|| seam / largest),
-            of_middle: ratio(seam, interior[interior.len() / 2]),
+            of_median: ratio(seam, interior[interior.len() / 2]),
             of_nearly_all: ratio(seam, interior[(NEARLY_ALL * (interior.len() - 1) as f64) as usize]),
             runs_of_largest: sizes.runs.map_or(0.0, |[own, largest]| ratio(own, largest)),
         }
     }
 }
 
-/// Of a seam that is no constant and has steps inside; `nearest` is that of
+/// Classifies a seam that is not constant and has interior steps. `nearest` is the result of
 /// [`Steps::nearest_to_seam`](super::analysis_steps::Steps::nearest_to_seam).
-pub fn judge(rank: &Rank, period: Option<Period>, nearest: Option<[f64; 2]>) -> Seam {
-    let recurs = nearest.is_some_and(|[distance, middle]| distance <= RECURS + middle.min(RECURS));
+pub fn classify(rank: &SeamRank, period: Option<Period>, nearest: Option<[f64; 2]>) -> Seam {
+    let recurs = nearest.is_some_and(|[distance, median]| distance <= RECURS + median.min(RECURS));
     let resembles = nearest.is_some_and(|[distance, _]| distance <= RESEMBLES);
     let over = rank.of_largest.unwrap_or(f64::INFINITY);
     match period {
-        _ if over > SEEN || rank.runs_of_largest > SEEN_RUNS => Seam::Visible,
-        Some(period) if period.misfit >= BREAKS || period.stray > STRAYS => Seam::Broken,
-        Some(period) if period.misfit > FITS => Seam::Uncertain,
-        Some(_) if rank.of_middle > USUAL => Seam::Pattern,
+        _ if over > VISIBLE || rank.runs_of_largest > VISIBLE_RUNS => Seam::Visible,
+        Some(period) if period.misfit >= BREAKS || period.edge_misfit > MISPLACED => Seam::Broken,
+        Some(period) if period.misfit > CONTINUES => Seam::Uncertain,
+        Some(_) if rank.of_median > ORDINARY => Seam::Pattern,
         Some(_) => Seam::Smooth,
         None if over > DOUBTFUL => Seam::Uncertain,
-        None if rank.of_middle <= USUAL || rank.share <= USUAL_RANK => Seam::Smooth,
+        None if rank.of_median <= ORDINARY || rank.share <= ORDINARY_RANK => Seam::Smooth,
         None if recurs => Seam::Pattern,
-        None if !resembles && rank.of_nearly_all > ALONE => Seam::Visible,
+        None if !resembles && rank.of_nearly_all > ISOLATED => Seam::Visible,
         None => Seam::Uncertain,
     }
 }

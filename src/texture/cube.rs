@@ -1,6 +1,6 @@
-//! Cube textures: six pictures, or one that holds all faces, in; the six faces one after the other,
-//! +x −x +y −y +z −z, out. Each face lies as Vulkan's table has it (Vulkan 1.3, "Cube Map Face
-//! Selection": +z has x to the right and y upwards), and so in the pictures:
+//! Cube textures: joins six pictures, or cuts one that holds all faces, into the six faces in the
+//! order +x −x +y −y +z −z. Each face is oriented as in Vulkan's table (Vulkan 1.3, "Cube Map Face
+//! Selection": +z has x to the right and y upwards), also in the pictures:
 //!
 //! ```text
 //! horizontal-cross 4:3        vertical-cross 3:4     horizontal-strip 6:1
@@ -23,8 +23,8 @@
 //! └────┴────┴────┘
 //! ```
 //!
-//! so that neighbours in a cross share the edge they share on the cube. The cells beside a cross are
-//! not read.
+//! Neighbours in a cross therefore share the edge they share on the cube. The cells beside a cross
+//! are ignored.
 
 use std::path::{Path, PathBuf};
 
@@ -36,7 +36,7 @@ use super::stack;
 use crate::core::error::{Error, Result};
 
 impl CubeLayout {
-    /// Faces side by side and one above the other.
+    /// Returns the numbers of cells side by side and one above the other.
     fn cells(self) -> [u32; 2] {
         match self {
             CubeLayout::HorizontalCross => [4, 3],
@@ -47,8 +47,8 @@ impl CubeLayout {
         }
     }
 
-    /// Column and row of each face's cell.
-    fn places(self) -> [[usize; 2]; 6] {
+    /// Returns the column and row of each face's cell.
+    fn cell_positions(self) -> [[usize; 2]; 6] {
         match self {
             CubeLayout::HorizontalCross => [[2, 1], [0, 1], [1, 0], [1, 2], [1, 1], [3, 1]],
             CubeLayout::VerticalCross => [[2, 1], [0, 1], [1, 0], [1, 2], [1, 1], [1, 3]],
@@ -100,7 +100,7 @@ pub(super) fn cut(picture: &Texels, layout: Option<CubeLayout>, path: &Path) -> 
     let texel = picture.format.bytes_per_texel();
     let (row, cell) = (picture.width as usize * texel, side * texel);
     let mut bytes = Vec::with_capacity(6 * side * cell);
-    for (face, [column, line]) in layout.places().into_iter().enumerate() {
+    for (face, [column, line]) in layout.cell_positions().into_iter().enumerate() {
         let turned = layout == CubeLayout::VerticalCross && face == 5;
         for y in 0..side {
             let y = if turned { side - 1 - y } else { y };

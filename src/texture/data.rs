@@ -1,11 +1,11 @@
-//! A decoded texture: exact texels as the file has them, in one of the formats a device can hold.
-//! Grey stays one channel, grey with alpha two; three channels are expanded to four.
+//! A decoded texture: the exact texels of the file in one of the formats that a device supports.
+//! Grey stays one channel and grey with alpha two; three channels are expanded to four.
 
 use crate::core::named::named_enum;
 pub use crate::schema::enums::{ColorSpace, TexelFormat};
 
 named_enum! {
-    /// Axes of the texel array.
+    /// The dimensionality of the texel array.
     pub enum Dimension {
         One = "1d",
         Two = "2d",
@@ -15,11 +15,11 @@ named_enum! {
 }
 
 named_enum! {
-    /// What a texel of a coarser level is a mean over.
+    /// The kernel by which a texel of a coarser mip level averages those of finer ones.
     pub enum MipKernel {
-        /// The texels that it covers, each by its share.
+        /// The texels that it covers, each weighted by the covered fraction.
         Box = "box",
-        /// A wider neighbourhood: sharper and with less aliasing.
+        /// A Kaiser-windowed sinc over a wider neighbourhood, which is sharper and aliases less.
         Kaiser = "kaiser",
     }
 }
@@ -43,7 +43,7 @@ impl Component {
         }
     }
 
-    /// How many values an integer has.
+    /// Returns the number of values that an integer component can have.
     pub const fn codes(self) -> usize {
         match self {
             Component::Unorm8 => 1 << 8,
@@ -52,7 +52,7 @@ impl Component {
         }
     }
 
-    /// The stored form of 1: the first `bytes()` of the array.
+    /// Returns the stored form of 1 in the first `bytes()` bytes of the array.
     pub const fn one(self) -> [u8; 4] {
         match self {
             Component::Unorm8 | Component::Unorm16 => [255; 4],
@@ -96,7 +96,8 @@ impl TexelFormat {
     }
 }
 
-/// Row 0 of `texels` is what v = 0 reads: `flip_v` is already applied.
+/// The texels of a texture with their format. Row 0 of `texels` is the one at v = 0: `flip_v` is
+/// already applied.
 #[derive(Clone, Debug)]
 pub struct TextureData {
     /// For messages.
@@ -105,9 +106,9 @@ pub struct TextureData {
     pub dimension: Dimension,
     /// Texels in a row.
     pub width: u32,
-    /// 1 for a 1D texture.
+    /// The height, which is 1 for a 1D texture.
     pub height: u32,
-    /// Slices of a volume; 6 faces of a cube; else 1.
+    /// Slices of a volume, 6 for a cube, otherwise 1.
     pub depth: u32,
     /// Channels and number type of a texel.
     pub format: TexelFormat,
@@ -115,7 +116,7 @@ pub struct TextureData {
     pub color_space: ColorSpace,
     /// Channels of the file, before three were expanded to four.
     pub file_channels: usize,
-    /// Tightly packed rows, native endian; slices one after the other, and so are a cube's faces,
-    /// +x −x +y −y +z −z as Vulkan counts them.
+    /// Tightly packed rows in native byte order, slices one after the other; so are a cube's faces,
+    /// +x −x +y −y +z −z in Vulkan's order.
     pub texels: Vec<u8>,
 }

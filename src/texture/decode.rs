@@ -1,6 +1,6 @@
-//! A picture file named in a scene: file in, texels out, ready for upload. Adds to reading the
-//! file what a texture needs: finite values, unless others are let in on purpose; a colour space that fits
-//! the numbers, and the row order that v asks for.
+//! Decodes a picture file into a texture that is ready for upload. In addition to reading the file
+//! it checks that values are finite unless others are allowed, that the colour space fits the
+//! component type, and applies the row order of v.
 
 use std::path::Path;
 
@@ -9,16 +9,16 @@ use super::read_file::{self, Picture, Texels};
 use super::source::Reading;
 use crate::core::error::{Error, ErrorKind, Result};
 
-/// Which numbers a file of floats may hold.
+/// The float values that a file may hold.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Values {
-    /// NaN and infinity are errors: they are mistakes in nearly every file that has them.
+    /// NaN and infinity are errors: in nearly every file that has them they are mistakes.
     #[default]
     Finite,
     Any,
 }
 
-/// A 2D texture from one picture.
+/// Decodes a 2D texture from one picture.
 pub fn decode(path: &Path, name: &str, color_space: ColorSpace, flip_v: bool) -> Result<TextureData> {
     let picture = read_checked(path, &Reading::default(), color_space, Values::Finite);
     let mut texels = picture.map_err(|e| in_texture(name, e))?.texels;
@@ -29,7 +29,7 @@ pub fn decode(path: &Path, name: &str, color_space: ColorSpace, flip_v: bool) ->
     Ok(texture_of(name, Dimension::Two, color_space, texels, 1))
 }
 
-/// `texels` holds `depth` slices of its height.
+/// Makes a texture of `texels`, which hold `depth` slices of its height.
 pub(super) fn texture_of(
     name: &str,
     dimension: Dimension,
@@ -76,7 +76,7 @@ pub(super) fn check_meaning(format: TexelFormat, color_space: ColorSpace, path: 
     ))
 }
 
-/// Also of several slices: those are told by a third number.
+/// Checks that all values are allowed. The message states the slice if there are several.
 pub(super) fn check_values(texels: &Texels, allowed: Values, path: &Path) -> Result<()> {
     if allowed == Values::Any || texels.format.component() != Component::Float32 {
         return Ok(());
@@ -105,7 +105,7 @@ pub(super) fn check_values(texels: &Texels, allowed: Values, path: &Path) -> Res
     ))
 }
 
-/// Within each slice of `height` rows.
+/// Reverses the row order within each slice of `height` rows.
 pub(super) fn reverse_rows(texels: &mut Texels, height: u32) {
     let row = texels.width as usize * texels.format.bytes_per_texel();
     let (height, half) = (height as usize, height as usize / 2 * row);

@@ -1,5 +1,6 @@
-//! What the readers of PNG, JPEG and TGA share. In: what a file's header says and a decoder of its rows. Out:
-//! texels, three channels widened to four; whatever is wrong is an error that names the file.
+//! Common part of the PNG, JPEG and TGA readers. Takes the contents of a file's header and a
+//! decoder of its rows; returns texels, with three channels widened to four, or an error that names
+//! the file.
 
 use std::path::Path;
 
@@ -7,10 +8,11 @@ use super::data::{Component, TexelFormat};
 use super::read_file::{Texels, check_memory, check_size, damaged, out_of_memory, zero_size};
 use crate::core::error::{Error, Result};
 
-/// PNG: Deflate gives 1032 bytes for one at most, of 8 texels each. The others give less.
+/// The largest number of texels per byte of a PNG file: Deflate expands a byte to at most 1032,
+/// each with 8 texels. The other formats compress less.
 const MAX_TEXELS_PER_BYTE: u64 = 1032 * 8;
 
-/// The size of a picture and what its texels are.
+/// The size of a picture and the format of its texels.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Header {
     pub width: u32,
@@ -19,18 +21,18 @@ pub(super) struct Header {
     pub component: Component,
 }
 
-/// Why a decoder does not go on.
+/// The reason why decoding failed.
 #[derive(Debug)]
 pub(super) enum Fault {
     Damaged(String),
-    /// Names what the file has that is not supported.
+    /// An unsupported feature of the file, by name.
     Unsupported(String),
     Memory,
     ZeroSize,
 }
 
 impl Fault {
-    /// The same as a person is told it; `kind` is the format's name.
+    /// Returns the error for the user; `kind` is the format's name.
     pub fn in_file(self, path: &Path, kind: &str) -> Error {
         match self {
             Fault::Damaged(what) => damaged(path, kind, &what),
@@ -44,8 +46,8 @@ impl Fault {
     }
 }
 
-/// Returns the texels of a file of `file_bytes` bytes of this kind. `decode` fills tightly packed rows, the
-/// picture's first row first, in native endian.
+/// Returns the texels of a file of `file_bytes` bytes of this kind. `decode` fills tightly packed
+/// rows in native byte order, the picture's first row first.
 pub(super) fn texels(
     header: Header,
     kind: &str,
@@ -62,7 +64,8 @@ pub(super) fn texels(
         return Err(damaged(path, kind, &format!("{file_bytes} bytes cannot hold {width}×{height} texels")));
     }
 
-    // Decoded into the front of the final buffer and widened there: no second copy.
+    // The texels are decoded into the front of the final buffer and widened in place, without a
+    // second copy.
     check_memory(path, pixels * format.bytes_per_texel())?;
     let mut bytes = vec![0; pixels * format.bytes_per_texel()];
     let decoded = pixels * file_channels * component.bytes();
@@ -73,7 +76,7 @@ pub(super) fn texels(
     Ok(Texels { width, height, format, file_channels, bytes })
 }
 
-/// Three channels at the front of the buffer become four that fill it, with opaque alpha.
+/// Expands three channels at the front of the buffer to four that fill it, with opaque alpha.
 pub(super) fn widen_rgb(bytes: &mut [u8], component: Component) {
     match component {
         Component::Unorm8 => widen::<3, 4>(bytes, &[u8::MAX]),
@@ -82,7 +85,8 @@ pub(super) fn widen_rgb(bytes: &mut [u8], component: Component) {
     }
 }
 
-/// From `RGB` to `RGBA` bytes a texel, last texel first: a texel is read before its place is taken.
+/// Expands texels from `RGB` to `RGBA` bytes, the last texel first, so that each is read before it
+/// is overwritten.
 fn widen<const RGB: usize, const RGBA: usize>(bytes: &mut [u8], opaque: &[u8]) {
     let mut texel = [0u8; RGBA];
     texel[RGB..].copy_from_slice(opaque);

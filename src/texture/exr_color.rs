@@ -1,6 +1,6 @@
-//! Luminance and chroma of an OpenEXR file → red, green and blue, in the file's own primaries
-//! (Kainz et al., Technical Introduction to OpenEXR, "Luminance/Chroma Images"):
-//! Y = w·(R, G, B), RY = (R − Y)⁄Y, BY = (B − Y)⁄Y, with w the luminances of the primaries.
+//! Converts luminance and chroma of an OpenEXR file to RGB in the file's own primaries (Kainz et
+//! al., Technical Introduction to OpenEXR, "Luminance/Chroma Images"): Y = w·(R, G, B), RY = (R −
+//! Y)⁄Y, BY = (B − Y)⁄Y, with w the luminances of the primaries.
 
 use std::path::Path;
 
@@ -10,7 +10,7 @@ use glam::{DMat3, DVec3};
 
 use crate::core::error::{Error, Result};
 
-/// What a file without an attribute of its own means: Rec. ITU-R BT.709.
+/// The primaries of a file without a chromaticities attribute: Rec. ITU-R BT.709.
 const REC_709: Chromaticities = Chromaticities {
     red: Vec2(0.64, 0.33),
     green: Vec2(0.30, 0.60),
@@ -18,14 +18,15 @@ const REC_709: Chromaticities = Chromaticities {
     white: Vec2(0.3127, 0.3290),
 };
 
-/// Returns the luminance of each primary; white has 1.
+/// Returns the luminance of each primary relative to white.
 pub(super) fn luminances(file: Option<Chromaticities>, path: &Path) -> Result<DVec3> {
     let file = file.unwrap_or(REC_709);
-    // X, Y and Z of a colour of this chromaticity, up to its brightness.
+    // X, Y and Z of a colour of this chromaticity, up to a scale factor.
     let xyz = |Vec2(x, y): Vec2<f32>| DVec3::new(x.into(), y.into(), 1.0 - f64::from(x) - f64::from(y));
     let primaries = DMat3::from_cols(xyz(file.red), xyz(file.green), xyz(file.blue));
     let white = xyz(file.white) / f64::from(file.white.1);
-    // Two primaries in one place leave rounding for a determinant; those of BT.709 have 0.11.
+    // Coincident primaries leave only rounding errors in the determinant; those of BT.709 have
+    // 0.11.
     if primaries.determinant().abs() > 1e-6 {
         let weights = primaries.inverse() * white * primaries.row(1);
         if weights.is_finite() && weights.y != 0.0 {
@@ -38,14 +39,14 @@ pub(super) fn luminances(file: Option<Chromaticities>, path: &Path) -> Result<DV
     ))
 }
 
-/// Changes (Y, RY, BY) at the front of each texel of four floats to (R, G, B).
+/// Replaces (Y, RY, BY) in the first three of each texel's four floats by (R, G, B).
 pub(super) fn to_rgb(texels: &mut [u8], weights: DVec3) {
     for texel in texels.as_chunks_mut::<16>().0 {
         let (values, _) = texel.as_chunks_mut::<4>();
         let [y, ry, by] = [0, 1, 2].map(|i| f64::from(f32::from_ne_bytes(values[i])));
         let (r, b) = ((ry + 1.0) * y, (by + 1.0) * y);
         let g = (y - r * weights.x - b * weights.z) / weights.y;
-        // Grey stays so to the bit, as in OpenEXR's own reader.
+        // Grey stays bitwise unchanged, as in OpenEXR's own reader.
         let rgb = if ry == 0.0 && by == 0.0 { [y; 3] } else { [r, g, b] };
         values.iter_mut().zip(rgb).for_each(|(to, value)| *to = (value as f32).to_ne_bytes());
     }

@@ -1,8 +1,8 @@
-//! Which channels of an OpenEXR file are a picture. In: the headers of its parts and the name of a layer, if
-//! one is asked for. Out: the part and the channels of one layer, or an error that lists what there is.
+//! Layer selection in OpenEXR files. Chooses the part and the channels of one layer from the
+//! headers of the parts and an optional layer name, or returns an error that lists the layers.
 //!
-//! A layer is what shares a name before the last dot of its channels (`diffuse.R`), in a part of the file; a
-//! part's name comes first where there are several.
+//! A layer is the set of channels of one part that share the name before the last dot
+//! (`diffuse.R`); the part's name is prefixed if there are several parts.
 
 use std::path::Path;
 
@@ -10,16 +10,16 @@ use exr::meta::header::Header;
 
 use crate::core::error::{Error, Result};
 
-/// A message lists no more layers than this.
+/// The largest number of layers that a message lists.
 const MAX_LISTED: usize = 12;
 
-/// Indices into the channels of one part.
+/// The channels of a layer as indices into the channels of one part.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Colors {
     Grey(usize),
-    /// Also positions and directions, X, Y and Z.
+    /// Red, green and blue; also positions and directions X, Y and Z.
     Rgb([usize; 3]),
-    /// Y, RY and BY.
+    /// Luminance Y with chroma RY and BY.
     LuminanceChroma([usize; 3]),
 }
 
@@ -31,7 +31,7 @@ pub(super) struct Layer {
 }
 
 impl Layer {
-    /// Returns the file's channel behind each channel of a texel, without what is not in the file.
+    /// Returns the file's channel for each channel of a texel, without those that the file lacks.
     pub fn channels(&self) -> Vec<usize> {
         let colors = match &self.colors {
             Colors::Grey(channel) => std::slice::from_ref(channel),
@@ -41,18 +41,18 @@ impl Layer {
     }
 }
 
-/// Channels that share part and prefix.
+/// The channels that share part and prefix.
 struct Group {
     part: usize,
     part_name: Option<String>,
     /// Part and prefix as a scene names them; empty for channels without either.
     name: String,
     prefix: String,
-    /// What follows the prefix, and the channel's index.
+    /// The channel's name after the prefix, and its index.
     channels: Vec<(String, usize)>,
 }
 
-/// Returns the layer of this name, or without one the only layer with colours, or the one without a name.
+/// Returns the layer of this name; without a name the only layer with colours, or the unnamed one.
 pub(super) fn choose(headers: &[Header], wanted: Option<&str>, path: &Path) -> Result<Layer> {
     let groups = groups(headers);
     match wanted {
@@ -86,7 +86,7 @@ fn groups(headers: &[Header]) -> Vec<Group> {
     groups
 }
 
-/// Some programs repeat the part's name in its channels.
+/// Joins the names of part and prefix, omitting the part's name if the prefix repeats it.
 fn joined(part: &str, prefix: &str) -> String {
     let repeats = prefix.strip_prefix(part).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'));
     match (part, prefix) {
@@ -108,7 +108,7 @@ impl Group {
         Some([first?, second?, third?])
     }
 
-    /// Returns what the names say; none for channels that are no colours together.
+    /// Returns the layer that the channel names form, or `None` if they are no colour channels.
     fn colors(&self) -> Option<Layer> {
         const RGB: [&[&str]; 3] = [&["R", "red"], &["G", "green"], &["B", "blue"]];
         let has = |name| self.find(&[name]).is_some();
@@ -125,7 +125,7 @@ impl Group {
         Some(Layer { part: self.part, colors, alpha: self.alpha() })
     }
 
-    /// As [`colors`](Self::colors), and a lone channel of any name as grey.
+    /// Like [`colors`](Self::colors), but a single channel of any name counts as grey.
     fn colors_or_one(&self) -> Option<Layer> {
         let alpha = self.alpha();
         let mut others = self.channels.iter().map(|(_, index)| *index).filter(|i| Some(*i) != alpha);
@@ -140,13 +140,13 @@ impl Group {
         self.find(&["A", "alpha"])
     }
 
-    /// Whether a scene may call it so: in full, or by the half of its name that tells it.
+    /// Returns true if `wanted` is the layer's full name or the part of it that identifies it.
     fn is_called(&self, wanted: &str) -> bool {
         let of_part = self.prefix.is_empty() && self.part_name.as_deref() == Some(wanted);
         self.name == wanted || self.prefix == wanted || of_part
     }
 
-    /// For messages: the name, or that there is none, and the channels.
+    /// Returns a description for messages: the name, or its absence, and the channels.
     fn described(&self) -> String {
         let bases: Vec<&str> = self.channels.iter().map(|(base, _)| base.as_str()).collect();
         let name =
@@ -195,7 +195,7 @@ fn named(groups: &[Group], wanted: &str, path: &Path) -> Result<Layer> {
     }
 }
 
-/// One channel as grey: by its name in the file, before which the part's name may stand.
+/// Returns one channel as grey by its name in the file, optionally prefixed with the part's name.
 fn channel(groups: &[Group], wanted: &str, path: &Path) -> Result<Layer> {
     let all =
         groups.iter().flat_map(|group| group.channels.iter().map(move |(base, index)| (group, base, *index)));
@@ -238,7 +238,7 @@ fn listed(groups: &[Group]) -> String {
     names.join(", ") + &rest
 }
 
-/// Of names that look alike the nearest.
+/// Returns a suggestion of the most similar name, if there is one.
 fn near<'a>(wanted: &str, names: impl Iterator<Item = &'a str>) -> String {
     let wanted = wanted.to_lowercase();
     let scored = names.map(|name| (strsim::jaro_winkler(&wanted, &name.to_lowercase()), name));

@@ -1,8 +1,9 @@
-//! Channels of an OpenEXR file with fewer samples than texels, as the chroma of luminance/chroma files. In: the
-//! bytes of a file. Out: the values of its channels at every texel, between samples interpolated linearly.
+//! Subsampled channels of OpenEXR files, such as the chroma of luminance/chroma files. Returns the
+//! values of a file's channels at every texel, linearly interpolated between samples.
 //!
-//! The `exr` crate decompresses such blocks, but refuses to read such files. So it is shown a file that says
-//! one sample a texel, and the blocks, which hold what the file really says, are decompressed here.
+//! The `exr` crate decompresses such blocks but refuses to open such files. It is therefore given a
+//! patched header that claims one sample per texel, and the blocks, which hold the actual data, are
+//! decompressed here.
 
 use std::io::{BufRead, Seek};
 
@@ -19,22 +20,22 @@ use exr::prelude::SmallVec;
 
 use super::read_exr::samples;
 
-/// The file with one sample a texel, and what it said before: for each part, for each channel, how many texels a
-/// sample stands for on each axis.
+/// The file patched to one sample per texel, and its original sampling: the texels per sample on
+/// each axis, for each channel of each part.
 pub(super) struct Patched {
     pub bytes: Vec<u8>,
     pub samplings: Vec<Vec<Vec2<usize>>>,
 }
 
-/// Returns none for what is no OpenEXR file, or has a sample for every texel.
+/// Returns `None` if the bytes are no OpenEXR file or have one sample per texel already.
 pub(super) fn patch(mut bytes: Vec<u8>) -> Option<Patched> {
     const SEVERAL_PARTS: u32 = 0x1000;
     let several = u32::from_le_bytes(*bytes.get(4..)?.first_chunk()?) & SEVERAL_PARTS != 0;
     let mut samplings = Vec::new();
-    let mut at = 8;
+    let mut offset = 8;
     loop {
-        samplings.push(patch_header(&mut bytes, &mut at)?);
-        if !several || *bytes.get(at)? == 0 {
+        samplings.push(patch_header(&mut bytes, &mut offset)?);
+        if !several || *bytes.get(offset)? == 0 {
             break;
         }
     }
@@ -42,49 +43,50 @@ pub(super) fn patch(mut bytes: Vec<u8>) -> Option<Patched> {
     sparse.then_some(Patched { bytes, samplings })
 }
 
-/// Reads attributes until the empty name that ends a header.
-fn patch_header(bytes: &mut [u8], at: &mut usize) -> Option<Vec<Vec2<usize>>> {
+/// Patches attributes up to the empty name that ends a header, and returns the original sampling.
+fn patch_header(bytes: &mut [u8], offset: &mut usize) -> Option<Vec<Vec2<usize>>> {
     let mut samplings = Vec::new();
     loop {
-        let name = skip_text(bytes, at)?;
+        let name = skip_text(bytes, offset)?;
         if name.is_empty() {
             return Some(samplings);
         }
         let is_channels = bytes.get(name)? == b"channels";
-        skip_text(bytes, at)?;
-        let size = usize::try_from(number(bytes, *at)?).ok()?;
-        *at += 4;
-        let end = at.checked_add(size).filter(|end| *end <= bytes.len())?;
+        skip_text(bytes, offset)?;
+        let size = usize::try_from(number(bytes, *offset)?).ok()?;
+        *offset += 4;
+        let end = offset.checked_add(size).filter(|end| *end <= bytes.len())?;
         if is_channels {
             if !samplings.is_empty() {
                 return None;
             }
-            // Name, type, flags, and texels a sample along x and along y.
-            let mut place = *at;
-            while !skip_text(bytes, &mut place)?.is_empty() {
-                let [x, y] = [number(bytes, place + 8)?, number(bytes, place + 12)?];
+            // Name, type, flags, and texels per sample along x and y.
+            let mut attribute = *offset;
+            while !skip_text(bytes, &mut attribute)?.is_empty() {
+                let [x, y] = [number(bytes, attribute + 8)?, number(bytes, attribute + 12)?];
                 samplings.push(Vec2(usize::try_from(x).ok()?, usize::try_from(y).ok()?));
-                bytes.get_mut(place + 8..place + 16)?.copy_from_slice(&[1, 0, 0, 0, 1, 0, 0, 0]);
-                place += 16;
+                bytes.get_mut(attribute + 8..attribute + 16)?.copy_from_slice(&[1, 0, 0, 0, 1, 0, 0, 0]);
+                attribute += 16;
             }
         }
-        *at = end;
+        *offset = end;
     }
 }
 
-/// The text without its zero at the end.
-fn skip_text(bytes: &[u8], at: &mut usize) -> Option<std::ops::Range<usize>> {
-    let length = bytes.get(*at..)?.iter().position(|&b| b == 0)?;
-    let text = *at..*at + length;
-    *at += length + 1;
+/// Skips a zero-terminated text and returns its range without the terminator.
+fn skip_text(bytes: &[u8], offset: &mut usize) -> Option<std::ops::Range<usize>> {
+    let length = bytes.get(*offset..)?.iter().position(|&b| b == 0)?;
+    let text = *offset..*offset + length;
+    *offset += length + 1;
     Some(text)
 }
 
-fn number(bytes: &[u8], at: usize) -> Option<i32> {
-    Some(i32::from_le_bytes(*bytes.get(at..)?.first_chunk()?))
+fn number(bytes: &[u8], offset: usize) -> Option<i32> {
+    Some(i32::from_le_bytes(*bytes.get(offset..)?.first_chunk()?))
 }
 
-/// The samples of one channel, one in `sampling` texels along each axis, the first at the first texel.
+/// The samples of one channel, one per `sampling` texels along each axis, starting at the first
+/// texel.
 pub(super) struct Plane {
     sampling: Vec2<usize>,
     size: Vec2<usize>,
@@ -92,7 +94,7 @@ pub(super) struct Plane {
 }
 
 impl Plane {
-    /// Returns the value at a texel; beyond the last sample it is that of the last.
+    /// Returns the value at a texel; beyond the last sample the last one is continued.
     pub fn at(&self, x: usize, y: usize) -> f32 {
         let Vec2(across, down) = self.sampling;
         let value = |column: usize, row: usize| {
@@ -109,7 +111,7 @@ impl Plane {
     }
 }
 
-/// Returns the planes of these channels of a part, in this order.
+/// Returns the planes of the given channels of a part, in this order.
 pub(super) fn planes<R: BufRead + Seek>(
     reader: Reader<R>,
     part: usize,
@@ -172,7 +174,7 @@ fn short() -> Error {
     Error::Invalid("length of a block".into())
 }
 
-/// The bytes of some rows: row by row, in each channel by channel.
+/// Decompresses some rows: row by row, and within a row channel by channel.
 fn decompress(header: &Header, compressed: Vec<u8>, rows: std::ops::Range<usize>) -> Result<Vec<u8>> {
     let Vec2(width, _) = header.layer_size;
     let of_channel = |channel: &ChannelDescription| {
@@ -185,17 +187,18 @@ fn decompress(header: &Header, compressed: Vec<u8>, rows: std::ops::Range<usize>
     }
     let area = width * rows.len();
     let (header, size) = match header.compression {
-        // These know bytes alone: as one line of one channel of two bytes a sample they come out whole.
+        // These codecs are agnostic of the layout: the bytes come out unchanged as one line of one
+        // channel of two bytes per sample.
         Compression::RLE | Compression::ZIP1 | Compression::ZIP16 => {
             let size = Vec2(length / 2, 1);
             let channel = ChannelDescription::named("Y", SampleType::F16);
             let line = Header::new("".into(), size, SmallVec::from_vec(vec![channel]));
             (line.with_encoding(header.compression, BlockDescription::ScanLines, LineOrder::Increasing), size)
         }
-        // Not B44, which the crate decompresses only where every texel has a sample.
+        // B44 is missing here because the crate decompresses it only with one sample per texel.
         Compression::PIZ | Compression::PXR24 if length.is_multiple_of(area) => {
             let mut header = header.clone();
-            // The crate takes the product of it and the area for the length.
+            // The crate computes the length as the product of this number and the area.
             header.channels.bytes_per_pixel = length / area;
             (header, Vec2(width, rows.len()))
         }

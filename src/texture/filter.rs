@@ -1,39 +1,40 @@
-//! What each filter can do and what it asks for: the one table from which validation, advice, packing and the loop budget
-//! read. The shader's side stands in `glsl/shared/filter/`.
+//! The properties and requirements of each filter: the one table for validation, advice, packing
+//! and the loop budget. The shader's side is in `glsl/shared/filter/`.
 
 use super::sampler_spec::Filter;
 
-/// What a look-up by a filter costs in turns of loops.
+/// The cost of a lookup by a filter in loop iterations.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Turns {
-    /// So many around one place of a flat texture.
+    /// A fixed number around one coordinate of a 2D texture.
     Place(u64),
-    /// As many look-ups as the sampler's anisotropy allows.
+    /// As many lookups as the sampler's anisotropy allows.
     Walk,
     /// All texels of an ellipse.
     Ellipse,
-    /// So many for the footprint, whatever its size.
+    /// A fixed number for the footprint, whatever its size.
     Footprint(u64),
 }
 
 /// The properties of a filter.
 #[derive(Clone, Copy, Debug)]
 pub struct Traits {
-    /// It means something only where a footprint covers more than a texel, so that it cannot magnify.
+    /// True if the filter is defined only where a footprint covers more than a texel, so that it
+    /// cannot magnify.
     pub only_minifies: bool,
-    /// Texture units have it.
+    /// True if texture units implement it.
     pub in_hardware: bool,
-    /// It reads textures of one or two dimensions only.
+    /// True if it supports textures of one or two dimensions only.
     pub needs_flat: bool,
-    /// It chooses levels by itself, whatever the mip mode.
+    /// True if it selects levels itself, whatever the mip mode.
     pub chooses_levels: bool,
-    /// It follows the longer axis of a footprint, as texture units do where they can.
+    /// True if it follows the major axis of a footprint, as anisotropic filtering does.
     pub follows_axis: bool,
-    /// It takes texels at random.
+    /// True if it selects texels stochastically.
     pub is_random: bool,
-    /// It reads sums over rectangles in place of texels.
+    /// True if it reads summed-area tables instead of texels.
     pub needs_sums: bool,
-    /// It mixes neighbouring texels.
+    /// True if it blends neighbouring texels.
     pub blends: bool,
     /// How often its loops run.
     pub turns: Turns,
@@ -77,7 +78,7 @@ impl Filter {
                 turns: Turns::Ellipse,
                 ..MIXED
             },
-            // Corners of nine boxes of four rows.
+            // The corners of nine boxes of four rows.
             Filter::SummedArea => Traits {
                 only_minifies: true,
                 needs_flat: true,
@@ -94,12 +95,12 @@ impl Filter {
         (if self.only_minifies() { Filter::Linear } else { self }, self)
     }
 
-    /// Filters that only mean something where a footprint covers more than a texel.
+    /// Returns true for filters that are defined only where a footprint covers more than a texel.
     pub const fn only_minifies(self) -> bool {
         self.traits().only_minifies
     }
 
-    /// Their names, as a person lists them.
+    /// Returns the names of the filters that satisfy `is`, as a list in a sentence.
     pub fn names_with(is: impl Fn(&Traits) -> bool, last: &str) -> String {
         let all = Filter::ALL.iter().filter(|f| is(&f.traits()));
         let names: Vec<&str> = all.map(|f| f.name()).collect();

@@ -1,17 +1,17 @@
-//! Numbers as whole steps over their own range: what tables of sums count in, so that differences of sums are
-//! exact.
+//! Fixed-point numbers over a range of values, in which summed tables count, so that differences of
+//! sums are exact.
 
 /// value = least + step · code
 #[derive(Clone, Copy, Debug)]
 pub struct FixedPoint {
     pub least: f32,
-    /// 0 where all values are one.
+    /// The step, which is 0 if all values are equal.
     pub step: f32,
     most_code: f64,
 }
 
 impl FixedPoint {
-    /// `steps` of them from the least of the values to the greatest.
+    /// Returns a fixed point with `steps` steps from the smallest to the largest of the values.
     pub fn over(values: impl Iterator<Item = f64>, steps: u32) -> FixedPoint {
         let ends = (f64::INFINITY, f64::NEG_INFINITY);
         let (least, most) = values.fold(ends, |(low, high), v| (low.min(v), high.max(v)));
@@ -20,7 +20,7 @@ impl FixedPoint {
         FixedPoint { least, step, most_code: 2.0 * f64::from(steps) }
     }
 
-    /// The nearest code. Rounding of the ends may put a value just outside of them.
+    /// Returns the nearest code. Rounding of the ends may put a value slightly outside the range.
     pub fn code(&self, value: f64) -> u32 {
         if self.step > 0.0 {
             ((value - f64::from(self.least)) / f64::from(self.step)).round().clamp(0.0, self.most_code) as u32

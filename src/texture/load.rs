@@ -1,5 +1,5 @@
-//! A texture as a scene describes it, in; its texels, ready for upload, out. Mistakes in the files
-//! are errors that name the texture and the file.
+//! Loads the texels of a texture from its description in a scene, ready for upload. Errors in the
+//! files name the texture and the file.
 
 use std::path::Path;
 
@@ -13,17 +13,18 @@ use super::{cube, nrrd, stack, volume};
 use crate::core::error::{Error, Result};
 use crate::core::panics;
 
-/// Of a procedural texture, which has no texels, one that nobody reads.
+/// Loads a texture. For a procedural one, which has no texels, returns a placeholder that is never
+/// read.
 pub fn load(source: &TextureSource) -> Result<TextureData> {
     load_with(source, Values::Finite)
 }
 
-/// The same, with such numbers.
+/// Loads a texture whose float values may be those that `values` allows.
 pub fn load_with(source: &TextureSource, values: Values) -> Result<TextureData> {
     load_noted(source, values).map(|(texture, _)| texture)
 }
 
-/// The same, with what a person should know about how its files were read.
+/// Loads a texture and also returns notes about how its files were read.
 pub fn load_noted(source: &TextureSource, values: Values) -> Result<(TextureData, Vec<String>)> {
     let stage = format!("texture \"{}\"", source.name);
     let (picture, depth) =
@@ -37,7 +38,7 @@ pub fn load_noted(source: &TextureSource, values: Values) -> Result<(TextureData
     Ok((texture, picture.notes.iter().map(|note| format!("texture \"{}\": {note}", source.name)).collect()))
 }
 
-/// The texels and how many slices or faces they are.
+/// Reads the texels and returns the number of slices or faces with them.
 fn read(source: &TextureSource, values: Values) -> Result<(Picture, u32)> {
     let space = source.color_space;
     let reading = &source.reading;

@@ -1,17 +1,19 @@
-//! Mip levels of a texture, in linear light. In goes level 0, out come the others in its own format,
-//! each half as long on every axis, rounded down, at least 1 (Vulkan 1.3, "Image Mip Level Sizing").
-//! Faces of a cube are filtered each by itself, slices of a volume along the third axis too.
+//! Mip levels of a texture, filtered in linear light. Computes all levels from level 0 in its own
+//! format, each half as long on every axis, rounded down, at least 1 (Vulkan 1.3, "Image Mip Level
+//! Sizing"). Faces of a cube are filtered separately, slices of a volume along the third axis too.
 //!
-//! - `box`: a texel is the mean over exactly the area that it covers, of texels at the border by their
-//!   share; so the mean of every level is that of level 0. Lengths that halve without remainder take
-//!   each level from the one before; from the first odd length on, every level is taken from that one.
-//! - `kaiser`: sinc(x) · I₀(β √(1 − (x/w)²)) / I₀(β) with w = 3 texels of the new level and β = 4, each
-//!   level from the one before, the texture continued by its border texels. Negative lobes overshoot
-//!   at edges: no level leaves the range of level 0.
+//! - `box`: a texel is the mean over exactly the area that it covers, border texels weighted by the
+//!   covered fraction; the mean of every level therefore equals that of level 0. As long as lengths
+//!   halve without remainder, each level is computed from the previous one; from the first odd
+//!   length on, every level is computed from that one.
+//! - `kaiser`: sinc(x) · I₀(β √(1 − (x/w)²)) / I₀(β) with w = 3 texels of the new level and β = 4,
+//!   each level from the previous one, the texture extended by its border texels. Negative lobes
+//!   overshoot at edges: every level is clamped to the range of level 0.
 //!
-//! Between levels all stays in f32 and unrounded, so that a stored level is off by one rounding, however
-//! many levels lie above it: half a step of its format, and halves round up. Each channel is averaged by
-//! itself, alpha too: no material takes it for coverage, so a colour counts whatever its alpha.
+//! Intermediate levels stay in unrounded f32, so that a stored level is off by one rounding only,
+//! whatever its number: half a step of its format, with halves rounded up. Channels are averaged
+//! independently, including alpha: no material interprets it as coverage, so a colour counts
+//! whatever its alpha.
 
 mod codec;
 mod halve;
@@ -25,39 +27,40 @@ use codec::Codec;
 pub use codec::srgb_middles;
 use halve::halve;
 pub use nonfinite::pyramid_of_finite;
-use resample::{Axis, resample};
+use resample::{AxisWeights, resample};
 
-/// Levels 1 to the last; none of a texture of one texel.
+/// Returns levels 1 to the last, or none for a texture of one texel.
 pub fn mip_chain(texture: &TextureData, kernel: MipKernel) -> Vec<TextureData> {
     let codec = Codec::new(texture, kernel == MipKernel::Kaiser);
     let stored =
         Level { size: size(texture, 0), rows: Rows::Stored { texels: &texture.texels, codec: &codec } };
     match kernel {
-        MipKernel::Box => boxes(texture, &codec, stored),
-        MipKernel::Kaiser => kaiser(texture, &codec, stored),
+        MipKernel::Box => box_levels(texture, &codec, stored),
+        MipKernel::Kaiser => kaiser_levels(texture, &codec, stored),
     }
 }
 
-/// With level 0.
+/// Returns the number of levels including level 0.
 pub fn level_count(texture: &TextureData) -> u32 {
     let depth = if texture.dimension == Dimension::Three { texture.depth } else { 1 };
     let longest = texture.width.max(texture.height).max(depth);
     u32::BITS - longest.leading_zeros()
 }
 
-/// Width, height, and depth or faces.
+/// Returns width, height, and depth or faces of a level.
 pub fn level_size(texture: &TextureData, level: u32) -> [u32; 3] {
     let half = |n: u32| n.checked_shr(level).unwrap_or(0).max(1);
     let depth = if texture.dimension == Dimension::Three { half(texture.depth) } else { texture.depth };
     [half(texture.width), half(texture.height), depth]
 }
 
-/// Whether every length of every level is that of the level above, or half of it.
+/// Returns true if every length of every level equals that of the previous level or is exactly half
+/// of it.
 pub fn halves_throughout(texture: &TextureData) -> bool {
     (1..level_count(texture)).all(|level| halves(size(texture, level - 1), size(texture, level)))
 }
 
-/// Levels 1 to the last, their texels 0.
+/// Returns levels 1 to the last with all texels 0.
 pub fn blank(texture: &TextureData) -> Vec<TextureData> {
     let level = |level| {
         let [width, height, depth] = level_size(texture, level);
@@ -72,7 +75,7 @@ fn size(texture: &TextureData, level: u32) -> [usize; 3] {
     level_size(texture, level).map(|n| n as usize)
 }
 
-fn boxes(texture: &TextureData, codec: &Codec, stored: Level<'_>) -> Vec<TextureData> {
+fn box_levels(texture: &TextureData, codec: &Codec, stored: Level<'_>) -> Vec<TextureData> {
     let mut levels = Vec::new();
     let mut above = stored;
     for level in 1..level_count(texture) {
@@ -81,7 +84,7 @@ fn boxes(texture: &TextureData, codec: &Codec, stored: Level<'_>) -> Vec<Texture
             let rest: Vec<u32> = (level..level_count(texture)).collect();
             let direct = rest.par_iter().map(|&level| {
                 let to = size(texture, level);
-                let axes = [0, 1, 2].map(|a| Axis::boxes(above.size[a], to[a]));
+                let axes = [0, 1, 2].map(|a| AxisWeights::covered(above.size[a], to[a]));
                 stored_level(texture, codec, to, &resample(&above, &axes, codec.channels()))
             });
             levels.extend(direct.collect::<Vec<_>>());
@@ -94,12 +97,12 @@ fn boxes(texture: &TextureData, codec: &Codec, stored: Level<'_>) -> Vec<Texture
     levels
 }
 
-fn kaiser(texture: &TextureData, codec: &Codec, stored: Level<'_>) -> Vec<TextureData> {
+fn kaiser_levels(texture: &TextureData, codec: &Codec, stored: Level<'_>) -> Vec<TextureData> {
     let mut levels = Vec::new();
     let mut above = stored;
     for level in 1..level_count(texture) {
         let to = size(texture, level);
-        let axes = [0, 1, 2].map(|a| Axis::kaiser(above.size[a], to[a]));
+        let axes = [0, 1, 2].map(|a| AxisWeights::windowed_sinc(above.size[a], to[a]));
         let values = resample(&above, &axes, codec.channels());
         levels.push(stored_level(texture, codec, to, &values));
         above = Level { size: to, rows: Rows::Working(values) };
@@ -107,7 +110,7 @@ fn kaiser(texture: &TextureData, codec: &Codec, stored: Level<'_>) -> Vec<Textur
     levels
 }
 
-/// Whether each texel of the new level covers whole texels, two or one along an axis.
+/// Returns true if each texel of the new level covers one or two whole texels along every axis.
 fn halves(from: [usize; 3], to: [usize; 3]) -> bool {
     from.iter().zip(to).all(|(&from, to)| from == to || from == 2 * to)
 }
@@ -118,21 +121,22 @@ fn stored_level(texture: &TextureData, codec: &Codec, size: [usize; 3], values: 
     TextureData { name: texture.name.clone(), width, height, depth, texels, ..*texture }
 }
 
-/// A level that the next is made from.
+/// The source level from which the next one is computed.
 struct Level<'a> {
     size: [usize; 3],
     rows: Rows<'a>,
 }
 
 enum Rows<'a> {
-    /// Decoded row by row: level 0 is never held as floats.
+    /// Stored texels, decoded row by row: level 0 is never expanded to floats as a whole.
     Stored { texels: &'a [u8], codec: &'a Codec },
-    /// As the codec decodes, rows one after the other.
+    /// Decoded values in the codec's units, rows one after the other.
     Working(Vec<f32>),
 }
 
 impl Level<'_> {
-    /// Row `index`, counted through all slices; `scratch` holds it if it must be decoded.
+    /// Returns row `index`, counted through all slices; `scratch` receives it if it must be
+    /// decoded.
     fn row<'s>(&'s self, index: usize, scratch: &'s mut Vec<f32>) -> &'s [f32] {
         match &self.rows {
             Rows::Working(values) => {

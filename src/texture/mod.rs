@@ -1,4 +1,4 @@
-//! Textures as data: what a file holds, what a sampler does with it.
+//! Textures as data: the contents of image files and the states of samplers.
 
 #[allow(missing_docs)]
 pub mod analysis;

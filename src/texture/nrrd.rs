@@ -1,7 +1,7 @@
 //! NRRD volumes (teem, "Definition of NRRD File Format", versions 1 to 5): three axes, or four with
 //! 1 to 4 channels on the first, of integers of 8 to 64 bits or floats of 32 or 64, raw or gzip,
-//! behind the header or in a file of their own. Fields that only place the volume in the world
-//! (spacings, space, kinds of the other axes, …) are read over. Mistakes name line and field.
+//! after the header or in a separate file. Fields that only position the volume in the world
+//! (spacings, space, kinds of the other axes, …) are ignored. Errors name line and field.
 
 use std::collections::HashMap;
 use std::fs::File;
@@ -12,14 +12,14 @@ use flate2::bufread::MultiGzDecoder;
 
 use super::open_file::open;
 use super::read_file::{Texels, unreadable};
-use super::scalar::{Kind, Scalar};
+use super::scalar::{NumberKind, Scalar};
 use super::source::Endian;
-use super::volume::Bare;
+use super::volume::RawTexels;
 use crate::core::error::{Error, Result};
 
-/// A header line longer than this is no header line.
-const LONGEST_LINE: u64 = 64 << 10;
-/// Deflate gives no more bytes for one.
+/// The length limit of a header line: a longer one is not a header.
+const MAX_LINE_BYTES: u64 = 64 << 10;
+/// The maximum compression ratio of Deflate.
 const MAX_GZIP_RATIO: u64 = 1032;
 const MAX_LINES: usize = 10_000;
 
@@ -39,7 +39,8 @@ pub(super) fn read(path: &Path) -> Result<(Texels, u32)> {
     Ok((texels, depth))
 }
 
-/// Lines before the data, then bytes; −1 bytes: the data ends where the file ends.
+/// The lines, then bytes, before the data; −1 bytes means that the data ends at the end of the
+/// file.
 #[derive(Clone, Copy)]
 struct Skips {
     lines: u32,
@@ -48,7 +49,7 @@ struct Skips {
 
 fn read_data(
     mut source: BufReader<File>,
-    layout: &Bare,
+    layout: &RawTexels,
     endian: Endian,
     skips: Skips,
     gzip: bool,
@@ -72,18 +73,18 @@ fn read_data(
 
 struct Header<'a> {
     path: &'a Path,
-    /// By name in lower case: line number and content.
+    /// Line number and content of each field by its name in lower case.
     fields: HashMap<String, (usize, String)>,
 }
 
 impl<'a> Header<'a> {
-    /// Up to the empty line before the data, or to the end of a header that stands alone.
+    /// Reads up to the empty line before the data, or to the end of a detached header.
     fn read(file: &mut impl BufRead, path: &'a Path) -> Result<Header<'a>> {
         let mut header = Header { path, fields: HashMap::new() };
         for number in 1..=MAX_LINES {
             let mut line = Vec::new();
             file.by_ref()
-                .take(LONGEST_LINE)
+                .take(MAX_LINE_BYTES)
                 .read_until(b'\n', &mut line)
                 .map_err(|e| unreadable(path, &e))?;
             let at_end = line.is_empty();
@@ -104,10 +105,10 @@ impl<'a> Header<'a> {
     }
 
     fn add(&mut self, number: usize, line: &str) -> Result<()> {
-        // `key:=value` pairs are the user's own.
+        // `key:=value` pairs are user-defined.
         let Some((name, content)) = line.split_once(": ").or_else(|| line.split_once(':')) else {
             let excerpt: String = line.chars().take(40).collect();
-            return Err(self.at(number, &format!("\"{excerpt}\" is no field: expected NAME: VALUE")));
+            return Err(self.error_at(number, &format!("\"{excerpt}\" is no field: expected NAME: VALUE")));
         };
         if content.starts_with('=') {
             return Ok(());
@@ -119,19 +120,19 @@ impl<'a> Header<'a> {
             name => name.to_string(),
         };
         if let Some((first, _)) = self.fields.get(&name) {
-            return Err(self.at(number, &format!("field \"{name}\" stands on line {first} already")));
+            return Err(self.error_at(number, &format!("field \"{name}\" stands on line {first} already")));
         }
         self.fields.insert(name, (number, content.trim().to_string()));
         Ok(())
     }
 
-    fn layout(&self) -> Result<Bare> {
+    fn layout(&self) -> Result<RawTexels> {
         let scalar = self.scalar()?;
         let dimension = self.choice("dimension", &[("3", 3), ("4", 4)])?;
         let (_, sizes) = self.required("sizes")?;
         let sizes: Vec<u32> = sizes.split_whitespace().map_while(|n| n.parse().ok()).collect();
         if sizes.len() != dimension || sizes.contains(&0) {
-            return Err(self.wrong("sizes", &format!("{dimension} whole numbers above 0")));
+            return Err(self.expected("sizes", &format!("{dimension} whole numbers above 0")));
         }
         let channels_first = dimension == 4;
         let kind = self.fields.get("kinds").and_then(|(_, kinds)| kinds.split_whitespace().next());
@@ -141,36 +142,42 @@ impl<'a> Header<'a> {
             kind.contains("color") || kind.contains("vector") || kind == "complex"
         });
         match (channels_first, of_place) {
-            (true, Some(true)) => Err(self.wrong("kinds", "the channels on the first of four axes")),
-            (false, _) if of_value => Err(self.wrong("kinds", "three axes of space, or four with channels")),
+            (true, Some(true)) => Err(self.expected("kinds", "the channels on the first of four axes")),
+            (false, _) if of_value => {
+                Err(self.expected("kinds", "three axes of space, or four with channels"))
+            }
             (true, _) if sizes[0] > 4 => {
-                Err(self.wrong("sizes", "1 to 4 channels on the first of four axes"))
+                Err(self.expected("sizes", "1 to 4 channels on the first of four axes"))
             }
             _ => {
                 let (channels, size) = if channels_first { (sizes[0], &sizes[1..]) } else { (1, &sizes[..]) };
                 let size = [size[0], size[1], size[2]];
-                Ok(Bare { size, channels: channels as usize, scalar })
+                Ok(RawTexels { size, channels: channels as usize, scalar })
             }
         }
     }
 
-    /// By all the names that the format has for a type.
+    /// Returns the number type, for any of the names that the format has for it.
     fn scalar(&self) -> Result<Scalar> {
-        const TYPES: [(&[&str], u32, Kind); 10] = [
-            (&["uchar", "unsigned char", "uint8", "uint8_t"], 8, Kind::Unsigned),
-            (&["signed char", "int8", "int8_t"], 8, Kind::Signed),
-            (&["ushort", "unsigned short", "unsigned short int", "uint16", "uint16_t"], 16, Kind::Unsigned),
+        const TYPES: [(&[&str], u32, NumberKind); 10] = [
+            (&["uchar", "unsigned char", "uint8", "uint8_t"], 8, NumberKind::Unsigned),
+            (&["signed char", "int8", "int8_t"], 8, NumberKind::Signed),
+            (
+                &["ushort", "unsigned short", "unsigned short int", "uint16", "uint16_t"],
+                16,
+                NumberKind::Unsigned,
+            ),
             (
                 &["short", "short int", "signed short", "signed short int", "int16", "int16_t"],
                 16,
-                Kind::Signed,
+                NumberKind::Signed,
             ),
-            (&["uint", "unsigned int", "uint32", "uint32_t"], 32, Kind::Unsigned),
-            (&["int", "signed int", "int32", "int32_t"], 32, Kind::Signed),
+            (&["uint", "unsigned int", "uint32", "uint32_t"], 32, NumberKind::Unsigned),
+            (&["int", "signed int", "int32", "int32_t"], 32, NumberKind::Signed),
             (
                 &["ulonglong", "unsigned long long", "unsigned long long int", "uint64", "uint64_t"],
                 64,
-                Kind::Unsigned,
+                NumberKind::Unsigned,
             ),
             (
                 &[
@@ -183,20 +190,20 @@ impl<'a> Header<'a> {
                     "int64_t",
                 ],
                 64,
-                Kind::Signed,
+                NumberKind::Signed,
             ),
-            (&["float"], 32, Kind::Float),
-            (&["double"], 64, Kind::Float),
+            (&["float"], 32, NumberKind::Float),
+            (&["double"], 64, NumberKind::Float),
         ];
         let (_, word) = self.required("type")?;
         let found = TYPES.iter().find(|(names, ..)| names.iter().any(|name| name.eq_ignore_ascii_case(word)));
         found.map(|(_, bits, kind)| Scalar { bits: *bits, kind: *kind }).ok_or_else(|| {
             let names: Vec<&str> = TYPES.iter().map(|(names, ..)| names[0]).collect();
-            self.wrong("type", &format!("one of {}", names.join(", ")))
+            self.expected("type", &format!("one of {}", names.join(", ")))
         })
     }
 
-    /// The format wants it wherever an order exists.
+    /// Returns the byte order, which the format requires for numbers of more than one byte.
     fn endian(&self, scalar: Scalar) -> Result<Endian> {
         if scalar.bits == 8 {
             return Ok(Endian::Little);
@@ -209,22 +216,22 @@ impl<'a> Header<'a> {
             None => Ok(0),
             Some((_, text)) => {
                 let number = text.parse::<i64>().ok().filter(|n| (least..=i64::from(u32::MAX)).contains(n));
-                number.ok_or_else(|| self.wrong(name, &format!("a whole number from {least} on")))
+                number.ok_or_else(|| self.expected(name, &format!("a whole number from {least} on")))
             }
         };
         let (lines, bytes) = (number("line skip", 0)?, number("byte skip", -1)?);
         let raw = self.fields.get("encoding").is_some_and(|(_, e)| e.eq_ignore_ascii_case("raw"));
         if bytes < 0 && !raw {
-            return Err(self.wrong("byte skip", "0 or more, as the encoding is not raw"));
+            return Err(self.expected("byte skip", "0 or more, as the encoding is not raw"));
         }
         Ok(Skips { lines: lines as u32, bytes })
     }
 
-    /// Relative to the header.
+    /// Returns the path of a separate data file, which is relative to the header.
     fn data_file(&self) -> Result<Option<PathBuf>> {
         let Some((_, name)) = self.fields.get("data file") else { return Ok(None) };
         if name.is_empty() || name.starts_with("LIST") || name.contains('%') {
-            return Err(self.wrong("data file", "the name of one file"));
+            return Err(self.expected("data file", "the name of one file"));
         }
         Ok(Some(self.path.parent().unwrap_or(Path::new("")).join(name)))
     }
@@ -244,19 +251,19 @@ impl<'a> Header<'a> {
         let found = choices.iter().find(|(choice, _)| choice.eq_ignore_ascii_case(word));
         found.map(|(_, value)| *value).ok_or_else(|| {
             let names: Vec<&str> = choices.iter().map(|(name, _)| *name).collect();
-            self.wrong(name, &format!("one of {}", names.join(", ")))
+            self.expected(name, &format!("one of {}", names.join(", ")))
         })
     }
 
-    fn wrong(&self, name: &str, wanted: &str) -> Error {
+    fn expected(&self, name: &str, wanted: &str) -> Error {
         let (line, found) = self.fields.get(name).map_or((1, ""), |(line, text)| (*line, text.as_str()));
         let found: String = found.chars().take(60).collect();
-        self.at(line, &format!("field \"{name}\": expected {wanted}, found \"{found}\""))
+        self.error_at(line, &format!("field \"{name}\": expected {wanted}, found \"{found}\""))
     }
 
-    fn at(&self, line: usize, what: &str) -> Error {
+    fn error_at(&self, line: usize, problem: &str) -> Error {
         Error::with_help(
-            format!("{}:{line}: {what}", self.path.display()),
+            format!("{}:{line}: {problem}", self.path.display()),
             "convert the volume, for example to raw ushort with three axes",
         )
     }

@@ -1,5 +1,5 @@
-//! The path of a picture in; the open file out, or an error that says what is odd about the path, or which file may be
-//! meant.
+//! Opens a picture file, or returns an error that explains what is wrong with the path or suggests
+//! which file may be meant.
 
 use std::fs::{self, File};
 use std::io::ErrorKind;
@@ -26,7 +26,8 @@ pub(super) fn open(path: &Path) -> Result<File> {
     File::open(path).map_err(|e| unreadable(path, &e))
 }
 
-/// What is odd about a missing path, which part of it is missing, or the name in that folder that comes closest.
+/// Returns a hint about a missing path: suspicious characters, the missing folder, or the closest
+/// name in the folder.
 fn hint(path: &Path) -> Option<String> {
     if let Some(odd) = odd_path(path) {
         return Some(odd);
@@ -42,7 +43,7 @@ fn hint(path: &Path) -> Option<String> {
     (score > 0.85).then(|| format!("did you mean {}?", folder.join(name).display()))
 }
 
-/// A character as one line shows it.
+/// Returns the character as messages show it on one line.
 fn escaped(c: char) -> Vec<char> {
     if c.is_control() { c.escape_default().collect() } else { vec![c] }
 }
@@ -52,8 +53,8 @@ pub fn is_volume(path: &Path) -> bool {
     path.extension().is_some_and(|e| e.eq_ignore_ascii_case("nrrd") || e.eq_ignore_ascii_case("nhdr"))
 }
 
-/// What to do about a path that was written with backslashes: TOML turns some of them into other characters, and
-/// only Windows divides folders by them.
+/// Returns advice for a path written with backslashes: TOML escapes turn some of them into other
+/// characters, and only Windows separates folders with them.
 pub fn odd_path(path: &Path) -> Option<String> {
     let text = path.to_string_lossy();
     if text.contains(char::is_control) {

@@ -1,23 +1,24 @@
-//! Which way up a picture is stored. In: a JPEG, PNG or TIFF file. Out: what tag 274 says (TIFF 6.0,
-//! "Orientation"; Exif 2.32, 4.6.4), and texels turned so that the first row is the top one. Exif data is
-//! a TIFF structure, within an APP1 segment of a JPEG file or an eXIf chunk of a PNG file.
+//! Image orientation of JPEG, PNG and TIFF files. Reads tag 274 (TIFF 6.0, "Orientation"; Exif
+//! 2.32, 4.6.4) and turns texels so that the first row is the top one. Exif data is a TIFF
+//! structure in an APP1 segment of a JPEG file or an eXIf chunk of a PNG file.
 
 use super::data::TexelFormat;
 use super::read_file::Texels;
 use super::sniff::PictureFormat;
 use super::{read_jpeg, read_png, tiff};
 
-/// Where the picture's top left corner is stored, and along what its rows run.
+/// The corner at which the picture's top left is stored, and the direction of its rows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Orientation {
-    /// Rows of the picture are columns of the file.
+    /// True if rows of the picture are columns of the file.
     transposed: bool,
-    /// In the file's own columns and rows, counted from the other end.
+    /// True for columns or rows of the file that are in reverse order.
     reversed: [bool; 2],
 }
 
 impl Orientation {
-    /// Returns the orientation behind the tag's value; none for the usual 1, and for what has no meaning.
+    /// Returns the orientation for the tag's value; `None` for the default 1 and for undefined
+    /// values.
     pub fn from_tag(value: u16) -> Option<Self> {
         let (transposed, reversed) = match value {
             2 => (false, [true, false]),
@@ -32,7 +33,7 @@ impl Orientation {
         Some(Orientation { transposed, reversed })
     }
 
-    /// Returns the texels as the picture is meant to be seen.
+    /// Returns the texels in upright orientation.
     pub(super) fn apply(self, texels: Texels) -> Texels {
         let (columns, rows) = (texels.width as usize, texels.height as usize);
         let size = texels.format.bytes_per_texel();
@@ -53,7 +54,7 @@ impl Orientation {
     }
 }
 
-/// Returns how the file is turned; none where it does not say, or where what says it is damaged.
+/// Returns the file's orientation; `None` if it has none or if the metadata is damaged.
 pub fn orientation_of(file: &[u8], format: PictureFormat) -> Option<Orientation> {
     let tagged = match format {
         PictureFormat::Jpeg => read_jpeg::exif(file)?,
@@ -69,7 +70,7 @@ mod tests {
     use super::*;
     use crate::texture::data::Component;
 
-    /// Texels 0 1 2 / 3 4 5.
+    /// Returns the texels 0 1 2 / 3 4 5.
     fn numbered() -> Texels {
         let format = TexelFormat::new(1, Component::Unorm8);
         Texels { width: 3, height: 2, format, file_channels: 1, bytes: vec![0, 1, 2, 3, 4, 5] }
@@ -77,7 +78,8 @@ mod tests {
 
     #[test]
     fn all_eight_orientations_show_the_picture_upright() {
-        // By the words of the TIFF specification: where row 0 and column 0 of the file are to be seen.
+        // In the terms of the TIFF specification: the visual positions of row 0 and column 0 of the
+        // file.
         let seen: [(u16, u32, [u8; 6]); 7] = [
             (2, 3, [2, 1, 0, 5, 4, 3]), // top, right
             (3, 3, [5, 4, 3, 2, 1, 0]), // bottom, right

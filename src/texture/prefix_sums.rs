@@ -1,6 +1,7 @@
-//! Sums along the rows of flat textures, at every level of a box mip_chain: what integrals over polygons are
-//! read from. Values are linear light in fixed point of 16 bits over the texture's own range; sums keep
-//! the low 32 bits, so that differences over up to 2^15 texels are exact.
+//! Prefix sums along the rows of 2D textures at every level of a box mip chain, from which
+//! integrals over polygons are evaluated. Values are linear light in 16-bit fixed point over the
+//! texture's own range; sums keep the low 32 bits, so that differences over up to 2^15 texels are
+//! exact.
 
 use super::data::{MipKernel, TextureData};
 use super::fixed_point::FixedPoint;
@@ -8,10 +9,10 @@ use super::mips;
 
 /// Steps of the fixed point over the range of values.
 const STEPS: u32 = 65_535;
-/// Words before those that say where levels begin.
+/// Words before those with the start of each level.
 const HEAD: u64 = 4;
 
-/// Words of the table of a texture.
+/// Returns the number of words of a texture's table.
 pub fn words(texture: &TextureData) -> u64 {
     let channels = if texture.format.channels() < 3 { 1 } else { 3 };
     let levels = (0..mips::level_count(texture)).map(|level| {
@@ -21,9 +22,9 @@ pub fn words(texture: &TextureData) -> u64 {
     HEAD + levels.sum::<u64>()
 }
 
-/// As a device reads it, if it begins at word `start`: the number of channels (1 or 3), the number of levels,
-/// the least value and a step (f32 bits), the first word of each level. A level has rows of `width + 1`
-/// sums, from 0 to that of the whole row.
+/// Returns the device table of a texture that begins at word `start`: number of channels (1 or 3),
+/// number of levels, smallest value and step (f32 bits), first word of each level. A level has rows
+/// of `width + 1` sums, from 0 to the sum of the whole row.
 pub fn table(texture: &TextureData, start: usize) -> Vec<u32> {
     let channels = if texture.format.channels() < 3 { 1 } else { 3 };
     let opaque = |x, y, c| if c < 3 { texture.linear_value(x, y, c) as f32 } else { 1.0 };

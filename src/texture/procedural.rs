@@ -1,10 +1,11 @@
-//! Procedural solid textures as data: which pattern, its two colours and its parameters. One cell,
+//! Procedural solid textures as data: a pattern, its two colours and its parameters. One cell,
 //! period or lattice cell of every pattern is one unit of texture space; a mapping scales it.
 
 pub use crate::schema::enums::ProceduralKind;
 
 impl ProceduralKind {
-    /// Made of octaves of noise that differ in scale; `noise` itself is a single one.
+    /// Returns true for sums of octaves of noise that differ in scale; `noise` itself is a single
+    /// octave.
     pub fn has_octaves(self) -> bool {
         matches!(
             self,
@@ -13,7 +14,8 @@ impl ProceduralKind {
     }
 }
 
-/// Octaves of a sum: beyond 2²³ times the base frequency single precision holds no fraction.
+/// The largest number of octaves: beyond 2²³ times the base frequency, single precision has no
+/// fraction bits left.
 pub const MAX_OCTAVES: u32 = 16;
 
 /// A pattern that is computed where it is read.
@@ -21,33 +23,34 @@ pub const MAX_OCTAVES: u32 = 16;
 pub struct Procedural {
     /// Which one.
     pub kind: ProceduralKind,
-    /// Linear RGB of background and figure; patterns made of noise blend between the two.
+    /// Linear RGB of background and foreground; patterns based on noise blend between the two.
     pub colors: [[f32; 3]; 2],
-    /// Which of 2³² lattices of random gradients or points.
+    /// The seed that selects one of 2³² lattices of random gradients or points.
     pub seed: u32,
-    /// 1 to `MAX_OCTAVES`.
+    /// The number of octaves, 1 to `MAX_OCTAVES`.
     pub octaves: u32,
-    /// Frequency of each octave over that of the one before, at least 1.
+    /// The frequency of each octave relative to the previous one, at least 1.
     pub lacunarity: f32,
-    /// Amplitude of each octave over that of the one before, in (0, 1].
+    /// The amplitude of each octave relative to the previous one, in (0, 1].
     pub gain: f32,
-    /// Of a stripe (its share of the period), of a grid's lines or of the joints between bricks, in
-    /// units; in [0, 1], for bricks below 1 and below `aspect`.
+    /// The width of a stripe (as a fraction of the period), of a grid's lines or of the joints
+    /// between bricks, in units; in [0, 1], for bricks below 1 and below `aspect`.
     pub width: f32,
-    /// By how many periods turbulence of 1 shifts the veins of marble, or noise of 1 the rings of wood.
+    /// The displacement in periods of the veins of marble for turbulence of 1, or of the rings of
+    /// wood for noise of 1.
     pub distortion: f32,
-    /// Length of a brick over its height, joints included.
+    /// The length of a brick over its height, joints included.
     pub aspect: f32,
-    /// Shift of every other row of bricks, in bricks.
+    /// The shift of every other row of bricks, in bricks.
     pub offset: f32,
-    /// How far a cell's point may leave the middle: 0 not at all, 1 anywhere in the cell.
+    /// The deviation of a cell's point from the centre: 0 none, 1 anywhere in the cell.
     pub jitter: f32,
-    /// 2 or 3 families of a grid's lines.
+    /// The number of families of grid lines, 2 or 3.
     pub dimensions: u32,
 }
 
 impl Procedural {
-    /// The pattern with the defaults of its kind, black and white.
+    /// Returns the pattern with the defaults of its kind in black and white.
     pub fn new(kind: ProceduralKind) -> Procedural {
         let (octaves, distortion) = match kind {
             ProceduralKind::Fbm | ProceduralKind::Turbulence => (5, 0.0),

@@ -1,6 +1,7 @@
-//! OpenEXR into texels: one layer of one part, at its largest level, half, float and unsigned integers alike
-//! as f32. The picture is the display window; what the data window leaves out is black, and transparent
-//! where the layer has alpha. Or it is what both windows have, and where that lies.
+//! Reads OpenEXR files: one layer of one part at its largest level, with half, float and unsigned
+//! integer samples converted to f32. The picture covers the display window, with black beyond the
+//! data window, transparent if the layer has alpha; or it covers the intersection of both windows,
+//! with its placement.
 
 use std::io::{BufRead, Cursor, Seek};
 use std::path::Path;
@@ -18,25 +19,25 @@ use super::read_file::{Texels, check_memory, check_size, damaged, unreadable};
 use crate::core::error::{Error, Result};
 use crate::core::film::Placement;
 
-/// Which part of the file is the picture.
+/// The window of the file that the picture covers.
 #[derive(Clone, Copy, PartialEq)]
-pub enum Part {
+pub enum ExrWindow {
     Display,
-    /// What the data window has of the display window.
+    /// The intersection of data window and display window.
     Data,
 }
 
 pub(super) fn read(
     mut source: impl BufRead + Seek,
     layer: Option<&str>,
-    part: Part,
+    window: ExrWindow,
     path: &Path,
 ) -> Result<(Texels, Placement)> {
     let refused = match exr::block::read(&mut source, false) {
-        Ok(reader) => return read_layer(reader, layer, part, path),
+        Ok(reader) => return read_layer(reader, layer, window, path),
         Err(error) => error,
     };
-    // Perhaps for its chroma, of which there are fewer samples than texels.
+    // The file may have subsampled chroma.
     let mut bytes = Vec::new();
     source.rewind().and_then(|()| source.read_to_end(&mut bytes)).map_err(|e| unreadable(path, &e))?;
     let Some(Patched { bytes, samplings }) = exr_subsampled::patch(bytes) else {
@@ -46,30 +47,30 @@ pub(super) fn read(
     let choice = exr_layers::choose(reader.headers(), layer, path)?;
     match samplings.get(choice.part) {
         Some(samplings) if samplings.iter().any(|s| *s != Vec2(1, 1)) => {
-            read_subsampled(reader, choice, samplings, part, path)
+            read_subsampled(reader, choice, samplings, window, path)
         }
-        _ => read_chosen(reader, choice, part, path),
+        _ => read_chosen(reader, choice, window, path),
     }
 }
 
 fn read_layer<R: BufRead + Seek>(
     reader: Reader<R>,
     layer: Option<&str>,
-    part: Part,
+    window: ExrWindow,
     path: &Path,
 ) -> Result<(Texels, Placement)> {
     let choice = exr_layers::choose(reader.headers(), layer, path)?;
-    read_chosen(reader, choice, part, path)
+    read_chosen(reader, choice, window, path)
 }
 
 fn read_chosen<R: BufRead + Seek>(
     reader: Reader<R>,
     layer: Layer,
-    part: Part,
+    window: ExrWindow,
     path: &Path,
 ) -> Result<(Texels, Placement)> {
     let header = &reader.headers()[layer.part];
-    let mut picture = Picture::new(header, &layer, part, path)?;
+    let mut picture = Canvas::new(header, &layer, window, path)?;
     let chromaticities = header.shared_attributes.chromaticities;
     let channels = layer.channels();
     let largest =
@@ -97,11 +98,11 @@ fn read_subsampled<R: BufRead + Seek>(
     reader: Reader<R>,
     layer: Layer,
     samplings: &[Vec2<usize>],
-    part: Part,
+    window: ExrWindow,
     path: &Path,
 ) -> Result<(Texels, Placement)> {
     let header = reader.headers()[layer.part].clone();
-    let mut picture = Picture::new(&header, &layer, part, path)?;
+    let mut picture = Canvas::new(&header, &layer, window, path)?;
     let planes = exr_subsampled::planes(reader, layer.part, &layer.channels(), samplings)
         .map_err(|e| exr_error(path, e))?;
     for (to, plane) in planes.iter().enumerate() {
@@ -113,7 +114,7 @@ fn read_subsampled<R: BufRead + Seek>(
     picture.finish(&layer, header.shared_attributes.chromaticities, path)
 }
 
-/// Returns the values of a line of one channel.
+/// Returns the samples of one channel of a scan line.
 pub(super) fn samples(line: &[u8], kind: SampleType) -> impl Iterator<Item = f32> {
     line.chunks_exact(kind.bytes_per_sample()).map(move |b| match kind {
         SampleType::F16 => f16::from_ne_bytes([b[0], b[1]]).to_f32(),
@@ -122,20 +123,20 @@ pub(super) fn samples(line: &[u8], kind: SampleType) -> impl Iterator<Item = f32
     })
 }
 
-/// The texels of the display window, or of a part of it, as they are filled.
-struct Picture {
+/// The texels of the display window, or of a part of it, while they are filled.
+struct Canvas {
     width: usize,
     height: usize,
-    /// Data window's corner within that part.
+    /// The corner of the data window relative to that part.
     corner: Vec2<i32>,
     channels: usize,
     bytes: Vec<u8>,
-    /// Where that part lies in the display window.
+    /// The placement of that part in the display window.
     placement: Placement,
 }
 
-impl Picture {
-    fn new(header: &Header, layer: &Layer, part: Part, path: &Path) -> Result<Self> {
+impl Canvas {
+    fn new(header: &Header, layer: &Layer, window: ExrWindow, path: &Path) -> Result<Self> {
         let display = header.shared_attributes.display_window;
         let data = header.layer_size;
         check_size(path, data.0 as u64, data.1 as u64, 4)?;
@@ -144,9 +145,9 @@ impl Picture {
             Colors::Rgb(_) | Colors::LuminanceChroma(_) => 4,
         };
         let corner = header.own_attributes.layer_position - display.position;
-        let (first, size) = match part {
-            Part::Display => ([0; 2], display.size),
-            Part::Data => shared_part(corner, data, display.size).ok_or_else(|| {
+        let (first, size) = match window {
+            ExrWindow::Display => ([0; 2], display.size),
+            ExrWindow::Data => intersection(corner, data, display.size).ok_or_else(|| {
                 Error::with_help(
                     format!("{}: its data window lies outside its display window", path.display()),
                     "write the picture again with a data window that the display window shows",
@@ -160,13 +161,13 @@ impl Picture {
         let corner = Vec2(corner.0 - first[0] as i32, corner.1 - first[1] as i32);
         let placement =
             Placement { corner: first, full: [display.size.0, display.size.1].map(|side| side as u32) };
-        Ok(Picture { width, height, corner, channels, bytes: vec![0; bytes], placement })
+        Ok(Canvas { width, height, corner, channels, bytes: vec![0; bytes], placement })
     }
 
-    /// Fills a channel along a row of the data window, as far as it lies in the picture.
-    fn put_line(&mut self, channel: usize, at: Vec2<usize>, values: impl Iterator<Item = f32>) {
-        let left = i64::from(self.corner.0) + at.0 as i64;
-        let top = usize::try_from(i64::from(self.corner.1) + at.1 as i64);
+    /// Fills a channel along a row of the data window, as far as the row lies in the picture.
+    fn put_line(&mut self, channel: usize, position: Vec2<usize>, values: impl Iterator<Item = f32>) {
+        let left = i64::from(self.corner.0) + position.0 as i64;
+        let top = usize::try_from(i64::from(self.corner.1) + position.1 as i64);
         let Some(y) = top.ok().filter(|y| *y < self.height) else { return };
         let outside = usize::try_from(-left).unwrap_or(0);
         let first = usize::try_from(left).unwrap_or(0).min(self.width);
@@ -187,7 +188,7 @@ impl Picture {
             exr_color::to_rgb(&mut self.bytes, exr_color::luminances(file, path)?);
         }
         let has_alpha = layer.alpha.is_some();
-        // Afterwards, so that a damaged header cannot make the program fill gigabytes.
+        // This comes last, so that a damaged header cannot make the program fill gigabytes.
         if self.channels == 4 && !has_alpha {
             self.bytes.chunks_exact_mut(16).for_each(|t| t[12..].copy_from_slice(&1f32.to_ne_bytes()));
         }
@@ -203,8 +204,9 @@ impl Picture {
     }
 }
 
-/// Corner and size of what a data window at `corner` has of a display window at the origin.
-fn shared_part(
+/// Returns corner and size of the intersection of a data window at `corner` and a display window at
+/// the origin.
+fn intersection(
     corner: Vec2<i32>,
     data: Vec2<usize>,
     display: Vec2<usize>,

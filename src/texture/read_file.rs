@@ -1,5 +1,6 @@
-//! A picture file into texels as stored: 8 bits stay 8, 16 stay 16, float stays float, grey stays
-//! grey, three channels become four with opaque alpha. Profiles and gamma are ignored. Whatever is wrong with the file is an error that names it and says what to do.
+//! Reads a picture file into texels as stored: 8 bits stay 8, 16 stay 16, floats stay floats, grey
+//! stays grey, three channels become four with opaque alpha. Colour profiles and gamma are ignored.
+//! Errors name the file and state what to do.
 
 use std::fs::File;
 use std::io::{BufReader, Read, Seek};
@@ -8,7 +9,7 @@ use std::path::Path;
 use super::data::TexelFormat;
 use super::open_file::open;
 use super::orientation::orientation_of;
-pub use super::read_exr::Part;
+pub use super::read_exr::ExrWindow;
 use super::sniff::{self, Content, PictureFormat};
 use super::source::{OrientationUse, Reading};
 use super::{read_exr, read_hdr, read_jpeg, read_png, read_tga, tiff};
@@ -18,30 +19,31 @@ use crate::core::panics;
 
 /// Twice the largest image side of current GPUs; checked in the header, before any allocation.
 const MAX_SIDE: u64 = 65_536;
-/// Decoded size; the image crate's own default of 512 MiB refuses an 8192² float texture.
+/// The limit of the decoded size; the image crate's default of 512 MiB refuses an 8192² float
+/// texture.
 pub(super) const MAX_BYTES: u64 = 16 << 30;
 pub const SUPPORTED: &str = "PNG, JPEG, TIFF, TGA, Radiance HDR and OpenEXR";
 
-/// Tightly packed rows, first row of the file first, native endian.
+/// Tightly packed rows in native byte order, the file's first row first.
 pub struct Texels {
     pub width: u32,
     pub height: u32,
     pub format: TexelFormat,
-    /// Before three channels were expanded to four.
+    /// Channels of the file, before three were expanded to four.
     pub file_channels: usize,
     pub bytes: Vec<u8>,
 }
 
-/// What a file holds, and what a person should know about how it was read: each note names the file.
+/// The contents of a file, with notes for the user about how it was read; each note names the file.
 pub struct Picture {
     pub texels: Texels,
-    /// Where they lie in the file's picture.
+    /// The placement of the texels in the file's picture.
     pub placement: Placement,
     pub notes: Vec<String>,
 }
 
 impl Picture {
-    /// All of a picture.
+    /// Returns a complete picture with these notes.
     pub(super) fn noted(texels: Texels, notes: Vec<String>) -> Picture {
         let placement = Placement::whole(texels.width, texels.height);
         Picture { texels, placement, notes }
@@ -54,18 +56,19 @@ impl From<Texels> for Picture {
     }
 }
 
-/// Reads a picture as it is asked for: by default upright and, where it has layers, the one without a name.
+/// Reads a picture with the given options; by default it is turned upright and, if it has layers,
+/// the unnamed one is read.
 pub fn read_as(path: &Path, reading: &Reading) -> Result<Picture> {
-    read_part(path, reading, Part::Display)
+    read_window(path, reading, ExrWindow::Display)
 }
 
-/// The same; of OpenEXR files this part.
-pub fn read_part(path: &Path, reading: &Reading, part: Part) -> Result<Picture> {
+/// Reads a picture with the given options; of an OpenEXR file only this part.
+pub fn read_window(path: &Path, reading: &Reading, window: ExrWindow) -> Result<Picture> {
     let stage = format!("{}: reading this picture", path.display());
-    panics::contain(&stage, || read_by_content(open(path)?, path, reading, part))
+    panics::contain(&stage, || read_by_content(open(path)?, path, reading, window))
 }
 
-fn read_by_content(mut source: File, path: &Path, reading: &Reading, part: Part) -> Result<Picture> {
+fn read_by_content(mut source: File, path: &Path, reading: &Reading, window: ExrWindow) -> Result<Picture> {
     let failed = |e: std::io::Error| unreadable(path, &e);
     let format = match identify(&mut source).map_err(failed)? {
         Content::Picture(format) => format,
@@ -74,7 +77,7 @@ fn read_by_content(mut source: File, path: &Path, reading: &Reading, part: Part)
     let read: fn(&[u8], &Path) -> Result<Picture> = match format {
         PictureFormat::OpenExr => {
             let layer = reading.layer.as_deref();
-            let (texels, placement) = read_exr::read(BufReader::new(source), layer, part, path)?;
+            let (texels, placement) = read_exr::read(BufReader::new(source), layer, window, path)?;
             return Ok(Picture { texels, placement, notes: Vec::new() });
         }
         PictureFormat::Png => read_png::read,
@@ -114,7 +117,7 @@ fn identify(source: &mut (impl Read + Seek)) -> std::io::Result<Content> {
     Ok(sniff::identify(&head))
 }
 
-/// Whether the file says that the picture is stored turned or mirrored.
+/// Returns true if the file's metadata states that the picture is stored rotated or mirrored.
 pub fn is_turned(path: &Path) -> bool {
     let Ok(mut source) = open(path) else { return false };
     match identify(&mut source) {
@@ -149,7 +152,7 @@ pub(super) fn check_size(path: &Path, width: u64, height: u64, bytes_per_texel: 
     Ok(())
 }
 
-/// Several slices or faces: the same limits, and one for all texels together.
+/// Checks several slices or faces: the limits of one, and that of all texels together.
 pub(super) fn check_volume(path: &Path, size: [u32; 3], bytes_per_texel: usize) -> Result<()> {
     let [width, height, depth] = size.map(u64::from);
     if depth > MAX_SIDE {
@@ -165,8 +168,9 @@ pub(super) fn check_volume(path: &Path, size: [u32; 3], bytes_per_texel: usize) 
     if depth == 0 { Err(zero_size(path)) } else { Ok(()) }
 }
 
-/// Asks the allocator before `vec!` does: a size that a damaged header made up is then an error, not
-/// an abort. Nothing is touched, and zeroed pages are touched only as they are filled.
+/// Asks the allocator for memory before `vec!` does, so that a size invented by a damaged header is
+/// an error and not an abort. The memory is not touched, and zeroed pages are touched only as they
+/// are filled.
 pub(super) fn check_memory(path: &Path, bytes: usize) -> Result<()> {
     Vec::<u8>::new().try_reserve_exact(bytes).map_err(|_| out_of_memory(path))
 }
@@ -207,7 +211,8 @@ pub(super) fn out_of_memory(path: &Path) -> Error {
     )
 }
 
-/// `name`: what the file is, with its article if it has one.
+/// Returns the error for an unsupported kind of file. `name` states the kind, with its article if
+/// it has one.
 pub(super) fn unsupported_kind(path: &Path, name: &str) -> Error {
     Error::with_help(
         format!("{}: this file is {name}, which is not read", path.display()),

@@ -1,8 +1,9 @@
-//! A Radiance picture into texels (Radiance, "File Formats": Picture File Format): the whole file in, floats
-//! out, rows from the top and each from the left whichever way the file has them. Values are those of the
-//! file: EXPOSURE and COLORCORR tell how to get back to radiance, but nearly all programs that write and read
-//! such files as textures leave values as they are; a note names the factor. GAMMA, PIXASPECT, PRIMARIES and
-//! all other variables are read over. A texel is c · 2^(e − 136) for its bytes c and e.
+//! Reads Radiance pictures (Radiance, "File Formats": Picture File Format) into floats, with rows
+//! from the top and texels from the left whatever the file's order. Values are those of the file:
+//! EXPOSURE and COLORCORR give the factor back to radiance, but nearly all programs that use such
+//! files as textures leave values as they are; a note states the factor. GAMMA, PIXASPECT,
+//! PRIMARIES and all other variables are ignored. A texel with bytes c and exponent e is c · 2^(e −
+//! 136).
 
 use std::path::Path;
 
@@ -10,8 +11,8 @@ use super::data::{Component, TexelFormat};
 use super::read_file::{Picture, Texels, check_size, damaged, out_of_memory, unsupported_kind};
 use crate::core::error::Result;
 
-/// A header line longer than this is no header line.
-const LONGEST_LINE: usize = 64 << 10;
+/// The length limit of a header line: a longer one is not a header.
+const MAX_LINE_BYTES: usize = 64 << 10;
 
 pub(super) fn read(file: &[u8], path: &Path) -> Result<Picture> {
     let broken = |what: String| damaged(path, "HDR", &what);
@@ -55,15 +56,15 @@ pub(super) fn read(file: &[u8], path: &Path) -> Result<Picture> {
     Ok(Picture::noted(texels, notes))
 }
 
-/// Up to a line feed, without it and a carriage return before.
+/// Returns the text up to a line feed, without it and without a preceding carriage return.
 fn line(rest: &mut &[u8]) -> Option<String> {
-    let end = rest.iter().take(LONGEST_LINE).position(|b| *b == b'\n')?;
+    let end = rest.iter().take(MAX_LINE_BYTES).position(|b| *b == b'\n')?;
     let line = String::from_utf8_lossy(&rest[..end]).trim().to_string();
     *rest = &rest[end + 1..];
     Some(line)
 }
 
-/// What is no number above 0 changes nothing.
+/// Returns the factor, or 1 if the text is not a positive number.
 fn factor(text: &str) -> f64 {
     text.trim().parse().ok().filter(|f: &f64| f.is_finite() && *f > 0.0).unwrap_or(1.0)
 }
@@ -72,9 +73,9 @@ fn factor(text: &str) -> f64 {
 struct Shape {
     width: u64,
     height: u64,
-    /// Scan lines are columns of the picture.
+    /// True if scan lines are columns of the picture.
     by_columns: bool,
-    /// The first texel is at the right; at the bottom.
+    /// True if the first texel is at the right, and if it is at the bottom.
     reversed: [bool; 2],
 }
 
@@ -96,13 +97,13 @@ impl Shape {
             ('X', 'Y') => (first, second, true),
             _ => return None,
         };
-        // Radiance's y grows upwards.
+        // Radiance's y axis points upwards.
         Some(Shape { width: x.2, height: y.2, by_columns, reversed: [!x.1, y.1] })
     }
 
-    /// The place in the picture of a texel of a scan line.
-    fn place(&self, scan_line: usize, at: usize) -> usize {
-        let (x, y) = if self.by_columns { (scan_line, at) } else { (at, scan_line) };
+    /// Returns the index in the picture of a texel of a scan line.
+    fn texel_index(&self, scan_line: usize, position: usize) -> usize {
+        let (x, y) = if self.by_columns { (scan_line, position) } else { (position, scan_line) };
         let (width, height) = (self.width as usize, self.height as usize);
         let x = if self.reversed[0] { width - 1 - x } else { x };
         let y = if self.reversed[1] { height - 1 - y } else { y };
@@ -116,7 +117,7 @@ fn decode(mut data: &[u8], shape: &Shape, path: &Path) -> Result<Texels> {
     check_size(path, shape.width, shape.height, size)?;
     let (width, height) = (shape.width as usize, shape.height as usize);
     let (lines, length) = if shape.by_columns { (width, height) } else { (height, width) };
-    // The first texel of a scan line stands there in full.
+    // The first texel of each scan line is stored uncompressed.
     if data.len() / 4 < lines {
         let what = format!("{} bytes cannot hold {width}×{height} texels", data.len());
         return Err(damaged(path, "HDR", &what));
@@ -133,7 +134,7 @@ fn decode(mut data: &[u8], shape: &Shape, path: &Path) -> Result<Texels> {
     bytes.try_reserve_exact(texels.len() * size).map_err(|_| out_of_memory(path))?;
     bytes.resize(texels.len() * size, 0);
     for (i, rgbe) in texels.iter().enumerate() {
-        let start = shape.place(i / length, i % length) * size;
+        let start = shape.texel_index(i / length, i % length) * size;
         bytes[start..start + size].copy_from_slice(bytemuck::bytes_of(&color(*rgbe)));
     }
     Ok(Texels { width: width as u32, height: height as u32, format, file_channels: 3, bytes })
@@ -145,7 +146,7 @@ fn color([r, g, b, e]: [u8; 4]) -> [f32; 4] {
     [value(r), value(g), value(b), 1.0]
 }
 
-/// Adds the texels of a scan line; none if the data ends or does not fit.
+/// Appends the texels of a scan line, or returns `None` if the data ends or is inconsistent.
 fn read_line(data: &mut &[u8], length: usize, texels: &mut Vec<[u8; 4]>) -> Option<()> {
     const RUNS_OF_CHANNELS: std::ops::RangeInclusive<usize> = 8..=0x7fff;
     let (head, rest) = data.split_first_chunk::<4>()?;
@@ -157,29 +158,31 @@ fn read_line(data: &mut &[u8], length: usize, texels: &mut Vec<[u8; 4]>) -> Opti
     read_texels(data, length, texels)
 }
 
-/// Each channel by itself: a number above 128 repeats the next byte, others count bytes that follow.
+/// Reads one channel after the other: a count above 128 repeats the next byte, others are followed
+/// by as many bytes.
 fn read_channels(data: &mut &[u8], length: usize, texels: &mut Vec<[u8; 4]>) -> Option<()> {
     let start = texels.len();
     texels.resize(start + length, [0; 4]);
     for channel in 0..4 {
-        let mut at = start;
-        while at < texels.len() {
+        let mut next = start;
+        while next < texels.len() {
             let (&count, rest) = data.split_first()?;
             let (run, repeats) = if count > 128 { (count - 128, true) } else { (count, false) };
             let bytes = rest.get(..if repeats { 1 } else { run.into() })?;
-            let places = texels.get_mut(at..at + usize::from(run)).filter(|places| !places.is_empty())?;
-            for (i, texel) in places.iter_mut().enumerate() {
+            let run_texels =
+                texels.get_mut(next..next + usize::from(run)).filter(|texels| !texels.is_empty())?;
+            for (i, texel) in run_texels.iter_mut().enumerate() {
                 texel[channel] = bytes[if repeats { 0 } else { i }];
             }
-            at += usize::from(run);
+            next += usize::from(run);
             *data = &rest[bytes.len()..];
         }
     }
     Some(())
 }
 
-/// Four bytes a texel. 1, 1, 1, n repeats the texel before n times; after another such code, n · 256 times,
-/// and so on.
+/// Reads four bytes per texel. 1, 1, 1, n repeats the previous texel n times; directly after
+/// another such code, n · 256 times, and so on.
 fn read_texels(data: &mut &[u8], length: usize, texels: &mut Vec<[u8; 4]>) -> Option<()> {
     let end = texels.len() + length;
     let mut shift = 0;

@@ -1,5 +1,6 @@
-//! A JPEG file into texels (ISO/IEC 10918-1). What kind of JPEG it is and whether it is all there are read off
-//! its markers first: the decoder does not know some kinds, and fills what a truncated file lacks with grey.
+//! Reads JPEG files (ISO/IEC 10918-1). Its markers are checked first for the kind of JPEG and for
+//! completeness: the decoder does not identify some kinds, and fills missing data of a truncated
+//! file with grey.
 
 use std::path::Path;
 
@@ -24,7 +25,7 @@ pub(super) fn read(file: &[u8], path: &Path) -> Result<Picture> {
     if !scans_are_complete(file) {
         return Err(cut());
     }
-    // All there if it makes no difference to the picture what would have followed.
+    // The file is complete if any continuation would not change the picture.
     let body = file.strip_suffix(&[0xff]).unwrap_or(file);
     let followed_by = |tail: &[u8]| decode(&[body, tail, &[0xff, END_OF_IMAGE]].concat());
     let texels = followed_by(&[]).map_err(|_| cut())?;
@@ -42,7 +43,8 @@ fn decode(file: &[u8], path: &Path) -> Result<Texels> {
     decoder::texels(data.header, "JPEG", file.len(), path, |texels| data.read(texels))
 }
 
-/// The name of a kind of JPEG that is not read (table B.1 and B.2.2: the start-of-frame markers, precision).
+/// Returns the name of an unsupported kind of JPEG (table B.1 and B.2.2: the start-of-frame
+/// markers, precision).
 pub(super) fn unsupported(jpeg: &[u8]) -> Option<&'static str> {
     let (marker, frame) = segments(jpeg).find(|(marker, _)| is_frame(*marker))?;
     let precision = frame.first().copied().unwrap_or(0);
@@ -57,7 +59,7 @@ pub(super) fn unsupported(jpeg: &[u8]) -> Option<&'static str> {
     }
 }
 
-/// The Exif data before the first scan, without the mark before it.
+/// Returns the Exif data before the first scan, without its identifier.
 pub(super) fn exif(jpeg: &[u8]) -> Option<&[u8]> {
     const APP1: u8 = 0xe1;
     let before_scans = segments(jpeg).take_while(|(marker, _)| *marker != START_OF_SCAN);
@@ -67,7 +69,7 @@ pub(super) fn exif(jpeg: &[u8]) -> Option<&[u8]> {
 }
 
 fn is_frame(marker: u8) -> bool {
-    // c4, c8 and cc define tables, or nothing; f7 is that of ISO/IEC 14495.
+    // c4, c8 and cc define tables or are reserved; f7 is that of ISO/IEC 14495.
     matches!(marker, 0xc0..=0xcf | 0xf7) && !matches!(marker, 0xc4 | 0xc8 | 0xcc)
 }
 
@@ -75,9 +77,9 @@ fn ends(jpeg: &[u8]) -> bool {
     segments(jpeg).any(|(marker, _)| marker == END_OF_IMAGE)
 }
 
-/// Do the scans that the file begins bring all channels in full? Data of a progressive picture that ends between
-/// two scans is coarse, and lacks nothing else. What is kept of each channel: how many of its frequencies are
-/// known to the last bit.
+/// Returns true if the scans that begin in the file define all channels completely. A progressive
+/// file truncated between two scans is coarse but otherwise valid. For each channel the number of
+/// frequencies known to the last bit is tracked.
 fn scans_are_complete(jpeg: &[u8]) -> bool {
     let Some((_, frame)) = segments(jpeg).find(|(marker, _)| is_frame(*marker)) else { return false };
     let ids = frame.get(6..).unwrap_or(&[]).chunks_exact(3).map(|channel| channel[0]);
@@ -97,8 +99,8 @@ fn scans_are_complete(jpeg: &[u8]) -> bool {
     })
 }
 
-/// Markers with what their segments hold. Entropy-coded data is passed over: in it 0xff comes only before 0x00
-/// or a restart marker (B.1.1.5).
+/// Iterates over markers with their segments. Entropy-coded data is skipped: there 0xff is followed
+/// only by 0x00 or a restart marker (B.1.1.5).
 fn segments(jpeg: &[u8]) -> impl Iterator<Item = (u8, &[u8])> {
     let mut rest = jpeg;
     std::iter::from_fn(move || {
@@ -109,7 +111,7 @@ fn segments(jpeg: &[u8]) -> impl Iterator<Item = (u8, &[u8])> {
             let marker = rest[fill];
             rest = &rest[fill + 1..];
             match marker {
-                // Stuffed zero, TEM, restart markers, start of image: no segment follows.
+                // Stuffed zero, TEM, restart markers and start of image have no segment.
                 0x00 | 0x01 | 0xd0..=START_OF_IMAGE => {}
                 END_OF_IMAGE => return Some((marker, &[][..])),
                 _ => {

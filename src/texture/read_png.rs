@@ -1,5 +1,5 @@
-//! A PNG file into texels (PNG specification, third edition). Its chunks are looked through first: a file that
-//! lacks only the end is read with a note, and one of Apple's own kind is refused as that.
+//! Reads PNG files (PNG specification, third edition). Its chunks are scanned first: a file that
+//! lacks only its end is read with a note, and Apple's proprietary variant is refused by name.
 
 use std::io::Cursor;
 use std::path::Path;
@@ -13,7 +13,7 @@ use super::read_file::{MAX_BYTES, Picture, Texels, unsupported_kind};
 use crate::core::error::Result;
 
 const SIGNATURE_BYTES: usize = 8;
-/// Length, name and checksum.
+/// The bytes of a chunk's length, name and checksum.
 const CHUNK_BYTES: usize = 12;
 
 pub(super) fn read(file: &[u8], path: &Path) -> Result<Picture> {
@@ -38,12 +38,14 @@ fn decode(file: &[u8], path: &Path) -> Result<Texels> {
     })
 }
 
-/// The decoder, of a file in memory.
+/// The decoder of a file in memory.
 type Reader<'a> = png::Reader<Cursor<&'a [u8]>>;
 
-/// A decoder that has read all up to the pixels, and what it will give: palettes and fewer than 8 bits expanded.
+/// Returns a decoder that has read up to the pixels, and the resulting format: palettes and fewer
+/// than 8 bits are expanded.
 fn open(file: &[u8]) -> std::result::Result<(Reader<'_>, Header), Fault> {
-    // Width and height; the decoder's own refusal does not say which is wrong.
+    // Width and height are checked here because the decoder's own error does not state which is
+    // wrong.
     if file.get(16..24).is_some_and(|size| size.chunks(4).any(|side| side == [0; 4])) {
         return Err(Fault::ZeroSize);
     }
@@ -68,7 +70,7 @@ fn fault(error: DecodingError) -> Fault {
     }
 }
 
-/// The Exif data, which may stand before or after the pixels.
+/// Returns the Exif data, which may precede or follow the pixels.
 pub(super) fn exif(png: &[u8]) -> Option<&[u8]> {
     chunks(png).find(|chunk| chunk.name == b"eXIf").map(|chunk| chunk.data)
 }
@@ -76,11 +78,11 @@ pub(super) fn exif(png: &[u8]) -> Option<&[u8]> {
 struct Chunk<'a> {
     name: &'a [u8],
     data: &'a [u8],
-    /// Where the next one begins.
+    /// The offset of the next chunk.
     end: usize,
 }
 
-/// Those that the file has to their ends.
+/// Iterates over the chunks that the file contains completely.
 fn chunks(png: &[u8]) -> impl Iterator<Item = Chunk<'_>> {
     let mut at = SIGNATURE_BYTES;
     std::iter::from_fn(move || {
@@ -92,8 +94,8 @@ fn chunks(png: &[u8]) -> impl Iterator<Item = Chunk<'_>> {
     })
 }
 
-/// A file without an end, with one; of a last chunk that is cut off what there is of its pixels is kept.
-/// None for a file that has its end.
+/// Returns a truncated file completed by an end, keeping the available pixels of a last, truncated
+/// chunk; `None` if the file has its end.
 fn with_end(file: &[u8]) -> Option<Vec<u8>> {
     let mut at = SIGNATURE_BYTES;
     for chunk in chunks(file) {

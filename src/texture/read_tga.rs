@@ -1,6 +1,6 @@
-//! A TGA file into texels (Truevision TGA 2.0): the whole file in, 8 bits a channel out, rows from the top and
-//! each from the left whichever way the file has them. Texels of 15 or 16 bits have five a channel, and a bit
-//! that is no alpha. Footers and extension areas are ignored.
+//! Reads TGA files (Truevision TGA 2.0) into 8 bits per channel, with rows from the top and texels
+//! from the left whatever the file's order. Texels of 15 or 16 bits have five per channel; the
+//! remaining bit is not used as alpha. Footers and extension areas are ignored.
 
 use std::path::Path;
 
@@ -20,11 +20,11 @@ pub(super) fn read(file: &[u8], path: &Path) -> Result<Picture> {
 /// A file whose header and palette have been read.
 struct Tga<'a> {
     header: Header,
-    /// Bytes of a texel where `data` has it: an index or a colour.
+    /// The bytes per texel in `data`: an index or a colour.
     stored_bytes: usize,
     palette: Option<Palette<'a>>,
     has_runs: bool,
-    /// The first texel is at the right; at the bottom.
+    /// True if the first texel is at the right, and if it is at the bottom.
     reversed: [bool; 2],
     data: &'a [u8],
 }
@@ -46,7 +46,7 @@ impl<'a> Tga<'a> {
         let rest = rest.get(id_bytes..).ok_or_else(ends_early)?;
         let palette_bytes = if has_palette { word(5) * entry_bytes } else { 0 };
         let (entries, data) = rest.split_at_checked(palette_bytes).ok_or_else(ends_early)?;
-        // A true-colour file may have a palette too, for screens of old.
+        // A true-colour file may also have a palette, for indexed displays.
         let is_indexed = matches!(kind, 1 | 9);
         let palette = is_indexed.then_some(Palette { first: word(3), entry_bytes, entries });
         if is_indexed && (!has_palette || bits > entry_bits) {
@@ -107,14 +107,14 @@ impl<'a> Palette<'a> {
     }
 }
 
-/// Texels as the file has them, one after the other.
+/// The texels of the file in stored order.
 struct Stored<'a> {
     rest: &'a [u8],
     bytes: usize,
     packet: Packet<'a>,
 }
 
-/// What is still to come of a packet (type 9 to 11).
+/// The remainder of a packet (type 9 to 11).
 enum Packet<'a> {
     Literal(usize),
     Run(usize, &'a [u8]),
@@ -148,7 +148,8 @@ impl<'a> Stored<'a> {
     }
 }
 
-/// Blue comes first in the file; two bytes for three channels are five bits of each.
+/// Expands a colour to channels. Blue is first in the file; two bytes for three channels are five
+/// bits of each.
 fn expand(color: &[u8], texel: &mut [u8]) {
     match (color, &mut *texel) {
         ([low, high], [r, g, b]) => {

@@ -1,14 +1,14 @@
-//! What a sampler does, as data: the table from which scene vocabulary, `VkSampler` objects,
-//! shader constants, oracle and test names are all generated.
+//! The states of a sampler as data: the table from which scene vocabulary, `VkSampler` objects,
+//! shader constants, oracle and test names are generated.
 
 pub use crate::schema::enums::{Address, Filter, Method, MipMode, TexelCenter};
 
 /// How a texture is read.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SamplerSpec {
-    /// Along u and v.
+    /// The address modes along u and v.
     pub address: [Address; 2],
-    /// Along w, of 3D textures.
+    /// The address mode along w of 3D textures.
     pub address_w: Address,
     /// The filter where a texel covers more than a pixel.
     pub mag: Filter,
@@ -16,7 +16,7 @@ pub struct SamplerSpec {
     pub min: Filter,
     /// Which levels are read.
     pub mip: MipMode,
-    /// The device's samplers only: least level of detail. Above 0, every look-up minifies.
+    /// The minimum level of detail, of hardware samplers only. Above 0, every lookup minifies.
     pub min_lod: f32,
     /// What `clamp-to-border` reads, red, green, blue and alpha.
     pub border_color: [f32; 4],
@@ -24,13 +24,14 @@ pub struct SamplerSpec {
     pub method: Method,
     /// Where texels have their centres.
     pub texel_center: TexelCenter,
-    /// Longest footprint, in widths, that `anisotropic` and `ewa` follow; wider ones are blurred.
+    /// The largest anisotropy, in footprint widths, that `anisotropic` and `ewa` resolve; wider
+    /// footprints are blurred.
     pub max_anisotropy: u32,
     /// B and C of the cubic filter.
     pub cubic: [f32; 2],
 }
 
-/// B = 0, C = ½: interpolates.
+/// B = 0, C = ½, which interpolates.
 pub const CATMULL_ROM: [f32; 2] = [0.0, 0.5];
 
 impl Default for SamplerSpec {
@@ -51,43 +52,43 @@ impl Default for SamplerSpec {
     }
 }
 
-/// What texture units have.
+/// The filters of texture units.
 const BASIC: [Filter; 2] = [Filter::Nearest, Filter::Linear];
 
 impl SamplerSpec {
-    /// Whether look-ups depend on what they are averaged over.
+    /// Returns true if lookups depend on the footprint.
     pub fn needs_footprint(&self) -> bool {
         self.mag != self.min || self.mip != MipMode::None
     }
 
-    /// Whether it mixes texels.
+    /// Returns true if lookups blend several texels.
     pub fn blends(&self) -> bool {
         self.mag.traits().blends || self.min.traits().blends
     }
 
-    /// Whether it follows the longer axis of footprints.
+    /// Returns true if lookups follow the major axis of footprints.
     pub fn follows_axis(&self) -> bool {
         self.min.traits().follows_axis
     }
 
-    /// Whether it reads sums over rectangles.
+    /// Returns true if lookups read summed-area tables.
     pub fn needs_sums(&self) -> bool {
         self.min.traits().needs_sums
     }
 
-    /// Whether some axis has this address mode.
+    /// Returns true if some axis has this address mode.
     pub fn has(&self, mode: Address) -> bool {
         self.address.contains(&mode) || self.address_w == mode
     }
 
-    /// Whether it reads levels below the texture itself.
+    /// Returns true if lookups read mip levels other than the base level.
     pub fn reads_levels(&self) -> bool {
         self.mip != MipMode::None || self.min.traits().chooses_levels
     }
 
-    /// Every variant of a device's sampler that differs in more than its border colour, texel centre or
-    /// anisotropy: 5 × 5 address modes, 2 × 2 filters, 3 mip modes. Hardware tests and reports walk this
-    /// table.
+    /// Returns every variant of a hardware sampler that differs in more than border colour, texel
+    /// centre or anisotropy: 5 × 5 address modes, 2 × 2 filters, 3 mip modes. Hardware tests and
+    /// reports iterate over this table.
     pub fn all() -> impl Iterator<Item = SamplerSpec> {
         let axes = Address::ALL.iter().flat_map(|&u| Address::ALL.iter().map(move |&v| [u, v]));
         axes.flat_map(|address| {
@@ -105,7 +106,8 @@ impl SamplerSpec {
         })
     }
 
-    /// `repeat/clamp-to-edge mag=linear min=nearest mip=none`: names tests and report rows.
+    /// Returns a name for tests and report rows: `repeat/clamp-to-edge mag=linear min=nearest
+    /// mip=none`.
     pub fn label(&self) -> String {
         let [u, v] = self.address;
         format!("{u}/{v} mag={} min={} mip={}", self.mag, self.min, self.mip)

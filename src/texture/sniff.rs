@@ -1,5 +1,5 @@
-//! What a file is, judged by its first bytes and never by the ending of its name. A file that is
-//! no picture we read gets a short description for the error message.
+//! Identifies the format of a file by its first bytes, never by the extension of its name. A file
+//! that is not a supported picture gets a short description for the error message.
 
 use crate::core::named::named_enum;
 
@@ -15,13 +15,13 @@ named_enum! {
     }
 }
 
-/// Enough bytes for every signature below and for a fair guess at text.
+/// The number of bytes that suffice for every signature below and for recognising text.
 pub const HEAD_BYTES: usize = 64;
 
 #[derive(Debug, PartialEq)]
 pub enum Content {
     Picture(PictureFormat),
-    /// Completes the sentence "the content …".
+    /// Another content, described so that it completes the sentence "the content …".
     Other(String),
 }
 
@@ -32,12 +32,13 @@ const PICTURES: &[(&[u8], PictureFormat)] = &[
     (b"MM\0*", PictureFormat::Tiff),
     (b"II+\0", PictureFormat::Tiff),
     (b"MM\0+", PictureFormat::Tiff),
-    // Mostly #?RADIANCE or #?RGBE: the program that began to write such files put its own name there.
+    // Usually #?RADIANCE or #?RGBE: the program that wrote the first such files put its own name
+    // there.
     (b"#?", PictureFormat::Hdr),
     (b"\x76\x2f\x31\x01", PictureFormat::OpenExr),
 ];
 
-/// Offset, signature, name.
+/// Offset, signature and name.
 const OTHERS: &[(usize, &[u8], &str)] = &[
     (8, b"WEBP", "is WebP"),
     (0, b"GIF8", "is GIF"),
@@ -65,7 +66,7 @@ const OTHERS: &[(usize, &[u8], &str)] = &[
     (0, b"<html", "is a web page"),
 ];
 
-/// `head`: the first [`HEAD_BYTES`] bytes, or all of a shorter file.
+/// Identifies a file by `head`, its first [`HEAD_BYTES`] bytes, or all of a shorter file.
 pub fn identify(head: &[u8]) -> Content {
     if let Some((_, format)) = PICTURES.iter().find(|(magic, _)| head.starts_with(magic)) {
         return Content::Picture(*format);
@@ -83,8 +84,8 @@ fn described(head: &[u8]) -> Option<&'static str> {
     OTHERS.iter().find(known).map(|(_, _, what)| *what)
 }
 
-/// TGA has no signature, but a header of 18 bytes where few values are possible (Truevision TGA 2.0,
-/// "TGA File Header"): no other file is likely to have such ones in all these places.
+/// Returns true for a TGA file. TGA has no signature, but a header of 18 bytes whose fields allow
+/// few values (Truevision TGA 2.0, "TGA File Header"), so that other files are unlikely to match.
 fn is_tga(head: &[u8]) -> bool {
     let Some(h) = head.get(..18) else { return false };
     let (map_type, kind, map_bits, bits, flags) = (h[1], h[2], h[7], h[16], h[17]);
@@ -115,7 +116,7 @@ fn describe(head: &[u8]) -> String {
     format!("begins with the bytes {}", bytes.join(" "))
 }
 
-/// The cut after [`HEAD_BYTES`] may split one character.
+/// The end of the first [`HEAD_BYTES`] bytes may split one character.
 fn looks_like_utf8(head: &[u8]) -> bool {
     match std::str::from_utf8(head) {
         Ok(_) => true,

@@ -1,5 +1,6 @@
-//! Where a scene says that a texture's texels come from: one file or several, a ramp written in the
-//! scene, a raw volume. Nothing is opened here; `load` makes [`TextureData`](super::data) of it.
+//! The source of a texture's texels as a scene states it: one file or several, a ramp written in
+//! the scene, a raw volume. No file is opened here; `load` makes [`TextureData`](super::data) of
+//! it.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -19,7 +20,7 @@ pub struct TextureSource {
     pub dimension: Dimension,
     /// What the stored values mean.
     pub color_space: ColorSpace,
-    /// Whether the scene says what the stored values mean.
+    /// True if the scene states the meaning of stored values.
     pub color_space_stated: bool,
     /// How files of pictures are read.
     pub reading: Reading,
@@ -29,12 +30,12 @@ pub struct TextureSource {
     pub mip_kernel: MipKernel,
 }
 
-/// Which picture of a file is read, and which way up.
+/// The options of reading a file: the layer and the orientation.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Reading {
     /// What is done about a picture that is stored turned.
     pub orientation: OrientationUse,
-    /// Of an OpenEXR file: a layer, a part, or a channel that is read as grey.
+    /// For OpenEXR files, a layer, a part, or a channel that is read as grey.
     pub layer: Option<String>,
 }
 
@@ -45,38 +46,38 @@ impl Default for Reading {
 }
 
 named_enum! {
-    /// What is done about a file that says how it is turned (Exif, TIFF tag 274).
+    /// The treatment of a file whose metadata states its orientation (Exif, TIFF tag 274).
     pub enum OrientationUse {
-        /// The texels are turned, as programs that show pictures do.
+        /// The texels are turned upright, as image viewers do.
         Apply = "apply",
-        /// The texels stay as they are stored.
+        /// The texels stay as stored.
         Ignore = "ignore",
     }
 }
 
-/// Files are already joined with the scene file's folder.
+/// The content of a texture. Paths are already joined with the scene file's folder.
 #[derive(Clone, Debug, PartialEq)]
 pub enum TextureContent {
-    /// A picture, or an NRRD volume.
+    /// A picture or an NRRD volume.
     File(PathBuf),
-    /// Linear light, one texel an entry: a 1D texture.
+    /// A 1D texture in linear light, one texel per entry.
     Ramp(Vec<[f32; 4]>),
-    /// All faces of a cube in one picture; without a layout its shape says which.
+    /// All faces of a cube in one picture; without a layout the aspect ratio determines it.
     CubeFile(PathBuf, Option<CubeLayout>),
-    /// +x −x +y −y +z −z
+    /// The six faces in the order +x −x +y −y +z −z.
     Faces([PathBuf; 6]),
-    /// Pictures of one size, the first at w = 0.
+    /// Pictures of equal size, the first at w = 0.
     Slices(Vec<PathBuf>),
     /// A file of bare texels.
     Volume(VolumeSource),
     /// One picture, not of a file.
     Texels(Arc<PlainTexels>),
-    /// No texels: computed where it is read.
+    /// No texels; the pattern is evaluated at each lookup.
     Procedural(Procedural),
 }
 
 named_enum! {
-    /// How the six faces of a cube lie in one picture.
+    /// The layout of a cube's six faces in one picture.
     pub enum CubeLayout {
         HorizontalCross = "horizontal-cross",
         VerticalCross = "vertical-cross",
@@ -87,7 +88,7 @@ named_enum! {
 }
 
 named_enum! {
-    /// Byte order of a file's numbers.
+    /// The byte order of a file's numbers.
     pub enum Endian {
         Little = "little",
         Big = "big",
@@ -107,12 +108,12 @@ pub struct PlainTexels {
     pub bytes: Vec<u8>,
 }
 
-/// A file of bare texels: x runs fastest, then y, then z.
+/// A file of raw texels: x runs fastest, then y, then z.
 #[derive(Clone, Debug, PartialEq)]
 pub struct VolumeSource {
     /// The file.
     pub file: PathBuf,
-    /// Width, height, depth.
+    /// Width, height and depth.
     pub size: [u32; 3],
     /// Channels and number type of a texel.
     pub format: TexelFormat,
@@ -123,12 +124,12 @@ pub struct VolumeSource {
 }
 
 impl TextureSource {
-    /// The same under another name for every one that has the same texels: without its own name, and with its
-    /// files as the system knows them.
+    /// Returns an equal value for all sources with the same texels: without the texture's name and
+    /// with canonical file paths.
     pub fn identity(&self) -> TextureSource {
         let mut identity = TextureSource { name: String::new(), ..self.clone() };
         for file in identity.content.files_mut() {
-            // What is not there is told when it is read.
+            // A missing file is reported when it is read.
             if let Ok(path) = file.canonicalize() {
                 *file = path;
             }
@@ -146,7 +147,7 @@ impl TextureContent {
         }
     }
 
-    /// All files named in the scene.
+    /// Returns all files named in the scene.
     pub fn files(&self) -> Vec<&Path> {
         match self {
             TextureContent::Ramp(_) | TextureContent::Texels(_) | TextureContent::Procedural(_) => Vec::new(),

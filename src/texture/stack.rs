@@ -1,8 +1,8 @@
-//! Several pictures into one texture: slices of a volume, faces of a cube. In go the files, out come
-//! their texels one after the other. All have one size. Formats may differ where that loses nothing:
-//! each is widened to the most channels (grey is replicated, missing alpha is 1) and from 8 to 16
-//! bits (times 257, so that 255 stays 1). Floats stand apart: an 8-bit picture may be encoded, and a
-//! float one is linear light.
+//! Joins several pictures into one texture: slices of a volume or faces of a cube, one after the
+//! other. All must have one size. Formats may differ where conversion is lossless: each is widened
+//! to the most channels (grey is replicated, missing alpha is 1) and from 8 to 16 bits (times 257,
+//! so that 255 stays 1). Floats cannot be mixed with integers: an 8-bit picture may be
+//! sRGB-encoded, while a float one is linear.
 
 use std::path::PathBuf;
 
@@ -14,7 +14,7 @@ use super::read_file::{Picture, Texels, check_volume};
 use super::source::Reading;
 use crate::core::error::{Error, Result};
 
-/// `what` a file is, for messages: its ordinal follows, from 1.
+/// Reads the files. `what` names their kind in messages and is followed by the ordinal, from 1.
 pub(super) fn read(
     files: &[PathBuf],
     reading: &Reading,
@@ -24,7 +24,7 @@ pub(super) fn read(
 ) -> Result<Picture> {
     let pictures: Vec<Result<Picture>> =
         files.par_iter().map(|file| read_checked(file, reading, space, values)).collect();
-    // The first mistake in the order of the files, whichever was found first.
+    // The reported error is the first in the order of the files, whichever was found first.
     let pictures = pictures.into_iter().collect::<Result<Vec<_>>>()?;
     let (pictures, notes): (Vec<Texels>, Vec<Vec<String>>) =
         pictures.into_iter().map(|picture| (picture.texels, picture.notes)).unzip();
@@ -33,11 +33,11 @@ pub(super) fn read(
     let mut channels = 0;
     let mut widest = first.format.component();
     for (index, (picture, file)) in pictures.iter().zip(files).enumerate() {
-        let place = format!("{}: {what} {} of {}", file.display(), index + 1, files.len());
+        let label = format!("{}: {what} {} of {}", file.display(), index + 1, files.len());
         if (picture.width, picture.height) != (width, height) {
             return Err(Error::with_help(
                 format!(
-                    "{place} has {}×{} texels, and the first, {}, has {width}×{height}",
+                    "{label} has {}×{} texels, and the first, {}, has {width}×{height}",
                     picture.width,
                     picture.height,
                     files[0].display()
@@ -49,7 +49,7 @@ pub(super) fn read(
         if (component == Component::Float32) != (widest == Component::Float32) {
             let (this, other) = (picture.format, first.format);
             return Err(Error::with_help(
-                format!("{place} holds {this}, and the first, {}, {other}", files[0].display()),
+                format!("{label} holds {this}, and the first, {}, {other}", files[0].display()),
                 "float texels are linear light and integers may be sRGB: store all files alike",
             ));
         }

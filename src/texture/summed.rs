@@ -1,6 +1,6 @@
-//! Summed-area tables (Crow 1984): a flat texture in; out, for every channel, the sums over all rectangles
-//! that begin at texel (0, 0). Values are linear light in fixed point of 24 bits over the texture's own
-//! range, sums have 64 bits: they never overflow, and their differences are exact.
+//! Summed-area tables (Crow 1984): for every channel of a 2D texture, the sums over all rectangles
+//! that begin at texel (0, 0). Values are linear light in 24-bit fixed point over the texture's own
+//! range and sums have 64 bits: they never overflow, and their differences are exact.
 
 use super::data::TextureData;
 use super::fixed_point::FixedPoint;
@@ -8,8 +8,8 @@ use super::fixed_point::FixedPoint;
 /// Steps of the fixed point over the range of values.
 const STEPS: u32 = 16_777_215;
 
-/// As a device reads it: the least value and a step (f32 bits), the number of channels, and then for
-/// each channel rows of `width + 1` sums, `height + 1` of them, low word first.
+/// Returns the device table: smallest value and step (f32 bits), number of channels, then for each
+/// channel `height + 1` rows of `width + 1` sums, low word first.
 pub fn table(texture: &TextureData) -> Vec<u32> {
     let channels = texture.format.channels();
     let (width, height) = (texture.width as usize, texture.height as usize);

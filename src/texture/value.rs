@@ -1,5 +1,5 @@
-//! One texel as numbers in f64: stored value, linear light, and the four channels a look-up
-//! returns. The reference that packed and uploaded texels are held against.
+//! One texel as numbers in f64: stored value, linear light, and the four channels that a lookup
+//! returns. Tests compare packed and uploaded texels with these values.
 
 use rayon::prelude::*;
 
@@ -7,12 +7,12 @@ use super::data::{ColorSpace, Component, TexelFormat, TextureData};
 use crate::core::color::srgb_to_linear;
 
 impl TextureData {
-    /// Stored value of one of the format's own channels: integers scaled to [0, 1] by 2ⁿ − 1
-    /// (Vulkan 1.3, 3.10.1), float as it is.
+    /// Returns the stored value of one of the format's own channels: integers scaled to [0, 1] by
+    /// 2ⁿ − 1 (Vulkan 1.3, 3.10.1), floats unchanged.
     ///
     /// Rows are counted through all slices and faces: row y of slice z is `y + height · z`.
     ///
-    /// Panics when the texel or the channel does not exist.
+    /// Panics if the texel or the channel does not exist.
     pub fn value(&self, x: u32, y: u32, channel: usize) -> f64 {
         assert!(x < self.width && y < self.height * self.depth && channel < self.format.channels());
         let texel = y as usize * self.width as usize + x as usize;
@@ -32,14 +32,14 @@ impl TextureData {
         }
     }
 
-    /// As [`value`](Self::value), with sRGB decoded. Alpha is never encoded.
+    /// Like [`value`](Self::value), with sRGB decoded. Alpha is never sRGB-encoded.
     pub fn linear_value(&self, x: u32, y: u32, channel: usize) -> f64 {
         let stored = self.value(x, y, channel);
         let is_alpha = self.format.channels() > 1 && channel + 1 == self.format.channels();
         if self.color_space == ColorSpace::Srgb && !is_alpha { srgb_to_linear(stored) } else { stored }
     }
 
-    /// How many texels have a channel that is NaN or infinite.
+    /// Returns the number of texels with a channel that is NaN or infinite.
     pub fn nonfinite_texels(&self) -> u64 {
         if self.format.component() != Component::Float32 {
             return 0;
@@ -51,7 +51,8 @@ impl TextureData {
         self.texels.par_chunks(row).map(|row| in_row(row) as u64).sum()
     }
 
-    /// A texture of this one's size in linear floats, by column, row (as in [`value`](Self::value)) and channel.
+    /// Returns a texture of this one's size in linear floats, computed by column, row (as in
+    /// [`value`](Self::value)) and channel.
     pub fn with_floats(&self, channels: usize, value: impl Fn(u32, u32, usize) -> f32) -> TextureData {
         let rows = (0..self.height * self.depth).flat_map(|y| (0..self.width).map(move |x| (x, y)));
         let floats: Vec<f32> = rows
@@ -67,7 +68,7 @@ impl TextureData {
         }
     }
 
-    /// What a look-up of this texel returns: grey is replicated, missing alpha is 1.
+    /// Returns the result of a lookup of this texel: grey is replicated, missing alpha is 1.
     pub fn linear_rgba(&self, x: u32, y: u32) -> [f64; 4] {
         let value = |channel| self.linear_value(x, y, channel);
         match self.format.channels() {

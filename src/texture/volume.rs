@@ -1,6 +1,5 @@
-//! Volumes from files of bare texels: size, format, byte order and the place of the first texel are
-//! said elsewhere, by the scene or by an NRRD header. Out come the texels in the machine's own byte
-//! order.
+//! Volumes from files of raw texels. Size, format, byte order and offset are given by the scene or
+//! by an NRRD header; the texels are returned in native byte order.
 
 use std::io::{BufReader, ErrorKind, Read, Seek, SeekFrom};
 use std::path::Path;
@@ -13,7 +12,8 @@ use super::scalar::Scalar;
 use super::source::{Endian, VolumeSource};
 use crate::core::error::{Error, Result};
 
-/// A file that is shorter or longer than the description says is most likely described wrongly.
+/// Reads a volume. A file that is shorter or longer than its description is an error, since the
+/// description is most likely wrong.
 pub(super) fn read(volume: &VolumeSource) -> Result<Texels> {
     let path = volume.file.as_path();
     check_volume(path, volume.size, volume.format.bytes_per_texel())?;
@@ -38,33 +38,34 @@ pub(super) fn read(volume: &VolumeSource) -> Result<Texels> {
     }
     file.seek(SeekFrom::Start(volume.offset)).map_err(|e| unreadable(path, &e))?;
     let scalar = Scalar::of(volume.format.component());
-    let layout = Bare { size: volume.size, channels: volume.format.channels(), scalar };
+    let layout = RawTexels { size: volume.size, channels: volume.format.channels(), scalar };
     layout.read(file, volume.endian, needed as u64, path)
 }
 
-/// What a stream of texels holds; three channels are expanded to four.
-pub(super) struct Bare {
+/// The layout of a stream of texels; three channels are expanded to four.
+pub(super) struct RawTexels {
     pub size: [u32; 3],
     pub channels: usize,
-    /// Of whole bytes.
+    /// The number type, of whole bytes.
     pub scalar: Scalar,
 }
 
-/// Numbers that are converted at a time.
+/// The numbers converted per block.
 const BLOCK: usize = 1 << 16;
 
-impl Bare {
+impl RawTexels {
     pub fn bytes(&self) -> u64 {
         let texels = self.size.iter().fold(1u64, |n, &side| n.saturating_mul(side.into()));
         texels.saturating_mul((self.channels * self.stored_bytes()) as u64)
     }
 
-    /// Of one number.
+    /// Returns the bytes of one number.
     fn stored_bytes(&self) -> usize {
         self.scalar.bits as usize / 8
     }
 
-    /// The source holds `available` bytes at most: what it cannot fill is not allocated.
+    /// Reads from a source of at most `available` bytes, so that no more is allocated than it can
+    /// fill.
     pub fn read(&self, mut from: impl Read, endian: Endian, available: u64, path: &Path) -> Result<Texels> {
         let [width, height, depth] = self.size;
         let component = self.scalar.component();
@@ -77,15 +78,15 @@ impl Bare {
         check_memory(path, held)?;
         let mut bytes = vec![0; held];
         let numbers = self.bytes() as usize / self.stored_bytes();
-        let mut places = bytes[..numbers * component.bytes()].chunks_mut(BLOCK * component.bytes());
+        let mut texels = bytes[..numbers * component.bytes()].chunks_mut(BLOCK * component.bytes());
         let mut block = vec![0; BLOCK * self.stored_bytes()];
-        places.try_for_each(|places| {
-            let stored = &mut block[..places.len() / component.bytes() * self.stored_bytes()];
+        texels.try_for_each(|texels| {
+            let stored = &mut block[..texels.len() / component.bytes() * self.stored_bytes()];
             from.read_exact(stored).map_err(|e| match e.kind() {
                 ErrorKind::UnexpectedEof => short(path, self),
                 _ => unreadable(path, &e),
             })?;
-            self.convert(stored, endian, places);
+            self.convert(stored, endian, texels);
             Ok(())
         })?;
         if self.channels == 3 {
@@ -94,8 +95,8 @@ impl Bare {
         Ok(Texels { width, height, format, file_channels: self.channels, bytes })
     }
 
-    /// Numbers that textures hold are only brought into the machine's own byte order.
-    fn convert(&self, stored: &mut [u8], endian: Endian, places: &mut [u8]) {
+    /// Converts numbers; those with a native texture component only change byte order.
+    fn convert(&self, stored: &mut [u8], endian: Endian, texels: &mut [u8]) {
         let component = self.scalar.component();
         let native = if cfg!(target_endian = "big") { Endian::Big } else { Endian::Little };
         let is_kept = self.scalar == Scalar::of(component);
@@ -103,18 +104,18 @@ impl Bare {
             stored.chunks_exact_mut(self.stored_bytes()).for_each(<[u8]>::reverse);
         }
         if is_kept {
-            return places.copy_from_slice(stored);
+            return texels.copy_from_slice(stored);
         }
-        let places = places.chunks_exact_mut(component.bytes());
-        for (number, place) in stored.chunks_exact(self.stored_bytes()).zip(places) {
+        let texels = texels.chunks_exact_mut(component.bytes());
+        for (number, texel) in stored.chunks_exact(self.stored_bytes()).zip(texels) {
             let mut code = [0; 8];
             code[..number.len()].copy_from_slice(number);
-            component.store(self.scalar.fraction(self.scalar.number(u64::from_le_bytes(code))), place);
+            component.store(self.scalar.fraction(self.scalar.number(u64::from_le_bytes(code))), texel);
         }
     }
 }
 
-fn short(path: &Path, layout: &Bare) -> Error {
+fn short(path: &Path, layout: &RawTexels) -> Error {
     let [width, height, depth] = layout.size;
     Error::with_help(
         format!(

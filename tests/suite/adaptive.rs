@@ -1,5 +1,6 @@
-//! Sampling to a goal: which samples jobs take, that device and oracle take the same, that the error asked
-//! for is the error reached, and that samples spent where they lower it lower it further.
+//! Sampling to a goal: which samples the jobs take, that device and oracle take the same ones, that
+//! the requested error is reached, and that adaptively placed samples reduce the error further than
+//! uniform ones.
 
 mod rare;
 

@@ -1,5 +1,5 @@
-//! What is valid and yet hardly meant is told: nothing that lights, pictures read as linear light, normal maps
-//! that are none. And nothing of the kind is told of the project's own scenes.
+//! Warnings about scenes that are valid but probably not intended: no light source, pictures read
+//! as linear light, pictures that are no normal maps. The project's own scenes produce none.
 
 use std::fs;
 use std::path::Path;

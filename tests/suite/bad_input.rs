@@ -1,6 +1,6 @@
-//! Bad input through the program itself: each mistake ends with exit code 2 and a message on stderr
-//! that names the thing, never with a panic; no file appears, not even a temporary one, and a picture
-//! that was there is as it was.
+//! Invalid input through the program itself: each mistake ends with exit code 2 and a message on
+//! stderr that names the culprit, never with a panic; no file appears, not even a temporary one,
+//! and an existing picture is unchanged.
 
 mod limits;
 mod machine;

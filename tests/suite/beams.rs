@@ -1,5 +1,5 @@
-//! One beam a pixel: areas and integrals against closed forms and converged samples, device against oracle,
-//! and what is left to samples.
+//! One beam per pixel: areas and integrals against closed forms and converged samples, device
+//! against oracle, and which pixels fall back to samples.
 
 mod areas;
 mod integrals;

@@ -1,5 +1,6 @@
-//! Programs that a test starts beside itself. In: a command. Out: how it ended and what it wrote. However the
-//! test ends, they end with it; signals are sent without `kill`, which a bare system lacks.
+//! Child processes of tests. Runs a command and returns its exit status and output. Child processes
+//! end with their test however it ends; signals are sent without the `kill` program, which a
+//! minimal system lacks.
 
 use std::process::{Child, Command, ExitStatus, Output};
 use std::time::{Duration, Instant};

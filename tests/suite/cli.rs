@@ -1,5 +1,4 @@
-//! The command line as people use it: what goes to which stream, what files appear, what each option
-//! changes, exit codes, Ctrl-C.
+//! The command line: output streams, files, the effect of each option, exit codes, Ctrl-C.
 
 use std::fs;
 use std::path::Path;

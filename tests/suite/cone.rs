@@ -1,4 +1,4 @@
-//! Cone tracing: what is covered of a cone, and pictures made of one cone a pixel.
+//! Cone tracing: the coverage of a cone, and pictures with one cone per pixel.
 
 mod coverage;
 mod extremes;

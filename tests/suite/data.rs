@@ -1,5 +1,6 @@
-//! The committed data is what it claims to be: textures equal what the synthesis code makes, the
-//! measuring textures have their checksums, tileable means tileable, and scenes name real files.
+//! The committed data is consistent: textures equal the output of the synthesis code, the
+//! third-party test textures have their checksums, tileable textures tile, and scenes name existing
+//! files.
 
 use std::collections::HashSet;
 use std::fs;

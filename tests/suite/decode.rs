@@ -1,4 +1,4 @@
-//! Reading texture files: exact texels of every format and depth, and what they mean as numbers.
+//! Reading texture files: exact texels of every format and bit depth, and their numerical meaning.
 
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};

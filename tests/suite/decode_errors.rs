@@ -1,5 +1,4 @@
-//! Reading texture files that are not what they should be: every way to be wrong has its message, and
-//! none is a panic.
+//! Reading invalid texture files: every kind of defect has its message, and none causes a panic.
 
 use std::fs;
 use std::path::{Path, PathBuf};

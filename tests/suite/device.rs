@@ -1,6 +1,6 @@
-//! The device layer on a real driver (`MOIRE_DEVICE`, else `cpu`): what goes up comes back, what
-//! shaders read is what was bound, and the validation layer, where installed, has nothing to say about
-//! any of it, unless a mistake is planted.
+//! The device layer on a real driver (`MOIRE_DEVICE`, else `cpu`): uploads are read back unchanged,
+//! shaders read the resources that are bound, and the validation layer, if installed, reports
+//! nothing unless a mistake is planted.
 
 mod copies;
 mod images;

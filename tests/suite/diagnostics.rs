@@ -1,5 +1,5 @@
-//! Counters of what goes beyond a limit: each counts what it says, where the number follows from the scene, and a
-//! render that does not count has none and the same picture.
+//! Diagnostic counters of exceeded limits: each count is correct in scenes from which the number
+//! follows; a render without counting has no counts and the same picture.
 
 use std::path::Path;
 

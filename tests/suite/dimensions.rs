@@ -1,5 +1,5 @@
-//! Textures of every dimension from every kind of content: texels land where the documentation has
-//! them, and descriptions that files contradict are refused with names.
+//! Textures of every dimension from every kind of content: texels are at the documented positions,
+//! and descriptions that contradict the files are refused by name.
 
 mod cubes;
 mod scenes;

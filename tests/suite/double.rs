@@ -1,5 +1,5 @@
-//! Geometry in f64: the same picture as the oracle's, which scenes get it, and what each of the faults that it and
-//! the arithmetic around it have mended looked like.
+//! Geometry in f64: the same picture as the oracle's, which scenes use it, and a regression test
+//! for each fault that it and the surrounding arithmetic have fixed.
 
 use std::path::Path;
 

@@ -1,5 +1,5 @@
-//! Where the driver keeps compiled shaders when it cannot write where it wants to: in a temporary folder of
-//! the user's own, and without a word.
+//! The driver's shader cache if its default folder cannot be written: it is in a temporary folder
+//! of the user, and nothing is printed.
 
 use std::fs;
 use std::os::unix::fs::{PermissionsExt, symlink};

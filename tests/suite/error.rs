@@ -1,6 +1,6 @@
-//! The known error of n × n jittered sampling on the measuring scenes, as independent float64 code
-//! measured it against references of many thousand samples: a renderer that samples a wrong picture,
-//! or the right one unevenly, cannot meet it.
+//! The known error of n × n jittered sampling on the benchmark scenes, as measured by independent
+//! float64 code against references of many thousand samples: a renderer that samples a wrong
+//! picture, or the right one unevenly, cannot reproduce it.
 
 use moire::internal::lab::metrics::{compare, read_picture};
 

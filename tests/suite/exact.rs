@@ -1,7 +1,7 @@
-//! The oracle against answers that are exact: rationals of the scene's own f64 numbers, and 256 bits where
-//! an answer has a root, an angle or a sine. They are derived from the conventions of docs/scene-format.md, not from
-//! the sources, so that a mistake made alike in shader and oracle is found here. Every comparer is shown planted
-//! errors too, which it must tell.
+//! The oracle against exact answers: rationals of the scene's own f64 numbers, and 256 bits where
+//! an answer has a root, an angle or a sine. They are derived from the README's conventions, not
+//! from the sources, so that a mistake common to shader and oracle is found. Every comparison is
+//! tested with planted errors too, which it must detect.
 
 mod address;
 mod areas;

@@ -1,9 +1,9 @@
-//! FLIP against values that its authors' program gives (FLIP.h of version 1.7, CPU, default parameters,
-//! linear input), and its laws.
+//! FLIP against values of its authors' program (FLIP.h of version 1.7, CPU, default parameters,
+//! linear input), and its invariants.
 
 use moire::internal::core::film::Film;
 use moire::internal::lab::metrics::flip;
-use moire::internal::lab::metrics::flip::Seen;
+use moire::internal::lab::metrics::flip::PerceptualFeatures;
 
 use crate::support::{gradient, told};
 
@@ -38,7 +38,7 @@ fn mean_and_single_pixels_agree_with_the_authors_program() {
     let [a, b] = pair();
     let mean = flip(&a, &b).unwrap();
     assert!((mean - 0.334_977_6).abs() < SINGLE, "{mean}");
-    let map = Seen::of(&a).map(&Seen::of(&b));
+    let map = PerceptualFeatures::of(&a).map(&PerceptualFeatures::of(&b));
     for (x, y, expected) in [(0, 0, 0.6861), (19, 12, 0.171_911), (30, 3, 0.362_581), (39, 23, 0.426_463)] {
         let found = f64::from(map[y * 40 + x]);
         assert!((found - expected).abs() < SINGLE, "({x}, {y}): {found} for {expected}");

@@ -1,7 +1,7 @@
 //! The scenes of `data/scenes` as 8-bit pictures against the stored ones of `data/golden`, which a
-//! person has looked at. `MOIRE_BLESS=NAME` or `all` stores new ones, on a CPU device only, and still
-//! fails: a picture passes only once it was stored, looked at and rendered again. What a failure saw
-//! lies in `target/golden`: NAME.actual.png, NAME.expected.png, NAME.diff.png.
+//! person has inspected. `MOIRE_BLESS=NAME` or `all` stores new ones, on a CPU device only, and
+//! still fails: a picture passes only once it was stored, inspected and rendered again. A failure
+//! leaves its pictures in `target/golden`: NAME.actual.png, NAME.expected.png, NAME.diff.png.
 
 use std::fs;
 use std::path::{Path, PathBuf};

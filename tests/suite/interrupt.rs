@@ -1,5 +1,5 @@
-//! Ctrl-C during a render: an end within seconds, exit code 130, no file. What a failing test leaves behind: no
-//! render that goes on.
+//! Ctrl-C during a render: it ends within seconds with exit code 130 and no file. A failing test
+//! leaves no render running.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, absolute};

@@ -1,5 +1,5 @@
-//! What is left out changes no bit of the picture, and neither does anything else that only concerns
-//! speed: where texels are read, the workgroup's shape, slices, bands, crops.
+//! Omitting unused features changes no bit of the picture, nor does anything else that concerns
+//! only speed: the source of texels, the workgroup's shape, slices, bands, crops.
 
 use moire::internal::core::range::Rect;
 use moire::internal::pack::features::{Features, TexelSource};

@@ -1,5 +1,5 @@
-//! What is left out changes no bit: small scenes of the features that need footprints, environments,
-//! bounces and texels of more than two dimensions, each with and without all code.
+//! Omitting unused features changes no bit: small scenes of the features that need footprints,
+//! environments, bounces and texels of more than two dimensions, each with and without all code.
 
 use std::path::Path;
 

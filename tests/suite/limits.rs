@@ -1,5 +1,5 @@
-//! Every limit of the scene vocabulary: what is allowed parses, one step beyond is an error that says how far one
-//! may go; nothing, where nothing is allowed.
+//! Every limit of the scene vocabulary: the limit value parses, and one step beyond is an error
+//! that states the limit.
 
 use std::path::Path;
 

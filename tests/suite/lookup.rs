@@ -1,6 +1,6 @@
-//! Texture look-ups on the device against the oracle: every address mode, filter, texel centre,
-//! format and colour space, over random and awkward coordinates, from both texel sources, by our
-//! shader and by the device's own samplers.
+//! Texture lookups on the device against the oracle: every address mode, filter, texel centre,
+//! format and colour space, over random and error-prone coordinates, from both texel sources, by
+//! the shader and by the device's own samplers.
 
 pub mod bench;
 mod hardware;

@@ -1,5 +1,5 @@
-//! Scenes whose loops are long: Mesa's CPU driver ends all loops of a thread after 65 535 turns, so threads
-//! there take fewer samples at once.
+//! Scenes with long loops: Mesa's CPU driver ends all loops of a thread after 65 535 iterations, so
+//! that threads take fewer samples at once.
 
 use moire::internal::core::progress::NoProgress;
 use moire::internal::gpu::DeviceKind;
@@ -7,7 +7,7 @@ use moire::internal::render::{self, Tuning};
 use moire::internal::scene::model::{Footprint, Scene, Triangle};
 use moire::internal::texture::sampler_spec::{Filter, MipMode};
 
-use crate::lookup::bench::Dice;
+use crate::lookup::bench::Rng;
 use crate::stage::{device, packed, render, render_on_oracle, scene, small};
 
 /// So many small triangles in front of the lecture's scene.
@@ -16,10 +16,10 @@ fn crowd(count: usize) -> Scene {
     scene.spheres.clear();
     scene.planes.clear();
     scene.lights.truncate(1);
-    let mut dice = Dice::new(7);
+    let mut rng = Rng::new(7);
     let first = scene.triangles[0];
     let moved = |_| {
-        let by = glam::DVec3::new(dice.between(-1.0, 1.0), dice.between(-0.5, 1.0), dice.between(-1.0, 1.0));
+        let by = glam::DVec3::new(rng.between(-1.0, 1.0), rng.between(-0.5, 1.0), rng.between(-1.0, 1.0));
         Triangle { vertices: first.vertices.map(|v| 0.2 * v + by), ..first }
     };
     scene.triangles = (0..count).map(moved).collect();

@@ -1,5 +1,5 @@
-//! The one test binary; each module is a field of behaviour, named so that a failing name is the
-//! diagnosis.
+//! The one test binary; each module is an area of behaviour, named so that the name of a failing
+//! test is the diagnosis.
 
 // A failed step of a test is a failed test; clippy's own exemption covers #[test] functions alone,
 // not the helpers they share.

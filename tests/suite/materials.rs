@@ -1,5 +1,5 @@
-//! Materials by numbers worked out by hand: what glass mirrors and lets through, the highlight of Phong,
-//! bump maps, normals that lean; on device and oracle.
+//! Materials against values computed by hand: reflectance and transmittance of glass, the highlight
+//! of Phong, bump maps, shading normals; on device and oracle.
 
 mod glass;
 mod leaning;

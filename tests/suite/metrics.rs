@@ -1,4 +1,4 @@
-//! The comparer itself, held against planted errors of known size, and `moire compare` with its exit
+//! The comparison itself against planted errors of known size, and `moire compare` with its exit
 //! codes.
 
 use std::fs;

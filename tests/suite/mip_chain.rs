@@ -1,9 +1,9 @@
-//! MipPlacement that the device makes (`MOIRE_DEVICE`, else `cpu`) against those of the host: the same codes for
-//! every format, kind and size; a comparison that lets a planted error through would not be one.
+//! Mip chains generated on the device (`MOIRE_DEVICE`, else `cpu`) against those of the host: the
+//! same codes for every format, kind and size; the comparison must detect a planted error.
 
 mod scenes;
 
-use moire::internal::lab::probe::MipPlacement;
+use moire::internal::lab::probe::MipProbe;
 use moire::internal::lab::verify::queries::noise;
 use moire::internal::texture::data::{ColorSpace, Component, Dimension, MipKernel, TexelFormat, TextureData};
 use moire::internal::texture::mips;
@@ -75,7 +75,7 @@ fn difference(device: &[TextureData], host: &[TextureData]) -> Option<String> {
     None
 }
 
-fn assert_same(made: &mut MipPlacement<'_>, texture: &TextureData) {
+fn assert_same(made: &mut MipProbe<'_>, texture: &TextureData) {
     let (device, seconds) = made.make(texture).unwrap();
     let host = mips::mip_chain(texture, MipKernel::Box);
     assert_eq!(seconds > 0.0, !host.is_empty(), "{}: {seconds} s", texture.name);
@@ -87,7 +87,7 @@ fn assert_same(made: &mut MipPlacement<'_>, texture: &TextureData) {
 #[test]
 fn the_device_makes_the_codes_of_the_host_for_every_format_kind_and_size() {
     let gpu = gpu();
-    let mut made = MipPlacement::new(&gpu);
+    let mut made = MipProbe::new(&gpu);
     for (format, space) in formats() {
         for (seed, (dimension, size)) in (1..).zip(SHAPES) {
             let texture = noise(dimension, size, format, space, seed);
@@ -100,7 +100,7 @@ fn the_device_makes_the_codes_of_the_host_for_every_format_kind_and_size() {
 #[test]
 fn every_deep_srgb_code_is_averaged_as_on_the_host() {
     let gpu = gpu();
-    let mut made = MipPlacement::new(&gpu);
+    let mut made = MipProbe::new(&gpu);
     let codes =
         |width: u32| (0..65536 * width).map(move |i| ((i / width).wrapping_mul(40503) & 0xffff) as u16);
     for (width, what) in [(1, "far neighbours"), (2, "pairs of equal codes")] {
@@ -123,14 +123,14 @@ fn every_pair_of_srgb_codes_is_averaged_as_on_the_host() {
         texels,
         ..noise(Dimension::Two, [512, 256, 1], TexelFormat::Grey8, ColorSpace::Srgb, 1)
     };
-    assert_same(&mut MipPlacement::new(&gpu), &texture);
+    assert_same(&mut MipProbe::new(&gpu), &texture);
 }
 
 #[test]
 fn planted_errors_of_levels_are_seen() {
     let gpu = gpu();
     let texture = noise(Dimension::Two, [64, 16, 1], TexelFormat::Rgba8, ColorSpace::Srgb, 3);
-    let (device, _) = MipPlacement::new(&gpu).make(&texture).unwrap();
+    let (device, _) = MipProbe::new(&gpu).make(&texture).unwrap();
     let host = mips::mip_chain(&texture, MipKernel::Box);
     assert_eq!(difference(&device, &host), None);
     assert!(difference(&device, &mips::mip_chain(&texture, MipKernel::Kaiser)).is_some());
@@ -149,7 +149,7 @@ fn planted_errors_of_levels_are_seen() {
 #[test]
 fn what_devices_do_not_make_is_refused_by_name() {
     let gpu = gpu();
-    let mut made = MipPlacement::new(&gpu);
+    let mut made = MipProbe::new(&gpu);
     for (size, format, space) in [
         ([5, 4, 1], TexelFormat::Grey8, ColorSpace::Linear),
         ([6, 2, 1], TexelFormat::Grey8, ColorSpace::Linear),

@@ -1,5 +1,5 @@
-//! Mip mip chains against levels worked out by hand, and what holds for every texture: the size rule,
-//! means that stay, constants that stay.
+//! Mip chains against levels computed by hand, and invariants of every texture: the size rule,
+//! preserved means, preserved constants.
 
 use moire::internal::core::color::{linear_to_srgb, srgb_to_linear};
 use moire::internal::texture::data::{ColorSpace, Component, Dimension, MipKernel, TexelFormat, TextureData};

@@ -1,5 +1,5 @@
-//! Textures with texels that are NaN or infinite: refused with all that is needed to find them, or let in and
-//! kept to the pixels that read them, and counted; what files make of such pixels.
+//! Textures with NaN or infinite texels: refused with a message that locates them, or allowed,
+//! confined to the pixels that read them, and counted; and how file formats store such pixels.
 
 mod look_ups;
 

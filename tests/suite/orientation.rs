@@ -1,5 +1,6 @@
-//! Files that say how they are turned: a JPEG's Exif segment, a PNG's eXIf chunk before or after the pixels,
-//! a TIFF's tag 274. Applied unless the scene says otherwise, in all that a texture is made of.
+//! Files with an orientation tag: a JPEG's Exif segment, a PNG's eXIf chunk before or after the
+//! pixels, a TIFF's tag 274. It is applied unless the scene says otherwise, in every kind of
+//! texture content.
 
 use std::fs;
 use std::path::{Path, PathBuf};

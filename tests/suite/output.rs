@@ -1,4 +1,4 @@
-//! Writing pictures: what comes back from each format, and that a failure leaves nothing behind.
+//! Writing pictures: each format reads back as written, and a failure leaves nothing behind.
 
 use std::fs;
 use std::path::Path;

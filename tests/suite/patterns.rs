@@ -1,5 +1,5 @@
-//! Sample patterns: positions on the device and in the oracle, what each pattern promises, spectra,
-//! errors of pixels, and `moire pattern`.
+//! Sample patterns: positions on the device and in the oracle, the properties of each pattern,
+//! spectra, errors of pixels, and `moire pattern`.
 
 mod agree;
 mod blue_noise;

@@ -1,5 +1,6 @@
-//! Picture files of every structure that their formats allow: right values, made by other programs
-//! (`data/pictures/make.py`) or by the letter of the standard, and what is refused by its name.
+//! Picture files of every structure that their formats allow: correct values, written by other
+//! programs (`data/pictures/make.py`) or by the letter of the standard, and structures that are
+//! refused by name.
 
 mod hdr;
 mod mutated;

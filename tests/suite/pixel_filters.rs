@@ -1,5 +1,5 @@
-//! Pixel filters: that what samples are placed by is the stated kernel, that renders show that kernel, on the
-//! device as in the oracle and whatever is left out, and what is refused.
+//! Pixel filters: samples are distributed by the stated kernel, renders reproduce that kernel on
+//! the device and in the oracle, with and without unused features, and invalid filters are refused.
 
 mod agree;
 mod convolution;

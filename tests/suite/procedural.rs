@@ -1,4 +1,4 @@
-//! Procedural textures: the device against the oracle, patterns worked out by hand, filters against
+//! Procedural textures: the device against the oracle, patterns computed by hand, filters against
 //! means of many points, noise's range, mean and continuity, and the keys of scene files.
 
 mod device;
@@ -13,7 +13,7 @@ use moire::internal::pack;
 use moire::internal::schema::layout;
 use moire::internal::texture::procedural::{Procedural, ProceduralKind};
 
-use crate::lookup::bench::Dice;
+use crate::lookup::bench::Rng;
 
 const HARD_EDGED: [ProceduralKind; 4] =
     [ProceduralKind::Checker, ProceduralKind::Stripes, ProceduralKind::Grid, ProceduralKind::Brick];
@@ -35,18 +35,11 @@ fn share_at(what: &layout::Procedural, at: DVec3) -> f64 {
 }
 
 /// The mean of n × n points, one at random in each cell of the parallelogram's division.
-fn mean_of_points(
-    what: &layout::Procedural,
-    at: DVec3,
-    dx: DVec3,
-    dy: DVec3,
-    n: u32,
-    dice: &mut Dice,
-) -> f64 {
+fn mean_of_points(what: &layout::Procedural, at: DVec3, dx: DVec3, dy: DVec3, n: u32, rng: &mut Rng) -> f64 {
     let mut sum = 0.0;
     for i in 0..n * n {
-        let s = (f64::from(i % n) + dice.unit()) / f64::from(n) - 0.5;
-        let t = (f64::from(i / n) + dice.unit()) / f64::from(n) - 0.5;
+        let s = (f64::from(i % n) + rng.unit()) / f64::from(n) - 0.5;
+        let t = (f64::from(i / n) + rng.unit()) / f64::from(n) - 0.5;
         sum += share_at(what, at + s * dx + t * dy);
     }
     sum / f64::from(n * n)

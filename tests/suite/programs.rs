@@ -1,5 +1,5 @@
-//! Programs that happen to be there: the tests start none that `setup.sh` does not install, and `setup.sh` none
-//! that a bare Debian lacks.
+//! External programs: the tests start none that `setup.sh` does not install, and `setup.sh` none
+//! that a minimal Debian lacks.
 
 use std::ffi::OsString;
 use std::fs;

@@ -11,7 +11,7 @@ use moire::internal::oracle::mapping::{MapInput, texture_coordinate};
 use moire::internal::pack::{MapKind, PackedScene};
 use moire::internal::schema::layout::NO_SHAPE;
 
-use crate::lookup::bench::Dice;
+use crate::lookup::bench::Rng;
 use crate::shared_gpu::gpu;
 use bounds::{Estimate, U, estimate};
 
@@ -205,19 +205,19 @@ fn assert_agrees(what: &str, scene: &PackedScene, queries: &[RayQuery], keep_eve
 #[test]
 fn planes_bounded_and_infinite_with_skewed_axes() {
     for seed in 0..3 {
-        let mut dice = Dice::new(seed + 100);
-        let scene = scenes::planes(&mut dice);
-        assert_agrees(&format!("planes {seed}"), &scene, &scenes::rays(&mut dice, 4000), seed == 0);
+        let mut rng = Rng::new(seed + 100);
+        let scene = scenes::planes(&mut rng);
+        assert_agrees(&format!("planes {seed}"), &scene, &scenes::rays(&mut rng, 4000), seed == 0);
     }
 }
 
 #[test]
 fn spheres_from_outside_inside_and_grazing() {
     for seed in 0..3 {
-        let mut dice = Dice::new(seed + 200);
-        let scene = scenes::spheres(&mut dice);
-        let mut queries = scenes::rays(&mut dice, 3000);
-        queries.extend(scenes::grazing(&mut dice, &scene, 1000));
+        let mut rng = Rng::new(seed + 200);
+        let scene = scenes::spheres(&mut rng);
+        let mut queries = scenes::rays(&mut rng, 3000);
+        queries.extend(scenes::grazing(&mut rng, &scene, 1000));
         assert_agrees(&format!("spheres {seed}"), &scene, &queries, seed == 0);
     }
 }
@@ -225,26 +225,26 @@ fn spheres_from_outside_inside_and_grazing() {
 #[test]
 fn triangles_flat_and_smooth() {
     for seed in 0..3 {
-        let mut dice = Dice::new(seed + 300);
-        let scene = scenes::triangles(&mut dice);
-        assert_agrees(&format!("triangles {seed}"), &scene, &scenes::rays(&mut dice, 4000), seed == 0);
+        let mut rng = Rng::new(seed + 300);
+        let scene = scenes::triangles(&mut rng);
+        assert_agrees(&format!("triangles {seed}"), &scene, &scenes::rays(&mut rng, 4000), seed == 0);
     }
 }
 
 #[test]
 fn all_shapes_together_with_every_mapping() {
     for keep_everything in [false, true] {
-        let mut dice = Dice::new(400);
-        let scene = scenes::everything(&mut dice);
-        assert_agrees("everything", &scene, &scenes::rays(&mut dice, 6000), keep_everything);
+        let mut rng = Rng::new(400);
+        let scene = scenes::everything(&mut rng);
+        assert_agrees("everything", &scene, &scenes::rays(&mut rng, 6000), keep_everything);
     }
 }
 
 #[test]
 fn no_ray_passes_between_triangles_that_share_an_edge() {
     for seed in 0..4 {
-        let mut dice = Dice::new(seed + 500);
-        let (scene, queries) = scenes::fan(&mut dice, 9, 5000);
+        let mut rng = Rng::new(seed + 500);
+        let (scene, queries) = scenes::fan(&mut rng, 9, 5000);
         for keep_everything in [false, true] {
             let answers = probe::rays(&gpu(), &scene, keep_everything, &queries).unwrap();
             let missed: Vec<_> = queries.iter().zip(&answers).filter(|(_, a)| a.shape == NO_SHAPE).collect();
@@ -255,9 +255,9 @@ fn no_ray_passes_between_triangles_that_share_an_edge() {
 
 #[test]
 fn planted_errors_of_rays_are_caught() {
-    let mut dice = Dice::new(600);
-    let scene = scenes::everything(&mut dice);
-    let queries = scenes::rays(&mut dice, 1000);
+    let mut rng = Rng::new(600);
+    let scene = scenes::everything(&mut rng);
+    let queries = scenes::rays(&mut rng, 1000);
     let right = probe::rays(&gpu(), &scene, false, &queries).unwrap();
     let caught = |plant: &dyn Fn(&mut RayAnswer)| {
         let mut tally = Tally::default();

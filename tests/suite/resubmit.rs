@@ -1,11 +1,12 @@
-//! A driver compiles a shader once, not at each submission: pictures of a few pixels take a small part of
-//! the time that their pipelines took to be built. lavapipe needs help for this (`glsl/shared/opaque.glsl`).
+//! A driver compiles a shader once, not at each submission: pictures of a few pixels take a small
+//! fraction of the time in which their pipelines were built. lavapipe needs a workaround for this
+//! (`glsl/shared/opaque.glsl`).
 
 use std::time::Instant;
 
 use moire::internal::core::progress::NoProgress;
 use moire::internal::gpu::{DeviceKind, DeviceSelect, Gpu};
-use moire::internal::lab::probe::MipPlacement;
+use moire::internal::lab::probe::MipProbe;
 use moire::internal::render::{Session, Tuning};
 use moire::internal::scene::model::{Algorithm, Pattern};
 use moire::internal::texture::data::{ColorSpace, Dimension, TexelFormat, TextureData};
@@ -107,7 +108,7 @@ fn passes_of_a_pyramid_are_compiled_once() {
     };
     let mut again = 0.0;
     let first = least(2, |_| {
-        let mut mip_chains = MipPlacement::new(&gpu);
+        let mut mip_chains = MipProbe::new(&gpu);
         let mut make = || seconds(|| drop(mip_chains.make(&texture).unwrap()));
         let first = make();
         again = least(20, |_| make());

@@ -1,4 +1,5 @@
-//! Scene text in, `Scene` out: defaults, every key of the vocabulary, and files that cannot be read.
+//! Parsing of scene text into `Scene`: defaults, every key of the vocabulary, and files that cannot
+//! be read.
 
 mod errors;
 mod settings;

@@ -1,5 +1,5 @@
-//! One device for all tests that only ask it for numbers (`MOIRE_DEVICE`, else `cpu`), opened with
-//! the validation layer. A lease fails its test when the layer has said anything by the end of it.
+//! One device for all tests that only compute with it (`MOIRE_DEVICE`, else `cpu`), opened with the
+//! validation layer. A lease fails its test if the layer has reported anything by the end of it.
 
 use std::ops::Deref;
 use std::sync::OnceLock;

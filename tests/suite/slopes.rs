@@ -1,6 +1,7 @@
-//! How the variance falls with the number of samples, on scenes made for it: smooth in every pixel, one edge in
-//! every pixel, busy in every pixel. Jittered strata have slopes of -2, -3/2 and -1 (Mitchell 1996), independent
-//! samples -1 on all three. Intervals come from the errors themselves: blocks of pixels are drawn anew.
+//! Convergence of the variance with the number of samples, on scenes made for it: smooth in every
+//! pixel, one edge in every pixel, high-frequency detail in every pixel. Jittered strata have
+//! slopes of -2, -3/2 and -1 (Mitchell 1996), independent samples -1 on all three. Confidence
+//! intervals are bootstrapped from blocks of pixels.
 
 use moire::internal::core::film::Film;
 use moire::internal::lab::study::bootstrap::{blocks, interval};

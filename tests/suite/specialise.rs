@@ -1,6 +1,6 @@
-//! Specialised shaders: valid modules without branches on constants, smaller the less a scene uses, and
-//! with the workgroup's size still open. That pictures do not change is shown by the tests that compare
-//! pipelines with and without what a scene leaves out.
+//! Specialised shaders: valid modules without branches on constants, smaller the less a scene uses,
+//! and with the workgroup size still to be specialised. The tests of lean against full pipelines
+//! show that pictures do not change.
 
 use std::io::Write;
 use std::process::{Command, Stdio};

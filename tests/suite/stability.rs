@@ -8,7 +8,7 @@ mod verdicts;
 use moire::internal::core::error::Result;
 use moire::internal::gpu::{DeviceInfo, DeviceKind};
 use moire::internal::lab::stability::case::{Bench, Case, Point};
-use moire::internal::lab::stability::report::{Report, Row};
+use moire::internal::lab::stability::report::{Row, StabilityReport};
 
 type Run = fn(&Bench<'_>) -> Result<Vec<Point>>;
 
@@ -42,7 +42,7 @@ fn row(name: &'static str, errors: &[f64]) -> Row {
     Row::new(&case("planted", name, 1e-3, none), Ok(points(errors)), 0.5)
 }
 
-fn report(rows: Vec<Row>) -> Report {
+fn report(rows: Vec<Row>) -> StabilityReport {
     let device = DeviceInfo {
         index: 0,
         name: "made up".into(),
@@ -53,5 +53,5 @@ fn report(rows: Vec<Row>) -> Report {
         limits: Default::default(),
         suitable: Ok(()),
     };
-    Report::new(&device, rows, 12.34)
+    StabilityReport::new(&device, rows, 12.34)
 }

@@ -1,6 +1,7 @@
 //! Scenes on the device under test (`MOIRE_DEVICE`, else `cpu`): the list of all scenes of the
-//! repository, each loaded, shrunk, packed and rendered by one line of a test. The device is opened
-//! once, with validation, and every test that used it ends by asking the validation layer.
+//! repository, each loaded, reduced in size, packed and rendered by one line of a test. The device
+//! is opened once, with validation, and every test that used it ends by checking the validation
+//! messages.
 
 use std::ops::Deref;
 use std::path::PathBuf;

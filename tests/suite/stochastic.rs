@@ -1,5 +1,5 @@
-//! What samples choose beside their place in the pixel: a point of the lens, of a light, a time, a lobe. The
-//! maps behind the choices, what theory says of the pictures, and how much patterns gain in each.
+//! Sample dimensions beyond the pixel position: points on the lens and on lights, times, lobes.
+//! Tests the mappings, the pictures against theory, and the gain by sample patterns in each.
 
 mod fresnel;
 mod glossy;

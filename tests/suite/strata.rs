@@ -1,5 +1,5 @@
 //! Sample positions: the device's against the oracle's and both against the formula, bit for bit;
-//! one sample in every stratum; sets shared or not; and their jitter as random as it must be.
+//! one sample in every stratum; sets that pixels share or not; and the randomness of their jitter.
 
 use moire::internal::lab::probe::{self, Positions};
 use moire::internal::oracle::patterns::{pixel_points, sample_point};

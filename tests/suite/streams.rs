@@ -1,5 +1,5 @@
-//! Standard input and output in place of files, paths as other systems write them, messages that nobody reads on a
-//! terminal, and a limit on the size of files.
+//! Standard input and output in place of files, paths in the notation of other systems, messages
+//! without a terminal, and a limit on the size of files.
 
 use std::fs;
 use std::path::{Path, absolute};

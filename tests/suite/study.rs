@@ -1,5 +1,5 @@
-//! `moire study`: what follows from measured points, held against synthetic ones; names and plans; the
-//! command with its files, its resumption and its page in a browser.
+//! `moire study`: the evaluation of synthetic points; names and plans; the command with its files,
+//! its resumption and its page in a browser.
 
 mod analysis;
 mod browser;

@@ -1,5 +1,5 @@
-//! What several test files need: the program and the data, found when the tests run (never where they
-//! were compiled), so that the binaries can be carried to another machine; small pictures.
+//! Helpers of several test files: the program and the data, located when the tests run (not where
+//! they were compiled), so that the binaries can be moved to another machine; small pictures.
 
 use std::collections::BTreeSet;
 use std::io::Write;

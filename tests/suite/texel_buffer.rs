@@ -1,5 +1,6 @@
-//! Where texels lie on the device: in one texel buffer or, where it is too short, in images or in several buffers,
-//! with the same picture; as the file has them; and once, however many names a file has.
+//! The storage of texels on the device: in one texel buffer or, if it is too short, in images or in
+//! several buffers, with the same picture; unchanged from the file; and once, however many names a
+//! file has.
 
 use std::fs;
 use std::path::Path;
@@ -170,7 +171,7 @@ fn every_deep_srgb_code_is_read_as_its_light_from_buffers_and_images() {
         for texture in 0..3 {
             let uv = |i: u32| [i % 256, i / 256].map(|n| (n as f32 + 0.5) / 256.0);
             let queries: Vec<_> = (0..65_536).map(|i| query(&scene, texture, uv(i))).collect();
-            let answers = probe::look_ups(&gpu(), &scene, image_source, false, &queries).unwrap();
+            let answers = probe::lookups(&gpu(), &scene, image_source, false, &queries).unwrap();
             for (code, (answer, query)) in (0..=u16::MAX).zip(answers.iter().zip(&queries)) {
                 let codes = match texture {
                     1 => [code, code.wrapping_mul(40_503), !code],

@@ -1,5 +1,5 @@
-//! `moire texture`: what it counts and sums, what it says about seams, planted ones included, and
-//! the repeated picture. Expected numbers are worked by hand or from the files' known content.
+//! `moire texture`: its statistics, its verdicts on seams, planted ones included, and the repeated
+//! picture. Expected numbers are computed by hand or from the files' known content.
 
 use std::path::{Path, PathBuf};
 

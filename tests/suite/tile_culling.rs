@@ -1,5 +1,5 @@
-//! The survey of scenes with many triangles: no list lacks a triangle that a ray of its cell meets, so that
-//! pictures are the same bit for bit, and calm cells begin with fewer samples.
+//! Tile culling of scenes with many triangles: no list lacks a triangle that a ray of its tile
+//! hits, so that pictures are bitwise equal, and uniform tiles begin with fewer samples.
 
 use glam::DVec3;
 use moire::internal::core::film::Film;
@@ -12,17 +12,17 @@ use moire::internal::render::{self, Session, Tuning};
 use moire::internal::scene::model::{Algorithm, Model, Pattern, Projection, Scene, Triangle};
 use moire::internal::schema::layout::{CELL_BUSY, CELL_EMPTY, CELL_UNIFORM, CELL_WORDS, MAX_LISTED};
 
-use crate::lookup::bench::Dice;
+use crate::lookup::bench::Rng;
 use crate::stage::{assert_same_bits, device, packed, render, render_with, small};
 
 /// Triangles in disorder before a mirror, a checkered ground and a background: far and near, some behind the
 /// eye, some through the eye's plane, every fifth a needle.
 fn soup(count: usize, side: u32) -> Scene {
     let mut scene = small("s2", side, 4);
-    let mut dice = Dice::new(11);
+    let mut rng = Rng::new(11);
     let first = scene.triangles[0];
     let eye = scene.camera.eye;
-    let mut place = |reach: f64| DVec3::from_array([0; 3].map(|_| reach * (2.0 * dice.unit() - 1.0)));
+    let mut place = |reach: f64| DVec3::from_array([0; 3].map(|_| reach * (2.0 * rng.unit() - 1.0)));
     scene.triangles = (0..count)
         .map(|i| {
             let middle = if i % 7 == 0 { eye + place(0.5) } else { DVec3::new(0.0, 0.6, 0.0) + place(1.2) };

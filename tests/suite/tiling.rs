@@ -1,12 +1,13 @@
-//! Whether textures made for it tile: photographic ones (octaves of noise, gradients, grain, skies with a sun) and
-//! patterns (bricks, tiles, planks, checkers, stripes, letters), as they were made, rolled, cut, and short of one
-//! texel. What was made to tile must never be told not to, what was cut never to tile; doubt is allowed where
-//! the seam could be one more edge.
+//! The verdict on tiling for textures made for it: photographic ones (octave noise, gradients,
+//! grain, skies with a sun) and patterns (bricks, tiles, planks, checkers, stripes, letters),
+//! unchanged, rolled, cropped, and short of one texel. A tileable texture must never be judged not
+//! to tile, a cropped one never to tile; an undecided verdict is allowed if the seam could be one
+//! more edge.
 
 use std::f64::consts::TAU;
 
 use moire::internal::oracle::rng::mix_bits;
-use moire::internal::texture::analysis::{Axis, Seam, Verdict, analyse};
+use moire::internal::texture::analysis::{AxisAnalysis, Seam, Verdict, analyse};
 use moire::internal::texture::data::{ColorSpace, Dimension, TexelFormat, TextureData};
 
 use crate::support::moire;
@@ -57,7 +58,7 @@ impl Texture {
         self
     }
 
-    fn verdicts(&self) -> [Axis; 2] {
+    fn verdicts(&self) -> [AxisAnalysis; 2] {
         let texels = if self.float {
             self.values.iter().flat_map(|v| (*v as f32).to_ne_bytes()).collect()
         } else {

@@ -1,6 +1,6 @@
-//! A scene turned as a whole, with its camera, lights and the axes of its mappings, is the same picture:
-//! no seam, no pole and no direction of the world shows. Computed in f64, where what is packed is rounded
-//! anew for every turn.
+//! A scene rotated as a whole, with its camera, lights and the axes of its mappings, gives the same
+//! picture: no seam, no pole and no direction of the world is visible. Computed in f64, where only
+//! the packed values are rounded anew for every rotation.
 
 use std::f64::consts::TAU;
 use std::path::Path;
@@ -14,7 +14,7 @@ use moire::internal::scene::parse;
 use moire::internal::scene::prune::prune;
 use moire::internal::texture::data::{ColorSpace, Dimension, TexelFormat};
 
-use crate::lookup::bench::{Dice, Vectors, texture};
+use crate::lookup::bench::{Rng, Vectors, texture};
 use crate::stage::{render, render_on_oracle};
 
 const COMMON: &str = "
@@ -126,9 +126,9 @@ fn turning_the_whole_scene_changes_nothing() {
     let scene = load(COMMON);
     let straight = render_on_oracle(&packed(&scene));
     let other = render_on_oracle(&packed(&reseeded(&scene)));
-    let mut dice = Dice::new(71);
+    let mut rng = Rng::new(71);
     for _ in 0..5 {
-        let turn = DQuat::from_axis_angle(dice.direction(), dice.between(0.0, TAU));
+        let turn = DQuat::from_axis_angle(rng.direction(), rng.between(0.0, TAU));
         let film = render_on_oracle(&packed(&turned(&scene, turn)));
         assert_same(&straight, &film, &other, &format!("{turn}"));
     }

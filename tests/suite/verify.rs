@@ -1,5 +1,5 @@
-//! The parts of `moire verify` (table of variants, verdicts, weight bits) tell a broken device from a
-//! sound one.
+//! The parts of `moire verify` (table of variants, verdicts, weight bits) distinguish a faulty
+//! device from a correct one.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -8,9 +8,9 @@ use moire::internal::gpu::{DeviceInfo, DeviceKind, DeviceLimits};
 use moire::internal::lab::verify::groups::lines;
 use moire::internal::lab::verify::judge::{Judge, Judgement, Precision};
 use moire::internal::lab::verify::queries::{
-    Axis, Dice, coordinates, pairs, query, ramp, ramp_texture, texture, uv_of,
+    Axis, Rng, coordinates, pairs, query, ramp, ramp_texture, texture, uv_of,
 };
-use moire::internal::lab::verify::report::{Report, Row, Verdict};
+use moire::internal::lab::verify::report::{ConformanceReport, Row, Verdict};
 use moire::internal::lab::verify::run::Tally;
 use moire::internal::lab::verify::text::text;
 use moire::internal::lab::verify::variants::{
@@ -61,7 +61,7 @@ fn row(driver: &str, variant: &Variant, shift: f64) -> Row {
     let scene = pairs(vec![image], &[variant.spec], &[(0, 0)]).unwrap();
     let judge = Judge::new(&scene, Precision::declared(&device));
     let mut tally = Tally::default();
-    for uv in coordinates(&mut Dice::new(3), [8, 6], 100, false) {
+    for uv in coordinates(&mut Rng::new(3), [8, 6], 100, false) {
         let query = query(&scene, 0, uv);
         let at = uv_of(&query) + DVec2::X * shift / 8.0;
         let answer =
@@ -228,7 +228,12 @@ fn the_text_names_what_is_outside_and_strictness_decides_about_known_faults() {
         let device = device(LAVAPIPE);
         let linear = variant(Address::Repeat, Filter::Linear, FormatClass::Unorm8);
         let missing = [variant(Address::MirrorClampToEdge, Filter::Linear, FormatClass::Unorm8)];
-        Report::new(&device, vec![Row::new(&device, &linear, tally(beyond, weights))], &missing, 1.0)
+        ConformanceReport::new(
+            &device,
+            vec![Row::new(&device, &linear, tally(beyond, weights))],
+            &missing,
+            1.0,
+        )
     };
     let coarse = Some(WeightBits { bits: 6, at_least: false });
     let (sound, known, broken) = (report(0.0, None), report(0.0035, None), report(0.1, None));

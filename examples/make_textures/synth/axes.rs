@@ -1,6 +1,6 @@
-//! Textures that say where they are read: a square of 4 × 4 cells, each with the digits of its u and
-//! its v, the u axis red and the v axis green, v growing upwards; and six faces of a cube with their
-//! names.
+//! Textures that show their own coordinates: a square of 4 × 4 cells, each with the digits of its u
+//! and its v, the u axis red and the v axis green, v growing upwards; and six faces of a cube with
+//! their names.
 
 use image::RgbImage;
 
@@ -42,7 +42,8 @@ fn color(x: f64, y: f64) -> Color {
     if (column + row) % 2.0 == 0.0 { ground } else { scaled(ground, 0.86) }
 }
 
-/// Along the lower edge red, with a head at its end and a U; along the left edge green, with a V.
+/// Returns the colour of the axes: along the lower edge red, with an arrowhead at its end and a U;
+/// along the left edge green, with a V.
 fn axis(x: f64, up: f64) -> Option<Color> {
     let arrow = |along: f64, across: f64| {
         let head = (SIDE - 22.0..SIDE).contains(&along) && across < 0.55 * (SIDE - along);
@@ -58,7 +59,7 @@ fn axis(x: f64, up: f64) -> Option<Color> {
     (text("U", x, y, (219.0, 239.5), 1.5) || text("V", x, y, (16.0, 3.0), 1.5)).then_some(INK)
 }
 
-/// Each as it lies in the file: the name upright, a wedge that points along growing u.
+/// Returns the faces in file orientation: the name upright, a wedge that points along growing u.
 pub(super) fn cube_faces() -> Vec<Asset> {
     const FACES: [(&str, &str, [u8; 3]); 6] = [
         ("cube/px.png", "+X", [240, 110, 100]),

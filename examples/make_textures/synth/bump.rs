@@ -1,5 +1,5 @@
-//! One height field twice: as heights for a bump map and as normals for a normal map. Round studs, 4 × 4 on
-//! the tile.
+//! One height field twice: as heights for a bump map and as normals for a normal map. It has 4 × 4
+//! round studs per tile.
 
 use image::{GrayImage, Luma, Rgb, RgbImage};
 
@@ -7,15 +7,16 @@ use super::to_byte;
 
 const SIZE: u32 = 128;
 const STUDS: f64 = 4.0;
-/// Height of a stud over the width of the tile.
+/// The height of a stud over the width of the tile.
 const TALL: f64 = 0.05;
 
-/// White is a stud's top, `TALL` of the tile's width above black.
+/// Returns the height map. White is a stud's top, `TALL` times the tile's width above black.
 pub(super) fn heights() -> GrayImage {
     GrayImage::from_fn(SIZE, SIZE, |i, j| Luma([to_byte(stud(i, j).0)]))
 }
 
-/// (n + 1) / 2, n to the right, upwards (growing v where `flip_v` is true) and outwards.
+/// Returns the normal map (n + 1) / 2 with n to the right, upwards (growing v with `flip_v`) and
+/// outwards.
 pub(super) fn normals() -> RgbImage {
     RgbImage::from_fn(SIZE, SIZE, |i, j| {
         let (_, slope) = stud(i, j);
@@ -25,7 +26,7 @@ pub(super) fn normals() -> RgbImage {
     })
 }
 
-/// Height from 0 to 1 and its slope along u and v: (1 − r²)² within the stud's radius.
+/// Returns height from 0 to 1 and slope along u and v: (1 − r²)² within the stud's radius.
 fn stud(i: u32, j: u32) -> (f64, [f64; 2]) {
     let place = |a: u32| {
         let scaled = (f64::from(a) + 0.5) / f64::from(SIZE) * STUDS;

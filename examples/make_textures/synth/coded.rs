@@ -1,18 +1,18 @@
-//! Textures whose every texel is known by rule: the checker of the measurements, four colours for
-//! the address modes, and one small picture for each number of channels and number type, of sizes
-//! that are no powers of two, in which a value tells from which texel and channel it comes.
+//! Textures whose texels follow a known rule: the checker of the measurements, four colours for the
+//! address modes, and one small picture for each number of channels and component type, whose sizes
+//! are no powers of two and whose values identify texel and channel.
 
 use image::{DynamicImage, ImageBuffer, Pixel, Rgb, RgbImage};
 
 use super::Asset;
 
-/// 1024², 8 × 8 black and white cells of 128 texels, texel (0, 0) black.
+/// Returns 1024² texels of 8 × 8 black and white cells of 128 texels, texel (0, 0) black.
 pub(super) fn checker() -> RgbImage {
     RgbImage::from_fn(1024, 1024, |i, j| Rgb([if (i / 128 + j / 128) % 2 == 0 { 0 } else { 255 }; 3]))
 }
 
-/// The ordinal of a texel, shifted by five for each channel: 1 to width · height, each once in
-/// each channel.
+/// Returns the ordinal of a texel, shifted by five for each channel: 1 to width · height, each once
+/// in each channel.
 fn code(width: u32, height: u32, i: u32, j: u32, channel: u32) -> u32 {
     (i + width * j + 5 * channel) % (width * height) + 1
 }
@@ -24,7 +24,8 @@ pub(super) fn small() -> Vec<Asset> {
     let coded16 = |w: u32, h: u32, channels: u32| -> Vec<u16> {
         codes(w, h, channels).map(|c| (c * 65535 / (w * h)) as u16).collect()
     };
-    // Below 0, above 1, and exact in half and shared-exponent formats alike where positive.
+    // Values are below 0 and above 1, and the positive ones are exact in half and shared-exponent
+    // formats alike.
     let coded_float = |w: u32, h: u32, channels: u32, from: f32| -> Vec<f32> {
         codes(w, h, channels).map(|c| c as f32 * 0.25 + from).collect()
     };

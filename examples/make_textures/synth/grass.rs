@@ -1,6 +1,6 @@
-//! A lawn from straight above, tileable: earth, then some thousand blades drawn from the ground up
-//! on a torus. A blade is a quadratic curve of tapering width that first darkens what lies beneath
-//! it (its shadow) and then covers it.
+//! A tileable lawn seen from straight above: earth, then some thousand blades drawn from the ground
+//! up on a torus. A blade is a quadratic curve of tapering width that first darkens what lies
+//! beneath it (its shadow) and then covers it.
 
 use image::RgbImage;
 
@@ -24,7 +24,7 @@ pub(super) fn grass() -> RgbImage {
 struct Lawn {
     side: u32,
     colors: Vec<Color>,
-    /// The stroke that touched a point last, so that no stroke shades a point twice.
+    /// The last stroke that touched each point, so that no stroke shades a point twice.
     touched: Vec<u32>,
 }
 
@@ -48,7 +48,7 @@ impl Lawn {
     }
 }
 
-/// All lengths in texels.
+/// A blade, with lengths in texels.
 struct Blade {
     root: [f64; 2],
     middle: [f64; 2],
@@ -58,13 +58,13 @@ struct Blade {
 }
 
 impl Blade {
-    /// Blade `k` of `BLADES`; later ones lie higher, are longer and stand in more light.
+    /// Returns blade `k` of `BLADES`; later ones are higher, longer and lighter.
     fn new(k: u32) -> Blade {
         let r = |what: u32| unit(SEED + 2, k, what);
         let height = f64::from(k) / f64::from(BLADES);
         let side = f64::from(SIZE);
         let mut root = [r(0) * side, r(1) * side];
-        // Blades avoid bare patches: a root on one moves to a second place.
+        // Blades avoid bare patches: a root on one is moved to another position.
         if noise(SEED + 3, 7, root[0] / side, root[1] / side) > 0.62 {
             root = [r(2) * side, r(3) * side];
         }
@@ -91,8 +91,8 @@ impl Blade {
         });
     }
 
-    /// Calls `paint(color, along, across)` once for each point the blade covers, displaced by
-    /// `shift` and `widen` times as wide; along runs from 0 to 1, across is signed.
+    /// Calls `paint(color, along, across)` once for each point that the blade covers, displaced by
+    /// `shift` and widened by the factor `widen`; along runs from 0 to 1, across is signed.
     fn stroke(
         &self,
         lawn: &mut Lawn,
@@ -129,8 +129,8 @@ impl Blade {
     }
 }
 
-/// A unit vector from two numbers in [0, 1): the point on the square's rim, divided by its length
-/// (slightly more diagonal than uniform, which a lawn does not show).
+/// Returns a unit vector for two numbers in [0, 1): the point on the square's boundary, divided by
+/// its length (slightly more diagonal than uniform, which is not visible in a lawn).
 fn direction(a: f64, b: f64) -> (f64, f64) {
     let (s, sign) = (2.0 * a - 1.0, if b < 0.5 { -1.0 } else { 1.0 });
     let flat = 2.0 * b - (2.0 * b).floor() < 0.5;

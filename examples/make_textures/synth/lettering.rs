@@ -1,6 +1,6 @@
-//! Letters of five by seven dots: words, a place and the size of a dot in, ink or none out.
+//! Letters of five by seven dots, evaluated at a point.
 
-/// Whether (x, y) is inked by `words` set at `origin` (top left) with dots of `dot` texels.
+/// Returns true if (x, y) is inked by `words` set at `origin` (top left) with dots of `dot` texels.
 pub(super) fn text(words: &str, x: f64, y: f64, origin: (f64, f64), dot: f64) -> bool {
     let (column, row) = (((x - origin.0) / dot).floor(), ((y - origin.1) / dot).floor());
     if column < 0.0 || !(0.0..7.0).contains(&row) {
@@ -11,7 +11,7 @@ pub(super) fn text(words: &str, x: f64, y: f64, origin: (f64, f64), dot: f64) ->
     column % 6 < 5 && dots >> (4 - column % 6) & 1 == 1
 }
 
-/// Seven rows of five dots; the highest of five bits is the leftmost dot.
+/// Returns seven rows of five dots; the highest of five bits is the leftmost dot.
 fn glyph(letter: char) -> [u8; 7] {
     match letter {
         'M' => [0b10001, 0b11011, 0b10101, 0b10101, 0b10001, 0b10001, 0b10001],

@@ -1,8 +1,7 @@
-//! The textures of `data/textures`, made by arithmetic alone: `all()` gives every picture and
-//! `volumes()` every volume that `cargo run --release --example make_textures` writes, and a test, which
-//! contains this module too, holds the files against them.
-//! Only integers and the correctly rounded f64 operations (+ − × ÷ √ floor) are used, so that
-//! every platform makes the same bytes.
+//! Generators of the textures in `data/textures`: `all()` returns every picture and `volumes()`
+//! every volume that `cargo run --release --example make_textures` writes. A test, which includes
+//! this module too, compares the files with them. Only integers and correctly rounded f64 operations
+//! (+ − × ÷ √ floor) are used, so that every platform produces the same bytes.
 
 mod axes;
 mod bump;
@@ -16,17 +15,17 @@ mod tiles;
 
 use image::{DynamicImage, RgbImage};
 
-/// A colour while it is being made; 0 to 1, in the encoding of the file.
+/// A colour during generation, from 0 to 1 in the encoding of the file.
 type Color = [f64; 3];
 
-/// One texture file: its path below `data/textures` and its picture.
+/// A texture file: its path below `data/textures` and its picture.
 pub struct Asset {
     pub path: &'static str,
     pub image: DynamicImage,
 }
 
-/// Every generated texture file. (`bench/noise.png` is not among them: it is somebody else's
-/// measuring texture, committed as a file.)
+/// Returns every generated texture file. (`bench/noise.png` is not among them: it is a third-party
+/// test texture, committed as a file.)
 pub fn all() -> Vec<Asset> {
     let mut assets = vec![
         Asset { path: "grass.png", image: grass::grass().into() },
@@ -45,18 +44,18 @@ pub fn all() -> Vec<Asset> {
     assets
 }
 
-/// One volume file: its path below `data/textures` and its bytes.
+/// A volume file: its path below `data/textures` and its bytes.
 pub struct Volume {
     pub path: &'static str,
     pub bytes: Vec<u8>,
 }
 
-/// Every generated volume.
+/// Returns every generated volume.
 pub fn volumes() -> Vec<Volume> {
     vec![Volume { path: "onion.nrrd", bytes: solid::onion() }]
 }
 
-/// Hash of two integers and a seed: Wellons' `lowbias32` finaliser between additions.
+/// Returns a hash of two integers and a seed: Wellons' `lowbias32` finaliser between additions.
 fn hash(seed: u32, x: u32, y: u32) -> u32 {
     let mix = |mut h: u32| {
         h ^= h >> 16;
@@ -68,13 +67,13 @@ fn hash(seed: u32, x: u32, y: u32) -> u32 {
     mix(mix(mix(seed.wrapping_add(0x9e37_79b9)).wrapping_add(x)).wrapping_add(y))
 }
 
-/// Uniform in [0, 1), a multiple of 2⁻²⁴.
+/// Returns a uniform number in [0, 1), a multiple of 2⁻²⁴.
 fn unit(seed: u32, x: u32, y: u32) -> f64 {
     f64::from(hash(seed, x, y) >> 8) / 16_777_216.0
 }
 
-/// Value noise in [0, 1] over the unit square with `period` lattice cells along each side, which
-/// therefore repeats seamlessly; (u, v) may lie anywhere.
+/// Returns value noise in [0, 1] over the unit square with `period` lattice cells along each side,
+/// which therefore repeats seamlessly; (u, v) may be anywhere.
 fn noise(seed: u32, period: u32, u: f64, v: f64) -> f64 {
     let cell = |a: f64| {
         let scaled = (a - a.floor()) * f64::from(period);
@@ -104,8 +103,8 @@ fn rgb(r: u8, g: u8, b: u8) -> Color {
     [r, g, b].map(|x| f64::from(x) / 255.0)
 }
 
-/// The mean of `n` × `n` values of `color` in every texel, rounded to 8 bits. `color` takes
-/// positions in texels, y downwards.
+/// Returns an image in which every texel is the mean of `n` × `n` values of `color`, rounded to 8
+/// bits. `color` takes positions in texels, y downwards.
 fn supersampled(width: u32, height: u32, n: u32, color: impl Fn(f64, f64) -> Color) -> RgbImage {
     let step = 1.0 / f64::from(n);
     RgbImage::from_fn(width, height, |i, j| {

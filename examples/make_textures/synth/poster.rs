@@ -1,5 +1,5 @@
-//! A poster, not tileable: words, an arrow, a zone plate and four different corners, so that a
-//! picture that is flipped, turned, mirrored or shifted by half a texel is seen to be so.
+//! A poster that does not tile: text, an arrow, a zone plate and four different corners, so that a
+//! picture that is flipped, rotated, mirrored or shifted by half a texel is recognised.
 
 use image::RgbImage;
 
@@ -37,7 +37,8 @@ fn color(x: f64, y: f64) -> Color {
     mix(rgb(250, 244, 226), rgb(196, 218, 232), y / f64::from(HEIGHT))
 }
 
-/// Red square top left, green triangle top right, blue disc bottom left, yellow ring bottom right.
+/// Returns the colour of a corner: red square top left, green triangle top right, blue disc bottom
+/// left, yellow ring bottom right.
 fn corner(x: f64, y: f64, right: f64, bottom: f64) -> Option<Color> {
     let side = 36.0;
     let from_center =
@@ -55,7 +56,8 @@ fn corner(x: f64, y: f64, right: f64, bottom: f64) -> Option<Color> {
     }
 }
 
-/// Four texels of colour along each side, one colour a side: what clamping repeats.
+/// Returns the colour of the border, four texels along each side, one colour per side, which
+/// clamping repeats.
 fn rim(x: f64, y: f64, right: f64, bottom: f64) -> Option<Color> {
     let sides = [
         (x, rgb(24, 32, 56)),
@@ -66,22 +68,22 @@ fn rim(x: f64, y: f64, right: f64, bottom: f64) -> Option<Color> {
     sides.into_iter().find(|&(distance, _)| distance < 4.0).map(|(_, color)| color)
 }
 
-/// An arrow that points up, its tip at (0, 0), 90 texels long.
+/// Returns true on an arrow that points up, its tip at (0, 0), 90 texels long.
 fn arrow(x: f64, y: f64) -> bool {
     let head = (0.0..38.0).contains(&y) && x.abs() < 0.72 * y;
     let shaft = (38.0..90.0).contains(&y) && x.abs() < 10.0;
     head || shaft
 }
 
-/// Rings whose spacing shrinks like 1/radius, down to two texels at the rim: an interference
-/// pattern shows wherever it is sampled too coarsely.
+/// Returns rings whose spacing shrinks like 1/radius, down to two texels at the rim: an
+/// interference pattern appears wherever it is undersampled.
 fn zone_plate(x: f64, y: f64) -> Option<Color> {
     let radius = 52.0;
     let squared = x * x + y * y;
     if squared > radius * radius {
         return None;
     }
-    // Ring number r²/p; rings lie p/2r apart, 2 texels at the rim.
+    // Ring number r²/p; rings are p/2r apart, 2 texels at the rim.
     let phase = squared / (4.0 * radius);
     let t = phase - phase.floor();
     Some(mix(rgb(252, 250, 244), rgb(24, 32, 56), if t < 0.5 { 2.0 * t } else { 2.0 - 2.0 * t }))

@@ -1,10 +1,10 @@
-//! Volumes: a stack of slices, each with its number, that shows the order and the turn of the three
-//! axes; and an onion, rings of density about an axis that is not the volume's, as an NRRD file.
+//! Volumes: a stack of numbered slices that shows order and orientation of the three axes; and an
+//! onion, shells of density about an axis that is not the volume's, as an NRRD file.
 
 use super::lettering::text;
 use super::{Asset, mix, noise, rgb, supersampled, to_byte};
 
-/// Slice k at w = (k + ½) / 6, from blue to orange.
+/// Returns the slices: slice k is at w = (k + ½) / 6, from blue to orange.
 pub(super) fn slices() -> Vec<Asset> {
     const SLICES: [(&str, &str); 6] = [
         ("slices/0.png", "0"),
@@ -27,7 +27,7 @@ pub(super) fn slices() -> Vec<Asset> {
 
 const ONION: u32 = 40;
 
-/// 8-bit grey: shells of growing width from the core outwards, air (0) outside.
+/// Returns 8-bit grey shells of growing width from the core outwards, with air (0) outside.
 pub(super) fn onion() -> Vec<u8> {
     let header =
         format!("NRRD0004\ntype: uint8\ndimension: 3\nsizes: {ONION} {ONION} {ONION}\nencoding: raw\n\n");
@@ -44,7 +44,7 @@ pub(super) fn onion() -> Vec<u8> {
 }
 
 fn density(x: f64, y: f64, z: f64) -> f64 {
-    // The core lies beside the middle, and the shells are pressed together towards the top.
+    // The core is off centre, and the shells are compressed towards the top.
     let (x, y, z) = (x - 0.12, y * 1.1, z + 0.08);
     let r = (x * x + y * y + z * z).sqrt();
     if r > 0.85 {

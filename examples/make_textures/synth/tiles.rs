@@ -1,12 +1,13 @@
 //! A tileable floor with strong contrast: cream and terracotta octagons, dark squares where four of
-//! them meet, light joints. Strong contrast in a regular pattern is what aliases at a horizon.
+//! them meet, light joints. A high-contrast regular pattern is the hardest case of aliasing near
+//! the horizon.
 
 use image::RgbImage;
 
 use super::{Color, mix, noise, rgb, scaled, supersampled, unit};
 
 const SIZE: u32 = 256;
-/// Octagons along one side of the texture.
+/// The octagons along one side of the texture.
 const CELLS: u32 = 4;
 const SEED: u32 = 0x7469_6c65;
 
@@ -20,7 +21,7 @@ fn floor(u: f64, v: f64) -> Color {
         (scaled.floor() as u32, 2.0 * (scaled - scaled.floor()) - 1.0)
     };
     let ((i, x), (j, y)) = (cell(u), cell(v));
-    // Distances to the two kinds of joint, in half cells: between octagons, and round the squares.
+    // Distances in half cells to the two kinds of joint: between octagons, and around the squares.
     let straight = 1.0 - x.abs().max(y.abs());
     let diagonal = (1.46 - x.abs() - y.abs()) * 0.707_106_781_186_547_5;
     let joint = 0.045;
@@ -39,7 +40,7 @@ fn floor(u: f64, v: f64) -> Color {
     let stone = 0.9 + 0.16 * unit(SEED + 2, corner.0, corner.1);
     let cloud =
         0.5 * noise(SEED + 3, 16, u, v) + 0.3 * noise(SEED + 4, 48, u, v) + 0.2 * noise(SEED + 5, 128, u, v);
-    // A bevel lit from the upper left.
+    // The bevel is lit from the upper left.
     let edge = if diagonal < 0.0 { -diagonal } else { diagonal.min(straight) } - joint;
     let lit = if edge > 0.06 {
         1.0

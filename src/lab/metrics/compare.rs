@@ -1,6 +1,7 @@
-//! Two films in, one row of error measures out: over all pixels and three channels in f64,
-//! MSE = Σ(a−b)²/3N, RMSE = √MSE, relative MSE = Σ(a−b)²/(b²+0.01)/3N, PSNR = −10·log10(MSE) for a peak
-//! of 1, all in linear light; "over 1/255" on clipped sRGB-encoded values, where one step of an 8-bit file is what an eye might see.
+//! Error measures between two films, over all pixels and three channels in f64: MSE = Σ(a−b)²/3N,
+//! RMSE = √MSE, relative MSE = Σ(a−b)²/(b²+0.01)/3N, PSNR = −10·log10(MSE) for a peak of 1, all in
+//! linear light; "over 1/255" is measured on clipped sRGB-encoded values, where a step of an 8-bit
+//! file is about the smallest visible difference.
 
 use serde::Serialize;
 
@@ -8,44 +9,45 @@ use crate::core::color::linear_to_srgb;
 use crate::core::error::{Error, Result};
 use crate::core::film::Film;
 
-/// Two values that are exactly one 8-bit step apart must not count as more: both were rounded to f32
-/// in linear light, each by at most 2⁻²⁴ of itself, which the encoding turns into 2.7e-8 or less.
+/// The tolerance for differences of exactly one 8-bit step, which must not count as more: both
+/// values were rounded to f32 in linear light with a relative error of at most 2⁻²⁴, which is at
+/// most 2.7e-8 after encoding.
 const ENCODED_TOLERANCE: f64 = 1e-7;
 const STEP: f64 = 1.0 / 255.0;
 /// Keeps the relative error of black finite (Rousselle et al. 2011).
 const RELATIVE_FLOOR: f64 = 0.01;
-/// Largest slope of the sRGB encoding.
+/// The largest slope of the sRGB encoding.
 const SLOPE: f64 = 12.92;
 
-/// Numbers that do not exist (PSNR of equal pictures, means where nothing could be compared) or are
-/// not finite appear as `null` in JSON.
+/// The measures of a comparison. Undefined values (PSNR of equal pictures, means without a
+/// comparable pixel) and non-finite ones are `null` in JSON.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Comparison {
     pub width: u32,
     pub height: u32,
-    /// Means over the pixels that are not NaN in either picture.
+    /// The RMSE over the pixels that are not NaN in either picture, like the other means.
     pub rmse: f64,
     pub mse: f64,
-    /// Mean of (a − b)² / (b² + 0.01): b is the reference.
+    /// The mean of (a − b)² / (b² + 0.01), where b is the reference.
     pub relative_mse: f64,
-    /// Largest difference of one channel, and the pixel where it first occurs.
+    /// The largest difference of one channel; `max_at` is the first pixel that has it.
     pub max: f64,
     pub max_at: Option<[u32; 2]>,
-    /// Decibels; infinite when the pictures are equal.
+    /// In decibels; infinite if the pictures are equal.
     pub psnr: f64,
-    /// Share of all pixels, in [0, 1], with a channel more than 1/255 apart once sRGB-encoded; NaN
-    /// pixels are among them.
+    /// The fraction of all pixels, in [0, 1], with a channel that differs by more than 1/255 once
+    /// sRGB-encoded; NaN pixels are included.
     pub over_1_255: f64,
     pub over_1_255_pixels: u64,
-    /// Largest difference of one clipped, sRGB-encoded channel.
+    /// The largest difference of one clipped, sRGB-encoded channel.
     pub max_encoded: f64,
-    /// Pixels with a NaN in either picture.
+    /// The number of pixels with a NaN in either picture.
     pub nan_pixels: u64,
 }
 
 impl Comparison {
-    /// Whether the pictures agree to `bound`, if there is one; never with a NaN, nor with a difference
-    /// that is not finite.
+    /// Returns true if the pictures agree within `bound`, if there is one. A NaN or an infinite
+    /// difference never passes.
     pub fn passes(&self, bound: Option<f64>) -> bool {
         self.nan_pixels == 0 && self.rmse.is_finite() && bound.is_none_or(|b| self.rmse <= b)
     }
@@ -83,7 +85,7 @@ pub fn compare(a: &Film, b: &Film) -> Result<Comparison> {
             if largest > max {
                 (max, max_at) = (largest, Some([x as u32, y as u32]));
             }
-            // Powers are only taken where they could change the result.
+            // Powers are computed only where they could change the result.
             if largest * SLOPE > STEP.min(max_encoded) {
                 let encoded = encoded_difference(p, q);
                 max_encoded = max_encoded.max(encoded);
@@ -112,7 +114,7 @@ pub fn compare(a: &Film, b: &Film) -> Result<Comparison> {
     })
 }
 
-/// |a − b| by channel; equal infinities differ by 0. None where a NaN is involved.
+/// Returns |a − b| by channel, where equal infinities differ by 0, or `None` if a NaN is involved.
 pub(super) fn differences(a: [f32; 3], b: [f32; 3]) -> Option<[f64; 3]> {
     if a.iter().chain(&b).any(|v| v.is_nan()) {
         return None;

@@ -1,7 +1,7 @@
-//! FLIP (Andersson et al. 2020): how much two pictures seem to differ when one alternates between them.
-//! In: linear RGB, shown clipped to [0, 1] on a screen of [`PIXELS_PER_DEGREE`]. Out: one value in [0, 1]
-//! a pixel, ΔE_c^(1 − ΔE_f): a colour difference after the eye's contrast sensitivity, raised where edges
-//! and points differ. The number of a picture is the mean.
+//! FLIP (Andersson et al. 2020): the perceived difference of two pictures shown in alternation.
+//! Takes linear RGB, shown clipped to [0, 1] on a screen of [`PIXELS_PER_DEGREE`], and returns one
+//! value in [0, 1] per pixel, ΔE_c^(1 − ΔE_f): a colour difference after contrast sensitivity
+//! filtering, raised where edges and points differ. The FLIP value of a picture is the mean.
 
 use rayon::prelude::*;
 
@@ -12,25 +12,26 @@ use crate::core::film::Film;
 
 /// The authors' default: 0.7 m away from a screen 0.7 m wide with 3840 pixels.
 pub const PIXELS_PER_DEGREE: f64 = 3840.0 * std::f64::consts::PI / 180.0;
-/// Width of a detected feature in degrees; exponent of feature differences.
+/// The width of a detected feature in degrees.
 const FEATURE_WIDTH: f64 = 0.082;
 const FEATURE_EXPONENT: f32 = 0.5;
-/// Contrast sensitivity as Gaussians (a, b): achromatic, red-green, and the two of blue-yellow.
+/// The contrast sensitivity functions as Gaussians (a, b): achromatic, red-green, and the two of
+/// blue-yellow.
 const SENSITIVITY: [(f64, f64); 4] = [(1.0, 0.0047), (1.0, 0.0053), (34.1, 0.04), (13.5, 0.025)];
-/// Which of the opponent channels each of them blurs.
+/// The opponent channel that each of them filters.
 const CHANNEL: [usize; 4] = [0, 1, 2, 2];
 
-/// What the eye makes of one picture; two of them are compared.
-pub struct Seen {
+/// The perceptual features of one picture, of which two are compared.
+pub struct PerceptualFeatures {
     width: u32,
     height: u32,
-    /// L*, and a* and b* as Hunt adjusts them.
+    /// L*, and a* and b* with Hunt's adjustment.
     lab: Vec<[f32; 3]>,
-    /// Strength of the edge and of the point at each pixel.
+    /// The strength of edge and point at each pixel.
     features: Vec<[f32; 2]>,
 }
 
-/// A row of weights around a pixel.
+/// A symmetric row of weights around a pixel.
 struct Kernel(Vec<f32>);
 
 struct Plane {
@@ -38,9 +39,9 @@ struct Plane {
     values: Vec<f32>,
 }
 
-impl Seen {
-    /// A value that is not a number counts as 0.
-    pub fn of(film: &Film) -> Seen {
+impl PerceptualFeatures {
+    /// Computes the features of a film. A NaN counts as 0.
+    pub fn of(film: &Film) -> PerceptualFeatures {
         let width = film.width.max(1) as usize;
         let clipped = |p: &[f32; 3]| opponent(p.map(|v| if v.is_nan() { 0.0 } else { v.clamp(0.0, 1.0) }));
         let opponents: Vec<[f32; 3]> = film.pixels.par_iter().map(clipped).collect();
@@ -57,11 +58,11 @@ impl Seen {
         };
         let lab = (0..opponents.len()).into_par_iter().map(lab).collect();
         let grey = Plane { width, values: channels[0].values.iter().map(|y| (y + 16.0) / 116.0).collect() };
-        Seen { width: film.width, height: film.height, lab, features: features(&grey) }
+        PerceptualFeatures { width: film.width, height: film.height, lab, features: features(&grey) }
     }
 
-    /// The FLIP value of each pixel.
-    pub fn map(&self, other: &Seen) -> Vec<f32> {
+    /// Returns the FLIP value of each pixel.
+    pub fn map(&self, other: &PerceptualFeatures) -> Vec<f32> {
         let pixel = |i: usize| {
             let [edge, point] = [0, 1].map(|f| (self.features[i][f] - other.features[i][f]).abs());
             let feature = (edge.max(point) * std::f32::consts::FRAC_1_SQRT_2).powf(FEATURE_EXPONENT);
@@ -70,27 +71,29 @@ impl Seen {
         (0..self.lab.len()).into_par_iter().map(pixel).collect()
     }
 
-    pub fn mean(&self, other: &Seen) -> f64 {
+    pub fn mean(&self, other: &PerceptualFeatures) -> f64 {
         let map = self.map(other);
         map.iter().copied().map(f64::from).sum::<f64>() / map.len() as f64
     }
 }
 
-/// The mean over the picture, the same in either order. NaN where a pixel of either is not a number.
+/// Returns the mean over the picture, which is symmetric in both films. It is NaN if a pixel of
+/// either is NaN.
 pub fn flip(a: &Film, b: &Film) -> Result<f64> {
     check_sizes(a, b)?;
     let nan = |film: &Film| film.pixels.iter().flatten().any(|v| v.is_nan());
-    Ok(if nan(a) || nan(b) { f64::NAN } else { Seen::of(a).mean(&Seen::of(b)) })
+    Ok(if nan(a) || nan(b) { f64::NAN } else { PerceptualFeatures::of(a).mean(&PerceptualFeatures::of(b)) })
 }
 
-impl Seen {
+impl PerceptualFeatures {
     pub fn size(&self) -> (u32, u32) {
         (self.width, self.height)
     }
 }
 
-/// Normalised to a sum of 1 in two dimensions; the two of blue-yellow together. b is in squared degrees: of
-/// exp(−π²x²/b), the weight in two dimensions is √(π/b)·a, half of it in each.
+/// Returns the kernels, normalised to a sum of 1 in two dimensions; the two of blue-yellow
+/// together. b is in squared degrees: for exp(−π²x²/b) the weight in two dimensions is √(π/b)·a,
+/// half of it in each.
 fn sensitivity_kernels() -> [Kernel; 4] {
     let widest = SENSITIVITY.iter().map(|s| s.1).fold(0.0, f64::max);
     let pi2 = std::f64::consts::PI.powi(2);
@@ -110,7 +113,8 @@ fn sensitivity_kernels() -> [Kernel; 4] {
     std::array::from_fn(|i| Kernel(rows[i].iter().map(|w| (w / sums[i]) as f32).collect()))
 }
 
-/// A Gaussian and its first and second derivatives; their positive weights sum to 1, their negative to −1.
+/// Returns a Gaussian and its first and second derivatives, normalised so that positive weights sum
+/// to 1 and negative ones to −1.
 fn feature_kernels() -> [Kernel; 3] {
     let deviation = 0.5 * FEATURE_WIDTH * PIXELS_PER_DEGREE;
     let radius = (3.0 * deviation).ceil() as i32;
@@ -122,7 +126,7 @@ fn feature_kernels() -> [Kernel; 3] {
     let g = |x: f64| (-x * x / (2.0 * deviation * deviation)).exp();
     let row = |f: &dyn Fn(f64) -> f64| (-radius..=radius).map(|x| f(f64::from(x))).collect::<Vec<f64>>();
     let mut slope = row(&|x| -x * g(x));
-    // Zero in the middle: neither sign, whose sum it must not be divided by.
+    // The centre is zero and has neither sign; it must not be divided by a sum of either.
     slope[radius as usize] = 0.0;
     [scaled(row(&g)), scaled(slope), scaled(row(&|x| (x * x / (deviation * deviation) - 1.0) * g(x)))]
 }
@@ -136,7 +140,7 @@ fn features(grey: &Plane) -> Vec<[f32; 2]> {
 }
 
 impl Plane {
-    /// Weights along x, then along y; beyond the border its pixels go on.
+    /// Convolves with weights along x, then along y; border pixels are extended.
     fn separable(&self, along_x: &Kernel, along_y: &Kernel) -> Plane {
         let (width, radius) = (self.width, along_x.0.len() / 2);
         let mut rows = vec![0f32; self.values.len()];

@@ -11,28 +11,29 @@ const FROM_XYZ: [[f32; 3]; 3] = [
     [-0.969_224_33, 1.875_930_1, 0.041_554_224],
     [0.055_639_423, -0.204_011_2, 1.057_149],
 ];
-/// XYZ of (1, 1, 1).
+/// XYZ of linear RGB (1, 1, 1).
 const WHITE: [f32; 3] = [0.950_428_54, 1.0, 1.088_900_4];
 
-/// Exponent of colour differences; up to `KNEE` of the largest they take the first `BEFORE` of the range.
+/// The exponent of colour differences; those up to `KNEE` of the largest map to the first `BEFORE`
+/// of the range.
 const EXPONENT: f32 = 0.7;
 const KNEE: f32 = 0.4;
 const BEFORE: f32 = 0.95;
 
-/// Linear RGB → Y Cx Cz.
+/// Converts linear RGB to Y Cx Cz.
 pub fn opponent(rgb: [f32; 3]) -> [f32; 3] {
     let [x, y, z] = relative_xyz(rgb);
     [116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)]
 }
 
-/// Y Cx Cz → linear RGB.
+/// Converts Y Cx Cz to linear RGB.
 pub fn linear_of([y, cx, cz]: [f32; 3]) -> [f32; 3] {
     let y = (y + 16.0) / 116.0;
     let xyz = [y + cx / 500.0, y, y - cz / 200.0];
     times(&FROM_XYZ, [0, 1, 2].map(|i: usize| xyz[i] * WHITE[i]))
 }
 
-/// Linear RGB → L*, and 0.01·L* times a* and b*.
+/// Converts linear RGB to L*, and 0.01·L* times a* and b*.
 pub fn lab_hunt(rgb: [f32; 3]) -> [f32; 3] {
     const DELTA: f32 = 6.0 / 29.0;
     let root = |t: f32| {
@@ -43,7 +44,7 @@ pub fn lab_hunt(rgb: [f32; 3]) -> [f32; 3] {
     [l, 0.01 * l * 500.0 * (x - y), 0.01 * l * 200.0 * (y - z)]
 }
 
-/// HyAB of two adjusted colours, mapped to [0, 1].
+/// Returns the HyAB distance of two adjusted colours, mapped to [0, 1].
 pub fn difference(a: [f32; 3], b: [f32; 3]) -> f32 {
     let largest = largest();
     let knee = KNEE * largest;
@@ -55,7 +56,7 @@ pub fn difference(a: [f32; 3], b: [f32; 3]) -> f32 {
     }
 }
 
-/// Between green and blue.
+/// Returns the largest distance, that between green and blue.
 fn largest() -> f32 {
     use std::sync::OnceLock;
     static LARGEST: OnceLock<f32> = OnceLock::new();

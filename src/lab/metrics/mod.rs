@@ -1,14 +1,14 @@
-//! How far two pictures are apart, in linear RGB: read them, compare them, show where they differ.
+//! Error metrics between pictures in linear RGB: reading, comparison, difference pictures.
 
 pub mod compare;
 pub mod difference;
 pub mod flip;
 mod flip_color;
-pub mod place;
+pub mod overlap;
 pub mod read;
 
 pub use compare::{Comparison, compare};
 pub use difference::difference_picture;
 pub use flip::flip;
-pub use place::common;
+pub use overlap::common;
 pub use read::{read_picture, read_placed};

@@ -1,5 +1,5 @@
-//! Any picture file as linear RGB: 8- and 16-bit values decoded from sRGB, float values taken as
-//! linear; grey replicated, alpha ignored. NaN passes: the comparison counts it.
+//! Reads any picture file as linear RGB: 8- and 16-bit values are decoded from sRGB, float values
+//! are linear; grey is replicated, alpha ignored. NaN is allowed: the comparison counts it.
 
 use std::path::Path;
 
@@ -7,21 +7,21 @@ use crate::core::color::srgb_table;
 use crate::core::error::Result;
 use crate::core::film::{Film, Placement};
 use crate::texture::data::Component;
-use crate::texture::read_file::{self, Part, Texels};
+use crate::texture::read_file::{self, ExrWindow, Texels};
 use crate::texture::source::Reading;
 
-/// `samples` is 0: a file does not say how many stand behind it.
+/// Reads a picture. `samples` is 0, because a file does not state the number of samples per pixel.
 pub fn read_picture(path: &Path) -> Result<Film> {
     read_placed(path).map(|(film, _)| film)
 }
 
-/// Also where it lies in the file's whole picture.
+/// Reads a picture with its placement in the file's display window.
 pub fn read_placed(path: &Path) -> Result<(Film, Placement)> {
-    let picture = read_file::read_part(path, &Reading::default(), Part::Data)?;
+    let picture = read_file::read_window(path, &Reading::default(), ExrWindow::Data)?;
     Ok((film_of(&picture.texels), picture.placement))
 }
 
-/// The texels of a file as a picture.
+/// Converts the texels of a file to a film.
 pub(crate) fn film_of(texels: &Texels) -> Film {
     let channels = texels.format.channels();
     let pixels = match texels.format.component() {

@@ -1,5 +1,5 @@
-//! A small drawing surface in display values (sRGB-encoded, 0 to 1): rectangles, dots and lines with soft
-//! edges. Out comes a film in linear light.
+//! A small drawing surface in display values (sRGB-encoded, 0 to 1) for rectangles, dots and lines
+//! with antialiased edges, which becomes a film in linear light.
 
 use crate::core::color::srgb_to_linear;
 use crate::core::film::Film;
@@ -17,7 +17,7 @@ impl Canvas {
         Canvas { width, height, pixels: vec![color; width * height] }
     }
 
-    /// `cover` of the pixel gets the colour; pixels outside are left out.
+    /// Blends the colour over the fraction `cover` of the pixel; pixels outside are ignored.
     fn mix(&mut self, x: i64, y: i64, color: Color, cover: f32) {
         let inside = (0..self.width as i64).contains(&x) && (0..self.height as i64).contains(&y);
         if inside && cover > 0.0 {
@@ -34,7 +34,7 @@ impl Canvas {
         }
     }
 
-    /// A disc around a point whose coordinates count pixels from the top left corner.
+    /// Draws a disc around a point in pixel coordinates from the top left corner.
     pub fn dot(&mut self, [x, y]: [f64; 2], radius: f64, color: Color) {
         let span = |c: f64| (c - radius - 1.0).floor() as i64..=(c + radius + 1.0).ceil() as i64;
         for v in span(y) {
@@ -45,7 +45,7 @@ impl Canvas {
         }
     }
 
-    /// Dots in a row, near enough to be a line.
+    /// Draws a line as a row of overlapping dots.
     pub fn line(&mut self, [a, b]: [[f64; 2]; 2], radius: f64, color: Color) {
         let steps = (2.0 * (b[0] - a[0]).hypot(b[1] - a[1])).ceil().max(1.0) as u32;
         for i in 0..=steps {

@@ -1,8 +1,9 @@
-//! Numbers of one set of points in the unit square: how far the share of points in boxes is from the boxes'
-//! area, how near points are to each other, how many strata hold one.
+//! Measures of a point set in the unit square: its discrepancy from the area of boxes, the
+//! distances between neighbours, the number of occupied strata.
 
-/// sup over boxes [0, a) × [0, b) of |share of points in it - ab| (Niederreiter 1992, definition 2.1),
-/// exact: the supremum lies where a and b are coordinates of points, or 1.
+/// Returns sup over boxes [0, a) × [0, b) of |fraction of points in the box − ab| (Niederreiter
+/// 1992, definition 2.1), exactly: the supremum is attained where a and b are coordinates of
+/// points, or 1.
 pub fn star_discrepancy(points: &[[f64; 2]]) -> f64 {
     let mut by_x = points.to_vec();
     by_x.sort_by(|p, q| p[0].total_cmp(&q[0]));
@@ -14,7 +15,8 @@ pub fn star_discrepancy(points: &[[f64; 2]]) -> f64 {
     let mut next = 0;
     while next <= by_x.len() {
         let a = by_x.get(next).map_or(1.0, |p| p[0]);
-        // Boxes that end at a without it hold too few points, those with it too many.
+        // Boxes that exclude the points at a contain too few points, those that include them too
+        // many.
         largest = largest.max(largest_lack(&left, &ys, a, share));
         let same = by_x[next..].iter().take_while(|p| p[0] == a).count();
         for p in &by_x[next..next + same] {
@@ -26,7 +28,7 @@ pub fn star_discrepancy(points: &[[f64; 2]]) -> f64 {
     largest
 }
 
-/// Of open boxes [0, a) × [0, y).
+/// Returns the largest deficit of open boxes [0, a) × [0, y).
 fn largest_lack(left: &[f64], ys: &[f64], a: f64, share: f64) -> f64 {
     let mut below = 0;
     let lack = |y: &f64| {
@@ -38,12 +40,12 @@ fn largest_lack(left: &[f64], ys: &[f64], a: f64, share: f64) -> f64 {
     ys.iter().map(lack).fold(0.0, f64::max)
 }
 
-/// Of closed boxes [0, a] × [0, y], y that of a point inside.
+/// Returns the largest excess of closed boxes [0, a] × [0, y], where y is that of a point inside.
 fn largest_excess(left: &[f64], a: f64, share: f64) -> f64 {
     left.iter().zip(1..).map(|(y, count)| f64::from(count) * share - a * y).fold(0.0, f64::max)
 }
 
-/// Mean distance from a point to the one nearest to it; `None` of a single point.
+/// Returns the mean distance from a point to its nearest neighbour; `None` for a single point.
 pub fn mean_nearest_distance(points: &[[f64; 2]]) -> Option<f64> {
     let squared = |p: &[f64; 2], q: &[f64; 2]| (p[0] - q[0]).powi(2) + (p[1] - q[1]).powi(2);
     let nearest = |(i, p): (usize, &[f64; 2])| {
@@ -54,9 +56,9 @@ pub fn mean_nearest_distance(points: &[[f64; 2]]) -> Option<f64> {
     (points.len() > 1).then(|| sum / points.len() as f64)
 }
 
-/// How many of `columns` × `rows` equal cells hold a point.
+/// Returns the number of `columns` × `rows` equal cells that contain a point.
 pub fn occupied(points: &[[f64; 2]], columns: u32, rows: u32) -> u32 {
-    // Positions are rounded down to steps of 2⁻²⁴, and so is the step at which a cell begins.
+    // Positions are rounded down to multiples of 2⁻²⁴, and so is the lower bound of each cell.
     let step = 1.0 / f64::from(1 << 24);
     let cell = |x: f64, cells: u32| ((x + step) * f64::from(cells)).ceil() as usize - 1;
     let mut held = vec![false; columns as usize * rows as usize];
@@ -68,7 +70,7 @@ pub fn occupied(points: &[[f64; 2]], columns: u32, rows: u32) -> u32 {
 mod tests {
     use super::*;
 
-    /// Every box that ends at coordinates of points, with and without them.
+    /// Evaluates every box that ends at coordinates of points, including and excluding them.
     fn by_all_boxes(points: &[[f64; 2]]) -> f64 {
         let ends = |axis: usize| points.iter().map(move |p| p[axis]).chain([1.0]);
         let mut largest = 0.0f64;

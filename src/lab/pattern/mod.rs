@@ -1,4 +1,4 @@
-//! What a sample pattern is like: points of one pixel → measures, power spectrum, picture.
+//! Analysis of sample patterns: points of one pixel, their measures, power spectrum and picture.
 
 mod canvas;
 pub mod measures;

@@ -1,8 +1,9 @@
-//! A set of points and its spectrum → one picture. Upper row: the points in the pixel (y downwards, as in
-//! a picture) with the pattern's strata and the projections on both axes as ticks; the power spectrum, black
-//! for 0, middle grey for 1 and white from 2 on, frequency 0 in the middle; its radial mean, from 0 to 2
-//! upwards, with lines at 1 and at the frequency √N. Lower row: the points of the next three pairs, then the
-//! first pair's x with the next one's x, y with y and x with y.
+//! Draws a point set and its spectrum. Upper row: the points in the pixel (y downwards, as in a
+//! picture) with the pattern's strata and the projections on both axes as ticks; the power
+//! spectrum, black for 0, middle grey for 1 and white from 2 on, frequency 0 at the centre; its
+//! radial mean, from 0 to 2 upwards, with lines at 1 and at the frequency √N. Lower row: the points
+//! of the next three pairs of dimensions, then the first pair's x with the next one's x, y with y
+//! and x with y.
 
 use super::canvas::{Canvas, Color};
 use super::points::Set;
@@ -47,7 +48,7 @@ fn panel(canvas: &mut Canvas, [x, y]: [usize; 2], side: usize) {
     canvas.rectangle([x, y], [side, side], PAPER);
 }
 
-/// Dots that shrink with their number.
+/// Draws dots whose size decreases with their number.
 fn scatter(canvas: &mut Canvas, [x, y]: [usize; 2], side: usize, points: &[[f64; 2]]) {
     let apart = side as f64 / (points.len() as f64).sqrt();
     let radius = (0.12 * apart).clamp(0.5, 3.5);
@@ -61,7 +62,7 @@ fn pixel(canvas: &mut Canvas, corner: [usize; 2], set: &Set, points: &[[f64; 2]]
     panel(canvas, corner, PANEL);
     let [x, y] = corner;
     for (axis, cells) in set.strata().into_iter().flatten().enumerate() {
-        // Lines nearer than four pixels would be a grey area.
+        // Lines closer than four pixels would merge into grey.
         if cells as usize * 4 > PANEL {
             continue;
         }

@@ -1,5 +1,6 @@
-//! The points of one pixel, as rendering has them: pattern, count, seed and pair of dimensions in,
-//! positions in the unit square out. Realisation r is the pixel at (0, 0) with the seed r higher.
+//! The points of one pixel as the renderer generates them, in the unit square, for a pattern,
+//! count, seed and pair of dimensions. Realisation r is the pixel at (0, 0) with the seed increased
+//! by r.
 
 use crate::oracle::patterns::{pair_points, pixel_points, sample_pair};
 use crate::oracle::rng::pixel_key;
@@ -30,7 +31,7 @@ impl Set {
         Set { pair, ..self }
     }
 
-    /// Columns and rows in which the pattern itself divides the pixel.
+    /// Returns the columns and rows of the pattern's own strata in the pixel.
     pub fn strata(&self) -> Option<[u32; 2]> {
         let side = self.pattern.strata_side(self.samples);
         match self.pattern {

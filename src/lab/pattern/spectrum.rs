@@ -1,31 +1,32 @@
-//! Power spectrum of a set of points: P(f) = |Σ exp(-2πi f·x)|² / N, the periodogram (Bartlett 1964), for
-//! whole frequencies of the unit square, averaged over realisations. Random points have P = 1 at every
-//! frequency but 0, where P = N says nothing and is left out.
+//! Power spectrum of a point set: P(f) = |Σ exp(-2πi f·x)|² / N, the periodogram (Bartlett 1964),
+//! for integer frequencies of the unit square, averaged over realisations. Random points have P = 1
+//! at every frequency except 0, where P = N carries no information and is omitted.
 
 use std::f64::consts::TAU;
 
 use rayon::prelude::*;
 
 pub struct Spectrum {
-    /// Frequencies run from `-limit` to `limit` on each axis.
+    /// Frequencies range from `-limit` to `limit` on each axis.
     pub limit: usize,
-    /// Row by row, both axes rising; 0 at frequency 0.
+    /// Power row by row, with both frequencies ascending; 0 at frequency 0.
     pub power: Vec<f64>,
     pub realisations: u32,
 }
 
-/// Enough to see what lies beyond the frequency √N of the samples' mean distance, at least 64.
+/// Returns a limit that shows the range beyond the frequency √N of the mean sample distance, at
+/// least 64.
 pub fn limit_for(samples: u32) -> usize {
     (2.0 * f64::from(samples).sqrt()).ceil().max(64.0) as usize
 }
 
-/// Hundreds, fewer of large sets.
+/// Returns the number of realisations: hundreds, fewer for large sets.
 pub fn realisations_for(samples: u32) -> u32 {
     ((1 << 18) / samples).clamp(64, 1600)
 }
 
-/// Σ exp(-2πi f·x) needs the four products of cosines and sines: sign changes of f only change signs of
-/// products. Each for 0 ≤ f ≤ limit on both axes.
+/// The four products of cosines and sines from which Σ exp(-2πi f·x) follows: sign changes of f
+/// only change signs of products. Each is stored for 0 ≤ f ≤ limit on both axes.
 struct Products {
     limit: usize,
     sums: [Vec<f32>; 4],
@@ -54,7 +55,7 @@ impl Products {
         }
     }
 
-    /// |Σ|² at (x, y), y ≥ 0.
+    /// Returns |Σ|² at (x, y), y ≥ 0.
     fn power(&self, x: i64, y: usize) -> f64 {
         let at = y * (self.limit + 1) + x.unsigned_abs() as usize;
         let [cc, cs, sc, ss] = [0, 1, 2, 3].map(|i| f64::from(self.sums[i][at]));
@@ -63,7 +64,7 @@ impl Products {
     }
 }
 
-/// Cosines and sines of 2π f x for f from 0 to `length` - 1.
+/// Returns cosines and sines of 2π f x for f from 0 to `length` - 1.
 fn multiples(x: f64, length: usize) -> (Vec<f32>, Vec<f32>) {
     let (sine, cosine) = (TAU * x).sin_cos();
     let mut at = (1.0, 0.0);
@@ -75,7 +76,7 @@ fn multiples(x: f64, length: usize) -> (Vec<f32>, Vec<f32>) {
     (0..length).map(|_| next()).unzip()
 }
 
-/// The mean over `realisations` sets.
+/// Returns the mean spectrum over `realisations` sets.
 pub fn mean(set: impl Fn(u32) -> Vec<[f64; 2]> + Sync, realisations: u32, limit: usize) -> Spectrum {
     let side = 2 * limit + 1;
     let of_one = |number: u32| {
@@ -84,7 +85,7 @@ pub fn mean(set: impl Fn(u32) -> Vec<[f64; 2]> + Sync, realisations: u32, limit:
         points.iter().for_each(|&p| products.add(p));
         let scale = 1.0 / (points.len() as f64 * f64::from(realisations));
         let place = |i: usize| (i as i64 - limit as i64, limit - i / side);
-        // The upper half, f_y from -limit to 0; the lower half is its reflection in 0.
+        // This is the upper half, f_y from -limit to 0; the lower half is its point reflection.
         let half = |i: usize| scale * products.power(-place(i % side).0, place(i).1);
         (0..side * (limit + 1)).map(half).collect::<Vec<f64>>()
     };
@@ -92,7 +93,7 @@ pub fn mean(set: impl Fn(u32) -> Vec<[f64; 2]> + Sync, realisations: u32, limit:
         sum.iter_mut().zip(other).for_each(|(a, b)| *a += b);
         sum
     };
-    // Sums in a fixed order: the same numbers on any machine.
+    // Sums have a fixed order, so that results are equal on any machine.
     let chunks: Vec<Vec<f64>> = (0..realisations.div_ceil(16))
         .into_par_iter()
         .map(|chunk| {
@@ -113,7 +114,7 @@ impl Spectrum {
         self.power[((y + limit) * (2 * limit + 1) + x + limit) as usize]
     }
 
-    /// Mean power of the frequencies whose length rounds to 1, 2, …, `limit`.
+    /// Returns the mean power of the frequencies whose length rounds to 1, 2, …, `limit`.
     pub fn radial_mean(&self) -> Vec<f64> {
         let limit = self.limit as i64;
         let mut sums = vec![(0.0, 0u32); self.limit + 1];

@@ -1,26 +1,27 @@
-//! A logarithmic axis: values → places in pixels and ticks. 0 and infinity, which no logarithm has, get places
-//! of their own at the ends, where they occur.
+//! A logarithmic axis: maps values to pixel positions and generates ticks. 0 and infinity, which
+//! have no logarithm, get separate positions at the ends if they occur.
 
-/// Pixels between the end of the logarithms and what has none.
-const APART: f64 = 26.0;
-/// Numbers along an axis.
-const MAX_NUMBERS: usize = 10;
+/// The distance in pixels between the end of the scale and values without a logarithm.
+const END_GAP: f64 = 26.0;
+/// The largest number of tick labels on an axis.
+const MAX_LABELS: usize = 10;
 
 pub struct Axis {
     pub low: f64,
     pub high: f64,
     from: f64,
     to: f64,
-    /// Where 0 and infinity lie, if there are any.
+    /// The positions of 0 and of infinity, if they occur.
     zero: Option<f64>,
     infinity: Option<f64>,
 }
 
 impl Axis {
-    /// Whole decades would waste space: from 1, 2 or 5 to 1, 2 or 5.
+    /// Creates an axis whose ends are multiples of 1, 2 or 5, because whole decades would waste
+    /// space.
     pub fn new(values: impl Iterator<Item = f64>, from: f64, to: f64) -> Axis {
         let values: Vec<f64> = values.collect();
-        let apart = APART.copysign(to - from);
+        let apart = END_GAP.copysign(to - from);
         let zero = values.contains(&0.0).then_some(from + 0.5 * apart);
         let infinity = values.contains(&f64::INFINITY).then_some(to - 0.5 * apart);
         let from = if zero.is_some() { from + apart } else { from };
@@ -28,7 +29,7 @@ impl Axis {
         let usable: Vec<f64> = values.into_iter().filter(|v| *v > 0.0 && v.is_finite()).collect();
         let low = usable.iter().copied().fold(f64::INFINITY, f64::min);
         let high = usable.iter().copied().fold(0.0, f64::max);
-        // Markers keep clear of the frame.
+        // The margins keep markers clear of the frame.
         let marks = if usable.is_empty() { vec![1.0, 10.0] } else { steps(low / 2.4, high * 1.3) };
         let (low, high) = match marks[..] {
             [first, .., last] => (first, last),
@@ -37,8 +38,8 @@ impl Axis {
         Axis { low, high, from, to, zero, infinity }
     }
 
-    /// None for what the axis cannot show.
-    pub fn place(&self, value: f64) -> Option<f64> {
+    /// Returns the position of a value, or `None` if the axis cannot show it.
+    pub fn position(&self, value: f64) -> Option<f64> {
         match value {
             0.0 => self.zero,
             f64::INFINITY => self.infinity,
@@ -47,22 +48,23 @@ impl Axis {
         }
     }
 
-    /// Of a positive number.
+    /// Returns the position of a positive number.
     pub fn at(&self, value: f64) -> f64 {
-        // Logarithms one by one: a ratio may be beyond all numbers.
+        // Logarithms are taken separately, because the ratio may overflow.
         let [value, low, high] = [value, self.low, self.high].map(f64::ln);
         self.from + (self.to - self.from) * (value - low) / (high - low)
     }
 
-    /// Places with their numbers: all steps where there is room, else whole decades, of long axes some of them.
+    /// Returns tick positions with labels: all steps if they fit, else whole decades or, on long
+    /// axes, some of them.
     pub fn ticks(&self) -> Vec<(f64, Option<String>)> {
         let all = steps(self.low, self.high);
-        let crowded = all.len() > MAX_NUMBERS;
+        let crowded = all.len() > MAX_LABELS;
         let decade = |v: f64| (v.log10() - v.log10().round()).abs() < 1e-6;
         let decades = all.iter().filter(|v| decade(**v)).count();
-        let every = decades.div_ceil(MAX_NUMBERS).max(1) as i64;
+        let every = decades.div_ceil(MAX_LABELS).max(1) as i64;
         let numbered = |v: f64| !crowded || (decade(v) && v.log10().round() as i64 % every == 0);
-        let shown = all.into_iter().filter(|v| decades <= MAX_NUMBERS || decade(*v));
+        let shown = all.into_iter().filter(|v| decades <= MAX_LABELS || decade(*v));
         let mut ticks: Vec<(f64, Option<String>)> =
             shown.map(|v| (self.at(v), numbered(v).then(|| number(v)))).collect();
         ticks.extend(self.zero.map(|at| (at, Some("0".into()))));
@@ -71,7 +73,7 @@ impl Axis {
     }
 }
 
-/// 1, 2, 5, 10, … from the first that is not below `from` up to the first that is not below `to`.
+/// Returns 1, 2, 5, 10, … from the first not below `from` up to the first not below `to`.
 pub fn steps(from: f64, to: f64) -> Vec<f64> {
     if !(from > 0.0 && from.is_finite() && to.is_finite()) {
         return Vec::new();
@@ -88,7 +90,7 @@ pub fn steps(from: f64, to: f64) -> Vec<f64> {
     steps
 }
 
-/// 0.01, 1, 500, 2e−5.
+/// Formats a tick label: 0.01, 1, 500, 2e−5.
 fn number(value: f64) -> String {
     if (1e-3..1e5).contains(&value) {
         let rounded = (value * 1e6).round() / 1e6;

@@ -1,11 +1,11 @@
-//! Error over time, rays or another quantity, both axes logarithmic. In: series of points with a text each, a
-//! level that errors are held against, guides of known slope. Out: one SVG document; several series have a key
-//! below the plot.
+//! A chart of error over time, rays or another quantity with logarithmic axes, as one SVG document:
+//! series of points with a title each, a reference level, guide lines of known slope, and a legend
+//! below the plot if there are several series.
 
 use super::axis::Axis;
 use super::svg;
 
-/// Of a document; the key adds to its height.
+/// The width of the document; the legend adds to its height.
 const WIDTH: f64 = 760.0;
 const PLOT: [[f64; 2]; 2] = [[78.0, 16.0], [744.0, 436.0]];
 const KEY_COLUMNS: usize = 2;
@@ -14,22 +14,23 @@ const KEY_ROW: f64 = 22.0;
 pub struct Series {
     pub name: String,
     pub points: Vec<[f64; 2]>,
-    /// What each point says.
+    /// The title of each point, shown as its tooltip.
     pub titles: Vec<String>,
     pub dashed: bool,
 }
 
 pub struct Chart<'a> {
-    /// Unique in a page.
+    /// The identifier, unique in a page.
     pub id: &'a str,
     pub title: String,
     pub description: String,
     pub x_label: &'a str,
     pub y_label: &'a str,
     pub series: Vec<Series>,
-    /// A line across the plot, and what to call it: a bound, or the error below which points mean nothing.
+    /// A horizontal line with its label: a bound, or the error below which points are not
+    /// significant.
     pub level: Option<(f64, &'static str)>,
-    /// Slopes in the plot's logarithms, and what to call them.
+    /// Guide slopes in the plot's logarithms, with labels.
     pub guides: Vec<(f64, &'static str)>,
 }
 
@@ -42,7 +43,7 @@ impl Chart<'_> {
         let mut body = self.axes(&x, &y);
         body += &self.guide_lines(&x, &y);
         if let Some((value, name)) = self.level
-            && let Some(at) = y.place(value)
+            && let Some(at) = y.position(value)
         {
             body += &svg::line([left, at], [right, at], "level");
             body += &svg::text(left + 8.0, at - 5.0, "start", "small", name);
@@ -82,7 +83,7 @@ impl Chart<'_> {
         )
     }
 
-    /// From the plot's upper left downwards, as far as the frame goes.
+    /// Draws the guides from the plot's upper left downwards, as far as the frame extends.
     fn guide_lines(&self, x: &Axis, y: &Axis) -> String {
         let mut out = String::new();
         let start = (y.high / y.low).powf(0.93) * y.low;
@@ -97,7 +98,7 @@ impl Chart<'_> {
         out
     }
 
-    /// And the document's height. One series needs no key.
+    /// Returns the legend and the document's height. One series needs no legend.
     fn key(&self, from: f64) -> (String, f64) {
         if self.series.len() == 1 {
             return (String::new(), from);
@@ -126,7 +127,7 @@ fn line(path: &str, series: &Series, index: usize) -> String {
 }
 
 fn drawn(series: &Series, index: usize, x: &Axis, y: &Axis) -> String {
-    let placed = |p: &[f64; 2]| Some([x.place(p[0])?, y.place(p[1])?]);
+    let placed = |p: &[f64; 2]| Some([x.position(p[0])?, y.position(p[1])?]);
     let shown: Vec<([f64; 2], &String)> =
         series.points.iter().zip(&series.titles).filter_map(|(p, t)| Some((placed(p)?, t))).collect();
     let mut out = format!("<g class=\"series\" data-series=\"{}\">\n", svg::escape(&series.name));

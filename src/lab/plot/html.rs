@@ -6,7 +6,7 @@ use std::ops::Add;
 
 use super::svg::escape;
 
-/// Keys of plots that switch series off and on.
+/// The script that lets legends toggle their series.
 pub const SCRIPT: &str = include_str!("page/script.js");
 
 /// Markup. [`html!`] makes it from a template and values, and escapes each value that is not markup itself.
@@ -92,14 +92,14 @@ pub(crate) use html;
 /// What a page opens with.
 pub struct Header<'a> {
     pub title: &'a str,
-    /// Where and of what.
+    /// The conditions: device, scene and size.
     pub facts: &'a str,
-    /// The outcome in a sentence.
+    /// The result in one sentence.
     pub lead: &'a str,
     pub more: Html,
 }
 
-/// The page around `sections`; without a script where that is empty.
+/// Returns the page around `sections`, without a script if `script` is empty.
 pub fn document(header: &Header<'_>, sections: &Html, script: &str) -> String {
     let Header { title, facts, lead, more } = header;
     let script = match script {
@@ -135,12 +135,12 @@ pub fn section(id: &str, heading: &str, body: Html) -> Html {
     )
 }
 
-/// What is wider than a phone scrolls within its own box, by keyboard too.
+/// Returns a box that scrolls horizontally, by keyboard too.
 pub fn scroll(label: &str, body: Html) -> Html {
     boxed("scroll", label, body)
 }
 
-/// The same of what is long.
+/// Returns a box that scrolls vertically.
 pub fn scroll_long(label: &str, body: Html) -> Html {
     boxed("scroll long", label, body)
 }

@@ -1,5 +1,5 @@
-//! Plots and pages that need no other file: SVG documents with logarithmic axes, and the HTML around them.
-//! Numbers and words in, text out; what they mean is known to `study` and `stability`.
+//! Self-contained plots and pages: SVG documents with logarithmic axes, and the HTML around them.
+//! Their meaning is defined by `study` and `stability`.
 
 pub mod axis;
 pub mod chart;

@@ -1,12 +1,13 @@
-//! The pieces of a plot as SVG: a document with a title and a description, text, markers, and the styles
-//! that make it readable on light and dark ground. Colours and markers repeat with periods 7 and 8, so that
-//! 56 series differ in one or both.
+//! SVG elements of a plot: a document with a title and a description, text, markers, and styles
+//! that are readable in light and dark mode. Colours and markers repeat with periods 7 and 8, so
+//! that 56 series differ in one or both.
 
-/// Beyond the range in which people tell colours apart, markers do.
+/// The number of colours that are easily distinguished; markers distinguish the rest.
 pub const COLORS: usize = 7;
 const MARKERS: usize = 8;
 
-/// Okabe and Ito's colours that keep contrast on white, and lighter ones of the same hues for dark ground.
+/// Okabe and Ito's colours that have contrast on white, and lighter ones of the same hues for dark
+/// mode.
 const STYLE: &str = "\
 .plot{--c0:#0072b2;--c1:#c94f00;--c2:#00805c;--c3:#b0558a;--c4:#8a6500;--c5:#2a8fc4;--c6:#555;\
 --ink:#1b1b1f;--faint:#d9d9de;--ground:#fff;color:var(--ink);background:var(--ground);\
@@ -19,12 +20,12 @@ font:14px system-ui,sans-serif}\
 .plot .small{font-size:12px}.plot .series path.line{fill:none;stroke-width:1.8}\
 .plot .mark{stroke-width:1.6}.plot .off{opacity:.12}.plot .key{cursor:default}";
 
-/// Escapes text for XML and HTML, also within double quotes.
+/// Escapes text for XML and HTML, including within double quotes.
 pub fn escape(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
-/// A whole document. `id` keeps the titles of several plots in one page apart.
+/// Returns a whole document. `id` distinguishes the titles of several plots in one page.
 pub fn document(id: &str, size: [f64; 2], title: &str, description: &str, body: &str) -> String {
     let mut style = String::from(STYLE);
     for c in 0..COLORS {
@@ -59,7 +60,7 @@ pub fn color(index: usize) -> usize {
     index % COLORS
 }
 
-/// The marker of a series; a title is shown where the pointer rests.
+/// Returns the marker of a series; the title is its tooltip.
 pub fn marker(index: usize, [x, y]: [f64; 2], title: &str) -> String {
     const R: f64 = 5.0;
     let path = |points: &[[f64; 2]], closed: bool| {

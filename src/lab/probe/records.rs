@@ -1,16 +1,16 @@
-//! What probes are asked and what they answer, as the shaders lay it out in memory.
+//! Queries and answers of the probes in the memory layout of the shaders.
 
 use bytemuck::{Pod, Zeroable};
 
-/// One texture look-up; `slot` is a material's. `dx` and `dy` are the change of the coordinate over the
-/// footprint, which counts in scenes whose footprint is not `none`.
+/// One texture lookup through the material `slot`. `dx` and `dy` are the differentials of the
+/// coordinate over the footprint, used in scenes whose footprint is not `none`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
-pub struct LookUp {
+pub struct LookupQuery {
     pub texture: u32,
     pub sampler: u32,
     pub slot: u32,
-    /// Of the stochastic filter.
+    /// The seed of the stochastic filter.
     pub seed: u32,
     /// u, v, w, or a direction.
     pub uv: [f32; 4],
@@ -18,7 +18,7 @@ pub struct LookUp {
     pub dy: [f32; 4],
 }
 
-/// One ray, relative to the eye; `direction[3]` bounds the question whether anything lies between.
+/// One ray, relative to the eye; `direction[3]` is the largest distance of the occlusion query.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 pub struct RayQuery {
@@ -26,22 +26,22 @@ pub struct RayQuery {
     pub direction: [f32; 4],
 }
 
-/// What a ray hit.
+/// The hit of a ray.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 pub struct RayAnswer {
     pub point: [f32; 3],
     pub t: f32,
-    /// Unit, turned towards the ray.
+    /// The unit normal, facing the ray.
     pub normal: [f32; 4],
     pub uv: [f32; 4],
-    /// `NO_SHAPE` on a miss.
+    /// The shape's index, or `NO_SHAPE` on a miss.
     pub shape: u32,
     pub occluded: u32,
     pub padding: [u32; 2],
 }
 
-/// The same in f64.
+/// One ray in f64.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 pub struct DoubleRay {
@@ -49,7 +49,7 @@ pub struct DoubleRay {
     pub direction: [f64; 4],
 }
 
-/// What a ray in f64 hit.
+/// The hit of a ray in f64.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 pub struct DoubleAnswer {
@@ -62,11 +62,11 @@ pub struct DoubleAnswer {
     pub padding: [u32; 2],
 }
 
-/// One look-up of a procedural texture, averaged over the footprint that `dx` and `dy` span.
+/// One lookup of a procedural texture, averaged over the footprint that `dx` and `dy` span.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 pub struct ProceduralQuery {
-    /// Index into `PackedScene::procedurals`.
+    /// The index into `PackedScene::procedurals`.
     pub procedural: u32,
     pub padding: [u32; 3],
     pub at: [f32; 4],
@@ -74,8 +74,9 @@ pub struct ProceduralQuery {
     pub dy: [f32; 4],
 }
 
-/// A point of the unit square; the height of the cap that it goes to, and alpha of the facets of which it
-/// chooses one; the ray that meets it, and the surface's normal, both of unit length.
+/// A point of the unit square with the height of the cap to which it is mapped and alpha of the
+/// microfacet distribution from which it samples a normal; the incident ray and the surface normal,
+/// both of unit length.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 pub struct WarpQuery {
@@ -83,14 +84,14 @@ pub struct WarpQuery {
     pub height: f32,
     pub alpha: f32,
     pub direction: [f32; 4],
-    /// Last, the height of a point over a rectangle's plane.
+    /// The normal; its last component is the height of a point above a rectangle's plane.
     pub normal: [f32; 4],
-    /// Middle and half sides of that rectangle, as seen from the point.
+    /// Centre and half sides of that rectangle relative to the point.
     pub rectangle: [f32; 4],
 }
 
-/// Where that point lies; the facet's normal, and the share of what it mirrors; the place on the rectangle and its
-/// solid angle.
+/// The mapped point; the microfacet normal and its reflectance; the position on the rectangle and
+/// its solid angle.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 pub struct WarpAnswer {
@@ -100,8 +101,8 @@ pub struct WarpAnswer {
     pub rectangle: [f32; 4],
 }
 
-/// A ray that meets a surface between two refractive indices: in front over behind. The normal is of unit
-/// length, against the ray.
+/// A ray that meets an interface of two refractive indices, given as the ratio of incident to
+/// transmitted. The normal has unit length and opposes the ray.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 pub struct GlassQuery {

@@ -1,12 +1,14 @@
-//! The mean of a repeated texture over a box, its texels being squares of one colour, in f64 and by no table.
+//! The mean of a repeated texture over a box, with texels as squares of constant colour, in f64 and
+//! without a summed-area table.
 
-use crate::lab::probe::LookUp;
+use crate::lab::probe::LookupQuery;
 use crate::texture::data::TextureData;
 
-/// How much of [from, to] the texels of an axis cover, each with all of its repetitions.
+/// Returns the length of [from, to] that each texel of an axis covers, all of its repetitions
+/// included.
 fn covered(from: f64, to: f64, size: u32) -> Vec<f64> {
     let size_f = f64::from(size);
-    // Of [0, x], for any x.
+    // The covered length of [0, x], for any x.
     let up_to = |x: f64, texel: u32| {
         let whole = (x / size_f).floor();
         whole + (x - whole * size_f - f64::from(texel)).clamp(0.0, 1.0)
@@ -14,8 +16,8 @@ fn covered(from: f64, to: f64, size: u32) -> Vec<f64> {
     (0..size).map(|texel| up_to(to, texel) - up_to(from, texel)).collect()
 }
 
-/// Of the box around the footprint, at least a texel wide.
-pub fn box_mean(texels: &TextureData, query: &LookUp) -> f64 {
+/// Returns the mean over the footprint's bounding box, which is at least a texel wide.
+pub fn box_mean(texels: &TextureData, query: &LookupQuery) -> f64 {
     let axis = |axis: usize, size: u32| {
         let wide = f64::from(query.dx[axis].abs()) + f64::from(query.dy[axis].abs());
         let reach = (0.5 * wide * f64::from(size)).max(0.5);
@@ -41,9 +43,9 @@ mod tests {
         let texels = grey(4, 2, |x, y| (x + 10 * y) as f32);
         let over = |u, v, wide: f32, high: f32| {
             let (dx, dy) = ([wide / 4.0, 0.0, 0.0, 0.0], [0.0, high / 2.0, 0.0, 0.0]);
-            box_mean(&texels, &LookUp { uv: [u, v, 0.0, 0.0], dx, dy, ..LookUp::default() })
+            box_mean(&texels, &LookupQuery { uv: [u, v, 0.0, 0.0], dx, dy, ..LookupQuery::default() })
         };
-        // One texel; two; half of the last column and half of the first; everything, twice over.
+        // One texel; two; half of the last column and half of the first; the whole texture, twice.
         assert_eq!(over(0.375, 0.25, 1.0, 1.0), 1.0);
         assert_eq!(over(0.5, 0.25, 2.0, 0.1), 1.5);
         assert_eq!(over(1.0, 0.75, 1.0, 1.0), 11.5);

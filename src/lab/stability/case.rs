@@ -1,6 +1,6 @@
-//! What a case of the stability report is: a parameter swept over decades, the error against an exact or
-//! float64 answer at each value, and a bound with the reason for it. Cases make their own scenes and answers;
-//! the bench lends them the device.
+//! A case of the stability report: a parameter swept over decades, the error at each value against
+//! an exact or float64 reference, and a bound with its reason. Cases create their own scenes and
+//! references; the bench provides the device.
 
 use serde::Serialize;
 
@@ -10,42 +10,43 @@ use crate::gpu::Gpu;
 
 /// One sweep.
 pub struct Case {
-    /// What it is about, such as `coordinates`; cases of one group stand together.
+    /// The subject, such as `coordinates`; cases of one group are listed together.
     pub group: &'static str,
-    /// Unique in its group.
+    /// The name, unique in its group.
     pub name: &'static str,
-    /// What is swept, with its unit.
+    /// The swept parameter with its unit.
     pub parameter: &'static str,
-    /// In what the error is measured.
+    /// The unit of the error.
     pub unit: &'static str,
-    /// No error may be above it.
+    /// The bound that no error may exceed.
     pub bound: f64,
-    /// Why that is the bound.
+    /// The derivation of the bound.
     pub reason: &'static str,
     pub run: fn(&Bench<'_>) -> Result<Vec<Point>>,
 }
 
-/// The worst error at one value of the parameter.
+/// The largest error at one value of the parameter.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Point {
-    /// 0 or above: plots are logarithmic.
+    /// The parameter, at least 0: plots are logarithmic.
     pub parameter: f64,
-    /// Infinite where the answer is no number; JSON has null for that.
+    /// The error, infinite if the answer is NaN or infinity; JSON has null for that.
     pub error: f64,
-    /// Where it was reached: pixel, ray, coordinate.
+    /// The pixel, ray or coordinate of the largest error.
     pub place: String,
 }
 
-/// What a case runs on.
+/// The resources on which a case runs.
 pub struct Bench<'a> {
     pub gpu: &'a Gpu,
     pub progress: &'a dyn Progress,
-    /// All geometry is of f32, whatever the scene needs: what cases are for has to show then.
+    /// True if all geometry is in f32, whatever the scene requires, so that the errors under test
+    /// are visible.
     pub rounded: bool,
 }
 
 impl Case {
-    /// Its group and its name: what it is called on the command line.
+    /// Returns group and name, the case's name on the command line.
     pub fn label(&self) -> String {
         format!("{}/{}", self.group, self.name)
     }
@@ -56,14 +57,14 @@ impl<'a> Bench<'a> {
         Bench { gpu, progress, rounded: false }
     }
 
-    /// To be asked between values of the parameter: an interrupted report stops here.
-    pub fn go_on(&self) -> Result<()> {
+    /// Returns an error if the report was interrupted. Called between values of the parameter.
+    pub fn check_cancelled(&self) -> Result<()> {
         if self.progress.cancelled() { Err(Error::Interrupted) } else { Ok(()) }
     }
 }
 
 impl Point {
-    /// The worst of (error, place) pairs; no number counts as infinite.
+    /// Returns the largest of (error, place) pairs; NaN counts as infinite.
     pub fn worst(parameter: f64, errors: impl IntoIterator<Item = (f64, String)>) -> Point {
         let mut worst = Point { parameter, error: 0.0, place: "everywhere".into() };
         for (error, place) in errors {

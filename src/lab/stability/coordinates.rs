@@ -1,6 +1,7 @@
-//! Texture coordinates of many tiles: planes and triangles whose pictures lie 1 to 1e9 tiles from where the
-//! texture begins, by eye, offset, scale and the vertices' own uv. Each pixel reads a texture of ramps, so that
-//! its colour tells which place was read; that place in f64 is the answer.
+//! Texture coordinates of many tiles: planes and triangles whose pictures are 1 to 1e9 tiles from
+//! the texture's origin, through the eye position, offset, scale or the vertices' own uv. Each
+//! pixel reads a texture of ramps, so that its colour encodes the sampled coordinate; the reference
+//! is that coordinate in f64.
 
 use glam::{DVec2, DVec3};
 
@@ -34,15 +35,15 @@ pub fn cases() -> Vec<Case> {
     ]
 }
 
-/// Decades from 10^first to 10^last, times a number with many digits.
+/// Returns powers of ten from 10^first to 10^last, times a number with many digits.
 pub fn decades(first: i32, last: i32) -> impl Iterator<Item = f64> {
     (first..=last).map(|k| 1.234_567_891 * 10f64.powi(k))
 }
 
-/// What one pixel should read, by its middle.
+/// The expected coordinate of a pixel, as a function of its centre.
 type Answer<'a> = &'a dyn Fn(DVec2) -> Option<DVec2>;
 
-/// The worst over all four readings.
+/// Returns the largest error over all four readings.
 fn swept(
     bench: &Bench<'_>,
     parameter: f64,
@@ -74,13 +75,14 @@ fn ground_text(material: &str) -> String {
     )
 }
 
-/// Looks down on the ground near a place.
-fn above(place: DVec3) -> View {
-    let eye = place + DVec3::new(0.3, 1.7, 0.2);
-    View::new(eye, place + DVec3::new(0.4, 0.0, -0.3), DVec3::Y, 40.0, SIDE)
+/// Returns a view down on the ground near a position.
+fn above(position: DVec3) -> View {
+    let eye = position + DVec3::new(0.3, 1.7, 0.2);
+    View::new(eye, position + DVec3::new(0.4, 0.0, -0.3), DVec3::Y, 40.0, SIDE)
 }
 
-/// Tiles of the constant and of what varies, apart: their sum would lose digits that the scene has.
+/// Adds the constant and the varying part of a coordinate in tiles, which are kept separate because
+/// their sum would lose digits that the scene has.
 fn sum(constant: DVec2, varies: DVec2) -> DVec2 {
     let even = |x: f64| x - 2.0 * (0.5 * x).floor();
     DVec2::new(even(constant.x), even(constant.y)) + varies
@@ -90,7 +92,7 @@ fn eye(bench: &Bench<'_>) -> Result<Vec<Point>> {
     let run = |tiles: f64| {
         let view = above(DVec3::new(tiles, 0.0, -0.7 * tiles));
         let answer = |middle: DVec2| {
-            let [constant, varies] = on_plane(view.eye, view.way(middle), GROUND)?;
+            let [constant, varies] = on_plane(view.eye, view.direction(middle), GROUND)?;
             Some(sum(constant, varies))
         };
         swept(bench, tiles, &view, "kind = \"surface\"", &ground_text("m"), &answer)
@@ -103,7 +105,7 @@ fn offset(bench: &Bench<'_>) -> Result<Vec<Point>> {
         let view = above(DVec3::ZERO);
         let offset = DVec2::new(tiles, -0.3 * tiles);
         let answer = |middle: DVec2| {
-            let [constant, varies] = on_plane(view.eye, view.way(middle), GROUND)?;
+            let [constant, varies] = on_plane(view.eye, view.direction(middle), GROUND)?;
             Some(sum(offset, constant + varies))
         };
         let mapping = format!("kind = \"surface\", offset = [{:?}, {:?}]", offset.x, offset.y);
@@ -117,7 +119,7 @@ fn scale(bench: &Bench<'_>) -> Result<Vec<Point>> {
         let view = above(DVec3::ZERO);
         let scale = DVec2::new(tiles, 0.9 * tiles);
         let answer = |middle: DVec2| {
-            let [constant, varies] = on_plane(view.eye, view.way(middle), GROUND)?;
+            let [constant, varies] = on_plane(view.eye, view.direction(middle), GROUND)?;
             Some(scale * (constant + varies))
         };
         let mapping = format!("kind = \"surface\", scale = [{:?}, {:?}]", scale.x, scale.y);
@@ -129,11 +131,11 @@ fn scale(bench: &Bench<'_>) -> Result<Vec<Point>> {
 fn planar(bench: &Bench<'_>) -> Result<Vec<Point>> {
     let run = |tiles: f64| {
         let view = above(DVec3::ZERO);
-        // The ground's own x, and its height, which is 0, above the offset.
+        // The ground's own x, and the height above the offset, which is 0.
         let answer = |middle: DVec2| {
-            let [constant, varies] = on_plane(view.eye, view.way(middle), GROUND)?;
-            let place = constant + varies;
-            Some(DVec2::new(tiles * place.x, 0.25))
+            let [constant, varies] = on_plane(view.eye, view.direction(middle), GROUND)?;
+            let position = constant + varies;
+            Some(DVec2::new(tiles * position.x, 0.25))
         };
         let mapping = format!("kind = \"planar\", scale = [{tiles:?}, 1.0], offset = [0.0, 0.25]");
         swept(bench, tiles, &view, &mapping, &ground_text("m"), &answer)
@@ -148,7 +150,7 @@ fn triangle(bench: &Bench<'_>) -> Result<Vec<Point>> {
         let uv = |x: f64, z: f64| DVec2::new(tiles * (0.1 * x + 0.02 * z), tiles * (0.07 * z - 0.01 * x));
         let uvs = [a, b, c].map(|v| uv(v.x, v.z));
         let answer = |middle: DVec2| {
-            let [constant, varies] = on_plane(view.eye, view.way(middle), [a, b - a, c - a])?;
+            let [constant, varies] = on_plane(view.eye, view.direction(middle), [a, b - a, c - a])?;
             let w = constant + varies;
             let inside = w.x > 1e-3 && w.y > 1e-3 && w.x + w.y < 0.999;
             inside.then(|| uvs[0] + w.x * (uvs[1] - uvs[0]) + w.y * (uvs[2] - uvs[0]))
@@ -165,7 +167,7 @@ fn triangle(bench: &Bench<'_>) -> Result<Vec<Point>> {
     decades(0, 9).map(run).collect()
 }
 
-/// Axes that are neither of unit length nor at right angles.
+/// Sweeps axes that are neither of unit length nor orthogonal.
 fn collinear(bench: &Bench<'_>) -> Result<Vec<Point>> {
     let run = |k: i32| {
         let angle = 10f64.powi(-k);
@@ -173,7 +175,7 @@ fn collinear(bench: &Bench<'_>) -> Result<Vec<Point>> {
         let bitangent = DVec3::new(2.0 * angle.cos(), 0.0, 2.0 * angle.sin());
         let answer = |middle: DVec2| {
             let [constant, varies] =
-                on_plane(view.eye, view.way(middle), [DVec3::ZERO, DVec3::X, bitangent])?;
+                on_plane(view.eye, view.direction(middle), [DVec3::ZERO, DVec3::X, bitangent])?;
             Some(constant + varies)
         };
         let shape = format!(

@@ -1,13 +1,14 @@
-//! Glass at its extremes: incidence up to grazing, the critical angle, indices next to 1 and far from it. In:
-//! rays, normals and ratios of indices in f32. Out: how far the share that is mirrored (Fresnel) and the direction
-//! behind (Snell) are from the exact ones of those very numbers, over how far these move by a half ulp of 1.
+//! Glass at its extremes: incidence up to grazing, the critical angle, indices of refraction close
+//! to 1 and far from it. For rays, normals and ratios of indices in f32, the error of the Fresnel
+//! reflectance and of the refracted direction (Snell) against the exact values for the same inputs
+//! is divided by their change for half an ulp of 1.
 
 use std::f64::consts::FRAC_PI_2;
 
 use glam::DVec3;
 
 use super::case::{Bench, Case, Point};
-use super::scenes::{SCREEN, dice, packed};
+use super::scenes::{SCREEN, hashed_unit, packed};
 use crate::core::error::Result;
 use crate::lab::probe::{self, GlassQuery};
 
@@ -18,7 +19,7 @@ const REASON: &str = "the answer is to be exact to 8 roundings of 6e-8 for an an
 const BOUND: f64 = 8.0;
 /// Half an ulp of 1 in f32.
 const H: f64 = 1.0 / 16_777_216.0;
-/// Normals, the first along an axis; of each as many planes of incidence.
+/// The number of normals, the first along an axis; each has as many planes of incidence.
 const NORMALS: u32 = 8;
 const INDICES: [f64; 6] = [1.0, 1.000_001, 1.33, 1.5, 2.42, 10.0];
 
@@ -42,21 +43,21 @@ pub fn cases() -> Vec<Case> {
     ]
 }
 
-/// Angles from the normal, in radians, with ratios of indices: what is asked at one value of a parameter.
+/// Angles from the normal in radians with ratios of indices, queried at one value of a parameter.
 type Meetings = Vec<(f64, f64)>;
 
 fn decades(from: i32, to: i32) -> impl Iterator<Item = f64> {
     (from..=to).map(|e| 10f64.powi(e))
 }
 
-/// From outside; 90° is normal incidence.
+/// Returns external incidences; 90° is normal incidence.
 fn grazing() -> Vec<(f64, Meetings)> {
     let angles = decades(-9, 1).chain([30.0, 60.0, 90.0]);
     let meetings = |degrees: f64| INDICES.map(|n| (FRAC_PI_2 - degrees.to_radians(), 1.0 / n)).to_vec();
     angles.map(|degrees| (degrees, meetings(degrees))).collect()
 }
 
-/// From within, on both sides of the critical angle.
+/// Returns internal incidences on both sides of the critical angle.
 fn critical() -> Vec<(f64, Meetings)> {
     let sides = |degrees: f64| {
         let of = |n: f64| [-1.0, 1.0].map(|side| ((1.0 / n).asin() + side * degrees.to_radians(), n));
@@ -65,7 +66,7 @@ fn critical() -> Vec<(f64, Meetings)> {
     std::iter::once(0.0).chain(decades(-9, 0)).map(|degrees| (degrees, sides(degrees))).collect()
 }
 
-/// At angles from normal to grazing, from both sides; within only where something is refracted.
+/// Returns angles from normal to grazing from both sides; internal ones only if light is refracted.
 fn indices() -> Vec<(f64, Meetings)> {
     let meetings = |n: f64| {
         let outside = (0..=18).map(|i| (f64::from(i) * 5f64.to_radians(), 1.0 / n));
@@ -100,7 +101,7 @@ fn direction_index(bench: &Bench<'_>) -> Result<Vec<Point>> {
     points(bench, indices(), direction_error)
 }
 
-/// Each meeting about several normals.
+/// Evaluates each incidence about several normals.
 fn points(
     bench: &Bench<'_>,
     values: Vec<(f64, Meetings)>,
@@ -108,7 +109,7 @@ fn points(
 ) -> Result<Vec<Point>> {
     let scene = packed(&format!("{SCREEN}[image]\nwidth = 1\nheight = 1\n"), Vec::new(), None)?;
     let point = |(parameter, meetings): (f64, Meetings)| {
-        bench.go_on()?;
+        bench.check_cancelled()?;
         let about = |&(angle, ratio): &(f64, f64)| (0..NORMALS).map(move |i| query(angle, ratio, i));
         let queries: Vec<GlassQuery> = meetings.iter().flat_map(about).collect();
         let answers = probe::glass(bench.gpu, &scene, &queries)?;
@@ -119,7 +120,7 @@ fn points(
 }
 
 fn query(angle: f64, ratio: f64, i: u32) -> GlassQuery {
-    let random = |seed: u32| 2.0 * dice(i, seed) - 1.0;
+    let random = |seed: u32| 2.0 * hashed_unit(i, seed) - 1.0;
     let (normal, across) = match i {
         0 => (DVec3::Z, DVec3::X),
         _ => {
@@ -140,7 +141,7 @@ fn place(query: &GlassQuery) -> String {
     format!("{:.9}°, ratio {}, normal {:.3?}", meeting.angle.to_degrees(), query.ratio, &query.normal[..3])
 }
 
-/// A query's numbers in f64: the length of the ray, two unit vectors, the angle between ray and normal.
+/// A query in f64: the length of the ray, two unit vectors, the angle between ray and normal.
 #[derive(Clone, Copy)]
 struct Meeting {
     length: f64,
@@ -166,14 +167,14 @@ impl Meeting {
         }
     }
 
-    /// The angle behind the surface; none where everything is mirrored.
+    /// Returns the angle of refraction; `None` for total internal reflection.
     fn behind(&self) -> Option<f64> {
         let sine = self.ratio * self.angle.sin();
-        // Of a cosine that is the root of (1 - sine) (1 + sine).
+        // The cosine is the root of (1 - sine) (1 + sine).
         (sine < 1.0).then(|| sine.atan2(((1.0 - sine) * (1.0 + sine)).sqrt()))
     }
 
-    /// By sines and tangents of the sum and the difference of both angles.
+    /// Returns the reflectance by sines and tangents of sum and difference of both angles.
     fn share(&self) -> f64 {
         let Some(behind) = self.behind() else { return 1.0 };
         let (less, more) = (self.angle - behind, self.angle + behind);
@@ -190,7 +191,7 @@ impl Meeting {
         Some(self.length * (behind.sin() * self.across - behind.cos() * self.normal))
     }
 
-    /// Half an ulp away in angle or ratio.
+    /// Returns the incidences half an ulp away in angle or ratio.
     fn neighbours(&self) -> [Meeting; 4] {
         let turned = |by: f64| Meeting { angle: (self.angle + by).clamp(0.0, FRAC_PI_2), ..*self };
         let other = |by: f64| Meeting { ratio: self.ratio * (1.0 + by), ..*self };
@@ -205,7 +206,8 @@ fn share_error(query: &GlassQuery, answer: [f32; 4]) -> f64 {
     (f64::from(answer[3]) - exact).abs() / (moved + H)
 }
 
-/// 0 where a half ulp decides whether there is a direction, and where all is mirrored, so that nobody follows it.
+/// Returns the error of the direction. It is 0 where half an ulp decides whether a refracted
+/// direction exists, and for total reflection, where the direction is not used.
 fn direction_error(query: &GlassQuery, answer: [f32; 4]) -> f64 {
     if answer[3] == 1.0 {
         return 0.0;

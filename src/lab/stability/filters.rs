@@ -1,16 +1,16 @@
-//! Filters over footprints from a millionth of a texel to a million, long, flat, of no extent or no numbers. A
-//! texture and footprints in, the error of look-ups against f64 out: means of texels where a formula
-//! knows them, else the oracle.
+//! Filters over footprints from a millionth of a texel to a million texels: long, flat, degenerate
+//! or not finite. The error of texture lookups is measured in f64 against means of texels in closed
+//! form where there is one, else against the oracle.
 
 use std::path::Path;
 
 use super::areas::box_mean;
 use super::case::{Bench, Case, Point};
-use super::probing::{decades, described, noise, oracle, over, places, scene, worst};
+use super::probing::{coordinates, decades, described, noise, oracle, over, scene, worst};
 use crate::core::error::Result;
 use crate::core::progress::NoProgress;
-use crate::lab::probe::{LookUp, LookUps};
-use crate::lab::verify::queries::Dice;
+use crate::lab::probe::{LookupProbe, LookupQuery};
+use crate::lab::verify::queries::Rng;
 use crate::oracle::backend::render as oracle_render;
 use crate::pack::{self, PackedScene};
 use crate::render::{Tuning, render};
@@ -108,16 +108,16 @@ pub fn cases() -> Vec<Case> {
 }
 
 pub const SIDE: u32 = 64;
-/// Of the texels, [-2, 6].
+/// The range of the texels, [-2, 6].
 pub const RANGE: f64 = 8.0;
-/// Keeps powers of ten off those of two, on which levels and counts step.
+/// A factor that keeps powers of ten away from those of two, at which levels and counts step.
 const OFF: f64 = 1.3;
 
 fn spec(mag: Filter, min: Filter) -> SamplerSpec {
     SamplerSpec { mag, min, mip: MipMode::Linear, ..Default::default() }
 }
 
-/// Of a width in tiles: round, longer than wide, turned, sheared.
+/// Returns a footprint of a width in tiles: round, elongated, rotated or sheared.
 fn shape(kind: usize, wide: f64) -> [[f64; 2]; 2] {
     let (sine, cosine) = (0.6 * wide, 0.8 * wide);
     match kind % 4 {
@@ -128,10 +128,10 @@ fn shape(kind: usize, wide: f64) -> [[f64; 2]; 2] {
     }
 }
 
-pub fn footprints(scene: &PackedScene, wide: f64) -> Vec<LookUp> {
-    let places = places(&mut Dice::new(11), 240);
+pub fn footprints(scene: &PackedScene, wide: f64) -> Vec<LookupQuery> {
+    let uvs = coordinates(&mut Rng::new(11), 240);
     let wide = wide / f64::from(SIDE);
-    places.iter().enumerate().map(|(i, &uv)| over(scene, 0, uv, shape(i, wide))).collect()
+    uvs.iter().enumerate().map(|(i, &uv)| over(scene, 0, uv, shape(i, wide))).collect()
 }
 
 fn texel_mean() -> f64 {
@@ -140,13 +140,14 @@ fn texel_mean() -> f64 {
     all.map(|(x, y)| texels.value(x, y, 0)).sum::<f64>() / f64::from(SIDE * SIDE)
 }
 
-/// Below a texel the filter that magnifies, far beyond the texture the mean of its texels.
+/// Sweeps the width: below a texel the magnification filter applies, far beyond the texture the
+/// mean of its texels.
 fn widths(bench: &Bench<'_>, mag: Filter, min: Filter) -> Result<Vec<Point>> {
     let scene = scene(noise(SIDE, SIDE), &[spec(mag, min)])?;
     let mean = texel_mean();
-    let mut device = LookUps::new(bench.gpu);
+    let mut device = LookupProbe::new(bench.gpu);
     let sweep = decades(-6, 6, 2).map(|wide| {
-        bench.go_on()?;
+        bench.check_cancelled()?;
         let endless = wide > 64.0 * f64::from(SIDE);
         worst(&mut device, &scene, wide, RANGE, &footprints(&scene, wide * OFF), |i, query| {
             if endless { mean } else { oracle(&scene, i, query) }
@@ -158,9 +159,9 @@ fn widths(bench: &Bench<'_>, mag: Filter, min: Filter) -> Result<Vec<Point>> {
 fn areas(bench: &Bench<'_>) -> Result<Vec<Point>> {
     let scene = scene(noise(SIDE, SIDE), &[spec(Filter::Linear, Filter::SummedArea)])?;
     let texels = noise(SIDE, SIDE);
-    let mut device = LookUps::new(bench.gpu);
+    let mut device = LookupProbe::new(bench.gpu);
     let sweep = decades(-6, 6, 2).map(|wide| {
-        bench.go_on()?;
+        bench.check_cancelled()?;
         let queries = footprints(&scene, wide * OFF);
         worst(&mut device, &scene, wide, RANGE, &queries, |i, query| {
             // Magnification is linear.
@@ -173,17 +174,17 @@ fn areas(bench: &Bench<'_>) -> Result<Vec<Point>> {
 fn chances(bench: &Bench<'_>) -> Result<Vec<Point>> {
     let specs = [spec(Filter::Stochastic, Filter::Stochastic), spec(Filter::Linear, Filter::Linear)];
     let scene = scene(noise(SIDE, SIDE), &specs)?;
-    let mut device = LookUps::new(bench.gpu);
+    let mut device = LookupProbe::new(bench.gpu);
     let count = 4096u32;
     let sweep = decades(-6, 6, 2).map(|wide| {
-        bench.go_on()?;
+        bench.check_cancelled()?;
         let one = footprints(&scene, wide * OFF)[2];
-        let queries: Vec<LookUp> = (0..count).map(|seed| LookUp { seed, ..one }).collect();
+        let queries: Vec<LookupQuery> = (0..count).map(|seed| LookupQuery { seed, ..one }).collect();
         let answers = device.answer(&scene, false, &queries)?;
         let values = || answers.iter().map(|a| f64::from(a[0]));
         let mean = values().sum::<f64>() / f64::from(count);
         let variance = values().map(|v| (v - mean).powi(2)).sum::<f64>() / f64::from(count);
-        let exact = oracle(&scene, 0, &LookUp { sampler: 1, ..one });
+        let exact = oracle(&scene, 0, &LookupQuery { sampler: 1, ..one });
         let error = (mean - exact).abs() / (variance / f64::from(count)).sqrt().max(1e-6);
         let outside = values().any(|v| !(-2.0..=6.0).contains(&v));
         let error = if outside { f64::INFINITY } else { error };
@@ -195,12 +196,12 @@ fn chances(bench: &Bench<'_>) -> Result<Vec<Point>> {
 fn lengths(bench: &Bench<'_>) -> Result<Vec<Point>> {
     let specs = [spec(Filter::Linear, Filter::Anisotropic), spec(Filter::Linear, Filter::Ewa)];
     let scene = scene(noise(SIDE, SIDE), &specs)?;
-    let mut device = LookUps::new(bench.gpu);
+    let mut device = LookupProbe::new(bench.gpu);
     let sweep = decades(0, 6, 2).map(|ratio| {
-        bench.go_on()?;
+        bench.check_cancelled()?;
         let wide = OFF / f64::from(SIDE);
-        let places = places(&mut Dice::new(12), 240);
-        let queries: Vec<LookUp> = places
+        let uvs = coordinates(&mut Rng::new(12), 240);
+        let queries: Vec<LookupQuery> = uvs
             .iter()
             .enumerate()
             .map(|(i, &uv)| {
@@ -215,10 +216,10 @@ fn lengths(bench: &Bench<'_>) -> Result<Vec<Point>> {
     sweep.collect()
 }
 
-/// Cones around rays that meet a plane ever more exactly along its normal.
+/// Sweeps cones around rays that approach the normal of a plane.
 fn incidence(bench: &Bench<'_>) -> Result<Vec<Point>> {
     let sweep = decades(-12, 0, 1).map(|tilt| {
-        bench.go_on()?;
+        bench.check_cancelled()?;
         let text = format!(
             "camera = {{ eye = [{}, {}, 0.1], look_at = [0.2, 0, 0.1], up = [0, 0, 1], vertical_fov = 15 }}
             image = {{ width = 3, height = 3 }}
@@ -246,19 +247,20 @@ fn incidence(bench: &Bench<'_>) -> Result<Vec<Point>> {
 const MINIFIERS: [Filter; 5] =
     [Filter::Linear, Filter::Anisotropic, Filter::Ewa, Filter::SummedArea, Filter::Stochastic];
 
-fn outside(scene: &PackedScene, query: &LookUp, answer: f64) -> (f64, String) {
+fn outside(scene: &PackedScene, query: &LookupQuery, answer: f64) -> (f64, String) {
     let error = if answer.is_nan() { answer } else { (answer - 6.0).max(-2.0 - answer).max(0.0) };
     let place = format!("{}, axes {:?} and {:?}", described(scene, query), query.dx, query.dy);
     (error / RANGE, place)
 }
 
-/// One axis; two that are one; two opposite ones; crossed by a hair; beside a texel's width.
+/// Sweeps footprints with one axis, two equal ones, two opposite ones, almost parallel ones, and
+/// one axis beside another of a texel.
 fn degenerate(bench: &Bench<'_>) -> Result<Vec<Point>> {
     let specs = MINIFIERS.map(|min| spec(Filter::Linear, min));
     let scene = scene(noise(SIDE, SIDE), &specs)?;
-    let mut device = LookUps::new(bench.gpu);
+    let mut device = LookupProbe::new(bench.gpu);
     let sweep = decades(-45, 38, 1).map(|long| {
-        bench.go_on()?;
+        bench.check_cancelled()?;
         let wide = 3.0 / f64::from(SIDE);
         let shapes = [
             [[long, 0.0], [0.0; 2]],
@@ -270,7 +272,7 @@ fn degenerate(bench: &Bench<'_>) -> Result<Vec<Point>> {
             [[wide, wide], [long, -long]],
         ];
         let mut queries = Vec::new();
-        for uv in places(&mut Dice::new(13), 12) {
+        for uv in coordinates(&mut Rng::new(13), 12) {
             for axes in shapes {
                 queries.extend((0..specs.len()).map(|sampler| over(&scene, sampler, uv, axes)));
             }
@@ -286,13 +288,13 @@ fn no_numbers(bench: &Bench<'_>) -> Result<Vec<Point>> {
     let specs = [Filter::Linear, Filter::Ewa, Filter::SummedArea].map(|min| spec(Filter::Linear, min));
     let scene = scene(noise(SIDE, SIDE), &specs)?;
     let mean = texel_mean();
-    let mut device = LookUps::new(bench.gpu);
+    let mut device = LookupProbe::new(bench.gpu);
     let odd = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1e30, -1e38];
     let pairs = odd.iter().flat_map(|&a| odd.iter().map(move |&b| [a, b]));
     let sweep = pairs.enumerate().map(|(number, [a, b])| {
-        bench.go_on()?;
+        bench.check_cancelled()?;
         let mut queries = Vec::new();
-        for uv in places(&mut Dice::new(14), 12) {
+        for uv in coordinates(&mut Rng::new(14), 12) {
             for axes in [[[a, 0.0], [0.0, b]], [[a, b], [b, -a]], [[0.1, a], [b, 0.1]]] {
                 queries.extend((0..specs.len()).map(|sampler| over(&scene, sampler, uv, axes)));
             }

@@ -1,6 +1,6 @@
-//! Rays that graze a plane: a camera from 1e-4 to 1e6 above it, with the horizon in its picture, and cameras that
-//! see only what lies within a small angle of parallel. Towards a horizon texels become smaller than pixels: then
-//! a look-up is off by parts of a pixel.
+//! Rays at grazing incidence on a plane: a camera 1e-4 to 1e6 above it with the horizon in its
+//! picture, and cameras whose whole view is within a small angle of parallel. Towards the horizon
+//! texels become smaller than pixels: the error of a lookup is then in fractions of a pixel.
 
 use glam::{DVec2, DVec3};
 
@@ -37,13 +37,13 @@ const IN_PIXELS: &str = "a direction in f32 is off by 2^-23, which in a picture 
 const IN_TEXELS: &str = "in f64 the distance along a ray is off by 2^-50 over the sine of its angle with the plane, so that \
                          even a pixel below the horizon no look-up moves by 1/256 of a texel";
 
-/// Ground of a unit a tile around the origin.
+/// The ground with one unit per tile around the origin.
 const GROUND: [DVec3; 3] = [DVec3::ZERO, DVec3::X, DVec3::Z];
 
 fn seen(bench: &Bench<'_>, parameter: f64, view: &View, scale: f64, double: bool) -> Result<Point> {
     let mut errors = Vec::new();
     let coordinate = |place: DVec2| {
-        let [constant, varies] = on_plane(view.eye, view.way(place), GROUND)?;
+        let [constant, varies] = on_plane(view.eye, view.direction(place), GROUND)?;
         Some(scale * (constant + varies))
     };
     for reading in Reading::ALL {
@@ -64,7 +64,7 @@ fn seen(bench: &Bench<'_>, parameter: f64, view: &View, scale: f64, double: bool
     Ok(Point::worst(parameter, errors))
 }
 
-/// Texels that a pixel spans where it spans most, from places near its middle.
+/// Returns the largest extent of a pixel in texels, from positions near its centre.
 fn pixel_in_texels(
     coordinate: &dyn Fn(DVec2) -> Option<DVec2>,
     middle: DVec2,
@@ -93,7 +93,7 @@ fn by_height_in_double(bench: &Bench<'_>) -> Result<Vec<Point>> {
     decades(-4, 6).map(|height| seen(bench, height, &with_horizon(height), 1.0, true)).collect()
 }
 
-/// All of the picture lies at about this angle; a tile is as long as what it sees.
+/// Sweeps the grazing angle of the whole picture; a tile is as long as the visible part.
 fn grazing(bench: &Bench<'_>) -> Result<Vec<Point>> {
     let run = |k: i32| {
         let angle = 10f64.powi(-k);

@@ -1,6 +1,7 @@
-//! Two facing mirrors and what is seen after k bounces: the radiance is the product of the mirrors' colours times
-//! what the unfolded, straight ray meets. In: a ray that rises by as much as k bounces need. Out: the relative
-//! error of that product, and of a ramp that shows where the ray arrives.
+//! Two facing mirrors and the radiance after k bounces, which is the product of the mirrors'
+//! colours and the radiance that the unfolded, straight ray meets. For a ray that rises by the
+//! height of k bounces, measures the relative error of that product, and of a ramp that encodes
+//! where the ray arrives.
 
 use super::case::{Bench, Case, Point};
 use super::scenes::{on_device, packed, texture};
@@ -10,7 +11,7 @@ use crate::texture::data::{Dimension, TextureData};
 
 const GROUP: &str = "mirrors";
 const BOUNCES: [u32; 14] = [0, 1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 63, 64];
-/// What one mirror and the other show of red, green and blue.
+/// The reflectance of the two mirrors in red, green and blue.
 const COLOURS: [[f32; 3]; 2] = [[0.9, 0.99, 1.0], [0.5, 0.98, 1.0]];
 const SEEN: [f32; 3] = [0.7, 1.0, 300.0];
 
@@ -41,10 +42,10 @@ pub fn cases() -> Vec<Case> {
     ]
 }
 
-/// Mirrors a unit apart, the eye half way between them; a ceiling one unit above, which the ray reaches after a
-/// way of k + 1/5 units across.
+/// Returns mirrors one unit apart with the eye half way between them, and a ceiling one unit above,
+/// which the ray reaches after a horizontal distance of k + 1/5 units.
 fn scene(bounces: u32, max_depth: u32, ceiling: &str) -> String {
-    let rise = 1.0 / way(bounces);
+    let rise = 1.0 / direction(bounces);
     let mirror = |i: usize| {
         let (name, [r, g, b], z) = (["a", "b"][i], COLOURS[i], [0.0, 1.0][i]);
         format!(
@@ -64,11 +65,12 @@ fn scene(bounces: u32, max_depth: u32, ceiling: &str) -> String {
     )
 }
 
-fn way(bounces: u32) -> f64 {
+fn direction(bounces: u32) -> f64 {
     f64::from(bounces) + 0.2
 }
 
-/// Of radiance 1 behind so many bounces, the first from the first mirror.
+/// Returns the radiance of a source of 1 after the given number of bounces, the first at the first
+/// mirror.
 fn product(bounces: u32) -> [f64; 3] {
     std::array::from_fn(|c| (0..bounces as usize).map(|i| f64::from(COLOURS[i % 2][c])).product())
 }
@@ -91,7 +93,7 @@ fn throughput(bench: &Bench<'_>) -> Result<Vec<Point>> {
     BOUNCES.iter().map(point).collect()
 }
 
-/// 1 at a quarter of the way between the mirrors, 2 at three quarters.
+/// Returns a ramp: 1 at a quarter of the distance between the mirrors, 2 at three quarters.
 fn ramp() -> TextureData {
     texture(Dimension::Two, [2, 1, 1], |i| if i < 4 { 1.0 } else { 2.0 })
 }
@@ -101,7 +103,7 @@ fn place(bench: &Bench<'_>) -> Result<Vec<Point>> {
     let point = |&bounces: &u32| {
         let text = scene(bounces, bounces, "texture = \"t\"\nsampler = \"s\"") + sampler;
         let film = on_device(bench, &packed(&text, vec![ramp()], None)?)?;
-        // 0.5 - (k + 0.2), folded into the way between the mirrors.
+        // 0.5 - (k + 0.2), folded into the distance between the mirrors.
         let at = if bounces % 2 == 0 { 0.3 } else { 0.7 };
         let seen = 1.0 + 2.0 * (at - 0.25);
         let error = relative(&film, product(bounces).map(|p| p * seen));

@@ -1,5 +1,5 @@
-//! Extreme and stiff cases: sweeps of one parameter over many decades on a device, each held against an
-//! exact or float64 answer and a bound that is derived. A device in, a report out.
+//! Extreme and stiff cases: sweeps of one parameter over many decades on a device, each compared
+//! with an exact or float64 reference and a derived bound.
 
 mod areas;
 pub mod case;
@@ -30,7 +30,7 @@ mod view;
 
 use case::Case;
 
-/// Every case, in the order of the report.
+/// Returns every case in the order of the report.
 pub fn all() -> Vec<Case> {
     let groups = [
         coordinates::cases(),

@@ -1,6 +1,6 @@
-//! Rays that leave a surface: whether they meet it again (acne) or slip through (leaks), counted over all pixels
-//! where the answer is known without a picture to compare with. Scales 1e-6 to 1e6, and eyes far from what they
-//! see.
+//! Rays that leave a surface: counts self-intersections (acne) and missed surfaces (leaks) over all
+//! pixels whose result is known without a reference picture. Scales range from 1e-6 to 1e6, with
+//! eyes far from the scene.
 
 use glam::DVec3;
 
@@ -45,14 +45,14 @@ fn ball(view: &View, material: &str, radius: f64) -> String {
     )
 }
 
-/// The ball as large as the picture.
+/// Returns a view in which the ball fills the picture.
 fn facing(distance: f64, radius: f64) -> View {
     let eye = distance * DVec3::new(0.48, -0.6, 0.64);
     let fov = 2.0 * (1.1 * (radius / distance).asin().tan()).atan();
     View::new(eye, DVec3::ZERO, DVec3::new(0.1, 1.0, 0.2), fov.to_degrees(), SIDE)
 }
 
-/// Pixels for which `wrong` holds, by their middle and what was found.
+/// Counts the pixels for which `wrong` is true, given their centre and colour.
 fn counted(
     bench: &Bench<'_>,
     parameter: f64,
@@ -61,18 +61,18 @@ fn counted(
     wrong: impl Fn(DVec3, [f32; 3]) -> bool,
 ) -> Result<Point> {
     let film = on_device(bench, &packed(text, vec![], None)?)?;
-    let mut places = view.pixels().filter(|(i, _, middle)| wrong(view.way(*middle), film.pixels[*i]));
+    let mut places = view.pixels().filter(|(i, _, middle)| wrong(view.direction(*middle), film.pixels[*i]));
     let first = places.next().map(|(_, [x, y], _)| format!("first at pixel ({x}, {y})"));
     let count = places.count() + usize::from(first.is_some());
     Ok(Point::worst(parameter, [(count as f64, first.unwrap_or_default())]))
 }
 
-/// Normal of the ball around the origin where the ray meets it, and how far from the outline that is, over the
-/// radius.
-fn normal_of(view: &View, way: DVec3, radius: f64) -> Option<(DVec3, f64)> {
+/// Returns the normal of the ball around the origin at the ray's hit, and its distance from the
+/// silhouette relative to the radius.
+fn normal_of(view: &View, direction: DVec3, radius: f64) -> Option<(DVec3, f64)> {
     let distance = view.eye.length();
     let ahead = -view.eye / distance;
-    let unit = way.normalize();
+    let unit = direction.normalize();
     let aside = unit - unit.dot(ahead) * ahead;
     let sine = aside.length();
     let nearest = distance / radius * sine;
@@ -88,9 +88,9 @@ fn lit(bench: &Bench<'_>, parameter: f64, distance: f64, radius: f64) -> Result<
     let light = DVec3::new(-0.36, 0.48, 0.8);
     let text = ball(&view, "model = \"lambert\"", radius)
         + "[[light]]\nkind = \"directional\"\ndirection = [-0.36, 0.48, 0.8]\nirradiance = [3.0, 3.0, 3.0]\n";
-    counted(bench, parameter, &view, &text, |way, found| {
-        // Nearer to the outline or to the line of the shadow either is right.
-        let sure = normal_of(&view, way, radius).filter(|(_, inside)| *inside > 1e-2);
+    counted(bench, parameter, &view, &text, |direction, found| {
+        // Closer to the silhouette or to the shadow's edge either result is correct.
+        let sure = normal_of(&view, direction, radius).filter(|(_, inside)| *inside > 1e-2);
         sure.is_some_and(|(normal, _)| {
             normal.dot(light) > 1e-2 && found.iter().any(|x| x.is_nan() || *x <= 0.0)
         })
@@ -136,7 +136,7 @@ fn glass(bench: &Bench<'_>) -> Result<Vec<Point>> {
     scales().map(run).collect()
 }
 
-/// Twelve triangles around the eye, and lights on all sides of them.
+/// Sweeps twelve triangles around the eye, with lights on all sides of them.
 fn closed_box(bench: &Bench<'_>) -> Result<Vec<Point>> {
     let run = |s: f64| {
         let eye = s * DVec3::new(0.31, -0.17, 0.23);

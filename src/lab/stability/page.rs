@@ -1,30 +1,31 @@
-//! The report as one HTML page that needs nothing else, and as JSON: for each case a plot of its error over
-//! what is swept, both axes logarithmic, with the bound as a line, the reason of the bound, and its points.
+//! The report as one self-contained HTML page and as JSON: for each case a logarithmic plot of its
+//! error over the swept parameter, with the bound as a line, the derivation of the bound, and the
+//! data points.
 
 use std::path::Path;
 
-use super::report::{Report, Row, Verdict};
+use super::report::{Row, StabilityReport, Verdict};
 use super::text::{number, place, summary, swept};
 use crate::core::error::{Error, Result};
 use crate::lab::plot::chart::{Chart, Series};
 use crate::lab::plot::html::{Header, Html, document, html, long_table, scroll, section, table};
 use crate::output;
 
-/// The first file that is written.
+/// The file that is written first.
 pub const PAGE: &str = "stability.html";
 const JSON: &str = "stability.json";
 
-pub fn json(report: &Report) -> Result<String> {
+pub fn json(report: &StabilityReport) -> Result<String> {
     serde_json::to_string_pretty(report).map_err(|e| Error::new(format!("the report as JSON: {e}")))
 }
 
-/// Both files; each appears complete or not at all.
-pub fn write(folder: &Path, report: &Report) -> Result<()> {
+/// Writes both files; each appears complete or not at all.
+pub fn write(folder: &Path, report: &StabilityReport) -> Result<()> {
     output::write_file(&folder.join(PAGE), html(report).as_bytes())?;
     output::write_file(&folder.join(JSON), json(report)?.as_bytes())
 }
 
-pub fn html(report: &Report) -> String {
+pub fn html(report: &StabilityReport) -> String {
     let mut groups: Vec<&str> = Vec::new();
     for row in report.rows.iter().filter(|r| groups.last() != Some(&r.group)).collect::<Vec<_>>() {
         if !groups.contains(&row.group) {
@@ -66,7 +67,7 @@ fn verdict(row: &Row) -> Html {
     }
 }
 
-fn overview(report: &Report) -> Html {
+fn overview(report: &StabilityReport) -> Html {
     let line = |row: &Row| {
         vec![
             html!("<a href=\"#{}\">{}</a>", id(row), row.label()),
@@ -105,7 +106,7 @@ fn case(row: &Row) -> Html {
     )
 }
 
-/// A zero lies at the floor of the plot, what is no number at its top.
+/// Draws the plot of a case. Zero is at the bottom of the plot, NaN and infinity at its top.
 fn chart(row: &Row) -> String {
     let title = |p: &super::case::Point| {
         format!("{} {}: {} {}, {}", row.parameter, number(p.parameter), number(p.error), row.unit, p.place)

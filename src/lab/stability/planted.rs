@@ -1,4 +1,4 @@
-//! What compares is compared itself: exact answers pass, and each error planted into them is told.
+//! Tests of the comparisons themselves: exact answers pass, and each planted error is detected.
 
 use super::areas::box_mean;
 use super::case::Point;
@@ -6,7 +6,7 @@ use super::filters::{RANGE, SIDE, cases, footprints};
 use super::probing::{ROUNDING, noise, oracle, over, scene, worst_of};
 use super::procedurals::{checker_mean, query as box_at, worst_checker};
 use super::seams::worst_step;
-use crate::lab::probe::LookUp;
+use crate::lab::probe::LookupQuery;
 use crate::pack::PackedScene;
 use crate::texture::sampler_spec::{Filter, MipMode, SamplerSpec};
 
@@ -14,10 +14,10 @@ fn filtered(min: Filter) -> PackedScene {
     scene(noise(SIDE, SIDE), &[SamplerSpec { min, mip: MipMode::Linear, ..Default::default() }]).unwrap()
 }
 
-/// The error of answers to look-ups that are not quite those that were asked for.
-fn planted(scene: &PackedScene, wide: f64, plant: impl Fn(&mut LookUp)) -> Point {
+/// Returns the error of answers to lookups that were altered by `plant`.
+fn planted(scene: &PackedScene, wide: f64, plant: impl Fn(&mut LookupQuery)) -> Point {
     let queries = footprints(scene, wide);
-    let answer = |(i, query): (usize, &LookUp)| {
+    let answer = |(i, query): (usize, &LookupQuery)| {
         let mut planted = *query;
         plant(&mut planted);
         [oracle(scene, i, &planted) as f32; 4]
@@ -61,19 +61,19 @@ fn an_answer_that_is_no_number_has_an_endless_error() {
 fn boxes_by_their_mean_tell_a_box_of_one_period_from_one_and_a_half() {
     let scene = filtered(Filter::SummedArea);
     let texels = noise(SIDE, SIDE);
-    for (wide, told) in [(1.5, true), (1.0, false)] {
+    for (wide, detected) in [(1.5, true), (1.0, false)] {
         let query = over(&scene, 0, [0.3, 0.6], [[wide, 0.0], [0.0, 0.2]]);
         let period = over(&scene, 0, [0.3, 0.6], [[1.0, 0.0], [0.0, 0.2]]);
         let error = (box_mean(&texels, &query) - box_mean(&texels, &period)).abs() / RANGE;
-        assert_eq!(error > 2e-5, told, "{wide}: {error}");
-        // The table has it too.
+        assert_eq!(error > 2e-5, detected, "{wide}: {error}");
+        // The summed-area table agrees.
         assert!((oracle(&scene, 0, &query) - box_mean(&texels, &query)).abs() / RANGE < 1e-6);
     }
 }
 
 #[test]
 fn steps_are_told_from_slopes() {
-    let pair = [LookUp::default(); 2];
+    let pair = [LookupQuery::default(); 2];
     let step = |apart: f32| worst_step(1e-3, 0.01, &pair, &[[1.0; 4], [1.0 + apart; 4]]).error;
     assert_eq!(step(0.009), 0.0);
     assert!(step(0.0101) > 4e-6 && step(f32::NAN) == f64::INFINITY);

@@ -1,11 +1,11 @@
-//! Procedural textures far from the origin and over footprints of any size. Places and boxes in, the error of
-//! a device's colours against means in closed form out.
+//! Procedural textures far from the origin and over footprints of any size. Measures the error of a
+//! device's colours against means in closed form.
 
 use super::case::{Bench, Case, Point};
 use super::probing::decades;
 use crate::core::error::Result;
 use crate::lab::probe::{self, ProceduralQuery};
-use crate::lab::verify::queries::{self, Dice};
+use crate::lab::verify::queries::{self, Rng};
 use crate::pack::{self, PackedScene};
 use crate::scene::model::Footprint;
 use crate::texture::data::{ColorSpace, TexelFormat};
@@ -60,7 +60,7 @@ fn scene(kinds: &[ProceduralKind]) -> Result<PackedScene> {
     let spec = SamplerSpec::default();
     let mut scene = queries::pairs_over(Footprint::Differentials, vec![texture], &[spec], &[(0, 0)])?;
     scene.procedurals = kinds.iter().map(|&kind| pack::procedural(&Procedural::new(kind))).collect();
-    // Without a sampler that asks for one, the scene has none.
+    // A scene has no footprint unless a sampler asks for one.
     scene.header.footprint = Footprint::Differentials;
     Ok(scene)
 }
@@ -77,10 +77,11 @@ pub fn query(procedural: usize, at: [f64; 3], side: [f64; 2]) -> ProceduralQuery
     }
 }
 
-/// The mean of a checker's figure over a box that is flat in z: of squares of ±1 the means multiply.
+/// Returns the foreground's mean of a checker over a box that is flat in z: the means of products
+/// of ±1 multiply.
 pub fn checker_mean(query: &ProceduralQuery) -> f64 {
     let wave = |x: f64, wide: f64| {
-        // The integral from 0 of what is 1 in even cells and -1 in odd ones.
+        // The integral from 0 of a function that is 1 in even cells and -1 in odd ones.
         let integral = |x: f64| {
             let within = x.rem_euclid(2.0);
             within.min(2.0 - within)
@@ -94,7 +95,7 @@ pub fn checker_mean(query: &ProceduralQuery) -> f64 {
 }
 
 fn checker(bench: &Bench<'_>, parameter: f64, unit: f64, list: &[ProceduralQuery]) -> Result<Point> {
-    bench.go_on()?;
+    bench.check_cancelled()?;
     let scene = scene(&[ProceduralKind::Checker])?;
     let answers = probe::procedurals(bench.gpu, &scene, false, list)?;
     Ok(worst_checker(parameter, unit, list, &answers))
@@ -108,15 +109,16 @@ pub fn worst_checker(parameter: f64, unit: f64, list: &[ProceduralQuery], answer
     Point::worst(parameter, errors)
 }
 
-/// Around whole numbers, where the colour changes, and anywhere; boxes from 1e-3 to 10.
+/// Sweeps positions around integers, where the colour changes, and elsewhere; boxes from 1e-3 to
+/// 10.
 fn checker_far(bench: &Bench<'_>) -> Result<Vec<Point>> {
     let sweep = decades(0, 6, 2).map(|far| {
-        let mut dice = Dice::new(21);
+        let mut rng = Rng::new(21);
         let list: Vec<_> = (0..600)
             .map(|i| {
                 let side = [1e-3, 1e-2, 0.1, 1.0, 10.0][i % 5] * [1.0, 1.3][i % 2];
                 let reach = if i % 3 == 0 { 4.0 } else { side };
-                let mut place = || far.floor() + dice.between(-reach, reach);
+                let mut place = || far.floor() + rng.between(-reach, reach);
                 let at = [place(), -place(), far.floor() + 0.5];
                 query(0, at, [side, side])
             })
@@ -128,11 +130,11 @@ fn checker_far(bench: &Bench<'_>) -> Result<Vec<Point>> {
 
 fn checker_boxes(bench: &Bench<'_>) -> Result<Vec<Point>> {
     let sweep = decades(-6, 6, 2).map(|side| {
-        let mut dice = Dice::new(22);
+        let mut rng = Rng::new(22);
         let list: Vec<_> = (0..600)
             .map(|i| {
                 let far = [0.0, 7.0, 1000.0][i % 3];
-                let at = [far + dice.between(-side, side), dice.between(-2.0, 2.0), 0.5];
+                let at = [far + rng.between(-side, side), rng.between(-2.0, 2.0), 0.5];
                 query(0, at, [side, [1.0, 0.7][i % 2] * side])
             })
             .collect();
@@ -141,7 +143,8 @@ fn checker_boxes(bench: &Bench<'_>) -> Result<Vec<Point>> {
     sweep.collect()
 }
 
-/// Shares of the figure that follow from the patterns' definitions, for patterns with their defaults.
+/// Returns foreground fractions that follow from the definitions of the patterns with their
+/// defaults.
 fn shares() -> Vec<(ProceduralKind, f64)> {
     use ProceduralKind::{Brick, Checker, Fbm, Grid, Marble, Noise, Stripes, Wood};
     let lines = Procedural::new(Grid).width;
@@ -164,11 +167,11 @@ fn wide(bench: &Bench<'_>) -> Result<Vec<Point>> {
     let kinds: Vec<ProceduralKind> = shares.iter().map(|s| s.0).collect();
     let scene = scene(&kinds)?;
     let sweep = decades(4, 12, 1).map(|side| {
-        bench.go_on()?;
-        let mut dice = Dice::new(23);
+        bench.check_cancelled()?;
+        let mut rng = Rng::new(23);
         let mut list = Vec::new();
         for _ in 0..40 {
-            let at = [0; 3].map(|_| dice.between(-1e3, 1e3));
+            let at = [0; 3].map(|_| rng.between(-1e3, 1e3));
             list.extend((0..kinds.len()).map(|i| query(i, at, [side, side])));
         }
         let answers = probe::procedurals(bench.gpu, &scene, false, &list)?;
@@ -184,12 +187,12 @@ fn wide(bench: &Bench<'_>) -> Result<Vec<Point>> {
 fn anywhere(bench: &Bench<'_>) -> Result<Vec<Point>> {
     let scene = scene(ProceduralKind::ALL)?;
     let sweep = decades(0, 38, 2).map(|far| {
-        bench.go_on()?;
-        let mut dice = Dice::new(24);
+        bench.check_cancelled()?;
+        let mut rng = Rng::new(24);
         let mut list = Vec::new();
         for side in [0.0, 1e-40, 1e-20, 1e-3, 1.0, 1e3, 1e20, f64::INFINITY, f64::NAN] {
             for _ in 0..6 {
-                let at = [0; 3].map(|_| dice.between(-far, far));
+                let at = [0; 3].map(|_| rng.between(-far, far));
                 list.extend((0..ProceduralKind::ALL.len()).map(|i| query(i, at, [side, 0.6 * side])));
                 let skewed = |q: &ProceduralQuery| ProceduralQuery { dy: q.dx, ..*q };
                 list.extend(

@@ -1,5 +1,6 @@
-//! Points of cases → rows with a verdict, and the whole as plain data: what `--json` prints. A case is
-//! within where max over its points of error ≤ bound; an error that is no number is above every bound.
+//! The report: rows with a verdict for each case, as plain data that `--json` prints. A case is
+//! within its bound if the largest error of its points is at most the bound; NaN and infinity
+//! exceed every bound.
 
 use serde::{Serialize, Serializer};
 
@@ -20,7 +21,7 @@ impl Serialize for Verdict {
     }
 }
 
-/// One case and what came of it.
+/// One case with its result.
 #[derive(Clone, Debug, Serialize)]
 pub struct Row {
     pub group: &'static str,
@@ -29,7 +30,7 @@ pub struct Row {
     pub unit: &'static str,
     pub bound: f64,
     pub reason: &'static str,
-    /// Of the points the one with the largest error; where there are none, what stands in its place.
+    /// The point with the largest error, or a placeholder if there are no points.
     pub worst: Point,
     pub points: Vec<Point>,
     pub seconds: f64,
@@ -37,7 +38,7 @@ pub struct Row {
 }
 
 impl Row {
-    /// `outcome` is the case's points, or why there are none.
+    /// Creates a row. `outcome` holds the case's points, or the reason why there are none.
     pub fn new(case: &Case, outcome: Result<Vec<Point>, String>, seconds: f64) -> Row {
         let (mut points, why) = match outcome {
             Ok(points) => (points, "no value was measured".to_string()),
@@ -67,7 +68,7 @@ impl Row {
         format!("{}/{}", self.group, self.name)
     }
 
-    /// Least and greatest value of the parameter.
+    /// Returns the smallest and largest value of the parameter.
     pub fn range(&self) -> Option<[f64; 2]> {
         let values = || self.points.iter().map(|p| p.parameter);
         Some([values().reduce(f64::min)?, values().reduce(f64::max)?])
@@ -83,7 +84,7 @@ pub struct Summary {
 }
 
 #[derive(Clone, Debug, Serialize)]
-pub struct Report {
+pub struct StabilityReport {
     pub device: String,
     pub driver: String,
     pub api_version: String,
@@ -93,10 +94,10 @@ pub struct Report {
     pub rows: Vec<Row>,
 }
 
-impl Report {
-    pub fn new(device: &DeviceInfo, rows: Vec<Row>, seconds: f64) -> Report {
+impl StabilityReport {
+    pub fn new(device: &DeviceInfo, rows: Vec<Row>, seconds: f64) -> StabilityReport {
         let count = |verdict| rows.iter().filter(|r| r.verdict == verdict).count();
-        Report {
+        StabilityReport {
             device: device.name.clone(),
             driver: device.driver.clone(),
             api_version: device.api_version.clone(),

@@ -1,16 +1,21 @@
-//! A device and cases in, a report out. A case that fails is a broken case; a wish to stop, or a device that no
-//! longer answers, ends all of it.
+//! Runs cases on a device and returns the report. A failing case is recorded as such; cancellation
+//! or a lost device ends the run.
 
 use std::time::Instant;
 
 use super::case::{Bench, Case};
-use super::report::{Report, Row};
+use super::report::{Row, StabilityReport};
 use crate::core::error::{Error, Result};
 use crate::core::progress::{Progress, SubProgress};
 use crate::gpu::{BufferUse, Gpu};
 
 /// Runs the cases whose label, such as `sums/colour`, contains `only`.
-pub fn run(gpu: &Gpu, mut cases: Vec<Case>, only: Option<&str>, progress: &dyn Progress) -> Result<Report> {
+pub fn run(
+    gpu: &Gpu,
+    mut cases: Vec<Case>,
+    only: Option<&str>,
+    progress: &dyn Progress,
+) -> Result<StabilityReport> {
     let start = Instant::now();
     if let Some(text) = only {
         let names: Vec<String> = cases.iter().map(Case::label).collect();
@@ -28,30 +33,30 @@ pub fn run(gpu: &Gpu, mut cases: Vec<Case>, only: Option<&str>, progress: &dyn P
         let from = done as f64 * share;
         let part = SubProgress { whole: progress, from, to: from + share };
         let bench = Bench::new(gpu, &part);
-        bench.go_on()?;
+        bench.check_cancelled()?;
         let clock = Instant::now();
         let outcome = match (case.run)(&bench) {
             Err(Error::Interrupted) => return Err(Error::Interrupted),
             Err(error) => {
                 check_alive(gpu)?;
-                Err(told(&error))
+                Err(message(&error))
             }
             Ok(points) => Ok(points),
         };
         rows.push(Row::new(case, outcome, clock.elapsed().as_secs_f64()));
         progress.advance(from + share);
     }
-    Ok(Report::new(gpu.info(), rows, start.elapsed().as_secs_f64()))
+    Ok(StabilityReport::new(gpu.info(), rows, start.elapsed().as_secs_f64()))
 }
 
-/// A lost device fails at whatever it is asked.
+/// Returns an error if the device is lost: then every call fails.
 fn check_alive(gpu: &Gpu) -> Result<()> {
     let mut word = [0; 4];
     let buffer = gpu.upload_buffer("a sign of life", BufferUse::Storage, &[0; 4])?;
     gpu.read_buffer(&buffer, 0, &mut word)
 }
 
-/// The message with its advice.
-fn told(error: &Error) -> String {
+/// Returns the message with its advice.
+fn message(error: &Error) -> String {
     error.help().map_or(error.to_string(), |help| format!("{error} ({help})"))
 }

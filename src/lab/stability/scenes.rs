@@ -1,5 +1,5 @@
-//! What cases make their pictures from: scenes as TOML text with textures in memory, packed, on the device and
-//! in the oracle; and how two pictures differ.
+//! Helpers for pictures of cases: scenes as TOML text with textures in memory, packed, rendered on
+//! the device or by the oracle, and the difference of two pictures.
 
 use std::path::Path;
 
@@ -14,8 +14,8 @@ use crate::render::{self, Tuning};
 use crate::scene::model::Scene;
 use crate::texture::data::{ColorSpace, Component, Dimension, TexelFormat, TextureData};
 
-/// A square of side 2 that fills a picture of any width and height, seen along −z: u and v are 0 to 1 from its
-/// upper left. `MATERIAL` is to follow.
+/// A square of side 2 that fills a picture of any width and height, seen along −z: u and v are 0 to
+/// 1 from its upper left. `MATERIAL` is to follow.
 pub const SCREEN: &str = r#"
 [camera]
 eye = [0.0, 0.0, 1.0]
@@ -32,7 +32,7 @@ pub fn packed(text: &str, textures: Vec<TextureData>, crop: Option<Rect>) -> Res
 }
 
 pub fn on_device(bench: &Bench<'_>, scene: &PackedScene) -> Result<Film> {
-    bench.go_on()?;
+    bench.check_cancelled()?;
     let mut scene = scene.clone();
     if bench.rounded {
         scene.round_reals();
@@ -41,11 +41,12 @@ pub fn on_device(bench: &Bench<'_>, scene: &PackedScene) -> Result<Film> {
 }
 
 pub fn in_oracle(bench: &Bench<'_>, scene: &PackedScene) -> Result<Film> {
-    bench.go_on()?;
+    bench.check_cancelled()?;
     oracle::backend::render(scene, bench.progress)
 }
 
-/// Float texels, three channels and an alpha of 1, `value` of the channel's number in the texture.
+/// Returns float texels of three channels and an alpha of 1, with `value` as a function of the
+/// channel's index in the texture.
 pub fn texture(dimension: Dimension, size: [u32; 3], value: impl Fn(u32) -> f32) -> TextureData {
     let [width, height, depth] = size;
     let channel = |i: u32| if i % 4 == 3 { 1.0 } else { value(i) };
@@ -62,7 +63,7 @@ pub fn texture(dimension: Dimension, size: [u32; 3], value: impl Fn(u32) -> f32)
     }
 }
 
-/// A number in [0, 1) that looks random.
-pub fn dice(i: u32, seed: u32) -> f64 {
+/// Returns a hashed number in [0, 1).
+pub fn hashed_unit(i: u32, seed: u32) -> f64 {
     f64::from(pcg2d([i, seed])[0]) / f64::from(u32::MAX).next_up()
 }

@@ -1,9 +1,10 @@
-//! Pictures and textures of one pixel or texel along a side and of very many: the device against the oracle, on
-//! all pixels of strips and on the corners of the largest picture. The error is the largest difference of a
-//! channel, over what a half ulp of the coordinate moves: |d - o| / (2⁻²⁴ (1 + n)), n texels along the longest side.
+//! Pictures and textures of one pixel or texel along a side and of very many, on the device and in
+//! the oracle: all pixels of strips, and the corners of the largest picture. The error is the
+//! largest difference of a channel relative to the change for half an ulp of the coordinate: |d -
+//! o| / (2⁻²⁴ (1 + n)), n texels along the longest side.
 
 use super::case::{Bench, Case, Point};
-use super::scenes::{dice, in_oracle, on_device, packed, texture};
+use super::scenes::{hashed_unit, in_oracle, on_device, packed, texture};
 use crate::core::error::Result;
 use crate::core::film::Film;
 use crate::core::range::Rect;
@@ -16,7 +17,7 @@ const BOUND: f64 = 24.0;
 const REASON: &str = "texels lie in [0, 1], so that each of three coordinates moves a value by no more than it moves in \
                       texels; each is off by the roundings of a ray, a hit and a mapping: at most 8 half ulps of 1";
 const HALF_ULP: f64 = 1.0 / 16_777_216.0;
-/// Along each side of the textures of pictures.
+/// The texels along each side of the textures of pictures.
 const TEXELS: u32 = 16;
 const SIDES: [u32; 10] = [1, 2, 3, 16, 127, 1024, 4096, 4097, 16383, 16384];
 
@@ -42,10 +43,10 @@ pub fn cases() -> Vec<Case> {
 }
 
 fn noise(dimension: Dimension, size: [u32; 3]) -> TextureData {
-    texture(dimension, size, |i| dice(i, 11) as f32)
+    texture(dimension, size, |i| hashed_unit(i, 11) as f32)
 }
 
-/// A picture of a plane that shows the texture's square from `low` to 1 + `low` in u and v.
+/// Returns a picture of a plane that shows the texture's square from `low` to 1 + `low` in u and v.
 fn flat([width, height]: [u32; 2], low: f64) -> String {
     let aspect = f64::from(width) / f64::from(height);
     format!(
@@ -67,7 +68,7 @@ fn head([width, height]: [u32; 2], view: f64, mapping: &str) -> String {
     )
 }
 
-/// The device's picture against the oracle's.
+/// Compares the device's picture with the oracle's.
 fn compared(
     bench: &Bench<'_>,
     text: &str,
@@ -138,7 +139,7 @@ fn high_textures(bench: &Bench<'_>) -> Result<Vec<Point>> {
     textures(bench, |side| [1, side, 1])
 }
 
-/// A part of a sphere without its outline.
+/// Part of a sphere without its silhouette.
 const SPHERE: &str = "[[sphere]]\ncenter = [0.0, 0.0, 0.0]\nradius = 2.0\nmaterial = \"m\"\n";
 
 fn volumes(bench: &Bench<'_>) -> Result<Vec<Point>> {
@@ -153,7 +154,7 @@ fn volumes(bench: &Bench<'_>) -> Result<Vec<Point>> {
     sizes.into_iter().map(point).collect()
 }
 
-/// Seen so that three faces and their corner are in the picture.
+/// Sweeps a view in which three faces and their corner are in the picture.
 fn cubes(bench: &Bench<'_>) -> Result<Vec<Point>> {
     let mapping = "mapping = { kind = \"cube\", entity = \"normal\", axis = [0.6, 0.5, -0.4] }";
     let texture = "[[texture]]\nname = \"t\"\nfile = \"t.exr\"\ndimension = \"cube\"\n";

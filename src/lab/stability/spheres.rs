@@ -1,6 +1,7 @@
-//! Spheres of radius 1e-4 to 1e6, seen from far and from close above their surface. The camera looks at the
-//! centre, or along the tangent that grazes it, so that outline, place and coordinate follow from plane
-//! trigonometry in the angle between ray and view, without any of the renderer's formulas.
+//! Spheres of radius 1e-4 to 1e6, seen from a distance and from close above their surface. The
+//! camera looks at the centre, or along the tangent that grazes it, so that silhouette, position
+//! and coordinate follow from plane trigonometry in the angle between ray and view, without any of
+//! the renderer's formulas.
 
 use std::f64::consts::PI;
 
@@ -51,15 +52,15 @@ fn text(view: &View, center: DVec3, radius: f64, reading: &Reading) -> String {
         )
 }
 
-/// Where, in the lecture's order u = θ/π and v = φ/2π, a unit normal lies.
+/// Returns the coordinate of a unit normal in the lecture's order u = θ/π and v = φ/2π.
 fn coordinate(normal: DVec3) -> DVec2 {
     let turn = normal.z.atan2(normal.x) / (2.0 * PI);
     DVec2::new(normal.x.hypot(normal.z).atan2(normal.y) / PI, turn - turn.floor())
 }
 
-/// The picture is 1.2 times as high as the sphere.
+/// Measures a view towards the centre. The picture is 1.2 times as high as the sphere.
 fn at_center(bench: &Bench<'_>, parameter: f64, radius: f64, distance: f64) -> Result<Point> {
-    // No axis of the world lies in the picture.
+    // No axis of the world is in the picture.
     let ahead = DVec3::new(0.48, -0.6, 0.64).normalize();
     let fov = 2.0 * (1.2 * (radius / distance).asin().tan()).atan();
     let center = DVec3::new(0.5, 0.25, -0.125);
@@ -72,12 +73,12 @@ fn at_center(bench: &Bench<'_>, parameter: f64, radius: f64, distance: f64) -> R
     let pixel = 2.0 * (0.5 * fov).tan() / f64::from(SIDE);
     let errors = view.pixels().filter_map(|(i, [x, y], middle)| {
         let place = format!("pixel ({x}, {y})");
-        let aside = view.way(middle) - ahead;
+        let aside = view.direction(middle) - ahead;
         let tangent = aside.length();
-        // Distance of the ray from the centre, over the radius.
+        // The distance of the ray from the centre, relative to the radius.
         let nearest = distance / radius * tangent / (1.0 + tangent * tangent).sqrt();
         let hit = film.pixels[i] != [0.0; 3];
-        // The outline is at 1, and a pixel in these units:
+        // The silhouette is at 1, and a pixel in these units is:
         let unit = pixel * distance / radius;
         if hit != (nearest < 1.0) {
             return Some(((nearest - 1.0).abs() / unit, place));
@@ -85,12 +86,13 @@ fn at_center(bench: &Bench<'_>, parameter: f64, radius: f64, distance: f64) -> R
         if !hit {
             return None;
         }
-        // Between the ray and the normal; beside the outline places on the sphere turn without bound.
+        // The angle between ray and normal; close to the silhouette positions on the sphere change
+        // without bound.
         let normal_angle = nearest.asin() - tangent.atan();
         let normal = -normal_angle.cos() * ahead + normal_angle.sin() * aside / tangent.max(1e-300);
         let texels = reading.texels_off(film.pixels[i], coordinate(normal))?;
         let steep = 1.0 / (1.0 - nearest * nearest).sqrt();
-        // Texels of a pixel: along v a turn is 2π sin θ long.
+        // Texels per pixel: along v a turn is 2π sin θ long.
         let sine = normal.x.hypot(normal.z);
         let across = 64.0 * unit * steep * (1.0 / PI).max(1.0 / (2.0 * PI * sine));
         Some((texels / across.max(1.0), place))
@@ -110,14 +112,15 @@ fn by_radius(bench: &Bench<'_>) -> Result<Vec<Point>> {
     (-4..=6).map(run).collect()
 }
 
-/// The eye is one unit above a sphere and looks where it ends: at an angle of acos(r / (r + 1)) below level.
+/// Measures an eye one unit above a sphere that looks at its horizon: at an angle of acos(r / (r +
+/// 1)) below level.
 fn horizon(bench: &Bench<'_>) -> Result<Vec<Point>> {
     let run = |k: i32| {
         let radius = 10f64.powi(k);
         let dip = ((2.0 * radius + 1.0).sqrt() / radius).atan();
         let center = DVec3::new(0.0, -radius, 0.0);
         let eye = DVec3::new(0.0, 1.0, 0.0);
-        // The picture is a fifth of the dip high.
+        // The picture's height is a fifth of the dip.
         let fov = 0.2 * dip;
         let view =
             View::new(eye, eye + DVec3::new(dip.cos(), -dip.sin(), 0.0), DVec3::Y, fov.to_degrees(), SIDE);
@@ -126,8 +129,8 @@ fn horizon(bench: &Bench<'_>) -> Result<Vec<Point>> {
         let film = on_device(bench, &scene)?;
         let pixel = 2.0 * (0.5 * fov).tan() / f64::from(SIDE);
         let errors = view.pixels().filter_map(|(i, [x, y], middle)| {
-            let way = view.way(middle);
-            let below = (-way.y).atan2(way.x.hypot(way.z)) - dip;
+            let direction = view.direction(middle);
+            let below = (-direction.y).atan2(direction.x.hypot(direction.z)) - dip;
             let hit = film.pixels[i] != [0.0; 3];
             (hit != (below > 0.0)).then(|| (below.abs() / pixel, format!("pixel ({x}, {y})")))
         });

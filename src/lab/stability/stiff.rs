@@ -1,9 +1,9 @@
-//! Detail of very different scales in one picture: does the error still fall with the samples? Each picture is held
-//! against exact areas and integrals (the oracle's beams); N^-1/2 is the law of samples at random, and a scene that misses its detail
-//! falls behind it.
+//! Detail of very different scales in one picture: does the error still decrease with the samples?
+//! Each picture is compared with exact areas and integrals (the oracle's beams); random samples
+//! converge as N^-1/2, and a scene whose detail is missed converges more slowly.
 
 use super::case::{Bench, Case, Point};
-use super::scenes::{dice, in_oracle, on_device, packed, texture};
+use super::scenes::{hashed_unit, in_oracle, on_device, packed, texture};
 use crate::core::error::Result;
 use crate::core::film::Film;
 use crate::pack::PackedScene;
@@ -42,16 +42,16 @@ const SURFACES: &str = "[[texture]]\nname = \"t\"\nfile = \"t.exr\"\n[[sampler]]
 [[material]]\nname = \"coarse\"\nmodel = \"unlit\"\ntexture = \"t\"\nsampler = \"s\"\nmapping = { kind = \"surface\", scale = [6.25e-5, 6.25e-5], offset = [0.3, 0.4] }\n";
 
 fn noise(bright: bool) -> TextureData {
-    // Bright: one texel of 65504 in 4096 dark ones.
+    // Bright: one texel of 65504 among 4096 dark ones.
     let side = if bright { 64 } else { 16 };
     texture(Dimension::Two, [side, side, 1], |i| match bright {
         true if i / 4 == side * (side / 2) + side / 3 => 65504.0,
         true => 0.01,
-        false => dice(i, 5) as f32,
+        false => hashed_unit(i, 5) as f32,
     })
 }
 
-/// Mean square of the difference over all channels.
+/// Returns the RMSE over all channels.
 fn rmse(one: &Film, other: &Film) -> f64 {
     let squares = one
         .pixels
@@ -61,7 +61,7 @@ fn rmse(one: &Film, other: &Film) -> f64 {
     (squares.sum::<f64>() / (3.0 * one.pixels.len() as f64)).sqrt()
 }
 
-/// The pixel that errs most.
+/// Returns the pixel with the largest error.
 fn worst_pixel(one: &Film, other: &Film) -> String {
     let error =
         |i: usize| one.pixels[i].iter().zip(other.pixels[i]).map(|(a, b)| (a - b).abs()).fold(0.0, f32::max);
@@ -69,7 +69,7 @@ fn worst_pixel(one: &Film, other: &Film) -> String {
     format!("pixel ({}, {}) off by {:.1e}", worst as u32 % SIDE, worst as u32 / SIDE, error(worst))
 }
 
-/// A scene of these shapes, sampled at random, and its exact picture.
+/// Returns a scene of these shapes with random samples, and its exact picture.
 fn scene(shapes: &str, spp: u32, algorithm: &str, bright: bool) -> Result<PackedScene> {
     let sampling = format!("[sampling]\npattern = \"random\"\nspp = {spp}\nalgorithm = \"{algorithm}\"\n");
     packed(&(CAMERA.to_string() + &sampling + SURFACES + shapes), vec![noise(bright)], None)
@@ -88,14 +88,14 @@ fn falls(bench: &Bench<'_>, shapes: &str, bright: bool) -> Result<Vec<Point>> {
     Ok(points)
 }
 
-/// Texels of 1e-3 on the ground, of 1e3 on a wall behind it.
+/// Sweeps texels of 1e-3 on the ground and of 1e3 on a wall behind it.
 fn texels(bench: &Bench<'_>) -> Result<Vec<Point>> {
     let shapes = "[[plane]]\norigin = [0.0, 0.0, 0.0]\ntangent = [1.0, 0.0, 0.0]\nbitangent = [0.0, 0.0, 1.0]\nhalf_extent = 4.0\nmaterial = \"fine\"\n\
                   [[plane]]\norigin = [0.0, 0.0, -1e4]\ntangent = [1.0, 0.0, 0.0]\nbitangent = [0.0, 1.0, 0.0]\nmaterial = \"coarse\"\n";
     falls(bench, shapes, false)
 }
 
-/// A hundredth of a pixel wide.
+/// Sweeps a needle a hundredth of a pixel wide.
 fn needle(bench: &Bench<'_>) -> Result<Vec<Point>> {
     let shapes = "[[plane]]\norigin = [0.0, 0.0, 0.0]\ntangent = [1.0, 0.0, 0.0]\nbitangent = [0.0, 0.0, 1.0]\nmaterial = \"fine\"\n\
                   [[triangle]]\nvertices = [[-0.5, 0.4, -1.0], [0.6, 1.2, -1.1], [0.6, 1.2005, -1.1]]\nmaterial = \"coarse\"\n";

@@ -1,8 +1,9 @@
-//! Very many samples in one pixel: the mean of N of them against the mean in float64, |x̄ − μ| / μ. What can go
-//! wrong is the sum: N equal terms added one by one in f32 are off by 1e-3 at N = 2²⁰.
+//! Very many samples in one pixel: the mean of N of them against the mean in float64, |x̄ − μ| / μ.
+//! The error under test is that of the sum: N equal terms added one by one in f32 have an error of
+//! 1e-3 at N = 2²⁰.
 
 use super::case::{Bench, Case, Point};
-use super::scenes::{SCREEN, dice, in_oracle, on_device, packed, texture};
+use super::scenes::{SCREEN, hashed_unit, in_oracle, on_device, packed, texture};
 use crate::core::error::Result;
 use crate::core::film::Film;
 use crate::integrators::adaptive::{self, Goal};
@@ -12,15 +13,16 @@ use crate::texture::data::{Dimension, TextureData};
 const GROUP: &str = "sums";
 const PARAMETER: &str = "samples in one pixel";
 const UNIT: &str = "of the mean";
-/// 2²⁴, the most that a scene may ask for.
-const MOST: u32 = 24;
-/// Each chunk of 256 samples is a submission: 2²⁴ take as long as all the others together.
+/// The exponent of the largest sample count of a scene, 2²⁴.
+const MAX_EXPONENT: u32 = 24;
+/// The limit for grids. Each block of 256 samples is a submission: 2²⁴ take as long as all the
+/// others together.
 const MAX_GRID: u32 = 22;
-/// The oracle takes a microsecond a sample.
+/// The limit for the oracle, which takes a microsecond per sample.
 const MAX_IN_ORACLE: u32 = 18;
-/// An adaptive picture takes at most 2¹⁶ samples in each of two halves.
+/// The limit for adaptive pictures, which take at most 2¹⁶ samples in each of two halves.
 const MAX_BY_JOBS: u32 = 17;
-/// Texels along each side.
+/// The texels along each side.
 const SIDE: u32 = 16;
 
 pub fn cases() -> Vec<Case> {
@@ -68,9 +70,9 @@ fn textured(pattern: &str, algorithm: &str, spp: u32, filter: &str) -> String {
     screen(pattern, algorithm, spp, "texture = \"t\"\nsampler = \"s\"") + texture + &sampler
 }
 
-/// Values over `decades` about 1, evenly in their logarithm.
+/// Returns values over `decades` around 1, uniform in their logarithm.
 fn noise_texture(decades: f64) -> TextureData {
-    texture(Dimension::Two, [SIDE, SIDE, 1], |i| 10f64.powf(decades * (dice(i, 7) - 0.5)) as f32)
+    texture(Dimension::Two, [SIDE, SIDE, 1], |i| 10f64.powf(decades * (hashed_unit(i, 7) - 0.5)) as f32)
 }
 
 fn deviation(film: &Film, exact: [f64; 3]) -> f64 {
@@ -79,7 +81,7 @@ fn deviation(film: &Film, exact: [f64; 3]) -> f64 {
     errors.fold(0.0, |worst, e| if e.is_nan() { f64::INFINITY } else { worst.max(e) })
 }
 
-/// Powers of four from 2⁸ on.
+/// Returns powers of four from 2⁸ on.
 fn counts(most: u32) -> impl Iterator<Item = u32> {
     (8..=most).step_by(2).map(|bits| 1 << bits)
 }
@@ -93,11 +95,11 @@ fn colour(bench: &Bench<'_>) -> Result<Vec<Point>> {
         let film = on_device(bench, &packed(&coloured("stratified", "samples", spp), vec![], None)?)?;
         Ok(point(spp, &film, COLOUR.map(f64::from)))
     };
-    counts(MOST).map(run).collect()
+    counts(MAX_EXPONENT).map(run).collect()
 }
 
-/// A grid of samples whose side is a multiple of the texture's meets each texel equally often, so that the mean
-/// is that of the texels.
+/// Sweeps grids of samples whose side is a multiple of the texture's, so that each texel is hit
+/// equally often and the mean is that of the texels.
 fn texels(bench: &Bench<'_>) -> Result<Vec<Point>> {
     let texture = noise_texture(7.0);
     let texels: Vec<[f32; 4]> = bytemuck::pod_collect_to_vec(&texture.texels);
@@ -119,7 +121,7 @@ fn noise(bench: &Bench<'_>) -> Result<Vec<Point>> {
     counts(MAX_IN_ORACLE).map(run).collect()
 }
 
-/// Terms that are nearly equal are rounded nearly alike: the worst that a sum may meet.
+/// Sweeps nearly equal terms, whose rounding errors are nearly equal too: the worst case of a sum.
 fn jobs_calm(bench: &Bench<'_>) -> Result<Vec<Point>> {
     by_jobs(bench, 1e-4)
 }

@@ -1,14 +1,14 @@
-//! Texels at the ends of what f32 holds: very bright, very dark, of both signs, no numbers. Textures in, the
-//! error of look-ups against weighted sums in f64 out.
+//! Texels at the limits of f32: very bright, very dark, of both signs, NaN and infinity. Measures
+//! the error of lookups against weighted sums in f64.
 
 use super::case::{Bench, Case, Point};
-use super::probing::{ROUNDING, decades, grey, noise, oracle, over, places, scene, worst};
+use super::probing::{ROUNDING, coordinates, decades, grey, noise, oracle, over, scene, worst};
 use crate::core::error::Result;
-use crate::lab::probe::LookUps;
-use crate::lab::verify::queries::Dice;
+use crate::lab::probe::LookupProbe;
+use crate::lab::verify::queries::Rng;
 use crate::texture::sampler_spec::{Address, Filter, MipMode, SamplerSpec};
 
-/// The smallest f32 of full precision; devices may take what is smaller for 0.
+/// The smallest normal f32; devices may flush smaller numbers to 0.
 const SMALLEST: f64 = f32::MIN_POSITIVE as f64;
 
 pub fn cases() -> Vec<Case> {
@@ -75,7 +75,7 @@ pub fn cases() -> Vec<Case> {
 }
 
 const SIDE: u32 = 16;
-/// In texture coordinates: less than a texel, and some two and a half.
+/// A footprint in texture coordinates of some two and a half texels.
 const ROUND: [[f64; 2]; 2] = [[2.6 / SIDE as f64, 0.0], [0.0, 2.6 / SIDE as f64]];
 const POINT: [[f64; 2]; 2] = [[0.0; 2]; 2];
 
@@ -89,13 +89,13 @@ fn brightness(bench: &Bench<'_>) -> Result<Vec<Point>> {
     let mins = [Linear, Anisotropic, Ewa, SummedArea].map(|min| (spec(Linear, min), ROUND));
     let (specs, footprints): (Vec<_>, Vec<_>) = mags.into_iter().chain(mins).unzip();
     let texels = noise(SIDE, SIDE);
-    let mut device = LookUps::new(bench.gpu);
+    let mut device = LookupProbe::new(bench.gpu);
     let sweep = decades(-30, 38, 1).map(|size| {
-        bench.go_on()?;
+        bench.check_cancelled()?;
         let texels = grey(SIDE, SIDE, |x, y| (texels.value(x, y, 0) / 6.0 * size) as f32);
         let scene = scene(texels, &specs)?;
-        let places = places(&mut Dice::new(3), 200);
-        let all = places.iter().flat_map(|&uv| (0..specs.len()).map(move |i| (i, uv)));
+        let uvs = coordinates(&mut Rng::new(3), 200);
+        let all = uvs.iter().flat_map(|&uv| (0..specs.len()).map(move |i| (i, uv)));
         let queries: Vec<_> = all.map(|(i, uv)| over(&scene, i, uv, footprints[i])).collect();
         let unit = size * ROUNDING;
         worst(&mut device, &scene, size, unit, &queries, |i, query| oracle(&scene, i, query))
@@ -103,16 +103,16 @@ fn brightness(bench: &Bench<'_>) -> Result<Vec<Point>> {
     sweep.collect()
 }
 
-/// Two columns, of either sign; and two alike.
+/// Sweeps two columns of opposite sign, and two equal ones.
 fn opposites(bench: &Bench<'_>) -> Result<Vec<Point>> {
     let clamped = SamplerSpec { address: [Address::ClampToEdge; 2], ..Default::default() };
-    let mut device = LookUps::new(bench.gpu);
+    let mut device = LookupProbe::new(bench.gpu);
     let sizes = decades(0, 38, 1).chain([1.7e38, 2e38, 3.4e38]);
     let sweep = sizes.map(|size| {
-        bench.go_on()?;
+        bench.check_cancelled()?;
         let size = f64::from(size as f32);
         let scene = scene(grey(4, 2, |x, _| if x == 0 { -size as f32 } else { size as f32 }), &[clamped])?;
-        // From the first column's middle to the third's.
+        // The range from the first column's centre to the third's.
         let steps = 512u32;
         let place = |k: u32| [0.125 + 0.5 * k as f32 / steps as f32, 0.5];
         let queries: Vec<_> = (0..=steps).map(|k| over(&scene, 0, place(k), POINT)).collect();
@@ -127,13 +127,13 @@ fn opposites(bench: &Bench<'_>) -> Result<Vec<Point>> {
 fn darkness(bench: &Bench<'_>) -> Result<Vec<Point>> {
     let specs = [spec(Filter::Nearest, Filter::Nearest), spec(Filter::Linear, Filter::Linear)];
     let texels = noise(SIDE, SIDE);
-    let mut device = LookUps::new(bench.gpu);
+    let mut device = LookupProbe::new(bench.gpu);
     let sweep = decades(-45, -34, 2).map(|size| {
-        bench.go_on()?;
+        bench.check_cancelled()?;
         let texels = grey(SIDE, SIDE, |x, y| (texels.value(x, y, 0) / 6.0 * size) as f32);
         let scene = scene(texels, &specs)?;
         let mut queries = Vec::new();
-        for uv in places(&mut Dice::new(4), 200) {
+        for uv in coordinates(&mut Rng::new(4), 200) {
             queries.extend([0, 1].map(|i| over(&scene, i, uv, POINT)));
             queries.push(over(&scene, 1, uv, ROUND));
         }
@@ -142,18 +142,17 @@ fn darkness(bench: &Bench<'_>) -> Result<Vec<Point>> {
     sweep.collect()
 }
 
-/// Reads the last level, which is one texel, and knows what it is.
+/// Reads the last level, which is one texel with a known value.
 fn bright_level(bench: &Bench<'_>) -> Result<Vec<Point>> {
     let side = 64;
-    let mut device = LookUps::new(bench.gpu);
+    let mut device = LookupProbe::new(bench.gpu);
     let sweep = decades(0, 38, 1).map(|size| {
-        bench.go_on()?;
+        bench.check_cancelled()?;
         let size = f64::from(size as f32);
         let texels = grey(side, side, |x, y| if [x, y] == [37, 11] { size as f32 } else { 1.0 });
         let scene = scene(texels, &[spec(Filter::Linear, Filter::Linear)])?;
-        let places = places(&mut Dice::new(5), 50);
-        let queries: Vec<_> =
-            places.iter().map(|&uv| over(&scene, 0, uv, [[3.0, 0.0], [0.0, 3.0]])).collect();
+        let uvs = coordinates(&mut Rng::new(5), 50);
+        let queries: Vec<_> = uvs.iter().map(|&uv| over(&scene, 0, uv, [[3.0, 0.0], [0.0, 3.0]])).collect();
         let texels = f64::from(side * side);
         let mean = (size + (texels - 1.0)) / texels;
         worst(&mut device, &scene, size, mean * ROUNDING, &queries, |_, _| mean)
@@ -161,23 +160,23 @@ fn bright_level(bench: &Bench<'_>) -> Result<Vec<Point>> {
     sweep.collect()
 }
 
-/// The mean over boxes in a texture that repeats, texels being squares of one colour.
+/// Measures the mean over boxes in a repeated texture with texels as squares of constant colour.
 fn bright_area(bench: &Bench<'_>) -> Result<Vec<Point>> {
-    let mut device = LookUps::new(bench.gpu);
+    let mut device = LookupProbe::new(bench.gpu);
     let sweep = decades(0, 38, 1).map(|size| {
-        bench.go_on()?;
+        bench.check_cancelled()?;
         let size = f64::from(size as f32);
         let texel = [9.0, 6.0];
         let texels = grey(SIDE, SIDE, |x, y| if [x, y] == [9, 6] { size as f32 } else { 1.0 });
         let scene = scene(texels, &[spec(Filter::Linear, Filter::SummedArea)])?;
-        let places = places(&mut Dice::new(6), 200);
-        let queries: Vec<_> = places.iter().map(|&uv| over(&scene, 0, uv, ROUND)).collect();
+        let uvs = coordinates(&mut Rng::new(6), 200);
+        let queries: Vec<_> = uvs.iter().map(|&uv| over(&scene, 0, uv, ROUND)).collect();
         worst(&mut device, &scene, size, size * ROUNDING, &queries, |_, query| {
             let side = f64::from(SIDE);
             let covered = |axis: usize| {
                 let reach = 0.5 * side * f64::from([query.dx[0], query.dy[1]][axis]);
                 let from_texel = side * f64::from(query.uv[axis]) - texel[axis];
-                // The nearest of its images.
+                // The nearest of its repetitions.
                 let middle = from_texel - side * ((from_texel - 0.5) / side).round();
                 ((middle + reach).min(1.0) - (middle - reach).max(0.0)).max(0.0) / (2.0 * reach)
             };
@@ -191,20 +190,20 @@ fn bright_area(bench: &Bench<'_>) -> Result<Vec<Point>> {
 fn no_number(bench: &Bench<'_>) -> Result<Vec<Point>> {
     use Filter::{Cubic, Linear, Nearest};
     let specs = [Nearest, Linear, Cubic].map(|mag| spec(mag, Linear));
-    let mut device = LookUps::new(bench.gpu);
+    let mut device = LookupProbe::new(bench.gpu);
     let sweep = (1..=10).map(|log2| {
-        bench.go_on()?;
+        bench.check_cancelled()?;
         let side = 1u32 << log2;
         let at = [side / 2, side - 1];
         let only = |value: f32| grey(side, side, move |x, y| if [x, y] == at { value } else { 0.0 });
         let odd = scene(only(f32::NAN), &specs)?;
         let weights = scene(only(1.0), &specs)?;
-        // On quarters of texels around it, and anywhere.
+        // On quarters of texels around it, and elsewhere.
         let near = |k: u32| [k % 24, k / 24].map(|n| (n as f32 / 4.0 - 3.0) / side as f32);
         let center = at.map(|n| n as f32 / side as f32);
         let around = (0..576).map(near).map(|[x, y]| [center[0] + x, center[1] + y]);
-        let places: Vec<_> = around.chain(places(&mut Dice::new(7), 200)).collect();
-        let all = places.iter().flat_map(|&uv| (0..specs.len()).map(move |i| (i, uv)));
+        let uvs: Vec<_> = around.chain(coordinates(&mut Rng::new(7), 200)).collect();
+        let all = uvs.iter().flat_map(|&uv| (0..specs.len()).map(move |i| (i, uv)));
         let queries: Vec<_> = all.map(|(i, uv)| over(&odd, i, uv, POINT)).collect();
         let answers = device.answer(&odd, false, &queries)?;
         let wrong = queries.iter().zip(&answers).enumerate().filter(|(i, (query, answer))| {

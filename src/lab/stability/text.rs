@@ -1,16 +1,16 @@
-//! A report → a table for people, one line a case, then a summary and the reasons of the bounds that are
-//! broken. Numbers as words, which the page uses too.
+//! The report as a text table with one line per case, a summary, and the derivations of bounds that
+//! are exceeded. The HTML page shares its number formats.
 
 use std::fmt::Write as _;
 
-use super::report::{Report, Row};
+use super::report::{Row, StabilityReport};
 use crate::core::counted::counted;
 
 const HEAD: [&str; 6] = ["case", "parameter", "worst error", "bound", "reached at", "verdict"];
-/// Longer places are cut in the table.
-const LONGEST_PLACE: usize = 44;
+/// The length to which positions are shortened in the table.
+const MAX_PLACE_LENGTH: usize = 44;
 
-pub fn text(report: &Report) -> String {
+pub fn text(report: &StabilityReport) -> String {
     let mut out = String::new();
     let mut line = |text: &str| {
         let _ = writeln!(out, "{}", text.trim_end());
@@ -42,8 +42,8 @@ pub fn text(report: &Report) -> String {
     out
 }
 
-/// `9 cases, 120 points, 31.4 s: 9 within, 0 broken`
-pub fn summary(report: &Report) -> String {
+/// Returns `9 cases, 120 points, 31.4 s: 9 within, 0 broken`.
+pub fn summary(report: &StabilityReport) -> String {
     let s = &report.summary;
     format!(
         "{}, {}, {:.1} s: {} within, {} broken",
@@ -66,7 +66,7 @@ fn cells(row: &Row) -> [String; 6] {
     ]
 }
 
-/// `samples, 256 to 1.68e7`
+/// Returns `samples, 256 to 1.68e7`.
 pub fn swept(row: &Row) -> String {
     match row.range() {
         Some([from, to]) if from < to => format!("{}, {} to {}", row.parameter, number(from), number(to)),
@@ -75,7 +75,7 @@ pub fn swept(row: &Row) -> String {
     }
 }
 
-/// The parameter's value and the place there.
+/// Returns the parameter's value with the location of the error.
 pub fn place(row: &Row) -> String {
     let worst = &row.worst;
     if worst.parameter.is_nan() {
@@ -86,13 +86,13 @@ pub fn place(row: &Row) -> String {
 }
 
 fn shortened(text: &str) -> String {
-    if text.chars().count() <= LONGEST_PLACE {
+    if text.chars().count() <= MAX_PLACE_LENGTH {
         return text.into();
     }
-    text.chars().take(LONGEST_PLACE - 1).chain(['…']).collect()
+    text.chars().take(MAX_PLACE_LENGTH - 1).chain(['…']).collect()
 }
 
-/// Three digits; whole numbers as they are while they are short.
+/// Formats a number with three digits; short integers stay exact.
 pub fn number(x: f64) -> String {
     if x.is_infinite() {
         return if x > 0.0 { "∞" } else { "-∞" }.into();

@@ -1,17 +1,17 @@
-//! One scene, moved by up to 1e7 units and scaled by 1e-6 to 1e6, with all that a picture is made of: textures,
-//! a mirror, shadows, spheres, triangles. A position of 1e7 is known to 2^-30 in f64, a millionth of a pixel here,
-//! so that the picture stays as it is.
+//! One scene, translated by up to 1e7 units and scaled by 1e-6 to 1e6, with everything that a
+//! picture can contain: textures, a mirror, shadows, spheres, triangles. A position of 1e7 has a
+//! resolution of 2^-30 in f64, a millionth of a pixel here, so that the picture is unchanged.
 
 use glam::DVec3;
 
 use super::case::{Bench, Case, Point};
-use super::scenes::{dice, on_device, packed, texture};
+use super::scenes::{hashed_unit, on_device, packed, texture};
 use crate::core::error::Result;
 use crate::core::film::Film;
 use crate::texture::data::{Dimension, TextureData};
 
 const SIDE: u32 = 96;
-/// Of all pixels: 18.
+/// The fraction of pixels that may differ: 18 of them.
 const BOUND: f64 = 2e-3;
 const REASON: &str = "what the device sees is relative to the eye and of f64 origin: 1e7 units cost 2^-30 of one, 1e-6 of a \
                       pixel, and a scale costs nothing. 16 samples on an outline or the line of a shadow may fall to \
@@ -77,9 +77,9 @@ impl Placed {
     }
 }
 
-/// Smooth enough that no texel's edge counts.
+/// Returns noise so smooth that no texel edge matters.
 fn noise() -> TextureData {
-    texture(Dimension::Two, [16, 16, 1], |i| (0.2 + 0.7 * dice(i, 3)) as f32)
+    texture(Dimension::Two, [16, 16, 1], |i| (0.2 + 0.7 * hashed_unit(i, 3)) as f32)
 }
 
 fn picture(bench: &Bench<'_>, placed: &Placed) -> Result<Film> {

@@ -1,18 +1,18 @@
-//! Triangles: needles a million times as long as they are wide, and edges that two share. Rays from a list meet
-//! the shapes that a render would; what they should meet follows from how the rays were made.
+//! Triangles: needles a million times as long as wide, and shared edges. Rays from a list are
+//! traced as in a render; the expected hits follow from the construction of the rays.
 
 use glam::{DVec2, DVec3};
 
 use super::case::{Bench, Case, Point};
 use super::coordinates::CENTER;
-use super::scenes::{dice, on_device, packed};
+use super::scenes::{hashed_unit, on_device, packed};
 use super::view::View;
 use crate::core::error::Result;
 use crate::lab::probe::{self, DoubleRay, RayQuery};
 use crate::pack::PackedScene;
 use crate::schema::layout::NO_SHAPE;
 
-/// Rays at shared edges in all, and at once.
+/// The number of rays at shared edges, in total and per dispatch.
 const RAYS: u32 = 10_000_000;
 const AT_ONCE: u32 = 500_000;
 const SIDE: u32 = 64;
@@ -62,7 +62,7 @@ const TIES: &str =
 const NEEDLES: &str =
     "the edges of a triangle are off by a quarter of a pixel at most, or the scene is computed in f64";
 
-/// Vertices of an icosahedron, and its faces.
+/// Returns the vertices of an icosahedron and its faces.
 fn ball() -> ([DVec3; 12], [[usize; 3]; 20]) {
     let g = 0.5 * (1.0 + 5f64.sqrt());
     let mut vertices = [DVec3::ZERO; 12];
@@ -88,7 +88,7 @@ fn ball() -> ([DVec3; 12], [[usize; 3]; 20]) {
     (vertices, std::array::from_fn(|i| faces[i]))
 }
 
-/// The mesh around a center that is `distance` times its size from the eye.
+/// Returns the mesh around a centre whose distance from the eye is `distance` times its size.
 fn mesh(distance: f64, precision: &str) -> Result<(PackedScene, [DVec3; 12], [[usize; 3]; 20])> {
     let (vertices, faces) = ball();
     let center = distance * DVec3::new(0.6, 0.48, -0.64);
@@ -102,40 +102,45 @@ fn mesh(distance: f64, precision: &str) -> Result<(PackedScene, [DVec3; 12], [[u
     Ok((packed(&text, vec![], None)?, placed, faces))
 }
 
-/// Shapes that the rays from the eye's own place along `ways` meet.
-fn met(bench: &Bench<'_>, scene: &PackedScene, ways: &[DVec3]) -> Result<Vec<u32>> {
-    bench.go_on()?;
+/// Returns the shapes hit by rays from the eye along `directions`.
+fn hit_shapes(bench: &Bench<'_>, scene: &PackedScene, directions: &[DVec3]) -> Result<Vec<u32>> {
+    bench.check_cancelled()?;
     if scene.double && !bench.rounded && bench.gpu.info().limits.float64 {
-        let query = |way: &DVec3| DoubleRay { origin: [0.0; 4], direction: way.extend(1.0).to_array() };
-        let queries: Vec<DoubleRay> = ways.iter().map(query).collect();
+        let query =
+            |direction: &DVec3| DoubleRay { origin: [0.0; 4], direction: direction.extend(1.0).to_array() };
+        let queries: Vec<DoubleRay> = directions.iter().map(query).collect();
         return Ok(probe::double_rays(bench.gpu, scene, &queries)?.iter().map(|a| a.shape).collect());
     }
     let mut scene = scene.clone();
     scene.round_reals();
-    let query = |way: &DVec3| RayQuery { origin: [0.0; 4], direction: way.as_vec3().extend(1.0).to_array() };
-    let queries: Vec<RayQuery> = ways.iter().map(query).collect();
+    let query = |direction: &DVec3| RayQuery {
+        origin: [0.0; 4],
+        direction: direction.as_vec3().extend(1.0).to_array(),
+    };
+    let queries: Vec<RayQuery> = directions.iter().map(query).collect();
     Ok(probe::rays(bench.gpu, &scene, false, &queries)?.iter().map(|a| a.shape).collect())
 }
 
-/// From within the mesh every ray meets it, wherever it goes; these go to its edges, and every eighth to a corner.
+/// Returns a direction from within the mesh, from which every ray must hit it, towards an edge or,
+/// for every eighth, a corner.
 fn to_edge(vertices: &[DVec3; 12], faces: &[[usize; 3]; 20], i: u32) -> DVec3 {
-    let face = faces[(dice(i, 1) * 20.0) as usize];
+    let face = faces[(hashed_unit(i, 1) * 20.0) as usize];
     let (from, to) = (vertices[face[0]], vertices[face[1 + (i & 1) as usize]]);
-    let part = if i.is_multiple_of(8) { 0.0 } else { dice(i, 2) };
+    let part = if i.is_multiple_of(8) { 0.0 } else { hashed_unit(i, 2) };
     from + part * (to - from)
 }
 
 fn shared_edges(bench: &Bench<'_>) -> Result<Vec<Point>> {
-    // The eye is within, off the middle.
+    // The eye is inside, off the centre.
     let (scene, vertices, faces) = mesh(0.3, "auto")?;
     let (mut lost, mut points, mut sent) = (0.0, Vec::new(), 0);
     let mut first = "none of them".to_string();
     while sent < RAYS {
-        let ways: Vec<DVec3> = (sent..sent + AT_ONCE).map(|i| to_edge(&vertices, &faces, i)).collect();
-        for (way, shape) in ways.iter().zip(met(bench, &scene, &ways)?) {
+        let directions: Vec<DVec3> = (sent..sent + AT_ONCE).map(|i| to_edge(&vertices, &faces, i)).collect();
+        for (direction, shape) in directions.iter().zip(hit_shapes(bench, &scene, &directions)?) {
             if shape == NO_SHAPE {
                 lost += 1.0;
-                first = format!("first: direction {way}");
+                first = format!("first: direction {direction}");
             }
         }
         sent += AT_ONCE;
@@ -144,25 +149,29 @@ fn shared_edges(bench: &Bench<'_>) -> Result<Vec<Point>> {
     Ok(points)
 }
 
-/// Seen from far, all edges but those of the outline are within the mesh.
+/// Sweeps the distance: from outside, all edges except those of the silhouette are inside the mesh.
 fn far_edges(bench: &Bench<'_>) -> Result<Vec<Point>> {
     let run = |k: i32| {
         let distance = 3.0 * 10f64.powi(k);
         let (scene, vertices, faces) = mesh(distance, "auto")?;
         let center = vertices.iter().sum::<DVec3>() / 12.0;
-        // The sphere within the mesh has a radius of 1.51: there is no way past it.
-        let inside = |way: &DVec3| center.cross(way.normalize()).length() < 1.5;
-        let ways: Vec<DVec3> = (0..100_000).map(|i| to_edge(&vertices, &faces, i)).filter(inside).collect();
-        let shapes = met(bench, &scene, &ways)?;
-        let lost = ways.iter().zip(&shapes).filter(|(_, shape)| **shape == NO_SHAPE);
-        let first = lost.clone().next().map_or(String::new(), |(way, _)| format!("first: direction {way}"));
+        // The sphere inscribed in the mesh has a radius of 1.51: no ray misses it.
+        let inside = |direction: &DVec3| center.cross(direction.normalize()).length() < 1.5;
+        let directions: Vec<DVec3> =
+            (0..100_000).map(|i| to_edge(&vertices, &faces, i)).filter(inside).collect();
+        let shapes = hit_shapes(bench, &scene, &directions)?;
+        let lost = directions.iter().zip(&shapes).filter(|(_, shape)| **shape == NO_SHAPE);
+        let first = lost
+            .clone()
+            .next()
+            .map_or(String::new(), |(direction, _)| format!("first: direction {direction}"));
         Ok(Point::worst(distance, [(lost.count() as f64, first)]))
     };
     (0..=6).map(run).collect()
 }
 
-/// Four triangles around a corner at whole numbers, where all is exact: rays on an edge lie on two, rays at the
-/// corner on all four.
+/// Sweeps four triangles around a corner at integer coordinates, where all arithmetic is exact:
+/// rays on an edge hit two, rays at the corner all four.
 fn ties(bench: &Bench<'_>) -> Result<Vec<Point>> {
     let corners = [[4.0, 0.0], [0.0, 4.0], [-4.0, 0.0], [0.0, -4.0]];
     let mut text = View::new(DVec3::ZERO, DVec3::NEG_Z, DVec3::Y, 60.0, 1).text() + CENTER;
@@ -177,27 +186,27 @@ fn ties(bench: &Bench<'_>) -> Result<Vec<Point>> {
         .map(|i| {
             let (edge, part) = ((i % 4) as usize, f64::from(i / 4) / 1024.0);
             let [x, y] = corners[edge];
-            // The edge from the corner to vertex `edge` is of triangles `edge` and `edge` - 1.
+            // The edge from the corner to vertex `edge` belongs to triangles `edge` and `edge` - 1.
             let lowest = if part == 0.0 || edge == 0 { 0 } else { edge as u32 - 1 };
             (DVec3::new(part * x, part * y, -8.0), lowest)
         })
         .collect();
-    let ways: Vec<DVec3> = rays.iter().map(|r| r.0).collect();
-    let shapes = met(bench, &scene, &ways)?;
+    let directions: Vec<DVec3> = rays.iter().map(|r| r.0).collect();
+    let shapes = hit_shapes(bench, &scene, &directions)?;
     let wrong = rays.iter().zip(&shapes).filter(|((_, lowest), shape)| **shape != *lowest);
-    let first = wrong.clone().next().map_or(String::new(), |((way, lowest), shape)| {
-        format!("first: direction {way} met {shape}, not {lowest}")
+    let first = wrong.clone().next().map_or(String::new(), |((direction, lowest), shape)| {
+        format!("first: direction {direction} met {shape}, not {lowest}")
     });
     Ok(vec![Point::worst(rays.len() as f64, [(wrong.count() as f64, first)])])
 }
 
-/// A needle along the view, its tip at the eye's feet: every pixel right but those whose middle is nearer to an
-/// edge than the error that is measured.
+/// Sweeps a needle along the view with its tip at the eye's feet: every pixel must be correct
+/// unless its centre is closer to an edge than the error under measurement.
 fn needles(bench: &Bench<'_>) -> Result<Vec<Point>> {
     let run = |k: i32| {
         let aspect = 10f64.powi(k);
         let turn = |x: f64, z: f64| DVec3::new(0.8 * x + 0.6 * z, 0.0, -0.6 * x + 0.8 * z);
-        // A unit wide at its base, `aspect` long.
+        // The needle is a unit wide at its base and `aspect` long.
         let corners = [turn(-0.5, -2.0), turn(0.5, -2.0), turn(0.1, -2.0 - aspect)];
         let view = View::new(DVec3::new(0.0, 0.7, 0.0), turn(0.0, -3.0), DVec3::Y, 50.0, SIDE);
         let list = corners.map(|v| format!("[{:?}, {:?}, {:?}]", v.x, v.y, v.z)).join(", ");
@@ -206,7 +215,7 @@ fn needles(bench: &Bench<'_>) -> Result<Vec<Point>> {
             + "[[material]]\nname = \"m\"\nmodel = \"unlit\"\n"
             + &format!("[[triangle]]\nvertices = [{list}]\nmaterial = \"m\"\n");
         let film = on_device(bench, &packed(&text, vec![], None)?)?;
-        // Corners in the picture; all lie in front of the eye.
+        // The corners in the picture; all lie in front of the eye.
         let [right, up, ahead] = view.axes();
         let half = (0.5 * view.fov.to_radians()).tan();
         let seen = corners.map(|v| {
@@ -215,7 +224,7 @@ fn needles(bench: &Bench<'_>) -> Result<Vec<Point>> {
             (place + 1.0) * (0.5 * f64::from(SIDE))
         });
         let errors = view.pixels().filter_map(|(i, [x, y], middle)| {
-            // Distances from the three edges, of one sign within.
+            // Signed distances from the three edges, which have equal signs inside.
             let away = [0, 1, 2].map(|e| {
                 let (p, q) = (seen[e], seen[(e + 1) % 3]);
                 (q - p).normalize().perp_dot(middle - p)

@@ -1,13 +1,13 @@
 //! The sentence that recommends a setting. In: the measured points and the winners. Out: the recommended point, and who
 //! is better with less and with more time.
 
-use super::choice::{no_different, recommended};
+use super::choice::{not_significantly_different, recommended};
 use super::fit::time_to;
+use super::format::{error, names, samples_taken, seconds, significant};
 use super::record::{PointRecord, Record};
 use super::results::Winner;
-use super::words::{error, names, seconds, significant, taken};
 
-/// The recommended point, and who is better with less and with more time.
+/// Returns the recommendation, and the better methods for less and for more time.
 pub fn advice(record: &Record, winners: &[Winner]) -> String {
     let Some(best) = recommended(&record.points, winners) else {
         return "Nothing was measured.".into();
@@ -15,7 +15,7 @@ pub fn advice(record: &Record, winners: &[Winner]) -> String {
     let method = best.method.as_str();
     let mut equals: Vec<&str> = Vec::new();
     for point in record.points.iter().filter(|p| p.method != method && p.spp == best.spp) {
-        if no_different(point, best) && !equals.contains(&point.method.as_str()) {
+        if not_significantly_different(point, best) && !equals.contains(&point.method.as_str()) {
             equals.push(&point.method);
         }
     }
@@ -25,7 +25,7 @@ pub fn advice(record: &Record, winners: &[Winner]) -> String {
     };
     let mut text = format!(
         "Use {method} with {}{equals}: RMSE {} in {}",
-        taken(best),
+        samples_taken(best),
         error(best.errors.rmse),
         seconds(best.median_seconds())
     );
@@ -48,7 +48,7 @@ fn setting(winner: &Winner) -> String {
     format!("{} with {} (RMSE {about}{})", names(winner), winner.taken, error(winner.rmse))
 }
 
-/// How many times as long random samples take to the same error.
+/// Returns how many times as long random samples take to the same error.
 fn saved(record: &Record, best: &PointRecord) -> Option<String> {
     let curve: Vec<(f64, f64)> =
         record.points_of("random").map(|p| (p.median_seconds(), p.errors.rmse)).collect();

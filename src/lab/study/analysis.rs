@@ -1,6 +1,6 @@
-//! What follows from the measured points. In: (rays, seconds, error) by method. Out: the slope of each
-//! method's variance over its rays with 95 % intervals, the winner of each time budget and the recommended point
-//! (`choice.rs`), the time to reach each error, and one sentence.
+//! Evaluation of the measured points (rays, seconds, error) of all methods: the slope of each
+//! method's variance over its rays with 95 % intervals, the winner of each time budget and the
+//! recommended point (`choice.rs`), the time to each error, and a summary.
 
 use super::advice::advice;
 use super::bootstrap::interval;
@@ -12,10 +12,11 @@ pub use super::results::{Analysis, MethodSlope, Reach, SampleDimension, Slope};
 use super::student;
 use crate::lab::plot::axis::steps;
 
-/// Points nearer to the reference's own error than this many times bend towards it and count in no slope.
-const ABOVE_FLOOR: f64 = 3.0;
-/// Fewest points that have a slope.
-const FEWEST: usize = 3;
+/// Points whose error is less than this multiple of the reference's own error are biased by it and
+/// excluded from slopes.
+const FLOOR_MARGIN: f64 = 3.0;
+/// The smallest number of points that define a slope.
+const MIN_SLOPE_POINTS: usize = 3;
 
 pub fn analyse(record: &Record) -> Analysis {
     let floor = record.reference.rmse.unwrap_or(0.0);
@@ -43,9 +44,9 @@ pub fn analyse(record: &Record) -> Analysis {
     }
 }
 
-/// Of the variance over the number of samples: independent ones −1; one jittered sample in each of n strata
-/// −1 where every stratum varies, −1.5 where edges cross √n of them, −2 where the picture is smooth (Mitchell
-/// 1996); scrambled nets up to −3 (Owen 1997).
+/// Returns the slope of the variance over the number of samples: independent ones −1; one jittered
+/// sample in each of n strata −1 if every stratum has variance, −1.5 if edges cross √n of them, −2
+/// if the picture is smooth (Mitchell 1996); scrambled nets up to −3 (Owen 1997).
 fn theory(pattern: &str, filtered: bool) -> (&'static [f64], &'static str) {
     match pattern {
         _ if filtered => (&[], "levels off where the filter blurs"),
@@ -60,11 +61,11 @@ fn theory(pattern: &str, filtered: bool) -> (&'static [f64], &'static str) {
     }
 }
 
-/// Of (rays, RMSE); the slope is that of the variance, RMSE².
+/// Fits (rays, RMSE); the slope is that of the variance, RMSE².
 pub fn slope(points: &[(f64, f64)], floor: f64) -> Option<Slope> {
     let logs: Vec<(f64, f64)> =
-        points.iter().filter(|p| is_fair(p.1, floor)).map(|p| (p.0.ln(), 2.0 * p.1.ln())).collect();
-    if logs.len() < FEWEST || logs.iter().all(|p| (p.0 - logs[0].0).abs() < 1e-5) {
+        points.iter().filter(|p| is_above_floor(p.1, floor)).map(|p| (p.0.ln(), 2.0 * p.1.ln())).collect();
+    if logs.len() < MIN_SLOPE_POINTS || logs.iter().all(|p| (p.0 - logs[0].0).abs() < 1e-5) {
         return None;
     }
     let Line { value, residual, sxx } = least_squares(&logs);
@@ -72,14 +73,14 @@ pub fn slope(points: &[(f64, f64)], floor: f64) -> Option<Slope> {
     Some(Slope { value, half_width: (half_width > 1e-9).then_some(half_width), points: logs.len() })
 }
 
-/// Whether an error says something of the method, and not of the reference.
-fn is_fair(rmse: f64, floor: f64) -> bool {
-    rmse > ABOVE_FLOOR * floor && rmse > 0.0 && rmse.is_finite()
+/// Returns true if an error is due to the method and not to the reference.
+fn is_above_floor(rmse: f64, floor: f64) -> bool {
+    rmse > FLOOR_MARGIN * floor && rmse > 0.0 && rmse.is_finite()
 }
 
-/// What the noise alone leaves open of a method's slope.
+/// Returns the uncertainty of a method's slope due to noise alone.
 fn noise_interval(points: &[&PointRecord], floor: f64) -> Option<[f64; 2]> {
-    let fair = points.iter().filter(|p| is_fair(p.errors.rmse, floor));
+    let fair = points.iter().filter(|p| is_above_floor(p.errors.rmse, floor));
     let points: Vec<(f64, &[f32])> = fair.map(|p| (f64::from(p.samples), p.blocks.as_slice())).collect();
     interval(&points, 0.95)
 }

@@ -1,14 +1,14 @@
-//! Which point to choose. In: the measured points. Out: the least error within each time, with the methods that do
-//! as well but for noise; and one point to recommend, which no other beats in both error and time.
+//! The choice of a point: the smallest error within each time, with the methods that are not
+//! significantly different; and one recommended point, which no other beats in both error and time.
 
 use super::bootstrap::ratio;
+use super::format::samples_taken;
 use super::record::PointRecord;
 use super::results::{MethodSlope, SampleDimension, Winner};
-use super::words::taken;
 use crate::lab::plot::axis::steps;
 
-/// Errors that are so many times apart differ.
-const FAR: f64 = 2.0;
+/// The ratio above which errors differ significantly in any case.
+const SIGNIFICANT_RATIO: f64 = 2.0;
 
 impl SampleDimension {
     pub fn of(point: &PointRecord) -> SampleDimension {
@@ -28,14 +28,14 @@ pub fn winners(points: &[PointRecord], slopes: &[MethodSlope]) -> Vec<Winner> {
     let winner = |budget: f64| {
         let fitting = usable.iter().filter(|p| p.median_seconds() <= budget);
         let least = fitting.min_by(|a, b| a.errors.rmse.total_cmp(&b.errors.rmse))?;
-        let estimated = slopes.iter().filter_map(|slope| beyond(&usable, slope, budget));
+        let estimated = slopes.iter().filter_map(|slope| extrapolated(&usable, slope, budget));
         let estimated = estimated.min_by(|a, b| a.rmse.total_cmp(&b.rmse));
         Some(estimated.filter(|e| e.rmse < least.errors.rmse).unwrap_or_else(|| Winner {
             budget,
             method: least.method.clone(),
             ties: ties(least, &usable, budget),
             spp: least.spp,
-            taken: taken(least),
+            taken: samples_taken(least),
             seconds: least.median_seconds(),
             rmse: least.errors.rmse,
             estimated: false,
@@ -44,14 +44,16 @@ pub fn winners(points: &[PointRecord], slopes: &[MethodSlope]) -> Vec<Winner> {
     budgets.into_iter().filter_map(winner).collect()
 }
 
-/// Methods that come to the same error in the same time, as far as can be told. A time that is as long as the
-/// point's in some repeat fits like the point's own.
+/// Returns the methods that reach the same error in the same time within the uncertainty. A time as
+/// long as the point's in some repeat fits the budget like the point's own.
 fn ties(point: &PointRecord, all: &[&PointRecord], budget: f64) -> Vec<String> {
     let longest = point.seconds.iter().copied().fold(0.0, f64::max);
     let shortest = |p: &PointRecord| p.seconds.iter().copied().fold(f64::INFINITY, f64::min);
     let fits = |p: &PointRecord| p.median_seconds() <= budget || shortest(p) <= longest;
     let mut methods: Vec<String> = Vec::new();
-    for other in all.iter().filter(|p| p.method != point.method && fits(p) && no_different(p, point)) {
+    for other in
+        all.iter().filter(|p| p.method != point.method && fits(p) && not_significantly_different(p, point))
+    {
         if !methods.contains(&other.method) {
             methods.push(other.method.clone());
         }
@@ -59,19 +61,19 @@ fn ties(point: &PointRecord, all: &[&PointRecord], budget: f64) -> Vec<String> {
     methods
 }
 
-/// Whether two points have one picture, or errors whose ratio has a 95 % interval that holds 1, when the parts of
-/// the picture are drawn anew.
-pub fn no_different(a: &PointRecord, b: &PointRecord) -> bool {
+/// Returns true if two points have one picture, or if the 95 % bootstrap interval of the ratio of
+/// their errors contains 1.
+pub fn not_significantly_different(a: &PointRecord, b: &PointRecord) -> bool {
     if !a.picture.is_empty() && a.picture == b.picture {
         return true;
     }
-    // Noise explains no such ratio, and drawing takes its time.
-    let near = a.errors.rmse.max(b.errors.rmse) <= FAR * a.errors.rmse.min(b.errors.rmse);
+    // Noise cannot explain a larger ratio, and the bootstrap is slow.
+    let near = a.errors.rmse.max(b.errors.rmse) <= SIGNIFICANT_RATIO * a.errors.rmse.min(b.errors.rmse);
     near && ratio(&a.blocks, &b.blocks, 0.95).is_some_and(|[low, high]| low <= 1.0 && high >= 1.0)
 }
 
-/// What a method with a law would come to in a time longer than it was measured for.
-fn beyond(points: &[&PointRecord], slope: &MethodSlope, budget: f64) -> Option<Winner> {
+/// Extrapolates a method with a known slope to a time longer than it was measured for.
+fn extrapolated(points: &[&PointRecord], slope: &MethodSlope, budget: f64) -> Option<Winner> {
     let own = points.iter().filter(|p| p.method == slope.method);
     let last = own.max_by(|a, b| a.median_seconds().total_cmp(&b.median_seconds()))?;
     let longer = budget / last.median_seconds();
@@ -82,15 +84,15 @@ fn beyond(points: &[&PointRecord], slope: &MethodSlope, budget: f64) -> Option<W
         method: slope.method.clone(),
         ties: Vec::new(),
         spp,
-        taken: format!("about {}", taken(&PointRecord { spp, samples: spp, ..(*last).clone() })),
+        taken: format!("about {}", samples_taken(&PointRecord { spp, samples: spp, ..(*last).clone() })),
         seconds: budget,
         rmse: last.errors.rmse * longer.powf(0.5 * law.value),
         estimated: true,
     })
 }
 
-/// Of the points that no other beats in both error and time: the best one of the method that wins most of the
-/// times.
+/// Returns, among the points that no other beats in both error and time, the best one of the method
+/// that wins most budgets.
 pub fn recommended<'a>(points: &'a [PointRecord], winners: &[Winner]) -> Option<&'a PointRecord> {
     let beats = |q: &PointRecord, p: &PointRecord| {
         q.median_seconds() < p.median_seconds() && q.errors.rmse < p.errors.rmse
@@ -102,7 +104,7 @@ pub fn recommended<'a>(points: &'a [PointRecord], winners: &[Winner]) -> Option<
     };
     let won = |name: &str| winners.iter().filter(|w| w.is_or_ties(name)).count();
     let on_front = winners.iter().filter(|w| front.iter().any(|p| p.method == w.method));
-    // The last among equals: it was measured for the longer times.
+    // The last among equals was measured for the longer times.
     match on_front.max_by_key(|w| won(&w.method)) {
         Some(winner) => best(&|p| p.method == winner.method),
         None => best(&|_| true),

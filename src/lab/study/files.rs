@@ -1,5 +1,5 @@
-//! The folder of a study: `study.csv`, `study.json`, three plots and the page. Each file appears complete or
-//! not at all.
+//! Writes the folder of a study: `study.csv`, `study.json`, three plots and the page. Each file
+//! appears complete or not at all.
 
 use std::path::Path;
 
@@ -7,13 +7,13 @@ use crate::core::error::{Error, Result};
 use crate::lab::plot::chart::{Chart, Series};
 use crate::output;
 
+use super::format::{error, samples_taken, seconds};
 use super::page::Plots;
 use super::record::{self, PointRecord, Record};
 use super::showcase::Showcase;
-use super::words::{error, seconds, taken};
 use super::{page, stages};
 
-/// What an interrupted study goes on from.
+/// Saves the record from which an interrupted study is resumed.
 pub fn save(folder: &Path, record: &Record) -> Result<()> {
     let json =
         serde_json::to_string_pretty(record).map_err(|e| Error::new(format!("the study as JSON: {e}")))?;
@@ -38,7 +38,7 @@ pub fn write_all(folder: &Path, record: &Record, showcase: &Showcase) -> Result<
 
 impl Plots {
     pub fn new(record: &Record) -> Plots {
-        // No point below it means anything.
+        // Points below it are not significant.
         let own = record.reference.rmse.filter(|e| *e > 0.0).map(|e| (e, "the reference's own error"));
         let chart = |id, title: &str, x_label, x: &dyn Fn(&PointRecord) -> f64, guides| Chart {
             id,
@@ -67,7 +67,7 @@ fn series(record: &Record, x: &dyn Fn(&PointRecord) -> f64) -> Vec<Series> {
             format!(
                 "{}, {}: RMSE {} in {}",
                 p.method,
-                taken(p),
+                samples_taken(p),
                 error(p.errors.rmse),
                 seconds(p.median_seconds())
             )
@@ -82,7 +82,7 @@ fn series(record: &Record, x: &dyn Fn(&PointRecord) -> f64) -> Vec<Series> {
     record.methods.iter().map(of).filter(|s| !s.points.is_empty()).collect()
 }
 
-/// For who does not see the plot.
+/// Returns a text description of a plot for screen readers.
 fn description(record: &Record, over: &str) -> String {
     let best = |m: &record::MethodRecord| {
         let least = record.points_of(&m.name).min_by(|a, b| a.errors.rmse.total_cmp(&b.errors.rmse))?;
@@ -90,7 +90,7 @@ fn description(record: &Record, over: &str) -> String {
             "{} reaches {} with {} in {}",
             m.name,
             error(least.errors.rmse),
-            taken(least),
+            samples_taken(least),
             seconds(least.median_seconds())
         ))
     };
@@ -137,7 +137,7 @@ fn csv(record: &Record) -> String {
     out
 }
 
-/// RFC 4180.
+/// Quotes a CSV field by RFC 4180.
 fn field(text: &str) -> String {
     if text.contains([',', '"', '\n']) {
         format!("\"{}\"", text.replace('"', "\"\""))

@@ -3,12 +3,12 @@
 
 pub(super) struct Line {
     pub value: f64,
-    /// Sum of the squares that are left.
+    /// The residual sum of squares.
     pub residual: f64,
     pub sxx: f64,
 }
 
-/// The straight line through (x, y) of at least two x.
+/// Fits a straight line through (x, y) with at least two different x.
 pub(super) fn least_squares(points: &[(f64, f64)]) -> Line {
     let n = points.len() as f64;
     let mean = |f: fn(&(f64, f64)) -> f64| points.iter().map(f).sum::<f64>() / n;
@@ -31,7 +31,8 @@ pub fn median(values: &[f64]) -> f64 {
     }
 }
 
-/// When a curve of (seconds, RMSE) first comes down to `error`, on straight lines between the logarithms.
+/// Returns the time at which a curve of (seconds, RMSE) first reaches `error`, interpolated
+/// linearly in the logarithms.
 pub fn time_to(curve: &[(f64, f64)], error: f64) -> Option<f64> {
     let mut curve = curve.to_vec();
     curve.sort_by(|a, b| a.0.total_cmp(&b.0));

@@ -1,5 +1,6 @@
-//! What a measured point depends on, as a hash: the program, the device and its driver, the picture's size
-//! and seed, the scene file and every file that it names. Two runs whose hashes agree measure the same thing.
+//! The identity of a measured point as a hash of everything on which it depends: the program, the
+//! device and its driver, the picture's size and seed, the scene file and every file that it names.
+//! Runs with equal hashes measure the same thing.
 
 use std::fs;
 use std::path::Path;
@@ -10,10 +11,11 @@ use crate::scene::model::Scene;
 
 use super::record::Conditions;
 
-/// Of the points: those of another one lack what is told of them now.
+/// The version of the points' format: points of other versions lack fields that are used now.
 const FORMAT: &str = "points 2";
 
-/// FNV-1a in 64 bits (Fowler, Noll, Vo): stable over versions of the compiler, fast, and nobody forges here.
+/// FNV-1a in 64 bits (Fowler, Noll, Vo), which is fast and stable across compiler versions;
+/// security is not a concern.
 #[derive(Clone, Copy, Debug)]
 pub struct Hash(u64);
 
@@ -25,7 +27,7 @@ impl Hash {
     #[must_use]
     pub fn bytes(self, bytes: &[u8]) -> Hash {
         let step = |hash: u64, byte: &u8| (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01B3);
-        // The length keeps "ab", "c" apart from "a", "bc".
+        // The length distinguishes "ab", "c" from "a", "bc".
         let length = (bytes.len() as u64).to_le_bytes();
         Hash(length.iter().chain(bytes).fold(self.0, step))
     }
@@ -45,7 +47,7 @@ impl Hash {
     }
 }
 
-/// Of everything that all points of a study share.
+/// Returns the hash of the conditions that all points of a study share.
 pub fn of(conditions: &Conditions, scene: &Scene) -> Result<Hash> {
     let device = &conditions.device;
     let mut hash = Hash::new()

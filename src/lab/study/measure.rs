@@ -1,6 +1,7 @@
-//! The points of a study, measured. In: methods, counts, the reference, what an earlier run left. Out: for
-//! each point the render stage's time in every repeat, and the errors of its picture. Repeats are interleaved:
-//! all points once, then all again, so that a drift of the machine's speed meets all alike.
+//! Measures the points of a study: for each method and count the render stage's time in every
+//! repeat, and the errors of its picture against the reference. Points of an earlier run are
+//! reused. Repeats are interleaved: all points once, then all again, so that a drift of the
+//! machine's speed affects all alike.
 
 use std::time::Instant;
 
@@ -8,31 +9,30 @@ use crate::core::error::{Error, Result};
 use crate::core::film::Film;
 use crate::core::progress::{Progress, SubProgress};
 use crate::lab::metrics::compare;
-use crate::lab::metrics::flip::Seen;
+use crate::lab::metrics::flip::PerceptualFeatures;
 use crate::render::Prepared;
 use crate::scene::model::{Algorithm, Scene};
 
 use super::bootstrap::blocks;
 use super::identity::Hash;
 use super::limit::Limit;
-use super::looks::{SessionCache, sampled_part};
 use super::method::Method;
 use super::plan::{Forecast, Point};
 use super::record::{Errors, PointRecord, Record, Stages};
 use super::reference::Reference;
+use super::session_cache::{SessionCache, sampled_part};
 use super::showcase::SAMPLES;
 use super::{Options, files, quote, quoted};
 use crate::core::counted::{counted, plural, verb};
 
-/// The part of the time that the pages' pictures may ask for in advance, and about how many there are of plain
-/// samples.
+/// The fraction of the time that may be reserved for the page's pictures.
 const MAX_RESERVED: f64 = 0.25;
 const PANELS: f64 = 6.0;
-/// Between two writes of the record; what an interruption by force may lose.
+/// The interval between two writes of the record, which limits the loss if the process is killed.
 const SAVE_SECONDS: f64 = 1.0;
 
 pub struct Measurement<'a> {
-    pub looks: &'a SessionCache<'a>,
+    pub sessions: &'a SessionCache<'a>,
     pub scene: &'a Scene,
     pub options: &'a Options,
     pub methods: &'a [Method],
@@ -48,13 +48,13 @@ struct Task<'a> {
     point: Point,
     record: PointRecord,
     prepared: Option<Prepared<'a, 'a>>,
-    /// Whether the record has the errors of its picture.
-    judged: bool,
+    /// True if the record has the errors of its picture.
+    compared: bool,
     left_out: bool,
 }
 
 impl<'a> Measurement<'a> {
-    /// Fills in the record's points. On an error what was measured so far is in the folder.
+    /// Fills in the record's points. On an error the points measured so far are in the folder.
     pub fn run(&self, record: &mut Record, kept: Vec<PointRecord>) -> Result<()> {
         let mut tasks: Vec<Task<'a>> = self.points.iter().map(|point| self.task(*point, &kept)).collect();
         let notes = record.notes.clone();
@@ -78,16 +78,16 @@ impl<'a> Measurement<'a> {
         let hash = hash.text(&method).text(&point.spp.to_string()).hex();
         let same = |p: &&PointRecord| p.hash == hash && !p.seconds.is_empty();
         let found = kept.iter().find(same).cloned();
-        let judged = found.is_some();
+        let compared = found.is_some();
         let fresh =
             PointRecord { hash, method, spp: point.spp, samples: point.samples, ..PointRecord::default() };
         let record = PointRecord { command: self.command(&point), ..found.unwrap_or(fresh) };
-        Task { point, record, prepared: None, judged, left_out: false }
+        Task { point, record, prepared: None, compared, left_out: false }
     }
 
     fn rounds(&self, tasks: &mut [Task<'a>], record: &mut Record) -> Result<()> {
         let mut forecast = Forecast::default();
-        for task in tasks.iter().filter(|t| t.judged) {
+        for task in tasks.iter().filter(|t| t.compared) {
             forecast.learn(&task.point, task.record.median_seconds());
         }
         let begun = Instant::now();
@@ -132,10 +132,10 @@ impl<'a> Measurement<'a> {
         Ok(())
     }
 
-    /// Seconds that the pictures of the page will take.
+    /// Returns the seconds that the pictures of the page will take.
     fn reserve(&self, forecast: &Forecast) -> f64 {
         let panel = |method: usize| {
-            forecast.seconds(&Point { method, spp: SAMPLES, samples: SAMPLES }) + forecast.beside()
+            forecast.seconds(&Point { method, spp: SAMPLES, samples: SAMPLES }) + forecast.overhead()
         };
         let of = |plain: bool| {
             let all = self.methods.iter().enumerate();
@@ -145,12 +145,12 @@ impl<'a> Measurement<'a> {
         seconds.min(MAX_RESERVED * self.limit.seconds)
     }
 
-    /// Seconds that point `i` needs if it is taken up now: all its repeats, and those that the points before
-    /// it still lack.
+    /// Returns the seconds that point `i` needs if it is started now: all its repeats, and the
+    /// outstanding ones of the points before it.
     fn upkeep(&self, tasks: &[Task<'_>], i: usize, forecast: &Forecast) -> f64 {
         let own = forecast.seconds(&tasks[i].point) * f64::from(self.options.repeats);
-        let before = tasks[..i].iter().filter(|t| !t.left_out && t.judged);
-        own + forecast.beside() + before.map(|t| self.lacking(t) * forecast.seconds(&t.point)).sum::<f64>()
+        let before = tasks[..i].iter().filter(|t| !t.left_out && t.compared);
+        own + forecast.overhead() + before.map(|t| self.lacking(t) * forecast.seconds(&t.point)).sum::<f64>()
     }
 
     fn lacking(&self, task: &Task<'_>) -> f64 {
@@ -170,12 +170,12 @@ impl<'a> Measurement<'a> {
         }
         let (prepared, pack) = match task.prepared.take() {
             Some(prepared) => (prepared, task.record.stages.pack),
-            None => self.looks.prepare(self.scene, &self.methods[task.point.method], task.point.spp)?,
+            None => self.sessions.prepare(self.scene, &self.methods[task.point.method], task.point.spp)?,
         };
         let (film, report) = prepared.render(progress)?;
         let seconds = report.seconds;
         let Stages { upload, compile, .. } = task.record.stages;
-        let first = !task.judged;
+        let first = !task.compared;
         task.record.stages = Stages {
             pack,
             upload: if first { seconds.upload } else { upload },
@@ -192,10 +192,10 @@ impl<'a> Measurement<'a> {
             task.record.sampled =
                 sampled_part(self.methods[task.point.method].algorithm, &report, film.pixels.len());
             if let Some(part) = task.record.sampled {
-                // One beam, or what stands for it.
+                // One ray per beam, or per the cone in its place.
                 task.record.samples = (part * f64::from(task.point.samples)).ceil().max(1.0) as u32;
             }
-            task.judged = true;
+            task.compared = true;
         }
         Ok(seconds.render)
     }
@@ -224,7 +224,7 @@ impl<'a> Measurement<'a> {
             }
         }
         let wanted = self.options.repeats as usize;
-        let short = tasks.iter().filter(|t| t.judged && t.record.seconds.len() < wanted).count();
+        let short = tasks.iter().filter(|t| t.compared && t.record.seconds.len() < wanted).count();
         if short > 0 {
             notes.push(format!(
                 "{} {} fewer than {wanted} repeats: no room within --seconds {limit}",
@@ -238,12 +238,13 @@ impl<'a> Measurement<'a> {
 
 fn judge(film: &Film, reference: &Reference) -> Result<Errors> {
     let comparison = compare(film, &reference.film)?;
-    let flip = if comparison.nan_pixels > 0 { f64::NAN } else { Seen::of(film).mean(&reference.seen) };
+    let flip =
+        if comparison.nan_pixels > 0 { f64::NAN } else { PerceptualFeatures::of(film).mean(&reference.seen) };
     Ok(Errors::new(&comparison, flip))
 }
 
-/// The points that have been measured, method by method.
+/// Collects the measured points, method by method.
 fn collect(record: &mut Record, tasks: &[Task<'_>], methods: &[Method]) {
-    let of = |method: usize| tasks.iter().filter(move |t| t.point.method == method && t.judged);
+    let of = |method: usize| tasks.iter().filter(move |t| t.point.method == method && t.compared);
     record.points = (0..methods.len()).flat_map(of).map(|t| t.record.clone()).collect();
 }

@@ -1,6 +1,7 @@
-//! A method of anti-aliasing and its name: `pattern`, `pattern+footprint`, `pattern+footprint+filter`, each
-//! with an algorithm before it where that is not `samples`. In: a name, or a scene whose tables say what can
-//! be tried. Out: the scene rendered so, and the options of `moire render` that do the same.
+//! A method of antialiasing and its name: `pattern`, `pattern+footprint`,
+//! `pattern+footprint+filter`, each prefixed with an algorithm other than `samples`. Parses names,
+//! lists the methods that a scene allows, applies a method to a scene, and returns the equivalent
+//! options of `moire render`.
 
 use crate::core::error::{Error, Result};
 use crate::scene::cone;
@@ -11,22 +12,24 @@ use crate::texture::sampler_spec::{Filter, MipMode, SamplerSpec};
 
 use super::record::MethodRecord;
 
-/// A footprint that is named with a filter makes every sampler read levels linearly: `linear` is trilinear.
+/// A method. A footprint with a filter makes every sampler read mip levels linearly: `linear` is
+/// trilinear.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Method {
     pub algorithm: Algorithm,
-    /// None: the scene's.
+    /// The sampling pattern; `None` for the scene's.
     pub pattern: Option<Pattern>,
     pub footprint: Footprint,
-    /// None: the scene's samplers as they are.
+    /// The filter; `None` for the scene's samplers unchanged.
     pub filter: Option<Filter>,
 }
 
-/// The filters that are tried where the scene has textures.
+/// The filters to try if the scene has textures.
 const FILTERS: [Filter; 3] = [Filter::Linear, Filter::Anisotropic, Filter::Ewa];
 
 impl Method {
-    /// Of one cone or beam a pixel; the pattern is the scene's, for what beams leave to samples.
+    /// Returns the method of one cone or beam per pixel; the pattern is the scene's, for pixels
+    /// that beams cannot resolve.
     const fn of_algorithm(algorithm: Algorithm) -> Method {
         Method { algorithm, pattern: None, footprint: Footprint::None, filter: None }
     }
@@ -40,7 +43,7 @@ impl Method {
         }
     }
 
-    /// Everything worth trying in this scene, and what was left out and why.
+    /// Returns all methods to try in this scene, and notes on those that were left out.
     pub fn all_for(scene: &Scene) -> (Vec<Method>, Vec<String>) {
         let (mut methods, mut notes) = (Vec::new(), Vec::new());
         for &algorithm in Algorithm::ALL {
@@ -53,14 +56,15 @@ impl Method {
                     methods.push(Method { algorithm, ..Method::of_pattern(Pattern::SobolOwen) });
                 }
                 Algorithm::Beam | Algorithm::Cone => methods.push(Method::of_algorithm(algorithm)),
-                // Chooses by a goal, not by a number of samples.
+                // `auto` chooses by a goal, not by a number of samples.
                 Algorithm::Auto => {}
             }
         }
         (methods, notes)
     }
 
-    /// A word is an algorithm where it stands first, else a pattern, then a footprint, then a filter.
+    /// Parses a name: the first word may be an algorithm, then follow pattern, footprint and
+    /// filter.
     pub fn parse(text: &str) -> Result<Method, String> {
         let mut words = text.split('+').peekable();
         let mut take = |known: &dyn Fn(&str) -> bool| words.next_if(|word| known(word));
@@ -105,7 +109,7 @@ impl Method {
         }
     }
 
-    /// `base` rendered by this method.
+    /// Returns `base` rendered by this method.
     pub fn apply(&self, base: &Scene, spp: u32) -> Result<Scene> {
         let mut scene = base.clone();
         let sampling = &mut scene.sampling;
@@ -132,7 +136,7 @@ impl Method {
         base.sampling.shared && self.pattern_in(base) == Pattern::Stratified
     }
 
-    /// The options of `moire render` that turn `base` into [`Method::apply`]'s scene.
+    /// Returns the options of `moire render` that turn `base` into the scene of [`Method::apply`].
     pub fn arguments(&self, base: &Scene, spp: u32) -> Vec<String> {
         let count = spp.to_string();
         let mut options = vec!["--pattern", self.pattern_in(base).name(), "--spp", &count];
@@ -157,7 +161,7 @@ fn with_filter(sampler: &mut SamplerSpec, filter: Filter) {
     sampler.mip = MipMode::Linear;
 }
 
-/// The scene's pattern with each filter, and with the scene's own footprint if it has one.
+/// Returns the scene's pattern with each filter, and with the scene's own footprint if it has one.
 fn filtered(scene: &Scene, notes: &mut Vec<String>) -> Vec<Method> {
     let base = Method::of_pattern(scene.sampling.pattern);
     let procedural = scene.textures.iter().any(|t| t.content.procedural().is_some());

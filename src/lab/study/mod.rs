@@ -13,9 +13,9 @@ pub mod bootstrap;
 pub mod choice;
 mod files;
 mod fit;
+pub mod format;
 mod identity;
 mod limit;
-mod looks;
 mod measure;
 pub mod method;
 mod page;
@@ -24,11 +24,11 @@ pub mod plan;
 pub mod record;
 mod reference;
 pub mod results;
+mod session_cache;
 mod showcase;
 mod stages;
 pub mod student;
 mod tables;
-pub mod words;
 
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -40,30 +40,30 @@ use crate::scene::model::Scene;
 use crate::texture;
 
 use limit::Limit;
-use looks::SessionCache;
 use method::Method;
 use record::{Conditions, Record};
+use session_cache::SessionCache;
 
-/// What a study is asked for.
+/// The options of a study.
 #[derive(Clone, Debug)]
 pub struct Options {
-    /// None: those of [`Method::all_for`].
+    /// The methods; `None` for those of [`Method::all_for`].
     pub methods: Option<Vec<Method>>,
-    /// Samples a pixel, each rounded up to what a pattern takes.
+    /// Samples per pixel, each rounded up to a count that the pattern supports.
     pub counts: Vec<u32>,
-    /// Renders a point; their median counts.
+    /// Renders per point, of which the median counts.
     pub repeats: u32,
     pub reference: ReferenceChoice,
-    /// Wall seconds for all of it, from `started` on.
+    /// The wall-clock limit in seconds for everything, from `started` on.
     pub limit: f64,
     pub started: Instant,
     /// An existing folder.
     pub out: PathBuf,
-    /// What commands have to say beside a method: `--size`, `--device`.
+    /// Arguments of commands beside the method: `--size`, `--device`.
     pub arguments: Vec<String>,
 }
 
-/// What errors are measured against.
+/// The source of the reference picture.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum ReferenceChoice {
     /// Many samples on the device.
@@ -73,8 +73,8 @@ pub enum ReferenceChoice {
     File(PathBuf),
 }
 
-/// Measures what the folder does not have yet and writes everything. Interrupted or failed, it leaves a
-/// folder from which the same call goes on.
+/// Measures the points that the folder does not have yet and writes everything. If interrupted or
+/// failed, it leaves a folder from which the same call resumes.
 pub fn run(gpu: &Gpu, scene: &Scene, options: &Options, progress: &dyn Progress) -> Result<Record> {
     let limit = Limit::new(options.started, options.limit);
     let (methods, notes) = match &options.methods {
@@ -89,11 +89,12 @@ pub fn run(gpu: &Gpu, scene: &Scene, options: &Options, progress: &dyn Progress)
     record.notes = notes;
     let kept = record::read(&options.out);
 
-    let looks = SessionCache::open(gpu, scene, textures, &methods)?;
-    let reference = reference::obtain(&looks, scene, options, &identity, kept.reference, &limit, progress)?;
+    let sessions = SessionCache::open(gpu, scene, textures, &methods)?;
+    let reference =
+        reference::obtain(&sessions, scene, options, &identity, kept.reference, &limit, progress)?;
     record.reference = reference.record.clone();
     measure::Measurement {
-        looks: &looks,
+        sessions: &sessions,
         scene,
         options,
         methods: &methods,
@@ -105,19 +106,19 @@ pub fn run(gpu: &Gpu, scene: &Scene, options: &Options, progress: &dyn Progress)
     }
     .run(&mut record, kept.points)?;
     record.analysis = Some(analysis::analyse(&record));
-    let showcase = showcase::render(&looks, scene, &record, &reference.film, &limit, progress)?;
+    let showcase = showcase::render(&sessions, scene, &record, &reference.film, &limit, progress)?;
     record.notes.extend(showcase.note(&limit));
     record.notes.extend(limit.note());
     files::write_all(&options.out, &record, &showcase)?;
     Ok(record)
 }
 
-/// A path as a shell takes it.
+/// Quotes a path for a shell.
 fn quoted(path: &Path) -> String {
     quote(&path.display().to_string())
 }
 
-/// An argument as a POSIX shell takes it.
+/// Quotes an argument for a POSIX shell.
 pub fn quote(text: &str) -> String {
     let plain = |c: char| c.is_ascii_alphanumeric() || "-_./+,=:@%".contains(c);
     if !text.is_empty() && text.chars().all(plain) {

@@ -1,16 +1,15 @@
-//! The study as one HTML page that needs nothing else: style, script, plots and pictures are in it. In: the
-//! record, the showcase, the plots. Out: the page's text.
+//! The study as one self-contained HTML page with style, script, plots and pictures embedded.
 
 use crate::core::error::Result;
 use crate::lab::plot::html::{Header, Html, SCRIPT, code, document, html, scroll, section};
 use crate::output::Format;
 
 use super::choice::recommended;
-use super::pictures::{crop, data_uri, differences, false_color, ramp_css, scale, shrunk};
+use super::format::error;
+use super::pictures::{crop, data_uri, differences, downscaled, false_color, ramp_css, scale};
 use super::record::Record;
 use super::showcase::Showcase;
 use super::tables;
-use super::words::error;
 
 /// The charts of the page, each as SVG.
 pub struct Plots {
@@ -19,8 +18,8 @@ pub struct Plots {
     pub stages: String,
 }
 
-/// Widest picture within the page.
-const MOST: u32 = 420;
+/// The largest width of a picture in the page.
+const MAX_WIDTH: u32 = 420;
 
 pub fn html(record: &Record, showcase: &Showcase, plots: &Plots) -> Result<String> {
     let Some(analysis) = &record.analysis else { return Ok(String::new()) };
@@ -81,7 +80,7 @@ fn figure(picture: Html, heading: Html, text: Html) -> Html {
 
 fn faults(showcase: &Showcase) -> Result<Html> {
     let w = showcase.window;
-    let whole = shrunk(&showcase.reference, MOST);
+    let whole = downscaled(&showcase.reference, MAX_WIDTH);
     let percent = |part: u32, all: u32| format!("{:.2}", 100.0 * f64::from(part) / f64::from(all.max(1)));
     let frame = html!(
         "<span class=\"whole\">{}<span class=\"frame\" style=\"left:{}%;top:{}%;width:{}%;height:{}%\"></span></span>",
@@ -135,7 +134,7 @@ fn difference_pictures(showcase: &Showcase) -> Result<Html> {
     let scale = scale(&values);
     let mut figures = Vec::new();
     for (panel, values) in showcase.panels.iter().zip(&values) {
-        let picture = shrunk(&false_color(values, showcase.reference.width, scale), MOST);
+        let picture = downscaled(&false_color(values, showcase.reference.width, scale), MAX_WIDTH);
         let alt = format!(
             "Error of {} with {} at each pixel, from dark (none) to light ({})",
             panel.method,

@@ -1,5 +1,5 @@
-//! Films as pictures within a page: crops, reductions, differences in false colour, and all of them as data
-//! URIs, so that the page needs no other file.
+//! Films as pictures in a page: crops, downscaled pictures, differences in false colour, all as
+//! data URIs, so that the page is self-contained.
 
 use base64::prelude::{BASE64_STANDARD, Engine};
 
@@ -17,7 +17,8 @@ pub struct Window {
     pub height: u32,
 }
 
-/// Dark to light in even steps of lightness, readable without colour (after matplotlib's magma): sRGB.
+/// A colour ramp from dark to light in even steps of lightness, readable without colour (after
+/// matplotlib's magma), in sRGB.
 const RAMP: [[u8; 3]; 6] =
     [[0, 0, 4], [59, 15, 112], [140, 41, 129], [222, 73, 104], [254, 159, 109], [252, 253, 191]];
 
@@ -34,7 +35,7 @@ pub fn crop(film: &Film, window: Window) -> Film {
     }
 }
 
-/// The window in which squared errors, each over its picture's own mean, add up to most.
+/// Returns the window with the largest sum of squared errors, each relative to its picture's mean.
 pub fn worst_window(films: &[(&Film, f64)], reference: &Film, side: u32) -> Window {
     let (width, height) = (reference.width as usize, reference.height as usize);
     let (w, h) = (width.min(side as usize), height.min(side as usize));
@@ -46,7 +47,7 @@ pub fn worst_window(films: &[(&Film, f64)], reference: &Film, side: u32) -> Wind
         };
         films.iter().map(of).sum()
     };
-    // Sums over all pixels above and to the left (Crow 1984).
+    // Summed-area table over all pixels above and to the left (Crow 1984).
     let mut sums = vec![0.0f64; (width + 1) * (height + 1)];
     for y in 0..height {
         let mut row = 0.0;
@@ -68,13 +69,13 @@ pub fn worst_window(films: &[(&Film, f64)], reference: &Film, side: u32) -> Wind
     Window { x: best.1 as u32, y: best.2 as u32, width: w as u32, height: h as u32 }
 }
 
-/// |a − b|, the mean of three channels, by pixel.
+/// Returns |a − b|, the mean of three channels, by pixel.
 pub fn differences(a: &Film, b: &Film) -> Vec<f32> {
     let one = |(p, q): (&[f32; 3], &[f32; 3])| (0..3).map(|c| (p[c] - q[c]).abs()).sum::<f32>() / 3.0;
     a.pixels.iter().zip(&b.pixels).map(one).collect()
 }
 
-/// The value below which all but half a per cent lie.
+/// Returns the value below which all but half a per cent of the values lie.
 pub fn scale(values: &[Vec<f32>]) -> f32 {
     let mut all: Vec<f32> = values.iter().flatten().copied().filter(|v| v.is_finite()).collect();
     all.sort_by(f32::total_cmp);
@@ -82,7 +83,7 @@ pub fn scale(values: &[Vec<f32>]) -> f32 {
     all.get(last * 199 / 200).copied().unwrap_or(1.0).max(f32::MIN_POSITIVE)
 }
 
-/// Values from 0 to `scale` along the ramp.
+/// Maps values from 0 to `scale` to the ramp.
 pub fn false_color(values: &[f32], width: u32, scale: f32) -> Film {
     let color = |value: &f32| {
         let t = if value.is_finite() { (value / scale).clamp(0.0, 1.0) } else { 1.0 };
@@ -98,14 +99,14 @@ pub fn false_color(values: &[f32], width: u32, scale: f32) -> Film {
     Film { width, height: (values.len() / width.max(1) as usize) as u32, pixels, samples: 0 }
 }
 
-/// A CSS gradient of the same ramp.
+/// Returns a CSS gradient of the same ramp.
 pub fn ramp_css() -> String {
     let stops: Vec<String> = RAMP.iter().map(|[r, g, b]| format!("rgb({r},{g},{b})")).collect();
     format!("linear-gradient(to right,{})", stops.join(","))
 }
 
-/// At most `most` pixels wide: means over squares of whole pixels.
-pub fn shrunk(film: &Film, most: u32) -> Film {
+/// Returns a picture at most `most` pixels wide, averaged over squares of whole pixels.
+pub fn downscaled(film: &Film, most: u32) -> Film {
     let step = film.width.div_ceil(most).max(1);
     if step == 1 {
         return film.clone();
@@ -127,7 +128,7 @@ pub fn shrunk(film: &Film, most: u32) -> Film {
     Film { width, height, pixels, samples: film.samples }
 }
 
-/// PNG keeps single pixels apart; JPEG is small.
+/// Returns a data URI: PNG keeps single pixels distinct, JPEG is small.
 pub fn data_uri(film: &Film, format: Format) -> Result<String> {
     let media = if format == Format::Png { "png" } else { "jpeg" };
     let bytes = output::to_bytes(film, format)?;
@@ -152,7 +153,7 @@ mod tests {
     fn shrinking_keeps_the_mean() {
         let mut film = Film::new(64, 32, 1);
         film.pixels.iter_mut().enumerate().for_each(|(i, p)| *p = [i as f32; 3]);
-        let small = shrunk(&film, 16);
+        let small = downscaled(&film, 16);
         let mean = |f: &Film| f.pixels.iter().map(|p| p[0]).sum::<f32>() / f.pixels.len() as f32;
         assert_eq!((small.width, small.height), (16, 8));
         assert!((mean(&small) - mean(&film)).abs() < 1e-2);

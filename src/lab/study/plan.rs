@@ -1,6 +1,5 @@
-//! Which points a study measures. In: methods and the sample counts asked for. Out: one point for each
-//! method and count that its pattern takes, short ones first; and how long the rest will take, from what the
-//! points before took.
+//! The points of a study: one for each method and each requested count that its pattern supports,
+//! short ones first; and a forecast of the remaining time from the points measured so far.
 
 use crate::core::error::{Error, Result};
 use crate::scene::model::{Algorithm, Pattern, Scene};
@@ -11,28 +10,28 @@ use super::method::Method;
 /// One method with one count.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Point {
-    /// Index into the study's methods.
+    /// The index into the study's methods.
     pub method: usize,
-    /// `--spp`.
+    /// The value of `--spp`.
     pub spp: u32,
-    /// Samples that are taken: `center` needs one.
+    /// The samples actually taken: `center` needs one.
     pub samples: u32,
 }
 
-/// The least count from `asked` on that the pattern takes.
+/// Returns the smallest count from `asked` on that the pattern supports.
 pub fn next_count(pattern: Pattern, asked: u32) -> Option<u32> {
     (asked..=MAX_SPP).find(|&n| check_spp(pattern, n).is_ok())
 }
 
-/// In the order of the counts asked for, so that what takes longest comes last. Counts that a pattern rounds
-/// to the same are measured once.
+/// Returns points in the order of the requested counts, so that the longest come last. Counts that
+/// a pattern rounds to the same value are measured once.
 pub fn points(methods: &[Method], scene: &Scene, counts: &[u32]) -> Result<Vec<Point>> {
     let mut counts = counts.to_vec();
     counts.sort_unstable();
     let mut points: Vec<Point> = Vec::new();
     for &asked in &counts {
         for (method, how) in methods.iter().enumerate() {
-            // Few pixels of beams take samples, if any: one point, with the most.
+            // Few pixels of beams take samples, if any: there is one point, with the largest count.
             if how.algorithm == Algorithm::Beam && Some(&asked) != counts.last() {
                 continue;
             }
@@ -49,46 +48,46 @@ pub fn points(methods: &[Method], scene: &Scene, counts: &[u32]) -> Result<Vec<P
     Ok(points)
 }
 
-/// How long points take, learnt from those that were measured.
+/// A forecast of render times, learnt from measured points.
 #[derive(Clone, Debug, Default)]
 pub struct Forecast {
-    /// (method, samples, seconds) of one render.
-    seen: Vec<(usize, u32, f64)>,
-    /// Seconds beside rendering that points took when they were measured first: compiling, comparing.
-    beside: Vec<f64>,
+    /// Method, samples and seconds of each render so far.
+    measured: Vec<(usize, u32, f64)>,
+    /// The overhead in seconds when a point was first measured: compiling, comparing.
+    overhead: Vec<f64>,
 }
 
-/// As many points tell how long the next will take beside rendering.
+/// The number of recent points from which the overhead of the next is predicted.
 const RECENT: usize = 8;
 
 impl Forecast {
     pub fn learn(&mut self, point: &Point, seconds: f64) {
-        self.seen.push((point.method, point.samples, seconds));
+        self.measured.push((point.method, point.samples, seconds));
     }
 
     pub fn learn_beside(&mut self, seconds: f64) {
-        self.beside.push(seconds.max(0.0));
+        self.overhead.push(seconds.max(0.0));
     }
 
-    /// Seconds beside rendering of a point that is measured first: the mean of the last ones.
-    pub fn beside(&self) -> f64 {
-        let recent = &self.beside[self.beside.len().saturating_sub(RECENT)..];
+    /// Returns the predicted overhead of a new point: the mean of the last ones.
+    pub fn overhead(&self) -> f64 {
+        let recent = &self.overhead[self.overhead.len().saturating_sub(RECENT)..];
         recent.iter().sum::<f64>() / recent.len().max(1) as f64
     }
 
-    /// Seconds of one render. Time grows with the samples; of a method that was not seen yet, it is that of
-    /// the slowest one.
+    /// Returns the predicted seconds of one render. Time grows with the samples; for a method
+    /// without a measurement it is that of the slowest one.
     pub fn seconds(&self, point: &Point) -> f64 {
         let scaled = |&(_, samples, seconds): &(usize, u32, f64)| {
             let ratio = f64::from(point.samples) / f64::from(samples);
-            // Fewer samples save less than their share: launching, reading back.
+            // Fewer samples save less than proportionally: launching, reading back.
             seconds * if ratio < 1.0 { ratio.sqrt() } else { ratio }
         };
-        // The last of equals: the machine may have become slower.
-        let own = self.seen.iter().rev().filter(|s| s.0 == point.method);
+        // The last of equals, because the machine may have become slower.
+        let own = self.measured.iter().rev().filter(|s| s.0 == point.method);
         match own.min_by_key(|s| s.1.abs_diff(point.samples)) {
             Some(nearest) => scaled(nearest),
-            None => self.seen.iter().map(scaled).fold(0.0, f64::max),
+            None => self.measured.iter().map(scaled).fold(0.0, f64::max),
         }
     }
 }

@@ -1,6 +1,6 @@
-//! What a study knows, as `study.json` holds it: where it was measured, the reference, every point with its
-//! times and errors, and what follows from them. Points are read back to go on after an interruption; each
-//! carries a hash of all that it depends on.
+//! The record of a study as stored in `study.json`: conditions, reference, every point with its
+//! times and errors, and the evaluation. Points are read back to resume after an interruption; each
+//! carries a hash of everything on which it depends.
 
 use std::fs;
 use std::path::Path;
@@ -17,7 +17,7 @@ use super::results::Analysis;
 
 pub const FILE: &str = "study.json";
 
-/// Everything beside the scene that a point depends on.
+/// The conditions beside the scene on which a point depends.
 #[derive(Clone, Debug, Serialize)]
 pub struct Conditions {
     pub program: String,
@@ -26,10 +26,10 @@ pub struct Conditions {
     pub seed: u32,
     pub device: DeviceInfo,
     pub repeats: u32,
-    /// Seconds that the study was allowed.
+    /// The time limit of the study in seconds.
     pub limit: f64,
     pub counts: Vec<u32>,
-    /// What every command says beside its method.
+    /// The arguments that every command has beside its method.
     pub arguments: Vec<String>,
     pub folder: String,
 }
@@ -62,16 +62,17 @@ pub struct MethodRecord {
 
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct ReferenceRecord {
-    /// Of scene, device and kind; with the number of samples, what errors depend on.
+    /// The hash of scene, device and kind; together with the number of samples it identifies the
+    /// errors.
     pub hash: String,
-    /// In words.
+    /// The kind as text.
     pub kind: String,
-    /// The picture, for `moire compare`.
+    /// The picture file, for `moire compare`.
     pub file: String,
-    /// Samples a pixel; 0 where a file does not say.
+    /// Samples per pixel; 0 if a file does not state them.
     pub samples: u32,
     pub seconds: f64,
-    /// RMSE of the reference itself, from its two independent halves.
+    /// The RMSE of the reference itself, from its two independent halves.
     pub rmse: Option<f64>,
 }
 
@@ -80,12 +81,12 @@ pub struct PointRecord {
     pub hash: String,
     pub method: String,
     pub spp: u32,
-    /// Camera rays a pixel, those of beams and cones among them; a mean where pixels differ.
+    /// Camera rays per pixel, including those of beams and cones; a mean if pixels differ.
     pub samples: u32,
-    /// Of beams: the part of the pixels that took samples, `spp` each.
+    /// For beams, the fraction of the pixels that took samples, `spp` each.
     #[serde(default)]
     pub sampled: Option<f64>,
-    /// Hash of the picture: equal ones have one.
+    /// The hash of the picture, by which equal pictures are recognised.
     #[serde(default)]
     pub picture: String,
     /// Wall seconds of the render stage, one for each repeat.
@@ -93,14 +94,14 @@ pub struct PointRecord {
     pub device_seconds: Vec<f64>,
     pub stages: Stages,
     pub errors: Errors,
-    /// Sums of squared errors of parts of the picture; none where an older study left the point.
+    /// Sums of squared errors of parts of the picture; empty for a point of an older study.
     #[serde(default)]
     pub blocks: Vec<f32>,
     pub command: String,
 }
 
-/// Wall seconds of what comes before and after rendering. Textures are packed and uploaded once for all
-/// methods that read them alike.
+/// Wall seconds before and after rendering. Textures are packed and uploaded once for all methods
+/// that read them alike.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Stages {
     pub pack: f64,
@@ -146,7 +147,7 @@ pub struct Record {
     pub conditions: Conditions,
     pub methods: Vec<MethodRecord>,
     pub reference: ReferenceRecord,
-    /// Points that the time did not allow, and methods that the scene does not.
+    /// Points omitted for lack of time, and methods that the scene does not support.
     pub notes: Vec<String>,
     pub points: Vec<PointRecord>,
     pub analysis: Option<Analysis>,
@@ -164,20 +165,20 @@ impl Record {
         }
     }
 
-    /// The measured points of a method, fewest samples first.
+    /// Returns the measured points of a method, fewest samples first.
     pub fn points_of<'a>(&'a self, method: &'a str) -> impl Iterator<Item = &'a PointRecord> {
         self.points.iter().filter(move |p| p.method == method)
     }
 }
 
-/// What an earlier run left.
+/// The points of an earlier run.
 #[derive(Debug, Default)]
 pub struct Kept {
     pub reference: Option<ReferenceRecord>,
     pub points: Vec<PointRecord>,
 }
 
-/// What cannot be read is measured anew.
+/// Reads the points of an earlier run; a damaged file counts as none.
 pub fn read(folder: &Path) -> Kept {
     let text = fs::read_to_string(folder.join(FILE)).unwrap_or_default();
     let json: serde_json::Value = serde_json::from_str(&text).unwrap_or_default();

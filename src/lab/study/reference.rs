@@ -1,6 +1,6 @@
-//! What errors are measured against. In: a picture file, or the scene rendered with many samples in two
-//! independent halves, on the device or by the oracle. Out: the picture, and how far off it is itself: the
-//! halves a and b give the error of their mean as RMSE(a, b) / 2.
+//! The reference of a study: a picture file, or the scene rendered with many samples in two
+//! independent halves, on the device or by the oracle. The halves a and b also give the error of
+//! their mean, RMSE(a, b) / 2.
 
 use std::path::Path;
 use std::time::Instant;
@@ -8,7 +8,7 @@ use std::time::Instant;
 use crate::core::error::{Error, Result};
 use crate::core::film::Film;
 use crate::core::progress::{Progress, SubProgress};
-use crate::lab::metrics::flip::Seen;
+use crate::lab::metrics::flip::PerceptualFeatures;
 use crate::lab::metrics::{compare, read_picture};
 use crate::oracle;
 use crate::output::{self, WriteOptions};
@@ -19,34 +19,35 @@ use crate::texture;
 
 use super::identity::{self, Hash};
 use super::limit::Limit;
-use super::looks::SessionCache;
 use super::method::Method;
 use super::plan::next_count;
 use super::record::ReferenceRecord;
+use super::session_cache::SessionCache;
 use super::{Options, ReferenceChoice};
 
 pub const FILE: &str = "reference.exr";
-/// Samples of a reference over those of the longest point: with errors that fall by the root of the number
-/// at least, the reference's own is an eighth.
-const TIMES: u32 = 64;
-/// The part of a study's time that a reference may take.
-const SHARE: f64 = 0.25;
-/// When its first try and its second have to be done, and how many times fewer samples a side the second takes.
-const LATER: [f64; 2] = [0.45, 0.6];
+/// Samples of the reference relative to those of the longest point: since errors fall at least with
+/// the root of the number, the reference's own is at most an eighth.
+const SAMPLE_FACTOR: u32 = 64;
+/// The fraction of a study's time that the reference may take.
+const TIME_FRACTION: f64 = 0.25;
+/// The deadlines of the first and the second attempt as fractions of the time, the second with
+/// fewer samples.
+const ATTEMPT_DEADLINES: [f64; 2] = [0.45, 0.6];
 const FEWER: u32 = 4;
-/// Added to the scene's seed: no half shares its samples with a measured point.
-const SEEDS: [u32; 2] = [1_000_003, 2_000_003];
+/// Offsets of the scene's seed, so that no half shares its samples with a measured point.
+const SEED_OFFSETS: [u32; 2] = [1_000_003, 2_000_003];
 
 pub struct Reference {
     pub film: Film,
-    pub seen: Seen,
+    pub seen: PerceptualFeatures,
     pub record: ReferenceRecord,
-    /// How far the study's progress is.
+    /// The progress of the study at this point.
     pub progress: f64,
 }
 
 pub fn obtain(
-    looks: &SessionCache<'_>,
+    sessions: &SessionCache<'_>,
     scene: &Scene,
     options: &Options,
     identity: &Hash,
@@ -58,7 +59,7 @@ pub fn obtain(
         return from_file(path, scene, identity);
     }
     let most = options.counts.iter().copied().max().unwrap_or(1);
-    let wanted = most.saturating_mul(TIMES / 2).min(MAX_SPP);
+    let wanted = most.saturating_mul(SAMPLE_FACTOR / 2).min(MAX_SPP);
     let oracle = options.reference == ReferenceChoice::Oracle;
     let hash = identity.text(if oracle { "oracle" } else { "device" }).text(&wanted.to_string()).hex();
     let path = options.out.join(FILE);
@@ -67,7 +68,7 @@ pub fn obtain(
     {
         return Ok(finished(film, record, 0.0));
     }
-    let allowed = (SHARE * limit.seconds - limit.spent()).max(0.0);
+    let allowed = (TIME_FRACTION * limit.seconds - limit.spent()).max(0.0);
     let (film, mut record, progress) = if oracle {
         let textures = scene.textures.iter().map(texture::load::load).collect::<Result<Vec<_>>>()?;
         let half = |samples: u32, seed: u32, progress: &dyn Progress| {
@@ -80,7 +81,8 @@ pub fn obtain(
     } else {
         let half = |samples: u32, seed: u32, progress: &dyn Progress| {
             let scene = half_of(scene, samples, seed)?;
-            let (prepared, _) = looks.prepare(&scene, &Method::of_pattern(Pattern::Stratified), samples)?;
+            let (prepared, _) =
+                sessions.prepare(&scene, &Method::of_pattern(Pattern::Stratified), samples)?;
             prepared.render(progress).map(|(film, _)| film)
         };
         in_halves(scene, &half, wanted, allowed, options, limit, progress)?
@@ -94,7 +96,7 @@ pub fn obtain(
 }
 
 fn finished(film: Film, record: ReferenceRecord, progress: f64) -> Reference {
-    Reference { seen: Seen::of(&film), film, record, progress }
+    Reference { seen: PerceptualFeatures::of(&film), film, record, progress }
 }
 
 fn fits(film: &Film, scene: &Scene) -> bool {
@@ -125,7 +127,7 @@ fn from_file(path: &Path, scene: &Scene, identity: &Hash) -> Result<Reference> {
     Ok(finished(film, record, 0.0))
 }
 
-/// The scene without any footprint, with jittered samples of its own in each pixel.
+/// Returns the scene without any footprint, with independent jittered samples in each pixel.
 fn half_of(scene: &Scene, samples: u32, seed: u32) -> Result<Scene> {
     let mut scene = scene.clone();
     scene.sampling.shared = false;
@@ -135,7 +137,7 @@ fn half_of(scene: &Scene, samples: u32, seed: u32) -> Result<Scene> {
 
 type Half<'a> = dyn Fn(u32, u32, &dyn Progress) -> Result<Film> + 'a;
 
-/// As many samples as wanted, or as the time allows.
+/// Renders as many samples as wanted, or as the time allows.
 fn in_halves(
     scene: &Scene,
     half: &Half<'_>,
@@ -153,19 +155,19 @@ fn in_halves(
         Some(next) if fitting == wanted => next,
         _ => fitting.isqrt().pow(2),
     };
-    // What the points will take, if all methods are alike.
+    // The expected time of the points, if all methods are alike.
     let points: u32 = options.counts.iter().fold(0, |sum, n| sum.saturating_add(*n));
     let methods = options.methods.as_ref().map_or_else(|| Method::all_for(scene).0.len(), Vec::len);
     let rest = f64::from(points) * f64::from(options.repeats) * methods as f64;
     let end = f64::from(2 * samples) / (f64::from(2 * samples) + rest);
     let both = |samples: u32, progress: &dyn Progress| {
-        let a = half(samples, SEEDS[0], &SubProgress { whole: progress, from: 0.0, to: 0.5 * end })?;
-        let b = half(samples, SEEDS[1], &SubProgress { whole: progress, from: 0.5 * end, to: end })?;
+        let a = half(samples, SEED_OFFSETS[0], &SubProgress { whole: progress, from: 0.0, to: 0.5 * end })?;
+        let b = half(samples, SEED_OFFSETS[1], &SubProgress { whole: progress, from: 0.5 * end, to: end })?;
         Ok((a, b))
     };
-    // A machine that has become slower gets fewer samples; one a half there is in any case.
+    // A machine that has become slower gets fewer samples, but at least one per half.
     let mut halves = None;
-    for share in LATER {
+    for share in ATTEMPT_DEADLINES {
         if halves.is_none() && samples > 1 {
             halves = limit.until(share * limit.seconds, progress, |progress| both(samples, progress))?;
             samples = if halves.is_none() { (samples.isqrt() / FEWER).max(1).pow(2) } else { samples };
@@ -187,8 +189,8 @@ fn in_halves(
     Ok((mean(&a, &b), record, end))
 }
 
-/// From renders of 1, 4, 16, … samples, until they take so long that neither what every render takes nor a
-/// hiccup of the machine counts.
+/// Estimates the time from renders of 1, 4, 16, … samples, until they take so long that neither the
+/// constant overhead nor a short disturbance of the machine matters.
 fn seconds_per_sample(half: &Half<'_>, wanted: u32, progress: &dyn Progress) -> Result<f64> {
     const CLEAR: f64 = 0.1;
     let timed = |samples: u32| {

@@ -6,18 +6,18 @@ use serde::Serialize;
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Analysis {
     pub recommendation: String,
-    /// None where nothing was measured.
+    /// The recommended point, absent if nothing was measured.
     pub recommended: Option<SampleDimension>,
     pub slopes: Vec<MethodSlope>,
     pub winners: Vec<Winner>,
     pub reach: Reach,
 }
 
-/// log MSE over log rays, fitted by least squares.
+/// The slope of log MSE over log rays, fitted by least squares.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Slope {
     pub value: f64,
-    /// Half of the 95 % interval (Student's t); none from points that lie on a line by number.
+    /// Half of the 95 % interval (Student's t); absent if there are too few points for a residual.
     pub half_width: Option<f64>,
     pub points: usize,
 }
@@ -26,35 +26,35 @@ pub struct Slope {
 pub struct MethodSlope {
     pub method: String,
     pub fitted: Option<Slope>,
-    /// 95 % of the slopes when blocks of pixels are drawn anew: what noise leaves open, whether or not the points
-    /// lie on a line.
+    /// The 95 % interval of the slopes over bootstrap samples of pixel blocks: the uncertainty due
+    /// to noise, whether or not the points lie on a line.
     pub interval: Option<[f64; 2]>,
-    /// What theory says of the variance, steepest last; none where there is no law.
+    /// The slopes that theory predicts for the variance, steepest last; empty if there is no law.
     pub theory: Vec<f64>,
     pub theory_text: String,
 }
 
-/// Seconds to each error, by method; none where no measured point is as good.
+/// Seconds to each error, by method; absent if no measured point is as good.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Reach {
     pub errors: Vec<f64>,
     pub methods: Vec<(String, Vec<Option<f64>>)>,
 }
 
-/// The least error within a time.
+/// The smallest error within a time budget.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Winner {
     pub budget: f64,
     pub method: String,
-    /// Other methods that fit into the time and err the same, but for noise.
+    /// Other methods within the budget whose errors are not significantly different.
     pub ties: Vec<String>,
     pub spp: u32,
-    /// What each pixel took, in words.
+    /// The samples per pixel as text.
     pub taken: String,
     pub seconds: f64,
     pub rmse: f64,
-    /// Beyond the method's longest point, along its slope. A method that is slow for its samples would
-    /// otherwise win all the time in which nothing else was measured.
+    /// True if the error is extrapolated along the slope beyond the method's longest point. Without
+    /// that, a slow method would win all the time in which nothing else was measured.
     pub estimated: bool,
 }
 

@@ -1,6 +1,6 @@
-//! The scene under the lecture's three faults and their remedies, at one sample count: what the page opens
-//! with. In: the study's looks, record and reference. Out: films with their errors, and the place where they
-//! differ most. Nothing here is timed.
+//! The opening pictures of the page: the scene with the lecture's three artefacts and their
+//! remedies at one sample count, with errors, and a crop where they differ most. Nothing here is
+//! timed.
 
 use crate::core::error::Result;
 use crate::core::film::Film;
@@ -9,16 +9,16 @@ use crate::lab::metrics::compare;
 use crate::scene::model::{Algorithm, Pattern, Scene};
 
 use super::choice::recommended;
+use super::format::samples_taken_by;
 use super::limit::Limit;
-use super::looks::{SessionCache, sampled_part};
 use super::method::Method;
 use super::pictures::{self, Window};
 use super::plan::next_count;
 use super::record::{MethodRecord, Record};
-use super::words::taken_by;
+use super::session_cache::{SessionCache, sampled_part};
 use crate::core::counted::{counted, verb};
 
-/// Pixels along a side of the magnified crops.
+/// The pixels along a side of the magnified crops.
 const CROP: u32 = 64;
 pub const SAMPLES: u32 = 16;
 
@@ -26,7 +26,7 @@ pub struct Panel {
     pub heading: &'static str,
     pub text: &'static str,
     pub method: String,
-    /// What each pixel took, in words.
+    /// The samples per pixel as text.
     pub taken: String,
     pub film: Film,
     pub rmse: f64,
@@ -36,7 +36,7 @@ pub struct Showcase {
     pub panels: Vec<Panel>,
     pub reference: Film,
     pub window: Window,
-    /// Panels for which there was no time.
+    /// The number of panels omitted for lack of time.
     left_out: usize,
 }
 
@@ -50,7 +50,7 @@ impl Showcase {
     }
 }
 
-/// (heading, what is seen, pattern): the faults, and the first remedy.
+/// Heading, caption and pattern of the artefacts and the first remedy.
 const PATTERNS: [(&str, &str, Pattern); 4] = [
     (
         "Jaggies",
@@ -80,7 +80,7 @@ const WINNER: (&str, &str) =
     ("The recommended method", "It has the least error within most of the times that were measured.");
 
 pub fn render(
-    looks: &SessionCache<'_>,
+    sessions: &SessionCache<'_>,
     scene: &Scene,
     record: &Record,
     reference: &Film,
@@ -108,23 +108,23 @@ pub fn render(
     let still = SubProgress { whole: progress, from: 1.0, to: 1.0 };
     let mut panels: Vec<Panel> = Vec::new();
     let mut left_out = 0;
-    for (heading, text, method) in chosen.into_iter().filter(|c| looks.has(&c.2)) {
+    for (heading, text, method) in chosen.into_iter().filter(|c| sessions.has(&c.2)) {
         let Some(spp) = next_count(method.pattern_in(scene), count) else { continue };
-        // One there is in any case.
+        // The first panel is always rendered.
         let seconds = if panels.is_empty() { f64::INFINITY } else { limit.seconds };
         if limit.spent() >= seconds {
             left_out += 1;
             continue;
         }
         let drawn =
-            limit.until(seconds, &still, |still| looks.prepare(scene, &method, spp)?.0.render(still))?;
+            limit.until(seconds, &still, |still| sessions.prepare(scene, &method, spp)?.0.render(still))?;
         let Some((film, report)) = drawn else {
             left_out += 1;
             continue;
         };
         let sampled = sampled_part(method.algorithm, &report, film.pixels.len());
         let spp = if method.algorithm == Algorithm::Beam { spp } else { film.samples };
-        let taken = taken_by(method.algorithm, spp, sampled);
+        let taken = samples_taken_by(method.algorithm, spp, sampled);
         let rmse = compare(&film, reference)?.rmse;
         panels.push(Panel { heading, text, method: method.name(), taken, film, rmse });
     }
@@ -133,7 +133,7 @@ pub fn render(
     Ok(Showcase { panels, reference: reference.clone(), window, left_out })
 }
 
-/// The method with the least error at about this count.
+/// Returns the method with the smallest error at about this count.
 fn best(record: &Record, count: u32, such: impl Fn(&MethodRecord) -> bool) -> Option<&MethodRecord> {
     let error = |m: &&MethodRecord| {
         let points = record.points_of(&m.name);

@@ -1,8 +1,8 @@
-//! Time by stage: one bar a method, for the count nearest to the middle of those asked for. In: the record.
-//! Out: an SVG document.
+//! A chart of the time by stage as SVG: one bar per method, for the count closest to the middle of
+//! those requested.
 
+use super::format::{samples, seconds};
 use super::record::{MethodRecord, PointRecord, Record};
-use super::words::{samples, seconds};
 use crate::lab::plot::svg;
 
 const WIDTH: f64 = 760.0;
@@ -20,7 +20,8 @@ pub fn svg<'a>(record: &'a Record) -> String {
     let mut body = String::new();
     for (i, stage) in STAGES.iter().enumerate() {
         let x = 20.0 + 130.0 * i as f64;
-        body += &format!("<rect x=\"{x}\" y=\"12\" width=\"14\" height=\"14\" class=\"f{}\"/>\n", place(i));
+        body +=
+            &format!("<rect x=\"{x}\" y=\"12\" width=\"14\" height=\"14\" class=\"f{}\"/>\n", color_index(i));
         body += &svg::text(x + 20.0, 24.0, "start", "", stage);
     }
     for (row, point) in rows.iter().enumerate() {
@@ -32,7 +33,7 @@ pub fn svg<'a>(record: &'a Record) -> String {
             let width = time * scale;
             body += &format!(
                 "<rect x=\"{x:.1}\" y=\"{y}\" width=\"{width:.2}\" height=\"18\" class=\"f{}\"><title>{}</title></rect>\n",
-                place(i),
+                color_index(i),
                 svg::escape(&format!("{}: {} {}", point.method, STAGES[i], seconds(*time)))
             );
             x += width;
@@ -53,7 +54,7 @@ fn times(point: &PointRecord) -> [f64; 5] {
     [s.pack, s.upload, s.compile, point.median_seconds(), s.readback]
 }
 
-/// Neighbours that differ in lightness too.
-fn place(stage: usize) -> usize {
+/// Returns the colour index of a stage, such that neighbours differ in lightness too.
+fn color_index(stage: usize) -> usize {
     [4, 5, 3, 0, 2][stage]
 }

@@ -1,4 +1,5 @@
-//! Student's t distribution. In: degrees of freedom. Out: how many standard errors an interval of 95 % reaches.
+//! Student's t distribution: the half width of a 95 % interval in standard errors, by degrees of
+//! freedom.
 
 /// 97.5 % quantiles for 1 to 30 degrees of freedom.
 const TABLE: [f64; 30] = [
@@ -6,11 +7,12 @@ const TABLE: [f64; 30] = [
     2.1448, 2.1314, 2.1199, 2.1098, 2.1009, 2.0930, 2.0860, 2.0796, 2.0739, 2.0687, 2.0639, 2.0595, 2.0555,
     2.0518, 2.0484, 2.0452, 2.0423,
 ];
-/// The normal distribution's.
+/// The 97.5 % quantile of the normal distribution.
 const NORMAL: f64 = 1.959_963_985;
 
-/// The 97.5 % quantile; beyond the table by its expansion in 1/n about the normal one (Abramowitz & Stegun
-/// 26.7.5), which is right there to 1e-5. Infinite without a degree of freedom.
+/// Returns the 97.5 % quantile; beyond the table by its expansion in 1/n about the normal one
+/// (Abramowitz & Stegun 26.7.5), which is accurate there to 1e-5. Infinite for zero degrees of
+/// freedom.
 pub fn quantile(freedom: usize) -> f64 {
     match freedom {
         0 => f64::INFINITY,
@@ -28,8 +30,8 @@ pub fn quantile(freedom: usize) -> f64 {
 mod tests {
     use super::*;
 
-    /// The probability of |t| below `bound`, by Simpson's rule over θ, t = √n·tan θ: the density is cosⁿ⁻¹θ, but
-    /// for its integral.
+    /// Returns the probability of |t| below `bound`, by Simpson's rule over θ, t = √n·tan θ: the
+    /// density is cosⁿ⁻¹θ up to normalisation.
     fn inside(bound: f64, n: usize) -> f64 {
         let power = n as i32 - 1;
         let integral = |end: f64| {

@@ -1,9 +1,9 @@
 //! The tables of the page: winners, slopes, times to errors, every point, and the conditions.
 
 use super::analysis::{Analysis, MethodSlope};
+use super::format::{error, percent, samples_taken, seconds, times};
 use super::quote;
 use super::record::{PointRecord, Record};
-use super::words::{error, percent, seconds, taken, times};
 use crate::lab::plot::html::{Html, code, html, scroll, table};
 
 pub fn winners(analysis: &Analysis) -> Html {
@@ -65,7 +65,7 @@ fn minus(text: String) -> String {
     text.replace('-', "−")
 }
 
-/// Those of theory's slopes that the wider of both intervals holds.
+/// Returns the theoretical slopes that lie within the wider of both intervals.
 fn lies_within(slope: &MethodSlope) -> String {
     let Some(fitted) = slope.fitted else { return "–".into() };
     let own = fitted.half_width.unwrap_or(0.0);
@@ -93,7 +93,7 @@ pub fn points(record: &Record) -> Html {
         let e = &p.errors;
         let texts = [
             p.samples.to_string(),
-            taken(p),
+            samples_taken(p),
             times(p),
             seconds(p.median_device_seconds()),
             error(e.rmse),

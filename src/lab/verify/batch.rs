@@ -1,4 +1,5 @@
-//! Variants → one scene whose look-ups one pipeline answers, and a tally for each of them.
+//! A batch of variants: one scene whose lookups one pipeline answers, with a tally for each
+//! variant.
 
 use rayon::prelude::*;
 
@@ -6,13 +7,13 @@ use super::queries::{noise, pairs_over, query};
 use super::run::Tally;
 use super::variants::{FormatClass, Reader, Variant};
 use crate::core::error::Result;
-use crate::lab::probe::{LookUp, LookUps};
+use crate::lab::probe::{LookupProbe, LookupQuery};
 use crate::pack::PackedScene;
 use crate::scene::model::Footprint;
 use crate::texture::data::{Dimension, TextureData};
 use crate::texture::sampler_spec::{Address, Filter, Method, MipMode, SamplerSpec, TexelCenter};
 
-/// Variants that one pipeline reads: each with its texture and with both texel centres.
+/// Variants that one pipeline reads, each with its texture and with both texel centres.
 pub struct Batch<'a> {
     pub scene: PackedScene,
     pub reader: Reader,
@@ -22,12 +23,12 @@ pub struct Batch<'a> {
 }
 
 impl<'a> Batch<'a> {
-    /// Samplers in three parts, each with one a variant: what the device binds, what the oracle is asked
-    /// about, and the same with integer texel centres.
+    /// Creates a batch. Its samplers have three parts with one entry per variant: those bound on
+    /// the device, those that the oracle evaluates, and the latter with integer texel centres.
     pub fn new(variants: Vec<&'a Variant>, texture: impl Fn(&Variant) -> TextureData) -> Result<Batch<'a>> {
         let reader = variants.first().map_or(Reader::Sampler, |v| v.reader);
         let filtered = variants.iter().any(|v| v.is_filtered());
-        // Textures get all their levels, whatever the sampler reads of them.
+        // Textures get all their levels, whichever the sampler reads.
         let mip = |v: &Variant| if filtered { MipMode::Linear } else { v.spec.mip };
         let bound = variants.iter().map(|v| SamplerSpec { mip: mip(v), ..v.device_sampler() });
         let half = variants.iter().map(|v| v.asked_sampler());
@@ -41,7 +42,7 @@ impl<'a> Batch<'a> {
                 let other = variants[p.1];
                 (other.class, other.format, other.size) == (variant.class, variant.format, variant.size)
             };
-            // The shader's look-ups share one slot a texture, whatever the sampler.
+            // The shader's lookups share one slot per texture, whatever the sampler.
             let known = (reader != Reader::Sampler).then(|| list.iter().position(same_texture)).flatten();
             pair_of.push(known.unwrap_or_else(|| {
                 textures.push(texture(variant));
@@ -62,19 +63,19 @@ impl<'a> Batch<'a> {
         Ok(Batch { scene, reader, variants, pair_of })
     }
 
-    /// The look-up of variant `i` at (u, v).
-    pub fn query(&self, i: usize, center: TexelCenter, uv: [f32; 2]) -> LookUp {
+    /// Returns the lookup of variant `i` at (u, v).
+    pub fn query(&self, i: usize, center: TexelCenter, uv: [f32; 2]) -> LookupQuery {
         let part = if center == TexelCenter::Integer { 2 } else { 1 };
         let sampler = part * self.variants.len() + i;
-        LookUp { sampler: sampler as u32, ..query(&self.scene, self.pair_of[i], uv) }
+        LookupQuery { sampler: sampler as u32, ..query(&self.scene, self.pair_of[i], uv) }
     }
 
-    /// One tally a variant, of its own list of look-ups.
+    /// Returns one tally per variant, each for its own list of lookups.
     pub fn tallies(
         &self,
-        probe: &mut LookUps<'_>,
-        queries: Vec<Vec<LookUp>>,
-        tally: impl Fn(&Variant, &[LookUp], &[[f32; 4]]) -> Tally + Sync,
+        probe: &mut LookupProbe<'_>,
+        queries: Vec<Vec<LookupQuery>>,
+        tally: impl Fn(&Variant, &[LookupQuery], &[[f32; 4]]) -> Tally + Sync,
     ) -> Result<Vec<Tally>> {
         let answers = probe.answer(&self.scene, self.reader != Reader::ShaderBuffer, &queries.concat())?;
         let mut rest = &answers[..];
@@ -91,7 +92,8 @@ impl<'a> Batch<'a> {
     }
 }
 
-/// Textures that nothing reads: with them all batches need the same code, and share a pipeline.
+/// Returns textures that nothing reads: with them all batches need the same shader variant and
+/// share a pipeline.
 fn unread_textures(dimension: Dimension) -> Vec<TextureData> {
     let size = |n: u32| match dimension {
         Dimension::One => [n, 1, 1],
@@ -104,7 +106,7 @@ fn unread_textures(dimension: Dimension) -> Vec<TextureData> {
     formats.enumerate().map(of).collect()
 }
 
-/// Samplers that nothing reads, for the same end.
+/// Returns samplers that nothing reads, for the same purpose.
 fn unread_samplers(filtered: bool) -> Vec<SamplerSpec> {
     let of = |(i, &address): (usize, &Address)| SamplerSpec {
         address: [address; 2],

@@ -1,6 +1,6 @@
-//! Rows → the lines of a table that people read: one for each reader, kind of texture, scale and filter, at
-//! level 0 for each class of formats and elsewhere for each mip mode; and within it one for all address
-//! modes that fared alike.
+//! Groups rows into the lines of a readable table: one for each reader, kind of texture, scale and
+//! filter, at level 0 for each class of formats and otherwise for each mip mode; within it one for
+//! all address modes with equal results.
 
 use super::report::{Row, Verdict};
 use super::variants::{FormatClass, Reader, Scale, Variant};
@@ -13,19 +13,19 @@ pub struct Line {
     pub dimension: Dimension,
     pub scale: Scale,
     pub filter: Filter,
-    /// Where levels other than 0 are read.
+    /// The mip mode, if levels other than 0 are read.
     pub mip: Option<MipMode>,
-    /// Where they are not; else all of them.
+    /// The class of formats at level 0; otherwise the line covers all of them.
     pub class: Option<FormatClass>,
-    /// Which address modes, in words.
+    /// The address modes as text.
     pub address: String,
     pub variants: usize,
     pub look_ups: usize,
     pub wrong: usize,
-    /// The worst of all.
+    /// The largest error of all.
     pub error: f64,
     pub beyond: f64,
-    /// Of the filter at level 0, of the mix of two levels elsewhere.
+    /// The weight bits of the filter at level 0, otherwise of the blend of two levels.
     pub weights: Option<WeightBits>,
     pub verdict: Verdict,
 }
@@ -37,7 +37,7 @@ fn key(v: &Variant) -> Key {
     (v.reader, v.dimension, v.scale, mip, v.filter(), class)
 }
 
-/// In the order of the vocabularies.
+/// Returns the lines in the order of the vocabularies.
 pub fn lines(rows: &[Row]) -> Vec<Line> {
     let mut keys: Vec<Key> = rows.iter().map(|r| key(&r.variant)).collect();
     keys.sort();
@@ -45,8 +45,9 @@ pub fn lines(rows: &[Row]) -> Vec<Line> {
     keys.into_iter().flat_map(|k| lines_of(k, rows)).collect()
 }
 
-/// At level 0 address modes fared alike when the worst verdict and the weights of their rows are the same;
-/// elsewhere, where each of them has its own formats, it is the rows that fared alike.
+/// Returns the lines of one key. At level 0 address modes are merged if the worst verdict and the
+/// weights of their rows are equal; at other levels, where each has its own formats, rows with
+/// equal results are merged.
 fn lines_of(wanted: Key, rows: &[Row]) -> Vec<Line> {
     let rows: Vec<&Row> = rows.iter().filter(|r| key(&r.variant) == wanted).collect();
     let all = distinct(&rows).len();
@@ -95,7 +96,8 @@ fn distinct(rows: &[&Row]) -> Vec<Vec<Address>> {
     all
 }
 
-/// `all 25 pairs`, `repeat × clamp-to-edge` (both modes on either axis), `21 pairs`, `repeat/repeat`.
+/// Returns `all 25 pairs`, `repeat × clamp-to-edge` (both modes on either axis), `21 pairs`,
+/// `repeat/repeat`.
 fn address(list: &[Vec<Address>], of: usize) -> String {
     let mut modes: Vec<Address> = list.iter().flatten().copied().collect();
     modes.sort();

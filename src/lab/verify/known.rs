@@ -1,5 +1,5 @@
-//! Faults that drivers are known to have: who, in which variants, and how far they go. A variant that
-//! errs within these bounds is named and does not fail a report unless it is strict.
+//! Known faults of drivers: the driver, the affected variants and the bounds of the errors. A
+//! variant that errs within these bounds is listed, but fails a report only with `strict`.
 
 use super::variants::{FormatClass, Reader, Scale, Variant};
 use crate::gpu::DeviceInfo;
@@ -7,17 +7,18 @@ use crate::texture::sampler_spec::{Address, Filter, MipMode};
 
 pub struct KnownFault {
     pub name: &'static str,
-    /// A part of the driver's name.
+    /// Part of the driver's name.
     driver: &'static str,
     applies: fn(&Variant) -> bool,
-    /// How far a value may lie beyond what the device's declared precision allows, as a part of the
+    /// The largest distance of a value from the device's declared precision, as a fraction of the
     /// texels' range.
     pub beyond: f64,
 }
 
 const FAULTS: &[KnownFault] = &[
     KnownFault {
-        // Mesa's gallivm, lp_bld_sample_aos.c: interpolation in integers of 8 bits, rounded after each axis.
+        // Mesa's gallivm, lp_bld_sample_aos.c: interpolation in integers of 8 bits, rounded after
+        // each axis.
         name: "lavapipe filters 8-bit texels with 8-bit arithmetic where all axes repeat or clamp to the edge",
         driver: "llvmpipe",
         applies: |v| {
@@ -45,13 +46,13 @@ const ANISOTROPY: KnownFault = KnownFault {
     beyond: 1.0, // any level for any other
 };
 
-/// What goes wrong where this device's samplers follow long footprints, if anything does.
+/// Returns the known fault of this device's anisotropic filtering, if there is one.
 pub fn anisotropy_fault(device: &DeviceInfo) -> Option<&'static str> {
     let fault = &ANISOTROPY;
     device.driver.contains(fault.driver).then_some(fault.name)
 }
 
-/// The fault, if this device has one in this variant.
+/// Returns the known fault of this device in this variant, if there is one.
 pub fn known_fault(device: &DeviceInfo, variant: &Variant) -> Option<&'static KnownFault> {
     FAULTS.iter().find(|f| device.driver.contains(f.driver) && (f.applies)(variant))
 }

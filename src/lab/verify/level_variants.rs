@@ -1,12 +1,12 @@
-//! Variants of everything but level 0 of flat textures: levels of textures of one, two and three
-//! dimensions and of cubes, and anisotropy. Each address mode meets each of the others on every two
-//! axes, with all filters and mip modes; classes of formats, sizes and borders rotate.
+//! Variants other than level 0 of 2D textures: levels of textures of one, two and three dimensions
+//! and of cubes, and anisotropy. Each address mode is paired with each other one on every two axes,
+//! with all filters and mip modes; classes of formats, sizes and borders rotate.
 
 use super::variants::{FormatClass, Reader, Scale, Variant};
 use crate::texture::data::Dimension;
 use crate::texture::sampler_spec::{Address, Filter, Method, MipMode, SamplerSpec};
 
-/// Lengths that halve to the last, and odd ones.
+/// Lengths that halve without remainder to the last level, and odd ones.
 const SIZES: [[[u32; 3]; 4]; 4] = [
     [[16, 1, 1], [5, 1, 1], [64, 1, 1], [7, 1, 1]],
     [[8, 8, 1], [16, 4, 1], [5, 3, 1], [7, 20, 1]],
@@ -18,10 +18,10 @@ const BORDERS: [[f32; 4]; 3] = [[0.0; 4], [0.0, 0.0, 0.0, 1.0], [1.0; 4]];
 
 const BASIC: [Filter; 2] = [Filter::Nearest, Filter::Linear];
 
-/// Longest footprints, in widths.
+/// Limits of anisotropy, in footprint widths.
 pub const ANISOTROPIES: [u32; 4] = [2, 4, 8, 16];
 
-/// Of every reader that reads levels, and the device's anisotropic samplers.
+/// Returns the variants of every reader that reads levels, and the device's anisotropic samplers.
 pub fn all() -> Vec<Variant> {
     let mut all = Vec::new();
     for &dimension in Dimension::ALL {
@@ -31,14 +31,15 @@ pub fn all() -> Vec<Variant> {
     for &dimension in Dimension::ALL {
         all.extend(level_variants(Reader::ShaderBuffer, dimension));
     }
-    // The texels of volumes and cubes lie in the buffer, also beside images.
+    // The texels of volumes and cubes are in the buffer, even beside images.
     for dimension in [Dimension::One, Dimension::Two] {
         all.extend(level_variants(Reader::ShaderImage, dimension));
     }
     all
 }
 
-/// Address modes of u, v and w: one each, all pairs, or triples in which every two axes meet all pairs.
+/// Returns address modes of u, v and w: one each, all pairs, or triples in which every two axes
+/// meet all pairs.
 fn addresses(dimension: Dimension) -> Vec<[Address; 3]> {
     let modes = Address::ALL;
     let of = |u: usize, v: usize| [modes[u], modes[v], modes[(u + v) % modes.len()]];
@@ -51,7 +52,7 @@ fn addresses(dimension: Dimension) -> Vec<[Address; 3]> {
     }
 }
 
-/// Magnification and minification, in all pairs that have the reader's filters.
+/// Returns pairs of magnification and minification filters that the reader supports.
 fn filters(reader: Reader, dimension: Dimension) -> Vec<[Filter; 2]> {
     let mut all: Vec<[Filter; 2]> = BASIC.iter().flat_map(|&mag| BASIC.map(|min| [mag, min])).collect();
     if reader != Reader::Sampler && matches!(dimension, Dimension::One | Dimension::Two) {
@@ -88,7 +89,8 @@ pub fn level_variants(reader: Reader, dimension: Dimension) -> Vec<Variant> {
     all
 }
 
-/// The number of channels goes with the size: the shader's pipelines hold twelve textures.
+/// Returns one variant. The number of channels follows the size: the shader's pipelines hold twelve
+/// textures.
 fn variant(reader: Reader, dimension: Dimension, scale: Scale, spec: SamplerSpec, turn: usize) -> Variant {
     let class = FormatClass::ALL[turn % FormatClass::ALL.len()];
     let channels = turn / FormatClass::ALL.len() % 3;
@@ -97,8 +99,8 @@ fn variant(reader: Reader, dimension: Dimension, scale: Scale, spec: SamplerSpec
     Variant { reader, spec, scale, class, format: class.formats()[channels], dimension, size }
 }
 
-/// Levels told apart by colour, so all formats but sRGB, whose colours are not even, and no borders, which
-/// long footprints reach.
+/// Returns the variants with levels distinguished by colour: all formats except sRGB, whose codes
+/// are not evenly spaced, and no borders, which long footprints reach.
 pub fn anisotropic_variants() -> Vec<Variant> {
     let mut all = Vec::new();
     for max_anisotropy in ANISOTROPIES {

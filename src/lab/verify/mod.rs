@@ -1,14 +1,14 @@
-//! Sampler conformance: a device in, a report out. Every variant of sampler, kind of texture and texel
-//! format is looked up on the device over random, awkward and finely stepped coordinates and levels and
-//! held against the float64 oracle by the interval rule; so are the shader's own filters from both texel
-//! sources.
+//! Sampler conformance of a device. Every variant of sampler, kind of texture and texel format is
+//! looked up on the device over random, awkward and finely stepped coordinates and levels and
+//! compared with the float64 oracle by the interval rule; so are the shader's own filters from both
+//! texel sources.
 
 pub mod batch;
 pub mod groups;
+pub mod interval;
 pub mod judge;
 pub mod known;
 pub mod level_variants;
-pub mod place;
 pub mod queries;
 pub mod reading;
 pub mod report;
@@ -23,21 +23,21 @@ use std::time::Instant;
 use crate::core::error::{Error, Result};
 use crate::core::progress::Progress;
 use crate::gpu::Gpu;
-use crate::lab::probe::{self, LookUps};
+use crate::lab::probe::{self, LookupProbe};
 use crate::pack::MAX_SLOTS;
 use crate::texture::data::Dimension;
 use crate::texture::sampler_spec::{Filter, MipMode};
 use judge::Precision;
 use queries::Axis;
-use report::{Report, Row};
+use report::{ConformanceReport, Row};
 use run::Tally;
 use variants::{Reader, Scale, Variant};
 
-/// Rounds of the shader's variants at level 0; each gives its textures other sizes.
+/// The rounds of the shader's variants at level 0; each gives its textures other sizes.
 const ROUNDS: usize = 2;
 
-/// Variants whose look-ups one dispatch answers, by their place in the list of all.
-struct Work {
+/// Variants whose lookups one dispatch answers, by index in the list of all.
+struct WorkItem {
     members: Vec<usize>,
     precision: Precision,
     kind: Kind,
@@ -52,7 +52,7 @@ enum Kind {
 }
 
 /// Verifies everything that the device offers and whose label contains `only`.
-pub fn verify(gpu: &Gpu, only: Option<&str>, progress: &dyn Progress) -> Result<Report> {
+pub fn verify(gpu: &Gpu, only: Option<&str>, progress: &dyn Progress) -> Result<ConformanceReport> {
     let start = Instant::now();
     let device = gpu.info();
     let offered = |v: &Variant| {
@@ -74,14 +74,14 @@ pub fn verify(gpu: &Gpu, only: Option<&str>, progress: &dyn Progress) -> Result<
     }
     let (variants, missing): (Vec<Variant>, Vec<Variant>) = all.into_iter().partition(offered);
 
-    let works = works(&variants, Precision::declared(device));
-    let mut probe = LookUps::new(gpu);
+    let work_items = work_items(&variants, Precision::declared(device));
+    let mut probe = LookupProbe::new(gpu);
     let mut tallies = vec![Tally::default(); variants.len()];
-    for (done, work) in works.iter().enumerate() {
+    for (done, work) in work_items.iter().enumerate() {
         let members = work.members.iter().map(|&i| &variants[i]).collect();
         let seed = 1 + done as u64;
         let found = match work.kind {
-            Kind::Scattered => run::look_ups(&mut probe, members, work.precision, seed)?,
+            Kind::Scattered => run::check_lookups(&mut probe, members, work.precision, seed)?,
             Kind::Sweep => run::sweeps(&mut probe, members, work.precision, seed)?,
             Kind::Ramp(axis) => run::ramps(&mut probe, members, work.precision, axis)?,
             Kind::LevelRamp => run::level_ramps(&mut probe, members, work.precision)?,
@@ -89,22 +89,22 @@ pub fn verify(gpu: &Gpu, only: Option<&str>, progress: &dyn Progress) -> Result<
         for (&i, tally) in work.members.iter().zip(found) {
             tallies[i].merge(tally);
         }
-        progress.advance((done + 1) as f64 / works.len() as f64);
+        progress.advance((done + 1) as f64 / work_items.len() as f64);
         if progress.cancelled() {
             return Err(Error::Interrupted);
         }
     }
     let rows = variants.iter().zip(tallies).map(|(variant, tally)| Row::new(device, variant, tally));
-    Ok(Report::new(device, rows.collect(), &missing, start.elapsed().as_secs_f64()))
+    Ok(ConformanceReport::new(device, rows.collect(), &missing, start.elapsed().as_secs_f64()))
 }
 
-/// As many variants a piece of work as one pipeline reads.
-fn works(variants: &[Variant], declared: Precision) -> Vec<Work> {
+/// Splits the variants into work items of as many as one pipeline reads.
+fn work_items(variants: &[Variant], declared: Precision) -> Vec<WorkItem> {
     let mut all = Vec::new();
     let mut add = |wanted: &dyn Fn(&Variant) -> bool, precision: Precision, kind: Kind| {
         let members = (0..variants.len()).filter(|&i| wanted(&variants[i])).collect();
         let parts = in_slots(variants, members).into_iter();
-        all.extend(parts.map(|members| Work { members, precision, kind }));
+        all.extend(parts.map(|members| WorkItem { members, precision, kind }));
     };
     let at_level_0 = |v: &Variant, reader| v.reader == reader && !v.is_filtered();
     add(&|v| at_level_0(v, Reader::Sampler), declared, Kind::Scattered);
@@ -123,8 +123,8 @@ fn works(variants: &[Variant], declared: Precision) -> Vec<Work> {
     all
 }
 
-/// Parts that fit the image slots of a pipeline: one a variant for the device's samplers, one a texture for
-/// the shader.
+/// Splits variants to fit the image slots of a pipeline: one per variant for the device's samplers,
+/// one per texture for the shader.
 fn in_slots(variants: &[Variant], members: Vec<usize>) -> Vec<Vec<usize>> {
     let mut parts: Vec<Vec<usize>> = Vec::new();
     let mut slots = Vec::new();
@@ -146,12 +146,12 @@ fn in_slots(variants: &[Variant], members: Vec<usize>) -> Vec<Vec<usize>> {
     parts
 }
 
-/// One ramp an axis for each pair of address modes, scale and class of formats.
+/// Returns true for one ramp per axis for each pair of address modes, scale and class of formats.
 fn wants_ramp(variant: &Variant) -> bool {
     filters_linearly(variant) && !variant.is_filtered() && variant.spec.mip == MipMode::None
 }
 
-/// One for each pair of address modes.
+/// Returns true for one variant of each pair of address modes.
 fn wants_level_ramp(variant: &Variant) -> bool {
     let levels = variant.scale == Scale::Levels && variant.dimension == Dimension::Two;
     filters_linearly(variant) && levels && variant.spec.mip == MipMode::Linear

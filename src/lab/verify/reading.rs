@@ -1,6 +1,6 @@
-//! A look-up → the filters and levels that it may be read with. The level of detail, known as exactly as
-//! declared, decides between magnification and minification, which levels are read, and how two are
-//! mixed (Vulkan 1.3, "Scale Factor Operation, Level-of-Detail Operation and Image Level(s) Selection").
+//! The filters and levels with which a lookup may be read. The level of detail, within its declared
+//! precision, selects magnification or minification, the levels, and the weight between two (Vulkan
+//! 1.3, "Scale Factor Operation, Level-of-Detail Operation and Image Level(s) Selection").
 
 use glam::DVec3;
 
@@ -9,15 +9,15 @@ use crate::oracle::mapping::Coordinate;
 use crate::schema::layout::{Sampler, Texture};
 use crate::texture::sampler_spec::{Filter, Method, MipMode};
 
-/// Of levels that our shader forms in f32.
+/// The rounding error of levels that the shader computes in f32.
 const ROUNDING: f64 = 1e-5;
 
-/// One filter at one level, or a mix of two.
+/// One filter at one level, or a blend of two.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reading {
     pub filter: Filter,
     pub levels: [u32; 2],
-    /// Least and greatest share of the second level.
+    /// The smallest and largest weight of the second level.
     pub share: [f64; 2],
 }
 
@@ -31,9 +31,9 @@ impl Reading {
     }
 }
 
-/// The level of detail, before it is limited to levels that exist, at a place of the texture. Our shader
-/// forms it from the footprint's major axis; where the device filters anisotropically, it forms it
-/// itself.
+/// Returns the range of the level of detail at a coordinate, before it is clamped to existing
+/// levels. The shader computes it from the footprint's major axis; with anisotropic filtering the
+/// device computes it itself.
 pub fn levels_of_detail(image: &Texture, how: &Sampler, c: &Coordinate, precision: f64) -> [f64; 2] {
     let anisotropic = how.min_filter == Filter::Anisotropic;
     if how.method == Method::Hardware && anisotropic {
@@ -42,13 +42,14 @@ pub fn levels_of_detail(image: &Texture, how: &Sampler, c: &Coordinate, precisio
     }
     let major = texel_spread(image, c).major;
     let level = 0.5 * major.log2();
-    // Magnification is told to the device as level 0, which has no rounding.
+    // Magnification is passed to the device as level 0, which has no rounding error.
     if level < -ROUNDING { [level; 2] } else { [level - ROUNDING - precision, level + ROUNDING + precision] }
 }
 
-/// How many samples along the major axis are taken, up to the sampler's limit, is the device's choice, and
-/// so is the scale factor of a footprint that is not along an axis: between the largest component of
-/// its change and the sum of all.
+/// Returns the range of the level of detail of an anisotropic lookup. The number of samples along
+/// the major axis, up to the sampler's limit, is implementation-dependent, and so is the scale
+/// factor of a footprint that is not along an axis: between the largest component of its change and
+/// the sum of all.
 fn anisotropic_levels(image: &Texture, how: &Sampler, c: &Coordinate) -> [f64; 2] {
     let size = DVec3::new(f64::from(image.size.x), f64::from(image.size.y), 0.0);
     let changes = c.change.map(|d| (d * size).abs());
@@ -58,7 +59,8 @@ fn anisotropic_levels(image: &Texture, how: &Sampler, c: &Coordinate) -> [f64; 2
     [narrowest.log2(), most[0].max(most[1]).log2()]
 }
 
-/// What may be read at a level of detail in [from, to], of a texture with `levels` levels.
+/// Returns the possible readings for a level of detail in [from, to] of a texture with `levels`
+/// levels.
 pub fn readings(how: &Sampler, levels: u32, [from, to]: [f64; 2]) -> Vec<Reading> {
     let (mag, min) = (how.mag_filter, how.min_filter);
     let last = levels - 1;

@@ -1,4 +1,5 @@
-//! Tallies → rows with a verdict, and the whole as plain data: what `--json` prints.
+//! The report of a verification: rows with a verdict for each tally, as plain data that `--json`
+//! prints.
 
 use serde::{Serialize, Serializer};
 
@@ -10,7 +11,7 @@ use crate::core::named::named_enum;
 use crate::gpu::DeviceInfo;
 
 named_enum! {
-    /// In rising order of concern.
+    /// The verdicts in ascending order of severity.
     pub enum Verdict {
         Within = "within",
         KnownFault = "known fault",
@@ -32,12 +33,13 @@ pub struct Row {
     pub name: String,
     pub reader: &'static str,
     pub dimension: &'static str,
-    /// Of the axes that the texture has; of a cube none.
+    /// The address modes of the texture's axes; empty for a cube.
     pub address: Vec<&'static str>,
     pub mag: &'static str,
     pub min: &'static str,
     pub mip: &'static str,
-    /// What was read: level 0 by one of the two filters, all levels, or long footprints.
+    /// The levels that were read: level 0 by one of the two filters, all levels, or long
+    /// footprints.
     pub scale: &'static str,
     pub class: &'static str,
     pub format: &'static str,
@@ -45,13 +47,14 @@ pub struct Row {
     pub max_anisotropy: Option<u32>,
     pub look_ups: usize,
     pub wrong: usize,
-    /// As `judge::Judgement` has them; null for an answer that is no number or should have been constant.
+    /// The errors as in `judge::Judgement`; null for an answer that is NaN or infinity or should
+    /// have been constant.
     pub worst_error: f64,
     pub worst_beyond: f64,
     pub weights: Option<WeightBits>,
-    /// Of the mix of two levels.
+    /// The weight bits of the blend of two levels.
     pub level_weights: Option<WeightBits>,
-    /// Longest footprint that was followed, in widths.
+    /// The largest anisotropy that was resolved, in footprint widths.
     pub anisotropy: Option<f64>,
     pub verdict: Verdict,
     pub fault: Option<&'static str>,
@@ -98,7 +101,7 @@ impl Row {
     }
 }
 
-/// What the device promises, as far as samplers go.
+/// The device's declared sampler precision.
 #[derive(Clone, Debug, Serialize)]
 pub struct Limits {
     pub sub_texel_bits: u32,
@@ -119,7 +122,7 @@ pub struct Summary {
 }
 
 #[derive(Clone, Debug, Serialize)]
-pub struct Report {
+pub struct ConformanceReport {
     pub device: String,
     pub driver: String,
     pub api_version: String,
@@ -127,15 +130,16 @@ pub struct Report {
     pub summary: Summary,
     pub seconds: f64,
     pub rows: Vec<Row>,
-    /// Variants that the device has not: an optional address mode, or a format it does not filter.
+    /// Variants that the device does not support: an optional address mode, or a format without
+    /// linear filtering.
     pub not_offered: Vec<String>,
 }
 
-impl Report {
-    pub fn new(device: &DeviceInfo, rows: Vec<Row>, missing: &[Variant], seconds: f64) -> Report {
+impl ConformanceReport {
+    pub fn new(device: &DeviceInfo, rows: Vec<Row>, missing: &[Variant], seconds: f64) -> ConformanceReport {
         let limits = &device.limits;
         let count = |verdict| rows.iter().filter(|r| r.verdict == verdict).count();
-        Report {
+        ConformanceReport {
             device: device.name.clone(),
             driver: device.driver.clone(),
             api_version: device.api_version.clone(),
@@ -160,7 +164,8 @@ impl Report {
         }
     }
 
-    /// No variant outside, and if `strict` no known fault either.
+    /// Returns true if no variant is out of bounds and, with `strict`, there is no known fault
+    /// either.
     pub fn passes(&self, strict: bool) -> bool {
         self.summary.outside == 0 && (!strict || self.summary.known_faults == 0)
     }

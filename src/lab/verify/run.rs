@@ -1,24 +1,26 @@
-//! Variants → look-ups on the device in batches of one pipeline → a tally a variant: how many answers
-//! are wrong by the declared precision, how far the worst is off, and how fine the weights are.
+//! Runs the variants' lookups on the device in batches of one pipeline and returns a tally per
+//! variant: the number of answers wrong by the declared precision, the largest error, and the
+//! resolution of the weights.
 
 use super::batch::Batch;
 use super::judge::{Judge, Judgement, Precision};
-use super::queries::{Axis, Dice, coordinates, noise, place_of, ramp, ramp_texture};
+use super::queries::{Axis, Rng, coordinates, noise, place_of, ramp, ramp_texture};
 use super::sweeps::{level_ramp, level_sweep, long_footprints, paint_levels};
 use super::variants::{Reader, Scale, Variant};
 use super::weights::{RAMP_STEPS, WeightBits, weight_bits};
 use crate::core::error::Result;
-use crate::lab::probe::{LookUp, LookUps};
+use crate::lab::probe::{LookupProbe, LookupQuery};
 use crate::texture::data::{Dimension, TextureData};
 use crate::texture::sampler_spec::{MipMode, TexelCenter};
 
-/// Random coordinates a variant, beside the edges.
+/// The number of random coordinates per variant, in addition to the edges.
 const RANDOM: usize = 60;
 
-/// Of the steps of a ramp; prime, so that all parts of a weight's step are met.
-const JUDGED_EVERY: usize = 31;
+/// The stride of the checked steps of a ramp; prime, so that all parts of a weight's step are
+/// checked.
+const CHECK_STRIDE: usize = 31;
 
-/// What was found about one variant.
+/// The results of one variant.
 #[derive(Clone, Debug, Default)]
 pub struct Tally {
     pub look_ups: usize,
@@ -26,11 +28,11 @@ pub struct Tally {
     pub error: f64,
     pub beyond: f64,
     pub weights: Option<WeightBits>,
-    /// Of the mix of two levels.
+    /// The weight bits of the blend of two levels.
     pub level_weights: Option<WeightBits>,
-    /// Longest footprint that was followed, in widths.
+    /// The largest anisotropy that was resolved, in footprint widths.
     pub anisotropy: Option<f64>,
-    /// The first wrong answer, and what was allowed.
+    /// The first wrong answer, with the allowed values.
     pub example: Option<String>,
 }
 
@@ -42,16 +44,16 @@ impl Tally {
         self.beyond = self.beyond.max(found.beyond);
     }
 
-    /// Judges one look-up, and keeps the first wrong one.
-    fn sample_texture(&mut self, judge: &Judge<'_>, query: &LookUp, answer: [f32; 4]) {
+    /// Checks one lookup, and keeps the first wrong one.
+    fn sample_texture(&mut self, judge: &Judge<'_>, query: &LookupQuery, answer: [f32; 4]) {
         let found = judge.judge(query, answer);
         self.add(found);
         if !found.right && self.example.is_none() {
-            self.example = Some(judge.complaint(query, answer));
+            self.example = Some(judge.message(query, answer));
         }
     }
 
-    /// What another run found about the same variant.
+    /// Adds the results of another run of the same variant.
     pub fn merge(&mut self, other: Tally) {
         self.look_ups += other.look_ups;
         self.wrong += other.wrong;
@@ -64,12 +66,12 @@ impl Tally {
     }
 }
 
-/// The texture of a variant in this batch.
+/// Returns the texture of a variant in this batch.
 fn noise_of(seed: u64) -> impl Fn(&Variant) -> TextureData {
     move |v| noise(v.dimension, v.size, v.format, v.class.color_space(), seed * 1000 + v.format as u64)
 }
 
-fn judged(judge: &Judge<'_>, queries: &[LookUp], answers: &[[f32; 4]]) -> Tally {
+fn judged(judge: &Judge<'_>, queries: &[LookupQuery], answers: &[[f32; 4]]) -> Tally {
     let mut tally = Tally::default();
     for (query, answer) in queries.iter().zip(answers) {
         tally.sample_texture(judge, query, *answer);
@@ -77,32 +79,32 @@ fn judged(judge: &Judge<'_>, queries: &[LookUp], answers: &[[f32; 4]]) -> Tally 
     tally
 }
 
-/// Random and awkward coordinates at level 0, judged.
-pub fn look_ups(
-    probe: &mut LookUps<'_>,
+/// Checks random and error-prone coordinates at level 0.
+pub fn check_lookups(
+    probe: &mut LookupProbe<'_>,
     variants: Vec<&Variant>,
     precision: Precision,
     seed: u64,
 ) -> Result<Vec<Tally>> {
     let batch = Batch::new(variants, noise_of(seed))?;
-    let mut dice = Dice::new(seed);
+    let mut rng = Rng::new(seed);
     let far = batch.reader != Reader::Sampler;
     let list = |(i, v): (usize, &&Variant)| {
-        let places = coordinates(&mut dice, [v.size[0], v.size[1]], RANDOM, far).into_iter();
+        let places = coordinates(&mut rng, [v.size[0], v.size[1]], RANDOM, far).into_iter();
         places
             .flat_map(|uv| TexelCenter::ALL.iter().map(move |&c| (c, uv)))
             .map(|(center, uv)| batch.query(i, center, uv))
             .collect()
     };
-    let queries: Vec<Vec<LookUp>> = batch.variants.iter().enumerate().map(list).collect();
+    let queries: Vec<Vec<LookupQuery>> = batch.variants.iter().enumerate().map(list).collect();
     let judge = Judge::new(&batch.scene, precision);
     batch.tallies(probe, queries, |_, queries, answers| judged(&judge, queries, answers))
 }
 
-/// All levels over footprints of all lengths, judged; and how long those were that the device followed
-/// itself.
+/// Checks all levels over footprints of all lengths, and measures the lengths that the device
+/// resolved itself.
 pub fn sweeps(
-    probe: &mut LookUps<'_>,
+    probe: &mut LookupProbe<'_>,
     variants: Vec<&Variant>,
     precision: Precision,
     seed: u64,
@@ -114,16 +116,16 @@ pub fn sweeps(
             paint_levels(&mut batch.scene, texture);
         }
     }
-    let mut dice = Dice::new(seed);
+    let mut rng = Rng::new(seed);
     let list = |(i, v): (usize, &&Variant)| {
         let base = batch.query(i, TexelCenter::Half, [0.0; 2]);
         if v.scale == Scale::Anisotropic {
-            long_footprints(&mut dice, v, &base)
+            long_footprints(&mut rng, v, &base)
         } else {
-            level_sweep(&mut dice, v, &base)
+            level_sweep(&mut rng, v, &base)
         }
     };
-    let queries: Vec<Vec<LookUp>> = batch.variants.iter().enumerate().map(list).collect();
+    let queries: Vec<Vec<LookupQuery>> = batch.variants.iter().enumerate().map(list).collect();
     let judge = Judge::new(&batch.scene, precision);
     batch.tallies(probe, queries, |variant, queries, answers| {
         let mut tally = judged(&judge, queries, answers);
@@ -135,28 +137,28 @@ pub fn sweeps(
     })
 }
 
-/// How long a footprint along an axis was followed, in widths of the level that was read; the colours of
-/// levels run from 0 to 1.
-fn followed(variant: &Variant, query: &LookUp, answer: [f32; 4]) -> Option<f64> {
+/// Returns the resolved length of a footprint along an axis, in widths of the level that was read;
+/// the colours of levels range from 0 to 1.
+fn followed(variant: &Variant, query: &LookupQuery, answer: [f32; 4]) -> Option<f64> {
     let last = f64::from(variant.size[0].ilog2());
     let level = f64::from(answer[0]) * last;
     let [x, y] = place_of(query).change.map(|d| d.abs() * f64::from(variant.size[0]));
     let along_axis = x.min_element() == 0.0 && x.x * y.x == 0.0 && x.y * y.y == 0.0;
-    // Levels 0 and last are what others are limited to.
+    // Other levels are clamped to levels 0 and last.
     let inside = level > 0.1 && level < last - 0.1;
     (along_axis && inside).then(|| x.max_element().max(y.max_element()) / level.exp2())
 }
 
-/// Ramps between two texels, judged here and there, and the bits of the weights that they show.
+/// Checks ramps between two texels at intervals, and counts the bits of their weights.
 pub fn ramps(
-    probe: &mut LookUps<'_>,
+    probe: &mut LookupProbe<'_>,
     variants: Vec<&Variant>,
     precision: Precision,
     axis: Axis,
 ) -> Result<Vec<Tally>> {
     let batch = Batch::new(variants, |v| ramp_texture(axis, v.format, v.class.color_space()))?;
     let list = |i| ramp(axis, RAMP_STEPS).map(|uv| batch.query(i, TexelCenter::Half, uv)).collect();
-    let queries: Vec<Vec<LookUp>> = (0..batch.variants.len()).map(list).collect();
+    let queries: Vec<Vec<LookupQuery>> = (0..batch.variants.len()).map(list).collect();
     let judge = Judge::new(&batch.scene, precision);
     batch.tallies(probe, queries, |_, queries, answers| Tally {
         weights: Some(bits(answers)),
@@ -164,9 +166,9 @@ pub fn ramps(
     })
 }
 
-/// The same between two levels, 0 in every channel above and 1 below.
+/// Checks the same between two levels, the first 0 in every channel and the second 1.
 pub fn level_ramps(
-    probe: &mut LookUps<'_>,
+    probe: &mut LookupProbe<'_>,
     variants: Vec<&Variant>,
     precision: Precision,
 ) -> Result<Vec<Tally>> {
@@ -177,7 +179,7 @@ pub fn level_ramps(
         paint_levels(&mut batch.scene, texture);
     }
     let list = |i| level_ramp(&batch.query(i, TexelCenter::Half, [0.5; 2]), RAMP_STEPS).collect();
-    let queries: Vec<Vec<LookUp>> = (0..batch.variants.len()).map(list).collect();
+    let queries: Vec<Vec<LookupQuery>> = (0..batch.variants.len()).map(list).collect();
     let judge = Judge::new(&batch.scene, precision);
     batch.tallies(probe, queries, |_, queries, answers| Tally {
         level_weights: Some(bits(answers)),
@@ -189,9 +191,9 @@ fn bits(answers: &[[f32; 4]]) -> WeightBits {
     weight_bits(answers.iter().map(|rgba| rgba[0]))
 }
 
-fn judged_here_and_there(judge: &Judge<'_>, queries: &[LookUp], answers: &[[f32; 4]]) -> Tally {
+fn judged_here_and_there(judge: &Judge<'_>, queries: &[LookupQuery], answers: &[[f32; 4]]) -> Tally {
     let mut tally = Tally::default();
-    for (query, answer) in queries.iter().zip(answers).step_by(JUDGED_EVERY) {
+    for (query, answer) in queries.iter().zip(answers).step_by(CHECK_STRIDE) {
         tally.sample_texture(judge, query, *answer);
     }
     tally

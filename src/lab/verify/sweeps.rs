@@ -1,63 +1,65 @@
-//! Look-ups over footprints, the same in every run: places of every kind of texture, levels of detail from
-//! magnification to beyond the last one, among them whole ones, halves and what lies just beside them;
-//! long footprints in all directions; and textures whose levels are told apart by their colour.
+//! Lookups over footprints, equal in every run: coordinates of every kind of texture, levels of
+//! detail from magnification to beyond the last one, among them integers, halves and their
+//! neighbours; long footprints in all directions; and textures whose levels are distinguished by
+//! colour.
 
 use glam::{DVec2, DVec3};
 
-use super::queries::{Dice, coordinates};
+use super::queries::{Rng, coordinates};
 use super::variants::Variant;
-use crate::lab::probe::LookUp;
+use crate::lab::probe::LookupQuery;
 use crate::pack::PackedScene;
 use crate::texture::data::{Component, Dimension};
 
-/// Places a variant; each is read at a level of its own.
+/// The number of coordinates per variant; each is read at its own level.
 const RANDOM: usize = 40;
 
-/// Where a variant is looked up: u, v, w, or a direction.
-fn places(dice: &mut Dice, variant: &Variant) -> Vec<[f32; 3]> {
+/// Returns the coordinates of a variant: u, v, w, or a direction.
+fn places(rng: &mut Rng, variant: &Variant) -> Vec<[f32; 3]> {
     let [width, height, depth] = variant.size;
-    let flat = coordinates(dice, [width, height], RANDOM, false);
-    let third = coordinates(dice, [depth, 1], RANDOM, false);
+    let flat = coordinates(rng, [width, height], RANDOM, false);
+    let third = coordinates(rng, [depth, 1], RANDOM, false);
     match variant.dimension {
         Dimension::One => flat.iter().map(|&[u, _]| [u, 0.5, 0.0]).collect(),
         Dimension::Two => flat.iter().map(|&[u, v]| [u, v, 0.0]).collect(),
         Dimension::Three => {
-            flat.iter().map(|&[u, v]| [u, v, third[dice.bits() as usize % third.len()][0]]).collect()
+            flat.iter().map(|&[u, v]| [u, v, third[rng.bits() as usize % third.len()][0]]).collect()
         }
-        Dimension::Cube => (0..3 * RANDOM).map(|i| direction(dice, i)).collect(),
+        Dimension::Cube => (0..3 * RANDOM).map(|i| direction(rng, i)).collect(),
     }
 }
 
-/// All over the cube; two of three close to an edge, half of these to a corner.
-fn direction(dice: &mut Dice, i: usize) -> [f32; 3] {
-    let mut d = [0; 3].map(|_| dice.between(-1.0, 1.0));
-    let near = |dice: &mut Dice| {
-        let side = if dice.bits() >> 32 & 1 == 0 { 1.0 } else { -1.0 };
-        side * dice.between(0.9, 1.0)
+/// Returns directions all over the cube; two of three close to an edge, half of these close to a
+/// corner.
+fn direction(rng: &mut Rng, i: usize) -> [f32; 3] {
+    let mut d = [0; 3].map(|_| rng.between(-1.0, 1.0));
+    let near = |rng: &mut Rng| {
+        let side = if rng.bits() >> 32 & 1 == 0 { 1.0 } else { -1.0 };
+        side * rng.between(0.9, 1.0)
     };
-    let axis = dice.bits() as usize % 3;
+    let axis = rng.bits() as usize % 3;
     d[axis] = d[axis].signum();
     for k in 1..=i % 3 {
-        d[(axis + k) % 3] = near(dice);
+        d[(axis + k) % 3] = near(rng);
     }
-    let length = dice.between(0.1, 10.0);
+    let length = rng.between(0.1, 10.0);
     d.map(|x| (x * length) as f32)
 }
 
-/// A level of detail: whole ones and halves, just beside them, and any.
-fn level(dice: &mut Dice, i: usize, last: u32) -> f64 {
-    let whole = f64::from(dice.bits() as u32 % (last + 2));
+/// Returns a level of detail: integers and halves, their neighbours, and random ones.
+fn level(rng: &mut Rng, i: usize, last: u32) -> f64 {
+    let whole = f64::from(rng.bits() as u32 % (last + 2));
     match i % 6 {
-        0 => whole + 0.5 + dice.between(-0.2, 0.2),
-        1 => whole + dice.between(-0.2, 0.2),
-        2 => whole + 0.25 * f64::from(dice.bits() as u32 % 4),
-        3 => dice.between(-3.0, 0.0),
-        _ => dice.between(0.0, f64::from(last) + 1.0),
+        0 => whole + 0.5 + rng.between(-0.2, 0.2),
+        1 => whole + rng.between(-0.2, 0.2),
+        2 => whole + 0.25 * f64::from(rng.bits() as u32 % 4),
+        3 => rng.between(-3.0, 0.0),
+        _ => rng.between(0.0, f64::from(last) + 1.0),
     }
 }
 
-/// A look-up of the variant at a place, over changes that are there `x` and `y` in texels.
-fn over(base: &LookUp, variant: &Variant, at: [f32; 3], x: DVec2, y: DVec2) -> LookUp {
+/// Returns a lookup of the variant at a coordinate, over differentials of `x` and `y` in texels.
+fn over(base: &LookupQuery, variant: &Variant, at: [f32; 3], x: DVec2, y: DVec2) -> LookupQuery {
     let [width, height, depth] = variant.size.map(f64::from);
     let change = |c: DVec2| match variant.dimension {
         Dimension::Cube => across(DVec3::from_array(at.map(f64::from)), c / (0.5 * width)),
@@ -66,10 +68,11 @@ fn over(base: &LookUp, variant: &Variant, at: [f32; 3], x: DVec2, y: DVec2) -> L
         Dimension::Two => (c / DVec2::new(width, height)).extend(0.0),
     };
     let four = |v: DVec3| v.as_vec3().extend(0.0).to_array();
-    LookUp { uv: [at[0], at[1], at[2], 0.0], dx: four(change(x)), dy: four(change(y)), ..*base }
+    LookupQuery { uv: [at[0], at[1], at[2], 0.0], dx: four(change(x)), dy: four(change(y)), ..*base }
 }
 
-/// A change of a direction that moves the place on its face by these parts of half an edge.
+/// Returns the change of a direction that moves the coordinate on its face by these fractions of
+/// half an edge.
 fn across(d: DVec3, c: DVec2) -> DVec3 {
     let a = d.abs();
     let length = a.max_element();
@@ -86,31 +89,32 @@ fn last_level(variant: &Variant) -> u32 {
     width.max(height).max(depth).ilog2()
 }
 
-/// Round footprints and shorter ones, of every level.
-pub fn level_sweep(dice: &mut Dice, variant: &Variant, base: &LookUp) -> Vec<LookUp> {
+/// Returns round and shorter footprints of every level.
+pub fn level_sweep(rng: &mut Rng, variant: &Variant, base: &LookupQuery) -> Vec<LookupQuery> {
     let last = last_level(variant);
-    let places = places(dice, variant);
+    let places = places(rng, variant);
     let query = |(i, at)| {
-        let length = level(dice, i, last).exp2();
-        let turn = dice.between(0.0, std::f64::consts::TAU);
-        // One dimension has no second direction, and so no other way to be this long.
+        let length = level(rng, i, last).exp2();
+        let turn = rng.between(0.0, std::f64::consts::TAU);
+        // A 1D texture has no second direction, and so no other footprint of this length.
         let major = if variant.dimension == Dimension::One { DVec2::X } else { DVec2::from_angle(turn) };
-        let minor = major.perp() * dice.unit();
+        let minor = major.perp() * rng.unit();
         over(base, variant, at, major * length, minor * length)
     };
     places.into_iter().enumerate().map(query).collect()
 }
 
-/// Angles of long footprints, in quarters of a right angle: half of all look-ups along an axis.
+/// The angles of long footprints, in quarters of a right angle: half of all lookups are along an
+/// axis.
 const ANGLES: [f64; 8] = [0.0, 4.0, 0.0, 4.0, 1.0, 2.0, 3.0, 5.5];
 
-/// Footprints from round to four times as long as the sampler follows, at many angles.
-pub fn long_footprints(dice: &mut Dice, variant: &Variant, base: &LookUp) -> Vec<LookUp> {
+/// Returns footprints from round to four times the sampler's anisotropy, at many angles.
+pub fn long_footprints(rng: &mut Rng, variant: &Variant, base: &LookupQuery) -> Vec<LookupQuery> {
     let last = f64::from(last_level(variant));
     let most = f64::from(variant.spec.max_anisotropy);
     let query = |i: usize| {
-        let length = dice.between(0.0, last).exp2();
-        let ratio = (dice.unit() * (4.0 * most).log2()).exp2();
+        let length = rng.between(0.0, last).exp2();
+        let ratio = (rng.unit() * (4.0 * most).log2()).exp2();
         let angle = ANGLES[i % ANGLES.len()] * std::f64::consts::FRAC_PI_8;
         let major = match ANGLES[i % ANGLES.len()] {
             0.0 => DVec2::X,
@@ -118,7 +122,7 @@ pub fn long_footprints(dice: &mut Dice, variant: &Variant, base: &LookUp) -> Vec
             _ => DVec2::from_angle(angle),
         };
         let [x, y] = [major * length, major.perp() * (length / ratio)];
-        let at = [dice.unit() as f32, dice.unit() as f32, 0.0];
+        let at = [rng.unit() as f32, rng.unit() as f32, 0.0];
         if (i / ANGLES.len()).is_multiple_of(2) {
             over(base, variant, at, x, y)
         } else {
@@ -128,12 +132,12 @@ pub fn long_footprints(dice: &mut Dice, variant: &Variant, base: &LookUp) -> Vec
     (0..32 * ANGLES.len()).map(query).collect()
 }
 
-/// Levels of detail from 0 to 1 of a texture of 2 × 2 texels.
-pub fn level_ramp(base: &LookUp, steps: u32) -> impl Iterator<Item = LookUp> {
+/// Returns levels of detail from 0 to 1 of a texture of 2 × 2 texels.
+pub fn level_ramp(base: &LookupQuery, steps: u32) -> impl Iterator<Item = LookupQuery> {
     let base = *base;
     (0..=steps).map(move |k| {
         let length = (0.5 * (f64::from(k) / f64::from(steps)).exp2()) as f32;
-        LookUp { dx: [length, 0.0, 0.0, 0.0], dy: [0.0, length, 0.0, 0.0], ..base }
+        LookupQuery { dx: [length, 0.0, 0.0, 0.0], dy: [0.0, length, 0.0, 0.0], ..base }
     })
 }
 

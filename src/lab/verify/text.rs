@@ -1,16 +1,16 @@
-//! A report → a table for people: one line for the variants that differ in min, mip or address and fared
-//! alike, then the faults that drivers are known for, then what fails.
+//! The report as a text table: one line for the variants that differ in min, mip or address and
+//! have equal results, then known faults of drivers, then failures.
 
 use std::fmt::Write as _;
 
 use super::groups::{Line, lines};
-use super::report::{Limits, Report, Row, Verdict};
+use super::report::{ConformanceReport, Limits, Row, Verdict};
 use crate::core::counted::counted;
 
-/// Failing variants that are listed one by one.
+/// The number of failing variants that are listed individually.
 const MAX_LISTED: usize = 20;
 
-pub fn text(report: &Report) -> String {
+pub fn text(report: &ConformanceReport) -> String {
     let mut out = String::new();
     let limits = &report.limits;
     let mut line = |text: String| {
@@ -106,8 +106,8 @@ fn group_line(line: &Line) -> String {
     )
 }
 
-/// The longest footprint that was followed, for each limit of the sampler; where levels are wrong it says
-/// nothing.
+/// Returns the largest resolved anisotropy for each limit of the sampler; if levels are wrong it is
+/// meaningless.
 fn anisotropies(rows: &[Row]) -> Option<String> {
     let mut limits: Vec<u32> = rows.iter().filter_map(|r| r.max_anisotropy).collect();
     limits.sort();

@@ -1,7 +1,7 @@
-//! The table of variants. At level 0 of flat textures: every sampler (`SamplerSpec::all`) with every
+//! The table of variants. At level 0 of 2D textures: every sampler (`SamplerSpec::all`) with every
 //! class of texel formats, read by the device's sampler or by the shader from either texel source.
-//! Formats, sizes and border colours rotate through the table, so that each group of variants meets all
-//! of them. Other levels and kinds of textures: `level_variants`.
+//! Formats, sizes and border colours rotate through the table, so that each group of variants meets
+//! all of them. Other levels and kinds of textures: `level_variants`.
 
 use super::level_variants;
 use crate::core::named::named_enum;
@@ -9,7 +9,7 @@ use crate::texture::data::{ColorSpace, Component, Dimension, TexelFormat};
 use crate::texture::sampler_spec::{Address, Filter, Method, SamplerSpec};
 
 named_enum! {
-    /// Formats that a device filters alike.
+    /// Formats that a device filters with equal precision.
     pub enum FormatClass {
         Unorm8 = "unorm8",
         Srgb8 = "srgb8",
@@ -19,7 +19,7 @@ named_enum! {
 }
 
 impl FormatClass {
-    /// One, two and four channels.
+    /// Returns the formats of one, two and four channels.
     pub fn formats(self) -> [TexelFormat; 3] {
         let component = match self {
             FormatClass::Unorm8 | FormatClass::Srgb8 => Component::Unorm8,
@@ -35,7 +35,7 @@ impl FormatClass {
 }
 
 named_enum! {
-    /// Who addresses and filters, and where the texels lie.
+    /// The implementation that addresses and filters, and the source of its texels.
     pub enum Reader {
         Sampler = "sampler",
         ShaderBuffer = "shader, buffer",
@@ -50,8 +50,9 @@ impl Reader {
 }
 
 named_enum! {
-    /// What is read: level 0, or as a footprint has it. A sampler magnifies where the level of detail is at
-    /// most 0 (Vulkan 1.3, "Scale Factor Operation, Level-of-Detail Operation and Image Level(s) Selection").
+    /// The levels that are read: level 0, or those that the footprint selects. A sampler magnifies
+    /// where the level of detail is at most 0 (Vulkan 1.3, "Scale Factor Operation, Level-of-Detail
+    /// Operation and Image Level(s) Selection").
     pub enum Scale {
         /// Level 0 by the magnification filter.
         Magnified = "mag",
@@ -59,12 +60,13 @@ named_enum! {
         Minified = "min",
         /// All levels.
         Levels = "levels",
-        /// Under footprints that the device follows itself.
+        /// Footprints that the device filters anisotropically.
         Anisotropic = "aniso",
     }
 }
 
-/// A level of detail that minifies and still is level 0, also with the most that `MipMode::None` allows.
+/// A level of detail that minifies but still selects level 0, including the largest one that
+/// `MipMode::None` allows.
 const MINIFYING_LOD: f32 = 0.125;
 
 /// One row of a report.
@@ -81,29 +83,29 @@ pub struct Variant {
 }
 
 impl Variant {
-    /// The filter that is read; over all levels that of minification.
+    /// Returns the filter that is read; over all levels that of minification.
     pub fn filter(&self) -> Filter {
         if self.scale == Scale::Magnified { self.spec.mag } else { self.spec.min }
     }
 
-    /// Whether it is looked up over footprints.
+    /// Returns true if the variant is looked up over footprints.
     pub fn is_filtered(&self) -> bool {
         matches!(self.scale, Scale::Levels | Scale::Anisotropic)
     }
 
-    /// The sampler of the device that reads so.
+    /// Returns the corresponding sampler of the device.
     pub fn device_sampler(&self) -> SamplerSpec {
         let min_lod = if self.scale == Scale::Minified { MINIFYING_LOD } else { 0.0 };
         SamplerSpec { min_lod, ..self.spec }
     }
 
-    /// As the oracle is asked: at level 0 without regard to scale.
+    /// Returns the sampler for the oracle: at level 0 regardless of scale.
     pub fn asked_sampler(&self) -> SamplerSpec {
         let filter = self.filter();
         if self.is_filtered() { self.spec } else { SamplerSpec { mag: filter, min: filter, ..self.spec } }
     }
 
-    /// The address modes that count.
+    /// Returns the address modes of the texture's axes.
     pub fn addresses(&self) -> Vec<Address> {
         let [u, v] = self.spec.address;
         match self.dimension {
@@ -114,7 +116,8 @@ impl Variant {
         }
     }
 
-    /// `sampler 2d repeat/repeat mag=linear min=linear mip=none (mag), grey8 linear 5×3`
+    /// Returns a label: `sampler 2d repeat/repeat mag=linear min=linear mip=none (mag), grey8
+    /// linear 5×3`.
     pub fn label(&self) -> String {
         let Variant { reader, dimension, spec, scale, format, .. } = self;
         let addresses: Vec<&str> = self.addresses().iter().map(|a| a.name()).collect();
@@ -134,7 +137,7 @@ impl Variant {
     }
 }
 
-/// Sizes with every remainder that addressing can trip over: one texel, odd, powers of two.
+/// Sizes that are difficult cases of addressing: one texel, odd, powers of two.
 pub const SIZES: [[u32; 2]; 6] = [[5, 3], [64, 64], [7, 4], [1, 1], [2, 2], [1, 9]];
 
 fn flat([width, height]: [u32; 2]) -> [u32; 3] {
@@ -143,10 +146,10 @@ fn flat([width, height]: [u32; 2]) -> [u32; 3] {
 
 const STANDARD_BORDERS: [[f32; 4]; 3] = [[0.0; 4], [0.0, 0.0, 0.0, 1.0], [1.0; 4]];
 
-/// Odd values, all different: a border channel taken from elsewhere shows.
+/// Uncommon, distinct values, so that a wrong border channel is detected.
 pub const ODD_BORDER: [f32; 4] = [0.9, 0.1, 0.6, 0.3];
 
-/// The default set; `rounds` of the shader's variants.
+/// Returns the default set; `rounds` is the number of rounds of the shader's variants.
 pub fn all(custom_border_color: bool, rounds: usize) -> Vec<Variant> {
     let mut all = sampler_variants(custom_border_color);
     for reader in [Reader::ShaderBuffer, Reader::ShaderImage] {
@@ -158,7 +161,8 @@ pub fn all(custom_border_color: bool, rounds: usize) -> Vec<Variant> {
 
 const LEVEL_0: [Scale; 2] = [Scale::Magnified, Scale::Minified];
 
-/// The device's own samplers: all of them, magnifying and minifying, with each class of formats.
+/// Returns the device's own samplers: all of them, magnifying and minifying, with each class of
+/// formats.
 pub fn sampler_variants(custom_border_color: bool) -> Vec<Variant> {
     let mut borders = STANDARD_BORDERS.to_vec();
     if custom_border_color {
@@ -185,11 +189,11 @@ pub fn sampler_variants(custom_border_color: bool) -> Vec<Variant> {
     all
 }
 
-/// The shader's filters of one place. Those of footprints are held against the oracle by tests.
+/// The shader's point filters. Tests compare footprint filters with the oracle.
 pub const SHADER_FILTERS: [Filter; 3] = [Filter::Nearest, Filter::Linear, Filter::Cubic];
 
-/// The shader's filters from one texel source: 5 × 5 address modes, 3 filters, each class and number of
-/// channels. `round` shifts which texture has which size.
+/// Returns the shader's filters from one texel source: 5 × 5 address modes, 3 filters, each class
+/// and number of channels. `round` rotates the sizes of the textures.
 pub fn shader_variants(reader: Reader, round: usize) -> Vec<Variant> {
     let mut all = Vec::new();
     for &u in Address::ALL {

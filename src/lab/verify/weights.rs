@@ -1,16 +1,16 @@
-//! How finely a device divides the way between two texels: answers along a ramp from 0 to 1 → bits of
-//! the filter's weight, counted as distinct steps. What `VkPhysicalDeviceLimits::subTexelPrecisionBits`
-//! promises.
+//! The resolution of interpolation between two texels: the bits of the filter's weight, counted as
+//! distinct steps in answers along a ramp from 0 to 1, as declared by
+//! `VkPhysicalDeviceLimits::subTexelPrecisionBits`.
 
 use serde::Serialize;
 
-/// Steps of the ramp; finer weights are told as "at least 16 bits".
+/// The steps of the ramp; finer weights are reported as "at least 16 bits".
 pub const RAMP_STEPS: u32 = 1 << 16;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 pub struct WeightBits {
     pub bits: u32,
-    /// Every step of the ramp gave another answer: there may be more bits.
+    /// True if every step of the ramp gave another answer: there may be more bits.
     pub at_least: bool,
 }
 
@@ -20,8 +20,8 @@ impl std::fmt::Display for WeightBits {
     }
 }
 
-/// Of answers along a ramp, in any order. 2ⁿ steps are n bits; so are 2ⁿ − 1, which is what a result
-/// rounded to n bits has.
+/// Counts the bits in answers along a ramp, in any order. 2ⁿ steps are n bits; so are 2ⁿ − 1, the
+/// steps of a result rounded to n bits.
 pub fn weight_bits(answers: impl Iterator<Item = f32>) -> WeightBits {
     let mut values: Vec<f32> = answers.collect();
     let all = values.len();

@@ -1,6 +1,7 @@
-//! Stored texels to the numbers that are averaged, and back. Those numbers are f32 and linear in light; alpha
-//! is a channel like the others, as no material takes it for coverage. What is not sRGB, alpha among it,
-//! keeps its codes as units, so that a mean of equal codes is that code.
+//! Conversion between stored texels and the f32 values that mip filters average, which are linear
+//! in light. Alpha is a channel like the others, because no material interprets it as coverage.
+//! Channels that are not sRGB, alpha among them, keep their integer codes as units, so that a mean
+//! of equal codes is exactly that code.
 
 use rayon::prelude::*;
 
@@ -9,14 +10,15 @@ use crate::texture::data::{ColorSpace, Component, TexelFormat, TextureData};
 
 pub(super) struct Codec {
     format: TexelFormat,
-    /// Of colours that are sRGB.
+    /// The tables of an sRGB texture's colour channels.
     srgb: Option<SrgbCodes>,
-    /// What each channel is clamped to.
+    /// The range to which each channel is clamped.
     range: [[f32; 2]; 4],
 }
 
 impl Codec {
-    /// `clamped`: nothing that is encoded leaves the range of this texture.
+    /// Creates the codec of a texture. With `clamped`, encoded values stay within the range of this
+    /// texture.
     pub fn new(texture: &TextureData, clamped: bool) -> Codec {
         let format = texture.format;
         let codes = format.component().codes();
@@ -59,7 +61,7 @@ impl Codec {
         }
     }
 
-    /// Rows of `width` texels, side by side on all cores.
+    /// Encodes rows of `width` texels in parallel.
     pub fn encode(&self, values: &[f32], width: usize) -> Vec<u8> {
         let bytes_per_texel = self.format.bytes_per_texel();
         let mut texels = vec![0; values.len() / self.channels() * bytes_per_texel];
@@ -93,7 +95,7 @@ impl Codec {
         }
     }
 
-    /// Smallest and largest value of each channel.
+    /// Returns the smallest and largest value of each channel.
     fn range_of(&self, texture: &TextureData) -> [[f32; 2]; 4] {
         let row = texture.width as usize * self.format.bytes_per_texel();
         let channels = self.channels();
@@ -116,7 +118,7 @@ impl Codec {
     }
 }
 
-/// Texels of `C` channels of `N` bytes: the last of several is alpha.
+/// Decodes texels of `C` channels of `N` bytes; the last of several channels is alpha.
 #[inline(always)]
 fn decode<const N: usize, const C: usize>(
     texels: &[u8],
@@ -151,24 +153,26 @@ const fn is_alpha<const C: usize>(channel: usize) -> bool {
     C > 1 && channel + 1 == C
 }
 
-/// Linear light from which on the code after is nearer; none after the last.
+/// Returns for each code the linear light from which the next code is nearer; there is none after
+/// the last.
 pub fn srgb_middles(codes: usize) -> Vec<f32> {
     let last = codes - 1;
     let middle = |code: usize| srgb_to_linear((code as f64 + 0.5) / last as f64) as f32;
     (0..codes).map(|code| if code < last { middle(code) } else { f32::INFINITY }).collect()
 }
 
-/// Linear light of sRGB codes, and of light the nearest code without a power: a table says which code the
-/// light has at least, and the middles between codes say the rest.
+/// The linear light of sRGB codes, and the nearest code of a light value without a power function:
+/// a table gives a lower bound of the code, and the midpoints between codes determine the rest.
 struct SrgbCodes {
     light: &'static [f32],
-    /// Codes at the beginning of each step.
+    /// The lower bound of the code at the beginning of each step.
     least: Vec<u16>,
     middles: Vec<f32>,
 }
 
 impl SrgbCodes {
-    /// Equal steps of light for each code; where the codes lie closest, 12.92 are as wide as a mean one.
+    /// Equal steps of light per code; where the codes are densest, 12.92 of them are as wide as an
+    /// average one.
     const STEPS: usize = 16;
 
     fn new(codes: usize) -> SrgbCodes {
@@ -208,8 +212,9 @@ mod tests {
                 let light = i as f32 / 100_000.0;
                 let exact = linear_to_srgb(f64::from(light)) * f64::from(last);
                 let code = f64::from(srgb.code(light));
-                // 2e-5 of an 8-bit step: the standard's two pieces do not meet exactly; and middles are
-                // rounded to f32, by 2⁻²⁵ near 1, where light 1 / 65535 high has 0.44 codes.
+                // 2e-5 of an 8-bit step, because the standard's two pieces do not meet exactly; in
+                // addition midpoints are rounded to f32, by 2⁻²⁵ near 1, where a light difference
+                // of 1 / 65535 is 0.44 codes.
                 let tolerance = f64::from(last) * (2e-5 / 255.0 + 0.44 / f64::from(1 << 25));
                 assert!((code - exact).abs() <= 0.5 + tolerance, "{light}: {code}, not {exact}");
             }

@@ -1,6 +1,6 @@
 //! The next level where lengths halve without remainder: a texel is the mean of two texels along
-//! each axis that is halved. In go a level and the new size, out come its numbers. Halves and their
-//! sums are exact as long as f32 has the digits.
+//! each axis that is halved. Takes a level and the new size and returns the values. Halves and
+//! their sums are exact while they fit the f32 significand.
 
 use rayon::prelude::*;
 

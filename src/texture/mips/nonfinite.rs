@@ -1,15 +1,15 @@
-//! The box mip chain of a texture in which some texels are NaN or infinite: a coarser texel is the mean over
-//! those that it covers and that are numbers in every channel, NaN where none is. So one of them stays
-//! where it is, and does not reach the last level, which far footprints read.
+//! The box mip chain of a texture with NaN or infinite texels: a coarser texel is the mean over the
+//! texels it covers that are finite in every channel, or NaN if none is. A non-finite texel
+//! therefore stays local and does not reach the last level, which distant footprints read.
 
 use super::mip_chain;
 use crate::texture::data::{MipKernel, TextureData};
 
-/// Levels 1 to the last of a texture of floats.
+/// Returns levels 1 to the last of a float texture.
 pub fn pyramid_of_finite(texture: &TextureData) -> Vec<TextureData> {
     let channels = texture.format.channels();
     let present = |x, y| (0..channels).all(|c| texture.value(x, y, c).is_finite());
-    // What is missing counts as 0; its share says how much of a mean that is.
+    // Non-finite texels count as 0; the share is the finite fraction of a mean.
     let filled = texture
         .with_floats(channels, |x, y, c| if present(x, y) { texture.value(x, y, c) as f32 } else { 0.0 });
     let shares = texture.with_floats(1, |x, y, _| if present(x, y) { 1.0 } else { 0.0 });

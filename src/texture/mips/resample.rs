@@ -1,6 +1,6 @@
-//! The next level by any separable kernel. In go a level and, for each axis, the weights of the
-//! texels behind each new texel; out come the new level's numbers. Sums run in f64: thousands of
-//! texels may lie behind one.
+//! The next level by an arbitrary separable kernel. Takes a level and, for each axis, the weights
+//! of the source texels of each new texel; returns the values of the new level. Sums are in f64
+//! because a texel may have thousands of source texels.
 
 use rayon::prelude::*;
 
@@ -8,29 +8,29 @@ use super::Level;
 
 /// Half the support of the Kaiser kernel, in texels of the new level.
 const WIDTH: f64 = 3.0;
-/// Shape of its window.
+/// The shape parameter β of its window.
 const BETA: f64 = 4.0;
 
-/// For each new texel the first texel behind it, and the weights from there on; their sum is 1.
-pub(super) struct Axis(Vec<(usize, Vec<f64>)>);
+/// For each new texel its first source texel and the weights from there on, whose sum is 1.
+pub(super) struct AxisWeights(Vec<(usize, Vec<f64>)>);
 
-impl Axis {
-    /// Shares of the interval that a new texel covers.
-    pub fn boxes(from: usize, to: usize) -> Axis {
-        // In units of 1/to of a texel, so that ends are whole numbers.
+impl AxisWeights {
+    /// Returns box weights: the covered fractions of the interval of each new texel.
+    pub fn covered(from: usize, to: usize) -> AxisWeights {
+        // Interval ends are integers in units of 1/to of a texel.
         let taps = |i: usize| {
             let (start, end) = (i * from, (i + 1) * from);
             let (first, last) = (start / to, (end - 1) / to);
             let share = |texel: usize| end.min((texel + 1) * to) - start.max(texel * to);
             (first, (first..=last).map(|texel| share(texel) as f64 / from as f64).collect())
         };
-        Axis((0..to).map(taps).collect())
+        AxisWeights((0..to).map(taps).collect())
     }
 
-    /// Windowed sinc; what lies beyond the ends counts for the texel at the end.
-    pub fn kaiser(from: usize, to: usize) -> Axis {
+    /// Returns the weights of a windowed sinc; positions beyond the ends use the border texel.
+    pub fn windowed_sinc(from: usize, to: usize) -> AxisWeights {
         if from == to {
-            return Axis::boxes(from, to);
+            return AxisWeights::covered(from, to);
         }
         let scale = from as f64 / to as f64;
         let taps = |i: usize| {
@@ -47,7 +47,7 @@ impl Axis {
             weights.iter_mut().for_each(|weight| *weight /= sum);
             (inside(first), weights)
         };
-        Axis((0..to).map(taps).collect())
+        AxisWeights((0..to).map(taps).collect())
     }
 }
 
@@ -58,8 +58,8 @@ fn kaiser(x: f64) -> f64 {
     sinc * bessel_i0(BETA * inside.sqrt()) / bessel_i0(BETA)
 }
 
-/// Modified Bessel function of order 0 by its power series Σ ((x/2)ᵏ / k!)² (Abramowitz & Stegun
-/// 9.6.12); 24 terms are enough below 10.
+/// Returns the modified Bessel function of order 0 by its power series Σ ((x/2)ᵏ / k!)² (Abramowitz
+/// & Stegun 9.6.12); 24 terms suffice below 10.
 fn bessel_i0(x: f64) -> f64 {
     let quarter = 0.25 * x * x;
     let terms = (1..24).scan(1.0, |term, k| {
@@ -69,7 +69,7 @@ fn bessel_i0(x: f64) -> f64 {
     1.0 + terms.sum::<f64>()
 }
 
-pub(super) fn resample(level: &Level<'_>, axes: &[Axis; 3], channels: usize) -> Vec<f32> {
+pub(super) fn resample(level: &Level<'_>, axes: &[AxisWeights; 3], channels: usize) -> Vec<f32> {
     match channels {
         1 => resample_channels::<1>(level, axes),
         2 => resample_channels::<2>(level, axes),
@@ -77,7 +77,7 @@ pub(super) fn resample(level: &Level<'_>, axes: &[Axis; 3], channels: usize) -> 
     }
 }
 
-fn resample_channels<const C: usize>(level: &Level<'_>, [xs, ys, zs]: &[Axis; 3]) -> Vec<f32> {
+fn resample_channels<const C: usize>(level: &Level<'_>, [xs, ys, zs]: &[AxisWeights; 3]) -> Vec<f32> {
     let (width, height) = (xs.0.len(), ys.0.len());
     let mut out = vec![0.0; width * height * zs.0.len() * C];
     let buffers = || (Vec::new(), vec![0.0; level.size[0] * C]);

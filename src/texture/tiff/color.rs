@@ -1,12 +1,12 @@
-//! How the samples of a TIFF texel become colour and alpha: the tags in, a [`Color`] out, or the name of what is
-//! not read (TIFF 6.0, "PhotometricInterpretation", "ColorMap", "ExtraSamples").
+//! Colour and alpha of TIFF samples: maps the tags to a [`Color`], or returns the name of an
+//! unsupported variant (TIFF 6.0, "PhotometricInterpretation", "ColorMap", "ExtraSamples").
 
-use super::super::scalar::{Kind, Scalar};
+use super::super::scalar::{NumberKind, Scalar};
 use super::Fault;
 use super::directory::{Directory, tag};
 use super::layout::Compression;
 
-/// How samples become colour.
+/// The conversion of samples to colour.
 pub(super) enum Color {
     /// `inverted`: 0 is white.
     Grey {
@@ -15,7 +15,7 @@ pub(super) enum Color {
     Rgb,
     /// Red, green and blue of each index, from 0 to 65535.
     Palette(Vec<[u16; 3]>),
-    /// 0 is no ink.
+    /// Subtractive inks; 0 is no ink.
     Cmyk,
     /// Only within JPEG data, which is decoded to RGB.
     YCbCr,
@@ -31,18 +31,18 @@ impl Color {
     }
 }
 
-/// Which sample says how much of a texel is covered.
+/// The sample that holds a texel's coverage.
 #[derive(Clone, Copy)]
 pub(super) struct Alpha {
     pub sample: usize,
-    /// The colours are already multiplied by it.
+    /// True if the colours are premultiplied by it.
     pub associated: bool,
 }
 
 pub(super) fn of(tags: &Directory<'_>, scalar: Scalar, compression: Compression) -> Result<Color, Fault> {
-    // Missing in some old files of grey: 0 is black, as nearly all have it.
+    // Some old greyscale files lack the tag: 0 is black, as in nearly all files.
     let photometric = tags.number_or(tag::PHOTOMETRIC, 1)?;
-    let unsigned = scalar.kind == Kind::Unsigned;
+    let unsigned = scalar.kind == NumberKind::Unsigned;
     let name = match photometric {
         0 if !unsigned => "signed or float samples where 0 is white (PhotometricInterpretation 0)",
         0 | 1 => return Ok(Color::Grey { inverted: photometric == 0 }),
@@ -67,7 +67,7 @@ pub(super) fn of(tags: &Directory<'_>, scalar: Scalar, compression: Compression)
     Err(Fault::unsupported(name))
 }
 
-/// All reds, then all greens, then all blues.
+/// Returns the palette, which is stored as all reds, then all greens, then all blues.
 fn palette(tags: &Directory<'_>, bits: u32) -> Result<Color, Fault> {
     let map = tags.numbers(tag::COLOR_MAP)?.ok_or_else(|| Fault::damaged("it has no colour map"))?;
     let count = 1usize << bits;
@@ -78,8 +78,8 @@ fn palette(tags: &Directory<'_>, bits: u32) -> Result<Color, Fault> {
     Ok(Color::Palette((0..count).map(|i| [value(i), value(count + i), value(2 * count + i)]).collect()))
 }
 
-/// The first extra sample that is declared as alpha. A single one that is not declared at all is alpha too:
-/// many programs write RGBA that way. One that is declared as unspecified is not.
+/// Returns the first extra sample declared as alpha. A single undeclared extra sample is alpha too,
+/// because many programs write RGBA that way; one declared as unspecified is not.
 pub(super) fn alpha(tags: &Directory<'_>, color: &Color, samples: usize) -> Result<Option<Alpha>, Fault> {
     const ASSOCIATED: u64 = 1;
     const UNASSOCIATED: u64 = 2;

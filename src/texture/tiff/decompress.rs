@@ -1,5 +1,5 @@
-//! One strip or tile as stored in, its plain bytes out: exactly as many as its place in the picture takes. A
-//! stream may be longer or lack its end code; one that gives fewer bytes is damaged.
+//! Decompresses one strip or tile to exactly the number of bytes that its area needs. A stream may
+//! be longer or lack its end code; one that yields fewer bytes is damaged.
 
 use std::borrow::Cow;
 use std::io::Read;
@@ -14,9 +14,9 @@ use super::layout::{Compression, Layout};
 use crate::texture::decoder;
 use crate::texture::jpeg_data::JpegData;
 
-/// Plain bytes that one byte of such data can stand for at most. LZW: a code of 12 bits for a string of 3838
-/// bytes. JPEG: a block of 8×8 texels takes a bit of each channel, and chroma may stand for four blocks.
-/// Group 4: a row takes a bit and has at most 65535 texels.
+/// Returns the largest number of decompressed bytes per stored byte. LZW: a code of 12 bits for a
+/// string of 3838 bytes. JPEG: a block of 8×8 texels takes a bit of each channel, and chroma may
+/// cover four blocks. Group 4: a row takes a bit and has at most 65535 texels.
 pub(super) fn greatest_ratio(compression: Compression) -> u64 {
     match compression {
         Compression::None => 1,
@@ -28,7 +28,7 @@ pub(super) fn greatest_ratio(compression: Compression) -> u64 {
     }
 }
 
-/// `rows` of the chunk's own, `wanted` bytes in all.
+/// Decompresses a chunk of `rows` rows to `wanted` bytes.
 pub(super) fn decompress(
     stored: &[u8],
     layout: &Layout,
@@ -71,7 +71,7 @@ fn short(found: u64, wanted: usize) -> Fault {
     Fault::damaged(format!("a strip or tile gives at most {found} of {wanted} bytes"))
 }
 
-/// TIFF 6.0, section 9.
+/// Decodes PackBits (TIFF 6.0, section 9).
 fn unpack_bits(mut stored: &[u8], wanted: usize, plain: &mut Vec<u8>) {
     while let (true, [head, rest @ ..]) = (plain.len() < wanted, stored) {
         let room = wanted - plain.len();
@@ -91,9 +91,9 @@ fn unpack_bits(mut stored: &[u8], wanted: usize, plain: &mut Vec<u8>) {
     }
 }
 
-/// TIFF 6.0, section 13: codes from the highest bit on, one bit longer a code early.
+/// Decodes LZW (TIFF 6.0, section 13): codes from the highest bit on, one bit longer a code early.
 fn expand_lzw(stored: &[u8], plain: &mut [u8]) -> Result<usize, Fault> {
-    // The form before TIFF 5.0 begins with the clear code from the lowest bit on.
+    // The variant before TIFF 5.0 begins with the clear code from the lowest bit on.
     if let [0, second, ..] = stored
         && second & 1 == 1
     {
@@ -113,8 +113,9 @@ fn expand_lzw(stored: &[u8], plain: &mut [u8]) -> Result<usize, Fault> {
     Ok(written)
 }
 
-/// Tables that all chunks share stand in a tag (TIFF Technical Note 2); they are put before the chunk's own
-/// data, and before them Adobe's marker, which says whether the channels are YCbCr.
+/// Decodes JPEG. Tables shared by all chunks are stored in a tag (TIFF Technical Note 2); they are
+/// prepended to the chunk's own data, after Adobe's marker, which states whether the channels are
+/// YCbCr.
 fn expand_jpeg(
     stored: &[u8],
     layout: &Layout,
@@ -164,7 +165,7 @@ fn within_tiff(fault: decoder::Fault) -> Fault {
     }
 }
 
-/// ITU-T T.6: runs of white, which is 0, and of black.
+/// Decodes Group 4 (ITU-T T.6): runs of white, which is 0, and of black.
 fn expand_group4(stored: &[u8], width: u32, rows: u32, plain: &mut Vec<u8>) -> Result<(), Fault> {
     let width = u16::try_from(width).map_err(|_| Fault::unsupported("CCITT data wider than 65535 texels"))?;
     let failed = || Fault::damaged("CCITT group 4 data");
@@ -180,7 +181,7 @@ fn expand_group4(stored: &[u8], width: u32, rows: u32, plain: &mut Vec<u8>) -> R
             plain.push((0..8).map(bit).sum());
         }
     }
-    // Rows that are white to the end of the page may be left out.
+    // Trailing rows that are entirely white may be omitted.
     plain.resize(usize::from(width).div_ceil(8) * rows as usize, 0);
     Ok(())
 }
@@ -191,7 +192,7 @@ mod tests {
 
     #[test]
     fn packed_bits_are_those_of_the_specifications_example() {
-        // TIFF 6.0, section 9.
+        // Decodes PackBits (TIFF 6.0, section 9).
         let packed = b"\xfe\xaa\x02\x80\x00\x2a\xfd\xaa\x03\x80\x00\x2a\x22\xf7\xaa";
         let plain = b"\xaa\xaa\xaa\x80\x00\x2a\xaa\xaa\xaa\xaa\x80\x00\x2a\x22\xaa\xaa\xaa\xaa\xaa\xaa\xaa\xaa\xaa\xaa";
         for wanted in [plain.len(), 5, 0] {

@@ -1,5 +1,5 @@
-//! The tags of a TIFF or BigTIFF file (TIFF 6.0, section 2): the bytes of the file in, the entries of its first
-//! directory out, as numbers. What a damaged entry promises is bounded by what the file can hold.
+//! The tags of a TIFF or BigTIFF file (TIFF 6.0, section 2). Reads the entries of the file's first
+//! directory as numbers; damaged entries are bounded by the size of the file.
 
 use super::Fault;
 
@@ -31,18 +31,18 @@ pub(super) mod tag {
     pub const IMAGE_DEPTH: u16 = 32_997;
 }
 
-/// Directories that are followed from one to the next; a damaged chain may be a ring.
+/// The largest number of directories that are followed; a damaged chain may be cyclic.
 const MAX_PAGES: usize = 10_000;
 
-/// How the file writes numbers and lengths.
+/// The encoding of the file's numbers and lengths.
 #[derive(Clone, Copy)]
 struct Form {
     little: bool,
-    /// BigTIFF: offsets and counts of 64 bits.
+    /// True for BigTIFF, with offsets and counts of 64 bits.
     big: bool,
 }
 
-/// `at`: where the values lie, which is within the entry if they are few.
+/// An entry. `at` is the offset of the values, which is inside the entry if they are few.
 struct Entry {
     tag: u16,
     kind: u16,
@@ -55,7 +55,7 @@ pub(super) struct Directory<'a> {
     file: &'a [u8],
     form: Form,
     entries: Vec<Entry>,
-    /// Pictures in the chain of directories that are no reductions of another one; this one counts.
+    /// The number of full-size pictures in the chain of directories, including this one.
     pub pages: usize,
 }
 
@@ -95,7 +95,7 @@ impl<'a> Directory<'a> {
         self.entry(tag).is_some()
     }
 
-    /// Whether this picture is a smaller copy of another one in the file, or a mask.
+    /// Returns true if this picture is a smaller copy of another one in the file, or a mask.
     pub fn is_reduced(&self) -> bool {
         const REDUCED_OR_MASK: u64 = 1 | 4;
         const OLD_REDUCED: u64 = 2;
@@ -104,7 +104,7 @@ impl<'a> Directory<'a> {
             || has_bits(tag::SUBFILE_TYPE, |kind| kind == OLD_REDUCED)
     }
 
-    /// The first value of a tag.
+    /// Returns the first value of a tag.
     pub fn number(&self, tag: u16) -> Result<Option<u64>, Fault> {
         Ok(self.numbers_up_to(tag, 1)?.and_then(|values| values.first().copied()))
     }
@@ -113,7 +113,7 @@ impl<'a> Directory<'a> {
         Ok(self.number(tag)?.unwrap_or(default))
     }
 
-    /// All values of a tag.
+    /// Returns all values of a tag.
     pub fn numbers(&self, tag: u16) -> Result<Option<Vec<u64>>, Fault> {
         self.numbers_up_to(tag, u64::MAX)
     }
@@ -128,7 +128,7 @@ impl<'a> Directory<'a> {
         Ok(Some(bytes.chunks_exact(size).take(count).map(|b| whole(b, little)).collect()))
     }
 
-    /// The values of a tag as they lie in the file, one byte each.
+    /// Returns the values of a tag of one byte each as stored.
     pub fn bytes(&self, tag: u16) -> Result<Option<&'a [u8]>, Fault> {
         self.entry(tag).map(|entry| self.bytes_of(entry, 1)).transpose()
     }
@@ -145,7 +145,8 @@ impl<'a> Directory<'a> {
     }
 }
 
-/// The entries of a directory and where the next one is; none where it lies outside the file.
+/// Returns the entries of a directory and the offset of the next one, or `None` if it lies outside
+/// the file.
 fn read_entries(file: &[u8], form: Form, start: u64) -> Option<(Vec<Entry>, u64)> {
     let (word, entry_bytes) = if form.big { (8, 20) } else { (4, 12) };
     let count_bytes = if form.big { 8 } else { 2 };
@@ -161,12 +162,12 @@ fn read_entries(file: &[u8], form: Form, start: u64) -> Option<(Vec<Entry>, u64)
         let fits = type_bytes(kind).is_some_and(|size| count.checked_mul(size).is_some_and(|n| n <= word));
         entries.push(Entry { tag, kind, count, at: if fits { inline } else { field(4 + word, word)? } });
     }
-    // Some writers leave out the offset of a next directory that there is not.
+    // Some writers omit the offset if there is no next directory.
     let next = number(file, end, word, form.little).unwrap_or(0);
     Some((entries, next))
 }
 
-/// Bytes of one value of each type.
+/// Returns the bytes per value of each type.
 fn type_bytes(kind: u16) -> Option<u64> {
     Some(match kind {
         1 | 2 | 6 | 7 => 1,
@@ -177,7 +178,8 @@ fn type_bytes(kind: u16) -> Option<u64> {
     })
 }
 
-/// Bytes of one value of a type of whole numbers. Signed ones are read too: no tag here has values below 0.
+/// Returns the bytes per value of an integer type. Signed types are accepted too: no tag here has
+/// negative values.
 fn number_bytes(kind: u16) -> Option<usize> {
     match kind {
         2 | 5 | 7 | 10..=12 => None,

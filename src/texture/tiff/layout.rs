@@ -1,7 +1,7 @@
-//! What the tags of a TIFF file say about its picture, judged before anything is decoded: tags in, a
-//! [`Layout`] that can be read out. A structure that is not read is refused by its name.
+//! The layout of a TIFF picture: checks the tags before anything is decoded and returns a
+//! [`Layout`]. An unsupported structure is refused by name.
 
-use super::super::scalar::{Kind, Scalar};
+use super::super::scalar::{NumberKind, Scalar};
 use super::Fault;
 use super::color::{self, Alpha, Color};
 use super::directory::{Directory, tag};
@@ -23,7 +23,7 @@ pub(super) enum Predictor {
     FloatingPoint,
 }
 
-/// Strips are tiles as wide as the picture, whose last one ends with it.
+/// The tiling. Strips are tiles as wide as the picture, of which the last ends with it.
 pub(super) struct Chunks {
     pub tiled: bool,
     pub width: u32,
@@ -37,15 +37,15 @@ pub(super) struct Layout {
     pub height: u32,
     pub scalar: Scalar,
     pub little_endian: bool,
-    /// Of each texel, colours first.
+    /// The samples of each texel, colours first.
     pub samples: usize,
-    /// Samples of different channels lie in different chunks.
+    /// True if samples of different channels are stored in different chunks.
     pub planar: bool,
     pub color: Color,
     pub alpha: Option<Alpha>,
     pub compression: Compression,
     pub predictor: Predictor,
-    /// The first sample of a byte is in its lowest bits.
+    /// True if the first sample of a byte is in its lowest bits.
     pub bits_reversed: bool,
     pub chunks: Chunks,
 }
@@ -70,7 +70,7 @@ impl Layout {
         }
         let planar = match tags.number_or(tag::PLANAR_CONFIGURATION, 1)? {
             1 => false,
-            // With one sample the two are the same.
+            // With one sample both configurations are the same.
             2 => samples > 1,
             other => return Err(Fault::unsupported(format!("PlanarConfiguration {other}"))),
         };
@@ -96,7 +96,7 @@ impl Layout {
         Ok(layout)
     }
 
-    /// Chunks side by side and one above the other; of each plane.
+    /// Returns the number of chunks side by side in each plane.
     pub fn across(&self) -> usize {
         self.width.div_ceil(self.chunks.width) as usize
     }
@@ -109,14 +109,14 @@ impl Layout {
         if self.planar { 1 } else { self.samples }
     }
 
-    /// Rows begin at whole bytes.
+    /// Returns the bytes of a row, which begins at a byte boundary.
     pub fn row_bytes(&self) -> u64 {
         let bits =
             u64::from(self.chunks.width) * self.samples_in_chunk() as u64 * u64::from(self.scalar.bits);
         bits.div_ceil(8)
     }
 
-    /// Rows that a chunk in this place holds.
+    /// Returns the rows of the chunk in this row of chunks.
     pub fn rows(&self, down: usize) -> u32 {
         match self.chunks.tiled {
             true => self.chunks.height,
@@ -124,7 +124,7 @@ impl Layout {
         }
     }
 
-    /// What only some codecs can do.
+    /// Checks the restrictions that single codecs impose.
     fn check_codec(&self) -> Result<(), Fault> {
         match self.compression {
             Compression::Jpeg if self.scalar.bits != 8 => {
@@ -187,18 +187,18 @@ fn scalar(tags: &Directory<'_>) -> Result<Scalar, Fault> {
         return Err(Fault::unsupported(format!("samples of different formats ({formats:?})")));
     }
     let kind = match formats[0] {
-        // 4 is "undefined", which readers take as whole numbers.
-        1 | 4 => Kind::Unsigned,
-        2 => Kind::Signed,
-        3 => Kind::Float,
+        // 4 is "undefined", which readers treat as integers.
+        1 | 4 => NumberKind::Unsigned,
+        2 => NumberKind::Signed,
+        3 => NumberKind::Float,
         5 | 6 => return Err(Fault::unsupported("complex numbers")),
         other => return Err(Fault::unsupported(format!("SampleFormat {other}"))),
     };
     let scalar = Scalar { bits: u32::try_from(bits[0]).unwrap_or(u32::MAX), kind };
     let word = match kind {
-        Kind::Unsigned => "unsigned integers",
-        Kind::Signed => "signed integers",
-        Kind::Float => "floats",
+        NumberKind::Unsigned => "unsigned integers",
+        NumberKind::Signed => "signed integers",
+        NumberKind::Float => "floats",
     };
     match scalar.is_known() {
         true => Ok(scalar),
@@ -211,7 +211,7 @@ fn predictor(tags: &Directory<'_>, scalar: Scalar) -> Result<Predictor, Fault> {
         1 => Ok(Predictor::None),
         2 if [8, 16, 32, 64].contains(&scalar.bits) => Ok(Predictor::Horizontal),
         2 => Err(Fault::unsupported(format!("predictor 2 with {} bits a sample", scalar.bits))),
-        3 if scalar.kind == Kind::Float => Ok(Predictor::FloatingPoint),
+        3 if scalar.kind == NumberKind::Float => Ok(Predictor::FloatingPoint),
         3 => Err(Fault::unsupported("predictor 3 (of floats) with integers")),
         other => Err(Fault::unsupported(format!("predictor {other}"))),
     }
@@ -222,14 +222,14 @@ fn chunks(tags: &Directory<'_>, width: u32, height: u32) -> Result<Chunks, Fault
     let side = |tag, default| Ok(u32::try_from(tags.number_or(tag, default)?).unwrap_or(u32::MAX));
     let (chunk, offsets, lengths) = if tiled {
         let sides = [side(tag::TILE_WIDTH, 0)?, side(tag::TILE_LENGTH, 0)?];
-        // Some writers give tiles the tags of strips.
+        // Some writers store tiles under the tags of strips.
         let offsets = tags.numbers(tag::TILE_OFFSETS)?.or(tags.numbers(tag::STRIP_OFFSETS)?);
         (sides, offsets, tags.numbers(tag::TILE_BYTE_COUNTS)?.or(tags.numbers(tag::STRIP_BYTE_COUNTS)?))
     } else {
         let rows = side(tag::ROWS_PER_STRIP, u64::from(height))?.min(height);
         ([width, rows], tags.numbers(tag::STRIP_OFFSETS)?, tags.numbers(tag::STRIP_BYTE_COUNTS)?)
     };
-    // A picture of zero size is told as that.
+    // A picture of zero size gets its own message.
     if chunk.contains(&0) && width > 0 && height > 0 {
         return Err(Fault::damaged(format!("its strips or tiles are {}×{} texels", chunk[0], chunk[1])));
     }

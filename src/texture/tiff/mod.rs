@@ -1,6 +1,7 @@
-//! A TIFF or BigTIFF file into texels (TIFF 6.0 with Adobe's supplements): the whole file in, the first of its
-//! pictures out. `directory` reads the tags; `layout` and `color` judge them and refuse by name what is not read;
-//! `decompress` and `predictor` give the bytes of a strip or tile, `samples` their numbers, `picture` the texels.
+//! Reads the first picture of a TIFF or BigTIFF file (TIFF 6.0 with Adobe's supplements).
+//! `directory` reads the tags; `layout` and `color` check them and refuse unsupported variants by
+//! name; `decompress` and `predictor` return the bytes of a strip or tile, `samples` its numbers,
+//! `picture` the texels.
 
 mod color;
 mod decompress;
@@ -17,11 +18,11 @@ use crate::core::error::{Error, Result};
 use directory::{Directory, tag};
 use layout::Layout;
 
-/// Why a file cannot be read.
+/// The reason why a file cannot be read.
 #[derive(Debug)]
 enum Fault {
     Damaged(String),
-    /// Completes "… is not read".
+    /// An unsupported variant; completes "… is not read".
     Unsupported(String),
     Memory,
 }
@@ -68,13 +69,14 @@ pub(super) fn read(file: &[u8], path: &Path) -> Result<Picture> {
     Ok(Picture::noted(texels, notes))
 }
 
-/// The value of the tag that says which way up a picture is stored; of Exif data too, which is such a structure.
+/// Returns the value of the orientation tag, of a TIFF file or of Exif data, which has the same
+/// structure.
 pub(super) fn orientation(file: &[u8]) -> Option<u16> {
     let value = Directory::first(file).ok()?.number(tag::ORIENTATION).ok()??;
     u16::try_from(value).ok()
 }
 
-/// Whether alpha, the last channel, is 1 everywhere.
+/// Returns true if alpha, the last channel, is 1 everywhere.
 fn is_opaque(texels: &Texels) -> bool {
     let component = texels.format.component();
     let one = &component.one()[..component.bytes()];

@@ -1,6 +1,5 @@
-//! Strips and tiles into a picture: the layout and the bytes of the file in, texels out. Bands of strips or tiles
-//! are decoded at the same time. CMYK becomes RGB by (1 − C)(1 − K); colours that are multiplied by alpha
-//! (associated) stay so.
+//! Assembles strips and tiles into a picture. Bands of strips or tiles are decoded in parallel.
+//! CMYK becomes RGB by (1 − C)(1 − K); premultiplied colours (associated alpha) stay premultiplied.
 
 use rayon::prelude::*;
 
@@ -27,18 +26,19 @@ pub(super) fn format(layout: &Layout) -> TexelFormat {
 }
 
 impl Layout {
-    /// Beside a palette, alpha is a number of its own.
+    /// Returns the component of alpha, which beside a palette is a number of its own.
     fn alpha_component(&self) -> Component {
         self.alpha.map_or(Component::Unorm8, |_| self.scalar.component())
     }
 }
 
-/// How the values of a colour map are meant: 16 bits by the standard, but 8 bits are written in three ways.
+/// The scale of a colour map's values: 16 bits by the standard, but 8-bit values are written in
+/// three ways.
 #[derive(Clone, Copy, PartialEq)]
 enum MapDepth {
-    /// Times 257, or times 256: the high byte is the value.
+    /// 8-bit values times 257 or times 256: the high byte is the value.
     High8,
-    /// As they are.
+    /// Unscaled 8-bit values.
     Low8,
     Full16,
 }
@@ -68,7 +68,7 @@ impl MapDepth {
     }
 }
 
-/// Before anything is allocated: could a file of this length hold so many strips or tiles?
+/// Checks before any allocation that a file of this length can contain the strips or tiles.
 pub(super) fn check_bytes(layout: &Layout, file_bytes: usize) -> Result<(), Fault> {
     let planes = if layout.planar { layout.samples } else { 1 };
     let count = (layout.across() * layout.down()).saturating_mul(planes);
@@ -119,7 +119,8 @@ pub(super) fn decode(file: &[u8], layout: &Layout, jpeg_tables: Option<&[u8]>) -
     })
 }
 
-/// The bytes of one place's chunks: one, or one for each sample. A plane that no texel needs stays empty.
+/// Returns the bytes of the chunks at one position: one chunk, or one per sample. A plane that no
+/// texel needs stays empty.
 fn planes(
     file: &[u8],
     layout: &Layout,
@@ -148,7 +149,7 @@ fn planes(
     (0..if layout.planar { layout.samples } else { 1 }).map(decoded).collect()
 }
 
-/// A chunk as it lies in the file. Where its length is not said, it may reach to the end.
+/// Returns a chunk as stored. If its length is not stated, it may extend to the end of the file.
 fn stored<'a>(file: &'a [u8], layout: &Layout, index: usize, wanted: usize) -> Result<&'a [u8], Fault> {
     let number = index + 1;
     let offset = layout.chunks.offsets[index];
@@ -169,7 +170,7 @@ fn stored<'a>(file: &'a [u8], layout: &Layout, index: usize, wanted: usize) -> R
     Ok(&from[..length])
 }
 
-/// Samples to texels of the picture's format.
+/// The conversion of samples to texels of the picture's format.
 struct Writer<'a> {
     layout: &'a Layout,
     format: TexelFormat,
@@ -207,7 +208,7 @@ impl<'a> Writer<'a> {
         }
     }
 
-    /// Red, green, blue, alpha; grey thrice.
+    /// Returns red, green, blue and alpha; grey is replicated.
     fn values(&self, number: impl Fn(usize) -> f64) -> [f64; 4] {
         let fraction = |sample| self.layout.scalar.fraction(number(sample));
         let [r, g, b] = match &self.layout.color {
@@ -221,7 +222,8 @@ impl<'a> Writer<'a> {
     }
 }
 
-/// Of samples that the texture holds as they are: for each channel which one it is, none for an alpha of 1.
+/// Returns the sample index of each channel for samples that are stored unchanged, with `None` for
+/// an alpha of 1.
 fn copied(layout: &Layout, format: TexelFormat) -> Option<Vec<Option<usize>>> {
     let colors = match layout.color {
         Color::Grey { inverted: false } => 1,

@@ -1,18 +1,20 @@
-//! Differences back to values (TIFF 6.0, section 14; Adobe's TIFF Technical Note 3): the plain bytes of a row
-//! in, and in its place the samples with their bytes from the lowest to the highest.
+//! Reverses horizontal differencing (TIFF 6.0, section 14; Adobe's TIFF Technical Note 3) in a
+//! decompressed row, in place, and leaves the samples' bytes in order from lowest to highest.
 
-use super::super::scalar::Kind;
+use super::super::scalar::NumberKind;
 use super::layout::{Layout, Predictor};
 
-/// `samples` of each texel follow one another, and differ from those of the texel before.
+/// Undoes the predictor. The `samples` of a texel are adjacent and are differences to those of the
+/// previous texel.
 pub(super) fn undo(layout: &Layout, row: &mut [u8], samples: usize) {
     let size = layout.scalar.bits as usize / 8;
     let whole_bytes = layout.scalar.bits.is_multiple_of(8);
     if layout.predictor == Predictor::FloatingPoint {
         return gather_floats(row, samples, size);
     }
-    // Integers of 24 bits are packed from the highest bit on, as those of 10 or 12 are, in either byte order.
-    let is_packed = layout.scalar.bits == 24 && layout.scalar.kind != Kind::Float;
+    // Integers of 24 bits are packed from the highest bit on, like those of 10 or 12 bits, in
+    // either byte order.
+    let is_packed = layout.scalar.bits == 24 && layout.scalar.kind != NumberKind::Float;
     if whole_bytes && size > 1 && (is_packed || !layout.little_endian) {
         row.chunks_exact_mut(size).for_each(<[u8]>::reverse);
     }
@@ -38,8 +40,8 @@ fn add_up<const SIZE: usize>(row: &mut [u8], samples: usize) {
     }
 }
 
-/// All highest bytes of a row come first, then all second ones, and so on; each differs from the byte
-/// `samples` before.
+/// Reorders floats: all highest bytes of a row come first, then all second ones, and so on; each is
+/// a difference to the byte `samples` before.
 fn gather_floats(row: &mut [u8], samples: usize, size: usize) {
     for i in samples..row.len() {
         row[i] = row[i].wrapping_add(row[i - samples]);

@@ -1,12 +1,12 @@
-//! The samples in the plain bytes of a strip or tile: of whole bytes, lowest byte first as `predictor` leaves them,
-//! or of bits that lie one after the other from the highest bit on.
+//! Reads the samples of a decompressed strip or tile: whole bytes, lowest first as `predictor`
+//! leaves them, or bits packed from the highest bit on.
 
 use super::layout::Layout;
 
 /// The numbers of one row of a chunk, by texel and sample.
 pub(super) struct Samples<'a> {
     layout: &'a Layout,
-    /// One, or one for each sample; empty where no texel needs it.
+    /// One plane, or one per sample; empty if no texel needs it.
     planes: Vec<&'a [u8]>,
 }
 
@@ -17,8 +17,8 @@ impl<'a> Samples<'a> {
         Samples { layout, planes: planes.iter().map(row).collect() }
     }
 
-    /// The bytes that hold a sample, and how many samples lie before it.
-    fn place(&self, x: usize, sample: usize) -> (&'a [u8], usize) {
+    /// Returns the bytes that hold a sample, and the number of samples before it.
+    fn locate(&self, x: usize, sample: usize) -> (&'a [u8], usize) {
         match self.layout.planar {
             true => (self.planes[sample], x),
             false => (self.planes[0], x * self.layout.samples + sample),
@@ -26,17 +26,18 @@ impl<'a> Samples<'a> {
     }
 
     pub fn number(&self, x: usize, sample: usize) -> f64 {
-        let (row, index) = self.place(x, sample);
+        let (row, index) = self.locate(x, sample);
         self.layout.scalar.number(code(row, index, self.layout.scalar.bits as usize))
     }
 
     pub fn bytes<const SIZE: usize>(&self, x: usize, sample: usize) -> &'a [u8; SIZE] {
-        let (row, index) = self.place(x, sample);
+        let (row, index) = self.locate(x, sample);
         &row.as_chunks().0[index]
     }
 }
 
-/// Numbers of whole bytes have been put lowest byte first; others lie in the bits from the highest on.
+/// Returns the code of a sample: whole bytes are stored lowest first, other sizes as bits from the
+/// highest on.
 fn code(row: &[u8], index: usize, bits: usize) -> u64 {
     match bits {
         8 => row[index].into(),

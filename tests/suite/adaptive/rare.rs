@@ -1,5 +1,5 @@
-//! Pictures of what few samples meet: a sun in a mirror, stars, sparks out of focus, slits of light. What adaptive
-//! sampling says of its own error is held against the truth, over scenes and seeds.
+//! Pictures of rare bright features: a sun in a mirror, stars, defocused sparks, slits of light.
+//! The error estimate of adaptive sampling is compared with the true error over scenes and seeds.
 
 use std::path::Path;
 

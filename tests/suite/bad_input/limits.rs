@@ -1,4 +1,5 @@
-//! Limits through the program: at each of them it works, one step beyond ends with exit code 2 and the limit.
+//! Limits through the program: each limit value works, and one step beyond ends with exit code 2
+//! and a message that states the limit.
 
 use std::fs;
 

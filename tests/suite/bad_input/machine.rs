@@ -1,5 +1,5 @@
-//! Machines without a Vulkan loader, without a driver, without the device that was asked for. Devices
-//! that lack a feature are told apart beside the code that selects.
+//! Machines without a Vulkan loader, without a driver, without the requested device. Unit tests of
+//! device selection cover devices that lack a feature.
 
 use super::Case;
 

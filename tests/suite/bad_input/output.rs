@@ -1,4 +1,4 @@
-//! Places that no picture can be written to.
+//! Output paths that cannot be written.
 
 use std::fs;
 use std::path::Path;

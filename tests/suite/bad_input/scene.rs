@@ -1,4 +1,4 @@
-//! Scene files and command lines whose values make no sense.
+//! Scene files and command lines with invalid values.
 
 use super::Case;
 use crate::stage::device_name;

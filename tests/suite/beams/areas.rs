@@ -1,21 +1,22 @@
-//! Areas of visible fragments: they fill the pixel whatever lies before what, and they are right.
+//! Areas of visible fragments: they sum to the pixel's area in any depth order, and each is
+//! correct.
 
 use glam::{DVec2, DVec3};
 use moire::internal::oracle::polygon::{area, split, unit_square};
 use moire::internal::scene::model::{Model, Scene, Triangle};
 
 use super::{beams, rmse, with_beams, with_samples};
-use crate::lookup::bench::Dice;
+use crate::lookup::bench::Rng;
 use crate::stage::{render, render_on_oracle, small};
 
 #[test]
 fn both_sides_of_a_cut_make_the_whole() {
-    let mut dice = Dice::new(3);
+    let mut rng = Rng::new(3);
     for _ in 0..2000 {
         let mut rest = unit_square();
         for _ in 0..6 {
-            let angle = dice.between(0.0, 6.3);
-            let through = DVec2::new(dice.between(0.0, 1.0), dice.between(0.0, 1.0));
+            let angle = rng.between(0.0, 6.3);
+            let through = DVec2::new(rng.between(0.0, 1.0), rng.between(0.0, 1.0));
             let n = DVec2::new(angle.cos(), angle.sin());
             let [inside, outside] = split(&rest, n.extend(-n.dot(through)));
             let (whole, parts) = (area(&rest), area(&inside) + area(&outside));
@@ -31,7 +32,7 @@ fn soup(count: usize, seed: u32, colors: impl Fn(usize) -> DVec3) -> Scene {
     let mut scene = small("beams", 24, 4);
     scene.planes.clear();
     scene.lights.clear();
-    let mut dice = Dice::new(seed.into());
+    let mut rng = Rng::new(seed.into());
     let plain = scene.materials.iter().find(|m| m.name == "brown").unwrap().clone();
     scene.materials = (0..count)
         .map(|i| moire::internal::scene::model::Material {
@@ -41,7 +42,7 @@ fn soup(count: usize, seed: u32, colors: impl Fn(usize) -> DVec3) -> Scene {
         })
         .collect();
     let first = scene.triangles[0];
-    let mut corner = || DVec3::new(dice.between(-0.9, 0.9), dice.between(-0.4, 1.4), dice.between(-0.9, 0.9));
+    let mut corner = || DVec3::new(rng.between(-0.9, 0.9), rng.between(-0.4, 1.4), rng.between(-0.9, 0.9));
     scene.triangles = (0..count)
         .map(|material| Triangle { vertices: [corner(), corner(), corner()], material, ..first })
         .collect();

@@ -1,5 +1,5 @@
-//! Integrals of textures over fragments: every address mode, filter and centre, near and far, against means of
-//! very many look-ups; checkers against closed forms.
+//! Integrals of textures over fragments: every address mode, filter and texel centre, near and far,
+//! against means of very many lookups; checkers against closed forms.
 
 use glam::DVec2;
 use moire::internal::oracle::beam::beam;

@@ -1,4 +1,4 @@
-//! What lies behind a mirror is not in its reflection, neither seen nor as a hole.
+//! Shapes behind a mirror do not appear in its reflection, neither as a shape nor as a hole.
 
 use std::path::Path;
 

@@ -1,5 +1,5 @@
-//! Areas and centroids of a disc cut by lines and circles, against sums over thin strips, in which they are
-//! plain, and in limits that are known.
+//! Areas and centroids of a disc clipped by lines and circles, against sums over thin strips, in
+//! which they are elementary, and in known limits.
 
 use std::f64::consts::PI;
 
@@ -8,7 +8,7 @@ use moire::internal::oracle::coverage::{
     Covered, Cuts, EVERYTHING, NOTHING, ball_overlap, circle_overlap, segment,
 };
 
-use crate::lookup::bench::Dice;
+use crate::lookup::bench::Rng;
 
 const STRIPS: usize = 4000;
 
@@ -59,18 +59,18 @@ fn assert_alike(found: Covered, wanted: Covered, what: &str) {
     assert!(off < 2e-4, "{what}: {found:?}, {wanted:?}");
 }
 
-fn line(dice: &mut Dice, reach: f64) -> DVec3 {
-    let angle = dice.between(0.0, 2.0 * PI);
-    let scale = dice.between(0.1, 10.0);
-    DVec3::new(angle.cos(), angle.sin(), dice.between(-reach, reach)) * scale
+fn line(rng: &mut Rng, reach: f64) -> DVec3 {
+    let angle = rng.between(0.0, 2.0 * PI);
+    let scale = rng.between(0.1, 10.0);
+    DVec3::new(angle.cos(), angle.sin(), rng.between(-reach, reach)) * scale
 }
 
 #[test]
 fn lines_leave_what_strips_add_up_to() {
-    let mut dice = Dice::new(3);
+    let mut rng = Rng::new(3);
     for count in 1..=6 {
         for case in 0..200 {
-            let lines: Vec<DVec3> = (0..count).map(|_| line(&mut dice, 0.9)).collect();
+            let lines: Vec<DVec3> = (0..count).map(|_| line(&mut rng, 0.9)).collect();
             assert_alike(of_lines(&lines), strips_of_lines(&lines), &format!("{count} lines, case {case}"));
         }
     }
@@ -78,10 +78,10 @@ fn lines_leave_what_strips_add_up_to() {
 
 #[test]
 fn both_sides_of_a_line_make_the_whole() {
-    let mut dice = Dice::new(5);
+    let mut rng = Rng::new(5);
     for _ in 0..500 {
-        let cut = line(&mut dice, 1.2);
-        let others: Vec<DVec3> = (0..2).map(|_| line(&mut dice, 0.7)).collect();
+        let cut = line(&mut rng, 1.2);
+        let others: Vec<DVec3> = (0..2).map(|_| line(&mut rng, 0.7)).collect();
         let with = |more: DVec3| of_lines(&[others[0], others[1], more]).share;
         let all = of_lines(&others).share;
         assert!((with(cut) + with(-cut) - all).abs() < 3e-5, "{others:?} cut by {cut:?}");
@@ -118,11 +118,11 @@ fn limits_of_lines() {
 
 #[test]
 fn circles_leave_what_strips_add_up_to() {
-    let mut dice = Dice::new(8);
+    let mut rng = Rng::new(8);
     for case in 0..1000 {
-        let radius = 10f64.powf(dice.between(-1.0, 2.0));
-        let apart = (radius + dice.between(-1.0, 1.0)).max(0.0);
-        let angle = dice.between(0.0, 2.0 * PI);
+        let radius = 10f64.powf(rng.between(-1.0, 2.0));
+        let apart = (radius + rng.between(-1.0, 1.0)).max(0.0);
+        let angle = rng.between(0.0, 2.0 * PI);
         let middle = apart * DVec2::new(angle.cos(), angle.sin());
         let found = circle_overlap(middle, radius, radius - apart);
         let wanted = strips(|y| {
@@ -158,11 +158,11 @@ fn limits_of_circles() {
 /// Pixels of a picture are √π disc radii apart.
 #[test]
 fn small_balls_are_seen_in_equal_parts_wherever_they_are() {
-    let mut dice = Dice::new(13);
+    let mut rng = Rng::new(13);
     let pitch = PI.sqrt();
     for radius in [0.05, 0.2, 0.5] {
         for _ in 0..100 {
-            let at = DVec2::new(dice.between(-0.5, 0.5), dice.between(-0.5, 0.5)) * pitch;
+            let at = DVec2::new(rng.between(-0.5, 0.5), rng.between(-0.5, 0.5)) * pitch;
             let mut sum = 0.0;
             for i in 0..9 {
                 let middle = at - pitch * DVec2::new(f64::from(i % 3 - 1), f64::from(i / 3 - 1));

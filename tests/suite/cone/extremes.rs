@@ -1,5 +1,5 @@
-//! Cones in places where their geometry ends: within balls, along planes, among shapes smaller than they
-//! are, in shadows.
+//! Cones at the limits of their geometry: inside spheres, along planes, among shapes smaller than
+//! the cone, in shadows.
 
 use moire::internal::core::film::Film;
 
@@ -36,13 +36,13 @@ fn a_plane_through_the_eye_is_no_wider_than_a_line() {
 /// Balls of a tenth of a pixel, at random, one or none to a cone mostly: as bright as their area.
 #[test]
 fn balls_smaller_than_cones_add_up_to_their_area() {
-    let mut dice = crate::lookup::bench::Dice::new(21);
+    let mut rng = crate::lookup::bench::Rng::new(21);
     let (side, radius) = (32u32, 0.1 * 2.0 / 32.0);
     let mut text = String::new();
     let count = 1500;
     for _ in 0..count {
-        let [x, y] = [(); 2].map(|()| dice.between(-0.95, 0.95));
-        let z = dice.between(-1.0, 1.0);
+        let [x, y] = [(); 2].map(|()| rng.between(-0.95, 0.95));
+        let z = rng.between(-1.0, 1.0);
         text += &format!("[[sphere]]\ncenter = [{x}, {y}, {z}]\nradius = {radius}\nmaterial = 'white'\n");
     }
     let wanted = f64::from(count) * std::f64::consts::PI * radius * radius / 4.0;
@@ -66,10 +66,10 @@ fn a_tiny_ball_never_pops() {
 /// More shapes in a pixel than a cone keeps: the others are as bright as those.
 #[test]
 fn a_crowd_of_balls_is_as_bright_as_samples_say() {
-    let mut dice = crate::lookup::bench::Dice::new(4);
+    let mut rng = crate::lookup::bench::Rng::new(4);
     let mut text = String::from("[background]\ncolor = [0.2, 0.2, 0.2]\n");
     for _ in 0..2000 {
-        let [x, y, z] = [(); 3].map(|()| dice.between(-1.0, 1.0));
+        let [x, y, z] = [(); 3].map(|()| rng.between(-1.0, 1.0));
         text += &format!("[[sphere]]\ncenter = [{x}, {y}, {z}]\nradius = 0.02\nmaterial = 'white'\n");
     }
     let scene = parallel(8, &text);

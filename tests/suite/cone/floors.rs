@@ -1,5 +1,5 @@
-//! Cones that leave flat surfaces, mirrored or towards a light: what lies behind the surface is not met, what stands
-//! on it is met down to its foot.
+//! Cones that leave flat surfaces, as reflections or towards a light: shapes behind the surface are
+//! not hit, and shapes standing on it are hit down to their base.
 
 use moire::internal::core::film::Film;
 use moire::internal::scene::model::Scene;

@@ -1,4 +1,4 @@
-//! Pictures by cones against those by many samples, and against the same cones in float64.
+//! Pictures by cones against pictures by many samples, and against the same cones in float64.
 
 use moire::internal::lab::metrics::read_picture;
 use moire::internal::render::Tuning;

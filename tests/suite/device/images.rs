@@ -1,5 +1,5 @@
-//! Images and samplers of the device layer: what a shader samples and fetches is what was uploaded, in
-//! every format, at every level, under every sampler that the device has.
+//! Images and samplers of the device layer: a shader samples and fetches the uploaded texels, in
+//! every format, at every level, with every sampler that the device supports.
 
 use moire::internal::gpu::{
     BindGroup, BindingDesc, BindingKind, Bound, Buffer, BufferUse, Gpu, Image, ImageDesc, ImageFormat,

@@ -1,5 +1,6 @@
-//! What the device layer refuses before Vulkan sees it: sizes over the limits, texels that do not fit,
-//! pipelines and runs that do not match, resources of another device. Each by name.
+//! Errors that the device layer returns before Vulkan is called: sizes over the limits, texels of
+//! the wrong size, mismatched pipelines and dispatches, resources of another device. Each error
+//! names the object.
 
 use moire::internal::gpu::{
     BindingDesc, BindingKind, Bound, BufferUse, ImageDesc, ImageFormat, ImageShape, PipelineDesc, Swizzle,

@@ -1,5 +1,5 @@
-//! Volumes and cubes of the device layer: every texel of every slice, face and level arrives at its
-//! place, faces are picked by Vulkan's table, and edges of a cube are filtered across.
+//! Volumes and cubes of the device layer: every texel of every slice, face and level is at its
+//! position, faces are selected by Vulkan's table, and a cube is filtered across its edges.
 
 use moire::internal::gpu::{
     BindGroup, BindingKind, Bound, Buffer, BufferUse, Gpu, ImageDesc, ImageFormat, ImageShape, Pipeline,

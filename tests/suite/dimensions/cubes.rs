@@ -1,5 +1,5 @@
-//! Cubes from six files and from one: faces at their places and the right way up, and pictures that
-//! are no cubes.
+//! Cubes from six files and from one: position and orientation of the faces, and pictures that are
+//! not cubes.
 
 use std::collections::HashMap;
 

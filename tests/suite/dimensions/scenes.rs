@@ -1,5 +1,5 @@
-//! `[[texture]]` as written in scenes: what each content means by itself, and keys that contradict
-//! each other.
+//! `[[texture]]` as written in scenes: the defaults of each kind of content, and contradictory
+//! keys.
 
 use std::path::{Path, PathBuf};
 

@@ -1,5 +1,5 @@
-//! Volumes from slices, bare texels and NRRD: axes and byte orders, and files that are too short, too
-//! long or described wrongly.
+//! Volumes from slices, raw texels and NRRD: axes and byte orders, and files that are too short,
+//! too long or described incorrectly.
 
 use std::fs;
 use std::io::Write;

@@ -1,5 +1,5 @@
-//! Faults that were there once, one test each: the cases of the stability report that show them, over part of their
-//! sweep's time.
+//! Regression tests of past faults, one each: the cases of the stability report that exposed them,
+//! over part of their sweep.
 
 use moire::internal::core::progress::NoProgress;
 use moire::internal::lab::stability::all;

@@ -1,7 +1,7 @@
-//! Address modes: the texel at every whole place, by walking along the texture and back instead of by
-//! remainders; and coordinates brought near the texture, exactly.
+//! Address modes: the texel at every integer position, by stepping along the texture instead of by
+//! remainders; and coordinates reduced to the texture, exactly.
 
-use moire::internal::lab::verify::queries::Dice;
+use moire::internal::lab::verify::queries::Rng;
 use moire::internal::oracle::address::{addressed_texel, reduced_coordinate};
 use moire::internal::texture::sampler_spec::Address;
 use num_traits::Signed;
@@ -85,13 +85,13 @@ fn exact_place(mode: Address, u: f64, size: i64) -> Q {
 }
 
 fn places(reduce: impl Fn(Address, f64, f64) -> f64) -> Worst {
-    let mut dice = Dice::new(81);
+    let mut rng = Rng::new(81);
     let mut worst = Worst::default();
     for &mode in Address::ALL {
         for size in [1, 3, 256, 1000] {
             let few =
                 [0.0, -0.0, 0.5, 1.0, -1.0, 2.0, -1e-9, 1e-20, 1e9 + 0.25, -1e9 - 0.25, 1e15 + 0.5, 1e300];
-            let random = (0..40).map(|i| dice.between(-1.0, 1.0) * 10f64.powi(i % 12)).collect::<Vec<_>>();
+            let random = (0..40).map(|i| rng.between(-1.0, 1.0) * 10f64.powi(i % 12)).collect::<Vec<_>>();
             for u in few.into_iter().chain(random) {
                 let exact = exact_place(mode, u, size);
                 let bound = 2.0 * U * size as f64; // what is left of a whole tile, and the product

@@ -2,7 +2,7 @@
 //! as exact counts.
 
 use glam::DVec3;
-use moire::internal::lab::verify::queries::Dice;
+use moire::internal::lab::verify::queries::Rng;
 use moire::internal::oracle::procedural::figure_share;
 use moire::internal::oracle::render::pixel;
 use moire::internal::pack;
@@ -75,7 +75,7 @@ fn exact(what: &Procedural, at: DVec3, w: DVec3) -> Q {
 }
 
 fn compare(share: impl Fn(&moire::internal::schema::layout::Procedural, DVec3, DVec3) -> f64) -> Worst {
-    let mut dice = Dice::new(121);
+    let mut rng = Rng::new(121);
     let mut worst = Worst::default();
     for kind in [ProceduralKind::Checker, ProceduralKind::Stripes, ProceduralKind::Grid] {
         for width in [0.1f32, 0.5, 0.9] {
@@ -83,11 +83,11 @@ fn compare(share: impl Fn(&moire::internal::schema::layout::Procedural, DVec3, D
             let record = pack::procedural(&what);
             for i in 0..60 {
                 let reach = [2.0, 1e3, 1e9][i % 3];
-                let at = super::numbers::vector(&mut dice, reach);
+                let at = super::numbers::vector(&mut rng, reach);
                 // A footprint in the plane z = const, from none to 40 cells.
                 let wide =
-                    |dice: &mut Dice| [0.0, 1e-6, 0.03, 0.5, 2.0, 13.7, 40.0][(dice.unit() * 7.0) as usize];
-                let w = DVec3::new(wide(&mut dice), wide(&mut dice), 0.0) * dice.between(0.5, 1.0);
+                    |rng: &mut Rng| [0.0, 1e-6, 0.03, 0.5, 2.0, 13.7, 40.0][(rng.unit() * 7.0) as usize];
+                let w = DVec3::new(wide(&mut rng), wide(&mut rng), 0.0) * rng.between(0.5, 1.0);
                 // A place is rounded to U of itself where whole cells go, and a box as wide as its error
                 // knows nothing.
                 let narrow = |w: f64| if w > 0.0 { 16.0 * U / w } else { 0.0 };

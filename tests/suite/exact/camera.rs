@@ -1,7 +1,7 @@
 //! Rays of the camera: w + r·X·T·(width/height) + u·Y·T, with r, u and w of unit length and exact.
 
 use glam::{DVec2, Vec2Swizzles};
-use moire::internal::lab::verify::queries::Dice;
+use moire::internal::lab::verify::queries::Rng;
 use moire::internal::oracle::camera::{Ray, camera_ray};
 use moire::internal::scene::model::{Projection, Scene};
 use moire::internal::schema::layout::Header;
@@ -74,7 +74,7 @@ fn exact_ray(scene: &Scene, pixel: [u32; 2], inside: DVec2) -> Exact {
 
 fn compare(shoot: impl Fn(&Header, [u32; 2], DVec2) -> Ray) -> Worst {
     let mut worst = Worst::default();
-    let mut dice = Dice::new(11);
+    let mut rng = Rng::new(11);
     for (camera, width, height) in VIEWS {
         let rest = format!("[image]\nwidth = {width}\nheight = {height}\n[sampling]\nprecision = 'double'\n");
         let (scene, packed) = packed_as(&format!("[camera]\n{camera}\n"), &rest);
@@ -82,9 +82,9 @@ fn compare(shoot: impl Fn(&Header, [u32; 2], DVec2) -> Ray) -> Worst {
             let pixel = match i {
                 0 => [0, 0],
                 1 => [width - 1, height - 1],
-                _ => [(dice.unit() * f64::from(width)) as u32, (dice.unit() * f64::from(height)) as u32],
+                _ => [(rng.unit() * f64::from(width)) as u32, (rng.unit() * f64::from(height)) as u32],
             };
-            let inside = if i < 4 { DVec2::splat(0.5) } else { DVec2::new(dice.unit(), dice.unit()) };
+            let inside = if i < 4 { DVec2::splat(0.5) } else { DVec2::new(rng.unit(), rng.unit()) };
             let exact = exact_ray(&scene, pixel, inside);
             let ray = shoot(&packed.header, pixel, inside);
             for k in 0..3 {

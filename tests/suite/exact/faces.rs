@@ -1,7 +1,8 @@
-//! Cube textures: the face that a direction meets and the place on it by Vulkan's table, and the texel there.
+//! Cube textures: the face selected by a direction and the position on it by Vulkan's table, and
+//! the texel there.
 
 use glam::{DVec2, DVec3};
-use moire::internal::lab::verify::queries::{self, Dice};
+use moire::internal::lab::verify::queries::{self, Rng};
 use moire::internal::oracle::filter::sample_texture;
 use moire::internal::oracle::mapping::{Coordinate, on_cube_face, within_face};
 use moire::internal::texture::data::Dimension;
@@ -33,8 +34,8 @@ fn exact(d: DVec3) -> (u32, [Q; 2]) {
 }
 
 fn directions() -> Vec<DVec3> {
-    let mut dice = Dice::new(71);
-    let mut all: Vec<DVec3> = (0..200).map(|_| direction(&mut dice)).collect();
+    let mut rng = Rng::new(71);
+    let mut all: Vec<DVec3> = (0..200).map(|_| direction(&mut rng)).collect();
     for k in 0..27 {
         let d = DVec3::new(f64::from(k % 3), f64::from(k / 3 % 3), f64::from(k / 9)) - 1.0;
         // All axes, edges and corners, and one last digit beside them.

@@ -1,8 +1,9 @@
-//! Look-ups over footprints: the singular values of a footprint by an exact root, the level by a logarithm to
-//! 256 bits, the mean of two levels of an exact mip chain, and the Gaussian over an ellipse.
+//! Lookups over footprints: the singular values of a footprint by an exact root, the level by a
+//! logarithm to 256 bits, the mean of two levels of an exact mip chain, and the Gaussian over an
+//! ellipse.
 
 use glam::{DVec2, DVec3};
-use moire::internal::lab::verify::queries::{self, Dice};
+use moire::internal::lab::verify::queries::{self, Rng};
 use moire::internal::oracle::filter::ewa::ellipse_weight;
 use moire::internal::oracle::filter::sample_texture;
 use moire::internal::oracle::footprint_axes::{FootprintEllipse, texel_spread};
@@ -22,8 +23,8 @@ const SIDES: [u32; 2] = [16, 8];
 
 /// Small whole numbers: means of powers of two of them are exact in f32.
 fn texels() -> Vec<f32> {
-    let mut dice = Dice::new(131);
-    (0..SIDES[0] * SIDES[1]).map(|_| (dice.unit() * 32.0).floor() as f32).collect()
+    let mut rng = Rng::new(131);
+    (0..SIDES[0] * SIDES[1]).map(|_| (rng.unit() * 32.0).floor() as f32).collect()
 }
 
 fn scene(specs: &[SamplerSpec]) -> PackedScene {
@@ -49,15 +50,15 @@ fn coordinate(at: DVec2, changes: [DVec2; 2]) -> Coordinate {
 
 /// Round, long, and almost collinear.
 fn footprints(longest: f64) -> Vec<[DVec2; 2]> {
-    let mut dice = Dice::new(132);
+    let mut rng = Rng::new(132);
     let mut all = Vec::new();
     for i in 0..60 {
-        let vector = |dice: &mut Dice| DVec2::new(dice.between(-1.0, 1.0), dice.between(-1.0, 1.0));
-        let x = vector(&mut dice) * longest * dice.unit();
+        let vector = |rng: &mut Rng| DVec2::new(rng.between(-1.0, 1.0), rng.between(-1.0, 1.0));
+        let x = vector(&mut rng) * longest * rng.unit();
         let y = match i % 3 {
             0 => x.perp(),
-            1 => vector(&mut dice) * longest * dice.unit(),
-            _ => x * dice.between(-1.0, 1.0) + 1e-9 * vector(&mut dice),
+            1 => vector(&mut rng) * longest * rng.unit(),
+            _ => x * rng.between(-1.0, 1.0) + 1e-9 * vector(&mut rng),
         };
         all.push([x, y]);
     }
@@ -118,10 +119,10 @@ fn linear(texels: &[f32], level: u32, at: DVec2) -> Q {
 fn two_levels(read: impl Fn(&PackedScene, &Coordinate) -> f64) -> Worst {
     let scene = scene(&[SamplerSpec { mip: MipMode::Linear, ..Default::default() }]);
     let texels = texels();
-    let mut dice = Dice::new(133);
+    let mut rng = Rng::new(133);
     let mut worst = Worst::default();
     for changes in footprints(1.5) {
-        let at = DVec2::new(dice.between(-2.0, 2.0), dice.between(-2.0, 2.0));
+        let at = DVec2::new(rng.between(-2.0, 2.0), rng.between(-2.0, 2.0));
         let level = (log2(&axes(changes)[0]) / frac(2, 1)).max(Q::zero()).min(frac(4, 1));
         let low = level.floor();
         let rest = &level - &low;
@@ -178,15 +179,15 @@ fn ellipses(read: impl Fn(&PackedScene, &Coordinate) -> f64) -> Worst {
         SamplerSpec { min: Filter::Ewa, max_anisotropy: 16, mip: MipMode::Linear, ..Default::default() };
     let scene = scene(&[ewa]);
     let texels = texels();
-    let mut dice = Dice::new(134);
+    let mut rng = Rng::new(134);
     let mut worst = Worst::default();
     for _ in 0..12 {
         // Between one and two texels wide, so that level 0 is read, and up to 8 long.
-        let [long, wide] = [dice.between(2.0, 8.0), dice.between(1.05, 1.95)];
-        let turn = DVec2::from_angle(dice.between(0.0, std::f64::consts::TAU));
+        let [long, wide] = [rng.between(2.0, 8.0), rng.between(1.05, 1.95)];
+        let turn = DVec2::from_angle(rng.between(0.0, std::f64::consts::TAU));
         let size = DVec2::new(16.0, 8.0);
         let changes = [turn * long / size, turn.perp() * wide / size];
-        let at = DVec2::new(dice.between(-1.0, 1.0), dice.between(-1.0, 1.0));
+        let at = DVec2::new(rng.between(-1.0, 1.0), rng.between(-1.0, 1.0));
         // The Gaussian is a polynomial within WEIGHT of it, under a mean weight of about 0.3; texels to 32.
         let bound = 32.0 * 2.0 * WEIGHT / 0.3;
         worst.add(read(&scene, &coordinate(at, changes)), &gaussian(&texels, at, changes), bound);

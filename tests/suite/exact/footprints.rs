@@ -2,7 +2,7 @@
 //! of 2^-200, where a quotient of rationals cancels nothing.
 
 use glam::DVec3;
-use moire::internal::lab::verify::queries::Dice;
+use moire::internal::lab::verify::queries::Rng;
 use moire::internal::oracle::camera::camera_ray;
 use moire::internal::oracle::footprint::{Footprint, camera_differential, footprint_at};
 use moire::internal::oracle::geometry::kinds::Shape;
@@ -14,7 +14,7 @@ use super::scenes::packed_as;
 use super::{U, Worst};
 
 fn compare(change: impl Fn(Footprint) -> Footprint) -> Worst {
-    let mut dice = Dice::new(141);
+    let mut rng = Rng::new(141);
     let mut worst = Worst::default();
     let camera = "[camera]\neye = [1, 2, 3]\nlook_at = [0.3, 0.1, -1]\nvertical_fov = 50\n";
     // Something that asks for footprints.
@@ -22,7 +22,7 @@ fn compare(change: impl Fn(Footprint) -> Footprint) -> Worst {
         "[[texture]]\nname = 't'\nprocedural = 'checker'\n[[material]]\nname = 'm'\ntexture = 't'\n";
     for i in 0..60 {
         let eye = DVec3::new(1.0, 2.0, 3.0);
-        let [origin, t, b] = [vector(&mut dice, 3.0), direction(&mut dice), direction(&mut dice)];
+        let [origin, t, b] = [vector(&mut rng, 3.0), direction(&mut rng), direction(&mut rng)];
         let list = super::scenes::list;
         let plane = format!(
             "[[plane]]\norigin = {}\ntangent = {}\nbitangent = {}\nmaterial = 'm'\n",

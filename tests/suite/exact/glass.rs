@@ -4,7 +4,7 @@
 use std::sync::OnceLock;
 
 use glam::DVec3;
-use moire::internal::lab::verify::queries::Dice;
+use moire::internal::lab::verify::queries::Rng;
 use moire::internal::oracle::bsdf::dielectric::{fresnel_dielectric, refracted};
 use moire::internal::oracle::bsdf::mirror::mirrored;
 use num_traits::Signed;
@@ -16,14 +16,14 @@ const AXES: [DVec3; 3] = [DVec3::X, DVec3::NEG_Y, DVec3::Z];
 
 /// (direction, normal against it, ratio of indices in front over behind).
 fn cases() -> Vec<(DVec3, DVec3, f64)> {
-    let mut dice = Dice::new(101);
+    let mut rng = Rng::new(101);
     let mut all = Vec::new();
     for index in [1.0 + 1e-7, 1.0 + 1e-15, 1.333, 1.5, 2.4, 100.0, 1e3] {
         for ratio in [1.0 / index, index] {
             for (i, &n) in AXES.iter().enumerate() {
                 let side = AXES[(i + 1) % 3];
                 let mut add = |cosine: f64, sine: f64| {
-                    all.push(((sine * side - cosine * n) * dice.between(0.3, 3.0), n, ratio))
+                    all.push(((sine * side - cosine * n) * rng.between(0.3, 3.0), n, ratio))
                 };
                 add(1.0, 0.0);
                 for k in [0, 1, 2, 3, 5, 7, 9, 11] {
@@ -36,7 +36,7 @@ fn cases() -> Vec<(DVec3, DVec3, f64)> {
                         add((1.0 - sine * sine).sqrt(), sine);
                     }
                 }
-                all.push((direction(&mut dice), n, ratio));
+                all.push((direction(&mut rng), n, ratio));
             }
         }
     }
@@ -141,10 +141,10 @@ fn planted_errors_of_glass_are_told() {
 
 #[test]
 fn mirrors_reflect_about_the_exact_normal() {
-    let mut dice = Dice::new(102);
+    let mut rng = Rng::new(102);
     let mut worst = Worst::default();
     for _ in 0..100 {
-        let (d, n) = (direction(&mut dice), direction(&mut dice));
+        let (d, n) = (direction(&mut rng), direction(&mut rng));
         let unit = v(n).unit();
         let exact = v(d).minus(&unit.times(&(frac(2, 1) * v(d).dot(&unit))));
         for k in 0..3 {

@@ -2,7 +2,7 @@
 //! directional one, on planes and triangles that a whole render sees, from either side.
 
 use glam::DVec3;
-use moire::internal::lab::verify::queries::Dice;
+use moire::internal::lab::verify::queries::Rng;
 use moire::internal::oracle::render::pixel;
 use num_traits::{Signed, Zero};
 
@@ -23,16 +23,16 @@ struct Case {
 }
 
 fn cases() -> Vec<Case> {
-    let mut dice = Dice::new(111);
+    let mut rng = Rng::new(111);
     let mut all = Vec::new();
     for i in 0..80 {
-        let origin = DVec3::new(0.0, 0.0, -5.0) + vector(&mut dice, 1.0);
-        let axes = [direction(&mut dice), direction(&mut dice)];
+        let origin = DVec3::new(0.0, 0.0, -5.0) + vector(&mut rng, 1.0);
+        let axes = [direction(&mut rng), direction(&mut rng)];
         if axes[0].cross(axes[1]).z.abs() < 0.2 {
             continue;
         }
         let point = i % 2 == 0;
-        let light = if point { origin + vector(&mut dice, 4.0) } else { direction(&mut dice) * 7.0 };
+        let light = if point { origin + vector(&mut rng, 4.0) } else { direction(&mut rng) * 7.0 };
         all.push(Case { origin, axes, triangle: i % 3 == 0, light, point });
     }
     all

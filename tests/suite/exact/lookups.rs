@@ -1,10 +1,10 @@
-//! Look-ups as sums of texels under a kernel, in rationals: tents for `linear`, the cubics of Mitchell and
-//! Netravali, in two and three dimensions, all address modes, both texel centres; 8- and 16-bit and sRGB
-//! texels by 256 bits.
+//! Lookups as sums of texels under a kernel, in rationals: tents for `linear`, the cubics of
+//! Mitchell and Netravali, in two and three dimensions, all address modes, both texel centres; 8-
+//! and 16-bit and sRGB texels to 256 bits.
 
 use glam::DVec3;
 use moire::internal::core::color::srgb_to_linear;
-use moire::internal::lab::verify::queries::{self, Dice};
+use moire::internal::lab::verify::queries::{self, Rng};
 use moire::internal::oracle::filter::sample_texture;
 use moire::internal::oracle::mapping::Coordinate;
 use moire::internal::pack::PackedScene;
@@ -109,11 +109,11 @@ fn read(scene: &PackedScene, sampler: usize, at: DVec3) -> f64 {
 
 fn compare(read: impl Fn(&PackedScene, usize, DVec3) -> f64) -> Worst {
     let mut worst = Worst::default();
-    let mut dice = Dice::new(91);
+    let mut rng = Rng::new(91);
     let sizes = [[4, 3, 1], [8, 8, 1], [1, 5, 1], [3, 4, 5]];
     for size in sizes {
         let count = size.iter().product::<u32>();
-        let texels: Vec<f32> = (0..count).map(|_| dice.between(-2.0, 6.0) as f32).collect();
+        let texels: Vec<f32> = (0..count).map(|_| rng.between(-2.0, 6.0) as f32).collect();
         let flat = size[2] == 1;
         let dimension = if flat { Dimension::Two } else { Dimension::Three };
         let specs = specs(flat);
@@ -126,7 +126,7 @@ fn compare(read: impl Fn(&PackedScene, usize, DVec3) -> f64) -> Worst {
                     0 => DVec3::ZERO,
                     1 => DVec3::new(0.5, 1.0, -0.25),
                     2 => DVec3::new(-1e-9, 1.0 + 1e-9, 0.5),
-                    _ => super::numbers::vector(&mut dice, reach) + 0.5,
+                    _ => super::numbers::vector(&mut rng, reach) + 0.5,
                 };
                 // Within three textures; a place is rounded twice, a sum of 64 products of weights each time.
                 let at = at.clamp(DVec3::splat(-1.9), DVec3::splat(2.9));

@@ -1,10 +1,11 @@
-//! Projecting maps: planar, cylindrical and spherical coordinates about any axis, of places, normals and
-//! mirrored rays' directions, by angles to 256 bits; scale, then rotation, then offset; environments.
+//! Projective mappings: planar, cylindrical and spherical coordinates about any axis, of positions,
+//! normals and reflected directions, by angles to 256 bits; scale, then rotation, then offset;
+//! environments.
 
 use std::sync::OnceLock;
 
 use glam::{DVec2, DVec3, Vec2Swizzles};
-use moire::internal::lab::verify::queries::Dice;
+use moire::internal::lab::verify::queries::Rng;
 use moire::internal::oracle::mapping::{Coordinate, MapInput, texture_coordinate};
 use moire::internal::schema::layout::UvProjection;
 
@@ -58,21 +59,21 @@ struct Case {
 }
 
 fn cases() -> Vec<Case> {
-    let mut dice = Dice::new(51);
+    let mut rng = Rng::new(51);
     let mut all = Vec::new();
     for i in 0..30 {
         let kind = ["planar", "cylindrical", "spherical"][i % 3];
         let axis = match i / 3 % 5 {
             0 | 1 => DVec3::Y,
             2 => DVec3::new(0.0, -1.0, 1e-3),
-            _ => direction(&mut dice),
+            _ => direction(&mut rng),
         };
-        let eye = vector(&mut dice, [0.0, 10.0, 1e6][i % 5 % 3]);
-        let origin = eye + vector(&mut dice, 3.0);
+        let eye = vector(&mut rng, [0.0, 10.0, 1e6][i % 5 % 3]);
+        let origin = eye + vector(&mut rng, 3.0);
         let plain = i % 4 == 0;
-        let scale = if plain { DVec2::ONE } else { DVec2::new(dice.between(0.1, 9.0), -3.0) };
-        let rotate = if plain { 0.0 } else { dice.between(-180.0, 180.0) };
-        let offset = if plain { DVec2::ZERO } else { DVec2::new(dice.between(-2.0, 2.0), 0.25) };
+        let scale = if plain { DVec2::ONE } else { DVec2::new(rng.between(0.1, 9.0), -3.0) };
+        let rotate = if plain { 0.0 } else { rng.between(-180.0, 180.0) };
+        let offset = if plain { DVec2::ZERO } else { DVec2::new(rng.between(-2.0, 2.0), 0.25) };
         all.push(Case { kind, axis, origin, eye, scale, rotate, offset });
     }
     all
@@ -137,7 +138,7 @@ type Known = (UvProjection, DVec3, [Q; 2], f64);
 fn known() -> &'static [Known] {
     static KNOWN: OnceLock<Vec<Known>> = OnceLock::new();
     KNOWN.get_or_init(|| {
-        let mut dice = Dice::new(52);
+        let mut rng = Rng::new(52);
         let mut all = Vec::new();
         for case in cases() {
             let map = case.map();
@@ -146,9 +147,9 @@ fn known() -> &'static [Known] {
                 let near = [1.0, 1e-3, 1e-9][i % 3];
                 let p = case.origin - case.eye
                     + match i / 3 {
-                        0 | 1 => vector(&mut dice, 2.0),
-                        2 => case.axis * dice.between(-1.0, 1.0) + near * direction(&mut dice),
-                        3 => DVec3::new(1.5, 0.2, near * dice.between(-1.0, 1.0)),
+                        0 | 1 => vector(&mut rng, 2.0),
+                        2 => case.axis * rng.between(-1.0, 1.0) + near * direction(&mut rng),
+                        3 => DVec3::new(1.5, 0.2, near * rng.between(-1.0, 1.0)),
                         4 => [DVec3::X, DVec3::NEG_Z, DVec3::NEG_X][i % 3],
                         _ => DVec3::ZERO,
                     };
@@ -202,7 +203,7 @@ fn planted_errors_of_maps_are_told() {
 /// Equirectangular: the middle of the picture looks along −z, +x lies to its right, or mirrored to its left,
 /// v = 0 at +y.
 fn environment(read: impl Fn(&UvProjection, DVec3) -> DVec2) -> Worst {
-    let mut dice = Dice::new(53);
+    let mut rng = Rng::new(53);
     let mut worst = Worst::default();
     for (rotate, mirror) in [(0.0, false), (90.0, false), (-33.3, false), (0.0, true), (-33.3, true)] {
         let text = format!(
@@ -215,7 +216,7 @@ fn environment(read: impl Fn(&UvProjection, DVec3) -> DVec2) -> Worst {
                 0 => DVec3::NEG_Z,
                 1 => DVec3::X,
                 2 => DVec3::new(1e-7, 1.0, 1e-7).normalize(),
-                _ => direction(&mut dice),
+                _ => direction(&mut rng),
             };
             let [x, y, z] = v(d).0;
             let across = V([x.clone(), frac(0, 1), z.clone()]).length();

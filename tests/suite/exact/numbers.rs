@@ -5,7 +5,7 @@ use std::cell::RefCell;
 
 use astro_float_num::{BigFloat, Consts, RoundingMode, Sign};
 use glam::DVec3;
-use moire::internal::lab::verify::queries::Dice;
+use moire::internal::lab::verify::queries::Rng;
 use num_bigint::{BigInt, Sign as IntSign};
 use num_rational::BigRational;
 use num_traits::{Signed, ToPrimitive, Zero};
@@ -199,13 +199,13 @@ pub fn degrees(x: f64) -> Q {
 }
 
 /// Random vectors.
-pub fn vector(dice: &mut Dice, reach: f64) -> DVec3 {
-    DVec3::new(dice.between(-reach, reach), dice.between(-reach, reach), dice.between(-reach, reach))
+pub fn vector(rng: &mut Rng, reach: f64) -> DVec3 {
+    DVec3::new(rng.between(-reach, reach), rng.between(-reach, reach), rng.between(-reach, reach))
 }
 
-pub fn direction(dice: &mut Dice) -> DVec3 {
+pub fn direction(rng: &mut Rng) -> DVec3 {
     loop {
-        let way = vector(dice, 1.0);
+        let way = vector(rng, 1.0);
         if (0.01..=1.0).contains(&way.length_squared()) {
             return way.normalize();
         }

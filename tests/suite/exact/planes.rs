@@ -2,7 +2,7 @@
 //! of any length and nearly any angle.
 
 use glam::{DVec2, DVec3, Vec2Swizzles};
-use moire::internal::lab::verify::queries::Dice;
+use moire::internal::lab::verify::queries::Rng;
 use moire::internal::oracle::camera::Ray;
 use moire::internal::oracle::geometry::kinds::Shape;
 use moire::internal::schema::layout::Plane;
@@ -62,18 +62,18 @@ impl Case {
 
 /// Angles between the axes down to twice the least that scenes may have.
 fn cases() -> Vec<Case> {
-    let mut dice = Dice::new(21);
+    let mut rng = Rng::new(21);
     let mut all = Vec::new();
     for i in 0..48 {
-        let tangent = direction(&mut dice) * 10f64.powf(dice.between(-6.0, 6.0));
+        let tangent = direction(&mut rng) * 10f64.powf(rng.between(-6.0, 6.0));
         let sine = [1.0, 0.3, 1e-3, 1e-6, 1e-8, 2e-9][i % 6];
-        let other = direction(&mut dice) * 10f64.powf(dice.between(-6.0, 6.0));
+        let other = direction(&mut rng) * 10f64.powf(rng.between(-6.0, 6.0));
         let along = tangent.normalize() * other.length();
         let aside = along.any_orthogonal_vector().normalize() * other.length();
         let bitangent = if i % 6 == 0 { other } else { along + sine * aside };
-        let eye = vector(&mut dice, [1.0, 1e3, 1e9][i % 3]);
+        let eye = vector(&mut rng, [1.0, 1e3, 1e9][i % 3]);
         let near = [1.0, 1e6, 1e-3][i / 3 % 3];
-        let origin = eye + vector(&mut dice, near);
+        let origin = eye + vector(&mut rng, near);
         all.push(Case { eye, origin, axes: [tangent, bitangent], extent: None });
     }
     all
@@ -81,17 +81,17 @@ fn cases() -> Vec<Case> {
 
 fn compare(solve: impl Fn(&Plane, &Ray) -> (f64, DVec2)) -> Worst {
     let mut worst = Worst::default();
-    let mut dice = Dice::new(22);
+    let mut rng = Rng::new(22);
     for case in cases() {
         let plane = case.pack();
         let [origin, tangent, bitangent] = [case.origin, case.axes[0], case.axes[1]].map(v);
         for i in 0..6 {
-            let aim = case.origin - case.eye + dice.between(-3.0, 3.0) * case.axes[0];
+            let aim = case.origin - case.eye + rng.between(-3.0, 3.0) * case.axes[0];
             // Towards the plane, anywhere, and nearly along it.
             let d = match i % 3 {
-                0 => aim + dice.between(-3.0, 3.0) * case.axes[1],
-                1 => direction(&mut dice),
-                _ => case.axes[0] + 1e-7 * direction(&mut dice) * case.axes[0].length(),
+                0 => aim + rng.between(-3.0, 3.0) * case.axes[1],
+                1 => direction(&mut rng),
+                _ => case.axes[0] + 1e-7 * direction(&mut rng) * case.axes[0].length(),
             };
             let ray = Ray { origin: DVec3::ZERO, direction: d, time: 0.0 };
             let Some([t, u, w]) = meet(&v(case.eye), &v(d), [&origin, &tangent, &bitangent]) else {
@@ -136,7 +136,7 @@ fn planted_errors_of_planes_are_told() {
 /// At half an extent the exact u or v says hit or miss, wherever rounding leaves that open no more.
 #[test]
 fn a_plane_ends_where_its_half_extent_says() {
-    let mut dice = Dice::new(23);
+    let mut rng = Rng::new(23);
     let mut worst = Worst::default();
     let mut open = 0;
     for (i, case) in cases().into_iter().enumerate().filter(|(i, _)| i % 6 < 3) {
@@ -146,7 +146,7 @@ fn a_plane_ends_where_its_half_extent_says() {
         let [origin, tangent, bitangent] = [case.origin, case.axes[0], case.axes[1]].map(v);
         for k in 0..24 {
             let rim = extent * (1.0 + [1.0, -1.0][k % 2] * 0.5f64.powi(1 + k as i32));
-            let other = dice.between(-0.5, 0.5) * extent;
+            let other = rng.between(-0.5, 0.5) * extent;
             let (u, w) = if k % 4 < 2 { (rim, other) } else { (other, -rim) };
             let d = case.origin - case.eye + u * case.axes[0] + w * case.axes[1];
             let Some([t, u, w]) = meet(&v(case.eye), &v(d), [&origin, &tangent, &bitangent]) else {

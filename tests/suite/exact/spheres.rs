@@ -2,7 +2,7 @@
 //! from within, and by rays that graze.
 
 use glam::DVec3;
-use moire::internal::lab::verify::queries::Dice;
+use moire::internal::lab::verify::queries::Rng;
 use moire::internal::oracle::camera::Ray;
 use moire::internal::oracle::geometry::sphere::sphere_distance;
 use moire::internal::schema::layout::Sphere;
@@ -60,27 +60,27 @@ fn near_is(t: &Q, c: f64, b: f64) -> bool {
 }
 
 fn cases() -> Vec<Case> {
-    let mut dice = Dice::new(31);
+    let mut rng = Rng::new(31);
     let mut all = Vec::new();
     for i in 0..450 {
-        let radius = 10f64.powf(dice.between(-9.0, 9.0));
+        let radius = 10f64.powf(rng.between(-9.0, 9.0));
         let apart = radius
-            * 10f64.powf([dice.between(-6.0, 0.0), dice.between(0.0, 1.0), dice.between(1.0, 9.0)][i % 3]);
-        let eye = if i % 2 == 0 { DVec3::ZERO } else { vector(&mut dice, 10.0 * apart) };
-        let center = eye + apart * direction(&mut dice);
+            * 10f64.powf([rng.between(-6.0, 0.0), rng.between(0.0, 1.0), rng.between(1.0, 9.0)][i % 3]);
+        let eye = if i % 2 == 0 { DVec3::ZERO } else { vector(&mut rng, 10.0 * apart) };
+        let center = eye + apart * direction(&mut rng);
         let way = center - eye;
         let side = way.normalize().any_orthonormal_vector();
         // Through the middle, anywhere inside, and ever nearer to grazing on either side.
         let aside = match i % 5 {
             0 => 0.0,
-            1 | 2 => dice.between(-1.2, 1.2),
+            1 | 2 => rng.between(-1.2, 1.2),
             _ => 1.0 + [1.0, -1.0][i % 2] * 0.5f64.powi((i / 9) as i32),
         };
         let sine = aside * radius / apart;
         let grazing = way / apart * (1.0 - sine * sine).max(0.0).sqrt() + sine * side;
-        let aim = if i % 3 == 0 { direction(&mut dice) } else { grazing };
-        let scale = 10f64.powf(dice.between(-3.0, 3.0));
-        let start = if i % 7 == 0 { vector(&mut dice, radius) } else { DVec3::ZERO };
+        let aim = if i % 3 == 0 { direction(&mut rng) } else { grazing };
+        let scale = 10f64.powf(rng.between(-3.0, 3.0));
+        let start = if i % 7 == 0 { vector(&mut rng, radius) } else { DVec3::ZERO };
         all.push(Case { eye, center, radius, start, way: aim * scale });
     }
     all

@@ -1,8 +1,8 @@
-//! Texture coordinates a billion tiles away: whole tiles go, and what remains of the exact coordinate
-//! modulo 1 (`repeat`) or modulo 2 (`mirrored-repeat`) is what is looked up.
+//! Texture coordinates a billion tiles away: whole tiles are removed, and the lookup uses the exact
+//! coordinate modulo 1 (`repeat`) or modulo 2 (`mirrored-repeat`).
 
 use glam::{DVec2, DVec3};
-use moire::internal::lab::verify::queries::Dice;
+use moire::internal::lab::verify::queries::Rng;
 use moire::internal::oracle::camera::Ray;
 use moire::internal::oracle::footprint::Footprint;
 use moire::internal::oracle::geometry::rays::hit_surface;
@@ -32,27 +32,27 @@ struct Case {
 
 /// Offsets, places and scales of a billion tiles.
 fn cases() -> Vec<Case> {
-    let mut dice = Dice::new(61);
+    let mut rng = Rng::new(61);
     let mut all = Vec::new();
     for i in 0..40 {
         let exact = i % 2 == 0;
         let (address, period) = [("repeat", 1), ("mirrored-repeat", 2)][i / 2 % 2];
-        let whole = |dice: &mut Dice| {
-            let tiles = dice.between(-2e9, 2e9);
+        let whole = |rng: &mut Rng| {
+            let tiles = rng.between(-2e9, 2e9);
             if exact { (tiles * 64.0).round() / 64.0 } else { tiles }
         };
         let [mut eye, mut origin] = [DVec3::ZERO, DVec3::new(0.0, 0.0, -1.0)];
         let (mut scale, mut offset) = (DVec2::ONE, DVec2::ZERO);
         match i / 4 % 3 {
-            0 => (eye.x, eye.y) = (whole(&mut dice), whole(&mut dice)),
-            1 => (origin.x, origin.y) = (whole(&mut dice), whole(&mut dice)),
+            0 => (eye.x, eye.y) = (whole(&mut rng), whole(&mut rng)),
+            1 => (origin.x, origin.y) = (whole(&mut rng), whole(&mut rng)),
             _ => {
-                offset = DVec2::new(whole(&mut dice), whole(&mut dice));
+                offset = DVec2::new(whole(&mut rng), whole(&mut rng));
                 scale = DVec2::new(f64::from(1 << 20), -4.0);
                 eye.x = 1027.25;
             }
         }
-        let rotate = if exact { 0.0 } else { dice.between(-180.0, 180.0) };
+        let rotate = if exact { 0.0 } else { rng.between(-180.0, 180.0) };
         all.push(Case { address, period, eye, origin, scale, rotate, offset, exact });
     }
     all
@@ -91,13 +91,13 @@ impl Case {
 }
 
 fn compare(change: impl Fn(DVec2) -> DVec2) -> Worst {
-    let mut dice = Dice::new(62);
+    let mut rng = Rng::new(62);
     let mut worst = Worst::default();
     for case in cases() {
         for kind in ["surface", "planar"] {
             let scene = case.scene(kind);
             for _ in 0..4 {
-                let d = DVec3::new(dice.between(-3.0, 3.0), dice.between(-3.0, 3.0), -1.0);
+                let d = DVec3::new(rng.between(-3.0, 3.0), rng.between(-3.0, 3.0), -1.0);
                 let ray = Ray { origin: DVec3::ZERO, direction: d, time: 0.0 };
                 let hit = nearest_hit(&scene, &ray, NO_SHAPE);
                 let surface = hit_surface(&scene, &ray, &hit);

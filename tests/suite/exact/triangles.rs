@@ -2,7 +2,7 @@
 //! barycentric coordinates, of needles too.
 
 use glam::{DVec2, DVec3, Vec2Swizzles};
-use moire::internal::lab::verify::queries::Dice;
+use moire::internal::lab::verify::queries::Rng;
 use moire::internal::oracle::camera::Ray;
 use moire::internal::oracle::geometry::rays::hit_surface;
 use moire::internal::oracle::geometry::rays::{Hit, nearest_hit};
@@ -54,20 +54,20 @@ fn is_hit(signs: [i32; 3]) -> bool {
 
 /// Two triangles on either side of an edge, and rays that come ever nearer to it.
 fn at_edges(choose: impl Fn(&PackedScene, &Ray) -> u32) -> (Worst, u32) {
-    let mut dice = Dice::new(41);
+    let mut rng = Rng::new(41);
     let mut worst = Worst::default();
     let mut open = 0;
     for i in 0..24 {
-        let eye = if i % 2 == 0 { DVec3::ZERO } else { vector(&mut dice, 1e3) };
-        let place = |dice: &mut Dice| eye + vector(dice, 1.0) - DVec3::new(0.0, 0.0, 4.0);
-        let [a, b, c] = [place(&mut dice), place(&mut dice), place(&mut dice)];
+        let eye = if i % 2 == 0 { DVec3::ZERO } else { vector(&mut rng, 1e3) };
+        let place = |rng: &mut Rng| eye + vector(rng, 1.0) - DVec3::new(0.0, 0.0, 4.0);
+        let [a, b, c] = [place(&mut rng), place(&mut rng), place(&mut rng)];
         // On the other side of the edge, seen from the eye; a needle every third time.
         let narrow = [1.0, 1.0, 1e-5][i % 3];
         let middle = 0.5 * (a + b);
         let e = middle - narrow * (c - middle);
         let scene = scene(eye, &[[a, b, c], [b, a, e]]);
         for k in 0..30 {
-            let along = dice.between(0.1, 0.9);
+            let along = rng.between(0.1, 0.9);
             let aside = [1.0, -1.0][k % 2] * 0.25f64.powi(k as i32 / 2) * 0.1 * narrow;
             let aim = (if k > 26 { 0.0 } else { aside }) * (c - middle) + a.lerp(b, along);
             let ray = Ray { origin: DVec3::ZERO, direction: aim - eye, time: 0.0 };
@@ -130,16 +130,16 @@ fn place(scene: &PackedScene, ray: &Ray) -> (f64, DVec2) {
 }
 
 fn weights(read: impl Fn(&PackedScene, &Ray) -> (f64, DVec2)) -> Worst {
-    let mut dice = Dice::new(42);
+    let mut rng = Rng::new(42);
     let mut worst = Worst::default();
     for i in 0..120 {
-        let size = 10f64.powf(dice.between(-6.0, 6.0));
-        let eye = if i % 2 == 0 { DVec3::ZERO } else { vector(&mut dice, 1e3 * size) };
-        let first = eye + size * 3.0 * direction(&mut dice);
-        let edge = size * direction(&mut dice);
+        let size = 10f64.powf(rng.between(-6.0, 6.0));
+        let eye = if i % 2 == 0 { DVec3::ZERO } else { vector(&mut rng, 1e3 * size) };
+        let first = eye + size * 3.0 * direction(&mut rng);
+        let edge = size * direction(&mut rng);
         // From equal sides to a needle a billion times as long as wide.
         let height = size * 10f64.powf(-[0.0, 1.0, 3.0, 5.0, 7.0, 9.0][i % 6]);
-        let tip = first + dice.between(-0.5, 1.5) * edge + height * edge.normalize().any_orthonormal_vector();
+        let tip = first + rng.between(-0.5, 1.5) * edge + height * edge.normalize().any_orthonormal_vector();
         let corners = [first, first + edge, tip];
         let scene = scene(eye, &[corners]);
         let [a, b, c] = corners.map(v);
@@ -149,7 +149,7 @@ fn weights(read: impl Fn(&PackedScene, &Ray) -> (f64, DVec2)) -> Worst {
             sides.iter().map(|s| s.approx().length()).fold((corners[2] - corners[1]).length(), f64::max);
         let reach = corners.map(|p| (p - eye).length()).into_iter().fold(0.0, f64::max);
         for _ in 0..5 {
-            let (x, y) = (dice.between(0.1, 0.8), dice.between(0.05, 0.2));
+            let (x, y) = (rng.between(0.1, 0.8), rng.between(0.05, 0.2));
             let d = first - eye + x * edge + y * (tip - first);
             if !is_hit(super::triangles::sides(eye, d, corners).0) {
                 continue;

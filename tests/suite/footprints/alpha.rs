@@ -1,5 +1,5 @@
-//! Textures whose alpha varies with their colour: no material takes alpha for coverage, so every filter shows the
-//! mean of many plain samples.
+//! Textures whose alpha varies with their colour: no material interprets alpha as coverage, so that
+//! every filter returns the mean of many point samples.
 
 use std::path::Path;
 

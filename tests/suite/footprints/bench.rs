@@ -1,10 +1,10 @@
-//! Textures of every kind, scenes of (texture, sampler) pairs with footprints, and textures whose levels
-//! hold nothing but their own number.
+//! Textures of every kind, scenes of (texture, sampler) pairs with footprints, and textures whose
+//! levels contain only their own number.
 
 use std::path::Path;
 
 use glam::{DMat2, DVec2, DVec3};
-use moire::internal::lab::probe::{self, LookUp};
+use moire::internal::lab::probe::{self, LookupQuery};
 use moire::internal::lab::verify::queries;
 use moire::internal::oracle::filter::sample_texture;
 use moire::internal::oracle::mapping::Coordinate;
@@ -16,7 +16,7 @@ use moire::internal::schema::layout::Texture;
 use moire::internal::texture::data::{ColorSpace, Dimension, TexelFormat, TextureData};
 use moire::internal::texture::sampler_spec::SamplerSpec;
 
-use crate::lookup::bench::{Dice, texture};
+use crate::lookup::bench::{Rng, texture};
 use crate::shared_gpu::gpu;
 
 /// Random texels; the third size counts slices, or the faces of a cube.
@@ -47,7 +47,7 @@ pub fn paint_levels(scene: &mut PackedScene, texture: usize) {
 }
 
 /// A query's place and footprint as the oracle takes them.
-pub fn coordinate(query: &LookUp) -> Coordinate {
+pub fn coordinate(query: &LookupQuery) -> Coordinate {
     let wide = |v: [f32; 4]| DVec3::new(v[0].into(), v[1].into(), v[2].into());
     Coordinate { at: wide(query.uv), change: [wide(query.dx), wide(query.dy)] }
 }
@@ -57,14 +57,14 @@ pub fn narrow(v: DVec3) -> [f32; 4] {
 }
 
 /// The oracle's answer to query number `index` of a list.
-pub fn expected(scene: &PackedScene, query: &LookUp, index: usize, c: &Coordinate) -> [f64; 4] {
+pub fn expected(scene: &PackedScene, query: &LookupQuery, index: usize, c: &Coordinate) -> [f64; 4] {
     let (image, how) = (&scene.textures[query.texture as usize], &scene.samplers[query.sampler as usize]);
     let random = moire::internal::oracle::rng::pcg2d([index as u32, query.seed]);
     sample_texture(scene, image, how, c, random).to_array()
 }
 
-pub fn answers(scene: &PackedScene, queries: &[LookUp]) -> Vec<[f32; 4]> {
-    probe::look_ups(&gpu(), scene, false, false, queries).unwrap()
+pub fn answers(scene: &PackedScene, queries: &[LookupQuery]) -> Vec<[f32; 4]> {
+    probe::lookups(&gpu(), scene, false, false, queries).unwrap()
 }
 
 /// The changes over a footprint with these axes, turned by `angle` on the texture; `roll` says which way
@@ -76,8 +76,8 @@ pub fn axes(major: f64, minor: f64, angle: f64, roll: f64) -> [DVec2; 2] {
 }
 
 /// A random angle in radians.
-pub fn angle(dice: &mut Dice) -> f64 {
-    dice.between(0.0, std::f64::consts::TAU)
+pub fn angle(rng: &mut Rng) -> f64 {
+    rng.between(0.0, std::f64::consts::TAU)
 }
 
 const VIEW: &str = "camera = { eye = [0.5, 0.7, 6.0], look_at = [0, 0, 0], vertical_fov = 24 }

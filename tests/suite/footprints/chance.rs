@@ -1,8 +1,8 @@
-//! The stochastic filter: every answer is a texel of a level in use, and the mean over many seeds is what
-//! the smooth filter gives (Fajardo et al. 2023).
+//! The stochastic filter: every answer is a texel of a level in use, and the mean over many seeds
+//! equals the result of the smooth filter (Fajardo et al. 2023).
 
 use glam::DVec3;
-use moire::internal::lab::probe::LookUp;
+use moire::internal::lab::probe::LookupQuery;
 use moire::internal::oracle::texture::{fetch_texel, level_at};
 use moire::internal::pack::PackedScene;
 use moire::internal::scene::model::Footprint;
@@ -10,7 +10,7 @@ use moire::internal::texture::data::{Dimension, TexelFormat};
 use moire::internal::texture::sampler_spec::{Address, Filter, MipMode, SamplerSpec};
 
 use super::bench::{answers, coordinate, expected, narrow, pairs_of, solid};
-use crate::lookup::bench::{Dice, Vectors, query};
+use crate::lookup::bench::{Rng, Vectors, query};
 
 const SEEDS: u32 = 2048;
 
@@ -41,16 +41,16 @@ fn every_answer_is_a_texel_and_their_mean_is_the_smooth_filter() {
     ];
     let pairs: Vec<(usize, usize)> = (0..3).flat_map(|t| [(t, 0), (t, 1)]).collect();
     let scene = pairs_of(Footprint::Differentials, textures, &[chance, base], &pairs);
-    let mut dice = Dice::new(21);
+    let mut rng = Rng::new(21);
     let mut queries = Vec::new();
     for i in 0..24 {
         let texture = i % 3;
         // Some less than a texel wide, the others between two levels.
         let wide = if i % 2 == 0 { 0.01 } else { 0.25 };
-        let at = if texture == 2 { dice.direction() } else { dice.vector(1.5) };
-        let [dx, dy] = [0, 1].map(|_| narrow(dice.direction() * wide));
-        let one = LookUp { uv: narrow(at), dx, dy, ..query(&scene, 2 * texture, [0.0; 2]) };
-        queries.extend((0..SEEDS).map(|seed| LookUp { seed, ..one }));
+        let at = if texture == 2 { rng.direction() } else { rng.vector(1.5) };
+        let [dx, dy] = [0, 1].map(|_| narrow(rng.direction() * wide));
+        let one = LookupQuery { uv: narrow(at), dx, dy, ..query(&scene, 2 * texture, [0.0; 2]) };
+        queries.extend((0..SEEDS).map(|seed| LookupQuery { seed, ..one }));
     }
     let read = answers(&scene, &queries);
     let known: Vec<Vec<u32>> = (0..3).map(|t| texels(&scene, t)).collect();
@@ -63,7 +63,7 @@ fn every_answer_is_a_texel_and_their_mean_is_the_smooth_filter() {
         }
         let mean = values.iter().sum::<f64>() / values.len() as f64;
         let variance = values.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / (values.len() as f64 - 1.0);
-        let smooth = LookUp { sampler: query.sampler + 1, ..*query };
+        let smooth = LookupQuery { sampler: query.sampler + 1, ..*query };
         let right = expected(&scene, &smooth, 0, &coordinate(query))[0];
         let error = (variance / values.len() as f64).sqrt();
         assert!(
@@ -84,9 +84,9 @@ fn at_a_corner_of_a_cube_the_three_texels_are_equally_likely() {
     };
     let cube = solid(Dimension::Cube, [4, 4, 6], TexelFormat::GreyFloat);
     let scene = pairs_of(Footprint::None, vec![cube], &[spec], &[(0, 0)]);
-    let corner = LookUp { uv: narrow(DVec3::new(1.0, 1.0, 1.0)), ..query(&scene, 0, [0.0; 2]) };
+    let corner = LookupQuery { uv: narrow(DVec3::new(1.0, 1.0, 1.0)), ..query(&scene, 0, [0.0; 2]) };
     let count = 6000;
-    let queries: Vec<LookUp> = (0..count).map(|seed| LookUp { seed, ..corner }).collect();
+    let queries: Vec<LookupQuery> = (0..count).map(|seed| LookupQuery { seed, ..corner }).collect();
     let mut read: Vec<u32> = answers(&scene, &queries).iter().map(|a| a[0].to_bits()).collect();
     read.sort_unstable();
     let counts: Vec<usize> = read.chunk_by(|a, b| a == b).map(<[u32]>::len).collect();

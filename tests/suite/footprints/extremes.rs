@@ -2,14 +2,14 @@
 //! footprints that are no numbers, far longer textures than wide, directions of any length.
 
 use glam::DVec3;
-use moire::internal::lab::probe::LookUp;
+use moire::internal::lab::probe::LookupQuery;
 use moire::internal::pack::PackedScene;
 use moire::internal::scene::model::Footprint;
 use moire::internal::texture::data::{Dimension, TexelFormat, TextureData};
 use moire::internal::texture::sampler_spec::{Address, Filter, MipMode, SamplerSpec};
 
 use super::bench::{answers, coordinate, expected, narrow, pairs_of, solid};
-use crate::lookup::bench::{Dice, Vectors, query};
+use crate::lookup::bench::{Rng, Vectors, query};
 
 fn grey(width: u32, height: u32, value: impl Fn(u32, u32) -> f32) -> TextureData {
     solid(Dimension::Two, [width, height, 1], TexelFormat::GreyFloat).with_floats(1, |x, y, _| value(x, y))
@@ -23,9 +23,9 @@ fn summed(address: Address) -> SamplerSpec {
     SamplerSpec { address: [address; 2], min: Filter::SummedArea, ..Default::default() }
 }
 
-fn over(scene: &PackedScene, uv: [f32; 2], wide: f32, high: f32) -> LookUp {
+fn over(scene: &PackedScene, uv: [f32; 2], wide: f32, high: f32) -> LookupQuery {
     let (dx, dy) = ([wide, 0.0, 0.0, 0.0], [0.0, high, 0.0, 0.0]);
-    LookUp { dx, dy, ..query(scene, 0, uv) }
+    LookupQuery { dx, dy, ..query(scene, 0, uv) }
 }
 
 /// The texel that one of an endless row of them is.
@@ -44,9 +44,9 @@ fn sums_over_areas_count_what_a_box_covers_beside_whole_periods() {
     let row = |x: u32| [1.0, 7.0, 2.0, 3.0, -4.0][x as usize];
     for address in [Address::Repeat, Address::MirroredRepeat, Address::ClampToEdge] {
         let scene = minified(grey(5, 3, |x, _| row(x)), summed(address));
-        let mut dice = Dice::new(61);
+        let mut rng = Rng::new(61);
         let boxes: Vec<[i64; 2]> =
-            (0..400).map(|_| [dice.between(0.0, 5.0) as i64, dice.between(1.0, 40.0) as i64]).collect();
+            (0..400).map(|_| [rng.between(0.0, 5.0) as i64, rng.between(1.0, 40.0) as i64]).collect();
         let query = |[first, count]: &[i64; 2]| {
             let middle = (*first as f32 + 0.5 * *count as f32) / size as f32;
             over(&scene, [middle, 0.5], *count as f32 / size as f32, 0.1)
@@ -55,7 +55,7 @@ fn sums_over_areas_count_what_a_box_covers_beside_whole_periods() {
         let inside = |[first, count]: &&[i64; 2]| 2 * first + count <= 25;
         let boxes: Vec<[i64; 2]> = boxes.iter().filter(inside).copied().collect();
         assert!(boxes.iter().filter(|b| b[1] > 2 * size).count() > 20, "wide boxes");
-        let queries: Vec<LookUp> = boxes.iter().map(query).collect();
+        let queries: Vec<LookupQuery> = boxes.iter().map(query).collect();
         for ([first, count], answer) in boxes.iter().zip(answers(&scene, &queries)) {
             let texels = (*first..first + count).map(|i| f64::from(row(of_row(address, i, size) as u32)));
             let mean = texels.sum::<f64>() / *count as f64;
@@ -74,12 +74,12 @@ fn the_widest_boxes_read_no_further_than_their_table() {
     {
         for (width, height) in [(1000, 3), (37, 61), (1, 1)] {
             let scene = minified(grey(width, height, |x, y| ((x * 7 + y * 3) % 11) as f32), summed(address));
-            let mut dice = Dice::new(62);
-            let wide = |dice: &mut Dice| 10f64.powf(dice.between(-2.0, 9.0)) as f32;
-            let queries: Vec<LookUp> = (0..2000)
+            let mut rng = Rng::new(62);
+            let wide = |rng: &mut Rng| 10f64.powf(rng.between(-2.0, 9.0)) as f32;
+            let queries: Vec<LookupQuery> = (0..2000)
                 .map(|_| {
-                    let uv = [dice.between(-3.0, 4.0) as f32, dice.between(-3.0, 4.0) as f32];
-                    over(&scene, uv, wide(&mut dice), wide(&mut dice))
+                    let uv = [rng.between(-3.0, 4.0) as f32, rng.between(-3.0, 4.0) as f32];
+                    over(&scene, uv, wide(&mut rng), wide(&mut rng))
                 })
                 .collect();
             for (i, (query, answer)) in queries.iter().zip(answers(&scene, &queries)).enumerate() {
@@ -96,7 +96,7 @@ fn the_widest_boxes_read_no_further_than_their_table() {
 #[test]
 fn bright_texels_times_large_areas_do_not_overflow() {
     let scene = minified(grey(8, 8, |x, _| x as f32 * 1e29), summed(Address::ClampToEdge));
-    let queries: Vec<LookUp> = [1.0, 1e3, 1e9].iter().map(|&w| over(&scene, [0.5; 2], w, w)).collect();
+    let queries: Vec<LookupQuery> = [1.0, 1e3, 1e9].iter().map(|&w| over(&scene, [0.5; 2], w, w)).collect();
     for (query, answer) in queries.iter().zip(answers(&scene, &queries)) {
         // By symmetry: as much of the first column's edge as of the last one's.
         assert!((answer[0] / 3.5e29 - 1.0).abs() < 1e-5, "{answer:?} at {query:?}"); // 2^-24 of the box, twice
@@ -120,10 +120,10 @@ fn an_ellipse_on_a_long_texture_ends_with_its_last_row() {
     let spec = SamplerSpec { min: Filter::Ewa, max_anisotropy: 64, ..Default::default() };
     // Left to right from 0 to 1, over and over: a mean of whole ellipses is symmetric about its middle.
     let scene = minified(grey(4096, 1, |x, _| x as f32 / 4095.0), spec);
-    let queries: Vec<LookUp> = (0..200)
+    let queries: Vec<LookupQuery> = (0..200)
         .map(|i| {
             let wide = 0.01 * (1.0 + i as f32 % 17.0);
-            LookUp {
+            LookupQuery {
                 dx: [wide, 8.0 * wide, 0.0, 0.0],
                 dy: [0.5 * wide, 2000.0 * wide, 0.0, 0.0],
                 ..over(&scene, [0.5, 0.5], 0.0, 0.0)
@@ -154,7 +154,7 @@ fn a_tie_of_cube_faces_is_read_on_the_face_that_it_goes_to() {
             (DVec3::new(x, 0.3 * y, z), 4.0 + side(z)),
             (DVec3::new(x, y, 0.3 * z), 2.0 + side(y)),
         ] {
-            let one = LookUp { uv: narrow(direction), ..query(&scene, 0, [0.0; 2]) };
+            let one = LookupQuery { uv: narrow(direction), ..query(&scene, 0, [0.0; 2]) };
             assert_eq!(answers(&scene, &[one])[0][0], face, "{direction}");
         }
     }
@@ -169,13 +169,13 @@ fn levels_of_a_cube_do_not_depend_on_the_length_of_the_direction() {
         &[spec],
         &[(0, 0)],
     );
-    let mut dice = Dice::new(63);
+    let mut rng = Rng::new(63);
     for _ in 0..20 {
-        let (way, dx, dy) = (dice.direction(), 0.5 * dice.direction(), 0.4 * dice.direction());
+        let (way, dx, dy) = (rng.direction(), 0.5 * rng.direction(), 0.4 * rng.direction());
         // Powers of two change no digit.
         let long = |exponent: i32| {
             let by = 2f64.powi(exponent);
-            LookUp {
+            LookupQuery {
                 uv: narrow(way * by),
                 dx: narrow(dx * by),
                 dy: narrow(dy * by),

@@ -1,13 +1,14 @@
-//! Which level is read: textures whose levels hold their own number tell it. Footprints are made from
-//! their axes, so that the right level, log2 of an axis in texels (Williams 1983), is known beforehand.
+//! The level that is read, encoded in textures whose levels contain their own number. Footprints
+//! are constructed from their axes, so that the correct level, log2 of an axis in texels (Williams
+//! 1983), is known.
 
-use moire::internal::lab::probe::LookUp;
+use moire::internal::lab::probe::LookupQuery;
 use moire::internal::scene::model::Footprint;
 use moire::internal::texture::data::{Dimension, TexelFormat};
 use moire::internal::texture::sampler_spec::{Filter, MipMode, SamplerSpec};
 
 use super::bench::{angle, answers, axes, paint_levels, pairs_of, solid};
-use crate::lookup::bench::{Dice, query};
+use crate::lookup::bench::{Rng, query};
 
 const SIZE: u32 = 1024;
 const LAST: f64 = 10.0;
@@ -29,18 +30,18 @@ fn readings(min: Filter, mip: MipMode, ratio: f64, seed: u64) -> Vec<Reading> {
     let levels = if mip == MipMode::None { 1.0 } else { LAST + 1.0 };
     assert_eq!(f64::from(scene.textures[0].levels), levels);
     paint_levels(&mut scene, 0);
-    let mut dice = Dice::new(seed);
+    let mut rng = Rng::new(seed);
     let mut list = Vec::new();
     let mut queries = Vec::new();
     for i in 0..3000 {
-        let minor = dice.between(-2.3, 9.5).exp2();
-        let major = if i % 4 == 0 { minor } else { minor * ratio.powf(dice.unit()) };
-        let (turn, roll) = (angle(&mut dice), angle(&mut dice));
+        let minor = rng.between(-2.3, 9.5).exp2();
+        let major = if i % 4 == 0 { minor } else { minor * ratio.powf(rng.unit()) };
+        let (turn, roll) = (angle(&mut rng), angle(&mut rng));
         let [x, y] = axes(major, minor, turn, roll).map(|d| (d / f64::from(SIZE)).as_vec2());
         list.push((major, minor, format!("{major} by {minor} texels at {turn}, {roll}")));
-        let place = [dice.unit() as f32, dice.unit() as f32];
+        let place = [rng.unit() as f32, rng.unit() as f32];
         let (dx, dy) = ([x.x, x.y, 0.0, 0.0], [y.x, y.y, 0.0, 0.0]);
-        queries.push(LookUp { dx, dy, seed: i, ..query(&scene, 0, place) });
+        queries.push(LookupQuery { dx, dy, seed: i, ..query(&scene, 0, place) });
     }
     let read = answers(&scene, &queries);
     let reading = |((major, minor, how), answer): ((f64, f64, String), &[f32; 4])| Reading {
@@ -144,28 +145,28 @@ fn volumes_and_cubes_read_the_level_of_their_major_axis() {
     ];
     let mut scene = pairs_of(Footprint::Cone, textures, &[spec], &[(0, 0), (1, 0)]);
     (0..2).for_each(|t| paint_levels(&mut scene, t));
-    let mut dice = Dice::new(7);
+    let mut rng = Rng::new(7);
     let mut queries = Vec::new();
     let mut right = Vec::new();
     for i in 0..2000 {
-        let minor = dice.between(-1.0, 4.0).exp2();
-        let major = minor * dice.between(0.0, 3.0).exp2();
-        let (turn, roll) = (angle(&mut dice), angle(&mut dice));
+        let minor = rng.between(-1.0, 4.0).exp2();
+        let major = minor * rng.between(0.0, 3.0).exp2();
+        let (turn, roll) = (angle(&mut rng), angle(&mut rng));
         let change = axes(major, minor, turn, roll);
         right.push(major.log2().clamp(0.0, 6.0));
         if i % 2 == 0 {
             // In the plane of v and w.
             let [dx, dy] = change.map(|d| (d / 64.0).as_vec2()).map(|d| [0.0, d.x, d.y, 0.0]);
-            let place = [dice.unit(), dice.unit(), dice.unit(), 0.0].map(|x| x as f32);
-            queries.push(LookUp { uv: place, dx, dy, ..query(&scene, 0, [0.0; 2]) });
+            let place = [rng.unit(), rng.unit(), rng.unit(), 0.0].map(|x| x as f32);
+            queries.push(LookupQuery { uv: place, dx, dy, ..query(&scene, 0, [0.0; 2]) });
         } else {
             // On the face -z, a side of 2 at distance 1, of a direction of any length.
-            let long = dice.between(0.1, 10.0);
-            let [s, t] = [0, 1].map(|_| dice.between(-0.9, 0.9));
+            let long = rng.between(0.1, 10.0);
+            let [s, t] = [0, 1].map(|_| rng.between(-0.9, 0.9));
             let uv = [-s * long, -t * long, -long, 0.0].map(|x| x as f32);
             let [dx, dy] =
                 change.map(|d| d * (2.0 / 64.0 * long)).map(|d| [-d.x as f32, -d.y as f32, 0.0, 0.0]);
-            queries.push(LookUp { uv, dx, dy, ..query(&scene, 1, [0.0; 2]) });
+            queries.push(LookupQuery { uv, dx, dy, ..query(&scene, 1, [0.0; 2]) });
         }
     }
     for ((query, answer), right) in queries.iter().zip(answers(&scene, &queries)).zip(right) {

@@ -1,10 +1,10 @@
-//! Every filter, mip mode, kind of texture and address mode over footprints of any shape: the device's
-//! answer is the oracle's to a place and footprint that f32 cannot tell from the given ones. Where a
-//! step lies in between (a texel's edge, another level, one more probe), anything between both sides
-//! is right; such look-ups are few.
+//! Every filter, mip mode, kind of texture and address mode over footprints of any shape: the
+//! device's answer equals the oracle's for some coordinate and footprint within f32 rounding of the
+//! given ones. At a discontinuity in between (a texel's edge, another level, one more probe) any
+//! value between both sides is correct; such lookups are few.
 
 use glam::DVec3;
-use moire::internal::lab::probe::LookUp;
+use moire::internal::lab::probe::LookupQuery;
 use moire::internal::oracle::mapping::Coordinate;
 use moire::internal::pack::PackedScene;
 use moire::internal::scene::model::Footprint;
@@ -12,7 +12,7 @@ use moire::internal::texture::data::{Dimension, TexelFormat};
 use moire::internal::texture::sampler_spec::{Address, Filter, MipMode, SamplerSpec};
 
 use super::bench::{angle, answers, axes, coordinate, expected, narrow, pairs_of, solid};
-use crate::lookup::bench::{Dice, Vectors, query};
+use crate::lookup::bench::{Rng, Vectors, query};
 
 const BORDER: [f32; 4] = [3.0, -1.0, 0.5, 0.25];
 /// What a place and a footprint may be off by: a few roundings of f32, relative to their own lengths.
@@ -59,13 +59,13 @@ fn specs(flat: bool) -> Vec<SamplerSpec> {
 }
 
 /// Footprints in texels: round, long up to 100 to 1, flat to a line, of no extent.
-fn footprint(dice: &mut Dice, kind: u32) -> [DVec3; 2] {
-    let wide = dice.between(-2.0, 4.0).exp2();
-    let (turn, roll) = (angle(dice), angle(dice));
+fn footprint(rng: &mut Rng, kind: u32) -> [DVec3; 2] {
+    let wide = rng.between(-2.0, 4.0).exp2();
+    let (turn, roll) = (angle(rng), angle(rng));
     let [x, y] = match kind % 5 {
         0 => axes(wide, wide, turn, roll),
-        1 => axes(wide, wide / dice.between(1.0, 100.0), turn, roll),
-        2 => axes(wide, wide / dice.between(1.0, 4.0), turn, roll),
+        1 => axes(wide, wide / rng.between(1.0, 100.0), turn, roll),
+        2 => axes(wide, wide / rng.between(1.0, 4.0), turn, roll),
         3 => axes(wide, 0.0, turn, roll),
         _ => axes(0.0, 0.0, turn, roll),
     };
@@ -73,49 +73,49 @@ fn footprint(dice: &mut Dice, kind: u32) -> [DVec3; 2] {
 }
 
 /// A scene of one kind of texture, and queries in and around it through every sampler.
-fn bench(dimension: Dimension, size: [u32; 3], each: u32, seed: u64) -> (PackedScene, Vec<LookUp>) {
+fn bench(dimension: Dimension, size: [u32; 3], each: u32, seed: u64) -> (PackedScene, Vec<LookupQuery>) {
     let specs = specs(matches!(dimension, Dimension::One | Dimension::Two));
     let texture = solid(dimension, size, TexelFormat::RgbaFloat);
     let mip = specs.iter().position(|s| s.mip == MipMode::Linear).unwrap();
     let scene = pairs_of(Footprint::Differentials, vec![texture], &specs, &[(0, mip)]);
-    let mut dice = Dice::new(seed);
+    let mut rng = Rng::new(seed);
     let mut queries = Vec::new();
     for sampler in 0..specs.len() as u32 {
         for i in 0..each {
-            let [x, y] = footprint(&mut dice, i);
+            let [x, y] = footprint(&mut rng, i);
             let (uv, [dx, dy]) = if dimension == Dimension::Cube {
                 // Across a direction of any length; two units are the side of a face.
-                let way = dice.direction();
-                let side = way.cross(dice.direction()).normalize();
-                let long = dice.between(0.5, 4.0);
+                let way = rng.direction();
+                let side = way.cross(rng.direction()).normalize();
+                let long = rng.between(0.5, 4.0);
                 let across =
                     |d: DVec3| (side * d.x + way.cross(side) * d.y) * (2.0 * long / f64::from(size[0]));
                 (way * long, [x, y].map(across))
             } else {
                 // A volume's footprint lies in any plane.
-                let turn = dice.direction();
+                let turn = rng.direction();
                 let [w, h, d] = size.map(f64::from);
                 let depth = if dimension == Dimension::Three { turn } else { DVec3::Z };
                 let turned =
                     |v: DVec3| glam::DQuat::from_rotation_arc(DVec3::Z, depth) * v / DVec3::new(w, h, d);
-                (dice.vector(2.5), [x, y].map(turned))
+                (rng.vector(2.5), [x, y].map(turned))
             };
             let (uv, dx, dy) = (narrow(uv), narrow(dx), narrow(dy));
-            queries.push(LookUp { sampler, seed: i, uv, dx, dy, ..query(&scene, 0, [0.0; 2]) });
+            queries.push(LookupQuery { sampler, seed: i, uv, dx, dy, ..query(&scene, 0, [0.0; 2]) });
         }
     }
     (scene, queries)
 }
 
 /// Least and greatest answer of the oracle around a query.
-fn around(scene: &PackedScene, query: &LookUp, index: usize, dice: &mut Dice) -> [[f64; 4]; 2] {
+fn around(scene: &PackedScene, query: &LookupQuery, index: usize, rng: &mut Rng) -> [[f64; 4]; 2] {
     let exact = coordinate(query);
     let [mut low, mut high] = [expected(scene, query, index, &exact); 2];
     for corner in 0..10 {
         let sign = |bit: u32| if corner >> bit & 1 == 0 { -1.0 } else { 1.0 };
         let signs = DVec3::new(sign(0), sign(1), sign(2));
         let at = exact.at + signs * DOUBT * exact.at.abs().max_element().max(1.0);
-        let change = exact.change.map(|d| d + dice.direction() * d.length() * 2.0 * DOUBT);
+        let change = exact.change.map(|d| d + rng.direction() * d.length() * 2.0 * DOUBT);
         // The last two: the footprint as a whole a little narrower and wider.
         let change = change.map(|d| if corner < 8 { d } else { d * (1.0 + sign(0) * 8.0 * DOUBT) });
         let value = expected(scene, query, index, &Coordinate { at, change });
@@ -130,11 +130,11 @@ fn around(scene: &PackedScene, query: &LookUp, index: usize, dice: &mut Dice) ->
 fn check(dimension: Dimension, size: [u32; 3], each: u32, seed: u64) {
     let (scene, queries) = bench(dimension, size, each, seed);
     let read = answers(&scene, &queries);
-    let mut dice = Dice::new(seed + 1);
+    let mut rng = Rng::new(seed + 1);
     let mut wrong = Vec::new();
     let mut undecided = 0;
     for (i, (query, answer)) in queries.iter().zip(&read).enumerate() {
-        let [low, high] = around(&scene, query, i, &mut dice);
+        let [low, high] = around(&scene, query, i, &mut rng);
         let spec = &scene.sampler_specs[query.sampler as usize];
         // Of a range of 8. Weights of up to 64 texels: 64 roundings of 2^-24. In an ellipse r² cancels by
         // the square of the greatest anisotropy, 16²: 8 roundings of 2^-24 times 256 times the slope 1.2.
@@ -190,9 +190,9 @@ fn endless_footprints_and_those_that_are_no_numbers_read_the_last_level() {
         for (i, query) in queries.iter().enumerate() {
             for (j, &a) in odd.iter().enumerate() {
                 let b = odd[(i + j) % odd.len()];
-                list.push(LookUp { dx: [a, 0.0, 0.1, 0.0], dy: [0.0, b, 0.0, 0.0], ..*query });
-                list.push(LookUp { uv: [a, b, a, 0.0], ..*query });
-                list.push(LookUp { uv: [a, 0.3, b, 0.0], dx: [b; 4], dy: [a; 4], ..*query });
+                list.push(LookupQuery { dx: [a, 0.0, 0.1, 0.0], dy: [0.0, b, 0.0, 0.0], ..*query });
+                list.push(LookupQuery { uv: [a, b, a, 0.0], ..*query });
+                list.push(LookupQuery { uv: [a, 0.3, b, 0.0], dx: [b; 4], dy: [a; 4], ..*query });
             }
         }
         for (query, answer) in list.iter().zip(answers(&scene, &list)) {

@@ -4,7 +4,7 @@
 use std::path::Path;
 
 use glam::{DVec2, DVec3};
-use moire::internal::lab::probe::LookUp;
+use moire::internal::lab::probe::LookupQuery;
 use moire::internal::oracle::mapping::{face_uv, on_cube_face};
 use moire::internal::oracle::texture::{fetch_texel, level_at};
 use moire::internal::pack::{self, PackedScene};
@@ -14,7 +14,7 @@ use moire::internal::texture::data::{Dimension, TexelFormat};
 use moire::internal::texture::sampler_spec::{Filter, SamplerSpec};
 
 use super::bench::{answers, coordinate, expected, narrow, pairs_of, solid};
-use crate::lookup::bench::{Dice, Vectors, query};
+use crate::lookup::bench::{Rng, Vectors, query};
 
 const SIZE: u32 = 8;
 
@@ -25,24 +25,25 @@ fn cube(filter: Filter) -> PackedScene {
 }
 
 /// Directions in pairs, `gap` apart, on both sides of an edge; every fourth pair at a corner.
-fn pairs_of_directions(dice: &mut Dice, count: usize, gap: f64) -> Vec<DVec3> {
+fn pairs_of_directions(rng: &mut Rng, count: usize, gap: f64) -> Vec<DVec3> {
     let mut all = Vec::new();
     for i in 0..count {
-        let sign = |dice: &mut Dice| if dice.unit() < 0.5 { -1.0 } else { 1.0 };
+        let sign = |rng: &mut Rng| if rng.unit() < 0.5 { -1.0 } else { 1.0 };
         // Two or three equal components: an edge or a corner.
-        let third = if i % 4 == 0 { sign(dice) } else { dice.between(-1.0, 1.0) };
-        let mut on = [sign(dice), sign(dice), third];
+        let third = if i % 4 == 0 { sign(rng) } else { rng.between(-1.0, 1.0) };
+        let mut on = [sign(rng), sign(rng), third];
         on.rotate_left(i % 3);
         let on = DVec3::from_array(on);
-        let across = dice.direction() * (0.5 * gap);
+        let across = rng.direction() * (0.5 * gap);
         all.extend([on + across, on - across]);
     }
     all
 }
 
-fn read(scene: &PackedScene, directions: &[DVec3]) -> (Vec<LookUp>, Vec<f64>) {
+fn read(scene: &PackedScene, directions: &[DVec3]) -> (Vec<LookupQuery>, Vec<f64>) {
     let one = query(scene, 0, [0.0; 2]);
-    let queries: Vec<LookUp> = directions.iter().map(|&d| LookUp { uv: narrow(d), ..one }).collect();
+    let queries: Vec<LookupQuery> =
+        directions.iter().map(|&d| LookupQuery { uv: narrow(d), ..one }).collect();
     let read = answers(scene, &queries).iter().map(|a| a[0].into()).collect();
     (queries, read)
 }
@@ -51,7 +52,7 @@ fn read(scene: &PackedScene, directions: &[DVec3]) -> (Vec<LookUp>, Vec<f64>) {
 fn linear_is_continuous_across_all_edges_and_corners_of_a_cube() {
     let scene = cube(Filter::Linear);
     let gap = 1e-4;
-    let directions = pairs_of_directions(&mut Dice::new(51), 4000, gap);
+    let directions = pairs_of_directions(&mut Rng::new(51), 4000, gap);
     let (_, values) = read(&scene, &directions);
     let mut faces = std::collections::BTreeSet::new();
     // A texel is 2 / SIZE wide at distance 1; on each of two axes the value changes by at most the
@@ -69,9 +70,9 @@ fn linear_is_continuous_across_all_edges_and_corners_of_a_cube() {
 #[test]
 fn nearest_reads_the_texel_that_a_direction_meets_on_its_face() {
     let scene = cube(Filter::Nearest);
-    let mut dice = Dice::new(52);
-    let mut directions = pairs_of_directions(&mut dice, 1000, 1e-3);
-    directions.extend((0..2000).map(|_| dice.direction()));
+    let mut rng = Rng::new(52);
+    let mut directions = pairs_of_directions(&mut rng, 1000, 1e-3);
+    directions.extend((0..2000).map(|_| rng.direction()));
     let (_, values) = read(&scene, &directions);
     let level = level_at(&scene, &scene.textures[0], 0);
     for (d, value) in directions.iter().zip(values) {
@@ -116,12 +117,12 @@ fn environments_are_smooth_over_their_poles_and_around() {
         let scene = parse(Path::new("environment.toml"), &text).unwrap();
         let texture = solid(Dimension::Two, [width, height, 1], TexelFormat::GreyFloat);
         let scene = pack::pack(&scene, vec![texture], None).unwrap();
-        let mut dice = Dice::new(53);
+        let mut rng = Rng::new(53);
         let gap = 1e-4;
         let one = query(&scene, scene.header.environment_material as usize, [0.0; 2]);
         let mut queries = Vec::new();
         for i in 0..600 {
-            let (u, v) = (dice.unit(), dice.unit());
+            let (u, v) = (rng.unit(), rng.unit());
             let [a, b] = match i % 4 {
                 0 => [DVec2::new(u, gap), DVec2::new(u + 0.5, gap)],
                 1 => [DVec2::new(u, 1.0 - gap), DVec2::new(u - 0.5, 1.0 - gap)],
@@ -130,7 +131,7 @@ fn environments_are_smooth_over_their_poles_and_around() {
             };
             let wide = [0.02, 0.2][i / 4 % 2];
             let (dx, dy) = ([wide, 0.0, 0.0, 0.0], [0.0, wide, 0.0, 0.0]);
-            queries.extend([a, b].map(|uv| LookUp { uv: narrow(uv.extend(0.0)), dx, dy, ..one }));
+            queries.extend([a, b].map(|uv| LookupQuery { uv: narrow(uv.extend(0.0)), dx, dy, ..one }));
         }
         let read = answers(&scene, &queries);
         for (i, (query, value)) in queries.iter().zip(&read).enumerate() {

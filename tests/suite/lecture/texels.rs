@@ -1,7 +1,7 @@
-//! Look-ups by the lecture's two formulas, and the five address modes on a row of two texels, at
-//! coordinates worked out by hand.
+//! Lookups by the lecture's two formulas, and the five address modes on a row of two texels, at
+//! coordinates computed by hand.
 
-use moire::internal::lab::probe::{self, LookUp};
+use moire::internal::lab::probe::{self, LookupQuery};
 use moire::internal::oracle::filter::sample_texture;
 use moire::internal::oracle::mapping::Coordinate;
 use moire::internal::texture::data::{ColorSpace, Dimension, TexelFormat, TextureData};
@@ -28,14 +28,14 @@ fn grey(width: u32, values: &[f32]) -> TextureData {
 /// Grey values at (u, v), by oracle and by device from both sources.
 fn assert_reads(texture: TextureData, spec: SamplerSpec, cases: &[([f32; 2], f64)]) {
     let scene = pairs(vec![texture], &[spec], &[(0, 0)]);
-    let queries: Vec<LookUp> = cases.iter().map(|c| query(&scene, 0, c.0)).collect();
+    let queries: Vec<LookupQuery> = cases.iter().map(|c| query(&scene, 0, c.0)).collect();
     let mut answers: Vec<(&str, Vec<f64>)> = Vec::new();
-    let oracle = |q: &LookUp| {
+    let oracle = |q: &LookupQuery| {
         sample_texture(&scene, &scene.textures[0], &scene.samplers[0], &Coordinate::flat(uv_of(q)), [0; 2]).x
     };
     answers.push(("oracle", queries.iter().map(oracle).collect()));
     for (who, image_source) in [("device, buffer", false), ("device, image", true)] {
-        let read = probe::look_ups(&gpu(), &scene, image_source, false, &queries).unwrap();
+        let read = probe::lookups(&gpu(), &scene, image_source, false, &queries).unwrap();
         answers.push((who, read.iter().map(|a| a[0].into()).collect()));
     }
     for (who, values) in answers {

@@ -1,5 +1,5 @@
-//! What is as large, or as much, as may be, on the device: lights, bounces, image slots, volumes and cubes; and one
-//! step beyond.
+//! Limit values on the device: lights, bounces, image slots, volumes and cubes; and one step
+//! beyond.
 
 use std::path::Path;
 

@@ -1,9 +1,9 @@
-//! What `moire::internal::lab::verify` looks things up with, as tests want it: failures end the test, random
-//! directions, and the list of all formats.
+//! Helpers around `moire::internal::lab::verify` for lookup tests: failures end the test, random directions,
+//! and the list of all formats.
 
 use glam::DVec3;
 use moire::internal::lab::verify::queries;
-pub use moire::internal::lab::verify::queries::{Dice, coordinates, query, texture, uv_of};
+pub use moire::internal::lab::verify::queries::{Rng, coordinates, query, texture, uv_of};
 use moire::internal::pack::PackedScene;
 use moire::internal::texture::data::{ColorSpace, Component, TexelFormat, TextureData};
 use moire::internal::texture::sampler_spec::{Filter, SamplerSpec};
@@ -19,7 +19,7 @@ pub trait Vectors {
     fn direction(&mut self) -> DVec3;
 }
 
-impl Vectors for Dice {
+impl Vectors for Rng {
     fn vector(&mut self, reach: f64) -> DVec3 {
         DVec3::new(self.between(-reach, reach), self.between(-reach, reach), self.between(-reach, reach))
     }

@@ -1,15 +1,15 @@
-//! Method hardware: every `VkSampler` variant at level 0, by the interval rule.
+//! The hardware method: every `VkSampler` variant at level 0, by the interval rule.
 
 use moire::internal::gpu::{DeviceKind, Gpu};
-use moire::internal::lab::probe::{self, LookUp};
-use moire::internal::lab::verify::judge::{Precision, complaints as judge};
+use moire::internal::lab::probe::{self, LookupQuery};
+use moire::internal::lab::verify::judge::{Precision, messages as judge};
 use moire::internal::lab::verify::variants::SIZES;
 use moire::internal::pack::MAX_SLOTS;
 use moire::internal::texture::data::{ColorSpace, TexelFormat, TextureData};
 use moire::internal::texture::sampler_spec::{Address, Method, SamplerSpec, TexelCenter};
 
 use super::assert_none;
-use super::bench::{BASIC, Dice, coordinates, pairs, query, texture};
+use super::bench::{BASIC, Rng, coordinates, pairs, query, texture};
 use crate::shared_gpu::gpu;
 use crate::support::untested;
 
@@ -54,16 +54,16 @@ fn check(list: &[(SamplerSpec, usize)], seed: u64) {
         let of: Vec<(usize, usize)> = list.iter().enumerate().map(|(i, l)| (l.1, i)).collect();
         let scene = pairs(textures, &samplers, &of);
         assert_eq!(scene.slots.len(), list.len());
-        let mut dice = Dice::new(batch);
+        let mut rng = Rng::new(batch);
         let mut queries = Vec::new();
         for pair in 0..list.len() {
-            for uv in coordinates(&mut dice, [width, height], 60, false) {
+            for uv in coordinates(&mut rng, [width, height], 60, false) {
                 let half = query(&scene, pair, uv);
                 queries.push(half);
-                queries.push(LookUp { sampler: half.sampler + list.len() as u32, ..half });
+                queries.push(LookupQuery { sampler: half.sampler + list.len() as u32, ..half });
             }
         }
-        let answers = probe::look_ups(&gpu, &scene, true, false, &queries).unwrap();
+        let answers = probe::lookups(&gpu, &scene, true, false, &queries).unwrap();
         complaints.extend(judge(&scene, &queries, &answers, precision(&gpu)));
         count += queries.len();
     }

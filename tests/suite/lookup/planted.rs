@@ -1,10 +1,10 @@
-//! The judge itself: silent about the oracle's own answers, and never silent about a half-texel
-//! shift, swapped axes, a wrong address mode, a mix-up of colour spaces or a flipped v, not even
-//! with the widest tolerance in use.
+//! Tests of the judge: it accepts the oracle's own answers, and never accepts a half-texel shift,
+//! swapped axes, a wrong address mode, confused colour spaces or a flipped v, even with the largest
+//! tolerance in use.
 
 use glam::DVec2;
-use moire::internal::lab::probe::LookUp;
-use moire::internal::lab::verify::judge::{Precision, complaints as judge};
+use moire::internal::lab::probe::LookupQuery;
+use moire::internal::lab::verify::judge::{Precision, messages as judge};
 use moire::internal::oracle::filter::sample_texture;
 use moire::internal::oracle::mapping::Coordinate;
 use moire::internal::pack::PackedScene;
@@ -12,7 +12,7 @@ use moire::internal::schema::layout::{Sampler, Texture};
 use moire::internal::texture::data::{ColorSpace, TexelFormat};
 use moire::internal::texture::sampler_spec::{Address, Filter, SamplerSpec};
 
-use super::bench::{BASIC, CERTAIN, Dice, coordinates, pairs, query, texture, uv_of};
+use super::bench::{BASIC, CERTAIN, Rng, coordinates, pairs, query, texture, uv_of};
 
 const HARDWARE: Precision =
     Precision::Hardware { sub_texel: 1.0 / 256.0, level: 0.0, value: [2.0 / 255.0; 2], decode: 0.5 / 255.0 };
@@ -23,21 +23,21 @@ fn filters(precision: Precision) -> &'static [Filter] {
 }
 
 /// Random coordinates on an 8 × 6 texture.
-fn bench(filter: Filter, address: Address, space: ColorSpace) -> (PackedScene, Vec<LookUp>) {
+fn bench(filter: Filter, address: Address, space: ColorSpace) -> (PackedScene, Vec<LookupQuery>) {
     let spec = SamplerSpec { address: [address; 2], mag: filter, min: filter, ..Default::default() };
     let scene = pairs(vec![texture(8, 6, TexelFormat::Rgba8, space, 5)], &[spec], &[(0, 0)]);
-    let list = coordinates(&mut Dice::new(3), [8, 6], 300, false);
+    let list = coordinates(&mut Rng::new(3), [8, 6], 300, false);
     let queries = list.into_iter().map(|uv| query(&scene, 0, uv)).collect();
     (scene, queries)
 }
 
 /// Share of complaints about answers that a tampered look-up gives.
 fn caught(
-    (scene, queries): &(PackedScene, Vec<LookUp>),
+    (scene, queries): &(PackedScene, Vec<LookupQuery>),
     precision: Precision,
     tamper: impl Fn(&mut Texture, &mut Sampler, DVec2) -> DVec2,
 ) -> f64 {
-    let answer = |query: &LookUp| {
+    let answer = |query: &LookupQuery| {
         let (mut image, mut how) = (scene.textures[0], scene.samplers[0]);
         let uv = tamper(&mut image, &mut how, uv_of(query));
         sample_texture(scene, &image, &how, &Coordinate::flat(uv), [0; 2]).as_vec4().to_array()

@@ -1,7 +1,7 @@
-//! Method shader.
+//! The shader method: every filter and address mode against the oracle.
 
-use moire::internal::lab::probe::{self, LookUp};
-use moire::internal::lab::verify::judge::{Precision, complaints as judge};
+use moire::internal::lab::probe::{self, LookupQuery};
+use moire::internal::lab::verify::judge::{Precision, messages as judge};
 use moire::internal::oracle::filter::sample_texture;
 use moire::internal::oracle::mapping::Coordinate;
 use moire::internal::pack::PackedScene;
@@ -9,10 +9,10 @@ use moire::internal::texture::data::{ColorSpace, TexelFormat, TextureData};
 use moire::internal::texture::sampler_spec::{Address, SamplerSpec, TexelCenter};
 
 use super::assert_none;
-use super::bench::{CERTAIN, Dice, coordinates, formats, pairs, query, texture, uv_of};
+use super::bench::{CERTAIN, Rng, coordinates, formats, pairs, query, texture, uv_of};
 use crate::shared_gpu::gpu;
 
-/// Odd values, all different: a border channel taken from elsewhere shows.
+/// Uncommon, distinct values, so that a wrong border channel is detected.
 const BORDER: [f32; 4] = [0.9, 0.1, 0.6, 0.3];
 
 const SIZES: [[u32; 2]; 7] = [[1, 1], [1, 7], [6, 1], [2, 2], [5, 3], [7, 4], [64, 64]];
@@ -38,24 +38,28 @@ fn specs() -> Vec<SamplerSpec> {
     all
 }
 
-fn check(scene: &PackedScene, image_source: bool, keep_everything: bool, queries: &[LookUp]) {
-    let answers = probe::look_ups(&gpu(), scene, image_source, keep_everything, queries).unwrap();
+fn check(scene: &PackedScene, image_source: bool, keep_everything: bool, queries: &[LookupQuery]) {
+    let answers = probe::lookups(&gpu(), scene, image_source, keep_everything, queries).unwrap();
     assert_none(&judge(scene, queries, &answers, Precision::Shader), queries.len());
 }
 
 /// Every pair of texture and sampler, each at some coordinates.
-fn everything(textures: Vec<TextureData>, random: usize, keep_one_in: usize) -> (PackedScene, Vec<LookUp>) {
+fn everything(
+    textures: Vec<TextureData>,
+    random: usize,
+    keep_one_in: usize,
+) -> (PackedScene, Vec<LookupQuery>) {
     let specs = specs();
     // A pair a texture: look-ups of method shader share their slot, whatever the sampler.
     let list: Vec<(usize, usize)> = (0..textures.len()).map(|t| (t, 0)).collect();
     let scene = pairs(textures, &specs, &list);
-    let mut dice = Dice::new(11);
+    let mut rng = Rng::new(11);
     let mut queries = Vec::new();
     for (t, record) in scene.textures.iter().enumerate() {
         for sampler in 0..specs.len() {
-            for uv in coordinates(&mut dice, [record.size.x, record.size.y], random, true) {
-                if (dice.bits() as usize).is_multiple_of(keep_one_in) {
-                    queries.push(LookUp { sampler: sampler as u32, ..query(&scene, t, uv) });
+            for uv in coordinates(&mut rng, [record.size.x, record.size.y], random, true) {
+                if (rng.bits() as usize).is_multiple_of(keep_one_in) {
+                    queries.push(LookupQuery { sampler: sampler as u32, ..query(&scene, t, uv) });
                 }
             }
         }
@@ -97,8 +101,8 @@ fn pipelines_narrowed_to_one_mode_agree() {
         let [width, height] = SIZES[(i * 3 + 5) % SIZES.len()];
         let (format, space) = formats[i % formats.len()];
         let scene = pairs(vec![texture(width, height, format, space, i as u64)], &[spec], &[(0, 0)]);
-        let list = coordinates(&mut Dice::new(i as u64), [width, height], 200, true);
-        let queries: Vec<LookUp> = list.into_iter().map(|uv| query(&scene, 0, uv)).collect();
+        let list = coordinates(&mut Rng::new(i as u64), [width, height], 200, true);
+        let queries: Vec<LookupQuery> = list.into_iter().map(|uv| query(&scene, 0, uv)).collect();
         check(&scene, i % 2 == 0, false, &queries);
     }
 }
@@ -118,13 +122,13 @@ fn coordinates_that_are_no_numbers_read_a_texel_and_the_oracles() {
         for sampler in 0..specs.len() {
             for a in odd {
                 for uv in [[a, 0.3], [0.3, a], [a, a]] {
-                    queries.push(LookUp { sampler: sampler as u32, ..query(&scene, pair, uv) });
+                    queries.push(LookupQuery { sampler: sampler as u32, ..query(&scene, pair, uv) });
                 }
             }
         }
     }
     for image_source in [false, true] {
-        let answers = probe::look_ups(&gpu(), &scene, image_source, true, &queries).unwrap();
+        let answers = probe::lookups(&gpu(), &scene, image_source, true, &queries).unwrap();
         for (query, answer) in queries.iter().zip(&answers) {
             let (image, how) =
                 (&scene.textures[query.texture as usize], &scene.samplers[query.sampler as usize]);

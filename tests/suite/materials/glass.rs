@@ -1,5 +1,5 @@
-//! `dielectric`: Fresnel's share, Snell's angle, total internal reflection, and the mean of many samples,
-//! which is the share of what is mirrored and the rest of what is seen through it.
+//! `dielectric`: Fresnel reflectance, Snell's angle, total internal reflection, and the mean of
+//! many samples, which is the reflectance-weighted mean of reflection and transmission.
 
 use glam::DVec3;
 use moire::internal::oracle::bsdf::dielectric::{fresnel_dielectric, refracted};

@@ -1,5 +1,6 @@
-//! Shading normals that lean away from their surface: mirrored rays stay above it, refracted ones go below, by
-//! smooth and by rough surfaces, on device and oracle, by samples and cones.
+//! Shading normals that deviate from the geometric normal: reflected rays stay above the surface,
+//! refracted ones go below, for smooth and rough surfaces, on device and oracle, by samples and
+//! cones.
 
 use glam::DVec3;
 use moire::internal::core::film::Film;
@@ -14,7 +15,7 @@ use moire::internal::pack::{EntityKind, MapKind, PackedScene};
 use moire::internal::schema::layout::UvProjection;
 
 use super::{floats, scene};
-use crate::lookup::bench::{Dice, Vectors};
+use crate::lookup::bench::{Rng, Vectors};
 use crate::stage;
 
 fn surface(geometric_normal: DVec3, normal: DVec3) -> Surface {
@@ -27,12 +28,12 @@ fn both(scene: &PackedScene) -> [(Film, &'static str); 2] {
 
 #[test]
 fn mirrored_rays_stay_above_and_refracted_ones_go_below() {
-    let mut dice = Dice::new(41);
+    let mut rng = Rng::new(41);
     let (mut turned, mut kept) = (0, 0);
     for _ in 0..20_000 {
-        let g = dice.direction();
-        let n = (g + 2.0 * dice.direction()).normalize();
-        let direction = dice.direction() * dice.between(0.1, 10.0);
+        let g = rng.direction();
+        let n = (g + 2.0 * rng.direction()).normalize();
+        let direction = rng.direction() * rng.between(0.1, 10.0);
         let direction = if direction.dot(g) > 0.0 { -direction } else { direction };
         let mut settled = surface(g, n);
         consistent_normal(direction, &mut settled);
@@ -66,10 +67,10 @@ fn mirrored_rays_stay_above_and_refracted_ones_go_below() {
 
 #[test]
 fn rays_of_a_surface_that_does_not_lean_keep_every_bit() {
-    let mut dice = Dice::new(42);
+    let mut rng = Rng::new(42);
     for _ in 0..20_000 {
-        let n = dice.direction();
-        let direction = dice.direction();
+        let n = rng.direction();
+        let direction = rng.direction();
         let direction = if direction.dot(n) > 0.0 { -direction } else { direction };
         let mut settled = surface(n, n);
         consistent_normal(direction, &mut settled);
@@ -181,12 +182,12 @@ fn glass_lets_through_what_lies_behind_it_and_mirrors_what_lies_before_it() {
 /// From within glass of index 1.5, below the triangle: what is refracted leaves upwards.
 #[test]
 fn rays_that_leave_glass_go_above_its_surface() {
-    let mut dice = Dice::new(43);
+    let mut rng = Rng::new(43);
     let mut lowered = 0;
     for _ in 0..20_000 {
         let g = DVec3::Z;
-        let n = (g + 0.8 * dice.direction()).normalize();
-        let direction = dice.direction();
+        let n = (g + 0.8 * rng.direction()).normalize();
+        let direction = rng.direction();
         let direction = if direction.z > 0.0 { -direction } else { direction };
         let mut settled = surface(g, n);
         consistent_normal(direction, &mut settled);
@@ -216,11 +217,11 @@ fn cones_mirror_by_the_same_normal() {
 fn a_map_of_the_reflection_looks_where_a_mirror_does() {
     let map =
         UvProjection { kind: MapKind::Solid, entity: EntityKind::Reflection, ..UvProjection::default() };
-    let mut dice = Dice::new(44);
+    let mut rng = Rng::new(44);
     for _ in 0..2000 {
-        let g = dice.direction();
-        let leaning = surface(g, (g + 1.5 * dice.direction()).normalize());
-        let direction = dice.direction();
+        let g = rng.direction();
+        let leaning = surface(g, (g + 1.5 * rng.direction()).normalize());
+        let direction = rng.direction();
         let direction = if direction.dot(g) > 0.0 { -direction } else { direction };
         let ray = Ray { origin: DVec3::ZERO, direction, time: 0.0 };
         let mut settled = leaning;

@@ -1,5 +1,5 @@
-//! Reliefs: a flat normal map changes nothing, a tilted one and a bump map of a ramp tilt by a known
-//! angle, whichever way the coordinates run.
+//! Bump and normal maps: a flat normal map changes nothing; a tilted one and a bump map of a ramp
+//! tilt the normal by a known angle, whatever the orientation of the coordinates.
 
 use std::f64::consts::PI;
 

@@ -1,6 +1,6 @@
-//! Reliefs do not depend on the unit that a scene is measured in: camera, shapes and heights together, 128 times
-//! smaller or larger, give the same picture, for every map. Powers of two leave all digits as they are, so that any
-//! difference comes from a length that is written into the program.
+//! Bump and normal maps do not depend on the scene's unit: camera, shapes and heights together, 128
+//! times smaller or larger, give the same picture, for every map. Powers of two preserve all
+//! digits, so that any difference is due to a length constant in the program.
 
 use glam::{DVec2, DVec3};
 use moire::internal::lab::metrics::compare;
@@ -13,7 +13,7 @@ use moire::internal::oracle::shade::{map_input, uv_gradients};
 use moire::internal::pack::PackedScene;
 
 use super::{floats, scene};
-use crate::lookup::bench::{Dice, Vectors};
+use crate::lookup::bench::{Rng, Vectors};
 use crate::stage;
 
 const MAPPINGS: [&str; 12] = [
@@ -99,14 +99,14 @@ fn pictures_do_not_depend_on_the_unit() {
 /// Central differences of the coordinates along two tangents, on small and large shapes and up to the poles.
 #[test]
 fn gradients_are_those_of_the_coordinates() {
-    let mut dice = Dice::new(31);
+    let mut rng = Rng::new(31);
     for mapping in MAPPINGS.iter().filter(|m| !m.contains("reflection")) {
         for k in [1e-3, 1.0, 1e3] {
             let scene = shapes(k, mapping, "normal_map", "none");
             let mut tried = 0;
             while tried < 60 {
-                let near_pole = DVec3::new(dice.between(-1e-3, 1e-3), 1.0, dice.between(-1e-3, 1e-3));
-                let out = if tried % 4 == 0 { near_pole.normalize() } else { dice.direction() };
+                let near_pole = DVec3::new(rng.between(-1e-3, 1e-3), 1.0, rng.between(-1e-3, 1e-3));
+                let out = if tried % 4 == 0 { near_pole.normalize() } else { rng.direction() };
                 // Towards the first ball's middle.
                 let center = scene.spheres[0].center;
                 let ray = Ray { origin: center + 0.9 * k * out, direction: -out, time: 0.0 };

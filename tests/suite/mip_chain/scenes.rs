@@ -1,5 +1,5 @@
-//! Scenes whose levels are left to the device: the same pictures from the texel buffer and from images of
-//! every kind, and what is not left to it.
+//! Scenes whose mip levels are generated on the device: the same pictures from the texel buffer and
+//! from images of every kind, and which levels stay on the host.
 
 use std::path::Path;
 

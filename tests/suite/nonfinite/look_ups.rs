@@ -1,15 +1,15 @@
-//! One texel that is no number, on the device: a look-up is no number where that texel has a weight, and has
-//! the same bits as without it everywhere else. Which weight it has tells a texture that is 1 there and 0
-//! elsewhere.
+//! One NaN or infinite texel on the device: a lookup is NaN or infinite where that texel has a
+//! weight, and bitwise unchanged everywhere else. A texture that is 1 at the texel and 0 elsewhere
+//! gives the weight.
 
-use moire::internal::lab::probe::LookUp;
+use moire::internal::lab::probe::LookupQuery;
 use moire::internal::pack::PackedScene;
 use moire::internal::scene::model::Footprint;
 use moire::internal::texture::data::{Dimension, TexelFormat, TextureData};
 use moire::internal::texture::sampler_spec::{Address, Filter, SamplerSpec};
 
 use crate::footprints::bench::{answers, narrow, pairs_of, solid};
-use crate::lookup::bench::{Dice, Vectors, coordinates, query};
+use crate::lookup::bench::{Rng, Vectors, coordinates, query};
 
 /// With all channels of one texel of a float texture set to a value.
 fn with_texel(texture: &TextureData, at: [u32; 2], value: f32) -> TextureData {
@@ -53,20 +53,20 @@ impl Bench {
 
     /// Anywhere and on texels' centres and edges; footprints of a point and of less than two texels' width, which
     /// level 0 answers.
-    fn queries(&self, scene: &PackedScene) -> Vec<LookUp> {
-        let mut dice = Dice::new(71);
+    fn queries(&self, scene: &PackedScene) -> Vec<LookupQuery> {
+        let mut rng = Rng::new(71);
         let (w, h) = (self.texture.width, self.texture.height);
         let mut all = Vec::new();
         for sampler in 0..self.specs.len() as u32 {
-            for (i, [u, v]) in coordinates(&mut dice, [w, h], 150, false).into_iter().enumerate() {
+            for (i, [u, v]) in coordinates(&mut rng, [w, h], 150, false).into_iter().enumerate() {
                 let uv = match self.texture.dimension {
-                    Dimension::Cube => narrow(dice.direction()),
-                    _ => [u, v, (dice.bits() % 9) as f32 / 8.0, 0.0],
+                    Dimension::Cube => narrow(rng.direction()),
+                    _ => [u, v, (rng.bits() % 9) as f32 / 8.0, 0.0],
                 };
                 let wide = [0.0, 1.2, 1.9][i % 3];
                 let (dx, dy) = (wide / w as f32, [1.0, 2.5][i % 2] * wide / h as f32);
                 let (dx, dy) = ([dx, 0.0, 0.0, 0.0], [0.3 * dx, dy, 0.0, 0.0]);
-                all.push(LookUp { sampler, seed: i as u32, uv, dx, dy, ..query(scene, 0, [0.0; 2]) });
+                all.push(LookupQuery { sampler, seed: i as u32, uv, dx, dy, ..query(scene, 0, [0.0; 2]) });
             }
         }
         all
@@ -144,14 +144,14 @@ fn coarser_levels_do_not_read_texels_that_are_no_numbers() {
     });
     let texture = with_texel(&solid(Dimension::Two, [16, 16, 1], TexelFormat::RgbaFloat), [5, 5], f32::NAN);
     let scene = pairs_of(Footprint::Differentials, vec![texture], &specs, &[(0, 0), (0, 1)]);
-    let mut dice = Dice::new(72);
+    let mut rng = Rng::new(72);
     let wide = |n: f32| n / 16.0;
-    let queries: Vec<LookUp> = (0..400)
+    let queries: Vec<LookupQuery> = (0..400)
         .map(|i| {
             let n = [2.0, 4.0, 3.0, 100.0, f32::INFINITY][i % 5];
-            let uv = [dice.unit() as f32, dice.unit() as f32, 0.0, 0.0];
+            let uv = [rng.unit() as f32, rng.unit() as f32, 0.0, 0.0];
             let (dx, dy) = ([wide(n), 0.0, 0.0, 0.0], [0.0, wide(n), 0.0, 0.0]);
-            LookUp { sampler: i as u32 % 2, uv, dx, dy, ..query(&scene, 0, [0.0; 2]) }
+            LookupQuery { sampler: i as u32 % 2, uv, dx, dy, ..query(&scene, 0, [0.0; 2]) }
         })
         .collect();
     for (query, answer) in queries.iter().zip(answers(&scene, &queries)) {

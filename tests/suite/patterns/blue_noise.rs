@@ -1,5 +1,5 @@
-//! Errors of neighbouring pixels: blue noise makes them opposite, so that the error of a picture has little
-//! of its energy where the eye sees most.
+//! Errors of neighbouring pixels: blue noise makes them negatively correlated, so that a picture's
+//! error has little energy at visible frequencies.
 
 use std::f64::consts::TAU;
 

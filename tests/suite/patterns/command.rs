@@ -1,4 +1,4 @@
-//! `moire pattern`: its numbers, its picture, and what it refuses.
+//! `moire pattern`: its numbers, its picture, and its errors.
 
 use moire::internal::scene::model::Pattern;
 use serde_json::Value;

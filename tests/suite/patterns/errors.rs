@@ -1,4 +1,4 @@
-//! Errors of pixels: how each pattern does on a smooth function and on an edge, against random points.
+//! Errors of pixels: each pattern on a smooth function and on an edge, relative to random points.
 
 use moire::internal::lab::pattern::measures::star_discrepancy;
 use moire::internal::oracle::patterns::sample_pair;

@@ -1,4 +1,4 @@
-//! What each pattern promises about which parts of the pixel hold how many points.
+//! Stratification of each pattern: the number of points in each part of the pixel.
 
 use moire::internal::oracle::patterns::sample_line;
 use moire::internal::oracle::permute::permute;

@@ -1,5 +1,5 @@
-//! Pictures of every pattern: what is left out changes no bit, and the oracle sees the same, also where
-//! samples come in several chunks.
+//! Pictures of every pattern: omitting unused features changes no bit, and the oracle renders the
+//! same picture, including with samples in several blocks.
 
 use moire::internal::lab::metrics::compare;
 use moire::internal::render::Tuning;

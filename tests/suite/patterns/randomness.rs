@@ -1,4 +1,4 @@
-//! Points are uniform, and those of different pixels, pairs and seeds have nothing to do with each other.
+//! Points are uniform, and those of different pixels, dimension pairs and seeds are independent.
 
 use moire::internal::scene::model::Pattern;
 

@@ -1,5 +1,5 @@
-//! Power spectra against what theory says of each pattern. A mean over R realisations of a periodogram
-//! whose values are near exponentially distributed has a sigma of its mean over √R.
+//! Power spectra against the theory of each pattern. A mean over R realisations of a periodogram
+//! whose values are nearly exponentially distributed has a sigma of its mean over √R.
 
 use std::f64::consts::PI;
 

@@ -1,5 +1,5 @@
-//! Radiance pictures: signatures, line ends, variables of the header, the eight ways rows can lie, and the three
-//! codings of a scan line.
+//! Radiance pictures: signatures, line ends, header variables, the eight orientations, and the
+//! three encodings of a scan line.
 
 use moire::internal::texture::data::TexelFormat;
 

@@ -1,5 +1,5 @@
-//! Pictures with bits turned over, ends cut off and headers changed, by a seeded generator: each is read or
-//! refused, in bounded time, and nothing panics, not even within the guard.
+//! Pictures with flipped bits, truncated ends and altered headers, by a seeded generator: each is
+//! read or refused in bounded time, and nothing panics, not even inside the panic guard.
 
 use std::fs;
 use std::time::{Duration, Instant};
@@ -12,9 +12,9 @@ use super::load;
 use crate::support::{data, moire, told};
 
 /// PCG, as `glsl` has it.
-struct Dice(u32);
+struct Rng(u32);
 
-impl Dice {
+impl Rng {
     fn below(&mut self, count: usize) -> usize {
         self.0 = self.0.wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
         let word = (self.0 >> ((self.0 >> 28) + 4) ^ self.0).wrapping_mul(277_803_737);
@@ -25,22 +25,22 @@ impl Dice {
 /// Numbers that headers should not hold.
 const ODD: [u32; 10] = [0, 1, 2, 7, 255, 65_535, 65_536, 0x7fff_ffff, 0x8000_0000, u32::MAX];
 
-fn mutated(whole: &[u8], dice: &mut Dice) -> Vec<u8> {
+fn mutated(whole: &[u8], rng: &mut Rng) -> Vec<u8> {
     let mut bytes = whole.to_vec();
     // Tags of TIFF files may lie at the end, all other headers at the start.
-    let at = |dice: &mut Dice, length: usize| match dice.below(3) {
-        0 => dice.below(length),
-        1 => dice.below(length.min(400)),
-        _ => length - 1 - dice.below(length.min(400)),
+    let at = |rng: &mut Rng, length: usize| match rng.below(3) {
+        0 => rng.below(length),
+        1 => rng.below(length.min(400)),
+        _ => length - 1 - rng.below(length.min(400)),
     };
-    for _ in 0..1 + dice.below(3) {
-        let place = at(dice, bytes.len());
-        match dice.below(8) {
+    for _ in 0..1 + rng.below(3) {
+        let place = at(rng, bytes.len());
+        match rng.below(8) {
             0 => bytes.truncate(place.max(1)),
-            1..=3 => bytes[place] ^= 1 << dice.below(8),
-            4 => bytes[place] = dice.below(256) as u8,
+            1..=3 => bytes[place] ^= 1 << rng.below(8),
+            4 => bytes[place] = rng.below(256) as u8,
             kind => {
-                let value = ODD[dice.below(ODD.len())];
+                let value = ODD[rng.below(ODD.len())];
                 let digits = if kind == 5 { value.to_be_bytes() } else { value.to_le_bytes() };
                 let count = if kind == 7 { 2 } else { 4 };
                 bytes.iter_mut().skip(place).zip(&digits[..count]).for_each(|(b, d)| *b = *d);
@@ -68,12 +68,12 @@ fn fixtures() -> Vec<(String, Vec<u8>)> {
 fn run(rounds: usize, seed: u32) {
     let folder = tempdir().unwrap();
     let path = folder.path().join("a.picture");
-    let mut dice = Dice(seed);
+    let mut rng = Rng(seed);
     let (mut read, mut refused) = (0, 0);
     for (fixture, whole) in fixtures() {
         let dimension = if fixture.ends_with(".nrrd") { Dimension::Three } else { Dimension::Two };
         for round in 0..rounds {
-            let bytes = mutated(&whole, &mut dice);
+            let bytes = mutated(&whole, &mut rng);
             fs::write(&path, &bytes).unwrap();
             let clock = Instant::now();
             match load(&path, dimension) {
@@ -101,10 +101,10 @@ fn thousands_of_mutated_pictures_are_read_or_refused() {
 #[test]
 fn the_program_ends_in_order_and_leaves_a_whole_picture_or_none() {
     let folder = tempdir().unwrap();
-    let mut dice = Dice(3);
+    let mut rng = Rng(3);
     for (fixture, whole) in fixtures().into_iter().filter(|(name, _)| !name.ends_with(".nrrd")) {
         for round in 0..5 {
-            fs::write(folder.path().join("a.picture"), mutated(&whole, &mut dice)).unwrap();
+            fs::write(folder.path().join("a.picture"), mutated(&whole, &mut rng)).unwrap();
             let args = ["texture", "a.picture", "-o", "b.png"];
             let output = moire().current_dir(folder.path()).args(args).output().unwrap();
             let (code, message) =

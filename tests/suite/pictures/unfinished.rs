@@ -1,5 +1,5 @@
-//! Files that lack their last bytes: where all texels are there they are read, with a note; else they are
-//! refused. And kinds of JPEG and PNG that are not read.
+//! Truncated files: if all texels are present they are read with a note, otherwise refused. Also
+//! unsupported kinds of JPEG and PNG.
 
 use image::codecs::jpeg::JpegEncoder;
 use image::codecs::png::PngEncoder;

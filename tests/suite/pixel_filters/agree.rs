@@ -1,4 +1,4 @@
-//! Device and oracle, lean pipelines and such with everything, parts and the whole: the same picture.
+//! Device and oracle, lean and full pipelines, parts and the whole give the same picture.
 
 use moire::internal::core::progress::NoProgress;
 use moire::internal::core::range::Rect;

@@ -1,4 +1,4 @@
-//! What is refused, by scene files and on the command line, and what reports say.
+//! Errors of scene files and of the command line, and the contents of reports.
 
 use std::path::Path;
 

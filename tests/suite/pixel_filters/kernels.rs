@@ -1,5 +1,5 @@
-//! The kernels: their shapes by number, that the warp's distribution is the kernel's integral, that the
-//! prefilter's share has its variance, and that the response to a thin line is the kernel.
+//! The kernels: their values, that the sampling distribution is the kernel's integral, that the
+//! prefilter's part has its variance, and that the response to a thin line is the kernel.
 
 use moire::internal::oracle::pixel_filter::{filter_width, filtered_place};
 use moire::internal::pack::{PackedScene, kernel};

@@ -1,5 +1,5 @@
-//! Negative lobes: what samples with signs come to. Pixels beside an edge overshoot, one colour stays that
-//! colour, and no sum of few signs makes a pixel explode.
+//! Negative lobes: pictures from samples with signed weights. Pixels beside an edge overshoot, a
+//! constant colour is preserved, and no sum of few weights makes a pixel diverge.
 
 use moire::internal::core::film::Film;
 use moire::internal::output::{WriteOptions, write};

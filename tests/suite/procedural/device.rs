@@ -9,7 +9,7 @@ use moire::internal::schema::layout::{self, Header};
 use moire::internal::texture::procedural::ProceduralKind::{self, *};
 
 use super::{default_record, record};
-use crate::lookup::bench::{Dice, Vectors};
+use crate::lookup::bench::{Rng, Vectors};
 use crate::shared_gpu::gpu;
 
 fn scene(records: &[layout::Procedural], filtered: bool) -> PackedScene {
@@ -29,12 +29,12 @@ fn wide(v: [f32; 4]) -> DVec3 {
 
 /// Places within `reach`; footprints from 10⁻³ to 30 cells, up to 50 times as long as wide, some in
 /// the plane of a 2D mapping, some zero.
-fn queries(dice: &mut Dice, procedural: u32, reach: f64, filtered: bool, count: u32) -> Vec<ProceduralQuery> {
+fn queries(rng: &mut Rng, procedural: u32, reach: f64, filtered: bool, count: u32) -> Vec<ProceduralQuery> {
     let one = |i: u32| {
-        let mut at = dice.vector(reach);
-        let size = 10f64.powf(dice.between(-3.0, 1.5));
-        let mut dx = size * dice.direction();
-        let mut dy = size * dice.between(0.02, 1.0) * dice.direction();
+        let mut at = rng.vector(reach);
+        let size = 10f64.powf(rng.between(-3.0, 1.5));
+        let mut dx = size * rng.direction();
+        let mut dy = size * rng.between(0.02, 1.0) * rng.direction();
         if i.is_multiple_of(3) {
             (at.z, dx.z, dy.z) = (0.0, 0.0, 0.0);
         }
@@ -132,10 +132,10 @@ fn agrees(kind: ProceduralKind) {
     let records = variants(kind);
     for filtered in [false, true] {
         let scene = scene(&records, filtered);
-        let mut dice = Dice::new(70 + kind as u64);
+        let mut rng = Rng::new(70 + kind as u64);
         let mut list = Vec::new();
         for (i, reach) in [(0, 8.0), (1, 8.0), (0, 1000.0), (1, 1000.0)] {
-            list.extend(queries(&mut dice, i, reach, filtered, 1500));
+            list.extend(queries(&mut rng, i, reach, filtered, 1500));
         }
         let answers = probe::procedurals(&gpu, &scene, false, &list).unwrap();
         assert_none(&complaints(&records, &list, &answers), list.len());
@@ -169,9 +169,9 @@ fn what_is_left_out_changes_no_bit_and_neither_does_a_second_run() {
     for records in [all_kinds(), variants(Fbm), variants(Checker), vec![default_record(Wood)]] {
         for filtered in [false, true] {
             let scene = scene(&records, filtered);
-            let mut dice = Dice::new(90);
+            let mut rng = Rng::new(90);
             let list: Vec<ProceduralQuery> =
-                (0..records.len() as u32).flat_map(|i| queries(&mut dice, i, 20.0, filtered, 100)).collect();
+                (0..records.len() as u32).flat_map(|i| queries(&mut rng, i, 20.0, filtered, 100)).collect();
             let lean = probe::procedurals(&gpu, &scene, false, &list).unwrap();
             let full = probe::procedurals(&gpu, &scene, true, &list).unwrap();
             let again = probe::procedurals(&gpu, &scene, false, &list).unwrap();
@@ -235,9 +235,9 @@ fn planted_errors_of_procedurals_are_caught() {
     let gpu = gpu();
     let records = all_kinds();
     let scene = scene(&records, true);
-    let mut dice = Dice::new(95);
+    let mut rng = Rng::new(95);
     let list: Vec<ProceduralQuery> =
-        (0..records.len() as u32).flat_map(|i| queries(&mut dice, i, 8.0, true, 300)).collect();
+        (0..records.len() as u32).flat_map(|i| queries(&mut rng, i, 8.0, true, 300)).collect();
     let caught = |plant: &dyn Fn(&mut ProceduralQuery)| {
         let mut planted = list.clone();
         planted.iter_mut().for_each(plant);

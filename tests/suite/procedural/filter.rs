@@ -1,6 +1,6 @@
-//! Filtered look-ups against the mean of many points of the footprint: exact for boxes along the axes,
-//! close for oblique ones, the mean itself for endless ones, the fraction before any difference far
-//! from the origin; and a checker to the horizon.
+//! Filtered lookups against the mean of many points of the footprint: exact for axis-aligned boxes,
+//! close for oblique ones, the overall mean for infinite ones, the fraction before any difference
+//! far from the origin; and a checker up to the horizon.
 
 use glam::DVec3;
 use moire::internal::oracle::procedural::{box_attenuation, figure_share, pulse_mean};
@@ -8,7 +8,7 @@ use moire::internal::schema::layout;
 use moire::internal::texture::procedural::ProceduralKind::{self, *};
 
 use super::{HARD_EDGED, default_record, mean_of_points, share_at};
-use crate::lookup::bench::{Dice, Vectors};
+use crate::lookup::bench::{Rng, Vectors};
 
 /// The integral of the pulse train from 0 to x, by its definition.
 fn integral(x: f64, duty: f64) -> f64 {
@@ -18,9 +18,9 @@ fn integral(x: f64, duty: f64) -> f64 {
 
 #[test]
 fn a_box_over_pulses_is_the_difference_of_their_integral() {
-    let mut dice = Dice::new(1);
+    let mut rng = Rng::new(1);
     for _ in 0..20_000 {
-        let (x, w) = (dice.between(-5.0, 5.0), 10f64.powf(dice.between(-3.0, 2.0)));
+        let (x, w) = (rng.between(-5.0, 5.0), 10f64.powf(rng.between(-3.0, 2.0)));
         for duty in [0.0, 0.1, 0.5, 0.93, 1.0] {
             let expected = (integral(x + 0.5 * w, duty) - integral(x - 0.5 * w, duty)) / w;
             let found = pulse_mean(x, w, duty);
@@ -32,13 +32,13 @@ fn a_box_over_pulses_is_the_difference_of_their_integral() {
 
 #[test]
 fn boxes_along_the_axes_are_exact() {
-    let mut dice = Dice::new(2);
+    let mut rng = Rng::new(2);
     for kind in HARD_EDGED {
         for _ in 0..12 {
-            let at = dice.vector(5.0);
-            let (dx, dy) = (dice.between(0.1, 4.0) * DVec3::X, dice.between(0.1, 4.0) * DVec3::Y);
+            let at = rng.vector(5.0);
+            let (dx, dy) = (rng.between(0.1, 4.0) * DVec3::X, rng.between(0.1, 4.0) * DVec3::Y);
             let what = default_record(kind);
-            let points = mean_of_points(&what, at, dx, dy, 250, &mut dice);
+            let points = mean_of_points(&what, at, dx, dy, 250, &mut rng);
             // An edge passes 250 of the 62 500 cells, whose points lie on either side by chance: with
             // 10 edges the deviation is √2500 / 2 / 62500 = 4e-4.
             let found = figure_share(&what, at, dx, dy);
@@ -49,17 +49,17 @@ fn boxes_along_the_axes_are_exact() {
 
 /// (RMS error of the filter, of the point in the middle)
 fn errors(what: &layout::Procedural, anisotropy: f64, size: f64, side: u32) -> (f64, f64) {
-    let mut dice = Dice::new(3);
+    let mut rng = Rng::new(3);
     let (mut filtered, mut plain) = (0.0, 0.0);
     let n = 120;
     for _ in 0..n {
-        let at = dice.vector(9.0) * DVec3::new(1.0, 1.0, 0.0);
-        let (sine, cosine) = dice.between(0.0, std::f64::consts::TAU).sin_cos();
-        let shear = dice.between(-0.5, 0.5);
+        let at = rng.vector(9.0) * DVec3::new(1.0, 1.0, 0.0);
+        let (sine, cosine) = rng.between(0.0, std::f64::consts::TAU).sin_cos();
+        let shear = rng.between(-0.5, 0.5);
         let along = size * DVec3::new(cosine, sine, 0.0);
         let across = size / anisotropy * DVec3::new(-sine, cosine, 0.0);
         let (dx, dy) = (along + shear * across, across);
-        let mean = mean_of_points(what, at, dx, dy, side, &mut dice);
+        let mean = mean_of_points(what, at, dx, dy, side, &mut rng);
         filtered += (figure_share(what, at, dx, dy) - mean).powi(2);
         plain += (share_at(what, at) - mean).powi(2);
     }
@@ -107,8 +107,8 @@ fn endless_footprints_give_the_mean() {
             if dx == DVec3::Z && matches!(kind, Brick | Wood | Grid | Stripes | Checker | Marble) {
                 continue;
             }
-            let mut dice = Dice::new(5);
-            let points = mean_of_points(&what, at, 300.0 * dx, 300.0 * dy, 200, &mut dice);
+            let mut rng = Rng::new(5);
+            let points = mean_of_points(&what, at, 300.0 * dx, 300.0 * dy, 200, &mut rng);
             for size in [300.0, 1e4, 1e8] {
                 let found = figure_share(&what, at, size * dx, size * dy);
                 // 5 deviations of a mean of 4·10⁴ points, 0.5 each, and 0.007 of the noise's means on planes.
@@ -157,12 +157,12 @@ fn ground(x: u32, y: u32, sx: f64, sy: f64) -> (DVec3, DVec3, DVec3) {
 #[test]
 fn a_checker_to_the_horizon_loses_its_error_by_filtering() {
     let what = default_record(Checker);
-    let mut dice = Dice::new(6);
+    let mut rng = Rng::new(6);
     let (mut filtered, mut plain, mut pixels) = (0.0, 0.0, 0.0);
     for (x, y) in (0..64).flat_map(|y| (0..128).map(move |x| (x, y))) {
         let mut truth = 0.0;
         for i in 0..256 {
-            let jitter = [f64::from(i % 16), f64::from(i / 16)].map(|c| (c + dice.unit()) / 16.0);
+            let jitter = [f64::from(i % 16), f64::from(i / 16)].map(|c| (c + rng.unit()) / 16.0);
             truth += share_at(&what, ground(x, y, jitter[0], jitter[1]).0) / 256.0;
         }
         let (at, dx, dy) = ground(x, y, 0.5, 0.5);

@@ -8,7 +8,7 @@ use moire::internal::oracle::noise::{
 use moire::internal::texture::procedural::ProceduralKind::{self, *};
 
 use super::{HARD_EDGED, default_record, record, share_at};
-use crate::lookup::bench::{Dice, Vectors};
+use crate::lookup::bench::{Rng, Vectors};
 
 const SMOOTH: [ProceduralKind; 6] = [Noise, Fbm, Turbulence, Marble, Wood, Cellular];
 
@@ -25,8 +25,8 @@ fn noise_is_zero_at_lattice_points() {
 fn every_smooth_pattern_stays_in_range_and_uses_most_of_it() {
     for kind in SMOOTH {
         let what = default_record(kind);
-        let mut dice = Dice::new(10 + kind as u64);
-        let values: Vec<f64> = (0..20_000).map(|_| share_at(&what, dice.vector(50.0))).collect();
+        let mut rng = Rng::new(10 + kind as u64);
+        let values: Vec<f64> = (0..20_000).map(|_| share_at(&what, rng.vector(50.0))).collect();
         let low = values.iter().copied().fold(1.0, f64::min);
         let high = values.iter().copied().fold(0.0, f64::max);
         assert!(low >= 0.0 && high <= 1.0, "{kind}: {low} to {high}");
@@ -36,9 +36,9 @@ fn every_smooth_pattern_stays_in_range_and_uses_most_of_it() {
 
 #[test]
 fn statistics_of_noise_are_those_that_its_filter_fades_to() {
-    let mut dice = Dice::new(20);
+    let mut rng = Rng::new(20);
     let n = 200_000;
-    let values: Vec<f64> = (0..n).map(|_| gradient_noise(dice.vector(300.0), [7, 8, 9])).collect();
+    let values: Vec<f64> = (0..n).map(|_| gradient_noise(rng.vector(300.0), [7, 8, 9])).collect();
     let mean = |f: &dyn Fn(f64) -> f64| values.iter().map(|v| f(*v)).sum::<f64>() / f64::from(n);
     // 5 standard deviations of the mean of 2·10⁵ values: 0.27, 0.11 and 0.156 over √n.
     let deviation = |x: f64| 5.0 * x / f64::from(n).sqrt();
@@ -55,11 +55,11 @@ fn statistics_of_noise_are_those_that_its_filter_fades_to() {
 fn mean_distance_of_cells_is_that_of_its_polynomial() {
     for jitter in [0.0, 0.5, 1.0] {
         for plane in [None, Some(0.0), Some(0.25), Some(0.5)] {
-            let mut dice = Dice::new(30);
+            let mut rng = Rng::new(30);
             let n = 40_000;
             let mut sum = 0.0;
             for _ in 0..n {
-                let p = dice.vector(300.0);
+                let p = rng.vector(300.0);
                 sum += cell_distance(DVec3::new(p.x, p.y, plane.unwrap_or(p.z)), 3, jitter);
             }
             let reach = DVec3::new(9.0, 9.0, if plane.is_some() { 0.0 } else { 9.0 });
@@ -77,13 +77,13 @@ fn mean_distance_of_cells_is_that_of_its_polynomial() {
 fn smooth_patterns_have_no_seams() {
     for kind in SMOOTH {
         let what = default_record(kind);
-        let mut dice = Dice::new(40 + kind as u64);
+        let mut rng = Rng::new(40 + kind as u64);
         for i in 0..6000 {
             let far = [1.0, 30.0, 1e6][i % 3];
-            let mut p = dice.vector(far).floor() * if i % 2 == 0 { 1.0 } else { 0.5 };
+            let mut p = rng.vector(far).floor() * if i % 2 == 0 { 1.0 } else { 0.5 };
             let axis = i % 3;
-            p[(axis + 1) % 3] += dice.unit();
-            p[(axis + 2) % 3] += dice.unit();
+            p[(axis + 1) % 3] += rng.unit();
+            p[(axis + 2) % 3] += rng.unit();
             let step = 1e-6 * DVec3::AXES[axis];
             let (before, after) = (share_at(&what, p - step), share_at(&what, p + step));
             assert!((before - after).abs() < 1e-4, "{kind} steps from {before} to {after} at {p}");
@@ -95,8 +95,8 @@ fn smooth_patterns_have_no_seams() {
 fn seeds_differ_and_repeat() {
     for kind in SMOOTH {
         let [a, b, c] = [1, 2, 1].map(|seed| record(kind, |t| t.seed = seed));
-        let mut dice = Dice::new(50);
-        let points: Vec<DVec3> = (0..100).map(|_| dice.vector(20.0)).collect();
+        let mut rng = Rng::new(50);
+        let points: Vec<DVec3> = (0..100).map(|_| rng.vector(20.0)).collect();
         let values = |what| points.iter().map(|p| share_at(what, *p)).collect::<Vec<_>>();
         assert_eq!(values(&a), values(&c), "{kind}");
         let same = values(&a).iter().zip(values(&b)).filter(|(x, y)| *x == y).count();
@@ -127,7 +127,7 @@ fn a_seed_means_the_same_lattice_for_ever() {
 fn hard_edged_patterns_are_not_random() {
     for kind in HARD_EDGED {
         let [a, b] = [1, 2].map(|seed| record(kind, |t| t.seed = seed));
-        let mut dice = Dice::new(60);
-        assert!((0..100).map(|_| dice.vector(20.0)).all(|p| share_at(&a, p) == share_at(&b, p)), "{kind}");
+        let mut rng = Rng::new(60);
+        assert!((0..100).map(|_| rng.vector(20.0)).all(|p| share_at(&a, p) == share_at(&b, p)), "{kind}");
     }
 }

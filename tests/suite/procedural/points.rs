@@ -1,4 +1,4 @@
-//! Patterns at points worked out by hand: parity of checkers, duty of stripes, lines of grids, bond
+//! Patterns at points computed by hand: parity of checkers, duty of stripes, lines of grids, bond
 //! of bricks, whole rings and veins.
 
 use glam::DVec3;

@@ -1,4 +1,5 @@
-//! What beams tell of random scenes is right in every pixel; and what is planted in it is found.
+//! The results of beams in random scenes are correct in every pixel, and planted errors are
+//! detected.
 
 use glam::DVec3;
 use moire::internal::oracle::beam::beam;

@@ -1,5 +1,5 @@
-//! Why cones err: by what the method leaves out, and by nothing else. Pixels of random scenes, sorted by what their
-//! cones meet, against samples.
+//! The causes of errors of cones: only the approximations of the method. Pixels of random scenes,
+//! classified by what their cones hit, are compared with samples.
 
 use std::collections::BTreeMap;
 

@@ -1,5 +1,5 @@
-//! How far cones are from the truth in random scenes, and what they must get right: what is seen of two shapes
-//! that share a cone, and that nothing is seen through a third.
+//! The error of cones in random scenes, and the cases that must be correct: two shapes that share a
+//! cone, and no visibility through a third.
 
 use glam::{DVec2, DVec3};
 use moire::internal::core::film::Film;

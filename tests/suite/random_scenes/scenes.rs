@@ -5,7 +5,7 @@
 use std::path::Path;
 
 use glam::DVec3;
-use moire::internal::lab::verify::queries::Dice;
+use moire::internal::lab::verify::queries::Rng;
 use moire::internal::scene::model::Scene;
 use moire::internal::scene::parse;
 
@@ -34,21 +34,21 @@ fn list(v: DVec3) -> String {
     format!("[{}, {}, {}]", v.x, v.y, v.z)
 }
 
-fn within(dice: &mut Dice, reach: f64) -> DVec3 {
-    let [x, y, z] = [(); 3].map(|()| dice.between(-reach, reach));
+fn within(rng: &mut Rng, reach: f64) -> DVec3 {
+    let [x, y, z] = [(); 3].map(|()| rng.between(-reach, reach));
     DVec3::new(x, y, z)
 }
 
-fn color(dice: &mut Dice) -> DVec3 {
-    within(dice, 0.45) + 0.5
+fn color(rng: &mut Rng) -> DVec3 {
+    within(rng, 0.45) + 0.5
 }
 
-fn one_in(dice: &mut Dice, count: u64) -> bool {
-    dice.bits().is_multiple_of(count)
+fn one_in(rng: &mut Rng, count: u64) -> bool {
+    rng.bits().is_multiple_of(count)
 }
 
 struct Writer {
-    dice: Dice,
+    rng: Rng,
     text: String,
     triangles: usize,
 }
@@ -66,7 +66,7 @@ impl Writer {
     }
 
     fn any_triangle(&mut self, around: DVec3, reach: f64, material: &str) {
-        let corners = [(); 3].map(|()| around + within(&mut self.dice, reach));
+        let corners = [(); 3].map(|()| around + within(&mut self.rng, reach));
         self.triangle(corners, material);
     }
 
@@ -83,8 +83,8 @@ impl Writer {
     fn mirror(&mut self, at: DVec3, n: DVec3, extent: f64) {
         let (u, v) = n.any_orthonormal_pair();
         self.plane(at, [u, v], Some(extent), "mirror");
-        if one_in(&mut self.dice, 2) {
-            let behind = at - n * self.dice.between(0.02, 0.5);
+        if one_in(&mut self.rng, 2) {
+            let behind = at - n * self.rng.between(0.02, 0.5);
             self.any_triangle(behind, 0.3, "odd");
         }
     }
@@ -92,29 +92,29 @@ impl Writer {
     /// A level one, in which both are met at exactly the same place; of these hits the first counts.
     fn two_in_one_plane(&mut self) {
         for _ in 0..2 {
-            let corners = [(); 3].map(|()| DVec3 { y: 0.125, ..within(&mut self.dice, 0.8) });
+            let corners = [(); 3].map(|()| DVec3 { y: 0.125, ..within(&mut self.rng, 0.8) });
             let material = self.any_material();
             self.triangle(corners, material);
         }
     }
 
     fn any_material(&mut self) -> &'static str {
-        ["plain", "odd", "black", "lit", "lit", "pale", "squares"][(self.dice.bits() % 7) as usize]
+        ["plain", "odd", "black", "lit", "lit", "pale", "squares"][(self.rng.bits() % 7) as usize]
     }
 }
 
 /// A scene of `side`² pixels.
 pub fn text(kind: Kind, seed: u64, side: u32) -> String {
-    let mut w = Writer { dice: Dice::new(seed), text: String::new(), triangles: 0 };
-    let dice = &mut w.dice;
-    let eye = DVec3::new(dice.between(-1.5, 1.5), dice.between(0.5, 2.0), dice.between(2.5, 3.5));
-    let look_at = within(dice, 0.3);
+    let mut w = Writer { rng: Rng::new(seed), text: String::new(), triangles: 0 };
+    let rng = &mut w.rng;
+    let eye = DVec3::new(rng.between(-1.5, 1.5), rng.between(0.5, 2.0), rng.between(2.5, 3.5));
+    let look_at = within(rng, 0.3);
     let lens = match kind {
-        Kind::Parallel => format!("orthographic_height = {}", dice.between(1.5, 2.5)),
-        _ => format!("vertical_fov = {}", dice.between(30.0, 50.0)),
+        Kind::Parallel => format!("orthographic_height = {}", rng.between(1.5, 2.5)),
+        _ => format!("vertical_fov = {}", rng.between(30.0, 50.0)),
     };
-    let depth = [0, 1, 2, 3, 4, 4][(dice.bits() % 6) as usize];
-    let sky = color(dice);
+    let depth = [0, 1, 2, 3, 4, 4][(rng.bits() % 6) as usize];
+    let sky = color(rng);
     w.text = format!(
         "[camera]\neye = {}\nlook_at = {}\n{lens}\n[image]\nwidth = {side}\nheight = {side}
 [sampling]\nmax_depth = {depth}\n[background]\ncolor = {}
@@ -123,7 +123,7 @@ pub fn text(kind: Kind, seed: u64, side: u32) -> String {
         list(look_at),
         list(sky)
     );
-    let colors: Vec<DVec3> = (0..5).map(|_| color(&mut w.dice)).collect();
+    let colors: Vec<DVec3> = (0..5).map(|_| color(&mut w.rng)).collect();
     w.material("plain", "unlit", colors[0], "");
     w.material("odd", "unlit", colors[1], "");
     w.material("black", "unlit", DVec3::ZERO, "");
@@ -132,10 +132,10 @@ pub fn text(kind: Kind, seed: u64, side: u32) -> String {
     let squares = "texture = 'checker'\nmapping = { kind = 'surface', scale = [2.7, 2.7], rotate = 20 }\n";
     w.material("squares", "unlit", DVec3::ONE, squares);
     w.material("mirror", "mirror", 0.3 + 0.7 * colors[4], "");
-    for _ in 0..w.dice.bits() % 3 {
-        let dice = &mut w.dice;
-        let place = DVec3::new(dice.between(-2.0, 2.0), dice.between(2.0, 3.5), dice.between(-1.0, 3.0));
-        w.text += &match one_in(dice, 2) {
+    for _ in 0..w.rng.bits() % 3 {
+        let rng = &mut w.rng;
+        let place = DVec3::new(rng.between(-2.0, 2.0), rng.between(2.0, 3.5), rng.between(-1.0, 3.0));
+        w.text += &match one_in(rng, 2) {
             true => format!("[[light]]\nkind = 'point'\nposition = {}\nintensity = [9, 9, 8]\n", list(place)),
             false => {
                 format!(
@@ -148,18 +148,18 @@ pub fn text(kind: Kind, seed: u64, side: u32) -> String {
     let ground = DVec3::new(0.0, -0.6, 0.0);
     let level = [DVec3::X, -DVec3::Z];
     let below = if kind == Kind::MirrorGround { "mirror" } else { w.any_material() };
-    match w.dice.bits() % 4 {
+    match w.rng.bits() % 4 {
         _ if kind == Kind::MirrorGround => w.plane(0.5 * ground, level, None, below),
         0 => {}
         1 => w.plane(ground, level, Some(2.0), below),
         _ => w.plane(ground, level, None, below),
     }
-    let n = within(&mut w.dice, 1.0).normalize_or(DVec3::Z);
+    let n = within(&mut w.rng, 1.0).normalize_or(DVec3::Z);
     match kind {
         Kind::Plain | Kind::MirrorGround => {}
         Kind::Mirrors | Kind::Parallel => {
             w.any_triangle(DVec3::ZERO, 0.9, "mirror");
-            let at = within(&mut w.dice, 0.5);
+            let at = within(&mut w.rng, 0.5);
             w.mirror(at, n, 0.6);
         }
         Kind::Facing => {
@@ -169,17 +169,17 @@ pub fn text(kind: Kind, seed: u64, side: u32) -> String {
             w.mirror(-0.7 * n, n, 0.9);
         }
         Kind::Crossing => {
-            let other = within(&mut w.dice, 1.0).normalize_or(DVec3::X);
+            let other = within(&mut w.rng, 1.0).normalize_or(DVec3::X);
             w.mirror(0.2 * n, n, 0.8);
             w.mirror(0.2 * other, other, 0.8);
         }
     }
     while w.triangles < 6 {
-        let around = within(&mut w.dice, 0.5);
+        let around = within(&mut w.rng, 0.5);
         let material = w.any_material();
         w.any_triangle(around, 0.6, material);
     }
-    if one_in(&mut w.dice, 2) {
+    if one_in(&mut w.rng, 2) {
         w.two_in_one_plane();
     }
     w.text

@@ -1,5 +1,5 @@
-//! What the path tracer in float64 says of a pixel, and how far that may be from the truth: what another
-//! method says of it is held against both.
+//! The float64 path tracer's value of a pixel with its uncertainty, against which other methods are
+//! compared.
 
 use glam::DVec3;
 use moire::internal::oracle::render::sample;

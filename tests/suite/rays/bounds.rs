@@ -1,6 +1,6 @@
-//! How far rounding may take an f32 intersection from the exact one: first-order error analysis of
-//! the formulas (Higham 2002, chapter 3), with the vectors' own lengths as condition. A division may
-//! be off by 2.5 ulp, a square root by about as much (Vulkan 1.3, "Precision and Operation of SPIR-V
+//! Bounds of the rounding error of an f32 intersection: first-order error analysis of the formulas
+//! (Higham 2002, chapter 3), with the vectors' own lengths as condition. A division may be off by
+//! 2.5 ulp, a square root by about as much (Vulkan 1.3, "Precision and Operation of SPIR-V
 //! Instructions").
 
 use glam::DVec3;

@@ -9,7 +9,7 @@ use moire::internal::pack::{self, PackedScene};
 use moire::internal::scene;
 use moire::internal::texture::data::{ColorSpace, TexelFormat};
 
-use crate::lookup::bench::{Dice, Vectors, texture};
+use crate::lookup::bench::{Rng, Vectors, texture};
 
 /// The eye is away from the world's origin: what is packed is relative to it.
 const HEAD: &str = "camera = { eye = [3.0, -2.0, 5.0], look_at = [0.0, 0.0, 0.0], vertical_fov = 60.0 }
@@ -34,7 +34,7 @@ fn three(v: DVec3) -> String {
 }
 
 /// Materials m0, m1, …: the four kinds of mapping in turn, with scale, rotation and offset.
-fn materials(dice: &mut Dice, count: usize) -> String {
+fn materials(rng: &mut Rng, count: usize) -> String {
     let mut text = HEAD.to_string();
     for i in 0..count {
         let kind = ["surface", "planar", "cylindrical", "spherical"][i % 4];
@@ -44,12 +44,12 @@ fn materials(dice: &mut Dice, count: usize) -> String {
             let space = if i % 3 == 0 { "bounds" } else { "world" };
             format!(
                 ", origin = {}, axis = {}, space = \"{space}\"",
-                three(dice.vector(0.5)),
-                three(dice.direction())
+                three(rng.vector(0.5)),
+                three(rng.direction())
             )
         };
-        let (sx, sy) = (dice.between(0.2, 2.0), dice.between(-2.0, -0.2));
-        let (ox, oy, turn) = (dice.between(-1.0, 1.0), dice.between(-1.0, 1.0), dice.between(-180.0, 180.0));
+        let (sx, sy) = (rng.between(0.2, 2.0), rng.between(-2.0, -0.2));
+        let (ox, oy, turn) = (rng.between(-1.0, 1.0), rng.between(-1.0, 1.0), rng.between(-180.0, 180.0));
         write!(
             text,
             "[[material]]\nname = \"m{i}\"\ntexture = \"t\"\nsampler = \"s\"\nmapping = {{ kind = \"{kind}\"{frame}, \
@@ -60,13 +60,12 @@ fn materials(dice: &mut Dice, count: usize) -> String {
     text
 }
 
-fn add_plane(text: &mut String, dice: &mut Dice, material: usize, bounded: bool) {
-    let tangent = dice.direction() * dice.between(0.5, 2.0);
-    let across = tangent.cross(dice.direction());
-    let bitangent = across.normalize() * dice.between(0.5, 2.0) + 0.3 * tangent;
-    let extent =
-        if bounded { format!("half_extent = {:?}\n", dice.between(0.5, 2.0)) } else { String::new() };
-    let (origin, tangent, bitangent) = (three(dice.vector(4.0)), three(tangent), three(bitangent));
+fn add_plane(text: &mut String, rng: &mut Rng, material: usize, bounded: bool) {
+    let tangent = rng.direction() * rng.between(0.5, 2.0);
+    let across = tangent.cross(rng.direction());
+    let bitangent = across.normalize() * rng.between(0.5, 2.0) + 0.3 * tangent;
+    let extent = if bounded { format!("half_extent = {:?}\n", rng.between(0.5, 2.0)) } else { String::new() };
+    let (origin, tangent, bitangent) = (three(rng.vector(4.0)), three(tangent), three(bitangent));
     write!(
         text,
         "[[plane]]\norigin = {origin}\ntangent = {tangent}\nbitangent = {bitangent}\n{extent}material = \"m{material}\"\n"
@@ -74,56 +73,56 @@ fn add_plane(text: &mut String, dice: &mut Dice, material: usize, bounded: bool)
     .unwrap();
 }
 
-fn add_sphere(text: &mut String, dice: &mut Dice, material: usize) {
-    let (center, radius) = (three(dice.vector(4.0)), dice.between(0.2, 2.5));
+fn add_sphere(text: &mut String, rng: &mut Rng, material: usize) {
+    let (center, radius) = (three(rng.vector(4.0)), rng.between(0.2, 2.5));
     write!(text, "[[sphere]]\ncenter = {center}\nradius = {radius:?}\nmaterial = \"m{material}\"\n").unwrap();
 }
 
-fn add_triangle(text: &mut String, dice: &mut Dice, material: usize, smooth: bool) {
-    let place = dice.vector(3.0);
-    let vertices = [0, 1, 2].map(|_| three(place + dice.vector(2.5))).join(", ");
+fn add_triangle(text: &mut String, rng: &mut Rng, material: usize, smooth: bool) {
+    let place = rng.vector(3.0);
+    let vertices = [0, 1, 2].map(|_| three(place + rng.vector(2.5))).join(", ");
     write!(text, "[[triangle]]\nvertices = [{vertices}]\nmaterial = \"m{material}\"\n").unwrap();
     if smooth {
-        let way = dice.direction();
-        let normals = [0, 1, 2].map(|_| three(way + dice.vector(0.3))).join(", ");
+        let way = rng.direction();
+        let normals = [0, 1, 2].map(|_| three(way + rng.vector(0.3))).join(", ");
         writeln!(text, "normals = [{normals}]").unwrap();
     }
 }
 
-pub fn planes(dice: &mut Dice) -> PackedScene {
-    let mut text = materials(dice, 8);
+pub fn planes(rng: &mut Rng) -> PackedScene {
+    let mut text = materials(rng, 8);
     // World space for what has no bounds: materials 1, 2, 4, 5, 7 are not in "bounds".
-    add_plane(&mut text, dice, 4, false);
-    add_plane(&mut text, dice, 7, false);
+    add_plane(&mut text, rng, 4, false);
+    add_plane(&mut text, rng, 7, false);
     for i in 0..8 {
-        add_plane(&mut text, dice, i, true);
+        add_plane(&mut text, rng, i, true);
     }
     pack_text(&text)
 }
 
-pub fn spheres(dice: &mut Dice) -> PackedScene {
-    let mut text = materials(dice, 8);
+pub fn spheres(rng: &mut Rng) -> PackedScene {
+    let mut text = materials(rng, 8);
     for i in 0..8 {
-        add_sphere(&mut text, dice, i);
+        add_sphere(&mut text, rng, i);
     }
     pack_text(&text)
 }
 
-pub fn triangles(dice: &mut Dice) -> PackedScene {
-    let mut text = materials(dice, 8);
+pub fn triangles(rng: &mut Rng) -> PackedScene {
+    let mut text = materials(rng, 8);
     for i in 0..16 {
-        add_triangle(&mut text, dice, i % 8, i % 2 == 0);
+        add_triangle(&mut text, rng, i % 8, i % 2 == 0);
     }
     pack_text(&text)
 }
 
 /// Twelve shapes.
-pub fn everything(dice: &mut Dice) -> PackedScene {
-    let mut text = materials(dice, 12);
+pub fn everything(rng: &mut Rng) -> PackedScene {
+    let mut text = materials(rng, 12);
     for i in 0..4 {
-        add_plane(&mut text, dice, i, true);
-        add_sphere(&mut text, dice, i + 4);
-        add_triangle(&mut text, dice, i + 8, i % 2 == 0);
+        add_plane(&mut text, rng, i, true);
+        add_sphere(&mut text, rng, i + 4);
+        add_triangle(&mut text, rng, i + 8, i % 2 == 0);
     }
     pack_text(&text)
 }
@@ -134,50 +133,50 @@ fn query(origin: DVec3, direction: DVec3, t_max: f64) -> RayQuery {
 }
 
 /// From around the scene into it, the world's origin being at −eye; directions of any length.
-pub fn rays(dice: &mut Dice, count: usize) -> Vec<RayQuery> {
+pub fn rays(rng: &mut Rng, count: usize) -> Vec<RayQuery> {
     let world = DVec3::new(-3.0, 2.0, -5.0);
     let ray = |_| {
-        let origin = world + dice.vector(6.0);
-        let to = world + dice.vector(3.5);
-        query(origin, (to - origin).normalize() * dice.between(0.3, 3.0), dice.between(0.5, 20.0))
+        let origin = world + rng.vector(6.0);
+        let to = world + rng.vector(3.5);
+        query(origin, (to - origin).normalize() * rng.between(0.3, 3.0), rng.between(0.5, 20.0))
     };
     (0..count).map(ray).collect()
 }
 
 /// Past the silhouettes of spheres, on either side by 1e-4 to 0.1 of the radius.
-pub fn grazing(dice: &mut Dice, scene: &PackedScene, count: usize) -> Vec<RayQuery> {
+pub fn grazing(rng: &mut Rng, scene: &PackedScene, count: usize) -> Vec<RayQuery> {
     let ray = |i: usize| {
         let sphere = &scene.spheres[i % scene.spheres.len()];
-        let way = dice.direction();
-        let side = way.cross(dice.direction()).normalize();
-        let off = 10f64.powf(dice.between(-4.0, -1.0)) * if dice.unit() < 0.8 { -1.0 } else { 1.0 };
-        let origin = sphere.center + side * sphere.radius * (1.0 + off) - way * dice.between(3.0, 10.0);
-        query(origin, way, dice.between(0.5, 20.0))
+        let way = rng.direction();
+        let side = way.cross(rng.direction()).normalize();
+        let off = 10f64.powf(rng.between(-4.0, -1.0)) * if rng.unit() < 0.8 { -1.0 } else { 1.0 };
+        let origin = sphere.center + side * sphere.radius * (1.0 + off) - way * rng.between(3.0, 10.0);
+        query(origin, way, rng.between(0.5, 20.0))
     };
     (0..count).map(ray).collect()
 }
 
 /// A bumpy fan of triangles around one vertex, and rays at points of its inner edges.
-pub fn fan(dice: &mut Dice, blades: usize, count: usize) -> (PackedScene, Vec<RayQuery>) {
-    let hub = dice.vector(0.3);
+pub fn fan(rng: &mut Rng, blades: usize, count: usize) -> (PackedScene, Vec<RayQuery>) {
+    let hub = rng.vector(0.3);
     let rim: Vec<DVec3> = (0..blades)
         .map(|i| {
             let angle = std::f64::consts::TAU * i as f64 / blades as f64;
-            hub + DVec3::new(angle.cos(), angle.sin(), 0.0) * dice.between(0.7, 2.0)
-                + DVec3::Z * dice.between(-0.2, 0.2)
+            hub + DVec3::new(angle.cos(), angle.sin(), 0.0) * rng.between(0.7, 2.0)
+                + DVec3::Z * rng.between(-0.2, 0.2)
         })
         .collect();
-    let mut text = materials(dice, 1);
+    let mut text = materials(rng, 1);
     for i in 0..blades {
         let vertices = [hub, rim[i], rim[(i + 1) % blades]].map(three).join(", ");
         write!(text, "[[triangle]]\nvertices = [{vertices}]\nmaterial = \"m0\"\n").unwrap();
     }
     let eye = DVec3::new(3.0, -2.0, 5.0);
     let ray = |i: usize| {
-        let target = hub + (rim[i % blades] - hub) * dice.between(0.02, 0.98) - eye;
+        let target = hub + (rim[i % blades] - hub) * rng.between(0.02, 0.98) - eye;
         let origin =
-            target + DVec3::new(dice.between(-2.0, 2.0), dice.between(-2.0, 2.0), dice.between(4.0, 9.0));
-        query(origin, (target - origin) * dice.between(0.2, 2.0), 1.0)
+            target + DVec3::new(rng.between(-2.0, 2.0), rng.between(-2.0, 2.0), rng.between(4.0, 9.0));
+        query(origin, (target - origin) * rng.between(0.2, 2.0), 1.0)
     };
     let queries = (0..count).map(ray).collect();
     (pack_text(&text), queries)

@@ -1,4 +1,5 @@
-//! What every scene error owes, and tables of (rule, scene, words the message must hold).
+//! Requirements of every scene error, and tables of (rule, scene, words that the message must
+//! contain).
 
 use std::path::Path;
 

@@ -1,4 +1,4 @@
-//! Bad cameras, images, sampling and backgrounds.
+//! Invalid cameras, images, sampling and backgrounds.
 
 use std::path::Path;
 

@@ -1,4 +1,4 @@
-//! Bad shapes and lights, and too many of them.
+//! Invalid shapes and lights, and too many of them.
 
 use std::path::Path;
 

@@ -1,4 +1,4 @@
-//! Bad textures, samplers, materials and mappings.
+//! Invalid textures, samplers, materials and mappings.
 
 use std::path::Path;
 

@@ -1,4 +1,5 @@
-//! Bad text: syntax, stray keys, odd characters, and mutated scenes that must never panic.
+//! Invalid text: syntax, unknown keys, unusual characters, and mutated scenes that must never
+//! panic.
 
 use std::path::Path;
 

@@ -1,4 +1,4 @@
-//! `moire stability` on the device under test: what it prints and writes, and how it exits.
+//! `moire stability` on the device under test: its output, its files and its exit code.
 
 use std::fs;
 

@@ -1,4 +1,4 @@
-//! The JSON object and the page say what the report says; the page is well-formed and needs no other file.
+//! The JSON object and the page agree with the report; the page is well-formed and self-contained.
 
 use std::fs;
 
@@ -8,9 +8,9 @@ use serde_json::Value;
 use tempfile::tempdir;
 
 use super::{report, row};
-use moire::internal::lab::stability::report::{Report, Row};
+use moire::internal::lab::stability::report::{Row, StabilityReport};
 
-fn planted() -> Report {
+fn planted() -> StabilityReport {
     let mut other = row("zeros", &[0.0, 0.0]);
     other.group = "second";
     report(vec![

@@ -1,4 +1,4 @@
-//! Who is within its bound and who is not, and how a run of cases goes on or ends.
+//! Verdicts within and above bounds, and the continuation or end of a run after a failing case.
 
 use moire::internal::core::error::{Error, Result};
 use moire::internal::core::progress::{NoProgress, Progress};

@@ -1,5 +1,5 @@
-//! Whether glass mirrors or refracts is a choice by the pattern: as even as the pattern is, the middle one where the
-//! pattern has no chance.
+//! Glass chooses stochastically between reflection and refraction by a sample dimension: stratified
+//! as the pattern is, and at ½ if the pattern is deterministic.
 
 use moire::internal::core::film::Film;
 use moire::internal::lab::metrics::compare;

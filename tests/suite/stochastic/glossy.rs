@@ -1,5 +1,5 @@
-//! Glossy mirrors and glass: facets follow GGX as seen by the ray, as much light leaves as theory says, and
-//! roughness 0 is the perfect mirror.
+//! Glossy mirrors and glass: microfacet normals follow the visible GGX distribution, the reflected
+//! energy agrees with theory, and roughness 0 is the perfect mirror.
 
 use std::f64::consts::{PI, TAU};
 

@@ -1,4 +1,5 @@
-//! The thin lens: what lies in focus, how wide what lies elsewhere is blurred, what patterns gain.
+//! The thin lens: points in focus, the circle of confusion elsewhere, and the gain by sample
+//! patterns.
 
 use moire::internal::core::film::Film;
 use moire::internal::core::progress::NoProgress;

@@ -1,5 +1,5 @@
-//! Lights with an extent: what they send to a surface against closed forms, how wide their penumbrae are,
-//! what patterns gain.
+//! Area lights: irradiance against closed forms, the width of penumbrae, and the gain by sample
+//! patterns.
 
 use std::f64::consts::{PI, TAU};
 

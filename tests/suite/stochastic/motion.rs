@@ -1,5 +1,5 @@
-//! Motion while the shutter is open: streaks as long as geometry says, moments as they would be at rest, what
-//! patterns gain.
+//! Motion blur: the length of streaks against geometry, instants against static scenes, and the
+//! gain by sample patterns.
 
 use glam::DVec3;
 use moire::internal::core::film::Film;

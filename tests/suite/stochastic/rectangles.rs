@@ -1,12 +1,12 @@
-//! The square onto a rectangle by solid angle: as even as it promises, on the device what the oracle says, near, far
-//! and grazing.
+//! The mapping of the unit square to a rectangle by solid angle: uniform, equal on device and
+//! oracle, near, far and grazing.
 
 use glam::{DVec2, DVec3};
 use moire::internal::lab::probe::{self, WarpQuery};
 use moire::internal::oracle::rectangle::{MIN_SOLID_ANGLE, on_rectangle};
 use moire::internal::scene::model::Pattern;
 
-use crate::lookup::bench::Dice;
+use crate::lookup::bench::Rng;
 use crate::shared_gpu::gpu;
 
 /// Of the rectangle between two corners, seen from `z` above the origin: the sum of four arc tangents.
@@ -18,15 +18,15 @@ fn solid_angle(low: DVec2, high: DVec2, z: f64) -> f64 {
 /// (middle, half sides, height), some next to the plane, some aside, some far, some thin; 1/1024 or more of a solid
 /// angle.
 fn rectangles(count: usize, seed: u64) -> Vec<(DVec2, DVec2, f64)> {
-    let mut dice = Dice::new(seed);
+    let mut rng = Rng::new(seed);
     let mut all = Vec::new();
     while all.len() < count {
-        let half = DVec2::new(1.0, 10f64.powf(-3.0 * dice.between(0.0, 1.0).powi(2)));
-        let spread = 10f64.powf(dice.between(-2.0, 1.0));
-        let side = |dice: &mut Dice| dice.between(-1.0, 1.0);
-        let middle = DVec2::new(side(&mut dice), side(&mut dice)) * (half + spread);
-        let height = 10f64.powf(dice.between(-5.0, 1.5));
-        let scale = 10f64.powf(dice.between(-3.0, 3.0));
+        let half = DVec2::new(1.0, 10f64.powf(-3.0 * rng.between(0.0, 1.0).powi(2)));
+        let spread = 10f64.powf(rng.between(-2.0, 1.0));
+        let side = |rng: &mut Rng| rng.between(-1.0, 1.0);
+        let middle = DVec2::new(side(&mut rng), side(&mut rng)) * (half + spread);
+        let height = 10f64.powf(rng.between(-5.0, 1.5));
+        let scale = 10f64.powf(rng.between(-3.0, 3.0));
         // As a device is given them.
         let narrow = |x: f64| f64::from((x * scale) as f32);
         let [m, h] = [middle, half].map(|v| DVec2::new(narrow(v.x), narrow(v.y)));
@@ -41,13 +41,13 @@ fn rectangles(count: usize, seed: u64) -> Vec<(DVec2, DVec2, f64)> {
 #[test]
 fn equal_areas_of_the_square_are_equal_solid_angles() {
     const STEPS: u32 = 64;
-    let mut dice = Dice::new(81);
+    let mut rng = Rng::new(81);
     for (middle, half, z) in rectangles(200, 80) {
         let whole = solid_angle(middle - half, middle + half, z);
         // Any part of the rectangle is met by its share of the square.
         let mut cut = || {
-            let at = |dice: &mut Dice| DVec2::new(dice.between(-1.0, 1.0), dice.between(-1.0, 1.0));
-            let (a, b) = (at(&mut dice), at(&mut dice));
+            let at = |rng: &mut Rng| DVec2::new(rng.between(-1.0, 1.0), rng.between(-1.0, 1.0));
+            let (a, b) = (at(&mut rng), at(&mut rng));
             (middle + half * a.min(b), middle + half * a.max(b))
         };
         let (low, high) = cut();
@@ -78,11 +78,11 @@ fn equal_areas_of_the_square_are_equal_solid_angles() {
 /// In the solid angle that lies between a device's place and the right one.
 #[test]
 fn device_and_oracle_agree_in_solid_angle() {
-    let mut dice = Dice::new(83);
+    let mut rng = Rng::new(83);
     let cases: Vec<_> = rectangles(4000, 82)
         .into_iter()
         .map(|rectangle| {
-            let square = [0, 1].map(|_| (dice.between(0.0, 16_777_216.0).floor() / 16_777_216.0) as f32);
+            let square = [0, 1].map(|_| (rng.between(0.0, 16_777_216.0).floor() / 16_777_216.0) as f32);
             (rectangle, square)
         })
         .collect();

@@ -1,4 +1,5 @@
-//! Squares onto discs and caps: the device against the oracle, and equal areas.
+//! Mappings of the unit square to discs and caps: the device against the oracle, and area
+//! preservation.
 
 use std::f64::consts::TAU;
 
@@ -10,22 +11,22 @@ use moire::internal::oracle::disk_sampling::{concentric_disc, on_cap};
 use moire::internal::oracle::footprint::around;
 use moire::internal::scene::model::Pattern;
 
-use crate::lookup::bench::Dice;
+use crate::lookup::bench::Rng;
 use crate::shared_gpu::gpu;
 
 const HEIGHTS: [f32; 5] = [1e-7, 0.01, 0.5, 1.0, 2.0];
 const ALPHAS: [f32; 4] = [0.01, 0.1, 0.5, 1.0];
 
 fn queries() -> Vec<WarpQuery> {
-    let mut dice = Dice::new(70);
+    let mut rng = Rng::new(70);
     let square =
-        |dice: &mut Dice| [0, 1].map(|_| (dice.between(0.0, 16_777_216.0).floor() / 16_777_216.0) as f32);
-    let mut places: Vec<[f32; 2]> = (0..2000).map(|_| square(&mut dice)).collect();
+        |rng: &mut Rng| [0, 1].map(|_| (rng.between(0.0, 16_777_216.0).floor() / 16_777_216.0) as f32);
+    let mut places: Vec<[f32; 2]> = (0..2000).map(|_| square(&mut rng)).collect();
     for x in [0.0, 0.25, 0.5, 1.0 - f32::EPSILON / 2.0] {
         places.extend([0.0, 0.25, 0.5, 1.0 - f32::EPSILON / 2.0].map(|y| [x, y]));
     }
     let mut direction = || {
-        let v = DVec3::new(dice.between(-1.0, 1.0), dice.between(-1.0, 1.0), dice.between(0.05, 1.0));
+        let v = DVec3::new(rng.between(-1.0, 1.0), rng.between(-1.0, 1.0), rng.between(0.05, 1.0));
         v.normalize()
     };
     let query = |(i, square): (usize, [f32; 2])| {
@@ -105,8 +106,8 @@ fn cells(points: impl Iterator<Item = (f64, f64)>) -> Vec<u32> {
 }
 
 fn discs(warp: impl Fn(DVec2) -> DVec2) -> Vec<DVec2> {
-    let mut dice = Dice::new(71);
-    (0..100_000).map(|_| warp(DVec2::new(dice.between(0.0, 1.0), dice.between(0.0, 1.0)))).collect()
+    let mut rng = Rng::new(71);
+    (0..100_000).map(|_| warp(DVec2::new(rng.between(0.0, 1.0), rng.between(0.0, 1.0)))).collect()
 }
 
 #[test]
@@ -134,10 +135,10 @@ fn an_uneven_disc_is_seen() {
 /// What lies side by side in the square lies side by side on the disc: strata stay compact.
 #[test]
 fn neighbours_stay_neighbours() {
-    let mut dice = Dice::new(72);
+    let mut rng = Rng::new(72);
     for _ in 0..2000 {
-        let p = DVec2::new(dice.between(0.0, 1.0), dice.between(0.0, 1.0));
-        let q = p + DVec2::new(dice.between(-1e-3, 1e-3), dice.between(-1e-3, 1e-3));
+        let p = DVec2::new(rng.between(0.0, 1.0), rng.between(0.0, 1.0));
+        let q = p + DVec2::new(rng.between(-1e-3, 1e-3), rng.between(-1e-3, 1e-3));
         let (a, b) = (concentric_disc(p), concentric_disc(q));
         assert!(a.distance(b) <= 3.0 * p.distance(q), "{p} {q}");
     }

@@ -1,10 +1,10 @@
-//! Slopes, winners and times to errors of points that are made up, so that the answers are known.
+//! Slopes, winners and times to errors of synthetic points with known answers.
 
 use moire::internal::lab::plot::axis::steps;
 use moire::internal::lab::study::analysis::{
     MethodSlope, Slope, median, recommended, slope, time_to, winners,
 };
-use moire::internal::lab::study::choice::no_different;
+use moire::internal::lab::study::choice::not_significantly_different;
 use moire::internal::lab::study::record::{Errors, PointRecord};
 use moire::internal::oracle::rng::mix_bits;
 
@@ -162,8 +162,14 @@ fn equal_pictures_and_errors_that_noise_explains_are_named_together() {
         with("random", 0.009, "q", &more),
         with("halton", 0.009, "r", &nearly),
     ];
-    assert!(no_different(&points[0], &points[1]) && no_different(&points[0], &points[3]));
-    assert!(!no_different(&points[0], &points[2]) && !no_different(&points[2], &points[3]));
+    assert!(
+        not_significantly_different(&points[0], &points[1])
+            && not_significantly_different(&points[0], &points[3])
+    );
+    assert!(
+        !not_significantly_different(&points[0], &points[2])
+            && !not_significantly_different(&points[2], &points[3])
+    );
     // In 10 ms grid does not fit by its median, but it took as long as center in some repeat.
     for winner in winners(&points, &[]).iter().filter(|w| w.budget > 0.0099) {
         for method in ["center", "grid", "halton"] {
@@ -175,9 +181,12 @@ fn equal_pictures_and_errors_that_noise_explains_are_named_together() {
     let skewed = |factor: f32| -> Vec<f32> {
         a.iter().enumerate().map(|(i, b)| b * factor * if i == 3 { 100.0 } else { 1.0 }).collect()
     };
-    assert!(!no_different(&with("a", 0.01, "s", &skewed(1.0)), &with("b", 0.01, "t", &skewed(1.5))));
+    assert!(!not_significantly_different(
+        &with("a", 0.01, "s", &skewed(1.0)),
+        &with("b", 0.01, "t", &skewed(1.5))
+    ));
     let unknown = point("old", 1, 0.01, 0.1);
-    assert!(!no_different(&unknown, &unknown), "without parts and picture nothing is known");
+    assert!(!not_significantly_different(&unknown, &unknown), "without parts and picture nothing is known");
 }
 
 #[test]

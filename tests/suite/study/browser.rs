@@ -1,5 +1,5 @@
-//! The page in headless Chromium, where `chromium` is installed: no message on the console, plots and pictures
-//! visible, nothing wider than a phone, dark mode, keys that work.
+//! The page in headless Chromium, where `chromium` is installed: no console message, plots and
+//! pictures visible, nothing wider than a phone, dark mode, working legends.
 
 use std::fs;
 use std::path::Path;

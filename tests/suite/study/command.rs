@@ -1,4 +1,4 @@
-//! The commands that a page gives do what they say, and mistakes are told as by the other commands.
+//! The commands that a page states work, and mistakes are reported as by the other commands.
 
 use std::fs;
 

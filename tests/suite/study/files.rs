@@ -1,4 +1,4 @@
-//! What a study leaves in its folder is well-formed and says the same everywhere.
+//! The files of a study are well-formed and consistent with each other.
 
 use std::fs;
 use std::path::Path;

@@ -1,4 +1,5 @@
-//! Names of methods, what they do to a scene, which ones a scene gets, and which counts are measured.
+//! Names of methods, their effect on a scene, the methods of a scene, and the counts that are
+//! measured.
 
 use moire::internal::lab::study::method::Method;
 use moire::internal::lab::study::plan::{Forecast, next_count, points};

@@ -1,5 +1,5 @@
-//! A study that goes on from what is in its folder: the same points as in one go, none measured twice, and
-//! none kept that belongs to something else.
+//! Resuming a study from its folder: the same points as in one run, none measured twice, and none
+//! reused that belongs to another study.
 
 use std::fs;
 use std::path::Path;

@@ -1,4 +1,4 @@
-//! Renders that share what is on the device are the same, bit for bit, as renders of their own.
+//! Renders that share device resources are bitwise equal to independent renders.
 
 use moire::internal::core::film::Film;
 use moire::internal::core::progress::NoProgress;

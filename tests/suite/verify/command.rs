@@ -1,4 +1,4 @@
-//! `moire verify` on the device under test: what it prints, how it exits and how it stops.
+//! `moire verify` on the device under test: its output, its exit code and its cancellation.
 
 use moire::internal::core::error::Error;
 use moire::internal::core::progress::Progress;

@@ -1,11 +1,11 @@
-//! Levels, kinds of textures and anisotropy: what a device gets wrong there is told from what it gets right.
+//! Levels, kinds of textures and anisotropy: errors of a device in these are detected.
 
 use std::collections::BTreeSet;
 
-use moire::internal::lab::probe::LookUp;
+use moire::internal::lab::probe::LookupQuery;
 use moire::internal::lab::verify::judge::{Judge, Precision};
 use moire::internal::lab::verify::level_variants::{anisotropic_variants, level_variants};
-use moire::internal::lab::verify::queries::{Dice, noise, pairs_over, place_of, query};
+use moire::internal::lab::verify::queries::{Rng, noise, pairs_over, place_of, query};
 use moire::internal::lab::verify::reading::readings;
 use moire::internal::lab::verify::sweeps::{level_sweep, long_footprints, paint_levels};
 use moire::internal::lab::verify::variants::{FormatClass, Reader, Scale, Variant};
@@ -36,11 +36,11 @@ fn scene_of(variant: &Variant) -> PackedScene {
 }
 
 /// Share of wrong answers of a device that looks up what `tamper` makes of a query and a sampler.
-fn wrong(variant: &Variant, precision: Precision, tamper: impl Fn(&mut LookUp, &mut Sampler)) -> f64 {
+fn wrong(variant: &Variant, precision: Precision, tamper: impl Fn(&mut LookupQuery, &mut Sampler)) -> f64 {
     let scene = scene_of(variant);
     let judge = Judge::new(&scene, precision);
-    let queries = level_sweep(&mut Dice::new(7), variant, &query(&scene, 0, [0.0; 2]));
-    let is_wrong = |query: &&LookUp| {
+    let queries = level_sweep(&mut Rng::new(7), variant, &query(&scene, 0, [0.0; 2]));
+    let is_wrong = |query: &&LookupQuery| {
         let (mut asked, mut how) = (**query, scene.samplers[0]);
         tamper(&mut asked, &mut how);
         let answer = sample_texture(&scene, &scene.textures[0], &how, &place_of(&asked), [0; 2]);
@@ -58,7 +58,7 @@ fn many(dimension: Dimension) -> f64 {
     if dimension == Dimension::Cube { 0.08 } else { 0.15 }
 }
 
-fn wider(query: &mut LookUp, by: f32) {
+fn wider(query: &mut LookupQuery, by: f32) {
     query.dx = query.dx.map(|d| d * by);
     query.dy = query.dy.map(|d| d * by);
 }
@@ -87,13 +87,13 @@ fn another_mip_mode_or_filter_is_noticed() {
     for &dimension in Dimension::ALL {
         for precision in precisions() {
             let nearest = variant(dimension, Filter::Linear, MipMode::Nearest);
-            let other = |mip: MipMode| move |_: &mut LookUp, how: &mut Sampler| how.mip_mode = mip;
+            let other = |mip: MipMode| move |_: &mut LookupQuery, how: &mut Sampler| how.mip_mode = mip;
             assert!(
                 wrong(&nearest, precision, other(MipMode::Linear)) > many(dimension),
                 "{dimension} linear"
             );
             assert!(wrong(&nearest, precision, other(MipMode::None)) > many(dimension), "{dimension} none");
-            let min = |_: &mut LookUp, how: &mut Sampler| how.min_filter = Filter::Nearest;
+            let min = |_: &mut LookupQuery, how: &mut Sampler| how.min_filter = Filter::Nearest;
             assert!(wrong(&nearest, precision, min) > many(dimension), "{dimension} minification");
         }
     }
@@ -120,8 +120,8 @@ fn wrong_anisotropic(variant: &Variant, level: impl Fn(f64, f64) -> f64) -> f64 
     let mut scene = scene_of(variant);
     paint_levels(&mut scene, 0);
     let judge = Judge::new(&scene, Precision::declared(&device("another")));
-    let queries = long_footprints(&mut Dice::new(7), variant, &query(&scene, 0, [0.0; 2]));
-    let is_wrong = |query: &&LookUp| {
+    let queries = long_footprints(&mut Rng::new(7), variant, &query(&scene, 0, [0.0; 2]));
+    let is_wrong = |query: &&LookupQuery| {
         let axes = place_of(query).change.map(|d| d.length() * f64::from(variant.size[0]));
         let level = level(axes[0].max(axes[1]), axes[0].min(axes[1])).clamp(0.0, 8.0);
         !judge.judge(query, [(level / 8.0) as f32; 4]).right

@@ -1,11 +1,10 @@
-//! Which pixels of two pictures are compared. In: two films, and where each lies in its picture. Out: the part that
-//! both have. Of pictures of one size that is where their films overlap; films of one size from other pictures
-//! are compared as they are.
+//! The region in which two pictures are compared: the intersection of the films' placements. Films
+//! of pictures of different size are compared pixel by pixel if they have the same size.
 
 use crate::core::error::{Error, Result};
 use crate::core::film::{Film, Placement};
 
-/// Two films of one size, and where they lie in the picture that both are parts of.
+/// Two films of one size, with their placement in the picture of which both are parts.
 pub struct Common {
     pub a: Film,
     pub b: Film,
@@ -14,7 +13,7 @@ pub struct Common {
 
 pub fn common((a, at): (Film, Placement), (b, bt): (Film, Placement)) -> Result<Common> {
     if at.full != bt.full {
-        // The sizes are compared later, as those of any two films.
+        // The sizes are compared later, as for any two films.
         let placement = Placement::whole(a.width, a.height);
         return Ok(Common { a, b, placement });
     }

@@ -1,5 +1,5 @@
-//! One session on the device for each way in which methods read textures: patterns share it. In: scene,
-//! textures and methods. Out: for each method and count what renders it.
+//! Session cache of a study: one session on the device for each combination of algorithm, footprint
+//! and filter, shared by all patterns. Returns the pipeline for each method and sample count.
 
 use std::time::Instant;
 
@@ -13,7 +13,7 @@ use crate::texture::sampler_spec::Filter;
 
 use super::method::Method;
 
-/// Footprint and filter; beams and cones read textures in ways of their own.
+/// Footprint and filter with the algorithm, since beams and cones read textures differently.
 type Key = (Algorithm, Footprint, Option<Filter>);
 
 const PLAIN: Key = (Algorithm::Samples, Footprint::None, None);
@@ -25,11 +25,12 @@ struct Look<'a> {
 }
 
 pub struct SessionCache<'a> {
-    looks: Vec<Look<'a>>,
+    sessions: Vec<Look<'a>>,
 }
 
 impl<'a> SessionCache<'a> {
-    /// Also the one without a footprint, which references are made with.
+    /// Opens a session per combination, and the one without a footprint with which references are
+    /// rendered.
     pub fn open(
         gpu: &'a Gpu,
         scene: &Scene,
@@ -43,7 +44,7 @@ impl<'a> SessionCache<'a> {
             }
         });
         let mip_chains = MipChoice::Auto.mip_chains(gpu.info());
-        let mut looks = Vec::with_capacity(keys.len());
+        let mut sessions = Vec::with_capacity(keys.len());
         for key in keys {
             let clock = Instant::now();
             let (algorithm, footprint, filter) = key;
@@ -53,21 +54,21 @@ impl<'a> SessionCache<'a> {
             let packed = pack::pack_with(&reading, textures.clone(), None, mip_chains)?;
             let pack_seconds = clock.elapsed().as_secs_f64();
             let session = Session::open(gpu, packed, false, &Tuning::default())?;
-            looks.push(Look { key, session, pack_seconds });
+            sessions.push(Look { key, session, pack_seconds });
         }
-        Ok(SessionCache { looks })
+        Ok(SessionCache { sessions })
     }
 
-    /// A pipeline for a method with a count, and the seconds that packing its look took.
+    /// Returns a pipeline for a method with a count, and the seconds that packing its scene took.
     pub fn prepare(&self, scene: &Scene, method: &Method, spp: u32) -> Result<(Prepared<'_, 'a>, f64)> {
         let key = key(method);
         let missing = || Error::new(format!("method {} was not opened", method.name()));
-        let look = self.looks.iter().find(|look| look.key == key).ok_or_else(missing)?;
+        let look = self.sessions.iter().find(|look| look.key == key).ok_or_else(missing)?;
         Ok((look.session.prepare_sampling(&method.apply(scene, spp)?)?, look.pack_seconds))
     }
 
     pub fn has(&self, method: &Method) -> bool {
-        self.looks.iter().any(|look| look.key == key(method))
+        self.sessions.iter().any(|look| look.key == key(method))
     }
 }
 
@@ -79,7 +80,8 @@ fn key(method: &Method) -> Key {
     (algorithm, method.footprint, method.filter)
 }
 
-/// Of beams: the part of the pixels that took samples; all of them in a scene that suits no beam.
+/// Returns, for beams, the fraction of the pixels that were sampled; 1 in a scene that does not
+/// support beams.
 pub fn sampled_part(algorithm: Algorithm, report: &Report, pixels: usize) -> Option<f64> {
     let part = || report.sampled_pixels.map_or(1.0, |count| count as f64 / pixels as f64);
     (algorithm == Algorithm::Beam).then(part)

@@ -6,22 +6,22 @@ use super::results::Winner;
 use crate::core::counted::counted;
 use crate::scene::model::Algorithm;
 
-/// The winning method, or all that tie.
+/// Returns the winning method, or all that tie.
 pub fn names(winner: &Winner) -> String {
     let all = std::iter::once(&winner.method).chain(&winner.ties);
     all.map(String::as_str).collect::<Vec<_>>().join(" or ")
 }
 
-/// What each pixel of a point took.
-pub fn taken(point: &PointRecord) -> String {
+/// Returns the samples per pixel of a point as text.
+pub fn samples_taken(point: &PointRecord) -> String {
     let algorithm = Method::parse(&point.method).map_or(Algorithm::Samples, |method| method.algorithm);
     let count = if algorithm == Algorithm::Beam { point.spp } else { point.samples };
-    taken_by(algorithm, count, point.sampled)
+    samples_taken_by(algorithm, count, point.sampled)
 }
 
-/// What each pixel took of an algorithm that takes `count` samples; `sampled` is the part of the pixels in which
-/// beams took them.
-pub fn taken_by(algorithm: Algorithm, count: u32, sampled: Option<f64>) -> String {
+/// Returns the samples per pixel of an algorithm with `count` samples as text; `sampled` is the
+/// fraction of the pixels in which beams were sampled.
+pub fn samples_taken_by(algorithm: Algorithm, count: u32, sampled: Option<f64>) -> String {
     match (algorithm, sampled.unwrap_or(0.0)) {
         (Algorithm::Cone, _) => "one cone a pixel".into(),
         (Algorithm::Beam, 0.0) => "one beam a pixel".into(),
@@ -47,7 +47,7 @@ pub fn seconds(seconds: f64) -> String {
     }
 }
 
-/// Three digits, with an exponent where a picture's errors have one.
+/// Formats an error with three digits, with an exponent where errors of pictures need one.
 pub fn error(value: f64) -> String {
     if !value.is_finite() {
         return "–".into();
@@ -70,7 +70,7 @@ pub fn percent(share: f64) -> String {
     format!("{} %", significant(share * 100.0))
 }
 
-/// Times of one point: median, and the spread of its repeats.
+/// Returns the median time of a point and the spread of its repeats.
 pub fn times(point: &PointRecord) -> String {
     let least = point.seconds.iter().copied().fold(f64::INFINITY, f64::min);
     let most = point.seconds.iter().copied().fold(0.0, f64::max);

@@ -1,5 +1,5 @@
-//! A place of a texture → the values that a filter gives in it and around it, as far as the coordinate is
-//! known: boxes of least and greatest values.
+//! The values that a filter may return at and around a coordinate with its uncertainty, as boxes of
+//! smallest and largest values.
 
 use glam::{DVec3, DVec4};
 
@@ -13,39 +13,40 @@ use crate::pack::{PackedScene, TextureKind};
 use crate::schema::layout::{Sampler, Texture};
 use crate::texture::sampler_spec::{Filter, TexelCenter};
 
-/// How exactly a coordinate is known.
+/// The precision of a coordinate.
 #[derive(Clone, Copy, Debug)]
-pub enum Reach {
+pub enum Uncertainty {
     /// To size · 2⁻²² texels.
     Shader,
-    /// To a part of a texel beside the rounding of u · size in f32, with half a texel added.
+    /// To a fraction of a texel in addition to the rounding of u · size in f32, with half a texel
+    /// added.
     Hardware { sub_texel: f64 },
 }
 
-pub struct Place<'a> {
+pub struct LookupInterval<'a> {
     reader: Reader<'a>,
     pub kind: TextureKind,
-    /// Of a cube: on a face.
-    pub at: Coordinate,
+    /// The coordinate; for a cube, that on a face.
+    pub uv: Coordinate,
     face: u32,
 }
 
-impl<'a> Place<'a> {
+impl<'a> LookupInterval<'a> {
     pub fn new(
         scene: &'a PackedScene,
         image: &'a Texture,
         how: &'a Sampler,
-        place: &Coordinate,
-    ) -> Place<'a> {
-        let (at, face) = in_texture(image, place);
-        Place { reader: Reader { scene, image, how }, kind: kind_of(image), at, face }
+        position: &Coordinate,
+    ) -> LookupInterval<'a> {
+        let (uv, face) = in_texture(image, position);
+        LookupInterval { reader: Reader { scene, image, how }, kind: kind_of(image), uv, face }
     }
 
     fn axes(&self) -> usize {
         if self.kind == TextureKind::Volume { 3 } else { 2 }
     }
 
-    /// Mixes of two values, one after the other.
+    /// Returns the number of successive interpolations between two values.
     pub fn mixes(&self, reading: &Reading) -> usize {
         let along = if reading.filter == Filter::Nearest { 0 } else { self.axes() };
         along + usize::from(reading.is_mixed())
@@ -63,28 +64,28 @@ impl<'a> Place<'a> {
         level_at(self.reader.scene, self.reader.image, index)
     }
 
-    /// On the axes that count; on the others 1.
+    /// Returns the size along the axes in use, and 1 along the others.
     fn size(&self, level: &Level) -> DVec3 {
         let [width, height, depth] = level.size.map(|n| n as f64);
         DVec3::new(width, height, if self.kind == TextureKind::Volume { depth } else { 1.0 })
     }
 
-    /// In texels of a level.
-    fn reach(&self, level: &Level, reach: Reach) -> DVec3 {
+    /// Returns the uncertainty in texels of a level.
+    fn reach(&self, level: &Level, uncertainty: Uncertainty) -> DVec3 {
         let size = self.size(level);
-        match reach {
-            Reach::Shader => size * (2.0 * F32_ULP),
-            Reach::Hardware { sub_texel } => (self.at.at.abs() + 1.0) * size * F32_ULP + sub_texel,
+        match uncertainty {
+            Uncertainty::Shader => size * (2.0 * F32_ULP),
+            Uncertainty::Hardware { sub_texel } => (self.uv.at.abs() + 1.0) * size * F32_ULP + sub_texel,
         }
     }
 
-    /// Least and greatest values that a reading allows; nearest texels one by one.
-    pub fn values(&self, reading: &Reading, reach: Reach) -> Vec<[DVec4; 2]> {
-        let first = self.level_values(reading.filter, &self.level(reading.levels[0]), reach);
+    /// Returns the smallest and largest values that a reading allows; nearest texels one by one.
+    pub fn values(&self, reading: &Reading, uncertainty: Uncertainty) -> Vec<[DVec4; 2]> {
+        let first = self.level_values(reading.filter, &self.level(reading.levels[0]), uncertainty);
         if !reading.is_mixed() {
             return first;
         }
-        let second = self.level_values(reading.filter, &self.level(reading.levels[1]), reach);
+        let second = self.level_values(reading.filter, &self.level(reading.levels[1]), uncertainty);
         let mixed = |a: &[DVec4; 2], b: &[DVec4; 2]| {
             let ends = |side: usize| reading.share.map(|share| a[side] * (1.0 - share) + b[side] * share);
             let ([a, b], [c, d]) = (ends(0), ends(1));
@@ -93,19 +94,19 @@ impl<'a> Place<'a> {
         first.iter().flat_map(|a| second.iter().map(move |b| mixed(a, b))).collect()
     }
 
-    fn level_values(&self, filter: Filter, level: &Level, reach: Reach) -> Vec<[DVec4; 2]> {
+    fn level_values(&self, filter: Filter, level: &Level, uncertainty: Uncertainty) -> Vec<[DVec4; 2]> {
         let size = self.size(level);
-        let texel = self.at.at * size;
-        let around = self.reach(level, reach);
+        let texel = self.uv.at * size;
+        let around = self.reach(level, uncertainty);
         let integer = self.reader.how.texel_center == TexelCenter::Integer;
         let half = if integer && self.kind != TextureKind::Cube { 0.0 } else { 0.5 };
         let stops = |axis: usize| {
             let (at, reach_here) = (texel[axis], around[axis]);
             let (from, to) = (at - reach_here, at + reach_here);
-            match (filter, reach) {
+            match (filter, uncertainty) {
                 _ if axis >= self.axes() => vec![at],
                 (Filter::Nearest, _) => vec![from, to],
-                (_, Reach::Shader) => vec![at],
+                (_, Uncertainty::Shader) => vec![at],
                 _ => stops(from, to, half),
             }
         };
@@ -129,21 +130,21 @@ impl<'a> Place<'a> {
         vec![values.into_iter().fold(start, |[low, high], v| [low.min(v), high.max(v)])]
     }
 
-    /// Weight of the texel that a cube has not, beyond a corner: devices may spread it as they like
-    /// (Vulkan 1.3, "Cube Map Edge Handling").
-    pub fn beyond_corner(&self, reading: &Reading, reach: Reach) -> f64 {
+    /// Returns the weight of the missing texel beyond a cube's corner, which devices may distribute
+    /// as they like (Vulkan 1.3, "Cube Map Edge Handling").
+    pub fn beyond_corner(&self, reading: &Reading, uncertainty: Uncertainty) -> f64 {
         if self.kind != TextureKind::Cube
             || reading.filter == Filter::Nearest
-            || matches!(reach, Reach::Shader)
+            || matches!(uncertainty, Uncertainty::Shader)
         {
             return 0.0;
         }
         let of = |index: u32| {
             let level = self.level(index);
-            let (size, reach) = (self.size(&level), self.reach(&level, reach));
+            let (size, uncertainty) = (self.size(&level), self.reach(&level, uncertainty));
             let beyond = |axis: usize| {
-                let texel = self.at.at[axis] * size[axis] - 0.5;
-                ((-texel).max(texel - (size[axis] - 1.0)) + reach[axis]).max(0.0)
+                let texel = self.uv.at[axis] * size[axis] - 0.5;
+                ((-texel).max(texel - (size[axis] - 1.0)) + uncertainty[axis]).max(0.0)
             };
             beyond(0) * beyond(1)
         };
@@ -151,8 +152,8 @@ impl<'a> Place<'a> {
     }
 }
 
-/// The ends of an interval, and the texel centre in it; intervals are shorter than a texel. Between
-/// them linear filters have no extremes.
+/// Returns the ends of an interval, which is shorter than a texel, and the texel centre in it.
+/// Linear filters have no extrema between these points.
 fn stops(from: f64, to: f64, half: f64) -> Vec<f64> {
     let crossed = (from - half).ceil() + half;
     let mut all = vec![from, to];
@@ -160,7 +161,7 @@ fn stops(from: f64, to: f64, half: f64) -> Vec<f64> {
     all
 }
 
-/// Least and greatest value of each channel over all texels of all levels.
+/// Returns the smallest and largest value of each channel over all texels of all levels.
 pub fn span(scene: &PackedScene, texture: usize) -> [DVec4; 2] {
     let record = &scene.textures[texture];
     let mut span = [DVec4::MAX, DVec4::MIN];
