@@ -9,7 +9,7 @@ use super::svg::escape;
 /// The script that lets legends toggle their series.
 pub const SCRIPT: &str = include_str!("page/script.js");
 
-/// Markup. [`html!`] makes it from a template and values, and escapes each value that is not markup itself.
+/// Markup. `html!` makes it from a template and values, and escapes each value that is not markup itself.
 #[derive(Clone, Debug, Default)]
 pub struct Html(String);
 
