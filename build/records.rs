@@ -71,7 +71,7 @@ fn list(record: &Record) -> String {
     format!(
         "{name} cached_{list}[{length} == DYNAMIC || {length} == 0u ? 1u : {length}];
 void preload_{list}() {{
-    if ({length} == DYNAMIC) return;
+    if ({length} == DYNAMIC || {length} == 0u) return;
     for (uint i = 0u; i < {length}; i++) cached_{list}[i] = {one}_in_head({begin} + i * {units});
 }}
 {name} {one}_at(uint index) {{

@@ -112,7 +112,7 @@ vec3 shade_part(Header header, Branch branch, uint shape) {
     vec3 carried = branch.weight;
     vec3 albedo = surface_color(material, uv_projection_at(surface.link.y), ray, surface, print, uvec2(0u));
     branch.weight *= albedo;
-    bool lit = is_lit(material);
+    bool lit = HAS_LIT && is_lit(material);
     if (!lit && !is_specular(material)) return emitted(material, branch.weight);
     if (!lit) consistent_normal(ray.direction, surface);
     float ratio = index_ratio(material, surface.inside);

@@ -214,10 +214,12 @@ vec3 advance(Header header, Points points, SampleDimensions dimensions, inout Pa
         real3 direction = path.ray.direction;
         is_alive = BOUNCES && bounced(header, hit, surface, print, material, dimensions, path);
         seen = emitted(material, path.throughput);
-        if (is_lit(material)) {
-            Bsdf bsdf = bsdf_at(material, albedo, surface.normal, direction);
-            Lit lit = direct_light(header, surface, path.ray.time, hit.shape, bsdf, points, dimensions);
-            seen = reflected(bsdf, path.throughput, carried, lit);
+        if (HAS_LIT) {
+            if (is_lit(material)) {
+                Bsdf bsdf = bsdf_at(material, albedo, surface.normal, direction);
+                Lit lit = direct_light(header, surface, path.ray.time, hit.shape, bsdf, points, dimensions);
+                seen = reflected(bsdf, path.throughput, carried, lit);
+            }
         }
     }
     path.skip = hit.shape;

@@ -72,7 +72,7 @@ void main() {
     uint listed = 0u;
     uint alone = 0u;
     bool round = false;
-#define SURVEY(Type, at, first, count, is_flat, is_listed)                            \
+#define SURVEY(Type, at, LIST, first, count, is_flat, is_listed)                            \
     for (uint i = 0u; i < count; i++) {                                               \
         if (may_meet(header, frame, SQUARE, at(i))) {                                 \
             if (is_listed && listed < MAX_LISTED) found[begin + 2u + listed] = i;     \

@@ -31,6 +31,9 @@ struct Lit {
 // Some model has the second lobe.
 const bool SECOND_LOBE = (MODELS & ((1u << MODEL_PHONG) | (1u << MODEL_OREN_NAYAR))) != 0u;
 
+// Some model sends light on. Tested by itself before `is_lit`: code behind a call stays in the pipeline.
+const bool HAS_LIT = (MODELS & ((1u << MODEL_LAMBERT) | (1u << MODEL_PHONG) | (1u << MODEL_OREN_NAYAR))) != 0u;
+
 // Sends rays on, and nothing else.
 bool is_specular(Material material) {
     return MODE_IS(MODELS, MODEL_MIRROR, material.model) || MODE_IS(MODELS, MODEL_DIELECTRIC, material.model);

@@ -47,6 +47,9 @@ KernelWeights lanczos_weights(float t, float radius) {
     return KernelWeights(first * scale, rest * scale);
 }
 
+// Some sampler has such a filter. Tested by itself before `has_kernel`: code behind a call stays in the pipeline.
+const bool HAS_KERNELS = (FILTERS & ((1u << FILTER_CUBIC) | (1u << FILTER_LANCZOS_2) | (1u << FILTER_LANCZOS_3))) != 0u;
+
 // Whether a filter has such a kernel.
 bool has_kernel(uint mode) {
     return MODE_IS(FILTERS, FILTER_CUBIC, mode) || MODE_IS(FILTERS, FILTER_LANCZOS_2, mode) ||

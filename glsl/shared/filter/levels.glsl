@@ -31,7 +31,9 @@ vec4 filtered_level(Texture image, Sampler how, uint slot, uint mode, Level leve
     texel -= 0.5;
     if (cube) return linear_cube(image, slot, level, face, texel.xy);
     if (volume) return linear_volume(image, how, slot, level, texel);
-    if (has_kernel(mode)) return kernel_flat(image, how, slot, mode, level, texel.xy);
+    if (HAS_KERNELS) {
+        if (has_kernel(mode)) return kernel_flat(image, how, slot, mode, level, texel.xy);
+    }
     return linear_flat(image, how, slot, level, texel.xy);
 }
 #endif

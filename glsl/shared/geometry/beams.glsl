@@ -9,7 +9,7 @@
 bool has_region(Header header, uint shape) {
     COUNT_SHAPES(header)
     bool is_round = false;
-#define ROUND(Type, at, first, count) is_round = is_round || IS_WITHIN(shape, first, count);
+#define ROUND(Type, at, LIST, first, count) is_round = is_round || IS_WITHIN(LIST, shape, first, count);
     ROUND_KINDS(ROUND)
 #undef ROUND
     return !is_round;
@@ -19,7 +19,7 @@ bool has_region(Header header, uint shape) {
 vec4 shape_plane(Header header, uint shape) {
     COUNT_SHAPES(header)
     vec4 plane = vec4(0.0);
-#define PLANE_OF(Type, at, first, count) if (IS_NEXT(shape, first, count)) plane = plane_of(at(shape - (first))); else
+#define PLANE_OF(Type, at, LIST, first, count) if (IS_NEXT(LIST, shape, first, count)) plane = plane_of(at(shape - (first))); else
     FLAT_KINDS(PLANE_OF) {}
 #undef PLANE_OF
     return plane;
@@ -29,7 +29,7 @@ vec4 shape_plane(Header header, uint shape) {
 uvec2 shape_links(Header header, uint shape) {
     COUNT_SHAPES(header)
     uvec2 link = uvec2(0u);
-#define LINK(Type, at, first, count) if (IS_NEXT(shape, first, count)) link = links_of(at(shape - (first))); else
+#define LINK(Type, at, LIST, first, count) if (IS_NEXT(LIST, shape, first, count)) link = links_of(at(shape - (first))); else
     FLAT_KINDS(LINK) {}
 #undef LINK
     return link;
@@ -38,8 +38,8 @@ uvec2 shape_links(Header header, uint shape) {
 bool is_smooth(Header header, uint shape) {
     COUNT_SHAPES(header)
     bool smooth_normals = false;
-#define SMOOTH(Type, at, first, count) \
-    if (IS_NEXT(shape, first, count)) smooth_normals = has_smooth_normals(at(shape - (first))); else
+#define SMOOTH(Type, at, LIST, first, count) \
+    if (IS_NEXT(LIST, shape, first, count)) smooth_normals = has_smooth_normals(at(shape - (first))); else
     FLAT_KINDS(SMOOTH) {}
 #undef SMOOTH
     return smooth_normals;
@@ -53,8 +53,8 @@ vec3 nearness_of(Header header, PixelFrustum frame, uint shape) {
 ConvexRegion shape_region(Header header, PixelFrustum frame, uint shape) {
     COUNT_SHAPES(header)
     ConvexRegion region = region_of_plane(header, frame, shape_plane(header, shape));
-#define OUTLINE(Type, at, first, count) \
-    if (IS_NEXT(shape, first, count)) add_outline(header, frame, region.inverse_depth, at(shape - (first)), region); else
+#define OUTLINE(Type, at, LIST, first, count) \
+    if (IS_NEXT(LIST, shape, first, count)) add_outline(header, frame, region.inverse_depth, at(shape - (first)), region); else
     FLAT_KINDS(OUTLINE) {}
 #undef OUTLINE
     return region;
@@ -67,8 +67,8 @@ RationalMap coordinates(Header header, PixelFrustum frame, uint shape, UvProject
     }
     COUNT_SHAPES(header)
     RationalMap own = RationalMap(near, near, near);
-#define OWN(Type, at, first, count) \
-    if (IS_NEXT(shape, first, count)) own = own_coordinates(header, frame, near, at(shape - (first)), map); else
+#define OWN(Type, at, LIST, first, count) \
+    if (IS_NEXT(LIST, shape, first, count)) own = own_coordinates(header, frame, near, at(shape - (first)), map); else
     FLAT_KINDS(OWN) {}
 #undef OWN
     return own;
@@ -89,8 +89,8 @@ ConvexRegion shadow_region(Header header, PixelFrustum frame, vec3 near, uint sh
     region.inverse_depth = near;
     // Beyond the plane, seen from the light.
     region.lines[0] = along(header, frame, near, (point_light ? side : -side) * vec4(n, -plane.w));
-#define SHADOW(Type, at, first, count)                                                       \
-    if (IS_NEXT(shape, first, count)) {                                                      \
+#define SHADOW(Type, at, LIST, first, count)                                                       \
+    if (IS_NEXT(LIST, shape, first, count)) {                                                      \
         add_shadow(header, frame, near, light, plane, rise, region, at(shape - (first)));    \
     } else
     FLAT_KINDS(SHADOW) {}
@@ -101,8 +101,8 @@ ConvexRegion shadow_region(Header header, PixelFrustum frame, vec3 near, uint sh
 // False where no ray of the polygon can meet the shape, which has no region.
 bool may_meet(Header header, PixelFrustum frame, uint polygon, uint shape) {
     COUNT_SHAPES(header)
-#define MEETS(Type, at, first, count) \
-    if (IS_WITHIN(shape, first, count)) return may_meet(header, frame, polygon, at(shape - (first)));
+#define MEETS(Type, at, LIST, first, count) \
+    if (IS_WITHIN(LIST, shape, first, count)) return may_meet(header, frame, polygon, at(shape - (first)));
     ROUND_KINDS(MEETS)
 #undef MEETS
     return false;
@@ -112,8 +112,8 @@ bool may_meet(Header header, PixelFrustum frame, uint polygon, uint shape) {
 // region.
 bool may_shade(Header header, PixelFrustum frame, vec3 near, uint polygon, Light light, uint shape) {
     COUNT_SHAPES(header)
-#define SHADES(Type, at, first, count) \
-    if (IS_WITHIN(shape, first, count)) return may_shade(header, frame, near, polygon, light, at(shape - (first)));
+#define SHADES(Type, at, LIST, first, count) \
+    if (IS_WITHIN(LIST, shape, first, count)) return may_shade(header, frame, near, polygon, light, at(shape - (first)));
     ROUND_KINDS(SHADES)
 #undef SHADES
     return false;

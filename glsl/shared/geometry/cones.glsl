@@ -10,7 +10,7 @@ Cone leaving(Header header, Cone cone, uint shape) {
     if (!FLOORS || shape == NO_SHAPE) return cone;
     COUNT_SHAPES(header)
     vec3 up = vec3(0.0);
-#define UP(Type, at, first, count) if (IS_WITHIN(shape, first, count)) up = plane_of(at(shape - (first))).xyz; else
+#define UP(Type, at, LIST, first, count) if (IS_WITHIN(LIST, shape, first, count)) up = plane_of(at(shape - (first))).xyz; else
     FLAT_KINDS(UP) return cone;
 #undef UP
     Ray ray = cone.ray;
@@ -24,7 +24,7 @@ Cone leaving(Header header, Cone cone, uint shape) {
 uint left_shape(Header header, uint shape, bool within) {
     COUNT_SHAPES(header)
     bool is_round = false;
-#define ROUND(Type, at, first, count) is_round = is_round || (shape >= (first) && shape < (first) + (count));
+#define ROUND(Type, at, LIST, first, count) is_round = is_round || (shape >= (first) && shape < (first) + (count));
     ROUND_KINDS(ROUND)
 #undef ROUND
     return is_round && within ? NO_SHAPE : shape;
@@ -34,8 +34,8 @@ uint left_shape(Header header, uint shape, bool within) {
 bool cut_shape(Header header, Cone cone, uint shape) {
     COUNT_SHAPES(header)
     bool has_lines = true;
-#define CUT(Type, at, first, count, is_flat, is_listed) \
-    if (IS_NEXT(shape, first, count)) has_lines = cut_by_shape(cone, at(shape - (first))); else
+#define CUT(Type, at, LIST, first, count, is_flat, is_listed) \
+    if (IS_NEXT(LIST, shape, first, count)) has_lines = cut_by_shape(cone, at(shape - (first))); else
     SHAPE_KINDS(CUT) {}
 #undef CUT
     return has_lines;
@@ -44,8 +44,8 @@ bool cut_shape(Header header, Cone cone, uint shape) {
 // What the shape covers.
 Covered covered_by(Header header, Cone cone, uint shape) {
     COUNT_SHAPES(header)
-#define COVERED(Type, at, first, count) \
-    if (IS_WITHIN(shape, first, count)) return covered_by(cone, at(shape - (first)));
+#define COVERED(Type, at, LIST, first, count) \
+    if (IS_WITHIN(LIST, shape, first, count)) return covered_by(cone, at(shape - (first)));
     ROUND_KINDS(COVERED)
 #undef COVERED
     if (0u FLAT_KINDS(ADD_COUNT) == 0u) return NOTHING;
@@ -57,8 +57,8 @@ Covered covered_by(Header header, Cone cone, uint shape) {
 // Whether the cone may touch the shape.
 bool touched(Header header, Cone cone, uint shape) {
     COUNT_SHAPES(header)
-#define TOUCHED(Type, at, first, count) \
-    if (IS_WITHIN(shape, first, count)) return touched(cone, at(shape - (first)));
+#define TOUCHED(Type, at, LIST, first, count) \
+    if (IS_WITHIN(LIST, shape, first, count)) return touched(cone, at(shape - (first)));
     ROUND_KINDS(TOUCHED)
 #undef TOUCHED
     whole_disc();
@@ -71,15 +71,15 @@ Hit meet(Header header, Ray ray, uint shape) {
     COUNT_SHAPES(header)
     Hit hit = Hit(-1.0, shape, vec2(0.0));
     vec4 plane = vec4(0.0);
-#define ROUND(Type, at, first, count)            \
-    if (IS_WITHIN(shape, first, count)) {        \
+#define ROUND(Type, at, LIST, first, count)            \
+    if (IS_WITHIN(LIST, shape, first, count)) {        \
         complete(at(shape - (first)), ray, hit); \
         return hit;                              \
     }
     ROUND_KINDS(ROUND)
 #undef ROUND
-#define PLANAR(Type, at, first, count)       \
-    if (IS_WITHIN(shape, first, count)) {    \
+#define PLANAR(Type, at, LIST, first, count)       \
+    if (IS_WITHIN(LIST, shape, first, count)) {    \
         Type found = at(shape - (first));    \
         plane = plane_of(found);             \
         complete(found, ray, hit);           \
@@ -97,8 +97,8 @@ Flat depth_of(Header header, Cone cone, uint shape, float t, float area) {
     COUNT_SHAPES(header)
     vec4 plane = vec4(0.0);
     bool ends = false;
-#define DEPTH(Type, at, first, count, is_flat, is_listed)          \
-    if (IS_NEXT(shape, first, count)) {                            \
+#define DEPTH(Type, at, LIST, first, count, is_flat, is_listed)          \
+    if (IS_NEXT(LIST, shape, first, count)) {                            \
         plane = tangent_plane(at(shape - (first)), cone, t);       \
         ends = !is_flat && area < 1.0;                             \
     } else

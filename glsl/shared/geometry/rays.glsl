@@ -11,8 +11,8 @@
 Hit nearest_hit(Header header, Ray ray, uint skip, uint list) {
     Hit hit = Hit(FAR, NO_SHAPE, real2(0.0));
     COUNT_SHAPES(header)
-#define NEAREST(Type, at, first, count, is_flat, is_listed)                                                  \
-    {                                                                                                        \
+#define NEAREST(Type, at, LIST, first, count, is_flat, is_listed)                                                  \
+    if (LIST != 0u) {                                                                                        \
         uint tested = count;                                                                                 \
         if (is_listed && TILE_CULLED) {                                                                      \
             if (list != NO_LIST) tested = survey[list];                                                      \
@@ -39,11 +39,13 @@ Hit nearest_hit(Header header, Ray ray, uint skip, uint list) {
 bool occluded(Header header, Ray ray, real t_max, uint skip) {
     bool blocked = false;
     COUNT_SHAPES(header)
-#define OCCLUDES(Type, at, first, count, is_flat, is_listed)                                                 \
-    for (uint i = 0u; i < count; i++) {                                                                      \
-        real2 local;                                                                                         \
-        real t = distance_to(at(i), at_rest(header, ray, (first) + i), false, local);                        \
-        blocked = blocked || (t > 0.0 && t < t_max && !(is_flat && (first) + i == skip));                    \
+#define OCCLUDES(Type, at, LIST, first, count, is_flat, is_listed)                                                 \
+    if (LIST != 0u) {                                                                                        \
+        for (uint i = 0u; i < count; i++) {                                                                  \
+            real2 local;                                                                                     \
+            real t = distance_to(at(i), at_rest(header, ray, (first) + i), false, local);                    \
+            blocked = blocked || (t > 0.0 && t < t_max && !(is_flat && (first) + i == skip));                \
+        }                                                                                                    \
     }
     SHAPE_KINDS(OCCLUDES)
 #undef OCCLUDES
@@ -56,8 +58,8 @@ Surface hit_surface(Header header, Ray moving, Hit hit) {
     real3 point = ORIGIN_IS_EYE ? hit.t * ray.direction : ray.origin + hit.t * ray.direction;
     const real3 up = real3(0.0, 0.0, 1.0);
     Surface surface = Surface(point, up, up, real2(0.0), vec3(0.0), vec3(0.0), FLAT, 0.0, false, uvec2(0u), point, 0.0);
-#define SURFACE(Type, at, first, count, is_flat, is_listed)                                                  \
-    if (IS_NEXT(hit.shape, first, count)) {                                                                  \
+#define SURFACE(Type, at, LIST, first, count, is_flat, is_listed)                                                  \
+    if (IS_NEXT(LIST, hit.shape, first, count)) {                                                                  \
         surface = surface_of(at(hit.shape - (first)), point, hit.local);                                     \
     } else
     SHAPE_KINDS(SURFACE) {}
