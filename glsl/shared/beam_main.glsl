@@ -63,7 +63,7 @@ float negligible(vec3 inverse_depth, uint polygon) {
 
 // All that the beam may meet. Behind a mirror that is what lies beyond it: what lies before it neither is seen
 // nor hides anything.
-void find_shapes(Header header, PixelBeam beam) {
+void find_shapes(const Header header, PixelBeam beam) {
     uint shapes = shape_count(header);
     met_count = 0u;
     bool mirrored = BOUNCES && beam.skip != NO_SHAPE;
@@ -125,7 +125,7 @@ void carve(uint stage, uint by, bool has_first, vec3 first, bool kept) {
 }
 
 // Adds the integral over those parts of SEEN that see the light; without one, over all of it.
-void lit_by(Header header, ShadingIntegral paint, uint shape, bool has_light, Light light) {
+void lit_by(const Header header, const ShadingIntegral paint, uint shape, bool has_light, const Light light) {
     uint shapes = shape_count(header);
     uint bottom = waiting;
     if (!has_light) push_piece(SEEN, shapes);
@@ -150,7 +150,7 @@ void lit_by(Header header, ShadingIntegral paint, uint shape, bool has_light, Li
 }
 
 // Adds the colour of SEEN, a visible fragment, or sends its beam on.
-void shade(Header header, PixelBeam beam, uint own) {
+void shade(const Header header, PixelBeam beam, uint own) {
     uint shape = met_shapes[own];
     uvec2 link = shape_links(header, shape);
     Material record = material_at(link.x);
@@ -191,7 +191,7 @@ void shade(Header header, PixelBeam beam, uint own) {
 }
 
 // Adds all that one beam sees but for what its mirrors send on.
-void follow(Header header, PixelBeam beam) {
+void follow(const Header header, PixelBeam beam) {
     find_shapes(header, beam);
     float left = area(WHOLE);
     uint own = 0u;

@@ -14,7 +14,7 @@ struct Ray {
 };
 
 // `inside` counts from the pixel's corner, in units of 2^-24 of a pixel.
-Ray camera_ray(Header header, uvec2 pixel, vec2 inside) {
+Ray camera_ray(const Header header, uvec2 pixel, vec2 inside) {
     // Scaling by 2^-24 is exact wherever it happens: here once a pixel, not once a sample.
     real3 fine_x = header.step_x * (1.0 / 16777216.0);
     real3 fine_y = header.step_y * (1.0 / 16777216.0);
@@ -30,7 +30,7 @@ Ray camera_ray(Header header, uvec2 pixel, vec2 inside) {
 // The pinhole's ray, bent by a thin lens: from a point of the lens to where the pinhole's ray meets the plane
 // in focus (Cook, Porter & Carpenter 1984). Per unit of t both come equally far along the view, so that a
 // pixel's step changes the direction as it does without a lens.
-Ray through_lens(Header header, Ray ray, vec2 square) {
+Ray through_lens(const Header header, const Ray ray, vec2 square) {
     vec2 place = header.lens_radius * concentric_disc(square);
     real3 aside = place.x * header.step_x + place.y * header.step_y;
     return Ray(ray.origin + aside, ray.direction - header.inverse_focus_distance * aside, ray.time);

@@ -25,7 +25,7 @@ const bool FLOORS = BOUNCES || SHADOWS;
 const float LEVEL = 4e-6;
 
 // Around a ray; of the camera's, `across` is the way to the next pixel, else 0.
-Cone cone_of(Ray ray, RayDifferential beam, vec3 across) {
+Cone cone_of(const Ray ray, const RayDifferential beam, vec3 across) {
     vec3 unit = ray.direction * inversesqrt(dot3(ray.direction, ray.direction));
     vec3 x = across - dot3(across, unit) * unit;
     float squared = dot3(x, x);
@@ -34,11 +34,11 @@ Cone cone_of(Ray ray, RayDifferential beam, vec3 across) {
 }
 
 // Half of a disc around a point of a surface lies behind the surface, and would meet what is there.
-bool rises_to(Cone cone, vec3 point) {
+bool rises_to(const Cone cone, vec3 point) {
     return !FLOORS || cone.floor == vec4(0.0) || dot3(cone.floor.xyz, point) + cone.floor.w > 0.0;
 }
 
-Ray ray_at(Cone cone, vec2 u) {
+Ray ray_at(const Cone cone, vec2 u) {
     vec3 aside = u.x * cone.x + u.y * cone.y;
     vec3 origin = cone.ray.origin + cone.width * aside;
     vec3 direction = cone.ray.direction + cone.spread * aside;
@@ -53,7 +53,7 @@ struct Flat {
     vec2 tilt;
 };
 
-Flat flat_in(Cone cone, vec3 normal, float height) {
+Flat flat_in(const Cone cone, vec3 normal, float height) {
     float above = height - dot3(normal, cone.ray.origin);
     float side = above < 0.0 ? -1.0 : 1.0;
     vec2 tilt = vec2(dot3(normal, cone.x), dot3(normal, cone.y));

@@ -57,7 +57,7 @@ void send(Branch branch) {
 
 // What an unhidden light sends through a surface to the eye, and the cone in which it may be hidden: as
 // wide as the footprint looks from the light, where it ends in a point.
-Branch lit_branch(Branch branch, vec3 albedo, vec3 carried, Hit hit, Surface surface, Footprint print, Material material, uint skip, Light light) {
+Branch lit_branch(Branch branch, vec3 albedo, vec3 carried, const Hit hit, const Surface surface, const Footprint print, const Material material, uint skip, const Light light) {
     bool point_light = MODE_IS(LIGHT_KINDS, LIGHT_POINT, light.kind);
     vec3 way = point_light ? light.position - surface.point : light.direction;
     float squared = dot3(way, way);
@@ -79,7 +79,7 @@ Branch lit_branch(Branch branch, vec3 albedo, vec3 carried, Hit hit, Surface sur
 }
 
 // The cone that leaves a mirror or glass, `through` it or not.
-Branch bent_branch(Header header, Branch branch, Hit hit, Surface surface, Footprint print, float ratio, float share, uint skip, bool through) {
+Branch bent_branch(const Header header, Branch branch, const Hit hit, const Surface surface, const Footprint print, float ratio, float share, uint skip, bool through) {
     Ray ray = branch.ray;
     RayDifferential beam = cone_beam(branch.width, branch.spread);
     vec3 direction;
@@ -96,7 +96,7 @@ Branch bent_branch(Header header, Branch branch, Hit hit, Surface surface, Footp
 }
 
 // What a part of a cone shows: of a shape, or of what lies behind all of them. `branch` is that part.
-vec3 shade_part(Header header, Branch branch, uint shape) {
+vec3 shade_part(const Header header, Branch branch, uint shape) {
     bool missed = ENVIRONMENT && shape == NO_SHAPE;
     Ray ray = branch.ray;
     Hit hit = Hit(1.0, 0u, vec2(0.0));
@@ -139,7 +139,7 @@ vec3 shade_part(Header header, Branch branch, uint shape) {
 }
 
 // The part of a branch that is seen around `center` of its cone.
-Branch part_of(Branch branch, Cone cone, Covered covered, float norm) {
+Branch part_of(Branch branch, const Cone cone, Covered covered, float norm) {
     float side = sqrt(covered.share);
     branch.ray = ray_at(cone, covered.center);
     branch.width *= side;
@@ -149,7 +149,7 @@ Branch part_of(Branch branch, Cone cone, Covered covered, float norm) {
 }
 
 // What the cone around a ray from the camera sees; last, the weight of what was dropped.
-vec4 trace_cone(Header header, Ray ray, RayDifferential beam) {
+vec4 trace_cone(const Header header, const Ray ray, const RayDifferential beam) {
     vec3 sum = vec3(0.0);
     dropped = 0.0;
     waiting[0] = Branch(ray, beam.width, beam.spread, vec3(1.0), NO_SHAPE, 0u);

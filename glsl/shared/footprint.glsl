@@ -33,11 +33,11 @@ struct Footprint {
 
 const Footprint NO_FOOTPRINT = Footprint(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
 
-bool uses_cones(Header header) { return MODE_IS(FOOTPRINTS, FOOTPRINT_CONE, header.footprint); }
+bool uses_cones(const Header header) { return MODE_IS(FOOTPRINTS, FOOTPRINT_CONE, header.footprint); }
 
 // `share` is the side of the part of a pixel that one sample stands for: that of a box with the
 // pixel filter's variance over √samples.
-RayDifferential camera_differential(Header header, Ray ray) {
+RayDifferential camera_differential(const Header header, const Ray ray) {
     RayDifferential beam = RayDifferential(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), 0.0, 0.0);
     if (!FILTERED || MODE_IS(FOOTPRINTS, FOOTPRINT_NONE, header.footprint)) return beam;
     bool orthographic = MODE_IS(PROJECTIONS, PROJECTION_ORTHOGRAPHIC, header.projection);
@@ -79,7 +79,7 @@ vec3 around(vec3 n, vec3 v) {
 const float MAX_STRETCH = 65536.0;
 
 // The footprint around the point origin + t direction with unit normal n.
-Footprint footprint_at(Header header, RayDifferential beam, Ray ray, real distance, real3 normal) {
+Footprint footprint_at(const Header header, const RayDifferential beam, const Ray ray, real distance, real3 normal) {
     Footprint print = NO_FOOTPRINT;
     if (!FILTERED) return print;
     vec3 n = vec3(normal);
@@ -117,7 +117,7 @@ Footprint footprint_at(Header header, RayDifferential beam, Ray ray, real distan
 }
 
 // The footprint of a ray that goes on for ever: all that counts is the change of its direction.
-Footprint endless_footprint(Header header, RayDifferential beam, Ray ray) {
+Footprint endless_footprint(const Header header, const RayDifferential beam, const Ray ray) {
     if (!FILTERED) return NO_FOOTPRINT;
     if (DIFFERENTIALS && (!CONES || !uses_cones(header))) {
         return Footprint(vec3(0.0), vec3(0.0), beam.direction_x, beam.direction_y);
@@ -144,7 +144,7 @@ vec3 normal_change(mat3 shape_operator, vec3 v) {
 
 // The beam that leaves a mirror. `shape_operator` is the change of the unit normal a unit of way along the surface;
 // a cone takes its mean, the curvature.
-RayDifferential reflected_differential(Header header, RayDifferential beam, Ray ray, real distance, Footprint print, real3 normal, mat3 shape_operator,
+RayDifferential reflected_differential(const Header header, const RayDifferential beam, const Ray ray, real distance, const Footprint print, real3 normal, mat3 shape_operator,
                    float curvature) {
     if (!FILTERED) return beam;
     vec3 n = vec3(normal);
@@ -179,7 +179,7 @@ vec3 refracted_change(vec3 direction, vec3 n, float ratio, vec3 change, vec3 nor
 }
 
 // The beam behind a refracting surface. A cone is as wide as the ellipse that it becomes has area.
-RayDifferential refracted_differential(Header header, RayDifferential beam, Ray ray, real distance, Footprint print, real3 normal, mat3 shape_operator,
+RayDifferential refracted_differential(const Header header, const RayDifferential beam, const Ray ray, real distance, const Footprint print, real3 normal, mat3 shape_operator,
                     float curvature, float ratio) {
     if (!FILTERED) return beam;
     vec3 n = vec3(normal);

@@ -22,7 +22,7 @@ const float WIDEST_CHANGE = 1e9;
 vec3 bounded_change(vec3 d) { return mix(vec3(WIDEST_CHANGE), d, lessThanEqual(abs(d), vec3(WIDEST_CHANGE))); }
 
 // A direction on the cube as a place on its face; a flat or solid coordinate as it is. Footprints are numbers.
-Coordinate in_texture(Texture image, Coordinate c, out uint face) {
+Coordinate in_texture(const Texture image, Coordinate c, out uint face) {
     face = 0u;
     if (!MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_CUBE, image.kind)) {
         if (FILTERED) {
@@ -42,7 +42,7 @@ Coordinate in_texture(Texture image, Coordinate c, out uint face) {
     return on_face;
 }
 
-FootprintEllipse texel_spread(Texture image, Coordinate c) {
+FootprintEllipse texel_spread(const Texture image, const Coordinate c) {
     vec3 size = vec3(image.size.xy, MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_VOLUME, image.kind) ? image.size.z : 0u);
     vec3 x = c.dx * size;
     vec3 y = c.dy * size;

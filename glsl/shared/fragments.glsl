@@ -48,7 +48,7 @@ void set_seen(uint index, float seen, vec2 center) {
 }
 
 // t of a flat at the two ends of the disc between which it changes.
-vec2 depths(Cone cone, Flat depth) {
+vec2 depths(const Cone cone, Flat depth) {
     float tilt = sqrt(dot2(depth.tilt, depth.tilt));
     vec2 high = depth.height - vec2(tilt, -tilt) * cone.width;
     vec2 facing = depth.facing + vec2(tilt, -tilt) * cone.spread;
@@ -58,7 +58,7 @@ vec2 depths(Cone cone, Flat depth) {
 }
 
 // Keeps the fragment among the nearest.
-void keep(Header header, Cone cone, uint shape, Covered covered, float t_max) {
+void keep(const Header header, const Cone cone, uint shape, Covered covered, float t_max) {
     Ray ray = ray_at(cone, covered.center);
     float t = meet(header, ray, shape).t;
     if (!(covered.share > MIN_SHARE && t > 0.0 && t < t_max)) return;
@@ -81,7 +81,7 @@ const uint BATCH = 32u;
 
 // All shapes but `skip` that the cone touches before t_max; the nearest ones, in order. Most are missed,
 // which is found out first: measuring what is covered takes longer, for all threads while one does it.
-void collect_fragments(Header header, Cone cone, uint skip, float t_max) {
+void collect_fragments(const Header header, const Cone cone, uint skip, float t_max) {
     uint shapes = shape_count(header);
     piece_count = 0u;
     clear = 1.0;
@@ -114,7 +114,7 @@ void collect_fragments(Header header, Cone cone, uint skip, float t_max) {
 
 // How two fragments lie over each other: where a hides b, or where b hides a. `turns`: b does so anywhere in the
 // disc, be it as their planes cross or as b's centroid lies behind a's while b lies before a where both are.
-Covered hidden(Header header, Cone cone, Fragment a, Fragment b, bool turned, out bool turns) {
+Covered hidden(const Header header, const Cone cone, Fragment a, Fragment b, bool turned, out bool turns) {
     whole_disc();
     turns = false;
     bool a_has_lines = true;
@@ -156,7 +156,7 @@ vec2 within_disc(vec2 center) {
 
 // What is seen of each fragment, and its centroid; what nothing covers, and that centroid, is the answer. A
 // fragment that is seen in part hides in proportion. One loop over all pairs: a turn looks at one.
-Covered composite(Header header, Cone cone) {
+Covered composite(const Header header, const Cone cone) {
     float rest = 1.0 - (piece_count > 0u ? fragments[0].area : 0.0);
     uint i = 1u;
     uint j = 0u;

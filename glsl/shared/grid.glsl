@@ -32,7 +32,7 @@ struct Grid {
 int word(int index) { return int(texelFetch(prefix_sums, index).x); }
 
 // Level 0.
-Grid texture_grid(uint index, Texture image, Sampler how) {
+Grid texture_grid(uint index, const Texture image, const Sampler how) {
     int head = word(int(index));
     bool linear = is_continuous(how);
     bool integer = MODE_IS(TEXEL_CENTERS, TEXEL_CENTER_INTEGER, how.texel_center);

@@ -21,7 +21,7 @@ struct Aim {
 
 // Uniform over the cone in which the sphere is seen; from within it, over all directions. Of radiance
 // I / (pi R²) a direction stands for 2 pi h, the cone's solid angle, h = 1 - cos of its half angle.
-Aim sphere_aim(Light light, real3 point, vec2 square) {
+Aim sphere_aim(const Light light, real3 point, vec2 square) {
     vec3 way = vec3(light.position - point);
     float radius = float(light.radius);
     float squared = max(dot3(way, way), 1e-30);
@@ -38,7 +38,7 @@ Aim sphere_aim(Light light, real3 point, vec2 square) {
 
 // Uniform over the solid angle, or where that is small and over slanted sides over the area, which is the length of
 // the sides' cross product: cos / r² with cos' of the light.
-Aim rectangle_aim(Light light, real3 point, vec2 square) {
+Aim rectangle_aim(const Light light, real3 point, vec2 square) {
     vec2 p = square - 0.5;
     real3 to_middle = light.position - point;
     vec2 sides = vec2(light.length_u, light.length_v);
@@ -62,12 +62,12 @@ Aim rectangle_aim(Light light, real3 point, vec2 square) {
 }
 
 // Uniform over the cap of the sky.
-Aim sun_aim(Light light, vec2 square) {
+Aim sun_aim(const Light light, vec2 square) {
     return Aim(around(vec3(light.direction), on_cap(concentric_disc(square), float(light.cap_height))), FAR, 1.0);
 }
 
-Lit direct_light(Header header, Surface surface, float time, uint shape, Bsdf bsdf, Points points,
-                 SampleDimensions dimensions) {
+Lit direct_light(const Header header, const Surface surface, float time, uint shape, const Bsdf bsdf, const Points points,
+                 const SampleDimensions dimensions) {
     Lit sum = Lit(vec3(0.0), vec3(0.0));
     uint lights = COUNT(LIGHTS, header.light_count);
     real3 start = surface.point;

@@ -41,7 +41,7 @@ struct Coordinate {
 };
 
 // matrix · uv: scale and rotation. Most scenes neither rotate nor shear.
-real2 turned_uv(UvProjection map, real2 uv) {
+real2 turned_uv(const UvProjection map, real2 uv) {
     real2 mapped;
     if (ROTATED_UV) {
         mapped = real2(map.m00 * uv.x + map.m01 * uv.y, map.m11 * uv.y + map.m10 * uv.x);
@@ -52,13 +52,13 @@ real2 turned_uv(UvProjection map, real2 uv) {
 }
 
 // matrix · uv + offset.
-real2 placed(UvProjection map, real2 uv) {
+real2 placed(const UvProjection map, real2 uv) {
     real2 mapped = turned_uv(map, uv) + map.offset;
     return mapped;
 }
 
 // A coordinate of a map that ends with `placed`.
-TexCoord placed_coordinate(UvProjection map, real2 uv, vec2 dx, vec2 dy) {
+TexCoord placed_coordinate(const UvProjection map, real2 uv, vec2 dx, vec2 dy) {
     TexCoord c = TexCoord(real3(placed(map, uv), 0.0), vec3(0.0), vec3(0.0));
     if (DERIVATIVES) {
         c.dx = vec3(turned_uv(map, real2(dx)), 0.0);
@@ -68,7 +68,7 @@ TexCoord placed_coordinate(UvProjection map, real2 uv, vec2 dx, vec2 dy) {
 }
 
 // The linear part of the frame.
-vec3 in_frame(UvProjection map, vec3 v) {
+vec3 in_frame(const UvProjection map, vec3 v) {
     return vec3(dot3(vec3(map.x.xyz), v), dot3(vec3(map.y.xyz), v), dot3(vec3(map.z.xyz), v));
 }
 
@@ -138,7 +138,7 @@ float turn_change(vec3 local, vec3 change, float around, bool gradients) {
 }
 
 // (turn, height) and its change: phi/2pi and y.
-TexCoord cylindrical(UvProjection map, real3 local, vec3 x, vec3 y, bool gradients) {
+TexCoord cylindrical(const UvProjection map, real3 local, vec3 x, vec3 y, bool gradients) {
     real turn = atan2_accurate(local.z, local.x) * (0.5 / REAL_PI);
     turn = turn < 0.0 ? turn + 1.0 : turn;
     vec2 dx = vec2(0.0);
@@ -159,7 +159,7 @@ float polar_change(vec3 local, vec3 change, float across, float squared, bool gr
 }
 
 // (theta/pi, phi/2pi) and its change.
-TexCoord spherical(UvProjection map, real3 local, vec3 x, vec3 y, bool gradients) {
+TexCoord spherical(const UvProjection map, real3 local, vec3 x, vec3 y, bool gradients) {
     real turn = atan2_accurate(local.z, local.x) * (0.5 / REAL_PI);
     turn = turn < 0.0 ? turn + 1.0 : turn;
     real around = local.x * local.x + local.z * local.z;
@@ -176,7 +176,7 @@ TexCoord spherical(UvProjection map, real3 local, vec3 x, vec3 y, bool gradients
     return placed_coordinate(map, uv, dx, dy);
 }
 
-TexCoord texture_coordinate(UvProjection map, MapInput seen) {
+TexCoord texture_coordinate(const UvProjection map, const MapInput seen) {
     uint kind = map.kind;
     if (MODE_IS(MAPPINGS, MAP_VERTEX_UV, kind)) {
         return TexCoord(real3(seen.own, 0.0), vec3(seen.own_x, 0.0), vec3(seen.own_y, 0.0));

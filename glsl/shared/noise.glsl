@@ -76,7 +76,7 @@ float gradient_noise(real3 p, uvec3 key) {
 // x: the weighted mean of the octaves of noise, or of |noise| where folded. y: the variance that has
 // faded out of it. `size` and `widths` of the footprint are in units. All octaves but the first are
 // shifted by fractions of a cell, so that their zeros do not meet.
-vec2 octave_sum(Procedural what, real3 at, float size, vec3 widths, bool folded) {
+vec2 octave_sum(const Procedural what, real3 at, float size, vec3 widths, bool folded) {
     float sum = 0.0;
     float faded = 0.0;
     float weight = what.normalization;

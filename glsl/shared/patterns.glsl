@@ -26,7 +26,7 @@ uint tile_log2(uint count) {
     return (32u - uint(findMSB(count))) >> 1u;
 }
 
-uint first_of_block(Points points, uint seed) {
+uint first_of_block(const Points points, uint seed) {
     return shuffled_place(points.place, tile_log2(points.count), seed) << uint(findMSB(points.count));
 }
 
@@ -39,7 +39,7 @@ uvec2 pattern_key(uint pattern, uvec2 key) {
 }
 
 // The points of pair 0; `key` is the pixel's.
-Points pixel_points(Header header, uvec2 pixel, uvec2 key) {
+Points pixel_points(const Header header, uvec2 pixel, uvec2 key) {
     uint side = COUNT(STRATA_SIDE, header.strata_side);
     uint count = COUNT(SAMPLES, header.samples);
     Points points = Points(header.pattern, side, count, 0u, key, 0u, 0u, 0u);
@@ -54,7 +54,7 @@ Points pixel_points(Header header, uvec2 pixel, uvec2 key) {
 }
 
 // The points of another pair, from those of pair 0.
-Points pair_points(Points first, uint pair) {
+Points pair_points(const Points first, uint pair) {
     if (pair == 0u) return first;
     Points points = first;
     uvec3 bits = pcg3d(uvec3(first.key, pair));
@@ -70,7 +70,7 @@ Points pair_points(Points first, uint pair) {
 
 // Of a `line` only the first number is asked for: n x n strata have only n different columns, and such patterns
 // stratify the line itself.
-uvec2 sample_point(Points points, uint s, bool line) {
+uvec2 sample_point(const Points points, uint s, bool line) {
     uvec2 key = points.key;
     if (MODE_IS(PATTERNS, PATTERN_SOBOL_OWEN, points.pattern)) return sobol_owen(s, key);
     if (MODE_IS(PATTERNS, PATTERN_BLUE_NOISE, points.pattern)) return sobol_owen(points.block + s, key);
@@ -102,7 +102,7 @@ bool fills_strata(uint pattern) {
 
 // Sample s of any pair. Further pairs go through their points in an order of their own, so that which
 // points of two pairs meet in a sample is left to chance. Halton's bases need no such order.
-uvec2 sample_pair(Points points, uint s, bool line) {
+uvec2 sample_pair(const Points points, uint s, bool line) {
     if (points.pair == 0u) return sample_point(points, s, line);
     if (MODE_IS(PATTERNS, PATTERN_SOBOL_OWEN, points.pattern)) {
         s = shuffled_index(s, points.order);

@@ -23,7 +23,7 @@ float tabled_distance(uint i) {
 }
 
 // `rest` of 2^24 samples lie further from the middle.
-float distance_in_radii(Header header, uint rest) {
+float distance_in_radii(const Header header, uint rest) {
     float v = sqrt(float(rest) * (1.0 / 16777216.0));
     if (MODE_IS(PIXEL_FILTERS, PIXEL_FILTER_TENT, header.pixel_filter)) return 1.0 - v;
     float at = v * float(PIXEL_FILTER_CELLS);
@@ -39,7 +39,7 @@ uint from_middle(uint position) {
     return position < 0x800000u ? 0x1000000u - doubled : doubled - 0x1000000u;
 }
 
-float filtered_position(Header header, uint position) {
+float filtered_position(const Header header, uint position) {
     float radius = header.filter_radius;
     if (MODE_IS(PIXEL_FILTERS, PIXEL_FILTER_BOX, header.pixel_filter)) {
         return 8388608.0 + (float(position) - 8388608.0) * (2.0 * radius);
@@ -48,19 +48,19 @@ float filtered_position(Header header, uint position) {
     return position < 0x800000u ? 8388608.0 - offset : 8388608.0 + offset;
 }
 
-float filter_sign(Header header, uvec2 position) {
+float filter_sign(const Header header, uvec2 position) {
     bool x = from_middle(position.x) >= header.first_negative_step;
     bool y = from_middle(position.y) >= header.first_negative_step;
     return x == y ? 1.0 : -1.0;
 }
 
-Place filtered_place(Header header, uvec2 position) {
+Place filtered_place(const Header header, uvec2 position) {
     if (!WARPED) return Place(vec2(position), 1.0);
     vec2 inside = vec2(filtered_position(header, position.x), filtered_position(header, position.y));
     return Place(inside, SIGNED ? filter_sign(header, position) : 1.0);
 }
 
 // Side of the square, in pixels, over which a box has the filter's variance.
-float filter_width(Header header) { return WARPED ? header.filter_width : 1.0; }
+float filter_width(const Header header) { return WARPED ? header.filter_width : 1.0; }
 
 #endif

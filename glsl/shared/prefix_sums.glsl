@@ -115,20 +115,20 @@ const float SMALLEST = 0.00390625; // a polygon so small has the colour of its m
 
 // How places of the picture lie in the grid, counted from a base before the division, so that near places
 // differ exactly.
-RationalMap in_grid(Grid grid, RationalMap quotient, ivec2 base) {
+RationalMap in_grid(Grid grid, const RationalMap quotient, ivec2 base) {
     vec2 start = vec2(grid.shift) - vec2(base);
     return RationalMap(grid.scale.x * quotient.u + start.x * quotient.below,
                     grid.scale.y * quotient.v + start.y * quotient.below, quotient.below);
 }
 
 // Towards the horizon a place goes to infinity.
-vec2 place_in(RationalMap quotient, vec2 place) {
+vec2 place_in(const RationalMap quotient, vec2 place) {
     vec2 at_place = vec2(at(quotient.u, place), at(quotient.v, place)) / at(quotient.below, place);
     return clamp(at_place, -FARTHEST, FARTHEST);
 }
 
 // The longest edge of a polygon, in cells.
-float longest_edge(uint polygon, RationalMap quotient) {
+float longest_edge(uint polygon, const RationalMap quotient) {
     vec2 a = place_in(quotient, corner(polygon, 0u));
     float reach = 0.0;
     for (uint k = 1u; k <= counts[polygon]; k++) {
@@ -144,7 +144,7 @@ float longest_edge(uint polygon, RationalMap quotient) {
 // makes of it.
 const float LEVEL = 3e-5;
 
-float rows_covered(uint polygon, RationalMap quotient) {
+float rows_covered(uint polygon, const RationalMap quotient) {
     vec2 ends = vec2(FARTHEST, -FARTHEST);
     for (uint k = 0u; k < counts[polygon]; k++) {
         float row = place_in(quotient, corner(polygon, k)).y;
@@ -154,7 +154,7 @@ float rows_covered(uint polygon, RationalMap quotient) {
 }
 
 // Mean colour, in codes, over the texture space that a polygon shows. Cells that were crossed are counted.
-vec3 mean_over(Grid grid, uint polygon, RationalMap quotient, bool small, inout uint crossed, inout bool ended) {
+vec3 mean_over(Grid grid, uint polygon, const RationalMap quotient, bool small, inout uint crossed, inout bool ended) {
     if (grid.even && grid.checker) return vec3(0.5);
     vec2 place = place_in(in_grid(grid, quotient, ivec2(0)), middle(polygon));
     vec2 cell = floor(place);

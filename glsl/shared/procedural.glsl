@@ -61,7 +61,7 @@ float pulse_mean(float x, float w, float duty) {
 }
 
 // Share of the figure in a box around `at`; bricks count x in bricks here.
-float box_share(Procedural what, vec3 at, vec3 w) {
+float box_share(const Procedural what, vec3 at, vec3 w) {
     uint kind = what.kind;
     float width = float(what.width);
     if (MODE_IS(PROCEDURAL_KINDS, PROCEDURAL_CHECKER, kind)) {
@@ -93,7 +93,7 @@ float box_share(Procedural what, vec3 at, vec3 w) {
 }
 
 // Share of the figure in the footprint. A box has the second moments of its piece of the footprint.
-float footprint_share(Procedural what, real3 at, vec3 major, vec3 minor) {
+float footprint_share(const Procedural what, real3 at, vec3 major, vec3 minor) {
     real3 per_unit = real3(1.0);
     if (MODE_IS(PROCEDURAL_KINDS, PROCEDURAL_BRICK, what.kind)) per_unit.x = what.aspect;
     real3 far = at / per_unit;
@@ -127,7 +127,7 @@ float phase_attenuation(float variance) {
 }
 
 // Veins at whole x + distortion · turbulence.
-float marble(Procedural what, real3 at, vec3 dx, vec3 dy, float size, vec3 widths) {
+float marble(const Procedural what, real3 at, vec3 dx, vec3 dy, float size, vec3 widths) {
     vec2 turbulence = octave_sum(what, at, size, widths, true);
     float distortion = what.distortion;
     float phase = float(at.x - roundEven(at.x)) + distortion * turbulence.x;
@@ -151,7 +151,7 @@ float radial_width(vec2 at, float r, vec2 d) {
 }
 
 // Rings at whole distances from the z axis + distortion · noise.
-float wood(Procedural what, real3 at, vec3 dx, vec3 dy, float size, vec3 widths) {
+float wood(const Procedural what, real3 at, vec3 dx, vec3 dy, float size, vec3 widths) {
     vec2 noise = octave_sum(what, at, size, widths, false);
     float distortion = what.distortion;
     real r = sqrt(at.x * at.x + at.y * at.y);
@@ -168,7 +168,7 @@ float wood(Procedural what, real3 at, vec3 dx, vec3 dy, float size, vec3 widths)
 // Hard-edged kinds come first.
 const uint HARD_EDGED = (2u << PROCEDURAL_BRICK) - 1u;
 
-float figure_share(Procedural what, real3 at, vec3 dx, vec3 dy) {
+float figure_share(const Procedural what, real3 at, vec3 dx, vec3 dy) {
     uint kind = what.kind;
     vec3 major = vec3(0.0);
     vec3 minor = vec3(0.0);
@@ -193,7 +193,7 @@ float figure_share(Procedural what, real3 at, vec3 dx, vec3 dy) {
     return share;
 }
 
-vec3 procedural_color(Procedural what, real3 at, vec3 dx, vec3 dy) {
+vec3 procedural_color(const Procedural what, real3 at, vec3 dx, vec3 dy) {
     float share = figure_share(what, bounded_point(at), bounded_width(dx), bounded_width(dy));
     vec3 color = (1.0 - share) * what.background + share * what.figure;
     return color;

@@ -30,10 +30,10 @@ struct RationalMap {
     vec3 below;
 };
 
-bool is_parallel(Header header) { return MODE_IS(PROJECTIONS, PROJECTION_ORTHOGRAPHIC, header.projection); }
+bool is_parallel(const Header header) { return MODE_IS(PROJECTIONS, PROJECTION_ORTHOGRAPHIC, header.projection); }
 
 // All rays of the pixels from the first to `more` columns and rows on, and of a margin around them.
-PixelFrustum frame_over(Header header, uvec2 pixel, float more, float margin) {
+PixelFrustum frame_over(const Header header, uvec2 pixel, float more, float margin) {
     // The unit square stands for the pixel filter's box.
     float radius = header.filter_radius + margin;
     float wide = 2.0 * radius + more;
@@ -45,13 +45,13 @@ PixelFrustum frame_over(Header header, uvec2 pixel, float more, float margin) {
     return PixelFrustum(mat3(wide * x, wide * y, base + header.forward), vec3(0.0));
 }
 
-PixelFrustum pixel_frame(Header header, uvec2 pixel) { return frame_over(header, pixel, 0.0, 0.0); }
+PixelFrustum pixel_frame(const Header header, uvec2 pixel) { return frame_over(header, pixel, 0.0, 0.0); }
 
 // n · (what differs from ray to ray).
-vec3 form(PixelFrustum frame, vec3 n) { return vec3(dot3(frame.rays[0], n), dot3(frame.rays[1], n), dot3(frame.rays[2], n)); }
+vec3 form(const PixelFrustum frame, vec3 n) { return vec3(dot3(frame.rays[0], n), dot3(frame.rays[1], n), dot3(frame.rays[2], n)); }
 
 // The ray's direction, and its origin.
-void ray_at(Header header, PixelFrustum frame, vec2 place, out vec3 direction, out vec3 origin) {
+void ray_at(const Header header, const PixelFrustum frame, vec2 place, out vec3 direction, out vec3 origin) {
     vec3 own = (frame.rays[0] * place.x + frame.rays[1] * place.y) + frame.rays[2];
     bool parallel = is_parallel(header);
     direction = parallel ? frame.same : own;
@@ -61,7 +61,7 @@ void ray_at(Header header, PixelFrustum frame, vec2 place, out vec3 direction, o
 vec3 turned(vec3 v, vec3 n) { return v - (2.0 * dot3(n, v)) * n; }
 
 // Behind the mirror with unit normal n and n·p = height.
-PixelFrustum mirrored_frame(Header header, PixelFrustum frame, vec3 n, float height) {
+PixelFrustum mirrored_frame(const Header header, const PixelFrustum frame, vec3 n, float height) {
     mat3 rays = mat3(turned(frame.rays[0], n), turned(frame.rays[1], n), turned(frame.rays[2], n));
     vec3 same = turned(frame.same, n);
     vec3 shift = (2.0 * height) * n;
@@ -72,7 +72,7 @@ PixelFrustum mirrored_frame(Header header, PixelFrustum frame, vec3 n, float hei
 
 // 1 / t or -t of the plane n·p = height, where it is in front positive or negative; zero where the rays
 // never meet it.
-vec3 inverse_depth(Header header, PixelFrustum frame, vec3 n, float height) {
+vec3 inverse_depth(const Header header, const PixelFrustum frame, vec3 n, float height) {
     float across = dot3(n, frame.same);
     if (is_parallel(header)) return across == 0.0 ? vec3(0.0) : (form(frame, n) - vec3(0.0, 0.0, height)) / across;
     float before = height - across;
@@ -80,13 +80,13 @@ vec3 inverse_depth(Header header, PixelFrustum frame, vec3 n, float height) {
 }
 
 // Positive where the place of that inverse depth lies in front.
-vec3 in_front(Header header, vec3 near) { return is_parallel(header) ? -near : near; }
+vec3 in_front(const Header header, vec3 near) { return is_parallel(header) ? -near : near; }
 
 // What coordinates on a plane of this inverse depth are divided by.
-vec3 below(Header header, vec3 near) { return is_parallel(header) ? vec3(0.0, 0.0, 1.0) : near; }
+vec3 below(const Header header, vec3 near) { return is_parallel(header) ? vec3(0.0, 0.0, 1.0) : near; }
 
 // row · (p, 1) times `below`, for the points p of the plane of that inverse_depth.
-vec3 along(Header header, PixelFrustum frame, vec3 near, vec4 row) {
+vec3 along(const Header header, const PixelFrustum frame, vec3 near, vec4 row) {
     float same = dot3(row.xyz, frame.same);
     vec3 own = form(frame, row.xyz);
     if (is_parallel(header)) return own - same * near + vec3(0.0, 0.0, row.w);
@@ -94,7 +94,7 @@ vec3 along(Header header, PixelFrustum frame, vec3 near, vec4 row) {
 }
 
 // The places where a plane lies in front.
-ConvexRegion region_of_plane(Header header, PixelFrustum frame, vec4 plane) {
+ConvexRegion region_of_plane(const Header header, const PixelFrustum frame, vec4 plane) {
     ConvexRegion region;
     region.count = 1u;
     vec3 near = inverse_depth(header, frame, plane.xyz, plane.w);
@@ -104,7 +104,7 @@ ConvexRegion region_of_plane(Header header, PixelFrustum frame, vec4 plane) {
 }
 
 // The point of the plane of that inverse depth which a place shows.
-vec3 point_at(Header header, PixelFrustum frame, vec3 near, vec2 place) {
+vec3 point_at(const Header header, const PixelFrustum frame, vec3 near, vec2 place) {
     vec3 way;
     vec3 origin;
     ray_at(header, frame, place, way, origin);

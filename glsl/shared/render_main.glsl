@@ -36,7 +36,7 @@ uint job_index() {
 }
 
 // Without a list all pixels have the same job, both halves of a pixel side by side.
-Task job_task(Header header) {
+Task job_task(const Header header) {
     uint i = job_index();
     if (i >= slice.tiles) return Task(uvec2(0u, slice.band_height), 0u, 0u, 0u);
     if (sample_count() > 0u) {

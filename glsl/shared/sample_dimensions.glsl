@@ -35,7 +35,7 @@ vec2 unit_square(uvec2 position) {
 
 // The same positions shifted, by another number for each `salt` but 0: without correlation to them in the
 // mean, and as even. Nets of base 2 stay nets under exclusive or; strata move around the square.
-uvec2 apart(Points points, uvec2 position, uint salt) {
+uvec2 apart(const Points points, uvec2 position, uint salt) {
     if (salt == 0u || MODE_IS(PATTERNS, PATTERN_CENTER, points.pattern) || MODE_IS(PATTERNS, PATTERN_GRID, points.pattern)) {
         return position;
     }
@@ -47,7 +47,7 @@ uvec2 apart(Points points, uvec2 position, uint salt) {
 
 // All that sample s chooses for the hit after `depth` bounces, where its path starts also its place and what
 // the camera needs. One loop: the patterns' code is there once.
-SampleDimensions choose(Header header, Points points, uint s, uint depth, bool starts) {
+SampleDimensions choose(const Header header, const Points points, uint s, uint depth, bool starts) {
     SampleDimensions dimensions = NO_CHOICES;
     uint wanted = (SAMPLE_DIMENSIONS & header.sample_dimensions) << 1u;
     wanted = starts ? wanted | 1u : wanted & (0xFFFFFFFFu << (1u + DIMENSION_LIGHT));
@@ -70,7 +70,7 @@ SampleDimensions choose(Header header, Points points, uint s, uint depth, bool s
 }
 
 // The place of the hit's choice on the light `i`.
-vec2 chosen_light(Points points, SampleDimensions dimensions, uint i) {
+vec2 chosen_light(const Points points, const SampleDimensions dimensions, uint i) {
     return unit_square(apart(points, dimensions.light, 16u * i));
 }
 

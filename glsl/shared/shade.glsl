@@ -11,7 +11,7 @@
 #include "geometry/rays.glsl"
 
 // What the surface's map looks at.
-MapInput map_input(UvProjection map, Ray ray, Surface surface, Footprint print) {
+MapInput map_input(const UvProjection map, const Ray ray, const Surface surface, const Footprint print) {
     MapInput seen = MapInput(surface.at_rest, vec3(0.0), vec3(0.0), surface.own_uv, vec2(0.0), vec2(0.0), false);
     uint entity = map.entity;
     if (DERIVATIVES) {
@@ -53,7 +53,7 @@ MapInput map_input(UvProjection map, Ray ray, Surface surface, Footprint print) 
 
 #if SOURCE != SOURCE_NONE
 // Gradients of u and v along the surface, from their changes along two tangents.
-void uv_gradients(UvProjection map, Ray ray, Surface surface, out vec3 u, out vec3 v) {
+void uv_gradients(const UvProjection map, const Ray ray, const Surface surface, out vec3 u, out vec3 v) {
     vec3 n = vec3(surface.geometric_normal);
     vec3 first = any_tangent(n);
     vec3 second = cross3(n, first);
@@ -68,12 +68,12 @@ void uv_gradients(UvProjection map, Ray ray, Surface surface, out vec3 u, out ve
 }
 
 // A map of normals, not of heights.
-bool is_normal_map(Material material) {
+bool is_normal_map(const Material material) {
     return MODE_IS(BUMP_KINDS, BUMP_NORMAL, material.bump_kind) || MODE_IS(BUMP_KINDS, BUMP_NORMAL_DOWN, material.bump_kind);
 }
 
 // Places at which a bump map is read, two on each axis, a texel or half the footprint away.
-vec2 bump_step(Material material, TexCoord c) {
+vec2 bump_step(const Material material, const TexCoord c) {
     vec2 texel = 1.0 / vec2(texture_at(material.bump_texture_index).size.xy);
     return max(texel, 0.5 * max(abs(c.dx.xy), abs(c.dy.xy)));
 }
@@ -81,7 +81,7 @@ vec2 bump_step(Material material, TexCoord c) {
 // The shading normal after the material's bump map, from what was read there. Normal map: 2 rgb - 1 along
 // growing u, growing v (or against it) and the normal. Bump map: n - grad h, the height's gradient along the surface
 // (Blinn 1978; Mikkelsen 2020), h from central differences.
-vec3 bump_normal(Material material, UvProjection map, Ray ray, Surface surface, vec4 read, vec2 step) {
+vec3 bump_normal(const Material material, const UvProjection map, const Ray ray, const Surface surface, vec4 read, vec2 step) {
     float side = surface.inside ? -1.0 : 1.0;
     vec3 n = side * vec3(surface.normal);
     float strength = material.bump_strength;
@@ -110,7 +110,7 @@ vec3 bump_normal(Material material, UvProjection map, Ray ray, Surface surface, 
 
 // The material's colour, times its texture where it has one; before that its bump map turns the normal.
 // One loop for all look-ups of a hit: they are most of the code.
-vec3 surface_color(Material material, UvProjection map, Ray ray, inout Surface surface, Footprint print, uvec2 random) {
+vec3 surface_color(const Material material, const UvProjection map, const Ray ray, inout Surface surface, const Footprint print, uvec2 random) {
     vec3 color = material.color;
 #if SOURCE != SOURCE_NONE
     bool bump = BUMPED && material.bump_texture_index != NO_TEXTURE;
@@ -158,12 +158,12 @@ struct Path {
     bool is_alive; // false: the path has ended, the next one starts at the camera
 };
 
-Path camera_path(Ray ray, RayDifferential beam, uvec2 random, uint list) {
+Path camera_path(const Ray ray, const RayDifferential beam, uvec2 random, uint list) {
     return Path(ray, beam, vec3(1.0), random, NO_SHAPE, list, 0u, true);
 }
 
 // Where a mirrored or refracted path goes on; false where the material ends it.
-bool bounced(Header header, Hit hit, Surface surface, Footprint print, Material material, SampleDimensions dimensions,
+bool bounced(const Header header, const Hit hit, Surface surface, const Footprint print, const Material material, const SampleDimensions dimensions,
              inout Path path) {
     if (!is_specular(material)) return false;
     Ray ray = path.ray;
@@ -191,7 +191,7 @@ bool bounced(Header header, Hit hit, Surface surface, Footprint print, Material 
 }
 
 // Follows the path to its next hit; what that adds to the sample is returned.
-vec3 advance(Header header, Points points, SampleDimensions dimensions, inout Path path) {
+vec3 advance(const Header header, const Points points, const SampleDimensions dimensions, inout Path path) {
     Hit hit = nearest_hit(header, path.ray, path.skip, path.list);
     bool missed = hit.shape == NO_SHAPE;
     vec3 seen = path.throughput * header.background;

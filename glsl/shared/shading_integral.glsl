@@ -43,7 +43,7 @@ const uint TILED = (1u << ADDRESS_REPEAT) | (1u << ADDRESS_MIRRORED_REPEAT) | (1
 
 // Whether the integral of a shape's colour is known: of a material that has one, with a checker or a flat texture
 // that is affine on the shape.
-bool is_simple(Header header, uint shape, Material record, UvProjection map) {
+bool is_simple(const Header header, uint shape, const Material record, const UvProjection map) {
     if (!is_integrable_over_region(record, is_smooth(header, shape))) return false;
     if (BUMPED && record.bump_texture_index != NO_TEXTURE) return false;
     if (record.texture_index == NO_TEXTURE) return true;
@@ -61,7 +61,7 @@ bool is_simple(Header header, uint shape, Material record, UvProjection map) {
 }
 
 // A light behind the surface, as its beam sees it, gives nothing.
-bool is_facing(Header header, ShadingIntegral paint, uint polygon, Light light) {
+bool is_facing(const Header header, const ShadingIntegral paint, uint polygon, const Light light) {
     vec3 way;
     vec3 origin;
     ray_at(header, paint.frame, middle(polygon), way, origin);
@@ -71,7 +71,7 @@ bool is_facing(Header header, ShadingIntegral paint, uint polygon, Light light) 
 }
 
 // Irradiance over pi at the middle of a strip, of a light that it sees.
-vec3 irradiance(Header header, ShadingIntegral paint, uint strip, Light light) {
+vec3 irradiance(const Header header, const ShadingIntegral paint, uint strip, const Light light) {
     vec3 n = paint.plane.xyz;
     vec3 power = light.power * (1.0 / PI);
     if (!MODE_IS(LIGHT_KINDS, LIGHT_POINT, light.kind)) return power * abs(dot3(n, light.direction));
@@ -97,7 +97,7 @@ const float LOG2_E = 1.44269504088896;
 const float CELLS_OF_AN_EDGE = 32.0;
 const float CELLS_OF_ALL = 512.0;
 
-vec3 mean_color(Material record, Grid grid, uint strip, RationalMap quotient, float most, inout bool ended) {
+vec3 mean_color(const Material record, Grid grid, uint strip, const RationalMap quotient, float most, inout bool ended) {
     float reach = longest_edge(strip, in_grid(grid, quotient, ivec2(0)));
     // The level at which it is short enough.
     if (reach > most) grid = coarser(grid, int(ceil(log2_accurate(reach / most))));
@@ -115,7 +115,7 @@ vec3 mean_color(Material record, Grid grid, uint strip, RationalMap quotient, fl
 
 // Texture times irradiance / pi, integrated over PIECE, in strips within which the depth hardly changes: there
 // equal areas of the texture are equal areas of the picture.
-vec3 integral(Header header, ShadingIntegral paint, bool has_light, Light light) {
+vec3 integral(const Header header, const ShadingIntegral paint, bool has_light, const Light light) {
     bool textured = TEXTURED && paint.record.texture_index != NO_TEXTURE;
     vec3 depth = textured ? paint.quotient.below : below(header, paint.near);
     vec2 ends = range(PIECE, depth);

@@ -27,11 +27,11 @@ uvec2 film_pixel() {
 }
 
 // Tiles reach beyond the picture.
-bool in_film(Header header, uvec2 place) { return place.x < header.film_size.x && place.y < slice.band_height; }
+bool in_film(const Header header, uvec2 place) { return place.x < header.film_size.x && place.y < slice.band_height; }
 
 // Of the whole picture, before any crop.
-uvec2 picture_pixel(Header header, uvec2 place) { return uvec2(place.x, place.y + slice.band_y) + header.crop; }
+uvec2 picture_pixel(const Header header, uvec2 place) { return uvec2(place.x, place.y + slice.band_y) + header.crop; }
 
-uint film_index(Header header, uvec2 place) { return place.y * header.film_size.x + place.x; }
+uint film_index(const Header header, uvec2 place) { return place.y * header.film_size.x + place.x; }
 
 #endif

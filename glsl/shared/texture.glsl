@@ -24,7 +24,7 @@ layout(set = 0, binding = BINDING_CUBES) uniform samplerCube cubes[CUBE_SLOTS];
 #endif
 
 #if SOURCE != SOURCE_NONE
-Coordinate near_coordinate(Texture image, Sampler how, TexCoord c) {
+Coordinate near_coordinate(const Texture image, const Sampler how, const TexCoord c) {
 #ifdef F64_MATH
     if (MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_CUBE, image.kind)) return Coordinate(vec3(c.at), c.dx, c.dy);
     vec3 at = vec3(near_tile(ADDRESSES_U, how.address_u, c.at.x), near_tile(ADDRESSES_V, how.address_v, c.at.y),
@@ -56,7 +56,7 @@ struct Level {
 
 // Level sizes are halved and rounded down (Vulkan 1.3, "Image Miplevel Sizing"). The words before level 0
 // say where the others begin.
-Level level_at(Texture image, int index) {
+Level level_at(const Texture image, int index) {
     ivec3 size = ivec3(image.size);
     if (!MIPMAPPED || index == 0) return Level(size, 0, image.first_word);
     ivec3 halved = max(size >> index, ivec3(1));
@@ -71,7 +71,7 @@ Level level_at(Texture image, int index) {
 
 #if HAS_TEXELS
 // One texel by column, row and slice; grey is replicated, missing alpha is 1, sRGB decoded.
-vec4 fetch_pooled(Texture image, Level level, ivec3 at) {
+vec4 fetch_pooled(const Texture image, const Level level, ivec3 at) {
     uint format = image.format;
     uint texel = uint((at.z * level.size.y + at.y) * level.size.x + at.x);
     uint word = level.word;
@@ -155,7 +155,7 @@ vec4 read_image(uint slot, ivec2 at, int level) {
 }
 
 // The device's sampler at a level; where it filters anisotropically, over the footprint.
-vec4 read_flat(Sampler how, uint slot, vec2 uv, Coordinate c, float level) {
+vec4 read_flat(const Sampler how, uint slot, vec2 uv, const Coordinate c, float level) {
     if (FILTERED && is_anisotropic(how)) {
 #define READ(i) textureGrad(SLOT(i), uv, c.dx.xy, c.dy.xy)
         SLOT_SWITCH(SLOTS, READ)
@@ -180,7 +180,7 @@ vec4 read_cube(uint slot, vec3 at, float level) {
 }
 #endif
 
-vec4 read_sampled(Texture image, Sampler how, uint slot, Coordinate c, float level) {
+vec4 read_sampled(const Texture image, const Sampler how, uint slot, const Coordinate c, float level) {
     vec3 shift = vec3(0.0);
     if (MODE_IS(TEXEL_CENTERS, TEXEL_CENTER_INTEGER, how.texel_center)) {
         shift = 0.5 / vec3(max(ivec3(image.size) >> int(level), ivec3(1)));
@@ -192,7 +192,7 @@ vec4 read_sampled(Texture image, Sampler how, uint slot, Coordinate c, float lev
     return read_flat(how, slot, c.at.xy + shift.xy, c, level);
 }
 
-vec4 fetch_texel(Texture image, uint slot, Level level, ivec3 at) {
+vec4 fetch_texel(const Texture image, uint slot, const Level level, ivec3 at) {
 #if HAS_TEXELS
     if (!MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_FLAT, image.kind)) return fetch_pooled(image, level, at);
 #endif
@@ -210,7 +210,7 @@ vec4 fetch_texel(Texture image, uint slot, Level level, ivec3 at) {
     return value;
 }
 #elif SOURCE == SOURCE_BUFFER
-vec4 fetch_texel(Texture image, uint slot, Level level, ivec3 at) { return fetch_pooled(image, level, at); }
+vec4 fetch_texel(const Texture image, uint slot, const Level level, ivec3 at) { return fetch_pooled(image, level, at); }
 #endif
 
 #if SOURCE != SOURCE_NONE
@@ -222,7 +222,7 @@ const uint ADDRESSES = ADDRESSES_U | ADDRESSES_V | ADDRESSES_W;
 const bool BORDERS = HAS(ADDRESSES, ADDRESS_CLAMP_TO_BORDER);
 
 // The texel at an addressed place, or the border colour where a number of it is -1.
-vec4 fetch_or_border(Texture image, Sampler how, uint slot, Level level, ivec3 at) {
+vec4 fetch_or_border(const Texture image, const Sampler how, uint slot, const Level level, ivec3 at) {
     if (!BORDERS) return fetch_texel(image, slot, level, at);
     vec4 value = fetch_texel(image, slot, level, max(at, ivec3(0)));
     return at.x < 0 || at.y < 0 || at.z < 0 ? how.border : value;
@@ -246,7 +246,7 @@ vec4 add_weighted(float weight, vec4 value, vec4 sum) {
 
 // A flat texture's texel at (column, row), addressed. Over a pole of an environment the same row goes on,
 // half a turn away.
-vec4 flat_texel(Texture image, Sampler how, uint slot, Level level, ivec2 at) {
+vec4 flat_texel(const Texture image, const Sampler how, uint slot, const Level level, ivec2 at) {
     if (POLES && how.crosses_poles) {
         bool over = at.y < 0 || at.y >= level.size.y;
         at.x += over ? level.size.x / 2 : 0;

@@ -9,7 +9,7 @@ layout(std430, set = 0, binding = BINDING_TILE_LISTS) readonly buffer Survey { u
 
 // The words of the cell in which a pixel of the film lies; NO_LIST for a scene without a survey, or a cell with
 // more triangles than it can list.
-uint cell_list(Header header, uvec2 place) {
+uint cell_list(const Header header, uvec2 place) {
     uint side = header.cell_side;
     if (side == 0u) return NO_LIST;
     uint across = (header.film_size.x + side - 1u) / side;

@@ -21,7 +21,7 @@ const float MARGIN = 0.0625;
 const uint SQUARE = 0u; // the polygon of the cell
 
 // Texels that a pixel spans at most, at the cell's corners.
-float texels_across(Header header, PixelFrustum frame, uint shape, UvProjection map, Texture image) {
+float texels_across(const Header header, const PixelFrustum frame, uint shape, const UvProjection map, const Texture image) {
     RationalMap q = coordinates(header, frame, shape, map, nearness_of(header, frame, shape));
     float most = 0.0;
     for (uint k = 0u; k < 4u; k++) {
@@ -37,7 +37,7 @@ float texels_across(Header header, PixelFrustum frame, uint shape, UvProjection 
 }
 
 // Whether one shape, with all lines of its region around the cell, shows a colour that changes little.
-bool is_calm(Header header, PixelFrustum frame, uint shape, ConvexRegion region) {
+bool is_calm(const Header header, const PixelFrustum frame, uint shape, const ConvexRegion region) {
     for (uint k = 0u; k < region.count; k++) {
         if (range(SQUARE, region.lines[k]).x <= 0.0) return false;
     }

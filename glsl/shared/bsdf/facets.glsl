@@ -38,7 +38,7 @@ float smith_g1_refracted(float leaving, float alpha) {
 
 // The beam as wide as the part of the lobe that a sample stands for: about half of a lobe's light lies within
 // 2 alpha, as mirrors turn a ray by twice what their normal turns.
-RayDifferential widened_differential(Header header, RayDifferential beam, vec3 direction, float alpha) {
+RayDifferential widened_differential(const Header header, const RayDifferential beam, vec3 direction, float alpha) {
     if (!FILTERED) return beam;
     float size = sqrt(dot3(direction, direction));
     float by = 2.0 * alpha * float(header.sample_side) * size;

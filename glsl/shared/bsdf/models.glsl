@@ -35,28 +35,28 @@ const bool SECOND_LOBE = (MODELS & ((1u << MODEL_PHONG) | (1u << MODEL_OREN_NAYA
 const bool HAS_LIT = (MODELS & ((1u << MODEL_LAMBERT) | (1u << MODEL_PHONG) | (1u << MODEL_OREN_NAYAR))) != 0u;
 
 // Sends rays on, and nothing else.
-bool is_specular(Material material) {
+bool is_specular(const Material material) {
     return MODE_IS(MODELS, MODEL_MIRROR, material.model) || MODE_IS(MODELS, MODEL_DIELECTRIC, material.model);
 }
 
 // Sends light on.
-bool is_lit(Material material) {
+bool is_lit(const Material material) {
     return MODE_IS(MODELS, MODEL_PHONG, material.model) || MODE_IS(MODELS, MODEL_LAMBERT, material.model) ||
            MODE_IS(MODELS, MODEL_OREN_NAYAR, material.model);
 }
 
 // Radiance that the material sends by itself, where its colour times what the path carries is `color`.
-vec3 emitted(Material material, vec3 color) {
+vec3 emitted(const Material material, vec3 color) {
     return MODE_IS(MODELS, MODEL_UNLIT, material.model) ? unlit_emitted(color) : vec3(0.0);
 }
 
-Bsdf bsdf_at(Material material, vec3 albedo, real3 normal, real3 direction) {
+Bsdf bsdf_at(const Material material, vec3 albedo, real3 normal, real3 direction) {
     vec3 mirror = HAS(MODELS, MODEL_PHONG) ? vec3(mirrored(direction, normal)) : vec3(0.0);
     return Bsdf(material, albedo, vec3(normal), vec3(direction), mirror);
 }
 
 // The two lobes over 1/pi, for light from `way`, which need not be a unit vector.
-vec2 evaluate(Bsdf bsdf, vec3 way) {
+vec2 evaluate(const Bsdf bsdf, vec3 way) {
     vec2 lobes = lambert_lobes();
     if (HAS(MODELS, MODEL_PHONG)) lobes = phong_lobes(bsdf.mirror, way, bsdf.material.exponent);
     if (MODE_IS(MODELS, MODEL_OREN_NAYAR, bsdf.material.model)) {
@@ -66,7 +66,7 @@ vec2 evaluate(Bsdf bsdf, vec3 way) {
 }
 
 // What a lit material sends to the eye; `color` is the albedo times what the path carries.
-vec3 reflected(Bsdf bsdf, vec3 color, vec3 carried, Lit lit) {
+vec3 reflected(const Bsdf bsdf, vec3 color, vec3 carried, const Lit lit) {
     vec3 seen = color * lit.first;
     if (MODE_IS(MODELS, MODEL_PHONG, bsdf.material.model)) {
         seen = with_highlight(seen, carried, bsdf.material.specular, lit.second);
@@ -78,11 +78,11 @@ vec3 reflected(Bsdf bsdf, vec3 color, vec3 carried, Lit lit) {
 }
 
 // Whether radiance is the same in all directions, so that it changes with texture and light alone.
-bool is_diffuse(Material material) { return MODE_IS(MODELS, MODEL_LAMBERT, material.model); }
+bool is_diffuse(const Material material) { return MODE_IS(MODELS, MODEL_LAMBERT, material.model); }
 
 // Whether beams know the integral over a region of a flat shape, without a texture; `smooth_normals`: of a shape
 // whose shading normals differ from place to place.
-bool is_integrable_over_region(Material material, bool smooth_normals) {
+bool is_integrable_over_region(const Material material, bool smooth_normals) {
     bool unlit = MODE_IS(MODELS, MODEL_UNLIT, material.model);
     bool mirror = MODE_IS(MODELS, MODEL_MIRROR, material.model);
     bool plain = mirror || MODE_IS(MODELS, MODEL_LAMBERT, material.model);

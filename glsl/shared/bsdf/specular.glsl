@@ -20,19 +20,19 @@ struct Bounce {
 };
 
 // Ratio of the refractive indices before and behind a surface.
-float index_ratio(Material material, bool inside) {
+float index_ratio(const Material material, bool inside) {
     return inside ? material.ior : 1.0 / material.ior;
 }
 
 // Share of the light that is mirrored; the rest is refracted.
-real mirrored_share(Material material, real3 direction, real3 normal, float ratio) {
+real mirrored_share(const Material material, real3 direction, real3 normal, float ratio) {
     real share = 1.0;
     if (MODE_IS(MODELS, MODEL_DIELECTRIC, material.model)) share = fresnel_dielectric(direction, normal, ratio);
     return share;
 }
 
 // The mirrored or the refracted way, on its own side of surfaces whose normals lean.
-real3 bounced_way(real3 direction, real3 normal, Surface surface, float ratio, bool mirror) {
+real3 bounced_way(real3 direction, real3 normal, const Surface surface, float ratio, bool mirror) {
     real3 way = direction;
     if (mirror) way = mirrored(direction, normal);
     else way = refracted(direction, normal, ratio);
@@ -42,7 +42,7 @@ real3 bounced_way(real3 direction, real3 normal, Surface surface, float ratio, b
 }
 
 // A sample of what a specular material sends on.
-Bounce sample_bsdf(Material material, Surface surface, real3 direction, SampleDimensions dimensions) {
+Bounce sample_bsdf(const Material material, const Surface surface, real3 direction, const SampleDimensions dimensions) {
     float alpha = GLOSSY ? material.alpha : 0.0;
     real3 normal = surface.normal;
     if (GLOSSY) {

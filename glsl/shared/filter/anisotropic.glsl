@@ -9,7 +9,7 @@
 
 #if SOURCE != SOURCE_NONE
 
-uint anisotropic_probes(Sampler how, FootprintEllipse spread) {
+uint anisotropic_probes(const Sampler how, const FootprintEllipse spread) {
     float most = float(how.max_anisotropy);
     float ratio = spread.major / max(spread.minor, 1e-30);
     count_diagnostic(DIAGNOSTIC_ANISOTROPY, ratio > most * most);
@@ -18,7 +18,7 @@ uint anisotropic_probes(Sampler how, FootprintEllipse spread) {
 }
 
 // The place of a probe; they come from both ends inwards.
-vec3 anisotropic_place(Texture image, Coordinate c, FootprintEllipse spread, uint probe, uint probes, float each,
+vec3 anisotropic_place(const Texture image, const Coordinate c, const FootprintEllipse spread, uint probe, uint probes, float each,
                        inout uint face) {
     uint order = (probe & 1u) != 0u ? probes - 1u - probe / 2u : probe / 2u;
     float way = (float(order) + 0.5) * each - 0.5;

@@ -23,7 +23,7 @@ float ellipse_weight(float squared) {
 
 // All texels of the footprint's ellipse, weighted by a Gaussian. The level is that on which the minor
 // axis is about one texel; where the ellipse is longer than the maximum anisotropy its minor axis grows.
-vec4 ellipse(Texture image, Sampler how, uint slot, Coordinate c, FootprintEllipse spread) {
+vec4 ellipse(const Texture image, const Sampler how, uint slot, const Coordinate c, const FootprintEllipse spread) {
     float most = float(how.max_anisotropy);
     float minor = max(spread.minor, spread.major / (most * most));
     count_diagnostic(DIAGNOSTIC_ANISOTROPY, minor > spread.minor);

@@ -59,7 +59,7 @@ bool has_kernel(uint mode) {
 // Texels along an axis.
 int kernel_taps(uint mode) { return MODE_IS(FILTERS, FILTER_LANCZOS_3, mode) ? 6 : 4; }
 
-KernelWeights kernel_weights(uint mode, Sampler how, float t) {
+KernelWeights kernel_weights(uint mode, const Sampler how, float t) {
     if (MODE_IS(FILTERS, FILTER_LANCZOS_2, mode)) return lanczos_weights(t, 2.0);
     if (MODE_IS(FILTERS, FILTER_LANCZOS_3, mode)) return lanczos_weights(t, 3.0);
     return KernelWeights(cubic_weights(t, vec2(how.cubic_b, how.cubic_c)), vec2(0.0));
@@ -72,7 +72,7 @@ float tap_weight(KernelWeights weights, int tap) {
     return weights.first[tap];
 }
 
-vec4 kernel_flat(Texture image, Sampler how, uint slot, uint mode, Level level, vec2 texel) {
+vec4 kernel_flat(const Texture image, const Sampler how, uint slot, uint mode, const Level level, vec2 texel) {
     vec2 low = floor(texel);
     vec2 t = texel - low;
     KernelWeights wx = kernel_weights(mode, how, t.x);

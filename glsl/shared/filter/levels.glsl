@@ -10,7 +10,7 @@
 #if SOURCE != SOURCE_NONE
 
 // `dice` in [0, 1) are of the stochastic one.
-vec4 filtered_level(Texture image, Sampler how, uint slot, uint mode, Level level, vec3 at, uint face, vec3 dice) {
+vec4 filtered_level(const Texture image, const Sampler how, uint slot, uint mode, const Level level, vec3 at, uint face, vec3 dice) {
     bool cube = MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_CUBE, image.kind);
     bool volume = MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_VOLUME, image.kind);
     vec3 texel;

@@ -7,7 +7,7 @@
 
 #if SOURCE != SOURCE_NONE
 
-vec4 linear_flat(Texture image, Sampler how, uint slot, Level level, vec2 texel) {
+vec4 linear_flat(const Texture image, const Sampler how, uint slot, const Level level, vec2 texel) {
     // floor(texel); where texel is whole, perhaps the one before, with weight 1 on its neighbour.
     vec2 shifted = (texel - 0.5) + ROUND;
     vec2 low = shifted - ROUND;
@@ -30,7 +30,7 @@ vec4 linear_flat(Texture image, Sampler how, uint slot, Level level, vec2 texel)
     return add_weighted(b.x * b.y, fetch_or_border(image, how, slot, level, ivec3(u.y, v.y, 0)), sum);
 }
 
-vec4 linear_volume(Texture image, Sampler how, uint slot, Level level, vec3 texel) {
+vec4 linear_volume(const Texture image, const Sampler how, uint slot, const Level level, vec3 texel) {
     vec3 low = floor(texel);
     vec3 t = texel - low;
     vec4 sum = vec4(0.0);
@@ -47,7 +47,7 @@ vec4 linear_volume(Texture image, Sampler how, uint slot, Level level, vec3 texe
 }
 
 // Beyond a corner there is no texel: its weight goes to the three that meet there.
-vec4 linear_cube(Texture image, uint slot, Level level, uint face, vec2 texel) {
+vec4 linear_cube(const Texture image, uint slot, const Level level, uint face, vec2 texel) {
     int size = level.size.x;
     vec2 low = floor(texel);
     vec2 t = texel - low;

@@ -8,7 +8,7 @@
 
 // The texel in which a place lies. `stays`: a place on the far edge of a cube's face belongs to the face that the
 // direction meets; of others one beyond a corner is one of the three texels there, by `die` in [0, 1).
-vec4 nearest(Texture image, Sampler how, uint slot, Level level, vec3 place, uint face, float die, bool stays) {
+vec4 nearest(const Texture image, const Sampler how, uint slot, const Level level, vec3 place, uint face, float die, bool stays) {
     ivec3 texel = ivec3(floor(place));
     if (MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_CUBE, image.kind)) {
         if (stays) texel = min(texel, ivec3(level.size.x - 1));

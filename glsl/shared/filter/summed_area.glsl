@@ -113,7 +113,7 @@ float rectangle(uint table, int width, vec2 from, vec2 to, ivec2 last) {
 }
 
 // `place` is a coordinate of a flat texture that has a table: after its levels.
-vec4 summed_area(Texture image, Sampler how, Coordinate place) {
+vec4 summed_area(const Texture image, const Sampler how, const Coordinate place) {
     uint table = texel_word(image.first_word - image.levels);
     float least = uintBitsToFloat(texel_word(table));
     float step = uintBitsToFloat(texel_word(table + 1u));

@@ -6,7 +6,7 @@
 #include "kinds.glsl"
 
 // Whether a shape has a region; of others beams do not know the outline.
-bool has_region(Header header, uint shape) {
+bool has_region(const Header header, uint shape) {
     COUNT_SHAPES(header)
     bool is_round = false;
 #define ROUND(Type, at, LIST, first, count) is_round = is_round || IS_WITHIN(LIST, shape, first, count);
@@ -16,7 +16,7 @@ bool has_region(Header header, uint shape) {
 }
 
 // Unit normal, and height of the plane in which a flat shape lies.
-vec4 shape_plane(Header header, uint shape) {
+vec4 shape_plane(const Header header, uint shape) {
     COUNT_SHAPES(header)
     vec4 plane = vec4(0.0);
 #define PLANE_OF(Type, at, LIST, first, count) if (IS_NEXT(LIST, shape, first, count)) plane = plane_of(at(shape - (first))); else
@@ -26,7 +26,7 @@ vec4 shape_plane(Header header, uint shape) {
 }
 
 // Material and map.
-uvec2 shape_links(Header header, uint shape) {
+uvec2 shape_links(const Header header, uint shape) {
     COUNT_SHAPES(header)
     uvec2 link = uvec2(0u);
 #define LINK(Type, at, LIST, first, count) if (IS_NEXT(LIST, shape, first, count)) link = links_of(at(shape - (first))); else
@@ -35,7 +35,7 @@ uvec2 shape_links(Header header, uint shape) {
     return link;
 }
 
-bool is_smooth(Header header, uint shape) {
+bool is_smooth(const Header header, uint shape) {
     COUNT_SHAPES(header)
     bool smooth_normals = false;
 #define SMOOTH(Type, at, LIST, first, count) \
@@ -45,12 +45,12 @@ bool is_smooth(Header header, uint shape) {
     return smooth_normals;
 }
 
-vec3 nearness_of(Header header, PixelFrustum frame, uint shape) {
+vec3 nearness_of(const Header header, const PixelFrustum frame, uint shape) {
     vec4 plane = shape_plane(header, shape);
     return inverse_depth(header, frame, plane.xyz, plane.w);
 }
 
-ConvexRegion shape_region(Header header, PixelFrustum frame, uint shape) {
+ConvexRegion shape_region(const Header header, const PixelFrustum frame, uint shape) {
     COUNT_SHAPES(header)
     ConvexRegion region = region_of_plane(header, frame, shape_plane(header, shape));
 #define OUTLINE(Type, at, LIST, first, count) \
@@ -61,7 +61,7 @@ ConvexRegion shape_region(Header header, PixelFrustum frame, uint shape) {
 }
 
 // Texture coordinates on a flat shape, for maps that are affine there.
-RationalMap coordinates(Header header, PixelFrustum frame, uint shape, UvProjection map, vec3 near) {
+RationalMap coordinates(const Header header, const PixelFrustum frame, uint shape, const UvProjection map, vec3 near) {
     if (MODE_IS(MAPPINGS, MAP_AFFINE, map.kind)) {
         return RationalMap(along(header, frame, near, map.x), along(header, frame, near, map.y), below(header, near));
     }
@@ -75,7 +75,7 @@ RationalMap coordinates(Header header, PixelFrustum frame, uint shape, UvProject
 }
 
 // Where, on the plane of this inverse depth, a flat shape keeps a light away.
-ConvexRegion shadow_region(Header header, PixelFrustum frame, vec3 near, uint shape, Light light) {
+ConvexRegion shadow_region(const Header header, const PixelFrustum frame, vec3 near, uint shape, const Light light) {
     COUNT_SHAPES(header)
     bool point_light = MODE_IS(LIGHT_KINDS, LIGHT_POINT, light.kind);
     vec3 place = point_light ? light.position : light.direction;
@@ -99,7 +99,7 @@ ConvexRegion shadow_region(Header header, PixelFrustum frame, vec3 near, uint sh
 }
 
 // False where no ray of the polygon can meet the shape, which has no region.
-bool may_meet(Header header, PixelFrustum frame, uint polygon, uint shape) {
+bool may_meet(const Header header, const PixelFrustum frame, uint polygon, uint shape) {
     COUNT_SHAPES(header)
 #define MEETS(Type, at, LIST, first, count) \
     if (IS_WITHIN(LIST, shape, first, count)) return may_meet(header, frame, polygon, at(shape - (first)));
@@ -110,7 +110,7 @@ bool may_meet(Header header, PixelFrustum frame, uint polygon, uint shape) {
 
 // False where no way from the polygon on a surface of this inverse depth to the light can pass the shape, which has no
 // region.
-bool may_shade(Header header, PixelFrustum frame, vec3 near, uint polygon, Light light, uint shape) {
+bool may_shade(const Header header, const PixelFrustum frame, vec3 near, uint polygon, const Light light, uint shape) {
     COUNT_SHAPES(header)
 #define SHADES(Type, at, LIST, first, count) \
     if (IS_WITHIN(LIST, shape, first, count)) return may_shade(header, frame, near, polygon, light, at(shape - (first)));

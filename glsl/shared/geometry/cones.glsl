@@ -6,7 +6,7 @@
 #include "kinds.glsl"
 
 // The same cone, which leaves a shape.
-Cone leaving(Header header, Cone cone, uint shape) {
+Cone leaving(const Header header, Cone cone, uint shape) {
     if (!FLOORS || shape == NO_SHAPE) return cone;
     COUNT_SHAPES(header)
     vec3 up = vec3(0.0);
@@ -21,7 +21,7 @@ Cone leaving(Header header, Cone cone, uint shape) {
 }
 
 // The shape that a ray must not meet again at once. From inside a ball its other side is met.
-uint left_shape(Header header, uint shape, bool within) {
+uint left_shape(const Header header, uint shape, bool within) {
     COUNT_SHAPES(header)
     bool is_round = false;
 #define ROUND(Type, at, LIST, first, count) is_round = is_round || (shape >= (first) && shape < (first) + (count));
@@ -31,7 +31,7 @@ uint left_shape(Header header, uint shape, bool within) {
 }
 
 // Cuts the disc to what the shape covers; false for one that no lines stand for.
-bool cut_shape(Header header, Cone cone, uint shape) {
+bool cut_shape(const Header header, const Cone cone, uint shape) {
     COUNT_SHAPES(header)
     bool has_lines = true;
 #define CUT(Type, at, LIST, first, count, is_flat, is_listed) \
@@ -42,7 +42,7 @@ bool cut_shape(Header header, Cone cone, uint shape) {
 }
 
 // What the shape covers.
-Covered covered_by(Header header, Cone cone, uint shape) {
+Covered covered_by(const Header header, const Cone cone, uint shape) {
     COUNT_SHAPES(header)
 #define COVERED(Type, at, LIST, first, count) \
     if (IS_WITHIN(LIST, shape, first, count)) return covered_by(cone, at(shape - (first)));
@@ -55,7 +55,7 @@ Covered covered_by(Header header, Cone cone, uint shape) {
 }
 
 // Whether the cone may touch the shape.
-bool touched(Header header, Cone cone, uint shape) {
+bool touched(const Header header, const Cone cone, uint shape) {
     COUNT_SHAPES(header)
 #define TOUCHED(Type, at, LIST, first, count) \
     if (IS_WITHIN(LIST, shape, first, count)) return touched(cone, at(shape - (first)));
@@ -67,7 +67,7 @@ bool touched(Header header, Cone cone, uint shape) {
 }
 
 // Where a ray within the shape's outline meets it; rounding may have put it just beside.
-Hit meet(Header header, Ray ray, uint shape) {
+Hit meet(const Header header, const Ray ray, uint shape) {
     COUNT_SHAPES(header)
     Hit hit = Hit(-1.0, shape, vec2(0.0));
     vec4 plane = vec4(0.0);
@@ -93,7 +93,7 @@ Hit meet(Header header, Ray ray, uint shape) {
 
 // How deep a shape lies over the disc: its own plane, that which touches a ball, and where a ball ends
 // its distance alone.
-Flat depth_of(Header header, Cone cone, uint shape, float t, float area) {
+Flat depth_of(const Header header, const Cone cone, uint shape, float t, float area) {
     COUNT_SHAPES(header)
     vec4 plane = vec4(0.0);
     bool ends = false;

@@ -38,7 +38,7 @@ const bool CURVED_SHAPES = (SPHERES | TRIANGLES) != 0u;
 
 #define ADD_COUNT(Type, at, LIST, first, count) + (count)
 
-uint shape_count(Header header) {
+uint shape_count(const Header header) {
     COUNT_SHAPES(header)
     return shapes;
 }

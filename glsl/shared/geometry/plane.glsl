@@ -5,16 +5,16 @@
 #include "../layout.glsl"
 
 // Material and map.
-uvec2 links_of(Plane plane) { return uvec2(plane.material, plane.uv_projection); }
+uvec2 links_of(const Plane plane) { return uvec2(plane.material, plane.uv_projection); }
 
 // Unit normal, and height over the eye.
-vec4 plane_of(Plane plane) { return vec4(plane.normal, plane.distance); }
+vec4 plane_of(const Plane plane) { return vec4(plane.normal, plane.distance); }
 
 #ifndef SHAPES_IN_BEAMS
 #include "hit.glsl"
 
 // t = (n·o' - n·o) / n·d, kept when the point lies within the half extent on both axes.
-real distance_to(Plane plane, Ray ray, bool from_eye, inout real2 local) {
+real distance_to(const Plane plane, const Ray ray, bool from_eye, inout real2 local) {
     real slope = dot3(plane.normal, ray.direction);
     real height = plane.distance;
     if (!from_eye) {
@@ -32,7 +32,7 @@ real distance_to(Plane plane, Ray ray, bool from_eye, inout real2 local) {
     return t;
 }
 
-Surface surface_of(Plane plane, real3 point, real2 uv) {
+Surface surface_of(const Plane plane, real3 point, real2 uv) {
     return Surface(point, plane.normal, plane.normal, uv, vec3(plane.axis_u), vec3(plane.axis_v), FLAT,
                    0.0, false, links_of(plane), point, largest_part(point));
 }
@@ -43,7 +43,7 @@ Surface surface_of(Plane plane, real3 point, real2 uv) {
 #include "../cone.glsl"
 
 // The plane's own coordinate row·p + row.w lies within ±extent.
-void cut_bounds(Cone cone, Flat plane, vec4 row, float extent) {
+void cut_bounds(const Cone cone, Flat plane, vec4 row, float extent) {
     float start = dot3(row.xyz, cone.ray.origin) + row.w;
     float along = dot3(row.xyz, cone.ray.direction);
     vec2 aside = vec2(dot3(row.xyz, cone.x), dot3(row.xyz, cone.y));
@@ -55,7 +55,7 @@ void cut_bounds(Cone cone, Flat plane, vec4 row, float extent) {
     cut_by(limit + place);
 }
 
-bool cut_by_shape(Cone cone, Plane plane) {
+bool cut_by_shape(const Cone cone, const Plane plane) {
     Flat seen = flat_in(cone, plane.normal, plane.distance);
     cut_by(vec3(-cone.width * seen.tilt, seen.height));
     if (BOUNDED_PLANES && plane.half_extent >= 0.0) {
@@ -70,18 +70,18 @@ bool cut_by_shape(Cone cone, Plane plane) {
 }
 
 // A hit of a ray within the outline.
-void complete(Plane plane, Ray ray, inout Hit hit) { distance_to(plane, ray, false, hit.local); }
+void complete(const Plane plane, const Ray ray, inout Hit hit) { distance_to(plane, ray, false, hit.local); }
 
-vec4 tangent_plane(Plane plane, Cone cone, float t) { return plane_of(plane); }
+vec4 tangent_plane(const Plane plane, const Cone cone, float t) { return plane_of(plane); }
 #endif
 
 #ifdef SHAPES_IN_BEAMS
 #include "../projective.glsl"
 
-bool has_smooth_normals(Plane plane) { return false; }
+bool has_smooth_normals(const Plane plane) { return false; }
 
 // Adds the lines of its bounds.
-void add_outline(Header header, PixelFrustum frame, vec3 near, Plane record, inout ConvexRegion region) {
+void add_outline(const Header header, const PixelFrustum frame, vec3 near, const Plane record, inout ConvexRegion region) {
     if (BOUNDED_PLANES && record.half_extent >= 0.0) {
         vec3 extent = record.half_extent * below(header, near);
         vec3 u = along(header, frame, near, vec4(record.axis_u, record.eye_u));
@@ -95,7 +95,7 @@ void add_outline(Header header, PixelFrustum frame, vec3 near, Plane record, ino
 }
 
 // Texture coordinates by a map of its own coordinates, which count from the eye.
-RationalMap own_coordinates(Header header, PixelFrustum frame, vec3 near, Plane plane, UvProjection map) {
+RationalMap own_coordinates(const Header header, const PixelFrustum frame, vec3 near, const Plane plane, const UvProjection map) {
     vec3 under = below(header, near);
     vec3 u = along(header, frame, near, vec4(plane.axis_u, 0.0));
     vec3 v = along(header, frame, near, vec4(plane.axis_v, 0.0));
@@ -105,8 +105,8 @@ RationalMap own_coordinates(Header header, PixelFrustum frame, vec3 near, Plane 
 
 // The lines of its bounds on another surface of this inverse depth, seen from the light. `rise`: of the light before
 // the plane, or of a way's length towards it.
-void add_shadow(Header header, PixelFrustum frame, vec3 near, Light light, vec4 plane, float rise,
-                inout ConvexRegion region, Plane record) {
+void add_shadow(const Header header, const PixelFrustum frame, vec3 near, const Light light, vec4 plane, float rise,
+                inout ConvexRegion region, const Plane record) {
     vec3 n = plane.xyz;
     bool point_light = MODE_IS(LIGHT_KINDS, LIGHT_POINT, light.kind);
     vec3 place = point_light ? light.position : light.direction;
@@ -130,7 +130,7 @@ void add_shadow(Header header, PixelFrustum frame, vec3 near, Light light, vec4 
 }
 
 // False where no ray of the polygon can meet the plane.
-bool may_meet(Header header, PixelFrustum frame, uint polygon, Plane plane) {
+bool may_meet(const Header header, const PixelFrustum frame, uint polygon, const Plane plane) {
     ConvexRegion region = region_of_plane(header, frame, plane_of(plane));
     add_outline(header, frame, region.inverse_depth, plane, region);
     bool met = true;

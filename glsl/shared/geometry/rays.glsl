@@ -8,7 +8,7 @@
 #include "kinds.glsl"
 
 // `list`: of the cell of tile culling in which a camera ray lies, else NO_LIST.
-Hit nearest_hit(Header header, Ray ray, uint skip, uint list) {
+Hit nearest_hit(const Header header, const Ray ray, uint skip, uint list) {
     Hit hit = Hit(FAR, NO_SHAPE, real2(0.0));
     COUNT_SHAPES(header)
 #define NEAREST(Type, at, LIST, first, count, is_flat, is_listed)                                                  \
@@ -36,7 +36,7 @@ Hit nearest_hit(Header header, Ray ray, uint skip, uint list) {
 }
 
 // True when a shape lies at 0 < t < t_max.
-bool occluded(Header header, Ray ray, real t_max, uint skip) {
+bool occluded(const Header header, const Ray ray, real t_max, uint skip) {
     bool blocked = false;
     COUNT_SHAPES(header)
 #define OCCLUDES(Type, at, LIST, first, count, is_flat, is_listed)                                                 \
@@ -52,7 +52,7 @@ bool occluded(Header header, Ray ray, real t_max, uint skip) {
     return blocked;
 }
 
-Surface hit_surface(Header header, Ray moving, Hit hit) {
+Surface hit_surface(const Header header, const Ray moving, const Hit hit) {
     Ray ray = at_rest(header, moving, hit.shape);
     COUNT_SHAPES(header)
     real3 point = ORIGIN_IS_EYE ? hit.t * ray.direction : ray.origin + hit.t * ray.direction;

@@ -6,14 +6,14 @@
 #include "../layout.glsl"
 
 // Material and map.
-uvec2 links_of(Sphere sphere) { return uvec2(sphere.material, sphere.uv_projection); }
+uvec2 links_of(const Sphere sphere) { return uvec2(sphere.material, sphere.uv_projection); }
 
 #ifndef SHAPES_IN_BEAMS
 #include "hit.glsl"
 
 // Haines, Günther & Akenine-Möller 2019: the discriminant from the vector of closest approach, and
 // of the two roots c/q and q/a the one that does not cancel.
-real distance_to(Sphere sphere, Ray ray, bool from_eye, inout real2 local) {
+real distance_to(const Sphere sphere, const Ray ray, bool from_eye, inout real2 local) {
     real3 f = from_eye ? -sphere.center : ray.origin - sphere.center;
     real radius = sphere.radius;
     real a = dot3(ray.direction, ray.direction);
@@ -29,7 +29,7 @@ real distance_to(Sphere sphere, Ray ray, bool from_eye, inout real2 local) {
 }
 
 // The hit is put back on the sphere: the error of t does not reach the normal or the next ray.
-Surface surface_of(Sphere sphere, real3 point, real2 uv) {
+Surface surface_of(const Sphere sphere, real3 point, real2 uv) {
     real3 radial = point - sphere.center;
     real scale = inverse_root(dot3(radial, radial));
     real3 normal = radial * scale;
@@ -52,7 +52,7 @@ struct Circle {
     float edge; // the radius less the middle's distance; 1 and more covers the disc
 };
 
-Circle circle_of(Cone cone, Sphere sphere) {
+Circle circle_of(const Cone cone, const Sphere sphere) {
     vec3 f = cone.ray.origin - sphere.center;
     float radius = sphere.radius;
     float t = -dot3(f, cone.ray.direction) / dot3(cone.ray.direction, cone.ray.direction);
@@ -68,18 +68,18 @@ Circle circle_of(Cone cone, Sphere sphere) {
 }
 
 // False for a ball that no line stands for: smaller than the cone.
-bool cut_by_shape(Cone cone, Sphere sphere) {
+bool cut_by_shape(const Cone cone, const Sphere sphere) {
     Circle circle = circle_of(cone, sphere);
     cut_by(circle_line(circle.middle, circle.radius, circle.edge));
     return circle.radius >= 1.0;
 }
 
-Covered covered_by(Cone cone, Sphere sphere) {
+Covered covered_by(const Cone cone, const Sphere sphere) {
     Circle circle = circle_of(cone, sphere);
     return ball_overlap(circle.middle, circle.radius, circle.edge);
 }
 
-bool touched(Cone cone, Sphere sphere) {
+bool touched(const Cone cone, const Sphere sphere) {
     Circle circle = circle_of(cone, sphere);
     vec2 apart = abs(circle.middle);
     bool reaches = max(apart.x, apart.y) < SQUARE * (1.0 + circle.radius);
@@ -87,14 +87,14 @@ bool touched(Cone cone, Sphere sphere) {
 }
 
 // A hit of a ray within the outline; rounding may have put it just beside.
-void complete(Sphere sphere, Ray ray, inout Hit hit) {
+void complete(const Sphere sphere, const Ray ray, inout Hit hit) {
     hit.t = distance_to(sphere, ray, false, hit.local);
     float nearest = dot3(sphere.center - ray.origin, ray.direction) / dot3(ray.direction, ray.direction);
     hit.t = hit.t > 0.0 ? hit.t : nearest;
 }
 
 // The plane that touches it at t.
-vec4 tangent_plane(Sphere sphere, Cone cone, float t) {
+vec4 tangent_plane(const Sphere sphere, const Cone cone, float t) {
     vec3 out_of = (cone.ray.origin + t * cone.ray.direction) - sphere.center;
     vec3 normal = out_of * inversesqrt(dot3(out_of, out_of));
     float height = dot3(normal, sphere.center) + sphere.radius;
@@ -106,7 +106,7 @@ vec4 tangent_plane(Sphere sphere, Cone cone, float t) {
 #include "../projective.glsl"
 
 // False where no ray of the polygon can meet the sphere.
-bool may_meet(Header header, PixelFrustum frame, uint polygon, Sphere sphere) {
+bool may_meet(const Header header, const PixelFrustum frame, uint polygon, const Sphere sphere) {
     vec3 way;
     vec3 origin;
     ray_at(header, frame, middle(polygon), way, origin);
@@ -132,7 +132,7 @@ bool may_meet(Header header, PixelFrustum frame, uint polygon, Sphere sphere) {
 }
 
 // False where no way from the fragment to the light can pass the sphere.
-bool may_shade(Header header, PixelFrustum frame, vec3 near, uint polygon, Light light, Sphere sphere) {
+bool may_shade(const Header header, const PixelFrustum frame, vec3 near, uint polygon, const Light light, const Sphere sphere) {
     vec3 from = point_at(header, frame, near, middle(polygon));
     float wide = 0.0;
     for (uint k = 0u; k < counts[polygon]; k++) {

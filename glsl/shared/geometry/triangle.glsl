@@ -6,17 +6,17 @@
 #include "../layout.glsl"
 
 // Material and map.
-uvec2 links_of(Triangle triangle) { return uvec2(triangle.material, triangle.uv_projection); }
+uvec2 links_of(const Triangle triangle) { return uvec2(triangle.material, triangle.uv_projection); }
 
 // Unit normal, and height over the eye.
-vec4 plane_of(Triangle triangle) { return vec4(triangle.normal, triangle.distance); }
+vec4 plane_of(const Triangle triangle) { return vec4(triangle.normal, triangle.distance); }
 
 #ifndef SHAPES_IN_BEAMS
 #include "hit.glsl"
 
 // Edge functions as volumes d·(p × q): the two triangles at a shared edge compute the same value
 // with opposite sign, so no ray passes between them. t from the geometric plane.
-real distance_to(Triangle triangle, Ray ray, bool from_eye, inout real2 local) {
+real distance_to(const Triangle triangle, const Ray ray, bool from_eye, inout real2 local) {
     real3 a = from_eye ? triangle.a : triangle.a - ray.origin;
     real3 b = from_eye ? triangle.b : triangle.b - ray.origin;
     real3 c = from_eye ? triangle.c : triangle.c - ray.origin;
@@ -36,7 +36,7 @@ real distance_to(Triangle triangle, Ray ray, bool from_eye, inout real2 local) {
 
 // Barycentric weights of a point of the triangle, from the vectors to its corners: a ray's edge functions err
 // by its distance, these by the triangle's own size.
-real3 weights(Triangle triangle, real3 point) {
+real3 weights(const Triangle triangle, real3 point) {
     real3 a = triangle.a - point;
     real3 b = triangle.b - point;
     real3 c = triangle.c - point;
@@ -46,7 +46,7 @@ real3 weights(Triangle triangle, real3 point) {
     return areas * scale;
 }
 
-Surface surface_of(Triangle triangle, real3 point, real2 vertex_uv) {
+Surface surface_of(const Triangle triangle, real3 point, real2 vertex_uv) {
     real3 w = weights(triangle, point);
     real2 uv = real2(dot3(w, real3(triangle.u_a, triangle.u_b, triangle.u_c)), dot3(w, triangle.v));
     real3 n = triangle.normal;
@@ -93,14 +93,14 @@ Surface surface_of(Triangle triangle, real3 point, real2 vertex_uv) {
 #include "../cone.glsl"
 
 // A point as a place of the disc, homogeneous.
-vec3 in_disc(Cone cone, vec3 point) {
+vec3 in_disc(const Cone cone, vec3 point) {
     vec3 p = point - cone.ray.origin;
     float t = dot3(cone.ray.direction, p) / dot3(cone.ray.direction, cone.ray.direction);
     return vec3(dot3(cone.x, p), dot3(cone.y, p), cone.width + cone.spread * t);
 }
 
 // Two triangles at a shared edge get the same line with opposite sign.
-bool cut_by_shape(Cone cone, Triangle triangle) {
+bool cut_by_shape(const Cone cone, const Triangle triangle) {
     vec3 a = in_disc(cone, triangle.a);
     vec3 b = in_disc(cone, triangle.b);
     vec3 c = in_disc(cone, triangle.c);
@@ -115,18 +115,18 @@ bool cut_by_shape(Cone cone, Triangle triangle) {
 }
 
 // A hit of a ray within the outline.
-void complete(Triangle triangle, Ray ray, inout Hit hit) {}
+void complete(const Triangle triangle, const Ray ray, inout Hit hit) {}
 
-vec4 tangent_plane(Triangle triangle, Cone cone, float t) { return plane_of(triangle); }
+vec4 tangent_plane(const Triangle triangle, const Cone cone, float t) { return plane_of(triangle); }
 #endif
 
 #ifdef SHAPES_IN_BEAMS
 #include "../projective.glsl"
 
-bool has_smooth_normals(Triangle triangle) { return SMOOTH_NORMALS && triangle.is_smooth; }
+bool has_smooth_normals(const Triangle triangle) { return SMOOTH_NORMALS && triangle.is_smooth; }
 
 // Barycentric weights of a triangle's corners times their sum, positive within it.
-mat3 edge_forms(Header header, PixelFrustum frame, Triangle triangle) {
+mat3 edge_forms(const Header header, const PixelFrustum frame, const Triangle triangle) {
     bool parallel = is_parallel(header);
     vec3 way = frame.same;
     vec3 start = parallel ? vec3(0.0) : way;
@@ -145,7 +145,7 @@ mat3 edge_forms(Header header, PixelFrustum frame, Triangle triangle) {
 }
 
 // Adds the lines of its edges.
-void add_outline(Header header, PixelFrustum frame, vec3 near, Triangle triangle, inout ConvexRegion region) {
+void add_outline(const Header header, const PixelFrustum frame, vec3 near, const Triangle triangle, inout ConvexRegion region) {
     mat3 edges = edge_forms(header, frame, triangle);
     region.lines[1] = edges[0];
     region.lines[2] = edges[1];
@@ -154,7 +154,7 @@ void add_outline(Header header, PixelFrustum frame, vec3 near, Triangle triangle
 }
 
 // Texture coordinates, interpolated between the corners.
-RationalMap own_coordinates(Header header, PixelFrustum frame, vec3 near, Triangle triangle, UvProjection map) {
+RationalMap own_coordinates(const Header header, const PixelFrustum frame, vec3 near, const Triangle triangle, const UvProjection map) {
     mat3 e = edge_forms(header, frame, triangle);
     vec3 u = triangle.u_a * e[0] + triangle.u_b * e[1] + triangle.u_c * e[2];
     vec3 v = triangle.v.x * e[0] + triangle.v.y * e[1] + triangle.v.z * e[2];
@@ -162,8 +162,8 @@ RationalMap own_coordinates(Header header, PixelFrustum frame, vec3 near, Triang
 }
 
 // The lines of its edges on another surface of this inverse depth, seen from the light.
-void add_shadow(Header header, PixelFrustum frame, vec3 near, Light light, vec4 plane, float rise,
-                inout ConvexRegion region, Triangle triangle) {
+void add_shadow(const Header header, const PixelFrustum frame, vec3 near, const Light light, vec4 plane, float rise,
+                inout ConvexRegion region, const Triangle triangle) {
     bool point_light = MODE_IS(LIGHT_KINDS, LIGHT_POINT, light.kind);
     vec3 place = point_light ? light.position : light.direction;
     vec3 start = point_light ? place : vec3(0.0);
@@ -185,7 +185,7 @@ const float ROUNDING = 4e-6;
 
 // A ray meets a triangle where all three edge functions have one sign. These are affine in the
 // ray's place, so that their corners' extremes bound them.
-bool may_meet(Header header, PixelFrustum frame, uint polygon, Triangle triangle) {
+bool may_meet(const Header header, const PixelFrustum frame, uint polygon, const Triangle triangle) {
     vec3 ahead = vec3(dot3(triangle.a, header.forward), dot3(triangle.b, header.forward),
                       dot3(triangle.c, header.forward));
     if (max(max(ahead.x, ahead.y), ahead.z) <= 0.0) return false;
