@@ -161,7 +161,7 @@ void shade(const Header header, PixelBeam beam, uint own) {
         return;
     }
     vec3 carried = beam.carried * record.color;
-    if (is_specular(record)) {
+    if (is_specular(record.model)) {
         if (!BOUNCES || beam.depth >= header.max_depth) return;
         if (waiting_beams == MAX_BEAMS) {
             gave_up = true;
@@ -177,7 +177,7 @@ void shade(const Header header, PixelBeam beam, uint own) {
     RationalMap quotient = RationalMap(near, near, near);
     if (TEXTURED && record.texture_index != NO_TEXTURE) quotient = coordinates(header, beam.frame, shape, map, near);
     ShadingIntegral paint = ShadingIntegral(record, carried, quotient, shape_plane(header, shape), beam.frame, near);
-    bool unlit = !is_lit(record);
+    bool unlit = !is_lit(record.model);
     uint lights = unlit ? 1u : COUNT(LIGHTS, header.light_count);
     uint i = 0u;
     for (; i < lights && !gave_up; i++) {

@@ -112,8 +112,8 @@ vec3 shade_part(const Header header, Branch branch, uint shape) {
     vec3 carried = branch.weight;
     vec3 albedo = surface_color(material, uv_projection_at(surface.link.y), ray, surface, print, uvec2(0u));
     branch.weight *= albedo;
-    bool lit = HAS_LIT && is_lit(material);
-    if (!lit && !is_specular(material)) return emitted(material, branch.weight);
+    bool lit = HAS_LIT && is_lit(material.model);
+    if (!lit && !is_specular(material.model)) return emitted(material.model, branch.weight);
     if (!lit) consistent_normal(ray.direction, surface);
     float ratio = index_ratio(material, surface.inside);
     float back = mirrored_share(material, ray.direction, surface.normal, ratio);

@@ -165,7 +165,7 @@ Path camera_path(const Ray ray, const RayDifferential beam, uvec2 random, uint l
 // Where a mirrored or refracted path goes on; false where the material ends it.
 bool bounced(const Header header, const Hit hit, Surface surface, const Footprint print, const Material material, const SampleDimensions dimensions,
              inout Path path) {
-    if (!is_specular(material)) return false;
+    if (!is_specular(material.model)) return false;
     Ray ray = path.ray;
     consistent_normal(ray.direction, surface);
     Bounce bounce = sample_bsdf(material, surface, ray.direction, dimensions);
@@ -213,9 +213,9 @@ vec3 advance(const Header header, const Points points, const SampleDimensions di
         path.throughput *= albedo;
         real3 direction = path.ray.direction;
         is_alive = BOUNCES && bounced(header, hit, surface, print, material, dimensions, path);
-        seen = emitted(material, path.throughput);
+        seen = emitted(material.model, path.throughput);
         if (HAS_LIT) {
-            if (is_lit(material)) {
+            if (is_lit(material.model)) {
                 Bsdf bsdf = bsdf_at(material, albedo, surface.normal, direction);
                 Lit lit = direct_light(header, surface, path.ray.time, hit.shape, bsdf, points, dimensions);
                 seen = reflected(bsdf, path.throughput, carried, lit);

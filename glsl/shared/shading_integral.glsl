@@ -49,7 +49,7 @@ bool is_simple(const Header header, uint shape, const Material record, const UvP
     if (record.texture_index == NO_TEXTURE) return true;
     bool flat_map = MODE_IS(MAPPINGS, MAP_PLANE, map.kind) || MODE_IS(MAPPINGS, MAP_VERTEX_UV, map.kind) ||
                     MODE_IS(MAPPINGS, MAP_AFFINE, map.kind);
-    if (!flat_map || map.entity != ENTITY_POSITION || is_specular(record)) return false;
+    if (!flat_map || map.entity != ENTITY_POSITION || is_specular(record.model)) return false;
     Texture image = texture_at(record.texture_index);
     if (MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_PROCEDURAL, image.kind)) {
         Procedural what = procedural_at(image.procedural);

@@ -43,8 +43,8 @@ bool is_calm(const Header header, const PixelFrustum frame, uint shape, const Co
     }
     uvec2 link = shape_links(header, shape);
     Material record = material_at(link.x);
-    bool unlit = !is_lit(record) && !is_specular(record);
-    bool plain = is_diffuse(record) && !SHADOWS;
+    bool unlit = !is_lit(record.model) && !is_specular(record.model);
+    bool plain = is_diffuse(record.model) && !SHADOWS;
     if (!unlit && !plain) return false;
     if (BUMPED && record.bump_texture_index != NO_TEXTURE) return false;
     if (!TEXTURED || record.texture_index == NO_TEXTURE) return true;

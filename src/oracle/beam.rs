@@ -124,7 +124,7 @@ impl Pixel<'_> {
         if !is_simple(scene, seen.shape, record, map) {
             return Err(GaveUp);
         }
-        if is_specular(record) {
+        if is_specular(record.model) {
             if beam.depth < scene.header.max_depth {
                 if waiting.len() == MAX_BEAMS {
                     return Err(GaveUp);
@@ -150,7 +150,7 @@ impl Pixel<'_> {
             frame: beam.frame,
             near,
         };
-        let unlit = !is_lit(record);
+        let unlit = !is_lit(record.model);
         let lights = if unlit { 1 } else { scene.lights.len() };
         for i in 0..lights {
             let light = if unlit { None } else { Some(&scene.lights[i]) };

@@ -175,14 +175,14 @@ fn shade_part(waiting: &mut Waiting, scene: &PackedScene, mut branch: Branch, sh
     let albedo = surface_color(scene, material, map, (&ray, &surface, &print), [0; 2]);
     branch.weight *= albedo;
     let inside = surface.inside;
-    if is_specular(material) {
+    if is_specular(material.model) {
         consistent_normal(ray.direction, &mut surface);
     }
     let met = Met { hit, surface, print, material, albedo, carried };
-    if !is_lit(material) && !is_specular(material) {
-        return emitted(material, branch.weight);
+    if !is_lit(material.model) && !is_specular(material.model) {
+        return emitted(material.model, branch.weight);
     }
-    if is_lit(material) {
+    if is_lit(material.model) {
         for light in &scene.lights {
             let next = lit_branch(&branch, &met, left_shape(scene, shape, inside), light);
             if largest(next.weight) > 0.0 {

@@ -173,7 +173,7 @@ fn bounced(
     dimensions: &SampleDimensions,
     path: &mut Path,
 ) -> bool {
-    if !is_specular(material) {
+    if !is_specular(material.model) {
         return false;
     }
     let direction = path.ray.direction;
@@ -246,15 +246,15 @@ pub fn advance(scene: &PackedScene, path: &mut Path) -> DVec3 {
     let carried = path.throughput;
     let albedo = surface_color(scene, material, map, (&ray, &surface, &print), path.random);
     path.throughput *= albedo;
-    if is_lit(material) {
+    if is_lit(material.model) {
         let bsdf = bsdf_at(material, albedo, surface.normal, ray.direction);
         let points = path.points.as_ref().map(|(points, _)| points);
         let chosen = |i: u32| chosen_light(points, &dimensions, i);
         let lit = direct_light(scene, &surface, ray.time, hit.shape, &bsdf, &chosen);
         return reflected(&bsdf, path.throughput, carried, lit);
     }
-    if !is_specular(material) {
-        return emitted(material, path.throughput);
+    if !is_specular(material.model) {
+        return emitted(material.model, path.throughput);
     }
     let is_alive = bounced(header, &hit, surface, print, material, &dimensions, path);
     path.skip = hit.shape;

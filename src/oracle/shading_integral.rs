@@ -48,7 +48,7 @@ pub fn is_simple(scene: &PackedScene, shape: u32, record: &Material, map: u32) -
     }
     let map = &scene.uv_projections[map as usize];
     let flat = matches!(map.kind, MapKind::Plane | MapKind::VertexUv | MapKind::Affine);
-    if !flat || map.entity != EntityKind::Position || is_specular(record) {
+    if !flat || map.entity != EntityKind::Position || is_specular(record.model) {
         return false;
     }
     let image = &scene.textures[texture as usize];

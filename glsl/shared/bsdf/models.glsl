@@ -14,11 +14,14 @@
 
 // A material at a hit: what its lobes need beside the direction of the light.
 struct Bsdf {
-    Material material;
-    vec3 albedo;    // the material's colour, times its texture
-    vec3 normal;    // unit, for shading
-    vec3 direction; // of the ray
-    vec3 mirror;    // where a mirror would send it
+    uint model;
+    vec3 albedo;     // the material's colour, times its texture
+    vec3 specular;   // colour of the highlight, and its exponent
+    float exponent;
+    float roughness;
+    vec3 normal;     // unit, for shading
+    vec3 direction;  // of the ray
+    vec3 mirror;     // where a mirror would send it
 };
 
 // Irradiance over pi from all lights, weighted by two lobes: the one that the albedo colours, and that of a colour
@@ -35,32 +38,34 @@ const bool SECOND_LOBE = (MODELS & ((1u << MODEL_PHONG) | (1u << MODEL_OREN_NAYA
 const bool HAS_LIT = (MODELS & ((1u << MODEL_LAMBERT) | (1u << MODEL_PHONG) | (1u << MODEL_OREN_NAYAR))) != 0u;
 
 // Sends rays on, and nothing else.
-bool is_specular(const Material material) {
-    return MODE_IS(MODELS, MODEL_MIRROR, material.model) || MODE_IS(MODELS, MODEL_DIELECTRIC, material.model);
+bool is_specular(uint model) {
+    return MODE_IS(MODELS, MODEL_MIRROR, model) || MODE_IS(MODELS, MODEL_DIELECTRIC, model);
 }
 
 // Sends light on.
-bool is_lit(const Material material) {
-    return MODE_IS(MODELS, MODEL_PHONG, material.model) || MODE_IS(MODELS, MODEL_LAMBERT, material.model) ||
-           MODE_IS(MODELS, MODEL_OREN_NAYAR, material.model);
+bool is_lit(uint model) {
+    return MODE_IS(MODELS, MODEL_PHONG, model) || MODE_IS(MODELS, MODEL_LAMBERT, model) ||
+           MODE_IS(MODELS, MODEL_OREN_NAYAR, model);
 }
 
-// Radiance that the material sends by itself, where its colour times what the path carries is `color`.
-vec3 emitted(const Material material, vec3 color) {
-    return MODE_IS(MODELS, MODEL_UNLIT, material.model) ? unlit_emitted(color) : vec3(0.0);
+// Radiance that a material sends by itself, where its colour times what the path carries is `color`.
+vec3 emitted(uint model, vec3 color) {
+    return MODE_IS(MODELS, MODEL_UNLIT, model) ? unlit_emitted(color) : vec3(0.0);
 }
 
 Bsdf bsdf_at(const Material material, vec3 albedo, real3 normal, real3 direction) {
     vec3 mirror = HAS(MODELS, MODEL_PHONG) ? vec3(mirrored(direction, normal)) : vec3(0.0);
-    return Bsdf(material, albedo, vec3(normal), vec3(direction), mirror);
+    float roughness = HAS(MODELS, MODEL_OREN_NAYAR) ? sqrt(material.alpha) : 0.0;
+    return Bsdf(material.model, albedo, material.specular, material.exponent, roughness, vec3(normal), vec3(direction),
+                mirror);
 }
 
 // The two lobes over 1/pi, for light from `way`, which need not be a unit vector.
 vec2 evaluate(const Bsdf bsdf, vec3 way) {
     vec2 lobes = lambert_lobes();
-    if (HAS(MODELS, MODEL_PHONG)) lobes = phong_lobes(bsdf.mirror, way, bsdf.material.exponent);
-    if (MODE_IS(MODELS, MODEL_OREN_NAYAR, bsdf.material.model)) {
-        lobes = oren_nayar_lobes(bsdf.normal, bsdf.direction, way, sqrt(bsdf.material.alpha));
+    if (HAS(MODELS, MODEL_PHONG)) lobes = phong_lobes(bsdf.mirror, way, bsdf.exponent);
+    if (MODE_IS(MODELS, MODEL_OREN_NAYAR, bsdf.model)) {
+        lobes = oren_nayar_lobes(bsdf.normal, bsdf.direction, way, bsdf.roughness);
     }
     return lobes;
 }
@@ -68,17 +73,17 @@ vec2 evaluate(const Bsdf bsdf, vec3 way) {
 // What a lit material sends to the eye; `color` is the albedo times what the path carries.
 vec3 reflected(const Bsdf bsdf, vec3 color, vec3 carried, const Lit lit) {
     vec3 seen = color * lit.first;
-    if (MODE_IS(MODELS, MODEL_PHONG, bsdf.material.model)) {
-        seen = with_highlight(seen, carried, bsdf.material.specular, lit.second);
+    if (MODE_IS(MODELS, MODEL_PHONG, bsdf.model)) {
+        seen = with_highlight(seen, carried, bsdf.specular, lit.second);
     }
-    if (MODE_IS(MODELS, MODEL_OREN_NAYAR, bsdf.material.model)) {
-        seen += carried * scattered_albedo(bsdf.albedo, sqrt(bsdf.material.alpha)) * lit.second;
+    if (MODE_IS(MODELS, MODEL_OREN_NAYAR, bsdf.model)) {
+        seen += carried * scattered_albedo(bsdf.albedo, bsdf.roughness) * lit.second;
     }
     return seen;
 }
 
 // Whether radiance is the same in all directions, so that it changes with texture and light alone.
-bool is_diffuse(const Material material) { return MODE_IS(MODELS, MODEL_LAMBERT, material.model); }
+bool is_diffuse(uint model) { return MODE_IS(MODELS, MODEL_LAMBERT, model); }
 
 // Whether beams know the integral over a region of a flat shape, without a texture; `smooth_normals`: of a shape
 // whose shading normals differ from place to place.

@@ -42,23 +42,19 @@ pub struct Lit {
     pub second: DVec3,
 }
 
-fn model(material: &Material) -> Model {
-    material.model
+/// Returns whether a material sends rays on, and nothing else.
+pub fn is_specular(model: Model) -> bool {
+    model.is_specular()
 }
 
-/// Sends rays on, and nothing else.
-pub fn is_specular(material: &Material) -> bool {
-    model(material).is_specular()
+/// Returns whether a material reflects light.
+pub fn is_lit(model: Model) -> bool {
+    model.is_lit()
 }
 
-/// Sends light on.
-pub fn is_lit(material: &Material) -> bool {
-    model(material).is_lit()
-}
-
-/// Radiance that the material sends by itself, where its colour times what the path carries is `color`.
-pub fn emitted(material: &Material, color: DVec3) -> DVec3 {
-    if model(material) == Model::Unlit { unlit_emitted(color) } else { DVec3::ZERO }
+/// Returns the radiance that a material emits by itself, where its colour times what the path carries is `color`.
+pub fn emitted(model: Model, color: DVec3) -> DVec3 {
+    if model == Model::Unlit { unlit_emitted(color) } else { DVec3::ZERO }
 }
 
 pub fn bsdf_at(material: &Material, albedo: DVec3, normal: DVec3, direction: DVec3) -> Bsdf<'_> {
@@ -67,7 +63,7 @@ pub fn bsdf_at(material: &Material, albedo: DVec3, normal: DVec3, direction: DVe
 
 /// The two lobes over 1/π, for light from `way`, which need not be a unit vector.
 pub fn evaluate(bsdf: &Bsdf<'_>, way: DVec3) -> [f64; 2] {
-    match model(bsdf.material) {
+    match bsdf.material.model {
         Model::Phong => phong_lobes(bsdf.mirror, way, bsdf.material.exponent.into()),
         Model::OrenNayar => {
             oren_nayar_lobes(bsdf.normal, bsdf.direction, way, f64::from(bsdf.material.alpha).sqrt())
@@ -79,7 +75,7 @@ pub fn evaluate(bsdf: &Bsdf<'_>, way: DVec3) -> [f64; 2] {
 /// What a lit material sends to the eye; `color` is the albedo times what the path carries.
 pub fn reflected(bsdf: &Bsdf<'_>, color: DVec3, carried: DVec3, lit: Lit) -> DVec3 {
     let seen = color * lit.first;
-    match model(bsdf.material) {
+    match bsdf.material.model {
         Model::Phong => with_highlight(seen, carried, bsdf.material.specular.as_dvec3(), lit.second),
         Model::OrenNayar => {
             let color = scattered_albedo(bsdf.albedo, f64::from(bsdf.material.alpha).sqrt());
@@ -92,7 +88,7 @@ pub fn reflected(bsdf: &Bsdf<'_>, color: DVec3, carried: DVec3, lit: Lit) -> DVe
 /// Whether beams know the integral over a region of a flat shape, without a texture; `smooth_normals`: of a shape
 /// whose shading normals differ from place to place.
 pub fn is_integrable_over_region(material: &Material, smooth_normals: bool) -> bool {
-    match model(material) {
+    match material.model {
         Model::Unlit => true,
         Model::Lambert => !smooth_normals,
         Model::Mirror => !smooth_normals && material.alpha <= 0.0,
