@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3, DVec4};
 
 use super::hit::{Hit, Surface, surface};
-use super::kinds::{Flat, Form, Shape};
+use super::kinds::{Form, Polygonal, Shape};
 use crate::oracle::camera::Ray;
 use crate::oracle::cone::{Cone, FlatDepth, flat_in};
 use crate::oracle::coverage::Cuts;
@@ -76,16 +76,16 @@ impl Shape for Plane {
         region.lines[..region.count].iter().all(|&line| range(polygon, line).1 > 0.0)
     }
 
+    fn plane_of(&self) -> Option<DVec4> {
+        Some(self.normal.extend(self.distance))
+    }
+
     fn form(&self) -> Form<'_> {
-        Form::Flat(self)
+        Form::Polygonal(self)
     }
 }
 
-impl Flat for Plane {
-    fn plane_of(&self) -> DVec4 {
-        self.normal.extend(self.distance)
-    }
-
+impl Polygonal for Plane {
     fn has_smooth_normals(&self) -> bool {
         false
     }
@@ -122,7 +122,7 @@ impl Flat for Plane {
         let Some(extent) = self.bounds() else { return };
         let point = light.kind == LightKind::Point;
         let place = if point { light.position } else { light.direction };
-        let plane = self.plane_of();
+        let plane = self.normal.extend(self.distance);
         let n = plane.truncate();
         let side = if rise == 0.0 { 0.0 } else { rise.signum() };
         // A place's distance below the light, in |rise|, or its own height.

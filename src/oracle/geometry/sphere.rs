@@ -132,6 +132,10 @@ impl Shape for Sphere {
         away <= 1.0001 * reach
     }
 
+    fn plane_of(&self) -> Option<DVec4> {
+        None
+    }
+
     fn form(&self) -> Form<'_> {
         Form::Round(self)
     }
