@@ -14,12 +14,18 @@ use crate::oracle::projective::{
 use crate::pack::LightKind;
 use crate::schema::layout::{Header, Light, Plane, UvProjection};
 
-fn cut_bounds(cuts: &mut Cuts, cone: &Cone, plane: &FlatDepth, row: DVec4, extent: f64) {
+/// Numerator of the own coordinate row·p + row.w of the place met at u, over facing + s tilt·u.
+pub(super) fn own_place(cone: &Cone, plane: &FlatDepth, row: DVec4) -> DVec3 {
     let start = row.truncate().dot(cone.ray.origin) + row.w;
     let along = row.truncate().dot(cone.ray.direction);
     let tilt = (start * cone.spread - along * cone.width) * plane.tilt
         + (cone.width * plane.facing + cone.spread * plane.height) * cone.aside(row.truncate());
-    let place = tilt.extend(start * plane.facing + along * plane.height);
+    tilt.extend(start * plane.facing + along * plane.height)
+}
+
+/// The plane's own coordinate row·p + row.w lies within ±extent.
+pub(super) fn cut_bounds(cuts: &mut Cuts, cone: &Cone, plane: &FlatDepth, row: DVec4, extent: f64) {
+    let place = own_place(cone, plane, row);
     let limit = extent * (cone.spread * plane.tilt).extend(plane.facing);
     cuts.by(limit - place);
     cuts.by(limit + place);
