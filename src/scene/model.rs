@@ -7,7 +7,8 @@ use glam::DVec3;
 
 pub use super::bsdf::Model;
 pub use super::camera::{Camera, Lens, Projection};
-pub use super::geometry::{Bounds, Plane, Shape, Shapes, Sphere, Triangle};
+pub use super::geometry::kinds::*;
+pub use super::geometry::{Bounds, Shape, Shapes};
 pub use super::mapping::{Entity, Mapping, MappingKind, Space};
 pub use super::pixel_filter::{PixelFilter, PixelFilterKind};
 pub use super::sampling::{Algorithm, Footprint, Pattern, Precision, Sampling};

@@ -95,8 +95,13 @@ const COMMON_KEYS: &[&str] = &["material", "motion"];
 
 macro_rules! kinds {
     ($($kind:ident $module:ident $list:ident [$($property:ident)*];)+) => {
-        $(mod $module;
-        pub use $module::$kind;)+
+        $(mod $module;)+
+
+        /// The kinds, and what belongs to one alone.
+        pub mod kinds {
+            $(pub use super::$module::*;)+
+        }
+        pub use kinds::*;
 
         /// The shapes of a scene: a list of each kind.
         #[derive(Clone, Debug, Default)]
