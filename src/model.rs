@@ -2,9 +2,9 @@
 //! linear RGB. An index that a part has is one that the builder returned; [`DEFAULT`] stands for the default material
 //! and the default sampler.
 
-pub use crate::scene::builder::DEFAULT;
 pub use crate::scene::geometry::kinds::*;
 pub use crate::scene::geometry::{Kind, Shape};
+pub use crate::scene::model::DEFAULT;
 pub use crate::scene::model::{
     Algorithm, Background, Bounds, BumpKind, BumpMap, Camera, Entity, Environment, EnvironmentLayout,
     Footprint, Lens, Light, Mapping, MappingKind, Material, Model, Pattern, PixelFilter, PixelFilterKind,
