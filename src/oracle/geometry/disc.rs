@@ -166,12 +166,7 @@ impl Round for Disc {
     }
 
     /// False where no way from the polygon to the light can pass the sphere around the disc.
-    fn may_shade(
-        &self,
-        surface: (&PixelFrustum, AffineFunction),
-        polygon: &Polygon,
-        light: &Light,
-    ) -> bool {
+    fn may_shade(&self, surface: (&PixelFrustum, AffineFunction), polygon: &Polygon, light: &Light) -> bool {
         Sphere { center: self.center, radius: self.radius, ..Default::default() }
             .may_shade(surface, polygon, light)
     }

@@ -16,12 +16,7 @@ use crate::schema::layout;
 /// Rounding errors of the vector from the centre to a point, as they add up.
 const OWN: f64 = 2.5;
 
-pub(super) fn pack(
-    packed: &mut PackedScene,
-    scene: &Scene,
-    disc: &Disc,
-    eye: DVec3,
-) -> Result<layout::Disc> {
+pub(super) fn pack(packed: &mut PackedScene, scene: &Scene, disc: &Disc, eye: DVec3) -> Result<layout::Disc> {
     let map = add_map(packed, scene, disc.material, |mapping, sampler, flat| {
         let place = Place { centroid: disc.centroid(), bounds: disc.bounds() };
         match mapping.kind {
