@@ -80,21 +80,6 @@ enums! {
         Differentials = "differentials",
     }
 
-    /// Reflection model of a material.
-    #[derive(Default)]
-    MODEL: Model {
-        Unlit = "unlit",
-        #[default]
-        Lambert = "lambert",
-        Mirror = "mirror",
-        /// Mirrors or refracts, by Fresnel's share of each.
-        Dielectric = "dielectric",
-        /// Lambert with a highlight.
-        Phong = "phong",
-        /// Rough and diffuse; keeps all light.
-        OrenNayar = "oren-nayar",
-    }
-
     /// What a material's bump texture holds.
     #[derive(Default)]
     BUMP: BumpKind {

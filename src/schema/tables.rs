@@ -20,6 +20,31 @@ macro_rules! enums {
     };
 }
 
+/// The reflection models as an enum.
+macro_rules! models {
+    ($($(#[$meta:meta])* $variant:ident = $name:literal, [$($property:ident)*], [$($key:ident)*];)+) => {
+        enums! {
+            /// Reflection model of a material.
+            #[derive(Default)]
+            MODEL: Model { $($(#[$meta])* $variant = $name,)+ }
+        }
+
+        impl Model {
+            const PROPERTIES: &'static [&'static [&'static str]] = &[$(&[$(stringify!($property)),*]),+];
+            const KEYS: &'static [&'static [&'static str]] = &[$(&[$(stringify!($key)),*]),+];
+
+            pub(crate) fn is(self, property: &str) -> bool {
+                Model::PROPERTIES[self as usize].contains(&property)
+            }
+
+            /// Returns whether a material of this model has a key that not all have.
+            pub(crate) fn has_key(self, key: &str) -> bool {
+                Model::KEYS[self as usize].contains(&key)
+            }
+        }
+    };
+}
+
 /// Numbers that host and device share.
 macro_rules! constants {
     ($($(#[$meta:meta])* $name:ident: $type:ty = $value:expr;)+) => {
@@ -50,6 +75,7 @@ macro_rules! blocks {
 macro_rules! specialization {
     ($($(#[$meta:meta])* $variant:ident = $name:literal, $kind:ident $(($($of:tt)+))?, $what:literal;)+) => {
         use super::enums::*;
+        use super::models::Model;
         use super::records::List;
 
         /// A specialization constant of the shaders.
@@ -145,6 +171,7 @@ macro_rules! kind {
 macro_rules! records {
     ($($(#[$meta:meta])* $record:ident $(in $list:ident as $what:literal)? { $($(#[$fmeta:meta])* $field:ident: $type:ident,)+ })+) => {
         use super::enums::*;
+        use super::models::Model;
         use super::packing::{Packer, shape};
         use super::record::{Field as _, RealBits, Record, Writer, bytes_of};
         use glam::{DVec2, DVec3, DVec4, UVec2, UVec3, Vec3, Vec4};
