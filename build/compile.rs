@@ -10,7 +10,8 @@ use std::time::SystemTime;
 use crate::{AnyError, uncontracted};
 
 /// Compiles a shader whose own text includes all else. `BASE.spv` holds the words, `BASE.comp` the text and
-/// `BASE.inputs` the files they were made from, one a line. `schema/NAME` is one of the generated files.
+/// `BASE.inputs` the files they were made from, one a line. `schema/NAME` is one of the generated files, which
+/// include those of `glsl/shared`.
 pub fn compile_if_changed(
     compiler: &shaderc::Compiler,
     text: &str,
@@ -39,6 +40,7 @@ pub fn compile_if_changed(
     options.set_include_callback(|name, _kind, from, _depth| {
         let path = match name.strip_prefix("schema/") {
             Some(name) => generated.join(name),
+            None if Path::new(from).starts_with(generated) => Path::new("glsl/shared").join(name),
             None => Path::new(from).parent().unwrap_or(Path::new("")).join(name),
         };
         let content = fs::read_to_string(&path).map_err(|e| format!("{}: {e}", path.display()))?;

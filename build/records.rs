@@ -2,15 +2,19 @@
 //! of 16 bytes once; and of records with a list its elements by index, from a cache where the list is short.
 
 use crate::packing::{Kind, Packer, shape};
-use crate::records::RECORDS;
+use crate::records::{LENGTHS, RECORDS};
 use crate::tables::Record;
 
 pub fn records() -> String {
     let lists = || RECORDS.iter().filter(|record| !record.list.is_empty());
     let preloads: String = lists().map(|record| format!("    preload_{}();\n", record.list)).collect();
-    let mut text: String = RECORDS.iter().map(record).collect();
+    let some: Vec<_> = lists().map(|record| format!("{} == DYNAMIC", record.list.to_uppercase())).collect();
+    let mut text: String = RECORDS.iter().chain([&LENGTHS]).map(record).collect();
+    // Behind the header; read where some length is not known when the pipeline is built.
+    text += "Lengths lengths;\n\n";
     text.extend(lists().map(list));
-    text + &format!("void preload_records() {{\n{preloads}}}\n")
+    let lengths = format!("    if ({}) lengths = lengths_in_head(HEADER_UNITS);\n", some.join(" || "));
+    text + &format!("void preload_records() {{\n{lengths}{preloads}}}\n")
 }
 
 fn record(record: &Record) -> String {

@@ -64,7 +64,7 @@ float negligible(vec3 inverse_depth, uint polygon) {
 // All that the beam may meet. Behind a mirror that is what lies beyond it: what lies before it neither is seen
 // nor hides anything.
 void find_shapes(const Header header, PixelBeam beam) {
-    uint shapes = shape_count(header);
+    uint shapes = shape_count();
     met_count = 0u;
     bool mirrored = BOUNCES && beam.skip != NO_SHAPE;
     float least = mirrored ? negligible(beam.limit, WHOLE) : 0.0;
@@ -126,7 +126,7 @@ void carve(uint stage, uint by, bool has_first, vec3 first, bool kept) {
 
 // Adds the integral over those parts of SEEN that see the light; without one, over all of it.
 void lit_by(const Header header, const ShadingIntegral paint, uint shape, bool has_light, const Light light) {
-    uint shapes = shape_count(header);
+    uint shapes = shape_count();
     uint bottom = waiting;
     if (!has_light) push_piece(SEEN, shapes);
     else if (is_facing(header, paint, SEEN, light)) push_piece(SEEN, 0u);
@@ -178,7 +178,7 @@ void shade(const Header header, PixelBeam beam, uint own) {
     if (TEXTURED && record.texture_index != NO_TEXTURE) quotient = coordinates(header, beam.frame, shape, map, near);
     ShadingIntegral paint = ShadingIntegral(record, carried, quotient, shape_plane(header, shape), beam.frame, near);
     bool unlit = !is_lit(record.model);
-    uint lights = unlit ? 1u : COUNT(LIGHTS, header.light_count);
+    uint lights = unlit ? 1u : COUNT(LIGHTS, lengths.lights);
     uint i = 0u;
     for (; i < lights && !gave_up; i++) {
         Light light = NO_LIGHT;

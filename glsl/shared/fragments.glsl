@@ -82,7 +82,7 @@ const uint BATCH = 32u;
 // All shapes but `skip` that the cone touches before t_max; the nearest ones, in order. Most are missed,
 // which is found out first: measuring what is covered takes longer, for all threads while one does it.
 void collect_fragments(const Header header, const Cone cone, uint skip, float t_max) {
-    uint shapes = shape_count(header);
+    uint shapes = shape_count();
     piece_count = 0u;
     clear = 1.0;
 #define CLEAR(k) fragments[k] = Fragment(NO_SHAPE, FAR, FAR, FAR, 0.0, 0.0, vec2(0.0));

@@ -36,7 +36,7 @@ pub struct Features {
 impl Features {
     /// Exactly what the scene needs, or with `keep_everything` all there is.
     pub fn new(scene: &PackedScene, image_source: bool, keep_everything: bool) -> Features {
-        let source = match (scene.textures.is_empty(), image_source) {
+        let source = match (scene.records.textures.is_empty(), image_source) {
             (true, _) if !keep_everything => TexelSource::None,
             (false, true) if scene.has_solids() => TexelSource::Solids,
             (false, true) => TexelSource::Image,
@@ -55,7 +55,7 @@ impl Features {
             return features;
         }
         features.compensated = compensates(scene);
-        for &constant in Constant::ALL {
+        for constant in Constant::all() {
             if let Some(value) = narrowed(constant, scene) {
                 features.values.push((constant, value));
                 features.left_out.extend(left_out(constant, value));
@@ -92,7 +92,7 @@ pub fn widest() -> impl Iterator<Item = (Constant, u32)> {
         Kind::Switch => Some(1),
         Kind::Parameter => None,
     };
-    Constant::ALL.iter().filter_map(move |&constant| Some((constant, widest(constant)?)))
+    Constant::all().filter_map(move |constant| Some((constant, widest(constant)?)))
 }
 
 fn left_out(constant: Constant, value: u32) -> Option<String> {

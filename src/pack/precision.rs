@@ -134,11 +134,6 @@ pub(super) fn tiles_a_unit(mapping: &Mapping, place: DVec3, normal: DVec3) -> f6
     }
 }
 
-/// Rounds the reals of a list to f32.
-pub(super) fn round<R: Record>(list: &mut [R]) {
-    list.iter_mut().for_each(|record| *record = record.quantize_f32());
-}
-
 impl PackedScene {
     /// Without f64 on the device all is of f32, and a person should know.
     pub fn suit_device(&mut self, float64: bool) -> Option<String> {
@@ -156,11 +151,7 @@ impl PackedScene {
     /// The numbers that a device reads as f32.
     pub fn round_reals(&mut self) {
         self.header = self.header.quantize_f32();
-        self.round_shapes();
-        round(&mut self.lights);
-        round(&mut self.uv_projections);
-        round(&mut self.procedurals);
-        round(&mut self.motions);
+        self.records.quantize_f32();
         self.double = false;
     }
 }

@@ -3,7 +3,6 @@
 use glam::{UVec3, Vec4};
 
 use crate::core::color::srgb_table;
-use crate::core::counted::counted;
 use crate::core::error::{Error, Result};
 use crate::scene::model::{Footprint, Scene};
 use crate::schema::layout::{self, Texture};
@@ -59,21 +58,21 @@ pub fn pack_textures(
     let pooled: Vec<bool> =
         order.iter().map(|&i| kind(&textures[i]) != TextureKind::Flat || tables(i, packed)).collect();
     order.sort_by_key(|&i| !pooled[i]);
-    packed.textures = vec![layout::Texture::default(); textures.len()];
+    packed.records.textures = vec![layout::Texture::default(); textures.len()];
     packed.texture_names = textures.iter().map(|t| t.name.clone()).collect();
     packed.file_channels = textures.iter().map(|t| t.file_channels).collect();
     let mut textures: Vec<Option<TextureData>> = textures.into_iter().map(Some).collect();
     for index in order {
         let Some(texture) = textures[index].take() else { continue };
         if let Some(procedural) = scene.textures.get(index).and_then(|t| t.content.procedural()) {
-            packed.textures[index] = Texture {
+            packed.records.textures[index] = Texture {
                 size: UVec3::ONE,
                 levels: 1,
                 kind: TextureKind::Procedural,
-                procedural: packed.procedurals.len() as u32,
+                procedural: packed.records.procedurals.len() as u32,
                 ..Texture::default()
             };
-            packed.procedurals.push(super::procedural(procedural));
+            packed.records.procedurals.push(super::procedural(procedural));
             continue;
         }
         let texture = without_equal_channels(texture);
@@ -101,7 +100,7 @@ pub fn pack_textures(
         };
         let table = if tables(index, packed) { Some(summed::table(&texture)) } else { None };
         let first_word = append(packed, texture, levels, table)?;
-        packed.textures[index] = Texture { first_word, ..record };
+        packed.records.textures[index] = Texture { first_word, ..record };
         if pooled[index] {
             packed.solid_bytes = packed.texels.len();
         }
@@ -242,7 +241,7 @@ fn linear_floats(texture: &TextureData) -> TextureData {
 /// The slot of this pair among those of its kind, new or shared. What no image holds has none.
 pub fn slot(packed: &mut PackedScene, texture: usize, sampler: usize) -> u32 {
     let hardware = packed.sampler_specs[sampler].method == Method::Hardware;
-    let slots = match packed.textures[texture].kind {
+    let slots = match packed.records.textures[texture].kind {
         TextureKind::Flat => &mut packed.slots,
         TextureKind::Procedural => return 0,
         _ if !hardware => return 0,
@@ -271,12 +270,15 @@ impl PackedScene {
 
     /// Whether colours of some texture are sRGB codes of this type.
     pub fn has_srgb(&self, component: Component) -> bool {
-        self.textures.iter().any(|t| t.color_space == ColorSpace::Srgb && t.format.component() == component)
+        self.records
+            .textures
+            .iter()
+            .any(|t| t.color_space == ColorSpace::Srgb && t.format.component() == component)
     }
 
     /// Width, height and depth of a level (Vulkan 1.3, "Image Miplevel Sizing"); of a cube the depth is 6.
     pub fn level_size(&self, texture: usize, level: u32) -> [u32; 3] {
-        let Texture { size, kind, .. } = self.textures[texture];
+        let Texture { size, kind, .. } = self.records.textures[texture];
         let [width, height, depth] = size.to_array();
         let halved = |n: u32| (n >> level).max(1);
         let depth = if kind == TextureKind::Volume { halved(depth) } else { depth };
@@ -285,7 +287,7 @@ impl PackedScene {
 
     /// The texels of a level.
     pub fn level_texels(&self, texture: usize, level: u32) -> &[u8] {
-        let Texture { first_word, format, .. } = self.textures[texture];
+        let Texture { first_word, format, .. } = self.records.textures[texture];
         let start = self.level_word(first_word, level) as usize * 4;
         let [width, height, depth] = self.level_size(texture, level).map(|n| n as usize);
         let bytes = width * height * depth * format.bytes_per_texel();
@@ -300,29 +302,5 @@ impl PackedScene {
         let at = (first_word - level) as usize * 4;
         let word = &self.texels[at..at + 4];
         u32::from_ne_bytes([word[0], word[1], word[2], word[3]])
-    }
-
-    /// One line a texture: size, the file's channels, and how it is held.
-    pub fn texture_lines(&self) -> Vec<String> {
-        let line = |(i, ((name, record), channels)): (usize, ((&String, &Texture), &usize))| {
-            if record.kind == TextureKind::Procedural {
-                return format!("\"{name}\": procedural, no texels");
-            }
-            let Texture { size, format, color_space: space, levels, kind, .. } = *record;
-            let [width, height, depth] = size.to_array();
-            let depth = if kind == TextureKind::Flat { String::new() } else { format!("×{depth}") };
-            let bytes: usize = (0..levels).map(|level| self.level_texels(i, level).len()).sum();
-            let kib = bytes.div_ceil(1024);
-            let levels = if levels > 1 { format!(", {levels} levels") } else { String::new() };
-            let nonfinite = match self.nonfinite_texels[i] {
-                0 => String::new(),
-                count => format!(", {} not finite", counted(count, "texel")),
-            };
-            format!(
-                "\"{name}\": {width}×{height}{depth}{levels}, {channels}-channel file, held as {format} ({space}), {kib} KiB{nonfinite}"
-            )
-        };
-        let records = self.texture_names.iter().zip(&self.textures).zip(&self.file_channels);
-        records.enumerate().map(line).collect()
     }
 }

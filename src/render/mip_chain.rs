@@ -38,7 +38,7 @@ pub struct Pyramid {
 
 /// Sizes of all levels of a texture.
 pub fn sizes(packed: &PackedScene, texture: usize) -> Vec<[u32; 3]> {
-    (0..packed.textures[texture].levels).map(|level| packed.level_size(texture, level)).collect()
+    (0..packed.records.textures[texture].levels).map(|level| packed.level_size(texture, level)).collect()
 }
 
 /// Textures of one format share a pipeline.

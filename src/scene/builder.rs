@@ -4,17 +4,18 @@
 
 use std::path::{Path, PathBuf};
 
+use glam::DVec3;
+
 use super::checks;
-use super::geometry::{self, Kind};
+use super::geometry::{self, Fields, Kind, Section, Shapes};
 use super::limits::{MAX_TEXTURES, check_filters};
-use super::model::{Background, Camera, Light, Material, PixelFilter, Sampling, Scene, TextureSource};
+use super::model::{
+    Background, Camera, DEFAULT, Light, Material, PixelFilter, Sampling, Scene, TextureSource,
+};
 use super::refusal::{Check, Key};
 use super::whole;
 use crate::core::error::Result;
 use crate::texture::sampler_spec::SamplerSpec;
-
-/// In place of an index: the default material, or the default sampler.
-pub const DEFAULT: usize = usize::MAX;
 
 /// Collects the parts of a scene. Each part that others refer to returns its index.
 #[derive(Clone, Debug)]
@@ -38,9 +39,7 @@ impl SceneBuilder {
             textures: Vec::new(),
             samplers: Vec::new(),
             materials: Vec::new(),
-            planes: Vec::new(),
-            spheres: Vec::new(),
-            triangles: Vec::new(),
+            shapes: Shapes::default(),
             dropped_triangles: 0,
             first_dropped: String::new(),
             lights: Vec::new(),
@@ -87,10 +86,23 @@ impl SceneBuilder {
         push(&mut self.scene.materials, material)
     }
 
-    /// Adds a plane, a sphere or a triangle.
+    /// Adds a shape.
     pub fn shape(&mut self, shape: impl Kind) -> &mut Self {
-        self.over = self.over.or(geometry::add(&mut self.scene, shape));
+        self.over = self.over.or(geometry::add(&mut self.scene.shapes, shape));
         self
+    }
+
+    /// Adds a shape that a scene format has read; returns whether no ray meets it.
+    pub(super) fn read_shape(
+        &mut self,
+        kind: &Section,
+        fields: &dyn Fields,
+        material: usize,
+        motion: DVec3,
+    ) -> Result<bool> {
+        let added = (kind.add)(fields, material, motion, &mut self.scene.shapes)?;
+        self.over = self.over.or(added.over);
+        Ok(added.is_empty)
     }
 
     /// Adds a light.
@@ -133,7 +145,7 @@ impl SceneBuilder {
         if textures > MAX_TEXTURES {
             return refuse(Key::item("texture", MAX_TEXTURES), textures, "textures", MAX_TEXTURES);
         }
-        geometry::check_count(&self.scene, self.over)
+        geometry::check_count(&self.scene.shapes, self.over)
     }
 
     /// Adds the default sampler and the default material where something has them.
@@ -158,7 +170,7 @@ impl SceneBuilder {
         }
         let added = scene.materials.len();
         let mut uses_default = false;
-        for shape in scene.shapes_mut().filter(|shape| shape.material() == DEFAULT) {
+        for shape in scene.shapes.iter_mut().filter(|shape| shape.material() == DEFAULT) {
             *shape.material_mut() = added;
             uses_default = true;
         }

@@ -7,7 +7,8 @@ use glam::DVec3;
 
 pub use super::bsdf::Model;
 pub use super::camera::{Camera, Lens, Projection};
-pub use super::geometry::{Bounds, Plane, Shape, Sphere, Triangle};
+pub use super::geometry::kinds::*;
+pub use super::geometry::{Bounds, Shape, Shapes};
 pub use super::mapping::{Entity, Mapping, MappingKind, Space};
 pub use super::pixel_filter::{PixelFilter, PixelFilterKind};
 pub use super::sampling::{Algorithm, Footprint, Pattern, Precision, Sampling};
@@ -15,6 +16,9 @@ use crate::core::named::named_enum;
 pub use crate::schema::enums::BumpKind;
 use crate::texture::sampler_spec::{Address, SamplerSpec};
 pub use crate::texture::source::{TextureContent, TextureSource};
+
+/// In place of an index: the default material, or the default sampler.
+pub const DEFAULT: usize = usize::MAX;
 
 /// All that is rendered, every reference an index.
 #[derive(Clone, Debug)]
@@ -39,12 +43,8 @@ pub struct Scene {
     pub samplers: Vec<SamplerSpec>,
     /// What surfaces do with light.
     pub materials: Vec<Material>,
-    /// All planes.
-    pub planes: Vec<Plane>,
-    /// All spheres.
-    pub spheres: Vec<Sphere>,
-    /// All triangles that have an area.
-    pub triangles: Vec<Triangle>,
+    /// All shapes; triangles that have no area are left out.
+    pub shapes: Shapes,
     /// Triangles that have no area: no ray meets them.
     pub dropped_triangles: usize,
     /// Where the first of them stood.

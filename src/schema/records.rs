@@ -41,11 +41,6 @@ records! {
         camera_moves: bool,
         /// Pixels along a side of the cells of triangles; 0 without them.
         cell_side: u32,
-        plane_count: u32,
-        sphere_count: u32,
-        triangle_count: u32,
-        light_count: u32,
-        motion_count: u32,
         /// Material of the environment, or `NO_MATERIAL`.
         environment_material: u32,
         environment_projection: u32,
@@ -219,7 +214,7 @@ records! {
         dimensions: u32,
     }
 
-    /// Of a shape, in their order: planes, spheres, triangles.
+    /// Of a shape, in the order of shapes; none where nothing moves.
     Motion in motions as "choice among motions" {
         /// Between the times 0 and 1.
         shift: DVec3,

@@ -143,7 +143,7 @@ fn a_device_without_f64_renders_in_f32_and_says_so() {
     let told = scene.suit_device(false).unwrap();
     assert!(told.contains("no f64") && told.contains("--precision single"), "{told}");
     assert!(!scene.double);
-    assert_eq!((scene.header, &scene.planes), (single.header, &single.planes));
+    assert_eq!((scene.header, &scene.records.planes), (single.header, &single.records.planes));
     assert_eq!(in_double(small("s1a", 40, 4)).suit_device(true), None);
     assert_eq!(scene.suit_device(false), None, "a scene of f32 has nothing to tell");
 }

@@ -42,7 +42,7 @@ pub fn size_kind(texture: &layout::Texture) -> u32 {
 
 /// Textures that are texels.
 pub fn stored(scene: &PackedScene) -> impl Iterator<Item = &layout::Texture> {
-    scene.textures.iter().filter(|t| t.kind != TextureKind::Procedural)
+    scene.records.textures.iter().filter(|t| t.kind != TextureKind::Procedural)
 }
 
 /// Jobs sum in chunks of their own.
@@ -56,12 +56,12 @@ pub fn warps(scene: &PackedScene) -> bool {
 }
 
 fn has_model(scene: &PackedScene, does: fn(Model) -> bool) -> bool {
-    scene.materials.iter().any(|m| does(m.model))
+    scene.records.materials.iter().any(|m| does(m.model))
 }
 
 /// Without a footprint, look-ups of procedural textures pass one of zero.
 pub fn filters_procedurals(scene: &PackedScene) -> bool {
-    !scene.procedurals.is_empty() && scene.prefilters()
+    !scene.records.procedurals.is_empty() && scene.prefilters()
 }
 
 /// Mirrors and glass, if their rays may go on.
@@ -76,15 +76,22 @@ pub fn chooses(scene: &PackedScene) -> bool {
 }
 
 pub fn filters(scene: &PackedScene) -> u32 {
-    bits(scene.samplers.iter().flat_map(|s| [s.mag_filter as u32, s.min_filter as u32]))
+    bits(scene.records.samplers.iter().flat_map(|s| [s.mag_filter as u32, s.min_filter as u32]))
 }
 
 pub fn bump_kinds(scene: &PackedScene) -> u32 {
-    bits(scene.materials.iter().filter(|m| m.bump_texture_index != NO_TEXTURE).map(|m| m.bump_kind as u32))
+    bits(
+        scene
+            .records
+            .materials
+            .iter()
+            .filter(|m| m.bump_texture_index != NO_TEXTURE)
+            .map(|m| m.bump_kind as u32),
+    )
 }
 
 /// A lone flat shape cannot lie between itself and a light.
 pub fn casts_shadows(scene: &PackedScene) -> bool {
     let lit = has_model(scene, Model::is_lit);
-    !scene.lights.is_empty() && lit && scene.shapes_occlude()
+    !scene.records.lights.is_empty() && lit && scene.shapes_occlude()
 }
