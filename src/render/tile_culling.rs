@@ -2,6 +2,8 @@
 //! how uniform it is. In: a scene of many triangles on a device. Out: the lists that camera rays
 //! read, and the samples that each pixel begins with.
 
+use std::sync::Arc;
+
 use super::{Report, Resources, build_pipeline, specialization};
 use crate::core::error::Result;
 use crate::gpu::shaders;
@@ -17,7 +19,7 @@ const MAX_TESTS: u64 = 1 << 24;
 
 pub struct TileCulling {
     pub buffer: Buffer,
-    pipeline: Pipeline,
+    pipeline: Arc<Pipeline>,
     group: BindGroup,
     /// Pixels along a cell's side, cells across and down.
     side: u32,

@@ -65,7 +65,6 @@ mod random_scenes;
 mod rays;
 mod resubmit;
 mod scene;
-mod shared_gpu;
 mod slopes;
 mod sources;
 mod specialise;

@@ -13,7 +13,7 @@ use moire::internal::pack::{MapKind, PackedScene};
 use moire::internal::schema::layout::{NO_SHAPE, UvProjection};
 
 use crate::lookup::bench::Rng;
-use crate::shared_gpu::gpu;
+use crate::stage::device;
 use bounds::{Estimate, U, disc_of, disc_own_error, estimate};
 
 mod bounds;
@@ -207,7 +207,7 @@ fn disc_uv_tolerance(
 }
 
 fn compare(scene: &PackedScene, queries: &[RayQuery], keep_everything: bool) -> Tally {
-    let answers = probe::rays(&gpu(), scene, keep_everything, queries).unwrap();
+    let answers = probe::rays(&device(), scene, keep_everything, queries).unwrap();
     let mut tally = Tally::default();
     for (query, answer) in queries.iter().zip(&answers) {
         tally.add(scene, query, answer);
@@ -282,7 +282,7 @@ fn no_ray_passes_between_triangles_that_share_an_edge() {
         let mut rng = Rng::new(seed + 500);
         let (scene, queries) = scenes::fan(&mut rng, 9, 5000);
         for keep_everything in [false, true] {
-            let answers = probe::rays(&gpu(), &scene, keep_everything, &queries).unwrap();
+            let answers = probe::rays(&device(), &scene, keep_everything, &queries).unwrap();
             let missed: Vec<_> = queries.iter().zip(&answers).filter(|(_, a)| a.shape == NO_SHAPE).collect();
             assert!(missed.is_empty(), "{} rays pass, the first {:?}", missed.len(), missed[0]);
         }
@@ -294,7 +294,7 @@ fn planted_errors_of_rays_are_caught() {
     let mut rng = Rng::new(600);
     let scene = scenes::everything(&mut rng);
     let queries = scenes::rays(&mut rng, 1000);
-    let right = probe::rays(&gpu(), &scene, false, &queries).unwrap();
+    let right = probe::rays(&device(), &scene, false, &queries).unwrap();
     let caught = |plant: &dyn Fn(&mut RayAnswer)| {
         let mut tally = Tally::default();
         for (query, answer) in queries.iter().zip(&right).filter(|(_, a)| a.shape != NO_SHAPE) {
