@@ -1,6 +1,6 @@
-//! How many samples one thread may take at once. Mesa's CPU driver ends all loops of a thread after 65 535
-//! turns (`LP_MAX_TGSI_LOOP_ITERATIONS` of its shader compiler), whatever they have left to do; so in go a
-//! scene and a device, and out comes the number of samples whose loops stay below that.
+//! Limits the samples that one invocation takes at once. Mesa's CPU driver ends all loops of an invocation after 65 535
+//! iterations (`LP_MAX_TGSI_LOOP_ITERATIONS` of its shader compiler), whatever remains. Input: a scene and a device.
+//! Output: the number of samples whose loops stay below that.
 
 use crate::core::error::{Error, Result};
 use crate::gpu::{DeviceInfo, DeviceKind};
@@ -15,20 +15,20 @@ const MAX_TURNS: u64 = 65_535;
 const ELLIPSE: u64 = MAX_ELLIPSE_STEPS as u64;
 /// Eight texels, or twice four.
 const SOLID: u64 = 10;
-/// Look-ups of a bump map, and the colour.
+/// Look-ups of a bump map, and of the color.
 const TAPS: u64 = 5;
 const BOXES: u64 = MAX_BOXES as u64;
 const CONES: u64 = MAX_CONES as u64;
-/// Digits of Halton's points, or turns in which an order is found, with room to spare.
+/// Digits of Halton points, or iterations to find an order, with a margin.
 const POINTS: u64 = 64;
 
-/// Samples of a thread, from 1 to `CHUNK`.
+/// Returns the samples that an invocation takes at once, from 1 to `CHUNK`.
 pub fn samples_at_once(device: &DeviceInfo, scene: &PackedScene) -> Result<u32> {
     if device.kind != DeviceKind::Cpu {
         return Ok(CHUNK);
     }
     let turns = turns_of_a_sample(scene, ELLIPSE);
-    // Ellipses of that size fill the horizon, not each of many look-ups of one path.
+    // Ellipses of that size occur at the horizon, not at each of many look-ups of one path.
     let without_ellipses = turns_of_a_sample(scene, 0);
     if without_ellipses > MAX_TURNS {
         return Err(Error::with_help(
@@ -42,8 +42,8 @@ pub fn samples_at_once(device: &DeviceInfo, scene: &PackedScene) -> Result<u32> 
     Ok((MAX_TURNS / turns).clamp(1, u64::from(CHUNK)) as u32)
 }
 
-/// An upper bound of the turns for a pixel's cones, but for how many pieces each one sees: where cones are
-/// many, few of them see more than three.
+/// Returns an upper bound of the iterations for a pixel's cones, except for the number of fragments of each: if there
+/// are many cones, few of them see more than three.
 fn turns_of_cones(scene: &PackedScene, ellipse: u64) -> u64 {
     const PIECES: u64 = MAX_CONE_FRAGMENTS as u64;
     const SEEN: u64 = 3;
@@ -51,17 +51,17 @@ fn turns_of_cones(scene: &PackedScene, ellipse: u64) -> u64 {
     let lights = scene.lights.len() as u64;
     let cones = if bounces(scene) { CONES } else { CONES.min(1 + PIECES * lights) };
     let gathered = 4 + shapes + shapes / 16 + 2 * PIECES;
-    // Each pair both ways, and two shapes each time.
+    // Each pair in both orders, with two shapes each time.
     let laid_over = 3 * SEEN * (SEEN - 1);
     let bumped = scene.materials.iter().any(|m| m.bump_texture_index != NO_TEXTURE);
     let look_ups = if bumped { TAPS } else { 1 } * turns_of_a_look_up(scene, 0);
     let records = (scene.materials.len() + scene.uv_projections.len()) as u64;
     let shaded = SEEN * (1 + records + look_ups + lights.max(2) * (2 + lights));
-    // Ellipses of that size fill the horizon, and that is seen by few of them.
+    // Ellipses of that size occur at the horizon, which few cones see.
     cones * (gathered + laid_over + shaded) + ellipse
 }
 
-/// An upper bound, with so many for an ellipse.
+/// Returns an upper bound of the iterations of one sample, given those of an ellipse.
 fn turns_of_a_sample(scene: &PackedScene, ellipse: u64) -> u64 {
     if scene.algorithm == Algorithm::Cone {
         return turns_of_cones(scene, ellipse);
@@ -100,7 +100,7 @@ fn turns_of_a_look_up(scene: &PackedScene, ellipse: u64) -> u64 {
     records + stored.max(procedural)
 }
 
-/// Octaves, the 27 cells around a place, or boxes along a footprint.
+/// Returns the iterations of a procedural: octaves, the 27 cells around a point, or boxes along a footprint.
 fn turns_of_a_pattern(pattern: &Procedural) -> u64 {
     u64::from(pattern.octaves).max(27) + BOXES
 }

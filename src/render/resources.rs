@@ -1,5 +1,5 @@
-//! Packed scene → buffers and images on the device: only what the features name, and of the
-//! textures only the source in use.
+//! Packed scene → buffers and images on the device: only those that the features need, and of the textures only the
+//! source in use.
 
 use std::sync::OnceLock;
 
@@ -18,7 +18,7 @@ use crate::schema::enums::Reals;
 use crate::schema::layout::{HEAD_BYTES, Header};
 use crate::schema::specialization::Constant;
 
-/// The shader of an algorithm, by where its texels come from and the numbers of its geometry.
+/// Returns the shader of an algorithm for the source of its texels and the precision of its geometry.
 pub fn shader_for(algorithm: Algorithm, features: &Features) -> Result<&'static Shader> {
     let reals = if features.double { Reals::F64Math } else { Reals::F32 };
     match algorithm {
@@ -30,17 +30,17 @@ pub fn shader_for(algorithm: Algorithm, features: &Features) -> Result<&'static 
 pub struct Resources {
     pub sections: Sections,
     pub slots: SlotCounts,
-    /// Device time of making levels, if any were.
+    /// Device time of generating levels, if any were generated.
     pub mips_seconds: Option<f64>,
     scene: Buffer,
-    /// Light of sRGB codes.
+    /// Linear values of sRGB codes.
     srgb: Buffer,
     texels: Option<TexelBuffer>,
-    /// Once beams are wanted.
+    /// Set once beams are used.
     prefix_sums: OnceLock<Buffer>,
-    /// Once there are any lists of triangles.
+    /// Set once there are lists of triangles.
     pub survey: OnceLock<Buffer>,
-    /// Where the pipelines count.
+    /// The counters, if the pipelines count.
     pub guards: Option<Guards>,
     images: Vec<(Image, Sampler)>,
     volumes: Vec<(Image, Sampler)>,
@@ -48,7 +48,7 @@ pub struct Resources {
 }
 
 impl Resources {
-    /// A texel buffer has at most `most_words`.
+    /// Uploads a scene; a texel buffer has at most `most_words`.
     pub fn upload(
         gpu: &Gpu,
         packed: &PackedScene,
@@ -58,7 +58,7 @@ impl Resources {
         let (bytes, sections) = packed.scene_bytes(features.everything);
         let scene = gpu.upload_buffer("scene", BufferUse::Storage, &bytes)?;
         let srgb = packed.srgb_light();
-        // A binding has to hold something.
+        // A binding must not be empty.
         let srgb = if srgb.is_empty() { &[0.0] } else { srgb.as_slice() };
         let srgb =
             gpu.upload_buffer("light of sRGB codes", BufferUse::TexelUint, bytemuck::cast_slice(srgb))?;
@@ -105,7 +105,7 @@ impl Resources {
         })
     }
 
-    /// The sums along rows of a scene that was not packed for beams, made where they are not there yet.
+    /// Adds the prefix sums of rows to a scene that was not packed for beams, unless they exist.
     pub fn add_row_sums(
         &self,
         gpu: &Gpu,
@@ -119,13 +119,13 @@ impl Resources {
         Ok(())
     }
 
-    /// Replaces what the scene buffer begins with.
+    /// Replaces the header of the scene buffer.
     pub fn write_header(&self, gpu: &Gpu, packed: &PackedScene, header: &Header) -> Result<()> {
         gpu.write_buffer(&self.scene, 0, &packed.header_bytes(header))
     }
 
-    /// The shader's bindings with what they bind: what it writes, a list of queries or jobs (any buffer where none
-    /// is read), and the scene.
+    /// Binds all of the shader's bindings: its output, a list of queries or batches (any buffer if none is read), and
+    /// the scene.
     pub fn bind(
         &self,
         gpu: &Gpu,
