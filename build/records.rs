@@ -1,5 +1,5 @@
-//! The records of `src/schema/records.rs` → GLSL: a struct with the fields by name; functions that read it, each unit
-//! of 16 bytes once; and of records with a list its elements by index, from a cache where the list is short.
+//! Generates GLSL for the records of `src/schema/records.rs`: a struct with named fields; functions that read it, each
+//! unit of 16 bytes once; and for records in a list the access by index, cached if the list is short.
 
 use crate::packing::{Kind, Packer, shape};
 use crate::records::RECORDS;
@@ -28,7 +28,7 @@ fn record(record: &Record) -> String {
     text + "\n"
 }
 
-/// A function that reads the record at a unit of the head, or of the whole scene buffer.
+/// Returns a function that reads the record from the uniform buffer, or from the whole scene buffer.
 fn loader(record: &Record, from: &str) -> String {
     let (mut units, mut parts) = (String::new(), Vec::new());
     let mut packer = Packer::new();
@@ -104,7 +104,7 @@ fn glsl_type(name: &str) -> &str {
     }
 }
 
-/// `UvProjection` → `uv_projection`.
+/// Converts `UvProjection` to `uv_projection`.
 fn snake(name: &str) -> String {
     let mut text = String::new();
     for letter in name.chars() {

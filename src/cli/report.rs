@@ -23,7 +23,7 @@ fn nonfinite_pixels(film: &Film) -> usize {
 /// the device computed them.
 fn device_seconds(report: &Report) -> Value {
     let mut seconds = Map::from_iter([("render".into(), json!(report.device_render_seconds))]);
-    seconds.extend(report.device_survey_seconds.map(|survey| ("survey".into(), json!(survey))));
+    seconds.extend(report.device_culling_seconds.map(|survey| ("survey".into(), json!(survey))));
     seconds.extend(report.device_mips_seconds.map(|mips| ("mips".into(), json!(mips))));
     seconds.into()
 }
@@ -41,8 +41,8 @@ pub fn json(ran: &Picture, scene: &Scene, options: Value, outputs: &[String], no
         "sampled_pixels": ran.report.sampled_pixels,
         "dropped": ran.report.dropped,
         "dropped_triangles": scene.dropped_triangles,
-        "guards": ran.report.guards.as_ref().map(|counts| {
-            counts.iter().map(|(guard, count)| (guard.name().to_owned(), json!(count))).collect::<Map<_, _>>()
+        "guards": ran.report.diagnostics.as_ref().map(|counts| {
+            counts.iter().map(|(diagnostic, count)| (diagnostic.name().to_owned(), json!(count))).collect::<Map<_, _>>()
         }),
         "outputs": outputs,
         "seconds": ran.report.seconds,
@@ -94,8 +94,8 @@ pub fn say(ran: &Picture, outputs: &[String], verbose: bool) {
         for line in &report.left_out {
             notify(format_args!("  {line}"));
         }
-        for (guard, count) in report.guards.iter().flatten().filter(|(_, count)| *count > 0) {
-            let (noun, rest) = said(*guard);
+        for (diagnostic, count) in report.diagnostics.iter().flatten().filter(|(_, count)| *count > 0) {
+            let (noun, rest) = said(*diagnostic);
             notify(format_args!("beyond a limit: {} {rest}", counted(*count, noun)));
         }
         notify(format_args!(
@@ -113,11 +113,11 @@ pub fn say(ran: &Picture, outputs: &[String], verbose: bool) {
             report.device_render_seconds,
             counted(report.slices, "slice")
         ));
-        if let Some(survey) = report.device_survey_seconds {
-            notify(format_args!("device time of the survey: {survey:.4} s"));
+        if let Some(culling) = report.device_culling_seconds {
+            notify(format_args!("device time of tile culling: {culling:.4} s"));
         }
         if let Some(mips) = report.device_mips_seconds {
-            notify(format_args!("device time of mip mip_chains: {mips:.4} s"));
+            notify(format_args!("device time of mip chains: {mips:.4} s"));
         }
     }
     if let Some(sampled) = report.sampled_pixels {

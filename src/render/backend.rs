@@ -60,12 +60,12 @@ impl<'p> DeviceBackend<'p> {
         let turn = session.turn()?;
         session.write_header(&prepared.scene.header)?;
         let mut report = prepared.report.clone();
-        if let Some(guards) = &session.resources.guards {
-            guards.clear(session.gpu)?;
+        if let Some(diagnostics) = &session.resources.diagnostics {
+            diagnostics.clear(session.gpu)?;
         }
         let begun = Instant::now();
-        if let Some(survey) = session.survey().filter(|_| prepared.scene.culls_tiles()) {
-            survey.run(session.gpu, &mut report)?;
+        if let Some(tile_culling) = session.tile_culling().filter(|_| prepared.scene.culls_tiles()) {
+            tile_culling.run(session.gpu, &mut report)?;
         }
         Ok(DeviceBackend {
             prepared,
@@ -86,8 +86,12 @@ impl<'p> DeviceBackend<'p> {
         let beside = report.seconds.compile - self.compiled + report.seconds.readback;
         report.seconds.render = self.begun.elapsed().as_secs_f64() - beside;
         let session = self.prepared.session;
-        report.guards =
-            session.resources.guards.as_ref().map(|guards| guards.read(session.gpu)).transpose()?;
+        report.diagnostics = session
+            .resources
+            .diagnostics
+            .as_ref()
+            .map(|diagnostics| diagnostics.read(session.gpu))
+            .transpose()?;
         report.device_bytes = session.gpu.memory_in_use();
         Ok(report)
     }
@@ -220,8 +224,8 @@ impl Backend for DeviceBackend<'_> {
     fn first_samples(&self, most: u32, pixels: usize) -> Result<Vec<u32>> {
         let Prepared { session, scene, .. } = self.prepared;
         let [width, height] = scene.header.film_size.to_array();
-        match session.survey() {
-            Some(survey) => survey.first_samples(session.gpu, [width, height], most),
+        match session.tile_culling() {
+            Some(tile_culling) => tile_culling.first_samples(session.gpu, [width, height], most),
             None => Ok(vec![most; pixels]),
         }
     }

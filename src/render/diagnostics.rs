@@ -8,14 +8,14 @@ use crate::pack::Diagnostic;
 /// How often each event happened in a render.
 pub type Counts = Vec<(Diagnostic, u64)>;
 
-pub struct Guards {
+pub struct DiagnosticCounters {
     pub(super) buffer: Buffer,
 }
 
-impl Guards {
-    pub fn new(gpu: &Gpu) -> Result<Guards> {
-        Ok(Guards {
-            buffer: gpu.upload_buffer("guards", BufferUse::Storage, &[0; 8 * Diagnostic::ALL.len()])?,
+impl DiagnosticCounters {
+    pub fn new(gpu: &Gpu) -> Result<DiagnosticCounters> {
+        Ok(DiagnosticCounters {
+            buffer: gpu.upload_buffer("diagnostics", BufferUse::Storage, &[0; 8 * Diagnostic::ALL.len()])?,
         })
     }
 

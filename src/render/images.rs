@@ -14,18 +14,18 @@ use crate::texture::sampler_spec::{Address, SamplerSpec};
 pub struct Uploads<'a> {
     gpu: &'a Gpu,
     packed: &'a PackedScene,
-    maker: MipGenerator<'a>,
+    generator: MipGenerator<'a>,
     images: Vec<((usize, Form), Image)>,
 }
 
 impl<'a> Uploads<'a> {
-    pub fn new(gpu: &'a Gpu, packed: &'a PackedScene, maker: MipGenerator<'a>) -> Uploads<'a> {
-        Uploads { gpu, packed, maker, images: Vec::new() }
+    pub fn new(gpu: &'a Gpu, packed: &'a PackedScene, generator: MipGenerator<'a>) -> Uploads<'a> {
+        Uploads { gpu, packed, generator, images: Vec::new() }
     }
 
     /// Returns the device time of generating levels, if any were generated.
     pub fn mips_seconds(&self) -> Option<f64> {
-        self.maker.seconds
+        self.generator.seconds
     }
 
     /// Returns image and sampler of each slot. Without slots it returns a pair that is never read, as a
@@ -54,7 +54,7 @@ impl<'a> Uploads<'a> {
         let image = match self.images.iter().find(|(key, _)| *key == (slot.texture, form)) {
             Some((_, image)) => image.clone(),
             None => {
-                let image = upload_image(self.gpu, self.packed, &mut self.maker, slot.texture, form)?;
+                let image = upload_image(self.gpu, self.packed, &mut self.generator, slot.texture, form)?;
                 self.images.push(((slot.texture, form), image.clone()));
                 image
             }
@@ -140,7 +140,7 @@ pub fn can_sample(gpu: &Gpu, spec: &SamplerSpec, format: TexelFormat, space: Col
 fn upload_image(
     gpu: &Gpu,
     packed: &PackedScene,
-    maker: &mut MipGenerator<'_>,
+    generator: &mut MipGenerator<'_>,
     index: usize,
     form: Form,
 ) -> Result<Image> {
@@ -187,7 +187,7 @@ fn upload_image(
     }
     let space = record.color_space;
     let top = MipSource { name, format, space, sizes: &sizes(packed, index), texels: levels[0] };
-    let mip_chain = maker.make(&top)?;
+    let mip_chain = generator.make(&top)?;
     gpu.image_from(&desc, &mip_chain.buffer, &mip_chain.starts)
 }
 

@@ -9,9 +9,9 @@ use crate::pack::{PackedScene, SampleDimension, TextureKind};
 use crate::scene::model::Algorithm;
 use crate::schema::constants::{MAX_BOXES, MAX_CONE_FRAGMENTS, MAX_CONES, MAX_ELLIPSE_STEPS};
 use crate::schema::layout::{CHUNK, NO_TEXTURE, Procedural, Sampler};
-use crate::texture::filter::Turns;
+use crate::texture::filter::LoopCost;
 
-const MAX_TURNS: u64 = 65_535;
+const MAX_ITERATIONS: u64 = 65_535;
 const ELLIPSE: u64 = MAX_ELLIPSE_STEPS as u64;
 /// Eight texels, or twice four.
 const SOLID: u64 = 10;
@@ -27,24 +27,24 @@ pub fn samples_at_once(device: &DeviceInfo, scene: &PackedScene) -> Result<u32> 
     if device.kind != DeviceKind::Cpu {
         return Ok(CHUNK);
     }
-    let turns = turns_of_a_sample(scene, ELLIPSE);
+    let iterations = iterations_of_a_sample(scene, ELLIPSE);
     // Ellipses of that size occur at the horizon, not at each of many look-ups of one path.
-    let without_ellipses = turns_of_a_sample(scene, 0);
-    if without_ellipses > MAX_TURNS {
+    let without_ellipses = iterations_of_a_sample(scene, 0);
+    if without_ellipses > MAX_ITERATIONS {
         return Err(Error::with_help(
             format!(
-                "device \"{}\" ends a shader's loops after {MAX_TURNS} turns; one sample of this scene may take {without_ellipses}",
+                "device \"{}\" ends a shader's loops after {MAX_ITERATIONS} iterations; one sample of this scene may take {without_ellipses}",
                 device.name
             ),
             "use fewer shapes, lights or bounces, another device, or --device oracle",
         ));
     }
-    Ok((MAX_TURNS / turns).clamp(1, u64::from(CHUNK)) as u32)
+    Ok((MAX_ITERATIONS / iterations).clamp(1, u64::from(CHUNK)) as u32)
 }
 
 /// Returns an upper bound of the iterations for a pixel's cones, except for the number of fragments of each: if there
 /// are many cones, few of them see more than three.
-fn turns_of_cones(scene: &PackedScene, ellipse: u64) -> u64 {
+fn iterations_of_cones(scene: &PackedScene, ellipse: u64) -> u64 {
     const PIECES: u64 = MAX_CONE_FRAGMENTS as u64;
     const SEEN: u64 = 3;
     let shapes = scene.shape_count() as u64;
@@ -54,7 +54,7 @@ fn turns_of_cones(scene: &PackedScene, ellipse: u64) -> u64 {
     // Each pair in both orders, with two shapes each time.
     let laid_over = 3 * SEEN * (SEEN - 1);
     let bumped = scene.materials.iter().any(|m| m.bump_texture_index != NO_TEXTURE);
-    let look_ups = if bumped { TAPS } else { 1 } * turns_of_a_look_up(scene, 0);
+    let look_ups = if bumped { TAPS } else { 1 } * iterations_of_a_look_up(scene, 0);
     let records = (scene.materials.len() + scene.uv_projections.len()) as u64;
     let shaded = SEEN * (1 + records + look_ups + lights.max(2) * (2 + lights));
     // Ellipses of that size occur at the horizon, which few cones see.
@@ -62,9 +62,9 @@ fn turns_of_cones(scene: &PackedScene, ellipse: u64) -> u64 {
 }
 
 /// Returns an upper bound of the iterations of one sample, given those of an ellipse.
-fn turns_of_a_sample(scene: &PackedScene, ellipse: u64) -> u64 {
+fn iterations_of_a_sample(scene: &PackedScene, ellipse: u64) -> u64 {
     if scene.algorithm == Algorithm::Cone {
-        return turns_of_cones(scene, ellipse);
+        return iterations_of_cones(scene, ellipse);
     }
     let count = |n: usize| n as u64;
     let shapes = count(scene.shape_count()) + 3;
@@ -76,23 +76,24 @@ fn turns_of_a_sample(scene: &PackedScene, ellipse: u64) -> u64 {
     let chances = scene.header.sample_dimensions;
     let glass = u64::from(chances >> SampleDimension::Fresnel as u32 & 1);
     let choices = if chances == 0 { 0 } else { (4 + glass) * (1 + POINTS) };
-    rays * (choices + hit + taps * turns_of_a_look_up(scene, ellipse))
+    rays * (choices + hit + taps * iterations_of_a_look_up(scene, ellipse))
 }
 
-fn turns_of_a_look_up(scene: &PackedScene, ellipse: u64) -> u64 {
+fn iterations_of_a_look_up(scene: &PackedScene, ellipse: u64) -> u64 {
     let records = (scene.textures.len() + scene.samplers.len() + scene.procedurals.len()) as u64;
     let is = |kind: TextureKind| scene.textures.iter().any(|t| t.kind == kind);
-    let procedural = scene.procedurals.iter().map(turns_of_a_pattern).max().unwrap_or(0);
+    let procedural = scene.procedurals.iter().map(iterations_of_a_procedural).max().unwrap_or(0);
     let solid = if is(TextureKind::Volume) || is(TextureKind::Cube) { SOLID } else { 1 };
     let of_sampler = |sampler: &Sampler| {
-        let turns = [sampler.mag_filter, sampler.min_filter].map(|f| f.traits().turns);
-        let most = |of: &dyn Fn(Turns) -> u64| turns.into_iter().map(of).max().unwrap_or(0);
-        let place = most(&|t| if let Turns::Place(turns) = t { turns.max(solid) } else { solid });
-        let probes = most(&|t| if t == Turns::Walk { u64::from(sampler.max_anisotropy) + 2 } else { 2 });
+        let iterations = [sampler.mag_filter, sampler.min_filter].map(|f| f.traits().loop_cost);
+        let most = |of: &dyn Fn(LoopCost) -> u64| iterations.into_iter().map(of).max().unwrap_or(0);
+        let place =
+            most(&|t| if let LoopCost::Place(iterations) = t { iterations.max(solid) } else { solid });
+        let probes = most(&|t| if t == LoopCost::Walk { u64::from(sampler.max_anisotropy) + 2 } else { 2 });
         let area = most(&|t| match t {
-            Turns::Ellipse => ellipse,
-            Turns::Footprint(turns) => turns,
-            Turns::Place(_) | Turns::Walk => 0,
+            LoopCost::Ellipse => ellipse,
+            LoopCost::Footprint(iterations) => iterations,
+            LoopCost::Place(_) | LoopCost::Walk => 0,
         });
         area.max(probes * (1 + place))
     };
@@ -101,6 +102,6 @@ fn turns_of_a_look_up(scene: &PackedScene, ellipse: u64) -> u64 {
 }
 
 /// Returns the iterations of a procedural: octaves, the 27 cells around a point, or boxes along a footprint.
-fn turns_of_a_pattern(pattern: &Procedural) -> u64 {
+fn iterations_of_a_procedural(pattern: &Procedural) -> u64 {
     u64::from(pattern.octaves).max(27) + BOXES
 }

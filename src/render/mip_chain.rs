@@ -28,7 +28,7 @@ pub struct MipSource<'a> {
     pub texels: &'a [u8],
 }
 
-pub struct Pyramid {
+pub struct MipChain {
     pub buffer: Buffer,
     /// Byte offset of each level.
     pub starts: Vec<u64>,
@@ -54,7 +54,7 @@ impl<'a> MipGenerator<'a> {
         MipGenerator { gpu, tables: Vec::new(), pipelines: Vec::new(), seconds: None }
     }
 
-    pub fn make(&mut self, top: &MipSource<'_>) -> Result<Pyramid> {
+    pub fn make(&mut self, top: &MipSource<'_>) -> Result<MipChain> {
         let channels = top.format.channels() as u64;
         let texels: Vec<u64> = top.sizes.iter().map(|size| size.map(u64::from).iter().product()).collect();
         let mut starts = Vec::with_capacity(texels.len());
@@ -81,7 +81,7 @@ impl<'a> MipGenerator<'a> {
             passes.iter().map(|(pass, groups)| (bytemuck::bytes_of(pass), *groups)).collect();
         let time = gpu.run_all(pipeline, &group, &dispatches)?;
         self.seconds = Some(self.seconds.unwrap_or(0.0) + time.device_seconds);
-        Ok(Pyramid { buffer, starts })
+        Ok(MipChain { buffer, starts })
     }
 
     fn tables(&mut self, codes: usize) -> Result<Buffer> {

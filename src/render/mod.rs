@@ -77,13 +77,13 @@ pub struct Report {
     /// True if geometry was computed in f64.
     pub double: bool,
     /// How often each limit was exceeded, if that is counted.
-    pub guards: Option<diagnostics::Counts>,
+    pub diagnostics: Option<diagnostics::Counts>,
     /// Sum of the device timestamps around all slices.
     pub device_render_seconds: f64,
     /// The same around the passes that generate mip levels, if there were any.
     pub device_mips_seconds: Option<f64>,
     /// The same around tile culling, if there was any.
-    pub device_survey_seconds: Option<f64>,
+    pub device_culling_seconds: Option<f64>,
     pub slices: u32,
     /// Wall time of the longest slice: an upper bound of the response time to Ctrl-C.
     pub longest_slice_seconds: f64,
@@ -102,14 +102,14 @@ impl Report {
         longest(&mut self.longest_slice_seconds, other.longest_slice_seconds);
         let sum = |a: Option<f64>, b: Option<f64>| a.map_or(b, |a| Some(a + b.unwrap_or(0.0)));
         self.device_mips_seconds = sum(self.device_mips_seconds, other.device_mips_seconds);
-        self.device_survey_seconds = sum(self.device_survey_seconds, other.device_survey_seconds);
+        self.device_culling_seconds = sum(self.device_culling_seconds, other.device_culling_seconds);
         self.device_render_seconds += other.device_render_seconds;
         self.slices += other.slices;
         self.device_bytes += other.device_bytes;
         self.double |= other.double;
         let news = other.warnings.iter().filter(|w| !self.warnings.contains(w)).cloned().collect::<Vec<_>>();
         self.warnings.extend(news);
-        match (&mut self.guards, &other.guards) {
+        match (&mut self.diagnostics, &other.diagnostics) {
             (Some(own), Some(others)) => own.iter_mut().zip(others).for_each(|(own, (_, n))| own.1 += n),
             (own @ None, others) => own.clone_from(others),
             (Some(_), None) => {}

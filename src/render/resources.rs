@@ -3,7 +3,7 @@
 
 use std::sync::OnceLock;
 
-use super::diagnostics::Guards;
+use super::diagnostics::DiagnosticCounters;
 use super::images::Uploads;
 use super::mip_chain::MipGenerator;
 use super::texel_buffer::{self, TexelBuffer};
@@ -39,9 +39,9 @@ pub struct Resources {
     /// Set once beams are used.
     prefix_sums: OnceLock<Buffer>,
     /// Set once there are lists of triangles.
-    pub survey: OnceLock<Buffer>,
+    pub tile_lists: OnceLock<Buffer>,
     /// The counters, if the pipelines count.
-    pub guards: Option<Guards>,
+    pub diagnostics: Option<DiagnosticCounters>,
     images: Vec<(Image, Sampler)>,
     volumes: Vec<(Image, Sampler)>,
     cubes: Vec<(Image, Sampler)>,
@@ -62,13 +62,13 @@ impl Resources {
         let srgb = if srgb.is_empty() { &[0.0] } else { srgb.as_slice() };
         let srgb =
             gpu.upload_buffer("light of sRGB codes", BufferUse::TexelUint, bytemuck::cast_slice(srgb))?;
-        let mut maker = MipGenerator::new(gpu);
+        let mut generator = MipGenerator::new(gpu);
         let pooled = match features.source {
             TexelSource::Buffer => Some(packed.texels.len()),
             TexelSource::Solids => Some(packed.solid_bytes),
             TexelSource::None | TexelSource::Image => None,
         };
-        let upload = |bytes| TexelBuffer::upload(gpu, packed, bytes, most_words, &mut maker);
+        let upload = |bytes| TexelBuffer::upload(gpu, packed, bytes, most_words, &mut generator);
         let texels = pooled.map(upload).transpose()?;
         let mut slots = packed.slot_counts();
         if let Some(texel_buffer) = &texels {
@@ -80,7 +80,7 @@ impl Resources {
             // Never set twice: it is empty.
             let _ = prefix_sums.set(texel_buffer::upload_row_sums(gpu, packed, &packed.prefix_sums)?);
         }
-        let mut uploads = Uploads::new(gpu, packed, maker);
+        let mut uploads = Uploads::new(gpu, packed, generator);
         let [mut images, mut volumes, mut cubes] = [const { Vec::new() }; 3];
         if matches!(features.source, TexelSource::Image | TexelSource::Solids) {
             images = uploads.slots(&packed.slots, TextureKind::Flat)?;
@@ -97,8 +97,11 @@ impl Resources {
             srgb,
             texels,
             prefix_sums,
-            survey: OnceLock::new(),
-            guards: features.has(Constant::Diagnosed).then(|| Guards::new(gpu)).transpose()?,
+            tile_lists: OnceLock::new(),
+            diagnostics: features
+                .has(Constant::Diagnosed)
+                .then(|| DiagnosticCounters::new(gpu))
+                .transpose()?,
             images,
             volumes,
             cubes,
@@ -140,11 +143,11 @@ impl Resources {
                 (BindingKind::StorageBuffer, bindings::OUTPUT) => Bound::Buffer(output),
                 (BindingKind::StorageBuffer, bindings::LIST) => Bound::Buffer(queries.unwrap_or(&self.scene)),
                 (BindingKind::StorageBuffer, bindings::TILE_LISTS) => {
-                    Bound::Buffer(self.survey.get().unwrap_or(&self.scene))
+                    Bound::Buffer(self.tile_lists.get().unwrap_or(&self.scene))
                 }
-                (BindingKind::StorageBuffer, bindings::DIAGNOSTICS) => {
-                    Bound::Buffer(self.guards.as_ref().map_or(&self.scene, |guards| &guards.buffer))
-                }
+                (BindingKind::StorageBuffer, bindings::DIAGNOSTICS) => Bound::Buffer(
+                    self.diagnostics.as_ref().map_or(&self.scene, |diagnostics| &diagnostics.buffer),
+                ),
                 (BindingKind::StorageBuffer, _) => Bound::Buffer(&self.scene),
                 (BindingKind::UniformBuffer, _) => Bound::Head(&self.scene, HEAD_BYTES as u64),
                 (BindingKind::TexelBuffer, bindings::SRGB_LIGHT) => {

@@ -40,7 +40,7 @@ pub struct Session<'a> {
     /// The current header of the scene buffer.
     header: Mutex<Header>,
     /// Set for a scene of many triangles.
-    survey: OnceLock<TileCulling>,
+    tile_culling: OnceLock<TileCulling>,
     /// Films of this size, without compensation and with it.
     films: Mutex<[Option<Arc<FilmBuffer>>; 2]>,
     /// True while a render writes those buffers.
@@ -93,7 +93,7 @@ impl<'a> Session<'a> {
         let features = Features::new(&scene, image_source, keep_everything);
         let resources = Resources::upload(gpu, &scene, &features, tuning.texel_words(gpu))?;
         let films = Mutex::new([None, None]);
-        let survey = OnceLock::new();
+        let tile_culling = OnceLock::new();
         (scene.texels, scene.prefix_sums) = (Vec::new(), Vec::new());
         let header = Mutex::new(scene.header);
         let upload_seconds = clock.elapsed().as_secs_f64();
@@ -106,7 +106,7 @@ impl<'a> Session<'a> {
             tuning: *tuning,
             warnings,
             header,
-            survey,
+            tile_culling,
             films,
             taken: AtomicBool::new(false),
             upload_seconds,
@@ -140,11 +140,11 @@ impl<'a> Session<'a> {
         report.seconds.upload = self.upload_seconds + clock.elapsed().as_secs_f64();
 
         let clock = Instant::now();
-        if scene.culls_tiles() && self.survey.get().is_none() {
-            let survey = TileCulling::new(self.gpu, scene, &self.resources, &features)?;
+        if scene.culls_tiles() && self.tile_culling.get().is_none() {
+            let tile_culling = TileCulling::new(self.gpu, scene, &self.resources, &features)?;
             // Never set twice: both were empty just now.
-            let _ = self.resources.survey.set(survey.buffer.clone());
-            let _ = self.survey.set(survey);
+            let _ = self.resources.tile_lists.set(tile_culling.buffer.clone());
+            let _ = self.tile_culling.set(tile_culling);
         }
         let work = match scene.schedule {
             Schedule::Tiles if scene.beams => Work::Beams(self.beam_pass(scene, features)?, OnceLock::new()),
@@ -199,13 +199,13 @@ impl<'a> Session<'a> {
         Features::new(scene, self.image_source, self.keep_everything)
     }
 
-    pub(super) fn survey(&self) -> Option<&TileCulling> {
-        self.survey.get()
+    pub(super) fn tile_culling(&self) -> Option<&TileCulling> {
+        self.tile_culling.get()
     }
 
     /// Returns the `CELL_WORDS` words of each cell of tile culling; `None` without it.
-    pub fn survey_words(&self) -> Result<Option<Vec<u32>>> {
-        self.survey().map(|survey| survey.words(self.gpu)).transpose()
+    pub fn tile_list_words(&self) -> Result<Option<Vec<u32>>> {
+        self.tile_culling().map(|tile_culling| tile_culling.words(self.gpu)).transpose()
     }
 
     /// Builds the pipeline that samples the pixels that beams cannot resolve.

@@ -26,7 +26,7 @@ impl TexelBuffer {
         packed: &PackedScene,
         bytes: usize,
         most_words: u64,
-        maker: &mut MipGenerator<'_>,
+        generator: &mut MipGenerator<'_>,
     ) -> Result<TexelBuffer> {
         let texels = &packed.texels[..bytes];
         let texel_buffer = TexelBuffer::new(gpu, packed, bytes as u64, most_words)?;
@@ -38,7 +38,7 @@ impl TexelBuffer {
                 continue;
             }
             texel_buffer.write(gpu, written, &texels[written..start])?;
-            let mip_chain = maker.make(&MipSource {
+            let mip_chain = generator.make(&MipSource {
                 name: &packed.texture_names[texture],
                 format: record.format,
                 space: record.color_space,

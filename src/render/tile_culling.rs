@@ -40,14 +40,14 @@ impl TileCulling {
         let side = scene.header.cell_side;
         let cells = [width, height].map(|pixels| pixels.div_ceil(side));
         let bytes = cells.map(u64::from).iter().product::<u64>() * u64::from(CELL_WORDS) * 4;
-        let buffer = gpu.buffer("survey", bytes, BufferUse::Storage)?;
+        let buffer = gpu.buffer("tile lists", bytes, BufferUse::Storage)?;
         let group = resources.bind(gpu, &pipeline, shader, &buffer, None)?;
         let tests = scene.listed_shapes().max(1) as u64;
         let cells_at_once = (MAX_TESTS / tests).clamp(u64::from(GROUP), 1 << 20) as u32;
-        let survey = TileCulling { buffer, pipeline, group, side, cells, cells_at_once };
+        let culling = TileCulling { buffer, pipeline, group, side, cells, cells_at_once };
         // Lazy compilation in the driver happens now.
-        survey.part(gpu, CellRange { first: 0, end: 1 }, &mut Report::default())?;
-        Ok(survey)
+        culling.part(gpu, CellRange { first: 0, end: 1 }, &mut Report::default())?;
+        Ok(culling)
     }
 
     /// Fills the lists.
@@ -62,8 +62,8 @@ impl TileCulling {
     fn part(&self, gpu: &Gpu, part: CellRange, report: &mut Report) -> Result<()> {
         let groups = [(part.end - part.first).div_ceil(GROUP), 1, 1];
         let time = gpu.run(&self.pipeline, &self.group, bytemuck::bytes_of(&part), groups)?;
-        report.device_survey_seconds =
-            Some(report.device_survey_seconds.unwrap_or(0.0) + time.device_seconds);
+        report.device_culling_seconds =
+            Some(report.device_culling_seconds.unwrap_or(0.0) + time.device_seconds);
         report.longest_slice_seconds = report.longest_slice_seconds.max(time.wall_seconds);
         Ok(())
     }

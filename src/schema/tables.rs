@@ -1,7 +1,7 @@
-//! The tables of this folder → Rust. Each table is one macro call in a file of its own; `build/tables.rs` gives
-//! the same macros another body, by which the same files become GLSL.
+//! Expands the tables of this folder to Rust. Each table is one macro call in a file of its own; `build/tables.rs`
+//! defines the same macros differently, so that the same files become GLSL.
 
-/// Enums that the shader knows as `const uint PREFIX_VARIANT`, in the same order.
+/// Enums that the shader declares as `const uint PREFIX_VARIANT`, in the same order.
 macro_rules! enums {
     ($($(#[$meta:meta])* $prefix:ident: $enum:ident { $($(#[$vmeta:meta])* $variant:ident = $name:literal,)+ })+) => {
         use crate::core::named::named_enum;
@@ -20,21 +20,21 @@ macro_rules! enums {
     };
 }
 
-/// Numbers that host and device share.
+/// Constants that host and device share.
 macro_rules! constants {
     ($($(#[$meta:meta])* $name:ident: $type:ty = $value:expr;)+) => {
         $($(#[$meta])* pub const $name: $type = $value;)+
     };
 }
 
-/// Descriptors of set 0; the shader says `BINDING_NAME`.
+/// Descriptors of set 0; the shader's name is `BINDING_NAME`.
 macro_rules! bindings {
     ($($(#[$meta:meta])* $name:ident = $number:literal;)+) => {
         $($(#[$meta])* pub const $name: u32 = $number;)+
     };
 }
 
-/// Blocks of words: push constants and list entries, as std430 and `repr(C)` lay them out alike.
+/// Blocks of words: push constants and list entries, for which std430 and `repr(C)` are the same.
 macro_rules! blocks {
     ($($(#[$meta:meta])* $block:ident { $($(#[$fmeta:meta])* $field:ident,)+ })+) => {
         $(
@@ -57,16 +57,16 @@ macro_rules! specialization {
             pub enum Constant { $($(#[$meta])* $variant = $name,)+ }
         }
 
-        /// What the value of a specialization constant means.
+        /// The meaning of a specialization constant's value.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub enum Kind {
-            /// A bit mask of modes, which have these names.
+            /// A bit mask of modes with these names.
             Modes(&'static [&'static str]),
             /// A number, or `DYNAMIC`.
             Count,
-            /// Code that is there or not.
+            /// Code that may be removed.
             Switch,
-            /// Set where a pipeline is built, whatever the scene uses.
+            /// Set when a pipeline is built, whatever the scene uses.
             Parameter,
         }
 
@@ -74,7 +74,7 @@ macro_rules! specialization {
             const WHAT: &'static [&'static str] = &[$($what,)+];
             const KINDS: &'static [Kind] = &[$(kind!($kind $(($($of)+))?),)+];
 
-            /// Returns the number by which SPIR-V knows it.
+            /// Returns the constant id in SPIR-V.
             pub const fn id(self) -> u32 {
                 self as u32
             }
@@ -83,7 +83,7 @@ macro_rules! specialization {
                 Constant::KINDS[self as usize]
             }
 
-            /// Returns what a person calls the code behind it.
+            /// Returns the user-visible name of the code that it controls.
             pub const fn what(self) -> &'static str {
                 Constant::WHAT[self as usize]
             }
@@ -91,7 +91,7 @@ macro_rules! specialization {
     };
 }
 
-/// What the value of a specialization constant means.
+/// The meaning of a specialization constant's value.
 macro_rules! kind {
     (modes($enum:ident)) => {
         Kind::Modes($enum::NAMES)
@@ -113,7 +113,7 @@ macro_rules! kind {
     };
 }
 
-/// Records of the scene buffer, and the word for the code that goes through a list of them.
+/// Records of the scene buffer, and the name of the code that loops over a list of them.
 macro_rules! records {
     ($($(#[$meta:meta])* $record:ident $(in $list:ident as $what:literal)? { $($(#[$fmeta:meta])* $field:ident: $type:ident,)+ })+) => {
         use super::enums::*;

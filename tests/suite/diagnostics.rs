@@ -34,11 +34,11 @@ fn scene(text: &str, texture: Option<TextureData>) -> PackedScene {
 
 fn counts(mut packed: PackedScene) -> Vec<(Diagnostic, u64)> {
     let (plain, report) = render_with(&packed, false, &Tuning::default());
-    assert!(report.guards.is_none(), "a render counts that was not asked to");
+    assert!(report.diagnostics.is_none(), "a render counts that was not asked to");
     packed.guarded = true;
     let (counted, report) = render_with(&packed, false, &Tuning::default());
     assert_same_bits(&plain, &counted, "counting changes the picture");
-    report.guards.unwrap()
+    report.diagnostics.unwrap()
 }
 
 /// Only `guard` counts, and so often.
@@ -95,7 +95,7 @@ fn every_sample_whose_radiance_is_no_number_is_counted() {
     let packed = scene(&text.replace("footprint = 'cone'", "pattern = 'grid'"), Some(texture));
     let mut packed = packed;
     packed.guarded = true;
-    let found = render_with(&packed, false, &Tuning::default()).1.guards.unwrap();
+    let found = render_with(&packed, false, &Tuning::default()).1.diagnostics.unwrap();
     only(&found, Diagnostic::Radiance, 8 * 8 * 4 / 4);
 }
 

@@ -62,7 +62,7 @@ fn a_sample_that_alone_is_too_long_is_refused() {
     let told = render::render(&device(), scene, false, &Tuning::default(), &NoProgress);
     if device().info().kind == DeviceKind::Cpu {
         let message = told.unwrap_err().to_string();
-        assert!(message.contains("65535 turns"), "{message}");
+        assert!(message.contains("65535 iterations"), "{message}");
     } else {
         told.unwrap();
     }

@@ -89,8 +89,8 @@ fn culls_tiles(scene: &PackedScene) -> (Film, Vec<u32>) {
     let device = device();
     let session = Session::open(&device, scene.clone(), false, &Tuning::default()).unwrap();
     let (film, report) = session.prepare().unwrap().render(&NoProgress).unwrap();
-    assert!(report.device_survey_seconds.is_some());
-    (film, session.survey_words().unwrap().unwrap())
+    assert!(report.device_culling_seconds.is_some());
+    (film, session.tile_list_words().unwrap().unwrap())
 }
 
 /// In f64, and no more than a few beside: slack and margin are small.
