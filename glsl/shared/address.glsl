@@ -37,7 +37,7 @@ float near_tile(uint mask, uint mode, double u) {
 #endif
 
 // Implements "Wrapping Operation" of Vulkan 1.3 for the results of `reduced_coordinate`; -1 selects the
-// border color. The bounds hold for every i, so no fetch leaves the texture.
+// border colour. The bounds hold for every i, so no fetch leaves the texture.
 int addressed_texel(uint mask, uint mode, int i, int size) {
     if (MODE_IS(mask, ADDRESS_REPEAT, mode) && TEXTURE_SIZES == (1u << TEXTURE_SIZE_POWER_OF_TWO)) return i & (size - 1);
     if (MODE_IS(mask, ADDRESS_REPEAT, mode)) return int(min(uint(i < 0 ? i + size : i), uint(size - 1)));

@@ -1,7 +1,7 @@
 // Cones (Amanatides 1984); their coverage by shapes is in geometry/cones.glsl. A cone is a bundle of straight
-// rays, one for each point u of the unit disk: origin + w (x u.x + y u.y) + t (direction + s (x u.x + y
+// rays, one for each point u of the unit disc: origin + w (x u.x + y u.y) + t (direction + s (x u.x + y
 // u.y)), with w its radius at the origin and s its growth per unit of t. Lines in space are lines on the
-// disk, so planes and triangles cut it exactly; a sphere is a circle, seen at its distance. Twin:
+// disc, so planes and triangles cut it exactly; a sphere is a circle, seen at its distance. Twin:
 // src/oracle/cone.rs.
 #ifndef CONE_GLSL
 #define CONE_GLSL
@@ -9,7 +9,7 @@
 #include "coverage.glsl"
 #include "footprint.glsl"
 
-// Radius of a disk of area 1, so that a cone has its pixel's area.
+// Radius of a disc of area 1, so that a cone has its pixel's area.
 const float DISC_RADIUS = 0.56418958;
 
 struct Cone {
@@ -35,7 +35,7 @@ Cone cone_of(const Ray ray, const RayDifferential beam, vec3 across) {
     return Cone(ray, x, cross3(unit, x), DISC_RADIUS * beam.width, DISC_RADIUS * beam.spread, vec4(0.0));
 }
 
-// Returns true if the point is above the surface that the cone leaves: half of a disk around a point of a
+// Returns true if the point is above the surface that the cone leaves: half of a disc around a point of a
 // surface is below the surface, and would meet the shapes there.
 bool rises_to(const Cone cone, vec3 point) {
     return !FLOORS || cone.floor == vec4(0.0) || dot3(cone.floor.xyz, point) + cone.floor.w > 0.0;

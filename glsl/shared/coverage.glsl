@@ -1,14 +1,14 @@
-// The part of a disk that is covered, and its centroid: the unit disk cut by straight lines, or overlapped by
+// The part of a disc that is covered, and its centroid: the unit disc cut by straight lines, or overlapped by
 // a circle. Exact: the area inside a closed border is half the integral of x dy - y dx along it, its first
-// moment a third of that of (x, y) (x dy - y dx); the border consists of line segments and arcs of the disk's
-// boundary. All arcs together span the angle about the center that the segments leave, and the integrals over
+// moment a third of that of (x, y) (x dy - y dx); the border consists of line segments and arcs of the disc's
+// boundary. All arcs together span the angle about the centre that the segments leave, and the integrals over
 // an arc depend on its ends alone, so that nothing is sorted. Twin: src/oracle/coverage.rs.
 #ifndef COVERAGE_GLSL
 #define COVERAGE_GLSL
 
 #include "math.glsl"
 
-// Fraction of the disk's area, and the centroid of the covered part.
+// Fraction of the disc's area, and the centroid of the covered part.
 struct Covered {
     float share;
     vec2 center;
@@ -20,7 +20,7 @@ const Covered EVERYTHING = Covered(1.0, vec2(0.0));
 // Smaller fractions count as 0.
 const float MIN_SHARE = 1e-5;
 
-// The lines that cross the disk, the newest first: covered is a x + b y + c >= 0, where (a, b) has unit
+// The lines that cross the disc, the newest first: covered is a x + b y + c >= 0, where (a, b) has unit
 // length. Registers, as arrays with an index that differs between threads are slow. With more lines than
 // these, which only pairs of shapes have, the oldest are left out.
 const vec3 NO_CUT = vec3(0.0, 0.0, 2.0);
@@ -52,7 +52,7 @@ const float BESIDE = 1e-9;
 void cut_by(vec3 line) {
     float squared = dot2(line.xy, line.xy);
     vec3 unit = line * inversesqrt(squared > 0.0 ? squared : 1.0);
-    // A line through the center is moved beside it, so that its segment subtends an angle there.
+    // A line through the centre is moved beside it, so that its segment subtends an angle there.
     if (abs(unit.z) < BESIDE) unit.z = BESIDE;
     // A line at infinity leaves everything or nothing.
     float beyond = squared > 0.0 ? unit.z : (line.z > 0.0 ? 1.0 : -1.0);
@@ -66,7 +66,7 @@ void cut_by(vec3 line) {
     cut_a = crosses ? unit : cut_a;
 }
 
-// A line's share of the border: twice the area between it and the disk's center, the angle that it subtends
+// A line's share of the border: twice the area between it and the disc's centre, the angle that it subtends
 // there, and six times the moment.
 struct Border {
     float twice_area;
@@ -110,7 +110,7 @@ void add_border(inout Border sum, vec3 line, vec2 fragment) {
     }
 }
 
-// Returns the segment of a line within the disk and five others; `true` follows those that precede it.
+// Returns the segment of a line within the disc and five others; `true` follows those that precede it.
 #define BORDER(line, o1, n1, o2, n2, o3, n3, o4, n4, o5, n5)                      \
     {                                                                            \
         float rim = sqrt(max(1.0 - line.z * line.z, 0.0));                       \
@@ -122,7 +122,7 @@ void add_border(inout Border sum, vec3 line, vec2 fragment) {
         add_border(border, line, fragment);                                          \
     }
 
-// Returns the part of the disk that the lines leave.
+// Returns the part of the disc that the lines leave.
 Covered cut_disc() {
     Border border = Border(0.0, 0.0, vec2(0.0));
     BORDER(cut_a, cut_b, false, cut_c, false, cut_d, false, cut_e, false, cut_f, false)
@@ -149,8 +149,8 @@ float segment(float sine, float cosine) {
     return y < 0.09 ? series : plain;
 }
 
-// Returns the overlap of the disk with a circle around `middle`; `edge` is the radius less the distance of
-// `middle` from the disk's center, which the caller computes without cancellation.
+// Returns the overlap of the disc with a circle around `middle`; `edge` is the radius less the distance of
+// `middle` from the disc's centre, which the caller computes without cancellation.
 Covered circle_overlap(vec2 middle, float radius, float edge) {
     if (!(edge > -1.0)) return NOTHING;
     if (edge >= 1.0) return EVERYTHING;
@@ -160,25 +160,25 @@ Covered circle_overlap(vec2 middle, float radius, float edge) {
         if (!(share > MIN_SHARE)) return NOTHING;
         return Covered(share, middle);
     }
-    // The chord through both intersections, from the disk's center.
+    // The chord through both intersections, from the disc's centre.
     float chord = (1.0 - edge * (radius + apart)) / (2.0 * apart);
     float half_length = sqrt(max(1.0 - chord * chord, 0.0));
     float own = segment(half_length, abs(chord));
     own = chord < 0.0 ? PI - own : own;
-    // The circle's part on the side of the disk's center.
+    // The circle's part on the side of the disc's centre.
     float sine = min(half_length / radius, 1.0);
     float other = segment(sine, min(abs(apart - chord) / radius, 1.0));
     other = (apart < chord ? PI - other : other) * (radius * radius);
     float share = min((own + other) * (1.0 / PI), 1.0);
     if (!(share > MIN_SHARE)) return NOTHING;
-    // The moments of the two segments about their circles' centers cancel.
+    // The moments of the two segments about their circles' centres cancel.
     vec2 center = middle * (other / (PI * share));
     return Covered(share, center);
 }
 
 // Returns the overlap with a small circle, both replaced by squares of equal area: squares tile the picture,
-// so a moving ball keeps its total, which disks with gaps between pixels would not preserve.
-const float SQUARE = 0.88622693; // half the side of a square with the disk's area
+// so a moving ball keeps its total, which discs with gaps between pixels would not preserve.
+const float SQUARE = 0.88622693; // half the side of a square with the disc's area
 
 Covered small_overlap(vec2 middle, float radius) {
     float side = SQUARE * radius;
@@ -190,7 +190,7 @@ Covered small_overlap(vec2 middle, float radius) {
     return Covered(share, 0.5 * (from + to));
 }
 
-// Returns the overlap with a circle of any size: blends from one to the other between half the disk's radius
+// Returns the overlap with a circle of any size: blends from one to the other between half the disc's radius
 // and all of it.
 Covered ball_overlap(vec2 middle, float radius, float edge) {
     float large = clamp(2.0 * radius - 1.0, 0.0, 1.0);

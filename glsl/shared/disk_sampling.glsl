@@ -5,7 +5,7 @@
 
 #include "math.glsl"
 
-// Returns a point on the disk by the concentric map of Shirley & Chiu 1997: squares around the center become
+// Returns a point on the disc by the concentric map of Shirley & Chiu 1997: squares around the centre become
 // circles.
 vec2 concentric_disc(vec2 square) {
     vec2 p = 2.0 * square - 1.0;
@@ -19,7 +19,7 @@ vec2 concentric_disc(vec2 square) {
 }
 
 // Returns a point on the cap of the unit sphere around +z of height `height`; 2 is the whole sphere. Areas of
-// the disk become areas of the cap if 1 - z grows as the square of the disk's radius (Archimedes).
+// the disc become areas of the cap if 1 - z grows as the square of the disc's radius (Archimedes).
 vec3 on_cap(vec2 disc, float height) {
     float fall = height * (disc.x * disc.x + disc.y * disc.y);
     float stretch = sqrt(max(height * (2.0 - fall), 0.0));

@@ -15,7 +15,7 @@ pub fn reduced_coordinate(mode: Address, u: f64, size: f64) -> f64 {
     if reduced.is_finite() { reduced * size } else { 0.0 }
 }
 
-/// Implements "Wrapping Operation" of Vulkan 1.3 for every i; `None` selects the border color.
+/// Implements "Wrapping Operation" of Vulkan 1.3 for every i; `None` selects the border colour.
 pub fn addressed_texel(mode: Address, i: i64, size: i64) -> Option<i64> {
     let mirror = |n: i64| if n >= 0 { n } else { -1 - n };
     match mode {

@@ -1,6 +1,6 @@
 //! One beam per pixel (Heckbert & Hanrahan 1984): the pixel's square is cut along the edges of the polygons
 //! that it meets and along their intersections; each visible fragment contributes its exact area in the pixel
-//! and the exact integral of its color. Mirrors reflect the fragment's beam. Pixels beyond this are left to
+//! and the exact integral of its colour. Mirrors reflect the fragment's beam. Pixels beyond this are left to
 //! samples. Twin of `glsl/shared/beam_main.glsl`.
 
 use glam::DVec3;
@@ -49,7 +49,7 @@ struct Met {
     region: ConvexRegion,
 }
 
-/// Returns the color of a pixel of the film; `None` if it needs samples.
+/// Returns the colour of a pixel of the film; `None` if it needs samples.
 pub fn beam(scene: &PackedScene, [x, y]: [u32; 2]) -> Option<DVec3> {
     let header = &scene.header;
     let frame = pixel_frame(header, [x + header.crop.x, y + header.crop.y]);
@@ -108,7 +108,7 @@ impl Pixel<'_> {
         Ok(())
     }
 
-    /// Adds the color of a visible fragment, or pushes the mirrored beam.
+    /// Adds the colour of a visible fragment, or pushes the mirrored beam.
     fn shade(
         &mut self,
         beam: &PixelBeam,

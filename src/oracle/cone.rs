@@ -7,7 +7,7 @@ use glam::{DVec2, DVec3, DVec4};
 use super::camera::Ray;
 use super::footprint::any_tangent;
 
-/// Radius of a disk of area 1: 1 / √π.
+/// Radius of a disc of area 1: 1 / √π.
 const DISC_RADIUS: f64 = 0.5 * FRAC_2_SQRT_PI;
 
 #[derive(Clone, Copy, Debug)]
@@ -45,7 +45,7 @@ impl Cone {
         }
     }
 
-    /// Returns true if the point is above the surface that the cone leaves: half of a disk around a point of
+    /// Returns true if the point is above the surface that the cone leaves: half of a disc around a point of
     /// a surface is below the surface, and would meet the shapes there.
     pub(super) fn rises_to(&self, point: DVec3) -> bool {
         self.floor == DVec4::ZERO || self.floor.dot(point.extend(1.0)) > 0.0

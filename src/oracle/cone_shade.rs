@@ -32,7 +32,7 @@ const MIN_WEIGHT: f64 = 1.0 / 1024.0;
 /// The purpose of a cone.
 #[derive(Clone, Copy, Debug)]
 enum Goal {
-    /// The color that it sees, after this number of bounces.
+    /// The colour that it sees, after this number of bounces.
     Color(u32),
     /// The visibility of a light up to this t; the weight is the light's contribution.
     Light(f64),
@@ -81,7 +81,7 @@ struct Met<'a> {
     surface: Surface,
     print: Footprint,
     material: &'a Material,
-    /// The surface's color, and the weight before it.
+    /// The surface's colour, and the weight before it.
     albedo: DVec3,
     carried: DVec3,
 }

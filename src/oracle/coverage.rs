@@ -1,10 +1,10 @@
-//! The part of a disk that lines or a circle cover, and its centroid. Twin of `glsl/shared/coverage.glsl`.
+//! The part of a disc that lines or a circle cover, and its centroid. Twin of `glsl/shared/coverage.glsl`.
 
 use std::f64::consts::PI;
 
 use glam::{DVec2, DVec3};
 
-/// Fraction of the disk's area, and the centroid of the covered part.
+/// Fraction of the disc's area, and the centroid of the covered part.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Covered {
     pub share: f64,
@@ -20,13 +20,13 @@ pub const MIN_SHARE: f64 = 1e-5;
 /// With more lines the oldest are left out.
 const MAX_CUTS: usize = 6;
 
-/// A line through the center is moved by this distance, so that its fragment subtends an angle there.
+/// A line through the centre is moved by this distance, so that its fragment subtends an angle there.
 const BESIDE: f64 = 1e-9;
 
 /// Lines with a smaller sine between them count as parallel.
 const PARALLEL: f64 = 1e-4;
 
-/// The lines that cross the disk, the newest first: covered is a x + b y + c ≥ 0, where (a, b) has unit
+/// The lines that cross the disc, the newest first: covered is a x + b y + c ≥ 0, where (a, b) has unit
 /// length.
 #[derive(Clone, Debug, Default)]
 pub struct Cuts {
@@ -55,7 +55,7 @@ impl Cuts {
         }
     }
 
-    /// Returns the part of the disk that the lines leave.
+    /// Returns the part of the disc that the lines leave.
     pub fn covered(&self) -> Covered {
         if self.away {
             return NOTHING;
@@ -129,8 +129,8 @@ pub fn segment(sine: f64, cosine: f64) -> f64 {
     }
 }
 
-/// Returns the overlap of the disk with a circle around `middle`; `edge` is the radius less the distance of
-/// `middle` from the disk's center.
+/// Returns the overlap of the disc with a circle around `middle`; `edge` is the radius less the distance of
+/// `middle` from the disc's centre.
 pub fn circle_overlap(middle: DVec2, radius: f64, edge: f64) -> Covered {
     if edge.is_nan() || edge <= -1.0 {
         return NOTHING;
@@ -156,7 +156,7 @@ pub fn circle_overlap(middle: DVec2, radius: f64, edge: f64) -> Covered {
     found(share, middle * (other / (PI * share)))
 }
 
-/// Half the side of a square with the disk's area: √π / 2.
+/// Half the side of a square with the disc's area: √π / 2.
 const SQUARE: f64 = 0.886_226_925_452_758;
 
 /// Returns the overlap with a small circle, both replaced by squares of equal area.

@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3};
 
 use super::math::sine_turns;
 
-/// Returns a point on the disk by the concentric map of Shirley & Chiu 1997: squares around the center become
+/// Returns a point on the disc by the concentric map of Shirley & Chiu 1997: squares around the centre become
 /// circles.
 pub fn concentric_disc(square: DVec2) -> DVec2 {
     let p = 2.0 * square - 1.0;

@@ -103,7 +103,7 @@ fn shape(kind: TextureKind) -> ImageShape {
 struct Form {
     /// The texture unit decodes sRGB before it filters.
     decode: bool,
-    /// Four channels although the file has fewer: a border color is not swizzled, and drivers support sRGB
+    /// Four channels although the file has fewer: a border colour is not swizzled, and drivers support sRGB
     /// with four channels only.
     expand: bool,
     /// The texture unit interpolates.

@@ -15,7 +15,7 @@ const MAX_ITERATIONS: u64 = 65_535;
 const ELLIPSE: u64 = MAX_ELLIPSE_STEPS as u64;
 /// Eight texels, or twice four.
 const SOLID: u64 = 10;
-/// Look-ups of a bump map, and of the color.
+/// Look-ups of a bump map, and of the colour.
 const TAPS: u64 = 5;
 const BOXES: u64 = MAX_BOXES as u64;
 const CONES: u64 = MAX_CONES as u64;

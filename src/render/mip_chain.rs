@@ -111,7 +111,7 @@ impl<'a> MipGenerator<'a> {
     }
 }
 
-/// Returns the number of sRGB codes of a color channel; 0 if it is linear.
+/// Returns the number of sRGB codes of a colour channel; 0 if it is linear.
 fn codes(format: TexelFormat, space: ColorSpace) -> usize {
     if space == ColorSpace::Srgb { format.component().codes() } else { 0 }
 }

@@ -36,7 +36,7 @@ constants! {
     /// Words of a cell of the picture: number of triangles, content, up to `MAX_LISTED` triangles.
     CELL_WORDS: u32 = 64;
     MAX_LISTED: u32 = 62;
-    /// Content of a cell: the background alone; one shape whose color changes little; anything else.
+    /// Content of a cell: the background alone; one shape whose colour changes little; anything else.
     CELL_EMPTY: u32 = 0;
     CELL_UNIFORM: u32 = 1;
     CELL_BUSY: u32 = 2;

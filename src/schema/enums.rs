@@ -116,7 +116,7 @@ enums! {
         Directional = "directional",
         Sphere = "sphere",
         Rectangle = "rectangle",
-        /// Directional, from a disk of the sky.
+        /// Directional, from a disc of the sky.
         Sun = "sun",
     }
 

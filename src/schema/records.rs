@@ -59,7 +59,7 @@ records! {
         filter_radius: f32,
         /// Width of the box that has the filter's variance.
         filter_width: f32,
-        /// First step from the center, of 2^24, at which the filter is negative.
+        /// First step from the centre, of 2^24, at which the filter is negative.
         first_negative_step: u32,
     }
 
@@ -111,11 +111,11 @@ records! {
     }
 
     Light in lights as "loop over lights" {
-        /// Position of point and sphere lights, center of rectangles.
+        /// Position of point and sphere lights, centre of rectangles.
         position: DVec3,
         /// Radius of a sphere.
         radius: f64,
-        /// Unit vector towards a directional light or the center of the sun.
+        /// Unit vector towards a directional light or the centre of the sun.
         direction: DVec3,
         /// Height of the sun's cap on the unit sphere.
         cap_height: f64,
@@ -144,7 +144,7 @@ records! {
         bump_kind: BumpKind,
         /// Roughness of a mirror's or glass's microfacet distribution (GGX); 0 is smooth.
         alpha: f32,
-        /// Color of Phong's highlight.
+        /// Colour of Phong's highlight.
         specular: Vec3,
         /// Exponent of Phong's highlight.
         exponent: f32,

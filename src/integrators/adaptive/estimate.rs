@@ -15,7 +15,7 @@ use crate::sampling::HalfSums;
 
 /// Pixels that one thread processes at once.
 const PIXELS_PER_TASK: usize = 1 << 15;
-/// Pixels on each side of the window's center.
+/// Pixels on each side of the window's centre.
 const RADIUS: usize = 3;
 
 pub struct Estimate {
