@@ -32,6 +32,10 @@ mod records;
 mod reflect;
 #[path = "build/shaders.rs"]
 mod shaders;
+#[path = "build/shapes.rs"]
+mod shape_text;
+#[path = "src/schema/shapes.rs"]
+mod shapes;
 #[path = "src/schema/specialization.rs"]
 mod specialization;
 #[path = "build/uncontracted.rs"]

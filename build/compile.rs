@@ -11,7 +11,7 @@ use crate::{AnyError, uncontracted};
 
 /// Compiles a shader whose text includes everything else. `BASE.spv` holds the words, `BASE.comp` the text
 /// and `BASE.inputs` the files from which they were made, one per line. `schema/NAME` is one of the generated
-/// files.
+/// files, which include those of `glsl/shared`.
 pub fn compile_if_changed(
     compiler: &shaderc::Compiler,
     text: &str,
@@ -40,6 +40,7 @@ pub fn compile_if_changed(
     options.set_include_callback(|name, _kind, from, _depth| {
         let path = match name.strip_prefix("schema/") {
             Some(name) => generated.join(name),
+            None if Path::new(from).starts_with(generated) => Path::new("glsl/shared").join(name),
             None => Path::new(from).parent().unwrap_or(Path::new("")).join(name),
         };
         let content = fs::read_to_string(&path).map_err(|e| format!("{}: {e}", path.display()))?;

@@ -9,9 +9,10 @@ use crate::bindings::BINDINGS;
 use crate::blocks::BLOCKS;
 use crate::constants::CONSTANTS;
 use crate::enums::ENUMS;
+use crate::records::RECORDS;
 use crate::specialization::SPECIALIZATION;
 use crate::tables::Number;
-use crate::{AnyError, record_text as records};
+use crate::{AnyError, record_text, shape_text};
 
 /// Writes all generated files to `folder`.
 pub fn generate(folder: &Path) -> Result<(), AnyError> {
@@ -21,7 +22,8 @@ pub fn generate(folder: &Path) -> Result<(), AnyError> {
         ("numbers", numbers),
         ("features", features()?),
         ("blocks", blocks()),
-        ("records", records::records()),
+        ("records", record_text::records()),
+        ("shapes", shape_text::shapes()),
     ] {
         let guard = format!("SCHEMA_{}_GLSL", name.to_uppercase());
         let text = format!("#ifndef {guard}\n#define {guard}\n\n{text}\n#endif\n");
@@ -68,7 +70,8 @@ fn bindings() -> String {
     descriptors.chain(ids).collect()
 }
 
-/// The specialization constants, each with the default that keeps everything.
+/// Returns the specialization constants, each with the default that keeps everything: those of the table, then length
+/// and offset of each list of records.
 fn features() -> Result<String, AnyError> {
     let mut text = String::new();
     for (constant, id) in SPECIALIZATION.iter().zip(0..) {
@@ -84,6 +87,12 @@ fn features() -> Result<String, AnyError> {
             _ => continue,
         };
         writeln!(text, "layout(constant_id = {id}) const {kind} {} = {default};", constant.name)?;
+    }
+    let lists = RECORDS.iter().map(|record| record.list.to_uppercase()).filter(|list| !list.is_empty());
+    for (list, at) in lists.zip(0..) {
+        let id = SPECIALIZATION.len() + 2 * at;
+        writeln!(text, "layout(constant_id = {id}) const uint {list} = DYNAMIC;")?;
+        writeln!(text, "layout(constant_id = {}) const uint {list}_AT = 0u;", id + 1)?;
     }
     Ok(text)
 }

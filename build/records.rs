@@ -2,15 +2,19 @@
 //! unit of 16 bytes once; and for records in a list the access by index, cached if the list is short.
 
 use crate::packing::{Kind, Packer, shape};
-use crate::records::RECORDS;
+use crate::records::{LENGTHS, RECORDS};
 use crate::tables::Record;
 
 pub fn records() -> String {
     let lists = || RECORDS.iter().filter(|record| !record.list.is_empty());
     let preloads: String = lists().map(|record| format!("    preload_{}();\n", record.list)).collect();
-    let mut text: String = RECORDS.iter().map(record).collect();
+    let some: Vec<_> = lists().map(|record| format!("{} == DYNAMIC", record.list.to_uppercase())).collect();
+    let mut text: String = RECORDS.iter().chain([&LENGTHS]).map(record).collect();
+    // Follow the header; read only if some length is not known when the pipeline is built.
+    text += "Lengths lengths;\n\n";
     text.extend(lists().map(list));
-    text + &format!("void preload_records() {{\n{preloads}}}\n")
+    let lengths = format!("    if ({}) lengths = lengths_in_head(HEADER_UNITS);\n", some.join(" || "));
+    text + &format!("void preload_records() {{\n{lengths}{preloads}}}\n")
 }
 
 fn record(record: &Record) -> String {
@@ -62,8 +66,9 @@ fn loader(record: &Record, from: &str) -> String {
     format!("{name} {function}_in_{from}(uint at) {{\n{units}    return {name}(\n        {parts});\n}}\n")
 }
 
-/// Lists of known, small length are read once, before any branch: some compilers (lavapipe's) read a buffer lane by
-/// lane inside control flow. An index that is not known at build time then selects among registers.
+/// Returns the access to a list. Lists of known, small length are read once, before any branch: some compilers
+/// (lavapipe's) read a buffer lane by lane inside control flow. An index that is not known at build time then selects
+/// among registers.
 fn list(record: &Record) -> String {
     let (name, list, one) = (record.name, record.list, snake(record.name));
     let length = list.to_uppercase();

@@ -91,5 +91,31 @@ macro_rules! records {
             list: concat!($(stringify!($list))?),
             fields: &[$((stringify!($field), stringify!($type)),)+],
         },)+];
+
+        /// The lengths of all lists.
+        pub const LENGTHS: crate::tables::Record = crate::tables::Record {
+            name: "Lengths",
+            list: "",
+            fields: &[$($((stringify!($list), "u32"),)?)+],
+        };
+    };
+}
+
+/// A kind of shapes.
+pub struct ShapeKind {
+    pub record: &'static str,
+    pub module: &'static str,
+    pub list: &'static str,
+    pub properties: &'static [&'static str],
+}
+
+macro_rules! shape_kinds {
+    ($($record:ident $module:ident $list:ident [$($property:ident)*];)+) => {
+        pub const SHAPE_KINDS: &[crate::tables::ShapeKind] = &[$(crate::tables::ShapeKind {
+            record: stringify!($record),
+            module: stringify!($module),
+            list: stringify!($list),
+            properties: &[$(stringify!($property)),*],
+        },)+];
     };
 }

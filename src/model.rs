@@ -3,11 +3,12 @@
 //! and the default sampler.
 
 pub use crate::scene::builder::DEFAULT;
+pub use crate::scene::geometry::kinds::*;
 pub use crate::scene::geometry::{Kind, Shape};
 pub use crate::scene::model::{
     Algorithm, Background, Bounds, BumpKind, BumpMap, Camera, Entity, Environment, EnvironmentLayout,
     Footprint, Lens, Light, Mapping, MappingKind, Material, Model, Pattern, PixelFilter, PixelFilterKind,
-    Plane, Precision, Projection, Sampling, Space, Sphere, Triangle,
+    Precision, Projection, Sampling, Space,
 };
 pub use crate::texture::data::{ColorSpace, Dimension, MipKernel, TexelFormat};
 pub use crate::texture::procedural::{Procedural, ProceduralKind};

@@ -65,7 +65,7 @@ float negligible(vec3 inverse_depth, uint polygon) {
 // Finds all shapes that the beam may meet. For a beam from a mirror these are clipped to the mirror's front:
 // anything behind it is neither visible nor an occluder.
 void find_shapes(const Header header, PixelBeam beam) {
-    uint shapes = shape_count(header);
+    uint shapes = shape_count();
     met_count = 0u;
     bool mirrored = BOUNCES && beam.skip != NO_SHAPE;
     float least = mirrored ? negligible(beam.limit, WHOLE) : 0.0;
@@ -127,7 +127,7 @@ void carve(uint stage, uint by, bool has_first, vec3 first, bool kept) {
 
 // Adds the integral over the parts of SEEN that see the light; without a light, over all of it.
 void lit_by(const Header header, const ShadingIntegral paint, uint shape, bool has_light, const Light light) {
-    uint shapes = shape_count(header);
+    uint shapes = shape_count();
     uint bottom = waiting;
     if (!has_light) push_piece(SEEN, shapes);
     else if (is_facing(header, paint, SEEN, light)) push_piece(SEEN, 0u);
@@ -179,7 +179,7 @@ void shade(const Header header, PixelBeam beam, uint own) {
     if (TEXTURED && record.texture_index != NO_TEXTURE) quotient = coordinates(header, beam.frame, shape, map, near);
     ShadingIntegral paint = ShadingIntegral(record, carried, quotient, shape_plane(header, shape), beam.frame, near);
     bool unlit = !is_lit(record.model);
-    uint lights = unlit ? 1u : COUNT(LIGHTS, header.light_count);
+    uint lights = unlit ? 1u : COUNT(LIGHTS, lengths.lights);
     uint i = 0u;
     for (; i < lights && !gave_up; i++) {
         Light light = NO_LIGHT;

@@ -120,7 +120,7 @@ vec3 shade_part(const Header header, Branch branch, uint shape) {
     float back = mirrored_share(material, ray.direction, surface.normal, ratio);
     // Secondary cones: those to the lights, or the refracted and then the reflected one, which as the last is
     // traced first.
-    uint branches = lit ? COUNT(LIGHTS, header.light_count) : (BOUNCES && branch.depth < header.max_depth ? 2u : 0u);
+    uint branches = lit ? COUNT(LIGHTS, lengths.lights) : (BOUNCES && branch.depth < header.max_depth ? 2u : 0u);
     vec3 sum = vec3(0.0);
     for (uint i = 0u; i < branches; i++) {
         bool through = BOUNCES && !lit && i == 0u;

@@ -82,7 +82,7 @@ const uint BATCH = 32u;
 // Collects the nearest shapes except `skip` that the cone meets before t_max, in order. Most shapes are
 // missed, which is tested first: computing coverage takes longer, and all threads wait while one does so.
 void collect_fragments(const Header header, const Cone cone, uint skip, float t_max) {
-    uint shapes = shape_count(header);
+    uint shapes = shape_count();
     piece_count = 0u;
     clear = 1.0;
 #define CLEAR(k) fragments[k] = Fragment(NO_SHAPE, FAR, FAR, FAR, 0.0, 0.0, vec2(0.0));

@@ -70,7 +70,7 @@ Aim sun_aim(const Light light, vec2 square) {
 Lit direct_light(const Header header, const Surface surface, float time, uint shape, const Bsdf bsdf, const Points points,
                  const SampleDimensions dimensions) {
     Lit sum = Lit(vec3(0.0), vec3(0.0));
-    uint lights = COUNT(LIGHTS, header.light_count);
+    uint lights = COUNT(LIGHTS, lengths.lights);
     real3 start = surface.point;
     if (SHADOWS) start = offset_origin(surface.point, surface.geometric_normal, surface.size);
     for (uint i = 0u; i < lights; i++) {

@@ -66,20 +66,20 @@ void main() {
     uvec2 pixel = uvec2(cell % across, cell / across) * side + header.crop;
     PixelFrustum frame = frame_over(header, pixel, float(side - 1u), MARGIN);
     unit_square(SQUARE);
-    COUNT_SHAPES(header)
+    COUNT_SHAPES
     uint begin = cell * CELL_WORDS;
     uint seen = 0u;
     uint listed = 0u;
     uint alone = 0u;
     bool round = false;
-#define SURVEY(Type, at, LIST, first, count, is_flat, is_listed)                            \
+#define SURVEY(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed)                            \
     for (uint i = 0u; i < count; i++) {                                               \
         if (may_meet(header, frame, SQUARE, at(i))) {                                 \
             if (is_listed && listed < MAX_LISTED) found[begin + 2u + listed] = i;     \
             listed += is_listed ? 1u : 0u;                                            \
-            seen += is_flat ? 1u : 0u;                                                \
-            alone = is_flat ? (first) + i : alone;                                    \
-            round = round || !is_flat;                                                \
+            seen += is_polygonal ? 1u : 0u;                                                \
+            alone = is_polygonal ? (first) + i : alone;                                    \
+            round = round || !is_polygonal;                                                \
         }                                                                             \
     }
     SHAPE_KINDS(SURVEY)

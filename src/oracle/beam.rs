@@ -118,7 +118,7 @@ impl Pixel<'_> {
     ) -> Result<()> {
         let scene = self.scene;
         let [material, map] = shape_links(scene, seen.shape);
-        let record = &scene.materials[material as usize];
+        let record = &scene.records.materials[material as usize];
         let near = seen.region.inverse_depth;
         let carried = beam.carried * record.color.as_dvec3();
         let textured = record.texture_index != NO_TEXTURE;
@@ -152,9 +152,9 @@ impl Pixel<'_> {
             near,
         };
         let unlit = !is_lit(record.model);
-        let lights = if unlit { 1 } else { scene.lights.len() };
+        let lights = if unlit { 1 } else { scene.records.lights.len() };
         for i in 0..lights {
-            let light = if unlit { None } else { Some(&scene.lights[i]) };
+            let light = if unlit { None } else { Some(&scene.records.lights[i]) };
             // Beams cannot integrate the penumbra of area lights.
             if light.is_some_and(|l| l.kind >= LightKind::Sphere) {
                 return Err(GaveUp);

@@ -158,8 +158,8 @@ fn shade_part(waiting: &mut Waiting, scene: &PackedScene, mut branch: Branch, sh
         if header.environment_material == NO_MATERIAL {
             return branch.weight * header.background.as_dvec3();
         }
-        let material = &scene.materials[header.environment_material as usize];
-        let map = &scene.uv_projections[header.environment_projection as usize];
+        let material = &scene.records.materials[header.environment_material as usize];
+        let map = &scene.records.uv_projections[header.environment_projection as usize];
         let print = endless_footprint(header, &beam, &ray);
         let nowhere = Surface::default();
         return branch.weight * surface_color(scene, material, Some(map), (&ray, &nowhere, &print), [0; 2]);
@@ -167,8 +167,8 @@ fn shade_part(waiting: &mut Waiting, scene: &PackedScene, mut branch: Branch, sh
     let hit = meet(scene, &ray, shape);
     let mut surface = hit_surface(scene, &ray, &hit);
     let print = footprint_at(header, &beam, &ray, hit.t, surface.geometric_normal);
-    let material = &scene.materials[surface.material as usize];
-    let map = scene.uv_projections.get(surface.map as usize);
+    let material = &scene.records.materials[surface.material as usize];
+    let map = scene.records.uv_projections.get(surface.map as usize);
     if let Some(map) = map {
         surface.normal = bumped_normal(scene, material, map, (&ray, &surface, &print), [0; 2]);
     }
@@ -184,7 +184,7 @@ fn shade_part(waiting: &mut Waiting, scene: &PackedScene, mut branch: Branch, sh
         return emitted(material.model, branch.weight);
     }
     if is_lit(material.model) {
-        for light in &scene.lights {
+        for light in &scene.records.lights {
             let next = lit_branch(&branch, &met, left_shape(scene, shape, inside), light);
             if largest(next.weight) > 0.0 {
                 waiting.send(next);

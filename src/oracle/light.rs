@@ -82,7 +82,7 @@ pub fn direct_light(
 ) -> Lit {
     let mut sum = Lit::default();
     let start = offset_origin(surface.point, surface.geometric_normal, surface.size);
-    for (i, light) in (0..).zip(&scene.lights) {
+    for (i, light) in (0..).zip(&scene.records.lights) {
         let square = || chosen(i);
         let kind = light.kind;
         let aim = match kind {

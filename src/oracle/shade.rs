@@ -76,8 +76,8 @@ fn is_normal_map(material: &Material) -> bool {
 }
 
 fn detail(scene: &PackedScene, material: &Material, c: &Coordinate, random: [u32; 2]) -> DVec4 {
-    let image = &scene.textures[material.bump_texture_index as usize];
-    sample_texture(scene, image, &scene.samplers[material.sampler_index as usize], c, random)
+    let image = &scene.records.textures[material.bump_texture_index as usize];
+    sample_texture(scene, image, &scene.records.samplers[material.sampler_index as usize], c, random)
 }
 
 /// Returns the shading normal after the material's bump map.
@@ -108,7 +108,7 @@ pub fn bumped_normal(
         let b = n.cross(u).normalize_or_zero();
         n * m.z + (t * m.x + b * m.y) * strength * handed
     } else {
-        let image = &scene.textures[texture as usize];
+        let image = &scene.records.textures[texture as usize];
         let texel = DVec2::new(1.0 / f64::from(image.size.x), 1.0 / f64::from(image.size.y));
         let wide = 0.5 * c.change[0].abs().max(c.change[1].abs()).truncate();
         let step = texel.max(wide);
@@ -139,8 +139,8 @@ pub fn surface_color(
     let (Some(map), true) = (map, texture != NO_TEXTURE) else { return color };
     let (ray, surface, print) = at;
     let c = texture_coordinate(map, &map_input(map, ray, surface, print));
-    let image = &scene.textures[texture as usize];
-    color * sample_texture(scene, image, &scene.samplers[sampler as usize], &c, random).truncate()
+    let image = &scene.records.textures[texture as usize];
+    color * sample_texture(scene, image, &scene.records.samplers[sampler as usize], &c, random).truncate()
 }
 
 /// A path between two hits: the ray, its width, the path's throughput, and the shape that it leaves.
@@ -208,8 +208,8 @@ fn background(scene: &PackedScene, path: &Path) -> DVec3 {
     if header.environment_material == NO_MATERIAL {
         return path.throughput * header.background.as_dvec3();
     }
-    let material = &scene.materials[header.environment_material as usize];
-    let map = &scene.uv_projections[header.environment_projection as usize];
+    let material = &scene.records.materials[header.environment_material as usize];
+    let map = &scene.records.uv_projections[header.environment_projection as usize];
     let print = if is_filtered(header) {
         endless_footprint(header, &path.beam, &path.ray)
     } else {
@@ -237,8 +237,8 @@ pub fn advance(scene: &PackedScene, path: &mut Path) -> DVec3 {
     } else {
         Footprint::default()
     };
-    let material = &scene.materials[surface.material as usize];
-    let map = scene.uv_projections.get(surface.map as usize);
+    let material = &scene.records.materials[surface.material as usize];
+    let map = scene.records.uv_projections.get(surface.map as usize);
     let ray = path.ray;
     if let Some(map) = map {
         surface.normal = bumped_normal(scene, material, map, (&ray, &surface, &print), path.random);

@@ -46,17 +46,17 @@ pub fn is_simple(scene: &PackedScene, shape: u32, record: &Material, map: u32) -
     if texture == NO_TEXTURE {
         return true;
     }
-    let map = &scene.uv_projections[map as usize];
+    let map = &scene.records.uv_projections[map as usize];
     let flat = matches!(map.kind, MapKind::Plane | MapKind::VertexUv | MapKind::Affine);
     if !flat || map.entity != EntityKind::Position || is_specular(record.model) {
         return false;
     }
-    let image = &scene.textures[texture as usize];
+    let image = &scene.records.textures[texture as usize];
     if image.kind == TextureKind::Procedural {
-        let what = &scene.procedurals[image.procedural as usize];
+        let what = &scene.records.procedurals[image.procedural as usize];
         return what.kind == ProceduralKind::Checker && what.dimensions < 3;
     }
-    let sampler = &scene.samplers[record.sampler_index as usize];
+    let sampler = &scene.records.samplers[record.sampler_index as usize];
     let known = |address: Address| {
         matches!(address, Address::Repeat | Address::MirroredRepeat | Address::ClampToEdge)
     };
@@ -80,9 +80,9 @@ fn mean_color(
         return None;
     }
     let mean = mean_over(&grid, strip, quotient, reach < SMALLEST, crossed);
-    let image = &scene.textures[record.texture_index as usize];
+    let image = &scene.records.textures[record.texture_index as usize];
     if image.kind == TextureKind::Procedural {
-        let what = &scene.procedurals[image.procedural as usize];
+        let what = &scene.records.procedurals[image.procedural as usize];
         return Some(what.background.as_dvec3().lerp(what.figure.as_dvec3(), mean.x));
     }
     Some(DVec3::splat(grid.least) + grid.step * mean)
@@ -148,7 +148,7 @@ pub fn integral(
     let strips = if flat { 1.0 } else { (STRIPS * span).sqrt().ceil().clamp(1.0, MAX_STRIPS) };
     let most = CELLS_OF_AN_EDGE + CELLS_OF_ALL / strips;
     let grid = quotient.map(|_| {
-        let image = &scene.textures[record.texture_index as usize];
+        let image = &scene.records.textures[record.texture_index as usize];
         if image.kind == TextureKind::Procedural {
             return checker_grid();
         }
@@ -156,7 +156,7 @@ pub fn integral(
             &scene.prefix_sums,
             record.texture_index,
             image,
-            &scene.samplers[record.sampler_index as usize],
+            &scene.records.samplers[record.sampler_index as usize],
         )
     });
     let mut rest = *polygon;

@@ -11,6 +11,6 @@ pub fn triangles_of(scene: &PackedScene, place: [u32; 2]) -> Vec<u32> {
     let header = &scene.header;
     let pixel = [place[0] + header.crop.x, place[1] + header.crop.y];
     let frame = frame_over(header, pixel, f64::from(header.cell_side - 1), 0.0);
-    let triangles = (0..).zip(&scene.triangles);
+    let triangles = (0..).zip(&scene.records.triangles);
     triangles.filter(|(_, t)| t.may_meet(header, &frame, &unit_square())).map(|(i, _)| i).collect()
 }

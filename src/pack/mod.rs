@@ -28,7 +28,7 @@ use crate::scene::model::{
     Algorithm, BumpKind, Environment, EnvironmentLayout, Footprint, Material, Model, PixelFilter, Precision,
     Scene,
 };
-use crate::schema::layout::{self, CHUNK, Header};
+use crate::schema::layout::{self, CHUNK, Header, Records};
 use crate::texture::data::TextureData;
 use crate::texture::sampler_spec::{Address, Method, SamplerSpec};
 use pixel_filter::Warp;
@@ -44,21 +44,11 @@ pub use procedural::procedural;
 pub use sections::Sections;
 pub use textures::{MAX_SLOTS, Slot, prefix_sum_words, prefix_sums};
 
-/// All that is rendered from: the lists behind the scene buffer, and the texels.
+/// All that is rendered from: header and lists of records of the scene buffer, and the texels.
 #[derive(Clone, Debug, Default)]
 pub struct PackedScene {
     pub header: Header,
-    pub planes: Vec<layout::Plane>,
-    pub spheres: Vec<layout::Sphere>,
-    pub triangles: Vec<layout::Triangle>,
-    pub lights: Vec<layout::Light>,
-    pub materials: Vec<layout::Material>,
-    pub uv_projections: Vec<layout::UvProjection>,
-    pub textures: Vec<layout::Texture>,
-    pub samplers: Vec<layout::Sampler>,
-    pub procedurals: Vec<layout::Procedural>,
-    /// Of all shapes, where some move; else none.
-    pub motions: Vec<layout::Motion>,
+    pub records: Records,
     /// Names of the textures, for messages.
     pub texture_names: Vec<String>,
     /// Channels that each texture's file has, for messages.
@@ -168,18 +158,17 @@ pub fn pack_with(
     {
         packed.beam_textures = Some(Arc::new(textures.clone()));
     }
-    packed.samplers = scene.samplers.iter().map(|spec| textures::sampler(spec, filtered)).collect();
+    packed.records.samplers = scene.samplers.iter().map(|spec| textures::sampler(spec, filtered)).collect();
     textures::pack_textures(&mut packed, scene, textures, mip_chains)?;
     for source in &scene.materials {
         let material = material(&mut packed, source);
-        packed.materials.push(material);
+        packed.records.materials.push(material);
     }
     geometry::pack_shapes(&mut packed, scene)?;
     if let Some(environment) = &scene.background.environment {
         pack_environment(&mut packed, scene, environment);
     }
-    packed.lights = scene.lights.iter().map(|l| lights::light(l, scene.camera.eye)).collect();
-    packed.header.light_count = packed.lights.len() as u32;
+    packed.records.lights = scene.lights.iter().map(|l| lights::light(l, scene.camera.eye)).collect();
     packed.header.sample_dimensions = sample_dimensions::sample_dimensions(scene);
     packed.header.camera_moves = scene.camera.moves();
     packed.header.cell_side = tile_culling::cell_side(scene, [crop.width, crop.height]);
@@ -226,20 +215,20 @@ fn pack_environment(packed: &mut PackedScene, scene: &Scene, environment: &Envir
     let mut sampler = environment.sampler;
     if environment.layout == EnvironmentLayout::Equirectangular {
         // The same sampler on a shape does not go on over poles.
-        let mut record = packed.samplers[sampler];
+        let mut record = packed.records.samplers[sampler];
         record.crosses_poles = true;
         // From pole to pole: with `repeat` the lower half would be read as what lies above the upper one.
         record.address_v = Address::ClampToEdge;
         let spec = packed.sampler_specs[sampler];
-        packed.samplers.push(record);
+        packed.records.samplers.push(record);
         packed.sampler_specs.push(SamplerSpec { address: [spec.address[0], Address::ClampToEdge], ..spec });
-        sampler = packed.samplers.len() - 1;
+        sampler = packed.records.samplers.len() - 1;
     }
     let slot = textures::slot(packed, environment.texture, sampler);
-    packed.header.environment_material = packed.materials.len() as u32;
-    packed.header.environment_projection = packed.uv_projections.len() as u32;
-    packed.uv_projections.push(mapping::environment_map(environment));
-    packed.materials.push(layout::Material {
+    packed.header.environment_material = packed.records.materials.len() as u32;
+    packed.header.environment_projection = packed.records.uv_projections.len() as u32;
+    packed.records.uv_projections.push(mapping::environment_map(environment));
+    packed.records.materials.push(layout::Material {
         color: scene.background.color.as_vec3(),
         model: Model::PLAIN,
         texture_index: environment.texture as u32,
@@ -270,7 +259,7 @@ impl PackedScene {
     /// Is there anything to look up that images of flat textures do not hold?
     pub fn has_solids(&self) -> bool {
         let solids = [TextureKind::Volume, TextureKind::Cube];
-        self.summed_tables || self.textures.iter().any(|t| solids.contains(&t.kind))
+        self.summed_tables || self.records.textures.iter().any(|t| solids.contains(&t.kind))
     }
 
     /// Of images alone.

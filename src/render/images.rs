@@ -68,7 +68,7 @@ impl<'a> Uploads<'a> {
 pub fn hold(gpu: &Gpu, packed: &PackedScene) -> bool {
     let most = gpu.info().limits.max_image_2d;
     let holds = |slot: &Slot| {
-        let texture = &packed.textures[slot.texture];
+        let texture = &packed.records.textures[slot.texture];
         texture.size.x.max(texture.size.y) <= most && gpu.supports(image_format(texture.format, false), false)
     };
     packed.slots.len() <= MAX_SLOTS && packed.slots.iter().all(holds)
@@ -112,7 +112,7 @@ struct Form {
 
 impl Form {
     fn of(packed: &PackedScene, slot: &Slot, spec: &SamplerSpec) -> Form {
-        let texture = &packed.textures[slot.texture];
+        let texture = &packed.records.textures[slot.texture];
         let srgb = texture.color_space == ColorSpace::Srgb;
         Form::new(slot.hardware, srgb, spec)
     }
@@ -144,7 +144,7 @@ fn upload_image(
     index: usize,
     form: Form,
 ) -> Result<Image> {
-    let record = &packed.textures[index];
+    let record = &packed.records.textures[index];
     let [width, height, depth] = record.size.to_array();
     let mut format = record.format;
     let name = &packed.texture_names[index];

@@ -48,14 +48,14 @@ fn iterations_of_cones(scene: &PackedScene, ellipse: u64) -> u64 {
     const PIECES: u64 = MAX_CONE_FRAGMENTS as u64;
     const SEEN: u64 = 3;
     let shapes = scene.shape_count() as u64;
-    let lights = scene.lights.len() as u64;
+    let lights = scene.records.lights.len() as u64;
     let cones = if bounces(scene) { CONES } else { CONES.min(1 + PIECES * lights) };
     let gathered = 4 + shapes + shapes / 16 + 2 * PIECES;
     // Each pair in both orders, with two shapes each time.
     let laid_over = 3 * SEEN * (SEEN - 1);
-    let bumped = scene.materials.iter().any(|m| m.bump_texture_index != NO_TEXTURE);
+    let bumped = scene.records.materials.iter().any(|m| m.bump_texture_index != NO_TEXTURE);
     let look_ups = if bumped { TAPS } else { 1 } * iterations_of_a_look_up(scene, 0);
-    let records = (scene.materials.len() + scene.uv_projections.len()) as u64;
+    let records = (scene.records.materials.len() + scene.records.uv_projections.len()) as u64;
     let shaded = SEEN * (1 + records + look_ups + lights.max(2) * (2 + lights));
     // Ellipses of that size occur at the horizon, which few cones see.
     cones * (gathered + laid_over + shaded) + ellipse
@@ -68,11 +68,13 @@ fn iterations_of_a_sample(scene: &PackedScene, ellipse: u64) -> u64 {
     }
     let count = |n: usize| n as u64;
     let shapes = count(scene.shape_count()) + 3;
-    let records = count(scene.materials.len() + scene.uv_projections.len() + scene.motions.len());
+    let records = count(
+        scene.records.materials.len() + scene.records.uv_projections.len() + scene.records.motions.len(),
+    );
     let rays = if bounces(scene) { 1 + u64::from(scene.header.max_depth) } else { 1 };
-    let bumped = scene.materials.iter().any(|m| m.bump_texture_index != NO_TEXTURE);
+    let bumped = scene.records.materials.iter().any(|m| m.bump_texture_index != NO_TEXTURE);
     let taps = if bumped { TAPS } else { 1 };
-    let hit = 1 + shapes + records + count(scene.lights.len()) * (1 + shapes);
+    let hit = 1 + shapes + records + count(scene.records.lights.len()) * (1 + shapes);
     let chances = scene.header.sample_dimensions;
     let glass = u64::from(chances >> SampleDimension::Fresnel as u32 & 1);
     let choices = if chances == 0 { 0 } else { (4 + glass) * (1 + POINTS) };
@@ -80,9 +82,11 @@ fn iterations_of_a_sample(scene: &PackedScene, ellipse: u64) -> u64 {
 }
 
 fn iterations_of_a_look_up(scene: &PackedScene, ellipse: u64) -> u64 {
-    let records = (scene.textures.len() + scene.samplers.len() + scene.procedurals.len()) as u64;
-    let is = |kind: TextureKind| scene.textures.iter().any(|t| t.kind == kind);
-    let procedural = scene.procedurals.iter().map(iterations_of_a_procedural).max().unwrap_or(0);
+    let records = (scene.records.textures.len()
+        + scene.records.samplers.len()
+        + scene.records.procedurals.len()) as u64;
+    let is = |kind: TextureKind| scene.records.textures.iter().any(|t| t.kind == kind);
+    let procedural = scene.records.procedurals.iter().map(iterations_of_a_procedural).max().unwrap_or(0);
     let solid = if is(TextureKind::Volume) || is(TextureKind::Cube) { SOLID } else { 1 };
     let of_sampler = |sampler: &Sampler| {
         let iterations = [sampler.mag_filter, sampler.min_filter].map(|f| f.traits().loop_cost);
@@ -97,7 +101,7 @@ fn iterations_of_a_look_up(scene: &PackedScene, ellipse: u64) -> u64 {
         });
         area.max(probes * (1 + place))
     };
-    let stored = scene.samplers.iter().map(of_sampler).max().unwrap_or(0);
+    let stored = scene.records.samplers.iter().map(of_sampler).max().unwrap_or(0);
     records + stored.max(procedural)
 }
 

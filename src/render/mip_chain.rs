@@ -36,7 +36,7 @@ pub struct MipChain {
 
 /// Returns the sizes of all levels of a texture.
 pub fn sizes(packed: &PackedScene, texture: usize) -> Vec<[u32; 3]> {
-    (0..packed.textures[texture].levels).map(|level| packed.level_size(texture, level)).collect()
+    (0..packed.records.textures[texture].levels).map(|level| packed.level_size(texture, level)).collect()
 }
 
 /// Generates mip chains; textures of one format share a pipeline.

@@ -14,17 +14,8 @@ pub fn constants(
     group: [u32; 2],
     slots: SlotCounts,
 ) -> Vec<(u32, u32)> {
+    let places = sections.lists.iter().map(|&(list, at)| (Constant::At(list), at));
     let parameters = [
-        (Constant::PlanesAt, sections.planes),
-        (Constant::SpheresAt, sections.spheres),
-        (Constant::TrianglesAt, sections.triangles),
-        (Constant::LightsAt, sections.lights),
-        (Constant::MaterialsAt, sections.materials),
-        (Constant::UvProjectionsAt, sections.uv_projections),
-        (Constant::TexturesAt, sections.textures),
-        (Constant::SamplersAt, sections.samplers),
-        (Constant::ProceduralsAt, sections.procedurals),
-        (Constant::MotionsAt, sections.motions),
         (Constant::PixelFilterAt, sections.pixel_filter),
         (Constant::GroupX, group[0]),
         (Constant::GroupY, group[1]),
@@ -34,5 +25,5 @@ pub fn constants(
         (Constant::TexelBlocks, slots.texel_blocks.max(1)),
         (Constant::BlockLog2, slots.block_log2),
     ];
-    shader.values(features.values.iter().copied().chain(parameters))
+    shader.values(features.values.iter().copied().chain(places).chain(parameters))
 }

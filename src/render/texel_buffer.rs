@@ -32,7 +32,7 @@ impl TexelBuffer {
         let texel_buffer = TexelBuffer::new(gpu, packed, bytes as u64, most_words)?;
         let mut written = 0;
         for &texture in &packed.device_levels {
-            let record = &packed.textures[texture];
+            let record = &packed.records.textures[texture];
             let start = record.first_word as usize * 4;
             if start >= bytes {
                 continue;

@@ -5,7 +5,7 @@
 use std::path::{Path, PathBuf};
 
 use super::checks;
-use super::geometry::{self, Kind};
+use super::geometry::{self, Kind, Shapes};
 use super::limits::{MAX_TEXTURES, check_filters};
 use super::model::{Background, Camera, Light, Material, PixelFilter, Sampling, Scene, TextureSource};
 use super::refusal::{Check, Key};
@@ -38,9 +38,7 @@ impl SceneBuilder {
             textures: Vec::new(),
             samplers: Vec::new(),
             materials: Vec::new(),
-            planes: Vec::new(),
-            spheres: Vec::new(),
-            triangles: Vec::new(),
+            shapes: Shapes::default(),
             dropped_triangles: 0,
             first_dropped: String::new(),
             lights: Vec::new(),
@@ -87,9 +85,9 @@ impl SceneBuilder {
         push(&mut self.scene.materials, material)
     }
 
-    /// Adds a plane, a sphere or a triangle.
+    /// Adds a shape.
     pub fn shape(&mut self, shape: impl Kind) -> &mut Self {
-        self.over = self.over.or(geometry::add(&mut self.scene, shape));
+        self.over = self.over.or(geometry::add(&mut self.scene.shapes, shape));
         self
     }
 
@@ -133,7 +131,7 @@ impl SceneBuilder {
         if textures > MAX_TEXTURES {
             return refuse(Key::item("texture", MAX_TEXTURES), textures, "textures", MAX_TEXTURES);
         }
-        geometry::check_count(&self.scene, self.over)
+        geometry::check_count(&self.scene.shapes, self.over)
     }
 
     /// Adds the default sampler and the default material where something has them.
@@ -158,7 +156,7 @@ impl SceneBuilder {
         }
         let added = scene.materials.len();
         let mut uses_default = false;
-        for shape in scene.shapes_mut().filter(|shape| shape.material() == DEFAULT) {
+        for shape in scene.shapes.iter_mut().filter(|shape| shape.material() == DEFAULT) {
             *shape.material_mut() = added;
             uses_default = true;
         }

@@ -7,7 +7,7 @@ use super::model::{Light, PixelFilterKind, Scene};
 impl Scene {
     /// Of all shapes.
     pub fn motions(&self) -> impl Iterator<Item = DVec3> {
-        self.shapes().map(|shape| shape.motion())
+        self.shapes.iter().map(|shape| shape.motion())
     }
 
     /// Returns whether any shape moves.

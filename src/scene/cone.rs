@@ -36,7 +36,7 @@ pub fn freeze_time(scene: &Scene) -> Scene {
     let [eye, look_at] = camera.motion;
     (camera.eye, camera.look_at) = (camera.eye + time * eye, camera.look_at + time * look_at);
     (camera.lens, camera.motion) = (None, Default::default());
-    settled.shapes_mut().for_each(|shape| shape.freeze(time));
+    settled.shapes.iter_mut().for_each(|shape| shape.freeze(time));
     for light in &mut settled.lights {
         *light = match *light {
             Light::Sphere { position, intensity, .. } => Light::Point { position, intensity },

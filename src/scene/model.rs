@@ -7,7 +7,8 @@ use glam::DVec3;
 
 pub use super::bsdf::Model;
 pub use super::camera::{Camera, Lens, Projection};
-pub use super::geometry::{Bounds, Plane, Shape, Sphere, Triangle};
+pub use super::geometry::kinds::*;
+pub use super::geometry::{Bounds, Shape, Shapes};
 pub use super::mapping::{Entity, Mapping, MappingKind, Space};
 pub use super::pixel_filter::{PixelFilter, PixelFilterKind};
 pub use super::sampling::{Algorithm, Footprint, Pattern, Precision, Sampling};
@@ -39,12 +40,8 @@ pub struct Scene {
     pub samplers: Vec<SamplerSpec>,
     /// What surfaces do with light.
     pub materials: Vec<Material>,
-    /// All planes.
-    pub planes: Vec<Plane>,
-    /// All spheres.
-    pub spheres: Vec<Sphere>,
-    /// All triangles that have an area.
-    pub triangles: Vec<Triangle>,
+    /// All shapes; triangles that have no area are left out.
+    pub shapes: Shapes,
     /// Triangles that have no area: no ray meets them.
     pub dropped_triangles: usize,
     /// Where the first of them stood.

@@ -8,9 +8,9 @@ use crate::core::counted::{counted, verb};
 /// What was dropped, for `-v`.
 pub fn prune(scene: &mut Scene) -> Vec<String> {
     let mut dropped = Vec::new();
-    let used: Vec<usize> = scene.shapes().map(|shape| shape.material()).collect();
+    let used: Vec<usize> = scene.shapes.iter().map(|shape| shape.material()).collect();
     let materials = keep(&mut scene.materials, &used);
-    for shape in scene.shapes_mut() {
+    for shape in scene.shapes.iter_mut() {
         *shape.material_mut() = materials[shape.material()];
     }
     note(&mut dropped, "material", &materials);

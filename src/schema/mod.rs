@@ -13,4 +13,5 @@ pub mod layout;
 pub mod packing;
 pub mod record;
 pub mod records;
+pub mod shapes;
 pub mod specialization;

@@ -40,11 +40,6 @@ records! {
         camera_moves: bool,
         /// Side of a tile culling cell in pixels; 0 without tile culling.
         cell_side: u32,
-        plane_count: u32,
-        sphere_count: u32,
-        triangle_count: u32,
-        light_count: u32,
-        motion_count: u32,
         /// Material of the environment, or `NO_MATERIAL`.
         environment_material: u32,
         environment_projection: u32,
@@ -218,7 +213,7 @@ records! {
         dimensions: u32,
     }
 
-    /// The motion of a shape, in the order planes, spheres, triangles.
+    /// The motion of a shape, in the order of shapes; the list is empty if nothing moves.
     Motion in motions as "choice among motions" {
         /// Displacement between the times 0 and 1.
         shift: DVec3,

@@ -1,8 +1,9 @@
 //! The specialization constants: name in the shader, meaning of the value, and the user-visible name of the code that
-//! it controls. Ids follow the order. `modes` is a bit mask: with one bit set the mode is known when the pipeline is
-//! built and no test remains; several bits mean a test at run time. `count` is a number or `DYNAMIC`, `switch` is code
-//! that may be removed; the defaults keep everything, and `src/pack/features.rs` narrows these three. A `parameter` is
-//! set by the code that builds the pipeline; for `id` the shader's file itself declares type and default.
+//! it controls. Ids follow the order; those of the lists of records (`NAME` for the length, `NAME_AT` for the offset)
+//! come last. `modes` is a bit mask: with one bit set the mode is known when the pipeline is built and no test remains;
+//! several bits mean a test at run time. `count` is a number or `DYNAMIC`, `switch` is code that may be removed; the
+//! defaults keep everything, and `src/pack/features.rs` narrows these three. A `parameter` is set by the code that
+//! builds the pipeline; for `id` the shader's file itself declares type and default.
 
 specialization! {
     GroupX = "GROUP_X", id, "width of a workgroup";
@@ -11,14 +12,6 @@ specialization! {
     Patterns = "PATTERNS", modes(Pattern), "pattern";
     StrataSide = "STRATA_SIDE", count, "number of strata read at run time";
     Samples = "SAMPLES", count, "number of samples read at run time";
-    Planes = "PLANES", count, "loop over planes";
-    Spheres = "SPHERES", count, "loop over spheres";
-    Triangles = "TRIANGLES", count, "loop over triangles";
-    Lights = "LIGHTS", count, "loop over lights";
-    Materials = "MATERIALS", count, "choice among materials";
-    UvProjections = "UV_PROJECTIONS", count, "choice among mappings";
-    Textures = "TEXTURES", count, "choice among textures";
-    Samplers = "SAMPLERS", count, "choice among samplers";
     BoundedPlanes = "BOUNDED_PLANES", switch, "bounds of planes";
     SmoothNormals = "SMOOTH_NORMALS", switch, "interpolated normals";
     Models = "MODELS", modes(Model), "reflection model";
@@ -57,7 +50,6 @@ specialization! {
     ColorSpaces = "COLOR_SPACES", modes(ColorSpace), "colour space";
     /// Some texture has 16-bit sRGB.
     DeepSrgb = "DEEP_SRGB", switch, "sRGB of 16 bits";
-    Procedurals = "PROCEDURALS", count, "choice among procedural textures";
     ProceduralKinds = "PROCEDURAL_KINDS", modes(ProceduralKind), "procedural";
     /// Averaged over footprints.
     ProceduralFiltered = "PROCEDURAL_FILTERED", switch, "filter of procedural textures";
@@ -69,8 +61,6 @@ specialization! {
     ConeShapes = "CONE_SHAPES", count, "cones through more shapes";
     /// Sample dimensions beside the position in the pixel.
     SampleDimensions = "SAMPLE_DIMENSIONS", modes(SampleDimension), "choice of a sample";
-    /// The number of shapes if some move, otherwise 0.
-    Motions = "MOTIONS", count, "choice among motions";
     MovingCamera = "MOVING_CAMERA", switch, "motion of the camera";
     Schedules = "SCHEDULES", modes(Schedule), "schedule";
     PixelFilters = "PIXEL_FILTERS", modes(PixelFilterKind), "pixel filter";
@@ -80,16 +70,6 @@ specialization! {
     TileCulled = "TILE_CULLED", switch, "triangles by cells of the picture";
     /// A pixel filter other than the box of one pixel.
     Warped = "WARPED", switch, "samples beyond their pixels";
-    PlanesAt = "PLANES_AT", parameter(0), "where planes begin in the scene buffer";
-    SpheresAt = "SPHERES_AT", parameter(0), "where spheres begin in the scene buffer";
-    TrianglesAt = "TRIANGLES_AT", parameter(0), "where triangles begin in the scene buffer";
-    LightsAt = "LIGHTS_AT", parameter(0), "where lights begin in the scene buffer";
-    MaterialsAt = "MATERIALS_AT", parameter(0), "where materials begin in the scene buffer";
-    UvProjectionsAt = "UV_PROJECTIONS_AT", parameter(0), "where projections begin in the scene buffer";
-    TexturesAt = "TEXTURES_AT", parameter(0), "where textures begin in the scene buffer";
-    SamplersAt = "SAMPLERS_AT", parameter(0), "where samplers begin in the scene buffer";
-    ProceduralsAt = "PROCEDURALS_AT", parameter(0), "where procedurals begin in the scene buffer";
-    MotionsAt = "MOTIONS_AT", parameter(0), "where motions begin in the scene buffer";
     PixelFilterAt = "PIXEL_FILTER_AT", parameter(0), "where the table of the pixel filter begins";
     /// Image descriptors: of 2D textures, volumes, cubes.
     Slots = "SLOTS", parameter(1), "flat images";

@@ -46,15 +46,20 @@ macro_rules! blocks {
     };
 }
 
-/// Specialization constants, in the order of their ids.
+/// Specialization constants, in the order of their ids; two for each list of records follow.
 macro_rules! specialization {
     ($($(#[$meta:meta])* $variant:ident = $name:literal, $kind:ident $(($($of:tt)+))?, $what:literal;)+) => {
         use super::enums::*;
-        use crate::core::named::named_enum;
+        use super::records::List;
 
-        named_enum! {
-            /// A specialization constant of the shaders.
-            pub enum Constant { $($(#[$meta])* $variant = $name,)+ }
+        /// A specialization constant of the shaders.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+        pub enum Constant {
+            $($(#[$meta])* #[doc = concat!("Written `", $name, "`.")] $variant,)+
+            /// The length of a list of records.
+            Length(List),
+            /// The offset of a list in the scene buffer, in units of 16 bytes.
+            At(List),
         }
 
         /// The meaning of a specialization constant's value.
@@ -70,22 +75,45 @@ macro_rules! specialization {
             Parameter,
         }
 
-        impl Constant {
-            const WHAT: &'static [&'static str] = &[$($what,)+];
-            const KINDS: &'static [Kind] = &[$(kind!($kind $(($($of)+))?),)+];
+        /// The rows of the table: constant, meaning of its value, and user-visible name of the code that it controls.
+        const ROWS: &[(Constant, Kind, &str)] =
+            &[$((Constant::$variant, kind!($kind $(($($of)+))?), $what),)+];
 
-            /// Returns the constant id in SPIR-V.
-            pub const fn id(self) -> u32 {
-                self as u32
+        impl Constant {
+            /// Returns all constants, in the order of their ids.
+            pub fn all() -> impl Iterator<Item = Constant> {
+                let rows = ROWS.iter().map(|row| row.0);
+                rows.chain(List::ALL.iter().flat_map(|&list| [Constant::Length(list), Constant::At(list)]))
             }
 
-            pub const fn kind(self) -> Kind {
-                Constant::KINDS[self as usize]
+            /// Returns the constant id in SPIR-V.
+            pub fn id(self) -> u32 {
+                Constant::all().take_while(|&constant| constant != self).count() as u32
+            }
+
+            /// Returns the name that the shaders use.
+            pub fn name(self) -> String {
+                match self {
+                    $(Constant::$variant => $name.to_owned(),)+
+                    Constant::Length(list) => list.name().to_uppercase(),
+                    Constant::At(list) => list.name().to_uppercase() + "_AT",
+                }
+            }
+
+            pub fn kind(self) -> Kind {
+                match self {
+                    Constant::Length(_) => Kind::Count,
+                    Constant::At(_) => Kind::Parameter,
+                    _ => ROWS[self.id() as usize].1,
+                }
             }
 
             /// Returns the user-visible name of the code that it controls.
-            pub const fn what(self) -> &'static str {
-                Constant::WHAT[self as usize]
+            pub fn what(self) -> &'static str {
+                match self {
+                    Constant::Length(list) | Constant::At(list) => list.what(),
+                    _ => ROWS[self.id() as usize].2,
+                }
             }
         }
     };
@@ -118,26 +146,95 @@ macro_rules! records {
     ($($(#[$meta:meta])* $record:ident $(in $list:ident as $what:literal)? { $($(#[$fmeta:meta])* $field:ident: $type:ident,)+ })+) => {
         use super::enums::*;
         use super::packing::{Packer, shape};
-        use super::record::{Field as _, RealBits, Record, Writer};
+        use super::record::{Field as _, RealBits, Record, Writer, bytes_of};
         use glam::{DVec2, DVec3, DVec4, UVec2, UVec3, Vec3, Vec4};
-        $(
-            $(#[$meta])*
-            #[derive(Clone, Copy, Debug, Default, PartialEq)]
-            pub struct $record { $($(#[$fmeta])* pub $field: $type,)+ }
+        $(record! { $(#[$meta])* $record { $($(#[$fmeta])* $field: $type,)+ } })+
 
-            impl Record for $record {
-                const UNITS: (u32, u32) = Packer::units(&[$(shape(stringify!($type)),)+]);
+        record! {
+            /// The length of each list of records.
+            Lengths { $($($list: u32,)?)+ }
+        }
 
-                fn write(&self, double: bool, bytes: &mut Vec<u8>) {
-                    let mut writer = Writer::new(double, bytes);
-                    $(writer.field(shape(stringify!($type)), self.$field);)+
-                    writer.end();
-                }
+        /// A list of records in the scene buffer.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+        pub enum List {
+            $($(#[doc = concat!("`", stringify!($list), "`.")] $record,)?)+
+        }
 
-                fn quantize_f32(&self) -> Self {
-                    $record { $($field: self.$field.quantize_f32(),)+ }
+        impl List {
+            /// All lists, in the order of the table.
+            pub const ALL: &'static [List] = &[$($(list!($list List::$record),)?)+];
+            const NAMES: &'static [&'static str] = &[$($(stringify!($list),)?)+];
+            const WHAT: &'static [&'static str] = &[$($($what,)?)+];
+
+            pub const fn name(self) -> &'static str {
+                List::NAMES[self as usize]
+            }
+
+            /// Returns the user-visible name of the code that loops over it.
+            pub const fn what(self) -> &'static str {
+                List::WHAT[self as usize]
+            }
+        }
+
+        /// The lists of records after the header of the scene buffer.
+        #[derive(Clone, Debug, Default)]
+        pub struct Records {
+            $($(pub $list: Vec<$record>,)?)+
+        }
+
+        impl Records {
+            pub fn lengths(&self) -> Lengths {
+                Lengths { $($($list: self.$list.len() as u32,)?)+ }
+            }
+
+            pub fn len(&self, list: List) -> usize {
+                match list {
+                    $($(List::$record => self.$list.len(),)?)+
                 }
             }
-        )+
+
+            /// Returns the bytes of a list.
+            pub fn bytes(&self, list: List, double: bool) -> Vec<u8> {
+                match list {
+                    $($(List::$record => bytes_of(&self.$list, double),)?)+
+                }
+            }
+
+            /// Rounds all records to the f32 values that the shader reads unless it reads f64.
+            pub fn quantize_f32(&mut self) {
+                $($(self.$list.iter_mut().for_each(|record| *record = record.quantize_f32());)?)+
+            }
+        }
+    };
+}
+
+/// Expands to the second of two tokens: a list's name drives the repetition.
+macro_rules! list {
+    ($list:ident $variant:expr) => {
+        $variant
+    };
+}
+
+/// Implements a record: writing its fields, and rounding them to the values of an f32 shader.
+macro_rules! record {
+    ($(#[$meta:meta])* $record:ident { $($(#[$fmeta:meta])* $field:ident: $type:ident,)+ }) => {
+        $(#[$meta])*
+        #[derive(Clone, Copy, Debug, Default, PartialEq)]
+        pub struct $record { $($(#[$fmeta])* pub $field: $type,)+ }
+
+        impl Record for $record {
+            const UNITS: (u32, u32) = Packer::units(&[$(shape(stringify!($type)),)+]);
+
+            fn write(&self, double: bool, bytes: &mut Vec<u8>) {
+                let mut writer = Writer::new(double, bytes);
+                $(writer.field(shape(stringify!($type)), self.$field);)+
+                writer.end();
+            }
+
+            fn quantize_f32(&self) -> Self {
+                $record { $($field: self.$field.quantize_f32(),)+ }
+            }
+        }
     };
 }

@@ -150,10 +150,10 @@ fn what_beams_cannot_tell_is_sampled_and_counted() {
 fn crowded_pixels_are_left_to_samples() {
     let mut scene = small("beams", 32, 64);
     scene.lights.clear();
-    let first = scene.triangles[0];
+    let first = scene.shapes.triangles[0];
     for k in 0..12 {
         let by = glam::DVec3::new(0.0, 0.02 * f64::from(k), 0.01 * f64::from(k));
-        scene.triangles.push(moire::internal::scene::model::Triangle {
+        scene.shapes.triangles.push(moire::internal::scene::model::Triangle {
             vertices: first.vertices.map(|v| v + by),
             ..first
         });

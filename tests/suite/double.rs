@@ -140,10 +140,10 @@ fn the_device_under_test_has_f64() {
 fn a_device_without_f64_renders_in_f32_and_says_so() {
     let mut scene = in_double(small("s1a", 40, 4));
     let single = packed(small("s1a", 40, 4), None);
-    let told = scene.suit_device(false).unwrap();
+    let told = scene.adapt_to_device(false).unwrap();
     assert!(told.contains("no f64") && told.contains("--precision single"), "{told}");
     assert!(!scene.double);
-    assert_eq!((scene.header, &scene.planes), (single.header, &single.planes));
-    assert_eq!(in_double(small("s1a", 40, 4)).suit_device(true), None);
-    assert_eq!(scene.suit_device(false), None, "a scene of f32 has nothing to tell");
+    assert_eq!((scene.header, &scene.records.planes), (single.header, &single.records.planes));
+    assert_eq!(in_double(small("s1a", 40, 4)).adapt_to_device(true), None);
+    assert_eq!(scene.adapt_to_device(false), None, "a scene of f32 has nothing to tell");
 }

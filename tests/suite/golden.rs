@@ -82,7 +82,7 @@ const END_OF_PLANES: f64 = 100.0;
 fn sized(name: &str, [width, height]: [u32; 2]) -> Scene {
     let mut scene = scene(name);
     (scene.width, scene.height) = (width, height);
-    for plane in &mut scene.planes {
+    for plane in &mut scene.shapes.planes {
         plane.half_extent = plane.half_extent.or(Some(END_OF_PLANES));
     }
     scene
@@ -230,7 +230,7 @@ fn half_a_texel_of_shift_fails() {
 #[test]
 fn swapped_axes_fail() {
     let swap = |s: &mut Scene| {
-        s.planes.iter_mut().for_each(|p| std::mem::swap(&mut p.tangent, &mut p.bitangent));
+        s.shapes.planes.iter_mut().for_each(|p| std::mem::swap(&mut p.tangent, &mut p.bitangent));
     };
     assert!(planted(swap).is_err());
 }
@@ -250,8 +250,8 @@ fn a_missing_row_order_fails() {
 fn a_missing_shadow_fails() {
     let right = sized("lecture", [128, 128]);
     let mut alone = right.clone();
-    alone.spheres.clear();
-    alone.triangles.clear();
+    alone.shapes.spheres.clear();
+    alone.shapes.triangles.clear();
     // White where a pixel shows the ground directly, black elsewhere.
     let mut mask = right.clone();
     mask.lights.clear();

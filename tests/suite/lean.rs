@@ -209,7 +209,7 @@ fn many_samples_are_summed_as_the_oracle_sums_them() {
 #[test]
 fn a_constant_stays_constant_over_a_million_samples() {
     let mut scene = with_random(small("quad", 4, 1), 1 << 20);
-    scene.planes.clear();
+    scene.shapes.planes.clear();
     scene.background.color = glam::DVec3::new(0.1, 0.3, 0.7);
     let film = render(&packed(scene, None));
     for (value, wanted) in film.pixels.iter().flat_map(|p| p.iter().zip([0.1f32, 0.3, 0.7])) {

@@ -54,12 +54,12 @@ fn assert_mapped(scene: &PackedScene, way: impl Fn(DVec3) -> DVec3, cases: &[(DV
     for keep_everything in [false, true] {
         let answers = probe::rays(&gpu(), scene, keep_everything, &queries).unwrap();
         for (&(point, uv), answer) in cases.iter().zip(&answers) {
-            let own = scene
-                .planes
-                .first()
-                .map_or(DVec2::ZERO, |plane| DVec2::new(plane.axis_u.dot(point), plane.axis_v.dot(point)));
+            let own =
+                scene.records.planes.first().map_or(DVec2::ZERO, |plane| {
+                    DVec2::new(plane.axis_u.dot(point), plane.axis_v.dot(point))
+                });
             let oracle = texture_coordinate(
-                &scene.uv_projections[0],
+                &scene.records.uv_projections[0],
                 &MapInput { entity: point, own, ..Default::default() },
             );
             let oracle = oracle.at.truncate();
@@ -79,7 +79,7 @@ fn the_ground_plane_maps_by_its_orthonormal_basis() {
 [[plane]]\norigin = [0.0, 0.0, 0.0]\ntangent = [-1.0, 0.0, 0.0]\nbitangent = [0.0, 0.0, 1.0]\nmaterial = \"m\"\n"
     ));
     // tangent × bitangent = (−1,0,0) × (0,0,1) = (0·1 − 0·0, 0·0 − (−1)·1, 0) = (0, 1, 0).
-    assert_eq!(scene.planes[0].normal, DVec3::Y);
+    assert_eq!(scene.records.planes[0].normal, DVec3::Y);
     assert_mapped(
         &scene,
         |_| DVec3::NEG_Y,

@@ -13,16 +13,16 @@ use crate::stage::{device, packed, render, render_on_oracle, scene, small};
 /// So many small triangles in front of the lecture's scene.
 fn crowd(count: usize) -> Scene {
     let mut scene = small("lecture", 32, 4);
-    scene.spheres.clear();
-    scene.planes.clear();
+    scene.shapes.spheres.clear();
+    scene.shapes.planes.clear();
     scene.lights.truncate(1);
     let mut rng = Rng::new(7);
-    let first = scene.triangles[0];
+    let first = scene.shapes.triangles[0];
     let moved = |_| {
         let by = glam::DVec3::new(rng.between(-1.0, 1.0), rng.between(-0.5, 1.0), rng.between(-1.0, 1.0));
         Triangle { vertices: first.vertices.map(|v| 0.2 * v + by), ..first }
     };
-    scene.triangles = (0..count).map(moved).collect();
+    scene.shapes.triangles = (0..count).map(moved).collect();
     scene
 }
 

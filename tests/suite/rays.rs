@@ -121,7 +121,7 @@ fn wrong_uv(
     point_error: f64,
     weights: f64,
 ) -> Option<String> {
-    let map = &scene.uv_projections[surface.map as usize];
+    let map = &scene.records.uv_projections[surface.map as usize];
     let expected = texture_coordinate(
         map,
         &MapInput { entity: surface.point, own: surface.own_uv, ..Default::default() },
@@ -140,7 +140,7 @@ fn wrong_uv(
     let (tolerance, turn) = match kind {
         MapKind::Affine => (DVec2::splat(row_error), DVec2::ZERO),
         MapKind::Plane => {
-            let plane = &scene.planes[answer.shape as usize];
+            let plane = &scene.records.planes[answer.shape as usize];
             // Products and sums of an axis, then of the matrix, on top of the error of the point.
             let own = [plane.axis_u, plane.axis_v].map(|axis| {
                 let size = (axis * surface.point).abs().element_sum();

@@ -171,7 +171,7 @@ fn keys_left_out_have_the_documented_defaults() {
     assert_eq!(scene.samplers, [sampler; 2], "the scene's own and an appended default one");
     assert_eq!(scene.materials[0].sampler, 1, "a texture without sampler gets the appended one");
 
-    let triangle = &scene.triangles[0];
+    let triangle = &scene.shapes.triangles[0];
     assert_eq!(triangle.uvs, [DVec2::ZERO, DVec2::X, DVec2::Y]);
     assert!(triangle.normals.is_none());
     let material = &scene.materials[triangle.material];
@@ -184,7 +184,11 @@ fn keys_left_out_have_the_documented_defaults() {
 #[test]
 fn a_scene_without_shapes_has_only_a_background() {
     let scene = parsed(HEAD);
-    assert!(scene.planes.is_empty() && scene.spheres.is_empty() && scene.triangles.is_empty());
+    assert!(
+        scene.shapes.planes.is_empty()
+            && scene.shapes.spheres.is_empty()
+            && scene.shapes.triangles.is_empty()
+    );
     assert!(scene.materials.is_empty(), "no default material without a shape that needs it");
     assert!(scene.samplers.is_empty(), "no default sampler without a texture that needs it");
 }
@@ -231,12 +235,12 @@ fn every_key_of_a_full_scene_arrives() {
     assert_eq!((ground_material.texture, ground_material.sampler), (Some(0), 2));
     assert_eq!(default.name, "default");
 
-    let plane = scene.planes[0];
+    let plane = scene.shapes.planes[0];
     assert_eq!((plane.origin, plane.tangent, plane.bitangent), (-DVec3::Y, -2.0 * DVec3::X, DVec3::Z));
     assert_eq!((plane.half_extent, plane.material), (Some(1000.0), 1));
-    let sphere = scene.spheres[0];
+    let sphere = scene.shapes.spheres[0];
     assert_eq!((sphere.center, sphere.radius, sphere.material), (DVec3::new(0.0, 0.5, 0.0), 0.3, 3));
-    let triangle = scene.triangles[0];
+    let triangle = scene.shapes.triangles[0];
     assert_eq!(triangle.vertices[2], DVec3::new(-0.2, 0.1, -0.1));
     assert_eq!(triangle.uvs, [DVec2::new(0.0, 1.0), DVec2::new(2.0, 3.0), DVec2::new(4.0, 5.0)]);
     assert_eq!(triangle.normals, Some([DVec3::Y, DVec3::Y * 2.0, DVec3::Y * 3.0]));
@@ -375,6 +379,6 @@ fn ten_thousand_triangles_parse_in_well_under_two_seconds() {
     let start = std::time::Instant::now();
     let scene = parsed(&text);
     let seconds = start.elapsed().as_secs_f64();
-    assert_eq!((scene.triangles.len(), scene.triangles[0].material), (10_000, 9_999));
+    assert_eq!((scene.shapes.triangles.len(), scene.shapes.triangles[0].material), (10_000, 9_999));
     assert!(seconds < 2.0, "{seconds} s");
 }

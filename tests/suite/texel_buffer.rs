@@ -180,7 +180,7 @@ fn every_deep_srgb_code_is_read_as_its_light_from_buffers_and_images() {
                 let expected = codes.map(|code| light[usize::from(code)].to_bits());
                 let found = [answer[0], answer[1], answer[2]].map(f32::to_bits);
                 assert_eq!(found, expected, "texture {texture}, code {code}, images: {image_source}");
-                let (image, how) = (&scene.textures[texture], &scene.samplers[0]);
+                let (image, how) = (&scene.records.textures[texture], &scene.records.samplers[0]);
                 let at = Coordinate::flat([query.uv[0].into(), query.uv[1].into()].into());
                 let exact = sample_texture(&scene, image, how, &at, [0; 2]);
                 for (found, exact) in answer.iter().zip(exact.to_array()) {

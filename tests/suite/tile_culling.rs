@@ -20,10 +20,10 @@ use crate::stage::{assert_same_bits, device, packed, render, render_with, small}
 fn soup(count: usize, side: u32) -> Scene {
     let mut scene = small("s2", side, 4);
     let mut rng = Rng::new(11);
-    let first = scene.triangles[0];
+    let first = scene.shapes.triangles[0];
     let eye = scene.camera.eye;
     let mut place = |reach: f64| DVec3::from_array([0; 3].map(|_| reach * (2.0 * rng.unit() - 1.0)));
-    scene.triangles = (0..count)
+    scene.shapes.triangles = (0..count)
         .map(|i| {
             let middle = if i % 7 == 0 { eye + place(0.5) } else { DVec3::new(0.0, 0.6, 0.0) + place(1.2) };
             let reach = if i % 3 == 0 { 0.4 } else { 0.1 };
@@ -136,7 +136,7 @@ fn calmness(scene: Scene) -> [usize; 3] {
 #[test]
 fn ground_is_calm_by_its_texels_and_its_light() {
     let mut lit = soup(20, 128);
-    lit.spheres.clear();
+    lit.shapes.spheres.clear();
     let mut unlit = lit.clone();
     unlit.materials.iter_mut().for_each(|m| m.model = Model::Unlit);
     let mut fine = unlit.clone();
@@ -157,8 +157,8 @@ fn ground_is_calm_by_its_texels_and_its_light() {
 #[test]
 fn calm_cells_begin_with_fewer_samples_and_nothing_thin_is_missed() {
     let mut scene = soup(40, 128);
-    scene.planes.clear();
-    scene.spheres.clear();
+    scene.shapes.planes.clear();
+    scene.shapes.spheres.clear();
     let (film, outcome) = to_goal(&scene, Goal::Error(2e-3));
     assert!(outcome.reached && outcome.least_samples == 2, "{outcome:?}");
     let mut converged = scene.clone();

@@ -71,15 +71,15 @@ fn turned(scene: &Scene, turn: DQuat) -> Scene {
     let mut scene = scene.clone();
     let spin = |v: &mut DVec3| *v = turn * *v;
     [&mut scene.camera.eye, &mut scene.camera.look_at, &mut scene.camera.up].into_iter().for_each(spin);
-    for plane in &mut scene.planes {
+    for plane in &mut scene.shapes.planes {
         [&mut plane.origin, &mut plane.tangent, &mut plane.bitangent].into_iter().for_each(spin);
     }
-    scene.spheres.iter_mut().for_each(|s| spin(&mut s.center));
-    scene.triangles.iter_mut().for_each(|t| t.vertices.iter_mut().for_each(spin));
+    scene.shapes.spheres.iter_mut().for_each(|s| spin(&mut s.center));
+    scene.shapes.triangles.iter_mut().for_each(|t| t.vertices.iter_mut().for_each(spin));
     scene.camera.motion.iter_mut().for_each(spin);
-    scene.planes.iter_mut().for_each(|p| spin(&mut p.motion));
-    scene.spheres.iter_mut().for_each(|s| spin(&mut s.motion));
-    scene.triangles.iter_mut().for_each(|t| spin(&mut t.motion));
+    scene.shapes.planes.iter_mut().for_each(|p| spin(&mut p.motion));
+    scene.shapes.spheres.iter_mut().for_each(|s| spin(&mut s.motion));
+    scene.shapes.triangles.iter_mut().for_each(|t| spin(&mut t.motion));
     for light in &mut scene.lights {
         match light {
             Light::Point { position, .. } | Light::Sphere { position, .. } => spin(position),

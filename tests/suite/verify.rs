@@ -64,10 +64,15 @@ fn row(driver: &str, variant: &Variant, shift: f64) -> Row {
     for uv in coordinates(&mut Rng::new(3), [8, 6], 100, false) {
         let query = query(&scene, 0, uv);
         let at = uv_of(&query) + DVec2::X * shift / 8.0;
-        let answer =
-            sample_texture(&scene, &scene.textures[0], &scene.samplers[0], &Coordinate::flat(at), [0; 2])
-                .as_vec4()
-                .to_array();
+        let answer = sample_texture(
+            &scene,
+            &scene.records.textures[0],
+            &scene.records.samplers[0],
+            &Coordinate::flat(at),
+            [0; 2],
+        )
+        .as_vec4()
+        .to_array();
         tally.add(judge.judge(&query, answer));
     }
     Row::new(&device, variant, tally)
@@ -173,8 +178,8 @@ fn the_ramp_runs_from_one_texel_to_the_other_in_equal_exact_steps() {
                 let uv = uv_of(&query(&scene, 0, uv));
                 let value = sample_texture(
                     &scene,
-                    &scene.textures[0],
-                    &scene.samplers[0],
+                    &scene.records.textures[0],
+                    &scene.records.samplers[0],
                     &Coordinate::flat(uv),
                     [0; 2],
                 );

@@ -7,9 +7,9 @@
 
 // Whether a shape has a region; of others beams do not know the outline.
 bool has_region(const Header header, uint shape) {
-    COUNT_SHAPES(header)
+    COUNT_SHAPES
     bool is_round = false;
-#define ROUND(Type, at, LIST, first, count) is_round = is_round || IS_WITHIN(LIST, shape, first, count);
+#define ROUND(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed) is_round = is_round || IS_WITHIN(LIST, shape, first, count);
     ROUND_KINDS(ROUND)
 #undef ROUND
     return !is_round;
@@ -17,30 +17,30 @@ bool has_region(const Header header, uint shape) {
 
 // Unit normal, and height of the plane in which a flat shape lies.
 vec4 shape_plane(const Header header, uint shape) {
-    COUNT_SHAPES(header)
+    COUNT_SHAPES
     vec4 plane = vec4(0.0);
-#define PLANE_OF(Type, at, LIST, first, count) if (IS_NEXT(LIST, shape, first, count)) plane = plane_of(at(shape - (first))); else
-    FLAT_KINDS(PLANE_OF) {}
+#define PLANE_OF(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed) if (IS_NEXT(LIST, shape, first, count)) plane = plane_of(at(shape - (first))); else
+    POLYGONAL_KINDS(PLANE_OF) {}
 #undef PLANE_OF
     return plane;
 }
 
 // Material and map.
 uvec2 shape_links(const Header header, uint shape) {
-    COUNT_SHAPES(header)
+    COUNT_SHAPES
     uvec2 link = uvec2(0u);
-#define LINK(Type, at, LIST, first, count) if (IS_NEXT(LIST, shape, first, count)) link = links_of(at(shape - (first))); else
-    FLAT_KINDS(LINK) {}
+#define LINK(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed) if (IS_NEXT(LIST, shape, first, count)) link = links_of(at(shape - (first))); else
+    POLYGONAL_KINDS(LINK) {}
 #undef LINK
     return link;
 }
 
 bool is_smooth(const Header header, uint shape) {
-    COUNT_SHAPES(header)
+    COUNT_SHAPES
     bool smooth_normals = false;
-#define SMOOTH(Type, at, LIST, first, count) \
+#define SMOOTH(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed) \
     if (IS_NEXT(LIST, shape, first, count)) smooth_normals = has_smooth_normals(at(shape - (first))); else
-    FLAT_KINDS(SMOOTH) {}
+    POLYGONAL_KINDS(SMOOTH) {}
 #undef SMOOTH
     return smooth_normals;
 }
@@ -51,11 +51,11 @@ vec3 nearness_of(const Header header, const PixelFrustum frame, uint shape) {
 }
 
 ConvexRegion shape_region(const Header header, const PixelFrustum frame, uint shape) {
-    COUNT_SHAPES(header)
+    COUNT_SHAPES
     ConvexRegion region = region_of_plane(header, frame, shape_plane(header, shape));
-#define OUTLINE(Type, at, LIST, first, count) \
+#define OUTLINE(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed) \
     if (IS_NEXT(LIST, shape, first, count)) add_outline(header, frame, region.inverse_depth, at(shape - (first)), region); else
-    FLAT_KINDS(OUTLINE) {}
+    POLYGONAL_KINDS(OUTLINE) {}
 #undef OUTLINE
     return region;
 }
@@ -65,18 +65,18 @@ RationalMap coordinates(const Header header, const PixelFrustum frame, uint shap
     if (MODE_IS(MAPPINGS, MAP_AFFINE, map.kind)) {
         return RationalMap(along(header, frame, near, map.x), along(header, frame, near, map.y), below(header, near));
     }
-    COUNT_SHAPES(header)
+    COUNT_SHAPES
     RationalMap own = RationalMap(near, near, near);
-#define OWN(Type, at, LIST, first, count) \
+#define OWN(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed) \
     if (IS_NEXT(LIST, shape, first, count)) own = own_coordinates(header, frame, near, at(shape - (first)), map); else
-    FLAT_KINDS(OWN) {}
+    POLYGONAL_KINDS(OWN) {}
 #undef OWN
     return own;
 }
 
 // Where, on the plane of this inverse depth, a flat shape keeps a light away.
 ConvexRegion shadow_region(const Header header, const PixelFrustum frame, vec3 near, uint shape, const Light light) {
-    COUNT_SHAPES(header)
+    COUNT_SHAPES
     bool point_light = MODE_IS(LIGHT_KINDS, LIGHT_POINT, light.kind);
     vec3 place = point_light ? light.position : light.direction;
     vec4 plane = shape_plane(header, shape);
@@ -89,19 +89,19 @@ ConvexRegion shadow_region(const Header header, const PixelFrustum frame, vec3 n
     region.inverse_depth = near;
     // Beyond the plane, seen from the light.
     region.lines[0] = along(header, frame, near, (point_light ? side : -side) * vec4(n, -plane.w));
-#define SHADOW(Type, at, LIST, first, count)                                                       \
+#define SHADOW(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed)                                                       \
     if (IS_NEXT(LIST, shape, first, count)) {                                                      \
         add_shadow(header, frame, near, light, plane, rise, region, at(shape - (first)));    \
     } else
-    FLAT_KINDS(SHADOW) {}
+    POLYGONAL_KINDS(SHADOW) {}
 #undef SHADOW
     return region;
 }
 
 // False where no ray of the polygon can meet the shape, which has no region.
 bool may_meet(const Header header, const PixelFrustum frame, uint polygon, uint shape) {
-    COUNT_SHAPES(header)
-#define MEETS(Type, at, LIST, first, count) \
+    COUNT_SHAPES
+#define MEETS(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed) \
     if (IS_WITHIN(LIST, shape, first, count)) return may_meet(header, frame, polygon, at(shape - (first)));
     ROUND_KINDS(MEETS)
 #undef MEETS
@@ -111,8 +111,8 @@ bool may_meet(const Header header, const PixelFrustum frame, uint polygon, uint 
 // False where no way from the polygon on a surface of this inverse depth to the light can pass the shape, which has no
 // region.
 bool may_shade(const Header header, const PixelFrustum frame, vec3 near, uint polygon, const Light light, uint shape) {
-    COUNT_SHAPES(header)
-#define SHADES(Type, at, LIST, first, count) \
+    COUNT_SHAPES
+#define SHADES(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed) \
     if (IS_WITHIN(LIST, shape, first, count)) return may_shade(header, frame, near, polygon, light, at(shape - (first)));
     ROUND_KINDS(SHADES)
 #undef SHADES

@@ -8,10 +8,10 @@
 // The same cone, which leaves a shape.
 Cone leaving(const Header header, Cone cone, uint shape) {
     if (!FLOORS || shape == NO_SHAPE) return cone;
-    COUNT_SHAPES(header)
+    COUNT_SHAPES
     vec3 up = vec3(0.0);
-#define UP(Type, at, LIST, first, count) if (IS_WITHIN(LIST, shape, first, count)) up = plane_of(at(shape - (first))).xyz; else
-    FLAT_KINDS(UP) return cone;
+#define UP(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed) if (IS_WITHIN(LIST, shape, first, count)) up = plane_of(at(shape - (first))).xyz; else
+    PLANAR_KINDS(UP) return cone;
 #undef UP
     Ray ray = cone.ray;
     if (dot3(up, ray.direction) < 0.0) up = -up;
@@ -22,19 +22,19 @@ Cone leaving(const Header header, Cone cone, uint shape) {
 
 // The shape that a ray must not meet again at once. From inside a ball its other side is met.
 uint left_shape(const Header header, uint shape, bool within) {
-    COUNT_SHAPES(header)
-    bool is_round = false;
-#define ROUND(Type, at, LIST, first, count) is_round = is_round || (shape >= (first) && shape < (first) + (count));
-    ROUND_KINDS(ROUND)
-#undef ROUND
-    return is_round && within ? NO_SHAPE : shape;
+    COUNT_SHAPES
+    bool is_solid = false;
+#define SOLID(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed) is_solid = is_solid || (shape >= (first) && shape < (first) + (count));
+    SOLID_KINDS(SOLID)
+#undef SOLID
+    return is_solid && within ? NO_SHAPE : shape;
 }
 
 // Cuts the disc to what the shape covers; false for one that no lines stand for.
 bool cut_shape(const Header header, const Cone cone, uint shape) {
-    COUNT_SHAPES(header)
+    COUNT_SHAPES
     bool has_lines = true;
-#define CUT(Type, at, LIST, first, count, is_flat, is_listed) \
+#define CUT(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed) \
     if (IS_NEXT(LIST, shape, first, count)) has_lines = cut_by_shape(cone, at(shape - (first))); else
     SHAPE_KINDS(CUT) {}
 #undef CUT
@@ -43,12 +43,12 @@ bool cut_shape(const Header header, const Cone cone, uint shape) {
 
 // What the shape covers.
 Covered covered_by(const Header header, const Cone cone, uint shape) {
-    COUNT_SHAPES(header)
-#define COVERED(Type, at, LIST, first, count) \
+    COUNT_SHAPES
+#define COVERED(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed) \
     if (IS_WITHIN(LIST, shape, first, count)) return covered_by(cone, at(shape - (first)));
     ROUND_KINDS(COVERED)
 #undef COVERED
-    if (0u FLAT_KINDS(ADD_COUNT) == 0u) return NOTHING;
+    if (0u POLYGONAL_KINDS(ADD_COUNT) == 0u) return NOTHING;
     whole_disc();
     cut_shape(header, cone, shape);
     return cut_disc();
@@ -56,8 +56,8 @@ Covered covered_by(const Header header, const Cone cone, uint shape) {
 
 // Whether the cone may touch the shape.
 bool touched(const Header header, const Cone cone, uint shape) {
-    COUNT_SHAPES(header)
-#define TOUCHED(Type, at, LIST, first, count) \
+    COUNT_SHAPES
+#define TOUCHED(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed) \
     if (IS_WITHIN(LIST, shape, first, count)) return touched(cone, at(shape - (first)));
     ROUND_KINDS(TOUCHED)
 #undef TOUCHED
@@ -68,23 +68,23 @@ bool touched(const Header header, const Cone cone, uint shape) {
 
 // Where a ray within the shape's outline meets it; rounding may have put it just beside.
 Hit meet(const Header header, const Ray ray, uint shape) {
-    COUNT_SHAPES(header)
+    COUNT_SHAPES
     Hit hit = Hit(-1.0, shape, vec2(0.0));
     vec4 plane = vec4(0.0);
-#define ROUND(Type, at, LIST, first, count)            \
+#define SOLID(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed)            \
     if (IS_WITHIN(LIST, shape, first, count)) {        \
         complete(at(shape - (first)), ray, hit); \
         return hit;                              \
     }
-    ROUND_KINDS(ROUND)
-#undef ROUND
-#define PLANAR(Type, at, LIST, first, count)       \
+    SOLID_KINDS(SOLID)
+#undef SOLID
+#define PLANAR(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed)       \
     if (IS_WITHIN(LIST, shape, first, count)) {    \
         Type found = at(shape - (first));    \
         plane = plane_of(found);             \
         complete(found, ray, hit);           \
     } else
-    FLAT_KINDS(PLANAR) {}
+    PLANAR_KINDS(PLANAR) {}
 #undef PLANAR
     float above = plane.w - dot3(plane.xyz, ray.origin);
     hit.t = above / dot3(plane.xyz, ray.direction);
@@ -94,13 +94,13 @@ Hit meet(const Header header, const Ray ray, uint shape) {
 // How deep a shape lies over the disc: its own plane, that which touches a ball, and where a ball ends
 // its distance alone.
 Flat depth_of(const Header header, const Cone cone, uint shape, float t, float area) {
-    COUNT_SHAPES(header)
+    COUNT_SHAPES
     vec4 plane = vec4(0.0);
     bool ends = false;
-#define DEPTH(Type, at, LIST, first, count, is_flat, is_listed)          \
+#define DEPTH(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed)          \
     if (IS_NEXT(LIST, shape, first, count)) {                            \
         plane = tangent_plane(at(shape - (first)), cone, t);       \
-        ends = !is_flat && area < 1.0;                             \
+        ends = !is_planar && area < 1.0;                             \
     } else
     SHAPE_KINDS(DEPTH) {}
 #undef DEPTH

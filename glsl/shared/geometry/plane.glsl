@@ -42,14 +42,19 @@ Surface surface_of(const Plane plane, real3 point, real2 uv) {
 #ifdef SHAPES_IN_CONES
 #include "../cone.glsl"
 
-// The plane's own coordinate row·p + row.w lies within ±extent.
-void cut_bounds(const Cone cone, Flat plane, vec4 row, float extent) {
+// Numerator of the own coordinate row·p + row.w of the place met at u, over facing + s tilt·u.
+vec3 own_place(const Cone cone, Flat plane, vec4 row) {
     float start = dot3(row.xyz, cone.ray.origin) + row.w;
     float along = dot3(row.xyz, cone.ray.direction);
     vec2 aside = vec2(dot3(row.xyz, cone.x), dot3(row.xyz, cone.y));
     vec2 tilt = (start * cone.spread - along * cone.width) * plane.tilt;
     tilt += (cone.width * plane.facing + cone.spread * plane.height) * aside;
-    vec3 place = vec3(tilt, start * plane.facing + along * plane.height);
+    return vec3(tilt, start * plane.facing + along * plane.height);
+}
+
+// The plane's own coordinate row·p + row.w lies within ±extent.
+void cut_bounds(const Cone cone, Flat plane, vec4 row, float extent) {
+    vec3 place = own_place(cone, plane, row);
     vec3 limit = extent * vec3(cone.spread * plane.tilt, plane.facing);
     cut_by(limit - place);
     cut_by(limit + place);

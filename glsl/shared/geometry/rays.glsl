@@ -10,8 +10,8 @@
 // `list`: of the cell of tile culling in which a camera ray lies, else NO_LIST.
 Hit nearest_hit(const Header header, const Ray ray, uint skip, uint list) {
     Hit hit = Hit(FAR, NO_SHAPE, real2(0.0));
-    COUNT_SHAPES(header)
-#define NEAREST(Type, at, LIST, first, count, is_flat, is_listed)                                                  \
+    COUNT_SHAPES
+#define NEAREST(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed)                                                  \
     if (LIST != 0u) {                                                                                        \
         uint tested = count;                                                                                 \
         if (is_listed && TILE_CULLED) {                                                                      \
@@ -24,7 +24,7 @@ Hit nearest_hit(const Header header, const Ray ray, uint skip, uint list) {
             }                                                                                                \
             real2 local = hit.local;                                                                         \
             real t = distance_to(at(i), at_rest(header, ray, (first) + i), ORIGIN_IS_EYE, local);            \
-            bool nearer = t > 0.0 && t < hit.t && !(is_flat && (first) + i == skip);                         \
+            bool nearer = t > 0.0 && t < hit.t && !(is_planar && (first) + i == skip);                         \
             hit.t = nearer ? t : hit.t;                                                                      \
             hit.shape = nearer ? (first) + i : hit.shape;                                                    \
             hit.local = nearer ? local : hit.local;                                                          \
@@ -38,13 +38,13 @@ Hit nearest_hit(const Header header, const Ray ray, uint skip, uint list) {
 // True when a shape lies at 0 < t < t_max.
 bool occluded(const Header header, const Ray ray, real t_max, uint skip) {
     bool blocked = false;
-    COUNT_SHAPES(header)
-#define OCCLUDES(Type, at, LIST, first, count, is_flat, is_listed)                                                 \
+    COUNT_SHAPES
+#define OCCLUDES(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed)                                                 \
     if (LIST != 0u) {                                                                                        \
         for (uint i = 0u; i < count; i++) {                                                                  \
             real2 local;                                                                                     \
             real t = distance_to(at(i), at_rest(header, ray, (first) + i), false, local);                    \
-            blocked = blocked || (t > 0.0 && t < t_max && !(is_flat && (first) + i == skip));                \
+            blocked = blocked || (t > 0.0 && t < t_max && !(is_planar && (first) + i == skip));                \
         }                                                                                                    \
     }
     SHAPE_KINDS(OCCLUDES)
@@ -54,11 +54,11 @@ bool occluded(const Header header, const Ray ray, real t_max, uint skip) {
 
 Surface hit_surface(const Header header, const Ray moving, const Hit hit) {
     Ray ray = at_rest(header, moving, hit.shape);
-    COUNT_SHAPES(header)
+    COUNT_SHAPES
     real3 point = ORIGIN_IS_EYE ? hit.t * ray.direction : ray.origin + hit.t * ray.direction;
     const real3 up = real3(0.0, 0.0, 1.0);
     Surface surface = Surface(point, up, up, real2(0.0), vec3(0.0), vec3(0.0), FLAT, 0.0, false, uvec2(0u), point, 0.0);
-#define SURFACE(Type, at, LIST, first, count, is_flat, is_listed)                                                  \
+#define SURFACE(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed)                                                  \
     if (IS_NEXT(LIST, hit.shape, first, count)) {                                                                  \
         surface = surface_of(at(hit.shape - (first)), point, hit.local);                                     \
     } else

@@ -45,7 +45,7 @@ Surface surface_of(const Sphere sphere, real3 point, real2 uv) {
 #ifdef SHAPES_IN_CONES
 #include "../cone.glsl"
 
-// A sphere as a circle of the disc.
+// A shape as a circle of the disc.
 struct Circle {
     vec2 middle;
     float radius;

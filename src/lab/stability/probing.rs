@@ -54,7 +54,8 @@ pub fn over(scene: &PackedScene, sampler: usize, uv: [f32; 2], [dx, dy]: [[f64; 
 
 /// Returns the oracle's answer to query number `index` of a list.
 pub fn oracle(scene: &PackedScene, index: usize, query: &LookupQuery) -> f64 {
-    let (image, how) = (&scene.textures[query.texture as usize], &scene.samplers[query.sampler as usize]);
+    let (image, how) =
+        (&scene.records.textures[query.texture as usize], &scene.records.samplers[query.sampler as usize]);
     sample_texture(scene, image, how, &place_of(query), pcg2d([index as u32, query.seed])).x
 }
 

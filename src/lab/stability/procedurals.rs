@@ -59,7 +59,7 @@ fn scene(kinds: &[ProceduralKind]) -> Result<PackedScene> {
     let texture = queries::texture(1, 1, TexelFormat::Grey8, ColorSpace::Linear, 1);
     let spec = SamplerSpec::default();
     let mut scene = queries::pairs_over(Footprint::Differentials, vec![texture], &[spec], &[(0, 0)])?;
-    scene.procedurals = kinds.iter().map(|&kind| pack::procedural(&Procedural::new(kind))).collect();
+    scene.records.procedurals = kinds.iter().map(|&kind| pack::procedural(&Procedural::new(kind))).collect();
     // A scene has no footprint unless a sampler asks for one.
     scene.header.footprint = Footprint::Differentials;
     Ok(scene)

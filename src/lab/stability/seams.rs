@@ -189,8 +189,8 @@ fn cube_levels(bench: &Bench<'_>) -> Result<Vec<Point>> {
 fn poles(bench: &Bench<'_>) -> Result<Vec<Point>> {
     let mut scene = scene(Dimension::Two, [2 * SIDE, SIDE, 1], Filter::Linear)?;
     // Environments are read this way: rows continue across the poles.
-    scene.samplers[0].crosses_poles = true;
-    scene.samplers[0].address_v = Address::ClampToEdge;
+    scene.records.samplers[0].crosses_poles = true;
+    scene.records.samplers[0].address_v = Address::ClampToEdge;
     let one = queries::query(&scene, 0, [0.0; 2]);
     let mut device = LookupProbe::new(bench.gpu);
     let sweep = decades(-8, -2, 2).map(|gap| {

@@ -163,7 +163,7 @@ fn stops(from: f64, to: f64, half: f64) -> Vec<f64> {
 
 /// Returns the smallest and largest value of each channel over all texels of all levels.
 pub fn span(scene: &PackedScene, texture: usize) -> [DVec4; 2] {
-    let record = &scene.textures[texture];
+    let record = &scene.records.textures[texture];
     let mut span = [DVec4::MAX, DVec4::MIN];
     for index in 0..record.levels {
         let level = level_at(scene, record, index);

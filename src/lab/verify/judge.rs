@@ -109,7 +109,7 @@ struct Allowed {
 
 impl<'a> Judge<'a> {
     pub fn new(scene: &'a PackedScene, precision: Precision) -> Judge<'a> {
-        let spans = (0..scene.textures.len()).map(|t| span(scene, t)).collect();
+        let spans = (0..scene.records.textures.len()).map(|t| span(scene, t)).collect();
         Judge { scene, precision, spans }
     }
 
@@ -161,8 +161,8 @@ impl<'a> Judge<'a> {
 
     fn allowed(&self, query: &LookupQuery) -> Allowed {
         let scene = self.scene;
-        let image = &scene.textures[query.texture as usize];
-        let how = &scene.samplers[query.sampler as usize];
+        let image = &scene.records.textures[query.texture as usize];
+        let how = &scene.records.samplers[query.sampler as usize];
         let component = image.format.component();
         let region = LookupInterval::new(scene, image, how, &place_of(query));
         let levels = is_filtered(&scene.header)

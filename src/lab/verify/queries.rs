@@ -11,7 +11,7 @@ use crate::oracle::mapping::Coordinate;
 use crate::pack::{self, PackedScene};
 use crate::scene::model::{
     Algorithm, Background, Camera, Footprint, Material, Model, Pattern, PixelFilter, Precision, Projection,
-    Sampling, Scene,
+    Sampling, Scene, Shapes,
 };
 use crate::texture::data::{ColorSpace, Component, Dimension, TexelFormat, TextureData};
 use crate::texture::sampler_spec::SamplerSpec;
@@ -171,9 +171,7 @@ pub fn pairs_over(
         textures: Vec::new(),
         samplers: samplers.to_vec(),
         materials: list.iter().map(material).collect(),
-        planes: Vec::new(),
-        spheres: Vec::new(),
-        triangles: Vec::new(),
+        shapes: Shapes::default(),
         dropped_triangles: 0,
         first_dropped: String::new(),
         lights: Vec::new(),
@@ -183,7 +181,7 @@ pub fn pairs_over(
 
 /// Returns the lookup of a pair's material at (u, v).
 pub fn query(scene: &PackedScene, pair: usize, uv: [f32; 2]) -> LookupQuery {
-    let material = &scene.materials[pair];
+    let material = &scene.records.materials[pair];
     let (texture, sampler, slot) = (material.texture_index, material.sampler_index, material.image_slot);
     LookupQuery { texture, sampler, slot, uv: [uv[0], uv[1], 0.0, 0.0], ..Default::default() }
 }

@@ -143,7 +143,7 @@ pub fn level_ramp(base: &LookupQuery, steps: u32) -> impl Iterator<Item = Lookup
 
 /// Gives every level one colour in all its channels: level / last.
 pub fn paint_levels(scene: &mut PackedScene, texture: usize) {
-    let record = scene.textures[texture];
+    let record = scene.records.textures[texture];
     let component = record.format.component();
     let levels = record.levels;
     for level in 0..levels {

@@ -27,7 +27,8 @@ pub fn sample_texture(
 ) -> DVec4 {
     if kind_of(image) == TextureKind::Procedural {
         let [x, y] = place.change;
-        return procedural_color(&scene.procedurals[image.procedural as usize], place.at, x, y).extend(1.0);
+        return procedural_color(&scene.records.procedurals[image.procedural as usize], place.at, x, y)
+            .extend(1.0);
     }
     let reader = Reader { scene, image, how };
     let mut dice = look_up_dice(random);

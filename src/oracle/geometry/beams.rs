@@ -3,7 +3,7 @@
 
 use glam::DVec4;
 
-use super::kinds::{Flat, Form, shape_of};
+use super::kinds::{Form, Polygonal, shape_of};
 use crate::oracle::polygon::{AffineFunction, Polygon};
 use crate::oracle::projective::{
     ConvexRegion, MAX_LINES, PixelFrustum, RationalMap, add, along, below, region_of_plane,
@@ -11,21 +11,21 @@ use crate::oracle::projective::{
 use crate::pack::{LightKind, MapKind, PackedScene};
 use crate::schema::layout::Light;
 
-fn flat(scene: &PackedScene, shape: u32) -> Option<&dyn Flat> {
+fn polygonal(scene: &PackedScene, shape: u32) -> Option<&dyn Polygonal> {
     match shape_of(scene, shape).form() {
-        Form::Flat(flat) => Some(flat),
+        Form::Polygonal(shape) => Some(shape),
         Form::Round(_) => None,
     }
 }
 
 /// Whether a shape has a region; of others beams do not know the outline.
 pub fn has_region(scene: &PackedScene, shape: u32) -> bool {
-    flat(scene, shape).is_some()
+    polygonal(scene, shape).is_some()
 }
 
 /// Unit normal, and height of the plane in which a flat shape lies.
 pub fn shape_plane(scene: &PackedScene, shape: u32) -> DVec4 {
-    flat(scene, shape).map_or(DVec4::ZERO, Flat::plane_of)
+    shape_of(scene, shape).plane_of().unwrap_or(DVec4::ZERO)
 }
 
 /// Material and map.
@@ -34,13 +34,13 @@ pub fn shape_links(scene: &PackedScene, shape: u32) -> [u32; 2] {
 }
 
 pub fn is_smooth(scene: &PackedScene, shape: u32) -> bool {
-    flat(scene, shape).is_some_and(Flat::has_smooth_normals)
+    polygonal(scene, shape).is_some_and(Polygonal::has_smooth_normals)
 }
 
 pub fn shape_region(scene: &PackedScene, frame: &PixelFrustum, shape: u32) -> ConvexRegion {
     let mut region = region_of_plane(frame, shape_plane(scene, shape));
-    if let Some(flat) = flat(scene, shape) {
-        flat.add_outline(frame, region.inverse_depth, &mut region);
+    if let Some(polygonal) = polygonal(scene, shape) {
+        polygonal.add_outline(frame, region.inverse_depth, &mut region);
     }
     region
 }
@@ -53,9 +53,9 @@ pub fn coordinates(
     map: u32,
     near: AffineFunction,
 ) -> RationalMap {
-    let map = &scene.uv_projections[map as usize];
-    match flat(scene, shape) {
-        Some(flat) if map.kind != MapKind::Affine => flat.own_coordinates(frame, near, map),
+    let map = &scene.records.uv_projections[map as usize];
+    match polygonal(scene, shape) {
+        Some(polygonal) if map.kind != MapKind::Affine => polygonal.own_coordinates(frame, near, map),
         _ => {
             let [u, v] = [map.x, map.y].map(|row| along(frame, near, row));
             RationalMap { u, v, below: below(frame, near) }
@@ -82,8 +82,8 @@ pub fn shadow_region(
     // Beyond the plane, seen from the light.
     let beyond = if point { side * n.extend(-plane.w) } else { -side * n.extend(-plane.w) };
     add(&mut region, along(frame, near, beyond));
-    if let Some(flat) = flat(scene, shape) {
-        flat.add_shadow((frame, near), light, rise, &mut region);
+    if let Some(polygonal) = polygonal(scene, shape) {
+        polygonal.add_shadow((frame, near), light, rise, &mut region);
     }
     region
 }
@@ -104,6 +104,6 @@ pub fn may_shade(
 ) -> bool {
     match shape_of(scene, shape).form() {
         Form::Round(round) => round.may_shade(surface, polygon, light),
-        Form::Flat(_) => false,
+        Form::Polygonal(_) => false,
     }
 }

@@ -16,8 +16,8 @@ pub fn leaving(scene: &PackedScene, cone: Cone, shape: u32) -> Cone {
     if shape == NO_SHAPE {
         return cone;
     }
-    let Form::Flat(flat) = shape_of(scene, shape).form() else { return cone };
-    let normal = flat.plane_of().truncate();
+    let Some(plane) = shape_of(scene, shape).plane_of() else { return cone };
+    let normal = plane.truncate();
     let Ray { origin, direction, .. } = cone.ray;
     let up = if normal.dot(direction) < 0.0 { -normal } else { normal };
     let level = LEVEL * origin.abs().max_element();
@@ -26,8 +26,8 @@ pub fn leaving(scene: &PackedScene, cone: Cone, shape: u32) -> Cone {
 
 /// The shape that a ray must not meet again at once. From inside a ball its other side is met.
 pub fn left_shape(scene: &PackedScene, shape: u32, within: bool) -> u32 {
-    let round = matches!(shape_of(scene, shape).form(), Form::Round(_));
-    if round && within { NO_SHAPE } else { shape }
+    let solid = shape_of(scene, shape).plane_of().is_none();
+    if solid && within { NO_SHAPE } else { shape }
 }
 
 /// Cuts the disc to what the shape covers; false for one that no lines stand for.
@@ -49,8 +49,7 @@ pub fn covered_by(scene: &PackedScene, cone: &Cone, shape: u32) -> Covered {
 pub fn meet(scene: &PackedScene, ray: &Ray, shape: u32) -> Hit {
     let record = shape_of(scene, shape);
     let mut hit = Hit { t: -1.0, shape, local: DVec2::ZERO };
-    if let Form::Flat(flat) = record.form() {
-        let plane = flat.plane_of();
+    if let Some(plane) = record.plane_of() {
         let n = plane.truncate();
         hit.t = (plane.w - n.dot(ray.origin)) / n.dot(ray.direction);
     }
@@ -62,7 +61,7 @@ pub fn meet(scene: &PackedScene, ray: &Ray, shape: u32) -> Hit {
 /// alone.
 pub fn depth_of(scene: &PackedScene, cone: &Cone, shape: u32, t: f64, area: f64) -> FlatDepth {
     let record = shape_of(scene, shape);
-    if matches!(record.form(), Form::Round(_)) && area < 1.0 {
+    if record.plane_of().is_none() && area < 1.0 {
         return FlatDepth { height: t, facing: 1.0, tilt: DVec2::ZERO };
     }
     let plane = record.tangent_plane(cone, t);

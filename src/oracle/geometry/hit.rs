@@ -22,7 +22,7 @@ pub struct Hit {
 /// How far a shape has moved at the ray's time. Shapes are met, and textured, where they are at time 0, by rays
 /// that start as far back.
 pub fn moved_by(scene: &PackedScene, ray: &Ray, shape: u32) -> DVec3 {
-    scene.motions.get(shape as usize).map_or(DVec3::ZERO, |motion| ray.time * motion.shift)
+    scene.records.motions.get(shape as usize).map_or(DVec3::ZERO, |motion| ray.time * motion.shift)
 }
 
 pub fn at_rest(scene: &PackedScene, ray: &Ray, shape: u32) -> Ray {

@@ -11,6 +11,7 @@ use crate::oracle::polygon::{AffineFunction, Polygon};
 use crate::oracle::projective::{ConvexRegion, PixelFrustum, RationalMap};
 use crate::pack::PackedScene;
 use crate::schema::layout::{Header, Light, UvProjection};
+use crate::schema::shapes::with_shapes;
 
 /// What a shape answers to rays and to cones.
 pub trait Shape {
@@ -34,21 +35,21 @@ pub trait Shape {
     /// False where no ray of the polygon can meet it.
     fn may_meet(&self, header: &Header, frame: &PixelFrustum, polygon: &Polygon) -> bool;
 
-    /// What it is where it lies in a plane; else what it is without.
+    /// Unit normal, and height over the eye, where it lies in a plane: a ray never meets again the one that it leaves.
+    fn plane_of(&self) -> Option<DVec4>;
+
+    /// What beams and cones ask of its outline.
     fn form(&self) -> Form<'_>;
 }
 
 /// The two families of shapes.
 pub enum Form<'a> {
-    Flat(&'a dyn Flat),
+    Polygonal(&'a dyn Polygonal),
     Round(&'a dyn Round),
 }
 
-/// A shape in a plane within straight lines: a ray never meets again the one that it leaves, and beams know its outline.
-pub trait Flat {
-    /// Unit normal, and height over the eye.
-    fn plane_of(&self) -> DVec4;
-
+/// A shape in a plane within straight lines: beams know its outline.
+pub trait Polygonal {
     fn has_smooth_normals(&self) -> bool;
 
     /// Adds the lines around it.
@@ -77,36 +78,33 @@ pub trait Round {
 }
 
 /// For the list of each kind: `$body` with the number of its first shape.
-macro_rules! each_kind {
-    ($scene:expr, |$first:ident, $list:ident| $body:expr) => {{
-        let (planes, spheres) = ($scene.header.plane_count, $scene.header.sphere_count);
-        {
-            let ($first, $list) = (0, &$scene.planes);
+macro_rules! each_list {
+    (
+        ($scene:expr, |$first:ident, $records:ident| $body:expr)
+        $($kind:ident $module:ident $list:ident [$($property:ident)*];)+
+    ) => {{
+        let mut first = 0;
+        $({
+            let ($first, $records) = (first, &$scene.records.$list);
+            first += $records.len() as u32;
             $body
-        }
-        {
-            let ($first, $list) = (planes, &$scene.spheres);
-            $body
-        }
-        {
-            let ($first, $list) = (planes + spheres, &$scene.triangles);
-            $body
-        }
+        })+
+        let _ = first;
     }};
 }
-pub(super) use each_kind;
+pub(super) use each_list;
 
 pub fn shape_of(scene: &PackedScene, shape: u32) -> &dyn Shape {
-    let (planes, spheres) = (scene.header.plane_count, scene.header.sphere_count);
-    if shape < planes {
-        &scene.planes[shape as usize]
-    } else if shape < planes + spheres {
-        &scene.spheres[(shape - planes) as usize]
-    } else {
-        &scene.triangles[(shape - planes - spheres) as usize]
-    }
+    with_shapes!(each_list, scene, |first, list| {
+        if let Some(record) = list.get((shape - first) as usize) {
+            return record;
+        }
+    });
+    unreachable!("a hit names a shape of its scene");
 }
 
 pub fn shape_count(scene: &PackedScene) -> u32 {
-    scene.header.plane_count + scene.header.sphere_count + scene.header.triangle_count
+    let mut count = 0;
+    with_shapes!(each_list, scene, |_first, list| count += list.len() as u32);
+    count
 }

@@ -5,7 +5,13 @@ pub mod beams;
 pub mod cones;
 pub mod hit;
 pub mod kinds;
-pub mod plane;
 pub mod rays;
-pub mod sphere;
-pub mod triangle;
+
+use crate::schema::shapes::with_shapes;
+
+macro_rules! kinds {
+    ($($kind:ident $module:ident $list:ident [$($property:ident)*];)+) => {
+        $(pub mod $module;)+
+    };
+}
+with_shapes!(kinds);

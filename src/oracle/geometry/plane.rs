@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3, DVec4};
 
 use super::hit::{Hit, Surface, surface};
-use super::kinds::{Flat, Form, Shape};
+use super::kinds::{Form, Polygonal, Shape};
 use crate::oracle::camera::Ray;
 use crate::oracle::cone::{Cone, FlatDepth, flat_in};
 use crate::oracle::coverage::Cuts;
@@ -14,12 +14,18 @@ use crate::oracle::projective::{
 use crate::pack::LightKind;
 use crate::schema::layout::{Header, Light, Plane, UvProjection};
 
-fn cut_bounds(cuts: &mut Cuts, cone: &Cone, plane: &FlatDepth, row: DVec4, extent: f64) {
+/// Numerator of the own coordinate row·p + row.w of the place met at u, over facing + s tilt·u.
+pub(super) fn own_place(cone: &Cone, plane: &FlatDepth, row: DVec4) -> DVec3 {
     let start = row.truncate().dot(cone.ray.origin) + row.w;
     let along = row.truncate().dot(cone.ray.direction);
     let tilt = (start * cone.spread - along * cone.width) * plane.tilt
         + (cone.width * plane.facing + cone.spread * plane.height) * cone.aside(row.truncate());
-    let place = tilt.extend(start * plane.facing + along * plane.height);
+    tilt.extend(start * plane.facing + along * plane.height)
+}
+
+/// The plane's own coordinate row·p + row.w lies within ±extent.
+pub(super) fn cut_bounds(cuts: &mut Cuts, cone: &Cone, plane: &FlatDepth, row: DVec4, extent: f64) {
+    let place = own_place(cone, plane, row);
     let limit = extent * (cone.spread * plane.tilt).extend(plane.facing);
     cuts.by(limit - place);
     cuts.by(limit + place);
@@ -76,16 +82,16 @@ impl Shape for Plane {
         region.lines[..region.count].iter().all(|&line| range(polygon, line).1 > 0.0)
     }
 
+    fn plane_of(&self) -> Option<DVec4> {
+        Some(self.normal.extend(self.distance))
+    }
+
     fn form(&self) -> Form<'_> {
-        Form::Flat(self)
+        Form::Polygonal(self)
     }
 }
 
-impl Flat for Plane {
-    fn plane_of(&self) -> DVec4 {
-        self.normal.extend(self.distance)
-    }
-
+impl Polygonal for Plane {
     fn has_smooth_normals(&self) -> bool {
         false
     }
@@ -122,7 +128,7 @@ impl Flat for Plane {
         let Some(extent) = self.bounds() else { return };
         let point = light.kind == LightKind::Point;
         let place = if point { light.position } else { light.direction };
-        let plane = self.plane_of();
+        let plane = self.normal.extend(self.distance);
         let n = plane.truncate();
         let side = if rise == 0.0 { 0.0 } else { rise.signum() };
         // A place's distance below the light, in |rise|, or its own height.

@@ -6,21 +6,18 @@ use glam::{DVec2, DVec3};
 
 use super::hit::Surface;
 pub use super::hit::{FAR, Hit, at_rest, moved_by};
-use super::kinds::{Form, Shape, each_kind, shape_of};
+use super::kinds::{Shape as _, each_list, shape_of};
 use crate::oracle::camera::Ray;
 use crate::pack::PackedScene;
 use crate::schema::layout::NO_SHAPE;
-
-fn is_flat(shape: &dyn Shape) -> bool {
-    matches!(shape.form(), Form::Flat(_))
-}
+use crate::schema::shapes::with_shapes;
 
 /// The hit with the least t above 0; of hits at the same t the lowest shape.
 pub fn nearest_hit(scene: &PackedScene, ray: &Ray, skip: u32) -> Hit {
     let mut hit = Hit { t: FAR, shape: NO_SHAPE, local: DVec2::ZERO };
-    each_kind!(scene, |first, list| for (shape, record) in (first..).zip(list) {
+    with_shapes!(each_list, scene, |first, list| for (shape, record) in (first..).zip(list) {
         let (t, local) = record.distance_to(&at_rest(scene, ray, shape));
-        if t > 0.0 && t < hit.t && !(shape == skip && is_flat(record)) {
+        if t > 0.0 && t < hit.t && !(shape == skip && record.plane_of().is_some()) {
             hit = Hit { t, shape, local };
         }
     });
@@ -29,9 +26,9 @@ pub fn nearest_hit(scene: &PackedScene, ray: &Ray, skip: u32) -> Hit {
 
 /// True when a shape lies at 0 < t < t_max.
 pub fn occluded(scene: &PackedScene, ray: &Ray, t_max: f64, skip: u32) -> bool {
-    each_kind!(scene, |first, list| for (shape, record) in (first..).zip(list) {
+    with_shapes!(each_list, scene, |first, list| for (shape, record) in (first..).zip(list) {
         let (t, _) = record.distance_to(&at_rest(scene, ray, shape));
-        if t > 0.0 && t < t_max && !(shape == skip && is_flat(record)) {
+        if t > 0.0 && t < t_max && !(shape == skip && record.plane_of().is_some()) {
             return true;
         }
     });

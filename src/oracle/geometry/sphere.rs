@@ -30,13 +30,13 @@ pub fn sphere_distance(sphere: &Sphere, ray: &Ray) -> f64 {
     if c > 0.0 || b < 0.0 { c / q } else { q / a }
 }
 
-/// A sphere as a circle of the disc.
+/// A shape as a circle of the disc.
 #[derive(Clone, Copy, Debug)]
-struct Circle {
-    middle: DVec2,
-    radius: f64,
+pub(super) struct Circle {
+    pub middle: DVec2,
+    pub radius: f64,
     /// The radius less the middle's distance; 1 and more covers the disc.
-    edge: f64,
+    pub edge: f64,
 }
 
 fn circle_of(cone: &Cone, sphere: &Sphere) -> Circle {
@@ -130,6 +130,10 @@ impl Shape for Sphere {
             radius * (1.0 + wide * wide).sqrt() + along.max(0.0) * wide
         };
         away <= 1.0001 * reach
+    }
+
+    fn plane_of(&self) -> Option<DVec4> {
+        None
     }
 
     fn form(&self) -> Form<'_> {

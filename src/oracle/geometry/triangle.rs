@@ -4,7 +4,7 @@
 use glam::{DMat3, DVec2, DVec3, DVec4};
 
 use super::hit::{Hit, Surface, surface};
-use super::kinds::{Flat, Form, Shape};
+use super::kinds::{Form, Polygonal, Shape};
 use crate::oracle::camera::Ray;
 use crate::oracle::cone::Cone;
 use crate::oracle::coverage::Cuts;
@@ -134,16 +134,16 @@ impl Shape for Triangle {
         most.min_element() >= 0.0 || least.max_element() <= 0.0
     }
 
+    fn plane_of(&self) -> Option<DVec4> {
+        Some(self.normal.extend(self.distance))
+    }
+
     fn form(&self) -> Form<'_> {
-        Form::Flat(self)
+        Form::Polygonal(self)
     }
 }
 
-impl Flat for Triangle {
-    fn plane_of(&self) -> DVec4 {
-        self.normal.extend(self.distance)
-    }
-
+impl Polygonal for Triangle {
     fn has_smooth_normals(&self) -> bool {
         self.is_smooth
     }

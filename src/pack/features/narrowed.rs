@@ -1,5 +1,5 @@
-//! A packed scene → the value of each specialization constant that is narrowed to it: a bit mask of the modes that
-//! occur, a number that is known when the pipeline is built or `DYNAMIC`, or whether code is there.
+//! The value of each specialization constant that is narrowed to a packed scene: a bit mask of the modes that occur, a
+//! count that is known when the pipeline is built or `DYNAMIC`, or whether code is kept.
 
 use super::needs::*;
 use crate::pack::PackedScene;
@@ -8,7 +8,7 @@ use crate::schema::enums::Schedule;
 use crate::schema::specialization::Constant;
 use crate::texture::data::Component;
 
-/// Returns nothing for what is set where a pipeline is built, whatever the scene uses.
+/// Returns the narrowed value; `None` for parameters, which are set when a pipeline is built, whatever the scene uses.
 pub fn narrowed(constant: Constant, s: &PackedScene) -> Option<u32> {
     use Constant as C;
     Some(match constant {
@@ -16,71 +16,53 @@ pub fn narrowed(constant: Constant, s: &PackedScene) -> Option<u32> {
         C::Patterns => bit(s.header.pattern as u32),
         C::StrataSide => s.header.strata_side,
         C::Samples => counted_samples(s),
-        C::Planes => unrolled(s.planes.len()),
-        C::Spheres => unrolled(s.spheres.len()),
-        C::Triangles => unrolled(s.triangles.len()),
-        C::Lights => unrolled(s.lights.len()),
-        C::Materials => unrolled(s.materials.len()),
-        C::UvProjections => unrolled(s.uv_projections.len()),
-        C::Textures => unrolled(s.textures.len()),
-        C::Samplers => unrolled(s.samplers.len()),
-        C::BoundedPlanes => u32::from(s.planes.iter().any(|p| p.half_extent.0 >= 0.0)),
-        C::SmoothNormals => u32::from(s.triangles.iter().any(|t| t.is_smooth)),
-        C::Models => bits(s.materials.iter().map(|m| m.model as u32)),
-        C::LightKinds => bits(s.lights.iter().map(|l| l.kind as u32)),
+        C::BoundedPlanes => u32::from(s.records.planes.iter().any(|p| p.half_extent.0 >= 0.0)),
+        C::SmoothNormals => u32::from(s.records.triangles.iter().any(|t| t.is_smooth)),
+        C::Models => bits(s.records.materials.iter().map(|m| m.model as u32)),
+        C::LightKinds => bits(s.records.lights.iter().map(|l| l.kind as u32)),
         C::Shadows => u32::from(casts_shadows(s)),
         C::Bounces => u32::from(bounces(s)),
         C::Environment => u32::from(s.header.environment_material != NO_MATERIAL),
         C::Footprints => bit(s.header.footprint as u32),
         C::Random => u32::from(chooses(s)),
-        C::Mappings => bits(s.uv_projections.iter().map(|m| m.kind as u32)),
-        C::Entities => bits(s.uv_projections.iter().map(|m| m.entity as u32)),
-        C::RotatedUv => u32::from(s.uv_projections.iter().any(rotates)),
-        C::Textured => u32::from(s.materials.iter().any(|m| m.texture_index != NO_TEXTURE)),
-        C::Untextured => u32::from(s.materials.iter().any(|m| m.texture_index == NO_TEXTURE)),
-        C::Bumped => u32::from(s.materials.iter().any(|m| m.bump_texture_index != NO_TEXTURE)),
+        C::Mappings => bits(s.records.uv_projections.iter().map(|m| m.kind as u32)),
+        C::Entities => bits(s.records.uv_projections.iter().map(|m| m.entity as u32)),
+        C::RotatedUv => u32::from(s.records.uv_projections.iter().any(rotates)),
+        C::Textured => u32::from(s.records.materials.iter().any(|m| m.texture_index != NO_TEXTURE)),
+        C::Untextured => u32::from(s.records.materials.iter().any(|m| m.texture_index == NO_TEXTURE)),
+        C::Bumped => u32::from(s.records.materials.iter().any(|m| m.bump_texture_index != NO_TEXTURE)),
         C::BumpKinds => bump_kinds(s),
-        C::Methods => bits(s.samplers.iter().map(|x| x.method as u32)),
-        C::AddressesU => bits(s.samplers.iter().map(|x| x.address_u as u32)),
-        C::AddressesV => bits(s.samplers.iter().map(|x| x.address_v as u32)),
-        C::AddressesW => bits(s.samplers.iter().map(|x| x.address_w as u32)),
-        C::Poles => u32::from(s.samplers.iter().any(|x| x.crosses_poles)),
+        C::Methods => bits(s.records.samplers.iter().map(|x| x.method as u32)),
+        C::AddressesU => bits(s.records.samplers.iter().map(|x| x.address_u as u32)),
+        C::AddressesV => bits(s.records.samplers.iter().map(|x| x.address_v as u32)),
+        C::AddressesW => bits(s.records.samplers.iter().map(|x| x.address_w as u32)),
+        C::Poles => u32::from(s.records.samplers.iter().any(|x| x.crosses_poles)),
         C::Filters => filters(s),
-        C::Mips => bits(s.samplers.iter().map(|x| x.mip_mode as u32)),
-        C::TexelCenters => bits(s.samplers.iter().map(|x| x.texel_center as u32)),
+        C::Mips => bits(s.records.samplers.iter().map(|x| x.mip_mode as u32)),
+        C::TexelCenters => bits(s.records.samplers.iter().map(|x| x.texel_center as u32)),
         C::TextureSizes => bits(stored(s).map(size_kind)),
-        C::TextureKinds => bits(s.textures.iter().map(|t| t.kind as u32)),
-        C::Mipmapped => u32::from(s.textures.iter().any(|t| t.levels > 1)),
+        C::TextureKinds => bits(s.records.textures.iter().map(|t| t.kind as u32)),
+        C::Mipmapped => u32::from(s.records.textures.iter().any(|t| t.levels > 1)),
         C::Nonfinite => u32::from(s.has_nonfinite()),
         C::TexelFormats => bits(stored(s).map(|t| t.format as u32)),
         C::ColorSpaces => bits(stored(s).map(|t| t.color_space as u32)),
         C::DeepSrgb => u32::from(s.has_srgb(Component::Unorm16)),
-        C::Procedurals => unrolled(s.procedurals.len()),
-        C::ProceduralKinds => bits(s.procedurals.iter().map(|p| p.kind as u32)),
+        C::ProceduralKinds => bits(s.records.procedurals.iter().map(|p| p.kind as u32)),
         C::ProceduralFiltered => u32::from(filters_procedurals(s)),
         C::Compensated => u32::from(compensates(s)),
         C::Blocks => u32::from(s.samples > MAX_PLAIN || s.schedule == Schedule::Jobs),
         C::ConeShapes => cone_shapes(s),
         C::SampleDimensions => s.header.sample_dimensions,
-        C::Motions => unrolled(s.motions.len()),
         C::MovingCamera => u32::from(s.header.camera_moves),
         C::Schedules => bit(s.schedule as u32),
         C::PixelFilters => bit(s.header.pixel_filter as u32),
         C::Diagnosed => u32::from(s.guarded),
         C::TileCulled => u32::from(s.culls_tiles()),
         C::Warped => u32::from(warps(s)),
+        C::Length(list) => unrolled(s.records.len(list)),
         C::GroupX
         | C::GroupY
-        | C::PlanesAt
-        | C::SpheresAt
-        | C::TrianglesAt
-        | C::LightsAt
-        | C::MaterialsAt
-        | C::UvProjectionsAt
-        | C::TexturesAt
-        | C::SamplersAt
-        | C::ProceduralsAt
-        | C::MotionsAt
+        | C::At(_)
         | C::PixelFilterAt
         | C::Slots
         | C::VolumeSlots

@@ -1,49 +1,77 @@
 //! The kinds of shapes, one file each → their device records, relative to the eye, each with its map; and what the rest
 //! of packing and rendering asks of all of them: how many there are, and how far f32 misplaces them.
 
-mod plane;
-mod sphere;
-mod triangle;
-
 use glam::DVec3;
 
-use super::precision::{Camera, round};
+use super::precision::Camera;
 use super::{PackedScene, TextureKind};
 use crate::core::error::Result;
 use crate::scene::model::{Mapping, Scene};
 use crate::schema::layout;
+use crate::schema::shapes::with_shapes;
 use crate::texture::sampler_spec::SamplerSpec;
 
 /// More shapes than this are worth lists of tiles: so few are unrolled code.
 const FEW: usize = 16;
 
-pub fn pack_shapes(packed: &mut PackedScene, scene: &Scene) -> Result<()> {
-    let eye = scene.camera.eye;
-    for plane in &scene.planes {
-        let record = plane::pack(packed, scene, plane, eye)?;
-        packed.planes.push(record);
-    }
-    for sphere in &scene.spheres {
-        let record = sphere::pack(packed, scene, sphere, eye);
-        packed.spheres.push(record);
-    }
-    for triangle in &scene.triangles {
-        let record = triangle::pack(packed, scene, triangle, eye);
-        packed.triangles.push(record);
-    }
-    if scene.shapes_move() {
-        packed.motions = scene.motions().map(|m| layout::Motion { shift: m }).collect();
-    }
-    packed.header.plane_count = packed.planes.len() as u32;
-    packed.header.sphere_count = packed.spheres.len() as u32;
-    packed.header.triangle_count = packed.triangles.len() as u32;
-    packed.header.motion_count = packed.motions.len() as u32;
-    Ok(())
+macro_rules! kinds {
+    ($($kind:ident $module:ident $list:ident [$($property:ident)*];)+) => {
+        $(mod $module;)+
+
+        pub fn pack_shapes(packed: &mut PackedScene, scene: &Scene) -> Result<()> {
+            $(for shape in &scene.shapes.$list {
+                let record = $module::pack(packed, scene, shape, scene.camera.eye)?;
+                packed.records.$list.push(record);
+            })+
+            if scene.shapes_move() {
+                packed.records.motions = scene.motions().map(|m| layout::Motion { shift: m }).collect();
+            }
+            Ok(())
+        }
+
+        /// Whether camera rays gain by lists of the shapes that each tile may show.
+        pub fn gains_by_tiles(scene: &Scene) -> bool {
+            let lists = [$((has(&[$(stringify!($property)),*], "listed"), scene.shapes.$list.len())),+];
+            total(&lists) > FEW
+        }
+
+        pub(super) fn rounded_shapes(scene: &Scene) -> impl Iterator<Item = &dyn Rounded> {
+            std::iter::empty()$(.chain(scene.shapes.$list.iter().map(|shape| shape as &dyn Rounded)))+
+        }
+
+        impl PackedScene {
+            pub fn shape_count(&self) -> usize {
+                self.shapes_that(|_| true)
+            }
+
+            /// Shapes that lists of tiles hold.
+            pub fn listed_shapes(&self) -> usize {
+                self.shapes_that(|properties| has(properties, "listed"))
+            }
+
+            /// Whether some shape may lie between another place of its own, or of another shape, and a light: a lone
+            /// flat one does not.
+            pub fn shapes_occlude(&self) -> bool {
+                self.shapes_that(|properties| !has(properties, "planar")) > 0 || self.shape_count() > 1
+            }
+
+            /// The number of shapes of the kinds whose properties are chosen.
+            fn shapes_that(&self, chosen: impl Fn(&[&str]) -> bool) -> usize {
+                let lists = [$((chosen(&[$(stringify!($property)),*]), self.records.$list.len())),+];
+                total(&lists)
+            }
+        }
+    };
+}
+with_shapes!(kinds);
+
+fn has(properties: &[&str], property: &str) -> bool {
+    properties.contains(&property)
 }
 
-/// Whether camera rays gain by lists of the shapes that each tile may show.
-pub fn gains_by_tiles(scene: &Scene) -> bool {
-    scene.triangles.len() > FEW
+/// The sum of the lengths of chosen lists.
+fn total(lists: &[(bool, usize)]) -> usize {
+    lists.iter().filter(|(chosen, _)| *chosen).map(|(_, length)| length).sum()
 }
 
 /// a × b to two ulps of each component, however near to parallel (Kahan's difference of products; Jeannerod,
@@ -65,10 +93,10 @@ fn add_map(
 ) -> u32 {
     let material = &scene.materials[material];
     let Some(texture) = material.texture.or(material.bump.map(|r| r.texture)) else { return 0 };
-    let kind = packed.textures[texture].kind;
+    let kind = packed.records.textures[texture].kind;
     let flat = matches!(kind, TextureKind::Flat | TextureKind::Procedural);
-    packed.uv_projections.push(make(&material.mapping, &scene.sampler_of(material), flat));
-    packed.uv_projections.len() as u32 - 1
+    packed.records.uv_projections.push(make(&material.mapping, &scene.sampler_of(material), flat));
+    packed.records.uv_projections.len() as u32 - 1
 }
 
 /// The largest coordinate, seen from the eye.
@@ -96,34 +124,4 @@ pub(super) trait Rounded {
 
     /// Adds the errors of texture coordinates on it, in tiles.
     fn errors(&self, camera: &Camera, mapping: &Mapping, add: &mut dyn FnMut(f64));
-}
-
-pub(super) fn rounded_shapes(scene: &Scene) -> impl Iterator<Item = &dyn Rounded> {
-    let planes = scene.planes.iter().map(|s| s as &dyn Rounded);
-    let spheres = scene.spheres.iter().map(|s| s as &dyn Rounded);
-    planes.chain(spheres).chain(scene.triangles.iter().map(|s| s as &dyn Rounded))
-}
-
-impl PackedScene {
-    pub fn shape_count(&self) -> usize {
-        self.planes.len() + self.spheres.len() + self.triangles.len()
-    }
-
-    /// Shapes that lists of tiles hold.
-    pub fn listed_shapes(&self) -> usize {
-        self.triangles.len()
-    }
-
-    /// Whether some shape may lie between another place of its own, or of another shape, and a light: a lone flat one
-    /// does not.
-    pub fn shapes_occlude(&self) -> bool {
-        !self.spheres.is_empty() || self.planes.len() + self.triangles.len() > 1
-    }
-
-    /// The numbers that a device reads as f32.
-    pub(super) fn round_shapes(&mut self) {
-        round(&mut self.planes);
-        round(&mut self.spheres);
-        round(&mut self.triangles);
-    }
 }

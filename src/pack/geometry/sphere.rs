@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use super::{Rounded, add_map, reach};
+use crate::core::error::Result;
 use crate::pack::PackedScene;
 use crate::pack::mapping::{self, Place};
 use crate::pack::precision::{Camera, PART_OF_PIXEL, U, tiles_a_unit};
@@ -12,19 +13,19 @@ use crate::schema::layout;
 /// Rounding errors of the vector from a sphere's centre, as they add up.
 const SPHERE: f64 = 2.5;
 
-pub(super) fn pack(packed: &mut PackedScene, scene: &Scene, sphere: &Sphere, eye: DVec3) -> layout::Sphere {
+pub(super) fn pack(packed: &mut PackedScene, scene: &Scene, sphere: &Sphere, eye: DVec3) -> Result<layout::Sphere> {
     let map = add_map(packed, scene, sphere.material, |mapping, sampler, flat| {
         let around_center = Mapping { origin: sphere.center, ..*mapping };
         let mapping = if mapping.kind == MappingKind::Surface { &around_center } else { mapping };
         let place = Place { centroid: sphere.centroid(), bounds: sphere.bounds() };
         mapping::projecting_map(mapping, sampler, eye, &place, flat)
     });
-    layout::Sphere {
+    Ok(layout::Sphere {
         center: sphere.center - eye,
         radius: sphere.radius,
         material: sphere.material as u32,
         uv_projection: map,
-    }
+    })
 }
 
 fn misses_sphere(camera: &Camera, sphere: &Sphere) -> bool {

@@ -3,6 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use super::{Rounded, add_map, cross, reach};
+use crate::core::error::Result;
 use crate::pack::mapping::{self, Place, uv_matrix};
 use crate::pack::precision::{Camera, RAY, U, tiles_a_unit};
 use crate::pack::{MapKind, PackedScene};
@@ -22,7 +23,7 @@ pub(super) fn pack(
     scene: &Scene,
     triangle: &Triangle,
     eye: DVec3,
-) -> layout::Triangle {
+) -> Result<layout::Triangle> {
     let [a, b, c] = triangle.vertices.map(|v| v - eye);
     let normal = cross(b - a, c - a).normalize();
     let material = &scene.materials[triangle.material];
@@ -33,7 +34,7 @@ pub(super) fn pack(
         _ => mapping::projecting_map(mapping, sampler, eye, &place, flat),
     });
     let shading = triangle.normals.unwrap_or([normal; 3]).map(DVec3::normalize);
-    layout::Triangle {
+    Ok(layout::Triangle {
         a,
         u_a: uvs[0].x,
         b,
@@ -49,7 +50,7 @@ pub(super) fn pack(
         material: triangle.material as u32,
         uv_projection: map,
         is_smooth: triangle.normals.is_some(),
-    }
+    })
 }
 
 /// The vertices' coordinates after scale, rotation and offset, with the whole tiles of the first

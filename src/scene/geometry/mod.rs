@@ -1,22 +1,18 @@
-//! The kinds of shapes that a scene has, one file each: defaults, checks, box and motion. What is not here goes over
+//! The kinds of shapes that a scene has, one file each: keys, defaults, checks, box and motion. What is not here goes over
 //! `Scene::shapes` and knows no kind.
 
-mod plane;
-mod sphere;
-mod triangle;
+mod fields;
 
 use glam::DVec3;
 
+use super::builder::SceneBuilder;
 use super::limits::{COORDINATE, MAX_SHAPES};
 use super::model::{Material, Scene};
 use super::refusal::{Check, Key};
+use crate::core::error::Result;
+use crate::schema::shapes::with_shapes;
 
-pub use plane::Plane;
-pub use sphere::Sphere;
-pub use triangle::Triangle;
-
-/// Words by which a person knows them.
-const KINDS: &str = "planes, spheres and triangles";
+pub use fields::Fields;
 
 /// An axis-aligned box.
 #[derive(Clone, Copy, Debug)]
@@ -47,68 +43,171 @@ pub trait Shape {
     fn bounds(&self) -> Option<Bounds>;
 }
 
-impl Scene {
-    /// All shapes, in the order in which devices number them.
-    pub fn shapes(&self) -> impl Iterator<Item = &dyn Shape> {
-        let planes = self.planes.iter().map(|s| s as &dyn Shape);
-        let spheres = self.spheres.iter().map(|s| s as &dyn Shape);
-        planes.chain(spheres).chain(self.triangles.iter().map(|s| s as &dyn Shape))
-    }
-
-    /// The same, to change them.
-    pub fn shapes_mut(&mut self) -> impl Iterator<Item = &mut dyn Shape> {
-        let planes = self.planes.iter_mut().map(|s| s as &mut dyn Shape);
-        let spheres = self.spheres.iter_mut().map(|s| s as &mut dyn Shape);
-        planes.chain(spheres).chain(self.triangles.iter_mut().map(|s| s as &mut dyn Shape))
-    }
-}
-
-/// A kind of shape: what a builder knows of it.
+/// A kind of shape: what the rest of a scene knows of it.
 pub trait Kind: Shape + Sized {
     /// What such a shape is called, in scene files and messages.
     const SECTION: &str;
 
     /// Those that a scene has.
-    fn list(scene: &Scene) -> &Vec<Self>;
+    fn list(shapes: &Shapes) -> &Vec<Self>;
 
     /// The same, to add to.
-    fn list_mut(scene: &mut Scene) -> &mut Vec<Self>;
+    fn list_mut(shapes: &mut Shapes) -> &mut Vec<Self>;
 }
 
-/// What the builder checks of a kind.
-pub(super) trait Checked: Kind {
+/// What the file of a kind says.
+trait Described: Kind {
+    /// Keys of its section beside `material` and `motion`.
+    const KEYS: &[&str];
+
+    /// Reads a shape that lies still and has this material.
+    fn read(fields: &dyn Fields, material: usize) -> Result<Self>;
+
+    /// Moves it.
+    fn translate(&mut self, way: DVec3);
+
+    /// Its middle.
+    fn middle(&self) -> Option<DVec3>;
+
+    /// Its box.
+    fn extent(&self) -> Option<Bounds>;
+
+    /// Returns whether no ray meets it.
+    fn is_empty(&self) -> bool {
+        false
+    }
+
     /// Refuses a shape that is degenerate, or that its material does not suit.
     fn check(&self, key: Key, material: &Material) -> Check;
 }
 
-/// Adds a shape. Returns its key where it is the first of too many.
-pub(super) fn add<K: Kind>(scene: &mut Scene, shape: K) -> Option<Key> {
-    let list = K::list_mut(scene);
-    list.push(shape);
-    let item = list.len() - 1;
-    (count(scene) == MAX_SHAPES + 1).then(|| Key::item(K::SECTION, item))
+/// A kind as scene formats know it.
+pub struct Section {
+    /// Its name.
+    pub name: &'static str,
+    /// Lists of keys that it knows.
+    pub keys: [&'static [&'static str]; 2],
+    /// Reads a shape of this material and motion and adds it; returns whether no ray meets it.
+    pub add: fn(&dyn Fields, usize, DVec3, &mut SceneBuilder) -> Result<bool>,
 }
 
-fn count(scene: &Scene) -> usize {
-    scene.planes.len() + scene.spheres.len() + scene.triangles.len()
+const COMMON_KEYS: &[&str] = &["material", "motion"];
+
+macro_rules! kinds {
+    ($($kind:ident $module:ident $list:ident [$($property:ident)*];)+) => {
+        $(mod $module;)+
+
+        /// The kinds, and what belongs to one alone.
+        pub mod kinds {
+            $(pub use super::$module::*;)+
+        }
+        pub use kinds::*;
+
+        /// The shapes of a scene: a list of each kind.
+        #[derive(Clone, Debug, Default)]
+        pub struct Shapes {
+            $(#[doc = concat!("All ", stringify!($list), ".")] pub $list: Vec<$kind>,)+
+        }
+
+        impl Shapes {
+            /// Returns all shapes, in the order in which devices number them.
+            pub fn iter(&self) -> impl Iterator<Item = &dyn Shape> {
+                std::iter::empty()$(.chain(self.$list.iter().map(|shape| shape as &dyn Shape)))+
+            }
+
+            /// Returns the same, to change them.
+            pub fn iter_mut(&mut self) -> impl Iterator<Item = &mut dyn Shape> {
+                std::iter::empty()$(.chain(self.$list.iter_mut().map(|shape| shape as &mut dyn Shape)))+
+            }
+
+            fn count(&self) -> usize {
+                [$(self.$list.len()),+].iter().sum()
+            }
+        }
+
+        $(impl Kind for $kind {
+            const SECTION: &str = stringify!($module);
+
+            fn list(shapes: &Shapes) -> &Vec<Self> {
+                &shapes.$list
+            }
+
+            fn list_mut(shapes: &mut Shapes) -> &mut Vec<Self> {
+                &mut shapes.$list
+            }
+        }
+
+        impl Shape for $kind {
+            fn material(&self) -> usize {
+                self.material
+            }
+
+            fn material_mut(&mut self) -> &mut usize {
+                &mut self.material
+            }
+
+            fn motion(&self) -> DVec3 {
+                self.motion
+            }
+
+            fn freeze(&mut self, time: f64) {
+                let way = time * std::mem::take(&mut self.motion);
+                self.translate(way);
+            }
+
+            fn centroid(&self) -> Option<DVec3> {
+                self.middle()
+            }
+
+            fn bounds(&self) -> Option<Bounds> {
+                self.extent()
+            }
+        }
+
+        impl $kind {
+            /// Returns it with the material of this index.
+            pub fn with_material(self, material: usize) -> $kind {
+                $kind { material, ..self }
+            }
+        })+
+
+        /// The kinds as scene formats know them.
+        pub const SECTIONS: &[Section] = &[$(Section {
+            name: <$kind as Kind>::SECTION,
+            keys: [<$kind as Described>::KEYS, COMMON_KEYS],
+            add: |fields, material, motion, builder| {
+                let shape = $kind { motion, ..<$kind as Described>::read(fields, material)? };
+                builder.shape(shape);
+                Ok(shape.is_empty())
+            },
+        }),+];
+
+        /// Checks every shape.
+        pub(super) fn check(scene: &Scene) -> Check {
+            $(check_kind::<$kind>(scene)?;)+
+            Ok(())
+        }
+    };
+}
+with_shapes!(kinds);
+
+/// Adds a shape. Returns its key where it is the first of too many.
+pub(super) fn add<K: Kind>(shapes: &mut Shapes, shape: K) -> Option<Key> {
+    let list = K::list_mut(shapes);
+    list.push(shape);
+    let item = list.len() - 1;
+    (shapes.count() == MAX_SHAPES + 1).then(|| Key::item(K::SECTION, item))
 }
 
 /// Refuses more shapes than a scene may have; `over` is the first of them.
-pub(super) fn check_count(scene: &Scene, over: Option<Key>) -> Check {
+pub(super) fn check_count(shapes: &Shapes, over: Option<Key>) -> Check {
     let Some(key) = over else { return Ok(()) };
-    let count = count(scene);
-    key.refuse(format!("{count} {KINDS}; a scene may have {MAX_SHAPES} at most"), "one too many")
+    let count = shapes.count();
+    key.refuse(format!("{count} shapes; a scene may have {MAX_SHAPES} at most"), "one too many")
 }
 
-/// Checks every shape.
-pub(super) fn check(scene: &Scene) -> Check {
-    check_kind::<Plane>(scene)?;
-    check_kind::<Sphere>(scene)?;
-    check_kind::<Triangle>(scene)
-}
-
-fn check_kind<K: Checked>(scene: &Scene) -> Check {
-    K::list(scene).iter().enumerate().try_for_each(|(item, shape)| {
+fn check_kind<K: Described>(scene: &Scene) -> Check {
+    K::list(&scene.shapes).iter().enumerate().try_for_each(|(item, shape)| {
         let key = Key::item(K::SECTION, item);
         key.of("material").index(shape.material(), scene.materials.len(), "material")?;
         key.of("motion").vector(shape.motion(), &COORDINATE)?;
@@ -118,9 +217,10 @@ fn check_kind<K: Checked>(scene: &Scene) -> Check {
 
 /// Leaves out shapes that no ray meets. Returns which triangle was the first.
 pub(super) fn drop_empty(scene: &mut Scene) -> Option<usize> {
-    let all = scene.triangles.len();
-    let first = scene.triangles.iter().position(Triangle::is_empty);
-    scene.triangles.retain(|triangle| !triangle.is_empty());
-    scene.dropped_triangles = all - scene.triangles.len();
+    let triangles = &mut scene.shapes.triangles;
+    let all = triangles.len();
+    let first = triangles.iter().position(Triangle::is_empty);
+    triangles.retain(|triangle| !triangle.is_empty());
+    scene.dropped_triangles = all - triangles.len();
     first
 }

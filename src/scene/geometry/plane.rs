@@ -2,10 +2,12 @@
 
 use glam::DVec3;
 
-use super::{Bounds, Checked, Kind, Shape};
+use super::fields::required;
+use super::{Bounds, Described, Fields};
+use crate::core::error::Result;
 use crate::scene::builder::DEFAULT;
 use crate::scene::limits::{COORDINATE, LENGTH, parallel};
-use crate::scene::model::{Material, Scene, Space};
+use crate::scene::model::{Material, Space};
 use crate::scene::refusal::{Check, Key};
 
 /// A plane, or a parallelogram of it.
@@ -31,54 +33,30 @@ impl Plane {
         let (origin, tangent, bitangent) = (origin.into(), tangent.into(), bitangent.into());
         Plane { origin, tangent, bitangent, half_extent: None, material: DEFAULT, motion: DVec3::ZERO }
     }
-
-    /// Returns it with the material of this index.
-    pub fn with_material(self, material: usize) -> Plane {
-        Plane { material, ..self }
-    }
 }
 
-impl Shape for Plane {
-    fn material(&self) -> usize {
-        self.material
+impl Described for Plane {
+    const KEYS: &[&str] = &["origin", "tangent", "bitangent", "half_extent"];
+
+    fn read(fields: &dyn Fields, material: usize) -> Result<Plane> {
+        let vector = |key| required(fields, key, |key| fields.vector(key));
+        let plane = Plane::new(vector("origin")?, vector("tangent")?, vector("bitangent")?);
+        Ok(Plane { half_extent: fields.number("half_extent")?, material, ..plane })
     }
 
-    fn material_mut(&mut self) -> &mut usize {
-        &mut self.material
-    }
-
-    fn motion(&self) -> DVec3 {
-        self.motion
-    }
-
-    fn freeze(&mut self, time: f64) {
-        let way = time * std::mem::take(&mut self.motion);
+    fn translate(&mut self, way: DVec3) {
         self.origin += way;
     }
 
-    fn centroid(&self) -> Option<DVec3> {
+    fn middle(&self) -> Option<DVec3> {
         self.half_extent.map(|_| self.origin)
     }
 
-    fn bounds(&self) -> Option<Bounds> {
+    fn extent(&self) -> Option<Bounds> {
         let reach = self.half_extent? * (self.tangent.abs() + self.bitangent.abs());
         Some(Bounds { min: self.origin - reach, max: self.origin + reach })
     }
-}
 
-impl Kind for Plane {
-    const SECTION: &str = "plane";
-
-    fn list(scene: &Scene) -> &Vec<Self> {
-        &scene.planes
-    }
-
-    fn list_mut(scene: &mut Scene) -> &mut Vec<Self> {
-        &mut scene.planes
-    }
-}
-
-impl Checked for Plane {
     fn check(&self, key: Key, material: &Material) -> Check {
         key.of("origin").vector(self.origin, &COORDINATE)?;
         key.of("tangent").direction(self.tangent)?;

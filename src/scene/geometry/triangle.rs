@@ -2,10 +2,12 @@
 
 use glam::{DVec2, DVec3};
 
-use super::{Bounds, Checked, Kind, Shape};
+use super::fields::required;
+use super::{Bounds, Described, Fields};
+use crate::core::error::Result;
 use crate::scene::builder::DEFAULT;
 use crate::scene::limits::{COORDINATE, collinear};
-use crate::scene::model::{Material, Scene};
+use crate::scene::model::Material;
 use crate::scene::refusal::{Check, Key};
 
 /// A triangle.
@@ -30,59 +32,36 @@ impl Triangle {
         let vertices = vertices.map(Into::into);
         Triangle { vertices, uvs, normals: None, material: DEFAULT, motion: DVec3::ZERO }
     }
-
-    /// Returns whether its vertices lie on one line: meshes have such triangles, and no ray meets them.
-    pub fn is_empty(&self) -> bool {
-        collinear(self.vertices)
-    }
-
-    /// Returns it with the material of this index.
-    pub fn with_material(self, material: usize) -> Triangle {
-        Triangle { material, ..self }
-    }
 }
 
-impl Shape for Triangle {
-    fn material(&self) -> usize {
-        self.material
+impl Described for Triangle {
+    const KEYS: &[&str] = &["vertices", "uvs", "normals"];
+
+    fn read(fields: &dyn Fields, material: usize) -> Result<Triangle> {
+        let vertices = required(fields, "vertices", |key| fields.vectors(key, "vertices"))?;
+        let triangle = Triangle::new(vertices);
+        let uvs = fields.coordinates("uvs")?.unwrap_or(triangle.uvs);
+        Ok(Triangle { uvs, normals: fields.vectors("normals", "normals")?, material, ..triangle })
     }
 
-    fn material_mut(&mut self) -> &mut usize {
-        &mut self.material
-    }
-
-    fn motion(&self) -> DVec3 {
-        self.motion
-    }
-
-    fn freeze(&mut self, time: f64) {
-        let way = time * std::mem::take(&mut self.motion);
+    fn translate(&mut self, way: DVec3) {
         self.vertices = self.vertices.map(|v| v + way);
     }
 
-    fn centroid(&self) -> Option<DVec3> {
+    fn middle(&self) -> Option<DVec3> {
         Some(self.vertices.iter().sum::<DVec3>() / 3.0)
     }
 
-    fn bounds(&self) -> Option<Bounds> {
+    fn extent(&self) -> Option<Bounds> {
         let [a, b, c] = self.vertices;
         Some(Bounds { min: a.min(b).min(c), max: a.max(b).max(c) })
     }
-}
 
-impl Kind for Triangle {
-    const SECTION: &str = "triangle";
-
-    fn list(scene: &Scene) -> &Vec<Self> {
-        &scene.triangles
+    /// Meshes have triangles whose vertices lie on one line.
+    fn is_empty(&self) -> bool {
+        collinear(self.vertices)
     }
 
-    fn list_mut(scene: &mut Scene) -> &mut Vec<Self> {
-        &mut scene.triangles
-    }
-}
-
-impl Checked for Triangle {
     fn check(&self, key: Key, _material: &Material) -> Check {
         for (i, vertex) in self.vertices.iter().enumerate() {
             key.of("vertices").at(i).vector(*vertex, &COORDINATE)?;

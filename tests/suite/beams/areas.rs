@@ -30,7 +30,7 @@ fn both_sides_of_a_cut_make_the_whole() {
 /// So many triangles in disorder, in front of nothing; many pass through each other.
 fn soup(count: usize, seed: u32, colors: impl Fn(usize) -> DVec3) -> Scene {
     let mut scene = small("beams", 24, 4);
-    scene.planes.clear();
+    scene.shapes.planes.clear();
     scene.lights.clear();
     let mut rng = Rng::new(seed.into());
     let plain = scene.materials.iter().find(|m| m.name == "brown").unwrap().clone();
@@ -41,14 +41,14 @@ fn soup(count: usize, seed: u32, colors: impl Fn(usize) -> DVec3) -> Scene {
             ..plain.clone()
         })
         .collect();
-    let first = scene.triangles[0];
+    let first = scene.shapes.triangles[0];
     let mut corner = || DVec3::new(rng.between(-0.9, 0.9), rng.between(-0.4, 1.4), rng.between(-0.9, 0.9));
-    scene.triangles = (0..count)
+    scene.shapes.triangles = (0..count)
         .map(|material| Triangle { vertices: [corner(), corner(), corner()], material, ..first })
         .collect();
     // Two in one plane, which share a part.
-    let [a, b, c] = scene.triangles[0].vertices;
-    scene.triangles[1].vertices = [a + 0.3 * (b - a), b + 0.4 * (c - b), c + 0.2 * (b - c)];
+    let [a, b, c] = scene.shapes.triangles[0].vertices;
+    scene.shapes.triangles[1].vertices = [a + 0.3 * (b - a), b + 0.4 * (c - b), c + 0.2 * (b - c)];
     scene
 }
 
@@ -87,9 +87,9 @@ fn a_triangle_covers_its_area() {
     let mut scene = soup(2, 5, |_| DVec3::ONE);
     scene.background.color = DVec3::ZERO;
     scene.camera.projection = moire::internal::scene::model::Projection::Orthographic(4.0);
-    scene.triangles.truncate(1);
+    scene.shapes.triangles.truncate(1);
     let forward = (scene.camera.look_at - scene.camera.eye).normalize();
-    let [a, b, c] = scene.triangles[0].vertices;
+    let [a, b, c] = scene.shapes.triangles[0].vertices;
     let pixel = 4.0 / f64::from(scene.height);
     let expected = 0.5 * (b - a).cross(c - a).dot(forward).abs() / (pixel * pixel);
     let (film, _) = beams(&with_beams(scene));

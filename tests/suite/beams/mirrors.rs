@@ -22,7 +22,7 @@ fn mirror(corners: [DVec3; 3], tilt: f64) -> Scene {
 [[triangle]]\nvertices = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]\nmaterial = 'red'\n"
     );
     let mut scene = parse(Path::new("mirror.toml"), &text).unwrap();
-    scene.triangles = vec![Triangle { vertices: corners, ..scene.triangles[0] }];
+    scene.shapes.triangles = vec![Triangle { vertices: corners, ..scene.shapes.triangles[0] }];
     scene
 }
 

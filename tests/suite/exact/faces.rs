@@ -95,7 +95,14 @@ fn every_texel_of_a_cube_is_read_along_the_direction_to_its_middle() {
                 d[axis.unsigned_abs() as usize - 1] = along * f64::from(axis.signum());
             }
             let place = Coordinate { at: d, ..Default::default() };
-            let read = sample_texture(&scene, &scene.textures[0], &scene.samplers[0], &place, [0, 0]).x;
+            let read = sample_texture(
+                &scene,
+                &scene.records.textures[0],
+                &scene.records.samplers[0],
+                &place,
+                [0, 0],
+            )
+            .x;
             assert_eq!(read, f64::from((face as i32 * size + y) * size + x), "face {face}, texel {x} {y}");
         }
     }

@@ -70,7 +70,7 @@ fn spreads(read: impl Fn(&Texture, &Coordinate) -> FootprintEllipse) -> Worst {
     let mut worst = Worst::default();
     for changes in footprints(0.5) {
         let [major, minor] = axes(changes);
-        let got = read(&scene.textures[0], &coordinate(DVec2::ZERO, changes));
+        let got = read(&scene.records.textures[0], &coordinate(DVec2::ZERO, changes));
         // Squares and their sums: relative to the major one for both.
         let bound = 12.0 * U * approx(&major);
         worst.add(got.major, &major, bound);
@@ -137,7 +137,7 @@ fn two_levels(read: impl Fn(&PackedScene, &Coordinate) -> f64) -> Worst {
 }
 
 fn answer(scene: &PackedScene, c: &Coordinate) -> f64 {
-    sample_texture(scene, &scene.textures[0], &scene.samplers[0], c, [1, 2]).x
+    sample_texture(scene, &scene.records.textures[0], &scene.records.samplers[0], c, [1, 2]).x
 }
 
 #[test]

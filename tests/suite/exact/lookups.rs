@@ -104,7 +104,7 @@ fn specs(flat: bool) -> Vec<SamplerSpec> {
 
 fn read(scene: &PackedScene, sampler: usize, at: DVec3) -> f64 {
     let place = Coordinate { at, ..Default::default() };
-    sample_texture(scene, &scene.textures[0], &scene.samplers[sampler], &place, [3, 4]).x
+    sample_texture(scene, &scene.records.textures[0], &scene.records.samplers[sampler], &place, [3, 4]).x
 }
 
 fn compare(read: impl Fn(&PackedScene, usize, DVec3) -> f64) -> Worst {
@@ -151,7 +151,7 @@ fn planted_errors_of_look_ups_are_told() {
     compare(|scene, s, at| read(scene, s, DVec3::new(at.y, at.x, at.z))).fails("swapped axes");
     let other = |scene: &PackedScene, s: usize, at| {
         let mut scene = scene.clone();
-        let center = &mut scene.samplers[s].texel_center;
+        let center = &mut scene.records.samplers[s].texel_center;
         *center = match *center {
             TexelCenter::Half => TexelCenter::Integer,
             TexelCenter::Integer => TexelCenter::Half,

@@ -93,7 +93,7 @@ impl Case {
             self.rotate,
             pair(self.offset)
         );
-        packed(&text).1.uv_projections[0]
+        packed(&text).1.records.uv_projections[0]
     }
 
     fn local(&self, p: DVec3) -> V {
@@ -210,7 +210,7 @@ fn environment(read: impl Fn(&UvProjection, DVec3) -> DVec2) -> Worst {
             "{AHEAD}{TEXTURED}[background]\nenvironment = 't'\nsampler = 's'\nrotate = {rotate:?}\nmirror = {mirror}\n"
         );
         let (_, scene) = packed(&text);
-        let map = scene.uv_projections[scene.header.environment_projection as usize];
+        let map = scene.records.uv_projections[scene.header.environment_projection as usize];
         for i in 0..40 {
             let d = match i {
                 0 => DVec3::NEG_Z,

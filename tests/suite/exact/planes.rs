@@ -41,7 +41,7 @@ impl Case {
         let [t, b] = self.axes.map(list);
         let origin = list(self.origin);
         let plane = format!("[[plane]]\norigin = {origin}\ntangent = {t}\nbitangent = {b}\n{extent}");
-        packed(&format!("{}{plane}", from(self.eye))).1.planes[0]
+        packed(&format!("{}{plane}", from(self.eye))).1.records.planes[0]
     }
 
     /// Of t, and of u and v: with n's error of 6 U, h = n·(origin − eye) has 12 U of the longest product, the

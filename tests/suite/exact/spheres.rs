@@ -91,7 +91,7 @@ fn compare(solve: impl Fn(&Sphere, &Ray) -> f64) -> (Worst, u32) {
     let mut open = 0;
     for case in cases() {
         let text = format!("[[sphere]]\ncenter = {}\nradius = {:?}\n", list(case.center), case.radius);
-        let sphere = packed(&format!("{}{text}", from(case.eye))).1.spheres[0];
+        let sphere = packed(&format!("{}{text}", from(case.eye))).1.records.spheres[0];
         let (t, bound, unsure) = exact(&case);
         if unsure {
             open += 1;

@@ -101,7 +101,7 @@ fn compare(change: impl Fn(DVec2) -> DVec2) -> Worst {
                 let ray = Ray { origin: DVec3::ZERO, direction: d, time: 0.0 };
                 let hit = nearest_hit(&scene, &ray, NO_SHAPE);
                 let surface = hit_surface(&scene, &ray, &hit);
-                let map = &scene.uv_projections[surface.map as usize];
+                let map = &scene.records.uv_projections[surface.map as usize];
                 let at = texture_coordinate(map, &map_input(map, &ray, &surface, &Footprint::default())).at;
                 let at = change(at.truncate());
                 let (exact, bound) = case.exact(d);

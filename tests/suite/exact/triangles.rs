@@ -124,7 +124,7 @@ fn on_the_edge_itself_the_first_of_two_triangles_is_hit() {
 
 /// (t, barycentric weights of the second and third corner), which are u and v by default.
 fn place(scene: &PackedScene, ray: &Ray) -> (f64, DVec2) {
-    let t = triangle_distance(&scene.triangles[0], ray);
+    let t = triangle_distance(&scene.records.triangles[0], ray);
     let hit = Hit { t, shape: 0, local: DVec2::ZERO };
     (t, hit_surface(scene, ray, &hit).own_uv)
 }
@@ -192,8 +192,10 @@ fn planted_errors_within_triangles_are_told() {
     weights(swapped).fails("swapped corners");
     let moved = |scene: &PackedScene, ray: &Ray| {
         let mut other = scene.clone();
-        other.triangles[0] =
-            Triangle { normal: scene.triangles[0].normal.map(|x| x * (1.0 + 1e-9)), ..scene.triangles[0] };
+        other.records.triangles[0] = Triangle {
+            normal: scene.records.triangles[0].normal.map(|x| x * (1.0 + 1e-9)),
+            ..scene.records.triangles[0]
+        };
         place(&other, ray)
     };
     weights(moved).fails("a plane moved by a billionth");

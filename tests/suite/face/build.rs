@@ -228,7 +228,7 @@ fn too_many_shapes_are_refused_at_the_first_one_over() {
         }
         scene.shape(plane());
     });
-    assert!(message.starts_with("plane 0: 65536 planes, spheres and triangles"), "{message}");
+    assert!(message.starts_with("plane 0: 65536 shapes"), "{message}");
 }
 
 #[test]

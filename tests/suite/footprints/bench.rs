@@ -36,7 +36,7 @@ pub fn pairs_of(
 
 /// Each texel of a grey float texture becomes the number of its level.
 pub fn paint_levels(scene: &mut PackedScene, texture: usize) {
-    let Texture { first_word, format, levels, .. } = scene.textures[texture];
+    let Texture { first_word, format, levels, .. } = scene.records.textures[texture];
     assert_eq!(format, TexelFormat::GreyFloat);
     for level in 0..levels {
         let bytes = scene.level_texels(texture, level).len();
@@ -58,7 +58,8 @@ pub fn narrow(v: DVec3) -> [f32; 4] {
 
 /// The oracle's answer to query number `index` of a list.
 pub fn expected(scene: &PackedScene, query: &LookupQuery, index: usize, c: &Coordinate) -> [f64; 4] {
-    let (image, how) = (&scene.textures[query.texture as usize], &scene.samplers[query.sampler as usize]);
+    let (image, how) =
+        (&scene.records.textures[query.texture as usize], &scene.records.samplers[query.sampler as usize]);
     let random = moire::internal::oracle::rng::pcg2d([index as u32, query.seed]);
     sample_texture(scene, image, how, c, random).to_array()
 }
@@ -120,6 +121,6 @@ pub fn level_scene(text: &str, footprint: &str) -> PackedScene {
     };
     let textures: Vec<TextureData> = scene.textures.iter().map(texture).collect();
     let mut packed = pack::pack(&scene, textures, None).unwrap();
-    (0..packed.textures.len()).for_each(|t| paint_levels(&mut packed, t));
+    (0..packed.records.textures.len()).for_each(|t| paint_levels(&mut packed, t));
     packed
 }

@@ -16,7 +16,7 @@ const SEEDS: u32 = 2048;
 
 /// All texels of all levels, as bits.
 fn texels(scene: &PackedScene, texture: usize) -> Vec<u32> {
-    let image = &scene.textures[texture];
+    let image = &scene.records.textures[texture];
     let mut all = Vec::new();
     for index in 0..image.levels {
         let level = level_at(scene, image, index);

@@ -44,7 +44,7 @@ fn end_of_ray(scene: &PackedScene, at: DVec2) -> Option<(Vec<u32>, u32, DVec3)> 
             let surface = hit_surface(scene, &ray, &hit);
             (surface, surface.material, surface.map)
         };
-        let material = &scene.materials[material as usize];
+        let material = &scene.records.materials[material as usize];
         let model = material.model;
         let n = surface.geometric_normal;
         let ior = f64::from(material.ior);
@@ -61,9 +61,9 @@ fn end_of_ray(scene: &PackedScene, at: DVec2) -> Option<(Vec<u32>, u32, DVec3)> 
                 time: 0.0,
             },
             _ => {
-                let map_record = &scene.uv_projections[map as usize];
+                let map_record = &scene.records.uv_projections[map as usize];
                 let seen = map_input(map_record, &ray, &surface, &Footprint::default());
-                let image = &scene.textures[material.texture_index as usize];
+                let image = &scene.records.textures[material.texture_index as usize];
                 let (c, face) = in_texture(image, &texture_coordinate(map_record, &seen));
                 way.push(face);
                 return Some((way, map, c.at));
@@ -77,7 +77,7 @@ fn end_of_ray(scene: &PackedScene, at: DVec2) -> Option<(Vec<u32>, u32, DVec3)> 
 fn exact_level(scene: &PackedScene, at: DVec2) -> Option<f64> {
     const STEP: f64 = 1e-4;
     let here = end_of_ray(scene, at)?;
-    let image = &scene.textures[0];
+    let image = &scene.records.textures[0];
     let size = DVec3::new(image.size.x.into(), image.size.y.into(), image.size.z.into());
     let mut changes = [DVec3::ZERO; 2];
     for (change, axis) in changes.iter_mut().zip([DVec2::X, DVec2::Y]) {
@@ -87,7 +87,7 @@ fn exact_level(scene: &PackedScene, at: DVec2) -> Option<f64> {
             return None;
         }
         let mut d = a.2 - b.2;
-        let kind = scene.uv_projections[here.1 as usize].kind;
+        let kind = scene.records.uv_projections[here.1 as usize].kind;
         if matches!(kind, MapKind::Cylindrical | MapKind::Spherical) {
             d -= d.round();
         }

@@ -28,7 +28,7 @@ fn readings(min: Filter, mip: MipMode, ratio: f64, seed: u64) -> Vec<Reading> {
     let texture = solid(Dimension::Two, [SIZE, SIZE, 1], TexelFormat::GreyFloat);
     let mut scene = pairs_of(Footprint::Differentials, vec![texture], &[spec], &[(0, 0)]);
     let levels = if mip == MipMode::None { 1.0 } else { LAST + 1.0 };
-    assert_eq!(f64::from(scene.textures[0].levels), levels);
+    assert_eq!(f64::from(scene.records.textures[0].levels), levels);
     paint_levels(&mut scene, 0);
     let mut rng = Rng::new(seed);
     let mut list = Vec::new();

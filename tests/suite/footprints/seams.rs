@@ -74,7 +74,7 @@ fn nearest_reads_the_texel_that_a_direction_meets_on_its_face() {
     let mut directions = pairs_of_directions(&mut rng, 1000, 1e-3);
     directions.extend((0..2000).map(|_| rng.direction()));
     let (_, values) = read(&scene, &directions);
-    let level = level_at(&scene, &scene.textures[0], 0);
+    let level = level_at(&scene, &scene.records.textures[0], 0);
     for (d, value) in directions.iter().zip(values) {
         let (stm, face) = on_cube_face(*d);
         let texel = face_uv(stm) * f64::from(SIZE);
@@ -82,7 +82,7 @@ fn nearest_reads_the_texel_that_a_direction_meets_on_its_face() {
         let sure = |x: f64| (x - x.round()).abs() > 1e-5;
         if sure(texel.x) && sure(texel.y) {
             let at = [texel.x as i64, texel.y as i64, i64::from(face)];
-            assert_eq!(value, fetch_texel(&scene, &scene.textures[0], &level, at).x, "at {d}");
+            assert_eq!(value, fetch_texel(&scene, &scene.records.textures[0], &level, at).x, "at {d}");
         }
     }
 }

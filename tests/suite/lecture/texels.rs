@@ -31,7 +31,14 @@ fn assert_reads(texture: TextureData, spec: SamplerSpec, cases: &[([f32; 2], f64
     let queries: Vec<LookupQuery> = cases.iter().map(|c| query(&scene, 0, c.0)).collect();
     let mut answers: Vec<(&str, Vec<f64>)> = Vec::new();
     let oracle = |q: &LookupQuery| {
-        sample_texture(&scene, &scene.textures[0], &scene.samplers[0], &Coordinate::flat(uv_of(q)), [0; 2]).x
+        sample_texture(
+            &scene,
+            &scene.records.textures[0],
+            &scene.records.samplers[0],
+            &Coordinate::flat(uv_of(q)),
+            [0; 2],
+        )
+        .x
     };
     answers.push(("oracle", queries.iter().map(oracle).collect()));
     for (who, image_source) in [("device, buffer", false), ("device, image", true)] {

@@ -38,7 +38,7 @@ fn caught(
     tamper: impl Fn(&mut Texture, &mut Sampler, DVec2) -> DVec2,
 ) -> f64 {
     let answer = |query: &LookupQuery| {
-        let (mut image, mut how) = (scene.textures[0], scene.samplers[0]);
+        let (mut image, mut how) = (scene.records.textures[0], scene.records.samplers[0]);
         let uv = tamper(&mut image, &mut how, uv_of(query));
         sample_texture(scene, &image, &how, &Coordinate::flat(uv), [0; 2]).as_vec4().to_array()
     };

@@ -55,7 +55,7 @@ fn everything(
     let scene = pairs(textures, &specs, &list);
     let mut rng = Rng::new(11);
     let mut queries = Vec::new();
-    for (t, record) in scene.textures.iter().enumerate() {
+    for (t, record) in scene.records.textures.iter().enumerate() {
         for sampler in 0..specs.len() {
             for uv in coordinates(&mut rng, [record.size.x, record.size.y], random, true) {
                 if (rng.bits() as usize).is_multiple_of(keep_one_in) {
@@ -130,8 +130,10 @@ fn coordinates_that_are_no_numbers_read_a_texel_and_the_oracles() {
     for image_source in [false, true] {
         let answers = probe::lookups(&gpu(), &scene, image_source, true, &queries).unwrap();
         for (query, answer) in queries.iter().zip(&answers) {
-            let (image, how) =
-                (&scene.textures[query.texture as usize], &scene.samplers[query.sampler as usize]);
+            let (image, how) = (
+                &scene.records.textures[query.texture as usize],
+                &scene.records.samplers[query.sampler as usize],
+            );
             let expected = sample_texture(&scene, image, how, &Coordinate::flat(uv_of(query)), [0; 2]);
             assert!(expected.is_finite(), "the oracle at {:?}", query.uv);
             let label = scene.sampler_specs[query.sampler as usize].label();

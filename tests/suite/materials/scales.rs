@@ -108,11 +108,11 @@ fn gradients_are_those_of_the_coordinates() {
                 let near_pole = DVec3::new(rng.between(-1e-3, 1e-3), 1.0, rng.between(-1e-3, 1e-3));
                 let out = if tried % 4 == 0 { near_pole.normalize() } else { rng.direction() };
                 // Towards the first ball's middle.
-                let center = scene.spheres[0].center;
+                let center = scene.records.spheres[0].center;
                 let ray = Ray { origin: center + 0.9 * k * out, direction: -out, time: 0.0 };
                 let meet = |ray: &Ray| hit_surface(&scene, ray, &nearest_hit(&scene, ray, u32::MAX));
                 let surface = meet(&ray);
-                let map = &scene.uv_projections[surface.map as usize];
+                let map = &scene.records.uv_projections[surface.map as usize];
                 let coordinate = |ray: &Ray| {
                     texture_coordinate(map, &map_input(map, ray, &meet(ray), &Footprint::default())).at
                 };

@@ -136,7 +136,7 @@ fn deep_srgb_is_left_to_the_device_as_codes_or_as_floats() {
             let mut all: Vec<TextureData> = textures().into_iter().take(2).collect();
             all[0] = noise(Dimension::Two, [64, 64, 1], TexelFormat::Grey16, ColorSpace::Srgb, 7);
             let packed = pack::pack_with(&scene, all, None, mip_chains).unwrap();
-            let format = packed.textures[0].format;
+            let format = packed.records.textures[0].format;
             assert_eq!(format.component(), component);
             render_with(&packed, false, &Tuning::default()).0
         };

@@ -21,7 +21,7 @@ fn one_colour_stays_one_colour() {
         for &pattern in Pattern::ALL {
             for count in [1, 2, 3, 4, 16, 64, 256] {
                 let mut scene = super::with(small("quad", 24, 1), filter);
-                scene.planes.clear();
+                scene.shapes.planes.clear();
                 scene.background.color = glam::Vec3::from_array(COLOR).as_dvec3();
                 (scene.sampling.pattern, scene.sampling.spp) = (pattern, count);
                 if check_spp(pattern, count).is_err() {

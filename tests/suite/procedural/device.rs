@@ -5,7 +5,7 @@ use moire::internal::lab::probe::{self, ProceduralQuery};
 use moire::internal::oracle::procedural::{box_count, principal_axes, procedural_color};
 use moire::internal::pack::PackedScene;
 use moire::internal::scene::model::Footprint;
-use moire::internal::schema::layout::{self, Header};
+use moire::internal::schema::layout::{self, Header, Records};
 use moire::internal::texture::procedural::ProceduralKind::{self, *};
 
 use super::{default_record, record};
@@ -15,7 +15,8 @@ use crate::shared_gpu::gpu;
 fn scene(records: &[layout::Procedural], filtered: bool) -> PackedScene {
     let footprint = if filtered { Footprint::Differentials } else { Footprint::None };
     let header = Header { footprint, ..Default::default() };
-    PackedScene { header, procedurals: records.to_vec(), ..Default::default() }
+    let records = Records { procedurals: records.to_vec(), ..Default::default() };
+    PackedScene { header, records, ..Default::default() }
 }
 
 fn four(v: DVec3) -> [f32; 4] {

@@ -107,10 +107,10 @@ fn finds(kind: Kind, change: impl Fn(&mut Scene)) -> usize {
 fn planted_errors_are_found() {
     let nothing = finds(Kind::Mirrors, |_| {});
     let turned = finds(Kind::Plain, |scene| scene.camera.look_at.x += 2e-3);
-    let missing = finds(Kind::Facing, |scene| scene.triangles.truncate(5));
+    let missing = finds(Kind::Facing, |scene| scene.shapes.triangles.truncate(5));
     let deeper = finds(Kind::Facing, |scene| scene.sampling.max_depth += 1);
     let dark = finds(Kind::Plain, |scene| scene.lights.clear());
-    let lower = finds(Kind::MirrorGround, |scene| scene.planes[0].origin.y -= 1e-3);
+    let lower = finds(Kind::MirrorGround, |scene| scene.shapes.planes[0].origin.y -= 1e-3);
     // Not every scene has lights, or shows a second bounce.
     assert_eq!([nothing, turned], [0, 4]);
     assert!(

@@ -43,7 +43,7 @@ fn cause(scene: &PackedScene, place: [u32; 2]) -> Cause {
     let mut skip = NO_SHAPE;
     let model = |shape: u32| {
         let [material, _] = shape_links(scene, shape);
-        scene.materials[material as usize].model
+        scene.records.materials[material as usize].model
     };
     for _ in 0..=header.max_depth {
         let mut pieces = collect_fragments(scene, &cone, skip, FAR);
@@ -54,7 +54,7 @@ fn cause(scene: &PackedScene, place: [u32; 2]) -> Cause {
         }
         let shows = |what: Model| list.iter().any(|p| p.seen > 0.0 && model(p.shape) == what);
         if !shows(Model::Mirror) {
-            let lit = shows(Model::Lambert) && !scene.lights.is_empty();
+            let lit = shows(Model::Lambert) && !scene.records.lights.is_empty();
             return if lit { Cause::Shadow } else { Cause::Outline };
         }
         let mirror = list[0];

@@ -90,7 +90,7 @@ fn by_rays(scene: &PackedScene, cone: &Cone, shapes: usize) -> Vec<f64> {
 fn shares_off(scene: &Scene) -> [f64; 3] {
     let packed = packed(with(scene.clone(), Algorithm::Cone), None);
     let header = &packed.header;
-    let shapes = scene.planes.len() + scene.triangles.len();
+    let shapes = scene.shapes.planes.len() + scene.shapes.triangles.len();
     let mut off = [0.0f64; 3];
     for place in (0..scene.width * scene.height).map(|i| [i % scene.width, i / scene.width]) {
         let ray = camera_ray(header, place, DVec2::splat(0.5));

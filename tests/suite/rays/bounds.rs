@@ -32,7 +32,7 @@ pub struct Estimate {
 }
 
 pub fn estimate(scene: &PackedScene, shape: u32, ray: &Ray) -> Estimate {
-    let (planes, spheres) = (scene.header.plane_count, scene.header.sphere_count);
+    let (planes, spheres) = (scene.records.planes.len() as u32, scene.records.spheres.len() as u32);
     if shape < planes {
         plane(scene, shape as usize, ray)
     } else if shape < planes + spheres {
@@ -52,7 +52,7 @@ fn flat_error(n: DVec3, distance: f64, ray: &Ray, t: f64) -> f64 {
 }
 
 fn plane(scene: &PackedScene, index: usize, ray: &Ray) -> Estimate {
-    let plane = &scene.planes[index];
+    let plane = &scene.records.planes[index];
     let unbounded = Plane { half_extent: RealBits(-1.0), ..*plane };
     let (t, _) = unbounded.distance_to(ray);
     let error = flat_error(plane.normal, plane.distance, ray, t);
@@ -69,7 +69,7 @@ fn plane(scene: &PackedScene, index: usize, ray: &Ray) -> Estimate {
 }
 
 fn sphere(scene: &PackedScene, index: usize, ray: &Ray) -> Estimate {
-    let sphere = &scene.spheres[index];
+    let sphere = &scene.records.spheres[index];
     let (center, r, d) = (sphere.center, sphere.radius, ray.direction);
     let f = ray.origin - center;
     let (a, b) = (d.dot(d), -f.dot(d));
@@ -92,7 +92,7 @@ fn sphere(scene: &PackedScene, index: usize, ray: &Ray) -> Estimate {
 }
 
 fn triangle(scene: &PackedScene, index: usize, ray: &Ray) -> Estimate {
-    let triangle = &scene.triangles[index];
+    let triangle = &scene.records.triangles[index];
     let t = triangle_distance(triangle, ray);
     let corners = [triangle.a, triangle.b, triangle.c].map(|v| v - ray.origin);
     let edges = [0, 1, 2].map(|i| {

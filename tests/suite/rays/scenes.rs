@@ -146,7 +146,7 @@ pub fn rays(rng: &mut Rng, count: usize) -> Vec<RayQuery> {
 /// Past the silhouettes of spheres, on either side by 1e-4 to 0.1 of the radius.
 pub fn grazing(rng: &mut Rng, scene: &PackedScene, count: usize) -> Vec<RayQuery> {
     let ray = |i: usize| {
-        let sphere = &scene.spheres[i % scene.spheres.len()];
+        let sphere = &scene.records.spheres[i % scene.records.spheres.len()];
         let way = rng.direction();
         let side = way.cross(rng.direction()).normalize();
         let off = 10f64.powf(rng.between(-4.0, -1.0)) * if rng.unit() < 0.8 { -1.0 } else { 1.0 };

@@ -125,7 +125,7 @@ fn too_many_shapes_or_textures_are_refused_at_the_first_one_over() {
     let plane = "[[plane]]\norigin = [0, 0, 0]\ntangent = [1, 0, 0]\nbitangent = [0, 1, 0]\n";
     assert!(parse(Path::new(PATH), &spheres(65535)).is_ok());
     let over = format!("{}{plane}", spheres(65535));
-    check(&[("shapes", &over, &[":196614:1:", "65536 planes, spheres and triangles", "65535 at most"])]);
+    check(&[("shapes", &over, &[":196614:1:", "65536 shapes", "65535 at most"])]);
 
     let textures = |count: usize| {
         let each = (0..count).map(|i| format!("[[texture]]\nname = 't{i}'\nfile = 'f'\n"));
@@ -146,7 +146,7 @@ fn triangles_without_area_are_dropped_with_a_count() {
     let good = triangle("[[0, 0, 0], [1, 0, 0], [0, 1, 0]]");
     let text = format!("{HEAD}{good}{}{good}", flat.map(triangle).concat());
     let scene = parse(Path::new(PATH), &text).unwrap();
-    assert_eq!((scene.triangles.len(), scene.dropped_triangles), (2, 3));
+    assert_eq!((scene.shapes.triangles.len(), scene.dropped_triangles), (2, 3));
     let first = text.lines().position(|line| line.contains("[1, 0, 0], [1, 0, 0]")).unwrap();
     // The table's header is the line before.
     assert_eq!(scene.first_dropped, format!("line {first}"));

@@ -25,12 +25,12 @@ fn coin() -> Scene {
 /// The same coin tossed again and again, at eight panes one over the other.
 fn stack() -> Scene {
     let mut scene = coin();
-    let pane = scene.planes[0];
-    scene.planes.truncate(2);
+    let pane = scene.shapes.planes[0];
+    scene.shapes.planes.truncate(2);
     for i in 1..8 {
         let mut next = pane;
         next.origin.z = -0.05 * f64::from(i);
-        scene.planes.push(next);
+        scene.shapes.planes.push(next);
     }
     scene.sampling.max_depth = 40;
     scene

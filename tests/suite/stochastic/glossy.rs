@@ -133,7 +133,7 @@ fn roughness_0_is_the_perfect_mirror_bit_for_bit() {
     for model in ["mirror", "dielectric"] {
         let smooth = room(&format!("model = '{model}'"));
         let zero = room(&format!("model = '{model}'\nroughness = 0"));
-        assert_eq!(packed(&smooth).materials, packed(&zero).materials);
+        assert_eq!(packed(&smooth).records.materials, packed(&zero).records.materials);
         // Beside a rough ball that nothing here sees.
         let far = "[[material]]\nname = 'rough'\nmodel = 'mirror'\nroughness = 0.5
 [[sphere]]\ncenter = [0, 0, 90]\nradius = 0.01\nmaterial = 'rough'\n";

@@ -31,14 +31,14 @@ fn lit(light: Light) -> f64 {
     scene.lights = vec![light];
     let alone = mean(&render(&packed(&scene)));
     // With a shape that shades nothing, shadow rays are cast.
-    scene.spheres = vec![parsed_sphere()];
+    scene.shapes.spheres = vec![parsed_sphere()];
     let shaded = mean(&render(&packed(&scene)));
     assert!((shaded / alone - 1.0).abs() < 1e-5, "{light:?}: {alone} alone, {shaded} with a far shape");
     alone
 }
 
 fn parsed_sphere() -> moire::internal::scene::model::Sphere {
-    parsed(&format!("{}[[sphere]]\ncenter = [0, 0, -9]\nradius = 1\n", super::lens::VIEW)).spheres[0]
+    parsed(&format!("{}[[sphere]]\ncenter = [0, 0, -9]\nradius = 1\n", super::lens::VIEW)).shapes.spheres[0]
 }
 
 fn assert_near(found: f64, expected: f64, share: f64, what: &str) {
@@ -271,7 +271,7 @@ fn without_an_extent_lights_are_points_and_directions() {
     for (small, none) in pairs {
         let of = |light: &str| {
             let scene = parse("a.toml".as_ref(), &format!("{head}[[light]]\n{light}\n")).unwrap();
-            packed(&scene).lights
+            packed(&scene).records.lights
         };
         assert_eq!(of(small), of(none));
     }

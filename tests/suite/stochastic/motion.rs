@@ -53,7 +53,7 @@ fn an_edge_on_its_way_covers_each_place_for_its_share_of_the_time() {
 fn a_ball_leaves_a_streak_as_long_as_its_way() {
     let still = flat("[[sphere]]\ncenter = [-0.3, 0.1, 0]\nradius = 0.2\nmaterial = 'white'\n");
     let mut moving = still.clone();
-    moving.spheres[0].motion = DVec3::new(0.7, 0.0, 0.0);
+    moving.shapes.spheres[0].motion = DVec3::new(0.7, 0.0, 0.0);
     let ([x, y], [own_x, own_y]) = (spread(&render(&packed(&moving))), spread(&render(&packed(&still))));
     let streak = (0.7f64 * 16.0).powi(2) / 12.0;
     assert!(((x - own_x) / streak - 1.0).abs() < 0.02, "{}, expected {streak}", x - own_x);
@@ -91,19 +91,19 @@ fn a_moment_shows_everything_where_it_is_then() {
             (still.camera.eye + time * eye, still.camera.look_at + time * look_at);
         still.camera.motion = [DVec3::ZERO; 2];
         // The ball's texture goes with it.
-        still.materials.iter_mut().for_each(|m| m.mapping.origin += time * still.spheres[0].motion);
-        for plane in &mut still.planes {
+        still.materials.iter_mut().for_each(|m| m.mapping.origin += time * still.shapes.spheres[0].motion);
+        for plane in &mut still.shapes.planes {
             plane.origin += time * std::mem::take(&mut plane.motion);
         }
-        for sphere in &mut still.spheres {
+        for sphere in &mut still.shapes.spheres {
             sphere.center += time * std::mem::take(&mut sphere.motion);
         }
-        for triangle in &mut still.triangles {
+        for triangle in &mut still.shapes.triangles {
             let by = time * std::mem::take(&mut triangle.motion);
             triangle.vertices.iter_mut().for_each(|v| *v += by);
         }
         let [frozen, still] = [textured(&frozen), textured(&still)];
-        assert!(still.motions.is_empty());
+        assert!(still.records.motions.is_empty());
         let [a, b] = [&frozen, &still].map(|s| on_oracle(s, &NoProgress).unwrap());
         let apart = compare(&a, &b).unwrap();
         assert!(apart.rmse < 2e-3, "oracle at {time}: {:e}", apart.rmse);
@@ -127,17 +127,18 @@ fn a_camera_that_moves_sees_what_shapes_moving_the_other_way_show() {
     let mut shapes = camera.clone();
     camera.camera.motion = [way; 2];
     for motion in camera
+        .shapes
         .planes
         .iter_mut()
         .map(|s| &mut s.motion)
-        .chain(camera.spheres.iter_mut().map(|s| &mut s.motion))
+        .chain(camera.shapes.spheres.iter_mut().map(|s| &mut s.motion))
     {
         *motion = DVec3::ZERO;
     }
-    camera.triangles.iter_mut().for_each(|t| t.motion = DVec3::ZERO);
-    shapes.planes.iter_mut().for_each(|s| s.motion = -way);
-    shapes.spheres.iter_mut().for_each(|s| s.motion = -way);
-    shapes.triangles.iter_mut().for_each(|s| s.motion = -way);
+    camera.shapes.triangles.iter_mut().for_each(|t| t.motion = DVec3::ZERO);
+    shapes.shapes.planes.iter_mut().for_each(|s| s.motion = -way);
+    shapes.shapes.spheres.iter_mut().for_each(|s| s.motion = -way);
+    shapes.shapes.triangles.iter_mut().for_each(|s| s.motion = -way);
     let [a, b] = [&camera, &shapes].map(|s| on_oracle(&textured(s), &NoProgress).unwrap());
     assert!(compare(&a, &b).unwrap().rmse < 2e-3, "{:e}", compare(&a, &b).unwrap().rmse);
     let [a, b] = [&camera, &shapes].map(|s| render(&textured(s)));

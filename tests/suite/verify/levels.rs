@@ -41,9 +41,9 @@ fn wrong(variant: &Variant, precision: Precision, tamper: impl Fn(&mut LookupQue
     let judge = Judge::new(&scene, precision);
     let queries = level_sweep(&mut Rng::new(7), variant, &query(&scene, 0, [0.0; 2]));
     let is_wrong = |query: &&LookupQuery| {
-        let (mut asked, mut how) = (**query, scene.samplers[0]);
+        let (mut asked, mut how) = (**query, scene.records.samplers[0]);
         tamper(&mut asked, &mut how);
-        let answer = sample_texture(&scene, &scene.textures[0], &how, &place_of(&asked), [0; 2]);
+        let answer = sample_texture(&scene, &scene.records.textures[0], &how, &place_of(&asked), [0; 2]);
         !judge.judge(query, answer.as_vec4().to_array()).right
     };
     queries.iter().filter(is_wrong).count() as f64 / queries.len() as f64
@@ -151,7 +151,7 @@ fn anisotropy_may_read_any_level_between_the_axes_and_no_other() {
 fn levels_round_as_vulkan_says() {
     let of = |mip, [from, to]: [f64; 2]| {
         let scene = scene_of(&variant(Dimension::Two, Filter::Linear, mip));
-        let list = readings(&scene.samplers[0], 5, [from, to]);
+        let list = readings(&scene.records.samplers[0], 5, [from, to]);
         list.iter().map(|r| (r.levels, r.share)).collect::<Vec<_>>()
     };
     let one = |level: u32| vec![([level; 2], [0.0; 2])];

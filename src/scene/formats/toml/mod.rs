@@ -22,13 +22,13 @@ use toml::de::DeTable;
 use super::Format;
 use crate::core::error::{Error, ErrorKind, Result};
 use crate::scene::builder::SceneBuilder;
+use crate::scene::geometry;
 use crate::scene::limits::check_filters;
 use crate::scene::model::{EnvironmentLayout, Scene};
 use crate::texture::sampler_spec::Address;
 use names::Names;
 use procedural::PROCEDURAL;
 use samplers::Known;
-use shapes::SHAPES;
 use source::Source;
 use table::Table;
 
@@ -59,7 +59,8 @@ fn read(path: &Path, bytes: Vec<u8>) -> Result<Scene> {
 pub fn parse(path_for_messages: &Path, text: &str) -> Result<Scene> {
     let source = Source { path: path_for_messages, text };
     let document = DeTable::parse(text).map_err(|error| syntax_error(source, &error))?;
-    let sections = [SECTIONS, &SHAPES.map(|(section, ..)| section)].concat();
+    let shapes: Vec<&str> = geometry::SECTIONS.iter().map(|kind| kind.name).collect();
+    let sections = [SECTIONS, &shapes].concat();
     let root = Table::root(source, document.get_ref(), &sections)?;
     assemble(path_for_messages, &root)
 }

@@ -92,10 +92,13 @@ impl<'a> Table<'a> {
     }
 
     pub fn required(&self, key: &'static str) -> Result<Field<'a>> {
-        self.get(key).ok_or_else(|| {
-            let what = format!("key \"{}.{key}\" is missing {}", self.section, self.place());
-            self.error(&what, format!("needs {key}"))
-        })
+        self.get(key).ok_or_else(|| self.lacks(key))
+    }
+
+    /// The error for a key that must be set.
+    pub fn lacks(&self, key: &str) -> Error {
+        let what = format!("key \"{}.{key}\" is missing {}", self.section, self.place());
+        self.error(&what, format!("needs {key}"))
     }
 
     /// Of its first character.

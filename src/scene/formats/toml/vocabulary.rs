@@ -4,7 +4,7 @@
 use super::materials::{MAPPING, MATERIAL};
 use super::samplers::{BACKGROUND, SAMPLER};
 use super::sections::{CAMERA, IMAGE, SAMPLING};
-use super::shapes::SHAPES;
+use super::shapes::is_shape;
 use super::textures::TEXTURE;
 
 type Home = (&'static str, &'static [&'static str]);
@@ -35,7 +35,7 @@ fn neighbours(section: &str) -> &'static [Home] {
         "sampler" => {
             &[IN_TEXTURE, ("a [[material]]", MATERIAL), ("mapping = { … } of a [[material]]", MAPPING)]
         }
-        shape if SHAPES.iter().any(|(section, ..)| *section == shape) => &[IN_MATERIAL, IN_ITS_MAPPING],
+        shape if is_shape(shape) => &[IN_MATERIAL, IN_ITS_MAPPING],
         _ => &[],
     }
 }

@@ -1,0 +1,36 @@
+//! What a kind of shape asks of a scene format: the values of its keys. Each is nothing where the key is not set, or an
+//! error that names the place where something else stands.
+
+use glam::{DVec2, DVec3};
+
+use crate::core::error::{Error, Result};
+
+/// The values of the keys of one shape.
+pub trait Fields {
+    /// Returns a finite number.
+    fn number(&self, key: &'static str) -> Result<Option<f64>>;
+
+    /// Returns three finite numbers.
+    fn vector(&self, key: &'static str) -> Result<Option<DVec3>>;
+
+    /// Returns three vectors; `what` names them.
+    fn vectors(&self, key: &'static str, what: &str) -> Result<Option<[DVec3; 3]>>;
+
+    /// Returns three texture coordinates.
+    fn coordinates(&self, key: &'static str) -> Result<Option<[DVec2; 3]>>;
+
+    /// Returns which of the names is given.
+    fn choice(&self, key: &'static str, names: &[&str]) -> Result<Option<usize>>;
+
+    /// Returns the error for a key that must be set and is not.
+    fn missing(&self, key: &'static str) -> Error;
+}
+
+/// Returns the value of a key that must be set.
+pub(super) fn required<T>(
+    fields: &dyn Fields,
+    key: &'static str,
+    read: impl Fn(&'static str) -> Result<Option<T>>,
+) -> Result<T> {
+    read(key)?.ok_or_else(|| fields.missing(key))
+}

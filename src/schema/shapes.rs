@@ -1,0 +1,16 @@
+//! The kinds of shapes: record, module, list, and what holds of a kind. `planar`: it lies in a plane, so that a ray
+//! never meets again the one that it leaves. `polygonal`: straight lines bound it, so that beams know its outline.
+//! `curved`: its shading normal may change. `listed`: tile culling lists it. Shapes are numbered in this order.
+
+/// Hands the table to another macro, behind arguments of its own in brackets where there are any.
+macro_rules! with_shapes {
+    ($consumer:ident $(, $($argument:tt)+)?) => {
+        $consumer! {
+            $(($($argument)+))?
+            Plane plane planes [planar polygonal];
+            Sphere sphere spheres [curved];
+            Triangle triangle triangles [planar polygonal curved listed];
+        }
+    };
+}
+pub(crate) use with_shapes;
