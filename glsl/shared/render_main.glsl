@@ -85,7 +85,7 @@ void main() {
     // Long sums are divided into blocks: a block's samples are added directly, the blocks with compensation.
     // No do-while: lavapipe (Mesa 22.3.6) loses lanes that leave a loop around another by a condition after
     // its body.
-    uint block = task.end - task.first > MAX_PLAIN ? BLOCK : MAX_PLAIN;
+    uint block = task.end - task.first > MAX_PLAIN ? SAMPLES_PER_BLOCK : MAX_PLAIN;
     vec3 lost = vec3(0.0); // the part that rounding has added to the sum
     while (true) {
         uint stop = BLOCKS ? min(s + block, task.end) : task.end;

@@ -16,7 +16,7 @@ use crate::output::{self, WriteOptions};
 use crate::texture::analysis::{Analysis, AxisAnalysis, Channel, Seam, Verdict, analyse};
 use crate::texture::data::{ColorSpace, Component, Dimension, TextureData};
 use crate::texture::read_file::{self, Picture, Texels};
-use crate::texture::source::{OrientationUse, Reading};
+use crate::texture::source::{OrientationUse, ReadOptions};
 
 /// Describe a texture file: size, format, range and mean, non-finite texels, whether it tiles
 ///
@@ -50,7 +50,7 @@ pub fn run(args: &TextureArgs) -> Result<ExitCode> {
         output::check_writable(path)?;
         super::check_input_kept(path, &args.file, "the texture that is described")?;
     }
-    let reading = Reading { orientation: args.orientation, layer: args.layer.clone() };
+    let reading = ReadOptions { orientation: args.orientation, layer: args.layer.clone() };
     let Picture { texels, notes, .. } = read_file::read_as(&args.file, &reading)?;
     for note in notes {
         super::notify(format_args!("warning: {note}"));

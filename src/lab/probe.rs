@@ -101,7 +101,7 @@ impl<'a> MipProbe<'a> {
     /// Returns levels 1 to the last, like `texture::mips`, and the device time in seconds.
     pub fn make(&mut self, texture: &TextureData) -> Result<(Vec<TextureData>, f64)> {
         let MipProbe(gpu, generator) = self;
-        let mut levels = mips::blank(texture);
+        let mut levels = mips::zeroed_levels(texture);
         if levels.is_empty() {
             return Ok((levels, 0.0));
         }

@@ -177,7 +177,7 @@ fn frame_rows(mapping: &Mapping, eye: DVec3, place: &Place) -> [DVec4; 3] {
     } else {
         mapping.origin
     };
-    // local = axes · (stretch ∘ (p + eye - centre) - origin)
+    // local = axes · (stretch ∘ (p + eye - center) - origin)
     [DVec3::X, DVec3::Y, DVec3::Z].map(|unit| {
         let row = turn * unit;
         if mapping.entity.is_direction() {

@@ -83,10 +83,10 @@ pub fn pack_textures(
         let levels = if !reads(packed, scene, index, SamplerSpec::reads_levels) {
             Vec::new()
         } else if packed.nonfinite_texels[index] > 0 {
-            mips::pyramid_of_finite(&texture)
+            mips::mip_chain_of_finite(&texture)
         } else if mip_chains.leaves(&texture, kernel) {
             packed.device_levels.push(index);
-            mips::blank(&texture)
+            mips::zeroed_levels(&texture)
         } else {
             mips::mip_chain(&texture, kernel)
         };

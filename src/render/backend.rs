@@ -133,7 +133,7 @@ impl<'p> DeviceBackend<'p> {
         let Prepared { session, scene, .. } = self.prepared;
         let mut block = film.block(range.clone());
         let tiles = film.tiles(range.pixels);
-        let mut plan = DispatchPlan::new(self.next, range.samples.clone(), scene.chunk, tiles);
+        let mut plan = DispatchPlan::new(self.next, range.samples.clone(), scene.samples_at_once, tiles);
         for band in film.bands(range.pixels) {
             if range.samples.start > 0 {
                 film.clear(session.gpu, &band)?;

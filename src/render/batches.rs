@@ -87,7 +87,7 @@ impl<'a> BatchSampler<'a> {
             pages,
             size: [width, height],
             mean_sign: scene.mean_sign,
-            block: scene.chunk,
+            block: scene.samples_at_once,
             next: FIRST_SAMPLES,
         })
     }

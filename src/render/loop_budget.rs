@@ -8,7 +8,7 @@ use crate::pack::features::bounces;
 use crate::pack::{PackedScene, SampleDimension, TextureKind};
 use crate::scene::model::Algorithm;
 use crate::schema::constants::{MAX_BOXES, MAX_CONE_FRAGMENTS, MAX_CONES, MAX_ELLIPSE_STEPS};
-use crate::schema::layout::{CHUNK, NO_TEXTURE, Procedural, Sampler};
+use crate::schema::layout::{MAX_SAMPLES_AT_ONCE, NO_TEXTURE, Procedural, Sampler};
 use crate::texture::filter::LoopCost;
 
 const MAX_ITERATIONS: u64 = 65_535;
@@ -22,10 +22,10 @@ const CONES: u64 = MAX_CONES as u64;
 /// Digits of Halton points, or iterations to find an order, with a margin.
 const POINTS: u64 = 64;
 
-/// Returns the samples that an invocation takes at once, from 1 to `CHUNK`.
+/// Returns the samples that an invocation takes at once, from 1 to `MAX_SAMPLES_AT_ONCE`.
 pub fn samples_at_once(device: &DeviceInfo, scene: &PackedScene) -> Result<u32> {
     if device.kind != DeviceKind::Cpu {
-        return Ok(CHUNK);
+        return Ok(MAX_SAMPLES_AT_ONCE);
     }
     let iterations = iterations_of_a_sample(scene, ELLIPSE);
     // Ellipses of that size occur at the horizon, not at each of many look-ups of one path.
@@ -39,7 +39,7 @@ pub fn samples_at_once(device: &DeviceInfo, scene: &PackedScene) -> Result<u32> 
             "use fewer shapes, lights or bounces, another device, or --device oracle",
         ));
     }
-    Ok((MAX_ITERATIONS / iterations).clamp(1, u64::from(CHUNK)) as u32)
+    Ok((MAX_ITERATIONS / iterations).clamp(1, u64::from(MAX_SAMPLES_AT_ONCE)) as u32)
 }
 
 /// Returns an upper bound of the iterations for a pixel's cones, except for the number of fragments of each: if there

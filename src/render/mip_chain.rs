@@ -90,7 +90,7 @@ impl<'a> MipGenerator<'a> {
         }
         // A binding must not be empty.
         let tables =
-            if codes == 0 { vec![0.0] } else { [srgb_table(codes), &mips::srgb_middles(codes)].concat() };
+            if codes == 0 { vec![0.0] } else { [srgb_table(codes), &mips::srgb_midpoints(codes)].concat() };
         let buffer =
             self.gpu.upload_buffer("sRGB codes", BufferUse::Storage, bytemuck::cast_slice(&tables))?;
         self.tables.push((codes, buffer.clone()));

@@ -19,8 +19,8 @@ use crate::pack::{self, MipPlacement, PackedScene};
 use crate::sampling::{Backend, Scheduler};
 use crate::scene::model::Scene;
 use crate::scene::texture_advice::of_textures;
-use crate::texture::decode::Values;
-use crate::texture::load::load_noted;
+use crate::texture::decode::AllowedFloats;
+use crate::texture::load::load_with_notes;
 
 /// A backend that takes samples.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -244,8 +244,8 @@ fn pack(
     options: &Options,
     mip_chains: impl FnOnce() -> MipPlacement,
 ) -> Result<(PackedScene, Vec<String>)> {
-    let values = if options.allow_nonfinite { Values::Any } else { Values::Finite };
-    let textures = scene.textures.iter().map(|t| load_noted(t, values)).collect::<Result<Vec<_>>>()?;
+    let values = if options.allow_nonfinite { AllowedFloats::Any } else { AllowedFloats::Finite };
+    let textures = scene.textures.iter().map(|t| load_with_notes(t, values)).collect::<Result<Vec<_>>>()?;
     let (textures, notes): (Vec<_>, Vec<_>) = textures.into_iter().unzip();
     let doubts = [notes.concat(), of_textures(scene, &textures)].concat();
     let mip_chains = if pack::reads_levels(scene) { mip_chains() } else { MipPlacement::Host };

@@ -88,7 +88,7 @@ impl<'a> Session<'a> {
     ) -> Result<Session<'a>> {
         let clock = Instant::now();
         let warnings = scene.adapt_to_device(gpu.info().limits.float64).into_iter().collect();
-        scene.chunk = samples_at_once(gpu.info(), &scene)?;
+        scene.samples_at_once = samples_at_once(gpu.info(), &scene)?;
         let image_source = tuning.image_source(gpu, &scene);
         let features = Features::new(&scene, image_source, keep_everything);
         let resources = Resources::upload(gpu, &scene, &features, tuning.texel_words(gpu))?;

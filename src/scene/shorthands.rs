@@ -8,7 +8,7 @@ use glam::DVec3;
 
 use super::model::{Camera, Projection, TextureContent, TextureSource};
 use crate::texture::data::{ColorSpace, Component, Dimension, MipKernel, TexelFormat};
-use crate::texture::source::{PlainTexels, Reading};
+use crate::texture::source::{PlainTexels, ReadOptions};
 
 impl Camera {
     /// Returns a pinhole at `eye` that sees `look_at` in the middle of the picture and so many degrees from its top to
@@ -38,7 +38,7 @@ impl TextureSource {
             dimension: Dimension::Two,
             color_space,
             color_space_stated: true,
-            reading: Reading::default(),
+            reading: ReadOptions::default(),
             flip_v: false,
             mip_kernel: MipKernel::Box,
         }

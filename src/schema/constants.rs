@@ -22,7 +22,7 @@ constants! {
     /// Number of samples of a pixel that are summed in f32 directly; the error for n equal terms is at most 1.5e-8 n.
     MAX_PLAIN: u32 = 64;
     /// Samples in each block into which larger numbers are divided.
-    BLOCK: u32 = 32;
+    SAMPLES_PER_BLOCK: u32 = 32;
     /// Cells of the table that places samples around a pixel by its filter.
     PIXEL_FILTER_CELLS: u32 = 512;
 

@@ -10,7 +10,7 @@ pub const HEAD_BYTES: usize = HEAD_UNITS as usize * 16;
 
 /// Most samples that are summed in f32 before the sum is added to the film. Further ones are added in several
 /// such sums with compensation (Kahan 1965).
-pub const CHUNK: u32 = 256;
+pub const MAX_SAMPLES_AT_ONCE: u32 = 256;
 
 impl Plane {
     /// Returns the half extent of a plane with bounds, in tangents; `None` if it is infinite.

@@ -23,7 +23,7 @@ pub struct TextureSource {
     /// True if the scene states the meaning of stored values.
     pub color_space_stated: bool,
     /// How files of pictures are read.
-    pub reading: Reading,
+    pub reading: ReadOptions,
     /// False: v = 0 is the file's first row. True: v grows upwards (the lecture's loader).
     pub flip_v: bool,
     /// What coarser levels are means over.
@@ -32,16 +32,16 @@ pub struct TextureSource {
 
 /// The options of reading a file: the layer and the orientation.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Reading {
+pub struct ReadOptions {
     /// What is done about a picture that is stored turned.
     pub orientation: OrientationUse,
     /// For OpenEXR files, a layer, a part, or a channel that is read as grey.
     pub layer: Option<String>,
 }
 
-impl Default for Reading {
+impl Default for ReadOptions {
     fn default() -> Self {
-        Reading { orientation: OrientationUse::Apply, layer: None }
+        ReadOptions { orientation: OrientationUse::Apply, layer: None }
     }
 }
 

@@ -11,7 +11,7 @@ use image::{DynamicImage, GrayImage, ImageBuffer, Luma, LumaA, Rgba};
 use moire::internal::core::error::Result;
 use moire::internal::texture::data::{Dimension, TextureData};
 use moire::internal::texture::load::load;
-use moire::internal::texture::source::{Reading, TextureContent, TextureSource};
+use moire::internal::texture::source::{ReadOptions, TextureContent, TextureSource};
 
 use crate::support::{texture_source, told};
 
@@ -30,7 +30,7 @@ pub fn direction(face: u32, x: u32, y: u32, side: u32) -> [f32; 3] {
 }
 
 fn source(dimension: Dimension, content: TextureContent) -> TextureSource {
-    texture_source(content, dimension, Reading::default())
+    texture_source(content, dimension, ReadOptions::default())
 }
 
 fn read(dimension: Dimension, content: TextureContent) -> Result<TextureData> {

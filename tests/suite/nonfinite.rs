@@ -254,7 +254,7 @@ fn a_level_is_the_mean_of_the_texels_that_are_numbers() {
     let nan = f32::NAN;
     let grey = texture(TexelFormat::GreyFloat, [4, 2], &[1.0, nan, nan, nan, 3.0, 5.0, f32::INFINITY, nan]);
     assert_eq!(grey.nonfinite_texels(), 5);
-    let levels = mips::pyramid_of_finite(&grey);
+    let levels = mips::mip_chain_of_finite(&grey);
     assert_eq!((levels[0].value(0, 0, 0), levels[1].value(0, 0, 0)), (3.0, 3.0));
     assert!(levels[0].value(1, 0, 0).is_nan(), "a mean of nothing");
     // A texel without one channel counts in none.
@@ -263,7 +263,7 @@ fn a_level_is_the_mean_of_the_texels_that_are_numbers() {
         [2, 2],
         &[2.0, 1.0, 0.0, 0.25, 4.0, 1.0, 0.0, 0.75, 9.0, nan, 9.0, 1.0, 8.0, 8.0, 8.0, 0.0],
     );
-    let level = &mips::pyramid_of_finite(&color)[0];
+    let level = &mips::mip_chain_of_finite(&color)[0];
     let expected = [14.0 / 3.0, 10.0 / 3.0, 8.0 / 3.0, 1.0 / 3.0];
     for (c, expected) in expected.into_iter().enumerate() {
         // A rounding of f32 each for sum, share and quotient.
@@ -273,7 +273,7 @@ fn a_level_is_the_mean_of_the_texels_that_are_numbers() {
     let plain =
         moire::internal::lab::verify::queries::texture(13, 6, TexelFormat::RgbaFloat, ColorSpace::Linear, 3);
     let usual = mips::mip_chain(&plain, MipKernel::Box);
-    for (a, b) in mips::pyramid_of_finite(&plain).iter().zip(&usual) {
+    for (a, b) in mips::mip_chain_of_finite(&plain).iter().zip(&usual) {
         let values = |t: &TextureData| bytemuck::pod_collect_to_vec::<u8, f32>(&t.texels);
         for (a, b) in values(a).iter().zip(values(b)) {
             assert!((a - b).abs() <= 4.0 * f32::EPSILON * 8.0, "{a} and {b}"); // sums over shares of 1, up to 8

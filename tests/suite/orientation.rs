@@ -9,7 +9,7 @@ use image::codecs::jpeg::JpegEncoder;
 use image::{GrayImage, ImageFormat};
 use moire::internal::texture::data::{Dimension, TextureData};
 use moire::internal::texture::load::load;
-use moire::internal::texture::source::{OrientationUse, Reading, TextureContent};
+use moire::internal::texture::source::{OrientationUse, ReadOptions, TextureContent};
 use tempfile::tempdir;
 
 use crate::support::texture_source;
@@ -100,7 +100,7 @@ fn tiff(folder: &Path, tag: u8) -> PathBuf {
 }
 
 fn texture(content: TextureContent, dimension: Dimension, orientation: OrientationUse) -> TextureData {
-    let reading = Reading { orientation, ..Reading::default() };
+    let reading = ReadOptions { orientation, ..ReadOptions::default() };
     load(&texture_source(content, dimension, reading)).unwrap()
 }
 

@@ -8,7 +8,7 @@ use std::sync::Mutex;
 
 use moire::internal::core::film::Film;
 use moire::internal::texture::data::{ColorSpace, Dimension, MipKernel};
-use moire::internal::texture::source::{Reading, TextureContent, TextureSource};
+use moire::internal::texture::source::{ReadOptions, TextureContent, TextureSource};
 
 /// The program under test: `MOIRE_BIN`, else `moire` beside this binary or one folder up.
 pub fn moire() -> assert_cmd::Command {
@@ -26,7 +26,7 @@ pub fn program() -> PathBuf {
 }
 
 /// A texture `t` of linear texels.
-pub fn texture_source(content: TextureContent, dimension: Dimension, reading: Reading) -> TextureSource {
+pub fn texture_source(content: TextureContent, dimension: Dimension, reading: ReadOptions) -> TextureSource {
     TextureSource {
         name: "t".into(),
         content,

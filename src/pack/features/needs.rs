@@ -48,7 +48,7 @@ pub fn stored(scene: &PackedScene) -> impl Iterator<Item = &layout::Texture> {
 
 /// Returns true if the film has compensation; batches are split into short sums instead.
 pub fn compensates(scene: &PackedScene) -> bool {
-    scene.samples > scene.chunk && scene.schedule == Schedule::Tiles
+    scene.samples > scene.samples_at_once && scene.schedule == Schedule::Tiles
 }
 
 /// Returns true if samples are moved, which a box of one pixel does not do.

@@ -11,7 +11,7 @@ use crate::scene::limits::{MAX_TEXELS, TEXELS};
 use crate::texture::data::{ColorSpace, Dimension, MipKernel, TexelFormat};
 use crate::texture::open_file::is_volume;
 use crate::texture::source::{
-    CubeLayout, Endian, OrientationUse, Reading, TextureContent, TextureSource, VolumeSource,
+    CubeLayout, Endian, OrientationUse, ReadOptions, TextureContent, TextureSource, VolumeSource,
 };
 
 pub(super) const TEXTURE: &[&str] = &[
@@ -50,7 +50,7 @@ pub(super) fn texture(table: &Table<'_>, folder: &Path) -> Result<TextureSource>
             dimension,
             color_space,
             color_space_stated: false,
-            reading: Reading::default(),
+            reading: ReadOptions::default(),
             flip_v: false,
             mip_kernel: MipKernel::Box,
         });
@@ -86,8 +86,8 @@ pub(super) fn texture(table: &Table<'_>, folder: &Path) -> Result<TextureSource>
 }
 
 /// What only files of pictures have.
-fn reading(table: &Table<'_>, content: &TextureContent, dimension: Dimension) -> Result<Reading> {
-    let mut reading = Reading::default();
+fn reading(table: &Table<'_>, content: &TextureContent, dimension: Dimension) -> Result<ReadOptions> {
+    let mut reading = ReadOptions::default();
     let is_picture = match content {
         TextureContent::File(_) => dimension != Dimension::Three,
         TextureContent::CubeFile(..) | TextureContent::Faces(_) | TextureContent::Slices(_) => true,
