@@ -1,5 +1,5 @@
-//! The reflection models: their names, what each one does with light, and the keys of `[[material]]` that not all of
-//! them have. All that a scene, its packing and its messages know of a model stands in these tables.
+//! The reflection models: their names, their behaviour, and the keys of `[[material]]` that only some of them have.
+//! Everything that a scene, its packing and its messages know about a model is in these tables.
 
 use glam::DVec3;
 
@@ -9,31 +9,31 @@ use super::refusal::{Check, Key};
 pub use crate::schema::enums::Model;
 
 impl Model {
-    /// Shows its colour as it is: an environment, a texture that is looked at.
+    /// The model that shows its colour unshaded: for environments, and textures by themselves.
     pub const PLAIN: Model = Model::Unlit;
 
-    /// Whether it shines by itself.
+    /// Returns true if it emits light.
     pub const fn emits(self) -> bool {
         matches!(self, Model::Unlit)
     }
 
-    /// Whether lights shine on it.
+    /// Returns true if it reflects the light of lights.
     pub const fn is_lit(self) -> bool {
         matches!(self, Model::Lambert | Model::Phong | Model::OrenNayar)
     }
 
-    /// Whether rays go on from it.
+    /// Returns true if it reflects or refracts rays.
     pub const fn is_specular(self) -> bool {
         matches!(self, Model::Mirror | Model::Dielectric)
     }
 
-    /// Whether rays go on through it, too.
+    /// Returns true if it transmits rays.
     pub const fn transmits(self) -> bool {
         matches!(self, Model::Dielectric)
     }
 }
 
-/// A key of `[[material]]` that some models have.
+/// A key of `[[material]]` that only some models have.
 pub(super) struct ModelKey {
     pub name: &'static str,
     pub models: &'static [Model],
@@ -41,7 +41,7 @@ pub(super) struct ModelKey {
     limits: Limits,
 }
 
-/// Where a material keeps it.
+/// The field of a material that holds it.
 pub(super) enum Value {
     Number(fn(&mut Material) -> &mut f64),
     Color(fn(&mut Material) -> &mut DVec3),
@@ -69,7 +69,7 @@ pub(super) const KEYS: [ModelKey; 4] = [
     },
 ];
 
-/// Checks what the material's model reads.
+/// Checks the fields that the material's model uses.
 pub(super) fn check_model_keys(key: Key, material: &Material) -> Check {
     let (model, mut material) = (material.model, material.clone());
     KEYS.iter().filter(|k| k.models.contains(&model)).try_for_each(|k| match k.value {
