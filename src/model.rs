@@ -1,6 +1,5 @@
-//! What a scene consists of: the parts that a [`SceneBuilder`](crate::SceneBuilder) takes, in scene units, degrees and
-//! linear RGB. An index that a part has is one that the builder returned; [`DEFAULT`] stands for the default material
-//! and the default sampler.
+//! The parts of a scene that a [`SceneBuilder`](crate::SceneBuilder) takes, in scene units, degrees and linear RGB. An
+//! index in a part is one that the builder returned; [`DEFAULT`] is the default material and the default sampler.
 
 pub use crate::scene::builder::DEFAULT;
 pub use crate::scene::geometry::kinds::*;

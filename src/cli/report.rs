@@ -175,7 +175,7 @@ fn range_of_samples(least: u32, most: u32) -> String {
     if least == most { counted(most, "sample") } else { format!("{least} to {}", counted(most, "sample")) }
 }
 
-/// User and system time of this process so far.
+/// Returns user and system time of this process so far.
 #[cfg(unix)]
 fn cpu_seconds() -> Option<f64> {
     let usage = getrusage(UsageWho::RUSAGE_SELF).ok()?;
@@ -183,14 +183,14 @@ fn cpu_seconds() -> Option<f64> {
     Some(seconds(usage.user_time()) + seconds(usage.system_time()))
 }
 
-/// Not known where there is no `getrusage`.
+/// Unknown without `getrusage`.
 #[cfg(not(unix))]
 fn cpu_seconds() -> Option<f64> {
     None
 }
 
-/// The most memory this process has held at once, where `/proc` tells. That of `getrusage` is not it: it counts
-/// the memory of the process that started this one, too.
+/// Returns the peak memory of this process, from `/proc`; `getrusage` also counts the memory of the process that
+/// started this one.
 fn peak_host_bytes() -> Option<u64> {
     let status = fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find_map(|l| l.strip_prefix("VmHWM:"))?;

@@ -20,8 +20,8 @@ use crate::texture::source::{OrientationUse, ReadOptions};
 
 /// Describe a texture file: size, format, range and mean, non-finite texels, whether it tiles
 ///
-/// An axis tiles if the step from the last texels to the first is one of many inside, or an edge that the texture
-/// has inside as well, and if what repeats inside goes on across it: yes, no, or perhaps.
+/// An axis tiles if the step from the last texels to the first is as common as others inside, or an edge as the texture
+/// has inside, and if the texture's own period continues across it: yes, no, or perhaps.
 #[derive(Debug, clap::Args)]
 pub struct TextureArgs {
     /// PNG, JPEG, TIFF, TGA, HDR or EXR
@@ -29,14 +29,14 @@ pub struct TextureArgs {
     /// Write the texture repeated 2×2, looking like the file; alpha is left out
     #[arg(short, long, value_name = "OUT.png")]
     pub out: Option<PathBuf>,
-    /// What the stored values mean, as in a scene; srgb: range and mean are those of linear light
+    /// Meaning of the stored values, as in a scene; srgb: range and mean are of linear values
     #[arg(long, value_name = "SPACE", default_value = "linear",
           value_parser = named_parser(ColorSpace::NAMES, ColorSpace::from_name))]
     pub color_space: ColorSpace,
     /// Layer, part or channel of an EXR file [default: the one without a name]
     #[arg(long, value_name = "NAME")]
     pub layer: Option<String>,
-    /// Whether a file that says how it is turned (Exif, TIFF) is turned
+    /// Apply the orientation that a file states (Exif, TIFF)
     #[arg(long, value_name = "USE", default_value = "apply",
           value_parser = named_parser(OrientationUse::NAMES, OrientationUse::from_name))]
     pub orientation: OrientationUse,

@@ -91,7 +91,7 @@ impl FilmBuffer {
                     gpu.info().name,
                     cap >> 20
                 ),
-                "render it in parts with --crop, or smaller with --size",
+                "render it in parts (crop), or smaller (size)",
             ));
         }
         let band_rows = (tile_rows * u64::from(TILE)).min(u64::from(height)) as u32;

@@ -37,7 +37,7 @@ impl<'a> Uploads<'a> {
                     "the scene reads {} pairs of texture and sampler through images; {MAX_SLOTS} are possible",
                     slots.len()
                 ),
-                "one sampler of method \"hardware\" makes all look-ups go through images: use --method shader, \
+                "one sampler of method \"hardware\" makes all look-ups go through images: use method \"shader\", \
                  or share samplers and textures",
             ));
         }
@@ -165,7 +165,7 @@ fn upload_image(
                 "texture `{name}`: device \"{}\" does not support {stored} images {filtering}",
                 gpu.info().name
             ),
-            "use method = \"shader\" with --texels auto or buffer, or store the texture with 8 bits",
+            "use method = \"shader\" with texels from a buffer, or store the texture with 8 bits",
         ));
     }
     let desc = ImageDesc {

@@ -36,7 +36,7 @@ pub fn samples_at_once(device: &DeviceInfo, scene: &PackedScene) -> Result<u32> 
                 "device \"{}\" ends a shader's loops after {MAX_ITERATIONS} iterations; one sample of this scene may take {without_ellipses}",
                 device.name
             ),
-            "use fewer shapes, lights or bounces, another device, or --device oracle",
+            "use fewer shapes, lights or bounces, another device, or the device \"oracle\"",
         ));
     }
     Ok((MAX_ITERATIONS / iterations).clamp(1, u64::from(MAX_SAMPLES_AT_ONCE)) as u32)

@@ -138,7 +138,7 @@ pub fn upload_row_sums(gpu: &Gpu, packed: &PackedScene, words: &[u32]) -> Result
                 most_words(gpu) >> 18,
                 gpu.info().name
             ),
-            "use smaller textures, or --algorithm adaptive",
+            "use smaller textures, or algorithm \"adaptive\"",
         ));
     }
     gpu.upload_buffer("row sums", BufferUse::TexelUint, bytemuck::cast_slice(words))

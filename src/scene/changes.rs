@@ -54,7 +54,7 @@ impl Changes {
         sampling.precision = self.precision.unwrap_or(sampling.precision);
         self.adapt_for_adaptive(sampling)?;
         check_shared(sampling.pattern, sampling.shared).map_err(Error::new)?;
-        check_spp(sampling.pattern, sampling.spp).map_err(|m| Error::new(format!("--spp: {m}")))?;
+        check_spp(sampling.pattern, sampling.spp).map_err(Error::new)?;
         for sampler in &mut scene.samplers {
             sampler.mip = self.mip.unwrap_or(sampler.mip);
             sampler.method = self.method.unwrap_or(sampler.method);
@@ -76,13 +76,13 @@ impl Changes {
             if self.has_goal {
                 let fixed = match sampling.algorithm {
                     Algorithm::Cone => "\"cone\" takes none",
-                    _ => "\"samples\" takes --spp",
+                    _ => "\"samples\" takes a number of samples (spp)",
                 };
                 return Err(Error::with_help(
                     format!(
-                        "--budget and --target-error need an algorithm that may choose its samples; {fixed}"
+                        "a budget or a target error needs an algorithm that may choose its samples; {fixed}"
                     ),
-                    "leave --algorithm away, or use --algorithm adaptive",
+                    "leave the algorithm away, or use algorithm \"adaptive\"",
                 ));
             }
             return Ok(());
@@ -94,7 +94,7 @@ impl Changes {
             let able: Vec<&str> =
                 Pattern::ALL.iter().filter(|p| p.stops_anywhere()).map(|p| p.name()).collect();
             return Err(Error::new(format!(
-                "--pattern {pattern}: algorithm \"{}\" stops each pixel at another count, which pattern \"{pattern}\" cannot; use one of {}",
+                "algorithm \"{}\" stops each pixel at another count, which pattern \"{pattern}\" cannot; use one of {}",
                 sampling.algorithm,
                 able.join(", ")
             )));

@@ -36,7 +36,7 @@ pub struct Traits {
     pub needs_sums: bool,
     /// True if it blends neighbouring texels.
     pub blends: bool,
-    /// How often its loops run.
+    /// The iterations of its loops.
     pub loop_cost: LoopCost,
 }
 

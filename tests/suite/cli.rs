@@ -182,7 +182,7 @@ fn goals_that_cannot_be_followed_are_refused() {
         (&["--budget", "1", "--target-error", "1e-3"], "cannot be used with"),
         (&["--budget", "0"], "above 0"),
         (&["--target-error", "nan"], "above 0"),
-        (&["--budget", "1", "--algorithm", "samples"], "takes --spp"),
+        (&["--budget", "1", "--algorithm", "samples"], "takes a number of samples"),
         (&["--target-error", "1e-3", "--pattern", "stratified"], "sobol-owen"),
     ];
     for (options, expected) in cases {
