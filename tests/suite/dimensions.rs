@@ -15,7 +15,7 @@ use moire::internal::texture::source::{ReadOptions, TextureContent, TextureSourc
 
 use crate::support::{texture_source, told};
 
-/// Where a texel's centre lies, by the columns sc and tc of Vulkan's cube table solved for the direction.
+/// Returns the direction of a texel's centre, by solving the columns sc and tc of Vulkan's cube table.
 pub fn direction(face: u32, x: u32, y: u32, side: u32) -> [f32; 3] {
     let at = |i: u32| 2.0 * (i as f32 + 0.5) / side as f32 - 1.0;
     let (s, t) = (at(x), at(y));
@@ -72,7 +72,7 @@ fn a_picture_of_one_row_is_a_1d_texture_and_no_other() {
     assert_says(&message, &["texture \"t\"", "square.png", "2×2", "one texel high", "\"2d\""]);
 }
 
-/// Grey, grey with alpha, 8 and 16 bits: widened to the most of each, without loss.
+/// Grey, grey with alpha, 8 and 16 bits: each widened to the largest format without loss.
 #[test]
 fn files_of_different_formats_are_widened() {
     let folder = tempfile::tempdir().unwrap();

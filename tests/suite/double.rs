@@ -23,8 +23,8 @@ fn in_double(mut scene: Scene) -> PackedScene {
     packed(scene, None)
 }
 
-/// Both see the same rays and places to 2^-50; look-ups and light are of f32 in one and of f64 in the other, and a
-/// highlight raises them to a power. Hardware samplers weigh by 1/256.
+/// Both compute the same rays and points to 2^-50; look-ups and light are f32 in one and f64 in the other, and a
+/// highlight raises them to a power. Hardware samplers have weights of 1/256.
 fn agrees_with_the_oracle(name: &str) {
     let scene = small(name, 40, 4);
     let uses_hardware = scene.samplers.iter().any(|s| s.method.name() == "hardware");
@@ -35,13 +35,13 @@ fn agrees_with_the_oracle(name: &str) {
         return;
     }
     let (film, exact) = (render(&packed), render_on_oracle(&packed));
-    // Chances of glass and of stochastic filters are f32 on both sides of a threshold.
+    // Random choices of glass and of stochastic filters are f32 on both sides of a threshold.
     let mut beyond = 0;
     for (found, wanted) in film.pixels.iter().flatten().zip(exact.pixels.iter().flatten()) {
         let close = (found - wanted).abs() <= 2e-4 * wanted.abs().max(1.0);
         beyond += u32::from(!close);
     }
-    // Half a per cent, for outlines of shadows and chances; nearest texels whose edges lie under samples.
+    // Half a per cent, for outlines of shadows and random choices; nearest texels with edges under samples.
     let allowed = film.pixels.len() / if name == "quad" { 40 } else { 200 };
     assert!(beyond as usize <= 3 * allowed, "{name}: {beyond} of {} numbers", 3 * film.pixels.len());
 }
@@ -132,7 +132,7 @@ fn the_command_line_says_which_precision_a_scene_gets() {
 
 #[test]
 fn the_device_under_test_has_f64() {
-    // Lavapipe and data-centre GPUs have; without it scenes are rendered in f32.
+    // Lavapipe and data-centre GPUs have f64; without it scenes are rendered in f32.
     assert!(device().info().limits.float64);
 }
 

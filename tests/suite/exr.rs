@@ -28,7 +28,7 @@ fn read_path(path: &Path, layer: Option<&str>) -> Result<TextureData> {
     load(&texture_source(TextureContent::File(path.to_owned()), Dimension::Two, reading))
 }
 
-/// Of `layers`, `named`, `parts` and `xyz`: 8 × 6 texels.
+/// The sizes of `layers`, `named`, `parts` and `xyz`: 8 × 6 texels.
 fn written(x: u32, y: u32) -> [f64; 3] {
     let (x, y) = (f64::from(x), f64::from(y));
     [1.0 + x + 0.5 * y, 2.0 + 0.25 * x + y, 0.5 + 0.125 * x * y]

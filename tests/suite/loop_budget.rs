@@ -10,7 +10,7 @@ use moire::internal::texture::sampler_spec::{Filter, MipMode};
 use crate::lookup::bench::Rng;
 use crate::stage::{device, packed, render, render_on_oracle, scene, small};
 
-/// So many small triangles in front of the lecture's scene.
+/// This number of small triangles in front of the lecture's scene.
 fn crowd(count: usize) -> Scene {
     let mut scene = small("lecture", 32, 4);
     scene.shapes.spheres.clear();

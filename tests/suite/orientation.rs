@@ -16,7 +16,7 @@ use crate::support::texture_source;
 
 const WIDTH: u32 = 24;
 const HEIGHT: u32 = 16;
-/// What is to be seen, in quarters from the top left, whatever the file holds.
+/// The visible picture, in quarters from the top left, whatever the file stores.
 const QUARTERS: [u8; 4] = [0, 80, 160, 240];
 
 fn quarters(width: u32, height: u32) -> GrayImage {
@@ -26,7 +26,7 @@ fn quarters(width: u32, height: u32) -> GrayImage {
     })
 }
 
-/// The picture as a camera with this orientation stores it: turned back, by the crate's own functions.
+/// The picture as a camera with this orientation stores it: rotated back by the crate's own functions.
 fn stored(tag: u8) -> GrayImage {
     use image::imageops::{flip_horizontal, flip_vertical, rotate90, rotate180, rotate270};
     let seen = quarters(WIDTH, HEIGHT);

@@ -37,7 +37,7 @@ fn load_bytes(bytes: &[u8]) -> Result<(TextureData, Vec<String>)> {
     load(&path, Dimension::Two)
 }
 
-/// The message refuses the file for this, and does not send the user for another copy.
+/// Expects a message that refuses the file for this reason, without advice to get another copy.
 fn assert_refused_as(bytes: &[u8], name: &str) {
     let message = told(load_bytes(bytes));
     assert!(message.contains(name) && message.contains("is not read"), "{name}: {message}");

@@ -279,8 +279,8 @@ fn orthographic_cameras_and_every_name_of_the_vocabulary_parse() {
     }
 }
 
-/// The keys that a message lists as allowed are those that the section reads: each is refused by
-/// its name when its value is a date, a type that no key takes.
+/// The keys that a message lists as allowed are those that the section reads: each is refused by its name if its value
+/// is a date, a type that no key accepts.
 #[test]
 fn every_key_listed_as_allowed_is_read() {
     let material = "[[texture]]\nname = 't'\nfile = 't'\n[[material]]\nname = 'm'\n";
@@ -365,7 +365,7 @@ fn unreadable_scene_files_say_which_and_why() {
     assert!(matches!(error, Error::Plain { help: Some(help), .. } if help.contains("UTF-8")));
 }
 
-/// A wide bound against look-ups whose cost grows with the square of the number of names.
+/// A loose bound that still fails for look-ups of quadratic cost in the number of names.
 #[test]
 fn ten_thousand_triangles_parse_in_well_under_two_seconds() {
     let mut text = HEAD.to_owned();

@@ -52,7 +52,7 @@ pub fn data() -> PathBuf {
         .expect("no folder `data` here or above the test binary: set MOIRE_DATA")
 }
 
-/// Says once on stderr what was left out, past the output that a passing test keeps to itself.
+/// Prints once on stderr what was skipped, outside the output that a passing test captures.
 pub fn untested(what: &'static str) {
     static SAID: Mutex<BTreeSet<&str>> = Mutex::new(BTreeSet::new());
     if SAID.lock().unwrap().insert(what) {
