@@ -1,9 +1,9 @@
 //! The parts of a scene that a [`SceneBuilder`](crate::SceneBuilder) takes, in scene units, degrees and linear RGB. An
 //! index in a part is one that the builder returned; [`DEFAULT`] is the default material and the default sampler.
 
-pub use crate::scene::builder::DEFAULT;
 pub use crate::scene::geometry::kinds::*;
 pub use crate::scene::geometry::{Kind, Shape};
+pub use crate::scene::model::DEFAULT;
 pub use crate::scene::model::{
     Algorithm, Background, Bounds, BumpKind, BumpMap, Camera, Entity, Environment, EnvironmentLayout,
     Footprint, Lens, Light, Mapping, MappingKind, Material, Model, Pattern, PixelFilter, PixelFilterKind,

@@ -4,17 +4,18 @@
 
 use std::path::{Path, PathBuf};
 
+use glam::DVec3;
+
 use super::checks;
-use super::geometry::{self, Kind, Shapes};
+use super::geometry::{self, Fields, Kind, Section, Shapes};
 use super::limits::{MAX_TEXTURES, check_filters};
-use super::model::{Background, Camera, Light, Material, PixelFilter, Sampling, Scene, TextureSource};
+use super::model::{
+    Background, Camera, DEFAULT, Light, Material, PixelFilter, Sampling, Scene, TextureSource,
+};
 use super::refusal::{Check, Key};
 use super::whole;
 use crate::core::error::Result;
 use crate::texture::sampler_spec::SamplerSpec;
-
-/// In place of an index: the default material, or the default sampler.
-pub const DEFAULT: usize = usize::MAX;
 
 /// Collects the parts of a scene. Each part that others refer to returns its index.
 #[derive(Clone, Debug)]
@@ -89,6 +90,19 @@ impl SceneBuilder {
     pub fn shape(&mut self, shape: impl Kind) -> &mut Self {
         self.over = self.over.or(geometry::add(&mut self.scene.shapes, shape));
         self
+    }
+
+    /// Adds a shape that a scene format has read; returns whether no ray meets it.
+    pub(super) fn read_shape(
+        &mut self,
+        kind: &Section,
+        fields: &dyn Fields,
+        material: usize,
+        motion: DVec3,
+    ) -> Result<bool> {
+        let added = (kind.add)(fields, material, motion, &mut self.scene.shapes)?;
+        self.over = self.over.or(added.over);
+        Ok(added.is_empty)
     }
 
     /// Adds a light.

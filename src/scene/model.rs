@@ -17,6 +17,9 @@ pub use crate::schema::enums::BumpKind;
 use crate::texture::sampler_spec::{Address, SamplerSpec};
 pub use crate::texture::source::{TextureContent, TextureSource};
 
+/// In place of an index: the default material, or the default sampler.
+pub const DEFAULT: usize = usize::MAX;
+
 /// All that is rendered, every reference an index.
 #[derive(Clone, Debug)]
 pub struct Scene {

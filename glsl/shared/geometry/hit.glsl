@@ -23,7 +23,7 @@ struct Hit {
 real3 moved_by(const Header header, const Ray ray, uint shape) {
     real3 shift = real3(0.0);
     if (MOTIONS != 0u) {
-        if (lengths.motions != 0u) shift = ray.time * motion_at(shape).shift;
+        if (COUNT(MOTIONS, lengths.motions) != 0u) shift = ray.time * motion_at(shape).shift;
     }
     return shift;
 }

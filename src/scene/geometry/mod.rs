@@ -5,7 +5,6 @@ mod fields;
 
 use glam::DVec3;
 
-use super::builder::SceneBuilder;
 use super::limits::{COORDINATE, MAX_SHAPES};
 use super::model::{Material, Scene};
 use super::refusal::{Check, Key};
@@ -87,8 +86,16 @@ pub struct Section {
     pub name: &'static str,
     /// Lists of keys that it knows.
     pub keys: [&'static [&'static str]; 2],
-    /// Reads a shape of this material and motion and adds it; returns whether no ray meets it.
-    pub add: fn(&dyn Fields, usize, DVec3, &mut SceneBuilder) -> Result<bool>,
+    /// Reads a shape of this material and motion and adds it.
+    pub(super) add: fn(&dyn Fields, usize, DVec3, &mut Shapes) -> Result<Added>,
+}
+
+/// What became of a shape that was added.
+pub(super) struct Added {
+    /// Its key, where it is the first of too many.
+    pub over: Option<Key>,
+    /// No ray meets it.
+    pub is_empty: bool,
 }
 
 const COMMON_KEYS: &[&str] = &["material", "motion"];
@@ -175,10 +182,9 @@ macro_rules! kinds {
         pub const SECTIONS: &[Section] = &[$(Section {
             name: <$kind as Kind>::SECTION,
             keys: [<$kind as Described>::KEYS, COMMON_KEYS],
-            add: |fields, material, motion, builder| {
+            add: |fields, material, motion, shapes| {
                 let shape = $kind { motion, ..<$kind as Described>::read(fields, material)? };
-                builder.shape(shape);
-                Ok(shape.is_empty())
+                Ok(Added { is_empty: shape.is_empty(), over: add(shapes, shape) })
             },
         }),+];
 

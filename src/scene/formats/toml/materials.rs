@@ -9,7 +9,7 @@ use super::samplers::Known;
 use super::table::Table;
 use crate::core::error::Result;
 use crate::scene::bsdf::{KEYS, ModelKey, Value};
-use crate::scene::builder::DEFAULT;
+use crate::scene::model::DEFAULT;
 use crate::scene::model::*;
 
 pub(super) const MATERIAL: &[&str] = &[

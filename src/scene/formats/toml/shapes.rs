@@ -7,8 +7,9 @@ use super::names::Names;
 use super::reader::Field;
 use super::table::Table;
 use crate::core::error::{Error, Result};
-use crate::scene::builder::{DEFAULT, SceneBuilder};
+use crate::scene::builder::SceneBuilder;
 use crate::scene::geometry::{Fields, SECTIONS};
+use crate::scene::model::DEFAULT;
 
 /// Returns true if a section holds shapes.
 pub(super) fn is_shape(section: &str) -> bool {
@@ -24,14 +25,14 @@ pub(super) fn add_all(
     let mut tables = Vec::new();
     for kind in SECTIONS {
         let found = root.repeated(kind.name, &kind.keys.concat())?;
-        tables.extend(found.into_iter().map(|table| (table, kind.add)));
+        tables.extend(found.into_iter().map(|table| (table, kind)));
     }
     tables.sort_by_key(|(table, _)| table.span.start);
     let mut dropped = None;
-    for (table, add) in &tables {
+    for (table, kind) in &tables {
         let material = table.get("material").map_or(Ok(DEFAULT), |field| materials.resolve(field))?;
         let motion = table.get("motion").map_or(Ok(DVec3::ZERO), Field::vec3)?;
-        if add(table, material, motion, builder)? && dropped.is_none() {
+        if builder.read_shape(kind, table, material, motion)? && dropped.is_none() {
             dropped = Some(table.line());
         }
     }
