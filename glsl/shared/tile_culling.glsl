@@ -5,7 +5,7 @@
 
 #include "layout.glsl"
 
-layout(std430, set = 0, binding = BINDING_TILE_LISTS) readonly buffer Survey { uint survey[]; };
+layout(std430, set = 0, binding = BINDING_TILE_LISTS) readonly buffer TileLists { uint tile_lists[]; };
 
 // Returns the first word of the cell of a film pixel; NO_LIST for a scene without tile culling, or a cell
 // with more triangles than it can list.
@@ -14,7 +14,7 @@ uint cell_list(const Header header, uvec2 place) {
     if (side == 0u) return NO_LIST;
     uint across = (header.film_size.x + side - 1u) / side;
     uint at = ((place.y / side) * across + place.x / side) * CELL_WORDS;
-    return survey[at] <= MAX_LISTED ? at : NO_LIST;
+    return tile_lists[at] <= MAX_LISTED ? at : NO_LIST;
 }
 
 #endif

@@ -23,7 +23,7 @@ fn nonfinite_pixels(film: &Film) -> usize {
 /// the device computed them.
 fn device_seconds(report: &Report) -> Value {
     let mut seconds = Map::from_iter([("render".into(), json!(report.device_render_seconds))]);
-    seconds.extend(report.device_culling_seconds.map(|survey| ("survey".into(), json!(survey))));
+    seconds.extend(report.device_culling_seconds.map(|culling| ("survey".into(), json!(culling))));
     seconds.extend(report.device_mips_seconds.map(|mips| ("mips".into(), json!(mips))));
     seconds.into()
 }

@@ -73,11 +73,11 @@ fn nothing_is_left_out_without_a_difference() {
     let (kept, _) = render_with(&scene, true, &Tuning::default());
     assert_same_bits(&render(&scene), &kept, "with everything kept");
     let (kept, _) = render_with(&without(&scene), true, &Tuning::default());
-    assert_same_bits(&render(&scene), &kept, "with everything kept but the survey");
+    assert_same_bits(&render(&scene), &kept, "with everything kept but tile culling");
 }
 
 #[test]
-fn few_triangles_lenses_motion_and_other_filters_have_no_survey() {
+fn few_triangles_lenses_motion_and_other_filters_are_not_culled_by_tiles() {
     assert!(!packed(small("lecture", 32, 4), None).culls_tiles());
     let mut scene = soup(40, 32);
     scene.camera.motion[0] = DVec3::X;
