@@ -1,5 +1,5 @@
-//! The tables of `src/schema` → the GLSL files that the shaders include as `schema/NAME.glsl`. They lie in
-//! `OUT_DIR` and are written anew only where their text changes.
+//! Generates the GLSL files that shaders include as `schema/NAME.glsl` from the tables of `src/schema`. They
+//! are in `OUT_DIR` and are rewritten only if their text changes.
 
 use std::fmt::Write as _;
 use std::fs;
@@ -13,7 +13,7 @@ use crate::specialization::SPECIALIZATION;
 use crate::tables::{Enum, Number};
 use crate::{AnyError, record_text, shape_text};
 
-/// Writes all generated files below `folder`.
+/// Writes all generated files to `folder`.
 pub fn generate(folder: &Path) -> Result<(), AnyError> {
     fs::create_dir_all(folder)?;
     let numbers = [enums(), constants(), bindings()].concat();
@@ -38,12 +38,12 @@ fn screaming(name: &str) -> String {
     name.replace('-', "_").to_uppercase()
 }
 
-/// All enums that the shaders know.
+/// Returns all enums that the shaders know.
 fn all_enums() -> impl Iterator<Item = &'static Enum> {
     crate::enums::ENUMS.iter().chain(crate::models::ENUMS)
 }
 
-/// `const uint PREFIX_VARIANT`, and how many there are. The preprocessor compares sources.
+/// Returns `const uint PREFIX_VARIANT` for each variant, and their number. The preprocessor compares sources.
 fn enums() -> String {
     let mut text = String::new();
     for one in all_enums() {
@@ -74,8 +74,8 @@ fn bindings() -> String {
     descriptors.chain(ids).collect()
 }
 
-/// The specialization constants, each with the default that keeps everything: those of the table, then length and
-/// place of each list of records.
+/// Returns the specialization constants, each with the default that keeps everything: those of the table, then length
+/// and offset of each list of records.
 fn features() -> Result<String, AnyError> {
     let mut text = String::new();
     for (constant, id) in SPECIALIZATION.iter().zip(0..) {
@@ -101,7 +101,7 @@ fn features() -> Result<String, AnyError> {
     Ok(text)
 }
 
-/// Blocks of words as structs.
+/// Returns the blocks of words as structs.
 fn blocks() -> String {
     let one = |block: &crate::tables::Block| {
         let fields: String = block.fields.iter().map(|f| format!("    uint {f};\n")).collect();

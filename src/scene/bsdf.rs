@@ -1,5 +1,5 @@
 //! What a scene, its packing and its messages know of reflection models, whose table is `src/schema/models.rs`; and the
-//! keys of `[[material]]` that not all of them have.
+//! keys of `[[material]]` that only some of them have.
 
 use glam::DVec3;
 
@@ -9,38 +9,38 @@ use super::refusal::{Check, Key};
 pub use crate::schema::models::Model;
 
 impl Model {
-    /// Shows its colour as it is: an environment, a texture that is looked at.
+    /// The model that shows its colour unshaded: for environments, and textures by themselves.
     pub const PLAIN: Model = Model::Unlit;
 
-    /// Whether it shines by itself.
+    /// Returns true if it emits light.
     pub fn emits(self) -> bool {
         self.is("emits")
     }
 
-    /// Whether lights shine on it.
+    /// Returns true if it reflects the light of lights.
     pub fn is_lit(self) -> bool {
         self.is("lit")
     }
 
-    /// Whether rays go on from it.
+    /// Returns true if it reflects or refracts rays.
     pub fn is_specular(self) -> bool {
         self.is("specular")
     }
 
-    /// Whether rays go on through it, too.
+    /// Returns true if it transmits rays.
     pub fn transmits(self) -> bool {
         self.is("transmits")
     }
 }
 
-/// A key of `[[material]]` that some models have.
+/// A key of `[[material]]` that only some models have.
 pub(super) struct ModelKey {
     pub name: &'static str,
     pub value: Value,
     limits: Limits,
 }
 
-/// Where a material keeps it.
+/// The field of a material that holds it.
 pub(super) enum Value {
     Number(fn(&mut Material) -> &mut f64),
     Color(fn(&mut Material) -> &mut DVec3),
@@ -53,7 +53,7 @@ pub(super) const KEYS: [ModelKey; 4] = [
     ModelKey { name: "roughness", value: Value::Number(|m| &mut m.roughness), limits: UNIT },
 ];
 
-/// Checks what the material's model reads.
+/// Checks the fields that the material's model uses.
 pub(super) fn check_model_keys(key: Key, material: &Material) -> Check {
     let (model, mut material) = (material.model, material.clone());
     KEYS.iter().filter(|k| model.has_key(k.name)).try_for_each(|k| match k.value {

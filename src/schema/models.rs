@@ -1,5 +1,5 @@
-//! The reflection models: name, what each does with light, and the keys of `[[material]]` that not all of them have.
-//! `emits`: it shines by itself; `lit`: it reflects light; `specular`: rays go on from it; `transmits`: through it, too.
+//! The reflection models: name, properties, and the keys of `[[material]]` that only some of them have. `emits`: it emits
+//! light; `lit`: it reflects the light of lights; `specular`: it reflects or refracts rays; `transmits`: it transmits them.
 
 /// Hands the table to another macro.
 macro_rules! with_models {
@@ -9,11 +9,11 @@ macro_rules! with_models {
             #[default]
             Lambert = "lambert", [lit], [];
             Mirror = "mirror", [specular], [roughness];
-            /// Mirrors or refracts, by Fresnel's share of each.
+            /// Reflects or refracts, in the ratio of the Fresnel equations.
             Dielectric = "dielectric", [specular transmits], [ior roughness];
             /// Lambert with a highlight.
             Phong = "phong", [lit], [specular exponent];
-            /// Rough and diffuse; keeps all light.
+            /// Rough diffuse, energy-preserving.
             OrenNayar = "oren-nayar", [lit], [roughness];
         }
     };

@@ -27,12 +27,12 @@ fn ray_of(query: &RayQuery) -> Ray {
     Ray { origin: widened(&query.origin), direction: widened(&query.direction), time: query.origin[3].into() }
 }
 
-/// What the comparison of one scene found.
+/// The result of the comparison of one scene.
 #[derive(Default, Debug)]
 struct Tally {
     rays: usize,
     hits: usize,
-    /// Another shape than the oracle's, where rounding decides: silhouettes, edges, equal distances.
+    /// A different shape from the oracle's, if rounding decides: silhouettes, edges, equal distances.
     undecided: usize,
     wrong: Vec<String>,
 }
@@ -67,7 +67,7 @@ impl Tally {
     }
 }
 
-/// The device's shape, where rounding cannot explain that it is not the oracle's.
+/// Returns the device's shape, if rounding cannot explain that it differs from the oracle's.
 fn wrong_shape(hit: &Hit, answer: &RayAnswer, estimates: &[Estimate]) -> Option<String> {
     if hit.shape == answer.shape {
         return None;

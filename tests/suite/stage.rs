@@ -89,7 +89,7 @@ pub fn packed(mut scene: Scene, crop: Option<Rect>) -> PackedScene {
     pack::pack(&scene, textures, crop).unwrap()
 }
 
-/// The scene with as many samples at random places.
+/// The scene with this number of samples at random positions.
 pub fn with_random(mut scene: Scene, spp: u32) -> Scene {
     scene.sampling.pattern = Pattern::Random;
     scene.sampling.shared = false;
@@ -97,13 +97,13 @@ pub fn with_random(mut scene: Scene, spp: u32) -> Scene {
     scene
 }
 
-/// What `--device` is given to choose the device under test.
+/// The argument of `--device` that selects the device under test.
 pub fn device_name() -> String {
     std::env::var("MOIRE_DEVICE").unwrap_or_else(|_| "cpu".into())
 }
 
-/// The device under test. A message of the validation layer fails the test that is running, which
-/// with several at a time may be the caller's neighbour.
+/// The device under test. A message of the validation layer fails the test that is running, which with several at a
+/// time may be a neighbour of the one that caused it.
 pub struct Device(&'static Gpu);
 
 pub fn device() -> Device {
@@ -148,7 +148,7 @@ pub fn render_on_oracle(scene: &PackedScene) -> Film {
     oracle::backend::render(scene, &NoProgress).unwrap()
 }
 
-/// The pixels of `crop`, as rendering with that crop would give them.
+/// Returns the pixels of `crop`, as rendering with that crop would.
 pub fn cut(film: &Film, crop: Rect) -> Film {
     let mut part = Film::new(crop.width, crop.height, film.samples);
     for (y, row) in part.pixels.chunks_mut(crop.width as usize).enumerate() {

@@ -23,9 +23,9 @@ pub struct Estimate {
     pub t: f64,
     /// Greatest error of t.
     pub error: f64,
-    /// Rounding decides whether it is a hit.
+    /// True if rounding decides whether it is a hit.
     pub unsure: bool,
-    /// How fast the normal turns along the surface.
+    /// The rate at which the normal turns along the surface.
     pub curvature: f64,
     /// Greatest error of barycentric weights.
     pub weights: f64,

@@ -11,7 +11,7 @@ use moire::internal::texture::data::{ColorSpace, TexelFormat};
 
 use crate::lookup::bench::{Rng, Vectors, texture};
 
-/// The eye is away from the world's origin: what is packed is relative to it.
+/// The eye is away from the world's origin, as packed values are relative to it.
 const HEAD: &str = "camera = { eye = [3.0, -2.0, 5.0], look_at = [0.0, 0.0, 0.0], vertical_fov = 60.0 }
 image = { width = 1, height = 1 }
 [[texture]]
@@ -100,7 +100,7 @@ fn add_triangle(text: &mut String, rng: &mut Rng, material: usize, smooth: bool)
 
 pub fn planes(rng: &mut Rng) -> PackedScene {
     let mut text = materials(rng, 8);
-    // World space for what has no bounds: materials 1, 2, 4, 5, 7 are not in "bounds".
+    // World space for shapes without bounds: materials 1, 2, 4, 5, 7 are not in "bounds".
     add_plane(&mut text, rng, 4, false);
     add_plane(&mut text, rng, 7, false);
     for i in 0..8 {
