@@ -66,6 +66,7 @@ impl<'p> DeviceBackend<'p> {
         let begun = Instant::now();
         if let Some(tile_culling) = session.tile_culling().filter(|_| prepared.scene.culls_tiles()) {
             tile_culling.run(session.gpu, &mut report)?;
+            report.seconds.render = begun.elapsed().as_secs_f64();
         }
         Ok(DeviceBackend {
             prepared,
@@ -83,8 +84,12 @@ impl<'p> DeviceBackend<'p> {
     pub fn finish(self) -> Result<Report> {
         drop((self.batches, self.beams));
         let mut report = self.report;
-        let beside = report.seconds.compile - self.compiled + report.seconds.readback;
-        report.seconds.render = self.begun.elapsed().as_secs_f64() - beside;
+        let elapsed = self.begun.elapsed().as_secs_f64() - (report.seconds.compile - self.compiled);
+        match self.prepared.work {
+            // Sums and means of what was read are the host's.
+            Work::Tiles { .. } => report.seconds.readback = elapsed - report.seconds.render,
+            _ => report.seconds.render = elapsed - report.seconds.readback,
+        }
         let session = self.prepared.session;
         report.diagnostics = session
             .resources
@@ -135,13 +140,13 @@ impl<'p> DeviceBackend<'p> {
         let tiles = film.tiles(range.pixels);
         let mut plan = DispatchPlan::new(self.next, range.samples.clone(), scene.samples_at_once, tiles);
         for band in film.bands(range.pixels) {
+            let clock = Instant::now();
             if range.samples.start > 0 {
                 film.clear(session.gpu, &band)?;
             }
             renderer.tiles(&band, band.tiles, &mut plan, &mut self.report, progress)?;
-            let clock = Instant::now();
+            self.report.seconds.render += clock.elapsed().as_secs_f64();
             film.read(session.gpu, &band, &mut block)?;
-            self.report.seconds.readback += clock.elapsed().as_secs_f64();
         }
         self.next = plan.next();
         Ok(block.into())
