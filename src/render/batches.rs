@@ -1,8 +1,6 @@
 //! Batches of samples → sums of two halves on the device, for sampling that differs from pixel to pixel. The
 //! film lies in pages of whole rows that the device's buffers can hold; each page has its own list.
 
-use std::sync::Arc;
-
 use super::dispatch_plan::{FIRST_SAMPLES, MAX_TILES, next_work};
 use super::{Report, Resources};
 use crate::core::error::{Error, Result};
@@ -30,7 +28,7 @@ struct Page {
 
 /// The pipeline that samples by batches.
 pub struct SamplePipeline {
-    pub pipeline: Arc<Pipeline>,
+    pub pipeline: std::sync::Arc<Pipeline>,
     pub shader: &'static Shader,
     pub groups_per_tile: u32,
 }
