@@ -1,5 +1,5 @@
-//! The text of a shader → its SPIR-V words, compiled again only when it or a file that it includes has changed.
-//! Warnings are errors.
+//! Compiles a shader's text to SPIR-V, again only if it or a file that it includes has changed. Warnings are
+//! errors.
 
 use std::cell::RefCell;
 use std::collections::BTreeSet;
@@ -9,9 +9,9 @@ use std::time::SystemTime;
 
 use crate::{AnyError, uncontracted};
 
-/// Compiles a shader whose own text includes all else. `BASE.spv` holds the words, `BASE.comp` the text and
-/// `BASE.inputs` the files they were made from, one a line. `schema/NAME` is one of the generated files, which
-/// include those of `glsl/shared`.
+/// Compiles a shader whose text includes everything else. `BASE.spv` holds the words, `BASE.comp` the text
+/// and `BASE.inputs` the files from which they were made, one per line. `schema/NAME` is one of the generated
+/// files, which include those of `glsl/shared`.
 pub fn compile_if_changed(
     compiler: &shaderc::Compiler,
     text: &str,
@@ -33,7 +33,7 @@ pub fn compile_if_changed(
     let mut options = shaderc::CompileOptions::new()?;
     options.set_target_env(shaderc::TargetEnv::Vulkan, shaderc::EnvVersion::Vulkan1_2 as u32);
     options.set_target_spirv(shaderc::SpirvVersion::V1_5);
-    // Drivers optimise after the constants are known; unoptimised code keeps the names.
+    // Drivers optimise once the constants are known; unoptimised code keeps the names.
     options.set_optimization_level(shaderc::OptimizationLevel::Zero);
     options.set_generate_debug_info();
     options.set_warnings_as_errors();
@@ -53,7 +53,7 @@ pub fn compile_if_changed(
     let list: Vec<_> = included.borrow().iter().map(|p: &PathBuf| p.to_string_lossy().into_owned()).collect();
     fs::write(&inputs, list.join("\n"))?;
     fs::write(&own, text)?;
-    // Last and by renaming: a build that is interrupted here leaves no words that look current.
+    // Last, and by renaming, so that an interrupted build leaves no file that looks current.
     let part = base.with_extension("part");
     let words = uncontracted::uncontracted(binary.as_binary());
     fs::write(&part, words.iter().flat_map(|w| w.to_le_bytes()).collect::<Vec<u8>>())?;

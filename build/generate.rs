@@ -1,5 +1,5 @@
-//! The tables of `src/schema` → the GLSL files that the shaders include as `schema/NAME.glsl`. They lie in
-//! `OUT_DIR` and are written anew only where their text changes.
+//! Generates the GLSL files that shaders include as `schema/NAME.glsl` from the tables of `src/schema`. They
+//! are in `OUT_DIR` and are rewritten only if their text changes.
 
 use std::fmt::Write as _;
 use std::fs;
@@ -8,13 +8,12 @@ use std::path::Path;
 use crate::bindings::BINDINGS;
 use crate::blocks::BLOCKS;
 use crate::constants::CONSTANTS;
-use crate::enums::ENUMS;
 use crate::records::RECORDS;
 use crate::specialization::SPECIALIZATION;
-use crate::tables::Number;
+use crate::tables::{Enum, Number};
 use crate::{AnyError, record_text, shape_text};
 
-/// Writes all generated files below `folder`.
+/// Writes all generated files to `folder`.
 pub fn generate(folder: &Path) -> Result<(), AnyError> {
     fs::create_dir_all(folder)?;
     let numbers = [enums(), constants(), bindings()].concat();
@@ -39,10 +38,15 @@ fn screaming(name: &str) -> String {
     name.replace('-', "_").to_uppercase()
 }
 
-/// `const uint PREFIX_VARIANT`, and how many there are. The preprocessor compares sources.
+/// Returns all enums that the shaders know.
+fn all_enums() -> impl Iterator<Item = &'static Enum> {
+    crate::enums::ENUMS.iter().chain(crate::models::ENUMS)
+}
+
+/// Returns `const uint PREFIX_VARIANT` for each variant, and their number. The preprocessor compares sources.
 fn enums() -> String {
     let mut text = String::new();
-    for one in ENUMS {
+    for one in all_enums() {
         for (i, variant) in one.variants.iter().enumerate() {
             let name = format!("{}_{}", one.prefix, screaming(variant));
             text += &match one.prefix {
@@ -70,14 +74,14 @@ fn bindings() -> String {
     descriptors.chain(ids).collect()
 }
 
-/// The specialization constants, each with the default that keeps everything: those of the table, then length and
-/// place of each list of records.
+/// Returns the specialization constants, each with the default that keeps everything: those of the table, then length
+/// and offset of each list of records.
 fn features() -> Result<String, AnyError> {
     let mut text = String::new();
     for (constant, id) in SPECIALIZATION.iter().zip(0..) {
         let (kind, default) = match constant.kind {
             "modes" => {
-                let all = ENUMS.iter().find(|e| e.name == constant.of);
+                let all = all_enums().find(|e| e.name == constant.of);
                 let all = all.ok_or_else(|| format!("{}: no enum {}", constant.name, constant.of))?;
                 ("uint", format!("0x{:X}u", (1u32 << all.variants.len()) - 1))
             }
@@ -97,7 +101,7 @@ fn features() -> Result<String, AnyError> {
     Ok(text)
 }
 
-/// Blocks of words as structs.
+/// Returns the blocks of words as structs.
 fn blocks() -> String {
     let one = |block: &crate::tables::Block| {
         let fields: String = block.fields.iter().map(|f| format!("    uint {f};\n")).collect();

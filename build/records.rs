@@ -1,5 +1,5 @@
-//! The records of `src/schema/records.rs` → GLSL: a struct with the fields by name; functions that read it, each unit
-//! of 16 bytes once; and of records with a list its elements by index, from a cache where the list is short.
+//! Generates GLSL for the records of `src/schema/records.rs`: a struct with named fields; functions that read it, each
+//! unit of 16 bytes once; and for records in a list the access by index, cached if the list is short.
 
 use crate::packing::{Kind, Packer, shape};
 use crate::records::{LENGTHS, RECORDS};
@@ -10,7 +10,7 @@ pub fn records() -> String {
     let preloads: String = lists().map(|record| format!("    preload_{}();\n", record.list)).collect();
     let some: Vec<_> = lists().map(|record| format!("{} == DYNAMIC", record.list.to_uppercase())).collect();
     let mut text: String = RECORDS.iter().chain([&LENGTHS]).map(record).collect();
-    // Behind the header; read where some length is not known when the pipeline is built.
+    // Follow the header; read only if some length is not known when the pipeline is built.
     text += "Lengths lengths;\n\n";
     text.extend(lists().map(list));
     let lengths = format!("    if ({}) lengths = lengths_in_head(HEADER_UNITS);\n", some.join(" || "));
@@ -32,7 +32,7 @@ fn record(record: &Record) -> String {
     text + "\n"
 }
 
-/// A function that reads the record at a unit of the head, or of the whole scene buffer.
+/// Returns a function that reads the record from the uniform buffer, or from the whole scene buffer.
 fn loader(record: &Record, from: &str) -> String {
     let (mut units, mut parts) = (String::new(), Vec::new());
     let mut packer = Packer::new();
@@ -66,8 +66,9 @@ fn loader(record: &Record, from: &str) -> String {
     format!("{name} {function}_in_{from}(uint at) {{\n{units}    return {name}(\n        {parts});\n}}\n")
 }
 
-/// Lists of known, small length are read once, before any branch: some compilers (lavapipe's) read a buffer lane by
-/// lane inside control flow. An index that is not known at build time then selects among registers.
+/// Returns the access to a list. Lists of known, small length are read once, before any branch: some compilers
+/// (lavapipe's) read a buffer lane by lane inside control flow. An index that is not known at build time then selects
+/// among registers.
 fn list(record: &Record) -> String {
     let (name, list, one) = (record.name, record.list, snake(record.name));
     let length = list.to_uppercase();
@@ -108,7 +109,7 @@ fn glsl_type(name: &str) -> &str {
     }
 }
 
-/// `UvProjection` → `uv_projection`.
+/// Converts `UvProjection` to `uv_projection`.
 fn snake(name: &str) -> String {
     let mut text = String::new();
     for letter in name.chars() {

@@ -1,13 +1,12 @@
-//! SPIR-V words → what a host has to know of the shader: descriptors, and specialization constants with their
-//! names and defaults.
+//! Reflects SPIR-V: the descriptors of a shader, and its specialization constants with names and defaults.
 
 use std::collections::BTreeMap;
 
 use crate::AnyError;
 use crate::specialization::SPECIALIZATION;
 
-/// What the reflection reads off: SPIR-V 1.5, section 3 (binary form). Only decorations, names,
-/// the types behind descriptors, and the defaults of scalar specialization constants matter.
+/// The data that reflection collects: SPIR-V 1.5, section 3 (binary form). Only decorations, names, the types
+/// of descriptors, and the defaults of scalar specialization constants matter.
 #[derive(Default)]
 pub struct Reflection {
     names: BTreeMap<u32, String>,
@@ -41,7 +40,7 @@ impl Reflection {
         r
     }
 
-    /// (binding, kind) of every descriptor, in order of binding.
+    /// Returns (binding, kind) of every descriptor, in the order of bindings.
     pub fn descriptors(&self) -> Result<Vec<(u32, &'static str)>, AnyError> {
         const UNIFORM_CONSTANT: u32 = 0;
         const UNIFORM: u32 = 2;
@@ -74,8 +73,8 @@ impl Reflection {
         }
     }
 
-    /// (name, id, default) of every named specialization constant. The workgroup's size has no
-    /// names of its own there.
+    /// Returns (name, id, default) of every specialization constant. Those of the workgroup's size have no
+    /// names in the module.
     pub fn constants(&self) -> Vec<(String, u32, u32)> {
         let mut found: Vec<_> = self
             .spec_ids

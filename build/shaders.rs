@@ -1,10 +1,10 @@
-//! The shaders, in families of one main file. Of each place where texels may lie (`TexelSource`) and each type of
-//! the numbers of geometry (`Reals`) that are named here there is one shader; where none is named it has no texels
-//! or computes in f32. The names of source and reals follow that of the family.
+//! The shaders, in families that share a main file. A family has one shader for each combination of the sources of
+//! texels (`TexelSource`) and precisions of geometry (`Reals`) that it lists; without any it has no texels or computes
+//! in f32. The names of source and precision are appended to that of the family.
 
 pub struct Family {
     pub name: &'static str,
-    /// Relative to `glsl`.
+    /// Path relative to `glsl`.
     pub main: &'static str,
     pub sources: &'static [&'static str],
     pub reals: &'static [&'static str],
@@ -38,7 +38,7 @@ pub struct Variant {
     pub name: String,
     pub source: Option<&'static str>,
     pub reals: Option<&'static str>,
-    /// What the compiler is given: definitions, and the main file.
+    /// The input of the compiler: definitions, and the include of the main file.
     pub text: String,
 }
 

@@ -1,10 +1,10 @@
-//! The macros of `src/schema/tables.rs` once more: here the same tables become lists of names, from which
+//! Defines the macros of `src/schema/tables.rs` a second time: here the same tables become lists of names, from which
 //! `generate.rs` writes GLSL.
 
 pub struct Enum {
     pub prefix: &'static str,
     pub name: &'static str,
-    /// As files and messages call the variants.
+    /// The variants as files and messages name them.
     pub variants: &'static [&'static str],
 }
 
@@ -16,7 +16,7 @@ pub enum Number {
 pub struct SpecializationConstant {
     pub name: &'static str,
     pub kind: &'static str,
-    /// What stands behind the kind in brackets.
+    /// The text in parentheses after the kind.
     pub of: &'static str,
 }
 
@@ -28,7 +28,7 @@ pub struct Block {
 pub struct Record {
     pub name: &'static str,
     pub list: &'static str,
-    /// Name and type of each.
+    /// Name and type of each field.
     pub fields: &'static [(&'static str, &'static str)],
 }
 
@@ -39,6 +39,12 @@ macro_rules! enums {
             name: stringify!($enum),
             variants: &[$($name,)+],
         },)+];
+    };
+}
+
+macro_rules! models {
+    ($($(#[$meta:meta])* $variant:ident = $name:literal, [$($property:ident)*], [$($key:ident)*];)+) => {
+        enums! { MODEL: Model { $($variant = $name,)+ } }
     };
 }
 
@@ -92,7 +98,7 @@ macro_rules! records {
             fields: &[$((stringify!($field), stringify!($type)),)+],
         },)+];
 
-        /// How long each list is.
+        /// The lengths of all lists.
         pub const LENGTHS: crate::tables::Record = crate::tables::Record {
             name: "Lengths",
             list: "",

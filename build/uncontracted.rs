@@ -1,6 +1,6 @@
-//! A SPIR-V module → the same with `NoContraction` on all its float arithmetic, as if every variable of
-//! the source were `precise`. A driver may otherwise fuse a product with a sum in one pipeline and not
-//! in the next, and lean pictures would differ from full ones by an ulp. `fma` fuses where it is written.
+//! Adds `NoContraction` to all float arithmetic of a SPIR-V module, as if every variable of the source were
+//! `precise`. Otherwise a driver may fuse a product with a sum in one pipeline and not in another, and lean
+//! pictures would differ from full ones by an ulp. `fma` still fuses where it is written.
 
 const DECORATE: u32 = 71;
 const NO_CONTRACTION: u32 = 42;

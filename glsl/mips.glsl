@@ -1,4 +1,4 @@
-// One level of a mip_chain: one thread a word of it, or a texel where that is larger.
+// One level of a mip chain: one thread per word of it, or per texel if that is larger.
 #include "shared/mip_chain.glsl"
 
 layout(local_size_x_id = 0, local_size_y_id = 1, local_size_z = 1) in;

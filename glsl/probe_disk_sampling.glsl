@@ -1,4 +1,4 @@
-// Warps from a list: one thread a query, where a point of the unit square comes to lie.
+// Sampling mappings from a list: one thread per query, the image of a point of the unit square.
 #include "schema/blocks.glsl"
 #include "shared/features.glsl"
 #include "shared/layout.glsl"
@@ -10,12 +10,12 @@ layout(local_size_x_id = 0, local_size_y_id = 1, local_size_z = 1) in;
 struct Query {
     vec4 square;    // z: height of the cap; w: alpha
     vec4 direction; // of the ray that meets a facet
-    vec4 normal;    // w: height of the point over the rectangle's plane
-    vec4 rectangle; // its middle as seen from the point, half of its sides
+    vec4 normal;    // w: height of the point above the rectangle's plane
+    vec4 rectangle; // its centre as seen from the point, half of its edges
 };
 
-// On the disc; on the cap; the facet's normal, and w: the share of what it mirrors; on the rectangle, and w: its
-// solid angle.
+// Results on the disc; on the cap; the facet's normal, with the reflected share in w; on the rectangle, with
+// its solid angle in w.
 struct Answer {
     vec4 disc;
     vec4 cap;

@@ -1,5 +1,5 @@
-// Rays that meet glass, from a list: one thread a query, the direction behind the surface and the share of what
-// is mirrored.
+// Rays that meet glass, from a list: one thread per query, the direction behind the surface and the
+// reflectance.
 #include "schema/blocks.glsl"
 #include "shared/features.glsl"
 #include "shared/layout.glsl"

@@ -1,4 +1,4 @@
-// Look-ups of procedural textures from a list: one thread a query, RGB out.
+// Look-ups of procedural textures from a list: one thread per query, RGB out.
 #include "schema/blocks.glsl"
 #include "shared/features.glsl"
 #include "shared/layout.glsl"

@@ -1,4 +1,4 @@
-// Dumps sample positions: one thread a (pixel, sample); 24-bit integers out, as the renderer has them.
+// Writes sample positions: one thread per (pixel, sample); 24-bit integers, as the renderer uses them.
 #include "schema/blocks.glsl"
 #include "shared/features.glsl"
 #include "shared/layout.glsl"

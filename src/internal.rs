@@ -1,6 +1,6 @@
-//! The rooms of this crate, for its own program, tests and benches, which are crates of their own. In: nothing. Out:
-//! every room under its name. It is hidden from the documentation, is no part of the public face and follows no
-//! version: whatever is reached through it may change or go in any release.
+//! The modules of this crate, for its own program, tests and benchmarks, which are crates of their own. They are hidden
+//! from the documentation, are no part of the public interface and follow no version: everything here may change or
+//! disappear in any release.
 
 macro_rules! rooms {
     ($($room:ident)+) => { $(pub mod $room { pub use crate::$room::*; })+ };

@@ -14,7 +14,7 @@
 //! # }
 //! ```
 //!
-//! What goes wrong is an [`Error`] whose message names the place and whose [`kind`](Error::kind) programs can act on.
+//! Errors are of type [`Error`]: the message names the place, and programs can act on its [`kind`](Error::kind).
 
 #![deny(missing_docs)]
 

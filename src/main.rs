@@ -1,5 +1,5 @@
-//! Parses the command line, calls the library, prints the error. Exit 0: done; 1: a comparison
-//! failed; 2: an error, also where the program itself fails; 130: interrupted by Ctrl-C.
+//! Parses the command line, calls the library, prints the error. Exit code 0: success; 1: a comparison
+//! failed; 2: an error, including a fault of the program itself; 130: interrupted by Ctrl-C.
 
 use std::process::ExitCode;
 
@@ -20,17 +20,17 @@ struct Cli {
 enum Command {
     /// Render a scene file into one or more pictures
     Render(Box<render::RenderArgs>),
-    /// Measure which anti-aliasing method gives the least error in the time there is
+    /// Measure which anti-aliasing method has the smallest error in a given time
     Study(study::StudyArgs),
     /// Compare two pictures in linear RGB
     Compare(compare::CompareArgs),
     /// List the Vulkan devices
     Devices(devices::DevicesArgs),
-    /// Describe a texture file, and say whether it tiles
+    /// Describe a texture file, and whether it tiles
     Texture(texture::TextureArgs),
     /// Show a sample pattern and its power spectrum
     Pattern(pattern::PatternArgs),
-    /// Hold a device's samplers against the float64 oracle
+    /// Compare a device's samplers with the float64 oracle
     Verify(verify::VerifyArgs),
     /// Sweep extreme cases on a device, with errors against float64
     Stability(stability::StabilityArgs),

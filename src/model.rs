@@ -1,6 +1,5 @@
-//! What a scene consists of: the parts that a [`SceneBuilder`](crate::SceneBuilder) takes, in scene units, degrees and
-//! linear RGB. An index that a part has is one that the builder returned; [`DEFAULT`] stands for the default material
-//! and the default sampler.
+//! The parts of a scene that a [`SceneBuilder`](crate::SceneBuilder) takes, in scene units, degrees and linear RGB. An
+//! index in a part is one that the builder returned; [`DEFAULT`] is the default material and the default sampler.
 
 pub use crate::scene::geometry::kinds::*;
 pub use crate::scene::geometry::{Kind, Shape};
@@ -14,5 +13,5 @@ pub use crate::texture::data::{ColorSpace, Dimension, MipKernel, TexelFormat};
 pub use crate::texture::procedural::{Procedural, ProceduralKind};
 pub use crate::texture::sampler_spec::{Address, Filter, Method, MipMode, SamplerSpec, TexelCenter};
 pub use crate::texture::source::{
-    CubeLayout, Endian, OrientationUse, PlainTexels, Reading, TextureContent, TextureSource, VolumeSource,
+    CubeLayout, Endian, OrientationUse, PlainTexels, ReadOptions, TextureContent, TextureSource, VolumeSource,
 };

@@ -1,13 +1,13 @@
-// Which texel of an axis a place means, in each address mode (Vulkan 1.3, "Wrapping Operation"). `mask` is the
-// constant of the modes that occur on that axis. Twin: src/oracle/address.rs.
+// Address modes: the texel that a coordinate selects along an axis (Vulkan 1.3, "Wrapping Operation"). `mask`
+// is the constant of the modes that occur on that axis. Twin: src/oracle/address.rs.
 #ifndef ADDRESS_GLSL
 #define ADDRESS_GLSL
 
 #include "layout.glsl"
 
-// The coordinate in texels, brought near the texture without changing what it reads. Whole periods
-// leave exactly, to [-1/2, 1/2] or, mirrored, [-1, 1]; what is not finite reads as 0. Clamped modes
-// lose what lies far outside.
+// Returns the coordinate in texels, moved close to the texture without changing the selected texel. Whole
+// periods are subtracted exactly, which leaves [-1/2, 1/2] or, if mirrored, [-1, 1]; values that are not
+// finite become 0. Clamped modes lose everything far outside.
 float reduced_coordinate(uint mask, uint mode, float u, float size) {
     float s;
     if (MODE_IS(mask, ADDRESS_REPEAT, mode)) {
@@ -24,7 +24,7 @@ float reduced_coordinate(uint mask, uint mode, float u, float size) {
 }
 
 #ifdef F64_MATH
-// The same for a coordinate in tiles, which then fits an f32.
+// As above for a coordinate in tiles, which then fits an f32.
 float near_tile(uint mask, uint mode, double u) {
     double s = clamp(u, -2.0, 3.0);
     if (MODE_IS(mask, ADDRESS_REPEAT, mode)) {
@@ -36,8 +36,8 @@ float near_tile(uint mask, uint mode, double u) {
 }
 #endif
 
-// Vulkan 1.3, "Wrapping Operation", for what `reduced_coordinate` leaves; -1 asks for
-// the border colour. The bounds hold for every i, so no fetch leaves the texture.
+// Implements "Wrapping Operation" of Vulkan 1.3 for the results of `reduced_coordinate`; -1 selects the
+// border colour. The bounds hold for every i, so no fetch leaves the texture.
 int addressed_texel(uint mask, uint mode, int i, int size) {
     if (MODE_IS(mask, ADDRESS_REPEAT, mode) && TEXTURE_SIZES == (1u << TEXTURE_SIZE_POWER_OF_TWO)) return i & (size - 1);
     if (MODE_IS(mask, ADDRESS_REPEAT, mode)) return int(min(uint(i < 0 ? i + size : i), uint(size - 1)));
@@ -47,8 +47,8 @@ int addressed_texel(uint mask, uint mode, int i, int size) {
     return clamp(i, 0, size - 1);
 }
 
-// The same for every i: wide filters reach beyond one period. Of a negative number Vulkan leaves the
-// remainder undefined, so i is mirrored at -1/2 first.
+// As above for every i: wide filters reach beyond one period. Vulkan leaves the remainder of negative numbers
+// undefined, so i is first mirrored at -1/2.
 int wrapped_texel(uint mask, uint mode, int i, int size) {
     int folded = i < 0 ? -1 - i : i;
     if (MODE_IS(mask, ADDRESS_REPEAT, mode)) {

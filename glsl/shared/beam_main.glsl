@@ -1,7 +1,7 @@
-// One beam a pixel (Heckbert & Hanrahan 1984): the pixel's square, cut along the edges of the polygons that it
-// meets and where they pass through each other; of each visible fragment the exact area in the pixel, and the
-// exact integral of its colour. Mirrors send the fragment on. What this cannot do is left to samples:
-// film[pixel].w = 1. Twin: src/oracle/beam.rs.
+// One beam per pixel (Heckbert & Hanrahan 1984): the pixel's square is cut along the edges of the polygons
+// that it meets and along their intersections; each visible fragment contributes its exact area in the pixel
+// and the exact integral of its colour. Mirrors reflect the fragment's beam. Pixels beyond this are left to
+// samples: film[pixel].w = 1. Twin: src/oracle/beam.rs.
 #ifndef BEAM_MAIN_GLSL
 #define BEAM_MAIN_GLSL
 
@@ -11,33 +11,34 @@
 #include "shading_integral.glsl"
 #include "slice.glsl"
 
-const uint MAX_MET = 8u;      // shapes that a beam may meet
-// Planes whose inverse depth differs by less, relatively, lie in each other: the first of the list is seen.
+const uint MAX_MET = 8u;      // most shapes that a beam may meet
+// Planes whose inverse depths differ by a smaller relative amount are coplanar: the first in the list is
+// visible.
 const float COPLANAR = 4e-6;
 
-// How the rays of a part of the pixel go.
+// The rays of a part of the pixel.
 struct PixelBeam {
     PixelFrustum frame;
     vec3 carried;
-    uint skip;  // the mirror that it left, and that one's inverse depth
+    uint skip;  // the mirror that it left, and that mirror's inverse depth
     vec3 limit;
     uint depth;
 };
 
-// Lists of one thread. Too much for a beam: it gives up.
+// State of one thread. The pixel is too complex for a beam, which gives up.
 ConvexRegion met[MAX_MET + 1u]; // the last: of a shadow
 uint met_shapes[MAX_MET];
 uint met_count;
-uint stages[MAX_FRAGMENTS]; // a waiting fragment: how many tests are done
+uint stages[MAX_FRAGMENTS]; // of a pending fragment: the number of tests that are done
 uint waiting;
 PixelBeam beams[MAX_BEAMS];
 uint waiting_beams;
 
-// The pixel's colour so far. What is painted is added here, not handed back through the loops, where NVIDIA's compiler
-// (driver 580) loses sums of some threads.
+// The pixel's colour so far. Contributions are added here, not returned through the loops, where NVIDIA's
+// compiler (driver 580) loses sums of some threads.
 vec3 color;
 
-// The polygon at the end of the waiting ones becomes one of them.
+// Pushes the polygon after the pending ones.
 void keep_piece(uint stage) {
     if (waiting < MAX_FRAGMENTS) stages[waiting++] = stage;
     else gave_up = true;
@@ -48,21 +49,21 @@ void push_piece(uint polygon, uint stage) {
     keep_piece(stage);
 }
 
-// Takes the last of them as PIECE; what is returned is its stage.
+// Pops the last pending fragment as PIECE; returns its stage.
 uint pop_piece() {
     waiting--;
     copy(waiting, PIECE);
     return stages[waiting];
 }
 
-// Differences of inverse depth that are none.
+// Returns the difference of inverse depths below which planes count as coplanar.
 float negligible(vec3 inverse_depth, uint polygon) {
     vec2 ends = range(polygon, inverse_depth);
     return COPLANAR * max(ends.y, -ends.x);
 }
 
-// All that the beam may meet. Behind a mirror that is what lies beyond it: what lies before it neither is seen
-// nor hides anything.
+// Finds all shapes that the beam may meet. For a beam from a mirror these are clipped to the mirror's front:
+// anything behind it is neither visible nor an occluder.
 void find_shapes(const Header header, PixelBeam beam) {
     uint shapes = shape_count();
     met_count = 0u;
@@ -96,7 +97,7 @@ void find_shapes(const Header header, PixelBeam beam) {
     }
 }
 
-// Positive where `by` lies before `own`.
+// Returns a function that is positive where `by` is nearer than `own`.
 vec3 before(uint by, uint own, uint polygon) {
     vec3 apart = met[by].inverse_depth - met[own].inverse_depth;
     vec2 ends = range(polygon, apart);
@@ -104,8 +105,8 @@ vec3 before(uint by, uint own, uint polygon) {
     return vec3(0.0, 0.0, by < own ? 1.0 : -1.0);
 }
 
-// Cuts PIECE along the lines of a shape that is met, of which `first` is one more. What lies within them all
-// is kept, or all else is.
+// Cuts PIECE along the lines of a shape, preceded by the line `first`. If `kept`, the part within all lines
+// is kept, otherwise the parts outside.
 void carve(uint stage, uint by, bool has_first, vec3 first, bool kept) {
     uint rest = PIECE;
     uint k = has_first ? 0u : 1u;
@@ -124,7 +125,7 @@ void carve(uint stage, uint by, bool has_first, vec3 first, bool kept) {
     if (kept && !gone) push_piece(rest, stage + 1u);
 }
 
-// Adds the integral over those parts of SEEN that see the light; without one, over all of it.
+// Adds the integral over the parts of SEEN that see the light; without a light, over all of it.
 void lit_by(const Header header, const ShadingIntegral paint, uint shape, bool has_light, const Light light) {
     uint shapes = shape_count();
     uint bottom = waiting;
@@ -142,14 +143,14 @@ void lit_by(const Header header, const ShadingIntegral paint, uint shape, bool h
         if (by == shape || is_round) push_piece(PIECE, by + 1u);
         else {
             met[MAX_MET] = shadow_region(header, paint.frame, paint.near, by, light);
-            // What lies in the surface's own plane, or beyond it, keeps no light away.
+            // A shape in the surface's own plane, or below it, does not occlude the light.
             if (range(PIECE, met[MAX_MET].lines[0]).y <= least) push_piece(PIECE, by + 1u);
             else carve(by, MAX_MET, false, vec3(0.0), false);
         }
     }
 }
 
-// Adds the colour of SEEN, a visible fragment, or sends its beam on.
+// Adds the colour of SEEN, a visible fragment, or pushes the mirrored beam.
 void shade(const Header header, PixelBeam beam, uint own) {
     uint shape = met_shapes[own];
     uvec2 link = shape_links(header, shape);
@@ -183,14 +184,14 @@ void shade(const Header header, PixelBeam beam, uint own) {
     for (; i < lights && !gave_up; i++) {
         Light light = NO_LIGHT;
         if (LIGHTS != 0u && !unlit) light = light_at(i);
-        // Of lights with an extent beams do not know the penumbra.
+        // Beams cannot integrate the penumbra of area lights.
         if (AREA_LIGHTS && light.kind >= LIGHT_SPHERE) gave_up = true;
         lit_by(header, paint, shape, LIGHTS != 0u && !unlit, light);
     }
     if (i < lights) gave_up = true;
 }
 
-// Adds all that one beam sees but for what its mirrors send on.
+// Adds everything that one beam sees, except through its mirrors.
 void follow(const Header header, PixelBeam beam) {
     find_shapes(header, beam);
     float left = area(WHOLE);
@@ -199,7 +200,7 @@ void follow(const Header header, PixelBeam beam) {
         push_piece(WHOLE, 0u);
         while (waiting > 0u && !gave_up) {
             uint stage = pop_piece();
-            // Stage 0 cuts out the shape itself, the others take away what lies before it.
+            // Stage 0 clips to the shape itself, the other stages remove the parts hidden by each shape.
             if (stage > met_count) {
                 left -= area(PIECE);
                 copy(PIECE, SEEN);

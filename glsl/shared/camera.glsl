@@ -1,5 +1,5 @@
-// Pixel and position in it -> ray, relative to the eye. Perspective: all rays start at 0 and the
-// direction is forward + (sx - width/2) step_x + (sy - height/2) step_y, not normalised.
+// Generates camera rays from a pixel and a position in it, relative to the eye. Perspective: all rays start
+// at 0 and the direction is forward + (sx - width/2) step_x + (sy - height/2) step_y, not normalised.
 // Orthographic: that sum without `forward` is the origin, and `forward` the direction.
 #ifndef CAMERA_GLSL
 #define CAMERA_GLSL
@@ -13,9 +13,9 @@ struct Ray {
     float time;
 };
 
-// `inside` counts from the pixel's corner, in units of 2^-24 of a pixel.
+// Returns the pinhole camera's ray; `inside` counts from the pixel's corner, in units of 2^-24 of a pixel.
 Ray camera_ray(const Header header, uvec2 pixel, vec2 inside) {
-    // Scaling by 2^-24 is exact wherever it happens: here once a pixel, not once a sample.
+    // Scaling by 2^-24 is exact wherever it is done: here once per pixel, not per sample.
     real3 fine_x = header.step_x * (1.0 / 16777216.0);
     real3 fine_y = header.step_y * (1.0 / 16777216.0);
     vec2 corner = vec2(pixel) - 0.5 * vec2(header.image_size);
@@ -27,17 +27,17 @@ Ray camera_ray(const Header header, uvec2 pixel, vec2 inside) {
     return orthographic ? Ray(point, header.forward, 0.0) : Ray(real3(0.0), point, 0.0);
 }
 
-// The pinhole's ray, bent by a thin lens: from a point of the lens to where the pinhole's ray meets the plane
-// in focus (Cook, Porter & Carpenter 1984). Per unit of t both come equally far along the view, so that a
-// pixel's step changes the direction as it does without a lens.
+// Returns the thin lens's ray: from a point on the lens to the point where the pinhole's ray meets the plane
+// of focus (Cook, Porter & Carpenter 1984). Per unit of t both advance equally along the view direction, so
+// that a step of a pixel changes the direction as it does without a lens.
 Ray through_lens(const Header header, const Ray ray, vec2 square) {
     vec2 place = header.lens_radius * concentric_disc(square);
     real3 aside = place.x * header.step_x + place.y * header.step_y;
     return Ray(ray.origin + aside, ray.direction - header.inverse_focus_distance * aside, ray.time);
 }
 
-// The camera at a time between 0 and 1: eye and what it looks at have moved, and its axes are formed anew. Rays
-// still start relative to where the eye is then.
+// Returns the camera at a time between 0 and 1: the eye and the point that it looks at have moved, and the
+// axes are recomputed. Rays still start relative to the eye at that time.
 Header camera_at(Header header, float time) {
     real3 view = header.view + time * header.view_motion;
     real3 forward = view * inverse_root(dot3(view, view));

@@ -1,5 +1,5 @@
-// One thread a pixel, one cone each: film[pixel] = radiance (rgb) and the weight of what was dropped.
-// With COMPENSATED the film has a second half, where nothing is lost.
+// One thread per pixel, with one cone: film[pixel] = radiance (rgb) and the dropped weight. With COMPENSATED
+// the film has a second half, where no rounding errors are stored.
 #ifndef CONE_MAIN_GLSL
 #define CONE_MAIN_GLSL
 

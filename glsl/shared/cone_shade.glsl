@@ -1,45 +1,45 @@
-// Cone -> radiance: each fragment that it sees is shaded once, at the centroid of what is seen, with a
-// footprint of that size; mirrors and glass send narrower cones on, glass two of them, weighted by
-// Fresnel. A light is one more cone, from the footprint to it, so that a shadow's edge is a share. All wait
-// in one list and are traced by one piece of code: threads run through all code whether they use it or not.
-// Nothing is left to chance. Twin: src/oracle/cone_shade.rs.
+// Cone -> radiance: each visible fragment is shaded once, at the centroid of its visible part, with a
+// footprint of that size; mirrors and glass spawn narrower cones, glass two of them, weighted by the Fresnel
+// equations. A light is one more cone, from the footprint to the light, so that a shadow's edge is
+// fractional. All pending cones are in one list and are traced by one piece of code, as a thread group
+// executes all code that any of its threads needs. Nothing is random. Twin: src/oracle/cone_shade.rs.
 #ifndef CONE_SHADE_GLSL
 #define CONE_SHADE_GLSL
 
 #include "fragments.glsl"
 #include "shade.glsl"
 
-// Cones that wait, cones of a pixel, and the least weight of one. What goes beyond is dropped.
+// Most pending cones, most cones per pixel, and the least weight of a cone. Anything beyond is dropped.
 const uint MAX_WAITING = BOUNCES || SHADOWS ? 32u : 1u;
 const uint CONE_LIMIT = BOUNCES || SHADOWS ? MAX_CONES : 1u;
 const float MIN_WEIGHT = 1.0 / 1024.0;
 
-// A cone that is still to be traced.
+// A pending cone.
 struct Branch {
     Ray ray;
     float width;
     float spread;
     vec3 weight;
     uint skip;
-    uint depth; // bounces before it, or how it ends at a light
+    uint depth; // bounces before it, or TO_POINT_LIGHT, TO_FAR_LIGHT
 };
 
-// In place of a depth: the weight is what a light sends, as much of it as is not hidden.
+// Replaces a depth: the weight is a light's contribution, in proportion to its visibility.
 const uint TO_POINT_LIGHT = 0x80000000u;
 const uint TO_FAR_LIGHT = 0x80000001u;
 
 Branch waiting[MAX_WAITING];
 uint waiting_count;
-float dropped; // weight of all that was
+float dropped; // sum of the dropped weights
 
 RayDifferential cone_beam(float width, float spread) {
     return RayDifferential(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), width, spread);
 }
 
-// The largest channel, of either sign; what is no number is seen, too.
+// Returns the largest absolute value of a channel; NaN and infinity count as 1, so that they stay visible.
 float largest(vec3 v) {
     if (NONFINITE) {
-        // By its bits: compilers take comparisons for those of numbers.
+        // Tested by the bits: compilers optimise comparisons for finite values.
         if (any(equal(floatBitsToUint(v) & 0x7F800000u, uvec3(0x7F800000u)))) return 1.0;
     }
     return max(abs(v.x), max(abs(v.y), abs(v.z)));
@@ -55,8 +55,8 @@ void send(Branch branch) {
     waiting_count++;
 }
 
-// What an unhidden light sends through a surface to the eye, and the cone in which it may be hidden: as
-// wide as the footprint looks from the light, where it ends in a point.
+// Returns the contribution of an unoccluded light by way of a surface, and the cone that tests its
+// visibility: as wide as the footprint seen from the light, where it ends in a point.
 Branch lit_branch(Branch branch, vec3 albedo, vec3 carried, const Hit hit, const Surface surface, const Footprint print, const Material material, uint skip, const Light light) {
     bool point_light = MODE_IS(LIGHT_KINDS, LIGHT_POINT, light.kind);
     vec3 way = point_light ? light.position - surface.point : light.direction;
@@ -78,7 +78,7 @@ Branch lit_branch(Branch branch, vec3 albedo, vec3 carried, const Hit hit, const
                   point_light ? TO_POINT_LIGHT : TO_FAR_LIGHT);
 }
 
-// The cone that leaves a mirror or glass, `through` it or not.
+// Returns the cone reflected by a mirror or glass, or refracted if `through`.
 Branch bent_branch(const Header header, Branch branch, const Hit hit, const Surface surface, const Footprint print, float ratio, float share, uint skip, bool through) {
     Ray ray = branch.ray;
     RayDifferential beam = cone_beam(branch.width, branch.spread);
@@ -95,7 +95,8 @@ Branch bent_branch(const Header header, Branch branch, const Hit hit, const Surf
     return Branch(Ray(start, direction, 0.0), beam.width, beam.spread, branch.weight * share, skip, branch.depth + 1u);
 }
 
-// What a part of a cone shows: of a shape, or of what lies behind all of them. `branch` is that part.
+// Returns the radiance of a part of a cone: of a shape, or of the background behind all shapes. `branch` is
+// that part.
 vec3 shade_part(const Header header, Branch branch, uint shape) {
     bool missed = ENVIRONMENT && shape == NO_SHAPE;
     Ray ray = branch.ray;
@@ -117,8 +118,8 @@ vec3 shade_part(const Header header, Branch branch, uint shape) {
     if (!lit) consistent_normal(ray.direction, surface);
     float ratio = index_ratio(material, surface.inside);
     float back = mirrored_share(material, ray.direction, surface.normal, ratio);
-    // What follows: cones to the lights, or what goes through glass and then what it returns, which as the
-    // last is traced first.
+    // Secondary cones: those to the lights, or the refracted and then the reflected one, which as the last is
+    // traced first.
     uint branches = lit ? COUNT(LIGHTS, lengths.lights) : (BOUNCES && branch.depth < header.max_depth ? 2u : 0u);
     vec3 sum = vec3(0.0);
     for (uint i = 0u; i < branches; i++) {
@@ -138,7 +139,7 @@ vec3 shade_part(const Header header, Branch branch, uint shape) {
     return sum;
 }
 
-// The part of a branch that is seen around `center` of its cone.
+// Returns the part of a branch that is visible around `center` of its cone.
 Branch part_of(Branch branch, const Cone cone, Covered covered, float norm) {
     float side = sqrt(covered.share);
     branch.ray = ray_at(cone, covered.center);
@@ -148,7 +149,7 @@ Branch part_of(Branch branch, const Cone cone, Covered covered, float norm) {
     return branch;
 }
 
-// What the cone around a ray from the camera sees; last, the weight of what was dropped.
+// Returns the radiance of the cone around a camera ray, and in w the weight that was dropped.
 vec4 trace_cone(const Header header, const Ray ray, const RayDifferential beam) {
     vec3 sum = vec3(0.0);
     dropped = 0.0;
@@ -167,13 +168,13 @@ vec4 trace_cone(const Header header, const Ray ray, const RayDifferential beam) 
             sum += branch.weight * (rest.share * clear);
             continue;
         }
-        // Those that are kept stand for shapes that are not.
+        // Fragments that were kept represent those that were not.
         float replaced = rest.share * (1.0 - clear);
         float norm = 1.0 + replaced / max(1.0 - rest.share, MIN_SHARE);
         dropped += largest(branch.weight) * replaced;
         count_diagnostic(DIAGNOSTIC_PIECES, replaced > 0.0);
         rest.share -= replaced;
-        // An environment is one part more, behind all fragments.
+        // An environment is one more part, behind all fragments.
         bool surrounded = ENVIRONMENT && header.environment_material != NO_MATERIAL;
         uint parts = piece_count + (surrounded && rest.share > 0.0 ? 1u : 0u);
         for (uint i = 0u; i < parts; i++) {

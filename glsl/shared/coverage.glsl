@@ -1,15 +1,14 @@
-// What part of a disc is covered, and where that part's centroid lies: the unit disc cut by straight
-// lines, or overlapped by a circle. Exact: the area inside a closed border is half the integral of
-// x dy - y dx along it, its first moment a third of that of (x, y) (x dy - y dx); the border is pieces of
-// lines and arcs of the disc's own rim. All arcs together span the angle about the centre that the
-// fragments of lines leave, and the integrals over an arc depend on its ends alone, so that nothing is
-// sorted. Twin: src/oracle/coverage.rs.
+// The part of a disc that is covered, and its centroid: the unit disc cut by straight lines, or overlapped by
+// a circle. Exact: the area inside a closed border is half the integral of x dy - y dx along it, its first
+// moment a third of that of (x, y) (x dy - y dx); the border consists of line segments and arcs of the disc's
+// boundary. All arcs together span the angle about the centre that the segments leave, and the integrals over
+// an arc depend on its ends alone, so that nothing is sorted. Twin: src/oracle/coverage.rs.
 #ifndef COVERAGE_GLSL
 #define COVERAGE_GLSL
 
 #include "math.glsl"
 
-// Share of the disc's area, and the centroid of the covered part.
+// Fraction of the disc's area, and the centroid of the covered part.
 struct Covered {
     float share;
     vec2 center;
@@ -18,12 +17,12 @@ struct Covered {
 const Covered NOTHING = Covered(0.0, vec2(0.0));
 const Covered EVERYTHING = Covered(1.0, vec2(0.0));
 
-// Shares below this are none.
+// Smaller fractions count as 0.
 const float MIN_SHARE = 1e-5;
 
-// The lines that cross the disc now, the newest first: covered is where a x + b y + c >= 0; (a, b) has
-// unit length. Registers, as an array with an index that differs between threads is slow. Of more lines
-// than these, which only pairs of shapes have, the oldest are left out.
+// The lines that cross the disc, the newest first: covered is a x + b y + c >= 0, where (a, b) has unit
+// length. Registers, as arrays with an index that differs between threads are slow. With more lines than
+// these, which only pairs of shapes have, the oldest are left out.
 const vec3 NO_CUT = vec3(0.0, 0.0, 2.0);
 vec3 cut_a;
 vec3 cut_b;
@@ -53,7 +52,7 @@ const float BESIDE = 1e-9;
 void cut_by(vec3 line) {
     float squared = dot2(line.xy, line.xy);
     vec3 unit = line * inversesqrt(squared > 0.0 ? squared : 1.0);
-    // A line through the centre passes beside it: seen from there, its fragment has an angle.
+    // A line through the centre is moved beside it, so that its segment subtends an angle there.
     if (abs(unit.z) < BESIDE) unit.z = BESIDE;
     // A line at infinity leaves everything or nothing.
     float beyond = squared > 0.0 ? unit.z : (line.z > 0.0 ? 1.0 : -1.0);
@@ -67,7 +66,7 @@ void cut_by(vec3 line) {
     cut_a = crosses ? unit : cut_a;
 }
 
-// A line's share of the border: twice the area between it and the disc's centre, the angle that it spans
+// A line's share of the border: twice the area between it and the disc's centre, the angle that it subtends
 // there, and six times the moment.
 struct Border {
     float twice_area;
@@ -75,20 +74,20 @@ struct Border {
     vec2 moment;
 };
 
-// Lines whose sine is below this count as parallel: where they cross is not known, and the border has to
-// close.
+// Lines with a smaller sine between them count as parallel: their intersection is inaccurate, and the border
+// must close.
 const float PARALLEL = 1e-4;
 
-// The fragment of a line, from x to y counted from its foot, that another line leaves.
+// Returns the part of a line's segment, from x to y from its foot point, that another line leaves.
 vec2 clipped(vec2 fragment, vec3 line, vec3 other, bool again) {
-    vec2 way = vec2(line.y, -line.x); // with what is covered on its left
+    vec2 way = vec2(line.y, -line.x); // with the covered side on its left
     float slope = dot2(other.xy, way);
     float cosine = dot2(other.xy, line.xy);
     bool parallel = abs(slope) < PARALLEL;
     float end = (line.z * cosine - other.z) / (parallel ? 1.0 : slope);
     float from = !parallel && slope > 0.0 ? max(fragment.x, end) : fragment.x;
     float to = !parallel && slope < 0.0 ? min(fragment.y, end) : fragment.y;
-    // Of two equal lines the second counts for nothing; two opposite ones see the same gap.
+    // Of two equal lines the second has no segment; two opposite ones see the same gap.
     float gap = cosine > 0.0 ? other.z - line.z : other.z + line.z;
     bool empty = parallel && (gap < 0.0 || (again && gap == 0.0 && cosine > 0.0));
     return vec2(from, empty ? from : to);
@@ -111,7 +110,7 @@ void add_border(inout Border sum, vec3 line, vec2 fragment) {
     }
 }
 
-// The fragment of a line within the disc and five others; `true` follows those that count before it.
+// Returns the segment of a line within the disc and five others; `true` follows those that precede it.
 #define BORDER(line, o1, n1, o2, n2, o3, n3, o4, n4, o5, n5)                      \
     {                                                                            \
         float rim = sqrt(max(1.0 - line.z * line.z, 0.0));                       \
@@ -123,7 +122,7 @@ void add_border(inout Border sum, vec3 line, vec2 fragment) {
         add_border(border, line, fragment);                                          \
     }
 
-// What the lines leave of the disc.
+// Returns the part of the disc that the lines leave.
 Covered cut_disc() {
     Border border = Border(0.0, 0.0, vec2(0.0));
     BORDER(cut_a, cut_b, false, cut_c, false, cut_d, false, cut_e, false, cut_f, false)
@@ -141,8 +140,8 @@ Covered cut_disc() {
     return some ? Covered(share, center) : NOTHING;
 }
 
-// phi - sin phi cos phi, from sine and cosine in [0, 1]: a circle's segment over the square of its
-// radius. For small angles its series, as the two terms cancel.
+// Returns phi - sin phi cos phi from sine and cosine in [0, 1]: a circular segment over the square of its
+// radius. Small angles use the series, as the two terms cancel.
 float segment(float sine, float cosine) {
     float y = sine * sine;
     float series = sine * y * (2.0 / 3.0 + y * (0.2 + y * (3.0 / 28.0 + y * (5.0 / 72.0))));
@@ -150,8 +149,8 @@ float segment(float sine, float cosine) {
     return y < 0.09 ? series : plain;
 }
 
-// The disc overlapped by a circle around `middle`; `edge` is the radius less the middle's distance from
-// the disc's centre, which the caller knows without cancellation.
+// Returns the overlap of the disc with a circle around `middle`; `edge` is the radius less the distance of
+// `middle` from the disc's centre, which the caller computes without cancellation.
 Covered circle_overlap(vec2 middle, float radius, float edge) {
     if (!(edge > -1.0)) return NOTHING;
     if (edge >= 1.0) return EVERYTHING;
@@ -161,12 +160,12 @@ Covered circle_overlap(vec2 middle, float radius, float edge) {
         if (!(share > MIN_SHARE)) return NOTHING;
         return Covered(share, middle);
     }
-    // The chord through both crossings, from the disc's centre.
+    // The chord through both intersections, from the disc's centre.
     float chord = (1.0 - edge * (radius + apart)) / (2.0 * apart);
     float half_length = sqrt(max(1.0 - chord * chord, 0.0));
     float own = segment(half_length, abs(chord));
     own = chord < 0.0 ? PI - own : own;
-    // What the circle has on the side of the disc's centre.
+    // The circle's part on the side of the disc's centre.
     float sine = min(half_length / radius, 1.0);
     float other = segment(sine, min(abs(apart - chord) / radius, 1.0));
     other = (apart < chord ? PI - other : other) * (radius * radius);
@@ -177,8 +176,8 @@ Covered circle_overlap(vec2 middle, float radius, float edge) {
     return Covered(share, center);
 }
 
-// A small circle counts as a square of its area, and so does the disc: squares tile the picture, so that a
-// ball that moves is seen in equal parts wherever it is, which discs between pixels are not.
+// Returns the overlap with a small circle, both replaced by squares of equal area: squares tile the picture,
+// so a moving ball keeps its total, which discs with gaps between pixels would not preserve.
 const float SQUARE = 0.88622693; // half the side of a square with the disc's area
 
 Covered small_overlap(vec2 middle, float radius) {
@@ -191,7 +190,8 @@ Covered small_overlap(vec2 middle, float radius) {
     return Covered(share, 0.5 * (from + to));
 }
 
-// A circle of any size: from half the disc's radius to all of it the one goes over into the other.
+// Returns the overlap with a circle of any size: blends from one to the other between half the disc's radius
+// and all of it.
 Covered ball_overlap(vec2 middle, float radius, float edge) {
     float large = clamp(2.0 * radius - 1.0, 0.0, 1.0);
     Covered a = small_overlap(middle, min(radius, 1.0));
@@ -203,7 +203,7 @@ Covered ball_overlap(vec2 middle, float radius, float edge) {
     return large >= 1.0 ? b : Covered(share, center);
 }
 
-// A line that leaves about as much as the circle.
+// Returns a line that leaves about as much as the circle.
 vec3 circle_line(vec2 middle, float radius, float edge) {
     float apart = sqrt(dot2(middle, middle));
     if (!(edge > -1.0) || edge >= 1.0) return vec3(0.0, 0.0, edge);

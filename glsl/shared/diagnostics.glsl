@@ -1,13 +1,14 @@
-// Counters of what went beyond a limit: look-ups at coordinates that are no numbers, levels beyond a texture's last,
-// footprints longer than a sampler follows, rays that graze, paths that end by depth, cones without room. Each thread
-// counts for itself and adds to the device's 64-bit counters at its end. Without DIAGNOSED none of it is there.
+// Counters of exceeded limits: look-ups at coordinates that are NaN or infinite, levels beyond a texture's
+// last, footprints beyond a sampler's anisotropy, rays at grazing angles, paths that end by depth, cones
+// without room. Each thread counts by itself and adds to the device's 64-bit counters at its end. Without
+// DIAGNOSED there is no code.
 #ifndef DIAGNOSTICS_GLSL
 #define DIAGNOSTICS_GLSL
 
 #include "features.glsl"
 #include "layout.glsl"
 
-layout(std430, set = 0, binding = BINDING_DIAGNOSTICS) buffer Guards { uint guards[]; }; // low and high half of each
+layout(std430, set = 0, binding = BINDING_DIAGNOSTICS) buffer Counters { uint counters[]; }; // low and high half of each
 
 uint noticed[DIAGNOSTIC_COUNT];
 
@@ -25,14 +26,14 @@ void report_notices() {
     if (DIAGNOSED) {
         for (uint k = 0u; k < DIAGNOSTIC_COUNT; k++) {
             if (noticed[k] > 0u) {
-                uint before = atomicAdd(guards[2u * k], noticed[k]);
-                if (before + noticed[k] < before) atomicAdd(guards[2u * k + 1u], 1u);
+                uint before = atomicAdd(counters[2u * k], noticed[k]);
+                if (before + noticed[k] < before) atomicAdd(counters[2u * k + 1u], 1u);
             }
         }
     }
 }
 
-// By its bits: compilers take comparisons for those of numbers.
+// Tested by the bits: compilers optimise comparisons for finite values.
 bool no_number(vec3 v) { return any(equal(floatBitsToUint(v) & 0x7F800000u, uvec3(0x7F800000u))); }
 
 #ifdef F64_MATH

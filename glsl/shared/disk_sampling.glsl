@@ -1,11 +1,12 @@
-// Points of the unit square onto the shapes that samples are chosen from, equal areas onto equal areas,
-// neighbours beside neighbours: what a pattern does in the square it does there. Twin: src/oracle/disk_sampling.rs.
+// Mappings from the unit square to the shapes that are sampled. They preserve areas and neighbourhoods, so
+// that a pattern keeps its distribution. Twin: src/oracle/disk_sampling.rs.
 #ifndef DISK_SAMPLING_GLSL
 #define DISK_SAMPLING_GLSL
 
 #include "math.glsl"
 
-// Shirley & Chiu 1997: squares around the middle become circles.
+// Returns a point on the disc by the concentric map of Shirley & Chiu 1997: squares around the centre become
+// circles.
 vec2 concentric_disc(vec2 square) {
     vec2 p = 2.0 * square - 1.0;
     bool wide = abs(p.x) > abs(p.y);
@@ -17,8 +18,8 @@ vec2 concentric_disc(vec2 square) {
     return wide ? vec2(along, beside) : vec2(beside, along);
 }
 
-// The unit sphere's cap around +z that is `height` high, 2 for all of it. A disc's areas become the cap's
-// where 1 - z grows as the square of the disc's radius (Archimedes).
+// Returns a point on the cap of the unit sphere around +z of height `height`; 2 is the whole sphere. Areas of
+// the disc become areas of the cap if 1 - z grows as the square of the disc's radius (Archimedes).
 vec3 on_cap(vec2 disc, float height) {
     float fall = height * (disc.x * disc.x + disc.y * disc.y);
     float stretch = sqrt(max(height * (2.0 - fall), 0.0));

@@ -1,8 +1,7 @@
-// How wide a ray is: what its share of the pixel covers, at its origin and as it goes, on the surface
-// that it hits, and after a mirror or a refraction. Differentials (Igehy 1999) carry two vectors each of
-// origin and direction; a cone (Amanatides 1984; Akenine-Möller et al. 2021) a width and a spread. Both
-// give two vectors on the surface, full widths, which is all that filters see. Twin:
-// src/oracle/footprint.rs.
+// The width of a ray: the extent of a sample's share of the pixel, at its origin and along it, on the surface
+// that it hits, and after reflection or refraction. Differentials (Igehy 1999) have two vectors each of
+// origin and direction; a cone (Amanatides 1984; Akenine-Möller et al. 2021) a width and a spread. Both give
+// two vectors on the surface, full widths, which are the input of filters. Twin: src/oracle/footprint.rs.
 #ifndef FOOTPRINT_GLSL
 #define FOOTPRINT_GLSL
 
@@ -19,11 +18,11 @@ struct RayDifferential {
     vec3 origin_y;
     vec3 direction_x;
     vec3 direction_y;
-    float width;  // of the cone at the origin
-    float spread; // growth of the width a unit of t; negative where it converges
+    float width;  // width of the cone at the origin
+    float spread; // growth of the width per unit of t; negative if it converges
 };
 
-// What the beam covers where it meets a surface: changes of the point and of the direction.
+// The footprint of a ray differential on a surface: changes of the point and of the direction.
 struct Footprint {
     vec3 point_x;
     vec3 point_y;
@@ -35,8 +34,8 @@ const Footprint NO_FOOTPRINT = Footprint(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0
 
 bool uses_cones(const Header header) { return MODE_IS(FOOTPRINTS, FOOTPRINT_CONE, header.footprint); }
 
-// `share` is the side of the part of a pixel that one sample stands for: that of a box with the
-// pixel filter's variance over √samples.
+// Returns the camera's ray differential. `share` is the side of the part of a pixel that one sample
+// represents: that of a box with the pixel filter's variance over √samples.
 RayDifferential camera_differential(const Header header, const Ray ray) {
     RayDifferential beam = RayDifferential(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), 0.0, 0.0);
     if (!FILTERED || MODE_IS(FOOTPRINTS, FOOTPRINT_NONE, header.footprint)) return beam;
@@ -51,23 +50,23 @@ RayDifferential camera_differential(const Header header, const Ray ray) {
         beam.direction_y = orthographic ? vec3(0.0) : y;
     }
     if (CONES) {
-        float side = float(header.pixel_side) * share; // of the pixel's share, at t = 1
-        // MapInput from the eye a pixel off the axis is narrower by the cosine in one direction: the cone
-        // has the root of it, and so the same cross-section.
+        float side = float(header.pixel_side) * share; // side of the pixel's share at t = 1
+        // A pixel off the axis is foreshortened by the cosine in one direction: the cone has the square root
+        // of that, and so the same cross-section.
         beam.width = orthographic ? side : 0.0;
         beam.spread = orthographic ? 0.0 : side * inversesqrt(sqrt(float(dot3(ray.direction, ray.direction))));
     }
     return beam;
 }
 
-// A unit vector at right angles to the unit vector n (Duff et al. 2017).
+// Returns a unit vector perpendicular to the unit vector n (Duff et al. 2017).
 vec3 any_tangent(vec3 n) {
     float side = n.z >= 0.0 ? 1.0 : -1.0;
     float a = -1.0 / (side + n.z);
     return vec3(1.0 + side * n.x * n.x * a, side * n.x * n.y * a, -side * n.x);
 }
 
-// Around the unit vector n as around +z.
+// Transforms v from the frame around +z to one around the unit vector n.
 vec3 around(vec3 n, vec3 v) {
     vec3 tangent = any_tangent(n);
     vec3 bitangent = cross3(n, tangent);
@@ -75,10 +74,10 @@ vec3 around(vec3 n, vec3 v) {
     return turned;
 }
 
-// Grazing footprints end here: 1 / cos at most.
+// Grazing footprints are truncated at this value of 1 / cos.
 const float MAX_STRETCH = 65536.0;
 
-// The footprint around the point origin + t direction with unit normal n.
+// Returns the footprint around the point origin + t direction with unit normal n.
 Footprint footprint_at(const Header header, const RayDifferential beam, const Ray ray, real distance, real3 normal) {
     Footprint print = NO_FOOTPRINT;
     if (!FILTERED) return print;
@@ -101,9 +100,9 @@ Footprint footprint_at(const Header header, const RayDifferential beam, const Ra
         float width = abs(beam.width + beam.spread * t);
         float scale = inversesqrt(squared);
         vec3 d = direction * scale;
-        vec3 across = cross3(n, d); // as long as the sine of the angle of incidence
+        vec3 across = cross3(n, d); // its length is the sine of the angle of incidence
         float sine = sqrt(dot3(across, across));
-        // At normal incidence every direction across is as good as any other.
+        // At normal incidence all directions across are equivalent.
         vec3 minor = sine > 1e-4 ? across / sine : any_tangent(n);
         vec3 major = cross3(minor, n);
         vec3 turned = cross3(d, minor);
@@ -116,7 +115,7 @@ Footprint footprint_at(const Header header, const RayDifferential beam, const Ra
     return print;
 }
 
-// The footprint of a ray that goes on for ever: all that counts is the change of its direction.
+// Returns the footprint of a ray that escapes the scene: only the change of its direction matters.
 Footprint endless_footprint(const Header header, const RayDifferential beam, const Ray ray) {
     if (!FILTERED) return NO_FOOTPRINT;
     if (DIFFERENTIALS && (!CONES || !uses_cones(header))) {
@@ -128,7 +127,7 @@ Footprint endless_footprint(const Header header, const RayDifferential beam, con
     return Footprint(vec3(0.0), vec3(0.0), side * beam.spread, cross3(d, side) * beam.spread);
 }
 
-// Change of the mirrored direction d - 2 (d·n) n, where the normal changes by `normal_change`.
+// Returns the change of the mirrored direction d - 2 (d·n) n, given the change of the normal.
 vec3 mirrored_change(vec3 direction, vec3 n, vec3 change, vec3 normal_change) {
     float d = dot3(direction, n);
     float d_change = dot3(change, n) + dot3(direction, normal_change);
@@ -136,14 +135,14 @@ vec3 mirrored_change(vec3 direction, vec3 n, vec3 change, vec3 normal_change) {
     return result;
 }
 
-// shape_operator · v, summed in a stated order.
+// Returns shape_operator · v, summed in a fixed order.
 vec3 normal_change(mat3 shape_operator, vec3 v) {
     vec3 change = (shape_operator[0] * v.x + shape_operator[1] * v.y) + shape_operator[2] * v.z;
     return change;
 }
 
-// The beam that leaves a mirror. `shape_operator` is the change of the unit normal a unit of way along the surface;
-// a cone takes its mean, the curvature.
+// Returns the ray differential after reflection. `shape_operator` is the change of the unit normal per unit
+// of distance along the surface; a cone uses its mean, the curvature.
 RayDifferential reflected_differential(const Header header, const RayDifferential beam, const Ray ray, real distance, const Footprint print, real3 normal, mat3 shape_operator,
                    float curvature) {
     if (!FILTERED) return beam;
@@ -166,7 +165,7 @@ RayDifferential reflected_differential(const Header header, const RayDifferentia
     return next;
 }
 
-// Change of the refracted direction r d - (r d·n + k) n with k² = d² - r² (d² - (d·n)²).
+// Returns the change of the refracted direction r d - (r d·n + k) n with k² = d² - r² (d² - (d·n)²).
 vec3 refracted_change(vec3 direction, vec3 n, float ratio, vec3 change, vec3 normal_change) {
     float along = dot3(direction, n);
     float along_change = dot3(change, n) + dot3(direction, normal_change);
@@ -178,7 +177,7 @@ vec3 refracted_change(vec3 direction, vec3 n, float ratio, vec3 change, vec3 nor
     return result;
 }
 
-// The beam behind a refracting surface. A cone is as wide as the ellipse that it becomes has area.
+// Returns the ray differential after refraction. A cone's width preserves the area of the refracted ellipse.
 RayDifferential refracted_differential(const Header header, const RayDifferential beam, const Ray ray, real distance, const Footprint print, real3 normal, mat3 shape_operator,
                     float curvature, float ratio) {
     if (!FILTERED) return beam;

@@ -1,12 +1,12 @@
-// The shapes that a cone touches, in order of depth, and what is seen of each. The nearest fragments are kept
-// and laid over each other: exactly for two that overlap or cut each other, and for any number that lie
-// side by side. Twin: src/oracle/fragments.rs.
+// The shapes that a cone meets, in order of depth, and the visible part of each. The nearest fragments are
+// kept and composited: exactly for two that overlap or intersect, and for any number side by side. Twin:
+// src/oracle/fragments.rs.
 #ifndef FRAGMENTS_GLSL
 #define FRAGMENTS_GLSL
 
 #include "geometry/cones.glsl"
 
-// Planes whose depths differ by less, relatively, lie in each other: the first of the list is seen.
+// Planes whose depths differ by a smaller relative amount are coplanar: the first in the list is visible.
 const float COPLANAR = 4e-6;
 const uint FRAGMENTS = CONE_SHAPES == DYNAMIC ? MAX_CONE_FRAGMENTS : CONE_SHAPES;
 
@@ -16,16 +16,16 @@ struct Fragment {
     float t;     // at the centroid
     float near;  // least and largest t over the disc
     float far;
-    float area;  // share of the cone's cross-section
-    float seen;  // of that, what nothing nearer hides
-    vec2 center; // centroid of what is seen
+    float area;  // fraction of the cone's cross-section
+    float seen;  // the part of it that nothing nearer hides
+    vec2 center; // centroid of the visible part
 };
 
-// In order. Only constants index them, so that they are registers: memory that each thread indexes for
+// In order. Only constants index them, so that they stay in registers: memory that each thread indexes by
 // itself is slow.
 Fragment fragments[MAX_CONE_FRAGMENTS];
 uint piece_count;
-float clear; // what fragments that were not kept leave of a place, if they lie anywhere
+float clear; // transmittance of the fragments that were not kept
 
 #define EACH_PIECE(DO) DO(0u) DO(1u) DO(2u) DO(3u) DO(4u) DO(5u) DO(6u) DO(7u)
 
@@ -47,7 +47,7 @@ void set_seen(uint index, float seen, vec2 center) {
 #undef SET
 }
 
-// t of a flat at the two ends of the disc between which it changes.
+// Returns t of a plane at the two ends of the disc between which it varies.
 vec2 depths(const Cone cone, Flat depth) {
     float tilt = sqrt(dot2(depth.tilt, depth.tilt));
     vec2 high = depth.height - vec2(tilt, -tilt) * cone.width;
@@ -57,7 +57,7 @@ vec2 depths(const Cone cone, Flat depth) {
     return vec2(min(first, second), max(first, second));
 }
 
-// Keeps the fragment among the nearest.
+// Inserts the fragment if it is among the nearest.
 void keep(const Header header, const Cone cone, uint shape, Covered covered, float t_max) {
     Ray ray = ray_at(cone, covered.center);
     float t = meet(header, ray, shape).t;
@@ -79,8 +79,8 @@ void keep(const Header header, const Cone cone, uint shape, Covered covered, flo
 
 const uint BATCH = 32u;
 
-// All shapes but `skip` that the cone touches before t_max; the nearest ones, in order. Most are missed,
-// which is found out first: measuring what is covered takes longer, for all threads while one does it.
+// Collects the nearest shapes except `skip` that the cone meets before t_max, in order. Most shapes are
+// missed, which is tested first: computing coverage takes longer, and all threads wait while one does so.
 void collect_fragments(const Header header, const Cone cone, uint skip, float t_max) {
     uint shapes = shape_count();
     piece_count = 0u;
@@ -99,7 +99,7 @@ void collect_fragments(const Header header, const Cone cone, uint skip, float t_
             keep(header, cone, shape, covered_by(header, cone, shape), t_max);
         }
     }
-    // Nothing behind the first that covers all is seen, if nothing of it lies before that.
+    // Nothing behind the first fragment that covers everything is visible, unless part of it is nearer.
     float far = FAR;
     uint count = 0u;
 #define TRIM(k)                                                                \
@@ -112,8 +112,9 @@ void collect_fragments(const Header header, const Cone cone, uint skip, float t_
     piece_count = count;
 }
 
-// How two fragments lie over each other: where a hides b, or where b hides a. `turns`: b does so anywhere in the
-// disc, be it as their planes cross or as b's centroid lies behind a's while b lies before a where both are.
+// Returns the overlap in which one of two fragments hides the other: a hides b, or b hides a if `turned`.
+// `turns` becomes true if b is in front of a anywhere on the disc: because their planes intersect, or because
+// b's centroid is behind a's although b is in front where both are.
 Covered hidden(const Header header, const Cone cone, Fragment a, Fragment b, bool turned, out bool turns) {
     whole_disc();
     turns = false;
@@ -121,7 +122,7 @@ Covered hidden(const Header header, const Cone cone, Fragment a, Fragment b, boo
     bool b_has_lines = true;
     Flat p = Flat(0.0, 0.0, vec2(0.0));
     Flat q = p;
-    // The shapes in turn, by the same code.
+    // Both shapes in turn, by the same code.
     for (uint k = 0u; k < 2u; k++) {
         Fragment fragment = b;
         if (k == 0u) fragment = a;
@@ -141,7 +142,7 @@ Covered hidden(const Header header, const Cone cone, Fragment a, Fragment b, boo
     cut_by(turned ? -before : before);
     Covered both = cut_disc();
     if (!a_has_lines || !b_has_lines) {
-        // As good as anywhere.
+        // The position hardly matters.
         both = Covered(turned ? 0.0 : a.area * b.area, a_has_lines ? b.center : a.center);
     } else {
         turns = before.z < sqrt(dot2(before.xy, before.xy));
@@ -154,8 +155,9 @@ vec2 within_disc(vec2 center) {
     return outside > 1.0 ? center * inversesqrt(outside) : center;
 }
 
-// What is seen of each fragment, and its centroid; what nothing covers, and that centroid, is the answer. A
-// fragment that is seen in part hides in proportion. One loop over all pairs: a turn looks at one.
+// Composites the fragments: computes the visible part of each and its centroid, and returns the part that
+// nothing covers, with its centroid. A partly visible fragment hides others in proportion. One loop over all
+// pairs: an iteration processes one.
 Covered composite(const Header header, const Cone cone) {
     float rest = 1.0 - (piece_count > 0u ? fragments[0].area : 0.0);
     uint i = 1u;
@@ -194,8 +196,8 @@ Covered composite(const Header header, const Cone cone) {
             j = 0u;
         }
     }
-    // Through what covers a place nothing is seen, however many lie over each other there: the place is one of
-    // those that are hidden.
+    // Nothing is visible through a covered place, however many fragments overlap there: the excess belongs to
+    // the hidden ones.
     float most = 0.0;
     float concealed = 0.0;
 #define CONCEAL(k)                                     \

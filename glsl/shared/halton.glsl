@@ -1,7 +1,7 @@
-// Halton's sequence with Owen's nested scrambling: pair k has the bases PRIMES[2k] and PRIMES[2k + 1].
-// Base 2 is that of sobol.glsl. In other bases digit d becomes slope · d + shift mod base, with a hashed slope
-// and shift for each interval of the digits before it: affine maps permute pairs of digits evenly, which
-// is all that the variance depends on (Owen 2003, "Variance with Alternative Scramblings of Digital Nets").
+// The Halton sequence with Owen's nested scrambling: pair k has the bases PRIMES[2k] and PRIMES[2k + 1]. Base
+// 2 is that of sobol.glsl. In other bases digit d becomes slope · d + shift mod base, with a hashed slope and
+// shift for each interval of the preceding digits: affine maps permute pairs of digits uniformly, on which
+// alone the variance depends (Owen 2003, "Variance with Alternative Scramblings of Digital Nets").
 #ifndef HALTON_GLSL
 #define HALTON_GLSL
 
@@ -10,7 +10,7 @@
 const uint PRIMES[32] = uint[32](2u, 3u, 5u, 7u, 11u, 13u, 17u, 19u, 23u, 29u, 31u, 37u, 41u, 43u, 47u, 53u,
                                  59u, 61u, 67u, 71u, 73u, 79u, 83u, 89u, 97u, 101u, 103u, 107u, 109u, 113u,
                                  127u, 131u);
-// A path longer than these pairs of bases has random points.
+// Paths longer than this number of pairs continue with random points.
 const uint HALTON_PAIRS = uint(PRIMES.length()) / 2u;
 // The largest power of each prime below 2^30, and 2^56 over it.
 const uint TOTALS[32] = uint[32](536870912u, 387420489u, 244140625u, 282475249u, 214358881u, 815730721u,
@@ -32,10 +32,10 @@ uint high_product(uint a, uint b) {
     return high;
 }
 
-// The base's digits of `index`, last one first and scrambled, as a position. `stream` is the scrambled place
-// within the interval as 24 bits of it, if all further digits are zeros: its first digit in this base is the
-// shift, what remains the fraction within that digit's interval. Any other digit begins a new stream. `path`
-// tells intervals apart. Widths and places are in parts of `total`, so that intervals end exactly.
+// Returns the scrambled radical inverse of `index` in this base. `stream` is the scrambled position within
+// the interval, as 24 bits, if all further digits are zero: its first digit in this base is the shift, the
+// remainder the fraction within that digit's interval. Any other digit begins a new stream. `path` identifies
+// the interval. Widths and positions are in units of 1 / `total`, so that intervals end exactly.
 uint scrambled_inverse(uint index, uint base, uint total, uint reciprocal, uint seed) {
     uint path = seed;
     uint stream = path >> 8u;

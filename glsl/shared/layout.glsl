@@ -1,4 +1,4 @@
-// The scene buffer and how it is read, in units of 16 bytes; its records stand in src/schema/records.rs.
+// The scene buffer and its access, in units of 16 bytes; the records are in src/schema/records.rs.
 #ifndef LAYOUT_GLSL
 #define LAYOUT_GLSL
 
@@ -8,7 +8,7 @@
 
 layout(std430, set = 0, binding = BINDING_SCENE) readonly buffer SceneBuffer { uvec4 scene[]; };
 
-// The first 16 KiB of the scene buffer once more, which devices read fastest as uniforms: header, short lists.
+// The first 16 KiB of the scene buffer as uniforms, which devices read fastest: header, short lists.
 layout(std140, set = 0, binding = BINDING_HEAD) uniform SceneHead { uvec4 head[HEAD_UNITS]; };
 
 #define READ_HEAD(at) OPAQUE(head[at])

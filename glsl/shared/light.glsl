@@ -1,5 +1,5 @@
-// What lights send to a surface, times what its material returns of it (`bsdf`): I cos/r² of a point, E cos of a
-// directional light; of a light with an extent that of one place, chosen by the sample. Twin: src/oracle/light.rs.
+// Direct lighting: the contribution of all lights by way of a material (`bsdf`): I cos/r² of a point light, E
+// cos of a directional light; area lights are sampled at one point. Twin: src/oracle/light.rs.
 #ifndef LIGHT_GLSL
 #define LIGHT_GLSL
 
@@ -8,19 +8,20 @@
 #include "rectangle.glsl"
 #include "geometry/rays.glsl"
 
-// Shapes as near to a place of a light as this share of the way are taken for the light itself.
+// Shadow rays end at this fraction of the distance to an area light, as shapes beyond it are the light
+// itself.
 const float BEFORE_LIGHT = 4095.0 / 4096.0;
 
-// The way to a place of a light, how much of it a shape may not lie in, and the irradiance there, over the
-// light's power and the cosine.
+// The vector to a point on a light, the ray parameter up to which shapes occlude it, and the irradiance there
+// over the light's power and the cosine.
 struct Aim {
     real3 way;
     float reach;
     float density;
 };
 
-// Uniform over the cone in which the sphere is seen; from within it, over all directions. Of radiance
-// I / (pi R²) a direction stands for 2 pi h, the cone's solid angle, h = 1 - cos of its half angle.
+// Samples the cone that the sphere subtends uniformly; from inside the sphere, all directions. With the
+// radiance I / (pi R²) a direction represents the cone's solid angle 2 pi h, h = 1 - cos of its half angle.
 Aim sphere_aim(const Light light, real3 point, vec2 square) {
     vec3 way = vec3(light.position - point);
     float radius = float(light.radius);
@@ -36,8 +37,8 @@ Aim sphere_aim(const Light light, real3 point, vec2 square) {
     return Aim(around(way * inversesqrt(squared), local), reach * BEFORE_LIGHT, density);
 }
 
-// Uniform over the solid angle, or where that is small and over slanted sides over the area, which is the length of
-// the sides' cross product: cos / r² with cos' of the light.
+// Samples the solid angle uniformly; if it is small, or the edges are not at right angles, the area, which is
+// the length of the edges' cross product: cos / r² with cos' of the light.
 Aim rectangle_aim(const Light light, real3 point, vec2 square) {
     vec2 p = square - 0.5;
     real3 to_middle = light.position - point;
@@ -61,7 +62,7 @@ Aim rectangle_aim(const Light light, real3 point, vec2 square) {
     return Aim(way, BEFORE_LIGHT, density);
 }
 
-// Uniform over the cap of the sky.
+// Samples the sun's cap uniformly.
 Aim sun_aim(const Light light, vec2 square) {
     return Aim(around(vec3(light.direction), on_cap(concentric_disc(square), float(light.cap_height))), FAR, 1.0);
 }
@@ -100,7 +101,7 @@ Lit direct_light(const Header header, const Surface surface, float time, uint sh
             if (SHADOWS) {
                 real3 to_light = point_light ? light.position - start : way;
                 if (HAS(LIGHT_KINDS, LIGHT_RECTANGLE)) {
-                    // A place of it, seen from where the shadow ray starts.
+                    // The vector to the same point from the origin of the shadow ray.
                     if (light.kind == LIGHT_RECTANGLE) to_light += surface.point - start;
                 }
                 lit = !occluded(header, Ray(start, to_light, time), aim.reach, shape);

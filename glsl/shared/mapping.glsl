@@ -1,21 +1,21 @@
-// Surface point -> texture coordinate, and how it changes over the footprint: every mapping has its
-// analytic derivatives, so that no seam or pole reads as a jump. Planes have their own coordinates and
-// triangles interpolate their vertices' uv (`surface`); the others map an entity, seen in a frame:
-// `planar` and `solid` are affine; `cylindrical`: u = phi/2pi, v = height; `spherical`: u = theta/pi,
-// v = phi/2pi, theta from +axis, phi from +x towards +z; `cube`: the direction, or the place on the
-// cube's face. Scale, rotation, offset come last; where the host can fold them in it has, with whole
-// tiles taken out. Twin: src/oracle/mapping.rs.
+// Texture coordinates of surface points, and their change over the footprint: every mapping has analytic
+// derivatives, so that seams and poles are no discontinuities. Planes have coordinates of their own and
+// triangles interpolate their vertices' uv (`surface`); the others map an entity in a frame: `planar` and
+// `solid` are affine; `cylindrical`: u = phi/2pi, v = height; `spherical`: u = theta/pi, v = phi/2pi, theta
+// from +axis, phi from +x towards +z; `cube`: the direction, or the position on the cube's face. Scale,
+// rotation and offset come last; the host folds them in where it can, with whole tiles subtracted. Twin:
+// src/oracle/mapping.rs.
 #ifndef MAPPING_GLSL
 #define MAPPING_GLSL
 
 #include "footprint.glsl"
 #include "math.glsl"
 
-// Whether changes are asked for: by filters, or by the tangents of a normal map.
+// True if changes are needed: by filters, or by the tangents of a normal map.
 const bool DERIVATIVES = FILTERED || BUMPED;
 
-// What a map can look at: the entity that its kind projects, the shape's own coordinate, and the
-// changes of both over the footprint.
+// The inputs of a mapping: the entity that its kind projects, the shape's own coordinate, and the changes of
+// both over the footprint.
 struct MapInput {
     real3 entity;
     vec3 entity_x;
@@ -26,21 +26,21 @@ struct MapInput {
     bool gradients; // the changes are along unit vectors, not over a footprint
 };
 
-// A texture coordinate (u, v, w), or a direction for a cube texture, as the map gives it.
+// A texture coordinate (u, v, w), or a direction for a cube texture, as the mapping computes it.
 struct TexCoord {
     real3 at;
     vec3 dx;
     vec3 dy;
 };
 
-// The same where look-ups work: where whole tiles change nothing, they have left.
+// As above in the precision of look-ups: whole tiles are subtracted if they change nothing.
 struct Coordinate {
     vec3 at;
     vec3 dx;
     vec3 dy;
 };
 
-// matrix · uv: scale and rotation. Most scenes neither rotate nor shear.
+// Returns matrix · uv: scale and rotation. Most scenes neither rotate nor shear.
 real2 turned_uv(const UvProjection map, real2 uv) {
     real2 mapped;
     if (ROTATED_UV) {
@@ -51,13 +51,13 @@ real2 turned_uv(const UvProjection map, real2 uv) {
     return mapped;
 }
 
-// matrix · uv + offset.
+// Returns matrix · uv + offset.
 real2 placed(const UvProjection map, real2 uv) {
     real2 mapped = turned_uv(map, uv) + map.offset;
     return mapped;
 }
 
-// A coordinate of a map that ends with `placed`.
+// Returns the coordinate of a mapping that ends with `placed`.
 TexCoord placed_coordinate(const UvProjection map, real2 uv, vec2 dx, vec2 dy) {
     TexCoord c = TexCoord(real3(placed(map, uv), 0.0), vec3(0.0), vec3(0.0));
     if (DERIVATIVES) {
@@ -67,13 +67,13 @@ TexCoord placed_coordinate(const UvProjection map, real2 uv, vec2 dx, vec2 dy) {
     return c;
 }
 
-// The linear part of the frame.
+// Applies the linear part of the frame.
 vec3 in_frame(const UvProjection map, vec3 v) {
     return vec3(dot3(vec3(map.x.xyz), v), dot3(vec3(map.y.xyz), v), dot3(vec3(map.z.xyz), v));
 }
 
-// Which face of a cube a direction meets, and where on it, (s, t) in [-1, 1] (Vulkan 1.3, "Cube UvProjection Face
-// Selection"; ties go to z, then y). The third number is the length along the face's axis.
+// Selects the face of a cube for a direction, and (s, t) in [-1, 1] on it (Vulkan 1.3, "Cube Map Face
+// Selection"; ties go to z, then y). The third component is the length along the face's axis.
 #define ON_CUBE_FACE(scalar, vector)                                                             \
     vector on_cube_face(vector d, out uint face) {                                               \
         vector a = abs(d);                                                                       \
@@ -93,7 +93,7 @@ ON_CUBE_FACE(float, vec3)
 ON_CUBE_FACE(double, dvec3)
 #endif
 
-// The same two axes for a change of direction that stays on `face`.
+// Returns the same two axes of a change of direction that stays on `face`.
 vec3 along_cube_face(vec3 d, uint face) {
     bool negative = (face & 1u) != 0u;
     bool z = face >= 4u;
@@ -104,7 +104,7 @@ vec3 along_cube_face(vec3 d, uint face) {
     return vec3(s, t, negative ? -along : along);
 }
 
-// Place on a face in [0, 1]², from numerator and axis: (s / major + 1) / 2.
+// Returns the position on a face in [0, 1]² from numerator and axis: (s / major + 1) / 2.
 #define FACE_UV(pair, vector)                                                                    \
     pair face_uv(vector stm) {                                                                   \
         pair uv = 0.5 * (stm.xy / stm.z) + 0.5;                                                  \
@@ -116,19 +116,19 @@ FACE_UV(vec2, vec3)
 FACE_UV(dvec2, dvec3)
 #endif
 
-// The same of any direction: the cube's centre has none, and NaN is no place.
+// As above for any direction: the cube's centre and NaN have a defined result too.
 vec2 within_face(vec3 stm) {
     vec2 uv = face_uv(stm);
     return vec2(uv.x >= 0.0 ? min(uv.x, 1.0) : 0.0, uv.y >= 0.0 ? min(uv.y, 1.0) : 0.0);
 }
 
-// Its change: the quotient's derivative.
+// Returns the change of `face_uv`: the derivative of the quotient.
 vec2 face_uv_change(vec3 stm, vec3 change) {
     vec2 uv = 0.5 * (change.xy * stm.z - stm.xy * change.z) / (stm.z * stm.z);
     return uv;
 }
 
-// Angles change without bound towards the pole; a footprint never covers more than one turn.
+// Limits the change of an angle to one turn, as it grows without bound towards the pole.
 float within_turn(float change, bool gradients) { return gradients ? change : clamp(change, -1.0, 1.0); }
 
 float turn_change(vec3 local, vec3 change, float around, bool gradients) {
@@ -137,7 +137,7 @@ float turn_change(vec3 local, vec3 change, float around, bool gradients) {
     return within_turn(turn, gradients);
 }
 
-// (turn, height) and its change: phi/2pi and y.
+// Returns (turn, height) and its change: phi/2pi and y.
 TexCoord cylindrical(const UvProjection map, real3 local, vec3 x, vec3 y, bool gradients) {
     real turn = atan2_accurate(local.z, local.x) * (0.5 / REAL_PI);
     turn = turn < 0.0 ? turn + 1.0 : turn;
@@ -152,13 +152,13 @@ TexCoord cylindrical(const UvProjection map, real3 local, vec3 x, vec3 y, bool g
     return placed_coordinate(map, real2(turn, local.y), dx, dy);
 }
 
-// theta / pi changes by (y drho - rho dy) / (rho² + y²), where drho = (x dx + z dz) / rho.
+// Returns the change of theta / pi: (y drho - rho dy) / (rho² + y²), where drho = (x dx + z dz) / rho.
 float polar_change(vec3 local, vec3 change, float across, float squared, bool gradients) {
     float outward = (local.x * change.x + local.z * change.z) / max(across, 1e-30);
     return within_turn((local.y * outward - across * change.y) / (max(squared, 1e-30) * PI), gradients);
 }
 
-// (theta/pi, phi/2pi) and its change.
+// Returns (theta/pi, phi/2pi) and its change.
 TexCoord spherical(const UvProjection map, real3 local, vec3 x, vec3 y, bool gradients) {
     real turn = atan2_accurate(local.z, local.x) * (0.5 / REAL_PI);
     turn = turn < 0.0 ? turn + 1.0 : turn;

@@ -1,8 +1,8 @@
-// Functions whose built-in twins are too loose, and dot products in a stated order. Nowhere is a product
-// fused with a sum but by `fma` (build/uncontracted.rs), and a reciprocal root is `inversesqrt`: drivers
-// make that of a quotient in one pipeline and not in another.
-// atan: minimax polynomial of degree 17 on [0, 1], error below 2e-8 in exact arithmetic.
-// exp2: Taylor series of degree 6. log2: exponent from the bits, artanh series of the mantissa, error below 1e-7 (2 ulp of the result).
+// Functions whose built-in versions are too inaccurate, and dot products in a fixed order. No product is
+// fused with a sum except by `fma` (build/uncontracted.rs), and a reciprocal root is `inversesqrt`, which
+// drivers substitute for a quotient in one pipeline and not in another. atan: minimax polynomial of degree 17
+// on [0, 1], error below 2e-8 in exact arithmetic. exp2: Taylor series of degree 6. log2: exponent from the
+// bits, artanh series of the mantissa, error below 1e-7 (2 ulp of the result).
 #ifndef MATH_GLSL
 #define MATH_GLSL
 
@@ -15,14 +15,14 @@ const double REAL_PI = 3.14159265358979323846lf;
 const float REAL_PI = PI;
 #endif
 
-// x y z summed from the left: two devices round alike.
+// Returns x y z summed from the left, so that all devices round alike.
 #define DOT3(scalar, vector)                                                                     \
     scalar dot3(vector a, vector b) {                                                            \
         scalar sum = (a.x * b.x + a.y * b.y) + a.z * b.z;                                        \
         return sum;                                                                              \
     }
 
-// row.xyz · p + row.w
+// Returns row.xyz · p + row.w.
 #define AFFINE(scalar, row_vector, vector)                                                       \
     scalar affine(row_vector row, vector p) {                                                    \
         scalar sum = ((row.x * p.x + row.y * p.y) + row.z * p.z) + row.w;                        \
@@ -41,7 +41,7 @@ CROSS3(vec3)
 
 float inverse_root(float x) { return inversesqrt(x); }
 
-// atan(x) for x in [0, 1].
+// Returns atan(x) for x in [0, 1].
 float atan_unit(float x) {
     float y = x * x;
     float sum = 0.002849889771088515;
@@ -56,7 +56,7 @@ float atan_unit(float x) {
     return sum * x;
 }
 
-// The angle of (x, y) from +x towards +y, in (-pi, pi]; 0 at the origin.
+// Returns the angle of (x, y) from +x towards +y, in (-pi, pi]; 0 at the origin.
 #define ATAN2(scalar, pi)                                                                        \
     scalar atan2_accurate(scalar y, scalar x) {                                                  \
         scalar ax = abs(x);                                                                      \
@@ -78,8 +78,9 @@ CROSS3(dvec3)
 
 double inverse_root(double x) { return inversesqrt(x); }
 
-// The angle of the f32 polynomial, turned by the rest: with s and c of that angle by Taylor series to
-// degree 17, tan(rest) = (y c - x s) / (x c + y s), and the rest is below 1e-7, so that its cube is nothing.
+// The angle of the f32 polynomial plus a correction: with s and c of that angle by Taylor series to degree
+// 17, tan(correction) = (y c - x s) / (x c + y s); the correction is below 1e-7, so that its cube is
+// negligible.
 double atan_unit(double x) {
     double angle = double(atan_unit(float(x)));
     double y = angle * angle;
@@ -107,8 +108,8 @@ double atan_unit(double x) {
 ATAN2(double, REAL_PI)
 #endif
 
-// sin(2 pi t): the fraction of t, folded to [0, 1/4], in a minimax polynomial of degree 9, error below
-// 4e-9 in exact arithmetic.
+// Returns sin(2 pi t): the fraction of t, folded to [0, 1/4], in a minimax polynomial of degree 9, error
+// below 4e-9 in exact arithmetic.
 float sine_turns(float t) {
     float s = t - roundEven(t);
     float a = abs(s);
@@ -123,7 +124,7 @@ float sine_turns(float t) {
     return s < 0.0 ? -sine : sine;
 }
 
-// 2^x, to 2 ulp for |x| < 126: the nearest whole power times the Taylor series of the rest.
+// Returns 2^x, to 2 ulp for |x| < 126: the nearest integer power times the Taylor series of the remainder.
 float exp2_accurate(float x) {
     float whole = floor(x + 0.5);
     float t = (x - whole) * 0.69314718;
@@ -137,7 +138,8 @@ float exp2_accurate(float x) {
     return intBitsToFloat((int(whole) + 127) << 23) * sum;
 }
 
-// log2(x) for normal positive x: x = 2^e m with m in [1/√2, √2), log2 m = 2 / ln 2 · artanh((m-1)/(m+1)).
+// Returns log2(x) for normal positive x: x = 2^e m with m in [1/√2, √2), log2 m = 2 / ln 2 ·
+// artanh((m-1)/(m+1)).
 float log2_accurate(float x) {
     int bits = floatBitsToInt(x);
     int e = (bits - 0x3F3504F3) >> 23;

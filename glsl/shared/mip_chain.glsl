@@ -1,6 +1,6 @@
-// The texels of a level from those of the level above, whose lengths halve: codes to numbers that are linear
-// in light, their mean, and back to codes; alpha is a channel like the others. Host's side: src/texture/mips;
-// sums run in the order of halve.rs, codes are those of codec.rs.
+// The texels of a level from those of the previous level, whose lengths are halved: converts codes to linear
+// values, averages them, and converts back to codes; alpha is a channel like the others. Host side:
+// src/texture/mips; sums are in the order of halve.rs, codes are those of codec.rs.
 #ifndef MIP_CHAIN_GLSL
 #define MIP_CHAIN_GLSL
 
@@ -13,15 +13,15 @@ layout(constant_id = ID_SRGB) const bool SRGB = false; // colours, of 8 or 16 bi
 
 const uint CODES = COMPONENT_BYTES == 1u ? 256u : 65536u;
 
-// The texture as the pool holds it; numbers of two levels, between which the passes alternate; linear light
-// of all sRGB codes, and then for each the light from which on the next code is nearer.
+// The texture as in the texel buffer; values of two levels, between which the passes alternate; linear values
+// of all sRGB codes, and then for each the value from which on the next code is nearer.
 layout(std430, set = 0, binding = BINDING_MIP_WORDS) buffer Words { uint words[]; };
 layout(std430, set = 0, binding = BINDING_MIP_NUMBERS) buffer Numbers { float numbers[]; };
 layout(std430, set = 0, binding = BINDING_MIP_TABLES) readonly buffer Tables { float tables[]; };
 
 layout(push_constant) uniform Push { Halving halving; };
 
-// Of an axis, 1, 2 or 4, whether it has half as many texels as above.
+// Returns the bit of an axis, 1, 2 or 4, if it has half as many texels as the previous level.
 bool halves(uint axis) { return (OPAQUE(halving.halved) & axis) != 0u; }
 
 const float SHARES[4] = float[](1.0, 0.5, 0.25, 0.125);
@@ -73,7 +73,7 @@ vec4 numbers_of(uint texel) {
     return value;
 }
 
-// One column of the texels that a new one covers.
+// Returns one column of the texels that a new one covers.
 vec4 column(uvec3 first, uint x, float share) {
     uint columns_log2 = halving.columns_log2 + (halving.halved & 1u);
     uint rows_log2 = halving.rows_log2 + ((halving.halved >> 1u) & 1u);
@@ -110,7 +110,7 @@ void keep(uint texel, vec4 value) {
     }
 }
 
-// How many middles lie at or below the light.
+// Returns the number of midpoints at or below the value.
 uint srgb_code(float linear) {
     uint code = 0u;
     for (uint step = CODES / 2u; step > 0u; step >>= 1u) {
@@ -130,7 +130,8 @@ uvec4 encoded(vec4 value) {
     return min(codes, uvec4(CODES - 1u));
 }
 
-// The texels that share word `index` of the level, or the words of texel `index` where one fills a word or more.
+// Writes the texels in word `index` of the level, or the words of texel `index` if a texel fills one or more
+// words.
 void make_texels(uint index) {
     uint texel_bytes = CHANNELS * COMPONENT_BYTES;
     uint sharing = texel_bytes < 4u ? 4u / texel_bytes : 1u;

@@ -1,21 +1,22 @@
-// Random values on the integer lattice -> smooth noise. Gradient noise after Perlin 2002, sums of
-// its octaves, and the distance to the nearest of jittered points (Worley 1996, F1). Hashes are
-// integers, so every device has the same lattice; cell numbers wrap at 2^32. What is averaged over a
-// footprint fades to its mean as the footprint grows. Twin: src/oracle/noise.rs.
+// Smooth noise from random values on the integer lattice: gradient noise after Perlin 2002, sums of its
+// octaves, and the distance to the nearest jittered point (Worley 1996, F1). Hashes are integers, so every
+// device has the same lattice; cell indices wrap at 2^32. Averages over a footprint fade to the mean as the
+// footprint grows. Twin: src/oracle/noise.rs.
 #ifndef NOISE_GLSL
 #define NOISE_GLSL
 
 #include "math.glsl"
 #include "rng.glsl"
 
-// Statistics of gradient noise over space, from 3e6 random places.
+// Statistics of gradient noise over space, from 3e6 random points.
 const float NOISE_VARIANCE = 0.0729;
 const float FOLDED_MEAN = 0.2203; // of |noise|
 const float FOLDED_VARIANCE = 0.0244;
 const vec2 FOLDED_SLICES = vec2(-0.11, -0.094); // see `slice_mean`
 
-// Cells that a footprint covers -> weight of the value at its centre beside the mean: the regression of
-// the mean over a square on the value in its middle, within 0.07, for noise and for cells.
+// Returns the weight of the value at the footprint's centre relative to the mean, for a footprint of this
+// many cells: the regression of the mean over a square on the value at its centre, within 0.07, for noise and
+// for cells.
 float kept(float cells) {
     if (!PROCEDURAL_FILTERED) return 1.0;
     float x = min(0.5 * cells, 1.0);
@@ -23,9 +24,10 @@ float kept(float cells) {
     return weight;
 }
 
-// The mean of what is constant along the axes that the footprint does not reach along: planes of the
-// lattice differ from the volume. With s the distance from the middle of a cell, the mean over a plane
-// is nearly linear in s², whose mean over all planes is 1/12; slopes in the middle and at the border.
+// Returns the mean of a function that is constant along the axes that the footprint does not extend along:
+// planes of the lattice differ from the volume. With s the distance from the centre of a cell, the mean over
+// a plane is nearly linear in s², whose mean over all planes is 1/12; the slopes are those at the centre and
+// at the border.
 float slice_mean(float mean, vec2 slopes, vec3 fraction, vec3 widths) {
     vec3 s = fraction - 0.5;
     vec3 square = s * s;
@@ -34,13 +36,13 @@ float slice_mean(float mean, vec2 slopes, vec3 fraction, vec3 widths) {
     return shifted;
 }
 
-// The number of a cell. Beyond 2^31 no f32 has a fraction, and any cell will do.
+// Returns the index of a cell. Beyond 2^31 no f32 has a fraction, and any cell will do.
 uvec3 lattice_cell(real3 whole) {
     bvec3 near = lessThanEqual(abs(whole), real3(2147483520.0));
     return uvec3(ivec3(mix(real3(0.0), whole, near)));
 }
 
-// The dot product with one of the 12 vectors from a cube's middle to its edges.
+// Returns the dot product with one of the 12 vectors from a cube's centre to its edges.
 float lattice_gradient(uvec3 cell, float x, float y, float z) {
     uint code = pcg3d(cell).x >> 28u;
     float u = code < 8u ? x : y;
@@ -54,7 +56,7 @@ float blend(float a, float b, float weight) {
     return value;
 }
 
-// In [-1, 1], 0 at lattice points, with continuous second derivatives.
+// Returns gradient noise in [-1, 1], 0 at lattice points, with continuous second derivatives.
 float gradient_noise(real3 p, uvec3 key) {
     real3 whole = floor(p);
     vec3 f = vec3(p - whole);
@@ -73,9 +75,9 @@ float gradient_noise(real3 p, uvec3 key) {
     return clamp(blend(low, high, s.z), -1.0, 1.0);
 }
 
-// x: the weighted mean of the octaves of noise, or of |noise| where folded. y: the variance that has
-// faded out of it. `size` and `widths` of the footprint are in units. All octaves but the first are
-// shifted by fractions of a cell, so that their zeros do not meet.
+// Returns in x the weighted mean of the octaves of noise, or of |noise| if `folded`, in y the variance that
+// has faded out of it. `size` and `widths` of the footprint are in units of the coordinate. All octaves but
+// the first are shifted by fractions of a cell, so that their zeros do not coincide.
 vec2 octave_sum(const Procedural what, real3 at, float size, vec3 widths, bool folded) {
     float sum = 0.0;
     float faded = 0.0;
@@ -102,7 +104,7 @@ vec2 octave_sum(const Procedural what, real3 at, float size, vec3 widths, bool f
     return vec2(sum, faded);
 }
 
-// Distance to the nearest point, at most 1: a nearer one lies in one of the 27 cells searched.
+// Returns the distance to the nearest point, at most 1: nearer points are in the 27 cells that are searched.
 float cell_distance(real3 p, uint seed, float jitter) {
     real3 whole = floor(p);
     vec3 f = vec3(p - whole);
@@ -117,8 +119,8 @@ float cell_distance(real3 p, uint seed, float jitter) {
     return sqrt(nearest);
 }
 
-// The mean of `cell_distance`, within 0.002, and how it varies between planes, within 0.01: polynomials
-// through values from 3e5 random places.
+// Returns the mean of `cell_distance`, within 0.002, with its variation between planes, within 0.01:
+// polynomials through values from 3e5 random points.
 float cell_mean(real3 p, vec3 widths, float jitter) {
     float j = jitter * jitter;
     float mean = 0.4803 + j * (0.0504 - 0.0099 * j);

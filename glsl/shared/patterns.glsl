@@ -1,6 +1,6 @@
-// Positions of samples as integers in [0, 2^24) on each axis, from the pixel and the sample's number alone.
-// Pair 0 is the place in the pixel; further pairs are other dimensions of the same samples. A pixel's
-// points are drawn up once a pixel and pair (`pixel_points`, `pair_points`), then asked for sample by sample.
+// Sample positions as integers in [0, 2^24) on each axis, from the pixel and the sample index alone. Pair 0
+// is the position in the pixel; further pairs are other dimensions of the same samples. A pixel's point set
+// is set up once per pixel and pair (`pixel_points`, `pair_points`), then evaluated sample by sample.
 #ifndef PATTERNS_GLSL
 #define PATTERNS_GLSL
 
@@ -12,16 +12,17 @@
 
 struct Points {
     uint pattern;
-    uint side;  // strata a side, columns
-    uint count; // samples; used where positions depend on it
+    uint side;  // strata per side, columns
+    uint count; // number of samples, for patterns that depend on it
     uint pair;
     uvec2 key;
-    uint order; // seed of the samples' order, of further pairs
-    uint place; // blue-noise: along the Morton curve of the tile
+    uint order; // seed of the order of the samples, for further pairs
+    uint place; // blue-noise: position along the Morton curve of the tile
     uint block; // blue-noise: first index of the pixel's block
 };
 
-// Blue-noise: pixels share one sequence of 2^32 points within tiles of 2^n pixels a side.
+// Returns n such that, for blue-noise, pixels in tiles of 2^n pixels per side share one sequence of 2^32
+// points.
 uint tile_log2(uint count) {
     return (32u - uint(findMSB(count))) >> 1u;
 }
@@ -32,13 +33,13 @@ uint first_of_block(const Points points, uint seed) {
 
 const uint SCRAMBLED = (1u << PATTERN_HALTON) | (1u << PATTERN_SOBOL_OWEN) | (1u << PATTERN_BLUE_NOISE);
 
-// Keys that seed scramblings need all their bits alike: the low ones of pcg are weak.
+// Mixes keys that seed scramblings, which need all bits equally random: the low ones of pcg are weak.
 uvec2 pattern_key(uint pattern, uvec2 key) {
     if ((PATTERNS & SCRAMBLED) == 0u) return key;
     return HAS(SCRAMBLED, pattern) ? uvec2(mix_bits(key.x), mix_bits(key.y)) : key;
 }
 
-// The points of pair 0; `key` is the pixel's.
+// Returns the point set of pair 0; `key` is the pixel's.
 Points pixel_points(const Header header, uvec2 pixel, uvec2 key) {
     uint side = COUNT(STRATA_SIDE, header.strata_side);
     uint count = COUNT(SAMPLES, header.samples);
@@ -53,7 +54,7 @@ Points pixel_points(const Header header, uvec2 pixel, uvec2 key) {
     return points;
 }
 
-// The points of another pair, from those of pair 0.
+// Returns the point set of another pair, from that of pair 0.
 Points pair_points(const Points first, uint pair) {
     if (pair == 0u) return first;
     Points points = first;
@@ -68,7 +69,7 @@ Points pair_points(const Points first, uint pair) {
     return points;
 }
 
-// Of a `line` only the first number is asked for: n x n strata have only n different columns, and such patterns
+// With `line` only the first number is used: n x n strata have only n different columns, so such patterns
 // stratify the line itself.
 uvec2 sample_point(const Points points, uint s, bool line) {
     uvec2 key = points.key;
@@ -84,7 +85,7 @@ uvec2 sample_point(const Points points, uint s, bool line) {
     uint side = points.side;
     // The number of bits of side - 1 is ceil(log2 side).
     uint side_log2 = uint(findMSB(side - 1u) + 1);
-    // The centre of a stratum is the jitter of half a stratum; `center` is a grid of one.
+    // The centre of a stratum is a jitter of half a stratum; `center` is a grid of one.
     uvec2 jitter = uvec2(0x800000u);
     if (MODE_IS(PATTERNS, PATTERN_STRATIFIED, points.pattern)) jitter = sample_bits(key, s) >> 8u;
     if (line && !MODE_IS(PATTERNS, PATTERN_CENTER, points.pattern)) {
@@ -100,8 +101,8 @@ bool fills_strata(uint pattern) {
            MODE_IS(PATTERNS, PATTERN_MULTI_JITTERED, pattern) || MODE_IS(PATTERNS, PATTERN_N_ROOKS, pattern);
 }
 
-// Sample s of any pair. Further pairs go through their points in an order of their own, so that which
-// points of two pairs meet in a sample is left to chance. Halton's bases need no such order.
+// Returns sample s of any pair. Further pairs have an order of their own, so that the pairing of points in a
+// sample is random. Halton's bases need no such order.
 uvec2 sample_pair(const Points points, uint s, bool line) {
     if (points.pair == 0u) return sample_point(points, s, line);
     if (MODE_IS(PATTERNS, PATTERN_SOBOL_OWEN, points.pattern)) {

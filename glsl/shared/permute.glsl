@@ -1,7 +1,7 @@
-// Patterns of jittered strata whose rows and columns are shuffled. `permute` is the place of entry i in
-// permutation p of the numbers below `length`: Kensler 2013, "Correlated Multi-Jittered Sampling", with
-// its last offset kept below 2^24, as i + p past 2^32 would give two entries one place. The strata are
-// then jittered: multi-jittered (ibid., any number of samples) and n-rooks (Shirley 1991).
+// Jittered strata whose rows and columns are permuted. `permute` returns the position of entry i in
+// permutation p of the numbers below `length`: Kensler 2013, "Correlated Multi-Jittered Sampling", with its
+// last offset limited to 24 bits, as i + p beyond 2^32 would map two entries to one position. Patterns:
+// multi-jittered (ibid., any number of samples) and n-rooks (Shirley 1991).
 #ifndef PERMUTE_GLSL
 #define PERMUTE_GLSL
 
@@ -11,7 +11,7 @@
 uint permute(uint i, uint length, uint p) {
     // All bits of length - 1 and below.
     uint mask = length == 1u ? 0u : 0xFFFFFFFFu >> (31u - uint(findMSB(length - 1u)));
-    // Entries beyond the length are sent on until they come back below it.
+    // Entries beyond the length are mapped again until they are below it (cycle walking).
     do {
         i ^= p;
         i *= 0xE170893Du;
@@ -35,8 +35,9 @@ uint permute(uint i, uint length, uint p) {
     return (i + (p >> 8u)) % length;
 }
 
-// Columns × rows cells with a sample each, and of all samples one in each of `count` rows and at most
-// one in each of columns × rows columns: the order of the rows within a cell is the same for all columns.
+// Returns a sample of columns × rows cells with one sample each, of which all samples have one in each of
+// `count` rows and at most one in each of columns × rows columns: the order of the rows within a cell is the
+// same for all columns.
 uvec2 multi_jittered(uint s, uint columns, uint count, uvec2 key) {
     uint rows = (count + columns - 1u) / columns;
     uint column = permute(s % columns, columns, key.x);
@@ -46,7 +47,7 @@ uvec2 multi_jittered(uint s, uint columns, uint count, uvec2 key) {
                  fine_position(s, jitter.y, count));
 }
 
-// One sample in each of `count` rows and of `count` columns.
+// Returns one sample in each of `count` rows and of `count` columns.
 uvec2 n_rooks(uint s, uint count, uvec2 key) {
     uvec2 jitter = sample_bits(key, s) >> 8u;
     return uvec2(fine_position(permute(s, count, key.x), jitter.x, count), fine_position(s, jitter.y, count));

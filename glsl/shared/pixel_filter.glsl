@@ -1,7 +1,8 @@
-// A sample's place in the unit square -> its place about the pixel, by the inverse of the distribution of the
-// pixel filter's absolute value along each axis (Ernst, Stamminger & Greiner 2006), and the filter's sign there.
-// From the middle outwards, with a part t of the samples nearer, a place lies at D(√(1 - t)) radii: D(v) = 1 - v
-// for a tent, a table for others. A box of one pixel leaves every place as it is.
+// Importance sampling of the pixel filter: maps a sample in the unit square to its position around the pixel,
+// by the inverse of the distribution of the filter's absolute value along each axis (Ernst, Stamminger &
+// Greiner 2006), and to the filter's sign there. From the centre outwards, with a fraction t of the samples
+// nearer, the distance is D(√(1 - t)) radii: D(v) = 1 - v for a tent, a table for others. A box of one pixel
+// leaves every position unchanged.
 #ifndef PIXEL_FILTER_GLSL
 #define PIXEL_FILTER_GLSL
 
@@ -12,8 +13,8 @@ struct Place {
     float sign;
 };
 
-// Each thread reads at an index of its own: CPU devices fastest in the head, GPUs elsewhere, as their constant
-// caches serve one address at a time.
+// Each thread reads at an index of its own: CPU devices are fastest with a uniform buffer, GPUs with others,
+// as their constant caches serve one address at a time.
 float tabled_distance(uint i) {
     uint at = PIXEL_FILTER_AT + (i >> 2u);
     uvec4 four;
@@ -22,7 +23,7 @@ float tabled_distance(uint i) {
     return uintBitsToFloat(four[i & 3u]);
 }
 
-// `rest` of 2^24 samples lie further from the middle.
+// Returns the distance from the centre beyond which `rest` of 2^24 samples lie, in radii.
 float distance_in_radii(const Header header, uint rest) {
     float v = sqrt(float(rest) * (1.0 / 16777216.0));
     if (MODE_IS(PIXEL_FILTERS, PIXEL_FILTER_TENT, header.pixel_filter)) return 1.0 - v;
@@ -33,7 +34,7 @@ float distance_in_radii(const Header header, uint rest) {
     return near + (at - float(cell)) * further;
 }
 
-// How far out of 2^24 the middle of a position's step is from the middle of all.
+// Returns the distance of the centre of a position's step from the centre of all, of 2^24.
 uint from_middle(uint position) {
     uint doubled = 2u * position + 1u;
     return position < 0x800000u ? 0x1000000u - doubled : doubled - 0x1000000u;
@@ -60,7 +61,7 @@ Place filtered_place(const Header header, uvec2 position) {
     return Place(inside, SIGNED ? filter_sign(header, position) : 1.0);
 }
 
-// Side of the square, in pixels, over which a box has the filter's variance.
+// Returns the width in pixels of the box that has the filter's variance.
 float filter_width(const Header header) { return WARPED ? header.filter_width : 1.0; }
 
 #endif

@@ -1,5 +1,5 @@
-// Convex polygons in the plane of the picture, and affine functions of the place in it ("forms"): where a
-// line cuts a polygon, its area, its middle. Twin: src/oracle/polygon.rs.
+// Convex polygons in the picture plane, and affine functions of the position in it ("forms"): clipping by a
+// line, area, centre. Twin: src/oracle/polygon.rs.
 #ifndef POLYGON_GLSL
 #define POLYGON_GLSL
 
@@ -7,24 +7,24 @@
 
 const uint MAX_CORNERS = 12u;
 
-// What is smaller is dropped, in pixels².
+// Smaller areas are dropped, in pixels².
 const float MIN_AREA = 1e-7;
 
-// A thread's polygons lie in one list, and go by their number in it: compilers move structures that hold lists
-// element by element. Corners in order; fewer than three are no area.
+// A thread's polygons are in one list and are passed by index: compilers copy structures with arrays element
+// by element. Corners in order; fewer than three have no area.
 const uint MAX_POLYGONS = 24u;
 vec2 corners[MAX_POLYGONS * MAX_CORNERS];
 uint counts[MAX_POLYGONS];
 
 vec2 corner(uint polygon, uint k) { return corners[polygon * MAX_CORNERS + k]; }
 
-// The one that follows corner k - 1: after the last comes the first.
+// Returns the successor of corner k - 1: the first one follows the last.
 vec2 next_corner(uint polygon, uint k) { return corner(polygon, k == counts[polygon] ? 0u : k); }
 
 // f(x, y) = f.x x + f.y y + f.z.
 float at(vec3 form, vec2 place) { return (form.x * place.x + form.y * place.y) + form.z; }
 
-// The whole pixel.
+// Returns the whole pixel.
 void unit_square(uint polygon) {
     counts[polygon] = 4u;
     for (uint k = 0u; k < 4u; k++) {
@@ -43,8 +43,8 @@ void copy(uint from, uint to) {
     for (uint k = 0u; k < counts[from]; k++) corners[to * MAX_CORNERS + k] = corner(from, k);
 }
 
-// Where the form is positive, and where it is negative. False when a side has lost corners, as it has more
-// than MAX_CORNERS.
+// Splits into the parts where the form is positive, and where it is negative. Returns false if a part has
+// more than MAX_CORNERS corners and has lost some.
 bool split(uint polygon, vec3 form, uint inside, uint outside) {
     counts[inside] = 0u;
     counts[outside] = 0u;
@@ -56,7 +56,7 @@ bool split(uint polygon, vec3 form, uint inside, uint outside) {
         bool cuts = (fa < 0.0 && fb > 0.0) || (fa > 0.0 && fb < 0.0);
         vec2 place = a;
         bool first = true;
-        // First the corner, then the place where the edge is cut.
+        // First the corner, then the intersection with the edge.
         for (uint turn = 0u; turn < (cuts ? 2u : 1u); turn++) {
             if (!first || fa >= 0.0) push(inside, place);
             if (!first || fa <= 0.0) push(outside, place);
@@ -69,7 +69,7 @@ bool split(uint polygon, vec3 form, uint inside, uint outside) {
     return max(counts[inside], counts[outside]) <= MAX_CORNERS;
 }
 
-// Signed area by the shoelace formula, counted from the first corner.
+// Returns the signed area by the shoelace formula, relative to the first corner.
 float area(uint polygon) {
     float twice = 0.0;
     vec2 first = corner(polygon, 0u);
@@ -82,14 +82,14 @@ float area(uint polygon) {
     return 0.5 * twice;
 }
 
-// The mean of the corners.
+// Returns the mean of the corners.
 vec2 middle(uint polygon) {
     vec2 sum = vec2(0.0);
     for (uint k = 0u; k < counts[polygon]; k++) sum += corner(polygon, k);
     return sum / float(counts[polygon]);
 }
 
-// The least and the greatest value of a form on a polygon.
+// Returns the least and the greatest value of a form on a polygon.
 vec2 range(uint polygon, vec3 form) {
     vec2 ends = vec2(3e38, -3e38);
     for (uint k = 0u; k < counts[polygon]; k++) {

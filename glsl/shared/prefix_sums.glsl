@@ -1,7 +1,7 @@
-// The integral of a texture over a polygon of texture space, by Green's theorem: the double integral of c is that of
-// C dY around the polygon, where C is the integral of c along its row, from a table of sums. Every edge is
-// walked cell by cell, and in each cell C is a polynomial; so the integral is exact for the reconstruction
-// between texels (Heckbert 1986, "Filtering by repeated integration", has it for boxes). Twin:
+// The integral of a texture over a polygon in texture space, by Green's theorem: the double integral of c is
+// that of C dY around the polygon, where C is the integral of c along its row, from a table of prefix sums.
+// Every edge is traversed cell by cell, and in each cell C is a polynomial, so the integral is exact for the
+// reconstruction between texels (Heckbert 1986, "Filtering by repeated integration", for boxes). Twin:
 // src/oracle/prefix_sums.rs.
 #ifndef PREFIX_SUMS_GLSL
 #define PREFIX_SUMS_GLSL
@@ -9,7 +9,7 @@
 #include "projective.glsl"
 #include "grid.glsl"
 
-// Where the integrals along a row begin.
+// The start of the integrals along a row.
 struct Row {
     int first;
     Codes start;
@@ -20,8 +20,8 @@ Row load_row(Grid grid, ivec2 base, int j) {
     return Row(first, codes_at(grid, first, base.x));
 }
 
-// Of a cell of a row: its texel and the next one, and the integral from the middle of the base's texel to that of its own, or
-// from edge to edge where colour changes in steps.
+// A cell of a row: its texel and the next one, and the integral from the centre of the base's texel to that
+// of its own, or from edge to edge if colours are constant per texel.
 struct Stretch {
     vec3 own;
     vec3 right;
@@ -38,14 +38,14 @@ Stretch stretch(Grid grid, Row row, int i) {
     return s;
 }
 
-// The integral of a row's colour up to place s in the cell.
+// Returns the integral of a row's colour up to position s in the cell.
 vec3 along_row(Grid grid, Stretch row, float s) {
     vec3 sum = row.whole + s * row.own;
     if (grid.linear) sum += (0.5 * s * s) * (row.right - row.own);
     return sum;
 }
 
-// Lines of the grid that an edge crosses.
+// Returns the number of grid lines that an edge crosses.
 uint cells_between(vec2 a, vec2 b) {
     vec2 cells = abs(floor(b) - floor(a));
     return uint(cells.x + cells.y);
@@ -53,8 +53,8 @@ uint cells_between(vec2 a, vec2 b) {
 
 const float GAUSS = 0.57735026918962576; // 1 / √3
 
-// The integral of C dY from a to b; places count from cell `base`. Told whether it came to its end: some
-// devices end loops early.
+// Computes the integral of C dY from a to b; positions count from cell `base`. Returns true if it was
+// completed: some devices end loops early.
 vec3 edge_integral(Grid grid, ivec2 base, vec2 a, vec2 b, inout bool ended) {
     vec2 way = b - a;
     ivec2 cell = ivec2(floor(a));
@@ -69,12 +69,12 @@ vec3 edge_integral(Grid grid, ivec2 base, vec2 a, vec2 b, inout bool ended) {
     bool fresh = true;
     uint k = 0u;
     for (; k <= cells; k++) {
-        // Where on the edge the next line of the grid is met.
+        // The parameter at which the edge meets the next grid line.
         vec2 ends = clamp((vec2(cell + forward) - a) / way, 0.0, 1.0);
         bool down = cell.x == last.x || (cell.y != last.y && ends.y < ends.x);
         float end = cell == last ? 1.0 : max(down ? ends.y : ends.x, done);
         float half_way = 0.5 * (end - done);
-        // Gauss's two points: exact for what is cubic along the edge.
+        // Gauss-Legendre quadrature with two points: exact for cubics along the edge.
         vec2 first = clamp(a + way * (done + half_way * (1.0 - GAUSS)) - vec2(cell), 0.0, 1.0);
         vec2 second = clamp(a + way * (done + half_way * (1.0 + GAUSS)) - vec2(cell), 0.0, 1.0);
         for (uint r = 0u; r < rows; r++) {
@@ -98,7 +98,7 @@ vec3 edge_integral(Grid grid, ivec2 base, vec2 a, vec2 b, inout bool ended) {
     return sum * way.y;
 }
 
-// The colour at a place of a cell.
+// Returns the colour at a position in a cell.
 vec3 value_in(Grid grid, ivec2 cell, vec2 within) {
     vec3 sum = vec3(0.0);
     for (int r = 0; r < (grid.linear ? 2 : 1); r++) {
@@ -111,23 +111,23 @@ vec3 value_in(Grid grid, ivec2 cell, vec2 within) {
 }
 
 const float FARTHEST = 1e8;       // in cells
-const float SMALLEST = 0.00390625; // a polygon so small has the colour of its middle
+const float SMALLEST = 0.00390625; // a smaller polygon has the colour at its centre
 
-// How places of the picture lie in the grid, counted from a base before the division, so that near places
-// differ exactly.
+// Returns the map from the picture to the grid, relative to a base that is subtracted before the division, so
+// that differences of near positions are exact.
 RationalMap in_grid(Grid grid, const RationalMap quotient, ivec2 base) {
     vec2 start = vec2(grid.shift) - vec2(base);
     return RationalMap(grid.scale.x * quotient.u + start.x * quotient.below,
                     grid.scale.y * quotient.v + start.y * quotient.below, quotient.below);
 }
 
-// Towards the horizon a place goes to infinity.
+// Maps a position; towards the horizon it would go to infinity.
 vec2 place_in(const RationalMap quotient, vec2 place) {
     vec2 at_place = vec2(at(quotient.u, place), at(quotient.v, place)) / at(quotient.below, place);
     return clamp(at_place, -FARTHEST, FARTHEST);
 }
 
-// The longest edge of a polygon, in cells.
+// Returns the length of the longest edge of a polygon, in cells.
 float longest_edge(uint polygon, const RationalMap quotient) {
     vec2 a = place_in(quotient, corner(polygon, 0u));
     float reach = 0.0;
@@ -140,8 +140,8 @@ float longest_edge(uint polygon, const RationalMap quotient) {
     return reach;
 }
 
-// An edge is level that rises by so little of the polygon's height: its integral is less than what rounding
-// makes of it.
+// An edge counts as horizontal if it rises by less than this fraction of the polygon's height: its integral
+// is smaller than the rounding error.
 const float LEVEL = 3e-5;
 
 float rows_covered(uint polygon, const RationalMap quotient) {
@@ -153,7 +153,7 @@ float rows_covered(uint polygon, const RationalMap quotient) {
     return ends.y - ends.x;
 }
 
-// Mean colour, in codes, over the texture space that a polygon shows. Cells that were crossed are counted.
+// Returns the mean colour, in codes, over the polygon's image in texture space, and counts the cells crossed.
 vec3 mean_over(Grid grid, uint polygon, const RationalMap quotient, bool small, inout uint crossed, inout bool ended) {
     if (grid.even && grid.checker) return vec3(0.5);
     vec2 place = place_in(in_grid(grid, quotient, ivec2(0)), middle(polygon));
@@ -178,7 +178,7 @@ vec3 mean_over(Grid grid, uint polygon, const RationalMap quotient, bool small, 
         ended = ended && k > counts[polygon];
         if (covered != 0.0) return integral / covered;
     }
-    // What has no area shows the colour of its middle; the coarsest level has one everywhere.
+    // A polygon without area has the colour at its centre; the coarsest level is uniform.
     return value_in(grid, base, place - cell);
 }
 

@@ -1,5 +1,5 @@
-// Texture look-ups from a list: one thread a query (texture, sampler, slot, u, v), RGBA out. The
-// same code that shades a hit, without a scene around it.
+// Texture look-ups from a list: one thread per query (texture, sampler, slot, u, v), RGBA out. The same code
+// that shades a hit, without a scene around it.
 #include "schema/blocks.glsl"
 #include "features.glsl"
 #include "layout.glsl"

@@ -1,5 +1,5 @@
-// Rays from a list: one thread a query, what the ray hits and where out: distance, shape, point,
-// normal, texture coordinate, and whether anything lies between the origin and t_max.
+// Rays from a list, one thread per query. Output: the hit's distance, shape, point, normal and texture
+// coordinate, and whether anything lies between the origin and t_max.
 #define ORIGIN_IS_EYE false // these rays start anywhere
 #include "schema/blocks.glsl"
 #include "features.glsl"

@@ -1,28 +1,28 @@
-// Point of texture space and footprint -> colour of a procedural texture. dx and dy span the
-// footprint (full widths; zero asks for the point itself). Hard-edged patterns are averaged
-// analytically over boxes set along the footprint's major axis; patterns made of noise fade to their
-// mean as the footprint grows. Twin: src/oracle/procedural.rs.
+// Colours of procedural textures, from a point in texture space and a footprint. dx and dy span the footprint
+// (full widths; zero evaluates the point itself). Patterns with hard edges are averaged analytically over
+// boxes along the footprint's major axis; patterns made of noise fade to their mean as the footprint grows.
+// Twin: src/oracle/procedural.rs.
 #ifndef PROCEDURAL_GLSL
 #define PROCEDURAL_GLSL
 
 #include "noise.glsl"
 
-// Boxes along a footprint's major axis, at most.
-// Footprints wider than this are averaged as if they were as wide.
+// Most boxes along a footprint's major axis.
+// Wider footprints are averaged as if they had this width.
 const float WIDEST = 1e9;
 
 real3 bounded_point(real3 at) { return mix(real3(0.0), at, lessThanEqual(abs(at), real3(1e15))); }
 
 vec3 bounded_width(vec3 d) { return mix(vec3(WIDEST), d, lessThanEqual(abs(d), vec3(WIDEST))); }
 
-// Orthogonal axes with the parallelogram's second moments, the longer first: one rotation of Jacobi's
-// method. Orthogonal dx and dy are their own.
+// Returns orthogonal axes with the parallelogram's second moments, the longer first: one rotation of Jacobi's
+// method. Orthogonal dx and dy are unchanged.
 void principal_axes(vec3 dx, vec3 dy, out vec3 major, out vec3 minor) {
     float xx = dot3(dx, dx);
     float yy = dot3(dy, dy);
     float xy = dot3(dx, dy);
     float t = 0.0;
-    if (abs(xy) > 1e-30) { // smaller ones divide by what devices take for 0
+    if (abs(xy) > 1e-30) { // smaller ones divide by a value that devices flush to 0
         float zeta = (yy - xx) / (2.0 * xy);
         t = (zeta >= 0.0 ? 1.0 : -1.0) / (abs(zeta) + sqrt(1.0 + zeta * zeta));
     }
@@ -34,8 +34,8 @@ void principal_axes(vec3 dx, vec3 dy, out vec3 major, out vec3 minor) {
     minor = swap ? a : b;
 }
 
-// How many boxes describe the footprint, not yet rounded up: enough that each is about as long as the
-// footprint is wide, where it lies oblique to the pattern's axes, and no more than edges can show.
+// Returns the number of boxes that approximate the footprint, not rounded up: enough that each is about as
+// long as the footprint is wide, if it is oblique to the pattern's axes, and no more than edges can show.
 float box_count(vec3 major, vec3 minor) {
     vec3 reach = abs(major);
     float oblique = max(min(reach.x, reach.y), min(max(reach.x, reach.y), reach.z)); // the median
@@ -43,8 +43,8 @@ float box_count(vec3 major, vec3 minor) {
     return clamp(min(ratio, 1.0 + float(MAX_BOXES) * oblique), 1.0, float(MAX_BOXES));
 }
 
-// Mean over [x - w/2, x + w/2] of a pulse train: 1 within duty/2 of whole x, else 0. Whole periods
-// leave first, and the fraction before any sum, so that neither far nor tiny boxes cancel.
+// Returns the mean over [x - w/2, x + w/2] of a pulse train: 1 within duty/2 of integer x, otherwise 0. Whole
+// periods are subtracted first, and the fraction before any sum, so that neither far nor tiny boxes cancel.
 float pulse_mean(float x, float w, float duty) {
     float s = x - roundEven(x);
     float half_duty = 0.5 * duty;
@@ -52,7 +52,7 @@ float pulse_mean(float x, float w, float duty) {
     if (!PROCEDURAL_FILTERED || !(w > 1e-30)) return inside;
     float periods = floor(w);
     float rest = w - periods;
-    // An odd number of periods, taken out at one end, moves the middle of the rest by half of one.
+    // An odd number of periods, subtracted at one end, moves the centre of the rest by half of one.
     float q = periods - 2.0 * floor(0.5 * periods) != 0.0 ? 0.5 - abs(s) : abs(s);
     float first = clamp((half_duty - q) + 0.5 * rest, 0.0, min(rest, duty));
     float second = max((q - (1.0 - half_duty)) + 0.5 * rest, 0.0);
@@ -60,7 +60,7 @@ float pulse_mean(float x, float w, float duty) {
     return mean;
 }
 
-// Share of the figure in a box around `at`; bricks count x in bricks here.
+// Returns the figure's share in a box around `at`; bricks have x in units of bricks here.
 float box_share(const Procedural what, vec3 at, vec3 w) {
     uint kind = what.kind;
     float width = float(what.width);
@@ -92,7 +92,7 @@ float box_share(const Procedural what, vec3 at, vec3 w) {
     return bricks;
 }
 
-// Share of the figure in the footprint. A box has the second moments of its piece of the footprint.
+// Returns the figure's share in the footprint. A box has the second moments of its part of the footprint.
 float footprint_share(const Procedural what, real3 at, vec3 major, vec3 minor) {
     real3 per_unit = real3(1.0);
     if (MODE_IS(PROCEDURAL_KINDS, PROCEDURAL_BRICK, what.kind)) per_unit.x = what.aspect;
@@ -113,20 +113,21 @@ float footprint_share(const Procedural what, real3 at, vec3 major, vec3 minor) {
     return sum / count;
 }
 
-// Mean over a box of width w of a sine of period 1, over the sine.
+// Returns the ratio of the mean of a sine of period 1 over a box of width w to its value at the centre.
 float box_attenuation(float w) {
     float x = abs(w);
     return x < 1e-3 ? 1.0 : sine_turns(0.5 * x) / (PI * x);
 }
 
-// What a random phase, in turns, leaves of a sine: exp(-2 pi² variance), by the start of its series.
+// Returns the attenuation of a sine by a random phase, in turns: exp(-2 pi² variance), by the start of its
+// series.
 float phase_attenuation(float variance) {
     float v = 2.0 * PI * PI * variance;
     float series = 1.0 + v * (1.0 + v * (0.5 + v * (1.0 / 6.0)));
     return 1.0 / series;
 }
 
-// Veins at whole x + distortion · turbulence.
+// Veins at integer x + distortion · turbulence.
 float marble(const Procedural what, real3 at, vec3 dx, vec3 dy, float size, vec3 widths) {
     vec2 turbulence = octave_sum(what, at, size, widths, true);
     float distortion = what.distortion;
@@ -140,8 +141,8 @@ float marble(const Procedural what, real3 at, vec3 dx, vec3 dy, float size, vec3
     return share;
 }
 
-// By how much the distance r from the z axis varies along d: along it in proportion, across it only
-// where the footprint is not small against r.
+// Returns the variation of the distance r from the z axis along d: proportional to the radial part, while the
+// tangential part counts only if the footprint is not small relative to r.
 float radial_width(vec2 at, float r, vec2 d) {
     float along = (at.x * d.x + at.y * d.y) / max(r, 1e-20);
     float square = d.x * d.x + d.y * d.y;
@@ -150,7 +151,7 @@ float radial_width(vec2 at, float r, vec2 d) {
     return width;
 }
 
-// Rings at whole distances from the z axis + distortion · noise.
+// Rings at integer distances from the z axis + distortion · noise.
 float wood(const Procedural what, real3 at, vec3 dx, vec3 dy, float size, vec3 widths) {
     vec2 noise = octave_sum(what, at, size, widths, false);
     float distortion = what.distortion;
@@ -165,7 +166,7 @@ float wood(const Procedural what, real3 at, vec3 dx, vec3 dy, float size, vec3 w
     return share;
 }
 
-// Hard-edged kinds come first.
+// Kinds with hard edges come first.
 const uint HARD_EDGED = (2u << PROCEDURAL_BRICK) - 1u;
 
 float figure_share(const Procedural what, real3 at, vec3 dx, vec3 dy) {

@@ -1,6 +1,6 @@
-// The numbers of geometry: f32, or f64 where F64_MATH is defined. Rays, shapes and texture coordinates are
-// made of them until whole tiles have left; colours, footprints and look-ups are f32 always. Records hold
-// their real vectors in one or two units; F64_RECORDS reads those of f64 and computes in f32.
+// The type of geometry: f32, or f64 if F64_MATH is defined. Rays, shapes and texture coordinates have this
+// type until whole tiles are subtracted; colours, footprints and look-ups are always f32. Records store their
+// real vectors in one or two units; F64_RECORDS reads those of f64 and computes in f32.
 #ifndef REAL_GLSL
 #define REAL_GLSL
 

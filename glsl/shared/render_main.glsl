@@ -1,7 +1,8 @@
-// One thread a pixel: the sum of a chunk of samples, added to the film. film[pixel] = sum of radiance (rgb);
-// with COMPENSATED, film[pixel + pixels] holds what rounding has lost so far (Kahan 1965), as chunks arrive
-// in a fixed order. Samples in negative lobes of the pixel filter count with their sign, film[pixel].w is the sum
-// of the signs, and the plane behind all others holds the sum of those samples alone, without their sign.
+// One thread per pixel: the sum of a block of samples, added to the film. film[pixel] = sum of radiance
+// (rgb); with COMPENSATED, film[pixel + pixels] holds the accumulated rounding error (Kahan 1965), as blocks
+// arrive in a fixed order. Samples in negative lobes of the pixel filter count with their sign, film[pixel].w
+// is the sum of the signs, and the plane after all others holds the sum of those samples alone, without their
+// sign.
 #ifndef RENDER_MAIN_GLSL
 #define RENDER_MAIN_GLSL
 
@@ -12,15 +13,16 @@
 #include "shade.glsl"
 #include "slice.glsl"
 
-// Samples of single pixels. A film of jobs holds two halves, each with sums of radiance and of its square's mean over the channels; where the
-// pixel filter has negative lobes two more with the sums of samples in these, and two with the sum of the signs and
-// the number of samples. With JOB_APART the film has one such entry for each job of the list in place of a half's.
+// Samples of single pixels. A film of batches holds two halves, each with sums of radiance and of the mean of
+// its squared channels; if the pixel filter has negative lobes two more with the sums of samples in these,
+// and two with the sum of the signs and the number of samples. With JOB_APART the film has one such entry for
+// each batch instead of for each half.
 layout(std430, set = 0, binding = BINDING_LIST) readonly buffer Jobs { Job jobs[]; };
 
-// What one thread does: samples of one pixel, into one place of the film.
+// The work of one thread: samples of one pixel, added to one entry of the film.
 struct Task {
     uvec2 place; // in the band
-    uint part; // of a job: which half of the film, JOB_BARE, JOB_APART, and the stream of samples
+    uint part; // of a batch: the half of the film, JOB_BARE, JOB_APART, and the stream of samples
     uint first;
     uint end;
 };
@@ -29,13 +31,13 @@ Task tile_task() {
     return Task(film_pixel(), 0u, first_sample(), first_sample() + sample_count());
 }
 
-// Jobs fill tiles one after the other, in the order of the list.
+// Batches fill tiles one after the other, in the order of the list.
 uint job_index() {
     uint thread = gl_WorkGroupID.x * gl_WorkGroupSize.x * gl_WorkGroupSize.y + gl_LocalInvocationIndex;
     return (slice.first_tile + gl_WorkGroupID.y) * (TILE * TILE) + thread;
 }
 
-// Without a list all pixels have the same job, both halves of a pixel side by side.
+// Without a list all pixels have the same batch, both halves of a pixel side by side.
 Task job_task(const Header header) {
     uint i = job_index();
     if (i >= slice.tiles) return Task(uvec2(0u, slice.band_height), 0u, 0u, 0u);
@@ -58,32 +60,33 @@ void main() {
     else task = tile_task();
     if (!in_film(header, task.place)) return;
     uvec2 pixel = picture_pixel(header, task.place);
-    // Of a job, a sample's share of the pixel is by the samples that the pixel has at its end.
+    // In a batch, a sample's share of the pixel is that of the pixel's number of samples after the batch.
     if (FILTERED && is_job && header.footprint != FOOTPRINT_NONE) {
         float share = inversesqrt(2.0 * float(task.end)) * filter_width(header);
         header.sample_side = (task.part & JOB_BARE) != 0u ? 0.0 : share;
     }
-    // Each stream is as good as another seed.
+    // Streams are as independent as different seeds.
     uint stream = task.part >> JOB_STREAM_SHIFT;
     uvec2 key = pixel_key(pixel, header.seed + stream * 0x9E3779B9u, header.shares_pattern);
     Points points = pixel_points(header, pixel, key);
     uint list = TILE_CULLED ? cell_list(header, task.place + uvec2(0u, slice.band_y)) : NO_LIST;
 
-    // One loop for samples and bounces: a turn follows one ray, and a pixel whose path has ended
-    // starts its next sample while its neighbours' paths go on.
+    // One loop for samples and bounces: an iteration follows one ray, and a pixel whose path has ended starts
+    // its next sample while its neighbours' paths continue.
     vec3 sum = vec3(0.0);
-    float squares = 0.0;   // of a job
-    vec3 seen = vec3(0.0); // of a job: by the current path
+    float squares = 0.0;   // of a batch
+    vec3 seen = vec3(0.0); // of a batch: by the current path
     float sign = 1.0; // of the current path's sample, and the sum of all
     float signs = 0.0;
-    vec3 negative = vec3(0.0); // sum of the samples whose sign is negative, without it
+    vec3 negative = vec3(0.0); // sum of the samples whose sign is negative, without the sign
     uint s = task.first;
     Path path;
     path.is_alive = false;
-    // Long sums go by blocks: a block's samples as they are, the blocks with compensation. No do-while: lavapipe
-    // (Mesa 22.3.6) loses lanes that leave a loop around another by a condition after its body.
-    uint block = task.end - task.first > MAX_PLAIN ? BLOCK : MAX_PLAIN;
-    vec3 lost = vec3(0.0); // what rounding has added to the sum
+    // Long sums are divided into blocks: a block's samples are added directly, the blocks with compensation.
+    // No do-while: lavapipe (Mesa 22.3.6) loses lanes that leave a loop around another by a condition after
+    // its body.
+    uint block = task.end - task.first > MAX_PLAIN ? SAMPLES_PER_BLOCK : MAX_PLAIN;
+    vec3 lost = vec3(0.0); // the part that rounding has added to the sum
     while (true) {
         uint stop = BLOCKS ? min(s + block, task.end) : task.end;
         vec3 part = vec3(0.0);
@@ -112,7 +115,7 @@ void main() {
                 if (MOVING_CAMERA) {
                     if (header.camera_moves) ray.origin += time * header.eye_motion;
                 }
-                // Bits that have nothing to do with the sample's position.
+                // Bits that are independent of the sample's position.
                 uvec2 random = RANDOM ? pcg2d(sample_bits(key, s) ^ 0x5BD1E995u) : uvec2(0u);
                 path = camera_path(ray, camera_differential(camera, ray), random, list);
             }
@@ -147,7 +150,7 @@ void main() {
     if (is_job) {
         bool apart = (task.part & JOB_APART) != 0u;
         at = apart ? job_index() : at + (task.part & 1u) * pixels;
-        uint behind = apart ? slice.tiles : 2u * pixels; // from one kind of sum to the next
+        uint behind = apart ? slice.tiles : 2u * pixels; // stride between kinds of sums
         bool adds = !apart && task.first > 0u;
         vec4 sums = vec4(sum, squares);
         film[at] = adds ? film[at] + sums : sums;

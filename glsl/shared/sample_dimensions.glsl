@@ -1,7 +1,8 @@
-// What a sample chooses beside its place in the pixel, each by a pair of dimensions of the same pattern:
-//   0 place in the pixel   1 lens   2 time (its first dimension)
-//   3 + 2d light, 4 + 2d lobe of the hit after d bounces; of glass 3 + 2d is whether it mirrors (its first dimension)
-// Further lights of one hit shift the pair of the first. Twin: src/oracle/sample_dimensions.rs.
+// The sample dimensions, each by a pair of dimensions of the same pattern:
+//     0 position in the pixel   1 lens   2 time (its first dimension)
+//     3 + 2d light, 4 + 2d lobe of the hit after d bounces
+// For glass 3 + 2d chooses between reflection and refraction (its first dimension). Further lights of one hit
+// shift the pair of the first. Twin: src/oracle/sample_dimensions.rs.
 #ifndef SAMPLE_DIMENSIONS_GLSL
 #define SAMPLE_DIMENSIONS_GLSL
 
@@ -33,8 +34,9 @@ vec2 unit_square(uvec2 position) {
     return vec2(position) * (1.0 / 16777216.0);
 }
 
-// The same positions shifted, by another number for each `salt` but 0: without correlation to them in the
-// mean, and as even. Nets of base 2 stay nets under exclusive or; strata move around the square.
+// Returns the positions shifted by an amount that depends on `salt`; 0 leaves them unchanged. The result is
+// uncorrelated with them on average, and equally uniform. Nets in base 2 stay nets under exclusive or; strata
+// wrap around the square.
 uvec2 apart(const Points points, uvec2 position, uint salt) {
     if (salt == 0u || MODE_IS(PATTERNS, PATTERN_CENTER, points.pattern) || MODE_IS(PATTERNS, PATTERN_GRID, points.pattern)) {
         return position;
@@ -45,8 +47,8 @@ uvec2 apart(const Points points, uvec2 position, uint salt) {
     return net ? position ^ by : (position + by) & 0xFFFFFFu;
 }
 
-// All that sample s chooses for the hit after `depth` bounces, where its path starts also its place and what
-// the camera needs. One loop: the patterns' code is there once.
+// Returns all dimensions of sample s for the hit after `depth` bounces; at the start of its path also the
+// position in the pixel and the camera's dimensions. One loop, so that the patterns' code exists once.
 SampleDimensions choose(const Header header, const Points points, uint s, uint depth, bool starts) {
     SampleDimensions dimensions = NO_CHOICES;
     uint wanted = (SAMPLE_DIMENSIONS & header.sample_dimensions) << 1u;
@@ -69,7 +71,7 @@ SampleDimensions choose(const Header header, const Points points, uint s, uint d
     return dimensions;
 }
 
-// The place of the hit's choice on the light `i`.
+// Returns the hit's sample on the light `i`.
 vec2 chosen_light(const Points points, const SampleDimensions dimensions, uint i) {
     return unit_square(apart(points, dimensions.light, 16u * i));
 }

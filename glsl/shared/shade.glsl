@@ -1,6 +1,6 @@
-// Ray -> radiance, one hit of its path at a time. Mirror: colour times what the mirrored ray sees, at
-// most `max depth` times, then black. What hits nothing reads the background, or the environment as if
-// it were a surface of colour alone. Twin: src/oracle/shade.rs.
+// Ray -> radiance, one hit of the path at a time. Mirrors: colour times the radiance of the reflected ray, up
+// to `max depth` times, then black. A ray that hits nothing reads the background, or the environment as if it
+// were a surface with a colour alone. Twin: src/oracle/shade.rs.
 #ifndef SHADE_GLSL
 #define SHADE_GLSL
 
@@ -10,7 +10,7 @@
 #include "shading_normal.glsl"
 #include "geometry/rays.glsl"
 
-// What the surface's map looks at.
+// Returns the inputs of the surface's mapping.
 MapInput map_input(const UvProjection map, const Ray ray, const Surface surface, const Footprint print) {
     MapInput seen = MapInput(surface.at_rest, vec3(0.0), vec3(0.0), surface.own_uv, vec2(0.0), vec2(0.0), false);
     uint entity = map.entity;
@@ -39,7 +39,7 @@ MapInput map_input(const UvProjection map, const Ray ray, const Surface surface,
         way_y = mirrored_change(vec3(way), vec3(mirror.normal), way_y, normal_change(mirror.shape_operator, print.point_y));
         way = mirrored(way, mirror.normal);
     }
-    // Of unit length; its change is at right angles to it.
+    // Of unit length; the change is perpendicular to it.
     real size = inverse_root(dot3(way, way));
     seen.entity = way * size;
     if (DERIVATIVES) {
@@ -52,7 +52,7 @@ MapInput map_input(const UvProjection map, const Ray ray, const Surface surface,
 }
 
 #if SOURCE != SOURCE_NONE
-// Gradients of u and v along the surface, from their changes along two tangents.
+// Returns the gradients of u and v along the surface, from their changes along two tangents.
 void uv_gradients(const UvProjection map, const Ray ray, const Surface surface, out vec3 u, out vec3 v) {
     vec3 n = vec3(surface.geometric_normal);
     vec3 first = any_tangent(n);
@@ -67,20 +67,21 @@ void uv_gradients(const UvProjection map, const Ray ray, const Surface surface, 
     v = along_v;
 }
 
-// A map of normals, not of heights.
+// Returns true for a map of normals, false for one of heights.
 bool is_normal_map(const Material material) {
     return MODE_IS(BUMP_KINDS, BUMP_NORMAL, material.bump_kind) || MODE_IS(BUMP_KINDS, BUMP_NORMAL_DOWN, material.bump_kind);
 }
 
-// Places at which a bump map is read, two on each axis, a texel or half the footprint away.
+// Returns the points at which a bump map is read, two on each axis, at the distance of a texel or half the
+// footprint.
 vec2 bump_step(const Material material, const TexCoord c) {
     vec2 texel = 1.0 / vec2(texture_at(material.bump_texture_index).size.xy);
     return max(texel, 0.5 * max(abs(c.dx.xy), abs(c.dy.xy)));
 }
 
-// The shading normal after the material's bump map, from what was read there. Normal map: 2 rgb - 1 along
-// growing u, growing v (or against it) and the normal. Bump map: n - grad h, the height's gradient along the surface
-// (Blinn 1978; Mikkelsen 2020), h from central differences.
+// Returns the shading normal after the material's bump map, from the values at those points. Normal map: 2
+// rgb - 1 along increasing u, increasing v (or against it) and the normal. Bump map: n - grad h, with the
+// height's gradient along the surface (Blinn 1978; Mikkelsen 2020), h by central differences.
 vec3 bump_normal(const Material material, const UvProjection map, const Ray ray, const Surface surface, vec4 read, vec2 step) {
     float side = surface.inside ? -1.0 : 1.0;
     vec3 n = side * vec3(surface.normal);
@@ -108,8 +109,8 @@ vec3 bump_normal(const Material material, const UvProjection map, const Ray ray,
 }
 #endif
 
-// The material's colour, times its texture where it has one; before that its bump map turns the normal.
-// One loop for all look-ups of a hit: they are most of the code.
+// Returns the material's colour, times its texture if it has one, after its bump map has changed the normal.
+// One loop for all look-ups of a hit, as they are most of the code.
 vec3 surface_color(const Material material, const UvProjection map, const Ray ray, inout Surface surface, const Footprint print, uvec2 random) {
     vec3 color = material.color;
 #if SOURCE != SOURCE_NONE
@@ -146,14 +147,14 @@ vec3 surface_color(const Material material, const UvProjection map, const Ray ra
     return color;
 }
 
-// A path between two hits: the ray, how wide it is, what it still carries, the shape that it leaves.
+// A path between two hits: the ray, its width, the path's throughput, and the shape that it leaves.
 struct Path {
     Ray ray;
     RayDifferential beam;
     vec3 throughput;
-    uvec2 random; // bits by which look-ups at the next hit take texels
+    uvec2 random; // random bits for stochastic look-ups at the next hit
     uint skip;
-    uint list; // the survey's, of a camera ray
+    uint list; // of tile culling, for a camera ray
     uint depth;
     bool is_alive; // false: the path has ended, the next one starts at the camera
 };
@@ -162,7 +163,7 @@ Path camera_path(const Ray ray, const RayDifferential beam, uvec2 random, uint l
     return Path(ray, beam, vec3(1.0), random, NO_SHAPE, list, 0u, true);
 }
 
-// Where a mirrored or refracted path goes on; false where the material ends it.
+// Continues a reflected or refracted path; returns false if the material ends it.
 bool bounced(const Header header, const Hit hit, Surface surface, const Footprint print, const Material material, const SampleDimensions dimensions,
              inout Path path) {
     if (!is_specular(material.model)) return false;
@@ -190,13 +191,13 @@ bool bounced(const Header header, const Hit hit, Surface surface, const Footprin
     return bounce.leaves;
 }
 
-// Follows the path to its next hit; what that adds to the sample is returned.
+// Follows the path to its next hit; returns the radiance that it adds to the sample.
 vec3 advance(const Header header, const Points points, const SampleDimensions dimensions, inout Path path) {
     Hit hit = nearest_hit(header, path.ray, path.skip, path.list);
     bool missed = hit.shape == NO_SHAPE;
     vec3 seen = path.throughput * header.background;
     bool is_alive = false;
-    // What hits nothing is then as good as a hit.
+    // From here on, a ray that hits nothing is treated as a hit.
     bool surrounded = ENVIRONMENT && header.environment_material != NO_MATERIAL;
     if (surrounded || !missed) {
         if (ENVIRONMENT) hit.shape = missed ? 0u : hit.shape;

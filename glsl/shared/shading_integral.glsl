@@ -1,5 +1,5 @@
-// The colour of a visible fragment: which materials have an integral that is known, and that integral, of texture
-// times irradiance over strips of the fragment. Twin: src/oracle/shading_integral.rs.
+// The colour of a visible fragment: decides which materials have a closed-form integral, and computes it, of
+// texture times irradiance over strips of the fragment. Twin: src/oracle/shading_integral.rs.
 #ifndef SHADING_INTEGRAL_GLSL
 #define SHADING_INTEGRAL_GLSL
 
@@ -10,29 +10,29 @@
 #include "prefix_sums.glsl"
 #include "sample_dimensions.glsl"
 
-const uint MAX_FRAGMENTS = 12u;  // that wait at a time
-const uint MAX_BEAMS = 6u;    // mirrored ones that wait at a time
+const uint MAX_FRAGMENTS = 12u;  // pending ones
+const uint MAX_BEAMS = 6u;    // pending mirrored beams
 
-// Polygons: the waiting fragments with room for one more, those of waiting beams, and
+// Indices of polygons: the pending fragments with room for one more, those of pending beams, and
 const uint BEAMS_AT = MAX_FRAGMENTS + 1u;
 const uint WHOLE = BEAMS_AT + MAX_BEAMS; // of the beam
-const uint PIECE = WHOLE + 1u;           // that was taken from the waiting ones
+const uint PIECE = WHOLE + 1u;           // the fragment being processed
 const uint OTHER = PIECE + 1u;           // the fragment with the next part cut away
-const uint SEEN = OTHER + 1u;            // a visible one
+const uint SEEN = OTHER + 1u;            // a visible fragment
 const uint STRIP = SEEN + 1u;            // of a fragment
 
 const uint MAX_CELLS = 40000u; // of textures that a pixel's edges may cross
 
-// Of one thread: too much for a beam, and what its edges have crossed.
+// State of one thread: the pixel is too complex for a beam, and the cells that its edges have crossed.
 bool gave_up;
 uint crossed;
 
 const Light NO_LIGHT = Light(vec3(0.0), 0.0, vec3(0.0), 0.0, vec3(0.0), 0.0, vec3(0.0), 0.0, vec3(0.0), 0u);
 
-// What a fragment is painted with.
+// The material and geometry of a fragment.
 struct ShadingIntegral {
     Material record;
-    vec3 carried; // its colour, and those of the mirrors that show it
+    vec3 carried; // its colour times those of the mirrors that show it
     RationalMap quotient;
     vec4 plane;
     PixelFrustum frame;
@@ -41,8 +41,8 @@ struct ShadingIntegral {
 
 const uint TILED = (1u << ADDRESS_REPEAT) | (1u << ADDRESS_MIRRORED_REPEAT) | (1u << ADDRESS_CLAMP_TO_EDGE);
 
-// Whether the integral of a shape's colour is known: of a material that has one, with a checker or a flat texture
-// that is affine on the shape.
+// Returns true if the integral of a shape's colour is known: its material supports that, with a checker or a
+// 2D texture whose coordinates are affine on the shape.
 bool is_simple(const Header header, uint shape, const Material record, const UvProjection map) {
     if (!is_integrable_over_region(record, is_smooth(header, shape))) return false;
     if (BUMPED && record.bump_texture_index != NO_TEXTURE) return false;
@@ -60,7 +60,7 @@ bool is_simple(const Header header, uint shape, const Material record, const UvP
     return is_integrable(how) && tiled && word(int(record.texture_index)) > 0;
 }
 
-// A light behind the surface, as its beam sees it, gives nothing.
+// Returns false for a light behind the surface as seen by the beam, which contributes nothing.
 bool is_facing(const Header header, const ShadingIntegral paint, uint polygon, const Light light) {
     vec3 way;
     vec3 origin;
@@ -70,12 +70,12 @@ bool is_facing(const Header header, const ShadingIntegral paint, uint polygon, c
     return above * dot3(paint.plane.xyz, way) < 0.0;
 }
 
-// Irradiance over pi at the middle of a strip, of a light that it sees.
+// Returns the irradiance over pi at the centre of a strip, by an unoccluded light.
 vec3 irradiance(const Header header, const ShadingIntegral paint, uint strip, const Light light) {
     vec3 n = paint.plane.xyz;
     vec3 power = light.power * (1.0 / PI);
     if (!MODE_IS(LIGHT_KINDS, LIGHT_POINT, light.kind)) return power * abs(dot3(n, light.direction));
-    // The way to the light times the inverse_depth: towards the horizon both stay finite.
+    // The vector to the light times the inverse depth: towards the horizon both stay finite.
     vec3 direction;
     vec3 origin;
     ray_at(header, paint.frame, middle(strip), direction, origin);
@@ -87,19 +87,20 @@ vec3 irradiance(const Header header, const ShadingIntegral paint, uint strip, co
     return power * (scale * abs(dot3(n, way)) / (squared * sqrt(squared)));
 }
 
-// Strips that a fragment is cut into: the root of STRIPS times the logarithm of the ratio of depths.
+// Number of strips of a fragment: the root of STRIPS times the logarithm of the ratio of depths.
 const float STRIPS = 2000.0;
 const float MAX_STRIPS = 64.0;
-// What lies e^7 times as deep as the fragment's nearest part counts as one strip.
+// Everything e^7 times as deep as the fragment's nearest part is one strip.
 const float DEEPEST = 7.0;
 const float LOG2_E = 1.44269504088896;
-// Cells that an edge of a strip may cross, and what all strips of a fragment share beyond that.
+// Cells that an edge of a strip may cross, and a further number that is divided among the strips of a
+// fragment.
 const float CELLS_OF_AN_EDGE = 32.0;
 const float CELLS_OF_ALL = 512.0;
 
 vec3 mean_color(const Material record, Grid grid, uint strip, const RationalMap quotient, float most, inout bool ended) {
     float reach = longest_edge(strip, in_grid(grid, quotient, ivec2(0)));
-    // The level at which it is short enough.
+    // The level at which the edge is short enough.
     if (reach > most) grid = coarser(grid, int(ceil(log2_accurate(reach / most))));
     if (grid.unknown) {
         gave_up = true;
@@ -113,8 +114,8 @@ vec3 mean_color(const Material record, Grid grid, uint strip, const RationalMap 
     return vec3(grid.least) + grid.step * mean;
 }
 
-// Texture times irradiance / pi, integrated over PIECE, in strips within which the depth hardly changes: there
-// equal areas of the texture are equal areas of the picture.
+// Returns texture times irradiance / pi, integrated over PIECE, in strips of almost constant depth, within
+// which equal areas of the texture are equal areas of the picture.
 vec3 integral(const Header header, const ShadingIntegral paint, bool has_light, const Light light) {
     bool textured = TEXTURED && paint.record.texture_index != NO_TEXTURE;
     vec3 depth = textured ? paint.quotient.below : below(header, paint.near);
@@ -134,7 +135,7 @@ vec3 integral(const Header header, const ShadingIntegral paint, bool has_light, 
     bool ended = true;
     float k = 1.0;
     for (; k <= strips && !gave_up; k += 1.0) {
-        // Beyond the last strip lies nothing.
+        // Nothing is beyond the last strip.
         float limit = k < strips ? ends.y * exp2_accurate(-span * k / strips * LOG2_E) : -1.0;
         uint beyond = PIECE + OTHER - rest;
         if (!split(rest, depth - vec3(0.0, 0.0, limit), STRIP, beyond)) gave_up = true;

@@ -1,7 +1,8 @@
-// Shading normals that lean away from the surface, interpolated or by a bump map: a ray mirrored by one may go
-// through the surface, one refracted may not. Such rays are raised to the horizon, and the normal becomes the one
-// that mirrors them there (Keller et al. 2017, "The Iray Light Transport Simulation and Rendering System"); how
-// far above it is as in Cycles (`ensure_valid_specular_reflection`). Twin: src/oracle/shading_normal.rs.
+// Shading normals that differ from the geometric one, by interpolation or by a bump map: a reflected ray may
+// then enter the surface, a refracted one may not. Such rays are raised to the horizon, and the normal
+// becomes the one that reflects them there (Keller et al. 2017, "The Iray Light Transport Simulation and
+// Rendering System"), as far above it as in Cycles (`ensure_valid_specular_reflection`). Twin:
+// src/oracle/shading_normal.rs.
 #ifndef SHADING_NORMAL_GLSL
 #define SHADING_NORMAL_GLSL
 
@@ -10,11 +11,11 @@
 
 const bool LEANING = SMOOTH_NORMALS || BUMPED;
 
-// The least cosine with the geometric normal, where `flat_cosine` is what a surface that does not lean would give:
-// rays of such a surface stay as they are.
+// Returns the least cosine with the geometric normal. `flat_cosine` is that of a surface whose normals
+// coincide, whose rays stay unchanged.
 real least_cosine(real flat_cosine) { return min(0.9 * flat_cosine, 0.01); }
 
-// The unit vector `way`, turned towards the unit vector g until their cosine is `least`.
+// Rotates the unit vector `way` towards the unit vector g until their cosine is `least`.
 real3 raised(real3 way, real3 g, real least) {
     real cosine = dot3(way, g);
     if (cosine >= least) return way;
@@ -24,8 +25,8 @@ real3 raised(real3 way, real3 g, real least) {
     return squared > 0.0 ? result : g;
 }
 
-// Turns the shading normal towards the ray, and as far towards the geometric one that it mirrors the ray to the
-// surface's own side.
+// Flips the shading normal towards the ray, and moves it towards the geometric one until it reflects the ray
+// to the surface's own side.
 void consistent_normal(real3 direction, inout Surface surface) {
     if (!LEANING) return;
     real3 view = -inverse_root(dot3(direction, direction)) * direction;
@@ -41,8 +42,8 @@ void consistent_normal(real3 direction, inout Surface surface) {
     surface.normal = both * inverse_root(dot3(both, both));
 }
 
-// The way of a ray that leaves on the side of n and g, the shading and the geometric normal, or by a facet around
-// n: one that is above n alone is raised above g.
+// Returns the direction of a ray that leaves on the side of n and g, the shading and the geometric normal, or
+// by a facet around n: a direction that is above n alone is raised above g.
 real3 on_its_side(real3 direction, real3 way, real3 n, real3 g) {
     real size = sqrt(dot3(way, way));
     real3 unit = way / size;

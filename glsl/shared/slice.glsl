@@ -1,6 +1,6 @@
-// Which pixel a thread works for: the film, and the part of it that one submission renders. Tiles of
-// 64 × 64 pixels are visited in an order that spreads each slice over the picture, so that a slice's
-// time foretells the next one's.
+// The pixel of a thread: the film, and the part of it that one submission renders. Tiles of 64 × 64 pixels
+// are visited in an order that spreads each slice over the picture, so that a slice's time predicts that of
+// the next.
 #ifndef SLICE_GLSL
 #define SLICE_GLSL
 
@@ -17,7 +17,7 @@ uint schedule() { return OPAQUE(slice.schedule); }
 uint first_sample() { return OPAQUE(slice.first_sample); }
 uint sample_count() { return OPAQUE(slice.sample_count); }
 
-// Thread -> pixel of the film. Workgroups of a tile follow each other in x, tiles in y.
+// Returns the pixel of the film. Workgroups of a tile follow each other in x, tiles in y.
 uvec2 film_pixel() {
     uint tile = ((slice.first_tile + gl_WorkGroupID.y) * slice.tile_stride) % slice.tiles;
     uvec2 origin = uvec2(tile % slice.tiles_x, tile / slice.tiles_x) * TILE;
@@ -26,10 +26,10 @@ uvec2 film_pixel() {
     return origin + group * gl_WorkGroupSize.xy + gl_LocalInvocationID.xy;
 }
 
-// Tiles reach beyond the picture.
+// Returns false for pixels of tiles that are outside of the picture.
 bool in_film(const Header header, uvec2 place) { return place.x < header.film_size.x && place.y < slice.band_height; }
 
-// Of the whole picture, before any crop.
+// Returns the pixel of the whole picture, before any crop.
 uvec2 picture_pixel(const Header header, uvec2 place) { return uvec2(place.x, place.y + slice.band_y) + header.crop; }
 
 uint film_index(const Header header, uvec2 place) { return place.y * header.film_size.x + place.x; }

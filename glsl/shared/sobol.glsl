@@ -1,14 +1,14 @@
-// The first two dimensions of Sobol's sequence, a (0,2)-sequence in base 2, with Owen's scrambling by a
-// hash: Burley 2020, "Practical Hash-based Owen Scrambling". Numbers are kept with their bits reversed,
-// the digit after the point lowest: so the first dimension is the index itself. Blue-noise: pixels along a
-// shuffled Morton curve take consecutive blocks of one sequence (Ahmed & Wonka 2020, "Screen-Space
-// Blue-Noise Diffusion of Monte Carlo Sampling Error via Hierarchical Ordering of Pixels").
+// The first two dimensions of the Sobol sequence, a (0,2)-sequence in base 2, with Owen's scrambling by a
+// hash: Burley 2020, "Practical Hash-based Owen Scrambling". Numbers are stored with their bits reversed, the
+// first fractional digit lowest, so that the first dimension is the index itself. Blue-noise: pixels along a
+// shuffled Morton curve take consecutive blocks of one sequence (Ahmed & Wonka 2020, "Screen-Space Blue-Noise
+// Diffusion of Monte Carlo Sampling Error via Hierarchical Ordering of Pixels").
 #ifndef SOBOL_GLSL
 #define SOBOL_GLSL
 
 #include "rng.glsl"
 
-// Each bit is flipped by a hash of the bits below it: Laine & Karras 2011 in the variant of Vegdahl 2021,
+// Flips each bit by a hash of the bits below it: Laine & Karras 2011 in the variant of Vegdahl 2021,
 // "Building a Better LK Hash".
 uint laine_karras(uint x, uint seed) {
     x ^= x * 0x3D20ADEAu;
@@ -19,8 +19,8 @@ uint laine_karras(uint x, uint seed) {
     return x;
 }
 
-// Bit j of the second dimension is the sum over bits k of C(k, j) mod 2, which is 1 where k has all bits of j
-// (Lucas): a sum over supersets, one bit of the positions at a time.
+// Returns the second dimension: bit j is the sum over bits k of C(k, j) mod 2, which is 1 where k has all
+// bits of j (Lucas): a sum over supersets, one bit of the positions at a time.
 uint second_dimension(uint index) {
     index ^= (index >> 1u) & 0x55555555u;
     index ^= (index >> 2u) & 0x33333333u;
@@ -34,7 +34,7 @@ uvec2 sobol_owen(uint index, uvec2 key) {
                  bitfieldReverse(laine_karras(second_dimension(index), key.y))) >> 8u;
 }
 
-// Another order of the indices that takes aligned blocks of 2^k to aligned blocks.
+// Permutes the indices such that aligned blocks of 2^k stay aligned blocks.
 uint shuffled_index(uint index, uint seed) {
     return bitfieldReverse(laine_karras(bitfieldReverse(index), seed));
 }
@@ -46,12 +46,12 @@ uint spread_bits(uint x) {
     return (x | (x << 1u)) & 0x55555555u;
 }
 
-// The place of a pixel along the Morton curve; coordinates below 2^16.
+// Returns the position of a pixel along the Morton curve; coordinates below 2^16.
 uint morton(uvec2 pixel) {
     return spread_bits(pixel.x) | (spread_bits(pixel.y) << 1u);
 }
 
-// One of the 24 permutations of four quarters, chosen by `bits`: all of them are affine over bits.
+// Applies one of the 24 permutations of four quarters, chosen by `bits`; all of them are affine over bits.
 uint shuffled_quarter(uint quarter, uint bits) {
     uint choice = ((bits >> 16u) * 6u) >> 16u;
     uint first = choice % 3u;
@@ -59,11 +59,11 @@ uint shuffled_quarter(uint quarter, uint bits) {
     return (bits & 3u) ^ ((quarter & 1u) * (first + 1u)) ^ ((quarter >> 1u) * (second + 1u));
 }
 
-// The place along the curve when the quarters of each square are shuffled, from the largest square of
-// 2^levels pixels a side to the smallest.
+// Returns the position along the curve after shuffling the quarters of each square, from the largest square
+// of 2^levels pixels per side to the smallest.
 uint shuffled_place(uint place, uint levels, uint seed) {
     uint shuffled = 0u;
-    uint square = 1u; // a number of its own for each square of each level
+    uint square = 1u; // identifies each square of each level
     for (uint level = levels; level > 0u; level--) {
         uint quarter = (place >> (2u * level - 2u)) & 3u;
         shuffled = (shuffled << 2u) | shuffled_quarter(quarter, mix_bits(square ^ seed));

@@ -1,5 +1,5 @@
-// All texels one after the other, in 32-bit words; beside images what cannot be read from those. They lie in
-// one texel buffer or, where a device's buffers are too short, in several of 2^BLOCK_LOG2 words.
+// All texels one after the other, in 32-bit words; beside images those that images cannot hold. They are in
+// one texel buffer or, if a device's buffers are too short, in several of 2^BLOCK_LOG2 words.
 #ifndef TEXEL_BUFFER_GLSL
 #define TEXEL_BUFFER_GLSL
 
@@ -7,8 +7,8 @@
 
 layout(set = 0, binding = BINDING_TEXELS) uniform usamplerBuffer texels[TEXEL_BLOCKS];
 
-// Not every device can index descriptors by a variable, so the block is compared with constants; those beyond the
-// count are left out.
+// Not every device can index descriptors by a variable, so the block is compared with constants; those beyond
+// the count are removed.
 #define READ_BLOCK(i) if (TEXEL_BLOCKS > uint(i) && block == uint(i)) word = texelFetch(texels[i], within).x;
 
 uint texel_word(uint at) {

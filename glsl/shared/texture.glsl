@@ -1,6 +1,5 @@
-// Texels: the one at an addressed place, and its value as linear RGBA. Texels come from one texel
-// buffer, or of flat textures by texelFetch from images. Follows Vulkan 1.3, "Image Sample
-// Operations". Twin: src/oracle/texture.rs.
+// Texel fetches with addressing, converted to linear RGBA, from one texel buffer, or for 2D textures by
+// texelFetch from images. Follows Vulkan 1.3, "Image Sample Operations". Twin: src/oracle/texture.rs.
 #ifndef TEXTURE_GLSL
 #define TEXTURE_GLSL
 
@@ -35,8 +34,8 @@ Coordinate near_coordinate(const Texture image, const Sampler how, const TexCoor
 #endif
 }
 
-// Linear light of all codes of 8-bit sRGB, and then of 16-bit sRGB, as far as the scene has any. CPU drivers read
-// scattered texels faster than scattered places of a storage buffer.
+// Linear values of all codes of 8-bit sRGB, then of 16-bit sRGB, if the scene has any. CPU drivers read
+// scattered texels faster than scattered positions of a storage buffer.
 layout(set = 0, binding = BINDING_SRGB_LIGHT) uniform usamplerBuffer srgb_light;
 
 float decode_srgb8(uint code) { return uintBitsToFloat(texelFetch(srgb_light, int(code)).x); }
@@ -47,15 +46,15 @@ vec3 decode_srgb16(uvec3 codes) {
     return vec3(decode_srgb16(codes.x), decode_srgb16(codes.y), decode_srgb16(codes.z));
 }
 
-// One level of a texture's mip_chain.
+// One level of a mip chain.
 struct Level {
-    ivec3 size; // of a cube: width, height, 6
+    ivec3 size; // width, height and depth; 6 faces for a cube
     int index;
-    uint word;  // where it begins in the texel buffer
+    uint word;  // first word in the texel buffer
 };
 
-// Level sizes are halved and rounded down (Vulkan 1.3, "Image Miplevel Sizing"). The words before level 0
-// say where the others begin.
+// Returns a level; sizes are halved and rounded down (Vulkan 1.3, "Image Miplevel Sizing"). The words before
+// level 0 hold the offsets of the others.
 Level level_at(const Texture image, int index) {
     ivec3 size = ivec3(image.size);
     if (!MIPMAPPED || index == 0) return Level(size, 0, image.first_word);
@@ -70,7 +69,7 @@ Level level_at(const Texture image, int index) {
 #endif
 
 #if HAS_TEXELS
-// One texel by column, row and slice; grey is replicated, missing alpha is 1, sRGB decoded.
+// Returns one texel by column, row and slice; grey is replicated, missing alpha is 1, sRGB is decoded.
 vec4 fetch_pooled(const Texture image, const Level level, ivec3 at) {
     uint format = image.format;
     uint texel = uint((at.z * level.size.y + at.y) * level.size.x + at.x);
@@ -143,7 +142,7 @@ vec4 fetch_pooled(const Texture image, const Level level, ivec3 at) {
     if (count > 14u && slot == 14u) return read(14u); \
     return read(15u);
 
-// Slots beyond the count are never chosen, but their constants must stay inside the array.
+// Slots beyond the count are never selected, but their constants must stay within the array.
 #define SLOT(i) images[(i) < SLOTS ? (i) : 0u]
 #define VOLUME_SLOT(i) volumes[(i) < VOLUME_SLOTS ? (i) : 0u]
 #define CUBE_SLOT(i) cubes[(i) < CUBE_SLOTS ? (i) : 0u]
@@ -154,7 +153,7 @@ vec4 read_image(uint slot, ivec2 at, int level) {
 #undef READ
 }
 
-// The device's sampler at a level; where it filters anisotropically, over the footprint.
+// Returns the device sampler's value at a level; if it filters anisotropically, over the footprint.
 vec4 read_flat(const Sampler how, uint slot, vec2 uv, const Coordinate c, float level) {
     if (FILTERED && is_anisotropic(how)) {
 #define READ(i) textureGrad(SLOT(i), uv, c.dx.xy, c.dy.xy)
@@ -197,7 +196,7 @@ vec4 fetch_texel(const Texture image, uint slot, const Level level, ivec3 at) {
     if (!MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_FLAT, image.kind)) return fetch_pooled(image, level, at);
 #endif
     vec4 value = read_image(slot, at.xy, level.index);
-    // The view replicates grey; where all textures are grey, two channels need no arithmetic.
+    // The view replicates grey; if all textures are grey, two channels need no arithmetic.
     if (TEXEL_FORMATS == (1u << TEXEL_FORMAT_GREY8)) value = vec4(value.xxx, 1.0);
     if (MODE_IS(COLOR_SPACES, COLOR_SPACE_SRGB, image.color_space)) {
         if (DEEP_SRGB && image.format >= TEXEL_FORMAT_GREY16) {
@@ -214,22 +213,22 @@ vec4 fetch_texel(const Texture image, uint slot, const Level level, ivec3 at) { 
 #endif
 
 #if SOURCE != SOURCE_NONE
-// Adding 1.5 · 2^23 leaves the nearest integer (ties to even) in the low bits of an f32 below 2^22:
-// rounding and conversion in two additions, alike on every device.
+// Adding 1.5 · 2^23 leaves the nearest integer (ties to even) in the low bits of an f32 below 2^22: rounding
+// and conversion in two additions, identical on every device.
 const float ROUND = 12582912.0;
 
 const uint ADDRESSES = ADDRESSES_U | ADDRESSES_V | ADDRESSES_W;
 const bool BORDERS = HAS(ADDRESSES, ADDRESS_CLAMP_TO_BORDER);
 
-// The texel at an addressed place, or the border colour where a number of it is -1.
+// Returns the texel at an addressed position, or the border colour if a component of it is -1.
 vec4 fetch_or_border(const Texture image, const Sampler how, uint slot, const Level level, ivec3 at) {
     if (!BORDERS) return fetch_texel(image, slot, level, at);
     vec4 value = fetch_texel(image, slot, level, max(at, ivec3(0)));
     return at.x < 0 || at.y < 0 || at.z < 0 ? how.border : value;
 }
 
-// weight * value, and sum + weight * value. No number, times a weight of 0, would still be none: such a value
-// counts for nothing. fma by name: fused or not, but alike in every pipeline of a device.
+// weight * value, and sum + weight * value. A weight of 0 gives 0 even if the value is NaN or infinite. fma
+// by name: fused or not, but alike in every pipeline of a device.
 vec4 weighted(float weight, vec4 value) {
     if (NONFINITE) {
         if (weight == 0.0) return vec4(0.0);
@@ -244,8 +243,8 @@ vec4 add_weighted(float weight, vec4 value, vec4 sum) {
     return fma(vec4(weight), value, sum);
 }
 
-// A flat texture's texel at (column, row), addressed. Over a pole of an environment the same row goes on,
-// half a turn away.
+// Returns a 2D texture's texel at (column, row), addressed. Across a pole of an environment the same row
+// continues, half a turn away.
 vec4 flat_texel(const Texture image, const Sampler how, uint slot, const Level level, ivec2 at) {
     if (POLES && how.crosses_poles) {
         bool over = at.y < 0 || at.y >= level.size.y;

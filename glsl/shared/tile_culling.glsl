@@ -1,20 +1,20 @@
-// What the survey found: for each square cell of pixels the number of triangles that its camera rays may meet,
-// how calm it is, and the triangles in the order of the scene.
+// The result of tile culling: for each square cell of pixels the number of triangles that its camera rays may
+// meet, its content, and the triangles in the order of the scene.
 #ifndef TILE_CULLING_GLSL
 #define TILE_CULLING_GLSL
 
 #include "layout.glsl"
 
-layout(std430, set = 0, binding = BINDING_TILE_LISTS) readonly buffer Survey { uint survey[]; };
+layout(std430, set = 0, binding = BINDING_TILE_LISTS) readonly buffer TileLists { uint tile_lists[]; };
 
-// The words of the cell in which a pixel of the film lies; NO_LIST for a scene without a survey, or a cell with
-// more triangles than it can list.
+// Returns the first word of the cell of a film pixel; NO_LIST for a scene without tile culling, or a cell
+// with more triangles than it can list.
 uint cell_list(const Header header, uvec2 place) {
     uint side = header.cell_side;
     if (side == 0u) return NO_LIST;
     uint across = (header.film_size.x + side - 1u) / side;
     uint at = ((place.y / side) * across + place.x / side) * CELL_WORDS;
-    return survey[at] <= MAX_LISTED ? at : NO_LIST;
+    return tile_lists[at] <= MAX_LISTED ? at : NO_LIST;
 }
 
 #endif

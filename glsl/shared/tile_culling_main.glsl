@@ -1,6 +1,6 @@
-// One thread a cell of pixels: the triangles that its camera rays may meet, and how calm it is: EMPTY with
-// nothing but the background, CALM where one shape alone fills it and its colour changes little from texel to
-// pixel, BUSY else. found[cell] = number, calmness, triangles. Twin: src/oracle/tile_culling.rs.
+// One thread per cell of pixels: the triangles that its camera rays may meet, and its content: EMPTY for the
+// background alone, UNIFORM for one shape that fills it and whose colour changes little from texel to pixel,
+// BUSY otherwise. found[cell] = number, content, triangles. Twin: src/oracle/tile_culling.rs.
 #ifndef TILE_CULLING_MAIN_GLSL
 #define TILE_CULLING_MAIN_GLSL
 
@@ -16,11 +16,11 @@ layout(std430, set = 0, binding = BINDING_OUTPUT) writeonly buffer Found { uint 
 
 layout(push_constant) uniform Push { CellRange part; };
 
-// Pixels around a cell, against rounding.
+// Margin in pixels around a cell, against rounding errors.
 const float MARGIN = 0.0625;
 const uint SQUARE = 0u; // the polygon of the cell
 
-// Texels that a pixel spans at most, at the cell's corners.
+// Returns the most texels that a pixel spans, at the cell's corners.
 float texels_across(const Header header, const PixelFrustum frame, uint shape, const UvProjection map, const Texture image) {
     RationalMap q = coordinates(header, frame, shape, map, nearness_of(header, frame, shape));
     float most = 0.0;
@@ -36,8 +36,8 @@ float texels_across(const Header header, const PixelFrustum frame, uint shape, c
     return most / float(header.cell_side);
 }
 
-// Whether one shape, with all lines of its region around the cell, shows a colour that changes little.
-bool is_calm(const Header header, const PixelFrustum frame, uint shape, const ConvexRegion region) {
+// Returns true if one shape, whose region contains the cell, has a colour that changes little.
+bool is_uniform(const Header header, const PixelFrustum frame, uint shape, const ConvexRegion region) {
     for (uint k = 0u; k < region.count; k++) {
         if (range(SQUARE, region.lines[k]).x <= 0.0) return false;
     }
@@ -87,7 +87,7 @@ void main() {
     bool empty = seen == 0u && !round && !(ENVIRONMENT && header.environment_material != NO_MATERIAL);
     uint calmness = empty ? CELL_EMPTY : CELL_BUSY;
     if (seen == 1u && !round) {
-        if (is_calm(header, frame, alone, shape_region(header, frame, alone))) calmness = CELL_UNIFORM;
+        if (is_uniform(header, frame, alone, shape_region(header, frame, alone))) calmness = CELL_UNIFORM;
     }
     found[begin] = listed;
     found[begin + 1u] = calmness;

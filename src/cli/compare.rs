@@ -15,9 +15,8 @@ use crate::output::{self, WriteOptions};
 
 /// Compare two pictures of the same size in linear RGB
 ///
-/// Alpha is ignored, grey is replicated; 8- and 16-bit files are decoded from sRGB, float files are
-/// taken as linear. Of an EXR file that is a part of a picture, that part is compared. Exit code 1 when a NaN is
-/// present or a figure is above its bound.
+/// Alpha is ignored, grey is replicated; 8- and 16-bit files are decoded from sRGB, float files are linear. If an EXR
+/// file is a part of a picture, that part is compared. Exit code 1 if a NaN is present or a figure is above its bound.
 #[derive(Debug, clap::Args)]
 pub struct CompareArgs {
     /// First picture (PNG, JPEG, TIFF, TGA, HDR or EXR)
@@ -39,7 +38,7 @@ pub struct CompareArgs {
     /// Write |A − B|, scaled so that the largest difference is white; pixels with NaN are magenta
     #[arg(long, value_name = "OUT.png")]
     pub diff: Option<PathBuf>,
-    /// Say only what is above a bound, and errors
+    /// Print only what is above a bound, and errors
     #[arg(short, long)]
     pub quiet: bool,
 }
@@ -51,7 +50,7 @@ struct Report<'a> {
     #[serde(flatten)]
     comparison: &'a Comparison,
     flip: f64,
-    /// The compared region of the picture of which both are parts: x, y, width, height.
+    /// The compared region of the picture that contains both: x, y, width, height.
     part: Option<[u32; 4]>,
     max_rmse: Option<f64>,
     max_flip: Option<f64>,

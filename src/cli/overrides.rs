@@ -24,7 +24,7 @@ pub struct Overrides {
     /// Algorithm
     #[arg(long, value_name = "A", value_parser = named_parser(Algorithm::NAMES, Algorithm::from_name), help_heading = SAMPLING)]
     algorithm: Option<Algorithm>,
-    /// Render for this long and then stop, with --algorithm auto unless another is named
+    /// Render for this time and then stop, with --algorithm auto unless another is named
     #[arg(long, value_name = "SECONDS", value_parser = positive, conflicts_with = "target_error", help_heading = SAMPLING)]
     budget: Option<f64>,
     /// Render until the picture's RMSE is estimated to be this
@@ -45,7 +45,7 @@ pub struct Overrides {
     /// Footprint of a sample
     #[arg(long, value_name = "F", value_parser = named_parser(Footprint::NAMES, Footprint::from_name), help_heading = TEXTURES)]
     footprint: Option<Footprint>,
-    /// Numbers of geometry
+    /// Precision of geometry
     #[arg(long, value_name = "P", value_parser = named_parser(Precision::NAMES, Precision::from_name), help_heading = DEVICE)]
     precision: Option<Precision>,
     /// Levels that every sampler reads
@@ -54,10 +54,10 @@ pub struct Overrides {
     /// Pixel filter
     #[arg(long, value_name = "NAME", value_parser = named_parser(PixelFilterKind::NAMES, PixelFilterKind::from_name), help_heading = SAMPLING)]
     pixel_filter: Option<PixelFilterKind>,
-    /// Pixels that the pixel filter reaches to each side [default: by filter]
+    /// Radius of the pixel filter in pixels [default: by filter]
     #[arg(long, value_name = "R", value_parser = radius, allow_negative_numbers = true, help_heading = SAMPLING)]
     pixel_filter_radius: Option<f64>,
-    /// Whether all pixels share their displacements
+    /// Use one set of displacements for all pixels
     #[arg(long, value_name = "BOOL", help_heading = SAMPLING)]
     shared: Option<bool>,
 }

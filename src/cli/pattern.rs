@@ -42,7 +42,7 @@ pub struct PatternArgs {
     /// Another set of random positions
     #[arg(long, value_name = "N", default_value = "1", allow_negative_numbers = true)]
     seed: u32,
-    /// Pair of dimensions: 0 is the place in the pixel
+    /// Pair of dimensions: 0 is the position in the pixel
     #[arg(long, value_name = "K", default_value = "0", value_parser = clap::value_parser!(u32).range(..i64::from(HALTON_PAIRS)))]
     pair: u32,
     /// Print one JSON object
@@ -57,7 +57,7 @@ struct Measures {
     /// Columns and rows of about √N each.
     cells: [u32; 2],
     occupied: u32,
-    /// The occupied ones of N columns and of N rows.
+    /// The number of occupied columns of N, and of occupied rows of N.
     occupied_lines: [u32; 2],
     radial_mean: Vec<f64>,
 }

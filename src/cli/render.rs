@@ -27,11 +27,10 @@ use crate::texture::source::OrientationUse;
 
 #[derive(Args, Debug)]
 pub struct RenderArgs {
-    /// Scene file (TOML), or - for standard input
+    /// Scene file, or - for standard input
     scene: PathBuf,
-    /// Picture to write; the ending decides the format: exr hdr (linear float), png jpg tif (sRGB).
-    /// May be given several times; - is standard output [default: the scene's name with .png, in the
-    /// current folder]
+    /// Picture to write; the ending selects the format: exr hdr (linear float), png jpg tif (sRGB). May be given
+    /// several times; - is standard output [default: the scene's name with .png, in the current folder]
     #[arg(short, long = "output", value_name = "OUT", help_heading = OUTPUT)]
     output: Vec<PathBuf>,
     /// Format of what -o - writes
@@ -39,25 +38,25 @@ pub struct RenderArgs {
     format: Option<Format>,
     #[command(flatten)]
     overrides: Overrides,
-    /// Device: an index or a part of the name as `moire devices` lists them, cpu, gpu, or oracle
-    /// (float64 on the CPU). May be given several times, also one device: the picture's strips go round them in turn
-    /// [default: discrete GPU, else integrated, else CPU]
+    /// Device: an index or a part of the name as `moire devices` lists them, cpu, gpu, or oracle (float64 on the CPU).
+    /// May be given several times, also one device: strips of the picture are assigned to them in turn [default:
+    /// discrete GPU, else integrated, else CPU]
     #[arg(long, value_name = "SEL", help_heading = DEVICE)]
     device: Vec<String>,
     /// Render only this part, in pixels of the full picture
     #[arg(long, value_name = "X,Y,W,H", help_heading = OUTPUT, allow_hyphen_values = true, value_parser = parse_crop)]
     crop: Option<Rect>,
-    /// Build the pipeline with all features, to measure what leaving them out gains
+    /// Build the pipeline with all features, to measure the gain of leaving some out
     #[arg(long, help_heading = MEASURING)]
     keep_everything: bool,
-    /// Let in textures with NaN and infinite texels, which are errors else: pixels that show one are no
-    /// numbers either, and counted
+    /// Accept textures with NaN and infinite texels, which are otherwise errors; the pixels that show them are NaN or
+    /// infinite too, and counted
     #[arg(long, help_heading = TEXTURES)]
     allow_nonfinite: bool,
     /// Where look-ups of method shader read texels
     #[arg(long, value_name = "SOURCE", help_heading = MEASURING, default_value = "auto", value_parser = super::named_parser(TexelChoice::NAMES, TexelChoice::from_name))]
     texels: TexelChoice,
-    /// Where box mip chains of textures are made, if their lengths are powers of two
+    /// Where box mip chains of textures are generated, if their lengths are powers of two
     #[arg(long, value_name = "PLACE", help_heading = MEASURING, default_value = "auto", value_parser = super::named_parser(MipChoice::NAMES, MipChoice::from_name))]
     mips: MipChoice,
     /// Workgroup shape, for measurements [default: by device]
@@ -66,17 +65,17 @@ pub struct RenderArgs {
     /// Bits per channel of PNG files
     #[arg(long, value_name = "BITS", help_heading = OUTPUT, default_value = "8", value_parser = ["8", "16"])]
     png_bits: String,
-    /// Count on the device what goes beyond a limit: coordinates that are no numbers, levels, footprints, depth;
-    /// -v counts too
+    /// Count on the device how often limits are exceeded: coordinates that are NaN or infinite, levels, footprints,
+    /// depth; -v counts too
     #[arg(long, help_heading = MEASURING)]
     guards: bool,
     /// Print one JSON object on stdout
     #[arg(long, help_heading = OUTPUT)]
     json: bool,
-    /// Say nothing but errors
+    /// Print nothing but errors
     #[arg(short, long, conflicts_with = "verbose", help_heading = OUTPUT)]
     quiet: bool,
-    /// Say what was left out and how textures are stored
+    /// Print what was left out and how textures are stored
     #[arg(short, long, help_heading = OUTPUT)]
     verbose: bool,
 }
@@ -112,7 +111,7 @@ pub fn run(args: &RenderArgs) -> Result<ExitCode> {
     };
     let loaded = start.elapsed().as_secs_f64();
     let mut ran = render::render_scene(&scene, &options, &on, &bar)?;
-    // From the start of the process: reading the scene file is a part of loading.
+    // From the start of the process: reading the scene file is part of loading.
     ran.report.seconds.load += loaded;
     let samples_anisotropically = advice::samples_anisotropically(&scene);
     for fault in ran.devices.iter().filter(|_| samples_anisotropically).filter_map(anisotropy_fault) {
@@ -172,7 +171,7 @@ fn parse_crop(text: &str) -> Result<Rect, String> {
     }
 }
 
-/// How each texture is stored, and which were turned.
+/// Returns lines on how each texture is stored, and which were rotated.
 fn say_textures(scene: &Scene, lines: &[String]) {
     for line in lines {
         super::notify(format_args!("texture {line}"));

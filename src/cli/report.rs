@@ -23,7 +23,7 @@ fn nonfinite_pixels(film: &Film) -> usize {
 /// the device computed them.
 fn device_seconds(report: &Report) -> Value {
     let mut seconds = Map::from_iter([("render".into(), json!(report.device_render_seconds))]);
-    seconds.extend(report.device_survey_seconds.map(|survey| ("survey".into(), json!(survey))));
+    seconds.extend(report.device_culling_seconds.map(|culling| ("survey".into(), json!(culling))));
     seconds.extend(report.device_mips_seconds.map(|mips| ("mips".into(), json!(mips))));
     seconds.into()
 }
@@ -41,8 +41,8 @@ pub fn json(ran: &Picture, scene: &Scene, options: Value, outputs: &[String], no
         "sampled_pixels": ran.report.sampled_pixels,
         "dropped": ran.report.dropped,
         "dropped_triangles": scene.dropped_triangles,
-        "guards": ran.report.guards.as_ref().map(|counts| {
-            counts.iter().map(|(guard, count)| (guard.name().to_owned(), json!(count))).collect::<Map<_, _>>()
+        "guards": ran.report.diagnostics.as_ref().map(|counts| {
+            counts.iter().map(|(diagnostic, count)| (diagnostic.name().to_owned(), json!(count))).collect::<Map<_, _>>()
         }),
         "outputs": outputs,
         "seconds": ran.report.seconds,
@@ -94,8 +94,8 @@ pub fn say(ran: &Picture, outputs: &[String], verbose: bool) {
         for line in &report.left_out {
             notify(format_args!("  {line}"));
         }
-        for (guard, count) in report.guards.iter().flatten().filter(|(_, count)| *count > 0) {
-            let (noun, rest) = said(*guard);
+        for (diagnostic, count) in report.diagnostics.iter().flatten().filter(|(_, count)| *count > 0) {
+            let (noun, rest) = said(*diagnostic);
             notify(format_args!("beyond a limit: {} {rest}", counted(*count, noun)));
         }
         notify(format_args!(
@@ -113,11 +113,11 @@ pub fn say(ran: &Picture, outputs: &[String], verbose: bool) {
             report.device_render_seconds,
             counted(report.slices, "slice")
         ));
-        if let Some(survey) = report.device_survey_seconds {
-            notify(format_args!("device time of the survey: {survey:.4} s"));
+        if let Some(culling) = report.device_culling_seconds {
+            notify(format_args!("device time of tile culling: {culling:.4} s"));
         }
         if let Some(mips) = report.device_mips_seconds {
-            notify(format_args!("device time of mip mip_chains: {mips:.4} s"));
+            notify(format_args!("device time of mip chains: {mips:.4} s"));
         }
     }
     if let Some(sampled) = report.sampled_pixels {
@@ -175,7 +175,7 @@ fn range_of_samples(least: u32, most: u32) -> String {
     if least == most { counted(most, "sample") } else { format!("{least} to {}", counted(most, "sample")) }
 }
 
-/// User and system time of this process so far.
+/// Returns user and system time of this process so far.
 #[cfg(unix)]
 fn cpu_seconds() -> Option<f64> {
     let usage = getrusage(UsageWho::RUSAGE_SELF).ok()?;
@@ -183,14 +183,14 @@ fn cpu_seconds() -> Option<f64> {
     Some(seconds(usage.user_time()) + seconds(usage.system_time()))
 }
 
-/// Not known where there is no `getrusage`.
+/// Unknown without `getrusage`.
 #[cfg(not(unix))]
 fn cpu_seconds() -> Option<f64> {
     None
 }
 
-/// The most memory this process has held at once, where `/proc` tells. That of `getrusage` is not it: it counts
-/// the memory of the process that started this one, too.
+/// Returns the peak memory of this process, from `/proc`; `getrusage` also counts the memory of the process that
+/// started this one.
 fn peak_host_bytes() -> Option<u64> {
     let status = fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find_map(|l| l.strip_prefix("VmHWM:"))?;

@@ -12,19 +12,19 @@ use crate::output::prepare_folder;
 
 /// Sweep extreme cases on a device, with errors against float64
 ///
-/// Each case sweeps one parameter over many decades and holds the device's answers against exact or float64
-/// ones, and the worst error against a bound that is derived. Exit code 1 when a bound is broken.
+/// Each case sweeps one parameter over many decades, compares the device's results with exact or float64
+/// ones, and the largest error with a derived bound. Exit code 1 if a bound is exceeded.
 #[derive(clap::Args, Clone, Debug)]
 pub struct StabilityArgs {
     /// Device: an index or a part of the name as `moire devices` lists them, cpu or gpu
     /// [default: discrete GPU, else integrated, else CPU]
     #[arg(long, value_name = "SEL")]
     device: Option<String>,
-    /// Only cases whose name has TEXT in it, such as "sums" or "dielectric/"
+    /// Only cases whose name contains TEXT, such as "sums" or "dielectric/"
     #[arg(long, value_name = "TEXT")]
     only: Option<String>,
-    /// Folder for stability.html, a page with plots, and stability.json; its last part is created where it is
-    /// missing
+    /// Folder for stability.html, a page with plots, and stability.json; its last component is created if it
+    /// is missing
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Print one JSON object with every point

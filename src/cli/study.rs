@@ -18,26 +18,26 @@ use crate::output;
 use crate::scene::prune::prune;
 use crate::scene::{MAX_SPP, is_standard_input};
 
-/// Measure which anti-aliasing method gives the least error in the time there is
+/// Measure which anti-aliasing method has the smallest error in a given time
 ///
-/// Renders the scene with each method and sample count, compares every picture with a reference, and writes
-/// study.csv, study.json, three plots as SVG and index.html, a page that needs no other file. A study that was
-/// interrupted goes on where it was when the same command is given again.
+/// Renders the scene with each method and sample count, compares every picture with a reference, and writes study.csv,
+/// study.json, three plots as SVG and index.html, a self-contained page. An interrupted study is resumed by the same
+/// command.
 #[derive(clap::Args, Debug)]
 pub struct StudyArgs {
-    /// Scene file (TOML)
+    /// Scene file
     scene: PathBuf,
-    /// Folder for the results; its last part is created where it is missing
+    /// Folder for the results; its last component is created if it is missing
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
     /// Methods, separated by commas: PATTERN, PATTERN+FOOTPRINT or PATTERN+FOOTPRINT+FILTER, such as
-    /// random,stratified,stratified+cone+ewa [default: all patterns, and filters where there are textures]
+    /// random,stratified,stratified+cone+ewa [default: all patterns, and filters if there are textures]
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = Method::parse)]
     methods: Vec<Method>,
-    /// Samples a pixel, separated by commas, each rounded up to what a pattern takes
+    /// Samples per pixel, separated by commas, each rounded up to a number that the pattern supports
     #[arg(long, value_name = "LIST", value_delimiter = ',', default_value = "1,4,16,64,256", value_parser = clap::value_parser!(u32).range(1..=i64::from(MAX_SPP)))]
     spp: Vec<u32>,
-    /// Renders of each point; their median counts
+    /// Renders of each point, of which the median counts
     #[arg(long, value_name = "N", default_value = "3", value_parser = clap::value_parser!(u32).range(1..=1000))]
     repeats: u32,
     /// Picture size in pixels
@@ -50,16 +50,16 @@ pub struct StudyArgs {
     /// Reference: a picture file, or oracle [default: many samples on the device]
     #[arg(long, value_name = "FILE|oracle")]
     reference: Option<String>,
-    /// Time for all of it; the longest points are left out where it does not suffice
+    /// Time limit of the study; the longest points are left out if it does not suffice
     #[arg(long, value_name = "LIMIT", default_value = "600", value_parser = super::overrides::positive, allow_negative_numbers = true)]
     seconds: f64,
     /// Print the content of study.json on stdout
     #[arg(long)]
     json: bool,
-    /// Say nothing but errors
+    /// Print nothing but errors
     #[arg(short, long, conflicts_with = "verbose")]
     quiet: bool,
-    /// Say the winner of each time and what was left out
+    /// Print the winner of each time and what was left out
     #[arg(short, long)]
     verbose: bool,
 }

@@ -16,12 +16,12 @@ use crate::output::{self, WriteOptions};
 use crate::texture::analysis::{Analysis, AxisAnalysis, Channel, Seam, Verdict, analyse};
 use crate::texture::data::{ColorSpace, Component, Dimension, TextureData};
 use crate::texture::read_file::{self, Picture, Texels};
-use crate::texture::source::{OrientationUse, Reading};
+use crate::texture::source::{OrientationUse, ReadOptions};
 
 /// Describe a texture file: size, format, range and mean, non-finite texels, whether it tiles
 ///
-/// An axis tiles if the step from the last texels to the first is one of many inside, or an edge that the texture
-/// has inside as well, and if what repeats inside goes on across it: yes, no, or perhaps.
+/// An axis tiles if the step from the last texels to the first is as common as others inside, or an edge as the texture
+/// has inside, and if the texture's own period continues across it: yes, no, or perhaps.
 #[derive(Debug, clap::Args)]
 pub struct TextureArgs {
     /// PNG, JPEG, TIFF, TGA, HDR or EXR
@@ -29,14 +29,14 @@ pub struct TextureArgs {
     /// Write the texture repeated 2×2, looking like the file; alpha is left out
     #[arg(short, long, value_name = "OUT.png")]
     pub out: Option<PathBuf>,
-    /// What the stored values mean, as in a scene; srgb: range and mean are those of linear light
+    /// Meaning of the stored values, as in a scene; srgb: range and mean are of linear values
     #[arg(long, value_name = "SPACE", default_value = "linear",
           value_parser = named_parser(ColorSpace::NAMES, ColorSpace::from_name))]
     pub color_space: ColorSpace,
     /// Layer, part or channel of an EXR file [default: the one without a name]
     #[arg(long, value_name = "NAME")]
     pub layer: Option<String>,
-    /// Whether a file that says how it is turned (Exif, TIFF) is turned
+    /// Apply the orientation that a file states (Exif, TIFF)
     #[arg(long, value_name = "USE", default_value = "apply",
           value_parser = named_parser(OrientationUse::NAMES, OrientationUse::from_name))]
     pub orientation: OrientationUse,
@@ -50,7 +50,7 @@ pub fn run(args: &TextureArgs) -> Result<ExitCode> {
         output::check_writable(path)?;
         super::check_input_kept(path, &args.file, "the texture that is described")?;
     }
-    let reading = Reading { orientation: args.orientation, layer: args.layer.clone() };
+    let reading = ReadOptions { orientation: args.orientation, layer: args.layer.clone() };
     let Picture { texels, notes, .. } = read_file::read_as(&args.file, &reading)?;
     for note in notes {
         super::notify(format_args!("warning: {note}"));

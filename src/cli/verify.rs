@@ -9,23 +9,24 @@ use crate::core::error::{Error, Result};
 use crate::gpu::{DeviceSelect, Gpu};
 use crate::lab::verify::{report::ConformanceReport, text::text, verify};
 
-/// Hold a device's samplers against the float64 oracle
+/// Compare a device's samplers with the float64 oracle
 ///
-/// Every address mode, filter, mip mode, kind of texture and class of texel formats over random, awkward
-/// and finely stepped coordinates and levels. Exit code 1 when a variant is outside what the device declares.
+/// Every address mode, filter, mip mode, kind of texture and class of texel formats, over random, awkward and
+/// finely stepped coordinates and levels. Exit code 1 if a variant is outside the device's declared
+/// precision.
 #[derive(clap::Args, Clone, Debug)]
 pub struct VerifyArgs {
     /// Device: an index or a part of the name as `moire devices` lists them, cpu or gpu
     /// [default: discrete GPU, else integrated, else CPU]
     #[arg(long, value_name = "SEL")]
     device: Option<String>,
-    /// Only variants whose name has TEXT in it, such as "3d" or "mip=linear"; --json names all
+    /// Only variants whose name contains TEXT, such as "3d" or "mip=linear"; --json names all
     #[arg(long, value_name = "TEXT")]
     only: Option<String>,
     /// Print one JSON object with a row for each variant
     #[arg(long)]
     json: bool,
-    /// Known faults of drivers are failures too
+    /// Treat known faults of drivers as failures too
     #[arg(long)]
     strict: bool,
     /// No progress bar

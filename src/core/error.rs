@@ -1,5 +1,5 @@
-//! The one error type: what kind of thing went wrong, where, and what to do about it. Every variant but an
-//! interruption ends a command with exit code 2; none is ever a panic.
+//! The error type: kind, place, and the next step. Every variant except an interruption ends a command with exit code
+//! 2; none is a panic.
 
 use std::fmt::Display;
 use std::iter;
@@ -7,72 +7,72 @@ use std::sync::Arc;
 
 use miette::{Diagnostic, LabeledSpan, NamedSource, SourceCode, SourceSpan};
 
-/// The result of whatever may fail with an [`Error`].
+/// The result of operations that may fail with an [`Error`].
 pub type Result<T, E = Error> = std::result::Result<T, E>;
 
-/// Which kind of thing went wrong, for programs that act on it.
+/// The kind of an error, for programs that act on it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum ErrorKind {
     /// The device stopped answering: its driver crashed, or a watchdog reset it.
     DeviceLost,
-    /// The device has no memory left for what was asked of it.
+    /// The device is out of memory.
     OutOfDeviceMemory,
-    /// The host has no memory left.
+    /// The host is out of memory.
     OutOfHostMemory,
-    /// There is no Vulkan driver, or no device like the one that was asked for.
+    /// There is no Vulkan driver, or no device that matches the request.
     NoDevice,
-    /// The device cannot do what the scene or the options need.
+    /// The device lacks a feature that the scene or the options need.
     Unsupported,
     /// A file cannot be read, decoded or written.
     File,
     /// The scene breaks a rule or a limit.
     Scene,
-    /// An option, or several together, make no sense.
+    /// An option, or a combination of options, is invalid.
     Options,
-    /// The work was asked to stop.
+    /// The work was cancelled.
     Interrupted,
     /// A fault of this crate, of a library that it uses, or of the driver.
     Internal,
 }
 
 impl ErrorKind {
-    /// Returns whether the same work may succeed when it is tried again: on a device that is opened anew, or with
-    /// more memory free.
+    /// Returns true if the same work may succeed when it is retried: on a device that is opened anew, or with more free
+    /// memory.
     pub const fn is_transient(self) -> bool {
         matches!(self, ErrorKind::DeviceLost | ErrorKind::OutOfDeviceMemory | ErrorKind::OutOfHostMemory)
     }
 }
 
-/// What went wrong. Its `Display` is one sentence that names the place; [`help`](Error::help) says what to do.
+/// An error. Its `Display` is one sentence that names the place; [`help`](Error::help) is the next step.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// A mistake at a known place of a scene file. `message` already names file, line, column and
-    /// key, so that it is complete even where the source excerpt is not shown.
+    /// A mistake at a known place of a scene file. `message` already names file, line, column and key, so that it is
+    /// complete even without the source excerpt.
     #[error("{message}")]
     #[non_exhaustive]
     Scene {
-        /// File, line, column, key and what is wrong.
+        /// File, line, column, key and the mistake.
         message: String,
-        /// What stands beside the caret.
+        /// The label beside the caret.
         label: String,
         /// The scene file's text.
         source_code: Arc<NamedSource<String>>,
-        /// Where in the text.
+        /// The byte range in the text.
         span: SourceSpan,
-        /// What to do about it, where the message does not say so.
+        /// The next step, if the message does not state it.
         help: Option<String>,
     },
-    /// Anything else a person can act on.
+    /// Any other error on which the user can act.
     #[error("{message}")]
     #[non_exhaustive]
     Plain {
-        /// For programs.
+        /// The kind, for programs.
         kind: ErrorKind,
-        /// What was being done, to which object, and what is wrong.
+        /// The operation, the object, and the fault.
         message: String,
-        /// What to do about it, where the message does not say so.
+        /// The next step, if the message does not state it.
         help: Option<String>,
     },
     /// Ctrl-C: the device has finished its slice, nothing was written.
@@ -86,12 +86,12 @@ impl Error {
         Error::Plain { kind: ErrorKind::Options, message: message.into(), help: None }
     }
 
-    /// Returns the same with what to do about it.
+    /// Returns the error with a next step.
     pub fn with_help(message: impl Into<String>, help: impl Into<String>) -> Self {
         Error::new(message).and_help(Some(help.into()))
     }
 
-    /// Returns the error with another help, or none.
+    /// Returns the error with another next step, or none.
     pub(crate) fn and_help(mut self, other: Option<String>) -> Self {
         if let Error::Scene { help, .. } | Error::Plain { help, .. } = &mut self {
             *help = other;
@@ -99,7 +99,7 @@ impl Error {
         self
     }
 
-    /// Returns the error as one of this kind; a mistake in a scene file and an interruption stay what they are.
+    /// Returns the error with this kind; a mistake in a scene file and an interruption keep theirs.
     pub fn of_kind(mut self, other: ErrorKind) -> Self {
         if let Error::Plain { kind, .. } = &mut self {
             *kind = other;
@@ -107,12 +107,12 @@ impl Error {
         self
     }
 
-    /// Returns the error as one of this kind, unless it already says more than that an option makes no sense.
+    /// Returns the error with this kind, unless it has one other than [`ErrorKind::Options`].
     pub(crate) fn or_kind(self, other: ErrorKind) -> Self {
         if self.kind() == ErrorKind::Options { self.of_kind(other) } else { self }
     }
 
-    /// Returns the error with its message behind `place` and a colon.
+    /// Returns the error with `place` and a colon before its message.
     pub(crate) fn within(mut self, place: &str) -> Self {
         if let Error::Plain { message, .. } = &mut self {
             *message = format!("{place}: {message}");
@@ -120,7 +120,7 @@ impl Error {
         self
     }
 
-    /// Returns which kind of thing went wrong.
+    /// Returns the kind of the error.
     pub fn kind(&self) -> ErrorKind {
         match self {
             Error::Scene { .. } => ErrorKind::Scene,
@@ -129,7 +129,7 @@ impl Error {
         }
     }
 
-    /// Returns what to do about it, where the message does not say so.
+    /// Returns the next step, if the message does not state it.
     pub fn help(&self) -> Option<&str> {
         match self {
             Error::Scene { help, .. } | Error::Plain { help, .. } => help.as_deref(),
@@ -138,7 +138,7 @@ impl Error {
     }
 }
 
-/// What is shown of an error beside its message. Written out: the derive macro is ten seconds of a first build.
+/// The parts of an error shown beside its message. Written out: the derive macro takes ten seconds of a first build.
 impl Diagnostic for Error {
     fn help(&self) -> Option<Box<dyn Display + '_>> {
         Error::help(self).map(|help| Box::new(help) as Box<dyn Display + '_>)

@@ -1,7 +1,7 @@
-//! The picture while and after it is made: one linear RGB mean per pixel in f32, row 0 on top,
-//! and how many samples stand behind each.
+//! The picture during and after rendering: one linear RGB mean per pixel in f32, the top row first, and the
+//! number of samples in each mean.
 
-/// A finished picture, also one that was read from a file.
+/// A finished picture, or one that was read from a file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Film {
     /// Pixels in a row.
@@ -10,7 +10,7 @@ pub struct Film {
     pub height: u32,
     /// `width · height` pixels, linear RGB, means over `samples`.
     pub pixels: Vec<[f32; 3]>,
-    /// Samples per pixel behind every mean; 0 where that is not known.
+    /// Samples per pixel in every mean; 0 if unknown.
     pub samples: u32,
 }
 
@@ -21,17 +21,17 @@ impl Film {
     }
 }
 
-/// Where a film lies in a larger picture, in its pixels.
+/// The position of a film in a larger picture, in pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Placement {
-    /// Of the film's first pixel.
+    /// Position of the film's first pixel.
     pub corner: [u32; 2],
     /// Width and height of the picture.
     pub full: [u32; 2],
 }
 
 impl Placement {
-    /// A picture of its own.
+    /// A picture that is not a part of another.
     pub const fn whole(width: u32, height: u32) -> Placement {
         Placement { corner: [0; 2], full: [width, height] }
     }

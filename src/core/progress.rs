@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-/// Hears how far a render is, and may stop it.
+/// Receives the progress of a render, and may cancel it.
 pub trait Progress: Sync {
     /// Reports that the fraction `done` in [0, 1] of the work is finished.
     fn advance(&self, done: f64);
@@ -25,9 +25,9 @@ impl Progress for NoProgress {
 pub struct SubProgress<'a> {
     /// The longer computation.
     pub whole: &'a dyn Progress,
-    /// Where the part begins, in [0, 1].
+    /// Progress at the start of the part, in [0, 1].
     pub from: f64,
-    /// Where it ends.
+    /// Progress at its end.
     pub to: f64,
 }
 
@@ -45,7 +45,7 @@ impl Progress for SubProgress<'_> {
 pub struct WithDeadline<'a> {
     /// The computation.
     pub whole: &'a dyn Progress,
-    /// When its time is over.
+    /// The deadline.
     pub deadline: Instant,
 }
 

@@ -1,6 +1,6 @@
-//! Parts of a picture: rectangles of pixels, and ranges, which are rectangles times runs of samples. Work is handed
-//! out by splitting ranges. A split covers each sample of each pixel exactly once; where it is made depends on the
-//! range alone, never on who takes the parts.
+//! Parts of a picture: rectangles of pixels, and ranges, which are rectangles times runs of samples. Work is
+//! distributed by splitting ranges. A split covers each sample of each pixel exactly once; its positions depend on the
+//! range alone, never on the backends that take the parts.
 
 use std::ops;
 
@@ -34,7 +34,7 @@ impl Rect {
             return Ok(());
         }
         Err(Error::new(format!(
-            "--crop {x},{y},{width},{height} reaches outside the picture of {full_width}×{full_height} pixels"
+            "crop {x},{y},{width},{height} reaches outside the picture of {full_width}×{full_height} pixels"
         )))
     }
 
@@ -53,7 +53,7 @@ impl Rect {
         self.y..self.y + self.height
     }
 
-    /// Returns the pixels that both have; `None` where there are none.
+    /// Returns the intersection; `None` if it is empty.
     pub fn intersection(&self, other: &Rect) -> Option<Rect> {
         let (columns, rows) =
             (overlap(&self.columns(), &other.columns())?, overlap(&self.rows(), &other.rows())?);
@@ -78,12 +78,12 @@ impl Rect {
     }
 }
 
-/// Samples `samples` of each pixel of a rectangle.
+/// The samples `samples` of each pixel of a rectangle.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Range {
-    /// Which pixels.
+    /// The pixels.
     pub pixels: Rect,
-    /// Which samples of each.
+    /// The samples of each pixel.
     pub samples: ops::Range<u32>,
 }
 
@@ -93,7 +93,7 @@ impl Range {
         self.samples.end.saturating_sub(self.samples.start)
     }
 
-    /// Returns what both have; `None` where that is nothing.
+    /// Returns the intersection; `None` if it is empty.
     pub fn intersection(&self, other: &Range) -> Option<Range> {
         let samples = overlap(&self.samples, &other.samples)?;
         Some(Range { pixels: self.pixels.intersection(&other.pixels)?, samples })
@@ -121,7 +121,7 @@ impl Range {
         })
     }
 
-    /// Splits the rows in two, or the columns of a single row; `None` of a single pixel.
+    /// Splits the rows in two, or the columns of a single row; `None` for a single pixel.
     pub fn halves(&self) -> Option<[Range; 2]> {
         let Rect { x, y, width, height } = self.pixels;
         let part = |pixels| Range { pixels, samples: self.samples.clone() };
@@ -152,7 +152,7 @@ fn pieces(of: ops::Range<u32>, length: u32) -> impl Iterator<Item = ops::Range<u
 mod tests {
     use super::*;
 
-    /// How often each sample of each pixel of a range occurs in parts of it; fails where a part reaches outside.
+    /// Counts how often each sample of each pixel of a range occurs in parts of it; fails if a part is outside.
     fn cover(range: &Range, parts: &[Range]) -> Vec<u32> {
         let mut counts = vec![0; range.pixels.area() * range.depth() as usize];
         for part in parts {

@@ -1,4 +1,4 @@
-//! What programs do with a film: files from it, films from files, and how far two are apart.
+//! Operations of programs on a film: writing and reading files, and comparing pictures.
 
 use std::path::Path;
 
@@ -8,7 +8,7 @@ use crate::lab::metrics::{self, Comparison};
 use crate::output::{self, WriteOptions};
 
 impl Film {
-    /// Writes the picture. The ending of the name chooses the format: `.exr` and `.hdr` hold linear light, `.png`,
+    /// Writes the picture. The ending of the name selects the format: `.exr` and `.hdr` hold linear values, `.png`,
     /// `.jpg` and `.tif` are clipped and sRGB-encoded. The file appears complete or not at all.
     pub fn save(&self, path: impl AsRef<Path>) -> Result<()> {
         output::write(self, path.as_ref(), &WriteOptions::default()).map_err(|e| e.or_kind(ErrorKind::File))
@@ -19,7 +19,7 @@ impl Film {
         metrics::read_picture(path.as_ref()).map_err(|e| e.or_kind(ErrorKind::File))
     }
 
-    /// Measures how far the picture is from a reference of the same size, in linear light.
+    /// Compares the picture with a reference of the same size, in linear RGB.
     ///
     /// ```
     /// let (mut film, black) = (moire::Film::new(8, 8, 1), moire::Film::new(8, 8, 1));

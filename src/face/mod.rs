@@ -1,5 +1,4 @@
-//! The public face of rendering: a scene and options in, a film and a report out. It is what programs use that are not
-//! this crate's own.
+//! The public interface of rendering, for other programs. Input: a scene and options. Output: a film and a report.
 
 mod film;
 mod options;

@@ -1,5 +1,5 @@
-//! What a render may be asked for beside its scene. In: nothing, or the options of a command line by their names. Out:
-//! the changes of the scene, the device and the goal.
+//! The options of a render beside its scene. Input: nothing, or the options of a command line by their names. Output:
+//! the overrides of the scene, the devices and the goal.
 
 use crate::core::error::{Error, Result};
 use crate::core::range::Rect;
@@ -10,7 +10,7 @@ use crate::scene::changes::Changes;
 use crate::scene::model::{Algorithm, Footprint, Pattern, PixelFilterKind};
 use crate::texture::sampler_spec::{Filter, MipMode};
 
-/// Where and how scenes are rendered. What is not set is the scene's own.
+/// The devices and settings with which scenes are rendered. Settings that are not given are the scene's own.
 ///
 /// ```
 /// use moire::RenderOptions;
@@ -26,14 +26,14 @@ pub struct RenderOptions {
 }
 
 impl RenderOptions {
-    /// Returns options that set nothing.
+    /// Returns options that override nothing.
     pub fn new() -> RenderOptions {
         RenderOptions::default()
     }
 
-    /// Adds a device that renders: by its index, a part of its name, `cpu` or `gpu`; or `oracle`, which is float64 on
-    /// the CPU. Several take strips of the picture in turn. Without any it is the first discrete GPU, else an
-    /// integrated one, else a CPU driver.
+    /// Adds a device for rendering: by its index, a part of its name, `cpu` or `gpu`; or `oracle`, which is float64 on
+    /// the CPU. Several are assigned strips of the picture in turn. The default is the first discrete GPU, otherwise an
+    /// integrated one, otherwise a CPU driver.
     pub fn device(mut self, select: impl Into<String>) -> Self {
         self.devices.push(select.into());
         self
@@ -45,19 +45,19 @@ impl RenderOptions {
         self
     }
 
-    /// Renders a part of the picture alone: the pixel of its top left corner, its width and height.
+    /// Renders a part of the picture only: the pixel of its top left corner, its width and height.
     pub fn crop(mut self, [x, y, width, height]: [u32; 4]) -> Self {
         self.with.crop = Some(Rect { x, y, width, height });
         self
     }
 
-    /// Sets the samples a pixel.
+    /// Sets the samples per pixel.
     pub fn samples(mut self, samples: u32) -> Self {
         self.changes.spp = Some(samples);
         self
     }
 
-    /// Sets where in a pixel its samples lie.
+    /// Sets the sample pattern within a pixel.
     pub fn pattern(mut self, pattern: Pattern) -> Self {
         self.changes.pattern = Some(pattern);
         self
@@ -69,7 +69,7 @@ impl RenderOptions {
         self
     }
 
-    /// Sets how pixels are sampled, or that none are.
+    /// Sets the rendering algorithm.
     pub fn algorithm(mut self, algorithm: Algorithm) -> Self {
         self.changes.algorithm = Some(algorithm);
         self
@@ -81,13 +81,13 @@ impl RenderOptions {
         self
     }
 
-    /// Sets which levels every sampler reads.
+    /// Sets the mip mode of every sampler.
     pub fn mip(mut self, mip: MipMode) -> Self {
         self.changes.mip = Some(mip);
         self
     }
 
-    /// Sets over what a texture look-up is averaged.
+    /// Sets the footprint over which texture look-ups are averaged.
     pub fn footprint(mut self, footprint: Footprint) -> Self {
         self.changes.footprint = Some(footprint);
         self
@@ -99,7 +99,7 @@ impl RenderOptions {
         self
     }
 
-    /// Renders for so many seconds and then stops, instead of at a number of samples.
+    /// Renders for this number of seconds and then stops, instead of at a number of samples.
     pub fn budget(mut self, seconds: f64) -> Self {
         self.with.goal = Some(Goal::Seconds(seconds));
         self
@@ -111,13 +111,13 @@ impl RenderOptions {
         self
     }
 
-    /// Lets in textures with NaN and infinite texels, which are errors else.
+    /// Accepts textures with NaN and infinite texels, which are otherwise errors.
     pub fn allow_nonfinite(mut self) -> Self {
         self.with.allow_nonfinite = true;
         self
     }
 
-    /// What renders.
+    /// Returns the devices.
     pub(super) fn on(&self) -> Result<Vec<On>> {
         if self.devices.is_empty() {
             return Ok(vec![On::Device(DeviceSelect::Default)]);
@@ -125,7 +125,7 @@ impl RenderOptions {
         self.devices.iter().map(|text| On::parse(text)).collect()
     }
 
-    /// What replaces the scene's own values.
+    /// Returns the overrides of the scene.
     pub(super) fn changes(&self) -> Result<Changes> {
         let positive = match self.with.goal {
             Some(Goal::Seconds(x) | Goal::Error(x)) => x.is_finite() && x > 0.0,

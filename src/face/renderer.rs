@@ -1,5 +1,5 @@
-//! Devices, or float64 on the CPU, that render scenes. In: options once, and scenes. Out: films, and what each render
-//! did.
+//! Renderers: devices, or float64 on the CPU. Input: options once, and scenes. Output: films, and the statistics of
+//! each render.
 
 use super::options::RenderOptions;
 use crate::core::error::{Error, ErrorKind, Result};
@@ -32,26 +32,26 @@ pub struct Renderer {
     device: String,
 }
 
-/// What a render did beside its film.
+/// The statistics of a render.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct RenderReport {
     /// The device's name; `oracle` for float64 on the CPU.
     pub device: String,
-    /// Wall seconds of rendering, without loading and compiling.
+    /// Wall-clock seconds of rendering, without loading and compiling.
     pub seconds: f64,
-    /// Samples a pixel, on average.
+    /// Samples per pixel, on average.
     pub samples: f64,
-    /// Whether the goal was met; true where a number of samples was asked for.
+    /// True if the goal was met, or if a number of samples was requested.
     pub reached: bool,
-    /// The estimate of the picture's RMSE, where samples differ from pixel to pixel.
+    /// The estimated RMSE of the picture, if sampling rates differ from pixel to pixel.
     pub estimated_rmse: Option<f64>,
-    /// What a person should know before looking at the picture.
+    /// Warnings for the user about the picture.
     pub warnings: Vec<String>,
 }
 
 impl Renderer {
-    /// Finds the devices that the options select.
+    /// Opens the devices that the options select.
     pub fn new(options: RenderOptions) -> Result<Renderer> {
         let on = options.on()?;
         let mut names = Vec::with_capacity(on.len());
@@ -77,7 +77,7 @@ impl Renderer {
         self.render_with(scene, &NoProgress).map(|(film, _)| film)
     }
 
-    /// Renders a scene, tells how far it is, and stops where it shall. The error of a stopped render is of kind
+    /// Renders a scene with progress reports and cancellation. The error of a cancelled render is of kind
     /// [`ErrorKind::Interrupted`].
     pub fn render_with(&self, scene: &Scene, progress: &dyn Progress) -> Result<(Film, RenderReport)> {
         let mut scene = scene.parts().clone();

@@ -16,7 +16,8 @@ impl<T> WithOperation<T> for Result<T, vk::Result> {
     }
 }
 
-pub(super) const LESS_MEMORY: &str = "Use smaller textures or a smaller picture (--size, --crop), or another device (`moire devices` lists them).";
+pub(super) const LESS_MEMORY: &str =
+    "Use smaller textures or a smaller picture (size, crop), or another device (`moire devices` lists them).";
 
 pub(super) const INSTALL: &str =
     "Run ./setup.sh, or install the loader and a driver: apt install libvulkan1 mesa-vulkan-drivers";

@@ -1,4 +1,5 @@
-//! One beam a pixel: the backend resolves all pixels and flags those that it cannot; these take samples.
+//! One beam per pixel: the backend resolves all pixels and flags those that it cannot resolve; these take
+//! samples.
 
 use super::{Integrated, Integrator};
 use crate::core::error::Result;
@@ -8,7 +9,7 @@ use crate::core::range::Rect;
 use crate::sampling::{Backend, HalfSums};
 use crate::schema::layout::Job;
 
-/// A beam a pixel, and `samples` where that does not do.
+/// One beam per pixel, and `samples` samples for pixels that a beam cannot resolve.
 #[derive(Clone, Copy, Debug)]
 pub struct Beam {
     pub samples: u32,

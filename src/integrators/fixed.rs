@@ -1,5 +1,5 @@
-//! As many samples of each pixel, or one cone. The picture is asked for in ranges of some rows, whose sums become
-//! means at once: no more than one range's sums are in memory.
+//! The same number of samples in each pixel, or one cone. The picture is rendered in ranges of a few rows, whose sums
+//! become means at once: only one range's sums are in memory at a time.
 
 use super::{Integrated, Integrator};
 use crate::core::error::Result;
@@ -9,16 +9,16 @@ use crate::core::range::{Range, Rect};
 use crate::sampling::Backend;
 use crate::schema::layout::TILE;
 
-/// Pixels of a range, up to whole rows of tiles.
+/// Pixels of a range, rounded to whole rows of tiles.
 const MAX_PIXELS: u32 = 1 << 20;
 
-/// The mean of as many samples a pixel.
+/// The mean of the same number of samples per pixel.
 #[derive(Clone, Copy, Debug)]
 pub struct Fixed {
     pub samples: u32,
 }
 
-/// What one cone a pixel sees; `samples` is what the scene was packed with.
+/// One cone per pixel; `samples` is the number for which the scene was packed.
 #[derive(Clone, Copy, Debug)]
 pub struct Cone {
     pub samples: u32,
@@ -48,7 +48,7 @@ impl Integrator for Cone {
     }
 }
 
-/// Returns the film, and what cones dropped over all pixels.
+/// Returns the film, and the weight that cones dropped, summed over all pixels.
 fn means(
     backend: &mut dyn Backend,
     [width, height]: [u32; 2],

@@ -1,6 +1,6 @@
-//! From samples to a picture: how many each pixel has, and what is done without any. In: a backend, which may be
-//! several of them. Out: a film, and what came of it. Integrators differ in what they ask the backend for: ranges of
-//! samples, resolved pixels, or samples of single pixels.
+//! From samples to a picture: how many samples each pixel takes, and which pixels need none. Input: a backend, which
+//! may consist of several. Output: a film and statistics. Integrators differ in their requests to the backend: ranges
+//! of samples, resolved pixels, or samples of single pixels.
 
 pub mod adaptive;
 mod beam;
@@ -16,7 +16,7 @@ use crate::core::film::Film;
 use crate::core::progress::Progress;
 use crate::sampling::Backend;
 
-/// Makes pictures by one method.
+/// A rendering algorithm.
 pub trait Integrator {
     /// Renders a picture of that size.
     fn render(
@@ -27,15 +27,16 @@ pub trait Integrator {
     ) -> Result<Integrated>;
 }
 
-/// A picture, and what its integrator found.
+/// A picture and the integrator's statistics.
 #[derive(Clone, Debug)]
 pub struct Integrated {
     pub film: Film,
-    /// How far sampling to a goal came.
+    /// The result of sampling to a goal.
     pub outcome: Option<Outcome>,
-    /// Of beams: pixels that were left to samples.
+    /// The number of pixels that beams left to samples.
     pub sampled_pixels: Option<u64>,
-    /// Of cones: weight of what none was traced for, or no room was kept, over that of the whole picture.
+    /// The weight of secondary rays for which no cone was traced and of fragments for which there was no room, over
+    /// that of the whole picture.
     pub dropped: Option<f64>,
 }
 
@@ -45,7 +46,7 @@ impl From<Film> for Integrated {
     }
 }
 
-/// Samples until a goal is met, where they lower the error most.
+/// Samples until a goal is met, placed where they lower the error most.
 #[derive(Clone, Copy, Debug)]
 pub struct Adaptive {
     pub goal: Goal,

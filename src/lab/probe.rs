@@ -80,8 +80,8 @@ impl<'a> MipProbe<'a> {
 
     /// Returns levels 1 to the last, like `texture::mips`, and the device time in seconds.
     pub fn make(&mut self, texture: &TextureData) -> Result<(Vec<TextureData>, f64)> {
-        let MipProbe(gpu, maker) = self;
-        let mut levels = mips::blank(texture);
+        let MipProbe(gpu, generator) = self;
+        let mut levels = mips::zeroed_levels(texture);
         if levels.is_empty() {
             return Ok((levels, 0.0));
         }
@@ -93,8 +93,8 @@ impl<'a> MipProbe<'a> {
         }
         let sizes: Vec<[u32; 3]> =
             (0..mips::level_count(texture)).map(|level| mips::level_size(texture, level)).collect();
-        maker.seconds = None;
-        let mip_chain = maker.make(&MipSource {
+        generator.seconds = None;
+        let mip_chain = generator.make(&MipSource {
             name: &texture.name,
             format: texture.format,
             space: texture.color_space,
@@ -104,7 +104,7 @@ impl<'a> MipProbe<'a> {
         for (level, start) in levels.iter_mut().zip(&mip_chain.starts[1..]) {
             gpu.read_buffer(&mip_chain.buffer, *start, &mut level.texels)?;
         }
-        Ok((levels, maker.seconds.unwrap_or(0.0)))
+        Ok((levels, generator.seconds.unwrap_or(0.0)))
     }
 }
 

@@ -1,10 +1,10 @@
-//! Which texel of an axis a place means, in each address mode (Vulkan 1.3, "Wrapping Operation"). Twin of
-//! `glsl/shared/address.glsl`.
+//! Address modes: the texel that a coordinate selects along an axis (Vulkan 1.3, "Wrapping Operation"). Twin
+//! of `glsl/shared/address.glsl`.
 
 use crate::texture::sampler_spec::Address;
 
-/// The coordinate in texels, brought near the texture without changing what it reads. What is not
-/// finite reads as 0 in the periodic modes; in the others NaN reads as the lower end.
+/// Returns the coordinate in texels, moved close to the texture without changing the selected texel. Values
+/// that are not finite become 0 in the periodic modes; in the others NaN becomes the lower end.
 pub fn reduced_coordinate(mode: Address, u: f64, size: f64) -> f64 {
     let reduced = match mode {
         Address::Repeat => u - u.floor(),
@@ -15,7 +15,7 @@ pub fn reduced_coordinate(mode: Address, u: f64, size: f64) -> f64 {
     if reduced.is_finite() { reduced * size } else { 0.0 }
 }
 
-/// Vulkan 1.3, "Wrapping Operation", for every i; `None` asks for the border colour.
+/// Implements "Wrapping Operation" of Vulkan 1.3 for every i; `None` selects the border colour.
 pub fn addressed_texel(mode: Address, i: i64, size: i64) -> Option<i64> {
     let mirror = |n: i64| if n >= 0 { n } else { -1 - n };
     match mode {

@@ -1,5 +1,5 @@
-//! The oracle as a backend: ranges and batches of samples → sums, in f64 on all cores. Twin of what
-//! `glsl/shared/render_main.glsl` does with tiles and lists of jobs.
+//! The oracle as a backend: sums ranges and batches of samples in f64 on all cores. Twin of the tiles and lists of
+//! batches of `glsl/shared/render_main.glsl`.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -20,12 +20,12 @@ use crate::schema::layout::{JOB_BARE, Job};
 
 pub struct OracleBackend<'a> {
     scene: &'a PackedScene,
-    /// Of each half and pixel the sums of its batches, and how many samples they have; none before the first batch.
+    /// For each half and pixel the sums of its batches, and their number of samples; empty before the first batch.
     halves: [Vec<(PixelSums, f64)>; 2],
 }
 
 impl OracleBackend<'_> {
-    /// Fails where the levels of a texture were left to a device.
+    /// Opens a scene; fails if the levels of a texture were left to a device.
     pub fn new(scene: &PackedScene) -> Result<OracleBackend<'_>> {
         if let Some(&texture) = scene.device_levels.first() {
             return Err(Error::new(format!(
@@ -36,8 +36,8 @@ impl OracleBackend<'_> {
         Ok(OracleBackend { scene, halves: [Vec::new(), Vec::new()] })
     }
 
-    /// The pixels of a rectangle, row by row; rows are shared out over the cores, and the result does not depend on
-    /// how.
+    /// Evaluates the pixels of a rectangle, row by row; rows are distributed over the cores, which does not affect the
+    /// result.
     fn pixels<T: Send>(
         &self,
         pixels: Rect,
@@ -46,7 +46,7 @@ impl OracleBackend<'_> {
     ) -> Result<Vec<T>> {
         let done = AtomicUsize::new(0);
         let row = |y: u32| {
-            // A row can take minutes where a pixel has very many samples.
+            // A row can take minutes if a pixel has very many samples.
             let row = pixels.columns().map_while(|x| (!progress.cancelled()).then(|| pixel(x, y)));
             let row: Vec<T> = row.collect();
             let rows = done.fetch_add(1, Ordering::Relaxed) + 1;
@@ -71,7 +71,7 @@ impl OracleBackend<'_> {
         if progress.cancelled() { Err(Error::Interrupted) } else { Ok(sums) }
     }
 
-    /// Red, green, blue, weighed by the samples' signs, and the squares' mean.
+    /// Returns red, green, blue, weighted by the samples' signs, and the mean of their squares.
     fn radiance(&self, sums: &PixelSums, samples: f64) -> [f32; 4] {
         let PixelSums { sum, squares, negative, signs } = *sums;
         let channel = |c: usize| match self.scene.mean_sign.filter(|_| samples > 0.0) {
@@ -82,8 +82,8 @@ impl OracleBackend<'_> {
     }
 }
 
-/// The whole film, with as many samples of each pixel as the scene was packed with; by beams, where it was packed for
-/// these.
+/// Renders the whole film with the number of samples for which the scene was packed, or by beams if it was packed for
+/// those.
 pub fn render(scene: &PackedScene, progress: &dyn Progress) -> Result<Film> {
     let [width, height] = scene.header.film_size.to_array();
     let whole = Rect::whole([width, height]);

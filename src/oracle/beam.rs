@@ -1,7 +1,7 @@
-//! One beam a pixel (Heckbert & Hanrahan 1984): the pixel's square, cut along the edges of the polygons that it
-//! meets and where they pass through each other; of each visible fragment the exact area in the pixel, and the
-//! exact integral of its colour. Mirrors send the fragment on. What this cannot do is left to samples. Twin of
-//! `glsl/shared/beam_main.glsl`.
+//! One beam per pixel (Heckbert & Hanrahan 1984): the pixel's square is cut along the edges of the polygons
+//! that it meets and along their intersections; each visible fragment contributes its exact area in the pixel
+//! and the exact integral of its colour. Mirrors reflect the fragment's beam. Pixels beyond this are left to
+//! samples. Twin of `glsl/shared/beam_main.glsl`.
 
 use glam::DVec3;
 
@@ -16,27 +16,28 @@ use super::shading_integral::{GaveUp, Result, ShadingIntegral, integral, is_faci
 use crate::pack::{LightKind, PackedScene};
 use crate::schema::layout::{Light, NO_MATERIAL, NO_SHAPE, NO_TEXTURE};
 
-/// Shapes that a beam may meet.
+/// Most shapes that a beam may meet.
 const MAX_MET: usize = 8;
-/// Pieces that wait at a time.
+/// Most pending fragments.
 const MAX_FRAGMENTS: usize = 12;
-/// Mirrored beams that wait at a time.
+/// Most pending mirrored beams.
 const MAX_BEAMS: usize = 6;
-/// Planes whose inverse depth differs by less, relatively, lie in each other: the first of the list is seen.
+/// Planes whose inverse depths differ by a smaller relative amount are coplanar: the first in the list is
+/// visible.
 const COPLANAR: f64 = 4e-6;
 
-/// A part of the pixel, and how its rays go.
+/// A part of the pixel, and its rays.
 struct PixelBeam {
     polygon: Polygon,
     frame: PixelFrustum,
     carried: DVec3,
-    /// The mirror that it left, and that one's inverse_depth.
+    /// The mirror that it left, and that mirror's inverse depth.
     skip: u32,
     limit: AffineFunction,
     depth: u32,
 }
 
-/// A part of the picture, of which the first `stage` tests are done.
+/// A part of the picture, for which the first `stage` tests are done.
 #[derive(Clone, Copy)]
 struct Fragment {
     polygon: Polygon,
@@ -48,7 +49,7 @@ struct Met {
     region: ConvexRegion,
 }
 
-/// The colour of a pixel of the film; none where it takes samples.
+/// Returns the colour of a pixel of the film; `None` if it needs samples.
 pub fn beam(scene: &PackedScene, [x, y]: [u32; 2]) -> Option<DVec3> {
     let header = &scene.header;
     let frame = pixel_frame(header, [x + header.crop.x, y + header.crop.y]);
@@ -72,19 +73,19 @@ struct Pixel<'a> {
     scene: &'a PackedScene,
     color: DVec3,
     crossed: u32,
-    /// Those that wait.
+    /// The pending fragments.
     fragments: Vec<Fragment>,
 }
 
 impl Pixel<'_> {
-    /// Adds all that one beam sees but for what its mirrors send on.
+    /// Adds everything that one beam sees, except through its mirrors.
     fn follow(&mut self, beam: &PixelBeam, waiting: &mut Vec<PixelBeam>) -> Result<()> {
         let met = shapes_met(self.scene, beam)?;
         let mut left = area(&beam.polygon);
         for own in 0..met.len() {
             self.fragments.push(Fragment { polygon: beam.polygon, stage: 0 });
             while let Some(fragment) = self.fragments.pop() {
-                // Stage 0 cuts out the shape itself, the others take away what lies before it.
+                // Stage 0 clips to the shape itself, the other stages remove the parts hidden by each shape.
                 if fragment.stage > met.len() {
                     left -= area(&fragment.polygon);
                     self.shade(beam, &met[own], &fragment.polygon, waiting)?;
@@ -107,7 +108,7 @@ impl Pixel<'_> {
         Ok(())
     }
 
-    /// Adds the colour of a visible fragment, or sends its beam on.
+    /// Adds the colour of a visible fragment, or pushes the mirrored beam.
     fn shade(
         &mut self,
         beam: &PixelBeam,
@@ -154,7 +155,7 @@ impl Pixel<'_> {
         let lights = if unlit { 1 } else { scene.records.lights.len() };
         for i in 0..lights {
             let light = if unlit { None } else { Some(&scene.records.lights[i]) };
-            // Of lights with an extent beams do not know the penumbra.
+            // Beams cannot integrate the penumbra of area lights.
             if light.is_some_and(|l| l.kind >= LightKind::Sphere) {
                 return Err(GaveUp);
             }
@@ -163,7 +164,7 @@ impl Pixel<'_> {
         Ok(())
     }
 
-    /// Adds the integral over those parts of a fragment that see the light; without one, over all of it.
+    /// Adds the integral over the parts of a fragment that see the light; without a light, over all of it.
     fn lit_by(
         &mut self,
         paint: &ShadingIntegral,
@@ -198,7 +199,7 @@ impl Pixel<'_> {
                 continue;
             }
             let region = shadow_region(scene, &paint.frame, paint.near, by, light);
-            // What lies in the surface's own plane, or beyond it, keeps no light away.
+            // A shape in the surface's own plane, or below it, does not occlude the light.
             if range(&fragment.polygon, region.lines[0]).1 <= least {
                 push(&mut self.fragments, Fragment { stage: fragment.stage + 1, ..fragment })?;
                 continue;
@@ -209,14 +210,14 @@ impl Pixel<'_> {
     }
 }
 
-/// Differences of inverse depth that are none.
+/// Returns the difference of inverse depths below which planes count as coplanar.
 fn negligible(inverse_depth: AffineFunction, polygon: &Polygon) -> f64 {
     let (low, high) = range(polygon, inverse_depth);
     COPLANAR * high.max(-low)
 }
 
-/// All that the beam may meet. Behind a mirror that is what lies beyond it: what lies before it neither is seen
-/// nor hides anything.
+/// Returns all shapes that the beam may meet. For a beam from a mirror these are clipped to the mirror's
+/// front: anything behind it is neither visible nor an occluder.
 fn shapes_met(scene: &PackedScene, beam: &PixelBeam) -> Result<Vec<Met>> {
     let mut met = Vec::new();
     let mirrored = beam.skip != NO_SHAPE;
@@ -253,7 +254,7 @@ fn shapes_met(scene: &PackedScene, beam: &PixelBeam) -> Result<Vec<Met>> {
     Ok(met)
 }
 
-/// Positive where `by` lies before `own`.
+/// Returns a function that is positive where `by` is nearer than `own`.
 fn before(by: &Met, own: &Met, polygon: &Polygon) -> AffineFunction {
     let apart = by.region.inverse_depth - own.region.inverse_depth;
     let (low, high) = range(polygon, apart);
@@ -263,8 +264,8 @@ fn before(by: &Met, own: &Met, polygon: &Polygon) -> AffineFunction {
     if by.shape < own.shape { AffineFunction::Z } else { -AffineFunction::Z }
 }
 
-/// Cuts the fragment along the lines of a region, of which `first` is one more. What lies within them all is
-/// kept, or all else is.
+/// Cuts the fragment along the lines of a region, preceded by the line `first`. If `kept`, the part within
+/// all lines is kept, otherwise the parts outside.
 fn carve(
     fragments: &mut Vec<Fragment>,
     fragment: Fragment,

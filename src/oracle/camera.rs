@@ -1,4 +1,4 @@
-//! Pixel and position in it → ray, relative to the eye. Twin of `glsl/shared/camera.glsl`.
+//! Generates camera rays from a pixel and a position in it, relative to the eye. Twin of `glsl/shared/camera.glsl`.
 
 use glam::{DVec2, DVec3};
 
@@ -13,7 +13,7 @@ pub struct Ray {
     pub time: f64,
 }
 
-/// `inside` counts from the pixel's corner, in pixels.
+/// Returns the pinhole camera's ray; `inside` counts from the pixel's corner, in pixels.
 pub fn camera_ray(header: &Header, pixel: [u32; 2], inside: DVec2) -> Ray {
     let corner = DVec2::new(
         f64::from(pixel[0]) - 0.5 * f64::from(header.image_size.x),
@@ -29,8 +29,7 @@ pub fn camera_ray(header: &Header, pixel: [u32; 2], inside: DVec2) -> Ray {
     }
 }
 
-/// The pinhole's ray, bent by a thin lens: from a point of the lens to where the pinhole's ray meets the plane
-/// in focus.
+/// Returns the thin lens's ray: from a point on the lens to the point where the pinhole's ray meets the plane of focus.
 pub fn through_lens(header: &Header, ray: &Ray, square: DVec2) -> Ray {
     let place = f64::from(header.lens_radius) * concentric_disc(square);
     let aside = place.x * header.step_x + place.y * header.step_y;
@@ -38,8 +37,8 @@ pub fn through_lens(header: &Header, ray: &Ray, square: DVec2) -> Ray {
     Ray { origin: ray.origin + aside, direction, time: ray.time }
 }
 
-/// The camera at a time between 0 and 1: eye and what it looks at have moved, and its axes are formed anew. Rays
-/// still start relative to where the eye is then.
+/// Returns the camera at a time between 0 and 1: the eye and the point that it looks at have moved, and the axes are
+/// recomputed. Rays still start relative to the eye at that time.
 pub fn camera_at(header: &Header, time: f64) -> Header {
     let view = header.view + time * header.view_motion;
     let forward = view.normalize();

@@ -1,4 +1,4 @@
-//! A cone; what shapes cover of it: `geometry/cones.rs`. Twin of `glsl/shared/cone.glsl`.
+//! Cones; their coverage by shapes is in `geometry/cones.rs`. Twin of `glsl/shared/cone.glsl`.
 
 use std::f64::consts::FRAC_2_SQRT_PI;
 
@@ -13,21 +13,21 @@ const DISC_RADIUS: f64 = 0.5 * FRAC_2_SQRT_PI;
 #[derive(Clone, Copy, Debug)]
 pub struct Cone {
     pub ray: Ray,
-    /// Unit, at right angles to the ray.
+    /// Unit vectors perpendicular to the ray.
     pub x: DVec3,
     pub y: DVec3,
-    /// Radius at the origin, and its growth a unit of t.
+    /// Radius at the origin, and its growth per unit of t.
     pub width: f64,
     pub spread: f64,
-    /// row·(p, 1) is positive above the flat surface that the cone leaves; 0 where it leaves none.
+    /// row·(p, 1) is positive above the flat surface that the cone leaves; 0 if there is none.
     pub floor: DVec4,
 }
 
-/// What rises above a surface by less, relatively, lies in its plane.
+/// Points that rise above a surface by a smaller relative amount are in its plane.
 pub(super) const LEVEL: f64 = 4e-6;
 
-/// `width` and `spread` are those of a beam: the side of a square. Of the camera's, `across` is the way to
-/// the next pixel, else 0.
+/// Returns a cone from `width` and `spread` of a square. For the camera's cone, `across` is the direction to
+/// the next pixel, otherwise 0.
 pub fn cone_of(ray: Ray, width: f64, spread: f64, across: DVec3) -> Cone {
     let unit = ray.direction.normalize();
     let x = (across - across.dot(unit) * unit).try_normalize().unwrap_or_else(|| any_tangent(unit));
@@ -45,7 +45,8 @@ impl Cone {
         }
     }
 
-    /// Half of a disc around a point of a surface lies behind the surface, and would meet what is there.
+    /// Returns true if the point is above the surface that the cone leaves: half of a disc around a point of
+    /// a surface is below the surface, and would meet the shapes there.
     pub(super) fn rises_to(&self, point: DVec3) -> bool {
         self.floor == DVec4::ZERO || self.floor.dot(point.extend(1.0)) > 0.0
     }
@@ -55,7 +56,8 @@ impl Cone {
     }
 }
 
-/// A plane in the cone: met at u at t = (height - w tilt·u) / (facing + s tilt·u), both positive.
+/// A plane in the cone: the ray at u meets it at t = (height - w tilt·u) / (facing + s tilt·u), both
+/// positive.
 #[derive(Clone, Copy, Debug)]
 pub struct FlatDepth {
     pub height: f64,

@@ -1,4 +1,4 @@
-//! Cone → radiance, without chance. Twin of `glsl/shared/cone_shade.glsl`.
+//! Cone → radiance, deterministically. Twin of `glsl/shared/cone_shade.glsl`.
 
 use std::f64::consts::PI;
 
@@ -24,21 +24,21 @@ use super::shading_normal::{consistent_normal, on_its_side};
 use crate::pack::{LightKind, PackedScene};
 use crate::schema::layout::{Light, Material, NO_MATERIAL, NO_SHAPE};
 
-/// Cones that wait, cones of a pixel, and the least weight of one. What goes beyond is dropped.
+/// Most pending cones, most cones per pixel, and the least weight of a cone. Anything beyond is dropped.
 const MAX_WAITING: usize = 32;
 const MAX_CONES: u32 = 64;
 const MIN_WEIGHT: f64 = 1.0 / 1024.0;
 
-/// What a cone is traced for.
+/// The purpose of a cone.
 #[derive(Clone, Copy, Debug)]
 enum Goal {
-    /// What it sees, after so many bounces.
+    /// The colour that it sees, after this number of bounces.
     Color(u32),
-    /// How much of a light is not hidden, up to this t; the weight is what that sends.
+    /// The visibility of a light up to this t; the weight is the light's contribution.
     Light(f64),
 }
 
-/// A cone that is still to be traced.
+/// A pending cone.
 #[derive(Clone, Copy, Debug)]
 struct Branch {
     ray: Ray,
@@ -52,11 +52,11 @@ struct Branch {
 #[derive(Default)]
 struct Waiting {
     list: Vec<Branch>,
-    /// Weight of all that was.
+    /// Sum of the dropped weights.
     dropped: f64,
 }
 
-/// The largest channel, of either sign; what is no number is seen, too.
+/// Returns the largest absolute value of a channel; NaN and infinity count as 1, so that they stay visible.
 fn largest(v: DVec3) -> f64 {
     if v.is_finite() { v.abs().max_element() } else { 1.0 }
 }
@@ -75,7 +75,7 @@ fn cone_beam(branch: &Branch) -> RayDifferential {
     RayDifferential { width: branch.width, spread: branch.spread, ..RayDifferential::default() }
 }
 
-/// Where a part of a cone meets a shape.
+/// The intersection of a part of a cone with a shape.
 struct Met<'a> {
     hit: Hit,
     surface: Surface,
@@ -86,7 +86,8 @@ struct Met<'a> {
     carried: DVec3,
 }
 
-/// What an unhidden light sends through a surface to the eye, and the cone in which it may be hidden.
+/// Returns the contribution of an unoccluded light by way of a surface, and the cone that tests its
+/// visibility.
 fn lit_branch(branch: &Branch, met: &Met<'_>, skip: u32, light: &Light) -> Branch {
     let Met { surface, material, .. } = met;
     let point_light = light.kind == LightKind::Point;
@@ -116,7 +117,7 @@ fn lit_branch(branch: &Branch, met: &Met<'_>, skip: u32, light: &Light) -> Branc
     }
 }
 
-/// The cone that leaves a mirror or glass, `through` it or not.
+/// Returns the cone reflected by a mirror or glass, or refracted if `through`.
 fn bent_branch(branch: &Branch, met: &Met<'_>, ratio: f64, share: f64, skip: u32, through: bool) -> Branch {
     let surface = &met.surface;
     let beam = cone_beam(branch);
@@ -148,7 +149,7 @@ fn bent_branch(branch: &Branch, met: &Met<'_>, ratio: f64, share: f64, skip: u32
     }
 }
 
-/// What a part of a cone shows: of a shape, or of what lies behind all of them.
+/// Returns the radiance of a part of a cone: of a shape, or of the background behind all shapes.
 fn shade_part(waiting: &mut Waiting, scene: &PackedScene, mut branch: Branch, shape: u32) -> DVec3 {
     let header = &scene.header;
     let ray = branch.ray;
@@ -196,7 +197,7 @@ fn shade_part(waiting: &mut Waiting, scene: &PackedScene, mut branch: Branch, sh
     }
     let ratio = index_ratio(material, inside);
     let back = mirrored_share(material, ray.direction, surface.normal, ratio);
-    // What goes through glass and then what it returns, which as the last is traced first.
+    // The refracted cone first, then the reflected one, which as the last on the stack is traced first.
     for (through, share) in [(true, 1.0 - back), (false, back)] {
         let skip = left_shape(scene, shape, inside != through);
         let next = bent_branch(&branch, &met, ratio, share, skip, through);
@@ -210,7 +211,7 @@ fn shade_part(waiting: &mut Waiting, scene: &PackedScene, mut branch: Branch, sh
     DVec3::ZERO
 }
 
-/// The part of a branch that is seen around `covered.center` of its cone.
+/// Returns the part of a branch that is visible around `covered.center` of its cone.
 fn part_of(branch: &Branch, cone: &Cone, covered: Covered, norm: f64) -> Branch {
     let side = covered.share.sqrt();
     Branch {
@@ -222,7 +223,7 @@ fn part_of(branch: &Branch, cone: &Cone, covered: Covered, norm: f64) -> Branch 
     }
 }
 
-/// What the cone around a ray from the camera sees, and the weight of what was dropped.
+/// Returns the radiance of the cone around a camera ray, and the weight that was dropped.
 pub fn trace_cone(scene: &PackedScene, ray: Ray, beam: RayDifferential) -> (DVec3, f64) {
     let first = Branch {
         ray,
@@ -247,7 +248,7 @@ pub fn trace_cone(scene: &PackedScene, ray: Ray, beam: RayDifferential) -> (DVec
             sum += branch.weight * rest.share * fragments.clear;
             continue;
         }
-        // Those that are kept stand for shapes that are not.
+        // Fragments that were kept represent those that were not.
         let replaced = rest.share * (1.0 - fragments.clear);
         let norm = 1.0 + replaced / (1.0 - rest.share).max(MIN_SHARE);
         waiting.dropped += largest(branch.weight) * replaced;
@@ -264,7 +265,7 @@ pub fn trace_cone(scene: &PackedScene, ray: Ray, beam: RayDifferential) -> (DVec
     (sum, waiting.dropped + left)
 }
 
-/// Of pixel (x, y) of the film.
+/// Returns the radiance of pixel (x, y) of the film, and the dropped weight.
 pub fn pixel(scene: &PackedScene, x: u32, y: u32) -> (DVec3, f64) {
     const MIDDLE: DVec2 = DVec2::splat(0.5);
     let header = &scene.header;

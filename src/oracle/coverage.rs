@@ -1,10 +1,10 @@
-//! What part of a disc lines or a circle cover, and its centroid. Twin of `glsl/shared/coverage.glsl`.
+//! The part of a disc that lines or a circle cover, and its centroid. Twin of `glsl/shared/coverage.glsl`.
 
 use std::f64::consts::PI;
 
 use glam::{DVec2, DVec3};
 
-/// Share of the disc's area, and the centroid of the covered part.
+/// Fraction of the disc's area, and the centroid of the covered part.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Covered {
     pub share: f64,
@@ -14,23 +14,24 @@ pub struct Covered {
 pub const NOTHING: Covered = Covered { share: 0.0, center: DVec2::ZERO };
 pub const EVERYTHING: Covered = Covered { share: 1.0, center: DVec2::ZERO };
 
-/// Shares below this are none.
+/// Smaller fractions count as 0.
 pub const MIN_SHARE: f64 = 1e-5;
 
-/// Of more lines the oldest are left out.
+/// With more lines the oldest are left out.
 const MAX_CUTS: usize = 6;
 
-/// A line through the centre passes beside it: seen from there, its fragment has an angle.
+/// A line through the centre is moved by this distance, so that its fragment subtends an angle there.
 const BESIDE: f64 = 1e-9;
 
-/// Lines whose sine is below this count as parallel.
+/// Lines with a smaller sine between them count as parallel.
 const PARALLEL: f64 = 1e-4;
 
-/// The lines that cross the disc, the newest first: covered is where a x + b y + c ≥ 0; (a, b) has unit length.
+/// The lines that cross the disc, the newest first: covered is a x + b y + c ≥ 0, where (a, b) has unit
+/// length.
 #[derive(Clone, Debug, Default)]
 pub struct Cuts {
     lines: Vec<DVec3>,
-    /// Some line leaves nothing.
+    /// True if some line leaves nothing.
     pub away: bool,
 }
 
@@ -54,7 +55,7 @@ impl Cuts {
         }
     }
 
-    /// What the lines leave of the disc.
+    /// Returns the part of the disc that the lines leave.
     pub fn covered(&self) -> Covered {
         if self.away {
             return NOTHING;
@@ -92,7 +93,7 @@ impl Cuts {
         Covered { share, center: moment / (6.0 * PI * share) }
     }
 
-    /// From where to where line `i` borders what is covered, counted from its foot.
+    /// Returns the interval in which line `i` bounds the covered part, from its foot point.
     fn fragment(&self, i: usize, foot: DVec2, way: DVec2, rim: f64) -> (f64, f64) {
         let (mut from, mut to) = (-rim, rim);
         let line = self.lines[i];
@@ -100,7 +101,7 @@ impl Cuts {
             let slope = other.truncate().dot(way);
             let alike = other.truncate().dot(line.truncate()) > 0.0;
             if slope.abs() < PARALLEL {
-                // Of two equal lines the second counts for nothing; two opposite ones see the same gap.
+                // Of two equal lines the second has no interval; two opposite ones see the same gap.
                 let gap = if alike { other.z - line.z } else { other.z + line.z };
                 if gap < 0.0 || (j < i && gap == 0.0 && alike) {
                     to = from;
@@ -118,7 +119,7 @@ impl Cuts {
     }
 }
 
-/// φ - sin φ cos φ, from sine and cosine in [0, 1].
+/// Returns φ - sin φ cos φ from sine and cosine in [0, 1].
 pub fn segment(sine: f64, cosine: f64) -> f64 {
     let y = sine * sine;
     if y < 1e-4 {
@@ -128,8 +129,8 @@ pub fn segment(sine: f64, cosine: f64) -> f64 {
     }
 }
 
-/// The disc overlapped by a circle around `middle`; `edge` is the radius less the middle's distance from
-/// the disc's centre.
+/// Returns the overlap of the disc with a circle around `middle`; `edge` is the radius less the distance of
+/// `middle` from the disc's centre.
 pub fn circle_overlap(middle: DVec2, radius: f64, edge: f64) -> Covered {
     if edge.is_nan() || edge <= -1.0 {
         return NOTHING;
@@ -158,7 +159,7 @@ pub fn circle_overlap(middle: DVec2, radius: f64, edge: f64) -> Covered {
 /// Half the side of a square with the disc's area: √π / 2.
 const SQUARE: f64 = 0.886_226_925_452_758;
 
-/// A small circle counts as a square of its area, and so does the disc.
+/// Returns the overlap with a small circle, both replaced by squares of equal area.
 pub fn small_overlap(middle: DVec2, radius: f64) -> Covered {
     let side = SQUARE * radius;
     let from = (middle - side).max(DVec2::splat(-SQUARE));
@@ -167,7 +168,7 @@ pub fn small_overlap(middle: DVec2, radius: f64) -> Covered {
     if share > MIN_SHARE { Covered { share, center: 0.5 * (from + to) } } else { NOTHING }
 }
 
-/// A circle of any size.
+/// Returns the overlap with a circle of any size.
 pub fn ball_overlap(middle: DVec2, radius: f64, edge: f64) -> Covered {
     let large = (2.0 * radius - 1.0).clamp(0.0, 1.0);
     let b = circle_overlap(middle, radius, edge);
@@ -184,7 +185,7 @@ pub fn ball_overlap(middle: DVec2, radius: f64, edge: f64) -> Covered {
     }
 }
 
-/// A line that leaves about as much as the circle.
+/// Returns a line that leaves about as much as the circle.
 pub fn circle_line(middle: DVec2, radius: f64, edge: f64) -> DVec3 {
     if edge.is_nan() || edge <= -1.0 || edge >= 1.0 {
         return DVec3::new(0.0, 0.0, edge);

@@ -1,11 +1,11 @@
-//! Points of the unit square onto the shapes that samples are chosen from. Twin of
-//! `glsl/shared/disk_sampling.glsl`.
+//! Mappings from the unit square to the shapes that are sampled. Twin of `glsl/shared/disk_sampling.glsl`.
 
 use glam::{DVec2, DVec3};
 
 use super::math::sine_turns;
 
-/// Shirley & Chiu 1997: squares around the middle become circles.
+/// Returns a point on the disc by the concentric map of Shirley & Chiu 1997: squares around the centre become
+/// circles.
 pub fn concentric_disc(square: DVec2) -> DVec2 {
     let p = 2.0 * square - 1.0;
     let wide = p.x.abs() > p.y.abs();
@@ -15,7 +15,7 @@ pub fn concentric_disc(square: DVec2) -> DVec2 {
     if wide { DVec2::new(along, beside) } else { DVec2::new(beside, along) }
 }
 
-/// The unit sphere's cap around +z that is `height` high, 2 for all of it.
+/// Returns a point on the cap of the unit sphere around +z of height `height`; 2 is the whole sphere.
 pub fn on_cap(disc: DVec2, height: f64) -> DVec3 {
     let fall = height * disc.length_squared();
     let stretch = (height * (2.0 - fall)).max(0.0).sqrt();

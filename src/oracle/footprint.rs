@@ -1,5 +1,4 @@
-//! How wide a ray is, on surfaces and after mirrors and refraction. Twin of
-//! `glsl/shared/footprint.glsl`.
+//! The width of a ray, on surfaces and after reflection and refraction. Twin of `glsl/shared/footprint.glsl`.
 
 use glam::{DMat3, DVec3};
 
@@ -10,16 +9,16 @@ use crate::schema::layout::Header;
 
 #[derive(Clone, Copy, Debug, Default)]
 pub struct RayDifferential {
-    /// Change of the ray's origin over the share of the pixel, to the right and down.
+    /// Change of the ray's origin over the sample's share of the pixel, to the right and down.
     pub origin: [DVec3; 2],
     pub direction: [DVec3; 2],
-    /// Of the cone at the origin.
+    /// Width of the cone at the origin.
     pub width: f64,
-    /// Growth of the width a unit of t.
+    /// Growth of the width per unit of t.
     pub spread: f64,
 }
 
-/// What the beam covers where it meets a surface: changes of the point and of the direction.
+/// The footprint of a ray differential on a surface: changes of the point and of the direction.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Footprint {
     pub point: [DVec3; 2],
@@ -52,23 +51,23 @@ pub fn camera_differential(header: &Header, ray: &Ray) -> RayDifferential {
     }
 }
 
-/// A unit vector at right angles to the unit vector n (Duff et al. 2017).
+/// Returns a unit vector perpendicular to the unit vector n (Duff et al. 2017).
 pub fn any_tangent(n: DVec3) -> DVec3 {
     let side = if n.z >= 0.0 { 1.0 } else { -1.0 };
     let a = -1.0 / (side + n.z);
     DVec3::new(1.0 + side * n.x * n.x * a, side * n.x * n.y * a, -side * n.x)
 }
 
-/// Around the unit vector n as around +z.
+/// Transforms v from the frame around +z to one around the unit vector n.
 pub fn around(n: DVec3, v: DVec3) -> DVec3 {
     let tangent = any_tangent(n);
     v.x * tangent + v.y * n.cross(tangent) + v.z * n
 }
 
-/// Grazing footprints end here: 1 / cos at most.
+/// Grazing footprints are truncated at this value of 1 / cos.
 const MAX_STRETCH: f64 = 65536.0;
 
-/// The footprint around the point origin + t direction with unit normal n.
+/// Returns the footprint around the point origin + t direction with unit normal n.
 pub fn footprint_at(header: &Header, beam: &RayDifferential, ray: &Ray, t: f64, n: DVec3) -> Footprint {
     let length = ray.direction.length();
     let mut facing = n.dot(ray.direction);
@@ -87,7 +86,7 @@ pub fn footprint_at(header: &Header, beam: &RayDifferential, ray: &Ray, t: f64, 
     let d = ray.direction / length;
     let across = n.cross(d);
     let sine = across.length();
-    // At normal incidence every direction across is as good as any other.
+    // At normal incidence all directions across are equivalent.
     let minor = if sine > 1e-4 { across / sine } else { any_tangent(n) };
     let major = minor.cross(n);
     Footprint {
@@ -96,7 +95,7 @@ pub fn footprint_at(header: &Header, beam: &RayDifferential, ray: &Ray, t: f64, 
     }
 }
 
-/// The footprint of a ray that goes on for ever: all that counts is the change of its direction.
+/// Returns the footprint of a ray that escapes the scene: only the change of its direction matters.
 pub fn endless_footprint(header: &Header, beam: &RayDifferential, ray: &Ray) -> Footprint {
     if !uses_cones(header) {
         return Footprint { point: [DVec3::ZERO; 2], direction: beam.direction };
@@ -106,26 +105,26 @@ pub fn endless_footprint(header: &Header, beam: &RayDifferential, ray: &Ray) -> 
     Footprint { point: [DVec3::ZERO; 2], direction: [side * beam.spread, d.cross(side) * beam.spread] }
 }
 
-/// Change of the mirrored direction, where the normal changes by `normal_change`.
+/// Returns the change of the mirrored direction, given the change of the normal.
 pub fn mirrored_change(direction: DVec3, n: DVec3, change: DVec3, normal_change: DVec3) -> DVec3 {
     let d_change = change.dot(n) + direction.dot(normal_change);
     change - 2.0 * (direction.dot(n) * normal_change + d_change * n)
 }
 
-/// A place where a beam meets a surface.
+/// The intersection of a ray differential with a surface.
 #[derive(Clone, Copy, Debug)]
 pub struct Meeting {
     pub ray: Ray,
     pub t: f64,
     pub print: Footprint,
-    /// Unit, against the ray.
+    /// Unit, facing the ray.
     pub normal: DVec3,
-    /// Change of the unit normal a unit of way along the surface, and its mean.
+    /// Change of the unit normal per unit of distance along the surface, and its mean.
     pub shape_operator: DMat3,
     pub curvature: f64,
 }
 
-/// The beam that leaves a mirror.
+/// Returns the ray differential after reflection.
 pub fn reflected_differential(beam: &RayDifferential, at: &Meeting) -> RayDifferential {
     let d = at.ray.direction;
     let change = |i: usize| {
@@ -140,7 +139,7 @@ pub fn reflected_differential(beam: &RayDifferential, at: &Meeting) -> RayDiffer
     }
 }
 
-/// Change of the refracted direction r d - (r d·n + k) n with k² = d² - r² (d² - (d·n)²).
+/// Returns the change of the refracted direction r d - (r d·n + k) n with k² = d² - r² (d² - (d·n)²).
 pub fn refracted_change(
     direction: DVec3,
     n: DVec3,
@@ -157,7 +156,7 @@ pub fn refracted_change(
     ratio * change - (ratio * along + k) * normal_change - (ratio * along_change + k_change) * n
 }
 
-/// The beam behind a refracting surface.
+/// Returns the ray differential after refraction.
 pub fn refracted_differential(beam: &RayDifferential, at: &Meeting, ratio: f64) -> RayDifferential {
     let d = at.ray.direction;
     let change = |i: usize| {

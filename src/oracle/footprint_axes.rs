@@ -1,4 +1,5 @@
-//! A footprint in texture coordinates → its axes in texels. Twin of `glsl/shared/footprint_axes.glsl`.
+//! The axes of a footprint in texels, from the changes of texture coordinates. Twin of
+//! `glsl/shared/footprint_axes.glsl`.
 
 use glam::{DVec2, DVec3};
 
@@ -12,11 +13,11 @@ pub struct FootprintEllipse {
     /// Squares of its axes: the singular values of its Jacobian.
     pub major: f64,
     pub minor: f64,
-    /// The unit vector whose combination of the two changes is the major axis.
+    /// The unit vector of coefficients with which the two changes combine to the major axis.
     pub along: DVec2,
 }
 
-/// What is not a number, or endless, is as wide as the widest: so many tiles.
+/// The largest change, in tiles, which also replaces NaN and infinity.
 pub const WIDEST_CHANGE: f64 = 1e9;
 
 pub fn bounded_change(d: DVec3) -> DVec3 {
@@ -27,8 +28,8 @@ pub fn kind_of(image: &Texture) -> TextureKind {
     image.kind
 }
 
-/// A direction on the cube as a place on its face; a flat or solid coordinate as it is. Footprints are
-/// numbers.
+/// Converts a direction to a position on its face of the cube; 2D and 3D coordinates are unchanged. Changes
+/// become finite.
 pub fn in_texture(image: &Texture, c: &Coordinate) -> (Coordinate, u32) {
     if kind_of(image) != TextureKind::Cube {
         return (Coordinate { at: c.at, change: c.change.map(bounded_change) }, 0);

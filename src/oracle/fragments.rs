@@ -1,5 +1,4 @@
-//! The shapes that a cone touches, in order of depth, and what is seen of each. Twin of
-//! `glsl/shared/fragments.glsl`.
+//! The shapes that a cone meets, in order of depth, and the visible part of each. Twin of `glsl/shared/fragments.glsl`.
 
 use glam::{DVec2, DVec3};
 
@@ -10,9 +9,9 @@ use super::geometry::hit::FAR;
 use super::geometry::kinds::shape_count;
 use crate::pack::PackedScene;
 
-/// Shapes that a cone keeps: the nearest.
+/// Most shapes that a cone keeps: the nearest ones.
 pub const MAX_FRAGMENTS: usize = 8;
-/// Planes whose depths differ by less, relatively, lie in each other: the first of the list is seen.
+/// Planes whose depths differ by a smaller relative amount are coplanar: the first in the list is visible.
 const COPLANAR: f64 = 4e-6;
 
 /// A shape in the cone.
@@ -23,7 +22,7 @@ pub struct Fragment {
     pub t: f64,
     pub near: f64,
     pub far: f64,
-    /// Share of the cone's cross-section; of that, what nothing nearer hides; the centroid of what is seen.
+    /// Fraction of the cone's cross-section; the part of it that nothing nearer hides; the centroid of that part.
     pub area: f64,
     pub seen: f64,
     pub center: DVec2,
@@ -33,11 +32,11 @@ pub struct Fragment {
 #[derive(Clone, Debug)]
 pub struct Pieces {
     pub list: Vec<Fragment>,
-    /// What fragments that were not kept leave of a place, if they lie anywhere.
+    /// The transmittance of the fragments that were not kept.
     pub clear: f64,
 }
 
-/// t of a flat at the two ends of the disc between which it changes.
+/// Returns t of a plane at the two ends of the disc between which it varies.
 fn depths(cone: &Cone, depth: &FlatDepth) -> [f64; 2] {
     let tilt = depth.tilt.length();
     let [first, second] = [tilt, -tilt].map(|tilt| {
@@ -64,7 +63,7 @@ fn keep(fragments: &mut Pieces, scene: &PackedScene, cone: &Cone, shape: u32, co
     }
 }
 
-/// All shapes but `skip` that the cone touches before t_max; the nearest ones, in order.
+/// Returns the nearest shapes except `skip` that the cone meets before t_max, in order.
 pub fn collect_fragments(scene: &PackedScene, cone: &Cone, skip: u32, t_max: f64) -> Pieces {
     let mut fragments = Pieces { list: Vec::new(), clear: 1.0 };
     for shape in (0..shape_count(scene)).filter(|shape| *shape != skip) {
@@ -73,7 +72,7 @@ pub fn collect_fragments(scene: &PackedScene, cone: &Cone, skip: u32, t_max: f64
             keep(&mut fragments, scene, cone, shape, covered, t_max);
         }
     }
-    // Nothing behind the first that covers all is seen, if nothing of it lies before that.
+    // Nothing behind the first fragment that covers everything is visible, unless part of it is nearer.
     let (mut far, mut count) = (FAR, 0);
     for (i, fragment) in fragments.list.iter().enumerate() {
         count = if fragment.near < far { i + 1 } else { count };
@@ -83,14 +82,15 @@ pub fn collect_fragments(scene: &PackedScene, cone: &Cone, skip: u32, t_max: f64
     fragments
 }
 
-/// How two fragments lie over each other: where a hides b, or where b hides a; and whether b does so anywhere in the
-/// disc, be it as their planes cross or as b's centroid lies behind a's while b lies before a where both are.
+/// Returns the overlap in which one of two fragments hides the other: a hides b, or b hides a if `turned`. Also returns
+/// true if b is in front of a anywhere on the disc: because their planes intersect, or because b's centroid is behind
+/// a's although b is in front where both are.
 fn hidden(scene: &PackedScene, cone: &Cone, a: &Fragment, b: &Fragment, turned: bool) -> (Covered, bool) {
     let mut cuts = Cuts::default();
     let mut has_lines = |p: &Fragment| p.area >= 1.0 || cut_shape(&mut cuts, scene, cone, p.shape);
     let (a_has_lines, b_has_lines) = (has_lines(a), has_lines(b));
     if !a_has_lines || !b_has_lines {
-        // As good as anywhere.
+        // The position hardly matters.
         let center = if a_has_lines { b.center } else { a.center };
         return (Covered { share: if turned { 0.0 } else { a.area * b.area }, center }, false);
     }
@@ -109,8 +109,8 @@ fn within_disc(center: DVec2) -> DVec2 {
     center / center.length().max(1.0)
 }
 
-/// What is seen of each fragment, and its centroid; what nothing covers is the answer. A fragment that is seen in
-/// part hides in proportion.
+/// Composites the fragments: computes the visible part of each and its centroid, and returns the part that nothing
+/// covers. A partly visible fragment hides others in proportion.
 pub fn composite(fragments: &mut Pieces, scene: &PackedScene, cone: &Cone) -> Covered {
     let list = &mut fragments.list;
     let mut rest = 1.0 - list.first().map_or(0.0, |p| p.area);
@@ -142,8 +142,8 @@ pub fn composite(fragments: &mut Pieces, scene: &PackedScene, cone: &Cone) -> Co
         }
         rest -= fragment.seen;
     }
-    // Through what covers a place nothing is seen, however many lie over each other there: the place is one of
-    // those that are hidden.
+    // Nothing is visible through a covered place, however many fragments overlap there: the excess belongs to the
+    // hidden ones.
     let most = list.iter().map(|p| p.area).fold(0.0, f64::max);
     let concealed: f64 = list.iter().map(|p| p.area - p.seen).sum();
     let excess = rest - (1.0 - most);

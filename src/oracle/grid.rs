@@ -1,5 +1,5 @@
-//! Sums along the rows of a texture's levels, or of a checker: cells to codes of texels and of all before them,
-//! over repeats and edges. Twin of `glsl/shared/grid.glsl`.
+//! Prefix sums along the rows of a texture's levels, or of a checker: maps cells to texel codes and to the
+//! sums of all codes before them, across repetitions and edges. Twin of `glsl/shared/grid.glsl`.
 
 use glam::DVec2;
 
@@ -9,24 +9,24 @@ use super::texture::addresses;
 use crate::schema::layout::{Sampler, Texture};
 use crate::texture::sampler_spec::{Address, TexelCenter};
 
-/// What is walked: a level of a texture, or a checker of unit squares.
+/// A grid of cells: a level of a texture, or a checker of unit squares.
 #[derive(Clone, Copy, Debug)]
 pub struct Grid<'a> {
     sums: &'a [u32],
     pub checker: bool,
-    /// MapInput from so far that all has the colour of the mean.
+    /// True if all cells have the mean colour, because the grid is seen from far away.
     pub even: bool,
-    /// Of a texture that does not repeat, coarser levels are no prefilter beyond its edges.
+    /// True for coarser levels of a texture that does not repeat, which are no prefilter beyond its edges.
     pub unknown: bool,
     size: [i64; 2],
     channels: i64,
     first_word: i64,
-    /// Of the texture's sums.
+    /// First word of the texture's sums.
     head: i64,
     address: [Address; 2],
-    /// Between texels colour changes linearly, not in steps.
+    /// True if colours are interpolated between texels, false if they are constant per texel.
     pub linear: bool,
-    /// Cells an axis a unit of the coordinate, and where cell 0 begins.
+    /// Cells per unit of the coordinate along each axis, and the coordinate of cell 0.
     pub scale: DVec2,
     pub shift: f64,
     /// value = least + step · code
@@ -34,10 +34,10 @@ pub struct Grid<'a> {
     pub step: f64,
 }
 
-/// Of a flat texture's sums: channels, levels, least value, step, first word of each level.
+/// Words before the sums of a 2D texture: channels, levels, least value, step, first word of each level.
 const HEADER_WORDS: i64 = 4;
 
-/// Level 0.
+/// Returns the grid of level 0.
 pub fn texture_grid<'a>(sums: &'a [u32], index: u32, texture: &Texture, sampler: &Sampler) -> Grid<'a> {
     let head = i64::from(sums[index as usize]);
     let word = |i: i64| sums[(head + i) as usize];
@@ -57,7 +57,7 @@ pub fn texture_grid<'a>(sums: &'a [u32], index: u32, texture: &Texture, sampler:
         address: [u, v],
         linear,
         scale: DVec2::new(width.into(), height.into()),
-        // Linear cells lie between texel centres, of which the integer rule moves all by half a texel.
+        // Linear cells are bounded by texel centres; the integer rule shifts all of them by half a texel.
         shift: if linear { -0.5 } else { 0.0 } + if integer { 0.5 } else { 0.0 },
         least: f64::from(f32::from_bits(word(2))),
         step: f64::from(f32::from_bits(word(3))),
@@ -83,7 +83,7 @@ pub fn checker_grid() -> Grid<'static> {
     }
 }
 
-/// A coarser level of a grid; of a checker all of them are even.
+/// Returns the grid of a coarser level; all coarser levels of a checker are uniform.
 pub fn coarser<'a>(grid: Grid<'a>, level: i64) -> Grid<'a> {
     if grid.checker {
         return Grid { even: true, ..grid };
@@ -102,7 +102,8 @@ pub fn coarser<'a>(grid: Grid<'a>, level: i64) -> Grid<'a> {
     }
 }
 
-/// Codes of a row, which begins at word `first`, summed from column 0 to before column i, modulo 2³².
+/// Returns the sum of codes from column 0 to before column i, in the row that begins at word `first`, modulo
+/// 2³².
 fn stored_sum(grid: &Grid, first: i64, i: i64) -> Sums {
     let at = (first + i * grid.channels) as usize;
     std::array::from_fn(|c| grid.sums[at + if grid.channels == 1 { 0 } else { c }])
@@ -110,26 +111,26 @@ fn stored_sum(grid: &Grid, first: i64, i: i64) -> Sums {
 
 pub type Sums = [u32; 3];
 
-/// a + times · b, modulo 2³².
+/// Returns a + times · b, modulo 2³².
 pub fn plus(a: Sums, times: i64, b: Sums) -> Sums {
     std::array::from_fn(|c| a[c].wrapping_add((times as u32).wrapping_mul(b[c])))
 }
 
-/// The first word of the texture's row that an addressed one shows; of a checker whether cells are odd.
+/// Returns the first word of the texture row that row j addresses; for a checker, the parity of the row.
 pub fn addressed_row(grid: &Grid, j: i64) -> i64 {
     if grid.checker {
         return j & 1;
     }
-    // Beams read no texture that has a border.
+    // Beams do not support textures with a border.
     let row = addressed_texel(grid.address[1], j, grid.size[1]).unwrap_or(0);
     grid.first_word + row * (grid.size[0] + 1) * grid.channels
 }
 
-/// Column i: the texel that it shows, and how often whole rows lie before it.
+/// Column i: the texel that it addresses, and the number of whole rows before it.
 struct Column {
     texel: i64,
     rows: i64,
-    /// Mirrored: it runs from the row's end.
+    /// True if mirrored: it counts from the row's end.
     back: bool,
 }
 
@@ -145,7 +146,8 @@ fn addressed_column(grid: &Grid, i: i64) -> Column {
     Column { texel, rows: rows + i64::from(back), back }
 }
 
-/// Codes of a column's texel, and summed up to it from column 0, negative before that.
+/// The codes of a column's texel, and the sums of all columns from column 0 to before it, negative left of
+/// column 0.
 pub struct Codes {
     pub own: Sums,
     pub before: Sums,
@@ -153,7 +155,7 @@ pub struct Codes {
 
 pub fn codes_at(grid: &Grid, row: i64, i: i64) -> Codes {
     if grid.checker {
-        // Cells of odd number are its figure: half of those before.
+        // Odd cells are the checker's figure: half of the cells before this one.
         return Codes { own: [((i + row) & 1) as u32; 3], before: [((i + row) >> 1) as u32; 3] };
     }
     let column = addressed_column(grid, i);

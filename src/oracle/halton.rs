@@ -1,8 +1,8 @@
-//! Halton's sequence with Owen's nested scrambling: pair k has the bases `PRIMES[2k]` and `PRIMES[2k + 1]`.
-//! Base 2 is that of `sobol`. In other bases digit d becomes slope · d + shift mod base, with a hashed
-//! slope and shift for each interval of the digits before it: affine maps permute pairs of digits evenly,
-//! which is all that the variance depends on (Owen 2003, "Variance with Alternative Scramblings of Digital
-//! Nets"). Twin of `glsl/shared/halton.glsl`.
+//! The Halton sequence with Owen's nested scrambling: pair k has the bases `PRIMES[2k]` and `PRIMES[2k + 1]`.
+//! Base 2 is that of `sobol`. In other bases digit d becomes slope · d + shift mod base, with a hashed slope
+//! and shift for each interval of the preceding digits: affine maps permute pairs of digits uniformly, on
+//! which alone the variance depends (Owen 2003, "Variance with Alternative Scramblings of Digital Nets").
+//! Twin of `glsl/shared/halton.glsl`.
 
 use super::sobol::laine_karras;
 
@@ -15,11 +15,11 @@ fn high_product(a: u32, b: u32) -> u32 {
     ((u64::from(a) * u64::from(b)) >> 32) as u32
 }
 
-/// The base's digits of `index`, last one first and scrambled, as a position. `stream` is the scrambled place
-/// within the interval as 24 bits of it, if all further digits are zeros: its first digit in this base is the
-/// shift, what remains the fraction within that digit's interval. Any other digit begins a new stream. `path`
-/// tells intervals apart. Widths and places are in parts of `total`, the largest power of the base below
-/// 2^30, so that intervals end exactly.
+/// Returns the scrambled radical inverse of `index` in this base. `stream` is the scrambled position within
+/// the interval, as 24 bits, if all further digits are zero: its first digit in this base is the shift, the
+/// remainder the fraction within that digit's interval. Any other digit begins a new stream. `path`
+/// identifies the interval. Widths and positions are in units of 1 / `total`, the largest power of the base
+/// below 2^30, so that intervals end exactly.
 pub fn scrambled_inverse(mut index: u32, base: u32, seed: u32) -> u32 {
     let total = base.pow(((1u32 << 30) - 1).ilog(base));
     let mut path = seed;

@@ -1,5 +1,5 @@
-//! What lights send to a surface, times what its material returns of it; of a light with an extent that of one
-//! place, chosen by the sample. Twin of `glsl/shared/light.glsl`.
+//! Direct lighting: the contribution of all lights by way of a material; area lights are sampled at one
+//! point. Twin of `glsl/shared/light.glsl`.
 
 use std::f64::consts::PI;
 
@@ -15,11 +15,12 @@ use super::rectangle::{MIN_SOLID_ANGLE, on_rectangle};
 use crate::pack::{LightKind, PackedScene};
 use crate::schema::layout::Light;
 
-/// Shapes as near to a place of a light as this share of the way are taken for the light itself.
+/// Shadow rays end at this fraction of the distance to an area light, as shapes beyond it are the light
+/// itself.
 const BEFORE_LIGHT: f64 = 4095.0 / 4096.0;
 
-/// The way to a place of a light, how much of it a shape may not lie in, and the irradiance there, over the
-/// light's power and the cosine.
+/// The vector to a point on a light, the ray parameter up to which shapes occlude it, and the irradiance
+/// there over the light's power and the cosine.
 #[derive(Clone, Copy, Debug)]
 pub struct Aim {
     pub way: DVec3,
@@ -27,7 +28,7 @@ pub struct Aim {
     pub density: f64,
 }
 
-/// Uniform over the cone in which the sphere is seen; from within it, over all directions.
+/// Samples the cone that the sphere subtends uniformly; from inside the sphere, all directions.
 pub fn sphere_aim(light: &Light, point: DVec3, square: DVec2) -> Aim {
     let way = light.position - point;
     let radius = light.radius;
@@ -43,7 +44,7 @@ pub fn sphere_aim(light: &Light, point: DVec3, square: DVec2) -> Aim {
     Aim { way: around(way / squared.sqrt(), local), reach: reach * BEFORE_LIGHT, density }
 }
 
-/// Uniform over the solid angle, or where that is small and over slanted sides over the area.
+/// Samples the solid angle uniformly; if it is small, or the edges are not at right angles, the area.
 pub fn rectangle_aim(light: &Light, point: DVec3, square: DVec2) -> Aim {
     let [u, v] = [light.edge_u, light.edge_v];
     let to_middle = light.position - point;
@@ -64,13 +65,13 @@ pub fn rectangle_aim(light: &Light, point: DVec3, square: DVec2) -> Aim {
     Aim { way, reach: BEFORE_LIGHT, density: density.max(0.0) }
 }
 
-/// Uniform over the cap of the sky.
+/// Samples the sun's cap uniformly.
 pub fn sun_aim(light: &Light, square: DVec2) -> Aim {
     let local = on_cap(concentric_disc(square), light.cap_height);
     Aim { way: around(light.direction, local), reach: FAR, density: 1.0 }
 }
 
-/// `chosen` is the place of the hit's choice on a light.
+/// Returns the radiance by direct lighting; `chosen` returns the hit's sample on a light.
 pub fn direct_light(
     scene: &PackedScene,
     surface: &Surface,

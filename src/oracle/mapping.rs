@@ -1,4 +1,4 @@
-//! Surface point → texture coordinate, and how it changes over the footprint. Twin of
+//! Texture coordinates of surface points, and their change over the footprint. Twin of
 //! `glsl/shared/mapping.glsl`.
 
 use std::f64::consts::PI;
@@ -9,15 +9,15 @@ use super::math::{affine, atan2_accurate};
 use crate::pack::MapKind;
 use crate::schema::layout::UvProjection;
 
-/// What a map can look at: the entity that its kind projects, the shape's own coordinate, and the
-/// changes of both over the footprint.
+/// The inputs of a mapping: the entity that its kind projects, the shape's own coordinate, and the changes of
+/// both over the footprint.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct MapInput {
     pub entity: DVec3,
     pub entity_change: [DVec3; 2],
     pub own: DVec2,
     pub own_change: [DVec2; 2],
-    /// The changes are along unit vectors, not over a footprint.
+    /// True if the changes are along unit vectors, not over a footprint.
     pub gradients: bool,
 }
 
@@ -29,34 +29,34 @@ pub struct Coordinate {
 }
 
 impl Coordinate {
-    /// A place of a flat texture, without a footprint.
+    /// Returns a coordinate of a 2D texture without a footprint.
     pub fn flat(uv: DVec2) -> Coordinate {
         Coordinate { at: uv.extend(0.0), ..Default::default() }
     }
 }
 
-/// matrix · uv: scale and rotation.
+/// Returns matrix · uv: scale and rotation.
 pub fn turned_uv(map: &UvProjection, uv: DVec2) -> DVec2 {
     DVec2::new(map.m00 * uv.x + map.m01 * uv.y, map.m10 * uv.x + map.m11 * uv.y)
 }
 
-/// matrix · uv + offset.
+/// Returns matrix · uv + offset.
 pub fn placed(map: &UvProjection, uv: DVec2) -> DVec2 {
     turned_uv(map, uv) + map.offset
 }
 
-/// A coordinate of a map that ends with `placed`.
+/// Returns the coordinate of a mapping that ends with `placed`.
 pub fn placed_coordinate(map: &UvProjection, uv: DVec2, change: [DVec2; 2]) -> Coordinate {
     Coordinate { at: placed(map, uv).extend(0.0), change: change.map(|d| turned_uv(map, d).extend(0.0)) }
 }
 
-/// The linear part of the frame.
+/// Applies the linear part of the frame.
 pub fn in_frame(map: &UvProjection, v: DVec3) -> DVec3 {
     DVec3::new(map.x.truncate().dot(v), map.y.truncate().dot(v), map.z.truncate().dot(v))
 }
 
-/// Which face of a cube a direction meets, and where on it, (s, t) in [-1, 1] (Vulkan 1.3, "Cube UvProjection
-/// Face Selection"; ties go to z, then y). The third number is the length along the face's axis.
+/// Selects the face of a cube for a direction, and (s, t) in [-1, 1] on it (Vulkan 1.3, "Cube Map Face
+/// Selection"; ties go to z, then y). The third component is the length along the face's axis.
 pub fn on_cube_face(d: DVec3) -> (DVec3, u32) {
     let a = d.abs();
     let face = if a.z >= a.x && a.z >= a.y {
@@ -69,7 +69,7 @@ pub fn on_cube_face(d: DVec3) -> (DVec3, u32) {
     (along_cube_face(d, face), face)
 }
 
-/// The axes of `face` for a direction, or for a change of direction that stays on it.
+/// Returns the face's axes of a direction, or of a change of direction that stays on it.
 pub fn along_cube_face(d: DVec3, face: u32) -> DVec3 {
     match face {
         0 => DVec3::new(-d.z, -d.y, d.x),
@@ -81,24 +81,24 @@ pub fn along_cube_face(d: DVec3, face: u32) -> DVec3 {
     }
 }
 
-/// Place on a face in [0, 1]², from numerator and axis: (s / major + 1) / 2.
+/// Returns the position on a face in [0, 1]² from numerator and axis: (s / major + 1) / 2.
 pub fn face_uv(stm: DVec3) -> DVec2 {
     0.5 * (stm.truncate() / stm.z) + 0.5
 }
 
-/// The same of any direction: the cube's centre has none, and NaN is no place.
+/// As above for any direction: the cube's centre and NaN have a defined result too.
 pub fn within_face(stm: DVec3) -> DVec2 {
     let within = |x: f64| if x >= 0.0 { x.min(1.0) } else { 0.0 };
     let uv = face_uv(stm);
     DVec2::new(within(uv.x), within(uv.y))
 }
 
-/// Its change: the quotient's derivative.
+/// Returns the change of `face_uv`: the derivative of the quotient.
 pub fn face_uv_change(stm: DVec3, change: DVec3) -> DVec2 {
     0.5 * (change.truncate() * stm.z - stm.truncate() * change.z) / (stm.z * stm.z)
 }
 
-/// Angles change without bound towards the pole; a footprint never covers more than one turn.
+/// Limits the change of an angle to one turn, as it grows without bound towards the pole.
 fn within_turn(change: f64, gradients: bool) -> f64 {
     if gradients { change } else { change.clamp(-1.0, 1.0) }
 }
@@ -113,20 +113,20 @@ fn turn(local: DVec3) -> f64 {
     if turn < 0.0 { turn + 1.0 } else { turn }
 }
 
-/// (turn, height) and its change: φ/2π and y.
+/// Returns (turn, height) and its change: φ/2π and y.
 pub fn cylindrical(map: &UvProjection, local: DVec3, change: [DVec3; 2], gradients: bool) -> Coordinate {
     let around = local.x * local.x + local.z * local.z;
     let of = |d: DVec3| DVec2::new(turn_change(local, d, around, gradients), d.y);
     placed_coordinate(map, DVec2::new(turn(local), local.y), change.map(of))
 }
 
-/// θ / π changes by (y dρ - ρ dy) / (ρ² + y²), where dρ = (x dx + z dz) / ρ.
+/// Returns the change of θ / π: (y dρ - ρ dy) / (ρ² + y²), where dρ = (x dx + z dz) / ρ.
 pub fn polar_change(local: DVec3, change: DVec3, across: f64, squared: f64, gradients: bool) -> f64 {
     let outward = (local.x * change.x + local.z * change.z) / across.max(1e-30);
     within_turn((local.y * outward - across * change.y) / (squared.max(1e-30) * PI), gradients)
 }
 
-/// (θ/π, φ/2π) and its change.
+/// Returns (θ/π, φ/2π) and its change.
 pub fn spherical(map: &UvProjection, local: DVec3, change: [DVec3; 2], gradients: bool) -> Coordinate {
     let around = local.x * local.x + local.z * local.z;
     let across = around.sqrt();

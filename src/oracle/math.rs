@@ -1,14 +1,14 @@
-//! Widening of packed numbers, and the twin of `glsl/shared/math.glsl`: products of vectors in f64,
-//! the angle by the standard library, and the shader's f32 polynomial for comparison with it.
+//! Twin of `glsl/shared/math.glsl`: products of vectors in f64, the angle by the standard library, and the
+//! shader's f32 polynomial for comparison with it.
 
 use glam::{DVec3, DVec4};
 
-/// row.xyz · p + row.w
+/// Returns row.xyz · p + row.w.
 pub fn affine(row: DVec4, p: DVec3) -> f64 {
     row.dot(p.extend(1.0))
 }
 
-/// The polynomial of `math.glsl`, in f32 and in its order: atan(x) for x in [0, 1].
+/// Returns atan(x) for x in [0, 1] by the polynomial of `math.glsl`, in f32 and in its order.
 pub fn atan_unit_f32(x: f32) -> f32 {
     const COEFFICIENTS: [f32; 9] = [
         0.002_849_889_8,
@@ -25,12 +25,12 @@ pub fn atan_unit_f32(x: f32) -> f32 {
     COEFFICIENTS.iter().copied().reduce(|sum, c| sum * y + c).unwrap_or(0.0) * x
 }
 
-/// The angle of (x, y) from +x towards +y, in [-π, π]; 0 at the origin.
+/// Returns the angle of (x, y) from +x towards +y, in [-π, π]; 0 at the origin.
 pub fn atan2_accurate(y: f64, x: f64) -> f64 {
     y.atan2(x)
 }
 
-/// sin(2π t).
+/// Returns sin(2π t).
 pub fn sine_turns(t: f64) -> f64 {
     (2.0 * std::f64::consts::PI * (t - t.round_ties_even())).sin()
 }

@@ -1,7 +1,7 @@
-//! The renderer once more in f64, on the CPU, reading the same packed scene. Each file is the twin
-//! of that of the same stem in `glsl/shared/` (of `render`: `render_main.glsl`), with the same
-//! functions in the same order. Sample positions are
-//! integers and equal bit for bit; everything after them differs by the rounding of f32 only.
+//! The renderer in f64 on the CPU, reading the same packed scene. Each file is the twin of the file with the
+//! same stem in `glsl/shared/` (`render`: `render_main.glsl`), with the same functions in the same order.
+//! Sample positions are integers and equal bit for bit; everything after them differs by the rounding of f32
+//! only.
 
 pub mod address;
 pub mod backend;

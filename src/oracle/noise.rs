@@ -1,34 +1,35 @@
-//! Random values on the integer lattice → smooth noise: gradient noise (Perlin 2002), sums of its
-//! octaves, and the distance to the nearest of jittered points (Worley 1996, F1), each faded to its
-//! mean as the footprint grows. Twin of `glsl/shared/noise.glsl`.
+//! Smooth noise from random values on the integer lattice: gradient noise (Perlin 2002), sums of its octaves,
+//! and the distance to the nearest jittered point (Worley 1996, F1), each faded to its mean as the footprint
+//! grows. Twin of `glsl/shared/noise.glsl`.
 
 use glam::DVec3;
 
 use super::rng::pcg3d;
 use crate::schema::layout::Procedural;
 
-/// Statistics of gradient noise over space, from 3·10⁶ random places.
+/// Statistics of gradient noise over space, from 3·10⁶ random points.
 pub const NOISE_VARIANCE: f64 = 0.0729;
-/// Of |noise|.
+/// Statistics of |noise|.
 pub const FOLDED_MEAN: f64 = 0.2203;
 pub const FOLDED_VARIANCE: f64 = 0.0244;
 /// See `slice_mean`.
 pub const FOLDED_SLICES: [f64; 2] = [-0.11, -0.094];
 
-/// Cells that a footprint covers → weight of the value at its centre beside the mean.
+/// Returns the weight of the value at the footprint's centre relative to the mean, for a footprint of this
+/// many cells.
 pub fn kept(cells: f64) -> f64 {
     let x = (0.5 * cells).min(1.0);
     1.0 - x * x * (3.0 - 2.0 * x)
 }
 
-/// The mean of what is constant along the axes that the footprint does not reach along.
+/// Returns the mean of a function that is constant along the axes that the footprint does not extend along.
 pub fn slice_mean(mean: f64, slopes: [f64; 2], fraction: DVec3, widths: DVec3) -> f64 {
     let square = (fraction - 0.5) * (fraction - 0.5);
     let off = (square - 1.0 / 12.0) * (slopes[0] + (slopes[1] - slopes[0]) * (4.0 * square));
     mean + off.dot(DVec3::new(kept(widths.x), kept(widths.y), kept(widths.z)))
 }
 
-/// The number of a cell, modulo 2³².
+/// Returns the index of a cell, modulo 2³².
 pub fn lattice_cell(whole: DVec3) -> [u32; 3] {
     whole.to_array().map(|x| if x.abs() <= 2_147_483_520.0 { x as i64 as u32 } else { 0 })
 }
@@ -37,7 +38,7 @@ fn moved(cell: [u32; 3], by: [u32; 3]) -> [u32; 3] {
     [0, 1, 2].map(|i| cell[i].wrapping_add(by[i]))
 }
 
-/// The dot product with one of the 12 vectors from a cube's middle to its edges.
+/// Returns the dot product with one of the 12 vectors from a cube's centre to its edges.
 pub fn lattice_gradient(cell: [u32; 3], d: DVec3) -> f64 {
     let code = pcg3d(cell)[0] >> 28;
     let u = if code < 8 { d.x } else { d.y };
@@ -49,7 +50,7 @@ pub fn lattice_gradient(cell: [u32; 3], d: DVec3) -> f64 {
     (if code & 1 != 0 { -u } else { u }) + (if code & 2 != 0 { -v } else { v })
 }
 
-/// In [-1, 1], 0 at lattice points, with continuous second derivatives.
+/// Returns gradient noise in [-1, 1], 0 at lattice points, with continuous second derivatives.
 pub fn gradient_noise(p: DVec3, key: [u32; 3]) -> f64 {
     let whole = p.floor();
     let f = p - whole;
@@ -65,7 +66,7 @@ pub fn gradient_noise(p: DVec3, key: [u32; 3]) -> f64 {
     blend(side(0), side(1), s.z).clamp(-1.0, 1.0)
 }
 
-/// The weighted mean of the octaves of noise, or of |noise| where folded, and the variance that has
+/// Returns the weighted mean of the octaves of noise, or of |noise| if `folded`, and the variance that has
 /// faded out of it.
 pub fn octave_sum(what: &Procedural, at: DVec3, size: f64, widths: DVec3, folded: bool) -> (f64, f64) {
     let [lacunarity, gain, norm] = [what.lacunarity, what.gain, what.normalization].map(f64::from);
@@ -92,12 +93,12 @@ pub fn octave_sum(what: &Procedural, at: DVec3, size: f64, widths: DVec3, folded
     (sum, faded)
 }
 
-/// Multiples of 2⁻²⁴ in [0, 1).
+/// Returns multiples of 2⁻²⁴ in [0, 1).
 fn fractions(bits: [u32; 3]) -> DVec3 {
     DVec3::from_array(bits.map(|b| f64::from(b >> 8) / 16_777_216.0))
 }
 
-/// Distance to the nearest point, at most 1: a nearer one lies in one of the 27 cells searched.
+/// Returns the distance to the nearest point, at most 1: nearer points are in the 27 cells that are searched.
 pub fn cell_distance(p: DVec3, seed: u32, jitter: f64) -> f64 {
     let whole = p.floor();
     let f = p - whole;
@@ -112,7 +113,7 @@ pub fn cell_distance(p: DVec3, seed: u32, jitter: f64) -> f64 {
     nearest.sqrt()
 }
 
-/// The mean of `cell_distance`, and how it varies between planes: polynomials in the jitter.
+/// Returns the mean of `cell_distance`, with its variation between planes: polynomials in the jitter.
 pub fn cell_mean(p: DVec3, widths: DVec3, jitter: f64) -> f64 {
     let j = jitter * jitter;
     let mean = 0.4803 + j * (0.0504 - 0.0099 * j);

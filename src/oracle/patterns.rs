@@ -1,7 +1,7 @@
-//! Positions of samples as integers in [0, 2^24) on each axis, from the pixel and the sample's number alone.
-//! Pair 0 is the place in the pixel; further pairs are other dimensions of the same samples. A pixel's
-//! points are drawn up once a pixel and pair (`pixel_points`, `pair_points`), then asked for sample by
-//! sample. Twin of `glsl/shared/patterns.glsl`.
+//! Sample positions as integers in [0, 2^24) on each axis, from the pixel and the sample index alone. Pair 0 is the
+//! position in the pixel; further pairs are other dimensions of the same samples. A pixel's point set is set up once
+//! per pixel and pair (`pixel_points`, `pair_points`), then evaluated sample by sample. Twin of
+//! `glsl/shared/patterns.glsl`.
 
 use super::halton::{PRIMES, halton};
 use super::permute::{multi_jittered, n_rooks, permute};
@@ -11,27 +11,27 @@ use super::strata::{fine_position, stratum_position};
 use crate::scene::model::Pattern;
 use crate::schema::layout::Header;
 
-/// A path longer than these pairs of bases has random points.
+/// Paths that need more pairs of bases continue with random points.
 pub const HALTON_PAIRS: u32 = PRIMES.len() as u32 / 2;
 
 #[derive(Clone, Copy, Debug)]
 pub struct Points {
     pub pattern: Pattern,
-    /// Strata a side, columns.
+    /// Strata per side, columns.
     pub side: u32,
-    /// Samples; used where positions depend on it.
+    /// Number of samples, for patterns that depend on it.
     pub count: u32,
     pub pair: u32,
     pub key: [u32; 2],
-    /// Seed of the samples' order, of further pairs.
+    /// Seed of the order of the samples, for further pairs.
     pub order: u32,
-    /// Blue-noise: along the Morton curve of the tile.
+    /// Blue-noise: position along the Morton curve of the tile.
     pub place: u32,
     /// Blue-noise: first index of the pixel's block.
     pub block: u32,
 }
 
-/// Blue-noise: pixels share one sequence of 2^32 points within tiles of 2^n pixels a side.
+/// Returns n such that, for blue-noise, pixels in tiles of 2^n pixels per side share one sequence of 2^32 points.
 pub fn tile_log2(count: u32) -> u32 {
     (32 - count.ilog2()) / 2
 }
@@ -40,7 +40,7 @@ fn first_of_block(points: &Points, seed: u32) -> u32 {
     shuffled_place(points.place, tile_log2(points.count), seed) << points.count.ilog2()
 }
 
-/// Keys that seed scramblings need all their bits alike: the low ones of pcg are weak.
+/// Mixes keys that seed scramblings, which need all bits equally random: the low ones of pcg are weak.
 fn pattern_key(pattern: Pattern, key: [u32; 2]) -> [u32; 2] {
     match pattern {
         Pattern::Halton | Pattern::SobolOwen | Pattern::BlueNoise => key.map(mix_bits),
@@ -48,7 +48,7 @@ fn pattern_key(pattern: Pattern, key: [u32; 2]) -> [u32; 2] {
     }
 }
 
-/// The points of pair 0; `key` is the pixel's.
+/// Returns the point set of pair 0; `key` is the pixel's.
 pub fn pixel_points(header: &Header, pixel: [u32; 2], key: [u32; 2]) -> Points {
     let Header { pattern, strata_side: side, samples: count, seed, .. } = *header;
     let mut points = Points { pattern, side, count, pair: 0, key, order: 0, place: 0, block: 0 };
@@ -62,7 +62,7 @@ pub fn pixel_points(header: &Header, pixel: [u32; 2], key: [u32; 2]) -> Points {
     points
 }
 
-/// The points of another pair, from those of pair 0.
+/// Returns the point set of another pair, from that of pair 0.
 pub fn pair_points(first: &Points, pair: u32) -> Points {
     let mut points = *first;
     if pair == 0 {
@@ -89,7 +89,7 @@ pub fn sample_point(points: &Points, s: u32) -> [u32; 2] {
         Pattern::MultiJittered => return multi_jittered(s, side, count, key),
         Pattern::Halton | Pattern::Random => return sample_bits(key, s).map(|b| b >> 8),
         Pattern::Stratified => sample_bits(key, s).map(|b| b >> (8 + side_log2)),
-        // The centre of a stratum is the jitter of half a stratum; `center` is a grid of one.
+        // The centre of a stratum is a jitter of half a stratum; `center` is a grid of one.
         Pattern::Center | Pattern::Grid => [1 << (23 - side_log2); 2],
     };
     [
@@ -98,8 +98,8 @@ pub fn sample_point(points: &Points, s: u32) -> [u32; 2] {
     ]
 }
 
-/// Sample s of any pair. Further pairs go through their points in an order of their own, so that which
-/// points of two pairs meet in a sample is left to chance. Halton's bases need no such order.
+/// Returns sample s of any pair. Further pairs have an order of their own, so that the pairing of points in a sample is
+/// random. Halton's bases need no such order.
 pub fn sample_pair(points: &Points, s: u32) -> [u32; 2] {
     if points.pair == 0 {
         return sample_point(points, s);
@@ -115,8 +115,8 @@ pub fn sample_pair(points: &Points, s: u32) -> [u32; 2] {
     sample_point(points, s)
 }
 
-/// Sample s of a pair of which one number is asked for. n × n strata have only n different columns: such patterns
-/// stratify the line itself.
+/// Returns sample s of a pair of which only one number is used. n × n strata have only n different columns, so such
+/// patterns stratify the line itself.
 pub fn sample_line(points: &Points, s: u32) -> u32 {
     if !matches!(points.pattern, Pattern::Grid | Pattern::Stratified) {
         return sample_pair(points, s)[0];

@@ -1,7 +1,7 @@
-//! Patterns of jittered strata whose rows and columns are shuffled. `permute` is the place of entry i in
-//! permutation p of the numbers below `length`: Kensler 2013, "Correlated Multi-Jittered Sampling", with
-//! its last offset kept below 2^24, as i + p past 2^32 would give two entries one place. The strata are
-//! then jittered: multi-jittered (ibid., any number of samples) and n-rooks (Shirley 1991). Twin of
+//! Jittered strata whose rows and columns are permuted. `permute` returns the position of entry i in
+//! permutation p of the numbers below `length`: Kensler 2013, "Correlated Multi-Jittered Sampling", with its
+//! last offset limited to 24 bits, as i + p beyond 2^32 would map two entries to one position. Patterns:
+//! multi-jittered (ibid., any number of samples) and n-rooks (Shirley 1991). Twin of
 //! `glsl/shared/permute.glsl`.
 
 use super::rng::sample_bits;
@@ -10,7 +10,7 @@ use super::strata::fine_position;
 pub fn permute(mut i: u32, length: u32, p: u32) -> u32 {
     // All bits of length - 1 and below.
     let mask = length.next_power_of_two() - 1;
-    // Entries beyond the length are sent on until they come back below it.
+    // Entries beyond the length are mapped again until they are below it (cycle walking).
     loop {
         i ^= p;
         i = i.wrapping_mul(0xE170_893D);
@@ -36,8 +36,9 @@ pub fn permute(mut i: u32, length: u32, p: u32) -> u32 {
     }
 }
 
-/// Columns × rows cells with a sample each, and of all samples one in each of `count` rows and at most
-/// one in each of columns × rows columns: the order of the rows within a cell is the same for all columns.
+/// Returns a sample of columns × rows cells with one sample each, of which all samples have one in each of
+/// `count` rows and at most one in each of columns × rows columns: the order of the rows within a cell is the
+/// same for all columns.
 pub fn multi_jittered(s: u32, columns: u32, count: u32, key: [u32; 2]) -> [u32; 2] {
     let rows = count.div_ceil(columns);
     let column = permute(s % columns, columns, key[0]);
@@ -49,7 +50,7 @@ pub fn multi_jittered(s: u32, columns: u32, count: u32, key: [u32; 2]) -> [u32; 
     ]
 }
 
-/// One sample in each of `count` rows and of `count` columns.
+/// Returns one sample in each of `count` rows and of `count` columns.
 pub fn n_rooks(s: u32, count: u32, key: [u32; 2]) -> [u32; 2] {
     let jitter = sample_bits(key, s).map(|bits| bits >> 8);
     [fine_position(permute(s, count, key[0]), jitter[0], count), fine_position(s, jitter[1], count)]

@@ -1,5 +1,5 @@
-//! A sample's place in the unit square → its place about the pixel, and the pixel filter's sign there. Twin of
-//! `glsl/shared/pixel_filter.glsl`.
+//! Importance sampling of the pixel filter: maps a sample in the unit square to its position around the
+//! pixel, and to the filter's sign there. Twin of `glsl/shared/pixel_filter.glsl`.
 
 use glam::DVec2;
 
@@ -18,7 +18,7 @@ pub struct Place {
 const MIDDLE: u32 = 1 << 23;
 const WHOLE: u32 = 1 << 24;
 
-/// `rest` of 2²⁴ samples lie further from the middle.
+/// Returns the distance from the centre beyond which `rest` of 2²⁴ samples lie, in radii.
 pub fn distance_in_radii(scene: &PackedScene, rest: u32) -> f64 {
     let v = (f64::from(rest) * UNIT).sqrt();
     if scene.header.pixel_filter == PixelFilterKind::Tent {
@@ -30,7 +30,7 @@ pub fn distance_in_radii(scene: &PackedScene, rest: u32) -> f64 {
     near + (at - cell as f64) * (far - near)
 }
 
-/// How far out of 2²⁴ the middle of a position's step is from the middle of all.
+/// Returns the distance of the centre of a position's step from the centre of all, of 2²⁴.
 pub fn from_middle(position: u32) -> u32 {
     (2 * position + 1).abs_diff(WHOLE)
 }
@@ -54,7 +54,7 @@ pub fn filtered_place(scene: &PackedScene, position: [u32; 2]) -> Place {
     Place { inside, sign: filter_sign(&scene.header, position) }
 }
 
-/// Side of the square, in pixels, over which a box has the filter's variance.
+/// Returns the width in pixels of the box that has the filter's variance.
 pub fn filter_width(header: &Header) -> f64 {
     f64::from(header.filter_width)
 }

@@ -1,5 +1,5 @@
-//! Convex polygons in the plane of the picture, and affine functions of the place in it ("forms"): where a
-//! line cuts a polygon, its area, its middle. Twin of `glsl/shared/polygon.glsl`.
+//! Convex polygons in the picture plane, and affine functions of the position in it ("forms"): clipping by a
+//! line, area, centre. Twin of `glsl/shared/polygon.glsl`.
 
 use glam::{DVec2, DVec3};
 
@@ -8,10 +8,10 @@ pub type AffineFunction = DVec3;
 
 pub const MAX_CORNERS: usize = 12;
 
-/// What is smaller is dropped, in pixels².
+/// Smaller areas are dropped, in pixels².
 pub const MIN_AREA: f64 = 1e-7;
 
-/// Corners in order; fewer than three are no area.
+/// Corners in order; fewer than three have no area.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Polygon {
     pub count: usize,
@@ -22,7 +22,7 @@ pub fn at(form: AffineFunction, place: DVec2) -> f64 {
     form.dot(place.extend(1.0))
 }
 
-/// The whole pixel.
+/// Returns the whole pixel.
 pub fn unit_square() -> Polygon {
     let mut square = Polygon { count: 4, ..Default::default() };
     square.corners[..4].copy_from_slice(&[DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y]);
@@ -36,8 +36,8 @@ fn push(polygon: &mut Polygon, corner: DVec2) {
     polygon.count += 1;
 }
 
-/// Where the form is positive, and where it is negative. A side with more than `MAX_CORNERS` corners has lost
-/// some.
+/// Returns the parts where the form is positive, and where it is negative. A part with more than
+/// `MAX_CORNERS` corners has lost some.
 pub fn split(polygon: &Polygon, form: AffineFunction) -> [Polygon; 2] {
     let mut sides = [Polygon::default(); 2];
     for k in 0..polygon.count {
@@ -59,7 +59,7 @@ pub fn split(polygon: &Polygon, form: AffineFunction) -> [Polygon; 2] {
     sides
 }
 
-/// Signed area by the shoelace formula, counted from the first corner.
+/// Returns the signed area by the shoelace formula, relative to the first corner.
 pub fn area(polygon: &Polygon) -> f64 {
     let first = polygon.corners[0];
     let mut twice = 0.0;
@@ -69,12 +69,12 @@ pub fn area(polygon: &Polygon) -> f64 {
     0.5 * twice
 }
 
-/// The mean of the corners.
+/// Returns the mean of the corners.
 pub fn middle(polygon: &Polygon) -> DVec2 {
     polygon.corners[..polygon.count].iter().sum::<DVec2>() / polygon.count as f64
 }
 
-/// The least and the greatest value of a form on a polygon.
+/// Returns the least and the greatest value of a form on a polygon.
 pub fn range(polygon: &Polygon, form: AffineFunction) -> (f64, f64) {
     let values = polygon.corners[..polygon.count].iter().map(|&c| at(form, c));
     values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)))

@@ -1,7 +1,7 @@
-//! The integral of a texture over a polygon of texture space, by Green's theorem: ∬ c dX dY = ∮ C dY, where C
-//! is the integral of c along its row, from a table of sums. Every edge is walked cell by cell, and in
-//! each cell C is a polynomial; so the integral is exact for the reconstruction between texels (Heckbert
-//! 1986, "Filtering by repeated integration", has it for boxes). Twin of `glsl/shared/prefix_sums.glsl`.
+//! The integral of a texture over a polygon in texture space, by Green's theorem: ∬ c dX dY = ∮ C dY, where C
+//! is the integral of c along its row, from a table of prefix sums. Every edge is traversed cell by cell, and
+//! in each cell C is a polynomial, so the integral is exact for the reconstruction between texels (Heckbert
+//! 1986, "Filtering by repeated integration", for boxes). Twin of `glsl/shared/prefix_sums.glsl`.
 
 use glam::{DVec2, DVec3};
 
@@ -9,7 +9,7 @@ use super::grid::{Codes, Grid, Sums, addressed_row, codes_at, plus};
 use super::polygon::{Polygon, at, middle};
 use super::projective::RationalMap;
 
-/// Where the integrals along a row begin.
+/// The start of the integrals along a row.
 struct Row {
     first: i64,
     start: Codes,
@@ -20,13 +20,13 @@ fn load_row(grid: &Grid, base: [i64; 2], j: i64) -> Row {
     Row { first, start: codes_at(grid, first, base[0]) }
 }
 
-/// As signed numbers.
+/// Converts to signed numbers.
 fn signed(codes: Sums) -> DVec3 {
     DVec3::from_array(codes.map(|code| f64::from(code as i32)))
 }
 
-/// Of a cell of a row: its texel and the next one, and the integral from the middle of the base's texel to that
-/// of its own, or from edge to edge where colour changes in steps.
+/// A cell of a row: its texel and the next one, and the integral from the centre of the base's texel to that
+/// of its own, or from edge to edge if colours are constant per texel.
 struct Stretch {
     own: DVec3,
     right: DVec3,
@@ -44,13 +44,13 @@ fn stretch(grid: &Grid, row: &Row, i: i64) -> Stretch {
     Stretch { own, right, whole: whole + 0.5 * (own - signed(row.start.own)) }
 }
 
-/// The integral of a row's colour up to place s in the cell.
+/// Returns the integral of a row's colour up to position s in the cell.
 fn along_row(grid: &Grid, row: &Stretch, s: f64) -> DVec3 {
     let sum = row.whole + s * row.own;
     if grid.linear { sum + (0.5 * s * s) * (row.right - row.own) } else { sum }
 }
 
-/// Lines of the grid that an edge crosses.
+/// Returns the number of grid lines that an edge crosses.
 fn cells_between(a: DVec2, b: DVec2) -> u32 {
     let cells = (b.floor() - a.floor()).abs();
     (cells.x + cells.y) as u32
@@ -59,13 +59,13 @@ fn cells_between(a: DVec2, b: DVec2) -> u32 {
 /// 1 / √3
 const GAUSS: f64 = 0.577_350_269_189_625_8;
 
-/// ∫ C dY from a to b; places count from cell `base`.
+/// Returns ∫ C dY from a to b; positions count from cell `base`.
 fn edge_integral(grid: &Grid, base: [i64; 2], a: DVec2, b: DVec2) -> DVec3 {
     let way = b - a;
     let mut cell = [a.x.floor() as i64, a.y.floor() as i64];
     let last = [b.x.floor() as i64, b.y.floor() as i64];
     let forward = [way.x > 0.0, way.y > 0.0];
-    // Where on the edge the next line of the grid is met.
+    // The parameter at which the edge meets the next grid line.
     let next = |axis: usize, cell: [i64; 2]| {
         let line = (cell[axis] + i64::from(forward[axis])) as f64;
         if way[axis] == 0.0 { 1.0 } else { ((line - a[axis]) / way[axis]).clamp(0.0, 1.0) }
@@ -78,7 +78,7 @@ fn edge_integral(grid: &Grid, base: [i64; 2], a: DVec2, b: DVec2) -> DVec3 {
         let axis = usize::from(cell[0] == last[0] || (cell[1] != last[1] && ends[1] < ends[0]));
         let end = if cell == last { 1.0 } else { ends[axis].max(done) };
         let half = 0.5 * (end - done);
-        // Gauss's two points: exact for what is cubic along the edge.
+        // Gauss-Legendre quadrature with two points: exact for cubics along the edge.
         let corner = DVec2::new(cell[0] as f64, cell[1] as f64);
         let place = |sign: f64| {
             (a + way * (done + half * (1.0 + sign * GAUSS)) - corner).clamp(DVec2::ZERO, DVec2::ONE)
@@ -101,7 +101,7 @@ fn edge_integral(grid: &Grid, base: [i64; 2], a: DVec2, b: DVec2) -> DVec3 {
     sum * way.y
 }
 
-/// The colour at a place of a cell.
+/// Returns the colour at a position in a cell.
 fn value_in(grid: &Grid, cell: [i64; 2], within: DVec2) -> DVec3 {
     let row = |j: i64| stretch(grid, &load_row(grid, cell, j), cell[0]);
     let value = |s: &Stretch| s.own.lerp(s.right, within.x);
@@ -110,11 +110,11 @@ fn value_in(grid: &Grid, cell: [i64; 2], within: DVec2) -> DVec3 {
 
 /// In cells.
 const FARTHEST: DVec2 = DVec2::splat(1e8);
-/// A polygon so small has the colour of its middle.
+/// A smaller polygon has the colour at its centre.
 pub const SMALLEST: f64 = 1.0 / 256.0;
 
-/// How places of the picture lie in the grid, counted from a base before the division, so that near places
-/// differ exactly.
+/// Returns the map from the picture to the grid, relative to a base that is subtracted before the division,
+/// so that differences of near positions are exact.
 pub fn in_grid(grid: &Grid, quotient: &RationalMap, base: [i64; 2]) -> RationalMap {
     let start = DVec2::splat(grid.shift) - DVec2::new(base[0] as f64, base[1] as f64);
     RationalMap {
@@ -124,7 +124,7 @@ pub fn in_grid(grid: &Grid, quotient: &RationalMap, base: [i64; 2]) -> RationalM
     }
 }
 
-/// Towards the horizon a place goes to infinity.
+/// Maps a position; towards the horizon it would go to infinity.
 fn place_in(quotient: &RationalMap, place: DVec2) -> DVec2 {
     let at_place = DVec2::new(at(quotient.u, place), at(quotient.v, place)) / at(quotient.below, place);
     at_place.clamp(-FARTHEST, FARTHEST)
@@ -135,13 +135,13 @@ fn places<'a>(polygon: &'a Polygon, quotient: &'a RationalMap) -> impl Iterator<
     (0..polygon.count).map(move |k| [place(k), place(k + 1)])
 }
 
-/// The longest edge of a polygon, in cells.
+/// Returns the length of the longest edge of a polygon, in cells.
 pub fn longest_edge(polygon: &Polygon, quotient: &RationalMap) -> f64 {
     places(polygon, quotient).map(|[a, b]| (b - a).abs().element_sum()).fold(0.0, f64::max)
 }
 
-/// An edge is level that rises by so little of the polygon's height: its integral is less than what rounding
-/// makes of it.
+/// An edge counts as horizontal if it rises by less than this fraction of the polygon's height: its integral
+/// is smaller than the rounding error.
 const LEVEL: f64 = 3e-5;
 
 fn rows_covered(polygon: &Polygon, quotient: &RationalMap) -> f64 {
@@ -149,7 +149,7 @@ fn rows_covered(polygon: &Polygon, quotient: &RationalMap) -> f64 {
     rows().fold(-FARTHEST.y, f64::max) - rows().fold(FARTHEST.y, f64::min)
 }
 
-/// Mean colour, in codes, over the texture space that a polygon shows. Cells that were crossed are counted.
+/// Returns the mean colour, in codes, over the polygon's image in texture space, and counts the cells crossed.
 pub fn mean_over(
     grid: &Grid,
     polygon: &Polygon,
@@ -179,6 +179,6 @@ pub fn mean_over(
             return integral / covered;
         }
     }
-    // What has no area shows the colour of its middle; the coarsest level has one everywhere.
+    // A polygon without area has the colour at its centre; the coarsest level is uniform.
     value_in(grid, base, place - cell)
 }

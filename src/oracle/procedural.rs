@@ -1,6 +1,5 @@
-//! Point of texture space and footprint → colour of a procedural texture, in f64. `dx` and `dy` span
-//! the footprint (full widths; zero asks for the point itself). Twin of
-//! `glsl/shared/procedural.glsl`.
+//! Colours of procedural textures in f64, from a point in texture space and a footprint. `dx` and `dy` span
+//! the footprint (full widths; zero evaluates the point itself). Twin of `glsl/shared/procedural.glsl`.
 
 use std::f64::consts::PI;
 
@@ -11,9 +10,9 @@ use super::noise::{cell_distance, cell_mean, kept, octave_sum};
 use crate::schema::layout::Procedural;
 use crate::texture::procedural::ProceduralKind;
 
-/// Boxes along a footprint's major axis, at most.
+/// Most boxes along a footprint's major axis.
 pub const MAX_BOXES: f64 = 16.0;
-/// Footprints wider than this are averaged as if they were as wide.
+/// Wider footprints are averaged as if they had this width.
 pub const WIDEST: f64 = 1e9;
 
 fn bounded_point(at: DVec3) -> DVec3 {
@@ -24,7 +23,7 @@ fn bounded_width(d: DVec3) -> DVec3 {
     DVec3::from_array(d.to_array().map(|x| if x.abs() <= WIDEST { x } else { WIDEST }))
 }
 
-/// Orthogonal axes with the parallelogram's second moments, the longer first.
+/// Returns orthogonal axes with the parallelogram's second moments, the longer first.
 pub fn principal_axes(dx: DVec3, dy: DVec3) -> (DVec3, DVec3) {
     let (xx, yy, xy) = (dx.dot(dx), dy.dot(dy), dx.dot(dy));
     let mut t = 0.0;
@@ -37,7 +36,7 @@ pub fn principal_axes(dx: DVec3, dy: DVec3) -> (DVec3, DVec3) {
     if b.dot(b) > a.dot(a) { (b, a) } else { (a, b) }
 }
 
-/// How many boxes describe the footprint, not yet rounded up.
+/// Returns the number of boxes that approximate the footprint, not rounded up.
 pub fn box_count(major: DVec3, minor: DVec3) -> f64 {
     let reach = major.abs();
     let oblique = reach.x.min(reach.y).max(reach.x.max(reach.y).min(reach.z));
@@ -45,7 +44,7 @@ pub fn box_count(major: DVec3, minor: DVec3) -> f64 {
     ratio.min(1.0 + MAX_BOXES * oblique).clamp(1.0, MAX_BOXES)
 }
 
-/// Mean over [x − w/2, x + w/2] of a pulse train: 1 within duty/2 of whole x, else 0.
+/// Returns the mean over [x − w/2, x + w/2] of a pulse train: 1 within duty/2 of integer x, otherwise 0.
 pub fn pulse_mean(x: f64, w: f64, duty: f64) -> f64 {
     let s = x - x.round_ties_even();
     let half_duty = 0.5 * duty;
@@ -60,7 +59,7 @@ pub fn pulse_mean(x: f64, w: f64, duty: f64) -> f64 {
     (periods * duty + first + second) / w
 }
 
-/// Share of the figure in a box around `at`; bricks count x in bricks here.
+/// Returns the figure's share in a box around `at`; bricks have x in units of bricks here.
 fn box_share(what: &Procedural, kind: ProceduralKind, at: DVec3, w: DVec3) -> f64 {
     let Procedural { width, aspect, offset, .. } = *what;
     match kind {
@@ -85,7 +84,7 @@ fn box_share(what: &Procedural, kind: ProceduralKind, at: DVec3, w: DVec3) -> f6
     }
 }
 
-/// Share of the figure in the footprint. A box has the second moments of its piece of the footprint.
+/// Returns the figure's share in the footprint. A box has the second moments of its part of the footprint.
 fn footprint_share(what: &Procedural, kind: ProceduralKind, at: DVec3, major: DVec3, minor: DVec3) -> f64 {
     let mut unit = DVec3::ONE;
     if kind == ProceduralKind::Brick {
@@ -103,19 +102,20 @@ fn footprint_share(what: &Procedural, kind: ProceduralKind, at: DVec3, major: DV
     shares.sum::<f64>() / count
 }
 
-/// Mean over a box of width w of a sine of period 1, over the sine.
+/// Returns the ratio of the mean of a sine of period 1 over a box of width w to its value at the centre.
 pub fn box_attenuation(w: f64) -> f64 {
     let x = w.abs();
     if x < 1e-3 { 1.0 } else { sine_turns(0.5 * x) / (PI * x) }
 }
 
-/// What a random phase, in turns, leaves of a sine: exp(−2π² variance), by the start of its series.
+/// Returns the attenuation of a sine by a random phase, in turns: exp(−2π² variance), by the start of its
+/// series.
 pub fn phase_attenuation(variance: f64) -> f64 {
     let v = 2.0 * PI * PI * variance;
     1.0 / (1.0 + v * (1.0 + v * (0.5 + v / 6.0)))
 }
 
-/// Veins at whole x + distortion · turbulence.
+/// Veins at integer x + distortion · turbulence.
 fn marble(what: &Procedural, at: DVec3, dx: DVec3, dy: DVec3, size: f64, widths: DVec3) -> f64 {
     let (turbulence, faded) = octave_sum(what, at, size, widths, true);
     let distortion = f64::from(what.distortion);
@@ -124,7 +124,7 @@ fn marble(what: &Procedural, at: DVec3, dx: DVec3, dy: DVec3, size: f64, widths:
     0.5 + 0.5 * strength * sine_turns(at.x + distortion * turbulence)
 }
 
-/// By how much the distance r from the z axis varies along d.
+/// Returns the variation of the distance r from the z axis along d.
 fn radial_width(at: DVec3, r: f64, d: DVec3) -> f64 {
     let along = (at.x * d.x + at.y * d.y) / r.max(1e-20);
     let square = d.x * d.x + d.y * d.y;
@@ -132,7 +132,7 @@ fn radial_width(at: DVec3, r: f64, d: DVec3) -> f64 {
     (along * along + across * square / (square + 4.0 * r * r).max(1e-30)).sqrt()
 }
 
-/// Rings at whole distances from the z axis + distortion · noise.
+/// Rings at integer distances from the z axis + distortion · noise.
 fn wood(what: &Procedural, at: DVec3, dx: DVec3, dy: DVec3, size: f64, widths: DVec3) -> f64 {
     let (noise, faded) = octave_sum(what, at, size, widths, false);
     let distortion = f64::from(what.distortion);
@@ -143,7 +143,7 @@ fn wood(what: &Procedural, at: DVec3, dx: DVec3, dy: DVec3, size: f64, widths: D
     0.5 - 0.5 * strength * sine_turns(r + distortion * noise + 0.25)
 }
 
-/// Weight of the figure's colour, 0 to 1.
+/// Returns the weight of the figure's colour, 0 to 1.
 pub fn figure_share(what: &Procedural, at: DVec3, dx: DVec3, dy: DVec3) -> f64 {
     let kind = what.kind;
     let (major, minor) = principal_axes(dx, dy);

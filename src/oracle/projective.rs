@@ -1,7 +1,7 @@
-//! Flat surfaces as a pixel's rays see them: regions between lines of the picture, inverse depth that is affine there,
-//! and texture coordinates as quotients of affine functions, also after plane mirrors. Perspective:
-//! rays start at one point, the direction is affine in the place, inverse depth is 1 / t. Parallel: the
-//! origin is affine, inverse depth is -t. Of shapes: `geometry/beams.rs`. Twin of `glsl/shared/projective.glsl`.
+//! Flat surfaces in a pixel's projection: regions bounded by lines, inverse depth that is affine, and texture
+//! coordinates as quotients of affine functions, also after reflection in plane mirrors. Perspective: rays start at one
+//! point, the direction is affine in the position, inverse depth is 1 / t. Parallel: the origin is affine, inverse
+//! depth is -t. The shapes are in `geometry/beams.rs`. Twin of `glsl/shared/projective.glsl`.
 
 use glam::{DMat3, DVec2, DVec3, DVec4};
 
@@ -11,16 +11,16 @@ use crate::schema::layout::Header;
 
 pub const MAX_LINES: usize = 6;
 
-/// All rays of a pixel: with the columns' sum weighted by (x, y, 1), direction or origin.
+/// All rays of a pixel: the sum of the columns weighted by (x, y, 1) is the direction or the origin.
 #[derive(Clone, Copy, Debug)]
 pub struct PixelFrustum {
     pub rays: DMat3,
-    /// The other of the two, the same for all.
+    /// The other of the two, the same for all rays.
     pub same: DVec3,
     pub parallel: bool,
 }
 
-/// What a convex shape covers: the places where all lines are positive.
+/// The projection of a convex shape: the positions where all lines are positive.
 #[derive(Clone, Copy, Debug)]
 pub struct ConvexRegion {
     pub count: usize,
@@ -40,13 +40,13 @@ pub fn pixel_frame(header: &Header, pixel: [u32; 2]) -> PixelFrustum {
     frame_over(header, pixel, 0.0, 0.0)
 }
 
-/// All rays of the pixels from the first to `more` columns and rows on, and of a margin around them.
+/// Returns the rays of the pixels from the first one to `more` columns and rows on, with a margin around them.
 pub fn frame_over(header: &Header, pixel: [u32; 2], more: f64, margin: f64) -> PixelFrustum {
     let corner = DVec2::new(
         f64::from(pixel[0]) - 0.5 * f64::from(header.image_size.x),
         f64::from(pixel[1]) - 0.5 * f64::from(header.image_size.y),
     );
-    // The unit square stands for the pixel filter's box.
+    // The unit square represents the pixel filter's box.
     let radius = f64::from(header.filter_radius) + margin;
     let corner = corner + (0.5 - radius);
     let (x, y, forward) = (header.step_x, header.step_y, header.forward);
@@ -63,18 +63,18 @@ pub fn frame_over(header: &Header, pixel: [u32; 2], more: f64, margin: f64) -> P
     }
 }
 
-/// n · (what differs from ray to ray).
+/// Returns n · (the part that differs from ray to ray).
 pub fn form(frame: &PixelFrustum, n: DVec3) -> AffineFunction {
     frame.rays.transpose() * n
 }
 
-/// The ray's direction, and its origin.
+/// Returns the ray's direction, and its origin.
 pub fn ray_at(frame: &PixelFrustum, place: DVec2) -> (DVec3, DVec3) {
     let own = frame.rays * place.extend(1.0);
     if frame.parallel { (frame.same, own) } else { (own, frame.same) }
 }
 
-/// Behind the mirror with unit normal n and n·p = height.
+/// Reflects the frustum in the mirror with unit normal n and n·p = height.
 pub fn mirrored_frame(frame: &PixelFrustum, n: DVec3, height: f64) -> PixelFrustum {
     let turn = |v: DVec3| v - 2.0 * n.dot(v) * n;
     let [x, y, base] = [frame.rays.x_axis, frame.rays.y_axis, frame.rays.z_axis].map(turn);
@@ -86,7 +86,7 @@ pub fn mirrored_frame(frame: &PixelFrustum, n: DVec3, height: f64) -> PixelFrust
     }
 }
 
-/// 1 / t or -t of the plane n·p = height, where it is in front positive or negative; zero where the rays
+/// Returns the inverse depth 1 / t or -t of the plane n·p = height, positive or negative in front; zero if the rays
 /// never meet it.
 pub fn inverse_depth(frame: &PixelFrustum, n: DVec3, height: f64) -> AffineFunction {
     let across = n.dot(frame.same);
@@ -99,17 +99,17 @@ pub fn inverse_depth(frame: &PixelFrustum, n: DVec3, height: f64) -> AffineFunct
     }
 }
 
-/// Positive where the place of that inverse depth lies in front.
+/// Returns a function that is positive where a point of that inverse depth is in front.
 pub fn in_front(frame: &PixelFrustum, inverse_depth: AffineFunction) -> AffineFunction {
     if frame.parallel { -inverse_depth } else { inverse_depth }
 }
 
-/// What coordinates on a plane of this inverse depth are divided by.
+/// Returns the denominator of coordinates on a plane of this inverse depth.
 pub fn below(frame: &PixelFrustum, inverse_depth: AffineFunction) -> AffineFunction {
     if frame.parallel { AffineFunction::Z } else { inverse_depth }
 }
 
-/// row · (p, 1) times `below`, for the points p of the plane of that inverse_depth.
+/// Returns row · (p, 1) times `below`, for the points p of the plane of that inverse depth.
 pub fn along(frame: &PixelFrustum, inverse_depth: AffineFunction, row: DVec4) -> AffineFunction {
     let n = row.truncate();
     let same = n.dot(frame.same);
@@ -125,7 +125,7 @@ pub(super) fn add(region: &mut ConvexRegion, line: AffineFunction) {
     region.count += 1;
 }
 
-/// The places where a plane lies in front.
+/// Returns the region in which a plane is in front.
 pub fn region_of_plane(frame: &PixelFrustum, plane: DVec4) -> ConvexRegion {
     let near = inverse_depth(frame, plane.truncate(), plane.w);
     let mut region = ConvexRegion { count: 0, lines: [AffineFunction::ZERO; MAX_LINES], inverse_depth: near };
@@ -133,7 +133,7 @@ pub fn region_of_plane(frame: &PixelFrustum, plane: DVec4) -> ConvexRegion {
     region
 }
 
-/// The point of the plane of that inverse depth which a place shows.
+/// Returns the point of the plane of that inverse depth at a position in the picture.
 pub fn point_at(frame: &PixelFrustum, inverse_depth: AffineFunction, place: DVec2) -> DVec3 {
     let (way, origin) = ray_at(frame, place);
     let near = at(inverse_depth, place);

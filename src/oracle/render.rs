@@ -19,11 +19,11 @@ use crate::schema::layout::Header;
 /// The sums of a pixel's samples.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct PixelSums {
-    /// Of radiance, each sample with the sign that the pixel filter has at its place.
+    /// Sum of radiance, each sample with the sign of the pixel filter at its position.
     pub sum: DVec3,
-    /// Of the mean of its squared channels.
+    /// Sum of the mean of the squared channels.
     pub squares: f64,
-    /// Of radiance where the sign is negative, without it.
+    /// Sum of radiance where the sign is negative, without the sign.
     pub negative: DVec3,
     pub signs: f64,
 }
@@ -48,7 +48,7 @@ pub fn sums(
     sums
 }
 
-/// The mean radiance of pixel (x, y) of the film: of the crop, where there is one.
+/// Returns the mean radiance of pixel (x, y) of the film, that is of the crop if there is one.
 pub fn pixel(scene: &PackedScene, x: u32, y: u32) -> DVec3 {
     if scene.algorithm == Algorithm::Cone {
         return cone_shade::pixel(scene, x, y).0;
@@ -59,8 +59,8 @@ pub fn pixel(scene: &PackedScene, x: u32, y: u32) -> DVec3 {
     DVec3::from_array([0, 1, 2].map(|c| filtered_mean(sum[c], negative[c], signs, samples, mean)))
 }
 
-/// The radiance of one sample and the pixel filter's sign there, by a header that may differ from the scene's in the samples' share of the
-/// pixel. The second half of an adaptive picture has another seed.
+/// Returns the radiance of one sample and the pixel filter's sign; the header may differ from the scene's in the
+/// samples' share of the pixel. The second half of an adaptive picture has a different seed.
 pub fn sample(scene: &PackedScene, header: &Header, [x, y]: [u32; 2], stream: u32, s: u32) -> (DVec3, f64) {
     let place = [x + header.crop.x, y + header.crop.y];
     let seed = header.seed.wrapping_add(stream.wrapping_mul(0x9E37_79B9));
@@ -80,7 +80,7 @@ pub fn sample(scene: &PackedScene, header: &Header, [x, y]: [u32; 2], stream: u3
     if moves {
         ray.origin += time * header.eye_motion;
     }
-    // Bits that have nothing to do with the sample's position.
+    // Bits that are independent of the sample's position.
     let random = pcg2d(sample_bits(key, s).map(|bits| bits ^ 0x5BD1_E995));
     let mut path = camera_path(ray, camera_differential(camera, &ray), random);
     path.points = Some((points, s));

@@ -1,7 +1,7 @@
-//! What a sample chooses beside its place in the pixel, each by a pair of dimensions of the same pattern:
-//! 0 place in the pixel, 1 lens, 2 time (its first dimension), 3 + 2d light and 4 + 2d lobe of the hit after
-//! d bounces; of glass 3 + 2d is whether it mirrors (its first dimension). Further lights of one hit shift the pair of
-//! the first. Twin of `glsl/shared/sample_dimensions.glsl`.
+//! The sample dimensions, each by a pair of dimensions of the same pattern: 0 position in the pixel, 1 lens, 2 time
+//! (its first dimension), 3 + 2d light and 4 + 2d lobe of the hit after d bounces; for glass 3 + 2d chooses between
+//! reflection and refraction (its first dimension). Further lights of one hit shift the pair of the first. Twin of
+//! `glsl/shared/sample_dimensions.glsl`.
 
 use glam::DVec2;
 
@@ -24,7 +24,7 @@ pub struct SampleDimensions {
 }
 
 impl SampleDimensions {
-    /// Of a path without a pattern: every choice is the middle one.
+    /// The sample of a path without a pattern: the middle in every dimension.
     pub const MIDDLE: SampleDimensions = SampleDimensions {
         place: [1 << 23; 2],
         lens: [1 << 23; 2],
@@ -43,7 +43,7 @@ pub fn unit_square(position: [u32; 2]) -> DVec2 {
     DVec2::from_array(position.map(unit_line))
 }
 
-/// The same positions shifted, by another number for each `salt` but 0.
+/// Returns the positions shifted by an amount that depends on `salt`; 0 leaves them unchanged.
 pub fn apart(points: &Points, position: [u32; 2], salt: u32) -> [u32; 2] {
     if salt == 0 || matches!(points.pattern, Pattern::Center | Pattern::Grid) {
         return position;
@@ -54,8 +54,8 @@ pub fn apart(points: &Points, position: [u32; 2], salt: u32) -> [u32; 2] {
     [shifted(position[0], x >> 8), shifted(position[1], y >> 8)]
 }
 
-/// All that sample s chooses for the hit after `depth` bounces, where its path starts also its place and what
-/// the camera needs.
+/// Returns all dimensions of sample s for the hit after `depth` bounces; at the start of its path also the position in
+/// the pixel and the camera's dimensions.
 pub fn choose(header: &Header, points: &Points, s: u32, depth: u32, starts: bool) -> SampleDimensions {
     let mut dimensions = SampleDimensions::default();
     if starts {
@@ -85,7 +85,7 @@ pub fn choose(header: &Header, points: &Points, s: u32, depth: u32, starts: bool
     dimensions
 }
 
-/// The place of the hit's choice on the light `i`.
+/// Returns the hit's sample on the light `i`.
 pub fn chosen_light(points: Option<&Points>, dimensions: &SampleDimensions, i: u32) -> DVec2 {
     unit_square(points.map_or(dimensions.light, |points| apart(points, dimensions.light, 16 * i)))
 }

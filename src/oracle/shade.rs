@@ -1,4 +1,4 @@
-//! Ray → radiance, one hit of its path at a time. Twin of `glsl/shared/shade.glsl`.
+//! Ray → radiance, one hit of the path at a time. Twin of `glsl/shared/shade.glsl`.
 
 use glam::{DVec2, DVec3, DVec4};
 
@@ -24,7 +24,7 @@ use crate::pack::{EntityKind, PackedScene};
 use crate::scene::model::BumpKind;
 use crate::schema::layout::{Header, Material, NO_MATERIAL, NO_SHAPE, NO_TEXTURE, UvProjection};
 
-/// What the surface's map looks at.
+/// Returns the inputs of the surface's mapping.
 pub fn map_input(map: &UvProjection, ray: &Ray, surface: &Surface, print: &Footprint) -> MapInput {
     let own = |d: DVec3| DVec2::from_array(surface.own_gradients.map(|g| g.dot(d)));
     let mut seen = MapInput {
@@ -51,7 +51,7 @@ pub fn map_input(map: &UvProjection, ray: &Ray, surface: &Surface, print: &Footp
         }
         EntityKind::Direction => {}
     }
-    // Of unit length; its change is at right angles to it.
+    // Of unit length; the change is perpendicular to it.
     let length = way.length();
     let unit = way / length;
     seen.entity = unit;
@@ -59,7 +59,7 @@ pub fn map_input(map: &UvProjection, ray: &Ray, surface: &Surface, print: &Footp
     seen
 }
 
-/// Gradients of u and v along the surface, from their changes along two tangents.
+/// Returns the gradients of u and v along the surface, from their changes along two tangents.
 pub fn uv_gradients(map: &UvProjection, ray: &Ray, surface: &Surface) -> [DVec3; 2] {
     let n = surface.geometric_normal;
     let first = any_tangent(n);
@@ -70,7 +70,7 @@ pub fn uv_gradients(map: &UvProjection, ray: &Ray, surface: &Surface) -> [DVec3;
     [first * x.x + second * y.x, first * x.y + second * y.y]
 }
 
-/// A map of normals, not of heights.
+/// Returns true for a map of normals, false for one of heights.
 fn is_normal_map(material: &Material) -> bool {
     material.bump_kind.is_normal_map()
 }
@@ -80,7 +80,7 @@ fn detail(scene: &PackedScene, material: &Material, c: &Coordinate, random: [u32
     sample_texture(scene, image, &scene.records.samplers[material.sampler_index as usize], c, random)
 }
 
-/// The shading normal after the material's bump map.
+/// Returns the shading normal after the material's bump map.
 pub fn bumped_normal(
     scene: &PackedScene,
     material: &Material,
@@ -126,7 +126,7 @@ pub fn bumped_normal(
     side * result.try_normalize().unwrap_or(n)
 }
 
-/// The material's colour, linear RGB, times its texture where it has one.
+/// Returns the material's colour, linear RGB, times its texture if it has one.
 pub fn surface_color(
     scene: &PackedScene,
     material: &Material,
@@ -143,18 +143,18 @@ pub fn surface_color(
     color * sample_texture(scene, image, &scene.records.samplers[sampler as usize], &c, random).truncate()
 }
 
-/// A path between two hits: the ray, how wide it is, what it still carries, the shape that it leaves.
+/// A path between two hits: the ray, its width, the path's throughput, and the shape that it leaves.
 pub struct Path {
     pub ray: Ray,
     pub beam: RayDifferential,
     pub throughput: DVec3,
-    /// Bits by which look-ups at the next hit take texels.
+    /// Random bits for stochastic look-ups at the next hit.
     pub random: [u32; 2],
     pub skip: u32,
     pub depth: u32,
-    /// False: the path has ended.
+    /// False if the path has ended.
     pub is_alive: bool,
-    /// The pixel's points and the sample; None: every choice is the middle one.
+    /// The pixel's point set and the sample; `None` uses the middle in every dimension.
     pub points: Option<(Points, u32)>,
 }
 
@@ -163,7 +163,7 @@ pub fn camera_path(ray: Ray, beam: RayDifferential, random: [u32; 2]) -> Path {
     Path { ray, beam, throughput, random, skip: NO_SHAPE, depth: 0, is_alive: true, points: None }
 }
 
-/// Where a mirrored or refracted path goes on; false where the material ends it.
+/// Continues a reflected or refracted path; returns false if the material ends it.
 fn bounced(
     header: &Header,
     hit: &Hit,
@@ -202,7 +202,7 @@ fn bounced(
     bounce.leaves
 }
 
-/// What a ray sees that hits nothing.
+/// Returns the radiance of a ray that hits nothing.
 fn background(scene: &PackedScene, path: &Path) -> DVec3 {
     let header = &scene.header;
     if header.environment_material == NO_MATERIAL {
@@ -219,7 +219,7 @@ fn background(scene: &PackedScene, path: &Path) -> DVec3 {
     path.throughput * surface_color(scene, material, Some(map), (&path.ray, &nowhere, &print), path.random)
 }
 
-/// Follows the path to its next hit; what that adds to the sample is returned.
+/// Follows the path to its next hit; returns the radiance that it adds to the sample.
 pub fn advance(scene: &PackedScene, path: &mut Path) -> DVec3 {
     let hit = nearest_hit(scene, &path.ray, path.skip);
     path.is_alive = false;

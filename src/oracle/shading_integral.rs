@@ -1,4 +1,4 @@
-//! The colour of a visible fragment: which materials have an integral that is known, and that integral, of texture
+//! The colour of a visible fragment: decides which materials have a closed-form integral, and computes it, of texture
 //! times irradiance over strips of the fragment. Twin of `glsl/shared/shading_integral.glsl`.
 
 use std::f64::consts::PI;
@@ -17,17 +17,17 @@ use crate::schema::layout::{Light, Material, NO_TEXTURE};
 use crate::texture::procedural::ProceduralKind;
 use crate::texture::sampler_spec::Address;
 
-/// Cells of textures that a pixel's edges may cross.
+/// Most cells of textures that a pixel's edges may cross.
 const MAX_CELLS: u32 = 40_000;
-/// Too much for a beam.
+/// The pixel is too complex for a beam.
 pub struct GaveUp;
 
 pub type Result<T> = std::result::Result<T, GaveUp>;
 
-/// What a fragment is painted with.
+/// The material and geometry of a fragment.
 pub struct ShadingIntegral<'a> {
     pub record: &'a Material,
-    /// Its colour, and those of the mirrors that show it.
+    /// Its colour times those of the mirrors that show it.
     pub carried: DVec3,
     pub quotient: Option<RationalMap>,
     pub plane: DVec4,
@@ -35,8 +35,8 @@ pub struct ShadingIntegral<'a> {
     pub near: AffineFunction,
 }
 
-/// Whether the integral of a shape's colour is known: of a material that has one, with a checker or a flat texture
-/// that is affine on the shape.
+/// Returns true if the integral of a shape's colour is known: its material supports that, with a checker or a 2D texture
+/// whose coordinates are affine on the shape.
 pub fn is_simple(scene: &PackedScene, shape: u32, record: &Material, map: u32) -> bool {
     let texture = record.texture_index;
     if !is_integrable_over_region(record, is_smooth(scene, shape)) || record.bump_texture_index != NO_TEXTURE
@@ -74,7 +74,7 @@ fn mean_color(
     crossed: &mut u32,
 ) -> Option<DVec3> {
     let reach = longest_edge(strip, &in_grid(grid, quotient, [0, 0]));
-    // The level at which it is short enough.
+    // The level at which the edge is short enough.
     let grid = if reach > most { coarser(*grid, (reach / most).log2().ceil() as i64) } else { *grid };
     if grid.unknown {
         return None;
@@ -88,7 +88,7 @@ fn mean_color(
     Some(DVec3::splat(grid.least) + grid.step * mean)
 }
 
-/// A light behind the surface, as its beam sees it, gives nothing.
+/// Returns false for a light behind the surface as seen by the beam, which contributes nothing.
 pub fn is_facing(paint: &ShadingIntegral, polygon: &Polygon, light: &Light) -> bool {
     let n = paint.plane.truncate();
     let (way, _) = ray_at(&paint.frame, middle(polygon));
@@ -100,7 +100,7 @@ pub fn is_facing(paint: &ShadingIntegral, polygon: &Polygon, light: &Light) -> b
     above * n.dot(way) < 0.0
 }
 
-/// Irradiance over π at the middle of a strip, of a light that it sees.
+/// Returns the irradiance over π at the centre of a strip, by an unoccluded light.
 fn irradiance(paint: &ShadingIntegral, strip: &Polygon, light: &Light) -> DVec3 {
     let n = paint.plane.truncate();
     let place = light.position;
@@ -108,7 +108,7 @@ fn irradiance(paint: &ShadingIntegral, strip: &Polygon, light: &Light) -> DVec3 
     if light.kind != LightKind::Point {
         return power * n.dot(light.direction).abs();
     }
-    // The way to the light times the inverse_depth: towards the horizon both stay finite.
+    // The vector to the light times the inverse depth: towards the horizon both stay finite.
     let (direction, origin) = ray_at(&paint.frame, middle(strip));
     let near = at(paint.near, middle(strip));
     let parallel = paint.frame.parallel;
@@ -118,17 +118,17 @@ fn irradiance(paint: &ShadingIntegral, strip: &Polygon, light: &Light) -> DVec3 
     power * scale * n.dot(way).abs() / (squared * squared.sqrt())
 }
 
-/// Strips that a fragment is cut into: √(STRIPS · logarithm of the ratio of depths).
+/// Number of strips of a fragment: √(STRIPS · logarithm of the ratio of depths).
 const STRIPS: f64 = 2000.0;
 const MAX_STRIPS: f64 = 64.0;
-/// What lies e^7 times as deep as the fragment's nearest part counts as one strip.
+/// Everything e^7 times as deep as the fragment's nearest part is one strip.
 const DEEPEST: f64 = 7.0;
-/// Cells that an edge of a strip may cross, and what all strips of a fragment share beyond that.
+/// Cells that an edge of a strip may cross, and a further number that is divided among the strips of a fragment.
 const CELLS_OF_AN_EDGE: f64 = 32.0;
 const CELLS_OF_ALL: f64 = 512.0;
 
-/// ∬ of texture times irradiance / π over the fragment, in strips within which the depth hardly changes: there
-/// equal areas of the texture are equal areas of the picture.
+/// Returns ∬ of texture times irradiance / π over the fragment, in strips of almost constant depth, within which equal
+/// areas of the texture are equal areas of the picture.
 pub fn integral(
     scene: &PackedScene,
     paint: &ShadingIntegral,

@@ -1,5 +1,5 @@
-//! Shading normals that lean away from the surface, interpolated or by a bump map: rays that they send to the wrong
-//! side of the surface are raised to the horizon (Keller et al. 2017, "The Iray Light Transport Simulation and
+//! Shading normals that differ from the geometric one, by interpolation or by a bump map: rays that they send to the
+//! wrong side of the surface are raised to the horizon (Keller et al. 2017, "The Iray Light Transport Simulation and
 //! Rendering System"), as far above it as in Cycles. Twin of `glsl/shared/shading_normal.glsl`.
 
 use glam::DVec3;
@@ -7,13 +7,13 @@ use glam::DVec3;
 use super::bsdf::mirror::mirrored;
 use super::geometry::hit::Surface;
 
-/// The least cosine with the geometric normal, where `flat_cosine` is what a surface that does not lean would give:
-/// rays of such a surface stay as they are.
+/// Returns the least cosine with the geometric normal. `flat_cosine` is that of a surface whose normals coincide, whose
+/// rays stay unchanged.
 fn least_cosine(flat_cosine: f64) -> f64 {
     (0.9 * flat_cosine).min(0.01)
 }
 
-/// The unit vector `way`, turned towards the unit vector g until their cosine is `least`.
+/// Rotates the unit vector `way` towards the unit vector g until their cosine is `least`.
 fn raised(way: DVec3, g: DVec3, least: f64) -> DVec3 {
     let cosine = way.dot(g);
     if cosine >= least {
@@ -23,7 +23,7 @@ fn raised(way: DVec3, g: DVec3, least: f64) -> DVec3 {
     along.map_or(g, |along| (1.0 - least * least).sqrt() * along + least * g)
 }
 
-/// Turns the shading normal towards the ray, and as far towards the geometric one that it mirrors the ray to the
+/// Flips the shading normal towards the ray, and moves it towards the geometric one until it reflects the ray to the
 /// surface's own side.
 pub fn consistent_normal(direction: DVec3, surface: &mut Surface) {
     let view = -direction.normalize();
@@ -39,8 +39,8 @@ pub fn consistent_normal(direction: DVec3, surface: &mut Surface) {
     }
 }
 
-/// The way of a ray that leaves on the side of n and g, the shading and the geometric normal, or by a facet around
-/// n: one that is above n alone is raised above g.
+/// Returns the direction of a ray that leaves on the side of n and g, the shading and the geometric normal, or by a
+/// facet around n: a direction that is above n alone is raised above g.
 pub fn on_its_side(direction: DVec3, way: DVec3, n: DVec3, g: DVec3) -> DVec3 {
     let size = way.length();
     let unit = way / size;

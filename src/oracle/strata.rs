@@ -1,9 +1,8 @@
-//! Positions in strata, as integers in [0, 2^24) on each axis. With n strata a side,
-//! L = ceil(log2 n) and B = 24 - L bits of jitter j, the position in stratum c is
-//! floor(((c << B) + j) · 2^24 / (n << B)). Here in 64-bit integers by that formula; the shader
-//! needs 32. Twin of `glsl/shared/strata.glsl`.
+//! Positions in strata, as integers in [0, 2^24) on each axis. With n strata per side, L = ceil(log2 n) and B
+//! = 24 - L bits of jitter j, the position in stratum c is floor(((c << B) + j) · 2^24 / (n << B)). Here by
+//! that formula in 64-bit integers; the shader uses 32 bits. Twin of `glsl/shared/strata.glsl`.
 
-/// Positions are this fraction of a pixel.
+/// The unit of positions, as a fraction of a pixel.
 pub const UNIT: f64 = 1.0 / 16_777_216.0;
 
 pub fn stratum_position(cell: u32, jitter: u32, side: u32, side_log2: u32) -> u32 {
@@ -12,7 +11,7 @@ pub fn stratum_position(cell: u32, jitter: u32, side: u32, side_log2: u32) -> u3
     ((place << 24) / (u64::from(side) << bits)) as u32
 }
 
-/// The same for up to 2^24 strata a side and a jitter of 24 bits, of which the upper B are used.
+/// As above for up to 2^24 strata per side and a jitter of 24 bits, of which the upper B are used.
 pub fn fine_position(cell: u32, jitter: u32, cells: u32) -> u32 {
     let cells_log2 = cells.next_power_of_two().trailing_zeros();
     stratum_position(cell, jitter >> cells_log2, cells, cells_log2)

@@ -1,5 +1,5 @@
-//! Texels: the one at an addressed place, and its value as linear RGBA in f64, from the packed
-//! bytes. Follows Vulkan 1.3, "Image Sample Operations". Twin of `glsl/shared/texture.glsl`.
+//! Texel fetches with addressing, converted to linear RGBA in f64, from the packed bytes. Follows Vulkan 1.3,
+//! "Image Sample Operations". Twin of `glsl/shared/texture.glsl`.
 
 use glam::DVec4;
 
@@ -10,17 +10,17 @@ use crate::schema::layout::{Sampler, Texture};
 use crate::texture::data::{ColorSpace, Component};
 use crate::texture::sampler_spec::Address;
 
-/// One level of a texture's mip_chain.
+/// One level of a mip chain.
 #[derive(Clone, Copy, Debug)]
 pub struct Level {
-    /// Of a cube: width, height, 6.
+    /// Width, height and depth; 6 faces for a cube.
     pub size: [i64; 3],
     pub index: u32,
-    /// Where it begins in the texel buffer.
+    /// First word in the texel buffer.
     pub word: u32,
 }
 
-/// Level sizes are halved and rounded down (Vulkan 1.3, "Image Miplevel Sizing").
+/// Returns a level; sizes are halved and rounded down (Vulkan 1.3, "Image Miplevel Sizing").
 pub fn level_at(scene: &PackedScene, image: &Texture, index: u32) -> Level {
     let [width, height, depth] = image.size.to_array();
     let halved = |n: u32| i64::from((n >> index).max(1));
@@ -29,7 +29,7 @@ pub fn level_at(scene: &PackedScene, image: &Texture, index: u32) -> Level {
     Level { size: [halved(width), halved(height), depth], index, word }
 }
 
-/// One texel by column, row and slice; grey is replicated, missing alpha is 1, sRGB decoded.
+/// Returns one texel by column, row and slice; grey is replicated, missing alpha is 1, sRGB is decoded.
 pub fn fetch_texel(scene: &PackedScene, image: &Texture, level: &Level, at: [i64; 3]) -> DVec4 {
     let format = image.format;
     let texel = ((at[2] * level.size[1] + at[1]) * level.size[0] + at[0]) as usize;
@@ -52,12 +52,12 @@ pub fn fetch_texel(scene: &PackedScene, image: &Texture, level: &Level, at: [i64
     }
 }
 
-/// The address modes of u, v and w.
+/// Returns the address modes of u, v and w.
 pub fn addresses(how: &Sampler) -> [Address; 3] {
     [how.address_u, how.address_v, how.address_w]
 }
 
-/// The texel at a place, addressed, or the border colour; `axes` counts those that are addressed.
+/// Returns the addressed texel, or the border colour; `axes` is the number of axes with addressing.
 pub fn fetch_or_border(
     scene: &PackedScene,
     image: &Texture,
@@ -76,18 +76,18 @@ pub fn fetch_or_border(
     fetch_texel(scene, image, level, place)
 }
 
-/// weight · value. No number, times a weight of 0, would still be none: such a value counts for nothing.
+/// Returns weight · value, but 0 for a weight of 0 even if the value is NaN or infinite.
 pub fn weighted(weight: f64, value: DVec4) -> DVec4 {
     if weight == 0.0 { DVec4::ZERO } else { value * weight }
 }
 
-/// sum + weight · value.
+/// Returns sum + weight · value.
 pub fn add_weighted(weight: f64, value: DVec4, sum: DVec4) -> DVec4 {
     sum + weighted(weight, value)
 }
 
-/// A flat texture's texel at (column, row), addressed. Over a pole of an environment the same row goes
-/// on, half a turn away.
+/// Returns a 2D texture's texel at (column, row), addressed. Across a pole of an environment the same row
+/// continues, half a turn away.
 pub fn flat_texel(scene: &PackedScene, image: &Texture, how: &Sampler, level: &Level, at: [i64; 2]) -> DVec4 {
     let [mut x, mut y] = at;
     let [width, height, _] = level.size;

@@ -1,12 +1,12 @@
-//! A cell of pixels → the triangles that its camera rays may meet, in f64 without slack: those that the
-//! device's lists must have. Twin of `glsl/shared/tile_culling_main.glsl`.
+//! The triangles that a cell's camera rays may meet, in f64 without a margin: the device's lists must contain
+//! them. Twin of `glsl/shared/tile_culling_main.glsl`.
 
 use super::geometry::kinds::Shape;
 use super::polygon::unit_square;
 use super::projective::frame_over;
 use crate::pack::PackedScene;
 
-/// Triangles of the cell whose first pixel of the film is `place`.
+/// Returns the triangles of the cell whose first pixel of the film is `place`.
 pub fn triangles_of(scene: &PackedScene, place: [u32; 2]) -> Vec<u32> {
     let header = &scene.header;
     let pixel = [place[0] + header.crop.x, place[1] + header.crop.y];

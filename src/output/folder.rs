@@ -13,14 +13,14 @@ pub fn prepare_folder(folder: &Path, file: &str) -> Result<()> {
     if !folder.exists() {
         fs::create_dir(folder).map_err(|e| {
             Error::with_help(
-                format!("--out {shown}: the folder cannot be created: {e}"),
+                format!("{shown}: the folder cannot be created: {e}"),
                 "name a folder, or a new one in a folder that exists and may be written to",
             )
         })?;
     }
     if !folder.is_dir() {
         return Err(Error::with_help(
-            format!("--out {shown}: this is not a folder"),
+            format!("{shown}: this is not a folder"),
             "the results are several files: name a folder for them",
         ));
     }

@@ -1,5 +1,5 @@
-//! Whether something small and bright is in a scene → which share of what it belongs to. Few samples miss it, and
-//! nothing in what they see tells of it: adaptive sampling has to know it beforehand.
+//! Finds the smallest share of a texture or of the view that holds much of its light. Few samples miss it, and nothing
+//! in the samples taken shows that: adaptive sampling has to know it in advance.
 
 use rayon::prelude::*;
 
@@ -7,14 +7,14 @@ use crate::core::color::srgb_to_linear;
 use crate::scene::model::Scene;
 use crate::texture::data::{ColorSpace, Component, TextureData};
 
-/// Texels are bright where they exceed the mean by this factor,
+/// Texels are bright if they exceed the mean by this factor,
 const FAR_ABOVE: f64 = 16.0;
-/// and matter where they have this part of all light.
+/// and matter if they contribute this fraction of the light.
 const PART: f64 = 0.05;
-/// A shape that shines brighter than white by `FAR_ABOVE` is taken to have such a share of what is seen.
+/// The assumed share of the view of a shape whose emission exceeds white by `FAR_ABOVE`.
 const OF_EMITTER: f64 = 1.0 / 256.0;
 
-/// The smallest share of any texture or emitter; none where nothing is far brighter than the rest.
+/// Returns the smallest share of any texture or emitter; `None` if nothing is far brighter than the rest.
 pub fn share(scene: &Scene, textures: &[TextureData]) -> Option<f64> {
     let of_textures = textures.iter().filter_map(share_of_texture);
     let shines = |color: glam::DVec3| color.max_element() >= FAR_ABOVE;
@@ -29,9 +29,9 @@ fn share_of_texture(texture: &TextureData) -> Option<f64> {
     (of_bright > PART * light && bright > 0.0).then(|| bright / texels)
 }
 
-/// Texels by the stored value of their largest colour channel.
+/// Texels classified by the stored value of their largest colour channel.
 enum Levels {
-    /// How many have each code.
+    /// The number of texels of each code.
     Codes(Vec<u64>),
     Floats,
 }
@@ -62,7 +62,7 @@ impl Levels {
         Levels::Codes(rows.reduce(|| vec![0; codes], add))
     }
 
-    /// How many texels are brighter than that, and their light in sum. What is no number is not counted.
+    /// Returns the number of texels brighter than `least`, and the sum of their light, without NaN and infinity.
     fn above(&self, texture: &TextureData, least: f64) -> [f64; 2] {
         let add = |[n, sum]: [f64; 2], [m, more]: [f64; 2]| [n + m, sum + more];
         match self {
@@ -97,12 +97,12 @@ impl Levels {
     }
 }
 
-/// Channels of colour.
+/// Returns the number of colour channels.
 fn colors(texture: &TextureData) -> usize {
     if texture.format.channels() == 4 { 3 } else { 1 }
 }
 
-/// Of some rows, as much as one thread takes at once.
+/// Returns the bytes of the rows that one thread processes at once.
 fn rows_bytes(texture: &TextureData) -> usize {
     let row = texture.width as usize * texture.format.bytes_per_texel();
     row * ((1 << 20) / row).max(1)
@@ -141,7 +141,7 @@ mod tests {
     fn stars_have_theirs_by_the_light_that_codes_stand_for() {
         let mut stars = vec![20u8; 1000];
         (0..5).for_each(|i| stars[100 * i] = 255);
-        // Linear the brightest is 12 times the mean, decoded 100 times.
+        // The brightest value is 12 times the mean as linear, 100 times as sRGB.
         assert_eq!(share_of_texture(&texture(TexelFormat::Grey8, ColorSpace::Linear, stars.clone())), None);
         assert_eq!(share_of_texture(&texture(TexelFormat::Grey8, ColorSpace::Srgb, stars)), Some(5e-3));
     }

@@ -1,5 +1,5 @@
-//! What a packed scene needs → the specialization constants of its pipelines, and the list of what
-//! was left out. The constants stand in `src/schema/specialization.rs`; `narrowed.rs` says what each becomes.
+//! Maps the needs of a packed scene to the specialization constants of its pipelines, and to the list of what was left
+//! out. The constants are in `src/schema/specialization.rs`; `narrowed.rs` computes the value of each.
 
 mod narrowed;
 mod needs;
@@ -14,27 +14,27 @@ use narrowed::narrowed;
 pub use needs::bounces;
 use needs::compensates;
 
-/// Longer lists are read at run time: unrolled code would grow without end.
+/// Longer lists are read at run time, as unrolled code would grow without limit.
 const UNROLL: usize = 16;
 
-/// What one pipeline is built for.
+/// The features for which a pipeline is built.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Features {
     /// (constant, value) in the order of the table.
     pub values: Vec<(Constant, u32)>,
-    /// What the pipeline does without, in words.
+    /// User-visible names of the code that the pipeline leaves out.
     pub left_out: Vec<String>,
     pub source: TexelSource,
-    /// Does the film have its second half?
+    /// True if the film has a second half for compensation.
     pub compensated: bool,
-    /// Rays, shapes and texture coordinates are of f64.
+    /// True if rays, shapes and texture coordinates are f64.
     pub double: bool,
-    /// Nothing is left out.
+    /// True if nothing is left out.
     pub everything: bool,
 }
 
 impl Features {
-    /// Exactly what the scene needs, or with `keep_everything` all there is.
+    /// Returns exactly the features that the scene needs, or with `keep_everything` all of them.
     pub fn new(scene: &PackedScene, image_source: bool, keep_everything: bool) -> Features {
         let source = match (scene.records.textures.is_empty(), image_source) {
             (true, _) if !keep_everything => TexelSource::None,
@@ -72,19 +72,19 @@ impl Features {
 }
 
 impl Features {
-    /// Returns how shaders that compute in f32 read the records.
+    /// Returns the precision of the records for shaders that compute in f32.
     pub fn records(&self) -> Reals {
         if self.double { Reals::F64Records } else { Reals::F32 }
     }
 
-    /// Whether the code of a switch is there.
+    /// Returns true if the code of a switch is kept.
     pub fn has(&self, switch: Constant) -> bool {
         self.values.iter().any(|(constant, value)| *constant == switch && *value != 0)
     }
 }
 
-/// Returns the widest value of each constant that is narrowed: every mode, run-time numbers, all code. The shaders
-/// have them for their defaults.
+/// Returns the widest value of each constant that can be narrowed: all modes, run-time counts, all code. These are the
+/// shaders' defaults.
 pub fn widest() -> impl Iterator<Item = (Constant, u32)> {
     let widest = |constant: Constant| match constant.kind() {
         Kind::Modes(names) => Some((1 << names.len()) - 1),

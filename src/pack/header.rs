@@ -1,4 +1,4 @@
-//! Camera, picture and sampling → the header of the scene buffer.
+//! Packs camera, picture and sampling into the header of the scene buffer.
 
 use glam::{DVec3, UVec2};
 
@@ -9,14 +9,15 @@ use crate::scene::model::{Algorithm, Footprint, Projection, Scene};
 use crate::schema::layout::{self, Header};
 use crate::texture::sampler_spec::SamplerSpec;
 
-/// Right-handed basis of the camera: right, up, forward, all of unit length.
+/// Returns the right-handed, orthonormal basis of the camera: right, up, forward.
 pub fn camera_basis(scene: &Scene) -> [DVec3; 3] {
     let forward = (scene.camera.look_at - scene.camera.eye).normalize();
     let right = forward.cross(scene.camera.up).normalize();
     [right, right.cross(forward), forward]
 }
 
-/// Half the picture's height at distance 1, or of parallel rays in scene units; and whether they are parallel.
+/// Returns half the picture's height at distance 1, or in scene units for parallel rays, and true if they are
+/// parallel.
 pub(super) fn half_height(scene: &Scene) -> (f64, bool) {
     match scene.camera.projection {
         Projection::VerticalFov(degrees) => ((0.5 * degrees.to_radians()).tan(), false),
@@ -67,13 +68,13 @@ pub(super) fn header(scene: &Scene, crop: Rect, warp: &Warp) -> Header {
         filter_radius: warp.radius as f32,
         filter_width: warp.width as f32,
         first_negative_step: warp.first_negative_step,
-        // Sample dimensions, cells and the lengths of lists follow when the scene is packed.
+        // Sample dimensions, cells and the lengths of lists are set when the scene is packed.
         ..Header::default()
     }
 }
 
-/// The footprint, if there is a filter that asks for it. All textures and samplers are read. Beams average
-/// without a filter's error, and so do the samples beside them.
+/// Returns the footprint if any filter needs it, considering all textures and samplers. Beams average without
+/// a filter's error, and so do the samples beside them.
 pub(super) fn footprint(scene: &Scene) -> Footprint {
     if scene.sampling.algorithm == Algorithm::Beam {
         return Footprint::None;

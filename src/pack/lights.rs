@@ -1,4 +1,4 @@
-//! Lights → their device records, relative to the eye.
+//! Packs lights into device records, relative to the eye.
 
 use glam::DVec3;
 
@@ -6,7 +6,7 @@ use super::LightKind;
 use crate::scene::model::Light;
 use crate::schema::layout;
 
-/// The largest cosine of sides that count as at right angles: what f32 rounds them to.
+/// Largest cosine between edges that count as perpendicular: the rounding error of f32.
 const RIGHT_ANGLE: f64 = 1e-6;
 
 pub fn light(light: &Light, eye: DVec3) -> layout::Light {
@@ -32,7 +32,7 @@ pub fn light(light: &Light, eye: DVec3) -> layout::Light {
         }
         Light::Rectangle { position, edge_u, edge_v, radiance } => {
             let wide = edge_u.length_squared() >= edge_v.length_squared();
-            // The same rectangle, which shines to the same side.
+            // The same rectangle, emitting to the same side.
             let sides = if wide { [edge_u, edge_v] } else { [edge_v, -edge_u] };
             let right = edge_u.normalize().dot(edge_v.normalize()).abs() <= RIGHT_ANGLE;
             let [length_u, length_v] = sides.map(|s| if right { s.length() } else { 0.0 });
@@ -41,8 +41,8 @@ pub fn light(light: &Light, eye: DVec3) -> layout::Light {
             layout::Light { edge_u, length_u, edge_v, length_v, ..light }
         }
         Light::Sun { direction, angle, irradiance } => {
-            // A cap of height h has the solid angle 2 pi h, and a surface that faces its middle receives
-            // pi h (2 - h) of its radiance.
+            // A cap of height h has the solid angle 2 pi h, and the irradiance pi h (2 - h) times its
+            // radiance on a surface that faces its centre.
             let height = 2.0 * (0.25 * angle.to_radians()).sin().powi(2);
             let power = irradiance * (2.0 / (2.0 - height));
             layout::Light { cap_height: height, ..towards(LightKind::Sun, direction, power) }

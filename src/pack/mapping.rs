@@ -1,7 +1,7 @@
-//! A material's mapping on one shape → the rows and matrix that a device multiplies. Scale, rotation
-//! and offset follow KHR_texture_transform; whole tiles are taken out of the constants of planes and
-//! affine maps, one at a time for `repeat`, two for `mirrored-repeat`, which changes no look-up. An
-//! angular map, whose coordinates lie within one turn, keeps its offset as given.
+//! Packs a material's mapping on one shape into the rows and the matrix that a device multiplies. Scale,
+//! rotation and offset follow KHR_texture_transform; whole tiles are subtracted from the constants of planes
+//! and affine mappings, single ones for `repeat`, pairs for `mirrored-repeat`, which changes no look-up. An
+//! angular mapping, whose coordinates are within one turn, keeps its offset as given.
 
 use glam::{DMat2, DQuat, DVec2, DVec3, DVec4};
 
@@ -10,20 +10,21 @@ use crate::scene::model::{Bounds, Entity, Environment, EnvironmentLayout, Mappin
 use crate::schema::layout::UvProjection;
 use crate::texture::sampler_spec::{Address, SamplerSpec};
 
-/// What a map may need to know of the shape.
+/// The properties of a shape that a mapping may need.
 #[derive(Clone, Copy, Debug)]
 pub struct Place {
-    /// Of shapes that end.
+    /// Centroid of bounded shapes.
     pub centroid: Option<DVec3>,
     pub bounds: Option<Bounds>,
 }
 
-/// The linear part of scale, then rotation: uv' = matrix · uv + offset.
+/// Returns the linear part of scale, then rotation: uv' = matrix · uv + offset.
 pub fn uv_matrix(mapping: &Mapping) -> DMat2 {
     DMat2::from_angle(mapping.rotate.to_radians()) * DMat2::from_diagonal(mapping.scale)
 }
 
-/// How many tiles may be taken out of a coordinate without changing a look-up; 0 for none.
+/// Returns the period that may be subtracted from a coordinate without changing a look-up, in tiles; 0 for
+/// none.
 pub fn period(address: Address) -> f64 {
     match address {
         Address::Repeat => 1.0,
@@ -32,18 +33,18 @@ pub fn period(address: Address) -> f64 {
     }
 }
 
-/// The same for u and v.
+/// Returns the periods of u and v.
 pub fn periods(sampler: &SamplerSpec) -> DVec2 {
     DVec2::new(period(sampler.address[0]), period(sampler.address[1]))
 }
 
-/// The whole periods in `value`, to be subtracted.
+/// Returns the whole periods in `value`, to be subtracted.
 pub fn whole_tiles(value: DVec2, periods: DVec2) -> DVec2 {
     let whole = |v: f64, p: f64| if p > 0.0 { (v / p).floor() * p } else { 0.0 };
     DVec2::new(whole(value.x, periods.x), whole(value.y, periods.y))
 }
 
-/// uv = matrix · (u, v) + offset, where u and v are the affine functions `row · (p, 1)`.
+/// Returns uv = matrix · (u, v) + offset, where u and v are the affine functions `row · (p, 1)`.
 pub fn affine_map(mapping: &Mapping, sampler: &SamplerSpec, u: DVec4, v: DVec4) -> UvProjection {
     let m = uv_matrix(mapping);
     let mut x = m.x_axis.x * u + m.y_axis.x * v;
@@ -54,22 +55,22 @@ pub fn affine_map(mapping: &Mapping, sampler: &SamplerSpec, u: DVec4, v: DVec4) 
     UvProjection { x, y, ..of_kind(MapKind::Affine) }
 }
 
-/// `surface` on a plane: uv = matrix · (own + at_eye) + offset, where the plane's own coordinates are
-/// counted from the eye's place `at_eye` on it.
+/// Returns `surface` on a plane: uv = matrix · (own + at_eye) + offset, where the plane's own coordinates
+/// count from the eye's projection `at_eye` on it.
 pub fn plane_map(mapping: &Mapping, sampler: &SamplerSpec, at_eye: DVec2) -> UvProjection {
     let constant = uv_matrix(mapping) * at_eye + mapping.offset;
     let constant = constant - whole_tiles(constant, periods(sampler));
     UvProjection { offset: constant, ..matrix_map(mapping, MapKind::Plane) }
 }
 
-/// A map whose matrix is the mapping's scale and rotation.
+/// Returns a mapping whose matrix is the scale and rotation.
 fn matrix_map(mapping: &Mapping, kind: MapKind) -> UvProjection {
     let m = uv_matrix(mapping);
     UvProjection { m00: m.x_axis.x, m01: m.y_axis.x, m10: m.x_axis.y, m11: m.y_axis.y, ..of_kind(kind) }
 }
 
-/// Every kind but `surface` on planes and triangles. `center` is the shape's centroid, `bounds` its box;
-/// `flat` says that the texture can be read by two coordinates.
+/// Returns any mapping but `surface` on planes and triangles; `flat` is true if the texture can be read by
+/// two coordinates.
 pub fn projecting_map(
     mapping: &Mapping,
     sampler: &SamplerSpec,
@@ -81,7 +82,7 @@ pub fn projecting_map(
     let map = match mapping.kind {
         MappingKind::Planar => affine_map(mapping, sampler, x, y),
         MappingKind::Cylindrical => angular_map(mapping, sampler, MapKind::Cylindrical, [x, y, z]),
-        // `surface` reaches this on spheres only, whose own coordinates are the two angles.
+        // `surface` occurs here on spheres only, whose own coordinates are the two angles.
         MappingKind::Spherical | MappingKind::Surface => {
             angular_map(mapping, sampler, MapKind::Spherical, [x, y, z])
         }
@@ -100,17 +101,17 @@ pub fn projecting_map(
     UvProjection { entity, ..map }
 }
 
-/// The map of an environment: `spherical` with the equator's angle as u, or the direction for a cube.
+/// Returns the mapping of an environment: `spherical` with the azimuth as u, or the direction for a cube.
 pub fn environment_map(environment: &Environment) -> UvProjection {
     let turn = DQuat::from_rotation_y(environment.rotate.to_radians());
     let (axes, kind, [m00, m01, m10, m11]) = match environment.layout {
-        // The angle grows from +z towards -x, so that -z is in the middle and +x to its right.
+        // The azimuth grows from +z towards -x, so that -z is in the middle and +x to its right.
         EnvironmentLayout::Equirectangular => {
             ([DVec3::Z, DVec3::Y, DVec3::NEG_X], MapKind::Spherical, [0.0, 1.0, 1.0, 0.0])
         }
         EnvironmentLayout::Cube => ([DVec3::X, DVec3::Y, DVec3::Z], MapKind::Cube, [1.0, 0.0, 0.0, 1.0]),
     };
-    // A direction is read where the mirrored picture has it: at its own mirror image.
+    // A mirrored environment is read at the mirror image of the direction.
     let across = DVec3::new(if environment.mirror { -1.0 } else { 1.0 }, 1.0, 1.0);
     let [x, y, z] = axes.map(|axis| (turn * (across * axis)).extend(0.0));
     UvProjection { x, y, z, m00, m01, m10, m11, entity: EntityKind::Direction, ..of_kind(kind) }
@@ -130,7 +131,7 @@ fn angular_map(
     UvProjection { x, y, z, offset, ..matrix_map(mapping, kind) }
 }
 
-/// Scale, rotation about the frame's axis, offset, without whole tiles.
+/// Returns scale, rotation about the frame's axis and offset, without whole tiles.
 fn solid_map(mapping: &Mapping, sampler: &SamplerSpec, rows: [DVec4; 3]) -> UvProjection {
     let scale = mapping.scale.extend(mapping.scale_w).to_array();
     let offset = mapping.offset.extend(mapping.offset_w).to_array();
@@ -146,15 +147,15 @@ fn solid_map(mapping: &Mapping, sampler: &SamplerSpec, rows: [DVec4; 3]) -> UvPr
     UvProjection { x: rows[0], y: rows[1], z: rows[2], ..of_kind(MapKind::Solid) }
 }
 
-/// Frame coordinates after a turn by `rotate` about the frame's y, from z towards x.
+/// Rotates frame coordinates by `rotate` about the frame's y, from z towards x.
 fn turned_about_axis(mapping: &Mapping, [x, y, z]: [DVec4; 3]) -> [DVec4; 3] {
     let (sin, cos) = mapping.rotate.to_radians().sin_cos();
     [x * cos + z * sin, y, z * cos - x * sin]
 }
 
-/// Rows that give the frame coordinates of an eye-relative point, or of a direction. The frame's y is
-/// the mapping's axis; x and z follow by the smallest rotation that takes +y there. In `bounds` space the
-/// shape's box runs from -1 to 1 on each axis; a box that is flat on an axis keeps world units there.
+/// Returns the rows that transform an eye-relative point, or a direction, to frame coordinates. The frame's y
+/// is the mapping's axis; x and z follow by the smallest rotation that takes +y there. In `bounds` space the
+/// shape's box extends from -1 to 1 on each axis; a box that is flat on an axis keeps world units there.
 fn frame_rows(mapping: &Mapping, eye: DVec3, place: &Place) -> [DVec4; 3] {
     let axis = mapping.axis.normalize();
     let turn = if axis.y < -1.0 + 1e-12 {
@@ -171,7 +172,7 @@ fn frame_rows(mapping: &Mapping, eye: DVec3, place: &Place) -> [DVec4; 3] {
         _ => (DVec3::ZERO, DVec3::ONE),
     };
     let origin = if mapping.entity == Entity::Centroid {
-        // Through the box's scale, where there is one, as every point goes.
+        // Transformed by the box's scale, if there is one, as all points are.
         mapping.origin + stretch * (place.centroid.unwrap_or(DVec3::ZERO) - center)
     } else {
         mapping.origin

@@ -29,7 +29,7 @@ use crate::scene::model::{
     Algorithm, BumpKind, Environment, EnvironmentLayout, Footprint, Material, Model, PixelFilter, Precision,
     Scene,
 };
-use crate::schema::layout::{self, CHUNK, Header, Records};
+use crate::schema::layout::{self, Header, MAX_SAMPLES_AT_ONCE, Records};
 use crate::texture::data::TextureData;
 use crate::texture::sampler_spec::{Address, Method, SamplerSpec};
 use pixel_filter::Warp;
@@ -76,8 +76,8 @@ pub struct PackedScene {
     pub samples: u32,
     /// Reals are f64 on the device too; else they are rounded to f32 here.
     pub double: bool,
-    /// Samples of a pixel that one thread takes at once, at most `CHUNK`.
-    pub chunk: u32,
+    /// Samples of a pixel that one thread takes at once, at most `MAX_SAMPLES_AT_ONCE`.
+    pub samples_at_once: u32,
     pub schedule: Schedule,
     pub algorithm: Algorithm,
     /// One beam a pixel, and samples where that cannot tell.
@@ -127,7 +127,13 @@ pub fn pack_with(
     let samples = scene.sampling.samples();
     let schedule = schedule(scene);
     let algorithm = scene.sampling.algorithm;
-    let mut packed = PackedScene { samples, chunk: CHUNK, schedule, algorithm, ..Default::default() };
+    let mut packed = PackedScene {
+        samples,
+        samples_at_once: MAX_SAMPLES_AT_ONCE,
+        schedule,
+        algorithm,
+        ..Default::default()
+    };
     let sizes: Vec<[u32; 3]> = textures.iter().map(|t| [t.width, t.height, t.depth]).collect();
     let need = precision::need(scene, &sizes);
     packed.double = match (algorithm, scene.sampling.precision) {

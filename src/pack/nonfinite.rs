@@ -1,5 +1,5 @@
-//! Textures in which some texels are NaN or infinite, let in on purpose: how many each has, and whether all
-//! that reads them keeps them to the pixels that show them. What cannot is refused, with what to use instead.
+//! Textures with texels that are NaN or infinite and were accepted on purpose: counts them, and checks that
+//! all readers confine them to the pixels that show them. Other readers are refused, with an alternative.
 
 use super::textures::{readers, reads};
 use super::{PackedScene, TextureKind, textures};
@@ -9,7 +9,7 @@ use crate::scene::model::Scene;
 use crate::texture::data::{MipKernel, TextureData};
 use crate::texture::sampler_spec::{Method, SamplerSpec};
 
-/// Counts them, and refuses what they would spoil as a whole.
+/// Counts such texels, and refuses scenes in which they would spoil a whole texture.
 pub fn admit(packed: &mut PackedScene, scene: &Scene, textures: &[TextureData]) -> Result<()> {
     packed.nonfinite_texels = textures.iter().map(TextureData::nonfinite_texels).collect();
     for (i, texture) in textures.iter().enumerate().filter(|(i, _)| packed.nonfinite_texels[*i] > 0) {
@@ -26,7 +26,7 @@ pub fn admit(packed: &mut PackedScene, scene: &Scene, textures: &[TextureData]) 
         if packed.beams && textures::kind(texture) == TextureKind::Flat {
             return refused(
                 "algorithm \"beam\" reads sums over whole rows, which one of them spoils",
-                "use --algorithm samples, adaptive or cone",
+                "use algorithm \"samples\", \"adaptive\" or \"cone\"",
             );
         }
         if reads(packed, scene, i, SamplerSpec::needs_sums) {
@@ -38,7 +38,7 @@ pub fn admit(packed: &mut PackedScene, scene: &Scene, textures: &[TextureData]) 
         if readers(scene, i).any(|s| s.method == Method::Hardware) {
             return refused(
                 "method \"hardware\" leaves it to the driver what becomes of a texel that has no weight",
-                "use --method shader",
+                "use method \"shader\"",
             );
         }
         let kernel = scene.textures.get(i).map_or(MipKernel::Box, |t| t.mip_kernel);
@@ -53,7 +53,7 @@ pub fn admit(packed: &mut PackedScene, scene: &Scene, textures: &[TextureData]) 
 }
 
 impl PackedScene {
-    /// Whether a texel may be no number.
+    /// Returns true if some texel may be NaN or infinite.
     pub fn has_nonfinite(&self) -> bool {
         self.nonfinite_texels.iter().any(|&count| count > 0)
     }

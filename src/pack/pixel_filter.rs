@@ -1,22 +1,21 @@
-//! Pixel filters as what turns a place in the unit square into a place about the pixel (Ernst, Stamminger &
-//! Greiner 2006, "Filter importance sampling"): along each axis the inverse of the distribution of |f|, so that
-//! a sum of samples, each with the sign that f has there, is filtered by f. In: a filter. Out: its record in
-//! the header and the table of that inverse, computed in f64.
+//! Pixel filters as mappings from the unit square to positions around the pixel (Ernst, Stamminger & Greiner 2006,
+//! "Filter importance sampling"): along each axis the inverse of the distribution of |f|, so that a sum of samples,
+//! each with the sign of f at its position, is filtered by f. Input: a filter. Output: its record in the header and the
+//! table of that inverse, computed in f64.
 //!
-//! From the middle outwards, t being the part of the samples that lie nearer, the distance in radii is tabled
-//! over v = √(1 - t): where f goes to 0 linearly it is smooth in v to the end. Linear interpolation among 512
-//! cells leaves distributions within 1e-6 of the exact one, and within 1.3e-4 for `mitchell`, whose zero lies
-//! inside a cell.
+//! With t the fraction of the samples nearer to the centre, the distance in radii is tabulated over v = √(1 - t): where
+//! f goes to 0 linearly it is smooth in v up to the end. Linear interpolation in 512 cells keeps distributions within
+//! 1e-6 of the exact one, and within 1.3e-4 for `mitchell`, whose zero is inside a cell.
 
 use std::f64::consts::PI;
 
 use crate::scene::model::{PixelFilter, PixelFilterKind};
 use crate::schema::layout::PIXEL_FILTER_CELLS;
 
-/// Steps of the integrals from the middle to the radius.
+/// Steps of the integrals from the centre to the radius.
 const STEPS: usize = 1 << 14;
 
-/// The filter at x, in radii from the middle; not normalised.
+/// Returns the filter at x, in radii from the centre; not normalised.
 pub fn kernel(kind: PixelFilterKind, x: f64) -> f64 {
     let x = x.abs();
     if x > 1.0 {
@@ -39,24 +38,24 @@ pub fn kernel(kind: PixelFilterKind, x: f64) -> f64 {
     }
 }
 
-/// Where the filter becomes negative, in radii.
+/// Returns the distance at which the filter becomes negative, in radii.
 fn zero(kind: PixelFilterKind) -> f64 {
     if kind == PixelFilterKind::Mitchell { 4.0 / 7.0 } else { 1.0 }
 }
 
-/// What samples of a filter are placed by.
+/// The placement of a filter's samples.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Warp {
     pub kind: PixelFilterKind,
-    /// How far it reaches, in pixels.
+    /// In pixels.
     pub radius: f64,
-    /// First step from the middle, of 2^24, where the filter is negative.
+    /// First step from the centre, of 2^24, at which the filter is negative.
     pub first_negative_step: u32,
-    /// Side of the square over which a box has the same variance, in pixels: what a prefilter may cover.
+    /// Width in pixels of the box that has the same variance, which is the largest extent of a prefilter.
     pub width: f64,
-    /// Distance in radii at v = 0, 1/512, …, 1; empty where there is a closed form.
+    /// Distance in radii at v = 0, 1/512, …, 1; empty if there is a closed form.
     pub table: Vec<f32>,
-    /// Mean of the samples' signs, where the filter has negative lobes.
+    /// Mean of the samples' signs, if the filter has negative lobes.
     pub mean_sign: Option<f64>,
 }
 
@@ -71,7 +70,7 @@ impl Warp {
         let tabled = !matches!(kind, PixelFilterKind::Box | PixelFilterKind::Tent);
         let cells = PIXEL_FILTER_CELLS as usize;
         let distance = |i: usize| integrals.inverse(1.0 - (i as f64 / cells as f64).powi(2)) as f32;
-        // An axis has its sign by an integer: device and oracle never differ in it.
+        // The sign along an axis is decided by an integer, so that device and oracle never differ.
         let first_negative = (integrals.below(zero(kind)) * 16_777_216.0).round() as u32;
         Warp {
             kind,
@@ -84,20 +83,20 @@ impl Warp {
     }
 }
 
-/// Returns the filtered mean of one channel: `sum` of the samples, each with its sign, `negative` of those whose
-/// sign is negative, `signs` of the signs alone. Dividing by the sum of the signs keeps one colour but explodes
-/// where they cancel; dividing by what they are on average does neither. So the plain mean is taken out first and
-/// what remains, which is 0 in a picture of one colour, is divided by the average (a control variate; Owen 2013,
-/// "Monte Carlo theory, methods and examples", 8.9).
+/// Returns the filtered mean of one channel: `sum` of the samples, each with its sign, `negative` of those whose sign
+/// is negative, `signs` of the signs alone. Dividing by the sum of the signs preserves a constant colour but explodes
+/// if they cancel; dividing by their average does neither. So the plain mean is subtracted first and the remainder,
+/// which is 0 in a picture of one colour, is divided by the average (a control variate; Owen 2013, "Monte Carlo theory,
+/// methods and examples", 8.9).
 pub fn filtered_mean(sum: f64, negative: f64, signs: f64, samples: f64, mean_sign: f64) -> f64 {
     let plain = (sum + 2.0 * negative) / samples;
     plain + (sum - plain * signs) / (samples * mean_sign)
 }
 
-/// Of a filter from its middle to its radius, by Simpson's rule.
+/// Integrals of a filter from its centre to its radius, by Simpson's rule.
 struct Integrals {
     kind: PixelFilterKind,
-    /// ∫|f| up to each step, over all of it.
+    /// ∫|f| up to each step, over the whole.
     absolute: Vec<f64>,
     whole: f64,
     /// ∫f / ∫|f|
@@ -106,7 +105,7 @@ struct Integrals {
     variance: f64,
 }
 
-/// ∫ f from a to b.
+/// Returns ∫ f from a to b.
 fn simpson(f: impl Fn(f64) -> f64, a: f64, b: f64) -> f64 {
     (b - a) / 6.0 * (f(a) + 4.0 * f(0.5 * (a + b)) + f(b))
 }
@@ -127,14 +126,14 @@ impl Integrals {
         Integrals { kind, absolute, whole, mean_sign: signed / whole, variance: second / signed }
     }
 
-    /// The part of |f| nearer to the middle than x.
+    /// Returns the fraction of |f| nearer to the centre than x.
     fn below(&self, x: f64) -> f64 {
         let step = ((x * STEPS as f64) as usize).min(STEPS - 1);
         let start = step as f64 / STEPS as f64;
         self.absolute[step] + simpson(|x| kernel(self.kind, x).abs(), start, x) / self.whole
     }
 
-    /// The distance within which a part t of |f| lies.
+    /// Returns the distance within which a fraction t of |f| lies.
     fn inverse(&self, t: f64) -> f64 {
         let step = self.absolute.partition_point(|&below| below < t).clamp(1, STEPS);
         let (mut low, mut high) = ((step - 1) as f64 / STEPS as f64, step as f64 / STEPS as f64);

@@ -1,6 +1,7 @@
-//! Scene and sizes of its textures → whether geometry in f32 is good enough, by first-order analysis of
-//! rounding (Higham 2002, chapter 3) at rays all over the picture. Two things count: rays and outlines, in
-//! pixels; and places in textures, in texels. And the rounding itself, of a scene that needs no f64.
+//! Decides whether geometry in f32 is accurate enough for a scene and the sizes of its textures, by
+//! first-order analysis of rounding errors (Higham 2002, chapter 3) at rays all over the picture. Two errors
+//! count: of rays and outlines, in pixels; and of texture coordinates, in texels. Also rounds scenes that do
+//! not need f64.
 
 use glam::DVec3;
 
@@ -12,35 +13,35 @@ use crate::schema::layout::Record;
 
 /// Unit roundoff of f32.
 pub(super) const U: f64 = 1.0 / 16_777_216.0;
-/// Rounding errors of a ray's direction, a dot product with it and a product by t, as they add up where their
-/// signs are random.
+/// Rounding errors of a ray's direction, a dot product with it and a product by t, in U, as they add up with
+/// random signs.
 pub(super) const RAY: f64 = 2.0;
-/// A ray or an outline of a sphere may be off by this part of a pixel.
+/// Tolerance of a ray or an outline of a sphere, as a fraction of a pixel.
 pub(super) const PART_OF_PIXEL: f64 = 1.0 / 32.0;
-/// A look-up may be off by this part of a texel ...
+/// Tolerance of a look-up, as a fraction of a texel ...
 const PART_OF_TEXEL: f64 = 1.0 / 256.0;
-/// ... but in this part of the picture: towards a horizon texels are far smaller than pixels.
+/// ... except in this fraction of the picture: towards a horizon texels are far smaller than pixels.
 const PART_OF_PICTURE: f64 = 1.0 / 3.0;
-/// Texels that a unit of a procedural texture is held to have.
+/// Assumed texels per unit of a procedural texture.
 const PROCEDURAL_TEXELS: f64 = 16.0;
-/// Beyond these numbers squares and cubes leave the range of f32.
+/// Outside of these bounds squares and cubes leave the range of f32.
 pub(super) const RANGE: [f64; 2] = [1e-12, 1e12];
 /// Rays along each side of the picture.
 const RAYS: u32 = 16;
 
-/// What f32 would misplace.
+/// The errors of f32 that exceed the tolerances.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Need {
-    /// Rays and outlines, by pixels that can be seen.
+    /// Rays and outlines would be visibly displaced.
     pub outlines: bool,
-    /// Look-ups, by texels.
+    /// Look-ups would be displaced by texels.
     pub texels: bool,
 }
 
 pub(super) struct Camera {
     pub eye: DVec3,
     pub forward: DVec3,
-    /// A pixel's side: at distance 1, or of parallel rays.
+    /// A pixel's side at distance 1, or of parallel rays.
     pub pixel: f64,
     pub parallel: bool,
     pub rays: Vec<[DVec3; 2]>,
@@ -61,13 +62,13 @@ impl Camera {
         Camera { eye: scene.camera.eye, forward, pixel, parallel, rays: rays.collect() }
     }
 
-    /// A pixel's side at that distance.
+    /// Returns a pixel's side at that distance.
     pub fn pixel_at(&self, distance: f64) -> f64 {
         if self.parallel { self.pixel } else { self.pixel * distance }
     }
 }
 
-/// Look-ups that were asked about, and those that f32 misplaces.
+/// The number of look-ups that were tested, and of those that f32 displaces.
 #[derive(Default)]
 struct Count {
     all: u32,
@@ -85,7 +86,7 @@ impl Count {
     }
 }
 
-/// `sizes` of the scene's textures in texels.
+/// Returns the needs of a scene whose textures have these `sizes` in texels.
 pub fn need(scene: &Scene, sizes: &[[u32; 3]]) -> Need {
     let camera = Camera::new(scene);
     let rays_merge = !camera.parallel && RAY * U > camera.pixel * PART_OF_PIXEL;
@@ -106,7 +107,7 @@ pub fn need(scene: &Scene, sizes: &[[u32; 3]]) -> Need {
     Need { outlines, texels: counts.iter().any(Count::too_many) }
 }
 
-/// Of the finest texture that the material reads.
+/// Returns the texels per tile of the finest texture that the material reads.
 fn texels_per_tile(scene: &Scene, sizes: &[[u32; 3]], material: &Material) -> Option<f64> {
     let textures = [material.texture, material.bump.map(|r| r.texture)];
     let texels = |texture: usize| {
@@ -116,7 +117,7 @@ fn texels_per_tile(scene: &Scene, sizes: &[[u32; 3]], material: &Material) -> Op
     textures.into_iter().flatten().map(texels).reduce(f64::max)
 }
 
-/// How fast a projecting map's coordinate changes at a place with that normal, at most.
+/// Returns the largest rate of change of a projecting mapping's coordinate at a point with that normal.
 pub(super) fn tiles_a_unit(mapping: &Mapping, place: DVec3, normal: DVec3) -> f64 {
     let scale = mapping.scale.abs().max_element().max(if mapping.kind == MappingKind::Solid {
         mapping.scale_w.abs()
@@ -135,8 +136,8 @@ pub(super) fn tiles_a_unit(mapping: &Mapping, place: DVec3, normal: DVec3) -> f6
 }
 
 impl PackedScene {
-    /// Without f64 on the device all is of f32, and a person should know.
-    pub fn suit_device(&mut self, float64: bool) -> Option<String> {
+    /// Rounds to f32 if the device has no f64, and returns a warning if that matters.
+    pub fn adapt_to_device(&mut self, float64: bool) -> Option<String> {
         if !self.double || float64 {
             return None;
         }
@@ -148,7 +149,7 @@ impl PackedScene {
         )
     }
 
-    /// The numbers that a device reads as f32.
+    /// Rounds all numbers that a device reads as f32.
     pub fn round_reals(&mut self) {
         self.header = self.header.quantize_f32();
         self.records.quantize_f32();

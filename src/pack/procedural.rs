@@ -1,5 +1,5 @@
-//! Procedural textures → records of the scene buffer, with what is the same for every look-up
-//! worked out: the norm of a sum of octaves.
+//! Packs procedural textures into records of the scene buffer, with the part that is the same for every
+//! look-up: the norm of a sum of octaves.
 
 use glam::Vec3;
 

@@ -1,4 +1,4 @@
-//! A packed scene with other samples: what a device holds of shapes and textures stays as it is.
+//! Changes the samples of a packed scene: the device's shapes and textures stay as they are.
 
 use super::header::header;
 use super::pixel_filter::Warp;
@@ -8,7 +8,7 @@ use crate::scene::model::Scene;
 use crate::schema::record::Field;
 
 impl PackedScene {
-    /// Takes the samples of `scene`, which is the one it was packed from but for algorithm, pattern, number,
+    /// Adopts the samples of `scene`, which may differ from the packed scene in algorithm, pattern, number,
     /// seed and whether pixels share them.
     pub fn set_sampling(&mut self, scene: &Scene) {
         let [x, y] = self.header.crop.to_array();

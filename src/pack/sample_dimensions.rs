@@ -1,10 +1,10 @@
-//! Scene → which choices its samples make beside their place in the pixel, and the header's numbers of lens and
-//! shutter.
+//! The sample dimensions that a scene uses beside the position in the pixel, and the lens and shutter of the
+//! header.
 
 use super::SampleDimension;
 use crate::scene::model::Scene;
 
-/// What samples choose beside their place in the pixel.
+/// Returns one bit for each sample dimension in use, beside the position in the pixel.
 pub fn sample_dimensions(scene: &Scene) -> u32 {
     let of = |choice: &SampleDimension| match choice {
         SampleDimension::Lens => scene.camera.lens.is_some(),
@@ -18,7 +18,8 @@ pub fn sample_dimensions(scene: &Scene) -> u32 {
     SampleDimension::ALL.iter().filter(|c| of(c)).fold(0, |bits, &choice| bits | 1 << choice as u32)
 }
 
-/// Radius over a pixel's side at distance 1; 1 / focus distance; when the shutter opens, how long it is open.
+/// Returns the lens radius over a pixel's side at distance 1; 1 / focus distance; when the shutter opens, and
+/// for how long.
 pub fn lens(scene: &Scene, pixel: f64) -> [f32; 4] {
     let [opens, closes] = scene.camera.shutter;
     let lens = scene.camera.lens.map_or([0.0; 2], |l| [l.radius / pixel, 1.0 / l.focus_distance]);

@@ -1,12 +1,12 @@
-//! Lists of a packed scene → the bytes of its scene buffer, and where each list begins.
+//! Writes the lists of a packed scene to the bytes of its scene buffer, and records the offset of each.
 
 use super::PackedScene;
 use crate::schema::layout::{self, Header, List, bytes_of};
 
-/// Room in which short lists end.
+/// Bytes to which the size of a short list is rounded.
 const LIST_BYTES: usize = 64 * 16;
 
-/// Where each list begins in the scene buffer, in units of 16 bytes.
+/// The offset of each list in the scene buffer, in units of 16 bytes.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Sections {
     pub lists: Vec<(List, u32)>,
@@ -14,9 +14,10 @@ pub struct Sections {
 }
 
 impl PackedScene {
-    /// The scene buffer and where its lists begin: that of the pixel filter and then the short ones first, so
-    /// that all of them lie in the head. Close together, as devices cache few of them; or, where there is
-    /// room, in steps, so that all small scenes have one compiled pipeline that keeps everything.
+    /// Returns the scene buffer and the offsets of its lists: first that of the pixel filter and the short
+    /// ones, so that all of them are in the uniform buffer. Close together, as devices cache few of them; or,
+    /// if there is room, at fixed steps, so that all small scenes share one compiled pipeline that keeps
+    /// everything.
     pub fn scene_bytes(&self, in_steps: bool) -> (Vec<u8>, Sections) {
         let mut sections = Sections::default();
         let bytes_of_list = |&list: &List| (list, self.records.bytes(list, self.double));
@@ -40,13 +41,13 @@ impl PackedScene {
         (bytes, sections)
     }
 
-    /// What the scene buffer begins with.
+    /// Returns the bytes of the scene buffer's header.
     pub fn header_bytes(&self, header: &Header) -> Vec<u8> {
         bytes_of(&[*header], self.double)
     }
 }
 
-/// Bytes in which a list lies where lists begin in steps.
+/// Returns the bytes of a list rounded to steps.
 fn room(list: &[u8]) -> usize {
     list.len().max(1).next_multiple_of(LIST_BYTES)
 }

@@ -1,11 +1,11 @@
-//! A packed scene → one line a texture for a person: its size, what its file has, and how its texels are held.
+//! Describes the textures of a packed scene, one line each: size, channels of the file, and stored format.
 
 use super::{PackedScene, TextureKind};
 use crate::core::counted::counted;
 use crate::schema::layout::Texture;
 
 impl PackedScene {
-    /// One line a texture: size, the file's channels, and how it is held.
+    /// Returns one line per texture: size, the file's channels, and the stored format.
     pub fn texture_lines(&self) -> Vec<String> {
         let line = |(i, ((name, record), channels)): (usize, ((&String, &Texture), &usize))| {
             if record.kind == TextureKind::Procedural {

@@ -1,4 +1,4 @@
-//! Textures and samplers → texel bytes, records and image slots.
+//! Packs textures and samplers into texel bytes, records and image slots.
 
 use glam::{UVec3, Vec4};
 
@@ -12,8 +12,8 @@ use crate::texture::{mips, prefix_sums, summed};
 
 use super::{MipPlacement, PackedScene, TextureKind};
 
-/// One image descriptor: a texture and the sampler it is read through. Look-ups of method shader
-/// fetch texels and ignore the sampler, so all of them share one slot a texture.
+/// One image descriptor: a texture and its sampler. Look-ups of method shader fetch texels and ignore the sampler, so
+/// all of them share one slot per texture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Slot {
     pub texture: usize,
@@ -21,11 +21,10 @@ pub struct Slot {
     pub hardware: bool,
 }
 
-/// At most this many image descriptors (`SLOT_SWITCH` in `texture.glsl`).
+/// Largest number of image descriptors (`SLOT_SWITCH` in `texture.glsl`).
 pub const MAX_SLOTS: usize = 16;
 
-/// Without a footprint the level is 0, which is magnification: what differs under minification is left
-/// out.
+/// Packs a sampler. Without a footprint every look-up magnifies in level 0: properties of minification are left out.
 pub fn sampler(spec: &SamplerSpec, filtered: bool) -> layout::Sampler {
     let (min, mip) = if filtered { (spec.min, spec.mip) } else { (spec.mag, MipMode::None) };
     layout::Sampler {
@@ -45,7 +44,7 @@ pub fn sampler(spec: &SamplerSpec, filtered: bool) -> layout::Sampler {
     }
 }
 
-/// Puts all texels into the pool, first those that images cannot hold. The texels of the first texture are
+/// Appends all texels to the texel buffer, first those that images cannot hold. The texels of the first texture are
 /// moved, not copied.
 pub fn pack_textures(
     packed: &mut PackedScene,
@@ -83,10 +82,10 @@ pub fn pack_textures(
         let levels = if !reads(packed, scene, index, SamplerSpec::reads_levels) {
             Vec::new()
         } else if packed.nonfinite_texels[index] > 0 {
-            mips::pyramid_of_finite(&texture)
+            mips::mip_chain_of_finite(&texture)
         } else if mip_chains.leaves(&texture, kernel) {
             packed.device_levels.push(index);
-            mips::blank(&texture)
+            mips::zeroed_levels(&texture)
         } else {
             mips::mip_chain(&texture, kernel)
         };
@@ -116,9 +115,9 @@ pub fn kind(texture: &TextureData) -> TextureKind {
     }
 }
 
-/// For each texture where its sums along rows begin, 0 for one that is not flat; then those sums.
+/// Returns for each texture the offset of its prefix sums, 0 if it is not 2D, followed by those sums.
 pub fn prefix_sums(textures: &[TextureData]) -> Vec<u32> {
-    // One word more than needed: no table begins at 0, and a buffer holds something.
+    // One word more than needed: no table is at offset 0, and a buffer must not be empty.
     let mut words = vec![0; textures.len() + 1];
     for (i, texture) in textures.iter().enumerate().filter(|(_, t)| t.dimension == Dimension::Two) {
         words[i] = words.len() as u32;
@@ -128,13 +127,13 @@ pub fn prefix_sums(textures: &[TextureData]) -> Vec<u32> {
     words
 }
 
-/// Words of all of those.
+/// Returns the number of words of all prefix sums.
 pub fn prefix_sum_words(textures: &[TextureData]) -> u64 {
     let flat = textures.iter().filter(|t| t.dimension == Dimension::Two);
     textures.len() as u64 + 1 + flat.map(prefix_sums::words).sum::<u64>()
 }
 
-/// Whether some sampler that minifies this texture is such.
+/// Returns true if some sampler that minifies this texture satisfies `such`.
 pub(super) fn reads(
     packed: &PackedScene,
     scene: &Scene,
@@ -144,7 +143,7 @@ pub(super) fn reads(
     packed.header.footprint != Footprint::None && readers(scene, texture).any(such)
 }
 
-/// The samplers that this texture is read through.
+/// Returns the samplers that read this texture.
 pub(super) fn readers(scene: &Scene, texture: usize) -> impl Iterator<Item = &SamplerSpec> {
     let materials = scene.materials.iter();
     let read =
@@ -153,8 +152,8 @@ pub(super) fn readers(scene: &Scene, texture: usize) -> impl Iterator<Item = &Sa
     read.map(|m| m.sampler).chain(environment).map(|sampler| &scene.samplers[sampler])
 }
 
-/// The texture's first word: where the texels of level 0 begin. The words before it say where those of the
-/// other levels do, level 1 last; before them, where there is a table of sums, where that begins.
+/// Returns the texture's first word, which is the offset of level 0. The words before it are the offsets of the other
+/// levels, level 1 last; before them, if there is a summed-area table, its offset.
 fn append(
     packed: &mut PackedScene,
     texture: TextureData,
@@ -202,8 +201,8 @@ fn append(
     Ok(start as u32)
 }
 
-/// A colour texture whose texels are all opaque grey is held as grey: a quarter of the memory, and of
-/// the arithmetic of a look-up. The first coloured texel ends the search.
+/// Stores a colour texture whose texels are all opaque grey as grey: a quarter of the memory, and of the arithmetic of
+/// a look-up. The first coloured texel ends the search.
 fn without_equal_channels(texture: TextureData) -> TextureData {
     if texture.format.channels() != 4 {
         return texture;
@@ -220,14 +219,14 @@ fn without_equal_channels(texture: TextureData) -> TextureData {
     }
 }
 
-/// The first of four channels of `WIDTH` bytes each, if the next two equal it and the last is `one`.
+/// Returns the first of four channels of `WIDTH` bytes each, if the next two equal it and the last is `one`.
 fn opaque_greys<const WIDTH: usize>(texels: &[u8], one: [u8; 4]) -> Option<Vec<u8>> {
     let (pixels, _) = texels.as_chunks::<WIDTH>().0.as_chunks::<4>();
     let grey = |p: &[[u8; WIDTH]; 4]| p[0] == p[1] && p[0] == p[2] && p[3][..] == one[..WIDTH];
     pixels.iter().all(grey).then(|| pixels.iter().flat_map(|p| p[0]).collect())
 }
 
-/// Drivers know sRGB with 8 bits only.
+/// Returns true if the texture must be decoded on the host, as drivers support sRGB with 8 bits only.
 fn needs_linear_floats(texture: &TextureData, scene: &Scene, index: usize) -> bool {
     texture.color_space == ColorSpace::Srgb
         && texture.format.component() == Component::Unorm16
@@ -238,7 +237,7 @@ fn linear_floats(texture: &TextureData) -> TextureData {
     texture.with_floats(texture.format.channels(), |x, y, c| texture.linear_value(x, y, c) as f32)
 }
 
-/// The slot of this pair among those of its kind, new or shared. What no image holds has none.
+/// Returns the slot of this pair among those of its kind, new or shared; textures that need no image have none.
 pub fn slot(packed: &mut PackedScene, texture: usize, sampler: usize) -> u32 {
     let hardware = packed.sampler_specs[sampler].method == Method::Hardware;
     let slots = match packed.records.textures[texture].kind {
@@ -258,7 +257,7 @@ pub fn slot(packed: &mut PackedScene, texture: usize, sampler: usize) -> u32 {
 }
 
 impl PackedScene {
-    /// Linear light of all codes of 8-bit sRGB, and then of 16-bit sRGB, as far as the scene has any.
+    /// Returns the linear values of all codes of 8-bit sRGB, then of 16-bit sRGB, if the scene has any.
     pub fn srgb_light(&self) -> Vec<f32> {
         let of = |component: Component| srgb_table(component.codes());
         match (self.has_srgb(Component::Unorm8), self.has_srgb(Component::Unorm16)) {
@@ -268,7 +267,7 @@ impl PackedScene {
         }
     }
 
-    /// Whether colours of some texture are sRGB codes of this type.
+    /// Returns true if some texture has sRGB codes of this type.
     pub fn has_srgb(&self, component: Component) -> bool {
         self.records
             .textures
@@ -276,7 +275,7 @@ impl PackedScene {
             .any(|t| t.color_space == ColorSpace::Srgb && t.format.component() == component)
     }
 
-    /// Width, height and depth of a level (Vulkan 1.3, "Image Miplevel Sizing"); of a cube the depth is 6.
+    /// Returns width, height and depth of a level (Vulkan 1.3, "Image Miplevel Sizing"); the depth of a cube is 6.
     pub fn level_size(&self, texture: usize, level: u32) -> [u32; 3] {
         let Texture { size, kind, .. } = self.records.textures[texture];
         let [width, height, depth] = size.to_array();
@@ -285,7 +284,7 @@ impl PackedScene {
         [halved(width), halved(height), depth]
     }
 
-    /// The texels of a level.
+    /// Returns the texels of a level.
     pub fn level_texels(&self, texture: usize, level: u32) -> &[u8] {
         let Texture { first_word, format, .. } = self.records.textures[texture];
         let start = self.level_word(first_word, level) as usize * 4;
@@ -294,7 +293,7 @@ impl PackedScene {
         &self.texels[start..start + bytes]
     }
 
-    /// Where a level's texels begin, of the texture whose level 0 begins at `first_word`.
+    /// Returns the offset of a level of the texture whose level 0 is at `first_word`.
     pub fn level_word(&self, first_word: u32, level: u32) -> u32 {
         if level == 0 {
             return first_word;

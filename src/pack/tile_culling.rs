@@ -1,16 +1,16 @@
-//! Whether a picture is culled tile by tile before it is sampled, and in how large cells.
+//! Decides whether a picture is culled by tiles before it is sampled, and the size of their cells.
 
 use super::geometry::gains_by_tiles;
 use crate::scene::model::Scene;
 use crate::schema::layout::CELL_WORDS;
 
-/// Pixels along a side of the smallest cells: measured best of 8 and 16 on 800 triangles.
+/// Side in pixels of the smallest cells: 8 measured better than 16 on 800 triangles.
 const FINEST: u32 = 8;
-/// Of all lists: what every device's buffers hold, by half.
+/// Most words of all lists: half of the size of buffers that every device supports.
 const MAX_WORDS: u64 = 1 << 24;
 
-/// Pixels along a side of the survey's cells, 0 without a survey. Cells stand for all rays through their
-/// pixels, as beams do for one.
+/// Returns the side of tile culling cells in pixels; 0 without tile culling. Cells cover all rays through
+/// their pixels, as beams do for one pixel.
 pub fn cell_side(scene: &Scene, size: [u32; 2]) -> u32 {
     if !gains_by_tiles(scene) || !scene.supports_beams() {
         return 0;

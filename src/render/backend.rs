@@ -1,5 +1,5 @@
-//! A device as a backend: ranges, batches and beams of a prepared session. In: what an integrator asks for. Out: sums
-//! and resolved pixels, and at the end a report of what the device did.
+//! A device as a backend: ranges, batches and beams of a prepared session. Input: an integrator's requests. Output:
+//! sums and resolved pixels, and at the end the statistics of the device.
 
 use std::sync::Arc;
 use std::time::Instant;
@@ -21,12 +21,13 @@ use crate::sampling::{Backend, FilmSums, HalfSums, PilotRun};
 use crate::schema::layout::Job;
 
 impl Prepared<'_, '_> {
-    /// Renders once more. The report's times of loading and compiling are those of the first.
+    /// Renders once more. The report's times of loading and compiling are those of the first render.
     pub fn render(&self, progress: &dyn Progress) -> Result<(Film, Report)> {
         self.render_to_goal(None, progress)
     }
 
-    /// The same; of a scene that is sampled by batches, until the goal is met, by default the number of samples.
+    /// Renders as [`Prepared::render`] does; a scene that is sampled by batches ends at `goal`, by default its number
+    /// of samples.
     pub fn render_to_goal(&self, goal: Option<Goal>, progress: &dyn Progress) -> Result<(Film, Report)> {
         let [width, height] = self.scene.header.film_size.to_array();
         let mut backend = DeviceBackend::new(self)?;
@@ -39,11 +40,11 @@ impl Prepared<'_, '_> {
 /// A prepared session while it renders.
 pub struct DeviceBackend<'p> {
     prepared: &'p Prepared<'p, 'p>,
-    /// Once batches were asked for.
+    /// Set by the first request for batches.
     batches: Option<BatchSampler<'p>>,
-    /// Of a scene that is sampled by batches, once a pilot run was asked for.
+    /// Set by a pilot run, for a scene that is sampled by batches.
     beams: Option<BeamPass<'p>>,
-    /// Tile-samples of the next slice, learnt from the last ones.
+    /// Tile-samples of the next slice, learnt from the previous ones.
     next: f64,
     report: Report,
     begun: Instant,
@@ -53,19 +54,18 @@ pub struct DeviceBackend<'p> {
 }
 
 impl<'p> DeviceBackend<'p> {
-    /// Brings the device into the state in which a render begins. Fails while another render of the session is not
-    /// finished.
+    /// Sets up the device's state for a render. Fails while another render of the session is not finished.
     pub fn new(prepared: &'p Prepared<'p, 'p>) -> Result<DeviceBackend<'p>> {
         let session = prepared.session;
         let turn = session.turn()?;
         session.write_header(&prepared.scene.header)?;
         let mut report = prepared.report.clone();
-        if let Some(guards) = &session.resources.guards {
-            guards.clear(session.gpu)?;
+        if let Some(diagnostics) = &session.resources.diagnostics {
+            diagnostics.clear(session.gpu)?;
         }
         let begun = Instant::now();
-        if let Some(survey) = session.survey().filter(|_| prepared.scene.culls_tiles()) {
-            survey.run(session.gpu, &mut report)?;
+        if let Some(tile_culling) = session.tile_culling().filter(|_| prepared.scene.culls_tiles()) {
+            tile_culling.run(session.gpu, &mut report)?;
         }
         Ok(DeviceBackend {
             prepared,
@@ -79,20 +79,24 @@ impl<'p> DeviceBackend<'p> {
         })
     }
 
-    /// Ends the render, and says what the device did.
+    /// Ends the render and returns the statistics of the device.
     pub fn finish(self) -> Result<Report> {
         drop((self.batches, self.beams));
         let mut report = self.report;
         let beside = report.seconds.compile - self.compiled + report.seconds.readback;
         report.seconds.render = self.begun.elapsed().as_secs_f64() - beside;
         let session = self.prepared.session;
-        report.guards =
-            session.resources.guards.as_ref().map(|guards| guards.read(session.gpu)).transpose()?;
+        report.diagnostics = session
+            .resources
+            .diagnostics
+            .as_ref()
+            .map(|diagnostics| diagnostics.read(session.gpu))
+            .transpose()?;
         report.device_bytes = session.gpu.memory_in_use();
         Ok(report)
     }
 
-    /// What takes batches, made where it is not there yet; and the report.
+    /// Returns the sampler of batches, built on first use, and the report.
     fn batches(&mut self) -> Result<(&mut BatchSampler<'p>, &mut Report)> {
         let Prepared { session, scene, work, .. } = self.prepared;
         if self.batches.is_none() {
@@ -129,7 +133,7 @@ impl<'p> DeviceBackend<'p> {
         let Prepared { session, scene, .. } = self.prepared;
         let mut block = film.block(range.clone());
         let tiles = film.tiles(range.pixels);
-        let mut plan = DispatchPlan::new(self.next, range.samples.clone(), scene.chunk, tiles);
+        let mut plan = DispatchPlan::new(self.next, range.samples.clone(), scene.samples_at_once, tiles);
         for band in film.bands(range.pixels) {
             if range.samples.start > 0 {
                 film.clear(session.gpu, &band)?;
@@ -143,7 +147,7 @@ impl<'p> DeviceBackend<'p> {
         Ok(block.into())
     }
 
-    /// Fails where a range is not one of whole rows of the picture, and of the samples that the scene was packed with.
+    /// Fails unless the pixels are whole rows of the picture and the samples those for which the scene was packed.
     fn check(&self, pixels: &Rect, samples_end: u32) -> Result<()> {
         let [width, height] = self.prepared.scene.header.film_size.to_array();
         let rows = pixels.x == 0 && pixels.width == width && pixels.y + pixels.height <= height;
@@ -220,8 +224,8 @@ impl Backend for DeviceBackend<'_> {
     fn first_samples(&self, most: u32, pixels: usize) -> Result<Vec<u32>> {
         let Prepared { session, scene, .. } = self.prepared;
         let [width, height] = scene.header.film_size.to_array();
-        match session.survey() {
-            Some(survey) => survey.first_samples(session.gpu, [width, height], most),
+        match session.tile_culling() {
+            Some(tile_culling) => tile_culling.first_samples(session.gpu, [width, height], most),
             None => Ok(vec![most; pixels]),
         }
     }

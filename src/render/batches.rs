@@ -1,5 +1,5 @@
-//! Batches of samples → sums of two halves on the device, for sampling that differs from pixel to pixel. The
-//! film lies in pages of whole rows that the device's buffers can hold; each page has its own list.
+//! Sums batches of samples into two halves on the device, for sampling rates that differ from pixel to pixel. The film
+//! is divided into pages of whole rows that fit the device's buffers; each page has its own list of batches.
 
 use super::dispatch_plan::{FIRST_SAMPLES, MAX_TILES, next_work};
 use super::{Report, Resources};
@@ -12,12 +12,12 @@ use crate::pack::{PackedScene, Schedule, filtered_mean};
 use crate::sampling::HalfSums;
 use crate::schema::layout::{Job, Slice, TILE};
 
-/// Four floats, of each half.
+/// Four floats for each half.
 const PIXEL_BYTES: u64 = 32;
 const MAX_PAGE_BYTES: u64 = 64 << 20;
-/// Samples of a batch beside the film that one thread takes.
+/// Samples that one invocation takes of a batch that does not go to the film.
 const PART_SAMPLES: u32 = 64;
-/// Batches beside the film whose sums a buffer holds.
+/// Number of such batches whose sums one buffer holds.
 const MAX_PARTS: usize = 1 << 20;
 const BATCHES_PER_TILE: usize = (TILE * TILE) as usize;
 
@@ -26,14 +26,14 @@ struct Page {
     film: Buffer,
 }
 
-/// The pipeline that samples by batches.
+/// The pipeline that samples batches.
 pub struct SamplePipeline {
     pub pipeline: std::sync::Arc<Pipeline>,
     pub shader: &'static Shader,
     pub groups_per_tile: u32,
 }
 
-/// What binding a list of batches takes.
+/// The parameters of binding a list of batches.
 struct Bindings<'a> {
     resources: &'a Resources,
     pipeline: &'a Pipeline,
@@ -46,18 +46,18 @@ impl Bindings<'_> {
     }
 }
 
-/// Takes batches of samples, and has their sums.
+/// Takes batches of samples and holds their sums.
 pub struct BatchSampler<'a> {
     gpu: &'a Gpu,
     bindings: Bindings<'a>,
     groups_per_tile: u32,
     pages: Vec<Page>,
     size: [u32; 2],
-    /// Mean of the samples' signs, where they have any: the film then also holds sums of negative samples, and counts.
+    /// The mean of the samples' signs, if they have any: the film then also holds sums of negative samples, and counts.
     mean_sign: Option<f64>,
-    /// A thread takes no more samples at once.
+    /// Most samples that an invocation takes at once.
     block: u32,
-    /// Samples of the next submission, learnt from the last ones.
+    /// Samples of the next submission, learnt from the previous ones.
     next: f64,
 }
 
@@ -87,12 +87,12 @@ impl<'a> BatchSampler<'a> {
             pages,
             size: [width, height],
             mean_sign: scene.mean_sign,
-            block: scene.chunk,
+            block: scene.samples_at_once,
             next: FIRST_SAMPLES,
         })
     }
 
-    /// One workgroup without a batch: whatever the driver compiles late, it compiles now.
+    /// Runs one workgroup without a batch, so that lazy compilation in the driver happens now.
     pub fn warm_up(&self) -> Result<()> {
         let Some(page) = self.pages.first() else { return Ok(()) };
         let jobs = self.gpu.upload_buffer("jobs", BufferUse::Storage, bytemuck::bytes_of(&Job::default()))?;
@@ -102,7 +102,7 @@ impl<'a> BatchSampler<'a> {
         Ok(())
     }
 
-    /// All samples of a list, in rounds that no thread finds too long.
+    /// Takes all samples of a list, in rounds within the loop budget of an invocation.
     fn rounds(
         &mut self,
         index: usize,
@@ -122,7 +122,7 @@ impl<'a> BatchSampler<'a> {
         Ok(())
     }
 
-    /// The list in submissions of whole tiles.
+    /// Submits a list of batches in whole tiles.
     fn page(
         &mut self,
         index: usize,
@@ -137,7 +137,7 @@ impl<'a> BatchSampler<'a> {
         self.submit(&film, slice, Some(&jobs), costs, report, progress)
     }
 
-    /// As many samples of both halves of all pixels of a page.
+    /// Takes the same number of samples of both halves of all pixels of a page.
     fn whole_page(
         &mut self,
         index: usize,
@@ -155,8 +155,8 @@ impl<'a> BatchSampler<'a> {
         self.submit(&film, slice, None, costs, report, progress)
     }
 
-    /// Sums of batches that a thread takes at once, beside the film: of radiance, and where samples have signs those of
-    /// negative ones, and the counts.
+    /// Returns the sums of batches that do not go to the film, each short enough for one invocation: of radiance, and
+    /// if samples have signs also of negative samples, and the counts.
     fn parts_apart(
         &mut self,
         parts: &[(usize, Job)],
@@ -168,7 +168,7 @@ impl<'a> BatchSampler<'a> {
         let plane = (list.len() * size_of::<[f32; 4]>()) as u64;
         let film = self.gpu.buffer("audit", planes * plane, BufferUse::Storage)?;
         let jobs = self.gpu.upload_buffer("jobs", BufferUse::Storage, bytemuck::cast_slice(&list))?;
-        // Places are those of the whole picture.
+        // Positions are those of the whole picture.
         let whole = Page { rows: Rect::whole(self.size), film: film.clone() };
         let slice = Slice { tiles: list.len() as u32, ..whole.slice() };
         self.submit(&film, slice, Some(&jobs), costs(&list), report, progress)?;
@@ -180,7 +180,7 @@ impl<'a> BatchSampler<'a> {
         (0..planes).map(read).collect()
     }
 
-    /// Tiles of so many samples, in submissions as long as the last ones allow.
+    /// Submits tiles with these numbers of samples, as many at once as previous timings allow.
     fn submit(
         &mut self,
         film: &Buffer,
@@ -215,13 +215,13 @@ impl<'a> BatchSampler<'a> {
     }
 }
 
-/// Samples of each tile of batches.
+/// Returns the samples of each tile of batches.
 fn costs(list: &[Job]) -> Vec<f64> {
     list.chunks(BATCHES_PER_TILE).map(|tile| tile.iter().map(|j| f64::from(j.count)).sum()).collect()
 }
 
-/// Sums of radiance as if no sample had a sign, from those with signs, those of negative samples alone, and the
-/// sum of the signs and number of samples.
+/// Returns sums of radiance as if no sample had a sign, from the signed sums, those of negative samples alone, the sum
+/// of the signs and the number of samples.
 fn weighed([sums, negative, [signs, samples, _, _]]: [[f64; 4]; 3], mean_sign: f64) -> [f32; 4] {
     let filtered = |c: usize| samples * filtered_mean(sums[c], negative[c], signs, samples, mean_sign);
     [filtered(0), filtered(1), filtered(2), sums[3]].map(|v| v as f32)
@@ -239,7 +239,7 @@ impl Page {
 }
 
 impl BatchSampler<'_> {
-    /// Adds the samples of each batch to its pixel of its half.
+    /// Adds the samples of each batch to its pixel in its half.
     pub fn sample(&mut self, batches: &[Job], report: &mut Report, progress: &dyn Progress) -> Result<()> {
         if let [page] = self.pages.as_slice() {
             debug_assert_eq!(page.rows.y, 0);
@@ -256,7 +256,7 @@ impl BatchSampler<'_> {
         Ok(())
     }
 
-    /// Adds as many samples to both halves of all pixels.
+    /// Adds the same number of samples to both halves of all pixels.
     pub fn sample_all(
         &mut self,
         first: u32,
@@ -272,15 +272,15 @@ impl BatchSampler<'_> {
         Ok(())
     }
 
-    /// Sums each batch beside the film.
+    /// Sums each batch separately, without adding it to the film.
     pub fn sample_apart(
         &mut self,
         batches: &[Job],
         report: &mut Report,
         progress: &dyn Progress,
     ) -> Result<Vec<[f32; 4]>> {
-        // Each part that a thread takes at once has a place of its own: short ones, so that neighbouring threads are of
-        // one pixel, and follow the same paths.
+        // Each part that an invocation takes has a slot of its own. Parts are short, so that neighbouring invocations
+        // work on one pixel and follow the same paths.
         let most = self.block.min(PART_SAMPLES);
         let mut parts: Vec<(usize, Job)> = Vec::new();
         for (i, batch) in batches.iter().enumerate() {
@@ -304,7 +304,7 @@ impl BatchSampler<'_> {
         Ok(sums.into_iter().map(finish).collect())
     }
 
-    /// Reads what the batches have summed so far.
+    /// Reads the sums of all batches so far.
     pub fn read(&self, sums: &mut HalfSums) -> Result<()> {
         for page in &self.pages {
             let pixels = page.rows.height as usize * sums.width as usize;

@@ -1,5 +1,5 @@
-//! One beam a pixel on a device. In: rows of a picture. Out: their pixels, with a flag for those that a beam cannot
-//! resolve.
+//! One beam per pixel on a device. Input: rows of a picture. Output: their pixels, with a flag for those that a beam
+//! cannot resolve.
 
 use std::sync::Arc;
 use std::time::Instant;
@@ -13,19 +13,19 @@ use crate::core::progress::Progress;
 use crate::core::range::Rect;
 use crate::sampling::PilotRun;
 
-/// A beam takes as long as many samples.
+/// Tiles of the first slice: a beam takes as long as many samples.
 const FIRST_TILES: f64 = 2.0;
-/// A pilot run is on one tile of so many, of those first in line, which lie far apart.
+/// A pilot run renders one of this many tiles, taken from the start of the tile order, whose neighbours are far apart.
 const PILOT_PART: u32 = 8;
 
-/// What resolves pixels by beams.
+/// The pass that resolves pixels by beams.
 pub struct BeamPass<'a> {
     pub renderer: TileRenderer<'a>,
     pub film: Arc<FilmBuffer>,
 }
 
 impl BeamPass<'_> {
-    /// Resolves some rows: of each pixel red, green, blue and 0, or a last 1 where a beam does not do.
+    /// Resolves some rows. Returns red, green, blue and 0 for each pixel, or 1 in the fourth place if it needs samples.
     pub fn resolve(&self, rows: Rect, report: &mut Report, progress: &dyn Progress) -> Result<Vec<[f32; 4]>> {
         let mut pixels = Vec::with_capacity(rows.area());
         let mut plan = DispatchPlan::new(FIRST_TILES, 0..1, 1, self.film.tiles(rows));
@@ -36,7 +36,7 @@ impl BeamPass<'_> {
         Ok(pixels)
     }
 
-    /// Resolves the first tiles in line of the first band.
+    /// Resolves the first tiles, in tile order, of the first band.
     pub fn pilot(&self, report: &mut Report, progress: &dyn Progress) -> Result<PilotRun> {
         let whole = self.film.whole();
         let Some(band) = self.film.bands(whole).next() else { return Ok(PilotRun::default()) };

@@ -1,21 +1,21 @@
-//! Counters on the device: a buffer that pipelines add to where they are built to count, cleared before a render
-//! and read after it.
+//! Counters on the device: a buffer to which pipelines add if they are built to count, cleared before a render and read
+//! after it.
 
 use crate::core::error::Result;
 use crate::gpu::{Buffer, BufferUse, Gpu};
 use crate::pack::Diagnostic;
 
-/// How often each thing happened in a render.
+/// How often each event happened in a render.
 pub type Counts = Vec<(Diagnostic, u64)>;
 
-pub struct Guards {
+pub struct DiagnosticCounters {
     pub(super) buffer: Buffer,
 }
 
-impl Guards {
-    pub fn new(gpu: &Gpu) -> Result<Guards> {
-        Ok(Guards {
-            buffer: gpu.upload_buffer("guards", BufferUse::Storage, &[0; 8 * Diagnostic::ALL.len()])?,
+impl DiagnosticCounters {
+    pub fn new(gpu: &Gpu) -> Result<DiagnosticCounters> {
+        Ok(DiagnosticCounters {
+            buffer: gpu.upload_buffer("diagnostics", BufferUse::Storage, &[0; 8 * Diagnostic::ALL.len()])?,
         })
     }
 
@@ -23,7 +23,7 @@ impl Guards {
         gpu.write_buffer(&self.buffer, 0, &[0; 8 * Diagnostic::ALL.len()])
     }
 
-    /// Low and high half of each count, in the order of the guards.
+    /// Reads the counts, stored as low and high halves in the order of the diagnostics.
     pub fn read(&self, gpu: &Gpu) -> Result<Counts> {
         let mut halves = [[0u32; 2]; Diagnostic::ALL.len()];
         gpu.read_buffer(&self.buffer, 0, bytemuck::cast_slice_mut(&mut halves))?;

@@ -1,25 +1,25 @@
-//! How much of a range one submission renders: enough that submitting costs nothing, little
-//! enough that progress moves, Ctrl-C is heard and no watchdog fires. Tiles and blocks of samples
-//! go in; how many tiles to dispatch next comes out, learnt from how long the last ones took.
+//! Decides how much of a range one submission renders: enough that the overhead of submitting is negligible, little
+//! enough that progress advances, Ctrl-C is honoured and no watchdog fires. Input: tiles and blocks of samples. Output:
+//! the number of tiles of the next dispatch, learnt from the times of the previous ones.
 
 use std::ops::Range;
 
 use crate::schema::layout::TILE;
 
-/// What a slice aims at. Costs differ over a picture, so the aim is well below the bound of 0.5 s.
+/// The target time of a slice. Costs differ over a picture, so it is well below the limit of 0.5 s.
 const TARGET_SECONDS: f64 = 0.15;
-/// Samples in the first slice, before anything is known.
+/// Samples in the first slice, before any timing.
 pub(super) const FIRST_SAMPLES: f64 = (1u32 << 20) as f64;
-/// A slice is at most this many times longer than the one before it.
+/// Largest ratio of a slice's work to that of the previous one.
 const GROWTH: f64 = 16.0;
-/// `maxComputeWorkGroupCount` is at least this on every device.
+/// Lower bound of `maxComputeWorkGroupCount` on all devices.
 pub(super) const MAX_TILES: u32 = 65_535;
 
-/// How the tiles and samples of a range are spread over dispatches.
+/// The distribution of the tiles and samples of a range over dispatches.
 pub struct DispatchPlan {
     samples: Range<u32>,
     block: u32,
-    /// Tile-samples of the range and how many are done.
+    /// Tile-samples of the range, and the number of those that are done.
     total: f64,
     done: f64,
     /// Tile-samples of the next slice.
@@ -27,29 +27,30 @@ pub struct DispatchPlan {
 }
 
 impl DispatchPlan {
-    /// Tile-samples of a first slice, before anything is known of their costs.
+    /// Tile-samples of a first slice, before any timing.
     pub const FIRST: f64 = FIRST_SAMPLES / (TILE * TILE) as f64;
 
-    /// With `next` tile-samples in the first slice; a thread takes no more than `block` samples of a pixel at once.
+    /// Plans with `next` tile-samples in the first slice; an invocation takes at most `block` samples of a pixel at
+    /// once.
     pub fn new(next: f64, samples: Range<u32>, block: u32, tiles: u64) -> DispatchPlan {
         let count = samples.end.saturating_sub(samples.start);
         DispatchPlan { samples, block, total: tiles as f64 * f64::from(count), done: 0.0, next }
     }
 
-    /// (first sample, number) of each block, in the order in which the film adds them.
+    /// Returns (first sample, count) of each block, in the order in which the film adds them.
     pub fn blocks(&self) -> impl Iterator<Item = (u32, u32)> + use<> {
         let (Range { start, end }, block) = (self.samples.clone(), self.block);
         (start..end).step_by(block as usize).map(move |first| (first, block.min(end - first)))
     }
 
-    /// How many of the `left` tiles the next slice takes.
+    /// Returns how many of the `left` tiles the next slice takes.
     pub fn tiles(&self, left: u32, sample_count: u32) -> u32 {
         let tiles = (self.next / f64::from(sample_count)).clamp(1.0, f64::from(MAX_TILES)) as u32;
-        // Rather one slice a little longer than a tiny one at the end.
+        // One slice that is a little longer is better than a tiny last one.
         if left <= tiles + tiles / 4 && left <= MAX_TILES { left } else { tiles.min(left) }
     }
 
-    /// Notes how long a slice took.
+    /// Records the time of a slice.
     pub fn learn(&mut self, tiles: u32, sample_count: u32, seconds: f64) {
         let work = f64::from(tiles) * f64::from(sample_count);
         self.done += work;
@@ -61,19 +62,19 @@ impl DispatchPlan {
         self.next
     }
 
-    /// Returns the share of the range that is done.
+    /// Returns the fraction of the range that is done.
     pub fn done(&self) -> f64 {
         self.done / self.total
     }
 }
 
-/// The work of the next slice, after one that took so long.
+/// Returns the work of the next slice, given that of the previous one and its time.
 pub fn next_work(work: f64, seconds: f64) -> f64 {
     (work * TARGET_SECONDS / seconds.max(1e-6)).min(work * GROWTH)
 }
 
-/// A step through `tiles` tiles that visits each once and neighbours far apart: the number nearest
-/// to the golden section that shares no factor with `tiles`.
+/// Returns a stride over `tiles` tiles that visits each once, with successive tiles far apart: the number nearest to
+/// the golden section that is coprime to `tiles`.
 pub fn tile_stride(tiles: u32) -> u32 {
     let golden = (f64::from(tiles) * 0.618_033_988_75) as u32;
     let coprime = |n: &u32| gcd(*n, tiles) == 1;

@@ -1,6 +1,6 @@
-//! The film on the device: sums of radiance, four floats a pixel, as many more with compensation and with a pixel
-//! filter that has negative lobes. A picture larger than the device's buffers is rendered in bands of whole tile rows, one buffer
-//! serving all; each band is read back as sums.
+//! The film on the device: sums of radiance, four floats per pixel, and as many more for compensated summation and for
+//! a pixel filter with negative lobes. A picture larger than the device's buffers is rendered in bands of whole tile
+//! rows that share one buffer; each band is read back as sums.
 
 use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelExtend, ParallelIterator};
 
@@ -25,12 +25,12 @@ pub struct FilmBuffer {
     height: u32,
     band_rows: u32,
     compensated: bool,
-    /// Mean of the samples' signs, where they have any: a pixel's fourth float is their sum, and samples whose sign
-    /// is negative have a sum of their own.
+    /// The mean of the samples' signs, if they have any: a pixel's fourth float is then the sum of the signs, and
+    /// samples with negative sign have a sum of their own.
     mean_sign: Option<f64>,
 }
 
-/// Some rows of the picture.
+/// A band of rows of the picture.
 pub struct Band {
     pub y: u32,
     pub height: u32,
@@ -39,7 +39,7 @@ pub struct Band {
 }
 
 impl Band {
-    /// The push constants of a slice, but for which tiles and samples.
+    /// Returns the push constants of a slice, except for its tiles and samples.
     pub fn slice(&self) -> Slice {
         Slice {
             tiles_x: self.tiles_x,
@@ -51,7 +51,7 @@ impl Band {
         }
     }
 
-    /// Of each tile by its place in the band, whether it is one of the first `count` in line (`film_pixel` of
+    /// Returns for each tile of the band true if it is among the first `count` in tile order (`film_pixel` of
     /// `slice.glsl`).
     pub fn first_tiles(&self, count: u32) -> Vec<bool> {
         let stride = tile_stride(self.tiles);
@@ -60,14 +60,14 @@ impl Band {
         first
     }
 
-    /// The tile of a pixel of the picture.
+    /// Returns the tile of a pixel of the picture.
     pub fn tile_of(&self, pixel: u32, width: u32) -> usize {
         let (x, y) = (pixel % width, pixel / width - self.y);
         (y / TILE * self.tiles_x + x / TILE) as usize
     }
 }
 
-/// What the film holds of some pixels; of planes that it has not, nothing.
+/// The film's values for some pixels; planes that the film does not have are empty.
 struct Planes<'a> {
     sum: &'a [[f32; 4]],
     lost: &'a [[f32; 4]],
@@ -91,7 +91,7 @@ impl FilmBuffer {
                     gpu.info().name,
                     cap >> 20
                 ),
-                "render it in parts with --crop, or smaller with --size",
+                "render it in parts (crop), or smaller (size)",
             ));
         }
         let band_rows = (tile_rows * u64::from(TILE)).min(u64::from(height)) as u32;
@@ -100,7 +100,7 @@ impl FilmBuffer {
         Ok(FilmBuffer { buffer, width, height, band_rows, compensated, mean_sign })
     }
 
-    /// The bands of some rows of the picture.
+    /// Returns the bands of some rows of the picture.
     pub fn bands(&self, rows: Rect) -> impl Iterator<Item = Band> + use<> {
         let tiles_x = self.width.div_ceil(TILE);
         rows.strips(self.band_rows).map(move |Rect { y, height, .. }| Band {
@@ -111,7 +111,7 @@ impl FilmBuffer {
         })
     }
 
-    /// The whole picture.
+    /// Returns the rectangle of the whole picture.
     pub fn whole(&self) -> Rect {
         Rect::whole([self.width, self.height])
     }
@@ -125,14 +125,14 @@ impl FilmBuffer {
         self.bands(rows).map(|b| u64::from(b.tiles)).sum()
     }
 
-    /// Sets all sums of a band to 0. Sums that begin with a first sample need not be.
+    /// Sets all sums of a band to 0, which is needed unless the first sample is rendered next.
     pub fn clear(&self, gpu: &Gpu, band: &Band) -> Result<()> {
         let planes = 1 + u64::from(self.compensated) + u64::from(self.mean_sign.is_some());
         let bytes = u64::from(self.width) * u64::from(band.height) * PIXEL_BYTES * planes;
         gpu.write_buffer(&self.buffer, 0, &vec![0; bytes as usize])
     }
 
-    /// No sums yet, of samples as this film has them.
+    /// Returns an empty block of sums, signed if the film's samples are.
     pub fn block(&self, range: Range) -> Block {
         let signed = |mean_sign| Signed { mean_sign, negative: Vec::new(), weights: Vec::new() };
         Block { signed: self.mean_sign.map(signed), ..Block::new(range) }
@@ -157,20 +157,20 @@ impl FilmBuffer {
                     signed.negative.par_extend(planes.negative.par_iter().map(color));
                     signed.weights.par_extend(planes.sum.par_iter().map(|sum| f64::from(sum[3])));
                 }
-                // Cones keep here what they drop.
+                // Cones store here the weight that they drop.
                 None => planes.sum.iter().for_each(|sum| block.dropped += f64::from(sum[3])),
             }
         })
     }
 
-    /// The sums of each pixel of a band, by its place in the picture.
+    /// Passes the sums of each pixel of a band to `each`, with its index in the picture.
     pub fn read_with(&self, gpu: &Gpu, band: &Band, mut each: impl FnMut(usize, [f32; 4])) -> Result<()> {
         self.read_rows(gpu, band, |first, planes| {
             planes.sum.iter().zip(first..).for_each(|(sum, pixel)| each(pixel, *sum));
         })
     }
 
-    /// A few rows of a band at a time, by the place of their first pixel in the picture.
+    /// Passes a few rows of a band at a time to `each`, with the index of their first pixel in the picture.
     fn read_rows(&self, gpu: &Gpu, band: &Band, mut each: impl FnMut(usize, Planes<'_>)) -> Result<()> {
         let row_bytes = u64::from(self.width) * PIXEL_BYTES;
         let rows_at_once = ((4 << 20) / row_bytes).clamp(1, u64::from(band.height)) as u32;

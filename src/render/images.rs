@@ -1,5 +1,5 @@
-//! Textures → images with their samplers, one for each slot of the scene: only the forms in which its
-//! samplers read them, with levels that the device may have made.
+//! Uploads textures as images with samplers, one pair for each slot of the scene: only in the forms that its
+//! samplers read, with levels that the device may have generated.
 
 use std::borrow::Cow;
 
@@ -10,26 +10,26 @@ use crate::pack::{MAX_SLOTS, PackedScene, Slot, TextureKind};
 use crate::texture::data::{ColorSpace, TexelFormat};
 use crate::texture::sampler_spec::{Address, SamplerSpec};
 
-/// One image serves all slots that read a texture in the same form.
+/// Uploads images; one image serves all slots that read a texture in the same form.
 pub struct Uploads<'a> {
     gpu: &'a Gpu,
     packed: &'a PackedScene,
-    maker: MipGenerator<'a>,
+    generator: MipGenerator<'a>,
     images: Vec<((usize, Form), Image)>,
 }
 
 impl<'a> Uploads<'a> {
-    pub fn new(gpu: &'a Gpu, packed: &'a PackedScene, maker: MipGenerator<'a>) -> Uploads<'a> {
-        Uploads { gpu, packed, maker, images: Vec::new() }
+    pub fn new(gpu: &'a Gpu, packed: &'a PackedScene, generator: MipGenerator<'a>) -> Uploads<'a> {
+        Uploads { gpu, packed, generator, images: Vec::new() }
     }
 
-    /// Device time of making levels, if any were made.
+    /// Returns the device time of generating levels, if any were generated.
     pub fn mips_seconds(&self) -> Option<f64> {
-        self.maker.seconds
+        self.generator.seconds
     }
 
-    /// Image and sampler of each slot; where there is none one that is never read, as a binding has to
-    /// hold something.
+    /// Returns image and sampler of each slot. Without slots it returns a pair that is never read, as a
+    /// binding must not be empty.
     pub fn slots(&mut self, slots: &[Slot], kind: TextureKind) -> Result<Vec<(Image, Sampler)>> {
         if slots.len() > MAX_SLOTS {
             return Err(Error::with_help(
@@ -37,7 +37,7 @@ impl<'a> Uploads<'a> {
                     "the scene reads {} pairs of texture and sampler through images; {MAX_SLOTS} are possible",
                     slots.len()
                 ),
-                "one sampler of method \"hardware\" makes all look-ups go through images: use --method shader, \
+                "one sampler of method \"hardware\" makes all look-ups go through images: use method \"shader\", \
                  or share samplers and textures",
             ));
         }
@@ -54,7 +54,7 @@ impl<'a> Uploads<'a> {
         let image = match self.images.iter().find(|(key, _)| *key == (slot.texture, form)) {
             Some((_, image)) => image.clone(),
             None => {
-                let image = upload_image(self.gpu, self.packed, &mut self.maker, slot.texture, form)?;
+                let image = upload_image(self.gpu, self.packed, &mut self.generator, slot.texture, form)?;
                 self.images.push(((slot.texture, form), image.clone()));
                 image
             }
@@ -64,7 +64,7 @@ impl<'a> Uploads<'a> {
     }
 }
 
-/// Whether images hold all flat textures of a scene as its look-ups of method shader read them.
+/// Returns true if images can hold all 2D textures of a scene as its look-ups of method shader read them.
 pub fn hold(gpu: &Gpu, packed: &PackedScene) -> bool {
     let most = gpu.info().limits.max_image_2d;
     let holds = |slot: &Slot| {
@@ -74,7 +74,7 @@ pub fn hold(gpu: &Gpu, packed: &PackedScene) -> bool {
     packed.slots.len() <= MAX_SLOTS && packed.slots.iter().all(holds)
 }
 
-/// One texel of each face.
+/// Returns an image of one texel per face, which is never read.
 fn unread(kind: TextureKind) -> ImageDesc<'static> {
     const TEXELS: [&[u8]; 2] = [&[0], &[0; 6]];
     let faces = usize::from(kind == TextureKind::Cube);
@@ -98,13 +98,13 @@ fn shape(kind: TextureKind) -> ImageShape {
     }
 }
 
-/// In what form an image is stored.
+/// The form in which an image is stored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Form {
-    /// Decode sRGB in the texture unit, before it filters.
+    /// The texture unit decodes sRGB before it filters.
     decode: bool,
-    /// Four channels although the file has fewer: a border colour must not be swizzled, and drivers
-    /// know sRGB with four channels only.
+    /// Four channels although the file has fewer: a border colour is not swizzled, and drivers support sRGB
+    /// with four channels only.
     expand: bool,
     /// The texture unit interpolates.
     filtered: bool,
@@ -127,7 +127,7 @@ impl Form {
     }
 }
 
-/// Whether the device's own samplers read textures of this format so.
+/// Returns true if the device's own samplers support a sampler on textures of this format.
 pub fn can_sample(gpu: &Gpu, spec: &SamplerSpec, format: TexelFormat, space: ColorSpace) -> bool {
     let limits = &gpu.info().limits;
     let form = Form::new(true, space == ColorSpace::Srgb, spec);
@@ -140,7 +140,7 @@ pub fn can_sample(gpu: &Gpu, spec: &SamplerSpec, format: TexelFormat, space: Col
 fn upload_image(
     gpu: &Gpu,
     packed: &PackedScene,
-    maker: &mut MipGenerator<'_>,
+    generator: &mut MipGenerator<'_>,
     index: usize,
     form: Form,
 ) -> Result<Image> {
@@ -165,7 +165,7 @@ fn upload_image(
                 "texture `{name}`: device \"{}\" does not support {stored} images {filtering}",
                 gpu.info().name
             ),
-            "use method = \"shader\" with --texels auto or buffer, or store the texture with 8 bits",
+            "use method = \"shader\" with texels from a buffer, or store the texture with 8 bits",
         ));
     }
     let desc = ImageDesc {
@@ -187,11 +187,11 @@ fn upload_image(
     }
     let space = record.color_space;
     let top = MipSource { name, format, space, sizes: &sizes(packed, index), texels: levels[0] };
-    let mip_chain = maker.make(&top)?;
+    let mip_chain = generator.make(&top)?;
     gpu.image_from(&desc, &mip_chain.buffer, &mip_chain.starts)
 }
 
-/// The texels of a grey format with four channels.
+/// Expands the texels of a grey format to four channels.
 fn expanded(bytes: &[u8], format: TexelFormat) -> Vec<u8> {
     let component = format.component();
     let (width, channels, opaque) = (component.bytes(), format.channels(), component.one());

@@ -1,6 +1,6 @@
-//! How many samples one thread may take at once. Mesa's CPU driver ends all loops of a thread after 65 535
-//! turns (`LP_MAX_TGSI_LOOP_ITERATIONS` of its shader compiler), whatever they have left to do; so in go a
-//! scene and a device, and out comes the number of samples whose loops stay below that.
+//! Limits the samples that one invocation takes at once. Mesa's CPU driver ends all loops of an invocation after 65 535
+//! iterations (`LP_MAX_TGSI_LOOP_ITERATIONS` of its shader compiler), whatever remains. Input: a scene and a device.
+//! Output: the number of samples whose loops stay below that.
 
 use crate::core::error::{Error, Result};
 use crate::gpu::{DeviceInfo, DeviceKind};
@@ -8,63 +8,63 @@ use crate::pack::features::bounces;
 use crate::pack::{PackedScene, SampleDimension, TextureKind};
 use crate::scene::model::Algorithm;
 use crate::schema::constants::{MAX_BOXES, MAX_CONE_FRAGMENTS, MAX_CONES, MAX_ELLIPSE_STEPS};
-use crate::schema::layout::{CHUNK, NO_TEXTURE, Procedural, Sampler};
-use crate::texture::filter::Turns;
+use crate::schema::layout::{MAX_SAMPLES_AT_ONCE, NO_TEXTURE, Procedural, Sampler};
+use crate::texture::filter::LoopCost;
 
-const MAX_TURNS: u64 = 65_535;
+const MAX_ITERATIONS: u64 = 65_535;
 const ELLIPSE: u64 = MAX_ELLIPSE_STEPS as u64;
 /// Eight texels, or twice four.
 const SOLID: u64 = 10;
-/// Look-ups of a bump map, and the colour.
+/// Look-ups of a bump map, and of the colour.
 const TAPS: u64 = 5;
 const BOXES: u64 = MAX_BOXES as u64;
 const CONES: u64 = MAX_CONES as u64;
-/// Digits of Halton's points, or turns in which an order is found, with room to spare.
+/// Digits of Halton points, or iterations to find an order, with a margin.
 const POINTS: u64 = 64;
 
-/// Samples of a thread, from 1 to `CHUNK`.
+/// Returns the samples that an invocation takes at once, from 1 to `MAX_SAMPLES_AT_ONCE`.
 pub fn samples_at_once(device: &DeviceInfo, scene: &PackedScene) -> Result<u32> {
     if device.kind != DeviceKind::Cpu {
-        return Ok(CHUNK);
+        return Ok(MAX_SAMPLES_AT_ONCE);
     }
-    let turns = turns_of_a_sample(scene, ELLIPSE);
-    // Ellipses of that size fill the horizon, not each of many look-ups of one path.
-    let without_ellipses = turns_of_a_sample(scene, 0);
-    if without_ellipses > MAX_TURNS {
+    let iterations = iterations_of_a_sample(scene, ELLIPSE);
+    // Ellipses of that size occur at the horizon, not at each of many look-ups of one path.
+    let without_ellipses = iterations_of_a_sample(scene, 0);
+    if without_ellipses > MAX_ITERATIONS {
         return Err(Error::with_help(
             format!(
-                "device \"{}\" ends a shader's loops after {MAX_TURNS} turns; one sample of this scene may take {without_ellipses}",
+                "device \"{}\" ends a shader's loops after {MAX_ITERATIONS} iterations; one sample of this scene may take {without_ellipses}",
                 device.name
             ),
-            "use fewer shapes, lights or bounces, another device, or --device oracle",
+            "use fewer shapes, lights or bounces, another device, or the device \"oracle\"",
         ));
     }
-    Ok((MAX_TURNS / turns).clamp(1, u64::from(CHUNK)) as u32)
+    Ok((MAX_ITERATIONS / iterations).clamp(1, u64::from(MAX_SAMPLES_AT_ONCE)) as u32)
 }
 
-/// An upper bound of the turns for a pixel's cones, but for how many pieces each one sees: where cones are
-/// many, few of them see more than three.
-fn turns_of_cones(scene: &PackedScene, ellipse: u64) -> u64 {
+/// Returns an upper bound of the iterations for a pixel's cones, except for the number of fragments of each: if there
+/// are many cones, few of them see more than three.
+fn iterations_of_cones(scene: &PackedScene, ellipse: u64) -> u64 {
     const PIECES: u64 = MAX_CONE_FRAGMENTS as u64;
     const SEEN: u64 = 3;
     let shapes = scene.shape_count() as u64;
     let lights = scene.records.lights.len() as u64;
     let cones = if bounces(scene) { CONES } else { CONES.min(1 + PIECES * lights) };
     let gathered = 4 + shapes + shapes / 16 + 2 * PIECES;
-    // Each pair both ways, and two shapes each time.
+    // Each pair in both orders, with two shapes each time.
     let laid_over = 3 * SEEN * (SEEN - 1);
     let bumped = scene.records.materials.iter().any(|m| m.bump_texture_index != NO_TEXTURE);
-    let look_ups = if bumped { TAPS } else { 1 } * turns_of_a_look_up(scene, 0);
+    let look_ups = if bumped { TAPS } else { 1 } * iterations_of_a_look_up(scene, 0);
     let records = (scene.records.materials.len() + scene.records.uv_projections.len()) as u64;
     let shaded = SEEN * (1 + records + look_ups + lights.max(2) * (2 + lights));
-    // Ellipses of that size fill the horizon, and that is seen by few of them.
+    // Ellipses of that size occur at the horizon, which few cones see.
     cones * (gathered + laid_over + shaded) + ellipse
 }
 
-/// An upper bound, with so many for an ellipse.
-fn turns_of_a_sample(scene: &PackedScene, ellipse: u64) -> u64 {
+/// Returns an upper bound of the iterations of one sample, given those of an ellipse.
+fn iterations_of_a_sample(scene: &PackedScene, ellipse: u64) -> u64 {
     if scene.algorithm == Algorithm::Cone {
-        return turns_of_cones(scene, ellipse);
+        return iterations_of_cones(scene, ellipse);
     }
     let count = |n: usize| n as u64;
     let shapes = count(scene.shape_count()) + 3;
@@ -78,25 +78,26 @@ fn turns_of_a_sample(scene: &PackedScene, ellipse: u64) -> u64 {
     let chances = scene.header.sample_dimensions;
     let glass = u64::from(chances >> SampleDimension::Fresnel as u32 & 1);
     let choices = if chances == 0 { 0 } else { (4 + glass) * (1 + POINTS) };
-    rays * (choices + hit + taps * turns_of_a_look_up(scene, ellipse))
+    rays * (choices + hit + taps * iterations_of_a_look_up(scene, ellipse))
 }
 
-fn turns_of_a_look_up(scene: &PackedScene, ellipse: u64) -> u64 {
+fn iterations_of_a_look_up(scene: &PackedScene, ellipse: u64) -> u64 {
     let records = (scene.records.textures.len()
         + scene.records.samplers.len()
         + scene.records.procedurals.len()) as u64;
     let is = |kind: TextureKind| scene.records.textures.iter().any(|t| t.kind == kind);
-    let procedural = scene.records.procedurals.iter().map(turns_of_a_pattern).max().unwrap_or(0);
+    let procedural = scene.records.procedurals.iter().map(iterations_of_a_procedural).max().unwrap_or(0);
     let solid = if is(TextureKind::Volume) || is(TextureKind::Cube) { SOLID } else { 1 };
     let of_sampler = |sampler: &Sampler| {
-        let turns = [sampler.mag_filter, sampler.min_filter].map(|f| f.traits().turns);
-        let most = |of: &dyn Fn(Turns) -> u64| turns.into_iter().map(of).max().unwrap_or(0);
-        let place = most(&|t| if let Turns::Place(turns) = t { turns.max(solid) } else { solid });
-        let probes = most(&|t| if t == Turns::Walk { u64::from(sampler.max_anisotropy) + 2 } else { 2 });
+        let iterations = [sampler.mag_filter, sampler.min_filter].map(|f| f.traits().loop_cost);
+        let most = |of: &dyn Fn(LoopCost) -> u64| iterations.into_iter().map(of).max().unwrap_or(0);
+        let place =
+            most(&|t| if let LoopCost::Place(iterations) = t { iterations.max(solid) } else { solid });
+        let probes = most(&|t| if t == LoopCost::Walk { u64::from(sampler.max_anisotropy) + 2 } else { 2 });
         let area = most(&|t| match t {
-            Turns::Ellipse => ellipse,
-            Turns::Footprint(turns) => turns,
-            Turns::Place(_) | Turns::Walk => 0,
+            LoopCost::Ellipse => ellipse,
+            LoopCost::Footprint(iterations) => iterations,
+            LoopCost::Place(_) | LoopCost::Walk => 0,
         });
         area.max(probes * (1 + place))
     };
@@ -104,7 +105,7 @@ fn turns_of_a_look_up(scene: &PackedScene, ellipse: u64) -> u64 {
     records + stored.max(procedural)
 }
 
-/// Octaves, the 27 cells around a place, or boxes along a footprint.
-fn turns_of_a_pattern(pattern: &Procedural) -> u64 {
+/// Returns the iterations of a procedural: octaves, the 27 cells around a point, or boxes along a footprint.
+fn iterations_of_a_procedural(pattern: &Procedural) -> u64 {
     u64::from(pattern.octaves).max(27) + BOXES
 }

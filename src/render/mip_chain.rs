@@ -1,6 +1,6 @@
-//! Box mip chains on the device: level 0 in, out comes a buffer with all levels one after the other, each from
-//! a whole word on, as the texel buffer holds them. One dispatch a level, all in one submission; between levels the
-//! numbers stay unrounded f32, as in `texture::mips`, whose codes these are.
+//! Generates box mip chains on the device. Input: level 0. Output: a buffer with all levels one after the other, each
+//! aligned to a word, as in the texel buffer. One dispatch per level, all in one submission; values between levels stay
+//! unrounded f32, as in `texture::mips`, which produces the same codes.
 
 use std::sync::Arc;
 
@@ -16,35 +16,35 @@ use crate::texture::data::{ColorSpace, TexelFormat};
 use crate::texture::mips;
 
 const GROUP: u32 = 64;
-/// Of workgroups; every device takes 65535.
+/// Workgroups in a row; every device supports 65535.
 const LONGEST_ROW: u32 = 1 << 15;
 
-/// What a mip chain is made from.
+/// The input of a mip chain.
 pub struct MipSource<'a> {
     pub name: &'a str,
     pub format: TexelFormat,
     pub space: ColorSpace,
-    /// Of all levels, at least two, each length the same as above or half of it.
+    /// The sizes of all levels, at least two, each length equal to that of the previous level or half of it.
     pub sizes: &'a [[u32; 3]],
-    /// Of level 0.
+    /// The texels of level 0.
     pub texels: &'a [u8],
 }
 
-pub struct Pyramid {
+pub struct MipChain {
     pub buffer: Buffer,
-    /// Byte at which each level begins.
+    /// Byte offset of each level.
     pub starts: Vec<u64>,
 }
 
-/// Sizes of all levels of a texture.
+/// Returns the sizes of all levels of a texture.
 pub fn sizes(packed: &PackedScene, texture: usize) -> Vec<[u32; 3]> {
     (0..packed.records.textures[texture].levels).map(|level| packed.level_size(texture, level)).collect()
 }
 
-/// Textures of one format share a pipeline.
+/// Generates mip chains; textures of one format share a pipeline.
 pub struct MipGenerator<'a> {
     gpu: &'a Gpu,
-    /// Of each number of sRGB codes, and of textures that have none.
+    /// Tables for each number of sRGB codes, and one for textures without any.
     tables: Vec<(usize, Buffer)>,
     /// Device time of all passes so far, if there were any.
     pub seconds: Option<f64>,
@@ -55,7 +55,7 @@ impl<'a> MipGenerator<'a> {
         MipGenerator { gpu, tables: Vec::new(), seconds: None }
     }
 
-    pub fn make(&mut self, top: &MipSource<'_>) -> Result<Pyramid> {
+    pub fn make(&mut self, top: &MipSource<'_>) -> Result<MipChain> {
         let channels = top.format.channels() as u64;
         let texels: Vec<u64> = top.sizes.iter().map(|size| size.map(u64::from).iter().product()).collect();
         let mut starts = Vec::with_capacity(texels.len());
@@ -82,16 +82,16 @@ impl<'a> MipGenerator<'a> {
             passes.iter().map(|(pass, groups)| (bytemuck::bytes_of(pass), *groups)).collect();
         let time = gpu.run_all(&pipeline, &group, &dispatches)?;
         self.seconds = Some(self.seconds.unwrap_or(0.0) + time.device_seconds);
-        Ok(Pyramid { buffer, starts })
+        Ok(MipChain { buffer, starts })
     }
 
     fn tables(&mut self, codes: usize) -> Result<Buffer> {
         if let Some((_, tables)) = self.tables.iter().find(|(other, _)| *other == codes) {
             return Ok(tables.clone());
         }
-        // A binding has to hold something.
+        // A binding must not be empty.
         let tables =
-            if codes == 0 { vec![0.0] } else { [srgb_table(codes), &mips::srgb_middles(codes)].concat() };
+            if codes == 0 { vec![0.0] } else { [srgb_table(codes), &mips::srgb_midpoints(codes)].concat() };
         let buffer =
             self.gpu.upload_buffer("sRGB codes", BufferUse::Storage, bytemuck::cast_slice(&tables))?;
         self.tables.push((codes, buffer.clone()));
@@ -99,7 +99,7 @@ impl<'a> MipGenerator<'a> {
     }
 }
 
-/// Of its colours, where they are sRGB.
+/// Returns the number of sRGB codes of a colour channel; 0 if it is linear.
 fn codes(format: TexelFormat, space: ColorSpace) -> usize {
     if space == ColorSpace::Srgb { format.component().codes() } else { 0 }
 }
@@ -117,7 +117,8 @@ fn build(gpu: &Gpu, format: TexelFormat, space: ColorSpace) -> Result<Arc<Pipeli
     super::build_pipeline(gpu, shader, &constants, SlotCounts::default(), size_of::<Halving>())
 }
 
-/// Each level from the one before. The numbers of odd levels begin at 0, those of even ones after level 1.
+/// Returns one pass per level, each from the previous level. Values of odd levels start at 0, those of even levels
+/// after level 1.
 fn passes(top: &MipSource<'_>, texels: &[u64], starts: &[u64]) -> Vec<(Halving, [u32; 3])> {
     let texel_bytes = top.format.bytes_per_texel() as u64;
     let number = |level: usize| if level % 2 == 1 { 0 } else { texels[1] * top.format.channels() as u64 };

@@ -1,6 +1,6 @@
-//! Scene → film on any number of devices, the oracle among them: textures loaded, all packed, sessions opened, and an
-//! integrator run on their backends. On a device: resources from the features, one pipeline, work handed out in
-//! slices, sums read back. Orchestrates `gpu`'s own types and knows nothing of Vulkan's.
+//! Scene → film on any number of devices, including the oracle: loads textures, packs the scene, opens sessions, and
+//! runs an integrator on their backends. On a device: resources by features, one pipeline, work in slices, sums read
+//! back. Uses the types of `gpu` only, none of Vulkan's.
 
 mod backend;
 mod batches;
@@ -45,14 +45,14 @@ pub(crate) use resources::Resources;
 pub use session::{Prepared, Session};
 pub use tuning::{MipChoice, TexelChoice, Tuning};
 
-/// Wall seconds by stage, in the order in which they come.
+/// Wall-clock seconds by stage, in order.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Seconds {
     /// Opening the device.
     pub startup: f64,
     /// Reading and packing scene and textures.
     pub load: f64,
-    /// Building pipelines, with a dispatch of one workgroup: drivers compile just in time.
+    /// Building pipelines, including a dispatch of one workgroup, as drivers compile lazily.
     pub compile: f64,
     pub upload: f64,
     pub render: f64,
@@ -62,38 +62,39 @@ pub struct Seconds {
     pub total: f64,
 }
 
-/// What a render did beside its film.
+/// The statistics of a render.
 #[derive(Clone, Debug, Default)]
 pub struct Report {
     pub left_out: Vec<String>,
-    /// What a person should know before looking at the picture.
+    /// Warnings for the user about the picture.
     pub warnings: Vec<String>,
     pub seconds: Seconds,
-    /// How far sampling to a goal came.
+    /// The result of sampling to a goal.
     pub outcome: Option<Outcome>,
-    /// Of beams: pixels that were left to samples.
+    /// The number of pixels that beams left to samples.
     pub sampled_pixels: Option<u64>,
-    /// Of cones: weight of what none was traced for, or no room was kept, over that of the whole picture.
+    /// The weight of secondary rays for which no cone was traced and of fragments for which there was no room, over
+    /// that of the whole picture.
     pub dropped: Option<f64>,
-    /// Geometry was of f64.
+    /// True if geometry was computed in f64.
     pub double: bool,
-    /// How often what went beyond a limit, where that is counted.
-    pub guards: Option<diagnostics::Counts>,
-    /// Device timestamps around the slices, summed.
+    /// How often each limit was exceeded, if that is counted.
+    pub diagnostics: Option<diagnostics::Counts>,
+    /// Sum of the device timestamps around all slices.
     pub device_render_seconds: f64,
-    /// The same around the passes that make levels of textures, if there were any.
+    /// The same around the passes that generate mip levels, if there were any.
     pub device_mips_seconds: Option<f64>,
-    /// The same around the survey of the picture, if there was one.
-    pub device_survey_seconds: Option<f64>,
+    /// The same around tile culling, if there was any.
+    pub device_culling_seconds: Option<f64>,
     pub slices: u32,
-    /// Wall time of the longest slice: how long a Ctrl-C may wait.
+    /// Wall time of the longest slice: an upper bound of the response time to Ctrl-C.
     pub longest_slice_seconds: f64,
     /// Bytes of device memory at the end of the render.
     pub device_bytes: u64,
 }
 
 impl Report {
-    /// Adds what another device of the same render did meanwhile; stages that ran side by side take as long as the
+    /// Adds the statistics of another device of the same render; stages that ran concurrently take as long as the
     /// longest.
     fn join(&mut self, other: &Report) {
         let longest = |a: &mut f64, b: f64| *a = a.max(b);
@@ -103,21 +104,21 @@ impl Report {
         longest(&mut self.longest_slice_seconds, other.longest_slice_seconds);
         let sum = |a: Option<f64>, b: Option<f64>| a.map_or(b, |a| Some(a + b.unwrap_or(0.0)));
         self.device_mips_seconds = sum(self.device_mips_seconds, other.device_mips_seconds);
-        self.device_survey_seconds = sum(self.device_survey_seconds, other.device_survey_seconds);
+        self.device_culling_seconds = sum(self.device_culling_seconds, other.device_culling_seconds);
         self.device_render_seconds += other.device_render_seconds;
         self.slices += other.slices;
         self.device_bytes += other.device_bytes;
         self.double |= other.double;
         let news = other.warnings.iter().filter(|w| !self.warnings.contains(w)).cloned().collect::<Vec<_>>();
         self.warnings.extend(news);
-        match (&mut self.guards, &other.guards) {
+        match (&mut self.diagnostics, &other.diagnostics) {
             (Some(own), Some(others)) => own.iter_mut().zip(others).for_each(|(own, (_, n))| own.1 += n),
             (own @ None, others) => own.clone_from(others),
             (Some(_), None) => {}
         }
     }
 
-    /// Notes what an integrator found, and gives its film.
+    /// Records the integrator's statistics and returns its film.
     fn take(&mut self, integrated: Integrated) -> Film {
         let Integrated { film, outcome, sampled_pixels, dropped } = integrated;
         (self.outcome, self.sampled_pixels, self.dropped) = (outcome, sampled_pixels, dropped);
@@ -131,7 +132,7 @@ impl Report {
     }
 }
 
-/// Renders on an open device. The texels of `scene` leave the host's memory once the device has them.
+/// Renders on an open device. The texels of `scene` are freed on the host once the device has them.
 pub fn render(
     gpu: &Gpu,
     scene: PackedScene,
@@ -142,8 +143,7 @@ pub fn render(
     render_to_goal(gpu, scene, keep_everything, tuning, None, progress)
 }
 
-/// The same; of a scene that is sampled by jobs, `goal` says when it is done, without one its own number of
-/// samples.
+/// Renders as [`render`] does; a scene that is sampled by batches ends at `goal`, by default its number of samples.
 pub fn render_to_goal(
     gpu: &Gpu,
     scene: PackedScene,
@@ -155,7 +155,7 @@ pub fn render_to_goal(
     Session::open(gpu, scene, keep_everything, tuning)?.prepare()?.render_to_goal(goal, progress)
 }
 
-/// A pipeline of `shader` with these constants; the scene has so many descriptors.
+/// Builds a pipeline of `shader` with these constants and numbers of descriptors.
 pub(crate) fn build_pipeline(
     gpu: &Gpu,
     shader: &'static Shader,

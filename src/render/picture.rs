@@ -1,5 +1,5 @@
-//! A scene rendered, from its texture files to the film: the one way for all who render a scene once. In: a scene,
-//! options, and which backends take the samples. Out: the film, and what a person may want to know of it.
+//! Renders a scene from its texture files to the film; every caller that renders a scene once uses it. Input: a scene,
+//! options, and the backends that take the samples. Output: the film and statistics.
 
 use std::sync::mpsc;
 use std::time::Instant;
@@ -19,10 +19,10 @@ use crate::pack::{self, MipPlacement, PackedScene};
 use crate::sampling::{Backend, Scheduler};
 use crate::scene::model::Scene;
 use crate::scene::texture_advice::of_textures;
-use crate::texture::decode::Values;
-use crate::texture::load::load_noted;
+use crate::texture::decode::AllowedFloats;
+use crate::texture::load::load_with_notes;
 
-/// Who takes samples.
+/// A backend that takes samples.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum On {
     Device(DeviceSelect),
@@ -31,31 +31,31 @@ pub enum On {
 }
 
 impl On {
-    /// `oracle`, or what [`DeviceSelect::parse`] takes.
+    /// Parses `oracle`, or the syntax of [`DeviceSelect::parse`].
     pub fn parse(text: &str) -> Result<On> {
         if text == "oracle" { Ok(On::Oracle) } else { DeviceSelect::parse(text).map(On::Device) }
     }
 }
 
-/// How a scene is rendered, beside what the scene says itself.
+/// Rendering options that are not part of the scene.
 #[derive(Clone, Debug)]
 pub struct Options {
     /// The part of the picture that is rendered; `None` is the whole.
     pub crop: Option<Rect>,
-    /// When adaptive sampling ends; `None` is with the scene's number of samples.
+    /// The end of adaptive sampling; `None` is the scene's number of samples.
     pub goal: Option<Goal>,
-    /// Let in textures with NaN and infinite texels.
+    /// Accepts textures with NaN and infinite texels.
     pub allow_nonfinite: bool,
-    /// Leave nothing out of the pipelines.
+    /// Keeps all features in the pipelines.
     pub keep_everything: bool,
-    /// Count on the device what goes beyond a limit.
+    /// Counts on the device how often limits are exceeded.
     pub guarded: bool,
     pub mips: MipChoice,
     pub tuning: Tuning,
 }
 
 impl Default for Options {
-    /// The whole picture, with what measures best.
+    /// Renders the whole picture with the choices that measure best.
     fn default() -> Options {
         Options {
             crop: None,
@@ -69,37 +69,37 @@ impl Default for Options {
     }
 }
 
-/// A film, and what was found on the way.
+/// A film, and the statistics of its render.
 #[derive(Clone, Debug)]
 pub struct Picture {
     pub film: Film,
     pub report: Report,
-    /// Names of the backends and of their drivers, each several joined by " + ".
+    /// Names of the backends and of their drivers, several joined by " + ".
     pub device: String,
     pub driver: String,
     /// The devices among the backends.
     pub devices: Vec<DeviceInfo>,
-    /// What the validation layer said.
+    /// The messages of the validation layer.
     pub messages: Vec<String>,
-    /// How each texture is stored.
+    /// A line on how each texture is stored.
     pub texture_lines: Vec<String>,
-    /// Texels of each texture that are NaN or infinite.
+    /// For each texture its name and the number of texels that are NaN or infinite.
     pub nonfinite: Vec<(String, u64)>,
 }
 
-/// What a backend renders from.
+/// The state from which a backend renders.
 enum Member<'g> {
     Device(Box<Session<'g>>),
     Oracle(Box<PackedScene>),
 }
 
-/// The same with everything built.
+/// A member with its pipelines built.
 enum Ready<'m> {
     Device(Box<Prepared<'m, 'm>>),
     Oracle(&'m PackedScene),
 }
 
-/// A backend at work.
+/// A backend that is rendering.
 enum Working<'p> {
     Device(Box<DeviceBackend<'p>>),
     Oracle(OracleBackend<'p>),
@@ -134,8 +134,8 @@ impl Working<'_> {
     }
 }
 
-/// Renders a scene on one backend, or on several at once. Strips of the picture go round the backends in turn, so
-/// that the picture does not depend on how fast they are; see [`Scheduler`].
+/// Renders a scene on one backend, or on several at once. Strips of the picture are assigned to the backends
+/// round-robin, so that the picture does not depend on their speed; see [`Scheduler`].
 pub fn render_scene(scene: &Scene, options: &Options, on: &[On], progress: &dyn Progress) -> Result<Picture> {
     let Loaded { gpus, mut packed, doubts, startup, load } = load(scene, options, on)?;
     packed.guarded = options.guarded;
@@ -146,7 +146,7 @@ pub fn render_scene(scene: &Scene, options: &Options, on: &[On], progress: &dyn 
     let integrator = integrator(&packed, options.goal);
     let double = packed.double;
 
-    // One backend takes the scene itself, the others copies.
+    // The last backend takes the scene itself, the others copies.
     let mut scenes = vec![packed.clone(); on.len().saturating_sub(1)];
     scenes.push(packed);
     let mut free = gpus.iter().peekable();
@@ -198,18 +198,18 @@ pub fn render_scene(scene: &Scene, options: &Options, on: &[On], progress: &dyn 
     })
 }
 
-/// What is there before anything is on a device.
+/// The inputs of a render, before anything is uploaded.
 struct Loaded {
-    /// Of the devices among the backends, in their order.
+    /// The devices among the backends, in order.
     gpus: Vec<Gpu>,
     packed: PackedScene,
-    /// What is doubtful about the textures.
+    /// Warnings about the textures.
     doubts: Vec<String>,
     startup: f64,
     load: f64,
 }
 
-/// The devices open while the textures are read: both wait for different things.
+/// Opens the devices while the textures are read, as both mostly wait.
 fn load(scene: &Scene, options: &Options, on: &[On]) -> Result<Loaded> {
     std::thread::scope(|scope| {
         let start = Instant::now();
@@ -223,29 +223,29 @@ fn load(scene: &Scene, options: &Options, on: &[On]) -> Result<Loaded> {
             On::Oracle => None,
         });
         let gpus: Result<Vec<Gpu>> = selects.map(Gpu::open).collect();
-        // Several backends, and the oracle, read the same levels: those of the host.
+        // Several backends, or the oracle, read the same levels: those that the host generates.
         let mip_chains = match gpus.as_deref() {
             Ok([gpu]) if on.len() == 1 => options.mips.mip_chains(gpu.info()),
             _ => MipPlacement::Host,
         };
-        // Nobody listens where the scene has no use for it.
+        // The receiver is gone if the scene does not need it.
         let _ = tell.send(mip_chains);
         let startup = if on == [On::Oracle] { 0.0 } else { start.elapsed().as_secs_f64() };
         let (packed, load) = loading.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
-        // A mistake in the scene is told before one of the machine.
+        // An error in the scene takes precedence over one of the machine.
         packed.and_then(|(packed, doubts)| Ok(Loaded { gpus: gpus?, packed, doubts, startup, load }))
     })
 }
 
-/// The packed scene, and what is doubtful about its textures. `mip_chains` says who makes those, and may wait for a
-/// device to be known.
+/// Returns the packed scene, and warnings about its textures. `mip_chains` decides where levels are generated, and may
+/// wait until a device is open.
 fn pack(
     scene: &Scene,
     options: &Options,
     mip_chains: impl FnOnce() -> MipPlacement,
 ) -> Result<(PackedScene, Vec<String>)> {
-    let values = if options.allow_nonfinite { Values::Any } else { Values::Finite };
-    let textures = scene.textures.iter().map(|t| load_noted(t, values)).collect::<Result<Vec<_>>>()?;
+    let values = if options.allow_nonfinite { AllowedFloats::Any } else { AllowedFloats::Finite };
+    let textures = scene.textures.iter().map(|t| load_with_notes(t, values)).collect::<Result<Vec<_>>>()?;
     let (textures, notes): (Vec<_>, Vec<_>) = textures.into_iter().unzip();
     let doubts = [notes.concat(), of_textures(scene, &textures)].concat();
     let mip_chains = if pack::reads_levels(scene) { mip_chains() } else { MipPlacement::Host };

@@ -1,12 +1,12 @@
-//! Which integrator makes a packed scene's picture.
+//! Chooses the integrator that renders a packed scene.
 
 use crate::integrators::adaptive::Goal;
 use crate::integrators::{Adaptive, Beam, Cone, Fixed, Integrator};
 use crate::pack::{PackedScene, Schedule};
 use crate::scene::model::Algorithm;
 
-/// Returns the integrator of the scene's algorithm. `goal` is for those that sample to one; without one it is the
-/// scene's number of samples.
+/// Returns the integrator of the scene's algorithm. `goal` applies to adaptive sampling; by default it is the scene's
+/// number of samples.
 pub fn integrator(scene: &PackedScene, goal: Option<Goal>) -> Box<dyn Integrator> {
     let samples = scene.samples;
     match scene.schedule {

@@ -1,9 +1,9 @@
-//! Packed scene → buffers and images on the device: only what the features name, and of the
-//! textures only the source in use.
+//! Packed scene → buffers and images on the device: only those that the features need, and of the textures only the
+//! source in use.
 
 use std::sync::OnceLock;
 
-use super::diagnostics::Guards;
+use super::diagnostics::DiagnosticCounters;
 use super::images::Uploads;
 use super::mip_chain::MipGenerator;
 use super::texel_buffer::{self, TexelBuffer};
@@ -18,7 +18,7 @@ use crate::schema::enums::Reals;
 use crate::schema::layout::{HEAD_BYTES, Header};
 use crate::schema::specialization::Constant;
 
-/// The shader of an algorithm, by where its texels come from and the numbers of its geometry.
+/// Returns the shader of an algorithm for the source of its texels and the precision of its geometry.
 pub fn shader_for(algorithm: Algorithm, features: &Features) -> Result<&'static Shader> {
     let reals = if features.double { Reals::F64Math } else { Reals::F32 };
     match algorithm {
@@ -30,25 +30,25 @@ pub fn shader_for(algorithm: Algorithm, features: &Features) -> Result<&'static 
 pub struct Resources {
     pub sections: Sections,
     pub slots: SlotCounts,
-    /// Device time of making levels, if any were.
+    /// Device time of generating levels, if any were generated.
     pub mips_seconds: Option<f64>,
     scene: Buffer,
-    /// Light of sRGB codes.
+    /// Linear values of sRGB codes.
     srgb: Buffer,
     texels: Option<TexelBuffer>,
-    /// Once beams are wanted.
+    /// Set once beams are used.
     prefix_sums: OnceLock<Buffer>,
-    /// Once there are any lists of triangles.
-    pub survey: OnceLock<Buffer>,
-    /// Where the pipelines count.
-    pub guards: Option<Guards>,
+    /// Set once there are lists of triangles.
+    pub tile_lists: OnceLock<Buffer>,
+    /// The counters, if the pipelines count.
+    pub diagnostics: Option<DiagnosticCounters>,
     images: Vec<(Image, Sampler)>,
     volumes: Vec<(Image, Sampler)>,
     cubes: Vec<(Image, Sampler)>,
 }
 
 impl Resources {
-    /// A texel buffer has at most `most_words`.
+    /// Uploads a scene; a texel buffer has at most `most_words`.
     pub fn upload(
         gpu: &Gpu,
         packed: &PackedScene,
@@ -58,17 +58,17 @@ impl Resources {
         let (bytes, sections) = packed.scene_bytes(features.everything);
         let scene = gpu.upload_buffer("scene", BufferUse::Storage, &bytes)?;
         let srgb = packed.srgb_light();
-        // A binding has to hold something.
+        // A binding must not be empty.
         let srgb = if srgb.is_empty() { &[0.0] } else { srgb.as_slice() };
         let srgb =
             gpu.upload_buffer("light of sRGB codes", BufferUse::TexelUint, bytemuck::cast_slice(srgb))?;
-        let mut maker = MipGenerator::new(gpu);
+        let mut generator = MipGenerator::new(gpu);
         let pooled = match features.source {
             TexelSource::Buffer => Some(packed.texels.len()),
             TexelSource::Solids => Some(packed.solid_bytes),
             TexelSource::None | TexelSource::Image => None,
         };
-        let upload = |bytes| TexelBuffer::upload(gpu, packed, bytes, most_words, &mut maker);
+        let upload = |bytes| TexelBuffer::upload(gpu, packed, bytes, most_words, &mut generator);
         let texels = pooled.map(upload).transpose()?;
         let mut slots = packed.slot_counts();
         if let Some(texel_buffer) = &texels {
@@ -80,7 +80,7 @@ impl Resources {
             // Never set twice: it is empty.
             let _ = prefix_sums.set(texel_buffer::upload_row_sums(gpu, packed, &packed.prefix_sums)?);
         }
-        let mut uploads = Uploads::new(gpu, packed, maker);
+        let mut uploads = Uploads::new(gpu, packed, generator);
         let [mut images, mut volumes, mut cubes] = [const { Vec::new() }; 3];
         if matches!(features.source, TexelSource::Image | TexelSource::Solids) {
             images = uploads.slots(&packed.slots, TextureKind::Flat)?;
@@ -97,15 +97,18 @@ impl Resources {
             srgb,
             texels,
             prefix_sums,
-            survey: OnceLock::new(),
-            guards: features.has(Constant::Diagnosed).then(|| Guards::new(gpu)).transpose()?,
+            tile_lists: OnceLock::new(),
+            diagnostics: features
+                .has(Constant::Diagnosed)
+                .then(|| DiagnosticCounters::new(gpu))
+                .transpose()?,
             images,
             volumes,
             cubes,
         })
     }
 
-    /// The sums along rows of a scene that was not packed for beams, made where they are not there yet.
+    /// Adds the prefix sums of rows to a scene that was not packed for beams, unless they exist.
     pub fn add_row_sums(
         &self,
         gpu: &Gpu,
@@ -119,13 +122,13 @@ impl Resources {
         Ok(())
     }
 
-    /// Replaces what the scene buffer begins with.
+    /// Replaces the header of the scene buffer.
     pub fn write_header(&self, gpu: &Gpu, packed: &PackedScene, header: &Header) -> Result<()> {
         gpu.write_buffer(&self.scene, 0, &packed.header_bytes(header))
     }
 
-    /// The shader's bindings with what they bind: what it writes, a list of queries or jobs (any buffer where none
-    /// is read), and the scene.
+    /// Binds all of the shader's bindings: its output, a list of queries or batches (any buffer if none is read), and
+    /// the scene.
     pub fn bind(
         &self,
         gpu: &Gpu,
@@ -140,11 +143,11 @@ impl Resources {
                 (BindingKind::StorageBuffer, bindings::OUTPUT) => Bound::Buffer(output),
                 (BindingKind::StorageBuffer, bindings::LIST) => Bound::Buffer(queries.unwrap_or(&self.scene)),
                 (BindingKind::StorageBuffer, bindings::TILE_LISTS) => {
-                    Bound::Buffer(self.survey.get().unwrap_or(&self.scene))
+                    Bound::Buffer(self.tile_lists.get().unwrap_or(&self.scene))
                 }
-                (BindingKind::StorageBuffer, bindings::DIAGNOSTICS) => {
-                    Bound::Buffer(self.guards.as_ref().map_or(&self.scene, |guards| &guards.buffer))
-                }
+                (BindingKind::StorageBuffer, bindings::DIAGNOSTICS) => Bound::Buffer(
+                    self.diagnostics.as_ref().map_or(&self.scene, |diagnostics| &diagnostics.buffer),
+                ),
                 (BindingKind::StorageBuffer, _) => Bound::Buffer(&self.scene),
                 (BindingKind::UniformBuffer, _) => Bound::Head(&self.scene, HEAD_BYTES as u64),
                 (BindingKind::TexelBuffer, bindings::SRGB_LIGHT) => {

@@ -1,6 +1,6 @@
-//! A scene on a device, rendered any number of times. In: a packed scene, whose shapes and texels go up
-//! once. Out: for each choice of samples a pipeline, and from it films. Renders of one session share the
-//! buffers of scene and film, so they take turns.
+//! A scene on a device, rendered any number of times. Input: a packed scene, whose shapes and texels are uploaded once.
+//! Output: a pipeline for each choice of samples, and films rendered by it. Renders of one session share the buffers of
+//! scene and film, so only one runs at a time.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
@@ -28,27 +28,27 @@ use super::{Report, Tuning, build_pipeline, specialization, tuning};
 
 pub struct Session<'a> {
     pub(super) gpu: &'a Gpu,
-    /// Without texels and their sums: the device has them.
+    /// Without texels and their prefix sums, which are on the device.
     scene: PackedScene,
     pub(super) resources: Resources,
     keep_everything: bool,
-    /// Look-ups of method shader read images.
+    /// True if look-ups of method shader read images.
     image_source: bool,
     tuning: Tuning,
-    /// What the device lacks.
+    /// Warnings about features that the device lacks.
     warnings: Vec<String>,
-    /// What the scene buffer begins with now.
+    /// The current header of the scene buffer.
     header: Mutex<Header>,
-    /// Of a scene of many triangles.
-    survey: OnceLock<TileCulling>,
+    /// Set for a scene of many triangles.
+    tile_culling: OnceLock<TileCulling>,
     /// Films of this size, without compensation and with it.
     films: Mutex<[Option<Arc<FilmBuffer>>; 2]>,
-    /// Somebody writes those buffers now.
+    /// True while a render writes those buffers.
     taken: AtomicBool,
     upload_seconds: f64,
 }
 
-/// The right to write what all renders of a session share.
+/// The exclusive right to write the buffers that all renders of a session share.
 pub(super) struct Turn<'s>(&'s AtomicBool);
 
 impl Drop for Turn<'_> {
@@ -60,26 +60,26 @@ impl Drop for Turn<'_> {
 /// A session's scene with one choice of samples.
 pub struct Prepared<'s, 'a> {
     pub(super) session: &'s Session<'a>,
-    /// The session's with this choice.
+    /// The session's scene with this choice.
     pub(super) scene: PackedScene,
     pub(super) work: Work<'a>,
-    /// Of a render: its pipeline is compiled, nothing is rendered.
+    /// The report of a render so far: its pipeline is compiled, nothing is rendered.
     pub(super) report: Report,
 }
 
-/// How samples reach the film.
+/// The way in which samples reach the film.
 pub(super) enum Work<'a> {
     Tiles {
         renderer: TileRenderer<'a>,
         film: Arc<FilmBuffer>,
     },
     Batches(SamplePipeline),
-    /// And the pipeline for pixels that beams leave, once there were any.
+    /// The second field is the pipeline for pixels that beams cannot resolve, built on first use.
     Beams(BeamPass<'a>, OnceLock<SamplePipeline>),
 }
 
 impl<'a> Session<'a> {
-    /// The texels of `scene` leave the host's memory once the device has them.
+    /// Uploads a scene. Its texels are freed on the host once the device has them.
     pub fn open(
         gpu: &'a Gpu,
         mut scene: PackedScene,
@@ -87,13 +87,13 @@ impl<'a> Session<'a> {
         tuning: &Tuning,
     ) -> Result<Session<'a>> {
         let clock = Instant::now();
-        let warnings = scene.suit_device(gpu.info().limits.float64).into_iter().collect();
-        scene.chunk = samples_at_once(gpu.info(), &scene)?;
+        let warnings = scene.adapt_to_device(gpu.info().limits.float64).into_iter().collect();
+        scene.samples_at_once = samples_at_once(gpu.info(), &scene)?;
         let image_source = tuning.image_source(gpu, &scene);
         let features = Features::new(&scene, image_source, keep_everything);
         let resources = Resources::upload(gpu, &scene, &features, tuning.texel_words(gpu))?;
         let films = Mutex::new([None, None]);
-        let survey = OnceLock::new();
+        let tile_culling = OnceLock::new();
         (scene.texels, scene.prefix_sums) = (Vec::new(), Vec::new());
         let header = Mutex::new(scene.header);
         let upload_seconds = clock.elapsed().as_secs_f64();
@@ -106,19 +106,19 @@ impl<'a> Session<'a> {
             tuning: *tuning,
             warnings,
             header,
-            survey,
+            tile_culling,
             films,
             taken: AtomicBool::new(false),
             upload_seconds,
         })
     }
 
-    /// The scene as it was packed.
+    /// Prepares the scene as it was packed.
     pub fn prepare(&self) -> Result<Prepared<'_, 'a>> {
         self.prepare_packed(&self.scene)
     }
 
-    /// With the samples of `scene`, which differs from the packed one in nothing else.
+    /// Prepares with the samples of `scene`, which differs from the packed one in nothing else.
     pub fn prepare_sampling(&self, scene: &Scene) -> Result<Prepared<'_, 'a>> {
         let mut packed = self.scene.clone();
         packed.set_sampling(scene);
@@ -140,11 +140,11 @@ impl<'a> Session<'a> {
         report.seconds.upload = self.upload_seconds + clock.elapsed().as_secs_f64();
 
         let clock = Instant::now();
-        if scene.culls_tiles() && self.survey.get().is_none() {
-            let survey = TileCulling::new(self.gpu, scene, &self.resources, &features)?;
+        if scene.culls_tiles() && self.tile_culling.get().is_none() {
+            let tile_culling = TileCulling::new(self.gpu, scene, &self.resources, &features)?;
             // Never set twice: both were empty just now.
-            let _ = self.resources.survey.set(survey.buffer.clone());
-            let _ = self.survey.set(survey);
+            let _ = self.resources.tile_lists.set(tile_culling.buffer.clone());
+            let _ = self.tile_culling.set(tile_culling);
         }
         let work = match scene.schedule {
             Schedule::Tiles if scene.beams => Work::Beams(self.beam_pass(scene, features)?, OnceLock::new()),
@@ -162,7 +162,7 @@ impl<'a> Session<'a> {
         Ok(prepared)
     }
 
-    /// Renders tile by tile; compiled.
+    /// Returns a compiled renderer of tiles, and its film.
     fn renderer(
         &self,
         scene: &PackedScene,
@@ -183,7 +183,7 @@ impl<'a> Session<'a> {
         Ok(SamplePipeline { pipeline, shader, groups_per_tile })
     }
 
-    /// And its workgroups a tile.
+    /// Returns a pipeline, and its number of workgroups per tile.
     fn pipeline(&self, features: &Features, shader: &'static Shader) -> Result<(Arc<Pipeline>, u32)> {
         let group_size = self.tuning.group_size(self.gpu.info())?;
         let slots = self.resources.slots;
@@ -199,26 +199,26 @@ impl<'a> Session<'a> {
         Features::new(scene, self.image_source, self.keep_everything)
     }
 
-    pub(super) fn survey(&self) -> Option<&TileCulling> {
-        self.survey.get()
+    pub(super) fn tile_culling(&self) -> Option<&TileCulling> {
+        self.tile_culling.get()
     }
 
-    /// What the survey found, of each cell `CELL_WORDS` words; none without one.
-    pub fn survey_words(&self) -> Result<Option<Vec<u32>>> {
-        self.survey().map(|survey| survey.words(self.gpu)).transpose()
+    /// Returns the `CELL_WORDS` words of each cell of tile culling; `None` without it.
+    pub fn tile_list_words(&self) -> Result<Option<Vec<u32>>> {
+        self.tile_culling().map(|tile_culling| tile_culling.words(self.gpu)).transpose()
     }
 
-    /// Builds the pipeline that samples the pixels which beams leave.
+    /// Builds the pipeline that samples the pixels that beams cannot resolve.
     pub(super) fn samples_beside_beams(&self, scene: &PackedScene) -> Result<SamplePipeline> {
         let scene = PackedScene { schedule: Schedule::Jobs, ..scene.clone() };
         self.sample_pipeline(&scene, &self.features_of(&scene))
     }
 
-    /// Builds what resolves pixels beside samples; `None` for a scene that beams do not support, or whose textures'
-    /// sums the device cannot hold.
+    /// Builds the beam pass for a scene that is packed for samples; `None` if beams do not support the scene, or if the
+    /// device cannot hold the prefix sums of its textures.
     pub(super) fn beams_beside_samples(&self) -> Result<Option<BeamPass<'a>>> {
         let Some(textures) = &self.scene.beam_textures else { return Ok(None) };
-        // Asked before they are made: of large textures they take far more memory than the texels.
+        // Checked before they are computed: for large textures they take far more memory than the texels.
         if !texel_buffer::fits(self.gpu, pack::prefix_sum_words(textures)) {
             return Ok(None);
         }
@@ -255,7 +255,7 @@ impl<'a> Session<'a> {
         Ok(())
     }
 
-    /// Fails while another render of this session has the buffers.
+    /// Claims the session's buffers; fails while another render uses them.
     pub(super) fn turn(&self) -> Result<Turn<'_>> {
         if self.taken.swap(true, Ordering::Acquire) {
             return Err(Error::with_help(
@@ -272,15 +272,15 @@ impl Prepared<'_, '_> {
         self.report.seconds.compile
     }
 
-    /// What takes batches of samples by a pipeline of this choice of samples.
+    /// Returns the sampler of batches for a pipeline of this choice of samples.
     pub(super) fn sampler<'a>(&'a self, pipeline: &'a SamplePipeline) -> Result<BatchSampler<'a>> {
         BatchSampler::new(self.session.gpu, pipeline, &self.session.resources, &self.scene)
     }
 
-    /// Whatever the driver compiles late, it compiles now.
+    /// Runs the pipeline once, so that lazy compilation in the driver happens now.
     fn warm_up(&self) -> Result<()> {
         match &self.work {
-            // Done by the renderer.
+            // The renderer has done so.
             Work::Tiles { .. } | Work::Beams(..) => Ok(()),
             Work::Batches(pipeline) => self.sampler(pipeline)?.warm_up(),
         }

@@ -1,12 +1,12 @@
-//! Features and the places of lists → the values of a shader's specialization constants.
+//! Maps features and offsets of lists to the values of a shader's specialization constants.
 
 use crate::gpu::shaders::Shader;
 use crate::pack::features::Features;
 use crate::pack::{Sections, SlotCounts};
 use crate::schema::specialization::Constant;
 
-/// (specialization id, value) for a shader: the features, the lists' places, the workgroup's size
-/// and the number of descriptors. A constant that the shader does not have is not set.
+/// Returns (constant id, value) for each constant of a shader: the features, the offsets of lists, the
+/// workgroup's size and the numbers of descriptors. Constants that the shader does not have are left out.
 pub fn constants(
     shader: &Shader,
     features: &Features,

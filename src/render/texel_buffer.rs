@@ -1,5 +1,5 @@
-//! Texels of all textures → one texel buffer, or as many as it takes where a device's are too short. Levels that
-//! the host left out do not cross the bus: they are made on the device and copied to their places.
+//! Uploads the texels of all textures to one texel buffer, or to several if the device's are too short. Levels that the
+//! host left out do not cross the bus: they are generated on the device and copied into place.
 
 use std::ops::Range;
 
@@ -8,14 +8,14 @@ use crate::core::error::{Error, Result};
 use crate::gpu::{Buffer, BufferUse, Gpu};
 use crate::pack::PackedScene;
 
-/// At most this many buffers hold the texels (`READ_BLOCK` in `texel_buffer.glsl`).
+/// Largest number of buffers that hold the texels (`READ_BLOCK` in `texel_buffer.glsl`).
 const MAX_BLOCKS: u64 = 16;
 
 /// The texels on the device.
 pub struct TexelBuffer {
-    /// Of 2^`block_log2` words each, the last one of as many as are left.
+    /// Blocks of 2^`block_log2` words each; the last one holds the rest.
     pub blocks: Vec<Buffer>,
-    /// 0 where there is one block of any length.
+    /// 0 if there is one block of any length.
     pub block_log2: u32,
 }
 
@@ -26,7 +26,7 @@ impl TexelBuffer {
         packed: &PackedScene,
         bytes: usize,
         most_words: u64,
-        maker: &mut MipGenerator<'_>,
+        generator: &mut MipGenerator<'_>,
     ) -> Result<TexelBuffer> {
         let texels = &packed.texels[..bytes];
         let texel_buffer = TexelBuffer::new(gpu, packed, bytes as u64, most_words)?;
@@ -38,7 +38,7 @@ impl TexelBuffer {
                 continue;
             }
             texel_buffer.write(gpu, written, &texels[written..start])?;
-            let mip_chain = maker.make(&MipSource {
+            let mip_chain = generator.make(&MipSource {
                 name: &packed.texture_names[texture],
                 format: record.format,
                 space: record.color_space,
@@ -70,7 +70,7 @@ impl TexelBuffer {
         let block = |index: u64| {
             let name = if count == 1 { "texels".into() } else { format!("texels {} of {count}", index + 1) };
             let rest = bytes - if count == 1 { 0 } else { index * block_bytes };
-            // A binding has to hold something.
+            // A binding must not be empty.
             let bytes = if count == 1 { rest.max(4) } else { rest.min(block_bytes) };
             gpu.buffer(&name, bytes, BufferUse::TexelUint)
         };
@@ -83,7 +83,7 @@ impl TexelBuffer {
             .try_for_each(|part| gpu.write_buffer(&self.blocks[part.block], part.at, &bytes[part.range]))
     }
 
-    /// Puts the whole of a buffer at byte `start`.
+    /// Copies a whole buffer to byte `start`.
     fn copy(&self, gpu: &Gpu, from: &Buffer, start: usize) -> Result<()> {
         self.parts(start, from.bytes() as usize).try_for_each(|part| {
             let (first, length) = (part.range.start as u64, part.range.len() as u64);
@@ -97,7 +97,7 @@ impl TexelBuffer {
     }
 }
 
-/// Number and length (log2) of the blocks that so many words take; none where they are too many.
+/// Returns the number of blocks for these words and the log2 of their length; `None` if there are too many.
 fn blocks(words: u64, most_words: u64) -> Option<(u64, u32)> {
     if words <= most_words {
         return Some((1, 0));
@@ -107,16 +107,16 @@ fn blocks(words: u64, most_words: u64) -> Option<(u64, u32)> {
     (count <= MAX_BLOCKS).then_some((count, log2))
 }
 
-/// What of some bytes lies in one block.
+/// A part of a byte range that lies in one block.
 #[derive(Clone, Debug, PartialEq)]
 struct Part {
     block: usize,
-    /// Byte of the block.
+    /// Byte offset in the block.
     at: u64,
     range: Range<usize>,
 }
 
-/// The parts of `length` bytes from byte `start` of the texel buffer on.
+/// Returns the parts of `length` bytes from byte `start` of the texel buffer.
 fn parts(start: usize, length: usize, block_bytes: usize) -> impl Iterator<Item = Part> {
     let mut done = 0;
     std::iter::from_fn(move || {
@@ -127,7 +127,7 @@ fn parts(start: usize, length: usize, block_bytes: usize) -> impl Iterator<Item 
     })
 }
 
-/// The sums along rows that beams read.
+/// Uploads the prefix sums of rows, which beams read.
 pub fn upload_row_sums(gpu: &Gpu, packed: &PackedScene, words: &[u32]) -> Result<Buffer> {
     if !fits(gpu, words.len() as u64) {
         return Err(Error::with_help(
@@ -138,18 +138,18 @@ pub fn upload_row_sums(gpu: &Gpu, packed: &PackedScene, words: &[u32]) -> Result
                 most_words(gpu) >> 18,
                 gpu.info().name
             ),
-            "use smaller textures, or --algorithm adaptive",
+            "use smaller textures, or algorithm \"adaptive\"",
         ));
     }
     gpu.upload_buffer("row sums", BufferUse::TexelUint, bytemuck::cast_slice(words))
 }
 
-/// Whether a texel buffer holds so many words.
+/// Returns true if one texel buffer holds this many words.
 pub fn fits(gpu: &Gpu, words: u64) -> bool {
     words <= most_words(gpu)
 }
 
-/// Of a texel buffer: the shader's index is an `int`, whatever the device allows.
+/// Returns the largest length of a texel buffer: the shader's index is an `int`, whatever the device allows.
 pub fn most_words(gpu: &Gpu) -> u64 {
     gpu.info().limits.max_texel_buffer_elements.min(i32::MAX as u64)
 }

@@ -1,6 +1,6 @@
-//! The survey of a picture, before any sample: for each cell of pixels which triangles its rays may meet, and
-//! how uniform it is. In: a scene of many triangles on a device. Out: the lists that camera rays
-//! read, and the samples that each pixel begins with.
+//! Tile culling, before any sample: finds for each cell of pixels the triangles that its camera rays may
+//! meet, and how uniform it is. Input: a scene of many triangles on a device. Output: the lists that camera
+//! rays read, and the number of samples with which each pixel starts.
 
 use std::sync::Arc;
 
@@ -21,7 +21,7 @@ pub struct TileCulling {
     pub buffer: Buffer,
     pipeline: Arc<Pipeline>,
     group: BindGroup,
-    /// Pixels along a cell's side, cells across and down.
+    /// Side of a cell in pixels, and the number of cells across and down.
     side: u32,
     cells: [u32; 2],
     cells_at_once: u32,
@@ -42,14 +42,14 @@ impl TileCulling {
         let side = scene.header.cell_side;
         let cells = [width, height].map(|pixels| pixels.div_ceil(side));
         let bytes = cells.map(u64::from).iter().product::<u64>() * u64::from(CELL_WORDS) * 4;
-        let buffer = gpu.buffer("survey", bytes, BufferUse::Storage)?;
+        let buffer = gpu.buffer("tile lists", bytes, BufferUse::Storage)?;
         let group = resources.bind(gpu, &pipeline, shader, &buffer, None)?;
         let tests = scene.listed_shapes().max(1) as u64;
         let cells_at_once = (MAX_TESTS / tests).clamp(u64::from(GROUP), 1 << 20) as u32;
-        let survey = TileCulling { buffer, pipeline, group, side, cells, cells_at_once };
-        // Whatever the driver compiles late, it compiles now.
-        survey.part(gpu, CellRange { first: 0, end: 1 }, &mut Report::default())?;
-        Ok(survey)
+        let culling = TileCulling { buffer, pipeline, group, side, cells, cells_at_once };
+        // Lazy compilation in the driver happens now.
+        culling.part(gpu, CellRange { first: 0, end: 1 }, &mut Report::default())?;
+        Ok(culling)
     }
 
     /// Fills the lists.
@@ -64,21 +64,21 @@ impl TileCulling {
     fn part(&self, gpu: &Gpu, part: CellRange, report: &mut Report) -> Result<()> {
         let groups = [(part.end - part.first).div_ceil(GROUP), 1, 1];
         let time = gpu.run(&self.pipeline, &self.group, bytemuck::bytes_of(&part), groups)?;
-        report.device_survey_seconds =
-            Some(report.device_survey_seconds.unwrap_or(0.0) + time.device_seconds);
+        report.device_culling_seconds =
+            Some(report.device_culling_seconds.unwrap_or(0.0) + time.device_seconds);
         report.longest_slice_seconds = report.longest_slice_seconds.max(time.wall_seconds);
         Ok(())
     }
 
-    /// Of each cell `CELL_WORDS` words.
+    /// Reads the `CELL_WORDS` words of each cell.
     pub fn words(&self, gpu: &Gpu) -> Result<Vec<u32>> {
         let mut words = vec![0u32; (self.cells[0] * self.cells[1] * CELL_WORDS) as usize];
         gpu.read_buffer(&self.buffer, 0, bytemuck::cast_slice_mut(&mut words))?;
         Ok(words)
     }
 
-    /// Of each pixel: one sample where nothing but the background is seen, two where a single surface that
-    /// changes little fills the cell, else `most`.
+    /// Returns the samples of the first pass for each pixel: one if only the background is seen, two if a
+    /// single surface that changes little fills the cell, otherwise `most`.
     pub fn first_samples(&self, gpu: &Gpu, [width, height]: [u32; 2], most: u32) -> Result<Vec<u32>> {
         let words = self.words(gpu)?;
         let of_cell = |x: u32, y: u32| {

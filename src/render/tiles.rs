@@ -1,5 +1,5 @@
-//! Tiles of a band on a device, in slices as long as the plan allows. In: a pipeline with what it binds, and which
-//! samples. Out: sums in the film's buffer.
+//! Renders the tiles of a band on a device, in slices as long as the plan allows. Input: a pipeline with its bindings,
+//! and a range of samples. Output: sums in the film's buffer.
 
 use std::sync::Arc;
 
@@ -19,7 +19,7 @@ pub struct TileRenderer<'a> {
 }
 
 impl TileRenderer<'_> {
-    /// Runs one workgroup of the first slice: whatever the driver compiles late, it compiles now.
+    /// Runs one workgroup of the first slice, so that lazy compilation in the driver happens now.
     pub fn warm_up(&self, film: &FilmBuffer) -> Result<()> {
         if let Some(band) = film.bands(film.whole()).next() {
             let slice = Slice { sample_count: 1, ..band.slice() };
@@ -28,7 +28,7 @@ impl TileRenderer<'_> {
         Ok(())
     }
 
-    /// Renders the first `count` tiles in line of a band.
+    /// Renders the first `count` tiles of a band, in tile order.
     pub fn tiles(
         &self,
         band: &Band,

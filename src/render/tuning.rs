@@ -1,5 +1,5 @@
-//! What measures best on a kind of device: where texels are read from and the workgroup's shape.
-//! Both can be fixed for a measurement; neither changes the picture.
+//! Choices that depend on the kind of device: where texels are read from, and the shape of a workgroup. Both can be
+//! fixed for a measurement; neither changes the picture.
 
 use super::{images, texel_buffer};
 use crate::core::error::{Error, Result};
@@ -18,7 +18,7 @@ named_enum! {
 }
 
 named_enum! {
-    /// Where box mip chains are made.
+    /// Where box mip chains are generated.
     pub enum MipChoice {
         Auto = "auto",
         Host = "host",
@@ -26,12 +26,12 @@ named_enum! {
     }
 }
 
-/// From how many texels on the host takes longer for a mip chain than a driver for the pipeline of it.
+/// Number of texels from which on the host takes longer for a mip chain than a driver for compiling its pipeline.
 const LARGE: u64 = 1 << 20;
 
 impl MipChoice {
-    /// CPU devices run on the host's own cores. The buffers that mip chains pass through take a part of the
-    /// device's memory for themselves.
+    /// Returns where mip chains are generated. CPU devices run on the host's own cores. The buffers that mip chains
+    /// pass through occupy a part of the device's memory of their own.
     pub fn mip_chains(self, device: &DeviceInfo) -> MipPlacement {
         let most_bytes = device.limits.max_storage_buffer_range.min(device.limits.heap_bytes / 8);
         match self {
@@ -44,13 +44,13 @@ impl MipChoice {
     }
 }
 
-/// What is left to the device, unless a measurement fixes it.
+/// The device-dependent choices; the default leaves all of them to the device.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Tuning {
     pub texels: TexelChoice,
     /// Width and height of a workgroup; `None` chooses by the device.
     pub group: Option<[u32; 2]>,
-    /// Words of a texel buffer, where there shall be fewer than the device allows.
+    /// Largest length of a texel buffer in words, if less than the device allows.
     pub texel_words: Option<u64>,
 }
 
@@ -61,7 +61,7 @@ impl Default for Tuning {
 }
 
 impl Tuning {
-    /// `64x1`: powers of two whose product is between 8 and 1024 and that divide a tile.
+    /// Parses `64x1`: powers of two whose product is between 8 and 1024 and that divide a tile.
     pub fn parse_group(text: &str) -> Result<[u32; 2]> {
         let parsed = text.split_once('x').and_then(|(x, y)| Some([x.parse().ok()?, y.parse().ok()?]));
         let fits = |n: u32| n.is_power_of_two() && n <= TILE;
@@ -73,9 +73,9 @@ impl Tuning {
         }
     }
 
-    /// Images are the only source of the device's samplers. Without any of those, GPUs read an image fastest,
-    /// and CPU drivers a buffer as long as one holds all texels; but descriptors are few and images have limits,
-    /// and buffers hold any number of any size.
+    /// Returns true if texels are read from images. Only images serve the device's own samplers. Without those, GPUs
+    /// read images fastest, and CPU drivers a buffer as long as a single one holds all texels; but descriptors are few
+    /// and images have limits, whereas buffers hold any number of textures of any size.
     pub fn image_source(&self, gpu: &Gpu, scene: &PackedScene) -> bool {
         let one_buffer = scene.texels.len() as u64 / 4 <= self.texel_words(gpu);
         let buffer_first = gpu.info().kind == DeviceKind::Cpu && one_buffer;
@@ -87,24 +87,24 @@ impl Tuning {
             }
     }
 
-    /// At most so many are in one texel buffer.
+    /// Returns the largest length of a texel buffer in words.
     pub fn texel_words(&self, gpu: &Gpu) -> u64 {
         self.texel_words.unwrap_or(u64::MAX).min(texel_buffer::most_words(gpu))
     }
 
-    /// Whether a table that threads read at scattered places is fastest among the uniforms: 1.3 times on
-    /// lavapipe, where a GPU takes 15 times as long.
+    /// Returns true if a table that threads read at scattered places is fastest in a uniform buffer: by 1.3 times on
+    /// lavapipe, whereas a GPU takes 15 times as long.
     pub fn tables_in_head(device: &DeviceInfo) -> bool {
         device.kind == DeviceKind::Cpu
     }
 
-    /// Whether the driver makes a shader again at each submission where it knows that conditions depend on
+    /// Returns true if the driver recompiles a shader at each submission when it finds conditions that depend on
     /// uniforms alone: lavapipe does, see `glsl/shared/opaque.glsl`.
     pub fn opaque_uniforms(device: &DeviceInfo) -> bool {
         device.kind == DeviceKind::Cpu
     }
 
-    /// Width and height of a workgroup; an error where the device has none of that many threads.
+    /// Returns width and height of a workgroup; fails if the device does not support that many invocations.
     pub fn group_size(&self, device: &DeviceInfo) -> Result<[u32; 2]> {
         let default = if device.kind == DeviceKind::Cpu { [64, 1] } else { [8, 8] };
         let [x, y] = self.group.unwrap_or(default);
@@ -120,7 +120,7 @@ impl Tuning {
     }
 }
 
-/// Workgroups that cover one tile.
+/// Returns the number of workgroups that cover one tile.
 pub fn groups_per_tile(group: [u32; 2]) -> u32 {
     (TILE / group[0]) * (TILE / group[1])
 }

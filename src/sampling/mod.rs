@@ -1,5 +1,5 @@
-//! Sums of samples, and who takes them: what a picture is made from, whatever takes the samples. In: ranges of
-//! pixels and samples. Out: sums, merged in an order that depends on nothing but the ranges.
+//! Sums of samples, and the backends that take them: the basis of every picture. Input: ranges of pixels and
+//! samples. Output: sums, merged in an order that depends on the ranges alone.
 
 mod backend;
 mod scheduler;

@@ -1,6 +1,6 @@
-//! Several backends as one: the picture's strips of rows go round them in turn, and their sums are merged. Which
-//! backend has which strip depends on the strip's place and the number of backends, never on time: backends of one
-//! kind give the picture that one of them alone gives, those of different kinds the same picture every time.
+//! Several backends as one: strips of rows are assigned to them round-robin, and their sums are merged. The assignment
+//! depends on the strip's position and the number of backends, never on time: backends of one kind render the picture
+//! that a single one renders, backends of different kinds the same picture every time.
 
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
@@ -23,12 +23,12 @@ impl<'a> Scheduler<'a> {
         Ok(Scheduler { members })
     }
 
-    /// Returns which backend has a row of pixels.
+    /// Returns the index of the backend that renders a row of pixels.
     pub fn owner(&self, row: u32) -> usize {
         (row / TILE) as usize % self.members.len()
     }
 
-    /// Runs a task on each backend, all at once. Where one fails the others stop.
+    /// Runs a task on all backends concurrently. If one fails, the others stop.
     fn on_each<T: Send>(
         &mut self,
         progress: &dyn Progress,
@@ -61,7 +61,7 @@ impl<'a> Scheduler<'a> {
             };
             threads.into_iter().map(join).collect()
         });
-        // Those that only stopped because another failed have nothing to say.
+        // A backend that stopped because another one failed has no error of its own.
         let failed = |r: &Result<T>| matches!(r, Err(error) if !matches!(error, Error::Interrupted));
         match results.iter().position(failed) {
             Some(index) => results.into_iter().nth(index).into_iter().collect(),
@@ -69,16 +69,16 @@ impl<'a> Scheduler<'a> {
         }
     }
 
-    /// The strips of a rectangle that a backend has, in their order.
+    /// Returns the strips of a rectangle that are assigned to a backend, in order.
     fn strips(pixels: Rect, index: usize, members: usize) -> Vec<Rect> {
-        // Strips end where tile rows of the picture do.
+        // Strips end at the borders of the picture's tiles.
         let above = pixels.y % TILE;
         let raised = Rect { y: pixels.y - above, height: pixels.height + above, ..pixels };
         let own = raised.strips(TILE).filter(|strip| (strip.y / TILE) as usize % members == index);
         own.filter_map(|strip| strip.intersection(&pixels)).collect()
     }
 
-    /// Of a list with the row of each entry, the places of those that each backend has.
+    /// Returns for each backend the indices of the batches whose rows are assigned to it.
     fn shares(&self, batches: &[Job]) -> Vec<Vec<usize>> {
         let mut shares = vec![Vec::new(); self.members.len()];
         for (at, batch) in batches.iter().enumerate() {
@@ -141,7 +141,7 @@ impl Backend for Scheduler<'_> {
     fn pilot(&mut self, progress: &dyn Progress) -> Result<Option<PilotRun>> {
         let members = self.members.len() as f64;
         let runs = self.on_each(progress, |_, member, progress| member.pilot(progress))?;
-        // All resolve their own strips, so that all have to be able to.
+        // Each backend resolves its own strips, so all must support it.
         let runs: Option<Vec<PilotRun>> = runs.into_iter().collect();
         let Some(runs) = runs else { return Ok(None) };
         let seconds = runs.iter().map(|run| run.seconds).fold(0.0, f64::max) / members;
@@ -205,16 +205,16 @@ impl Backend for Scheduler<'_> {
     }
 }
 
-/// Part `index` of `count` equal ones.
+/// Returns the progress of part `index` of `count` equal parts.
 fn share_of(whole: &dyn Progress, index: usize, count: usize) -> SubProgress<'_> {
     let at = |k: usize| k as f64 / count as f64;
     SubProgress { whole, from: at(index), to: at(index + 1) }
 }
 
-/// What all backends have done, and whether one has failed.
+/// The progress of all backends, and a flag that is set when one fails.
 struct Shared<'a> {
     whole: &'a dyn Progress,
-    /// Of each backend, in thousandths.
+    /// Progress of each backend, in thousandths.
     done: Vec<AtomicU64>,
     failed: AtomicBool,
 }

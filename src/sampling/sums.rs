@@ -1,6 +1,6 @@
-//! Sums of samples over parts of a picture, and the film that they become. In: for each range of samples one block
-//! of sums in f64. Out: means. Blocks are kept apart until the film is made and are then added in the order of their
-//! first samples, so that merging is a union of sets: the film depends neither on who took which range, nor on the
+//! Sums of samples over parts of a picture, and the film made from them. Input: for each range of samples one block of
+//! sums in f64. Output: means. Blocks stay separate until the film is made and are then added in the order of their
+//! first samples, so merging is a union of sets: the film depends neither on the backend that took a range nor on the
 //! order in which ranges arrive.
 
 use rayon::iter::{IndexedParallelIterator, ParallelIterator};
@@ -15,33 +15,33 @@ use crate::pack::filtered_mean;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Block {
     pub range: Range,
-    /// Red, green and blue; each sample counts with the sign that the pixel filter has at its place.
+    /// Sums of red, green and blue; each sample has the sign of the pixel filter at its position.
     pub sums: Vec<[f64; 3]>,
-    /// Of each sample the mean of its squared channels; empty where nobody asked for it.
+    /// Sums of the mean of each sample's squared channels; empty if not requested.
     pub squares: Vec<f64>,
     pub count: Count,
-    /// Where the pixel filter has negative lobes.
+    /// Present if the pixel filter has negative lobes.
     pub signed: Option<Signed>,
-    /// What cones dropped, over all pixels.
+    /// The weight that cones dropped, summed over all pixels.
     pub dropped: f64,
 }
 
-/// How many samples stand behind each sum.
+/// The number of samples in each sum.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Count {
-    /// As many for all pixels.
+    /// The same number for all pixels.
     All(u32),
     Each(Vec<u32>),
 }
 
-/// What sums of signed samples need to become means: see [`filtered_mean`].
+/// The terms that turn sums of signed samples into means: see [`filtered_mean`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Signed {
-    /// Mean of the samples' signs over the whole filter.
+    /// The mean of the samples' signs over the whole filter.
     pub mean_sign: f64,
-    /// Sums of the samples whose sign is negative, without it.
+    /// Sums of the absolute values of samples with negative sign.
     pub negative: Vec<[f64; 3]>,
-    /// Sums of the signs: the weights of the samples.
+    /// Sums of the signs, which are the weights of the samples.
     pub weights: Vec<f64>,
 }
 
@@ -84,7 +84,7 @@ impl PixelSums {
 }
 
 impl Block {
-    /// Sums of no sample yet, with room for one pixel after the other.
+    /// Returns sums of no samples, with capacity for all pixels, which are pushed in order.
     pub fn new(range: Range) -> Block {
         let count = Count::All(range.depth());
         let sums = Vec::with_capacity(range.pixels.area());
@@ -111,16 +111,16 @@ impl Block {
         }
     }
 
-    /// By which blocks are ordered: a pixel's samples by their numbers.
+    /// Returns the sort key: blocks of a pixel are ordered by their first samples.
     fn key(&self) -> (u32, u32, u32) {
         (self.range.samples.start, self.range.pixels.y, self.range.pixels.x)
     }
 }
 
-/// Sums of any number of ranges of one picture, none of which overlap.
+/// Sums of any number of disjoint ranges of one picture.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FilmSums {
-    /// In the order of [`Block::key`].
+    /// Sorted by [`Block::key`].
     blocks: Vec<Block>,
 }
 
@@ -131,7 +131,7 @@ impl From<Block> for FilmSums {
 }
 
 impl FilmSums {
-    /// Takes over the sums of other ranges. Fails where a sample of a pixel would count twice; then nothing is taken.
+    /// Merges the sums of other ranges. Fails, without any effect, if a sample of a pixel would count twice.
     pub fn merge(&mut self, other: FilmSums) -> Result<()> {
         let own = || self.blocks.iter();
         let both = other.blocks.iter().flat_map(|b| own().map(|a| a.range.intersection(&b.range)));
@@ -153,7 +153,7 @@ impl FilmSums {
         &self.blocks
     }
 
-    /// Returns what cones dropped, over all pixels.
+    /// Returns the weight that cones dropped, summed over all pixels.
     pub fn dropped(&self) -> f64 {
         self.blocks.iter().map(|block| block.dropped).sum()
     }
@@ -176,7 +176,7 @@ impl FilmSums {
         });
     }
 
-    /// Writes the means of a row of which several blocks have sums.
+    /// Writes the means of a row that several blocks cover.
     fn write_row(&self, y: u32, mean_sign: Option<f64>, pixels: &mut [[f32; 3]]) {
         let mut row: Vec<Option<PixelSums>> = vec![None; pixels.len()];
         for block in self.blocks.iter().filter(|b| b.range.pixels.rows().contains(&y)) {
@@ -195,13 +195,13 @@ impl FilmSums {
         }
     }
 
-    /// The film of a picture of that size. Fails where a pixel has not `samples` samples.
+    /// Returns the film of a picture of that size. Fails if a pixel does not have `samples` samples.
     pub fn to_film(&self, [width, height]: [u32; 2], samples: u32) -> Result<Film> {
         let whole = Rect::whole([width, height]);
         let wanted = whole.area() as u64 * u64::from(samples);
         let inside = |b: &&Block| b.range.pixels.intersection(&whole) == Some(b.range.pixels);
         let count = |b: &Block| b.range.pixels.area() as u64 * u64::from(b.range.depth());
-        // None counts twice, so that the number tells whether all are there.
+        // No sample counts twice, so the total shows whether any is missing.
         let there: u64 = self.blocks.iter().filter(inside).map(count).sum();
         let beyond = self.blocks.iter().any(|b| !inside(&b) || b.range.samples.end > samples);
         if there != wanted || beyond {

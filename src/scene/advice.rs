@@ -1,10 +1,10 @@
-//! Scene → what a person should know before looking at the picture: settings that are valid, and yet do
-//! not do what their names promise in this scene or on this device.
+//! Warnings about a scene: settings that are valid but have no effect, or an unexpected one, in this scene or on this
+//! device.
 
 use super::model::{Algorithm, Footprint, Light, Material, PixelFilter, Scene};
 use crate::texture::sampler_spec::{Method, MipMode, SamplerSpec};
 
-/// Of the scene alone. Samplers that nothing reads have been dropped before.
+/// Returns the warnings of a scene, whose unused samplers have been removed.
 pub fn of_scene(scene: &Scene) -> Vec<String> {
     let mut told = without_effect(scene.sampling.footprint, &scene.samplers);
     told.extend(without_light(scene));
@@ -64,7 +64,7 @@ fn without_effect(footprint: Footprint, samplers: &[SamplerSpec]) -> Vec<String>
     )]
 }
 
-/// Materials that show what lights send, where no light sends any.
+/// Warns about materials that reflect the light of lights in a scene without any.
 fn without_light(scene: &Scene) -> Option<String> {
     if scene.lights.iter().any(shines) {
         return None;
@@ -101,7 +101,7 @@ fn shines(light: &Light) -> bool {
     power.max_element() > 0.0
 }
 
-/// Settings that only minification uses.
+/// Returns the settings that only apply to minification.
 fn idle_settings(spec: &SamplerSpec) -> Vec<String> {
     let mut idle = Vec::new();
     if spec.min != spec.mag {
@@ -113,7 +113,7 @@ fn idle_settings(spec: &SamplerSpec) -> Vec<String> {
     idle
 }
 
-/// Whether the device's own samplers follow long footprints in this scene.
+/// Returns true if the device's own samplers filter anisotropically in this scene.
 pub fn samples_anisotropically(scene: &Scene) -> bool {
     scene.sampling.footprint != Footprint::None && scene.samplers.iter().any(follows_footprints)
 }

@@ -1,39 +1,39 @@
-//! `[camera]` as data: where it is, what it projects through, and how it moves while the shutter is open.
+//! `[camera]` as data: position, projection, and motion while the shutter is open.
 
 use glam::DVec3;
 
-/// Where the picture is seen from, and through what.
+/// A camera: its position and projection.
 #[derive(Clone, Copy, Debug)]
 pub struct Camera {
-    /// Where it is.
+    /// The position.
     pub eye: DVec3,
-    /// What is in the middle of the picture.
+    /// The point at the centre of the picture.
     pub look_at: DVec3,
-    /// What is upwards in it: any direction that is not that of the view.
+    /// The up vector: any direction except the view direction.
     pub up: DVec3,
-    /// Its angle of view.
+    /// The projection, with the angle of view.
     pub projection: Projection,
-    /// None: a pinhole.
+    /// The lens; `None` is a pinhole.
     pub lens: Option<Lens>,
-    /// When the shutter opens and closes, between 0 and 1.
+    /// The times at which the shutter opens and closes, between 0 and 1.
     pub shutter: [f64; 2],
-    /// How far eye and look_at move between the times 0 and 1.
+    /// Displacements of `eye` and `look_at` between the times 0 and 1.
     pub motion: [DVec3; 2],
 }
 
-/// A thin lens around the eye, across the view.
+/// A thin lens at the eye, perpendicular to the view.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lens {
     /// In scene units.
     pub radius: f64,
-    /// Along the view, to the plane in focus.
+    /// Along the view direction, to the plane of focus.
     pub focus_distance: f64,
 }
 
-/// How directions become places on the picture.
+/// The projection from directions to the picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Projection {
-    /// Full vertical opening angle in degrees, in (0, 180).
+    /// Vertical field of view in degrees, in (0, 180).
     VerticalFov(f64),
     /// Distance of an image plane of height 1 (the lecture's camera constant).
     CameraConstant(f64),
@@ -42,7 +42,7 @@ pub enum Projection {
 }
 
 impl Camera {
-    /// Returns whether it moves while the shutter is open.
+    /// Returns true if it moves while the shutter is open.
     pub fn moves(&self) -> bool {
         self.motion != [DVec3::ZERO; 2]
     }

@@ -1,5 +1,5 @@
-//! Options that replace values of a scene, checked by the same rules: the command line's and those of a
-//! `RenderOptions`. In: a scene and what is asked for. Out: the scene to render.
+//! Options that override values of a scene, checked by the same rules: those of the command line and of
+//! `RenderOptions`. Input: a scene and the overrides. Output: the scene to render.
 
 use super::cone;
 use super::limits::{check_filters, check_shared, check_spp};
@@ -7,17 +7,17 @@ use super::model::{Algorithm, Footprint, Pattern, PixelFilter, PixelFilterKind, 
 use crate::core::error::{Error, Result};
 use crate::texture::sampler_spec::{Filter, Method, MipMode};
 
-/// What replaces the scene's own; nothing by default.
+/// The overrides of a scene; none by default.
 #[derive(Clone, Debug, Default)]
 pub struct Changes {
     pub size: Option<[u32; 2]>,
     pub spp: Option<u32>,
     pub algorithm: Option<Algorithm>,
-    /// Samples end at a goal, a time or an error, instead of a number.
+    /// True if sampling ends at a goal, a time or an error, instead of a number.
     pub has_goal: bool,
     pub pattern: Option<Pattern>,
     pub seed: Option<u32>,
-    /// Of every sampler, like the filter and the levels.
+    /// Applies to every sampler, like the filter and the levels.
     pub method: Option<Method>,
     pub filter: Option<Filter>,
     pub mip: Option<MipMode>,
@@ -29,7 +29,7 @@ pub struct Changes {
 }
 
 impl Changes {
-    /// What was chosen beside what is named, in words.
+    /// Applies the overrides; returns a note on settings that were chosen automatically.
     pub fn apply(&self, scene: &mut Scene) -> Result<Option<&'static str>> {
         if let Some([width, height]) = self.size {
             (scene.width, scene.height) = (width, height);
@@ -42,19 +42,19 @@ impl Changes {
         sampling.spp = self.spp.unwrap_or(sampling.spp);
         let wanted = if self.has_goal { Algorithm::Auto } else { sampling.algorithm };
         sampling.algorithm = self.algorithm.unwrap_or(wanted);
-        // What errs least of those that stop anywhere.
+        // The pattern with the smallest error among those that may stop at any sample.
         let wanted =
             if sampling.algorithm == Algorithm::Auto { Pattern::SobolOwen } else { sampling.pattern };
         sampling.pattern = self.pattern.unwrap_or(wanted);
         sampling.seed = self.seed.unwrap_or(sampling.seed);
-        // A prefilter's bias does not fall with the samples as their noise does.
+        // A prefilter's bias does not fall with the number of samples as noise does.
         let free = if sampling.algorithm == Algorithm::Auto { Footprint::None } else { sampling.footprint };
         sampling.footprint = self.footprint.unwrap_or(free);
         sampling.shared = self.shared.unwrap_or(sampling.shared);
         sampling.precision = self.precision.unwrap_or(sampling.precision);
         self.adapt_for_adaptive(sampling)?;
         check_shared(sampling.pattern, sampling.shared).map_err(Error::new)?;
-        check_spp(sampling.pattern, sampling.spp).map_err(|m| Error::new(format!("--spp: {m}")))?;
+        check_spp(sampling.pattern, sampling.spp).map_err(Error::new)?;
         for sampler in &mut scene.samplers {
             sampler.mip = self.mip.unwrap_or(sampler.mip);
             sampler.method = self.method.unwrap_or(sampler.method);
@@ -62,7 +62,7 @@ impl Changes {
                 (sampler.mag, sampler.min) = filter.both();
             }
         }
-        // What the command line names is meant.
+        // A pattern named on the command line is intended.
         let free = self.filter.is_none() && self.mip.is_none();
         let chosen = if free { cone::adapt_for_cone(scene) } else { None };
         cone::adapt_footprint(scene);
@@ -70,19 +70,19 @@ impl Changes {
         Ok(chosen)
     }
 
-    /// Sampling that differs from pixel to pixel needs a sequence that may end anywhere.
+    /// Selects a pattern that may stop at any sample, which sampling rates that differ from pixel to pixel need.
     fn adapt_for_adaptive(&self, sampling: &mut Sampling) -> Result<()> {
         if !sampling.algorithm.is_adaptive() {
             if self.has_goal {
                 let fixed = match sampling.algorithm {
                     Algorithm::Cone => "\"cone\" takes none",
-                    _ => "\"samples\" takes --spp",
+                    _ => "\"samples\" takes a number of samples (spp)",
                 };
                 return Err(Error::with_help(
                     format!(
-                        "--budget and --target-error need an algorithm that may choose its samples; {fixed}"
+                        "a budget or a target error needs an algorithm that may choose its samples; {fixed}"
                     ),
-                    "leave --algorithm away, or use --algorithm adaptive",
+                    "leave the algorithm away, or use algorithm \"adaptive\"",
                 ));
             }
             return Ok(());
@@ -94,7 +94,7 @@ impl Changes {
             let able: Vec<&str> =
                 Pattern::ALL.iter().filter(|p| p.stops_anywhere()).map(|p| p.name()).collect();
             return Err(Error::new(format!(
-                "--pattern {pattern}: algorithm \"{}\" stops each pixel at another count, which pattern \"{pattern}\" cannot; use one of {}",
+                "algorithm \"{}\" stops each pixel at another count, which pattern \"{pattern}\" cannot; use one of {}",
                 sampling.algorithm,
                 able.join(", ")
             )));

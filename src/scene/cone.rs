@@ -1,10 +1,10 @@
-//! What cone tracing needs of a scene: a footprint, and filters that average over it. In: a scene that may
-//! name none. Out: the scene that is traced, and what was chosen for it.
+//! Adapts a scene to cone tracing, which needs a footprint, and filters that average over it. Input: any scene. Output:
+//! the scene that is traced, and a note on the settings that were chosen.
 
 use super::model::{Algorithm, Footprint, Light, Scene};
 use crate::texture::sampler_spec::{Filter, Method, MipMode, SamplerSpec};
 
-/// Footprints longer than this many widths are blurred, where the sampler's own limit is the default.
+/// Default of the sampler's limit: footprints more elongated than this are blurred.
 const ANISOTROPY: u32 = 64;
 
 /// Forces the footprint of cones.
@@ -14,8 +14,8 @@ pub fn adapt_footprint(scene: &mut Scene) {
     }
 }
 
-/// The same, and a filter for every sampler that names none for minification: one whose filter does not
-/// depend on the footprint. What was chosen is told.
+/// Forces the footprint of cones, and replaces minification filters that do not depend on a footprint in every sampler
+/// that names none. Returns a note on the choice.
 pub fn adapt_for_cone(scene: &mut Scene) -> Option<&'static str> {
     adapt_footprint(scene);
     let chosen = scene.sampling.algorithm == Algorithm::Cone
@@ -26,8 +26,8 @@ pub fn adapt_for_cone(scene: &mut Scene) -> Option<&'static str> {
     )
 }
 
-/// What samples leave to chance has one value for a cone: a pinhole, everything where it is in the middle of the
-/// shutter's time, lights at their middles, sharp reflections.
+/// Returns the scene with a single value for each random dimension: a pinhole, everything at the middle of the
+/// shutter's time, lights at their centres, sharp reflections.
 pub fn freeze_time(scene: &Scene) -> Scene {
     let mut settled = scene.clone();
     let [opens, closes] = scene.camera.shutter;

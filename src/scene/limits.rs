@@ -1,5 +1,5 @@
-//! Every limit that a scene has to keep. In: single values, or several that have to make sense together. Out: whether
-//! they do, for scenes of any format, for those built in code and for options of the command line alike.
+//! All limits of a scene. Input: single values, or several that must be consistent. Output: whether they are valid, for
+//! scenes of any format, for those built in code and for options of the command line alike.
 
 use std::ops::RangeInclusive;
 
@@ -12,7 +12,7 @@ use crate::texture::sampler_spec::{Filter, Method, SamplerSpec};
 
 /// Pixels along one side of a picture.
 pub const MAX_SIZE: u32 = 16384;
-/// Samples per pixel: sample positions are multiples of 2⁻²⁴, more could not be told apart.
+/// Samples per pixel: sample positions are multiples of 2⁻²⁴, so more could not be distinguished.
 pub const MAX_SPP: u32 = 1 << 24;
 /// Bounces after the camera ray.
 pub const MAX_DEPTH: u32 = 64;
@@ -21,9 +21,9 @@ pub(super) const MAX_SHAPES: usize = 65535;
 pub(super) const MAX_TEXTURES: usize = 1024;
 /// Texels of a ramp, files of a stack, and texels along each side of a raw volume.
 pub(super) const MAX_TEXELS: u32 = 65_536;
-/// Pixels that a filter may reach to each side.
+/// Largest radius of a pixel filter, in pixels.
 pub const MAX_RADIUS: f64 = 8.0;
-/// Footprints longer than this many widths are blurred.
+/// Footprints more elongated than this are blurred.
 pub const MAX_ANISOTROPY: u32 = 64;
 
 pub(super) const SIZE: RangeInclusive<u32> = 1..=MAX_SIZE;
@@ -33,8 +33,8 @@ pub(super) const ANISOTROPY: RangeInclusive<u32> = 1..=MAX_ANISOTROPY;
 pub(super) const TEXELS: RangeInclusive<u32> = 1..=MAX_TEXELS;
 pub(super) const DIMENSIONS: RangeInclusive<u32> = 2..=3;
 
-/// Which finite numbers a value may have. Everything stays below 1e30, so that single precision has
-/// room left (it ends at 3.4e38), and lengths above 1e-30, where it would reach zero.
+/// The set of valid finite numbers. All are below 1e30, which leaves headroom in single precision (3.4e38), and lengths
+/// are above 1e-30, where it would underflow.
 pub(super) struct Limits {
     /// Completes "a number".
     pub words: &'static str,
@@ -67,21 +67,21 @@ pub(super) const ASPECT: Limits =
     Limits { words: "from 0.01 to 100", allow: |x| (0.01..=100.0).contains(&x) };
 
 impl Limits {
-    /// Whether a value of single precision is one of those numbers, rounded.
+    /// Returns true if a value of single precision is one of those numbers, rounded.
     pub fn allow_f32(&self, x: f32) -> bool {
         let ulp = f64::from(f32::EPSILON);
         [1.0, 1.0 - ulp, 1.0 + ulp].iter().any(|factor| (self.allow)(f64::from(x) * factor))
     }
 }
 
-/// Two directions whose sine is below this count as parallel: far below any intended angle, far
-/// above what rounding of double precision components can produce.
+/// Two directions with a smaller sine between them count as parallel: far below any intended angle, far above the
+/// rounding errors of double precision components.
 const MIN_SINE: f64 = 1e-9;
-/// A triangle whose height is below this part of its longest edge counts as a line.
+/// A triangle counts as a line if its height is below this fraction of its longest edge.
 const MIN_HEIGHT: f64 = 1e-12;
 
-/// `grid` and `stratified` divide the pixel into n × n cells: `spp` must be a square there. Blocks of
-/// `blue-noise` are powers of two.
+/// Checks the number of samples: `grid` and `stratified` divide the pixel into n × n cells, so that it must be a
+/// square; blocks of `blue-noise` are powers of two.
 pub fn check_spp(pattern: Pattern, spp: u32) -> Result<(), String> {
     if !(1..=MAX_SPP).contains(&spp) {
         return Err(format!("spp = {spp} is out of range; use 1 to {MAX_SPP} (2^24)"));
@@ -112,7 +112,7 @@ pub(super) fn check_mag(mag: Filter) -> Result<(), String> {
     Ok(())
 }
 
-/// What texture units do not have.
+/// Checks the features that texture units do not have.
 pub(super) fn check_method(spec: &SamplerSpec) -> Result<(), String> {
     match [spec.mag, spec.min].iter().find(|f| !f.traits().in_hardware) {
         Some(filter) if spec.method == Method::Hardware => Err(format!(
@@ -123,7 +123,7 @@ pub(super) fn check_method(spec: &SamplerSpec) -> Result<(), String> {
     }
 }
 
-/// What look-ups of each texture can do, after the command line's changes too.
+/// Checks the look-ups of each texture, also after the command line's overrides.
 pub fn check_filters(scene: &Scene) -> Result<()> {
     let materials = scene.materials.iter().flat_map(|m| m.texture.map(|t| (t, m.sampler)));
     let environment = scene.background.environment.iter().map(|e| (e.texture, e.sampler));
@@ -154,7 +154,7 @@ fn scene_error(message: String) -> Error {
     Error::new(message).of_kind(ErrorKind::Scene)
 }
 
-/// Only patterns with displacements that differ between pixels have anything to share.
+/// Only patterns whose displacements differ between pixels can share them.
 pub fn check_shared(pattern: Pattern, shared: bool) -> Result<(), String> {
     if !shared || pattern.can_be_shared() {
         return Ok(());
@@ -177,8 +177,8 @@ pub(super) fn parallel(a: DVec3, b: DVec3) -> bool {
     a.cross(b).length() <= MIN_SINE * a.length() * b.length()
 }
 
-/// Twice the area is |e₁ × e₂|: longest edge times height. Vertices far from the origin are known
-/// to a few ulp only, which adds to the height that counts as none.
+/// Twice the area is |e₁ × e₂|: longest edge times height. Vertices far from the origin are accurate to a few ulp only,
+/// which is added to the height that counts as zero.
 pub(super) fn collinear(vertices: [DVec3; 3]) -> bool {
     let [a, b, c] = vertices;
     let longest = (b - a).length().max((c - a).length()).max((c - b).length());

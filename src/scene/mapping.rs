@@ -1,18 +1,18 @@
-//! How a surface point becomes a texture coordinate, as data: the kind of map, the entity that it
-//! projects, and its frame. Part of the model.
+//! The mapping from surface points to texture coordinates as data: its kind, the entity that it projects, and
+//! its frame. Part of the model.
 
 use glam::{DVec2, DVec3};
 
 use crate::core::named::named_enum;
 
 named_enum! {
-    /// How a surface point becomes a texture coordinate.
+    /// The kind of a mapping from surface points to texture coordinates.
     pub enum MappingKind {
         Surface = "surface",
         Planar = "planar",
         Cylindrical = "cylindrical",
         Spherical = "spherical",
-        /// The place on a cube's six faces.
+        /// The position on the six faces of a cube.
         Cube = "cube",
         /// The three coordinates themselves, for 3D and procedural textures.
         Solid = "solid",
@@ -20,52 +20,52 @@ named_enum! {
 }
 
 named_enum! {
-    /// What a projecting map projects.
+    /// The entity that a mapping projects.
     pub enum Entity {
         Position = "position",
         /// The shading normal.
         Normal = "normal",
         /// The vector from the shape's centroid to the point.
         Centroid = "centroid",
-        /// The direction into which the surface mirrors the incoming ray.
+        /// The direction into which the surface reflects the incoming ray.
         Reflection = "reflection",
     }
 }
 
 impl Entity {
-    /// A direction has no place that an origin or a box could be in.
+    /// Returns true for directions, to which no origin or bounding box applies.
     pub const fn is_direction(self) -> bool {
         matches!(self, Entity::Normal | Entity::Reflection)
     }
 }
 
 named_enum! {
-    /// Where a projecting map's frame lives.
+    /// The space of a projecting mapping's frame.
     pub enum Space {
         World = "world",
         Bounds = "bounds",
     }
 }
 
-/// `uv' = R(rotate) · (uv ∘ scale) + offset`, in the order of KHR_texture_transform; of `solid` and `cube`
+/// `uv' = R(rotate) · (uv ∘ scale) + offset`, in the order of KHR_texture_transform; for `solid` and `cube`
 /// the rotation is about the frame's axis.
 #[derive(Clone, Copy, Debug)]
 pub struct Mapping {
-    /// How a point becomes a coordinate.
+    /// The kind.
     pub kind: MappingKind,
-    /// What is projected.
+    /// The entity that is projected.
     pub entity: Entity,
-    /// Where the frame lives.
+    /// The space of the frame.
     pub space: Space,
-    /// Frame of a projecting map: its origin and its axis (not necessarily of unit length).
+    /// Origin of a projecting mapping's frame.
     pub origin: DVec3,
-    /// Around it angles are measured, along it heights.
+    /// Axis of the frame, of any length: angles are measured around it, heights along it.
     pub axis: DVec3,
     /// Factors of u and v.
     pub scale: DVec2,
     /// Added last.
     pub offset: DVec2,
-    /// Scale and offset of w: `solid` only.
+    /// Scale of w: `solid` only.
     pub scale_w: f64,
     /// Added to w last.
     pub offset_w: f64,

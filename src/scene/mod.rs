@@ -1,4 +1,5 @@
-//! Scenes: a file of some format, or parts from code, in; the whole [`model::Scene`], every rule kept, out.
+//! Scenes. Input: a file of some format, or parts from code. Output: the whole [`model::Scene`], which keeps
+//! all rules.
 
 pub mod advice;
 mod bsdf;

@@ -1,11 +1,10 @@
-//! By which weights the light around a pixel becomes its colour, as data: a filter and how far it reaches. Part of the
-//! model.
+//! The pixel filter as data: its kind and its radius, which weight the light around a pixel. Part of the model.
 
 pub use crate::schema::enums::PixelFilterKind;
 
 impl PixelFilterKind {
-    /// In pixels: a pixel's own square; the next pixel's centre; 3 σ of half a pixel (Pharr, Jakob & Humphreys
-    /// 2023); the cubic's two pixels; 1.5 as in Cycles.
+    /// Returns the default radius in pixels: half a pixel's width; the next pixel's centre; 3 σ of half a pixel (Pharr,
+    /// Jakob & Humphreys 2023); the two pixels of the cubic; 1.5 as in Cycles.
     pub const fn default_radius(self) -> f64 {
         match self {
             PixelFilterKind::Box => 0.5,
@@ -16,17 +15,17 @@ impl PixelFilterKind {
     }
 }
 
-/// By which weights the samples around a pixel become its colour.
+/// The filter that weights the samples around a pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PixelFilter {
-    /// Its shape.
+    /// Its kind.
     pub kind: PixelFilterKind,
-    /// Half the filter's width, in pixels. Its shape is stretched with it.
+    /// Half the filter's width, in pixels, to which it is scaled.
     pub radius: f64,
 }
 
 impl PixelFilter {
-    /// As wide as the kind is by default, if no radius is given.
+    /// Returns a filter with this radius, or with the default radius of its kind.
     pub fn new(kind: PixelFilterKind, radius: Option<f64>) -> PixelFilter {
         PixelFilter { kind, radius: radius.unwrap_or(kind.default_radius()) }
     }

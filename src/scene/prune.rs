@@ -1,11 +1,10 @@
-//! Scene → the same picture's scene without what no ray can meet: materials on no shape, textures
-//! and samplers behind no material, lights that shine on nothing that scatters; and with one texture in place of
-//! several that read the same texels. Indices follow.
+//! Removes from a scene the parts that do not affect the picture: materials of no shape, textures and samplers of no
+//! material, lights if nothing reflects them; and merges textures that read the same texels. Indices are updated.
 
 use super::model::{Scene, TextureSource};
 use crate::core::counted::{counted, verb};
 
-/// What was dropped, for `-v`.
+/// Prunes a scene; returns what was removed, for `-v`.
 pub fn prune(scene: &mut Scene) -> Vec<String> {
     let mut dropped = Vec::new();
     let used: Vec<usize> = scene.shapes.iter().map(|shape| shape.material()).collect();
@@ -46,8 +45,7 @@ pub fn prune(scene: &mut Scene) -> Vec<String> {
     dropped
 }
 
-/// The first of several textures that read the same texels stands for all of them: it is decoded once, and
-/// devices hold it once.
+/// Replaces textures that read the same texels by the first of them, which is decoded and stored on devices once.
 fn merge_textures(scene: &mut Scene, dropped: &mut Vec<String>) {
     let identities: Vec<TextureSource> = scene.textures.iter().map(TextureSource::identity).collect();
     let first = |i: usize| identities.iter().position(|other| *other == identities[i]).unwrap_or(i);
@@ -61,7 +59,7 @@ fn merge_textures(scene: &mut Scene, dropped: &mut Vec<String>) {
     point_to_textures(scene, &merged);
 }
 
-/// `textures`: old index → new index.
+/// Updates the indices of textures; `textures` maps old to new.
 fn point_to_textures(scene: &mut Scene, textures: &[usize]) {
     for material in &mut scene.materials {
         material.texture = material.texture.map(|t| textures[t]);

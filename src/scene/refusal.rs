@@ -1,5 +1,6 @@
-//! What a scene is refused for. In: a value, its limits, and which key of which item it is. Out: nothing, or a
-//! [`Refusal`] that a format turns into an error at the place of its file, and anyone else into one sentence.
+//! The reasons for refusing a scene. Input: a value, its limits, and its key. Output: nothing, or a
+//! [`Refusal`] that a format turns into an error at a position in its file, and other callers into a
+//! sentence.
 
 use std::fmt;
 use std::ops::RangeInclusive;
@@ -12,19 +13,19 @@ use crate::core::error::{Error, ErrorKind};
 /// The result of a check.
 pub(super) type Check<T = ()> = Result<T, Box<Refusal>>;
 
-/// A value within a scene: a key of the vocabulary, of an item of a section.
+/// The path of a value within a scene: a key of an item of a section.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Key {
     pub section: &'static str,
-    /// Which of the section's items; 0 where there is one.
+    /// Index among the section's items; 0 for a single one.
     pub item: usize,
-    /// Below the item, with dots between levels; empty for the item itself.
+    /// Path below the item, separated by dots; empty for the item itself.
     pub name: &'static str,
-    /// Of a list: vertices, colours.
+    /// Index in a list: of vertices, colours.
     pub element: Option<usize>,
-    /// Of a vector.
+    /// Index in a vector.
     pub component: Option<usize>,
-    /// Stands where the key is not given.
+    /// The default that applies if the key is not given.
     pub default: Option<&'static str>,
 }
 
@@ -32,7 +33,7 @@ pub(super) struct Key {
 pub(super) enum Fault {
     /// Another value was expected than the one that was found.
     Expected { wanted: String, found: String },
-    /// `label` says it in a few words.
+    /// `label` states it in a few words.
     Rule { what: String, label: String },
 }
 
@@ -43,7 +44,7 @@ pub(super) struct Refusal {
 }
 
 impl Key {
-    /// An item as a whole.
+    /// Returns the key of a whole item.
     pub const fn item(section: &'static str, item: usize) -> Key {
         Key { section, item, name: "", element: None, component: None, default: None }
     }
@@ -77,7 +78,7 @@ impl Key {
         }
     }
 
-    /// The same for a value that was rounded to single precision.
+    /// As `number`, for a value that was rounded to single precision.
     pub fn number_f32(self, x: f32, limits: &Limits) -> Check {
         if x.is_finite() && limits.allow_f32(x) { Ok(()) } else { self.number(f64::from(x), limits) }
     }
@@ -86,7 +87,7 @@ impl Key {
         self.all_of(&numbers, limits.allow, limits)
     }
 
-    /// The same for values that were rounded to single precision.
+    /// As `numbers`, for values that were rounded to single precision.
     pub fn numbers_f32(self, numbers: &[f32], limits: &Limits) -> Check {
         let numbers: Vec<f64> = numbers.iter().map(|&x| f64::from(x)).collect();
         self.all_of(&numbers, |x| limits.allow_f32(x as f32), limits)
@@ -110,7 +111,7 @@ impl Key {
         self.numbers(vector.to_array(), limits)
     }
 
-    /// A vector of any length but zero.
+    /// Accepts a vector of any length but zero.
     pub fn direction(self, vector: DVec3) -> Check {
         self.vector(vector, &COORDINATE)?;
         if vector.abs().max_element() < 1e-30 {
@@ -126,7 +127,7 @@ impl Key {
         self.expect(format!("an integer from {} to {}", range.start(), range.end()), integer)
     }
 
-    /// 1 to `most` elements.
+    /// Accepts 1 to `most` elements.
     pub fn count(self, count: usize, of: &str, most: u32) -> Check {
         if (1..=most as usize).contains(&count) {
             return Ok(());
@@ -134,7 +135,7 @@ impl Key {
         self.expect(format!("an array of 1 to {most} {of}"), format_args!("{count}"))
     }
 
-    /// An index of something that the scene has `count` of.
+    /// Accepts an index of something that the scene has `count` of.
     pub fn index(self, index: usize, count: usize, what: &str) -> Check {
         if index < count {
             return Ok(());
@@ -142,7 +143,7 @@ impl Key {
         self.refuse(format!("the scene has no {what} {index}; it has {count}"), format!("no such {what}"))
     }
 
-    /// A rule that an option of the command line has too.
+    /// Accepts the result of a rule that also applies to an option of the command line.
     pub fn rule(self, checked: Result<(), String>, label: &str) -> Check {
         checked.or_else(|what| self.refuse(what, label))
     }
@@ -170,7 +171,7 @@ impl fmt::Display for Refusal {
 }
 
 impl Refusal {
-    /// The error for who built the scene in code.
+    /// Returns the error for the author of a scene in code.
     pub fn error(&self) -> Error {
         Error::new(self.to_string()).of_kind(ErrorKind::Scene)
     }

@@ -1,5 +1,5 @@
-//! Short ways to write the parts of a scene in code: what has to be said, in; the part with the defaults of a scene
-//! file for all else, out.
+//! Shorthands for the parts of a scene in code. Input: the essential values. Output: the part, with the defaults of a
+//! scene file for everything else.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -8,11 +8,11 @@ use glam::DVec3;
 
 use super::model::{Camera, Projection, TextureContent, TextureSource};
 use crate::texture::data::{ColorSpace, Component, Dimension, MipKernel, TexelFormat};
-use crate::texture::source::{PlainTexels, Reading};
+use crate::texture::source::{PlainTexels, ReadOptions};
 
 impl Camera {
-    /// Returns a pinhole at `eye` that sees `look_at` in the middle of the picture and so many degrees from its top to
-    /// its bottom, +y upwards.
+    /// Returns a pinhole camera at `eye` with `look_at` at the centre of the picture, a vertical field of view in
+    /// degrees, and +y upwards.
     pub fn looking(eye: impl Into<DVec3>, look_at: impl Into<DVec3>, vertical_fov: f64) -> Camera {
         Camera {
             eye: eye.into(),
@@ -38,18 +38,18 @@ impl TextureSource {
             dimension: Dimension::Two,
             color_space,
             color_space_stated: true,
-            reading: Reading::default(),
+            reading: ReadOptions::default(),
             flip_v: false,
             mip_kernel: MipKernel::Box,
         }
     }
 
-    /// Returns the texture of a picture file. The name is for messages.
+    /// Returns the texture of a picture file. The name is used in messages.
     pub fn file(name: impl Into<String>, path: impl Into<PathBuf>, color_space: ColorSpace) -> TextureSource {
         TextureSource::of_content(name, TextureContent::File(path.into()), color_space)
     }
 
-    /// Returns a texture of `width · height` texels of 8 bits, red, green, blue and alpha, the first row on top.
+    /// Returns a texture of `width · height` texels of 8 bits, red, green, blue and alpha, the top row first.
     pub fn rgba8(
         name: impl Into<String>,
         [width, height]: [u32; 2],
@@ -60,7 +60,7 @@ impl TextureSource {
         TextureSource::of_content(name, TextureContent::Texels(Arc::new(texels)), color_space)
     }
 
-    /// Returns a texture of `width · height` texels of linear light, red, green, blue and alpha, the first row on top.
+    /// Returns a texture of `width · height` linear texels, red, green, blue and alpha, the top row first.
     pub fn rgba_float(
         name: impl Into<String>,
         [width, height]: [u32; 2],

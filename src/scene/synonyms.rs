@@ -1,12 +1,12 @@
-//! What other programs and textbooks call the words of the vocabulary. In: a word that is not known and the names
-//! that are. Out: the name that means the same, and what else has to be set for it.
+//! Terms of other programs and textbooks for words of the vocabulary. Input: an unknown word and the valid names.
+//! Output: the name with the same meaning, and a setting that is also required.
 
-/// A word, what it is called here, and the setting (key, value) that belongs to it.
+/// A foreign term, its name here, and the setting (key, value) that it implies.
 type Synonym = (&'static str, &'static str, Option<(&'static str, &'static str)>);
 
 const MIPPED: Option<(&str, &str)> = Some(("mip", "linear"));
 
-/// Several lines may have one word: those of one vocabulary are tried in their order.
+/// Several lines may have one term: they are tried in order.
 const SYNONYMS: &[Synonym] = &[
     // Patterns.
     ("jitter", "stratified", None),
@@ -99,7 +99,7 @@ const SYNONYMS: &[Synonym] = &[
     ("image", "file", None),
 ];
 
-/// The one of `names` that `word` means elsewhere, and the setting that belongs to it.
+/// Returns the one of `names` that `word` means elsewhere, and the setting that it implies.
 pub fn meant<'n>(
     word: &str,
     names: impl IntoIterator<Item = &'n str> + Clone,

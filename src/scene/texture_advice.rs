@@ -1,11 +1,11 @@
-//! Scene and decoded textures → what a person should know about textures that are valid, and yet are hardly
-//! what was meant: pictures for a screen read as linear light, normal maps that hold no normals.
+//! Warnings about textures that are valid but hardly intended: display pictures read as linear values, normal maps
+//! without normals. Input: a scene and its decoded textures.
 
 use super::model::{BumpMap, Scene};
 use crate::texture::data::{ColorSpace, Component, Dimension, TextureData};
 use crate::texture::source::{TextureContent, TextureSource};
 
-/// Returns one message for each kind of doubt. `textures` are those of the scene, in its order.
+/// Returns one message for each kind of warning. `textures` are those of the scene, in its order.
 pub fn of_textures(scene: &Scene, textures: &[TextureData]) -> Vec<String> {
     let all = || scene.textures.iter().zip(textures).enumerate();
     let named = |keep: &dyn Fn(usize, &TextureSource, &TextureData) -> bool| -> Vec<&str> {
@@ -49,8 +49,8 @@ fn is_color(scene: &Scene, texture: usize) -> bool {
     scene.materials.iter().map(|m| m.texture).chain([environment]).any(|t| t == Some(texture))
 }
 
-/// A picture of 8 bits of which the scene does not say whether it is encoded. Blacks and whites are the same
-/// either way.
+/// Returns true for an 8-bit picture whose encoding the scene does not state. Blacks and whites are the same in either
+/// encoding.
 fn may_be_pale(source: &TextureSource, texture: &TextureData) -> bool {
     let is_picture = match source.content {
         TextureContent::File(_) => source.dimension != Dimension::Three,
@@ -66,14 +66,14 @@ fn may_be_pale(source: &TextureSource, texture: &TextureData) -> bool {
     texture.texels.chunks_exact(channels).any(|t| t[..colors].iter().any(|&v| v != 0 && v != u8::MAX))
 }
 
-/// Whether red, green and blue are equal everywhere; so they are in a file of one colour channel.
+/// Returns true if red, green and blue are equal everywhere, as in a file of one colour channel.
 fn is_grey(texture: &TextureData) -> bool {
     let size = texture.format.component().bytes();
     let equal = |t: &[u8]| t[..size] == t[size..2 * size] && t[..size] == t[2 * size..3 * size];
     texture.format.channels() < 3 || texture.texels.chunks_exact(4 * size).all(equal)
 }
 
-/// The names and their verb: `texture "a" is`, `textures "a", "b" are`.
+/// Returns the names with their verb: `texture "a" is`, `textures "a", "b" are`.
 fn subject(what: &str, names: &[&str]) -> String {
     let quoted: Vec<String> = names.iter().map(|name| format!("\"{name}\"")).collect();
     let (plural, verb) = if names.len() == 1 { ("", "is") } else { ("s", "are") };

@@ -1,4 +1,4 @@
-//! A scene that is whole: only a builder makes it, from a file or from code, so that every rule is kept.
+//! A whole scene, which only a builder makes, from a file or from code, so that all rules are kept.
 
 use std::path::Path;
 
@@ -23,7 +23,7 @@ use crate::core::error::Result;
 pub struct Scene(model::Scene);
 
 impl Scene {
-    /// Reads a scene file, or standard input where the path is `-`. The format is that of the file's ending. Textures
+    /// Reads a scene file, or standard input if the path is `-`. The ending of the path selects the format. Textures
     /// are named, not opened.
     pub fn from_file(path: impl AsRef<Path>) -> Result<Scene> {
         load(path.as_ref()).map(Scene)
@@ -39,7 +39,7 @@ impl Scene {
         parse(Path::new("scene.toml"), text).map(Scene)
     }
 
-    /// Begins a scene that this camera sees on a picture of so many pixels.
+    /// Starts a scene with this camera and a picture of this size in pixels.
     pub fn builder(camera: Camera, width: u32, height: u32) -> SceneBuilder {
         SceneBuilder::new(camera, width, height)
     }
@@ -53,7 +53,7 @@ impl Scene {
         Scene(scene)
     }
 
-    /// Its parts.
+    /// Returns its parts.
     pub(crate) fn parts(&self) -> &model::Scene {
         &self.0
     }

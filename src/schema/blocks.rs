@@ -1,13 +1,13 @@
-//! Push constants, and the entries of lists of jobs.
+//! Push constants, and the entries of lists of batches.
 
 blocks! {
-    /// Which part of the film one submission renders (`slice.glsl`).
+    /// The part of the film that one submission renders (`slice.glsl`).
     Slice {
         /// Tiles across the picture.
         tiles_x,
-        /// Tiles in this band, or entries of the list of jobs.
+        /// Tiles in this band, or entries of the list of batches.
         tiles,
-        /// Coprime to `tiles`: the order in which they are visited.
+        /// Stride of the tile order, coprime to `tiles`.
         tile_stride,
         first_tile,
         /// First row of the band.
@@ -19,15 +19,15 @@ blocks! {
         schedule,
     }
 
-    /// Cells that one submission of `tile_culling_main.glsl` works off: `first` .. `end`.
+    /// Cells that one submission of `tile_culling_main.glsl` processes: `first` .. `end`.
     CellRange {
         first,
         end,
     }
 
-    /// Samples `first` .. `first + count` of a pixel's half.
+    /// A batch: samples `first` .. `first + count` of one half of a pixel.
     Job {
-        /// Column in the low half, row in the high one; rows count from the band's first.
+        /// Column in the low half, row in the high half; rows count from the first row of the band.
         place,
         /// The half (0 or 1), `JOB_BARE`, `JOB_APART`, and the stream of samples.
         part,
@@ -35,35 +35,35 @@ blocks! {
         count,
     }
 
-    /// One level of a mip chain from the one above (`mip_chain.glsl`).
+    /// One level of a mip chain from the previous level (`mip_chain.glsl`).
     Halving {
-        /// 1: the level above is level 0, words of codes; 0: numbers.
+        /// 1: the previous level is level 0, words of codes; 0: values.
         from_codes,
-        /// First word or number of the level above.
+        /// First word or value of the previous level.
         above,
-        /// Where the new level begins as words, and as numbers.
+        /// Offset of the new level in words, and in values.
         word,
         number,
-        /// Of the new level.
+        /// Dimensions of the new level.
         texels,
         columns_log2,
         rows_log2,
-        /// One bit an axis: the length above is twice as long.
+        /// One bit per axis: the length is half of the previous one.
         halved,
     }
 
-    /// Answers that a probe gives.
+    /// The number of results of a probe.
     QueryRange {
         count,
     }
 
-    /// Sample positions that `strata.glsl` lists: of `samples` samples a pixel from `first_sample` on.
+    /// Sample positions that `strata.glsl` lists: of `samples` samples per pixel from `first_sample` on.
     PositionRange {
         count,
         samples,
         /// Width of the picture in pixels.
         width,
-        /// Which pair of dimensions.
+        /// Index of the pair of dimensions.
         pair,
         first_sample,
     }

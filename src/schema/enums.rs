@@ -1,8 +1,8 @@
-//! The enums that the shader knows. Each has a prefix: `LightKind::Sun` is `LIGHT_SUN` of the shader, and
-//! `LIGHT_COUNT` says how many there are.
+//! The enums that host and device share. Each has a prefix: `LightKind::Sun` is `LIGHT_SUN` in the shader,
+//! and `LIGHT_COUNT` is the number of variants.
 
 enums! {
-    /// How the camera's rays run.
+    /// The projection of the camera.
     #[derive(Default)]
     PROJECTION: ProjectionKind {
         #[default]
@@ -10,7 +10,7 @@ enums! {
         Orthographic = "orthographic",
     }
 
-    /// Where in the pixel the samples lie (`[sampling] pattern`).
+    /// The sample pattern within a pixel (`[sampling] pattern`).
     #[derive(Default)]
     PATTERN: Pattern {
         #[default]
@@ -26,21 +26,21 @@ enums! {
         SobolOwen = "sobol-owen",
         /// Blocks of one sequence along a shuffled Morton curve of pixels (Ahmed & Wonka 2020).
         BlueNoise = "blue-noise",
-        /// Shirley 1991, also known as latin hypercube.
+        /// Shirley 1991, also known as Latin hypercube.
         NRooks = "n-rooks",
     }
 
-    /// How samples are handed out to threads.
+    /// The distribution of samples over invocations.
     #[derive(Default)]
     SCHEDULE: Schedule {
-        /// Equally many to each pixel, tile by tile.
+        /// The same number in each pixel, tile by tile.
         #[default]
         Tiles = "tiles",
-        /// By a list of jobs.
+        /// By a list of batches.
         Jobs = "jobs",
     }
 
-    /// The shape of a pixel filter; the same along both axes, whose product it is.
+    /// The shape of a pixel filter, which is the product of the same function along both axes.
     #[derive(Default)]
     PIXEL_FILTER: PixelFilterKind {
         #[default]
@@ -50,26 +50,27 @@ enums! {
         Gaussian = "gaussian",
         /// The cubic of Mitchell & Netravali 1988 with B = C = 1/3; negative beyond 4/7 of the radius.
         Mitchell = "mitchell",
-        /// The four terms of Harris 1978 with the least side lobes.
+        /// The four-term window of Harris 1978 with the smallest side lobes.
         BlackmanHarris = "blackman-harris",
     }
 
-    /// What a sample chooses beside its place in the pixel; from `Light` on anew at every hit.
+    /// The sample dimensions beside the position in the pixel; those from `Light` on are drawn anew at every
+    /// hit.
     #[derive(Default)]
     DIMENSION: SampleDimension {
-        /// A point of the lens.
+        /// A point on the lens.
         #[default]
         Lens = "lens",
         Time = "time",
-        /// A place of lights with an extent.
+        /// A point on an area light.
         Light = "light",
-        /// A direction of a glossy surface.
+        /// A direction of a glossy lobe.
         Lobe = "lobe",
-        /// Whether glass mirrors or refracts; by the pair of `Light`: where there is glass no light is chosen.
+        /// The choice of reflection or refraction; from the pair of `Light`, as no light is sampled on glass.
         Fresnel = "fresnel",
     }
 
-    /// Over what a texture look-up is averaged (`[sampling] footprint`).
+    /// The footprint over which a texture look-up is averaged (`[sampling] footprint`).
     #[derive(Default)]
     FOOTPRINT: Footprint {
         #[default]
@@ -80,34 +81,19 @@ enums! {
         Differentials = "differentials",
     }
 
-    /// Reflection model of a material.
-    #[derive(Default)]
-    MODEL: Model {
-        Unlit = "unlit",
-        #[default]
-        Lambert = "lambert",
-        Mirror = "mirror",
-        /// Mirrors or refracts, by Fresnel's share of each.
-        Dielectric = "dielectric",
-        /// Lambert with a highlight.
-        Phong = "phong",
-        /// Rough and diffuse; keeps all light.
-        OrenNayar = "oren-nayar",
-    }
-
-    /// What a material's bump texture holds.
+    /// The content of a material's bump texture.
     #[derive(Default)]
     BUMP: BumpKind {
-        /// Unit normals as 2 rgb - 1: along growing u, along growing v, outward.
+        /// Unit normals as 2 rgb - 1: along increasing u, along increasing v, outward.
         #[default]
         Normal = "normal",
         /// Heights.
         Bump = "bump",
-        /// Unit normals whose green runs against v.
+        /// Unit normals whose green channel points against v.
         NormalDown = "normal-down",
     }
 
-    /// What shines; from `Sphere` on the lights have an extent.
+    /// The kind of a light; those from `Sphere` on are area lights.
     #[derive(Default)]
     LIGHT: LightKind {
         #[default]
@@ -119,7 +105,7 @@ enums! {
         Sun = "sun",
     }
 
-    /// How a device forms a texture coordinate.
+    /// The texture coordinate computation on the device.
     #[derive(Default)]
     MAP: MapKind {
         /// The plane's own coordinates.
@@ -135,22 +121,22 @@ enums! {
         Solid = "solid",
         /// A direction for a cube texture.
         Cube = "cube",
-        /// The place on the cube's face, for a flat texture.
+        /// The position on the cube's face, for a 2D texture.
         Box = "box",
     }
 
-    /// The vector that a map looks at.
+    /// The vector that a mapping looks at.
     #[derive(Default)]
     ENTITY: EntityKind {
         #[default]
         Position = "position",
         Normal = "normal",
         Reflection = "reflection",
-        /// Of the ray: an environment's.
+        /// The direction of the ray, for an environment.
         Direction = "direction",
     }
 
-    /// Where the shader finds its texels.
+    /// The source of texels in a shader.
     #[derive(Default)]
     SOURCE: TexelSource {
         /// No texture in the scene.
@@ -158,24 +144,24 @@ enums! {
         None = "none",
         /// A texel buffer with all textures one after the other.
         Buffer = "buffer",
-        /// One image a texture; the only source of the device's own samplers.
+        /// One image per texture; the only source for the device's own samplers.
         Image = "image",
-        /// Images, those of volumes and cubes among them, beside a texel buffer.
+        /// Images, also of volumes and cubes, beside a texel buffer.
         Solids = "solids",
     }
 
-    /// In which numbers geometry is read and computed.
+    /// The precision in which geometry is stored and computed.
     #[derive(Default)]
     REALS: Reals {
         #[default]
         F32 = "f32",
-        /// Records hold f64, rays are of f64.
+        /// Records and rays are f64.
         F64Math = "f64-math",
-        /// Records hold f64, which are rounded to f32 where they are read.
+        /// Records are f64 and rounded to f32 when they are read.
         F64Records = "f64-records",
     }
 
-    /// How a texture is read.
+    /// The kind of a texture.
     #[derive(Default)]
     TEXTURE_KIND: TextureKind {
         /// One or two dimensions.
@@ -187,7 +173,7 @@ enums! {
         Procedural = "procedural",
     }
 
-    /// Powers of two wrap by a mask.
+    /// The class of a texture's size; powers of two wrap by a mask.
     #[derive(Default)]
     TEXTURE_SIZE: TextureSize {
         #[default]
@@ -195,7 +181,7 @@ enums! {
         Any = "any",
     }
 
-    /// Channels × number type. One channel reads as (g, g, g, 1), two as (g, g, g, a).
+    /// Channels × component type. One channel reads as (g, g, g, 1), two as (g, g, g, a).
     #[derive(Default)]
     TEXEL_FORMAT: TexelFormat {
         #[default]
@@ -210,7 +196,7 @@ enums! {
         RgbaFloat = "rgba-float",
     }
 
-    /// How stored values become linear light; sRGB is decoded before filtering.
+    /// The conversion from stored to linear values; sRGB is decoded before filtering.
     #[derive(Default)]
     COLOR_SPACE: ColorSpace {
         #[default]
@@ -218,7 +204,7 @@ enums! {
         Srgb = "srgb",
     }
 
-    /// Pattern of a procedural texture. Hard-edged ones first, then those made of noise.
+    /// The pattern of a procedural texture: first those with hard edges, then those made of noise.
     #[derive(Default)]
     PROCEDURAL: ProceduralKind {
         /// Unit cubes; the figure where floor(x) + floor(y) + floor(z) is odd.
@@ -226,7 +212,7 @@ enums! {
         Checker = "checker",
         /// The figure where the fraction of x is below `width`.
         Stripes = "stripes",
-        /// Lines of `width`, centred on whole x and y, in three dimensions whole z too.
+        /// Lines of `width`, centred on integer x and y, in three dimensions also z.
         Grid = "grid",
         /// Bricks of `aspect` × 1 with joints of `width`, every other row shifted by `offset` bricks.
         Brick = "brick",
@@ -240,11 +226,11 @@ enums! {
         Marble = "marble",
         /// Rings about the z axis, displaced by a sum of octaves.
         Wood = "wood",
-        /// Distance to the nearest of the points, one a cell (Worley 1996, F1).
+        /// Distance to the nearest feature point, one per cell (Worley 1996, F1).
         Cellular = "cellular",
     }
 
-    /// Who filters: our shader in f32, or the device's texture unit.
+    /// The implementation of a filter: shader code in f32, or the device's texture unit.
     #[derive(Default)]
     METHOD: Method {
         #[default]
@@ -252,7 +238,7 @@ enums! {
         Hardware = "hardware",
     }
 
-    /// What a coordinate outside [0, 1) reads (Vulkan 1.3, "Wrapping Operation").
+    /// The result of a coordinate outside [0, 1) (Vulkan 1.3, "Wrapping Operation").
     #[derive(Default)]
     ADDRESS: Address {
         #[default]
@@ -263,29 +249,29 @@ enums! {
         MirrorClampToEdge = "mirror-clamp-to-edge",
     }
 
-    /// How the texels around a place, or under a footprint, become one value.
+    /// The filter that turns the texels around a point, or under a footprint, into one value.
     #[derive(Default)]
     FILTER: Filter {
         #[default]
         Nearest = "nearest",
         Linear = "linear",
-        /// Four by four texels, by B and C of Mitchell & Netravali 1988.
+        /// Four by four texels, with B and C of Mitchell & Netravali 1988.
         Cubic = "cubic",
-        /// One texel, by chance, with the weights of `linear` (Fajardo et al. 2023).
+        /// One texel, chosen at random with the weights of `linear` (Fajardo et al. 2023).
         Stochastic = "stochastic",
-        /// Look-ups along the footprint's major axis (McCormack et al. 1999); as texture units do it.
+        /// Look-ups along the footprint's major axis (McCormack et al. 1999), as texture units do.
         Anisotropic = "anisotropic",
         /// All texels under the footprint's ellipse (Heckbert 1989).
         Ewa = "ewa",
         /// The mean over the footprint's bounding box (Crow 1984).
         SummedArea = "summed-area",
-        /// Four by four texels, by a windowed sinc (Duchon 1979).
+        /// Four by four texels, with a windowed sinc (Duchon 1979).
         Lanczos2 = "lanczos-2",
-        /// Six by six.
+        /// Six by six texels.
         Lanczos3 = "lanczos-3",
     }
 
-    /// How levels of a mip chain become one value.
+    /// The filter between levels of a mip chain.
     #[derive(Default)]
     MIP: MipMode {
         #[default]
@@ -302,23 +288,23 @@ enums! {
         Integer = "integer",
     }
 
-    /// What is counted where it goes beyond a limit.
+    /// The limits whose violations are counted.
     #[derive(Default)]
     DIAGNOSTIC: Diagnostic {
-        /// Look-ups at coordinates that are no numbers.
+        /// Look-ups at coordinates that are NaN or infinite.
         #[default]
         Coordinates = "coordinates",
-        /// Look-ups that wanted a level beyond the texture's last.
+        /// Look-ups that need a level beyond the texture's last.
         Levels = "levels",
-        /// Look-ups whose footprint is longer, over its width, than the sampler follows.
+        /// Look-ups whose footprint is more elongated than the sampler's anisotropy.
         Anisotropy = "anisotropy",
-        /// Footprints of rays that graze a surface, cut off.
+        /// Footprints of rays at grazing angles that were truncated.
         Grazing = "grazing",
-        /// Paths that ended in black at the greatest depth.
+        /// Paths that ended in black at the maximum depth.
         Depth = "depth",
         /// Cones for which there was no room.
         Pieces = "pieces",
-        /// Samples whose radiance is no number.
+        /// Samples whose radiance is NaN or infinite.
         Radiance = "radiance",
     }
 }

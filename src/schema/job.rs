@@ -1,25 +1,25 @@
-//! A job's words: which pixel, which part of it.
+//! The packed words of a batch: its pixel, and the part of the pixel.
 
 use super::blocks::Job;
 use super::constants::JOB_STREAM_SHIFT;
 
 impl Job {
-    /// The `place` of a film's pixel by its index.
+    /// Returns the `place` of a film's pixel by its index.
     pub fn place_of(index: u32, width: u32) -> u32 {
         (index / width) << 16 | (index % width)
     }
 
-    /// The `part` of a half of the film: its samples are the stream of the same number.
+    /// Returns the `part` of a half of the film: its samples are the stream of the same number.
     pub fn part_of(half: u32) -> u32 {
         half | half << JOB_STREAM_SHIFT
     }
 
-    /// The stream of samples.
+    /// Returns the stream of samples.
     pub fn stream(&self) -> u32 {
         self.part >> JOB_STREAM_SHIFT
     }
 
-    /// Column and row.
+    /// Returns column and row.
     pub fn column_and_row(&self) -> [u32; 2] {
         [self.place & 0xFFFF, self.place >> 16]
     }

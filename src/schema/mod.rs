@@ -1,5 +1,5 @@
-//! What host and device share: one table each for enums, numbers, descriptors, specialization constants, blocks
-//! of words and shaders. Here the tables become Rust; `build.rs` includes the same files and makes GLSL of them.
+//! The declarations that host and device share: one table each for enums, constants, descriptors, specialization
+//! constants and blocks of words. Here the tables become Rust; `build.rs` includes the same files and generates GLSL.
 
 #[macro_use]
 mod tables;
@@ -10,6 +10,7 @@ pub mod constants;
 pub mod enums;
 mod job;
 pub mod layout;
+pub mod models;
 pub mod packing;
 pub mod record;
 pub mod records;

@@ -1,24 +1,24 @@
-//! How the fields of a record lie in device memory: one behind the other in units of 16 bytes, four words or four
-//! reals each. A field begins a new unit where the last one has no room for it or holds the other kind. A unit of
-//! reals is two of 16 bytes where reals are f64. Host and generated GLSL both ask here.
+//! The layout of a record's fields in device memory: consecutive units of 16 bytes, four words or four reals each. A
+//! field begins a new unit if the current one lacks room or holds the other kind. A unit of f64 reals takes two units
+//! of 16 bytes. Both the host and the generated GLSL use this layout.
 
-/// What a unit holds.
+/// The kind of values in a unit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// Numbers of geometry: f32, or f64 where the device computes in it or reads it.
+    /// Geometry: f32, or f64 if the device stores or computes it in f64.
     Reals,
     /// 32-bit words: f32, u32, enums.
     Words,
 }
 
-/// What a type takes of a unit.
+/// The kind and the number of lanes of a type.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Shape {
     pub kind: Kind,
     pub lanes: u32,
 }
 
-/// Where a field lies: behind so many units of either kind, and from which lane of its own on.
+/// The position of a field: the numbers of preceding units of either kind, and the first lane in its own unit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Place {
     pub reals: u32,
@@ -26,7 +26,7 @@ pub struct Place {
     pub lane: u32,
 }
 
-/// The types of fields, as the tables name them. Any other name is an enum's.
+/// The types of fields as the tables name them. Any other name is that of an enum.
 const SHAPES: [(&str, Shape); 13] = [
     ("f32", words(1)),
     ("Vec2", words(2)),
@@ -51,7 +51,7 @@ const fn reals(lanes: u32) -> Shape {
     Shape { kind: Kind::Reals, lanes }
 }
 
-/// Returns what a type takes of a unit.
+/// Returns the shape of a type.
 pub const fn shape(name: &str) -> Shape {
     let mut i = 0;
     while i < SHAPES.len() {
@@ -77,7 +77,7 @@ const fn same(a: &[u8], b: &[u8]) -> bool {
     true
 }
 
-/// Finds the place of each field in turn.
+/// Computes the position of each field in turn.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Packer {
     /// Units begun so far.
@@ -92,7 +92,7 @@ impl Packer {
         Packer { reals: 0, words: 0, last: None, filled: 0 }
     }
 
-    /// Returns the place of the next field, and the packer behind it.
+    /// Returns the position of the next field, and the packer behind it.
     pub const fn place(mut self, next: Shape) -> (Place, Packer) {
         let goes_on = matches!(
             (self.last, next.kind),
@@ -115,7 +115,7 @@ impl Packer {
         (place, self)
     }
 
-    /// Returns the units of reals and of words that a record with such fields has.
+    /// Returns the numbers of units of reals and of words in a record with such fields.
     pub const fn units(fields: &[Shape]) -> (u32, u32) {
         let mut packer = Packer::new();
         let mut i = 0;

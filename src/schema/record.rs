@@ -1,5 +1,5 @@
-//! Fields of records → the bytes of device memory, each at the place that `packing` says; reals as f64 where the
-//! device reads them so, else rounded to f32.
+//! Writes the fields of records to the bytes of device memory, at the positions given by `packing`; reals as f64 if the
+//! device reads f64, otherwise rounded to f32.
 
 use glam::{DVec2, DVec3, DVec4, UVec2, UVec3, Vec3, Vec4};
 
@@ -10,10 +10,10 @@ pub trait Record: Copy {
     /// Units of reals and of words.
     const UNITS: (u32, u32);
 
-    /// Appends what the shader reads.
+    /// Appends the bytes that the shader reads.
     fn write(&self, double: bool, bytes: &mut Vec<u8>);
 
-    /// Returns the record with the f32 numbers that the shader reads unless it reads f64.
+    /// Returns the record with all reals rounded to the f32 values that the shader reads unless it reads f64.
     fn quantize_f32(&self) -> Self;
 }
 
@@ -28,13 +28,13 @@ pub fn bytes_of<R: Record>(records: &[R], double: bool) -> Vec<u8> {
 pub trait Field: Copy {
     fn write(self, double: bool, bytes: &mut Vec<u8>);
 
-    /// Returns it as memory of f32 holds it.
+    /// Returns the value after rounding reals to f32.
     fn quantize_f32(self) -> Self {
         self
     }
 }
 
-/// A real among words: two of them, of which f32 fills the first.
+/// A real among words: two words, of which f32 uses the first.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct RealBits(pub f64);
 
@@ -67,13 +67,13 @@ impl<'a> Writer<'a> {
         self.bytes.resize(self.start + length, 0);
     }
 
-    /// Bytes of so many units.
+    /// Returns the bytes of this many units.
     fn units(&self, reals: u32, words: u32) -> usize {
         16 * (reals as usize * if self.double { 2 } else { 1 } + words as usize)
     }
 }
 
-/// Fields that are the same whatever the reals are.
+/// Fields that do not depend on the precision of reals.
 macro_rules! plain {
     ($($type:ty),+) => {
         $(impl Field for $type {

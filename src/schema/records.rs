@@ -1,6 +1,5 @@
-//! The records of the scene buffer. `f64` and vectors of it are reals: f32 on the device unless its geometry is in
-//! f64. All positions are relative to the eye. A record's list has a name, and a word for the code that goes
-//! through it.
+//! The records of the scene buffer. `f64` and vectors of it are reals: f32 on the device unless its geometry is f64.
+//! All positions are relative to the eye. A record's list has a name, and a description of the code that loops over it.
 
 records! {
     /// Camera, picture and sampling.
@@ -9,23 +8,23 @@ records! {
         forward: DVec3,
         /// One pixel to the right: added to the direction of perspective rays, to the origin of parallel ones.
         step_x: DVec3,
-        /// Side of the part of a pixel that a sample stands for; 0 without a footprint.
+        /// Side of the part of a pixel that a sample represents; 0 without a footprint.
         sample_side: f64,
         /// One pixel down.
         step_y: DVec3,
         /// Side of a pixel.
         pixel_side: f64,
-        /// From the eye to what it looks at.
+        /// From the eye to the point that it looks at.
         view: DVec3,
         up: DVec3,
-        /// Between the times 0 and 1.
+        /// Displacement between the times 0 and 1.
         eye_motion: DVec3,
         view_motion: DVec3,
         /// Linear RGB.
         background: Vec3,
         projection: ProjectionKind,
         image_size: UVec2,
-        /// Column and row at which the film begins.
+        /// Column and row of the film's first pixel.
         crop: UVec2,
         film_size: UVec2,
         max_depth: u32,
@@ -34,45 +33,45 @@ records! {
         strata_side: u32,
         samples: u32,
         seed: u32,
-        /// All pixels have the same displacements.
+        /// All pixels have the same sample positions.
         shares_pattern: bool,
-        /// One bit for each `SampleDimension` that samples choose.
+        /// One bit for each `SampleDimension` in use.
         sample_dimensions: u32,
         camera_moves: bool,
-        /// Pixels along a side of the cells of triangles; 0 without them.
+        /// Side of a tile culling cell in pixels; 0 without tile culling.
         cell_side: u32,
         /// Material of the environment, or `NO_MATERIAL`.
         environment_material: u32,
         environment_projection: u32,
         pixel_filter: PixelFilterKind,
-        /// Over a pixel's side at distance 1; 0 without a lens.
+        /// In sides of a pixel at distance 1; 0 without a lens.
         lens_radius: f32,
         inverse_focus_distance: f32,
         shutter_opens: f32,
-        /// How long the shutter is open.
+        /// Duration for which the shutter is open.
         shutter_time: f32,
         /// In pixels, as is the width.
         filter_radius: f32,
-        /// Side of the square over which a box has the filter's variance.
+        /// Width of the box that has the filter's variance.
         filter_width: f32,
-        /// First step from the middle, of 2^24, where the filter is negative.
+        /// First step from the centre, of 2^24, at which the filter is negative.
         first_negative_step: u32,
     }
 
-    /// A plane, or a square of it.
+    /// A plane, or a square part of it.
     Plane in planes as "loop over planes" {
         /// Unit normal n.
         normal: DVec3,
         /// n · (origin − eye).
         distance: f64,
-        /// Own coordinate u of a point p: axis_u · p counts from the eye, plus `eye_u` from the plane's origin.
+        /// The coordinate u of a point p: axis_u · p counts from the eye, plus `eye_u` from the plane's origin.
         axis_u: DVec3,
         eye_u: f64,
         axis_v: DVec3,
         eye_v: f64,
         material: u32,
         uv_projection: u32,
-        /// How many tangents it reaches; negative: it has no bounds.
+        /// Half extent in tangents; negative: the plane is infinite.
         half_extent: RealBits,
     }
 
@@ -102,22 +101,38 @@ records! {
         normal_c: DVec3,
         material: u32,
         uv_projection: u32,
-        /// Has shading normals.
+        /// True if it has shading normals.
         is_smooth: bool,
     }
 
-    Light in lights as "loop over lights" {
-        /// Of point lights, spheres and the middle of rectangles.
-        position: DVec3,
-        /// Of a sphere.
+    Disc in discs as "loop over discs" {
+        /// Unit normal n.
+        normal: DVec3,
+        /// n · (center − eye).
+        distance: f64,
+        center: DVec3,
         radius: f64,
-        /// Towards a directional light or the middle of the sun; of unit length.
+        /// Own coordinates of a point p: axis_u · (p − center) and axis_v · (p − center), within the unit circle.
+        axis_u: DVec3,
+        axis_v: DVec3,
+        material: u32,
+        uv_projection: u32,
+        /// Its texture coordinates are angle and radius.
+        is_polar: bool,
+    }
+
+    Light in lights as "loop over lights" {
+        /// Position of point and sphere lights, centre of rectangles.
+        position: DVec3,
+        /// Radius of a sphere.
+        radius: f64,
+        /// Unit vector towards a directional light or the centre of the sun.
         direction: DVec3,
         /// Height of the sun's cap on the unit sphere.
         cap_height: f64,
-        /// Sides of a rectangle, the longer first; it shines where edge_u × edge_v points.
+        /// Edges of a rectangle, the longer first; it emits towards edge_u × edge_v.
         edge_u: DVec3,
-        /// Their lengths; 0 where they are not at right angles.
+        /// Their lengths; 0 if they are not at right angles.
         length_u: f64,
         edge_v: DVec3,
         length_v: f64,
@@ -130,7 +145,7 @@ records! {
         color: Vec3,
         bump_strength: f32,
         model: Model,
-        /// Or `NO_TEXTURE`; its sampler serves the bump texture too.
+        /// Or `NO_TEXTURE`; its sampler also reads the bump texture.
         texture_index: u32,
         sampler_index: u32,
         image_slot: u32,
@@ -138,17 +153,17 @@ records! {
         bump_texture_index: u32,
         bump_image_slot: u32,
         bump_kind: BumpKind,
-        /// Width of the distribution of a mirror's or glass's facets (GGX); 0: smooth.
+        /// Roughness of a mirror's or glass's microfacet distribution (GGX); 0 is smooth.
         alpha: f32,
         /// Colour of Phong's highlight.
         specular: Vec3,
-        /// Of Phong's highlight.
+        /// Exponent of Phong's highlight.
         exponent: f32,
         /// Index of refraction.
         ior: f32,
     }
 
-    /// How a surface point becomes a texture coordinate.
+    /// The mapping from a surface point to a texture coordinate.
     UvProjection in uv_projections as "choice among mappings" {
         /// Frame coordinates of a point p: xyz · p + w.
         x: DVec4,
@@ -168,12 +183,12 @@ records! {
         /// Width, height, depth.
         size: UVec3,
         format: TexelFormat,
-        /// Of level 0 in the texel buffer.
+        /// First word of level 0 in the texel buffer.
         first_word: u32,
         color_space: ColorSpace,
         levels: u32,
         kind: TextureKind,
-        /// Of procedural textures, index into their list.
+        /// Index into the list of procedural textures, for those.
         procedural: u32,
     }
 
@@ -188,7 +203,7 @@ records! {
         min_filter: Filter,
         mip_mode: MipMode,
         max_anisotropy: u32,
-        /// Rows go on over the poles.
+        /// Rows continue across the poles.
         crosses_poles: bool,
         /// B and C of the cubic filter (Mitchell & Netravali 1988).
         cubic_b: f32,
@@ -214,9 +229,9 @@ records! {
         dimensions: u32,
     }
 
-    /// Of a shape, in the order of shapes; none where nothing moves.
+    /// The motion of a shape, in the order of shapes; the list is empty if nothing moves.
     Motion in motions as "choice among motions" {
-        /// Between the times 0 and 1.
+        /// Displacement between the times 0 and 1.
         shift: DVec3,
     }
 }

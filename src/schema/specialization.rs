@@ -1,8 +1,9 @@
-//! The specialization constants: name in the shader, what its value means, and what a person calls the code behind
-//! it. Ids follow the order; those of the lists of records (`NAME` for the length, `NAME_AT` for the place) come last. `modes` is a bit mask: one bit set means that the mode is known when the pipeline is
-//! built and no test is left; several mean a test at run time. `count` is a number or `DYNAMIC`, `switch` is code
-//! that is there or not; the defaults keep everything, and `src/pack/features.rs` narrows these three. A
-//! `parameter` is set by whoever builds the pipeline; of `id` the shader's file declares type and default itself.
+//! The specialization constants: name in the shader, meaning of the value, and the user-visible name of the code that
+//! it controls. Ids follow the order; those of the lists of records (`NAME` for the length, `NAME_AT` for the offset)
+//! come last. `modes` is a bit mask: with one bit set the mode is known when the pipeline is built and no test remains;
+//! several bits mean a test at run time. `count` is a number or `DYNAMIC`, `switch` is code that may be removed; the
+//! defaults keep everything, and `src/pack/features.rs` narrows these three. A `parameter` is set by the code that
+//! builds the pipeline; for `id` the shader's file itself declares type and default.
 
 specialization! {
     GroupX = "GROUP_X", id, "width of a workgroup";
@@ -19,7 +20,7 @@ specialization! {
     Bounces = "BOUNCES", switch, "bounces";
     Environment = "ENVIRONMENT", switch, "environment";
     Footprints = "FOOTPRINTS", modes(Footprint), "footprint";
-    /// Look-ups take texels at random.
+    /// Look-ups choose texels at random.
     Random = "RANDOM", switch, "random texels";
     Mappings = "MAPPINGS", modes(MapKind), "mapping";
     Entities = "ENTITIES", modes(EntityKind), "entity";
@@ -34,7 +35,7 @@ specialization! {
     AddressesU = "ADDRESSES_U", modes(Address), "address u";
     AddressesV = "ADDRESSES_V", modes(Address), "address v";
     AddressesW = "ADDRESSES_W", modes(Address), "address w";
-    /// Environments whose rows go on over the poles.
+    /// Environments whose rows continue across the poles.
     Poles = "POLES", switch, "rows over the poles";
     Filters = "FILTERS", modes(Filter), "filter";
     Mips = "MIPS", modes(MipMode), "mip mode";
@@ -47,37 +48,37 @@ specialization! {
     Nonfinite = "NONFINITE", switch, "texels that are no numbers";
     TexelFormats = "TEXEL_FORMATS", modes(TexelFormat), "texel format";
     ColorSpaces = "COLOR_SPACES", modes(ColorSpace), "colour space";
-    /// Some texture has sRGB of 16 bits.
+    /// Some texture has 16-bit sRGB.
     DeepSrgb = "DEEP_SRGB", switch, "sRGB of 16 bits";
     ProceduralKinds = "PROCEDURAL_KINDS", modes(ProceduralKind), "procedural";
     /// Averaged over footprints.
     ProceduralFiltered = "PROCEDURAL_FILTERED", switch, "filter of procedural textures";
-    /// More samples than one thread takes at once.
+    /// More samples than one invocation takes at once.
     Compensated = "COMPENSATED", switch, "second film for rounding errors";
-    /// A thread may sum more than `MAX_PLAIN` samples.
+    /// An invocation may sum more than `MAX_PLAIN` samples.
     Blocks = "BLOCKS", switch, "sums by blocks";
-    /// Shapes of the scene, where a cone can hold all.
+    /// The number of shapes, if a cone has room for all.
     ConeShapes = "CONE_SHAPES", count, "cones through more shapes";
-    /// What samples choose beside their place in the pixel.
+    /// Sample dimensions beside the position in the pixel.
     SampleDimensions = "SAMPLE_DIMENSIONS", modes(SampleDimension), "choice of a sample";
     MovingCamera = "MOVING_CAMERA", switch, "motion of the camera";
     Schedules = "SCHEDULES", modes(Schedule), "schedule";
     PixelFilters = "PIXEL_FILTERS", modes(PixelFilterKind), "pixel filter";
-    /// Counts what goes beyond a limit.
+    /// Counts exceeded limits.
     Diagnosed = "DIAGNOSED", switch, "counters of what goes beyond a limit";
-    /// Triangles are listed by cells of the picture.
+    /// Triangles are listed for the cells of the picture.
     TileCulled = "TILE_CULLED", switch, "triangles by cells of the picture";
-    /// A pixel filter that is not the pixel's own square.
+    /// A pixel filter other than the box of one pixel.
     Warped = "WARPED", switch, "samples beyond their pixels";
     PixelFilterAt = "PIXEL_FILTER_AT", parameter(0), "where the table of the pixel filter begins";
-    /// Image descriptors: of flat textures, volumes, cubes.
+    /// Image descriptors: of 2D textures, volumes, cubes.
     Slots = "SLOTS", parameter(1), "flat images";
     VolumeSlots = "VOLUME_SLOTS", parameter(1), "images of volumes";
     CubeSlots = "CUBE_SLOTS", parameter(1), "images of cubes";
-    /// Buffers that the texels lie in, of 2^`BLOCK_LOG2` words but for the last.
+    /// Buffers of texels, of 2^`BLOCK_LOG2` words except for the last.
     TexelBlocks = "TEXEL_BLOCKS", parameter(16), "texel buffers";
     BlockLog2 = "BLOCK_LOG2", parameter(16), "length of texel buffers";
-    /// 1 where tables are read from the head: what reads a table at scattered places differs by device.
+    /// 1 if tables are read from the uniform buffer: devices differ in the cost of reads at scattered places.
     TablesInHead = "TABLES_IN_HEAD", flag, "tables in uniforms";
     OpaqueUniforms = "OPAQUE_UNIFORMS", id, "numbers whose uniformity is hidden";
     MipChannels = "CHANNELS", id, "channels of a mip chain";

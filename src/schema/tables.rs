@@ -1,7 +1,7 @@
-//! The tables of this folder → Rust. Each table is one macro call in a file of its own; `build/tables.rs` gives
-//! the same macros another body, by which the same files become GLSL.
+//! Expands the tables of this folder to Rust. Each table is one macro call in a file of its own; `build/tables.rs`
+//! defines the same macros differently, so that the same files become GLSL.
 
-/// Enums that the shader knows as `const uint PREFIX_VARIANT`, in the same order.
+/// Enums that the shader declares as `const uint PREFIX_VARIANT`, in the same order.
 macro_rules! enums {
     ($($(#[$meta:meta])* $prefix:ident: $enum:ident { $($(#[$vmeta:meta])* $variant:ident = $name:literal,)+ })+) => {
         use crate::core::named::named_enum;
@@ -20,21 +20,47 @@ macro_rules! enums {
     };
 }
 
-/// Numbers that host and device share.
+/// The reflection models as an enum.
+macro_rules! models {
+    ($($(#[$meta:meta])* $variant:ident = $name:literal, [$($property:ident)*], [$($key:ident)*];)+) => {
+        enums! {
+            /// The reflection model of a material.
+            #[derive(Default)]
+            MODEL: Model { $($(#[$meta])* $variant = $name,)+ }
+        }
+
+        impl Model {
+            const PROPERTIES: &'static [&'static [&'static str]] = &[$(&[$(stringify!($property)),*]),+];
+            const KEYS: &'static [&'static [&'static str]] = &[$(&[$(stringify!($key)),*]),+];
+
+            /// Returns true if it has a property of the table.
+            pub(crate) fn is(self, property: &str) -> bool {
+                Model::PROPERTIES[self as usize].contains(&property)
+            }
+
+            /// Returns true if a material of this model has a key that only some have.
+            pub(crate) fn has_key(self, key: &str) -> bool {
+                Model::KEYS[self as usize].contains(&key)
+            }
+        }
+    };
+}
+
+/// Constants that host and device share.
 macro_rules! constants {
     ($($(#[$meta:meta])* $name:ident: $type:ty = $value:expr;)+) => {
         $($(#[$meta])* pub const $name: $type = $value;)+
     };
 }
 
-/// Descriptors of set 0; the shader says `BINDING_NAME`.
+/// Descriptors of set 0; the shader's name is `BINDING_NAME`.
 macro_rules! bindings {
     ($($(#[$meta:meta])* $name:ident = $number:literal;)+) => {
         $($(#[$meta])* pub const $name: u32 = $number;)+
     };
 }
 
-/// Blocks of words: push constants and list entries, as std430 and `repr(C)` lay them out alike.
+/// Blocks of words: push constants and list entries, for which std430 and `repr(C)` are the same.
 macro_rules! blocks {
     ($($(#[$meta:meta])* $block:ident { $($(#[$fmeta:meta])* $field:ident,)+ })+) => {
         $(
@@ -46,36 +72,37 @@ macro_rules! blocks {
     };
 }
 
-/// Specialization constants, in the order of their ids; behind them come two of each list of records.
+/// Specialization constants, in the order of their ids; two for each list of records follow.
 macro_rules! specialization {
     ($($(#[$meta:meta])* $variant:ident = $name:literal, $kind:ident $(($($of:tt)+))?, $what:literal;)+) => {
         use super::enums::*;
+        use super::models::Model;
         use super::records::List;
 
         /// A specialization constant of the shaders.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
         pub enum Constant {
             $($(#[$meta])* #[doc = concat!("Written `", $name, "`.")] $variant,)+
-            /// How long a list of records is.
+            /// The length of a list of records.
             Length(List),
-            /// Where a list begins in the scene buffer, in units of 16 bytes.
+            /// The offset of a list in the scene buffer, in units of 16 bytes.
             At(List),
         }
 
-        /// What the value of a specialization constant means.
+        /// The meaning of a specialization constant's value.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub enum Kind {
-            /// A bit mask of modes, which have these names.
+            /// A bit mask of modes with these names.
             Modes(&'static [&'static str]),
             /// A number, or `DYNAMIC`.
             Count,
-            /// Code that is there or not.
+            /// Code that may be removed.
             Switch,
-            /// Set where a pipeline is built, whatever the scene uses.
+            /// Set when a pipeline is built, whatever the scene uses.
             Parameter,
         }
 
-        /// The rows of the table: what the value of a constant means, and what a person calls the code behind it.
+        /// The rows of the table: constant, meaning of its value, and user-visible name of the code that it controls.
         const ROWS: &[(Constant, Kind, &str)] =
             &[$((Constant::$variant, kind!($kind $(($($of)+))?), $what),)+];
 
@@ -86,7 +113,7 @@ macro_rules! specialization {
                 rows.chain(List::ALL.iter().flat_map(|&list| [Constant::Length(list), Constant::At(list)]))
             }
 
-            /// Returns the number by which SPIR-V knows it.
+            /// Returns the constant id in SPIR-V.
             pub fn id(self) -> u32 {
                 Constant::all().take_while(|&constant| constant != self).count() as u32
             }
@@ -108,7 +135,7 @@ macro_rules! specialization {
                 }
             }
 
-            /// Returns what a person calls the code behind it.
+            /// Returns the user-visible name of the code that it controls.
             pub fn what(self) -> &'static str {
                 match self {
                     Constant::Length(list) | Constant::At(list) => list.what(),
@@ -119,7 +146,7 @@ macro_rules! specialization {
     };
 }
 
-/// What the value of a specialization constant means.
+/// The meaning of a specialization constant's value.
 macro_rules! kind {
     (modes($enum:ident)) => {
         Kind::Modes($enum::NAMES)
@@ -141,17 +168,18 @@ macro_rules! kind {
     };
 }
 
-/// Records of the scene buffer, and the word for the code that goes through a list of them.
+/// Records of the scene buffer, and the name of the code that loops over a list of them.
 macro_rules! records {
     ($($(#[$meta:meta])* $record:ident $(in $list:ident as $what:literal)? { $($(#[$fmeta:meta])* $field:ident: $type:ident,)+ })+) => {
         use super::enums::*;
+        use super::models::Model;
         use super::packing::{Packer, shape};
         use super::record::{Field as _, RealBits, Record, Writer, bytes_of};
         use glam::{DVec2, DVec3, DVec4, UVec2, UVec3, Vec3, Vec4};
         $(record! { $(#[$meta])* $record { $($(#[$fmeta])* $field: $type,)+ } })+
 
         record! {
-            /// How long each list of records is.
+            /// The length of each list of records.
             Lengths { $($($list: u32,)?)+ }
         }
 
@@ -171,13 +199,13 @@ macro_rules! records {
                 List::NAMES[self as usize]
             }
 
-            /// Returns what a person calls the code that goes through it.
+            /// Returns the user-visible name of the code that loops over it.
             pub const fn what(self) -> &'static str {
                 List::WHAT[self as usize]
             }
         }
 
-        /// The lists of records behind the scene buffer.
+        /// The lists of records after the header of the scene buffer.
         #[derive(Clone, Debug, Default)]
         pub struct Records {
             $($(pub $list: Vec<$record>,)?)+
@@ -201,7 +229,7 @@ macro_rules! records {
                 }
             }
 
-            /// Gives all records the f32 numbers that the shader reads unless it reads f64.
+            /// Rounds all records to the f32 values that the shader reads unless it reads f64.
             pub fn quantize_f32(&mut self) {
                 $($(self.$list.iter_mut().for_each(|record| *record = record.quantize_f32());)?)+
             }
@@ -209,14 +237,14 @@ macro_rules! records {
     };
 }
 
-/// The second of two: a list's name drives the repetition.
+/// Expands to the second of two tokens: a list's name drives the repetition.
 macro_rules! list {
     ($list:ident $variant:expr) => {
         $variant
     };
 }
 
-/// One record: how its fields are written, and rounded to what a shader of f32 reads.
+/// Implements a record: writing its fields, and rounding them to the values of an f32 shader.
 macro_rules! record {
     ($(#[$meta:meta])* $record:ident { $($(#[$fmeta:meta])* $field:ident: $type:ident,)+ }) => {
         $(#[$meta])*

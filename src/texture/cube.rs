@@ -29,9 +29,9 @@
 use std::path::{Path, PathBuf};
 
 use super::data::ColorSpace;
-use super::decode::Values;
+use super::decode::AllowedFloats;
 use super::read_file::{Picture, Texels};
-use super::source::{CubeLayout, Reading};
+use super::source::{CubeLayout, ReadOptions};
 use super::stack;
 use crate::core::error::{Error, Result};
 
@@ -66,9 +66,9 @@ impl CubeLayout {
 
 pub(super) fn join(
     files: &[PathBuf; 6],
-    reading: &Reading,
+    reading: &ReadOptions,
     space: ColorSpace,
-    values: Values,
+    values: AllowedFloats,
 ) -> Result<Picture> {
     let picture = stack::read(files, reading, space, values, "face")?;
     let faces = &picture.texels;

@@ -112,7 +112,7 @@ pub struct TextureData {
     pub depth: u32,
     /// Channels and number type of a texel.
     pub format: TexelFormat,
-    /// What the stored values mean.
+    /// The meaning of the stored values.
     pub color_space: ColorSpace,
     /// Channels of the file, before three were expanded to four.
     pub file_channels: usize,

@@ -6,12 +6,12 @@ use std::path::Path;
 
 use super::data::{ColorSpace, Component, Dimension, TexelFormat, TextureData};
 use super::read_file::{self, Picture, Texels};
-use super::source::Reading;
+use super::source::ReadOptions;
 use crate::core::error::{Error, ErrorKind, Result};
 
 /// The float values that a file may hold.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Values {
+pub enum AllowedFloats {
     /// NaN and infinity are errors: in nearly every file that has them they are mistakes.
     #[default]
     Finite,
@@ -20,7 +20,7 @@ pub enum Values {
 
 /// Decodes a 2D texture from one picture.
 pub fn decode(path: &Path, name: &str, color_space: ColorSpace, flip_v: bool) -> Result<TextureData> {
-    let picture = read_checked(path, &Reading::default(), color_space, Values::Finite);
+    let picture = read_checked(path, &ReadOptions::default(), color_space, AllowedFloats::Finite);
     let mut texels = picture.map_err(|e| in_texture(name, e))?.texels;
     if flip_v {
         let height = texels.height;
@@ -52,9 +52,9 @@ pub(super) fn texture_of(
 
 pub(super) fn read_checked(
     path: &Path,
-    reading: &Reading,
+    reading: &ReadOptions,
     color_space: ColorSpace,
-    values: Values,
+    values: AllowedFloats,
 ) -> Result<Picture> {
     let picture = read_file::read_as(path, reading)?;
     check_meaning(picture.texels.format, color_space, path)?;
@@ -77,8 +77,8 @@ pub(super) fn check_meaning(format: TexelFormat, color_space: ColorSpace, path: 
 }
 
 /// Checks that all values are allowed. The message states the slice if there are several.
-pub(super) fn check_values(texels: &Texels, allowed: Values, path: &Path) -> Result<()> {
-    if allowed == Values::Any || texels.format.component() != Component::Float32 {
+pub(super) fn check_values(texels: &Texels, allowed: AllowedFloats, path: &Path) -> Result<()> {
+    if allowed == AllowedFloats::Any || texels.format.component() != Component::Float32 {
         return Ok(());
     }
     let values = texels.bytes.chunks_exact(4).map(|b| f32::from_ne_bytes([b[0], b[1], b[2], b[3]]));

@@ -5,7 +5,7 @@ use super::sampler_spec::Filter;
 
 /// The cost of a lookup by a filter in loop iterations.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Turns {
+pub enum LoopCost {
     /// A fixed number around one coordinate of a 2D texture.
     Place(u64),
     /// As many lookups as the sampler's anisotropy allows.
@@ -36,8 +36,8 @@ pub struct Traits {
     pub needs_sums: bool,
     /// True if it blends neighbouring texels.
     pub blends: bool,
-    /// How often its loops run.
-    pub turns: Turns,
+    /// The iterations of its loops.
+    pub loop_cost: LoopCost,
 }
 
 const ONE_TEXEL: Traits = Traits {
@@ -49,7 +49,7 @@ const ONE_TEXEL: Traits = Traits {
     is_random: false,
     needs_sums: false,
     blends: false,
-    turns: Turns::Place(0),
+    loop_cost: LoopCost::Place(0),
 };
 const MIXED: Traits = Traits { blends: true, ..ONE_TEXEL };
 
@@ -60,22 +60,22 @@ impl Filter {
             Filter::Nearest => Traits { in_hardware: true, ..ONE_TEXEL },
             Filter::Linear => Traits { in_hardware: true, ..MIXED },
             // Four by four texels, and the rows.
-            Filter::Cubic => Traits { needs_flat: true, turns: Turns::Place(20), ..MIXED },
-            Filter::Lanczos2 => Traits { needs_flat: true, turns: Turns::Place(20), ..MIXED },
-            Filter::Lanczos3 => Traits { needs_flat: true, turns: Turns::Place(42), ..MIXED },
+            Filter::Cubic => Traits { needs_flat: true, loop_cost: LoopCost::Place(20), ..MIXED },
+            Filter::Lanczos2 => Traits { needs_flat: true, loop_cost: LoopCost::Place(20), ..MIXED },
+            Filter::Lanczos3 => Traits { needs_flat: true, loop_cost: LoopCost::Place(42), ..MIXED },
             Filter::Stochastic => Traits { is_random: true, blends: true, ..ONE_TEXEL },
             Filter::Anisotropic => Traits {
                 only_minifies: true,
                 in_hardware: true,
                 follows_axis: true,
-                turns: Turns::Walk,
+                loop_cost: LoopCost::Walk,
                 ..MIXED
             },
             Filter::Ewa => Traits {
                 only_minifies: true,
                 needs_flat: true,
                 chooses_levels: true,
-                turns: Turns::Ellipse,
+                loop_cost: LoopCost::Ellipse,
                 ..MIXED
             },
             // The corners of nine boxes of four rows.
@@ -83,7 +83,7 @@ impl Filter {
                 only_minifies: true,
                 needs_flat: true,
                 needs_sums: true,
-                turns: Turns::Footprint(9 * 24),
+                loop_cost: LoopCost::Footprint(9 * 24),
                 ..MIXED
             },
         }

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use super::data::{Component, Dimension, TexelFormat, TextureData};
 use super::decode::{
-    Values, check_meaning, check_values, in_texture, read_checked, reverse_rows, texture_of,
+    AllowedFloats, check_meaning, check_values, in_texture, read_checked, reverse_rows, texture_of,
 };
 use super::read_file::{Picture, Texels};
 use super::source::{TextureContent, TextureSource};
@@ -16,16 +16,16 @@ use crate::core::panics;
 /// Loads a texture. For a procedural one, which has no texels, returns a placeholder that is never
 /// read.
 pub fn load(source: &TextureSource) -> Result<TextureData> {
-    load_with(source, Values::Finite)
+    load_with(source, AllowedFloats::Finite)
 }
 
 /// Loads a texture whose float values may be those that `values` allows.
-pub fn load_with(source: &TextureSource, values: Values) -> Result<TextureData> {
-    load_noted(source, values).map(|(texture, _)| texture)
+pub fn load_with(source: &TextureSource, values: AllowedFloats) -> Result<TextureData> {
+    load_with_notes(source, values).map(|(texture, _)| texture)
 }
 
 /// Loads a texture and also returns notes about how its files were read.
-pub fn load_noted(source: &TextureSource, values: Values) -> Result<(TextureData, Vec<String>)> {
+pub fn load_with_notes(source: &TextureSource, values: AllowedFloats) -> Result<(TextureData, Vec<String>)> {
     let stage = format!("texture \"{}\"", source.name);
     let (picture, depth) =
         panics::contain(&stage, || read(source, values).map_err(|e| in_texture(&source.name, e)))?;
@@ -39,7 +39,7 @@ pub fn load_noted(source: &TextureSource, values: Values) -> Result<(TextureData
 }
 
 /// Reads the texels and returns the number of slices or faces with them.
-fn read(source: &TextureSource, values: Values) -> Result<(Picture, u32)> {
+fn read(source: &TextureSource, values: AllowedFloats) -> Result<(Picture, u32)> {
     let space = source.color_space;
     let reading = &source.reading;
     let picture = |path: &Path| read_checked(path, reading, space, values);

@@ -24,9 +24,9 @@ use rayon::prelude::*;
 
 use super::data::{Dimension, MipKernel, TextureData};
 use codec::Codec;
-pub use codec::srgb_middles;
+pub use codec::srgb_midpoints;
 use halve::halve;
-pub use nonfinite::pyramid_of_finite;
+pub use nonfinite::mip_chain_of_finite;
 use resample::{AxisWeights, resample};
 
 /// Returns levels 1 to the last, or none for a texture of one texel.
@@ -61,7 +61,7 @@ pub fn halves_throughout(texture: &TextureData) -> bool {
 }
 
 /// Returns levels 1 to the last with all texels 0.
-pub fn blank(texture: &TextureData) -> Vec<TextureData> {
+pub fn zeroed_levels(texture: &TextureData) -> Vec<TextureData> {
     let level = |level| {
         let [width, height, depth] = level_size(texture, level);
         let count = width as usize * height as usize * depth as usize;

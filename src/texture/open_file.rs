@@ -48,7 +48,7 @@ fn escaped(c: char) -> Vec<char> {
     if c.is_control() { c.escape_default().collect() } else { vec![c] }
 }
 
-/// Whether a file is a volume, by the ending of its name: nothing is opened.
+/// Returns true if the ending of a file's name is that of a volume; nothing is opened.
 pub fn is_volume(path: &Path) -> bool {
     path.extension().is_some_and(|e| e.eq_ignore_ascii_case("nrrd") || e.eq_ignore_ascii_case("nhdr"))
 }
@@ -59,7 +59,7 @@ pub fn odd_path(path: &Path) -> Option<String> {
     let text = path.to_string_lossy();
     if text.contains(char::is_control) {
         return Some(
-            "the name has a control character: within \"…\" of TOML, \\t, \\n, \\b and \\f are escapes; write \
+            "the name has a control character: within \"…\" in a scene file, \\t, \\n, \\b and \\f are escapes; write \
              folder/name, or 'folder\\name' in single quotes"
                 .into(),
         );

@@ -11,7 +11,7 @@ use super::open_file::open;
 use super::orientation::orientation_of;
 pub use super::read_exr::ExrWindow;
 use super::sniff::{self, Content, PictureFormat};
-use super::source::{OrientationUse, Reading};
+use super::source::{OrientationUse, ReadOptions};
 use super::{read_exr, read_hdr, read_jpeg, read_png, read_tga, tiff};
 use crate::core::error::{Error, Result};
 use crate::core::film::Placement;
@@ -58,17 +58,22 @@ impl From<Texels> for Picture {
 
 /// Reads a picture with the given options; by default it is turned upright and, if it has layers,
 /// the unnamed one is read.
-pub fn read_as(path: &Path, reading: &Reading) -> Result<Picture> {
+pub fn read_as(path: &Path, reading: &ReadOptions) -> Result<Picture> {
     read_window(path, reading, ExrWindow::Display)
 }
 
 /// Reads a picture with the given options; of an OpenEXR file only this part.
-pub fn read_window(path: &Path, reading: &Reading, window: ExrWindow) -> Result<Picture> {
+pub fn read_window(path: &Path, reading: &ReadOptions, window: ExrWindow) -> Result<Picture> {
     let stage = format!("{}: reading this picture", path.display());
     panics::contain(&stage, || read_by_content(open(path)?, path, reading, window))
 }
 
-fn read_by_content(mut source: File, path: &Path, reading: &Reading, window: ExrWindow) -> Result<Picture> {
+fn read_by_content(
+    mut source: File,
+    path: &Path,
+    reading: &ReadOptions,
+    window: ExrWindow,
+) -> Result<Picture> {
     let failed = |e: std::io::Error| unreadable(path, &e);
     let format = match identify(&mut source).map_err(failed)? {
         Content::Picture(format) => format,

@@ -3,7 +3,7 @@
 
 pub use crate::schema::enums::{Address, Filter, Method, MipMode, TexelCenter};
 
-/// How a texture is read.
+/// The addressing and filtering of a texture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SamplerSpec {
     /// The address modes along u and v.
@@ -18,11 +18,11 @@ pub struct SamplerSpec {
     pub mip: MipMode,
     /// The minimum level of detail, of hardware samplers only. Above 0, every lookup minifies.
     pub min_lod: f32,
-    /// What `clamp-to-border` reads, red, green, blue and alpha.
+    /// The colour of `clamp-to-border`, red, green, blue and alpha.
     pub border_color: [f32; 4],
     /// Who filters.
     pub method: Method,
-    /// Where texels have their centres.
+    /// The position of texel centres.
     pub texel_center: TexelCenter,
     /// The largest anisotropy, in footprint widths, that `anisotropic` and `ewa` resolve; wider
     /// footprints are blurred.

@@ -14,34 +14,34 @@ use crate::core::named::named_enum;
 pub struct TextureSource {
     /// For messages.
     pub name: String,
-    /// Where the texels come from.
+    /// The source of the texels.
     pub content: TextureContent,
     /// The axes of its texels.
     pub dimension: Dimension,
-    /// What the stored values mean.
+    /// The meaning of the stored values.
     pub color_space: ColorSpace,
     /// True if the scene states the meaning of stored values.
     pub color_space_stated: bool,
-    /// How files of pictures are read.
-    pub reading: Reading,
+    /// The options for reading picture files.
+    pub reading: ReadOptions,
     /// False: v = 0 is the file's first row. True: v grows upwards (the lecture's loader).
     pub flip_v: bool,
-    /// What coarser levels are means over.
+    /// The kernel of coarser mip levels.
     pub mip_kernel: MipKernel,
 }
 
 /// The options of reading a file: the layer and the orientation.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Reading {
-    /// What is done about a picture that is stored turned.
+pub struct ReadOptions {
+    /// The treatment of pictures that are stored rotated.
     pub orientation: OrientationUse,
     /// For OpenEXR files, a layer, a part, or a channel that is read as grey.
     pub layer: Option<String>,
 }
 
-impl Default for Reading {
+impl Default for ReadOptions {
     fn default() -> Self {
-        Reading { orientation: OrientationUse::Apply, layer: None }
+        ReadOptions { orientation: OrientationUse::Apply, layer: None }
     }
 }
 

@@ -9,17 +9,17 @@ use std::path::PathBuf;
 use rayon::prelude::*;
 
 use super::data::{ColorSpace, Component, TexelFormat};
-use super::decode::{Values, read_checked};
+use super::decode::{AllowedFloats, read_checked};
 use super::read_file::{Picture, Texels, check_volume};
-use super::source::Reading;
+use super::source::ReadOptions;
 use crate::core::error::{Error, Result};
 
 /// Reads the files. `what` names their kind in messages and is followed by the ordinal, from 1.
 pub(super) fn read(
     files: &[PathBuf],
-    reading: &Reading,
+    reading: &ReadOptions,
     space: ColorSpace,
-    values: Values,
+    values: AllowedFloats,
     what: &str,
 ) -> Result<Picture> {
     let pictures: Vec<Result<Picture>> =

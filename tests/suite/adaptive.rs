@@ -24,7 +24,7 @@ use moire::internal::schema::layout::Job;
 
 use crate::stage::{assert_same_bits, device, packed, render, small};
 
-/// What `--algorithm` and `--pattern` would make of the scene.
+/// Returns the scene as `--algorithm` and `--pattern` would change it.
 fn with(mut scene: Scene, algorithm: Algorithm, spp: u32) -> PackedScene {
     scene.sampling.algorithm = algorithm;
     scene.sampling.pattern = Pattern::SobolOwen;
@@ -57,7 +57,7 @@ fn converged_file(name: &'static str) -> Film {
     film.get_or_init(|| converged(&small(name, 128, 4))).clone()
 }
 
-/// The mean of the pictures of two seeds: one sample of each half.
+/// Returns the mean of the pictures of two seeds: one sample of each half.
 fn mean_of_halves(scene: &Scene) -> Film {
     let half = |seed: u32| {
         let mut scene = scene.clone();
@@ -102,10 +102,10 @@ fn device_and_oracle_spend_the_same_samples() {
     let mut backend = OracleBackend::new(&scene).unwrap();
     let size = [scene.header.film_size.x, scene.header.film_size.y];
     let (exact, expected) = adaptive::run(&mut backend, size, Goal::Samples(64), &NoProgress).unwrap();
-    // Counts follow estimates in f32: a pixel in a hundred may round to another.
+    // Counts follow estimates in f32: one pixel in a hundred may round differently.
     assert!((outcome.mean_samples / expected.mean_samples - 1.0).abs() < 0.01, "{outcome:?} {expected:?}");
     assert_eq!(outcome.passes, expected.passes);
-    // Two pictures of other samples would differ by 1.4 of it.
+    // Two pictures from different samples would differ by 1.4 of it.
     let (apart, expected) = (rmse(&film, &exact), expected.estimated_rmse);
     assert!(apart < 0.5 * expected, "{apart:e} of {expected:e}");
 }
@@ -118,7 +118,7 @@ fn an_error_asked_for_is_reached_and_not_left_far_behind() {
         let (film, outcome) = to_goal(&with(scene, Algorithm::Auto, 16), Goal::Error(goal), false);
         let error = rmse(&film, &reference);
         assert!(outcome.reached, "{name}: {outcome:?}");
-        // The estimate has a sigma of about 3 % at this size; what few samples miss adds to that.
+        // The estimate has a sigma of about 3 % at this size; features that few samples miss add to that.
         assert!(error < 1.08 * goal, "{name}: {error:e} of {goal:e}, {outcome:?}");
         assert!(error > 0.5 * goal, "{name}: {error:e} of {goal:e} is wasteful, {outcome:?}");
     }
@@ -139,7 +139,7 @@ fn adaptive_errs_less_than_the_same_number_for_all() {
     }
 }
 
-/// What a fixed number of samples has no part of: the mean over many seeds.
+/// The bias that a fixed number of samples does not have: the mean over many seeds.
 #[test]
 fn the_mean_over_seeds_shows_no_bias() {
     let scene = small("s2", 48, 4);
@@ -158,7 +158,7 @@ fn the_mean_over_seeds_shows_no_bias() {
     mean.pixels.iter_mut().flatten().zip(sum.iter().flatten()).for_each(|(m, s)| {
         *m = (s / f64::from(SEEDS)) as f32;
     });
-    // Without bias the square falls by the number of seeds.
+    // Without bias the square falls with the number of seeds.
     let left = rmse(&mean, &reference).powi(2) * f64::from(SEEDS) / one;
     assert!(left < 2.0, "{left} of what chance leaves");
 }
@@ -170,7 +170,7 @@ fn a_time_to_keep_is_kept() {
     let (_, outcome) = to_goal(&scene, Goal::Seconds(1.5), false);
     let seconds = clock.elapsed().as_secs_f64();
     assert!(outcome.passes > 1 && outcome.mean_samples >= 16.0, "{outcome:?}");
-    // Compiling is not part of it; a loaded machine is slower than its first pass said.
+    // Excludes compiling; a loaded machine is slower than its first pass predicted.
     assert!(seconds < 20.0, "{seconds} s for 1.5 s");
 }
 
@@ -191,7 +191,7 @@ fn the_bias_of_a_prefilter_is_seen_and_without_a_footprint_there_is_none() {
     assert_eq!(sharp.estimated_bias, 0.0);
 }
 
-/// Samples of a constant and noise, slowly taken; half of the pixels can be told at once.
+/// A backend with a constant and noise, sampled slowly; half of the pixels can be resolved at once.
 struct Slow {
     sums: HalfSums,
     tells: bool,
@@ -295,14 +295,15 @@ fn what_is_near_its_goal_or_prefiltered_or_cannot_be_told_is_sampled() {
     }
 }
 
-/// A checker to the horizon is told as algorithm beam tells it; time left after that is not spent.
+/// A checker up to the horizon is resolved as algorithm beam resolves it; the remaining time is not spent.
 #[test]
 fn time_enough_for_beams_is_spent_on_beams() {
     if device().info().kind != DeviceKind::Cpu {
         return; // samples of so small a picture are quicker there
     }
     let scene = small("s1a", 256, 4);
-    // It ends once beams have told all; a driver without a cache takes some of the time to compile them.
+    // Ends once beams have resolved all pixels; without a driver cache, compiling them takes some of the
+    // time.
     let (film, outcome) = to_goal(&with(scene.clone(), Algorithm::Auto, 16), Goal::Seconds(15.0), false);
     assert_eq!(outcome.beam_pixels, 256 * 256, "{outcome:?}");
     assert!(outcome.reached && outcome.estimated_noise == 5e-5, "{outcome:?}");

@@ -35,7 +35,7 @@ fn pictures() -> TempDir {
     folder
 }
 
-/// All that is told of a scene, once unused things are dropped.
+/// Returns all warnings about a scene after unused parts are removed.
 fn told(path: &Path) -> Vec<String> {
     let mut scene = moire::internal::scene::load(path).unwrap();
     prune(&mut scene);
@@ -71,7 +71,7 @@ fn black_for_want_of_light_is_told() {
         assert!(of(model, more).is_empty(), "{model}: {:?}", of(model, more));
     }
     assert!(of("lambert", "color = [0, 0, 0]\n").is_empty(), "black on purpose");
-    // Materials that no shape shows.
+    // Materials of no shape.
     assert!(of("unlit", "[[material]]\nname = 'unused'\n").is_empty());
 }
 

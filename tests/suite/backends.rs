@@ -1,5 +1,5 @@
-//! Several backends render one picture: which of them has which part does not show, and depends on nothing but the
-//! part's place. Tested with two sessions on the device under test, and with the device beside the oracle.
+//! Several backends render one picture: the distribution of its parts is invisible, and depends on nothing but their
+//! positions. Tested with two sessions on the device under test, and with the device beside the oracle.
 
 use moire::internal::core::error::{Error, Result};
 use moire::internal::core::film::Film;
@@ -20,7 +20,7 @@ fn on_device() -> On {
     On::Device(DeviceSelect::parse(&device_name()).unwrap())
 }
 
-/// As `moire render` renders it.
+/// Renders as `moire render` does.
 fn rendered(mut scene: Scene, on: &[On]) -> Picture {
     prune(&mut scene);
     adapt_for_cone(&mut scene);
@@ -29,7 +29,7 @@ fn rendered(mut scene: Scene, on: &[On]) -> Picture {
     picture
 }
 
-/// Scenes of several strips of rows, one for each way of making pictures.
+/// Scenes of several strips of rows, one for each algorithm.
 fn variants() -> Vec<(&'static str, Scene)> {
     let of = |name: &str, algorithm, spp| {
         let mut scene = small(name, 150, 4);
@@ -79,12 +79,12 @@ fn beside_the_oracle_each_strip_is_the_one_that_its_backend_alone_would_render()
         for (y, owner) in (0..both.height).step_by(TILE as usize).zip([0, 1, 0]) {
             assert_same_bits(&strip(&both, y), &strip(&alone[owner], y), &format!("{what}, row {y}"));
         }
-        // The two do not agree in every bit, or the strips would show nothing.
+        // The two differ in some bits, otherwise the strips would show nothing.
         assert_ne!(strip(&alone[0], TILE).pixels, strip(&alone[1], TILE).pixels, "{what}");
     }
 }
 
-/// Counts follow estimates of both, which are rounded differently.
+/// Counts follow the estimates of both, which are rounded differently.
 #[test]
 fn beside_the_oracle_adaptive_pictures_and_beams_are_those_of_the_device_but_for_rounding() {
     for (what, scene) in variants().into_iter().filter(|(what, _)| ["adaptive", "beams"].contains(what)) {
@@ -119,7 +119,7 @@ fn ranges_of_samples_on_a_device_add_up_to_the_whole_in_whatever_order_they_arri
     let at_once = backend.sum(&whole, &NoProgress).unwrap().to_film([width, height], 700).unwrap();
     let apart = compare(&film, &at_once).unwrap();
     assert!(apart.max < 1e-6, "{:e}", apart.max);
-    // A sample more than there is has no place in its pattern.
+    // A sample beyond the number of samples has no position in its pattern.
     let beyond = Range { samples: 0..701, ..whole };
     assert!(backend.sum(&beyond, &NoProgress).is_err());
 }
@@ -136,7 +136,7 @@ fn a_session_refuses_a_second_render_while_one_is_not_finished() {
     prepared.render(&NoProgress).unwrap();
 }
 
-/// Fails, or waits to be stopped.
+/// Fails, or waits to be cancelled.
 struct Unable {
     fails: bool,
 }

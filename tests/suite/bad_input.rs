@@ -103,7 +103,7 @@ impl Case {
         (output.status.code(), text(&output.stdout), text(&output.stderr))
     }
 
-    /// The command fails as it should, and says each of `wanted`.
+    /// Expects the command to fail properly, and to print each of `wanted`.
     fn fails(&self, environment: &[(&str, &str)], args: &[&str], wanted: &[&str]) {
         let before = self.files();
         let (code, stdout, stderr) = self.run(environment, args);
@@ -111,7 +111,7 @@ impl Case {
         for sign in ["panicked", "RUST_BACKTRACE", "src/"] {
             assert!(!stderr.contains(sign), "{sign} in: {stderr}");
         }
-        // The report wraps long lines, and quotes source behind bars.
+        // The report wraps long lines, and marks quoted source with bars.
         let squash = |s: &str| s.replace(|c: char| c.is_whitespace() || c == '│', "");
         for part in wanted {
             assert!(squash(&stderr).contains(&squash(part)), "`{part}` not in: {stderr}");
@@ -120,7 +120,7 @@ impl Case {
         assert_eq!(fs::read(self.path("out.png")).unwrap(), OLD, "{args:?} touched the older picture");
     }
 
-    /// Rendering the scene onto the older picture fails.
+    /// Expects rendering the scene to the older picture to fail.
     fn refused(&self, options: &[&str], wanted: &[&str]) {
         let device = device_name();
         let fixed = ["render", "scene.toml", "-o", "out.png", "--device", &device];
@@ -142,7 +142,7 @@ fn nothing_wrong_renders() {
     Case::new().renders(&[]);
 }
 
-/// What `main` does with a command that panics, itself or in a thread that it waits for.
+/// The behaviour of `main` for a command that panics, itself or in a thread that it joins.
 #[test]
 fn a_panic_ends_a_command_with_exit_code_2() {
     use std::process::ExitCode;

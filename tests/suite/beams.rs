@@ -31,7 +31,7 @@ fn rmse(a: &Film, b: &Film) -> f64 {
     compare(a, b).unwrap().rmse
 }
 
-/// The beams' picture, and how many pixels took samples.
+/// Returns the beams' picture, and the number of pixels that took samples.
 fn beams(scene: &PackedScene) -> (Film, u64) {
     let (film, report) = render_with(scene, false, &Tuning::default());
     (film, report.sampled_pixels.unwrap())
@@ -63,10 +63,10 @@ fn converged(scene: &Scene) -> [Film; 2] {
     [scene.clone(), other].map(|s| render(&with_samples(s, 64 * 64)))
 }
 
-/// By how many standard deviations the film is further from the mean of two pictures than chance explains.
-/// Half the difference of the two and the mean's error are alike in distribution, so in each pixel the squares
-/// of both differ by something of mean 0, and the sum of those varies by the sum of their squares. Allowed
-/// beside chance: beams' own bound near a horizon, RMSE 1e-4.
+/// Returns the number of standard deviations by which the film is further from the mean of two pictures than
+/// noise explains. Half the difference of the two and the error of the mean have the same distribution, so in
+/// each pixel their squares differ by a variable of mean 0, and the variance of the sum is the sum of the
+/// squares. Beside noise, the beams' own bound near a horizon is allowed, RMSE 1e-4.
 fn sigmas_beyond_chance(film: &Film, [a, b]: &[Film; 2]) -> f64 {
     let (mut sum, mut squares) = (0.0, 0.0);
     for ((film, a), b) in film.pixels.iter().zip(&a.pixels).zip(&b.pixels) {
@@ -110,7 +110,7 @@ fn converged_samples_meet_the_beams() {
     }
 }
 
-/// No axis of the texture along a row of the picture.
+/// No axis of the texture is parallel to a row of the picture.
 #[test]
 fn turned_cameras_too() {
     let mut scene = small("s1b", 64, 4);
@@ -119,7 +119,7 @@ fn turned_cameras_too() {
     assert_meets_samples(&scene, "a turned camera");
 }
 
-/// The mirror ball and its shadow; the pixels of samples are those of the sampled picture.
+/// The mirror ball and its shadow take samples; their pixels equal those of the sampled picture.
 #[test]
 fn what_beams_cannot_tell_is_sampled_and_counted() {
     let scene = small("s2", 64, 16);
@@ -141,11 +141,11 @@ fn what_beams_cannot_tell_is_sampled_and_counted() {
         }
     }
     assert!(told + sampled <= 4096, "{told} told, {sampled} sampled");
-    // The truth itself errs by (16 / 4096)^0.75 = 1/64 of what 16 samples do.
+    // The reference itself errs by (16 / 4096)^0.75 = 1/64 of the error of 16 samples.
     assert!(of_beams < 0.01 * of_samples, "{told} pixels told: {of_beams:e} and {of_samples:e}");
 }
 
-/// More shapes behind one pixel than a beam keeps.
+/// More shapes in one pixel than a beam keeps.
 #[test]
 fn crowded_pixels_are_left_to_samples() {
     let mut scene = small("beams", 32, 64);
@@ -171,7 +171,7 @@ fn boxes_of_any_width_too() {
     assert_meets_samples(&scene, "a wide box");
 }
 
-/// Weights that are not equal: every pixel is that of the samples.
+/// Unequal weights: every pixel equals that of the samples.
 #[test]
 fn other_pixel_filters_take_samples() {
     let mut scene = small("beams", 24, 16);

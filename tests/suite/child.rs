@@ -23,17 +23,17 @@ impl Running {
         self.0.as_mut().unwrap()
     }
 
-    /// How it ended, once it has.
+    /// The exit status, once it has ended.
     pub fn ended(&mut self) -> Option<ExitStatus> {
         self.child().try_wait().unwrap()
     }
 
-    /// Sends what a terminal sends for Ctrl-C.
+    /// Sends the signal of Ctrl-C in a terminal.
     pub fn interrupt(&self) {
         kill(self.id(), Signal::SIGINT).unwrap();
     }
 
-    /// Waits for its end, at most so long, and takes what it wrote.
+    /// Waits for its end, up to a timeout, and takes its output.
     pub fn output(mut self, most: Duration) -> Output {
         let start = Instant::now();
         while self.ended().is_none() {
@@ -47,7 +47,7 @@ impl Running {
 impl Drop for Running {
     fn drop(&mut self) {
         if let Some(child) = &mut self.0 {
-            // It may have ended by itself.
+            // It may have ended already.
             let _ = child.kill();
             let _ = child.wait();
         }

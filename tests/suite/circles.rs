@@ -1,5 +1,5 @@
-//! Which source file imports which, read off the sources: no two rooms, and no two files of different jobs, may
-//! import each other by any way round. What does so for a reason is listed with it.
+//! Imports between source files: no two rooms, and no two files with different jobs, may import each other
+//! along any path. Exceptions are listed with their reasons.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -10,7 +10,7 @@ use crate::sources::tokens;
 type Module = Vec<String>;
 type Graph = BTreeMap<Module, BTreeSet<Module>>;
 
-/// Circles of files that do one job together: (a folder, or files with dots between, why).
+/// Circles of files that do one job together: (a folder, or files separated by dots, reason).
 const ONE_JOB: &[(&[&str], &str)] = &[
     (&["gpu"], "objects of a device know the device, which makes them"),
     (&["texture"], "a file's reader is chosen by its content, and readers ask for the limits of all files"),
@@ -31,7 +31,7 @@ const ONE_JOB: &[(&[&str], &str)] = &[
     (&["lab.verify"], "a report names the place and the variant that it judges"),
 ];
 
-/// Paths of the crate that code of module `of` names, also those of grouped and nested imports.
+/// Returns the paths of the crate that the code of module `of` names, including grouped and nested imports.
 fn references(code: &str, of: &[&str]) -> Vec<Vec<String>> {
     let code = code.split("#[cfg(test)]").next().unwrap_or_default();
     let tokens = tokens(code).unwrap();
@@ -59,7 +59,7 @@ fn references(code: &str, of: &[&str]) -> Vec<Vec<String>> {
     found
 }
 
-/// The path at `at`, or all of a group.
+/// Returns the path at `at`, or all paths of a group.
 fn collect(words: &[&str], at: &mut usize, mut path: Vec<String>, found: &mut Vec<Vec<String>>) {
     let is_name = |word: &str| word.starts_with(|c: char| c.is_alphanumeric() || c == '_');
     loop {
@@ -88,7 +88,7 @@ fn collect(words: &[&str], at: &mut usize, mut path: Vec<String>, found: &mut Ve
     }
 }
 
-/// From each file's module to those that it imports, without its own folder's `mod.rs`, which re-exports.
+/// Returns the imports of each file's module, without its own folder's `mod.rs`, which re-exports.
 fn graph(files: &BTreeMap<String, String>) -> Graph {
     let owned = |path: &str| -> Module { module_of(path).into_iter().map(str::to_owned).collect() };
     let modules: BTreeSet<Module> = files.keys().map(|path| owned(path)).collect();
@@ -106,7 +106,7 @@ fn graph(files: &BTreeMap<String, String>) -> Graph {
     graph
 }
 
-/// Every module that can be reached from this one.
+/// Returns every module reachable from this one.
 fn reached(graph: &Graph, from: &Module) -> BTreeSet<Module> {
     let (mut seen, mut open) = (BTreeSet::new(), vec![from.clone()]);
     while let Some(module) = open.pop() {
@@ -119,7 +119,7 @@ fn reached(graph: &Graph, from: &Module) -> BTreeSet<Module> {
     seen
 }
 
-/// Sets of modules each of which reaches all others.
+/// Returns the sets of modules each of which reaches all others.
 fn circles(graph: &Graph) -> BTreeSet<BTreeSet<Module>> {
     let reach: BTreeMap<&Module, BTreeSet<Module>> = graph.keys().map(|m| (m, reached(graph, m))).collect();
     let circle = |module: &Module| -> BTreeSet<Module> {

@@ -33,7 +33,7 @@ fn text(bytes: &[u8]) -> &str {
     std::str::from_utf8(bytes).unwrap()
 }
 
-/// The picture that these options give, through an EXR file.
+/// Returns the picture rendered with these options, by way of an EXR file.
 fn film(scene: &str, options: &[&str]) -> Film {
     let folder = tempdir().unwrap();
     let output = render(folder.path(), scene, &[options, &["-q", "-o", "a.exr"]].concat());
@@ -170,7 +170,7 @@ fn goals_choose_an_algorithm_and_say_what_was_reached() {
     assert!(told["reached"]["estimated_rmse"].as_f64().unwrap() <= 5e-3, "{told:#}");
     let told = json("s2", &["--size", "64x64", "--budget", "2"]);
     assert!(told["reached"]["mean_samples"].as_f64().unwrap() >= 16.0, "{told:#}");
-    // Two samples a pixel take longer than that, whatever the device.
+    // Two samples per pixel take longer than that on any device.
     let told = json("s2", &["--size", "64x64", "--budget", "1e-6"]);
     assert_eq!((&told["reached"]["reached"], &told["reached"]["mean_samples"]), (&false.into(), &2.0.into()));
     assert!(json("s2", &["--size", "8x8"])["reached"].is_null());
@@ -182,7 +182,7 @@ fn goals_that_cannot_be_followed_are_refused() {
         (&["--budget", "1", "--target-error", "1e-3"], "cannot be used with"),
         (&["--budget", "0"], "above 0"),
         (&["--target-error", "nan"], "above 0"),
-        (&["--budget", "1", "--algorithm", "samples"], "takes --spp"),
+        (&["--budget", "1", "--algorithm", "samples"], "takes a number of samples"),
         (&["--target-error", "1e-3", "--pattern", "stratified"], "sobol-owen"),
     ];
     for (options, expected) in cases {
@@ -268,7 +268,7 @@ fn a_cropped_exr_is_compared_where_it_lies_in_its_picture() {
             "{a}, {b}"
         );
     }
-    // A PNG does not say what it is a part of.
+    // A PNG does not record the picture that it is a part of.
     let told = compared("part.exr", "part.png");
     assert!(told["part"].is_null() && told["rmse"].as_f64().unwrap() < 2e-3, "{told}");
     let whole = read_picture(&folder.path().join("full.exr")).unwrap();
@@ -342,7 +342,7 @@ fn help_and_version_are_answers_on_stdout() {
 fn help_names_each_value_once_and_groups_the_options() {
     let output = moire().args(["render", "--help"]).output().unwrap();
     let help = text(&output.stdout);
-    // Words of one vocabulary alone.
+    // Words of one vocabulary only.
     for value in ["multi-jittered", "summed-area", "differentials", "blackman-harris", "buffer"] {
         assert_eq!(help.matches(value).count(), 1, "{value} in: {help}");
     }
@@ -390,7 +390,7 @@ fn only_the_last_ending_of_the_scenes_name_is_replaced() {
     assert_eq!(files(&folder), ["floor.v2.png", "floor.v2.toml"]);
 }
 
-/// A pipe whose reader has gone, and a device without space.
+/// A pipe whose reader has exited, and a full device.
 #[cfg(target_os = "linux")]
 fn deaf_ears() -> [std::process::Stdio; 2] {
     let (reader, writer) = std::io::pipe().unwrap();

@@ -37,7 +37,7 @@ fn with_cones(mut scene: Scene) -> Scene {
     scene
 }
 
-/// So many samples a pixel (a power of two), without any footprint.
+/// The scene with this number of samples per pixel (a power of two), without a footprint.
 fn with_samples(mut scene: Scene, spp: u32) -> Scene {
     scene.sampling.algorithm = Algorithm::Samples;
     scene.sampling.footprint = Footprint::None;

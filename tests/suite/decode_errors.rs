@@ -62,7 +62,7 @@ fn folder_in_place_of_a_picture_is_named_as_such() {
     assert!(told(load(folder.path())).contains("this is a folder"));
 }
 
-/// An RGB PNG of the given size and depth whose image data is missing: only its header can be judged.
+/// An RGB PNG of the given size and depth without image data: only its header can be checked.
 fn png_header(width: u32, height: u32, bits: u8) -> Vec<u8> {
     let mut bytes = b"\x89PNG\r\n\x1a\n".to_vec();
     for (kind, data) in [

@@ -34,14 +34,14 @@ fn scene(text: &str, texture: Option<TextureData>) -> PackedScene {
 
 fn counts(mut packed: PackedScene) -> Vec<(Diagnostic, u64)> {
     let (plain, report) = render_with(&packed, false, &Tuning::default());
-    assert!(report.guards.is_none(), "a render counts that was not asked to");
+    assert!(report.diagnostics.is_none(), "a render counts that was not asked to");
     packed.guarded = true;
     let (counted, report) = render_with(&packed, false, &Tuning::default());
     assert_same_bits(&plain, &counted, "counting changes the picture");
-    report.guards.unwrap()
+    report.diagnostics.unwrap()
 }
 
-/// Only `guard` counts, and so often.
+/// Expects that only `guard` counts, and this number.
 fn only(found: &[(Diagnostic, u64)], guard: Diagnostic, count: u64) {
     for &(other, n) in found {
         assert_eq!(n, if other == guard { count } else { 0 }, "{other}, in {found:?}");
@@ -80,7 +80,7 @@ fn every_look_up_of_a_longer_footprint_than_the_sampler_follows_is_counted() {
 
 #[test]
 fn every_look_up_at_a_coordinate_that_is_no_number_is_counted() {
-    // Beyond f32, and single is asked for.
+    // Beyond f32, with precision single.
     let text = textured("", "scale = [1e30, 1e30]").replace("spp = 4", "spp = 4\nprecision = 'single'");
     let text = text.replace("tangent = [1, 0, 0]", "tangent = [1e-20, 0, 0]");
     let found = counts(scene(&text.replace("footprint = 'cone'", ""), Some(grey(4, |i| i as f32))));
@@ -95,7 +95,7 @@ fn every_sample_whose_radiance_is_no_number_is_counted() {
     let packed = scene(&text.replace("footprint = 'cone'", "pattern = 'grid'"), Some(texture));
     let mut packed = packed;
     packed.guarded = true;
-    let found = render_with(&packed, false, &Tuning::default()).1.guards.unwrap();
+    let found = render_with(&packed, false, &Tuning::default()).1.diagnostics.unwrap();
     only(&found, Diagnostic::Radiance, 8 * 8 * 4 / 4);
 }
 

@@ -11,11 +11,11 @@ use image::{DynamicImage, GrayImage, ImageBuffer, Luma, LumaA, Rgba};
 use moire::internal::core::error::Result;
 use moire::internal::texture::data::{Dimension, TextureData};
 use moire::internal::texture::load::load;
-use moire::internal::texture::source::{Reading, TextureContent, TextureSource};
+use moire::internal::texture::source::{ReadOptions, TextureContent, TextureSource};
 
 use crate::support::{texture_source, told};
 
-/// Where a texel's centre lies, by the columns sc and tc of Vulkan's cube table solved for the direction.
+/// Returns the direction of a texel's centre, by solving the columns sc and tc of Vulkan's cube table.
 pub fn direction(face: u32, x: u32, y: u32, side: u32) -> [f32; 3] {
     let at = |i: u32| 2.0 * (i as f32 + 0.5) / side as f32 - 1.0;
     let (s, t) = (at(x), at(y));
@@ -30,7 +30,7 @@ pub fn direction(face: u32, x: u32, y: u32, side: u32) -> [f32; 3] {
 }
 
 fn source(dimension: Dimension, content: TextureContent) -> TextureSource {
-    texture_source(content, dimension, Reading::default())
+    texture_source(content, dimension, ReadOptions::default())
 }
 
 fn read(dimension: Dimension, content: TextureContent) -> Result<TextureData> {
@@ -72,7 +72,7 @@ fn a_picture_of_one_row_is_a_1d_texture_and_no_other() {
     assert_says(&message, &["texture \"t\"", "square.png", "2×2", "one texel high", "\"2d\""]);
 }
 
-/// Grey, grey with alpha, 8 and 16 bits: widened to the most of each, without loss.
+/// Grey, grey with alpha, 8 and 16 bits: each widened to the largest format without loss.
 #[test]
 fn files_of_different_formats_are_widened() {
     let folder = tempfile::tempdir().unwrap();

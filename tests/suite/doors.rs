@@ -1,6 +1,6 @@
-//! Rooms with doors, read off the sources: each shader file with functions has its twin in the oracle at the same
-//! place, and outside its room nobody names a kind of shape, a reflection model or a filter. The checkers are
-//! shown planted files.
+//! The rooms and their interfaces, by the sources: each shader file with functions has its twin in the oracle at the
+//! same path, and outside its room no code names a kind of shape, a reflection model or a filter. The checkers are
+//! tested with planted files.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -20,7 +20,7 @@ const WITHOUT_TWIN: &[(&str, &str)] = &[
 /// Files of `src/oracle` without a twin, and why.
 const WITHOUT_SHADER: &[(&str, &str)] = &[("backend", "who takes the samples of `render_main`")];
 
-/// `main` of a shader stands in `X_main.glsl`, its twin in `X.rs`.
+/// `main` of a shader is in `X_main.glsl`, its twin in `X.rs`.
 fn twin_of(glsl: &str) -> &str {
     glsl.strip_suffix("_main").unwrap_or(glsl)
 }
@@ -29,7 +29,7 @@ fn has_functions(glsl: &str) -> bool {
     glsl.lines().any(|line| line.starts_with(|c: char| c.is_ascii_lowercase()) && line.contains(") {"))
 }
 
-/// Twins that are missing: (path below glsl/shared without its ending, text) against paths below src/oracle.
+/// Returns missing twins: (path below glsl/shared without its ending, text) against paths below src/oracle.
 fn widows(shaders: &[(String, String)], oracle: &BTreeSet<String>) -> Vec<String> {
     let excepted = |list: &[(&str, &str)], name: &str| list.iter().any(|(n, _)| *n == name);
     let mut found = Vec::new();
@@ -81,7 +81,7 @@ fn every_shader_file_has_its_twin_at_the_same_place() {
     assert!(widows(&shaders, &more).iter().any(|f| f.contains("slice has a twin")));
 }
 
-/// A room, the words that only it may say, and beside it the files that declare what it is made of.
+/// A room, the words reserved for it, and the files outside it that declare its parts.
 struct Door {
     room: &'static str,
     words: &'static [&'static str],
@@ -95,30 +95,28 @@ const DOORS: &[Door] = &[
             "plane_at",
             "sphere_at",
             "triangle_at",
+            "disc_at",
             "PLANES",
             "SPHERES",
             "TRIANGLES",
+            "DISCS",
             ".planes",
             ".spheres",
             ".triangles",
+            ".discs",
         ],
         inside: &[
             "glsl/shared/geometry/",
             "src/oracle/geometry/",
             "src/pack/geometry/",
             "src/scene/geometry/",
-            // Records, their lists and their constants.
-            "glsl/shared/features.glsl",
-            "glsl/shared/layout.glsl",
-            "src/pack/features.rs",
+            // Bounds of planes and normals of triangles are features.
             "src/pack/features/narrowed.rs",
-            "src/pack/sections.rs",
-            "src/render/specialization.rs",
             "src/schema/",
-            // The survey of tiles and its twin are stand-ins for an acceleration structure.
+            // Tile culling and its twin are stand-ins for an acceleration structure.
             "glsl/shared/tile_culling_main.glsl",
             "src/oracle/tile_culling.rs",
-            // Planes of samples of a picture.
+            // Planes of a picture's samples.
             "src/texture/tiff/",
         ],
     },
@@ -160,7 +158,7 @@ const DOORS: &[Door] = &[
             "src/texture/sampler_spec.rs",
             "glsl/shared/layout.glsl",
             "src/schema/",
-            // What a cone and a name for both directions take where the scene chooses none.
+            // The default for a cone, and for both directions.
             "src/scene/cone.rs",
             "src/scene/validate.rs",
             // Names of the device's own samplers.
@@ -171,7 +169,7 @@ const DOORS: &[Door] = &[
     },
 ];
 
-/// Lines outside the room that say one of its words; comments and tests inside files are free.
+/// Returns the lines outside the room that use one of its words; comments and tests inside files are exempt.
 fn trespasses(door: &Door, path: &str, text: &str) -> Vec<String> {
     if door.inside.iter().any(|inside| path.starts_with(inside)) {
         return Vec::new();

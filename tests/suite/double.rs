@@ -23,8 +23,8 @@ fn in_double(mut scene: Scene) -> PackedScene {
     packed(scene, None)
 }
 
-/// Both see the same rays and places to 2^-50; look-ups and light are of f32 in one and of f64 in the other, and a
-/// highlight raises them to a power. Hardware samplers weigh by 1/256.
+/// Both compute the same rays and points to 2^-50; look-ups and light are f32 in one and f64 in the other, and a
+/// highlight raises them to a power. Hardware samplers have weights of 1/256.
 fn agrees_with_the_oracle(name: &str) {
     let scene = small(name, 40, 4);
     let uses_hardware = scene.samplers.iter().any(|s| s.method.name() == "hardware");
@@ -35,13 +35,13 @@ fn agrees_with_the_oracle(name: &str) {
         return;
     }
     let (film, exact) = (render(&packed), render_on_oracle(&packed));
-    // Chances of glass and of stochastic filters are f32 on both sides of a threshold.
+    // Random choices of glass and of stochastic filters are f32 on both sides of a threshold.
     let mut beyond = 0;
     for (found, wanted) in film.pixels.iter().flatten().zip(exact.pixels.iter().flatten()) {
         let close = (found - wanted).abs() <= 2e-4 * wanted.abs().max(1.0);
         beyond += u32::from(!close);
     }
-    // Half a per cent, for outlines of shadows and chances; nearest texels whose edges lie under samples.
+    // Half a per cent, for outlines of shadows and random choices; nearest texels with edges under samples.
     let allowed = film.pixels.len() / if name == "quad" { 40 } else { 200 };
     assert!(beyond as usize <= 3 * allowed, "{name}: {beyond} of {} numbers", 3 * film.pixels.len());
 }
@@ -132,7 +132,7 @@ fn the_command_line_says_which_precision_a_scene_gets() {
 
 #[test]
 fn the_device_under_test_has_f64() {
-    // Lavapipe and data-centre GPUs have; without it scenes are rendered in f32.
+    // Lavapipe and data-centre GPUs have f64; without it scenes are rendered in f32.
     assert!(device().info().limits.float64);
 }
 
@@ -140,10 +140,10 @@ fn the_device_under_test_has_f64() {
 fn a_device_without_f64_renders_in_f32_and_says_so() {
     let mut scene = in_double(small("s1a", 40, 4));
     let single = packed(small("s1a", 40, 4), None);
-    let told = scene.suit_device(false).unwrap();
+    let told = scene.adapt_to_device(false).unwrap();
     assert!(told.contains("no f64") && told.contains("--precision single"), "{told}");
     assert!(!scene.double);
     assert_eq!((scene.header, &scene.records.planes), (single.header, &single.records.planes));
-    assert_eq!(in_double(small("s1a", 40, 4)).suit_device(true), None);
-    assert_eq!(scene.suit_device(false), None, "a scene of f32 has nothing to tell");
+    assert_eq!(in_double(small("s1a", 40, 4)).adapt_to_device(true), None);
+    assert_eq!(scene.adapt_to_device(false), None, "a scene of f32 has nothing to tell");
 }

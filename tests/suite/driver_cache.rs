@@ -19,7 +19,7 @@ const NAMES: [&str; 5] = [
     "XDG_CACHE_HOME",
 ];
 
-/// Renders with these variables and this temporary folder, and expects no word.
+/// Renders with these variables and this temporary folder, and expects no output.
 fn render_with(variables: &[(&str, &Path)], temporary: &Path) {
     let mut command = moire();
     for name in NAMES {
@@ -33,7 +33,7 @@ fn render_with(variables: &[(&str, &Path)], temporary: &Path) {
     assert_eq!((output.status.code(), told.as_ref()), (Some(0), ""), "{variables:?}");
 }
 
-/// A folder, and a place in it where nobody can make another, not even root.
+/// A folder, and a path in it at which nobody can create another, not even root.
 fn closed() -> (tempfile::TempDir, PathBuf) {
     let folder = tempdir().unwrap();
     let file = folder.path().join("file");
@@ -45,7 +45,7 @@ fn own(temporary: &Path) -> PathBuf {
     temporary.join(format!("moire-{}", getuid()))
 }
 
-/// Whether Mesa keeps anything in this folder. Other drivers than its own do not.
+/// Returns true if Mesa stores anything in this folder, which other drivers do not.
 fn is_used(folder: &Path) -> bool {
     folder.join("mesa_shader_cache").is_dir() || device_name() != "cpu"
 }
@@ -87,7 +87,7 @@ fn without_any_folder_there_is_no_cache() {
     render_with(&[("XDG_CACHE_HOME", &closed)], &temporary);
 }
 
-/// Code is run from there.
+/// Code is executed from there.
 #[test]
 fn a_temporary_cache_that_others_can_write_is_not_used() {
     let (_folder, closed) = closed();

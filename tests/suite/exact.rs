@@ -40,7 +40,7 @@ impl Worst {
         self.cases += 1;
     }
 
-    /// A yes or no that must be the right one.
+    /// A Boolean that must be correct.
     fn agree(&mut self, same: bool) {
         self.ratio = if same { self.ratio } else { f64::INFINITY };
         self.cases += 1;

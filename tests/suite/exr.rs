@@ -7,7 +7,7 @@ use std::path::Path;
 use moire::internal::core::error::Result;
 use moire::internal::texture::data::{Dimension, TextureData};
 use moire::internal::texture::load::load;
-use moire::internal::texture::source::{Reading, TextureContent};
+use moire::internal::texture::source::{ReadOptions, TextureContent};
 use tempfile::tempdir;
 
 use crate::support::{texture_source, told};
@@ -24,11 +24,11 @@ fn read(file: &[u8], layer: Option<&str>) -> Result<TextureData> {
 }
 
 fn read_path(path: &Path, layer: Option<&str>) -> Result<TextureData> {
-    let reading = Reading { layer: layer.map(str::to_owned), ..Reading::default() };
+    let reading = ReadOptions { layer: layer.map(str::to_owned), ..ReadOptions::default() };
     load(&texture_source(TextureContent::File(path.to_owned()), Dimension::Two, reading))
 }
 
-/// Of `layers`, `named`, `parts` and `xyz`: 8 × 6 texels.
+/// The sizes of `layers`, `named`, `parts` and `xyz`: 8 × 6 texels.
 fn written(x: u32, y: u32) -> [f64; 3] {
     let (x, y) = (f64::from(x), f64::from(y));
     [1.0 + x + 0.5 * y, 2.0 + 0.25 * x + y, 0.5 + 0.125 * x * y]

@@ -1,5 +1,5 @@
-//! The public face, as another program sees it: a dozen names, scenes from files and from code under the same rules,
-//! renders equal to those of the command line, errors with kinds, and the examples.
+//! The public interface, as another program uses it: a dozen names, scenes from files and from code under the same
+//! rules, renders equal to those of the command line, errors with kinds, and the examples.
 
 mod build;
 mod names;

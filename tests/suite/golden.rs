@@ -23,6 +23,7 @@ const GOLDENS: &[(&str, [u32; 2])] = &[
     ("beams", [96, 96]),
     ("centroid", [128, 77]),
     ("cones", [120, 90]),
+    ("discs", [120, 90]),
     ("environment", [120, 75]),
     ("environment_cube", [120, 75]),
     ("filters", [128, 80]),
@@ -53,7 +54,7 @@ const GOLDENS: &[(&str, [u32; 2])] = &[
     ("zone_plate", [120, 120]),
 ];
 
-/// How far a picture may be from the stored one, both with 8 bits.
+/// The tolerance against the stored picture, both with 8 bits.
 #[derive(Clone, Copy)]
 struct Bounds {
     /// Share of the pixels that may be more than one step of 8 bits away.
@@ -65,18 +66,18 @@ struct Bounds {
 
 /// The drivers of one class of device differ in the last bits only.
 const SAME_CLASS: Bounds = Bounds { over: 0.0002, steps: 3.0, rmse: 1e-3 };
-/// Another device rounds differently where two texels or two shapes meet: with 4 to 16 samples a
-/// pixel, one sample on the other side moves a pixel by up to a quarter of the range, so the largest
-/// difference says nothing and their number is bounded. The device's own filter, with 8 sub-texel
-/// bits on either side, stays within 2 steps of 8 bits in all but its steepest pixels.
+/// Other devices round differently where two texels or two shapes meet: with 4 to 16 samples per pixel, one sample on
+/// the other side moves a pixel by up to a quarter of the range, so the largest difference is meaningless and their
+/// number is bounded. The device's own filter, with 8 sub-texel bits on either side, stays within 2 steps of 8 bits
+/// except in the steepest pixels.
 const OTHER_CLASS: Bounds = Bounds { over: 0.002, steps: 255.0, rmse: 2e-3 };
 
 fn bounds() -> Bounds {
     if device().info().kind == DeviceKind::Cpu { SAME_CLASS } else { OTHER_CLASS }
 }
 
-/// Infinite planes end here. Further on, f32 knows ever less about the texel, so that the last row
-/// before a horizon is another one on each device; the comparison with float64 counts those pixels.
+/// The end of infinite planes. Beyond it f32 loses the texel, so that the last row before a horizon differs between
+/// devices; the comparison with float64 counts those pixels.
 const END_OF_PLANES: f64 = 100.0;
 
 fn sized(name: &str, [width, height]: [u32; 2]) -> Scene {
@@ -88,7 +89,7 @@ fn sized(name: &str, [width, height]: [u32; 2]) -> Scene {
     scene
 }
 
-/// Through a file, as the program writes and reads it.
+/// By way of a file, as the program writes and reads it.
 fn eight_bits(film: &Film) -> Film {
     let folder = tempdir().unwrap();
     let path = folder.path().join("picture.png");
@@ -96,7 +97,7 @@ fn eight_bits(film: &Film) -> Film {
     read_picture(&path).unwrap()
 }
 
-/// Whether `actual` may pass for `expected`; both have 8 bits.
+/// Returns true if `actual` is accepted for `expected`; both have 8 bits.
 fn judge(actual: &Film, expected: &Film, bounds: Bounds) -> Result<(), String> {
     let c = compare(actual, expected).map_err(|e| e.to_string())?;
     let found = format!(
@@ -113,8 +114,8 @@ fn judge(actual: &Film, expected: &Film, bounds: Bounds) -> Result<(), String> {
     if good { Ok(()) } else { Err(found) }
 }
 
-/// The picture against the file `golden`; what was seen goes to `seen` when it fails. With `bless`
-/// the picture becomes the file, and the answer is still no.
+/// Compares the picture with the file `golden`; on failure the pictures are written to `seen`. With `bless` the picture
+/// becomes the file, and the test still fails.
 fn check(golden: &Path, actual: &Film, bounds: Bounds, bless: bool, seen: &Path) -> Result<(), String> {
     let name = golden.file_stem().unwrap().to_str().unwrap();
     let actual = eight_bits(actual);
@@ -195,7 +196,7 @@ macro_rules! goldens {
     };
 }
 goldens! {
-    beams centroid cones environment environment_cube filters formats glass glossy hardware horizon inside
+    beams centroid cones discs environment environment_cube filters formats glass glossy hardware horizon inside
     lanczos lecture lens lights mappings materials mirrors motion normal penumbra position procedural ramp reflection
     rough samplers shared volume zone_plate
 }
@@ -208,7 +209,7 @@ fn quad_draws_its_texture_exactly() {
     assert_eq!(film, Film { samples: 0, ..poster });
 }
 
-/// What the looser of the two bounds makes of the lecture's scene once `change` went wrong in it.
+/// Returns the ratio to the looser of the two bounds for the lecture's scene with a fault planted by `change`.
 fn planted(change: impl Fn(&mut Scene)) -> Result<(), String> {
     let right = sized("lecture", [128, 128]);
     let mut wrong = right.clone();
@@ -245,7 +246,7 @@ fn a_missing_row_order_fails() {
     assert!(planted(|s| s.textures.iter_mut().for_each(|t| t.flip_v = false)).is_err());
 }
 
-/// The ground lit as if nothing stood on it, the rest as it is.
+/// The ground is lit as if nothing stood on it, the rest is unchanged.
 #[test]
 fn a_missing_shadow_fails() {
     let right = sized("lecture", [128, 128]);

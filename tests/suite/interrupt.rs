@@ -27,7 +27,7 @@ fn endless(folder: &Path, select: &str) -> Running {
     Running::start(&mut command)
 }
 
-/// Interrupts it, and tells how it ended.
+/// Interrupts it, and returns how it ended.
 fn interrupted(select: &str) {
     let folder = tempdir().unwrap();
     let mut render = endless(folder.path(), select);

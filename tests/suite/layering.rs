@@ -1,6 +1,6 @@
-//! Which room may use which, read off the sources, by a list of what is allowed: Vulkan and `unsafe` in `gpu`
-//! only, the oracle apart from what it checks, every file with its one doc comment and of a size that can
-//! be read. The checker itself is shown planted violations.
+//! The uses between rooms, by the sources, with an allow-list: Vulkan and `unsafe` in `gpu` only, the oracle separate
+//! from the code that it checks, every file with its doc comment and of readable size. The checker itself is tested
+//! with planted violations.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -8,11 +8,11 @@ use std::path::{Path, PathBuf};
 use crate::sources::{crate_paths, tokens, undocumented_unsafe};
 use crate::support;
 
-/// More lines than this want a second file.
+/// Longer files should be split.
 const MAX_LINES: usize = 330;
 
-/// (room, all that it may use of the crate beside itself), lowest first. A room is a folder of `src`, or of one
-/// that [`SPLIT`] names; what is not listed is not allowed, so that a new room has to be entered here.
+/// (room, everything in the crate that it may use beside itself), lowest first. A room is a folder of `src`, or of one
+/// that [`SPLIT`] names; anything that is not listed is forbidden, so that a new room has to be entered here.
 pub const ALLOWED: &[(&str, &[&str])] = &[
     ("core", &[]),
     ("schema", &["core"]),
@@ -88,7 +88,7 @@ pub const ALLOWED: &[(&str, &[&str])] = &[
 /// Folders whose own folders are the rooms.
 const SPLIT: &[&str] = &["lab"];
 
-/// The room of a file below `src`, or of a path into the crate.
+/// Returns the room of a file below `src`, or of a path into the crate.
 fn room_of(parts: &[&str]) -> String {
     match parts {
         [first, second, ..] if SPLIT.contains(first) => format!("{first}::{second}"),
@@ -97,7 +97,8 @@ fn room_of(parts: &[&str]) -> String {
     }
 }
 
-/// Whether a room may use a path of the crate. The crate's own files, `lib.rs`, `main.rs` and what they declare, are of no room.
+/// Returns true if a room may use a path of the crate. The crate's own files, `lib.rs`, `main.rs` and the files that
+/// they declare, belong to no room.
 fn may_use(room: &str, used: &str) -> bool {
     let parts: Vec<&str> = used.split("::").collect();
     if room_of(&parts) == room || ["lib", "main", "internal", "model"].contains(&room) {
@@ -116,7 +117,7 @@ pub fn module_of(path: &str) -> Vec<&str> {
     path.split('/').filter(|part| *part != "mod").collect()
 }
 
-/// What is wrong with one source file; `path` is relative to the folder of `src` and `glsl`.
+/// Returns the violations of one source file; `path` is relative to the folder of `src` and `glsl`.
 fn violations(path: &str, text: &str) -> Vec<String> {
     let mut found = Vec::new();
     let mut complain = |line: usize, what: String| found.push(format!("{path}:{line}: {what}"));

@@ -1,6 +1,6 @@
-//! What host and device share comes from the tables of `src/schema`; here is tested what still can go wrong: bytes
-//! that lie elsewhere than the packing rule says, constants that no shader has or that keep less than everything,
-//! descriptors that differ between shaders, and that a shader of every family is found.
+//! The declarations shared by host and device come from the tables of `src/schema`; these tests cover the remaining
+//! faults: bytes at other positions than the packing rule's, constants that no shader has or that default to less than
+//! everything, descriptors that differ between shaders, and that a shader of every family is found.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -9,8 +9,9 @@ use moire::internal::gpu::BindingKind;
 use moire::internal::gpu::shaders::{self, Shader};
 use moire::internal::pack::features;
 use moire::internal::schema::blocks::{CellRange, Halving, Job, PositionRange, QueryRange, Slice};
-use moire::internal::schema::enums::{BumpKind, LightKind, Model, Reals, TexelSource};
+use moire::internal::schema::enums::{BumpKind, LightKind, Reals, TexelSource};
 use moire::internal::schema::layout::{Light, Material, Plane, RealBits, Record, Triangle};
+use moire::internal::schema::models::Model;
 use moire::internal::schema::packing::{Kind, Packer, Place, shape};
 use moire::internal::schema::specialization::{self, Constant};
 
@@ -80,7 +81,7 @@ fn records_are_written_as_the_rule_says() {
         [f(15.0), 0, 0, 0],
     ];
     assert_eq!(Material::UNITS, (0, 5));
-    // Without reals, whatever they are.
+    // Without reals, whatever their precision.
     assert_eq!(words(&material, false), expected.concat());
     assert_eq!(words(&material, true), expected.concat());
 
@@ -137,7 +138,7 @@ fn blocks_of_words_have_no_gaps() {
     assert_eq!(size_of::<PositionRange>(), 20);
 }
 
-/// What is wrong with the constants of a shader.
+/// Returns the faults in the constants of a shader.
 fn complaints(shader: &Shader) -> Vec<String> {
     let mut found = Vec::new();
     let mut ids = BTreeSet::new();

@@ -13,15 +13,16 @@ use crate::stage::{
 
 every_scene! { same_bits_whatever_is_left_out_of: super::same_bits_whatever_is_left_out }
 
-/// A texel of an image is converted by the device, one of a buffer by the shader: k / 255 to within an
-/// ulp each, which a mean of samples keeps. Of a relief the differences of neighbours count, over a texel,
-/// and a highlight raises what they turn to a power.
+/// A texel of an image is converted by the device, one of a buffer by the shader: k / 255 to within an ulp each, which
+/// a mean of samples preserves. A bump map uses differences of neighbours, over a texel, and a highlight raises them to
+/// a power.
 ///
-/// Pipelines with everything take seconds to compile on a CPU device: they are built for scenes that between them
-/// use every feature, from images for those that read images in a way of their own.
-const FULL: [&str; 15] = [
+/// Pipelines with everything take seconds to compile on a CPU device: they are built for scenes that between them use
+/// every feature, from images for those that read images differently.
+const FULL: [&str; 16] = [
     "beams",
     "cones",
+    "discs",
     "environment",
     "filters",
     "glass",
@@ -174,7 +175,7 @@ fn slices_change_no_bit() {
     assert_same_bits(&part, &cut(&full, crop), "slices");
 }
 
-/// On a CPU device a film this wide takes several bands.
+/// On a CPU device a film of this width takes several bands.
 #[test]
 fn bands_change_no_bit() {
     let mut scene = scene("quad");
@@ -204,8 +205,8 @@ fn many_samples_are_summed_as_the_oracle_sums_them() {
     );
 }
 
-/// One f32 sum of 2²⁰ copies of 0.1 is off by a hundredth of itself. Chunks are plain sums of 256,
-/// each addition rounding by at most 2⁻²⁴; adding the chunks must not lose anything more.
+/// One f32 sum of 2²⁰ copies of 0.1 is off by a hundredth of itself. Blocks are plain sums of 256, each addition
+/// rounding by at most 2⁻²⁴; adding the blocks must not lose anything more.
 #[test]
 fn a_constant_stays_constant_over_a_million_samples() {
     let mut scene = with_random(small("quad", 4, 1), 1 << 20);

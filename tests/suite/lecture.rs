@@ -40,8 +40,8 @@ fn packed(text: &str) -> PackedScene {
     moire::internal::pack::pack(&scene, textures, None).unwrap()
 }
 
-/// (point, its texture coordinate) by map 0 of the oracle; and on the device where a ray along
-/// `way` meets the scene at that point.
+/// Returns (point, its texture coordinate) by mapping 0 of the oracle; and on the device for a ray along `way` that
+/// meets the scene at that point.
 fn assert_mapped(scene: &PackedScene, way: impl Fn(DVec3) -> DVec3, cases: &[(DVec3, DVec2)]) {
     let query = |&(point, _): &(DVec3, DVec2)| {
         let way = way(point);
@@ -233,7 +233,7 @@ fn parallel_camera_rays() {
     );
 }
 
-/// The one pixel of a picture, by oracle and by device, both ways of building the pipeline.
+/// Returns the only pixel of a picture, by oracle and by device, with lean and full pipelines.
 fn assert_radiance(what: &str, text: &str, by_hand: DVec3) {
     let scene = packed(text);
     let mut films: Vec<(&str, Film)> =
@@ -294,7 +294,7 @@ fn lambert_under_a_directional_light() {
     assert_radiance("directional", &text, DVec3::new(0.5 * 5.0, 0.25 * 10.0, 20.0) * 0.8 / PI);
 }
 
-/// A mirror sends its colour times what the mirrored ray sees; without a bounce left, black.
+/// A mirror returns its colour times the radiance of the reflected ray; black beyond the last bounce.
 #[test]
 fn mirrors_reflect_and_end() {
     // d − 2 (d·n) n: (1, −1, 0) at n = (0, 1, 0) goes on as (1, 1, 0); at n = (0.6, 0.8, 0),

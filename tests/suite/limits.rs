@@ -20,7 +20,7 @@ fn outcome(text: &str) -> Result<(), String> {
     }
 }
 
-/// (scene with `N` for the number, allowed, refused, what the message must hold).
+/// (scene with `N` for the number, allowed, refused, text that the message must contain).
 type Rule = (&'static str, &'static [&'static str], &'static [&'static str], &'static str);
 
 const RULES: &[Rule] = &[

@@ -8,7 +8,7 @@ mod lanczos;
 mod planted;
 mod shader;
 
-/// The first complaints, and how many there are.
+/// Returns the first failures, and their number.
 fn assert_none(complaints: &[String], of: usize) {
     let first = complaints.iter().take(5).cloned().collect::<Vec<_>>().join("\n");
     assert!(complaints.is_empty(), "{} of {of} look-ups are wrong:\n{first}", complaints.len());

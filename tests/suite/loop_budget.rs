@@ -10,7 +10,7 @@ use moire::internal::texture::sampler_spec::{Filter, MipMode};
 use crate::lookup::bench::Rng;
 use crate::stage::{device, packed, render, render_on_oracle, scene, small};
 
-/// So many small triangles in front of the lecture's scene.
+/// This number of small triangles in front of the lecture's scene.
 fn crowd(count: usize) -> Scene {
     let mut scene = small("lecture", 32, 4);
     scene.shapes.spheres.clear();
@@ -62,7 +62,7 @@ fn a_sample_that_alone_is_too_long_is_refused() {
     let told = render::render(&device(), scene, false, &Tuning::default(), &NoProgress);
     if device().info().kind == DeviceKind::Cpu {
         let message = told.unwrap_err().to_string();
-        assert!(message.contains("65535 turns"), "{message}");
+        assert!(message.contains("65535 iterations"), "{message}");
     } else {
         told.unwrap();
     }

@@ -22,6 +22,7 @@ mod device;
 mod device_shaders;
 mod diagnostics;
 mod dimensions;
+mod discs;
 #[cfg(unix)]
 mod docs;
 mod doors;

@@ -113,7 +113,7 @@ fn every_deep_srgb_code_is_averaged_as_on_the_host() {
     }
 }
 
-/// Every pair of two sRGB codes; their mean is looked up in the table of middles.
+/// Every pair of two sRGB codes; their mean is looked up in the table of midpoints.
 #[test]
 fn every_pair_of_srgb_codes_is_averaged_as_on_the_host() {
     let gpu = device();

@@ -111,7 +111,7 @@ fn srgb_is_averaged_as_light() {
     assert_eq!(level1(Grey16, ColorSpace::Linear, &pair), 15500u16.to_ne_bytes());
 }
 
-/// No material takes alpha for coverage: a colour counts whatever its alpha, and alpha is a mean of its own.
+/// No material interprets alpha as coverage: a colour counts whatever its alpha, and alpha is averaged separately.
 #[test]
 fn alpha_is_a_channel_like_the_others() {
     use TexelFormat::{GreyAlpha8, Rgba8, RgbaFloat};
@@ -142,7 +142,7 @@ fn the_kaiser_kernel_is_sharper_and_aliases_less_than_the_box() {
         let wave = |i: u32| (std::f64::consts::TAU * f64::from(i) / period).sin() as f32;
         let t = floats(TWO, [256, 1, 1], &(0..256).map(wave).collect::<Vec<_>>());
         let level = mip_chain(&t, kernel).swap_remove(0);
-        // Away from the border, whose texels go on as they are.
+        // Away from the border, whose texels are repeated.
         (16..112).map(|x| level.value(x, 0, 0).abs()).fold(0.0, f64::max)
     };
     for (period, kernel, gain) in [

@@ -57,7 +57,7 @@ fn folder(scene: &str, texture: &Film) -> TempDir {
     folder
 }
 
-/// Exit code, what it reported, and what it said.
+/// Returns exit code, report and messages.
 fn run(folder: &TempDir, options: &[&str]) -> (Option<i32>, Value, String) {
     let device = ["--device".to_string(), device_name()];
     let device = if options.contains(&"--device") { &[][..] } else { &device[..] };
@@ -160,7 +160,7 @@ radius = 0.3
 material = 'ball'
 ";
 
-/// A texture that differs from another in one texel changes what shows it: there a NaN is seen, and there only.
+/// A texture with one different texel changes the pixels that show it: these are NaN, and no others.
 #[test]
 fn lit_and_mirrored_texels_that_are_no_numbers_are_seen_by_samples_and_by_cones() {
     let scene = format!("{}{LIT}", SCENE.replace("model = 'unlit'", "model = 'lambert'"));
@@ -179,7 +179,7 @@ fn lit_and_mirrored_texels_that_are_no_numbers_are_seen_by_samples_and_by_cones(
             let pixels = || films[0].pixels.iter().zip(&films[1].pixels).zip(&films[2].pixels);
             let leaks = pixels().filter(|((nan, a), b)| !finite(nan) && a == b).count();
             let spoilt = pixels().filter(|((nan, _), _)| !finite(nan)).count();
-            // Mirrored small the texel is part of coarser ones, which are means over the others.
+            // In a small reflection the texel is part of coarser ones, which are means over the others.
             let means = pixels().filter(|((nan, a), b)| finite(nan) && a != b).count();
             assert_eq!(leaks, 0, "{options:?}: of {spoilt}");
             assert!(spoilt > 8 && means < spoilt, "{options:?}: {spoilt} spoilt, {means} changed");
@@ -207,13 +207,13 @@ fn negative_texels_are_as_far_below_0_as_positive_ones_are_above() {
         });
         assert!(films[0].pixels.iter().flatten().any(|v| *v > 0.1), "a black picture");
         for (a, b) in films[0].pixels.iter().flatten().zip(films[1].pixels.iter().flatten()) {
-            // Beams hold texels as steps of 2^-16 of their range, times light of up to 10.
+            // Beams store texels in steps of 2^-16 of their range, times light of up to 10.
             assert!((a + b).abs() <= 2e-4 * a.abs().max(1.0), "{options:?}: {a} and {b}");
         }
     }
 }
 
-/// Pixels that are no numbers have no error that samples could lower.
+/// Pixels that are NaN or infinite have no error that samples could lower.
 #[test]
 fn sampling_to_a_goal_ends_beside_pixels_that_are_no_numbers() {
     let folder = folder(&SCENE.replace("nearest", "linear"), &measured(f32::NAN, f32::INFINITY));
@@ -227,7 +227,7 @@ fn sampling_to_a_goal_ends_beside_pixels_that_are_no_numbers() {
         assert_eq!(code, Some(0), "{options:?}: {said}");
         let reached = &report["reached"];
         assert!(reached["estimated_rmse"].as_f64().is_some_and(f64::is_finite), "{options:?}: {reached}");
-        // A picture without noise takes fewer samples than there is time for.
+        // A picture without noise takes fewer samples than the time allows.
         let timed = options.contains(&"--budget");
         assert!(timed || reached["reached"] == true, "{options:?}: {reached}");
         let spoilt = picture(&folder).pixels.iter().filter(|p| !finite(p)).count();
@@ -254,26 +254,26 @@ fn a_level_is_the_mean_of_the_texels_that_are_numbers() {
     let nan = f32::NAN;
     let grey = texture(TexelFormat::GreyFloat, [4, 2], &[1.0, nan, nan, nan, 3.0, 5.0, f32::INFINITY, nan]);
     assert_eq!(grey.nonfinite_texels(), 5);
-    let levels = mips::pyramid_of_finite(&grey);
+    let levels = mips::mip_chain_of_finite(&grey);
     assert_eq!((levels[0].value(0, 0, 0), levels[1].value(0, 0, 0)), (3.0, 3.0));
     assert!(levels[0].value(1, 0, 0).is_nan(), "a mean of nothing");
-    // A texel without one channel counts in none.
+    // A texel with one bad channel counts in no channel.
     let color = texture(
         TexelFormat::RgbaFloat,
         [2, 2],
         &[2.0, 1.0, 0.0, 0.25, 4.0, 1.0, 0.0, 0.75, 9.0, nan, 9.0, 1.0, 8.0, 8.0, 8.0, 0.0],
     );
-    let level = &mips::pyramid_of_finite(&color)[0];
+    let level = &mips::mip_chain_of_finite(&color)[0];
     let expected = [14.0 / 3.0, 10.0 / 3.0, 8.0 / 3.0, 1.0 / 3.0];
     for (c, expected) in expected.into_iter().enumerate() {
         // A rounding of f32 each for sum, share and quotient.
         assert!((level.value(0, 0, c) - expected).abs() < 1e-6, "{c}: {}", level.value(0, 0, c));
     }
-    // Without such texels it is the mip chain of all others.
+    // Without such texels it equals the ordinary mip chain.
     let plain =
         moire::internal::lab::verify::queries::texture(13, 6, TexelFormat::RgbaFloat, ColorSpace::Linear, 3);
     let usual = mips::mip_chain(&plain, MipKernel::Box);
-    for (a, b) in mips::pyramid_of_finite(&plain).iter().zip(&usual) {
+    for (a, b) in mips::mip_chain_of_finite(&plain).iter().zip(&usual) {
         let values = |t: &TextureData| bytemuck::pod_collect_to_vec::<u8, f32>(&t.texels);
         for (a, b) in values(a).iter().zip(values(b)) {
             assert!((a - b).abs() <= 4.0 * f32::EPSILON * 8.0, "{a} and {b}"); // sums over shares of 1, up to 8

@@ -9,14 +9,14 @@ use image::codecs::jpeg::JpegEncoder;
 use image::{GrayImage, ImageFormat};
 use moire::internal::texture::data::{Dimension, TextureData};
 use moire::internal::texture::load::load;
-use moire::internal::texture::source::{OrientationUse, Reading, TextureContent};
+use moire::internal::texture::source::{OrientationUse, ReadOptions, TextureContent};
 use tempfile::tempdir;
 
 use crate::support::texture_source;
 
 const WIDTH: u32 = 24;
 const HEIGHT: u32 = 16;
-/// What is to be seen, in quarters from the top left, whatever the file holds.
+/// The visible picture, in quarters from the top left, whatever the file stores.
 const QUARTERS: [u8; 4] = [0, 80, 160, 240];
 
 fn quarters(width: u32, height: u32) -> GrayImage {
@@ -26,7 +26,7 @@ fn quarters(width: u32, height: u32) -> GrayImage {
     })
 }
 
-/// The picture as a camera with this orientation stores it: turned back, by the crate's own functions.
+/// The picture as a camera with this orientation stores it: rotated back by the crate's own functions.
 fn stored(tag: u8) -> GrayImage {
     use image::imageops::{flip_horizontal, flip_vertical, rotate90, rotate180, rotate270};
     let seen = quarters(WIDTH, HEIGHT);
@@ -100,7 +100,7 @@ fn tiff(folder: &Path, tag: u8) -> PathBuf {
 }
 
 fn texture(content: TextureContent, dimension: Dimension, orientation: OrientationUse) -> TextureData {
-    let reading = Reading { orientation, ..Reading::default() };
+    let reading = ReadOptions { orientation, ..ReadOptions::default() };
     load(&texture_source(content, dimension, reading)).unwrap()
 }
 

@@ -185,7 +185,7 @@ fn unwritable_places_are_refused_before_and_while_writing() {
     assert_eq!(names(folder.path()), ["dir.png", "file"]);
 }
 
-/// Not even root creates files there.
+/// Not even root can create files there.
 #[cfg(target_os = "linux")]
 #[test]
 fn folder_that_takes_no_files_is_not_writable() {

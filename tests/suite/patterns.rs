@@ -16,7 +16,7 @@ use moire::internal::pack::PackedScene;
 use moire::internal::scene::model::Pattern;
 use moire::internal::schema::layout::Header;
 
-/// All that have points of their own in each pixel.
+/// All patterns with different points in each pixel.
 const SCATTERED: [Pattern; 7] = [
     Pattern::Random,
     Pattern::Stratified,
@@ -53,7 +53,7 @@ fn set(pattern: Pattern, samples: u32, seed: u32, pixel: [u32; 2], pair: u32) ->
     (0..samples).map(|s| sample_pair(&points, s)).collect()
 }
 
-/// In [0, 1), in the middle of their steps of 2⁻²⁴.
+/// Converts to [0, 1), at the centre of the steps of 2⁻²⁴.
 fn unit(positions: &[[u32; 2]]) -> Vec<[f64; 2]> {
     positions.iter().map(|p| p.map(|x| (f64::from(x) + 0.5) / f64::from(1 << 24))).collect()
 }

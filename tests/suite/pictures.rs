@@ -13,9 +13,9 @@ use std::path::{Path, PathBuf};
 
 use moire::internal::core::error::Result;
 use moire::internal::texture::data::{Dimension, TextureData};
-use moire::internal::texture::decode::Values;
-use moire::internal::texture::load::load_noted;
-use moire::internal::texture::source::{Reading, TextureContent};
+use moire::internal::texture::decode::AllowedFloats;
+use moire::internal::texture::load::load_with_notes;
+use moire::internal::texture::source::{ReadOptions, TextureContent};
 use tempfile::tempdir;
 
 use crate::support::{data, texture_source, told};
@@ -26,8 +26,8 @@ fn fixture(name: &str) -> PathBuf {
 
 /// The texture, and the notes on how its file was read.
 fn load(path: &Path, dimension: Dimension) -> Result<(TextureData, Vec<String>)> {
-    let source = texture_source(TextureContent::File(path.to_path_buf()), dimension, Reading::default());
-    load_noted(&source, Values::Finite)
+    let source = texture_source(TextureContent::File(path.to_path_buf()), dimension, ReadOptions::default());
+    load_with_notes(&source, AllowedFloats::Finite)
 }
 
 fn load_bytes(bytes: &[u8]) -> Result<(TextureData, Vec<String>)> {
@@ -37,7 +37,7 @@ fn load_bytes(bytes: &[u8]) -> Result<(TextureData, Vec<String>)> {
     load(&path, Dimension::Two)
 }
 
-/// The message refuses the file for this, and does not send the user for another copy.
+/// Expects a message that refuses the file for this reason, without advice to get another copy.
 fn assert_refused_as(bytes: &[u8], name: &str) {
     let message = told(load_bytes(bytes));
     assert!(message.contains(name) && message.contains("is not read"), "{name}: {message}");

@@ -13,7 +13,7 @@ use moire::internal::pack::{self, PackedScene, kernel};
 use moire::internal::scene::model::{Pattern, PixelFilter, PixelFilterKind, Scene};
 use moire::internal::scene::parse;
 
-/// All but the pixel's own square.
+/// All filters except the box of one pixel.
 fn filters() -> Vec<PixelFilter> {
     let own = PixelFilterKind::ALL.iter().filter(|k| **k != PixelFilterKind::Box);
     let mut all: Vec<PixelFilter> = own.map(|&kind| PixelFilter::new(kind, None)).collect();

@@ -18,7 +18,7 @@ use crate::lookup::bench::Rng;
 const HARD_EDGED: [ProceduralKind; 4] =
     [ProceduralKind::Checker, ProceduralKind::Stripes, ProceduralKind::Grid, ProceduralKind::Brick];
 
-/// A record with the defaults of its kind but for what `change` sets.
+/// A record with the defaults of its kind, except as set by `change`.
 fn record(kind: ProceduralKind, change: impl Fn(&mut Procedural)) -> layout::Procedural {
     let mut texture = Procedural::new(kind);
     change(&mut texture);

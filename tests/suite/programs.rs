@@ -12,16 +12,16 @@ use tempfile::tempdir;
 use crate::layering::{files_under, source_root};
 use crate::support::{data, untested};
 
-/// What the sources may start: the program under test, the tests themselves, `setup.sh` by the shell that it is
-/// written for, and what a test does without where it is missing.
+/// The programs that the sources may start: the program under test, the tests themselves, `setup.sh` by the shell for
+/// which it is written, and programs without which a test is skipped.
 const STARTED: &[&str] = &["program()", "current_exe()", "\"bash\"", "\"chromium\"", "\"spirv-val\""];
-/// What of all that Debian calls essential `setup.sh` uses.
+/// The essential programs of Debian that `setup.sh` uses.
 const ESSENTIAL: &[&str] = &[
     "bash", "cut", "dirname", "env", "find", "grep", "head", "id", "mkdir", "mktemp", "mv", "rm", "sort",
     "uname",
 ];
 
-/// What stands in the parentheses that open at the start.
+/// Returns the text in the parentheses that open at the start.
 fn argument(text: &str) -> &str {
     let mut depth = 1;
     let closes = |&(_, c): &(usize, char)| {
@@ -31,7 +31,7 @@ fn argument(text: &str) -> &str {
     &text[..text.char_indices().find(closes).map_or(text.len(), |(end, _)| end)]
 }
 
-/// Programs of a source that are on no list, and children that nothing ends.
+/// Returns the programs of a source that are on no list, and children that nothing ends.
 fn strangers(text: &str, is_guard: bool) -> Vec<String> {
     let known = |argument: &&str| STARTED.iter().any(|name| argument.contains(name));
     let calls = text.split("Command::new(").skip(1).map(argument);
@@ -75,8 +75,8 @@ fn found_in_path(name: &str) -> Option<PathBuf> {
     std::env::split_paths(&path).map(|folder| folder.join(name)).find(|file| file.is_file())
 }
 
-/// Runs `setup.sh` in a folder of its own where there are but the essential programs and stand-ins for those
-/// that it installs; `dpkg` is how dpkg-query answers. None where the script or an essential program is missing.
+/// Runs `setup.sh` in a folder of its own with only the essential programs and stand-ins for those that it installs;
+/// `dpkg` is the answer of dpkg-query. `None` if the script or an essential program is missing.
 fn set_up(dpkg: &str, options: &[(&str, &str)]) -> Option<Output> {
     let original = data().join("../setup.sh");
     let essential: Option<Vec<PathBuf>> = ESSENTIAL.iter().map(|name| found_in_path(name)).collect();
@@ -99,7 +99,7 @@ fn set_up(dpkg: &str, options: &[(&str, &str)]) -> Option<Output> {
     // Like the real one it takes names up to the first blank.
     script(&bin.join("ar"), "read -r create name rest\n[ -z \"$rest\" ] && : >\"$name\"");
     script(&bin.join("g++"), "while read -r line; do :; done");
-    // What rustup writes there expects a home; a path into it would find programs that happen to be there.
+    // rustup's files expect a home; a path into it would find programs that happen to be there.
     script(&checkout.join("env"), ": \"$HOME\"");
     let output = Command::new("bash")
         .arg(checkout.join("setup.sh"))

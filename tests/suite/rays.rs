@@ -5,15 +5,16 @@
 use glam::{DVec2, DVec3};
 use moire::internal::lab::probe::{self, RayAnswer, RayQuery};
 use moire::internal::oracle::camera::Ray;
+use moire::internal::oracle::geometry::hit::Surface;
 use moire::internal::oracle::geometry::rays::hit_surface;
 use moire::internal::oracle::geometry::rays::{Hit, nearest_hit, occluded};
 use moire::internal::oracle::mapping::{MapInput, texture_coordinate};
 use moire::internal::pack::{MapKind, PackedScene};
-use moire::internal::schema::layout::NO_SHAPE;
+use moire::internal::schema::layout::{NO_SHAPE, UvProjection};
 
 use crate::lookup::bench::Rng;
 use crate::stage::device;
-use bounds::{Estimate, U, estimate};
+use bounds::{Estimate, U, disc_of, disc_own_error, estimate};
 
 mod bounds;
 mod scenes;
@@ -26,12 +27,12 @@ fn ray_of(query: &RayQuery) -> Ray {
     Ray { origin: widened(&query.origin), direction: widened(&query.direction), time: query.origin[3].into() }
 }
 
-/// What the comparison of one scene found.
+/// The result of the comparison of one scene.
 #[derive(Default, Debug)]
 struct Tally {
     rays: usize,
     hits: usize,
-    /// Another shape than the oracle's, where rounding decides: silhouettes, edges, equal distances.
+    /// A different shape from the oracle's, if rounding decides: silhouettes, edges, equal distances.
     undecided: usize,
     wrong: Vec<String>,
 }
@@ -66,7 +67,7 @@ impl Tally {
     }
 }
 
-/// The device's shape, where rounding cannot explain that it is not the oracle's.
+/// Returns the device's shape, if rounding cannot explain that it differs from the oracle's.
 fn wrong_shape(hit: &Hit, answer: &RayAnswer, estimates: &[Estimate]) -> Option<String> {
     if hit.shape == answer.shape {
         return None;
@@ -116,7 +117,7 @@ fn wrong_hit(
 
 fn wrong_uv(
     scene: &PackedScene,
-    surface: &moire::internal::oracle::geometry::hit::Surface,
+    surface: &Surface,
     answer: &RayAnswer,
     point_error: f64,
     weights: f64,
@@ -139,6 +140,9 @@ fn wrong_uv(
     let kind = map.kind;
     let (tolerance, turn) = match kind {
         MapKind::Affine => (DVec2::splat(row_error), DVec2::ZERO),
+        MapKind::Plane if disc_of(scene, answer.shape).is_some() => {
+            disc_uv_tolerance(scene, map, disc_of(scene, answer.shape).unwrap(), surface, point_error)
+        }
         MapKind::Plane => {
             let plane = &scene.records.planes[answer.shape as usize];
             // Products and sums of an axis, then of the matrix, on top of the error of the point.
@@ -177,6 +181,29 @@ fn wrong_uv(
     let fits = |period: DVec2| (got - expected + period).abs().cmple(tolerance).all();
     let right = fits(DVec2::ZERO) || fits(turn) || fits(-turn);
     (!right).then(|| format!("{kind} uv {got}, oracle {expected}, {tolerance} allowed"))
+}
+
+/// Errors of both texture coordinates on a disc, and what a whole turn of the angle changes.
+fn disc_uv_tolerance(
+    scene: &PackedScene,
+    map: &UvProjection,
+    index: usize,
+    surface: &Surface,
+    point_error: f64,
+) -> (DVec2, DVec2) {
+    let own = disc_own_error(scene, index, surface.point, point_error);
+    let m = [map.m00, map.m01, map.m10, map.m11];
+    let times = |v: DVec2| DVec2::new(m[0] * v.x + m[1] * v.y, m[2] * v.x + m[3] * v.y);
+    let wide = |v: DVec2| {
+        DVec2::new(m[0].abs() * v.x + m[1].abs() * v.y, m[2].abs() * v.x + m[3].abs() * v.y)
+            + 8.0 * U * (DVec2::ONE + map.offset.abs())
+    };
+    if !scene.records.discs[index].is_polar {
+        return (wide(DVec2::splat(0.5 * own)), DVec2::ZERO);
+    }
+    // The angle by an error across the radius; 2e-7 for the polynomial and its steps.
+    let angle = (own / (std::f64::consts::TAU * surface.own_uv.y)).min(1.0) + 2e-7;
+    (wide(DVec2::new(angle, 1.5 * own)), times(DVec2::X))
 }
 
 fn compare(scene: &PackedScene, queries: &[RayQuery], keep_everything: bool) -> Tally {
@@ -228,6 +255,15 @@ fn triangles_flat_and_smooth() {
         let mut rng = Rng::new(seed + 300);
         let scene = scenes::triangles(&mut rng);
         assert_agrees(&format!("triangles {seed}"), &scene, &scenes::rays(&mut rng, 4000), seed == 0);
+    }
+}
+
+#[test]
+fn discs_planar_and_polar() {
+    for seed in 0..3 {
+        let mut rng = Rng::new(seed + 700);
+        let scene = scenes::discs(&mut rng);
+        assert_agrees(&format!("discs {seed}"), &scene, &scenes::rays(&mut rng, 4000), seed == 0);
     }
 }
 

@@ -14,11 +14,11 @@ use moire::internal::texture::data::{ColorSpace, Dimension, TexelFormat, Texture
 use crate::stage::{device_name, packed, small};
 use crate::support::untested;
 
-/// Compiling anew takes a third or more of what building a pipeline took; without it, a hundredth.
+/// Recompiling takes a third or more of the time of building a pipeline; without it, a hundredth.
 const MOST: f64 = 0.1;
 
-/// A device of its own: tests that share one wait for each other, which would look like compiling, and each keeps the
-/// pipelines that it has built. None but a CPU's drivers compile for so long that times tell anything.
+/// A separate device: tests that share one wait for each other, which would look like compiling, and each keeps the
+/// pipelines that it has built. Only CPU drivers compile for so long that times show anything.
 fn cpu() -> Option<Gpu> {
     let gpu = Gpu::open(&DeviceSelect::parse(&device_name()).unwrap()).unwrap();
     if gpu.info().kind != DeviceKind::Cpu {
@@ -28,7 +28,7 @@ fn cpu() -> Option<Gpu> {
     Some(gpu)
 }
 
-/// The least of some numbers: other tests share the cores.
+/// Returns the least of several measurements: other tests share the cores.
 fn least<T>(of: impl IntoIterator<Item = T>, act: impl FnMut(T) -> f64) -> f64 {
     of.into_iter().map(act).fold(f64::INFINITY, f64::min)
 }
@@ -51,7 +51,7 @@ fn share(name: &str, algorithm: Algorithm, keep_everything: bool) -> Option<f64>
     let build = least(&gpus, |gpu| {
         let session = Session::open(gpu, scene.clone(), keep_everything, &Tuning::default()).unwrap();
         let prepared = session.prepare().unwrap();
-        // Beams build the pipeline of what they leave to samples when they find it.
+        // Beams build the pipeline of pixels left to samples when they find one.
         let (_, report) = prepared.render(&NoProgress).unwrap();
         again = least(0..20, |_| seconds(|| drop(prepared.render(&NoProgress).unwrap())));
         report.seconds.compile

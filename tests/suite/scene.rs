@@ -15,7 +15,7 @@ use moire::internal::scene::model::*;
 use moire::internal::scene::{load, parse};
 use moire::internal::texture::data::ColorSpace;
 use moire::internal::texture::sampler_spec::{Address, Filter, Method, MipMode, SamplerSpec, TexelCenter};
-use moire::internal::texture::source::{OrientationUse, Reading};
+use moire::internal::texture::source::{OrientationUse, ReadOptions};
 
 const HEAD: &str = "\
 [camera]
@@ -153,7 +153,7 @@ fn keys_left_out_have_the_documented_defaults() {
     let texture = &scene.textures[0];
     assert_eq!(texture.content.files(), ["scenes/t.png"].map(Path::new));
     assert_eq!((texture.color_space, texture.flip_v), (ColorSpace::Linear, false));
-    assert_eq!((texture.color_space_stated, &texture.reading), (false, &Reading::default()));
+    assert_eq!((texture.color_space_stated, &texture.reading), (false, &ReadOptions::default()));
     assert_eq!(texture.reading.orientation, OrientationUse::Apply);
     let sampler = SamplerSpec {
         address: [Address::Repeat; 2],
@@ -208,7 +208,7 @@ fn every_key_of_a_full_scene_arrives() {
     let [ground, plain] = scene.textures.as_slice() else { panic!("two textures") };
     assert_eq!(ground.content.files(), ["scenes/textures/grass.png"].map(Path::new));
     assert_eq!((ground.color_space, ground.flip_v), (ColorSpace::Srgb, true));
-    let reading = Reading { orientation: OrientationUse::Ignore, layer: Some("diffuse".into()) };
+    let reading = ReadOptions { orientation: OrientationUse::Ignore, layer: Some("diffuse".into()) };
     assert_eq!((ground.color_space_stated, &ground.reading), (true, &reading));
     assert_eq!(plain.content.files(), ["/absolute/plain.png"].map(Path::new));
 
@@ -279,8 +279,8 @@ fn orthographic_cameras_and_every_name_of_the_vocabulary_parse() {
     }
 }
 
-/// The keys that a message lists as allowed are those that the section reads: each is refused by
-/// its name when its value is a date, a type that no key takes.
+/// The keys that a message lists as allowed are those that the section reads: each is refused by its name if its value
+/// is a date, a type that no key accepts.
 #[test]
 fn every_key_listed_as_allowed_is_read() {
     let material = "[[texture]]\nname = 't'\nfile = 't'\n[[material]]\nname = 'm'\n";
@@ -365,7 +365,7 @@ fn unreadable_scene_files_say_which_and_why() {
     assert!(matches!(error, Error::Plain { help: Some(help), .. } if help.contains("UTF-8")));
 }
 
-/// A wide bound against look-ups whose cost grows with the square of the number of names.
+/// A loose bound that still fails for look-ups of quadratic cost in the number of names.
 #[test]
 fn ten_thousand_triangles_parse_in_well_under_two_seconds() {
     let mut text = HEAD.to_owned();

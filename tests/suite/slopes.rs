@@ -12,7 +12,7 @@ use crate::support::data;
 
 const COUNTS: [u32; 7] = [4, 9, 16, 36, 64, 144, 256];
 const SEEDS: u32 = 3;
-/// Of each interval. Six are asked, so that one in 17 sets of seeds would have one outside.
+/// Confidence of each interval. Six are computed, so that one in 17 sets of seeds would have one outside.
 const CONFIDENCE: f64 = 0.99;
 
 fn film(name: &str, pattern: Pattern, spp: u32, seed: u32) -> Film {
@@ -30,7 +30,7 @@ fn converged(name: &str) -> Film {
 
 /// Squared errors of blocks of the pictures of all seeds.
 fn errors(name: &str, reference: &Film, pattern: Pattern, spp: u32) -> Vec<f32> {
-    // Another seed at each count: sequences and strata of two counts have nothing in common.
+    // A different seed for each count: sequences and strata of two counts are then independent.
     let seeds = (0..SEEDS).map(|k| 10 * spp + k);
     seeds.flat_map(|seed| blocks(&film(name, pattern, spp, seed), reference)).collect()
 }
@@ -89,7 +89,7 @@ fn interval_of(all: &[Vec<f32>], confidence: f64) -> [f64; 2] {
     interval(&points, confidence).unwrap()
 }
 
-/// 95 of 100 intervals hold the slope that was planted (two sigma are 4 more or fewer), and none another.
+/// 95 of 100 intervals contain the planted slope (two sigma are 4 more or fewer), and no other.
 #[test]
 fn intervals_hold_what_was_planted_as_often_as_they_say() {
     let intervals: Vec<[f64; 2]> = (1..=100).map(|seed| interval_of(&planted(-1.5, seed), 0.95)).collect();

@@ -1,6 +1,5 @@
-//! Rust sources as the compiler's own lexer takes them apart: tokens with their lines, and read off these the
-//! paths into the crate and the `unsafe` that nothing documents. Comments are no tokens, what a literal holds is
-//! not seen, what a macro is given is.
+//! Rust sources as tokens of the compiler's own lexer, with their lines; from these, the paths into the crate and
+//! undocumented `unsafe`. Comments are no tokens, contents of literals are ignored, arguments of macros are included.
 
 use std::collections::BTreeMap;
 
@@ -12,7 +11,7 @@ pub struct Token {
     pub text: String,
 }
 
-/// Returns the tokens of a file, or where it is not Rust.
+/// Returns the tokens of a file, or the position at which it is not Rust.
 pub fn tokens(text: &str) -> Result<Vec<Token>, String> {
     let stream: TokenStream = text.parse().map_err(|e| format!("this is not Rust: {e}"))?;
     let mut found = Vec::new();
@@ -54,8 +53,8 @@ fn is_name(text: &str) -> bool {
     text.starts_with(|c: char| c.is_alphanumeric() || c == '_')
 }
 
-/// Paths into the crate, of up to three names, each with its line; also those of a grouped `use`, and those
-/// that climb by `super` from the module `of`.
+/// Returns the paths into the crate, of up to three names, each with its line; including those of a grouped `use`, and
+/// those that use `super` from the module `of`.
 pub fn crate_paths(tokens: &[Token], of: &[&str]) -> Vec<(usize, String)> {
     let word = |i: usize| tokens.get(i).map_or("", |t| t.text.as_str());
     let path = |base: &[&str], i: usize| {
@@ -108,7 +107,7 @@ pub fn crate_paths(tokens: &[Token], of: &[&str]) -> Vec<(usize, String)> {
     found
 }
 
-/// Lines with an unsafe block or impl whose statement has no `SAFETY:` comment on it or right above it.
+/// Returns the lines with an unsafe block or impl whose statement has no `SAFETY:` comment on it or right above it.
 pub fn undocumented_unsafe(text: &str, tokens: &[Token]) -> Vec<usize> {
     let lines: Vec<&str> = text.lines().collect();
     let last: BTreeMap<usize, &str> = tokens.iter().map(|t| (t.line, t.text.as_str())).collect();

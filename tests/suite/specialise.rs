@@ -77,7 +77,7 @@ fn specialised_modules_are_valid() {
         assert_valid(&specialised(&shaders::RENDER_SOLIDS, &scene, false), name);
     }
     assert_valid(&specialised(&shaders::RENDER_SOLIDS, &packed("lecture.toml"), true), "everything");
-    // Of everything every third feature left out, and of the others every third.
+    // With everything, every third feature removed, and with the others every third.
     let shader = &shaders::RENDER_SOLIDS;
     for third in 0..3 {
         for narrow in [0, 1, 4] {
@@ -120,8 +120,8 @@ fn only_the_workgroups_size_is_left_open() {
     assert_eq!(ids, [0, 1]);
 }
 
-/// As `glsl/shared` is written, no driver may fuse a product with a sum: pictures would depend on what
-/// else a pipeline can do.
+/// As `glsl/shared` is written, no driver may fuse a product with a sum: pictures would depend on the other
+/// features of a pipeline.
 #[test]
 fn all_float_arithmetic_is_uncontracted() {
     const NO_CONTRACTION: u32 = 42;

@@ -37,7 +37,7 @@ fn points(errors: &[f64]) -> Vec<Point> {
     errors.iter().enumerate().map(point).collect()
 }
 
-/// What a case with a bound of 1e-3 pixels and these errors comes to.
+/// Returns the verdict of a case with a bound of 1e-3 pixels and these errors.
 fn row(name: &'static str, errors: &[f64]) -> Row {
     Row::new(&case("planted", name, 1e-3, none), Ok(points(errors)), 0.5)
 }

@@ -33,7 +33,7 @@ macro_rules! every_scene {
 macro_rules! with_scenes {
     ($($call:tt)*) => {
         $crate::stage::dispatch! {
-            $($call)* beams centroid cones environment environment_cube filters formats glass glossy hardware
+            $($call)* beams centroid cones discs environment environment_cube filters formats glass glossy hardware
             horizon inside lanczos lecture lens lights mappings materials mirrors motion normal penumbra position
             procedural quad ramp reflection rough samplers shared volume zone_plate s1a s1b s2
         }
@@ -90,7 +90,7 @@ pub fn packed(mut scene: Scene, crop: Option<Rect>) -> PackedScene {
     pack::pack(&scene, textures, crop).unwrap()
 }
 
-/// The scene with as many samples at random places.
+/// The scene with this number of samples at random positions.
 pub fn with_random(mut scene: Scene, spp: u32) -> Scene {
     scene.sampling.pattern = Pattern::Random;
     scene.sampling.shared = false;
@@ -98,13 +98,13 @@ pub fn with_random(mut scene: Scene, spp: u32) -> Scene {
     scene
 }
 
-/// What `--device` is given to choose the device under test.
+/// The argument of `--device` that selects the device under test.
 pub fn device_name() -> String {
     std::env::var("MOIRE_DEVICE").unwrap_or_else(|_| "cpu".into())
 }
 
-/// The device under test. A message of the validation layer fails the test that is running, which
-/// with several at a time may be the caller's neighbour.
+/// The device under test. A message of the validation layer fails the test that is running, which with several at a
+/// time may be a neighbour of the one that caused it.
 pub struct Device(&'static Gpu, Using);
 
 pub fn device() -> Device {
@@ -152,7 +152,7 @@ pub fn render_on_oracle(scene: &PackedScene) -> Film {
     oracle::backend::render(scene, &NoProgress).unwrap()
 }
 
-/// The pixels of `crop`, as rendering with that crop would give them.
+/// Returns the pixels of `crop`, as rendering with that crop would.
 pub fn cut(film: &Film, crop: Rect) -> Film {
     let mut part = Film::new(crop.width, crop.height, film.samples);
     for (y, row) in part.pixels.chunks_mut(crop.width as usize).enumerate() {

@@ -37,13 +37,13 @@ fn sampled(scene: &Scene, pattern: Pattern, spp: u32, seed: u32) -> Film {
     render(&packed(&scene))
 }
 
-/// Mean over seeds of the squared error against many samples.
+/// Returns the mean over seeds of the squared error against many samples.
 fn variance(scene: &Scene, pattern: Pattern, spp: u32, exact: &Film) -> f64 {
     let of_seed = |seed| compare(&sampled(scene, pattern, spp, seed), exact).unwrap().rmse.powi(2);
     (1..=4).map(of_seed).sum::<f64>() / 4.0
 }
 
-/// At 64 samples a pixel the patterns leave less than `share` of the variance of random points.
+/// At 64 samples per pixel the patterns have less than `share` of the variance of random points.
 fn assert_patterns_gain(what: &str, scene: &Scene, share: f64) {
     let exact = sampled(scene, Pattern::SobolOwen, 8192, 99);
     let random = variance(scene, Pattern::Random, 64, &exact);

@@ -197,13 +197,13 @@ fn jitter_is_uniform_on_each_axis_and_in_the_square() {
         for axis in [0, 1] {
             let bins = |v: f64| (v * 64.0) as usize;
             assert_uniform(&format!("{pattern} axis {axis}"), all.iter().map(|j| bins(j[axis])), 64);
-            // One sample of every pixel: the key must spread by itself.
+            // One sample of every pixel: the key must be well distributed by itself.
             assert_uniform(
                 &format!("{pattern} sample 0, axis {axis}"),
                 all.iter().step_by(16).map(|j| bins(j[axis])),
                 64,
             );
-            // Low bits too: pixels magnified by deep zooms see them.
+            // Low bits too: deep zooms magnify pixels to them.
             let low = |v: f64| (v * 16_777_216.0 / 4.0) as usize % 64;
             assert_uniform(&format!("{pattern} low bits, axis {axis}"), all.iter().map(|j| low(j[axis])), 64);
         }

@@ -57,7 +57,7 @@ fn files(folder: &TempDir) -> Vec<String> {
     names
 }
 
-/// Exit code 2, each part in the message, nothing on stdout and no file.
+/// Expects exit code 2, each part in the message, nothing on stdout and no file.
 fn refused(folder: &TempDir, input: &str, arguments: &[&str], wanted: &[&str]) {
     let before = files(folder);
     let output = run(folder, input, arguments);
@@ -162,7 +162,7 @@ fn a_key_in_the_wrong_table_is_sent_to_the_right_one() {
     }
 }
 
-/// A limit holds for a whole process and what it becomes: the test starts itself once more, which becomes the program.
+/// A limit applies to a whole process and its successors: the test starts itself once more, which becomes the program.
 #[cfg(unix)]
 #[test]
 fn a_limit_on_the_size_of_files_is_an_error_that_leaves_none() {

@@ -18,7 +18,7 @@ use serde_json::Value;
 use crate::stage::{device_name, path};
 use crate::support::moire;
 
-/// A measuring scene with the smallest picture that shows anything.
+/// A study scene with the smallest picture that shows anything.
 const SCENE: &str = "s1a";
 const SIZE: &str = "48x36";
 

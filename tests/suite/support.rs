@@ -8,7 +8,7 @@ use std::sync::Mutex;
 
 use moire::internal::core::film::Film;
 use moire::internal::texture::data::{ColorSpace, Dimension, MipKernel};
-use moire::internal::texture::source::{Reading, TextureContent, TextureSource};
+use moire::internal::texture::source::{ReadOptions, TextureContent, TextureSource};
 
 /// The program under test: `MOIRE_BIN`, else `moire` beside this binary or one folder up.
 pub fn moire() -> assert_cmd::Command {
@@ -26,7 +26,7 @@ pub fn program() -> PathBuf {
 }
 
 /// A texture `t` of linear texels.
-pub fn texture_source(content: TextureContent, dimension: Dimension, reading: Reading) -> TextureSource {
+pub fn texture_source(content: TextureContent, dimension: Dimension, reading: ReadOptions) -> TextureSource {
     TextureSource {
         name: "t".into(),
         content,
@@ -52,7 +52,7 @@ pub fn data() -> PathBuf {
         .expect("no folder `data` here or above the test binary: set MOIRE_DATA")
 }
 
-/// Says once on stderr what was left out, past the output that a passing test keeps to itself.
+/// Prints once on stderr what was skipped, outside the output that a passing test captures.
 pub fn untested(what: &'static str) {
     static SAID: Mutex<BTreeSet<&str>> = Mutex::new(BTreeSet::new());
     if SAID.lock().unwrap().insert(what) {

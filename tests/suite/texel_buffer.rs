@@ -131,7 +131,7 @@ fn texels_that_no_single_buffer_holds_are_read_from_images_where_those_hold_them
     }
     assert_eq!(source(&scene, &tuning(TexelChoice::Auto, words - 1)), [false, true]);
     assert_eq!(source(&scene, &tuning(TexelChoice::Buffer, words - 1)), [true, false]);
-    // What no image holds: a texture longer than those, if a device has a limit within reach.
+    // Textures that no image can hold: longer than those, if a device has a limit within reach.
     let limit = device().info().limits.max_image_2d;
     let long = noise(Dimension::Two, [limit + 1, 1, 1], TexelFormat::Grey8, ColorSpace::Linear, 1);
     let text = format!(
@@ -236,13 +236,13 @@ fn a_file_of_five_names_is_held_once() {
     let once = five(folder.path(), same, "");
     assert_eq!((held(&different), held(&once)), (0, 4));
     assert!(bytes(&different) >= bytes(&once) + 4 * texels, "{different:#}\n{once:#}");
-    // The same bytes to be read in another way are other texels.
+    // The same bytes read in another way are different texels.
     let twice = five(folder.path(), same, "color_space = 'srgb'");
     assert_eq!(held(&twice), 3);
     assert!(bytes(&twice) >= bytes(&once) + texels);
 }
 
-/// Materials, bump maps and environments keep what they showed.
+/// Materials, bump maps and environments show the same as before.
 #[test]
 fn what_reads_a_texture_of_two_names_reads_it_still() {
     let text = format!(
@@ -284,7 +284,7 @@ fn deep_srgb_files_take_their_own_size_on_the_device() {
     assert!(output.status.success() && said.contains("held as grey16 (srgb), 118 KiB"), "{said}");
 }
 
-/// Asked before sums along rows are made, which may take more memory than there is.
+/// Checked before prefix sums are made, which may take more memory than there is.
 #[test]
 fn the_size_of_sums_along_rows_is_known_before_they_are_made() {
     let of = |size, format, seed| noise(Dimension::Two, size, format, ColorSpace::Linear, seed);

@@ -64,7 +64,7 @@ fn bundled_textures_tile_or_not_as_they_were_made() {
     for name in ["grass.png", "tiles.png", "bench/noise.png", "bench/checker.png"] {
         assert_eq!(tiles(&texture(name)), [json!(true), json!(true)], "{name}");
     }
-    // One border of the poster is nearly of one colour: doubt is allowed, a promise is not.
+    // One border of the poster is almost uniform: "perhaps" is allowed, "yes" is not.
     let [u, v] = tiles(&texture("poster.png"));
     assert_eq!(u, json!(false));
     assert_ne!(v, json!(true));

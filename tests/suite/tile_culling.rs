@@ -15,8 +15,8 @@ use moire::internal::schema::layout::{CELL_BUSY, CELL_EMPTY, CELL_UNIFORM, CELL_
 use crate::lookup::bench::Rng;
 use crate::stage::{assert_same_bits, device, packed, render, render_with, small};
 
-/// Triangles in disorder before a mirror, a checkered ground and a background: far and near, some behind the
-/// eye, some through the eye's plane, every fifth a needle.
+/// Random triangles before a mirror, a checkered ground and a background: far and near, some behind the eye, some
+/// through the plane of the eye, every fifth a needle.
 fn soup(count: usize, side: u32) -> Scene {
     let mut scene = small("s2", side, 4);
     let mut rng = Rng::new(11);
@@ -73,27 +73,27 @@ fn nothing_is_left_out_without_a_difference() {
     let (kept, _) = render_with(&scene, true, &Tuning::default());
     assert_same_bits(&render(&scene), &kept, "with everything kept");
     let (kept, _) = render_with(&without(&scene), true, &Tuning::default());
-    assert_same_bits(&render(&scene), &kept, "with everything kept but the survey");
+    assert_same_bits(&render(&scene), &kept, "with everything kept but tile culling");
 }
 
 #[test]
-fn few_triangles_lenses_motion_and_other_filters_have_no_survey() {
+fn few_triangles_lenses_motion_and_other_filters_are_not_culled_by_tiles() {
     assert!(!packed(small("lecture", 32, 4), None).culls_tiles());
     let mut scene = soup(40, 32);
     scene.camera.motion[0] = DVec3::X;
     assert!(!packed(scene, None).culls_tiles());
 }
 
-/// The film, and what the survey found.
+/// The film, and the lists of tile culling.
 fn culls_tiles(scene: &PackedScene) -> (Film, Vec<u32>) {
     let device = device();
     let session = Session::open(&device, scene.clone(), false, &Tuning::default()).unwrap();
     let (film, report) = session.prepare().unwrap().render(&NoProgress).unwrap();
-    assert!(report.device_survey_seconds.is_some());
-    (film, session.survey_words().unwrap().unwrap())
+    assert!(report.device_culling_seconds.is_some());
+    (film, session.tile_list_words().unwrap().unwrap())
 }
 
-/// In f64, and no more than a few beside: slack and margin are small.
+/// In f64, with few extra ones: tolerance and margin are small.
 #[test]
 fn lists_hold_what_float64_says() {
     let scene = packed(soup(60, 70), None);
@@ -124,15 +124,15 @@ fn to_goal(scene: &Scene, goal: Goal) -> (Film, moire::internal::integrators::ad
     (film, report.outcome.unwrap())
 }
 
-/// How many cells are empty, calm and busy.
+/// Returns the numbers of empty, uniform and busy cells.
 fn calmness(scene: Scene) -> [usize; 3] {
     let (_, words) = culls_tiles(&packed(scene, None));
     [CELL_EMPTY, CELL_UNIFORM, CELL_BUSY]
         .map(|class| words.chunks(CELL_WORDS as usize).filter(|cell| cell[1] == class).count())
 }
 
-/// A ground alone is calm where it is near enough for its texels to span a pixel, and plain wherever it fills the
-/// cell; lit, another shape may shade it.
+/// A ground alone is uniform where it is near enough for its texels to span a pixel, and if untextured wherever it
+/// fills the cell; if it is lit, another shape may shadow it.
 #[test]
 fn ground_is_calm_by_its_texels_and_its_light() {
     let mut lit = soup(20, 128);

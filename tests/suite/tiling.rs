@@ -180,7 +180,7 @@ fn clouds_with_sun() -> Texture {
     Texture { float: true, ..Texture::new(SIZE, |x, y| noise.at(x, y) + sun(x, y)) }
 }
 
-/// No part of anything that tiles: clouds on a slope, darker towards the corners.
+/// Nothing that tiles: clouds on a gradient, darker towards the corners.
 fn photo() -> Texture {
     let noise = clouds(12);
     Texture::new(SIZE, |x, y| {
@@ -192,7 +192,7 @@ fn photo() -> Texture {
 
 use Verdict::{No, Perhaps, Yes};
 
-/// Each with what u and v may be told.
+/// Each with the allowed verdicts for u and v.
 fn check(cases: Vec<(&str, Texture, [&[Verdict]; 2])>) {
     let mut wrong = String::new();
     for (name, texture, allowed) in cases {
@@ -300,7 +300,7 @@ fn a_seam_that_may_be_one_more_edge_is_doubtful_or_told_by_its_like() {
         ),
         ("two tiles", two.with_grain(0.01), [&[Yes, Perhaps], &[Yes, Perhaps]]),
     ]);
-    // A column less of something smooth: seen by who looks closely.
+    // A column less of something smooth: visible on close inspection.
     let short = clouds(7).part((0, 0), (191, 144)).verdicts();
     assert!(short[0].seam.verdict() != Yes, "{:?}", short[0]);
 }

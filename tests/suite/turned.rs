@@ -65,8 +65,8 @@ fn packed(scene: &Scene) -> pack::PackedScene {
     pack::pack(scene, textures, None).unwrap()
 }
 
-/// All of the scene, turned. A map's frame follows its axis by the shortest way, so that a turn about the
-/// axis itself is left, which the mapping's own offset or rotation takes.
+/// Rotates the whole scene. A mapping's frame follows its axis by the shortest rotation, so that a rotation about the
+/// axis itself remains, which the mapping's own offset or rotation compensates.
 fn turned(scene: &Scene, turn: DQuat) -> Scene {
     let mut scene = scene.clone();
     let spin = |v: &mut DVec3| *v = turn * *v;
@@ -114,7 +114,7 @@ fn reseeded(scene: &Scene) -> Scene {
     scene
 }
 
-/// The same samples see the same but for rounding: far less than other samples would see.
+/// The same samples see the same up to rounding: far less than different samples would.
 fn assert_same(a: &Film, b: &Film, other_samples: &Film, what: &str) {
     let [turned, noise] = [b, other_samples].map(|f| compare(a, f).unwrap().rmse);
     assert!(noise > 1e-3, "no noise to compare with: {noise}");
@@ -148,7 +148,7 @@ fn turning_an_environment_with_its_scene_changes_nothing() {
     }
 }
 
-/// Once on the device, where the seam lies elsewhere after the turn.
+/// Once on the device, where the seam is elsewhere after the rotation.
 #[test]
 fn the_device_sees_the_same_after_a_turn() {
     let scene = load(&format!("{COMMON}{AROUND}"));

@@ -54,7 +54,7 @@ fn variant(address: Address, filter: Filter, class: FormatClass) -> Variant {
     }
 }
 
-/// What a device with this look-up would be told; `shift` in texels along u.
+/// Returns the verdict on a device with this look-up; `shift` in texels along u.
 fn row(driver: &str, variant: &Variant, shift: f64) -> Row {
     let device = device(driver);
     let image = texture(8, 6, variant.format, variant.class.color_space(), 5);

@@ -1,5 +1,5 @@
-// Filter `anisotropic`: look-ups along the major axis of the footprint, as wide as the minor one (McCormack et al. 1999,
-// as texture units do). Twin: src/oracle/filter/anisotropic.rs.
+// Filter `anisotropic`: look-ups along the major axis of the footprint, as wide as the minor one (McCormack
+// et al. 1999, as texture units do). Twin: src/oracle/filter/anisotropic.rs.
 #ifndef ANISOTROPIC_GLSL
 #define ANISOTROPIC_GLSL
 
@@ -17,7 +17,7 @@ uint anisotropic_probes(const Sampler how, const FootprintEllipse spread) {
     return max(probes, 1u);
 }
 
-// The place of a probe; they come from both ends inwards.
+// Returns the position of a probe; probes are ordered from both ends inwards.
 vec3 anisotropic_place(const Texture image, const Coordinate c, const FootprintEllipse spread, uint probe, uint probes, float each,
                        inout uint face) {
     uint order = (probe & 1u) != 0u ? probes - 1u - probe / 2u : probe / 2u;

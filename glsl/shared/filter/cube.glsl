@@ -1,4 +1,5 @@
-// The texels of a cube around a place of one of its faces: beyond an edge those of the neighbour. Twin: src/oracle/filter/cube.rs.
+// The texels of a cube around a position on one of its faces: beyond an edge those of the adjacent face.
+// Twin: src/oracle/filter/cube.rs.
 #ifndef CUBE_GLSL
 #define CUBE_GLSL
 
@@ -6,14 +7,14 @@
 
 #if SOURCE != SOURCE_NONE
 
-// The direction from a cube's centre to a place of a face's plane, (s, t) in [-1, 1] on the face.
+// Returns the direction from a cube's centre to a point in a face's plane, (s, t) in [-1, 1] on the face.
 vec3 face_direction(uint face, vec2 st) {
     float side = (face & 1u) != 0u ? -1.0 : 1.0;
     return face < 2u ? vec3(side, -st.y, -side * st.x)
                      : (face < 4u ? vec3(st.x, side, side * st.y) : vec3(side * st.x, -st.y, side));
 }
 
-// A place of a face's plane, on the face that lies behind it.
+// Projects a point in a face's plane to the face behind it.
 vec3 refaced(vec3 at, inout uint face) {
     uint other;
     vec3 stm = on_cube_face(face_direction(face, 2.0 * at.xy - 1.0), other);
@@ -21,8 +22,8 @@ vec3 refaced(vec3 at, inout uint face) {
     return vec3(within_face(stm), 0.0);
 }
 
-// The texel of a cube at a place of a face, or beyond its edge: of the neighbour that the extended
-// plane of the face reaches there.
+// Returns the texel at a position on a face, or beyond its edge: that of the adjacent face which the extended
+// plane of the face covers there.
 ivec3 cube_texel(uint face, ivec2 at, int size) {
     if (all(greaterThanEqual(at, ivec2(0))) && all(lessThan(at, ivec2(size)))) return ivec3(at, face);
     vec2 st = (2.0 * vec2(at) + 1.0) / float(size) - 1.0;

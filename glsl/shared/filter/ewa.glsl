@@ -1,5 +1,5 @@
-// Filter `ewa`, the elliptical weighted average (Heckbert 1989): all texels under the footprint, weighted by a Gaussian, on
-// the level where the minor axis is about a texel. Twin: src/oracle/filter/ewa.rs.
+// Filter `ewa`, the elliptical weighted average (Heckbert 1989): all texels under the footprint, weighted by
+// a Gaussian, on the level where the minor axis is about a texel. Twin: src/oracle/filter/ewa.rs.
 #ifndef EWA_GLSL
 #define EWA_GLSL
 
@@ -9,20 +9,20 @@
 
 #if SOURCE != SOURCE_NONE
 
-// The level on which the minor axis, full width, lies between 2^-ELLIPSE_LEVEL and twice that in texels.
+// On the selected level, the minor axis has a full width between 2^-ELLIPSE_LEVEL texels and twice that.
 const float ELLIPSE_LEVEL = 0.0;
-// Beyond the longest ellipse: no loop is endless, whatever its numbers are.
-// Area over pi of the largest: with its rows, fewer texels than steps.
+// More than the longest ellipse needs, so that every loop ends, whatever its inputs are.
+// Largest area over pi: including its rows, fewer texels than steps.
 const float MAX_ELLIPSE = 2048.0;
 
-// exp(-2 r²) - exp(-2) for r² in [0, 1], as a polynomial: 1 at the centre but for scale, 0 at the rim.
+// Returns exp(-2 r²) - exp(-2) for r² in [0, 1], as a polynomial: 1 at the centre up to scale, 0 at the rim.
 float ellipse_weight(float squared) {
     float r = 1.0 - squared;
     return r * (0.2643662 + r * (0.3266478 + r * (0.0257909 + r * 0.2473448)));
 }
 
-// All texels of the footprint's ellipse, weighted by a Gaussian. The level is that on which the minor
-// axis is about one texel; where the ellipse is longer than the maximum anisotropy its minor axis grows.
+// Returns the average of all texels in the footprint's ellipse, weighted by a Gaussian. On the selected level
+// the minor axis is about one texel; if the ellipse exceeds the maximum anisotropy its minor axis grows.
 vec4 ellipse(const Texture image, const Sampler how, uint slot, const Coordinate c, const FootprintEllipse spread) {
     float most = float(how.max_anisotropy);
     float minor = max(spread.minor, spread.major / (most * most));
@@ -30,7 +30,7 @@ vec4 ellipse(const Texture image, const Sampler how, uint slot, const Coordinate
     int index = clamp(int(floor(0.5 * log2_accurate(max(minor, 1e-30)) + ELLIPSE_LEVEL)), 0, int(image.levels) - 1);
     Level level = level_at(image, index);
     vec2 size = vec2(level.size.xy);
-    // Covariance J Jᵀ on this level; the thin axis is widened along its own direction.
+    // Covariance J Jᵀ on this level; the minor axis is widened along its own direction.
     vec2 x = c.dx.xy * size;
     vec2 y = c.dy.xy * size;
     float shrink = float(level.size.x) / float(image.size.x);
@@ -39,10 +39,10 @@ vec4 ellipse(const Texture image, const Sampler how, uint slot, const Coordinate
     float gap = spread.major - spread.minor;
     float widen = gap > 0.0 ? (minor - spread.minor) / gap : 0.0;
     m += widen * (vec3(spread.major * scale, 0.0, spread.major * scale) - m);
-    // On the last level there is nothing wider to see.
+    // There is no coarser level than the last.
     count_diagnostic(DIAGNOSTIC_LEVELS, m.x + m.z > 16.0 * most * most);
     m *= min(1.0, 16.0 * most * most / max(m.x + m.z, 1e-30));
-    // Where one side of the texture is far longer, levels shrink along that one alone.
+    // If one side of the texture is far longer, levels shrink along that one alone.
     m *= min(1.0, MAX_ELLIPSE * inversesqrt(max(m.x * m.z - m.y * m.y, 1.0)));
     // The texels' own width, which reconstruction adds.
     m += vec3(1.0, 0.0, 1.0);
@@ -62,7 +62,7 @@ vec4 ellipse(const Texture image, const Sampler how, uint slot, const Coordinate
     vec4 sum = vec4(0.0);
     float weights = 0.0;
     row -= 1;
-    // One loop over rows and columns: neighbouring lanes whose ellipses differ stay busy.
+    // One loop over rows and columns, so that neighbouring lanes with different ellipses stay busy.
     for (int turn = 0; turn < int(MAX_ELLIPSE_STEPS); turn++) {
         if (column > last_column) {
             row++;

@@ -1,5 +1,6 @@
-// Filters by a kernel wider than that of `linear`, the same along both axes of a flat texture: `cubic`, 4 by 4 texels
-// (Mitchell & Netravali 1988), and `lanczos-2` and `lanczos-3`, twice the radius (Duchon 1979). Twin: src/oracle/filter/kernels.rs.
+// Filters by a kernel wider than that of `linear`, the same along both axes of a 2D texture: `cubic`, 4 by 4
+// texels (Mitchell & Netravali 1988), and `lanczos-2` and `lanczos-3`, twice the radius (Duchon 1979). Twin:
+// src/oracle/filter/kernels.rs.
 #ifndef KERNELS_GLSL
 #define KERNELS_GLSL
 
@@ -8,8 +9,8 @@
 
 #if SOURCE != SOURCE_NONE
 
-// Weights of the four texels around a place t in [0, 1] between the middle two (Mitchell & Netravali
-// 1988): B = 0, C = 1/2 is Catmull-Rom, B = 1, C = 0 the B-spline.
+// Returns the weights of the four texels around a position t in [0, 1] between the middle two (Mitchell &
+// Netravali 1988): B = 0, C = 1/2 is Catmull-Rom, B = 1, C = 0 the B-spline.
 vec4 cubic_weights(float t, vec2 bc) {
     float b = bc.x;
     float c = bc.y;
@@ -23,18 +24,19 @@ vec4 cubic_weights(float t, vec2 bc) {
     return vec4(w0, w1, ((1.0 - w0) - w1) - w3, w3);
 }
 
-// Weights of the taps along an axis: four, and of wide kernels two more.
+// Weights of the taps along an axis: four, and for wide kernels two more.
 struct KernelWeights {
     vec4 first;
     vec2 rest;
 };
 
-// sinc(x) sinc(x / radius), but for a factor, `x` from the place: sin(pi x) is that of t, with a sign.
+// Returns sinc(x) sinc(x / radius) up to a factor, `x` relative to the position: sin(pi x) is that of t up to
+// sign.
 float lanczos_weight(float sine, float x, float radius) {
     return x == 0.0 ? PI * PI / radius : sine * sine_turns(0.5 * x / radius) / (x * x);
 }
 
-// They are made to sum to 1, which a windowed sinc does not by itself.
+// Normalises the weights to a sum of 1, which a windowed sinc does not have by itself.
 KernelWeights lanczos_weights(float t, float radius) {
     float sine = sine_turns(0.5 * t);
     float before = t + (radius - 1.0);
@@ -47,16 +49,17 @@ KernelWeights lanczos_weights(float t, float radius) {
     return KernelWeights(first * scale, rest * scale);
 }
 
-// Some sampler has such a filter. Tested by itself before `has_kernel`: code behind a call stays in the pipeline.
+// True if some sampler has such a filter. Tested separately before `has_kernel`: code behind a call stays in
+// the pipeline.
 const bool HAS_KERNELS = (FILTERS & ((1u << FILTER_CUBIC) | (1u << FILTER_LANCZOS_2) | (1u << FILTER_LANCZOS_3))) != 0u;
 
-// Whether a filter has such a kernel.
+// Returns true if a filter has such a kernel.
 bool has_kernel(uint mode) {
     return MODE_IS(FILTERS, FILTER_CUBIC, mode) || MODE_IS(FILTERS, FILTER_LANCZOS_2, mode) ||
            MODE_IS(FILTERS, FILTER_LANCZOS_3, mode);
 }
 
-// Texels along an axis.
+// Returns the number of texels along an axis.
 int kernel_taps(uint mode) { return MODE_IS(FILTERS, FILTER_LANCZOS_3, mode) ? 6 : 4; }
 
 KernelWeights kernel_weights(uint mode, const Sampler how, float t) {

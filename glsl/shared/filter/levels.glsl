@@ -1,4 +1,4 @@
-// One place of one level by one filter. Twin: src/oracle/filter/levels.rs.
+// The value at a position of one level by one filter. Twin: src/oracle/filter/levels.rs.
 #ifndef LEVELS_GLSL
 #define LEVELS_GLSL
 
@@ -9,7 +9,7 @@
 
 #if SOURCE != SOURCE_NONE
 
-// `dice` in [0, 1) are of the stochastic one.
+// Returns the value at a position of one level by one filter; `dice` in [0, 1) are for the stochastic one.
 vec4 filtered_level(const Texture image, const Sampler how, uint slot, uint mode, const Level level, vec3 at, uint face, vec3 dice) {
     bool cube = MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_CUBE, image.kind);
     bool volume = MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_VOLUME, image.kind);

@@ -1,5 +1,5 @@
-// Filter `linear`: the 2 texels around a place along each axis, of flat textures, volumes and cubes, seamless across
-// edges and corners. Twin: src/oracle/filter/linear.rs.
+// Filter `linear`: the 2 texels around a position along each axis, for 2D textures, volumes and cubes,
+// seamless across edges and corners. Twin: src/oracle/filter/linear.rs.
 #ifndef LINEAR_GLSL
 #define LINEAR_GLSL
 
@@ -8,7 +8,7 @@
 #if SOURCE != SOURCE_NONE
 
 vec4 linear_flat(const Texture image, const Sampler how, uint slot, const Level level, vec2 texel) {
-    // floor(texel); where texel is whole, perhaps the one before, with weight 1 on its neighbour.
+    // floor(texel); if texel is an integer, possibly the one before, with weight 1 on its neighbour.
     vec2 shifted = (texel - 0.5) + ROUND;
     vec2 low = shifted - ROUND;
     vec2 b = texel - low;
@@ -46,7 +46,7 @@ vec4 linear_volume(const Texture image, const Sampler how, uint slot, const Leve
     return sum;
 }
 
-// Beyond a corner there is no texel: its weight goes to the three that meet there.
+// Beyond a corner there is no texel: its weight is divided among the three that meet there.
 vec4 linear_cube(const Texture image, uint slot, const Level level, uint face, vec2 texel) {
     int size = level.size.x;
     vec2 low = floor(texel);

@@ -1,4 +1,4 @@
-// Filter `nearest`: the texel in which a place lies. Twin: src/oracle/filter/nearest.rs.
+// Filter `nearest`: the texel that contains a position. Twin: src/oracle/filter/nearest.rs.
 #ifndef NEAREST_GLSL
 #define NEAREST_GLSL
 
@@ -6,8 +6,9 @@
 
 #if SOURCE != SOURCE_NONE
 
-// The texel in which a place lies. `stays`: a place on the far edge of a cube's face belongs to the face that the
-// direction meets; of others one beyond a corner is one of the three texels there, by `die` in [0, 1).
+// Returns the texel that contains a position. With `stays`, a position on the far edge of a cube's face
+// belongs to the face that the direction selects; otherwise one beyond a corner is one of the three texels
+// there, by `die` in [0, 1).
 vec4 nearest(const Texture image, const Sampler how, uint slot, const Level level, vec3 place, uint face, float die, bool stays) {
     ivec3 texel = ivec3(floor(place));
     if (MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_CUBE, image.kind)) {

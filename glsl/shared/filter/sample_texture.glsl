@@ -1,6 +1,6 @@
 // (texture, sampler, coordinate, footprint) -> linear RGBA. A footprint of less than a texel is
-// magnification; wider ones choose a level (Williams 1983), walk the major axis with several look-ups
-// (McCormack et al. 1999, as texture units do), or weigh all texels of an ellipse (EWA: Heckbert 1989).
+// magnification; wider ones select a level (Williams 1983), take several look-ups along the major axis
+// (McCormack et al. 1999, as texture units do), or weight all texels of an ellipse (EWA: Heckbert 1989).
 // Method hardware: the device's own sampler at our level. Twin: src/oracle/filter/sample_texture.rs.
 #ifndef SAMPLE_TEXTURE_GLSL
 #define SAMPLE_TEXTURE_GLSL
@@ -15,7 +15,7 @@
 
 #if SOURCE != SOURCE_NONE
 
-// A look-up reads one level in one place. Spelt with bits: the shader compiler loses track of negated
+// A look-up reads one level at one position. Written with bits: the shader compiler fails to simplify negated
 // chains of && and || over specialization constants.
 const uint LEVEL_BLENDS = MIPMAPPED ? MIPS & (1u << MIP_LINEAR) : 0u;
 const bool ONE_PLACE = (LEVEL_BLENDS | (FILTERS & (1u << FILTER_ANISOTROPIC))) == 0u;
@@ -56,7 +56,8 @@ vec4 sample_texture(const Texture image, const Sampler how, uint slot, const Tex
     }
     float level = 0.0;
     if (!magnified && (MIPMAPPED || hardware)) {
-        // A look-up is as wide as the minor axis, though more of them than needed lie along the major one.
+        // A look-up is at least as wide as the minor axis, even if there are more along the major axis than
+        // needed.
         float least = probes > 1u ? spread.minor : 0.0;
         level = 0.5 * log2_accurate(max(spread.major / float(probes * probes), least));
         count_diagnostic(DIAGNOSTIC_LEVELS, level > float(last));
@@ -80,9 +81,9 @@ vec4 sample_texture(const Texture image, const Sampler how, uint slot, const Tex
     if (ONE_PLACE) {
         return filtered_level(image, how, slot, mode, level_at(image, low), c.at, face, dice);
     }
-    // Look-ups along the major axis. Of `probes` a share `rest` reads the next level, the one between
-    // reads both: one look-up more than probes, and smooth in the level. Turn 0 is left out where no
-    // probe reads the next level.
+    // Look-ups along the major axis. A fraction `rest` of the `probes` reads the next level; the probe at the
+    // boundary reads both: one look-up more than probes, and continuous in the level. Iteration 0 is skipped
+    // if no probe reads the next level.
     float share = rest * float(probes);
     float whole = rest > 0.0 ? floor(share) : 0.0;
     uint split = uint(whole);

@@ -1,7 +1,7 @@
-// Filter `summed-area`, by a summed-area table (Crow 1984): the mean over the footprint's bounding box, whatever its size, from sums
-// over rectangles that begin at the texture's corner. Sums are 64-bit integers of the linear values in
-// fixed point, so that differences are exact; texels count as squares of one colour, which a box cuts
-// where it ends. Twin: src/oracle/filter/summed_area.rs.
+// Filter `summed-area`, by a summed-area table (Crow 1984): the mean over the footprint's bounding box,
+// whatever its size, from sums over rectangles that start at the texture's corner. Sums are 64-bit integers
+// of the linear values in fixed point, so that differences are exact; texels are squares of one colour, which
+// the box cuts at its ends. Twin: src/oracle/filter/summed_area.rs.
 #ifndef SUMMED_AREA_GLSL
 #define SUMMED_AREA_GLSL
 
@@ -9,8 +9,8 @@
 
 #if HAS_TEXELS
 
-// Up to three intervals of texels that stand for the box along one axis, and how much of the box each is;
-// the rest of it is border.
+// Splits the box along one axis into up to three intervals of texels, each with the length of the box that it
+// represents; the rest of the box is border.
 struct Parts {
     vec3 from;
     vec3 to;
@@ -20,7 +20,7 @@ struct Parts {
 Parts axis_parts(uint mask, uint mode, float from, float to, float size) {
     Parts parts = Parts(vec3(0.0), vec3(0.0), vec3(0.0));
     if (MODE_IS(mask, ADDRESS_REPEAT, mode)) {
-        // Whole periods, which are the same from wherever they begin, and what is left.
+        // Whole periods, whose sum is the same from any start, and the remainder.
         float whole = floor((to - from) / size) * size;
         float start = clamp(from - floor(from / size) * size, 0.0, size);
         float end = start + clamp((to - from) - whole, 0.0, size);
@@ -41,7 +41,7 @@ Parts axis_parts(uint mask, uint mode, float from, float to, float size) {
             parts.to[k] = odd ? size - a : b;
             parts.amount[k] = b - a;
         }
-        // Of three tiles the middle one is whole; where there are two, the third part is free.
+        // Of three tiles the middle one is whole; if there are two, the third part is free.
         int free = parts.amount.z > 0.0 ? 1 : 2;
         if (free == 2) parts.from.z = 0.0;
         if (free == 2) parts.to.z = size;
@@ -74,7 +74,7 @@ uvec2 difference(uvec2 a, uvec2 b) {
     return uvec2(low, a.y - b.y - borrow);
 }
 
-// A two's complement number of 64 bits.
+// A 64-bit number in two's complement.
 float as_float(uvec2 n) {
     bool negative = (n.y >> 31u) != 0u;
     n = negative ? difference(uvec2(0u), n) : n;
@@ -82,12 +82,12 @@ float as_float(uvec2 n) {
     return negative ? -size : size;
 }
 
-// The sum of one channel over [from, to], in steps of the fixed point.
+// Returns the sum of one channel over [from, to], in steps of the fixed point.
 float rectangle(uint table, int width, vec2 from, vec2 to, ivec2 last) {
     ivec2 i0 = min(ivec2(floor(from)), last);
     ivec2 i1 = min(ivec2(floor(to)), last);
-    // Cut texels at both ends and whole ones between; where both ends lie in one texel the whole ones
-    // between are minus one.
+    // Partial texels at both ends and whole ones between; if both ends are in one texel, the number of whole
+    // ones is minus one.
     vec2 first = 1.0 - (from - vec2(i0));
     vec2 end = to - vec2(i1);
     vec3 wx = vec3(first.x, 1.0, end.x);
@@ -112,7 +112,7 @@ float rectangle(uint table, int width, vec2 from, vec2 to, ivec2 last) {
     return sum;
 }
 
-// `place` is a coordinate of a flat texture that has a table: after its levels.
+// Returns the mean; `place` is a coordinate of a 2D texture that has a table, which follows its levels.
 vec4 summed_area(const Texture image, const Sampler how, const Coordinate place) {
     uint table = texel_word(image.first_word - image.levels);
     float least = uintBitsToFloat(texel_word(table));
@@ -127,7 +127,7 @@ vec4 summed_area(const Texture image, const Sampler how, const Coordinate place)
     if (MODE_IS(TEXEL_CENTERS, TEXEL_CENTER_INTEGER, how.texel_center)) center += 0.5;
     Parts u = axis_parts(ADDRESSES_U, how.address_u, center.x - reach.x, center.x + reach.x, wide.x);
     Parts v = axis_parts(ADDRESSES_V, how.address_v, center.y - reach.y, center.y + reach.y, wide.y);
-    // What of the box is no border; shares of that, as amounts themselves may be large.
+    // The part of the box that is not border, as fractions, since the amounts may be large.
     float inside_u = u.amount.x + u.amount.y + u.amount.z;
     float inside_v = v.amount.x + v.amount.y + v.amount.z;
     vec4 sum = vec4(0.0);
@@ -149,10 +149,10 @@ vec4 summed_area(const Texture image, const Sampler how, const Coordinate place)
         }
         sum += share * mean;
     }
-    // What neither axis covers is border.
+    // The part that neither axis covers is border.
     if (BORDERS) {
         bool bordered = how.address_u == ADDRESS_CLAMP_TO_BORDER || how.address_v == ADDRESS_CLAMP_TO_BORDER;
-        // Along a periodic axis the parts cover one period for the whole.
+        // Along a periodic axis the parts cover one period, which represents the whole.
         float share_u = how.address_u == ADDRESS_CLAMP_TO_BORDER ? inside_u / (2.0 * reach.x) : 1.0;
         float share_v = how.address_v == ADDRESS_CLAMP_TO_BORDER ? inside_v / (2.0 * reach.y) : 1.0;
         return bordered ? mix(how.border, sum, share_u * share_v) : sum;

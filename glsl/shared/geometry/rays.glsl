@@ -15,12 +15,12 @@ Hit nearest_hit(const Header header, const Ray ray, uint skip, uint list) {
     if (LIST != 0u) {                                                                                        \
         uint tested = count;                                                                                 \
         if (is_listed && TILE_CULLED) {                                                                      \
-            if (list != NO_LIST) tested = survey[list];                                                      \
+            if (list != NO_LIST) tested = tile_lists[list];                                                  \
         }                                                                                                    \
         for (uint k = 0u; k < tested; k++) {                                                                 \
             uint i = k;                                                                                      \
             if (is_listed && TILE_CULLED) {                                                                  \
-                if (list != NO_LIST) i = survey[list + 2u + k];                                              \
+                if (list != NO_LIST) i = tile_lists[list + 2u + k];                                          \
             }                                                                                                \
             real2 local = hit.local;                                                                         \
             real t = distance_to(at(i), at_rest(header, ray, (first) + i), ORIGIN_IS_EYE, local);            \

@@ -48,7 +48,7 @@ pub struct Shader {
 }
 
 impl Shader {
-    /// Whether the shader has a specialization constant.
+    /// Returns true if the shader has a specialization constant.
     pub fn has(&self, constant: Constant) -> bool {
         self.constants.iter().any(|c| c.id == constant.id())
     }

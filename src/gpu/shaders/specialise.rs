@@ -186,7 +186,8 @@ impl Function {
         all.filter(|i| i.op == op::FUNCTION_CALL).map(|i| i.words[2]).collect()
     }
 
-    /// What is left. A merge or continue block has to exist even where nothing leads to it.
+    /// Returns the remaining instructions. A merge or continue block must exist even if nothing branches to
+    /// it.
     fn emit(&self) -> Vec<Instruction> {
         let mut continues: HashMap<u32, u32> = HashMap::new(); // continue block → its loop's header
         let mut merges: HashSet<u32> = HashSet::new();

@@ -1,12 +1,12 @@
-//! Variances → counts. With v (n/m)^p the variance after m samples, the sum over the picture is least for
-//! its cost where m ~ (v n^p)^(1/(1+p)) (Lagrange): one multiplier for all pixels, found so that the aim is
-//! met; no pixel loses samples.
+//! Variances → counts. If v (n/m)^p is the variance after m samples, the picture's total for a given cost is
+//! least at m ~ (v n^p)^(1/(1+p)) (Lagrange): one multiplier for all pixels, chosen so that the aim is met;
+//! no pixel loses samples.
 
 use rayon::prelude::*;
 
 use super::estimate::Estimate;
 
-/// What a pass works towards.
+/// The aim of a pass.
 #[derive(Clone, Copy, Debug)]
 pub enum Aim {
     /// Samples of both halves of all pixels.
@@ -14,7 +14,7 @@ pub enum Aim {
     Mse(f64),
 }
 
-/// Pixels sorted into bins by the multiplier from which on they gain samples.
+/// Pixels sorted into bins by the multiplier at which they begin to gain samples.
 pub struct Allocation {
     weights: Vec<f32>,
     bins: Vec<Bin>,
@@ -24,10 +24,10 @@ pub struct Allocation {
 
 #[derive(Clone, Copy, Default)]
 struct Bin {
-    /// Below it, variance and samples as they are.
+    /// Below that multiplier: the current variance and number of samples.
     variance: f64,
     samples: f64,
-    /// Above it, both for a multiplier of 1: v (n/w)^p = w, by the choice of w.
+    /// Above it: both for a multiplier of 1, as v (n/w)^p = w by the choice of w.
     weight: f64,
 }
 
@@ -39,13 +39,13 @@ impl Bin {
     }
 }
 
-/// By how much a count grows at least, or not at all: a few samples more would not pay for their job, and
-/// would be rounded away.
-fn worth(now: f64) -> f64 {
+/// Returns the least factor by which a count grows: fewer extra samples would not pay for their batch and
+/// would be lost to rounding.
+fn min_growth(now: f64) -> f64 {
     if now < 2.0 { 1.5 } else { 1.25 }
 }
 
-/// Pixels that one thread takes at once.
+/// Pixels that one thread processes at once.
 const PIXELS_PER_TASK: usize = 1 << 15;
 const BINS: usize = 1024;
 const BINS_AN_OCTAVE: f64 = 8.0;
@@ -62,7 +62,7 @@ impl Allocation {
                 let n = count as f32;
                 let falling = variance * n.powf(p);
                 *weight = falling.powf(1.0 / (1.0 + p));
-                bins[bin_of(worth(n.into()) * f64::from(n / *weight))].add(variance, n, *weight);
+                bins[bin_of(min_growth(n.into()) * f64::from(n / *weight))].add(variance, n, *weight);
             }
             bins
         });
@@ -70,27 +70,27 @@ impl Allocation {
         Allocation { weights, bins, exponent, pixels: counts.len() as f64 }
     }
 
-    /// How the samples are shared out over the pixels.
+    /// Returns the ratios in which the samples are distributed over the pixels.
     pub fn weights(&self) -> &[f32] {
         &self.weights
     }
 
-    /// Samples in sum with which the aim is met.
+    /// Returns the total number of samples that meets the aim.
     pub fn cost(&self, aim: Aim) -> f64 {
         self.samples(self.multiplier(aim))
     }
 
-    /// Samples in each half after the next pass.
+    /// Returns the samples in each half after the next pass.
     pub fn counts(&self, aim: Aim, now: &[u32], growth: f64, most: u32) -> Vec<u32> {
         let multiplier = self.multiplier(aim);
         let count = |(&weight, &now): (&f32, &u32)| {
             let wanted = (f64::from(weight) * multiplier).min(f64::from(now) * growth).min(f64::from(most));
-            if wanted < worth(now.into()) * f64::from(now) { now } else { rounded(wanted) }
+            if wanted < min_growth(now.into()) * f64::from(now) { now } else { round_to_two_bits(wanted) }
         };
         self.weights.par_iter().zip(now).map(count).collect()
     }
 
-    /// By bisection: both aims are monotonic in it.
+    /// Returns the multiplier by bisection: both aims are monotonic in it.
     fn multiplier(&self, aim: Aim) -> f64 {
         let (mut low, mut high) = (multiplier_of(0), multiplier_of(BINS));
         for _ in 0..60 {
@@ -113,14 +113,14 @@ impl Allocation {
         self.sum(multiplier, |bin| bin.samples, |bin| 2.0 * bin.weight * multiplier)
     }
 
-    /// Of pixels as they are, and of those that gain.
+    /// Sums over pixels that keep their samples and over those that gain some.
     fn sum(&self, multiplier: f64, kept: impl Fn(&Bin) -> f64, gained: impl Fn(&Bin) -> f64) -> f64 {
         let (gaining, resting) = self.bins.split_at(bin_of(multiplier));
         resting.iter().map(kept).sum::<f64>() + gaining.iter().map(gained).sum::<f64>()
     }
 }
 
-/// In the order of the chunks: the same on any number of cores.
+/// Adds in the order of the chunks, so that the result does not depend on the number of cores.
 fn chunked_sum(chunks: Vec<Vec<Bin>>) -> Vec<Bin> {
     let mut sums = vec![Bin::default(); BINS];
     for bins in chunks {
@@ -142,9 +142,9 @@ fn multiplier_of(bin: usize) -> f64 {
     ((bin as f64 - (BINS / 2) as f64) / BINS_AN_OCTAVE).exp2()
 }
 
-/// To the nearest number with two significant bits: counts with many factors of two suit nets in base 2, and
-/// what one pixel gains another loses.
-fn rounded(wanted: f64) -> u32 {
+/// Rounds to the nearest number with two significant bits: counts with many factors of two fit nets in base
+/// 2, and the errors of rounding up and down cancel.
+fn round_to_two_bits(wanted: f64) -> u32 {
     let step = f64::from(1u32 << (wanted.max(2.0).log2() as u32 - 1).min(30));
     ((wanted / step).round() * step) as u32
 }
@@ -159,7 +159,7 @@ mod tests {
         Allocation::new(&estimate, counts, exponent)
     }
 
-    /// The samples that the aim leaves to be taken, and what the model says they leave of the error.
+    /// Returns the number of samples after the pass and the error that the model predicts.
     fn outcome(variances: &[f32], now: &[u32], next: &[u32], exponent: f64) -> (f64, f64) {
         let samples = next.iter().map(|&n| 2.0 * f64::from(n)).sum();
         let left = |((&v, &n), &m): ((&f32, &u32), &u32)| {
@@ -168,18 +168,18 @@ mod tests {
         (samples, variances.iter().zip(now).zip(next).map(left).sum::<f64>() / now.len() as f64)
     }
 
-    /// Spreads over four decades, some pixels without any, counts that differ already.
+    /// Variances over four decades, some zero, and unequal counts.
     fn picture() -> (Vec<f32>, Vec<u32>) {
         let spread = |i: u32| 10f32.powf(-4.0 * (i as f32 * 0.618_034).fract()) / 16.0;
         let variances = (0..4096).map(|i| if i % 7 == 0 { 0.0 } else { spread(i) });
         (variances.collect(), (0..4096).map(|i| 8 << (i % 3)).collect())
     }
 
-    /// Counts in proportion to the roots of the variances of one sample cost least (Neyman 1934).
+    /// Counts in proportion to the standard deviations of one sample cost least (Neyman 1934).
     #[test]
     fn random_samples_go_in_proportion_to_the_spread() {
         let counts = [16u32; 4];
-        // Of one sample: 1, 16, 256, 0.
+        // The variances of one sample are 1, 16, 256, 0.
         let variances = [1.0 / 16.0, 1.0, 16.0, 0.0];
         let next = allocation(&variances, &counts, 1.0).counts(Aim::Samples(16_000.0), &counts, 1e9, 1 << 20);
         assert_eq!(next[3], 16, "a pixel without error gained samples");
@@ -198,14 +198,14 @@ mod tests {
             for part in [0.5, 0.1, 0.003] {
                 let next = allocation.counts(Aim::Mse(part * mse), &counts, 1e9, 1 << 24);
                 let (_, left) = outcome(&variances, &counts, &next, exponent);
-                // What is rounded up and down cancels but for the curvature of 1 / m^p; bins are 9 % wide.
+                // Rounding up and down cancels except for the curvature of 1 / m^p; bins are 9 % wide.
                 assert!((0.9..1.1).contains(&(left / (part * mse))), "p {exponent}, {part}: {left} of {mse}");
                 assert!(next.iter().zip(&counts).all(|(next, now)| next >= now), "a pixel lost samples");
             }
             let next = allocation.counts(Aim::Samples(10.0 * taken), &counts, 1e9, 1 << 24);
             let (samples, left) = outcome(&variances, &counts, &next, exponent);
             assert!((0.95..1.1).contains(&(samples / (10.0 * taken))), "p {exponent}: {samples} of {taken}");
-            // Better than the same number for all.
+            // Better than the same number in each pixel.
             let equal: Vec<u32> = counts.iter().map(|n| 10 * n).collect();
             assert!(left < 0.6 * outcome(&variances, &counts, &equal, exponent).1, "p {exponent}: {left}");
         }
@@ -221,14 +221,14 @@ mod tests {
     #[test]
     fn rounding_keeps_two_significant_bits_and_what_is_worth_it_grows() {
         for wanted in (10..40_000).map(|w| f64::from(w) / 10.0) {
-            let count = rounded(wanted);
+            let count = round_to_two_bits(wanted);
             let bits = u32::BITS - count.leading_zeros() - count.trailing_zeros();
             assert!(bits <= 2, "{wanted}: {count}");
-            // Neighbours are a half or a third apart, 1 and 2 a whole.
+            // Neighbours differ by a half or a third, 1 and 2 by a factor of two.
             let most = if wanted < 2.0 { 0.5 } else { 0.25 * wanted };
             assert!((f64::from(count) - wanted).abs() <= most, "{wanted}: {count}");
-            let least = worth(count.into()) * f64::from(count);
-            assert!(rounded(least) > count, "{count} does not grow to {least}");
+            let least = min_growth(count.into()) * f64::from(count);
+            assert!(round_to_two_bits(least) > count, "{count} does not grow to {least}");
         }
     }
 }

@@ -1,5 +1,5 @@
-//! When pixels are worth resolving without samples. In: how far samples have come, and what a pilot run on a part
-//! of the picture found. Out: resolved pixels, which have no variance and gain no samples.
+//! Decides when it pays to resolve pixels without samples. Input: the state of sampling, and the result of a pilot run
+//! on a part of the picture. Output: resolved pixels, which have no variance and gain no samples.
 
 use super::Goal;
 use super::allocate::{Aim, Allocation};
@@ -9,31 +9,31 @@ use crate::core::progress::Progress;
 use crate::core::range::Rect;
 use crate::sampling::{Backend, HalfSums, PilotRun};
 
-/// Seconds that samples must still take for a pilot run to be worth its pipeline.
+/// Seconds of sampling that must remain for a pilot run to be worth compiling its pipeline.
 const WORTH_A_PILOT: f64 = 1.0;
-/// Passes that foretell those: one says nothing of how the error falls.
+/// Passes before the remaining time can be predicted: a single one does not show how the error falls.
 const PASSES: u32 = 2;
-/// What resolving takes over what a pilot run foretells: parts of a picture differ.
+/// Ratio of the time that resolving may take to the pilot run's prediction: parts of a picture differ.
 const MARGIN: f64 = 1.5;
-/// RMSE of what beams resolve. A goal of less than twice that is for samples.
+/// RMSE of pixels resolved by beams. A goal of less than twice this value is left to samples.
 pub const OWN_ERROR: f64 = 5e-5;
 
-/// How far samples have come, and what they would still take.
+/// The state of sampling, and the time that it would still take.
 #[derive(Clone, Copy, Debug)]
 pub struct Outlook {
     pub goal: Goal,
     pub passes: u32,
-    /// Seconds of sampling so far, and what is left of the mean squared error.
+    /// Seconds of sampling so far, and the current mean squared error.
     pub elapsed: f64,
     pub mse: f64,
-    /// By which it falls with the samples.
+    /// The exponent with which the error falls with the number of samples.
     pub exponent: f64,
-    /// Seconds that samples alone would still take.
+    /// Seconds that sampling alone would still take.
     pub left: f64,
 }
 
 impl Outlook {
-    /// Seconds that samples alone would still take, by those that they need to an error.
+    /// Returns the seconds that sampling alone would still take; `needed` are those until an error is reached.
     pub fn left(goal: Goal, elapsed: f64, needed: f64) -> f64 {
         match goal {
             Goal::Samples(_) => 0.0,
@@ -47,8 +47,8 @@ impl Outlook {
         far_enough && self.passes >= PASSES && self.left > WORTH_A_PILOT
     }
 
-    /// Whether resolving pixels and sampling the others comes first to the goal, or nearer to it. `cost` and
-    /// `error` are the shares of the samples to come and of the squared error that the resolved pixels have.
+    /// Returns true if resolving pixels and sampling the others reaches the goal sooner, or comes nearer to it. `cost`
+    /// and `error` are the resolved pixels' shares of the remaining samples and of the squared error.
     fn gains(&self, seconds: f64, cost: f64, error: f64) -> bool {
         if let Goal::Error(_) = self.goal {
             return seconds < cost * self.left;
@@ -57,7 +57,7 @@ impl Outlook {
         if rest <= 0.0 {
             return false;
         }
-        // All further time goes to the other pixels.
+        // All remaining time goes to the other pixels.
         let fall = |seconds: f64, share: f64| {
             (1.0 + seconds / (self.elapsed * share.max(1e-3))).powf(-self.exponent)
         };
@@ -66,12 +66,12 @@ impl Outlook {
     }
 }
 
-/// The pixels that are resolved.
+/// The resolved pixels.
 #[derive(Default)]
 pub struct AnalyticPixels {
-    /// Red, green, blue, and 1 where samples are needed. None before anything is resolved.
+    /// Red, green, blue, and 1 if samples are needed. Empty before anything is resolved.
     pixels: Vec<[f32; 4]>,
-    /// Once one was made: what it found, if pixels can be resolved at all.
+    /// The pilot run, once it was made; `Some(None)` if pixels cannot be resolved at all.
     pilot: Option<Option<PilotRun>>,
 }
 
@@ -80,12 +80,12 @@ impl AnalyticPixels {
         self.pixels.iter().filter(|p| p[3] == 0.0).count()
     }
 
-    /// Whether the pixel is resolved.
+    /// Returns true if the pixel is resolved.
     pub fn has(&self, pixel: usize) -> bool {
         self.pixels.get(pixel).is_some_and(|p| p[3] == 0.0)
     }
 
-    /// Resolves the pixels, if that looks worth it: by one pilot run, weighed anew as more becomes known.
+    /// Resolves the pixels if that pays: decided by one pilot run, whose result is weighed again after each pass.
     pub fn resolve(
         &mut self,
         backend: &mut dyn Backend,
@@ -111,7 +111,7 @@ impl AnalyticPixels {
         Ok(true)
     }
 
-    /// Puts what is resolved in the place of what was sampled.
+    /// Replaces the sums of resolved pixels by their resolved values.
     pub fn replace(&self, sums: &mut HalfSums, counts: &[u32]) {
         for (i, &[r, g, b, sampled]) in self.pixels.iter().enumerate() {
             if sampled == 0.0 {
@@ -122,15 +122,15 @@ impl AnalyticPixels {
         }
     }
 
-    /// No variance where there is no chance.
-    pub fn settle(&self, estimate: &mut Estimate) {
+    /// Sets the variances of resolved pixels to zero: their values are not random.
+    pub fn clear_variances(&self, estimate: &mut Estimate) {
         for (variance, pixel) in estimate.variances.iter_mut().zip(&self.pixels) {
             *variance *= pixel[3];
         }
     }
 }
 
-/// Of the resolved pixels among those of a pilot run.
+/// Returns the resolved pixels' share of the sum over a pilot run's pixels.
 fn share(pilot: &PilotRun, of: &[f32]) -> f64 {
     let sum = |resolved: bool| {
         let pixels = pilot.pixels.iter().filter(|p| p.1 || !resolved);
@@ -140,7 +140,7 @@ fn share(pilot: &PilotRun, of: &[f32]) -> f64 {
     if all > 0.0 { sum(true) / all } else { 0.0 }
 }
 
-/// Samples in sum, until the goal is met; of goals that name no error, none.
+/// Returns the total number of samples until an error is reached; 0 for other goals.
 pub fn needed(allocation: &Allocation, aim: Aim) -> f64 {
     match aim {
         Aim::Mse(_) => allocation.cost(aim),
@@ -181,7 +181,7 @@ mod tests {
         assert!(!outlook(Goal::Error(0.9e-4), 100.0).is_worth_a_pilot());
         assert!(!outlook(Goal::Samples(16), 0.0).is_worth_a_pilot());
         let first = Outlook { passes: 1, ..outlook(Goal::Error(2e-4), 10.0) };
-        assert!(!first.is_worth_a_pilot(), "one pass foretells nothing");
+        assert!(!first.is_worth_a_pilot(), "one pass predicts nothing");
     }
 
     #[test]
@@ -197,7 +197,7 @@ mod tests {
         }
         let mut estimate =
             Estimate { variances: vec![0.5, 0.5], spreads: Vec::new(), mse: 0.0, deviation: 0.0 };
-        analytic.settle(&mut estimate);
+        analytic.clear_variances(&mut estimate);
         assert_eq!((estimate.variances, analytic.resolved()), (vec![0.0, 0.5], 1));
     }
 

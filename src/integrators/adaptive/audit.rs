@@ -1,8 +1,9 @@
-//! Pixels drawn at random and sampled anew → the picture's true mean squared error, with an interval.
+//! Estimates the picture's true mean squared error, with an interval, from pixels drawn at random and sampled anew.
 //!
-//! Halves of the same samples agree on what both have missed; an audit does not know what they have seen. For the
-//! value x of a pixel and two independent means a and b of it, (x − a)(x − b) has the mean (x − µ)², whatever led to
-//! x. Each finding counts by 1 over how often its pixel was to be drawn (Hansen & Hurwitz 1943).
+//! Halves of the same samples agree about anything that both have missed; an audit's samples are independent of them.
+//! For the value x of a pixel and two independent means a and b of it, (x − a)(x − b) has the expectation (x − µ)²,
+//! whatever led to x. Each finding is weighted by 1 over the expected number of draws of its pixel (Hansen & Hurwitz
+//! 1943).
 
 use std::cmp::Reverse;
 
@@ -11,28 +12,28 @@ use rayon::prelude::*;
 use super::analytic::{AnalyticPixels, OWN_ERROR};
 use super::draws::{Masses, wanted};
 use super::estimate::Estimate;
-use super::{MOST, OCTAVES, octave};
+use super::{MAX_COUNT, OCTAVES, octave};
 use crate::core::error::Result;
 use crate::core::progress::Progress;
 use crate::sampling::{Backend, HalfSums};
 use crate::schema::layout::{JOB_APART, JOB_BARE, JOB_STREAM_SHIFT, Job};
 
-/// The interval holds the truth with this probability.
+/// The probability that the interval contains the true value.
 pub const CONFIDENCE: f64 = 0.99;
-/// The normal deviate of that probability, two-sided.
+/// The two-sided normal deviate of that probability.
 pub const DEVIATE: f64 = 2.5758;
-/// Fewer have no interval.
-const FEW: usize = 16;
-/// Samples have not seen what varies so many times more in an audit.
+/// Fewer draws give no interval.
+const MIN_DRAWS: usize = 16;
+/// A pixel's variance counts as unseen if an audit's samples vary this many times more.
 const UNSEEN: f32 = 4.0;
-/// Samples that are all due to meet something meet none of it with a chance of e^-8.
+/// If samples are expected to meet something this many times, they miss it with a probability of e^-8.
 const MISSED: f64 = 8.0;
-/// Of a polygon that beams cut in f32, in pixels.
+/// The error of the area of a polygon that beams cut in f32, in pixels.
 const AREA_ERROR: f64 = 1e-6;
-/// Pixels around an audited one that are taken to be like it.
+/// Radius, in pixels, of the neighbourhood that is assumed to be like an audited pixel.
 const RADIUS: usize = 4;
 
-/// What is audited.
+/// The data that an audit examines.
 pub struct Audited<'a> {
     pub sums: &'a HalfSums,
     pub counts: &'a [u32],
@@ -40,12 +41,12 @@ pub struct Audited<'a> {
     pub analytic: &'a AnalyticPixels,
 }
 
-/// What an audit found.
+/// The result of an audit.
 #[derive(Clone, Debug, Default)]
 pub struct Audit {
-    /// The mean squared error of the whole picture, bias included. May be below 0 by chance.
+    /// The mean squared error of the whole picture, bias included. An unbiased estimate, which may be negative.
     pub mse: f64,
-    /// Bounds of it, with `CONFIDENCE`; none of so few draws that these say nothing of each other.
+    /// Its bounds at `CONFIDENCE`; `None` if there are too few draws to estimate their variance.
     pub interval: Option<[f64; 2]>,
     pub pixels: usize,
     pub samples: f64,
@@ -57,17 +58,18 @@ struct Finding {
     pixel: usize,
     /// The variance of one sample.
     spread: f32,
-    /// Pixels of the picture that a draw of this one stands for, their squared errors and upper bounds of these.
+    /// The number of the picture's pixels that a draw of this one represents, and their squared errors and upper
+    /// bounds.
     weight: f64,
     error: f64,
     bound: f64,
-    /// The film's samples vary far less than those of the audit.
+    /// True if the film's samples vary far less than those of the audit.
     unseen: bool,
 }
 
 impl Audited<'_> {
-    /// Takes at most about `budget` samples; `round` numbers the audits of a picture, none of which has samples of
-    /// another.
+    /// Takes at most about `budget` samples; `round` numbers the audits of a picture, whose samples are all
+    /// independent.
     pub fn audit(
         &self,
         backend: &mut dyn Backend,
@@ -83,7 +85,8 @@ impl Audited<'_> {
         places.dedup();
         let cost: f64 = places.iter().map(|&p| 2.0 * f64::from(wanted(self.counts[p]))).sum();
         let part = (budget / cost).min(1.0);
-        let samples = |pixel: usize| ((f64::from(wanted(self.counts[pixel])) * part) as u32).clamp(16, MOST);
+        let samples =
+            |pixel: usize| ((f64::from(wanted(self.counts[pixel])) * part) as u32).clamp(16, MAX_COUNT);
         let bare = if backend.prefilters() { JOB_BARE } else { 0 };
         let job = |&pixel: &usize, mean: u32| Job {
             place: Job::place_of(pixel as u32, self.sums.width),
@@ -91,7 +94,7 @@ impl Audited<'_> {
             first: 0,
             count: samples(pixel),
         };
-        // Longest first: neighbouring threads then have equally much to do.
+        // Longest first, so that neighbouring threads have equal amounts of work.
         let mut order: Vec<usize> = (0..places.len()).collect();
         order.sort_by_key(|&at| Reverse(samples(places[at])));
         let jobs: Vec<Job> =
@@ -103,7 +106,7 @@ impl Audited<'_> {
             let weight = 1.0 / masses.draws_of(self, places[at]);
             findings[at] = self.finding(places[at], [sums[0], sums[1]], jobs[0].count, weight, brightest);
         }
-        // In the order of the draws, so that neighbours are alike.
+        // In the order of the draws, so that neighbouring ones are alike.
         let of_draws = |of: fn(&Finding) -> f64| {
             let value = |pixel: &usize| {
                 let found = places.binary_search(pixel).ok().and_then(|at| findings[at].as_ref());
@@ -114,7 +117,7 @@ impl Audited<'_> {
         let (errors, bounds) = (of_draws(|f| f.error), of_draws(|f| f.bound));
         Ok(Audit {
             mse: errors.sum,
-            interval: (drawn.len() >= FEW)
+            interval: (drawn.len() >= MIN_DRAWS)
                 .then(|| [(errors.sum - errors.reach()).max(0.0), bounds.sum + bounds.reach()]),
             pixels: places.len(),
             samples: jobs.iter().map(|j| f64::from(j.count)).sum(),
@@ -122,8 +125,8 @@ impl Audited<'_> {
         })
     }
 
-    /// The squared error of a pixel and what is found there; none where the film or the audit has no number. Nothing
-    /// in the picture is taken to be brighter than `brightest`.
+    /// Returns the squared error of a pixel and its bounds; `None` if film or audit are NaN or infinite. Nothing in the
+    /// picture is assumed to be brighter than `brightest`.
     fn finding(
         &self,
         pixel: usize,
@@ -144,8 +147,9 @@ impl Audited<'_> {
         let off = |m: [f64; 4]| std::array::from_fn(|c| film[c] - m[c]);
         let spread = (middle[3] - dot(rgb(middle), rgb(middle))).max(0.0);
         let (error, bound, unseen) = if self.analytic.has(pixel) {
-            // Samples cannot resolve the error of what beams resolve, but find what contradicts it: beyond
-            // four times their noise, and more than if they had missed the brightest where it was due so often.
+            // Samples cannot measure the error of a resolved pixel, but they can contradict its value: by more than
+            // four times their noise, and by more than if they had missed the brightest light where it was due `MISSED`
+            // times.
             let squared = dot(off(middle), off(middle));
             let noise = (16.0 * spread).max(MISSED * brightest * squared.sqrt()) / (2.0 * k);
             let excess = (squared - noise).max(0.0);
@@ -154,7 +158,7 @@ impl Audited<'_> {
             let error = dot(off(means[0]), off(means[1]));
             let seen = (film[3] - dot(rgb(film), rgb(film))).max(0.0);
             let unseen = spread > f64::from(UNSEEN) * seen;
-            // Where the audit itself saw too little to know the mean, its samples still know their variance.
+            // If the audit itself saw too little to know the mean, its samples still know their variance.
             (error, if unseen { error.max(spread / n) } else { error }, unseen)
         };
         let (error, bound) = (error * weight, bound * weight);
@@ -164,8 +168,8 @@ impl Audited<'_> {
 }
 
 impl Audit {
-    /// Raises the variances of pixels that are like those in which the audit saw what the film has not: around them,
-    /// and of the same counts. Returns the pixels around.
+    /// Raises the variances of pixels like those in which the audit saw light that the film has not seen: around them,
+    /// and of the same counts. Returns the pixels around them.
     pub fn raise(&self, variances: &mut [f32], counts: &[u32], width: usize) -> Vec<u32> {
         let all: f64 = self.findings.iter().map(|f| f.bound.max(0.0)).sum();
         let unseen = || self.findings.iter().filter(|f| f.unseen);
@@ -191,7 +195,7 @@ impl Audit {
     }
 }
 
-/// Takes the pixels around one to vary like it, by a quarter.
+/// Assumes that the pixels around one vary like it, by a quarter.
 pub fn raise(
     variances: &mut [f32],
     counts: &[u32],
@@ -213,7 +217,7 @@ pub fn raise(
     }
 }
 
-/// What samples of either something or nothing would show where it is: the mean of their squares over their mean.
+/// Returns the brightness of a light that each sample either hits or misses: the mean of the squares over the mean.
 fn brightness([r, g, b, squares]: &[f32; 4]) -> f64 {
     let mean = f64::from(r.abs().max(g.abs()).max(b.abs()));
     if mean > 0.0 { f64::from(*squares) / mean } else { 0.0 }
@@ -223,22 +227,22 @@ fn brightness([r, g, b, squares]: &[f32; 4]) -> f64 {
 struct Total {
     sum: f64,
     variance: f64,
-    /// Degrees of freedom of the variance: few where few draws make most of it.
+    /// Degrees of freedom of the variance: few if few draws contribute most of it.
     freedom: f64,
 }
 
 impl Total {
-    /// Neighbouring parts count as one with two draws (collapsed strata: Cochran 1977, 5A.12): their difference says
-    /// too much of the variance rather than too little.
+    /// Treats each two neighbouring parts as one with two draws (collapsed strata: Cochran 1977, 5A.12): their
+    /// difference overestimates the variance rather than underestimating it.
     fn new(values: &[f64]) -> Total {
         let squares = values.chunks_exact(2).map(|pair| (pair[0] - pair[1]).powi(2));
         let (variance, fourth) = squares.fold((0.0, 0.0), |(s, f), d| (s + d, f + d * d));
-        // Of n squares of normal deviates: n² / 3n.
+        // For n squares of normal deviates: n² / 3n.
         let freedom = if fourth > 0.0 { 3.0 * variance * variance / fourth } else { 2.0 };
         Total { sum: values.iter().sum(), variance, freedom: freedom.max(2.0) }
     }
 
-    /// Half the interval's length, by Student's t (Cornish & Fisher's expansion, Abramowitz & Stegun 26.7.5).
+    /// Returns half of the interval's length by Student's t (Cornish & Fisher's expansion, Abramowitz & Stegun 26.7.5).
     fn reach(&self) -> f64 {
         let (z, nu) = (DEVIATE, self.freedom);
         let first = (z.powi(3) + z) / 4.0;

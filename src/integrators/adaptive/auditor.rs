@@ -1,6 +1,5 @@
-//! How many samples the next audit has, and what the last ones mean for the aim. In: what was sampled so far, and
-//! what the goal leaves. Out:
-//! audits, numbered so that none has samples of another.
+//! Decides the size of the next audit and the effect of the previous ones on the aim. Input: the samples so far, and
+//! the budget that the goal leaves. Output: audits, numbered so that no two share samples.
 
 use super::audit::{Audit, Audited};
 use super::{Goal, Outcome};
@@ -8,33 +7,33 @@ use crate::core::error::Result;
 use crate::core::progress::Progress;
 use crate::sampling::Backend;
 
-/// Samples of an audit over those of the picture; a picture of few has more, up to so many in all. Where something small
-/// and bright is known to be, that is what audits must meet too.
+/// Ratio of an audit's samples to those of the picture; pictures with few samples have larger audits, up to this many
+/// in all. In scenes known to contain something small and bright an audit must be large enough to hit it too.
 const AUDIT_SHARE: f64 = 1.0 / 48.0;
 const AUDIT_SHARE_OF_BRIGHT: f64 = 1.0 / 4.0;
 const SMALL_AUDIT: f64 = (1u64 << 19) as f64;
 const SMALL_AUDIT_OF_BRIGHT: f64 = (1u64 << 21) as f64;
 
-/// Of a picture with a number of samples to keep an audit has a quarter, or so many.
+/// With a fixed number of samples, an audit takes a quarter of them, or at least this many.
 const LITTLE_AUDIT: f64 = (1u64 << 18) as f64;
-/// With fewer an audit says nothing.
+/// An audit with fewer samples is not significant.
 const MIN_AUDIT: f64 = 4096.0;
-/// Part of the remaining time that an audit is planned for.
+/// Fraction of the remaining time for which an audit is planned.
 const OF_TIME: f64 = 0.5;
 
-/// When to audit, how much, and what the last audit said.
+/// Decides when and how much to audit, and keeps the last result.
 #[derive(Default)]
 pub struct Auditor {
     rounds: u32,
-    /// How often an audit has refused the goal.
+    /// The number of audits that refused the goal.
     pub refusals: u32,
     /// Mean squared error by the last audit.
     mse: f64,
 }
 
 impl Auditor {
-    /// Returns the samples of the next audit, after `taken` samples of the picture. The device takes `rate` samples a
-    /// second, and `elapsed` seconds are over.
+    /// Returns the samples of the next audit, after `taken` samples of the picture. The device takes `rate` samples per
+    /// second, and `elapsed` seconds have passed.
     pub fn budget(&self, goal: Goal, taken: f64, bright: bool, rate: f64, elapsed: f64) -> f64 {
         let (share, least) = match bright {
             true => (AUDIT_SHARE_OF_BRIGHT, SMALL_AUDIT_OF_BRIGHT),
@@ -48,8 +47,8 @@ impl Auditor {
         (share * f64::from(1 << self.refusals.min(3)) * taken).max(least).min(most)
     }
 
-    /// Whether a picture is audited with so many samples: one with an error to reach always is.
-    pub fn is_owed(&self, goal: Goal, budget: f64) -> bool {
+    /// Returns true if a picture is audited with this budget; with an error as goal it always is.
+    pub fn is_due(&self, goal: Goal, budget: f64) -> bool {
         budget >= MIN_AUDIT || matches!(goal, Goal::Error(_))
     }
 
@@ -69,7 +68,7 @@ impl Auditor {
         Ok(audit)
     }
 
-    /// What the aim is lowered by: audits found more than the halves, or were not sure.
+    /// Returns the factor by which the aim is lowered after audits that found more than the halves or were not certain.
     pub fn strictness(&self, noise: f64) -> f64 {
         if self.refusals == 0 {
             return 1.0;

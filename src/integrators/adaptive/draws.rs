@@ -1,39 +1,39 @@
-//! Which pixels an audit looks at. Half of its samples go evenly over the picture, where pixels of few samples need few
-//! to be checked and are drawn more often; half by the variance that the film says. One draw a pixel at most; they lie
-//! at equal steps along the counts and the picture.
+//! Chooses the pixels of an audit. Half of its samples are distributed evenly over the picture, where pixels with few
+//! samples cost little to check and are drawn more often; half in proportion to the variance that the film shows. A
+//! pixel is drawn at most once, at equal steps along the counts and the picture (systematic sampling).
 
 use rayon::prelude::*;
 
 use super::audit::Audited;
-use super::{MOST, OCTAVES, octave};
+use super::{MAX_COUNT, OCTAVES, octave};
 
-/// Draws of each half of the samples.
+/// Draws for each half of the samples.
 const MIN_DRAWS: f64 = 128.0;
 const MAX_DRAWS: f64 = 2048.0;
-/// Samples of each of the two means where the film has fewer: what few pixels show is found by many draws.
+/// Least number of samples of each of the two means: differences that few pixels show are found by many draws.
 const MIN_SAMPLES: u32 = 64;
-/// Pixels that one thread takes at once.
+/// Pixels that one thread processes at once.
 const PIXELS_PER_TASK: usize = 1 << 15;
 /// Cells along each side of the picture.
 const CELLS: usize = 32;
 
-/// Returns the samples of each of both means for a pixel with `count` samples in each half.
+/// Returns the samples of each of the two means for a pixel with `count` samples in each half.
 pub fn wanted(count: u32) -> u32 {
-    (2 * count).clamp(MIN_SAMPLES, MOST)
+    (2 * count).clamp(MIN_SAMPLES, MAX_COUNT)
 }
 
-/// Samples of a draw.
+/// Returns the samples of a draw.
 fn samples_of(count: u32) -> f64 {
     2.0 * f64::from(wanted(count))
 }
 
-/// How many draws each pixel may expect: as many samples as all others, and draws in proportion to its variance, one at
-/// most. In sum, of each cell of the picture and each octave of counts.
+/// The expected number of draws of each pixel: equal expected samples for all, plus draws in proportion to its
+/// variance, at most one; summed over each cell of the picture and each octave of counts.
 pub struct Masses {
     cells: Vec<[f64; OCTAVES]>,
-    /// Samples that each pixel may expect whatever its variance.
+    /// Expected samples of each pixel, independent of its variance.
     even: f64,
-    /// Draws for a variance of 1.
+    /// Draws per unit of variance.
     of_variance: f64,
 }
 
@@ -72,13 +72,13 @@ impl Masses {
         masses
     }
 
-    /// Returns how often the pixel may expect to be drawn, at most once.
+    /// Returns the expected number of draws of the pixel, at most one.
     pub fn draws_of(&self, of: &Audited, pixel: usize) -> f64 {
         let even = self.even / samples_of(of.counts[pixel]);
         (even + self.of_variance * f64::from(of.estimate.variances[pixel])).min(1.0)
     }
 
-    /// Pixels at equal steps along the whole mass, in the order of octaves and cells: none of them twice.
+    /// Draws pixels at equal steps along the whole mass, in the order of octaves and cells; none of them twice.
     pub fn draw(&self, of: &Audited, rng: &mut fastrand::Rng) -> Vec<usize> {
         let mut drawn: Vec<usize> = Vec::new();
         let start = rng.f64();
@@ -104,7 +104,7 @@ impl Masses {
     }
 }
 
-/// Cells follow each other along a line that turns at the borders, so that neighbours in it are neighbours.
+/// Returns the pixels of a cell. Cells follow a boustrophedon path, so that successive cells are adjacent.
 fn pixels_of<'a>(of: &Audited<'a>, cell: usize) -> impl Iterator<Item = usize> + use<'a> {
     let width = of.sums.width as usize;
     let height = of.counts.len() / width;

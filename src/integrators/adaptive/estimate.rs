@@ -1,11 +1,11 @@
-//! HalfSums of two halves → the variance of each pixel's mean, and the picture's mean squared error.
+//! Sums of two halves → the variance of each pixel's mean, and the picture's mean squared error.
 //!
-//! A pixel's own halves say little: the square of one difference. The spread of its samples is known well,
-//! but well placed samples err less than it says. So the spread tells pixels apart, and the halves of a
-//! window around each how much less its samples err: v = s²/n · Σ d² / Σ s²/n, sums over the window.
+//! A pixel's own halves are a poor estimate: the square of a single difference. The variance s² of its samples is known
+//! well, but stratified samples err less than it predicts. So s² distinguishes pixels, and the halves in a window
+//! around each show by how much its samples err less: v = s²/n · Σ d² / Σ s²/n, with sums over the window.
 //!
-//! An edge that all n samples missed covers less than about 1/n of the pixel, of which the square's mean is
-//! 1/3n²: no variance is taken for less than that times the contrast to the nearest pixels, squared.
+//! An edge that all n samples missed covers less than about 1/n of the pixel; the mean of that square is 1/3n². So no
+//! variance is assumed to be less than that times the squared contrast to the nearest pixels.
 
 use glam::{Vec3A, Vec4};
 use rayon::prelude::*;
@@ -13,35 +13,35 @@ use rayon::prelude::*;
 use super::unseen::{self, Spreads};
 use crate::sampling::HalfSums;
 
-/// Pixels that one thread takes at once.
+/// Pixels that one thread processes at once.
 const PIXELS_PER_TASK: usize = 1 << 15;
-/// Pixels on each side of the window's middle.
+/// Pixels on each side of the window's centre.
 const RADIUS: usize = 3;
 
 pub struct Estimate {
-    /// Of the mean over both halves, a channel's mean.
+    /// The variance of the mean over both halves, averaged over the channels.
     pub variances: Vec<f32>,
-    /// Of one sample.
+    /// The variance of one sample.
     pub spreads: Vec<f32>,
     pub mse: f64,
-    /// A standard deviation of it: differences d of variance v have d⁴ = 3v² in the mean, and d² the variance 2v².
+    /// The standard deviation of `mse`: a difference d of variance v has E d⁴ = 3v², and d² the variance 2v².
     pub deviation: f64,
 }
 
-/// Of one pixel.
+/// The statistics of one pixel.
 #[derive(Clone, Copy, Default)]
 struct Seen {
     mean: Vec3A,
     /// The mean's variance by the difference of the halves.
     difference: f32,
-    /// And by the spread of the samples.
+    /// The mean's variance by the variance of the samples.
     spread: f32,
     /// The variance of one sample, by each half.
     halves: Spreads,
 }
 
 impl Estimate {
-    /// `bright`: the scene is known to have something small and bright.
+    /// Estimates all variances; `bright` is true if the scene is known to contain something small and bright.
     pub fn new(sums: &HalfSums, counts: &[u32], bright: bool) -> Estimate {
         let (width, height) = (sums.width as usize, sums.height as usize);
         let seen: Vec<Seen> = (0..counts.len()).into_par_iter().map(|i| seen(sums, counts[i], i)).collect();
@@ -57,13 +57,13 @@ impl Estimate {
         };
         let spread = |(seen, &count): (&Seen, &u32)| seen.spread * (2.0 * count as f32);
         let mut variances: Vec<f32> = (0..seen.len()).into_par_iter().map(variance).collect();
-        unseen::settle(&mut variances, |i| seen[i].halves, counts, width, bright);
+        unseen::correct(&mut variances, |i| seen[i].halves, counts, width, bright);
         Estimate { variances, spreads: seen.par_iter().zip(counts).map(spread).collect(), mse, deviation }
     }
 }
 
 impl Estimate {
-    /// The variances' mean over the error that the halves tell.
+    /// Returns the ratio of the mean variance to the error that the halves show.
     pub fn weight(&self) -> f64 {
         let chunks: Vec<f64> = self
             .variances
@@ -83,7 +83,7 @@ fn seen(sums: &HalfSums, count: u32, i: usize) -> Seen {
     let difference = 0.25 * square(own - other);
     let spread = 0.5 * part * (0.5 * (a.w + b.w) - square(mean)).max(0.0);
     let halves = [(a.w - square(own)).max(0.0), (b.w - square(other)).max(0.0)];
-    // What is no number stays none: more samples would not help, and no neighbour has contrast to it.
+    // A pixel that is NaN or infinite stays so: more samples would not help, and neighbours have no contrast to it.
     if mean.is_finite() && difference.is_finite() && spread.is_finite() {
         Seen { mean, difference, spread, halves }
     } else {
@@ -91,12 +91,12 @@ fn seen(sums: &HalfSums, count: u32, i: usize) -> Seen {
     }
 }
 
-/// A channel's mean.
+/// Returns the mean over the channels.
 fn square(v: Vec3A) -> f32 {
     v.length_squared() * (1.0 / 3.0)
 }
 
-/// Of each pixel's window: sums of what the halves and the spread say.
+/// Returns for each pixel the sums over its window of both estimates of the variance.
 fn window_sums(seen: &[Seen], width: usize, height: usize) -> Vec<[f32; 2]> {
     let add = |a: [f32; 2], b: [f32; 2]| [a[0] + b[0], a[1] + b[1]];
     let around = |at: usize, size: usize| at.saturating_sub(RADIUS)..(at + RADIUS + 1).min(size);
@@ -117,7 +117,7 @@ fn window_sums(seen: &[Seen], width: usize, height: usize) -> Vec<[f32; 2]> {
     sums
 }
 
-/// The largest squared difference to one of the four nearest pixels.
+/// Returns the largest squared difference to one of the four nearest pixels.
 fn contrast(seen: &[Seen], i: usize, width: usize, height: usize) -> f32 {
     let (x, y) = (i % width, i / width);
     let to = |j: usize| square(seen[i].mean - seen[j].mean);
@@ -135,7 +135,7 @@ fn contrast(seen: &[Seen], i: usize, width: usize, height: usize) -> f32 {
     most
 }
 
-/// How the picture's error falls: MSE ~ samples^-p, by the last two passes.
+/// The rate at which the picture's error falls: MSE ~ samples^-p, by the last two passes.
 pub struct Exponent {
     value: f64,
     last: Option<(f64, f64)>,
@@ -169,7 +169,7 @@ mod tests {
 
     const WIDTH: usize = 64;
 
-    /// Uniform numbers of variance 1 for each sample, at least for as many as are asked for here.
+    /// Uniform random numbers of variance 1, at least for the samples that are requested here.
     fn noise(pixel: usize, half: usize, s: u32) -> f32 {
         // Two rounds of Jarzynski & Olano's pcg.
         let pcg = |v: u32| {
@@ -181,7 +181,7 @@ mod tests {
         (bits as f32 / 16_777_216.0 - 0.5) * 12f32.sqrt()
     }
 
-    /// A picture whose samples deviate by `spread` from `mean`.
+    /// Returns a picture whose samples deviate by `spread` from `mean`.
     fn sums(counts: &[u32], mean: impl Fn(usize) -> f32, spread: impl Fn(usize) -> f32) -> HalfSums {
         let half = |half: usize| {
             let sum = |i: usize| {
@@ -203,7 +203,7 @@ mod tests {
         let counts = vec![32u32; WIDTH * WIDTH];
         let spread = |i: usize| if i % WIDTH < WIDTH / 2 { 0.1 } else { 1.0 };
         let estimate = Estimate::new(&sums(&counts, |_| 0.5, spread), &counts, false);
-        // Half the pixels 0.01 / 64, half 1 / 64; 4096 squares of a normal deviate: 3 sigma are 9 %.
+        // Half of the pixels 0.01 / 64, half 1 / 64; for 4096 squares of a normal deviate 3 sigma are 9 %.
         let exact = 0.505 / 64.0;
         assert!((estimate.mse / exact - 1.0).abs() < 0.09, "{:e}, exactly {exact:e}", estimate.mse);
         for (i, v) in estimate.variances.iter().enumerate() {
@@ -213,7 +213,7 @@ mod tests {
         }
     }
 
-    /// Where halves agree better than the spread says, samples were placed well.
+    /// Halves that agree better than the variance of samples predicts show that samples are stratified.
     #[test]
     fn agreeing_halves_lower_the_variance() {
         let counts = vec![32u32; WIDTH * WIDTH];
@@ -221,7 +221,7 @@ mod tests {
         same.halves[1] = same.halves[0].clone();
         let estimate = Estimate::new(&same, &counts, false);
         assert_eq!(estimate.mse, 0.0);
-        // Left is the contrast of neighbours.
+        // The contrast of neighbours remains.
         assert!(estimate.variances.iter().all(|v| *v < 0.01 * 0.09 / 64.0));
     }
 

@@ -1,25 +1,25 @@
-//! Some samples for pixels drawn at random, in every pass: a pixel whose samples are all equal may have missed what is
-//! rare. Where such a pixel turns out to vary, those around it are taken to vary too, until their own samples say
-//! otherwise: what one of them finds spreads from pass to pass.
+//! Gives some samples to pixels drawn at random in every pass: a pixel whose samples are all equal may have missed rare
+//! light. If such a pixel turns out to vary, its neighbours are assumed to vary too until their own samples show
+//! otherwise, so that a discovery spreads from pass to pass.
 
-use super::MOST;
+use super::MAX_COUNT;
 use super::audit::raise;
 use super::estimate::Estimate;
 
-/// One pixel of so many, one after the other.
-const APART: usize = 128;
-/// By how much the count of a visited pixel grows that has few samples in each half; one of more gains a half of the
-/// power of two in it.
+/// Length of a run of pixels of which one is visited.
+const RUN: usize = 128;
+/// Factor by which the count of a visited pixel grows if it has fewer than `FEW` samples in each half; a larger count
+/// grows by half of its leading power of two.
 const GROWTH: u32 = 4;
 const FEW: u32 = 64;
-/// A visited pixel has found something where its samples vary so many times more than before.
+/// A visited pixel has made a discovery if its samples vary this many times more than before.
 const FOUND: f32 = 4.0;
-/// Pixels around such a one that are taken to be like it.
+/// Radius, in pixels, of the neighbourhood that is assumed to be like it.
 const RADIUS: usize = 3;
 
 pub struct Explorer {
     rng: fastrand::Rng,
-    /// Pixels that are looked at, and how their samples varied before.
+    /// Visited pixels, and the variance of their samples before.
     visited: Vec<(u32, f32)>,
 }
 
@@ -30,7 +30,7 @@ impl Default for Explorer {
 }
 
 impl Explorer {
-    /// Raises the variances around those visited pixels that have found something, and looks at these too.
+    /// Raises the variances around visited pixels that have made a discovery, and visits those too.
     pub fn spread(&mut self, estimate: &mut Estimate, counts: &[u32], width: usize) {
         let mut raised = Vec::new();
         for (pixel, before) in std::mem::take(&mut self.visited) {
@@ -42,16 +42,16 @@ impl Explorer {
         self.look_at(&raised, estimate);
     }
 
-    /// These pixels have been given a variance that their samples do not show.
+    /// Visits pixels that were given a variance that their samples do not show.
     pub fn look_at(&mut self, pixels: &[u32], estimate: &Estimate) {
         self.visited.extend(pixels.iter().map(|&i| (i, estimate.spreads[i as usize])));
     }
 
-    /// Gives some samples to pixels drawn at random, one of each run.
+    /// Gives some samples to one pixel of each run, drawn at random.
     pub fn visit(&mut self, next: &mut [u32], now: &[u32], estimate: &Estimate) {
-        for first in (0..next.len()).step_by(APART) {
-            let pixel = self.rng.usize(first..(first + APART).min(next.len()));
-            next[pixel] = next[pixel].max(grown(now[pixel]).min(MOST));
+        for first in (0..next.len()).step_by(RUN) {
+            let pixel = self.rng.usize(first..(first + RUN).min(next.len()));
+            next[pixel] = next[pixel].max(grown(now[pixel]).min(MAX_COUNT));
             self.visited.push((pixel as u32, estimate.spreads[pixel]));
         }
     }
@@ -77,7 +77,7 @@ mod tests {
         for _ in 0..2000 {
             let mut next = now.clone();
             explorer.visit(&mut next, &now, &estimate);
-            for (run, counts) in next.chunks(APART).enumerate() {
+            for (run, counts) in next.chunks(RUN).enumerate() {
                 assert_eq!(counts.iter().filter(|n| **n == 32).count(), 1, "run {run}");
             }
             next.iter().zip(&mut ever).for_each(|(n, ever)| *ever |= *n > 8);
@@ -91,7 +91,8 @@ mod tests {
         assert_eq!([1, 8, 48, 64, 96, 1024].map(grown), [4, 32, 192, 96, 128, 1536]);
     }
 
-    /// A texture of rare bright texels that no first pass has met: whoever finds one tells its neighbours, these theirs.
+    /// A texture of rare bright texels that no first pass has met: a pixel that finds one raises its neighbours, these
+    /// raise theirs.
     #[test]
     fn what_one_pixel_finds_spreads_until_pixels_see_that_there_is_nothing() {
         const WIDTH: usize = 64;
@@ -106,13 +107,13 @@ mod tests {
         assert_eq!(raised(&estimate), 49);
         assert_eq!(estimate.variances[found], 1.0 / 16.0);
         assert_eq!(estimate.variances[found + 3], 0.25 / 16.0);
-        // One of them finds some too: its surroundings are raised in turn; the others have seen nothing.
+        // One neighbour finds another texel: its surroundings are raised in turn; the others have seen nothing.
         estimate.variances.fill(0.0);
         estimate.spreads[found + 3] = 1.0;
         explorer.spread(&mut estimate, &counts, WIDTH);
         assert!(estimate.variances[found + 6] > 0.0);
         assert_eq!(raised(&estimate), 49);
-        // And where no one does, it ends.
+        // If no pixel finds any, the search ends.
         estimate.variances.fill(0.0);
         explorer.spread(&mut estimate, &counts, WIDTH);
         assert_eq!(raised(&estimate), 0);

@@ -1,16 +1,16 @@
-//! How fast a device samples and how long the host thinks → by how much all counts may grow at once.
+//! Measures sampling rate and host time, and decides by how much all counts may grow at once.
 
 use super::Goal;
 
-/// Counts of a device that is idle grow at most so much at once.
+/// Largest factor by which the counts of an idle device grow at once.
 const MAX_IDLE: f64 = 64.0;
-/// The error that passes are planned for, over the goal: an audit shall find it met, so that few are needed.
+/// Ratio of the error for which passes are planned to the goal: below 1, so that few audits are needed.
 pub const PLANNED: f64 = 0.93;
 
-/// How fast samples are taken, and how long the host thinks about them.
+/// The rate of sampling, and the time that the host needs between passes.
 #[derive(Default)]
 pub struct Pace {
-    /// Samples a second, and the seconds that they took, in the last pass.
+    /// Samples per second, and seconds of sampling, in the last pass.
     pub rate: f64,
     sampling: f64,
     pub hosting: f64,
@@ -21,8 +21,8 @@ impl Pace {
         (self.rate, self.sampling) = (samples / seconds.max(1e-9), seconds);
     }
 
-    /// Of a device that mostly waits for the host: by how much all counts may grow until both work alike, or the
-    /// goal is met. That costs less than to think of where samples are wanted most.
+    /// Returns the factor by which all counts may grow if the device mostly waits for the host: until both take the
+    /// same time, or the goal is met. That is cheaper than deciding where samples are needed most.
     pub fn idle(&self, goal: Goal, elapsed: f64, rmse: f64, exponent: f64) -> Option<u32> {
         let (time, most) = match goal {
             Goal::Samples(_) => return None,
@@ -44,7 +44,7 @@ mod tests {
         let waits = Pace { rate: 1e9, sampling: 1e-3, hosting: 0.2 };
         assert_eq!(waits.idle(Goal::Seconds(10.0), 1.0, 1e-2, 1.6), Some(64));
         assert_eq!(waits.idle(Goal::Seconds(1.02), 1.0, 1e-2, 1.6), Some(8), "half of what is left");
-        // Samples that lower the error by half are 2^(2 / 1.6) = 2.4 times as many; with what is planned beyond 2.7.
+        // Half the error takes 2^(2 / 1.6) = 2.4 times as many samples; with the planned margin 2.7.
         assert_eq!(waits.idle(Goal::Error(5e-3), 1.0, 1e-2, 1.6), Some(2));
         assert_eq!(waits.idle(Goal::Error(1e-5), 1.0, 1e-2, 1.6), Some(64));
         assert_eq!(waits.idle(Goal::Samples(64), 1.0, 1e-2, 1.6), None);

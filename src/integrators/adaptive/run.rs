@@ -1,4 +1,4 @@
-//! The loop of passes: samples, estimate, audit, and the next counts, until the goal is met.
+//! The loop of passes: sample, estimate, audit and choose the next counts, until the goal is met.
 
 use std::collections::BTreeMap;
 use std::time::Instant;
@@ -10,7 +10,7 @@ use super::auditor::Auditor;
 use super::estimate::{Estimate, Exponent};
 use super::explore::Explorer;
 use super::pace::{PLANNED, Pace};
-use super::{Goal, MOST, Outcome};
+use super::{Goal, MAX_COUNT, Outcome};
 use crate::core::error::Result;
 use crate::core::film::Film;
 use crate::core::progress::Progress;
@@ -18,29 +18,29 @@ use crate::core::range::{Range, Rect};
 use crate::sampling::{Backend, Block, Count, FilmSums, HalfSums};
 use crate::schema::layout::Job;
 
-/// Samples of each half in the first pass: enough to meet the edge of a shape that covers a tenth of the
-/// pixel with a chance of 4 in 5.
+/// Samples of each half in the first pass: enough to meet the edge of a shape that covers a tenth of the pixel with a
+/// probability of 4 in 5.
 const FIRST: u32 = 8;
-/// Where something small and bright is known to be, a pixel that sees all of it takes this many samples a share of it
-/// in its first pass: it is missed with a chance of 1 in 50.
+/// If something small and bright is known to be in the scene: the first pass takes this number of samples divided by
+/// its share of the texture, so that a pixel that sees all of it misses it with a probability of 1 in 50.
 const FIRST_OF_BRIGHT: f64 = 4.0;
-/// But no more than so many, nor than so many in the whole picture.
+/// Most samples of the first pass, per pixel and in the whole picture.
 const MAX_FIRST: f64 = 1024.0;
 const MAX_FIRST_IN_ALL: f64 = (1u64 << 25) as f64;
-/// Part of the remaining time that a pass is planned for.
+/// Fraction of the remaining time for which a pass is planned.
 const OF_TIME: f64 = 0.85;
-/// Part of the whole time that is kept for the last audit.
+/// Fraction of the whole time that is reserved for the last audit.
 const AUDIT_TIME: f64 = 0.08;
-/// A time is kept where it is exceeded by no more than this factor.
+/// A time limit counts as met if it is exceeded by no more than this factor.
 const KEPT: f64 = 1.05;
 /// Rows of the film that are made at once.
 const FILM_ROWS: u32 = 64;
-/// A goal is met where the audit's estimate is below it, and the interval ends not far above it.
+/// A goal is met if the audit's estimate is below it and the interval ends below this multiple of it.
 const SURE: f64 = 1.25;
-/// Audits that may refuse the goal, each with more samples, before it counts as not to be met.
+/// Audits that may refuse the goal, each with more samples, before it counts as out of reach.
 const MAX_REFUSALS: u32 = 12;
 
-/// Samples until the goal is met. Audits do not touch the film.
+/// Samples until the goal is met. Audits do not change the film.
 pub fn run(
     backend: &mut dyn Backend,
     [width, height]: [u32; 2],
@@ -78,7 +78,7 @@ pub fn run(
         taken = total(&counts);
 
         let mut estimate = Estimate::new(&sums, &counts, bright);
-        analytic.settle(&mut estimate);
+        analytic.clear_variances(&mut estimate);
         exponent.learn(taken, estimate.mse);
         outcome.beam_pixels = analytic.resolved() as u64;
         let resolved = outcome.beam_pixels as f64 / pixels as f64;
@@ -102,7 +102,7 @@ pub fn run(
 
         let budget = auditor.budget(goal, taken, bright, pace.rate, start.elapsed().as_secs_f64());
         let audited = Audited { sums: &sums, counts: &counts, estimate: &estimate, analytic: &analytic };
-        let audit = if enough && auditor.is_owed(goal, budget) {
+        let audit = if enough && auditor.is_due(goal, budget) {
             Some(auditor.audit(&audited, backend, budget, &mut outcome, progress)?)
         } else {
             None
@@ -113,7 +113,7 @@ pub fn run(
             let Goal::Error(rmse) = goal else { break };
             let sure = outcome.interval.is_none_or(|[_, high]| high <= SURE * rmse);
             outcome.reached = outcome.estimated_rmse <= rmse && sure;
-            // More samples do not lower the bias of a footprint as they lower noise.
+            // More samples lower noise, but not the bias of a footprint.
             if outcome.reached || backend.prefilters() || auditor.refusals == MAX_REFUSALS {
                 break;
             }
@@ -127,7 +127,7 @@ pub fn run(
         }
         let aim = match goal {
             Goal::Samples(_) | Goal::Seconds(_) => Aim::Samples(all),
-            // In the allocation's measure, which weighs what may have been missed too.
+            // In the allocation's measure, which includes the variance that may have been missed.
             Goal::Error(rmse) => Aim::Mse((rmse * PLANNED).powi(2) * weight * auditor.strictness(noise)),
         };
         let allocation = Allocation::new(&estimate, &counts, exponent.value());
@@ -148,15 +148,15 @@ pub fn run(
         let idle = pace.idle(goal, elapsed, outcome.estimated_noise, exponent.value());
         let short = equal(&counts).filter(|now| *now < first);
         next = match (short.or(equal(&counts)), idle) {
-            // A budget begins with one sample of each half, to see how long these take.
+            // A time limit begins with one sample in each half, to measure the rate.
             (Some(now), _) if short.is_some() => {
                 let most = all / (2 * pixels) as f64;
                 vec![(most as u32).clamp(now, first); pixels]
             }
-            (Some(now), Some(factor)) => vec![(now * factor).min(MOST); pixels],
+            (Some(now), Some(factor)) => vec![(now * factor).min(MAX_COUNT); pixels],
             _ => {
-                let mut next = allocation.counts(aim, &counts, growth(goal), MOST);
-                // Where none of those that matter may have more, looking around does not help either.
+                let mut next = allocation.counts(aim, &counts, growth(goal), MAX_COUNT);
+                // If no pixel that matters may have more samples, exploring does not help either.
                 if next != counts || enough {
                     explorer.visit(&mut next, &counts, &estimate);
                 }
@@ -164,7 +164,7 @@ pub fn run(
             }
         };
         if next == counts {
-            // No pixel that matters may have more samples: what was reached is noted all the same.
+            // No pixel that matters may have more samples; the result is recorded all the same.
             if audit.is_none() {
                 let audited =
                     Audited { sums: &sums, counts: &counts, estimate: &estimate, analytic: &analytic };
@@ -187,7 +187,7 @@ pub fn run(
 }
 
 impl Outcome {
-    /// Both estimates err by chance: the larger one is noted, and the larger of their bounds.
+    /// Records the larger of the two estimates, which both err at random, and the larger of their bounds.
     fn note(&mut self, noise: f64, deviation: f64, audit: Option<&Audit>, prefilters: bool) {
         let mse = audit.map_or(noise, |audit| audit.mse.max(noise));
         self.estimated_rmse = mse.sqrt();
@@ -198,13 +198,13 @@ impl Outcome {
     }
 }
 
-/// A pixel's count grows at most so much from one pass to the next: what is known of it is that rough. Towards a
-/// fixed number of samples each one counts; else fewer passes do.
+/// Returns the largest factor by which a pixel's count grows from one pass to the next, as its variance is only roughly
+/// known. With a fixed number of samples each one counts; otherwise fewer passes are better.
 fn growth(goal: Goal) -> f64 {
     if let Goal::Samples(_) = goal { 8.0 } else { 16.0 }
 }
 
-/// Of each half, before anything is known of the pixels.
+/// Returns the samples of each half before anything is known about the pixels.
 fn first_count(goal: Goal, bright_share: f64, pixels: usize) -> u32 {
     let most = (MAX_FIRST_IN_ALL / pixels as f64).min(MAX_FIRST) / 2.0;
     let bright = (FIRST_OF_BRIGHT / bright_share / 2.0).min(most) as u32;
@@ -217,20 +217,20 @@ fn first_count(goal: Goal, bright_share: f64, pixels: usize) -> u32 {
     }
 }
 
-/// The count of all pixels, if it is one.
+/// Returns the count of all pixels if it is the same for all.
 fn equal(counts: &[u32]) -> Option<u32> {
     counts.first().copied().filter(|first| counts.iter().all(|n| n == first))
 }
 
-/// Of both halves.
+/// Returns the samples of both halves.
 fn total(counts: &[u32]) -> f64 {
     2.0 * counts.iter().map(|&n| f64::from(n)).sum::<f64>()
 }
 
-/// From `counts` to `next` samples in each half of each pixel, longest first: neighbouring threads then
-/// have equally much to do.
+/// Returns the batches that take each half of each pixel from `counts` to `next` samples, longest first, so that
+/// neighbouring threads have equal amounts of work.
 fn jobs(counts: &[u32], next: &[u32], width: u32) -> Vec<Job> {
-    // Few lengths occur, so pixels are dealt out by length instead of sorted.
+    // There are few different lengths, so pixels are put into buckets instead of sorted.
     let mut lengths: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
     for (i, (&now, &next)) in (0..).zip(counts.iter().zip(next)) {
         if next > now {
@@ -250,7 +250,7 @@ fn jobs(counts: &[u32], next: &[u32], width: u32) -> Vec<Job> {
     lengths.into_iter().rev().flat_map(both).collect()
 }
 
-/// The means over both halves, whose samples count one half after the other.
+/// Returns the means over both halves; the samples of the second half follow those of the first.
 fn film(sums: &HalfSums, counts: &[u32]) -> Result<Film> {
     let mean = total(counts) / counts.len() as f64;
     let most = counts.iter().copied().max().unwrap_or(0);
@@ -278,7 +278,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn one_count_is_told_from_several() {
+    fn one_count_differs_from_several() {
         assert_eq!([equal(&[3, 3, 3]), equal(&[3, 4, 3]), equal(&[])], [Some(3), None, None]);
     }
 

@@ -8,7 +8,7 @@ use crate::core::error::Result;
 use crate::core::film::{Film, Placement};
 use crate::texture::data::Component;
 use crate::texture::read_file::{self, ExrWindow, Texels};
-use crate::texture::source::Reading;
+use crate::texture::source::ReadOptions;
 
 /// Reads a picture. `samples` is 0, because a file does not state the number of samples per pixel.
 pub fn read_picture(path: &Path) -> Result<Film> {
@@ -17,7 +17,7 @@ pub fn read_picture(path: &Path) -> Result<Film> {
 
 /// Reads a picture with its placement in the file's display window.
 pub fn read_placed(path: &Path) -> Result<(Film, Placement)> {
-    let picture = read_file::read_window(path, &Reading::default(), ExrWindow::Data)?;
+    let picture = read_file::read_window(path, &ReadOptions::default(), ExrWindow::Data)?;
     Ok((film_of(&picture.texels), picture.placement))
 }
 

@@ -8,7 +8,7 @@ pub use super::choice::{recommended, winners};
 use super::fit::{Line, least_squares};
 pub use super::fit::{median, time_to};
 use super::record::{PointRecord, Record};
-pub use super::results::{Analysis, MethodSlope, Reach, SampleDimension, Slope};
+pub use super::results::{Analysis, MethodSlope, Reach, RecommendedPoint, Slope};
 use super::student;
 use crate::lab::plot::axis::steps;
 
@@ -37,7 +37,7 @@ pub fn analyse(record: &Record) -> Analysis {
     let winners = winners(&record.points, &slopes);
     Analysis {
         recommendation: advice(record, &winners),
-        recommended: recommended(&record.points, &winners).map(SampleDimension::of),
+        recommended: recommended(&record.points, &winners).map(RecommendedPoint::of),
         slopes,
         winners,
         reach: reach(record),

@@ -4,16 +4,16 @@
 use super::bootstrap::ratio;
 use super::format::samples_taken;
 use super::record::PointRecord;
-use super::results::{MethodSlope, SampleDimension, Winner};
+use super::results::{MethodSlope, RecommendedPoint, Winner};
 use crate::lab::plot::axis::steps;
 
 /// The ratio above which errors differ significantly in any case.
 const SIGNIFICANT_RATIO: f64 = 2.0;
 
-impl SampleDimension {
-    pub fn of(point: &PointRecord) -> SampleDimension {
+impl RecommendedPoint {
+    pub fn of(point: &PointRecord) -> RecommendedPoint {
         let (method, seconds) = (point.method.clone(), point.median_seconds());
-        SampleDimension { method, spp: point.spp, seconds, rmse: point.errors.rmse }
+        RecommendedPoint { method, spp: point.spp, seconds, rmse: point.errors.rmse }
     }
 }
 

@@ -7,7 +7,7 @@ use serde::Serialize;
 pub struct Analysis {
     pub recommendation: String,
     /// The recommended point, absent if nothing was measured.
-    pub recommended: Option<SampleDimension>,
+    pub recommended: Option<RecommendedPoint>,
     pub slopes: Vec<MethodSlope>,
     pub winners: Vec<Winner>,
     pub reach: Reach,
@@ -60,7 +60,7 @@ pub struct Winner {
 
 /// The recommended point.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct SampleDimension {
+pub struct RecommendedPoint {
     pub method: String,
     pub spp: u32,
     pub seconds: f64,

@@ -18,14 +18,14 @@ type Key = (Algorithm, Footprint, Option<Filter>);
 
 const PLAIN: Key = (Algorithm::Samples, Footprint::None, None);
 
-struct Look<'a> {
+struct CacheEntry<'a> {
     key: Key,
     session: Session<'a>,
     pack_seconds: f64,
 }
 
 pub struct SessionCache<'a> {
-    sessions: Vec<Look<'a>>,
+    sessions: Vec<CacheEntry<'a>>,
 }
 
 impl<'a> SessionCache<'a> {
@@ -54,7 +54,7 @@ impl<'a> SessionCache<'a> {
             let packed = pack::pack_with(&reading, textures.clone(), None, mip_chains)?;
             let pack_seconds = clock.elapsed().as_secs_f64();
             let session = Session::open(gpu, packed, false, &Tuning::default())?;
-            sessions.push(Look { key, session, pack_seconds });
+            sessions.push(CacheEntry { key, session, pack_seconds });
         }
         Ok(SessionCache { sessions })
     }

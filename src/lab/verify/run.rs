@@ -45,7 +45,7 @@ impl Tally {
     }
 
     /// Checks one lookup, and keeps the first wrong one.
-    fn sample_texture(&mut self, judge: &Judge<'_>, query: &LookupQuery, answer: [f32; 4]) {
+    fn check(&mut self, judge: &Judge<'_>, query: &LookupQuery, answer: [f32; 4]) {
         let found = judge.judge(query, answer);
         self.add(found);
         if !found.right && self.example.is_none() {
@@ -74,7 +74,7 @@ fn noise_of(seed: u64) -> impl Fn(&Variant) -> TextureData {
 fn judged(judge: &Judge<'_>, queries: &[LookupQuery], answers: &[[f32; 4]]) -> Tally {
     let mut tally = Tally::default();
     for (query, answer) in queries.iter().zip(answers) {
-        tally.sample_texture(judge, query, *answer);
+        tally.check(judge, query, *answer);
     }
     tally
 }
@@ -194,7 +194,7 @@ fn bits(answers: &[[f32; 4]]) -> WeightBits {
 fn judged_here_and_there(judge: &Judge<'_>, queries: &[LookupQuery], answers: &[[f32; 4]]) -> Tally {
     let mut tally = Tally::default();
     for (query, answer) in queries.iter().zip(answers).step_by(CHECK_STRIDE) {
-        tally.sample_texture(judge, query, *answer);
+        tally.check(judge, query, *answer);
     }
     tally
 }

@@ -1,5 +1,5 @@
-//! Filter `anisotropic`: look-ups along the major axis of the footprint, as wide as the minor one (McCormack et al. 1999,
-//! as texture units do). Twin of `glsl/shared/filter/anisotropic.glsl`.
+//! Filter `anisotropic`: look-ups along the major axis of the footprint, as wide as the minor one (McCormack et al.
+//! 1999, as texture units do). Twin of `glsl/shared/filter/anisotropic.glsl`.
 
 use glam::DVec3;
 
@@ -15,7 +15,7 @@ pub fn anisotropic_probes(how: &Sampler, spread: &FootprintEllipse) -> f64 {
     (ratio.min(most * most).sqrt() - 1e-3).ceil().max(1.0)
 }
 
-/// The place of a probe, and its face; they come from both ends inwards.
+/// Returns the position of a probe, and its face; probes are ordered from both ends inwards.
 pub fn anisotropic_place(
     image: &Texture,
     c: &Coordinate,

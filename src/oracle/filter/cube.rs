@@ -1,5 +1,5 @@
-//! The texels of a cube around a place of one of its faces: beyond an edge those of the neighbour. Twin of
-//! `glsl/shared/filter/cube.glsl`.
+//! The texels of a cube around a position on one of its faces: beyond an edge those of the adjacent face.
+//! Twin of `glsl/shared/filter/cube.glsl`.
 
 use glam::{DVec2, DVec3};
 
@@ -9,7 +9,7 @@ pub fn is_corner([x, y]: [i64; 2], size: i64) -> bool {
     !(0..size).contains(&x) && !(0..size).contains(&y)
 }
 
-/// The direction from a cube's centre to a place of a face's plane, (s, t) in [-1, 1] on the face.
+/// Returns the direction from a cube's centre to a point in a face's plane, (s, t) in [-1, 1] on the face.
 pub fn face_direction(face: u32, st: DVec2) -> DVec3 {
     let (s, t) = (st.x, st.y);
     match face {
@@ -22,14 +22,14 @@ pub fn face_direction(face: u32, st: DVec2) -> DVec3 {
     }
 }
 
-/// A place of a face's plane, on the face that lies behind it.
+/// Projects a point in a face's plane to the face behind it.
 pub fn refaced(at: DVec3, face: u32) -> (DVec3, u32) {
     let (stm, other) = on_cube_face(face_direction(face, 2.0 * at.truncate() - 1.0));
     (within_face(stm).extend(0.0), other)
 }
 
-/// The texel of a cube at a place of a face, or beyond its edge: of the neighbour that the extended plane
-/// of the face reaches there.
+/// Returns the texel at a position on a face, or beyond its edge: that of the adjacent face which the
+/// extended plane of the face covers there.
 pub fn cube_texel(face: u32, [x, y]: [i64; 2], size: i64) -> [i64; 3] {
     if (0..size).contains(&x) && (0..size).contains(&y) {
         return [x, y, i64::from(face)];

@@ -9,19 +9,19 @@ use crate::oracle::mapping::Coordinate;
 use crate::oracle::texture::{add_weighted, addresses, level_at};
 use crate::texture::sampler_spec::TexelCenter;
 
-/// The level on which the minor axis, full width, lies between 2^-ELLIPSE_LEVEL and twice that in texels.
+/// On the selected level, the minor axis has a full width between 2^-ELLIPSE_LEVEL texels and twice that.
 const ELLIPSE_LEVEL: f64 = 0.0;
 const MAX_ELLIPSE_STEPS: u32 = 8192;
-/// Area over π of the largest: with its rows, fewer texels than steps.
+/// Largest area over π: including its rows, fewer texels than steps.
 const MAX_ELLIPSE: f64 = 2048.0;
 
-/// exp(-2 r²) - exp(-2) for r² in [0, 1], as a polynomial.
+/// Returns exp(-2 r²) - exp(-2) for r² in [0, 1], as a polynomial.
 pub fn ellipse_weight(squared: f64) -> f64 {
     let r = 1.0 - squared;
     r * (0.2643662 + r * (0.3266478 + r * (0.0257909 + r * 0.2473448)))
 }
 
-/// All texels of the footprint's ellipse, weighted by a Gaussian.
+/// Returns the average of all texels in the footprint's ellipse, weighted by a Gaussian.
 pub fn ellipse(reader: &Reader<'_>, c: &Coordinate, spread: &FootprintEllipse) -> DVec4 {
     let (image, how) = (reader.image, reader.how);
     let most = f64::from(how.max_anisotropy);

@@ -1,5 +1,6 @@
-//! Filters by a kernel wider than that of `linear`, the same along both axes of a flat texture: `cubic`, 4 by 4 texels
-//! (Mitchell & Netravali 1988), and `lanczos-2` and `lanczos-3`, twice the radius (Duchon 1979). Twin of `glsl/shared/filter/kernels.glsl`.
+//! Filters by a kernel wider than that of `linear`, the same along both axes of a 2D texture: `cubic`, 4 by 4 texels
+//! (Mitchell & Netravali 1988), and `lanczos-2` and `lanczos-3`, twice the radius (Duchon 1979). Twin of
+//! `glsl/shared/filter/kernels.glsl`.
 
 use std::f64::consts::PI;
 
@@ -10,7 +11,7 @@ use crate::oracle::texture::{Level, add_weighted};
 use crate::schema::layout::Sampler;
 use crate::texture::sampler_spec::Filter;
 
-/// Weights of the four texels around a place t between the middle two (Mitchell & Netravali 1988).
+/// Returns the weights of the four texels around a position t between the middle two (Mitchell & Netravali 1988).
 pub fn cubic_weights(t: f64, b: f64, c: f64) -> [f64; 4] {
     let r = 1.0 - t;
     let outer = |near: f64, far: f64| near * near * (b / 6.0 * near - c * far);
@@ -18,14 +19,14 @@ pub fn cubic_weights(t: f64, b: f64, c: f64) -> [f64; 4] {
     [outer(r, t), inner(t), inner(r), outer(t, r)]
 }
 
-/// sinc(x) sinc(x / radius).
+/// Returns sinc(x) sinc(x / radius).
 fn lanczos_weight(x: f64, radius: f64) -> f64 {
     let sinc = |x: f64| if x == 0.0 { 1.0 } else { (PI * x).sin() / (PI * x) };
     sinc(x) * sinc(x / radius)
 }
 
-/// Of the texels around a place t between the middle two; they are made to sum to 1, which a windowed sinc does not by
-/// itself.
+/// Returns the weights of the texels around a position t between the middle two, normalised to a sum of 1, which a
+/// windowed sinc does not have by itself.
 pub fn lanczos_weights(t: f64, radius: u32) -> Vec<f64> {
     let before = t + f64::from(radius) - 1.0;
     let weights: Vec<f64> =
@@ -34,12 +35,12 @@ pub fn lanczos_weights(t: f64, radius: u32) -> Vec<f64> {
     weights.into_iter().map(|w| w / sum).collect()
 }
 
-/// Whether a filter has such a kernel.
+/// Returns true if a filter has such a kernel.
 pub fn has_kernel(filter: Filter) -> bool {
     matches!(filter, Filter::Cubic | Filter::Lanczos2 | Filter::Lanczos3)
 }
 
-/// Of each texel along an axis.
+/// Returns the weight of each texel along an axis.
 fn kernel_weights(filter: Filter, how: &Sampler, t: f64) -> Vec<f64> {
     let [b, c] = [how.cubic_b, how.cubic_c].map(f64::from);
     match filter {

@@ -1,10 +1,10 @@
-//! What of the filters matters elsewhere: which of them a sampler has, by what it can do. Twin of
+//! Properties of a sampler's filters that matter outside the filters. Twin of
 //! `glsl/shared/filter/kinds.glsl`.
 
 use crate::schema::layout::Sampler;
 use crate::texture::sampler_spec::Filter;
 
-/// Whether beams know the integral of what it magnifies, and whether that has no steps.
+/// Returns true if beams can integrate the magnifying filter; `is_continuous`, if it has no steps.
 pub fn is_integrable(how: &Sampler) -> bool {
     matches!(how.mag_filter, Filter::Nearest | Filter::Linear)
 }

@@ -1,4 +1,4 @@
-//! One place of one level by one filter. Twin of `glsl/shared/filter/levels.glsl`.
+//! The value at a position of one level by one filter. Twin of `glsl/shared/filter/levels.glsl`.
 
 use glam::{DVec3, DVec4};
 
@@ -11,7 +11,7 @@ use crate::pack::{PackedScene, TextureKind};
 use crate::schema::layout::{Sampler, Texture};
 use crate::texture::sampler_spec::{Filter, TexelCenter};
 
-/// What a look-up of one level needs to know.
+/// The inputs of a look-up in one level.
 pub struct Reader<'a> {
     pub scene: &'a PackedScene,
     pub image: &'a Texture,
@@ -23,7 +23,8 @@ impl Reader<'_> {
         flat_texel(self.scene, self.image, self.how, level, [x as i64, y as i64])
     }
 
-    /// A place of one level by one filter; `dice` in [0, 1) are of the stochastic one.
+    /// Returns the value at a position of one level by one filter; `dice` in [0, 1) are for the stochastic
+    /// one.
     pub fn level(&self, filter: Filter, level: &Level, at: DVec3, face: u32, dice: DVec3) -> DVec4 {
         let kind = kind_of(self.image);
         let size = DVec3::from_array(level.size.map(|n| n as f64));

@@ -1,4 +1,4 @@
-//! Filter `linear`: the 2 texels around a place along each axis, of flat textures, volumes and cubes, seamless across
+//! Filter `linear`: the 2 texels around a position along each axis, for 2D textures, volumes and cubes, seamless across
 //! edges and corners. Twin of `glsl/shared/filter/linear.glsl`.
 
 use glam::{DVec2, DVec3, DVec4};
@@ -30,7 +30,7 @@ impl Reader<'_> {
         })
     }
 
-    /// Beyond a corner there is no texel: its weight goes to the three that meet there.
+    /// Beyond a corner there is no texel: its weight is divided among the three that meet there.
     pub(super) fn linear_cube(&self, level: &Level, face: u32, texel: DVec2) -> DVec4 {
         let size = level.size[0];
         let low = texel.floor();

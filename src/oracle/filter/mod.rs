@@ -1,4 +1,4 @@
-//! The filters of textures, one file each, behind the door of [`sample_texture()`]; what of them matters elsewhere stands in
+//! The filters of textures, one file each, behind [`sample_texture()`]; properties that matter outside are in
 //! [`kinds`].
 
 pub mod anisotropic;

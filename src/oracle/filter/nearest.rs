@@ -1,4 +1,4 @@
-//! Filter `nearest`: the texel in which a place lies. Twin of `glsl/shared/filter/nearest.glsl`.
+//! Filter `nearest`: the texel that contains a position. Twin of `glsl/shared/filter/nearest.glsl`.
 
 use glam::{DVec3, DVec4};
 
@@ -8,8 +8,9 @@ use crate::oracle::texture::{Level, fetch_or_border, fetch_texel, flat_texel};
 use crate::pack::TextureKind;
 
 impl Reader<'_> {
-    /// `stays`: a place on the far edge of a cube's face belongs to the face that the direction meets; of others one
-    /// beyond a corner is one of the three texels there, by `dice` in [0, 1).
+    /// Returns the texel that contains a position. With `stays`, a position on the far edge of a cube's face belongs to
+    /// the face that the direction selects; otherwise one beyond a corner is one of the three texels there, by `dice`
+    /// in [0, 1).
     pub(super) fn nearest(
         &self,
         kind: TextureKind,

@@ -17,7 +17,7 @@ use crate::pack::{PackedScene, TextureKind};
 use crate::schema::layout::{Sampler, Texture};
 use crate::texture::sampler_spec::{Filter, MipMode};
 
-/// Without a footprint in the scene all is magnification.
+/// Samples a texture. Without a footprint in the scene every look-up magnifies.
 pub fn sample_texture(
     scene: &PackedScene,
     image: &Texture,
@@ -54,7 +54,8 @@ pub fn sample_texture(
     let level = if magnified {
         0.0
     } else {
-        // A look-up is as wide as the minor axis, though more of them than needed lie along the major one.
+        // A look-up is at least as wide as the minor axis, even if there are more along the major axis than
+        // needed.
         let least = if probes > 1.0 { spread.minor } else { 0.0 };
         (0.5 * (spread.major / (probes * probes)).max(least).log2()).clamp(0.0, last.into())
     };
@@ -68,7 +69,7 @@ pub fn sample_texture(
         low = stochastic_level(low, rest, &mut dice);
         rest = 0.0;
     }
-    // Of `probes` a share `rest` reads the next level, the one between reads both.
+    // A fraction `rest` of the `probes` reads the next level; the probe at the boundary reads both.
     let share = rest * probes;
     let mut sum = DVec4::ZERO;
     for probe in 0..probes as u32 {

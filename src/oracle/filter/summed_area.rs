@@ -9,7 +9,7 @@ use crate::pack::PackedScene;
 use crate::schema::layout::{Sampler, Texture};
 use crate::texture::sampler_spec::{Address, TexelCenter};
 
-/// An interval of texels that stands for a part of the box along one axis, and how much of it.
+/// An interval of texels that represents a part of the box along one axis, and the length of that part.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Part {
     pub from: f64,
@@ -17,7 +17,7 @@ pub struct Part {
     pub amount: f64,
 }
 
-/// Up to three parts; the rest of the box is border.
+/// Splits the box along one axis into up to three parts; the rest of the box is border.
 pub fn axis_parts(mode: Address, from: f64, to: f64, size: f64) -> [Part; 3] {
     let mut parts = [Part::default(); 3];
     let whole = |from: f64, to: f64| Part { from, to, amount: to - from };
@@ -26,7 +26,7 @@ pub fn axis_parts(mode: Address, from: f64, to: f64, size: f64) -> [Part; 3] {
     let above = (to - from.max(size)).max(0.0);
     match mode {
         Address::Repeat => {
-            // Whole periods, which are the same from wherever they begin, and what is left.
+            // Whole periods, whose sum is the same from any start, and the remainder.
             let periods = ((to - from) / size).floor() * size;
             let start = inside(from - (from / size).floor() * size);
             let end = start + inside(to - from - periods);
@@ -44,7 +44,7 @@ pub fn axis_parts(mode: Address, from: f64, to: f64, size: f64) -> [Part; 3] {
                 let (a, b) = (inside(start - tile * size), inside(start + width - tile * size));
                 *part = if (0.5 * tile).fract() != 0.0 { whole(size - b, size - a) } else { whole(a, b) };
             }
-            // Of three tiles the middle one is whole; where there are two, the third part is free.
+            // Of three tiles the middle one is whole; if there are two, the third part is free.
             if parts[2].amount > 0.0 {
                 parts[1].amount += periods;
             } else {
@@ -66,7 +66,7 @@ pub fn axis_parts(mode: Address, from: f64, to: f64, size: f64) -> [Part; 3] {
     parts
 }
 
-/// One channel's table.
+/// The table of one channel.
 struct Table<'a> {
     words: &'a [u8],
     width: usize,
@@ -81,7 +81,7 @@ impl Table<'_> {
         i128::from(u64::from_ne_bytes(bytes))
     }
 
-    /// The sum over [from, to], in steps of the fixed point.
+    /// Returns the sum over [from, to], in steps of the fixed point.
     fn rectangle(&self, from: DVec2, to: DVec2) -> f64 {
         let (i0, i1) = (from.floor().min(self.last), to.floor().min(self.last));
         let (first, end) = (1.0 - (from - i0), to - i1);
@@ -99,7 +99,7 @@ impl Table<'_> {
     }
 }
 
-/// `place` is a coordinate of a flat texture that has a table.
+/// Returns the mean; `place` is a coordinate of a 2D texture that has a table.
 pub fn summed_area(scene: &PackedScene, image: &Texture, how: &Sampler, place: &Coordinate) -> DVec4 {
     let table = scene.level_word(image.first_word, image.levels) as usize * 4;
     let word = |i: usize| {
@@ -120,7 +120,7 @@ pub fn summed_area(scene: &PackedScene, image: &Texture, how: &Sampler, place: &
     ) + shift;
     let us = axis_parts(mode_u, center.x - reach.x, center.x + reach.x, wide.x);
     let vs = axis_parts(mode_v, center.y - reach.y, center.y + reach.y, wide.y);
-    // What of the box is no border; shares of that, as amounts themselves may be large.
+    // The part of the box that is not border, as fractions, since the amounts may be large.
     let [inside_u, inside_v] = [us, vs].map(|parts| parts.iter().map(|p| p.amount).sum::<f64>());
     let mut sum = DVec4::ZERO;
     for u in us {
@@ -144,7 +144,7 @@ pub fn summed_area(scene: &PackedScene, image: &Texture, how: &Sampler, place: &
             sum += share * value;
         }
     }
-    // What an axis with a border does not cover.
+    // The part that an axis with a border does not cover.
     let share = |mode: Address, inside: f64, width: f64| match mode {
         Address::ClampToBorder => inside / width,
         _ => 1.0,

@@ -1,5 +1,5 @@
-//! A packed scene → the value of each specialization constant that is narrowed to it: a bit mask of the modes that
-//! occur, a number that is known when the pipeline is built or `DYNAMIC`, or whether code is there.
+//! The value of each specialization constant that is narrowed to a packed scene: a bit mask of the modes that occur, a
+//! count that is known when the pipeline is built or `DYNAMIC`, or whether code is kept.
 
 use super::needs::*;
 use crate::pack::PackedScene;
@@ -8,7 +8,7 @@ use crate::schema::enums::Schedule;
 use crate::schema::specialization::Constant;
 use crate::texture::data::Component;
 
-/// Returns nothing for what is set where a pipeline is built, whatever the scene uses.
+/// Returns the narrowed value; `None` for parameters, which are set when a pipeline is built, whatever the scene uses.
 pub fn narrowed(constant: Constant, s: &PackedScene) -> Option<u32> {
     use Constant as C;
     Some(match constant {

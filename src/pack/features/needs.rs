@@ -1,4 +1,5 @@
-//! What a packed scene uses: a bit mask of modes, a number or yes and no for each entry of the table of features.
+//! The features that a packed scene uses: a bit mask of modes, a count or a flag for each entry of the table of
+//! features.
 
 use super::UNROLL;
 use crate::pack::{PackedScene, Schedule, TextureKind};
@@ -16,12 +17,12 @@ pub fn bits(modes: impl Iterator<Item = u32>) -> u32 {
     modes.fold(0, |mask, mode| mask | bit(mode))
 }
 
-/// The number of samples, where positions depend on it: pipelines without it serve any number.
+/// Returns the number of samples if positions depend on it: other pipelines serve any number.
 pub fn counted_samples(scene: &PackedScene) -> u32 {
     if scene.header.pattern.is_progressive() { 0 } else { scene.header.samples }
 }
 
-/// Shapes that a cone can touch, up to those that it keeps.
+/// Returns the number of shapes that a cone can meet, up to those that it keeps.
 pub fn cone_shapes(scene: &PackedScene) -> u32 {
     let shapes = scene.shape_count();
     if shapes < MAX_CONE_FRAGMENTS as usize { shapes.max(1) as u32 } else { DYNAMIC }
@@ -40,17 +41,17 @@ pub fn size_kind(texture: &layout::Texture) -> u32 {
     if power { TextureSize::PowerOfTwo as u32 } else { TextureSize::Any as u32 }
 }
 
-/// Textures that are texels.
+/// Returns the textures that consist of texels.
 pub fn stored(scene: &PackedScene) -> impl Iterator<Item = &layout::Texture> {
     scene.records.textures.iter().filter(|t| t.kind != TextureKind::Procedural)
 }
 
-/// Jobs sum in chunks of their own.
+/// Returns true if the film has compensation; batches are split into short sums instead.
 pub fn compensates(scene: &PackedScene) -> bool {
-    scene.samples > scene.chunk && scene.schedule == Schedule::Tiles
+    scene.samples > scene.samples_at_once && scene.schedule == Schedule::Tiles
 }
 
-/// A box of one pixel leaves samples where they are.
+/// Returns true if samples are moved, which a box of one pixel does not do.
 pub fn warps(scene: &PackedScene) -> bool {
     scene.header.pixel_filter != PixelFilterKind::Box || scene.header.filter_radius != 0.5
 }
@@ -59,17 +60,17 @@ fn has_model(scene: &PackedScene, does: fn(Model) -> bool) -> bool {
     scene.records.materials.iter().any(|m| does(m.model))
 }
 
-/// Without a footprint, look-ups of procedural textures pass one of zero.
+/// Returns true with a footprint; otherwise, look-ups of procedural textures have one of zero.
 pub fn filters_procedurals(scene: &PackedScene) -> bool {
     !scene.records.procedurals.is_empty() && scene.prefilters()
 }
 
-/// Mirrors and glass, if their rays may go on.
+/// Returns true if there are mirrors or glass whose rays may continue.
 pub fn bounces(scene: &PackedScene) -> bool {
     scene.header.max_depth > 0 && has_model(scene, Model::is_specular)
 }
 
-/// Whether look-ups take texels at random.
+/// Returns true if some look-ups select texels at random.
 pub fn chooses(scene: &PackedScene) -> bool {
     let mask = filters(scene);
     Filter::ALL.iter().any(|&f| f.traits().is_random && mask & bit(f as u32) != 0)
@@ -90,7 +91,7 @@ pub fn bump_kinds(scene: &PackedScene) -> u32 {
     )
 }
 
-/// A lone flat shape cannot lie between itself and a light.
+/// Returns true if shapes can occlude lights; a single flat shape cannot occlude itself.
 pub fn casts_shadows(scene: &PackedScene) -> bool {
     let lit = has_model(scene, Model::is_lit);
     !scene.records.lights.is_empty() && lit && scene.shapes_occlude()

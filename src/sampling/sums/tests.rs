@@ -1,14 +1,14 @@
-//! Sums of ranges merge alike in whatever order they arrive, and a wrong merge is noticed.
+//! Sums of ranges merge to the same film in any order, and a wrong merge is noticed.
 
 use super::*;
 
-/// Samples of very different sizes, so that the order in which they are added shows.
+/// Samples of very different magnitudes, so that the order of addition is visible.
 fn sample(x: u32, y: u32, s: u32) -> [f64; 3] {
     let mut rng = fastrand::Rng::with_seed(u64::from(x) << 40 | u64::from(y) << 20 | u64::from(s));
     std::array::from_fn(|_| (rng.f64() - 0.3) * 10f64.powi(rng.i32(-6..6)))
 }
 
-/// What a backend gives for a range: in the order of the samples.
+/// Returns the sums of a range as a backend computes them, in the order of the samples.
 fn sums_of(range: &Range, signed: bool) -> FilmSums {
     let mut block = Block::new(range.clone());
     let mut negative = Vec::new();
@@ -33,14 +33,14 @@ fn sums_of(range: &Range, signed: bool) -> FilmSums {
 
 const SIZE: [u32; 2] = [13, 9];
 const SAMPLES: u32 = 29;
-/// Samples are split at multiples of this and nowhere else.
+/// Samples are split only at multiples of this number.
 const BLOCK: u32 = 8;
 
 fn whole() -> Range {
     Range { pixels: Rect::whole(SIZE), samples: 0..SAMPLES }
 }
 
-/// Blocks of samples, and the pixels of each split anew at random, in random order.
+/// Returns blocks of samples, with the pixels of each split at random, in random order.
 fn partition(rng: &mut fastrand::Rng) -> Vec<Range> {
     let mut parts = Vec::new();
     for block in whole().by_samples(BLOCK) {
@@ -98,7 +98,7 @@ fn merging_is_associative_and_commutative() {
     }
 }
 
-/// Adds blocks as they arrive, which is what a merge must not do.
+/// Adds blocks in the order of arrival, which a merge must not do.
 fn merge_by_arrival(parts: &[FilmSums]) -> Film {
     let mut sums = vec![[0.0; 3]; whole().pixels.area()];
     for block in parts.iter().flat_map(FilmSums::blocks) {
@@ -117,7 +117,7 @@ fn merge_by_arrival(parts: &[FilmSums]) -> Film {
 #[test]
 fn a_merge_in_the_order_of_arrival_is_noticed() {
     let mut parts: Vec<FilmSums> = whole().by_samples(1).map(|r| sums_of(&r, false)).collect();
-    // The first two samples cancel: whoever adds them last loses what lies between in f64 too.
+    // The first two samples cancel: if they are added last, the sums between them are lost even in f64.
     for (part, value) in parts.iter_mut().zip([1e17, -1e17]) {
         part.blocks[0].sums.iter_mut().for_each(|sum| *sum = [value; 3]);
     }

@@ -1,4 +1,4 @@
-//! Lights: none of them degenerate.
+//! Checks of lights: none is degenerate.
 
 use super::super::limits::{CAP, COLOR, COORDINATE, NOT_NEGATIVE, parallel};
 use super::super::model::Light;

@@ -1,4 +1,4 @@
-//! What the builder checks of each item. In: an item and its key. Out: the first thing that is wrong with it.
+//! The builder's checks of each item. Input: an item and its key. Output: the first rule that it breaks.
 
 mod light;
 mod surface;

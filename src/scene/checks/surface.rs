@@ -1,4 +1,4 @@
-//! Samplers, materials with their mappings, and the background: what they are and whether their textures fit.
+//! Checks of samplers, materials with their mappings, and the background, and whether their textures match.
 
 use super::super::bsdf::check_model_keys;
 use super::super::limits::{ANISOTROPY, COLOR, COORDINATE, SCALE, check_mag, check_method};
@@ -48,7 +48,7 @@ pub fn material(key: Key, material: &Material, textures: &[TextureSource], sampl
     fits(key, &material.mapping, dimension)
 }
 
-/// A texture has to have the coordinates that the mapping makes.
+/// The texture must have the dimension of the mapping's coordinates.
 fn fits(key: Key, mapping: &Mapping, dimension: Dimension) -> Check {
     let what = match (dimension, mapping.kind) {
         (Dimension::Three, MappingKind::Solid) | (Dimension::Cube, MappingKind::Cube) => return Ok(()),
@@ -83,7 +83,7 @@ fn mapping(key: Key, mapping: &Mapping) -> Check {
     let solid = mapping.kind == MappingKind::Solid;
     let (scale, offset) = (key.of("mapping.scale"), key.of("mapping.offset"));
     let [x, y, z] = [mapping.scale.x, mapping.scale.y, mapping.scale_w];
-    // By bits, so that one number that is NaN is one number.
+    // By bits, so that NaN equals itself.
     let [first, second, third] = [x, y, z].map(f64::to_bits);
     match first == second && second == third {
         true => scale.number(x, &SCALE)?,

@@ -1,4 +1,4 @@
-//! Textures: whether content and dimension fit, and the parameters of patterns. Nothing is opened here.
+//! Checks of textures: whether content and dimension match, and the parameters of patterns. No file is opened here.
 
 use super::super::limits::{
     ASPECT, COLOR, COORDINATE, DIMENSIONS, DISTORTION, GAIN, LACUNARITY, MAX_TEXELS, TEXELS, UNIT,
@@ -57,7 +57,7 @@ pub fn texture(key: Key, source: &TextureSource) -> Check {
     Ok(())
 }
 
-/// What the content is, unless it is a single picture, which may be any but a volume.
+/// Returns the dimension of the content, except for a single picture, which may be anything but a volume.
 fn dimension(key: Key, source: &TextureSource) -> Check {
     let (name, implied, reason) = match &source.content {
         TextureContent::Faces(_) => ("faces", Dimension::Cube, "faces are those of a cube"),
@@ -114,7 +114,7 @@ fn joints_fit(key: Key, pattern: &Procedural) -> Check {
     }
     let what =
         format!("joints of width {width} leave nothing of bricks of {aspect} × 1; use a width below both");
-    // Who left the joints as they are set the bricks.
+    // If the joints have their default, the bricks are too small.
     let cause = if width == Procedural::new(pattern.kind).width { "aspect" } else { "width" };
     key.of(cause).refuse(what, "no room for bricks")
 }

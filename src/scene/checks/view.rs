@@ -1,4 +1,4 @@
-//! Camera, image and sampling: whether they make a picture.
+//! Checks of camera, image and sampling.
 
 use glam::DVec3;
 
@@ -51,7 +51,7 @@ fn shutter(key: Key, [opens, closes]: [f64; 2]) -> Check {
     Ok(())
 }
 
-/// At no time may the eye be where it looks, or look along up.
+/// At no time may the eye coincide with its target, or the view be parallel to up.
 fn motion(key: Key, camera: &Camera, view: DVec3) -> Check {
     let [eye, look_at] = camera.motion;
     key.of("motion.eye").vector(eye, &COORDINATE)?;
@@ -59,7 +59,7 @@ fn motion(key: Key, camera: &Camera, view: DVec3) -> Check {
     if !camera.moves() {
         return Ok(());
     }
-    // Both change evenly with time, so that the least of them is at one of the ends or in between.
+    // Both change linearly with time, so the minimum is at an end or in between.
     let least = |start: DVec3, change: DVec3| {
         let time = -start.dot(change) / change.length_squared().max(f64::MIN_POSITIVE);
         start + time.clamp(0.0, 1.0) * change

@@ -1,6 +1,6 @@
-//! The door for scene formats: one table. In: a path, or text and the path it is known by. Out: the whole scene, with
-//! every reference an index, or the first error. A format reads its bytes into a `SceneBuilder`, which knows every
-//! limit, and says where in its file that stands which the builder refuses.
+//! The scene formats, in one table. Input: a path, or text and the path by which it is known. Output: the whole scene,
+//! with every reference an index, or the first error. A format reads its bytes into a `SceneBuilder`, which knows all
+//! limits, and reports the position in its file of a value that the builder refuses.
 
 mod toml;
 
@@ -17,27 +17,27 @@ pub use toml::parse;
 /// A format of scene files.
 struct Format {
     name: &'static str,
-    /// Of file names, in lower case.
+    /// Endings of file names, in lower case.
     endings: &'static [&'static str],
-    /// No file is longer.
+    /// The longest file that is read.
     max_bytes: u64,
     /// Reads a scene from the bytes of the file at this path.
     read: fn(&Path, Vec<u8>) -> Result<Scene>,
 }
 
-/// Every format that is read. The first one is that of standard input and of files with another ending.
+/// All formats. The first one applies to standard input and to files with other endings.
 const FORMATS: [Format; 1] = [toml::FORMAT];
 
-/// What a scene is called that was not read from a file.
+/// The name of a scene that was not read from a file.
 pub const STANDARD_INPUT: &str = "<stdin>";
 
-/// Whether a path stands for standard input.
+/// Returns true if a path denotes standard input.
 pub fn is_standard_input(path: &Path) -> bool {
     path == Path::new("-")
 }
 
-/// Reads a scene file, or standard input where the path is `-`: paths in it are then relative to the current
-/// folder. Textures are named, not opened.
+/// Reads a scene file, or standard input if the path is `-`; paths in it are then relative to the current folder.
+/// Textures are named, not opened.
 pub fn load(path: &Path) -> Result<Scene> {
     let is_stdin = is_standard_input(path);
     let stage = if is_stdin { STANDARD_INPUT.into() } else { path.display().to_string() };

@@ -155,7 +155,7 @@ const fn is_alpha<const C: usize>(channel: usize) -> bool {
 
 /// Returns for each code the linear light from which the next code is nearer; there is none after
 /// the last.
-pub fn srgb_middles(codes: usize) -> Vec<f32> {
+pub fn srgb_midpoints(codes: usize) -> Vec<f32> {
     let last = codes - 1;
     let middle = |code: usize| srgb_to_linear((code as f64 + 0.5) / last as f64) as f32;
     (0..codes).map(|code| if code < last { middle(code) } else { f32::INFINITY }).collect()
@@ -176,7 +176,7 @@ impl SrgbCodes {
     const STEPS: usize = 16;
 
     fn new(codes: usize) -> SrgbCodes {
-        let (steps, middles) = (codes * Self::STEPS, srgb_middles(codes));
+        let (steps, middles) = (codes * Self::STEPS, srgb_midpoints(codes));
         let mut code = 0;
         let least = (0..=steps).map(|step| {
             while step as f32 / steps as f32 >= middles[code] {

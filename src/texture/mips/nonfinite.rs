@@ -6,7 +6,7 @@ use super::mip_chain;
 use crate::texture::data::{MipKernel, TextureData};
 
 /// Returns levels 1 to the last of a float texture.
-pub fn pyramid_of_finite(texture: &TextureData) -> Vec<TextureData> {
+pub fn mip_chain_of_finite(texture: &TextureData) -> Vec<TextureData> {
     let channels = texture.format.channels();
     let present = |x, y| (0..channels).all(|c| texture.value(x, y, c).is_finite());
     // Non-finite texels count as 0; the share is the finite fraction of a mean.

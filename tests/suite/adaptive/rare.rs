@@ -12,7 +12,7 @@ use super::{rmse, to_goal};
 use crate::stage::{packed, render};
 use crate::support::data;
 
-/// What all scenes begin with.
+/// The beginning of all scenes.
 const HEAD: &str = "
 [camera]
 eye = [0, 0, 4]
@@ -58,7 +58,7 @@ struct Rare {
     camera: &'static str,
     background: &'static str,
     shapes: String,
-    /// An RMSE that takes some passes.
+    /// An RMSE that takes several passes.
     goal: f64,
 }
 
@@ -68,7 +68,7 @@ fn rare(name: &'static str, goal: f64, background: &'static str, shapes: &str) -
 
 fn spheres(count: i32, radius: f64, z: f64, material: &str) -> String {
     let at = |i: i32| {
-        // Places by the R2 sequence (Roberts 2018).
+        // Positions by the R2 sequence (Roberts 2018).
         let [x, y] = [0.754_877_67, 0.569_840_29].map(|a: f64| (0.5 + a * f64::from(i)).fract() * 1.8 - 0.9);
         format!("[[sphere]]\ncenter = [{x}, {y}, {z}]\nradius = {radius}\nmaterial = '{material}'\n")
     };
@@ -152,7 +152,8 @@ impl Rare {
     }
 }
 
-/// The product of a picture's distances to two references has no error of theirs, as each errs by itself.
+/// Returns the product of the picture's distances to two references, which is free of their errors, as these are
+/// independent.
 fn rmse_beside(film: &Film, [a, b]: [&Film; 2]) -> f64 {
     let off = |i: usize, c: usize, from: &Film| f64::from(film.pixels[i][c]) - f64::from(from.pixels[i][c]);
     let pixel = |i: usize| (0..3).map(|c| off(i, c, a) * off(i, c, b)).sum::<f64>() / 3.0;
@@ -160,12 +161,12 @@ fn rmse_beside(film: &Film, [a, b]: [&Film; 2]) -> f64 {
     mse.max(0.0).sqrt()
 }
 
-/// Samples of each reference: of the long run more, as rare light needs them.
+/// Samples of each reference: more for the long run, as rare light needs them.
 const SPP: u32 = 1 << 16;
 const LONG_SPP: u32 = 1 << 20;
 
-/// How often, of `seeds` runs, the interval holds the true error; and how often the goal was said to be reached
-/// where the error is beyond it by more than a tenth.
+/// Returns how often, of `seeds` runs, the interval contains the true error; and how often the goal was reported as
+/// reached although the error exceeds it by more than a tenth.
 fn judge(rare: &Rare, goal: Goal, seeds: u32, [a, b]: &[Film; 2]) -> (u32, u32) {
     let (mut held, mut wrong) = (0, 0);
     for seed in 1..=seeds {
@@ -219,8 +220,8 @@ fn intervals_hold_the_truth_in_eighteen_of_twenty_runs() {
     assert!(bad.is_empty(), "{bad:#?}");
 }
 
-/// A texture of rare bright texels with thousands of samples a pixel: a pixel that had met none among its first samples
-/// still gets its share, so that the picture errs little more than with as many samples everywhere.
+/// A texture of rare bright texels with thousands of samples per pixel: a pixel that met none in its first samples
+/// still gets its share, so that the error is little more than with the same number of samples everywhere.
 #[test]
 fn no_pixel_of_rare_texels_is_left_with_its_first_samples() {
     let stars = scenes().into_iter().find(|r| r.name == "stars far away").unwrap();
@@ -231,6 +232,6 @@ fn no_pixel_of_rare_texels_is_left_with_its_first_samples() {
     equal.sampling.spp = 4096;
     equal.sampling.seed = 3;
     let (error, of_equal) = (rmse(&film, &reference), rmse(&render(&packed(equal, None)), &reference));
-    // 1.12 were measured: counts that follow the samples shape_operator the picture a little.
+    // 1.12 was measured: counts that follow the samples bias the picture a little.
     assert!(error < 1.15 * of_equal, "{error:e}, for all alike {of_equal:e}: {outcome:?}");
 }

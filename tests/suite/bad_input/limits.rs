@@ -100,7 +100,7 @@ fn a_scene_file_of_64_mebibytes_is_read_and_a_longer_one_is_refused() {
     case.refused(&[], &["scene.toml", "64 MiB"]);
 }
 
-/// A volume one texel too long for the device's images is read from a buffer all the same.
+/// A volume one texel too long for the device's images is read from a buffer instead.
 #[test]
 fn a_volume_too_long_for_images_is_told_by_the_devices_limit() {
     let devices = moire::internal::gpu::list_devices().unwrap();

@@ -36,7 +36,7 @@ fn mislabelled_texture_is_told_by_its_content() {
     }
 }
 
-/// The ending says PNG, the content is TIFF's: what can be read is read.
+/// The ending says PNG, the content is TIFF: it is read by its content.
 #[test]
 fn a_readable_format_under_a_wrong_ending_is_read() {
     let case = Case::new();

@@ -27,7 +27,7 @@ fn both_sides_of_a_cut_make_the_whole() {
     }
 }
 
-/// So many triangles in disorder, in front of nothing; many pass through each other.
+/// Random triangles, in front of nothing; many intersect.
 fn soup(count: usize, seed: u32, colors: impl Fn(usize) -> DVec3) -> Scene {
     let mut scene = small("beams", 24, 4);
     scene.shapes.planes.clear();
@@ -46,7 +46,7 @@ fn soup(count: usize, seed: u32, colors: impl Fn(usize) -> DVec3) -> Scene {
     scene.shapes.triangles = (0..count)
         .map(|material| Triangle { vertices: [corner(), corner(), corner()], material, ..first })
         .collect();
-    // Two in one plane, which share a part.
+    // Two coplanar ones that overlap.
     let [a, b, c] = scene.shapes.triangles[0].vertices;
     scene.shapes.triangles[1].vertices = [a + 0.3 * (b - a), b + 0.4 * (c - b), c + 0.2 * (b - c)];
     scene

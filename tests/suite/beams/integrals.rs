@@ -15,13 +15,13 @@ use moire::internal::texture::sampler_spec::{Address, Filter, TexelCenter};
 use super::{beams, rmse, with_beams};
 use crate::stage::{packed, render, render_on_oracle, small};
 
-/// The pixel as the mean of a grid of so many look-ups a side.
+/// Returns the pixel as the mean of a grid of look-ups with this many per side.
 fn by_grid(scene: &PackedScene, place: [u32; 2], side: u32) -> f64 {
     let sum: f64 = (0..side * side).map(|s| sample(scene, &scene.header, place, 0, s).0.x).sum();
     sum / f64::from(side * side)
 }
 
-/// Pixels across a textured ground, its sampler as `change` makes it.
+/// Returns pixels across a textured ground, with a sampler altered by `change`.
 fn assert_grid_meets_beams(what: &str, bound: f64, change: impl Fn(&mut Scene)) {
     let mut scene = small("s1b", 12, 4);
     change(&mut scene);
@@ -32,7 +32,7 @@ fn assert_grid_meets_beams(what: &str, bound: f64, change: impl Fn(&mut Scene)) 
     let scene = packed(scene, None);
     let mut told = 0;
     for place in [[1, 11], [7, 9], [4, 7], [10, 5]] {
-        // Of a clamped texture from afar it tells nothing.
+        // Beams do not resolve a clamped texture from afar.
         let Some(color) = beam(&beamed, place) else { continue };
         told += 1;
         let beam = color.x;
@@ -50,7 +50,8 @@ fn every_address_mode_filter_and_centre() {
                 // Texels as large as some pixels, so that edges of tiles lie within them.
                 for scale in [0.003, 0.05] {
                     let what = format!("{address} {filter} {center} scale {scale}");
-                    // A grid of 150² misses an edge by less than 1 / 300 of the pixel a texel's contrast.
+                    // A grid of 150² misses an edge by less than 1 / 300 of the pixel, times a texel's
+                    // contrast.
                     assert_grid_meets_beams(&what, 1.5e-3, |scene| {
                         let sampler = &mut scene.samplers[0];
                         sampler.address = [address; 2];

@@ -38,14 +38,14 @@ fn a_triangle_behind_a_mirror_makes_no_hole_in_its_reflection() {
     let behind = [DVec3::new(0.1, -0.5, -0.1), DVec3::new(0.7, -0.3, -0.4), DVec3::new(0.3, 0.6, -0.2)];
     for film in by_device_and_oracle(mirror(behind, 0.0)) {
         assert_eq!(film.pixels[20 * 64 + 39], [0.0, 1.0, 0.0]);
-        // The mirror is whole: half as wide as 3 tan 25°, in rows and columns about the middle.
+        // The whole mirror: half as wide as 3 tan 25°, in rows and columns about the centre.
         for (x, y) in (10..54).flat_map(|x| (10..54).map(move |y| (x, y))) {
             assert_eq!(film.pixels[y * 64 + x], [0.0, 1.0, 0.0], "({x}, {y})");
         }
     }
 }
 
-/// Where two shapes lie in one plane the first is seen, and no ray that leaves it meets the other.
+/// If two shapes are coplanar the first is visible, and no ray that leaves it meets the other.
 #[test]
 fn what_lies_in_the_mirror_is_not_in_its_reflection() {
     for tilt in [0.0, 0.123] {
@@ -57,7 +57,7 @@ fn what_lies_in_the_mirror_is_not_in_its_reflection() {
     }
 }
 
-/// As much of it as stands out, upside down.
+/// Its protruding part, upside down.
 #[test]
 fn what_reaches_through_a_mirror_is_mirrored_from_there() {
     let through = [DVec3::new(-0.3, -0.5, -0.4), DVec3::new(-0.3, 0.5, -0.4), DVec3::new(-0.3, 0.0, 0.4)];

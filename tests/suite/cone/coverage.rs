@@ -12,7 +12,7 @@ use crate::lookup::bench::Rng;
 
 const STRIPS: usize = 4000;
 
-/// The mean over strips of constant y: `span` gives where the strip is covered, if anywhere.
+/// Returns the mean over strips of constant y; `span` returns the covered interval of a strip, if any.
 fn strips(span: impl Fn(f64) -> Option<[f64; 2]>) -> Covered {
     let (mut area, mut moment) = (0.0, DVec2::ZERO);
     let height = 2.0 / STRIPS as f64;
@@ -51,8 +51,8 @@ fn of_lines(lines: &[DVec3]) -> Covered {
     cuts.covered()
 }
 
-/// Strips err where a line or the rim ends within one: by a strip's area, 5e-4 of the disc's radius times a
-/// length that is small there, a few times.
+/// Strips err where a line or the rim ends within one: by the strip's area, 5e-4 of the disc's radius times a
+/// short length, a few times.
 fn assert_alike(found: Covered, wanted: Covered, what: &str) {
     assert!((found.share - wanted.share).abs() < 1e-4, "{what}: {found:?}, {wanted:?}");
     let off = (found.center - wanted.center).length() * wanted.share;
@@ -141,14 +141,14 @@ fn limits_of_circles() {
     assert_eq!(at(0.0, 1.0), EVERYTHING, "the disc itself");
     assert_eq!(at(0.75, 0.25), Covered { share: 0.0625, center: DVec2::new(0.75, 0.0) }, "touching within");
     assert_eq!(at(0.0, 1e-6), NOTHING, "smaller than any share");
-    // Hardly bent, a circle is a line.
+    // A slightly curved circle is close to a line.
     for edge in [-0.9, -0.3, 0.0, 0.4, 0.8] {
         let radius = 1e7;
         let circle = circle_overlap(DVec2::new(radius - edge, 0.0), radius, edge);
         assert_alike(circle, of_lines(&[DVec3::new(1.0, 0.0, edge)]), &format!("edge {edge}"));
         assert!((circle.share - of_lines(&[DVec3::new(1.0, 0.0, edge)]).share).abs() < 1e-6);
     }
-    // The series and what it stands for.
+    // The series and the function that it approximates.
     for angle in [0.009, 0.0099, 0.0101, 0.2f64] {
         let wanted = angle - angle.sin() * angle.cos();
         assert!((segment(angle.sin(), angle.cos()) / wanted - 1.0).abs() < 1e-8, "{angle}");

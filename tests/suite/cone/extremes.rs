@@ -33,7 +33,7 @@ fn a_plane_through_the_eye_is_no_wider_than_a_line() {
     }
 }
 
-/// Balls of a tenth of a pixel, at random, one or none to a cone mostly: as bright as their area.
+/// Random balls of a tenth of a pixel, mostly one or none per cone: their brightness is their area.
 #[test]
 fn balls_smaller_than_cones_add_up_to_their_area() {
     let mut rng = crate::lookup::bench::Rng::new(21);
@@ -47,7 +47,7 @@ fn balls_smaller_than_cones_add_up_to_their_area() {
     }
     let wanted = f64::from(count) * std::f64::consts::PI * radius * radius / 4.0;
     let found = mean(&film(parallel(side, &text)));
-    // Some hide others: by chance, as much as their own share.
+    // Some hide others, in proportion to their own coverage.
     assert!((found / wanted - 1.0).abs() < 0.03, "{found} for {wanted}");
 }
 
@@ -63,7 +63,7 @@ fn a_tiny_ball_never_pops() {
     }
 }
 
-/// More shapes in a pixel than a cone keeps: the others are as bright as those.
+/// More shapes in a pixel than a cone keeps: the others have the same brightness.
 #[test]
 fn a_crowd_of_balls_is_as_bright_as_samples_say() {
     let mut rng = crate::lookup::bench::Rng::new(4);

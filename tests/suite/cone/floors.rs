@@ -14,7 +14,7 @@ const GROUND: &str = "
 [[plane]]\norigin = [0, -0.4, 0]\ntangent = [1, 0, 0]\nbitangent = [0, 0.1, -1]\nmaterial = 'ground'
 [[material]]\nname = 'red'\nmodel = 'unlit'\ncolor = [1, 0, 0]\n";
 
-/// Blades below a ground that fills the picture, up to just beneath it and across all ways on which rays leave it.
+/// Blades below a ground that fills the picture, up to just beneath it, across all directions in which rays leave it.
 fn blades() -> String {
     let blade = |k: i32| {
         let x = 0.1 * f64::from(k);
@@ -61,7 +61,7 @@ fn what_lies_behind_a_surface_keeps_no_light_from_it() {
     }
 }
 
-/// A wall that ends where it meets a mirror: no light comes through between the two.
+/// A wall that ends at a mirror: no light passes between the two.
 #[test]
 fn what_stands_on_a_mirror_is_mirrored_down_to_its_foot() {
     let wall =
@@ -77,7 +77,7 @@ fn what_stands_on_a_mirror_is_mirrored_down_to_its_foot() {
     }
 }
 
-/// Of two triangles in one plane neither is in the other's reflection or shadow, whatever rounding says.
+/// Two coplanar triangles do not appear in each other's reflection or shadow, whatever the rounding.
 #[test]
 fn triangles_in_one_plane_do_not_see_each_other() {
     let quad = |material: &str| {

@@ -9,8 +9,8 @@ use super::{central, exact_film, film, parallel, rmse, with_cones, with_samples}
 use crate::stage::{assert_same_bits, packed, render_with, scene, small};
 use crate::support::data;
 
-/// Largest RMSE, share of the pixels of which some part is seen by the one and not by the other: where a
-/// piece is just too small to count, or a ball just met.
+/// Largest RMSE, and share of the pixels in which one method sees a shape that the other does not: a fragment just too
+/// small to count, or a ball that is barely touched.
 fn agrees(name: &str, mut scene: Scene, bound: f64, apart: f64) {
     let longest = scene.width.max(scene.height);
     (scene.width, scene.height) = (scene.width * 72 / longest, scene.height * 72 / longest);
@@ -34,6 +34,7 @@ fn shaders_agree_with_float64() {
     for (name, bound, apart) in [
         ("s1a", 1e-5, 0.0),
         ("s2", 5e-5, 0.002),
+        ("discs", 5e-5, 0.005),
         ("mirrors", 1e-4, 0.03),
         ("glass", 1e-4, 0.02),
         ("environment_cube", 2e-5, 0.002),
@@ -64,8 +65,8 @@ fn neither_pattern_nor_seed_nor_count_changes_a_bit() {
     assert_same_bits(&film(other), &first, "another pattern");
 }
 
-/// Halves of a pixel's square and of a disc with its area, cut alike, differ by at most 0.0228, where
-/// the line runs along the square's side.
+/// Halves of a pixel's square and of a disc of its area, with the same cut, differ by at most 0.0228, for a line
+/// parallel to the square's side.
 const DISC_FOR_SQUARE: f64 = 0.024;
 
 fn assert_covers(scene: Scene, bound: f64, what: &str) {
@@ -97,6 +98,19 @@ fn edges_are_covered_as_much_as_box_filtered_ones() {
     let ball = "[[sphere]]\ncenter = [0.1, 0.05, 0]\nradius = 0.7\nmaterial = 'white'\n";
     assert_covers(parallel(48, ball), DISC_FOR_SQUARE, "a ball");
     assert_covers(central(48, ball), DISC_FOR_SQUARE, "a ball from a point");
+    let disc = |normal: &str, radius: f64| {
+        format!(
+            "[[disc]]\ncenter = [0.1, 0.05, 0]\nnormal = {normal}\nradius = {radius}\nmaterial = 'white'\n"
+        )
+    };
+    for normal in ["[0, 0, 1]", "[0.5, 0.3, 1]"] {
+        assert_covers(parallel(48, &disc(normal, 0.7)), DISC_FOR_SQUARE, "a disc");
+        // Its ellipse counts as a circle of the same area.
+        assert_covers(central(48, &disc(normal, 0.7)), 1.2 * DISC_FOR_SQUARE, "a disc from a point");
+    }
+    // An ellipse twice as long and more bends within a pixel.
+    assert_covers(central(48, &disc("[1, 0.3, 0.3]", 0.7)), 3.0 * DISC_FOR_SQUARE, "a disc from aside");
+    assert_covers(central(33, &disc("[0, 1, 0.02]", 0.8)), 4.0 * DISC_FOR_SQUARE, "a disc seen edge-on");
     let plane = |extent: &str| {
         format!(
             "[[plane]]\norigin = [0, -1, 0]\ntangent = [1, 0, 0]\nbitangent = [0, 0.13, 1]\n{extent}material = 'white'\n"
@@ -106,7 +120,7 @@ fn edges_are_covered_as_much_as_box_filtered_ones() {
     assert_covers(central(33, &plane("half_extent = 2\n")), 2.0 * DISC_FOR_SQUARE, "a plane with corners");
 }
 
-/// Two triangles, a quad: where they meet nothing shines through, and behind them nothing is seen.
+/// Two triangles, a quad: nothing shines through their common edge, and nothing behind them is visible.
 #[test]
 fn triangles_that_share_an_edge_show_no_seam() {
     let quad = "
@@ -117,13 +131,13 @@ fn triangles_that_share_an_edge_show_no_seam() {
 [background]\ncolor = [0, 0, 9]\n";
     for scene in [parallel(40, quad), central(41, quad)] {
         for pixel in film(scene).pixels {
-            // Shares below 1e-5 count for nothing.
+            // Fractions below 1e-5 are dropped.
             assert!(pixel.iter().all(|v| (v - 1.0).abs() < 3e-5), "{pixel:?}");
         }
     }
 }
 
-/// Two walls and a floor, each covering every pixel: edges between them are where they cut each other.
+/// Two walls and a floor, each covering every pixel: their edges are their intersections.
 #[test]
 fn planes_that_cut_each_other_have_smooth_edges() {
     let room = "
@@ -132,7 +146,7 @@ fn planes_that_cut_each_other_have_smooth_edges() {
 [[plane]]\norigin = [0, -1, 0]\ntangent = [1, 0, 0]\nbitangent = [0, 0, 1]\nmaterial = 'grey'
 [[plane]]\norigin = [-1, 0, 0]\ntangent = [0, 0.1, 1]\nbitangent = [0, 1, 0]\nmaterial = 'white'
 [[plane]]\norigin = [0, 0, -3]\ntangent = [1, 0, 0.2]\nbitangent = [0, 1, 0]\nmaterial = 'dark'\n";
-    // In the pixel where three meet, no two of them know of the third.
+    // In the pixel where three meet, each pair ignores the third.
     assert_covers(central(48, room), 0.17, "a room");
     let ball = format!("{room}[[sphere]]\ncenter = [0.6, -1, -1]\nradius = 0.7\nmaterial = 'white'\n");
     assert_covers(central(48, &ball), 0.2, "a ball in the floor");

@@ -87,7 +87,7 @@ fn crosses_strips_and_grids_are_cut_as_drawn() {
     }
 }
 
-/// Whatever the drawings say: neighbours in a cross lie side by side on the cube.
+/// Independently of the drawings: neighbours in a cross are adjacent on the cube.
 #[test]
 fn crosses_are_continuous() {
     let folder = tempdir().unwrap();

@@ -77,7 +77,7 @@ fn glass_of_index_1_of_any_size_is_not_there() {
     within("origins", "glass-ball");
 }
 
-/// The cases see what they are for: each is broken by far where all geometry is of f32.
+/// The cases are effective: each fails by far if all geometry is f32.
 #[test]
 fn in_f32_the_cases_of_geometry_are_broken() {
     for (group, name, least) in [

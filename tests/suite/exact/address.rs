@@ -9,7 +9,8 @@ use num_traits::Signed;
 use super::numbers::{Q, approx, frac, modulo, q};
 use super::{U, Worst};
 
-/// One step to the right from texel `at`, walking `way`; at an end the mode says where it goes on.
+/// Takes one step to the right from texel `at` in direction `way`; at an end the mode decides the
+/// continuation.
 fn step(mode: Address, at: i64, way: i64, size: i64) -> (i64, i64) {
     let inside = (0..size).contains(&(at + way));
     match mode {
@@ -63,7 +64,7 @@ fn planted_errors_of_addresses_are_told() {
         _ => addressed_texel(mode, i, size),
     };
     compare(truncated).fails("a remainder that is cut off towards 0");
-    // Whose end texels are there once.
+    // These modes repeat no end texel.
     let reflected = |mode, i: i64, size: i64| match mode {
         Address::MirroredRepeat if size > 1 => {
             let r = i.rem_euclid(2 * size - 2);
@@ -74,7 +75,8 @@ fn planted_errors_of_addresses_are_told() {
     compare(reflected).fails("mirrors in the middles of the end texels");
 }
 
-/// Where a coordinate lies, in texels: modulo one or two textures; the others beyond where they change no more.
+/// Returns the position of a coordinate in texels: modulo one or two textures; in other modes limited to
+/// where the result is constant.
 fn exact_place(mode: Address, u: f64, size: i64) -> Q {
     let size = frac(size, 1);
     match mode {
@@ -94,7 +96,7 @@ fn places(reduce: impl Fn(Address, f64, f64) -> f64) -> Worst {
             let random = (0..40).map(|i| rng.between(-1.0, 1.0) * 10f64.powi(i % 12)).collect::<Vec<_>>();
             for u in few.into_iter().chain(random) {
                 let exact = exact_place(mode, u, size);
-                let bound = 2.0 * U * size as f64; // what is left of a whole tile, and the product
+                let bound = 2.0 * U * size as f64; // the remainder of a whole tile, and the product
                 worst.add(reduce(mode, u, size as f64), &exact, bound);
             }
         }

@@ -13,7 +13,8 @@ use super::numbers::{Q, approx, frac, q};
 use super::scenes::{AHEAD, packed_as};
 use super::{U, Worst};
 
-/// The mean over [x − w/2, x + w/2] of what is `inside` a cell from 0 to 1, by the length of each piece.
+/// Returns the mean over [x − w/2, x + w/2] of a function that is 1 `inside` a cell from 0 to 1, by the length of each
+/// part.
 fn mean(x: f64, w: f64, pieces: impl Fn(i64) -> Vec<(Q, Q, i64)>) -> Q {
     let half = q(w) / frac(2, 1);
     let [low, high] = [q(x) - &half, q(x) + &half];
@@ -25,7 +26,7 @@ fn mean(x: f64, w: f64, pieces: impl Fn(i64) -> Vec<(Q, Q, i64)>) -> Q {
             let from = (frac(cell, 1) + from).max(low.clone());
             let to = (frac(cell, 1) + to).min(high.clone());
             if w == 0.0 {
-                // A point belongs to the piece that begins there.
+                // A point belongs to the part that begins there.
                 continue;
             }
             sum += (to - from).max(Q::zero()) * frac(value, 1);
@@ -88,8 +89,8 @@ fn compare(share: impl Fn(&moire::internal::schema::layout::Procedural, DVec3, D
                 let wide =
                     |rng: &mut Rng| [0.0, 1e-6, 0.03, 0.5, 2.0, 13.7, 40.0][(rng.unit() * 7.0) as usize];
                 let w = DVec3::new(wide(&mut rng), wide(&mut rng), 0.0) * rng.between(0.5, 1.0);
-                // A place is rounded to U of itself where whole cells go, and a box as wide as its error
-                // knows nothing.
+                // A point is rounded to U of itself when whole cells are subtracted, and a box as wide as its error is
+                // meaningless.
                 let narrow = |w: f64| if w > 0.0 { 16.0 * U / w } else { 0.0 };
                 let bound = 16.0 * U + narrow(w.x) + narrow(w.y);
                 worst.add(share(&record, at, w), &exact(&what, at, w), bound);

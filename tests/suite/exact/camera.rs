@@ -10,8 +10,8 @@ use super::numbers::{Q, V, approx, degrees, frac, q, tan, v};
 use super::scenes::packed_as;
 use super::{U, Worst};
 
-/// (camera, width, height): ordinary, far from the origin, near to what is looked at, steeply up, of narrow
-/// and wide angles, of other projections, long and thin.
+/// (camera, width, height): ordinary, far from the origin, close to its target, steeply up, with narrow and
+/// wide angles, other projections, long and thin pictures.
 const VIEWS: [(&str, u32, u32); 12] = [
     ("eye = [2.0, 1.5, 2.0]\nlook_at = [0.0, 0.5, 0.0]\nvertical_fov = 53.13", 512, 512),
     ("eye = [1e9, 0.3, -7e8]\nlook_at = [1e9, 0.7, -7.1e8]\nvertical_fov = 40", 640, 360),
@@ -30,7 +30,7 @@ const VIEWS: [(&str, u32, u32); 12] = [
 struct Exact {
     origin: V,
     direction: V,
-    /// First-order error of origin and direction, each component.
+    /// Returns the first-order errors of origin and direction, by component.
     bounds: [f64; 2],
 }
 

@@ -23,7 +23,7 @@ fn signed(d: DVec3, axis: i32) -> Q {
     if axis < 0 { -x } else { x }
 }
 
-/// Of equal axes z counts before y, and y before x.
+/// Among equal axes z precedes y, and y precedes x.
 fn exact(d: DVec3) -> (u32, [Q; 2]) {
     let a = v(d).0.map(|x| x.abs());
     let major = (0..3).rev().reduce(|best, axis| if a[axis] > a[best] { axis } else { best }).unwrap() as i32;
@@ -38,7 +38,7 @@ fn directions() -> Vec<DVec3> {
     let mut all: Vec<DVec3> = (0..200).map(|_| direction(&mut rng)).collect();
     for k in 0..27 {
         let d = DVec3::new(f64::from(k % 3), f64::from(k / 3 % 3), f64::from(k / 9)) - 1.0;
-        // All axes, edges and corners, and one last digit beside them.
+        // All axes, edges and corners, and those with the last digit changed.
         if d != DVec3::ZERO {
             all.extend([d, d * DVec3::new(1.0 + 2.0 * U, 1.0, 1.0), d * DVec3::new(1.0, 1.0 - U, 1.0)]);
         }

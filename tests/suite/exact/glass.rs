@@ -50,7 +50,7 @@ struct Exact {
     way_bound: f64,
 }
 
-/// None where rounding decides whether everything is reflected.
+/// Returns `None` if rounding decides between total reflection and refraction.
 fn exact(d: DVec3, n: DVec3, ratio: f64) -> Option<Exact> {
     let (d, n, eta) = (v(d), v(n), q(ratio));
     let size = d.length();
@@ -84,7 +84,7 @@ fn exact(d: DVec3, n: DVec3, ratio: f64) -> Option<Exact> {
     Some(Exact { bound: bound + 2.0 * U * approx(&share), share, way, way_bound })
 }
 
-/// What every comparison is with.
+/// The bound of every comparison.
 type Known = ((DVec3, DVec3, f64), Option<Exact>);
 
 fn known() -> &'static [Known] {

@@ -1,5 +1,5 @@
-//! Lambert's radiometry to 256 bits: albedo/π · I · cosθ / r² of a point light, albedo/π · E · cosθ of a
-//! directional one, on planes and triangles that a whole render sees, from either side.
+//! Lambert's radiometry to 256 bits: albedo/π · I · cosθ / r² of a point light, albedo/π · E · cosθ of a directional
+//! one, on planes and triangles rendered as a whole, from either side.
 
 use glam::DVec3;
 use moire::internal::lab::verify::queries::Rng;

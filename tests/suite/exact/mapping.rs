@@ -154,7 +154,7 @@ fn known() -> &'static [Known] {
                         _ => DVec3::ZERO,
                     };
                 let (exact, bound) = case.exact(p);
-                // At the axis there is no angle to speak of; at the seam rounding chooses the side.
+                // At the axis the angle is undefined; at the seam rounding chooses the side.
                 let edge = case.seam(p);
                 if bound < 0.01 && edge > bound {
                     all.push((map, p, exact, bound));
@@ -170,7 +170,7 @@ fn compare(read: impl Fn(&UvProjection, &MapInput) -> Coordinate) -> Worst {
     for (map, p, exact, bound) in known() {
         let at = read(map, &MapInput { entity: *p, ..Default::default() }).at;
         for (got, exact) in [at.x, at.y].into_iter().zip(exact) {
-            // `repeat` tells no two whole tiles apart.
+            // `repeat` does not distinguish whole tiles.
             worst.add(got, &nearest_turn(exact, got, 1), *bound);
         }
     }
@@ -220,7 +220,7 @@ fn environment(read: impl Fn(&UvProjection, DVec3) -> DVec2) -> Worst {
             };
             let [x, y, z] = v(d).0;
             let across = V([x.clone(), frac(0, 1), z.clone()]).length();
-            // Turned about +y: what is seen moves with the picture, against the direction's own angle.
+            // Rotated about +y: the visible part moves with the picture, against the direction's own angle.
             let turn = frac(2, 1) * pi();
             let around = angle(&x, &-z) / &turn + degrees(rotate) / turn;
             let u = if mirror { frac(1, 2) - around } else { frac(1, 2) + around };

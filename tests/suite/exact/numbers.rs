@@ -1,5 +1,5 @@
-//! Exact numbers: f64 as rationals, vectors of rationals, and what is not rational (roots, angles, sines,
-//! powers) as a rational within 2^-256 of it relatively, far below anything that is compared.
+//! Exact numbers: f64 as rationals, vectors of rationals, and irrational values (roots, angles, sines,
+//! powers) as rationals within a relative 2^-256, far below anything that is compared.
 
 use std::cell::RefCell;
 
@@ -28,12 +28,12 @@ pub fn approx(x: &Q) -> f64 {
     x.to_f64().unwrap()
 }
 
-/// |got − exact|; what is no number is endlessly far.
+/// Returns |got − exact|; infinite for NaN and infinity.
 pub fn off(got: f64, exact: &Q) -> f64 {
     Q::from_float(got).map_or(f64::INFINITY, |got| approx(&(got - exact).abs()))
 }
 
-/// The same around a circle of that length.
+/// Returns the same on a circle of that length.
 pub fn modulo(x: &Q, period: i64) -> Q {
     let period = frac(period, 1);
     x - (x / &period).floor() * period

@@ -133,7 +133,7 @@ fn planted_errors_of_planes_are_told() {
     compare(projected).fails("a projection in place of a solution");
 }
 
-/// At half an extent the exact u or v says hit or miss, wherever rounding leaves that open no more.
+/// At half an extent the exact u or v decides between hit and miss, unless rounding leaves that open.
 #[test]
 fn a_plane_ends_where_its_half_extent_says() {
     let mut rng = Rng::new(23);

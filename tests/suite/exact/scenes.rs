@@ -10,15 +10,15 @@ use moire::internal::texture::data::{ColorSpace, Dimension, TexelFormat, Texture
 
 /// Looks along −z from the origin.
 pub const AHEAD: &str = "[camera]\neye = [0, 0, 0]\nlook_at = [0, 0, -1]\nvertical_fov = 90\n";
-/// A material `m` whose texture is of no matter.
+/// A material `m` whose texture is irrelevant.
 pub const TEXTURED: &str = "[[texture]]\nname = 't'\nfile = 'none.png'\n[[sampler]]\nname = 's'\n";
 
-/// As TOML, every bit of it.
+/// Formats as TOML with every bit.
 pub fn list(p: DVec3) -> String {
     format!("[{:?}, {:?}, {:?}]", p.x, p.y, p.z)
 }
 
-/// Looks from `eye` along −z: at what is a whole number of its own last digits away.
+/// Looks from `eye` along −z, at a point whose distance is an integer number of units in the last place.
 pub fn from(eye: DVec3) -> String {
     let step = eye.abs().max_element().max(1.0);
     format!(

@@ -20,7 +20,7 @@ struct Case {
     way: DVec3,
 }
 
-/// The least t > 0, if there is one, its greatest error, and whether rounding may decide otherwise.
+/// Returns the least t > 0, if there is one, its largest error, and whether rounding may decide otherwise.
 fn exact(case: &Case) -> (Option<Q>, f64, bool) {
     let relative = v(case.center).minus(&v(case.eye));
     let f = v(case.start).minus(&relative);
@@ -54,7 +54,7 @@ fn exact(case: &Case) -> (Option<Q>, f64, bool) {
     (Some(t), bound, unsure)
 }
 
-/// From without the distance is c over q, and shares c's error.
+/// From outside the distance is c over q, and shares c's error.
 fn near_is(t: &Q, c: f64, b: f64) -> bool {
     t.is_positive() && c > 0.0 && b > 0.0
 }

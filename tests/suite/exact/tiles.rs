@@ -82,9 +82,9 @@ impl Case {
         let plane = [self.origin, DVec3::X, DVec3::Y].map(v);
         let [_, u, w] = meet(&v(self.eye), &v(d), [&plane[0], &plane[1], &plane[2]]).unwrap();
         let tiles = approx(&u).hypot(approx(&w)) * self.scale.abs().max_element();
-        // Places, sine and cosine, products, sums: 8 roundings of what is largest.
+        // Positions, sine and cosine, products, sums: 8 roundings of the largest.
         let bound = if self.exact { 0.0 } else { 8.0 * U * (tiles + self.offset.abs().max_element()) };
-        // Along the ray: what is counted from the eye is small.
+        // Along the ray: values relative to the eye are small.
         let near = 8.0 * U * (d.length() * self.scale.abs().max_element() + 2.0);
         (placed([u, w], self.scale, self.rotate, self.offset), bound + near)
     }

@@ -73,7 +73,7 @@ fn at_edges(choose: impl Fn(&PackedScene, &Ray) -> u32) -> (Worst, u32) {
             let ray = Ray { origin: DVec3::ZERO, direction: aim - eye, time: 0.0 };
             let found = [[a, b, c], [b, a, e]].map(|t| sides(eye, ray.direction, t));
             let shape = choose(&scene, &ray);
-            // Whatever rounding says, no ray slips between the two.
+            // Whatever the rounding, no ray passes between the two.
             worst.agree(shape != NO_SHAPE);
             if found.iter().any(|f| f.1) {
                 open += 1;

@@ -1,4 +1,4 @@
-//! Scenes built in code: the same scene as from a file, and the same rules, each told with its item and key.
+//! Scenes built in code: the same scene as from a file, and the same rules, each reported with its item and key.
 
 use moire::model::*;
 use moire::{RenderOptions, Renderer, Scene, SceneBuilder};
@@ -245,7 +245,7 @@ fn what_has_no_extent_is_simplified_and_told() {
     assert!(report.warnings.iter().any(|w| w.contains("a triangle (number 0) has no area")), "{report:?}");
 }
 
-/// The same scene from a file and from code, to the last pixel.
+/// The same scene from a file and from code, down to the last pixel.
 #[test]
 fn code_and_file_make_one_scene() {
     let text = "[camera]\neye = [0, 1, 5]\nlook_at = [0, 1, 0]\nvertical_fov = 60\n[image]\nwidth = 64\nheight = 48\n\

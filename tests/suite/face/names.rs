@@ -1,4 +1,4 @@
-//! What is public: the names at the crate's root, no more, and what is hidden.
+//! The public names: those at the crate's root, no more, and the hidden ones.
 
 use std::fs;
 
@@ -22,7 +22,7 @@ const NAMES: [&str; 13] = [
     "model",
 ];
 
-/// The names that `pub mod` and `pub use` of a file make.
+/// Returns the names that `pub mod` and `pub use` of a file declare.
 fn public_names(text: &str) -> Vec<String> {
     let tokens = tokens(text).unwrap();
     let words: Vec<&str> = tokens.iter().map(|token| token.text.as_str()).collect();
@@ -33,7 +33,7 @@ fn public_names(text: &str) -> Vec<String> {
         let end =
             words[at..].iter().position(|word| [";", "("].contains(word)).map_or(words.len(), |n| at + n);
         let path = &words[at + 1..end];
-        // The last name of each path: what stands before a comma, a closing brace or the end.
+        // The last name of each path: the text before a comma, a closing brace or the end.
         for (i, word) in path.iter().enumerate() {
             let ends = path.get(i + 1).is_none_or(|next| [",", "}"].contains(next));
             if ends && word.starts_with(|c: char| c.is_alphabetic()) {

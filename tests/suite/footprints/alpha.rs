@@ -13,7 +13,8 @@ use crate::stage::{render, render_on_oracle};
 const PIXELS: u32 = 6;
 const TEXELS: u32 = 8 * PIXELS;
 
-/// A third of all texels each red and opaque, green and unseen, blue and half seen, along diagonals.
+/// One third each of all texels is red and opaque, green and transparent, blue and half transparent, along
+/// diagonals.
 fn striped() -> TextureData {
     let color = |x: u32, y: u32| [[255, 0, 0, 255], [0, 255, 0, 0], [0, 0, 255, 128]][((x + y) % 3) as usize];
     let texels = (0..TEXELS).flat_map(|y| (0..TEXELS).flat_map(move |x| color(x, y)));
@@ -30,7 +31,7 @@ fn striped() -> TextureData {
     }
 }
 
-/// Square pixels that look straight at the texture, of whose period they see no whole number.
+/// Square pixels that look straight at the texture, with a fractional number of its periods each.
 fn pixels(sampling: &str, sampler: &str, texture: &str, on_oracle: bool) -> Vec<[f32; 3]> {
     let text = format!(
         "[camera]\neye = [0, 0, 1]\nlook_at = [0, 0, 0]\northographic_height = 2\n\
@@ -61,7 +62,7 @@ fn every_filter_shows_the_colours_that_samples_see_whatever_their_alpha() {
     ] {
         for on_oracle in [false, true] {
             if on_oracle && !sampling.starts_with("pattern") {
-                continue; // Cones and beams have oracles of their own, which other tests hold to the device.
+                continue; // Tests of their own compare cones and beams on the device with the oracle.
             }
             let filtered = pixels(sampling, &sampler, texture, on_oracle);
             for (i, (a, b)) in filtered.iter().zip(&plain).enumerate() {

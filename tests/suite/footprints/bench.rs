@@ -46,7 +46,7 @@ pub fn paint_levels(scene: &mut PackedScene, texture: usize) {
     }
 }
 
-/// A query's place and footprint as the oracle takes them.
+/// Returns a query's coordinate and footprint for the oracle.
 pub fn coordinate(query: &LookupQuery) -> Coordinate {
     let wide = |v: [f32; 4]| DVec3::new(v[0].into(), v[1].into(), v[2].into());
     Coordinate { at: wide(query.uv), change: [wide(query.dx), wide(query.dy)] }
@@ -68,8 +68,8 @@ pub fn answers(scene: &PackedScene, queries: &[LookupQuery]) -> Vec<[f32; 4]> {
     probe::lookups(&device(), scene, false, false, queries).unwrap()
 }
 
-/// The changes over a footprint with these axes, turned by `angle` on the texture; `roll` says which way
-/// over the footprint is x, which changes nothing but the two vectors.
+/// Returns the changes over a footprint with these axes, rotated by `angle` on the texture; `roll` is the direction of
+/// x over the footprint, which changes nothing but the two vectors.
 pub fn axes(major: f64, minor: f64, angle: f64, roll: f64) -> [DVec2; 2] {
     let m =
         DMat2::from_angle(angle) * DMat2::from_diagonal(DVec2::new(major, minor)) * DMat2::from_angle(roll);

@@ -73,7 +73,7 @@ fn every_answer_is_a_texel_and_their_mean_is_the_smooth_filter() {
     }
 }
 
-/// A direction on the border of all three faces has no fourth texel: each of the three is as likely.
+/// A direction on the border of all three faces has no fourth texel: each of the three is equally likely.
 #[test]
 fn at_a_corner_of_a_cube_the_three_texels_are_equally_likely() {
     let spec = SamplerSpec {

@@ -1,6 +1,6 @@
-//! The level that a ray reads against the level of its pixel's exact footprint: the way from a place in
-//! the picture to a place in the texture, differentiated numerically in f64. For every kind of mapping and
-//! entity, around seams and poles, directly, in mirrors and through glass.
+//! The level that a ray reads against that of its pixel's exact footprint: the map from positions in the picture to
+//! positions in the texture, differentiated numerically in f64. For every kind of mapping and entity, around seams and
+//! poles, directly, in mirrors and through glass.
 
 use glam::{DVec2, DVec3};
 use moire::internal::oracle::bsdf::dielectric::refracted;
@@ -20,8 +20,8 @@ use moire::internal::schema::layout::{NO_MATERIAL, NO_SHAPE};
 use super::bench::{level_scene, place_of};
 use crate::stage;
 
-/// Where a ray through a place in the picture ends in the texture: shapes on its way and the face of a
-/// cube, map, and the place in [0, 1].
+/// The end in the texture of a ray through a position in the picture: shapes on its path and the face of a cube,
+/// mapping, and the position in [0, 1].
 fn end_of_ray(scene: &PackedScene, at: DVec2) -> Option<(Vec<u32>, u32, DVec3)> {
     let header = &scene.header;
     let centered = at - 0.5 * DVec2::new(header.image_size.x.into(), header.image_size.y.into());
@@ -92,7 +92,7 @@ fn exact_level(scene: &PackedScene, at: DVec2) -> Option<f64> {
             d -= d.round();
         }
         *change = d / (2.0 * STEP);
-        // A box's faces, the pole itself, and what is wider than the texture.
+        // Faces of a box, the pole itself, and footprints wider than the texture.
         if change.abs().max_element() > 0.4 {
             return None;
         }
@@ -112,7 +112,7 @@ fn levels(scene: &PackedScene) -> Vec<(f64, f64, DVec2)> {
         let at = DVec2::new(f64::from(pixel[0]) + 0.5, f64::from(pixel[1]) + 0.5);
         let Some(exact) = exact_level(scene, at) else { continue };
         let ray = camera_ray(&scene.header, pixel, DVec2::splat(0.5));
-        // Without points every choice is the middle one: glass refracts that mirrors less than half.
+        // Without points every random choice has its middle value: glass with a reflectance below one half refracts.
         let mut path = camera_path(ray, camera_differential(&scene.header, &ray), [0; 2]);
         let mut read = DVec3::ZERO;
         while path.is_alive {
@@ -131,7 +131,7 @@ enum Cone {
     Mostly,
 }
 
-/// Differentials are exact but for the rounding of what is packed.
+/// Differentials are exact up to the rounding of packed values.
 fn check(what: &str, text: &str, cone: Cone) {
     for (footprint, allowed) in [("differentials", 0.01), ("cone", 0.5)] {
         let scene = level_scene(text, footprint);
@@ -179,7 +179,7 @@ fn every_mapping_of_the_entities_that_vary_over_a_plane() {
     check("surface", &format!("{}{PLANE}", place_of("surface", "")), Cone::Everywhere);
 }
 
-/// What a ray of the camera may meet before it comes to the texture.
+/// The shapes that a camera ray may meet before the texture.
 const BEHIND: &str =
     "[[plane]]\norigin = [0, 0, -3]\ntangent = [4, 0, 0.8]\nbitangent = [0, 4, 0]\nmaterial = 'm'\n";
 const FLOOR: &str =
@@ -212,7 +212,7 @@ fn environments_directly_and_in_a_mirror_ball() {
     }
 }
 
-/// All of it on the device: the picture of levels is the oracle's.
+/// Everything on the device: the picture of levels equals the oracle's.
 #[test]
 fn the_device_reads_the_levels_of_the_oracle() {
     let ball = "[[sphere]]\ncenter = [-0.6, 0, 0]\nradius = 0.7";

@@ -1,5 +1,5 @@
-//! Faults that footprints and places at their extremes once met, each by itself: boxes wider than the texture,
-//! footprints that are no numbers, far longer textures than wide, directions of any length.
+//! Regression tests for extreme footprints and coordinates, one each: boxes wider than the texture, footprints that are
+//! NaN or infinite, textures far longer than wide, directions of any length.
 
 use glam::DVec3;
 use moire::internal::lab::probe::LookupQuery;
@@ -28,7 +28,7 @@ fn over(scene: &PackedScene, uv: [f32; 2], wide: f32, high: f32) -> LookupQuery 
     LookupQuery { dx, dy, ..query(scene, 0, uv) }
 }
 
-/// The texel that one of an endless row of them is.
+/// Returns the texel of an endless row.
 fn of_row(address: Address, i: i64, size: i64) -> i64 {
     let mirrored = i.rem_euclid(2 * size);
     match address {
@@ -66,7 +66,7 @@ fn sums_over_areas_count_what_a_box_covers_beside_whole_periods() {
     }
 }
 
-/// Where f32 has lost the place of a box's end, its texels are still those of the table.
+/// If f32 has lost the position of a box's end, its texels are still those of the table.
 #[test]
 fn the_widest_boxes_read_no_further_than_their_table() {
     for address in

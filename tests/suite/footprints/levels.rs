@@ -14,7 +14,7 @@ const SIZE: u32 = 1024;
 const LAST: f64 = 10.0;
 const MOST: u32 = 16;
 
-/// One look-up, the axes of its footprint in texels, and what was read.
+/// One look-up, the axes of its footprint in texels, and the level read.
 struct Reading {
     major: f64,
     minor: f64,
@@ -87,13 +87,13 @@ fn without_mips_level_0_is_read() {
     }
 }
 
-/// By the minor axis, or where that is too short for the greatest anisotropy by what is left of the
-/// major one. Never more than half a level off; of linear mips, almost not at all.
+/// By the minor axis, or if that is too short for the largest anisotropy by the corresponding fraction of the major
+/// one. Never more than half a level off; with linear mips, almost exact.
 #[test]
 fn anisotropic_reads_the_level_of_the_minor_axis() {
     for (mip, allowed) in [(MipMode::Linear, 2e-3), (MipMode::Nearest, 0.5 + 2e-3)] {
         for r in readings(Filter::Anisotropic, mip, 100.0, 4) {
-            // A ratio up to 1e-3 above a whole number is taken for it.
+            // A ratio up to 1e-3 above an integer is treated as that integer.
             let right = level_of(r.minor.max(r.major / f64::from(MOST)));
             let right = if r.major <= 1.0 { 0.0 } else { right };
             let off = r.level - right;
@@ -102,8 +102,8 @@ fn anisotropic_reads_the_level_of_the_minor_axis() {
     }
 }
 
-/// The ellipse has its size whatever level it is drawn on: that must not be coarser than the minor axis,
-/// and one texel of it not less than half that axis.
+/// The ellipse has its size whatever level is used: that must not be coarser than the minor axis, and its texel not
+/// less than half that axis.
 #[test]
 fn ewa_draws_its_ellipse_on_the_last_level_that_is_no_coarser_than_the_minor_axis() {
     for r in readings(Filter::Ewa, MipMode::Linear, 100.0, 5) {
@@ -114,7 +114,7 @@ fn ewa_draws_its_ellipse_on_the_last_level_that_is_no_coarser_than_the_minor_axi
     }
 }
 
-/// The chance of the next level is the fraction of the level: the mean over readings is right.
+/// The probability of the next level is the fraction of the level: the mean over readings is correct.
 #[test]
 fn stochastic_reads_whole_levels_whose_mean_is_the_level_of_the_major_axis() {
     let all = readings(Filter::Stochastic, MipMode::Linear, 100.0, 6);

@@ -15,7 +15,7 @@ use super::bench::{angle, answers, axes, coordinate, expected, narrow, pairs_of,
 use crate::lookup::bench::{Rng, Vectors, query};
 
 const BORDER: [f32; 4] = [3.0, -1.0, 0.5, 0.25];
-/// What a place and a footprint may be off by: a few roundings of f32, relative to their own lengths.
+/// The tolerance of a coordinate and a footprint: a few roundings of f32, relative to their own lengths.
 const DOUBT: f64 = 6.0 / 16_777_216.0;
 
 /// All filters that a kind of texture has, with all mip modes and address modes.
@@ -178,7 +178,7 @@ fn cubes() {
     check(Dimension::Cube, [13, 13, 6], 20, 35);
 }
 
-/// Nothing but the last level, which is one texel in size, or the border; whatever the place is.
+/// Nothing but the last level, which is one texel, or the border, whatever the coordinate.
 #[test]
 fn endless_footprints_and_those_that_are_no_numbers_read_the_last_level() {
     let odd = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, f32::MAX, 1e25, -1e30];

@@ -1,5 +1,5 @@
-//! No seam where there is none in the world: across the edges and corners of cubes, and over the poles
-//! and the date line of equirectangular environments.
+//! No seam where the world has none: across the edges and corners of cubes, and across the poles and the date line of
+//! equirectangular environments.
 
 use std::path::Path;
 
@@ -78,7 +78,7 @@ fn nearest_reads_the_texel_that_a_direction_meets_on_its_face() {
     for (d, value) in directions.iter().zip(values) {
         let (stm, face) = on_cube_face(*d);
         let texel = face_uv(stm) * f64::from(SIZE);
-        // f32 cannot tell which side of a border between texels or faces is meant.
+        // f32 cannot distinguish the sides of a border between texels or faces.
         let sure = |x: f64| (x - x.round()).abs() > 1e-5;
         if sure(texel.x) && sure(texel.y) {
             let at = [texel.x as i64, texel.y as i64, i64::from(face)];
@@ -104,7 +104,7 @@ fn a_corner_of_a_cube_is_the_mean_of_its_three_texels() {
     }
 }
 
-/// Rows go on over the poles half a turn away: the way over a pole is smooth, with every filter that is.
+/// Rows continue across the poles half a turn away: the path across a pole is smooth, with every filter that is.
 #[test]
 fn environments_are_smooth_over_their_poles_and_around() {
     let (width, height) = (16, 8);

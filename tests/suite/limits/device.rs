@@ -126,7 +126,7 @@ fn solid(shape: ImageShape, [width, height, depth]: [u32; 3], texels: &[u8]) -> 
     if made.is_ok() { Ok(()) } else { Err(told(made.map(|_| ()))) }
 }
 
-/// Along each axis of a volume the whole length; a cube as large as memory allows, beyond that only the check.
+/// The full length along each axis of a volume; a cube as large as memory allows, beyond that only the check.
 #[test]
 fn volumes_and_cubes_are_as_long_as_the_device_says_and_no_texel_longer() {
     let limits = device().info().limits.clone();
@@ -144,7 +144,7 @@ fn volumes_and_cubes_are_as_long_as_the_device_says_and_no_texel_longer() {
         size[axis] = 0;
         assert!(solid(ImageShape::Volume, size, &[]).unwrap_err().contains("no texels"));
     }
-    // The largest face passes the check of sizes, and is then told that these are not its texels.
+    // The largest face passes the check of sizes, and then fails because these are not its texels.
     let message = solid(ImageShape::Cube, [wide, wide, 6], &[7; 6]).unwrap_err();
     let bytes = u64::from(wide) * u64::from(wide) * 6;
     assert!(message.contains(&bytes.to_string()) && !message.contains("too large"), "{message}");

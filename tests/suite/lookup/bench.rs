@@ -8,7 +8,7 @@ use moire::internal::pack::PackedScene;
 use moire::internal::texture::data::{ColorSpace, Component, TexelFormat, TextureData};
 use moire::internal::texture::sampler_spec::{Filter, SamplerSpec};
 
-/// Filters that magnify, without chance.
+/// Magnifying filters that are not random.
 pub const CERTAIN: [Filter; 3] = [Filter::Nearest, Filter::Linear, Filter::Cubic];
 /// Those of texture units.
 pub const BASIC: [Filter; 2] = [Filter::Nearest, Filter::Linear];

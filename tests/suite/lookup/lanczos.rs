@@ -40,7 +40,7 @@ fn weights_interpolate_sum_to_one_and_are_symmetric() {
             for (a, b) in there.iter().zip(back.iter().rev()) {
                 assert!((a - b).abs() < 1e-14, "{radius} at {t}");
             }
-            // Beside the middle texels they are negative: edges get fringes.
+            // Their negative weights make fringes at edges.
             assert!(there[taps / 2 - 2] < 0.0 && there[taps / 2 + 1] < 0.0, "{radius} at {t}");
         }
     }

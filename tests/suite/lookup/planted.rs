@@ -17,7 +17,7 @@ use super::bench::{BASIC, CERTAIN, Rng, coordinates, pairs, query, texture, uv_o
 const HARDWARE: Precision =
     Precision::Hardware { sub_texel: 1.0 / 256.0, level: 0.0, value: [2.0 / 255.0; 2], decode: 0.5 / 255.0 };
 
-/// The interval rule knows the filters of texture units.
+/// The interval rule covers the filters of texture units.
 fn filters(precision: Precision) -> &'static [Filter] {
     if matches!(precision, Precision::Shader) { &CERTAIN } else { &BASIC }
 }
@@ -31,7 +31,7 @@ fn bench(filter: Filter, address: Address, space: ColorSpace) -> (PackedScene, V
     (scene, queries)
 }
 
-/// Share of complaints about answers that a tampered look-up gives.
+/// Returns the fraction of wrong answers of a tampered look-up.
 fn caught(
     (scene, queries): &(PackedScene, Vec<LookupQuery>),
     precision: Precision,

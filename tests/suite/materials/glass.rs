@@ -31,7 +31,7 @@ fn shares_of_fresnel_worked_out_by_hand() {
     let p = ((1.5 * ci - ct) / (1.5 * ci + ct)).powi(2);
     assert!((at(45.0, 1.0 / 1.5) - 0.5 * (s + p)).abs() < 1e-12);
     assert!((at(45.0, 1.0 / 1.5) - 0.050_240).abs() < 1e-6);
-    // Nothing is there where both sides are alike; all is mirrored at grazing.
+    // No reflection if both sides are equal; total reflection at grazing angles.
     assert!(at(50.0, 1.0).abs() < 1e-15);
     assert!(at(90.0, 1.0 / 1.5) > 0.999_999);
 }
@@ -54,8 +54,8 @@ fn directions_follow_snell_and_keep_their_length() {
     assert!(back.distance(meeting(60.0)) < 1e-12, "{back}");
 }
 
-/// Parallel rays that meet the plane z = 0 at an angle, from one side or the other; what they mirror is
-/// red, what lies behind is green.
+/// Parallel rays that meet the plane z = 0 at an angle, from either side; the reflected world is red, the world behind
+/// is green.
 fn pane(degrees: f64, side: f64, spp: u32) -> String {
     let (sin, cos) = degrees.to_radians().sin_cos();
     let eye = [-3.0 * sin, 0.0, 3.0 * cos * side];
@@ -88,7 +88,7 @@ fn means_of_many_samples_are_the_shares_on_device_and_oracle() {
             let sum =
                 film.pixels.iter().fold(DVec3::ZERO, |sum, p| sum + glam::Vec3::from_array(*p).as_dvec3());
             let mean = sum / 16.0;
-            // The noise of chance, 5 sigma; what is not mirrored is let through.
+            // Noise of random choices, 5 sigma; light that is not reflected is transmitted.
             assert!(
                 (mean.x - right).abs() < 5.0 * sigma,
                 "{who}, {degrees}°: {mean}, share {right}, sigma {sigma}"

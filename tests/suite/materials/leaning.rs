@@ -43,7 +43,7 @@ fn mirrored_rays_stay_above_and_refracted_ones_go_below() {
         let rise = way.normalize().dot(g);
         assert!(rise >= least - 1e-12, "{rise} above {g}, {least} wanted");
         assert!(settled.normal.dot(view) > 0.0 && (settled.normal.length() - 1.0).abs() < 1e-12);
-        // No more than needed: what is above the surface by itself stays as it is.
+        // No more than needed: directions above the surface are unchanged.
         let own = mirrored(direction, n).normalize().dot(g);
         if own >= least {
             assert!(settled.normal == n || settled.normal == -n, "{own} was above already");
@@ -55,7 +55,7 @@ fn mirrored_rays_stay_above_and_refracted_ones_go_below() {
         for ratio in [1.0 / 1.5, 1.0, 1.5] {
             let way = refracted(direction, settled.normal, ratio);
             if way == direction {
-                continue; // everything is mirrored
+                continue; // everything is reflected
             }
             let below = on_its_side(direction, way, -settled.normal, -g);
             assert!(below.dot(g) < 0.0, "{below} is above {g}");
@@ -159,7 +159,7 @@ fn a_rough_mirror_never_shows_what_lies_behind_it() {
     }
 }
 
-/// Every sample sees one of the two sides, and by one sample in the middle the likelier one: below.
+/// Every sample sees one of the two sides, and the single middle sample the likelier one: below.
 #[test]
 fn glass_lets_through_what_lies_behind_it_and_mirrors_what_lies_before_it() {
     for scene in
@@ -173,13 +173,13 @@ fn glass_lets_through_what_lies_behind_it_and_mirrors_what_lies_before_it() {
     for scene in leaning(VIEWS[0], "model = 'dielectric'\nior = 1.05\n[sampling]\npattern = 'center'") {
         for (film, who) in both(&scene) {
             let through = film.pixels.iter().filter(|p| p[0] == 1.0).count();
-            // Grazing facets of the map mirror more than half.
+            // Grazing facets of the normal map reflect more than half.
             assert!(through * 10 > film.pixels.len() * 6, "{who}: {through} pixels see through the glass");
         }
     }
 }
 
-/// From within glass of index 1.5, below the triangle: what is refracted leaves upwards.
+/// From within glass of index 1.5, below the triangle: refracted rays leave upwards.
 #[test]
 fn rays_that_leave_glass_go_above_its_surface() {
     let mut rng = Rng::new(43);
@@ -212,7 +212,7 @@ fn cones_mirror_by_the_same_normal() {
     }
 }
 
-/// What `entity = "reflection"` looks at is where a mirror's ray goes.
+/// `entity = "reflection"` is the direction of a mirror's ray.
 #[test]
 fn a_map_of_the_reflection_looks_where_a_mirror_does() {
     let map =

@@ -1,5 +1,5 @@
-//! A mirrored environment is the same as one whose pictures are mirrored themselves, and for a cube the faces
-//! +x and −x exchanged; on device and oracle, seen directly and in a ball, turned or not.
+//! A mirrored environment equals one whose pictures are mirrored, and for a cube the faces +x and −x exchanged; on
+//! device and oracle, seen directly and in a ball, rotated or not.
 
 use moire::internal::core::film::Film;
 use moire::internal::texture::data::{Dimension, TextureData};

@@ -14,7 +14,7 @@ fn seen_at(degrees: f64) -> DVec3 {
     DVec3::new(-sin, 0.0, -cos)
 }
 
-/// Of what arrives evenly from the hemisphere, the share that goes to the eye.
+/// Returns the share of uniform light from the hemisphere that is reflected to the eye.
 fn furnace(direction: DVec3, albedo: f64, roughness: f64) -> f64 {
     const STEPS: u32 = 300;
     let second = scattered_albedo(DVec3::splat(albedo), roughness).x;

@@ -19,8 +19,8 @@ fn the_lobe_worked_out_by_hand() {
     assert_eq!(phong_lobe(DVec3::Z, -DVec3::Z, 4.0), 0.0);
 }
 
-/// ∫ lobe / π · cos θ dω over the hemisphere: 1 where the mirror direction is the normal (the norm of Lafortune
-/// & Willems 1994), and less at an angle, where a part of the lobe lies under the surface.
+/// ∫ lobe / π · cos θ dω over the hemisphere: 1 if the mirror direction is the normal (the norm of Lafortune & Willems
+/// 1994), and less at an angle, where a part of the lobe is below the surface.
 #[test]
 fn no_more_light_leaves_than_arrives() {
     const STEPS: u32 = 400;
@@ -53,7 +53,7 @@ fn no_more_light_leaves_than_arrives() {
 
 #[test]
 fn a_plane_lit_from_the_side_has_the_value_worked_out_by_hand() {
-    // MapInput straight from above; the light 30° off the normal; E = 2, so E cos θ = √3.
+    // Seen straight from above; the light 30° off the normal; E = 2, so E cos θ = √3.
     let text = "camera = { eye = [0, 0, 3], look_at = [0, 0, 0], orthographic_height = 0.1 }
         image = { width = 2, height = 2 }
         sampling = { pattern = 'center' }

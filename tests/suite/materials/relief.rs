@@ -50,11 +50,11 @@ fn a_normal_map_tilts_towards_growing_u_and_v() {
     // u grows towards -x, and u towards +y.
     expect([1.0, 0.0], [-0.6, 0.0, 0.8], "scale = [-1, 1]", 1.0);
     expect([1.0, 0.0], [0.0, 0.6, 0.8], "rotate = -90", 1.0);
-    // However wide the texture is stretched.
+    // Independently of the texture's scale.
     expect([1.0, 0.0], [0.6, 0.0, 0.8], "scale = [0.1, 10]", 1.0);
 }
 
-/// The same tilt where green points the other way: u stays, v is reversed.
+/// The same tilt if green points the other way: u is unchanged, v is reversed.
 #[test]
 fn green_downwards_reverses_v_alone() {
     let tilted = |x: f32, y: f32| floats(2, 2, move |_, _| [0.5 + 0.3 * x, 0.5 + 0.3 * y, 0.9, 1.0]);
@@ -71,7 +71,7 @@ fn green_downwards_reverses_v_alone() {
     expect("down", [0.0, 1.0], [0.0, -0.6, 0.8], "offset = [0.3, 0.3]", 1.0);
     expect("down", [0.0, 1.0], [0.0, 0.6, 0.8], "offset = [0.3, 0.3]", 0.28); // 0.64 - 0.36
     expect("down", [1.0, 0.0], [0.6, 0.0, 0.8], "offset = [0.3, 0.3]", 1.0);
-    // v grows towards -y: green upwards in the picture, which v runs down.
+    // v grows towards -y: green is upwards in the picture, in which v points down.
     expect("down", [0.0, 1.0], [0.0, 0.6, 0.8], "scale = [1, -1]", 1.0);
 }
 

@@ -31,12 +31,12 @@ const MAPPINGS: [&str; 12] = [
     "kind = 'spherical', entity = 'reflection'",
 ];
 
-/// A ball whose poles are seen, one from within, a smooth and a flat triangle and a square, in a unit of `k`.
+/// A ball whose poles are visible, one from within, a smooth and a flat triangle and a square, in a unit of `k`.
 fn shapes(k: f64, mapping: &str, relief: &str, footprint: &str) -> PackedScene {
     let at = |v: [f64; 3]| format!("{:?}", v.map(|x| x * k));
     let surface = mapping.contains("surface");
     let strength = if relief == "bump_map" { 0.06 * k } else { 1.5 };
-    // The plane's own coordinates count its axes, which grow with it.
+    // The plane's coordinates count its axes, which scale with it.
     let text = format!(
         "camera = {{ eye = {}, look_at = {}, vertical_fov = 50 }}\n\
          image = {{ width = 56, height = 40 }}\nsampling = {{ pattern = 'center', footprint = '{footprint}' }}\n\
@@ -79,7 +79,7 @@ fn pictures_do_not_depend_on_the_unit() {
                 };
                 let [device, oracle] = pictures(1.0);
                 let apart = compare(&device, &oracle).unwrap();
-                // Of f32: where a pole lies within a pixel, and at edges.
+                // Errors of f32: where a pole is within a pixel, and at edges.
                 assert!(apart.over_1_255 < 0.01, "{what}: device and oracle differ in {}", apart.over_1_255);
                 for k in [1.0 / 128.0, 128.0] {
                     let scaled = pictures(k);
@@ -87,7 +87,7 @@ fn pictures_do_not_depend_on_the_unit() {
                         [(&scaled[0], &device, "device"), (&scaled[1], &oracle, "oracle")]
                     {
                         let rmse = compare(film, right).unwrap().rmse;
-                        // Digits that do not scale: squares of lengths that leave f32's range, none here.
+                        // Digits that do not scale: squares of lengths that leave the range of f32, none here.
                         assert!(rmse < 1e-6, "{what}: {who} differs by {rmse:e} at {k}");
                     }
                 }

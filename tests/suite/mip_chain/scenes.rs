@@ -20,7 +20,7 @@ use crate::support::{moire, told};
 const VIEW: &str = "[camera]\neye = [0, 1, 5]\nlook_at = [0, 0, 0]\nvertical_fov = 60\n\
     [image]\nwidth = 48\nheight = 40\n[sampling]\npattern = 'center'\nfootprint = 'cone'\n";
 
-/// Far more texels than pixels: all look-ups are of levels.
+/// Far more texels than pixels: all look-ups read coarser levels.
 fn textures() -> Vec<TextureData> {
     vec![
         noise(Dimension::Two, [128, 64, 1], TexelFormat::Grey8, ColorSpace::Srgb, 1),
@@ -59,9 +59,9 @@ fn packed(scene: &Scene, mip_chains: MipPlacement) -> PackedScene {
 
 #[test]
 fn pictures_with_levels_of_the_device_are_those_with_levels_of_the_host() {
-    // A border makes images keep four channels of grey.
+    // A border makes images keep four channels for grey.
     let border = "method = 'hardware'\naddress = 'clamp-to-border'";
-    // The sums lie behind the levels, and are read in their place.
+    // The tables of sums follow the levels, and are read from there.
     let sums = "filter = { mag = 'linear', min = 'summed-area' }";
     for (sampler, texels, solids) in [
         ("", TexelChoice::Buffer, true),
@@ -84,7 +84,7 @@ fn pictures_with_levels_of_the_device_are_those_with_levels_of_the_host() {
         let (found, report) = render_with(&device, false, &tuning);
         assert!(report.device_mips_seconds.is_some_and(|s| s > 0.0), "{what}");
         assert_same_bits(&found, &expected, &what);
-        // Without levels there would be another picture.
+        // Without levels the picture would differ.
         let mut blank = device.clone();
         blank.device_levels.clear();
         let without = render_with(&blank, false, &tuning).0;
@@ -98,7 +98,7 @@ fn only_what_halves_and_fits_is_left_to_the_device() {
     let left = |scene: &Scene, mip_chains| packed(scene, mip_chains).device_levels;
     let some = |least_texels, most_bytes| MipPlacement::Device { least_texels, most_bytes };
     assert_eq!(left(&scene, MipPlacement::Host), [] as [usize; 0]);
-    // In the order of the pool: volume and cube first.
+    // In the order of the texel buffer: volume and cube first.
     assert_eq!(left(&scene, MipPlacement::DEVICE), [2, 3, 0, 1]);
     assert_eq!(left(&scene, some(32 * 32 * 32, u64::MAX)), [2, 1]);
     // The grey texture with four channels: (128 · 64 + … + 1) · 4 codes, (64 · 32 + 32 · 16) · 16 numbers.
@@ -125,7 +125,7 @@ fn only_what_halves_and_fits_is_left_to_the_device() {
     assert!(odd([8, 8, 1], TexelFormat::Grey16, ColorSpace::Srgb));
 }
 
-/// 16-bit sRGB is held as it is, unless the device's samplers read it.
+/// 16-bit sRGB is stored unchanged, unless the device's samplers read it.
 #[test]
 fn deep_srgb_is_left_to_the_device_as_codes_or_as_floats() {
     for (sampler, component) in
@@ -162,12 +162,12 @@ fn the_command_line_says_who_makes_levels_and_how_long_it_took() {
         let output = command.output().unwrap();
         let said = String::from_utf8_lossy(&output.stderr);
         assert!(output.status.success() && !said.contains("validation:"), "{said}");
-        assert_eq!(said.contains("mip mip_chains:"), mips == "device" && device != "oracle", "{said}");
+        assert_eq!(said.contains("mip chains:"), mips == "device" && device != "oracle", "{said}");
         serde_json::from_slice(&output.stdout).unwrap()
     };
     let made = run("device", &device_name());
     assert!(made["device_seconds"]["mips"].as_f64().is_some_and(|s| s > 0.0), "{made:#}");
-    // A texture of 256×256 is too small to be worth a pipeline.
+    // A texture of 256×256 is too small to be worth compiling a pipeline.
     for mips in ["host", "auto"] {
         assert!(run(mips, &device_name())["device_seconds"]["mips"].is_null(), "{mips}");
     }

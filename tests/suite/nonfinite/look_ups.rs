@@ -11,13 +11,13 @@ use moire::internal::texture::sampler_spec::{Address, Filter, SamplerSpec};
 use crate::footprints::bench::{answers, narrow, pairs_of, solid};
 use crate::lookup::bench::{Rng, Vectors, coordinates, query};
 
-/// With all channels of one texel of a float texture set to a value.
+/// Sets all channels of one texel of a float texture to a value.
 fn with_texel(texture: &TextureData, at: [u32; 2], value: f32) -> TextureData {
     let channels = texture.format.channels();
     texture.with_floats(channels, |x, y, c| if [x, y] == at { value } else { texture.value(x, y, c) as f32 })
 }
 
-/// Random texels, which one of them is meant, and all filters of such textures with all address modes.
+/// Random texels, the index of the altered one, and all filters of such textures with all address modes.
 struct Bench {
     texture: TextureData,
     at: [u32; 2],
@@ -51,8 +51,8 @@ impl Bench {
         pairs_of(Footprint::Differentials, vec![texture], &self.specs, &[(0, 0)])
     }
 
-    /// Anywhere and on texels' centres and edges; footprints of a point and of less than two texels' width, which
-    /// level 0 answers.
+    /// Random coordinates, texel centres and edges; footprints of a point and of less than two texels' width, which
+    /// read level 0.
     fn queries(&self, scene: &PackedScene) -> Vec<LookupQuery> {
         let mut rng = Rng::new(71);
         let (w, h) = (self.texture.width, self.texture.height);
@@ -72,7 +72,7 @@ impl Bench {
         all
     }
 
-    /// Where look-ups with the texel (`odd`) and without it (`plain`) are not as its weights want it.
+    /// Returns the look-ups whose results with the texel (`odd`) and without it (`plain`) contradict its weights.
     fn complaints(&self, weights: &[[f32; 4]], odd: &[[f32; 4]], plain: &[[f32; 4]]) -> Vec<usize> {
         let wrong = |&i: &usize| {
             let same = odd[i].map(f32::to_bits) == plain[i].map(f32::to_bits);
@@ -100,7 +100,7 @@ fn a_texel_that_is_no_number_stays_in_look_ups_that_read_it() {
         let weights = answers(&weights, &queries);
         let read = weights.iter().filter(|w| **w != [0.0; 4]).count();
         assert!(read > 50 && queries.len() - read > 100, "{read} of {} prove nothing", queries.len());
-        // As its own scene builds it: without the code for texels that are no numbers.
+        // The pipeline of its own scene: without the code for texels that are NaN or infinite.
         let plain = bench.scene(with_texel(&bench.texture, bench.at, 7.0));
         assert!(!plain.has_nonfinite());
         let plain = answers(&plain, &queries);
@@ -128,7 +128,7 @@ fn a_pipeline_that_multiplies_such_a_texel_by_0_is_caught() {
     scene.nonfinite_texels = vec![0];
     let odd = answers(&scene, &queries);
     assert!(bench.complaints(&weights, &odd, &plain).len() > 10);
-    // And a texel beside the one that is meant.
+    // And a texel beside the altered one.
     let [x, y] = bench.at;
     let beside = answers(&bench.scene(with_texel(&bench.texture, [x + 1, y], f32::NAN)), &queries);
     assert!(bench.complaints(&weights, &beside, &plain).len() > 100);

@@ -9,7 +9,7 @@ use crate::stage::device;
 
 const WIDTH: u32 = 5;
 
-/// The first position that differs: pixel, sample, and both.
+/// Returns the first position that differs: pixel, sample, and both.
 fn difference(device: &[[u32; 2]], oracle: &[[u32; 2]], samples: u32) -> Option<String> {
     let i = (0..device.len()).find(|&i| device[i] != oracle[i])?;
     let (pixel, s) = (i as u32 / samples, i as u32 % samples);

@@ -103,7 +103,7 @@ fn errors_of_other_patterns_are_white() {
     }
 }
 
-/// The errors themselves are no larger for it. A picture has one scrambling, which suits an edge more or less:
+/// The errors themselves are not larger. A picture has one scrambling, which fits an edge more or less well:
 /// over 40 of them the mean square has a sigma of a tenth of itself.
 #[test]
 fn blue_noise_has_the_error_of_sobol_owen() {

@@ -40,7 +40,7 @@ fn every_pattern_is_described() {
 fn numbers_are_those_of_the_pattern() {
     let grid = report(&["grid", "--spp", "16"]);
     assert_eq!(grid["mean_nearest_distance"], 0.25);
-    // The box up to the last column and row, less what both leave over: 1 - (7/8)².
+    // The box up to the last column and row, less the area beyond both: 1 - (7/8)².
     assert_eq!(grid["star_discrepancy"], 1.0 - 0.875 * 0.875);
     assert_eq!((&grid["strata"]["occupied"], &grid["strata"]["occupied_of_n_rows"]), (&16.into(), &4.into()));
     let sobol = report(&["sobol-owen", "--spp", "256", "--pair", "3", "--seed", "9"]);
@@ -63,7 +63,7 @@ fn the_picture_shows_points_and_spectrum() {
     let picture = image::open(folder.path().join("p.png")).unwrap().to_rgb8();
     let film = moire::internal::lab::metrics::read_picture(&folder.path().join("p.exr")).unwrap();
     assert_eq!(picture.dimensions(), (film.width, film.height));
-    // In the middle of the spectrum it is dark, towards its corner grey.
+    // The centre of the spectrum is dark, its corners are grey.
     let mean = |x: u32, y: u32| {
         let values = (0..20).flat_map(|v| (0..20).map(move |u| (x + u, y + v)));
         values.map(|(u, v)| u32::from(picture.get_pixel(u, v)[0])).sum::<u32>() / 400

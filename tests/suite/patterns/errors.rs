@@ -76,7 +76,7 @@ fn variances_fall_as_theory_says() {
     }
 }
 
-/// Sequences are even after any number of samples.
+/// Sequences are uniform after any number of samples.
 #[test]
 fn prefixes_have_low_discrepancy() {
     for pattern in [Pattern::Halton, Pattern::SobolOwen] {

@@ -41,7 +41,7 @@ fn stratified_and_grid_fill_every_stratum_in_every_pair() {
     }
 }
 
-/// Where one number is asked for, N points lie in N strata of the line.
+/// If one number is used, N points are in N strata of the line.
 #[test]
 fn lines_have_one_point_in_each_stratum() {
     use Pattern::{BlueNoise, Grid, MultiJittered, NRooks, SobolOwen, Stratified};
@@ -133,7 +133,7 @@ fn may_lie_in(x: u32, n: u32) -> impl Iterator<Item = u32> {
     (first..=last).map(|c| c as u32)
 }
 
-/// Each of `columns` × `rows` cells with one point, where those on a boundary fill what the others leave.
+/// Expects one point in each of `columns` × `rows` cells, where those on a boundary fill cells left empty.
 fn fill_cells(positions: &[[u32; 2]], columns: u32, rows: u32) -> bool {
     let candidates = |p: &[u32; 2]| -> Vec<u32> {
         let [x, y] = *p;
@@ -166,7 +166,7 @@ fn halton_fills_intervals_of_its_bases() {
     }
 }
 
-/// Sequences give the same first samples whatever the count is; the others do not claim to.
+/// Sequences have the same first samples whatever the count; the other patterns need not.
 #[test]
 fn sequences_can_be_stopped_and_continued() {
     for &pattern in Pattern::ALL.iter().filter(|p| p.is_progressive() && **p != Pattern::Center) {

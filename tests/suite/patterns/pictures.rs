@@ -24,7 +24,7 @@ fn lean_pipelines_give_the_bits_of_full_ones() {
     }
 }
 
-/// 512 samples come in two chunks of 256.
+/// 512 samples come in two blocks of 256.
 #[test]
 fn device_and_oracle_see_the_same_pictures() {
     for &pattern in Pattern::ALL {

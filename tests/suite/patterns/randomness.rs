@@ -15,7 +15,7 @@ fn of_seeds(pattern: Pattern, pair: u32) -> Vec<Vec<[f64; 2]>> {
 #[test]
 fn every_sample_is_uniform_over_the_pixel() {
     for pattern in SCATTERED {
-        // Samples of strata keep to them: which one, is fixed by the number.
+        // The stratum is determined by the sample's index.
         let fixed = matches!(pattern, Pattern::Stratified);
         let rows_fixed = fixed || matches!(pattern, Pattern::MultiJittered | Pattern::NRooks);
         for pair in [0, 1] {
@@ -42,7 +42,7 @@ fn every_sample_is_uniform_over_the_pixel() {
     }
 }
 
-/// Mean over its sigma, which the values themselves tell, and their variance.
+/// Returns the mean over its sigma, estimated from the values, and their variance.
 fn mean_in_sigmas(values: &[f64]) -> (f64, f64) {
     let n = values.len() as f64;
     let mean = values.iter().sum::<f64>() / n;
@@ -64,7 +64,7 @@ fn neighbouring_pixels_and_seeds_are_uncorrelated() {
                 let (seed, other) = if what == "seed" { (2 * i, 2 * i + 1) } else { (1, 1) };
                 let here = unit(&set(pattern, 4, seed, pixel, 0));
                 let there = unit(&set(pattern, 4, other, [pixel[0] + next[0], pixel[1] + next[1]], 0));
-                // The place in the stratum, where the stratum is fixed.
+                // The position in the stratum, if the stratum is fixed.
                 let fixed = pattern == Pattern::Stratified;
                 let centred = |x: f64| if fixed { (2.0 * x).fract() - 0.5 } else { x - 0.5 };
                 let product = |s: usize, t: usize| centred(here[s][0]) * centred(there[t][0]);
@@ -79,7 +79,7 @@ fn neighbouring_pixels_and_seeds_are_uncorrelated() {
     }
 }
 
-/// Σ (a - ½)(b - ½) over a set's samples has mean 0 over seeds, and is as small as of random pairs.
+/// Σ (a - ½)(b - ½) over a set's samples has mean 0 over seeds, and is as small as for random pairs.
 #[test]
 fn pairs_are_uncorrelated() {
     for pattern in SCATTERED {

@@ -18,7 +18,8 @@ fn sinc(x: f64) -> f64 {
     if x == 0.0 { 1.0 } else { (PI * x).sin() / (PI * x) }
 }
 
-/// Largest distance, in sigmas, of the power from `expected` over all frequencies that `expected` has.
+/// Returns the largest distance, in sigmas, of the power from `expected`, over all frequencies for which it
+/// is defined.
 fn largest_sigmas(spectrum: &Spectrum, expected: impl Fn(f64, f64) -> Option<f64>) -> f64 {
     let limit = spectrum.limit as i64;
     let mut largest = 0.0f64;

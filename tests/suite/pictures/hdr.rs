@@ -8,7 +8,7 @@ use crate::support::told;
 
 const SIZE: [usize; 2] = [9, 4];
 
-/// The bytes of texel (x, y) of the picture as it is seen.
+/// The bytes of texel (x, y) of the visible picture.
 fn rgbe(x: usize, y: usize) -> [u8; 4] {
     [128 + 10 * x as u8, 129 + 20 * y as u8, 130 + (x * y) as u8, 120 + x as u8]
 }

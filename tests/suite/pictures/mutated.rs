@@ -22,7 +22,7 @@ impl Rng {
     }
 }
 
-/// Numbers that headers should not hold.
+/// Extreme values of header fields.
 const ODD: [u32; 10] = [0, 1, 2, 7, 255, 65_535, 65_536, 0x7fff_ffff, 0x8000_0000, u32::MAX];
 
 fn mutated(whole: &[u8], rng: &mut Rng) -> Vec<u8> {
@@ -85,7 +85,7 @@ fn run(rounds: usize, seed: u32) {
                     refused += 1;
                 }
             }
-            // A file of a few KB that other work holds up; a hang is longer.
+            // A file of a few KB on a busy machine; a hang takes longer.
             assert!(clock.elapsed() < Duration::from_secs(20), "{fixture} {round}: {:?}", clock.elapsed());
         }
     }

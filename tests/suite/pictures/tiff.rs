@@ -9,7 +9,7 @@ use crate::support::told;
 
 const SIZE: [u32; 2] = [21, 18];
 
-/// Sample `c` of texel (x, y), as `data/pictures/make.py` has it.
+/// Sample `c` of texel (x, y), as in `data/pictures/make.py`.
 fn code(x: u32, y: u32, c: u32, bits: u32) -> u64 {
     let [x, y, c] = [x, y, c].map(u64::from);
     let mixed = (x * 73_856_093) ^ (y * 19_349_663) ^ (c * 83_492_791);
@@ -24,7 +24,7 @@ fn float(x: u32, y: u32, c: u32) -> f64 {
     (code(x, y, c, 12) as f64 - 2048.0) / 64.0
 }
 
-/// Each texel of the file has the values wanted, to half a step of the format that holds them.
+/// Each texel of the file has the expected values, to half a step of its format.
 fn check(name: &str, format: TexelFormat, file_channels: usize, want: impl Fn(u32, u32) -> Vec<f64>) {
     let (t, notes) = load(&fixture(name), Dimension::Two).unwrap();
     let found = (t.width, t.height, t.format, t.file_channels);

@@ -53,7 +53,7 @@ fn device_and_oracle_filter_alike() {
     }
 }
 
-/// All code is built once for each, so a few stand for all.
+/// All code is compiled once for each, so a few represent all.
 #[test]
 fn what_is_left_out_changes_no_bit_of_a_filtered_picture() {
     let footprints = |mut scene: Scene| {
@@ -63,7 +63,7 @@ fn what_is_left_out_changes_no_bit_of_a_filtered_picture() {
     for (scene, filter) in [
         (small("lecture", 70, 4), PixelFilter::new(PixelFilterKind::Tent, None)),
         (footprints(small("filters", 70, 4)), PixelFilter::new(PixelFilterKind::Mitchell, None)),
-        // More samples than one chunk holds.
+        // More samples than one block holds.
         (with_random(small("lights", 24, 1), 600), PixelFilter::new(PixelFilterKind::Mitchell, None)),
         (small("s2", 40, 4), PixelFilter::new(PixelFilterKind::BlackmanHarris, None)),
         (small("s2", 40, 4), PixelFilter::new(PixelFilterKind::Box, Some(2.0))),
@@ -104,7 +104,7 @@ fn bands_and_pages_change_no_bit_of_a_filtered_picture() {
 }
 
 fn adaptively(filter: PixelFilter, footprint: Footprint) -> Scene {
-    // Without a footprint, what lies near a horizon differs by rounding.
+    // Without a footprint, pixels near a horizon differ by rounding.
     let name = if footprint == Footprint::None { "s2" } else { "filters" };
     let mut scene = with(small(name, 64, 4), filter);
     scene.sampling.algorithm = Algorithm::Adaptive;

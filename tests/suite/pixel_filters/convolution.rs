@@ -9,7 +9,7 @@ use crate::stage::{packed, render_on_oracle, small};
 
 /// Fine pixels along the side of one.
 const FINE: u32 = 12;
-/// Pixels that no filter's support crosses the picture's edge from.
+/// Margin in pixels beyond which no filter's support crosses the picture's edge.
 const MARGIN: usize = 2;
 
 fn scene(name: &str, size: u32, spp: u32, seed: u32) -> Scene {
@@ -63,7 +63,8 @@ fn rmse(a: &[[f64; 3]], b: &[[f64; 3]]) -> f64 {
     (squares.sum::<f64>() / (3 * a.len()) as f64).sqrt()
 }
 
-/// What two seeds differ by is twice the variance of each, of the filtered picture and of the fine one alike.
+/// The difference of two seeds has twice the variance of each, for the filtered picture and for the fine one
+/// alike.
 #[test]
 fn filtered_pictures_are_convolutions_of_fine_ones() {
     for name in ["lecture", "zone_plate"] {
@@ -79,10 +80,10 @@ fn filtered_pictures_are_convolutions_of_fine_ones() {
             let [exact, again] = [&fine, &other].map(|film| convolved(film, filter));
             let noise = (0.5 * rmse(&a, &b).powi(2) + 0.5 * rmse(&exact, &again).powi(2)).sqrt();
             let apart = rmse(&a, &exact);
-            // Some 1500 numbers: a sigma of either root mean square is 2 %. The table and, for signed samples,
-            // what a quotient of sums is off by.
+            // About 1500 numbers: a sigma of either root mean square is 2 %. Beside it the error of the table
+            // and, for signed samples, of a quotient of sums.
             assert!(apart <= 1.15 * noise + 3e-4, "{name}, {filter:?}: {apart:e}, noise {noise:e}");
-            // Another filter, and the same a tenth narrower, are told apart.
+            // Another filter, and the same filter a tenth narrower, are distinguished.
             for wrong in [
                 PixelFilter { radius: 0.9 * filter.radius, ..filter },
                 PixelFilter::new(PixelFilterKind::Box, None),

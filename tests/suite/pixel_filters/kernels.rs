@@ -47,7 +47,7 @@ fn samples_are_distributed_as_the_kernel_is() {
         let scene = packed(filter);
         let places: Vec<(f64, f64)> = (0..SAMPLES)
             .map(|i| {
-                // Beside a middle that is positive: the sign is that of x.
+                // Beside a centre that is positive: the sign is that of x.
                 let place = filtered_place(&scene, [i << 10 | 1 << 9, 1 << 23]);
                 (place.inside.x - 0.5, place.sign)
             })
@@ -92,8 +92,8 @@ const SAMPLES: u32 = 1024;
 /// Lines of 1/8 of a pixel, at 8 places in it, are all places.
 const LINE: f64 = 0.125;
 
-/// Samples of a (0, 2)-sequence: of 1024 in 1 / 1024 of the pixel one each, so that a line's share is wrong by two
-/// at most, of signed ones by as many more where the sign changes (4 places, and twice by the other axis).
+/// Samples of a (0, 2)-sequence: of 1024 one in each 1 / 1024 of the pixel, so that a line's fraction is off by two at
+/// most, for signed ones by as many more where the sign changes (4 positions, and twice by the other axis).
 fn bound(filter: PixelFilter) -> f64 {
     let counted = if filter.kind == PixelFilterKind::Mitchell { 12.0 } else { 2.0 };
     let table = if filter.kind == PixelFilterKind::Mitchell { 2.6e-4 } else { 2e-6 };
@@ -142,7 +142,7 @@ fn lines_show_the_kernel_and_nothing_beyond_its_radius() {
     }
 }
 
-/// A square in a corner between four pixels, seen by all of them alike, and as the product of both axes.
+/// A square at the corner of four pixels, seen by all of them alike, and as the product of both axes.
 #[test]
 fn a_square_shows_the_product_of_both_axes() {
     for filter in filters() {

@@ -12,8 +12,8 @@ use crate::stage::{packed, render, render_on_oracle, small};
 
 const MITCHELL: PixelFilter = PixelFilter { kind: PixelFilterKind::Mitchell, radius: 2.0 };
 
-/// One colour, whatever the filter, the pattern and the number of samples, on device and oracle: of few samples,
-/// half or all may lie in negative lobes.
+/// One colour, whatever the filter, the pattern and the number of samples, on device and oracle: with few samples, half
+/// or all may be in negative lobes.
 #[test]
 fn one_colour_stays_one_colour() {
     const COLOR: [f32; 3] = [0.7, 0.5, 3.0];
@@ -55,7 +55,7 @@ fn assert_one_color(film: &Film, color: [f32; 3], name: &str) {
     }
 }
 
-/// Whose sums of the lobes from 3/2 pixels on are -1/128.
+/// The filters whose sums of the lobes from 3/2 pixels on are -1/128.
 #[test]
 fn an_edge_overshoots_on_both_sides_and_files_clip_it() {
     // Everything right of the middle is white.
@@ -82,19 +82,19 @@ fn an_edge_overshoots_on_both_sides_and_files_clip_it() {
 #[test]
 fn signs_that_cancel_leave_what_they_are_on_average() {
     let mean = 0.5;
-    // All positive: the plain mean 2, and what the signs are above their average.
+    // All positive: the plain mean 2, and the excess of the signs over their average.
     assert_eq!(filtered_mean(8.0, 0.0, 4.0, 4.0, mean), 2.0);
     // The sample of 5 is negative: -2 with signs of 2, 2 plain, 2 + (-2 - 2 * 2) / (4 * 0.5).
     assert_eq!(filtered_mean(-2.0, 5.0, 2.0, 4.0, mean), -1.0);
     // Two of 1 are negative: 4 with signs of 0.
     assert_eq!(filtered_mean(4.0, 2.0, 0.0, 4.0, mean), 4.0);
-    // One colour, be the signs what they may.
+    // One colour, whatever the signs.
     for signs in [-4.0, -2.0, 0.0, 2.0, 4.0] {
         assert_eq!(filtered_mean(3.0 * signs, 3.0 * (4.0 - signs) / 2.0, signs, 4.0, mean), 3.0);
     }
 }
 
-/// No pixel is further outside the picture's colours, 0 to 1, than twice the negative part of |f|.
+/// No pixel exceeds the picture's colours, 0 to 1, by more than twice the negative part of |f|.
 #[test]
 fn few_samples_explode_in_no_pixel() {
     let mut scene = super::with(small("quad", 96, 1), MITCHELL);

@@ -28,8 +28,8 @@ fn wide(v: [f32; 4]) -> DVec3 {
     DVec3::new(v[0].into(), v[1].into(), v[2].into())
 }
 
-/// Places within `reach`; footprints from 10⁻³ to 30 cells, up to 50 times as long as wide, some in
-/// the plane of a 2D mapping, some zero.
+/// Points within `reach`; footprints from 10⁻³ to 30 cells, up to 50 times as long as wide, some in the plane
+/// of a 2D mapping, some zero.
 fn queries(rng: &mut Rng, procedural: u32, reach: f64, filtered: bool, count: u32) -> Vec<ProceduralQuery> {
     let one = |i: u32| {
         let mut at = rng.vector(reach);
@@ -50,8 +50,9 @@ fn queries(rng: &mut Rng, procedural: u32, reach: f64, filtered: bool, count: u3
     (0..count).map(one).collect()
 }
 
-/// What the oracle answers within the rounding of f32: of the point to 4 ulp of its coordinates and of
-/// a cell's fraction, of the footprint to 1e-5 of its lengths, which decides on the number of boxes.
+/// Returns the range of the oracle's answers within the rounding of f32: of the point to 4 ulp of its
+/// coordinates and of a cell's fraction, of the footprint to 1e-5 of its lengths, which determines the number
+/// of boxes.
 fn range(what: &layout::Procedural, query: &ProceduralQuery) -> (DVec3, DVec3) {
     let (at, dx, dy) = (wide(query.at), wide(query.dx), wide(query.dy));
     let delta = 4.0 * f64::from(f32::EPSILON) * (0.5 * at.abs() + 0.5);
@@ -202,7 +203,7 @@ fn coordinates_that_are_not_finite_read_the_origin_and_endless_footprints_the_me
         let list: Vec<_> = odd.iter().map(|w| query(i, 0.4, *w)).chain([query(i, 0.4, 1e9)]).collect();
         let answers = probe::procedurals(&gpu, &scene, false, &list).unwrap();
         let apart = |a: &[f32; 4]| (0..4).map(|c| (a[c] - answers[4][c]).abs()).fold(0.0, f32::max);
-        // What is left of the pattern under a footprint of 10⁹ cells is below one ulp of its mean.
+        // The remainder of the pattern under a footprint of 10⁹ cells is below one ulp of its mean.
         assert!(answers.iter().all(|a| apart(a) < 1e-6), "texture {i}: {answers:?}");
     }
 }

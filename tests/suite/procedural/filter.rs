@@ -66,9 +66,9 @@ fn errors(what: &layout::Procedural, anisotropy: f64, size: f64, side: u32) -> (
     ((filtered / f64::from(n)).sqrt(), (plain / f64::from(n)).sqrt())
 }
 
-/// Footprints that lie anyhow, as wide as long up to 16 times as long. Boxes along the axes stand for
-/// pieces that do not lie along them: the bounds are what that costs, found 0.05, 0.05 and 0.024 for
-/// the checker, where points are off by 0.5.
+/// Random footprints, up to 16 times as long as wide. Boxes along the axes approximate oblique parts: the
+/// bounds are the error of that, measured as 0.05, 0.05 and 0.024 for the checker, where points are off by
+/// 0.5.
 #[test]
 fn oblique_footprints_are_close_to_the_mean_of_their_points() {
     for kind in HARD_EDGED {
@@ -125,7 +125,7 @@ fn hard_edged_patterns_reach_their_exact_mean() {
         let what = default_record(kind);
         for size in [1e4, 1e6, 1e8, 1e30] {
             let found = figure_share(&what, DVec3::new(0.2, 0.3, 0.0), size * DVec3::X, size * DVec3::Y);
-            // What is left of the last period, and the parameters' f32.
+            // The remainder of the last period, and the parameters' f32.
             assert!((found - mean).abs() < 1.0 / size + 1e-7, "{kind}, {size}: {found}, {mean}");
         }
     }
@@ -152,8 +152,8 @@ fn ground(x: u32, y: u32, sx: f64, sy: f64) -> (DVec3, DVec3, DVec3) {
     (at, dx, dy)
 }
 
-/// Of a box along the axes alone 5 times lower errors than of points are known; pieces along the major
-/// axis gave 12 times lower ones.
+/// Boxes along the axes alone have errors 5 times lower than points; parts along the major axis had 12 times
+/// lower ones.
 #[test]
 fn a_checker_to_the_horizon_loses_its_error_by_filtering() {
     let what = default_record(Checker);

@@ -104,7 +104,7 @@ fn seeds_differ_and_repeat() {
     }
 }
 
-/// Numbers that were computed once: the pattern of a seed never changes.
+/// Values computed once: the pattern of a seed never changes.
 #[test]
 fn a_seed_means_the_same_lattice_for_ever() {
     let p = DVec3::new(0.3, -1.7, 5.2);

@@ -12,11 +12,11 @@ use super::truth::Truth;
 use super::{FEW, color, film, kind_of, many, with};
 use crate::stage::{packed, render_with};
 
-/// Irradiance of a point light is that of the middle of a strip of the pixel; and f32 on a device.
+/// Irradiance of a point light is that at the centre of a strip of the pixel; and f32 on a device.
 const OWN: f64 = 3e-4;
 const OWN_F32: f64 = 1e-3;
 
-/// Each pixel's colour, none where it took samples.
+/// Returns each pixel's colour, `None` if it took samples.
 type Told = Vec<Option<DVec3>>;
 
 fn told_in_float64(scene: &Scene) -> Told {
@@ -25,8 +25,8 @@ fn told_in_float64(scene: &Scene) -> Told {
     pixels.map(|i| beam(&packed, [i % scene.width, i / scene.width])).collect()
 }
 
-/// A pixel that took samples is that of the sampled picture but for the order of its 16 terms. Where it is not, as two
-/// pipelines of one device may decide otherwise at an edge, it still changes with the seed, as no beam does.
+/// A pixel that took samples equals that of the sampled picture up to the order of its 16 terms. If it does not, as two
+/// pipelines of one device may decide differently at an edge, it still changes with the seed, which no beam does.
 fn told_by_device(scene: &Scene) -> Told {
     let packed = packed(with(scene.clone(), Algorithm::Beam), None);
     let (beams, report) = render_with(&packed, false, &Tuning::default());
@@ -43,7 +43,7 @@ fn told_by_device(scene: &Scene) -> Told {
     (0..films[0].pixels.len()).map(told).collect()
 }
 
-/// Pixels that are wrong, and by how much.
+/// Returns the pixels that are wrong, with their errors.
 fn wrong(truth: &Truth, told: &Told, width: u32, own: f64) -> Vec<([u32; 2], f64)> {
     let excess = |(i, value): (usize, &Option<DVec3>)| {
         let place = [i as u32 % width, i as u32 / width];
@@ -91,7 +91,7 @@ fn every_pixel_of_many_scenes_is_right() {
     }
 }
 
-/// How many of four scenes of a kind have a wrong pixel when beams see a changed one.
+/// Returns the number of scenes, of four of a kind, with a wrong pixel after the beams' scene is changed.
 fn finds(kind: Kind, change: impl Fn(&mut Scene)) -> usize {
     let found = |seed: &u64| {
         let mut right = scene(&text(kind, *seed, 32));
@@ -119,7 +119,7 @@ fn planted_errors_are_found() {
     );
 }
 
-/// One pixel that shows the background, as if a polygon behind the mirror had made a hole in it.
+/// One pixel of background, as if a polygon behind the mirror had made a hole in it.
 #[test]
 fn one_wrong_pixel_is_found() {
     let scene = scene(&text(Kind::Mirrors, 101, 32));

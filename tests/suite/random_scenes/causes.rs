@@ -24,7 +24,7 @@ use crate::stage::packed;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Cause {
-    /// At most two shapes, each of one colour, as such or in flat mirrors that fill the pixel.
+    /// At most two shapes, each of one colour, directly or in flat mirrors that fill the pixel.
     Outline,
     /// The same, but lit, with or without a shadow's edge.
     Shadow,
@@ -90,8 +90,8 @@ fn errors(seeds: impl Iterator<Item = u64>, side: u32) -> BTreeMap<Cause, Vec<f6
     all
 }
 
-/// With two edges that is up to 0.05; the rest is for a shape that reaches through a mirror just where a cone leaves
-/// it, which is met wholly or not at all.
+/// With two edges that is up to 0.05; the rest allows for a shape that reaches through a mirror just where a cone
+/// leaves it, which is met wholly or not at all.
 #[test]
 fn one_or_two_shapes_cost_no_more_than_a_disc_for_a_square() {
     let all = errors(0..FEW / 2, 32);

@@ -16,7 +16,7 @@ use super::scenes::{scene, text};
 use super::{FEW, color, film, kind_of, many, with};
 use crate::stage::packed;
 
-/// Without the checker, whose mean over a cone's footprint is another matter.
+/// Without the checker, whose mean over a cone's footprint is a separate matter.
 pub fn plain(seed: u64, side: u32) -> Scene {
     let mut scene = scene(&text(kind_of(seed), seed, side));
     scene.materials.iter_mut().for_each(|m| m.texture = None);
@@ -32,7 +32,7 @@ fn error(scene: &Scene) -> [f64; 2] {
     [compare(&cones, &truth).unwrap().rmse, worst]
 }
 
-/// As docs/guide/learn/11-cones.md has it.
+/// As in docs/guide/learn/11-cones.md.
 const WORST_RMSE: f64 = 0.02;
 const WORST_PIXEL: f64 = 0.4;
 
@@ -68,7 +68,7 @@ fn figures_for_the_docs() {
 
 const RINGS: u32 = 24;
 
-/// What rays through places all over the disc see, by shape; last what sees none.
+/// Returns the coverage by rays through points all over the disc, by shape; last that of the background.
 fn by_rays(scene: &PackedScene, cone: &Cone, shapes: usize) -> Vec<f64> {
     let mut shares = vec![0.0; shapes + 1];
     let around = 3 * RINGS;
@@ -85,8 +85,8 @@ fn by_rays(scene: &PackedScene, cone: &Cone, shapes: usize) -> Vec<f64> {
     shares
 }
 
-/// By so much all shares of one and of two pieces are exact, and by so much less the last, of what shows no
-/// shape, where some shape covers the whole cone.
+/// Tolerance of the coverages of one and of two fragments; and, smaller, of the last one, the background's,
+/// if some shape covers the whole cone.
 fn shares_off(scene: &Scene) -> [f64; 3] {
     let packed = packed(with(scene.clone(), Algorithm::Cone), None);
     let header = &packed.header;
@@ -115,7 +115,7 @@ fn shares_off(scene: &Scene) -> [f64; 3] {
     off
 }
 
-/// Also where the centroid of a piece lies before another piece all of which hides it.
+/// Also if the centroid of a fragment is in front of another fragment that is hidden by it entirely.
 #[test]
 fn two_shapes_in_a_cone_are_exact_and_hide_what_is_behind_them() {
     for seed in (0..FEW).chain([41, 39]) {

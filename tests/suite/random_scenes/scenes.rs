@@ -1,6 +1,6 @@
-//! Random scenes of polygons, as text, so that one that fails can be rendered by the program. Each kind has
-//! what made beams or cones err once: mirrors that face or cut each other, that stand in an infinite ground or
-//! are one, shapes in one plane, shapes close behind them; parallel rays; shadows; a last bounce.
+//! Random scenes of polygons, as text, so that a failing one can be rendered by the program. Each kind has a
+//! feature that once made beams or cones err: mirrors that face or cut each other, that stand in an infinite
+//! ground or are one, coplanar shapes, shapes close behind them; parallel rays; shadows; a last bounce.
 
 use std::path::Path;
 
@@ -79,7 +79,7 @@ impl Writer {
         );
     }
 
-    /// A mirror across n, and as likely as not a polygon close behind it.
+    /// A mirror across n, in half of the cases with a polygon close behind it.
     fn mirror(&mut self, at: DVec3, n: DVec3, extent: f64) {
         let (u, v) = n.any_orthonormal_pair();
         self.plane(at, [u, v], Some(extent), "mirror");
@@ -89,7 +89,7 @@ impl Writer {
         }
     }
 
-    /// A level one, in which both are met at exactly the same place; of these hits the first counts.
+    /// A level one, in which both are met at exactly the same point; the first of these hits counts.
     fn two_in_one_plane(&mut self) {
         for _ in 0..2 {
             let corners = [(); 3].map(|()| DVec3 { y: 0.125, ..within(&mut self.rng, 0.8) });

@@ -8,11 +8,11 @@ use moire::internal::scene::model::{Algorithm, Footprint, Pattern, Scene};
 
 use crate::stage::packed;
 
-/// Strata on an axis at first, and where those leave a doubt.
+/// Strata per axis at first, and if those leave a doubt.
 const FEW: u32 = 8;
 const MANY: u32 = 64;
 
-/// Of normal noise 1 value in 370 lies beyond at first, 1 in 1.7 million at last.
+/// With normal noise 1 value in 370 exceeds this at first, 1 in 1.7 million at last.
 const DOUBT: f64 = 3.0;
 const SURE: f64 = 5.0;
 
@@ -66,7 +66,7 @@ impl Truth {
         Truth { few, many: with(MANY), brightest }
     }
 
-    /// By how much a value is wrong beyond chance and `own`, the error that its method is known to have.
+    /// Returns the excess of an error over noise and `own`, the known error of its method.
     pub fn excess(&self, place: [u32; 2], value: DVec3, own: f64) -> f64 {
         let beyond = |mean: &Mean, sigmas: f64, unseen: f64| {
             let allowed = sigmas * mean.sigma + unseen * self.brightest.max(mean.brightest) + own;

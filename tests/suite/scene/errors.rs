@@ -11,8 +11,8 @@ use super::HEAD;
 
 pub const PATH: &str = "scenes/a.toml";
 
-/// The message, after checking what every scene error owes: one line, a place, a caret within
-/// the text.
+/// Returns the message, after checking the requirements of every scene error: one line, a position, a caret
+/// within the text.
 pub fn message(text: &str) -> Result<String, String> {
     let Err(error) = parse(Path::new(PATH), text) else { return Err("no error".to_owned()) };
     let Error::Scene { message, label, span, source_code, .. } = &error else {

@@ -135,7 +135,8 @@ fn sampling_and_background_rules() {
     ]);
 }
 
-/// Rows of an environment go on over its poles: another address of v that the scene states is told, the default not.
+/// Rows of an environment continue across its poles: another address of v is reported if the scene states it, not if it
+/// is the default.
 #[test]
 fn an_address_that_poles_replace_is_told() {
     let told = |sampler: &str, texture: &str| {

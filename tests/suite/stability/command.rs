@@ -8,7 +8,7 @@ use tempfile::tempdir;
 use crate::stage::device_name;
 use crate::support::moire;
 
-/// A case of a second.
+/// A case that takes a second.
 const FAST: &str = "sums/noise";
 
 #[test]

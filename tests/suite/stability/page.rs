@@ -53,7 +53,7 @@ fn the_json_object_has_every_point_and_null_for_an_error_that_is_no_number() {
     assert_eq!(cases[2]["verdict"], "broken");
 }
 
-/// The page without what is not markup.
+/// Returns the page's text without markup.
 fn markup(page: &str) -> String {
     let mut text = page.replacen("<!doctype html>", "", 1);
     while let Some(start) = text.find("<style>") {

@@ -124,7 +124,7 @@ fn a_wish_to_stop_ends_the_run_before_and_within_a_case() {
     };
     assert!(stopped(vec![case("a", "one", 1.0, none)], &Stop));
     assert!(stopped(vec![case("a", "one", 1.0, interrupted)], &NoProgress));
-    // All cases ask between values.
+    // All cases poll between values.
     let gpu = device();
     for case in all() {
         let outcome = (case.run)(&Bench::new(&gpu, &Stop));

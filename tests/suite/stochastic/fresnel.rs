@@ -8,8 +8,8 @@ use moire::internal::scene::model::{Algorithm, Pattern, Scene};
 use super::{packed, parsed, sampled, variance};
 use crate::stage::{render, render_on_oracle};
 
-/// Each pixel looks straight at a glass plane over a black floor and under a white sky: its value is the share of
-/// its samples that were mirrored, 0.04 of them.
+/// Each pixel looks straight at a glass plane over a black floor and under a white sky: its value is the reflected
+/// fraction of its samples, 0.04 of them.
 fn coin() -> Scene {
     parsed(
         "[camera]\neye = [0, 0, 3]\nlook_at = [0, 0, 0]\northographic_height = 2
@@ -22,7 +22,7 @@ fn coin() -> Scene {
     )
 }
 
-/// The same coin tossed again and again, at eight panes one over the other.
+/// The same random choice repeatedly, at eight panes one over the other.
 fn stack() -> Scene {
     let mut scene = coin();
     let pane = scene.shapes.planes[0];
@@ -51,7 +51,7 @@ fn without_chance_glass_does_what_is_likelier() {
     assert!(values(&grid).iter().all(|v| *v == 3.0 / 64.0));
 }
 
-/// Where each sample's number has a stratum of its own, a pixel is off by less than one sample.
+/// If each sample's number has a stratum of its own, a pixel is off by less than one sample.
 #[test]
 fn stratified_patterns_mirror_the_right_number_of_samples() {
     use Pattern::{BlueNoise, MultiJittered, NRooks, SobolOwen, Stratified};
@@ -78,7 +78,8 @@ fn device_and_oracle_toss_alike() {
             (scene.sampling.pattern, scene.sampling.spp) = (pattern, 16);
             let packed = packed(&scene);
             let found = compare(&render(&packed), &render_on_oracle(&packed)).unwrap();
-            // Fresnel's share in f32 lies beside that in f64; a toss between the two falls in few pixels.
+            // Fresnel reflectance in f32 differs from that in f64; a random number between the two occurs in few
+            // pixels.
             assert!(found.over_1_255 <= 0.002, "{pattern}: {} of the pixels differ", found.over_1_255);
         }
     }
@@ -98,7 +99,7 @@ fn patterns_gain_at_every_hit() {
     }
 }
 
-/// Of n panes that mirror F each, all that goes to and fro counted, n F / (1 + (n - 1) F) is mirrored: a quarter.
+/// n panes with reflectance F each, including all interreflections, reflect n F / (1 + (n - 1) F): a quarter.
 #[test]
 fn choices_of_many_hits_are_independent() {
     let scene = stack();
@@ -117,7 +118,7 @@ fn choices_of_many_hits_are_independent() {
     }
 }
 
-/// Jobs go on in the sequence of their pixel: many small passes leave the error of one set.
+/// Batches continue the sequence of their pixel: many small passes have the error of one set.
 #[test]
 fn adaptive_samples_go_on_in_the_sequence() {
     let mut scene = coin();

@@ -42,7 +42,7 @@ fn view(degrees: f64) -> DVec3 {
     DVec3::new(sin, 0.0, cos)
 }
 
-/// What a white surface mirrors of light from everywhere: D G2 / (4 cos cos') times cos' over the hemisphere.
+/// Returns the reflectance of a white surface under uniform light: D G2 / (4 cos cos') times cos' over the hemisphere.
 fn albedo(v: DVec3, alpha: f64) -> f64 {
     let term = |o: DVec3| {
         let g = 2.0 * v.z * o.z / (o.z * smith(v.z, alpha) + v.z * smith(o.z, alpha));
@@ -73,7 +73,7 @@ fn a_white_surface_mirrors_what_the_integral_says() {
     }
 }
 
-/// Mean and second moments of facets as a view sees them: D G1 max(v·m, 0) / cos.
+/// Returns mean and second moments of visible facets: D G1 max(v·m, 0) / cos.
 #[test]
 fn facets_are_those_that_the_view_sees() {
     for alpha in [0.3, 0.6, 1.0] {

@@ -30,7 +30,7 @@ fn lit(light: Light) -> f64 {
     let mut scene = floor(1e-4, 0.1, 4, "");
     scene.lights = vec![light];
     let alone = mean(&render(&packed(&scene)));
-    // With a shape that shades nothing, shadow rays are cast.
+    // With a shape that occludes nothing, shadow rays are cast.
     scene.shapes.spheres = vec![parsed_sphere()];
     let shaded = mean(&render(&packed(&scene)));
     assert!((shaded / alone - 1.0).abs() < 1e-5, "{light:?}: {alone} alone, {shaded} with a far shape");
@@ -138,7 +138,7 @@ fn a_rectangle_follows_lamberts_polygon_formula() {
         // Its back is dark.
         assert_eq!(lit_or_dark(Light::Rectangle { position, edge_u: edge_v, edge_v: edge_u, radiance }), 0.0);
     }
-    // Through the floor: what lies above it counts.
+    // Through the floor: the part above it counts.
     let (position, edge_u, edge_v) = (DVec3::new(-3.0, 0.0, 0.5), DVec3::Y * 2.0, DVec3::Z * 2.0);
     let above = corners(DVec3::new(-3.0, 0.0, 0.75), edge_u, DVec3::Z * 1.5);
     let found = lit(Light::Rectangle { position, edge_u, edge_v, radiance });
@@ -186,7 +186,7 @@ fn a_grazing_rectangle_is_as_bright_as_lambert_says() {
     }
 }
 
-/// Slanted sides have no rectangle's parametrisation: by their area, as ever.
+/// Rectangles with oblique edges have no solid-angle parametrisation: they are sampled by area.
 #[test]
 fn a_slanted_light_follows_lamberts_polygon_formula() {
     let [edge_u, edge_v] = [DVec3::new(0.3, 1.0, 0.0), DVec3::X];
@@ -220,7 +220,7 @@ fn penumbrae_are_as_wide_as_geometry_says() {
         let x = (i as f64 + 0.5) / 32.0 * 0.5 - 0.25;
         let expected = (x / edge + 0.5).clamp(0.0, 1.0);
         let found = f64::from(pixel[0]) / open;
-        // Pixels at the two ends of the penumbra are averages over its shape_operator.
+        // Pixels at the two ends of the penumbra are averages over its kink.
         assert!((found - expected).abs() < 0.02, "at {x}: {found}, expected {expected}");
     }
 }
@@ -241,7 +241,7 @@ fn penumbrae_are_sampled_better_by_patterns_than_by_chance() {
     }
 }
 
-/// Two lights of one hit choose their places apart from each other, and bounces beyond the last pair too.
+/// Two lights of one hit are sampled independently, and bounces beyond the last pair too.
 #[test]
 fn two_lights_choose_apart() {
     let light = "[[light]]\nkind = 'sphere'\nposition = [0, 0.3, 5]\nradius = 1\nintensity = [20, 20, 20]\n";
@@ -250,7 +250,7 @@ fn two_lights_choose_apart() {
     let two = floor(2.0, 1.0, 24, &format!("{blocker}{light}{light}"));
     let exact = |scene: &Scene| sampled(scene, Pattern::SobolOwen, 8192, 9);
     let noise = |scene: &Scene| super::variance(scene, Pattern::SobolOwen, 16, &exact(scene));
-    // Of twice the light: four times the variance if both chose alike, twice if apart.
+    // With twice the light: four times the variance if both had the same sample, twice if they are independent.
     let ratio = noise(&two) / noise(&one);
     assert!((1.6..2.6).contains(&ratio), "{ratio}");
 }

@@ -26,7 +26,7 @@ fn row(film: &Film) -> Vec<f64> {
     film.pixels[16 * 32..17 * 32].iter().map(|p| f64::from(p[0])).collect()
 }
 
-/// An edge that moves by 1 from x = -0.5: at x it is for 1 - (x + 0.5) of the time that it covers.
+/// An edge that moves by 1 from x = -0.5: it covers x for 1 - (x + 0.5) of the time.
 #[test]
 fn an_edge_on_its_way_covers_each_place_for_its_share_of_the_time() {
     for (shape, shutter) in [
@@ -60,7 +60,7 @@ fn a_ball_leaves_a_streak_as_long_as_its_way() {
     assert!((y - own_y).abs() < 0.02 * streak, "{y} and {own_y} across");
 }
 
-/// All that can move, lit and mirrored, with a texture that has its own place on a ball.
+/// Everything that can move, lit and reflected, with a texture at its own position on a ball.
 const CROWD: &str = "
 [[light]]\nkind = 'point'\nposition = [2, 4, 5]\nintensity = [40, 35, 30]
 [[texture]]\nname = 'checker'\nprocedural = 'checker'

@@ -27,7 +27,7 @@ fn rectangles(count: usize, seed: u64) -> Vec<(DVec2, DVec2, f64)> {
         let middle = DVec2::new(side(&mut rng), side(&mut rng)) * (half + spread);
         let height = 10f64.powf(rng.between(-5.0, 1.5));
         let scale = 10f64.powf(rng.between(-3.0, 3.0));
-        // As a device is given them.
+        // As packed for a device.
         let narrow = |x: f64| f64::from((x * scale) as f32);
         let [m, h] = [middle, half].map(|v| DVec2::new(narrow(v.x), narrow(v.y)));
         let z = narrow(height);
@@ -44,7 +44,7 @@ fn equal_areas_of_the_square_are_equal_solid_angles() {
     let mut rng = Rng::new(81);
     for (middle, half, z) in rectangles(200, 80) {
         let whole = solid_angle(middle - half, middle + half, z);
-        // Any part of the rectangle is met by its share of the square.
+        // Any part of the rectangle is hit in proportion to its area in the square.
         let mut cut = || {
             let at = |rng: &mut Rng| DVec2::new(rng.between(-1.0, 1.0), rng.between(-1.0, 1.0));
             let (a, b) = (at(&mut rng), at(&mut rng));
@@ -67,7 +67,7 @@ fn equal_areas_of_the_square_are_equal_solid_angles() {
         }
         let share = solid_angle(low, high, z) / whole;
         let found = f64::from(met) / f64::from(STEPS * STEPS);
-        // A grid's cells along the border of a convex part: 4 sides of so many cells at most.
+        // A grid's cells along the border of a convex part: at most this number on each of 4 sides.
         assert!(
             (found - share).abs() < 4.0 / f64::from(STEPS),
             "{found} of the square for {share}: {middle} {half} {z}"
@@ -75,7 +75,7 @@ fn equal_areas_of_the_square_are_equal_solid_angles() {
     }
 }
 
-/// In the solid angle that lies between a device's place and the right one.
+/// Returns the solid angle between a device's position and the exact one.
 #[test]
 fn device_and_oracle_agree_in_solid_angle() {
     let mut rng = Rng::new(83);

@@ -132,7 +132,7 @@ fn an_uneven_disc_is_seen() {
     assert!(found > 100.0, "{found}");
 }
 
-/// What lies side by side in the square lies side by side on the disc: strata stay compact.
+/// Neighbours in the square are neighbours on the disc: strata stay compact.
 #[test]
 fn neighbours_stay_neighbours() {
     let mut rng = Rng::new(72);

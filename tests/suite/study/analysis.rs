@@ -106,7 +106,7 @@ fn slow_method_does_not_win_the_times_in_which_nothing_else_was_measured() {
     // 25 times the time: a fifth of the error.
     assert!(found.method == "fast" && found.estimated && (found.rmse - 0.002).abs() < 1e-9, "{found:?}");
     assert_eq!(found.spp, 1600);
-    // What has no law is not prolonged.
+    // Without a law there is no extrapolation.
     assert_eq!(last(&[law("fast", -1.0, &[])]).method, "slow");
 }
 
@@ -122,7 +122,7 @@ fn no_measured_point_beats_the_recommended_one_in_both_error_and_time() {
                 point(method, 4 + i, 1e-3 * 1e3f64.powf(time), 1e-3 * 1e2f64.powf(error))
             })
             .collect();
-        // Steep laws: most of the longer times are won by what was not measured.
+        // Steep laws: most of the longer times are won by extrapolated points.
         let slopes =
             ["random", "stratified", "adaptive"].map(|m| law(m, -1.0 - 2.0 * random(seed, 7), &[-1.0]));
         for slopes in [&[][..], &slopes] {
@@ -170,14 +170,14 @@ fn equal_pictures_and_errors_that_noise_explains_are_named_together() {
         !not_significantly_different(&points[0], &points[2])
             && !not_significantly_different(&points[2], &points[3])
     );
-    // In 10 ms grid does not fit by its median, but it took as long as center in some repeat.
+    // In 10 ms grid does not fit by its median, but it took as long as centre in some repeat.
     for winner in winners(&points, &[]).iter().filter(|w| w.budget > 0.0099) {
         for method in ["center", "grid", "halton"] {
             assert!(winner.is_or_ties(method), "{method} in {winner:?}");
         }
         assert!(!winner.is_or_ties("random"), "{winner:?}");
     }
-    // A part that errs a hundred times as much as the others hides nothing.
+    // A part whose error is a hundred times that of the others masks nothing.
     let skewed = |factor: f32| -> Vec<f32> {
         a.iter().enumerate().map(|(i, b)| b * factor * if i == 3 { 100.0 } else { 1.0 }).collect()
     };

@@ -47,7 +47,7 @@ addEventListener("load", () => {
 });
 </script>"#;
 
-/// What the probe found, or none where there is no browser.
+/// Returns the probe's result, or `None` without a browser.
 fn probed(folder: &Path, dark: bool) -> Option<Value> {
     let scheme = if dark { 0 } else { 1 };
     let profile = tempdir().unwrap();

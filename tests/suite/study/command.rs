@@ -10,7 +10,7 @@ use super::{points, studied, study, told};
 use crate::stage::device_name;
 use crate::support::{gradient, moire};
 
-/// The words of a line as a POSIX shell takes them, of what `moire::internal::lab::study::quote` writes.
+/// Splits a line into words as a POSIX shell does, for output of `moire::internal::lab::study::quote`.
 fn words(line: &str) -> Vec<String> {
     let mut words = vec![String::new()];
     let (mut quoted, mut letters) = (false, line.chars());
@@ -189,7 +189,7 @@ fn longest_points_are_left_out_where_time_does_not_suffice() {
     let options = ["--methods", "random,stratified", "--spp", "1,4,16777216", "--seconds", "20"];
     let clock = std::time::Instant::now();
     let record = studied(folder.path(), &options);
-    // What the limit cannot cut, on a busy machine: the last slice, and writing the folder.
+    // Work that the limit cannot cut short on a busy machine: the last slice, and writing the folder.
     assert!(clock.elapsed().as_secs_f64() < 26.0, "--seconds 20 took {:?}", clock.elapsed());
     let counts: Vec<u64> = points(&record).iter().map(|p| p["spp"].as_u64().unwrap()).collect();
     assert_eq!(counts, [1, 4, 1, 4]);

@@ -15,7 +15,7 @@ fn read(folder: &Path, name: &str) -> String {
     fs::read_to_string(folder.join(name)).unwrap_or_else(|e| panic!("{name}: {e}"))
 }
 
-/// The page without what is not markup.
+/// Returns the page's text without markup.
 fn markup(page: &str) -> String {
     let mut text = page.replacen("<!doctype html>", "", 1);
     for tag in ["script", "style"] {
@@ -99,7 +99,7 @@ fn record_says_where_and_against_what_it_was_measured() {
     let reference = record["reference"]["rmse"].as_f64().unwrap();
     let best = points(&record).iter().map(|p| p["errors"]["rmse"].as_f64().unwrap()).fold(1.0, f64::min);
     assert!(reference > 0.0 && reference < 0.5 * best, "{reference} for {best}");
-    // center at one count, three methods at three.
+    // centre at one count, three methods at three.
     assert_eq!(points(&record).len(), 10);
     for point in points(&record) {
         assert_eq!(point["seconds"].as_array().unwrap().len(), 2, "{point}");

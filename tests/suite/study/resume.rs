@@ -16,7 +16,7 @@ use crate::support::program;
 
 const METHODS: &str = "random,stratified";
 
-/// A point without what differs from run to run.
+/// Returns a point without the fields that differ from run to run.
 fn timeless(point: &Value, keep: &[&str]) -> Value {
     let mut point = point.clone();
     for key in ["seconds", "device_seconds", "stages"].iter().filter(|k| !keep.contains(k)) {

@@ -26,7 +26,7 @@ fn alone(scene: &Scene) -> Film {
     render(&gpu, packed(scene), false, &Tuning::default(), &NoProgress).unwrap().0
 }
 
-/// What beams leave takes the samples of its own choice, not those that the scene was packed with.
+/// Pixels left by beams take the samples of the current choice, not those for which the scene was packed.
 #[test]
 fn samples_beside_beams_are_those_that_are_asked_for() {
     let mut base = load("s2");

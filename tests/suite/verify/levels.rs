@@ -35,7 +35,7 @@ fn scene_of(variant: &Variant) -> PackedScene {
     pairs_over(Footprint::Differentials, vec![image], &[variant.spec], &[(0, 0)]).unwrap()
 }
 
-/// Share of wrong answers of a device that looks up what `tamper` makes of a query and a sampler.
+/// Returns the fraction of wrong answers of a device whose query and sampler are altered by `tamper`.
 fn wrong(variant: &Variant, precision: Precision, tamper: impl Fn(&mut LookupQuery, &mut Sampler)) -> f64 {
     let scene = scene_of(variant);
     let judge = Judge::new(&scene, precision);
@@ -53,7 +53,7 @@ fn precisions() -> [Precision; 2] {
     [Precision::Shader, Precision::declared(&device("another"))]
 }
 
-/// Of a cube's coarse levels much lies around corners, where devices differ.
+/// Coarse levels of a cube are mostly around corners, where devices differ.
 fn many(dimension: Dimension) -> f64 {
     if dimension == Dimension::Cube { 0.08 } else { 0.15 }
 }
@@ -115,7 +115,8 @@ fn swapped_faces_and_a_clamped_third_axis_are_noticed() {
     }
 }
 
-/// Share of wrong answers of a device that reads a level by `level` of the footprint's axes, in texels.
+/// Returns the fraction of wrong answers of a device that selects the level by `level` of the footprint's
+/// axes, in texels.
 fn wrong_anisotropic(variant: &Variant, level: impl Fn(f64, f64) -> f64) -> f64 {
     let mut scene = scene_of(variant);
     paint_levels(&mut scene, 0);

@@ -1,4 +1,4 @@
-//! `[[light]]`. In: its table. Out: the light of the model.
+//! Reads `[[light]]`. Input: its table. Output: a light of the model.
 
 use super::reader::Field;
 use super::table::Table;
@@ -19,7 +19,7 @@ pub(super) const LIGHT: &[&str] = &[
 ];
 
 type LightReader = fn(&Table<'_>) -> Result<Light>;
-/// Kind, its keys, how it is read.
+/// Kind, its keys, and its reader.
 const LIGHT_KINDS: [(&str, &[&str], LightReader); 4] = [
     ("point", &["kind", "position", "intensity"], point_light),
     ("directional", &["kind", "direction", "irradiance", "angle"], directional_light),

@@ -1,4 +1,5 @@
-//! `[[material]]` and its mapping. In: the table, and the textures and samplers it may name. Out: a material.
+//! Reads `[[material]]` and its mapping. Input: the table, and the names of textures and samplers. Output: a
+//! material.
 
 use glam::DVec2;
 use toml::de::DeValue;
@@ -29,7 +30,7 @@ pub(super) const MATERIAL: &[&str] = &[
 ];
 pub(super) const MAPPING: &[&str] =
     &["kind", "entity", "space", "origin", "axis", "scale", "offset", "rotate"];
-/// Keys of the frame that only projecting maps have.
+/// Keys of the frame, which only projecting mappings have.
 const FRAME: [&str; 4] = ["origin", "axis", "space", "entity"];
 
 pub(super) fn material(table: &Table<'_>, known: &Known<'_, '_>) -> Result<Material> {
@@ -51,11 +52,12 @@ pub(super) fn material(table: &Table<'_>, known: &Known<'_, '_>) -> Result<Mater
     Ok(material)
 }
 
-/// Reads the keys that the material's model has.
+/// Reads the keys of the material's model.
 fn read_model_keys(table: &Table<'_>, material: &mut Material) -> Result<()> {
-    for ModelKey { name, models, value, .. } in KEYS {
+    for ModelKey { name, value, .. } in KEYS {
         let Some(field) = table.get(name) else { continue };
-        if !models.contains(&material.model) {
+        if !material.model.has_key(name) {
+            let models: Vec<Model> = Model::ALL.iter().copied().filter(|model| model.has_key(name)).collect();
             let quoted =
                 |between| models.iter().map(|m| format!("\"{m}\"")).collect::<Vec<_>>().join(between);
             let (noun, verb) = if models.len() > 1 { ("models", "have") } else { ("model", "has") };

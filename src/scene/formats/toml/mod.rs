@@ -1,5 +1,5 @@
-//! Scene files in TOML. In: the bytes of a file and the path it is known by. Out: the scene that the builder makes of
-//! them; or the first error, with the line and the key that it is about.
+//! Reads scene files in TOML. Input: the bytes of a file and the path by which it is known. Output: the scene that the
+//! builder makes from them, or the first error, with its line and key.
 
 mod lights;
 mod materials;
@@ -39,7 +39,7 @@ const SECTIONS: &[&str] =
 
 pub(super) const FORMAT: Format = Format { name: "TOML", endings: &["toml"], max_bytes: MAX_BYTES, read };
 
-/// Paths in the file are relative to the folder of `path`.
+/// Reads a scene; paths in the file are relative to the folder of `path`.
 fn read(path: &Path, bytes: Vec<u8>) -> Result<Scene> {
     let text = String::from_utf8(bytes).map_err(|error| {
         let valid = error.utf8_error().valid_up_to();
@@ -55,7 +55,7 @@ fn read(path: &Path, bytes: Vec<u8>) -> Result<Scene> {
     parse(path, &text)
 }
 
-/// Parses scene text. Paths in it are relative to the folder of `path_for_messages`.
+/// Parses scene text; paths in it are relative to the folder of `path_for_messages`.
 pub fn parse(path_for_messages: &Path, text: &str) -> Result<Scene> {
     let source = Source { path: path_for_messages, text };
     let document = DeTable::parse(text).map_err(|error| syntax_error(source, &error))?;

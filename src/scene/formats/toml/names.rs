@@ -1,5 +1,5 @@
-//! Names of textures, samplers and materials. In: the tables of one kind. Out: the index behind a
-//! reference, or an error for a name given twice or known nowhere.
+//! Resolves names of textures, samplers and materials. Input: the tables of one kind. Output: the index for a
+//! reference, or an error for a duplicate or unknown name.
 
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
@@ -9,7 +9,7 @@ use super::source::{quoted, suggestion};
 use super::table::Table;
 use crate::core::error::Result;
 
-/// A message lists no more names than this.
+/// Most names that a message lists.
 const MAX_LISTED: usize = 12;
 
 pub(super) struct Names<'a> {

@@ -1,5 +1,5 @@
-//! The place in a TOML file of what a scene is refused for. In: the file's tables and the refusal. Out: an error at the
-//! key's value; where the key is not given, at its item.
+//! Finds the position in a TOML file for a refusal. Input: the file's tables and the refusal. Output: an error at the
+//! key's value, or at its item if the key is not given.
 
 use toml::Spanned;
 use toml::de::DeValue;
@@ -9,7 +9,7 @@ use super::table::Table;
 use crate::core::error::Error;
 use crate::scene::refusal::{Fault, Key, Refusal};
 
-/// A value that the file may give by another key: section, the value's own key, the other.
+/// Values that the file may give by another key: section, the value's own key, the other one.
 const INSTEAD: [(&str, &str, &str); 1] = [("light", "radiance", "intensity")];
 
 pub(super) fn error(root: &Table<'_>, refusal: &Refusal) -> Error {
@@ -37,7 +37,7 @@ pub(super) fn error(root: &Table<'_>, refusal: &Refusal) -> Error {
     }
 }
 
-/// The value of a key whose name may lead through inline tables.
+/// Returns the value of a key whose name may lead through inline tables.
 fn below<'a>(item: &'a Spanned<DeValue<'a>>, name: &str) -> Option<&'a Spanned<DeValue<'a>>> {
     name.split('.').try_fold(item, |value, key| value.get_ref().as_table()?.get(key))
 }

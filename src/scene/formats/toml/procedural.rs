@@ -1,6 +1,6 @@
-//! `[[texture]]` with `procedural = "KIND"`: a pattern and its parameters. In: the section's table.
-//! Out: a [`Procedural`]. Which kinds have which parameter stands in one
-//! table; a parameter of another kind is an error.
+//! Reads `[[texture]]` with `procedural = "KIND"`: a pattern and its parameters. Input: the section's table.
+//! Output: a [`Procedural`]. One table lists the parameters of each kind; a parameter of another kind is an
+//! error.
 
 use super::reader::Field;
 use super::table::Table;
@@ -11,7 +11,7 @@ use crate::texture::procedural::ProceduralKind::{
 };
 use crate::texture::procedural::{MAX_OCTAVES, Procedural};
 
-/// Parameters that only some kinds have, and which.
+/// Parameters that only some kinds have, with those kinds.
 const PARAMETERS: &[(&str, &[ProceduralKind])] = &[
     ("seed", &[Noise, Fbm, Turbulence, Marble, Wood, Cellular]),
     ("octaves", &[Fbm, Turbulence, Marble, Wood]),
@@ -25,7 +25,7 @@ const PARAMETERS: &[(&str, &[ProceduralKind])] = &[
     ("dimensions", &[Grid]),
 ];
 
-/// All keys that a procedural texture may have beside its name.
+/// All keys of a procedural texture except its name.
 pub(super) const PROCEDURAL: &[&str] = &[
     "procedural",
     "colors",

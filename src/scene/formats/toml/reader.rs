@@ -1,5 +1,5 @@
-//! One value of a scene file with its key and place. In: what a section expects there. Out: the
-//! typed value, or an error that quotes what was found and says what is allowed.
+//! Reads one value of a scene file, with its key and position. Input: the type that a section expects.
+//! Output: the typed value, or an error that quotes the value and lists what is allowed.
 
 use std::ops::{Range, RangeInclusive};
 
@@ -15,7 +15,7 @@ pub(super) struct Field<'a> {
     pub source: Source<'a>,
     pub section: &'static str,
     pub key: &'static str,
-    /// Set on an element of the key's array.
+    /// Set for an element of the key's array.
     pub index: Option<usize>,
     pub item: &'a Spanned<DeValue<'a>>,
 }
@@ -29,7 +29,7 @@ impl<'a> Field<'a> {
         self.item.span()
     }
 
-    /// `key "section.key": what`, pointing at the value.
+    /// Returns the error `key "section.key": what`, pointing at the value.
     pub fn error(&self, what: &str, label: impl Into<String>) -> Error {
         self.error_at(self.span(), what, label)
     }
@@ -56,7 +56,7 @@ impl<'a> Field<'a> {
         self.error_at(span, &format!("expected {wanted}, found {kind}{found}"), format!("expected {wanted}"))
     }
 
-    /// A number of any size; the builder knows which are allowed.
+    /// Returns a number of any size; the builder checks the limits.
     pub fn number(self) -> Result<f64> {
         real(self.value()).ok_or_else(|| self.expected("a finite number"))
     }
@@ -82,7 +82,7 @@ impl<'a> Field<'a> {
         self.numbers().map(DVec3::from_array)
     }
 
-    /// An array of exactly `N` elements, each read by `read` in place of one of `values`.
+    /// Reads an array of exactly `N` elements, each by `read` in place of one of `values`.
     pub fn array<const N: usize, T>(
         self,
         wanted: &str,
@@ -99,7 +99,7 @@ impl<'a> Field<'a> {
         Ok(values)
     }
 
-    /// An array of 1 to `most` elements.
+    /// Reads an array of 1 to `most` elements.
     pub fn list<T>(self, of: &str, most: u32, read: impl Fn(Field<'a>) -> Result<T>) -> Result<Vec<T>> {
         let array = match self.value() {
             DeValue::Array(array) if (1..=most as usize).contains(&array.len()) => array,
@@ -131,7 +131,7 @@ impl<'a> Field<'a> {
         }
     }
 
-    /// One value of a vocabulary, by its name.
+    /// Reads one value of a vocabulary by its name.
     pub fn choice<T: Copy>(self, names: &[&str], values: &[T]) -> Result<T> {
         let Some(word) = self.value().as_str() else {
             return Err(self.expected(&format!("a string, one of {}", names.join(", "))));
@@ -146,7 +146,7 @@ impl<'a> Field<'a> {
     }
 }
 
-/// Integers count as numbers.
+/// Returns a number, which may be written as an integer.
 fn real(value: &DeValue<'_>) -> Option<f64> {
     match value {
         DeValue::Float(float) => float.as_str().parse().ok(),

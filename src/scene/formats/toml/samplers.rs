@@ -1,5 +1,5 @@
-//! `[[sampler]]` and `[background]`. In: their tables. Out: the types of the model, with the defaults of
-//! keys that are not given.
+//! Reads `[[sampler]]` and `[background]`. Input: their tables. Output: types of the model, with the defaults
+//! of keys that are not given.
 
 use glam::DVec3;
 use toml::de::DeValue;
@@ -83,7 +83,7 @@ pub(super) fn sampler(table: &Table<'_>) -> Result<SamplerSpec> {
     Ok(spec)
 }
 
-/// A name, or [B, C].
+/// Reads a name, or [B, C].
 fn cubic(field: Field<'_>) -> Result<[f32; 2]> {
     if let DeValue::Array(_) = field.value() {
         return Ok(field.numbers::<2>()?.map(|x| x as f32));
@@ -91,7 +91,7 @@ fn cubic(field: Field<'_>) -> Result<[f32; 2]> {
     field.choice(&CUBICS.map(|c| c.0), &CUBICS.map(|c| c.1))
 }
 
-/// What a reference to a texture or a sampler needs.
+/// The names that references to textures and samplers resolve to.
 pub(super) struct Known<'n, 'a> {
     pub textures: &'n Names<'a>,
     pub sources: &'n [TextureSource],
@@ -110,7 +110,7 @@ pub(super) fn background(table: Option<&Table<'_>>, known: &Known<'_, '_>) -> Re
         return Ok(background);
     };
     let texture = known.textures.resolve(field)?;
-    // What the texture has, unless something else is said.
+    // Defaults to the texture's own layout.
     let mut layout = match known.sources[texture].dimension {
         Dimension::Cube => EnvironmentLayout::Cube,
         _ => EnvironmentLayout::Equirectangular,

@@ -1,5 +1,5 @@
-//! Camera, image and sampling. In: the tables of those sections. Out: the types of the model, with the
-//! defaults of keys that are not given.
+//! Reads camera, image and sampling. Input: the tables of those sections. Output: types of the model, with
+//! the defaults of keys that are not given.
 
 use glam::DVec3;
 
@@ -43,7 +43,7 @@ fn motion(table: &Table<'_>) -> Result<[DVec3; 2]> {
     Ok([of("eye")?, of("look_at")?])
 }
 
-/// What is looked at is in focus, unless a distance is given. A radius of 0 is no lens.
+/// Focuses on `look_at` unless a distance is given. A radius of 0 is a pinhole.
 fn lens(table: &Table<'_>, distance: f64) -> Result<Option<Lens>> {
     let (radius, focus) = (table.get("lens_radius"), table.get("focus_distance"));
     if radius.is_none() && focus.is_none() {
@@ -79,7 +79,7 @@ pub(super) fn image(table: &Table<'_>) -> Result<(u32, u32)> {
     Ok((width, height))
 }
 
-/// As wide as its kind is by default, if no radius is given.
+/// Uses the default radius of the kind if none is given.
 pub(super) fn pixel_filter(image: &Table<'_>) -> Result<PixelFilter> {
     let kind = match image.get("pixel_filter") {
         Some(field) => field.choice(PixelFilterKind::NAMES, PixelFilterKind::ALL)?,

@@ -1,5 +1,5 @@
-//! Shapes of all kinds. In: their tables and the names of the scene's materials. Out: shapes of the scene, in the order of
-//! the file, so that of too many the first one over is the one told. Keys and their meaning are the kind's own.
+//! Reads shapes of all kinds. Input: their tables and the names of the scene's materials. Output: shapes of the scene,
+//! in the order of the file, so that the first one beyond the limit is reported. Each kind defines its keys.
 
 use glam::{DVec2, DVec3};
 
@@ -11,12 +11,12 @@ use crate::scene::builder::SceneBuilder;
 use crate::scene::geometry::{Fields, SECTIONS};
 use crate::scene::model::DEFAULT;
 
-/// Returns whether a section holds shapes.
+/// Returns true if a section holds shapes.
 pub(super) fn is_shape(section: &str) -> bool {
     SECTIONS.iter().any(|kind| kind.name == section)
 }
 
-/// Adds all shapes. Returns the line of the first that no ray meets.
+/// Adds all shapes; returns the line of the first one that no ray can meet.
 pub(super) fn add_all(
     root: &Table<'_>,
     materials: &Names<'_>,

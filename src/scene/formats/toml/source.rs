@@ -1,6 +1,5 @@
-//! A scene's text and where it came from. In: a byte range and what is wrong there. Out: an
-//! [`Error::Scene`] whose one-line message names file, line and column (both from 1, columns in
-//! characters), and excerpts and suggestions to put into it.
+//! A scene's text and its path. Input: a byte range and a message. Output: an [`Error::Scene`] whose one-line message
+//! names file, line and column (both from 1, columns in characters); also excerpts and suggestions for messages.
 
 use std::ops::Range;
 use std::path::Path;
@@ -21,7 +20,7 @@ pub(super) struct Source<'a> {
 }
 
 impl Source<'_> {
-    /// `label` stands beside the caret, `what` in the message behind `file:line:column: `.
+    /// Returns an error; `label` is shown beside the caret, `what` in the message after `file:line:column: `.
     pub fn error(self, span: Range<usize>, what: &str, label: impl Into<String>) -> Error {
         let start = floor_char(self.text, span.start);
         let end = floor_char(self.text, span.end).max(start);
@@ -37,7 +36,7 @@ impl Source<'_> {
         }
     }
 
-    /// The line that a place is on.
+    /// Returns the line that contains a byte offset.
     pub fn line(&self, at: usize) -> &str {
         let at = floor_char(self.text, at);
         let start = self.text[..at].rfind('\n').map_or(0, |newline| newline + 1);
@@ -52,7 +51,7 @@ impl Source<'_> {
         (line, on_line.chars().count() + 1)
     }
 
-    /// The source of a value as a reader would quote it: white space runs become one space.
+    /// Returns the source text of a value with runs of white space collapsed to one space.
     pub fn excerpt(self, span: Range<usize>) -> String {
         let text = self.text.get(span).unwrap_or_default();
         // Enough of a long text for the shortened form.
@@ -61,12 +60,12 @@ impl Source<'_> {
     }
 }
 
-/// The last character boundary at or before `offset`.
+/// Returns the last character boundary at or before `offset`.
 fn floor_char(text: &str, offset: usize) -> usize {
     (0..=offset.min(text.len())).rev().find(|&at| text.is_char_boundary(at)).unwrap_or(0)
 }
 
-/// Terminals and line-based tools get one line: control characters are escaped.
+/// Escapes control characters, so that terminals and line-based tools show a single line.
 fn one_line(text: &str) -> String {
     let is_break = |c: char| c.is_control() || c == '\u{2028}' || c == '\u{2029}';
     if !text.contains(is_break) {
@@ -90,7 +89,8 @@ pub(super) fn quoted(name: &str) -> String {
     format!("\"{}\"", shorten(name))
 }
 
-/// `; did you mean "x"?` for the candidate that `word` means elsewhere or most probably misspells, else nothing.
+/// Returns `; did you mean "x"?` for the candidate that `word` is a synonym or the most likely misspelling of, or
+/// nothing.
 pub(super) fn suggestion<'c>(word: &str, candidates: impl IntoIterator<Item = &'c str> + Clone) -> String {
     let word = word.to_lowercase();
     if let Some((name, also)) = meant(&word, candidates.clone()) {
@@ -103,7 +103,8 @@ pub(super) fn suggestion<'c>(word: &str, candidates: impl IntoIterator<Item = &'
     best.map_or_else(String::new, |(_, candidate)| format!("; did you mean {}?", quoted(candidate)))
 }
 
-/// `None`: another word. Misspellings (by edit distance) come before words that share a part.
+/// Returns a measure of the difference; `None` for unrelated words. Misspellings (by edit distance) come before words
+/// that share a part.
 fn unlikeness(word: &str, candidate: &str) -> Option<usize> {
     let lower = candidate.to_lowercase();
     let (length, wanted) = (word.chars().count(), lower.chars().count());
@@ -111,7 +112,7 @@ fn unlikeness(word: &str, candidate: &str) -> Option<usize> {
     if length.max(wanted) > LONGEST_EXCERPT {
         return None;
     }
-    // Another first letter in a short word is more often another word ("cone", "none").
+    // A different first letter in a short word is more often another word ("cone", "none").
     let other_start = length.min(wanted) <= 4 && word.chars().next() != lower.chars().next();
     let allowed = if wanted <= 4 { 1 } else { wanted.div_ceil(3) };
     let distance = strsim::damerau_levenshtein(word, &lower);

@@ -1,5 +1,5 @@
-//! TOML tables with their place in the text. In: a parsed table and the keys its section knows.
-//! Out: [`Field`]s to read, or an error for an unknown, missing or misplaced key.
+//! TOML tables with their position in the text. Input: a parsed table and the keys of its section. Output:
+//! [`Field`]s to read, or an error for an unknown, missing or misplaced key.
 
 use std::ops::Range;
 
@@ -11,7 +11,7 @@ use super::source::{Source, quoted, suggestion};
 use super::vocabulary::home_of;
 use crate::core::error::{Error, Result};
 
-/// How a table is written, for messages.
+/// The notation of a table, for messages.
 #[derive(Clone, Copy, PartialEq)]
 enum Form {
     Root,
@@ -23,7 +23,7 @@ enum Form {
 #[derive(Clone)]
 pub(super) struct Table<'a> {
     pub source: Source<'a>,
-    /// Dotted path of the section, empty for the whole file: the start of its keys' paths.
+    /// Dotted path of the section, which begins the paths of its keys; empty for the whole file.
     pub section: &'static str,
     form: Form,
     table: &'a DeTable<'a>,
@@ -47,7 +47,7 @@ impl<'a> Table<'a> {
         Ok(inline)
     }
 
-    /// The table `[section]`, if the file has it.
+    /// Returns the table `[section]`, if the file has it.
     pub fn single(&self, section: &'static str, keys: &[&str]) -> Result<Option<Table<'a>>> {
         let Some(field) = self.get(section) else { return Ok(None) };
         let DeValue::Table(table) = field.value() else {
@@ -65,7 +65,7 @@ impl<'a> Table<'a> {
         })
     }
 
-    /// The tables `[[section]]` in the order of the file.
+    /// Returns the tables `[[section]]` in the order of the file.
     pub fn repeated(&self, section: &'static str, keys: &[&str]) -> Result<Vec<Table<'a>>> {
         let Some(field) = self.get(section) else { return Ok(Vec::new()) };
         let DeValue::Array(array) = field.value() else {
@@ -95,13 +95,13 @@ impl<'a> Table<'a> {
         self.get(key).ok_or_else(|| self.lacks(key))
     }
 
-    /// The error for a key that must be set.
+    /// Returns the error for a missing key.
     pub fn lacks(&self, key: &str) -> Error {
         let what = format!("key \"{}.{key}\" is missing {}", self.section, self.place());
         self.error(&what, format!("needs {key}"))
     }
 
-    /// Of its first character.
+    /// Returns the line of its first character.
     pub fn line(&self) -> usize {
         self.source.line_column(self.span.start).0
     }
@@ -117,7 +117,7 @@ impl<'a> Table<'a> {
         }
     }
 
-    /// Checked again where a section's keys depend on its kind.
+    /// Checks the keys of a section again once its kind is known.
     pub fn allow_only_with(&self, kind: &str, keys: &[&str]) -> Result<()> {
         match self.first_outside(keys) {
             Some(stray) => Err(self.unknown(stray, keys, &format!("{} of kind \"{kind}\"", self.place()))),
@@ -125,7 +125,7 @@ impl<'a> Table<'a> {
         }
     }
 
-    /// Of several stray keys the one that stands first in the file.
+    /// Returns the first of several unknown keys in the file.
     fn first_outside(&self, keys: &[&str]) -> Option<Stray<'a>> {
         let stray = self.table.iter().filter(|(key, _)| !keys.contains(&key.get_ref().as_ref()));
         stray.map(|(key, _)| key).min_by_key(|key| key.span().start)

@@ -1,5 +1,5 @@
-//! `[[texture]]`: where the texels come from and what they mean. In: the section's table and the
-//! scene file's folder. Out: a [`TextureSource`]. Nothing is opened here.
+//! Reads `[[texture]]`: the source of the texels and their meaning. Input: the section's table and the scene
+//! file's folder. Output: a [`TextureSource`]. No file is opened here.
 
 use std::path::{Path, PathBuf};
 
@@ -11,7 +11,7 @@ use crate::scene::limits::{MAX_TEXELS, TEXELS};
 use crate::texture::data::{ColorSpace, Dimension, MipKernel, TexelFormat};
 use crate::texture::open_file::is_volume;
 use crate::texture::source::{
-    CubeLayout, Endian, OrientationUse, Reading, TextureContent, TextureSource, VolumeSource,
+    CubeLayout, Endian, OrientationUse, ReadOptions, TextureContent, TextureSource, VolumeSource,
 };
 
 pub(super) const TEXTURE: &[&str] = &[
@@ -29,7 +29,7 @@ pub(super) const TEXTURE: &[&str] = &[
     "flip_v",
     "mip_filter",
 ];
-/// Exactly one of them says where the texels come from.
+/// Exactly one of these keys names the source of the texels.
 const CONTENTS: [&str; 5] = ["file", "faces", "slices", "volume", "ramp"];
 const VOLUME: &[&str] = &["file", "size", "format", "offset", "endian"];
 const FACES: &str = "6 files, the faces +x, -x, +y, -y, +z and -z";
@@ -50,7 +50,7 @@ pub(super) fn texture(table: &Table<'_>, folder: &Path) -> Result<TextureSource>
             dimension,
             color_space,
             color_space_stated: false,
-            reading: Reading::default(),
+            reading: ReadOptions::default(),
             flip_v: false,
             mip_kernel: MipKernel::Box,
         });
@@ -85,9 +85,9 @@ pub(super) fn texture(table: &Table<'_>, folder: &Path) -> Result<TextureSource>
     })
 }
 
-/// What only files of pictures have.
-fn reading(table: &Table<'_>, content: &TextureContent, dimension: Dimension) -> Result<Reading> {
-    let mut reading = Reading::default();
+/// Reads the keys that only picture files have.
+fn reading(table: &Table<'_>, content: &TextureContent, dimension: Dimension) -> Result<ReadOptions> {
+    let mut reading = ReadOptions::default();
     let is_picture = match content {
         TextureContent::File(_) => dimension != Dimension::Three,
         TextureContent::CubeFile(..) | TextureContent::Faces(_) | TextureContent::Slices(_) => true,
@@ -124,7 +124,7 @@ fn only_content<'a>(table: &Table<'a>) -> Result<Field<'a>> {
     }
 }
 
-/// What the content is, unless `dimension` says it.
+/// Returns the dimension of the content, unless `dimension` overrides it.
 fn dimension(table: &Table<'_>, content: Field<'_>) -> Result<Dimension> {
     if let Some(field) = table.get("dimension") {
         return field.choice(Dimension::NAMES, Dimension::ALL);
@@ -187,7 +187,7 @@ fn volume(table: &Table<'_>, folder: &Path) -> Result<VolumeSource> {
     })
 }
 
-/// Three numbers, or four with alpha.
+/// Reads three numbers, or four with alpha.
 fn color(field: Field<'_>) -> Result<[f32; 4]> {
     let has_alpha = field.value().as_array().is_some_and(|array| array.len() == 4);
     let [r, g, b, a] = if has_alpha {

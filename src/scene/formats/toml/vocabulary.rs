@@ -1,5 +1,5 @@
-//! Where a key belongs that stands in the wrong table. In: the table's section and the key. Out: the table
-//! beside it that has such a key.
+//! Finds the table for a key in a wrong one. Input: the table's section and the key. Output: a related table
+//! that has such a key.
 
 use super::materials::{MAPPING, MATERIAL};
 use super::samplers::{BACKGROUND, SAMPLER};
@@ -19,7 +19,7 @@ const IN_IMAGE: Home = ("[image]", IMAGE);
 const IN_SAMPLING: Home = ("[sampling]", SAMPLING);
 const IN_BACKGROUND: Home = ("[background]", BACKGROUND);
 
-/// The tables that people take each section for, nearest first.
+/// Returns the tables with which a section is often confused, nearest first.
 fn neighbours(section: &str) -> &'static [Home] {
     match section {
         "" => &[IN_CAMERA, IN_IMAGE, IN_SAMPLING, IN_BACKGROUND],
@@ -40,7 +40,7 @@ fn neighbours(section: &str) -> &'static [Home] {
     }
 }
 
-/// In words.
+/// Describes the table in words.
 pub(super) fn home_of(section: &str, key: &str) -> Option<&'static str> {
     neighbours(section).iter().find(|(_, keys)| keys.contains(&key)).map(|(home, _)| *home)
 }
