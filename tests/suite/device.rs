@@ -15,15 +15,18 @@ use moire::internal::gpu::{
 
 use crate::device_shaders::FILL;
 use crate::support::untested;
+use crate::validated::{Opening, opening};
 
 /// An open device whose validation messages fail the test, also those of its closing.
 struct Checked {
     gpu: Option<Gpu>,
     log: MessageLog,
+    _turn: Opening,
 }
 
 impl Checked {
     fn open() -> Checked {
+        let turn = opening();
         let name = std::env::var("MOIRE_DEVICE").unwrap_or_else(|_| "cpu".into());
         let select = DeviceSelect::parse(&name).unwrap();
         let gpu = Gpu::open_with(&select, OpenOptions { validation: true }).unwrap();
@@ -32,7 +35,7 @@ impl Checked {
             untested("what the validation layer would say: it is not installed");
         }
         let log = gpu.message_log();
-        Checked { gpu: Some(gpu), log }
+        Checked { gpu: Some(gpu), log, _turn: turn }
     }
 }
 
@@ -179,6 +182,7 @@ fn dropped_objects_give_their_memory_back() {
 
 #[test]
 fn a_planted_mistake_reaches_the_messages() {
+    let _turn = opening();
     let select = DeviceSelect::parse(&std::env::var("MOIRE_DEVICE").unwrap_or("cpu".into())).unwrap();
     let gpu = Gpu::open_with(&select, OpenOptions { validation: true }).unwrap();
     // The shader has eight bytes of push constants, and the description denies it.

@@ -80,4 +80,5 @@ mod texture_command;
 mod tile_culling;
 mod tiling;
 mod turned;
+mod validated;
 mod verify;

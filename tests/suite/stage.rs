@@ -19,6 +19,7 @@ use moire::internal::scene::{self, prune::prune};
 use moire::internal::texture::load::load;
 
 use crate::support::{data, untested};
+use crate::validated::{Using, using};
 
 /// `every_scene! { module: check }` makes one test a scene, `module::NAME`, that calls `check(NAME)`.
 macro_rules! every_scene {
@@ -104,11 +105,13 @@ pub fn device_name() -> String {
 
 /// The device under test. A message of the validation layer fails the test that is running, which with several at a
 /// time may be a neighbour of the one that caused it.
-pub struct Device(&'static Gpu);
+pub struct Device(&'static Gpu, Using);
 
 pub fn device() -> Device {
     static GPU: OnceLock<Gpu> = OnceLock::new();
-    Device(GPU.get_or_init(|| {
+    // Nobody uses it before it is open, and those who open others wait for this turn.
+    let turn = using();
+    let gpu = GPU.get_or_init(|| {
         let select = DeviceSelect::parse(&device_name()).unwrap();
         let gpu = Gpu::open_with(&select, OpenOptions { validation: true }).unwrap();
         assert_eq!(gpu.validation_active(), validation_available());
@@ -116,7 +119,8 @@ pub fn device() -> Device {
             untested("what the validation layer would say: it is not installed");
         }
         gpu
-    }))
+    });
+    Device(gpu, turn)
 }
 
 impl Deref for Device {
