@@ -8,10 +8,9 @@ use std::path::Path;
 use crate::bindings::BINDINGS;
 use crate::blocks::BLOCKS;
 use crate::constants::CONSTANTS;
-use crate::enums::ENUMS;
 use crate::records::RECORDS;
 use crate::specialization::SPECIALIZATION;
-use crate::tables::Number;
+use crate::tables::{Enum, Number};
 use crate::{AnyError, record_text, shape_text};
 
 /// Writes all generated files to `folder`.
@@ -39,10 +38,15 @@ fn screaming(name: &str) -> String {
     name.replace('-', "_").to_uppercase()
 }
 
+/// Returns all enums that the shaders know.
+fn all_enums() -> impl Iterator<Item = &'static Enum> {
+    crate::enums::ENUMS.iter().chain(crate::models::ENUMS)
+}
+
 /// Returns `const uint PREFIX_VARIANT` for each variant, and their number. The preprocessor compares sources.
 fn enums() -> String {
     let mut text = String::new();
-    for one in ENUMS {
+    for one in all_enums() {
         for (i, variant) in one.variants.iter().enumerate() {
             let name = format!("{}_{}", one.prefix, screaming(variant));
             text += &match one.prefix {
@@ -77,7 +81,7 @@ fn features() -> Result<String, AnyError> {
     for (constant, id) in SPECIALIZATION.iter().zip(0..) {
         let (kind, default) = match constant.kind {
             "modes" => {
-                let all = ENUMS.iter().find(|e| e.name == constant.of);
+                let all = all_enums().find(|e| e.name == constant.of);
                 let all = all.ok_or_else(|| format!("{}: no enum {}", constant.name, constant.of))?;
                 ("uint", format!("0x{:X}u", (1u32 << all.variants.len()) - 1))
             }

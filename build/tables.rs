@@ -42,6 +42,12 @@ macro_rules! enums {
     };
 }
 
+macro_rules! models {
+    ($($(#[$meta:meta])* $variant:ident = $name:literal, [$($property:ident)*], [$($key:ident)*];)+) => {
+        enums! { MODEL: Model { $($variant = $name,)+ } }
+    };
+}
+
 macro_rules! constants {
     ($($(#[$meta:meta])* $name:ident: $type:ident = $value:expr;)+) => {
         pub const CONSTANTS: &[(&str, crate::tables::Number)] =

@@ -22,6 +22,7 @@ mod info;
 mod instance;
 mod memory;
 mod pipeline;
+mod pipeline_cache;
 mod readback;
 mod result;
 mod sampler;
@@ -51,6 +52,8 @@ use crate::texture::sampler_spec::SamplerSpec;
 use command::{Commands, barrier};
 use device::{Core, lock};
 use image_check::Texels;
+use pipeline_cache::PipelineCache;
+use shaders::Shader;
 use staging::Staging;
 
 /// Does nothing: Mesa has a shader cache on Unix only.
@@ -76,6 +79,7 @@ pub struct Gpu {
     // Lock order: staging before commands, so that no two calls can deadlock.
     staging: Mutex<Staging>,
     commands: Mutex<Commands>,
+    pipelines: PipelineCache,
     core: Arc<Core>,
 }
 
@@ -89,6 +93,7 @@ impl Gpu {
         Ok(Gpu {
             commands: Mutex::new(Commands::new(&core)?),
             staging: Mutex::new(Staging::new(&core)),
+            pipelines: PipelineCache::default(),
             core,
         })
     }
@@ -177,6 +182,18 @@ impl Gpu {
 
     pub fn pipeline(&self, desc: &PipelineDesc<'_>) -> Result<Pipeline> {
         Pipeline::new(&self.core, desc).map_err(unsupported)
+    }
+
+    /// Returns the pipeline of one of this program's shaders with these constants, and builds it unless an equal one
+    /// was asked for shortly before.
+    pub fn shader_pipeline(
+        &self,
+        shader: &'static Shader,
+        bindings: &[BindingDesc],
+        push_constant_bytes: u32,
+        constants: &[(u32, u32)],
+    ) -> Result<Arc<Pipeline>> {
+        self.pipelines.get(&self.core, shader, bindings, push_constant_bytes, constants).map_err(unsupported)
     }
 
     /// Binds a list of resources, one entry for each binding that the pipeline declares.

@@ -9,8 +9,8 @@ use bytemuck::Pod;
 use crate::core::error::{Error, Result};
 use crate::gpu::shaders::{self, Shader};
 use crate::gpu::{BufferUse, Gpu, Pipeline};
+use crate::pack::PackedScene;
 use crate::pack::features::{Features, TexelSource};
-use crate::pack::{PackedScene, SlotCounts};
 use crate::render::{MipGenerator, MipSource, Resources, Tuning, build_pipeline, specialization};
 use crate::texture::data::TextureData;
 use crate::texture::mips;
@@ -44,49 +44,29 @@ fn look_up_shader(features: &Features) -> &'static Shader {
     }
 }
 
-/// Texture lookups of a sequence of scenes. Scenes with the same shader variant share a pipeline.
-pub struct LookupProbe<'a> {
-    gpu: &'a Gpu,
-    pipelines: Vec<(Code, Pipeline)>,
-}
-
-/// Everything on which a lookup pipeline depends.
-#[derive(PartialEq)]
-struct Code {
-    shader: &'static str,
-    constants: Vec<(u32, u32)>,
-    slots: SlotCounts,
-}
+/// Texture lookups of a sequence of scenes.
+pub struct LookupProbe<'a>(&'a Gpu);
 
 impl<'a> LookupProbe<'a> {
     pub fn new(gpu: &'a Gpu) -> LookupProbe<'a> {
-        LookupProbe { gpu, pipelines: Vec::new() }
+        LookupProbe(gpu)
     }
 
     pub fn answer(
-        &mut self,
+        &self,
         scene: &PackedScene,
         image_source: bool,
         queries: &[LookupQuery],
     ) -> Result<Vec<[f32; 4]>> {
+        let LookupProbe(gpu) = self;
         let features = Features::new(scene, image_source, false);
         let shader = look_up_shader(&features);
-        let resources =
-            Resources::upload(self.gpu, scene, &features, Tuning::default().texel_words(self.gpu))?;
+        let resources = Resources::upload(gpu, scene, &features, Tuning::default().texel_words(gpu))?;
         let slots = resources.slots;
         let constants = specialization::constants(shader, &features, &resources.sections, [GROUP, 1], slots);
-        let code = Code { shader: shader.name, constants, slots };
-        let known = self.pipelines.iter().position(|(other, _)| *other == code);
-        let index = match known {
-            Some(index) => index,
-            None => {
-                let pipeline = build_pipeline(self.gpu, shader, &code.constants, slots, size_of::<u32>())?;
-                self.pipelines.push((code, pipeline));
-                self.pipelines.len() - 1
-            }
-        };
+        let pipeline = build_pipeline(gpu, shader, &constants, slots, size_of::<u32>())?;
         let list = Some(bytemuck::cast_slice(queries));
-        dispatch(self.gpu, &self.pipelines[index].1, &resources, shader, list, queries.len(), &[])
+        dispatch(gpu, &pipeline, &resources, shader, list, queries.len(), &[])
     }
 }
 
@@ -206,7 +186,7 @@ fn run<T: Pod>(
     gpu: &Gpu,
     scene: &PackedScene,
     features: &Features,
-    shader: &Shader,
+    shader: &'static Shader,
     queries: Option<&[u8]>,
     count: usize,
     push: &[u32],
@@ -222,7 +202,7 @@ fn dispatch<T: Pod>(
     gpu: &Gpu,
     pipeline: &Pipeline,
     resources: &Resources,
-    shader: &Shader,
+    shader: &'static Shader,
     queries: Option<&[u8]>,
     count: usize,
     push: &[u32],

@@ -1,6 +1,8 @@
 //! Sums batches of samples into two halves on the device, for sampling rates that differ from pixel to pixel. The film
 //! is divided into pages of whole rows that fit the device's buffers; each page has its own list of batches.
 
+use std::sync::Arc;
+
 use super::dispatch_plan::{FIRST_SAMPLES, MAX_TILES, next_work};
 use super::{Report, Resources};
 use crate::core::error::{Error, Result};
@@ -28,7 +30,7 @@ struct Page {
 
 /// The pipeline that samples batches.
 pub struct SamplePipeline {
-    pub pipeline: Pipeline,
+    pub pipeline: Arc<Pipeline>,
     pub shader: &'static Shader,
     pub groups_per_tile: u32,
 }

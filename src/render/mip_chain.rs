@@ -2,6 +2,8 @@
 //! aligned to a word, as in the texel buffer. One dispatch per level, all in one submission; values between levels stay
 //! unrounded f32, as in `texture::mips`, which produces the same codes.
 
+use std::sync::Arc;
+
 use crate::core::color::srgb_table;
 use crate::core::error::Result;
 use crate::gpu::shaders;
@@ -44,14 +46,13 @@ pub struct MipGenerator<'a> {
     gpu: &'a Gpu,
     /// Tables for each number of sRGB codes, and one for textures without any.
     tables: Vec<(usize, Buffer)>,
-    pipelines: Vec<((TexelFormat, ColorSpace), Pipeline)>,
     /// Device time of all passes so far, if there were any.
     pub seconds: Option<f64>,
 }
 
 impl<'a> MipGenerator<'a> {
     pub fn new(gpu: &'a Gpu) -> MipGenerator<'a> {
-        MipGenerator { gpu, tables: Vec::new(), pipelines: Vec::new(), seconds: None }
+        MipGenerator { gpu, tables: Vec::new(), seconds: None }
     }
 
     pub fn make(&mut self, top: &MipSource<'_>) -> Result<MipChain> {
@@ -69,17 +70,17 @@ impl<'a> MipGenerator<'a> {
         let numbers: u64 = texels.iter().skip(1).take(2).sum::<u64>() * channels;
         let numbers = gpu.buffer("numbers of two levels", numbers * 4, BufferUse::Storage)?;
         let tables = self.tables(codes(top.format, top.space))?;
-        let pipeline = self.pipeline(top.format, top.space)?;
+        let pipeline = build(gpu, top.format, top.space)?;
         let bound = [
             (bindings::MIP_WORDS, Bound::Buffer(&buffer)),
             (bindings::MIP_NUMBERS, Bound::Buffer(&numbers)),
             (bindings::MIP_TABLES, Bound::Buffer(&tables)),
         ];
-        let group = gpu.bind(pipeline, &bound)?;
+        let group = gpu.bind(&pipeline, &bound)?;
         let passes = passes(top, &texels, &starts);
         let dispatches: Vec<(&[u8], [u32; 3])> =
             passes.iter().map(|(pass, groups)| (bytemuck::bytes_of(pass), *groups)).collect();
-        let time = gpu.run_all(pipeline, &group, &dispatches)?;
+        let time = gpu.run_all(&pipeline, &group, &dispatches)?;
         self.seconds = Some(self.seconds.unwrap_or(0.0) + time.device_seconds);
         Ok(MipChain { buffer, starts })
     }
@@ -96,19 +97,6 @@ impl<'a> MipGenerator<'a> {
         self.tables.push((codes, buffer.clone()));
         Ok(buffer)
     }
-
-    fn pipeline(&mut self, format: TexelFormat, space: ColorSpace) -> Result<&Pipeline> {
-        let key = (format, space);
-        let known = self.pipelines.iter().position(|(other, _)| *other == key);
-        let index = match known {
-            Some(index) => index,
-            None => {
-                self.pipelines.push((key, build(self.gpu, format, space)?));
-                self.pipelines.len() - 1
-            }
-        };
-        Ok(&self.pipelines[index].1)
-    }
 }
 
 /// Returns the number of sRGB codes of a colour channel; 0 if it is linear.
@@ -116,7 +104,7 @@ fn codes(format: TexelFormat, space: ColorSpace) -> usize {
     if space == ColorSpace::Srgb { format.component().codes() } else { 0 }
 }
 
-fn build(gpu: &Gpu, format: TexelFormat, space: ColorSpace) -> Result<Pipeline> {
+fn build(gpu: &Gpu, format: TexelFormat, space: ColorSpace) -> Result<Arc<Pipeline>> {
     let shader = &shaders::MIPS;
     let values = [
         (Constant::GroupX, GROUP),

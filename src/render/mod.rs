@@ -21,13 +21,15 @@ mod tile_culling;
 mod tiles;
 mod tuning;
 
+use std::sync::Arc;
+
 use serde::Serialize;
 
 use crate::core::error::Result;
 use crate::core::film::Film;
 use crate::core::progress::Progress;
-use crate::gpu::shaders::{ReflectedBinding, Shader, specialise};
-use crate::gpu::{BindingDesc, BindingKind, Gpu, Pipeline, PipelineDesc, RunTime};
+use crate::gpu::shaders::{ReflectedBinding, Shader};
+use crate::gpu::{BindingDesc, BindingKind, Gpu, Pipeline, RunTime};
 use crate::integrators::Integrated;
 use crate::integrators::adaptive::{Goal, Outcome};
 use crate::pack::{PackedScene, SlotCounts};
@@ -156,11 +158,11 @@ pub fn render_to_goal(
 /// Builds a pipeline of `shader` with these constants and numbers of descriptors.
 pub(crate) fn build_pipeline(
     gpu: &Gpu,
-    shader: &Shader,
+    shader: &'static Shader,
     constants: &[(u32, u32)],
     slots: SlotCounts,
     push_constant_bytes: usize,
-) -> Result<Pipeline> {
+) -> Result<Arc<Pipeline>> {
     let describe = |b: &ReflectedBinding| {
         let count = match (b.kind, b.binding) {
             (BindingKind::SampledImage, bindings::VOLUMES) => slots.volumes.max(1),
@@ -174,11 +176,5 @@ pub(crate) fn build_pipeline(
     let bindings: Vec<BindingDesc> = shader.bindings.iter().map(describe).collect();
     let opaque = (Constant::OpaqueUniforms, u32::from(Tuning::opaque_uniforms(gpu.info())));
     let constants = [constants, &shader.values([opaque])].concat();
-    gpu.pipeline(&PipelineDesc {
-        name: shader.name,
-        spirv: &specialise(shader.spirv, &constants),
-        bindings: &bindings,
-        push_constant_bytes: push_constant_bytes as u32,
-        constants: &constants,
-    })
+    gpu.shader_pipeline(shader, &bindings, push_constant_bytes as u32, &constants)
 }

@@ -184,7 +184,7 @@ impl<'a> Session<'a> {
     }
 
     /// Returns a pipeline, and its number of workgroups per tile.
-    fn pipeline(&self, features: &Features, shader: &'static Shader) -> Result<(Pipeline, u32)> {
+    fn pipeline(&self, features: &Features, shader: &'static Shader) -> Result<(Arc<Pipeline>, u32)> {
         let group_size = self.tuning.group_size(self.gpu.info())?;
         let slots = self.resources.slots;
         let mut constants =

@@ -2,6 +2,8 @@
 //! meet, and how uniform it is. Input: a scene of many triangles on a device. Output: the lists that camera
 //! rays read, and the number of samples with which each pixel starts.
 
+use std::sync::Arc;
+
 use super::{Report, Resources, build_pipeline, specialization};
 use crate::core::error::Result;
 use crate::gpu::shaders;
@@ -17,7 +19,7 @@ const MAX_TESTS: u64 = 1 << 24;
 
 pub struct TileCulling {
     pub buffer: Buffer,
-    pipeline: Pipeline,
+    pipeline: Arc<Pipeline>,
     group: BindGroup,
     /// Side of a cell in pixels, and the number of cells across and down.
     side: u32,

@@ -1,6 +1,8 @@
 //! Renders the tiles of a band on a device, in slices as long as the plan allows. Input: a pipeline with its bindings,
 //! and a range of samples. Output: sums in the film's buffer.
 
+use std::sync::Arc;
+
 use super::Report;
 use super::dispatch_plan::DispatchPlan;
 use super::film_buffer::{Band, FilmBuffer};
@@ -11,7 +13,7 @@ use crate::schema::layout::Slice;
 
 pub struct TileRenderer<'a> {
     pub gpu: &'a Gpu,
-    pub pipeline: Pipeline,
+    pub pipeline: Arc<Pipeline>,
     pub group: BindGroup,
     pub groups_per_tile: u32,
 }

@@ -81,21 +81,6 @@ enums! {
         Differentials = "differentials",
     }
 
-    /// The reflection model of a material.
-    #[derive(Default)]
-    MODEL: Model {
-        Unlit = "unlit",
-        #[default]
-        Lambert = "lambert",
-        Mirror = "mirror",
-        /// Reflects or refracts, in the ratio of the Fresnel equations.
-        Dielectric = "dielectric",
-        /// Lambert with a highlight.
-        Phong = "phong",
-        /// Rough diffuse, energy-preserving.
-        OrenNayar = "oren-nayar",
-    }
-
     /// The content of a material's bump texture.
     #[derive(Default)]
     BUMP: BumpKind {

@@ -10,6 +10,7 @@ pub mod constants;
 pub mod enums;
 mod job;
 pub mod layout;
+pub mod models;
 pub mod packing;
 pub mod record;
 pub mod records;

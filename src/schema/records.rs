@@ -105,6 +105,22 @@ records! {
         is_smooth: bool,
     }
 
+    Disc in discs as "loop over discs" {
+        /// Unit normal n.
+        normal: DVec3,
+        /// n · (center − eye).
+        distance: f64,
+        center: DVec3,
+        radius: f64,
+        /// Own coordinates of a point p: axis_u · (p − center) and axis_v · (p − center), within the unit circle.
+        axis_u: DVec3,
+        axis_v: DVec3,
+        material: u32,
+        uv_projection: u32,
+        /// Its texture coordinates are angle and radius.
+        is_polar: bool,
+    }
+
     Light in lights as "loop over lights" {
         /// Position of point and sphere lights, centre of rectangles.
         position: DVec3,

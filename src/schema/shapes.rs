@@ -10,6 +10,7 @@ macro_rules! with_shapes {
             Plane plane planes [planar polygonal];
             Sphere sphere spheres [curved];
             Triangle triangle triangles [planar polygonal curved listed];
+            Disc disc discs [planar];
         }
     };
 }

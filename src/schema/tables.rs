@@ -20,6 +20,32 @@ macro_rules! enums {
     };
 }
 
+/// The reflection models as an enum.
+macro_rules! models {
+    ($($(#[$meta:meta])* $variant:ident = $name:literal, [$($property:ident)*], [$($key:ident)*];)+) => {
+        enums! {
+            /// The reflection model of a material.
+            #[derive(Default)]
+            MODEL: Model { $($(#[$meta])* $variant = $name,)+ }
+        }
+
+        impl Model {
+            const PROPERTIES: &'static [&'static [&'static str]] = &[$(&[$(stringify!($property)),*]),+];
+            const KEYS: &'static [&'static [&'static str]] = &[$(&[$(stringify!($key)),*]),+];
+
+            /// Returns true if it has a property of the table.
+            pub(crate) fn is(self, property: &str) -> bool {
+                Model::PROPERTIES[self as usize].contains(&property)
+            }
+
+            /// Returns true if a material of this model has a key that only some have.
+            pub(crate) fn has_key(self, key: &str) -> bool {
+                Model::KEYS[self as usize].contains(&key)
+            }
+        }
+    };
+}
+
 /// Constants that host and device share.
 macro_rules! constants {
     ($($(#[$meta:meta])* $name:ident: $type:ty = $value:expr;)+) => {
@@ -50,6 +76,7 @@ macro_rules! blocks {
 macro_rules! specialization {
     ($($(#[$meta:meta])* $variant:ident = $name:literal, $kind:ident $(($($of:tt)+))?, $what:literal;)+) => {
         use super::enums::*;
+        use super::models::Model;
         use super::records::List;
 
         /// A specialization constant of the shaders.
@@ -145,6 +172,7 @@ macro_rules! kind {
 macro_rules! records {
     ($($(#[$meta:meta])* $record:ident $(in $list:ident as $what:literal)? { $($(#[$fmeta:meta])* $field:ident: $type:ident,)+ })+) => {
         use super::enums::*;
+        use super::models::Model;
         use super::packing::{Packer, shape};
         use super::record::{Field as _, RealBits, Record, Writer, bytes_of};
         use glam::{DVec2, DVec3, DVec4, UVec2, UVec3, Vec3, Vec4};

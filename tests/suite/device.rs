@@ -4,6 +4,7 @@
 
 mod copies;
 mod images;
+mod pipelines;
 mod refused;
 mod solids;
 

@@ -4,10 +4,10 @@ use moire::internal::core::progress::NoProgress;
 use moire::internal::lab::stability::all;
 use moire::internal::lab::stability::case::Bench;
 
-use crate::shared_gpu::gpu;
+use crate::stage::device;
 
 fn holds(group: &str) {
-    let gpu = gpu();
+    let gpu = device();
     let bench = Bench::new(&gpu, &NoProgress);
     let mut complaints = Vec::new();
     for case in all().iter().filter(|case| case.group == group) {

@@ -23,6 +23,7 @@ const GOLDENS: &[(&str, [u32; 2])] = &[
     ("beams", [96, 96]),
     ("centroid", [128, 77]),
     ("cones", [120, 90]),
+    ("discs", [120, 90]),
     ("environment", [120, 75]),
     ("environment_cube", [120, 75]),
     ("filters", [128, 80]),
@@ -195,7 +196,7 @@ macro_rules! goldens {
     };
 }
 goldens! {
-    beams centroid cones environment environment_cube filters formats glass glossy hardware horizon inside
+    beams centroid cones discs environment environment_cube filters formats glass glossy hardware horizon inside
     lanczos lecture lens lights mappings materials mirrors motion normal penumbra position procedural ramp reflection
     rough samplers shared volume zone_plate
 }

@@ -9,8 +9,9 @@ use moire::internal::gpu::BindingKind;
 use moire::internal::gpu::shaders::{self, Shader};
 use moire::internal::pack::features;
 use moire::internal::schema::blocks::{CellRange, Halving, Job, PositionRange, QueryRange, Slice};
-use moire::internal::schema::enums::{BumpKind, LightKind, Model, Reals, TexelSource};
+use moire::internal::schema::enums::{BumpKind, LightKind, Reals, TexelSource};
 use moire::internal::schema::layout::{Light, Material, Plane, RealBits, Record, Triangle};
+use moire::internal::schema::models::Model;
 use moire::internal::schema::packing::{Kind, Packer, Place, shape};
 use moire::internal::schema::specialization::{self, Constant};
 

@@ -19,9 +19,10 @@ every_scene! { same_bits_whatever_is_left_out_of: super::same_bits_whatever_is_l
 ///
 /// Pipelines with everything take seconds to compile on a CPU device: they are built for scenes that between them use
 /// every feature, from images for those that read images differently.
-const FULL: [&str; 15] = [
+const FULL: [&str; 16] = [
     "beams",
     "cones",
+    "discs",
     "environment",
     "filters",
     "glass",

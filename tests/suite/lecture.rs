@@ -16,7 +16,7 @@ use moire::internal::schema::layout::NO_SHAPE;
 use moire::internal::texture::data::{ColorSpace, TexelFormat};
 
 use crate::lookup::bench::texture;
-use crate::shared_gpu::gpu;
+use crate::stage::device;
 
 mod texels;
 
@@ -52,7 +52,7 @@ fn assert_mapped(scene: &PackedScene, way: impl Fn(DVec3) -> DVec3, cases: &[(DV
     };
     let queries: Vec<RayQuery> = cases.iter().map(query).collect();
     for keep_everything in [false, true] {
-        let answers = probe::rays(&gpu(), scene, keep_everything, &queries).unwrap();
+        let answers = probe::rays(&device(), scene, keep_everything, &queries).unwrap();
         for (&(point, uv), answer) in cases.iter().zip(&answers) {
             let own =
                 scene.records.planes.first().map_or(DVec2::ZERO, |plane| {
@@ -239,7 +239,7 @@ fn assert_radiance(what: &str, text: &str, by_hand: DVec3) {
     let mut films: Vec<(&str, Film)> =
         vec![("oracle", moire::internal::oracle::backend::render(&scene, &NoProgress).unwrap())];
     for (name, keep_everything) in [("device", false), ("device, everything kept", true)] {
-        let film = render::render(&gpu(), scene.clone(), keep_everything, &Tuning::default(), &NoProgress)
+        let film = render::render(&device(), scene.clone(), keep_everything, &Tuning::default(), &NoProgress)
             .unwrap()
             .0;
         films.push((name, film));

@@ -22,6 +22,7 @@ mod device;
 mod device_shaders;
 mod diagnostics;
 mod dimensions;
+mod discs;
 #[cfg(unix)]
 mod docs;
 mod doors;
@@ -64,7 +65,6 @@ mod random_scenes;
 mod rays;
 mod resubmit;
 mod scene;
-mod shared_gpu;
 mod slopes;
 mod sources;
 mod specialise;

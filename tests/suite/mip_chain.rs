@@ -8,7 +8,7 @@ use moire::internal::lab::verify::queries::noise;
 use moire::internal::texture::data::{ColorSpace, Component, Dimension, MipKernel, TexelFormat, TextureData};
 use moire::internal::texture::mips;
 
-use crate::shared_gpu::gpu;
+use crate::stage::device;
 
 /// Kinds of textures with sizes whose lengths are powers of two.
 const SHAPES: [(Dimension, [u32; 3]); 13] = [
@@ -86,7 +86,7 @@ fn assert_same(made: &mut MipProbe<'_>, texture: &TextureData) {
 
 #[test]
 fn the_device_makes_the_codes_of_the_host_for_every_format_kind_and_size() {
-    let gpu = gpu();
+    let gpu = device();
     let mut made = MipProbe::new(&gpu);
     for (format, space) in formats() {
         for (seed, (dimension, size)) in (1..).zip(SHAPES) {
@@ -99,7 +99,7 @@ fn the_device_makes_the_codes_of_the_host_for_every_format_kind_and_size() {
 /// Each of the 65536 sRGB codes of 16 bits beside one far from it, and beside itself.
 #[test]
 fn every_deep_srgb_code_is_averaged_as_on_the_host() {
-    let gpu = gpu();
+    let gpu = device();
     let mut made = MipProbe::new(&gpu);
     let codes =
         |width: u32| (0..65536 * width).map(move |i| ((i / width).wrapping_mul(40503) & 0xffff) as u16);
@@ -116,7 +116,7 @@ fn every_deep_srgb_code_is_averaged_as_on_the_host() {
 /// Every pair of two sRGB codes; their mean is looked up in the table of midpoints.
 #[test]
 fn every_pair_of_srgb_codes_is_averaged_as_on_the_host() {
-    let gpu = gpu();
+    let gpu = device();
     let texels = (0..=255u8).flat_map(|a| (0..=255u8).flat_map(move |b| [a, b])).collect();
     let texture = TextureData {
         name: "all pairs of codes".into(),
@@ -128,7 +128,7 @@ fn every_pair_of_srgb_codes_is_averaged_as_on_the_host() {
 
 #[test]
 fn planted_errors_of_levels_are_seen() {
-    let gpu = gpu();
+    let gpu = device();
     let texture = noise(Dimension::Two, [64, 16, 1], TexelFormat::Rgba8, ColorSpace::Srgb, 3);
     let (device, _) = MipProbe::new(&gpu).make(&texture).unwrap();
     let host = mips::mip_chain(&texture, MipKernel::Box);
@@ -148,7 +148,7 @@ fn planted_errors_of_levels_are_seen() {
 
 #[test]
 fn what_devices_do_not_make_is_refused_by_name() {
-    let gpu = gpu();
+    let gpu = device();
     let mut made = MipProbe::new(&gpu);
     for (size, format, space) in [
         ([5, 4, 1], TexelFormat::Grey8, ColorSpace::Linear),

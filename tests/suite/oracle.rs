@@ -24,6 +24,7 @@ const BOUNDS: &[(&str, f64, f64, f64)] = &[
     ("beams", STEP, 1e-6, 0.0),
     ("centroid", STEP, 5e-5, 0.001),
     ("cones", STEP, 1e-4, 0.01),
+    ("discs", STEP, 1e-5, 0.002),
     ("environment", STEP, 1e-5, 0.001),
     ("environment_cube", STEP, 1e-5, 0.001),
     ("filters", STEP, 1e-5, 0.001),

@@ -5,15 +5,16 @@
 use glam::{DVec2, DVec3};
 use moire::internal::lab::probe::{self, RayAnswer, RayQuery};
 use moire::internal::oracle::camera::Ray;
+use moire::internal::oracle::geometry::hit::Surface;
 use moire::internal::oracle::geometry::rays::hit_surface;
 use moire::internal::oracle::geometry::rays::{Hit, nearest_hit, occluded};
 use moire::internal::oracle::mapping::{MapInput, texture_coordinate};
 use moire::internal::pack::{MapKind, PackedScene};
-use moire::internal::schema::layout::NO_SHAPE;
+use moire::internal::schema::layout::{NO_SHAPE, UvProjection};
 
 use crate::lookup::bench::Rng;
-use crate::shared_gpu::gpu;
-use bounds::{Estimate, U, estimate};
+use crate::stage::device;
+use bounds::{Estimate, U, disc_of, disc_own_error, estimate};
 
 mod bounds;
 mod scenes;
@@ -116,7 +117,7 @@ fn wrong_hit(
 
 fn wrong_uv(
     scene: &PackedScene,
-    surface: &moire::internal::oracle::geometry::hit::Surface,
+    surface: &Surface,
     answer: &RayAnswer,
     point_error: f64,
     weights: f64,
@@ -139,6 +140,9 @@ fn wrong_uv(
     let kind = map.kind;
     let (tolerance, turn) = match kind {
         MapKind::Affine => (DVec2::splat(row_error), DVec2::ZERO),
+        MapKind::Plane if disc_of(scene, answer.shape).is_some() => {
+            disc_uv_tolerance(scene, map, disc_of(scene, answer.shape).unwrap(), surface, point_error)
+        }
         MapKind::Plane => {
             let plane = &scene.records.planes[answer.shape as usize];
             // Products and sums of an axis, then of the matrix, on top of the error of the point.
@@ -179,8 +183,31 @@ fn wrong_uv(
     (!right).then(|| format!("{kind} uv {got}, oracle {expected}, {tolerance} allowed"))
 }
 
+/// Errors of both texture coordinates on a disc, and what a whole turn of the angle changes.
+fn disc_uv_tolerance(
+    scene: &PackedScene,
+    map: &UvProjection,
+    index: usize,
+    surface: &Surface,
+    point_error: f64,
+) -> (DVec2, DVec2) {
+    let own = disc_own_error(scene, index, surface.point, point_error);
+    let m = [map.m00, map.m01, map.m10, map.m11];
+    let times = |v: DVec2| DVec2::new(m[0] * v.x + m[1] * v.y, m[2] * v.x + m[3] * v.y);
+    let wide = |v: DVec2| {
+        DVec2::new(m[0].abs() * v.x + m[1].abs() * v.y, m[2].abs() * v.x + m[3].abs() * v.y)
+            + 8.0 * U * (DVec2::ONE + map.offset.abs())
+    };
+    if !scene.records.discs[index].is_polar {
+        return (wide(DVec2::splat(0.5 * own)), DVec2::ZERO);
+    }
+    // The angle by an error across the radius; 2e-7 for the polynomial and its steps.
+    let angle = (own / (std::f64::consts::TAU * surface.own_uv.y)).min(1.0) + 2e-7;
+    (wide(DVec2::new(angle, 1.5 * own)), times(DVec2::X))
+}
+
 fn compare(scene: &PackedScene, queries: &[RayQuery], keep_everything: bool) -> Tally {
-    let answers = probe::rays(&gpu(), scene, keep_everything, queries).unwrap();
+    let answers = probe::rays(&device(), scene, keep_everything, queries).unwrap();
     let mut tally = Tally::default();
     for (query, answer) in queries.iter().zip(&answers) {
         tally.add(scene, query, answer);
@@ -232,6 +259,15 @@ fn triangles_flat_and_smooth() {
 }
 
 #[test]
+fn discs_planar_and_polar() {
+    for seed in 0..3 {
+        let mut rng = Rng::new(seed + 700);
+        let scene = scenes::discs(&mut rng);
+        assert_agrees(&format!("discs {seed}"), &scene, &scenes::rays(&mut rng, 4000), seed == 0);
+    }
+}
+
+#[test]
 fn all_shapes_together_with_every_mapping() {
     for keep_everything in [false, true] {
         let mut rng = Rng::new(400);
@@ -246,7 +282,7 @@ fn no_ray_passes_between_triangles_that_share_an_edge() {
         let mut rng = Rng::new(seed + 500);
         let (scene, queries) = scenes::fan(&mut rng, 9, 5000);
         for keep_everything in [false, true] {
-            let answers = probe::rays(&gpu(), &scene, keep_everything, &queries).unwrap();
+            let answers = probe::rays(&device(), &scene, keep_everything, &queries).unwrap();
             let missed: Vec<_> = queries.iter().zip(&answers).filter(|(_, a)| a.shape == NO_SHAPE).collect();
             assert!(missed.is_empty(), "{} rays pass, the first {:?}", missed.len(), missed[0]);
         }
@@ -258,7 +294,7 @@ fn planted_errors_of_rays_are_caught() {
     let mut rng = Rng::new(600);
     let scene = scenes::everything(&mut rng);
     let queries = scenes::rays(&mut rng, 1000);
-    let right = probe::rays(&gpu(), &scene, false, &queries).unwrap();
+    let right = probe::rays(&device(), &scene, false, &queries).unwrap();
     let caught = |plant: &dyn Fn(&mut RayAnswer)| {
         let mut tally = Tally::default();
         for (query, answer) in queries.iter().zip(&right).filter(|(_, a)| a.shape != NO_SHAPE) {

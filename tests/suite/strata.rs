@@ -9,7 +9,7 @@ use moire::internal::pack::PackedScene;
 use moire::internal::scene::model::Pattern;
 use moire::internal::schema::layout::Header;
 
-use crate::shared_gpu::gpu;
+use crate::stage::device;
 
 const WIDTH: u32 = 5;
 
@@ -62,7 +62,7 @@ fn the_oracles_strata_follow_the_formula_for_every_side() {
 /// All samples of pair 0.
 fn positions(scene: &PackedScene, keep: bool, width: u32, pixels: u32) -> Vec<[u32; 2]> {
     let which = Positions { pair: 0, width, pixels, first: 0, samples: scene.samples };
-    probe::positions(&gpu(), scene, keep, &which).unwrap()
+    probe::positions(&device(), scene, keep, &which).unwrap()
 }
 
 /// Device, oracle and formula on the first `samples` samples of `pixels` pixels.

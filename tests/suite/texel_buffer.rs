@@ -22,7 +22,6 @@ use serde_json::Value;
 use tempfile::tempdir;
 
 use crate::lookup::bench::{pairs, query};
-use crate::shared_gpu::gpu;
 use crate::stage::{assert_same_bits, device, device_name, render_with};
 use crate::support::{moire, told};
 
@@ -171,7 +170,7 @@ fn every_deep_srgb_code_is_read_as_its_light_from_buffers_and_images() {
         for texture in 0..3 {
             let uv = |i: u32| [i % 256, i / 256].map(|n| (n as f32 + 0.5) / 256.0);
             let queries: Vec<_> = (0..65_536).map(|i| query(&scene, texture, uv(i))).collect();
-            let answers = probe::lookups(&gpu(), &scene, image_source, false, &queries).unwrap();
+            let answers = probe::lookups(&device(), &scene, image_source, false, &queries).unwrap();
             for (code, (answer, query)) in (0..=u16::MAX).zip(answers.iter().zip(&queries)) {
                 let codes = match texture {
                     1 => [code, code.wrapping_mul(40_503), !code],

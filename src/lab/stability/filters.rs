@@ -145,11 +145,11 @@ fn texel_mean() -> f64 {
 fn widths(bench: &Bench<'_>, mag: Filter, min: Filter) -> Result<Vec<Point>> {
     let scene = scene(noise(SIDE, SIDE), &[spec(mag, min)])?;
     let mean = texel_mean();
-    let mut device = LookupProbe::new(bench.gpu);
+    let device = LookupProbe::new(bench.gpu);
     let sweep = decades(-6, 6, 2).map(|wide| {
         bench.check_cancelled()?;
         let endless = wide > 64.0 * f64::from(SIDE);
-        worst(&mut device, &scene, wide, RANGE, &footprints(&scene, wide * OFF), |i, query| {
+        worst(&device, &scene, wide, RANGE, &footprints(&scene, wide * OFF), |i, query| {
             if endless { mean } else { oracle(&scene, i, query) }
         })
     });
@@ -159,11 +159,11 @@ fn widths(bench: &Bench<'_>, mag: Filter, min: Filter) -> Result<Vec<Point>> {
 fn areas(bench: &Bench<'_>) -> Result<Vec<Point>> {
     let scene = scene(noise(SIDE, SIDE), &[spec(Filter::Linear, Filter::SummedArea)])?;
     let texels = noise(SIDE, SIDE);
-    let mut device = LookupProbe::new(bench.gpu);
+    let device = LookupProbe::new(bench.gpu);
     let sweep = decades(-6, 6, 2).map(|wide| {
         bench.check_cancelled()?;
         let queries = footprints(&scene, wide * OFF);
-        worst(&mut device, &scene, wide, RANGE, &queries, |i, query| {
+        worst(&device, &scene, wide, RANGE, &queries, |i, query| {
             // Magnification is linear.
             if wide < 1.0 { oracle(&scene, i, query) } else { box_mean(&texels, query) }
         })
@@ -174,7 +174,7 @@ fn areas(bench: &Bench<'_>) -> Result<Vec<Point>> {
 fn chances(bench: &Bench<'_>) -> Result<Vec<Point>> {
     let specs = [spec(Filter::Stochastic, Filter::Stochastic), spec(Filter::Linear, Filter::Linear)];
     let scene = scene(noise(SIDE, SIDE), &specs)?;
-    let mut device = LookupProbe::new(bench.gpu);
+    let device = LookupProbe::new(bench.gpu);
     let count = 4096u32;
     let sweep = decades(-6, 6, 2).map(|wide| {
         bench.check_cancelled()?;
@@ -196,7 +196,7 @@ fn chances(bench: &Bench<'_>) -> Result<Vec<Point>> {
 fn lengths(bench: &Bench<'_>) -> Result<Vec<Point>> {
     let specs = [spec(Filter::Linear, Filter::Anisotropic), spec(Filter::Linear, Filter::Ewa)];
     let scene = scene(noise(SIDE, SIDE), &specs)?;
-    let mut device = LookupProbe::new(bench.gpu);
+    let device = LookupProbe::new(bench.gpu);
     let sweep = decades(0, 6, 2).map(|ratio| {
         bench.check_cancelled()?;
         let wide = OFF / f64::from(SIDE);
@@ -211,7 +211,7 @@ fn lengths(bench: &Bench<'_>) -> Result<Vec<Point>> {
                 over(&scene, i % 2, uv, axes)
             })
             .collect();
-        worst(&mut device, &scene, ratio, RANGE, &queries, |i, query| oracle(&scene, i, query))
+        worst(&device, &scene, ratio, RANGE, &queries, |i, query| oracle(&scene, i, query))
     });
     sweep.collect()
 }
@@ -258,7 +258,7 @@ fn outside(scene: &PackedScene, query: &LookupQuery, answer: f64) -> (f64, Strin
 fn degenerate(bench: &Bench<'_>) -> Result<Vec<Point>> {
     let specs = MINIFIERS.map(|min| spec(Filter::Linear, min));
     let scene = scene(noise(SIDE, SIDE), &specs)?;
-    let mut device = LookupProbe::new(bench.gpu);
+    let device = LookupProbe::new(bench.gpu);
     let sweep = decades(-45, 38, 1).map(|long| {
         bench.check_cancelled()?;
         let wide = 3.0 / f64::from(SIDE);
@@ -288,7 +288,7 @@ fn no_numbers(bench: &Bench<'_>) -> Result<Vec<Point>> {
     let specs = [Filter::Linear, Filter::Ewa, Filter::SummedArea].map(|min| spec(Filter::Linear, min));
     let scene = scene(noise(SIDE, SIDE), &specs)?;
     let mean = texel_mean();
-    let mut device = LookupProbe::new(bench.gpu);
+    let device = LookupProbe::new(bench.gpu);
     let odd = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1e30, -1e38];
     let pairs = odd.iter().flat_map(|&a| odd.iter().map(move |&b| [a, b]));
     let sweep = pairs.enumerate().map(|(number, [a, b])| {
@@ -299,7 +299,7 @@ fn no_numbers(bench: &Bench<'_>) -> Result<Vec<Point>> {
                 queries.extend((0..specs.len()).map(|sampler| over(&scene, sampler, uv, axes)));
             }
         }
-        worst(&mut device, &scene, (number + 1) as f64, RANGE, &queries, |_, _| mean)
+        worst(&device, &scene, (number + 1) as f64, RANGE, &queries, |_, _| mean)
     });
     sweep.collect()
 }

@@ -62,7 +62,7 @@ pub fn oracle(scene: &PackedScene, index: usize, query: &LookupQuery) -> f64 {
 /// Returns the largest difference of the first channel, in units, between the device's answers and
 /// `exact`.
 pub fn worst(
-    device: &mut LookupProbe<'_>,
+    device: &LookupProbe<'_>,
     scene: &PackedScene,
     parameter: f64,
     unit: f64,

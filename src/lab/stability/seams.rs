@@ -72,7 +72,7 @@ fn towards(one: &LookupQuery, direction: DVec3) -> LookupQuery {
 
 /// Returns the steps between answers of pairs a gap apart, less the `allowed` step.
 fn steps(
-    device: &mut LookupProbe<'_>,
+    device: &LookupProbe<'_>,
     scene: &PackedScene,
     gap: f64,
     allowed: f64,
@@ -94,7 +94,7 @@ pub fn worst_step(gap: f64, allowed: f64, pairs: &[LookupQuery], answers: &[[f32
 fn cube_edges(bench: &Bench<'_>) -> Result<Vec<Point>> {
     let scene = scene(Dimension::Cube, [SIDE, SIDE, 6], Filter::Linear)?;
     let one = queries::query(&scene, 0, [0.0; 2]);
-    let mut device = LookupProbe::new(bench.gpu);
+    let device = LookupProbe::new(bench.gpu);
     let sweep = decades(-7, -1, 2).map(|gap| {
         bench.check_cancelled()?;
         let mut rng = Rng::new(32);
@@ -119,7 +119,7 @@ fn cube_edges(bench: &Bench<'_>) -> Result<Vec<Point>> {
         // A texel is 2 / SIDE wide, and a step along each of two axes has the range; a direction
         // off the face's plane moves by √2 on it.
         let allowed = 2.0 * RANGE * std::f64::consts::SQRT_2 * farthest * f64::from(SIDE) / 2.0;
-        steps(&mut device, &scene, gap, allowed, &pairs)
+        steps(&device, &scene, gap, allowed, &pairs)
     });
     sweep.collect()
 }
@@ -131,7 +131,7 @@ fn cube_ties(bench: &Bench<'_>) -> Result<Vec<Point>> {
     let faces = blank.with_floats(1, |_, y, _| (y / 2) as f32);
     let scene = queries::pairs(vec![faces], &[spec], &[(0, 0)])?;
     let one = queries::query(&scene, 0, [0.0; 2]);
-    let mut device = LookupProbe::new(bench.gpu);
+    let device = LookupProbe::new(bench.gpu);
     let sweep = decades(-30, 30, 1).map(|long| {
         bench.check_cancelled()?;
         let numbers = [-1.0, 0.0, 1.0];
@@ -167,7 +167,7 @@ fn cube_levels(bench: &Bench<'_>) -> Result<Vec<Point>> {
     );
     let scene = probing::scene(texture, &[spec])?;
     let one = queries::query(&scene, 0, [0.0; 2]);
-    let mut device = LookupProbe::new(bench.gpu);
+    let device = LookupProbe::new(bench.gpu);
     let sweep = decades(-30, 30, 1).map(|long| {
         bench.check_cancelled()?;
         let mut rng = Rng::new(35);
@@ -179,9 +179,7 @@ fn cube_levels(bench: &Bench<'_>) -> Result<Vec<Point>> {
                 LookupQuery { dx, dy, ..towards(&one, vector(1.0) * long) }
             })
             .collect();
-        probing::worst(&mut device, &scene, long, RANGE, &queries, |i, query| {
-            probing::oracle(&scene, i, query)
-        })
+        probing::worst(&device, &scene, long, RANGE, &queries, |i, query| probing::oracle(&scene, i, query))
     });
     sweep.collect()
 }
@@ -192,7 +190,7 @@ fn poles(bench: &Bench<'_>) -> Result<Vec<Point>> {
     scene.records.samplers[0].crosses_poles = true;
     scene.records.samplers[0].address_v = Address::ClampToEdge;
     let one = queries::query(&scene, 0, [0.0; 2]);
-    let mut device = LookupProbe::new(bench.gpu);
+    let device = LookupProbe::new(bench.gpu);
     let sweep = decades(-8, -2, 2).map(|gap| {
         bench.check_cancelled()?;
         let mut rng = Rng::new(33);
@@ -209,7 +207,7 @@ fn poles(bench: &Bench<'_>) -> Result<Vec<Point>> {
         }
         // The spacing of coordinates next to 1 is 2^-24.
         let allowed = RANGE * (gap + 2.0 * probing::ROUNDING) * f64::from(2 * SIDE);
-        steps(&mut device, &scene, gap, allowed, &pairs)
+        steps(&device, &scene, gap, allowed, &pairs)
     });
     sweep.collect()
 }

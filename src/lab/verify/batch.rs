@@ -73,7 +73,7 @@ impl<'a> Batch<'a> {
     /// Returns one tally per variant, each for its own list of lookups.
     pub fn tallies(
         &self,
-        probe: &mut LookupProbe<'_>,
+        probe: &LookupProbe<'_>,
         queries: Vec<Vec<LookupQuery>>,
         tally: impl Fn(&Variant, &[LookupQuery], &[[f32; 4]]) -> Tally + Sync,
     ) -> Result<Vec<Tally>> {

@@ -81,7 +81,7 @@ fn judged(judge: &Judge<'_>, queries: &[LookupQuery], answers: &[[f32; 4]]) -> T
 
 /// Checks random and error-prone coordinates at level 0.
 pub fn check_lookups(
-    probe: &mut LookupProbe<'_>,
+    probe: &LookupProbe<'_>,
     variants: Vec<&Variant>,
     precision: Precision,
     seed: u64,
@@ -104,7 +104,7 @@ pub fn check_lookups(
 /// Checks all levels over footprints of all lengths, and measures the lengths that the device
 /// resolved itself.
 pub fn sweeps(
-    probe: &mut LookupProbe<'_>,
+    probe: &LookupProbe<'_>,
     variants: Vec<&Variant>,
     precision: Precision,
     seed: u64,
@@ -151,7 +151,7 @@ fn followed(variant: &Variant, query: &LookupQuery, answer: [f32; 4]) -> Option<
 
 /// Checks ramps between two texels at intervals, and counts the bits of their weights.
 pub fn ramps(
-    probe: &mut LookupProbe<'_>,
+    probe: &LookupProbe<'_>,
     variants: Vec<&Variant>,
     precision: Precision,
     axis: Axis,
@@ -168,7 +168,7 @@ pub fn ramps(
 
 /// Checks the same between two levels, the first 0 in every channel and the second 1.
 pub fn level_ramps(
-    probe: &mut LookupProbe<'_>,
+    probe: &LookupProbe<'_>,
     variants: Vec<&Variant>,
     precision: Precision,
 ) -> Result<Vec<Tally>> {

@@ -13,7 +13,12 @@ use crate::schema::layout;
 /// Rounding errors of the vector from a sphere's centre, as they add up.
 const SPHERE: f64 = 2.5;
 
-pub(super) fn pack(packed: &mut PackedScene, scene: &Scene, sphere: &Sphere, eye: DVec3) -> Result<layout::Sphere> {
+pub(super) fn pack(
+    packed: &mut PackedScene,
+    scene: &Scene,
+    sphere: &Sphere,
+    eye: DVec3,
+) -> Result<layout::Sphere> {
     let map = add_map(packed, scene, sphere.material, |mapping, sampler, flat| {
         let around_center = Mapping { origin: sphere.center, ..*mapping };
         let mapping = if mapping.kind == MappingKind::Surface { &around_center } else { mapping };

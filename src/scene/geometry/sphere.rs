@@ -5,9 +5,8 @@ use glam::DVec3;
 use super::fields::required;
 use super::{Bounds, Described, Fields};
 use crate::core::error::Result;
-use crate::scene::model::DEFAULT;
 use crate::scene::limits::{COORDINATE, LENGTH};
-use crate::scene::model::Material;
+use crate::scene::model::{DEFAULT, Material};
 use crate::scene::refusal::{Check, Key};
 
 /// A sphere.

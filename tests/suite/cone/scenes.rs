@@ -34,6 +34,7 @@ fn shaders_agree_with_float64() {
     for (name, bound, apart) in [
         ("s1a", 1e-5, 0.0),
         ("s2", 5e-5, 0.002),
+        ("discs", 5e-5, 0.005),
         ("mirrors", 1e-4, 0.03),
         ("glass", 1e-4, 0.02),
         ("environment_cube", 2e-5, 0.002),
@@ -97,6 +98,19 @@ fn edges_are_covered_as_much_as_box_filtered_ones() {
     let ball = "[[sphere]]\ncenter = [0.1, 0.05, 0]\nradius = 0.7\nmaterial = 'white'\n";
     assert_covers(parallel(48, ball), DISC_FOR_SQUARE, "a ball");
     assert_covers(central(48, ball), DISC_FOR_SQUARE, "a ball from a point");
+    let disc = |normal: &str, radius: f64| {
+        format!(
+            "[[disc]]\ncenter = [0.1, 0.05, 0]\nnormal = {normal}\nradius = {radius}\nmaterial = 'white'\n"
+        )
+    };
+    for normal in ["[0, 0, 1]", "[0.5, 0.3, 1]"] {
+        assert_covers(parallel(48, &disc(normal, 0.7)), DISC_FOR_SQUARE, "a disc");
+        // Its ellipse counts as a circle of the same area.
+        assert_covers(central(48, &disc(normal, 0.7)), 1.2 * DISC_FOR_SQUARE, "a disc from a point");
+    }
+    // An ellipse twice as long and more bends within a pixel.
+    assert_covers(central(48, &disc("[1, 0.3, 0.3]", 0.7)), 3.0 * DISC_FOR_SQUARE, "a disc from aside");
+    assert_covers(central(33, &disc("[0, 1, 0.02]", 0.8)), 4.0 * DISC_FOR_SQUARE, "a disc seen edge-on");
     let plane = |extent: &str| {
         format!(
             "[[plane]]\norigin = [0, -1, 0]\ntangent = [1, 0, 0]\nbitangent = [0, 0.13, 1]\n{extent}material = 'white'\n"

@@ -132,6 +132,12 @@ const CONTEXTS: &[Context] = &[
         ..NONE
     },
     Context {
+        heading: "## `[[disc]]`",
+        header: "[[disc]]",
+        body: &[("center", "[0.0, 0.0, 0.0]"), ("normal", "[0.0, 0.0, 1.0]"), ("radius", "1.0")],
+        ..NONE
+    },
+    Context {
         heading: "## `[[triangle]]`",
         header: "[[triangle]]",
         body: &[("vertices", "[[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]")],

@@ -17,7 +17,7 @@ use moire::internal::texture::data::{ColorSpace, Dimension, TexelFormat, Texture
 use moire::internal::texture::sampler_spec::SamplerSpec;
 
 use crate::lookup::bench::{Rng, texture};
-use crate::shared_gpu::gpu;
+use crate::stage::device;
 
 /// Random texels; the third size counts slices, or the faces of a cube.
 pub fn solid(dimension: Dimension, [width, height, depth]: [u32; 3], format: TexelFormat) -> TextureData {
@@ -65,7 +65,7 @@ pub fn expected(scene: &PackedScene, query: &LookupQuery, index: usize, c: &Coor
 }
 
 pub fn answers(scene: &PackedScene, queries: &[LookupQuery]) -> Vec<[f32; 4]> {
-    probe::lookups(&gpu(), scene, false, false, queries).unwrap()
+    probe::lookups(&device(), scene, false, false, queries).unwrap()
 }
 
 /// Returns the changes over a footprint with these axes, rotated by `angle` on the texture; `roll` is the direction of

@@ -8,7 +8,7 @@ use moire::internal::texture::data::{ColorSpace, Dimension, TexelFormat, Texture
 use moire::internal::texture::sampler_spec::{Address, Filter, SamplerSpec, TexelCenter};
 
 use crate::lookup::bench::{pairs, query, uv_of};
-use crate::shared_gpu::gpu;
+use crate::stage::device;
 
 /// Grey floats, row by row.
 fn grey(width: u32, values: &[f32]) -> TextureData {
@@ -42,7 +42,7 @@ fn assert_reads(texture: TextureData, spec: SamplerSpec, cases: &[([f32; 2], f64
     };
     answers.push(("oracle", queries.iter().map(oracle).collect()));
     for (who, image_source) in [("device, buffer", false), ("device, image", true)] {
-        let read = probe::lookups(&gpu(), &scene, image_source, false, &queries).unwrap();
+        let read = probe::lookups(&device(), &scene, image_source, false, &queries).unwrap();
         answers.push((who, read.iter().map(|a| a[0].into()).collect()));
     }
     for (who, values) in answers {

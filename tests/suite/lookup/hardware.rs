@@ -10,7 +10,7 @@ use moire::internal::texture::sampler_spec::{Address, Method, SamplerSpec, Texel
 
 use super::assert_none;
 use super::bench::{BASIC, Rng, coordinates, pairs, query, texture};
-use crate::shared_gpu::gpu;
+use crate::stage::device;
 use crate::support::untested;
 
 const FORMATS: [(TexelFormat, ColorSpace); 6] = [
@@ -40,7 +40,7 @@ fn precision(gpu: &Gpu) -> Precision {
 
 /// Sixteen pairs of sampler and format a dispatch; each read with half and with integer centres.
 fn check(list: &[(SamplerSpec, usize)], seed: u64) {
-    let gpu = gpu();
+    let gpu = device();
     let mut complaints = Vec::new();
     let mut count = 0;
     for (list, batch) in list.chunks(MAX_SLOTS).zip(seed..) {
@@ -71,7 +71,7 @@ fn check(list: &[(SamplerSpec, usize)], seed: u64) {
 }
 
 fn supported(spec: &SamplerSpec) -> bool {
-    gpu().info().limits.mirror_clamp_to_edge || !spec.address.contains(&Address::MirrorClampToEdge)
+    device().info().limits.mirror_clamp_to_edge || !spec.address.contains(&Address::MirrorClampToEdge)
 }
 
 /// The whole table once; the six variants of minification and mips, which level 0 does not read,
@@ -89,7 +89,7 @@ fn every_variant_of_the_devices_samplers() {
 #[test]
 fn border_colours_of_the_devices_samplers() {
     let mut colors = STANDARD_BORDERS.to_vec();
-    if gpu().info().limits.custom_border_color {
+    if device().info().limits.custom_border_color {
         colors.push([0.9, 0.1, 0.6, 0.3]);
     } else {
         untested("custom border colours: the device has none");

@@ -10,7 +10,7 @@ use moire::internal::texture::sampler_spec::{Address, SamplerSpec, TexelCenter};
 
 use super::assert_none;
 use super::bench::{CERTAIN, Rng, coordinates, formats, pairs, query, texture, uv_of};
-use crate::shared_gpu::gpu;
+use crate::stage::device;
 
 /// Uncommon, distinct values, so that a wrong border channel is detected.
 const BORDER: [f32; 4] = [0.9, 0.1, 0.6, 0.3];
@@ -39,7 +39,7 @@ fn specs() -> Vec<SamplerSpec> {
 }
 
 fn check(scene: &PackedScene, image_source: bool, keep_everything: bool, queries: &[LookupQuery]) {
-    let answers = probe::lookups(&gpu(), scene, image_source, keep_everything, queries).unwrap();
+    let answers = probe::lookups(&device(), scene, image_source, keep_everything, queries).unwrap();
     assert_none(&judge(scene, queries, &answers, Precision::Shader), queries.len());
 }
 
@@ -128,7 +128,7 @@ fn coordinates_that_are_no_numbers_read_a_texel_and_the_oracles() {
         }
     }
     for image_source in [false, true] {
-        let answers = probe::lookups(&gpu(), &scene, image_source, true, &queries).unwrap();
+        let answers = probe::lookups(&device(), &scene, image_source, true, &queries).unwrap();
         for (query, answer) in queries.iter().zip(&answers) {
             let (image, how) = (
                 &scene.records.textures[query.texture as usize],

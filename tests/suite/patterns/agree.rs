@@ -5,7 +5,7 @@ use moire::internal::oracle::patterns::{HALTON_PAIRS, sample_pair};
 use moire::internal::scene::model::Pattern;
 
 use super::{points, scene};
-use crate::shared_gpu::gpu;
+use crate::stage::device;
 
 const WIDTH: u32 = 5;
 
@@ -33,7 +33,7 @@ impl Case {
 
     fn device(&self) -> Vec<[u32; 2]> {
         let scene = scene(self.pattern, self.count, self.shared, self.seed);
-        probe::positions(&gpu(), &scene, self.keep, &self.which).unwrap()
+        probe::positions(&device(), &scene, self.keep, &self.which).unwrap()
     }
 
     fn oracle(&self) -> Vec<[u32; 2]> {

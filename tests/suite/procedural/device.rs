@@ -10,7 +10,7 @@ use moire::internal::texture::procedural::ProceduralKind::{self, *};
 
 use super::{default_record, record};
 use crate::lookup::bench::{Rng, Vectors};
-use crate::shared_gpu::gpu;
+use crate::stage::device;
 
 fn scene(records: &[layout::Procedural], filtered: bool) -> PackedScene {
     let footprint = if filtered { Footprint::Differentials } else { Footprint::None };
@@ -130,7 +130,7 @@ fn variants(kind: ProceduralKind) -> Vec<layout::Procedural> {
 }
 
 fn agrees(kind: ProceduralKind) {
-    let gpu = gpu();
+    let gpu = device();
     let records = variants(kind);
     for filtered in [false, true] {
         let scene = scene(&records, filtered);
@@ -167,7 +167,7 @@ fn all_kinds() -> Vec<layout::Procedural> {
 
 #[test]
 fn what_is_left_out_changes_no_bit_and_neither_does_a_second_run() {
-    let gpu = gpu();
+    let gpu = device();
     for records in [all_kinds(), variants(Fbm), variants(Checker), vec![default_record(Wood)]] {
         for filtered in [false, true] {
             let scene = scene(&records, filtered);
@@ -185,7 +185,7 @@ fn what_is_left_out_changes_no_bit_and_neither_does_a_second_run() {
 
 #[test]
 fn coordinates_that_are_not_finite_read_the_origin_and_endless_footprints_the_mean() {
-    let gpu = gpu();
+    let gpu = device();
     let records = all_kinds();
     let odd = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 3e38];
     let query = |procedural, x: f32, w: f32| ProceduralQuery {
@@ -212,7 +212,7 @@ fn coordinates_that_are_not_finite_read_the_origin_and_endless_footprints_the_me
 /// mean for one of 0.001.
 #[test]
 fn small_boxes_far_from_the_origin_keep_their_mean() {
-    let gpu = gpu();
+    let gpu = device();
     let records = [default_record(Checker), default_record(Stripes), default_record(Grid)];
     let scene = scene(&records, true);
     let mut list = Vec::new();
@@ -234,7 +234,7 @@ fn small_boxes_far_from_the_origin_keep_their_mean() {
 
 #[test]
 fn planted_errors_of_procedurals_are_caught() {
-    let gpu = gpu();
+    let gpu = device();
     let records = all_kinds();
     let scene = scene(&records, true);
     let mut rng = Rng::new(95);

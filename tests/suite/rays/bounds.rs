@@ -37,9 +37,34 @@ pub fn estimate(scene: &PackedScene, shape: u32, ray: &Ray) -> Estimate {
         plane(scene, shape as usize, ray)
     } else if shape < planes + spheres {
         sphere(scene, (shape - planes) as usize, ray)
+    } else if let Some(index) = disc_of(scene, shape) {
+        disc(scene, index, ray)
     } else {
         triangle(scene, (shape - planes - spheres) as usize, ray)
     }
+}
+
+/// The index of a shape among the discs, which come last.
+pub fn disc_of(scene: &PackedScene, shape: u32) -> Option<usize> {
+    let records = &scene.records;
+    (shape as usize).checked_sub(records.planes.len() + records.spheres.len() + records.triangles.len())
+}
+
+/// Error of a disc's own coordinate: of the point, of the vector from the centre, of the product with an axis.
+pub fn disc_own_error(scene: &PackedScene, index: usize, point: DVec3, point_error: f64) -> f64 {
+    let disc = &scene.records.discs[index];
+    disc.axis_u.length() * (point_error + 6.0 * U * (point.length() + disc.center.length()))
+}
+
+fn disc(scene: &PackedScene, index: usize, ray: &Ray) -> Estimate {
+    let disc = &scene.records.discs[index];
+    let (t, local) = disc.distance_to(ray);
+    let t_plane = (disc.distance - disc.normal.dot(ray.origin)) / disc.normal.dot(ray.direction);
+    let error = flat_error(disc.normal, disc.distance, ray, t_plane);
+    let point = ray.origin + t_plane * ray.direction;
+    let point_error = error * ray.direction.length() + 2.0 * U * (ray.origin.length() + point.length());
+    let unsure = (local.length() - 1.0).abs() <= 1.5 * disc_own_error(scene, index, point, point_error);
+    Estimate { t, error, unsure, curvature: 0.0, weights: 0.0 }
 }
 
 /// Error of t = (n·o' − n·o) / n·d.

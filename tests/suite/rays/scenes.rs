@@ -78,6 +78,15 @@ fn add_sphere(text: &mut String, rng: &mut Rng, material: usize) {
     write!(text, "[[sphere]]\ncenter = {center}\nradius = {radius:?}\nmaterial = \"m{material}\"\n").unwrap();
 }
 
+fn add_disc(text: &mut String, rng: &mut Rng, material: usize, uv: &str) {
+    let (center, normal, radius) = (three(rng.vector(4.0)), three(rng.direction()), rng.between(0.2, 2.5));
+    write!(
+        text,
+        "[[disc]]\ncenter = {center}\nnormal = {normal}\nradius = {radius:?}\nuv = \"{uv}\"\nmaterial = \"m{material}\"\n"
+    )
+    .unwrap();
+}
+
 fn add_triangle(text: &mut String, rng: &mut Rng, material: usize, smooth: bool) {
     let place = rng.vector(3.0);
     let vertices = [0, 1, 2].map(|_| three(place + rng.vector(2.5))).join(", ");
@@ -116,13 +125,22 @@ pub fn triangles(rng: &mut Rng) -> PackedScene {
     pack_text(&text)
 }
 
-/// Twelve shapes.
+pub fn discs(rng: &mut Rng) -> PackedScene {
+    let mut text = materials(rng, 8);
+    for i in 0..16 {
+        add_disc(&mut text, rng, i % 8, ["planar", "polar"][i / 8]);
+    }
+    pack_text(&text)
+}
+
+/// Sixteen shapes.
 pub fn everything(rng: &mut Rng) -> PackedScene {
     let mut text = materials(rng, 12);
     for i in 0..4 {
         add_plane(&mut text, rng, i, true);
         add_sphere(&mut text, rng, i + 4);
         add_triangle(&mut text, rng, i + 8, i % 2 == 0);
+        add_disc(&mut text, rng, i, ["planar", "polar"][i % 2]);
     }
     pack_text(&text)
 }

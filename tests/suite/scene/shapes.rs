@@ -46,6 +46,26 @@ fn shape_rules() {
         ("radius negative", "[[sphere]]\ncenter = [0, 0, 0]\nradius = -1".into(), &["above 0", "found -1"]),
         ("radius missing", "[[sphere]]\ncenter = [0, 0, 0]".into(), &["sphere.radius", "missing"]),
         ("centre far", "[[sphere]]\ncenter = [1e31, 0, 0]\nradius = 1".into(), &["sphere.center", "1e30"]),
+        (
+            "disc without normal",
+            "[[disc]]\ncenter = [0, 0, 0]\nradius = 1".into(),
+            &["\"disc.normal\" is missing"],
+        ),
+        (
+            "disc of normal zero",
+            "[[disc]]\ncenter = [0, 0, 0]\nnormal = [0, 0, 0]\nradius = 1".into(),
+            &[":11:10:", "disc.normal", "not zero"],
+        ),
+        (
+            "disc of radius zero",
+            "[[disc]]\ncenter = [0, 0, 0]\nnormal = [0, 0, 1]\nradius = 0".into(),
+            &["disc.radius", "above 0"],
+        ),
+        (
+            "uv unknown",
+            "[[disc]]\ncenter = [0, 0, 0]\nnormal = [0, 0, 1]\nradius = 1\nuv = 'radial'".into(),
+            &["disc.uv", "allowed: planar, polar"],
+        ),
         ("vertices missing", "[[triangle]]".into(), &["triangle.vertices", "missing"]),
         ("two vertices", triangle("[[0, 0, 0], [1, 0, 0]]", ""), &["triangle.vertices", "3 vertices"]),
         (

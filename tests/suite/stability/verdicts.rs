@@ -9,7 +9,7 @@ use moire::internal::lab::stability::text::text;
 use moire::internal::lab::stability::{all, case::Case};
 
 use super::{case, none, points, report, row};
-use crate::shared_gpu::gpu;
+use crate::stage::device;
 use crate::support::told;
 
 #[test]
@@ -88,7 +88,7 @@ fn cases() -> Vec<Case> {
 
 #[test]
 fn a_case_that_fails_is_broken_with_its_message_and_the_others_go_on() {
-    let report = run(&gpu(), cases(), None, &NoProgress).unwrap();
+    let report = run(&device(), cases(), None, &NoProgress).unwrap();
     let verdicts: Vec<&str> = report.rows.iter().map(|r| r.verdict.name()).collect();
     assert_eq!(verdicts, ["within", "broken", "broken"]);
     assert_eq!(report.rows[1].worst.place, "the picture is too wide (make it smaller)");
@@ -98,12 +98,12 @@ fn a_case_that_fails_is_broken_with_its_message_and_the_others_go_on() {
 #[test]
 fn only_chooses_by_a_part_of_the_name_and_an_unknown_one_lists_all_names() {
     let labels = |only| {
-        let report = run(&gpu(), cases(), Some(only), &NoProgress).unwrap();
+        let report = run(&device(), cases(), Some(only), &NoProgress).unwrap();
         report.rows.iter().map(|r| r.label()).collect::<Vec<_>>()
     };
     assert_eq!(labels("one"), ["a/one", "b/one"]);
     assert_eq!(labels("b/"), ["b/one"]);
-    let told = told(run(&gpu(), cases(), Some("three"), &NoProgress));
+    let told = told(run(&device(), cases(), Some("three"), &NoProgress));
     assert!(told.contains("\"three\"") && told.contains("a/one, a/two, b/one"), "{told}");
 }
 
@@ -120,12 +120,12 @@ impl Progress for Stop {
 #[test]
 fn a_wish_to_stop_ends_the_run_before_and_within_a_case() {
     let stopped = |cases, progress: &dyn Progress| {
-        matches!(run(&gpu(), cases, None, progress), Err(Error::Interrupted))
+        matches!(run(&device(), cases, None, progress), Err(Error::Interrupted))
     };
     assert!(stopped(vec![case("a", "one", 1.0, none)], &Stop));
     assert!(stopped(vec![case("a", "one", 1.0, interrupted)], &NoProgress));
     // All cases poll between values.
-    let gpu = gpu();
+    let gpu = device();
     for case in all() {
         let outcome = (case.run)(&Bench::new(&gpu, &Stop));
         assert!(matches!(outcome, Err(Error::Interrupted)), "{} goes on", case.label());

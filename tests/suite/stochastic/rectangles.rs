@@ -7,7 +7,7 @@ use moire::internal::oracle::rectangle::{MIN_SOLID_ANGLE, on_rectangle};
 use moire::internal::scene::model::Pattern;
 
 use crate::lookup::bench::Rng;
-use crate::shared_gpu::gpu;
+use crate::stage::device;
 
 /// Of the rectangle between two corners, seen from `z` above the origin: the sum of four arc tangents.
 fn solid_angle(low: DVec2, high: DVec2, z: f64) -> f64 {
@@ -97,7 +97,7 @@ fn device_and_oracle_agree_in_solid_angle() {
         .collect();
     let mut scene = super::packed(&super::parsed(super::lens::VIEW));
     scene.header.pattern = Pattern::Center;
-    let answers = probe::warps(&gpu(), &scene, &queries).unwrap();
+    let answers = probe::warps(&device(), &scene, &queries).unwrap();
     for (((middle, half, z), square), answer) in cases.into_iter().zip(&answers) {
         let [x, y, below, angle] = answer.rectangle.map(f64::from);
         let what = format!("{middle} {half} {z} {square:?}: device {:?}", answer.rectangle);

@@ -12,7 +12,7 @@ use moire::internal::oracle::footprint::around;
 use moire::internal::scene::model::Pattern;
 
 use crate::lookup::bench::Rng;
-use crate::shared_gpu::gpu;
+use crate::stage::device;
 
 const HEIGHTS: [f32; 5] = [1e-7, 0.01, 0.5, 1.0, 2.0];
 const ALPHAS: [f32; 4] = [0.01, 0.1, 0.5, 1.0];
@@ -50,7 +50,7 @@ fn device_and_oracle_agree_to_a_few_ulp() {
     let queries = queries();
     let mut scene = super::packed(&super::parsed(super::lens::VIEW));
     scene.header.pattern = Pattern::Center;
-    let answers = probe::warps(&gpu(), &scene, &queries).unwrap();
+    let answers = probe::warps(&device(), &scene, &queries).unwrap();
     let mut beyond = 0;
     for (query, answer) in queries.iter().zip(&answers) {
         beyond += u32::from(!facet_agrees(query, answer));

@@ -7,8 +7,8 @@ use moire::internal::render::{Session, Tuning, render};
 use moire::internal::scene::model::{Algorithm, Pattern, Scene};
 use moire::internal::texture;
 
-use crate::shared_gpu;
 use crate::stage;
+use crate::stage::device;
 
 fn load(name: &str) -> Scene {
     let mut scene = stage::scene(name);
@@ -22,7 +22,7 @@ fn packed(scene: &Scene) -> moire::internal::pack::PackedScene {
 }
 
 fn alone(scene: &Scene) -> Film {
-    let gpu = shared_gpu::gpu();
+    let gpu = device();
     render(&gpu, packed(scene), false, &Tuning::default(), &NoProgress).unwrap().0
 }
 
@@ -36,7 +36,7 @@ fn samples_beside_beams_are_those_that_are_asked_for() {
         scene.sampling = moire::internal::scene::model::Sampling { pattern, spp, ..scene.sampling };
         scene
     };
-    let gpu = shared_gpu::gpu();
+    let gpu = device();
     let session = Session::open(&gpu, packed(&base), false, &Tuning::default()).unwrap();
     for scene in
         [variant(Pattern::Stratified, 1), variant(Pattern::Random, 5), variant(Pattern::Stratified, 64)]
@@ -62,7 +62,7 @@ fn renders_in_turn_equal_renders_alone() {
             variant(Pattern::Random, 5, 7),
             variant(Pattern::Stratified, 324, 1),
         ];
-        let gpu = shared_gpu::gpu();
+        let gpu = device();
         let session = Session::open(&gpu, packed(&base), false, &Tuning::default()).unwrap();
         let prepared: Vec<_> = scenes.iter().map(|s| session.prepare_sampling(s).unwrap()).collect();
         let alone: Vec<Film> = scenes.iter().map(alone).collect();

@@ -5,8 +5,7 @@ use moire::internal::core::progress::Progress;
 use moire::internal::lab::verify::verify;
 use serde_json::Value;
 
-use crate::shared_gpu::gpu;
-use crate::stage::device_name;
+use crate::stage::{device, device_name};
 use crate::support::moire;
 
 struct Stop;
@@ -21,7 +20,7 @@ impl Progress for Stop {
 
 #[test]
 fn a_wish_to_stop_ends_after_one_batch() {
-    assert!(matches!(verify(&gpu(), None, &Stop), Err(Error::Interrupted)));
+    assert!(matches!(verify(&device(), None, &Stop), Err(Error::Interrupted)));
 }
 
 /// All classes of formats, filters and readers with one address mode: flat textures, volumes and

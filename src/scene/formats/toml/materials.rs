@@ -54,9 +54,10 @@ pub(super) fn material(table: &Table<'_>, known: &Known<'_, '_>) -> Result<Mater
 
 /// Reads the keys of the material's model.
 fn read_model_keys(table: &Table<'_>, material: &mut Material) -> Result<()> {
-    for ModelKey { name, models, value, .. } in KEYS {
+    for ModelKey { name, value, .. } in KEYS {
         let Some(field) = table.get(name) else { continue };
-        if !models.contains(&material.model) {
+        if !material.model.has_key(name) {
+            let models: Vec<Model> = Model::ALL.iter().copied().filter(|model| model.has_key(name)).collect();
             let quoted =
                 |between| models.iter().map(|m| format!("\"{m}\"")).collect::<Vec<_>>().join(between);
             let (noun, verb) = if models.len() > 1 { ("models", "have") } else { ("model", "has") };

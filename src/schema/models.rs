@@ -1,0 +1,21 @@
+//! The reflection models: name, properties, and the keys of `[[material]]` that only some of them have. `emits`: it emits
+//! light; `lit`: it reflects the light of lights; `specular`: it reflects or refracts rays; `transmits`: it transmits them.
+
+/// Hands the table to another macro.
+macro_rules! with_models {
+    ($consumer:ident) => {
+        $consumer! {
+            Unlit = "unlit", [emits], [];
+            #[default]
+            Lambert = "lambert", [lit], [];
+            Mirror = "mirror", [specular], [roughness];
+            /// Reflects or refracts, in the ratio of the Fresnel equations.
+            Dielectric = "dielectric", [specular transmits], [ior roughness];
+            /// Lambert with a highlight.
+            Phong = "phong", [lit], [specular exponent];
+            /// Rough diffuse, energy-preserving.
+            OrenNayar = "oren-nayar", [lit], [roughness];
+        }
+    };
+}
+with_models!(models);
