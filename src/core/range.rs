@@ -34,7 +34,7 @@ impl Rect {
             return Ok(());
         }
         Err(Error::new(format!(
-            "crop {x},{y},{width},{height} reaches outside the picture of {full_width}×{full_height} pixels"
+            "--crop {x},{y},{width},{height} reaches outside the picture of {full_width}×{full_height} pixels"
         )))
     }
 

@@ -78,7 +78,7 @@ pub(super) fn check(
         };
         return Err(Error::with_help(
             format!("{label} is too large for {}: {limit_text}", core.info.name),
-            "Scale the texture down, use method = \"shader\" with texels from a buffer, or another device.",
+            "Scale the texture down, use method = \"shader\" with --texels auto or buffer, or another device.",
         ));
     }
     if !core.supports(desc.format, false) {

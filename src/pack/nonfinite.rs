@@ -26,7 +26,7 @@ pub fn admit(packed: &mut PackedScene, scene: &Scene, textures: &[TextureData]) 
         if packed.beams && textures::kind(texture) == TextureKind::Flat {
             return refused(
                 "algorithm \"beam\" reads sums over whole rows, which one of them spoils",
-                "use algorithm \"samples\", \"adaptive\" or \"cone\"",
+                "use --algorithm samples, adaptive or cone",
             );
         }
         if reads(packed, scene, i, SamplerSpec::needs_sums) {
@@ -38,7 +38,7 @@ pub fn admit(packed: &mut PackedScene, scene: &Scene, textures: &[TextureData]) 
         if readers(scene, i).any(|s| s.method == Method::Hardware) {
             return refused(
                 "method \"hardware\" leaves it to the driver what becomes of a texel that has no weight",
-                "use method \"shader\"",
+                "use --method shader",
             );
         }
         let kernel = scene.textures.get(i).map_or(MipKernel::Box, |t| t.mip_kernel);

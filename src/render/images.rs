@@ -165,7 +165,7 @@ fn upload_image(
                 "texture `{name}`: device \"{}\" does not support {stored} images {filtering}",
                 gpu.info().name
             ),
-            "use method = \"shader\" with texels from a buffer, or store the texture with 8 bits",
+            "use method = \"shader\" with --texels auto or buffer, or store the texture with 8 bits",
         ));
     }
     let desc = ImageDesc {

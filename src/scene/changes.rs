@@ -54,7 +54,7 @@ impl Changes {
         sampling.precision = self.precision.unwrap_or(sampling.precision);
         self.adapt_for_adaptive(sampling)?;
         check_shared(sampling.pattern, sampling.shared).map_err(Error::new)?;
-        check_spp(sampling.pattern, sampling.spp).map_err(Error::new)?;
+        check_spp(sampling.pattern, sampling.spp).map_err(|m| Error::new(format!("--spp: {m}")))?;
         for sampler in &mut scene.samplers {
             sampler.mip = self.mip.unwrap_or(sampler.mip);
             sampler.method = self.method.unwrap_or(sampler.method);
