@@ -84,11 +84,11 @@ pub struct PackedScene {
     pub beams: bool,
     /// For beams: where each texture's sums along rows begin, 0 for none; then those.
     pub prefix_sums: Vec<u32>,
-    /// What those sums are made from, where beams may still be wanted.
+    /// The textures from which those sums are made, where beams may still be wanted.
     pub beam_textures: Option<Arc<Vec<TextureData>>>,
-    /// Whether a device counts what goes beyond a limit.
+    /// The device counts values beyond a limit.
     pub guarded: bool,
-    /// Of adaptive sampling: the share of a texture that is far brighter than the rest and yet has much of its light;
+    /// For adaptive sampling: the share of a texture that is far brighter than the rest and yet has much of its light;
     /// else none.
     pub bright_share: Option<f64>,
     /// The table by which samples are placed about their pixel; empty where there is a closed form.
@@ -114,7 +114,7 @@ pub fn pack(scene: &Scene, textures: Vec<TextureData>, crop: Option<Rect>) -> Re
     pack_with(scene, textures, crop, MipPlacement::Host)
 }
 
-/// The same, with some levels of textures left to the device.
+/// Packs a scene, with some levels of textures left to the device.
 pub fn pack_with(
     scene: &Scene,
     textures: Vec<TextureData>,
@@ -247,29 +247,29 @@ fn pack_environment(packed: &mut PackedScene, scene: &Scene, environment: &Envir
 }
 
 impl PackedScene {
-    /// Whether samples are averages over footprints.
+    /// Returns true if samples are averages over footprints.
     pub fn prefilters(&self) -> bool {
         self.header.footprint != Footprint::None
     }
 
-    /// Whether camera rays find their triangles in lists.
+    /// Returns true if camera rays find their triangles in lists.
     pub fn culls_tiles(&self) -> bool {
         self.header.cell_side != 0 && self.algorithm != Algorithm::Cone && !self.beams
     }
 
-    /// Does any look-up go through the device's own samplers?
+    /// Returns true if a look-up uses the device's own samplers.
     pub fn uses_hardware_samplers(&self) -> bool {
         let mut slots = self.slots.iter().chain(&self.volume_slots).chain(&self.cube_slots);
         slots.any(|s| self.sampler_specs[s.sampler].method == Method::Hardware)
     }
 
-    /// Is there anything to look up that images of flat textures do not hold?
+    /// Returns true if some texture is in no image of flat textures.
     pub fn has_solids(&self) -> bool {
         let solids = [TextureKind::Volume, TextureKind::Cube];
         self.summed_tables || self.records.textures.iter().any(|t| solids.contains(&t.kind))
     }
 
-    /// Of images alone.
+    /// Returns the number of image descriptors.
     pub fn slot_counts(&self) -> SlotCounts {
         SlotCounts {
             flat: self.slots.len() as u32,

@@ -118,7 +118,7 @@ impl SceneBuilder {
         Ok(whole::Scene::new(scene))
     }
 
-    /// The same; what it is refused for names the item and the key.
+    /// Returns the scene, or the item and key that break a rule.
     pub(super) fn check(mut self) -> Check<Scene> {
         self.check_counts()?;
         self.complete();

@@ -31,17 +31,17 @@ pub struct Scene {
     pub width: u32,
     /// Rows of the picture.
     pub height: u32,
-    /// How samples around a pixel are weighted.
+    /// The reconstruction filter of pixels.
     pub pixel_filter: PixelFilter,
-    /// How the picture is sampled.
+    /// The sampling of the picture.
     pub sampling: Sampling,
-    /// What rays see that hit nothing.
+    /// The radiance of rays that hit nothing.
     pub background: Background,
-    /// What materials and the environment show.
+    /// The textures of materials and of the environment.
     pub textures: Vec<TextureSource>,
-    /// How they are read.
+    /// The samplers of textures.
     pub samplers: Vec<SamplerSpec>,
-    /// What surfaces do with light.
+    /// The materials of surfaces.
     pub materials: Vec<Material>,
     /// All shapes; triangles that have no area are left out.
     pub shapes: Shapes,
@@ -53,7 +53,7 @@ pub struct Scene {
     pub lights: Vec<Light>,
 }
 
-/// What rays see that hit nothing.
+/// The radiance of rays that hit nothing.
 #[derive(Clone, Debug, Default)]
 pub struct Background {
     /// Without an environment all there is; with one it multiplies the texture.
@@ -69,7 +69,7 @@ pub struct Environment {
     pub texture: usize,
     /// Index into `Scene::samplers`.
     pub sampler: usize,
-    /// How directions lie on the texture.
+    /// The mapping of directions to the texture.
     pub layout: EnvironmentLayout,
     /// Degrees about +y, counter-clockwise from above.
     pub rotate: f64,
@@ -80,7 +80,7 @@ pub struct Environment {
 }
 
 named_enum! {
-    /// How directions lie on an environment's texture (`[background] layout`).
+    /// The mapping of directions to an environment's texture (`[background] layout`).
     pub enum EnvironmentLayout {
         /// The image's centre looks along -z, +x to its right, v = 0 at +y.
         Equirectangular = "equirectangular",
@@ -108,7 +108,7 @@ impl BumpKind {
 /// A texture that turns the shading normal.
 #[derive(Clone, Copy, Debug)]
 pub struct BumpMap {
-    /// What the texture holds.
+    /// The content of the texture.
     pub kind: BumpKind,
     /// Index into `Scene::textures`.
     pub texture: usize,
@@ -117,7 +117,7 @@ pub struct BumpMap {
     pub strength: f64,
 }
 
-/// What a surface does with light.
+/// The material of a surface.
 #[derive(Clone, Debug)]
 pub struct Material {
     /// For messages.
@@ -130,17 +130,17 @@ pub struct Material {
     pub texture: Option<usize>,
     /// Index into `Scene::samplers`; meaningful where a texture or a bump map is set.
     pub sampler: usize,
-    /// How a point of the surface becomes a texture coordinate.
+    /// The mapping of points of the surface to texture coordinates.
     pub mapping: Mapping,
     /// A texture that turns its normals.
     pub bump: Option<BumpMap>,
-    /// Of the highlight of `phong`.
+    /// Colour of the highlight of `phong`.
     pub specular: DVec3,
     /// The highlight's sharpness, of `phong`.
     pub exponent: f64,
     /// Refractive index of `dielectric` behind its surface, over that in front of it.
     pub ior: f64,
-    /// Of `mirror` and `dielectric`, from 0, which is smooth, to 1.
+    /// Roughness of `mirror`, `dielectric` and `oren-nayar`, from 0, which is smooth, to 1.
     pub roughness: f64,
 }
 
@@ -163,13 +163,13 @@ impl Default for Material {
 }
 
 impl Material {
-    /// Whether a map leads to a texture of this material.
+    /// Returns true if the material has a texture.
     pub fn is_mapped(&self) -> bool {
         self.texture.is_some() || self.bump.is_some()
     }
 }
 
-/// What shines on surfaces.
+/// A light source.
 #[derive(Clone, Copy, Debug)]
 pub enum Light {
     /// Intensity in W/sr.

@@ -33,7 +33,7 @@ enums! {
     /// The distribution of samples over invocations.
     #[derive(Default)]
     SCHEDULE: Schedule {
-        /// The same number in each pixel, tile by tile.
+        /// An equal number of samples in each pixel, tile by tile.
         #[default]
         Tiles = "tiles",
         /// By a list of batches.

@@ -1,6 +1,6 @@
-// The door to the reflection models: what a material sends by itself, what it sends on of a light, whether it sends
-// rays on, and whether beams know the integral over a region. The one place that tells models apart, with
-// `specular.glsl` for the rays that go on. Twin: src/oracle/bsdf/mod.rs.
+// The interface to the reflection models: emitted and reflected radiance, whether a material is specular, and whether
+// beams know the integral over a region. The only place that distinguishes models, with `specular.glsl` for reflected
+// and refracted rays. Twin: src/oracle/bsdf/mod.rs.
 #ifndef MODELS_GLSL
 #define MODELS_GLSL
 
@@ -12,7 +12,7 @@
 #include "phong.glsl"
 #include "unlit.glsl"
 
-// A material at a hit: what its lobes need beside the direction of the light.
+// A material at a hit: the parameters of its lobes, without the direction of the light.
 struct Bsdf {
     uint model;
     vec3 albedo;     // the material's colour, times its texture
@@ -21,7 +21,7 @@ struct Bsdf {
     float roughness;
     vec3 normal;     // unit, for shading
     vec3 direction;  // of the ray
-    vec3 mirror;     // where a mirror would send it
+    vec3 mirror;     // its mirror reflection
 };
 
 // Irradiance over pi from all lights, weighted by two lobes: the one that the albedo colours, and that of a colour
@@ -34,21 +34,21 @@ struct Lit {
 // Some model has the second lobe.
 const bool SECOND_LOBE = (MODELS & ((1u << MODEL_PHONG) | (1u << MODEL_OREN_NAYAR))) != 0u;
 
-// Some model sends light on. Tested by itself before `is_lit`: code behind a call stays in the pipeline.
+// Some model reflects the light of lights. Tested before `is_lit` is called: code behind a call stays in the pipeline.
 const bool HAS_LIT = (MODELS & ((1u << MODEL_LAMBERT) | (1u << MODEL_PHONG) | (1u << MODEL_OREN_NAYAR))) != 0u;
 
-// Sends rays on, and nothing else.
+// True if it reflects or refracts rays, and nothing else.
 bool is_specular(uint model) {
     return MODE_IS(MODELS, MODEL_MIRROR, model) || MODE_IS(MODELS, MODEL_DIELECTRIC, model);
 }
 
-// Sends light on.
+// True if it reflects the light of lights.
 bool is_lit(uint model) {
     return MODE_IS(MODELS, MODEL_PHONG, model) || MODE_IS(MODELS, MODEL_LAMBERT, model) ||
            MODE_IS(MODELS, MODEL_OREN_NAYAR, model);
 }
 
-// Radiance that a material sends by itself, where its colour times what the path carries is `color`.
+// Radiance that a material emits, where its colour times what the path carries is `color`.
 vec3 emitted(uint model, vec3 color) {
     return MODE_IS(MODELS, MODEL_UNLIT, model) ? unlit_emitted(color) : vec3(0.0);
 }
@@ -70,7 +70,7 @@ vec2 evaluate(const Bsdf bsdf, vec3 way) {
     return lobes;
 }
 
-// What a lit material sends to the eye; `color` is the albedo times what the path carries.
+// Radiance that a lit material reflects to the eye; `color` is the albedo times what the path carries.
 vec3 reflected(const Bsdf bsdf, vec3 color, vec3 carried, const Lit lit) {
     vec3 seen = color * lit.first;
     if (MODE_IS(MODELS, MODEL_PHONG, bsdf.model)) {
@@ -82,10 +82,10 @@ vec3 reflected(const Bsdf bsdf, vec3 color, vec3 carried, const Lit lit) {
     return seen;
 }
 
-// Whether radiance is the same in all directions, so that it changes with texture and light alone.
+// True if radiance is the same in all directions, so that it changes with texture and light alone.
 bool is_diffuse(uint model) { return MODE_IS(MODELS, MODEL_LAMBERT, model); }
 
-// Whether beams know the integral over a region of a flat shape, without a texture; `smooth_normals`: of a shape
+// True if beams know the integral over a region of a flat shape, without a texture; `smooth_normals`: of a shape
 // whose shading normals differ from place to place.
 bool is_integrable_over_region(const Material material, bool smooth_normals) {
     bool unlit = MODE_IS(MODELS, MODEL_UNLIT, material.model);

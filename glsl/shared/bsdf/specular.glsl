@@ -60,7 +60,7 @@ Bounce sample_bsdf(const Material material, const Surface surface, real3 directi
             real3 outward = mirror ? way : -way;
             float seen = float(-dot3(direction, surface.normal) * inverse_root(dot3(direction, direction)));
             float leaving = float(dot3(outward, surface.normal) * inverse_root(dot3(outward, outward)));
-            // What a facet sends into the surface is lost.
+            // Light that a facet reflects into the surface is lost.
             bounce.leaves = leaving > 0.0 && dot3(outward, surface.geometric_normal) > 0.0;
             bounce.weight = mirror ? smith_g2_over_g1(max(seen, 0.0), leaving, alpha) : smith_g1_refracted(leaving, alpha);
         }

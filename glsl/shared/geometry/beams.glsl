@@ -5,7 +5,7 @@
 
 #include "kinds.glsl"
 
-// Whether a shape has a region; of others beams do not know the outline.
+// True if a shape has a region; beams do not know the outline of others.
 bool has_region(const Header header, uint shape) {
     COUNT_SHAPES
     bool is_round = false;
@@ -81,7 +81,7 @@ ConvexRegion shadow_region(const Header header, const PixelFrustum frame, vec3 n
     vec3 place = point_light ? light.position : light.direction;
     vec4 plane = shape_plane(header, shape);
     vec3 n = plane.xyz;
-    // Of the light before the shape's plane, or of a way's length towards it.
+    // Height of the light over the shape's plane, or of a unit step towards it.
     float rise = point_light ? plane.w - dot3(n, place) : dot3(n, place);
     float side = sign(rise);
     ConvexRegion region;

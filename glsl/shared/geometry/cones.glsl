@@ -5,7 +5,7 @@
 
 #include "kinds.glsl"
 
-// The same cone, which leaves a shape.
+// The cone with the floor of the shape that it leaves.
 Cone leaving(const Header header, Cone cone, uint shape) {
     if (!FLOORS || shape == NO_SHAPE) return cone;
     COUNT_SHAPES
@@ -41,7 +41,7 @@ bool cut_shape(const Header header, const Cone cone, uint shape) {
     return has_lines;
 }
 
-// What the shape covers.
+// The part of the disc that the shape covers.
 Covered covered_by(const Header header, const Cone cone, uint shape) {
     COUNT_SHAPES
 #define COVERED(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed) \
@@ -54,7 +54,7 @@ Covered covered_by(const Header header, const Cone cone, uint shape) {
     return cut_disc();
 }
 
-// Whether the cone may touch the shape.
+// True if the cone may touch the shape.
 bool touched(const Header header, const Cone cone, uint shape) {
     COUNT_SHAPES
 #define TOUCHED(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed) \
@@ -91,8 +91,8 @@ Hit meet(const Header header, const Ray ray, uint shape) {
     return hit;
 }
 
-// How deep a shape lies over the disc: its own plane, that which touches a ball, and where a ball ends
-// its distance alone.
+// The depth of a shape over the disc: by its own plane, or a ball's tangent plane; at a ball's outline by its distance
+// alone.
 Flat depth_of(const Header header, const Cone cone, uint shape, float t, float area) {
     COUNT_SHAPES
     vec4 plane = vec4(0.0);

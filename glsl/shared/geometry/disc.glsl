@@ -71,7 +71,7 @@ struct Conic {
     vec3 front; // positive where the plane lies before the cone
     vec3 w;
     vec3 across; // numerator of the own coordinate along which the strip is thin
-    vec3 tangent; // of the outline, outwards of the axis
+    vec3 tangent; // of the outline at the point radially outwards of the axis
 };
 
 Conic conic_of(const Cone cone, const Disc disc) {
@@ -138,7 +138,7 @@ Covered covered_by(const Cone cone, const Disc disc) {
     return cut_disc();
 }
 
-// Whether the cone may touch the square around the disc.
+// True if the cone may touch the square around the disc.
 bool touched(const Cone cone, const Disc disc) {
     Flat seen = flat_in(cone, disc.normal, disc.distance);
     whole_disc();

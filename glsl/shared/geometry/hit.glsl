@@ -1,4 +1,4 @@
-// What a ray meets: the hit, and what shading and mapping need to know of the place; and shapes that move. Twin:
+// The hit of a ray, the surface interaction that shading and mapping use, and shapes that move. Twin:
 // src/oracle/geometry/hit.rs.
 #ifndef HIT_GLSL
 #define HIT_GLSL
@@ -18,7 +18,7 @@ struct Hit {
 #define ORIGIN_IS_EYE (!BOUNCES && !LENS && !TIMED && PROJECTIONS == (1u << PROJECTION_PERSPECTIVE))
 #endif
 
-// How far a shape has moved at the ray's time. Shapes are met, and textured, where they are at time 0, by rays
+// The displacement of a shape at the ray's time. Shapes are intersected, and textured, where they are at time 0, by rays
 // that start as far back.
 real3 moved_by(const Header header, const Ray ray, uint shape) {
     real3 shift = real3(0.0);
@@ -50,7 +50,7 @@ struct Surface {
 
 const mat3 FLAT = mat3(0.0);
 
-// Whether anything asks for the change of normals: footprints that leave a mirror, or bump maps that are mapped by directions.
+// True if the change of normals is needed: footprints that leave a mirror, or bump maps that are mapped by directions.
 const bool BY_DIRECTION = (ENTITIES & ((1u << ENTITY_NORMAL) | (1u << ENTITY_REFLECTION))) != 0u;
 const bool CURVED_BUMP = BUMPED && BY_DIRECTION;
 const bool NEEDS_SHAPE_OPERATOR = FILTERED || CURVED_BUMP;

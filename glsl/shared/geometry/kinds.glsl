@@ -5,8 +5,8 @@
 
 #include "schema/shapes.glsl"
 
-// Of one kind, where all kinds before it have been asked: a scene of one kind of shape needs no test. A kind that the
-// scene lacks is ruled out by the constant, so that its code is not in the pipeline.
+// True if the shape is of this kind, given that it is of none before it: a scene of one kind of shape needs no test. The
+// constant rules out a kind that the scene lacks, so that the pipeline does not contain its code.
 #define IS_NEXT(LIST, shape, first, count) \
     ((LIST) != 0u && (count) > 0u && ((first) + (count) == shapes || (shape) < (first) + (count)))
 #define IS_WITHIN(LIST, shape, first, count) \

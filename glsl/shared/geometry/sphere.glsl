@@ -144,7 +144,7 @@ bool may_shade(const Header header, const PixelFrustum frame, vec3 near, uint po
     vec3 to = sphere.center - from;
     float ahead = max(dot3(to, way) / dot3(way, way), 0.0);
     vec3 aside = to - (point_light ? min(ahead, 1.0) : ahead) * way;
-    // What is not a number may.
+    // NaN counts as true.
     return !(sqrt(dot3(aside, aside)) > sphere.radius + wide);
 }
 #endif

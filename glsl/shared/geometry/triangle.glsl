@@ -78,7 +78,7 @@ Surface surface_of(const Triangle triangle, real3 point, real2 vertex_uv) {
         if (NEEDS_SHAPE_OPERATOR && squared > 0.0) {
             mat3 change = outerProduct(vec3(triangle.normal_a), wa) + outerProduct(vec3(triangle.normal_b), wb) +
                           outerProduct(vec3(triangle.normal_c), wc);
-            // Of unit length: what is along the normal itself is lost.
+            // The normal keeps unit length: its change along itself vanishes.
             vec3 along = vec3(normal);
             shape_operator = (change - outerProduct(along, along * change)) * float(length_scale);
         }
@@ -180,7 +180,7 @@ void add_shadow(const Header header, const PixelFrustum frame, vec3 near, const 
     region.count = 4u;
 }
 
-// Of edge functions in f32, relative to the lengths of their vectors: 32 ulps.
+// Error of edge functions in f32, relative to the lengths of their vectors: 32 ulps.
 const float ROUNDING = 4e-6;
 
 // A ray meets a triangle where all three edge functions have one sign. These are affine in the

@@ -1,5 +1,5 @@
-//! The door to the reflection models: what a material sends by itself, what it sends on of a light, whether it sends
-//! rays on, and whether beams know the integral over a region. Twin of `glsl/shared/bsdf/models.glsl`.
+//! The interface to the reflection models: emitted and reflected radiance, whether a material is specular, and whether
+//! beams know the integral over a region. Twin of `glsl/shared/bsdf/models.glsl`.
 
 pub mod dielectric;
 pub mod facets;
@@ -20,7 +20,7 @@ use oren_nayar::{oren_nayar_lobes, scattered_albedo};
 use phong::{phong_lobes, with_highlight};
 use unlit::unlit_emitted;
 
-/// A material at a hit: what its lobes need beside the direction of the light.
+/// A material at a hit: the parameters of its lobes, without the direction of the light.
 #[derive(Clone, Copy, Debug)]
 pub struct Bsdf<'a> {
     pub material: &'a Material,
@@ -28,9 +28,9 @@ pub struct Bsdf<'a> {
     pub albedo: DVec3,
     /// Unit, for shading.
     pub normal: DVec3,
-    /// Of the ray.
+    /// Direction of the ray.
     pub direction: DVec3,
-    /// Where a mirror would send it.
+    /// Its mirror reflection.
     pub mirror: DVec3,
 }
 
@@ -61,7 +61,7 @@ pub fn bsdf_at(material: &Material, albedo: DVec3, normal: DVec3, direction: DVe
     Bsdf { material, albedo, normal, direction, mirror: mirrored(direction, normal) }
 }
 
-/// The two lobes over 1/π, for light from `way`, which need not be a unit vector.
+/// Returns the two lobes over 1/π, for light from `way`, which need not be a unit vector.
 pub fn evaluate(bsdf: &Bsdf<'_>, way: DVec3) -> [f64; 2] {
     match bsdf.material.model {
         Model::Phong => phong_lobes(bsdf.mirror, way, bsdf.material.exponent.into()),
@@ -72,7 +72,7 @@ pub fn evaluate(bsdf: &Bsdf<'_>, way: DVec3) -> [f64; 2] {
     }
 }
 
-/// What a lit material sends to the eye; `color` is the albedo times what the path carries.
+/// Returns the radiance that a lit material reflects to the eye; `color` is the albedo times what the path carries.
 pub fn reflected(bsdf: &Bsdf<'_>, color: DVec3, carried: DVec3, lit: Lit) -> DVec3 {
     let seen = color * lit.first;
     match bsdf.material.model {
@@ -85,7 +85,7 @@ pub fn reflected(bsdf: &Bsdf<'_>, color: DVec3, carried: DVec3, lit: Lit) -> DVe
     }
 }
 
-/// Whether beams know the integral over a region of a flat shape, without a texture; `smooth_normals`: of a shape
+/// Returns true if beams know the integral over a region of a flat shape, without a texture; `smooth_normals`: of a shape
 /// whose shading normals differ from place to place.
 pub fn is_integrable_over_region(material: &Material, smooth_normals: bool) -> bool {
     match material.model {

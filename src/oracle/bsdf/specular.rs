@@ -15,13 +15,13 @@ use crate::schema::layout::Material;
 /// The ray that leaves a specular surface.
 pub struct Bounce {
     pub direction: DVec3,
-    /// Of the surface, or of the facet that the ray met.
+    /// Normal of the surface, or of the facet that the ray met.
     pub normal: DVec3,
-    /// Of refractive indices, before over behind.
+    /// Ratio of refractive indices, before over behind.
     pub ratio: f64,
-    /// Of the facets; 0: there are none.
+    /// Roughness alpha of the facets; 0: smooth.
     pub alpha: f64,
-    /// What facets let pass of its light.
+    /// Share of its light that facets do not mask.
     pub weight: f64,
     /// Else refracted.
     pub mirrored: bool,
@@ -68,7 +68,7 @@ pub fn sample_bsdf(
     let outward = if mirror { way } else { -way };
     let seen = (-direction.dot(surface.normal) / direction.length()).max(0.0);
     let leaving = outward.dot(surface.normal) / outward.length();
-    // What a facet sends into the surface is lost.
+    // Light that a facet reflects into the surface is lost.
     let leaves = leaving > 0.0 && outward.dot(surface.geometric_normal) > 0.0;
     let weight =
         if mirror { smith_g2_over_g1(seen, leaving, alpha) } else { smith_g1_refracted(leaving, alpha) };

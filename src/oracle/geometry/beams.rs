@@ -18,7 +18,7 @@ fn polygonal(scene: &PackedScene, shape: u32) -> Option<&dyn Polygonal> {
     }
 }
 
-/// Whether a shape has a region; of others beams do not know the outline.
+/// Returns true if a shape has a region; beams do not know the outline of others.
 pub fn has_region(scene: &PackedScene, shape: u32) -> bool {
     polygonal(scene, shape).is_some()
 }
@@ -75,7 +75,7 @@ pub fn shadow_region(
     let place = if point { light.position } else { light.direction };
     let plane = shape_plane(scene, shape);
     let n = plane.truncate();
-    // Of the light before the shape's plane, or of a way's length towards it.
+    // Height of the light over the shape's plane, or of a unit step towards it.
     let rise = if point { plane.w - n.dot(place) } else { n.dot(place) };
     let side = if rise == 0.0 { 0.0 } else { rise.signum() };
     let mut region = ConvexRegion { count: 0, lines: [AffineFunction::ZERO; MAX_LINES], inverse_depth: near };

@@ -11,7 +11,7 @@ use crate::oracle::coverage::{Covered, Cuts};
 use crate::pack::PackedScene;
 use crate::schema::layout::NO_SHAPE;
 
-/// The same cone, which leaves a shape.
+/// Returns the cone with the floor of the shape that it leaves.
 pub fn leaving(scene: &PackedScene, cone: Cone, shape: u32) -> Cone {
     if shape == NO_SHAPE {
         return cone;
@@ -35,7 +35,7 @@ pub fn cut_shape(cuts: &mut Cuts, scene: &PackedScene, cone: &Cone, shape: u32) 
     shape_of(scene, shape).cut_by_shape(cuts, cone)
 }
 
-/// What the shape covers.
+/// Returns the part of the disc that the shape covers.
 pub fn covered_by(scene: &PackedScene, cone: &Cone, shape: u32) -> Covered {
     if let Form::Round(round) = shape_of(scene, shape).form() {
         return round.covered_by(cone);
@@ -57,8 +57,8 @@ pub fn meet(scene: &PackedScene, ray: &Ray, shape: u32) -> Hit {
     hit
 }
 
-/// How deep a shape lies over the disc: its own plane, that which touches a ball, and where a ball ends its distance
-/// alone.
+/// Returns the depth of a shape over the disc: by its own plane, or a ball's tangent plane; at a ball's outline by its
+/// distance alone.
 pub fn depth_of(scene: &PackedScene, cone: &Cone, shape: u32, t: f64, area: f64) -> FlatDepth {
     let record = shape_of(scene, shape);
     if record.plane_of().is_none() && area < 1.0 {

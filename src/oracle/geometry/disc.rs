@@ -35,7 +35,7 @@ struct Conic {
     w: DVec3,
     /// Numerator of the own coordinate along which the strip is thin.
     across: DVec3,
-    /// Of the outline, outwards of the axis.
+    /// Tangent of the outline at the point radially outwards of the axis.
     tangent: DVec3,
 }
 

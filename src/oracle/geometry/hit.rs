@@ -1,4 +1,4 @@
-//! What a ray meets: the hit, and what shading and mapping need to know of the place; and shapes that move. Twin of
+//! The hit of a ray, the surface interaction that shading and mapping use, and shapes that move. Twin of
 //! `glsl/shared/geometry/hit.glsl`.
 
 use glam::{DMat3, DVec2, DVec3};
@@ -19,7 +19,7 @@ pub struct Hit {
     pub local: DVec2,
 }
 
-/// How far a shape has moved at the ray's time. Shapes are met, and textured, where they are at time 0, by rays
+/// Returns the displacement of a shape at the ray's time. Shapes are intersected, and textured, where they are at time 0, by rays
 /// that start as far back.
 pub fn moved_by(scene: &PackedScene, ray: &Ray, shape: u32) -> DVec3 {
     scene.records.motions.get(shape as usize).map_or(DVec3::ZERO, |motion| ray.time * motion.shift)
@@ -50,7 +50,7 @@ pub struct Surface {
     pub map: u32,
     /// The point where the shape does not move.
     pub at_rest: DVec3,
-    /// Of the largest coordinate that the point came from.
+    /// Largest coordinate from which the point was computed.
     pub size: f64,
 }
 

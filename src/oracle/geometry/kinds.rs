@@ -13,7 +13,7 @@ use crate::pack::PackedScene;
 use crate::schema::layout::{Header, Light, UvProjection};
 use crate::schema::shapes::with_shapes;
 
-/// What a shape answers to rays and to cones.
+/// A shape, as rays and cones use it.
 pub trait Shape {
     /// Material and map.
     fn links(&self) -> [u32; 2];
@@ -38,7 +38,7 @@ pub trait Shape {
     /// Unit normal, and height over the eye, where it lies in a plane: a ray never meets again the one that it leaves.
     fn plane_of(&self) -> Option<DVec4>;
 
-    /// What beams and cones ask of its outline.
+    /// Returns its family, by its outline.
     fn form(&self) -> Form<'_>;
 }
 

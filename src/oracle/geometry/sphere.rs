@@ -165,7 +165,7 @@ impl Round for Sphere {
             along = along.min(1.0);
         }
         let apart = (to - along * way).length();
-        // What is not a number may.
+        // NaN counts as true.
         apart.is_nan() || apart <= radius + wide
     }
 }

@@ -86,7 +86,7 @@ impl Shape for Triangle {
             if let Some(normal) = blend.try_normalize() {
                 let outer = |p: DVec3, q: DVec3| DMat3::from_cols(p * q.x, p * q.y, p * q.z);
                 let change = outer(normals[0], wa) + outer(normals[1], wb) + outer(normals[2], wc);
-                // Of unit length: what is along the normal itself is lost.
+                // The normal keeps unit length: its change along itself vanishes.
                 let lost = outer(normal, change.transpose() * normal);
                 result.normal = normal;
                 result.shape_operator = (change - lost) * (1.0 / blend.length());

@@ -29,7 +29,7 @@ macro_rules! kinds {
             Ok(())
         }
 
-        /// Whether camera rays gain by lists of the shapes that each tile may show.
+        /// Returns true if lists of the shapes in each tile make camera rays faster.
         pub fn gains_by_tiles(scene: &Scene) -> bool {
             let lists = [$((has(&[$(stringify!($property)),*], "listed"), scene.shapes.$list.len())),+];
             total(&lists) > FEW
@@ -49,8 +49,7 @@ macro_rules! kinds {
                 self.shapes_that(|properties| has(properties, "listed"))
             }
 
-            /// Whether some shape may lie between another place of its own, or of another shape, and a light: a lone
-            /// flat one does not.
+            /// Returns true if some shape may cast a shadow on itself or on another: a single flat one does not.
             pub fn shapes_occlude(&self) -> bool {
                 self.shapes_that(|properties| !has(properties, "planar")) > 0 || self.shape_count() > 1
             }
@@ -104,12 +103,12 @@ fn reach(p: DVec3, eye: DVec3) -> f64 {
     (p - eye).abs().max_element()
 }
 
-/// How far f32 misplaces a shape.
+/// The errors of a shape in f32.
 pub(super) trait Rounded {
     /// Index into `Scene::materials`.
     fn material(&self) -> usize;
 
-    /// Whether it is one of many, of which each counts for itself, not by the rays that meet it.
+    /// Returns true if it is one of many, each of which counts once, not by the rays that hit it.
     fn is_small(&self) -> bool {
         false
     }
@@ -117,7 +116,7 @@ pub(super) trait Rounded {
     /// The largest number that it has, seen from the eye.
     fn extent(&self, eye: DVec3) -> f64;
 
-    /// Whether its outline is off by more than can go unseen.
+    /// Returns true if the error of its outline is visible.
     fn misses_outline(&self, _: &Camera) -> bool {
         false
     }

@@ -78,7 +78,7 @@ fn plane_error(camera: &Camera, plane: &Plane, mapping: &Mapping, [origin, way]:
     if t.is_nan() || t <= 0.0 || t.is_infinite() || outside {
         return None;
     }
-    // Of t, and so of the point along the ray.
+    // Relative error of t, and so of the point along the ray.
     let along = RAY * U * (1.0 + way.length() / slope.abs());
     let matrix = uv_matrix(mapping);
     let tiles = match mapping.kind {

@@ -11,7 +11,7 @@ use crate::scene::model::{DEFAULT, Material};
 use crate::scene::refusal::{Check, Key};
 
 named_enum! {
-    /// How a texture lies on a disc where the mapping is its own (`surface`).
+    /// The texture coordinates of a disc for the mapping `surface`.
     pub enum DiscUv {
         /// The square around the disc, seen against its normal, is the texture.
         Planar = "planar",
@@ -30,11 +30,11 @@ pub struct Disc {
     pub normal: DVec3,
     /// In scene units.
     pub radius: f64,
-    /// How a texture lies on it.
+    /// Its texture coordinates.
     pub uv: DiscUv,
     /// Index of its material.
     pub material: usize,
-    /// How far it moves between the times 0 and 1.
+    /// Its displacement between the times 0 and 1.
     pub motion: DVec3,
 }
 

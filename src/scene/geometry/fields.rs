@@ -1,5 +1,5 @@
-//! What a kind of shape asks of a scene format: the values of its keys. Each is nothing where the key is not set, or an
-//! error that names the place where something else stands.
+//! The values of a shape's keys, as a scene format provides them: `None` if the key is not set, or an error that names the
+//! place of a wrong value.
 
 use glam::{DVec2, DVec3};
 

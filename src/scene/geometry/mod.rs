@@ -22,39 +22,39 @@ pub struct Bounds {
     pub max: DVec3,
 }
 
-/// What all shapes have.
+/// The common properties of all shapes.
 pub trait Shape {
-    /// Index into `Scene::materials`.
+    /// Returns its index into `Scene::materials`.
     fn material(&self) -> usize;
-    /// The same, to change it.
+    /// Returns that index for writing.
     fn material_mut(&mut self) -> &mut usize;
 
-    /// How far it moves between the times 0 and 1.
+    /// Returns its displacement between the times 0 and 1.
     fn motion(&self) -> DVec3;
 
-    /// Puts it for good where it is at that time.
+    /// Moves it to its place at that time, where it stays.
     fn freeze(&mut self, time: f64);
 
-    /// Its middle; an infinite plane has none.
+    /// Returns its centre; an infinite plane has none.
     fn centroid(&self) -> Option<DVec3>;
 
-    /// Its box; an infinite plane has none.
+    /// Returns its box; an infinite plane has none.
     fn bounds(&self) -> Option<Bounds>;
 }
 
-/// A kind of shape: what the rest of a scene knows of it.
+/// A kind of shape, as the rest of a scene uses it.
 pub trait Kind: Shape + Sized {
-    /// What such a shape is called, in scene files and messages.
+    /// The name of such a shape in scene files and messages.
     const SECTION: &str;
 
-    /// Those that a scene has.
+    /// Returns the shapes of this kind.
     fn list(shapes: &Shapes) -> &Vec<Self>;
 
-    /// The same, to add to.
+    /// Returns them for writing.
     fn list_mut(shapes: &mut Shapes) -> &mut Vec<Self>;
 }
 
-/// What the file of a kind says.
+/// The part of a kind that its own file implements.
 trait Described: Kind {
     /// Keys of its section beside `material` and `motion`.
     const KEYS: &[&str];
@@ -65,10 +65,10 @@ trait Described: Kind {
     /// Moves it.
     fn translate(&mut self, way: DVec3);
 
-    /// Its middle.
+    /// Returns its centre.
     fn middle(&self) -> Option<DVec3>;
 
-    /// Its box.
+    /// Returns its box.
     fn extent(&self) -> Option<Bounds>;
 
     /// Returns whether no ray meets it.
@@ -90,7 +90,7 @@ pub struct Section {
     pub(super) add: fn(&dyn Fields, usize, DVec3, &mut Shapes) -> Result<Added>,
 }
 
-/// What became of a shape that was added.
+/// The result of adding a shape.
 pub(super) struct Added {
     /// Its key, where it is the first of too many.
     pub over: Option<Key>,
@@ -122,7 +122,7 @@ macro_rules! kinds {
                 std::iter::empty()$(.chain(self.$list.iter().map(|shape| shape as &dyn Shape)))+
             }
 
-            /// Returns the same, to change them.
+            /// Returns all shapes for writing.
             pub fn iter_mut(&mut self) -> impl Iterator<Item = &mut dyn Shape> {
                 std::iter::empty()$(.chain(self.$list.iter_mut().map(|shape| shape as &mut dyn Shape)))+
             }

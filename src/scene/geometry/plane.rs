@@ -22,7 +22,7 @@ pub struct Plane {
     pub half_extent: Option<f64>,
     /// Index of its material.
     pub material: usize,
-    /// How far it moves between the times 0 and 1.
+    /// Its displacement between the times 0 and 1.
     pub motion: DVec3,
 }
 

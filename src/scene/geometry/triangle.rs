@@ -20,7 +20,7 @@ pub struct Triangle {
     pub normals: Option<[DVec3; 3]>,
     /// Index of its material.
     pub material: usize,
-    /// How far it moves between the times 0 and 1.
+    /// Its displacement between the times 0 and 1.
     pub motion: DVec3,
 }
 
