@@ -15,14 +15,14 @@
 
 // Samples of single pixels. A film of batches holds two halves, each with sums of radiance and of the mean of
 // its squared channels; if the pixel filter has negative lobes two more with the sums of samples in these,
-// and two with the sum of the signs and the number of samples. With JOB_APART the film has one such entry for
+// and two with the sum of the signs and the number of samples. With BATCH_APART the film has one such entry for
 // each batch instead of for each half.
-layout(std430, set = 0, binding = BINDING_LIST) readonly buffer Jobs { Job jobs[]; };
+layout(std430, set = 0, binding = BINDING_LIST) readonly buffer Batches { PixelBatch batches[]; };
 
 // The work of one thread: samples of one pixel, added to one entry of the film.
 struct Task {
     uvec2 place; // in the band
-    uint part; // of a batch: the half of the film, JOB_BARE, JOB_APART, and the stream of samples
+    uint part; // of a batch: the half of the film, BATCH_BARE, BATCH_APART, and the stream of samples
     uint first;
     uint end;
 };
@@ -32,41 +32,41 @@ Task tile_task() {
 }
 
 // Batches fill tiles one after the other, in the order of the list.
-uint job_index() {
+uint batch_index() {
     uint thread = gl_WorkGroupID.x * gl_WorkGroupSize.x * gl_WorkGroupSize.y + gl_LocalInvocationIndex;
     return (slice.first_tile + gl_WorkGroupID.y) * (TILE * TILE) + thread;
 }
 
 // Without a list all pixels have the same batch, both halves of a pixel side by side.
-Task job_task(const Header header) {
-    uint i = job_index();
+Task batch_task(const Header header) {
+    uint i = batch_index();
     if (i >= slice.tiles) return Task(uvec2(0u, slice.band_height), 0u, 0u, 0u);
     if (sample_count() > 0u) {
         uvec2 place = uvec2((i >> 1u) % header.film_size.x, (i >> 1u) / header.film_size.x);
-        uint part = (i & 1u) | (i & 1u) << JOB_STREAM_SHIFT;
+        uint part = (i & 1u) | (i & 1u) << BATCH_STREAM_SHIFT;
         return Task(place, part, first_sample(), first_sample() + sample_count());
     }
-    Job job = jobs[i];
-    return Task(uvec2(job.place & 0xFFFFu, job.place >> 16u), job.part, job.first, job.first + job.count);
+    PixelBatch batch = batches[i];
+    return Task(uvec2(batch.place & 0xFFFFu, batch.place >> 16u), batch.part, batch.first, batch.first + batch.count);
 }
 
 void main() {
     Header header = load_header();
     preload_records();
     clear_notices();
-    bool is_job = MODE_IS(SCHEDULES, SCHEDULE_JOBS, schedule());
+    bool is_batch = MODE_IS(SCHEDULES, SCHEDULE_BATCHES, schedule());
     Task task;
-    if (is_job) task = job_task(header);
+    if (is_batch) task = batch_task(header);
     else task = tile_task();
     if (!in_film(header, task.place)) return;
     uvec2 pixel = picture_pixel(header, task.place);
     // In a batch, a sample's share of the pixel is that of the pixel's number of samples after the batch.
-    if (FILTERED && is_job && header.footprint != FOOTPRINT_NONE) {
+    if (FILTERED && is_batch && header.footprint != FOOTPRINT_NONE) {
         float share = inversesqrt(2.0 * float(task.end)) * filter_width(header);
-        header.sample_side = (task.part & JOB_BARE) != 0u ? 0.0 : share;
+        header.sample_side = (task.part & BATCH_BARE) != 0u ? 0.0 : share;
     }
     // Streams are as independent as different seeds.
-    uint stream = task.part >> JOB_STREAM_SHIFT;
+    uint stream = task.part >> BATCH_STREAM_SHIFT;
     uvec2 key = pixel_key(pixel, header.seed + stream * 0x9E3779B9u, header.shares_pattern);
     Points points = pixel_points(header, pixel, key);
     uint list = TILE_CULLED ? cell_list(header, task.place + uvec2(0u, slice.band_y)) : NO_LIST;
@@ -126,7 +126,7 @@ void main() {
                 more *= sign;
             }
             part += more;
-            if (is_job) {
+            if (is_batch) {
                 seen += more;
                 if (!path.is_alive) {
                     squares += dot3(seen, seen) * (1.0 / 3.0);
@@ -147,9 +147,9 @@ void main() {
     uint at = film_index(header, task.place);
     uint pixels = header.film_size.x * slice.band_height;
     bool is_signed = MODE_IS(PIXEL_FILTERS, PIXEL_FILTER_MITCHELL, header.pixel_filter);
-    if (is_job) {
-        bool apart = (task.part & JOB_APART) != 0u;
-        at = apart ? job_index() : at + (task.part & 1u) * pixels;
+    if (is_batch) {
+        bool apart = (task.part & BATCH_APART) != 0u;
+        at = apart ? batch_index() : at + (task.part & 1u) * pixels;
         uint behind = apart ? slice.tiles : 2u * pixels; // stride between kinds of sums
         bool adds = !apart && task.first > 0u;
         vec4 sums = vec4(sum, squares);

@@ -85,12 +85,12 @@ void main() {
     SHAPE_KINDS(SURVEY)
 #undef SURVEY
     bool empty = seen == 0u && !round && !(ENVIRONMENT && header.environment_material != NO_MATERIAL);
-    uint calmness = empty ? CELL_EMPTY : CELL_BUSY;
+    uint content = empty ? CELL_EMPTY : CELL_BUSY;
     if (seen == 1u && !round) {
-        if (is_uniform(header, frame, alone, shape_region(header, frame, alone))) calmness = CELL_UNIFORM;
+        if (is_uniform(header, frame, alone, shape_region(header, frame, alone))) content = CELL_UNIFORM;
     }
     found[begin] = listed;
-    found[begin + 1u] = calmness;
+    found[begin + 1u] = content;
 }
 
 #endif

@@ -105,7 +105,7 @@ pub fn run(args: &RenderArgs) -> Result<ExitCode> {
         goal: args.overrides.goal(),
         allow_nonfinite: args.allow_nonfinite,
         keep_everything: args.keep_everything,
-        guarded: args.guards || args.verbose,
+        diagnosed: args.guards || args.verbose,
         mips: args.mips,
         tuning: Tuning { texels: args.texels, group: args.workgroup, ..Tuning::default() },
     };

@@ -7,7 +7,7 @@ use crate::core::film::Film;
 use crate::core::progress::Progress;
 use crate::core::range::Rect;
 use crate::sampling::{Backend, HalfSums};
-use crate::schema::layout::Job;
+use crate::schema::layout::PixelBatch;
 
 /// One beam per pixel, and `samples` samples for pixels that a beam cannot resolve.
 #[derive(Clone, Copy, Debug)]
@@ -33,8 +33,12 @@ impl Integrator for Beam {
         }
         let sampled_pixels = Some(flagged.len() as u64);
         if !flagged.is_empty() {
-            let batch =
-                |&i: &u32| Job { place: Job::place_of(i, width), part: 0, first: 0, count: self.samples };
+            let batch = |&i: &u32| PixelBatch {
+                place: PixelBatch::place_of(i, width),
+                part: 0,
+                first: 0,
+                count: self.samples,
+            };
             backend.sample(&flagged.iter().map(batch).collect::<Vec<_>>(), progress)?;
             let mut sums = HalfSums::new(size);
             backend.read(&mut sums)?;

@@ -16,7 +16,7 @@ use crate::core::range::{Range, Rect};
 use crate::pack::{PackedScene, filtered_mean};
 use crate::sampling::{Backend, Block, FilmSums, HalfSums, PilotRun, Signed};
 use crate::scene::model::Algorithm;
-use crate::schema::layout::{JOB_BARE, Job};
+use crate::schema::layout::{BATCH_BARE, PixelBatch};
 
 pub struct OracleBackend<'a> {
     scene: &'a PackedScene,
@@ -57,12 +57,12 @@ impl OracleBackend<'_> {
         if progress.cancelled() { Err(Error::Interrupted) } else { Ok(rows.into_iter().flatten().collect()) }
     }
 
-    fn of_batches(&self, batches: &[Job], progress: &dyn Progress) -> Result<Vec<PixelSums>> {
-        let of_batch = |batch: &Job| {
+    fn of_batches(&self, batches: &[PixelBatch], progress: &dyn Progress) -> Result<Vec<PixelSums>> {
+        let of_batch = |batch: &PixelBatch| {
             let mut header = self.scene.header;
             let samples = 2.0 * f64::from(batch.first + batch.count);
             let share = filter_width(&header) / samples.sqrt();
-            header.sample_side = if batch.part & JOB_BARE != 0 { 0.0 } else { share };
+            header.sample_side = if batch.part & BATCH_BARE != 0 { 0.0 } else { share };
             let range = batch.first..batch.first + batch.count;
             sums(self.scene, &header, batch.column_and_row(), batch.stream(), range)
         };
@@ -151,7 +151,7 @@ impl Backend for OracleBackend<'_> {
         Ok(None)
     }
 
-    fn sample(&mut self, batches: &[Job], progress: &dyn Progress) -> Result<()> {
+    fn sample(&mut self, batches: &[PixelBatch], progress: &dyn Progress) -> Result<()> {
         let [width, height] = self.scene.header.film_size.to_array();
         let sums = self.of_batches(batches, progress)?;
         for half in self.halves.iter_mut().filter(|half| half.is_empty()) {
@@ -173,7 +173,7 @@ impl Backend for OracleBackend<'_> {
         Ok(())
     }
 
-    fn sample_apart(&mut self, batches: &[Job], progress: &dyn Progress) -> Result<Vec<[f32; 4]>> {
+    fn sample_apart(&mut self, batches: &[PixelBatch], progress: &dyn Progress) -> Result<Vec<[f32; 4]>> {
         let sums = self.of_batches(batches, progress)?;
         Ok(sums
             .iter()

@@ -87,7 +87,7 @@ pub struct PackedScene {
     /// The textures from which those sums are made, where beams may still be wanted.
     pub beam_textures: Option<Arc<Vec<TextureData>>>,
     /// The device counts values beyond a limit.
-    pub guarded: bool,
+    pub diagnosed: bool,
     /// For adaptive sampling: the share of a texture that is far brighter than the rest and yet has much of its light;
     /// else none.
     pub bright_share: Option<f64>,
@@ -152,7 +152,7 @@ pub fn pack_with(
     packed.sampler_specs = scene.samplers.clone();
     packed.beams = scene.sampling.algorithm == Algorithm::Beam && supports_beams;
     nonfinite::admit(&mut packed, scene, &textures)?;
-    if schedule == Schedule::Jobs {
+    if schedule == Schedule::Batches {
         packed.bright_share = bright::share(scene, &textures);
     }
     if packed.beams {
@@ -188,7 +188,7 @@ pub fn pack_with(
 fn schedule(scene: &Scene) -> Schedule {
     match scene.sampling.algorithm {
         Algorithm::Samples | Algorithm::Beam | Algorithm::Cone => Schedule::Tiles,
-        Algorithm::Adaptive | Algorithm::Auto => Schedule::Jobs,
+        Algorithm::Adaptive | Algorithm::Auto => Schedule::Batches,
     }
 }
 

@@ -18,7 +18,7 @@ use crate::core::progress::Progress;
 use crate::core::range::{Range, Rect};
 use crate::integrators::adaptive::Goal;
 use crate::sampling::{Backend, FilmSums, HalfSums, PilotRun};
-use crate::schema::layout::Job;
+use crate::schema::layout::PixelBatch;
 
 impl Prepared<'_, '_> {
     /// Renders once more. The report's times of loading and compiling are those of the first render.
@@ -207,7 +207,7 @@ impl Backend for DeviceBackend<'_> {
         self.beams.as_ref().map(|pass| pass.pilot(&mut self.report, progress)).transpose()
     }
 
-    fn sample(&mut self, batches: &[Job], progress: &dyn Progress) -> Result<()> {
+    fn sample(&mut self, batches: &[PixelBatch], progress: &dyn Progress) -> Result<()> {
         let (sampler, report) = self.batches()?;
         sampler.sample(batches, report, progress)
     }
@@ -217,7 +217,7 @@ impl Backend for DeviceBackend<'_> {
         sampler.sample_all(first, count, report, progress)
     }
 
-    fn sample_apart(&mut self, batches: &[Job], progress: &dyn Progress) -> Result<Vec<[f32; 4]>> {
+    fn sample_apart(&mut self, batches: &[PixelBatch], progress: &dyn Progress) -> Result<Vec<[f32; 4]>> {
         let (sampler, report) = self.batches()?;
         sampler.sample_apart(batches, report, progress)
     }

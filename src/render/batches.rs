@@ -10,7 +10,7 @@ use crate::gpu::shaders::Shader;
 use crate::gpu::{BindGroup, Buffer, BufferUse, Gpu, Pipeline};
 use crate::pack::{PackedScene, Schedule, filtered_mean};
 use crate::sampling::HalfSums;
-use crate::schema::layout::{Job, Slice, TILE};
+use crate::schema::layout::{PixelBatch, Slice, TILE};
 
 /// Four floats for each half.
 const PIXEL_BYTES: u64 = 32;
@@ -41,8 +41,8 @@ struct Bindings<'a> {
 }
 
 impl Bindings<'_> {
-    fn bind(&self, gpu: &Gpu, film: &Buffer, jobs: Option<&Buffer>) -> Result<BindGroup> {
-        self.resources.bind(gpu, self.pipeline, self.shader, film, jobs)
+    fn bind(&self, gpu: &Gpu, film: &Buffer, batches: Option<&Buffer>) -> Result<BindGroup> {
+        self.resources.bind(gpu, self.pipeline, self.shader, film, batches)
     }
 }
 
@@ -95,8 +95,12 @@ impl<'a> BatchSampler<'a> {
     /// Runs one workgroup without a batch, so that lazy compilation in the driver happens now.
     pub fn warm_up(&self) -> Result<()> {
         let Some(page) = self.pages.first() else { return Ok(()) };
-        let jobs = self.gpu.upload_buffer("jobs", BufferUse::Storage, bytemuck::bytes_of(&Job::default()))?;
-        let group = self.bindings.bind(self.gpu, &page.film, Some(&jobs))?;
+        let batches = self.gpu.upload_buffer(
+            "batches",
+            BufferUse::Storage,
+            bytemuck::bytes_of(&PixelBatch::default()),
+        )?;
+        let group = self.bindings.bind(self.gpu, &page.film, Some(&batches))?;
         let slice = Slice { tiles: 1, ..page.slice() };
         self.gpu.run(self.bindings.pipeline, &group, bytemuck::bytes_of(&slice), [1, 1, 1])?;
         Ok(())
@@ -106,7 +110,7 @@ impl<'a> BatchSampler<'a> {
     fn rounds(
         &mut self,
         index: usize,
-        list: &[Job],
+        list: &[PixelBatch],
         report: &mut Report,
         progress: &dyn Progress,
     ) -> Result<()> {
@@ -116,7 +120,8 @@ impl<'a> BatchSampler<'a> {
         }
         for done in (0..most).step_by(block as usize) {
             let rest = list.iter().filter(|j| j.count > done);
-            let part = rest.map(|j| Job { first: j.first + done, count: block.min(j.count - done), ..*j });
+            let part =
+                rest.map(|j| PixelBatch { first: j.first + done, count: block.min(j.count - done), ..*j });
             self.page(index, &part.collect::<Vec<_>>(), report, progress)?;
         }
         Ok(())
@@ -126,15 +131,15 @@ impl<'a> BatchSampler<'a> {
     fn page(
         &mut self,
         index: usize,
-        list: &[Job],
+        list: &[PixelBatch],
         report: &mut Report,
         progress: &dyn Progress,
     ) -> Result<()> {
-        let jobs = self.gpu.upload_buffer("jobs", BufferUse::Storage, bytemuck::cast_slice(list))?;
+        let batches = self.gpu.upload_buffer("batches", BufferUse::Storage, bytemuck::cast_slice(list))?;
         let slice = Slice { tiles: list.len() as u32, ..self.pages[index].slice() };
         let costs = costs(list);
         let film = self.pages[index].film.clone();
-        self.submit(&film, slice, Some(&jobs), costs, report, progress)
+        self.submit(&film, slice, Some(&batches), costs, report, progress)
     }
 
     /// Takes the same number of samples of both halves of all pixels of a page.
@@ -147,10 +152,10 @@ impl<'a> BatchSampler<'a> {
         progress: &dyn Progress,
     ) -> Result<()> {
         let page = &self.pages[index];
-        let jobs = 2 * self.size[0] * page.rows.height;
-        let slice = Slice { tiles: jobs, first_sample: first, sample_count: count, ..page.slice() };
+        let batches = 2 * self.size[0] * page.rows.height;
+        let slice = Slice { tiles: batches, first_sample: first, sample_count: count, ..page.slice() };
         let cost = (BATCHES_PER_TILE * count as usize) as f64;
-        let costs = vec![cost; (jobs as usize).div_ceil(BATCHES_PER_TILE)];
+        let costs = vec![cost; (batches as usize).div_ceil(BATCHES_PER_TILE)];
         let film = page.film.clone();
         self.submit(&film, slice, None, costs, report, progress)
     }
@@ -159,19 +164,19 @@ impl<'a> BatchSampler<'a> {
     /// if samples have signs also of negative samples, and the counts.
     fn parts_apart(
         &mut self,
-        parts: &[(usize, Job)],
+        parts: &[(usize, PixelBatch)],
         report: &mut Report,
         progress: &dyn Progress,
     ) -> Result<Vec<Vec<[f32; 4]>>> {
-        let list: Vec<Job> = parts.iter().map(|(_, job)| *job).collect();
+        let list: Vec<PixelBatch> = parts.iter().map(|(_, batch)| *batch).collect();
         let planes = if self.mean_sign.is_some() { 3 } else { 1 };
         let plane = (list.len() * size_of::<[f32; 4]>()) as u64;
         let film = self.gpu.buffer("audit", planes * plane, BufferUse::Storage)?;
-        let jobs = self.gpu.upload_buffer("jobs", BufferUse::Storage, bytemuck::cast_slice(&list))?;
+        let batches = self.gpu.upload_buffer("batches", BufferUse::Storage, bytemuck::cast_slice(&list))?;
         // Positions are those of the whole picture.
         let whole = Page { rows: Rect::whole(self.size), film: film.clone() };
         let slice = Slice { tiles: list.len() as u32, ..whole.slice() };
-        self.submit(&film, slice, Some(&jobs), costs(&list), report, progress)?;
+        self.submit(&film, slice, Some(&batches), costs(&list), report, progress)?;
         let read = |kind: u64| {
             let mut sums = vec![[0f32; 4]; list.len()];
             self.gpu.read_buffer(&film, kind * plane, bytemuck::cast_slice_mut(&mut sums))?;
@@ -185,12 +190,12 @@ impl<'a> BatchSampler<'a> {
         &mut self,
         film: &Buffer,
         slice: Slice,
-        jobs: Option<&Buffer>,
+        batches: Option<&Buffer>,
         costs: Vec<f64>,
         report: &mut Report,
         progress: &dyn Progress,
     ) -> Result<()> {
-        let group = self.bindings.bind(self.gpu, film, jobs)?;
+        let group = self.bindings.bind(self.gpu, film, batches)?;
         let mut first = 0;
         while first < costs.len() {
             let (mut tiles, mut samples) = (1, costs[first]);
@@ -216,7 +221,7 @@ impl<'a> BatchSampler<'a> {
 }
 
 /// Returns the samples of each tile of batches.
-fn costs(list: &[Job]) -> Vec<f64> {
+fn costs(list: &[PixelBatch]) -> Vec<f64> {
     list.chunks(BATCHES_PER_TILE).map(|tile| tile.iter().map(|j| f64::from(j.count)).sum()).collect()
 }
 
@@ -232,7 +237,7 @@ impl Page {
         Slice {
             band_y: self.rows.y,
             band_height: self.rows.height,
-            schedule: Schedule::Jobs as u32,
+            schedule: Schedule::Batches as u32,
             ..Default::default()
         }
     }
@@ -240,7 +245,12 @@ impl Page {
 
 impl BatchSampler<'_> {
     /// Adds the samples of each batch to its pixel in its half.
-    pub fn sample(&mut self, batches: &[Job], report: &mut Report, progress: &dyn Progress) -> Result<()> {
+    pub fn sample(
+        &mut self,
+        batches: &[PixelBatch],
+        report: &mut Report,
+        progress: &dyn Progress,
+    ) -> Result<()> {
         if let [page] = self.pages.as_slice() {
             debug_assert_eq!(page.rows.y, 0);
             return self.rounds(0, batches, report, progress);
@@ -248,7 +258,8 @@ impl BatchSampler<'_> {
         for index in 0..self.pages.len() {
             let rows = self.pages[index].rows;
             let own = batches.iter().filter(|j| rows.rows().contains(&(j.place >> 16)));
-            let list: Vec<Job> = own.map(|j| Job { place: j.place - (rows.y << 16), ..*j }).collect();
+            let list: Vec<PixelBatch> =
+                own.map(|j| PixelBatch { place: j.place - (rows.y << 16), ..*j }).collect();
             if !list.is_empty() {
                 self.rounds(index, &list, report, progress)?;
             }
@@ -275,18 +286,18 @@ impl BatchSampler<'_> {
     /// Sums each batch separately, without adding it to the film.
     pub fn sample_apart(
         &mut self,
-        batches: &[Job],
+        batches: &[PixelBatch],
         report: &mut Report,
         progress: &dyn Progress,
     ) -> Result<Vec<[f32; 4]>> {
         // Each part that an invocation takes has a slot of its own. Parts are short, so that neighbouring invocations
         // work on one pixel and follow the same paths.
         let most = self.block.min(PART_SAMPLES);
-        let mut parts: Vec<(usize, Job)> = Vec::new();
+        let mut parts: Vec<(usize, PixelBatch)> = Vec::new();
         for (i, batch) in batches.iter().enumerate() {
             let firsts = (0..batch.count).step_by(most as usize);
             parts.extend(firsts.map(|first| {
-                (i, Job { first: batch.first + first, count: most.min(batch.count - first), ..*batch })
+                (i, PixelBatch { first: batch.first + first, count: most.min(batch.count - first), ..*batch })
             }));
         }
         let mut sums = vec![[[0f64; 4]; 3]; batches.len()];

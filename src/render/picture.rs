@@ -49,7 +49,7 @@ pub struct Options {
     /// Keeps all features in the pipelines.
     pub keep_everything: bool,
     /// Counts on the device how often limits are exceeded.
-    pub guarded: bool,
+    pub diagnosed: bool,
     pub mips: MipChoice,
     pub tuning: Tuning,
 }
@@ -62,7 +62,7 @@ impl Default for Options {
             goal: None,
             allow_nonfinite: false,
             keep_everything: false,
-            guarded: false,
+            diagnosed: false,
             mips: MipChoice::Auto,
             tuning: Tuning::default(),
         }
@@ -138,7 +138,7 @@ impl Working<'_> {
 /// round-robin, so that the picture does not depend on their speed; see [`Scheduler`].
 pub fn render_scene(scene: &Scene, options: &Options, on: &[On], progress: &dyn Progress) -> Result<Picture> {
     let Loaded { gpus, mut packed, doubts, startup, load } = load(scene, options, on)?;
-    packed.guarded = options.guarded;
+    packed.diagnosed = options.diagnosed;
     let [width, height] = packed.header.film_size.to_array();
     let texture_lines = packed.texture_lines();
     let nonfinite =

@@ -10,7 +10,7 @@ use crate::scene::model::Algorithm;
 pub fn integrator(scene: &PackedScene, goal: Option<Goal>) -> Box<dyn Integrator> {
     let samples = scene.samples;
     match scene.schedule {
-        Schedule::Jobs => Box::new(Adaptive { goal: goal.unwrap_or(Goal::Samples(samples)) }),
+        Schedule::Batches => Box::new(Adaptive { goal: goal.unwrap_or(Goal::Samples(samples)) }),
         Schedule::Tiles if scene.beams => Box::new(Beam { samples }),
         Schedule::Tiles if scene.algorithm == Algorithm::Cone => Box::new(Cone { samples }),
         Schedule::Tiles => Box::new(Fixed { samples }),

@@ -153,7 +153,7 @@ impl<'a> Session<'a> {
                     self.renderer(scene, &features, shader_for(scene.algorithm, &features)?)?;
                 Work::Tiles { renderer, film }
             }
-            Schedule::Jobs => Work::Batches(self.sample_pipeline(scene, &features)?),
+            Schedule::Batches => Work::Batches(self.sample_pipeline(scene, &features)?),
         };
         let mut prepared = Prepared { session: self, scene: scene.clone(), work, report };
         prepared.warm_up()?;
@@ -210,7 +210,7 @@ impl<'a> Session<'a> {
 
     /// Builds the pipeline that samples the pixels that beams cannot resolve.
     pub(super) fn samples_beside_beams(&self, scene: &PackedScene) -> Result<SamplePipeline> {
-        let scene = PackedScene { schedule: Schedule::Jobs, ..scene.clone() };
+        let scene = PackedScene { schedule: Schedule::Batches, ..scene.clone() };
         self.sample_pipeline(&scene, &self.features_of(&scene))
     }
 

@@ -6,7 +6,7 @@ use super::FilmSums;
 use crate::core::error::Result;
 use crate::core::progress::Progress;
 use crate::core::range::{Range, Rect};
-use crate::schema::layout::Job;
+use crate::schema::layout::PixelBatch;
 
 /// A source of samples of one scene.
 pub trait Backend: Send {
@@ -34,7 +34,7 @@ pub trait Backend: Send {
     fn pilot(&mut self, progress: &dyn Progress) -> Result<Option<PilotRun>>;
 
     /// Adds the samples of each batch to its pixel in its half. No two batches of a call share pixel and half.
-    fn sample(&mut self, batches: &[Job], progress: &dyn Progress) -> Result<()>;
+    fn sample(&mut self, batches: &[PixelBatch], progress: &dyn Progress) -> Result<()>;
 
     /// Adds the same number of samples to both halves of all pixels of a picture of that size.
     fn sample_all(&mut self, size: [u32; 2], first: u32, count: u32, progress: &dyn Progress) -> Result<()> {
@@ -42,8 +42,8 @@ pub trait Backend: Send {
     }
 
     /// Takes the samples of each batch without adding them to the film. Returns for each batch the sums of red, green,
-    /// blue, and of the mean of their squares. The batches' `part` contains `JOB_APART`.
-    fn sample_apart(&mut self, batches: &[Job], progress: &dyn Progress) -> Result<Vec<[f32; 4]>>;
+    /// blue, and of the mean of their squares. The batches' `part` contains `BATCH_APART`.
+    fn sample_apart(&mut self, batches: &[PixelBatch], progress: &dyn Progress) -> Result<Vec<[f32; 4]>>;
 
     /// Reads the sums of all batches so far.
     fn read(&mut self, sums: &mut HalfSums) -> Result<()>;
@@ -56,8 +56,13 @@ pub trait Backend: Send {
 }
 
 /// Returns the batches of both halves of all pixels; the two of a pixel are neighbours.
-pub(super) fn batches_of_all([width, height]: [u32; 2], first: u32, count: u32) -> Vec<Job> {
-    let batch = |i: u32| Job { place: Job::place_of(i >> 1, width), part: Job::part_of(i & 1), first, count };
+pub(super) fn batches_of_all([width, height]: [u32; 2], first: u32, count: u32) -> Vec<PixelBatch> {
+    let batch = |i: u32| PixelBatch {
+        place: PixelBatch::place_of(i >> 1, width),
+        part: PixelBatch::part_of(i & 1),
+        first,
+        count,
+    };
     (0..2 * width * height).map(batch).collect()
 }
 

@@ -9,7 +9,7 @@ use super::{Backend, FilmSums, HalfSums, PilotRun};
 use crate::core::error::{Error, Result};
 use crate::core::progress::{Progress, SubProgress};
 use crate::core::range::{Range, Rect};
-use crate::schema::layout::{Job, TILE};
+use crate::schema::layout::{PixelBatch, TILE};
 
 pub struct Scheduler<'a> {
     members: Vec<&'a mut dyn Backend>,
@@ -79,7 +79,7 @@ impl<'a> Scheduler<'a> {
     }
 
     /// Returns for each backend the indices of the batches whose rows are assigned to it.
-    fn shares(&self, batches: &[Job]) -> Vec<Vec<usize>> {
+    fn shares(&self, batches: &[PixelBatch]) -> Vec<Vec<usize>> {
         let mut shares = vec![Vec::new(); self.members.len()];
         for (at, batch) in batches.iter().enumerate() {
             shares[self.owner(batch.column_and_row()[1])].push(at);
@@ -148,13 +148,13 @@ impl Backend for Scheduler<'_> {
         Ok(runs.into_iter().next().map(|run| PilotRun { seconds, ..run }))
     }
 
-    fn sample(&mut self, batches: &[Job], progress: &dyn Progress) -> Result<()> {
+    fn sample(&mut self, batches: &[PixelBatch], progress: &dyn Progress) -> Result<()> {
         if let [member] = self.members.as_mut_slice() {
             return member.sample(batches, progress);
         }
         let shares = self.shares(batches);
         self.on_each(progress, |index, member, progress| {
-            let own: Vec<Job> = shares[index].iter().map(|&at| batches[at]).collect();
+            let own: Vec<PixelBatch> = shares[index].iter().map(|&at| batches[at]).collect();
             member.sample(&own, progress)
         })?;
         Ok(())
@@ -167,13 +167,13 @@ impl Backend for Scheduler<'_> {
         self.sample(&batches_of_all(size, first, count), progress)
     }
 
-    fn sample_apart(&mut self, batches: &[Job], progress: &dyn Progress) -> Result<Vec<[f32; 4]>> {
+    fn sample_apart(&mut self, batches: &[PixelBatch], progress: &dyn Progress) -> Result<Vec<[f32; 4]>> {
         if let [member] = self.members.as_mut_slice() {
             return member.sample_apart(batches, progress);
         }
         let shares = self.shares(batches);
         let parts = self.on_each(progress, |index, member, progress| {
-            let own: Vec<Job> = shares[index].iter().map(|&at| batches[at]).collect();
+            let own: Vec<PixelBatch> = shares[index].iter().map(|&at| batches[at]).collect();
             member.sample_apart(&own, progress)
         })?;
         let mut sums = vec![[0.0; 4]; batches.len()];

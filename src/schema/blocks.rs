@@ -26,10 +26,10 @@ blocks! {
     }
 
     /// A batch: samples `first` .. `first + count` of one half of a pixel.
-    Job {
+    PixelBatch {
         /// Column in the low half, row in the high half; rows count from the first row of the band.
         place,
-        /// The half (0 or 1), `JOB_BARE`, `JOB_APART`, and the stream of samples.
+        /// The half (0 or 1), `BATCH_BARE`, `BATCH_APART`, and the stream of samples.
         part,
         first,
         count,

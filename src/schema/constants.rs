@@ -27,11 +27,11 @@ constants! {
     PIXEL_FILTER_CELLS: u32 = 512;
 
     /// In a batch's part: without a footprint.
-    JOB_BARE: u32 = 2;
+    BATCH_BARE: u32 = 2;
     /// In a batch's part: its sums go to its own entry in the list, not to the pixel's half.
-    JOB_APART: u32 = 4;
+    BATCH_APART: u32 = 4;
     /// Position of the stream of samples in a batch's part; streams are as independent as different seeds.
-    JOB_STREAM_SHIFT: u32 = 8;
+    BATCH_STREAM_SHIFT: u32 = 8;
 
     /// Words of a cell of the picture: number of triangles, content, up to `MAX_LISTED` triangles.
     CELL_WORDS: u32 = 64;

@@ -37,7 +37,7 @@ enums! {
         #[default]
         Tiles = "tiles",
         /// By a list of batches.
-        Jobs = "jobs",
+        Batches = "batches",
     }
 
     /// The shape of a pixel filter, which is the product of the same function along both axes.

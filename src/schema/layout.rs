@@ -1,6 +1,6 @@
 //! The scene buffer on the host: records, blocks of words, and the constants that both sides share.
 
-pub use super::blocks::{CellRange, Halving, Job, Slice};
+pub use super::blocks::{CellRange, Halving, PixelBatch, Slice};
 pub use super::constants::*;
 pub use super::record::{RealBits, Record, bytes_of};
 pub use super::records::*;

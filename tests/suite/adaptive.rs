@@ -1,4 +1,4 @@
-//! Sampling to a goal: which samples the jobs take, that device and oracle take the same ones, that
+//! Sampling to a goal: which samples the batches take, that device and oracle take the same ones, that
 //! the requested error is reached, and that adaptively placed samples reduce the error further than
 //! uniform ones.
 
@@ -20,7 +20,7 @@ use moire::internal::pack::PackedScene;
 use moire::internal::render::{self, Tuning};
 use moire::internal::sampling::{Backend, FilmSums, HalfSums, PilotRun};
 use moire::internal::scene::model::{Algorithm, Footprint, Pattern, Scene};
-use moire::internal::schema::layout::Job;
+use moire::internal::schema::layout::PixelBatch;
 
 use crate::stage::{assert_same_bits, device, packed, render, small};
 
@@ -201,14 +201,14 @@ struct Slow {
 const TOLD: [f32; 3] = [0.5, 0.25, 0.125];
 
 impl Slow {
-    fn wait(jobs: &[Job]) {
-        let samples: u32 = jobs.iter().map(|j| j.count).sum();
+    fn wait(batches: &[PixelBatch]) {
+        let samples: u32 = batches.iter().map(|j| j.count).sum();
         std::thread::sleep(std::time::Duration::from_nanos(500) * samples);
     }
 
-    fn add(job: &Job, sum: &mut [f32; 4]) {
-        for s in job.first..job.first + job.count {
-            let noise = sample_bits([job.place, job.stream()], s)[0] as f32 / u32::MAX as f32 - 0.5;
+    fn add(batch: &PixelBatch, sum: &mut [f32; 4]) {
+        for s in batch.first..batch.first + batch.count {
+            let noise = sample_bits([batch.place, batch.stream()], s)[0] as f32 / u32::MAX as f32 - 0.5;
             let seen = TOLD.map(|v| v + noise);
             (0..3).for_each(|c| sum[c] += seen[c]);
             sum[3] += seen.iter().map(|v| v * v / 3.0).sum::<f32>();
@@ -225,20 +225,20 @@ impl Backend for Slow {
         Err(Error::new(format!("batches alone, not {range:?}")))
     }
 
-    fn sample(&mut self, jobs: &[Job], _: &dyn Progress) -> Result<()> {
-        Slow::wait(jobs);
-        for job in jobs {
-            let [x, y] = job.column_and_row();
+    fn sample(&mut self, batches: &[PixelBatch], _: &dyn Progress) -> Result<()> {
+        Slow::wait(batches);
+        for batch in batches {
+            let [x, y] = batch.column_and_row();
             let at = (y * self.sums.width + x) as usize;
-            Slow::add(job, &mut self.sums.halves[(job.part & 1) as usize][at]);
+            Slow::add(batch, &mut self.sums.halves[(batch.part & 1) as usize][at]);
         }
         Ok(())
     }
 
-    fn sample_apart(&mut self, jobs: &[Job], _: &dyn Progress) -> Result<Vec<[f32; 4]>> {
-        Slow::wait(jobs);
-        let mut sums = vec![[0.0; 4]; jobs.len()];
-        jobs.iter().zip(&mut sums).for_each(|(job, sum)| Slow::add(job, sum));
+    fn sample_apart(&mut self, batches: &[PixelBatch], _: &dyn Progress) -> Result<Vec<[f32; 4]>> {
+        Slow::wait(batches);
+        let mut sums = vec![[0.0; 4]; batches.len()];
+        batches.iter().zip(&mut sums).for_each(|(batch, sum)| Slow::add(batch, sum));
         Ok(sums)
     }
 

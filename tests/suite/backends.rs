@@ -12,7 +12,7 @@ use moire::internal::sampling::{Backend, FilmSums, HalfSums, PilotRun, Scheduler
 use moire::internal::scene::cone::adapt_for_cone;
 use moire::internal::scene::model::{Algorithm, Pattern, PixelFilter, PixelFilterKind, Scene};
 use moire::internal::scene::prune::prune;
-use moire::internal::schema::layout::{Job, TILE};
+use moire::internal::schema::layout::{PixelBatch, TILE};
 
 use crate::stage::{assert_same_bits, cut, device, device_name, packed, small};
 
@@ -168,11 +168,11 @@ impl Backend for Unable {
         Ok(None)
     }
 
-    fn sample(&mut self, _: &[Job], _: &dyn Progress) -> Result<()> {
+    fn sample(&mut self, _: &[PixelBatch], _: &dyn Progress) -> Result<()> {
         Ok(())
     }
 
-    fn sample_apart(&mut self, _: &[Job], _: &dyn Progress) -> Result<Vec<[f32; 4]>> {
+    fn sample_apart(&mut self, _: &[PixelBatch], _: &dyn Progress) -> Result<Vec<[f32; 4]>> {
         Ok(Vec::new())
     }
 

@@ -35,7 +35,7 @@ fn scene(text: &str, texture: Option<TextureData>) -> PackedScene {
 fn counts(mut packed: PackedScene) -> Vec<(Diagnostic, u64)> {
     let (plain, report) = render_with(&packed, false, &Tuning::default());
     assert!(report.diagnostics.is_none(), "a render counts that was not asked to");
-    packed.guarded = true;
+    packed.diagnosed = true;
     let (counted, report) = render_with(&packed, false, &Tuning::default());
     assert_same_bits(&plain, &counted, "counting changes the picture");
     report.diagnostics.unwrap()
@@ -94,7 +94,7 @@ fn every_sample_whose_radiance_is_no_number_is_counted() {
     let texture = grey(2, |i| if i == 2 { f32::NAN } else { 1.0 });
     let packed = scene(&text.replace("footprint = 'cone'", "pattern = 'grid'"), Some(texture));
     let mut packed = packed;
-    packed.guarded = true;
+    packed.diagnosed = true;
     let found = render_with(&packed, false, &Tuning::default()).1.diagnostics.unwrap();
     only(&found, Diagnostic::Radiance, 8 * 8 * 4 / 4);
 }

@@ -8,7 +8,7 @@ use glam::{DVec3, Vec3};
 use moire::internal::gpu::BindingKind;
 use moire::internal::gpu::shaders::{self, Shader};
 use moire::internal::pack::features;
-use moire::internal::schema::blocks::{CellRange, Halving, Job, PositionRange, QueryRange, Slice};
+use moire::internal::schema::blocks::{CellRange, Halving, PixelBatch, PositionRange, QueryRange, Slice};
 use moire::internal::schema::enums::{BumpKind, LightKind, Reals, TexelSource};
 use moire::internal::schema::layout::{Light, Material, Plane, RealBits, Record, Triangle};
 use moire::internal::schema::models::Model;
@@ -132,7 +132,7 @@ fn what_is_left_of_a_unit_is_empty() {
 fn blocks_of_words_have_no_gaps() {
     assert_eq!(size_of::<Slice>(), 36);
     assert_eq!(size_of::<CellRange>(), 8);
-    assert_eq!(size_of::<Job>(), 16);
+    assert_eq!(size_of::<PixelBatch>(), 16);
     assert_eq!(size_of::<Halving>(), 32);
     assert_eq!(size_of::<QueryRange>(), 4);
     assert_eq!(size_of::<PositionRange>(), 20);

@@ -16,7 +16,7 @@ use super::{MAX_COUNT, OCTAVES, octave};
 use crate::core::error::Result;
 use crate::core::progress::Progress;
 use crate::sampling::{Backend, HalfSums};
-use crate::schema::layout::{JOB_APART, JOB_BARE, JOB_STREAM_SHIFT, Job};
+use crate::schema::layout::{BATCH_APART, BATCH_BARE, BATCH_STREAM_SHIFT, PixelBatch};
 
 /// The probability that the interval contains the true value.
 pub const CONFIDENCE: f64 = 0.99;
@@ -87,24 +87,24 @@ impl Audited<'_> {
         let part = (budget / cost).min(1.0);
         let samples =
             |pixel: usize| ((f64::from(wanted(self.counts[pixel])) * part) as u32).clamp(16, MAX_COUNT);
-        let bare = if backend.prefilters() { JOB_BARE } else { 0 };
-        let job = |&pixel: &usize, mean: u32| Job {
-            place: Job::place_of(pixel as u32, self.sums.width),
-            part: JOB_APART | bare | (2 + 2 * round + mean) << JOB_STREAM_SHIFT,
+        let bare = if backend.prefilters() { BATCH_BARE } else { 0 };
+        let batch = |&pixel: &usize, mean: u32| PixelBatch {
+            place: PixelBatch::place_of(pixel as u32, self.sums.width),
+            part: BATCH_APART | bare | (2 + 2 * round + mean) << BATCH_STREAM_SHIFT,
             first: 0,
             count: samples(pixel),
         };
         // Longest first, so that neighbouring threads have equal amounts of work.
         let mut order: Vec<usize> = (0..places.len()).collect();
         order.sort_by_key(|&at| Reverse(samples(places[at])));
-        let jobs: Vec<Job> =
-            order.iter().flat_map(|&at| [job(&places[at], 0), job(&places[at], 1)]).collect();
-        let sums = backend.sample_apart(&jobs, progress)?;
+        let batches: Vec<PixelBatch> =
+            order.iter().flat_map(|&at| [batch(&places[at], 0), batch(&places[at], 1)]).collect();
+        let sums = backend.sample_apart(&batches, progress)?;
         let brightest = sums.iter().map(brightness).fold(0.0, f64::max);
         let mut findings: Vec<Option<Finding>> = vec![None; places.len()];
-        for ((sums, jobs), at) in sums.chunks_exact(2).zip(jobs.chunks_exact(2)).zip(order) {
+        for ((sums, batches), at) in sums.chunks_exact(2).zip(batches.chunks_exact(2)).zip(order) {
             let weight = 1.0 / masses.draws_of(self, places[at]);
-            findings[at] = self.finding(places[at], [sums[0], sums[1]], jobs[0].count, weight, brightest);
+            findings[at] = self.finding(places[at], [sums[0], sums[1]], batches[0].count, weight, brightest);
         }
         // In the order of the draws, so that neighbouring ones are alike.
         let of_draws = |of: fn(&Finding) -> f64| {
@@ -120,7 +120,7 @@ impl Audited<'_> {
             interval: (drawn.len() >= MIN_DRAWS)
                 .then(|| [(errors.sum - errors.reach()).max(0.0), bounds.sum + bounds.reach()]),
             pixels: places.len(),
-            samples: jobs.iter().map(|j| f64::from(j.count)).sum(),
+            samples: batches.iter().map(|j| f64::from(j.count)).sum(),
             findings: findings.into_iter().flatten().collect(),
         })
     }

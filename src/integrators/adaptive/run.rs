@@ -16,7 +16,7 @@ use crate::core::film::Film;
 use crate::core::progress::Progress;
 use crate::core::range::{Range, Rect};
 use crate::sampling::{Backend, Block, Count, FilmSums, HalfSums};
-use crate::schema::layout::Job;
+use crate::schema::layout::PixelBatch;
 
 /// Samples of each half in the first pass: enough to meet the edge of a shape that covers a tenth of the pixel with a
 /// probability of 4 in 5.
@@ -66,7 +66,7 @@ pub fn run(
             let clock = Instant::now();
             match (equal(&counts), equal(&next)) {
                 (Some(now), Some(next)) => backend.sample_all([width, height], now, next - now, progress)?,
-                _ => backend.sample(&jobs(&counts, &next, width), progress)?,
+                _ => backend.sample(&batches(&counts, &next, width), progress)?,
             }
             pace.learn(total(&next) - total(&counts), clock.elapsed().as_secs_f64());
             counts.clone_from(&next);
@@ -229,7 +229,7 @@ fn total(counts: &[u32]) -> f64 {
 
 /// Returns the batches that take each half of each pixel from `counts` to `next` samples, longest first, so that
 /// neighbouring threads have equal amounts of work.
-fn jobs(counts: &[u32], next: &[u32], width: u32) -> Vec<Job> {
+fn batches(counts: &[u32], next: &[u32], width: u32) -> Vec<PixelBatch> {
     // There are few different lengths, so pixels are put into buckets instead of sorted.
     let mut lengths: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
     for (i, (&now, &next)) in (0..).zip(counts.iter().zip(next)) {
@@ -237,14 +237,14 @@ fn jobs(counts: &[u32], next: &[u32], width: u32) -> Vec<Job> {
             lengths.entry(next - now).or_default().push(i);
         }
     }
-    let job = |i: u32, half, count| Job {
-        place: Job::place_of(i, width),
-        part: Job::part_of(half),
+    let batch = |i: u32, half, count| PixelBatch {
+        place: PixelBatch::place_of(i, width),
+        part: PixelBatch::part_of(half),
         first: counts[i as usize],
         count,
     };
     let both = |(count, pixels): (u32, Vec<u32>)| {
-        let pair = |i: u32| [job(i, 0, count), job(i, 1, count)];
+        let pair = |i: u32| [batch(i, 0, count), batch(i, 1, count)];
         pixels.into_iter().flat_map(pair).collect::<Vec<_>>()
     };
     lengths.into_iter().rev().flat_map(both).collect()

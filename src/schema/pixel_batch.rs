@@ -1,9 +1,9 @@
 //! The packed words of a batch: its pixel, and the part of the pixel.
 
-use super::blocks::Job;
-use super::constants::JOB_STREAM_SHIFT;
+use super::blocks::PixelBatch;
+use super::constants::BATCH_STREAM_SHIFT;
 
-impl Job {
+impl PixelBatch {
     /// Returns the `place` of a film's pixel by its index.
     pub fn place_of(index: u32, width: u32) -> u32 {
         (index / width) << 16 | (index % width)
@@ -11,12 +11,12 @@ impl Job {
 
     /// Returns the `part` of a half of the film: its samples are the stream of the same number.
     pub fn part_of(half: u32) -> u32 {
-        half | half << JOB_STREAM_SHIFT
+        half | half << BATCH_STREAM_SHIFT
     }
 
     /// Returns the stream of samples.
     pub fn stream(&self) -> u32 {
-        self.part >> JOB_STREAM_SHIFT
+        self.part >> BATCH_STREAM_SHIFT
     }
 
     /// Returns column and row.
