@@ -125,7 +125,7 @@ fn to_goal(scene: &Scene, goal: Goal) -> (Film, moire::internal::integrators::ad
 }
 
 /// Returns the numbers of empty, uniform and busy cells.
-fn calmness(scene: Scene) -> [usize; 3] {
+fn contents(scene: Scene) -> [usize; 3] {
     let (_, words) = culls_tiles(&packed(scene, None));
     [CELL_EMPTY, CELL_UNIFORM, CELL_BUSY]
         .map(|class| words.chunks(CELL_WORDS as usize).filter(|cell| cell[1] == class).count())
@@ -134,7 +134,7 @@ fn calmness(scene: Scene) -> [usize; 3] {
 /// A ground alone is uniform where it is near enough for its texels to span a pixel, and if untextured wherever it
 /// fills the cell; if it is lit, another shape may shadow it.
 #[test]
-fn ground_is_calm_by_its_texels_and_its_light() {
+fn ground_is_uniform_by_its_texels_and_its_light() {
     let mut lit = soup(20, 128);
     lit.shapes.spheres.clear();
     let mut unlit = lit.clone();
@@ -145,7 +145,7 @@ fn ground_is_calm_by_its_texels_and_its_light() {
     coarse.materials.iter_mut().for_each(|m| m.mapping.scale *= 1e-3);
     let mut plain = unlit.clone();
     plain.materials.iter_mut().for_each(|m| m.texture = None);
-    let [lit, fine, coarse, plain] = [lit, fine, coarse, plain].map(calmness);
+    let [lit, fine, coarse, plain] = [lit, fine, coarse, plain].map(contents);
     assert_eq!([lit[1], fine[1]], [0, 0], "shaded, minified");
     assert!(coarse[1] > 20 && plain[1] >= coarse[1], "{coarse:?} {plain:?}");
     for counts in [fine, coarse, plain] {
@@ -155,7 +155,7 @@ fn ground_is_calm_by_its_texels_and_its_light() {
 
 /// Needles of a hundredth of a pixel before an empty background: the cells that they cross are not empty.
 #[test]
-fn calm_cells_begin_with_fewer_samples_and_nothing_thin_is_missed() {
+fn uniform_cells_begin_with_fewer_samples_and_nothing_thin_is_missed() {
     let mut scene = soup(40, 128);
     scene.shapes.planes.clear();
     scene.shapes.spheres.clear();
