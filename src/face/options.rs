@@ -18,17 +18,26 @@ use crate::texture::sampler_spec::{Filter, MipMode};
 ///
 /// let options = RenderOptions::new().device("cpu").pattern(Pattern::SobolOwen).samples(64);
 /// ```
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct RenderOptions {
     devices: Vec<String>,
     changes: Changes,
     pub(super) with: Options,
 }
 
+impl Default for RenderOptions {
+    fn default() -> Self {
+        RenderOptions::new()
+    }
+}
+
 impl RenderOptions {
     /// Returns options that override nothing.
+    // rustc 1.95 compiles callers wrongly that see these values: after options were passed to a function by value, the
+    // next ones, in the same place, are taken for set although the function has changed them.
+    #[inline(never)]
     pub fn new() -> RenderOptions {
-        RenderOptions::default()
+        RenderOptions { devices: Vec::new(), changes: Changes::default(), with: Options::default() }
     }
 
     /// Adds a device for rendering: by its index, a part of its name, `cpu` or `gpu`; or `oracle`, which is float64 on
