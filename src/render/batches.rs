@@ -2,12 +2,12 @@
 //! is divided into pages of whole rows that fit the device's buffers; each page has its own list of batches.
 
 use super::dispatch_plan::{FIRST_SAMPLES, MAX_TILES, next_work};
+use super::sample_pipeline::{Bindings, SamplePipeline};
 use super::{Report, Resources};
 use crate::core::error::{Error, Result};
 use crate::core::progress::Progress;
 use crate::core::range::Rect;
-use crate::gpu::shaders::Shader;
-use crate::gpu::{BindGroup, Buffer, BufferUse, Gpu, Pipeline};
+use crate::gpu::{Buffer, BufferUse, Gpu};
 use crate::pack::{PackedScene, Schedule, filtered_mean};
 use crate::sampling::HalfSums;
 use crate::schema::layout::{PixelBatch, Slice, TILE};
@@ -24,26 +24,6 @@ const BATCHES_PER_TILE: usize = (TILE * TILE) as usize;
 struct Page {
     rows: Rect,
     film: Buffer,
-}
-
-/// The pipeline that samples batches.
-pub struct SamplePipeline {
-    pub pipeline: std::sync::Arc<Pipeline>,
-    pub shader: &'static Shader,
-    pub groups_per_tile: u32,
-}
-
-/// The parameters of binding a list of batches.
-struct Bindings<'a> {
-    resources: &'a Resources,
-    pipeline: &'a Pipeline,
-    shader: &'a Shader,
-}
-
-impl Bindings<'_> {
-    fn bind(&self, gpu: &Gpu, film: &Buffer, batches: Option<&Buffer>) -> Result<BindGroup> {
-        self.resources.bind(gpu, self.pipeline, self.shader, film, batches)
-    }
 }
 
 /// Takes batches of samples and holds their sums.

@@ -14,6 +14,7 @@ mod mip_chain;
 mod picture;
 mod plan;
 mod resources;
+mod sample_pipeline;
 mod session;
 pub mod specialization;
 mod texel_buffer;

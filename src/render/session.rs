@@ -16,11 +16,12 @@ use crate::schema::enums::TexelSource;
 use crate::schema::layout::{Header, Slice};
 use crate::schema::specialization::Constant;
 
-use super::batches::{BatchSampler, SamplePipeline};
+use super::batches::BatchSampler;
 use super::beams::BeamPass;
 use super::film_buffer::FilmBuffer;
 use super::loop_budget::samples_at_once;
 use super::resources::{Resources, shader_for};
+use super::sample_pipeline::SamplePipeline;
 use super::texel_buffer;
 use super::tile_culling::TileCulling;
 use super::tiles::TileRenderer;
