@@ -44,32 +44,6 @@ fn look_up_shader(features: &Features) -> &'static Shader {
     }
 }
 
-/// Texture lookups of a sequence of scenes.
-pub struct LookupProbe<'a>(&'a Gpu);
-
-impl<'a> LookupProbe<'a> {
-    pub fn new(gpu: &'a Gpu) -> LookupProbe<'a> {
-        LookupProbe(gpu)
-    }
-
-    pub fn answer(
-        &self,
-        scene: &PackedScene,
-        image_source: bool,
-        queries: &[LookupQuery],
-    ) -> Result<Vec<[f32; 4]>> {
-        let LookupProbe(gpu) = self;
-        let features = Features::new(scene, image_source, false);
-        let shader = look_up_shader(&features);
-        let resources = Resources::upload(gpu, scene, &features, Tuning::default().texel_words(gpu))?;
-        let slots = resources.slots;
-        let constants = specialization::constants(shader, &features, &resources.sections, [GROUP, 1], slots);
-        let pipeline = build_pipeline(gpu, shader, &constants, slots, size_of::<u32>())?;
-        let list = Some(bytemuck::cast_slice(queries));
-        dispatch(gpu, &pipeline, &resources, shader, list, queries.len(), &[])
-    }
-}
-
 /// Box mip chains of a sequence of textures. Textures of one format share pipelines.
 pub struct MipProbe<'a>(&'a Gpu, MipGenerator<'a>);
 

@@ -50,7 +50,8 @@ pub struct Shader {
 impl Shader {
     /// Returns true if the shader has a specialization constant.
     pub fn has(&self, constant: Constant) -> bool {
-        self.constants.iter().any(|c| c.id == constant.id())
+        let id = constant.id();
+        self.constants.iter().any(|c| c.id == id)
     }
 
     /// Returns (id, value) of the constants that the shader has.

@@ -9,7 +9,7 @@ use super::case::{Bench, Case, Point};
 use super::probing::{coordinates, decades, described, noise, oracle, over, scene, worst};
 use crate::core::error::Result;
 use crate::core::progress::NoProgress;
-use crate::lab::probe::{LookupProbe, LookupQuery};
+use crate::lab::probe::{LookupQuery, lookups};
 use crate::lab::verify::queries::Rng;
 use crate::oracle::backend::render as oracle_render;
 use crate::pack::{self, PackedScene};
@@ -145,11 +145,10 @@ fn texel_mean() -> f64 {
 fn widths(bench: &Bench<'_>, mag: Filter, min: Filter) -> Result<Vec<Point>> {
     let scene = scene(noise(SIDE, SIDE), &[spec(mag, min)])?;
     let mean = texel_mean();
-    let device = LookupProbe::new(bench.gpu);
     let sweep = decades(-6, 6, 2).map(|wide| {
         bench.check_cancelled()?;
         let endless = wide > 64.0 * f64::from(SIDE);
-        worst(&device, &scene, wide, RANGE, &footprints(&scene, wide * OFF), |i, query| {
+        worst(bench.gpu, &scene, wide, RANGE, &footprints(&scene, wide * OFF), |i, query| {
             if endless { mean } else { oracle(&scene, i, query) }
         })
     });
@@ -159,11 +158,10 @@ fn widths(bench: &Bench<'_>, mag: Filter, min: Filter) -> Result<Vec<Point>> {
 fn areas(bench: &Bench<'_>) -> Result<Vec<Point>> {
     let scene = scene(noise(SIDE, SIDE), &[spec(Filter::Linear, Filter::SummedArea)])?;
     let texels = noise(SIDE, SIDE);
-    let device = LookupProbe::new(bench.gpu);
     let sweep = decades(-6, 6, 2).map(|wide| {
         bench.check_cancelled()?;
         let queries = footprints(&scene, wide * OFF);
-        worst(&device, &scene, wide, RANGE, &queries, |i, query| {
+        worst(bench.gpu, &scene, wide, RANGE, &queries, |i, query| {
             // Magnification is linear.
             if wide < 1.0 { oracle(&scene, i, query) } else { box_mean(&texels, query) }
         })
@@ -174,13 +172,12 @@ fn areas(bench: &Bench<'_>) -> Result<Vec<Point>> {
 fn chances(bench: &Bench<'_>) -> Result<Vec<Point>> {
     let specs = [spec(Filter::Stochastic, Filter::Stochastic), spec(Filter::Linear, Filter::Linear)];
     let scene = scene(noise(SIDE, SIDE), &specs)?;
-    let device = LookupProbe::new(bench.gpu);
     let count = 4096u32;
     let sweep = decades(-6, 6, 2).map(|wide| {
         bench.check_cancelled()?;
         let one = footprints(&scene, wide * OFF)[2];
         let queries: Vec<LookupQuery> = (0..count).map(|seed| LookupQuery { seed, ..one }).collect();
-        let answers = device.answer(&scene, false, &queries)?;
+        let answers = lookups(bench.gpu, &scene, false, false, &queries)?;
         let values = || answers.iter().map(|a| f64::from(a[0]));
         let mean = values().sum::<f64>() / f64::from(count);
         let variance = values().map(|v| (v - mean).powi(2)).sum::<f64>() / f64::from(count);
@@ -196,7 +193,6 @@ fn chances(bench: &Bench<'_>) -> Result<Vec<Point>> {
 fn lengths(bench: &Bench<'_>) -> Result<Vec<Point>> {
     let specs = [spec(Filter::Linear, Filter::Anisotropic), spec(Filter::Linear, Filter::Ewa)];
     let scene = scene(noise(SIDE, SIDE), &specs)?;
-    let device = LookupProbe::new(bench.gpu);
     let sweep = decades(0, 6, 2).map(|ratio| {
         bench.check_cancelled()?;
         let wide = OFF / f64::from(SIDE);
@@ -211,7 +207,7 @@ fn lengths(bench: &Bench<'_>) -> Result<Vec<Point>> {
                 over(&scene, i % 2, uv, axes)
             })
             .collect();
-        worst(&device, &scene, ratio, RANGE, &queries, |i, query| oracle(&scene, i, query))
+        worst(bench.gpu, &scene, ratio, RANGE, &queries, |i, query| oracle(&scene, i, query))
     });
     sweep.collect()
 }
@@ -258,7 +254,6 @@ fn outside(scene: &PackedScene, query: &LookupQuery, answer: f64) -> (f64, Strin
 fn degenerate(bench: &Bench<'_>) -> Result<Vec<Point>> {
     let specs = MINIFIERS.map(|min| spec(Filter::Linear, min));
     let scene = scene(noise(SIDE, SIDE), &specs)?;
-    let device = LookupProbe::new(bench.gpu);
     let sweep = decades(-45, 38, 1).map(|long| {
         bench.check_cancelled()?;
         let wide = 3.0 / f64::from(SIDE);
@@ -277,7 +272,7 @@ fn degenerate(bench: &Bench<'_>) -> Result<Vec<Point>> {
                 queries.extend((0..specs.len()).map(|sampler| over(&scene, sampler, uv, axes)));
             }
         }
-        let answers = device.answer(&scene, false, &queries)?;
+        let answers = lookups(bench.gpu, &scene, false, false, &queries)?;
         let errors = queries.iter().zip(&answers).map(|(q, a)| outside(&scene, q, a[0].into()));
         Ok(Point::worst(long, errors))
     });
@@ -288,7 +283,6 @@ fn no_numbers(bench: &Bench<'_>) -> Result<Vec<Point>> {
     let specs = [Filter::Linear, Filter::Ewa, Filter::SummedArea].map(|min| spec(Filter::Linear, min));
     let scene = scene(noise(SIDE, SIDE), &specs)?;
     let mean = texel_mean();
-    let device = LookupProbe::new(bench.gpu);
     let odd = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1e30, -1e38];
     let pairs = odd.iter().flat_map(|&a| odd.iter().map(move |&b| [a, b]));
     let sweep = pairs.enumerate().map(|(number, [a, b])| {
@@ -299,7 +293,7 @@ fn no_numbers(bench: &Bench<'_>) -> Result<Vec<Point>> {
                 queries.extend((0..specs.len()).map(|sampler| over(&scene, sampler, uv, axes)));
             }
         }
-        worst(&device, &scene, (number + 1) as f64, RANGE, &queries, |_, _| mean)
+        worst(bench.gpu, &scene, (number + 1) as f64, RANGE, &queries, |_, _| mean)
     });
     sweep.collect()
 }

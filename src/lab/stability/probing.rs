@@ -4,7 +4,8 @@
 
 use super::case::Point;
 use crate::core::error::Result;
-use crate::lab::probe::{LookupProbe, LookupQuery};
+use crate::gpu::Gpu;
+use crate::lab::probe::{LookupQuery, lookups};
 use crate::lab::verify::queries::{Rng, pairs_over, place_of, query, texture};
 use crate::oracle::filter::sample_texture;
 use crate::oracle::rng::pcg2d;
@@ -62,14 +63,14 @@ pub fn oracle(scene: &PackedScene, index: usize, query: &LookupQuery) -> f64 {
 /// Returns the largest difference of the first channel, in units, between the device's answers and
 /// `exact`.
 pub fn worst(
-    device: &LookupProbe<'_>,
+    gpu: &Gpu,
     scene: &PackedScene,
     parameter: f64,
     unit: f64,
     queries: &[LookupQuery],
     exact: impl Fn(usize, &LookupQuery) -> f64,
 ) -> Result<Point> {
-    let answers = device.answer(scene, false, queries)?;
+    let answers = lookups(gpu, scene, false, false, queries)?;
     Ok(worst_of(scene, parameter, unit, queries, &answers, exact))
 }
 

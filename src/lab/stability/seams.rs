@@ -7,7 +7,8 @@ use glam::DVec3;
 use super::case::{Bench, Case, Point};
 use super::probing::{self, decades};
 use crate::core::error::Result;
-use crate::lab::probe::{LookupProbe, LookupQuery};
+use crate::gpu::Gpu;
+use crate::lab::probe::{LookupQuery, lookups};
 use crate::lab::verify::queries::{self, Rng};
 use crate::pack::PackedScene;
 use crate::texture::data::{ColorSpace, Dimension, TexelFormat};
@@ -71,14 +72,8 @@ fn towards(one: &LookupQuery, direction: DVec3) -> LookupQuery {
 }
 
 /// Returns the steps between answers of pairs a gap apart, less the `allowed` step.
-fn steps(
-    device: &LookupProbe<'_>,
-    scene: &PackedScene,
-    gap: f64,
-    allowed: f64,
-    pairs: &[LookupQuery],
-) -> Result<Point> {
-    let answers = device.answer(scene, false, pairs)?;
+fn steps(gpu: &Gpu, scene: &PackedScene, gap: f64, allowed: f64, pairs: &[LookupQuery]) -> Result<Point> {
+    let answers = lookups(gpu, scene, false, false, pairs)?;
     Ok(worst_step(gap, allowed, pairs, &answers))
 }
 
@@ -94,7 +89,6 @@ pub fn worst_step(gap: f64, allowed: f64, pairs: &[LookupQuery], answers: &[[f32
 fn cube_edges(bench: &Bench<'_>) -> Result<Vec<Point>> {
     let scene = scene(Dimension::Cube, [SIDE, SIDE, 6], Filter::Linear)?;
     let one = queries::query(&scene, 0, [0.0; 2]);
-    let device = LookupProbe::new(bench.gpu);
     let sweep = decades(-7, -1, 2).map(|gap| {
         bench.check_cancelled()?;
         let mut rng = Rng::new(32);
@@ -119,7 +113,7 @@ fn cube_edges(bench: &Bench<'_>) -> Result<Vec<Point>> {
         // A texel is 2 / SIDE wide, and a step along each of two axes has the range; a direction
         // off the face's plane moves by √2 on it.
         let allowed = 2.0 * RANGE * std::f64::consts::SQRT_2 * farthest * f64::from(SIDE) / 2.0;
-        steps(&device, &scene, gap, allowed, &pairs)
+        steps(bench.gpu, &scene, gap, allowed, &pairs)
     });
     sweep.collect()
 }
@@ -131,7 +125,6 @@ fn cube_ties(bench: &Bench<'_>) -> Result<Vec<Point>> {
     let faces = blank.with_floats(1, |_, y, _| (y / 2) as f32);
     let scene = queries::pairs(vec![faces], &[spec], &[(0, 0)])?;
     let one = queries::query(&scene, 0, [0.0; 2]);
-    let device = LookupProbe::new(bench.gpu);
     let sweep = decades(-30, 30, 1).map(|long| {
         bench.check_cancelled()?;
         let numbers = [-1.0, 0.0, 1.0];
@@ -139,7 +132,7 @@ fn cube_ties(bench: &Bench<'_>) -> Result<Vec<Point>> {
         let directions: Vec<[f64; 3]> = all().filter(|d| *d != [0.0; 3]).collect();
         let queries: Vec<LookupQuery> =
             directions.iter().map(|&d| towards(&one, DVec3::from_array(d) * long)).collect();
-        let answers = device.answer(&scene, false, &queries)?;
+        let answers = lookups(bench.gpu, &scene, false, false, &queries)?;
         let wrong = directions.iter().zip(&answers).filter(|([x, y, z], answer)| {
             let (axis, sign) = match () {
                 () if *z != 0.0 => (2.0, *z),
@@ -167,7 +160,6 @@ fn cube_levels(bench: &Bench<'_>) -> Result<Vec<Point>> {
     );
     let scene = probing::scene(texture, &[spec])?;
     let one = queries::query(&scene, 0, [0.0; 2]);
-    let device = LookupProbe::new(bench.gpu);
     let sweep = decades(-30, 30, 1).map(|long| {
         bench.check_cancelled()?;
         let mut rng = Rng::new(35);
@@ -179,7 +171,7 @@ fn cube_levels(bench: &Bench<'_>) -> Result<Vec<Point>> {
                 LookupQuery { dx, dy, ..towards(&one, vector(1.0) * long) }
             })
             .collect();
-        probing::worst(&device, &scene, long, RANGE, &queries, |i, query| probing::oracle(&scene, i, query))
+        probing::worst(bench.gpu, &scene, long, RANGE, &queries, |i, query| probing::oracle(&scene, i, query))
     });
     sweep.collect()
 }
@@ -190,7 +182,6 @@ fn poles(bench: &Bench<'_>) -> Result<Vec<Point>> {
     scene.records.samplers[0].crosses_poles = true;
     scene.records.samplers[0].address_v = Address::ClampToEdge;
     let one = queries::query(&scene, 0, [0.0; 2]);
-    let device = LookupProbe::new(bench.gpu);
     let sweep = decades(-8, -2, 2).map(|gap| {
         bench.check_cancelled()?;
         let mut rng = Rng::new(33);
@@ -207,7 +198,7 @@ fn poles(bench: &Bench<'_>) -> Result<Vec<Point>> {
         }
         // The spacing of coordinates next to 1 is 2^-24.
         let allowed = RANGE * (gap + 2.0 * probing::ROUNDING) * f64::from(2 * SIDE);
-        steps(&device, &scene, gap, allowed, &pairs)
+        steps(bench.gpu, &scene, gap, allowed, &pairs)
     });
     sweep.collect()
 }

@@ -4,7 +4,7 @@
 use super::case::{Bench, Case, Point};
 use super::probing::{ROUNDING, coordinates, decades, grey, noise, oracle, over, scene, worst};
 use crate::core::error::Result;
-use crate::lab::probe::LookupProbe;
+use crate::lab::probe::lookups;
 use crate::lab::verify::queries::Rng;
 use crate::texture::sampler_spec::{Address, Filter, MipMode, SamplerSpec};
 
@@ -89,7 +89,6 @@ fn brightness(bench: &Bench<'_>) -> Result<Vec<Point>> {
     let mins = [Linear, Anisotropic, Ewa, SummedArea].map(|min| (spec(Linear, min), ROUND));
     let (specs, footprints): (Vec<_>, Vec<_>) = mags.into_iter().chain(mins).unzip();
     let texels = noise(SIDE, SIDE);
-    let device = LookupProbe::new(bench.gpu);
     let sweep = decades(-30, 38, 1).map(|size| {
         bench.check_cancelled()?;
         let texels = grey(SIDE, SIDE, |x, y| (texels.value(x, y, 0) / 6.0 * size) as f32);
@@ -98,7 +97,7 @@ fn brightness(bench: &Bench<'_>) -> Result<Vec<Point>> {
         let all = uvs.iter().flat_map(|&uv| (0..specs.len()).map(move |i| (i, uv)));
         let queries: Vec<_> = all.map(|(i, uv)| over(&scene, i, uv, footprints[i])).collect();
         let unit = size * ROUNDING;
-        worst(&device, &scene, size, unit, &queries, |i, query| oracle(&scene, i, query))
+        worst(bench.gpu, &scene, size, unit, &queries, |i, query| oracle(&scene, i, query))
     });
     sweep.collect()
 }
@@ -106,7 +105,6 @@ fn brightness(bench: &Bench<'_>) -> Result<Vec<Point>> {
 /// Sweeps two columns of opposite sign, and two equal ones.
 fn opposites(bench: &Bench<'_>) -> Result<Vec<Point>> {
     let clamped = SamplerSpec { address: [Address::ClampToEdge; 2], ..Default::default() };
-    let device = LookupProbe::new(bench.gpu);
     let sizes = decades(0, 38, 1).chain([1.7e38, 2e38, 3.4e38]);
     let sweep = sizes.map(|size| {
         bench.check_cancelled()?;
@@ -116,7 +114,7 @@ fn opposites(bench: &Bench<'_>) -> Result<Vec<Point>> {
         let steps = 512u32;
         let place = |k: u32| [0.125 + 0.5 * k as f32 / steps as f32, 0.5];
         let queries: Vec<_> = (0..=steps).map(|k| over(&scene, 0, place(k), POINT)).collect();
-        worst(&device, &scene, size, size * ROUNDING, &queries, |_, query| {
+        worst(bench.gpu, &scene, size, size * ROUNDING, &queries, |_, query| {
             let between = (4.0 * f64::from(query.uv[0]) - 0.5).min(1.0);
             size * between - size * (1.0 - between)
         })
@@ -127,7 +125,6 @@ fn opposites(bench: &Bench<'_>) -> Result<Vec<Point>> {
 fn darkness(bench: &Bench<'_>) -> Result<Vec<Point>> {
     let specs = [spec(Filter::Nearest, Filter::Nearest), spec(Filter::Linear, Filter::Linear)];
     let texels = noise(SIDE, SIDE);
-    let device = LookupProbe::new(bench.gpu);
     let sweep = decades(-45, -34, 2).map(|size| {
         bench.check_cancelled()?;
         let texels = grey(SIDE, SIDE, |x, y| (texels.value(x, y, 0) / 6.0 * size) as f32);
@@ -137,7 +134,7 @@ fn darkness(bench: &Bench<'_>) -> Result<Vec<Point>> {
             queries.extend([0, 1].map(|i| over(&scene, i, uv, POINT)));
             queries.push(over(&scene, 1, uv, ROUND));
         }
-        worst(&device, &scene, size, SMALLEST, &queries, |i, query| oracle(&scene, i, query))
+        worst(bench.gpu, &scene, size, SMALLEST, &queries, |i, query| oracle(&scene, i, query))
     });
     sweep.collect()
 }
@@ -145,7 +142,6 @@ fn darkness(bench: &Bench<'_>) -> Result<Vec<Point>> {
 /// Reads the last level, which is one texel with a known value.
 fn bright_level(bench: &Bench<'_>) -> Result<Vec<Point>> {
     let side = 64;
-    let device = LookupProbe::new(bench.gpu);
     let sweep = decades(0, 38, 1).map(|size| {
         bench.check_cancelled()?;
         let size = f64::from(size as f32);
@@ -155,14 +151,13 @@ fn bright_level(bench: &Bench<'_>) -> Result<Vec<Point>> {
         let queries: Vec<_> = uvs.iter().map(|&uv| over(&scene, 0, uv, [[3.0, 0.0], [0.0, 3.0]])).collect();
         let texels = f64::from(side * side);
         let mean = (size + (texels - 1.0)) / texels;
-        worst(&device, &scene, size, mean * ROUNDING, &queries, |_, _| mean)
+        worst(bench.gpu, &scene, size, mean * ROUNDING, &queries, |_, _| mean)
     });
     sweep.collect()
 }
 
 /// Measures the mean over boxes in a repeated texture with texels as squares of constant colour.
 fn bright_area(bench: &Bench<'_>) -> Result<Vec<Point>> {
-    let device = LookupProbe::new(bench.gpu);
     let sweep = decades(0, 38, 1).map(|size| {
         bench.check_cancelled()?;
         let size = f64::from(size as f32);
@@ -171,7 +166,7 @@ fn bright_area(bench: &Bench<'_>) -> Result<Vec<Point>> {
         let scene = scene(texels, &[spec(Filter::Linear, Filter::SummedArea)])?;
         let uvs = coordinates(&mut Rng::new(6), 200);
         let queries: Vec<_> = uvs.iter().map(|&uv| over(&scene, 0, uv, ROUND)).collect();
-        worst(&device, &scene, size, size * ROUNDING, &queries, |_, query| {
+        worst(bench.gpu, &scene, size, size * ROUNDING, &queries, |_, query| {
             let side = f64::from(SIDE);
             let covered = |axis: usize| {
                 let reach = 0.5 * side * f64::from([query.dx[0], query.dy[1]][axis]);
@@ -190,7 +185,6 @@ fn bright_area(bench: &Bench<'_>) -> Result<Vec<Point>> {
 fn no_number(bench: &Bench<'_>) -> Result<Vec<Point>> {
     use Filter::{Cubic, Linear, Nearest};
     let specs = [Nearest, Linear, Cubic].map(|mag| spec(mag, Linear));
-    let device = LookupProbe::new(bench.gpu);
     let sweep = (1..=10).map(|log2| {
         bench.check_cancelled()?;
         let side = 1u32 << log2;
@@ -205,7 +199,7 @@ fn no_number(bench: &Bench<'_>) -> Result<Vec<Point>> {
         let uvs: Vec<_> = around.chain(coordinates(&mut Rng::new(7), 200)).collect();
         let all = uvs.iter().flat_map(|&uv| (0..specs.len()).map(move |i| (i, uv)));
         let queries: Vec<_> = all.map(|(i, uv)| over(&odd, i, uv, POINT)).collect();
-        let answers = device.answer(&odd, false, &queries)?;
+        let answers = lookups(bench.gpu, &odd, false, false, &queries)?;
         let wrong = queries.iter().zip(&answers).enumerate().filter(|(i, (query, answer))| {
             let reads = oracle(&weights, *i, query) != 0.0;
             reads == answer[0].is_finite()

@@ -7,7 +7,8 @@ use super::queries::{noise, pairs_over, query};
 use super::run::Tally;
 use super::variants::{FormatClass, Reader, Variant};
 use crate::core::error::Result;
-use crate::lab::probe::{LookupProbe, LookupQuery};
+use crate::gpu::Gpu;
+use crate::lab::probe::{LookupQuery, lookups};
 use crate::pack::PackedScene;
 use crate::scene::model::Footprint;
 use crate::texture::data::{Dimension, TextureData};
@@ -73,11 +74,12 @@ impl<'a> Batch<'a> {
     /// Returns one tally per variant, each for its own list of lookups.
     pub fn tallies(
         &self,
-        probe: &LookupProbe<'_>,
+        gpu: &Gpu,
         queries: Vec<Vec<LookupQuery>>,
         tally: impl Fn(&Variant, &[LookupQuery], &[[f32; 4]]) -> Tally + Sync,
     ) -> Result<Vec<Tally>> {
-        let answers = probe.answer(&self.scene, self.reader != Reader::ShaderBuffer, &queries.concat())?;
+        let answers =
+            lookups(gpu, &self.scene, self.reader != Reader::ShaderBuffer, false, &queries.concat())?;
         let mut rest = &answers[..];
         let mut lists = Vec::with_capacity(queries.len());
         for (variant, queries) in self.variants.iter().zip(&queries) {

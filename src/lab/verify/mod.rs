@@ -23,7 +23,7 @@ use std::time::Instant;
 use crate::core::error::{Error, Result};
 use crate::core::progress::Progress;
 use crate::gpu::Gpu;
-use crate::lab::probe::{self, LookupProbe};
+use crate::lab::probe;
 use crate::pack::MAX_SLOTS;
 use crate::texture::data::Dimension;
 use crate::texture::sampler_spec::{Filter, MipMode};
@@ -75,16 +75,15 @@ pub fn verify(gpu: &Gpu, only: Option<&str>, progress: &dyn Progress) -> Result<
     let (variants, missing): (Vec<Variant>, Vec<Variant>) = all.into_iter().partition(offered);
 
     let work_items = work_items(&variants, Precision::declared(device));
-    let probe = LookupProbe::new(gpu);
     let mut tallies = vec![Tally::default(); variants.len()];
     for (done, work) in work_items.iter().enumerate() {
         let members = work.members.iter().map(|&i| &variants[i]).collect();
         let seed = 1 + done as u64;
         let found = match work.kind {
-            Kind::Scattered => run::check_lookups(&probe, members, work.precision, seed)?,
-            Kind::Sweep => run::sweeps(&probe, members, work.precision, seed)?,
-            Kind::Ramp(axis) => run::ramps(&probe, members, work.precision, axis)?,
-            Kind::LevelRamp => run::level_ramps(&probe, members, work.precision)?,
+            Kind::Scattered => run::check_lookups(gpu, members, work.precision, seed)?,
+            Kind::Sweep => run::sweeps(gpu, members, work.precision, seed)?,
+            Kind::Ramp(axis) => run::ramps(gpu, members, work.precision, axis)?,
+            Kind::LevelRamp => run::level_ramps(gpu, members, work.precision)?,
         };
         for (&i, tally) in work.members.iter().zip(found) {
             tallies[i].merge(tally);

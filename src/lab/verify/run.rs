@@ -9,7 +9,8 @@ use super::sweeps::{level_ramp, level_sweep, long_footprints, paint_levels};
 use super::variants::{Reader, Scale, Variant};
 use super::weights::{RAMP_STEPS, WeightBits, weight_bits};
 use crate::core::error::Result;
-use crate::lab::probe::{LookupProbe, LookupQuery};
+use crate::gpu::Gpu;
+use crate::lab::probe::LookupQuery;
 use crate::texture::data::{Dimension, TextureData};
 use crate::texture::sampler_spec::{MipMode, TexelCenter};
 
@@ -81,7 +82,7 @@ fn judged(judge: &Judge<'_>, queries: &[LookupQuery], answers: &[[f32; 4]]) -> T
 
 /// Checks random and error-prone coordinates at level 0.
 pub fn check_lookups(
-    probe: &LookupProbe<'_>,
+    gpu: &Gpu,
     variants: Vec<&Variant>,
     precision: Precision,
     seed: u64,
@@ -98,17 +99,12 @@ pub fn check_lookups(
     };
     let queries: Vec<Vec<LookupQuery>> = batch.variants.iter().enumerate().map(list).collect();
     let judge = Judge::new(&batch.scene, precision);
-    batch.tallies(probe, queries, |_, queries, answers| judged(&judge, queries, answers))
+    batch.tallies(gpu, queries, |_, queries, answers| judged(&judge, queries, answers))
 }
 
 /// Checks all levels over footprints of all lengths, and measures the lengths that the device
 /// resolved itself.
-pub fn sweeps(
-    probe: &LookupProbe<'_>,
-    variants: Vec<&Variant>,
-    precision: Precision,
-    seed: u64,
-) -> Result<Vec<Tally>> {
+pub fn sweeps(gpu: &Gpu, variants: Vec<&Variant>, precision: Precision, seed: u64) -> Result<Vec<Tally>> {
     let mut batch = Batch::new(variants, noise_of(seed))?;
     for i in 0..batch.variants.len() {
         if batch.variants[i].scale == Scale::Anisotropic {
@@ -127,7 +123,7 @@ pub fn sweeps(
     };
     let queries: Vec<Vec<LookupQuery>> = batch.variants.iter().enumerate().map(list).collect();
     let judge = Judge::new(&batch.scene, precision);
-    batch.tallies(probe, queries, |variant, queries, answers| {
+    batch.tallies(gpu, queries, |variant, queries, answers| {
         let mut tally = judged(&judge, queries, answers);
         if variant.scale == Scale::Anisotropic && variant.spec.mip == MipMode::Linear {
             let pairs = queries.iter().zip(answers);
@@ -150,28 +146,19 @@ fn followed(variant: &Variant, query: &LookupQuery, answer: [f32; 4]) -> Option<
 }
 
 /// Checks ramps between two texels at intervals, and counts the bits of their weights.
-pub fn ramps(
-    probe: &LookupProbe<'_>,
-    variants: Vec<&Variant>,
-    precision: Precision,
-    axis: Axis,
-) -> Result<Vec<Tally>> {
+pub fn ramps(gpu: &Gpu, variants: Vec<&Variant>, precision: Precision, axis: Axis) -> Result<Vec<Tally>> {
     let batch = Batch::new(variants, |v| ramp_texture(axis, v.format, v.class.color_space()))?;
     let list = |i| ramp(axis, RAMP_STEPS).map(|uv| batch.query(i, TexelCenter::Half, uv)).collect();
     let queries: Vec<Vec<LookupQuery>> = (0..batch.variants.len()).map(list).collect();
     let judge = Judge::new(&batch.scene, precision);
-    batch.tallies(probe, queries, |_, queries, answers| Tally {
+    batch.tallies(gpu, queries, |_, queries, answers| Tally {
         weights: Some(bits(answers)),
         ..judged_here_and_there(&judge, queries, answers)
     })
 }
 
 /// Checks the same between two levels, the first 0 in every channel and the second 1.
-pub fn level_ramps(
-    probe: &LookupProbe<'_>,
-    variants: Vec<&Variant>,
-    precision: Precision,
-) -> Result<Vec<Tally>> {
+pub fn level_ramps(gpu: &Gpu, variants: Vec<&Variant>, precision: Precision) -> Result<Vec<Tally>> {
     let mut batch =
         Batch::new(variants, |v| noise(Dimension::Two, [2, 2, 1], v.format, v.class.color_space(), 1))?;
     for i in 0..batch.variants.len() {
@@ -181,7 +168,7 @@ pub fn level_ramps(
     let list = |i| level_ramp(&batch.query(i, TexelCenter::Half, [0.5; 2]), RAMP_STEPS).collect();
     let queries: Vec<Vec<LookupQuery>> = (0..batch.variants.len()).map(list).collect();
     let judge = Judge::new(&batch.scene, precision);
-    batch.tallies(probe, queries, |_, queries, answers| Tally {
+    batch.tallies(gpu, queries, |_, queries, answers| Tally {
         level_weights: Some(bits(answers)),
         ..judged_here_and_there(&judge, queries, answers)
     })

@@ -62,10 +62,6 @@ fn disc_error(camera: &Camera, disc: &Disc, mapping: &Mapping, [origin, way]: [D
 }
 
 impl Rounded for Disc {
-    fn material(&self) -> usize {
-        self.material
-    }
-
     fn extent(&self, eye: DVec3) -> f64 {
         reach(self.center, eye) + self.radius
     }

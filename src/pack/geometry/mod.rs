@@ -6,7 +6,7 @@ use glam::DVec3;
 use super::precision::Camera;
 use super::{PackedScene, TextureKind};
 use crate::core::error::Result;
-use crate::scene::model::{Mapping, Scene};
+use crate::scene::model::{Mapping, Scene, Shape};
 use crate::schema::layout;
 use crate::schema::shapes::with_shapes;
 use crate::texture::sampler_spec::SamplerSpec;
@@ -104,10 +104,7 @@ fn reach(p: DVec3, eye: DVec3) -> f64 {
 }
 
 /// The errors of a shape in f32.
-pub(super) trait Rounded {
-    /// Index into `Scene::materials`.
-    fn material(&self) -> usize;
-
+pub(super) trait Rounded: Shape {
     /// Returns true if it is one of many, each of which counts once, not by the rays that hit it.
     fn is_small(&self) -> bool {
         false

@@ -95,10 +95,6 @@ fn plane_error(camera: &Camera, plane: &Plane, mapping: &Mapping, [origin, way]:
 }
 
 impl Rounded for Plane {
-    fn material(&self) -> usize {
-        self.material
-    }
-
     fn extent(&self, eye: DVec3) -> f64 {
         let normal = self.tangent.cross(self.bitangent).normalize();
         normal.dot(self.origin - eye).abs().max(RANGE[0])

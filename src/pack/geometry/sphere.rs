@@ -65,10 +65,6 @@ fn sphere_error(
 }
 
 impl Rounded for Sphere {
-    fn material(&self) -> usize {
-        self.material
-    }
-
     fn extent(&self, eye: DVec3) -> f64 {
         reach(self.center, eye) + self.radius
     }

@@ -113,10 +113,6 @@ fn triangle_errors(camera: &Camera, triangle: &Triangle, mapping: &Mapping) -> [
 }
 
 impl Rounded for Triangle {
-    fn material(&self) -> usize {
-        self.material
-    }
-
     fn is_small(&self) -> bool {
         true
     }
