@@ -5,6 +5,7 @@
 mod encode;
 mod folder;
 mod hdr;
+mod jpeg;
 mod quantise;
 mod target;
 mod tiff;
@@ -100,7 +101,7 @@ fn prepare(film: &Film, path: &Path, options: &WriteOptions) -> Result<Target> {
         )
     };
     let stage = format!("{}: writing this picture", path.display());
-    panics::contain(&stage, || encode::encode(film, format, options, target.writer()).map_err(failed))?;
+    panics::contain(&stage, || encode::encode(film, format, options, &mut target.writer()).map_err(failed))?;
     target.complete()?;
     Ok(target)
 }

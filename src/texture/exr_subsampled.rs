@@ -5,8 +5,6 @@
 //! patched header that claims one sample per texel, and the blocks, which hold the actual data, are
 //! decompressed here.
 
-use std::io::{BufRead, Seek};
-
 use exr::block::BlockIndex;
 use exr::block::chunk::CompressedBlock;
 use exr::block::reader::Reader;
@@ -18,7 +16,7 @@ use exr::meta::attribute::{ChannelDescription, IntegerBounds, LineOrder, SampleT
 use exr::meta::header::Header;
 use exr::prelude::SmallVec;
 
-use super::read_exr::samples;
+use super::read_exr::{Source, samples};
 
 /// The file patched to one sample per texel, and its original sampling: the texels per sample on
 /// each axis, for each channel of each part.
@@ -112,8 +110,8 @@ impl Plane {
 }
 
 /// Returns the planes of the given channels of a part, in this order.
-pub(super) fn planes<R: BufRead + Seek>(
-    reader: Reader<R>,
+pub(super) fn planes(
+    reader: Reader<&mut dyn Source>,
     part: usize,
     wanted: &[usize],
     samplings: &[Vec2<usize>],

@@ -27,13 +27,18 @@ pub enum ExrWindow {
     Data,
 }
 
+/// The bytes of a file or of a repaired copy: one type for both, so that the reader is compiled once.
+pub(super) trait Source: BufRead + Seek {}
+
+impl<T: BufRead + Seek> Source for T {}
+
 pub(super) fn read(
-    mut source: impl BufRead + Seek,
+    source: &mut dyn Source,
     layer: Option<&str>,
     window: ExrWindow,
     path: &Path,
 ) -> Result<(Texels, Placement)> {
-    let refused = match exr::block::read(&mut source, false) {
+    let refused = match open(source) {
         Ok(reader) => return read_layer(reader, layer, window, path),
         Err(error) => error,
     };
@@ -43,7 +48,8 @@ pub(super) fn read(
     let Some(Patched { bytes, samplings }) = exr_subsampled::patch(bytes) else {
         return Err(exr_error(path, refused));
     };
-    let reader = exr::block::read(Cursor::new(bytes), false).map_err(|e| exr_error(path, e))?;
+    let mut repaired = Cursor::new(bytes);
+    let reader = open(&mut repaired).map_err(|e| exr_error(path, e))?;
     let choice = exr_layers::choose(reader.headers(), layer, path)?;
     match samplings.get(choice.part) {
         Some(samplings) if samplings.iter().any(|s| *s != Vec2(1, 1)) => {
@@ -53,8 +59,12 @@ pub(super) fn read(
     }
 }
 
-fn read_layer<R: BufRead + Seek>(
-    reader: Reader<R>,
+fn open(source: &mut dyn Source) -> exr::error::Result<Reader<&mut dyn Source>> {
+    exr::block::read(source, false)
+}
+
+fn read_layer(
+    reader: Reader<&mut dyn Source>,
     layer: Option<&str>,
     window: ExrWindow,
     path: &Path,
@@ -63,8 +73,8 @@ fn read_layer<R: BufRead + Seek>(
     read_chosen(reader, choice, window, path)
 }
 
-fn read_chosen<R: BufRead + Seek>(
-    reader: Reader<R>,
+fn read_chosen(
+    reader: Reader<&mut dyn Source>,
     layer: Layer,
     window: ExrWindow,
     path: &Path,
@@ -94,8 +104,8 @@ fn read_chosen<R: BufRead + Seek>(
     picture.finish(&layer, chromaticities, path)
 }
 
-fn read_subsampled<R: BufRead + Seek>(
-    reader: Reader<R>,
+fn read_subsampled(
+    reader: Reader<&mut dyn Source>,
     layer: Layer,
     samplings: &[Vec2<usize>],
     window: ExrWindow,

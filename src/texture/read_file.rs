@@ -82,7 +82,7 @@ fn read_by_content(
     let read: fn(&[u8], &Path) -> Result<Picture> = match format {
         PictureFormat::OpenExr => {
             let layer = reading.layer.as_deref();
-            let (texels, placement) = read_exr::read(BufReader::new(source), layer, window, path)?;
+            let (texels, placement) = read_exr::read(&mut BufReader::new(source), layer, window, path)?;
             return Ok(Picture { texels, placement, notes: Vec::new() });
         }
         PictureFormat::Png => read_png::read,

@@ -54,6 +54,11 @@ impl TextureData {
     /// Returns a texture of this one's size in linear floats, computed by column, row (as in
     /// [`value`](Self::value)) and channel.
     pub fn with_floats(&self, channels: usize, value: impl Fn(u32, u32, usize) -> f32) -> TextureData {
+        self.with_any_floats(channels, &value)
+    }
+
+    /// Returns [`Self::with_floats`], compiled once for all functions.
+    fn with_any_floats(&self, channels: usize, value: &dyn Fn(u32, u32, usize) -> f32) -> TextureData {
         let rows = (0..self.height * self.depth).flat_map(|y| (0..self.width).map(move |x| (x, y)));
         let floats: Vec<f32> = rows
             .flat_map(|(x, y)| (0..channels).map(move |c| (x, y, c)))
