@@ -71,7 +71,7 @@ void find_shapes(const Header header, PixelBeam beam) {
     float least = mirrored ? negligible(beam.limit, WHOLE) : 0.0;
     for (uint shape = 0u; shape < shapes; shape++) {
         if (shape == beam.skip) continue;
-        if (!has_region(header, shape)) {
+        if (!has_region(shape)) {
             if (may_meet(header, beam.frame, WHOLE, shape)) gave_up = true;
             continue;
         }
@@ -138,7 +138,7 @@ void lit_by(const Header header, const ShadingIntegral paint, uint shape, bool h
             color += paint.carried * integral(header, paint, has_light, light);
             continue;
         }
-        bool is_round = !has_region(header, by);
+        bool is_round = !has_region(by);
         if (is_round && may_shade(header, paint.frame, paint.near, PIECE, light, by)) gave_up = true;
         if (by == shape || is_round) push_piece(PIECE, by + 1u);
         else {
@@ -153,11 +153,11 @@ void lit_by(const Header header, const ShadingIntegral paint, uint shape, bool h
 // Adds the colour of SEEN, a visible fragment, or pushes the mirrored beam.
 void shade(const Header header, PixelBeam beam, uint own) {
     uint shape = met_shapes[own];
-    uvec2 link = shape_links(header, shape);
+    uvec2 link = shape_links(shape);
     Material record = material_at(link.x);
     UvProjection map = uv_projection_at(link.y);
     vec3 near = met[own].inverse_depth;
-    if (!is_simple(header, shape, record, map)) {
+    if (!is_simple(shape, record, map)) {
         gave_up = true;
         return;
     }
@@ -168,7 +168,7 @@ void shade(const Header header, PixelBeam beam, uint own) {
             gave_up = true;
             return;
         }
-        vec4 plane = shape_plane(header, shape);
+        vec4 plane = shape_plane(shape);
         PixelFrustum frame = mirrored_frame(header, beam.frame, plane.xyz, plane.w);
         copy(SEEN, BEAMS_AT + waiting_beams);
         beams[waiting_beams] = PixelBeam(frame, carried, shape, near, beam.depth + 1u);
@@ -177,7 +177,7 @@ void shade(const Header header, PixelBeam beam, uint own) {
     }
     RationalMap quotient = RationalMap(near, near, near);
     if (TEXTURED && record.texture_index != NO_TEXTURE) quotient = coordinates(header, beam.frame, shape, map, near);
-    ShadingIntegral paint = ShadingIntegral(record, carried, quotient, shape_plane(header, shape), beam.frame, near);
+    ShadingIntegral paint = ShadingIntegral(record, carried, quotient, shape_plane(shape), beam.frame, near);
     bool unlit = !is_lit(record.model);
     uint lights = unlit ? 1u : COUNT(LIGHTS, lengths.lights);
     uint i = 0u;

@@ -79,16 +79,16 @@ Branch lit_branch(Branch branch, vec3 albedo, vec3 carried, const Hit hit, const
 }
 
 // Returns the cone reflected by a mirror or glass, or refracted if `through`.
-Branch bent_branch(const Header header, Branch branch, const Hit hit, const Surface surface, const Footprint print, float ratio, float share, uint skip, bool through) {
+Branch bent_branch(Branch branch, const Hit hit, const Surface surface, const Footprint print, float ratio, float share, uint skip, bool through) {
     Ray ray = branch.ray;
     RayDifferential beam = cone_beam(branch.width, branch.spread);
     vec3 direction;
     if (through) {
-        beam = refracted_differential(header, beam, ray, hit.t, print, surface.normal, surface.shape_operator, surface.curvature, ratio);
+        beam = refracted_differential(beam, ray, hit.t, print, surface.normal, surface.shape_operator, surface.curvature, ratio);
         direction = refracted(ray.direction, surface.normal, ratio);
         if (LEANING) direction = on_its_side(ray.direction, direction, -surface.normal, -surface.geometric_normal);
     } else {
-        beam = reflected_differential(header, beam, ray, hit.t, print, surface.normal, surface.shape_operator, surface.curvature);
+        beam = reflected_differential(beam, ray, hit.t, print, surface.normal, surface.shape_operator, surface.curvature);
         direction = mirrored(ray.direction, surface.normal);
     }
     vec3 start = offset_origin(surface.point, through ? -surface.geometric_normal : surface.geometric_normal, surface.size);
@@ -101,8 +101,8 @@ vec3 shade_part(const Header header, Branch branch, uint shape) {
     bool missed = ENVIRONMENT && shape == NO_SHAPE;
     Ray ray = branch.ray;
     Hit hit = Hit(1.0, 0u, vec2(0.0));
-    if (!missed) hit = meet(header, ray, shape);
-    Surface surface = hit_surface(header, ray, hit);
+    if (!missed) hit = meet(ray, shape);
+    Surface surface = hit_surface(ray, hit);
     RayDifferential beam = cone_beam(branch.width, branch.spread);
     Footprint print = footprint_at(header, beam, ray, hit.t, surface.geometric_normal);
     if (missed) {
@@ -124,12 +124,12 @@ vec3 shade_part(const Header header, Branch branch, uint shape) {
     vec3 sum = vec3(0.0);
     for (uint i = 0u; i < branches; i++) {
         bool through = BOUNCES && !lit && i == 0u;
-        uint skip = left_shape(header, hit.shape, surface.inside != through);
+        uint skip = left_shape(hit.shape, surface.inside != through);
         Branch next = branch;
         if (lit) {
             next = lit_branch(branch, albedo, carried, hit, surface, print, material, skip, light_at(i));
         } else if (BOUNCES) {
-            next = bent_branch(header, branch, hit, surface, print, ratio, through ? 1.0 - back : back, skip, through);
+            next = bent_branch(branch, hit, surface, print, ratio, through ? 1.0 - back : back, skip, through);
         }
         float weight = largest(next.weight);
         if (lit && !SHADOWS) sum += next.weight;
@@ -160,10 +160,10 @@ vec4 trace_cone(const Header header, const Ray ray, const RayDifferential beam) 
         Branch branch = waiting[waiting_count];
         vec3 across = branch.depth == 0u ? header.step_x : vec3(0.0);
         Cone cone = cone_of(branch.ray, cone_beam(branch.width, branch.spread), across);
-        cone = leaving(header, cone, branch.skip);
+        cone = leaving(cone, branch.skip);
         bool to_light = SHADOWS && branch.depth >= TO_POINT_LIGHT;
-        collect_fragments(header, cone, branch.skip, to_light && branch.depth == TO_POINT_LIGHT ? 1.0 : FAR);
-        Covered rest = composite(header, cone);
+        collect_fragments(cone, branch.skip, to_light && branch.depth == TO_POINT_LIGHT ? 1.0 : FAR);
+        Covered rest = composite(cone);
         if (to_light) {
             sum += branch.weight * (rest.share * clear);
             continue;

@@ -143,7 +143,7 @@ vec3 normal_change(mat3 shape_operator, vec3 v) {
 
 // Returns the ray differential after reflection. `shape_operator` is the change of the unit normal per unit
 // of distance along the surface; a cone uses its mean, the curvature.
-RayDifferential reflected_differential(const Header header, const RayDifferential beam, const Ray ray, real distance, const Footprint print, real3 normal, mat3 shape_operator,
+RayDifferential reflected_differential(const RayDifferential beam, const Ray ray, real distance, const Footprint print, real3 normal, mat3 shape_operator,
                    float curvature) {
     if (!FILTERED) return beam;
     vec3 n = vec3(normal);
@@ -178,7 +178,7 @@ vec3 refracted_change(vec3 direction, vec3 n, float ratio, vec3 change, vec3 nor
 }
 
 // Returns the ray differential after refraction. A cone's width preserves the area of the refracted ellipse.
-RayDifferential refracted_differential(const Header header, const RayDifferential beam, const Ray ray, real distance, const Footprint print, real3 normal, mat3 shape_operator,
+RayDifferential refracted_differential(const RayDifferential beam, const Ray ray, real distance, const Footprint print, real3 normal, mat3 shape_operator,
                     float curvature, float ratio) {
     if (!FILTERED) return beam;
     vec3 n = vec3(normal);

@@ -58,12 +58,12 @@ vec2 depths(const Cone cone, Flat depth) {
 }
 
 // Inserts the fragment if it is among the nearest.
-void keep(const Header header, const Cone cone, uint shape, Covered covered, float t_max) {
+void keep(const Cone cone, uint shape, Covered covered, float t_max) {
     Ray ray = ray_at(cone, covered.center);
-    float t = meet(header, ray, shape).t;
+    float t = meet(ray, shape).t;
     if (!(covered.share > MIN_SHARE && t > 0.0 && t < t_max)) return;
     if (!rises_to(cone, ray.origin + t * ray.direction)) return;
-    vec2 range = depths(cone, depth_of(header, cone, shape, t, covered.share));
+    vec2 range = depths(cone, depth_of(cone, shape, t, covered.share));
     Fragment next = Fragment(shape, t, range.x, range.y, covered.share, covered.share, covered.center);
 #define INSERT(k)                              \
     if (k < FRAGMENTS && next.t < fragments[k].t) {  \
@@ -81,7 +81,7 @@ const uint BATCH = 32u;
 
 // Collects the nearest shapes except `skip` that the cone meets before t_max, in order. Most shapes are
 // missed, which is tested first: computing coverage takes longer, and all threads wait while one does so.
-void collect_fragments(const Header header, const Cone cone, uint skip, float t_max) {
+void collect_fragments(const Cone cone, uint skip, float t_max) {
     uint shapes = shape_count();
     piece_count = 0u;
     clear = 1.0;
@@ -91,12 +91,12 @@ void collect_fragments(const Header header, const Cone cone, uint skip, float t_
     for (uint first = 0u; first < shapes; first += BATCH) {
         uint found = 0u;
         for (uint i = 0u; i < BATCH && first + i < shapes; i++) {
-            if (first + i != skip && touched(header, cone, first + i)) found |= 1u << i;
+            if (first + i != skip && touched(cone, first + i)) found |= 1u << i;
         }
         while (found != 0u) {
             uint shape = first + uint(findLSB(found));
             found &= found - 1u;
-            keep(header, cone, shape, covered_by(header, cone, shape), t_max);
+            keep(cone, shape, covered_by(cone, shape), t_max);
         }
     }
     // Nothing behind the first fragment that covers everything is visible, unless part of it is nearer.
@@ -115,7 +115,7 @@ void collect_fragments(const Header header, const Cone cone, uint skip, float t_
 // Returns the overlap in which one of two fragments hides the other: a hides b, or b hides a if `turned`.
 // `turns` becomes true if b is in front of a anywhere on the disc: because their planes intersect, or because
 // b's centroid is behind a's although b is in front where both are.
-Covered hidden(const Header header, const Cone cone, Fragment a, Fragment b, bool turned, out bool turns) {
+Covered hidden(const Cone cone, Fragment a, Fragment b, bool turned, out bool turns) {
     whole_disc();
     turns = false;
     bool a_has_lines = true;
@@ -127,10 +127,10 @@ Covered hidden(const Header header, const Cone cone, Fragment a, Fragment b, boo
         Fragment fragment = b;
         if (k == 0u) fragment = a;
         bool has_lines = true;
-        if (fragment.area < 1.0) has_lines = cut_shape(header, cone, fragment.shape);
+        if (fragment.area < 1.0) has_lines = cut_shape(cone, fragment.shape);
         p = q;
         a_has_lines = b_has_lines;
-        q = depth_of(header, cone, fragment.shape, fragment.t, fragment.area);
+        q = depth_of(cone, fragment.shape, fragment.t, fragment.area);
         b_has_lines = has_lines;
     }
     vec2 tilt = (q.height * cone.spread + cone.width * q.facing) * p.tilt;
@@ -158,7 +158,7 @@ vec2 within_disc(vec2 center) {
 // Composites the fragments: computes the visible part of each and its centroid, and returns the part that
 // nothing covers, with its centroid. A partly visible fragment hides others in proportion. One loop over all
 // pairs: an iteration processes one.
-Covered composite(const Header header, const Cone cone) {
+Covered composite(const Cone cone) {
     float rest = 1.0 - (piece_count > 0u ? fragments[0].area : 0.0);
     uint i = 1u;
     uint j = 0u;
@@ -173,7 +173,7 @@ Covered composite(const Header header, const Cone cone) {
             moment = fragment.area * fragment.center;
         }
         bool turns = false;
-        Covered lost = hidden(header, cone, other, fragment, turned, turns);
+        Covered lost = hidden(cone, other, fragment, turned, turns);
         float weight = turned ? fragment.seen / fragment.area : other.seen / other.area;
         lost.share *= weight;
         if (turned) {

@@ -67,7 +67,7 @@ Aim sun_aim(const Light light, vec2 square) {
     return Aim(around(vec3(light.direction), on_cap(concentric_disc(square), float(light.cap_height))), FAR, 1.0);
 }
 
-Lit direct_light(const Header header, const Surface surface, float time, uint shape, const Bsdf bsdf, const Points points,
+Lit direct_light(const Surface surface, float time, uint shape, const Bsdf bsdf, const Points points,
                  const SampleDimensions dimensions) {
     Lit sum = Lit(vec3(0.0), vec3(0.0));
     uint lights = COUNT(LIGHTS, lengths.lights);
@@ -104,7 +104,7 @@ Lit direct_light(const Header header, const Surface surface, float time, uint sh
                     // The vector to the same point from the origin of the shadow ray.
                     if (light.kind == LIGHT_RECTANGLE) to_light += surface.point - start;
                 }
-                lit = !occluded(header, Ray(start, to_light, time), aim.reach, shape);
+                lit = !occluded(Ray(start, to_light, time), aim.reach, shape);
             }
             vec3 more = light.power * (share * (1.0 / PI));
             vec2 lobes = evaluate(bsdf, vec3(way));

@@ -30,11 +30,11 @@ void main() {
     if (i >= range.count) return;
     Header header = load_header();
     Ray ray = Ray(queries[i].origin.xyz, queries[i].direction.xyz, float(queries[i].origin.w));
-    Hit hit = nearest_hit(header, ray, NO_SHAPE, NO_LIST);
-    bool blocked = occluded(header, ray, queries[i].direction.w, NO_SHAPE);
+    Hit hit = nearest_hit(ray, NO_SHAPE, NO_LIST);
+    bool blocked = occluded(ray, queries[i].direction.w, NO_SHAPE);
     Answer answer = Answer(real4(0.0, 0.0, 0.0, FAR), real4(0.0), real4(0.0), uvec4(NO_SHAPE, uint(blocked), 0u, 0u));
     if (hit.shape != NO_SHAPE) {
-        Surface surface = hit_surface(header, ray, hit);
+        Surface surface = hit_surface(ray, hit);
         UvProjection map = uv_projection_at(surface.link.y);
         real2 uv = texture_coordinate(map, map_input(map, ray, surface, NO_FOOTPRINT)).at.xy;
         answer = Answer(real4(surface.point, hit.t), real4(surface.normal, 0.0), real4(uv, 0.0, 0.0),

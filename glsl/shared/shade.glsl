@@ -175,10 +175,10 @@ bool bounced(const Header header, const Hit hit, Surface surface, const Footprin
     if (FILTERED) {
         RayDifferential beam = path.beam;
         if (bounce.mirrored) {
-            path.beam = reflected_differential(header, beam, ray, hit.t, print, bounce.normal, surface.shape_operator,
+            path.beam = reflected_differential(beam, ray, hit.t, print, bounce.normal, surface.shape_operator,
                                                surface.curvature);
         } else {
-            path.beam = refracted_differential(header, beam, ray, hit.t, print, bounce.normal, surface.shape_operator,
+            path.beam = refracted_differential(beam, ray, hit.t, print, bounce.normal, surface.shape_operator,
                                                surface.curvature, bounce.ratio);
         }
     }
@@ -193,7 +193,7 @@ bool bounced(const Header header, const Hit hit, Surface surface, const Footprin
 
 // Follows the path to its next hit; returns the radiance that it adds to the sample.
 vec3 advance(const Header header, const Points points, const SampleDimensions dimensions, inout Path path) {
-    Hit hit = nearest_hit(header, path.ray, path.skip, path.list);
+    Hit hit = nearest_hit(path.ray, path.skip, path.list);
     bool missed = hit.shape == NO_SHAPE;
     vec3 seen = path.throughput * header.background;
     bool is_alive = false;
@@ -201,7 +201,7 @@ vec3 advance(const Header header, const Points points, const SampleDimensions di
     bool surrounded = ENVIRONMENT && header.environment_material != NO_MATERIAL;
     if (surrounded || !missed) {
         if (ENVIRONMENT) hit.shape = missed ? 0u : hit.shape;
-        Surface surface = hit_surface(header, path.ray, hit);
+        Surface surface = hit_surface(path.ray, hit);
         Footprint print = footprint_at(header, path.beam, path.ray, hit.t, surface.geometric_normal);
         if (ENVIRONMENT && missed) {
             surface.link = uvec2(header.environment_material, header.environment_projection);
@@ -218,7 +218,7 @@ vec3 advance(const Header header, const Points points, const SampleDimensions di
         if (HAS_LIT) {
             if (is_lit(material.model)) {
                 Bsdf bsdf = bsdf_at(material, albedo, surface.normal, direction);
-                Lit lit = direct_light(header, surface, path.ray.time, hit.shape, bsdf, points, dimensions);
+                Lit lit = direct_light(surface, path.ray.time, hit.shape, bsdf, points, dimensions);
                 seen = reflected(bsdf, path.throughput, carried, lit);
             }
         }

@@ -43,8 +43,8 @@ const uint TILED = (1u << ADDRESS_REPEAT) | (1u << ADDRESS_MIRRORED_REPEAT) | (1
 
 // Returns true if the integral of a shape's colour is known: its material supports that, with a checker or a
 // 2D texture whose coordinates are affine on the shape.
-bool is_simple(const Header header, uint shape, const Material record, const UvProjection map) {
-    if (!is_integrable_over_region(record, is_smooth(header, shape))) return false;
+bool is_simple(uint shape, const Material record, const UvProjection map) {
+    if (!is_integrable_over_region(record, is_smooth(shape))) return false;
     if (BUMPED && record.bump_texture_index != NO_TEXTURE) return false;
     if (record.texture_index == NO_TEXTURE) return true;
     bool flat_map = MODE_IS(MAPPINGS, MAP_PLANE, map.kind) || MODE_IS(MAPPINGS, MAP_VERTEX_UV, map.kind) ||

@@ -41,7 +41,7 @@ bool is_uniform(const Header header, const PixelFrustum frame, uint shape, const
     for (uint k = 0u; k < region.count; k++) {
         if (range(SQUARE, region.lines[k]).x <= 0.0) return false;
     }
-    uvec2 link = shape_links(header, shape);
+    uvec2 link = shape_links(shape);
     Material record = material_at(link.x);
     bool unlit = !is_lit(record.model) && !is_specular(record.model);
     bool plain = is_diffuse(record.model) && !SHADOWS;

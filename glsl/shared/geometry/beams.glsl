@@ -6,7 +6,7 @@
 #include "kinds.glsl"
 
 // True if a shape has a region; beams do not know the outline of others.
-bool has_region(const Header header, uint shape) {
+bool has_region(uint shape) {
     COUNT_SHAPES
     bool is_round = false;
 #define ROUND(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed) is_round = is_round || IS_WITHIN(LIST, shape, first, count);
@@ -16,7 +16,7 @@ bool has_region(const Header header, uint shape) {
 }
 
 // Unit normal, and height of the plane in which a flat shape lies.
-vec4 shape_plane(const Header header, uint shape) {
+vec4 shape_plane(uint shape) {
     COUNT_SHAPES
     vec4 plane = vec4(0.0);
 #define PLANE_OF(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed) if (IS_NEXT(LIST, shape, first, count)) plane = plane_of(at(shape - (first))); else
@@ -26,7 +26,7 @@ vec4 shape_plane(const Header header, uint shape) {
 }
 
 // Material and map.
-uvec2 shape_links(const Header header, uint shape) {
+uvec2 shape_links(uint shape) {
     COUNT_SHAPES
     uvec2 link = uvec2(0u);
 #define LINK(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed) if (IS_NEXT(LIST, shape, first, count)) link = links_of(at(shape - (first))); else
@@ -35,7 +35,7 @@ uvec2 shape_links(const Header header, uint shape) {
     return link;
 }
 
-bool is_smooth(const Header header, uint shape) {
+bool is_smooth(uint shape) {
     COUNT_SHAPES
     bool smooth_normals = false;
 #define SMOOTH(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed) \
@@ -46,13 +46,13 @@ bool is_smooth(const Header header, uint shape) {
 }
 
 vec3 nearness_of(const Header header, const PixelFrustum frame, uint shape) {
-    vec4 plane = shape_plane(header, shape);
+    vec4 plane = shape_plane(shape);
     return inverse_depth(header, frame, plane.xyz, plane.w);
 }
 
 ConvexRegion shape_region(const Header header, const PixelFrustum frame, uint shape) {
     COUNT_SHAPES
-    ConvexRegion region = region_of_plane(header, frame, shape_plane(header, shape));
+    ConvexRegion region = region_of_plane(header, frame, shape_plane(shape));
 #define OUTLINE(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed) \
     if (IS_NEXT(LIST, shape, first, count)) add_outline(header, frame, region.inverse_depth, at(shape - (first)), region); else
     POLYGONAL_KINDS(OUTLINE) {}
@@ -79,7 +79,7 @@ ConvexRegion shadow_region(const Header header, const PixelFrustum frame, vec3 n
     COUNT_SHAPES
     bool point_light = MODE_IS(LIGHT_KINDS, LIGHT_POINT, light.kind);
     vec3 place = point_light ? light.position : light.direction;
-    vec4 plane = shape_plane(header, shape);
+    vec4 plane = shape_plane(shape);
     vec3 n = plane.xyz;
     // Height of the light over the shape's plane, or of a unit step towards it.
     float rise = point_light ? plane.w - dot3(n, place) : dot3(n, place);

@@ -6,7 +6,7 @@
 #include "kinds.glsl"
 
 // The cone with the floor of the shape that it leaves.
-Cone leaving(const Header header, Cone cone, uint shape) {
+Cone leaving(Cone cone, uint shape) {
     if (!FLOORS || shape == NO_SHAPE) return cone;
     COUNT_SHAPES
     vec3 up = vec3(0.0);
@@ -21,7 +21,7 @@ Cone leaving(const Header header, Cone cone, uint shape) {
 }
 
 // The shape that a ray must not meet again at once. From inside a ball its other side is met.
-uint left_shape(const Header header, uint shape, bool within) {
+uint left_shape(uint shape, bool within) {
     COUNT_SHAPES
     bool is_solid = false;
 #define SOLID(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed) is_solid = is_solid || (shape >= (first) && shape < (first) + (count));
@@ -31,7 +31,7 @@ uint left_shape(const Header header, uint shape, bool within) {
 }
 
 // Cuts the disc to what the shape covers; false for one that no lines stand for.
-bool cut_shape(const Header header, const Cone cone, uint shape) {
+bool cut_shape(const Cone cone, uint shape) {
     COUNT_SHAPES
     bool has_lines = true;
 #define CUT(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed) \
@@ -42,7 +42,7 @@ bool cut_shape(const Header header, const Cone cone, uint shape) {
 }
 
 // The part of the disc that the shape covers.
-Covered covered_by(const Header header, const Cone cone, uint shape) {
+Covered covered_by(const Cone cone, uint shape) {
     COUNT_SHAPES
 #define COVERED(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed) \
     if (IS_WITHIN(LIST, shape, first, count)) return covered_by(cone, at(shape - (first)));
@@ -50,24 +50,24 @@ Covered covered_by(const Header header, const Cone cone, uint shape) {
 #undef COVERED
     if (0u POLYGONAL_KINDS(ADD_COUNT) == 0u) return NOTHING;
     whole_disc();
-    cut_shape(header, cone, shape);
+    cut_shape(cone, shape);
     return cut_disc();
 }
 
 // True if the cone may touch the shape.
-bool touched(const Header header, const Cone cone, uint shape) {
+bool touched(const Cone cone, uint shape) {
     COUNT_SHAPES
 #define TOUCHED(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed) \
     if (IS_WITHIN(LIST, shape, first, count)) return touched(cone, at(shape - (first)));
     ROUND_KINDS(TOUCHED)
 #undef TOUCHED
     whole_disc();
-    cut_shape(header, cone, shape);
+    cut_shape(cone, shape);
     return !cut_away;
 }
 
 // Where a ray within the shape's outline meets it; rounding may have put it just beside.
-Hit meet(const Header header, const Ray ray, uint shape) {
+Hit meet(const Ray ray, uint shape) {
     COUNT_SHAPES
     Hit hit = Hit(-1.0, shape, vec2(0.0));
     vec4 plane = vec4(0.0);
@@ -93,7 +93,7 @@ Hit meet(const Header header, const Ray ray, uint shape) {
 
 // The depth of a shape over the disc: by its own plane, or a ball's tangent plane; at a ball's outline by its distance
 // alone.
-Flat depth_of(const Header header, const Cone cone, uint shape, float t, float area) {
+Flat depth_of(const Cone cone, uint shape, float t, float area) {
     COUNT_SHAPES
     vec4 plane = vec4(0.0);
     bool ends = false;

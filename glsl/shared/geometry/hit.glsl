@@ -20,7 +20,7 @@ struct Hit {
 
 // The displacement of a shape at the ray's time. Shapes are intersected, and textured, where they are at time 0, by rays
 // that start as far back.
-real3 moved_by(const Header header, const Ray ray, uint shape) {
+real3 moved_by(const Ray ray, uint shape) {
     real3 shift = real3(0.0);
     if (MOTIONS != 0u) {
         if (COUNT(MOTIONS, lengths.motions) != 0u) shift = ray.time * motion_at(shape).shift;
@@ -28,8 +28,8 @@ real3 moved_by(const Header header, const Ray ray, uint shape) {
     return shift;
 }
 
-Ray at_rest(const Header header, Ray ray, uint shape) {
-    if (MOTIONS != 0u) ray.origin -= moved_by(header, ray, shape);
+Ray at_rest(Ray ray, uint shape) {
+    if (MOTIONS != 0u) ray.origin -= moved_by(ray, shape);
     return ray;
 }
 

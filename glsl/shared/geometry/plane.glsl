@@ -13,16 +13,21 @@ vec4 plane_of(const Plane plane) { return vec4(plane.normal, plane.distance); }
 #ifndef SHAPES_IN_BEAMS
 #include "hit.glsl"
 
-// t = (n·o' - n·o) / n·d, kept when the point lies within the half extent on both axes.
-real distance_to(const Plane plane, const Ray ray, bool from_eye, inout real2 local) {
-    real slope = dot3(plane.normal, ray.direction);
-    real height = plane.distance;
+// t = (h - n·o) / n·d for the plane n·p = h, and the point there.
+real distance_to_plane(real3 normal, real height, const Ray ray, bool from_eye, out real3 p) {
+    real above = height;
     if (!from_eye) {
-        real above = height - dot3(plane.normal, ray.origin);
-        height = above;
+        above = height - dot3(normal, ray.origin);
     }
-    real t = height / slope;
-    real3 p = from_eye ? t * ray.direction : ray.origin + t * ray.direction;
+    real t = above / dot3(normal, ray.direction);
+    p = from_eye ? t * ray.direction : ray.origin + t * ray.direction;
+    return t;
+}
+
+// Kept when the point lies within the half extent on both axes.
+real distance_to(const Plane plane, const Ray ray, bool from_eye, inout real2 local) {
+    real3 p;
+    real t = distance_to_plane(plane.normal, plane.distance, ray, from_eye, p);
     local = real2(dot3(plane.axis_u, p), dot3(plane.axis_v, p));
     if (BOUNDED_PLANES && plane.half_extent >= 0.0) {
         real extent = plane.half_extent;

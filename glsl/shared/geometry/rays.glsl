@@ -8,7 +8,7 @@
 #include "kinds.glsl"
 
 // `list`: of the cell of tile culling in which a camera ray lies, else NO_LIST.
-Hit nearest_hit(const Header header, const Ray ray, uint skip, uint list) {
+Hit nearest_hit(const Ray ray, uint skip, uint list) {
     Hit hit = Hit(FAR, NO_SHAPE, real2(0.0));
     COUNT_SHAPES
 #define NEAREST(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed)                                                  \
@@ -23,7 +23,7 @@ Hit nearest_hit(const Header header, const Ray ray, uint skip, uint list) {
                 if (list != NO_LIST) i = tile_lists[list + 2u + k];                                          \
             }                                                                                                \
             real2 local = hit.local;                                                                         \
-            real t = distance_to(at(i), at_rest(header, ray, (first) + i), ORIGIN_IS_EYE, local);            \
+            real t = distance_to(at(i), at_rest(ray, (first) + i), ORIGIN_IS_EYE, local);            \
             bool nearer = t > 0.0 && t < hit.t && !(is_planar && (first) + i == skip);                         \
             hit.t = nearer ? t : hit.t;                                                                      \
             hit.shape = nearer ? (first) + i : hit.shape;                                                    \
@@ -36,14 +36,14 @@ Hit nearest_hit(const Header header, const Ray ray, uint skip, uint list) {
 }
 
 // True when a shape lies at 0 < t < t_max.
-bool occluded(const Header header, const Ray ray, real t_max, uint skip) {
+bool occluded(const Ray ray, real t_max, uint skip) {
     bool blocked = false;
     COUNT_SHAPES
 #define OCCLUDES(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed)                                                 \
     if (LIST != 0u) {                                                                                        \
         for (uint i = 0u; i < count; i++) {                                                                  \
             real2 local;                                                                                     \
-            real t = distance_to(at(i), at_rest(header, ray, (first) + i), false, local);                    \
+            real t = distance_to(at(i), at_rest(ray, (first) + i), false, local);                    \
             blocked = blocked || (t > 0.0 && t < t_max && !(is_planar && (first) + i == skip));                \
         }                                                                                                    \
     }
@@ -52,8 +52,8 @@ bool occluded(const Header header, const Ray ray, real t_max, uint skip) {
     return blocked;
 }
 
-Surface hit_surface(const Header header, const Ray moving, const Hit hit) {
-    Ray ray = at_rest(header, moving, hit.shape);
+Surface hit_surface(const Ray moving, const Hit hit) {
+    Ray ray = at_rest(moving, hit.shape);
     COUNT_SHAPES
     real3 point = ORIGIN_IS_EYE ? hit.t * ray.direction : ray.origin + hit.t * ray.direction;
     const real3 up = real3(0.0, 0.0, 1.0);
@@ -64,7 +64,7 @@ Surface hit_surface(const Header header, const Ray moving, const Hit hit) {
     } else
     SHAPE_KINDS(SURFACE) {}
 #undef SURFACE
-    if (MOTIONS != 0u) surface.point += moved_by(header, moving, hit.shape);
+    if (MOTIONS != 0u) surface.point += moved_by(moving, hit.shape);
     bool away = dot3(surface.geometric_normal, ray.direction) > 0.0;
     surface.inside = away;
     surface.geometric_normal = away ? -surface.geometric_normal : surface.geometric_normal;

@@ -8,7 +8,7 @@ use glam::{DVec2, DVec3, DVec4};
 
 use super::hit::{Hit, Surface, surface};
 use super::kinds::{Form, Round, Shape};
-use super::plane::own_place;
+use super::plane::{distance_to_plane, own_place};
 use super::sphere::Circle;
 use crate::oracle::camera::Ray;
 use crate::oracle::cone::{Cone, flat_in};
@@ -94,9 +94,8 @@ impl Shape for Disc {
     }
 
     fn distance_to(&self, ray: &Ray) -> (f64, DVec2) {
-        let normal = self.normal;
-        let t = (self.distance - normal.dot(ray.origin)) / normal.dot(ray.direction);
-        let own = ray.origin + t * ray.direction - self.center;
+        let (t, p) = distance_to_plane(self.normal, self.distance, ray);
+        let own = p - self.center;
         let local = DVec2::new(self.axis_u.dot(own), self.axis_v.dot(own));
         (if local.length_squared() <= 1.0 { t } else { -1.0 }, local)
     }

@@ -31,16 +31,19 @@ pub(super) fn cut_bounds(cuts: &mut Cuts, cone: &Cone, plane: &FlatDepth, row: D
     cuts.by(limit + place);
 }
 
+/// Returns t = (h - n·o) / n·d for the plane n·p = h, and the point there.
+pub(super) fn distance_to_plane(normal: DVec3, height: f64, ray: &Ray) -> (f64, DVec3) {
+    let t = (height - normal.dot(ray.origin)) / normal.dot(ray.direction);
+    (t, ray.origin + t * ray.direction)
+}
+
 impl Shape for Plane {
     fn links(&self) -> [u32; 2] {
         [self.material, self.uv_projection]
     }
 
     fn distance_to(&self, ray: &Ray) -> (f64, DVec2) {
-        let normal = self.normal;
-        let height = self.distance - normal.dot(ray.origin);
-        let t = height / normal.dot(ray.direction);
-        let p = ray.origin + t * ray.direction;
+        let (t, p) = distance_to_plane(self.normal, self.distance, ray);
         let local = DVec2::new(self.axis_u.dot(p), self.axis_v.dot(p));
         if let Some(extent) = self.bounds() {
             let (u, v) = (local.x + self.eye_u, local.y + self.eye_v);
