@@ -32,6 +32,7 @@ mod gpu;
 mod integrators;
 #[allow(missing_docs)]
 mod lab;
+mod mesh;
 #[allow(missing_docs)]
 mod oracle;
 #[allow(missing_docs)]

@@ -8,6 +8,7 @@ use crate::texture::sampler_spec::{Method, MipMode, SamplerSpec};
 pub fn of_scene(scene: &Scene) -> Vec<String> {
     let mut told = without_effect(scene.sampling.footprint, &scene.samplers);
     told.extend(without_light(scene));
+    told.extend(scene.notes.iter().cloned());
     let algorithm = scene.sampling.algorithm;
     match scene.dropped_triangles {
         0 => {}

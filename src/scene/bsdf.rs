@@ -12,6 +12,9 @@ impl Model {
     /// The model that shows its colour unshaded: for environments, and textures by themselves.
     pub const PLAIN: Model = Model::Unlit;
 
+    /// The model of diffuse light and a highlight: for files that know no other.
+    pub const HIGHLIGHTED: Model = Model::Phong;
+
     /// Returns true if it emits light.
     pub fn emits(self) -> bool {
         self.is("emits")

@@ -43,6 +43,7 @@ impl SceneBuilder {
             dropped_triangles: 0,
             first_dropped: String::new(),
             lights: Vec::new(),
+            notes: Vec::new(),
         };
         SceneBuilder { scene, over: None }
     }
@@ -103,6 +104,11 @@ impl SceneBuilder {
         let added = (kind.add)(fields, material, motion, &mut self.scene.shapes)?;
         self.over = self.over.or(added.over);
         Ok(added.is_empty)
+    }
+
+    /// Adds a warning about the files of the scene.
+    pub(super) fn note(&mut self, note: String) {
+        self.scene.notes.push(note);
     }
 
     /// Adds a light.

@@ -51,6 +51,8 @@ pub struct Scene {
     pub first_dropped: String,
     /// All lights.
     pub lights: Vec<Light>,
+    /// What a reader of its files has to tell, for warnings.
+    pub notes: Vec<String>,
 }
 
 /// The radiance of rays that hit nothing.

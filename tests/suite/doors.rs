@@ -110,6 +110,8 @@ const DOORS: &[Door] = &[
             "src/oracle/geometry/",
             "src/pack/geometry/",
             "src/scene/geometry/",
+            // Files of triangles.
+            "src/mesh/",
             // Bounds of planes and normals of triangles are features.
             "src/pack/features/narrowed.rs",
             "src/schema/",

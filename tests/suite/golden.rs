@@ -39,6 +39,7 @@ const GOLDENS: &[(&str, [u32; 2])] = &[
     ("lights", [120, 90]),
     ("mappings", [160, 80]),
     ("materials", [128, 64]),
+    ("meshes", [128, 96]),
     ("mirrors", [120, 90]),
     ("motion", [64, 48]),
     ("normal", [128, 54]),
@@ -197,7 +198,7 @@ macro_rules! goldens {
 }
 goldens! {
     beams centroid cones discs environment environment_cube filters formats glass glossy hardware horizon inside
-    lanczos lecture lens lights mappings materials mirrors motion normal penumbra position procedural ramp reflection
+    lanczos lecture lens lights mappings materials meshes mirrors motion normal penumbra position procedural ramp reflection
     rough samplers shared volume zone_plate
 }
 

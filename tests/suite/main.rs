@@ -48,6 +48,7 @@ mod limits;
 mod lookup;
 mod loop_budget;
 mod materials;
+mod meshes;
 mod metrics;
 mod mip_chain;
 mod mips;

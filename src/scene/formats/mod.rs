@@ -2,6 +2,9 @@
 //! with every reference an index, or the first error. A format reads its bytes into a `SceneBuilder`, which knows all
 //! limits, and reports the position in its file of a value that the builder refuses.
 
+mod mesh_file;
+mod mesh_scene;
+mod mtl;
 mod toml;
 
 use std::fs::File;
@@ -11,6 +14,7 @@ use std::path::Path;
 use super::model::Scene;
 use crate::core::error::{Error, ErrorKind, Result};
 use crate::core::panics;
+use crate::mesh::FORMATS as MESHES;
 use crate::texture::open_file::odd_path;
 pub use toml::parse;
 
@@ -26,7 +30,12 @@ struct Format {
 }
 
 /// All formats. The first one applies to standard input and to files with other endings.
-const FORMATS: [Format; 1] = [toml::FORMAT];
+const FORMATS: [Format; 4] = [
+    toml::FORMAT,
+    mesh_scene::of(&MESHES[0], &["ply"], |path, bytes| mesh_scene::read(path, &MESHES[0], &bytes)),
+    mesh_scene::of(&MESHES[1], &["obj"], |path, bytes| mesh_scene::read(path, &MESHES[1], &bytes)),
+    mesh_scene::of(&MESHES[2], &["stl"], |path, bytes| mesh_scene::read(path, &MESHES[2], &bytes)),
+];
 
 /// The name of a scene that was not read from a file.
 pub const STANDARD_INPUT: &str = "<stdin>";
@@ -58,19 +67,19 @@ fn format_of(path: &Path) -> &'static Format {
     FORMATS.iter().find(|format| format.endings.contains(&ending.as_str())).unwrap_or(first)
 }
 
-fn unreadable(path: &Path, what: &str) -> Error {
-    Error::new(format!("cannot read scene {}: {what}", path.display())).of_kind(ErrorKind::File)
+fn unreadable(kind: &str, path: &Path, what: &str) -> Error {
+    Error::new(format!("cannot read {kind} {}: {what}", path.display())).of_kind(ErrorKind::File)
 }
 
 fn open(path: &Path) -> Result<File> {
     if path.is_dir() {
         let names: Vec<&str> = FORMATS.iter().map(|format| format.name).collect();
         let help = format!("name a scene file ({}) in it", names.join(", "));
-        return Err(unreadable(path, "it is a folder").and_help(Some(help)));
+        return Err(unreadable("scene", path, "it is a folder").and_help(Some(help)));
     }
     File::open(path).map_err(|error| {
         let help = odd_path(path).filter(|_| error.kind() == Io::NotFound);
-        unreadable(path, &error.to_string()).and_help(help)
+        unreadable("scene", path, &error.to_string()).and_help(help)
     })
 }
 
@@ -79,11 +88,11 @@ fn bytes_of(source: impl Read, path: &Path, format: &Format) -> Result<Vec<u8>> 
     source
         .take(format.max_bytes + 1)
         .read_to_end(&mut bytes)
-        .map_err(|error| unreadable(path, &error.to_string()))?;
+        .map_err(|error| unreadable("scene", path, &error.to_string()))?;
     if bytes.len() as u64 > format.max_bytes {
         let mib = format.max_bytes >> 20;
         let what = format!("it is larger than {mib} MiB, the most a scene file may have");
-        return Err(unreadable(path, &what));
+        return Err(unreadable("scene", path, &what));
     }
     Ok(bytes)
 }

@@ -2,6 +2,7 @@
 //! `Scene::shapes` and knows no kind.
 
 mod fields;
+pub(super) mod meshes;
 
 use glam::DVec3;
 

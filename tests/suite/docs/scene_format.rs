@@ -33,6 +33,7 @@ const RECTANGLE: &[(&str, &str)] = &[
 const VOLUME: &[(&str, &str)] = &[("file", "\"v.raw\""), ("size", "[1, 1, 1]"), ("format", "\"rgba8\"")];
 const PROCEDURAL: &[(&str, &str)] = &[("name", "\"p\""), ("procedural", "\"fbm\"")];
 const ENVIRONMENT: &[(&str, &str)] = &[("environment", "\"t\"")];
+const MESH: &[(&str, &str)] = &[("file", "\"data/models/gem.stl\"")];
 const NORMAL_MAP: &[(&str, &str)] = &[("normal_map", "\"t\"")];
 
 /// Every table of the format, in the order of the reference.
@@ -141,6 +142,14 @@ const CONTEXTS: &[Context] = &[
         heading: "## `[[triangle]]`",
         header: "[[triangle]]",
         body: &[("vertices", "[[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]")],
+        ..NONE
+    },
+    Context { heading: "## `[[mesh]]`", header: "[[mesh]]", body: MESH, ..NONE },
+    Context {
+        heading: "### `transform` of `[[mesh]]`",
+        header: "[[mesh]]",
+        body: MESH,
+        inline: Some(("transform", &[])),
         ..NONE
     },
     Context {

@@ -3,6 +3,7 @@
 
 mod lights;
 mod materials;
+mod meshes;
 mod names;
 mod place;
 mod procedural;
@@ -35,7 +36,7 @@ use table::Table;
 /// 65535 triangles with texture coordinates take 7 MB of text.
 const MAX_BYTES: u64 = 64 << 20;
 const SECTIONS: &[&str] =
-    &["camera", "image", "sampling", "background", "texture", "sampler", "material", "light"];
+    &["camera", "image", "sampling", "background", "texture", "sampler", "material", "mesh", "light"];
 
 pub(super) const FORMAT: Format = Format { name: "TOML", endings: &["toml"], max_bytes: MAX_BYTES, read };
 
@@ -97,6 +98,7 @@ fn assemble(path: &Path, root: &Table<'_>) -> Result<Scene> {
     builder.sampling(sections::sampling(root.single("sampling", sections::SAMPLING)?.as_ref())?);
     let materials = surfaces(path, root, &mut builder)?;
     let dropped = shapes::add_all(root, &materials, &mut builder)?;
+    meshes::add_all(path.parent().unwrap_or(Path::new("")), root, &materials, &mut builder)?;
     for table in root.repeated("light", lights::LIGHT)? {
         builder.light(lights::light(&table)?);
     }

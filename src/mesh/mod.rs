@@ -1,0 +1,91 @@
+//! Meshes as files hold them. Input: the bytes of a file. Output: positions, texture coordinates, normals, and triangles
+//! over them that name a material of the file. Nothing here knows a scene or a device.
+
+mod check;
+pub mod mtl;
+mod obj;
+mod ply;
+mod polygon;
+mod stl;
+
+use std::fmt;
+
+use glam::{DVec2, DVec3};
+
+/// Triangles over shared positions, texture coordinates and normals.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Mesh {
+    /// Corners.
+    pub positions: Vec<DVec3>,
+    /// Texture coordinates, v upwards.
+    pub uvs: Vec<DVec2>,
+    /// Shading normals, of any length.
+    pub normals: Vec<DVec3>,
+    /// Counter-clockwise as seen from the front, in the order of the file.
+    pub triangles: Vec<MeshTriangle>,
+    /// Names of the materials that triangles refer to.
+    pub materials: Vec<String>,
+    /// Files that define these materials, as written.
+    pub libraries: Vec<String>,
+}
+
+impl Mesh {
+    /// Returns the least and the greatest coordinates of all corners.
+    pub fn bounds(&self) -> [DVec3; 2] {
+        let corners = self.triangles.iter().flat_map(|triangle| triangle.positions);
+        let positions = corners.filter_map(|index| self.positions.get(index as usize));
+        let none = [DVec3::INFINITY, DVec3::NEG_INFINITY];
+        positions.fold(none, |[min, max], position| [min.min(*position), max.max(*position)])
+    }
+}
+
+/// Indices of the three corners of a triangle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct MeshTriangle {
+    /// Into the positions.
+    pub positions: [u32; 3],
+    /// Into the texture coordinates, if it has any.
+    pub uvs: Option<[u32; 3]>,
+    /// Into the normals, if it has any.
+    pub normals: Option<[u32; 3]>,
+    /// Into the names of materials, if it names one.
+    pub material: Option<u32>,
+}
+
+/// Why a file is no mesh.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Fault {
+    /// Where: `line 12`, `byte 84`, `header`; empty for the whole file.
+    pub place: String,
+    /// What was found and what is allowed.
+    pub what: String,
+}
+
+impl Fault {
+    pub(crate) fn new(place: impl Into<String>, what: impl Into<String>) -> Fault {
+        Fault { place: place.into(), what: what.into() }
+    }
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if !self.place.is_empty() {
+            write!(f, "{}: ", self.place)?;
+        }
+        f.write_str(&self.what)
+    }
+}
+
+/// A format of mesh files.
+#[derive(Clone, Copy, Debug)]
+pub struct MeshFormat {
+    /// As people call it.
+    pub name: &'static str,
+    /// The ending of its files, in lower case.
+    pub ending: &'static str,
+    /// Reads a file of at most `most` triangles.
+    pub read: fn(bytes: &[u8], most: usize) -> Result<Mesh, Fault>,
+}
+
+/// All formats.
+pub const FORMATS: [MeshFormat; 3] = [ply::FORMAT, obj::FORMAT, stl::FORMAT];

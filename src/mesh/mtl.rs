@@ -1,0 +1,229 @@
+//! Wavefront MTL, the materials of OBJ files. Input: the text of a file. Output: its materials in its order, with
+//! those statements that describe a surface and its textures; all others are passed over. Nothing is opened here, and
+//! no number is judged: what the values mean to a renderer is for the caller to say.
+
+use super::Fault;
+use super::obj::{first_word, lines, number, quoted, words};
+
+/// Material as the file has it; what it does not say is absent.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct MtlMaterial {
+    /// As `usemtl` names it.
+    pub name: String,
+    /// `Kd`.
+    pub diffuse: Option<[f64; 3]>,
+    /// `Ks`.
+    pub specular: Option<[f64; 3]>,
+    /// `Ns`, the exponent of Phong's model.
+    pub exponent: Option<f64>,
+    /// `Ni`, the index of refraction.
+    pub ior: Option<f64>,
+    /// `illum`, the number of the lighting model.
+    pub illumination: Option<u32>,
+    /// `map_Kd`.
+    pub diffuse_map: Option<MtlMap>,
+    /// `map_Bump` or `bump`, heights.
+    pub bump_map: Option<MtlMap>,
+    /// `norm`, normals in tangent space.
+    pub normal_map: Option<MtlMap>,
+}
+
+/// Texture of a material.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MtlMap {
+    /// As written, but with `/` between folders.
+    pub file: String,
+    /// `-s`, by which texture coordinates are multiplied.
+    pub scale: [f64; 2],
+    /// `-o`, added to texture coordinates after the scale.
+    pub offset: [f64; 2],
+    /// `-clamp on`: the texture does not repeat.
+    pub clamp: bool,
+    /// `-bm`, the factor of a bump map.
+    pub strength: Option<f64>,
+}
+
+/// Reads the materials of a file.
+pub fn read(bytes: &[u8]) -> Result<Vec<MtlMaterial>, Fault> {
+    let mut materials: Vec<MtlMaterial> = Vec::new();
+    for (number, line) in lines(bytes)? {
+        let (keyword, rest) = first_word(&line);
+        if keyword.eq_ignore_ascii_case(b"newmtl") {
+            materials.push(MtlMaterial { name: name(rest), ..MtlMaterial::default() });
+        } else if let Some(material) = materials.last_mut() {
+            // Before the first material, a statement describes none.
+            let read = statement(material, keyword, rest);
+            read.map_err(|what| Fault::new(format!("line {number}"), what))?;
+        }
+    }
+    Ok(materials)
+}
+
+/// Reads a statement into its material, or returns what is wrong with it.
+fn statement(material: &mut MtlMaterial, keyword: &[u8], rest: &[u8]) -> Result<(), String> {
+    // Programs disagree on capitals, most of all in the names of maps.
+    match keyword.to_ascii_lowercase().as_slice() {
+        b"kd" => material.diffuse = colour(rest)?.or(material.diffuse),
+        b"ks" => material.specular = colour(rest)?.or(material.specular),
+        b"ns" => material.exponent = Some(number(first_value(rest))?),
+        b"ni" => material.ior = Some(number(first_value(rest))?),
+        b"illum" => material.illumination = Some(whole(first_value(rest))?),
+        b"map_kd" => material.diffuse_map = map(rest)?,
+        b"map_bump" | b"bump" => material.bump_map = map(rest)?,
+        b"norm" => material.normal_map = map(rest)?,
+        _ => {}
+    }
+    Ok(())
+}
+
+/// Reads a colour, or nothing if it is given by a spectrum or in XYZ.
+fn colour(rest: &[u8]) -> Result<Option<[f64; 3]>, String> {
+    if [&b"spectral"[..], b"xyz"].contains(&first_value(rest)) {
+        return Ok(None);
+    }
+    let values: Vec<f64> = words(rest).take(3).map(number).collect::<Result<_, _>>()?;
+    match *values.as_slice() {
+        [grey] => Ok(Some([grey; 3])),
+        [r, g, b] => Ok(Some([r, g, b])),
+        _ => Err(format!("colour has {} numbers; it needs 1 or 3", values.len())),
+    }
+}
+
+/// Reads a texture, or nothing if no file is named.
+fn map(mut rest: &[u8]) -> Result<Option<MtlMap>, String> {
+    let mut map =
+        MtlMap { file: String::new(), scale: [1.0; 2], offset: [0.0; 2], clamp: false, strength: None };
+    while let Some(after) = option(&mut map, rest)? {
+        rest = after;
+    }
+    map.file = name(rest).replace('\\', "/");
+    // Some programs write the statement for textures that are not there.
+    Ok(Some(map).filter(|map| !map.file.is_empty()))
+}
+
+/// Reads an option of a texture and returns what follows it, or nothing if the file name is next.
+fn option<'a>(map: &mut MtlMap, rest: &'a [u8]) -> Result<Option<&'a [u8]>, String> {
+    let (option, after) = first_word(rest);
+    let (argument, after_one) = first_word(after);
+    let after = match option {
+        b"-s" => vector(after, &mut map.scale)?,
+        b"-o" => vector(after, &mut map.offset)?,
+        b"-t" => vector(after, &mut [0.0; 2])?,
+        b"-clamp" => {
+            map.clamp = switch(argument)?;
+            after_one
+        }
+        b"-bm" => {
+            map.strength = Some(number(argument)?);
+            after_one
+        }
+        b"-mm" => first_word(after_one).1,
+        b"-blendu" | b"-blendv" | b"-boost" | b"-cc" | b"-texres" | b"-type" | b"-imfchan" => after_one,
+        _ => return Ok(None),
+    };
+    Ok(Some(after))
+}
+
+/// Reads one to three numbers, of which the first two are kept, and returns what follows them.
+fn vector<'a>(rest: &'a [u8], kept: &mut [f64; 2]) -> Result<&'a [u8], String> {
+    let (first, mut rest) = first_word(rest);
+    kept[0] = number(first)?;
+    for i in 1..3 {
+        let (word, after) = first_word(rest);
+        // The last word is the file, even if it reads as a number.
+        let Some(value) = number(word).ok().filter(|_| !after.is_empty()) else {
+            break;
+        };
+        if let Some(slot) = kept.get_mut(i) {
+            *slot = value;
+        }
+        rest = after;
+    }
+    Ok(rest)
+}
+
+/// Reads `on` or `off`.
+fn switch(word: &[u8]) -> Result<bool, String> {
+    match word {
+        b"on" => Ok(true),
+        b"off" => Ok(false),
+        _ => Err(format!("{} is neither on nor off", quoted(word))),
+    }
+}
+
+/// Reads a whole number.
+fn whole(word: &[u8]) -> Result<u32, String> {
+    let parsed = std::str::from_utf8(word).ok().and_then(|word| word.parse().ok());
+    parsed.ok_or_else(|| format!("{} is no whole number from 0", quoted(word)))
+}
+
+/// Returns the first word of the arguments, empty if there is none.
+fn first_value(rest: &[u8]) -> &[u8] {
+    words(rest).next().unwrap_or_default()
+}
+
+/// Turns the rest of a line into a name.
+fn name(rest: &[u8]) -> String {
+    String::from_utf8_lossy(rest).into_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+
+    #[test]
+    fn reads_materials() {
+        let text = "# Made by hand\r\nKd 9 9 9\nnewmtl red wall \r\n\tKd 0.8 0.1 0.1 # red\nKs 0.5\nKs spectral a.rfl 1\n\
+                    Ns 1e2\nNi 1.5\nillum 2\nTr 0\nmap_kd\nnewmtl b\nKd \\\n 1 2 3";
+        let red = MtlMaterial {
+            name: "red wall".into(),
+            diffuse: Some([0.8, 0.1, 0.1]),
+            specular: Some([0.5; 3]),
+            exponent: Some(100.0),
+            ior: Some(1.5),
+            illumination: Some(2),
+            ..MtlMaterial::default()
+        };
+        let other =
+            MtlMaterial { name: "b".into(), diffuse: Some([1.0, 2.0, 3.0]), ..MtlMaterial::default() };
+        assert_eq!(read(text.as_bytes()).unwrap(), [red, other]);
+        assert_eq!(read(b"").unwrap(), []);
+    }
+
+    #[test]
+    fn reads_options_of_textures() {
+        let text = "newmtl a\nmap_Kd -blendu off -s 2 3 1 -mm 0 1 -o .5 -clamp on tex\\my wood.png\n\
+                    map_Bump -bm 0.3 -imfchan l -t 1 1 1 -s 2 7\nnorm -odd.png";
+        let material = read(text.as_bytes()).unwrap().remove(0);
+        let plain = |file: &str| MtlMap {
+            file: file.into(),
+            scale: [1.0; 2],
+            offset: [0.0; 2],
+            clamp: false,
+            strength: None,
+        };
+        let wood = MtlMap { scale: [2.0, 3.0], offset: [0.5, 0.0], clamp: true, ..plain("tex/my wood.png") };
+        assert_eq!(material.diffuse_map, Some(wood));
+        let bump = MtlMap { scale: [2.0, 1.0], strength: Some(0.3), ..plain("7") };
+        assert_eq!(material.bump_map, Some(bump));
+        assert_eq!(material.normal_map, Some(plain("-odd.png")));
+    }
+
+    #[test]
+    fn faults_name_the_line() {
+        for (text, fault) in [
+            ("Kd 1 2", "line 2: colour has 2 numbers; it needs 1 or 3"),
+            ("Kd", "line 2: colour has 0 numbers; it needs 1 or 3"),
+            ("Ns abc", "line 2: \"abc\" is no number"),
+            ("Ni", "line 2: \"\" is no number"),
+            ("illum 2.5", "line 2: \"2.5\" is no whole number from 0"),
+            ("bump -bm", "line 2: \"\" is no number"),
+            ("map_Kd -s a.png", "line 2: \"a.png\" is no number"),
+            ("map_Kd -clamp a.png", "line 2: \"a.png\" is neither on nor off"),
+        ] {
+            assert_eq!(read(format!("newmtl a\n{text}").as_bytes()).unwrap_err().to_string(), fault);
+        }
+        assert!(read(b"\xff\xfen\0").is_err());
+    }
+}

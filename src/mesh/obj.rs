@@ -1,0 +1,298 @@
+//! Wavefront OBJ. Input: the text of a file, in UTF-8 as far as its names matter. Output: its faces, cut into
+//! triangles, with the names of their materials and of the files that define these. Curves, lines, points and groups
+//! are passed over. The lines and words of such texts are found here for MTL as well.
+
+use std::borrow::Cow;
+use std::collections::HashMap;
+
+use glam::{DVec2, DVec3};
+
+use super::{Fault, Mesh, MeshFormat, MeshTriangle, check, polygon};
+
+/// The format.
+pub(super) const FORMAT: MeshFormat = MeshFormat { name: "OBJ", ending: "obj", read };
+
+/// Reads a file of at most `most` triangles.
+fn read(bytes: &[u8], most: usize) -> Result<Mesh, Fault> {
+    let mut reader = Reader::default();
+    for (number, line) in lines(bytes)? {
+        reader.statement(&line).map_err(|what| Fault::new(format!("line {number}"), what))?;
+        // Here, so that a file over the limit does not fill the memory first.
+        check::count(reader.mesh.triangles.len(), most)?;
+    }
+    if reader.mesh.triangles.is_empty() {
+        return Err(Fault::new("", "it has no faces; at least one of three corners is needed"));
+    }
+    check::checked(reader.mesh)
+}
+
+/// What was read so far.
+#[derive(Default)]
+struct Reader {
+    mesh: Mesh,
+    /// The material of the faces that follow.
+    material: Option<u32>,
+    /// Where the mesh holds the name of a material.
+    materials: HashMap<String, u32>,
+    /// The face being read; kept, so that faces share the memory.
+    face: Face,
+}
+
+/// Indices of the corners of a face.
+#[derive(Default)]
+struct Face {
+    positions: Vec<u32>,
+    /// As many as positions, or none.
+    uvs: Vec<u32>,
+    /// As many as positions, or none.
+    normals: Vec<u32>,
+}
+
+impl Reader {
+    /// Reads one line, or returns what is wrong with it.
+    fn statement(&mut self, line: &[u8]) -> Result<(), String> {
+        let (keyword, rest) = first_word(line);
+        match keyword {
+            b"v" => self.mesh.positions.push(DVec3::from_array(numbers(rest, 3, "vertex")?)),
+            b"vt" => self.mesh.uvs.push(DVec2::from_array(numbers(rest, 1, "texture coordinate")?)),
+            b"vn" => self.mesh.normals.push(DVec3::from_array(numbers(rest, 3, "normal")?)),
+            b"f" => self.face(rest)?,
+            b"usemtl" => self.use_material(&String::from_utf8_lossy(rest))?,
+            b"mtllib" if !rest.is_empty() => {
+                self.mesh.libraries.push(String::from_utf8_lossy(rest).into_owned());
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+
+    /// Makes a material that of the faces that follow; an empty name stands for none.
+    fn use_material(&mut self, name: &str) -> Result<(), String> {
+        self.material = match self.materials.get(name) {
+            _ if name.is_empty() => None,
+            Some(index) => Some(*index),
+            None => {
+                let index = u32::try_from(self.mesh.materials.len()).map_err(|e| e.to_string())?;
+                self.mesh.materials.push(name.to_owned());
+                self.materials.insert(name.to_owned(), index);
+                Some(index)
+            }
+        };
+        Ok(())
+    }
+
+    /// Reads a face and adds its triangles. One of fewer than three corners has none.
+    fn face(&mut self, rest: &[u8]) -> Result<(), String> {
+        self.face.read(rest, &self.mesh)?;
+        let corners = &self.face.positions;
+        match corners.len() {
+            0..3 => {}
+            // Most faces; they need no list of their own.
+            3 => self.triangle([0, 1, 2]),
+            _ => {
+                let cut = polygon::triangles(&self.mesh.positions, corners);
+                cut.into_iter().for_each(|three| self.triangle(three));
+            }
+        }
+        Ok(())
+    }
+
+    /// Adds the triangle of three corners of the face.
+    fn triangle(&mut self, corners: [usize; 3]) {
+        let Some(positions) = pick(&self.face.positions, corners) else {
+            return;
+        };
+        self.mesh.triangles.push(MeshTriangle {
+            positions,
+            uvs: pick(&self.face.uvs, corners),
+            normals: pick(&self.face.normals, corners),
+            material: self.material,
+        });
+    }
+}
+
+impl Face {
+    /// Replaces the corners by those of a line, which refer to what the mesh holds so far.
+    fn read(&mut self, rest: &[u8], mesh: &Mesh) -> Result<(), String> {
+        self.positions.clear();
+        self.uvs.clear();
+        self.normals.clear();
+        for corner in words(rest) {
+            if self.positions.len() == polygon::MOST_CORNERS {
+                return Err(format!("face has more than {} corners", polygon::MOST_CORNERS));
+            }
+            let mut parts = corner.split(|byte| *byte == b'/');
+            let position = parts.next().unwrap_or_default();
+            self.positions.push(index(position, mesh.positions.len(), "vertex")?);
+            if let Some(uv) = parts.next().filter(|part| !part.is_empty()) {
+                self.uvs.push(index(uv, mesh.uvs.len(), "texture coordinate")?);
+            }
+            if let Some(normal) = parts.next().filter(|part| !part.is_empty()) {
+                self.normals.push(index(normal, mesh.normals.len(), "normal")?);
+            }
+            if parts.next().is_some() {
+                return Err(format!("{} has more than three indices", quoted(corner)));
+            }
+        }
+        for list in [&mut self.uvs, &mut self.normals] {
+            if list.len() != self.positions.len() {
+                list.clear();
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Returns three elements of a list, or nothing if it lacks one.
+fn pick(list: &[u32], [a, b, c]: [usize; 3]) -> Option<[u32; 3]> {
+    Some([*list.get(a)?, *list.get(b)?, *list.get(c)?])
+}
+
+/// Turns an index of the file, from 1 or backwards from -1, into one from 0. `count` elements are defined above.
+fn index(word: &[u8], count: usize, what: &str) -> Result<u32, String> {
+    let parsed = std::str::from_utf8(word).ok().and_then(|word| word.parse::<i64>().ok());
+    let given = parsed.ok_or_else(|| format!("{} is no whole number", quoted(word)))?;
+    if given == 0 {
+        return Err(format!("face refers to {what} 0; the first is 1"));
+    }
+    let all = i64::try_from(count).unwrap_or(i64::MAX);
+    let from_zero = if given > 0 { given - 1 } else { given.saturating_add(all) };
+    u32::try_from(from_zero)
+        .ok()
+        .filter(|_| from_zero < all)
+        .ok_or_else(|| format!("face refers to {what} {given}; {count} are defined above"))
+}
+
+/// Reads up to `N` numbers, of which `least` must be there; the others are 0.
+fn numbers<const N: usize>(rest: &[u8], least: usize, what: &str) -> Result<[f64; N], String> {
+    let mut found = [0.0; N];
+    let mut count = 0;
+    for (slot, word) in found.iter_mut().zip(words(rest)) {
+        *slot = number(word)?;
+        count += 1;
+    }
+    if count < least {
+        return Err(format!("{what} has {count} numbers; it needs {least}"));
+    }
+    Ok(found)
+}
+
+/// Reads a finite number.
+pub(super) fn number(word: &[u8]) -> Result<f64, String> {
+    let parsed = std::str::from_utf8(word).ok().and_then(|word| word.parse::<f64>().ok());
+    parsed.filter(|number| number.is_finite()).ok_or_else(|| format!("{} is no number", quoted(word)))
+}
+
+/// Quotes a word for a message, shortened if it is long.
+pub(super) fn quoted(word: &[u8]) -> String {
+    format!("{:?}", String::from_utf8_lossy(word.get(..40).unwrap_or(word)))
+}
+
+/// Returns the words of a line up to a comment.
+pub(super) fn words(line: &[u8]) -> impl Iterator<Item = &[u8]> {
+    let all = line.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
+    all.take_while(|word| !word.starts_with(b"#"))
+}
+
+/// Returns the first word of a line, and the rest, trimmed.
+pub(super) fn first_word(line: &[u8]) -> (&[u8], &[u8]) {
+    let line = line.trim_ascii();
+    let end = line.iter().position(u8::is_ascii_whitespace).unwrap_or(line.len());
+    let (word, rest) = line.split_at_checked(end).unwrap_or((line, &[]));
+    (word, rest.trim_ascii_start())
+}
+
+/// Returns the lines of a text with their numbers, those that a backslash continues joined by a space, or a fault if
+/// it is no text of single bytes.
+pub(super) fn lines(bytes: &[u8]) -> Result<impl Iterator<Item = (usize, Cow<'_, [u8]>)>, Fault> {
+    let marked = bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff");
+    // Without a mark, every other byte of Latin text is zero.
+    if marked || bytes.iter().take(2).any(|byte| *byte == 0) {
+        return Err(Fault::new("", "it is binary or UTF-16 text; save it as UTF-8"));
+    }
+    let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    let mut numbered = (1..).zip(text.split(|byte| *byte == b'\n').map(<[u8]>::trim_ascii));
+    Ok(std::iter::from_fn(move || {
+        let (number, first) = numbered.next()?;
+        let mut line = Cow::Borrowed(first);
+        // A comment may end with a path; it must not swallow the statement below it.
+        while line.ends_with(b"\\") && !line.starts_with(b"#") {
+            let whole = line.to_mut();
+            whole.pop();
+            whole.push(b' ');
+            whole.extend_from_slice(numbered.next().map(|(_, next)| next).unwrap_or_default());
+        }
+        Some((number, line))
+    }))
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+
+    const SQUARE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0.5\nvn 0 0 1\n";
+
+    fn square(more: &str) -> Result<Mesh, Fault> {
+        read(format!("{SQUARE}{more}").as_bytes(), 4)
+    }
+
+    #[test]
+    fn reads_faces_of_every_form() {
+        let text = "f 1/1/1 2/1/1 3/1/1 # all\r\nf\t-4//-1 -3//1 \\\r\n -2//1\nf 1/1 2 3\n";
+        let mesh = square(text).unwrap();
+        let triangle = |uvs, normals| MeshTriangle { positions: [0, 1, 2], uvs, normals, material: None };
+        let zero = Some([0; 3]);
+        assert_eq!(mesh.triangles, [triangle(zero, zero), triangle(None, zero), triangle(None, None)]);
+        assert_eq!(mesh.uvs, [DVec2::new(0.5, 0.0)]);
+        assert_eq!(square("f 1 2 3 4\nl 1 2\nf 1 2\n").unwrap().triangles.len(), 2);
+    }
+
+    #[test]
+    fn names_materials_once() {
+        let text =
+            "mtllib my file.mtl \nusemtl a b\nf 1 2 3\nusemtl c\nf 1 2 3\n# C:\\\nusemtl  a b\r\nf 1 2 3";
+        let mesh = square(text).unwrap();
+        assert_eq!(
+            (mesh.materials, mesh.libraries),
+            (vec!["a b".into(), "c".into()], vec!["my file.mtl".into()])
+        );
+        assert_eq!(mesh.triangles.iter().filter_map(|t| t.material).collect::<Vec<_>>(), [0, 1, 0]);
+    }
+
+    #[test]
+    fn faults_name_the_line() {
+        let many = format!("f{}", " 1".repeat(polygon::MOST_CORNERS + 1));
+        for (text, fault) in [
+            ("\\\n\nf 1 2 99", "line 9: face refers to vertex 99; 4 are defined above"),
+            ("f 1 2 -5", "line 7: face refers to vertex -5; 4 are defined above"),
+            (
+                "f 1 2 -9223372036854775808",
+                "line 7: face refers to vertex -9223372036854775808; 4 are defined above",
+            ),
+            ("f 1/0 2 3", "line 7: face refers to texture coordinate 0; the first is 1"),
+            ("f 1/1/1/1 2 3", "line 7: \"1/1/1/1\" has more than three indices"),
+            ("f /1 2 3", "line 7: \"\" is no whole number"),
+            ("v 1 2", "line 7: vertex has 2 numbers; it needs 3"),
+            ("v 1 abc 2", "line 7: \"abc\" is no number"),
+            ("vn 1 1e999 2", "line 7: \"1e999\" is no number"),
+            (&many, "line 7: face has more than 10000 corners"),
+            ("f 1 2", "it has no faces; at least one of three corners is needed"),
+        ] {
+            assert_eq!(square(text).unwrap_err().to_string(), fault);
+        }
+        assert!(square(&"f 1 2 3 4\n".repeat(2)).is_ok());
+        assert!(square(&"f 1 2 3 4\n".repeat(3)).is_err());
+    }
+
+    #[test]
+    fn tells_encodings_apart() {
+        let marked = format!("\u{feff}{SQUARE}usemtl é\nf 1 2 3");
+        assert_eq!(read(marked.as_bytes(), 1).unwrap().materials, ["é"]);
+        let latin = [SQUARE.as_bytes(), b"usemtl \xe9 \\\n\n\\\nf 1 2 3\\"].concat();
+        assert_eq!(read(&latin, 1).unwrap().materials, ["\u{fffd}"]);
+        for wide in [&b"\xff\xfev\0"[..], b"\xfe\xff\0v", b"v\0 \0", b"\0v"] {
+            assert!(read(wide, 1).unwrap_err().what.contains("UTF-16"));
+        }
+    }
+}

@@ -1,0 +1,146 @@
+//! Reads STL files (3D Systems, Stereolithography Interface Specification, 1988), binary and as text. Input: the bytes of
+//! a file. Output: flat triangles; the normals of the file say no more than the corners do and are left.
+
+use std::str::{FromStr, SplitAsciiWhitespace};
+
+use glam::DVec3;
+
+use super::{Fault, Mesh, MeshFormat, MeshTriangle, check};
+
+pub(super) const FORMAT: MeshFormat = MeshFormat { name: "STL", ending: "stl", read };
+
+/// Bytes before the first triangle: a comment, and the number of triangles.
+const HEADER: usize = 84;
+/// Bytes of a triangle: normal, three corners, two bytes of attributes.
+const RECORD: usize = 50;
+
+fn read(bytes: &[u8], most: usize) -> Result<Mesh, Fault> {
+    // Programs begin binary files with `solid` too, so that the length decides first.
+    let is_text = bytes.trim_ascii_start().starts_with(b"solid");
+    match announced(bytes) {
+        Some(count) if bytes.len() as u64 == length_of(count) || !is_text => binary(bytes, count, most),
+        None if !is_text => {
+            Err(Fault::new("", "it is no STL file: neither \"solid\" nor a header of 84 bytes"))
+        }
+        _ => text(bytes, most),
+    }
+}
+
+fn announced(bytes: &[u8]) -> Option<u32> {
+    let count = bytes.get(HEADER - 4..HEADER)?;
+    count.try_into().ok().map(u32::from_le_bytes)
+}
+
+fn length_of(count: u32) -> u64 {
+    HEADER as u64 + RECORD as u64 * u64::from(count)
+}
+
+fn binary(bytes: &[u8], count: u32, most: usize) -> Result<Mesh, Fault> {
+    let needed = length_of(count);
+    if (bytes.len() as u64) < needed {
+        let what = format!("{count} triangles need {needed} bytes; the file ends after {}", bytes.len());
+        return Err(Fault::new("header", what));
+    }
+    check::count(count as usize, most)?;
+    let records = bytes[HEADER..needed as usize].chunks_exact(RECORD);
+    let number = |bytes: &[u8]| f64::from(f32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]]));
+    let corner = |bytes: &[u8]| DVec3::new(number(bytes), number(&bytes[4..]), number(&bytes[8..]));
+    let corners = records.flat_map(|record| [12, 24, 36].map(|first| corner(&record[first..first + 12])));
+    check::checked(of_corners(corners.collect()))
+}
+
+/// Returns the mesh of triangles that share no corner.
+fn of_corners(positions: Vec<DVec3>) -> Mesh {
+    let triangle = |first: u32| {
+        let positions = [first, first + 1, first + 2];
+        MeshTriangle { positions, uvs: None, normals: None, material: None }
+    };
+    let triangles = (0..positions.len() as u32).step_by(3).map(triangle).collect();
+    Mesh { positions, triangles, ..Mesh::default() }
+}
+
+fn text(bytes: &[u8], most: usize) -> Result<Mesh, Fault> {
+    let mut positions: Vec<DVec3> = Vec::new();
+    // The corners of the facet that is being read.
+    let mut first = 0;
+    for (line, bytes) in (1..).zip(bytes.split(|&byte| byte == b'\n')) {
+        let place = || format!("line {line}");
+        let shown = String::from_utf8_lossy(bytes);
+        let mut words = shown.split_ascii_whitespace();
+        match words.next() {
+            Some("vertex") => positions.push(corner(&mut words).map_err(|what| Fault::new(place(), what))?),
+            Some("facet") => first = positions.len(),
+            Some("endfacet") if positions.len() - first != 3 => {
+                let what = format!("a facet has 3 vertices, not {}", positions.len() - first);
+                return Err(Fault::new(place(), what));
+            }
+            Some("endfacet") => check::count(positions.len() / 3, most)?,
+            Some("solid" | "endsolid" | "outer" | "endloop") | None => {}
+            Some(word) => {
+                let what =
+                    format!("{word:?} is no word of STL; facet, outer loop, vertex, endloop, endfacet are");
+                return Err(Fault::new(place(), what));
+            }
+        }
+        if positions.len() - first > 3 {
+            return Err(Fault::new(place(), "a facet has 3 vertices, not more"));
+        }
+    }
+    match positions.len() {
+        0 => Err(Fault::new("", "it has no facets")),
+        count if count % 3 != 0 => Err(Fault::new("", "it ends within a facet")),
+        _ => check::checked(of_corners(positions)),
+    }
+}
+
+fn corner(words: &mut SplitAsciiWhitespace<'_>) -> Result<DVec3, String> {
+    let mut number = || {
+        let word = words.next().ok_or("a vertex has 3 coordinates")?;
+        f64::from_str(word).map_err(|_| format!("{word:?} is no number"))
+    };
+    Ok(DVec3::new(number()?, number()?, number()?))
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+
+    use super::*;
+
+    const TEXT: &str = "solid a b\n facet normal 0 0 1\n  outer loop\n   vertex 0 0 0\n   vertex 1 0 0\r\n   vertex 0 1e0 0\n  endloop\n endfacet\nendsolid a b\n";
+
+    fn bytes(comment: &[u8], corners: &[[f32; 3]]) -> Vec<u8> {
+        let mut bytes = comment.to_vec();
+        bytes.resize(80, 0);
+        bytes.extend((corners.len() as u32 / 3).to_le_bytes());
+        for triangle in corners.chunks(3) {
+            bytes.extend([0; 12]);
+            bytes.extend(triangle.iter().flatten().flat_map(|x| x.to_le_bytes()));
+            bytes.extend([7, 7]);
+        }
+        bytes
+    }
+
+    #[test]
+    fn text_and_binary_files_give_the_same_triangles_whatever_the_comment() {
+        let text = read(TEXT.as_bytes(), 1).unwrap();
+        let corners = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+        for comment in [&b"made by hand"[..], b"solid made by a program"] {
+            assert_eq!(read(&bytes(comment, &corners), 1).unwrap(), text);
+        }
+        assert_eq!(text.positions[2], DVec3::Y);
+    }
+
+    #[test]
+    fn broken_files_are_refused_where_they_break() {
+        let fault = |bytes: &[u8]| read(bytes, 1).unwrap_err().to_string();
+        let corners = [[0.0; 3]; 6];
+        assert!(fault(&bytes(b"", &corners)).contains("more than 1 triangles"));
+        assert!(fault(&bytes(b"", &corners[..3])[..100]).contains("the file ends after 100"));
+        assert!(fault(&bytes(b"", &[[f32::NAN; 3]; 3])).contains("not finite"));
+        assert_eq!(fault(TEXT.replace("1e0", "x").as_bytes()), "line 6: \"x\" is no number");
+        assert!(fault(TEXT.replace("vertex 1 0 0", "").as_bytes()).starts_with("line 8: a facet has 3"));
+        assert!(fault(b"solid\nendsolid").contains("no facets"));
+        assert!(fault(b"hello").contains("no STL file"));
+    }
+}
