@@ -43,6 +43,7 @@ impl SceneBuilder {
             dropped_triangles: 0,
             first_dropped: String::new(),
             lights: Vec::new(),
+            sources: Vec::new(),
             notes: Vec::new(),
         };
         SceneBuilder { scene, over: None }
@@ -104,6 +105,11 @@ impl SceneBuilder {
         let added = (kind.add)(fields, material, motion, &mut self.scene.shapes)?;
         self.over = self.over.or(added.over);
         Ok(added.is_empty)
+    }
+
+    /// Names a further file that the scene was read from.
+    pub(super) fn source(&mut self, path: PathBuf) {
+        self.scene.sources.push(path);
     }
 
     /// Adds a warning about the files of the scene.

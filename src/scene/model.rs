@@ -51,6 +51,8 @@ pub struct Scene {
     pub first_dropped: String,
     /// All lights.
     pub lights: Vec<Light>,
+    /// Files of meshes and their materials that the scene was read from, beside its own.
+    pub sources: Vec<PathBuf>,
     /// What a reader of its files has to tell, for warnings.
     pub notes: Vec<String>,
 }

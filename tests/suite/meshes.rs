@@ -128,6 +128,8 @@ fn materials_of_a_library_become_materials_of_the_scene() {
         assert!((found - wanted).length() < 1e-12, "{given}: {found}, not {wanted}");
     }
     assert!(advice::of_scene(&scene).iter().all(|told| !told.contains("quad.obj")));
+    // A study measures anew when one of them changes.
+    assert_eq!(scene.sources, ["quad.obj", "a lib.mtl"].map(|file| folder.path().join(file)));
 }
 
 #[test]

@@ -57,7 +57,8 @@ pub fn of(conditions: &Conditions, scene: &Scene) -> Result<Hash> {
         .text(&device.driver)
         .text(&format!("{:?} {}", conditions.size, conditions.seed));
     let textures = scene.textures.iter().flat_map(|t| t.content.files());
-    for path in std::iter::once(scene.path.as_path()).chain(textures) {
+    let sources = scene.sources.iter().map(std::path::PathBuf::as_path);
+    for path in std::iter::once(scene.path.as_path()).chain(sources).chain(textures) {
         hash = file(hash, path)?;
     }
     Ok(hash)

@@ -173,6 +173,7 @@ pub fn pairs_over(
         materials: list.iter().map(material).collect(),
         shapes: Shapes::default(),
         dropped_triangles: 0,
+        sources: Vec::new(),
         notes: Vec::new(),
         first_dropped: String::new(),
         lights: Vec::new(),

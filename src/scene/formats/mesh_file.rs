@@ -70,6 +70,7 @@ pub(super) fn add_materials(path: &Path, mesh: &Mesh, builder: &mut SceneBuilder
                 continue;
             }
         };
+        builder.source(library.clone());
         let materials = mtl::read(&bytes).map_err(|fault| of_fault(&library, "MTL", &fault))?;
         let mut library = Library::new(&library, builder);
         for material in &materials {

@@ -19,8 +19,8 @@ fn file_level_rules() {
         ),
         (
             "section planned",
-            "[[mesh]]\nfile = 'm.obj'",
-            &["unknown key \"mesh\" at the top level", "plane, sphere, triangle"],
+            "[[instance]]\nfile = 'm.obj'",
+            &["unknown key \"instance\" at the top level", "plane, sphere, triangle"],
         ),
         ("stray key", "[image.extra]", &["unknown key \"extra\" in [image]"]),
         ("first of two", "[sampling]\nzz = 1\naa = 2", &[":10:1:", "\"zz\""]),

@@ -36,6 +36,7 @@ pub(super) fn add_all(
         let motion = table.get("motion").map_or(Ok(DVec3::ZERO), Field::vec3)?;
         let mesh = mesh_file::open(&path, format)
             .map_err(|error| field.error(&error.to_string(), "cannot be read"))?;
+        builder.source(path.clone());
         // A material of the scene replaces those of the file.
         let own = match material {
             Some(_) => Vec::new(),
