@@ -63,8 +63,8 @@ pub fn read(bytes: &[u8]) -> Result<Vec<MtlMaterial>, Fault> {
 fn statement(material: &mut MtlMaterial, keyword: &[u8], rest: &[u8]) -> Result<(), String> {
     // Programs disagree on capitals, most of all in the names of maps.
     match keyword.to_ascii_lowercase().as_slice() {
-        b"kd" => material.diffuse = colour(rest)?.or(material.diffuse),
-        b"ks" => material.specular = colour(rest)?.or(material.specular),
+        b"kd" => material.diffuse = color(rest)?.or(material.diffuse),
+        b"ks" => material.specular = color(rest)?.or(material.specular),
         b"ns" => material.exponent = Some(number(first_value(rest))?),
         b"ni" => material.ior = Some(number(first_value(rest))?),
         b"illum" => material.illumination = Some(whole(first_value(rest))?),
@@ -77,7 +77,7 @@ fn statement(material: &mut MtlMaterial, keyword: &[u8], rest: &[u8]) -> Result<
 }
 
 /// Reads a colour, or nothing if it is given by a spectrum or in XYZ.
-fn colour(rest: &[u8]) -> Result<Option<[f64; 3]>, String> {
+fn color(rest: &[u8]) -> Result<Option<[f64; 3]>, String> {
     if [&b"spectral"[..], b"xyz"].contains(&first_value(rest)) {
         return Ok(None);
     }

@@ -85,8 +85,8 @@ pub fn reflected(bsdf: &Bsdf<'_>, color: DVec3, carried: DVec3, lit: Lit) -> DVe
     }
 }
 
-/// Returns true if beams know the integral over a region of a flat shape, without a texture; `smooth_normals`: of a shape
-/// whose shading normals differ from place to place.
+/// Returns true if beams know the integral over a region of a flat shape, without a texture; `smooth_normals`: of a
+/// shape whose shading normals differ from place to place.
 pub fn is_integrable_over_region(material: &Material, smooth_normals: bool) -> bool {
     match material.model {
         Model::Unlit => true,

@@ -19,8 +19,8 @@ pub struct Hit {
     pub local: DVec2,
 }
 
-/// Returns the displacement of a shape at the ray's time. Shapes are intersected, and textured, where they are at time 0, by rays
-/// that start as far back.
+/// Returns the displacement of a shape at the ray's time. Shapes are intersected, and textured, where they are at time 0,
+/// by rays that start as far back.
 pub fn moved_by(scene: &PackedScene, ray: &Ray, shape: u32) -> DVec3 {
     scene.records.motions.get(shape as usize).map_or(DVec3::ZERO, |motion| ray.time * motion.shift)
 }

@@ -1,11 +1,11 @@
-//! Mesh files as scenes. Input: the bytes of a mesh file. Output: the mesh with the materials of its own libraries, seen
+//! Mesh files as scenes. Input: a mesh file. Output: the mesh with the materials of its own libraries, seen
 //! whole from the front, a little from above and from the right, before grey and under two lights.
 
 use std::path::Path;
 
 use glam::DVec3;
 
-use super::{Format, mesh_file};
+use super::mesh_file;
 use crate::core::error::{Error, ErrorKind, Result};
 use crate::mesh::{Mesh, MeshFormat};
 use crate::scene::builder::SceneBuilder;
@@ -24,16 +24,9 @@ const BACKGROUND: f64 = 0.18;
 /// Towards the light, and its irradiance in W/m²: from the eye's left, and a weaker one from behind.
 const LIGHTS: [(DVec3, f64); 2] = [(DVec3::new(-0.4, 0.9, 1.0), 2.6), (DVec3::new(0.8, 0.3, -0.6), 1.2)];
 
-/// Returns the scene format of a mesh format.
-pub(super) const fn of(format: &MeshFormat, endings: &'static [&'static str], read: Read) -> Format {
-    Format { name: format.name, endings, max_bytes: mesh_file::MAX_BYTES, read }
-}
-
-type Read = fn(&Path, Vec<u8>) -> Result<Scene>;
-
 /// Reads a mesh file as a scene.
-pub(super) fn read(path: &Path, format: &MeshFormat, bytes: &[u8]) -> Result<Scene> {
-    let mesh = mesh_file::read(path, format, bytes)?;
+pub(super) fn read(path: &Path, format: &MeshFormat) -> Result<Scene> {
+    let mesh = mesh_file::open(path, format)?;
     let failed = |what: String| Error::new(format!("{}: {what}", path.display())).of_kind(ErrorKind::Scene);
     let mut builder = SceneBuilder::new(camera_of(&mesh), SIZE, SIZE);
     builder.path(path);

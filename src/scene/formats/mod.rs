@@ -14,7 +14,7 @@ use std::path::Path;
 use super::model::Scene;
 use crate::core::error::{Error, ErrorKind, Result};
 use crate::core::panics;
-use crate::mesh::FORMATS as MESHES;
+use crate::mesh;
 use crate::texture::open_file::odd_path;
 pub use toml::parse;
 
@@ -29,13 +29,12 @@ struct Format {
     read: fn(&Path, Vec<u8>) -> Result<Scene>,
 }
 
-/// All formats. The first one applies to standard input and to files with other endings.
-const FORMATS: [Format; 4] = [
-    toml::FORMAT,
-    mesh_scene::of(&MESHES[0], &["ply"], |path, bytes| mesh_scene::read(path, &MESHES[0], &bytes)),
-    mesh_scene::of(&MESHES[1], &["obj"], |path, bytes| mesh_scene::read(path, &MESHES[1], &bytes)),
-    mesh_scene::of(&MESHES[2], &["stl"], |path, bytes| mesh_scene::read(path, &MESHES[2], &bytes)),
-];
+/// All formats of scenes; every format of meshes is one of scenes, too. The first one applies to standard input and to
+/// files with other endings.
+const FORMATS: [Format; 1] = [toml::FORMAT];
+
+/// The kind of a scene's file, for messages.
+const SCENE: &str = "scene";
 
 /// The name of a scene that was not read from a file.
 pub const STANDARD_INPUT: &str = "<stdin>";
@@ -54,10 +53,19 @@ pub fn load(path: &Path) -> Result<Scene> {
         if is_stdin {
             let [format, ..] = &FORMATS;
             let path = Path::new(STANDARD_INPUT);
-            return (format.read)(path, bytes_of(std::io::stdin().lock(), path, format)?);
+            let bytes = bytes_of(std::io::stdin().lock(), SCENE, path, format.max_bytes)?;
+            return (format.read)(path, bytes);
+        }
+        if let Some(format) = mesh_file::format_of(path) {
+            return mesh_scene::read(path, format);
         }
         let format = format_of(path);
-        (format.read)(path, bytes_of(open(path)?, path, format)?)
+        let names: Vec<&str> = FORMATS
+            .iter()
+            .map(|format| format.name)
+            .chain(mesh::FORMATS.iter().map(|mesh| mesh.name))
+            .collect();
+        (format.read)(path, read_file(SCENE, &names, path, format.max_bytes)?)
     })
 }
 
@@ -71,28 +79,28 @@ fn unreadable(kind: &str, path: &Path, what: &str) -> Error {
     Error::new(format!("cannot read {kind} {}: {what}", path.display())).of_kind(ErrorKind::File)
 }
 
-fn open(path: &Path) -> Result<File> {
+/// Returns the bytes of a file, of which there are at most `most`; `formats` names those that its kind may have.
+fn read_file(kind: &str, formats: &[&str], path: &Path, most: u64) -> Result<Vec<u8>> {
     if path.is_dir() {
-        let names: Vec<&str> = FORMATS.iter().map(|format| format.name).collect();
-        let help = format!("name a scene file ({}) in it", names.join(", "));
-        return Err(unreadable("scene", path, "it is a folder").and_help(Some(help)));
+        let help = format!("name a {kind} file ({}) in it", formats.join(", "));
+        return Err(unreadable(kind, path, "it is a folder").and_help(Some(help)));
     }
-    File::open(path).map_err(|error| {
+    let file = File::open(path).map_err(|error| {
         let help = odd_path(path).filter(|_| error.kind() == Io::NotFound);
-        unreadable("scene", path, &error.to_string()).and_help(help)
-    })
+        unreadable(kind, path, &error.to_string()).and_help(help)
+    })?;
+    bytes_of(file, kind, path, most)
 }
 
-fn bytes_of(source: impl Read, path: &Path, format: &Format) -> Result<Vec<u8>> {
+fn bytes_of(source: impl Read, kind: &str, path: &Path, most: u64) -> Result<Vec<u8>> {
     let mut bytes = Vec::new();
     source
-        .take(format.max_bytes + 1)
+        .take(most + 1)
         .read_to_end(&mut bytes)
-        .map_err(|error| unreadable("scene", path, &error.to_string()))?;
-    if bytes.len() as u64 > format.max_bytes {
-        let mib = format.max_bytes >> 20;
-        let what = format!("it is larger than {mib} MiB, the most a scene file may have");
-        return Err(unreadable("scene", path, &what));
+        .map_err(|error| unreadable(kind, path, &error.to_string()))?;
+    if bytes.len() as u64 > most {
+        let what = format!("it is larger than {} MiB, the most a {kind} file may have", most >> 20);
+        return Err(unreadable(kind, path, &what));
     }
     Ok(bytes)
 }
