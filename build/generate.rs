@@ -96,7 +96,7 @@ fn features() -> Result<String, AnyError> {
     for (list, at) in lists.zip(0..) {
         let id = SPECIALIZATION.len() + 2 * at;
         writeln!(text, "layout(constant_id = {id}) const uint {list} = DYNAMIC;")?;
-        writeln!(text, "layout(constant_id = {}) const uint {list}_AT = 0u;", id + 1)?;
+        writeln!(text, "layout(constant_id = {}) const uint {list}_AT = DYNAMIC;", id + 1)?;
     }
     Ok(text)
 }

@@ -2,19 +2,24 @@
 //! unit of 16 bytes once; and for records in a list the access by index, cached if the list is short.
 
 use crate::packing::{Kind, Packer, shape};
-use crate::records::{LENGTHS, RECORDS};
+use crate::records::{LENGTHS, PLACES, RECORDS};
 use crate::tables::Record;
 
 pub fn records() -> String {
     let lists = || RECORDS.iter().filter(|record| !record.list.is_empty());
     let preloads: String = lists().map(|record| format!("    preload_{}();\n", record.list)).collect();
-    let some: Vec<_> = lists().map(|record| format!("{} == DYNAMIC", record.list.to_uppercase())).collect();
-    let mut text: String = RECORDS.iter().chain([&LENGTHS]).map(record).collect();
-    // Follow the header; read only if some length is not known when the pipeline is built.
-    text += "Lengths lengths;\n\n";
+    let some = |of: &str| {
+        let dynamic = |record: &Record| format!("{}{of} == DYNAMIC", record.list.to_uppercase());
+        lists().map(dynamic).collect::<Vec<_>>().join(" || ")
+    };
+    let mut text: String = RECORDS.iter().chain([&LENGTHS, &PLACES]).map(record).collect();
+    // Both follow the header; they are read only if something in them is not known when the pipeline is built.
+    text += "Lengths lengths;\nPlaces places;\n\n";
     text.extend(lists().map(list));
-    let lengths = format!("    if ({}) lengths = lengths_in_head(HEADER_UNITS);\n", some.join(" || "));
-    text + &format!("void preload_records() {{\n{lengths}{preloads}}}\n")
+    let lengths = format!("    if ({}) lengths = lengths_in_head(HEADER_UNITS);\n", some(""));
+    let places =
+        format!("    if ({}) places = places_in_head(HEADER_UNITS + LENGTHS_UNITS);\n", some("_AT"));
+    text + &format!("void preload_records() {{\n{lengths}{places}{preloads}}}\n")
 }
 
 fn record(record: &Record) -> String {
@@ -72,7 +77,8 @@ fn loader(record: &Record, from: &str) -> String {
 fn list(record: &Record) -> String {
     let (name, list, one) = (record.name, record.list, snake(record.name));
     let length = list.to_uppercase();
-    let (begin, units) = (format!("{length}_AT"), format!("{}_UNITS", one.to_uppercase()));
+    let begin = format!("COUNT({length}_AT, places.{list})");
+    let units = format!("{}_UNITS", one.to_uppercase());
     format!(
         "{name} cached_{list}[{length} == DYNAMIC || {length} == 0u ? 1u : {length}];
 void preload_{list}() {{

@@ -104,6 +104,10 @@ macro_rules! records {
             list: "",
             fields: &[$($((stringify!($list), "u32"),)?)+],
         };
+
+        /// Where all lists begin.
+        pub const PLACES: crate::tables::Record =
+            crate::tables::Record { name: "Places", list: LENGTHS.list, fields: LENGTHS.fields };
     };
 }
 

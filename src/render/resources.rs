@@ -55,7 +55,7 @@ impl Resources {
         features: &Features,
         most_words: u64,
     ) -> Result<Resources> {
-        let (bytes, sections) = packed.scene_bytes(features.everything);
+        let (bytes, sections) = packed.scene_bytes();
         let scene = gpu.upload_buffer("scene", BufferUse::Storage, &bytes)?;
         let srgb = packed.srgb_light();
         // A binding must not be empty.

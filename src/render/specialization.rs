@@ -3,6 +3,7 @@
 use crate::gpu::shaders::Shader;
 use crate::pack::features::Features;
 use crate::pack::{Sections, SlotCounts};
+use crate::schema::constants::DYNAMIC;
 use crate::schema::specialization::Constant;
 
 /// Returns (constant id, value) for each constant of a shader: the features, the offsets of lists, the
@@ -14,7 +15,9 @@ pub fn constants(
     group: [u32; 2],
     slots: SlotCounts,
 ) -> Vec<(u32, u32)> {
-    let places = sections.lists.iter().map(|&(list, at)| (Constant::At(list), at));
+    // A pipeline that keeps everything reads the offsets, so that all scenes share it.
+    let place = |at| if features.everything { DYNAMIC } else { at };
+    let places = sections.lists.iter().map(|&(list, at)| (Constant::At(list), place(at)));
     let parameters = [
         (Constant::PixelFilterAt, sections.pixel_filter),
         (Constant::GroupX, group[0]),

@@ -1,9 +1,9 @@
 //! The specialization constants: name in the shader, meaning of the value, and the user-visible name of the code that
-//! it controls. Ids follow the order; those of the lists of records (`NAME` for the length, `NAME_AT` for the offset)
-//! come last. `modes` is a bit mask: with one bit set the mode is known when the pipeline is built and no test remains;
-//! several bits mean a test at run time. `count` is a number or `DYNAMIC`, `switch` is code that may be removed; the
-//! defaults keep everything, and `src/pack/features.rs` narrows these three. A `parameter` is set by the code that
-//! builds the pipeline; for `id` the shader's file itself declares type and default.
+//! it controls. Ids follow the order; those of the lists of records (`NAME` for the length, `NAME_AT` for the offset,
+//! or `DYNAMIC`) come last. `modes` is a bit mask: with one bit set the mode is known when the pipeline is built and no
+//! test remains; several bits mean a test at run time. `count` is a number or `DYNAMIC`, `switch` is code that may be
+//! removed; the defaults keep everything, and `src/pack/features.rs` narrows these three. A `parameter` is set by the
+//! code that builds the pipeline; for `id` the shader's file itself declares type and default.
 
 specialization! {
     GroupX = "GROUP_X", id, "width of a workgroup";

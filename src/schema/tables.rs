@@ -183,6 +183,20 @@ macro_rules! records {
             Lengths { $($($list: u32,)?)+ }
         }
 
+        record! {
+            /// The offset of each list of records in the scene buffer, in units of 16 bytes.
+            Places { $($($list: u32,)?)+ }
+        }
+
+        impl Places {
+            /// Returns the offset of a list.
+            pub fn of(&mut self, list: List) -> &mut u32 {
+                match list {
+                    $($(List::$record => &mut self.$list,)?)+
+                }
+            }
+        }
+
         /// A list of records in the scene buffer.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
         pub enum List {

@@ -23,7 +23,7 @@ fn packed(name: &str) -> PackedScene {
 
 fn specialised(shader: &Shader, scene: &PackedScene, keep_everything: bool) -> Vec<u32> {
     let features = Features::new(scene, shader.name.contains("image"), keep_everything);
-    let (_, sections) = scene.scene_bytes(false);
+    let (_, sections) = scene.scene_bytes();
     specialise(shader.spirv, &constants(shader, &features, &sections, [64, 1], SlotCounts::default()))
 }
 
