@@ -2,6 +2,7 @@
 //! over them that name a material of the file. Nothing here knows a scene or a device.
 
 mod check;
+pub mod gltf;
 pub mod mtl;
 mod obj;
 mod ply;
@@ -30,6 +31,16 @@ pub struct Mesh {
 }
 
 impl Mesh {
+    /// Adds triangles.
+    pub fn extend(&mut self, triangles: impl Iterator<Item = MeshTriangle>) {
+        self.triangles.extend(triangles);
+    }
+
+    /// Gives all triangles the material of this index, or none.
+    pub fn set_material(&mut self, material: Option<u32>) {
+        self.triangles.iter_mut().for_each(|triangle| triangle.material = material);
+    }
+
     /// Returns the least and the greatest coordinates of all corners.
     pub fn bounds(&self) -> [DVec3; 2] {
         let corners = self.triangles.iter().flat_map(|triangle| triangle.positions);

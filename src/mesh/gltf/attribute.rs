@@ -1,0 +1,128 @@
+//! Attributes of vertices. Input: an open accessor, what it is used as, and which of its elements are wanted. Output:
+//! these elements as vectors; an accessor of a type that the use does not allow is refused.
+
+use std::rc::Rc;
+
+use super::accessor::{Accessor, Accessors, Component};
+use crate::mesh::Fault;
+
+/// What an accessor is used as.
+#[derive(Clone, Copy)]
+pub(super) struct Use {
+    /// As messages name it.
+    name: &'static str,
+    /// Allowed types.
+    widths: &'static [usize],
+    /// Allowed types of numbers, besides floats.
+    integers: Integers,
+}
+
+/// Types of numbers besides floats.
+#[derive(Clone, Copy)]
+enum Integers {
+    None,
+    /// All of 8 and 16 bits, normalized or not.
+    Short,
+    /// Signed, of 8 and 16 bits, normalized.
+    Signed,
+    /// Unsigned, of 8 and 16 bits, normalized.
+    Unsigned,
+}
+
+impl Use {
+    pub(super) const POSITION: Use = Use { name: "POSITION", widths: &[3], integers: Integers::Short };
+    pub(super) const NORMAL: Use = Use { name: "NORMAL", widths: &[3], integers: Integers::Signed };
+    pub(super) const TANGENT: Use = Use { name: "TANGENT", widths: &[4], integers: Integers::Signed };
+    pub(super) const UV: Use = Use { name: "TEXCOORD", widths: &[2], integers: Integers::Short };
+    pub(super) const COLOR: Use = Use { name: "COLOR", widths: &[3, 4], integers: Integers::Unsigned };
+    pub(super) const TRANSLATION: Use = Use { name: "TRANSLATION", widths: &[3], integers: Integers::None };
+    pub(super) const ROTATION: Use = Use { name: "ROTATION", widths: &[4], integers: Integers::Signed };
+    pub(super) const SCALE: Use = Use { name: "SCALE", widths: &[3], integers: Integers::None };
+
+    /// Opens an accessor for this use, which has to have `count` elements.
+    pub(super) fn open<'a>(
+        self,
+        accessors: &mut Accessors<'a>,
+        index: usize,
+        count: usize,
+    ) -> Result<Rc<Accessor<'a>>, Fault> {
+        let accessor = accessors.open(index)?;
+        if !self.widths.contains(&accessor.width) {
+            let allowed: Vec<String> = self.widths.iter().map(|width| format!("VEC{width}")).collect();
+            return Err(accessor.fault("/type", format!("{} has to be {}", self.name, allowed.join(" or "))));
+        }
+        if !self.integers.allow(&accessor) {
+            let what = format!("{} has to be of {}", self.name, self.integers.allowed());
+            return Err(accessor.fault("/componentType", what));
+        }
+        if accessor.count != count {
+            let what = format!("it is {}; {} has to have {count} elements here", accessor.count, self.name);
+            return Err(accessor.fault("/count", what));
+        }
+        Ok(accessor)
+    }
+}
+
+impl Integers {
+    /// Returns whether the numbers of an accessor are of these types or floats.
+    fn allow(self, accessor: &Accessor) -> bool {
+        match accessor.component {
+            Component::F32 => true,
+            Component::U32 => false,
+            Component::I8 | Component::I16 => {
+                matches!(self, Integers::Short) || matches!(self, Integers::Signed) && accessor.normalized
+            }
+            Component::U8 | Component::U16 => {
+                matches!(self, Integers::Short) || matches!(self, Integers::Unsigned) && accessor.normalized
+            }
+        }
+    }
+
+    /// Returns what is allowed, for a message.
+    fn allowed(self) -> &'static str {
+        match self {
+            Integers::None => "floats (5126)",
+            Integers::Short => "floats (5126) or integers of 8 or 16 bits (5120 to 5123)",
+            Integers::Signed => "floats (5126) or normalized signed integers of 8 or 16 bits (5120, 5122)",
+            Integers::Unsigned => {
+                "floats (5126) or normalized unsigned integers of 8 or 16 bits (5121, 5123)"
+            }
+        }
+    }
+}
+
+/// Which elements of the accessors of a primitive are its vertices.
+pub(super) enum Vertices {
+    /// The first ones.
+    First(usize),
+    /// These, in ascending order.
+    Some(Vec<u32>),
+}
+
+impl Vertices {
+    /// Reads the elements of an accessor that are vertices.
+    pub(super) fn read<const N: usize, T>(
+        &self,
+        accessor: &Accessor,
+        convert: impl Fn([f64; N]) -> T,
+    ) -> Result<Vec<T>, Fault> {
+        let count = match self {
+            Vertices::First(count) => *count,
+            Vertices::Some(used) => used.len(),
+        };
+        // Collected results would not tell how much memory is needed.
+        let mut values = Vec::with_capacity(count);
+        for i in 0..count {
+            values.push(convert(accessor.numbers(self.element(i))?));
+        }
+        Ok(values)
+    }
+
+    /// Returns which element a vertex is.
+    fn element(&self, vertex: usize) -> usize {
+        match self {
+            Vertices::First(_) => vertex,
+            Vertices::Some(used) => used.get(vertex).map_or(0, |index| *index as usize),
+        }
+    }
+}
