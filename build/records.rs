@@ -17,8 +17,7 @@ pub fn records() -> String {
     text += "Lengths lengths;\nPlaces places;\n\n";
     text.extend(lists().map(list));
     let lengths = format!("    if ({}) lengths = lengths_in_head(HEADER_UNITS);\n", some(""));
-    let places =
-        format!("    if ({}) places = places_in_head(HEADER_UNITS + LENGTHS_UNITS);\n", some("_AT"));
+    let places = format!("    if ({}) places = places_in_head(HEADER_UNITS + LENGTHS_UNITS);\n", some("_AT"));
     text + &format!("void preload_records() {{\n{lengths}{places}{preloads}}}\n")
 }
 

@@ -1,6 +1,7 @@
 //! The kinds of `src/schema/shapes.rs` → GLSL: the file of each kind, and macros that go through all kinds or through
 //! those of a property. They hand on the kind's record, the function that reads one by its index, the constant with the
-//! length of the list, how many shapes come before and belong to it, and whether it is planar, polygonal and listed.
+//! length of the list, how many shapes come before and belong to it, and whether it is planar, polygonal, listed and
+//! concave.
 
 use crate::shapes::with_shapes;
 use crate::tables::ShapeKind;
@@ -26,8 +27,9 @@ pub fn shapes() -> String {
         let mut text = format!("#define {name}(DO)");
         for (at, kind) in SHAPE_KINDS.iter().enumerate().filter(|(_, kind)| chosen(kind)) {
             let (list, length) = (kind.list, kind.list.to_uppercase());
-            let flags =
-                ["planar", "polygonal", "listed"].map(|property| with(property)(kind).to_string()).join(", ");
+            let flags = ["planar", "polygonal", "listed", "concave"]
+                .map(|property| with(property)(kind).to_string())
+                .join(", ");
             let (record, first) = (kind.record, before(at));
             text += &format!(" \\\n    DO({record}, {}_at, {length}, {first}, {list}, {flags})", kind.module);
         }
@@ -38,10 +40,13 @@ pub fn shapes() -> String {
     text += &through("SOLID_KINDS", &without("planar"));
     text += &through("POLYGONAL_KINDS", &with("polygonal"));
     text += &through("ROUND_KINDS", &without("polygonal"));
-    let curved: Vec<_> =
-        SHAPE_KINDS.iter().filter(|kind| with("curved")(kind)).map(|kind| kind.list.to_uppercase()).collect();
-    text + &format!(
-        "\n// Some shape may have a normal that changes.\nconst bool CURVED_SHAPES = ({}) != 0u;\n",
-        curved.join(" | ")
-    )
+    text += &through("CONCAVE_KINDS", &with("concave"));
+    let some = |property| {
+        let kinds = SHAPE_KINDS.iter().filter(|kind| with(property)(kind));
+        let lengths: Vec<_> = kinds.map(|kind| kind.list.to_uppercase()).collect();
+        format!("const bool {}_SHAPES = ({}) != 0u;\n", property.to_uppercase(), lengths.join(" | "))
+    };
+    text + "\n// Some shape may have a normal that changes, or be met again by a ray that leaves it.\n"
+        + &some("curved")
+        + &some("concave")
 }

@@ -6,4 +6,4 @@ macro_rules! rooms {
     ($($room:ident)+) => { $(pub mod $room { pub use crate::$room::*; })+ };
 }
 
-rooms! { cli core face gpu integrators lab mesh oracle output pack render sampling scene schema texture }
+rooms! { cli core face gpu integrators lab mesh oracle output pack render sampling scene schema texture tree }

@@ -47,6 +47,7 @@ mod scene;
 #[allow(missing_docs)]
 mod schema;
 mod texture;
+mod tree;
 
 pub use crate::core::error::{Error, ErrorKind, Result};
 pub use crate::core::film::Film;

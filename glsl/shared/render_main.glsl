@@ -19,6 +19,9 @@
 // each batch instead of for each half.
 layout(std430, set = 0, binding = BINDING_LIST) readonly buffer Batches { PixelBatch batches[]; };
 
+// In the fourth component of a pixel's sum, which is zero without a pixel filter's negative lobes.
+const float UNFINISHED = -1.0;
+
 // The work of one thread: samples of one pixel, added to one entry of the film.
 struct Task {
     uvec2 place; // in the band
@@ -69,7 +72,17 @@ void main() {
     uint stream = task.part >> BATCH_STREAM_SHIFT;
     uvec2 key = pixel_key(pixel, header.seed + stream * 0x9E3779B9u, header.shares_pattern);
     Points points = pixel_points(header, pixel, key);
-    uint list = TILE_CULLED ? cell_list(header, task.place + uvec2(0u, slice.band_y)) : NO_LIST;
+    uint at = film_index(header, task.place);
+    if (MESH_SEARCH == SEARCH_REST) {
+        if (film[at].w != UNFINISHED) return;
+    }
+    Candidates candidates = ANYTHING;
+    if (TILE_CULLED && MESH_SEARCH != SEARCH_REST) {
+        candidates.list = cell_list(header, task.place + uvec2(0u, slice.band_y));
+        if (CONCAVE_SHAPES) {
+            if (candidates.list != NO_LIST) candidates.meshes = listed_in_pixel(header, pixel, candidates.list);
+        }
+    }
 
     // One loop for samples and bounces: an iteration follows one ray, and a pixel whose path has ended starts
     // its next sample while its neighbours' paths continue.
@@ -117,7 +130,7 @@ void main() {
                 }
                 // Bits that are independent of the sample's position.
                 uvec2 random = RANDOM ? pcg2d(sample_bits(key, s) ^ 0x5BD1E995u) : uvec2(0u);
-                path = camera_path(ray, camera_differential(camera, ray), random, list);
+                path = camera_path(ray, camera_differential(camera, ray), random, candidates);
             }
             vec3 more = advance(header, points, dimensions, path);
             count_diagnostic(DIAGNOSTIC_RADIANCE, no_number(more));
@@ -142,9 +155,14 @@ void main() {
         if (!BLOCKS || s >= task.end) break;
     }
 
+    if (MESH_SEARCH == SEARCH_LISTS) {
+        if (unfinished) {
+            film[at] = vec4(first_sample() > 0u ? film[at].xyz : vec3(0.0), UNFINISHED);
+            return;
+        }
+    }
     report_notices();
 
-    uint at = film_index(header, task.place);
     uint pixels = header.film_size.x * slice.band_height;
     bool is_signed = MODE_IS(PIXEL_FILTERS, PIXEL_FILTER_MITCHELL, header.pixel_filter);
     if (is_batch) {

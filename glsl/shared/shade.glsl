@@ -154,13 +154,13 @@ struct Path {
     vec3 throughput;
     uvec2 random; // random bits for stochastic look-ups at the next hit
     uint skip;
-    uint list; // of tile culling, for a camera ray
+    Candidates candidates; // of a camera ray
     uint depth;
     bool is_alive; // false: the path has ended, the next one starts at the camera
 };
 
-Path camera_path(const Ray ray, const RayDifferential beam, uvec2 random, uint list) {
-    return Path(ray, beam, vec3(1.0), random, NO_SHAPE, list, 0u, true);
+Path camera_path(const Ray ray, const RayDifferential beam, uvec2 random, const Candidates candidates) {
+    return Path(ray, beam, vec3(1.0), random, NO_SHAPE, candidates, 0u, true);
 }
 
 // Continues a reflected or refracted path; returns false if the material ends it.
@@ -193,7 +193,7 @@ bool bounced(const Header header, const Hit hit, Surface surface, const Footprin
 
 // Follows the path to its next hit; returns the radiance that it adds to the sample.
 vec3 advance(const Header header, const Points points, const SampleDimensions dimensions, inout Path path) {
-    Hit hit = nearest_hit(path.ray, path.skip, path.list);
+    Hit hit = nearest_hit(path.ray, path.skip, path.candidates);
     bool missed = hit.shape == NO_SHAPE;
     vec3 seen = path.throughput * header.background;
     bool is_alive = false;
@@ -224,7 +224,7 @@ vec3 advance(const Header header, const Points points, const SampleDimensions di
         }
     }
     path.skip = hit.shape;
-    path.list = NO_LIST;
+    path.candidates = ANYTHING;
     count_diagnostic(DIAGNOSTIC_DEPTH, is_alive && path.depth >= header.max_depth);
     path.is_alive = is_alive && path.depth < header.max_depth;
     path.depth++;

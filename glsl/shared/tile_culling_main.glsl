@@ -5,6 +5,7 @@
 #define TILE_CULLING_MAIN_GLSL
 
 #define SHAPES_IN_BEAMS
+#define MESHES_IN_CELLS
 #include "schema/blocks.glsl"
 #include "features.glsl"
 #include "bsdf/models.glsl"
@@ -13,6 +14,8 @@
 layout(local_size_x_id = 0, local_size_y_id = 1, local_size_z = 1) in;
 
 layout(std430, set = 0, binding = BINDING_OUTPUT) writeonly buffer Found { uint found[]; };
+
+#include "geometry/mesh_survey.glsl"
 
 layout(push_constant) uniform Push { CellRange part; };
 
@@ -72,10 +75,10 @@ void main() {
     uint listed = 0u;
     uint alone = 0u;
     bool round = false;
-#define SURVEY(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed)                            \
+#define SURVEY(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed, is_concave)                            \
     for (uint i = 0u; i < count; i++) {                                               \
-        if (may_meet(header, frame, SQUARE, at(i))) {                                 \
-            if (is_listed && listed < MAX_LISTED) found[begin + 2u + listed] = i;     \
+        if (!is_concave && may_meet(header, frame, SQUARE, at(i))) {                  \
+            if (is_listed && listed < MAX_LISTED) found[begin + CELL_HEAD + listed] = i; \
             listed += is_listed ? 1u : 0u;                                            \
             seen += is_polygonal ? 1u : 0u;                                                \
             alone = is_polygonal ? (first) + i : alone;                                    \
@@ -84,6 +87,17 @@ void main() {
     }
     SHAPE_KINDS(SURVEY)
 #undef SURVEY
+    Survey survey = Survey(0u, FAR, float[PROBES](FAR, FAR, FAR, FAR, FAR));
+    if (CONCAVE_SHAPES) {
+        CellRays cell_sides = cell_rays(header, frame);
+        uint list = begin + CELL_HEAD + min(listed, MAX_LISTED);
+        uint room = MAX_LISTED - min(listed, MAX_LISTED);
+#define SURVEY_MESHES(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed, is_concave) \
+        for (uint i = 0u; i < count; i++) survey_mesh(header, frame, SQUARE, cell_sides, at(i), list, room, survey);
+        CONCAVE_KINDS(SURVEY_MESHES)
+#undef SURVEY_MESHES
+        round = round || survey.count > 0u || survey.depth < FAR;
+    }
     bool empty = seen == 0u && !round && !(ENVIRONMENT && header.environment_material != NO_MATERIAL);
     uint content = empty ? CELL_EMPTY : CELL_BUSY;
     if (seen == 1u && !round) {
@@ -91,6 +105,8 @@ void main() {
     }
     found[begin] = listed;
     found[begin + 1u] = content;
+    found[begin + 2u] = survey.count;
+    found[begin + 3u] = floatBitsToUint(survey.depth);
 }
 
 #endif

@@ -21,6 +21,15 @@ named_enum! {
         Storage = "storage",
         /// A `usamplerBuffer` of 32-bit unsigned texels.
         TexelUint = "texel-uint",
+        /// A `usamplerBuffer` of texels of four 32-bit unsigned words.
+        TexelUint4 = "texel-uint4",
+    }
+}
+
+impl BufferUse {
+    /// Returns the bytes of a texel, or of a word.
+    fn texel_bytes(self) -> u64 {
+        if self == BufferUse::TexelUint4 { 16 } else { 4 }
     }
 }
 
@@ -38,8 +47,10 @@ impl Buffer {
             | vk::BufferUsageFlags::TRANSFER_SRC
             | vk::BufferUsageFlags::TRANSFER_DST;
         let mut raw = RawBuffer::new(core, name, bytes, flags, MemoryLocation::GpuOnly)?;
-        if usage == BufferUse::TexelUint {
-            raw.create_texel_view()?;
+        match usage {
+            BufferUse::TexelUint => raw.create_texel_view(vk::Format::R32_UINT)?,
+            BufferUse::TexelUint4 => raw.create_texel_view(vk::Format::R32G32B32A32_UINT)?,
+            BufferUse::Storage => {}
         }
         Ok(Buffer { raw: Arc::new(raw), usage })
     }
@@ -97,7 +108,9 @@ fn check_size(core: &Core, name: &str, bytes: u64, usage: BufferUse) -> Result<(
             "a storage buffer there has at most {}",
             size_text(limits.max_storage_buffer_range)
         )),
-        BufferUse::TexelUint if bytes.div_ceil(4) > limits.max_texel_buffer_elements => {
+        BufferUse::TexelUint | BufferUse::TexelUint4
+            if bytes.div_ceil(usage.texel_bytes()) > limits.max_texel_buffer_elements =>
+        {
             refuse(format!("a texel buffer there has at most {} texels", limits.max_texel_buffer_elements))
         }
         _ => core.memory.check_heap(&format!("buffer `{name}`"), bytes),
@@ -122,9 +135,9 @@ impl RawBuffer {
         usage: vk::BufferUsageFlags,
         location: MemoryLocation,
     ) -> Result<RawBuffer> {
-        // Texel views need a size that is a multiple of four bytes.
+        // Texel views need a size that is a multiple of their texels' bytes.
         let info = vk::BufferCreateInfo::default()
-            .size(bytes.next_multiple_of(4))
+            .size(bytes.next_multiple_of(16))
             .usage(usage)
             .sharing_mode(vk::SharingMode::EXCLUSIVE);
         let label = || format!("buffer `{name}`");
@@ -151,12 +164,10 @@ impl RawBuffer {
         Ok(raw)
     }
 
-    fn create_texel_view(&mut self) -> Result<()> {
-        let info = vk::BufferViewCreateInfo::default()
-            .buffer(self.handle)
-            .format(vk::Format::R32_UINT)
-            .range(vk::WHOLE_SIZE);
-        // SAFETY: the buffer has memory and the uniform texel usage; R32_UINT is always supported
+    fn create_texel_view(&mut self, format: vk::Format) -> Result<()> {
+        let info =
+            vk::BufferViewCreateInfo::default().buffer(self.handle).format(format).range(vk::WHOLE_SIZE);
+        // SAFETY: the buffer has memory and the uniform texel usage; both formats are always supported
         // for it (Vulkan 1.2, "Required Format Support").
         self.view = unsafe { self.core.device.create_buffer_view(&info, None) }
             .during(|| format!("creating the texel view of buffer `{}`", self.name))?;

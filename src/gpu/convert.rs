@@ -58,7 +58,7 @@ pub(super) fn swizzle(swizzle: Swizzle) -> vk::ComponentMapping {
 pub(super) fn buffer_usage(usage: BufferUse) -> vk::BufferUsageFlags {
     match usage {
         BufferUse::Storage => vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::UNIFORM_BUFFER,
-        BufferUse::TexelUint => vk::BufferUsageFlags::UNIFORM_TEXEL_BUFFER,
+        BufferUse::TexelUint | BufferUse::TexelUint4 => vk::BufferUsageFlags::UNIFORM_TEXEL_BUFFER,
     }
 }
 

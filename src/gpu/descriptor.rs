@@ -227,9 +227,10 @@ fn check_resource(core: &Arc<Core>, pipeline: &str, binding: u32, bound: &Bound<
             }
             check_buffer(buffer, BufferUse::Storage)
         }
-        Bound::Texels(buffers) => {
-            buffers.iter().try_for_each(|buffer| check_buffer(buffer, BufferUse::TexelUint))
-        }
+        Bound::Texels(buffers) => buffers.iter().try_for_each(|buffer| {
+            let wide = buffer.usage() == BufferUse::TexelUint4;
+            check_buffer(buffer, if wide { BufferUse::TexelUint4 } else { BufferUse::TexelUint })
+        }),
         Bound::Images(pairs) => pairs.iter().try_for_each(|(image, sampler)| {
             check_core(image.core())?;
             check_core(sampler.core())?;

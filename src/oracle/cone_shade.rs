@@ -165,6 +165,10 @@ fn shade_part(waiting: &mut Waiting, scene: &PackedScene, mut branch: Branch, sh
         return branch.weight * surface_color(scene, material, Some(map), (&ray, &nowhere, &print), [0; 2]);
     }
     let hit = meet(scene, &ray, shape);
+    // Cones know no outline of a concave shape, so that the ray may pass it.
+    if scene.has_concave_shapes() && hit.t <= 0.0 {
+        return branch.weight * header.background.as_dvec3();
+    }
     let mut surface = hit_surface(scene, &ray, &hit);
     let print = footprint_at(header, &beam, &ray, hit.t, surface.geometric_normal);
     let material = &scene.records.materials[surface.material as usize];

@@ -58,6 +58,9 @@ pub struct PackedScene {
     pub nonfinite_texels: Vec<u64>,
     /// The samplers as data, for the device's own sampler objects.
     pub sampler_specs: Vec<SamplerSpec>,
+    /// Meshes: for each the children of its tree's nodes, then the corners of its triangles in the order of the leaves,
+    /// then their attributes.
+    pub mesh_texels: Arc<Vec<[u32; 4]>>,
     /// Texels of all textures one after the other, each beginning at a whole 32-bit word.
     pub texels: Vec<u8>,
     /// Textures whose levels a device makes from level 0, in the order of their texels; these have zeros
@@ -107,6 +110,8 @@ pub struct SlotCounts {
     pub texel_blocks: u32,
     /// Words of each but the last, where there are several.
     pub block_log2: u32,
+    /// The buffer of meshes is bound.
+    pub meshes: bool,
 }
 
 /// Packs what the scene shows; textures and samplers that no shape reaches are not in `scene`.
@@ -178,7 +183,7 @@ pub fn pack_with(
     packed.records.lights = scene.lights.iter().map(|l| lights::light(l, scene.camera.eye)).collect();
     packed.header.sample_dimensions = sample_dimensions::sample_dimensions(scene);
     packed.header.camera_moves = scene.camera.moves();
-    packed.header.cell_side = tile_culling::cell_side(scene, [crop.width, crop.height]);
+    packed.header.cell_side = tile_culling::cell_side(scene, [crop.width, crop.height], packed.double);
     if !packed.double {
         packed.round_reals();
     }

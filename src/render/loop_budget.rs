@@ -19,6 +19,10 @@ const SOLID: u64 = 10;
 const TAPS: u64 = 5;
 const BOXES: u64 = MAX_BOXES as u64;
 const CONES: u64 = MAX_CONES as u64;
+/// Meshes whose trees a ray enters, at most.
+const MESHES: u64 = 8;
+/// Nodes and triangles of a mesh that a ray meets, with a margin: tens of them.
+const TREE: u64 = 1024;
 /// Digits of Halton points, or iterations to find an order, with a margin.
 const POINTS: u64 = 64;
 
@@ -67,7 +71,7 @@ fn iterations_of_a_sample(scene: &PackedScene, ellipse: u64) -> u64 {
         return iterations_of_cones(scene, ellipse);
     }
     let count = |n: usize| n as u64;
-    let shapes = count(scene.shape_count()) + 3;
+    let shapes = count(scene.shape_count()) + 3 + TREE * count(scene.records.meshes.len()).min(MESHES);
     let records = count(
         scene.records.materials.len() + scene.records.uv_projections.len() + scene.records.motions.len(),
     );

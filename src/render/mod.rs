@@ -174,8 +174,10 @@ pub(crate) fn build_pipeline(
         };
         BindingDesc { binding: b.binding, kind: b.kind, count }
     };
-    let bindings: Vec<BindingDesc> = shader.bindings.iter().map(describe).collect();
+    let is_bound = |b: &&ReflectedBinding| b.binding != bindings::MESHES || slots.meshes;
+    let bindings: Vec<BindingDesc> = shader.bindings.iter().filter(is_bound).map(describe).collect();
     let opaque = (Constant::OpaqueUniforms, u32::from(Tuning::opaque_uniforms(gpu.info())));
-    let constants = [constants, &shader.values([opaque])].concat();
+    let holds = (Constant::HoldsTriangles, u32::from(Tuning::holds_triangles(gpu.info())));
+    let constants = [constants, &shader.values([opaque, holds])].concat();
     gpu.shader_pipeline(shader, &bindings, push_constant_bytes as u32, &constants)
 }

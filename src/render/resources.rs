@@ -36,6 +36,8 @@ pub struct Resources {
     /// Linear values of sRGB codes.
     srgb: Buffer,
     texels: Option<TexelBuffer>,
+    /// Where there are some.
+    meshes: Option<Buffer>,
     /// Set once beams are used.
     prefix_sums: OnceLock<Buffer>,
     /// Set once there are lists of triangles.
@@ -75,6 +77,11 @@ impl Resources {
             (slots.texel_blocks, slots.block_log2) =
                 (texel_buffer.blocks.len() as u32, texel_buffer.block_log2);
         }
+        let meshes = packed.mesh_texels.as_slice();
+        let upload_meshes =
+            || gpu.upload_buffer("meshes", BufferUse::TexelUint4, bytemuck::cast_slice(meshes));
+        let meshes = (!meshes.is_empty()).then(upload_meshes).transpose()?;
+        slots.meshes = meshes.is_some() || features.everything;
         let prefix_sums = OnceLock::new();
         if packed.beams {
             // Never set twice: it is empty.
@@ -96,6 +103,7 @@ impl Resources {
             scene,
             srgb,
             texels,
+            meshes,
             prefix_sums,
             tile_lists: OnceLock::new(),
             diagnostics: features
@@ -152,6 +160,11 @@ impl Resources {
                 (BindingKind::UniformBuffer, _) => Bound::Head(&self.scene, HEAD_BYTES as u64),
                 (BindingKind::TexelBuffer, bindings::SRGB_LIGHT) => {
                     Bound::Texels(std::slice::from_ref(&self.srgb))
+                }
+                (BindingKind::TexelBuffer, bindings::MESHES) if !self.slots.meshes => return None,
+                (BindingKind::TexelBuffer, bindings::MESHES) => {
+                    // Without meshes nothing is read from it.
+                    Bound::Texels(std::slice::from_ref(self.meshes.as_ref().unwrap_or(&self.srgb)))
                 }
                 (BindingKind::TexelBuffer, bindings::PREFIX_SUMS) => {
                     Bound::Texels(std::slice::from_ref(self.prefix_sums.get()?))

@@ -9,9 +9,10 @@ use std::time::Instant;
 use crate::core::error::{Error, Result};
 use crate::gpu::shaders::{self, Shader};
 use crate::gpu::{Gpu, Pipeline};
-use crate::pack::features::Features;
+use crate::pack::features::{Features, bounces};
 use crate::pack::{self, PackedScene, Schedule};
 use crate::scene::model::Scene;
+use crate::schema::constants::{SEARCH_ALL, SEARCH_LISTS, SEARCH_REST};
 use crate::schema::enums::TexelSource;
 use crate::schema::layout::{Header, Slice};
 use crate::schema::specialization::Constant;
@@ -170,28 +171,45 @@ impl<'a> Session<'a> {
         features: &Features,
         shader: &'static Shader,
     ) -> Result<(TileRenderer<'a>, Arc<FilmBuffer>)> {
-        let (pipeline, groups_per_tile) = self.pipeline(features, shader)?;
+        let in_two_passes = self.searches_in_two_passes(scene, features);
+        let first = if in_two_passes { SEARCH_LISTS } else { SEARCH_ALL };
+        let (pipeline, groups_per_tile) = self.pipeline(features, shader, first)?;
+        let rest = in_two_passes.then(|| self.pipeline(features, shader, SEARCH_REST)).transpose()?;
         let film = self.film(scene, features)?;
         let group = self.resources.bind(self.gpu, &pipeline, shader, &film.buffer, None)?;
-        let renderer = TileRenderer { gpu: self.gpu, pipeline, group, groups_per_tile };
+        let rest = rest.map(|(pipeline, _)| pipeline);
+        let renderer = TileRenderer { gpu: self.gpu, pipeline, rest, group, groups_per_tile };
         renderer.warm_up(&film)?;
         Ok((renderer, film))
     }
 
+    /// Returns true if pixels whose lists are not enough are rendered by themselves: where branches are not skipped, and if
+    /// camera rays alone have lists.
+    fn searches_in_two_passes(&self, scene: &PackedScene, features: &Features) -> bool {
+        let has_lists = scene.culls_tiles() && scene.has_concave_shapes() && !features.everything;
+        has_lists && !bounces(scene) && Tuning::holds_triangles(self.gpu.info())
+    }
+
     fn sample_pipeline(&self, scene: &PackedScene, features: &Features) -> Result<SamplePipeline> {
         let shader = shader_for(scene.algorithm, features)?;
-        let (pipeline, groups_per_tile) = self.pipeline(features, shader)?;
+        let (pipeline, groups_per_tile) = self.pipeline(features, shader, SEARCH_ALL)?;
         Ok(SamplePipeline { pipeline, shader, groups_per_tile })
     }
 
     /// Returns a pipeline, and its number of workgroups per tile.
-    fn pipeline(&self, features: &Features, shader: &'static Shader) -> Result<(Arc<Pipeline>, u32)> {
+    fn pipeline(
+        &self,
+        features: &Features,
+        shader: &'static Shader,
+        search: u32,
+    ) -> Result<(Arc<Pipeline>, u32)> {
         let group_size = self.tuning.group_size(self.gpu.info())?;
         let slots = self.resources.slots;
         let mut constants =
             specialization::constants(shader, features, &self.resources.sections, group_size, slots);
         let tables_in_head = u32::from(Tuning::tables_in_head(self.gpu.info()));
-        constants.extend(shader.values([(Constant::TablesInHead, tables_in_head)]));
+        let parameters = [(Constant::TablesInHead, tables_in_head), (Constant::MeshSearch, search)];
+        constants.extend(shader.values(parameters));
         let pipeline = build_pipeline(self.gpu, shader, &constants, slots, size_of::<Slice>())?;
         Ok((pipeline, tuning::groups_per_tile(group_size)))
     }

@@ -17,6 +17,9 @@ const GROUP: u32 = 64;
 /// Triangles times cells that one submission tests: some tenths of a second on a slow device.
 const MAX_TESTS: u64 = 1 << 24;
 
+/// Boxes and triangles of meshes that are tested for a cell, of few of which more.
+const TESTS_OF_MESHES: u64 = 1024;
+
 pub struct TileCulling {
     pub buffer: Buffer,
     pipeline: Arc<Pipeline>,
@@ -44,7 +47,8 @@ impl TileCulling {
         let bytes = cells.map(u64::from).iter().product::<u64>() * u64::from(CELL_WORDS) * 4;
         let buffer = gpu.buffer("tile lists", bytes, BufferUse::Storage)?;
         let group = resources.bind(gpu, &pipeline, shader, &buffer, None)?;
-        let tests = scene.listed_shapes().max(1) as u64;
+        let tests =
+            scene.listed_shapes().max(1) as u64 + TESTS_OF_MESHES * u64::from(scene.has_concave_shapes());
         let cells_at_once = (MAX_TESTS / tests).clamp(u64::from(GROUP), 1 << 20) as u32;
         let culling = TileCulling { buffer, pipeline, group, side, cells, cells_at_once };
         // Lazy compilation in the driver happens now.

@@ -14,16 +14,24 @@ use crate::schema::layout::Slice;
 pub struct TileRenderer<'a> {
     pub gpu: &'a Gpu,
     pub pipeline: Arc<Pipeline>,
+    /// Takes the samples of the pixels that the first pipeline leaves unfinished.
+    pub rest: Option<Arc<Pipeline>>,
     pub group: BindGroup,
     pub groups_per_tile: u32,
 }
 
 impl TileRenderer<'_> {
+    fn pipelines(&self) -> impl Iterator<Item = &Pipeline> {
+        std::iter::once(&self.pipeline).chain(&self.rest).map(Arc::as_ref)
+    }
+
     /// Runs one workgroup of the first slice, so that lazy compilation in the driver happens now.
     pub fn warm_up(&self, film: &FilmBuffer) -> Result<()> {
         if let Some(band) = film.bands(film.whole()).next() {
             let slice = Slice { sample_count: 1, ..band.slice() };
-            self.gpu.run(&self.pipeline, &self.group, bytemuck::bytes_of(&slice), [1, 1, 1])?;
+            for pipeline in self.pipelines() {
+                self.gpu.run(pipeline, &self.group, bytemuck::bytes_of(&slice), [1, 1, 1])?;
+            }
         }
         Ok(())
     }
@@ -43,9 +51,13 @@ impl TileRenderer<'_> {
                 let tiles = plan.tiles(count - first_tile, sample_count);
                 let slice = Slice { first_tile, first_sample, sample_count, ..band.slice() };
                 let groups = [self.groups_per_tile, tiles, 1];
-                let time = self.gpu.run(&self.pipeline, &self.group, bytemuck::bytes_of(&slice), groups)?;
-                plan.learn(tiles, sample_count, time.wall_seconds);
-                report.add_slice(time);
+                let mut seconds = 0.0;
+                for pipeline in self.pipelines() {
+                    let time = self.gpu.run(pipeline, &self.group, bytemuck::bytes_of(&slice), groups)?;
+                    seconds += time.wall_seconds;
+                    report.add_slice(time);
+                }
+                plan.learn(tiles, sample_count, seconds);
                 progress.advance(plan.done());
                 if progress.cancelled() {
                     return Err(Error::Interrupted);

@@ -104,6 +104,11 @@ impl Tuning {
         device.kind == DeviceKind::Cpu
     }
 
+    /// Returns true if a pixel's triangles are kept in registers: lavapipe reads memory lane by lane.
+    pub fn holds_triangles(device: &DeviceInfo) -> bool {
+        device.kind == DeviceKind::Cpu
+    }
+
     /// Returns width and height of a workgroup; fails if the device does not support that many invocations.
     pub fn group_size(&self, device: &DeviceInfo) -> Result<[u32; 2]> {
         let default = if device.kind == DeviceKind::Cpu { [64, 1] } else { [8, 8] };

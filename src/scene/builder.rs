@@ -55,6 +55,12 @@ impl SceneBuilder {
         self
     }
 
+    /// Sets the camera and the pixels of the picture anew.
+    pub(super) fn view(&mut self, camera: Camera, width: u32, height: u32) -> &mut Self {
+        (self.scene.camera, self.scene.width, self.scene.height) = (camera, width, height);
+        self
+    }
+
     /// Sets how samples around a pixel are weighted; a box of its own square else.
     pub fn pixel_filter(&mut self, filter: PixelFilter) -> &mut Self {
         self.scene.pixel_filter = filter;
@@ -81,6 +87,12 @@ impl SceneBuilder {
     /// Adds a sampler and returns its index.
     pub fn sampler(&mut self, sampler: SamplerSpec) -> usize {
         push(&mut self.scene.samplers, sampler)
+    }
+
+    /// Returns the index of an equal sampler, which is added if there is none.
+    pub(super) fn sampler_like(&mut self, sampler: SamplerSpec) -> usize {
+        let known = self.scene.samplers.iter().position(|other| *other == sampler);
+        known.unwrap_or_else(|| self.sampler(sampler))
     }
 
     /// Adds a material and returns its index. Textures and samplers that it names may follow later.

@@ -16,8 +16,10 @@ pub const MAX_SIZE: u32 = 16384;
 pub const MAX_SPP: u32 = 1 << 24;
 /// Bounces after the camera ray.
 pub const MAX_DEPTH: u32 = 64;
-/// Shapes of all kinds together: devices test each of them for every ray.
+/// Shapes of all kinds together, a mesh being one: devices test each of them for every ray.
 pub(super) const MAX_SHAPES: usize = 65535;
+/// Triangles of a mesh file: devices number those of a shape in f32.
+pub(super) const MAX_TRIANGLES: usize = 1 << 24;
 pub(super) const MAX_TEXTURES: usize = 1024;
 /// Texels of a ramp, files of a stack, and texels along each side of a raw volume.
 pub(super) const MAX_TEXELS: u32 = 65_536;

@@ -23,6 +23,8 @@ bindings! {
     TILE_LISTS = 10;
     /// Counters of exceeded limits.
     DIAGNOSTICS = 11;
+    /// Nodes, corners and attributes of meshes.
+    MESHES = 12;
     /// For generating mip chains: the texture as in the texel buffer.
     MIP_WORDS = 0;
     /// Values of two levels, between which the passes alternate.

@@ -33,13 +33,32 @@ constants! {
     /// Position of the stream of samples in a batch's part; streams are as independent as different seeds.
     BATCH_STREAM_SHIFT: u32 = 8;
 
-    /// Words of a cell of the picture: number of triangles, content, up to `MAX_LISTED` triangles.
-    CELL_WORDS: u32 = 64;
-    MAX_LISTED: u32 = 62;
+    /// Words of a cell of the picture: `CELL_HEAD`, then single triangles by their index, then those of meshes by the
+    /// texel of their corners, `MAX_LISTED` in all.
+    CELL_WORDS: u32 = 128;
+    /// Number of single triangles, content, number of triangles of meshes, and the depth up to which no other triangle
+    /// of a mesh is met.
+    CELL_HEAD: u32 = 4;
+    MAX_LISTED: u32 = 124;
+    /// Values of `MESH_SEARCH`: camera rays search by lists and trees; by lists alone, which leaves pixels unfinished; and
+    /// the pixels that this left unfinished, by trees alone. Where a branch that no thread takes costs as much as one that
+    /// all take, two passes are faster than one.
+    SEARCH_ALL: u32 = 0;
+    SEARCH_LISTS: u32 = 1;
+    SEARCH_REST: u32 = 2;
+    /// Nodes of a mesh's tree that are opened for one cell.
+    MAX_CELL_NODES: u32 = 4096;
     /// Content of a cell: the background alone; one shape whose colour changes little; anything else.
     CELL_EMPTY: u32 = 0;
     CELL_UNIFORM: u32 = 1;
     CELL_BUSY: u32 = 2;
+
+    /// Children of a node of the trees of meshes.
+    TREE_WIDTH: u32 = 4;
+    /// Children that may wait while a ray goes through a tree.
+    TREE_STACK: u32 = 64;
+    /// Position of the number of triangles in the word for a child that waits.
+    TREE_COUNT_SHIFT: u32 = 28;
 
     /// Largest number of iterations over an ellipse's texels.
     MAX_ELLIPSE_STEPS: u32 = 8192;

@@ -121,6 +121,23 @@ records! {
         is_polar: bool,
     }
 
+    /// Triangles of one material in a tree. Its nodes, corners and attributes lie in the buffer of meshes.
+    Mesh in meshes as "loop over meshes" {
+        /// The ball around its box.
+        center: DVec3,
+        radius: f64,
+        material: u32,
+        uv_projection: u32,
+        /// Texel of the root's first child, two for each child.
+        nodes: u32,
+        /// Texel of the first triangle's corners, three for each triangle.
+        corners: u32,
+        /// Texel of the first triangle's attributes, four for each triangle.
+        attributes: u32,
+        /// True if some triangle has shading normals.
+        is_smooth: bool,
+    }
+
     Light in lights as "loop over lights" {
         /// Position of point and sphere lights, centre of rectangles.
         position: DVec3,

@@ -62,6 +62,19 @@ pub(super) fn read_checked(
     Ok(picture)
 }
 
+/// Reads a picture that lies within another file. It has integers, as PNG and JPEG have.
+pub(super) fn read_embedded(
+    name: &Path,
+    bytes: &[u8],
+    reading: &ReadOptions,
+    color_space: ColorSpace,
+) -> Result<Picture> {
+    let picture = read_file::read_bytes(bytes, name, reading)?;
+    check_meaning(picture.texels.format, color_space, name)?;
+    check_values(&picture.texels, AllowedFloats::Finite, name)?;
+    Ok(picture)
+}
+
 pub(super) fn in_texture(name: &str, error: Error) -> Error {
     error.or_kind(ErrorKind::File).within(&format!("texture \"{name}\""))
 }

@@ -5,7 +5,8 @@ use std::path::Path;
 
 use super::data::{Component, Dimension, TexelFormat, TextureData};
 use super::decode::{
-    AllowedFloats, check_meaning, check_values, in_texture, read_checked, reverse_rows, texture_of,
+    AllowedFloats, check_meaning, check_values, in_texture, read_checked, read_embedded, reverse_rows,
+    texture_of,
 };
 use super::read_file::{Picture, Texels};
 use super::source::{TextureContent, TextureSource};
@@ -57,6 +58,7 @@ fn read(source: &TextureSource, values: AllowedFloats) -> Result<(Picture, u32)>
             }
             Ok((picture, 1))
         }
+        TextureContent::Embedded(name, bytes) => Ok((read_embedded(name, bytes, reading, space)?, 1)),
         TextureContent::Ramp(colors) => Ok((ramp(colors).into(), 1)),
         TextureContent::CubeFile(file, layout) => {
             let Picture { texels, notes, .. } = picture(file)?;

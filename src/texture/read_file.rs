@@ -2,8 +2,7 @@
 //! stays grey, three channels become four with opaque alpha. Colour profiles and gamma are ignored.
 //! Errors name the file and state what to do.
 
-use std::fs::File;
-use std::io::{BufReader, Read, Seek};
+use std::io::{BufReader, Cursor, Read, Seek};
 use std::path::Path;
 
 use super::data::TexelFormat;
@@ -65,11 +64,24 @@ pub fn read_as(path: &Path, reading: &ReadOptions) -> Result<Picture> {
 /// Reads a picture with the given options; of an OpenEXR file only this part.
 pub fn read_window(path: &Path, reading: &ReadOptions, window: ExrWindow) -> Result<Picture> {
     let stage = format!("{}: reading this picture", path.display());
-    panics::contain(&stage, || read_by_content(open(path)?, path, reading, window))
+    panics::contain(&stage, || {
+        let file = open(path)?;
+        let length = file.metadata().map_err(|e| unreadable(path, &e))?.len() as usize;
+        read_by_content(file, length, path, reading, window)
+    })
+}
+
+/// Reads a picture from the bytes of a file that is known by this name.
+pub(super) fn read_bytes(bytes: &[u8], name: &Path, reading: &ReadOptions) -> Result<Picture> {
+    let stage = format!("{}: reading this picture", name.display());
+    panics::contain(&stage, || {
+        read_by_content(Cursor::new(bytes), bytes.len(), name, reading, ExrWindow::Display)
+    })
 }
 
 fn read_by_content(
-    mut source: File,
+    mut source: impl Read + Seek,
+    length: usize,
     path: &Path,
     reading: &ReadOptions,
     window: ExrWindow,
@@ -94,7 +106,7 @@ fn read_by_content(
     if let Some(layer) = &reading.layer {
         return Err(no_layers(path, format, layer));
     }
-    let file = read_whole(source, path)?;
+    let file = read_whole(source, length, path)?;
     let picture = read(&file, path)?;
     let orientation = match reading.orientation {
         OrientationUse::Apply => orientation_of(&file, format),
@@ -106,9 +118,8 @@ fn read_by_content(
     Ok(Picture::noted(orientation.apply(picture.texels), picture.notes))
 }
 
-fn read_whole(mut source: File, path: &Path) -> Result<Vec<u8>> {
+fn read_whole(mut source: impl Read, length: usize, path: &Path) -> Result<Vec<u8>> {
     let failed = |e: std::io::Error| unreadable(path, &e);
-    let length = source.metadata().map_err(failed)?.len() as usize;
     let mut file = Vec::new();
     file.try_reserve_exact(length).map_err(|_| out_of_memory(path))?;
     source.read_to_end(&mut file).map_err(failed)?;
@@ -128,7 +139,8 @@ pub fn is_turned(path: &Path) -> bool {
     match identify(&mut source) {
         Ok(Content::Picture(PictureFormat::OpenExr)) => false,
         Ok(Content::Picture(format)) => {
-            read_whole(source, path).is_ok_and(|file| orientation_of(&file, format).is_some())
+            let length = source.metadata().map_or(0, |metadata| metadata.len() as usize);
+            read_whole(source, length, path).is_ok_and(|file| orientation_of(&file, format).is_some())
         }
         _ => false,
     }

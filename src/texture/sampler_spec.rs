@@ -55,6 +55,11 @@ impl Default for SamplerSpec {
 /// The filters of texture units.
 const BASIC: [Filter; 2] = [Filter::Nearest, Filter::Linear];
 
+/// Returns the filter of texture units that blends neighbours, or the one that does not.
+pub fn basic_filter(blends: bool) -> Filter {
+    BASIC[usize::from(blends)]
+}
+
 impl SamplerSpec {
     /// Returns true if lookups depend on the footprint.
     pub fn needs_footprint(&self) -> bool {

@@ -70,6 +70,8 @@ pub enum TextureContent {
     Slices(Vec<PathBuf>),
     /// A file of bare texels.
     Volume(VolumeSource),
+    /// A picture file within another, known by this name.
+    Embedded(PathBuf, Arc<[u8]>),
     /// One picture, not of a file.
     Texels(Arc<PlainTexels>),
     /// No texels; the pattern is evaluated at each lookup.
@@ -150,7 +152,10 @@ impl TextureContent {
     /// Returns all files named in the scene.
     pub fn files(&self) -> Vec<&Path> {
         match self {
-            TextureContent::Ramp(_) | TextureContent::Texels(_) | TextureContent::Procedural(_) => Vec::new(),
+            TextureContent::Ramp(_)
+            | TextureContent::Embedded(..)
+            | TextureContent::Texels(_)
+            | TextureContent::Procedural(_) => Vec::new(),
             TextureContent::File(file) | TextureContent::CubeFile(file, _) => vec![file],
             TextureContent::Faces(files) => files.iter().map(PathBuf::as_path).collect(),
             TextureContent::Slices(files) => files.iter().map(PathBuf::as_path).collect(),
@@ -160,7 +165,10 @@ impl TextureContent {
 
     fn files_mut(&mut self) -> Vec<&mut PathBuf> {
         match self {
-            TextureContent::Ramp(_) | TextureContent::Texels(_) | TextureContent::Procedural(_) => Vec::new(),
+            TextureContent::Ramp(_)
+            | TextureContent::Embedded(..)
+            | TextureContent::Texels(_)
+            | TextureContent::Procedural(_) => Vec::new(),
             TextureContent::File(file) | TextureContent::CubeFile(file, _) => vec![file],
             TextureContent::Faces(files) => files.iter_mut().collect(),
             TextureContent::Slices(files) => files.iter_mut().collect(),

@@ -12,6 +12,8 @@ const WITHOUT_TWIN: &[(&str, &str)] = &[
     ("bsdf/models", "the oracle's stands at the head of its folder: `bsdf/mod.rs`"),
     ("diagnostics", "counters of the device"),
     ("mip_chain", "its twin makes levels on the host: `src/texture/mips`"),
+    ("geometry/mesh_lists", "lists shorten a search: pictures with and without them are equal"),
+    ("geometry/mesh_survey", "it makes these lists"),
     ("probe_main", "a list of look-ups"),
     ("probe_rays_main", "a list of rays"),
     ("slice", "which part of the work a thread does"),

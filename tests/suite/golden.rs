@@ -41,6 +41,7 @@ const GOLDENS: &[(&str, [u32; 2])] = &[
     ("materials", [128, 64]),
     ("meshes", [128, 96]),
     ("mirrors", [120, 90]),
+    ("models", [128, 96]),
     ("motion", [64, 48]),
     ("normal", [128, 54]),
     ("penumbra", [64, 48]),
@@ -198,7 +199,7 @@ macro_rules! goldens {
 }
 goldens! {
     beams centroid cones discs environment environment_cube filters formats glass glossy hardware horizon inside
-    lanczos lecture lens lights mappings materials meshes mirrors motion normal penumbra position procedural ramp reflection
+    lanczos lecture lens lights mappings materials meshes mirrors models motion normal penumbra position procedural ramp reflection
     rough samplers shared volume zone_plate
 }
 

@@ -1,6 +1,10 @@
 //! Meshes of files in scenes and by themselves: against the same triangles written one by one, under transforms, with
 //! the materials of their libraries, and what is said of files that are none.
 
+mod gltf;
+mod lists;
+mod trees;
+
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -189,7 +193,7 @@ fn a_mesh_file_is_a_scene_that_shows_it_whole() {
         let right = forward.cross(camera.up).normalize();
         let up = right.cross(forward);
         let half = (0.5 * 35f64.to_radians()).tan();
-        let corners = scene.shapes.triangles.iter().flat_map(|t| t.vertices);
+        let corners = trees::taken_apart(&scene).shapes.triangles.into_iter().flat_map(|t| t.vertices);
         let farthest = corners.fold(0.0f64, |most, corner| {
             let to = corner - camera.eye;
             let depth = to.dot(forward) * half;
@@ -214,16 +218,10 @@ fn render_takes_a_mesh_file_in_place_of_a_scene() {
 
 #[test]
 fn what_is_no_mesh_is_refused_with_its_place() {
-    let many = {
-        let mut text = "v 0 0 0\nv 1 0 0\nv 0 1 0\n".to_owned();
-        text.push_str(&"f 1 2 3\n".repeat(65_536));
-        text
-    };
     let folder = folder(&[
         ("bad.obj", "v 0 0 0\nv 1 0 x\n"),
         ("index.obj", "v 0 0 0\nv 1 0 0\nf 1 2 9\n"),
         ("far.obj", "v 0 0 0\nv 1e29 0 0\nv 0 1 0\nf 1 2 3\n"),
-        ("many.obj", &many),
         (
             "points.ply",
             "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nend_header\n0 0 0\n",
@@ -235,10 +233,9 @@ fn what_is_no_mesh_is_refused_with_its_place() {
         ("bad.obj", "", &["bad.obj as OBJ", "line 2", "\"x\""][..]),
         ("index.obj", "", &["line 3", "9"]),
         ("far.obj", "transform = { scale = 100.0 }", &["position 1", "between -1e30 and 1e30"]),
-        ("many.obj", "", &["more than 65535 triangles"]),
         ("points.ply", "", &["points.ply as PLY", "no faces"]),
         ("short.stl", "", &["short.stl as STL"]),
-        ("mesh.fbx", "", &["mesh.fbx", ".ply, .obj, .stl"]),
+        ("mesh.fbx", "", &["mesh.fbx", ".ply, .obj, .stl, .glb, .gltf"]),
         ("none.obj", "", &["none.obj"]),
         ("", "", &["mesh.file"]),
         ("bad.obj", "transform = [1, 2]", &["mesh.transform", "translate, rotate, scale", "12 numbers"]),
@@ -251,6 +248,22 @@ fn what_is_no_mesh_is_refused_with_its_place() {
     }
     let alone = told(load(&folder.path().join("bad.obj")));
     assert!(alone.contains("bad.obj") && alone.contains("line 2"), "{alone}");
+}
+
+#[test]
+fn more_triangles_than_a_scene_may_have_are_refused() {
+    let [ply, obj, stl] = FORMATS;
+    let text = format!("{QUAD}f 1 2 3\nf 1 2 4\nf 1 3 4\n");
+    let said = (obj.read)(text.as_bytes(), 2).unwrap_err().to_string();
+    assert!(said.contains("more than 2 triangles"), "{said}");
+    assert!((obj.read)(text.as_bytes(), 3).is_ok());
+    for (format, file) in [(ply, "ball.ply"), (stl, "gem.stl")] {
+        let bytes = fs::read(data().join("models").join(file)).unwrap();
+        let count = (format.read)(&bytes, 1000).unwrap().triangles.len();
+        assert!((format.read)(&bytes, count).is_ok());
+        let said = (format.read)(&bytes, count - 1).unwrap_err().to_string();
+        assert!(said.contains(&format!("more than {} triangles", count - 1)), "{said}");
+    }
 }
 
 /// Returns a file with a few bytes changed, doubled, cut out or replaced by what misleads readers.

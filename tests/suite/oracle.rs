@@ -41,6 +41,7 @@ const BOUNDS: &[(&str, f64, f64, f64)] = &[
     ("mappings", STEP, 6e-5, 0.0005),
     ("materials", STEP, 1e-5, 0.001),
     ("meshes", STEP, 1e-4, 0.01),
+    ("models", STEP, 1e-4, 0.01),
     ("mirrors", STEP, 2.5e-4, 0.03),
     ("motion", STEP, 1e-4, 0.01),
     ("normal", STEP, 1e-5, 0.001),

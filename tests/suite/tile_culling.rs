@@ -10,7 +10,9 @@ use moire::internal::oracle::tile_culling::triangles_of;
 use moire::internal::pack::PackedScene;
 use moire::internal::render::{self, Session, Tuning};
 use moire::internal::scene::model::{Algorithm, Model, Pattern, Projection, Scene, Triangle};
-use moire::internal::schema::layout::{CELL_BUSY, CELL_EMPTY, CELL_UNIFORM, CELL_WORDS, MAX_LISTED};
+use moire::internal::schema::layout::{
+    CELL_BUSY, CELL_EMPTY, CELL_HEAD, CELL_UNIFORM, CELL_WORDS, MAX_LISTED,
+};
 
 use crate::lookup::bench::Rng;
 use crate::stage::{assert_same_bits, device, packed, render, render_with, small};
@@ -61,10 +63,10 @@ fn pictures_are_the_same_with_and_without() {
 
 #[test]
 fn crowded_cells_fall_back_to_all_triangles() {
-    let scene = packed(soup(400, 40), None);
+    let scene = packed(soup(900, 40), None);
     let (_, words) = culls_tiles(&scene);
     assert!(words.chunks(CELL_WORDS as usize).any(|cell| cell[0] > MAX_LISTED), "no cell is crowded");
-    assert_same(&scene, "400 triangles");
+    assert_same(&scene, "900 triangles");
 }
 
 #[test]
@@ -102,7 +104,7 @@ fn lists_hold_what_float64_says() {
     let (mut listed, mut exact) = (0, 0);
     let across = 70u32.div_ceil(side);
     for (k, cell) in (0..).zip(words.chunks(CELL_WORDS as usize)) {
-        let found = &cell[2..2 + cell[0] as usize];
+        let found = &cell[CELL_HEAD as usize..][..cell[0] as usize];
         assert!(found.is_sorted(), "ties are for the lowest number: {found:?}");
         let expected = triangles_of(&scene, [k % across * side, k / across * side]);
         for triangle in &expected {

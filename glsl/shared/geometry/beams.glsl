@@ -9,7 +9,7 @@
 bool has_region(uint shape) {
     COUNT_SHAPES
     bool is_round = false;
-#define ROUND(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed) is_round = is_round || IS_WITHIN(LIST, shape, first, count);
+#define ROUND(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed, is_concave) is_round = is_round || IS_WITHIN(LIST, shape, first, count);
     ROUND_KINDS(ROUND)
 #undef ROUND
     return !is_round;
@@ -19,7 +19,7 @@ bool has_region(uint shape) {
 vec4 shape_plane(uint shape) {
     COUNT_SHAPES
     vec4 plane = vec4(0.0);
-#define PLANE_OF(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed) if (IS_NEXT(LIST, shape, first, count)) plane = plane_of(at(shape - (first))); else
+#define PLANE_OF(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed, is_concave) if (IS_NEXT(LIST, shape, first, count)) plane = plane_of(at(shape - (first))); else
     POLYGONAL_KINDS(PLANE_OF) {}
 #undef PLANE_OF
     return plane;
@@ -29,7 +29,7 @@ vec4 shape_plane(uint shape) {
 uvec2 shape_links(uint shape) {
     COUNT_SHAPES
     uvec2 link = uvec2(0u);
-#define LINK(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed) if (IS_NEXT(LIST, shape, first, count)) link = links_of(at(shape - (first))); else
+#define LINK(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed, is_concave) if (IS_NEXT(LIST, shape, first, count)) link = links_of(at(shape - (first))); else
     POLYGONAL_KINDS(LINK) {}
 #undef LINK
     return link;
@@ -38,7 +38,7 @@ uvec2 shape_links(uint shape) {
 bool is_smooth(uint shape) {
     COUNT_SHAPES
     bool smooth_normals = false;
-#define SMOOTH(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed) \
+#define SMOOTH(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed, is_concave) \
     if (IS_NEXT(LIST, shape, first, count)) smooth_normals = has_smooth_normals(at(shape - (first))); else
     POLYGONAL_KINDS(SMOOTH) {}
 #undef SMOOTH
@@ -53,7 +53,7 @@ vec3 nearness_of(const Header header, const PixelFrustum frame, uint shape) {
 ConvexRegion shape_region(const Header header, const PixelFrustum frame, uint shape) {
     COUNT_SHAPES
     ConvexRegion region = region_of_plane(header, frame, shape_plane(shape));
-#define OUTLINE(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed) \
+#define OUTLINE(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed, is_concave) \
     if (IS_NEXT(LIST, shape, first, count)) add_outline(header, frame, region.inverse_depth, at(shape - (first)), region); else
     POLYGONAL_KINDS(OUTLINE) {}
 #undef OUTLINE
@@ -67,7 +67,7 @@ RationalMap coordinates(const Header header, const PixelFrustum frame, uint shap
     }
     COUNT_SHAPES
     RationalMap own = RationalMap(near, near, near);
-#define OWN(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed) \
+#define OWN(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed, is_concave) \
     if (IS_NEXT(LIST, shape, first, count)) own = own_coordinates(header, frame, near, at(shape - (first)), map); else
     POLYGONAL_KINDS(OWN) {}
 #undef OWN
@@ -89,7 +89,7 @@ ConvexRegion shadow_region(const Header header, const PixelFrustum frame, vec3 n
     region.inverse_depth = near;
     // Beyond the plane, seen from the light.
     region.lines[0] = along(header, frame, near, (point_light ? side : -side) * vec4(n, -plane.w));
-#define SHADOW(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed)                                                       \
+#define SHADOW(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed, is_concave)                                                       \
     if (IS_NEXT(LIST, shape, first, count)) {                                                      \
         add_shadow(header, frame, near, light, plane, rise, region, at(shape - (first)));    \
     } else
@@ -101,7 +101,7 @@ ConvexRegion shadow_region(const Header header, const PixelFrustum frame, vec3 n
 // False where no ray of the polygon can meet the shape, which has no region.
 bool may_meet(const Header header, const PixelFrustum frame, uint polygon, uint shape) {
     COUNT_SHAPES
-#define MEETS(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed) \
+#define MEETS(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed, is_concave) \
     if (IS_WITHIN(LIST, shape, first, count)) return may_meet(header, frame, polygon, at(shape - (first)));
     ROUND_KINDS(MEETS)
 #undef MEETS
@@ -112,7 +112,7 @@ bool may_meet(const Header header, const PixelFrustum frame, uint polygon, uint 
 // region.
 bool may_shade(const Header header, const PixelFrustum frame, vec3 near, uint polygon, const Light light, uint shape) {
     COUNT_SHAPES
-#define SHADES(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed) \
+#define SHADES(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed, is_concave) \
     if (IS_WITHIN(LIST, shape, first, count)) return may_shade(header, frame, near, polygon, light, at(shape - (first)));
     ROUND_KINDS(SHADES)
 #undef SHADES

@@ -10,7 +10,7 @@ Cone leaving(Cone cone, uint shape) {
     if (!FLOORS || shape == NO_SHAPE) return cone;
     COUNT_SHAPES
     vec3 up = vec3(0.0);
-#define UP(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed) if (IS_WITHIN(LIST, shape, first, count)) up = plane_of(at(shape - (first))).xyz; else
+#define UP(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed, is_concave) if (IS_WITHIN(LIST, shape, first, count)) up = plane_of(at(shape - (first))).xyz; else
     PLANAR_KINDS(UP) return cone;
 #undef UP
     Ray ray = cone.ray;
@@ -20,21 +20,23 @@ Cone leaving(Cone cone, uint shape) {
     return cone;
 }
 
-// The shape that a ray must not meet again at once. From inside a ball its other side is met.
+// The shape that a ray must not meet again at once. From inside a ball its other side is met; a concave shape may be met
+// again anywhere.
 uint left_shape(uint shape, bool within) {
     COUNT_SHAPES
-    bool is_solid = false;
-#define SOLID(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed) is_solid = is_solid || (shape >= (first) && shape < (first) + (count));
+    bool meets_again = false;
+#define SOLID(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed, is_concave) \
+    meets_again = meets_again || ((is_concave || within) && shape >= (first) && shape < (first) + (count));
     SOLID_KINDS(SOLID)
 #undef SOLID
-    return is_solid && within ? NO_SHAPE : shape;
+    return meets_again ? NO_SHAPE : shape;
 }
 
 // Cuts the disc to what the shape covers; false for one that no lines stand for.
 bool cut_shape(const Cone cone, uint shape) {
     COUNT_SHAPES
     bool has_lines = true;
-#define CUT(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed) \
+#define CUT(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed, is_concave) \
     if (IS_NEXT(LIST, shape, first, count)) has_lines = cut_by_shape(cone, at(shape - (first))); else
     SHAPE_KINDS(CUT) {}
 #undef CUT
@@ -44,7 +46,7 @@ bool cut_shape(const Cone cone, uint shape) {
 // The part of the disc that the shape covers.
 Covered covered_by(const Cone cone, uint shape) {
     COUNT_SHAPES
-#define COVERED(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed) \
+#define COVERED(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed, is_concave) \
     if (IS_WITHIN(LIST, shape, first, count)) return covered_by(cone, at(shape - (first)));
     ROUND_KINDS(COVERED)
 #undef COVERED
@@ -57,7 +59,7 @@ Covered covered_by(const Cone cone, uint shape) {
 // True if the cone may touch the shape.
 bool touched(const Cone cone, uint shape) {
     COUNT_SHAPES
-#define TOUCHED(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed) \
+#define TOUCHED(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed, is_concave) \
     if (IS_WITHIN(LIST, shape, first, count)) return touched(cone, at(shape - (first)));
     ROUND_KINDS(TOUCHED)
 #undef TOUCHED
@@ -71,14 +73,14 @@ Hit meet(const Ray ray, uint shape) {
     COUNT_SHAPES
     Hit hit = Hit(-1.0, shape, vec2(0.0));
     vec4 plane = vec4(0.0);
-#define SOLID(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed)            \
+#define SOLID(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed, is_concave)            \
     if (IS_WITHIN(LIST, shape, first, count)) {        \
         complete(at(shape - (first)), ray, hit); \
         return hit;                              \
     }
     SOLID_KINDS(SOLID)
 #undef SOLID
-#define PLANAR(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed)       \
+#define PLANAR(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed, is_concave)       \
     if (IS_WITHIN(LIST, shape, first, count)) {    \
         Type found = at(shape - (first));    \
         plane = plane_of(found);             \
@@ -97,7 +99,7 @@ Flat depth_of(const Cone cone, uint shape, float t, float area) {
     COUNT_SHAPES
     vec4 plane = vec4(0.0);
     bool ends = false;
-#define DEPTH(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed)          \
+#define DEPTH(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed, is_concave)          \
     if (IS_NEXT(LIST, shape, first, count)) {                            \
         plane = tangent_plane(at(shape - (first)), cone, t);       \
         ends = !is_planar && area < 1.0;                             \

@@ -19,7 +19,7 @@ vec4 own_row(const Disc disc, vec3 axis) { return vec4(axis, -dot3(axis, vec3(di
 #include "hit.glsl"
 
 // Kept when the own coordinates of the point lie within the unit circle.
-real distance_to(const Disc disc, const Ray ray, bool from_eye, inout real2 local) {
+real distance_to(const Disc disc, const Ray ray, bool from_eye, real most, bool any, inout real2 local) {
     real3 p;
     real t = distance_to_plane(disc.normal, disc.distance, ray, from_eye, p);
     real3 own = p - disc.center;
@@ -143,7 +143,7 @@ bool touched(const Cone cone, const Disc disc) {
 }
 
 // A hit of a ray within the outline; rounding may have put it just beside.
-void complete(const Disc disc, const Ray ray, inout Hit hit) { distance_to(disc, ray, false, hit.local); }
+void complete(const Disc disc, const Ray ray, inout Hit hit) { distance_to(disc, ray, false, FAR, false, hit.local); }
 
 vec4 tangent_plane(const Disc disc, const Cone cone, float t) { return plane_of(disc); }
 #endif

@@ -12,7 +12,7 @@
 #define IS_WITHIN(LIST, shape, first, count) \
     ((LIST) != 0u && (count) > 0u && ((count) == shapes || ((shape) >= (first) && (shape) < (first) + (count))))
 
-#define ADD_COUNT(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed) + (count)
+#define ADD_COUNT(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed, is_concave) + (count)
 
 uint shape_count() {
     COUNT_SHAPES

@@ -25,7 +25,7 @@ real distance_to_plane(real3 normal, real height, const Ray ray, bool from_eye, 
 }
 
 // Kept when the point lies within the half extent on both axes.
-real distance_to(const Plane plane, const Ray ray, bool from_eye, inout real2 local) {
+real distance_to(const Plane plane, const Ray ray, bool from_eye, real most, bool any, inout real2 local) {
     real3 p;
     real t = distance_to_plane(plane.normal, plane.distance, ray, from_eye, p);
     local = real2(dot3(plane.axis_u, p), dot3(plane.axis_v, p));
@@ -80,7 +80,7 @@ bool cut_by_shape(const Cone cone, const Plane plane) {
 }
 
 // A hit of a ray within the outline.
-void complete(const Plane plane, const Ray ray, inout Hit hit) { distance_to(plane, ray, false, hit.local); }
+void complete(const Plane plane, const Ray ray, inout Hit hit) { distance_to(plane, ray, false, FAR, false, hit.local); }
 
 vec4 tangent_plane(const Plane plane, const Cone cone, float t) { return plane_of(plane); }
 #endif

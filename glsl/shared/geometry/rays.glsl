@@ -6,24 +6,34 @@
 
 #include "../tile_culling.glsl"
 #include "kinds.glsl"
+#include "mesh_lists.glsl"
 
-// `list`: of the cell of tile culling in which a camera ray lies, else NO_LIST.
-Hit nearest_hit(const Ray ray, uint skip, uint list) {
+// A camera ray may meet something that no list holds.
+bool unfinished = false;
+
+// `candidates`: of a camera ray, by tile culling; else ANYTHING.
+Hit nearest_hit(const Ray ray, uint skip, const Candidates candidates) {
     Hit hit = Hit(FAR, NO_SHAPE, real2(0.0));
+    uint list = candidates.list;
     COUNT_SHAPES
-#define NEAREST(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed)                                                  \
+#define NEAREST(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed, is_concave)                                                  \
     if (LIST != 0u) {                                                                                        \
         uint tested = count;                                                                                 \
         if (is_listed && TILE_CULLED) {                                                                      \
             if (list != NO_LIST) tested = tile_lists[list];                                                  \
         }                                                                                                    \
-        for (uint k = 0u; k < tested; k++) {                                                                 \
+        if (is_concave && TILE_CULLED) {                                                                     \
+            bool is_complete = list != NO_LIST && nearest_listed(ray, candidates, first, count, hit);        \
+            tested = is_complete ? 0u : tested;                                                              \
+            unfinished = unfinished || !is_complete;                                                         \
+        }                                                                                                    \
+        for (uint k = 0u; !(is_concave && MESH_SEARCH == SEARCH_LISTS) && k < tested; k++) {                 \
             uint i = k;                                                                                      \
             if (is_listed && TILE_CULLED) {                                                                  \
-                if (list != NO_LIST) i = tile_lists[list + 2u + k];                                          \
+                if (list != NO_LIST) i = tile_lists[list + CELL_HEAD + k];                                          \
             }                                                                                                \
             real2 local = hit.local;                                                                         \
-            real t = distance_to(at(i), at_rest(ray, (first) + i), ORIGIN_IS_EYE, local);            \
+            real t = distance_to(at(i), at_rest(ray, (first) + i), ORIGIN_IS_EYE, hit.t, false, local); \
             bool nearer = t > 0.0 && t < hit.t && !(is_planar && (first) + i == skip);                         \
             hit.t = nearer ? t : hit.t;                                                                      \
             hit.shape = nearer ? (first) + i : hit.shape;                                                    \
@@ -35,15 +45,15 @@ Hit nearest_hit(const Ray ray, uint skip, uint list) {
     return hit;
 }
 
-// True when a shape lies at 0 < t < t_max.
+// True when a shape lies at 0 < t < t_max, whichever is found first.
 bool occluded(const Ray ray, real t_max, uint skip) {
     bool blocked = false;
     COUNT_SHAPES
-#define OCCLUDES(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed)                                                 \
+#define OCCLUDES(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed, is_concave)                                                 \
     if (LIST != 0u) {                                                                                        \
         for (uint i = 0u; i < count; i++) {                                                                  \
             real2 local;                                                                                     \
-            real t = distance_to(at(i), at_rest(ray, (first) + i), false, local);                    \
+            real t = distance_to(at(i), at_rest(ray, (first) + i), false, t_max, true, local);                    \
             blocked = blocked || (t > 0.0 && t < t_max && !(is_planar && (first) + i == skip));                \
         }                                                                                                    \
     }
@@ -58,7 +68,7 @@ Surface hit_surface(const Ray moving, const Hit hit) {
     real3 point = ORIGIN_IS_EYE ? hit.t * ray.direction : ray.origin + hit.t * ray.direction;
     const real3 up = real3(0.0, 0.0, 1.0);
     Surface surface = Surface(point, up, up, real2(0.0), vec3(0.0), vec3(0.0), FLAT, 0.0, false, uvec2(0u), point, 0.0);
-#define SURFACE(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed)                                                  \
+#define SURFACE(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed, is_concave)                                                  \
     if (IS_NEXT(LIST, hit.shape, first, count)) {                                                                  \
         surface = surface_of(at(hit.shape - (first)), point, hit.local);                                     \
     } else

@@ -13,7 +13,7 @@ uvec2 links_of(const Sphere sphere) { return uvec2(sphere.material, sphere.uv_pr
 
 // Haines, Günther & Akenine-Möller 2019: the discriminant from the vector of closest approach, and
 // of the two roots c/q and q/a the one that does not cancel.
-real distance_to(const Sphere sphere, const Ray ray, bool from_eye, inout real2 local) {
+real distance_to(const Sphere sphere, const Ray ray, bool from_eye, real most, bool any, inout real2 local) {
     real3 f = from_eye ? -sphere.center : ray.origin - sphere.center;
     real radius = sphere.radius;
     real a = dot3(ray.direction, ray.direction);
@@ -88,7 +88,7 @@ bool touched(const Cone cone, const Sphere sphere) {
 
 // A hit of a ray within the outline; rounding may have put it just beside.
 void complete(const Sphere sphere, const Ray ray, inout Hit hit) {
-    hit.t = distance_to(sphere, ray, false, hit.local);
+    hit.t = distance_to(sphere, ray, false, FAR, false, hit.local);
     float nearest = dot3(sphere.center - ray.origin, ray.direction) / dot3(ray.direction, ray.direction);
     hit.t = hit.t > 0.0 ? hit.t : nearest;
 }

@@ -16,7 +16,7 @@ vec4 plane_of(const Triangle triangle) { return vec4(triangle.normal, triangle.d
 
 // Edge functions as volumes d·(p × q): the two triangles at a shared edge compute the same value
 // with opposite sign, so no ray passes between them. t from the geometric plane.
-real distance_to(const Triangle triangle, const Ray ray, bool from_eye, inout real2 local) {
+real distance_to(const Triangle triangle, const Ray ray, bool from_eye, real most, bool any, inout real2 local) {
     real3 a = from_eye ? triangle.a : triangle.a - ray.origin;
     real3 b = from_eye ? triangle.b : triangle.b - ray.origin;
     real3 c = from_eye ? triangle.c : triangle.c - ray.origin;

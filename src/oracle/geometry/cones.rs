@@ -24,10 +24,12 @@ pub fn leaving(scene: &PackedScene, cone: Cone, shape: u32) -> Cone {
     Cone { floor: up.extend(-(up.dot(origin) + level)), ..cone }
 }
 
-/// The shape that a ray must not meet again at once. From inside a ball its other side is met.
+/// The shape that a ray must not meet again at once. From inside a ball its other side is met; a concave shape may be met
+/// again anywhere.
 pub fn left_shape(scene: &PackedScene, shape: u32, within: bool) -> u32 {
-    let solid = shape_of(scene, shape).plane_of().is_none();
-    if solid && within { NO_SHAPE } else { shape }
+    let record = shape_of(scene, shape);
+    let solid = record.plane_of().is_none();
+    if record.is_concave() || solid && within { NO_SHAPE } else { shape }
 }
 
 /// Cuts the disc to what the shape covers; false for one that no lines stand for.
@@ -38,7 +40,7 @@ pub fn cut_shape(cuts: &mut Cuts, scene: &PackedScene, cone: &Cone, shape: u32) 
 /// Returns the part of the disc that the shape covers.
 pub fn covered_by(scene: &PackedScene, cone: &Cone, shape: u32) -> Covered {
     if let Form::Round(round) = shape_of(scene, shape).form() {
-        return round.covered_by(cone);
+        return round.covered_by(scene, cone);
     }
     let mut cuts = Cuts::default();
     cut_shape(&mut cuts, scene, cone, shape);
@@ -53,7 +55,7 @@ pub fn meet(scene: &PackedScene, ray: &Ray, shape: u32) -> Hit {
         let n = plane.truncate();
         hit.t = (plane.w - n.dot(ray.origin)) / n.dot(ray.direction);
     }
-    record.complete(ray, &mut hit);
+    record.complete(scene, ray, &mut hit);
     hit
 }
 

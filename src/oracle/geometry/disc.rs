@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 
 use glam::{DVec2, DVec3, DVec4};
 
-use super::hit::{Hit, Surface, surface};
+use super::hit::{FAR, Hit, Surface, surface};
 use super::kinds::{Form, Round, Shape};
 use super::plane::{distance_to_plane, own_place};
 use super::sphere::Circle;
@@ -15,6 +15,7 @@ use crate::oracle::cone::{Cone, flat_in};
 use crate::oracle::coverage::{Covered, Cuts, ball_overlap, circle_line};
 use crate::oracle::polygon::{AffineFunction, Polygon, range};
 use crate::oracle::projective::{PixelFrustum, along, below, region_of_plane};
+use crate::pack::PackedScene;
 use crate::schema::layout::{Disc, Header, Light, Sphere};
 
 /// An own coordinate as an affine function.
@@ -93,14 +94,14 @@ impl Shape for Disc {
         [self.material, self.uv_projection]
     }
 
-    fn distance_to(&self, ray: &Ray) -> (f64, DVec2) {
+    fn distance_to(&self, _: &PackedScene, ray: &Ray, _: f64, _: bool) -> (f64, DVec2) {
         let (t, p) = distance_to_plane(self.normal, self.distance, ray);
         let own = p - self.center;
         let local = DVec2::new(self.axis_u.dot(own), self.axis_v.dot(own));
         (if local.length_squared() <= 1.0 { t } else { -1.0 }, local)
     }
 
-    fn surface_of(&self, point: DVec3, local: DVec2) -> Surface {
+    fn surface_of(&self, _: &PackedScene, point: DVec3, local: DVec2) -> Surface {
         const CENTER: f64 = 1e-6;
         let (axis_u, axis_v) = (self.axis_u, self.axis_v);
         let mut own_uv = 0.5 * local + 0.5;
@@ -125,8 +126,8 @@ impl Shape for Disc {
         conic.has_lines
     }
 
-    fn complete(&self, ray: &Ray, hit: &mut Hit) {
-        hit.local = self.distance_to(ray).1;
+    fn complete(&self, scene: &PackedScene, ray: &Ray, hit: &mut Hit) {
+        hit.local = self.distance_to(scene, ray, FAR, false).1;
     }
 
     fn tangent_plane(&self, _: &Cone, _: f64) -> DVec4 {
@@ -154,7 +155,7 @@ impl Shape for Disc {
 }
 
 impl Round for Disc {
-    fn covered_by(&self, cone: &Cone) -> Covered {
+    fn covered_by(&self, _: &PackedScene, cone: &Cone) -> Covered {
         let conic = conic_of(cone, self);
         if !conic.is_strip {
             return ball_overlap(conic.circle.middle, conic.circle.radius, conic.circle.edge);

@@ -18,16 +18,17 @@ pub trait Shape {
     /// Material and map.
     fn links(&self) -> [u32; 2];
 
-    /// Distance and own coordinates of where the ray meets it; not above 0 on a miss.
-    fn distance_to(&self, ray: &Ray) -> (f64, DVec2);
+    /// Distance and own coordinates of where the ray meets it; not above 0 on a miss. A shape of many parts may leave
+    /// out what is not before `most`, and for `any` find another part than the nearest.
+    fn distance_to(&self, scene: &PackedScene, ray: &Ray, most: f64, any: bool) -> (f64, DVec2);
 
-    fn surface_of(&self, point: DVec3, local: DVec2) -> Surface;
+    fn surface_of(&self, scene: &PackedScene, point: DVec3, local: DVec2) -> Surface;
 
     /// Cuts the disc to what it covers; false for one that no lines stand for.
     fn cut_by_shape(&self, cuts: &mut Cuts, cone: &Cone) -> bool;
 
     /// A hit of a ray within the outline; rounding may have put it just beside.
-    fn complete(&self, ray: &Ray, hit: &mut Hit);
+    fn complete(&self, scene: &PackedScene, ray: &Ray, hit: &mut Hit);
 
     /// The plane that touches it at t.
     fn tangent_plane(&self, cone: &Cone, t: f64) -> DVec4;
@@ -37,6 +38,11 @@ pub trait Shape {
 
     /// Unit normal, and height over the eye, where it lies in a plane: a ray never meets again the one that it leaves.
     fn plane_of(&self) -> Option<DVec4>;
+
+    /// A ray that leaves it outwards may meet it again.
+    fn is_concave(&self) -> bool {
+        false
+    }
 
     /// Returns its family, by its outline.
     fn form(&self) -> Form<'_>;
@@ -71,7 +77,7 @@ pub trait Polygonal {
 
 /// Any other shape.
 pub trait Round {
-    fn covered_by(&self, cone: &Cone) -> Covered;
+    fn covered_by(&self, scene: &PackedScene, cone: &Cone) -> Covered;
 
     /// False where no way from the polygon on a surface of this inverse depth to the light can pass it.
     fn may_shade(&self, surface: (&PixelFrustum, AffineFunction), polygon: &Polygon, light: &Light) -> bool;

@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3, DVec4};
 
-use super::hit::{Hit, Surface, surface};
+use super::hit::{FAR, Hit, Surface, surface};
 use super::kinds::{Form, Polygonal, Shape};
 use crate::oracle::camera::Ray;
 use crate::oracle::cone::{Cone, FlatDepth, flat_in};
@@ -11,7 +11,7 @@ use crate::oracle::polygon::{AffineFunction, Polygon, range};
 use crate::oracle::projective::{
     ConvexRegion, PixelFrustum, RationalMap, add, along, below, region_of_plane,
 };
-use crate::pack::LightKind;
+use crate::pack::{LightKind, PackedScene};
 use crate::schema::layout::{Header, Light, Plane, UvProjection};
 
 /// Numerator of the own coordinate row·p + row.w of the place met at u, over facing + s tilt·u.
@@ -42,7 +42,7 @@ impl Shape for Plane {
         [self.material, self.uv_projection]
     }
 
-    fn distance_to(&self, ray: &Ray) -> (f64, DVec2) {
+    fn distance_to(&self, _: &PackedScene, ray: &Ray, _: f64, _: bool) -> (f64, DVec2) {
         let (t, p) = distance_to_plane(self.normal, self.distance, ray);
         let local = DVec2::new(self.axis_u.dot(p), self.axis_v.dot(p));
         if let Some(extent) = self.bounds() {
@@ -53,7 +53,7 @@ impl Shape for Plane {
         (t, local)
     }
 
-    fn surface_of(&self, point: DVec3, uv: DVec2) -> Surface {
+    fn surface_of(&self, _: &PackedScene, point: DVec3, uv: DVec2) -> Surface {
         let normal = self.normal.normalize();
         let own_gradients = [self.axis_u, self.axis_v];
         Surface { own_uv: uv, own_gradients, ..surface(point, normal, normal, self.links()) }
@@ -71,8 +71,8 @@ impl Shape for Plane {
         true
     }
 
-    fn complete(&self, ray: &Ray, hit: &mut Hit) {
-        hit.local = self.distance_to(ray).1;
+    fn complete(&self, scene: &PackedScene, ray: &Ray, hit: &mut Hit) {
+        hit.local = self.distance_to(scene, ray, FAR, false).1;
     }
 
     fn tangent_plane(&self, _: &Cone, _: f64) -> DVec4 {

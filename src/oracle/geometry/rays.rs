@@ -16,7 +16,7 @@ use crate::schema::shapes::with_shapes;
 pub fn nearest_hit(scene: &PackedScene, ray: &Ray, skip: u32) -> Hit {
     let mut hit = Hit { t: FAR, shape: NO_SHAPE, local: DVec2::ZERO };
     with_shapes!(each_list, scene, |first, list| for (shape, record) in (first..).zip(list) {
-        let (t, local) = record.distance_to(&at_rest(scene, ray, shape));
+        let (t, local) = record.distance_to(scene, &at_rest(scene, ray, shape), hit.t, false);
         if t > 0.0 && t < hit.t && !(shape == skip && record.plane_of().is_some()) {
             hit = Hit { t, shape, local };
         }
@@ -24,10 +24,10 @@ pub fn nearest_hit(scene: &PackedScene, ray: &Ray, skip: u32) -> Hit {
     hit
 }
 
-/// True when a shape lies at 0 < t < t_max.
+/// True when a shape lies at 0 < t < t_max, whichever is found first.
 pub fn occluded(scene: &PackedScene, ray: &Ray, t_max: f64, skip: u32) -> bool {
     with_shapes!(each_list, scene, |first, list| for (shape, record) in (first..).zip(list) {
-        let (t, _) = record.distance_to(&at_rest(scene, ray, shape));
+        let (t, _) = record.distance_to(scene, &at_rest(scene, ray, shape), t_max, true);
         if t > 0.0 && t < t_max && !(shape == skip && record.plane_of().is_some()) {
             return true;
         }
@@ -39,7 +39,7 @@ pub fn occluded(scene: &PackedScene, ray: &Ray, t_max: f64, skip: u32) -> bool {
 pub fn hit_surface(scene: &PackedScene, ray: &Ray, hit: &Hit) -> Surface {
     let shift = moved_by(scene, ray, hit.shape);
     let point = ray.origin - shift + hit.t * ray.direction;
-    let mut surface = shape_of(scene, hit.shape).surface_of(point, hit.local);
+    let mut surface = shape_of(scene, hit.shape).surface_of(scene, point, hit.local);
     surface.point += shift;
     if surface.geometric_normal.dot(ray.direction) > 0.0 {
         surface.geometric_normal = -surface.geometric_normal;

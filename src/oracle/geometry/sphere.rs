@@ -10,7 +10,7 @@ use crate::oracle::cone::Cone;
 use crate::oracle::coverage::{Covered, Cuts, ball_overlap, circle_line};
 use crate::oracle::polygon::{AffineFunction, Polygon, middle};
 use crate::oracle::projective::{PixelFrustum, point_at, ray_at};
-use crate::pack::LightKind;
+use crate::pack::{LightKind, PackedScene};
 use crate::schema::layout::{Header, Light, Sphere};
 
 /// Haines, Günther & Akenine-Möller 2019; -1 on a miss.
@@ -65,11 +65,11 @@ impl Shape for Sphere {
         [self.material, self.uv_projection]
     }
 
-    fn distance_to(&self, ray: &Ray) -> (f64, DVec2) {
+    fn distance_to(&self, _: &PackedScene, ray: &Ray, _: f64, _: bool) -> (f64, DVec2) {
         (sphere_distance(self, ray), DVec2::ZERO)
     }
 
-    fn surface_of(&self, point: DVec3, _: DVec2) -> Surface {
+    fn surface_of(&self, _: &PackedScene, point: DVec3, _: DVec2) -> Surface {
         let center = self.center;
         let radius = self.radius;
         let normal = (point - center).normalize();
@@ -91,7 +91,7 @@ impl Shape for Sphere {
         circle.radius >= 1.0
     }
 
-    fn complete(&self, ray: &Ray, hit: &mut Hit) {
+    fn complete(&self, _: &PackedScene, ray: &Ray, hit: &mut Hit) {
         let t = sphere_distance(self, ray);
         let nearest = (self.center - ray.origin).dot(ray.direction) / ray.direction.length_squared();
         hit.t = if t > 0.0 { t } else { nearest };
@@ -142,7 +142,7 @@ impl Shape for Sphere {
 }
 
 impl Round for Sphere {
-    fn covered_by(&self, cone: &Cone) -> Covered {
+    fn covered_by(&self, _: &PackedScene, cone: &Cone) -> Covered {
         let circle = circle_of(cone, self);
         ball_overlap(circle.middle, circle.radius, circle.edge)
     }

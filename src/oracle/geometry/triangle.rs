@@ -10,7 +10,7 @@ use crate::oracle::cone::Cone;
 use crate::oracle::coverage::Cuts;
 use crate::oracle::polygon::{AffineFunction, Polygon};
 use crate::oracle::projective::{ConvexRegion, PixelFrustum, RationalMap, add, along, form, ray_at};
-use crate::pack::LightKind;
+use crate::pack::{LightKind, PackedScene};
 use crate::schema::layout::{Header, Light, Triangle, UvProjection};
 
 /// -1 on a miss: the edge functions d·(p × q) have one sign within the triangle.
@@ -63,11 +63,11 @@ impl Shape for Triangle {
         [self.material, self.uv_projection]
     }
 
-    fn distance_to(&self, ray: &Ray) -> (f64, DVec2) {
+    fn distance_to(&self, _: &PackedScene, ray: &Ray, _: f64, _: bool) -> (f64, DVec2) {
         (triangle_distance(self, ray), DVec2::ZERO)
     }
 
-    fn surface_of(&self, point: DVec3, _: DVec2) -> Surface {
+    fn surface_of(&self, _: &PackedScene, point: DVec3, _: DVec2) -> Surface {
         let w = weights(self, point);
         let u = DVec3::new(self.u_a, self.u_b, self.u_c);
         let v = self.v;
@@ -111,7 +111,7 @@ impl Shape for Triangle {
         true
     }
 
-    fn complete(&self, _: &Ray, _: &mut Hit) {}
+    fn complete(&self, _: &PackedScene, _: &Ray, _: &mut Hit) {}
 
     fn tangent_plane(&self, _: &Cone, _: f64) -> DVec4 {
         self.normal.extend(self.distance)

@@ -17,7 +17,7 @@ pub fn narrowed(constant: Constant, s: &PackedScene) -> Option<u32> {
         C::StrataSide => s.header.strata_side,
         C::Samples => counted_samples(s),
         C::BoundedPlanes => u32::from(s.records.planes.iter().any(|p| p.half_extent.0 >= 0.0)),
-        C::SmoothNormals => u32::from(s.records.triangles.iter().any(|t| t.is_smooth)),
+        C::SmoothNormals => u32::from(s.has_smooth_normals()),
         C::Models => bits(s.records.materials.iter().map(|m| m.model as u32)),
         C::LightKinds => bits(s.records.lights.iter().map(|l| l.kind as u32)),
         C::Shadows => u32::from(casts_shadows(s)),
@@ -70,6 +70,8 @@ pub fn narrowed(constant: Constant, s: &PackedScene) -> Option<u32> {
         | C::TexelBlocks
         | C::BlockLog2
         | C::TablesInHead
+        | C::MeshSearch
+        | C::HoldsTriangles
         | C::OpaqueUniforms
         | C::MipChannels
         | C::MipComponentBytes

@@ -29,10 +29,19 @@ macro_rules! kinds {
             Ok(())
         }
 
+        /// The number of shapes of the kinds with a property.
+        fn shapes_with(scene: &Scene, property: &str) -> usize {
+            total(&[$((has(&[$(stringify!($property)),*], property), scene.shapes.$list.len())),+])
+        }
+
+        /// Returns true if some shape is a mesh, through which rays find their way by a tree.
+        pub fn has_meshes(scene: &Scene) -> bool {
+            shapes_with(scene, "concave") > 0
+        }
+
         /// Returns true if lists of the shapes in each tile make camera rays faster.
         pub fn gains_by_tiles(scene: &Scene) -> bool {
-            let lists = [$((has(&[$(stringify!($property)),*], "listed"), scene.shapes.$list.len())),+];
-            total(&lists) > FEW
+            shapes_with(scene, "listed") > FEW || has_meshes(scene)
         }
 
         pub(super) fn rounded_shapes(scene: &Scene) -> impl Iterator<Item = &dyn Rounded> {
@@ -52,6 +61,17 @@ macro_rules! kinds {
             /// Returns true if some shape may cast a shadow on itself or on another: a single flat one does not.
             pub fn shapes_occlude(&self) -> bool {
                 self.shapes_that(|properties| !has(properties, "planar")) > 0 || self.shape_count() > 1
+            }
+
+            /// Returns true if some triangle, of a mesh or not, has shading normals.
+            pub fn has_smooth_normals(&self) -> bool {
+                let records = &self.records;
+                records.triangles.iter().any(|t| t.is_smooth) || records.meshes.iter().any(|m| m.is_smooth)
+            }
+
+            /// Returns true if a ray that leaves some shape outwards may meet it again.
+            pub fn has_concave_shapes(&self) -> bool {
+                self.shapes_that(|properties| has(properties, "concave")) > 0
             }
 
             /// The number of shapes of the kinds whose properties are chosen.

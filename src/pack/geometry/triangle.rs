@@ -27,7 +27,7 @@ pub(super) fn pack(
     let [a, b, c] = triangle.vertices.map(|v| v - eye);
     let normal = cross(b - a, c - a).normalize();
     let material = &scene.materials[triangle.material];
-    let uvs = vertex_uvs(triangle, material, &scene.sampler_of(material));
+    let uvs = corner_uvs(triangle, material, &scene.sampler_of(material));
     let place = Place { centroid: triangle.centroid(), bounds: triangle.bounds() };
     let map = add_map(packed, scene, triangle.material, |mapping, sampler, flat| match mapping.kind {
         MappingKind::Surface => layout::UvProjection { kind: MapKind::VertexUv, ..Default::default() },
@@ -55,7 +55,7 @@ pub(super) fn pack(
 
 /// The vertices' coordinates after scale, rotation and offset, with the whole tiles of the first
 /// vertex taken out of all three.
-fn vertex_uvs(triangle: &Triangle, material: &Material, sampler: &SamplerSpec) -> [DVec2; 3] {
+pub(super) fn corner_uvs(triangle: &Triangle, material: &Material, sampler: &SamplerSpec) -> [DVec2; 3] {
     let matrix = mapping::uv_matrix(&material.mapping);
     let uvs = triangle.uvs.map(|uv| matrix * uv + material.mapping.offset);
     let whole = mapping::whole_tiles(uvs[0], mapping::periods(sampler));
@@ -81,7 +81,7 @@ fn misses_triangle(camera: &Camera, triangle: &Triangle) -> bool {
 }
 
 /// At four points of the triangle.
-fn triangle_errors(camera: &Camera, triangle: &Triangle, mapping: &Mapping) -> [f64; 4] {
+pub(super) fn triangle_errors(camera: &Camera, triangle: &Triangle, mapping: &Mapping) -> [f64; 4] {
     let [a, b, c] = triangle.vertices;
     let doubled = (b - a).cross(c - a);
     let normal = doubled.normalize();

@@ -39,7 +39,10 @@ pub fn texture(key: Key, source: &TextureSource) -> Check {
                 return key.of("texels").refuse(what, "not as many bytes");
             }
         }
-        TextureContent::File(_) | TextureContent::CubeFile(..) | TextureContent::Faces(_) => {}
+        TextureContent::File(_)
+        | TextureContent::Embedded(..)
+        | TextureContent::CubeFile(..)
+        | TextureContent::Faces(_) => {}
     }
     dimension(key.of("dimension"), source)?;
     if source.color_space == ColorSpace::Srgb && matches!(source.content, TextureContent::Ramp(_)) {
@@ -76,6 +79,7 @@ fn dimension(key: Key, source: &TextureSource) -> Check {
             return key.refuse(what, "not from one picture");
         }
         TextureContent::Texels(_) => ("texels", Dimension::Two, "texels are one picture"),
+        TextureContent::Embedded(..) => ("file", Dimension::Two, "an embedded picture is flat"),
         TextureContent::File(_) | TextureContent::Procedural(_) => return Ok(()),
     };
     if source.dimension == implied {

@@ -1,47 +1,221 @@
-//! Opens mesh files and the libraries that they name. Input: a path. Output: the mesh, and its materials as materials,
-//! textures and samplers of the builder; a library that is missing is noted, and leaves its materials white.
+//! Files of meshes in a scene. Input: a path, and how a scene uses the file. Output: its triangles and materials in the
+//! builder; what is left out, or a library that is missing, is noted.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
+use glam::DVec3;
+
+use super::gltf;
 use super::mtl::Library;
 use super::read_file;
+use crate::core::counted::{counted, verb};
 use crate::core::error::{Error, ErrorKind, Result};
+use crate::mesh::gltf::Model;
 use crate::mesh::{self, Fault, Mesh, MeshFormat, mtl};
 use crate::scene::builder::SceneBuilder;
-use crate::scene::limits::MAX_SHAPES;
-use crate::scene::model::DEFAULT;
+use crate::scene::geometry::meshes::{self, Part, Placement};
+use crate::scene::limits::MAX_TRIANGLES;
+use crate::scene::model::{Camera, DEFAULT, Light};
 
-/// Most bytes of a mesh file: text of a million triangles takes a tenth of it.
-const MAX_BYTES: u64 = 1 << 30;
+/// Most bytes of a mesh file: text of a million triangles takes 100 MB.
+const MAX_BYTES: u64 = 4 << 30;
 /// Most bytes of a library of materials.
 const MAX_LIBRARY_BYTES: u64 = 16 << 20;
+/// Endings of glTF files, in lower case.
+const GLTF: [&str; 2] = ["glb", "gltf"];
 
-/// Reads a mesh file.
-pub(super) fn open(path: &Path, format: &MeshFormat) -> Result<Mesh> {
-    let bytes = read_file("mesh", &[format.name], path, MAX_BYTES)?;
-    (format.read)(&bytes, MAX_SHAPES).map_err(|fault| of_fault(path, format.name, &fault))
+/// A file that was read.
+pub(super) struct MeshFile {
+    path: PathBuf,
+    content: Content,
 }
 
-/// Returns the format that the ending of a file's name names.
-pub(super) fn format_of(path: &Path) -> Option<&'static MeshFormat> {
-    let ending = path.extension()?.to_str()?.to_lowercase();
-    mesh::FORMATS.iter().find(|format| format.ending == ending)
+enum Content {
+    Mesh(Mesh),
+    Gltf(Box<Model>),
+}
+
+/// Indices of materials of a scene by names of the file.
+pub(super) type Renamed = Vec<(String, usize)>;
+
+/// How a scene uses a file.
+#[derive(Default)]
+pub(super) struct Usage<'a> {
+    pub placement: Placement,
+    pub motion: DVec3,
+    /// The material of all triangles.
+    pub material: Option<usize>,
+    /// Materials in place of those that the file names.
+    pub materials: Renamed,
+    /// The scene and the node of a glTF file.
+    pub scene: Option<&'a str>,
+    pub node: Option<&'a str>,
+}
+
+/// A key of [`Usage`] that does not suit the file, and why.
+pub(super) type Unsuited = (&'static str, String);
+
+/// Returns whether the ending of a file's name is that of meshes.
+pub(super) fn is_mesh(path: &Path) -> bool {
+    let ending = ending_of(path);
+    GLTF.contains(&ending.as_str()) || format_of(&ending).is_some()
+}
+
+/// Returns the names of the formats.
+pub(super) fn names() -> impl Iterator<Item = &'static str> {
+    mesh::FORMATS.iter().map(|format| format.name).chain(["glTF"])
 }
 
 /// Returns the endings of mesh files, as a list in words.
 pub(super) fn endings() -> String {
-    let endings: Vec<String> = mesh::FORMATS.iter().map(|format| format!(".{}", format.ending)).collect();
-    endings.join(", ")
+    let endings = mesh::FORMATS.iter().map(|format| format.ending).chain(GLTF);
+    endings.map(|ending| format!(".{ending}")).collect::<Vec<_>>().join(", ")
+}
+
+fn ending_of(path: &Path) -> String {
+    path.extension().map(|ending| ending.to_string_lossy().to_lowercase()).unwrap_or_default()
+}
+
+fn format_of(ending: &str) -> Option<&'static MeshFormat> {
+    mesh::FORMATS.iter().find(|format| format.ending == ending)
 }
 
 fn of_fault(path: &Path, name: &str, fault: &Fault) -> Error {
     Error::new(format!("cannot read {} as {name}: {fault}", path.display())).of_kind(ErrorKind::File)
 }
 
-/// Adds the materials that a mesh names. Returns an index for each name: that of the material, or [`DEFAULT`] where no
-/// library defines it.
-pub(super) fn add_materials(path: &Path, mesh: &Mesh, builder: &mut SceneBuilder) -> Result<Vec<usize>> {
-    let mut indices = vec![DEFAULT; mesh.materials.len()];
+impl MeshFile {
+    /// Reads a file whose ending is one of meshes; the builder gets the names of it and the files beside it.
+    pub fn open(path: &Path, builder: &mut SceneBuilder) -> Result<MeshFile> {
+        let format = format_of(&ending_of(path));
+        let name = format.map_or("glTF", |format| format.name);
+        let bytes = read_file("mesh", &[name], path, MAX_BYTES)?;
+        let mut sources = vec![path.to_owned()];
+        let content = match format {
+            Some(format) => (format.read)(&bytes, MAX_TRIANGLES).map(Content::Mesh),
+            None => gltf::read(path, &bytes, &mut sources).map(|model| Content::Gltf(Box::new(model))),
+        };
+        let content = content.map_err(|fault| of_fault(path, name, &fault))?;
+        sources.into_iter().for_each(|source| builder.source(source));
+        Ok(MeshFile { path: path.to_owned(), content })
+    }
+
+    /// Returns the least and the greatest coordinates of what is drawn without further choice.
+    pub fn bounds(&self) -> [DVec3; 2] {
+        match &self.content {
+            Content::Mesh(mesh) => mesh.bounds(),
+            Content::Gltf(model) => {
+                let none = [DVec3::INFINITY, DVec3::NEG_INFINITY];
+                let meshes = gltf::meshes(model, &model.in_scene(model.default_scene));
+                let bounds = meshes.iter().map(|(_, mesh)| mesh.bounds());
+                bounds.fold(none, |[min, max], [low, high]| [min.min(low), max.max(high)])
+            }
+        }
+    }
+
+    /// Returns a camera of the file by its number from 0, and the ratio of width to height that it asks for.
+    pub fn camera(&self, number: usize) -> Option<(Camera, f64)> {
+        let Content::Gltf(model) = &self.content else { return None };
+        gltf::camera(model, number, &model.in_scene(model.default_scene))
+    }
+
+    /// Returns the lights of the file.
+    pub fn lights(&self, builder: &mut SceneBuilder) -> Vec<Light> {
+        let Content::Gltf(model) = &self.content else { return Vec::new() };
+        let (lights, notes) = gltf::lights(model, &model.in_scene(model.default_scene));
+        notes.into_iter().for_each(|note| builder.note(format!("{}: {note}", self.path.display())));
+        lights
+    }
+
+    /// Adds triangles and materials.
+    pub fn add(self, usage: &Usage<'_>, builder: &mut SceneBuilder) -> Result<Result<(), Unsuited>> {
+        let path = self.path;
+        let part = |own: &[usize], mesh: Mesh, builder: &mut SceneBuilder| {
+            let other = usage.material.unwrap_or(DEFAULT);
+            let part = Part { placement: &usage.placement, material_of: own, other, motion: usage.motion };
+            meshes::add(builder, mesh, &part).map_err(|what| ("file", what))
+        };
+        let dropped = match self.content {
+            Content::Mesh(mesh) => {
+                if let Some(key) =
+                    [("node", usage.node), ("scene", usage.scene)].iter().find(|(_, name)| name.is_some())
+                {
+                    return Ok(Err((key.0, "only glTF files have nodes and scenes".into())));
+                }
+                if let Err(unsuited) = check_names(usage, mesh.materials.iter().map(String::as_str)) {
+                    return Ok(Err(unsuited));
+                }
+                // A material of the scene replaces those of the file.
+                let own = match usage.material {
+                    Some(_) => Vec::new(),
+                    None => add_materials(&path, &mesh, usage, builder)?,
+                };
+                part(&own, mesh, builder)
+            }
+            Content::Gltf(model) => add_model(&path, &model, usage, builder, part),
+        };
+        Ok(dropped.map(|dropped| {
+            if dropped > 0 {
+                let (triangles, verb) = (counted(dropped, "triangle"), verb(dropped, "has", "have"));
+                builder.note(format!("{}: left out {triangles} that {verb} no area", path.display()));
+            }
+        }))
+    }
+}
+
+/// Adds what is drawn of a glTF file; returns how many triangles have no area.
+fn add_model(
+    path: &Path,
+    model: &Model,
+    usage: &Usage<'_>,
+    builder: &mut SceneBuilder,
+    mut add: impl FnMut(&[usize], Mesh, &mut SceneBuilder) -> Result<usize, Unsuited>,
+) -> Result<usize, Unsuited> {
+    check_names(usage, model.materials.iter().map(|material| material.name.as_str()))?;
+    let key = if usage.node.is_some() { "node" } else { "scene" };
+    let drawn = gltf::drawn(model, usage.scene, usage.node).map_err(|what| (key, what))?;
+    model.notes.iter().for_each(|note| builder.note(format!("{}: {note}", path.display())));
+    if gltf::has_colors(model, &drawn) {
+        builder.note(format!("{}: not drawn: colours of vertices", path.display()));
+    }
+    let mut dropped = 0;
+    for (material, mut mesh) in gltf::meshes(model, &drawn) {
+        let found = material.map(|index| &model.materials[index]);
+        let index = found.filter(|_| usage.material.is_none()).map(|material| {
+            let named = usage.materials.iter().find(|(name, _)| *name == material.name);
+            named.map_or_else(|| gltf::add_material(path, model, material, builder), |(_, index)| *index)
+        });
+        mesh.set_material(index.map(|_| 0));
+        dropped += add(&Vec::from_iter(index), mesh, builder)?;
+    }
+    Ok(dropped)
+}
+
+/// Refuses names of materials that the file does not have.
+fn check_names<'a>(usage: &Usage<'_>, names: impl Iterator<Item = &'a str>) -> Result<(), Unsuited> {
+    let names: Vec<&str> = names.collect();
+    match usage.materials.iter().find(|(name, _)| !names.contains(&name.as_str())) {
+        None => Ok(()),
+        Some((unknown, _)) => {
+            let listed: Vec<String> = names.iter().take(12).map(|name| format!("{name:?}")).collect();
+            let has = if names.is_empty() { "none".into() } else { listed.join(", ") };
+            Err(("material", format!("the file has no material {unknown:?}; it names {has}")))
+        }
+    }
+}
+
+/// Adds the materials that a mesh names. Returns an index for each name: that of the scene's own or the library's
+/// material, or [`DEFAULT`] where neither defines it.
+fn add_materials(
+    path: &Path,
+    mesh: &Mesh,
+    usage: &Usage<'_>,
+    builder: &mut SceneBuilder,
+) -> Result<Vec<usize>> {
+    let of_scene =
+        |name: &String| usage.materials.iter().find(|(own, _)| own == name).map(|(_, index)| *index);
+    let mut indices: Vec<usize> =
+        mesh.materials.iter().map(|name| of_scene(name).unwrap_or(DEFAULT)).collect();
     for library in &mesh.libraries {
         let library = path.parent().unwrap_or(Path::new("")).join(library);
         let bytes = match read_file("library", &["MTL"], &library, MAX_LIBRARY_BYTES) {
@@ -61,13 +235,8 @@ pub(super) fn add_materials(path: &Path, mesh: &Mesh, builder: &mut SceneBuilder
             }
         }
     }
-    let unknown: Vec<&str> = mesh
-        .materials
-        .iter()
-        .zip(&indices)
-        .filter(|(_, index)| **index == DEFAULT)
-        .map(|(name, _)| name.as_str())
-        .collect();
+    let names = mesh.materials.iter().zip(&indices);
+    let unknown: Vec<&String> = names.filter(|(_, index)| **index == DEFAULT).map(|(name, _)| name).collect();
     if let (Some(first), false) = (unknown.first(), mesh.libraries.is_empty()) {
         let count = unknown.len();
         builder.note(format!(

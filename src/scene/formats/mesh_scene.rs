@@ -5,13 +5,11 @@ use std::path::Path;
 
 use glam::DVec3;
 
-use super::mesh_file;
+use super::mesh_file::{MeshFile, Usage};
 use crate::core::error::{Error, ErrorKind, Result};
-use crate::mesh::{Mesh, MeshFormat};
 use crate::scene::builder::SceneBuilder;
-use crate::scene::geometry::meshes::{self, Placement};
 use crate::scene::limits::check_filters;
-use crate::scene::model::{Background, Camera, DEFAULT, Footprint, Light, Projection, Sampling, Scene};
+use crate::scene::model::{Background, Camera, Footprint, Light, Projection, Sampling, Scene};
 
 const SIZE: u32 = 512;
 /// Vertical angle of view in degrees.
@@ -24,28 +22,36 @@ const BACKGROUND: f64 = 0.18;
 /// Towards the light, and its irradiance in W/m²: from the eye's left, and a weaker one from behind.
 const LIGHTS: [(DVec3, f64); 2] = [(DVec3::new(-0.4, 0.9, 1.0), 2.6), (DVec3::new(0.8, 0.3, -0.6), 1.2)];
 
-/// Reads a mesh file as a scene.
-pub(super) fn read(path: &Path, format: &MeshFormat) -> Result<Scene> {
-    let mesh = mesh_file::open(path, format)?;
+/// Reads a mesh file as a scene; with the file's first camera and its lights where it has them.
+pub(super) fn read(path: &Path) -> Result<Scene> {
     let failed = |what: String| Error::new(format!("{}: {what}", path.display())).of_kind(ErrorKind::Scene);
-    let mut builder = SceneBuilder::new(camera_of(&mesh), SIZE, SIZE);
+    // The file decides what the camera sees, but its name belongs to the scene.
+    let mut builder = SceneBuilder::new(camera_of([DVec3::ZERO; 2]), SIZE, SIZE);
     builder.path(path);
+    let file = MeshFile::open(path, &mut builder)?;
+    match file.camera(0) {
+        Some((camera, aspect)) => builder.view(camera, (f64::from(SIZE) * aspect).round() as u32, SIZE),
+        None => builder.view(camera_of(file.bounds()), SIZE, SIZE),
+    };
     builder.background(Background { color: DVec3::splat(BACKGROUND), environment: None });
     builder.sampling(Sampling { footprint: Footprint::Differentials, ..Sampling::default() });
-    for (direction, irradiance) in LIGHTS {
-        builder.light(Light::Directional { direction, irradiance: DVec3::splat(irradiance) });
+    let mut lights = file.lights(&mut builder);
+    if lights.is_empty() {
+        let light =
+            |(direction, irradiance)| Light::Directional { direction, irradiance: DVec3::splat(irradiance) };
+        lights.extend(LIGHTS.map(light));
     }
-    let materials = mesh_file::add_materials(path, &mesh, &mut builder)?;
-    meshes::add(&mut builder, &mesh, &Placement::IDENTITY, &materials, DEFAULT, DVec3::ZERO)
-        .map_err(failed)?;
+    for light in lights {
+        builder.light(light);
+    }
+    file.add(&Usage::default(), &mut builder)?.map_err(|(_, what)| failed(what))?;
     let scene = builder.check().map_err(|refusal| failed(refusal.to_string()))?;
     check_filters(&scene)?;
     Ok(scene)
 }
 
 /// Returns the camera that sees the ball around the mesh's box.
-fn camera_of(mesh: &Mesh) -> Camera {
-    let [min, max] = mesh.bounds();
+fn camera_of([min, max]: [DVec3; 2]) -> Camera {
     let middle = 0.5 * (min + max);
     let radius = (0.5 * (max - min).length()).max(f64::MIN_POSITIVE);
     let distance = MARGIN * radius / (0.5 * ANGLE).to_radians().sin();

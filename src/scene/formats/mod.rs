@@ -2,6 +2,7 @@
 //! with every reference an index, or the first error. A format reads its bytes into a `SceneBuilder`, which knows all
 //! limits, and reports the position in its file of a value that the builder refuses.
 
+mod gltf;
 mod mesh_file;
 mod mesh_scene;
 mod mtl;
@@ -14,7 +15,6 @@ use std::path::Path;
 use super::model::Scene;
 use crate::core::error::{Error, ErrorKind, Result};
 use crate::core::panics;
-use crate::mesh;
 use crate::texture::open_file::odd_path;
 pub use toml::parse;
 
@@ -56,15 +56,11 @@ pub fn load(path: &Path) -> Result<Scene> {
             let bytes = bytes_of(std::io::stdin().lock(), SCENE, path, format.max_bytes)?;
             return (format.read)(path, bytes);
         }
-        if let Some(format) = mesh_file::format_of(path) {
-            return mesh_scene::read(path, format);
+        if mesh_file::is_mesh(path) {
+            return mesh_scene::read(path);
         }
         let format = format_of(path);
-        let names: Vec<&str> = FORMATS
-            .iter()
-            .map(|format| format.name)
-            .chain(mesh::FORMATS.iter().map(|mesh| mesh.name))
-            .collect();
+        let names: Vec<&str> = FORMATS.iter().map(|format| format.name).chain(mesh_file::names()).collect();
         (format.read)(path, read_file(SCENE, &names, path, format.max_bytes)?)
     })
 }

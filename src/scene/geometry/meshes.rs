@@ -1,13 +1,19 @@
 //! Meshes of files as triangles of a scene. Input: a mesh, its placement, and the index of each material. Output: its
-//! triangles in the builder. Positions are multiplied by the matrix, normals by its inverse transpose; a mirroring
+//! triangles in the builder, or shapes that hold many. Positions are multiplied by the matrix, normals by its inverse transpose; a mirroring
 //! matrix exchanges two corners, so that fronts stay fronts. v of a mesh file grows upwards, v of a texture downwards.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use glam::{DAffine3, DMat3, DQuat, DVec2, DVec3, EulerRot};
 
 use crate::mesh::{Mesh, MeshTriangle};
 use crate::scene::builder::SceneBuilder;
-use crate::scene::limits::COORDINATE;
-use crate::scene::model::{DEFAULT, Triangle};
+use crate::scene::limits::{COORDINATE, collinear};
+use crate::scene::model::{self as shapes, DEFAULT, Triangle};
+
+/// Most triangles that are added one by one.
+const FEW: usize = 64;
 
 /// A transformation from a mesh's own space to the world.
 pub(in crate::scene) type Placement = DAffine3;
@@ -19,44 +25,99 @@ pub(in crate::scene) fn placement(translate: DVec3, rotate: DVec3, scale: DVec3)
     DAffine3::from_scale_rotation_translation(scale, DQuat::from_euler(EulerRot::ZYX, z, y, x), translate)
 }
 
-/// Adds the triangles of a mesh; `material_of` has an index for each material of the mesh, and `other` is that of
-/// triangles that name none. Returns an error if a corner leaves the range of coordinates.
+/// What is added to a scene for a mesh.
+pub(in crate::scene) struct Part<'a> {
+    pub placement: &'a Placement,
+    /// An index for each material of the mesh.
+    pub material_of: &'a [usize],
+    /// The material of triangles that name none.
+    pub other: usize,
+    pub motion: DVec3,
+}
+
+/// Adds the triangles of a mesh: few one by one, so that beams and cones know their outlines, more as one shape for each
+/// material. Returns how many have no area and were left out, or an error if a corner leaves the range of coordinates.
 pub(in crate::scene) fn add(
     builder: &mut SceneBuilder,
-    mesh: &Mesh,
-    placement: &Placement,
-    material_of: &[usize],
-    other: usize,
-    motion: DVec3,
-) -> Result<(), String> {
-    let positions: Vec<DVec3> = mesh.positions.iter().map(|p| placement.transform_point3(*p)).collect();
-    if let Some(i) = positions.iter().position(|p| !p.to_array().iter().all(|&x| (COORDINATE.allow)(x))) {
-        return Err(format!("position {i} becomes {}, which is not {}", positions[i], COORDINATE.words));
+    mesh: Mesh,
+    part: &Part<'_>,
+) -> Result<usize, String> {
+    let placed = Placed::new(&mesh, part.placement);
+    let outside = |p: &DVec3| !p.to_array().iter().all(|&x| (COORDINATE.allow)(x));
+    if let Some(i) = placed.positions.iter().position(outside) {
+        return Err(format!(
+            "position {i} becomes {}, which is not {}",
+            placed.positions[i], COORDINATE.words
+        ));
     }
-    let normal_matrix = normal_matrix(&placement.matrix3);
-    let normals: Vec<DVec3> = mesh.normals.iter().map(|n| (normal_matrix * *n).normalize_or_zero()).collect();
-    let uvs: Vec<DVec2> = mesh.uvs.iter().map(|uv| DVec2::new(uv.x, 1.0 - uv.y)).collect();
-    let mirrors = placement.matrix3.determinant() < 0.0;
-    for found in &mesh.triangles {
-        let triangle = if mirrors { reversed(found) } else { *found };
-        let material = triangle.material.and_then(|i| material_of.get(i as usize)).copied();
-        let corners = |indices: [u32; 3], list: &[DVec3]| indices.map(|i| list[i as usize]);
-        let own = triangle.normals.map(|indices| corners(indices, &normals));
-        let flat = Triangle::new(corners(triangle.positions, &positions));
-        builder.shape(Triangle {
-            uvs: triangle.uvs.map_or(flat.uvs, |indices| indices.map(|i| uvs[i as usize])),
+    let all = mesh.triangles.iter().zip(0u32..);
+    let kept: Vec<(usize, u32)> = all
+        .filter(|(triangle, _)| !collinear(placed.corners(triangle)))
+        .map(|(triangle, index)| {
+            let material = triangle.material.and_then(|i| part.material_of.get(i as usize)).copied();
+            (material.filter(|&index| index != DEFAULT).unwrap_or(part.other), index)
+        })
+        .collect();
+    let dropped = mesh.triangles.len() - kept.len();
+    let motion = part.motion;
+    if kept.len() <= FEW {
+        for (material, index) in kept {
+            builder.shape(Triangle { material, motion, ..placed.triangle(index) });
+        }
+        return Ok(dropped);
+    }
+    let mut of_material: BTreeMap<usize, Vec<u32>> = BTreeMap::new();
+    kept.into_iter().for_each(|(material, index)| of_material.entry(material).or_default().push(index));
+    let file = Arc::new(mesh);
+    for (material, triangles) in of_material {
+        let shape = shapes::Mesh::new(Arc::clone(&file), triangles.into(), *part.placement);
+        builder.shape(shapes::Mesh { material, motion, ..shape });
+    }
+    Ok(dropped)
+}
+
+/// A mesh in the world.
+pub(super) struct Placed<'a> {
+    mesh: &'a Mesh,
+    positions: Vec<DVec3>,
+    normals: Vec<DVec3>,
+    uvs: Vec<DVec2>,
+    mirrors: bool,
+}
+
+impl Placed<'_> {
+    pub fn new<'a>(mesh: &'a Mesh, placement: &Placement) -> Placed<'a> {
+        let normal_matrix = normal_matrix(&placement.matrix3);
+        Placed {
+            mesh,
+            positions: mesh.positions.iter().map(|p| placement.transform_point3(*p)).collect(),
+            normals: mesh.normals.iter().map(|n| (normal_matrix * *n).normalize_or_zero()).collect(),
+            uvs: mesh.uvs.iter().map(|uv| DVec2::new(uv.x, 1.0 - uv.y)).collect(),
+            mirrors: placement.matrix3.determinant() < 0.0,
+        }
+    }
+
+    fn corners(&self, triangle: &MeshTriangle) -> [DVec3; 3] {
+        triangle.positions.map(|i| self.positions[i as usize])
+    }
+
+    /// Returns a triangle that lies still and has the default material.
+    pub fn triangle(&self, index: u32) -> Triangle {
+        let found = self.mesh.triangles[index as usize];
+        let found = if self.mirrors { reversed(&found) } else { found };
+        let flat = Triangle::new(self.corners(&found));
+        let own = found.normals.map(|indices| indices.map(|i| self.normals[i as usize]));
+        Triangle {
+            uvs: found.uvs.map_or(flat.uvs, |indices| indices.map(|i| self.uvs[i as usize])),
             // Files have normals of length zero where a program could not make any.
             normals: own.filter(|normals| !normals.contains(&DVec3::ZERO)),
-            material: material.filter(|&index| index != DEFAULT).unwrap_or(other),
-            motion,
             ..flat
-        });
+        }
     }
-    Ok(())
 }
 
 /// Returns the inverse transpose up to a positive factor, also of a matrix that flattens.
-fn normal_matrix(matrix: &DMat3) -> DMat3 {
+pub(in crate::scene) fn normal_matrix(matrix: &DMat3) -> DMat3 {
     let [x, y, z] = [matrix.x_axis, matrix.y_axis, matrix.z_axis];
     let cofactors = DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y));
     if matrix.determinant() < 0.0 { -cofactors } else { cofactors }

@@ -57,7 +57,7 @@ pub trait Kind: Shape + Sized {
 
 /// The part of a kind that its own file implements.
 trait Described: Kind {
-    /// Keys of its section beside `material` and `motion`.
+    /// Keys of its section beside `material` and `motion`; none if a scene file names it otherwise.
     const KEYS: &[&str];
 
     /// Reads a shape that lies still and has this material.
@@ -179,8 +179,7 @@ macro_rules! kinds {
             }
         })+
 
-        /// The kinds as scene formats know them.
-        pub const SECTIONS: &[Section] = &[$(Section {
+        const ALL_SECTIONS: &[Section] = &[$(Section {
             name: <$kind as Kind>::SECTION,
             keys: [<$kind as Described>::KEYS, COMMON_KEYS],
             add: |fields, material, motion, shapes| {
@@ -197,6 +196,11 @@ macro_rules! kinds {
     };
 }
 with_shapes!(kinds);
+
+/// Returns the kinds that have a section of their keys in scene files.
+pub fn sections() -> impl Iterator<Item = &'static Section> {
+    ALL_SECTIONS.iter().filter(|section| !section.keys[0].is_empty())
+}
 
 /// Adds a shape. Returns its key where it is the first of too many.
 pub(super) fn add<K: Kind>(shapes: &mut Shapes, shape: K) -> Option<Key> {

@@ -33,7 +33,7 @@ const RECTANGLE: &[(&str, &str)] = &[
 const VOLUME: &[(&str, &str)] = &[("file", "\"v.raw\""), ("size", "[1, 1, 1]"), ("format", "\"rgba8\"")];
 const PROCEDURAL: &[(&str, &str)] = &[("name", "\"p\""), ("procedural", "\"fbm\"")];
 const ENVIRONMENT: &[(&str, &str)] = &[("environment", "\"t\"")];
-const MESH: &[(&str, &str)] = &[("file", "\"data/models/gem.stl\"")];
+const MESH: &[(&str, &str)] = &[("file", "\"data/models/sign.glb\"")];
 const NORMAL_MAP: &[(&str, &str)] = &[("normal_map", "\"t\"")];
 
 /// Every table of the format, in the order of the reference.

@@ -11,41 +11,49 @@ use super::reader::Field;
 use super::table::Table;
 use crate::core::error::Result;
 use crate::scene::builder::SceneBuilder;
-use crate::scene::formats::mesh_file;
+use crate::scene::formats::mesh_file::{self, MeshFile, Renamed, Usage};
 use crate::scene::geometry::meshes::{self, Placement};
-use crate::scene::model::DEFAULT;
 
-pub(super) const MESH: &[&str] = &["file", "transform", "material", "motion"];
+pub(super) const MESH: &[&str] = &["file", "transform", "material", "motion", "scene", "node"];
 const TRANSFORM: &[&str] = &["translate", "rotate", "scale"];
 
 /// Adds the triangles of all meshes.
 pub(super) fn add_all(
     folder: &Path,
     root: &Table<'_>,
-    materials: &Names<'_>,
+    names: &Names<'_>,
     builder: &mut SceneBuilder,
 ) -> Result<()> {
     for table in root.repeated("mesh", MESH)? {
         let field = table.required("file")?;
         let path = folder.join(field.string()?);
-        let format = mesh_file::format_of(&path).ok_or_else(|| {
-            field.expected(&format!("the path of a mesh file (its ending one of {})", mesh_file::endings()))
-        })?;
-        let placement = table.get("transform").map_or(Ok(Placement::IDENTITY), placement)?;
-        let material = table.get("material").map(|field| materials.resolve(field)).transpose()?;
-        let motion = table.get("motion").map_or(Ok(DVec3::ZERO), Field::vec3)?;
-        let mesh = mesh_file::open(&path, format)
-            .map_err(|error| field.error(&error.to_string(), "cannot be read"))?;
-        builder.source(path.clone());
-        // A material of the scene replaces those of the file.
-        let own = match material {
-            Some(_) => Vec::new(),
-            None => mesh_file::add_materials(&path, &mesh, builder)?,
+        if !mesh_file::is_mesh(&path) {
+            let wanted = format!("the path of a mesh file (its ending one of {})", mesh_file::endings());
+            return Err(field.expected(&wanted));
+        }
+        let mut usage = Usage {
+            placement: table.get("transform").map_or(Ok(Placement::IDENTITY), placement)?,
+            motion: table.get("motion").map_or(Ok(DVec3::ZERO), Field::vec3)?,
+            scene: table.get("scene").map(Field::string).transpose()?,
+            node: table.get("node").map(Field::string).transpose()?,
+            ..Usage::default()
         };
-        meshes::add(builder, &mesh, &placement, &own, material.unwrap_or(DEFAULT), motion)
-            .map_err(|what| field.error(&what, "too far away"))?;
+        if let Some(field) = table.get("material") {
+            (usage.material, usage.materials) = materials(field, names)?;
+        }
+        let file = MeshFile::open(&path, builder)
+            .map_err(|error| field.error(&error.to_string(), "cannot be read"))?;
+        file.add(&usage, builder)?
+            .map_err(|(key, what)| table.get(key).unwrap_or(field).error(&what, "does not suit the file"))?;
     }
     Ok(())
+}
+
+/// Reads the name of a material for all triangles, or a table from the file's names to those of the scene.
+fn materials(field: Field<'_>, names: &Names<'_>) -> Result<(Option<usize>, Renamed)> {
+    let DeValue::Table(_) = field.value() else { return Ok((Some(names.resolve(field)?), Vec::new())) };
+    let of_file = |(name, field): (&str, Field<'_>)| Ok((name.to_owned(), names.resolve(field)?));
+    Ok((None, field.entries().map(of_file).collect::<Result<_>>()?))
 }
 
 /// Reads scale, rotation and translation, or the three rows of a matrix of 3 × 4.

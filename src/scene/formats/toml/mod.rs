@@ -60,7 +60,7 @@ fn read(path: &Path, bytes: Vec<u8>) -> Result<Scene> {
 pub fn parse(path_for_messages: &Path, text: &str) -> Result<Scene> {
     let source = Source { path: path_for_messages, text };
     let document = DeTable::parse(text).map_err(|error| syntax_error(source, &error))?;
-    let shapes: Vec<&str> = geometry::SECTIONS.iter().map(|kind| kind.name).collect();
+    let shapes: Vec<&str> = geometry::sections().map(|kind| kind.name).collect();
     let sections = [SECTIONS, &shapes].concat();
     let root = Table::root(source, document.get_ref(), &sections)?;
     assemble(path_for_messages, &root)

@@ -56,6 +56,16 @@ impl<'a> Field<'a> {
         self.error_at(span, &format!("expected {wanted}, found {kind}{found}"), format!("expected {wanted}"))
     }
 
+    /// Returns the keys and values of a table, in no order of meaning; nothing of other values.
+    pub fn entries(self) -> impl Iterator<Item = (&'a str, Field<'a>)> {
+        let table = match self.value() {
+            DeValue::Table(table) => Some(table),
+            _ => None,
+        };
+        let entries = table.into_iter().flat_map(|table| table.iter());
+        entries.map(move |(key, item)| (key.get_ref().as_ref(), Field { item, ..self }))
+    }
+
     /// Returns a number of any size; the builder checks the limits.
     pub fn number(self) -> Result<f64> {
         real(self.value()).ok_or_else(|| self.expected("a finite number"))

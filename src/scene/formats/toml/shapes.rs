@@ -8,12 +8,12 @@ use super::reader::Field;
 use super::table::Table;
 use crate::core::error::{Error, Result};
 use crate::scene::builder::SceneBuilder;
-use crate::scene::geometry::{Fields, SECTIONS};
+use crate::scene::geometry::{Fields, sections};
 use crate::scene::model::DEFAULT;
 
 /// Returns true if a section holds shapes.
 pub(super) fn is_shape(section: &str) -> bool {
-    SECTIONS.iter().any(|kind| kind.name == section)
+    sections().any(|kind| kind.name == section)
 }
 
 /// Adds all shapes; returns the line of the first one that no ray can meet.
@@ -23,7 +23,7 @@ pub(super) fn add_all(
     builder: &mut SceneBuilder,
 ) -> Result<Option<usize>> {
     let mut tables = Vec::new();
-    for kind in SECTIONS {
+    for kind in sections() {
         let found = root.repeated(kind.name, &kind.keys.concat())?;
         tables.extend(found.into_iter().map(|table| (table, kind)));
     }

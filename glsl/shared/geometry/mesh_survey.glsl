@@ -1,0 +1,142 @@
+// A mesh and a cell of pixels: the triangles that the cell's camera rays may meet, found by its tree from near to far, and
+// the depth up to which these are all. It ends where five rays of the cell have met something, as little is seen beyond.
+#ifndef MESH_SURVEY_GLSL
+#define MESH_SURVEY_GLSL
+
+#include "beams.glsl"
+
+// Rays that tell how deep a cell is: those at its corners and at its middle.
+const uint PROBES = 5u;
+// Planes of boxes and depths in f32 are off by less than this part of them.
+const float BOX_ROUNDING = 4e-6;
+
+// The rays of a cell: its sides, within which dot(normal, p) is not less than the height; and the probes.
+struct CellRays {
+    vec3 normals[4];
+    float heights[4];
+    vec3 ways[PROBES];
+    vec3 origins[PROBES];
+};
+
+// What is known of the cell so far.
+struct Survey {
+    uint count;         // of triangles in its list
+    float depth;        // no triangle that is not in the list is met up to here
+    float met[PROBES];  // where the probes meet the first triangle
+};
+
+CellRays cell_rays(const Header header, const PixelFrustum frame) {
+    CellRays cell;
+    for (uint k = 0u; k < PROBES; k++) {
+        vec2 place = k < 4u ? vec2(k == 1u || k == 2u ? 1.0 : 0.0, k >= 2u ? 1.0 : 0.0) : vec2(0.5);
+        ray_at(header, frame, place, cell.ways[k], cell.origins[k]);
+    }
+    vec3 inside = cell.origins[4] + cell.ways[4];
+    for (uint k = 0u; k < 4u; k++) {
+        uint next = (k + 1u) % 4u;
+        vec3 n = cross3(cell.ways[k], cell.origins[next] + cell.ways[next] - cell.origins[k]);
+        float height = dot3(n, cell.origins[k]);
+        bool turned = dot3(n, inside) < height;
+        cell.normals[k] = turned ? -n : n;
+        cell.heights[k] = turned ? -height : height;
+    }
+    return cell;
+}
+
+// Returns the least depth of a box before the eye, -1 if no ray of the cell meets it.
+float depth_in(const Header header, const CellRays cell, vec3 low, vec3 high) {
+    vec3 middle = 0.5 * (low + high);
+    vec3 extent = 0.5 * (high - low);
+    vec3 reach = abs(middle) + extent;
+    bool outside = false;
+    for (uint k = 0u; k < 4u; k++) {
+        vec3 n = cell.normals[k];
+        float most = dot3(n, middle) + dot3(abs(n), extent) + BOX_ROUNDING * dot3(abs(n), reach);
+        outside = outside || most < cell.heights[k] - BOX_ROUNDING * abs(cell.heights[k]);
+    }
+    vec3 forward = vec3(header.forward);
+    float along = dot3(forward, middle);
+    float half_depth = dot3(abs(forward), extent) + BOX_ROUNDING * dot3(abs(forward), reach);
+    return outside || along + half_depth < 0.0 ? -1.0 : max(along - half_depth, 0.0);
+}
+
+// Where a ray meets the triangle, FAR if it does not; as `distance_in` of mesh.glsl.
+float meets_at(vec3 a, vec3 b, vec3 c, vec3 d) {
+    vec3 edges = vec3(dot3(d, cross3(b + c, c - b)), dot3(d, cross3(c + a, a - c)), dot3(d, cross3(a + b, b - a)));
+    bool front = edges.x >= 0.0 && edges.y >= 0.0 && edges.z >= 0.0;
+    bool back = edges.x <= 0.0 && edges.y <= 0.0 && edges.z <= 0.0;
+    float whole = (edges.x + edges.y) + edges.z;
+    float t = dot3(edges, vec3(dot3(a, d), dot3(b, d), dot3(c, d))) / (whole * dot3(d, d));
+    return (front || back) && whole != 0.0 && t > 0.0 ? t : FAR;
+}
+
+// Adds a triangle to the list, which begins at `list` and has room for so many.
+void add_to_list(const Header header, const CellRays cell, uint at, vec3 a, vec3 b, vec3 c, uint list, uint room, inout Survey survey) {
+    if (survey.count < room) {
+        found[list + survey.count] = at;
+        survey.count++;
+    } else {
+        // What is left out may be met from here on.
+        survey.depth = min(survey.depth, depth_in(header, cell, min(min(a, b), c), max(max(a, b), c)));
+    }
+    float farthest = 0.0;
+    for (uint k = 0u; k < PROBES; k++) {
+        vec3 o = cell.origins[k];
+        survey.met[k] = min(survey.met[k], meets_at(a - o, b - o, c - o, cell.ways[k]));
+        farthest = max(farthest, survey.met[k]);
+    }
+    survey.depth = min(survey.depth, farthest);
+}
+
+// Adds the triangles of a mesh.
+void survey_mesh(const Header header, const PixelFrustum frame, uint square, const CellRays cell, const Mesh mesh, uint list,
+                 uint room, inout Survey survey) {
+    uint waiting[TREE_STACK];
+    float depths[TREE_STACK];
+    uint height = 0u;
+    uint reference = 0u;
+    uint count = 0u;
+    for (uint opened = 0u; opened < MAX_CELL_NODES; opened++) {
+        if (count == 0u) {
+            uint at = mesh.nodes + 2u * reference;
+            uint children[TREE_WIDTH];
+            float nears[TREE_WIDTH];
+            for (uint k = 0u; k < TREE_WIDTH; k++) {
+                uvec4 least = mesh_texel(at + 2u * k);
+                uvec4 greatest = mesh_texel(at + 2u * k + 1u);
+                children[k] = least.w | (greatest.w << TREE_COUNT_SHIFT);
+                bool is_used = least.w != NO_SHAPE;
+                nears[k] = is_used ? depth_in(header, cell, point_in(least), point_in(greatest)) : -1.0;
+            }
+            SORT_CHILDREN(float, nears, children)
+            for (uint k = 0u; k < TREE_WIDTH; k++) {
+                if (nears[k] >= 0.0 && nears[k] <= survey.depth) {
+                    waiting[height] = children[k];
+                    depths[height] = nears[k];
+                    height++;
+                }
+            }
+        } else {
+            for (uint k = 0u; k < count; k++) {
+                uint at = mesh.corners + 3u * (reference + k);
+                Triangle triangle;
+                triangle.a = point_in(mesh_texel(at));
+                triangle.b = point_in(mesh_texel(at + 1u));
+                triangle.c = point_in(mesh_texel(at + 2u));
+                if (may_meet(header, frame, square, triangle)) {
+                    add_to_list(header, cell, at, triangle.a, triangle.b, triangle.c, list, room, survey);
+                }
+            }
+        }
+        while (height > 0u && depths[height - 1u] > survey.depth) height--;
+        if (height == 0u) return;
+        height--;
+        reference = waiting[height] & ((1u << TREE_COUNT_SHIFT) - 1u);
+        count = waiting[height] >> TREE_COUNT_SHIFT;
+        // The node that would be opened next is left out if it is one too many, with all that wait.
+        if (opened + 1u == MAX_CELL_NODES) survey.depth = min(survey.depth, depths[height]);
+    }
+    for (uint k = 0u; k < height; k++) survey.depth = min(survey.depth, depths[k]);
+}
+
+#endif

@@ -1,0 +1,105 @@
+//! Lists of a mesh's triangles for cells of the picture: pictures are the same with and without them, to the bit, also
+//! where lists are full, where a cell sees past what its probes met, and beside other shapes.
+
+use glam::DVec3;
+use moire::internal::core::film::Film;
+use moire::internal::core::progress::NoProgress;
+use moire::internal::core::range::Rect;
+use moire::internal::lab::metrics::compare;
+use moire::internal::pack::PackedScene;
+use moire::internal::render::{Session, Tuning};
+use moire::internal::scene::model::{Algorithm, Lens, Pattern, Precision, Projection, Scene};
+use moire::internal::schema::layout::{CELL_WORDS, MAX_LISTED};
+
+use crate::stage::{assert_same_bits, device, packed, render, render_with, small};
+
+/// A knot of 2304 triangles on a plane beside a sign, with lights.
+fn knot(side: u32, spp: u32) -> Scene {
+    let mut scene = small("models", side, spp);
+    scene.sampling.precision = Precision::Single;
+    scene
+}
+
+fn without(scene: &PackedScene) -> PackedScene {
+    let mut scene = scene.clone();
+    scene.header.cell_side = 0;
+    scene
+}
+
+fn lists(scene: &PackedScene) -> (Film, Vec<u32>) {
+    let device = device();
+    let session = Session::open(&device, scene.clone(), false, &Tuning::default()).unwrap();
+    let (film, report) = session.prepare().unwrap().render(&NoProgress).unwrap();
+    assert!(report.device_culling_seconds.is_some());
+    (film, session.tile_list_words().unwrap().unwrap())
+}
+
+fn assert_same(scene: &PackedScene, what: &str) {
+    assert!(scene.culls_tiles(), "{what}: no lists");
+    assert_same_bits(&render(scene), &render(&without(scene)), what);
+}
+
+#[test]
+fn pictures_are_the_same_with_and_without_lists() {
+    let mut scene = knot(96, 4);
+    assert_same(&packed(scene.clone(), None), "perspective");
+    assert_same(&packed(scene.clone(), Some(Rect { x: 13, y: 7, width: 41, height: 50 })), "a crop");
+    scene.camera.projection = Projection::Orthographic(2.5);
+    assert_same(&packed(scene.clone(), None), "parallel rays");
+    scene.pixel_filter.radius = 2.25;
+    assert_same(&packed(scene.clone(), None), "a wide box");
+    scene.camera.projection = Projection::VerticalFov(100.0);
+    scene.camera.eye = DVec3::new(0.9, 0.75, 0.5);
+    assert_same(&packed(scene, None), "from within");
+}
+
+/// From far away many triangles lie in each cell; what a list has no room for is found by the tree.
+#[test]
+fn full_lists_say_up_to_which_depth_they_are_complete() {
+    let mut scene = knot(64, 16);
+    let away = scene.camera.eye - scene.camera.look_at;
+    scene.camera.eye = scene.camera.look_at + 12.0 * away;
+    let scene = packed(scene, None);
+    let (film, words) = lists(&scene);
+    let cells: Vec<&[u32]> = words.chunks(CELL_WORDS as usize).collect();
+    let is_full = |cell: &&&[u32]| cell[0] + cell[2] == MAX_LISTED && f32::from_bits(cell[3]) < 1e30;
+    assert!(cells.iter().filter(is_full).count() > 0, "no list is full");
+    assert_same_bits(&film, &render(&without(&scene)), "full lists");
+}
+
+#[test]
+fn depths_of_cells_end_behind_what_hides_the_rest() {
+    let (_, words) = lists(&packed(knot(192, 1), None));
+    let mut hidden = 0;
+    for cell in words.chunks(CELL_WORDS as usize) {
+        let depth = f32::from_bits(cell[3]);
+        assert!(depth > 0.0 && depth <= 1e30 && cell[0] + cell[2] <= MAX_LISTED, "{depth}, {:?}", &cell[..4]);
+        hidden += usize::from(depth < 1e30 && cell[2] > 0);
+    }
+    assert!(hidden > 20, "{hidden} cells end behind a surface");
+}
+
+#[test]
+fn nothing_depends_on_what_is_left_out_or_on_the_schedule() {
+    let mut scene = knot(48, 16);
+    let whole = packed(scene.clone(), None);
+    let (kept, _) = render_with(&whole, true, &Tuning::default());
+    assert_same_bits(&render(&whole), &kept, "with everything kept");
+    scene.sampling.algorithm = Algorithm::Adaptive;
+    scene.sampling.pattern = Pattern::SobolOwen;
+    let adaptive = packed(scene, None);
+    // Cells of the background alone begin with fewer samples.
+    let apart = compare(&render(&adaptive), &render(&without(&adaptive))).unwrap().rmse;
+    assert!(apart < 0.02, "{apart}");
+}
+
+#[test]
+fn lenses_motion_and_f64_do_without_lists() {
+    let mut scene = knot(16, 1);
+    scene.sampling.precision = Precision::Double;
+    assert!(!packed(scene.clone(), None).culls_tiles());
+    scene.sampling.precision = Precision::Single;
+    assert!(packed(scene.clone(), None).culls_tiles());
+    scene.camera.lens = Some(Lens { radius: 0.1, focus_distance: 3.0 });
+    assert!(!packed(scene, None).culls_tiles());
+}
