@@ -1,13 +1,14 @@
 //! The measurements that the README states: `cargo bench`, `cargo bench -- filters` for the errors
 //! of filters at equal time, `cargo bench -- patterns` for those of sample patterns, `cargo bench
 //! -- pixel-filters` for those of pixel filters, `cargo bench -- cones` for cones against samples,
-//! `cargo bench -- mips` for mip chains alone. Runs the program itself on the scenes of
+//! `cargo bench -- mips` for mip chains alone, `cargo bench -- meshes` for a million triangles. Runs the program itself on the scenes of
 //! `data/scenes/bench` and prints Markdown: medians over whole processes, the ratio of lean to full
 //! pipelines from interleaved runs, errors against the float64 references. `MOIRE_DEVICE` chooses
 //! the device (default cpu), `MOIRE_BENCH_RUNS` the number of runs (default 5).
 
 mod cones;
 mod equal_time;
+mod meshes;
 mod mips;
 mod patterns;
 mod pixel_filters;
@@ -166,6 +167,9 @@ fn main() -> Outcome<()> {
     }
     if std::env::args().any(|argument| argument == "mips") {
         return mips::table(&bench);
+    }
+    if std::env::args().any(|argument| argument == "meshes") {
+        return meshes::table(&bench);
     }
     if std::env::args().any(|argument| argument == "cones") {
         return cones::table(&bench);

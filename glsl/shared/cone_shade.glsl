@@ -103,7 +103,7 @@ vec3 shade_part(const Header header, Branch branch, uint shape) {
     Hit hit = Hit(1.0, 0u, vec2(0.0));
     if (!missed) hit = meet(ray, shape);
     // Cones know no outline of a concave shape, so that the ray may pass it.
-    if (CONCAVE_SHAPES && hit.t <= 0.0) return branch.weight * header.background;
+    if (!missed && hit.t <= 0.0 && is_concave(shape)) return branch.weight * header.background;
     Surface surface = hit_surface(ray, hit);
     RayDifferential beam = cone_beam(branch.width, branch.spread);
     Footprint print = footprint_at(header, beam, ray, hit.t, surface.geometric_normal);

@@ -27,7 +27,7 @@ use crate::texture::source::OrientationUse;
 
 #[derive(Args, Debug)]
 pub struct RenderArgs {
-    /// Scene file, or - for standard input
+    /// Scene file or model (glTF, OBJ, PLY, STL), or - for standard input
     scene: PathBuf,
     /// Picture to write; the ending selects the format: exr hdr (linear float), png jpg tif (sRGB). May be given
     /// several times; - is standard output [default: the scene's name with .png, in the current folder]

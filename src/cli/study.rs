@@ -25,7 +25,7 @@ use crate::scene::{MAX_SPP, is_standard_input};
 /// command.
 #[derive(clap::Args, Debug)]
 pub struct StudyArgs {
-    /// Scene file
+    /// Scene file or model
     scene: PathBuf,
     /// Folder for the results; its last component is created if it is missing
     #[arg(long, value_name = "DIR")]

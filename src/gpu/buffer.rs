@@ -135,9 +135,9 @@ impl RawBuffer {
         usage: vk::BufferUsageFlags,
         location: MemoryLocation,
     ) -> Result<RawBuffer> {
-        // Texel views need a size that is a multiple of their texels' bytes.
+        // Texel views need a size that is a multiple of four bytes.
         let info = vk::BufferCreateInfo::default()
-            .size(bytes.next_multiple_of(16))
+            .size(bytes.next_multiple_of(4))
             .usage(usage)
             .sharing_mode(vk::SharingMode::EXCLUSIVE);
         let label = || format!("buffer `{name}`");

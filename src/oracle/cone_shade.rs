@@ -16,7 +16,7 @@ use super::footprint::{
     reflected_differential, refracted_differential,
 };
 use super::fragments::{collect_fragments, composite};
-use super::geometry::cones::{leaving, left_shape, meet};
+use super::geometry::cones::{is_concave, leaving, left_shape, meet};
 use super::geometry::hit::{FAR, Hit, Surface};
 use super::geometry::rays::{hit_surface, offset_origin};
 use super::shade::{bumped_normal, surface_color};
@@ -166,7 +166,7 @@ fn shade_part(waiting: &mut Waiting, scene: &PackedScene, mut branch: Branch, sh
     }
     let hit = meet(scene, &ray, shape);
     // Cones know no outline of a concave shape, so that the ray may pass it.
-    if scene.has_concave_shapes() && hit.t <= 0.0 {
+    if hit.t <= 0.0 && is_concave(scene, shape) {
         return branch.weight * header.background.as_dvec3();
     }
     let mut surface = hit_surface(scene, &ray, &hit);

@@ -202,7 +202,7 @@ fn a_descriptor_is_the_same_in_all_shaders() {
             assert_eq!(known, found.kind, "{}: binding {}", shader.name, found.binding);
         }
     }
-    assert_eq!(kinds.len(), 12, "{kinds:?}");
+    assert_eq!(kinds.len(), 13, "{kinds:?}");
 }
 
 #[test]

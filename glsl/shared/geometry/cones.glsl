@@ -20,6 +20,16 @@ Cone leaving(Cone cone, uint shape) {
     return cone;
 }
 
+// True if a ray that leaves the shape outwards may meet it again.
+bool is_concave(uint shape) {
+    COUNT_SHAPES
+    bool found = false;
+#define CONCAVE(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed, is_concave) found = found || IS_WITHIN(LIST, shape, first, count);
+    CONCAVE_KINDS(CONCAVE)
+#undef CONCAVE
+    return found;
+}
+
 // The shape that a ray must not meet again at once. From inside a ball its other side is met; a concave shape may be met
 // again anywhere.
 uint left_shape(uint shape, bool within) {

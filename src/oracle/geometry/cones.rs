@@ -24,6 +24,11 @@ pub fn leaving(scene: &PackedScene, cone: Cone, shape: u32) -> Cone {
     Cone { floor: up.extend(-(up.dot(origin) + level)), ..cone }
 }
 
+/// True if a ray that leaves the shape outwards may meet it again.
+pub fn is_concave(scene: &PackedScene, shape: u32) -> bool {
+    shape_of(scene, shape).is_concave()
+}
+
 /// The shape that a ray must not meet again at once. From inside a ball its other side is met; a concave shape may be met
 /// again anywhere.
 pub fn left_shape(scene: &PackedScene, shape: u32, within: bool) -> u32 {

@@ -178,16 +178,21 @@ fn add_model(
     if gltf::has_colors(model, &drawn) {
         builder.note(format!("{}: not drawn: colours of vertices", path.display()));
     }
+    let mut notes = gltf::MaterialNotes::default();
     let mut dropped = 0;
     for (material, mut mesh) in gltf::meshes(model, &drawn) {
         let found = material.map(|index| &model.materials[index]);
         let index = found.filter(|_| usage.material.is_none()).map(|material| {
             let named = usage.materials.iter().find(|(name, _)| *name == material.name);
-            named.map_or_else(|| gltf::add_material(path, model, material, builder), |(_, index)| *index)
+            named.map_or_else(
+                || gltf::add_material(path, model, material, builder, &mut notes),
+                |(_, index)| *index,
+            )
         });
         mesh.set_material(index.map(|_| 0));
         dropped += add(&Vec::from_iter(index), mesh, builder)?;
     }
+    notes.sentences().for_each(|note| builder.note(format!("{}: {note}", path.display())));
     Ok(dropped)
 }
 

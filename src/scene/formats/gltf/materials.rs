@@ -18,14 +18,36 @@ pub(super) fn coordinates(material: &Material) -> Option<&TextureRef> {
     material.base_color_texture.as_ref().or(material.normal_texture.as_ref())
 }
 
+/// What is told about materials: the words, the first material of which they are true, and the number of these.
+#[derive(Default)]
+pub(in crate::scene::formats) struct MaterialNotes(Vec<(String, String, usize)>);
+
+impl MaterialNotes {
+    fn add(&mut self, what: &str, material: &Material) {
+        match self.0.iter_mut().find(|(words, ..)| words == what) {
+            Some((.., count)) => *count += 1,
+            None => self.0.push((what.to_owned(), material.name.clone(), 1)),
+        }
+    }
+
+    /// Returns one sentence for all materials of which the same is told.
+    pub fn sentences(&self) -> impl Iterator<Item = String> {
+        self.0.iter().map(|(what, first, count)| match count {
+            1 => format!("material {first:?}: {what}"),
+            _ => format!("{count} materials, the first {first:?}: {what}"),
+        })
+    }
+}
+
 /// Adds a material; returns its index.
 pub(in crate::scene::formats) fn add(
     path: &Path,
     found_in: &Model,
     material: &Material,
     builder: &mut SceneBuilder,
+    notes: &mut MaterialNotes,
 ) -> usize {
-    let mut reader = Reader { path, model: found_in, builder, material };
+    let mut reader = Reader { path, model: found_in, builder, material, notes };
     let mut added = model::Material {
         name: material.name.clone(),
         color: material.base_color.xyz().max(DVec3::ZERO),
@@ -89,11 +111,12 @@ struct Reader<'a> {
     model: &'a Model,
     builder: &'a mut SceneBuilder,
     material: &'a Material,
+    notes: &'a mut MaterialNotes,
 }
 
 impl Reader<'_> {
     fn note(&mut self, what: &str) {
-        self.builder.note(format!("{}: material {:?}: {what}", self.path.display(), self.material.name));
+        self.notes.add(what, self.material);
     }
 
     fn sampler(&mut self, texture: &Texture) -> usize {

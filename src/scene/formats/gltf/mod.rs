@@ -16,7 +16,7 @@ use crate::mesh::{Fault, Mesh, MeshTriangle};
 use crate::scene::geometry::meshes::normal_matrix;
 use crate::scene::limits::MAX_TRIANGLES;
 
-pub(super) use materials::add as add_material;
+pub(super) use materials::{MaterialNotes, add as add_material};
 pub(super) use stage::{camera, lights};
 
 /// Most bytes of a buffer in a file of its own.
