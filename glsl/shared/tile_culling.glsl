@@ -22,7 +22,10 @@ uint cell_list(const Header header, uvec2 place) {
     if (side == 0u) return NO_LIST;
     uint across = (header.film_size.x + side - 1u) / side;
     uint at = ((place.y / side) * across + place.x / side) * CELL_WORDS;
-    return tile_lists[at] <= MAX_LISTED ? at : NO_LIST;
+    // The second number counts within the room that the first one leaves.
+    uint single = tile_lists[at];
+    bool has_room = single <= MAX_LISTED && tile_lists[at + 2u] <= MAX_LISTED - min(single, MAX_LISTED);
+    return has_room ? at : NO_LIST;
 }
 
 #endif

@@ -11,7 +11,7 @@ use crate::gpu::{BindGroup, Buffer, BufferUse, Gpu, Pipeline};
 use crate::pack::PackedScene;
 use crate::pack::features::Features;
 use crate::schema::enums::TexelSource;
-use crate::schema::layout::{CELL_EMPTY, CELL_UNIFORM, CELL_WORDS, CellRange};
+use crate::schema::layout::{CELL_EMPTY, CELL_UNIFORM, CELL_WORDS, CellRange, TILE};
 
 const GROUP: u32 = 64;
 /// Triangles times cells that one submission tests: some tenths of a second on a slow device.
@@ -51,8 +51,9 @@ impl TileCulling {
             scene.listed_shapes().max(1) as u64 + TESTS_OF_MESHES * u64::from(scene.has_concave_shapes());
         let cells_at_once = (MAX_TESTS / tests).clamp(u64::from(GROUP), 1 << 20) as u32;
         let culling = TileCulling { buffer, pipeline, group, side, cells, cells_at_once };
-        // Lazy compilation in the driver happens now.
-        culling.part(gpu, CellRange { first: 0, end: 1 }, &mut Report::default())?;
+        // Lazy compilation in the driver happens now; the pipelines that read the lists are then tried on the first tile.
+        let end = cells[0] * TILE.div_ceil(side).min(cells[1]);
+        culling.part(gpu, CellRange { first: 0, end }, &mut Report::default())?;
         Ok(culling)
     }
 
