@@ -39,13 +39,13 @@ fn soup(count: usize, side: u32) -> Scene {
     scene
 }
 
-fn without(scene: &PackedScene) -> PackedScene {
+pub fn without(scene: &PackedScene) -> PackedScene {
     let mut scene = scene.clone();
     scene.header.cell_side = 0;
     scene
 }
 
-fn assert_same(scene: &PackedScene, what: &str) {
+pub fn assert_same(scene: &PackedScene, what: &str) {
     assert!(scene.culls_tiles(), "{what} is not culls_tiles");
     assert_same_bits(&render(scene), &render(&without(scene)), what);
 }
@@ -87,7 +87,7 @@ fn few_triangles_lenses_motion_and_other_filters_are_not_culled_by_tiles() {
 }
 
 /// The film, and the lists of tile culling.
-fn culls_tiles(scene: &PackedScene) -> (Film, Vec<u32>) {
+pub fn culls_tiles(scene: &PackedScene) -> (Film, Vec<u32>) {
     let device = device();
     let session = Session::open(&device, scene.clone(), false, &Tuning::default()).unwrap();
     let (film, report) = session.prepare().unwrap().render(&NoProgress).unwrap();

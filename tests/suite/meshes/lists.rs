@@ -2,41 +2,20 @@
 //! where lists are full, where a cell sees past what its probes met, and beside other shapes.
 
 use glam::DVec3;
-use moire::internal::core::film::Film;
-use moire::internal::core::progress::NoProgress;
 use moire::internal::core::range::Rect;
 use moire::internal::lab::metrics::compare;
-use moire::internal::pack::PackedScene;
-use moire::internal::render::{Session, Tuning};
+use moire::internal::render::Tuning;
 use moire::internal::scene::model::{Algorithm, Lens, Pattern, Precision, Projection, Scene};
 use moire::internal::schema::layout::{CELL_WORDS, MAX_LISTED};
 
-use crate::stage::{assert_same_bits, device, packed, render, render_with, small};
+use crate::stage::{assert_same_bits, packed, render, render_with, small};
+use crate::tile_culling::{assert_same, culls_tiles, without};
 
 /// A knot of 2304 triangles on a plane beside a sign, with lights.
 fn knot(side: u32, spp: u32) -> Scene {
     let mut scene = small("models", side, spp);
     scene.sampling.precision = Precision::Single;
     scene
-}
-
-fn without(scene: &PackedScene) -> PackedScene {
-    let mut scene = scene.clone();
-    scene.header.cell_side = 0;
-    scene
-}
-
-fn lists(scene: &PackedScene) -> (Film, Vec<u32>) {
-    let device = device();
-    let session = Session::open(&device, scene.clone(), false, &Tuning::default()).unwrap();
-    let (film, report) = session.prepare().unwrap().render(&NoProgress).unwrap();
-    assert!(report.device_culling_seconds.is_some());
-    (film, session.tile_list_words().unwrap().unwrap())
-}
-
-fn assert_same(scene: &PackedScene, what: &str) {
-    assert!(scene.culls_tiles(), "{what}: no lists");
-    assert_same_bits(&render(scene), &render(&without(scene)), what);
 }
 
 #[test]
@@ -60,7 +39,7 @@ fn full_lists_say_up_to_which_depth_they_are_complete() {
     let away = scene.camera.eye - scene.camera.look_at;
     scene.camera.eye = scene.camera.look_at + 12.0 * away;
     let scene = packed(scene, None);
-    let (film, words) = lists(&scene);
+    let (film, words) = culls_tiles(&scene);
     let cells: Vec<&[u32]> = words.chunks(CELL_WORDS as usize).collect();
     let is_full = |cell: &&&[u32]| cell[0] + cell[2] == MAX_LISTED && f32::from_bits(cell[3]) < 1e30;
     assert!(cells.iter().filter(is_full).count() > 0, "no list is full");
@@ -69,7 +48,7 @@ fn full_lists_say_up_to_which_depth_they_are_complete() {
 
 #[test]
 fn depths_of_cells_end_behind_what_hides_the_rest() {
-    let (_, words) = lists(&packed(knot(192, 1), None));
+    let (_, words) = culls_tiles(&packed(knot(192, 1), None));
     let mut hidden = 0;
     for cell in words.chunks(CELL_WORDS as usize) {
         let depth = f32::from_bits(cell[3]);
