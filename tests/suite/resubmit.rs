@@ -33,6 +33,19 @@ fn least<T>(of: impl IntoIterator<Item = T>, act: impl FnMut(T) -> f64) -> f64 {
     of.into_iter().map(act).fold(f64::INFINITY, f64::min)
 }
 
+/// Returns the share of the time to build, `first`, that another submission takes: the least of many, because a machine
+/// may be busy for seconds. A driver that compiles again is never below [`MOST`], however often it is tried.
+fn share_of(first: f64, mut again: impl FnMut() -> f64) -> f64 {
+    let mut shortest = f64::INFINITY;
+    for _ in 0..500 {
+        shortest = f64::min(shortest, again());
+        if shortest < MOST * first {
+            break;
+        }
+    }
+    shortest / first
+}
+
 fn seconds(act: impl FnOnce()) -> f64 {
     let clock = Instant::now();
     act();
@@ -46,17 +59,14 @@ fn share(name: &str, algorithm: Algorithm, keep_everything: bool) -> Option<f64>
     scene.sampling.pattern = Pattern::SobolOwen;
     scene.sampling.shared = false;
     let scene = packed(scene, None);
-    let mut again = 0.0;
     let gpus = [cpu()?, cpu()?];
-    let build = least(&gpus, |gpu| {
-        let session = Session::open(gpu, scene.clone(), keep_everything, &Tuning::default()).unwrap();
-        let prepared = session.prepare().unwrap();
-        // Beams build the pipeline of pixels left to samples when they find one.
-        let (_, report) = prepared.render(&NoProgress).unwrap();
-        again = least(0..20, |_| seconds(|| drop(prepared.render(&NoProgress).unwrap())));
-        report.seconds.compile
-    });
-    Some(again / build)
+    let open = |gpu| Session::open(gpu, scene.clone(), keep_everything, &Tuning::default()).unwrap();
+    // Beams build the pipeline of pixels left to samples when they find one.
+    let build = least(&gpus, |gpu| open(gpu).prepare().unwrap().render(&NoProgress).unwrap().1.seconds.compile);
+    let session = open(&gpus[0]);
+    let prepared = session.prepare().unwrap();
+    drop(prepared.render(&NoProgress).unwrap());
+    Some(share_of(build, || seconds(|| drop(prepared.render(&NoProgress).unwrap()))))
 }
 
 fn check(algorithm: Algorithm, names: &[&str]) {
@@ -106,13 +116,9 @@ fn passes_of_a_pyramid_are_compiled_once() {
         file_channels: 1,
         texels: vec![128; 64 * 64],
     };
-    let mut again = 0.0;
-    let first = least([&first, &second], |gpu| {
-        let mut mip_chains = MipProbe::new(gpu);
-        let mut make = || seconds(|| drop(mip_chains.make(&texture).unwrap()));
-        let first = make();
-        again = least(0..20, |_| make());
-        first
-    });
-    assert!(again < MOST * first, "{again} s, the first time {first} s");
+    let mut probes = [MipProbe::new(&first), MipProbe::new(&second)];
+    let make = |probe: &mut MipProbe| seconds(|| drop(probe.make(&texture).unwrap()));
+    let first = least(&mut probes, make);
+    let share = share_of(first, || make(&mut probes[0]));
+    assert!(share < MOST, "{share:.3} of the {first} s of the first time");
 }
