@@ -2,6 +2,9 @@
 //! opened for one scene and one choice of samples. Input: ranges, or batches of samples for single pixels. Output:
 //! sums.
 
+use std::sync::LazyLock;
+use std::time::Instant;
+
 use super::FilmSums;
 use crate::core::error::Result;
 use crate::core::progress::Progress;
@@ -15,6 +18,13 @@ pub trait Backend: Send {
 
     /// Returns true if samples are averages over footprints.
     fn prefilters(&self) -> bool;
+
+    /// Returns the seconds since a fixed moment, by the clock that decides how sampling to a goal goes on. A backend of a
+    /// test has one of its own, so that its passes are the same on a busy machine.
+    fn seconds(&self) -> f64 {
+        static START: LazyLock<Instant> = LazyLock::new(Instant::now);
+        START.elapsed().as_secs_f64()
+    }
 
     /// Returns the smallest share of a texture, an environment or the like that is far brighter than the rest and still
     /// emits much of its light; 1 if none is known.

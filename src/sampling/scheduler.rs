@@ -97,6 +97,10 @@ impl Backend for Scheduler<'_> {
         self.members[0].prefilters()
     }
 
+    fn seconds(&self) -> f64 {
+        self.members[0].seconds()
+    }
+
     fn bright_share(&self) -> f64 {
         self.members[0].bright_share()
     }

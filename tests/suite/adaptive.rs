@@ -2,6 +2,7 @@
 //! the requested error is reached, and that adaptively placed samples reduce the error further than
 //! uniform ones.
 
+mod clocked;
 mod rare;
 
 use std::collections::BTreeMap;
@@ -11,18 +12,17 @@ use moire::internal::core::error::{Error, Result};
 use moire::internal::core::film::Film;
 use moire::internal::core::progress::{NoProgress, Progress};
 use moire::internal::core::range::{Range, Rect};
-use moire::internal::gpu::DeviceKind;
 use moire::internal::integrators::adaptive::{self, Goal, Outcome};
 use moire::internal::lab::metrics::compare;
 use moire::internal::oracle::backend::OracleBackend;
 use moire::internal::oracle::rng::sample_bits;
 use moire::internal::pack::PackedScene;
-use moire::internal::render::{self, Tuning};
 use moire::internal::sampling::{Backend, FilmSums, HalfSums, PilotRun};
 use moire::internal::scene::model::{Algorithm, Footprint, Pattern, Scene};
 use moire::internal::schema::layout::PixelBatch;
 
-use crate::stage::{assert_same_bits, device, packed, render, small};
+use crate::stage::{assert_same_bits, packed, render, small};
+use clocked::Reached;
 
 /// Returns the scene as `--algorithm` and `--pattern` would change it.
 fn with(mut scene: Scene, algorithm: Algorithm, spp: u32) -> PackedScene {
@@ -34,12 +34,13 @@ fn with(mut scene: Scene, algorithm: Algorithm, spp: u32) -> PackedScene {
     packed(scene, None)
 }
 
+/// Seconds for a sample on a device so fast that beams pay for none of these pictures, and on a slow one.
+const FAST: f64 = 1e-9;
+const SLOW: f64 = 5e-7;
+
 fn to_goal(scene: &PackedScene, goal: Goal, keep_everything: bool) -> (Film, Outcome) {
-    let tuning = Tuning::default();
-    let rendered =
-        render::render_to_goal(&device(), scene.clone(), keep_everything, &tuning, Some(goal), &NoProgress);
-    let (film, report) = rendered.unwrap();
-    (film, report.outcome.unwrap())
+    let Reached { film, outcome, .. } = clocked::render(scene, goal, keep_everything, FAST);
+    (film, outcome)
 }
 
 fn converged(scene: &Scene) -> Film {
@@ -163,15 +164,16 @@ fn the_mean_over_seeds_shows_no_bias() {
     assert!(left < 2.0, "{left} of what chance leaves");
 }
 
+/// By the device's own clock, in which 1.5 s are 65 samples a pixel.
 #[test]
 fn a_time_to_keep_is_kept() {
     let scene = with(small("s1b", 48, 4), Algorithm::Auto, 16);
-    let clock = std::time::Instant::now();
-    let (_, outcome) = to_goal(&scene, Goal::Seconds(1.5), false);
-    let seconds = clock.elapsed().as_secs_f64();
+    let Reached { outcome, seconds, .. } = clocked::render(&scene, Goal::Seconds(1.5), false, 1e-5);
     assert!(outcome.passes > 1 && outcome.mean_samples >= 16.0, "{outcome:?}");
-    // Excludes compiling; a loaded machine is slower than its first pass predicted.
-    assert!(seconds < 20.0, "{seconds} s for 1.5 s");
+    assert!(outcome.reached && (1.2..1.5 * 1.05).contains(&seconds), "{seconds} s for 1.5 s: {outcome:?}");
+    // Two samples a pixel take 0.046 s.
+    let Reached { outcome, seconds, .. } = clocked::render(&scene, Goal::Seconds(0.04), false, 1e-5);
+    assert!(!outcome.reached && outcome.mean_samples == 2.0, "{seconds} s for 0.04 s: {outcome:?}");
 }
 
 /// Trilinear look-ups of 16 samples' footprints blur a ground that is seen to the horizon.
@@ -191,9 +193,10 @@ fn the_bias_of_a_prefilter_is_seen_and_without_a_footprint_there_is_none() {
     assert_eq!(sharp.estimated_bias, 0.0);
 }
 
-/// A backend with a constant and noise, sampled slowly; half of the pixels can be resolved at once.
+/// A backend with a constant and noise, slow by its own clock; half of the pixels can be resolved at once.
 struct Slow {
     sums: HalfSums,
+    seconds: f64,
     tells: bool,
     prefilters: bool,
 }
@@ -201,11 +204,6 @@ struct Slow {
 const TOLD: [f32; 3] = [0.5, 0.25, 0.125];
 
 impl Slow {
-    fn wait(batches: &[PixelBatch]) {
-        let samples: u32 = batches.iter().map(|j| j.count).sum();
-        std::thread::sleep(std::time::Duration::from_nanos(500) * samples);
-    }
-
     fn add(batch: &PixelBatch, sum: &mut [f32; 4]) {
         for s in batch.first..batch.first + batch.count {
             let noise = sample_bits([batch.place, batch.stream()], s)[0] as f32 / u32::MAX as f32 - 0.5;
@@ -221,12 +219,16 @@ impl Backend for Slow {
         "slow".into()
     }
 
+    fn seconds(&self) -> f64 {
+        self.seconds
+    }
+
     fn sum(&mut self, range: &Range, _: &dyn Progress) -> Result<FilmSums> {
         Err(Error::new(format!("batches alone, not {range:?}")))
     }
 
     fn sample(&mut self, batches: &[PixelBatch], _: &dyn Progress) -> Result<()> {
-        Slow::wait(batches);
+        self.seconds += SLOW * clocked::samples(batches);
         for batch in batches {
             let [x, y] = batch.column_and_row();
             let at = (y * self.sums.width + x) as usize;
@@ -236,7 +238,7 @@ impl Backend for Slow {
     }
 
     fn sample_apart(&mut self, batches: &[PixelBatch], _: &dyn Progress) -> Result<Vec<[f32; 4]>> {
-        Slow::wait(batches);
+        self.seconds += SLOW * clocked::samples(batches);
         let mut sums = vec![[0.0; 4]; batches.len()];
         batches.iter().zip(&mut sums).for_each(|(batch, sum)| Slow::add(batch, sum));
         Ok(sums)
@@ -265,7 +267,7 @@ impl Backend for Slow {
 fn slowly(tells: bool, prefilters: bool, goal: Goal) -> (Film, Outcome) {
     const SIZE: [u32; 2] = [32, 16];
     let sums = HalfSums::new(SIZE);
-    adaptive::run(&mut Slow { sums, tells, prefilters }, SIZE, goal, &NoProgress).unwrap()
+    adaptive::run(&mut Slow { sums, seconds: 0.0, tells, prefilters }, SIZE, goal, &NoProgress).unwrap()
 }
 
 /// 4e-3 takes some 5000 random samples a pixel: 2.6 s, by the time of the first passes.
@@ -298,13 +300,11 @@ fn what_is_near_its_goal_or_prefiltered_or_cannot_be_told_is_sampled() {
 /// A checker up to the horizon is resolved as algorithm beam resolves it; the remaining time is not spent.
 #[test]
 fn time_enough_for_beams_is_spent_on_beams() {
-    if device().info().kind != DeviceKind::Cpu {
-        return; // samples of so small a picture are quicker there
-    }
     let scene = small("s1a", 256, 4);
-    // Ends once beams have resolved all pixels; without a driver cache, compiling them takes some of the
-    // time.
-    let (film, outcome) = to_goal(&with(scene.clone(), Algorithm::Auto, 16), Goal::Seconds(15.0), false);
+    let auto = with(scene.clone(), Algorithm::Auto, 16);
+    let Reached { film, outcome, seconds } = clocked::render(&auto, Goal::Seconds(15.0), false, SLOW);
+    // Ends once beams have resolved all pixels.
+    assert!(seconds < 0.5 * 15.0, "{seconds} s: {outcome:?}");
     assert_eq!(outcome.beam_pixels, 256 * 256, "{outcome:?}");
     assert!(outcome.reached && outcome.estimated_noise == 5e-5, "{outcome:?}");
     let beams = render(&with(scene, Algorithm::Beam, 4));

@@ -1,7 +1,6 @@
 //! The loop of passes: sample, estimate, audit and choose the next counts, until the goal is met.
 
 use std::collections::BTreeMap;
-use std::time::Instant;
 
 use super::allocate::{Aim, Allocation};
 use super::analytic::{AnalyticPixels, OWN_ERROR, Outlook, needed};
@@ -47,7 +46,7 @@ pub fn run(
     goal: Goal,
     progress: &dyn Progress,
 ) -> Result<(Film, Outcome)> {
-    let start = Instant::now();
+    let start = backend.seconds();
     let pixels = width as usize * height as usize;
     let mut sums = HalfSums::new([width, height]);
     let mut counts = vec![0u32; pixels];
@@ -63,16 +62,16 @@ pub fn run(
     let mut pace = Pace::default();
     loop {
         if next != counts {
-            let clock = Instant::now();
+            let begun = backend.seconds();
             match (equal(&counts), equal(&next)) {
                 (Some(now), Some(next)) => backend.sample_all([width, height], now, next - now, progress)?,
                 _ => backend.sample(&batches(&counts, &next, width), progress)?,
             }
-            pace.learn(total(&next) - total(&counts), clock.elapsed().as_secs_f64());
+            pace.learn(total(&next) - total(&counts), backend.seconds() - begun);
             counts.clone_from(&next);
             outcome.passes += 1;
         }
-        let clock = Instant::now();
+        let begun = backend.seconds();
         backend.read(&mut sums)?;
         analytic.replace(&mut sums, &counts);
         taken = total(&counts);
@@ -84,12 +83,12 @@ pub fn run(
         let resolved = outcome.beam_pixels as f64 / pixels as f64;
         let noise = estimate.mse + OWN_ERROR.powi(2) * resolved;
         outcome.estimated_noise = noise.sqrt();
-        pace.hosting = clock.elapsed().as_secs_f64();
+        pace.hosting = backend.seconds() - begun;
         let all = match goal {
             Goal::Samples(spp) => f64::from(spp) * pixels as f64,
             Goal::Error(_) => f64::INFINITY,
             Goal::Seconds(limit) => {
-                let left = limit * (1.0 - AUDIT_TIME) - start.elapsed().as_secs_f64() - pace.hosting;
+                let left = limit * (1.0 - AUDIT_TIME) - (backend.seconds() - start) - pace.hosting;
                 taken + pace.rate * left.max(0.0) * OF_TIME
             }
         };
@@ -100,7 +99,7 @@ pub fn run(
             }
         };
 
-        let budget = auditor.budget(goal, taken, bright, pace.rate, start.elapsed().as_secs_f64());
+        let budget = auditor.budget(goal, taken, bright, pace.rate, backend.seconds() - start);
         let audited = Audited { sums: &sums, counts: &counts, estimate: &estimate, analytic: &analytic };
         let audit = if enough && auditor.is_due(goal, budget) {
             Some(auditor.audit(&audited, backend, budget, &mut outcome, progress)?)
@@ -132,7 +131,7 @@ pub fn run(
         };
         let allocation = Allocation::new(&estimate, &counts, exponent.value());
         let needed = needed(&allocation, aim);
-        let elapsed = start.elapsed().as_secs_f64();
+        let elapsed = backend.seconds() - start;
         let outlook = Outlook {
             goal,
             passes: outcome.passes,
@@ -181,7 +180,7 @@ pub fn run(
     outcome.reached = match goal {
         Goal::Samples(_) => true,
         Goal::Error(_) => outcome.reached,
-        Goal::Seconds(limit) => start.elapsed().as_secs_f64() <= KEPT * limit,
+        Goal::Seconds(limit) => backend.seconds() - start <= KEPT * limit,
     };
     Ok((film(&sums, &counts)?, outcome))
 }
