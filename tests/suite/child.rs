@@ -1,12 +1,21 @@
 //! Child processes of tests. Runs a command and returns its exit status and output. Child processes
 //! end with their test however it ends; signals are sent without the `kill` program, which a
-//! minimal system lacks.
+//! minimal system lacks. What a process does is measured in its CPU time, which a busy machine does not change.
 
 use std::process::{Child, Command, ExitStatus, Output};
 use std::time::{Duration, Instant};
 
 use nix::sys::signal::{Signal, kill};
 use nix::unistd::Pid;
+
+/// Longer than whatever a test waits for takes on the busiest machine.
+pub const HANG: Duration = Duration::from_secs(600);
+
+/// Between two looks at a process.
+const STEP: Duration = Duration::from_millis(20);
+
+/// Clock ticks of Linux a second, on all of its architectures (`USER_HZ`).
+const TICKS: f64 = 100.0;
 
 pub struct Running(Option<Child>);
 
@@ -38,9 +47,35 @@ impl Running {
         let start = Instant::now();
         while self.ended().is_none() {
             assert!(start.elapsed() < most, "still running after {most:?}");
-            std::thread::sleep(Duration::from_millis(20));
+            std::thread::sleep(STEP);
         }
         self.0.take().unwrap().wait_with_output().unwrap()
+    }
+
+    /// Waits while it runs and `condition` is false.
+    pub fn wait_until(&mut self, mut condition: impl FnMut(&Running) -> bool) {
+        let start = Instant::now();
+        while self.ended().is_none() && !condition(self) {
+            assert!(start.elapsed() < HANG, "nothing has happened for {HANG:?}");
+            std::thread::sleep(STEP);
+        }
+    }
+
+    /// Returns true once it handles the signal of Ctrl-C itself; `None` where the system has no `/proc`.
+    pub fn handles_interrupts(&self) -> Option<bool> {
+        let text = std::fs::read_to_string(format!("/proc/{}/status", self.id())).ok()?;
+        let caught = text.lines().find_map(|line| line.strip_prefix("SigCgt:"))?;
+        let mask = u64::from_str_radix(caught.trim(), 16).ok()?;
+        Some(mask >> (Signal::SIGINT as i32 - 1) & 1 == 1)
+    }
+
+    /// Returns the seconds that its threads have run; `None` where the system has no `/proc`, or if it has ended.
+    pub fn cpu_seconds(&self) -> Option<f64> {
+        let text = std::fs::read_to_string(format!("/proc/{}/stat", self.id())).ok()?;
+        // Behind the name in parentheses: the state, ten more fields, then the ticks of user and system.
+        let fields: Vec<&str> = text.rsplit_once(')')?.1.split_whitespace().collect();
+        let ticks = |field: &str| field.parse::<f64>().ok();
+        Some((ticks(fields.get(11)?)? + ticks(fields.get(12)?)?) / TICKS)
     }
 }
 

@@ -168,8 +168,10 @@ fn goals_choose_an_algorithm_and_say_what_was_reached() {
     );
     assert_eq!(told["reached"]["reached"], true);
     assert!(told["reached"]["estimated_rmse"].as_f64().unwrap() <= 5e-3, "{told:#}");
-    let told = json("s2", &["--size", "64x64", "--budget", "2"]);
-    assert!(told["reached"]["mean_samples"].as_f64().unwrap() >= 16.0, "{told:#}");
+    // More than the two samples of the first pass, unless the machine stood still for all of the time.
+    let told = json("s2", &["--size", "64x64", "--budget", "0.5"]);
+    let reached = &told["reached"];
+    assert!(reached["mean_samples"].as_f64().unwrap() > 2.0 || reached["reached"] == false, "{told:#}");
     // Two samples per pixel take longer than that on any device.
     let told = json("s2", &["--size", "64x64", "--budget", "1e-6"]);
     assert_eq!((&told["reached"]["reached"], &told["reached"]["mean_samples"]), (&false.into(), &2.0.into()));

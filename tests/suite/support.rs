@@ -60,6 +60,22 @@ pub fn untested(what: &'static str) {
     }
 }
 
+/// Returns the seconds that this thread has run, not counting those in which others had its core.
+#[cfg(target_os = "linux")]
+pub fn thread_seconds() -> f64 {
+    use nix::sys::resource::{UsageWho, getrusage};
+    use nix::sys::time::TimeValLike;
+    let usage = getrusage(UsageWho::RUSAGE_THREAD).unwrap();
+    (usage.user_time() + usage.system_time()).num_microseconds() as f64 * 1e-6
+}
+
+/// Returns the seconds since the first call, where the system knows no time of threads.
+#[cfg(not(target_os = "linux"))]
+pub fn thread_seconds() -> f64 {
+    static START: std::sync::LazyLock<std::time::Instant> = std::sync::LazyLock::new(std::time::Instant::now);
+    START.elapsed().as_secs_f64()
+}
+
 /// Every pixel and channel different, values in [0, 1].
 pub fn gradient(width: u32, height: u32) -> Film {
     let mut film = Film::new(width, height, 1);

@@ -85,8 +85,8 @@ fn run(rounds: usize, seed: u32) {
                     refused += 1;
                 }
             }
-            // A file of a few KB on a busy machine; a hang takes longer.
-            assert!(clock.elapsed() < Duration::from_secs(20), "{fixture} {round}: {:?}", clock.elapsed());
+            // A file of a few KB takes milliseconds: only what is as good as a hang takes minutes on a busy machine.
+            assert!(clock.elapsed() < Duration::from_secs(120), "{fixture} {round}: {:?}", clock.elapsed());
         }
     }
     assert!(read > rounds && refused > rounds, "{read} read, {refused} refused");

@@ -4,13 +4,12 @@
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Stdio};
-use std::time::{Duration, Instant};
 
 use serde_json::Value;
 use tempfile::tempdir;
 
 use super::{points, scene, studied};
-use crate::child::Running;
+use crate::child::{HANG, Running};
 use crate::stage::device_name;
 use crate::support::program;
 
@@ -94,14 +93,10 @@ fn interrupt(out: &Path) -> std::process::Output {
         .stdout(Stdio::null())
         .stderr(Stdio::piped());
     let mut study = Running::start(&mut command);
-    let start = Instant::now();
-    while !out.join("study.json").is_file() {
-        assert_eq!(study.ended(), None, "it should still be measuring");
-        assert!(start.elapsed() < Duration::from_secs(30), "no record after 30 s");
-        std::thread::sleep(Duration::from_millis(20));
-    }
+    study.wait_until(|_| out.join("study.json").is_file());
+    assert_eq!(study.ended(), None, "it should still be measuring");
     study.interrupt();
-    study.output(Duration::from_secs(60))
+    study.output(HANG)
 }
 
 #[test]
