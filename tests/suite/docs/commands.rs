@@ -16,11 +16,22 @@ use crate::support::{data, program};
 const BUILDS: &[&str] =
     &["./setup.sh", "cargo ", "MOIRE_DEVICE=gpu cargo ", "MOIRE_SETUP_DRY_RUN=1 ./setup.sh"];
 
-/// Adds the device under test where a line names none.
+/// Adds the device under test where a line names none. Whether a command works does not depend on how much it does: a
+/// line that names neither a size nor a part of the full picture renders a small one, and one that verifies everything
+/// verifies all address modes of some formats and sizes.
 const WRAPPER: &str = "#!/bin/sh
 case \" $* \" in
+*' --size '* | *' --crop '* | *' --only '*) ;;
+*)
+    case \"$1\" in
+    render | study) set -- \"$@\" --size 64x48 ;;
+    verify) set -- \"$@\" --only 'srgb 2×2' ;;
+    esac
+    ;;
+esac
+case \" $* \" in
 *' --device '*) ;;
-*) case \"$1\" in render | study | verify | stability) exec PROGRAM \"$@\" --device DEVICE ;; esac ;;
+*) case \"$1\" in render | study | verify | stability) set -- \"$@\" --device DEVICE ;; esac ;;
 esac
 exec PROGRAM \"$@\"
 ";
