@@ -2,6 +2,8 @@
 //! times smaller or larger, give the same picture, for every map. Powers of two preserve all
 //! digits, so that any difference is due to a length constant in the program.
 
+use std::path::Path;
+
 use glam::{DVec2, DVec3};
 use moire::internal::lab::metrics::compare;
 use moire::internal::oracle::camera::Ray;
@@ -10,9 +12,10 @@ use moire::internal::oracle::geometry::rays::hit_surface;
 use moire::internal::oracle::geometry::rays::nearest_hit;
 use moire::internal::oracle::mapping::texture_coordinate;
 use moire::internal::oracle::shade::{map_input, uv_gradients};
-use moire::internal::pack::PackedScene;
+use moire::internal::pack::{self, PackedScene};
+use moire::internal::scene::parse;
 
-use super::{floats, scene};
+use super::floats;
 use crate::lookup::bench::{Rng, Vectors};
 use crate::stage;
 
@@ -31,17 +34,32 @@ const MAPPINGS: [&str; 12] = [
     "kind = 'spherical', entity = 'reflection'",
 ];
 
+const RELIEFS: [&str; 2] = ["normal_map", "bump_map"];
+
+/// Returns materials of all mappings with all reliefs, in a unit of `k`; that of this pair is named `m`. All scenes of
+/// a footprint have all of them, and so share a pipeline.
+fn materials(k: f64, mapping: &str, relief: &str) -> String {
+    let material = |(i, (m, r)): (usize, (&str, &str))| {
+        let name = if (m, r) == (mapping, relief) { "m".into() } else { format!("unseen{i}") };
+        let strength = if r == "bump_map" { 0.06 * k } else { 1.5 };
+        format!(
+            "[[material]]\nname = '{name}'\n{r} = 't'\nstrength = {strength:?}\nsampler = 's'\nmapping = {{ {m} }}\n"
+        )
+    };
+    let all = MAPPINGS.iter().flat_map(|m| RELIEFS.map(|r| (*m, r)));
+    all.enumerate().map(material).collect()
+}
+
 /// A ball whose poles are visible, one from within, a smooth and a flat triangle and a square, in a unit of `k`.
 fn shapes(k: f64, mapping: &str, relief: &str, footprint: &str) -> PackedScene {
     let at = |v: [f64; 3]| format!("{:?}", v.map(|x| x * k));
     let surface = mapping.contains("surface");
-    let strength = if relief == "bump_map" { 0.06 * k } else { 1.5 };
     // The plane's coordinates count its axes, which scale with it.
     let text = format!(
         "camera = {{ eye = {}, look_at = {}, vertical_fov = 50 }}\n\
          image = {{ width = 56, height = 40 }}\nsampling = {{ pattern = 'center', footprint = '{footprint}' }}\n\
          [[texture]]\nname = 't'\nfile = 't'\n[[sampler]]\nname = 's'\nmip = 'linear'\n\
-         [[material]]\nname = 'm'\n{relief} = 't'\nstrength = {strength:?}\nsampler = 's'\nmapping = {{ {mapping} }}\n\
+         {}\
          [[sphere]]\ncenter = {}\nradius = {:?}\nmaterial = 'm'\n\
          [[sphere]]\ncenter = {}\nradius = {:?}\nmaterial = 'm'\n\
          [[triangle]]\nvertices = [{}, {}, {}]\nnormals = [[-0.4, 0, 1], [0.4, 0, 1], [0, 0.5, 1]]\nmaterial = 'm'\n\
@@ -49,6 +67,7 @@ fn shapes(k: f64, mapping: &str, relief: &str, footprint: &str) -> PackedScene {
          [[light]]\nkind = 'directional'\ndirection = [0.4, 0.8, 1]\nirradiance = [3, 3, 3]\n",
         at([0.1, 1.4, 3.0]),
         at([0.0, 0.3, 0.0]),
+        materials(k, mapping, relief),
         at([-0.9, 0.4, 0.0]),
         0.6 * k,
         at([0.0, 0.0, 0.0]),
@@ -64,13 +83,14 @@ fn shapes(k: f64, mapping: &str, relief: &str, footprint: &str) -> PackedScene {
         let [a, b] = [x, y].map(|i| (std::f32::consts::TAU * i as f32 / 16.0).sin());
         [0.5 + 0.25 * a, 0.5 + 0.25 * b, 0.85, 1.0]
     };
-    scene(&text, vec![floats(16, 16, wave)])
+    // Nothing is pruned.
+    pack::pack(&parse(Path::new("scales.toml"), &text).unwrap(), vec![floats(16, 16, wave)], None).unwrap()
 }
 
 #[test]
 fn pictures_do_not_depend_on_the_unit() {
     for mapping in MAPPINGS {
-        for relief in ["normal_map", "bump_map"] {
+        for relief in RELIEFS {
             for footprint in ["none", "differentials"] {
                 let what = format!("{mapping}, {relief}, footprint {footprint}");
                 let pictures = |k: f64| {
