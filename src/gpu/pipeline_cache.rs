@@ -39,18 +39,22 @@ impl PipelineCache {
         push_constant_bytes: u32,
         constants: &[(u32, u32)],
     ) -> Result<Arc<Pipeline>> {
+        // By their ids: scenes come with the offsets of their lists in an order of their own.
+        let mut constants = constants.to_vec();
+        constants.sort_unstable();
         let desc = ShaderDesc {
             shader: shader.name,
             bindings: bindings.to_vec(),
             push_constant_bytes,
-            constants: constants.to_vec(),
+            constants: constants.clone(),
         };
         let place = self.place(desc);
         let mut place = lock(&place);
         if let Some(pipeline) = &*place {
             return Ok(Arc::clone(pipeline));
         }
-        let spirv = specialise(shader.spirv, constants);
+        let spirv = specialise(shader.spirv, &constants);
+        let constants = constants.as_slice();
         let desc =
             PipelineDesc { name: shader.name, spirv: &spirv, bindings, push_constant_bytes, constants };
         let pipeline = Arc::new(Pipeline::new(core, &desc)?);

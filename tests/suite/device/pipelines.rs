@@ -10,10 +10,13 @@ use moire::internal::schema::specialization::Constant;
 use super::Checked;
 
 fn of(gpu: &Checked, shader: &'static Shader, group: u32) -> Arc<Pipeline> {
+    with(gpu, shader, &shader.values([(Constant::GroupX, group), (Constant::GroupY, 1)]))
+}
+
+fn with(gpu: &Checked, shader: &'static Shader, constants: &[(u32, u32)]) -> Arc<Pipeline> {
     let bindings: Vec<BindingDesc> =
         shader.bindings.iter().map(|b| BindingDesc { binding: b.binding, kind: b.kind, count: 1 }).collect();
-    let constants = shader.values([(Constant::GroupX, group), (Constant::GroupY, 1)]);
-    gpu.shader_pipeline(shader, &bindings, 32, &constants).unwrap()
+    gpu.shader_pipeline(shader, &bindings, 32, constants).unwrap()
 }
 
 #[test]
@@ -26,6 +29,16 @@ fn equal_pipelines_are_built_once_and_others_are_others() {
     assert!(Arc::ptr_eq(&first, &of(&gpu, &MIPS, 64)) && Arc::ptr_eq(&other, &of(&gpu, &MIPS, 32)));
     // Another device has its own.
     assert!(!Arc::ptr_eq(&first, &of(&Checked::open(), &MIPS, 64)));
+}
+
+#[test]
+fn the_order_of_constants_makes_no_other_pipeline() {
+    let gpu = Checked::open();
+    let values = [(Constant::GroupX, 64), (Constant::GroupY, 1), (Constant::MipChannels, 1)];
+    let mut constants = MIPS.values(values);
+    let first = with(&gpu, &MIPS, &constants);
+    constants.reverse();
+    assert!(constants.len() > 1 && Arc::ptr_eq(&first, &with(&gpu, &MIPS, &constants)));
 }
 
 #[test]
