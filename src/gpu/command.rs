@@ -8,12 +8,16 @@ use std::time::{Duration, Instant};
 use ash::vk;
 
 use super::device::Core;
+use super::info::DeviceKind;
 use super::result::{WithOperation, device_lost, failed};
 use super::timing::{RunTime, Timestamps};
 use crate::core::error::Result;
 
 /// The time after which a submission counts as hung: dispatches are sliced to well under a second.
 const TIME_OUT: Duration = Duration::from_secs(120);
+/// The same on the CPU, where the first submission of a pipeline also compiles it: half a minute for one with all
+/// features, and many times that on a slow machine that others share.
+const TIME_OUT_CPU: Duration = Duration::from_secs(1800);
 
 pub(super) struct Commands {
     core: Arc<Core>,
@@ -113,9 +117,10 @@ impl Commands {
     }
 
     fn wait(&self, name: &str) -> Result<()> {
+        let time_out = if self.core.info.kind == DeviceKind::Cpu { TIME_OUT_CPU } else { TIME_OUT };
         // SAFETY: the fence is of this device and was submitted.
         let waited =
-            unsafe { self.core.device.wait_for_fences(&[self.fence], true, TIME_OUT.as_nanos() as u64) };
+            unsafe { self.core.device.wait_for_fences(&[self.fence], true, time_out.as_nanos() as u64) };
         match waited {
             Ok(()) => Ok(()),
             // A lost device executes nothing any more, so that its objects may be destroyed as
@@ -125,7 +130,7 @@ impl Commands {
             }
             Err(vk::Result::TIMEOUT) => {
                 self.core.set_hung();
-                let seconds = TIME_OUT.as_secs();
+                let seconds = time_out.as_secs();
                 Err(device_lost(&format!("running `{name}`: the device did not finish within {seconds} s")))
             }
             Err(code) => {
