@@ -57,7 +57,7 @@ fn may_be_pale(source: &TextureSource, texture: &TextureData) -> bool {
         TextureContent::CubeFile(..) | TextureContent::Faces(_) | TextureContent::Slices(_) => true,
         _ => false,
     };
-    let stated = source.color_space_stated || source.color_space == ColorSpace::Srgb;
+    let stated = source.color_space_stated || texture.color_space == ColorSpace::Srgb;
     if !is_picture || stated || texture.format.component() != Component::Unorm8 {
         return false;
     }

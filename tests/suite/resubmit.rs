@@ -62,7 +62,8 @@ fn share(name: &str, algorithm: Algorithm, keep_everything: bool) -> Option<f64>
     let gpus = [cpu()?, cpu()?];
     let open = |gpu| Session::open(gpu, scene.clone(), keep_everything, &Tuning::default()).unwrap();
     // Beams build the pipeline of pixels left to samples when they find one.
-    let build = least(&gpus, |gpu| open(gpu).prepare().unwrap().render(&NoProgress).unwrap().1.seconds.compile);
+    let build =
+        least(&gpus, |gpu| open(gpu).prepare().unwrap().render(&NoProgress).unwrap().1.seconds.compile);
     let session = open(&gpus[0]);
     let prepared = session.prepare().unwrap();
     drop(prepared.render(&NoProgress).unwrap());
@@ -115,6 +116,7 @@ fn passes_of_a_pyramid_are_compiled_once() {
         color_space: ColorSpace::Linear,
         file_channels: 1,
         texels: vec![128; 64 * 64],
+        stored_levels: Vec::new(),
     };
     let mut probes = [MipProbe::new(&first), MipProbe::new(&second)];
     let make = |probe: &mut MipProbe| seconds(|| drop(probe.make(&texture).unwrap()));

@@ -24,6 +24,7 @@ fn grey(width: u32, height: u32, texel: impl Fn(u32, u32) -> f32) -> Analysis {
         color_space: ColorSpace::Linear,
         file_channels: 1,
         texels: values.flat_map(|(x, y)| texel(x, y).to_ne_bytes()).collect(),
+        stored_levels: Vec::new(),
     })
 }
 

@@ -75,7 +75,7 @@ impl<'a> Library<'a> {
             content: TextureContent::File(self.folder.join(&map.file)),
             dimension: Dimension::Two,
             color_space: if is_color { ColorSpace::Srgb } else { ColorSpace::Linear },
-            color_space_stated: false,
+            color_space_stated: true,
             reading: ReadOptions::default(),
             flip_v: false,
             mip_kernel: MipKernel::Box,
