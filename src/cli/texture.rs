@@ -102,11 +102,20 @@ fn analyse_all(texture: &TextureData) -> Analysis {
     Analysis { u: first.u, v: first.v, ..analyse(&rows) }
 }
 
+/// The longest side of a picture that is read again.
+const MAX_OUT: u32 = 65_536;
+
 /// Returns two by two copies, of several slices or faces those of the first. 8- and 16-bit values are decoded from sRGB whatever their meaning as
 /// a texture: writing encodes them again, so that the picture looks like the file. Float values are
 /// unchanged.
 fn repeated(texels: &Texels, file: &Path) -> Result<Film> {
     let (width, height) = (texels.width * 2, texels.height * 2);
+    if width.max(height) > MAX_OUT {
+        return Err(Error::with_help(
+            format!("{}: {width}×{height} pixels are too many for a picture", file.display()),
+            format!("leave out --out: pictures have at most {MAX_OUT} pixels a side"),
+        ));
+    }
     let mut pixels = Vec::new();
     pixels.try_reserve_exact(width as usize * height as usize).map_err(|_| {
         Error::with_help(
@@ -180,10 +189,7 @@ fn table(args: &TextureArgs, texture: &TextureData, analysis: &Analysis, extra: 
     };
     let of_file = texture.file_channels;
     line("file", texture.name.clone());
-    line(
-        "size",
-        size(texture),
-    );
+    line("size", size(texture));
     line(
         "format",
         format!(
@@ -214,7 +220,9 @@ fn size(texture: &TextureData) -> String {
     let TextureData { width, height, depth, .. } = texture;
     match texture.dimension {
         Dimension::Three => format!("{width}×{height}×{depth} texels"),
-        Dimension::Cube => format!("6 faces of {width}×{height} {}", plural(u64::from(*width) * u64::from(*height), "texel")),
+        Dimension::Cube => {
+            format!("6 faces of {width}×{height} {}", plural(u64::from(*width) * u64::from(*height), "texel"))
+        }
         _ => format!("{width}×{height} {}", plural(u64::from(*width) * u64::from(*height), "texel")),
     }
 }

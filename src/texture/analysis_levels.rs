@@ -150,8 +150,14 @@ mod tests {
         let mut first = texture(2, vec![255, 0, 0, 255, 0, 0, 0, 127, 255, 255, 0, 128, 0, 0, 0, 0]);
         first.stored_levels = vec![texture(1, vec![51, 0, 0, 255])];
         let levels = analyse_levels(&first);
-        assert_eq!((levels[0].size, levels[0].means[0], levels[0].coverage), ([2, 2, 1], Some(0.5), Some(0.5)));
-        assert_eq!((levels[1].size, levels[1].means[0], levels[1].coverage), ([1, 1, 1], Some(0.2), Some(1.0)));
+        assert_eq!(
+            (levels[0].size, levels[0].means[0], levels[0].coverage),
+            ([2, 2, 1], Some(0.5), Some(0.5))
+        );
+        assert_eq!(
+            (levels[1].size, levels[1].means[0], levels[1].coverage),
+            ([1, 1, 1], Some(0.2), Some(1.0))
+        );
     }
 
     #[test]
@@ -161,7 +167,10 @@ mod tests {
         let found = of(&flat).expect("colours");
         assert!(found.is_normal_map() && found.unit_share == 1.0 && found.inward_share == 0.0, "{found:?}");
         let inward = of(&[[128, 128, 0, 255]]).expect("colours");
-        assert!(!inward.is_normal_map() && inward.unit_share == 1.0 && inward.inward_share == 1.0, "{inward:?}");
+        assert!(
+            !inward.is_normal_map() && inward.unit_share == 1.0 && inward.inward_share == 1.0,
+            "{inward:?}"
+        );
         assert!(!of(&[[200, 40, 40, 255]]).expect("colours").is_normal_map());
         assert_eq!(of(&[[9, 9, 9, 255]]), None);
     }

@@ -42,5 +42,6 @@ pub mod source;
 mod stack;
 pub mod summed;
 mod tiff;
+pub mod tiles;
 mod value;
 mod volume;

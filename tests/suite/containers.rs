@@ -2,9 +2,12 @@
 //! Universal files by other programs (`data/pictures/make.py`); their texels, levels, and what is refused.
 
 mod blocks;
+mod command;
 mod dds;
+mod gltf;
 mod ktx2;
 mod levels;
+mod udim;
 mod webp;
 pub mod write;
 
@@ -19,6 +22,7 @@ use moire::internal::texture::source::{ReadOptions, TextureContent, TextureSourc
 use tempfile::tempdir;
 
 use crate::support::texture_source;
+use write::{Dds, Ktx2, Legacy, legacy_dds};
 
 /// The source of a file whose colour space the scene leaves out.
 fn source(path: &Path, dimension: Dimension) -> TextureSource {
@@ -60,4 +64,31 @@ fn numbers(texture: &TextureData) -> Vec<f64> {
 fn chain(texture: &TextureData) -> Vec<Vec<[u8; 4]>> {
     let levels = std::iter::once(texture).chain(&texture.stored_levels);
     levels.map(|level| level.texels.as_chunks::<4>().0.to_vec()).collect()
+}
+
+/// Files of several structures, by name.
+pub fn samples() -> Vec<(String, Vec<u8>)> {
+    let block: Vec<u8> = (0..16).map(|i| i * 37).collect();
+    let ktx = |format| Ktx2::flat(format, [8, 8], &[block.repeat(4)]);
+    let volume = Dds { size: [4, 4, 4], levels: 2, ..Dds::flat(98, [4, 4], &block.repeat(6)) };
+    let faces = block.repeat(6);
+    let cube =
+        Ktx2 { faces: 6, size: [4, 4, 0], ..Ktx2::flat(145, [4, 4], &[faces.clone(), faces.clone(), faces]) };
+    let rgba = |side: usize| vec![7; side * side * 4];
+    let chain = Ktx2::flat(write::VK_RGBA8, [8, 8], &[rgba(8), rgba(4), rgba(2), rgba(1)]);
+    let mut named = vec![
+        ("bc7.volume.dds", volume.bytes()),
+        ("bc7.cube.ktx2", cube.bytes()),
+        ("bc6h.ktx2", ktx(143).bytes()),
+        ("zstd.ktx2", ktx(137).compressed(2, write::zstd).bytes()),
+        ("chain.ktx2", chain.clone().compressed(2, write::zstd).bytes()),
+        ("zlib.ktx2", chain.compressed(3, write::zlib).bytes()),
+    ];
+    for (name, format) in [("bc1.dds", 71), ("bc4.dds", 80), ("rgb9e5.dds", 67), ("bgra.dds", 87)] {
+        let stored = if name.starts_with("bc") { block[..8].repeat(4) } else { block.repeat(16) };
+        named.push((name, Dds::flat(format, [8, 8], &stored).bytes()));
+    }
+    let masks = Legacy { flags: 0x41, letters: [0; 4], bits: 16, masks: [0xf00, 0xf0, 0xf, 0xf000], caps: 0 };
+    named.push(("masks.dds", legacy_dds([8, 8, 1], 1, &masks, &block.repeat(8))));
+    named.into_iter().map(|(name, bytes)| (name.to_owned(), bytes)).collect()
 }

@@ -41,6 +41,7 @@ pub fn texture(key: Key, source: &TextureSource) -> Check {
             }
         }
         TextureContent::File(_)
+        | TextureContent::Tiles(_)
         | TextureContent::Embedded(..)
         | TextureContent::CubeFile(..)
         | TextureContent::Faces(_) => {}
@@ -84,6 +85,7 @@ fn dimension(key: Key, source: &TextureSource) -> Check {
             return key.refuse(what, "not from one picture");
         }
         TextureContent::Texels(_) => ("texels", Dimension::Two, "texels are one picture"),
+        TextureContent::Tiles(_) => ("file", Dimension::Two, "tiles are those of one flat picture"),
         TextureContent::Embedded(..) => ("file", Dimension::Two, "an embedded picture is flat"),
         TextureContent::File(_) | TextureContent::Procedural(_) => return Ok(()),
     };
