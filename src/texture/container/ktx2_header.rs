@@ -7,11 +7,11 @@ use crate::texture::decoder::Fault;
 
 const HEADER_BYTES: usize = 80;
 const LEVEL_BYTES: usize = 24;
-/// Transfer functions and models of the data format descriptor.
+/// Transfer functions and codecs (color models) of the data format descriptor.
 pub(super) const TRANSFER_LINEAR: u8 = 1;
 pub(super) const TRANSFER_SRGB: u8 = 2;
-const MODEL_ETC1S: u8 = 163;
-const MODEL_UASTC: u8 = 166;
+const CODEC_ETC1S: u8 = 163;
+const CODEC_UASTC: u8 = 166;
 
 /// The channels of a file of Basis Universal, by its data format descriptor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -108,14 +108,14 @@ impl Header {
         // The types of the channels of the first two samples.
         let samples = [31, 47].map(|at| descriptor.get(at).copied().unwrap_or(0) & 15);
         let basis_channels = match (model, samples) {
-            (MODEL_ETC1S, [3, 4]) | (MODEL_UASTC, [5, _]) => BasisChannels::RedInColorGreenInAlpha,
-            (MODEL_ETC1S, [3, 0]) | (MODEL_UASTC, [4, _]) => BasisChannels::Grey,
-            (MODEL_UASTC, [6, _]) => BasisChannels::RedGreen,
+            (CODEC_ETC1S, [3, 4]) | (CODEC_UASTC, [5, _]) => BasisChannels::RedInColorGreenInAlpha,
+            (CODEC_ETC1S, [3, 0]) | (CODEC_UASTC, [4, _]) => BasisChannels::Grey,
+            (CODEC_UASTC, [6, _]) => BasisChannels::RedGreen,
             _ => BasisChannels::Color,
         };
         let basis = match model {
-            MODEL_ETC1S => Some("ETC1S"),
-            MODEL_UASTC => Some("UASTC"),
+            CODEC_ETC1S => Some("ETC1S"),
+            CODEC_UASTC => Some("UASTC"),
             _ => None,
         };
         let value = |key| values(metadata).find(|(found, _)| *found == key).map(|(_, value)| value);
