@@ -23,7 +23,8 @@ impl Extra {
     pub fn lines(&self, texture: &TextureData) -> Vec<(String, String)> {
         let mut lines = Vec::new();
         if let Some(encoding) = &self.encoding {
-            let stated = self.stated.map_or("says nothing of its color space".into(), |space| format!("says {space}"));
+            let stated =
+                self.stated.map_or("says nothing of its color space".into(), |space| format!("says {space}"));
             lines.push(("encoding".into(), format!("{encoding}; {stated}")));
         }
         if self.levels.len() > 1 {
@@ -45,9 +46,7 @@ impl Extra {
 
     /// Returns the levels for JSON.
     pub fn levels_json(&self) -> Value {
-        let level = |level: &LevelAnalysis| {
-            json!({ "size": level.size, "means": level.means, "alpha_coverage": level.coverage })
-        };
+        let level = |level: &LevelAnalysis| json!({ "size": level.size, "means": level.means, "alpha_coverage": level.coverage });
         self.levels.iter().map(level).collect()
     }
 
@@ -72,9 +71,13 @@ fn line(level: &LevelAnalysis, texture: &TextureData) -> String {
         _ => format!("{width}×{height}"),
     };
     let mean = |mean: &Option<f64>| mean.map_or("none".into(), |mean| format!("{mean:.6}"));
-    let means: Vec<String> =
-        channel_names(texture).iter().zip(&level.means).map(|(name, m)| format!("{name} {}", mean(m))).collect();
-    let coverage = level.coverage.map_or(String::new(), |part| format!("; alpha covers {:.1} %", 100.0 * part));
+    let means: Vec<String> = channel_names(texture)
+        .iter()
+        .zip(&level.means)
+        .map(|(name, m)| format!("{name} {}", mean(m)))
+        .collect();
+    let coverage =
+        level.coverage.map_or(String::new(), |part| format!("; alpha covers {:.1} %", 100.0 * part));
     format!("{size}, mean {}{coverage}", means.join(", "))
 }
 
