@@ -26,6 +26,7 @@ fn texture(color_space: ColorSpace) -> TextureData {
         color_space,
         file_channels: 4,
         texels: (0..SIDE * SIDE).flat_map(texel).collect(),
+        stored_levels: Vec::new(),
     }
 }
 

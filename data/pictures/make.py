@@ -1,9 +1,10 @@
 """Writes the pictures of this folder with programs that share no code with moire: tifffile with imagecodecs,
-Pillow (libtiff). Not needed to build or to test. Sample c of texel (x, y) is code(x, y, c, bits);
+Pillow (libtiff, libwebp) and, for Basis Universal, basisu 1.16. Not needed to build or to test. Sample c of texel (x, y) is code(x, y, c, bits);
 floats are whole 64ths of -32 to 32. tests/suite/pictures.rs knows the same formula and what each file is."""
 import gzip
 import io
 import struct
+import subprocess
 
 import numpy as np
 import tifffile
@@ -101,3 +102,25 @@ head = b"NRRD0004\ntype: short\ndimension: 4\nsizes: 2 %d %d 1\nencoding: %s\nen
 volume = numbers(2, "i2").astype(">i2").tobytes()
 open("raw.nrrd", "wb").write(head % (W, H, b"raw") + volume)
 open("gzip.nrrd", "wb").write(head % (W, H, b"gzip") + gzip.compress(volume, mtime=0))
+
+# WebP and Basis Universal have pictures of their own: tests/suite/containers knows these.
+drawn = np.array([[[10 + 50 * x, 20 + 60 * y, (x + y) % 2 * 255, 255 - 40 * x] for x in range(5)] for y in range(3)], "u1")
+exif = Image.Exif()
+exif[274] = 6
+Image.fromarray(drawn).save("lossless.webp", lossless=True, exact=True)
+Image.fromarray(drawn).save("turned.webp", lossless=True, exact=True, exif=exif)
+Image.fromarray(np.array([[[16 * x, 20 * y, 128] for x in range(16)] for y in range(12)], "u1")).save("lossy.webp", quality=90)
+quadrants = [(200, 40, 40, 255), (40, 200, 40, 128), (40, 40, 200, 64), (200, 200, 200, 0)]
+four = np.array([[quadrants[(x >= 4) + 2 * (y >= 4)] for x in range(8)] for y in range(8)], "u1")
+Image.fromarray(four).save("lossy-alpha.webp", quality=90, exact=True)
+frames = [Image.new("RGB", (4, 4), color) for color in ("red", "blue")]
+frames[0].save("animated.webp", save_all=True, append_images=frames[1:])
+Image.fromarray(four).save("/tmp/four.png")
+Image.fromarray(four[..., :3]).save("/tmp/opaque.png")
+for name, options in [
+    ("etc1s", ["-mipmap", "/tmp/opaque.png"]),
+    ("etc1s-alpha", ["/tmp/four.png"]),
+    ("uastc", ["-uastc", "-ktx2_no_zstandard", "-linear", "/tmp/four.png"]),
+    ("uastc-zstd", ["-uastc", "-mipmap", "/tmp/four.png"]),
+]:
+    subprocess.run(["basisu", "-ktx2", *options, "-output_file", f"{name}.ktx2"], check=True)

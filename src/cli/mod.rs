@@ -11,6 +11,7 @@ mod report;
 pub mod stability;
 pub mod study;
 pub mod texture;
+mod texture_levels;
 pub mod verify;
 
 use std::ffi::OsStr;

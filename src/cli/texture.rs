@@ -1,4 +1,4 @@
-//! `moire texture FILE`: describes a texture file, whether it tiles, and draws it repeated 2×2. A
+//! `moire texture FILE`: describes a texture file, its levels, whether it tiles, and draws it repeated 2×2. A
 //! texture that does not tile or that contains NaN is described like any other, with exit code 0.
 
 use std::fmt::Write as _;
@@ -8,31 +8,35 @@ use std::process::ExitCode;
 use serde_json::{Value, json};
 
 use super::named_parser;
+use super::texture_levels::Extra;
 use crate::core::counted::{counted, plural};
 use crate::core::error::{Error, Result};
 use crate::core::film::Film;
 use crate::lab::metrics::read::film_of;
 use crate::output::{self, WriteOptions};
 use crate::texture::analysis::{Analysis, AxisAnalysis, Channel, Seam, Verdict, analyse};
+use crate::texture::analysis_levels::{analyse_levels, analyse_normals};
 use crate::texture::data::{ColorSpace, Component, Dimension, TextureData};
-use crate::texture::read_file::{self, Picture, Texels};
+use crate::texture::decode::texture_of;
+use crate::texture::read_file::{self, Texels};
 use crate::texture::source::{OrientationUse, ReadOptions};
 
-/// Describe a texture file: size, format, range and mean, non-finite texels, whether it tiles
+/// Describe a texture file: size, format, range and mean, levels, non-finite texels, whether it tiles
 ///
 /// An axis tiles if the step from the last texels to the first is as common as others inside, or an edge as the texture
 /// has inside, and if the texture's own period continues across it: yes, no, or perhaps.
 #[derive(Debug, clap::Args)]
 pub struct TextureArgs {
-    /// PNG, JPEG, TIFF, TGA, HDR or EXR
+    /// PNG, JPEG, TIFF, TGA, HDR, EXR, WebP, DDS or KTX2
     pub file: PathBuf,
     /// Write the texture repeated 2×2, looking like the file; alpha is left out
     #[arg(short, long, value_name = "OUT.png")]
     pub out: Option<PathBuf>,
-    /// Meaning of the stored values, as in a scene; srgb: range and mean are of linear values
-    #[arg(long, value_name = "SPACE", default_value = "linear",
+    /// Meaning of the stored values, as in a scene; srgb: range and mean are of linear values [default: what the file
+    /// says, else linear]
+    #[arg(long, value_name = "SPACE",
           value_parser = named_parser(ColorSpace::NAMES, ColorSpace::from_name))]
-    pub color_space: ColorSpace,
+    pub color_space: Option<ColorSpace>,
     /// Layer, part or channel of an EXR file [default: the one without a name]
     #[arg(long, value_name = "NAME")]
     pub layer: Option<String>,
@@ -51,11 +55,13 @@ pub fn run(args: &TextureArgs) -> Result<ExitCode> {
         super::check_input_kept(path, &args.file, "the texture that is described")?;
     }
     let reading = ReadOptions { orientation: args.orientation, layer: args.layer.clone() };
-    let Picture { texels, notes, .. } = read_file::read_as(&args.file, &reading)?;
-    for note in notes {
+    let mut picture = read_file::read_any(&args.file, &reading)?;
+    for note in std::mem::take(&mut picture.notes) {
         super::notify(format_args!("warning: {note}"));
     }
-    if texels.format.component() == Component::Float32 && args.color_space == ColorSpace::Srgb {
+    let is_float = picture.texels.format.component() == Component::Float32;
+    let color_space = args.color_space.or(picture.facts.color_space).unwrap_or(ColorSpace::Linear);
+    if is_float && color_space == ColorSpace::Srgb {
         return Err(Error::with_help(
             format!("{}: float texels are linear light, not sRGB", args.file.display()),
             "leave out --color-space srgb; sRGB is an encoding of 8- and 16-bit values",
@@ -63,38 +69,53 @@ pub fn run(args: &TextureArgs) -> Result<ExitCode> {
     }
     if let Some(path) = &args.out {
         // As many bits as the file has, so that its values are preserved.
-        let png_bits = if texels.format.component() == Component::Unorm16 { 16 } else { 8 };
+        let png_bits = if picture.texels.format.component() == Component::Unorm16 { 16 } else { 8 };
         output::write(
-            &repeated(&texels, &args.file)?,
+            &repeated(&picture.texels, &args.file)?,
             path,
             &WriteOptions { png_bits, ..WriteOptions::default() },
         )?;
     }
-    let texture = named(texels, args);
-    let analysis = analyse(&texture);
-    let text = if args.json { json(args, &texture, &analysis)? } else { table(args, &texture, &analysis) };
+    let facts = std::mem::take(&mut picture.facts);
+    let (encoding, stated) = (facts.encoding.clone(), facts.color_space);
+    let dimension = facts.dimension;
+    picture.facts = facts;
+    let texture = texture_of(&args.file.display().to_string(), dimension, color_space, picture);
+    let (levels, normals) = (analyse_levels(&texture), analyse_normals(&texture));
+    let extra = Extra { encoding, stated, levels, normals };
+    let analysis = analyse_all(&texture);
+    let text = if args.json {
+        json(args, &texture, &analysis, &extra)?
+    } else {
+        table(args, &texture, &analysis, &extra)
+    };
     super::print(text.trim_end()).map(|()| ExitCode::SUCCESS)
 }
 
-fn named(texels: Texels, args: &TextureArgs) -> TextureData {
-    TextureData {
-        name: args.file.display().to_string(),
-        dimension: Dimension::Two,
-        width: texels.width,
-        height: texels.height,
-        depth: 1,
-        format: texels.format,
-        color_space: args.color_space,
-        file_channels: texels.file_channels,
-        texels: texels.bytes,
+/// Returns the statistics of all slices or faces, with the steps of the first one.
+fn analyse_all(texture: &TextureData) -> Analysis {
+    let first = analyse(texture);
+    if texture.depth == 1 {
+        return first;
     }
+    let rows = TextureData { height: texture.height * texture.depth, depth: 1, ..texture.clone() };
+    Analysis { u: first.u, v: first.v, ..analyse(&rows) }
 }
 
-/// Returns two by two copies. 8- and 16-bit values are decoded from sRGB whatever their meaning as
+/// The longest side of a picture that is read again.
+const MAX_OUT: u32 = 65_536;
+
+/// Returns two by two copies, of several slices or faces those of the first. 8- and 16-bit values are decoded from sRGB whatever their meaning as
 /// a texture: writing encodes them again, so that the picture looks like the file. Float values are
 /// unchanged.
 fn repeated(texels: &Texels, file: &Path) -> Result<Film> {
     let (width, height) = (texels.width * 2, texels.height * 2);
+    if width.max(height) > MAX_OUT {
+        return Err(Error::with_help(
+            format!("{}: {width}×{height} pixels are too many for a picture", file.display()),
+            format!("leave out --out: pictures have at most {MAX_OUT} pixels a side"),
+        ));
+    }
     let mut pixels = Vec::new();
     pixels.try_reserve_exact(width as usize * height as usize).map_err(|_| {
         Error::with_help(
@@ -103,7 +124,7 @@ fn repeated(texels: &Texels, file: &Path) -> Result<Film> {
         )
     })?;
     let film = film_of(texels);
-    for row in film.pixels.chunks_exact(texels.width as usize) {
+    for row in film.pixels.chunks_exact(texels.width as usize).take(texels.height as usize) {
         pixels.extend_from_slice(row);
         pixels.extend_from_slice(row);
     }
@@ -111,15 +132,21 @@ fn repeated(texels: &Texels, file: &Path) -> Result<Film> {
     Ok(Film { width, height, pixels, samples: 0 })
 }
 
-fn json(args: &TextureArgs, texture: &TextureData, analysis: &Analysis) -> Result<String> {
+fn json(args: &TextureArgs, texture: &TextureData, analysis: &Analysis, extra: &Extra) -> Result<String> {
     let report = json!({
         "file": texture.name,
         "size": [texture.width, texture.height],
+        "dimension": texture.dimension.name(),
+        "depth": texture.depth,
+        "encoding": extra.encoding,
+        "stated_color_space": extra.stated.map(ColorSpace::name),
         "format": texture.format.name(),
         "file_channels": texture.file_channels,
         "bytes": texture.texels.len(),
         "color_space": texture.color_space.name(),
         "channels": analysis.channels.iter().map(channel_json).collect::<Vec<_>>(),
+        "levels": extra.levels_json(),
+        "normals": extra.normals_json(),
         "non_finite_texels": analysis.non_finite_texels,
         "first_non_finite": analysis.first_non_finite,
         "tiling": { "u": axis_json(&analysis.u), "v": axis_json(&analysis.v) },
@@ -155,22 +182,14 @@ fn axis_json(axis: &AxisAnalysis) -> Value {
     })
 }
 
-fn table(args: &TextureArgs, texture: &TextureData, analysis: &Analysis) -> String {
+fn table(args: &TextureArgs, texture: &TextureData, analysis: &Analysis, extra: &Extra) -> String {
     let mut text = String::new();
     let mut line = |name: &str, value: String| {
         let _ = writeln!(text, "{name:<12}{value}");
     };
     let of_file = texture.file_channels;
     line("file", texture.name.clone());
-    line(
-        "size",
-        format!(
-            "{}×{} {}",
-            texture.width,
-            texture.height,
-            plural(u64::from(texture.width) * u64::from(texture.height), "texel")
-        ),
-    );
+    line("size", size(texture));
     line(
         "format",
         format!(
@@ -184,14 +203,28 @@ fn table(args: &TextureArgs, texture: &TextureData, analysis: &Analysis) -> Stri
     for channel in &analysis.channels {
         line(channel.name, channel_line(channel));
     }
+    extra.lines(texture).into_iter().for_each(|(name, value)| line(&name, value));
     let first = analysis.first_non_finite.map_or(String::new(), |[x, y]| format!(", first ({x}, {y})"));
     line("non-finite", format!("{}{first}", analysis.non_finite_texels));
-    line("tiles in u", axis_line(&analysis.u, texture.width, "column"));
-    line("tiles in v", axis_line(&analysis.v, texture.height, "row"));
+    if texture.dimension != Dimension::Cube {
+        line("tiles in u", axis_line(&analysis.u, texture.width, "column"));
+        line("tiles in v", axis_line(&analysis.v, texture.height, "row"));
+    }
     if let Some(path) = &args.out {
         line("written", path.display().to_string());
     }
     text
+}
+
+fn size(texture: &TextureData) -> String {
+    let TextureData { width, height, depth, .. } = texture;
+    match texture.dimension {
+        Dimension::Three => format!("{width}×{height}×{depth} texels"),
+        Dimension::Cube => {
+            format!("6 faces of {width}×{height} {}", plural(u64::from(*width) * u64::from(*height), "texel"))
+        }
+        _ => format!("{width}×{height} {}", plural(u64::from(*width) * u64::from(*height), "texel")),
+    }
 }
 
 fn meaning(texture: &TextureData) -> &'static str {

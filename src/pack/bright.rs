@@ -126,6 +126,7 @@ mod tests {
             color_space,
             file_channels: 1,
             texels,
+            stored_levels: Vec::new(),
         }
     }
 

@@ -16,6 +16,7 @@ mod procedural;
 mod resample;
 mod sample_dimensions;
 mod sections;
+mod stored_levels;
 mod texture_lines;
 mod textures;
 mod tile_culling;

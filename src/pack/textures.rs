@@ -10,7 +10,7 @@ use crate::texture::data::{ColorSpace, Component, Dimension, MipKernel, TexelFor
 use crate::texture::sampler_spec::{Method, MipMode, SamplerSpec};
 use crate::texture::{mips, prefix_sums, summed};
 
-use super::{MipPlacement, PackedScene, TextureKind};
+use super::{MipPlacement, PackedScene, TextureKind, stored_levels};
 
 /// One image descriptor: a texture and its sampler. Look-ups of method shader fetch texels and ignore the sampler, so
 /// all of them share one slot per texture.
@@ -74,13 +74,21 @@ pub fn pack_textures(
             packed.records.procedurals.push(super::procedural(procedural));
             continue;
         }
+        let reads_levels = reads(packed, scene, index, SamplerSpec::reads_levels);
+        let kernel =
+            if reads_levels { stored_levels::kernel(scene, index, &texture)? } else { MipKernel::Box };
+        let mut texture = texture;
+        if kernel != MipKernel::Stored {
+            texture.stored_levels.clear();
+        }
         let texture = without_equal_channels(texture);
-        let texture =
+        let mut texture =
             if needs_linear_floats(&texture, scene, index) { linear_floats(&texture) } else { texture };
         let kind = kind(&texture);
-        let kernel = scene.textures.get(index).map_or(MipKernel::Box, |t| t.mip_kernel);
-        let levels = if !reads(packed, scene, index, SamplerSpec::reads_levels) {
+        let levels = if !reads_levels {
             Vec::new()
+        } else if kernel == MipKernel::Stored {
+            std::mem::take(&mut texture.stored_levels)
         } else if packed.nonfinite_texels[index] > 0 {
             mips::mip_chain_of_finite(&texture)
         } else if mip_chains.leaves(&texture, kernel) {
@@ -201,22 +209,29 @@ fn append(
     Ok(start as u32)
 }
 
-/// Stores a colour texture whose texels are all opaque grey as grey: a quarter of the memory, and of the arithmetic of
-/// a look-up. The first coloured texel ends the search.
+/// Stores a colour texture whose texels are all opaque grey, in all its levels, as grey: a quarter of the memory, and of
+/// the arithmetic of a look-up. The first coloured texel ends the search.
 fn without_equal_channels(texture: TextureData) -> TextureData {
     if texture.format.channels() != 4 {
         return texture;
     }
     let component = texture.format.component();
-    let greys = match component {
-        Component::Unorm8 => opaque_greys::<1>(&texture.texels, component.one()),
-        Component::Unorm16 => opaque_greys::<2>(&texture.texels, component.one()),
-        Component::Float32 => opaque_greys::<4>(&texture.texels, component.one()),
+    let greys = |level: &TextureData| match component {
+        Component::Unorm8 => opaque_greys::<1>(&level.texels, component.one()),
+        Component::Unorm16 => opaque_greys::<2>(&level.texels, component.one()),
+        Component::Float32 => opaque_greys::<4>(&level.texels, component.one()),
     };
-    match greys {
-        Some(texels) => TextureData { texels, format: TexelFormat::new(1, component), ..texture },
-        None => texture,
-    }
+    let Some(first) = greys(&texture) else { return texture };
+    let Some(levels) = texture.stored_levels.iter().map(greys).collect::<Option<Vec<_>>>() else {
+        return texture;
+    };
+    let grey =
+        |level: TextureData, texels| TextureData { texels, format: TexelFormat::new(1, component), ..level };
+    let mut texture = grey(texture, first);
+    let stored = std::mem::take(&mut texture.stored_levels);
+    texture.stored_levels =
+        stored.into_iter().zip(levels).map(|(level, texels)| grey(level, texels)).collect();
+    texture
 }
 
 /// Returns the first of four channels of `WIDTH` bytes each, if the next two equal it and the last is `one`.
@@ -234,7 +249,9 @@ fn needs_linear_floats(texture: &TextureData, scene: &Scene, index: usize) -> bo
 }
 
 fn linear_floats(texture: &TextureData) -> TextureData {
-    texture.with_floats(texture.format.channels(), |x, y, c| texture.linear_value(x, y, c) as f32)
+    let floats =
+        texture.with_floats(texture.format.channels(), |x, y, c| texture.linear_value(x, y, c) as f32);
+    TextureData { stored_levels: texture.stored_levels.iter().map(linear_floats).collect(), ..floats }
 }
 
 /// Returns the slot of this pair among those of its kind, new or shared; textures that need no image have none.

@@ -13,6 +13,7 @@ use super::model::{
     Background, Camera, DEFAULT, Light, Material, PixelFilter, Sampling, Scene, TextureSource,
 };
 use super::refusal::{Check, Key};
+use super::tiles;
 use super::whole;
 use crate::core::error::Result;
 use crate::texture::sampler_spec::SamplerSpec;
@@ -157,6 +158,7 @@ impl SceneBuilder {
         checks::background(Key::item("background", 0), &scene.background, textures, samplers)?;
         geometry::check(scene)?;
         each("light", &scene.lights, checks::light)?;
+        tiles::apply(&mut self.scene)?;
         self.simplify();
         Ok(self.scene)
     }

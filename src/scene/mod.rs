@@ -22,6 +22,7 @@ mod sampling;
 mod shorthands;
 pub mod synonyms;
 pub mod texture_advice;
+mod tiles;
 mod whole;
 
 pub use builder::SceneBuilder;

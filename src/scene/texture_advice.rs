@@ -54,10 +54,13 @@ fn is_color(scene: &Scene, texture: usize) -> bool {
 fn may_be_pale(source: &TextureSource, texture: &TextureData) -> bool {
     let is_picture = match source.content {
         TextureContent::File(_) => source.dimension != Dimension::Three,
-        TextureContent::CubeFile(..) | TextureContent::Faces(_) | TextureContent::Slices(_) => true,
+        TextureContent::CubeFile(..)
+        | TextureContent::Faces(_)
+        | TextureContent::Tiles(_)
+        | TextureContent::Slices(_) => true,
         _ => false,
     };
-    let stated = source.color_space_stated || source.color_space == ColorSpace::Srgb;
+    let stated = source.color_space_stated || texture.color_space == ColorSpace::Srgb;
     if !is_picture || stated || texture.format.component() != Component::Unorm8 {
         return false;
     }

@@ -67,7 +67,7 @@ pub fn analyse(texture: &TextureData) -> Analysis {
     let (width, height) = (texture.width as usize, texture.height as usize);
     let rows = Rows::new(texture);
     let mut channels: Vec<Channel> =
-        names(count).iter().map(|&name| Channel { name, ..Channel::default() }).collect();
+        channel_names(texture).iter().map(|&name| Channel { name, ..Channel::default() }).collect();
     let mut sums = vec![0.0; count];
     let (mut non_finite_texels, mut first_non_finite) = (0, None);
 
@@ -136,10 +136,11 @@ impl Channel {
     }
 }
 
-fn names(file_channels: usize) -> &'static [&'static str] {
-    let names: &[&str] =
-        if file_channels < 3 { &["grey", "alpha"] } else { &["red", "green", "blue", "alpha"] };
-    &names[..file_channels]
+/// Returns the names of the channels of the file; two that are expanded to colours are red and green.
+pub fn channel_names(texture: &TextureData) -> &'static [&'static str] {
+    let is_grey = texture.file_channels < 3 && texture.format.channels() < 3;
+    let names: &[&str] = if is_grey { &["grey", "alpha"] } else { &["red", "green", "blue", "alpha"] };
+    &names[..texture.file_channels]
 }
 
 fn axis(steps: &Steps, lines: impl Fn() -> Vec<Vec<f32>>) -> AxisAnalysis {

@@ -28,9 +28,9 @@
 
 use std::path::{Path, PathBuf};
 
-use super::data::ColorSpace;
+use super::data::{ColorSpace, Dimension};
 use super::decode::AllowedFloats;
-use super::read_file::{Picture, Texels};
+use super::read_file::{self, Picture, Texels};
 use super::source::{CubeLayout, ReadOptions};
 use super::stack;
 use crate::core::error::{Error, Result};
@@ -84,6 +84,12 @@ pub(super) fn join(
         ),
         "cut or scale the six pictures to squares of one size",
     ))
+}
+
+/// Returns true if a file is known to hold six faces, which need no cutting. A file that cannot be opened is not.
+pub(super) fn is_whole(path: &Path, reading: &ReadOptions) -> Result<bool> {
+    Ok(read_file::is_container(path)
+        && read_file::read_any(path, reading)?.facts.dimension == Dimension::Cube)
 }
 
 pub(super) fn cut(picture: &Texels, layout: Option<CubeLayout>, path: &Path) -> Result<Texels> {

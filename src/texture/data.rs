@@ -21,6 +21,8 @@ named_enum! {
         Box = "box",
         /// A Kaiser-windowed sinc over a wider neighbourhood, which is sharper and aliases less.
         Kaiser = "kaiser",
+        /// None: the levels are those that the file stores, as written.
+        Stored = "stored",
     }
 }
 
@@ -119,4 +121,6 @@ pub struct TextureData {
     /// Tightly packed rows in native byte order, slices one after the other; so are a cube's faces,
     /// +x −x +y −y +z −z in Vulkan's order.
     pub texels: Vec<u8>,
+    /// The levels that the file stores, from level 1 on, each of half the size of the one before; they may end early.
+    pub stored_levels: Vec<TextureData>,
 }

@@ -5,7 +5,7 @@
 use std::path::Path;
 
 use super::data::{ColorSpace, Component, Dimension, TexelFormat, TextureData};
-use super::read_file::{self, Picture, Texels};
+use super::read_file::{self, FileFacts, Picture, Texels};
 use super::source::ReadOptions;
 use crate::core::error::{Error, ErrorKind, Result};
 
@@ -21,23 +21,22 @@ pub enum AllowedFloats {
 /// Decodes a 2D texture from one picture.
 pub fn decode(path: &Path, name: &str, color_space: ColorSpace, flip_v: bool) -> Result<TextureData> {
     let picture = read_checked(path, &ReadOptions::default(), color_space, AllowedFloats::Finite);
-    let mut texels = picture.map_err(|e| in_texture(name, e))?.texels;
+    let mut picture = picture.map_err(|e| in_texture(name, e))?;
     if flip_v {
-        let height = texels.height;
-        reverse_rows(&mut texels, height);
+        picture.reverse_rows();
     }
-    Ok(texture_of(name, Dimension::Two, color_space, texels, 1))
+    Ok(texture_of(name, Dimension::Two, color_space, picture))
 }
 
-/// Makes a texture of `texels`, which hold `depth` slices of its height.
-pub(super) fn texture_of(
+/// Makes a texture of a file's levels.
+pub(crate) fn texture_of(
     name: &str,
     dimension: Dimension,
     color_space: ColorSpace,
-    texels: Texels,
-    depth: u32,
+    picture: Picture,
 ) -> TextureData {
-    TextureData {
+    let FileFacts { depth, levels, .. } = picture.facts;
+    let level = |texels: Texels, depth, stored_levels| TextureData {
         name: name.to_string(),
         dimension,
         width: texels.width,
@@ -47,7 +46,12 @@ pub(super) fn texture_of(
         color_space,
         file_channels: texels.file_channels,
         texels: texels.bytes,
-    }
+        stored_levels,
+    };
+    let halved = |index: usize| if dimension == Dimension::Three { (depth >> index).max(1) } else { depth };
+    let levels = levels.into_iter().enumerate().map(|(i, texels)| level(texels, halved(i + 1), Vec::new()));
+    let levels = levels.collect();
+    level(picture.texels, depth, levels)
 }
 
 pub(super) fn read_checked(
@@ -56,23 +60,30 @@ pub(super) fn read_checked(
     color_space: ColorSpace,
     values: AllowedFloats,
 ) -> Result<Picture> {
-    let picture = read_file::read_as(path, reading)?;
+    check_picture(read_file::read_as(path, reading)?, color_space, values, path)
+}
+
+/// Returns a picture whose values are as they have to be, in all levels.
+pub(super) fn check_picture(
+    picture: Picture,
+    color_space: ColorSpace,
+    values: AllowedFloats,
+    path: &Path,
+) -> Result<Picture> {
     check_meaning(picture.texels.format, color_space, path)?;
     check_values(&picture.texels, values, path)?;
+    picture.facts.levels.iter().try_for_each(|level| check_values(level, values, path))?;
     Ok(picture)
 }
 
-/// Reads a picture that lies within another file. It has integers, as PNG and JPEG have.
+/// Reads a picture that lies within another file.
 pub(super) fn read_embedded(
     name: &Path,
     bytes: &[u8],
     reading: &ReadOptions,
     color_space: ColorSpace,
 ) -> Result<Picture> {
-    let picture = read_file::read_bytes(bytes, name, reading)?;
-    check_meaning(picture.texels.format, color_space, name)?;
-    check_values(&picture.texels, AllowedFloats::Finite, name)?;
-    Ok(picture)
+    check_picture(read_file::read_bytes(bytes, name, reading)?, color_space, AllowedFloats::Finite, name)
 }
 
 pub(super) fn in_texture(name: &str, error: Error) -> Error {
@@ -116,6 +127,16 @@ pub(super) fn check_values(texels: &Texels, allowed: AllowedFloats, path: &Path)
         "replace them before use (column and row are counted from the top left), or let them in: \
          moire render --allow-nonfinite",
     ))
+}
+
+impl Picture {
+    /// Reverses the row order within each slice of each level.
+    pub(super) fn reverse_rows(&mut self) {
+        for level in std::iter::once(&mut self.texels).chain(&mut self.facts.levels) {
+            let height = level.height;
+            reverse_rows(level, height);
+        }
+    }
 }
 
 /// Reverses the row order within each slice of `height` rows.

@@ -21,6 +21,12 @@ pub(super) struct Header {
     pub component: Component,
 }
 
+impl Header {
+    fn format(&self) -> TexelFormat {
+        TexelFormat::new(if self.channels == 3 { 4 } else { self.channels }, self.component)
+    }
+}
+
 /// The reason why decoding failed.
 #[derive(Debug)]
 pub(super) enum Fault {
@@ -55,14 +61,25 @@ pub(super) fn texels(
     path: &Path,
     decode: impl FnOnce(&mut [u8]) -> std::result::Result<(), Fault>,
 ) -> Result<Texels> {
-    let Header { width, height, channels: file_channels, component } = header;
-    let channels = if file_channels == 3 { 4 } else { file_channels };
-    let format = TexelFormat::new(channels, component);
-    check_size(path, width.into(), height.into(), format.bytes_per_texel())?;
-    let pixels = width as usize * height as usize;
-    if pixels as u64 > (file_bytes as u64).saturating_mul(MAX_TEXELS_PER_BYTE) {
+    let Header { width, height, .. } = header;
+    check_size(path, width.into(), height.into(), header.format().bytes_per_texel())?;
+    if u64::from(width) * u64::from(height) > (file_bytes as u64).saturating_mul(MAX_TEXELS_PER_BYTE) {
         return Err(damaged(path, kind, &format!("{file_bytes} bytes cannot hold {width}×{height} texels")));
     }
+    fill(header, kind, path, decode)
+}
+
+/// Returns the texels of a file like [`texels`], however few bytes it has.
+pub(super) fn fill(
+    header: Header,
+    kind: &str,
+    path: &Path,
+    decode: impl FnOnce(&mut [u8]) -> std::result::Result<(), Fault>,
+) -> Result<Texels> {
+    let Header { width, height, channels: file_channels, component } = header;
+    let format = header.format();
+    check_size(path, width.into(), height.into(), format.bytes_per_texel())?;
+    let pixels = width as usize * height as usize;
 
     // The texels are decoded into the front of the final buffer and widened in place, without a
     // second copy.

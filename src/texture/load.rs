@@ -4,13 +4,10 @@
 use std::path::Path;
 
 use super::data::{Component, Dimension, TexelFormat, TextureData};
-use super::decode::{
-    AllowedFloats, check_meaning, check_values, in_texture, read_checked, read_embedded, reverse_rows,
-    texture_of,
-};
-use super::read_file::{Picture, Texels};
+use super::decode::{AllowedFloats, check_picture, in_texture, read_checked, read_embedded, texture_of};
+use super::read_file::{self, FileFacts, Picture, Texels};
 use super::source::{TextureContent, TextureSource};
-use super::{cube, nrrd, stack, volume};
+use super::{cube, nrrd, stack, tiles, volume};
 use crate::core::error::{Error, Result};
 use crate::core::panics;
 
@@ -28,47 +25,58 @@ pub fn load_with(source: &TextureSource, values: AllowedFloats) -> Result<Textur
 /// Loads a texture and also returns notes about how its files were read.
 pub fn load_with_notes(source: &TextureSource, values: AllowedFloats) -> Result<(TextureData, Vec<String>)> {
     let stage = format!("texture \"{}\"", source.name);
-    let (picture, depth) =
+    let mut picture =
         panics::contain(&stage, || read(source, values).map_err(|e| in_texture(&source.name, e)))?;
-    let mut texels = picture.texels;
     if source.flip_v {
-        let height = texels.height;
-        reverse_rows(&mut texels, height);
+        picture.reverse_rows();
     }
-    let texture = texture_of(&source.name, source.dimension, source.color_space, texels, depth);
-    Ok((texture, picture.notes.iter().map(|note| format!("texture \"{}\": {note}", source.name)).collect()))
+    let notes = picture.notes.iter().map(|note| format!("texture \"{}\": {note}", source.name)).collect();
+    let of_file = picture.facts.color_space.filter(|_| !source.color_space_stated);
+    let color_space = of_file.unwrap_or(source.color_space);
+    Ok((texture_of(&source.name, source.dimension, color_space, picture), notes))
 }
 
-/// Reads the texels and returns the number of slices or faces with them.
-fn read(source: &TextureSource, values: AllowedFloats) -> Result<(Picture, u32)> {
+/// Reads the texels, with the number of slices or faces.
+fn read(source: &TextureSource, values: AllowedFloats) -> Result<Picture> {
     let space = source.color_space;
     let reading = &source.reading;
     let picture = |path: &Path| read_checked(path, reading, space, values);
-    let volume = |path: &Path, (texels, depth): (Texels, u32)| {
-        check_meaning(texels.format, space, path)?;
-        check_values(&texels, values, path)?;
-        Ok((texels.into(), depth))
+    let container = |path: &Path| {
+        let picture = read_file::read_any(path, reading)?;
+        read_file::check_dimension(&picture, source.dimension, path)?;
+        check_picture(picture, space, values, path)
     };
+    let volume = |path: &Path, texels, depth| check_picture(deep(texels, depth), space, values, path);
     match &source.content {
-        TextureContent::File(file) if source.dimension == Dimension::Three => volume(file, nrrd::read(file)?),
+        TextureContent::File(file) if source.dimension == Dimension::Three => {
+            if read_file::is_container(file) {
+                return container(file);
+            }
+            let (texels, depth) = nrrd::read(file)?;
+            volume(file, texels, depth)
+        }
         TextureContent::File(file) => {
             let picture = picture(file)?;
             if source.dimension == Dimension::One {
                 check_row(&picture.texels, file)?;
             }
-            Ok((picture, 1))
+            Ok(picture)
         }
-        TextureContent::Embedded(name, bytes) => Ok((read_embedded(name, bytes, reading, space)?, 1)),
-        TextureContent::Ramp(colors) => Ok((ramp(colors).into(), 1)),
+        TextureContent::Embedded(name, bytes) => read_embedded(name, bytes, reading, space),
+        TextureContent::Ramp(colors) => Ok(ramp(colors).into()),
+        TextureContent::CubeFile(file, None) if cube::is_whole(file, reading)? => container(file),
         TextureContent::CubeFile(file, layout) => {
-            let Picture { texels, notes, .. } = picture(file)?;
-            Ok((Picture::noted(cube::cut(&texels, *layout, file)?, notes), 6))
+            let Picture { texels, notes, facts, .. } = picture(file)?;
+            let faces = Picture::noted(cube::cut(&texels, *layout, file)?, notes);
+            Ok(Picture {
+                facts: FileFacts { depth: 6, color_space: facts.color_space, ..FileFacts::default() },
+                ..faces
+            })
         }
-        TextureContent::Faces(files) => cube::join(files, reading, space, values).map(|t| (t, 6)),
-        TextureContent::Slices(files) => {
-            stack::read(files, reading, space, values, "slice").map(|t| (t, files.len() as u32))
-        }
-        TextureContent::Procedural(_) => Ok((ramp(&[[0.0; 4]]).into(), 1)),
+        TextureContent::Faces(files) => cube::join(files, reading, space, values),
+        TextureContent::Slices(files) => stack::read(files, reading, space, values, "slice"),
+        TextureContent::Tiles(set) => tiles::read(set, reading, space, values),
+        TextureContent::Procedural(_) => Ok(ramp(&[[0.0; 4]]).into()),
         TextureContent::Texels(plain) => {
             let texels = Texels {
                 width: plain.width,
@@ -77,12 +85,15 @@ fn read(source: &TextureSource, values: AllowedFloats) -> Result<(Picture, u32)>
                 file_channels: plain.format.channels(),
                 bytes: plain.bytes.clone(),
             };
-            check_meaning(texels.format, space, Path::new("in memory"))?;
-            check_values(&texels, values, Path::new("in memory"))?;
-            Ok((texels.into(), 1))
+            check_picture(texels.into(), space, values, Path::new("in memory"))
         }
-        TextureContent::Volume(raw) => volume(&raw.file, (volume::read(raw)?, raw.size[2])),
+        TextureContent::Volume(raw) => volume(&raw.file, volume::read(raw)?, raw.size[2]),
     }
+}
+
+/// Returns a volume of so many slices.
+fn deep(texels: Texels, depth: u32) -> Picture {
+    Picture { facts: FileFacts { depth, ..FileFacts::default() }, ..Picture::from(texels) }
 }
 
 fn ramp(colors: &[[f32; 4]]) -> Texels {

@@ -29,7 +29,7 @@ use halve::halve;
 pub use nonfinite::mip_chain_of_finite;
 use resample::{AxisWeights, resample};
 
-/// Returns levels 1 to the last, or none for a texture of one texel.
+/// Returns levels 1 to the last, or none for a texture of one texel; of stored levels those that there are.
 pub fn mip_chain(texture: &TextureData, kernel: MipKernel) -> Vec<TextureData> {
     let codec = Codec::new(texture, kernel == MipKernel::Kaiser);
     let stored =
@@ -37,6 +37,7 @@ pub fn mip_chain(texture: &TextureData, kernel: MipKernel) -> Vec<TextureData> {
     match kernel {
         MipKernel::Box => box_levels(texture, &codec, stored),
         MipKernel::Kaiser => kaiser_levels(texture, &codec, stored),
+        MipKernel::Stored => texture.stored_levels.clone(),
     }
 }
 
@@ -66,7 +67,15 @@ pub fn zeroed_levels(texture: &TextureData) -> Vec<TextureData> {
         let [width, height, depth] = level_size(texture, level);
         let count = width as usize * height as usize * depth as usize;
         let texels = vec![0; count * texture.format.bytes_per_texel()];
-        TextureData { name: texture.name.clone(), width, height, depth, texels, ..*texture }
+        TextureData {
+            name: texture.name.clone(),
+            width,
+            height,
+            depth,
+            texels,
+            stored_levels: Vec::new(),
+            ..*texture
+        }
     };
     (1..level_count(texture)).map(level).collect()
 }
@@ -118,7 +127,15 @@ fn halves(from: [usize; 3], to: [usize; 3]) -> bool {
 fn stored_level(texture: &TextureData, codec: &Codec, size: [usize; 3], values: &[f32]) -> TextureData {
     let [width, height, depth] = size.map(|n| n as u32);
     let texels = codec.encode(values, size[0]);
-    TextureData { name: texture.name.clone(), width, height, depth, texels, ..*texture }
+    TextureData {
+        name: texture.name.clone(),
+        width,
+        height,
+        depth,
+        texels,
+        stored_levels: Vec::new(),
+        ..*texture
+    }
 }
 
 /// The source level from which the next one is computed.

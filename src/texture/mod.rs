@@ -2,11 +2,13 @@
 
 #[allow(missing_docs)]
 pub mod analysis;
+pub mod analysis_levels;
 mod analysis_period;
 mod analysis_rows;
 mod analysis_steps;
 #[allow(missing_docs)]
 mod analysis_verdict;
+mod container;
 mod cube;
 pub mod data;
 #[allow(missing_docs)]
@@ -17,6 +19,7 @@ mod exr_layers;
 mod exr_subsampled;
 pub mod filter;
 mod fixed_point;
+pub mod formats;
 mod jpeg_data;
 pub mod load;
 pub mod mips;
@@ -31,6 +34,7 @@ mod read_hdr;
 mod read_jpeg;
 mod read_png;
 mod read_tga;
+mod read_webp;
 pub mod sampler_spec;
 mod scalar;
 mod sniff;
@@ -38,5 +42,6 @@ pub mod source;
 mod stack;
 pub mod summed;
 mod tiff;
+pub mod tiles;
 mod value;
 mod volume;

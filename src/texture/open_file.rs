@@ -5,7 +5,8 @@ use std::fs::{self, File};
 use std::io::ErrorKind;
 use std::path::Path;
 
-use super::read_file::{SUPPORTED, unreadable};
+use super::formats::supported;
+use super::read_file::unreadable;
 use crate::core::error::{Error, Result};
 
 pub(super) fn open(path: &Path) -> Result<File> {
@@ -20,7 +21,7 @@ pub(super) fn open(path: &Path) -> Result<File> {
         let what = if metadata.is_dir() { "a folder" } else { "not a regular file" };
         return Err(Error::with_help(
             format!("{}: this is {what}, where a picture is needed", path.display()),
-            format!("name a picture file; supported are {SUPPORTED}"),
+            format!("name a picture file; supported are {}", supported()),
         ));
     }
     File::open(path).map_err(|e| unreadable(path, &e))

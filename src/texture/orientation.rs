@@ -1,11 +1,11 @@
-//! Image orientation of JPEG, PNG and TIFF files. Reads tag 274 (TIFF 6.0, "Orientation"; Exif
+//! Image orientation of JPEG, PNG, TIFF and WebP files. Reads tag 274 (TIFF 6.0, "Orientation"; Exif
 //! 2.32, 4.6.4) and turns texels so that the first row is the top one. Exif data is a TIFF
-//! structure in an APP1 segment of a JPEG file or an eXIf chunk of a PNG file.
+//! structure in an APP1 segment of a JPEG file, an eXIf chunk of a PNG file or an EXIF chunk of a WebP file.
 
 use super::data::TexelFormat;
+use super::formats::PictureFormat;
 use super::read_file::Texels;
-use super::sniff::PictureFormat;
-use super::{read_jpeg, read_png, tiff};
+use super::{read_jpeg, read_png, read_webp, tiff};
 
 /// The corner at which the picture's top left is stored, and the direction of its rows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -60,6 +60,7 @@ pub fn orientation_of(file: &[u8], format: PictureFormat) -> Option<Orientation>
         PictureFormat::Jpeg => read_jpeg::exif(file)?,
         PictureFormat::Png => read_png::exif(file)?,
         PictureFormat::Tiff => file,
+        PictureFormat::WebP => read_webp::exif(file)?,
         _ => return None,
     };
     tiff::orientation(tagged).and_then(Orientation::from_tag)

@@ -5,13 +5,14 @@
 use std::io::{BufReader, Cursor, Read, Seek};
 use std::path::Path;
 
-use super::data::TexelFormat;
+use super::data::{ColorSpace, Dimension, TexelFormat};
+use super::formats::{PictureFormat, Reader, supported};
 use super::open_file::open;
 use super::orientation::orientation_of;
+use super::read_exr;
 pub use super::read_exr::ExrWindow;
-use super::sniff::{self, Content, PictureFormat};
+use super::sniff::{self, Content};
 use super::source::{OrientationUse, ReadOptions};
-use super::{read_exr, read_hdr, read_jpeg, read_png, read_tga, tiff};
 use crate::core::error::{Error, Result};
 use crate::core::film::Placement;
 use crate::core::panics;
@@ -21,7 +22,6 @@ const MAX_SIDE: u64 = 65_536;
 /// The limit of the decoded size; the image crate's default of 512 MiB refuses an 8192² float
 /// texture.
 pub(super) const MAX_BYTES: u64 = 16 << 30;
-pub const SUPPORTED: &str = "PNG, JPEG, TIFF, TGA, Radiance HDR and OpenEXR";
 
 /// Tightly packed rows in native byte order, the file's first row first.
 pub struct Texels {
@@ -39,13 +39,40 @@ pub struct Picture {
     /// The placement of the texels in the file's picture.
     pub placement: Placement,
     pub notes: Vec<String>,
+    pub facts: FileFacts,
+}
+
+/// The facts of a file beyond one array of texels.
+pub struct FileFacts {
+    pub dimension: Dimension,
+    /// Slices of a volume, 6 for a cube, otherwise 1.
+    pub depth: u32,
+    /// The levels that the file stores, from level 1 on.
+    pub levels: Vec<Texels>,
+    /// The meaning of the values, if the file states it.
+    pub color_space: Option<ColorSpace>,
+    /// The formats of the file and of its texels, by name, where the texels do not tell them.
+    pub encoding: Option<String>,
+}
+
+impl Default for FileFacts {
+    /// Returns the facts of one flat picture.
+    fn default() -> Self {
+        FileFacts {
+            dimension: Dimension::Two,
+            depth: 1,
+            levels: Vec::new(),
+            color_space: None,
+            encoding: None,
+        }
+    }
 }
 
 impl Picture {
     /// Returns a complete picture with these notes.
     pub(super) fn noted(texels: Texels, notes: Vec<String>) -> Picture {
         let placement = Placement::whole(texels.width, texels.height);
-        Picture { texels, placement, notes }
+        Picture { texels, placement, notes, facts: FileFacts::default() }
     }
 }
 
@@ -55,14 +82,43 @@ impl From<Texels> for Picture {
     }
 }
 
-/// Reads a picture with the given options; by default it is turned upright and, if it has layers,
+/// Reads a flat picture with the given options; by default it is turned upright and, if it has layers,
 /// the unnamed one is read.
 pub fn read_as(path: &Path, reading: &ReadOptions) -> Result<Picture> {
     read_window(path, reading, ExrWindow::Display)
 }
 
-/// Reads a picture with the given options; of an OpenEXR file only this part.
+/// Reads a flat picture with the given options; of an OpenEXR file only this part.
 pub fn read_window(path: &Path, reading: &ReadOptions, window: ExrWindow) -> Result<Picture> {
+    let picture = read_part(path, reading, window)?;
+    check_dimension(&picture, Dimension::Two, path)?;
+    Ok(picture)
+}
+
+/// Reads a file of texels of any dimension.
+pub fn read_any(path: &Path, reading: &ReadOptions) -> Result<Picture> {
+    read_part(path, reading, ExrWindow::Display)
+}
+
+/// Checks that a file holds texels of this dimension; a picture is flat.
+pub(super) fn check_dimension(picture: &Picture, wanted: Dimension, path: &Path) -> Result<()> {
+    let FileFacts { dimension, depth, .. } = picture.facts;
+    if dimension == wanted {
+        return Ok(());
+    }
+    let Texels { width, height, .. } = picture.texels;
+    let holds = match dimension {
+        Dimension::Cube => format!("a cube with faces of {width}×{height} texels"),
+        Dimension::Three => format!("a volume of {width}×{height}×{depth} texels"),
+        Dimension::One | Dimension::Two => format!("one flat picture of {width}×{height} texels"),
+    };
+    Err(Error::with_help(
+        format!("{}: the file holds {holds}, and one of dimension \"{wanted}\" is needed", path.display()),
+        format!("of a texture, set dimension = \"{dimension}\"; else name another file"),
+    ))
+}
+
+fn read_part(path: &Path, reading: &ReadOptions, window: ExrWindow) -> Result<Picture> {
     let stage = format!("{}: reading this picture", path.display());
     panics::contain(&stage, || {
         let file = open(path)?;
@@ -75,7 +131,9 @@ pub fn read_window(path: &Path, reading: &ReadOptions, window: ExrWindow) -> Res
 pub(super) fn read_bytes(bytes: &[u8], name: &Path, reading: &ReadOptions) -> Result<Picture> {
     let stage = format!("{}: reading this picture", name.display());
     panics::contain(&stage, || {
-        read_by_content(Cursor::new(bytes), bytes.len(), name, reading, ExrWindow::Display)
+        let picture = read_by_content(Cursor::new(bytes), bytes.len(), name, reading, ExrWindow::Display)?;
+        check_dimension(&picture, Dimension::Two, name)?;
+        Ok(picture)
     })
 }
 
@@ -91,17 +149,13 @@ fn read_by_content(
         Content::Picture(format) => format,
         Content::Other(what) => return Err(no_picture(path, &what)),
     };
-    let read: fn(&[u8], &Path) -> Result<Picture> = match format {
-        PictureFormat::OpenExr => {
+    let read = match format.properties().reader {
+        Reader::Layered => {
             let layer = reading.layer.as_deref();
             let (texels, placement) = read_exr::read(&mut BufReader::new(source), layer, window, path)?;
-            return Ok(Picture { texels, placement, notes: Vec::new() });
+            return Ok(Picture { placement, ..Picture::from(texels) });
         }
-        PictureFormat::Png => read_png::read,
-        PictureFormat::Jpeg => read_jpeg::read,
-        PictureFormat::Tiff => tiff::read,
-        PictureFormat::Hdr => read_hdr::read,
-        PictureFormat::Tga => read_tga::read,
+        Reader::Whole(read) => read,
     };
     if let Some(layer) = &reading.layer {
         return Err(no_layers(path, format, layer));
@@ -133,6 +187,12 @@ fn identify(source: &mut (impl Read + Seek)) -> std::io::Result<Content> {
     Ok(sniff::identify(&head))
 }
 
+/// Returns true if the file is of a format that may hold cubes and volumes.
+pub(super) fn is_container(path: &Path) -> bool {
+    let content = open(path).ok().and_then(|mut source| identify(&mut source).ok());
+    matches!(content, Some(Content::Picture(format)) if format.properties().is_container)
+}
+
 /// Returns true if the file's metadata states that the picture is stored rotated or mirrored.
 pub fn is_turned(path: &Path) -> bool {
     let Ok(mut source) = open(path) else { return false };
@@ -149,7 +209,7 @@ pub fn is_turned(path: &Path) -> bool {
 fn no_picture(path: &Path, what: &str) -> Error {
     Error::with_help(
         format!("{}: not a picture that can be read: the content {what}", path.display()),
-        format!("supported are {SUPPORTED}, whatever the ending of the name"),
+        format!("supported are {}, whatever the ending of the name", supported()),
     )
 }
 

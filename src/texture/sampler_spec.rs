@@ -16,6 +16,8 @@ pub struct SamplerSpec {
     pub min: Filter,
     /// Which levels are read.
     pub mip: MipMode,
+    /// True if the levels are those that the files of its textures store.
+    pub stored_levels: bool,
     /// The minimum level of detail, of hardware samplers only. Above 0, every lookup minifies.
     pub min_lod: f32,
     /// The colour of `clamp-to-border`, red, green, blue and alpha.
@@ -42,6 +44,7 @@ impl Default for SamplerSpec {
             mag: Filter::Linear,
             min: Filter::Linear,
             mip: MipMode::None,
+            stored_levels: false,
             min_lod: 0.0,
             border_color: [0.0; 4],
             method: Method::Shader,

@@ -1,19 +1,7 @@
 //! Identifies the format of a file by its first bytes, never by the extension of its name. A file
 //! that is not a supported picture gets a short description for the error message.
 
-use crate::core::named::named_enum;
-
-named_enum! {
-    /// A file format that is read; the name is the one in messages.
-    pub enum PictureFormat {
-        Png = "PNG",
-        Jpeg = "JPEG",
-        Tiff = "TIFF",
-        Tga = "TGA",
-        Hdr = "HDR",
-        OpenExr = "OpenEXR",
-    }
-}
+pub use super::formats::PictureFormat;
 
 /// The number of bytes that suffice for every signature below and for recognising text.
 pub const HEAD_BYTES: usize = 64;
@@ -25,27 +13,12 @@ pub enum Content {
     Other(String),
 }
 
-const PICTURES: &[(&[u8], PictureFormat)] = &[
-    (b"\x89PNG\r\n\x1a\n", PictureFormat::Png),
-    (b"\xff\xd8\xff", PictureFormat::Jpeg),
-    (b"II*\0", PictureFormat::Tiff),
-    (b"MM\0*", PictureFormat::Tiff),
-    (b"II+\0", PictureFormat::Tiff),
-    (b"MM\0+", PictureFormat::Tiff),
-    // Usually #?RADIANCE or #?RGBE: the program that wrote the first such files put its own name
-    // there.
-    (b"#?", PictureFormat::Hdr),
-    (b"\x76\x2f\x31\x01", PictureFormat::OpenExr),
-];
-
 /// Offset, signature and name.
 const OTHERS: &[(usize, &[u8], &str)] = &[
-    (8, b"WEBP", "is WebP"),
     (0, b"GIF8", "is GIF"),
     (0, b"BM", "looks like BMP"),
     (0, b"8BPS", "is a Photoshop document"),
-    (0, b"DDS ", "is DDS"),
-    (0, b"\xabKTX ", "is KTX"),
+    (0, b"\xabKTX 11", "is KTX 1 (KTX2 is read)"),
     (0, b"\0\0\0\x0cjP  ", "is JPEG 2000"),
     (0, b"\xff\x0a", "is JPEG XL"),
     (0, b"\0\0\0\x0cJXL ", "is JPEG XL"),
@@ -68,8 +41,8 @@ const OTHERS: &[(usize, &[u8], &str)] = &[
 
 /// Identifies a file by `head`, its first [`HEAD_BYTES`] bytes, or all of a shorter file.
 pub fn identify(head: &[u8]) -> Content {
-    if let Some((_, format)) = PICTURES.iter().find(|(magic, _)| head.starts_with(magic)) {
-        return Content::Picture(*format);
+    if let Some(format) = PictureFormat::of_signature(head) {
+        return Content::Picture(format);
     }
     match described(head) {
         Some(what) => Content::Other(what.into()),
@@ -103,7 +76,7 @@ fn describe(head: &[u8]) -> String {
     if head.is_empty() {
         return "is empty".into();
     }
-    if PICTURES.iter().any(|(magic, _)| magic.starts_with(head)) {
+    if PictureFormat::begins_signature(head) {
         return "ends within a picture's signature (truncated)".into();
     }
     if head[0] == b'P' && head.len() > 2 && head[1].is_ascii_digit() && head[2].is_ascii_whitespace() {
@@ -133,7 +106,7 @@ mod tests {
         for (head, want) in [
             (&b""[..], "is empty"),
             (b"hello, world\n", "looks like text"),
-            (b"RIFF\x10\0\0\0WEBPVP8 ", "is WebP"),
+            (b"\xabKTX 11\xbb", "is KTX 1 (KTX2 is read)"),
             (b"P6\n2 2\n255\n", "is a Netpbm picture"),
             (b"\x89PN", "ends within a picture's signature (truncated)"),
             (b"\x01\x02\x03", "begins with the bytes 01 02 03"),
@@ -143,6 +116,8 @@ mod tests {
         let tga = b"\0\0\x02\0\0\0\0\0\0\0\0\0\x04\0\x02\0\x18\0\x01\x02\x03";
         for (head, want) in [
             (&b"II*\0rest"[..], PictureFormat::Tiff),
+            (b"RIFF\x10\0\0\0WEBPVP8 ", PictureFormat::WebP),
+            (b"DDS |\0\0\0", PictureFormat::Dds),
             (b"#?RGBE\n", PictureFormat::Hdr),
             (b"#?RADIANCE\n", PictureFormat::Hdr),
             (tga, PictureFormat::Tga),

@@ -7,6 +7,7 @@ use std::sync::Arc;
 
 use super::data::{ColorSpace, Dimension, MipKernel, TexelFormat};
 use super::procedural::Procedural;
+use super::tiles::TileSet;
 use crate::core::named::named_enum;
 
 /// A texture as a scene has it: its texels may still be in files.
@@ -68,6 +69,8 @@ pub enum TextureContent {
     Faces([PathBuf; 6]),
     /// Pictures of equal size, the first at w = 0.
     Slices(Vec<PathBuf>),
+    /// One picture of the tiles of several files.
+    Tiles(TileSet),
     /// A file of bare texels.
     Volume(VolumeSource),
     /// A picture file within another, known by this name.
@@ -159,8 +162,14 @@ impl TextureContent {
             TextureContent::File(file) | TextureContent::CubeFile(file, _) => vec![file],
             TextureContent::Faces(files) => files.iter().map(PathBuf::as_path).collect(),
             TextureContent::Slices(files) => files.iter().map(PathBuf::as_path).collect(),
+            TextureContent::Tiles(set) => set.tiles.iter().map(|tile| tile.file.as_path()).collect(),
             TextureContent::Volume(volume) => vec![&volume.file],
         }
+    }
+
+    /// Returns the content of a flat texture by its name, which may stand for several tiles.
+    pub fn flat_file(path: PathBuf) -> TextureContent {
+        TileSet::of_name(&path).map_or(TextureContent::File(path), TextureContent::Tiles)
     }
 
     fn files_mut(&mut self) -> Vec<&mut PathBuf> {
@@ -172,6 +181,7 @@ impl TextureContent {
             TextureContent::File(file) | TextureContent::CubeFile(file, _) => vec![file],
             TextureContent::Faces(files) => files.iter_mut().collect(),
             TextureContent::Slices(files) => files.iter_mut().collect(),
+            TextureContent::Tiles(set) => set.tiles.iter_mut().map(|tile| &mut tile.file).collect(),
             TextureContent::Volume(volume) => vec![&mut volume.file],
         }
     }

@@ -10,7 +10,7 @@ use rayon::prelude::*;
 
 use super::data::{ColorSpace, Component, TexelFormat};
 use super::decode::{AllowedFloats, read_checked};
-use super::read_file::{Picture, Texels, check_volume};
+use super::read_file::{FileFacts, Picture, Texels, check_volume};
 use super::source::ReadOptions;
 use crate::core::error::{Error, Result};
 
@@ -26,6 +26,11 @@ pub(super) fn read(
         files.par_iter().map(|file| read_checked(file, reading, space, values)).collect();
     // The reported error is the first in the order of the files, whichever was found first.
     let pictures = pictures.into_iter().collect::<Result<Vec<_>>>()?;
+    // Files that say different things about their values say nothing together; stored levels of slices are none of the
+    // stack.
+    let stated = |picture: &Picture| picture.facts.color_space;
+    let color_space = pictures.first().and_then(stated);
+    let color_space = color_space.filter(|space| pictures.iter().all(|p| stated(p) == Some(*space)));
     let (pictures, notes): (Vec<Texels>, Vec<Vec<String>>) =
         pictures.into_iter().map(|picture| (picture.texels, picture.notes)).unzip();
     let Some(first) = pictures.first() else { return Err(Error::new(format!("no {what} is given"))) };
@@ -63,7 +68,9 @@ pub(super) fn read(
     for picture in pictures {
         append(&mut bytes, &picture, format);
     }
-    Ok(Picture::noted(Texels { width, height, format, file_channels, bytes }, notes.concat()))
+    let joined = Picture::noted(Texels { width, height, format, file_channels, bytes }, notes.concat());
+    let facts = FileFacts { depth: files.len() as u32, color_space, ..FileFacts::default() };
+    Ok(Picture { facts, ..joined })
 }
 
 fn append(bytes: &mut Vec<u8>, picture: &Texels, format: TexelFormat) {

@@ -52,6 +52,7 @@ mod tests {
             color_space: ColorSpace::Linear,
             file_channels: 1,
             texels: vec![0, 51, 102, 153, 204, 255],
+            stored_levels: Vec::new(),
         };
         let words = table(&texture);
         assert_eq!(words.len(), 3 + 4 * 3 * 2);

@@ -39,8 +39,13 @@ impl TextureData {
         if self.color_space == ColorSpace::Srgb && !is_alpha { srgb_to_linear(stored) } else { stored }
     }
 
-    /// Returns the number of texels with a channel that is NaN or infinite.
+    /// Returns the number of texels with a channel that is NaN or infinite, in all stored levels.
     pub fn nonfinite_texels(&self) -> u64 {
+        let of_levels: u64 = self.stored_levels.iter().map(TextureData::nonfinite_texels).sum();
+        of_levels + self.nonfinite_texels_of_first()
+    }
+
+    fn nonfinite_texels_of_first(&self) -> u64 {
         if self.format.component() != Component::Float32 {
             return 0;
         }
@@ -69,6 +74,7 @@ impl TextureData {
             format: TexelFormat::new(channels, Component::Float32),
             color_space: ColorSpace::Linear,
             texels: bytemuck::cast_slice(&floats).to_vec(),
+            stored_levels: Vec::new(),
             ..*self
         }
     }

@@ -34,7 +34,7 @@ fn content_that_is_no_picture_is_described() {
         (&b""[..], "is empty"),
         (b"<!DOCTYPE html><html>", "is a web page"),
         (b"just some words\n", "looks like text"),
-        (b"RIFF\0\0\0\0WEBPVP8 ", "is WebP"),
+        (b"\xabKTX 11\xbb\r\n", "is KTX 1 (KTX2 is read)"),
         (b"GIF89a\x01\0\x01\0", "is GIF"),
         (b"version https://git-lfs.github.com/spec/v1\n", "Git LFS pointer"),
         (b"\x00\x01\x02\x03", "begins with the bytes 00 01 02 03"),

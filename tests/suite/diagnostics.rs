@@ -21,6 +21,7 @@ fn grey(side: u32, value: impl Fn(u32) -> f32) -> TextureData {
         color_space: ColorSpace::Linear,
         file_channels: 1,
         texels: (0..side * side).flat_map(|i| value(i).to_ne_bytes()).collect(),
+        stored_levels: Vec::new(),
     }
 }
 

@@ -15,6 +15,7 @@ mod child;
 mod circles;
 mod cli;
 mod cone;
+mod containers;
 mod data;
 mod decode;
 mod decode_errors;

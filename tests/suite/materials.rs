@@ -29,6 +29,7 @@ fn floats(width: u32, height: u32, texel: impl Fn(u32, u32) -> [f32; 4]) -> Text
         color_space: ColorSpace::Linear,
         file_channels: 4,
         texels: bytemuck::cast_slice(&texels).to_vec(),
+        stored_levels: Vec::new(),
     }
 }
 

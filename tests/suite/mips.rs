@@ -19,6 +19,7 @@ fn texture(dimension: Dimension, size: [u32; 3], format: TexelFormat, texels: Ve
         color_space: ColorSpace::Linear,
         file_channels: format.channels(),
         texels,
+        stored_levels: Vec::new(),
     }
 }
 

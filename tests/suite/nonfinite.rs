@@ -246,6 +246,7 @@ fn texture(format: TexelFormat, [width, height]: [u32; 2], texels: &[f32]) -> Te
         color_space: ColorSpace::Linear,
         file_channels: format.channels(),
         texels: bytemuck::cast_slice(texels).to_vec(),
+        stored_levels: Vec::new(),
     }
 }
 

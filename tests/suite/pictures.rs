@@ -26,7 +26,11 @@ fn fixture(name: &str) -> PathBuf {
 
 /// The texture, and the notes on how its file was read.
 fn load(path: &Path, dimension: Dimension) -> Result<(TextureData, Vec<String>)> {
-    let source = texture_source(TextureContent::File(path.to_path_buf()), dimension, ReadOptions::default());
+    let content = match dimension {
+        Dimension::Cube => TextureContent::CubeFile(path.to_path_buf(), None),
+        _ => TextureContent::File(path.to_path_buf()),
+    };
+    let source = texture_source(content, dimension, ReadOptions::default());
     load_with_notes(&source, AllowedFloats::Finite)
 }
 

@@ -116,6 +116,7 @@ fn passes_of_a_pyramid_are_compiled_once() {
         color_space: ColorSpace::Linear,
         file_channels: 1,
         texels: vec![128; 64 * 64],
+        stored_levels: Vec::new(),
     };
     let mut probes = [MipProbe::new(&first), MipProbe::new(&second)];
     let make = |probe: &mut MipProbe| seconds(|| drop(probe.make(&texture).unwrap()));

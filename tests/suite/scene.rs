@@ -162,6 +162,7 @@ fn keys_left_out_have_the_documented_defaults() {
         mag: Filter::Linear,
         min: Filter::Linear,
         mip: MipMode::None,
+        stored_levels: false,
         min_lod: 0.0,
         border_color: [0.0; 4],
         method: Method::Shader,

@@ -24,6 +24,7 @@ fn grey(width: u32, height: u32, texel: impl Fn(u32, u32) -> f32) -> Analysis {
         color_space: ColorSpace::Linear,
         file_channels: 1,
         texels: values.flat_map(|(x, y)| texel(x, y).to_ne_bytes()).collect(),
+        stored_levels: Vec::new(),
     })
 }
 
@@ -215,13 +216,19 @@ fn json_is_one_object_with_the_documented_fields() {
         "bytes",
         "channels",
         "color_space",
+        "depth",
+        "dimension",
+        "encoding",
         "file",
         "file_channels",
         "first_non_finite",
         "format",
+        "levels",
         "non_finite_texels",
+        "normals",
         "out",
         "size",
+        "stated_color_space",
         "tiling",
     ];
     assert_eq!(keys(&told), fields);

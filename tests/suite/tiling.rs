@@ -74,6 +74,7 @@ impl Texture {
             color_space: ColorSpace::Linear,
             file_channels: 1,
             texels,
+            stored_levels: Vec::new(),
         });
         [told.u, told.v]
     }

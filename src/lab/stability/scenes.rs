@@ -60,6 +60,7 @@ pub fn texture(dimension: Dimension, size: [u32; 3], value: impl Fn(u32) -> f32)
         color_space: ColorSpace::Linear,
         file_channels: 4,
         texels: (0..4 * width * height * depth).flat_map(|i| channel(i).to_ne_bytes()).collect(),
+        stored_levels: Vec::new(),
     }
 }
 

@@ -82,6 +82,7 @@ pub fn noise(
         color_space,
         file_channels: format.channels(),
         texels,
+        stored_levels: Vec::new(),
     }
 }
 

@@ -5,6 +5,7 @@ use super::super::limits::{
 };
 use super::super::refusal::{Check, Key};
 use crate::texture::data::{ColorSpace, Dimension};
+use crate::texture::formats::is_container_name;
 use crate::texture::open_file::is_volume;
 use crate::texture::procedural::{MAX_OCTAVES, Procedural, ProceduralKind};
 use crate::texture::source::{TextureContent, TextureSource};
@@ -40,6 +41,7 @@ pub fn texture(key: Key, source: &TextureSource) -> Check {
             }
         }
         TextureContent::File(_)
+        | TextureContent::Tiles(_)
         | TextureContent::Embedded(..)
         | TextureContent::CubeFile(..)
         | TextureContent::Faces(_) => {}
@@ -74,11 +76,16 @@ fn dimension(key: Key, source: &TextureSource) -> Check {
             ("file", Dimension::Three, "an NRRD file is a volume")
         }
         TextureContent::CubeFile(_, None) => ("file", Dimension::Cube, "its picture holds the six faces"),
+        TextureContent::File(file) if source.dimension == Dimension::Three && is_container_name(file) => {
+            return Ok(());
+        }
         TextureContent::File(_) if source.dimension == Dimension::Three => {
-            let what = "a picture is no volume; give slices = [files], volume = { … } or an NRRD file (.nrrd, .nhdr)";
+            let what = "a picture is no volume; give slices = [files], volume = { … } or a file of NRRD (.nrrd, .nhdr), \
+                        DDS (.dds) or KTX2 (.ktx2)";
             return key.refuse(what, "not from one picture");
         }
         TextureContent::Texels(_) => ("texels", Dimension::Two, "texels are one picture"),
+        TextureContent::Tiles(_) => ("file", Dimension::Two, "tiles are those of one flat picture"),
         TextureContent::Embedded(..) => ("file", Dimension::Two, "an embedded picture is flat"),
         TextureContent::File(_) | TextureContent::Procedural(_) => return Ok(()),
     };

@@ -72,10 +72,10 @@ impl<'a> Library<'a> {
         }
         let index = self.builder.texture(TextureSource {
             name: map.file.clone(),
-            content: TextureContent::File(self.folder.join(&map.file)),
+            content: TextureContent::flat_file(self.folder.join(&map.file)),
             dimension: Dimension::Two,
             color_space: if is_color { ColorSpace::Srgb } else { ColorSpace::Linear },
-            color_space_stated: false,
+            color_space_stated: true,
             reading: ReadOptions::default(),
             flip_v: false,
             mip_kernel: MipKernel::Box,

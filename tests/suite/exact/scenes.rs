@@ -61,5 +61,6 @@ pub fn grey(dimension: Dimension, [width, height, depth]: [u32; 3], texels: &[f3
         color_space: ColorSpace::Linear,
         file_channels: 1,
         texels: texels.iter().flat_map(|t| t.to_ne_bytes()).collect(),
+        stored_levels: Vec::new(),
     }
 }

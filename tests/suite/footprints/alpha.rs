@@ -28,6 +28,7 @@ fn striped() -> TextureData {
         color_space: ColorSpace::Linear,
         file_channels: 4,
         texels: texels.collect(),
+        stored_levels: Vec::new(),
     }
 }
 

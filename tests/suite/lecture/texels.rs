@@ -22,6 +22,7 @@ fn grey(width: u32, values: &[f32]) -> TextureData {
         color_space: ColorSpace::Linear,
         file_channels: 1,
         texels: values.iter().flat_map(|v| v.to_ne_bytes()).collect(),
+        stored_levels: Vec::new(),
     }
 }
 

@@ -50,7 +50,7 @@ fn mutated(whole: &[u8], rng: &mut Rng) -> Vec<u8> {
     bytes
 }
 
-/// All pictures of `data/pictures`, and OpenEXR files of one part, of several, and with subsampled chroma.
+/// All pictures of `data/pictures`, DDS and KTX2 files of blocks, cubes and volumes, and OpenEXR files of one part, of several, and with subsampled chroma.
 fn fixtures() -> Vec<(String, Vec<u8>)> {
     let entries = fs::read_dir(data().join("pictures")).unwrap().map(|e| e.unwrap());
     let mut fixtures: Vec<_> = entries
@@ -60,6 +60,7 @@ fn fixtures() -> Vec<(String, Vec<u8>)> {
     fixtures.push(("layers.exr".into(), include_bytes!("../exr/layers.exr").to_vec()));
     fixtures.push(("parts.exr".into(), include_bytes!("../exr/parts.exr").to_vec()));
     fixtures.push(("yc.exr".into(), include_bytes!("../exr/yc-piz.exr").to_vec()));
+    fixtures.extend(crate::containers::samples());
     fixtures.sort();
     assert!(fixtures.len() > 30, "only {} pictures", fixtures.len());
     fixtures
@@ -71,7 +72,11 @@ fn run(rounds: usize, seed: u32) {
     let mut rng = Rng(seed);
     let (mut read, mut refused) = (0, 0);
     for (fixture, whole) in fixtures() {
-        let dimension = if fixture.ends_with(".nrrd") { Dimension::Three } else { Dimension::Two };
+        let dimension = match fixture.split_once('.') {
+            Some((_, "nrrd" | "volume.dds")) => Dimension::Three,
+            Some((_, "cube.ktx2")) => Dimension::Cube,
+            _ => Dimension::Two,
+        };
         for round in 0..rounds {
             let bytes = mutated(&whole, &mut rng);
             fs::write(&path, &bytes).unwrap();

@@ -10,6 +10,7 @@ use crate::mesh::gltf::{self, AlphaMode, Content, Material, Model, Texture, Text
 use crate::scene::builder::SceneBuilder;
 use crate::scene::model::{self, BumpKind, BumpMap, Mapping};
 use crate::texture::data::{ColorSpace, Dimension, MipKernel};
+use crate::texture::formats::is_picture;
 use crate::texture::sampler_spec::{Address, MipMode, SamplerSpec, basic_filter};
 use crate::texture::source::{OrientationUse, ReadOptions, TextureContent, TextureSource};
 
@@ -136,7 +137,11 @@ impl Reader<'_> {
                 .collect();
             self.note(&format!(
                 "a texture is left out: its images are none that can be read ({})",
-                if formats.is_empty() { "PNG or JPEG".into() } else { formats.join(", ") }
+                if formats.is_empty() {
+                    "no PNG, JPEG, WebP, KTX2 or DDS".into()
+                } else {
+                    formats.join(", ")
+                }
             ));
             return None;
         };
@@ -186,13 +191,10 @@ impl Reader<'_> {
     }
 }
 
-/// Returns whether an image is in a format that textures may have.
+/// Returns whether an image is in a format that textures may have; of a file that is not opened yet its ending tells.
 fn is_readable(content: &Content) -> bool {
     match content {
-        Content::Bytes(bytes) => bytes.starts_with(b"\x89PNG") || bytes.starts_with(b"\xff\xd8\xff"),
-        Content::Path(path) => {
-            let ending = path.rsplit('.').next().unwrap_or_default().to_lowercase();
-            !["webp", "ktx2", "dds", "basis"].contains(&ending.as_str())
-        }
+        Content::Bytes(bytes) => is_picture(bytes),
+        Content::Path(path) => !path.to_lowercase().ends_with(".basis"),
     }
 }

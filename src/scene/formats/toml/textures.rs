@@ -90,7 +90,10 @@ fn reading(table: &Table<'_>, content: &TextureContent, dimension: Dimension) ->
     let mut reading = ReadOptions::default();
     let is_picture = match content {
         TextureContent::File(_) => dimension != Dimension::Three,
-        TextureContent::CubeFile(..) | TextureContent::Faces(_) | TextureContent::Slices(_) => true,
+        TextureContent::CubeFile(..)
+        | TextureContent::Faces(_)
+        | TextureContent::Tiles(_)
+        | TextureContent::Slices(_) => true,
         _ => false,
     };
     if let (false, Some(field)) = (is_picture, ["orientation", "layer"].iter().find_map(|k| table.get(k))) {
@@ -158,6 +161,7 @@ fn content(
         _ if dimension == Dimension::Cube || layout.is_some() => {
             TextureContent::CubeFile(file(field)?, layout)
         }
+        _ if dimension == Dimension::Two => TextureContent::flat_file(file(field)?),
         _ => TextureContent::File(file(field)?),
     })
 }
