@@ -20,6 +20,15 @@
 const uint LEVEL_BLENDS = MIPMAPPED ? MIPS & (1u << MIP_LINEAR) : 0u;
 const bool ONE_PLACE = (LEVEL_BLENDS | (FILTERS & (1u << FILTER_ANISOTROPIC))) == 0u;
 
+// Returns the level that the footprint needs, whichever there are. A look-up is at least as wide as the minor
+// axis, even if there are more along the major axis than needed.
+float needed_level(const FootprintEllipse spread, uint probes, float last) {
+    float least = probes > 1u ? spread.minor : 0.0;
+    float level = 0.5 * log2_accurate(max(spread.major / float(probes * probes), least));
+    count_diagnostic(DIAGNOSTIC_LEVELS, level > last);
+    return level;
+}
+
 vec4 sample_texture(const Texture image, const Sampler how, uint slot, const TexCoord mapped, uvec2 random) {
     if (MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_PROCEDURAL, image.kind)) {
         return vec4(procedural_color(procedural_at(image.procedural), mapped.at, mapped.dx, mapped.dy), 1.0);
@@ -56,11 +65,7 @@ vec4 sample_texture(const Texture image, const Sampler how, uint slot, const Tex
     }
     float level = 0.0;
     if (!magnified && (MIPMAPPED || hardware)) {
-        // A look-up is at least as wide as the minor axis, even if there are more along the major axis than
-        // needed.
-        float least = probes > 1u ? spread.minor : 0.0;
-        level = 0.5 * log2_accurate(max(spread.major / float(probes * probes), least));
-        count_diagnostic(DIAGNOSTIC_LEVELS, level > float(last));
+        level = needed_level(spread, probes, float(last));
         // The device's sampler knows its own last level, and minifies with one level too.
         level = clamp(level, 0.0, hardware ? 32.0 : float(last));
     }

@@ -9,13 +9,20 @@ use super::levels::Reader;
 use super::stochastic::{look_up_dice, stochastic_level};
 use super::summed_area::summed_area;
 use crate::oracle::footprint::is_filtered;
-use crate::oracle::footprint_axes::{in_texture, kind_of, texel_spread};
+use crate::oracle::footprint_axes::{FootprintEllipse, in_texture, kind_of, texel_spread};
 use crate::oracle::mapping::Coordinate;
 use crate::oracle::procedural::procedural_color;
 use crate::oracle::texture::{add_weighted, level_at};
 use crate::pack::{PackedScene, TextureKind};
 use crate::schema::layout::{Sampler, Texture};
 use crate::texture::sampler_spec::{Filter, MipMode};
+
+/// Returns the level that the footprint needs, whichever there are. A look-up is at least as wide as the minor axis, even
+/// if there are more along the major axis than needed.
+pub fn needed_level(spread: &FootprintEllipse, probes: f64) -> f64 {
+    let least = if probes > 1.0 { spread.minor } else { 0.0 };
+    0.5 * (spread.major / (probes * probes)).max(least).log2()
+}
 
 /// Samples a texture. Without a footprint in the scene every look-up magnifies.
 pub fn sample_texture(
@@ -51,14 +58,7 @@ pub fn sample_texture(
     if mode == Filter::Anisotropic {
         probes = anisotropic_probes(how, &spread);
     }
-    let level = if magnified {
-        0.0
-    } else {
-        // A look-up is at least as wide as the minor axis, even if there are more along the major axis than
-        // needed.
-        let least = if probes > 1.0 { spread.minor } else { 0.0 };
-        (0.5 * (spread.major / (probes * probes)).max(least).log2()).clamp(0.0, last.into())
-    };
+    let level = if magnified { 0.0 } else { needed_level(&spread, probes).clamp(0.0, last.into()) };
     let (low, mut rest) = match how.mip_mode {
         MipMode::None => (0.0, 0.0),
         MipMode::Nearest => ((level + 0.5).ceil() - 1.0, 0.0),
