@@ -24,7 +24,7 @@ enum Command {
     Render(Box<render::RenderArgs>),
     /// Measure which anti-aliasing method has the smallest error in a given time
     Study(study::StudyArgs),
-    /// Show what a view needs of its textures: density, levels, surfaces, and the settings that suit them
+    /// Show what a view needs of its textures, and which settings suit it
     Inspect(Box<inspect::InspectArgs>),
     /// Compare two pictures in linear RGB
     Compare(compare::CompareArgs),

@@ -15,7 +15,7 @@ use crate::output::prepare_folder;
 use crate::render::{On, Options};
 use crate::scene::prune::prune;
 
-/// Show what a view needs of its textures: density, levels, surfaces, and the settings that suit them
+/// Show what a view needs of its textures, and which settings suit it
 ///
 /// Writes every layer of `moire render --aov` as a false-colour picture, layers.exr with all of them as numbers, and
 /// index.html, which says for each texture how densely it is seen, which levels and texels are read, whether it is larger

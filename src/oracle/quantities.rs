@@ -3,9 +3,7 @@
 
 use glam::{DVec2, DVec3};
 
-use super::filter::anisotropic::anisotropic_probes;
-use super::filter::ewa::{ellipse_level, widened_minor};
-use super::filter::sample_texture::needed_level;
+use super::filter::sample_texture::read_level;
 use super::footprint::MAX_STRETCH;
 use super::footprint_axes::{FootprintEllipse, in_texture, kind_of, texel_spread};
 use super::geometry::hit::{Hit, Surface};
@@ -13,7 +11,7 @@ use super::mapping::Coordinate;
 use crate::pack::{PackedScene, TextureKind};
 use crate::schema::enums::Quantity;
 use crate::schema::layout::{Material, NO_TEXTURE, Sampler, Texture};
-use crate::texture::sampler_spec::{Address, Filter, MipMode};
+use crate::texture::sampler_spec::Address;
 
 /// A look-up of a texture of texels over the footprint of a pixel.
 #[derive(Clone, Copy, Debug)]
@@ -35,27 +33,6 @@ pub fn place_in_tile(mode: Address, u: f64) -> f64 {
         Address::MirroredRepeat => 1.0 - (u - 2.0 * (0.5 * u).floor() - 1.0).abs(),
         Address::MirrorClampToEdge => u.abs().clamp(0.0, 1.0),
         Address::ClampToEdge | Address::ClampToBorder => u.clamp(0.0, 1.0),
-    }
-}
-
-/// Returns the level that the sampler reads for a footprint; between two levels if it blends them.
-pub fn read_level(image: &Texture, how: &Sampler, spread: &FootprintEllipse) -> f64 {
-    let magnified = spread.major <= 1.0;
-    let mode = if magnified { how.mag_filter } else { how.min_filter };
-    let last = image.levels - 1;
-    if mode == Filter::Ewa {
-        return ellipse_level(widened_minor(how, spread), last).into();
-    }
-    let probes = if mode == Filter::Anisotropic { anisotropic_probes(how, spread) } else { 1.0 };
-    let level = if magnified || mode == Filter::SummedArea {
-        0.0
-    } else {
-        needed_level(spread, probes).clamp(0.0, last.into())
-    };
-    match how.mip_mode {
-        MipMode::None => 0.0,
-        MipMode::Nearest => (level + 0.5).ceil() - 1.0,
-        MipMode::Linear => level,
     }
 }
 

@@ -84,7 +84,7 @@ pub fn packed_at_centres(scene: &Scene, options: &Options) -> Result<PackedScene
     Ok(load(&at_centres(scene), options, &[On::Oracle])?.packed)
 }
 
-/// Returns the progress of the next layer.
+/// The progress of one layer after the other.
 struct Steps<'p> {
     progress: &'p dyn Progress,
     done: usize,
@@ -92,6 +92,7 @@ struct Steps<'p> {
 }
 
 impl Steps<'_> {
+    /// Returns the progress of the next layer.
     fn next(&self) -> SubProgress<'_> {
         let part = |n: usize| n as f64 / self.all as f64;
         SubProgress { whole: self.progress, from: part(self.done), to: part(self.done + 1) }

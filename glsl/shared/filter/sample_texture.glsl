@@ -29,6 +29,22 @@ float needed_level(const FootprintEllipse spread, uint probes, float last) {
     return level;
 }
 
+// Returns the level that the sampler reads for a footprint; between two levels if it blends them.
+float read_level(const Texture image, const Sampler how, const FootprintEllipse spread) {
+    bool magnified = spread.major <= 1.0;
+    uint mode = magnified ? how.mag_filter : how.min_filter;
+    int last = int(image.levels) - 1;
+    if (HAS(FILTERS, FILTER_EWA) && mode == FILTER_EWA) return float(ellipse_level(widened_minor(how, spread), last));
+    uint probes = 1u;
+    if (HAS(FILTERS, FILTER_ANISOTROPIC) && mode == FILTER_ANISOTROPIC) probes = anisotropic_probes(how, spread);
+    float level = 0.0;
+    if (!magnified && MIPMAPPED) level = clamp(needed_level(spread, probes, float(last)), 0.0, float(last));
+    if (HAS(FILTERS, FILTER_SUMMED_AREA) && mode == FILTER_SUMMED_AREA) level = 0.0;
+    if (MODE_IS(MIPS, MIP_NEAREST, how.mip_mode)) level = ceil(level + 0.5) - 1.0;
+    if (MODE_IS(MIPS, MIP_NONE, how.mip_mode)) level = 0.0;
+    return level;
+}
+
 vec4 sample_texture(const Texture image, const Sampler how, uint slot, const TexCoord mapped, uvec2 random) {
     if (MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_PROCEDURAL, image.kind)) {
         return vec4(procedural_color(procedural_at(image.procedural), mapped.at, mapped.dx, mapped.dy), 1.0);

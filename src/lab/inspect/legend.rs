@@ -34,7 +34,7 @@ const INK: [u8; 3] = [236, 236, 241];
 const MARGIN: usize = 4;
 const BAR: usize = 8;
 /// The narrowest picture that has room for a legend; narrower ones get ground beside them.
-const MIN_WIDTH: usize = 240;
+const MIN_WIDTH: usize = 256;
 /// Pictures from this width on have a font of twice the size.
 const WIDE: usize = 640;
 

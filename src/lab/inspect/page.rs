@@ -211,8 +211,8 @@ fn bleeding(charts: &Charts, view: &View) -> Option<String> {
     let readers: u64 = view.level_pixels.iter().skip(level as usize).sum();
     let so = if readers > 0 {
         format!(
-            "{readers} look-ups of this view read such a level: leave more room between charts, or read no more than {} levels",
-            level
+            "{readers} look-ups of this view read such a level: leave more room between charts, or read no more than \
+             {level} levels"
         )
     } else {
         "this view reads none of these levels".to_owned()
@@ -233,7 +233,7 @@ fn method(inspection: &Inspection) -> Html {
         "<p>Layers are those of one ray through the centre of each pixel, in the middle of the shutter's time and through \
          a pinhole, with the footprint of the whole pixel by ray differentials: they are exact for that ray, and say \
          nothing of what the rest of the pixel sees. <b>surfaces</b> is counted, and <b>albedo</b> averaged, over samples. \
-         {} They are computed in float64. Texels that are never read are found with up to 32 × 32 points in each \
+         {} They are computed in float64. Texels that are never read are found with up to 16 × 16 points in each \
          footprint; what mirrors and glass show is not followed.</p>\n",
         looked
     )

@@ -33,30 +33,28 @@ impl Looks {
         let by = |kind| Scale::new(kind, values());
         match aov {
             Aov::Texels => Looks::bar("texels a pixel covers, longer axis", by(Kind::Octaves), viridis),
-            Aov::Magnification => Looks::bar(
-                "log2 of pixels a texel: blue minified, red magnified",
-                by(Kind::Signed),
-                diverging,
-            ),
+            Aov::Magnification => {
+                Looks::bar("log2 of pixels a texel, above 0 magnified", by(Kind::Signed), diverging)
+            }
             Aov::Level => {
                 let last = values().fold(1.0, f32::max).ceil();
                 Looks::bar("level that is read", Scale::between(0.0, last.into()), viridis)
             }
-            Aov::Anisotropy => Looks::bar("footprint: longer axis / shorter", by(Kind::Octaves), viridis),
+            Aov::Anisotropy => Looks::bar("longer axis / shorter axis", by(Kind::Octaves), viridis),
             Aov::Surfaces => {
                 let most = values().fold(2.0, f32::max).min(MAX_SURFACES as f32);
                 Looks::bar("surfaces a pixel sees", Scale::between(1.0, most.into()), viridis)
             }
             Aov::Samples => Looks::bar("samples of a pixel", by(Kind::Octaves), viridis),
             Aov::Error => Looks::bar("estimated error", by(Kind::Linear), viridis),
-            Aov::Depth => Looks::bar("distance along the view direction", by(Kind::Linear), viridis),
-            Aov::Uv => Looks::text("place in the texture: red u, green v, 0 to 1", |[u, v, _]| {
+            Aov::Depth => Looks::bar("distance along the view direction", by(Kind::Octaves), viridis),
+            Aov::Uv => Looks::text("place in the texture: red u, green v", |[u, v, _]| {
                 light([u, v, 0.0].map(|x| (255.0 * x.clamp(0.0, 1.0)).round() as u8))
             }),
-            Aov::Normal => Looks::text("normal: red x, green y, blue z, -1 to 1", |n| {
+            Aov::Normal => Looks::text("normal: red x, green y, blue z", |n| {
                 light(n.map(|x| (127.5 * (x + 1.0)).clamp(0.0, 255.0).round() as u8))
             }),
-            Aov::Albedo => Looks::text("colour of the material times its texture", |color| color),
+            Aov::Albedo => Looks::text("colour of material and texture", |color| color),
             Aov::Instance => Looks::numbers("shape", layer, &[]),
             Aov::Material => Looks::numbers("material", layer, names),
         }

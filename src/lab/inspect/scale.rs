@@ -28,25 +28,27 @@ pub struct Scale {
     to: f64,
 }
 
-/// Octaves that a bar shows at most, and the lowest and highest: beyond these, values have the colour of an end.
-const MAX_OCTAVES: f64 = 24.0;
+/// The share of the values at each end that may lie beyond a bar: they have the colour of its end.
+const ENDS: f64 = 0.01;
+/// The lowest and the highest octave.
 const OCTAVES: [f64; 2] = [-12.0, 16.0];
 /// Names on a bar.
 const TICKS: usize = 5;
 /// The largest range of a signed scale.
-const MAX_SIGNED: f64 = 12.0;
+const MAX_SIGNED: f64 = 4.0;
 
 impl Scale {
-    /// Returns the scale of these values; of no values, a scale from 0 to 1.
+    /// Returns the scale of these values, but for the few at both ends; of no values, a scale from 0 to 1.
     pub fn new(kind: Kind, values: impl Iterator<Item = f32>) -> Scale {
         let finite = values.map(f64::from).filter(|v| v.is_finite());
-        let placed = finite.map(|v| if kind == Kind::Octaves { octave(v) } else { v });
-        let none = [f64::INFINITY, f64::NEG_INFINITY];
-        let [low, high] = placed.fold(none, |[low, high], v| [low.min(v), high.max(v)]);
-        let [low, high] = if low <= high { [low, high] } else { [0.0, 1.0] };
+        let mut placed: Vec<f64> =
+            finite.map(|v| if kind == Kind::Octaves { octave(v) } else { v }).collect();
+        placed.sort_by(f64::total_cmp);
+        let at = |share: f64| placed.get((share * placed.len().saturating_sub(1) as f64).round() as usize);
+        let [low, high] = [at(ENDS).copied().unwrap_or(0.0), at(1.0 - ENDS).copied().unwrap_or(1.0)];
         let [from, to] = match kind {
             Kind::Linear => [low, high],
-            Kind::Octaves => [low.floor().max(high.ceil() - MAX_OCTAVES), high.ceil()],
+            Kind::Octaves => [low.floor(), high.ceil()],
             Kind::Signed => {
                 let most = low.abs().max(high.abs()).ceil().clamp(1.0, MAX_SIGNED);
                 [-most, most]

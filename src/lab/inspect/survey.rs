@@ -18,8 +18,9 @@ use crate::texture::sampler_spec::{Address, MipMode};
 const MAX_PIXELS: u64 = 1 << 20;
 /// Cells along the longer side of a texture in which texels that are read are marked, at most.
 const MAX_CELLS: u32 = 1024;
-/// Points along each axis of a footprint that mark cells, at most.
-const MAX_POINTS: f64 = 32.0;
+/// Points along each axis of a footprint that mark cells, at most, and texels to each side that a point stands for.
+const MAX_POINTS: f64 = 16.0;
+const MAX_BLOCK: f64 = 8.0;
 /// Footprints longer than this many widths count as elongated.
 pub const ELONGATED: f64 = 2.0;
 
@@ -139,39 +140,76 @@ fn view(texture: usize, image: &Texture, sightings: &[Sighting]) -> View {
 
 /// Marks the cells of the texels around points of each footprint, and counts those that are left.
 fn never_read(image: &Texture, sightings: &[Sighting]) -> NeverRead {
-    let [width, height] = [image.size.x, image.size.y];
-    let side = width.max(height).div_ceil(MAX_CELLS);
-    let cells = [width, height].map(|n| n.div_ceil(side) as usize);
     let faces = if image.kind == TextureKind::Cube { 6 } else { 1 };
-    let mut read = vec![false; cells[0] * cells[1] * faces];
-    let size = DVec2::new(width.into(), height.into());
+    let mut marks = Marks::new([image.size.x, image.size.y], faces);
     for s in sightings {
-        let points = s.change.map(|d| (d * size).length().ceil().clamp(1.0, MAX_POINTS));
-        // Points farther apart than a texel stand for the texels between them.
-        let reach =
-            s.change.map(|d| (d * size).length()).iter().zip(points).map(|(d, n)| d / n).fold(1.0, f64::max);
-        let half = 0.5 * reach / size;
+        // Nothing is left to be found in most views of repeated textures.
+        if marks.left == 0 {
+            break;
+        }
+        marks.add(s);
+    }
+    NeverRead { cells: marks.left, all: marks.read.len() as u64, side: marks.side }
+}
+
+/// The cells of a texture that some footprint covers.
+struct Marks {
+    /// In texels.
+    size: DVec2,
+    side: u32,
+    cells: [usize; 2],
+    read: Vec<bool>,
+    left: u64,
+}
+
+impl Marks {
+    fn new([width, height]: [u32; 2], faces: usize) -> Marks {
+        let side = width.max(height).div_ceil(MAX_CELLS);
+        let cells = [width, height].map(|n| n.div_ceil(side) as usize);
+        let read = vec![false; cells[0] * cells[1] * faces];
+        Marks { size: DVec2::new(width.into(), height.into()), side, cells, left: read.len() as u64, read }
+    }
+
+    /// Marks the cells around points of a footprint; points farther apart than a texel stand for those between them.
+    fn add(&mut self, s: &Sighting) {
+        let lengths = s.change.map(|d| (d * self.size).length());
+        let points = lengths.map(|length| length.ceil().clamp(1.0, MAX_POINTS));
+        let spacing = (lengths[0] / points[0]).max(lengths[1] / points[1]);
+        let half = 0.5 * spacing.clamp(1.0, MAX_BLOCK);
         for i in 0..points[0] as u32 {
             for j in 0..points[1] as u32 {
                 let way = [(i, points[0]), (j, points[1])].map(|(i, n)| (f64::from(i) + 0.5) / n - 0.5);
                 let at = s.at + way[0] * s.change[0] + way[1] * s.change[1];
-                let axis = |c: usize| {
-                    let [low, high] = [at[c] - half[c], at[c] + half[c]];
-                    let texels =
-                        ((high - low) * size[c] / f64::from(side)).ceil().min(cells[c] as f64) as u32;
-                    let place = move |k: u32| {
-                        let u = low + (high - low) * f64::from(k) / f64::from(texels.max(1));
-                        ((place_in_tile(s.address[c], u) * size[c]) as usize / side as usize)
-                            .min(cells[c] - 1)
-                    };
-                    (0..=texels).map(place)
-                };
-                for y in axis(1) {
-                    axis(0).for_each(|x| read[(s.face as usize * cells[1] + y) * cells[0] + x] = true);
+                let [columns, rows] = [0, 1].map(|axis| self.around(s.address[axis], at[axis], half, axis));
+                for &row in rows.iter().flatten() {
+                    columns.iter().flatten().for_each(|&column| self.mark(s.face as usize, column, row));
                 }
             }
         }
     }
-    let unread = read.iter().filter(|read| !**read).count() as u64;
-    NeverRead { cells: unread, all: read.len() as u64, side }
+
+    /// Returns the cells along an axis within `half` texels of a coordinate.
+    fn around(
+        &self,
+        address: Address,
+        at: f64,
+        half: f64,
+        axis: usize,
+    ) -> [Option<usize>; MAX_BLOCK as usize + 1] {
+        let size = self.size[axis];
+        let count = (2.0 * half / f64::from(self.side)).ceil() as usize;
+        let mut cells = [None; MAX_BLOCK as usize + 1];
+        for (k, cell) in cells.iter_mut().enumerate().take(count + 1) {
+            let beside = half * (2.0 * k as f64 / count as f64 - 1.0);
+            let place = place_in_tile(address, at + beside / size) * size;
+            *cell = Some((place as usize / self.side as usize).min(self.cells[axis] - 1));
+        }
+        cells
+    }
+
+    fn mark(&mut self, face: usize, column: usize, row: usize) {
+        let read = &mut self.read[(face * self.cells[1] + row) * self.cells[0] + column];
+        self.left -= u64::from(!*read);
+        *read = true;
+    }
 }

@@ -4,7 +4,7 @@
 use glam::DVec4;
 
 use super::anisotropic::{anisotropic_place, anisotropic_probes};
-use super::ewa::ellipse;
+use super::ewa::{ellipse, ellipse_level, widened_minor};
 use super::levels::Reader;
 use super::stochastic::{look_up_dice, stochastic_level};
 use super::summed_area::summed_area;
@@ -22,6 +22,27 @@ use crate::texture::sampler_spec::{Filter, MipMode};
 pub fn needed_level(spread: &FootprintEllipse, probes: f64) -> f64 {
     let least = if probes > 1.0 { spread.minor } else { 0.0 };
     0.5 * (spread.major / (probes * probes)).max(least).log2()
+}
+
+/// Returns the level that the sampler reads for a footprint; between two levels if it blends them.
+pub fn read_level(image: &Texture, how: &Sampler, spread: &FootprintEllipse) -> f64 {
+    let magnified = spread.major <= 1.0;
+    let mode = if magnified { how.mag_filter } else { how.min_filter };
+    let last = image.levels - 1;
+    if mode == Filter::Ewa {
+        return ellipse_level(widened_minor(how, spread), last).into();
+    }
+    let probes = if mode == Filter::Anisotropic { anisotropic_probes(how, spread) } else { 1.0 };
+    let level = if magnified || mode == Filter::SummedArea {
+        0.0
+    } else {
+        needed_level(spread, probes).clamp(0.0, last.into())
+    };
+    match how.mip_mode {
+        MipMode::None => 0.0,
+        MipMode::Nearest => (level + 0.5).ceil() - 1.0,
+        MipMode::Linear => level,
+    }
 }
 
 /// Samples a texture. Without a footprint in the scene every look-up magnifies.

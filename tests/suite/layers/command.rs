@@ -76,7 +76,7 @@ fn false_colours_lie_beside_a_png_and_without_beauty_alone() {
     assert_eq!(code, 0);
     assert_eq!(files(folder.path()), ["scene.toml", "t.png", "x.level.png", "x.png", "x.uv.png"]);
     let legend = read_picture(&folder.path().join("x.level.png")).unwrap();
-    assert!(legend.width >= 240 && legend.height > 16, "{}×{}", legend.width, legend.height);
+    assert!(legend.width >= 256 && legend.height > 16, "{}×{}", legend.width, legend.height);
     let options =
         ["render", "scene.toml", "-q", "--aov", "depth", "--no-beauty", "-o", "y.png", "-o", "y.exr"];
     assert_eq!(run(folder.path(), &options).0, 0);
