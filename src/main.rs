@@ -4,7 +4,9 @@
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
-use moire::internal::cli::{self, compare, devices, pattern, render, stability, study, texture, verify};
+use moire::internal::cli::{
+    self, compare, devices, inspect, pattern, render, stability, study, texture, verify,
+};
 use moire::internal::core::error::Result;
 use moire::internal::core::panics;
 
@@ -22,6 +24,8 @@ enum Command {
     Render(Box<render::RenderArgs>),
     /// Measure which anti-aliasing method has the smallest error in a given time
     Study(study::StudyArgs),
+    /// Show what a view needs of its textures, and which settings suit it
+    Inspect(Box<inspect::InspectArgs>),
     /// Compare two pictures in linear RGB
     Compare(compare::CompareArgs),
     /// List the Vulkan devices
@@ -50,6 +54,7 @@ impl Command {
         match self {
             Command::Render(_) => "render",
             Command::Study(_) => "study",
+            Command::Inspect(_) => "inspect",
             Command::Compare(_) => "compare",
             Command::Devices(_) => "devices",
             Command::Texture(_) => "texture",
@@ -63,6 +68,7 @@ impl Command {
         match self {
             Command::Render(args) => render::run(&args),
             Command::Study(args) => study::run(&args),
+            Command::Inspect(args) => inspect::run(&args),
             Command::Compare(args) => compare::run(&args),
             Command::Devices(args) => devices::run(&args),
             Command::Texture(args) => texture::run(&args),

@@ -7,7 +7,7 @@ pub use crate::scene::model::DEFAULT;
 pub use crate::scene::model::{
     Algorithm, Background, Bounds, BumpKind, BumpMap, Camera, Entity, Environment, EnvironmentLayout,
     Footprint, Lens, Light, Mapping, MappingKind, Material, Model, Pattern, PixelFilter, PixelFilterKind,
-    Precision, Projection, Sampling, Space,
+    Precision, Projection, Quantity, Sampling, Space,
 };
 pub use crate::texture::data::{ColorSpace, Dimension, MipKernel, TexelFormat};
 pub use crate::texture::procedural::{Procedural, ProceduralKind};

@@ -7,6 +7,7 @@
 #include "bsdf/specular.glsl"
 #include "filter/sample_texture.glsl"
 #include "light.glsl"
+#include "quantities.glsl"
 #include "shading_normal.glsl"
 #include "geometry/rays.glsl"
 
@@ -191,11 +192,26 @@ bool bounced(const Header header, const Hit hit, Surface surface, const Footprin
     return bounce.leaves;
 }
 
+// Returns the quantity that samples measure in place of radiance.
+vec3 measured(const Header header, const Hit hit, bool missed, const Material material, const UvProjection map, const Path path,
+              Surface surface, const Footprint print) {
+    vec3 albedo = vec3(0.0);
+    if (MEASURES_COLOR) albedo = surface_color(material, map, path.ray, surface, print, path.random);
+    if (header.quantity == QUANTITY_ALBEDO && missed) albedo = vec3(0.0);
+    vec3 value = surface_quantity(header.quantity, missed, hit, surface, albedo);
+#if SOURCE != SOURCE_NONE
+    if (!MEASURES_COLOR && header.quantity <= QUANTITY_UV) {
+        value = look_up_quantity(header.quantity, material, texture_coordinate(map, map_input(map, path.ray, surface, print)));
+    }
+#endif
+    return value;
+}
+
 // Follows the path to its next hit; returns the radiance that it adds to the sample.
 vec3 advance(const Header header, const Points points, const SampleDimensions dimensions, inout Path path) {
     Hit hit = nearest_hit(path.ray, path.skip, path.candidates);
     bool missed = hit.shape == NO_SHAPE;
-    vec3 seen = path.throughput * header.background;
+    vec3 seen = MEASURES ? vec3(0.0) : path.throughput * header.background;
     bool is_alive = false;
     // From here on, a ray that hits nothing is treated as a hit.
     bool surrounded = ENVIRONMENT && header.environment_material != NO_MATERIAL;
@@ -209,17 +225,21 @@ vec3 advance(const Header header, const Points points, const SampleDimensions di
         }
         Material material = material_at(surface.link.x);
         UvProjection map = uv_projection_at(surface.link.y);
-        vec3 carried = path.throughput;
-        vec3 albedo = surface_color(material, map, path.ray, surface, print, path.random);
-        path.throughput *= albedo;
-        real3 direction = path.ray.direction;
-        is_alive = BOUNCES && bounced(header, hit, surface, print, material, dimensions, path);
-        seen = emitted(material.model, path.throughput);
-        if (HAS_LIT) {
-            if (is_lit(material.model)) {
-                Bsdf bsdf = bsdf_at(material, albedo, surface.normal, direction);
-                Lit lit = direct_light(surface, path.ray.time, hit.shape, bsdf, points, dimensions);
-                seen = reflected(bsdf, path.throughput, carried, lit);
+        if (MEASURES) {
+            seen = measured(header, hit, missed, material, map, path, surface, print);
+        } else {
+            vec3 carried = path.throughput;
+            vec3 albedo = surface_color(material, map, path.ray, surface, print, path.random);
+            path.throughput *= albedo;
+            real3 direction = path.ray.direction;
+            is_alive = BOUNCES && bounced(header, hit, surface, print, material, dimensions, path);
+            seen = emitted(material.model, path.throughput);
+            if (HAS_LIT) {
+                if (is_lit(material.model)) {
+                    Bsdf bsdf = bsdf_at(material, albedo, surface.normal, direction);
+                    Lit lit = direct_light(surface, path.ray.time, hit.shape, bsdf, points, dimensions);
+                    seen = reflected(bsdf, path.throughput, carried, lit);
+                }
             }
         }
     }

@@ -2,6 +2,8 @@
 
 pub mod compare;
 pub mod devices;
+pub mod inspect;
+mod layers;
 mod outputs;
 mod overrides;
 pub mod pattern;

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use crate::core::error::{Error, Result};
 use crate::core::film::Film;
-use crate::output::{self, ENDING_NAMES, Format, WriteOptions};
+use crate::output::{self, ENDING_NAMES, Format, Named, WriteOptions};
 use crate::scene::is_standard_input;
 
 /// The name in messages.
@@ -57,10 +57,14 @@ impl Outputs {
         Ok(Outputs { files, stream })
     }
 
-    /// Writes all files or none; standard output is written before any file is renamed to its final
-    /// name.
-    pub fn write(&self, film: &Film, options: &WriteOptions) -> Result<()> {
-        output::write_all_after(film, &self.files, options, || match self.stream {
+    /// Writes all files and the pictures beside them, or none; standard output is written before any file is renamed to
+    /// its final name. Without colours, only files with layers are written of the film.
+    pub fn write_with(&self, film: &Film, beside: &[Named<'_>], options: &WriteOptions) -> Result<()> {
+        let is_written =
+            |path: &&PathBuf| options.has_colors || matches!(output::format_of(path), Ok(Format::Exr));
+        let own = self.files.iter().filter(is_written).map(|path| Named { film, path });
+        let pictures: Vec<Named<'_>> = own.chain(beside.iter().copied()).collect();
+        output::write_pictures(&pictures, options, || match self.stream {
             Some(format) => super::print_bytes(&output::to_bytes_with(film, format, options)?),
             None => Ok(()),
         })

@@ -7,13 +7,14 @@ use std::time::Instant;
 
 use clap::Args;
 
+use super::layers::{LayerArgs, Wanted};
 use super::outputs::Outputs;
 use super::overrides::Overrides;
 use super::progress::Bar;
 use super::report;
 use super::{DEVICE, MEASURING, OUTPUT, TEXTURES};
 use crate::core::error::Result;
-use crate::core::film::Placement;
+use crate::core::film::{Film, Placement};
 use crate::core::range::Rect;
 use crate::gpu::DeviceSelect;
 use crate::lab::verify::known::anisotropy_fault;
@@ -36,6 +37,8 @@ pub struct RenderArgs {
     /// Format of what -o - writes
     #[arg(long, value_name = "FORMAT", value_parser = super::named_parser(&ENDING_NAMES, output::format_named), help_heading = OUTPUT)]
     format: Option<Format>,
+    #[command(flatten)]
+    layers: LayerArgs,
     #[command(flatten)]
     overrides: Overrides,
     /// Device: an index or a part of the name as `moire devices` lists them, cpu, gpu, or oracle (float64 on the CPU).
@@ -95,6 +98,7 @@ pub fn run(args: &RenderArgs) -> Result<ExitCode> {
         output::check_writable(path)?;
         check_inputs_kept(path, &scene)?;
     }
+    let wanted = Wanted::new(&args.layers, &outputs, &scene)?;
     let dropped = prune(&mut scene);
     if let (Some(chosen), true) = (chosen, args.verbose) {
         super::notify(chosen);
@@ -109,6 +113,16 @@ pub fn run(args: &RenderArgs) -> Result<ExitCode> {
         mips: args.mips,
         tuning: Tuning { texels: args.texels, group: args.workgroup, ..Tuning::default() },
     };
+    let placement = args.crop.map(|c| Placement { corner: [c.x, c.y], full: [scene.width, scene.height] });
+    let png_bits = if args.png_bits == "16" { 16 } else { 8 };
+    let write = WriteOptions { png_bits, placement, ..WriteOptions::default() };
+    if !wanted.has_beauty {
+        let layers = wanted.render(&scene, &options, &on, None, &bar)?;
+        bar.finish();
+        let size = args.crop.map_or([scene.width, scene.height], |crop| [crop.width, crop.height]);
+        wanted.write(&outputs, &Film::new(size[0], size[1], 1), &layers, &scene, &write)?;
+        return Ok(ExitCode::SUCCESS);
+    }
     let loaded = start.elapsed().as_secs_f64();
     let mut ran = render::render_scene(&scene, &options, &on, &bar)?;
     // From the start of the process: reading the scene file is part of loading.
@@ -133,15 +147,14 @@ pub fn run(args: &RenderArgs) -> Result<ExitCode> {
                 .into(),
         );
     }
+    let layers = wanted.render(&scene, &options, &on, Some(&ran), &bar)?;
     bar.finish();
 
     let clock = Instant::now();
-    let placement = args.crop.map(|c| Placement { corner: [c.x, c.y], full: [scene.width, scene.height] });
-    let options = WriteOptions { png_bits: if args.png_bits == "16" { 16 } else { 8 }, placement };
-    outputs.write(&ran.film, &options)?;
+    wanted.write(&outputs, &ran.film, &layers, &scene, &write)?;
     ran.report.seconds.write = clock.elapsed().as_secs_f64();
     ran.report.seconds.total = start.elapsed().as_secs_f64();
-    let outputs = outputs.names();
+    let outputs = [outputs.names(), wanted.names()].concat();
     if args.json {
         let options = args.overrides.report(&scene, args.crop, args.keep_everything);
         super::print(&format!("{:#}", report::json(&ran, &scene, options, &outputs, args.allow_nonfinite)))?;

@@ -4,6 +4,7 @@ pub mod color;
 pub mod counted;
 pub mod error;
 pub mod film;
+pub mod layer;
 pub mod named;
 pub mod panics;
 pub mod progress;

@@ -9,7 +9,7 @@ mod fixed;
 pub use beam::Beam;
 pub use fixed::{Cone, Fixed};
 
-use adaptive::{Goal, Outcome};
+use adaptive::{Goal, Outcome, PixelEstimates};
 
 use crate::core::error::Result;
 use crate::core::film::Film;
@@ -33,6 +33,8 @@ pub struct Integrated {
     pub film: Film,
     /// The result of sampling to a goal.
     pub outcome: Option<Outcome>,
+    /// Samples and errors of single pixels, of sampling to a goal.
+    pub estimates: Option<PixelEstimates>,
     /// The number of pixels that beams left to samples.
     pub sampled_pixels: Option<u64>,
     /// The weight of secondary rays for which no cone was traced and of fragments for which there was no room, over
@@ -42,7 +44,7 @@ pub struct Integrated {
 
 impl From<Film> for Integrated {
     fn from(film: Film) -> Integrated {
-        Integrated { film, outcome: None, sampled_pixels: None, dropped: None }
+        Integrated { film, outcome: None, estimates: None, sampled_pixels: None, dropped: None }
     }
 }
 
@@ -59,7 +61,7 @@ impl Integrator for Adaptive {
         size: [u32; 2],
         progress: &dyn Progress,
     ) -> Result<Integrated> {
-        let (film, outcome) = adaptive::run(backend, size, self.goal, progress)?;
-        Ok(Integrated { outcome: Some(outcome), ..Integrated::from(film) })
+        let adaptive::Run { film, outcome, estimates } = adaptive::run(backend, size, self.goal, progress)?;
+        Ok(Integrated { outcome: Some(outcome), estimates: Some(estimates), ..Integrated::from(film) })
     }
 }

@@ -1,6 +1,7 @@
 //! Measurement tools: sampler verification, stability sweeps, studies, pattern analysis, metrics,
 //! and their charts.
 
+pub mod inspect;
 pub mod metrics;
 pub mod pattern;
 pub mod plot;

@@ -65,7 +65,7 @@ pub fn around(n: DVec3, v: DVec3) -> DVec3 {
 }
 
 /// Grazing footprints are truncated at this value of 1 / cos.
-const MAX_STRETCH: f64 = 65536.0;
+pub const MAX_STRETCH: f64 = 65536.0;
 
 /// Returns the footprint around the point origin + t direction with unit normal n.
 pub fn footprint_at(header: &Header, beam: &RayDifferential, ray: &Ray, t: f64, n: DVec3) -> Footprint {

@@ -30,6 +30,7 @@ pub mod polygon;
 pub mod prefix_sums;
 pub mod procedural;
 pub mod projective;
+pub mod quantities;
 pub mod rectangle;
 pub mod render;
 pub mod rng;

@@ -17,11 +17,13 @@ use super::geometry::rays::{hit_surface, nearest_hit, offset_origin};
 use super::light::direct_light;
 use super::mapping::{Coordinate, MapInput, texture_coordinate};
 use super::patterns::Points;
+use super::quantities::{LookUp, is_of_look_ups, look_up, look_up_quantity, surface_quantity};
 use super::rng::pcg2d;
 use super::sample_dimensions::{SampleDimensions, choose, chosen_light};
 use super::shading_normal::consistent_normal;
 use crate::pack::{EntityKind, PackedScene};
 use crate::scene::model::BumpKind;
+use crate::schema::enums::Quantity;
 use crate::schema::layout::{Header, Material, NO_MATERIAL, NO_SHAPE, NO_TEXTURE, UvProjection};
 
 /// Returns the inputs of the surface's mapping.
@@ -202,6 +204,63 @@ fn bounced(
     bounce.leaves
 }
 
+/// What a camera ray meets first: a surface of the scene, or the environment.
+pub struct FirstHit<'a> {
+    /// None for the environment.
+    pub hit: Option<Hit>,
+    pub surface: Surface,
+    material: &'a Material,
+    map: Option<&'a UvProjection>,
+    print: Footprint,
+}
+
+/// Returns what a ray meets; `None` for a background of one colour.
+pub fn first_hit<'a>(scene: &'a PackedScene, path: &Path) -> Option<FirstHit<'a>> {
+    let header = &scene.header;
+    let hit = nearest_hit(scene, &path.ray, path.skip);
+    if hit.shape == NO_SHAPE {
+        let material = scene.records.materials.get(header.environment_material as usize)?;
+        let map = scene.records.uv_projections.get(header.environment_projection as usize);
+        let print = endless_footprint(header, &path.beam, &path.ray);
+        let surface = Surface { material: header.environment_material, ..Surface::default() };
+        return Some(FirstHit { hit: None, surface, material, map, print });
+    }
+    let surface = hit_surface(scene, &path.ray, &hit);
+    let print = footprint_at(header, &path.beam, &path.ray, hit.t, surface.geometric_normal);
+    let material = &scene.records.materials[surface.material as usize];
+    let map = scene.records.uv_projections.get(surface.map as usize);
+    Some(FirstHit { hit: Some(hit), surface, material, map, print })
+}
+
+impl<'a> FirstHit<'a> {
+    /// Returns the look-up of the material's texture, if it has texels.
+    pub fn look_up(&self, scene: &'a PackedScene, ray: &Ray) -> Option<LookUp<'a>> {
+        let map = self.map?;
+        let mapped = texture_coordinate(map, &map_input(map, ray, &self.surface, &self.print));
+        look_up(scene, self.material, &mapped)
+    }
+}
+
+/// Returns the quantity that samples measure in place of radiance.
+fn measured(scene: &PackedScene, path: &Path) -> DVec3 {
+    let quantity = scene.header.quantity;
+    let Some(mut first) = first_hit(scene, path) else { return DVec3::ZERO };
+    if is_of_look_ups(quantity) {
+        let look_up = first.look_up(scene, &path.ray);
+        return look_up.map_or(DVec3::ZERO, |look_up| look_up_quantity(quantity, &look_up));
+    }
+    let mut albedo = DVec3::ZERO;
+    if matches!(quantity, Quantity::Albedo | Quantity::Normal) {
+        let FirstHit { material, map, print, .. } = first;
+        if let (Some(map), Some(_)) = (map, first.hit) {
+            let at = (&path.ray, &first.surface, &print);
+            first.surface.normal = bumped_normal(scene, material, map, at, path.random);
+        }
+        albedo = surface_color(scene, material, map, (&path.ray, &first.surface, &print), path.random);
+    }
+    surface_quantity(quantity, first.hit.as_ref(), &first.surface, albedo)
+}
+
 /// Returns the radiance of a ray that hits nothing.
 fn background(scene: &PackedScene, path: &Path) -> DVec3 {
     let header = &scene.header;
@@ -221,6 +280,10 @@ fn background(scene: &PackedScene, path: &Path) -> DVec3 {
 
 /// Follows the path to its next hit; returns the radiance that it adds to the sample.
 pub fn advance(scene: &PackedScene, path: &mut Path) -> DVec3 {
+    if scene.header.quantity != Quantity::Radiance {
+        path.is_alive = false;
+        return measured(scene, path);
+    }
     let hit = nearest_hit(scene, &path.ray, path.skip);
     path.is_alive = false;
     if hit.shape == NO_SHAPE {

@@ -3,6 +3,7 @@
 //! `prepare_folder` only.
 
 mod encode;
+mod exr;
 mod folder;
 mod hdr;
 mod jpeg;
@@ -15,6 +16,7 @@ use std::path::Path;
 
 use crate::core::error::{Error, Result};
 use crate::core::film::{Film, Placement};
+use crate::core::layer::Layer;
 use crate::core::panics;
 pub use encode::Format;
 pub use folder::prepare_folder;
@@ -41,16 +43,20 @@ pub const ENDING_NAMES: [&str; 7] = {
 };
 
 #[derive(Clone, Copy, Debug)]
-pub struct WriteOptions {
+pub struct WriteOptions<'a> {
     /// Bits per channel of PNG files: 8 or 16.
     pub png_bits: u8,
     /// The film's placement in a larger picture, for formats that can store it (EXR).
     pub placement: Option<Placement>,
+    /// More properties of the pixels, for formats that can store them (EXR).
+    pub layers: &'a [Layer],
+    /// False: files with layers have nothing else.
+    pub has_colors: bool,
 }
 
-impl Default for WriteOptions {
+impl Default for WriteOptions<'_> {
     fn default() -> Self {
-        WriteOptions { png_bits: 8, placement: None }
+        WriteOptions { png_bits: 8, placement: None, layers: &[], has_colors: true }
     }
 }
 
@@ -73,8 +79,27 @@ pub fn write_all_after(
     options: &WriteOptions,
     first: impl FnOnce() -> Result<()>,
 ) -> Result<()> {
-    let prepared =
-        paths.iter().map(|path| prepare(film, path.as_ref(), options)).collect::<Result<Vec<_>>>()?;
+    let pictures: Vec<Named<'_>> = paths.iter().map(|path| Named { film, path: path.as_ref() }).collect();
+    write_pictures(&pictures, options, first)
+}
+
+/// A picture and its file.
+#[derive(Clone, Copy, Debug)]
+pub struct Named<'a> {
+    pub film: &'a Film,
+    pub path: &'a Path,
+}
+
+/// Writes different pictures as [`write_all_after`] writes one.
+pub fn write_pictures(
+    pictures: &[Named<'_>],
+    options: &WriteOptions,
+    first: impl FnOnce() -> Result<()>,
+) -> Result<()> {
+    let prepared = pictures
+        .iter()
+        .map(|Named { film, path }| prepare(film, path, options))
+        .collect::<Result<Vec<_>>>()?;
     first()?;
     prepared.into_iter().try_for_each(Target::finish)
 }

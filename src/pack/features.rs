@@ -29,6 +29,8 @@ pub struct Features {
     pub compensated: bool,
     /// True if rays, shapes and texture coordinates are f64.
     pub double: bool,
+    /// The quantities that the pipeline can measure, one bit each.
+    pub quantities: u32,
     /// True if nothing is left out.
     pub everything: bool,
 }
@@ -48,6 +50,7 @@ impl Features {
             source,
             compensated: true,
             double: scene.double,
+            quantities: needs::quantities(scene.header.quantity),
             everything: keep_everything,
         };
         if keep_everything {

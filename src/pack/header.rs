@@ -68,6 +68,7 @@ pub(super) fn header(scene: &Scene, crop: Rect, warp: &Warp) -> Header {
         filter_radius: warp.radius as f32,
         filter_width: warp.width as f32,
         first_negative_step: warp.first_negative_step,
+        quantity: scene.sampling.quantity,
         // Sample dimensions, cells and the lengths of lists are set when the scene is packed.
         ..Header::default()
     }
@@ -78,6 +79,9 @@ pub(super) fn header(scene: &Scene, crop: Rect, warp: &Warp) -> Header {
 pub(super) fn footprint(scene: &Scene) -> Footprint {
     if scene.sampling.algorithm == Algorithm::Beam {
         return Footprint::None;
+    }
+    if scene.sampling.quantity.is_of_footprints() {
+        return if scene.textures.is_empty() { Footprint::None } else { Footprint::Differentials };
     }
     let procedural = scene.textures.iter().any(|t| t.content.procedural().is_some());
     if scene.sampling.algorithm == Algorithm::Cone {

@@ -2,6 +2,7 @@
 //! runs an integrator on their backends. On a device: resources by features, one pipeline, work in slices, sums read
 //! back. Uses the types of `gpu` only, none of Vulkan's.
 
+mod aov;
 mod backend;
 mod batches;
 mod beams;
@@ -9,6 +10,8 @@ mod diagnostics;
 mod dispatch_plan;
 mod film_buffer;
 mod images;
+mod layer_samples;
+pub mod layers;
 mod loop_budget;
 mod mip_chain;
 mod picture;
@@ -121,7 +124,7 @@ impl Report {
 
     /// Records the integrator's statistics and returns its film.
     fn take(&mut self, integrated: Integrated) -> Film {
-        let Integrated { film, outcome, sampled_pixels, dropped } = integrated;
+        let Integrated { film, outcome, sampled_pixels, dropped, .. } = integrated;
         (self.outcome, self.sampled_pixels, self.dropped) = (outcome, sampled_pixels, dropped);
         film
     }

@@ -13,7 +13,7 @@ use crate::core::film::Film;
 use crate::core::progress::Progress;
 use crate::core::range::Rect;
 use crate::gpu::{DeviceInfo, DeviceSelect, Gpu};
-use crate::integrators::adaptive::Goal;
+use crate::integrators::adaptive::{Goal, PixelEstimates};
 use crate::oracle::backend::OracleBackend;
 use crate::pack::{self, MipPlacement, PackedScene};
 use crate::sampling::{Backend, Scheduler};
@@ -83,6 +83,8 @@ pub struct Picture {
     pub messages: Vec<String>,
     /// A line on how each texture is stored.
     pub texture_lines: Vec<String>,
+    /// Samples and errors of single pixels, of adaptive sampling.
+    pub estimates: Option<PixelEstimates>,
     /// For each texture its name and the number of texels that are NaN or infinite.
     pub nonfinite: Vec<(String, u64)>,
 }
@@ -169,7 +171,8 @@ pub fn render_scene(scene: &Scene, options: &Options, on: &[On], progress: &dyn 
         backends.push(ready.begin()?);
     }
     let mut scheduler = Scheduler::new(backends.iter_mut().map(Working::backend).collect())?;
-    let integrated = integrator.render(&mut scheduler, [width, height], progress)?;
+    let mut integrated = integrator.render(&mut scheduler, [width, height], progress)?;
+    let estimates = integrated.estimates.take();
     let device = scheduler.name();
     let rendering = clock.elapsed().as_secs_f64();
 
@@ -194,15 +197,16 @@ pub fn render_scene(scene: &Scene, options: &Options, on: &[On], progress: &dyn 
         devices: gpus.iter().map(|gpu| gpu.info().clone()).collect(),
         messages: gpus.iter().flat_map(Gpu::messages).collect(),
         texture_lines,
+        estimates,
         nonfinite,
     })
 }
 
 /// The inputs of a render, before anything is uploaded.
-struct Loaded {
+pub(super) struct Loaded {
     /// The devices among the backends, in order.
-    gpus: Vec<Gpu>,
-    packed: PackedScene,
+    pub(super) gpus: Vec<Gpu>,
+    pub(super) packed: PackedScene,
     /// Warnings about the textures.
     doubts: Vec<String>,
     startup: f64,
@@ -210,7 +214,7 @@ struct Loaded {
 }
 
 /// Opens the devices while the textures are read, as both mostly wait.
-fn load(scene: &Scene, options: &Options, on: &[On]) -> Result<Loaded> {
+pub(super) fn load(scene: &Scene, options: &Options, on: &[On]) -> Result<Loaded> {
     std::thread::scope(|scope| {
         let start = Instant::now();
         let (tell, told) = mpsc::channel();

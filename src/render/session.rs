@@ -13,7 +13,7 @@ use crate::pack::features::{Features, bounces};
 use crate::pack::{self, PackedScene, Schedule};
 use crate::scene::model::Scene;
 use crate::schema::constants::{SEARCH_ALL, SEARCH_LISTS, SEARCH_REST};
-use crate::schema::enums::TexelSource;
+use crate::schema::enums::{Quantity, TexelSource};
 use crate::schema::layout::{Header, Slice};
 use crate::schema::specialization::Constant;
 
@@ -127,6 +127,13 @@ impl<'a> Session<'a> {
         self.prepare_packed(&packed)
     }
 
+    /// Prepares to measure another quantity with the samples of the packed scene.
+    pub fn prepare_quantity(&self, quantity: Quantity) -> Result<Prepared<'_, 'a>> {
+        let mut packed = self.scene.clone();
+        packed.header.quantity = quantity;
+        self.prepare_packed(&packed)
+    }
+
     fn prepare_packed(&self, scene: &PackedScene) -> Result<Prepared<'_, 'a>> {
         let features = self.features_of(scene);
         let mut report = Report {
@@ -208,7 +215,11 @@ impl<'a> Session<'a> {
         let mut constants =
             specialization::constants(shader, features, &self.resources.sections, group_size, slots);
         let tables_in_head = u32::from(Tuning::tables_in_head(self.gpu.info()));
-        let parameters = [(Constant::TablesInHead, tables_in_head), (Constant::MeshSearch, search)];
+        let parameters = [
+            (Constant::TablesInHead, tables_in_head),
+            (Constant::MeshSearch, search),
+            (Constant::Quantities, features.quantities),
+        ];
         constants.extend(shader.values(parameters));
         let pipeline = build_pipeline(self.gpu, shader, &constants, slots, size_of::<Slice>())?;
         Ok((pipeline, tuning::groups_per_tile(group_size)))
@@ -287,6 +298,10 @@ impl<'a> Session<'a> {
 }
 
 impl Prepared<'_, '_> {
+    pub(super) fn film_size(&self) -> [u32; 2] {
+        self.scene.header.film_size.to_array()
+    }
+
     pub fn compile_seconds(&self) -> f64 {
         self.report.seconds.compile
     }

@@ -11,7 +11,7 @@ pub use super::geometry::kinds::*;
 pub use super::geometry::{Bounds, Shape, Shapes};
 pub use super::mapping::{Entity, Mapping, MappingKind, Space};
 pub use super::pixel_filter::{PixelFilter, PixelFilterKind};
-pub use super::sampling::{Algorithm, Footprint, Pattern, Precision, Sampling};
+pub use super::sampling::{Algorithm, Footprint, Pattern, Precision, Quantity, Sampling};
 use crate::core::named::named_enum;
 pub use crate::schema::enums::BumpKind;
 use crate::texture::sampler_spec::{Address, SamplerSpec};

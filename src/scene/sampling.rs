@@ -1,7 +1,7 @@
 //! The sampling of a picture as data: algorithm, pattern, number and footprint. Part of the model.
 
 use crate::core::named::named_enum;
-pub use crate::schema::enums::{Footprint, Pattern};
+pub use crate::schema::enums::{Footprint, Pattern, Quantity};
 
 named_enum! {
     /// The rendering algorithm (`[sampling] algorithm`).
@@ -61,6 +61,13 @@ named_enum! {
     }
 }
 
+impl Quantity {
+    /// Returns true for one that needs the footprint of a whole pixel, whatever footprint look-ups have.
+    pub const fn is_of_footprints(self) -> bool {
+        !matches!(self, Quantity::Radiance | Quantity::Albedo)
+    }
+}
+
 impl Algorithm {
     /// Returns true if pixels may have different numbers of samples.
     pub fn is_adaptive(self) -> bool {
@@ -87,6 +94,8 @@ pub struct Sampling {
     pub footprint: Footprint,
     /// The precision of geometry.
     pub precision: Precision,
+    /// What the samples measure, of algorithm `samples`: radiance, or a layer.
+    pub quantity: Quantity,
 }
 
 impl Default for Sampling {
@@ -100,6 +109,7 @@ impl Default for Sampling {
             max_depth: 5,
             footprint: Footprint::None,
             precision: Precision::Auto,
+            quantity: Quantity::Radiance,
         }
     }
 }

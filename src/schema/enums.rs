@@ -70,6 +70,24 @@ enums! {
         Fresnel = "fresnel",
     }
 
+    /// What samples measure: the radiance of their paths, or one property of what the camera ray hits first, each of
+    /// which is described at the layer of the same name (`src/render/aov.rs`).
+    #[derive(Default)]
+    QUANTITY: Quantity {
+        #[default]
+        Radiance = "radiance",
+        Texels = "texels",
+        Magnification = "magnification",
+        Level = "level",
+        Anisotropy = "anisotropy",
+        Uv = "uv",
+        Normal = "normal",
+        Depth = "depth",
+        Instance = "instance",
+        Material = "material",
+        Albedo = "albedo",
+    }
+
     /// The footprint over which a texture look-up is averaged (`[sampling] footprint`).
     #[derive(Default)]
     FOOTPRINT: Footprint {

@@ -56,6 +56,7 @@ records! {
         filter_width: f32,
         /// First step from the centre, of 2^24, at which the filter is negative.
         first_negative_step: u32,
+        quantity: Quantity,
     }
 
     /// A plane, or a square part of it.

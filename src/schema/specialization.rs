@@ -80,6 +80,8 @@ specialization! {
     BlockLog2 = "BLOCK_LOG2", parameter(16), "length of texel buffers";
     /// 1 if tables are read from the uniform buffer: devices differ in the cost of reads at scattered places.
     TablesInHead = "TABLES_IN_HEAD", flag, "tables in uniforms";
+    /// A bit mask of `Quantity`: radiance alone by default.
+    Quantities = "QUANTITIES", parameter(1), "quantities in place of radiance";
     MeshSearch = "MESH_SEARCH", parameter(0), "by lists or trees";
     /// Triangles of meshes are kept in registers for all samples of a pixel.
     HoldsTriangles = "HOLDS_TRIANGLES", flag, "triangles in registers";

@@ -102,7 +102,8 @@ fn device_and_oracle_spend_the_same_samples() {
     let (film, outcome) = to_goal(&scene, Goal::Samples(64), false);
     let mut backend = OracleBackend::new(&scene).unwrap();
     let size = [scene.header.film_size.x, scene.header.film_size.y];
-    let (exact, expected) = adaptive::run(&mut backend, size, Goal::Samples(64), &NoProgress).unwrap();
+    let run = adaptive::run(&mut backend, size, Goal::Samples(64), &NoProgress).unwrap();
+    let (exact, expected) = (run.film, run.outcome);
     // Counts follow estimates in f32: one pixel in a hundred may round differently.
     assert!((outcome.mean_samples / expected.mean_samples - 1.0).abs() < 0.01, "{outcome:?} {expected:?}");
     assert_eq!(outcome.passes, expected.passes);
@@ -267,7 +268,9 @@ impl Backend for Slow {
 fn slowly(tells: bool, prefilters: bool, goal: Goal) -> (Film, Outcome) {
     const SIZE: [u32; 2] = [32, 16];
     let sums = HalfSums::new(SIZE);
-    adaptive::run(&mut Slow { sums, seconds: 0.0, tells, prefilters }, SIZE, goal, &NoProgress).unwrap()
+    let mut slow = Slow { sums, seconds: 0.0, tells, prefilters };
+    let run = adaptive::run(&mut slow, SIZE, goal, &NoProgress).unwrap();
+    (run.film, run.outcome)
 }
 
 /// 4e-3 takes some 5000 random samples a pixel: 2.6 s, by the time of the first passes.

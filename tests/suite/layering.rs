@@ -28,6 +28,10 @@ pub const ALLOWED: &[(&str, &[&str])] = &[
     ("render", &["core", "texture", "scene", "schema", "pack", "sampling", "gpu", "oracle", "integrators"]),
     ("output", &["core"]),
     ("lab::plot", &["core"]),
+    (
+        "lab::inspect",
+        &["core", "texture", "scene", "schema", "pack", "oracle", "render", "output", "lab::plot"],
+    ),
     ("lab::metrics", &["core", "texture"]),
     ("lab::pattern", &["core", "scene", "schema", "oracle"]),
     ("lab::probe", &["core", "texture", "schema", "pack", "gpu", "render"]),
@@ -78,6 +82,7 @@ pub const ALLOWED: &[(&str, &[&str])] = &[
             "integrators",
             "render",
             "output",
+            "lab::inspect",
             "lab::metrics",
             "lab::pattern",
             "lab::stability",

@@ -41,6 +41,7 @@ mod golden;
 #[cfg(unix)]
 mod interrupt;
 mod layering;
+mod layers;
 mod layout;
 mod lean;
 mod lean_features;

@@ -147,6 +147,7 @@ fn keys_left_out_have_the_documented_defaults() {
         max_depth: 5,
         footprint: Footprint::None,
         precision: Precision::Auto,
+        quantity: Default::default(),
     };
     assert_eq!(scene.sampling, sampling);
     assert_eq!(scene.background.color, DVec3::ZERO);

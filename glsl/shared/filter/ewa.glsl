@@ -21,13 +21,24 @@ float ellipse_weight(float squared) {
     return r * (0.2643662 + r * (0.3266478 + r * (0.0257909 + r * 0.2473448)));
 }
 
+// Returns the level on which an ellipse of this minor axis, squared in texels of level 0, is averaged.
+int ellipse_level(float minor, int last) {
+    return clamp(int(floor(0.5 * log2_accurate(max(minor, 1e-30)) + ELLIPSE_LEVEL)), 0, last);
+}
+
+// Returns the squared minor axis, at least as long as the maximum anisotropy allows.
+float widened_minor(const Sampler how, const FootprintEllipse spread) {
+    float most = float(how.max_anisotropy);
+    return max(spread.minor, spread.major / (most * most));
+}
+
 // Returns the average of all texels in the footprint's ellipse, weighted by a Gaussian. On the selected level
 // the minor axis is about one texel; if the ellipse exceeds the maximum anisotropy its minor axis grows.
 vec4 ellipse(const Texture image, const Sampler how, uint slot, const Coordinate c, const FootprintEllipse spread) {
     float most = float(how.max_anisotropy);
-    float minor = max(spread.minor, spread.major / (most * most));
+    float minor = widened_minor(how, spread);
     count_diagnostic(DIAGNOSTIC_ANISOTROPY, minor > spread.minor);
-    int index = clamp(int(floor(0.5 * log2_accurate(max(minor, 1e-30)) + ELLIPSE_LEVEL)), 0, int(image.levels) - 1);
+    int index = ellipse_level(minor, int(image.levels) - 1);
     Level level = level_at(image, index);
     vec2 size = vec2(level.size.xy);
     // Covariance J Jᵀ on this level; the minor axis is widened along its own direction.

@@ -20,6 +20,31 @@
 const uint LEVEL_BLENDS = MIPMAPPED ? MIPS & (1u << MIP_LINEAR) : 0u;
 const bool ONE_PLACE = (LEVEL_BLENDS | (FILTERS & (1u << FILTER_ANISOTROPIC))) == 0u;
 
+// Returns the level that the footprint needs, whichever there are. A look-up is at least as wide as the minor
+// axis, even if there are more along the major axis than needed.
+float needed_level(const FootprintEllipse spread, uint probes, float last) {
+    float least = probes > 1u ? spread.minor : 0.0;
+    float level = 0.5 * log2_accurate(max(spread.major / float(probes * probes), least));
+    count_diagnostic(DIAGNOSTIC_LEVELS, level > last);
+    return level;
+}
+
+// Returns the level that the sampler reads for a footprint; between two levels if it blends them.
+float read_level(const Texture image, const Sampler how, const FootprintEllipse spread) {
+    bool magnified = spread.major <= 1.0;
+    uint mode = magnified ? how.mag_filter : how.min_filter;
+    int last = int(image.levels) - 1;
+    if (HAS(FILTERS, FILTER_EWA) && mode == FILTER_EWA) return float(ellipse_level(widened_minor(how, spread), last));
+    uint probes = 1u;
+    if (HAS(FILTERS, FILTER_ANISOTROPIC) && mode == FILTER_ANISOTROPIC) probes = anisotropic_probes(how, spread);
+    float level = 0.0;
+    if (!magnified && MIPMAPPED) level = clamp(needed_level(spread, probes, float(last)), 0.0, float(last));
+    if (HAS(FILTERS, FILTER_SUMMED_AREA) && mode == FILTER_SUMMED_AREA) level = 0.0;
+    if (MODE_IS(MIPS, MIP_NEAREST, how.mip_mode)) level = ceil(level + 0.5) - 1.0;
+    if (MODE_IS(MIPS, MIP_NONE, how.mip_mode)) level = 0.0;
+    return level;
+}
+
 vec4 sample_texture(const Texture image, const Sampler how, uint slot, const TexCoord mapped, uvec2 random) {
     if (MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_PROCEDURAL, image.kind)) {
         return vec4(procedural_color(procedural_at(image.procedural), mapped.at, mapped.dx, mapped.dy), 1.0);
@@ -56,11 +81,7 @@ vec4 sample_texture(const Texture image, const Sampler how, uint slot, const Tex
     }
     float level = 0.0;
     if (!magnified && (MIPMAPPED || hardware)) {
-        // A look-up is at least as wide as the minor axis, even if there are more along the major axis than
-        // needed.
-        float least = probes > 1u ? spread.minor : 0.0;
-        level = 0.5 * log2_accurate(max(spread.major / float(probes * probes), least));
-        count_diagnostic(DIAGNOSTIC_LEVELS, level > float(last));
+        level = needed_level(spread, probes, float(last));
         // The device's sampler knows its own last level, and minifies with one level too.
         level = clamp(level, 0.0, hardware ? 32.0 : float(last));
     }

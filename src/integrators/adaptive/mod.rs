@@ -17,7 +17,7 @@ mod unseen;
 use serde::Serialize;
 
 pub use audit::CONFIDENCE;
-pub use run::run;
+pub use run::{Run, run};
 
 /// Most samples of a half: f32 sums of this many are still accurate enough.
 const MAX_COUNT: u32 = 1 << 16;
@@ -38,6 +38,15 @@ const OCTAVES: usize = 18;
 
 fn octave(count: u32) -> usize {
     (count.max(1).ilog2() as usize).min(OCTAVES - 1)
+}
+
+/// Samples and errors of single pixels, row by row.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct PixelEstimates {
+    /// Samples of both halves.
+    pub samples: Vec<u32>,
+    /// Errors by which the next samples would have been placed, as RMS of the channels; 0 for pixels that beams resolved.
+    pub errors: Vec<f32>,
 }
 
 /// The result of sampling to a goal.

@@ -9,7 +9,7 @@ use super::auditor::Auditor;
 use super::estimate::{Estimate, Exponent};
 use super::explore::Explorer;
 use super::pace::{PLANNED, Pace};
-use super::{Goal, MAX_COUNT, Outcome};
+use super::{Goal, MAX_COUNT, Outcome, PixelEstimates};
 use crate::core::error::Result;
 use crate::core::film::Film;
 use crate::core::progress::Progress;
@@ -39,13 +39,20 @@ const SURE: f64 = 1.25;
 /// Audits that may refuse the goal, each with more samples, before it counts as out of reach.
 const MAX_REFUSALS: u32 = 12;
 
+/// The result of a run.
+pub struct Run {
+    pub film: Film,
+    pub outcome: Outcome,
+    pub estimates: PixelEstimates,
+}
+
 /// Samples until the goal is met. Audits do not change the film.
 pub fn run(
     backend: &mut dyn Backend,
     [width, height]: [u32; 2],
     goal: Goal,
     progress: &dyn Progress,
-) -> Result<(Film, Outcome)> {
+) -> Result<Run> {
     let start = backend.seconds();
     let pixels = width as usize * height as usize;
     let mut sums = HalfSums::new([width, height]);
@@ -60,6 +67,7 @@ pub fn run(
     let mut explorer = Explorer::default();
     let mut auditor = Auditor::default();
     let mut pace = Pace::default();
+    let mut errors: Vec<f32>;
     loop {
         if next != counts {
             let begun = backend.seconds();
@@ -78,6 +86,7 @@ pub fn run(
 
         let mut estimate = Estimate::new(&sums, &counts, bright);
         analytic.clear_variances(&mut estimate);
+        errors = estimate.variances.iter().map(|variance| variance.sqrt()).collect();
         exponent.learn(taken, estimate.mse);
         outcome.beam_pixels = analytic.resolved() as u64;
         let resolved = outcome.beam_pixels as f64 / pixels as f64;
@@ -182,7 +191,9 @@ pub fn run(
         Goal::Error(_) => outcome.reached,
         Goal::Seconds(limit) => backend.seconds() - start <= KEPT * limit,
     };
-    Ok((film(&sums, &counts)?, outcome))
+    let film = film(&sums, &counts)?;
+    let samples = counts.iter().map(|count| 2 * count).collect();
+    Ok(Run { film, outcome, estimates: PixelEstimates { samples, errors } })
 }
 
 impl Outcome {

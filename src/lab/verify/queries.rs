@@ -167,6 +167,7 @@ pub fn pairs_over(
             max_depth: 0,
             footprint,
             precision: Precision::Single,
+            quantity: Default::default(),
         },
         background: Background::default(),
         textures: Vec::new(),

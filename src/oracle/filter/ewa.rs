@@ -7,6 +7,7 @@ use crate::oracle::address::reduced_coordinate;
 use crate::oracle::footprint_axes::FootprintEllipse;
 use crate::oracle::mapping::Coordinate;
 use crate::oracle::texture::{add_weighted, addresses, level_at};
+use crate::schema::layout::Sampler;
 use crate::texture::sampler_spec::TexelCenter;
 
 /// On the selected level, the minor axis has a full width between 2^-ELLIPSE_LEVEL texels and twice that.
@@ -21,14 +22,23 @@ pub fn ellipse_weight(squared: f64) -> f64 {
     r * (0.2643662 + r * (0.3266478 + r * (0.0257909 + r * 0.2473448)))
 }
 
+/// Returns the level on which an ellipse of this minor axis, squared in texels of level 0, is averaged.
+pub fn ellipse_level(minor: f64, last: u32) -> u32 {
+    (0.5 * minor.max(1e-30).log2() + ELLIPSE_LEVEL).floor().clamp(0.0, last.into()) as u32
+}
+
+/// Returns the squared minor axis, at least as long as the maximum anisotropy allows.
+pub fn widened_minor(how: &Sampler, spread: &FootprintEllipse) -> f64 {
+    let most = f64::from(how.max_anisotropy);
+    spread.minor.max(spread.major / (most * most))
+}
+
 /// Returns the average of all texels in the footprint's ellipse, weighted by a Gaussian.
 pub fn ellipse(reader: &Reader<'_>, c: &Coordinate, spread: &FootprintEllipse) -> DVec4 {
     let (image, how) = (reader.image, reader.how);
     let most = f64::from(how.max_anisotropy);
-    let minor = spread.minor.max(spread.major / (most * most));
-    let last = f64::from(image.levels - 1);
-    let index = (0.5 * minor.max(1e-30).log2() + ELLIPSE_LEVEL).floor().clamp(0.0, last);
-    let level = level_at(reader.scene, image, index as u32);
+    let minor = widened_minor(how, spread);
+    let level = level_at(reader.scene, image, ellipse_level(minor, image.levels - 1));
     let size = DVec2::new(level.size[0] as f64, level.size[1] as f64);
     let [x, y] = c.change.map(|d| d.truncate() * size);
     let scale = (size.x / f64::from(image.size.x)).powi(2);

@@ -4,18 +4,46 @@
 use glam::DVec4;
 
 use super::anisotropic::{anisotropic_place, anisotropic_probes};
-use super::ewa::ellipse;
+use super::ewa::{ellipse, ellipse_level, widened_minor};
 use super::levels::Reader;
 use super::stochastic::{look_up_dice, stochastic_level};
 use super::summed_area::summed_area;
 use crate::oracle::footprint::is_filtered;
-use crate::oracle::footprint_axes::{in_texture, kind_of, texel_spread};
+use crate::oracle::footprint_axes::{FootprintEllipse, in_texture, kind_of, texel_spread};
 use crate::oracle::mapping::Coordinate;
 use crate::oracle::procedural::procedural_color;
 use crate::oracle::texture::{add_weighted, level_at};
 use crate::pack::{PackedScene, TextureKind};
 use crate::schema::layout::{Sampler, Texture};
 use crate::texture::sampler_spec::{Filter, MipMode};
+
+/// Returns the level that the footprint needs, whichever there are. A look-up is at least as wide as the minor axis, even
+/// if there are more along the major axis than needed.
+pub fn needed_level(spread: &FootprintEllipse, probes: f64) -> f64 {
+    let least = if probes > 1.0 { spread.minor } else { 0.0 };
+    0.5 * (spread.major / (probes * probes)).max(least).log2()
+}
+
+/// Returns the level that the sampler reads for a footprint; between two levels if it blends them.
+pub fn read_level(image: &Texture, how: &Sampler, spread: &FootprintEllipse) -> f64 {
+    let magnified = spread.major <= 1.0;
+    let mode = if magnified { how.mag_filter } else { how.min_filter };
+    let last = image.levels - 1;
+    if mode == Filter::Ewa {
+        return ellipse_level(widened_minor(how, spread), last).into();
+    }
+    let probes = if mode == Filter::Anisotropic { anisotropic_probes(how, spread) } else { 1.0 };
+    let level = if magnified || mode == Filter::SummedArea {
+        0.0
+    } else {
+        needed_level(spread, probes).clamp(0.0, last.into())
+    };
+    match how.mip_mode {
+        MipMode::None => 0.0,
+        MipMode::Nearest => (level + 0.5).ceil() - 1.0,
+        MipMode::Linear => level,
+    }
+}
 
 /// Samples a texture. Without a footprint in the scene every look-up magnifies.
 pub fn sample_texture(
@@ -51,14 +79,7 @@ pub fn sample_texture(
     if mode == Filter::Anisotropic {
         probes = anisotropic_probes(how, &spread);
     }
-    let level = if magnified {
-        0.0
-    } else {
-        // A look-up is at least as wide as the minor axis, even if there are more along the major axis than
-        // needed.
-        let least = if probes > 1.0 { spread.minor } else { 0.0 };
-        (0.5 * (spread.major / (probes * probes)).max(least).log2()).clamp(0.0, last.into())
-    };
+    let level = if magnified { 0.0 } else { needed_level(&spread, probes).clamp(0.0, last.into()) };
     let (low, mut rest) = match how.mip_mode {
         MipMode::None => (0.0, 0.0),
         MipMode::Nearest => ((level + 0.5).ceil() - 1.0, 0.0),

@@ -70,6 +70,7 @@ pub fn narrowed(constant: Constant, s: &PackedScene) -> Option<u32> {
         | C::TexelBlocks
         | C::BlockLog2
         | C::TablesInHead
+        | C::Quantities
         | C::MeshSearch
         | C::HoldsTriangles
         | C::OpaqueUniforms

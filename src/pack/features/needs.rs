@@ -5,7 +5,7 @@ use super::UNROLL;
 use crate::pack::{PackedScene, Schedule, TextureKind};
 use crate::scene::model::{Model, PixelFilterKind};
 use crate::schema::constants::{DYNAMIC, MAX_CONE_FRAGMENTS};
-use crate::schema::enums::TextureSize;
+use crate::schema::enums::{Quantity, TextureSize};
 use crate::schema::layout::{self, NO_TEXTURE};
 use crate::texture::sampler_spec::Filter;
 
@@ -54,6 +54,16 @@ pub fn compensates(scene: &PackedScene) -> bool {
 /// Returns true if samples are moved, which a box of one pixel does not do.
 pub fn warps(scene: &PackedScene) -> bool {
     scene.header.pixel_filter != PixelFilterKind::Box || scene.header.filter_radius != 0.5
+}
+
+/// Returns the quantities of the pipeline that measures one. Those that read no texels share one; radiance is never
+/// together with others, so that its pipelines have no trace of them.
+pub fn quantities(quantity: Quantity) -> u32 {
+    let reads_texels = |q: &Quantity| matches!(q, Quantity::Radiance | Quantity::Albedo | Quantity::Normal);
+    if reads_texels(&quantity) {
+        return bit(quantity as u32);
+    }
+    bits(Quantity::ALL.iter().filter(|q| !reads_texels(q)).map(|&q| q as u32))
 }
 
 fn has_model(scene: &PackedScene, does: fn(Model) -> bool) -> bool {

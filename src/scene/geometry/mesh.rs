@@ -7,7 +7,7 @@ use std::sync::Arc;
 use glam::{DAffine3, DVec3};
 
 use super::meshes::Placed;
-use super::{Bounds, Described, Fields, Triangle};
+use super::{Bounds, Described, Fields, Shapes, Triangle};
 use crate::core::error::Result;
 use crate::mesh;
 use crate::scene::limits::COORDINATE;
@@ -54,6 +54,19 @@ impl Mesh {
         for &index in self.triangles.iter().step_by(step) {
             each(Triangle { material: self.material, motion: self.motion, ..placed.triangle(index) });
         }
+    }
+}
+
+impl Shapes {
+    /// Returns the number of triangles, those of meshes too.
+    pub fn triangle_count(&self) -> usize {
+        self.triangles.len() + self.meshes.iter().map(Mesh::triangle_count).sum::<usize>()
+    }
+
+    /// Calls `each` with every triangle in the world, those of meshes too.
+    pub fn for_each_triangle(&self, mut each: impl FnMut(&Triangle)) {
+        self.triangles.iter().for_each(&mut each);
+        self.meshes.iter().for_each(|mesh| mesh.for_each(1, |triangle| each(&triangle)));
     }
 }
 

@@ -1,0 +1,59 @@
+// The first hit of a camera ray -> one of its properties in place of radiance: up to two numbers and 1, or a vector;
+// zero where the ray meets nothing that has the property. Twin: src/oracle/quantities.rs.
+#ifndef QUANTITIES_GLSL
+#define QUANTITIES_GLSL
+
+#include "filter/sample_texture.glsl"
+#include "geometry/hit.glsl"
+
+// Samples measure something other than radiance. The constant has the bit of radiance, or others.
+const bool MEASURES = QUANTITIES != (1u << QUANTITY_RADIANCE);
+// Some quantity reads texels: the colour, and the normal by a bump map.
+const bool MEASURES_COLOR = (QUANTITIES & ((1u << QUANTITY_ALBEDO) | (1u << QUANTITY_NORMAL))) != 0u;
+
+#if SOURCE != SOURCE_NONE
+// Returns the place in [0, 1] of a texture at which a coordinate is read.
+float place_in_tile(uint mask, uint mode, float u) {
+    float place;
+    if (MODE_IS(mask, ADDRESS_REPEAT, mode)) {
+        place = u - floor(u);
+    } else if (MODE_IS(mask, ADDRESS_MIRRORED_REPEAT, mode)) {
+        place = 1.0 - abs(u - 2.0 * floor(0.5 * u) - 1.0);
+    } else if (MODE_IS(mask, ADDRESS_MIRROR_CLAMP_TO_EDGE, mode)) {
+        place = clamp(abs(u), 0.0, 1.0);
+    } else {
+        place = clamp(u, 0.0, 1.0);
+    }
+    return place;
+}
+
+// Returns a quantity of the look-up of a material's texture. Procedural textures have no texels.
+vec3 look_up_quantity(uint quantity, const Material material, const TexCoord mapped) {
+    bool textured = material.texture_index != NO_TEXTURE;
+    Texture image = texture_at(textured ? material.texture_index : 0u);
+    Sampler how = sampler_at(textured ? material.sampler_index : 0u);
+    uint face;
+    Coordinate c = in_texture(image, near_coordinate(image, how, mapped), face);
+    FootprintEllipse spread = texel_spread(image, c);
+    float major = max(spread.major, 1e-30);
+    vec2 value = vec2(place_in_tile(ADDRESSES_U, how.address_u, c.at.x), place_in_tile(ADDRESSES_V, how.address_v, c.at.y));
+    if (quantity == QUANTITY_TEXELS) value = sqrt(vec2(spread.major, spread.minor));
+    if (quantity == QUANTITY_MAGNIFICATION) value = vec2(-0.5 * log2_accurate(major), 0.0);
+    if (quantity == QUANTITY_LEVEL) value = vec2(read_level(image, how, spread), 0.0);
+    if (quantity == QUANTITY_ANISOTROPY) value = vec2(min(sqrt(major / max(spread.minor, 1e-30)), MAX_STRETCH), 0.0);
+    bool has_texels = !MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_PROCEDURAL, image.kind);
+    return textured && has_texels ? vec3(value, 1.0) : vec3(0.0);
+}
+#endif
+
+// Returns a quantity of the surface itself; `missed`: it is the environment's. Numbers count from 1.
+vec3 surface_quantity(uint quantity, bool missed, const Hit hit, const Surface surface, vec3 albedo) {
+    vec3 value = albedo;
+    if (quantity == QUANTITY_NORMAL) value = missed ? vec3(0.0) : vec3(surface.normal);
+    if (quantity == QUANTITY_DEPTH) value = missed ? vec3(0.0) : vec3(float(hit.t), 0.0, 1.0);
+    if (quantity == QUANTITY_INSTANCE) value = missed ? vec3(0.0) : vec3(float(hit.shape + 1u), 0.0, 1.0);
+    if (quantity == QUANTITY_MATERIAL) value = vec3(float(surface.link.x + 1u), 0.0, 1.0);
+    return value;
+}
+
+#endif

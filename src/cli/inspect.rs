@@ -1,0 +1,65 @@
+//! `moire inspect SCENE --out DIR`: every layer of a view as a picture, all of them in one EXR file, and a page on what
+//! the view reads of its textures. All invalid input is refused before the device starts.
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use super::overrides::Overrides;
+use super::progress::Bar;
+use super::{DEVICE, OUTPUT};
+use crate::core::counted::counted;
+use crate::core::error::Result;
+use crate::gpu::DeviceSelect;
+use crate::lab::inspect::{self, PAGE};
+use crate::output::prepare_folder;
+use crate::render::{On, Options};
+use crate::scene::prune::prune;
+
+/// Show what a view needs of its textures, and which settings suit it
+///
+/// Writes every layer of `moire render --aov` as a false-colour picture, layers.exr with all of them as numbers, and
+/// index.html, which says for each texture how densely it is seen, which levels and texels are read, whether it is larger
+/// or smaller than needed and whether its charts bleed, and recommends filter, footprint and samples.
+#[derive(clap::Args, Debug)]
+pub struct InspectArgs {
+    /// Scene file or model
+    scene: PathBuf,
+    /// Folder for the results; its last component is created if it is missing
+    #[arg(long, value_name = "DIR", help_heading = OUTPUT)]
+    out: PathBuf,
+    #[command(flatten)]
+    overrides: Overrides,
+    /// Device: an index or a part of the name as `moire devices` lists them, cpu, gpu, or oracle (float64 on the CPU)
+    /// [default: discrete GPU, else integrated, else CPU]
+    #[arg(long, value_name = "SEL", help_heading = DEVICE)]
+    device: Option<String>,
+    /// Print nothing but errors
+    #[arg(short, long, help_heading = OUTPUT)]
+    quiet: bool,
+}
+
+pub fn run(args: &InspectArgs) -> Result<ExitCode> {
+    let bar = Bar::new(args.quiet)?;
+    let on = match &args.device {
+        Some(text) => On::parse(text)?,
+        None => On::Device(DeviceSelect::Default),
+    };
+    let mut scene = crate::scene::load(&args.scene)?;
+    args.overrides.apply(&mut scene)?;
+    prepare_folder(&args.out, PAGE)?;
+    prune(&mut scene);
+    let options = Options { goal: args.overrides.goal(), ..Options::default() };
+    let inspection = inspect::inspect(&scene, &options, &[on], &bar)?;
+    bar.finish();
+    let files = inspect::write(&args.out, &scene, &inspection)?;
+    if !args.quiet {
+        inspection.left_out.iter().for_each(|why| super::notify(format_args!("left out: {why}")));
+        super::notify(format_args!(
+            "{} in {}, the page is {PAGE}",
+            counted(files.len(), "file"),
+            args.out.display()
+        ));
+        super::print(&inspection.advice.sentence)?;
+    }
+    Ok(ExitCode::SUCCESS)
+}

@@ -1,0 +1,18 @@
+//! The layers of a picture as pictures, and what they say of a scene's textures: how dense they are seen, which of their
+//! texels and levels are read, and which settings suit the view.
+
+pub mod advice;
+mod charts;
+mod colors;
+mod density;
+mod folder;
+mod font;
+mod legend;
+pub mod page;
+pub mod picture;
+mod scale;
+pub mod survey;
+
+pub use charts::{Charts, charts};
+pub use density::Density;
+pub use folder::{Inspected, Inspection, PAGE, file_of, inspect, write};
