@@ -38,6 +38,8 @@ mod shaders;
 mod shape_text;
 #[path = "src/schema/shapes.rs"]
 mod shapes;
+#[path = "src/schema/surface_enums.rs"]
+mod surface_enums;
 #[path = "src/schema/specialization.rs"]
 mod specialization;
 #[path = "build/uncontracted.rs"]

@@ -11,7 +11,7 @@ pub use crate::schema::enums::{TexelSource, TextureSize};
 use crate::schema::specialization::{Constant, Kind};
 
 use narrowed::narrowed;
-pub use needs::bounces;
+pub use needs::{bounces, lets_rays_pass};
 use needs::compensates;
 
 /// Longer lists are read at run time, as unrolled code would grow without limit.

@@ -9,7 +9,7 @@ use moire::internal::oracle::footprint::{Footprint, any_tangent};
 use moire::internal::oracle::geometry::rays::hit_surface;
 use moire::internal::oracle::geometry::rays::nearest_hit;
 use moire::internal::oracle::mapping::texture_coordinate;
-use moire::internal::oracle::shade::{map_input, uv_gradients};
+use moire::internal::oracle::appearance::{map_input, uv_gradients};
 use moire::internal::pack::PackedScene;
 
 use super::{floats, scene};
