@@ -40,6 +40,8 @@ mod shape_text;
 mod shapes;
 #[path = "src/schema/specialization.rs"]
 mod specialization;
+#[path = "src/schema/surface_enums.rs"]
+mod surface_enums;
 #[path = "build/uncontracted.rs"]
 mod uncontracted;
 

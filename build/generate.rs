@@ -40,7 +40,7 @@ fn screaming(name: &str) -> String {
 
 /// Returns all enums that the shaders know.
 fn all_enums() -> impl Iterator<Item = &'static Enum> {
-    crate::enums::ENUMS.iter().chain(crate::models::ENUMS)
+    crate::enums::ENUMS.iter().chain(crate::surface_enums::ENUMS).chain(crate::models::ENUMS)
 }
 
 /// Returns `const uint PREFIX_VARIANT` for each variant, and their number. The preprocessor compares sources.

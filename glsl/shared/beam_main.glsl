@@ -185,7 +185,7 @@ void shade(const Header header, PixelBeam beam, uint own) {
         Light light = NO_LIGHT;
         if (LIGHTS != 0u && !unlit) light = light_at(i);
         // Beams cannot integrate the penumbra of area lights.
-        if (AREA_LIGHTS && light.kind >= LIGHT_SPHERE) gave_up = true;
+        if ((AREA_LIGHTS || RANGED) && light.kind >= LIGHT_SPOT) gave_up = true;
         lit_by(header, paint, shape, LIGHTS != 0u && !unlit, light);
     }
     if (i < lights) gave_up = true;

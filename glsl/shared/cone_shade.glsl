@@ -57,18 +57,18 @@ void send(Branch branch) {
 
 // Returns the contribution of an unoccluded light by way of a surface, and the cone that tests its
 // visibility: as wide as the footprint seen from the light, where it ends in a point.
-Branch lit_branch(Branch branch, vec3 albedo, vec3 carried, const Hit hit, const Surface surface, const Footprint print, const Material material, uint skip, const Light light) {
-    bool point_light = MODE_IS(LIGHT_KINDS, LIGHT_POINT, light.kind);
+Branch lit_branch(Branch branch, const Bsdf bsdf, vec3 carried, const Hit hit, const Surface surface, const Footprint print, uint skip, const Light light) {
+    bool point_light = MODE_IS(LIGHT_KINDS, LIGHT_POINT, light.kind) || MODE_IS(LIGHT_KINDS, LIGHT_SPOT, light.kind);
     vec3 way = point_light ? light.position - surface.point : light.direction;
     float squared = dot3(way, way);
     float facing = dot3(surface.normal, way);
     float share = point_light ? facing / (squared * sqrt(squared)) : facing;
     float above = dot3(surface.geometric_normal, way);
     if (!(facing > 0.0 && above > 0.0)) share = 0.0;
+    if (RANGED && point_light) share *= punctual_share(light, way);
     vec3 more = light.power * (share * (1.0 / PI));
-    Bsdf bsdf = bsdf_at(material, albedo, surface.normal, branch.ray.direction);
-    vec2 lobes = evaluate(bsdf, way);
-    vec3 seen = reflected(bsdf, branch.weight, carried, Lit(more * lobes.x, more * lobes.y));
+    vec3 lobes = evaluate(bsdf, way);
+    vec3 seen = reflected(bsdf, branch.weight, carried, Lit(more * lobes.x, more * lobes.y, more * lobes.z));
     if (!SHADOWS) return Branch(branch.ray, 0.0, 0.0, seen, skip, 0u);
     vec3 start = offset_origin(surface.point, surface.geometric_normal, surface.size);
     vec3 to_light = point_light ? light.position - start : light.direction;
@@ -113,23 +113,27 @@ vec3 shade_part(const Header header, Branch branch, uint shape) {
     }
     Material material = material_at(surface.link.x);
     vec3 carried = branch.weight;
-    vec3 albedo = surface_color(material, uv_projection_at(surface.link.y), ray, surface, print, uvec2(0u));
-    branch.weight *= albedo;
+    if (VERTEX_COLORS && missed) surface.attributes.color = vec4(1.0);
+    Appearance look = appearance(material, uv_projection_at(surface.link.y), ray, surface, print, uvec2(0u));
+    branch.weight *= look.color;
     bool lit = HAS_LIT && is_lit(material.model);
-    if (!lit && !is_specular(material.model)) return emitted(material.model, branch.weight);
+    vec3 sum = vec3(0.0);
+    if (EMISSIVE) sum = carried * look.emission;
+    if (!lit && !is_specular(material.model)) return sum + emitted(material.model, branch.weight);
+    Bsdf bsdf;
+    if (HAS_LIT) bsdf = bsdf_at(material, look.color, look.metallic, look.roughness, surface.normal, ray.direction);
     if (!lit) consistent_normal(ray.direction, surface);
     float ratio = index_ratio(material, surface.inside);
     float back = mirrored_share(material, ray.direction, surface.normal, ratio);
     // Secondary cones: those to the lights, or the refracted and then the reflected one, which as the last is
     // traced first.
     uint branches = lit ? COUNT(LIGHTS, lengths.lights) : (BOUNCES && branch.depth < header.max_depth ? 2u : 0u);
-    vec3 sum = vec3(0.0);
     for (uint i = 0u; i < branches; i++) {
         bool through = BOUNCES && !lit && i == 0u;
         uint skip = left_shape(hit.shape, surface.inside != through);
         Branch next = branch;
         if (lit) {
-            next = lit_branch(branch, albedo, carried, hit, surface, print, material, skip, light_at(i));
+            next = lit_branch(branch, bsdf, carried, hit, surface, print, skip, light_at(i));
         } else if (BOUNCES) {
             next = bent_branch(branch, hit, surface, print, ratio, through ? 1.0 - back : back, skip, through);
         }

@@ -3,7 +3,8 @@
 #ifndef LIGHT_GLSL
 #define LIGHT_GLSL
 
-#include "bsdf/models.glsl"
+#include "bsdf/scattering.glsl"
+#include "environment.glsl"
 #include "sample_dimensions.glsl"
 #include "rectangle.glsl"
 #include "geometry/rays.glsl"
@@ -67,15 +68,55 @@ Aim sun_aim(const Light light, vec2 square) {
     return Aim(around(vec3(light.direction), on_cap(concentric_disc(square), float(light.cap_height))), FAR, 1.0);
 }
 
-Lit direct_light(const Surface surface, float time, uint shape, const Bsdf bsdf, const Points points,
-                 const SampleDimensions dimensions) {
-    Lit sum = Lit(vec3(0.0), vec3(0.0));
+// The share of its intensity that a spot, or a point with a range, has at the end of `way` (KHR_lights_punctual).
+float punctual_share(const Light light, vec3 way) {
+    float share = 1.0;
+    float squared = dot3(way, way);
+    if (MODE_IS(LIGHT_KINDS, LIGHT_SPOT, light.kind)) {
+        float cosine = -dot3(way, vec3(light.direction)) * inversesqrt(squared);
+        float within = min(max(light.spot_slope * cosine + light.spot_offset, 0.0), 1.0);
+        share = within * within;
+    }
+    float part = squared * (light.inverse_range * light.inverse_range);
+    return share * max(1.0 - part * part, 0.0);
+}
+
+// Samples the environment's light.
+Aim sky_aim(const Header header, vec2 square) {
+    SkySample sky = sampled_sky(header, square);
+    return Aim(real3(sky.way), FAR, sky.density > 0.0 ? 1.0 / sky.density : 0.0);
+}
+
+// The share of light that arrives along a ray up to t_max, where surfaces let some pass.
+float passing_share(Ray ray, real t_max, uint skip, uvec2 random) {
+    float share = 1.0;
+    for (uint layer = 0u; layer < MAX_LAYERS; layer++) {
+        meets_backs = true;
+        Hit hit = nearest_hit(ray, skip, ANYTHING);
+        meets_backs = false;
+        if (hit.shape == NO_SHAPE || hit.t >= t_max) return share;
+        Surface surface = hit_surface(ray, hit);
+        share *= 1.0 - opacity_at(material_at(surface.link.x), uv_projection_at(surface.link.y), ray, surface, random);
+        if (share <= 0.0) return 0.0;
+        // The way that is left ends at the same point.
+        real3 behind = offset_origin(surface.point, -surface.geometric_normal, surface.size);
+        t_max -= hit.t;
+        ray.origin = behind;
+        skip = hit.shape;
+    }
+    return 0.0;
+}
+
+// `continues`: the path may go on, so that the environment is also sampled by the material.
+Lit direct_light(const Header header, const Surface surface, float time, uint shape, const Bsdf bsdf, const Points points,
+                 const SampleDimensions dimensions, float occlusion, bool continues, uvec2 random) {
+    Lit sum = Lit(vec3(0.0), vec3(0.0), vec3(0.0));
     uint lights = COUNT(LIGHTS, lengths.lights);
     real3 start = surface.point;
     if (SHADOWS) start = offset_origin(surface.point, surface.geometric_normal, surface.size);
     for (uint i = 0u; i < lights; i++) {
         Light light = light_at(i);
-        bool point_light = MODE_IS(LIGHT_KINDS, LIGHT_POINT, light.kind);
+        bool point_light = MODE_IS(LIGHT_KINDS, LIGHT_POINT, light.kind) || MODE_IS(LIGHT_KINDS, LIGHT_SPOT, light.kind);
         real3 way = point_light ? light.position - surface.point : light.direction;
         Aim aim = Aim(way, point_light ? 1.0 : FAR, 1.0);
         if (AREA_LIGHTS) {
@@ -85,6 +126,8 @@ Lit direct_light(const Surface surface, float time, uint shape, const Bsdf bsdf,
                     aim = sphere_aim(light, surface.point, square);
                 } else if (MODE_IS(LIGHT_KINDS, LIGHT_RECTANGLE, light.kind)) {
                     aim = rectangle_aim(light, surface.point, square);
+                } else if (MODE_IS(LIGHT_KINDS, LIGHT_ENVIRONMENT, light.kind)) {
+                    aim = sky_aim(header, square);
                 } else {
                     aim = sun_aim(light, square);
                 }
@@ -96,6 +139,7 @@ Lit direct_light(const Surface surface, float time, uint shape, const Bsdf bsdf,
         // Point: cos/r² = n·l / r³ with the unnormalised l. Directional: l is a unit vector.
         float share = point_light ? (facing / squared) * inversesqrt(squared) : facing;
         if (AREA_LIGHTS) share *= aim.density;
+        if (RANGED && point_light) share *= punctual_share(light, vec3(way));
         bool lit = facing > 0.0 && dot3(surface.geometric_normal, way) > 0.0;
         if (lit) {
             if (SHADOWS) {
@@ -104,15 +148,28 @@ Lit direct_light(const Surface surface, float time, uint shape, const Bsdf bsdf,
                     // The vector to the same point from the origin of the shadow ray.
                     if (light.kind == LIGHT_RECTANGLE) to_light += surface.point - start;
                 }
-                lit = !occluded(Ray(start, to_light, time), aim.reach, shape);
+                if (TRANSPARENT) share *= passing_share(Ray(start, to_light, time), aim.reach, shape, random);
+                else lit = !occluded(Ray(start, to_light, time), aim.reach, shape);
             }
-            vec3 more = light.power * (share * (1.0 / PI));
-            vec2 lobes = evaluate(bsdf, vec3(way));
+            vec3 power = light.power;
+            vec3 lobes = evaluate(bsdf, vec3(way));
+            if (LIT_BY_ENVIRONMENT) {
+                if (MODE_IS(LIGHT_KINDS, LIGHT_ENVIRONMENT, light.kind)) {
+                    power *= sky_radiance(header, Ray(start, way, time), random);
+                    if (continues) lobes = balanced_lobes(bsdf, lobes, vec3(way), 1.0 / max(aim.density, 1e-30));
+                    lobes.x *= occlusion;
+                }
+            }
+            vec3 more = power * (share * (1.0 / PI));
             vec3 first = sum.first + more * lobes.x;
             sum.first = lit ? first : sum.first;
             if (SECOND_LOBE) {
                 vec3 second = sum.second + more * lobes.y;
                 sum.second = lit ? second : sum.second;
+            }
+            if (THIRD_LOBE) {
+                vec3 third = sum.third + more * lobes.z;
+                sum.third = lit ? third : sum.third;
             }
         }
     }

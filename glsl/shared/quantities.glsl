@@ -3,8 +3,7 @@
 #ifndef QUANTITIES_GLSL
 #define QUANTITIES_GLSL
 
-#include "filter/sample_texture.glsl"
-#include "geometry/hit.glsl"
+#include "appearance.glsl"
 
 // Samples measure something other than radiance. The constant has the bit of radiance, or others.
 const bool MEASURES = QUANTITIES != (1u << QUANTITY_RADIANCE);
@@ -53,6 +52,22 @@ vec3 surface_quantity(uint quantity, bool missed, const Hit hit, const Surface s
     if (quantity == QUANTITY_DEPTH) value = missed ? vec3(0.0) : vec3(float(hit.t), 0.0, 1.0);
     if (quantity == QUANTITY_INSTANCE) value = missed ? vec3(0.0) : vec3(float(hit.shape + 1u), 0.0, 1.0);
     if (quantity == QUANTITY_MATERIAL) value = vec3(float(surface.link.x + 1u), 0.0, 1.0);
+    return value;
+}
+
+// Returns the quantity that samples measure in place of radiance. Surfaces that let rays pass count as any other.
+vec3 measured(const Header header, const Hit hit, bool missed, const Material material, const UvProjection map, const Ray ray,
+              uvec2 random, Surface surface, const Footprint print) {
+    vec3 albedo = vec3(0.0);
+    if (MEASURES_COLOR) albedo = appearance(material, map, ray, surface, print, random).color;
+    if (header.quantity == QUANTITY_ALBEDO && missed) albedo = vec3(0.0);
+    vec3 value = surface_quantity(header.quantity, missed, hit, surface, albedo);
+#if SOURCE != SOURCE_NONE
+    if (!MEASURES_COLOR && header.quantity <= QUANTITY_UV) {
+        Surface shown = at_uv_of(material, SECOND_UV_COLOR, surface);
+        value = look_up_quantity(header.quantity, material, texture_coordinate(map, map_input(map, ray, shown, print)));
+    }
+#endif
     return value;
 }
 

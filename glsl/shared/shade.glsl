@@ -4,149 +4,12 @@
 #ifndef SHADE_GLSL
 #define SHADE_GLSL
 
-#include "bsdf/specular.glsl"
-#include "filter/sample_texture.glsl"
+#include "appearance.glsl"
+#include "bsdf/scattering.glsl"
+#include "environment.glsl"
 #include "light.glsl"
 #include "quantities.glsl"
-#include "shading_normal.glsl"
 #include "geometry/rays.glsl"
-
-// Returns the inputs of the surface's mapping.
-MapInput map_input(const UvProjection map, const Ray ray, const Surface surface, const Footprint print) {
-    MapInput seen = MapInput(surface.at_rest, vec3(0.0), vec3(0.0), surface.own_uv, vec2(0.0), vec2(0.0), false);
-    uint entity = map.entity;
-    if (DERIVATIVES) {
-        seen.entity_x = print.point_x;
-        seen.entity_y = print.point_y;
-        seen.own_x = vec2(dot3(surface.own_u, print.point_x), dot3(surface.own_v, print.point_x));
-        seen.own_y = vec2(dot3(surface.own_u, print.point_y), dot3(surface.own_v, print.point_y));
-    }
-    if (MODE_IS(ENTITIES, ENTITY_POSITION, entity)) return seen;
-    vec3 bent_x = normal_change(surface.shape_operator, print.point_x);
-    vec3 bent_y = normal_change(surface.shape_operator, print.point_y);
-    if (MODE_IS(ENTITIES, ENTITY_NORMAL, entity)) {
-        seen.entity = surface.normal;
-        seen.entity_x = bent_x;
-        seen.entity_y = bent_y;
-        return seen;
-    }
-    real3 way = ray.direction;
-    vec3 way_x = print.direction_x;
-    vec3 way_y = print.direction_y;
-    if (MODE_IS(ENTITIES, ENTITY_REFLECTION, entity)) {
-        Surface mirror = surface;
-        consistent_normal(ray.direction, mirror);
-        way_x = mirrored_change(vec3(way), vec3(mirror.normal), way_x, normal_change(mirror.shape_operator, print.point_x));
-        way_y = mirrored_change(vec3(way), vec3(mirror.normal), way_y, normal_change(mirror.shape_operator, print.point_y));
-        way = mirrored(way, mirror.normal);
-    }
-    // Of unit length; the change is perpendicular to it.
-    real size = inverse_root(dot3(way, way));
-    seen.entity = way * size;
-    if (DERIVATIVES) {
-        vec3 unit = vec3(seen.entity);
-        float scale = float(size);
-        seen.entity_x = (way_x - dot3(unit, way_x) * unit) * scale;
-        seen.entity_y = (way_y - dot3(unit, way_y) * unit) * scale;
-    }
-    return seen;
-}
-
-#if SOURCE != SOURCE_NONE
-// Returns the gradients of u and v along the surface, from their changes along two tangents.
-void uv_gradients(const UvProjection map, const Ray ray, const Surface surface, out vec3 u, out vec3 v) {
-    vec3 n = vec3(surface.geometric_normal);
-    vec3 first = any_tangent(n);
-    vec3 second = cross3(n, first);
-    Footprint print = Footprint(first, second, vec3(0.0), vec3(0.0));
-    MapInput seen = map_input(map, ray, surface, print);
-    seen.gradients = true;
-    TexCoord c = texture_coordinate(map, seen);
-    vec3 along_u = first * c.dx.x + second * c.dy.x;
-    vec3 along_v = first * c.dx.y + second * c.dy.y;
-    u = along_u;
-    v = along_v;
-}
-
-// Returns true for a map of normals, false for one of heights.
-bool is_normal_map(const Material material) {
-    return MODE_IS(BUMP_KINDS, BUMP_NORMAL, material.bump_kind) || MODE_IS(BUMP_KINDS, BUMP_NORMAL_DOWN, material.bump_kind);
-}
-
-// Returns the points at which a bump map is read, two on each axis, at the distance of a texel or half the
-// footprint.
-vec2 bump_step(const Material material, const TexCoord c) {
-    vec2 texel = 1.0 / vec2(texture_at(material.bump_texture_index).size.xy);
-    return max(texel, 0.5 * max(abs(c.dx.xy), abs(c.dy.xy)));
-}
-
-// Returns the shading normal after the material's bump map, from the values at those points. Normal map: 2
-// rgb - 1 along increasing u, increasing v (or against it) and the normal. Bump map: n - grad h, with the
-// height's gradient along the surface (Blinn 1978; Mikkelsen 2020), h by central differences.
-vec3 bump_normal(const Material material, const UvProjection map, const Ray ray, const Surface surface, vec4 read, vec2 step) {
-    float side = surface.inside ? -1.0 : 1.0;
-    vec3 n = side * vec3(surface.normal);
-    float strength = material.bump_strength;
-    vec3 u;
-    vec3 v;
-    uv_gradients(map, ray, surface, u, v);
-    vec3 result;
-    if (is_normal_map(material)) {
-        vec3 t = cross3(v, n);
-        vec3 b = cross3(n, u);
-        float handed = dot3(cross3(u, v), n) < 0.0 ? -strength : strength;
-        vec3 m = 2.0 * read.xyz - 1.0;
-        if (MODE_IS(BUMP_KINDS, BUMP_NORMAL_DOWN, material.bump_kind)) m.y = -m.y;
-        vec2 scale = vec2(dot3(t, t), dot3(b, b));
-        result = n * m.z;
-        result += t * (scale.x > 0.0 ? handed * m.x * inversesqrt(scale.x) : 0.0);
-        result += b * (scale.y > 0.0 ? handed * m.y * inversesqrt(scale.y) : 0.0);
-    } else {
-        vec2 slope = 0.5 * strength * (read.xz - read.yw) / step;
-        result = n - slope.x * u - slope.y * v;
-    }
-    float squared = dot3(result, result);
-    return side * (squared > 0.0 ? result * inversesqrt(squared) : n);
-}
-#endif
-
-// Returns the material's colour, times its texture if it has one, after its bump map has changed the normal.
-// One loop for all look-ups of a hit, as they are most of the code.
-vec3 surface_color(const Material material, const UvProjection map, const Ray ray, inout Surface surface, const Footprint print, uvec2 random) {
-    vec3 color = material.color;
-#if SOURCE != SOURCE_NONE
-    bool bump = BUMPED && material.bump_texture_index != NO_TEXTURE;
-    uint taps = 0u;
-    if (bump) taps = is_normal_map(material) ? 1u : 4u;
-    vec4 read = vec4(0.0);
-    vec2 step = vec2(0.0);
-    uint tap = 0u;
-    if (!TEXTURED && !BUMPED) return color;
-    do {
-        bool last = tap == taps;
-        if (bump && last) surface.normal = bump_normal(material, map, ray, surface, read, step);
-        if (!UNTEXTURED || !last || material.texture_index != NO_TEXTURE) {
-            TexCoord c = texture_coordinate(map, map_input(map, ray, surface, print));
-            uvec2 link = uvec2(material.texture_index, material.image_slot);
-            if (BUMPED && !last) {
-                link = uvec2(material.bump_texture_index, material.bump_image_slot);
-                step = bump_step(material, c);
-                if (taps == 4u) c.at[tap >> 1u] += (tap & 1u) == 0u ? step[tap >> 1u] : -step[tap >> 1u];
-            }
-            vec4 texel = sample_texture(texture_at(link.x), sampler_at(material.sampler_index), link.y, c, random);
-            if (BUMPED && !last) {
-                if (taps == 4u) read[tap] = texel.x;
-                else read = texel;
-            } else {
-                vec3 product = color * texel.xyz;
-                color = product;
-            }
-        }
-        tap++;
-    } while (BUMPED && tap <= taps);
-#endif
-    return color;
-}
 
 // A path between two hits: the ray, its width, the path's throughput, and the shape that it leaves.
 struct Path {
@@ -158,10 +21,13 @@ struct Path {
     Candidates candidates; // of a camera ray
     uint depth;
     bool is_alive; // false: the path has ended, the next one starts at the camera
+    uint layers;   // surfaces that it has passed by their alpha
+    float density; // of the ray, where the environment's light is sampled by other means as well; else 0
+    bool diffuse;  // the environment alone counts
 };
 
 Path camera_path(const Ray ray, const RayDifferential beam, uvec2 random, const Candidates candidates) {
-    return Path(ray, beam, vec3(1.0), random, NO_SHAPE, candidates, 0u, true);
+    return Path(ray, beam, vec3(1.0), random, NO_SHAPE, candidates, 0u, true, 0u, 0.0, false);
 }
 
 // Continues a reflected or refracted path; returns false if the material ends it.
@@ -192,27 +58,55 @@ bool bounced(const Header header, const Hit hit, Surface surface, const Footprin
     return bounce.leaves;
 }
 
-// Returns the quantity that samples measure in place of radiance.
-vec3 measured(const Header header, const Hit hit, bool missed, const Material material, const UvProjection map, const Path path,
-              Surface surface, const Footprint print) {
-    vec3 albedo = vec3(0.0);
-    if (MEASURES_COLOR) albedo = surface_color(material, map, path.ray, surface, print, path.random);
-    if (header.quantity == QUANTITY_ALBEDO && missed) albedo = vec3(0.0);
-    vec3 value = surface_quantity(header.quantity, missed, hit, surface, albedo);
-#if SOURCE != SOURCE_NONE
-    if (!MEASURES_COLOR && header.quantity <= QUANTITY_UV) {
-        value = look_up_quantity(header.quantity, material, texture_coordinate(map, map_input(map, path.ray, surface, print)));
+// Continues a path at a lit surface that reflects what is around it; returns false if it ends there.
+bool goes_on(const Header header, const Hit hit, Surface surface, const Footprint print, Bsdf bsdf, vec3 carried, float occlusion,
+             const SampleDimensions dimensions, inout Path path) {
+    bool to_sky = is_lit_by_environment(header);
+    if (!is_glossy(bsdf.model) && !to_sky) return false;
+    Ray ray = path.ray;
+    consistent_normal(ray.direction, surface);
+    bsdf.normal = vec3(surface.normal);
+    Scattered next = scattered(bsdf, surface, path.throughput, carried, dimensions, to_sky);
+    path.throughput = next.diffuse ? next.weight * occlusion : next.weight;
+    path.density = next.density;
+    path.diffuse = next.diffuse;
+    path.ray = Ray(offset_origin(surface.point, surface.geometric_normal, surface.size), next.direction, ray.time);
+    if (FILTERED) {
+        RayDifferential beam = reflected_differential(path.beam, ray, hit.t, print, surface.normal, surface.shape_operator, surface.curvature);
+        path.beam = widened_differential(header, beam, vec3(next.direction), next.alpha);
     }
-#endif
-    return value;
+    return next.leaves;
+}
+
+// Continues a path straight behind a surface that lets some of its light pass.
+void passes(const Hit hit, const Surface surface, const Footprint print, inout Path path) {
+    Ray ray = path.ray;
+    path.ray.origin = offset_origin(surface.point, -surface.geometric_normal, surface.size);
+    path.layers++;
+    if (FILTERED) path.beam = refracted_differential(path.beam, ray, hit.t, print, surface.geometric_normal, FLAT, 0.0, 1.0);
+}
+
+// A number in [0, 1) by which a sample passes a surface or not.
+float layer_choice(const Path path) {
+    return unit_line(pcg2d(path.random ^ 0xA511E9B3u).x >> 8u);
+}
+
+// The share with which the environment's light counts that a ray meets by chance.
+float sky_weight(const Header header, const Path path) {
+    if (!LIT_BY_ENVIRONMENT || path.density <= 0.0) return 1.0;
+    return path.density / (path.density + sky_density(header, vec3(path.ray.direction)));
 }
 
 // Follows the path to its next hit; returns the radiance that it adds to the sample.
 vec3 advance(const Header header, const Points points, const SampleDimensions dimensions, inout Path path) {
     Hit hit = nearest_hit(path.ray, path.skip, path.candidates);
     bool missed = hit.shape == NO_SHAPE;
+    if (LIT_BY_ENVIRONMENT) {
+        if (missed) path.throughput *= sky_weight(header, path);
+    }
     vec3 seen = MEASURES ? vec3(0.0) : path.throughput * header.background;
     bool is_alive = false;
+    bool has_passed = false;
     // From here on, a ray that hits nothing is treated as a hit.
     bool surrounded = ENVIRONMENT && header.environment_material != NO_MATERIAL;
     if (surrounded || !missed) {
@@ -221,33 +115,63 @@ vec3 advance(const Header header, const Points points, const SampleDimensions di
         Footprint print = footprint_at(header, path.beam, path.ray, hit.t, surface.geometric_normal);
         if (ENVIRONMENT && missed) {
             surface.link = uvec2(header.environment_material, header.environment_projection);
+            if (VERTEX_COLORS) surface.attributes.color = vec4(1.0);
             print = endless_footprint(header, path.beam, path.ray);
         }
         Material material = material_at(surface.link.x);
         UvProjection map = uv_projection_at(surface.link.y);
         if (MEASURES) {
-            seen = measured(header, hit, missed, material, map, path, surface, print);
+            seen = measured(header, hit, missed, material, map, path.ray, path.random, surface, print);
         } else {
             vec3 carried = path.throughput;
-            vec3 albedo = surface_color(material, map, path.ray, surface, print, path.random);
-            path.throughput *= albedo;
+            Appearance look = appearance(material, map, path.ray, surface, print, path.random);
+            path.throughput *= look.color;
             real3 direction = path.ray.direction;
+            Path before = path;
+            bool continues = BOUNCES && path.depth < header.max_depth;
+            Bsdf bsdf;
+            if (HAS_LIT) bsdf = bsdf_at(material, look.color, look.metallic, look.roughness, surface.normal, direction);
             is_alive = BOUNCES && bounced(header, hit, surface, print, material, dimensions, path);
-            seen = emitted(material.model, path.throughput);
+            if (BOUNCES && HAS_LIT && (THIRD_LOBE || LIT_BY_ENVIRONMENT)) {
+                if (is_lit(material.model)) is_alive = goes_on(header, hit, surface, print, bsdf, carried, look.occlusion, dimensions, path);
+            }
+            seen = emitted(material.model, before.throughput);
             if (HAS_LIT) {
                 if (is_lit(material.model)) {
-                    Bsdf bsdf = bsdf_at(material, albedo, surface.normal, direction);
-                    Lit lit = direct_light(surface, path.ray.time, hit.shape, bsdf, points, dimensions);
-                    seen = reflected(bsdf, path.throughput, carried, lit);
+                    Lit lit = direct_light(header, surface, path.ray.time, hit.shape, bsdf, points, dimensions, look.occlusion, continues, before.random);
+                    seen = reflected(bsdf, before.throughput, carried, lit);
                 }
+            }
+            if (EMISSIVE) seen += carried * look.emission;
+            if (LIT_BY_ENVIRONMENT) {
+                if (before.diffuse && !missed) {
+                    seen = vec3(0.0);
+                    is_alive = false;
+                }
+            }
+            if (TRANSPARENT) {
+                float share = missed ? 1.0 : covered_share(material, surface, look.opacity);
+                seen *= share;
+                // A surface that ends paths is passed by all of what it does not cover, others by a part of the samples.
+                bool splits = !is_alive || !continues;
+                float passed = splits ? 1.0 - share : 1.0;
+                has_passed = splits ? share < 1.0 : share <= layer_choice(before);
+                if (has_passed && !missed) {
+                    path = before;
+                    path.throughput = carried * passed;
+                    passes(hit, surface, print, path);
+                    is_alive = path.layers < MAX_LAYERS;
+                }
+                has_passed = has_passed && !missed;
             }
         }
     }
     path.skip = hit.shape;
     path.candidates = ANYTHING;
-    count_diagnostic(DIAGNOSTIC_DEPTH, is_alive && path.depth >= header.max_depth);
-    path.is_alive = is_alive && path.depth < header.max_depth;
-    path.depth++;
+    bool too_deep = !has_passed && path.depth >= header.max_depth;
+    count_diagnostic(DIAGNOSTIC_DEPTH, is_alive && too_deep);
+    path.is_alive = is_alive && !too_deep;
+    path.depth += has_passed ? 0u : 1u;
     if (BOUNCES && RANDOM) path.random = pcg2d(path.random);
     return seen;
 }

@@ -27,7 +27,7 @@ const uint MAX_CELLS = 40000u; // of textures that a pixel's edges may cross
 bool gave_up;
 uint crossed;
 
-const Light NO_LIGHT = Light(vec3(0.0), 0.0, vec3(0.0), 0.0, vec3(0.0), 0.0, vec3(0.0), 0.0, vec3(0.0), 0u);
+const Light NO_LIGHT = Light(vec3(0.0), 0.0, vec3(0.0), 0.0, 0.0, 0.0, 0.0, vec3(0.0), 0.0, vec3(0.0), 0.0, vec3(0.0), 0u);
 
 // The material and geometry of a fragment.
 struct ShadingIntegral {

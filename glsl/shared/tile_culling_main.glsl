@@ -50,6 +50,7 @@ bool is_uniform(const Header header, const PixelFrustum frame, uint shape, const
     bool plain = is_diffuse(record.model) && !SHADOWS;
     if (!unlit && !plain) return false;
     if (BUMPED && record.bump_texture_index != NO_TEXTURE) return false;
+    if (!is_plain(record)) return false;
     if (!TEXTURED || record.texture_index == NO_TEXTURE) return true;
     UvProjection map = uv_projection_at(link.y);
     bool affine = MODE_IS(MAPPINGS, MAP_PLANE, map.kind) || MODE_IS(MAPPINGS, MAP_AFFINE, map.kind) ||

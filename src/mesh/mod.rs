@@ -8,10 +8,11 @@ mod obj;
 mod ply;
 mod polygon;
 mod stl;
+mod tangents;
 
 use std::fmt;
 
-use glam::{DVec2, DVec3};
+use glam::{DVec2, DVec3, Vec4};
 
 /// Triangles over shared positions, texture coordinates and normals.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -22,6 +23,12 @@ pub struct Mesh {
     pub uvs: Vec<DVec2>,
     /// Shading normals, of any length.
     pub normals: Vec<DVec3>,
+    /// Linear colours with alpha, one for each position; empty without any.
+    pub colors: Vec<Vec4>,
+    /// Second texture coordinates, v upwards, one for each position; empty without any.
+    pub second_uvs: Vec<DVec2>,
+    /// Tangents along u with the sign of the bitangent, for the corners of each triangle; empty without any.
+    pub tangents: Vec<[Vec4; 3]>,
     /// Counter-clockwise as seen from the front, in the order of the file.
     pub triangles: Vec<MeshTriangle>,
     /// Names of the materials that triangles refer to.
@@ -34,6 +41,16 @@ impl Mesh {
     /// Adds triangles.
     pub fn extend(&mut self, triangles: impl Iterator<Item = MeshTriangle>) {
         self.triangles.extend(triangles);
+    }
+
+    /// Returns the number of its triangles.
+    pub fn triangle_count(&self) -> usize {
+        self.triangles.len()
+    }
+
+    /// Returns true if its corners have more than normals and texture coordinates.
+    pub fn has_attributes(&self) -> bool {
+        !(self.colors.is_empty() && self.second_uvs.is_empty() && self.tangents.is_empty())
     }
 
     /// Gives all triangles the material of this index, or none.

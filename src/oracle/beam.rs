@@ -156,7 +156,7 @@ impl Pixel<'_> {
         for i in 0..lights {
             let light = if unlit { None } else { Some(&scene.records.lights[i]) };
             // Beams cannot integrate the penumbra of area lights.
-            if light.is_some_and(|l| l.kind >= LightKind::Sphere) {
+            if light.is_some_and(|l| l.kind >= LightKind::Spot) {
                 return Err(GaveUp);
             }
             self.lit_by(&paint, seen.shape, polygon, light)?;

@@ -4,6 +4,7 @@ use std::f64::consts::PI;
 
 use glam::{DVec2, DVec3};
 
+use super::appearance::{Appearance, appearance, bumped_normal};
 use super::bsdf::dielectric::refracted;
 use super::bsdf::mirror::mirrored;
 use super::bsdf::specular::{index_ratio, mirrored_share};
@@ -19,7 +20,7 @@ use super::fragments::{collect_fragments, composite};
 use super::geometry::cones::{is_concave, leaving, left_shape, meet};
 use super::geometry::hit::{FAR, Hit, Surface};
 use super::geometry::rays::{hit_surface, offset_origin};
-use super::shade::{bumped_normal, surface_color};
+use super::light::punctual_share;
 use super::shading_normal::{consistent_normal, on_its_side};
 use crate::pack::{LightKind, PackedScene};
 use crate::schema::layout::{Light, Material, NO_MATERIAL, NO_SHAPE};
@@ -82,25 +83,26 @@ struct Met<'a> {
     print: Footprint,
     material: &'a Material,
     /// The surface's colour, and the weight before it.
-    albedo: DVec3,
+    look: Appearance,
     carried: DVec3,
 }
 
 /// Returns the contribution of an unoccluded light by way of a surface, and the cone that tests its
 /// visibility.
-fn lit_branch(branch: &Branch, met: &Met<'_>, skip: u32, light: &Light) -> Branch {
+fn lit_branch(scene: &PackedScene, branch: &Branch, met: &Met<'_>, skip: u32, light: &Light) -> Branch {
     let Met { surface, material, .. } = met;
-    let point_light = light.kind == LightKind::Point;
+    let point_light = matches!(light.kind, LightKind::Point | LightKind::Spot);
     let way = if point_light { light.position - surface.point } else { light.direction };
     let length = way.length();
     let facing = surface.normal.dot(way);
     let above = surface.geometric_normal.dot(way);
     let shines = facing > 0.0 && above > 0.0;
     let share = if point_light { facing / length.powi(3) } else { facing };
+    let share = if point_light { share * punctual_share(light, way) } else { share };
     let more = light.power.as_dvec3() * (if shines { share } else { 0.0 } / PI);
-    let bsdf = bsdf_at(material, met.albedo, surface.normal, branch.ray.direction);
-    let [first, second] = evaluate(&bsdf, way);
-    let lit = Lit { first: more * first, second: more * second };
+    let bsdf = bsdf_at(scene, material, &met.look, surface.normal, branch.ray.direction);
+    let lobes = evaluate(&bsdf, way);
+    let lit = Lit { first: more * lobes.x, second: more * lobes.y, third: more * lobes.z };
     let seen = reflected(&bsdf, branch.weight, met.carried, lit);
     let origin = offset_origin(surface.point, surface.geometric_normal, surface.size);
     let direction = if point_light { light.position - origin } else { light.direction };
@@ -162,7 +164,8 @@ fn shade_part(waiting: &mut Waiting, scene: &PackedScene, mut branch: Branch, sh
         let map = &scene.records.uv_projections[header.environment_projection as usize];
         let print = endless_footprint(header, &beam, &ray);
         let nowhere = Surface::default();
-        return branch.weight * surface_color(scene, material, Some(map), (&ray, &nowhere, &print), [0; 2]);
+        let look = appearance(scene, material, Some(map), (&ray, &nowhere, &print), [0; 2]);
+        return branch.weight * look.color;
     }
     let hit = meet(scene, &ray, shape);
     // Cones know no outline of a concave shape, so that the ray may pass it.
@@ -177,27 +180,28 @@ fn shade_part(waiting: &mut Waiting, scene: &PackedScene, mut branch: Branch, sh
         surface.normal = bumped_normal(scene, material, map, (&ray, &surface, &print), [0; 2]);
     }
     let carried = branch.weight;
-    let albedo = surface_color(scene, material, map, (&ray, &surface, &print), [0; 2]);
-    branch.weight *= albedo;
+    let look = appearance(scene, material, map, (&ray, &surface, &print), [0; 2]);
+    branch.weight *= look.color;
+    let emission = carried * look.emission;
     let inside = surface.inside;
     if is_specular(material.model) {
         consistent_normal(ray.direction, &mut surface);
     }
-    let met = Met { hit, surface, print, material, albedo, carried };
+    let met = Met { hit, surface, print, material, look, carried };
     if !is_lit(material.model) && !is_specular(material.model) {
-        return emitted(material.model, branch.weight);
+        return emission + emitted(material.model, branch.weight);
     }
     if is_lit(material.model) {
         for light in &scene.records.lights {
-            let next = lit_branch(&branch, &met, left_shape(scene, shape, inside), light);
+            let next = lit_branch(scene, &branch, &met, left_shape(scene, shape, inside), light);
             if largest(next.weight) > 0.0 {
                 waiting.send(next);
             }
         }
-        return DVec3::ZERO;
+        return emission;
     }
     if matches!(branch.goal, Goal::Color(depth) if depth >= header.max_depth) {
-        return DVec3::ZERO;
+        return emission;
     }
     let ratio = index_ratio(material, inside);
     let back = mirrored_share(material, ray.direction, surface.normal, ratio);
@@ -212,7 +216,7 @@ fn shade_part(waiting: &mut Waiting, scene: &PackedScene, mut branch: Branch, sh
             waiting.dropped += weight;
         }
     }
-    DVec3::ZERO
+    emission
 }
 
 /// Returns the part of a branch that is visible around `covered.center` of its cone.

@@ -5,15 +5,20 @@ use std::f64::consts::PI;
 
 use glam::{DVec2, DVec3};
 
+use super::appearance::opacity_at;
+use super::bsdf::scattering::balanced_lobes;
 use super::bsdf::{Bsdf, Lit, evaluate};
 use super::camera::Ray;
 use super::disk_sampling::{concentric_disc, on_cap};
+use super::environment::{sampled_sky, sky_radiance};
 use super::footprint::around;
 use super::geometry::hit::{FAR, Surface};
-use super::geometry::rays::{occluded, offset_origin};
+use super::geometry::rays::{hit_surface, nearest_of_both_sides, occluded, offset_origin};
 use super::rectangle::{MIN_SOLID_ANGLE, on_rectangle};
 use crate::pack::{LightKind, PackedScene};
-use crate::schema::layout::Light;
+use crate::schema::constants::MAX_LAYERS;
+use crate::schema::enums::AlphaMode;
+use crate::schema::layout::{Light, NO_SHAPE};
 
 /// Shadow rays end at this fraction of the distance to an area light, as shapes beyond it are the light
 /// itself.
@@ -71,40 +76,123 @@ pub fn sun_aim(light: &Light, square: DVec2) -> Aim {
     Aim { way: around(light.direction, local), reach: FAR, density: 1.0 }
 }
 
-/// Returns the radiance by direct lighting; `chosen` returns the hit's sample on a light.
-pub fn direct_light(
+/// Samples the environment's light.
+pub fn sky_aim(scene: &PackedScene, square: DVec2) -> Aim {
+    let sky = sampled_sky(scene, square);
+    Aim { way: sky.way, reach: FAR, density: if sky.density > 0.0 { 1.0 / sky.density } else { 0.0 } }
+}
+
+/// Returns the share of its intensity that a spot, or a point with a range, has at the end of `way`
+/// (KHR_lights_punctual).
+pub fn punctual_share(light: &Light, way: DVec3) -> f64 {
+    let squared = way.length_squared();
+    let spot = match light.kind {
+        LightKind::Spot => {
+            let cosine = -way.dot(light.direction) / squared.sqrt();
+            let slope = f64::from(light.spot_slope);
+            (slope * cosine + f64::from(light.spot_offset)).clamp(0.0, 1.0).powi(2)
+        }
+        _ => 1.0,
+    };
+    let part = squared * f64::from(light.inverse_range).powi(2);
+    spot * (1.0 - part * part).max(0.0)
+}
+
+/// Returns whether the environment lights surfaces.
+pub fn is_lit_by_environment(scene: &PackedScene) -> bool {
+    scene.header.environment_rows > 0
+}
+
+/// Returns whether some ray may pass a surface.
+fn is_transparent(scene: &PackedScene) -> bool {
+    scene.records.materials.iter().any(|m| m.alpha_mode != AlphaMode::Opaque)
+}
+
+/// Returns the share of light that arrives along a ray up to `t_max`, where surfaces let some pass.
+pub fn passing_share(
     scene: &PackedScene,
-    surface: &Surface,
-    time: f64,
-    shape: u32,
-    bsdf: &Bsdf<'_>,
-    chosen: &dyn Fn(u32) -> DVec2,
-) -> Lit {
+    mut ray: Ray,
+    mut t_max: f64,
+    mut skip: u32,
+    random: [u32; 2],
+) -> f64 {
+    let mut share = 1.0;
+    for _ in 0..MAX_LAYERS {
+        let hit = nearest_of_both_sides(scene, &ray, skip);
+        if hit.shape == NO_SHAPE || hit.t >= t_max {
+            return share;
+        }
+        let surface = hit_surface(scene, &ray, &hit);
+        let material = &scene.records.materials[surface.material as usize];
+        let map = scene.records.uv_projections.get(surface.map as usize);
+        share *= 1.0 - opacity_at(scene, material, map, &ray, &surface, random);
+        if share <= 0.0 {
+            return 0.0;
+        }
+        // The way that is left ends at the same point.
+        t_max -= hit.t;
+        ray.origin = offset_origin(surface.point, -surface.geometric_normal, surface.size);
+        skip = hit.shape;
+    }
+    0.0
+}
+
+/// What direct lighting at a hit depends on beside its surface.
+pub struct Directions<'a> {
+    pub time: f64,
+    /// The shape that is hit.
+    pub shape: u32,
+    /// Share of the environment's light that arrives.
+    pub occlusion: f64,
+    /// True if the path may go on, so that the environment is also sampled by the material.
+    pub continues: bool,
+    pub random: [u32; 2],
+    /// Returns the hit's sample on a light.
+    pub chosen: &'a dyn Fn(u32) -> DVec2,
+}
+
+/// Returns the radiance by direct lighting.
+pub fn direct_light(scene: &PackedScene, surface: &Surface, by: &Directions<'_>, bsdf: &Bsdf<'_>) -> Lit {
     let mut sum = Lit::default();
     let start = offset_origin(surface.point, surface.geometric_normal, surface.size);
     for (i, light) in (0..).zip(&scene.records.lights) {
-        let square = || chosen(i);
+        let square = || (by.chosen)(i);
         let kind = light.kind;
         let aim = match kind {
-            LightKind::Point => {
+            LightKind::Point | LightKind::Spot => {
                 let way = light.position - surface.point;
-                Aim { way, reach: 1.0, density: way.length().powi(-3) }
+                Aim { way, reach: 1.0, density: way.length().powi(-3) * punctual_share(light, way) }
             }
             LightKind::Directional => Aim { way: light.direction, reach: FAR, density: 1.0 },
             LightKind::Sphere => sphere_aim(light, surface.point, square()),
             LightKind::Rectangle => rectangle_aim(light, surface.point, square()),
             LightKind::Sun => sun_aim(light, square()),
+            LightKind::Environment => sky_aim(scene, square()),
         };
         let facing = surface.normal.dot(aim.way);
         if facing > 0.0 && surface.geometric_normal.dot(aim.way) > 0.0 {
-            let from_start = matches!(kind, LightKind::Point | LightKind::Rectangle);
+            let from_start = matches!(kind, LightKind::Point | LightKind::Spot | LightKind::Rectangle);
             let to_light = if from_start { aim.way + (surface.point - start) } else { aim.way };
-            if !occluded(scene, &Ray { origin: start, direction: to_light, time }, aim.reach, shape) {
-                let more = light.power.as_dvec3() * (facing * aim.density / PI);
-                let [first, second] = evaluate(bsdf, aim.way);
-                sum.first += more * first;
-                sum.second += more * second;
+            let shadow = Ray { origin: start, direction: to_light, time: by.time };
+            let arrives = if is_transparent(scene) {
+                passing_share(scene, shadow, aim.reach, by.shape, by.random)
+            } else {
+                f64::from(!occluded(scene, &shadow, aim.reach, by.shape))
+            };
+            let mut lobes = evaluate(bsdf, aim.way);
+            let mut power = light.power.as_dvec3();
+            if kind == LightKind::Environment {
+                let ray = Ray { origin: start, direction: aim.way, time: by.time };
+                power *= sky_radiance(scene, &ray, by.random);
+                if by.continues {
+                    lobes = balanced_lobes(bsdf, lobes, aim.way, 1.0 / aim.density.max(1e-30));
+                }
+                lobes.x *= by.occlusion;
             }
+            let more = power * (arrives * facing * aim.density / PI);
+            sum.first += more * lobes.x;
+            sum.second += more * lobes.y;
+            sum.third += more * lobes.z;
         }
     }
     sum

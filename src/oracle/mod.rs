@@ -4,6 +4,7 @@
 //! only.
 
 pub mod address;
+pub mod appearance;
 pub mod backend;
 pub mod beam;
 pub mod bsdf;
@@ -12,6 +13,7 @@ pub mod cone;
 pub mod cone_shade;
 pub mod coverage;
 pub mod disk_sampling;
+pub mod environment;
 pub mod filter;
 pub mod footprint;
 pub mod footprint_axes;

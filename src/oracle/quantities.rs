@@ -3,14 +3,18 @@
 
 use glam::{DVec2, DVec3};
 
+use super::appearance::{appearance, at_uv_of, bumped_normal, map_input};
+use super::camera::Ray;
 use super::filter::sample_texture::read_level;
-use super::footprint::MAX_STRETCH;
+use super::footprint::{Footprint, MAX_STRETCH, RayDifferential, endless_footprint, footprint_at};
 use super::footprint_axes::{FootprintEllipse, in_texture, kind_of, texel_spread};
 use super::geometry::hit::{Hit, Surface};
-use super::mapping::Coordinate;
+use super::geometry::rays::{hit_surface, nearest_hit};
+use super::mapping::{Coordinate, texture_coordinate};
 use crate::pack::{PackedScene, TextureKind};
+use crate::schema::constants::SECOND_UV_COLOR;
 use crate::schema::enums::Quantity;
-use crate::schema::layout::{Material, NO_TEXTURE, Sampler, Texture};
+use crate::schema::layout::{Material, NO_SHAPE, NO_TEXTURE, Sampler, Texture, UvProjection};
 use crate::texture::sampler_spec::Address;
 
 /// A look-up of a texture of texels over the footprint of a pixel.
@@ -86,6 +90,75 @@ pub fn surface_quantity(quantity: Quantity, hit: Option<&Hit>, surface: &Surface
         (Quantity::Instance, Some(hit)) => number(f64::from(hit.shape) + 1.0),
         _ => albedo,
     }
+}
+
+/// What a camera ray meets first: a surface of the scene, or the environment.
+pub struct FirstHit<'a> {
+    /// None for the environment.
+    pub hit: Option<Hit>,
+    pub surface: Surface,
+    material: &'a Material,
+    map: Option<&'a UvProjection>,
+    print: Footprint,
+}
+
+/// Returns what a ray meets; `None` for a background of one colour.
+pub fn first_hit<'a>(
+    scene: &'a PackedScene,
+    ray: &Ray,
+    beam: &RayDifferential,
+    skip: u32,
+) -> Option<FirstHit<'a>> {
+    let header = &scene.header;
+    let hit = nearest_hit(scene, ray, skip);
+    if hit.shape == NO_SHAPE {
+        let material = scene.records.materials.get(header.environment_material as usize)?;
+        let map = scene.records.uv_projections.get(header.environment_projection as usize);
+        let print = endless_footprint(header, beam, ray);
+        let surface = Surface { material: header.environment_material, ..Surface::default() };
+        return Some(FirstHit { hit: None, surface, material, map, print });
+    }
+    let surface = hit_surface(scene, ray, &hit);
+    let print = footprint_at(header, beam, ray, hit.t, surface.geometric_normal);
+    let material = &scene.records.materials[surface.material as usize];
+    let map = scene.records.uv_projections.get(surface.map as usize);
+    Some(FirstHit { hit: Some(hit), surface, material, map, print })
+}
+
+impl<'a> FirstHit<'a> {
+    /// Returns the look-up of the material's texture, if it has texels.
+    pub fn look_up(&self, scene: &'a PackedScene, ray: &Ray) -> Option<LookUp<'a>> {
+        let map = self.map?;
+        let shown = at_uv_of(self.material, SECOND_UV_COLOR, &self.surface);
+        let mapped = texture_coordinate(map, &map_input(map, ray, &shown, &self.print));
+        look_up(scene, self.material, &mapped)
+    }
+}
+
+/// Returns the quantity that samples measure in place of radiance. Surfaces that let rays pass count as any other.
+pub fn measured(
+    scene: &PackedScene,
+    ray: &Ray,
+    beam: &RayDifferential,
+    skip: u32,
+    random: [u32; 2],
+) -> DVec3 {
+    let quantity = scene.header.quantity;
+    let Some(mut first) = first_hit(scene, ray, beam, skip) else { return DVec3::ZERO };
+    if is_of_look_ups(quantity) {
+        let look_up = first.look_up(scene, ray);
+        return look_up.map_or(DVec3::ZERO, |look_up| look_up_quantity(quantity, &look_up));
+    }
+    let mut albedo = DVec3::ZERO;
+    if matches!(quantity, Quantity::Albedo | Quantity::Normal) {
+        let FirstHit { material, map, print, .. } = first;
+        if let (Some(map), Some(_)) = (map, first.hit) {
+            let at = (ray, &first.surface, &print);
+            first.surface.normal = bumped_normal(scene, material, map, at, random);
+        }
+        albedo = appearance(scene, material, map, (ray, &first.surface, &print), random).color;
+    }
+    surface_quantity(quantity, first.hit.as_ref(), &first.surface, albedo)
 }
 
 /// Returns true for a quantity of a look-up.

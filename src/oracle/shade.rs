@@ -1,151 +1,33 @@
 //! Ray → radiance, one hit of the path at a time. Twin of `glsl/shared/shade.glsl`.
 
-use glam::{DVec2, DVec3, DVec4};
+use glam::DVec3;
 
+use super::appearance::{appearance, bumped_normal, covered_share};
 use super::bsdf::facets::widened_differential;
-use super::bsdf::mirror::mirrored;
+use super::bsdf::scattering::scattered;
 use super::bsdf::specular::sample_bsdf;
-use super::bsdf::{bsdf_at, emitted, is_lit, is_specular, reflected};
+use super::bsdf::{Bsdf, bsdf_at, emitted, is_glossy, is_lit, is_specular, reflected};
 use super::camera::Ray;
-use super::filter::sample_texture;
+use super::environment::sky_density;
 use super::footprint::{
-    Footprint, Meeting, RayDifferential, any_tangent, endless_footprint, footprint_at, is_filtered,
-    mirrored_change, reflected_differential, refracted_differential,
+    Footprint, Meeting, RayDifferential, endless_footprint, footprint_at, is_filtered,
+    reflected_differential, refracted_differential,
 };
 use super::geometry::hit::{Hit, Surface};
 use super::geometry::rays::{hit_surface, nearest_hit, offset_origin};
-use super::light::direct_light;
-use super::mapping::{Coordinate, MapInput, texture_coordinate};
+use super::light::{Directions, direct_light, is_lit_by_environment};
 use super::patterns::Points;
-use super::quantities::{LookUp, is_of_look_ups, look_up, look_up_quantity, surface_quantity};
+use super::quantities::measured;
 use super::rng::pcg2d;
-use super::sample_dimensions::{SampleDimensions, choose, chosen_light};
+use super::sample_dimensions::{SampleDimensions, choose, chosen_light, unit_line};
 use super::shading_normal::consistent_normal;
-use crate::pack::{EntityKind, PackedScene};
-use crate::scene::model::BumpKind;
+use crate::pack::PackedScene;
+use crate::schema::constants::MAX_LAYERS;
 use crate::schema::enums::Quantity;
-use crate::schema::layout::{Header, Material, NO_MATERIAL, NO_SHAPE, NO_TEXTURE, UvProjection};
-
-/// Returns the inputs of the surface's mapping.
-pub fn map_input(map: &UvProjection, ray: &Ray, surface: &Surface, print: &Footprint) -> MapInput {
-    let own = |d: DVec3| DVec2::from_array(surface.own_gradients.map(|g| g.dot(d)));
-    let mut seen = MapInput {
-        entity: surface.at_rest,
-        entity_change: print.point,
-        own: surface.own_uv,
-        own_change: print.point.map(own),
-        gradients: false,
-    };
-    let bent = print.point.map(|d| surface.shape_operator * d);
-    let (mut way, mut change) = (ray.direction, print.direction);
-    match map.entity {
-        EntityKind::Position => return seen,
-        EntityKind::Normal => {
-            (seen.entity, seen.entity_change) = (surface.normal, bent);
-            return seen;
-        }
-        EntityKind::Reflection => {
-            let mut mirror = *surface;
-            consistent_normal(way, &mut mirror);
-            let bent = print.point.map(|d| mirror.shape_operator * d);
-            change = [0, 1].map(|i| mirrored_change(way, mirror.normal, change[i], bent[i]));
-            way = mirrored(way, mirror.normal);
-        }
-        EntityKind::Direction => {}
-    }
-    // Of unit length; the change is perpendicular to it.
-    let length = way.length();
-    let unit = way / length;
-    seen.entity = unit;
-    seen.entity_change = change.map(|d| (d - unit.dot(d) * unit) / length);
-    seen
-}
-
-/// Returns the gradients of u and v along the surface, from their changes along two tangents.
-pub fn uv_gradients(map: &UvProjection, ray: &Ray, surface: &Surface) -> [DVec3; 2] {
-    let n = surface.geometric_normal;
-    let first = any_tangent(n);
-    let second = n.cross(first);
-    let print = Footprint { point: [first, second], direction: [DVec3::ZERO; 2] };
-    let seen = MapInput { gradients: true, ..map_input(map, ray, surface, &print) };
-    let [x, y] = texture_coordinate(map, &seen).change;
-    [first * x.x + second * y.x, first * x.y + second * y.y]
-}
-
-/// Returns true for a map of normals, false for one of heights.
-fn is_normal_map(material: &Material) -> bool {
-    material.bump_kind.is_normal_map()
-}
-
-fn detail(scene: &PackedScene, material: &Material, c: &Coordinate, random: [u32; 2]) -> DVec4 {
-    let image = &scene.records.textures[material.bump_texture_index as usize];
-    sample_texture(scene, image, &scene.records.samplers[material.sampler_index as usize], c, random)
-}
-
-/// Returns the shading normal after the material's bump map.
-pub fn bumped_normal(
-    scene: &PackedScene,
-    material: &Material,
-    map: &UvProjection,
-    at: (&Ray, &Surface, &Footprint),
-    random: [u32; 2],
-) -> DVec3 {
-    let (ray, surface, print) = at;
-    let texture = material.bump_texture_index;
-    if texture == NO_TEXTURE {
-        return surface.normal;
-    }
-    let side = if surface.inside { -1.0 } else { 1.0 };
-    let n = side * surface.normal;
-    let strength = f64::from(material.bump_strength);
-    let [u, v] = uv_gradients(map, ray, surface);
-    let c = texture_coordinate(map, &map_input(map, ray, surface, print));
-    let result = if is_normal_map(material) {
-        let handed = if u.cross(v).dot(n) < 0.0 { -1.0 } else { 1.0 };
-        let mut m = 2.0 * detail(scene, material, &c, random).truncate() - 1.0;
-        if material.bump_kind == BumpKind::NormalDown {
-            m.y = -m.y;
-        }
-        let t = v.cross(n).normalize_or_zero();
-        let b = n.cross(u).normalize_or_zero();
-        n * m.z + (t * m.x + b * m.y) * strength * handed
-    } else {
-        let image = &scene.records.textures[texture as usize];
-        let texel = DVec2::new(1.0 / f64::from(image.size.x), 1.0 / f64::from(image.size.y));
-        let wide = 0.5 * c.change[0].abs().max(c.change[1].abs()).truncate();
-        let step = texel.max(wide);
-        let height = |x: f64, y: f64| {
-            let at = c.at + DVec3::new(x, y, 0.0);
-            detail(scene, material, &Coordinate { at, ..c }, random).x
-        };
-        let rise = DVec2::new(
-            height(step.x, 0.0) - height(-step.x, 0.0),
-            height(0.0, step.y) - height(0.0, -step.y),
-        );
-        let slope = 0.5 * strength * rise / step;
-        n - slope.x * u - slope.y * v
-    };
-    side * result.try_normalize().unwrap_or(n)
-}
-
-/// Returns the material's colour, linear RGB, times its texture if it has one.
-pub fn surface_color(
-    scene: &PackedScene,
-    material: &Material,
-    map: Option<&UvProjection>,
-    at: (&Ray, &Surface, &Footprint),
-    random: [u32; 2],
-) -> DVec3 {
-    let color = material.color.as_dvec3();
-    let (texture, sampler) = (material.texture_index, material.sampler_index);
-    let (Some(map), true) = (map, texture != NO_TEXTURE) else { return color };
-    let (ray, surface, print) = at;
-    let c = texture_coordinate(map, &map_input(map, ray, surface, print));
-    let image = &scene.records.textures[texture as usize];
-    color * sample_texture(scene, image, &scene.records.samplers[sampler as usize], &c, random).truncate()
-}
+use crate::schema::layout::{Header, Material, NO_MATERIAL, NO_SHAPE};
 
 /// A path between two hits: the ray, its width, the path's throughput, and the shape that it leaves.
+#[derive(Clone)]
 pub struct Path {
     pub ray: Ray,
     pub beam: RayDifferential,
@@ -156,13 +38,31 @@ pub struct Path {
     pub depth: u32,
     /// False if the path has ended.
     pub is_alive: bool,
+    /// Surfaces that it has passed by their alpha.
+    pub layers: u32,
+    /// Density of the ray, where the environment's light is sampled by other means as well; else 0.
+    pub density: f64,
+    /// True if the environment alone counts.
+    pub diffuse: bool,
     /// The pixel's point set and the sample; `None` uses the middle in every dimension.
     pub points: Option<(Points, u32)>,
 }
 
 pub fn camera_path(ray: Ray, beam: RayDifferential, random: [u32; 2]) -> Path {
     let throughput = DVec3::ONE;
-    Path { ray, beam, throughput, random, skip: NO_SHAPE, depth: 0, is_alive: true, points: None }
+    Path {
+        ray,
+        beam,
+        throughput,
+        random,
+        skip: NO_SHAPE,
+        depth: 0,
+        is_alive: true,
+        layers: 0,
+        density: 0.0,
+        diffuse: false,
+        points: None,
+    }
 }
 
 /// Continues a reflected or refracted path; returns false if the material ends it.
@@ -204,68 +104,72 @@ fn bounced(
     bounce.leaves
 }
 
-/// What a camera ray meets first: a surface of the scene, or the environment.
-pub struct FirstHit<'a> {
-    /// None for the environment.
-    pub hit: Option<Hit>,
-    pub surface: Surface,
-    material: &'a Material,
-    map: Option<&'a UvProjection>,
-    print: Footprint,
+/// Continues a path at a lit surface that reflects what is around it; returns false if it ends there.
+fn goes_on(
+    scene: &PackedScene,
+    at: (&Hit, Surface, Footprint),
+    bsdf: &Bsdf<'_>,
+    carried: DVec3,
+    occlusion: f64,
+    dimensions: &SampleDimensions,
+    path: &mut Path,
+) -> bool {
+    let (hit, mut surface, print) = at;
+    let to_sky = is_lit_by_environment(scene);
+    if !is_glossy(bsdf.material.model) && !to_sky {
+        return false;
+    }
+    let ray = path.ray;
+    consistent_normal(ray.direction, &mut surface);
+    let bsdf = Bsdf { normal: surface.normal, ..*bsdf };
+    let next = scattered(&bsdf, &surface, path.throughput, carried, dimensions, to_sky);
+    path.throughput = if next.diffuse { next.weight * occlusion } else { next.weight };
+    (path.density, path.diffuse) = (next.density, next.diffuse);
+    let origin = offset_origin(surface.point, surface.geometric_normal, surface.size);
+    path.ray = Ray { origin, direction: next.direction, time: ray.time };
+    let meeting = Meeting {
+        ray,
+        t: hit.t,
+        print,
+        normal: surface.normal,
+        shape_operator: surface.shape_operator,
+        curvature: surface.curvature,
+    };
+    let beam = reflected_differential(&path.beam, &meeting);
+    path.beam = widened_differential(&scene.header, &beam, next.direction, next.alpha);
+    next.leaves
 }
 
-/// Returns what a ray meets; `None` for a background of one colour.
-pub fn first_hit<'a>(scene: &'a PackedScene, path: &Path) -> Option<FirstHit<'a>> {
-    let header = &scene.header;
-    let hit = nearest_hit(scene, &path.ray, path.skip);
-    if hit.shape == NO_SHAPE {
-        let material = scene.records.materials.get(header.environment_material as usize)?;
-        let map = scene.records.uv_projections.get(header.environment_projection as usize);
-        let print = endless_footprint(header, &path.beam, &path.ray);
-        let surface = Surface { material: header.environment_material, ..Surface::default() };
-        return Some(FirstHit { hit: None, surface, material, map, print });
-    }
-    let surface = hit_surface(scene, &path.ray, &hit);
-    let print = footprint_at(header, &path.beam, &path.ray, hit.t, surface.geometric_normal);
-    let material = &scene.records.materials[surface.material as usize];
-    let map = scene.records.uv_projections.get(surface.map as usize);
-    Some(FirstHit { hit: Some(hit), surface, material, map, print })
+/// Continues a path straight behind a surface that lets some of its light pass.
+fn passes(hit: &Hit, surface: &Surface, print: Footprint, path: &mut Path) {
+    let ray = path.ray;
+    path.ray.origin = offset_origin(surface.point, -surface.geometric_normal, surface.size);
+    path.layers += 1;
+    let normal = surface.geometric_normal;
+    let meeting =
+        Meeting { ray, t: hit.t, print, normal, shape_operator: Default::default(), curvature: 0.0 };
+    path.beam = refracted_differential(&path.beam, &meeting, 1.0);
 }
 
-impl<'a> FirstHit<'a> {
-    /// Returns the look-up of the material's texture, if it has texels.
-    pub fn look_up(&self, scene: &'a PackedScene, ray: &Ray) -> Option<LookUp<'a>> {
-        let map = self.map?;
-        let mapped = texture_coordinate(map, &map_input(map, ray, &self.surface, &self.print));
-        look_up(scene, self.material, &mapped)
-    }
+/// Returns a number in [0, 1) by which a sample passes a surface or not.
+fn layer_choice(path: &Path) -> f64 {
+    unit_line(pcg2d(path.random.map(|bits| bits ^ 0xA511_E9B3))[0] >> 8)
 }
 
-/// Returns the quantity that samples measure in place of radiance.
-fn measured(scene: &PackedScene, path: &Path) -> DVec3 {
-    let quantity = scene.header.quantity;
-    let Some(mut first) = first_hit(scene, path) else { return DVec3::ZERO };
-    if is_of_look_ups(quantity) {
-        let look_up = first.look_up(scene, &path.ray);
-        return look_up.map_or(DVec3::ZERO, |look_up| look_up_quantity(quantity, &look_up));
+/// Returns the share with which the environment's light counts that a ray meets by chance.
+fn sky_weight(scene: &PackedScene, path: &Path) -> f64 {
+    if path.density <= 0.0 {
+        return 1.0;
     }
-    let mut albedo = DVec3::ZERO;
-    if matches!(quantity, Quantity::Albedo | Quantity::Normal) {
-        let FirstHit { material, map, print, .. } = first;
-        if let (Some(map), Some(_)) = (map, first.hit) {
-            let at = (&path.ray, &first.surface, &print);
-            first.surface.normal = bumped_normal(scene, material, map, at, path.random);
-        }
-        albedo = surface_color(scene, material, map, (&path.ray, &first.surface, &print), path.random);
-    }
-    surface_quantity(quantity, first.hit.as_ref(), &first.surface, albedo)
+    path.density / (path.density + sky_density(scene, path.ray.direction))
 }
 
 /// Returns the radiance of a ray that hits nothing.
 fn background(scene: &PackedScene, path: &Path) -> DVec3 {
     let header = &scene.header;
+    let throughput = path.throughput * sky_weight(scene, path);
     if header.environment_material == NO_MATERIAL {
-        return path.throughput * header.background.as_dvec3();
+        return throughput * header.background.as_dvec3();
     }
     let material = &scene.records.materials[header.environment_material as usize];
     let map = &scene.records.uv_projections[header.environment_projection as usize];
@@ -275,14 +179,14 @@ fn background(scene: &PackedScene, path: &Path) -> DVec3 {
         Footprint::default()
     };
     let nowhere = Surface::default();
-    path.throughput * surface_color(scene, material, Some(map), (&path.ray, &nowhere, &print), path.random)
+    throughput * appearance(scene, material, Some(map), (&path.ray, &nowhere, &print), path.random).color
 }
 
 /// Follows the path to its next hit; returns the radiance that it adds to the sample.
 pub fn advance(scene: &PackedScene, path: &mut Path) -> DVec3 {
     if scene.header.quantity != Quantity::Radiance {
         path.is_alive = false;
-        return measured(scene, path);
+        return measured(scene, &path.ray, &path.beam, path.skip, path.random);
     }
     let hit = nearest_hit(scene, &path.ray, path.skip);
     path.is_alive = false;
@@ -306,23 +210,58 @@ pub fn advance(scene: &PackedScene, path: &mut Path) -> DVec3 {
     if let Some(map) = map {
         surface.normal = bumped_normal(scene, material, map, (&ray, &surface, &print), path.random);
     }
-    let carried = path.throughput;
-    let albedo = surface_color(scene, material, map, (&ray, &surface, &print), path.random);
-    path.throughput *= albedo;
+    let look = appearance(scene, material, map, (&ray, &surface, &print), path.random);
+    let before = path.clone();
+    let continues = path.depth < header.max_depth;
+    let color = path.throughput * look.color;
+    path.throughput = color;
+    let mut is_alive = bounced(header, &hit, surface, print, material, &dimensions, path);
+    let mut seen = emitted(material.model, color);
     if is_lit(material.model) {
-        let bsdf = bsdf_at(material, albedo, surface.normal, ray.direction);
-        let points = path.points.as_ref().map(|(points, _)| points);
-        let chosen = |i: u32| chosen_light(points, &dimensions, i);
-        let lit = direct_light(scene, &surface, ray.time, hit.shape, &bsdf, &chosen);
-        return reflected(&bsdf, path.throughput, carried, lit);
+        let bsdf = bsdf_at(scene, material, &look, surface.normal, ray.direction);
+        is_alive = goes_on(
+            scene,
+            (&hit, surface, print),
+            &bsdf,
+            before.throughput,
+            look.occlusion,
+            &dimensions,
+            path,
+        );
+        let points = before.points.as_ref().map(|(points, _)| points);
+        let lit = direct_light(
+            scene,
+            &surface,
+            &Directions {
+                time: ray.time,
+                shape: hit.shape,
+                occlusion: look.occlusion,
+                continues,
+                random: before.random,
+                chosen: &|i| chosen_light(points, &dimensions, i),
+            },
+            &bsdf,
+        );
+        seen = reflected(&bsdf, color, before.throughput, lit);
     }
-    if !is_specular(material.model) {
-        return emitted(material.model, path.throughput);
+    seen += before.throughput * look.emission;
+    if before.diffuse {
+        (seen, is_alive) = (DVec3::ZERO, false);
     }
-    let is_alive = bounced(header, &hit, surface, print, material, &dimensions, path);
+    let share = covered_share(material, &surface, look.opacity);
+    seen *= share;
+    // A surface that ends paths is passed by all of what it does not cover, others by a part of the samples.
+    let splits = !is_alive || !continues;
+    let has_passed = if splits { share < 1.0 } else { share <= layer_choice(&before) };
+    if has_passed {
+        *path = before.clone();
+        path.throughput *= if splits { 1.0 - share } else { 1.0 };
+        passes(&hit, &surface, print, path);
+        is_alive = path.layers < MAX_LAYERS;
+    }
     path.skip = hit.shape;
-    path.is_alive = is_alive && path.depth < header.max_depth;
-    path.depth += 1;
+    path.is_alive = is_alive && (has_passed || path.depth < header.max_depth);
+    path.depth += u32::from(!has_passed);
     path.random = pcg2d(path.random);
-    DVec3::ZERO
+    seen
 }

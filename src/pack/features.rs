@@ -11,8 +11,8 @@ pub use crate::schema::enums::{TexelSource, TextureSize};
 use crate::schema::specialization::{Constant, Kind};
 
 use narrowed::narrowed;
-pub use needs::bounces;
 use needs::compensates;
+pub use needs::{bounces, lets_rays_pass};
 
 /// Longer lists are read at run time, as unrolled code would grow without limit.
 const UNROLL: usize = 16;

@@ -1,6 +1,6 @@
 //! Packs lights into device records, relative to the eye.
 
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 
 use super::LightKind;
 use crate::scene::model::Light;
@@ -39,6 +39,22 @@ pub fn light(light: &Light, eye: DVec3) -> layout::Light {
             let [edge_u, edge_v] = sides;
             let light = at(LightKind::Rectangle, position, radiance);
             layout::Light { edge_u, length_u, edge_v, length_v, ..light }
+        }
+        Light::Spot { position, direction, intensity, inner, outer, range } => {
+            // As KHR_lights_punctual has it.
+            let [inner, outer] = [inner, outer].map(|angle| angle.to_radians().cos());
+            let slope = 1.0 / (inner - outer).max(1e-3);
+            let whole = outer <= -1.0;
+            layout::Light {
+                direction: direction.normalize(),
+                spot_slope: if whole { 0.0 } else { slope as f32 },
+                spot_offset: if whole { 1.0 } else { (-outer * slope) as f32 },
+                inverse_range: (1.0 / range) as f32,
+                ..at(LightKind::Spot, position, intensity)
+            }
+        }
+        Light::Environment => {
+            layout::Light { power: Vec3::ONE, kind: LightKind::Environment, ..Default::default() }
         }
         Light::Sun { direction, angle, irradiance } => {
             // A cap of height h has the solid angle 2 pi h, and the irradiance pi h (2 - h) times its

@@ -3,11 +3,14 @@
 //! the device sees is small and near wherever the scene lies in the world.
 
 mod bright;
+mod environment_light;
+mod facet_table;
 pub mod features;
 mod geometry;
 mod header;
 mod lights;
 mod mapping;
+mod materials;
 mod mip_chain;
 mod nonfinite;
 mod pixel_filter;
@@ -27,12 +30,13 @@ use crate::core::error::Result;
 use crate::core::range::Rect;
 use crate::scene::cone;
 use crate::scene::model::{
-    Algorithm, BumpKind, Environment, EnvironmentLayout, Footprint, Material, Model, PixelFilter, Precision,
-    Scene,
+    Algorithm, Environment, EnvironmentLayout, Footprint, Material, Model, PixelFilter, Precision, Scene,
 };
 use crate::schema::layout::{self, Header, MAX_SAMPLES_AT_ONCE, Records};
 use crate::texture::data::TextureData;
 use crate::texture::sampler_spec::{Address, Method, SamplerSpec};
+use environment_light::Distribution;
+use materials::material;
 use pixel_filter::Warp;
 
 pub use crate::schema::enums::{
@@ -172,6 +176,11 @@ pub fn pack_with(
         packed.beam_textures = Some(Arc::new(textures.clone()));
     }
     packed.records.samplers = scene.samplers.iter().map(|spec| textures::sampler(spec, filtered)).collect();
+    let environment_light = scene.is_lit_by_environment().then(|| {
+        let environment = scene.background.environment.as_ref();
+        let picture = environment.and_then(|e| Some((e, textures.get(e.texture)?)));
+        environment_light::distribution(picture.filter(|(e, _)| has_texels(scene, e)))
+    });
     textures::pack_textures(&mut packed, scene, textures, mip_chains)?;
     for source in &scene.materials {
         let material = material(&mut packed, source);
@@ -180,6 +189,10 @@ pub fn pack_with(
     geometry::pack_shapes(&mut packed, scene)?;
     if let Some(environment) = &scene.background.environment {
         pack_environment(&mut packed, scene, environment);
+    }
+    pack_environment_light(&mut packed, scene, environment_light);
+    if scene.materials.iter().any(|m| m.model.is_glossy()) {
+        packed.records.facet_parts = facet_table::facet_table();
     }
     packed.records.lights = scene.lights.iter().map(|l| lights::light(l, scene.camera.eye)).collect();
     packed.header.sample_dimensions = sample_dimensions::sample_dimensions(scene);
@@ -198,29 +211,10 @@ fn schedule(scene: &Scene) -> Schedule {
     }
 }
 
-fn material(packed: &mut PackedScene, source: &Material) -> layout::Material {
-    let mut slot = |texture: Option<usize>| match texture {
-        Some(texture) => textures::slot(packed, texture, source.sampler),
-        None => 0,
-    };
-    let index = |texture: Option<usize>| texture.map_or(layout::NO_TEXTURE, |t| t as u32);
-    let bump = source.bump;
-    let bump_texture = bump.map(|r| r.texture);
-    layout::Material {
-        color: source.color.as_vec3(),
-        bump_strength: bump.map_or(0.0, |r| r.strength) as f32,
-        model: source.model,
-        texture_index: index(source.texture),
-        sampler_index: source.sampler as u32,
-        image_slot: slot(source.texture),
-        bump_texture_index: index(bump_texture),
-        bump_image_slot: slot(bump_texture),
-        bump_kind: bump.map_or(BumpKind::default(), |r| r.kind),
-        alpha: source.roughness.powi(2) as f32,
-        specular: source.specular.as_vec3(),
-        exponent: source.exponent as f32,
-        ior: source.ior as f32,
-    }
+/// Returns true if an environment is a picture, not a pattern.
+fn has_texels(scene: &Scene, environment: &Environment) -> bool {
+    let source = scene.textures.get(environment.texture);
+    source.is_some_and(|source| source.content.procedural().is_none())
 }
 
 /// The environment is the last material, unlit, with the last map.
@@ -241,15 +235,22 @@ fn pack_environment(packed: &mut PackedScene, scene: &Scene, environment: &Envir
     packed.header.environment_material = packed.records.materials.len() as u32;
     packed.header.environment_projection = packed.records.uv_projections.len() as u32;
     packed.records.uv_projections.push(mapping::environment_map(environment));
+    let plain = material(packed, &Material::default());
     packed.records.materials.push(layout::Material {
         color: scene.background.color.as_vec3(),
         model: Model::PLAIN,
         texture_index: environment.texture as u32,
         sampler_index: sampler as u32,
         image_slot: slot,
-        bump_texture_index: layout::NO_TEXTURE,
-        ..Default::default()
+        ..plain
     });
+}
+
+/// Packs the distribution of the environment's light, if it is one.
+fn pack_environment_light(packed: &mut PackedScene, scene: &Scene, found: Option<Distribution>) {
+    let Some(found) = found.filter(|_| scene.is_lit_by_environment()) else { return };
+    (packed.header.environment_columns, packed.header.environment_rows) = (found.columns, found.rows);
+    packed.records.environment_parts = found.parts;
 }
 
 impl PackedScene {

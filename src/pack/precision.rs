@@ -109,12 +109,11 @@ pub fn need(scene: &Scene, sizes: &[[u32; 3]]) -> Need {
 
 /// Returns the texels per tile of the finest texture that the material reads.
 fn texels_per_tile(scene: &Scene, sizes: &[[u32; 3]], material: &Material) -> Option<f64> {
-    let textures = [material.texture, material.bump.map(|r| r.texture)];
     let texels = |texture: usize| {
         let procedural = scene.textures[texture].content.procedural().is_some();
         if procedural { PROCEDURAL_TEXELS } else { f64::from(sizes[texture].into_iter().max().unwrap_or(1)) }
     };
-    textures.into_iter().flatten().map(texels).reduce(f64::max)
+    material.textures().map(|used| texels(used.texture)).reduce(f64::max)
 }
 
 /// Returns the largest rate of change of a projecting mapping's coordinate at a point with that normal.

@@ -9,7 +9,7 @@ pub fn sample_dimensions(scene: &Scene) -> u32 {
     let of = |choice: &SampleDimension| match choice {
         SampleDimension::Lens => scene.camera.lens.is_some(),
         SampleDimension::Time => scene.moves(),
-        SampleDimension::Lobe => scene.sampling.max_depth > 0 && scene.is_glossy(),
+        SampleDimension::Lobe => scene.sampling.max_depth > 0 && (scene.is_glossy() || scene.scatters()),
         SampleDimension::Light => scene.has_wide_lights(),
         SampleDimension::Fresnel => {
             scene.sampling.max_depth > 0 && scene.materials.iter().any(|m| m.model.transmits())

@@ -153,11 +153,9 @@ pub(super) fn reads(
 
 /// Returns the samplers that read this texture.
 pub(super) fn readers(scene: &Scene, texture: usize) -> impl Iterator<Item = &SamplerSpec> {
-    let materials = scene.materials.iter();
-    let read =
-        materials.filter(move |m| m.texture == Some(texture) || m.bump.is_some_and(|r| r.texture == texture));
+    let read = scene.materials.iter().flat_map(|m| m.textures()).filter(move |used| used.texture == texture);
     let environment = scene.background.environment.filter(|e| e.texture == texture).map(|e| e.sampler);
-    read.map(|m| m.sampler).chain(environment).map(|sampler| &scene.samplers[sampler])
+    read.map(|used| used.sampler).chain(environment).map(|sampler| &scene.samplers[sampler])
 }
 
 /// Returns the texture's first word, which is the offset of level 0. The words before it are the offsets of the other

@@ -16,7 +16,7 @@ const MAX_WORDS: u64 = 1 << 25;
 pub fn cell_side(scene: &Scene, size: [u32; 2], double: bool) -> u32 {
     let has_meshes = has_meshes(scene);
     // Cells and meshes meet in f32.
-    if !gains_by_tiles(scene) || !scene.supports_beams() || has_meshes && double {
+    if !gains_by_tiles(scene) || !scene.has_square_pixels() || has_meshes && double {
         return 0;
     }
     let finest = if has_meshes { FINEST_OF_MESHES } else { FINEST };

@@ -4,7 +4,7 @@
 
 use crate::core::error::{Error, Result};
 use crate::gpu::{DeviceInfo, DeviceKind};
-use crate::pack::features::bounces;
+use crate::pack::features::{bounces, lets_rays_pass};
 use crate::pack::{PackedScene, SampleDimension, TextureKind};
 use crate::scene::model::Algorithm;
 use crate::schema::constants::{MAX_BOXES, MAX_CONE_FRAGMENTS, MAX_CONES, MAX_ELLIPSE_STEPS};
@@ -19,10 +19,12 @@ const SOLID: u64 = 10;
 const TAPS: u64 = 5;
 const BOXES: u64 = MAX_BOXES as u64;
 const CONES: u64 = MAX_CONES as u64;
-/// Meshes whose trees a ray enters, at most.
-const MESHES: u64 = 8;
-/// Nodes and triangles of a mesh that a ray meets, with a margin: tens of them.
-const TREE: u64 = 1024;
+/// Nodes and triangles of all trees together that a ray meets, with a margin: tens of them.
+const TREES: u64 = 512;
+/// Nodes of each tree, of most of which a ray meets the root alone.
+const TREE: u64 = 16;
+/// Surfaces that a path passes by their alpha, of which few have many.
+const LAYERS: u64 = 4;
 /// Digits of Halton points, or iterations to find an order, with a margin.
 const POINTS: u64 = 64;
 
@@ -71,11 +73,12 @@ fn iterations_of_a_sample(scene: &PackedScene, ellipse: u64) -> u64 {
         return iterations_of_cones(scene, ellipse);
     }
     let count = |n: usize| n as u64;
-    let shapes = count(scene.shape_count()) + 3 + TREE * count(scene.records.meshes.len()).min(MESHES);
+    let shapes = count(scene.shape_count()) + 3 + trees(count(scene.records.meshes.len()));
     let records = count(
         scene.records.materials.len() + scene.records.uv_projections.len() + scene.records.motions.len(),
     );
-    let rays = if bounces(scene) { 1 + u64::from(scene.header.max_depth) } else { 1 };
+    let layers = if lets_rays_pass(scene) { LAYERS } else { 0 };
+    let rays = if bounces(scene) { 1 + u64::from(scene.header.max_depth) + layers } else { 1 };
     let bumped = scene.records.materials.iter().any(|m| m.bump_texture_index != NO_TEXTURE);
     let taps = if bumped { TAPS } else { 1 };
     let hit = 1 + shapes + records + count(scene.records.lights.len()) * (1 + shapes);
@@ -83,6 +86,10 @@ fn iterations_of_a_sample(scene: &PackedScene, ellipse: u64) -> u64 {
     let glass = u64::from(chances >> SampleDimension::Fresnel as u32 & 1);
     let choices = if chances == 0 { 0 } else { (4 + glass) * (1 + POINTS) };
     rays * (choices + hit + taps * iterations_of_a_look_up(scene, ellipse))
+}
+
+fn trees(meshes: u64) -> u64 {
+    if meshes > 0 { TREES + TREE * meshes } else { 0 }
 }
 
 fn iterations_of_a_look_up(scene: &PackedScene, ellipse: u64) -> u64 {

@@ -1,6 +1,8 @@
 //! Warnings about a scene: settings that are valid but have no effect, or an unexpected one, in this scene or on this
 //! device.
 
+use glam::DVec3;
+
 use super::model::{Algorithm, Footprint, Light, Material, PixelFilter, Scene};
 use crate::texture::sampler_spec::{Method, MipMode, SamplerSpec};
 
@@ -24,7 +26,9 @@ pub fn of_scene(scene: &Scene) -> Vec<String> {
              on v; write address = [\"repeat\", \"clamp-to-edge\"]"
         ));
     }
-    if algorithm == Algorithm::Beam && !scene.supports_beams() {
+    if algorithm == Algorithm::Beam && scene.lets_rays_pass() {
+        told.push("beams end at the first surface: where some material has alpha or one side every pixel takes samples".into());
+    } else if algorithm == Algorithm::Beam && !scene.supports_beams() {
         told.push(
             "one beam a pixel takes all rays of a square alike, from one place at one time: with another pixel \
              filter than \"box\", a lens or motion every pixel takes samples"
@@ -35,6 +39,13 @@ pub fn of_scene(scene: &Scene) -> Vec<String> {
         told.push(
             "cones choose nothing by chance: no lens, everything as in the middle of the shutter's time, lights as \
              points at their middles, sharp reflections"
+                .into(),
+        );
+    }
+    if algorithm == Algorithm::Cone && scene.reflects_or_lets_pass() {
+        told.push(
+            "cones see no alpha, both sides of every surface, no light of the environment on surfaces, and no \
+             reflections on model \"metallic-roughness\""
                 .into(),
         );
     }
@@ -83,7 +94,9 @@ fn without_light(scene: &Scene) -> Option<String> {
     let (plural, verb) = if dark.len() == 1 { ("", "is") } else { ("s", "are") };
     let reason = match (scene.lights.is_empty(), scene.background.environment) {
         (false, _) => "all lights have zero power",
-        (true, Some(_)) => "the scene has no [[light]], and its environment is seen but lights nothing",
+        (true, Some(_)) => {
+            "the scene has no [[light]], and its environment is seen but lights nothing (kind = \"environment\" is a light)"
+        }
         (true, None) => "the scene has no [[light]]",
     };
     let names = dark.join(", ");
@@ -98,6 +111,8 @@ fn shines(light: &Light) -> bool {
         Light::Point { intensity, .. } | Light::Sphere { intensity, .. } => intensity,
         Light::Directional { irradiance, .. } | Light::Sun { irradiance, .. } => irradiance,
         Light::Rectangle { radiance, .. } => radiance,
+        Light::Spot { intensity, .. } => intensity,
+        Light::Environment => DVec3::ONE,
     };
     power.max_element() > 0.0
 }

@@ -4,7 +4,7 @@
 use glam::DVec3;
 
 use super::limits::{COLOR, EXPONENT, IOR, Limits, UNIT};
-use super::model::Material;
+use super::material::{Material, TextureUse};
 use super::refusal::{Check, Key};
 pub use crate::schema::models::Model;
 
@@ -14,6 +14,12 @@ impl Model {
 
     /// The model of diffuse light and a highlight: for files that know no other.
     pub const HIGHLIGHTED: Model = Model::Phong;
+
+    /// The model of metals and of bodies under a dielectric surface, as files of physically based materials have it.
+    pub const PHYSICAL: Model = Model::MetallicRoughness;
+
+    /// The model of glass.
+    pub const GLASS: Model = Model::Dielectric;
 
     /// Returns true if it emits light.
     pub fn emits(self) -> bool {
@@ -28,6 +34,11 @@ impl Model {
     /// Returns true if it reflects or refracts rays.
     pub fn is_specular(self) -> bool {
         self.is("specular")
+    }
+
+    /// Returns true if beside the light of lights it reflects rays.
+    pub fn is_glossy(self) -> bool {
+        self.is("glossy")
     }
 
     /// Returns true if it transmits rays.
@@ -47,13 +58,20 @@ pub(super) struct ModelKey {
 pub(super) enum Value {
     Number(fn(&mut Material) -> &mut f64),
     Color(fn(&mut Material) -> &mut DVec3),
+    Map(fn(&mut Material) -> &mut Option<TextureUse>),
 }
 
-pub(super) const KEYS: [ModelKey; 4] = [
+pub(super) const KEYS: [ModelKey; 6] = [
     ModelKey { name: "specular", value: Value::Color(|m| &mut m.specular), limits: COLOR },
     ModelKey { name: "exponent", value: Value::Number(|m| &mut m.exponent), limits: EXPONENT },
     ModelKey { name: "ior", value: Value::Number(|m| &mut m.ior), limits: IOR },
     ModelKey { name: "roughness", value: Value::Number(|m| &mut m.roughness), limits: UNIT },
+    ModelKey { name: "metallic", value: Value::Number(|m| &mut m.metallic), limits: UNIT },
+    ModelKey {
+        name: "metallic_roughness_map",
+        value: Value::Map(|m| &mut m.metallic_roughness_map),
+        limits: UNIT,
+    },
 ];
 
 /// Checks the fields that the material's model uses.
@@ -62,5 +80,6 @@ pub(super) fn check_model_keys(key: Key, material: &Material) -> Check {
     KEYS.iter().filter(|k| model.has_key(k.name)).try_for_each(|k| match k.value {
         Value::Number(of) => key.of(k.name).number(*of(&mut material), &k.limits),
         Value::Color(of) => key.of(k.name).vector(*of(&mut material), &k.limits),
+        Value::Map(_) => Ok(()),
     })
 }

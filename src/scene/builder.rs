@@ -184,8 +184,8 @@ impl SceneBuilder {
         for material in &mut scene.materials {
             if !material.is_mapped() {
                 material.sampler = 0;
-            } else if is_default(material.sampler) {
-                samplers.push(&mut material.sampler);
+            } else {
+                samplers.extend(material.sampler_indices_mut().filter(|sampler| is_default(**sampler)));
             }
         }
         let environment = scene.background.environment.as_mut().map(|e| &mut e.sampler);

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::model::{Light, PixelFilterKind, Scene};
+use super::model::{Light, Material, PixelFilterKind, Scene};
 
 impl Scene {
     /// Returns the motions of all shapes.
@@ -30,14 +30,40 @@ impl Scene {
         self.materials.iter().any(|m| m.model.is_specular() && m.roughness > 0.0)
     }
 
-    /// Returns true if a beam can represent all rays of a pixel: those from its square, with equal weights, from one
-    /// point at one time.
+    /// Returns true if some material lets rays pass.
+    pub fn lets_rays_pass(&self) -> bool {
+        self.materials.iter().any(Material::lets_rays_pass)
+    }
+
+    /// Returns true if the environment lights surfaces.
+    pub fn is_lit_by_environment(&self) -> bool {
+        let lights = self.lights.iter().any(|light| matches!(light, Light::Environment));
+        lights && self.materials.iter().any(|m| m.model.is_lit())
+    }
+
+    /// Returns true if lit surfaces continue paths.
+    pub fn scatters(&self) -> bool {
+        self.is_lit_by_environment() || self.materials.iter().any(|m| m.model.is_glossy())
+    }
+
+    /// Returns true if a picture by cones lacks something of the scene's materials.
+    pub fn reflects_or_lets_pass(&self) -> bool {
+        self.lets_rays_pass() || self.scatters()
+    }
+
+    /// Returns true if a beam can represent all rays of a pixel.
     pub fn supports_beams(&self) -> bool {
+        self.has_square_pixels() && !self.lets_rays_pass()
+    }
+
+    /// Returns true if the rays of a pixel are those from its square, with equal weights, from one point at one time.
+    pub fn has_square_pixels(&self) -> bool {
         self.pixel_filter.kind == PixelFilterKind::Box && self.camera.lens.is_none() && !self.moves()
     }
 
     /// Returns true if samples have other dimensions than the position in the pixel, which cones do not have.
     pub fn leaves_more_to_chance(&self) -> bool {
-        self.moves() || self.camera.lens.is_some() || self.has_wide_lights() || self.is_glossy()
+        let wide = self.lights.iter().any(|light| light.has_extent() && !matches!(light, Light::Environment));
+        self.moves() || self.camera.lens.is_some() || wide || self.is_glossy()
     }
 }

@@ -1,7 +1,7 @@
 //! Adapts a scene to cone tracing, which needs a footprint, and filters that average over it. Input: any scene. Output:
 //! the scene that is traced, and a note on the settings that were chosen.
 
-use super::model::{Algorithm, Footprint, Light, Scene};
+use super::model::{Algorithm, AlphaMode, Footprint, Light, Scene, Sides};
 use crate::texture::sampler_spec::{Filter, Method, MipMode, SamplerSpec};
 
 /// Default of the sampler's limit: footprints more elongated than this are blurred.
@@ -47,7 +47,9 @@ pub fn freeze_time(scene: &Scene) -> Scene {
             other => other,
         };
     }
+    settled.lights.retain(|light| !matches!(light, Light::Environment));
     settled.materials.iter_mut().filter(|m| m.model.is_specular()).for_each(|m| m.roughness = 0.0);
+    settled.materials.iter_mut().for_each(|m| (m.alpha, m.sides) = (AlphaMode::Opaque, Sides::Both));
     settled
 }
 

@@ -127,7 +127,8 @@ pub(super) fn check_method(spec: &SamplerSpec) -> Result<(), String> {
 
 /// Checks the look-ups of each texture, also after the command line's overrides.
 pub fn check_filters(scene: &Scene) -> Result<()> {
-    let materials = scene.materials.iter().flat_map(|m| m.texture.map(|t| (t, m.sampler)));
+    let materials =
+        scene.materials.iter().flat_map(|m| m.textures()).map(|used| (used.texture, used.sampler));
     let environment = scene.background.environment.iter().map(|e| (e.texture, e.sampler));
     for (texture, sampler) in materials.chain(environment) {
         let (Some(source), Some(spec)) = (scene.textures.get(texture), scene.samplers.get(sampler)) else {

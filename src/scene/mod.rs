@@ -14,6 +14,7 @@ mod formats;
 pub mod geometry;
 mod limits;
 mod mapping;
+mod material;
 pub mod model;
 mod pixel_filter;
 pub mod prune;

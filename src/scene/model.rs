@@ -10,10 +10,11 @@ pub use super::camera::{Camera, Lens, Projection};
 pub use super::geometry::kinds::*;
 pub use super::geometry::{Bounds, Shape, Shapes};
 pub use super::mapping::{Entity, Mapping, MappingKind, Space};
+pub use super::material::{BumpMap, Green, Maps, Material, Sides, TextureUse};
 pub use super::pixel_filter::{PixelFilter, PixelFilterKind};
 pub use super::sampling::{Algorithm, Footprint, Pattern, Precision, Quantity, Sampling};
 use crate::core::named::named_enum;
-pub use crate::schema::enums::BumpKind;
+pub use crate::schema::enums::{AlphaMode, BumpKind};
 use crate::texture::sampler_spec::{Address, SamplerSpec};
 pub use crate::texture::source::{TextureContent, TextureSource};
 
@@ -92,87 +93,6 @@ named_enum! {
     }
 }
 
-named_enum! {
-    /// Where the green of a normal map points, along v.
-    pub enum Green {
-        /// Along growing v.
-        Up = "up",
-        /// Against it.
-        Down = "down",
-    }
-}
-
-impl BumpKind {
-    /// Returns whether it holds normals.
-    pub const fn is_normal_map(self) -> bool {
-        matches!(self, BumpKind::Normal | BumpKind::NormalDown)
-    }
-}
-
-/// A texture that turns the shading normal.
-#[derive(Clone, Copy, Debug)]
-pub struct BumpMap {
-    /// The content of the texture.
-    pub kind: BumpKind,
-    /// Index into `Scene::textures`.
-    pub texture: usize,
-    /// Normal map: factor of the two components along the surface. Bump map: height of a texel of 1, in
-    /// scene units.
-    pub strength: f64,
-}
-
-/// The material of a surface.
-#[derive(Clone, Debug)]
-pub struct Material {
-    /// For messages.
-    pub name: String,
-    /// Its reflection model.
-    pub model: Model,
-    /// Multiplies the texture.
-    pub color: DVec3,
-    /// Index into `Scene::textures`.
-    pub texture: Option<usize>,
-    /// Index into `Scene::samplers`; meaningful where a texture or a bump map is set.
-    pub sampler: usize,
-    /// The mapping of points of the surface to texture coordinates.
-    pub mapping: Mapping,
-    /// A texture that turns its normals.
-    pub bump: Option<BumpMap>,
-    /// Colour of the highlight of `phong`.
-    pub specular: DVec3,
-    /// The highlight's sharpness, of `phong`.
-    pub exponent: f64,
-    /// Refractive index of `dielectric` behind its surface, over that in front of it.
-    pub ior: f64,
-    /// Roughness of `mirror`, `dielectric` and `oren-nayar`, from 0, which is smooth, to 1.
-    pub roughness: f64,
-}
-
-impl Default for Material {
-    fn default() -> Self {
-        Material {
-            name: "default".to_owned(),
-            model: Model::default(),
-            color: DVec3::ONE,
-            texture: None,
-            sampler: 0,
-            mapping: Mapping::default(),
-            bump: None,
-            specular: DVec3::splat(0.5),
-            exponent: 32.0,
-            ior: 1.5,
-            roughness: 0.0,
-        }
-    }
-}
-
-impl Material {
-    /// Returns true if the material has a texture.
-    pub fn is_mapped(&self) -> bool {
-        self.texture.is_some() || self.bump.is_some()
-    }
-}
-
 /// A light source.
 #[derive(Clone, Copy, Debug)]
 pub enum Light {
@@ -183,6 +103,23 @@ pub enum Light {
         /// W/sr, red, green and blue.
         intensity: DVec3,
     },
+    /// A point that shines within a cone.
+    Spot {
+        /// Where it is.
+        position: DVec3,
+        /// The axis of its cone, away from it; any length.
+        direction: DVec3,
+        /// Along the axis, W/sr, red, green and blue.
+        intensity: DVec3,
+        /// The angle from the axis up to which it is as bright, in degrees.
+        inner: f64,
+        /// The angle from the axis at which it ends, in degrees up to 180.
+        outer: f64,
+        /// The distance at which it ends; infinite for none.
+        range: f64,
+    },
+    /// What rays see that hit nothing, as a light.
+    Environment,
     /// Direction towards the light (any length); irradiance in W/m² on a facing surface.
     Directional {
         /// Towards the light; any length.
@@ -224,19 +161,27 @@ pub enum Light {
 impl Light {
     /// Returns whether it shines from more than one place or direction.
     pub fn has_extent(&self) -> bool {
-        matches!(self, Light::Sphere { .. } | Light::Rectangle { .. } | Light::Sun { .. })
+        matches!(
+            self,
+            Light::Sphere { .. } | Light::Rectangle { .. } | Light::Sun { .. } | Light::Environment
+        )
     }
 }
 
 impl Scene {
-    /// The sampler a material's texture is read through; the default where there is none.
+    /// Returns the sampler by which a material's coordinates are placed: the default without a texture. Where its
+    /// textures have several, whole tiles leave the coordinates that change none of them.
     pub fn sampler_of(&self, material: &Material) -> SamplerSpec {
-        let spec = self.samplers.get(material.sampler).copied().unwrap_or_default();
+        let mut spec = self.samplers.get(material.sampler).copied().unwrap_or_default();
         let procedural = |t: usize| self.textures.get(t).is_some_and(|t| t.content.procedural().is_some());
         if material.texture.is_some_and(procedural) {
             // A pattern repeats nowhere: no whole tiles may leave its coordinates.
             let clamp = Address::ClampToEdge;
             return SamplerSpec { address: [clamp; 2], address_w: clamp, ..spec };
+        }
+        for other in material.textures().filter_map(|used| self.samplers.get(used.sampler)) {
+            let [u, v] = spec.address;
+            spec.address = [u.in_common(other.address[0]), v.in_common(other.address[1])];
         }
         spec
     }

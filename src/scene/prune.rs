@@ -16,14 +16,18 @@ pub fn prune(scene: &mut Scene) -> Vec<String> {
 
     let mapped = || scene.materials.iter().filter(|m| m.is_mapped());
     let environment = scene.background.environment;
-    let of = mapped().flat_map(|m| [m.texture, m.bump.map(|r| r.texture)]).flatten();
-    let used: Vec<usize> = of.chain(environment.map(|e| e.texture)).collect();
-    let samplers_used: Vec<usize> =
-        mapped().map(|m| m.sampler).chain(environment.map(|e| e.sampler)).collect();
+    let of = mapped().flat_map(|m| m.textures());
+    let used: Vec<usize> = of.map(|used| used.texture).chain(environment.map(|e| e.texture)).collect();
+    let of = mapped().flat_map(|m| m.textures().map(|used| used.sampler).chain([m.sampler]));
+    let samplers_used: Vec<usize> = of.chain(environment.map(|e| e.sampler)).collect();
     let textures = keep(&mut scene.textures, &used);
     let samplers = keep(&mut scene.samplers, &samplers_used);
     for material in &mut scene.materials {
-        material.sampler = if material.is_mapped() { samplers[material.sampler] } else { 0 };
+        if material.is_mapped() {
+            material.sampler_indices_mut().for_each(|index| *index = samplers[*index]);
+        } else {
+            material.sampler = 0;
+        }
     }
     if let Some(environment) = &mut scene.background.environment {
         environment.sampler = samplers[environment.sampler];
@@ -62,10 +66,7 @@ fn merge_textures(scene: &mut Scene, dropped: &mut Vec<String>) {
 /// Updates the indices of textures; `textures` maps old to new.
 fn point_to_textures(scene: &mut Scene, textures: &[usize]) {
     for material in &mut scene.materials {
-        material.texture = material.texture.map(|t| textures[t]);
-        if let Some(bump) = &mut material.bump {
-            bump.texture = textures[bump.texture];
-        }
+        material.texture_indices_mut().for_each(|index| *index = textures[*index]);
     }
     if let Some(environment) = &mut scene.background.environment {
         environment.texture = textures[environment.texture];

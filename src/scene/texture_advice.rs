@@ -1,7 +1,7 @@
 //! Warnings about textures that are valid but hardly intended: display pictures read as linear values, normal maps
 //! without normals. Input: a scene and its decoded textures.
 
-use super::model::{BumpMap, Scene};
+use super::model::{BumpMap, Material, Scene};
 use crate::texture::data::{ColorSpace, Component, Dimension, TextureData};
 use crate::texture::source::{TextureContent, TextureSource};
 
@@ -46,7 +46,8 @@ fn is_normals(bump: BumpMap, texture: usize) -> bool {
 
 fn is_color(scene: &Scene, texture: usize) -> bool {
     let environment = scene.background.environment.map(|e| e.texture);
-    scene.materials.iter().map(|m| m.texture).chain([environment]).any(|t| t == Some(texture))
+    let of = |m: &Material| [m.texture, m.emission_map.map(|map| map.texture)];
+    scene.materials.iter().flat_map(of).chain([environment]).any(|t| t == Some(texture))
 }
 
 /// Returns true for an 8-bit picture whose encoding the scene does not state. Blacks and whites are the same in either

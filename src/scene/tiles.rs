@@ -11,13 +11,12 @@ use crate::texture::source::{TextureContent, TextureSource};
 pub(super) fn apply(scene: &mut Scene) -> Check {
     let textures = &scene.textures;
     for (index, material) in scene.materials.iter_mut().enumerate() {
-        let color = material.texture.map(|texture| &textures[texture]);
-        let bump = material.bump.map(|bump| &textures[bump.texture]);
-        let Some(source) = color.or(bump) else { continue };
+        let sources: Vec<&TextureSource> = material.textures().map(|used| &textures[used.texture]).collect();
+        let Some(&source) = sources.first() else { continue };
         let key = Key::item("material", index).of("mapping");
         let [columns, rows] = grid(source);
-        if [color, bump].into_iter().flatten().any(|other| grid(other) != [columns, rows]) {
-            let what = "its textures have other numbers of tiles than each other, and one mapping for both; give all of \
+        if sources.iter().any(|other| grid(other) != [columns, rows]) {
+            let what = "its textures have other numbers of tiles than each other, and one mapping for all; give all of \
                         them the same tiles, or none";
             return key.refuse(what, "tiles differ");
         }

@@ -60,10 +60,22 @@ constants! {
     /// Position of the number of triangles in the word for a child that waits.
     TREE_COUNT_SHIFT: u32 = 28;
 
+    /// Flags of a triangle of a mesh: it has shading normals; the bitangent of its texture coordinates is mirrored.
+    MESH_SMOOTH: u32 = 1;
+    MESH_MIRRORED_UV: u32 = 2;
+
+    /// Entries along each side of the table of what facets reflect.
+    FACET_TABLE_SIDE: u32 = 32;
+    /// Bits of `second_uv_maps` above those of `MaterialMap`.
+    SECOND_UV_COLOR: u32 = 16;
+    SECOND_UV_BUMP: u32 = 32;
+
     /// Largest number of iterations over an ellipse's texels.
     MAX_ELLIPSE_STEPS: u32 = 8192;
     /// Boxes along a footprint over which a procedural texture is averaged.
     MAX_BOXES: u32 = 16;
+    /// Surfaces that a ray passes by their alpha.
+    MAX_LAYERS: u32 = 64;
     /// Largest number of cones per pixel.
     MAX_CONES: u32 = 64;
     /// Largest number of fragments per cone.

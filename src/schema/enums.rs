@@ -1,6 +1,10 @@
 //! The enums that host and device share. Each has a prefix: `LightKind::Sun` is `LIGHT_SUN` in the shader,
 //! and `LIGHT_COUNT` is the number of variants.
 
+// For the library; the build reads both tables.
+#[allow(unused_imports)]
+pub use super::surface_enums::*;
+
 enums! {
     /// The projection of the camera.
     #[derive(Default)]
@@ -97,61 +101,6 @@ enums! {
         Cone = "cone",
         /// Two vectors each of origin and direction (Igehy 1999).
         Differentials = "differentials",
-    }
-
-    /// The content of a material's bump texture.
-    #[derive(Default)]
-    BUMP: BumpKind {
-        /// Unit normals as 2 rgb - 1: along increasing u, along increasing v, outward.
-        #[default]
-        Normal = "normal",
-        /// Heights.
-        Bump = "bump",
-        /// Unit normals whose green channel points against v.
-        NormalDown = "normal-down",
-    }
-
-    /// The kind of a light; those from `Sphere` on are area lights.
-    #[derive(Default)]
-    LIGHT: LightKind {
-        #[default]
-        Point = "point",
-        Directional = "directional",
-        Sphere = "sphere",
-        Rectangle = "rectangle",
-        /// Directional, from a disc of the sky.
-        Sun = "sun",
-    }
-
-    /// The texture coordinate computation on the device.
-    #[derive(Default)]
-    MAP: MapKind {
-        /// The plane's own coordinates.
-        #[default]
-        Plane = "plane",
-        /// Affine in the position: planar.
-        Affine = "affine",
-        /// Interpolated over a triangle.
-        VertexUv = "vertex-uv",
-        Cylindrical = "cylindrical",
-        Spherical = "spherical",
-        /// Affine in the entity, three coordinates.
-        Solid = "solid",
-        /// A direction for a cube texture.
-        Cube = "cube",
-        /// The position on the cube's face, for a 2D texture.
-        Box = "box",
-    }
-
-    /// The vector that a mapping looks at.
-    #[derive(Default)]
-    ENTITY: EntityKind {
-        #[default]
-        Position = "position",
-        Normal = "normal",
-        Reflection = "reflection",
-        /// The direction of the ray, for an environment.
-        Direction = "direction",
     }
 
     /// The source of texels in a shader.

@@ -16,3 +16,4 @@ pub mod record;
 pub mod records;
 pub mod shapes;
 pub mod specialization;
+pub mod surface_enums;

@@ -1,5 +1,6 @@
 //! The reflection models: name, properties, and the keys of `[[material]]` that only some of them have. `emits`: it emits
-//! light; `lit`: it reflects the light of lights; `specular`: it reflects or refracts rays; `transmits`: it transmits them.
+//! light and has no other property; `lit`: it reflects the light of lights; `specular`: it reflects or refracts rays; `transmits`: it transmits them;
+//! `glossy`: beside the light of lights it reflects rays, by chance.
 
 /// Hands the table to another macro.
 macro_rules! with_models {
@@ -15,6 +16,8 @@ macro_rules! with_models {
             Phong = "phong", [lit], [specular exponent];
             /// Rough diffuse, energy-preserving.
             OrenNayar = "oren-nayar", [lit], [roughness];
+            /// A metal, or a diffuse body under a dielectric surface; facets follow GGX (glTF 2.0, Appendix B).
+            MetallicRoughness = "metallic-roughness", [lit glossy], [metallic roughness metallic_roughness_map ior];
         }
     };
 }

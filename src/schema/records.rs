@@ -43,6 +43,9 @@ records! {
         /// Material of the environment, or `NO_MATERIAL`.
         environment_material: u32,
         environment_projection: u32,
+        /// Cells of the distribution of its light: of a row, and rows; 0 if it does not light surfaces.
+        environment_columns: u32,
+        environment_rows: u32,
         pixel_filter: PixelFilterKind,
         /// In sides of a pixel at distance 1; 0 without a lens.
         lens_radius: f32,
@@ -133,8 +136,13 @@ records! {
         nodes: u32,
         /// Texel of the first triangle's corners, three for each triangle.
         corners: u32,
-        /// Texel of the first triangle's attributes, four for each triangle.
+        /// Texel of the first triangle's attributes.
         attributes: u32,
+        /// Their number for each triangle: four, then two each of colours and second texture coordinates.
+        attribute_count: u32,
+        has_colors: bool,
+        has_second_uv: bool,
+        has_tangents: bool,
         /// True if some triangle has shading normals.
         is_smooth: bool,
     }
@@ -148,6 +156,11 @@ records! {
         direction: DVec3,
         /// Height of the sun's cap on the unit sphere.
         cap_height: f64,
+        /// A spot's intensity is that of its axis times the square of `spot_slope` cos + `spot_offset`, within 0 and 1.
+        spot_slope: f32,
+        spot_offset: f32,
+        /// 1 over the distance at which the light of a spot or a point ends; 0 for none.
+        inverse_range: f32,
         /// Edges of a rectangle, the longer first; it emits towards edge_u × edge_v.
         edge_u: DVec3,
         /// Their lengths; 0 if they are not at right angles.
@@ -163,17 +176,45 @@ records! {
         color: Vec3,
         bump_strength: f32,
         model: Model,
-        /// Or `NO_TEXTURE`; its sampler also reads the bump texture.
+        /// Or `NO_TEXTURE`.
         texture_index: u32,
         sampler_index: u32,
         image_slot: u32,
         /// Or `NO_TEXTURE`.
         bump_texture_index: u32,
+        bump_sampler_index: u32,
         bump_image_slot: u32,
         bump_kind: BumpKind,
         /// Roughness of a mirror's or glass's microfacet distribution (GGX); 0 is smooth.
         alpha: f32,
-        /// Colour of Phong's highlight.
+        /// Of model `metallic-roughness`.
+        roughness: f32,
+        metallic: f32,
+        /// Or `NO_TEXTURE`.
+        roughness_texture_index: u32,
+        roughness_sampler_index: u32,
+        roughness_image_slot: u32,
+        /// Or `NO_TEXTURE`.
+        emission_texture_index: u32,
+        emission_sampler_index: u32,
+        emission_image_slot: u32,
+        /// Emitted radiance; times its texture.
+        emission: Vec3,
+        occlusion_strength: f32,
+        /// Or `NO_TEXTURE`.
+        occlusion_texture_index: u32,
+        occlusion_sampler_index: u32,
+        occlusion_image_slot: u32,
+        /// Maps that are read at the mesh's second texture coordinates: one bit for each `MaterialMap`, and above them
+        /// those of the colour and of the bump map.
+        second_uv_maps: u32,
+        alpha_mode: AlphaMode,
+        alpha_cutoff: f32,
+        /// Times the alpha of its texture.
+        opacity: f32,
+        /// Seen from the front only.
+        one_sided: bool,
+        /// Colour of Phong's highlight, or the reflectance of a dielectric surface that is seen head-on.
         specular: Vec3,
         /// Exponent of Phong's highlight.
         exponent: f32,
@@ -245,6 +286,18 @@ records! {
         distortion: f32,
         octaves: u32,
         dimensions: u32,
+    }
+
+    /// Four numbers of the distribution of the environment's light: first the cumulative one of its rows, then that of
+    /// the cells of each row.
+    EnvironmentPart in environment_parts as "environment as a light" {
+        values: Vec4,
+    }
+
+    /// Two entries of the table of what facets reflect: each the share of light at a reflectance of 1, and what it falls
+    /// short of that in Schlick's approximation.
+    FacetPart in facet_parts as "light between facets" {
+        values: Vec4,
     }
 
     /// The motion of a shape, in the order of shapes; the list is empty if nothing moves.

@@ -16,6 +16,8 @@ specialization! {
     SmoothNormals = "SMOOTH_NORMALS", switch, "interpolated normals";
     Models = "MODELS", modes(Model), "reflection model";
     LightKinds = "LIGHT_KINDS", modes(LightKind), "light";
+    /// Some point shines within a cone, or up to a distance.
+    Ranged = "RANGED", switch, "cones and ranges of lights";
     Shadows = "SHADOWS", switch, "shadow rays";
     Bounces = "BOUNCES", switch, "bounces";
     Environment = "ENVIRONMENT", switch, "environment";
@@ -30,6 +32,20 @@ specialization! {
     /// Some material reads none.
     Untextured = "UNTEXTURED", switch, "plain materials";
     Bumped = "BUMPED", switch, "bump or normal map";
+    MaterialMaps = "MATERIAL_MAPS", modes(MaterialMap), "map of a material";
+    AlphaModes = "ALPHA_MODES", modes(AlphaMode), "alpha";
+    /// Some material beside the unlit ones emits light.
+    Emissive = "EMISSIVE", switch, "emission";
+    /// Some surface other than a mesh is seen from the front only.
+    OneSided = "ONE_SIDED", switch, "surfaces without a back";
+    /// Triangles of meshes are met from the front only.
+    CulledBacks = "CULLED_BACKS", switch, "meshes without backs";
+    /// Meshes have colours at their vertices.
+    VertexColors = "VERTEX_COLORS", switch, "colours of vertices";
+    /// Meshes have a second set of texture coordinates.
+    SecondUv = "SECOND_UV", switch, "second texture coordinates";
+    /// Meshes have tangents at their vertices.
+    Tangents = "TANGENTS", switch, "tangents of vertices";
     BumpKinds = "BUMP_KINDS", modes(BumpKind), "bump or normal map";
     Methods = "METHODS", modes(Method), "look-up method";
     AddressesU = "ADDRESSES_U", modes(Address), "address u";

@@ -36,6 +36,19 @@ pub struct SamplerSpec {
 /// B = 0, C = ½, which interpolates.
 pub const CATMULL_ROM: [f32; 2] = [0.0, 0.5];
 
+impl Address {
+    /// Returns the mode whose whole tiles may leave a coordinate that both modes read.
+    pub fn in_common(self, other: Address) -> Address {
+        match (self, other) {
+            _ if self == other => self,
+            (Address::Repeat | Address::MirroredRepeat, Address::Repeat | Address::MirroredRepeat) => {
+                Address::MirroredRepeat
+            }
+            _ => Address::ClampToEdge,
+        }
+    }
+}
+
 impl Default for SamplerSpec {
     fn default() -> Self {
         SamplerSpec {

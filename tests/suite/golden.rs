@@ -45,6 +45,7 @@ const GOLDENS: &[(&str, [u32; 2])] = &[
     ("motion", [64, 48]),
     ("normal", [128, 54]),
     ("penumbra", [64, 48]),
+    ("physical", [144, 96]),
     ("position", [144, 50]),
     ("procedural", [120, 53]),
     ("ramp", [120, 42]),
@@ -199,7 +200,7 @@ macro_rules! goldens {
 }
 goldens! {
     beams centroid cones discs environment environment_cube filters formats glass glossy hardware horizon inside
-    lanczos lecture lens lights mappings materials meshes mirrors models motion normal penumbra position procedural ramp reflection
+    lanczos lecture lens lights mappings materials meshes mirrors models motion normal penumbra physical position procedural ramp reflection
     rough samplers shared volume zone_plate
 }
 

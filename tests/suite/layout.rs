@@ -9,7 +9,7 @@ use moire::internal::gpu::BindingKind;
 use moire::internal::gpu::shaders::{self, Shader};
 use moire::internal::pack::features;
 use moire::internal::schema::blocks::{CellRange, Halving, PixelBatch, PositionRange, QueryRange, Slice};
-use moire::internal::schema::enums::{BumpKind, LightKind, Reals, TexelSource};
+use moire::internal::schema::enums::{AlphaMode, BumpKind, LightKind, Reals, TexelSource};
 use moire::internal::schema::layout::{Light, Material, Plane, RealBits, Record, Triangle};
 use moire::internal::schema::models::Model;
 use moire::internal::schema::packing::{Kind, Packer, Place, shape};
@@ -65,9 +65,28 @@ fn records_are_written_as_the_rule_says() {
         sampler_index: 6,
         image_slot: 7,
         bump_texture_index: 8,
+        bump_sampler_index: 16,
         bump_image_slot: 9,
         bump_kind: BumpKind::NormalDown,
         alpha: 10.0,
+        roughness: 17.0,
+        metallic: 18.0,
+        roughness_texture_index: 19,
+        roughness_sampler_index: 20,
+        roughness_image_slot: 21,
+        emission_texture_index: 22,
+        emission_sampler_index: 23,
+        emission_image_slot: 24,
+        emission: Vec3::new(25.0, 26.0, 27.0),
+        occlusion_strength: 28.0,
+        occlusion_texture_index: 29,
+        occlusion_sampler_index: 30,
+        occlusion_image_slot: 31,
+        second_uv_maps: 32,
+        alpha_mode: AlphaMode::Blend,
+        alpha_cutoff: 33.0,
+        opacity: 34.0,
+        one_sided: true,
         specular: Vec3::new(11.0, 12.0, 13.0),
         exponent: 14.0,
         ior: 15.0,
@@ -76,11 +95,16 @@ fn records_are_written_as_the_rule_says() {
     let expected = [
         [f(1.0), f(2.0), f(3.0), f(4.0)],
         [Model::Phong as u32, 5, 6, 7],
-        [8, 9, BumpKind::NormalDown as u32, f(10.0)],
-        [f(11.0), f(12.0), f(13.0), f(14.0)],
-        [f(15.0), 0, 0, 0],
+        [8, 16, 9, BumpKind::NormalDown as u32],
+        [f(10.0), f(17.0), f(18.0), 19],
+        [20, 21, 22, 23],
+        [24, f(25.0), f(26.0), f(27.0)],
+        [f(28.0), 29, 30, 31],
+        [32, AlphaMode::Blend as u32, f(33.0), f(34.0)],
+        [1, f(11.0), f(12.0), f(13.0)],
+        [f(14.0), f(15.0), 0, 0],
     ];
-    assert_eq!(Material::UNITS, (0, 5));
+    assert_eq!(Material::UNITS, (0, 10));
     // Without reals, whatever their precision.
     assert_eq!(words(&material, false), expected.concat());
     assert_eq!(words(&material, true), expected.concat());
@@ -123,9 +147,9 @@ fn what_is_left_of_a_unit_is_empty() {
     assert_eq!(words[12..20], [one, one, one, 0, one, one, one, 0]);
     assert_eq!(words[31..36], [0, 0, 0, 1, 0]);
     let light = Light { kind: LightKind::Sun, power: Vec3::ONE, ..Light::default() };
-    assert_eq!(Light::UNITS, (4, 1));
-    assert_eq!(bytes(&light, true).len(), 4 * 32 + 16);
-    assert_eq!(bytes(&light, true)[140..], (LightKind::Sun as u32).to_le_bytes());
+    assert_eq!(Light::UNITS, (4, 2));
+    assert_eq!(bytes(&light, true).len(), 4 * 32 + 32);
+    assert_eq!(bytes(&light, true)[156..], (LightKind::Sun as u32).to_le_bytes());
 }
 
 #[test]

@@ -1,11 +1,13 @@
 //! Materials against values computed by hand: reflectance and transmittance of glass, the highlight
 //! of Phong, bump maps, shading normals; on device and oracle.
 
+mod alpha;
 mod glass;
 mod leaning;
 mod mirrored;
 mod oren_nayar;
 mod phong;
+mod physical;
 mod relief;
 mod scales;
 

@@ -46,6 +46,7 @@ const BOUNDS: &[(&str, f64, f64, f64)] = &[
     ("motion", STEP, 1e-4, 0.01),
     ("normal", STEP, 1e-5, 0.001),
     ("penumbra", STEP, 1e-5, 0.005),
+    ("physical", STEP, 1e-3, 0.02),
     ("position", STEP, 5e-5, 0.002),
     ("procedural", STEP, 1e-5, 0.001),
     ("quad", STEP, 0.0, 0.0),

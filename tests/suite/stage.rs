@@ -34,7 +34,7 @@ macro_rules! with_scenes {
     ($($call:tt)*) => {
         $crate::stage::dispatch! {
             $($call)* beams centroid cones discs environment environment_cube filters formats glass glossy hardware
-            horizon inside lanczos lecture lens lights mappings materials meshes mirrors models motion normal penumbra position
+            horizon inside lanczos lecture lens lights mappings materials meshes mirrors models motion normal penumbra physical position
             procedural quad ramp reflection rough samplers shared volume zone_plate s1a s1b s2
         }
     };

@@ -83,6 +83,8 @@ fn turned(scene: &Scene, turn: DQuat) -> Scene {
     for light in &mut scene.lights {
         match light {
             Light::Point { position, .. } | Light::Sphere { position, .. } => spin(position),
+            Light::Spot { position, direction, .. } => [position, direction].into_iter().for_each(spin),
+            Light::Environment => panic!("an environment turns about +y alone"),
             Light::Directional { direction, .. } | Light::Sun { direction, .. } => spin(direction),
             Light::Rectangle { position, edge_u, edge_v, .. } => {
                 [position, edge_u, edge_v].into_iter().for_each(spin);

@@ -47,7 +47,7 @@ Surface surface_of(const Disc disc, real3 point, real2 local) {
         own_v = unit.x * axis_u + unit.y * axis_v;
     }
     return Surface(point, disc.normal, disc.normal, uv, own_u, own_v, FLAT, 0.0, false, links_of(disc), point,
-                   largest_part(point));
+                   largest_part(point), NO_ATTRIBUTES);
 }
 
 #endif

@@ -33,6 +33,17 @@ Ray at_rest(Ray ray, uint shape) {
     return ray;
 }
 
+// What the vertices of a mesh have beside normals and texture coordinates, interpolated.
+struct VertexAttributes {
+    vec4 color;
+    real2 second_uv;
+    vec3 second_u; // gradients along the surface
+    vec3 second_v;
+    vec4 tangent;  // with the sign of the bitangent, 0 for none
+};
+
+const VertexAttributes NO_ATTRIBUTES = VertexAttributes(vec4(1.0), real2(0.0), vec3(0.0), vec3(0.0), vec4(0.0));
+
 struct Surface {
     real3 point;
     real3 geometric_normal; // unit, towards the incoming ray
@@ -46,6 +57,7 @@ struct Surface {
     uvec2 link;            // material, map
     real3 at_rest;         // the point where the shape does not move
     real size;             // of the largest coordinate that the point came from
+    VertexAttributes attributes;
 };
 
 const mat3 FLAT = mat3(0.0);

@@ -84,10 +84,12 @@ real entry(const Slabs slabs, vec3 least, vec3 greatest, real most) {
     return near <= far ? near : -1.0;
 }
 
-// The mean of the corners' distances along a direction, weighted by edge functions of one sign; else -1.
-real distance_by(real3 edges, real3 a, real3 b, real3 c, real3 d) {
-    bool front = edges.x >= 0.0 && edges.y >= 0.0 && edges.z >= 0.0;
-    bool back = edges.x <= 0.0 && edges.y <= 0.0 && edges.z <= 0.0;
+// The mean of the corners' distances along a direction, weighted by edge functions of one sign; else -1. `one_sided`: it
+// is met from the front only.
+real distance_by(real3 edges, real3 a, real3 b, real3 c, real3 d, bool one_sided) {
+    bool back = edges.x >= 0.0 && edges.y >= 0.0 && edges.z >= 0.0;
+    bool front = edges.x <= 0.0 && edges.y <= 0.0 && edges.z <= 0.0;
+    if (CULLED_BACKS) back = back && !one_sided;
     bool degenerate = edges == real3(0.0);
     real whole = (edges.x + edges.y) + edges.z;
     real along = dot3(edges, real3(dot3(a, d), dot3(b, d), dot3(c, d)));
@@ -97,9 +99,13 @@ real distance_by(real3 edges, real3 a, real3 b, real3 c, real3 d) {
 
 // Edge functions d·((p + q) × (q - p)), twice the volumes d·(p × q): the two triangles at a shared edge compute the same
 // value with opposite sign, and the error is a part of the edge's length. They are weights of the corners in the point.
-// `at`: the texel of its corners.
-real distance_in(uint at, const Ray ray, bool from_eye) {
-    real3 a = real3(point_in(mesh_texel(at)));
+// A shadow ray that surfaces may let pass meets both sides of all.
+bool meets_backs = false;
+
+// `at`: the texel of its corners. `any`: of a shadow ray, which meets both sides.
+real distance_in(uint at, const Ray ray, bool from_eye, bool any) {
+    uvec4 first = mesh_texel(at);
+    real3 a = real3(point_in(first));
     real3 b = real3(point_in(mesh_texel(at + 1u)));
     real3 c = real3(point_in(mesh_texel(at + 2u)));
     if (!from_eye) {
@@ -109,7 +115,7 @@ real distance_in(uint at, const Ray ray, bool from_eye) {
     }
     real3 d = ray.direction;
     real3 edges = real3(dot3(d, cross3(b + c, c - b)), dot3(d, cross3(c + a, a - c)), dot3(d, cross3(a + b, b - a)));
-    return distance_by(edges, a, b, c, d);
+    return distance_by(edges, a, b, c, d, !any && !meets_backs && first.w != 0u);
 }
 
 // The nearest triangle before `most`, or for `any` just one; of those at the same t the first in the tree's order.
@@ -146,7 +152,7 @@ real distance_to(const Mesh mesh, const Ray ray, bool from_eye, real most, bool 
         } else {
             for (uint k = 0u; k < count; k++) {
                 uint index = reference + k;
-                real t = distance_in(mesh.corners + 3u * index, ray, from_eye);
+                real t = distance_in(mesh.corners + 3u * index, ray, from_eye, any);
                 bool nearer = t > 0.0 && (t < best || (t == best && found != NO_SHAPE && index < found));
                 best = nearer ? t : best;
                 found = nearer ? index : found;
@@ -180,7 +186,7 @@ Triangle triangle_in(const Mesh mesh, uint index) {
     real3 a = real3(point_in(mesh_texel(at)));
     real3 b = real3(point_in(mesh_texel(at + 1u)));
     real3 c = real3(point_in(mesh_texel(at + 2u)));
-    at = mesh.attributes + 4u * index;
+    at = mesh.attributes + mesh.attribute_count * index;
     uvec4 plane = mesh_texel(at);
     vec4 first = uintBitsToFloat(mesh_texel(at + 1u));
     vec4 second = uintBitsToFloat(mesh_texel(at + 2u));
@@ -188,11 +194,55 @@ Triangle triangle_in(const Mesh mesh, uint index) {
     real3 normal = real3(point_in(plane));
     return Triangle(a, first.x, b, first.y, c, first.z, real3(first.w, second.x, second.y), normal, dot3(normal, a),
                     octahedral(normals.x), octahedral(normals.y), octahedral(normals.z), mesh.material,
-                    mesh.uv_projection, plane.w != 0u);
+                    mesh.uv_projection, (plane.w & MESH_SMOOTH) != 0u);
+}
+
+// Four components of 16 bits each, from 0 to 1.
+vec4 color_in(uint low, uint high) { return vec4(unpackUnorm2x16(low), unpackUnorm2x16(high)); }
+
+// What the vertices of a triangle have beside normals and texture coordinates, at a point of it.
+VertexAttributes attributes_of(const Mesh mesh, const Triangle triangle, uint index, real3 point) {
+    VertexAttributes found = NO_ATTRIBUTES;
+    vec3 w = vec3(weights(triangle, point));
+    uint at = mesh.attributes + mesh.attribute_count * index;
+    if (TANGENTS && mesh.has_tangents) {
+        uint signs = mesh_texel(at).w;
+        uint last = mesh_texel(at + 3u).w;
+        uvec4 others = mesh_texel(at + 2u);
+        vec3 sum = (w.x * vec3(octahedral(others.z)) + w.y * vec3(octahedral(others.w))) + w.z * vec3(octahedral(last));
+        found.tangent = vec4(sum, (signs & MESH_MIRRORED_UV) != 0u ? -1.0 : 1.0);
+    }
+    at += 4u;
+    if (VERTEX_COLORS && mesh.has_colors) {
+        uvec4 first = mesh_texel(at);
+        uvec4 second = mesh_texel(at + 1u);
+        found.color = (w.x * color_in(first.x, first.y) + w.y * color_in(first.z, first.w)) + w.z * color_in(second.x, second.y);
+        at += 2u;
+    }
+    if (SECOND_UV && mesh.has_second_uv) {
+        vec4 first = uintBitsToFloat(mesh_texel(at));
+        vec4 second = uintBitsToFloat(mesh_texel(at + 1u));
+        vec3 u = first.xyz;
+        vec3 v = vec3(first.w, second.xy);
+        found.second_uv = real2(dot3(w, u), dot3(w, v));
+        if (FILTERED || BUMPED) {
+            vec3 wa;
+            vec3 wb;
+            vec3 wc;
+            weight_gradients(triangle, wa, wb, wc);
+            found.second_u = (wa * u.x + wb * u.y) + wc * u.z;
+            found.second_v = (wa * v.x + wb * v.y) + wc * v.z;
+        }
+    }
+    return found;
 }
 
 Surface surface_of(const Mesh mesh, real3 point, real2 local) {
-    return surface_of(triangle_in(mesh, uint(local.x)), point, local);
+    uint index = uint(local.x);
+    Triangle triangle = triangle_in(mesh, index);
+    Surface surface = surface_of(triangle, point, local);
+    if (VERTEX_COLORS || SECOND_UV || TANGENTS) surface.attributes = attributes_of(mesh, triangle, index, point);
+    return surface;
 }
 
 #endif

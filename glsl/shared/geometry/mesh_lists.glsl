@@ -18,6 +18,7 @@ struct Held {
     real3 across_a; // of the edge that a is not at
     real3 across_b;
     real3 across_c;
+    bool one_sided;
 };
 
 // Registers, where reads from memory cost more than these: the first triangles of a pixel.
@@ -29,10 +30,11 @@ Held held_3;
 #define EACH_HELD(DO) DO(0) DO(1) DO(2) DO(3)
 
 Held held_triangle(uint at) {
-    real3 a = real3(point_in(mesh_texel(at)));
+    uvec4 first = mesh_texel(at);
+    real3 a = real3(point_in(first));
     real3 b = real3(point_in(mesh_texel(at + 1u)));
     real3 c = real3(point_in(mesh_texel(at + 2u)));
-    return Held(at, a, b, c, cross3(b + c, c - b), cross3(c + a, a - c), cross3(a + b, b - a));
+    return Held(at, a, b, c, cross3(b + c, c - b), cross3(c + a, a - c), cross3(a + b, b - a), first.w != 0u);
 }
 
 // True if a ray of the pixel may meet the triangle. Rays are `way` and as much as x and y to either side, in which the
@@ -66,7 +68,7 @@ uvec4 listed_in_pixel(const Header header, uvec2 pixel, uint list) {
     vec3 x = header.filter_radius * vec3(header.step_x);
     vec3 y = header.filter_radius * vec3(header.step_y);
     const real3 none = real3(0.0);
-#define CLEAR_HELD(k) held_##k = Held(0u, none, none, none, none, none, none);
+#define CLEAR_HELD(k) held_##k = Held(0u, none, none, none, none, none, none, false);
     EACH_HELD(CLEAR_HELD)
 #undef CLEAR_HELD
     uint kept = 0u;
@@ -90,7 +92,7 @@ uvec4 listed_in_pixel(const Header header, uvec2 pixel, uint list) {
 // Where a ray from the eye meets it, else -1.
 real distance_to_held(const Held triangle, real3 d) {
     real3 edges = real3(dot3(d, triangle.across_a), dot3(d, triangle.across_b), dot3(d, triangle.across_c));
-    return distance_by(edges, triangle.a, triangle.b, triangle.c, d);
+    return distance_by(edges, triangle.a, triangle.b, triangle.c, d, triangle.one_sided);
 }
 
 // Replaces the hit by the nearest listed triangle if that is nearer; of those at the same t the first one. Returns true if
@@ -123,7 +125,7 @@ bool nearest_listed(const Ray ray, const Candidates candidates, uint shape, uint
         }
         uint texel = tile_lists[first + uint(findLSB(rest.x))];
         rest.x &= rest.x - 1u;
-        NEARER(distance_in(texel, ray, ORIGIN_IS_EYE), texel)
+        NEARER(distance_in(texel, ray, ORIGIN_IS_EYE, false), texel)
     }
 #undef NEARER
     if (found != NO_SHAPE) {

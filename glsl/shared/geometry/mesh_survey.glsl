@@ -61,17 +61,18 @@ float depth_in(const Header header, const CellRays cell, vec3 low, vec3 high) {
 }
 
 // Where a ray meets the triangle, FAR if it does not; as `distance_in` of mesh.glsl.
-float meets_at(vec3 a, vec3 b, vec3 c, vec3 d) {
+float meets_at(vec3 a, vec3 b, vec3 c, vec3 d, bool one_sided) {
     vec3 edges = vec3(dot3(d, cross3(b + c, c - b)), dot3(d, cross3(c + a, a - c)), dot3(d, cross3(a + b, b - a)));
-    bool front = edges.x >= 0.0 && edges.y >= 0.0 && edges.z >= 0.0;
-    bool back = edges.x <= 0.0 && edges.y <= 0.0 && edges.z <= 0.0;
+    bool back = edges.x >= 0.0 && edges.y >= 0.0 && edges.z >= 0.0;
+    bool front = edges.x <= 0.0 && edges.y <= 0.0 && edges.z <= 0.0;
+    if (CULLED_BACKS) back = back && !one_sided;
     float whole = (edges.x + edges.y) + edges.z;
     float t = dot3(edges, vec3(dot3(a, d), dot3(b, d), dot3(c, d))) / (whole * dot3(d, d));
     return (front || back) && whole != 0.0 && t > 0.0 ? t : FAR;
 }
 
 // Adds a triangle to the list, which begins at `list` and has room for so many.
-void add_to_list(const Header header, const CellRays cell, uint at, vec3 a, vec3 b, vec3 c, uint list, uint room, inout Survey survey) {
+void add_to_list(const Header header, const CellRays cell, uint at, vec3 a, vec3 b, vec3 c, bool one_sided, uint list, uint room, inout Survey survey) {
     if (survey.count < room) {
         found[list + survey.count] = at;
         survey.count++;
@@ -82,7 +83,7 @@ void add_to_list(const Header header, const CellRays cell, uint at, vec3 a, vec3
     float farthest = 0.0;
     for (uint k = 0u; k < PROBES; k++) {
         vec3 o = cell.origins[k];
-        survey.met[k] = min(survey.met[k], meets_at(a - o, b - o, c - o, cell.ways[k]));
+        survey.met[k] = min(survey.met[k], meets_at(a - o, b - o, c - o, cell.ways[k], one_sided));
         farthest = max(farthest, survey.met[k]);
     }
     survey.depth = min(survey.depth, farthest);
@@ -120,11 +121,12 @@ void survey_mesh(const Header header, const PixelFrustum frame, uint square, con
             for (uint k = 0u; k < count; k++) {
                 uint at = mesh.corners + 3u * (reference + k);
                 Triangle triangle;
-                triangle.a = point_in(mesh_texel(at));
+                uvec4 first = mesh_texel(at);
+                triangle.a = point_in(first);
                 triangle.b = point_in(mesh_texel(at + 1u));
                 triangle.c = point_in(mesh_texel(at + 2u));
                 if (may_meet(header, frame, square, triangle)) {
-                    add_to_list(header, cell, at, triangle.a, triangle.b, triangle.c, list, room, survey);
+                    add_to_list(header, cell, at, triangle.a, triangle.b, triangle.c, first.w != 0u, list, room, survey);
                 }
             }
         }

@@ -39,7 +39,7 @@ real distance_to(const Plane plane, const Ray ray, bool from_eye, real most, boo
 
 Surface surface_of(const Plane plane, real3 point, real2 uv) {
     return Surface(point, plane.normal, plane.normal, uv, vec3(plane.axis_u), vec3(plane.axis_v), FLAT,
-                   0.0, false, links_of(plane), point, largest_part(point));
+                   0.0, false, links_of(plane), point, largest_part(point), NO_ATTRIBUTES);
 }
 
 #endif

@@ -67,7 +67,7 @@ Surface hit_surface(const Ray moving, const Hit hit) {
     COUNT_SHAPES
     real3 point = ORIGIN_IS_EYE ? hit.t * ray.direction : ray.origin + hit.t * ray.direction;
     const real3 up = real3(0.0, 0.0, 1.0);
-    Surface surface = Surface(point, up, up, real2(0.0), vec3(0.0), vec3(0.0), FLAT, 0.0, false, uvec2(0u), point, 0.0);
+    Surface surface = Surface(point, up, up, real2(0.0), vec3(0.0), vec3(0.0), FLAT, 0.0, false, uvec2(0u), point, 0.0, NO_ATTRIBUTES);
 #define SURFACE(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed, is_concave)                                                  \
     if (IS_NEXT(LIST, hit.shape, first, count)) {                                                                  \
         surface = surface_of(at(hit.shape - (first)), point, hit.local);                                     \

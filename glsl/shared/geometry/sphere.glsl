@@ -37,7 +37,7 @@ Surface surface_of(const Sphere sphere, real3 point, real2 uv) {
     float curvature = 1.0 / float(sphere.radius);
     real size = largest_part(sphere.center) + sphere.radius;
     return Surface(on_sphere, normal, normal, real2(0.0), vec3(0.0), vec3(0.0), mat3(curvature), curvature,
-                   false, links_of(sphere), on_sphere, size);
+                   false, links_of(sphere), on_sphere, size, NO_ATTRIBUTES);
 }
 
 #endif

@@ -46,6 +46,18 @@ real3 weights(const Triangle triangle, real3 point) {
     return areas * scale;
 }
 
+// Gradients of the weights: at right angles to the opposite side, 1 over the height.
+void weight_gradients(const Triangle triangle, inout vec3 wa, inout vec3 wb, inout vec3 wc) {
+    real3 n = triangle.normal;
+    real3 ab = triangle.b - triangle.a;
+    real3 bc = triangle.c - triangle.b;
+    real3 ca = triangle.a - triangle.c;
+    real twice_area = dot3(n, cross3(ab, bc));
+    wa = vec3(cross3(n, bc) / twice_area);
+    wb = vec3(cross3(n, ca) / twice_area);
+    wc = vec3(cross3(n, ab) / twice_area);
+}
+
 Surface surface_of(const Triangle triangle, real3 point, real2 vertex_uv) {
     real3 w = weights(triangle, point);
     real2 uv = real2(dot3(w, real3(triangle.u_a, triangle.u_b, triangle.u_c)), dot3(w, triangle.v));
@@ -58,14 +70,7 @@ Surface surface_of(const Triangle triangle, real3 point, real2 vertex_uv) {
     vec3 wb = vec3(0.0);
     vec3 wc = vec3(0.0);
     if (FILTERED || BUMPED) {
-        // Gradients of the weights: at right angles to the opposite side, 1 over the height.
-        real3 ab = triangle.b - triangle.a;
-        real3 bc = triangle.c - triangle.b;
-        real3 ca = triangle.a - triangle.c;
-        real twice_area = dot3(n, cross3(ab, bc));
-        wa = vec3(cross3(n, bc) / twice_area);
-        wb = vec3(cross3(n, ca) / twice_area);
-        wc = vec3(cross3(n, ab) / twice_area);
+        weight_gradients(triangle, wa, wb, wc);
         own_u = wa * float(triangle.u_a) + wb * float(triangle.u_b) + wc * float(triangle.u_c);
         own_v = wa * float(triangle.v.x) + wb * float(triangle.v.y) + wc * float(triangle.v.z);
     }
@@ -84,7 +89,8 @@ Surface surface_of(const Triangle triangle, real3 point, real2 vertex_uv) {
         }
     }
     float curvature = 0.5 * (shape_operator[0][0] + shape_operator[1][1] + shape_operator[2][2]);
-    return Surface(point, n, normal, uv, own_u, own_v, shape_operator, curvature, false, links_of(triangle), point, largest_part(point));
+    return Surface(point, n, normal, uv, own_u, own_v, shape_operator, curvature, false, links_of(triangle), point, largest_part(point),
+                   NO_ATTRIBUTES);
 }
 
 #endif

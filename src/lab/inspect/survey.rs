@@ -8,10 +8,9 @@ use rayon::prelude::*;
 use super::density::Density;
 use crate::oracle::camera::camera_ray;
 use crate::oracle::footprint::camera_differential;
-use crate::oracle::quantities::place_in_tile;
-use crate::oracle::shade::{camera_path, first_hit};
+use crate::oracle::quantities::{first_hit, place_in_tile};
 use crate::pack::{PackedScene, TextureKind};
-use crate::schema::layout::Texture;
+use crate::schema::layout::{NO_SHAPE, Texture};
 use crate::texture::sampler_spec::{Address, MipMode};
 
 /// Pixels that are looked at, at most.
@@ -100,8 +99,7 @@ fn sighting(scene: &PackedScene, [x, y]: [u32; 2]) -> Option<Sighting> {
     let header = &scene.header;
     let place = [x + header.crop.x, y + header.crop.y];
     let ray = camera_ray(header, place, DVec2::splat(0.5));
-    let path = camera_path(ray, camera_differential(header, &ray), [0; 2]);
-    let first = first_hit(scene, &path)?;
+    let first = first_hit(scene, &ray, &camera_differential(header, &ray), NO_SHAPE)?;
     let look_up = first.look_up(scene, &ray)?;
     Some(Sighting {
         texture: look_up.texture as usize,

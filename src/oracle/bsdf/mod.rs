@@ -4,17 +4,23 @@
 pub mod dielectric;
 pub mod facets;
 pub mod lambert;
+pub mod metallic_roughness;
 pub mod mirror;
 pub mod oren_nayar;
 pub mod phong;
+pub mod scattering;
 pub mod specular;
 pub mod unlit;
 
 use glam::DVec3;
 
+use super::appearance::Appearance;
+use crate::pack::PackedScene;
 use crate::scene::model::Model;
+use crate::schema::enums::AlphaMode;
 use crate::schema::layout::Material;
 use lambert::lambert_lobes;
+use metallic_roughness::{MetallicRoughness, facet_lobes, metallic_roughness};
 use mirror::mirrored;
 use oren_nayar::{oren_nayar_lobes, scattered_albedo};
 use phong::{phong_lobes, with_highlight};
@@ -32,14 +38,17 @@ pub struct Bsdf<'a> {
     pub direction: DVec3,
     /// Its mirror reflection.
     pub mirror: DVec3,
+    /// Of model `metallic-roughness`.
+    pub facets: Option<MetallicRoughness>,
 }
 
-/// Irradiance over π from all lights, weighted by two lobes: the one that the albedo colours, and that of a colour of
-/// its own.
+/// Irradiance over π from all lights, weighted by the lobes: the one that the albedo colours, and those of colours of
+/// their own.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Lit {
     pub first: DVec3,
     pub second: DVec3,
+    pub third: DVec3,
 }
 
 /// Returns whether a material sends rays on, and nothing else.
@@ -52,28 +61,64 @@ pub fn is_lit(model: Model) -> bool {
     model.is_lit()
 }
 
+/// Returns whether a model beside the light of lights reflects rays.
+pub fn is_glossy(model: Model) -> bool {
+    model.is_glossy()
+}
+
+/// Returns whether the second lobe of a model is diffuse, as the first one.
+pub fn is_both_diffuse(model: Model) -> bool {
+    model == Model::OrenNayar
+}
+
+/// Returns whether no light passes a material or comes from it that its model does not know of.
+pub fn is_plain(material: &Material) -> bool {
+    let opaque = material.alpha_mode == AlphaMode::Opaque && !material.one_sided;
+    opaque && material.emission == glam::Vec3::ZERO
+}
+
 /// Returns the radiance that a material emits by itself, where its colour times what the path carries is `color`.
 pub fn emitted(model: Model, color: DVec3) -> DVec3 {
     if model == Model::Unlit { unlit_emitted(color) } else { DVec3::ZERO }
 }
 
-pub fn bsdf_at(material: &Material, albedo: DVec3, normal: DVec3, direction: DVec3) -> Bsdf<'_> {
-    Bsdf { material, albedo, normal, direction, mirror: mirrored(direction, normal) }
+pub fn bsdf_at<'a>(
+    scene: &PackedScene,
+    material: &'a Material,
+    look: &Appearance,
+    normal: DVec3,
+    direction: DVec3,
+) -> Bsdf<'a> {
+    let cosine = -normal.dot(direction) / direction.length();
+    let facets = is_glossy(material.model).then(|| {
+        let dielectric = material.specular.as_dvec3();
+        metallic_roughness(scene, look.color, look.metallic, look.roughness, dielectric, cosine)
+    });
+    Bsdf { material, albedo: look.color, normal, direction, mirror: mirrored(direction, normal), facets }
 }
 
-/// Returns the two lobes over 1/π, for light from `way`, which need not be a unit vector.
-pub fn evaluate(bsdf: &Bsdf<'_>, way: DVec3) -> [f64; 2] {
-    match bsdf.material.model {
+/// Returns the lobes over 1/π, for light from `way`, which need not be a unit vector.
+pub fn evaluate(bsdf: &Bsdf<'_>, way: DVec3) -> DVec3 {
+    if let Some(facets) = &bsdf.facets {
+        let lobes = facet_lobes(bsdf.normal, bsdf.direction, way, facets.alpha);
+        return DVec3::new(1.0, lobes.x, lobes.y);
+    }
+    let [first, second] = match bsdf.material.model {
         Model::Phong => phong_lobes(bsdf.mirror, way, bsdf.material.exponent.into()),
         Model::OrenNayar => {
             oren_nayar_lobes(bsdf.normal, bsdf.direction, way, f64::from(bsdf.material.alpha).sqrt())
         }
         _ => lambert_lobes(),
-    }
+    };
+    DVec3::new(first, second, 0.0)
 }
 
 /// Returns the radiance that a lit material reflects to the eye; `color` is the albedo times what the path carries.
 pub fn reflected(bsdf: &Bsdf<'_>, color: DVec3, carried: DVec3, lit: Lit) -> DVec3 {
+    if let Some(facets) = &bsdf.facets {
+        let mirrored = facets.head_on * lit.second + facets.grazing * lit.third;
+        return carried * (facets.diffuse * lit.first + mirrored);
+    }
     let seen = color * lit.first;
     match bsdf.material.model {
         Model::Phong => with_highlight(seen, carried, bsdf.material.specular.as_dvec3(), lit.second),
@@ -89,6 +134,7 @@ pub fn reflected(bsdf: &Bsdf<'_>, color: DVec3, carried: DVec3, lit: Lit) -> DVe
 /// shape whose shading normals differ from place to place.
 pub fn is_integrable_over_region(material: &Material, smooth_normals: bool) -> bool {
     match material.model {
+        _ if !is_plain(material) => false,
         Model::Unlit => true,
         Model::Lambert => !smooth_normals,
         Model::Mirror => !smooth_normals && material.alpha <= 0.0,

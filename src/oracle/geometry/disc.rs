@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 use glam::{DVec2, DVec3, DVec4};
 
 use super::hit::{FAR, Hit, Surface, surface};
-use super::kinds::{Form, Round, Shape};
+use super::kinds::{Form, Round, Search, Shape};
 use super::plane::{distance_to_plane, own_place};
 use super::sphere::Circle;
 use crate::oracle::camera::Ray;
@@ -94,7 +94,7 @@ impl Shape for Disc {
         [self.material, self.uv_projection]
     }
 
-    fn distance_to(&self, _: &PackedScene, ray: &Ray, _: f64, _: bool) -> (f64, DVec2) {
+    fn distance_to(&self, _: &PackedScene, ray: &Ray, _: f64, _: Search) -> (f64, DVec2) {
         let (t, p) = distance_to_plane(self.normal, self.distance, ray);
         let own = p - self.center;
         let local = DVec2::new(self.axis_u.dot(own), self.axis_v.dot(own));
@@ -127,7 +127,7 @@ impl Shape for Disc {
     }
 
     fn complete(&self, scene: &PackedScene, ray: &Ray, hit: &mut Hit) {
-        hit.local = self.distance_to(scene, ray, FAR, false).1;
+        hit.local = self.distance_to(scene, ray, FAR, Search::Nearest).1;
     }
 
     fn tangent_plane(&self, _: &Cone, _: f64) -> DVec4 {

@@ -1,7 +1,7 @@
 //! The hit of a ray, the surface interaction that shading and mapping use, and shapes that move. Twin of
 //! `glsl/shared/geometry/hit.glsl`.
 
-use glam::{DMat3, DVec2, DVec3};
+use glam::{DMat3, DVec2, DVec3, DVec4};
 
 use crate::oracle::camera::Ray;
 use crate::pack::PackedScene;
@@ -29,6 +29,29 @@ pub fn at_rest(scene: &PackedScene, ray: &Ray, shape: u32) -> Ray {
     Ray { origin: ray.origin - moved_by(scene, ray, shape), ..*ray }
 }
 
+/// What the vertices of a mesh have beside normals and texture coordinates, interpolated.
+#[derive(Clone, Copy, Debug)]
+pub struct VertexAttributes {
+    /// Linear RGB and alpha.
+    pub color: DVec4,
+    pub second_uv: DVec2,
+    /// Along the surface.
+    pub second_gradients: [DVec3; 2],
+    /// With the sign of the bitangent, 0 for none.
+    pub tangent: DVec4,
+}
+
+impl Default for VertexAttributes {
+    fn default() -> VertexAttributes {
+        VertexAttributes {
+            color: DVec4::ONE,
+            second_uv: DVec2::ZERO,
+            second_gradients: [DVec3::ZERO; 2],
+            tangent: DVec4::ZERO,
+        }
+    }
+}
+
 /// Where a ray met a shape, and what it needs to know of it.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Surface {
@@ -52,6 +75,7 @@ pub struct Surface {
     pub at_rest: DVec3,
     /// Largest coordinate from which the point was computed.
     pub size: f64,
+    pub attributes: VertexAttributes,
 }
 
 pub(super) fn surface(point: DVec3, geometric: DVec3, normal: DVec3, [material, map]: [u32; 2]) -> Surface {
@@ -68,5 +92,6 @@ pub(super) fn surface(point: DVec3, geometric: DVec3, normal: DVec3, [material, 
         map,
         at_rest: point,
         size: point.abs().max_element(),
+        attributes: VertexAttributes::default(),
     }
 }

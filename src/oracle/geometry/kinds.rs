@@ -13,14 +13,25 @@ use crate::pack::PackedScene;
 use crate::schema::layout::{Header, Light, UvProjection};
 use crate::schema::shapes::with_shapes;
 
+/// What a ray looks for on a shape of many parts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Search {
+    /// The nearest part that is seen from where the ray comes.
+    Nearest,
+    /// The nearest part, from whichever side: of a shadow ray that surfaces may let pass.
+    NearestOfBothSides,
+    /// Some part, from whichever side: of a shadow ray.
+    Any,
+}
+
 /// A shape, as rays and cones use it.
 pub trait Shape {
     /// Material and map.
     fn links(&self) -> [u32; 2];
 
     /// Distance and own coordinates of where the ray meets it; not above 0 on a miss. A shape of many parts may leave
-    /// out what is not before `most`, and for `any` find another part than the nearest.
-    fn distance_to(&self, scene: &PackedScene, ray: &Ray, most: f64, any: bool) -> (f64, DVec2);
+    /// out what is not before `most`.
+    fn distance_to(&self, scene: &PackedScene, ray: &Ray, most: f64, search: Search) -> (f64, DVec2);
 
     fn surface_of(&self, scene: &PackedScene, point: DVec3, local: DVec2) -> Surface;
 

@@ -4,15 +4,16 @@
 
 use glam::{BVec3, DVec2, DVec3, DVec4, Vec3};
 
-use super::hit::{FAR, Hit, Surface};
-use super::kinds::{Form, Round, Shape};
+use super::hit::{FAR, Hit, Surface, VertexAttributes};
+use super::kinds::{Form, Round, Search, Shape};
+use super::triangle::{weight_gradients, weights};
 use crate::oracle::camera::Ray;
 use crate::oracle::cone::Cone;
 use crate::oracle::coverage::{Covered, Cuts, EVERYTHING, NOTHING};
 use crate::oracle::polygon::{AffineFunction, Polygon};
 use crate::oracle::projective::PixelFrustum;
 use crate::pack::PackedScene;
-use crate::schema::constants::{NO_SHAPE, TREE_STACK, TREE_WIDTH};
+use crate::schema::constants::{MESH_MIRRORED_UV, MESH_SMOOTH, NO_SHAPE, TREE_STACK, TREE_WIDTH};
 use crate::schema::layout::{Header, Light, Mesh, Sphere, Triangle};
 
 /// The exchanges that sort the children of a node are for four.
@@ -78,10 +79,11 @@ fn corners(scene: &PackedScene, at: u32) -> [DVec3; 3] {
     [0, 1, 2].map(|k| point_in(mesh_texel(scene, at + k)))
 }
 
-/// The mean of the corners' distances along a direction, weighted by edge functions of one sign; else -1.
-fn distance_by(edges: DVec3, corners: [DVec3; 3], d: DVec3) -> f64 {
-    let front = edges.cmpge(DVec3::ZERO).all();
-    let back = edges.cmple(DVec3::ZERO).all();
+/// The mean of the corners' distances along a direction, weighted by edge functions of one sign; else -1. `one_sided`: it
+/// is met from the front only.
+fn distance_by(edges: DVec3, corners: [DVec3; 3], d: DVec3, one_sided: bool) -> f64 {
+    let back = edges.cmpge(DVec3::ZERO).all() && !one_sided;
+    let front = edges.cmple(DVec3::ZERO).all();
     if !(front || back) || edges == DVec3::ZERO {
         return -1.0;
     }
@@ -92,15 +94,16 @@ fn distance_by(edges: DVec3, corners: [DVec3; 3], d: DVec3) -> f64 {
 /// Edge functions d·((p + q) × (q - p)), twice the volumes d·(p × q): the two triangles at a shared edge compute the same
 /// value with opposite sign, and the error is a part of the edge's length. They are weights of the corners in the point.
 /// `at`: the texel of its corners.
-fn distance_in(scene: &PackedScene, at: u32, ray: &Ray) -> f64 {
+fn distance_in(scene: &PackedScene, at: u32, ray: &Ray, search: Search) -> f64 {
+    let one_sided = search == Search::Nearest && mesh_texel(scene, at)[3] != 0;
     let [a, b, c] = corners(scene, at).map(|corner| corner - ray.origin);
     let d = ray.direction;
     let edge = |p: DVec3, q: DVec3| d.dot((p + q).cross(q - p));
-    distance_by(DVec3::new(edge(b, c), edge(c, a), edge(a, b)), [a, b, c], d)
+    distance_by(DVec3::new(edge(b, c), edge(c, a), edge(a, b)), [a, b, c], d, one_sided)
 }
 
 /// The nearest triangle before `most`, or for `any` just one; of those at the same t the first in the tree's order.
-fn nearest(scene: &PackedScene, mesh: &Mesh, ray: &Ray, most: f64, any: bool) -> (f64, u32) {
+fn nearest(scene: &PackedScene, mesh: &Mesh, ray: &Ray, most: f64, search: Search) -> (f64, u32) {
     let slabs = slabs_of(ray);
     let (mut best, mut found) = (most, NO_SHAPE);
     // Children that wait, the nearest on top, and where the ray enters them.
@@ -127,12 +130,12 @@ fn nearest(scene: &PackedScene, mesh: &Mesh, ray: &Ray, most: f64, any: bool) ->
             }
         }
         for index in reference..reference + count {
-            let t = distance_in(scene, mesh.corners + 3 * index, ray);
+            let t = distance_in(scene, mesh.corners + 3 * index, ray, search);
             if t > 0.0 && (t < best || t == best && found != NO_SHAPE && index < found) {
                 (best, found) = (t, index);
             }
         }
-        if any && found != NO_SHAPE {
+        if search == Search::Any && found != NO_SHAPE {
             break;
         }
         // Equal distances are entered as well, for the first of equal triangles.
@@ -160,7 +163,7 @@ fn octahedral(word: u32) -> DVec3 {
 fn triangle_in(scene: &PackedScene, mesh: &Mesh, index: u32) -> Triangle {
     let [a, b, c] = corners(scene, mesh.corners + 3 * index);
     let [plane, first, second, normals] =
-        [0, 1, 2, 3].map(|k| mesh_texel(scene, mesh.attributes + 4 * index + k));
+        [0, 1, 2, 3].map(|k| mesh_texel(scene, mesh.attributes + mesh.attribute_count * index + k));
     let [first, second] = [first, second].map(|texel| texel.map(|word| f64::from(f32::from_bits(word))));
     let normal = point_in(plane);
     Triangle {
@@ -178,8 +181,51 @@ fn triangle_in(scene: &PackedScene, mesh: &Mesh, index: u32) -> Triangle {
         normal_c: octahedral(normals[2]),
         material: mesh.material,
         uv_projection: mesh.uv_projection,
-        is_smooth: plane[3] != 0,
+        is_smooth: plane[3] & MESH_SMOOTH != 0,
     }
+}
+
+/// Four components of 16 bits each, from 0 to 1.
+fn color_in(low: u32, high: u32) -> DVec4 {
+    let part = |word: u32| f64::from(word & 0xFFFF) / 65535.0;
+    DVec4::new(part(low), part(low >> 16), part(high), part(high >> 16))
+}
+
+/// What the vertices of a triangle have beside normals and texture coordinates, at a point of it.
+fn attributes_of(
+    scene: &PackedScene,
+    mesh: &Mesh,
+    triangle: &Triangle,
+    index: u32,
+    point: DVec3,
+) -> VertexAttributes {
+    let mut found = VertexAttributes::default();
+    let w = weights(triangle, point);
+    let mut at = mesh.attributes + mesh.attribute_count * index;
+    if mesh.has_tangents {
+        let signs = mesh_texel(scene, at)[3];
+        let (others, last) = (mesh_texel(scene, at + 2), mesh_texel(scene, at + 3)[3]);
+        let sum = w.x * octahedral(others[2]) + w.y * octahedral(others[3]) + w.z * octahedral(last);
+        found.tangent = sum.extend(if signs & MESH_MIRRORED_UV != 0 { -1.0 } else { 1.0 });
+    }
+    at += 4;
+    let two = |at| [mesh_texel(scene, at), mesh_texel(scene, at + 1)];
+    if mesh.has_colors {
+        let [first, second] = two(at);
+        found.color = w.x * color_in(first[0], first[1])
+            + w.y * color_in(first[2], first[3])
+            + w.z * color_in(second[0], second[1]);
+        at += 2;
+    }
+    if mesh.has_second_uv {
+        let [first, second] = two(at).map(|texel| texel.map(|word| f64::from(f32::from_bits(word))));
+        let u = DVec3::new(first[0], first[1], first[2]);
+        let v = DVec3::new(first[3], second[0], second[1]);
+        found.second_uv = DVec2::new(w.dot(u), w.dot(v));
+        let [wa, wb, wc] = weight_gradients(triangle);
+        found.second_gradients = [u, v].map(|value| wa * value.x + wb * value.y + wc * value.z);
+    }
+    found
 }
 
 impl Shape for Mesh {
@@ -188,13 +234,16 @@ impl Shape for Mesh {
     }
 
     /// Its triangle's number is the local coordinate.
-    fn distance_to(&self, scene: &PackedScene, ray: &Ray, most: f64, any: bool) -> (f64, DVec2) {
-        let (t, found) = nearest(scene, self, ray, most, any);
+    fn distance_to(&self, scene: &PackedScene, ray: &Ray, most: f64, search: Search) -> (f64, DVec2) {
+        let (t, found) = nearest(scene, self, ray, most, search);
         (t, DVec2::new(f64::from(found), 0.0))
     }
 
     fn surface_of(&self, scene: &PackedScene, point: DVec3, local: DVec2) -> Surface {
-        triangle_in(scene, self, local.x as u32).surface_of(scene, point, local)
+        let index = local.x as u32;
+        let triangle = triangle_in(scene, self, index);
+        let surface = triangle.surface_of(scene, point, local);
+        Surface { attributes: attributes_of(scene, self, &triangle, index, point), ..surface }
     }
 
     /// No line stands for a mesh.
@@ -203,7 +252,7 @@ impl Shape for Mesh {
     }
 
     fn complete(&self, scene: &PackedScene, ray: &Ray, hit: &mut Hit) {
-        (hit.t, hit.local) = self.distance_to(scene, ray, FAR, false);
+        (hit.t, hit.local) = self.distance_to(scene, ray, FAR, Search::Nearest);
     }
 
     /// The plane at t that faces the cone.
@@ -232,7 +281,7 @@ impl Shape for Mesh {
 
 impl Round for Mesh {
     fn covered_by(&self, scene: &PackedScene, cone: &Cone) -> Covered {
-        let is_met = self.distance_to(scene, &cone.ray, FAR, true).0 > 0.0;
+        let is_met = self.distance_to(scene, &cone.ray, FAR, Search::Any).0 > 0.0;
         if is_met { EVERYTHING } else { NOTHING }
     }
 

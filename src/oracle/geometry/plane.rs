@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3, DVec4};
 
 use super::hit::{FAR, Hit, Surface, surface};
-use super::kinds::{Form, Polygonal, Shape};
+use super::kinds::{Form, Polygonal, Search, Shape};
 use crate::oracle::camera::Ray;
 use crate::oracle::cone::{Cone, FlatDepth, flat_in};
 use crate::oracle::coverage::Cuts;
@@ -42,7 +42,7 @@ impl Shape for Plane {
         [self.material, self.uv_projection]
     }
 
-    fn distance_to(&self, _: &PackedScene, ray: &Ray, _: f64, _: bool) -> (f64, DVec2) {
+    fn distance_to(&self, _: &PackedScene, ray: &Ray, _: f64, _: Search) -> (f64, DVec2) {
         let (t, p) = distance_to_plane(self.normal, self.distance, ray);
         let local = DVec2::new(self.axis_u.dot(p), self.axis_v.dot(p));
         if let Some(extent) = self.bounds() {
@@ -72,7 +72,7 @@ impl Shape for Plane {
     }
 
     fn complete(&self, scene: &PackedScene, ray: &Ray, hit: &mut Hit) {
-        hit.local = self.distance_to(scene, ray, FAR, false).1;
+        hit.local = self.distance_to(scene, ray, FAR, Search::Nearest).1;
     }
 
     fn tangent_plane(&self, _: &Cone, _: f64) -> DVec4 {

@@ -6,7 +6,7 @@ use glam::{DVec2, DVec3};
 
 use super::hit::Surface;
 pub use super::hit::{FAR, Hit, at_rest, moved_by};
-use super::kinds::{Shape as _, each_list, shape_of};
+use super::kinds::{Search, Shape as _, each_list, shape_of};
 use crate::oracle::camera::Ray;
 use crate::pack::PackedScene;
 use crate::schema::layout::NO_SHAPE;
@@ -14,9 +14,18 @@ use crate::schema::shapes::with_shapes;
 
 /// The hit with the least t above 0; of hits at the same t the lowest shape.
 pub fn nearest_hit(scene: &PackedScene, ray: &Ray, skip: u32) -> Hit {
+    nearest_of(scene, ray, skip, Search::Nearest)
+}
+
+/// As `nearest_hit`, of shapes from whichever side.
+pub fn nearest_of_both_sides(scene: &PackedScene, ray: &Ray, skip: u32) -> Hit {
+    nearest_of(scene, ray, skip, Search::NearestOfBothSides)
+}
+
+fn nearest_of(scene: &PackedScene, ray: &Ray, skip: u32, search: Search) -> Hit {
     let mut hit = Hit { t: FAR, shape: NO_SHAPE, local: DVec2::ZERO };
     with_shapes!(each_list, scene, |first, list| for (shape, record) in (first..).zip(list) {
-        let (t, local) = record.distance_to(scene, &at_rest(scene, ray, shape), hit.t, false);
+        let (t, local) = record.distance_to(scene, &at_rest(scene, ray, shape), hit.t, search);
         if t > 0.0 && t < hit.t && !(shape == skip && record.plane_of().is_some()) {
             hit = Hit { t, shape, local };
         }
@@ -27,7 +36,7 @@ pub fn nearest_hit(scene: &PackedScene, ray: &Ray, skip: u32) -> Hit {
 /// True when a shape lies at 0 < t < t_max, whichever is found first.
 pub fn occluded(scene: &PackedScene, ray: &Ray, t_max: f64, skip: u32) -> bool {
     with_shapes!(each_list, scene, |first, list| for (shape, record) in (first..).zip(list) {
-        let (t, _) = record.distance_to(scene, &at_rest(scene, ray, shape), t_max, true);
+        let (t, _) = record.distance_to(scene, &at_rest(scene, ray, shape), t_max, Search::Any);
         if t > 0.0 && t < t_max && !(shape == skip && record.plane_of().is_some()) {
             return true;
         }

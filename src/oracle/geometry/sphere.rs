@@ -4,7 +4,7 @@
 use glam::{DMat3, DVec2, DVec3, DVec4};
 
 use super::hit::{Hit, Surface, surface};
-use super::kinds::{Form, Round, Shape};
+use super::kinds::{Form, Round, Search, Shape};
 use crate::oracle::camera::Ray;
 use crate::oracle::cone::Cone;
 use crate::oracle::coverage::{Covered, Cuts, ball_overlap, circle_line};
@@ -65,7 +65,7 @@ impl Shape for Sphere {
         [self.material, self.uv_projection]
     }
 
-    fn distance_to(&self, _: &PackedScene, ray: &Ray, _: f64, _: bool) -> (f64, DVec2) {
+    fn distance_to(&self, _: &PackedScene, ray: &Ray, _: f64, _: Search) -> (f64, DVec2) {
         (sphere_distance(self, ray), DVec2::ZERO)
     }
 

@@ -4,7 +4,7 @@
 use glam::{DMat3, DVec2, DVec3, DVec4};
 
 use super::hit::{Hit, Surface, surface};
-use super::kinds::{Form, Polygonal, Shape};
+use super::kinds::{Form, Polygonal, Search, Shape};
 use crate::oracle::camera::Ray;
 use crate::oracle::cone::Cone;
 use crate::oracle::coverage::Cuts;
@@ -29,7 +29,7 @@ pub fn triangle_distance(triangle: &Triangle, ray: &Ray) -> f64 {
 }
 
 /// Barycentric weights of a point of the triangle, from the vectors to its corners.
-fn weights(triangle: &Triangle, point: DVec3) -> DVec3 {
+pub(super) fn weights(triangle: &Triangle, point: DVec3) -> DVec3 {
     let [a, b, c] = [triangle.a, triangle.b, triangle.c].map(|v| v - point);
     let n = triangle.normal;
     let areas = DVec3::new(n.dot(b.cross(c)), n.dot(c.cross(a)), n.dot(a.cross(b)));
@@ -58,12 +58,20 @@ fn edge_forms(frame: &PixelFrustum, triangle: &Triangle) -> [AffineFunction; 3] 
     [side * form(frame, b.cross(c)), side * form(frame, c.cross(a)), side * form(frame, a.cross(b))]
 }
 
+/// Gradients of the weights: at right angles to the opposite side, 1 over the height.
+pub(super) fn weight_gradients(triangle: &Triangle) -> [DVec3; 3] {
+    let [a, b, c] = [triangle.a, triangle.b, triangle.c];
+    let n = triangle.normal.normalize();
+    let twice_area = n.dot((b - a).cross(c - b));
+    [c - b, a - c, b - a].map(|side| n.cross(side) / twice_area)
+}
+
 impl Shape for Triangle {
     fn links(&self) -> [u32; 2] {
         [self.material, self.uv_projection]
     }
 
-    fn distance_to(&self, _: &PackedScene, ray: &Ray, _: f64, _: bool) -> (f64, DVec2) {
+    fn distance_to(&self, _: &PackedScene, ray: &Ray, _: f64, _: Search) -> (f64, DVec2) {
         (triangle_distance(self, ray), DVec2::ZERO)
     }
 
@@ -72,10 +80,7 @@ impl Shape for Triangle {
         let u = DVec3::new(self.u_a, self.u_b, self.u_c);
         let v = self.v;
         let n = self.normal.normalize();
-        let [a, b, c] = [self.a, self.b, self.c];
-        // Gradients of the weights: at right angles to the opposite side, 1 over the height.
-        let twice_area = n.dot((b - a).cross(c - b));
-        let [wa, wb, wc] = [c - b, a - c, b - a].map(|side| n.cross(side) / twice_area);
+        let [wa, wb, wc] = weight_gradients(self);
         let gradient = |value: DVec3| wa * value.x + wb * value.y + wc * value.z;
         let mut result = surface(point, n, n, self.links());
         result.own_uv = DVec2::new(w.dot(u), w.dot(v));

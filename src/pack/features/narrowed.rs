@@ -1,10 +1,12 @@
 //! The value of each specialization constant that is narrowed to a packed scene: a bit mask of the modes that occur, a
 //! count that is known when the pipeline is built or `DYNAMIC`, or whether code is kept.
 
+use glam::Vec3;
+
 use super::needs::*;
 use crate::pack::PackedScene;
 use crate::schema::constants::{MAX_PLAIN, NO_MATERIAL, NO_TEXTURE};
-use crate::schema::enums::Schedule;
+use crate::schema::enums::{LightKind, Schedule};
 use crate::schema::specialization::Constant;
 use crate::texture::data::Component;
 
@@ -20,6 +22,7 @@ pub fn narrowed(constant: Constant, s: &PackedScene) -> Option<u32> {
         C::SmoothNormals => u32::from(s.has_smooth_normals()),
         C::Models => bits(s.records.materials.iter().map(|m| m.model as u32)),
         C::LightKinds => bits(s.records.lights.iter().map(|l| l.kind as u32)),
+        C::Ranged => u32::from(s.records.lights.iter().any(|l| l.kind == LightKind::Spot)),
         C::Shadows => u32::from(casts_shadows(s)),
         C::Bounces => u32::from(bounces(s)),
         C::Environment => u32::from(s.header.environment_material != NO_MATERIAL),
@@ -32,6 +35,14 @@ pub fn narrowed(constant: Constant, s: &PackedScene) -> Option<u32> {
         C::Untextured => u32::from(s.records.materials.iter().any(|m| m.texture_index == NO_TEXTURE)),
         C::Bumped => u32::from(s.records.materials.iter().any(|m| m.bump_texture_index != NO_TEXTURE)),
         C::BumpKinds => bump_kinds(s),
+        C::MaterialMaps => material_maps(s),
+        C::AlphaModes => bits(s.records.materials.iter().map(|m| m.alpha_mode as u32)),
+        C::Emissive => u32::from(s.records.materials.iter().any(|m| m.emission != Vec3::ZERO)),
+        C::OneSided => u32::from(s.has_one_sided_shapes()),
+        C::CulledBacks => u32::from(s.culls_backs()),
+        C::VertexColors => u32::from(s.records.meshes.iter().any(|m| m.has_colors)),
+        C::SecondUv => u32::from(s.records.materials.iter().any(|m| m.second_uv_maps != 0)),
+        C::Tangents => u32::from(s.records.meshes.iter().any(|m| m.has_tangents)),
         C::Methods => bits(s.records.samplers.iter().map(|x| x.method as u32)),
         C::AddressesU => bits(s.records.samplers.iter().map(|x| x.address_u as u32)),
         C::AddressesV => bits(s.records.samplers.iter().map(|x| x.address_v as u32)),

@@ -5,7 +5,7 @@ use super::UNROLL;
 use crate::pack::{PackedScene, Schedule, TextureKind};
 use crate::scene::model::{Model, PixelFilterKind};
 use crate::schema::constants::{DYNAMIC, MAX_CONE_FRAGMENTS};
-use crate::schema::enums::{Quantity, TextureSize};
+use crate::schema::enums::{AlphaMode, MaterialMap, Quantity, TextureSize};
 use crate::schema::layout::{self, NO_TEXTURE};
 use crate::texture::sampler_spec::Filter;
 
@@ -75,15 +75,39 @@ pub fn filters_procedurals(scene: &PackedScene) -> bool {
     !scene.records.procedurals.is_empty() && scene.prefilters()
 }
 
-/// Returns true if there are mirrors or glass whose rays may continue.
+/// Returns true if rays may continue: by mirrors or glass, by surfaces that reflect what is around them, or through those
+/// that let them pass.
 pub fn bounces(scene: &PackedScene) -> bool {
-    scene.header.max_depth > 0 && has_model(scene, Model::is_specular)
+    let goes_on = has_model(scene, |model| model.is_specular() || model.is_glossy())
+        || scene.header.environment_rows > 0;
+    scene.header.max_depth > 0 && goes_on || lets_rays_pass(scene)
+}
+
+/// Returns true if some material lets rays pass.
+pub fn lets_rays_pass(scene: &PackedScene) -> bool {
+    scene.has_one_sided_shapes() || scene.records.materials.iter().any(|m| m.alpha_mode != AlphaMode::Opaque)
+}
+
+/// Returns the maps that materials have beside those of colour and relief.
+pub fn material_maps(scene: &PackedScene) -> u32 {
+    let of = |map: MaterialMap, has: fn(&layout::Material) -> bool| {
+        if scene.records.materials.iter().any(has) { bit(map as u32) } else { 0 }
+    };
+    of(MaterialMap::Roughness, |m| m.roughness_texture_index != NO_TEXTURE)
+        | of(MaterialMap::Emission, |m| m.emission_texture_index != NO_TEXTURE)
+        | of(MaterialMap::Occlusion, |m| m.occlusion_texture_index != NO_TEXTURE)
+        | of(MaterialMap::Mask, |m| m.alpha_mode == AlphaMode::Mask && m.texture_index != NO_TEXTURE)
 }
 
 /// Returns true if some look-ups select texels at random.
 pub fn chooses(scene: &PackedScene) -> bool {
     let mask = filters(scene);
-    Filter::ALL.iter().any(|&f| f.traits().is_random && mask & bit(f as u32) != 0)
+    // Some rays pass by chance.
+    let blends = scene.records.materials.iter().any(|m| m.alpha_mode == AlphaMode::Blend);
+    let continues =
+        blends && scene.header.max_depth > 0 && has_model(scene, |m| m.is_specular() || m.is_glossy());
+    let by_chance = continues || blends && scene.header.environment_rows > 0;
+    by_chance || Filter::ALL.iter().any(|&f| f.traits().is_random && mask & bit(f as u32) != 0)
 }
 
 pub fn filters(scene: &PackedScene) -> u32 {

@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use glam::{DVec3, Vec3};
+use glam::{DVec3, Vec3, Vec4};
 
 use super::triangle::{corner_uvs, triangle_errors};
 use super::{Rounded, add_map, cross, reach};
@@ -11,8 +11,8 @@ use crate::core::error::{Error, ErrorKind, Result};
 use crate::pack::mapping::{self, Place};
 use crate::pack::precision::{Camera, PART_OF_PIXEL, U};
 use crate::pack::{MapKind, PackedScene};
-use crate::scene::model::{Mapping, MappingKind, Mesh, Scene, Shape};
-use crate::schema::constants::TREE_WIDTH;
+use crate::scene::model::{Mapping, MappingKind, Mesh, Scene, Shape, Sides};
+use crate::schema::constants::{MESH_MIRRORED_UV, MESH_SMOOTH, TREE_WIDTH};
 use crate::schema::layout;
 use crate::tree;
 
@@ -30,10 +30,12 @@ pub(super) fn pack(packed: &mut PackedScene, scene: &Scene, mesh: &Mesh, eye: DV
         _ => mapping::projecting_map(mapping, sampler, eye, &place, flat),
     });
     let count = mesh.triangle_count();
-    let (mut boxes, mut corners, mut attributes) =
-        (Vec::with_capacity(count), Vec::with_capacity(count), Vec::with_capacity(count));
+    let (mut boxes, mut corners) = (Vec::with_capacity(count), Vec::with_capacity(count));
     let mut is_smooth = false;
-    mesh.for_each(1, |triangle| {
+    let one_sided = u32::from(material.sides == Sides::Front);
+    let kinds = mesh.attribute_kinds();
+    let mut attributes: Vec<[u32; 4]> = Vec::with_capacity(4 * count);
+    mesh.for_each_with_attributes(|triangle, others| {
         let seen = triangle.vertices.map(|v| v - eye);
         let normal = cross(seen[1] - seen[0], seen[2] - seen[0]).normalize();
         let [a, b, c] = seen.map(|v| v.as_vec3());
@@ -43,23 +45,39 @@ pub(super) fn pack(packed: &mut PackedScene, scene: &Scene, mesh: &Mesh, eye: DV
         let bits = |numbers: [f32; 4]| numbers.map(f32::to_bits);
         boxes.push([a.min(b).min(c), a.max(b).max(c)]);
         corners.push([a, b, c]);
-        attributes.push([
-            texel(normal.as_vec3(), u32::from(triangle.normals.is_some())),
+        let smooth = if triangle.normals.is_some() { MESH_SMOOTH } else { 0 };
+        let mirrored = if others.tangents[0].w < 0.0 { MESH_MIRRORED_UV } else { 0 };
+        // A corner without a direction gets any: look-ups there are of no extent.
+        let tangents = others.tangents.map(|t| octahedral(t.truncate().normalize_or(DVec3::X)));
+        let [v_b, v_c] = [uv_b.y, uv_c.y].map(f32::to_bits);
+        attributes.extend([
+            texel(normal.as_vec3(), smooth | mirrored),
             bits([uv_a.x, uv_b.x, uv_c.x, uv_a.y]),
-            bits([uv_b.y, uv_c.y, 0.0, 0.0]),
-            [shading[0], shading[1], shading[2], 0],
+            [v_b, v_c, tangents[0], tangents[1]],
+            [shading[0], shading[1], shading[2], tangents[2]],
         ]);
+        if kinds.colors {
+            let [a, b, c] = others.colors.map(packed_color);
+            attributes.extend([[a[0], a[1], b[0], b[1]], [c[0], c[1], 0, 0]]);
+        }
+        if kinds.second_uvs {
+            let [a, b, c] = others.second_uvs.map(|uv| uv.as_vec2());
+            attributes.extend([bits([a.x, b.x, c.x, a.y]), bits([b.y, c.y, 0.0, 0.0])]);
+        }
     });
+    let attribute_count = attributes.len() / count.max(1);
     let tree = tree::build(&boxes, TREE_WIDTH as usize);
     let texels = Arc::make_mut(&mut packed.mesh_texels);
     let nodes = texels.len();
-    texels.reserve(2 * tree.children.len() + 7 * count);
+    texels.reserve(2 * tree.children.len() + (3 + attribute_count) * count);
     texels.extend_from_slice(bytemuck::cast_slice(&tree.children));
     let first_corner = texels.len();
     let ordered = || tree.order.iter().map(|&index| index as usize);
-    texels.extend(ordered().flat_map(|index| corners[index]).map(|corner| texel(corner, 0)));
+    texels.extend(ordered().flat_map(|index| corners[index]).map(|corner| texel(corner, one_sided)));
     let first_attribute = texels.len();
-    texels.extend(ordered().flat_map(|index| attributes[index]));
+    for index in ordered() {
+        texels.extend_from_slice(&attributes[index * attribute_count..][..attribute_count]);
+    }
     if texels.len() > MAX_TEXELS {
         let what = format!("meshes take {} MiB; they may take 2048 MiB at most", texels.len() >> 16);
         return Err(Error::with_help(what, "use meshes of fewer triangles").of_kind(ErrorKind::Scene));
@@ -74,8 +92,18 @@ pub(super) fn pack(packed: &mut PackedScene, scene: &Scene, mesh: &Mesh, eye: DV
         nodes: nodes as u32,
         corners: first_corner as u32,
         attributes: first_attribute as u32,
+        attribute_count: attribute_count as u32,
+        has_colors: kinds.colors,
+        has_second_uv: kinds.second_uvs,
+        has_tangents: kinds.tangents,
         is_smooth,
     })
+}
+
+/// Linear colour and alpha in four components of 16 bits; brighter than 1 is none.
+fn packed_color(color: Vec4) -> [u32; 2] {
+    let [r, g, b, a] = color.clamp(Vec4::ZERO, Vec4::ONE).to_array().map(|x| (x * 65535.0).round() as u32);
+    [r | g << 16, b | a << 16]
 }
 
 fn texel(point: Vec3, word: u32) -> [u32; 4] {

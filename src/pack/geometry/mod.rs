@@ -69,6 +69,18 @@ macro_rules! kinds {
                 records.triangles.iter().any(|t| t.is_smooth) || records.meshes.iter().any(|m| m.is_smooth)
             }
 
+            /// Returns true if some mesh is met from the front only.
+            pub fn culls_backs(&self) -> bool {
+                self.records.meshes.iter().any(|mesh| self.is_one_sided(mesh.material))
+            }
+
+            /// Returns true if some shape of another kind is seen from the front only.
+            pub fn has_one_sided_shapes(&self) -> bool {
+                let one_sided = |material: u32| self.is_one_sided(material);
+                false$(|| !has(&[$(stringify!($property)),*], "concave")
+                    && self.records.$list.iter().any(|shape| one_sided(shape.material)))+
+            }
+
             /// Returns true if a ray that leaves some shape outwards may meet it again.
             pub fn has_concave_shapes(&self) -> bool {
                 self.shapes_that(|properties| has(properties, "concave")) > 0
@@ -83,6 +95,12 @@ macro_rules! kinds {
     };
 }
 with_shapes!(kinds);
+
+impl PackedScene {
+    fn is_one_sided(&self, material: u32) -> bool {
+        self.records.materials.get(material as usize).is_some_and(|material| material.one_sided)
+    }
+}
 
 fn has(properties: &[&str], property: &str) -> bool {
     properties.contains(&property)
@@ -111,7 +129,7 @@ fn add_map(
     make: impl Fn(&Mapping, &SamplerSpec, bool) -> layout::UvProjection,
 ) -> u32 {
     let material = &scene.materials[material];
-    let Some(texture) = material.texture.or(material.bump.map(|r| r.texture)) else { return 0 };
+    let Some(texture) = material.textures().next().map(|used| used.texture) else { return 0 };
     let kind = packed.records.textures[texture].kind;
     let flat = matches!(kind, TextureKind::Flat | TextureKind::Procedural);
     packed.records.uv_projections.push(make(&material.mapping, &scene.sampler_of(material), flat));

@@ -1,6 +1,6 @@
 //! Checks of lights: none is degenerate.
 
-use super::super::limits::{CAP, COLOR, COORDINATE, NOT_NEGATIVE, parallel};
+use super::super::limits::{CAP, COLOR, COORDINATE, LENGTH, NOT_NEGATIVE, parallel};
 use super::super::model::Light;
 use super::super::refusal::{Check, Key};
 
@@ -17,6 +17,20 @@ pub fn light(key: Key, light: &Light) -> Check {
             intensity.vector(power, &COLOR)?;
             key.of("radius").number(radius, &NOT_NEGATIVE)
         }
+        Light::Spot { position: place, direction: axis, intensity: power, inner, outer, range } => {
+            position.vector(place, &COORDINATE)?;
+            direction.direction(axis)?;
+            intensity.vector(power, &COLOR)?;
+            key.of("outer").number(outer, &CAP)?;
+            key.of("inner").number(inner, &CAP)?;
+            if inner > outer {
+                return key
+                    .of("inner")
+                    .refuse("inner is above outer; it is the smaller angle", "above outer");
+            }
+            if range == f64::INFINITY { Ok(()) } else { key.of("range").number(range, &LENGTH) }
+        }
+        Light::Environment => Ok(()),
         Light::Directional { direction: towards, irradiance: power } => {
             direction.direction(towards)?;
             irradiance.vector(power, &COLOR)

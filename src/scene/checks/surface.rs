@@ -1,7 +1,9 @@
 //! Checks of samplers, materials with their mappings, and the background, and whether their textures match.
 
 use super::super::bsdf::check_model_keys;
-use super::super::limits::{ANISOTROPY, COLOR, COORDINATE, SCALE, check_mag, check_method};
+use super::super::limits::{
+    ANISOTROPY, COLOR, COORDINATE, NOT_NEGATIVE, SCALE, UNIT, check_mag, check_method,
+};
 use super::super::model::{
     Background, EnvironmentLayout, Mapping, MappingKind, Material, Space, TextureSource,
 };
@@ -19,6 +21,10 @@ pub fn sampler(key: Key, spec: &SamplerSpec) -> Check {
 
 pub fn material(key: Key, material: &Material, textures: &[TextureSource], samplers: usize) -> Check {
     key.of("color").vector(material.color, &COLOR)?;
+    key.of("emission").vector(material.emission, &COLOR)?;
+    key.of("alpha_cutoff").number(material.alpha_cutoff, &NOT_NEGATIVE)?;
+    key.of("opacity").number(material.opacity, &UNIT)?;
+    key.of("occlusion_strength").number(material.occlusion_strength, &UNIT)?;
     check_model_keys(key, material)?;
     if material.is_mapped() {
         key.of("sampler").index(material.sampler, samplers, "sampler")?;
@@ -32,20 +38,35 @@ pub fn material(key: Key, material: &Material, textures: &[TextureSource], sampl
             fits(key, &material.mapping, source.dimension)?;
         }
     }
+    for (name, map) in [
+        ("metallic_roughness_map", material.metallic_roughness_map),
+        ("emission_map", material.emission_map),
+        ("occlusion_map", material.occlusion_map),
+    ] {
+        let Some(map) = map else { continue };
+        let key = key.of(name);
+        key.index(map.texture, textures.len(), "texture")?;
+        key.index(map.sampler, samplers, "sampler")?;
+        fits_map(key, &material.mapping, &textures[map.texture])?;
+    }
     let Some(bump) = material.bump else { return Ok(()) };
     key.of("strength").number(bump.strength, &COORDINATE)?;
     let key = key.of(if bump.kind.is_normal_map() { "normal_map" } else { "bump_map" });
     key.index(bump.texture, textures.len(), "texture")?;
-    let (source, dimension) = (&textures[bump.texture], textures[bump.texture].dimension);
+    fits_map(key, &material.mapping, &textures[bump.texture])
+}
+
+/// A map beside that of the colour is a picture that the mapping's coordinates reach.
+fn fits_map(key: Key, mapping: &Mapping, source: &TextureSource) -> Check {
     if source.content.procedural().is_some() {
-        let what = "a bump or normal map is read from texels; bake the pattern into a picture";
+        let what = "such a map is read from texels; bake the pattern into a picture";
         return key.refuse(what, "procedural");
     }
+    let dimension = source.dimension;
     if !matches!(dimension, Dimension::One | Dimension::Two) {
-        return key
-            .refuse(format!("a bump or normal map is a 2d texture; this one is {dimension}"), "not 2d");
+        return key.refuse(format!("such a map is a 2d texture; this one is {dimension}"), "not 2d");
     }
-    fits(key, &material.mapping, dimension)
+    fits(key, mapping, dimension)
 }
 
 /// The texture must have the dimension of the mapping's coordinates.

@@ -120,19 +120,19 @@ impl MeshFile {
     }
 
     /// Returns the lights of the file.
-    pub fn lights(&self, builder: &mut SceneBuilder) -> Vec<Light> {
+    pub fn lights(&self) -> Vec<Light> {
         let Content::Gltf(model) = &self.content else { return Vec::new() };
-        let (lights, notes) = gltf::lights(model, &model.in_scene(model.default_scene));
-        notes.into_iter().for_each(|note| builder.note(format!("{}: {note}", self.path.display())));
-        lights
+        gltf::lights(model, &model.in_scene(model.default_scene))
     }
 
     /// Adds triangles and materials.
     pub fn add(self, usage: &Usage<'_>, builder: &mut SceneBuilder) -> Result<Result<(), Unsuited>> {
         let path = self.path;
+        let one_sided = matches!(&self.content, Content::Gltf(model) if gltf::has_one_sided(model));
         let part = |own: &[usize], mesh: Mesh, builder: &mut SceneBuilder| {
             let other = usage.material.unwrap_or(DEFAULT);
-            let part = Part { placement: &usage.placement, material_of: own, other, motion: usage.motion };
+            let (placement, motion) = (&usage.placement, usage.motion);
+            let part = Part { placement, material_of: own, other, motion, one_sided };
             meshes::add(builder, mesh, &part).map_err(|what| ("file", what))
         };
         let dropped = match self.content {
@@ -175,9 +175,6 @@ fn add_model(
     let key = if usage.node.is_some() { "node" } else { "scene" };
     let drawn = gltf::drawn(model, usage.scene, usage.node).map_err(|what| (key, what))?;
     model.notes.iter().for_each(|note| builder.note(format!("{}: {note}", path.display())));
-    if gltf::has_colors(model, &drawn) {
-        builder.note(format!("{}: not drawn: colours of vertices", path.display()));
-    }
     let mut notes = gltf::MaterialNotes::default();
     let mut dropped = 0;
     for (material, mut mesh) in gltf::meshes(model, &drawn) {

@@ -35,7 +35,7 @@ pub(super) fn read(path: &Path) -> Result<Scene> {
     };
     builder.background(Background { color: DVec3::splat(BACKGROUND), environment: None });
     builder.sampling(Sampling { footprint: Footprint::Differentials, ..Sampling::default() });
-    let mut lights = file.lights(&mut builder);
+    let mut lights = file.lights();
     if lights.is_empty() {
         let light =
             |(direction, irradiance)| Light::Directional { direction, irradiance: DVec3::splat(irradiance) };

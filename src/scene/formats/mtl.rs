@@ -49,7 +49,13 @@ impl<'a> Library<'a> {
         };
         if let Some((map, kind)) = bump {
             let texture = self.texture(map, false);
-            material.bump = Some(BumpMap { kind, texture, strength: map.strength.unwrap_or(1.0) });
+            material.bump = Some(BumpMap {
+                kind,
+                texture,
+                strength: map.strength.unwrap_or(1.0),
+                sampler: None,
+                second_uv: false,
+            });
         }
         if let Some(map) = &found.diffuse_map {
             // Many exporters write black beside a texture, and mean the texture.

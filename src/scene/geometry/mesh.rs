@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use glam::{DAffine3, DVec3};
 
-use super::meshes::Placed;
+use super::meshes::{CornerAttributes, Placed};
 use super::{Bounds, Described, Fields, Shapes, Triangle};
 use crate::core::error::Result;
 use crate::mesh;
@@ -31,6 +31,14 @@ pub struct Mesh {
     pub motion: DVec3,
 }
 
+/// Which attributes the corners of a mesh have.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct AttributeKinds {
+    pub colors: bool,
+    pub second_uvs: bool,
+    pub tangents: bool,
+}
+
 impl Mesh {
     /// Returns these triangles of a file, of which there is one at least.
     pub(in crate::scene) fn new(file: Arc<mesh::Mesh>, triangles: Arc<[u32]>, placement: DAffine3) -> Mesh {
@@ -46,6 +54,27 @@ impl Mesh {
     /// Returns the number of its triangles.
     pub fn triangle_count(&self) -> usize {
         self.triangles.len()
+    }
+
+    /// Returns which attributes its corners have beside normals and texture coordinates.
+    pub(crate) fn attribute_kinds(&self) -> AttributeKinds {
+        AttributeKinds {
+            colors: !self.file.colors.is_empty(),
+            second_uvs: !self.file.second_uvs.is_empty(),
+            tangents: !self.file.tangents.is_empty(),
+        }
+    }
+
+    /// Calls `each` with its triangles in the world and what else their corners have, in the order of the file.
+    pub(crate) fn for_each_with_attributes(&self, mut each: impl FnMut(Triangle, CornerAttributes)) {
+        let placed = Placed::new(&self.file, &self.placement);
+        for &index in self.triangles.iter() {
+            let triangle = placed.triangle(index);
+            each(
+                Triangle { material: self.material, motion: self.motion, ..triangle },
+                placed.attributes(index, &self.placement),
+            );
+        }
     }
 
     /// Calls `each` with every `step`-th of its triangles in the world, in the order of the file.

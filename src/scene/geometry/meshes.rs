@@ -1,11 +1,12 @@
 //! Meshes of files as triangles of a scene. Input: a mesh, its placement, and the index of each material. Output: its
-//! triangles in the builder, or shapes that hold many. Positions are multiplied by the matrix, normals by its inverse transpose; a mirroring
-//! matrix exchanges two corners, so that fronts stay fronts. v of a mesh file grows upwards, v of a texture downwards.
+//! triangles in the builder, or shapes that hold many. Positions are multiplied by the matrix, normals by its inverse
+//! transpose; a mirroring matrix exchanges two corners, so that fronts stay fronts. v of a mesh file grows upwards, v of a
+//! texture downwards.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use glam::{DAffine3, DMat3, DQuat, DVec2, DVec3, EulerRot};
+use glam::{DAffine3, DMat3, DQuat, DVec2, DVec3, DVec4, EulerRot, Vec4};
 
 use crate::mesh::{Mesh, MeshTriangle};
 use crate::scene::builder::SceneBuilder;
@@ -33,6 +34,8 @@ pub(in crate::scene) struct Part<'a> {
     /// The material of triangles that name none.
     pub other: usize,
     pub motion: DVec3,
+    /// Some material is seen from the front only: no triangle is added one by one, as trees know sides.
+    pub one_sided: bool,
 }
 
 /// Adds the triangles of a mesh: few one by one, so that beams and cones know their outlines, more as one shape for each
@@ -60,7 +63,7 @@ pub(in crate::scene) fn add(
         .collect();
     let dropped = mesh.triangles.len() - kept.len();
     let motion = part.motion;
-    if kept.len() <= FEW {
+    if kept.len() <= FEW && !mesh.has_attributes() && !part.one_sided {
         for (material, index) in kept {
             builder.shape(Triangle { material, motion, ..placed.triangle(index) });
         }
@@ -112,6 +115,39 @@ impl Placed<'_> {
             // Files have normals of length zero where a program could not make any.
             normals: own.filter(|normals| !normals.contains(&DVec3::ZERO)),
             ..flat
+        }
+    }
+}
+
+/// What the corners of a triangle have beside normals and texture coordinates.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct CornerAttributes {
+    pub colors: [Vec4; 3],
+    pub second_uvs: [DVec2; 3],
+    /// In the world, unit or zero, with the sign of the bitangent.
+    pub tangents: [DVec4; 3],
+}
+
+impl Placed<'_> {
+    /// Returns the attributes of a triangle's corners, in the order of `triangle`.
+    pub fn attributes(&self, index: u32, placement: &Placement) -> CornerAttributes {
+        let mesh = self.mesh;
+        let found = mesh.triangles[index as usize];
+        let order = if self.mirrors { [0, 2, 1] } else { [0, 1, 2] };
+        let at = |corner: usize| found.positions[order[corner]] as usize;
+        let tangents = mesh.tangents.get(index as usize).copied().unwrap_or_default();
+        let sign = if self.mirrors { -1.0 } else { 1.0 };
+        CornerAttributes {
+            colors: [0, 1, 2].map(|corner| mesh.colors.get(at(corner)).copied().unwrap_or(Vec4::ONE)),
+            second_uvs: [0, 1, 2].map(|corner| {
+                let uv = mesh.second_uvs.get(at(corner)).copied().unwrap_or_default();
+                DVec2::new(uv.x, 1.0 - uv.y)
+            }),
+            tangents: order.map(|corner| {
+                let tangent = tangents[corner].as_dvec4();
+                let way = placement.transform_vector3(tangent.truncate()).normalize_or_zero();
+                way.extend(sign * tangent.w)
+            }),
         }
     }
 }

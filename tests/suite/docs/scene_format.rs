@@ -105,7 +105,13 @@ const CONTEXTS: &[Context] = &[
         heading: "## `[[material]]`",
         header: "[[material]]",
         body: MATERIAL,
-        beside: &[("green", NORMAL_MAP), ("strength", NORMAL_MAP)],
+        beside: &[
+            ("green", NORMAL_MAP),
+            ("strength", NORMAL_MAP),
+            ("alpha_cutoff", &[("alpha", "\"mask\"")]),
+            ("opacity", &[("alpha", "\"blend\"")]),
+            ("occlusion_strength", &[("occlusion_map", "\"t\"")]),
+        ],
         kinds: Some("model"),
         ..NONE
     },
@@ -174,6 +180,24 @@ const CONTEXTS: &[Context] = &[
         header: "[[light]]",
         body: RECTANGLE,
         without: &[("intensity", "radiance")],
+        ..NONE
+    },
+    Context {
+        heading: "## `[[light]]` of kind `spot`",
+        header: "[[light]]",
+        body: &[
+            ("kind", "\"spot\""),
+            ("position", "[0.0, 1.0, 0.0]"),
+            ("direction", "[0.0, -1.0, 0.0]"),
+            ("intensity", "[1.0, 1.0, 1.0]"),
+            ("outer", "30.0"),
+        ],
+        ..NONE
+    },
+    Context {
+        heading: "## `[[light]]` of kind `environment`",
+        header: "[[light]]",
+        body: &[("kind", "\"environment\"")],
         ..NONE
     },
 ];

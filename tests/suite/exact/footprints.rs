@@ -6,7 +6,7 @@ use moire::internal::lab::verify::queries::Rng;
 use moire::internal::oracle::camera::camera_ray;
 use moire::internal::oracle::footprint::{Footprint, camera_differential, footprint_at};
 use moire::internal::oracle::geometry::hit::FAR;
-use moire::internal::oracle::geometry::kinds::Shape;
+use moire::internal::oracle::geometry::kinds::{Search, Shape};
 use moire::internal::pack::PackedScene;
 use num_bigint::BigInt;
 
@@ -35,7 +35,8 @@ fn compare(change: impl Fn(Footprint) -> Footprint) -> Worst {
         let rest = "[image]\nwidth = 64\nheight = 48\n[sampling]\nspp = 4\nfootprint = 'differentials'\nprecision = 'double'\n";
         let (_, scene) = packed_as(&format!("{camera}{texture}{plane}"), rest);
         let ray = camera_ray(&scene.header, [i % 64, i * 7 % 48], glam::DVec2::new(0.3, 0.6));
-        let (distance, _) = scene.records.planes[0].distance_to(&PackedScene::default(), &ray, FAR, false);
+        let (distance, _) =
+            scene.records.planes[0].distance_to(&PackedScene::default(), &ray, FAR, Search::Nearest);
         let n = v(t).cross(&v(b)).unit().approx();
         let n = if n.dot(ray.direction) > 0.0 { -n } else { n };
         let beam = camera_differential(&scene.header, &ray);

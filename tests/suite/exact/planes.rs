@@ -5,7 +5,7 @@ use glam::{DVec2, DVec3, Vec2Swizzles};
 use moire::internal::lab::verify::queries::Rng;
 use moire::internal::oracle::camera::Ray;
 use moire::internal::oracle::geometry::hit::FAR;
-use moire::internal::oracle::geometry::kinds::Shape;
+use moire::internal::oracle::geometry::kinds::{Search, Shape};
 use moire::internal::pack::PackedScene;
 use moire::internal::schema::layout::Plane;
 use num_traits::{Signed, Zero};
@@ -111,26 +111,26 @@ fn compare(solve: impl Fn(&Plane, &Ray) -> (f64, DVec2)) -> Worst {
 
 #[test]
 fn planes_of_any_axes_are_met_where_they_are() {
-    compare(|plane: &Plane, ray: &Ray| plane.distance_to(&PackedScene::default(), ray, FAR, false))
+    compare(|plane: &Plane, ray: &Ray| plane.distance_to(&PackedScene::default(), ray, FAR, Search::Nearest))
         .holds("planes");
 }
 
 #[test]
 fn planted_errors_of_planes_are_told() {
     let swapped = |plane: &Plane, ray: &Ray| {
-        let (t, local) = plane.distance_to(&PackedScene::default(), ray, FAR, false);
+        let (t, local) = plane.distance_to(&PackedScene::default(), ray, FAR, Search::Nearest);
         (t, local.yx())
     };
     compare(swapped).fails("swapped axes");
     let shifted = |plane: &Plane, ray: &Ray| {
-        let (t, local) = plane.distance_to(&PackedScene::default(), ray, FAR, false);
+        let (t, local) = plane.distance_to(&PackedScene::default(), ray, FAR, Search::Nearest);
         (t, local * (1.0 + 1e-12))
     };
     compare(shifted).fails("a trillionth more");
     // (x − origin)·tangent, which is right for unit orthogonal axes alone.
     let projected = |plane: &Plane, ray: &Ray| {
         let across = plane.axis_u.cross(plane.normal);
-        let (t, local) = plane.distance_to(&PackedScene::default(), ray, FAR, false);
+        let (t, local) = plane.distance_to(&PackedScene::default(), ray, FAR, Search::Nearest);
         (t, DVec2::new(local.x, across.normalize().dot(t * ray.direction)))
     };
     compare(projected).fails("a projection in place of a solution");
@@ -163,7 +163,9 @@ fn a_plane_ends_where_its_half_extent_says() {
             }
             let inside = u.abs() <= q(extent) && w.abs() <= q(extent);
             let ray = Ray { origin: DVec3::ZERO, direction: d, time: 0.0 };
-            worst.agree((plane.distance_to(&PackedScene::default(), &ray, FAR, false).0 > 0.0) == inside);
+            worst.agree(
+                (plane.distance_to(&PackedScene::default(), &ray, FAR, Search::Nearest).0 > 0.0) == inside,
+            );
         }
     }
     worst.holds("half extents");

@@ -3,12 +3,12 @@
 
 use glam::{DVec2, DVec3};
 use moire::internal::lab::verify::queries::Rng;
+use moire::internal::oracle::appearance::map_input;
 use moire::internal::oracle::camera::Ray;
 use moire::internal::oracle::footprint::Footprint;
 use moire::internal::oracle::geometry::rays::hit_surface;
 use moire::internal::oracle::geometry::rays::nearest_hit;
 use moire::internal::oracle::mapping::texture_coordinate;
-use moire::internal::oracle::shade::map_input;
 use moire::internal::pack::PackedScene;
 use moire::internal::schema::layout::NO_SHAPE;
 

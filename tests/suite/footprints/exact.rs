@@ -3,6 +3,7 @@
 //! poles, directly, in mirrors and through glass.
 
 use glam::{DVec2, DVec3};
+use moire::internal::oracle::appearance::map_input;
 use moire::internal::oracle::bsdf::dielectric::refracted;
 use moire::internal::oracle::bsdf::mirror::mirrored;
 use moire::internal::oracle::camera::{Ray, camera_ray};
@@ -12,7 +13,7 @@ use moire::internal::oracle::geometry::hit::Surface;
 use moire::internal::oracle::geometry::rays::hit_surface;
 use moire::internal::oracle::geometry::rays::{nearest_hit, offset_origin};
 use moire::internal::oracle::mapping::texture_coordinate;
-use moire::internal::oracle::shade::{advance, camera_path, map_input};
+use moire::internal::oracle::shade::{advance, camera_path};
 use moire::internal::pack::{MapKind, PackedScene};
 use moire::internal::scene::model::Model;
 use moire::internal::schema::layout::{NO_MATERIAL, NO_SHAPE};

@@ -4,12 +4,12 @@
 
 use glam::DVec3;
 use moire::internal::core::film::Film;
+use moire::internal::oracle::appearance::map_input;
 use moire::internal::oracle::bsdf::dielectric::refracted;
 use moire::internal::oracle::bsdf::mirror::mirrored;
 use moire::internal::oracle::camera::Ray;
 use moire::internal::oracle::footprint::Footprint;
 use moire::internal::oracle::geometry::hit::Surface;
-use moire::internal::oracle::shade::map_input;
 use moire::internal::oracle::shading_normal::{consistent_normal, on_its_side};
 use moire::internal::pack::{EntityKind, MapKind, PackedScene};
 use moire::internal::schema::layout::UvProjection;

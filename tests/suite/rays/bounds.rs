@@ -6,7 +6,7 @@
 use glam::DVec3;
 use moire::internal::oracle::camera::Ray;
 use moire::internal::oracle::geometry::hit::FAR;
-use moire::internal::oracle::geometry::kinds::Shape;
+use moire::internal::oracle::geometry::kinds::{Search, Shape};
 use moire::internal::oracle::geometry::sphere::sphere_distance;
 use moire::internal::oracle::geometry::triangle::triangle_distance;
 use moire::internal::oracle::math::affine;
@@ -59,7 +59,7 @@ pub fn disc_own_error(scene: &PackedScene, index: usize, point: DVec3, point_err
 
 fn disc(scene: &PackedScene, index: usize, ray: &Ray) -> Estimate {
     let disc = &scene.records.discs[index];
-    let (t, local) = disc.distance_to(&PackedScene::default(), ray, FAR, false);
+    let (t, local) = disc.distance_to(&PackedScene::default(), ray, FAR, Search::Nearest);
     let t_plane = (disc.distance - disc.normal.dot(ray.origin)) / disc.normal.dot(ray.direction);
     let error = flat_error(disc.normal, disc.distance, ray, t_plane);
     let point = ray.origin + t_plane * ray.direction;
@@ -80,7 +80,7 @@ fn flat_error(n: DVec3, distance: f64, ray: &Ray, t: f64) -> f64 {
 fn plane(scene: &PackedScene, index: usize, ray: &Ray) -> Estimate {
     let plane = &scene.records.planes[index];
     let unbounded = Plane { half_extent: RealBits(-1.0), ..*plane };
-    let (t, _) = unbounded.distance_to(&PackedScene::default(), ray, FAR, false);
+    let (t, _) = unbounded.distance_to(&PackedScene::default(), ray, FAR, Search::Nearest);
     let error = flat_error(plane.normal, plane.distance, ray, t);
     let point = ray.origin + t * ray.direction;
     let point_error = error * ray.direction.length() + 2.0 * U * (ray.origin.length() + point.length());
@@ -90,7 +90,7 @@ fn plane(scene: &PackedScene, index: usize, ray: &Ray) -> Estimate {
             let own = 4.0 * U * ((row.truncate() * point).abs().element_sum() + row.w.abs());
             (affine(row, point).abs() - extent).abs() <= own + row.truncate().length() * point_error
         });
-    let (t, _) = plane.distance_to(&PackedScene::default(), ray, FAR, false);
+    let (t, _) = plane.distance_to(&PackedScene::default(), ray, FAR, Search::Nearest);
     Estimate { t, error, unsure: plane.bounds().is_some() && near_edge, curvature: 0.0, weights: 0.0 }
 }
 

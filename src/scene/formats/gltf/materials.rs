@@ -3,20 +3,52 @@
 
 use std::path::{Path, PathBuf};
 
+use glam::DVec3;
 use glam::swizzles::Vec4Swizzles as _;
-use glam::{DVec3, DVec4};
 
-use crate::mesh::gltf::{self, AlphaMode, Content, Material, Model, Texture, TextureRef, Wrap};
+use crate::mesh::gltf::{self, Content, Material, Model, Texture, TextureRef, Wrap};
 use crate::scene::builder::SceneBuilder;
-use crate::scene::model::{self, BumpKind, BumpMap, Mapping};
+use crate::scene::model::{self, AlphaMode, BumpKind, BumpMap, Sides, TextureUse};
 use crate::texture::data::{ColorSpace, Dimension, MipKernel};
 use crate::texture::formats::is_picture;
 use crate::texture::sampler_spec::{Address, MipMode, SamplerSpec, basic_filter};
 use crate::texture::source::{OrientationUse, ReadOptions, TextureContent, TextureSource};
 
-/// Returns the texture whose coordinates are those of the material: the base colour's, else the normal map's.
-pub(super) fn coordinates(material: &Material) -> Option<&TextureRef> {
-    material.base_color_texture.as_ref().or(material.normal_texture.as_ref())
+/// The coordinates at which a material reads its textures: those of its first texture, and the first others.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct CoordinateSets<'a> {
+    pub first: Option<&'a TextureRef>,
+    pub second: Option<&'a TextureRef>,
+}
+
+impl CoordinateSets<'_> {
+    pub fn of(material: &Material) -> CoordinateSets<'_> {
+        let read = [
+            &material.base_color_texture,
+            &material.normal_texture,
+            &material.metallic_roughness_texture,
+            &material.emissive_texture,
+            &material.occlusion_texture,
+        ];
+        let read = || read.into_iter().flatten();
+        let first = read().next();
+        let second = read().find(|other| first.is_some_and(|first| !is_alike(first, other)));
+        CoordinateSets { first, second }
+    }
+
+    /// Returns whether a texture is read at the second coordinates.
+    pub fn is_second(&self, reference: &TextureRef) -> bool {
+        self.second.is_some_and(|second| is_alike(second, reference))
+    }
+
+    fn has(&self, reference: &TextureRef) -> bool {
+        [self.first, self.second].into_iter().flatten().any(|known| is_alike(known, reference))
+    }
+}
+
+/// Returns whether two textures are read at the same coordinates.
+fn is_alike(a: &TextureRef, b: &TextureRef) -> bool {
+    a.uv_set == b.uv_set && a.transform == b.transform
 }
 
 /// What is told about materials: the words, the first material of which they are true, and the number of these.
@@ -48,41 +80,71 @@ pub(in crate::scene::formats) fn add(
     builder: &mut SceneBuilder,
     notes: &mut MaterialNotes,
 ) -> usize {
-    let mut reader = Reader { path, model: found_in, builder, material, notes };
+    let sets = CoordinateSets::of(material);
+    let mut reader = Reader { path, model: found_in, builder, material, notes, sets };
     let mut added = model::Material {
         name: material.name.clone(),
         color: material.base_color.xyz().max(DVec3::ZERO),
+        model: model_of(material),
+        metallic: material.metallic,
+        roughness: material.roughness,
+        ior: if material.ior == 0.0 { TOTAL_IOR } else { material.ior.clamp(1.0, TOTAL_IOR) },
+        specular_tint: material.specular * material.specular_color,
+        opacity: material.base_color.w.clamp(0.0, 1.0),
+        sides: if material.double_sided { Sides::Both } else { Sides::Front },
         ..model::Material::default()
     };
-    if material.unlit {
-        added.model = model::Model::PLAIN;
+    (added.alpha, added.alpha_cutoff) = match material.alpha {
+        gltf::AlphaMode::Opaque => (AlphaMode::Opaque, added.alpha_cutoff),
+        gltf::AlphaMode::Mask(cutoff) => (AlphaMode::Mask, cutoff),
+        gltf::AlphaMode::Blend => (AlphaMode::Blend, added.alpha_cutoff),
+    };
+    let base = material.base_color_texture.and_then(|found| reader.used(&found, ColorSpace::Srgb));
+    if let Some(base) = base {
+        (added.texture, added.sampler, added.second_uv) = (Some(base.texture), base.sampler, base.second_uv);
     }
-    added.texture =
-        material.base_color_texture.and_then(|reference| reader.texture(&reference, ColorSpace::Srgb));
-    if let Some(reference) = material.normal_texture.filter(|_| !material.unlit) {
+    if !material.unlit {
+        let normal = material.normal_texture.and_then(|found| reader.used(&found, ColorSpace::Linear));
         // Green of glTF points along the bitangent, which is against v.
-        let texture = reader.texture(&reference, ColorSpace::Linear);
-        added.bump = texture.map(|texture| BumpMap {
+        added.bump = normal.map(|normal| BumpMap {
             kind: BumpKind::NormalDown,
-            texture,
+            texture: normal.texture,
             strength: material.normal_scale,
+            sampler: Some(normal.sampler),
+            second_uv: normal.second_uv,
         });
-        if material.base_color_texture.is_some_and(|base| !same_lookup(found_in, &base, &reference)) {
-            reader.note("its normal map is read with the coordinates and the sampler of its base colour");
+        if added.model.is_glossy() {
+            let map = material.metallic_roughness_texture;
+            added.metallic_roughness_map = map.and_then(|found| reader.used(&found, ColorSpace::Linear));
         }
+        added.emission = material.emissive * material.emissive_strength;
+        added.emission_map =
+            material.emissive_texture.and_then(|found| reader.used(&found, ColorSpace::Srgb));
+        added.occlusion_map =
+            material.occlusion_texture.and_then(|found| reader.used(&found, ColorSpace::Linear));
+        added.occlusion_strength = material.occlusion_strength;
     }
-    if let Some(reference) = coordinates(material) {
-        added.sampler = reader.sampler(&found_in.textures[reference.texture]);
-        added.mapping = Mapping::default();
+    if base.is_none()
+        && let Some(other) = added.textures().next()
+    {
+        added.sampler = other.sampler;
     }
     reader.tell_what_is_left_out();
     builder.material(added)
 }
 
-/// Returns whether two textures are read alike.
-fn same_lookup(model: &Model, a: &TextureRef, b: &TextureRef) -> bool {
-    let sampler = |reference: &TextureRef| spec(model, &model.textures[reference.texture]);
-    a.uv_set == b.uv_set && a.transform == b.transform && sampler(a) == sampler(b)
+/// The greatest refractive index of scenes: it reflects nearly all light.
+const TOTAL_IOR: f64 = 100.0;
+
+/// Returns the reflection model: most of the light passes glass, and nothing else.
+fn model_of(material: &Material) -> model::Model {
+    if material.unlit {
+        model::Model::PLAIN
+    } else if material.transmission > 0.5 {
+        model::Model::GLASS
+    } else {
+        model::Model::PHYSICAL
+    }
 }
 
 /// Returns a texture's sampler as the specification of glTF has it: what is left open repeats and is trilinear.
@@ -113,6 +175,7 @@ struct Reader<'a> {
     builder: &'a mut SceneBuilder,
     material: &'a Material,
     notes: &'a mut MaterialNotes,
+    sets: CoordinateSets<'a>,
 }
 
 impl Reader<'_> {
@@ -123,6 +186,16 @@ impl Reader<'_> {
     fn sampler(&mut self, texture: &Texture) -> usize {
         let spec = spec(self.model, texture);
         self.builder.sampler_like(spec)
+    }
+
+    /// Adds a texture as the material reads it.
+    fn used(&mut self, reference: &TextureRef, color_space: ColorSpace) -> Option<TextureUse> {
+        if !self.sets.has(reference) {
+            self.note("more than two sets of texture coordinates; the others are read as the first");
+        }
+        let texture = self.texture(reference, color_space)?;
+        let sampler = self.sampler(&self.model.textures[reference.texture]);
+        Some(TextureUse { texture, sampler, second_uv: self.sets.is_second(reference) })
     }
 
     /// Adds a texture in the first of its formats that can be read.
@@ -175,15 +248,11 @@ impl Reader<'_> {
                 left.push(what);
             }
         };
-        tell(!material.unlit && material.metallic > 0.0, "metallic (all of it is diffuse)");
-        tell(material.metallic_roughness_texture.is_some(), "the texture of metallic and roughness");
-        tell(material.occlusion_texture.is_some(), "occlusion");
-        tell(material.emissive != DVec3::ZERO, "emission");
-        tell(material.transmission > 0.0, "transmission");
-        tell(matches!(material.alpha, AlphaMode::Mask(_)), "the mask of alpha");
-        tell(matches!(material.alpha, AlphaMode::Blend), "the blending of alpha");
-        let color: DVec4 = material.base_color;
-        tell(material.alpha != AlphaMode::Opaque && color.w < 1.0, "the factor of alpha");
+        let transmits = material.transmission > 0.0;
+        tell(transmits && material.transmission <= 0.5, "transmission of half the light or less");
+        tell(transmits && material.transmission_texture.is_some(), "the texture of transmission");
+        tell(material.specular_texture.is_some(), "the texture of specular");
+        tell(material.specular_color_texture.is_some(), "the texture of specular colours");
         if !left.is_empty() {
             let left = left.join(", ");
             self.note(&format!("not drawn: {left}"));

@@ -1,13 +1,13 @@
 //! glTF files as parts of a scene. Input: the file, and which of its scenes and nodes are drawn. Output: one mesh for each
-//! of its materials, all in the file's space; its materials, camera and lights. Texture coordinates are transformed here,
-//! so that a material has one mapping.
+//! of its materials, all in the file's space; its materials, camera and lights. Texture coordinates are transformed here:
+//! a material reads its textures at two sets of them at most.
 
 mod materials;
 mod stage;
 
 use std::path::Path;
 
-use glam::{DAffine3, DMat2, DVec2};
+use glam::{DAffine3, DMat2, DVec2, Vec4};
 
 use super::read_file;
 use crate::core::error::Result;
@@ -16,6 +16,7 @@ use crate::mesh::{Fault, Mesh, MeshTriangle};
 use crate::scene::geometry::meshes::normal_matrix;
 use crate::scene::limits::MAX_TRIANGLES;
 
+use materials::CoordinateSets;
 pub(super) use materials::{MaterialNotes, add as add_material};
 pub(super) use stage::{camera, lights};
 
@@ -64,11 +65,9 @@ fn listed<'a>(names: impl Iterator<Item = &'a str>) -> String {
     }
 }
 
-/// Returns whether something that is drawn has colours at its vertices.
-pub(super) fn has_colors(model: &Model, drawn: &[bool]) -> bool {
-    let is_drawn = |instance: &&gltf::Instance| drawn.get(instance.node) == Some(&true);
-    let mut instances = model.instances.iter().filter(is_drawn);
-    instances.any(|instance| !model.primitives[instance.primitive].colors.is_empty())
+/// Returns whether some material is seen from the front only; the default one is.
+pub(super) fn has_one_sided(model: &Model) -> bool {
+    model.materials.is_empty() || model.materials.iter().any(|material| !material.double_sided)
 }
 
 /// Returns the drawn primitives, those of one material as one mesh.
@@ -80,31 +79,53 @@ pub(super) fn meshes(model: &Model, drawn: &[bool]) -> Vec<(Option<usize>, Mesh)
             meshes.push((instance.material, Mesh::default()));
             meshes.len() - 1
         });
-        let coordinates = instance.material.and_then(|index| materials::coordinates(&model.materials[index]));
-        append(&mut meshes[place].1, &model.primitives[instance.primitive], &instance.matrix, coordinates);
+        let material = instance.material.map(|index| &model.materials[index]);
+        let sets = material.map_or_else(CoordinateSets::default, CoordinateSets::of);
+        append(&mut meshes[place].1, &model.primitives[instance.primitive], &instance.matrix, &sets);
+    }
+    for (material, mesh) in &mut meshes {
+        let material = material.map(|index| &model.materials[index]);
+        if let Some(normal) = material.and_then(|material| material.normal_texture.map(|n| (material, n))) {
+            mesh.complete_tangents(CoordinateSets::of(normal.0).is_second(&normal.1));
+        } else {
+            mesh.tangents.clear();
+        }
     }
     meshes
 }
 
-/// Adds a primitive that stands somewhere. A set of texture coordinates that it lacks is all (0, 0).
-fn append(mesh: &mut Mesh, primitive: &Primitive, matrix: &DAffine3, coordinates: Option<&TextureRef>) {
+/// Adds a primitive that stands somewhere. A set of texture coordinates that it lacks is all (0, 0), and colours that only
+/// some primitives have are white on the others.
+fn append(mesh: &mut Mesh, primitive: &Primitive, matrix: &DAffine3, sets: &CoordinateSets<'_>) {
     let first = mesh.positions.len() as u32;
+    let before = mesh.triangle_count();
     mesh.positions.extend(primitive.positions.iter().map(|p| matrix.transform_point3(*p)));
+    let count = mesh.positions.len();
     let first_normal = mesh.normals.len() as u32;
     let normals = normal_matrix(&matrix.matrix3);
     mesh.normals.extend(primitive.normals.iter().map(|n| normals * *n));
-    let set = coordinates.map_or(0, |reference| reference.uv_set);
-    let uvs = primitive.uvs.get(set).map_or(&[][..], Vec::as_slice);
-    let transform = transform(coordinates);
-    let uv_of = |index: usize| {
-        let uv = transform(uvs.get(index).copied().unwrap_or(DVec2::ZERO));
-        // v of meshes grows upwards.
-        DVec2::new(uv.x, 1.0 - uv.y)
-    };
-    mesh.uvs.extend((0..primitive.positions.len()).map(uv_of));
+    mesh.uvs.extend(transformed(primitive, sets.first));
+    if sets.second.is_some() {
+        mesh.second_uvs.extend(transformed(primitive, sets.second));
+    }
+    if !primitive.colors.is_empty() {
+        mesh.colors.resize(first as usize, Vec4::ONE);
+        mesh.colors.extend(primitive.colors.iter().map(|color| color.as_vec4()));
+    } else if !mesh.colors.is_empty() {
+        mesh.colors.resize(count, Vec4::ONE);
+    }
     let mirrors = matrix.matrix3.determinant() < 0.0;
-    mesh.extend(primitive.faces().map(|[a, b, c]| {
-        let corners = if mirrors { [a, c, b] } else { [a, b, c] };
+    let faces = || primitive.faces().map(|[a, b, c]| if mirrors { [a, c, b] } else { [a, b, c] });
+    if !primitive.tangents.is_empty() {
+        mesh.tangents.resize(before, [Vec4::ZERO; 3]);
+        let tangent = |corner: u32| {
+            let tangent = primitive.tangents[corner as usize];
+            let way = matrix.transform_vector3(tangent.truncate()).normalize_or_zero();
+            way.extend(if mirrors { -tangent.w } else { tangent.w }).as_vec4()
+        };
+        mesh.tangents.extend(faces().map(|corners| corners.map(tangent)));
+    }
+    mesh.extend(faces().map(|corners| {
         let positions = corners.map(|corner| first + corner);
         let normals = corners.map(|corner| first_normal + corner);
         let normals = (!primitive.normals.is_empty()).then_some(normals);
@@ -112,9 +133,20 @@ fn append(mesh: &mut Mesh, primitive: &Primitive, matrix: &DAffine3, coordinates
     }));
 }
 
+/// Returns the coordinates of a primitive's corners as a texture reads them, v upwards as meshes have it.
+fn transformed(primitive: &Primitive, reference: Option<&TextureRef>) -> impl Iterator<Item = DVec2> {
+    let set = reference.map_or(0, |reference| reference.uv_set);
+    let uvs = primitive.uvs.get(set).map_or(&[][..], Vec::as_slice);
+    let transform = transform(reference);
+    (0..primitive.positions.len()).map(move |index| {
+        let uv = transform(uvs.get(index).copied().unwrap_or(DVec2::ZERO));
+        DVec2::new(uv.x, 1.0 - uv.y)
+    })
+}
+
 /// Returns what KHR_texture_transform does to coordinates: scale, then a rotation that is clockwise in (u, v), then the
 /// offset.
-fn transform(coordinates: Option<&TextureRef>) -> impl Fn(DVec2) -> DVec2 {
+fn transform(coordinates: Option<&TextureRef>) -> impl Fn(DVec2) -> DVec2 + use<> {
     let transform = coordinates.and_then(|reference| reference.transform);
     move |uv| match transform {
         Some(t) => DMat2::from_angle(-t.rotation) * (t.scale * uv) + t.offset,

@@ -1,4 +1,6 @@
-//! Cameras and lights of a glTF file as those of a scene. A spot shines to all sides here, which is told.
+//! Cameras and lights of a glTF file as those of a scene.
+
+use std::f64::consts::PI;
 
 use glam::{DAffine3, DVec3};
 
@@ -34,9 +36,20 @@ pub(in crate::scene::formats) fn camera(
     Some((camera, aspect))
 }
 
-/// Returns the lights of the drawn nodes, and what is told about them.
-pub(in crate::scene::formats) fn lights(model: &Model, drawn: &[bool]) -> (Vec<Light>, Vec<String>) {
-    let mut notes = Vec::new();
+/// Returns a light that shines within a cone; angles are in radians.
+fn spot(light: &gltf::Light, intensity: DVec3, inner: f64, outer: f64) -> Light {
+    Light::Spot {
+        position: light.matrix.translation,
+        direction: -axis(&light.matrix, DVec3::Z),
+        intensity,
+        inner: inner.to_degrees().min(180.0),
+        outer: outer.to_degrees().min(180.0),
+        range: light.range.unwrap_or(f64::INFINITY),
+    }
+}
+
+/// Returns the lights of the drawn nodes.
+pub(in crate::scene::formats) fn lights(model: &Model, drawn: &[bool]) -> Vec<Light> {
     let found = model.lights.iter().filter(|light| drawn.get(light.node) == Some(&true));
     let lights = found.map(|light| {
         let power = light.intensity * light.color;
@@ -45,14 +58,12 @@ pub(in crate::scene::formats) fn lights(model: &Model, drawn: &[bool]) -> (Vec<L
             LightKind::Directional => {
                 Light::Directional { direction: axis(&light.matrix, DVec3::Z), irradiance: power }
             }
-            LightKind::Point => Light::Point { position, intensity: power },
-            LightKind::Spot { .. } => {
-                notes.push(format!("light {:?} is a spot; it shines to all sides", light.name));
-                Light::Point { position, intensity: power }
-            }
+            LightKind::Point if light.range.is_none() => Light::Point { position, intensity: power },
+            LightKind::Point => spot(light, power, PI, PI),
+            LightKind::Spot { inner, outer } => spot(light, power, inner, outer),
         }
     });
-    (lights.collect(), notes)
+    lights.collect()
 }
 
 /// Returns a unit axis of a frame in the world; the axis itself where the frame is flat.

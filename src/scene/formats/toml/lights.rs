@@ -16,15 +16,20 @@ pub(super) const LIGHT: &[&str] = &[
     "edge_u",
     "edge_v",
     "radiance",
+    "inner",
+    "outer",
+    "range",
 ];
 
 type LightReader = fn(&Table<'_>) -> Result<Light>;
 /// Kind, its keys, and its reader.
-const LIGHT_KINDS: [(&str, &[&str], LightReader); 4] = [
+const LIGHT_KINDS: [(&str, &[&str], LightReader); 6] = [
     ("point", &["kind", "position", "intensity"], point_light),
     ("directional", &["kind", "direction", "irradiance", "angle"], directional_light),
     ("sphere", &["kind", "position", "radius", "intensity"], sphere_light),
     ("rectangle", &["kind", "position", "edge_u", "edge_v", "radiance", "intensity"], rectangle_light),
+    ("spot", &["kind", "position", "direction", "intensity", "inner", "outer", "range"], spot_light),
+    ("environment", &["kind"], environment_light),
 ];
 
 pub(super) fn light(table: &Table<'_>) -> Result<Light> {
@@ -52,6 +57,23 @@ fn sphere_light(table: &Table<'_>) -> Result<Light> {
     let intensity = table.required("intensity")?.vec3()?;
     let radius = table.required("radius")?.number()?;
     Ok(Light::Sphere { position, radius, intensity })
+}
+
+fn spot_light(table: &Table<'_>) -> Result<Light> {
+    let number = |key, default| table.get(key).map_or(Ok(default), Field::number);
+    let outer = table.required("outer")?.number()?;
+    Ok(Light::Spot {
+        position: table.required("position")?.vec3()?,
+        direction: table.required("direction")?.vec3()?,
+        intensity: table.required("intensity")?.vec3()?,
+        inner: number("inner", outer)?,
+        outer,
+        range: number("range", f64::INFINITY)?,
+    })
+}
+
+fn environment_light(_: &Table<'_>) -> Result<Light> {
+    Ok(Light::Environment)
 }
 
 fn rectangle_light(table: &Table<'_>) -> Result<Light> {

@@ -1,7 +1,7 @@
 //! Reads `[[material]]` and its mapping. Input: the table, and the names of textures and samplers. Output: a
 //! material.
 
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 use toml::de::DeValue;
 
 use super::reader::Field;
@@ -27,6 +27,16 @@ pub(super) const MATERIAL: &[&str] = &[
     "exponent",
     "ior",
     "roughness",
+    "metallic",
+    "metallic_roughness_map",
+    "emission",
+    "emission_map",
+    "occlusion_map",
+    "occlusion_strength",
+    "alpha",
+    "alpha_cutoff",
+    "opacity",
+    "sides",
 ];
 pub(super) const MAPPING: &[&str] =
     &["kind", "entity", "space", "origin", "axis", "scale", "offset", "rotate"];
@@ -42,18 +52,73 @@ pub(super) fn material(table: &Table<'_>, known: &Known<'_, '_>) -> Result<Mater
     if let Some(field) = table.get("color") {
         material.color = field.vec3()?;
     }
-    read_model_keys(table, &mut material)?;
+    material.sampler = table.get("sampler").map_or(Ok(DEFAULT), |field| known.samplers.resolve(field))?;
+    read_model_keys(table, known, &mut material)?;
     material.texture = table.get("texture").map(|field| known.textures.resolve(field)).transpose()?;
     material.bump = bump(table, known)?;
-    material.sampler = table.get("sampler").map_or(Ok(DEFAULT), |field| known.samplers.resolve(field))?;
+    read_emission(table, known, &mut material)?;
+    read_alpha(table, &mut material)?;
     if let Some(field) = table.get("mapping") {
         material.mapping = mapping(&Table::inline(field, "material.mapping", MAPPING)?)?;
     }
     Ok(material)
 }
 
+/// Reads a map that has the material's sampler.
+fn map(field: Field<'_>, known: &Known<'_, '_>, material: &Material) -> Result<TextureUse> {
+    let texture = known.textures.resolve(field)?;
+    Ok(TextureUse { texture, sampler: material.sampler, second_uv: false })
+}
+
+/// Reads what a material emits, and what keeps the environment's light from it. A map alone is not multiplied.
+fn read_emission(table: &Table<'_>, known: &Known<'_, '_>, material: &mut Material) -> Result<()> {
+    if let Some(field) = table.get("emission_map") {
+        material.emission_map = Some(map(field, known, material)?);
+        material.emission = DVec3::ONE;
+    }
+    if let Some(field) = table.get("emission") {
+        material.emission = field.vec3()?;
+    }
+    let strength = table.get("occlusion_strength");
+    match (table.get("occlusion_map"), strength) {
+        (Some(field), _) => material.occlusion_map = Some(map(field, known, material)?),
+        (None, Some(field)) => return Err(field.error("this needs an occlusion_map beside it", "no map")),
+        (None, None) => {}
+    }
+    if let Some(field) = strength {
+        material.occlusion_strength = field.number()?;
+    }
+    Ok(())
+}
+
+/// Reads the meaning of alpha, and the sides from which the surface is seen.
+fn read_alpha(table: &Table<'_>, material: &mut Material) -> Result<()> {
+    if let Some(field) = table.get("alpha") {
+        material.alpha = field.choice(AlphaMode::NAMES, AlphaMode::ALL)?;
+    }
+    if let Some(field) = table.get("alpha_cutoff") {
+        if material.alpha != AlphaMode::Mask {
+            return Err(field.error("this needs alpha = \"mask\" beside it", "no mask"));
+        }
+        material.alpha_cutoff = field.number()?;
+    }
+    if let Some(field) = table.get("opacity") {
+        if material.alpha == AlphaMode::Opaque {
+            return Err(field.error("this needs alpha = \"blend\" or \"mask\" beside it", "opaque"));
+        }
+        material.opacity = field.number()?;
+    }
+    if let Some(field) = table.get("sides") {
+        material.sides = field.choice(Sides::NAMES, Sides::ALL)?;
+    }
+    Ok(())
+}
+
 /// Reads the keys of the material's model.
-fn read_model_keys(table: &Table<'_>, material: &mut Material) -> Result<()> {
+fn read_model_keys(table: &Table<'_>, known: &Known<'_, '_>, material: &mut Material) -> Result<()> {
+    if material.model.has_key("metallic_roughness_map") && table.get("metallic_roughness_map").is_some() {
+        (material.metallic, material.roughness) = (1.0, 1.0);
+    }
     for ModelKey { name, value, .. } in KEYS {
         let Some(field) = table.get(name) else { continue };
         if !material.model.has_key(name) {
@@ -68,6 +133,7 @@ fn read_model_keys(table: &Table<'_>, material: &mut Material) -> Result<()> {
         match value {
             Value::Number(of) => *of(material) = field.number()?,
             Value::Color(of) => *of(material) = field.vec3()?,
+            Value::Map(of) => *of(material) = Some(map(field, known, material)?),
         }
     }
     Ok(())
@@ -101,7 +167,13 @@ fn bump(table: &Table<'_>, known: &Known<'_, '_>) -> Result<Option<BumpMap>> {
         None => kind,
     };
     let strength = table.get("strength").map_or(Ok(1.0), Field::number)?;
-    Ok(Some(BumpMap { kind, texture: known.textures.resolve(field)?, strength }))
+    Ok(Some(BumpMap {
+        kind,
+        texture: known.textures.resolve(field)?,
+        strength,
+        sampler: None,
+        second_uv: false,
+    }))
 }
 
 fn mapping(table: &Table<'_>) -> Result<Mapping> {

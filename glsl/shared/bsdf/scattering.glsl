@@ -1,0 +1,93 @@
+// How a lit surface continues a path: by one of its facets, or, where the environment lights surfaces, by its diffuse
+// lobe to that alone. Light that the environment sends by a sampled direction of its own and by such a ray counts with
+// the balance heuristic (Veach 1997, 9.2), each lobe by itself. Twin: src/oracle/bsdf/scattering.rs.
+#ifndef SCATTERING_GLSL
+#define SCATTERING_GLSL
+
+#include "models.glsl"
+#include "specular.glsl"
+
+// The environment lights surfaces, by chance as other lights with an extent.
+const bool LIT_BY_ENVIRONMENT = HAS(LIGHT_KINDS, LIGHT_ENVIRONMENT);
+
+bool is_lit_by_environment(const Header header) {
+    return LIT_BY_ENVIRONMENT && header.environment_rows != 0u;
+}
+
+// The ray by which a lit surface continues a path.
+struct Scattered {
+    real3 direction;
+    vec3 weight;     // of its light
+    float density;   // over solid angle; 0 where nothing else samples this light
+    float alpha;     // of the lobe
+    bool diffuse;    // the environment alone counts
+    bool leaves;     // false: it enters the surface
+};
+
+// Share of the bounces that facets have. `to_sky`: the environment lights surfaces.
+float facet_bounces(const Bsdf bsdf, bool to_sky) {
+    if (!is_glossy(bsdf.model)) return 0.0;
+    return to_sky ? bsdf.facets.bounced : 1.0;
+}
+
+// Densities with which `scattered` chooses a way, by the diffuse lobe and by facets.
+vec2 scattered_densities(const Bsdf bsdf, vec3 way) {
+    float facets = facet_bounces(bsdf, true);
+    float cosine = max(dot3(bsdf.normal, way) * inversesqrt(dot3(way, way)), 0.0);
+    vec2 densities = vec2((1.0 - facets) * cosine * (1.0 / PI), 0.0);
+    if (is_glossy(bsdf.model)) {
+        densities.y = facets * mirrored_density(bsdf.normal, bsdf.direction, way, bsdf.facets.alpha);
+    }
+    return densities;
+}
+
+// Lobes of light that is sampled with `density`, where `scattered` samples it as well.
+vec3 balanced_lobes(const Bsdf bsdf, vec3 lobes, vec3 way, float density) {
+    vec2 others = scattered_densities(bsdf, way);
+    float diffuse = density / (density + others.x);
+    float facets = density / (density + others.y);
+    bool both_diffuse = MODE_IS(MODELS, MODEL_OREN_NAYAR, bsdf.model);
+    return lobes * vec3(diffuse, both_diffuse ? diffuse : facets, facets);
+}
+
+// A sample of the ways by which a lit surface reflects what is around it. Its normal is towards the ray.
+Scattered scattered(const Bsdf bsdf, const Surface surface, vec3 color, vec3 carried, const SampleDimensions dimensions, bool to_sky) {
+    vec2 square = unit_square(dimensions.lobe);
+    float facets = facet_bounces(bsdf, to_sky);
+    bool by_facet = square.x < facets;
+    // The choice leaves a number that is uniform again.
+    float rest = by_facet ? square.x / max(facets, 1e-6) : (square.x - facets) / max(1.0 - facets, 1e-6);
+    square.x = min(rest, 1.0 - 1.0 / 16777216.0);
+    vec3 n = bsdf.normal;
+    vec2 disc = concentric_disc(square);
+    vec3 way = around(n, vec3(disc, sqrt(max(1.0 - (disc.x * disc.x + disc.y * disc.y), 0.0))));
+    float cosine = max(dot3(n, way), 0.0);
+    Scattered next = Scattered(real3(way), vec3(0.0), 0.0, 1.0, true, true);
+    if (LIT_BY_ENVIRONMENT && to_sky) {
+        vec3 lobes = evaluate(bsdf, way);
+        bool second = MODE_IS(MODELS, MODEL_OREN_NAYAR, bsdf.model);
+        next.weight = reflected(bsdf, color, carried, Lit(vec3(lobes.x), vec3(second ? lobes.y : 0.0), vec3(0.0))) / max(1.0 - facets, 1e-6);
+        next.density = (1.0 - facets) * cosine * (1.0 / PI);
+    }
+    if (is_glossy(bsdf.model)) {
+        float alpha = bsdf.facets.alpha;
+        vec3 facet = visible_normal(bsdf.direction, n, alpha, square);
+        vec3 view = bsdf.direction * -inversesqrt(dot3(bsdf.direction, bsdf.direction));
+        vec3 mirror = vec3(mirrored(real3(-view), real3(facet)));
+        float leaving = dot3(n, mirror);
+        float rise = schlick(dot3(view, facet));
+        float passes = smith_g2_over_g1(max(dot3(n, view), 1e-4), max(leaving, 1e-6), alpha) / max(facets, 1e-6);
+        if (by_facet) {
+            next.direction = real3(mirror);
+            next.weight = carried * (bsdf.facets.head_on * (1.0 - rise) + bsdf.facets.grazing * rise) * passes;
+            next.density = to_sky ? facets * mirrored_density(n, bsdf.direction, mirror, alpha) : 0.0;
+            next.alpha = alpha;
+            next.diffuse = false;
+            next.leaves = leaving > 0.0;
+        }
+    }
+    next.leaves = next.leaves && dot3(next.direction, surface.geometric_normal) > 0.0;
+    return next;
+}
+
+#endif

@@ -1,0 +1,110 @@
+//! How a lit surface continues a path: by one of its facets, or, where the environment lights surfaces, by its diffuse
+//! lobe to that alone; with the balance heuristic (Veach 1997, 9.2). Twin of `glsl/shared/bsdf/scattering.glsl`.
+
+use std::f64::consts::PI;
+
+use glam::{DVec2, DVec3};
+
+use super::facets::{smith_g2_over_g1, visible_normal};
+use super::metallic_roughness::{mirrored_density, schlick};
+use super::mirror::mirrored;
+use super::{Bsdf, Lit, evaluate, is_both_diffuse, is_glossy, reflected};
+use crate::oracle::disk_sampling::concentric_disc;
+use crate::oracle::footprint::around;
+use crate::oracle::geometry::hit::Surface;
+use crate::oracle::sample_dimensions::{SampleDimensions, unit_square};
+
+/// The ray by which a lit surface continues a path.
+pub struct Scattered {
+    pub direction: DVec3,
+    /// Of its light.
+    pub weight: DVec3,
+    /// Over solid angle; 0 where nothing else samples this light.
+    pub density: f64,
+    /// Of the lobe.
+    pub alpha: f64,
+    /// True if the environment alone counts.
+    pub diffuse: bool,
+    /// False if it enters the surface.
+    pub leaves: bool,
+}
+
+/// Share of the bounces that facets have; `to_sky`: the environment lights surfaces.
+fn facet_bounces(bsdf: &Bsdf<'_>, to_sky: bool) -> f64 {
+    match &bsdf.facets {
+        Some(_) if !to_sky => 1.0,
+        Some(facets) => facets.bounced,
+        None => 0.0,
+    }
+}
+
+/// Densities with which `scattered` chooses a way, by the diffuse lobe and by facets.
+fn scattered_densities(bsdf: &Bsdf<'_>, way: DVec3) -> DVec2 {
+    let facets = facet_bounces(bsdf, true);
+    let cosine = bsdf.normal.dot(way.normalize()).max(0.0);
+    let mirrors = bsdf
+        .facets
+        .as_ref()
+        .map_or(0.0, |found| facets * mirrored_density(bsdf.normal, bsdf.direction, way, found.alpha));
+    DVec2::new((1.0 - facets) * cosine / PI, mirrors)
+}
+
+/// Lobes of light that is sampled with `density`, where `scattered` samples it as well.
+pub fn balanced_lobes(bsdf: &Bsdf<'_>, lobes: DVec3, way: DVec3, density: f64) -> DVec3 {
+    let others = scattered_densities(bsdf, way);
+    let [diffuse, facets] = others.to_array().map(|other| density / (density + other));
+    let second = if is_both_diffuse(bsdf.material.model) { diffuse } else { facets };
+    lobes * DVec3::new(diffuse, second, facets)
+}
+
+/// A sample of the ways by which a lit surface reflects what is around it. Its normal is towards the ray.
+pub fn scattered(
+    bsdf: &Bsdf<'_>,
+    surface: &Surface,
+    color: DVec3,
+    carried: DVec3,
+    dimensions: &SampleDimensions,
+    to_sky: bool,
+) -> Scattered {
+    let mut square = unit_square(dimensions.lobe);
+    let facets = facet_bounces(bsdf, to_sky);
+    let by_facet = square.x < facets;
+    // The choice leaves a number that is uniform again.
+    square.x =
+        if by_facet { square.x / facets.max(1e-6) } else { (square.x - facets) / (1.0 - facets).max(1e-6) };
+    square.x = square.x.min(1.0 - 1.0 / 16_777_216.0);
+    let n = bsdf.normal;
+    let disc = concentric_disc(square);
+    let way = around(n, disc.extend((1.0 - disc.length_squared()).max(0.0).sqrt()));
+    let above = surface.geometric_normal;
+    if let (Some(found), true) = (&bsdf.facets, by_facet) {
+        let facet = visible_normal(bsdf.direction, n, found.alpha, square);
+        let view = -bsdf.direction.normalize();
+        let mirror = mirrored(-view, facet);
+        let leaving = n.dot(mirror);
+        let rise = schlick(view.dot(facet));
+        let passes =
+            smith_g2_over_g1(n.dot(view).max(1e-4), leaving.max(1e-6), found.alpha) / facets.max(1e-6);
+        let density = facets * mirrored_density(n, bsdf.direction, mirror, found.alpha);
+        return Scattered {
+            direction: mirror,
+            weight: carried * (found.head_on * (1.0 - rise) + found.grazing * rise) * passes,
+            density: if to_sky { density } else { 0.0 },
+            alpha: found.alpha,
+            diffuse: false,
+            leaves: leaving > 0.0 && mirror.dot(above) > 0.0,
+        };
+    }
+    let lobes = evaluate(bsdf, way);
+    let second = if is_both_diffuse(bsdf.material.model) { lobes.y } else { 0.0 };
+    let lit = Lit { first: DVec3::splat(lobes.x), second: DVec3::splat(second), third: DVec3::ZERO };
+    debug_assert!(to_sky || is_glossy(bsdf.material.model));
+    Scattered {
+        direction: way,
+        weight: reflected(bsdf, color, carried, lit) / (1.0 - facets).max(1e-6),
+        density: (1.0 - facets) * n.dot(way).max(0.0) / PI,
+        alpha: 1.0,
+        diffuse: true,
+        leaves: way.dot(above) > 0.0,
+    }
+}

@@ -1,0 +1,72 @@
+//! Packs materials into device records, with the image descriptors of their textures.
+
+use super::{PackedScene, textures};
+use crate::scene::model::{BumpKind, Material, Sides, TextureUse};
+use crate::schema::constants::{SECOND_UV_BUMP, SECOND_UV_COLOR};
+use crate::schema::enums::MaterialMap;
+use crate::schema::layout;
+
+/// A texture of a material as records name it: its index or `NO_TEXTURE`, sampler, and image descriptor.
+#[derive(Clone, Copy)]
+struct Use {
+    texture: u32,
+    sampler: u32,
+    slot: u32,
+}
+
+pub(super) fn material(packed: &mut PackedScene, source: &Material) -> layout::Material {
+    let mut used = |found: Option<TextureUse>| match found {
+        Some(TextureUse { texture, sampler, .. }) => Use {
+            texture: texture as u32,
+            sampler: sampler as u32,
+            slot: textures::slot(packed, texture, sampler),
+        },
+        None => Use { texture: layout::NO_TEXTURE, sampler: source.sampler as u32, slot: 0 },
+    };
+    let maps = source.maps();
+    let color = used(maps.color);
+    let bump_map = used(maps.bump);
+    let [roughness, emission, occlusion] = [maps.roughness, maps.emission, maps.occlusion].map(used);
+    let bump = source.bump;
+    let second =
+        |map: Option<TextureUse>, bit: u32| if map.is_some_and(|map| map.second_uv) { bit } else { 0 };
+    let of = |map: MaterialMap| 1 << map as u32;
+    layout::Material {
+        color: source.color.as_vec3(),
+        bump_strength: bump.map_or(0.0, |r| r.strength) as f32,
+        model: source.model,
+        texture_index: color.texture,
+        sampler_index: color.sampler,
+        image_slot: color.slot,
+        bump_texture_index: bump_map.texture,
+        bump_sampler_index: bump_map.sampler,
+        bump_image_slot: bump_map.slot,
+        bump_kind: bump.map_or(BumpKind::default(), |r| r.kind),
+        alpha: source.roughness.powi(2) as f32,
+        roughness: source.roughness as f32,
+        metallic: source.metallic as f32,
+        roughness_texture_index: roughness.texture,
+        roughness_sampler_index: roughness.sampler,
+        roughness_image_slot: roughness.slot,
+        emission_texture_index: emission.texture,
+        emission_sampler_index: emission.sampler,
+        emission_image_slot: emission.slot,
+        emission: source.emission.as_vec3(),
+        occlusion_strength: source.occlusion_strength as f32,
+        occlusion_texture_index: occlusion.texture,
+        occlusion_sampler_index: occlusion.sampler,
+        occlusion_image_slot: occlusion.slot,
+        second_uv_maps: second(maps.color, SECOND_UV_COLOR)
+            | second(maps.bump, SECOND_UV_BUMP)
+            | second(maps.roughness, of(MaterialMap::Roughness))
+            | second(maps.emission, of(MaterialMap::Emission))
+            | second(maps.occlusion, of(MaterialMap::Occlusion)),
+        alpha_mode: source.alpha,
+        alpha_cutoff: source.alpha_cutoff as f32,
+        opacity: source.opacity as f32,
+        one_sided: source.sides == Sides::Front,
+        specular: source.head_on_color().as_vec3(),
+        exponent: source.exponent as f32,
+        ior: source.ior as f32,
+    }
+}

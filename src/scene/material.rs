@@ -1,0 +1,216 @@
+//! The material of a surface as data: its model, colour and maps, what it emits, and what its alpha means. Part of the
+//! model.
+
+use glam::DVec3;
+
+use super::bsdf::Model;
+use super::mapping::Mapping;
+use crate::core::named::named_enum;
+use crate::schema::enums::{AlphaMode, BumpKind};
+
+named_enum! {
+    /// Where the green of a normal map points, along v.
+    pub enum Green {
+        /// Along growing v.
+        Up = "up",
+        /// Against it.
+        Down = "down",
+    }
+}
+
+impl BumpKind {
+    /// Returns whether it holds normals.
+    pub const fn is_normal_map(self) -> bool {
+        matches!(self, BumpKind::Normal | BumpKind::NormalDown)
+    }
+}
+
+/// A texture that turns the shading normal.
+#[derive(Clone, Copy, Debug)]
+pub struct BumpMap {
+    /// The content of the texture.
+    pub kind: BumpKind,
+    /// Index into `Scene::textures`.
+    pub texture: usize,
+    /// Normal map: factor of the two components along the surface. Bump map: height of a texel of 1, in
+    /// scene units.
+    pub strength: f64,
+    /// Index into `Scene::samplers`; the material's own where it is left out.
+    pub sampler: Option<usize>,
+    /// Read at the second texture coordinates of a mesh.
+    pub second_uv: bool,
+}
+
+/// A texture as a material reads it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct TextureUse {
+    /// Index into `Scene::textures`.
+    pub texture: usize,
+    /// Index into `Scene::samplers`.
+    pub sampler: usize,
+    /// Read at the second texture coordinates of a mesh.
+    pub second_uv: bool,
+}
+
+/// The textures of a material.
+#[derive(Clone, Copy, Debug)]
+pub struct Maps {
+    /// Multiplies the colour.
+    pub color: Option<TextureUse>,
+    /// Turns the normals.
+    pub bump: Option<TextureUse>,
+    /// Roughness in green, metallic in blue.
+    pub roughness: Option<TextureUse>,
+    /// Multiplies the emission.
+    pub emission: Option<TextureUse>,
+    /// Keeps light of the environment away, in red.
+    pub occlusion: Option<TextureUse>,
+}
+
+named_enum! {
+    /// The sides from which a surface is seen.
+    pub enum Sides {
+        Both = "both",
+        /// Rays that come from behind pass it; shadow rays do not.
+        Front = "front",
+    }
+}
+
+/// The material of a surface.
+#[derive(Clone, Debug)]
+pub struct Material {
+    /// For messages.
+    pub name: String,
+    /// Its reflection model.
+    pub model: Model,
+    /// Multiplies the texture.
+    pub color: DVec3,
+    /// Index into `Scene::textures`.
+    pub texture: Option<usize>,
+    /// Index into `Scene::samplers`; meaningful where a texture or a bump map is set.
+    pub sampler: usize,
+    /// The mapping of points of the surface to texture coordinates.
+    pub mapping: Mapping,
+    /// Whether `texture` is read at the second texture coordinates of a mesh.
+    pub second_uv: bool,
+    /// A texture that turns its normals.
+    pub bump: Option<BumpMap>,
+    /// Of `metallic-roughness`, from 0, a dielectric, to 1, a metal.
+    pub metallic: f64,
+    /// Multiplies roughness by its green and metallic by its blue.
+    pub metallic_roughness_map: Option<TextureUse>,
+    /// Of `metallic-roughness`: multiplies the reflectance head-on that the refractive index gives a dielectric.
+    pub specular_tint: DVec3,
+    /// Radiance that it emits, whatever its model.
+    pub emission: DVec3,
+    /// Multiplies the emission.
+    pub emission_map: Option<TextureUse>,
+    /// In red the share of the environment's light that arrives.
+    pub occlusion_map: Option<TextureUse>,
+    /// How much of this occlusion is applied, from 0 to 1.
+    pub occlusion_strength: f64,
+    /// The meaning of the alpha of its texture times `opacity`.
+    pub alpha: AlphaMode,
+    /// The alpha from which on a mask is solid.
+    pub alpha_cutoff: f64,
+    /// Multiplies the alpha of the texture.
+    pub opacity: f64,
+    /// The sides from which it is seen.
+    pub sides: Sides,
+    /// Colour of the highlight of `phong`.
+    pub specular: DVec3,
+    /// The highlight's sharpness, of `phong`.
+    pub exponent: f64,
+    /// Refractive index of `dielectric` and `metallic-roughness` behind the surface, over that in front of it.
+    pub ior: f64,
+    /// Roughness of `mirror`, `dielectric`, `oren-nayar` and `metallic-roughness`, from 0, which is smooth, to 1.
+    pub roughness: f64,
+}
+
+impl Default for Material {
+    fn default() -> Self {
+        Material {
+            name: "default".to_owned(),
+            model: Model::default(),
+            color: DVec3::ONE,
+            texture: None,
+            sampler: 0,
+            mapping: Mapping::default(),
+            second_uv: false,
+            bump: None,
+            metallic: 0.0,
+            metallic_roughness_map: None,
+            specular_tint: DVec3::ONE,
+            emission: DVec3::ZERO,
+            emission_map: None,
+            occlusion_map: None,
+            occlusion_strength: 1.0,
+            alpha: AlphaMode::Opaque,
+            alpha_cutoff: 0.5,
+            opacity: 1.0,
+            sides: Sides::Both,
+            specular: DVec3::splat(0.5),
+            exponent: 32.0,
+            ior: 1.5,
+            roughness: 0.0,
+        }
+    }
+}
+
+impl Material {
+    /// Returns true if the material has a texture.
+    pub fn is_mapped(&self) -> bool {
+        self.textures().next().is_some()
+    }
+
+    /// Returns its textures by what they are for, each with its sampler.
+    pub fn maps(&self) -> Maps {
+        let color = |texture| TextureUse { texture, sampler: self.sampler, second_uv: self.second_uv };
+        let bump = |bump: BumpMap| {
+            let sampler = bump.sampler.unwrap_or(self.sampler);
+            TextureUse { texture: bump.texture, sampler, second_uv: bump.second_uv }
+        };
+        Maps {
+            color: self.texture.map(color),
+            bump: self.bump.map(bump),
+            roughness: self.metallic_roughness_map,
+            emission: self.emission_map,
+            occlusion: self.occlusion_map,
+        }
+    }
+
+    /// Returns the textures that it reads, each with its sampler.
+    pub fn textures(&self) -> impl Iterator<Item = TextureUse> + use<> {
+        let Maps { color, bump, roughness, emission, occlusion } = self.maps();
+        [color, bump, roughness, emission, occlusion].into_iter().flatten()
+    }
+
+    /// Returns the colour of its highlight, or the reflectance head-on of a dielectric surface (Fresnel).
+    pub(crate) fn head_on_color(&self) -> DVec3 {
+        if !self.model.is_glossy() {
+            return self.specular;
+        }
+        let root = (self.ior - 1.0) / (self.ior + 1.0);
+        (root * root * self.specular_tint).min(DVec3::ONE)
+    }
+
+    /// Returns the indices of all its textures.
+    pub(crate) fn texture_indices_mut(&mut self) -> impl Iterator<Item = &mut usize> {
+        let maps = [&mut self.metallic_roughness_map, &mut self.emission_map, &mut self.occlusion_map];
+        let others = maps.into_iter().flatten().map(|map| &mut map.texture);
+        self.texture.iter_mut().chain(self.bump.iter_mut().map(|bump| &mut bump.texture)).chain(others)
+    }
+
+    /// Returns the indices of all samplers that it names.
+    pub(crate) fn sampler_indices_mut(&mut self) -> impl Iterator<Item = &mut usize> {
+        let maps = [&mut self.metallic_roughness_map, &mut self.emission_map, &mut self.occlusion_map];
+        let others = maps.into_iter().flatten().map(|map| &mut map.sampler);
+        let bump = self.bump.iter_mut().filter_map(|bump| bump.sampler.as_mut());
+        std::iter::once(&mut self.sampler).chain(bump).chain(others)
+    }
+
+    /// Returns true if rays may pass its surface without being bent.
+    pub fn lets_rays_pass(&self) -> bool {
+        self.alpha != AlphaMode::Opaque || self.sides == Sides::Front
+    }
+}
