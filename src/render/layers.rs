@@ -118,6 +118,9 @@ pub(super) fn lightless(scene: &Scene) -> Scene {
     scene
 }
 
+/// Takes the samples of a picture of that size from a backend.
+type Take<'t> = dyn FnMut(&mut dyn Backend, [u32; 2]) -> Result<Film> + 't;
+
 /// A scene that is open for measurements.
 enum Measuring<'g> {
     Device(Box<Session<'g>>),
@@ -139,11 +142,7 @@ impl<'g> Measuring<'g> {
     }
 
     /// Hands a backend that measures this quantity to `take`, with the size of the picture.
-    fn measure(
-        &mut self,
-        quantity: Quantity,
-        take: &mut dyn FnMut(&mut dyn Backend, [u32; 2]) -> Result<Film>,
-    ) -> Result<Film> {
+    fn measure(&mut self, quantity: Quantity, take: &mut Take<'_>) -> Result<Film> {
         match self {
             Measuring::Device(session) => {
                 let prepared = session.prepare_quantity(quantity)?;

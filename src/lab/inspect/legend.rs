@@ -106,13 +106,19 @@ impl Canvas {
             let at = (x as f64 + 0.5) / length as f64;
             (0..BAR).for_each(|row| self.dot(MARGIN + x, y + row, color(at)));
         }
-        for tick in ticks {
-            let x = MARGIN + (tick.at * (length - 1) as f64).round() as usize;
-            self.dot(x, y + BAR, INK);
+        let at = |tick: &Tick| MARGIN + (tick.at * (length - 1) as f64).round() as usize;
+        // Names at the ends stay within the picture; of the others, those that would touch the last one are left out.
+        let left = |tick: &Tick| {
             let width = font::width(&tick.text);
-            // Names at the ends stay within the picture.
-            let left = x.saturating_sub(width / 2).max(MARGIN).min((MARGIN + length).saturating_sub(width));
-            self.text(&tick.text, left, y + BAR + 2);
+            let middle = at(tick).saturating_sub(width / 2);
+            middle.max(MARGIN).min((MARGIN + length).saturating_sub(width))
+        };
+        let last = ticks.last().map_or(0, left);
+        for (i, tick) in ticks.iter().enumerate() {
+            self.dot(at(tick), y + BAR, INK);
+            if i + 1 == ticks.len() || left(tick) + font::width(&tick.text) < last {
+                self.text(&tick.text, left(tick), y + BAR + 2);
+            }
         }
     }
 
