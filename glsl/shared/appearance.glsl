@@ -185,12 +185,18 @@ void apply_map(uint map, vec4 texel, const Material material, float vertex_alpha
     if (MODE_IS(MATERIAL_MAPS, MATERIAL_MAP_MASK, map)) look.opacity = material.opacity * vertex_alpha * texel.w;
 }
 
-// Returns the share of a ray's light that a surface has, by what alpha means. A surface without a back lets rays pass
-// that come from behind it.
-float covered_share(const Material material, const Surface surface, float alpha) {
+// Returns the share of a shadow ray's light that a surface has, on both of its sides.
+float alpha_share(const Material material, float alpha) {
     float share = 1.0;
     if (MODE_IS(ALPHA_MODES, ALPHA_MASK, material.alpha_mode)) share = alpha >= material.alpha_cutoff ? 1.0 : 0.0;
     if (MODE_IS(ALPHA_MODES, ALPHA_BLEND, material.alpha_mode)) share = min(alpha, 1.0);
+    return share;
+}
+
+// Returns the share of a ray's light that a surface has, by what alpha means. A surface without a back lets rays pass
+// that come from behind it.
+float covered_share(const Material material, const Surface surface, float alpha) {
+    float share = alpha_share(material, alpha);
     if (ONE_SIDED) share = material.one_sided && surface.inside ? 0.0 : share;
     return share;
 }
@@ -265,22 +271,6 @@ Appearance appearance(const Material material, const UvProjection map, const Ray
     }
 #endif
     return look;
-}
-
-// Returns the share of a shadow ray's light that a surface has: without a footprint, and on both of its sides.
-float opacity_at(const Material material, const UvProjection map, const Ray ray, const Surface surface, uvec2 random) {
-    if (MODE_IS(ALPHA_MODES, ALPHA_OPAQUE, material.alpha_mode)) return 1.0;
-    float alpha = material.opacity;
-    if (VERTEX_COLORS) alpha *= surface.attributes.color.w;
-#if SOURCE != SOURCE_NONE
-    if (TEXTURED && material.texture_index != NO_TEXTURE) {
-        Surface shown = at_uv_of(material, SECOND_UV_COLOR, surface);
-        TexCoord c = texture_coordinate(map, map_input(map, ray, shown, NO_FOOTPRINT));
-        alpha *= sample_texture(texture_at(material.texture_index), sampler_at(material.sampler_index), material.image_slot, c, random).w;
-    }
-#endif
-    bool is_mask = MODE_IS(ALPHA_MODES, ALPHA_MASK, material.alpha_mode);
-    return is_mask ? (alpha >= material.alpha_cutoff ? 1.0 : 0.0) : min(alpha, 1.0);
 }
 
 #endif

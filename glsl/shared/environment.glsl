@@ -73,19 +73,4 @@ float sky_density(const Header header, vec3 direction) {
     return cell_density(header, row_share, share);
 }
 
-// The environment in the direction of a ray, without a footprint, or the background.
-vec3 sky_radiance(const Header header, const Ray ray, uvec2 random) {
-    if (!ENVIRONMENT || header.environment_material == NO_MATERIAL) return header.background;
-    const real3 up = real3(0.0, 1.0, 0.0);
-    Surface nowhere = Surface(real3(0.0), up, up, real2(0.0), vec3(0.0), vec3(0.0), FLAT, 0.0, false, uvec2(0u), real3(0.0), 0.0, NO_ATTRIBUTES);
-    Material material = material_at(header.environment_material);
-    UvProjection map = uv_projection_at(header.environment_projection);
-    vec3 color = material.color;
-#if SOURCE != SOURCE_NONE
-    TexCoord c = texture_coordinate(map, map_input(map, ray, nowhere, NO_FOOTPRINT));
-    color *= sample_texture(texture_at(material.texture_index), sampler_at(material.sampler_index), material.image_slot, c, random).xyz;
-#endif
-    return color;
-}
-
 #endif

@@ -87,24 +87,46 @@ Aim sky_aim(const Header header, vec2 square) {
     return Aim(real3(sky.way), FAR, sky.density > 0.0 ? 1.0 / sky.density : 0.0);
 }
 
-// The share of light that arrives along a ray up to t_max, where surfaces let some pass.
-float passing_share(Ray ray, real t_max, uint skip, uvec2 random) {
-    float share = 1.0;
-    for (uint layer = 0u; layer < MAX_LAYERS; layer++) {
-        meets_backs = true;
-        Hit hit = nearest_hit(ray, skip, ANYTHING);
-        meets_backs = false;
-        if (hit.shape == NO_SHAPE || hit.t >= t_max) return share;
-        Surface surface = hit_surface(ray, hit);
-        share *= 1.0 - opacity_at(material_at(surface.link.x), uv_projection_at(surface.link.y), ray, surface, random);
-        if (share <= 0.0) return 0.0;
+// Returns what arrives along a ray up to t_max: all light, times what surfaces on the way let pass, and for light of the
+// environment (`from_sky`) times its radiance there. One loop, as look-ups are most of the code; they have no footprint.
+vec3 arriving_light(const Header header, Ray ray, real t_max, uint skip, bool from_sky, uvec2 random) {
+    vec3 arrives = vec3(1.0);
+    uint layers = TRANSPARENT && SHADOWS ? MAX_LAYERS : 0u;
+    for (uint layer = 0u; layer <= layers; layer++) {
+        bool blocked = false;
+        Surface surface = NOWHERE;
+        surface.link = uvec2(header.environment_material, header.environment_projection);
+        Hit hit = Hit(FAR, NO_SHAPE, real2(0.0));
+        if (TRANSPARENT && SHADOWS) {
+            meets_backs = true;
+            hit = nearest_hit(ray, skip, ANYTHING);
+            meets_backs = false;
+            blocked = hit.shape != NO_SHAPE && hit.t < t_max;
+            if (blocked) surface = hit_surface(ray, hit);
+        }
+        if (!blocked && !(LIT_BY_ENVIRONMENT && from_sky)) return arrives;
+        if (!blocked && (!ENVIRONMENT || header.environment_material == NO_MATERIAL)) return arrives * header.background;
+        Material material = material_at(surface.link.x);
+        vec4 texel = vec4(1.0);
+#if SOURCE != SOURCE_NONE
+        bool reads = !blocked || !MODE_IS(ALPHA_MODES, ALPHA_OPAQUE, material.alpha_mode);
+        if (reads && material.texture_index != NO_TEXTURE) {
+            UvProjection map = uv_projection_at(surface.link.y);
+            TexCoord c = texture_coordinate(map, map_input(map, ray, at_uv_of(material, SECOND_UV_COLOR, surface), NO_FOOTPRINT));
+            texel = sample_magnified(texture_at(material.texture_index), sampler_at(material.sampler_index), material.image_slot, c, random);
+        }
+#endif
+        if (!blocked) return arrives * (material.color * texel.xyz);
+        float alpha = material.opacity * texel.w;
+        if (VERTEX_COLORS) alpha *= surface.attributes.color.w;
+        arrives *= 1.0 - alpha_share(material, alpha);
+        if (arrives.x <= 0.0) return vec3(0.0);
         // The way that is left ends at the same point.
-        real3 behind = offset_origin(surface.point, -surface.geometric_normal, surface.size);
         t_max -= hit.t;
-        ray.origin = behind;
+        ray.origin = offset_origin(surface.point, -surface.geometric_normal, surface.size);
         skip = hit.shape;
     }
-    return 0.0;
+    return vec3(0.0);
 }
 
 // `continues`: the path may go on, so that the environment is also sampled by the material.
@@ -148,15 +170,18 @@ Lit direct_light(const Header header, const Surface surface, float time, uint sh
                     // The vector to the same point from the origin of the shadow ray.
                     if (light.kind == LIGHT_RECTANGLE) to_light += surface.point - start;
                 }
-                if (TRANSPARENT) share *= passing_share(Ray(start, to_light, time), aim.reach, shape, random);
-                else lit = !occluded(Ray(start, to_light, time), aim.reach, shape);
+                if (!TRANSPARENT) lit = !occluded(Ray(start, to_light, time), aim.reach, shape);
+                way = to_light;
             }
             vec3 power = light.power;
-            vec3 lobes = evaluate(bsdf, vec3(way));
+            vec3 lobes = evaluate(bsdf, vec3(aim.way));
+            bool from_sky = MODE_IS(LIGHT_KINDS, LIGHT_ENVIRONMENT, light.kind);
+            if (TRANSPARENT || LIT_BY_ENVIRONMENT) {
+                power *= arriving_light(header, Ray(start, way, time), aim.reach, shape, from_sky, random);
+            }
             if (LIT_BY_ENVIRONMENT) {
-                if (MODE_IS(LIGHT_KINDS, LIGHT_ENVIRONMENT, light.kind)) {
-                    power *= sky_radiance(header, Ray(start, way, time), random);
-                    if (continues) lobes = balanced_lobes(bsdf, lobes, vec3(way), 1.0 / max(aim.density, 1e-30));
+                if (from_sky) {
+                    if (continues) lobes = balanced_lobes(bsdf, lobes, vec3(aim.way), 1.0 / max(aim.density, 1e-30));
                     lobes.x *= occlusion;
                 }
             }

@@ -108,33 +108,39 @@ fn is_transparent(scene: &PackedScene) -> bool {
     scene.records.materials.iter().any(|m| m.alpha_mode != AlphaMode::Opaque)
 }
 
-/// Returns the share of light that arrives along a ray up to `t_max`, where surfaces let some pass.
-pub fn passing_share(
+/// Returns what arrives along a ray up to `t_max`: all light, times what surfaces on the way let pass, and for light of
+/// the environment (`from_sky`) times its radiance there.
+pub fn arriving_light(
     scene: &PackedScene,
     mut ray: Ray,
     mut t_max: f64,
     mut skip: u32,
+    from_sky: bool,
     random: [u32; 2],
-) -> f64 {
+) -> DVec3 {
+    let radiance = if from_sky { sky_radiance(scene, &ray, random) } else { DVec3::ONE };
+    if !is_transparent(scene) {
+        return if occluded(scene, &ray, t_max, skip) { DVec3::ZERO } else { radiance };
+    }
     let mut share = 1.0;
-    for _ in 0..MAX_LAYERS {
+    for _ in 0..=MAX_LAYERS {
         let hit = nearest_of_both_sides(scene, &ray, skip);
         if hit.shape == NO_SHAPE || hit.t >= t_max {
-            return share;
+            return share * radiance;
         }
         let surface = hit_surface(scene, &ray, &hit);
         let material = &scene.records.materials[surface.material as usize];
         let map = scene.records.uv_projections.get(surface.map as usize);
         share *= 1.0 - opacity_at(scene, material, map, &ray, &surface, random);
         if share <= 0.0 {
-            return 0.0;
+            return DVec3::ZERO;
         }
         // The way that is left ends at the same point.
         t_max -= hit.t;
         ray.origin = offset_origin(surface.point, -surface.geometric_normal, surface.size);
         skip = hit.shape;
     }
-    0.0
+    DVec3::ZERO
 }
 
 /// What direct lighting at a hit depends on beside its surface.
@@ -174,22 +180,16 @@ pub fn direct_light(scene: &PackedScene, surface: &Surface, by: &Directions<'_>,
             let from_start = matches!(kind, LightKind::Point | LightKind::Spot | LightKind::Rectangle);
             let to_light = if from_start { aim.way + (surface.point - start) } else { aim.way };
             let shadow = Ray { origin: start, direction: to_light, time: by.time };
-            let arrives = if is_transparent(scene) {
-                passing_share(scene, shadow, aim.reach, by.shape, by.random)
-            } else {
-                f64::from(!occluded(scene, &shadow, aim.reach, by.shape))
-            };
+            let from_sky = kind == LightKind::Environment;
+            let arrives = arriving_light(scene, shadow, aim.reach, by.shape, from_sky, by.random);
             let mut lobes = evaluate(bsdf, aim.way);
-            let mut power = light.power.as_dvec3();
-            if kind == LightKind::Environment {
-                let ray = Ray { origin: start, direction: aim.way, time: by.time };
-                power *= sky_radiance(scene, &ray, by.random);
+            if from_sky {
                 if by.continues {
                     lobes = balanced_lobes(bsdf, lobes, aim.way, 1.0 / aim.density.max(1e-30));
                 }
                 lobes.x *= by.occlusion;
             }
-            let more = power * (arrives * facing * aim.density / PI);
+            let more = arrives * light.power.as_dvec3() * (facing * aim.density / PI);
             sum.first += more * lobes.x;
             sum.second += more * lobes.y;
             sum.third += more * lobes.z;

@@ -28,6 +28,9 @@ const ONE_JOB: &[(&[&str], &str)] = &[
     (&["oracle.backend", "oracle.render"], "the oracle as a backend, and the picture that it makes alone"),
     (&["render.backend", "render.session"], "a session's renders, and the backend that they are"),
     (&["pack.geometry", "pack.precision"], "how shapes are packed depends on the numbers that they need"),
+    (&["lab.inspect"], "the page of a folder"),
+    (&["output.encode", "output.exr"], "a picture's encoders, and what they are told"),
+    (&["pack.stored_levels", "pack.textures"], "which levels a texture has"),
     (&["lab.verify"], "a report names the place and the variant that it judges"),
 ];
 

@@ -45,7 +45,25 @@ float read_level(const Texture image, const Sampler how, const FootprintEllipse 
     return level;
 }
 
+// Returns what is read without a footprint: level 0 by the filter of magnification.
+vec4 sample_magnified(const Texture image, const Sampler how, uint slot, const TexCoord mapped, uvec2 random) {
+    if (MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_PROCEDURAL, image.kind)) {
+        return vec4(procedural_color(procedural_at(image.procedural), mapped.at, mapped.dx, mapped.dy), 1.0);
+    }
+    count_diagnostic(DIAGNOSTIC_COORDINATES, no_number(mapped.at));
+    Coordinate place = near_coordinate(image, how, mapped);
+#if HAS_IMAGES
+    if (MODE_IS(METHODS, METHOD_HARDWARE, how.method)) return read_sampled(image, how, slot, place, 0.0);
+#endif
+    vec3 dice = vec3(0.0);
+    if (HAS(FILTERS, FILTER_STOCHASTIC)) dice = look_up_dice(random);
+    uint face;
+    Coordinate c = in_texture(image, place, face);
+    return filtered_level(image, how, slot, how.mag_filter, level_at(image, 0), c.at, face, dice);
+}
+
 vec4 sample_texture(const Texture image, const Sampler how, uint slot, const TexCoord mapped, uvec2 random) {
+    if (!FILTERED) return sample_magnified(image, how, slot, mapped, random);
     if (MODE_IS(TEXTURE_KINDS, TEXTURE_KIND_PROCEDURAL, image.kind)) {
         return vec4(procedural_color(procedural_at(image.procedural), mapped.at, mapped.dx, mapped.dy), 1.0);
     }
@@ -60,13 +78,6 @@ vec4 sample_texture(const Texture image, const Sampler how, uint slot, const Tex
     if (HAS(FILTERS, FILTER_STOCHASTIC)) dice = look_up_dice(random);
     uint face;
     Coordinate c = in_texture(image, place, face);
-    if (!FILTERED) {
-#if HAS_IMAGES
-        if (hardware) return read_sampled(image, how, slot, place, 0.0);
-#endif
-        return filtered_level(image, how, slot, mode, level_at(image, 0), c.at, face, dice);
-    }
-
     FootprintEllipse spread = texel_spread(image, c);
     bool magnified = spread.major <= 1.0;
     mode = magnified ? mode : how.min_filter;

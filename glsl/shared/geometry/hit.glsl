@@ -62,6 +62,10 @@ struct Surface {
 
 const mat3 FLAT = mat3(0.0);
 
+// The surface of what surrounds the scene.
+const Surface NOWHERE = Surface(real3(0.0), real3(0.0, 0.0, 1.0), real3(0.0, 0.0, 1.0), real2(0.0), vec3(0.0), vec3(0.0), FLAT, 0.0, false,
+                                uvec2(0u), real3(0.0), 0.0, NO_ATTRIBUTES);
+
 // True if the change of normals is needed: footprints that leave a mirror, or bump maps that are mapped by directions.
 const bool BY_DIRECTION = (ENTITIES & ((1u << ENTITY_NORMAL) | (1u << ENTITY_REFLECTION))) != 0u;
 const bool CURVED_BUMP = BUMPED && BY_DIRECTION;
