@@ -19,7 +19,7 @@ const ONE_JOB: &[(&[&str], &str)] = &[
         "a table names the section that a stray key belongs to, by the sections' own lists",
     ),
     (
-        &["scene.bsdf", "scene.geometry", "scene.limits", "scene.model", "scene.refusal"],
+        &["scene.bsdf", "scene.geometry", "scene.limits", "scene.material", "scene.model", "scene.refusal"],
         "types of a scene, and the limits of their values",
     ),
     (&["scene.builder", "scene.whole"], "a scene and its builder name each other"),
@@ -28,6 +28,7 @@ const ONE_JOB: &[(&[&str], &str)] = &[
     (&["oracle.backend", "oracle.render"], "the oracle as a backend, and the picture that it makes alone"),
     (&["render.backend", "render.session"], "a session's renders, and the backend that they are"),
     (&["pack.geometry", "pack.precision"], "how shapes are packed depends on the numbers that they need"),
+    (&["render.layer_samples", "render.layers"], "layers, and the samples that some of them count"),
     (&["lab.inspect"], "the page of a folder"),
     (&["output.encode", "output.exr"], "a picture's encoders, and what they are told"),
     (&["pack.stored_levels", "pack.textures"], "which levels a texture has"),

@@ -2,6 +2,7 @@
 //! the materials of their libraries, and what is said of files that are none.
 
 mod gltf;
+mod gltf_materials;
 mod lists;
 mod trees;
 

@@ -99,7 +99,7 @@ fn shape_rules() {
 fn light_rules() {
     check_behind_head(&[
         ("kind missing", "[[light]]\nposition = [0, 0, 0]", &["light.kind", "missing"]),
-        ("kind unknown", "[[light]]\nkind = 'spot'", &["light.kind", "allowed: point, directional"]),
+        ("kind unknown", "[[light]]\nkind = 'lamp'", &["light.kind", "allowed: point, directional"]),
         (
             "position missing",
             "[[light]]\nkind = 'point'\nintensity = [1, 1, 1]",

@@ -108,7 +108,7 @@ fn texture_sampler_and_material_rules() {
         (
             "key of another model",
             "[[material]]\nname = 'm'\nmodel = 'mirror'\nior = 1.5",
-            &["material.ior", "only model \"dielectric\" has ior", "\"mirror\""],
+            &["material.ior", "only models \"dielectric\" and \"metallic-roughness\" have ior", "\"mirror\""],
         ),
         ("green of nothing", "[[material]]\nname = 'm'\ngreen = 'down'", &["material.green", "normal_map"]),
         (
@@ -130,7 +130,7 @@ fn texture_sampler_and_material_rules() {
         (
             "relief of a cube",
             "[[texture]]\nname = 't'\nfile = 'f'\ndimension = 'cube'\n[[material]]\nname = 'm'\nbump_map = 't'",
-            &["material.bump_map", "a bump or normal map is a 2d texture; this one is cube"],
+            &["material.bump_map", "such a map is a 2d texture; this one is cube"],
         ),
         (
             "relief of a pattern",
