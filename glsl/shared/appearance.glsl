@@ -220,8 +220,10 @@ Appearance appearance(const Material material, const UvProjection map, const Ray
     uint tap = 0u;
     if (TEXTURED || BUMPED || MATERIAL_MAPS != 0u) {
         do {
+            // lavapipe (Mesa 22.3.6) may run the body on for lanes that have left a loop around another one: nothing may be
+            // applied in them any more.
             bool last = tap == taps;
-            bool other = MATERIAL_MAPS != 0u && tap > taps;
+            bool other = MATERIAL_MAPS != 0u && tap > taps && maps != 0u;
             uint kind = 0u;
             if (MATERIAL_MAPS != 0u) {
                 kind = uint(findLSB(maps | 1u << 31u));
@@ -260,7 +262,7 @@ Appearance appearance(const Material material, const UvProjection map, const Ray
                     else read = texel;
                 } else if (MATERIAL_MAPS != 0u && other) {
                     apply_map(kind, texel, material, vertex_alpha, look);
-                } else {
+                } else if (last) {
                     vec3 product = look.color * texel.xyz;
                     look.color = product;
                     look.opacity *= texel.w;

@@ -92,7 +92,8 @@ Aim sky_aim(const Header header, vec2 square) {
 vec3 arriving_light(const Header header, Ray ray, real t_max, uint skip, bool from_sky, uvec2 random) {
     vec3 arrives = vec3(1.0);
     uint layers = TRANSPARENT && SHADOWS ? MAX_LAYERS : 0u;
-    for (uint layer = 0u; layer <= layers; layer++) {
+    bool is_open = true; // the end of the way is not known yet
+    for (uint layer = 0u; layer <= layers && is_open; layer++) {
         bool blocked = false;
         Surface surface = NOWHERE;
         surface.link = uvec2(header.environment_material, header.environment_projection);
@@ -104,29 +105,33 @@ vec3 arriving_light(const Header header, Ray ray, real t_max, uint skip, bool fr
             blocked = hit.shape != NO_SHAPE && hit.t < t_max;
             if (blocked) surface = hit_surface(ray, hit);
         }
-        if (!blocked && !(LIT_BY_ENVIRONMENT && from_sky)) return arrives;
-        if (!blocked && (!ENVIRONMENT || header.environment_material == NO_MATERIAL)) return arrives * header.background;
-        Material material = material_at(surface.link.x);
-        vec4 texel = vec4(1.0);
+        bool has_sky = LIT_BY_ENVIRONMENT && from_sky && ENVIRONMENT && header.environment_material != NO_MATERIAL;
+        vec3 factor = LIT_BY_ENVIRONMENT && from_sky ? header.background : vec3(1.0);
+        if (blocked || has_sky) {
+            Material material = material_at(surface.link.x);
+            vec4 texel = vec4(1.0);
 #if SOURCE != SOURCE_NONE
-        bool reads = !blocked || !MODE_IS(ALPHA_MODES, ALPHA_OPAQUE, material.alpha_mode);
-        if (reads && material.texture_index != NO_TEXTURE) {
-            UvProjection map = uv_projection_at(surface.link.y);
-            TexCoord c = texture_coordinate(map, map_input(map, ray, at_uv_of(material, SECOND_UV_COLOR, surface), NO_FOOTPRINT));
-            texel = sample_magnified(texture_at(material.texture_index), sampler_at(material.sampler_index), material.image_slot, c, random);
-        }
+            bool reads = !blocked || !MODE_IS(ALPHA_MODES, ALPHA_OPAQUE, material.alpha_mode);
+            if (reads && material.texture_index != NO_TEXTURE) {
+                UvProjection map = uv_projection_at(surface.link.y);
+                TexCoord c = texture_coordinate(map, map_input(map, ray, at_uv_of(material, SECOND_UV_COLOR, surface), NO_FOOTPRINT));
+                texel = sample_magnified(texture_at(material.texture_index), sampler_at(material.sampler_index), material.image_slot, c, random);
+            }
 #endif
-        if (!blocked) return arrives * (material.color * texel.xyz);
-        float alpha = material.opacity * texel.w;
-        if (VERTEX_COLORS) alpha *= surface.attributes.color.w;
-        arrives *= 1.0 - alpha_share(material, alpha);
-        if (arrives.x <= 0.0) return vec3(0.0);
+            float alpha = material.opacity * texel.w;
+            if (VERTEX_COLORS) alpha *= surface.attributes.color.w;
+            factor = blocked ? vec3(1.0 - alpha_share(material, alpha)) : material.color * texel.xyz;
+        }
+        // Lanes whose way has ended keep what they have, even where the loop goes on for them as for others.
+        vec3 product = arrives * factor;
+        arrives = is_open ? product : arrives;
+        is_open = is_open && blocked && arrives.x > 0.0;
         // The way that is left ends at the same point.
         t_max -= hit.t;
         ray.origin = offset_origin(surface.point, -surface.geometric_normal, surface.size);
         skip = hit.shape;
     }
-    return vec3(0.0);
+    return is_open ? vec3(0.0) : arrives;
 }
 
 // `continues`: the path may go on, so that the environment is also sampled by the material.
