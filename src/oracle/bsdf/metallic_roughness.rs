@@ -54,7 +54,7 @@ pub fn metallic_roughness(
     dielectric: DVec3,
     cosine: f64,
 ) -> MetallicRoughness {
-    let rough = roughness.min(1.0).max(LEAST_ROUGHNESS);
+    let rough = roughness.clamp(LEAST_ROUGHNESS, 1.0);
     let share = facet_share(scene, cosine.clamp(0.0, 1.0), rough);
     let lost = (1.0 - share.x) / share.x;
     let body_gain = 1.0 + dielectric * lost;

@@ -31,7 +31,7 @@ pub(super) struct MeshFile {
 }
 
 enum Content {
-    Mesh(Mesh),
+    Mesh(Box<Mesh>),
     Gltf(Box<Model>),
 }
 
@@ -92,7 +92,7 @@ impl MeshFile {
         let bytes = read_file("mesh", &[name], path, MAX_BYTES)?;
         let mut sources = vec![path.to_owned()];
         let content = match format {
-            Some(format) => (format.read)(&bytes, MAX_TRIANGLES).map(Content::Mesh),
+            Some(format) => (format.read)(&bytes, MAX_TRIANGLES).map(|mesh| Content::Mesh(Box::new(mesh))),
             None => gltf::read(path, &bytes, &mut sources).map(|model| Content::Gltf(Box::new(model))),
         };
         let content = content.map_err(|fault| of_fault(path, name, &fault))?;
@@ -150,7 +150,7 @@ impl MeshFile {
                     Some(_) => Vec::new(),
                     None => add_materials(&path, &mesh, usage, builder)?,
                 };
-                part(&own, mesh, builder)
+                part(&own, *mesh, builder)
             }
             Content::Gltf(model) => add_model(&path, &model, usage, builder, part),
         };

@@ -200,15 +200,13 @@ fn keys_without_what_they_need_are_refused_by_line_and_key() {
 
 #[test]
 fn alpha_and_a_sky_light_keep_a_path_finite_everywhere() {
-    let text = format!(
-        "camera = {{ eye = [0, 0.2, 3], look_at = [0, 0, 0], vertical_fov = 50 }}\nimage = {{ width = 16, height = 16 }}\n\
-         sampling = {{ pattern = 'sobol-owen', spp = 16 }}\nbackground = {{ color = [1, 1, 1] }}\n\
+    let text = "camera = { eye = [0, 0.2, 3], look_at = [0, 0, 0], vertical_fov = 50 }\nimage = { width = 16, height = 16 }\n\
+         sampling = { pattern = 'sobol-owen', spp = 16 }\nbackground = { color = [1, 1, 1] }\n\
          [[light]]\nkind = 'environment'\n\
          [[material]]\nname = 'm'\nmodel = 'metallic-roughness'\nroughness = 0.0\nalpha = 'blend'\nopacity = 0.5\n\
          [[sphere]]\ncenter = [0, 0, 0]\nradius = 1\nmaterial = 'm'\n\
-         [[sphere]]\ncenter = [0, 0, 0]\nradius = 0.5\nmaterial = 'm'\n"
-    );
-    for film in both(&scene(&text, Vec::new())) {
+         [[sphere]]\ncenter = [0, 0, 0]\nradius = 0.5\nmaterial = 'm'\n";
+    for film in both(&scene(text, Vec::new())) {
         let color = |p: &[f32; 3]| DVec3::from_array(p.map(f64::from));
         assert!(film.pixels.iter().all(|p| color(p).is_finite() && color(p).max_element() < 50.0));
         assert!(mean(&film) > 0.3 && mean(&film) < 1.1, "{}", mean(&film));
