@@ -93,10 +93,7 @@ void main() {
         CellRays cell_sides = cell_rays(header, frame);
         uint list = begin + CELL_HEAD + min(listed, MAX_LISTED);
         uint room = MAX_LISTED - min(listed, MAX_LISTED);
-#define SURVEY_MESHES(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed, is_concave) \
-        for (uint i = 0u; i < count; i++) survey_mesh(header, frame, SQUARE, cell_sides, at(i), list, room, survey);
-        CONCAVE_KINDS(SURVEY_MESHES)
-#undef SURVEY_MESHES
+        survey_meshes(header, frame, SQUARE, cell_sides, list, room, survey);
         round = round || survey.count > 0u || survey.depth < FAR;
     }
     bool empty = seen == 0u && !round && !(ENVIRONMENT && header.environment_material != NO_MATERIAL);

@@ -59,6 +59,11 @@ constants! {
     TREE_STACK: u32 = 64;
     /// Position of the number of triangles in the word for a child that waits.
     TREE_COUNT_SHIFT: u32 = 28;
+    /// In place of that number, of a child that is a mesh by its index, not triangles by the texel of the first one's corners
+    /// or a node by the texel of its first child.
+    TREE_MESH: u32 = 15;
+    /// Index of the placement of a mesh whose triangles are those of the scene's space.
+    NO_PLACEMENT: u32 = u32::MAX;
 
     /// Flags of a triangle of a mesh: it has shading normals; the bitangent of its texture coordinates is mirrored.
     MESH_SMOOTH: u32 = 1;

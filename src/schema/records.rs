@@ -125,7 +125,8 @@ records! {
         is_polar: bool,
     }
 
-    /// Triangles of one material in a tree. Its nodes, corners and attributes lie in the buffer of meshes.
+    /// Triangles of one material in a tree. Its nodes, corners and attributes lie in the buffer of meshes, where other meshes
+    /// may share them.
     Mesh in meshes as "loop over meshes" {
         /// The ball around its box.
         center: DVec3,
@@ -145,6 +146,18 @@ records! {
         has_tangents: bool,
         /// True if some triangle has shading normals.
         is_smooth: bool,
+        /// Or `NO_PLACEMENT`.
+        placement: u32,
+    }
+
+    /// Rows of the matrix from the space of a mesh's triangles to that of the scene, and of the inverse.
+    Placement in placements as "meshes that share triangles" {
+        x: DVec4,
+        y: DVec4,
+        z: DVec4,
+        to_mesh_x: DVec4,
+        to_mesh_y: DVec4,
+        to_mesh_z: DVec4,
     }
 
     Light in lights as "loop over lights" {

@@ -6,7 +6,7 @@ use glam::Vec3;
 use rayon::prelude::*;
 
 use super::split::{Bounds, Part, Parts, parts};
-use super::{Child, LEAF, MOST, Tree, WIDEST, levels};
+use super::{Child, Growing, MOST, Tree, WIDEST};
 
 /// Nodes of more primitives have the subtrees of their children built at the same time.
 const AT_ONCE: usize = 1 << 14;
@@ -15,10 +15,12 @@ const AT_ONCE: usize = 1 << 14;
 ///
 /// # Panics
 ///
-/// If `width` is not 2 to 8, or for more boxes than `MOST`.
-pub fn build(boxes: &[[Vec3; 2]], width: usize) -> Tree {
+/// If `width` is not 2 to 8, or for more boxes than `MOST` or than the levels have room for.
+pub fn build(boxes: &[[Vec3; 2]], growing: Growing) -> Tree {
+    let Growing { width, leaf, levels } = growing;
     assert!((2..=WIDEST).contains(&width), "nodes have 2 to {WIDEST} children, not {width}");
-    assert!(boxes.len() <= MOST, "{} boxes are more than {MOST}", boxes.len());
+    let most = MOST.min(leaf.saturating_mul(width.saturating_pow(levels)));
+    assert!(boxes.len() <= most, "{} boxes are more than {most}", boxes.len());
     let item = |(index, [min, max]): (usize, &[Vec3; 2])| Child {
         min: min.to_array(),
         reference: index as u32,
@@ -26,7 +28,7 @@ pub fn build(boxes: &[[Vec3; 2]], width: usize) -> Tree {
         count: 1,
     };
     let mut items: Vec<Child> = boxes.par_iter().enumerate().map(item).collect();
-    let mut growth = Growth { children: Vec::new(), depth: 0, width };
+    let mut growth = Growth { children: Vec::new(), depth: 0, growing };
     let bounds = Bounds::of(&items);
     growth.node(&mut items, bounds, 0, 1);
     let order = items.par_iter().map(|item| item.reference).collect();
@@ -37,28 +39,29 @@ pub fn build(boxes: &[[Vec3; 2]], width: usize) -> Tree {
 struct Growth {
     children: Vec<Child>,
     depth: u32,
-    width: usize,
+    growing: Growing,
 }
 
 impl Growth {
     /// Adds the node of primitives that begin at a place, and all nodes below it.
     fn node(&mut self, items: &mut [Child], bounds: Bounds, place: usize, level: u32) {
+        let Growing { width, leaf: most, levels } = self.growing;
         let own = self.children.len();
-        self.children.resize(own + self.width, Child::UNUSED);
+        self.children.resize(own + width, Child::UNUSED);
         self.depth = self.depth.max(level);
         if items.is_empty() {
             return;
         }
         // What fits below a child if it is balanced. A node never has more than its parent's children have room for, and
         // so on up to the root, which has room for all.
-        let below = levels(self.width) - level;
-        let room = LEAF.saturating_mul(self.width.saturating_pow(below));
-        let parts = parts(items, bounds, self.width, room);
+        let below = levels - level;
+        let room = most.saturating_mul(width.saturating_pow(below));
+        let parts = parts(items, bounds, self.growing, room);
         let subtrees =
             if items.len() > AT_ONCE { self.subtrees(items, &parts, place, level) } else { Vec::new() };
         let mut subtrees = subtrees.into_iter();
         for (slot, part) in parts.all().iter().enumerate() {
-            let leaf = part.count <= LEAF;
+            let leaf = part.count <= most;
             let first = place + part.first;
             self.children[own + slot] = Child {
                 min: part.bounds.min.to_array(),
@@ -87,8 +90,8 @@ impl Growth {
             rest = others;
         }
         let grow = |(run, part): (&mut [Child], &Part)| {
-            let mut growth = Growth { children: Vec::new(), depth: 0, width: self.width };
-            if part.count > LEAF {
+            let mut growth = Growth { children: Vec::new(), depth: 0, growing: self.growing };
+            if part.count > self.growing.leaf {
                 growth.node(run, part.bounds, place + part.first, level + 1);
             }
             growth

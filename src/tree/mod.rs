@@ -29,6 +29,24 @@ pub const MOST: usize = 1 << 29;
 /// Entries of the stack of a traversal, on the device as well.
 pub const STACK: usize = TREE_STACK as usize;
 
+/// The shape of a tree.
+#[derive(Clone, Copy, Debug)]
+pub struct Growing {
+    /// Children of a node.
+    pub width: usize,
+    /// Most primitives of a leaf.
+    pub leaf: usize,
+    /// Most nodes one above the other.
+    pub levels: u32,
+}
+
+impl Growing {
+    /// The shape of the only tree that a traversal passes.
+    pub fn alone(width: usize) -> Growing {
+        Growing { width, leaf: LEAF, levels: levels(width) }
+    }
+}
+
 /// One child of a node, as a device reads it in two texels of four words.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]

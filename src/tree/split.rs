@@ -4,7 +4,7 @@
 
 use glam::Vec3A;
 
-use super::{Child, LEAF, WIDEST};
+use super::{Child, Growing, WIDEST};
 
 /// Below so many primitives half the bins do: more would cost time and gain nothing.
 const FEW: usize = 64;
@@ -66,9 +66,10 @@ impl Parts {
 
 /// Returns at most `width` parts of at most `room` primitives each. The part with the greatest surface is split first,
 /// as most rays meet it; if that leaves too many primitives in one part, the part with most primitives.
-pub(super) fn parts(items: &mut [Child], bounds: Bounds, width: usize, room: usize) -> Parts {
+pub(super) fn parts(items: &mut [Child], bounds: Bounds, growing: Growing, room: usize) -> Parts {
+    let width = growing.width;
     for by_area in [true, false] {
-        let parts = split_greatest(items, bounds, width, by_area);
+        let parts = split_greatest(items, bounds, growing, by_area);
         if parts.all().iter().all(|part| part.count <= room) {
             return parts;
         }
@@ -78,12 +79,12 @@ pub(super) fn parts(items: &mut [Child], bounds: Bounds, width: usize, room: usi
     parts
 }
 
-fn split_greatest(items: &mut [Child], bounds: Bounds, width: usize, by_area: bool) -> Parts {
+fn split_greatest(items: &mut [Child], bounds: Bounds, growing: Growing, by_area: bool) -> Parts {
     let mut parts = Parts::new();
     parts.insert(0, Part { first: 0, count: items.len(), bounds });
-    while parts.count < width {
+    while parts.count < growing.width {
         // Places that would stay empty take leaves apart.
-        let Some(at) = greatest(&parts, LEAF, by_area).or_else(|| greatest(&parts, 1, by_area)) else {
+        let Some(at) = greatest(&parts, growing.leaf, by_area).or_else(|| greatest(&parts, 1, by_area)) else {
             break;
         };
         let Part { first, count, .. } = parts.parts[at];

@@ -4,7 +4,7 @@
 use glam::Vec3;
 
 use super::split::{Bounds, parts};
-use super::{Child, LEAF, MOST, STACK, Tree, WIDEST, build, check, levels};
+use super::{Growing, Child, LEAF, MOST, STACK, Tree, WIDEST, build, check, levels};
 
 pub(super) type Boxes = Vec<[Vec3; 2]>;
 
@@ -61,7 +61,7 @@ fn trees_over_hard_boxes_are_right() {
     for count in [0, 1, 2, 3, 4, 5, 9, 33, 2000, 40_000] {
         for (name, boxes) in hard(count) {
             for width in (2..=WIDEST).step_by(if count > 2000 { 6 } else { 1 }) {
-                let tree = build(&boxes, width);
+                let tree = build(&boxes, Growing::alone(width));
                 check(&tree, &boxes).unwrap_or_else(|fault| panic!("{count} {name}, {width} wide: {fault}"));
             }
         }
@@ -78,11 +78,11 @@ fn the_bound_of_the_depth_is_reached_and_kept() {
     }
     let boxes: Boxes = hard(200_000).into_iter().flat_map(|(_, boxes)| boxes).take(1_200_000).collect();
     for width in [4, 8] {
-        let tree = build(&boxes, width);
+        let tree = build(&boxes, Growing::alone(width));
         check(&tree, &boxes).unwrap();
     }
     let deep: Boxes = (0..260 * 800).map(|i| [Vec3::X * 2.0f32.powi(i % 260 - 140); 2]).collect();
-    let tree = build(&deep, 8);
+    let tree = build(&deep, Growing::alone(8));
     check(&tree, &deep).unwrap();
     assert_eq!(tree.depth, levels(8));
 }
@@ -91,8 +91,8 @@ fn the_bound_of_the_depth_is_reached_and_kept() {
 #[test]
 fn trees_without_surfaces_are_balanced() {
     let boxes: Boxes = (0..1 << 16).map(|i| [Vec3::Y * i as f32; 2]).collect();
-    assert!(build(&boxes, 2).depth <= 17);
-    assert!(build(&[[Vec3::ONE; 2]; 1 << 16], 2).depth <= 15);
+    assert!(build(&boxes, Growing::alone(2)).depth <= 17);
+    assert!(build(&[[Vec3::ONE; 2]; 1 << 16], Growing::alone(2)).depth <= 15);
 }
 
 /// A node whose room is as tight as can be is what the induction over levels rests on.
@@ -127,7 +127,7 @@ fn trees_do_not_depend_on_threads() {
     let boxes: Boxes = (0..100_000).map(|_| around(point(&mut random), point(&mut random) * 0.02)).collect();
     let trees = [1, 2, 3, 1].map(|threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        pool.install(|| build(&boxes, 8))
+        pool.install(|| build(&boxes, Growing::alone(8)))
     });
     check(&trees[0], &boxes).unwrap();
     let bytes = |tree: &Tree| bytemuck::cast_slice::<Child, u8>(&tree.children).to_vec();
@@ -141,7 +141,7 @@ fn trees_do_not_depend_on_threads() {
 fn the_check_finds_planted_faults() {
     let mut random = fastrand::Rng::with_seed(4);
     let boxes: Boxes = (0..3000).map(|_| around(point(&mut random), point(&mut random) * 0.1)).collect();
-    let tree = build(&boxes, 8);
+    let tree = build(&boxes, Growing::alone(8));
     check(&tree, &boxes).unwrap();
     let are_leaves = |node: &[Child]| node[0].count > 1 && node[1].count > 0;
     let leaf = 8 * tree.children.chunks(8).position(are_leaves).unwrap();

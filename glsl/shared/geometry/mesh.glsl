@@ -69,12 +69,12 @@ Slabs slabs_of(const Ray ray, bool from_eye) {
     return Slabs(from_eye ? real3(0.0) : ray.origin, 1.0 / mix(apart, -apart, falls), falls, longest);
 }
 
-// Returns where the ray enters the grown box, -1 if it does not up to the scaled distance `most`. Planes of entry and
+// Returns where the ray enters the box grown by this part, -1 if it does not up to the scaled distance `most`. Planes of entry and
 // exit follow from the direction: a box that is inside out, in an unused place of a node, is never entered.
-real entry(const Slabs slabs, vec3 least, vec3 greatest, real most) {
+real entry(const Slabs slabs, vec3 least, vec3 greatest, real part, real most) {
     real3 low = real3(least) - slabs.origin;
     real3 high = real3(greatest) - slabs.origin;
-    real margin = MARGIN * max(largest_part(low), largest_part(high));
+    real margin = part * max(largest_part(low), largest_part(high));
     low -= margin;
     high += margin;
     real3 enter = mix(low, high, slabs.falls) * slabs.inverse;
@@ -99,6 +99,11 @@ real distance_by(real3 edges, real3 a, real3 b, real3 c, real3 d, bool one_sided
 
 // Edge functions d·((p + q) × (q - p)), twice the volumes d·(p × q): the two triangles at a shared edge compute the same
 // value with opposite sign, and the error is a part of the edge's length. They are weights of the corners in the point.
+real distance_between(real3 a, real3 b, real3 c, real3 d, bool one_sided) {
+    real3 edges = real3(dot3(d, cross3(b + c, c - b)), dot3(d, cross3(c + a, a - c)), dot3(d, cross3(a + b, b - a)));
+    return distance_by(edges, a, b, c, d, one_sided);
+}
+
 // A shadow ray that surfaces may let pass meets both sides of all.
 bool meets_backs = false;
 
@@ -113,62 +118,10 @@ real distance_in(uint at, const Ray ray, bool from_eye, bool any) {
         b -= ray.origin;
         c -= ray.origin;
     }
-    real3 d = ray.direction;
-    real3 edges = real3(dot3(d, cross3(b + c, c - b)), dot3(d, cross3(c + a, a - c)), dot3(d, cross3(a + b, b - a)));
-    return distance_by(edges, a, b, c, d, !any && !meets_backs && first.w != 0u);
+    return distance_between(a, b, c, ray.direction, !any && !meets_backs && first.w != 0u);
 }
 
-// The nearest triangle before `most`, or for `any` just one; of those at the same t the first in the tree's order.
-// Its number is the local coordinate.
-real distance_to(const Mesh mesh, const Ray ray, bool from_eye, real most, bool any, inout real2 local) {
-    Slabs slabs = slabs_of(ray, from_eye);
-    real best = most;
-    uint found = NO_SHAPE;
-    // Children that wait, the nearest on top, and where the ray enters them.
-    uint waiting[TREE_STACK];
-    real entries[TREE_STACK];
-    uint height = 0u;
-    uint reference = 0u;
-    uint count = 0u;
-    while (true) {
-        if (count == 0u) {
-            uint at = mesh.nodes + 2u * reference;
-            uint children[TREE_WIDTH];
-            real enters[TREE_WIDTH];
-            for (uint k = 0u; k < TREE_WIDTH; k++) {
-                uvec4 least = mesh_texel(at + 2u * k);
-                uvec4 greatest = mesh_texel(at + 2u * k + 1u);
-                children[k] = least.w | (greatest.w << TREE_COUNT_SHIFT);
-                enters[k] = entry(slabs, point_in(least), point_in(greatest), best * slabs.longest);
-            }
-            SORT_CHILDREN(real, enters, children)
-            for (uint k = 0u; k < TREE_WIDTH; k++) {
-                if (enters[k] >= 0.0) {
-                    waiting[height] = children[k];
-                    entries[height] = enters[k];
-                    height++;
-                }
-            }
-        } else {
-            for (uint k = 0u; k < count; k++) {
-                uint index = reference + k;
-                real t = distance_in(mesh.corners + 3u * index, ray, from_eye, any);
-                bool nearer = t > 0.0 && (t < best || (t == best && found != NO_SHAPE && index < found));
-                best = nearer ? t : best;
-                found = nearer ? index : found;
-            }
-            if (any && found != NO_SHAPE) break;
-        }
-        // Equal distances are entered as well, for the first of equal triangles.
-        while (height > 0u && entries[height - 1u] > best * slabs.longest) height--;
-        if (height == 0u) break;
-        height--;
-        reference = waiting[height] & ((1u << TREE_COUNT_SHIFT) - 1u);
-        count = waiting[height] >> TREE_COUNT_SHIFT;
-    }
-    local = real2(real(found), 0.0);
-    return found == NO_SHAPE ? -1.0 : best;
-}
+#include "mesh_search.glsl"
 
 // A unit vector from two components of 16 bits (Cigolle et al. 2014).
 real3 octahedral(uint word) {
@@ -183,18 +136,20 @@ real3 octahedral(uint word) {
 
 Triangle triangle_in(const Mesh mesh, uint index) {
     uint at = mesh.corners + 3u * index;
-    real3 a = real3(point_in(mesh_texel(at)));
-    real3 b = real3(point_in(mesh_texel(at + 1u)));
-    real3 c = real3(point_in(mesh_texel(at + 2u)));
+    Placement placement = placement_of(mesh);
+    real3 a = placed_point(placement, real3(point_in(mesh_texel(at))));
+    real3 b = placed_point(placement, real3(point_in(mesh_texel(at + 1u))));
+    real3 c = placed_point(placement, real3(point_in(mesh_texel(at + 2u))));
     at = mesh.attributes + mesh.attribute_count * index;
     uvec4 plane = mesh_texel(at);
     vec4 first = uintBitsToFloat(mesh_texel(at + 1u));
     vec4 second = uintBitsToFloat(mesh_texel(at + 2u));
     uvec4 normals = mesh_texel(at + 3u);
-    real3 normal = real3(point_in(plane));
+    real3 normal = placed_normal(mesh, placement, real3(point_in(plane)));
     return Triangle(a, first.x, b, first.y, c, first.z, real3(first.w, second.x, second.y), normal, dot3(normal, a),
-                    octahedral(normals.x), octahedral(normals.y), octahedral(normals.z), mesh.material,
-                    mesh.uv_projection, (plane.w & MESH_SMOOTH) != 0u);
+                    placed_normal(mesh, placement, octahedral(normals.x)), placed_normal(mesh, placement, octahedral(normals.y)),
+                    placed_normal(mesh, placement, octahedral(normals.z)), mesh.material, mesh.uv_projection,
+                    (plane.w & MESH_SMOOTH) != 0u);
 }
 
 // Four components of 16 bits each, from 0 to 1.
@@ -210,7 +165,8 @@ VertexAttributes attributes_of(const Mesh mesh, const Triangle triangle, uint in
         uint last = mesh_texel(at + 3u).w;
         uvec4 others = mesh_texel(at + 2u);
         vec3 sum = (w.x * vec3(octahedral(others.z)) + w.y * vec3(octahedral(others.w))) + w.z * vec3(octahedral(last));
-        found.tangent = vec4(sum, (signs & MESH_MIRRORED_UV) != 0u ? -1.0 : 1.0);
+        vec3 tangent = vec3(placed_vector(placement_of(mesh), real3(sum)));
+        found.tangent = vec4(tangent, (signs & MESH_MIRRORED_UV) != 0u ? -1.0 : 1.0);
     }
     at += 4u;
     if (VERTEX_COLORS && mesh.has_colors) {

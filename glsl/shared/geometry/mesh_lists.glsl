@@ -95,12 +95,11 @@ real distance_to_held(const Held triangle, real3 d) {
     return distance_by(edges, triangle.a, triangle.b, triangle.c, d, triangle.one_sided);
 }
 
-// Replaces the hit by the nearest listed triangle if that is nearer; of those at the same t the first one. Returns true if
-// nothing that is not listed can be nearer. `shape`: the number of the first mesh.
-bool nearest_listed(const Ray ray, const Candidates candidates, uint shape, uint meshes, inout Hit hit) {
+// Finds the nearest listed triangle if that is nearer than `best`; of those at the same t the first one. Returns true if
+// nothing that is not listed can be nearer. Meshes that are leaves of the tree over all are in no list.
+bool nearest_listed(const Ray ray, const Candidates candidates, inout real best, inout FoundTriangle triangle) {
     uint first = candidates.list + CELL_HEAD + tile_lists[candidates.list];
     float depth = uintBitsToFloat(tile_lists[candidates.list + 3u]);
-    real best = hit.t;
     uint found = NO_SHAPE;
 #define NEARER(next, at_next)                                                                              \
     {                                                                                                      \
@@ -128,16 +127,8 @@ bool nearest_listed(const Ray ray, const Candidates candidates, uint shape, uint
         NEARER(distance_in(texel, ray, ORIGIN_IS_EYE, false), texel)
     }
 #undef NEARER
-    if (found != NO_SHAPE) {
-        hit.t = best;
-        for (uint i = 0u; i < meshes; i++) {
-            Mesh mesh = mesh_at(i);
-            if (found >= mesh.corners && found < mesh.attributes) {
-                hit.shape = shape + i;
-                hit.local = real2(real((found - mesh.corners) / 3u), 0.0);
-            }
-        }
-    }
+    triangle.at = found;
+    if (PLACED_MESHES) triangle.mesh = found == NO_SHAPE ? NO_SHAPE : mesh_texel(found + 1u).w;
     return best <= depth;
 }
 

@@ -1,4 +1,4 @@
-// A mesh and a cell of pixels: the triangles that the cell's camera rays may meet, found by its tree from near to far, and
+// Meshes and a cell of pixels: the triangles that the cell's camera rays may meet, found by the tree from near to far, and
 // the depth up to which these are all. It ends where five rays of the cell have met something, as little is seen beyond.
 #ifndef MESH_SURVEY_GLSL
 #define MESH_SURVEY_GLSL
@@ -89,22 +89,22 @@ void add_to_list(const Header header, const CellRays cell, uint at, vec3 a, vec3
     survey.depth = min(survey.depth, farthest);
 }
 
-// Adds the triangles of a mesh.
-void survey_mesh(const Header header, const PixelFrustum frame, uint square, const CellRays cell, const Mesh mesh, uint list,
-                 uint room, inout Survey survey) {
+// Adds the triangles of all meshes but those that are leaves of the tree over all, which end the depth.
+void survey_meshes(const Header header, const PixelFrustum frame, uint square, const CellRays cell, uint list, uint room,
+                   inout Survey survey) {
     uint waiting[TREE_STACK];
     float depths[TREE_STACK];
     uint height = 0u;
     uint reference = 0u;
     uint count = 0u;
+    float near = 0.0;
     for (uint opened = 0u; opened < MAX_CELL_NODES; opened++) {
         if (count == 0u) {
-            uint at = mesh.nodes + 2u * reference;
             uint children[TREE_WIDTH];
             float nears[TREE_WIDTH];
             for (uint k = 0u; k < TREE_WIDTH; k++) {
-                uvec4 least = mesh_texel(at + 2u * k);
-                uvec4 greatest = mesh_texel(at + 2u * k + 1u);
+                uvec4 least = mesh_texel(reference + 2u * k);
+                uvec4 greatest = mesh_texel(reference + 2u * k + 1u);
                 children[k] = least.w | (greatest.w << TREE_COUNT_SHIFT);
                 bool is_used = least.w != NO_SHAPE;
                 nears[k] = is_used ? depth_in(header, cell, point_in(least), point_in(greatest)) : -1.0;
@@ -117,9 +117,11 @@ void survey_mesh(const Header header, const PixelFrustum frame, uint square, con
                     height++;
                 }
             }
+        } else if (count == TREE_MESH) {
+            survey.depth = min(survey.depth, near);
         } else {
             for (uint k = 0u; k < count; k++) {
-                uint at = mesh.corners + 3u * (reference + k);
+                uint at = reference + 3u * k;
                 Triangle triangle;
                 uvec4 first = mesh_texel(at);
                 triangle.a = point_in(first);
@@ -135,6 +137,7 @@ void survey_mesh(const Header header, const PixelFrustum frame, uint square, con
         height--;
         reference = waiting[height] & ((1u << TREE_COUNT_SHIFT) - 1u);
         count = waiting[height] >> TREE_COUNT_SHIFT;
+        near = depths[height];
         // The node that would be opened next is left out if it is one too many, with all that wait.
         if (opened + 1u == MAX_CELL_NODES) survey.depth = min(survey.depth, depths[height]);
     }

@@ -1,5 +1,5 @@
 // A ray and all shapes: the nearest hit with t > 0, whether anything lies between, and the surface at a hit. One loop
-// a kind, in which an acceleration structure may take the place of the list. Flat shapes never hit the ray that left
+// a kind; meshes have trees in place of it. Flat shapes never hit the ray that left
 // them (`skip`); others rely on the offset origin. Twin: src/oracle/geometry/rays.rs.
 #ifndef RAYS_GLSL
 #define RAYS_GLSL
@@ -10,6 +10,29 @@
 
 // A camera ray may meet something that no list holds.
 bool unfinished = false;
+
+// Replaces the hit by the nearest triangle of a mesh, if that is nearer. `first`: the shape that is the first mesh.
+void nearest_in_meshes(const Ray ray, const Candidates candidates, uint first, inout Hit hit) {
+    real best = hit.t;
+    FoundTriangle found = NO_TRIANGLE;
+    bool is_complete = false;
+    if (TILE_CULLED) {
+        is_complete = candidates.list != NO_LIST && nearest_listed(ray, candidates, best, found);
+        unfinished = unfinished || !is_complete;
+    }
+    if (MESH_SEARCH != SEARCH_LISTS) {
+        if (!is_complete) search(0u, nowhere(ray), first, ray, ORIGIN_IS_EYE, false, best, found);
+    }
+    if (found.at != NO_SHAPE) hit = hit_of(found, first, best);
+}
+
+// True when a triangle of a mesh lies before `t_max`.
+bool occluded_by_meshes(const Ray ray, uint first, real t_max) {
+    real best = t_max;
+    FoundTriangle found = NO_TRIANGLE;
+    search(0u, nowhere(ray), first, ray, false, true, best, found);
+    return found.at != NO_SHAPE;
+}
 
 // `candidates`: of a camera ray, by tile culling; else ANYTHING.
 Hit nearest_hit(const Ray ray, uint skip, const Candidates candidates) {
@@ -22,12 +45,8 @@ Hit nearest_hit(const Ray ray, uint skip, const Candidates candidates) {
         if (is_listed && TILE_CULLED) {                                                                      \
             if (list != NO_LIST) tested = tile_lists[list];                                                  \
         }                                                                                                    \
-        if (is_concave && TILE_CULLED) {                                                                     \
-            bool is_complete = list != NO_LIST && nearest_listed(ray, candidates, first, count, hit);        \
-            tested = is_complete ? 0u : tested;                                                              \
-            unfinished = unfinished || !is_complete;                                                         \
-        }                                                                                                    \
-        if (!(is_concave && MESH_SEARCH == SEARCH_LISTS)) for (uint k = 0u; k < tested; k++) {               \
+        if (is_concave) nearest_in_meshes(ray, candidates, first, hit);                                      \
+        else for (uint k = 0u; k < tested; k++) {                                                            \
             uint i = k;                                                                                      \
             if (is_listed && TILE_CULLED) {                                                                  \
                 if (list != NO_LIST) i = tile_lists[list + CELL_HEAD + k];                                          \
@@ -51,9 +70,10 @@ bool occluded(const Ray ray, real t_max, uint skip) {
     COUNT_SHAPES
 #define OCCLUDES(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed, is_concave)                                                 \
     if (LIST != 0u) {                                                                                        \
-        for (uint i = 0u; i < count; i++) {                                                                  \
+        if (is_concave) blocked = blocked || occluded_by_meshes(ray, first, t_max);                          \
+        else for (uint i = 0u; i < count; i++) {                                                             \
             real2 local;                                                                                     \
-            real t = distance_to(at(i), at_rest(ray, (first) + i), false, t_max, true, local);                    \
+            real t = distance_to(at(i), at_rest(ray, (first) + i), false, t_max, true, local);               \
             blocked = blocked || (t > 0.0 && t < t_max && !(is_planar && (first) + i == skip));                \
         }                                                                                                    \
     }

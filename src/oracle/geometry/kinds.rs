@@ -3,7 +3,7 @@
 
 use glam::{DVec2, DVec3, DVec4};
 
-use super::hit::{Hit, Surface};
+use super::hit::{Hit, Surface, at_rest};
 use crate::oracle::camera::Ray;
 use crate::oracle::cone::Cone;
 use crate::oracle::coverage::{Covered, Cuts};
@@ -24,6 +24,24 @@ pub enum Search {
     Any,
 }
 
+/// A ray and what it looks for.
+pub struct Query<'a> {
+    pub scene: &'a PackedScene,
+    pub ray: &'a Ray,
+    /// A flat shape of this number is not met.
+    pub skip: u32,
+    pub search: Search,
+}
+
+impl Query<'_> {
+    /// Distance and own coordinates of where a shape is met before `most`; none on a miss.
+    fn meets(&self, record: &impl Shape, shape: u32, most: f64) -> Option<(f64, DVec2)> {
+        let (t, local) = record.distance_to(self.scene, &at_rest(self.scene, self.ray, shape), most, self.search);
+        let is_left = shape == self.skip && record.plane_of().is_some();
+        (t > 0.0 && t < most && !is_left).then_some((t, local))
+    }
+}
+
 /// A shape, as rays and cones use it.
 pub trait Shape {
     /// Material and map.
@@ -32,6 +50,27 @@ pub trait Shape {
     /// Distance and own coordinates of where the ray meets it; not above 0 on a miss. A shape of many parts may leave
     /// out what is not before `most`.
     fn distance_to(&self, scene: &PackedScene, ray: &Ray, most: f64, search: Search) -> (f64, DVec2);
+
+    /// Replaces the hit by the nearest one on these shapes, the first of which has this number, if that is nearer; of hits
+    /// at the same t the lowest shape.
+    fn nearest(shapes: &[Self], first: u32, query: &Query, hit: &mut Hit)
+    where
+        Self: Sized,
+    {
+        for (shape, record) in (first..).zip(shapes) {
+            if let Some((t, local)) = query.meets(record, shape, hit.t) {
+                *hit = Hit { t, shape, local };
+            }
+        }
+    }
+
+    /// True when one of these shapes lies before `t_max`.
+    fn occlude(shapes: &[Self], first: u32, query: &Query, t_max: f64) -> bool
+    where
+        Self: Sized,
+    {
+        (first..).zip(shapes).any(|(shape, record)| query.meets(record, shape, t_max).is_some())
+    }
 
     fn surface_of(&self, scene: &PackedScene, point: DVec3, local: DVec2) -> Surface;
 

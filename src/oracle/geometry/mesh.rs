@@ -5,7 +5,11 @@
 use glam::{BVec3, DVec2, DVec3, DVec4, Vec3};
 
 use super::hit::{FAR, Hit, Surface, VertexAttributes};
-use super::kinds::{Form, Round, Search, Shape};
+use super::kinds::{Form, Query, Round, Search, Shape};
+use super::mesh_search::{
+    Within, hit_of, nearest_in_meshes, occluded_by_meshes, placed_normal, placed_point, placed_vector, placement_of,
+    search,
+};
 use super::triangle::{weight_gradients, weights};
 use crate::oracle::camera::Ray;
 use crate::oracle::cone::Cone;
@@ -13,11 +17,8 @@ use crate::oracle::coverage::{Covered, Cuts, EVERYTHING, NOTHING};
 use crate::oracle::polygon::{AffineFunction, Polygon};
 use crate::oracle::projective::PixelFrustum;
 use crate::pack::PackedScene;
-use crate::schema::constants::{MESH_MIRRORED_UV, MESH_SMOOTH, NO_SHAPE, TREE_STACK, TREE_WIDTH};
-use crate::schema::layout::{Header, Light, Mesh, Sphere, Triangle};
-
-/// The exchanges that sort the children of a node are for four.
-const _: () = assert!(TREE_WIDTH == 4);
+use crate::schema::constants::{MESH_MIRRORED_UV, MESH_SMOOTH};
+use crate::schema::layout::{Header, Light, Mesh, Placement, Sphere, Triangle};
 
 fn ball_of(mesh: &Mesh) -> Sphere {
     Sphere {
@@ -28,32 +29,32 @@ fn ball_of(mesh: &Mesh) -> Sphere {
     }
 }
 
-fn mesh_texel(scene: &PackedScene, at: u32) -> [u32; 4] {
+pub(super) fn mesh_texel(scene: &PackedScene, at: u32) -> [u32; 4] {
     scene.mesh_texels[at as usize]
 }
 
-fn point_in([x, y, z, _]: [u32; 4]) -> DVec3 {
+pub(super) fn point_in([x, y, z, _]: [u32; 4]) -> DVec3 {
     Vec3::new(f32::from_bits(x), f32::from_bits(y), f32::from_bits(z)).as_dvec3()
 }
 
 /// Boxes grow by this part of the largest coordinate of their corners as seen from the ray's origin: planes of boxes,
 /// edge functions and distances of triangles are off by less than 16 roundings of it.
-const MARGIN: f64 = 1.0 / (1u64 << 32) as f64;
+pub(super) const MARGIN: f64 = 1.0 / (1u64 << 32) as f64;
 
 /// Components of a direction are no less than this part of the largest, so that no reciprocal is infinite. In a box, a
 /// ray moves aside by less than `MARGIN` for it.
 const AXIAL: f64 = MARGIN / 1024.0;
 
 /// A ray as boxes are tested with it.
-struct Slabs {
+pub(super) struct Slabs {
     origin: DVec3,
     inverse: DVec3,
     falls: BVec3,
     /// Longest component of the direction.
-    longest: f64,
+    pub(super) longest: f64,
 }
 
-fn slabs_of(ray: &Ray) -> Slabs {
+pub(super) fn slabs_of(ray: &Ray) -> Slabs {
     let longest = ray.direction.abs().max_element();
     let scaled = ray.direction * (1.0 / longest);
     let falls = scaled.cmplt(DVec3::ZERO);
@@ -61,12 +62,12 @@ fn slabs_of(ray: &Ray) -> Slabs {
     Slabs { origin: ray.origin, inverse: 1.0 / DVec3::select(falls, -apart, apart), falls, longest }
 }
 
-/// Returns where the ray enters the grown box, -1 if it does not up to the scaled distance `most`. Planes of entry and
+/// Returns where the ray enters the box grown by this part, -1 if it does not up to the scaled distance `most`. Planes of entry and
 /// exit follow from the direction: a box that is inside out, in an unused place of a node, is never entered.
-fn entry(slabs: &Slabs, least: DVec3, greatest: DVec3, most: f64) -> f64 {
+pub(super) fn entry(slabs: &Slabs, least: DVec3, greatest: DVec3, part: f64, most: f64) -> f64 {
     let low = least - slabs.origin;
     let high = greatest - slabs.origin;
-    let margin = MARGIN * low.abs().max(high.abs()).max_element();
+    let margin = part * low.abs().max(high.abs()).max_element();
     let (low, high) = (low - margin, high + margin);
     let enter = DVec3::select(slabs.falls, high, low) * slabs.inverse;
     let leave = DVec3::select(slabs.falls, low, high) * slabs.inverse;
@@ -93,62 +94,22 @@ fn distance_by(edges: DVec3, corners: [DVec3; 3], d: DVec3, one_sided: bool) -> 
 
 /// Edge functions d·((p + q) × (q - p)), twice the volumes d·(p × q): the two triangles at a shared edge compute the same
 /// value with opposite sign, and the error is a part of the edge's length. They are weights of the corners in the point.
-/// `at`: the texel of its corners.
-fn distance_in(scene: &PackedScene, at: u32, ray: &Ray, search: Search) -> f64 {
-    let one_sided = search == Search::Nearest && mesh_texel(scene, at)[3] != 0;
-    let [a, b, c] = corners(scene, at).map(|corner| corner - ray.origin);
-    let d = ray.direction;
+fn distance_between([a, b, c]: [DVec3; 3], d: DVec3, one_sided: bool) -> f64 {
     let edge = |p: DVec3, q: DVec3| d.dot((p + q).cross(q - p));
     distance_by(DVec3::new(edge(b, c), edge(c, a), edge(a, b)), [a, b, c], d, one_sided)
 }
 
-/// The nearest triangle before `most`, or for `any` just one; of those at the same t the first in the tree's order.
-fn nearest(scene: &PackedScene, mesh: &Mesh, ray: &Ray, most: f64, search: Search) -> (f64, u32) {
-    let slabs = slabs_of(ray);
-    let (mut best, mut found) = (most, NO_SHAPE);
-    // Children that wait, the nearest on top, and where the ray enters them.
-    let mut waiting = [(0u32, 0u32, 0.0); TREE_STACK as usize];
-    let mut height = 0;
-    let (mut reference, mut count) = (0, 0);
-    loop {
-        if count == 0 {
-            let at = mesh.nodes + 2 * reference;
-            let mut children = [0, 1, 2, 3].map(|k| {
-                let [least, greatest] = [0, 1].map(|end| mesh_texel(scene, at + 2 * k + end));
-                let enter = entry(&slabs, point_in(least), point_in(greatest), best * slabs.longest);
-                (least[3], greatest[3], enter)
-            });
-            // The farthest first, those that are missed last.
-            for (i, j) in [(0, 1), (2, 3), (0, 2), (1, 3), (1, 2)] {
-                if children[i].2 < children[j].2 {
-                    children.swap(i, j);
-                }
-            }
-            for child in children.into_iter().filter(|child| child.2 >= 0.0) {
-                waiting[height] = child;
-                height += 1;
-            }
-        }
-        for index in reference..reference + count {
-            let t = distance_in(scene, mesh.corners + 3 * index, ray, search);
-            if t > 0.0 && (t < best || t == best && found != NO_SHAPE && index < found) {
-                (best, found) = (t, index);
-            }
-        }
-        if search == Search::Any && found != NO_SHAPE {
-            break;
-        }
-        // Equal distances are entered as well, for the first of equal triangles.
-        while height > 0 && waiting[height - 1].2 > best * slabs.longest {
-            height -= 1;
-        }
-        if height == 0 {
-            break;
-        }
-        height -= 1;
-        (reference, count, _) = waiting[height];
-    }
-    (if found == NO_SHAPE { -1.0 } else { best }, found)
+/// `at`: the texel of its corners.
+pub(super) fn distance_in_placed(
+    scene: &PackedScene,
+    at: u32,
+    placement: Option<&Placement>,
+    ray: &Ray,
+    search: Search,
+) -> f64 {
+    let one_sided = search == Search::Nearest && mesh_texel(scene, at)[3] != 0;
+    let corners = corners(scene, at).map(|corner| placed_point(placement, corner) - ray.origin);
+    distance_between(corners, ray.direction, one_sided)
 }
 
 /// A unit vector from two components of 16 bits (Cigolle et al. 2014).
@@ -161,11 +122,15 @@ fn octahedral(word: u32) -> DVec3 {
 }
 
 fn triangle_in(scene: &PackedScene, mesh: &Mesh, index: u32) -> Triangle {
-    let [a, b, c] = corners(scene, mesh.corners + 3 * index);
+    let placement = placement_of(scene, mesh);
+    let [a, b, c] =
+        corners(scene, mesh.corners + 3 * index).map(|corner| placed_point(placement, corner));
     let [plane, first, second, normals] =
         [0, 1, 2, 3].map(|k| mesh_texel(scene, mesh.attributes + mesh.attribute_count * index + k));
     let [first, second] = [first, second].map(|texel| texel.map(|word| f64::from(f32::from_bits(word))));
-    let normal = point_in(plane);
+    let normal = placed_normal(placement, point_in(plane));
+    let [normal_a, normal_b, normal_c] =
+        [0, 1, 2].map(|k: usize| placed_normal(placement, octahedral(normals[k])));
     Triangle {
         a,
         u_a: first[0],
@@ -176,9 +141,9 @@ fn triangle_in(scene: &PackedScene, mesh: &Mesh, index: u32) -> Triangle {
         v: DVec3::new(first[3], second[0], second[1]),
         normal,
         distance: normal.dot(a),
-        normal_a: octahedral(normals[0]),
-        normal_b: octahedral(normals[1]),
-        normal_c: octahedral(normals[2]),
+        normal_a,
+        normal_b,
+        normal_c,
         material: mesh.material,
         uv_projection: mesh.uv_projection,
         is_smooth: plane[3] & MESH_SMOOTH != 0,
@@ -206,7 +171,8 @@ fn attributes_of(
         let signs = mesh_texel(scene, at)[3];
         let (others, last) = (mesh_texel(scene, at + 2), mesh_texel(scene, at + 3)[3]);
         let sum = w.x * octahedral(others[2]) + w.y * octahedral(others[3]) + w.z * octahedral(last);
-        found.tangent = sum.extend(if signs & MESH_MIRRORED_UV != 0 { -1.0 } else { 1.0 });
+        let tangent = placed_vector(placement_of(scene, mesh), sum);
+        found.tangent = tangent.extend(if signs & MESH_MIRRORED_UV != 0 { -1.0 } else { 1.0 });
     }
     at += 4;
     let two = |at| [mesh_texel(scene, at), mesh_texel(scene, at + 1)];
@@ -234,9 +200,22 @@ impl Shape for Mesh {
     }
 
     /// Its triangle's number is the local coordinate.
-    fn distance_to(&self, scene: &PackedScene, ray: &Ray, most: f64, search: Search) -> (f64, DVec2) {
-        let (t, found) = nearest(scene, self, ray, most, search);
-        (t, DVec2::new(f64::from(found), 0.0))
+    fn distance_to(&self, scene: &PackedScene, ray: &Ray, most: f64, kind: Search) -> (f64, DVec2) {
+        let mut best = most;
+        let placement = placement_of(scene, self);
+        let inside = placement.map(|_| Within { mesh: 0, placement, ray: *ray });
+        let found = search(scene, self.nodes, inside, 0, ray, kind, &mut best);
+        found.map_or((-1.0, DVec2::ZERO), |found| (best, hit_of(scene, &found, 0, best).local))
+    }
+
+    fn nearest(meshes: &[Mesh], first: u32, query: &Query, hit: &mut Hit) {
+        if !meshes.is_empty() {
+            nearest_in_meshes(query, first, hit);
+        }
+    }
+
+    fn occlude(meshes: &[Mesh], first: u32, query: &Query, t_max: f64) -> bool {
+        !meshes.is_empty() && occluded_by_meshes(query, first, t_max)
     }
 
     fn surface_of(&self, scene: &PackedScene, point: DVec3, local: DVec2) -> Surface {

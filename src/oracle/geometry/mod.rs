@@ -5,6 +5,7 @@ pub mod beams;
 pub mod cones;
 pub mod hit;
 pub mod kinds;
+mod mesh_search;
 pub mod rays;
 
 use crate::schema::shapes::with_shapes;

@@ -6,7 +6,7 @@ use glam::{DVec2, DVec3};
 
 use super::hit::Surface;
 pub use super::hit::{FAR, Hit, at_rest, moved_by};
-use super::kinds::{Search, Shape as _, each_list, shape_of};
+use super::kinds::{Query, Search, Shape, each_list, shape_of};
 use crate::oracle::camera::Ray;
 use crate::pack::PackedScene;
 use crate::schema::layout::NO_SHAPE;
@@ -24,24 +24,19 @@ pub fn nearest_of_both_sides(scene: &PackedScene, ray: &Ray, skip: u32) -> Hit {
 
 fn nearest_of(scene: &PackedScene, ray: &Ray, skip: u32, search: Search) -> Hit {
     let mut hit = Hit { t: FAR, shape: NO_SHAPE, local: DVec2::ZERO };
-    with_shapes!(each_list, scene, |first, list| for (shape, record) in (first..).zip(list) {
-        let (t, local) = record.distance_to(scene, &at_rest(scene, ray, shape), hit.t, search);
-        if t > 0.0 && t < hit.t && !(shape == skip && record.plane_of().is_some()) {
-            hit = Hit { t, shape, local };
-        }
-    });
+    let query = Query { scene, ray, skip, search };
+    with_shapes!(each_list, scene, |first, list| Shape::nearest(list, first, &query, &mut hit));
     hit
 }
 
 /// True when a shape lies at 0 < t < t_max, whichever is found first.
 pub fn occluded(scene: &PackedScene, ray: &Ray, t_max: f64, skip: u32) -> bool {
-    with_shapes!(each_list, scene, |first, list| for (shape, record) in (first..).zip(list) {
-        let (t, _) = record.distance_to(scene, &at_rest(scene, ray, shape), t_max, Search::Any);
-        if t > 0.0 && t < t_max && !(shape == skip && record.plane_of().is_some()) {
-            return true;
-        }
+    let query = Query { scene, ray, skip, search: Search::Any };
+    let mut is_occluded = false;
+    with_shapes!(each_list, scene, |first, list| {
+        is_occluded = is_occluded || Shape::occlude(list, first, &query, t_max);
     });
-    false
+    is_occluded
 }
 
 /// The surface at a hit; `hit.shape` must be a shape of the scene.

@@ -3,7 +3,8 @@
 
 use std::sync::Arc;
 
-use glam::{DVec3, Vec3, Vec4};
+use glam::{DAffine3, DVec3, Vec3, Vec4};
+use rayon::prelude::*;
 
 use super::triangle::{corner_uvs, triangle_errors};
 use super::{Rounded, add_map, cross, reach};
@@ -11,77 +12,107 @@ use crate::core::error::{Error, ErrorKind, Result};
 use crate::pack::mapping::{self, Place};
 use crate::pack::precision::{Camera, PART_OF_PIXEL, U};
 use crate::pack::{MapKind, PackedScene};
-use crate::scene::model::{Mapping, MappingKind, Mesh, Scene, Shape, Sides};
-use crate::schema::constants::{MESH_MIRRORED_UV, MESH_SMOOTH, TREE_WIDTH};
+use crate::scene::geometry::{AttributeKinds, Stored};
+use crate::scene::model::{Mapping, MappingKind, Material, Mesh, Scene, Shape, Sides};
+use crate::schema::constants::{MESH_MIRRORED_UV, MESH_SMOOTH, NO_PLACEMENT, TREE_MESH, TREE_WIDTH};
 use crate::schema::layout;
-use crate::tree;
+use crate::texture::sampler_spec::SamplerSpec;
+use crate::tree::{self, Child, Growing, LEAF, levels};
 
 /// Triangles of which the errors of texture coordinates are computed.
 const TESTED: usize = 1024;
 /// Texels that an index of 32 bits with sign reaches in bytes.
 const MAX_TEXELS: usize = i32::MAX as usize / 16;
 
+/// Shape of the trees of meshes: with the tree over all above them, they fit the stack of a traversal.
+const OF_A_MESH: Growing = Growing { width: TREE_WIDTH as usize, leaf: LEAF, levels: LEVELS - LEVELS_OF_ALL };
+/// Shape of the tree over all meshes.
+const OF_ALL: Growing = Growing { width: TREE_WIDTH as usize, leaf: 1, levels: LEVELS_OF_ALL };
+const LEVELS: u32 = levels(TREE_WIDTH as usize);
+/// Room for as many meshes as a scene may have shapes.
+const LEVELS_OF_ALL: u32 = 8;
+/// The boxes of meshes that are placed by a matrix grow by this part of their largest coordinate, as devices compute
+/// the corners in f32.
+const PLACED_PART: f32 = 1.0 / (1 << 19) as f32;
+
+/// Begins the buffer of meshes with the tree over all, whose leaves are meshes; a single mesh that stays as it is needs none.
+pub(super) fn begin(packed: &mut PackedScene, scene: &Scene, meshes: &[Mesh], eye: DVec3) {
+    let moves = |mesh: &Mesh| mesh.motion != DVec3::ZERO;
+    if meshes.iter().all(|mesh| !moves(mesh) && mesh.stored().placement().is_none()) && meshes.len() <= 1 {
+        return;
+    }
+    let shutter = scene.camera.shutter;
+    let boxes = meshes.iter().map(|mesh| {
+        // Bounds exist, as there are triangles.
+        let [min, max] = mesh.bounds().map_or([eye; 2], |bounds| [bounds.min, bounds.max]);
+        let ways = shutter.map(|time| if moves(mesh) { time * mesh.motion } else { DVec3::ZERO });
+        let low = (min + ways[0].min(ways[1]) - eye).as_vec3();
+        let high = (max + ways[0].max(ways[1]) - eye).as_vec3();
+        let is_exact = !moves(mesh) && mesh.stored().placement().is_none();
+        let margin = if is_exact { 0.0 } else { PLACED_PART * low.abs().max(high.abs()).max_element() };
+        [low - margin, high + margin]
+    });
+    let mut tree = tree::build(&boxes.collect::<Vec<_>>(), OF_ALL);
+    for child in tree.children.iter_mut().filter(|child| child.is_used()) {
+        if child.count > 0 {
+            (child.reference, child.count) = (tree.order[child.reference as usize], TREE_MESH);
+        } else {
+            child.reference *= TEXELS_OF_CHILD;
+        }
+    }
+    Arc::make_mut(&mut packed.mesh_texels).extend_from_slice(bytemuck::cast_slice(&tree.children));
+}
+
+/// Puts the roots of meshes that neither move nor have a matrix in place of them as leaves.
+pub(super) fn finish(packed: &mut PackedScene) {
+    let records = &packed.records;
+    let first = records.meshes.iter().map(|mesh| mesh.nodes).min().unwrap_or(0) as usize;
+    let texels = Arc::make_mut(&mut packed.mesh_texels);
+    let shapes_before = records.motions.len().saturating_sub(records.meshes.len());
+    for child in bytemuck::cast_slice_mut::<_, Child>(&mut texels[..first]) {
+        if child.is_used() && child.count == TREE_MESH {
+            let number = child.reference as usize;
+            let mesh = &records.meshes[number];
+            let moves = records.motions.get(shapes_before + number).is_some_and(|m| m.shift != DVec3::ZERO);
+            if mesh.placement == NO_PLACEMENT && !moves {
+                (child.reference, child.count) = (mesh.nodes, 0);
+            }
+        }
+    }
+}
+
 pub(super) fn pack(packed: &mut PackedScene, scene: &Scene, mesh: &Mesh, eye: DVec3) -> Result<layout::Mesh> {
     let material = &scene.materials[mesh.material];
-    let sampler = scene.sampler_of(material);
     let place = Place { centroid: mesh.centroid(), bounds: mesh.bounds() };
     let map = add_map(packed, scene, mesh.material, |mapping, sampler, flat| match mapping.kind {
         MappingKind::Surface => layout::UvProjection { kind: MapKind::VertexUv, ..Default::default() },
         _ => mapping::projecting_map(mapping, sampler, eye, &place, flat),
     });
-    let count = mesh.triangle_count();
-    let (mut boxes, mut corners) = (Vec::with_capacity(count), Vec::with_capacity(count));
-    let mut is_smooth = false;
-    let one_sided = u32::from(material.sides == Sides::Front);
-    let kinds = mesh.attribute_kinds();
-    let mut attributes: Vec<[u32; 4]> = Vec::with_capacity(4 * count);
-    mesh.for_each_with_attributes(|triangle, others| {
-        let seen = triangle.vertices.map(|v| v - eye);
-        let normal = cross(seen[1] - seen[0], seen[2] - seen[0]).normalize();
-        let [a, b, c] = seen.map(|v| v.as_vec3());
-        is_smooth |= triangle.normals.is_some();
-        let shading = triangle.normals.unwrap_or([normal; 3]).map(octahedral);
-        let [uv_a, uv_b, uv_c] = corner_uvs(&triangle, material, &sampler).map(|uv| uv.as_vec2());
-        let bits = |numbers: [f32; 4]| numbers.map(f32::to_bits);
-        boxes.push([a.min(b).min(c), a.max(b).max(c)]);
-        corners.push([a, b, c]);
-        let smooth = if triangle.normals.is_some() { MESH_SMOOTH } else { 0 };
-        let mirrored = if others.tangents[0].w < 0.0 { MESH_MIRRORED_UV } else { 0 };
-        // A corner without a direction gets any: look-ups there are of no extent.
-        let tangents = others.tangents.map(|t| octahedral(t.truncate().normalize_or(DVec3::X)));
-        let [v_b, v_c] = [uv_b.y, uv_c.y].map(f32::to_bits);
-        attributes.extend([
-            texel(normal.as_vec3(), smooth | mirrored),
-            bits([uv_a.x, uv_b.x, uv_c.x, uv_a.y]),
-            [v_b, v_c, tangents[0], tangents[1]],
-            [shading[0], shading[1], shading[2], tangents[2]],
-        ]);
-        if kinds.colors {
-            let [a, b, c] = others.colors.map(packed_color);
-            attributes.extend([[a[0], a[1], b[0], b[1]], [c[0], c[1], 0, 0]]);
+    let stored = mesh.stored();
+    let before = packed.records.meshes.len();
+    let record = match earlier(scene, before, mesh) {
+        Some(index) => packed.records.meshes[index],
+        None => {
+            let origin = stored.placement().map_or(eye, |(_, origin)| origin);
+            let texels = Arc::make_mut(&mut packed.mesh_texels);
+            let source = Source { mesh, stored: &stored, material, sampler: scene.sampler_of(material), origin };
+            let record = source.pack(texels, before as u32);
+            if texels.len() > MAX_TEXELS {
+                let what = format!("meshes take {} MiB; they may take 2048 MiB at most", texels.len() >> 16);
+                return Err(
+                    Error::with_help(what, "use meshes of fewer triangles").of_kind(ErrorKind::Scene)
+                );
+            }
+            record
         }
-        if kinds.second_uvs {
-            let [a, b, c] = others.second_uvs.map(|uv| uv.as_vec2());
-            attributes.extend([bits([a.x, b.x, c.x, a.y]), bits([b.y, c.y, 0.0, 0.0])]);
+    };
+    let placement = match stored.placement() {
+        None => NO_PLACEMENT,
+        Some((placement, _)) => {
+            packed.records.placements.push(placement_record(&placement, eye));
+            packed.records.placements.len() as u32 - 1
         }
-    });
-    let attribute_count = attributes.len() / count.max(1);
-    let tree = tree::build(&boxes, TREE_WIDTH as usize);
-    let texels = Arc::make_mut(&mut packed.mesh_texels);
-    let nodes = texels.len();
-    texels.reserve(2 * tree.children.len() + (3 + attribute_count) * count);
-    texels.extend_from_slice(bytemuck::cast_slice(&tree.children));
-    let first_corner = texels.len();
-    let ordered = || tree.order.iter().map(|&index| index as usize);
-    texels.extend(ordered().flat_map(|index| corners[index]).map(|corner| texel(corner, one_sided)));
-    let first_attribute = texels.len();
-    for index in ordered() {
-        texels.extend_from_slice(&attributes[index * attribute_count..][..attribute_count]);
-    }
-    if texels.len() > MAX_TEXELS {
-        let what = format!("meshes take {} MiB; they may take 2048 MiB at most", texels.len() >> 16);
-        return Err(Error::with_help(what, "use meshes of fewer triangles").of_kind(ErrorKind::Scene));
-    }
+    };
     // Bounds exist, as there are triangles.
     let [min, max] = mesh.bounds().map_or([eye; 2], |bounds| [bounds.min, bounds.max]);
     Ok(layout::Mesh {
@@ -89,15 +120,137 @@ pub(super) fn pack(packed: &mut PackedScene, scene: &Scene, mesh: &Mesh, eye: DV
         radius: 0.500001 * (max - min).length(),
         material: mesh.material as u32,
         uv_projection: map,
-        nodes: nodes as u32,
-        corners: first_corner as u32,
-        attributes: first_attribute as u32,
-        attribute_count: attribute_count as u32,
-        has_colors: kinds.colors,
-        has_second_uv: kinds.second_uvs,
-        has_tangents: kinds.tangents,
-        is_smooth,
+        placement,
+        ..record
     })
+}
+
+/// Returns an earlier mesh whose triangles look the same in the buffer.
+fn earlier(scene: &Scene, number: usize, mesh: &Mesh) -> Option<usize> {
+    let look = |mesh: &Mesh| {
+        let material = &scene.materials[mesh.material];
+        let sampler = scene.sampler_of(material);
+        (material.sides, mapping::uv_matrix(&material.mapping), material.mapping.offset, mapping::periods(&sampler))
+    };
+    // Those that share follow each other.
+    let same_triangles = |&index: &usize| mesh.shares_with(&scene.shapes.meshes[index]);
+    let mut sharing = (0..number).rev().take_while(same_triangles);
+    sharing.find(|&index| look(&scene.shapes.meshes[index]) == look(mesh))
+}
+
+/// Returns the rows of a transformation to the world as seen from the eye, and of its inverse.
+fn placement_record(placement: &DAffine3, eye: DVec3) -> layout::Placement {
+    let seen = DAffine3::from_translation(-eye) * *placement;
+    let rows = |m: DAffine3| {
+        let [x, y, z] = m.matrix3.transpose().to_cols_array_2d().map(DVec3::from_array);
+        [x.extend(m.translation.x), y.extend(m.translation.y), z.extend(m.translation.z)]
+    };
+    let ([x, y, z], [to_mesh_x, to_mesh_y, to_mesh_z]) = (rows(seen), rows(seen.inverse()));
+    layout::Placement { x, y, z, to_mesh_x, to_mesh_y, to_mesh_z }
+}
+
+/// Texels of a node's child and of a triangle's corners.
+const TEXELS_OF_CHILD: u32 = 2;
+const TEXELS_OF_CORNERS: usize = 3;
+/// Triangles that a thread takes at once.
+const AT_ONCE: usize = 1 << 12;
+
+/// A mesh that is not in the buffer yet.
+struct Source<'a> {
+    mesh: &'a Mesh,
+    stored: &'a Stored<'a>,
+    material: &'a Material,
+    sampler: SamplerSpec,
+    /// Coordinates count from there.
+    origin: DVec3,
+}
+
+impl Source<'_> {
+    /// Appends nodes, corners and attributes. `number`: of the mesh.
+    fn pack(&self, texels: &mut Vec<[u32; 4]>, number: u32) -> layout::Mesh {
+        let count = self.mesh.triangle_count();
+        let corners = |place: usize| self.stored.triangle(place).vertices.map(|v| (v - self.origin).as_vec3());
+        let corners: Vec<[Vec3; 3]> = (0..count).into_par_iter().with_min_len(AT_ONCE).map(corners).collect();
+        let box_of = |[a, b, c]: &[Vec3; 3]| [a.min(*b).min(*c), a.max(*b).max(*c)];
+        let boxes: Vec<[Vec3; 2]> = corners.par_iter().with_min_len(AT_ONCE).map(box_of).collect();
+        let mut tree = tree::build(&boxes, OF_A_MESH);
+        drop(boxes);
+        let kinds = self.mesh.attribute_kinds();
+        let attribute_count = 4 + 2 * usize::from(kinds.colors) + 2 * usize::from(kinds.second_uvs);
+        let nodes = texels.len();
+        let first_corner = nodes + TEXELS_OF_CHILD as usize * tree.children.len();
+        let first_attribute = first_corner + TEXELS_OF_CORNERS * count;
+        // What exceeds the indices' range is refused by the caller.
+        for child in tree.children.iter_mut().filter(|child| child.is_used()) {
+            child.reference = if child.count > 0 {
+                (first_corner as u32).wrapping_add((TEXELS_OF_CORNERS as u32).wrapping_mul(child.reference))
+            } else {
+                (nodes as u32).wrapping_add(TEXELS_OF_CHILD.wrapping_mul(child.reference))
+            };
+        }
+        texels.reserve_exact((3 + attribute_count) * count + 2 * tree.children.len());
+        texels.extend_from_slice(bytemuck::cast_slice(&tree.children));
+        texels.resize(first_attribute + attribute_count * count, [0; 4]);
+        let (all_corners, all_attributes) = texels[first_corner..].split_at_mut(TEXELS_OF_CORNERS * count);
+        let one_sided = u32::from(self.material.sides == Sides::Front);
+        let order = &tree.order;
+        let of_corners = all_corners.par_chunks_exact_mut(TEXELS_OF_CORNERS).with_min_len(AT_ONCE);
+        of_corners.enumerate().for_each(|(place, texels)| {
+            let [a, b, c] = corners[order[place] as usize];
+            texels.copy_from_slice(&[texel(a, one_sided), texel(b, number), texel(c, place as u32)]);
+        });
+        let of_attributes = all_attributes.par_chunks_exact_mut(attribute_count).with_min_len(AT_ONCE);
+        let smooth = of_attributes.enumerate().map(|(place, texels)| {
+            self.attributes(order[place] as usize, kinds, texels)
+        });
+        let is_smooth = smooth.reduce(|| false, |one, other| one || other);
+        layout::Mesh {
+            nodes: nodes as u32,
+            corners: first_corner as u32,
+            attributes: first_attribute as u32,
+            attribute_count: attribute_count as u32,
+            has_colors: kinds.colors,
+            has_second_uv: kinds.second_uvs,
+            has_tangents: kinds.tangents,
+            is_smooth,
+            ..Default::default()
+        }
+    }
+
+    /// Writes the attributes of a triangle; returns true if it has shading normals.
+    fn attributes(&self, place: usize, kinds: AttributeKinds, texels: &mut [[u32; 4]]) -> bool {
+        let (triangle, others) = (self.stored.triangle(place), self.stored.attributes(place));
+        let [a, b, c] = triangle.vertices.map(|v| v - self.origin);
+        let turned = cross(b - a, c - a).normalize();
+        // Corners in a space of their own have the order of the world, which a mirror turns.
+        let normal = if self.stored.is_turned() { -turned } else { turned };
+        let shading = triangle.normals.unwrap_or([normal; 3]).map(octahedral);
+        let [uv_a, uv_b, uv_c] =
+            corner_uvs(&triangle, self.material, &self.sampler).map(|uv| uv.as_vec2());
+        let bits = |numbers: [f32; 4]| numbers.map(f32::to_bits);
+        let smooth = if triangle.normals.is_some() { MESH_SMOOTH } else { 0 };
+        let mirrored = if others.tangents[0].w < 0.0 { MESH_MIRRORED_UV } else { 0 };
+        // A corner without a direction gets any: look-ups there are of no extent.
+        let tangents = others.tangents.map(|t| octahedral(t.truncate().normalize_or(DVec3::X)));
+        let [v_b, v_c] = [uv_b.y, uv_c.y].map(f32::to_bits);
+        texels[..4].copy_from_slice(&[
+            texel(normal.as_vec3(), smooth | mirrored),
+            bits([uv_a.x, uv_b.x, uv_c.x, uv_a.y]),
+            [v_b, v_c, tangents[0], tangents[1]],
+            [shading[0], shading[1], shading[2], tangents[2]],
+        ]);
+        let mut rest = &mut texels[4..];
+        if kinds.colors {
+            let [a, b, c] = others.colors.map(packed_color);
+            rest[..2].copy_from_slice(&[[a[0], a[1], b[0], b[1]], [c[0], c[1], 0, 0]]);
+            rest = &mut rest[2..];
+        }
+        if kinds.second_uvs {
+            let [a, b, c] = others.second_uvs.map(|uv| uv.as_vec2());
+            rest[..2].copy_from_slice(&[bits([a.x, b.x, c.x, a.y]), bits([b.y, c.y, 0.0, 0.0])]);
+        }
+        triangle.normals.is_some()
+    }
 }
 
 /// Linear colour and alpha in four components of 16 bits; brighter than 1 is none.

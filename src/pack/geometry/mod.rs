@@ -19,6 +19,7 @@ macro_rules! kinds {
         $(mod $module;)+
 
         pub fn pack_shapes(packed: &mut PackedScene, scene: &Scene) -> Result<()> {
+            mesh::begin(packed, scene, &scene.shapes.meshes, scene.camera.eye);
             $(for shape in &scene.shapes.$list {
                 let record = $module::pack(packed, scene, shape, scene.camera.eye)?;
                 packed.records.$list.push(record);
@@ -26,6 +27,7 @@ macro_rules! kinds {
             if scene.shapes_move() {
                 packed.records.motions = scene.motions().map(|m| layout::Motion { shift: m }).collect();
             }
+            mesh::finish(packed);
             Ok(())
         }
 

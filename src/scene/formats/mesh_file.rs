@@ -1,11 +1,12 @@
 //! Files of meshes in a scene. Input: a path, and how a scene uses the file. Output: its triangles and materials in the
 //! builder; what is left out, or a library that is missing, is noted.
 
+use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 use glam::DVec3;
 
-use super::gltf;
+use super::gltf::{self, Drawn};
 use super::mtl::Library;
 use super::read_file;
 use crate::core::counted::{counted, verb};
@@ -13,7 +14,7 @@ use crate::core::error::{Error, ErrorKind, Result};
 use crate::mesh::gltf::Model;
 use crate::mesh::{self, Fault, Mesh, MeshFormat, mtl};
 use crate::scene::builder::SceneBuilder;
-use crate::scene::geometry::meshes::{self, Part, Placement};
+use crate::scene::geometry::meshes::{self, Instance, Part, Placement};
 use crate::scene::limits::MAX_TRIANGLES;
 use crate::scene::model::{Camera, DEFAULT, Light};
 
@@ -105,10 +106,7 @@ impl MeshFile {
         match &self.content {
             Content::Mesh(mesh) => mesh.bounds(),
             Content::Gltf(model) => {
-                let none = [DVec3::INFINITY, DVec3::NEG_INFINITY];
-                let meshes = gltf::meshes(model, &model.in_scene(model.default_scene));
-                let bounds = meshes.iter().map(|(_, mesh)| mesh.bounds());
-                bounds.fold(none, |[min, max], [low, high]| [min.min(low), max.max(high)])
+                gltf::bounds(model, &model.in_scene(model.default_scene))
             }
         }
     }
@@ -129,10 +127,12 @@ impl MeshFile {
     pub fn add(self, usage: &Usage<'_>, builder: &mut SceneBuilder) -> Result<Result<(), Unsuited>> {
         let path = self.path;
         let one_sided = matches!(&self.content, Content::Gltf(model) if gltf::has_one_sided(model));
-        let part = |own: &[usize], mesh: Mesh, builder: &mut SceneBuilder| {
+        let part = |mesh: Mesh, mut instances: Vec<Instance>, builder: &mut SceneBuilder| {
             let other = usage.material.unwrap_or(DEFAULT);
-            let (placement, motion) = (&usage.placement, usage.motion);
-            let part = Part { placement, material_of: own, other, motion, one_sided };
+            for instance in &mut instances {
+                instance.placement = usage.placement * instance.placement;
+            }
+            let part = Part { instances: &instances, other, motion: usage.motion, one_sided };
             meshes::add(builder, mesh, &part).map_err(|what| ("file", what))
         };
         let dropped = match self.content {
@@ -146,11 +146,11 @@ impl MeshFile {
                     return Ok(Err(unsuited));
                 }
                 // A material of the scene replaces those of the file.
-                let own = match usage.material {
+                let material_of = match usage.material {
                     Some(_) => Vec::new(),
                     None => add_materials(&path, &mesh, usage, builder)?,
                 };
-                part(&own, *mesh, builder)
+                part(*mesh, vec![Instance { placement: Placement::IDENTITY, material_of }], builder)
             }
             Content::Gltf(model) => add_model(&path, &model, usage, builder, part),
         };
@@ -169,7 +169,7 @@ fn add_model(
     model: &Model,
     usage: &Usage<'_>,
     builder: &mut SceneBuilder,
-    mut add: impl FnMut(&[usize], Mesh, &mut SceneBuilder) -> Result<usize, Unsuited>,
+    mut add: impl FnMut(Mesh, Vec<Instance>, &mut SceneBuilder) -> Result<usize, Unsuited>,
 ) -> Result<usize, Unsuited> {
     check_names(usage, model.materials.iter().map(|material| material.name.as_str()))?;
     let key = if usage.node.is_some() { "node" } else { "scene" };
@@ -177,17 +177,26 @@ fn add_model(
     model.notes.iter().for_each(|note| builder.note(format!("{}: {note}", path.display())));
     let mut notes = gltf::MaterialNotes::default();
     let mut dropped = 0;
-    for (material, mut mesh) in gltf::meshes(model, &drawn) {
-        let found = material.map(|index| &model.materials[index]);
-        let index = found.filter(|_| usage.material.is_none()).map(|material| {
-            let named = usage.materials.iter().find(|(name, _)| *name == material.name);
-            named.map_or_else(
-                || gltf::add_material(path, model, material, builder, &mut notes),
-                |(_, index)| *index,
-            )
+    let mut known: HashMap<Option<usize>, Vec<usize>> = HashMap::new();
+    for Drawn { mut mesh, instances } in gltf::meshes(model, &drawn) {
+        let names_material = usage.material.is_none() && instances.iter().any(|(_, own)| own.is_some());
+        let instances = instances.into_iter().map(|(placement, material)| {
+            let material_of = known.entry(material).or_insert_with(|| {
+                let found = material.map(|index| &model.materials[index]);
+                let index = found.filter(|_| usage.material.is_none()).map(|material| {
+                    let named = usage.materials.iter().find(|(name, _)| *name == material.name);
+                    named.map_or_else(
+                        || gltf::add_material(path, model, material, builder, &mut notes),
+                        |(_, index)| *index,
+                    )
+                });
+                Vec::from_iter(index)
+            });
+            Instance { placement, material_of: material_of.clone() }
         });
-        mesh.set_material(index.map(|_| 0));
-        dropped += add(&Vec::from_iter(index), mesh, builder)?;
+        let instances = instances.collect();
+        mesh.set_material(names_material.then_some(0));
+        dropped += add(mesh, instances, builder)?;
     }
     notes.sentences().for_each(|note| builder.note(format!("{}: {note}", path.display())));
     Ok(dropped)

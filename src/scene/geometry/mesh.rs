@@ -5,6 +5,7 @@ use std::fmt;
 use std::sync::Arc;
 
 use glam::{DAffine3, DVec3};
+use rayon::prelude::*;
 
 use super::meshes::{CornerAttributes, Placed};
 use super::{Bounds, Described, Fields, Shapes, Triangle};
@@ -25,6 +26,8 @@ pub struct Mesh {
     pub(super) placement: DAffine3,
     /// Its box in the world.
     pub(super) bounds: Bounds,
+    /// Other meshes have the same triangles elsewhere.
+    pub(super) is_shared: bool,
     /// Index of its material.
     pub material: usize,
     /// Its displacement between the times 0 and 1.
@@ -41,14 +44,39 @@ pub(crate) struct AttributeKinds {
 
 impl Mesh {
     /// Returns these triangles of a file, of which there is one at least.
-    pub(in crate::scene) fn new(file: Arc<mesh::Mesh>, triangles: Arc<[u32]>, placement: DAffine3) -> Mesh {
-        let none = Bounds { min: DVec3::INFINITY, max: DVec3::NEG_INFINITY };
-        let corners = triangles.iter().flat_map(|&index| file.triangles[index as usize].positions);
-        let bounds = corners.fold(none, |bounds, corner| {
-            let place = placement.transform_point3(file.positions[corner as usize]);
-            Bounds { min: bounds.min.min(place), max: bounds.max.max(place) }
-        });
-        Mesh { file, triangles, placement, bounds, material: DEFAULT, motion: DVec3::ZERO }
+    pub(in crate::scene) fn new(
+        file: Arc<mesh::Mesh>,
+        triangles: Arc<[u32]>,
+        placement: DAffine3,
+        is_shared: bool,
+    ) -> Mesh {
+        let bounds = bounds_of(&file, &triangles, &placement);
+        Mesh { file, triangles, placement, bounds, is_shared, material: DEFAULT, motion: DVec3::ZERO }
+    }
+
+    /// Returns true if both are the same triangles of a file, which devices may store once, with a matrix for each.
+    pub(crate) fn shares_with(&self, other: &Mesh) -> bool {
+        self.is_shared
+            && other.is_shared
+            && Arc::ptr_eq(&self.file, &other.file)
+            && Arc::ptr_eq(&self.triangles, &other.triangles)
+            && self.mirrors() == other.mirrors()
+    }
+
+    fn mirrors(&self) -> bool {
+        self.placement.matrix3.determinant() < 0.0
+    }
+
+    /// Returns the space in which devices store its triangles.
+    pub(crate) fn stored(&self) -> Stored<'_> {
+        if !self.is_shared {
+            return Stored { placed: Placed::new(&self.file, &self.placement), mesh: self, placement: None };
+        }
+        // About the middle of its box, as files may have it anywhere.
+        let own = bounds_of(&self.file, &self.triangles, &DAffine3::IDENTITY);
+        let middle = DAffine3::from_translation(0.5 * (own.min + own.max));
+        let placed = Placed::in_own_space(&self.file, self.mirrors());
+        Stored { placed, mesh: self, placement: Some((self.placement * middle, middle.translation)) }
     }
 
     /// Returns the number of its triangles.
@@ -65,25 +93,59 @@ impl Mesh {
         }
     }
 
-    /// Calls `each` with its triangles in the world and what else their corners have, in the order of the file.
-    pub(crate) fn for_each_with_attributes(&self, mut each: impl FnMut(Triangle, CornerAttributes)) {
-        let placed = Placed::new(&self.file, &self.placement);
-        for &index in self.triangles.iter() {
-            let triangle = placed.triangle(index);
-            each(
-                Triangle { material: self.material, motion: self.motion, ..triangle },
-                placed.attributes(index, &self.placement),
-            );
-        }
-    }
-
     /// Calls `each` with every `step`-th of its triangles in the world, in the order of the file.
     pub fn for_each(&self, step: usize, mut each: impl FnMut(Triangle)) {
         let placed = Placed::new(&self.file, &self.placement);
-        for &index in self.triangles.iter().step_by(step) {
+        for &index in self.triangles.iter().step_by(step.max(1)) {
             each(Triangle { material: self.material, motion: self.motion, ..placed.triangle(index) });
         }
     }
+}
+
+/// The triangles of a mesh as devices store them: in the world, or in a space of their own.
+pub(crate) struct Stored<'a> {
+    placed: Placed<'a>,
+    mesh: &'a Mesh,
+    placement: Option<(DAffine3, DVec3)>,
+}
+
+impl Stored<'_> {
+    /// Returns the transformation to the world, and the origin in the space of the file, unless it is the world.
+    pub fn placement(&self) -> Option<(DAffine3, DVec3)> {
+        self.placement
+    }
+
+    /// Returns the triangle at this place of the mesh, and what else its corners have; a triangle in a space of its own is
+    /// where the file has it.
+    pub fn triangle(&self, place: usize) -> Triangle {
+        let triangle = self.placed.triangle(self.mesh.triangles[place]);
+        Triangle { material: self.mesh.material, motion: self.mesh.motion, ..triangle }
+    }
+
+    /// Returns true if the triangles lie in a space of their own, which a mirror turns into the world: their corners have
+    /// the order of the world.
+    pub fn is_turned(&self) -> bool {
+        self.placement.is_some() && self.mesh.mirrors()
+    }
+
+    /// Returns what the corners of that triangle have beside normals and texture coordinates.
+    pub fn attributes(&self, place: usize) -> CornerAttributes {
+        self.placed.attributes(self.mesh.triangles[place])
+    }
+}
+
+fn bounds_of(file: &mesh::Mesh, triangles: &[u32], placement: &DAffine3) -> Bounds {
+    let none = || Bounds { min: DVec3::INFINITY, max: DVec3::NEG_INFINITY };
+    let with = |bounds: Bounds, other: Bounds| Bounds {
+        min: bounds.min.min(other.min),
+        max: bounds.max.max(other.max),
+    };
+    let of_triangle = |&index: &u32| {
+        let corners = file.triangles[index as usize].positions;
+        let places = corners.map(|i| placement.transform_point3(file.positions[i as usize]));
+        places.into_iter().fold(none(), |bounds, place| with(bounds, Bounds { min: place, max: place }))
+    };
+    triangles.par_iter().with_min_len(4096).map(of_triangle).reduce(none, with)
 }
 
 impl Shapes {

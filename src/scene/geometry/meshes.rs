@@ -7,6 +7,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use glam::{DAffine3, DMat3, DQuat, DVec2, DVec3, DVec4, EulerRot, Vec4};
+use rayon::prelude::*;
 
 use crate::mesh::{Mesh, MeshTriangle};
 use crate::scene::builder::SceneBuilder;
@@ -26,11 +27,21 @@ pub(in crate::scene) fn placement(translate: DVec3, rotate: DVec3, scale: DVec3)
     DAffine3::from_scale_rotation_translation(scale, DQuat::from_euler(EulerRot::ZYX, z, y, x), translate)
 }
 
+/// Meshes that stand in several places share their triangles on devices if that saves so many.
+const MANY: usize = 1 << 16;
+/// They do it if no placement stretches one direction more than another by much: the product of the norms of the matrix
+/// and of its inverse, 3 for one that keeps angles.
+const MOST_STRETCH: f64 = 6.0;
+
+/// Where a mesh stands, and an index in the scene for each of its materials.
+pub(in crate::scene) struct Instance {
+    pub placement: Placement,
+    pub material_of: Vec<usize>,
+}
+
 /// What is added to a scene for a mesh.
 pub(in crate::scene) struct Part<'a> {
-    pub placement: &'a Placement,
-    /// An index for each material of the mesh.
-    pub material_of: &'a [usize],
+    pub instances: &'a [Instance],
     /// The material of triangles that name none.
     pub other: usize,
     pub motion: DVec3,
@@ -38,70 +49,137 @@ pub(in crate::scene) struct Part<'a> {
     pub one_sided: bool,
 }
 
+impl Part<'_> {
+    /// Returns the index in the scene of a material of the mesh.
+    fn material(&self, instance: &Instance, own: Option<u32>) -> usize {
+        let found = own.and_then(|i| instance.material_of.get(i as usize)).copied();
+        found.filter(|&index| index != DEFAULT).unwrap_or(self.other)
+    }
+}
+
 /// Adds the triangles of a mesh: few one by one, so that beams and cones know their outlines, more as one shape for each
-/// material. Returns how many have no area and were left out, or an error if a corner leaves the range of coordinates.
+/// material and instance. Returns how many have no area and were left out, or an error if a corner leaves the range of
+/// coordinates.
 pub(in crate::scene) fn add(
     builder: &mut SceneBuilder,
     mesh: Mesh,
     part: &Part<'_>,
 ) -> Result<usize, String> {
-    let placed = Placed::new(&mesh, part.placement);
-    let outside = |p: &DVec3| !p.to_array().iter().all(|&x| (COORDINATE.allow)(x));
-    if let Some(i) = placed.positions.iter().position(outside) {
-        return Err(format!(
-            "position {i} becomes {}, which is not {}",
-            placed.positions[i], COORDINATE.words
-        ));
-    }
-    let all = mesh.triangles.iter().zip(0u32..);
-    let kept: Vec<(usize, u32)> = all
-        .filter(|(triangle, _)| !collinear(placed.corners(triangle)))
-        .map(|(triangle, index)| {
-            let material = triangle.material.and_then(|i| part.material_of.get(i as usize)).copied();
-            (material.filter(|&index| index != DEFAULT).unwrap_or(part.other), index)
-        })
-        .collect();
-    let dropped = mesh.triangles.len() - kept.len();
-    let motion = part.motion;
-    if kept.len() <= FEW && !mesh.has_attributes() && !part.one_sided {
-        for (material, index) in kept {
-            builder.shape(Triangle { material, motion, ..placed.triangle(index) });
-        }
-        return Ok(dropped);
-    }
-    let mut of_material: BTreeMap<usize, Vec<u32>> = BTreeMap::new();
-    kept.into_iter().for_each(|(material, index)| of_material.entry(material).or_default().push(index));
+    let is_single = mesh.triangle_count() <= FEW && !mesh.has_attributes() && !part.one_sided;
+    let placements: Vec<&Placement> = part.instances.iter().map(|instance| &instance.placement).collect();
+    let is_shared = shares(mesh.triangle_count(), &placements);
     let file = Arc::new(mesh);
-    for (material, triangles) in of_material {
-        let shape = shapes::Mesh::new(Arc::clone(&file), triangles.into(), *part.placement);
-        builder.shape(shapes::Mesh { material, motion, ..shape });
+    let (mut kept, mut dropped) = (Vec::new(), 0);
+    for (number, instance) in part.instances.iter().enumerate() {
+        let placed = Placed::new(&file, &instance.placement);
+        check_positions(&placed)?;
+        // Which have an area does not depend on a placement that keeps shapes nearly.
+        if number == 0 || !is_shared {
+            let all = file.triangles.par_iter().zip(0..file.triangles.len() as u32);
+            let with_area = all.filter(|(triangle, _)| !collinear(placed.corners(triangle)));
+            let with_area: Vec<u32> = with_area.map(|(_, index)| index).collect();
+            dropped += (file.triangles.len() - with_area.len()) * if is_shared { placements.len() } else { 1 };
+            kept = of_materials(&file, with_area, |own| if is_shared {
+                own.map_or(0, |index| index as usize + 1)
+            } else {
+                part.material(instance, own)
+            });
+        }
+        for (own, triangles) in &kept {
+            let material = match own.checked_sub(1) {
+                _ if !is_shared => *own,
+                index => part.material(instance, index.map(|index| index as u32)),
+            };
+            let motion = part.motion;
+            if is_single {
+                for &index in triangles.iter() {
+                    builder.shape(Triangle { material, motion, ..placed.triangle(index) });
+                }
+            } else {
+                let (file, triangles) = (Arc::clone(&file), Arc::clone(triangles));
+                let mesh = shapes::Mesh::new(file, triangles, instance.placement, is_shared);
+                builder.shape(shapes::Mesh { material, motion, ..mesh });
+            }
+        }
     }
     Ok(dropped)
 }
 
-/// A mesh in the world.
+/// Returns true if this many triangles in several places are held once.
+pub(in crate::scene) fn shares(triangles: usize, placements: &[&Placement]) -> bool {
+    let saved = triangles.saturating_mul(placements.len().saturating_sub(1));
+    triangles > FEW && saved >= MANY && placements.iter().all(|placement| stretch(placement) <= MOST_STRETCH)
+}
+
+/// Triangles of a mesh by a key.
+type Grouped = Vec<(usize, Arc<[u32]>)>;
+
+/// Returns triangles of a file, grouped by a key that their material has.
+fn of_materials(file: &Mesh, triangles: Vec<u32>, key: impl Fn(Option<u32>) -> usize) -> Grouped {
+    let mut grouped: BTreeMap<usize, Vec<u32>> = BTreeMap::new();
+    let mut last = (None, key(None));
+    for index in triangles {
+        let own = file.triangles[index as usize].material;
+        if own != last.0 {
+            last = (own, key(own));
+        }
+        grouped.entry(last.1).or_default().push(index);
+    }
+    grouped.into_iter().map(|(key, triangles)| (key, triangles.into())).collect()
+}
+
+/// Refuses corners out of the range of coordinates.
+fn check_positions(placed: &Placed<'_>) -> Result<(), String> {
+    let outside = |i: &usize| !placed.position(*i as u32).to_array().iter().all(|&x| (COORDINATE.allow)(x));
+    match (0..placed.mesh.positions.len()).into_par_iter().find_first(outside) {
+        None => Ok(()),
+        Some(i) => {
+            let position = placed.position(i as u32);
+            Err(format!("position {i} becomes {position}, which is not {}", COORDINATE.words))
+        }
+    }
+}
+
+/// Returns by how much a placement stretches one direction more than another; infinite if it flattens.
+fn stretch(placement: &Placement) -> f64 {
+    let norm = |m: DMat3| m.to_cols_array().iter().map(|x| x * x).sum::<f64>().sqrt();
+    let product = norm(placement.matrix3) * norm(placement.matrix3.inverse());
+    if product.is_finite() { product } else { f64::INFINITY }
+}
+
+/// A mesh in the world, or in its own space with fronts and backs as in the world.
 pub(super) struct Placed<'a> {
     mesh: &'a Mesh,
-    positions: Vec<DVec3>,
-    normals: Vec<DVec3>,
-    uvs: Vec<DVec2>,
+    placement: Placement,
+    normal_matrix: DMat3,
     mirrors: bool,
 }
 
 impl Placed<'_> {
     pub fn new<'a>(mesh: &'a Mesh, placement: &Placement) -> Placed<'a> {
-        let normal_matrix = normal_matrix(&placement.matrix3);
-        Placed {
-            mesh,
-            positions: mesh.positions.iter().map(|p| placement.transform_point3(*p)).collect(),
-            normals: mesh.normals.iter().map(|n| (normal_matrix * *n).normalize_or_zero()).collect(),
-            uvs: mesh.uvs.iter().map(|uv| DVec2::new(uv.x, 1.0 - uv.y)).collect(),
-            mirrors: placement.matrix3.determinant() < 0.0,
-        }
+        let mirrors = placement.matrix3.determinant() < 0.0;
+        Placed { mesh, placement: *placement, normal_matrix: normal_matrix(&placement.matrix3), mirrors }
+    }
+
+    pub fn in_own_space<'a>(mesh: &'a Mesh, mirrors: bool) -> Placed<'a> {
+        Placed { mesh, placement: Placement::IDENTITY, normal_matrix: DMat3::IDENTITY, mirrors }
+    }
+
+    fn position(&self, index: u32) -> DVec3 {
+        self.placement.transform_point3(self.mesh.positions[index as usize])
     }
 
     fn corners(&self, triangle: &MeshTriangle) -> [DVec3; 3] {
-        triangle.positions.map(|i| self.positions[i as usize])
+        triangle.positions.map(|i| self.position(i))
+    }
+
+    fn normal(&self, index: u32) -> DVec3 {
+        (self.normal_matrix * self.mesh.normals[index as usize]).normalize_or_zero()
+    }
+
+    fn uv(&self, index: u32) -> DVec2 {
+        let uv = self.mesh.uvs[index as usize];
+        DVec2::new(uv.x, 1.0 - uv.y)
     }
 
     /// Returns a triangle that lies still and has the default material.
@@ -109,9 +187,9 @@ impl Placed<'_> {
         let found = self.mesh.triangles[index as usize];
         let found = if self.mirrors { reversed(&found) } else { found };
         let flat = Triangle::new(self.corners(&found));
-        let own = found.normals.map(|indices| indices.map(|i| self.normals[i as usize]));
+        let own = found.normals.map(|indices| indices.map(|i| self.normal(i)));
         Triangle {
-            uvs: found.uvs.map_or(flat.uvs, |indices| indices.map(|i| self.uvs[i as usize])),
+            uvs: found.uvs.map_or(flat.uvs, |indices| indices.map(|i| self.uv(i))),
             // Files have normals of length zero where a program could not make any.
             normals: own.filter(|normals| !normals.contains(&DVec3::ZERO)),
             ..flat
@@ -130,7 +208,7 @@ pub(crate) struct CornerAttributes {
 
 impl Placed<'_> {
     /// Returns the attributes of a triangle's corners, in the order of `triangle`.
-    pub fn attributes(&self, index: u32, placement: &Placement) -> CornerAttributes {
+    pub fn attributes(&self, index: u32) -> CornerAttributes {
         let mesh = self.mesh;
         let found = mesh.triangles[index as usize];
         let order = if self.mirrors { [0, 2, 1] } else { [0, 1, 2] };
@@ -145,7 +223,7 @@ impl Placed<'_> {
             }),
             tangents: order.map(|corner| {
                 let tangent = tangents[corner].as_dvec4();
-                let way = placement.transform_vector3(tangent.truncate()).normalize_or_zero();
+                let way = self.placement.transform_vector3(tangent.truncate()).normalize_or_zero();
                 way.extend(sign * tangent.w)
             }),
         }

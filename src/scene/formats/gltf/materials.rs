@@ -46,6 +46,14 @@ impl CoordinateSets<'_> {
     }
 }
 
+impl PartialEq for CoordinateSets<'_> {
+    fn eq(&self, other: &Self) -> bool {
+        let read = |set: Option<&TextureRef>| set.map_or((0, None), |set| (set.uv_set, set.transform));
+        let are = |sets: &Self| (read(sets.first), sets.second.map(|set| read(Some(set))));
+        are(self) == are(other)
+    }
+}
+
 /// Returns whether two textures are read at the same coordinates.
 fn is_alike(a: &TextureRef, b: &TextureRef) -> bool {
     a.uv_set == b.uv_set && a.transform == b.transform

@@ -5,15 +5,16 @@
 mod materials;
 mod stage;
 
+use std::collections::HashMap;
 use std::path::Path;
 
-use glam::{DAffine3, DMat2, DVec2, Vec4};
+use glam::{DAffine3, DMat2, DVec2, DVec3, Vec4};
 
 use super::read_file;
 use crate::core::error::Result;
-use crate::mesh::gltf::{self, Model, Primitive, TextureRef};
+use crate::mesh::gltf::{self, Instance, Model, Primitive, TextureRef};
 use crate::mesh::{Fault, Mesh, MeshTriangle};
-use crate::scene::geometry::meshes::normal_matrix;
+use crate::scene::geometry::meshes::{normal_matrix, shares};
 use crate::scene::limits::MAX_TRIANGLES;
 
 use materials::CoordinateSets;
@@ -70,28 +71,100 @@ pub(super) fn has_one_sided(model: &Model) -> bool {
     model.materials.is_empty() || model.materials.iter().any(|material| !material.double_sided)
 }
 
-/// Returns the drawn primitives, those of one material as one mesh.
-pub(super) fn meshes(model: &Model, drawn: &[bool]) -> Vec<(Option<usize>, Mesh)> {
-    let mut meshes: Vec<(Option<usize>, Mesh)> = Vec::new();
-    for instance in model.instances.iter().filter(|instance| drawn.get(instance.node) == Some(&true)) {
-        let place = meshes.iter().position(|(material, _)| *material == instance.material);
-        let place = place.unwrap_or_else(|| {
-            meshes.push((instance.material, Mesh::default()));
-            meshes.len() - 1
-        });
-        let material = instance.material.map(|index| &model.materials[index]);
-        let sets = material.map_or_else(CoordinateSets::default, CoordinateSets::of);
-        append(&mut meshes[place].1, &model.primitives[instance.primitive], &instance.matrix, &sets);
-    }
-    for (material, mesh) in &mut meshes {
+/// A part of what is drawn: a mesh in the file's space, or one that stands in several places.
+pub(super) struct Drawn {
+    pub mesh: Mesh,
+    /// Where it stands, with the index of its material in the file.
+    pub instances: Vec<(DAffine3, Option<usize>)>,
+}
+
+/// What the triangles of a primitive look like beside their place: coordinates of two sets, and tangents.
+#[derive(PartialEq)]
+struct Look<'a> {
+    primitive: usize,
+    sets: CoordinateSets<'a>,
+    /// Whether tangents are of the second set.
+    tangents: Option<bool>,
+}
+
+impl Look<'_> {
+    fn of<'a>(model: &'a Model, primitive: usize, material: Option<usize>) -> Look<'a> {
         let material = material.map(|index| &model.materials[index]);
-        if let Some(normal) = material.and_then(|material| material.normal_texture.map(|n| (material, n))) {
-            mesh.complete_tangents(CoordinateSets::of(normal.0).is_second(&normal.1));
-        } else {
-            mesh.tangents.clear();
+        let sets = material.map_or_else(CoordinateSets::default, CoordinateSets::of);
+        let normal = material.and_then(|material| material.normal_texture.as_ref());
+        let tangents = normal.map(|normal| sets.is_second(normal));
+        Look { primitive, sets, tangents }
+    }
+
+    fn complete(&self, mesh: &mut Mesh) {
+        match self.tangents {
+            Some(is_second) => mesh.complete_tangents(is_second),
+            None => mesh.tangents.clear(),
         }
     }
+}
+
+/// Returns the drawn primitives: those of one material as one mesh, but for those that stand in so many places that
+/// their triangles are better held once.
+pub(super) fn meshes(model: &Model, drawn: &[bool]) -> Vec<Drawn> {
+    let mut looks: Vec<(Look, Vec<&Instance>)> = Vec::new();
+    let mut of_primitive: HashMap<usize, Vec<usize>> = HashMap::new();
+    let mut known: HashMap<(usize, Option<usize>), usize> = HashMap::new();
+    for instance in instances(model, drawn) {
+        let place = *known.entry((instance.primitive, instance.material)).or_insert_with(|| {
+            let look = Look::of(model, instance.primitive, instance.material);
+            let of_primitive = of_primitive.entry(instance.primitive).or_default();
+            of_primitive.iter().copied().find(|&place| looks[place].0 == look).unwrap_or_else(|| {
+                of_primitive.push(looks.len());
+                looks.push((look, Vec::new()));
+                looks.len() - 1
+            })
+        });
+        looks[place].1.push(instance);
+    }
+    let is_shared: Vec<bool> = looks.iter().map(|(look, instances)| {
+        let placements: Vec<&DAffine3> = instances.iter().map(|instance| &instance.matrix).collect();
+        shares(model.primitives[look.primitive].faces().count(), &placements)
+    }).collect();
+    let mut meshes: Vec<Drawn> = Vec::new();
+    let mut of_material: HashMap<Option<usize>, usize> = HashMap::new();
+    for instance in instances(model, drawn) {
+        let Instance { primitive, material, .. } = *instance;
+        if is_shared[known[&(primitive, material)]] {
+            continue;
+        }
+        let place = *of_material.entry(material).or_insert_with(|| {
+            meshes.push(Drawn { mesh: Mesh::default(), instances: vec![(DAffine3::IDENTITY, material)] });
+            meshes.len() - 1
+        });
+        let look = Look::of(model, primitive, material);
+        append(&mut meshes[place].mesh, &model.primitives[primitive], &instance.matrix, &look.sets);
+    }
+    for Drawn { mesh, instances } in &mut meshes {
+        Look::of(model, 0, instances[0].1).complete(mesh);
+    }
+    for ((look, instances), _) in looks.into_iter().zip(is_shared).filter(|(_, is_shared)| *is_shared) {
+        let mut mesh = Mesh::default();
+        append(&mut mesh, &model.primitives[look.primitive], &DAffine3::IDENTITY, &look.sets);
+        look.complete(&mut mesh);
+        let instances = instances.iter().map(|instance| (instance.matrix, instance.material)).collect();
+        meshes.push(Drawn { mesh, instances });
+    }
     meshes
+}
+
+fn instances<'a>(model: &'a Model, drawn: &'a [bool]) -> impl Iterator<Item = &'a Instance> {
+    model.instances.iter().filter(|instance| drawn.get(instance.node) == Some(&true))
+}
+
+/// Returns the least and the greatest coordinates of what is drawn.
+pub(super) fn bounds(model: &Model, drawn: &[bool]) -> [DVec3; 2] {
+    let none = [DVec3::INFINITY, DVec3::NEG_INFINITY];
+    instances(model, drawn).fold(none, |bounds, instance| {
+        let primitive = &model.primitives[instance.primitive];
+        let positions = primitive.faces().flatten().map(|corner| primitive.positions[corner as usize]);
+        positions.map(|p| instance.matrix.transform_point3(p)).fold(bounds, |[min, max], p| [min.min(p), max.max(p)])
+    })
 }
 
 /// Adds a primitive that stands somewhere. A set of texture coordinates that it lacks is all (0, 0), and colours that only
