@@ -84,7 +84,8 @@ fn split_greatest(items: &mut [Child], bounds: Bounds, growing: Growing, by_area
     parts.insert(0, Part { first: 0, count: items.len(), bounds });
     while parts.count < growing.width {
         // Places that would stay empty take leaves apart.
-        let Some(at) = greatest(&parts, growing.leaf, by_area).or_else(|| greatest(&parts, 1, by_area)) else {
+        let Some(at) = greatest(&parts, growing.leaf, by_area).or_else(|| greatest(&parts, 1, by_area))
+        else {
             break;
         };
         let Part { first, count, .. } = parts.parts[at];

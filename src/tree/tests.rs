@@ -4,7 +4,7 @@
 use glam::Vec3;
 
 use super::split::{Bounds, parts};
-use super::{Growing, Child, LEAF, MOST, STACK, Tree, WIDEST, build, check, levels};
+use super::{Child, Growing, LEAF, MOST, STACK, Tree, WIDEST, build, check, levels};
 
 pub(super) type Boxes = Vec<[Vec3; 2]>;
 
@@ -112,7 +112,7 @@ fn parts_fit_the_least_room() {
                     .collect();
                 let room = count.div_ceil(width);
                 let bounds = Bounds::of(&items);
-                let parts = parts(&mut items, bounds, width, room);
+                let parts = parts(&mut items, bounds, Growing::alone(width), room);
                 let most = parts.all().iter().map(|part| part.count).max().unwrap();
                 assert!(most <= room, "{count} {name}, {width} wide: {most} > {room}");
                 assert_eq!(parts.all().iter().map(|part| part.count).sum::<usize>(), count);

@@ -3,6 +3,7 @@
 
 mod gltf;
 mod gltf_materials;
+mod instances;
 mod lists;
 mod trees;
 
@@ -307,4 +308,15 @@ fn mutated_files_are_refused_or_read_and_never_more() {
         read[usize::from(mtl::read(&mutated(&library, &mut rng)).is_ok())] += 1;
     }
     assert!(read.iter().all(|&count| count > 1000), "one-sided: {read:?}");
+}
+
+#[test]
+fn a_file_of_few_bytes_with_many_triangles_is_refused_by_its_limit() {
+    let folder = tempdir().unwrap();
+    let path = folder.path().join("many.stl");
+    let mut bytes = vec![0; 80];
+    bytes.extend_from_slice(&(u32::MAX).to_le_bytes());
+    fs::write(&path, bytes).unwrap();
+    let error = load(&path).unwrap_err().to_string();
+    assert!(error.contains("many.stl"), "{error}");
 }

@@ -4,6 +4,8 @@
 #ifndef MESH_SEARCH_GLSL
 #define MESH_SEARCH_GLSL
 
+#include "mesh_tests.glsl"
+
 // Some mesh is a leaf of the tree over all.
 const bool PLACED_MESHES = PLACEMENTS != 0u || MOTIONS != 0u;
 
@@ -49,7 +51,7 @@ Ray ray_in_mesh(const Placement placement, Ray ray) {
     return ray;
 }
 
-// As distance_in of mesh.glsl, of a triangle in a mesh's space, by a ray for which the mesh is at rest.
+// As distance_in of mesh_tests.glsl, of a triangle in a mesh's space, by a ray for which the mesh is at rest.
 real distance_in_placed(uint at, const Placement placement, const Ray ray, bool any) {
     uvec4 first = mesh_texel(at);
     real3 a = placed_point(placement, real3(point_in(first))) - ray.origin;

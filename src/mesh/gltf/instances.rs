@@ -41,7 +41,10 @@ struct Meshes<'a> {
     known: HashMap<Shape, usize>,
 }
 
-/// Reads the meshes that nodes hold, of at most `most` triangles in all instances together.
+/// Most places where primitives stand.
+const MOST_PLACES: usize = 1 << 20;
+
+/// Reads the meshes that nodes hold, of at most `most` triangles, however often these are drawn.
 pub(super) fn read(
     document: &Document,
     forest: &Forest,
@@ -53,14 +56,22 @@ pub(super) fn read(
     let list = document.list("meshes")?;
     let mut meshes =
         Meshes { list, materials, parts: HashMap::new(), shapes: Vec::new(), known: HashMap::new() };
-    let mut left = most;
+    let (mut left, mut places) = (most, MOST_PLACES);
     for (index, held) in forest.held.iter().enumerate() {
         let Some(mesh) = held.mesh else { continue };
-        let triangles = meshes.read(mesh, accessors, notes)?;
+        let is_new = !meshes.parts.contains_key(&mesh);
+        let [triangles, parts] = meshes.read(mesh, accessors, notes)?;
+        let over = |what: String| {
+            Fault::new(format!("/nodes/{index}"), format!("up to here, it has more than {what}"))
+        };
+        if is_new {
+            left = left
+                .checked_sub(triangles)
+                .ok_or_else(|| over(format!("{most} triangles, the most a scene may have")))?;
+        }
         let copies = held.copies.map_or(Ok(1), |copies| copies.count(accessors))?;
-        left = triangles.checked_mul(copies).and_then(|count| left.checked_sub(count)).ok_or_else(|| {
-            let what = format!("up to here, it has more than {most} triangles, the most a scene may have");
-            Fault::new(format!("/nodes/{index}"), what)
+        places = parts.checked_mul(copies).and_then(|count| places.checked_sub(count)).ok_or_else(|| {
+            over(format!("{MOST_PLACES} places where primitives of meshes stand, the most that are drawn"))
         })?;
     }
     let unused = |mesh: &usize| !meshes.parts.contains_key(mesh);
@@ -99,10 +110,15 @@ pub(super) fn read(
 }
 
 impl Meshes<'_> {
-    /// Reads the parts of a mesh, if that was not done before, and returns its number of triangles.
-    fn read(&mut self, mesh: usize, accessors: &mut Accessors, notes: &mut Notes) -> Result<usize, Fault> {
+    /// Reads the parts of a mesh, if that was not done before, and returns its numbers of triangles and of parts.
+    fn read(
+        &mut self,
+        mesh: usize,
+        accessors: &mut Accessors,
+        notes: &mut Notes,
+    ) -> Result<[usize; 2], Fault> {
         if let Some(parts) = self.parts.get(&mesh) {
-            return Ok(triangles(parts));
+            return Ok([triangles(parts), parts.len()]);
         }
         let element = self.list.element(mesh)?;
         let json = element.json();
@@ -126,9 +142,9 @@ impl Meshes<'_> {
             };
             parts.push(Part { shape, material, triangles });
         }
-        let count = triangles(&parts);
+        let counts = [triangles(&parts), parts.len()];
         self.parts.insert(mesh, parts);
-        Ok(count)
+        Ok(counts)
     }
 }
 

@@ -36,7 +36,8 @@ pub struct Query<'a> {
 impl Query<'_> {
     /// Distance and own coordinates of where a shape is met before `most`; none on a miss.
     fn meets(&self, record: &impl Shape, shape: u32, most: f64) -> Option<(f64, DVec2)> {
-        let (t, local) = record.distance_to(self.scene, &at_rest(self.scene, self.ray, shape), most, self.search);
+        let (t, local) =
+            record.distance_to(self.scene, &at_rest(self.scene, self.ray, shape), most, self.search);
         let is_left = shape == self.skip && record.plane_of().is_some();
         (t > 0.0 && t < most && !is_left).then_some((t, local))
     }

@@ -6,7 +6,7 @@ use glam::{DVec2, DVec3};
 
 use super::hit::{Hit, at_rest};
 use super::kinds::{Query, Search};
-use super::mesh::{MARGIN, Slabs, distance_in_placed, entry, mesh_texel, point_in, slabs_of};
+use super::mesh_tests::{MARGIN, Slabs, corners, distance_between, entry, mesh_texel, point_in, slabs_of};
 use crate::oracle::camera::Ray;
 use crate::pack::PackedScene;
 use crate::schema::constants::{NO_PLACEMENT, TREE_MESH, TREE_STACK, TREE_WIDTH};
@@ -45,6 +45,19 @@ fn ray_in_mesh(placement: Option<&Placement>, ray: &Ray) -> Ray {
             ..*ray
         }
     })
+}
+
+/// As `distance_in` of the shader for triangles that are not placed. `at`: the texel of its corners.
+fn distance_in_placed(
+    scene: &PackedScene,
+    at: u32,
+    placement: Option<&Placement>,
+    ray: &Ray,
+    search: Search,
+) -> f64 {
+    let one_sided = search == Search::Nearest && mesh_texel(scene, at)[3] != 0;
+    let corners = corners(scene, at).map(|corner| placed_point(placement, corner) - ray.origin);
+    distance_between(corners, ray.direction, one_sided)
 }
 
 /// A triangle of a mesh, by the texel of its corners.

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use glam::{DAffine3, DVec3, Vec3, Vec4};
 use rayon::prelude::*;
 
+use super::mesh_forest::{LEVELS_OF_ALL, TEXELS_OF_CHILD};
 use super::triangle::{corner_uvs, triangle_errors};
 use super::{Rounded, add_map, cross, reach};
 use crate::core::error::{Error, ErrorKind, Result};
@@ -14,10 +15,10 @@ use crate::pack::precision::{Camera, PART_OF_PIXEL, U};
 use crate::pack::{MapKind, PackedScene};
 use crate::scene::geometry::{AttributeKinds, Stored};
 use crate::scene::model::{Mapping, MappingKind, Material, Mesh, Scene, Shape, Sides};
-use crate::schema::constants::{MESH_MIRRORED_UV, MESH_SMOOTH, NO_PLACEMENT, TREE_MESH, TREE_WIDTH};
+use crate::schema::constants::{MESH_MIRRORED_UV, MESH_SMOOTH, NO_PLACEMENT, TREE_WIDTH};
 use crate::schema::layout;
 use crate::texture::sampler_spec::SamplerSpec;
-use crate::tree::{self, Child, Growing, LEAF, levels};
+use crate::tree::{self, Growing, LEAF, levels};
 
 /// Triangles of which the errors of texture coordinates are computed.
 const TESTED: usize = 1024;
@@ -25,61 +26,8 @@ const TESTED: usize = 1024;
 const MAX_TEXELS: usize = i32::MAX as usize / 16;
 
 /// Shape of the trees of meshes: with the tree over all above them, they fit the stack of a traversal.
-const OF_A_MESH: Growing = Growing { width: TREE_WIDTH as usize, leaf: LEAF, levels: LEVELS - LEVELS_OF_ALL };
-/// Shape of the tree over all meshes.
-const OF_ALL: Growing = Growing { width: TREE_WIDTH as usize, leaf: 1, levels: LEVELS_OF_ALL };
-const LEVELS: u32 = levels(TREE_WIDTH as usize);
-/// Room for as many meshes as a scene may have shapes.
-const LEVELS_OF_ALL: u32 = 8;
-/// The boxes of meshes that are placed by a matrix grow by this part of their largest coordinate, as devices compute
-/// the corners in f32.
-const PLACED_PART: f32 = 1.0 / (1 << 19) as f32;
-
-/// Begins the buffer of meshes with the tree over all, whose leaves are meshes; a single mesh that stays as it is needs none.
-pub(super) fn begin(packed: &mut PackedScene, scene: &Scene, meshes: &[Mesh], eye: DVec3) {
-    let moves = |mesh: &Mesh| mesh.motion != DVec3::ZERO;
-    if meshes.iter().all(|mesh| !moves(mesh) && mesh.stored().placement().is_none()) && meshes.len() <= 1 {
-        return;
-    }
-    let shutter = scene.camera.shutter;
-    let boxes = meshes.iter().map(|mesh| {
-        // Bounds exist, as there are triangles.
-        let [min, max] = mesh.bounds().map_or([eye; 2], |bounds| [bounds.min, bounds.max]);
-        let ways = shutter.map(|time| if moves(mesh) { time * mesh.motion } else { DVec3::ZERO });
-        let low = (min + ways[0].min(ways[1]) - eye).as_vec3();
-        let high = (max + ways[0].max(ways[1]) - eye).as_vec3();
-        let is_exact = !moves(mesh) && mesh.stored().placement().is_none();
-        let margin = if is_exact { 0.0 } else { PLACED_PART * low.abs().max(high.abs()).max_element() };
-        [low - margin, high + margin]
-    });
-    let mut tree = tree::build(&boxes.collect::<Vec<_>>(), OF_ALL);
-    for child in tree.children.iter_mut().filter(|child| child.is_used()) {
-        if child.count > 0 {
-            (child.reference, child.count) = (tree.order[child.reference as usize], TREE_MESH);
-        } else {
-            child.reference *= TEXELS_OF_CHILD;
-        }
-    }
-    Arc::make_mut(&mut packed.mesh_texels).extend_from_slice(bytemuck::cast_slice(&tree.children));
-}
-
-/// Puts the roots of meshes that neither move nor have a matrix in place of them as leaves.
-pub(super) fn finish(packed: &mut PackedScene) {
-    let records = &packed.records;
-    let first = records.meshes.iter().map(|mesh| mesh.nodes).min().unwrap_or(0) as usize;
-    let texels = Arc::make_mut(&mut packed.mesh_texels);
-    let shapes_before = records.motions.len().saturating_sub(records.meshes.len());
-    for child in bytemuck::cast_slice_mut::<_, Child>(&mut texels[..first]) {
-        if child.is_used() && child.count == TREE_MESH {
-            let number = child.reference as usize;
-            let mesh = &records.meshes[number];
-            let moves = records.motions.get(shapes_before + number).is_some_and(|m| m.shift != DVec3::ZERO);
-            if mesh.placement == NO_PLACEMENT && !moves {
-                (child.reference, child.count) = (mesh.nodes, 0);
-            }
-        }
-    }
-}
+const OF_A_MESH: Growing =
+    Growing { width: TREE_WIDTH as usize, leaf: LEAF, levels: levels(TREE_WIDTH as usize) - LEVELS_OF_ALL };
 
 pub(super) fn pack(packed: &mut PackedScene, scene: &Scene, mesh: &Mesh, eye: DVec3) -> Result<layout::Mesh> {
     let material = &scene.materials[mesh.material];
@@ -95,13 +43,12 @@ pub(super) fn pack(packed: &mut PackedScene, scene: &Scene, mesh: &Mesh, eye: DV
         None => {
             let origin = stored.placement().map_or(eye, |(_, origin)| origin);
             let texels = Arc::make_mut(&mut packed.mesh_texels);
-            let source = Source { mesh, stored: &stored, material, sampler: scene.sampler_of(material), origin };
+            let source =
+                Source { mesh, stored: &stored, material, sampler: scene.sampler_of(material), origin };
             let record = source.pack(texels, before as u32);
             if texels.len() > MAX_TEXELS {
                 let what = format!("meshes take {} MiB; they may take 2048 MiB at most", texels.len() >> 16);
-                return Err(
-                    Error::with_help(what, "use meshes of fewer triangles").of_kind(ErrorKind::Scene)
-                );
+                return Err(Error::with_help(what, "use meshes of fewer triangles").of_kind(ErrorKind::Scene));
             }
             record
         }
@@ -130,12 +77,20 @@ fn earlier(scene: &Scene, number: usize, mesh: &Mesh) -> Option<usize> {
     let look = |mesh: &Mesh| {
         let material = &scene.materials[mesh.material];
         let sampler = scene.sampler_of(material);
-        (material.sides, mapping::uv_matrix(&material.mapping), material.mapping.offset, mapping::periods(&sampler))
+        (
+            material.sides,
+            mapping::uv_matrix(&material.mapping),
+            material.mapping.offset,
+            mapping::periods(&sampler),
+        )
     };
-    // Those that share follow each other.
-    let same_triangles = |&index: &usize| mesh.shares_with(&scene.shapes.meshes[index]);
-    let mut sharing = (0..number).rev().take_while(same_triangles);
-    sharing.find(|&index| look(&scene.shapes.meshes[index]) == look(mesh))
+    // Those of one file follow each other.
+    let beside = |&index: &usize| mesh.is_beside(&scene.shapes.meshes[index]);
+    let same = |&index: &usize| {
+        let other = &scene.shapes.meshes[index];
+        mesh.shares_with(other) && look(other) == look(mesh)
+    };
+    (0..number).rev().take_while(beside).find(same)
 }
 
 /// Returns the rows of a transformation to the world as seen from the eye, and of its inverse.
@@ -149,8 +104,7 @@ fn placement_record(placement: &DAffine3, eye: DVec3) -> layout::Placement {
     layout::Placement { x, y, z, to_mesh_x, to_mesh_y, to_mesh_z }
 }
 
-/// Texels of a node's child and of a triangle's corners.
-const TEXELS_OF_CHILD: u32 = 2;
+/// Texels of the corners of a triangle.
 const TEXELS_OF_CORNERS: usize = 3;
 /// Triangles that a thread takes at once.
 const AT_ONCE: usize = 1 << 12;
@@ -169,7 +123,8 @@ impl Source<'_> {
     /// Appends nodes, corners and attributes. `number`: of the mesh.
     fn pack(&self, texels: &mut Vec<[u32; 4]>, number: u32) -> layout::Mesh {
         let count = self.mesh.triangle_count();
-        let corners = |place: usize| self.stored.triangle(place).vertices.map(|v| (v - self.origin).as_vec3());
+        let corners =
+            |place: usize| self.stored.triangle(place).vertices.map(|v| (v - self.origin).as_vec3());
         let corners: Vec<[Vec3; 3]> = (0..count).into_par_iter().with_min_len(AT_ONCE).map(corners).collect();
         let box_of = |[a, b, c]: &[Vec3; 3]| [a.min(*b).min(*c), a.max(*b).max(*c)];
         let boxes: Vec<[Vec3; 2]> = corners.par_iter().with_min_len(AT_ONCE).map(box_of).collect();
@@ -200,9 +155,9 @@ impl Source<'_> {
             texels.copy_from_slice(&[texel(a, one_sided), texel(b, number), texel(c, place as u32)]);
         });
         let of_attributes = all_attributes.par_chunks_exact_mut(attribute_count).with_min_len(AT_ONCE);
-        let smooth = of_attributes.enumerate().map(|(place, texels)| {
-            self.attributes(order[place] as usize, kinds, texels)
-        });
+        let smooth = of_attributes
+            .enumerate()
+            .map(|(place, texels)| self.attributes(order[place] as usize, kinds, texels));
         let is_smooth = smooth.reduce(|| false, |one, other| one || other);
         layout::Mesh {
             nodes: nodes as u32,
@@ -225,8 +180,7 @@ impl Source<'_> {
         // Corners in a space of their own have the order of the world, which a mirror turns.
         let normal = if self.stored.is_turned() { -turned } else { turned };
         let shading = triangle.normals.unwrap_or([normal; 3]).map(octahedral);
-        let [uv_a, uv_b, uv_c] =
-            corner_uvs(&triangle, self.material, &self.sampler).map(|uv| uv.as_vec2());
+        let [uv_a, uv_b, uv_c] = corner_uvs(&triangle, self.material, &self.sampler).map(|uv| uv.as_vec2());
         let bits = |numbers: [f32; 4]| numbers.map(f32::to_bits);
         let smooth = if triangle.normals.is_some() { MESH_SMOOTH } else { 0 };
         let mirrored = if others.tangents[0].w < 0.0 { MESH_MIRRORED_UV } else { 0 };

@@ -1,6 +1,8 @@
 //! The kinds of shapes, one file each → their device records, relative to the eye, each with its map; and what the rest
 //! of packing and rendering asks of all of them: how many there are, and how far f32 misplaces them.
 
+mod mesh_forest;
+
 use glam::DVec3;
 
 use super::precision::Camera;
@@ -19,7 +21,7 @@ macro_rules! kinds {
         $(mod $module;)+
 
         pub fn pack_shapes(packed: &mut PackedScene, scene: &Scene) -> Result<()> {
-            mesh::begin(packed, scene, &scene.shapes.meshes, scene.camera.eye);
+            mesh_forest::begin(packed, scene, &scene.shapes.meshes, scene.camera.eye);
             $(for shape in &scene.shapes.$list {
                 let record = $module::pack(packed, scene, shape, scene.camera.eye)?;
                 packed.records.$list.push(record);
@@ -27,7 +29,7 @@ macro_rules! kinds {
             if scene.shapes_move() {
                 packed.records.motions = scene.motions().map(|m| layout::Motion { shift: m }).collect();
             }
-            mesh::finish(packed);
+            mesh_forest::finish(packed);
             Ok(())
         }
 

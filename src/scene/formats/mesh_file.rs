@@ -105,9 +105,7 @@ impl MeshFile {
     pub fn bounds(&self) -> [DVec3; 2] {
         match &self.content {
             Content::Mesh(mesh) => mesh.bounds(),
-            Content::Gltf(model) => {
-                gltf::bounds(model, &model.in_scene(model.default_scene))
-            }
+            Content::Gltf(model) => gltf::bounds(model, &model.in_scene(model.default_scene)),
         }
     }
 
@@ -178,7 +176,7 @@ fn add_model(
     let mut notes = gltf::MaterialNotes::default();
     let mut dropped = 0;
     let mut known: HashMap<Option<usize>, Vec<usize>> = HashMap::new();
-    for Drawn { mut mesh, instances } in gltf::meshes(model, &drawn) {
+    for Drawn { mut mesh, instances } in gltf::meshes(model, &drawn).map_err(|what| ("file", what))? {
         let names_material = usage.material.is_none() && instances.iter().any(|(_, own)| own.is_some());
         let instances = instances.into_iter().map(|(placement, material)| {
             let material_of = known.entry(material).or_insert_with(|| {

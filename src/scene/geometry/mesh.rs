@@ -54,13 +54,19 @@ impl Mesh {
         Mesh { file, triangles, placement, bounds, is_shared, material: DEFAULT, motion: DVec3::ZERO }
     }
 
-    /// Returns true if both are the same triangles of a file, which devices may store once, with a matrix for each.
-    pub(crate) fn shares_with(&self, other: &Mesh) -> bool {
+    /// Returns true if devices store its triangles in a space of their own.
+    pub(crate) fn is_shared(&self) -> bool {
         self.is_shared
-            && other.is_shared
-            && Arc::ptr_eq(&self.file, &other.file)
-            && Arc::ptr_eq(&self.triangles, &other.triangles)
-            && self.mirrors() == other.mirrors()
+    }
+
+    /// Returns true if both are of one file, some of whose triangles devices store once, with a matrix for each.
+    pub(crate) fn is_beside(&self, other: &Mesh) -> bool {
+        self.is_shared && other.is_shared && Arc::ptr_eq(&self.file, &other.file)
+    }
+
+    /// Returns true if these are the same triangles with the same fronts.
+    pub(crate) fn shares_with(&self, other: &Mesh) -> bool {
+        Arc::ptr_eq(&self.triangles, &other.triangles) && self.mirrors() == other.mirrors()
     }
 
     fn mirrors(&self) -> bool {
@@ -72,9 +78,9 @@ impl Mesh {
         if !self.is_shared {
             return Stored { placed: Placed::new(&self.file, &self.placement), mesh: self, placement: None };
         }
-        // About the middle of its box, as files may have it anywhere.
-        let own = bounds_of(&self.file, &self.triangles, &DAffine3::IDENTITY);
-        let middle = DAffine3::from_translation(0.5 * (own.min + own.max));
+        // About a corner, as files may have it anywhere.
+        let middle = self.file.positions[self.file.triangles[self.triangles[0] as usize].positions[0] as usize];
+        let middle = DAffine3::from_translation(middle);
         let placed = Placed::in_own_space(&self.file, self.mirrors());
         Stored { placed, mesh: self, placement: Some((self.placement * middle, middle.translation)) }
     }

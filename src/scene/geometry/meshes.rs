@@ -17,6 +17,9 @@ use crate::scene::model::{self as shapes, DEFAULT, Triangle};
 /// Most triangles that are added one by one.
 const FEW: usize = 64;
 
+/// Triangles that a thread takes at once.
+const AT_ONCE: usize = 1 << 12;
+
 /// A transformation from a mesh's own space to the world.
 pub(in crate::scene) type Placement = DAffine3;
 
@@ -69,40 +72,43 @@ pub(in crate::scene) fn add(
     let placements: Vec<&Placement> = part.instances.iter().map(|instance| &instance.placement).collect();
     let is_shared = shares(mesh.triangle_count(), &placements);
     let file = Arc::new(mesh);
-    let (mut kept, mut dropped) = (Vec::new(), 0);
+    let (mut kept, mut dropped, motion) = (Vec::new(), 0, part.motion);
     for (number, instance) in part.instances.iter().enumerate() {
         let placed = Placed::new(&file, &instance.placement);
         check_positions(&placed)?;
+        if is_single {
+            let with_area = with_area(&placed);
+            dropped += file.triangles.len() - with_area.len();
+            for index in with_area {
+                let material = part.material(instance, file.triangles[index as usize].material);
+                builder.shape(Triangle { material, motion, ..placed.triangle(index) });
+            }
+            continue;
+        }
         // Which have an area does not depend on a placement that keeps shapes nearly.
         if number == 0 || !is_shared {
-            let all = file.triangles.par_iter().zip(0..file.triangles.len() as u32);
-            let with_area = all.filter(|(triangle, _)| !collinear(placed.corners(triangle)));
-            let with_area: Vec<u32> = with_area.map(|(_, index)| index).collect();
-            dropped += (file.triangles.len() - with_area.len()) * if is_shared { placements.len() } else { 1 };
-            kept = of_materials(&file, with_area, |own| if is_shared {
-                own.map_or(0, |index| index as usize + 1)
-            } else {
-                part.material(instance, own)
+            kept = of_materials(&file, with_area(&placed), |own| match own {
+                _ if !is_shared => part.material(instance, own),
+                own => own.map_or(0, |index| index as usize + 1),
             });
         }
-        for (own, triangles) in &kept {
-            let material = match own.checked_sub(1) {
-                _ if !is_shared => *own,
-                index => part.material(instance, index.map(|index| index as u32)),
-            };
-            let motion = part.motion;
-            if is_single {
-                for &index in triangles.iter() {
-                    builder.shape(Triangle { material, motion, ..placed.triangle(index) });
-                }
-            } else {
-                let (file, triangles) = (Arc::clone(&file), Arc::clone(triangles));
-                let mesh = shapes::Mesh::new(file, triangles, instance.placement, is_shared);
-                builder.shape(shapes::Mesh { material, motion, ..mesh });
-            }
+        dropped += file.triangles.len() - kept.iter().map(|(_, triangles)| triangles.len()).sum::<usize>();
+        for (key, triangles) in &kept {
+            let own = || key.checked_sub(1).map(|index| index as u32);
+            let material = if is_shared { part.material(instance, own()) } else { *key };
+            let (file, triangles) = (Arc::clone(&file), Arc::clone(triangles));
+            let mesh = shapes::Mesh::new(file, triangles, instance.placement, is_shared);
+            builder.shape(shapes::Mesh { material, motion, ..mesh });
         }
     }
     Ok(dropped)
+}
+
+/// Returns the triangles that have an area where they stand, in the order of the file.
+fn with_area(placed: &Placed<'_>) -> Vec<u32> {
+    let all = placed.mesh.triangles.par_iter().zip(0..placed.mesh.triangles.len() as u32);
+    let with_area = all.with_min_len(AT_ONCE).filter(|(triangle, _)| !collinear(placed.corners(triangle)));
+    with_area.map(|(_, index)| index).collect()
 }
 
 /// Returns true if this many triangles in several places are held once.
@@ -244,5 +250,26 @@ fn reversed(triangle: &MeshTriangle) -> MeshTriangle {
         uvs: triangle.uvs.map(swap),
         normals: triangle.normals.map(swap),
         ..*triangle
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_saves_little_or_loses_its_shape_is_copied() {
+        let plain = Placement::from_scale_rotation_translation(
+            DVec3::new(-0.2, 0.2, 0.3),
+            DQuat::from_rotation_x(1.0),
+            DVec3::X,
+        );
+        let many = vec![&plain; 100];
+        assert!(shares(1000, &many));
+        assert!(!shares(1000, &many[..10]) && !shares(12, &vec![&plain; 60_000]));
+        for z in [20.0, 0.0] {
+            let other = Placement::from_scale(DVec3::new(1.0, 1.0, z));
+            assert!(!shares(1000, &[&many[1..], &[&other]].concat()), "{z}");
+        }
     }
 }

@@ -167,11 +167,11 @@ fn copies_instances() {
     assert_eq!(wrong, "/accessors/2/type: SCALE has to be VEC3");
     build.bytes[36 + 24..36 + 28].fill(0);
     assert_eq!(build.fault(), "/accessors/2: element 0, a rotation, has no length");
-    // Copies of zeros need no bytes, but count as triangles.
-    build.set("/accessors/4", json!({ "componentType": 5126, "type": "VEC3", "count": 101 }));
+    // Copies of zeros need no bytes, but count as places.
+    build.set("/accessors/4", json!({ "componentType": 5126, "type": "VEC3", "count": 1 << 20 }));
     build.set(place, json!({ "TRANSLATION": 4 }));
-    assert_eq!(
-        build.fault(),
-        "/nodes/0: up to here, it has more than 100 triangles, the most a scene may have"
-    );
+    assert_eq!(build.read().unwrap().instances.len(), 1 << 20);
+    build.set("/nodes/1", json!({ "mesh": 0 }));
+    let what = "1048576 places where primitives of meshes stand, the most that are drawn";
+    assert_eq!(build.fault(), format!("/nodes/1: up to here, it has more than {what}"));
 }

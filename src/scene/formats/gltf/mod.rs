@@ -105,8 +105,8 @@ impl Look<'_> {
 }
 
 /// Returns the drawn primitives: those of one material as one mesh, but for those that stand in so many places that
-/// their triangles are better held once.
-pub(super) fn meshes(model: &Model, drawn: &[bool]) -> Vec<Drawn> {
+/// their triangles are better held once. Says why if they are too many.
+pub(super) fn meshes(model: &Model, drawn: &[bool]) -> Result<Vec<Drawn>, String> {
     let mut looks: Vec<(Look, Vec<&Instance>)> = Vec::new();
     let mut of_primitive: HashMap<usize, Vec<usize>> = HashMap::new();
     let mut known: HashMap<(usize, Option<usize>), usize> = HashMap::new();
@@ -122,10 +122,18 @@ pub(super) fn meshes(model: &Model, drawn: &[bool]) -> Vec<Drawn> {
         });
         looks[place].1.push(instance);
     }
-    let is_shared: Vec<bool> = looks.iter().map(|(look, instances)| {
-        let placements: Vec<&DAffine3> = instances.iter().map(|instance| &instance.matrix).collect();
-        shares(model.primitives[look.primitive].faces().count(), &placements)
-    }).collect();
+    let is_shared: Vec<bool> = looks
+        .iter()
+        .map(|(look, instances)| {
+            let placements: Vec<&DAffine3> = instances.iter().map(|instance| &instance.matrix).collect();
+            shares(model.primitives[look.primitive].faces().count(), &placements)
+        })
+        .collect();
+    let copied = instances(model, drawn).filter(|i| !is_shared[known[&(i.primitive, i.material)]]);
+    let count = copied.map(|instance| model.primitives[instance.primitive].faces().count()).sum::<usize>();
+    if count > MAX_TRIANGLES {
+        return Err(format!("{count} triangles in all places; a scene may have {MAX_TRIANGLES} at most"));
+    }
     let mut meshes: Vec<Drawn> = Vec::new();
     let mut of_material: HashMap<Option<usize>, usize> = HashMap::new();
     for instance in instances(model, drawn) {
@@ -150,7 +158,7 @@ pub(super) fn meshes(model: &Model, drawn: &[bool]) -> Vec<Drawn> {
         let instances = instances.iter().map(|instance| (instance.matrix, instance.material)).collect();
         meshes.push(Drawn { mesh, instances });
     }
-    meshes
+    Ok(meshes)
 }
 
 fn instances<'a>(model: &'a Model, drawn: &'a [bool]) -> impl Iterator<Item = &'a Instance> {
@@ -163,7 +171,9 @@ pub(super) fn bounds(model: &Model, drawn: &[bool]) -> [DVec3; 2] {
     instances(model, drawn).fold(none, |bounds, instance| {
         let primitive = &model.primitives[instance.primitive];
         let positions = primitive.faces().flatten().map(|corner| primitive.positions[corner as usize]);
-        positions.map(|p| instance.matrix.transform_point3(p)).fold(bounds, |[min, max], p| [min.min(p), max.max(p)])
+        positions
+            .map(|p| instance.matrix.transform_point3(p))
+            .fold(bounds, |[min, max], p| [min.min(p), max.max(p)])
     })
 }
 
