@@ -1,5 +1,7 @@
 //! Nodes and accessors: transforms, interleaved and sparse accessors, quantized ones, instances.
 
+use std::f64::consts::FRAC_1_SQRT_2;
+
 use serde_json::json;
 
 use super::document::{Document, F32, I8, I16, U8};
@@ -64,7 +66,7 @@ pub fn accessors(document: &mut Document) {
     );
     let indices = document.indices(&[0, 1, 2, 0, 2, 3]);
     let mesh = document.mesh(&json!({ "POSITION": position, "COLOR_0": color }), Some(indices), material);
-    let lying = [-0.707_106_781, 0.0, 0.0, 0.707_106_781];
+    let lying = [-FRAC_1_SQRT_2, 0.0, 0.0, FRAC_1_SQRT_2];
     document.stand(
         json!({ "mesh": mesh, "translation": [-2, 0, 0], "rotation": lying, "scale": [1.6, 1.6, 1.6] }),
     );
@@ -187,7 +189,7 @@ pub fn instancing(document: &mut Document) {
             let (sine, cosine) = turn(k);
             // Half an angle by its tangent's law; the angle 180 degrees is the seventh.
             let (s, c) = if k == 6 { (1.0, 0.0) } else { (sine, 1.0 + cosine) };
-            let length = f64::hypot(s, c);
+            let length = f64::sqrt(s * s + c * c);
             [0.0, s / length, 0.0, c / length].map(|x| (32767.0 * x).round() as i16)
         })
         .flat_map(i16::to_le_bytes)

@@ -1,5 +1,7 @@
 //! How surfaces reflect, let through and give off light.
 
+use std::f64::consts::FRAC_1_SQRT_2;
+
 use serde_json::{Value, json};
 
 use super::document::Document;
@@ -58,7 +60,7 @@ pub fn metallic_roughness_map(document: &mut Document) {
     let base =
         json!({ "baseColorFactor": [1, 0.77, 0.34, 1], "metallicRoughnessTexture": { "index": texture } });
     let material = document.push("materials", json!({ "pbrMetallicRoughness": base }));
-    let lying = [-0.707_106_781, 0.0, 0.0, 0.707_106_781];
+    let lying = [-FRAC_1_SQRT_2, 0.0, 0.0, FRAC_1_SQRT_2];
     square.stand(document, material, json!({ "rotation": lying, "scale": [2.8, 1.9, 1] }));
 }
 

@@ -18,9 +18,12 @@ pub struct File {
     pub bytes: Vec<u8>,
 }
 
+/// What puts a feature into a file.
+type Build = fn(&mut Document);
+
 /// Returns every file.
 pub fn all() -> Vec<File> {
-    let text: [(&str, fn(&mut Document)); 20] = [
+    let text: [(&str, Build); 20] = [
         ("transforms.gltf", geometry::transforms),
         ("accessors.gltf", geometry::accessors),
         ("cameras.gltf", stage::cameras),
@@ -42,9 +45,9 @@ pub fn all() -> Vec<File> {
         ("emissive.gltf", looks::emissive),
         ("unlit.gltf", looks::unlit),
     ];
-    let binary: [(&str, fn(&mut Document)); 2] =
+    let binary: [(&str, Build); 2] =
         [("quantized.glb", geometry::quantized), ("instancing.glb", geometry::instancing)];
-    let made = |build: fn(&mut Document)| {
+    let made = |build: Build| {
         let mut document = Document::default();
         build(&mut document);
         document

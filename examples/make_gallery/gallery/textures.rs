@@ -1,5 +1,7 @@
 //! Textures: samplers, transforms, sets of coordinates, formats and depths of bits.
 
+use std::f64::consts::FRAC_PI_6;
+
 use serde_json::{Value, json};
 
 use super::document::Document;
@@ -55,7 +57,7 @@ pub fn transforms(document: &mut Document) {
     document.front_camera();
     let square = shapes::square(document);
     let texture = document.texture(&pictures::letter(), Some(json!({ "magFilter": NEAREST })));
-    let turn = 0.523_598_776;
+    let turn = FRAC_PI_6;
     for (k, transform) in [
         json!({}),
         json!({ "offset": [0.25, 0.5] }),
