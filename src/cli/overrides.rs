@@ -1,5 +1,7 @@
 //! Command line options that override values of the scene file, validated by the same rules.
 
+use std::path::Path;
+
 use clap::Args;
 use serde_json::{Value, json};
 
@@ -15,6 +17,9 @@ use super::{DEVICE, OUTPUT, SAMPLING, TEXTURES, named_parser};
 
 #[derive(Args, Debug)]
 pub struct Overrides {
+    /// Camera of a glTF file, by its number from 0 or its name [default: the first]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, help_heading = OUTPUT)]
+    camera: Option<String>,
     /// Picture size in pixels
     #[arg(long, value_name = "WxH", value_parser = parse_size, help_heading = OUTPUT)]
     size: Option<[u32; 2]>,
@@ -63,6 +68,11 @@ pub struct Overrides {
 }
 
 impl Overrides {
+    /// Reads the scene of a file, seen by the chosen camera.
+    pub fn load(&self, path: &Path) -> Result<Scene> {
+        crate::scene::load_seen_by(path, self.camera.as_deref())
+    }
+
     /// Applies the options to the scene and returns a description of settings that were chosen
     /// implicitly.
     pub fn apply(&self, scene: &mut Scene) -> Result<Option<&'static str>> {
@@ -96,6 +106,7 @@ impl Overrides {
         let methods: Vec<&str> = scene.samplers.iter().map(|x| x.method.name()).collect();
         json!({
             "scene": scene.path.display().to_string(),
+            "camera": self.camera,
             "size": [scene.width, scene.height],
             "crop": crop.map(|c| [c.x, c.y, c.width, c.height]),
             "pixel_filter": scene.pixel_filter.kind.name(),

@@ -27,6 +27,9 @@ use crate::scene::{MAX_SPP, is_standard_input};
 pub struct StudyArgs {
     /// Scene file or model
     scene: PathBuf,
+    /// Camera of a glTF file, by its number from 0 or its name [default: the first]
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    camera: Option<String>,
     /// Folder for the results; its last component is created if it is missing
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
@@ -83,7 +86,7 @@ pub fn run(args: &StudyArgs) -> Result<ExitCode> {
         Some(text) => DeviceSelect::parse(text)?,
         None => DeviceSelect::Default,
     };
-    let mut scene = crate::scene::load(&args.scene)?;
+    let mut scene = crate::scene::load_seen_by(&args.scene, args.camera.as_deref())?;
     if let Some([width, height]) = args.size {
         (scene.width, scene.height) = (width, height);
     }
@@ -122,6 +125,9 @@ fn options(args: &StudyArgs, started: Instant) -> Options {
         }
     });
     let mut arguments = Vec::new();
+    if let Some(camera) = &args.camera {
+        arguments.extend(["--camera".to_owned(), camera.clone()]);
+    }
     if let Some([width, height]) = args.size {
         arguments.extend(["--size".to_owned(), format!("{width}x{height}")]);
     }

@@ -162,12 +162,15 @@ fn seen() -> PathBuf {
 
 fn matches_stored(name: &str) {
     let (_, size) = *GOLDENS.iter().find(|g| g.0 == name).unwrap();
-    let wish = std::env::var("MOIRE_BLESS").unwrap_or_default();
-    let bless = wish == "all" || wish == name;
+    is_stored(name, "golden", sized(name, size));
+}
+
+/// Fails unless the picture of a scene is that of this name in a folder of `data`.
+pub fn is_stored(name: &str, folder: &str, scene: Scene) {
+    let bless = std::env::var("MOIRE_BLESS").is_ok_and(|wish| wish == "all" || wish == name);
     assert!(!bless || device().info().kind == DeviceKind::Cpu, "pictures are stored from a CPU device only");
-    let film = render(&packed(sized(name, size), None));
-    let golden = data().join(format!("golden/{name}.png"));
-    if let Err(what) = check(&golden, &film, bounds(), bless, &seen()) {
+    let golden = data().join(folder).join(format!("{name}.png"));
+    if let Err(what) = check(&golden, &render(&packed(scene, None)), bounds(), bless, &seen()) {
         panic!("{what}");
     }
 }

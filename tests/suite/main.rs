@@ -37,6 +37,7 @@ mod extremes;
 mod face;
 mod flip;
 mod footprints;
+mod gallery;
 mod golden;
 #[cfg(unix)]
 mod interrupt;

@@ -55,7 +55,9 @@ pub fn of(conditions: &Conditions, scene: &Scene) -> Result<Hash> {
         .text(&conditions.program)
         .text(&device.name)
         .text(&device.driver)
-        .text(&format!("{:?} {}", conditions.size, conditions.seed));
+        .text(&format!("{:?} {}", conditions.size, conditions.seed))
+        // Files of models have several.
+        .text(&format!("{:?}", scene.camera));
     let textures = scene.textures.iter().flat_map(|t| t.content.files());
     let sources = scene.sources.iter().map(std::path::PathBuf::as_path);
     for path in std::iter::once(scene.path.as_path()).chain(sources).chain(textures) {

@@ -16,7 +16,7 @@ use crate::mesh::{self, Fault, Mesh, MeshFormat, mtl};
 use crate::scene::builder::SceneBuilder;
 use crate::scene::geometry::meshes::{self, Instance, Part, Placement};
 use crate::scene::limits::MAX_TRIANGLES;
-use crate::scene::model::{Camera, DEFAULT, Light};
+use crate::scene::model::{DEFAULT, Light};
 
 /// Most bytes of a mesh file: text of a million triangles takes 100 MB.
 const MAX_BYTES: u64 = 4 << 30;
@@ -109,10 +109,13 @@ impl MeshFile {
         }
     }
 
-    /// Returns a camera of the file by its number from 0, and the ratio of width to height that it asks for.
-    pub fn camera(&self, number: usize) -> Option<(Camera, f64)> {
-        let Content::Gltf(model) = &self.content else { return None };
-        gltf::camera(model, number, &model.in_scene(model.default_scene))
+    /// Returns a camera of the file, by its number from 0 or its name; without either the first one, if there is any.
+    pub fn camera(&self, chosen: Option<&str>) -> Result<Option<gltf::View>, String> {
+        match (&self.content, chosen) {
+            (Content::Gltf(model), _) => gltf::camera(model, chosen, &model.in_scene(model.default_scene)),
+            (Content::Mesh(_), None) => Ok(None),
+            (Content::Mesh(_), Some(_)) => Err("only glTF files have cameras".into()),
+        }
     }
 
     /// Returns the lights of the file.

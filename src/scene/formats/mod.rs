@@ -47,21 +47,41 @@ pub fn is_standard_input(path: &Path) -> bool {
 /// Reads a scene file, or standard input if the path is `-`; paths in it are then relative to the current folder.
 /// Textures are named, not opened.
 pub fn load(path: &Path) -> Result<Scene> {
+    load_seen_by(path, None)
+}
+
+/// Reads a scene as [`load`] does, seen by one of the cameras of a glTF file: by its number from 0, or by its name. Other
+/// files have no cameras to choose from.
+pub fn load_seen_by(path: &Path, camera: Option<&str>) -> Result<Scene> {
     let is_stdin = is_standard_input(path);
     let stage = if is_stdin { STANDARD_INPUT.into() } else { path.display().to_string() };
     panics::contain(&format_args!("{stage}: reading this scene"), || {
         if is_stdin {
+            no_camera(&stage, camera)?;
             let [format, ..] = &FORMATS;
             let path = Path::new(STANDARD_INPUT);
             let bytes = bytes_of(std::io::stdin().lock(), SCENE, path, format.max_bytes)?;
             return (format.read)(path, bytes);
         }
         if mesh_file::is_mesh(path) {
-            return mesh_scene::read(path);
+            return mesh_scene::read(path, camera);
         }
+        no_camera(&stage, camera)?;
         let format = format_of(path);
         let names: Vec<&str> = FORMATS.iter().map(|format| format.name).chain(mesh_file::names()).collect();
         (format.read)(path, read_file(SCENE, &names, path, format.max_bytes)?)
+    })
+}
+
+/// Refuses the choice of a camera for a scene file, which says itself where its camera is.
+fn no_camera(file: &str, camera: Option<&str>) -> Result<()> {
+    camera.map_or(Ok(()), |camera| {
+        let what =
+            format!("--camera: {file}: found {camera:?} for a scene file, which has one camera of its own");
+        Err(Error::with_help(
+            what,
+            "change [camera] in the scene file; --camera chooses among those of a glTF file",
+        ))
     })
 }
 

@@ -137,6 +137,7 @@ pub(in crate::scene::formats) fn add(
     {
         added.sampler = other.sampler;
     }
+    reader.tell_missing_coordinates();
     reader.tell_what_is_left_out();
     builder.material(added)
 }
@@ -246,6 +247,30 @@ impl Reader<'_> {
             flip_v: false,
             mip_kernel: MipKernel::Box,
         }))
+    }
+
+    /// Tells of meshes in this material without the coordinates at which it reads a texture.
+    fn tell_missing_coordinates(&mut self) {
+        let (model, material) = (self.model, self.material);
+        let others = [
+            material.normal_texture,
+            material.metallic_roughness_texture,
+            material.emissive_texture,
+            material.occlusion_texture,
+        ];
+        let others = others.into_iter().filter(|_| !material.unlit);
+        let read: Vec<usize> =
+            others.chain([material.base_color_texture]).flatten().map(|reference| reference.uv_set).collect();
+        let worn = |index: usize| std::ptr::eq(&model.materials[index], material);
+        for set in (0..2).filter(|set| read.contains(set)) {
+            let instances = model.instances.iter().filter(|instance| instance.material.is_some_and(worn));
+            let mut meshes = instances.map(|instance| &model.primitives[instance.primitive]);
+            if let Some(mesh) = meshes.find(|mesh| mesh.uvs[set].is_empty()) {
+                let name =
+                    if mesh.name.is_empty() { "a mesh".into() } else { format!("mesh {:?}", mesh.name) };
+                self.note(&format!("{name} has no TEXCOORD_{set}, so its texture is read at (0, 0)"));
+            }
+        }
     }
 
     fn tell_what_is_left_out(&mut self) {

@@ -19,7 +19,7 @@ use crate::scene::limits::MAX_TRIANGLES;
 
 use materials::CoordinateSets;
 pub(super) use materials::{MaterialNotes, add as add_material};
-pub(super) use stage::{camera, lights};
+pub(super) use stage::{View, camera, lights};
 
 /// Most bytes of a buffer in a file of its own.
 const MAX_BUFFER_BYTES: u64 = 4 << 30;

@@ -1,20 +1,69 @@
-//! Cameras and lights of a glTF file as those of a scene.
+//! Cameras and lights of a glTF file as those of a scene. Input: the model, which of its nodes are drawn, and which camera
+//! is asked for. Output: each as the scene has it, or which cameras there are.
 
 use std::f64::consts::PI;
 
 use glam::{DAffine3, DVec3};
 
+use crate::core::counted::counted;
 use crate::mesh::gltf::{self, LightKind, Model};
 use crate::scene::model::{self, Light, Projection};
 
-/// Returns a camera of the drawn nodes by its number from 0, and the ratio of width to height that it asks for.
+/// A camera, and the ratio of width to height that it asks for.
+pub(in crate::scene::formats) type View = (model::Camera, f64);
+
+/// Returns a camera of the drawn nodes, by its number from 0 or its name; without either the first one, if there is any.
+/// The error says which cameras there are.
 pub(in crate::scene::formats) fn camera(
     model: &Model,
-    number: usize,
+    chosen: Option<&str>,
     drawn: &[bool],
-) -> Option<(model::Camera, f64)> {
-    let mut cameras = model.cameras.iter().filter(|camera| drawn.get(camera.node) == Some(&true));
-    let found = cameras.nth(number)?;
+) -> Result<Option<View>, String> {
+    let cameras = model.cameras.iter().filter(|camera| drawn.get(camera.node) == Some(&true));
+    let cameras: Vec<(&gltf::Camera, &str)> =
+        cameras.map(|camera| (camera, name_of(model, camera))).collect();
+    let Some(chosen) = chosen else { return Ok(cameras.first().map(|(camera, _)| view(camera))) };
+    if let Some((camera, _)) = chosen.parse().ok().and_then(|number: usize| cameras.get(number)) {
+        return Ok(Some(view(camera)));
+    }
+    let mut named = cameras.iter().filter(|(_, name)| !name.is_empty() && *name == chosen);
+    match (named.next(), named.next()) {
+        (Some((camera, _)), None) => Ok(Some(view(camera))),
+        (Some(_), Some(_)) => {
+            Err(format!("several cameras are named {chosen:?}; it has {}", listed(&cameras)))
+        }
+        (None, _) => Err(format!(
+            "expected the number or the name of a camera, found {chosen:?}; it has {}",
+            listed(&cameras)
+        )),
+    }
+}
+
+/// Returns the name of a camera, or of its node where it has none itself.
+fn name_of<'a>(model: &'a Model, camera: &'a gltf::Camera) -> &'a str {
+    match camera.name.as_str() {
+        "" => model.nodes.get(camera.node).map_or("", |node| node.name.as_str()),
+        name => name,
+    }
+}
+
+/// Returns a list of cameras for a message: `2 cameras: 0 "front", 1`.
+fn listed(cameras: &[(&gltf::Camera, &str)]) -> String {
+    const MOST: usize = 12;
+    let names = cameras.iter().enumerate().take(MOST).map(|(number, (_, name))| match *name {
+        "" => number.to_string(),
+        name => format!("{number} {name:?}"),
+    });
+    let names = names.collect::<Vec<_>>().join(", ");
+    match cameras.len() {
+        0 => "no cameras".into(),
+        count if count > MOST => format!("{count} cameras: {names}, …"),
+        count => format!("{}: {names}", counted(count, "camera")),
+    }
+}
+
+/// Returns a camera as a scene has it.
+fn view(found: &gltf::Camera) -> View {
     let (projection, aspect) = match found.projection {
         gltf::Projection::Perspective { yfov, aspect } => {
             (Projection::VerticalFov(yfov.to_degrees()), aspect.unwrap_or(1.0))
@@ -33,7 +82,7 @@ pub(in crate::scene::formats) fn camera(
         shutter: [0.0, 1.0],
         motion: [DVec3::ZERO; 2],
     };
-    Some((camera, aspect))
+    (camera, aspect)
 }
 
 /// Returns a light that shines within a cone; angles are in radians.
