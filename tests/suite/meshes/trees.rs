@@ -11,11 +11,9 @@ use moire::internal::lab::probe::{self, RayQuery};
 use moire::internal::oracle::camera::Ray;
 use moire::internal::oracle::geometry::rays::{Hit, hit_surface, nearest_hit, occluded};
 use moire::internal::pack::PackedScene;
-use moire::internal::scene::load;
 use moire::internal::scene::model::{Algorithm, Pattern, Scene, Triangle};
 use moire::internal::schema::layout::NO_SHAPE;
 use moire::internal::tree::{Child, Tree, check};
-use tempfile::tempdir;
 
 use super::{folder, scene_in};
 use crate::stage::{device, packed, render, render_on_oracle};
