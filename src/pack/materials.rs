@@ -66,6 +66,7 @@ pub(super) fn material(packed: &mut PackedScene, source: &Material) -> layout::M
         opacity: source.opacity as f32,
         one_sided: source.sides == Sides::Front,
         specular: source.head_on_color().as_vec3(),
+        edge: source.specular_weight as f32,
         exponent: source.exponent as f32,
         ior: source.ior as f32,
     }

@@ -101,6 +101,8 @@ pub struct Material {
     pub metallic_roughness_map: Option<TextureUse>,
     /// Of `metallic-roughness`: multiplies the reflectance head-on that the refractive index gives a dielectric.
     pub specular_tint: DVec3,
+    /// Of `metallic-roughness`: multiplies what the surface of a dielectric reflects, at grazing angles too.
+    pub specular_weight: f64,
     /// Radiance that it emits, whatever its model.
     pub emission: DVec3,
     /// Multiplies the emission.
@@ -141,6 +143,7 @@ impl Default for Material {
             metallic: 0.0,
             metallic_roughness_map: None,
             specular_tint: DVec3::ONE,
+            specular_weight: 1.0,
             emission: DVec3::ZERO,
             emission_map: None,
             occlusion_map: None,
@@ -191,7 +194,7 @@ impl Material {
             return self.specular;
         }
         let root = (self.ior - 1.0) / (self.ior + 1.0);
-        (root * root * self.specular_tint).min(DVec3::ONE)
+        (root * root * self.specular_tint).min(DVec3::ONE) * self.specular_weight
     }
 
     /// Returns the indices of all its textures.

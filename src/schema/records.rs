@@ -229,6 +229,8 @@ records! {
         one_sided: bool,
         /// Colour of Phong's highlight, or the reflectance of a dielectric surface that is seen head-on.
         specular: Vec3,
+        /// Reflectance of a dielectric surface at grazing angles, of model `metallic-roughness`.
+        edge: f32,
         /// Exponent of Phong's highlight.
         exponent: f32,
         /// Index of refraction.

@@ -88,6 +88,7 @@ fn records_are_written_as_the_rule_says() {
         opacity: 34.0,
         one_sided: true,
         specular: Vec3::new(11.0, 12.0, 13.0),
+        edge: 35.0,
         exponent: 14.0,
         ior: 15.0,
     };
@@ -102,7 +103,7 @@ fn records_are_written_as_the_rule_says() {
         [f(28.0), 29, 30, 31],
         [32, AlphaMode::Blend as u32, f(33.0), f(34.0)],
         [1, f(11.0), f(12.0), f(13.0)],
-        [f(14.0), f(15.0), 0, 0],
+        [f(35.0), f(14.0), f(15.0), 0],
     ];
     assert_eq!(Material::UNITS, (0, 10));
     // Without reals, whatever their precision.

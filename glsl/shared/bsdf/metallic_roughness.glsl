@@ -46,18 +46,19 @@ float luminance(vec3 color) {
     return dot3(color, vec3(0.2126, 0.7152, 0.0722));
 }
 
-// `dielectric`: reflectance of the body's surface that is seen head-on.
-MetallicRoughness metallic_roughness(vec3 color, float metallic, float roughness, vec3 dielectric, float cosine) {
+// `dielectric`: reflectance of the body's surface that is seen head-on; `edge`: at grazing angles.
+MetallicRoughness metallic_roughness(vec3 color, float metallic, float roughness, vec3 dielectric, float edge, float cosine) {
     float rough = max(min(roughness, 1.0), LEAST_ROUGHNESS);
     vec2 share = facet_share(max(min(cosine, 1.0), 0.0), rough);
     float lost = (1.0 - share.x) / share.x;
     vec3 body_gain = vec3(1.0) + dielectric * lost;
     vec3 metal_gain = vec3(1.0) + color * lost;
-    vec3 body = (dielectric * (share.x - share.y) + vec3(share.y)) * body_gain;
+    vec3 body = (dielectric * (share.x - share.y) + vec3(edge * share.y)) * body_gain;
     vec3 diffuse = color * (1.0 - metallic) * max(vec3(1.0) - body, vec3(0.0));
     vec3 head_on = dielectric * body_gain;
     head_on += metallic * (color * metal_gain - head_on);
-    vec3 grazing = body_gain + metallic * (metal_gain - body_gain);
+    vec3 grazing = edge * body_gain;
+    grazing += metallic * (metal_gain - grazing);
     float bounced = luminance(head_on * (share.x - share.y) + grazing * share.y);
     float all = bounced + luminance(diffuse);
     return MetallicRoughness(diffuse, head_on, grazing, rough * rough, all > 0.0 ? bounced / all : 1.0);

@@ -66,7 +66,7 @@ Bsdf bsdf_at(const Material material, vec3 color, float metallic, float roughnes
     MetallicRoughness facets = MetallicRoughness(vec3(0.0), vec3(0.0), vec3(0.0), 1.0, 0.0);
     if (MODE_IS(MODELS, MODEL_METALLIC_ROUGHNESS, material.model)) {
         float cosine = float(-dot3(normal, direction) * inverse_root(dot3(direction, direction)));
-        facets = metallic_roughness(color, metallic, roughness, material.specular, cosine);
+        facets = metallic_roughness(color, metallic, roughness, material.specular, material.edge, cosine);
     }
     return Bsdf(material.model, color, material.specular, material.exponent, diffuse_roughness, vec3(normal), vec3(direction),
                 mirror, facets);

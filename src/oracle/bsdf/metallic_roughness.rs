@@ -45,13 +45,14 @@ pub fn luminance(color: DVec3) -> f64 {
     color.dot(DVec3::new(0.2126, 0.7152, 0.0722))
 }
 
-/// `dielectric`: reflectance of the body's surface that is seen head-on.
+/// `dielectric`: reflectance of the body's surface that is seen head-on; `edge`: at grazing angles.
 pub fn metallic_roughness(
     scene: &PackedScene,
     color: DVec3,
     metallic: f64,
     roughness: f64,
     dielectric: DVec3,
+    edge: f64,
     cosine: f64,
 ) -> MetallicRoughness {
     let rough = roughness.clamp(LEAST_ROUGHNESS, 1.0);
@@ -59,10 +60,10 @@ pub fn metallic_roughness(
     let lost = (1.0 - share.x) / share.x;
     let body_gain = 1.0 + dielectric * lost;
     let metal_gain = 1.0 + color * lost;
-    let body = (dielectric * (share.x - share.y) + share.y) * body_gain;
+    let body = (dielectric * (share.x - share.y) + edge * share.y) * body_gain;
     let diffuse = color * (1.0 - metallic) * (1.0 - body).max(DVec3::ZERO);
     let head_on = (dielectric * body_gain).lerp(color * metal_gain, metallic);
-    let grazing = body_gain.lerp(metal_gain, metallic);
+    let grazing = (edge * body_gain).lerp(metal_gain, metallic);
     let bounced = luminance(head_on * (share.x - share.y) + grazing * share.y);
     let all = bounced + luminance(diffuse);
     let bounced = if all > 0.0 { bounced / all } else { 1.0 };

@@ -64,6 +64,28 @@ fn the_oracles_furnace_is_white_too_and_grey_surfaces_are_darker() {
     }
 }
 
+/// Without specular weight nothing but the body is left, however grazing.
+#[test]
+fn a_surface_of_no_specular_weight_is_lambert() {
+    let sun = "[[light]]\nkind = 'directional'\ndirection = [-8, 0, 1]\nirradiance = [3, 3, 3]";
+    let color = "color = [0.8, 0.4, 0.2]";
+    let packed = |model: &str, weight: f64| {
+        let mut packed = scene(&plane(80.0, 1, &format!("model = '{model}'\n{color}"), sun), Vec::new());
+        let material = &mut packed.records.materials[0];
+        (material.edge, material.specular) = (weight as f32, material.specular * weight as f32);
+        packed
+    };
+    for (found, wanted) in
+        both(&packed("metallic-roughness", 0.0)).into_iter().zip(both(&packed("lambert", 1.0)))
+    {
+        assert!((found - wanted).abs().max_element() < 1e-5, "{found}, lambert {wanted}");
+    }
+    let [whole, _] = both(&packed("metallic-roughness", 1.0));
+    let [half, _] = both(&packed("metallic-roughness", 0.5));
+    let [none, _] = both(&packed("metallic-roughness", 0.0));
+    assert!(whole.x > half.x + 0.05 && half.x > none.x + 0.05, "{whole}, {half}, {none}");
+}
+
 /// Light and eye at 60° on the two sides of the normal: the half vector is the normal, so that D = 1 / (π α²),
 /// V = 1 / (4 cos √(cos² + α² sin²)) and Schlick's term is (1 - cos)^5.
 #[test]

@@ -6,6 +6,7 @@ use std::fs;
 
 use base64::prelude::{BASE64_STANDARD, Engine as _};
 use glam::DVec3;
+use moire::internal::oracle::camera::Ray;
 use moire::internal::oracle::geometry::rays::{hit_surface, nearest_hit, occluded};
 use moire::internal::pack::PackedScene;
 use moire::internal::scene::load;
@@ -142,7 +143,13 @@ fn the_oracle_meets_balls_in_many_places_where_copies_are() {
         let ray = ray_of(query);
         let [found, wanted] = [&shared, &copied].map(|scene| nearest_hit(scene, &ray, NO_SHAPE));
         if (found.t - wanted.t).abs() > 1e-5 * wanted.t {
-            // By a silhouette.
+            let asides = [DVec3::new(1.0, -0.7, 0.4), DVec3::new(-0.8, 0.3, 1.0), DVec3::new(0.2, 1.0, -0.9)];
+            let by_silhouette = asides.iter().flat_map(|way| [*way, -*way]).any(|way| {
+                let direction = ray.direction + 3e-6 * ray.direction.length() * way;
+                let t = nearest_hit(&copied, &Ray { direction, ..ray }, NO_SHAPE).t;
+                (t - found.t).abs() <= 1e-4 * t.min(1e6)
+            });
+            assert!(by_silhouette, "{query:?}: {found:?}, {wanted:?}");
             apart += 1;
             continue;
         }
@@ -160,7 +167,7 @@ fn the_oracle_meets_balls_in_many_places_where_copies_are() {
         let t_max = f64::from(query.direction[3]);
         assert_eq!(occluded(&shared, &ray, t_max, NO_SHAPE), found.t < t_max, "{query:?}");
     }
-    assert!(met > 1500 && apart < queries.len() / 100, "{met} met, {apart} apart");
+    assert!(met > 1500 && apart < queries.len() / 50, "{met} met, {apart} apart");
 }
 
 #[test]

@@ -97,7 +97,8 @@ pub(in crate::scene::formats) fn add(
         metallic: material.metallic,
         roughness: material.roughness,
         ior: if material.ior == 0.0 { TOTAL_IOR } else { material.ior.clamp(1.0, TOTAL_IOR) },
-        specular_tint: material.specular * material.specular_color,
+        specular_tint: material.specular_color,
+        specular_weight: material.specular,
         opacity: material.base_color.w.clamp(0.0, 1.0),
         sides: if material.double_sided { Sides::Both } else { Sides::Front },
         ..model::Material::default()
