@@ -77,7 +77,8 @@ struct Within {
     real margin;
 };
 
-const real PLACED_MARGIN = 16.0 * MARGIN;
+// Of 2^-15 in f64 too: the matrix and its inverse may be rounded to f32 each for itself.
+const real PLACED_MARGIN = 3.0517578125e-5;
 
 Within nowhere(const Ray ray) { return Within(NO_SHAPE, UNPLACED, ray, MARGIN); }
 

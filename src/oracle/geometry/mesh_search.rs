@@ -74,8 +74,8 @@ pub struct Within<'a> {
     pub ray: Ray,
 }
 
-/// Boxes of a mesh whose corners are moved grow by more.
-const PLACED_MARGIN: f64 = 16.0 * MARGIN;
+/// Boxes of a mesh whose corners are moved grow by more: the matrix and its inverse may be rounded to f32 each for itself.
+const PLACED_MARGIN: f64 = 1.0 / (1u64 << 15) as f64;
 
 /// A child that waits: its reference, its number of triangles, and where the ray enters it.
 type Waiting = (u32, u32, f64);

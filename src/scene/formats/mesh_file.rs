@@ -14,7 +14,7 @@ use crate::core::error::{Error, ErrorKind, Result};
 use crate::mesh::gltf::Model;
 use crate::mesh::{self, Fault, Mesh, MeshFormat, mtl};
 use crate::scene::builder::SceneBuilder;
-use crate::scene::geometry::meshes::{self, Instance, Part, Placement};
+use crate::scene::geometry::meshes::{self, Instance, Placement};
 use crate::scene::limits::MAX_TRIANGLES;
 use crate::scene::model::{DEFAULT, Light};
 
@@ -53,8 +53,13 @@ pub(super) struct Usage<'a> {
     pub node: Option<&'a str>,
 }
 
-/// A key of [`Usage`] that does not suit the file, and why.
-pub(super) type Unsuited = (&'static str, String);
+/// A key of a [`Usage`] that does not suit the file, and why.
+pub(super) struct Unsuited {
+    /// The number of the usage.
+    pub usage: usize,
+    pub key: &'static str,
+    pub what: String,
+}
 
 /// Returns whether the ending of a file's name is that of meshes.
 pub(super) fn is_mesh(path: &Path) -> bool {
@@ -124,36 +129,34 @@ impl MeshFile {
         gltf::lights(model, &model.in_scene(model.default_scene))
     }
 
-    /// Adds triangles and materials.
-    pub fn add(self, usage: &Usage<'_>, builder: &mut SceneBuilder) -> Result<Result<(), Unsuited>> {
+    /// Returns whether it can be added in several places at once, so that these share its triangles.
+    pub fn is_plain(&self) -> bool {
+        matches!(self.content, Content::Mesh(_))
+    }
+
+    /// Adds triangles and materials, for each usage once; of a glTF file for one.
+    pub fn add(self, usages: &[Usage<'_>], builder: &mut SceneBuilder) -> Result<Result<(), Unsuited>> {
         let path = self.path;
-        let one_sided = matches!(&self.content, Content::Gltf(model) if gltf::has_one_sided(model));
-        let part = |mesh: Mesh, mut instances: Vec<Instance>, builder: &mut SceneBuilder| {
-            let other = usage.material.unwrap_or(DEFAULT);
-            for instance in &mut instances {
-                instance.placement = usage.placement * instance.placement;
-            }
-            let part = Part { instances: &instances, other, motion: usage.motion, one_sided };
-            meshes::add(builder, mesh, &part).map_err(|what| ("file", what))
-        };
         let dropped = match self.content {
             Content::Mesh(mesh) => {
-                if let Some(key) =
-                    [("node", usage.node), ("scene", usage.scene)].iter().find(|(_, name)| name.is_some())
-                {
-                    return Ok(Err((key.0, "only glTF files have nodes and scenes".into())));
-                }
-                if let Err(unsuited) = check_names(usage, mesh.materials.iter().map(String::as_str)) {
-                    return Ok(Err(unsuited));
-                }
-                // A material of the scene replaces those of the file.
-                let material_of = match usage.material {
-                    Some(_) => Vec::new(),
-                    None => add_materials(&path, &mesh, usage, builder)?,
+                let instances = match instances(&path, &mesh, usages, builder)? {
+                    Ok(instances) => instances,
+                    Err(unsuited) => return Ok(Err(unsuited)),
                 };
-                part(*mesh, vec![Instance { placement: Placement::IDENTITY, material_of }], builder)
+                meshes::add(builder, *mesh, &instances, false).map_err(|(usage, what)| Unsuited {
+                    usage,
+                    key: "file",
+                    what,
+                })
             }
-            Content::Gltf(model) => add_model(&path, &model, usage, builder, part),
+            Content::Gltf(model) => usages
+                .iter()
+                .enumerate()
+                .map(|(number, usage)| {
+                    let unsuited = |(key, what)| Unsuited { usage: number, key, what };
+                    add_model(&path, &model, usage, builder).map_err(unsuited)
+                })
+                .sum(),
         };
         Ok(dropped.map(|dropped| {
             if dropped > 0 {
@@ -164,14 +167,46 @@ impl MeshFile {
     }
 }
 
+/// Returns where a mesh stands, with its materials there.
+fn instances(
+    path: &Path,
+    mesh: &Mesh,
+    usages: &[Usage<'_>],
+    builder: &mut SceneBuilder,
+) -> Result<Result<Vec<Instance>, Unsuited>> {
+    let mut of_file: Option<Vec<usize>> = None;
+    let mut instances = Vec::with_capacity(usages.len());
+    for (number, usage) in usages.iter().enumerate() {
+        let unsuited = |(key, what)| Ok(Err(Unsuited { usage: number, key, what }));
+        let chosen = [("node", usage.node), ("scene", usage.scene)];
+        if let Some((key, _)) = chosen.iter().find(|(_, name)| name.is_some()) {
+            return unsuited((*key, "only glTF files have nodes and scenes".into()));
+        }
+        if let Err(why) = check_names(usage, mesh.materials.iter().map(String::as_str)) {
+            return unsuited(why);
+        }
+        // A material of the scene replaces those of the file, which are the same in all places otherwise.
+        let material_of = match (&of_file, usage.material) {
+            (_, Some(_)) => Vec::new(),
+            (Some(known), None) if usage.materials.is_empty() => known.clone(),
+            _ => add_materials(path, mesh, usage, builder)?,
+        };
+        if usage.material.is_none() && usage.materials.is_empty() {
+            of_file = Some(material_of.clone());
+        }
+        let other = usage.material.unwrap_or(DEFAULT);
+        instances.push(Instance { placement: usage.placement, motion: usage.motion, material_of, other });
+    }
+    Ok(Ok(instances))
+}
+
 /// Adds what is drawn of a glTF file; returns how many triangles have no area.
 fn add_model(
     path: &Path,
     model: &Model,
     usage: &Usage<'_>,
     builder: &mut SceneBuilder,
-    mut add: impl FnMut(Mesh, Vec<Instance>, &mut SceneBuilder) -> Result<usize, Unsuited>,
-) -> Result<usize, Unsuited> {
+) -> Result<usize, (&'static str, String)> {
     check_names(usage, model.materials.iter().map(|material| material.name.as_str()))?;
     let key = if usage.node.is_some() { "node" } else { "scene" };
     let drawn = gltf::drawn(model, usage.scene, usage.node).map_err(|what| (key, what))?;
@@ -193,18 +228,27 @@ fn add_model(
                 });
                 Vec::from_iter(index)
             });
-            Instance { placement, material_of: material_of.clone() }
+            Instance {
+                placement: usage.placement * placement,
+                motion: usage.motion,
+                material_of: material_of.clone(),
+                other: usage.material.unwrap_or(DEFAULT),
+            }
         });
-        let instances = instances.collect();
+        let instances: Vec<Instance> = instances.collect();
         mesh.set_material(names_material.then_some(0));
-        dropped += add(mesh, instances, builder)?;
+        dropped += meshes::add(builder, mesh, &instances, gltf::has_one_sided(model))
+            .map_err(|(_, what)| ("file", what))?;
     }
     notes.sentences().for_each(|note| builder.note(format!("{}: {note}", path.display())));
     Ok(dropped)
 }
 
 /// Refuses names of materials that the file does not have.
-fn check_names<'a>(usage: &Usage<'_>, names: impl Iterator<Item = &'a str>) -> Result<(), Unsuited> {
+fn check_names<'a>(
+    usage: &Usage<'_>,
+    names: impl Iterator<Item = &'a str>,
+) -> Result<(), (&'static str, String)> {
     let names: Vec<&str> = names.collect();
     match usage.materials.iter().find(|(name, _)| !names.contains(&name.as_str())) {
         None => Ok(()),

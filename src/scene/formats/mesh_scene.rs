@@ -45,7 +45,7 @@ pub(super) fn read(path: &Path, camera: Option<&str>) -> Result<Scene> {
     for light in lights {
         builder.light(light);
     }
-    file.add(&Usage::default(), &mut builder)?.map_err(|(_, what)| failed(what))?;
+    file.add(&[Usage::default()], &mut builder)?.map_err(|unsuited| failed(unsuited.what))?;
     let scene = builder.check().map_err(|refusal| failed(refusal.to_string()))?;
     check_filters(&scene)?;
     Ok(scene)

@@ -36,51 +36,48 @@ const MANY: usize = 1 << 16;
 /// and of its inverse, 3 for one that keeps angles.
 const MOST_STRETCH: f64 = 6.0;
 
-/// Where a mesh stands, and an index in the scene for each of its materials.
+/// A place where a mesh stands.
 pub(in crate::scene) struct Instance {
     pub placement: Placement,
+    pub motion: DVec3,
+    /// An index in the scene for each material of the mesh.
     pub material_of: Vec<usize>,
-}
-
-/// What is added to a scene for a mesh.
-pub(in crate::scene) struct Part<'a> {
-    pub instances: &'a [Instance],
     /// The material of triangles that name none.
     pub other: usize,
-    pub motion: DVec3,
-    /// Some material is seen from the front only: no triangle is added one by one, as trees know sides.
-    pub one_sided: bool,
 }
 
-impl Part<'_> {
+impl Instance {
     /// Returns the index in the scene of a material of the mesh.
-    fn material(&self, instance: &Instance, own: Option<u32>) -> usize {
-        let found = own.and_then(|i| instance.material_of.get(i as usize)).copied();
+    fn material(&self, own: Option<u32>) -> usize {
+        let found = own.and_then(|i| self.material_of.get(i as usize)).copied();
         found.filter(|&index| index != DEFAULT).unwrap_or(self.other)
     }
 }
 
 /// Adds the triangles of a mesh: few one by one, so that beams and cones know their outlines, more as one shape for each
-/// material and instance. Returns how many have no area and were left out, or an error if a corner leaves the range of
-/// coordinates.
+/// material and instance. `one_sided`: some material is seen from the front only, and no triangle is added one by one, as
+/// trees know sides. Returns how many have no area and were left out, or which instance has a corner beyond the range of
+/// coordinates, and what that becomes.
 pub(in crate::scene) fn add(
     builder: &mut SceneBuilder,
     mesh: Mesh,
-    part: &Part<'_>,
-) -> Result<usize, String> {
-    let is_single = mesh.triangle_count() <= FEW && !mesh.has_attributes() && !part.one_sided;
-    let placements: Vec<&Placement> = part.instances.iter().map(|instance| &instance.placement).collect();
+    instances: &[Instance],
+    one_sided: bool,
+) -> Result<usize, (usize, String)> {
+    let is_single = mesh.triangle_count() <= FEW && !mesh.has_attributes() && !one_sided;
+    let placements: Vec<&Placement> = instances.iter().map(|instance| &instance.placement).collect();
     let is_shared = shares(mesh.triangle_count(), &placements);
     let file = Arc::new(mesh);
-    let (mut kept, mut dropped, motion) = (Vec::new(), 0, part.motion);
-    for (number, instance) in part.instances.iter().enumerate() {
+    let (mut kept, mut dropped) = (Vec::new(), 0);
+    for (number, instance) in instances.iter().enumerate() {
         let placed = Placed::new(&file, &instance.placement);
-        check_positions(&placed)?;
+        check_positions(&placed).map_err(|what| (number, what))?;
+        let motion = instance.motion;
         if is_single {
             let with_area = with_area(&placed);
             dropped += file.triangles.len() - with_area.len();
             for index in with_area {
-                let material = part.material(instance, file.triangles[index as usize].material);
+                let material = instance.material(file.triangles[index as usize].material);
                 builder.shape(Triangle { material, motion, ..placed.triangle(index) });
             }
             continue;
@@ -88,14 +85,14 @@ pub(in crate::scene) fn add(
         // Which have an area does not depend on a placement that keeps shapes nearly.
         if number == 0 || !is_shared {
             kept = of_materials(&file, with_area(&placed), |own| match own {
-                _ if !is_shared => part.material(instance, own),
+                _ if !is_shared => instance.material(own),
                 own => own.map_or(0, |index| index as usize + 1),
             });
         }
         dropped += file.triangles.len() - kept.iter().map(|(_, triangles)| triangles.len()).sum::<usize>();
         for (key, triangles) in &kept {
             let own = || key.checked_sub(1).map(|index| index as u32);
-            let material = if is_shared { part.material(instance, own()) } else { *key };
+            let material = if is_shared { instance.material(own()) } else { *key };
             let (file, triangles) = (Arc::clone(&file), Arc::clone(triangles));
             let mesh = shapes::Mesh::new(file, triangles, instance.placement, is_shared);
             builder.shape(shapes::Mesh { material, motion, ..mesh });

@@ -170,6 +170,30 @@ fn the_oracle_meets_balls_in_many_places_where_copies_are() {
     assert!(met > 1500 && apart < queries.len() / 50, "{met} met, {apart} apart");
 }
 
+/// Sections of one file share its triangles, each with its own material, matrix and motion.
+#[test]
+fn sections_of_one_file_are_held_once() {
+    let scene = balls();
+    let folder = folder(&[("ball.obj", &ball(true)), ("other.obj", &ball(true))]);
+    let section = |file: &str, x: usize, more: &str| {
+        format!("[[mesh]]\nfile = '{file}.obj'\ntransform = {{ translate = [{x}, 0, 0] }}\n{more}\n")
+    };
+    let red = "[[material]]\nname = 'red'\nmodel = 'unlit'\ncolor = [1, 0, 0]\n";
+    let mut body = red.to_owned() + &section("ball", 0, "") + &section("other", 1, "");
+    (1..BALLS).for_each(|i| body += &section("ball", 2 * i, ["", "material = 'red'"][i % 2]));
+    let found = scene_in(folder.path(), &body).unwrap();
+    let materials: Vec<&str> =
+        found.shapes.meshes.iter().map(|mesh| found.materials[mesh.material].name.as_str()).collect();
+    assert_eq!((materials.len(), materials[1], materials[3]), (BALLS + 1, "red", "red"));
+    assert_ne!(materials[2], "red");
+    let (packed, alone) = (packed(found, None), packed(scene, None));
+    // As many as those of the two sides of a mirror: one for each file.
+    assert!(packed.mesh_texels.len().abs_diff(alone.mesh_texels.len()) < 200);
+    let unsuited = section("ball", 0, "") + &section("ball", 1, "node = 'a'");
+    let said = crate::support::told(scene_in(folder.path(), &unsuited));
+    assert!(said.contains("only glTF files") && said.contains(":8:"), "{said}");
+}
+
 #[test]
 fn the_oracle_meets_by_one_tree_over_all_what_it_meets_one_by_one() {
     let folder = folder(&[("ball.obj", &ball(false))]);

@@ -1,7 +1,7 @@
 //! Reads `[[mesh]]`: a file of triangles, placed and given materials. Input: the section's tables and the scene's
 //! folder. Output: triangles of the scene.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use glam::{DAffine3, DMat3, DVec3};
 use toml::de::DeValue;
@@ -17,36 +17,62 @@ use crate::scene::geometry::meshes::{self, Placement};
 pub(super) const MESH: &[&str] = &["file", "transform", "material", "motion", "scene", "node"];
 const TRANSFORM: &[&str] = &["translate", "rotate", "scale"];
 
-/// Adds the triangles of all meshes.
+/// A section.
+struct Section<'a> {
+    table: Table<'a>,
+    file: Field<'a>,
+    path: PathBuf,
+    usage: Usage<'a>,
+}
+
+/// Adds the triangles of all meshes; those of one file with the first of them.
 pub(super) fn add_all(
     folder: &Path,
     root: &Table<'_>,
     names: &Names<'_>,
     builder: &mut SceneBuilder,
 ) -> Result<()> {
-    for table in root.repeated("mesh", MESH)? {
-        let field = table.required("file")?;
-        let path = folder.join(field.string()?);
-        if !mesh_file::is_mesh(&path) {
-            let wanted = format!("the path of a mesh file (its ending one of {})", mesh_file::endings());
-            return Err(field.expected(&wanted));
+    let sections = root.repeated("mesh", MESH)?.into_iter().map(|table| section(folder, table, names));
+    let mut sections: Vec<Option<Section>> =
+        sections.map(|section| section.map(Some)).collect::<Result<_>>()?;
+    for first in 0..sections.len() {
+        let Some(section) = sections[first].take() else { continue };
+        let file = MeshFile::open(&section.path, builder)
+            .map_err(|error| section.file.error(&error.to_string(), "cannot be read"))?;
+        let path = section.path.clone();
+        let mut same = vec![section];
+        if file.is_plain() {
+            let others = sections[first + 1..].iter_mut();
+            same.extend(others.filter_map(|other| other.take_if(|other| other.path == path)));
         }
-        let mut usage = Usage {
-            placement: table.get("transform").map_or(Ok(Placement::IDENTITY), placement)?,
-            motion: table.get("motion").map_or(Ok(DVec3::ZERO), Field::vec3)?,
-            scene: table.get("scene").map(Field::string).transpose()?,
-            node: table.get("node").map(Field::string).transpose()?,
-            ..Usage::default()
-        };
-        if let Some(field) = table.get("material") {
-            (usage.material, usage.materials) = materials(field, names)?;
-        }
-        let file = MeshFile::open(&path, builder)
-            .map_err(|error| field.error(&error.to_string(), "cannot be read"))?;
-        file.add(&usage, builder)?
-            .map_err(|(key, what)| table.get(key).unwrap_or(field).error(&what, "does not suit the file"))?;
+        let (usages, places): (Vec<_>, Vec<_>) =
+            same.into_iter().map(|section| (section.usage, (section.table, section.file))).unzip();
+        file.add(&usages, builder)?.map_err(|unsuited| {
+            let (table, file) = &places[unsuited.usage];
+            table.get(unsuited.key).unwrap_or(*file).error(&unsuited.what, "does not suit the file")
+        })?;
     }
     Ok(())
+}
+
+fn section<'a>(folder: &Path, table: Table<'a>, names: &Names<'_>) -> Result<Section<'a>> {
+    let file = table.required("file")?;
+    let path = folder.join(file.string()?);
+    if !mesh_file::is_mesh(&path) {
+        let wanted = format!("the path of a mesh file (its ending one of {})", mesh_file::endings());
+        return Err(file.expected(&wanted));
+    }
+    let mut usage = Usage {
+        placement: table.get("transform").map_or(Ok(Placement::IDENTITY), placement)?,
+        motion: table.get("motion").map_or(Ok(DVec3::ZERO), Field::vec3)?,
+        scene: table.get("scene").map(Field::string).transpose()?,
+        node: table.get("node").map(Field::string).transpose()?,
+        ..Usage::default()
+    };
+    if let Some(field) = table.get("material") {
+        (usage.material, usage.materials) = materials(field, names)?;
+    }
+    Ok(Section { table, file, path, usage })
 }
 
 /// Reads the name of a material for all triangles, or a table from the file's names to those of the scene.
