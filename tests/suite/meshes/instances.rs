@@ -102,13 +102,14 @@ fn balls() -> Scene {
     load(&folder.path().join("balls.gltf")).unwrap()
 }
 
-/// The same balls, each a mesh of its own, in the scene of `balls`.
+/// The same balls, each a mesh of a file of its own, in the scene of `balls`.
 fn copies(like: &Scene) -> Scene {
-    let folder = folder(&[("ball.obj", &ball(true))]);
+    let (names, text) = ((0..BALLS).map(|i| format!("{i}.obj")).collect::<Vec<_>>(), ball(true));
+    let folder = folder(&names.iter().map(|name| (name.as_str(), text.as_str())).collect::<Vec<_>>());
     let sections = (0..BALLS).map(|i| {
         let (size, turn, at) = place(i);
         let at = at.to_array();
-        format!("[[mesh]]\nfile = 'ball.obj'\ntransform = {{ scale = [{size}, {size}, {size}], rotate = [0, {turn}, 0], translate = {at:?} }}\n")
+        format!("[[mesh]]\nfile = '{i}.obj'\ntransform = {{ scale = [{size}, {size}, {size}], rotate = [0, {turn}, 0], translate = {at:?} }}\n")
     });
     let mut scene = scene_in(folder.path(), &sections.collect::<String>()).unwrap();
     (scene.camera, scene.width, scene.height) = (like.camera.clone(), like.width, like.height);
