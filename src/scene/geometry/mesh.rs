@@ -79,7 +79,8 @@ impl Mesh {
             return Stored { placed: Placed::new(&self.file, &self.placement), mesh: self, placement: None };
         }
         // About a corner, as files may have it anywhere.
-        let middle = self.file.positions[self.file.triangles[self.triangles[0] as usize].positions[0] as usize];
+        let middle =
+            self.file.positions[self.file.triangles[self.triangles[0] as usize].positions[0] as usize];
         let middle = DAffine3::from_translation(middle);
         let placed = Placed::in_own_space(&self.file, self.mirrors());
         Stored { placed, mesh: self, placement: Some((self.placement * middle, middle.translation)) }

@@ -112,7 +112,7 @@ fn copies(like: &Scene) -> Scene {
         format!("[[mesh]]\nfile = '{i}.obj'\ntransform = {{ scale = [{size}, {size}, {size}], rotate = [0, {turn}, 0], translate = {at:?} }}\n")
     });
     let mut scene = scene_in(folder.path(), &sections.collect::<String>()).unwrap();
-    (scene.camera, scene.width, scene.height) = (like.camera.clone(), like.width, like.height);
+    (scene.camera, scene.width, scene.height) = (like.camera, like.width, like.height);
     scene
 }
 
