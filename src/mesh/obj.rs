@@ -5,7 +5,7 @@
 use std::borrow::Cow;
 use std::collections::HashMap;
 
-use glam::{DVec2, DVec3};
+use glam::{DVec2, DVec3, Vec4};
 
 use super::{Fault, Mesh, MeshFormat, MeshTriangle, check, polygon};
 
@@ -49,11 +49,26 @@ struct Face {
 }
 
 impl Reader {
+    /// Reads a position, and a colour behind it, of linear light, where there is one.
+    fn vertex(&mut self, rest: &[u8]) -> Result<(), String> {
+        let [x, y, z, ..]: [f64; 3] = numbers(rest, 3, "vertex")?;
+        self.mesh.positions.push(DVec3::new(x, y, z));
+        let has_color = words(rest).nth(5).is_some();
+        if has_color || !self.mesh.colors.is_empty() {
+            self.mesh.colors.resize(self.mesh.positions.len(), Vec4::ONE);
+        }
+        if let Some(color) = self.mesh.colors.last_mut().filter(|_| has_color) {
+            let [.., r, g, b]: [f64; 6] = numbers(rest, 6, "vertex")?;
+            *color = DVec3::new(r, g, b).extend(1.0).as_vec4();
+        }
+        Ok(())
+    }
+
     /// Reads one line, or returns what is wrong with it.
     fn statement(&mut self, line: &[u8]) -> Result<(), String> {
         let (keyword, rest) = first_word(line);
         match keyword {
-            b"v" => self.mesh.positions.push(DVec3::from_array(numbers(rest, 3, "vertex")?)),
+            b"v" => self.vertex(rest)?,
             b"vt" => self.mesh.uvs.push(DVec2::from_array(numbers(rest, 1, "texture coordinate")?)),
             b"vn" => self.mesh.normals.push(DVec3::from_array(numbers(rest, 3, "normal")?)),
             b"f" => self.face(rest)?,
@@ -246,6 +261,15 @@ mod tests {
         assert_eq!(mesh.triangles, [triangle(zero, zero), triangle(None, zero), triangle(None, None)]);
         assert_eq!(mesh.uvs, [DVec2::new(0.5, 0.0)]);
         assert_eq!(square("f 1 2 3 4\nl 1 2\nf 1 2\n").unwrap().triangles.len(), 2);
+    }
+
+    #[test]
+    fn colours_follow_positions_and_are_white_elsewhere() {
+        let mesh = square("v 0 0 9 0.5 0.25 0\nf 1 2 3\n").unwrap();
+        assert_eq!((mesh.colors.len(), mesh.colors[0]), (5, Vec4::ONE));
+        assert_eq!(mesh.colors[4], Vec4::new(0.5, 0.25, 0.0, 1.0));
+        assert!(square("v 0 0 9 1\nf 1 2 3\n").unwrap().colors.is_empty());
+        assert!(square("v 0 0 9 1 1 x\nf 1 2 3\n").unwrap_err().to_string().contains("line 5"));
     }
 
     #[test]

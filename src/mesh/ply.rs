@@ -4,8 +4,8 @@
 mod header;
 mod records;
 
-use glam::{DVec2, DVec3};
-use ply_rs_bw::ply::ElementDef;
+use glam::{DVec2, DVec3, DVec4};
+use ply_rs_bw::ply::{ElementDef, PropertyType, ScalarType};
 
 use super::{Fault, Mesh, MeshFormat, MeshTriangle, check, polygon};
 use header::is_number;
@@ -34,12 +34,13 @@ fn read(bytes: &[u8], most: usize) -> Result<Mesh, Fault> {
     check::checked(mesh)
 }
 
-/// Reads positions, and texture coordinates and normals if the element has them.
+/// Reads positions, and texture coordinates, normals and colours if the element has them.
 fn vertices(body: &mut Body, element: &ElementDef, mesh: &mut Mesh) -> Result<(), Fault> {
     let has =
         |from: usize, count: usize| NUMBERS.iter().skip(from).take(count).all(|n| is_number(element, n));
-    let uv = (6..NUMBERS.len()).step_by(2).find(|&pair| has(pair, 2));
+    let uv = (10..NUMBERS.len()).step_by(2).find(|&pair| has(pair, 2));
     let has_normals = has(3, 3);
+    let encodings = has(6, 3).then(|| NUMBERS.map(|name| Encoding::of(element, name)));
     mesh.positions.reserve_exact(element.count);
     for i in 0..element.count {
         let vertex: Vertex = body.record(element, i)?;
@@ -48,11 +49,47 @@ fn vertices(body: &mut Body, element: &ElementDef, mesh: &mut Mesh) -> Result<()
         if has_normals {
             mesh.normals.push(DVec3::new(nx, ny, nz));
         }
+        if let Some(encodings) = &encodings {
+            let [r, g, b] = [6, 7, 8].map(|k| encodings[k].light(vertex.0[k]));
+            let alpha = if has(9, 1) { encodings[9].share(vertex.0[9]) } else { 1.0 };
+            mesh.colors.push(DVec4::new(r, g, b, alpha).as_vec4());
+        }
         if let Some(&[u, v]) = uv.and_then(|pair| vertex.0.get(pair..pair + 2)) {
             mesh.uvs.push(DVec2::new(u, v));
         }
     }
     Ok(())
+}
+
+/// How a file writes a share of light: whole numbers are codes of sRGB up to the greatest of their type, others linear.
+#[derive(Clone, Copy)]
+struct Encoding {
+    most: f64,
+    is_srgb: bool,
+}
+
+impl Encoding {
+    fn of(element: &ElementDef, name: &str) -> Encoding {
+        let most = match element.properties.get(name).map(|property| &property.data_type) {
+            Some(PropertyType::Scalar(ScalarType::UChar)) => 255.0,
+            Some(PropertyType::Scalar(ScalarType::UShort)) => 65535.0,
+            _ => return Encoding { most: 1.0, is_srgb: false },
+        };
+        Encoding { most, is_srgb: true }
+    }
+
+    fn share(self, code: f64) -> f64 {
+        code / self.most
+    }
+
+    /// Returns the light of a code (IEC 61966-2-1).
+    fn light(self, code: f64) -> f64 {
+        match self.share(code) {
+            share if !self.is_srgb => share,
+            share if share <= 0.04045 => share / 12.92,
+            share => ((share + 0.055) / 1.055).powf(2.4),
+        }
+    }
 }
 
 /// Reads faces and cuts them into at most `most` triangles.
@@ -183,6 +220,23 @@ mod tests {
         let corners = [2, 0, 1];
         let (uvs, normals) = (Some(corners), Some(corners));
         assert_eq!(mesh.triangles, [MeshTriangle { positions: corners, uvs, normals, material: None }]);
+    }
+
+    #[test]
+    fn whole_numbers_of_colours_are_srgb_and_fractions_are_light() {
+        let colored = |kind: &str, values: &str| {
+            let colors = ["red", "green", "blue"].map(|name| format!("property {kind} {name}\n")).concat();
+            let header = TRIANGLE.replace("float z\n", &format!("float z\n{colors}property uchar alpha\n"));
+            let points = ["0 0 0", "1 0 0", "0 1 0"].map(|at| format!("{at} {values} 51\n")).concat();
+            ascii(&format!("{header}{points}3 0 1 2\n")).unwrap().colors[2]
+        };
+        for (kind, values) in
+            [("uchar", "128 0 255"), ("ushort", "32896 0 65535"), ("float", "0.2158605 0 1")]
+        {
+            let found = colored(kind, values).as_dvec4();
+            assert!((found - DVec4::new(0.215_860_5, 0.0, 1.0, 0.2)).abs().max_element() < 1e-6, "{found}");
+        }
+        assert!(ascii_cube().colors.is_empty());
     }
 
     #[test]

@@ -9,10 +9,13 @@ use ply_rs_bw::ply::{ElementDef, Encoding, Property, PropertyAccess, PropertyAcc
 
 use super::{Fault, polygon};
 
-/// Names of the numbers of a vertex: the position, from 3 the normal, from 6 the pairs of names that texture
-/// coordinates go by.
-pub(super) const NUMBERS: [&str; 14] =
-    ["x", "y", "z", "nx", "ny", "nz", "s", "t", "u", "v", "texture_u", "texture_v", "tx", "ty"];
+/// Names of the numbers of a vertex: the position, from 3 the normal, from 6 the colour with its alpha, from 10 the pairs
+/// of names that texture coordinates go by.
+#[rustfmt::skip]
+pub(super) const NUMBERS: [&str; 18] = [
+    "x", "y", "z", "nx", "ny", "nz", "red", "green", "blue", "alpha",
+    "s", "t", "u", "v", "texture_u", "texture_v", "tx", "ty",
+];
 
 /// Names of the list of the corners of a face.
 pub(super) const CORNERS: [&str; 2] = ["vertex_indices", "vertex_index"];
