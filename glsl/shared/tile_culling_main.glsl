@@ -13,7 +13,7 @@
 
 layout(local_size_x_id = 0, local_size_y_id = 1, local_size_z = 1) in;
 
-layout(std430, set = 0, binding = BINDING_OUTPUT) writeonly buffer Found { uint found[]; };
+layout(std430, set = 0, binding = BINDING_OUTPUT) buffer Found { uint found[]; };
 
 #include "geometry/mesh_survey.glsl"
 
@@ -79,7 +79,7 @@ void main() {
 #define SURVEY(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed, is_concave)                            \
     for (uint i = 0u; i < count; i++) {                                               \
         if (!is_concave && may_meet(header, frame, SQUARE, at(i))) {                  \
-            if (is_listed && listed < MAX_LISTED) found[begin + CELL_HEAD + listed] = i; \
+            if (is_listed && listed < LIST_ROOM) found[begin + CELL_HEAD + listed] = i; \
             listed += is_listed ? 1u : 0u;                                            \
             seen += is_polygonal ? 1u : 0u;                                                \
             alone = is_polygonal ? (first) + i : alone;                                    \
@@ -88,15 +88,16 @@ void main() {
     }
     SHAPE_KINDS(SURVEY)
 #undef SURVEY
-    Survey survey = Survey(0u, FAR, float[PROBES](FAR, FAR, FAR, FAR, FAR));
+    Survey survey = Survey(begin, 0u, NO_LIST, 0u, FAR, float[PROBES](FAR, FAR, FAR, FAR, FAR));
     if (CONCAVE_SHAPES) {
         CellRays cell_sides = cell_rays(header, frame);
-        uint list = begin + CELL_HEAD + min(listed, MAX_LISTED);
-        uint room = MAX_LISTED - min(listed, MAX_LISTED);
+        survey.first = min(listed, LIST_ROOM);
+        survey.cell = begin;
 #define SURVEY_MESHES(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed, is_concave) \
-        for (uint i = 0u; i < count; i++) survey_mesh(header, frame, SQUARE, cell_sides, at(i), list, room, survey);
+        for (uint i = 0u; i < count; i++) survey_mesh(header, frame, SQUARE, cell_sides, at(i), survey);
         CONCAVE_KINDS(SURVEY_MESHES)
 #undef SURVEY_MESHES
+        mark_parts(header, pixel, survey);
         round = round || survey.count > 0u || survey.depth < FAR;
     }
     bool empty = seen == 0u && !round && !(ENVIRONMENT && header.environment_material != NO_MATERIAL);

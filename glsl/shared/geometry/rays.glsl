@@ -27,7 +27,7 @@ Hit nearest_hit(const Ray ray, uint skip, const Candidates candidates) {
             tested = is_complete ? 0u : tested;                                                              \
             unfinished = unfinished || !is_complete;                                                         \
         }                                                                                                    \
-        if (!(is_concave && MESH_SEARCH == SEARCH_LISTS)) for (uint k = 0u; k < tested; k++) {               \
+        if (!(is_concave && BY_LISTS)) for (uint k = 0u; k < tested; k++) {               \
             uint i = k;                                                                                      \
             if (is_listed && TILE_CULLED) {                                                                  \
                 if (list != NO_LIST) i = tile_lists[list + CELL_HEAD + k];                                          \
