@@ -93,6 +93,7 @@ void main() {
             // Not all can be held: the pixel is left to the next pass.
             if (HOLDS) {
                 unfinished = MESH_SEARCH == SEARCH_LISTS && any_left(candidates);
+                if (SHADES) unfinished = !gather_shades(header, pixel, candidates) || unfinished;
                 if (unfinished) task.end = task.first;
             }
         }

@@ -15,6 +15,9 @@ use crate::schema::layout::{PixelBatch, Slice, TILE};
 /// Pixels that one submission takes: as many as a tile has.
 pub const AT_ONCE: usize = (TILE * TILE) as usize;
 
+/// Side of the squares whose pixels follow each other in a list.
+const BLOCK: u32 = 8;
+
 /// The passes after the first one.
 pub struct UnfinishedPixels {
     pub pipelines: Vec<Arc<Pipeline>>,
@@ -62,7 +65,7 @@ impl UnfinishedPixels {
         Ok(())
     }
 
-    /// Returns the places of the pixels that are marked.
+    /// Returns the places of the pixels that are marked, neighbours together: their rays go through the same nodes.
     fn marked(&self, gpu: &Gpu, band: &Band) -> Result<Vec<u32>> {
         let width = self.film.width();
         let first = (band.y * width) as usize;
@@ -72,6 +75,7 @@ impl UnfinishedPixels {
                 places.push(PixelBatch::place_of((pixel - first) as u32, width));
             }
         })?;
+        places.sort_by_key(|&place| (place >> 16) / BLOCK << 16 | (place & 0xFFFF) / BLOCK);
         Ok(places)
     }
 }

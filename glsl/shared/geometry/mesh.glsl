@@ -102,12 +102,7 @@ real distance_by(real3 edges, real3 a, real3 b, real3 c, real3 d, bool one_sided
 // A shadow ray that surfaces may let pass meets both sides of all.
 bool meets_backs = false;
 
-// `at`: the texel of its corners. `any`: of a shadow ray, which meets both sides.
-real distance_in(uint at, const Ray ray, bool from_eye, bool any) {
-    uvec4 first = mesh_texel(at);
-    real3 a = real3(point_in(first));
-    real3 b = real3(point_in(mesh_texel(at + 1u)));
-    real3 c = real3(point_in(mesh_texel(at + 2u)));
+real distance_between(real3 a, real3 b, real3 c, const Ray ray, bool from_eye, bool one_sided) {
     if (!from_eye) {
         a -= ray.origin;
         b -= ray.origin;
@@ -115,7 +110,16 @@ real distance_in(uint at, const Ray ray, bool from_eye, bool any) {
     }
     real3 d = ray.direction;
     real3 edges = real3(dot3(d, cross3(b + c, c - b)), dot3(d, cross3(c + a, a - c)), dot3(d, cross3(a + b, b - a)));
-    return distance_by(edges, a, b, c, d, !any && !meets_backs && first.w != 0u);
+    return distance_by(edges, a, b, c, d, one_sided);
+}
+
+// `at`: the texel of its corners. `any`: of a shadow ray, which meets both sides.
+real distance_in(uint at, const Ray ray, bool from_eye, bool any) {
+    uvec4 first = mesh_texel(at);
+    real3 a = real3(point_in(first));
+    real3 b = real3(point_in(mesh_texel(at + 1u)));
+    real3 c = real3(point_in(mesh_texel(at + 2u)));
+    return distance_between(a, b, c, ray, from_eye, !any && !meets_backs && first.w != 0u);
 }
 
 // The nearest triangle before `most`, or for `any` just one; of those at the same t the first in the tree's order.
@@ -181,11 +185,15 @@ real3 octahedral(uint word) {
     return v * scale;
 }
 
+// A corner of the triangle that is shaded.
+real3 seen_corner = real3(0.0);
+
 Triangle triangle_in(const Mesh mesh, uint index) {
     uint at = mesh.corners + 3u * index;
     real3 a = real3(point_in(mesh_texel(at)));
     real3 b = real3(point_in(mesh_texel(at + 1u)));
     real3 c = real3(point_in(mesh_texel(at + 2u)));
+    seen_corner = a;
     at = mesh.attributes + mesh.attribute_count * index;
     uvec4 plane = mesh_texel(at);
     vec4 first = uintBitsToFloat(mesh_texel(at + 1u));

@@ -20,6 +20,9 @@ struct Held {
 
 const Held NOTHING_HELD = Held(0u, real3(0.0), real3(0.0), real3(0.0), real3(0.0), real3(0.0), real3(0.0), false);
 
+// A ray may meet something that no list holds.
+bool unfinished = false;
+
 // Camera rays search lists alone.
 const bool BY_LISTS = MESH_SEARCH == SEARCH_LISTS || MESH_SEARCH == SEARCH_MANY;
 

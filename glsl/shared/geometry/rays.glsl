@@ -6,10 +6,7 @@
 
 #include "../tile_culling.glsl"
 #include "kinds.glsl"
-#include "mesh_lists.glsl"
-
-// A camera ray may meet something that no list holds.
-bool unfinished = false;
+#include "mesh_shades.glsl"
 
 // `candidates`: of a camera ray, by tile culling; else ANYTHING.
 Hit nearest_hit(const Ray ray, uint skip, const Candidates candidates) {
@@ -45,12 +42,14 @@ Hit nearest_hit(const Ray ray, uint skip, const Candidates candidates) {
     return hit;
 }
 
-// True when a shape lies at 0 < t < t_max, whichever is found first.
-bool occluded(const Ray ray, real t_max, uint skip) {
+// True when a shape lies at 0 < t < t_max, whichever is found first. `normal`: of the surface that the ray has left.
+bool occluded(const Ray ray, real t_max, uint skip, real3 normal) {
     bool blocked = false;
     COUNT_SHAPES
 #define OCCLUDES(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed, is_concave)                                                 \
-    if (LIST != 0u) {                                                                                        \
+    if (is_concave && SHADES) {                                                                              \
+        blocked = is_shaded(ray, t_max, seen_corner, normal);                                                \
+    } else if (LIST != 0u) {                                                                                 \
         for (uint i = 0u; i < count; i++) {                                                                  \
             real2 local;                                                                                     \
             real t = distance_to(at(i), at_rest(ray, (first) + i), false, t_max, true, local);                    \
