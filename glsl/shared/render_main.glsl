@@ -89,7 +89,7 @@ void main() {
         uvec2 place = task.place + uvec2(0u, slice.band_y);
         candidates.list = cell_list(header, place);
         if (CONCAVE_SHAPES) {
-            if (candidates.list != NO_LIST) mark_in_pixel(header, place, candidates);
+            if (candidates.list != NO_LIST) mark_in_pixel(header, place, pixel, candidates);
             // Not all can be held: the pixel is left to the next pass.
             if (HOLDS) {
                 unfinished = MESH_SEARCH == SEARCH_LISTS && any_left(candidates);

@@ -63,11 +63,22 @@ bool is_uniform(const Header header, const PixelFrustum frame, uint shape, const
 void main() {
     Header header = load_header();
     preload_records();
-    uint cell = part.first + gl_WorkGroupID.x * gl_WorkGroupSize.x * gl_WorkGroupSize.y + gl_LocalInvocationIndex;
-    if (cell >= part.end) return;
+    uint thread = part.first + gl_WorkGroupID.x * gl_WorkGroupSize.x * gl_WorkGroupSize.y + gl_LocalInvocationIndex;
+    if (thread >= part.end) return;
     uint side = header.cell_side;
-    uint across = (header.film_size.x + side - 1u) / side;
-    uvec2 pixel = uvec2(cell % across, cell / across) * side + header.crop;
+    uvec2 cells = (header.film_size + side - 1u) / side;
+    uint blocks = (cells.x + CELL_BLOCK_WIDTH - 1u) / CELL_BLOCK_WIDTH;
+    uint across = blocks * CELL_BLOCK_WIDTH;
+    uvec2 place = uvec2(thread % across, thread / across);
+    if (HOLDS_TRIANGLES) {
+        // Neighbours take about as long, which short subgroups gain by. Wide ones of nothing but long lists end late.
+        uint block = thread / (CELL_BLOCK_WIDTH * CELL_BLOCK_HEIGHT);
+        uvec2 in_block = uvec2(thread % CELL_BLOCK_WIDTH, thread / CELL_BLOCK_WIDTH % CELL_BLOCK_HEIGHT);
+        place = uvec2(block % blocks * CELL_BLOCK_WIDTH, block / blocks * CELL_BLOCK_HEIGHT) + in_block;
+    }
+    if (place.x >= cells.x || place.y >= cells.y) return;
+    uint cell = place.y * cells.x + place.x;
+    uvec2 pixel = place * side + header.crop;
     PixelFrustum frame = frame_over(header, pixel, float(side - 1u), MARGIN);
     unit_square(SQUARE);
     COUNT_SHAPES
@@ -97,7 +108,8 @@ void main() {
         for (uint i = 0u; i < count; i++) survey_mesh(header, frame, SQUARE, cell_sides, at(i), survey);
         CONCAVE_KINDS(SURVEY_MESHES)
 #undef SURVEY_MESHES
-        mark_parts(header, pixel, survey);
+        found[begin + CELL_HEAD + LIST_ROOM] = survey.more;
+        if (HOLDS_TRIANGLES) mark_parts(header, pixel, survey);
         round = round || survey.count > 0u || survey.depth < FAR;
     }
     bool empty = seen == 0u && !round && !(ENVIRONMENT && header.environment_material != NO_MATERIAL);

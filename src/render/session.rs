@@ -8,13 +8,13 @@ use std::time::Instant;
 
 use crate::core::error::{Error, Result};
 use crate::gpu::shaders::{self, Shader};
-use crate::gpu::{BufferUse, Gpu, Pipeline};
+use crate::gpu::{Gpu, Pipeline};
 use crate::pack::features::{Features, bounces};
 use crate::pack::{self, PackedScene, Schedule};
 use crate::scene::model::Scene;
 use crate::schema::constants::{SEARCH_ALL, SEARCH_LISTS, SEARCH_MANY, SEARCH_REST};
 use crate::schema::enums::{Quantity, TexelSource};
-use crate::schema::layout::{Header, PixelBatch, Slice};
+use crate::schema::layout::{Header, Slice};
 use crate::schema::specialization::Constant;
 
 use super::batches::BatchSampler;
@@ -26,7 +26,7 @@ use super::sample_pipeline::SamplePipeline;
 use super::texel_buffer;
 use super::tile_culling::TileCulling;
 use super::tiles::TileRenderer;
-use super::unfinished::{self, UnfinishedPixels};
+use super::unfinished::UnfinishedPixels;
 use super::{Report, Tuning, build_pipeline, specialization, tuning};
 
 pub struct Session<'a> {
@@ -179,15 +179,17 @@ impl<'a> Session<'a> {
         features: &Features,
         shader: &'static Shader,
     ) -> Result<(TileRenderer<'a>, Arc<FilmBuffer>)> {
-        let passes: &[u32] = match self.searches_in_passes(scene, features) {
-            true => &[SEARCH_LISTS, SEARCH_MANY, SEARCH_REST],
-            false => &[SEARCH_ALL],
-        };
+        let passes = self.passes(scene, features);
         let (pipeline, groups_per_tile) = self.pipeline(features, shader, passes[0])?;
         let film = self.film(scene, features)?;
         let rest = match passes[1..] {
             [] => None,
-            ref passes => Some(self.unfinished_pixels(features, shader, passes, &film)?),
+            ref passes => {
+                let pipelines = passes.iter().map(|&pass| Ok(self.pipeline(features, shader, pass)?.0));
+                let pipelines = pipelines.collect::<Result<Vec<_>>>()?;
+                let [x, y] = self.tuning.group_size(self.gpu.info())?;
+                Some(UnfinishedPixels::new(self.gpu, &self.resources, shader, pipelines, x * y, &film)?)
+            }
         };
         let group = self.resources.bind(self.gpu, &pipeline, shader, &film.buffer, None)?;
         let renderer = TileRenderer { gpu: self.gpu, pipeline, rest, group, groups_per_tile };
@@ -195,27 +197,15 @@ impl<'a> Session<'a> {
         Ok((renderer, film))
     }
 
-    fn unfinished_pixels(
-        &self,
-        features: &Features,
-        shader: &'static Shader,
-        passes: &[u32],
-        film: &Arc<FilmBuffer>,
-    ) -> Result<UnfinishedPixels> {
-        let pipelines = passes.iter().map(|&pass| Ok(self.pipeline(features, shader, pass)?.0));
-        let pipelines = pipelines.collect::<Result<Vec<_>>>()?;
-        let bytes = (unfinished::AT_ONCE * size_of::<PixelBatch>()) as u64;
-        let list = self.gpu.buffer("unfinished pixels", bytes, BufferUse::Storage)?;
-        let group = self.resources.bind(self.gpu, &pipelines[0], shader, &film.buffer, Some(&list))?;
-        let threads_per_group = self.tuning.group_size(self.gpu.info())?.iter().product::<u32>() as usize;
-        Ok(UnfinishedPixels { pipelines, list, group, threads_per_group, film: film.clone() })
-    }
-
-    /// Returns true if pixels whose lists are not enough are rendered by themselves: where branches are not skipped, and if
-    /// camera rays alone have lists. Their mark takes the place of the sum of signs.
-    fn searches_in_passes(&self, scene: &PackedScene, features: &Features) -> bool {
+    /// Returns the `MESH_SEARCH` of each pass. Pixels whose lists are not enough are rendered by themselves where branches
+    /// are not skipped, if camera rays alone have lists. Their mark takes the place of the sum of signs.
+    fn passes(&self, scene: &PackedScene, features: &Features) -> &'static [u32] {
         let has_lists = scene.culls_tiles() && scene.has_concave_shapes() && !features.everything;
-        has_lists && !bounces(scene) && scene.mean_sign.is_none() && Tuning::holds_triangles(self.gpu.info())
+        let has_mark = !bounces(scene) && scene.mean_sign.is_none();
+        match has_lists && has_mark && Tuning::holds_triangles(self.gpu.info()) {
+            true => &[SEARCH_LISTS, SEARCH_MANY, SEARCH_REST],
+            false => &[SEARCH_ALL],
+        }
     }
 
     fn sample_pipeline(&self, scene: &PackedScene, features: &Features) -> Result<SamplePipeline> {

@@ -11,7 +11,9 @@ use crate::gpu::{BindGroup, Buffer, BufferUse, Gpu, Pipeline};
 use crate::pack::PackedScene;
 use crate::pack::features::Features;
 use crate::schema::enums::TexelSource;
-use crate::schema::layout::{CELL_EMPTY, CELL_UNIFORM, CELL_WORDS, CellRange, MORE_WORDS, TILE};
+use crate::schema::layout::{
+    CELL_BLOCK_HEIGHT, CELL_BLOCK_WIDTH, CELL_EMPTY, CELL_UNIFORM, CELL_WORDS, CellRange, MORE_WORDS, TILE,
+};
 
 const GROUP: u32 = 64;
 /// Triangles times cells that one submission tests: some tenths of a second on a slow device.
@@ -65,18 +67,26 @@ impl TileCulling {
         let cells_at_once = (MAX_TESTS / tests).clamp(u64::from(GROUP), 1 << 20) as u32;
         let culling = TileCulling { buffer, pipeline, group, side, cells, cells_at_once, has_rooms };
         // Lazy compilation in the driver happens now; the pipelines that read the lists are then tried on the first tile.
-        let end = cells[0] * TILE.div_ceil(side).min(cells[1]);
+        let [across, down] = culling.whole_blocks();
+        let end = across * down.min(TILE.div_ceil(side).next_multiple_of(CELL_BLOCK_HEIGHT));
         culling.part(gpu, CellRange { first: 0, end }, &mut Report::default())?;
         Ok(culling)
     }
 
+    /// Returns the number of cells across and down, with those that complete the last blocks.
+    fn whole_blocks(&self) -> [u32; 2] {
+        let [across, down] = self.cells;
+        [across.next_multiple_of(CELL_BLOCK_WIDTH), down.next_multiple_of(CELL_BLOCK_HEIGHT)]
+    }
+
     /// Fills the lists.
     pub fn run(&self, gpu: &Gpu, report: &mut Report) -> Result<()> {
-        let cells = self.cells[0] * self.cells[1];
         if self.has_rooms {
             // None is taken.
-            gpu.write_buffer(&self.buffer, u64::from(cells) * u64::from(CELL_WORDS) * 4, &[0; 4])?;
+            let cells = u64::from(self.cells[0]) * u64::from(self.cells[1]);
+            gpu.write_buffer(&self.buffer, cells * u64::from(CELL_WORDS) * 4, &[0; 4])?;
         }
+        let cells = self.whole_blocks().iter().product();
         for first in (0..cells).step_by(self.cells_at_once as usize) {
             self.part(gpu, CellRange { first, end: cells.min(first + self.cells_at_once) }, report)?;
         }

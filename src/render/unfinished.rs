@@ -4,31 +4,47 @@
 
 use std::sync::Arc;
 
-use super::Report;
 use super::film_buffer::{Band, FilmBuffer};
+use super::{Report, Resources};
 use crate::core::error::{Error, Result};
 use crate::core::progress::Progress;
-use crate::gpu::{BindGroup, Buffer, Gpu, Pipeline};
+use crate::gpu::shaders::Shader;
+use crate::gpu::{BindGroup, Buffer, BufferUse, Gpu, Pipeline};
 use crate::schema::constants::UNFINISHED;
 use crate::schema::layout::{PixelBatch, Slice, TILE};
 
 /// Pixels that one submission takes: as many as a tile has.
-pub const AT_ONCE: usize = (TILE * TILE) as usize;
+const AT_ONCE: usize = (TILE * TILE) as usize;
 
 /// Side of the squares whose pixels follow each other in a list.
 const BLOCK: u32 = 8;
 
 /// The passes after the first one.
 pub struct UnfinishedPixels {
-    pub pipelines: Vec<Arc<Pipeline>>,
+    pipelines: Vec<Arc<Pipeline>>,
     /// The list of pixels, with room for `AT_ONCE`.
-    pub list: Buffer,
-    pub group: BindGroup,
-    pub threads_per_group: usize,
-    pub film: Arc<FilmBuffer>,
+    list: Buffer,
+    group: BindGroup,
+    threads_per_group: u32,
+    film: Arc<FilmBuffer>,
 }
 
 impl UnfinishedPixels {
+    /// `pipelines`, of one shader, are the passes after the first one, in order.
+    pub fn new(
+        gpu: &Gpu,
+        resources: &Resources,
+        shader: &Shader,
+        pipelines: Vec<Arc<Pipeline>>,
+        threads_per_group: u32,
+        film: &Arc<FilmBuffer>,
+    ) -> Result<UnfinishedPixels> {
+        let bytes = (AT_ONCE * size_of::<PixelBatch>()) as u64;
+        let list = gpu.buffer("unfinished pixels", bytes, BufferUse::Storage)?;
+        let group = resources.bind(gpu, &pipelines[0], shader, &film.buffer, Some(&list))?;
+        Ok(UnfinishedPixels { pipelines, list, group, threads_per_group, film: film.clone() })
+    }
+
     /// Runs each pipeline on a list without pixels, so that lazy compilation in the driver happens now.
     pub fn warm_up(&self, gpu: &Gpu, band: &Band) -> Result<()> {
         let slice = Slice { tiles: 0, sample_count: 1, ..band.slice() };
@@ -52,9 +68,10 @@ impl UnfinishedPixels {
                 let batch = |&place: &u32| PixelBatch { place, part: 0, first, count };
                 let batches: Vec<PixelBatch> = pixels.iter().map(batch).collect();
                 gpu.write_buffer(&self.list, 0, bytemuck::cast_slice(&batches))?;
-                let tiles = pixels.len() as u32;
-                let slice = Slice { tiles, first_sample: first, sample_count: count, ..band.slice() };
-                let groups = [pixels.len().div_ceil(self.threads_per_group) as u32, 1, 1];
+                let entries = pixels.len() as u32;
+                let slice =
+                    Slice { tiles: entries, first_sample: first, sample_count: count, ..band.slice() };
+                let groups = [entries.div_ceil(self.threads_per_group), 1, 1];
                 let time = gpu.run(pipeline, &self.group, bytemuck::bytes_of(&slice), groups)?;
                 report.add_slice(time);
                 if progress.cancelled() {

@@ -62,6 +62,9 @@ constants! {
     UNFINISHED: f64 = -1.0;
     /// Nodes of a mesh's tree that are opened for one cell.
     MAX_CELL_NODES: u32 = 4096;
+    /// Cells of a block, which follow each other where subgroups are short.
+    CELL_BLOCK_WIDTH: u32 = 4;
+    CELL_BLOCK_HEIGHT: u32 = 2;
     /// Content of a cell: the background alone; one shape whose colour changes little; anything else.
     CELL_EMPTY: u32 = 0;
     CELL_UNIFORM: u32 = 1;

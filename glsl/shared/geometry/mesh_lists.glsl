@@ -5,6 +5,7 @@
 
 #include "../tile_culling.glsl"
 #include "mesh.glsl"
+#include "mesh_edges.glsl"
 
 // A triangle whose edge functions are held for all samples of a pixel; all zero for none.
 struct Held {
@@ -76,8 +77,34 @@ uint listed_texel(const Candidates candidates, uint index) {
     return tile_lists[place < LIST_ROOM ? candidates.list + CELL_HEAD + place : more + place - LIST_ROOM];
 }
 
-// Marks the listed triangles that rays of the pixel may meet, but for those that are held from here on.
-void mark_in_pixel(const Header header, uvec2 place, inout Candidates candidates) {
+// Marks the listed triangles that rays of the pixel may meet; all for parallel rays.
+void test_in_pixel(const Header header, uvec2 pixel, inout Candidates candidates) {
+    bool parallel = MODE_IS(PROJECTIONS, PROJECTION_ORTHOGRAPHIC, header.projection);
+    vec2 place = (vec2(pixel) - 0.5 * vec2(header.image_size)) + 0.5;
+    vec3 way = (place.x * vec3(header.step_x) + place.y * vec3(header.step_y)) + vec3(header.forward);
+    vec3 x = header.filter_radius * vec3(header.step_x);
+    vec3 y = header.filter_radius * vec3(header.step_y);
+    vec3 size = abs(way) + (abs(x) + abs(y));
+    uint count = tile_lists[candidates.list + 2u];
+    for (uint k = 0u; k < count; k++) {
+        uint at = listed_texel(candidates, k);
+        EdgeForms edges = edge_forms_of(point_in(mesh_texel(at)), point_in(mesh_texel(at + 1u)), point_in(mesh_texel(at + 2u)), way, x, y, size);
+        vec3 aside = (abs(edges.along_x) + abs(edges.along_y)) + edges.slack;
+        bool is_met = parallel || all(greaterThanEqual(edges.here, -aside)) || all(lessThanEqual(edges.here, aside));
+        uint bit = is_met ? 1u << (k & 31u) : 0u;
+        uvec4 bits = bit * uvec4(equal(uvec4((k >> 5u) & 3u), uvec4(0u, 1u, 2u, 3u)));
+        if (k < 128u) candidates.meshes |= bits;
+        else candidates.more |= bits;
+    }
+}
+
+// Marks the listed triangles that rays of the pixel may meet, but for those that are held from here on. Where memory is
+// read lane by lane, tile culling has tested them.
+void mark_in_pixel(const Header header, uvec2 place, uvec2 pixel, inout Candidates candidates) {
+    if (!HOLDS_TRIANGLES) {
+        test_in_pixel(header, pixel, candidates);
+        return;
+    }
     uvec2 part = (place % header.cell_side) / (header.cell_side / CELL_PARTS);
     uint number = part.y * CELL_PARTS + part.x;
     uint more = tile_lists[candidates.list + CELL_HEAD + LIST_ROOM];

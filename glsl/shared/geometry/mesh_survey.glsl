@@ -4,6 +4,7 @@
 #define MESH_SURVEY_GLSL
 
 #include "beams.glsl"
+#include "mesh_edges.glsl"
 
 // Rays that tell how deep a cell is: those at its corners and at its middle.
 const uint PROBES = 5u;
@@ -110,6 +111,23 @@ void add_to_list(const Header header, const CellRays cell, uint at, vec3 a, vec3
     survey.depth = min(survey.depth, farthest);
 }
 
+// True if rays of the cell may meet the triangle; those of a perspective camera are within a pyramid.
+bool meets_cell(const Header header, const PixelFrustum frame, uint square, vec3 a, vec3 b, vec3 c) {
+    if (is_parallel(header)) {
+        Triangle triangle;
+        triangle.a = a;
+        triangle.b = b;
+        triangle.c = c;
+        return may_meet(header, frame, square, triangle);
+    }
+    vec3 x = 0.5 * frame.rays[0];
+    vec3 y = 0.5 * frame.rays[1];
+    vec3 way = frame.rays[2] + (x + y);
+    EdgeForms edges = edge_forms_of(a, b, c, way, x, y, abs(way) + (abs(x) + abs(y)));
+    vec3 aside = (abs(edges.along_x) + abs(edges.along_y)) + edges.slack;
+    return all(greaterThanEqual(edges.here, -aside)) || all(lessThanEqual(edges.here, aside));
+}
+
 // Adds the triangles of a mesh.
 void survey_mesh(const Header header, const PixelFrustum frame, uint square, const CellRays cell, const Mesh mesh,
                  inout Survey survey) {
@@ -141,14 +159,11 @@ void survey_mesh(const Header header, const PixelFrustum frame, uint square, con
         } else {
             for (uint k = 0u; k < count; k++) {
                 uint at = mesh.corners + 3u * (reference + k);
-                Triangle triangle;
                 uvec4 first = mesh_texel(at);
-                triangle.a = point_in(first);
-                triangle.b = point_in(mesh_texel(at + 1u));
-                triangle.c = point_in(mesh_texel(at + 2u));
-                if (may_meet(header, frame, square, triangle)) {
-                    add_to_list(header, cell, at, triangle.a, triangle.b, triangle.c, first.w != 0u, survey);
-                }
+                vec3 a = point_in(first);
+                vec3 b = point_in(mesh_texel(at + 1u));
+                vec3 c = point_in(mesh_texel(at + 2u));
+                if (meets_cell(header, frame, square, a, b, c)) add_to_list(header, cell, at, a, b, c, first.w != 0u, survey);
             }
         }
         while (height > 0u && depths[height - 1u] > survey.depth) height--;
@@ -162,14 +177,10 @@ void survey_mesh(const Header header, const PixelFrustum frame, uint square, con
     for (uint k = 0u; k < height; k++) survey.depth = min(survey.depth, depths[k]);
 }
 
-// Error of edge functions in f32, relative to the products of their parts.
-const float EDGE_ROUNDING = 4e-6;
-
 // Marks for each part of the cell the triangles of its list that the part's rays may meet; all for parallel rays. In a
 // part, rays are those through its middle and as much to either side as `radius` steps, in which edge functions are affine.
 void mark_parts(const Header header, uvec2 pixel, const Survey survey) {
     uint masks = survey.cell + CELL_HEAD + LIST_ROOM + 1u;
-    found[masks - 1u] = survey.more;
     float side = float(header.cell_side / CELL_PARTS);
     float radius = header.filter_radius + 0.5 * (side - 1.0);
     vec2 place = (vec2(pixel) - 0.5 * vec2(header.image_size)) + 0.5 * side;
@@ -187,20 +198,12 @@ void mark_parts(const Header header, uvec2 pixel, const Survey survey) {
             vec3 a = point_in(mesh_texel(at));
             vec3 b = point_in(mesh_texel(at + 1u));
             vec3 c = point_in(mesh_texel(at + 2u));
-            vec3 reach = max(max(abs(a), abs(b)), abs(c));
-            vec3 longest = max(max(abs(c - b), abs(a - c)), abs(b - a));
-            float slack = EDGE_ROUNDING * dot3(size, vec3(reach.y * longest.z + reach.z * longest.y, reach.z * longest.x + reach.x * longest.z,
-                                                          reach.x * longest.y + reach.y * longest.x));
-            vec3 na = cross3(b + c, c - b);
-            vec3 nb = cross3(c + a, a - c);
-            vec3 nc = cross3(a + b, b - a);
-            vec3 along_x = vec3(dot3(x, na), dot3(x, nb), dot3(x, nc));
-            vec3 along_y = vec3(dot3(y, na), dot3(y, nb), dot3(y, nc));
-            vec3 aside = (radius / side) * (abs(along_x) + abs(along_y)) + slack;
-            vec3 least = vec3(dot3(way, na), dot3(way, nb), dot3(way, nc)) - aside;
+            EdgeForms edges = edge_forms_of(a, b, c, way, x, y, size);
+            vec3 aside = (radius / side) * (abs(edges.along_x) + abs(edges.along_y)) + edges.slack;
+            vec3 least = edges.here - aside;
             uint bit = 1u << (k & 31u);
             for (uint part = 0u; part < CELL_PARTS * CELL_PARTS; part++) {
-                vec3 low = (least + float(part % CELL_PARTS) * along_x) + float(part / CELL_PARTS) * along_y;
+                vec3 low = (least + float(part % CELL_PARTS) * edges.along_x) + float(part / CELL_PARTS) * edges.along_y;
                 vec3 high = low + 2.0 * aside;
                 bool is_met = min(min(high.x, high.y), high.z) >= 0.0 || max(max(low.x, low.y), low.z) <= 0.0;
                 marks[part] |= is_met || is_parallel(header) ? bit : 0u;

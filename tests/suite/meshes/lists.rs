@@ -54,7 +54,8 @@ fn depths_of_cells_end_behind_what_hides_the_rest() {
     let mut hidden = 0;
     for cell in words.chunks(CELL_WORDS as usize) {
         let depth = f32::from_bits(cell[3]);
-        assert!(depth > 0.0 && depth <= 1e30 && cell[0] + cell[2] <= MAX_LISTED_WITH_MESHES + MAX_MORE_LISTED, "{depth}, {:?}", &cell[..4]);
+        let most = MAX_LISTED_WITH_MESHES + MAX_MORE_LISTED;
+        assert!(depth > 0.0 && depth <= 1e30 && cell[0] + cell[2] <= most, "{depth}, {:?}", &cell[..4]);
         hidden += usize::from(depth < 1e30 && cell[2] > 0);
     }
     assert!(hidden > 20, "{hidden} cells end behind a surface");
