@@ -9,10 +9,10 @@ use std::time::Instant;
 use crate::core::error::{Error, Result};
 use crate::gpu::shaders::{self, Shader};
 use crate::gpu::{Gpu, Pipeline};
-use crate::pack::features::{Features, bounces};
+use crate::pack::features::Features;
 use crate::pack::{self, PackedScene, Schedule};
 use crate::scene::model::Scene;
-use crate::schema::constants::{SEARCH_ALL, SEARCH_LISTS, SEARCH_MANY, SEARCH_REST};
+use crate::schema::constants::SEARCH_ALL;
 use crate::schema::enums::{Quantity, TexelSource};
 use crate::schema::layout::{Header, Slice};
 use crate::schema::specialization::Constant;
@@ -26,7 +26,7 @@ use super::sample_pipeline::SamplePipeline;
 use super::texel_buffer;
 use super::tile_culling::TileCulling;
 use super::tiles::TileRenderer;
-use super::unfinished::UnfinishedPixels;
+use super::unfinished::{self, UnfinishedPixels};
 use super::{Report, Tuning, build_pipeline, specialization, tuning};
 
 pub struct Session<'a> {
@@ -179,7 +179,7 @@ impl<'a> Session<'a> {
         features: &Features,
         shader: &'static Shader,
     ) -> Result<(TileRenderer<'a>, Arc<FilmBuffer>)> {
-        let passes = self.passes(scene, features);
+        let passes = unfinished::passes(self.gpu, scene, features);
         let (pipeline, groups_per_tile) = self.pipeline(features, shader, passes[0])?;
         let film = self.film(scene, features)?;
         let rest = match passes[1..] {
@@ -195,17 +195,6 @@ impl<'a> Session<'a> {
         let renderer = TileRenderer { gpu: self.gpu, pipeline, rest, group, groups_per_tile };
         renderer.warm_up(&film)?;
         Ok((renderer, film))
-    }
-
-    /// Returns the `MESH_SEARCH` of each pass. Pixels whose lists are not enough are rendered by themselves where branches
-    /// are not skipped, if camera rays alone have lists. Their mark takes the place of the sum of signs.
-    fn passes(&self, scene: &PackedScene, features: &Features) -> &'static [u32] {
-        let has_lists = scene.culls_tiles() && scene.has_concave_shapes() && !features.everything;
-        let has_mark = !bounces(scene) && scene.mean_sign.is_none();
-        match has_lists && has_mark && Tuning::holds_triangles(self.gpu.info()) {
-            true => &[SEARCH_LISTS, SEARCH_MANY, SEARCH_REST],
-            false => &[SEARCH_ALL],
-        }
     }
 
     fn sample_pipeline(&self, scene: &PackedScene, features: &Features) -> Result<SamplePipeline> {
