@@ -175,7 +175,7 @@ Lit direct_light(const Header header, const Surface surface, float time, uint sh
                     // The vector to the same point from the origin of the shadow ray.
                     if (light.kind == LIGHT_RECTANGLE) to_light += surface.point - start;
                 }
-                if (!TRANSPARENT) lit = !occluded(Ray(start, to_light, time), aim.reach, shape);
+                if (!TRANSPARENT) lit = !occluded(Ray(start, to_light, time), aim.reach, shape, surface.geometric_normal);
                 way = to_light;
             }
             vec3 power = light.power;

@@ -31,7 +31,7 @@ void main() {
     Header header = load_header();
     Ray ray = Ray(queries[i].origin.xyz, queries[i].direction.xyz, float(queries[i].origin.w));
     Hit hit = nearest_hit(ray, NO_SHAPE, ANYTHING);
-    bool blocked = occluded(ray, queries[i].direction.w, NO_SHAPE);
+    bool blocked = occluded(ray, queries[i].direction.w, NO_SHAPE, real3(0.0));
     Answer answer = Answer(real4(0.0, 0.0, 0.0, FAR), real4(0.0), real4(0.0), uvec4(NO_SHAPE, uint(blocked), 0u, 0u));
     if (hit.shape != NO_SHAPE) {
         Surface surface = hit_surface(ray, hit);

@@ -19,9 +19,6 @@
 // each batch instead of for each half.
 layout(std430, set = 0, binding = BINDING_LIST) readonly buffer Batches { PixelBatch batches[]; };
 
-// In the fourth component of a pixel's sum, which is zero without a pixel filter's negative lobes.
-const float UNFINISHED = -1.0;
-
 // The work of one thread: samples of one pixel, added to one entry of the film.
 struct Task {
     uvec2 place; // in the band
@@ -29,6 +26,14 @@ struct Task {
     uint first;
     uint end;
 };
+
+// The place of a sample in its pixel.
+Place sample_place(const Header header, const Points points, uint s) {
+    uvec2 position;
+    if (SAMPLE_DIMENSIONS == 0u) position = sample_point(points, s, false);
+    else position = choose(header, points, s, 0u, true).place;
+    return filtered_place(header, position);
+}
 
 Task tile_task() {
     return Task(film_pixel(), 0u, first_sample(), first_sample() + sample_count());
@@ -40,17 +45,22 @@ uint batch_index() {
     return (slice.first_tile + gl_WorkGroupID.y) * (TILE * TILE) + thread;
 }
 
+Task listed_task() {
+    uint i = batch_index();
+    if (i >= slice.tiles) return Task(uvec2(0u, slice.band_height), 0u, 0u, 0u);
+    PixelBatch batch = batches[i];
+    return Task(uvec2(batch.place & 0xFFFFu, batch.place >> 16u), batch.part, batch.first, batch.first + batch.count);
+}
+
 // Without a list all pixels have the same batch, both halves of a pixel side by side.
 Task batch_task(const Header header) {
     uint i = batch_index();
-    if (i >= slice.tiles) return Task(uvec2(0u, slice.band_height), 0u, 0u, 0u);
-    if (sample_count() > 0u) {
+    if (i < slice.tiles && sample_count() > 0u) {
         uvec2 place = uvec2((i >> 1u) % header.film_size.x, (i >> 1u) / header.film_size.x);
         uint part = (i & 1u) | (i & 1u) << BATCH_STREAM_SHIFT;
         return Task(place, part, first_sample(), first_sample() + sample_count());
     }
-    PixelBatch batch = batches[i];
-    return Task(uvec2(batch.place & 0xFFFFu, batch.place >> 16u), batch.part, batch.first, batch.first + batch.count);
+    return listed_task();
 }
 
 void main() {
@@ -59,7 +69,8 @@ void main() {
     clear_notices();
     bool is_batch = MODE_IS(SCHEDULES, SCHEDULE_BATCHES, schedule());
     Task task;
-    if (is_batch) task = batch_task(header);
+    if (MESH_SEARCH == SEARCH_MANY || MESH_SEARCH == SEARCH_REST) task = listed_task();
+    else if (is_batch) task = batch_task(header);
     else task = tile_task();
     if (!in_film(header, task.place)) return;
     uvec2 pixel = picture_pixel(header, task.place);
@@ -73,14 +84,18 @@ void main() {
     uvec2 key = pixel_key(pixel, header.seed + stream * 0x9E3779B9u, header.shares_pattern);
     Points points = pixel_points(header, pixel, key);
     uint at = film_index(header, task.place);
-    if (MESH_SEARCH == SEARCH_REST) {
-        if (film[at].w != UNFINISHED) return;
-    }
     Candidates candidates = ANYTHING;
     if (TILE_CULLED && MESH_SEARCH != SEARCH_REST) {
-        candidates.list = cell_list(header, task.place + uvec2(0u, slice.band_y));
+        uvec2 place = task.place + uvec2(0u, slice.band_y);
+        candidates.list = cell_list(header, place);
         if (CONCAVE_SHAPES) {
-            if (candidates.list != NO_LIST) candidates.meshes = listed_in_pixel(header, pixel, candidates.list);
+            if (candidates.list != NO_LIST) mark_in_pixel(header, place, pixel, candidates);
+            // Not all can be held: the pixel is left to the next pass.
+            if (HOLDS) {
+                unfinished = MESH_SEARCH == SEARCH_LISTS && any_left(candidates);
+                if (SHADES) unfinished = !gather_shades(header, pixel, candidates) || unfinished;
+                if (unfinished) task.end = task.first;
+            }
         }
     }
 
@@ -100,10 +115,23 @@ void main() {
     // its body.
     uint block = task.end - task.first > MAX_PLAIN ? SAMPLES_PER_BLOCK : MAX_PLAIN;
     vec3 lost = vec3(0.0); // the part that rounding has added to the sum
+    uint stop = s;
+    vec3 part;
     while (true) {
-        uint stop = BLOCKS ? min(s + block, task.end) : task.end;
-        vec3 part = vec3(0.0);
-        while (s < stop) {
+        // Groups divide a block.
+        if (!GROUPED || s == stop) {
+            stop = BLOCKS ? min(s + block, task.end) : task.end;
+            part = vec3(0.0);
+        }
+        uint start = s;
+        uint until = stop;
+        if (GROUPED) {
+            until = min(s + GROUP, stop);
+            group_sample = 0u;
+            for (uint k = 0u; k < GROUP; k++) group_ways[k] = camera_ray(header, pixel, sample_place(header, points, s + k).inside).direction;
+            find_for_group(candidates);
+        }
+        while (s < until) {
             bool starts = !BOUNCES || !path.is_alive;
             SampleDimensions dimensions = NO_CHOICES;
             if (SAMPLE_DIMENSIONS != 0u) dimensions = choose(header, points, s, starts ? 0u : path.depth, starts);
@@ -147,15 +175,18 @@ void main() {
                 }
             }
             s += path.is_alive ? 0u : 1u;
+            if (GROUPED) group_sample = s - start;
         }
-        vec3 term = part - lost;
-        vec3 total = sum + term;
-        lost = (total - sum) - term;
-        sum = total;
-        if (!BLOCKS || s >= task.end) break;
+        if (!GROUPED || s == stop) {
+            vec3 term = part - lost;
+            vec3 total = sum + term;
+            lost = (total - sum) - term;
+            sum = total;
+        }
+        if ((!BLOCKS && !GROUPED) || s >= task.end) break;
     }
 
-    if (MESH_SEARCH == SEARCH_LISTS) {
+    if (BY_LISTS) {
         if (unfinished) {
             film[at] = vec4(first_sample() > 0u ? film[at].xyz : vec3(0.0), UNFINISHED);
             return;

@@ -13,7 +13,7 @@
 
 layout(local_size_x_id = 0, local_size_y_id = 1, local_size_z = 1) in;
 
-layout(std430, set = 0, binding = BINDING_OUTPUT) writeonly buffer Found { uint found[]; };
+layout(std430, set = 0, binding = BINDING_OUTPUT) buffer Found { uint found[]; };
 
 #include "geometry/mesh_survey.glsl"
 
@@ -63,11 +63,22 @@ bool is_uniform(const Header header, const PixelFrustum frame, uint shape, const
 void main() {
     Header header = load_header();
     preload_records();
-    uint cell = part.first + gl_WorkGroupID.x * gl_WorkGroupSize.x * gl_WorkGroupSize.y + gl_LocalInvocationIndex;
-    if (cell >= part.end) return;
+    uint thread = part.first + gl_WorkGroupID.x * gl_WorkGroupSize.x * gl_WorkGroupSize.y + gl_LocalInvocationIndex;
+    if (thread >= part.end) return;
     uint side = header.cell_side;
-    uint across = (header.film_size.x + side - 1u) / side;
-    uvec2 pixel = uvec2(cell % across, cell / across) * side + header.crop;
+    uvec2 cells = (header.film_size + side - 1u) / side;
+    uint blocks = (cells.x + CELL_BLOCK_WIDTH - 1u) / CELL_BLOCK_WIDTH;
+    uint across = blocks * CELL_BLOCK_WIDTH;
+    uvec2 place = uvec2(thread % across, thread / across);
+    if (HOLDS_TRIANGLES) {
+        // Neighbours take about as long, which short subgroups gain by. Wide ones of nothing but long lists end late.
+        uint block = thread / (CELL_BLOCK_WIDTH * CELL_BLOCK_HEIGHT);
+        uvec2 in_block = uvec2(thread % CELL_BLOCK_WIDTH, thread / CELL_BLOCK_WIDTH % CELL_BLOCK_HEIGHT);
+        place = uvec2(block % blocks * CELL_BLOCK_WIDTH, block / blocks * CELL_BLOCK_HEIGHT) + in_block;
+    }
+    if (place.x >= cells.x || place.y >= cells.y) return;
+    uint cell = place.y * cells.x + place.x;
+    uvec2 pixel = place * side + header.crop;
     PixelFrustum frame = frame_over(header, pixel, float(side - 1u), MARGIN);
     unit_square(SQUARE);
     COUNT_SHAPES
@@ -79,7 +90,7 @@ void main() {
 #define SURVEY(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed, is_concave)                            \
     for (uint i = 0u; i < count; i++) {                                               \
         if (!is_concave && may_meet(header, frame, SQUARE, at(i))) {                  \
-            if (is_listed && listed < MAX_LISTED) found[begin + CELL_HEAD + listed] = i; \
+            if (is_listed && listed < LIST_ROOM) found[begin + CELL_HEAD + listed] = i; \
             listed += is_listed ? 1u : 0u;                                            \
             seen += is_polygonal ? 1u : 0u;                                                \
             alone = is_polygonal ? (first) + i : alone;                                    \
@@ -88,12 +99,14 @@ void main() {
     }
     SHAPE_KINDS(SURVEY)
 #undef SURVEY
-    Survey survey = Survey(0u, FAR, float[PROBES](FAR, FAR, FAR, FAR, FAR));
+    Survey survey = Survey(begin, 0u, NO_LIST, 0u, FAR, float[PROBES](FAR, FAR, FAR, FAR, FAR));
     if (CONCAVE_SHAPES) {
         CellRays cell_sides = cell_rays(header, frame);
-        uint list = begin + CELL_HEAD + min(listed, MAX_LISTED);
-        uint room = MAX_LISTED - min(listed, MAX_LISTED);
-        survey_meshes(header, frame, SQUARE, cell_sides, list, room, survey);
+        survey.first = min(listed, LIST_ROOM);
+        survey.cell = begin;
+        survey_meshes(header, frame, SQUARE, cell_sides, survey);
+        found[begin + CELL_HEAD + LIST_ROOM] = survey.more;
+        if (HOLDS_TRIANGLES) mark_parts(header, pixel, survey);
         round = round || survey.count > 0u || survey.depth < FAR;
     }
     bool empty = seen == 0u && !round && !(ENVIRONMENT && header.environment_material != NO_MATERIAL);

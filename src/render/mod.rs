@@ -24,6 +24,7 @@ mod texel_buffer;
 mod tile_culling;
 mod tiles;
 mod tuning;
+mod unfinished;
 
 use std::sync::Arc;
 

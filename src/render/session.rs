@@ -9,10 +9,10 @@ use std::time::Instant;
 use crate::core::error::{Error, Result};
 use crate::gpu::shaders::{self, Shader};
 use crate::gpu::{Gpu, Pipeline};
-use crate::pack::features::{Features, bounces};
+use crate::pack::features::Features;
 use crate::pack::{self, PackedScene, Schedule};
 use crate::scene::model::Scene;
-use crate::schema::constants::{SEARCH_ALL, SEARCH_LISTS, SEARCH_REST};
+use crate::schema::constants::SEARCH_ALL;
 use crate::schema::enums::{Quantity, TexelSource};
 use crate::schema::layout::{Header, Slice};
 use crate::schema::specialization::Constant;
@@ -26,6 +26,7 @@ use super::sample_pipeline::SamplePipeline;
 use super::texel_buffer;
 use super::tile_culling::TileCulling;
 use super::tiles::TileRenderer;
+use super::unfinished::{self, UnfinishedPixels};
 use super::{Report, Tuning, build_pipeline, specialization, tuning};
 
 pub struct Session<'a> {
@@ -178,23 +179,22 @@ impl<'a> Session<'a> {
         features: &Features,
         shader: &'static Shader,
     ) -> Result<(TileRenderer<'a>, Arc<FilmBuffer>)> {
-        let in_two_passes = self.searches_in_two_passes(scene, features);
-        let first = if in_two_passes { SEARCH_LISTS } else { SEARCH_ALL };
-        let (pipeline, groups_per_tile) = self.pipeline(features, shader, first)?;
-        let rest = in_two_passes.then(|| self.pipeline(features, shader, SEARCH_REST)).transpose()?;
+        let passes = unfinished::passes(self.gpu, scene, features);
+        let (pipeline, groups_per_tile) = self.pipeline(features, shader, passes[0])?;
         let film = self.film(scene, features)?;
+        let rest = match passes[1..] {
+            [] => None,
+            ref passes => {
+                let pipelines = passes.iter().map(|&pass| Ok(self.pipeline(features, shader, pass)?.0));
+                let pipelines = pipelines.collect::<Result<Vec<_>>>()?;
+                let [x, y] = self.tuning.group_size(self.gpu.info())?;
+                Some(UnfinishedPixels::new(self.gpu, &self.resources, shader, pipelines, x * y, &film)?)
+            }
+        };
         let group = self.resources.bind(self.gpu, &pipeline, shader, &film.buffer, None)?;
-        let rest = rest.map(|(pipeline, _)| pipeline);
         let renderer = TileRenderer { gpu: self.gpu, pipeline, rest, group, groups_per_tile };
         renderer.warm_up(&film)?;
         Ok((renderer, film))
-    }
-
-    /// Returns true if pixels whose lists are not enough are rendered by themselves: where branches are not skipped, and if
-    /// camera rays alone have lists.
-    fn searches_in_two_passes(&self, scene: &PackedScene, features: &Features) -> bool {
-        let has_lists = scene.culls_tiles() && scene.has_concave_shapes() && !features.everything;
-        has_lists && !bounces(scene) && Tuning::holds_triangles(self.gpu.info())
     }
 
     fn sample_pipeline(&self, scene: &PackedScene, features: &Features) -> Result<SamplePipeline> {

@@ -11,11 +11,16 @@ use crate::gpu::{BindGroup, Buffer, BufferUse, Gpu, Pipeline};
 use crate::pack::PackedScene;
 use crate::pack::features::Features;
 use crate::schema::enums::TexelSource;
-use crate::schema::layout::{CELL_EMPTY, CELL_UNIFORM, CELL_WORDS, CellRange, TILE};
+use crate::schema::layout::{
+    CELL_BLOCK_HEIGHT, CELL_BLOCK_WIDTH, CELL_EMPTY, CELL_UNIFORM, CELL_WORDS, CellRange, MORE_WORDS, TILE,
+};
 
 const GROUP: u32 = 64;
 /// Triangles times cells that one submission tests: some tenths of a second on a slow device.
 const MAX_TESTS: u64 = 1 << 24;
+
+/// Cells of which one may have more triangles of meshes than its list has room for.
+const CELLS_A_ROOM: u64 = 16;
 
 /// Boxes and triangles of meshes that are tested for a cell, of few of which more.
 const TESTS_OF_MESHES: u64 = 1024;
@@ -28,6 +33,8 @@ pub struct TileCulling {
     side: u32,
     cells: [u32; 2],
     cells_at_once: u32,
+    /// Behind the cells there is room for more triangles of some of them.
+    has_rooms: bool,
 }
 
 impl TileCulling {
@@ -44,22 +51,42 @@ impl TileCulling {
         let [width, height] = scene.header.film_size.to_array();
         let side = scene.header.cell_side;
         let cells = [width, height].map(|pixels| pixels.div_ceil(side));
-        let bytes = cells.map(u64::from).iter().product::<u64>() * u64::from(CELL_WORDS) * 4;
+        let count = cells.map(u64::from).iter().product::<u64>();
+        let cells_end = count * u64::from(CELL_WORDS) * 4;
+        let mut bytes = cells_end;
+        if scene.has_concave_shapes() {
+            let rooms = 4 + count.div_ceil(CELLS_A_ROOM) * u64::from(MORE_WORDS) * 4;
+            let limit = gpu.info().limits.max_storage_buffer_range;
+            bytes = (cells_end + rooms).min(limit.max(cells_end));
+        }
+        let has_rooms = bytes > cells_end;
         let buffer = gpu.buffer("tile lists", bytes, BufferUse::Storage)?;
         let group = resources.bind(gpu, &pipeline, shader, &buffer, None)?;
         let tests =
             scene.listed_shapes().max(1) as u64 + TESTS_OF_MESHES * u64::from(scene.has_concave_shapes());
         let cells_at_once = (MAX_TESTS / tests).clamp(u64::from(GROUP), 1 << 20) as u32;
-        let culling = TileCulling { buffer, pipeline, group, side, cells, cells_at_once };
+        let culling = TileCulling { buffer, pipeline, group, side, cells, cells_at_once, has_rooms };
         // Lazy compilation in the driver happens now; the pipelines that read the lists are then tried on the first tile.
-        let end = cells[0] * TILE.div_ceil(side).min(cells[1]);
+        let [across, down] = culling.whole_blocks();
+        let end = across * down.min(TILE.div_ceil(side).next_multiple_of(CELL_BLOCK_HEIGHT));
         culling.part(gpu, CellRange { first: 0, end }, &mut Report::default())?;
         Ok(culling)
     }
 
+    /// Returns the number of cells across and down, with those that complete the last blocks.
+    fn whole_blocks(&self) -> [u32; 2] {
+        let [across, down] = self.cells;
+        [across.next_multiple_of(CELL_BLOCK_WIDTH), down.next_multiple_of(CELL_BLOCK_HEIGHT)]
+    }
+
     /// Fills the lists.
     pub fn run(&self, gpu: &Gpu, report: &mut Report) -> Result<()> {
-        let cells = self.cells[0] * self.cells[1];
+        if self.has_rooms {
+            // None is taken.
+            let cells = u64::from(self.cells[0]) * u64::from(self.cells[1]);
+            gpu.write_buffer(&self.buffer, cells * u64::from(CELL_WORDS) * 4, &[0; 4])?;
+        }
+        let cells = self.whole_blocks().iter().product();
         for first in (0..cells).step_by(self.cells_at_once as usize) {
             self.part(gpu, CellRange { first, end: cells.min(first + self.cells_at_once) }, report)?;
         }

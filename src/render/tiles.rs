@@ -6,6 +6,7 @@ use std::sync::Arc;
 use super::Report;
 use super::dispatch_plan::DispatchPlan;
 use super::film_buffer::{Band, FilmBuffer};
+use super::unfinished::UnfinishedPixels;
 use crate::core::error::{Error, Result};
 use crate::core::progress::Progress;
 use crate::gpu::{BindGroup, Gpu, Pipeline};
@@ -14,23 +15,20 @@ use crate::schema::layout::Slice;
 pub struct TileRenderer<'a> {
     pub gpu: &'a Gpu,
     pub pipeline: Arc<Pipeline>,
-    /// Takes the samples of the pixels that the first pipeline leaves unfinished.
-    pub rest: Option<Arc<Pipeline>>,
+    /// Takes the samples of the pixels that the pipeline leaves unfinished.
+    pub rest: Option<UnfinishedPixels>,
     pub group: BindGroup,
     pub groups_per_tile: u32,
 }
 
 impl TileRenderer<'_> {
-    fn pipelines(&self) -> impl Iterator<Item = &Pipeline> {
-        std::iter::once(&self.pipeline).chain(&self.rest).map(Arc::as_ref)
-    }
-
     /// Runs one workgroup of the first slice, so that lazy compilation in the driver happens now.
     pub fn warm_up(&self, film: &FilmBuffer) -> Result<()> {
         if let Some(band) = film.bands(film.whole()).next() {
             let slice = Slice { sample_count: 1, ..band.slice() };
-            for pipeline in self.pipelines() {
-                self.gpu.run(pipeline, &self.group, bytemuck::bytes_of(&slice), [1, 1, 1])?;
+            self.gpu.run(&self.pipeline, &self.group, bytemuck::bytes_of(&slice), [1, 1, 1])?;
+            if let Some(rest) = &self.rest {
+                rest.warm_up(self.gpu, &band)?;
             }
         }
         Ok(())
@@ -51,18 +49,17 @@ impl TileRenderer<'_> {
                 let tiles = plan.tiles(count - first_tile, sample_count);
                 let slice = Slice { first_tile, first_sample, sample_count, ..band.slice() };
                 let groups = [self.groups_per_tile, tiles, 1];
-                let mut seconds = 0.0;
-                for pipeline in self.pipelines() {
-                    let time = self.gpu.run(pipeline, &self.group, bytemuck::bytes_of(&slice), groups)?;
-                    seconds += time.wall_seconds;
-                    report.add_slice(time);
-                }
-                plan.learn(tiles, sample_count, seconds);
+                let time = self.gpu.run(&self.pipeline, &self.group, bytemuck::bytes_of(&slice), groups)?;
+                report.add_slice(time);
+                plan.learn(tiles, sample_count, time.wall_seconds);
                 progress.advance(plan.done());
                 if progress.cancelled() {
                     return Err(Error::Interrupted);
                 }
                 first_tile += tiles;
+            }
+            if let Some(rest) = &self.rest {
+                rest.finish(self.gpu, band, [first_sample, sample_count], report, progress)?;
             }
         }
         Ok(())

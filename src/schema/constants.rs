@@ -34,20 +34,37 @@ constants! {
     BATCH_STREAM_SHIFT: u32 = 8;
 
     /// Words of a cell of the picture: `CELL_HEAD`, then single triangles by their index, then those of meshes by the
-    /// texel of their corners, `MAX_LISTED` in all.
+    /// texel of their corners, `MAX_LISTED` in all. In a scene with meshes `MAX_LISTED_WITH_MESHES`; behind these the first
+    /// word of the cell's room for more, or `NO_LIST`, and `CELL_MASK_WORDS` words of bits for each of `CELL_PARTS` ×
+    /// `CELL_PARTS` parts of the cell: one for each triangle of a mesh in the list, set if rays of the part may meet it.
     CELL_WORDS: u32 = 128;
     /// Number of single triangles, content, number of triangles of meshes, and the depth up to which no other triangle
     /// of a mesh is met.
     CELL_HEAD: u32 = 4;
     MAX_LISTED: u32 = 124;
-    /// Values of `MESH_SEARCH`: camera rays search by lists and trees; by lists alone, which leaves pixels unfinished; and
-    /// the pixels that this left unfinished, by trees alone. Where a branch that no thread takes costs as much as one that
-    /// all take, two passes are faster than one.
+    MAX_LISTED_WITH_MESHES: u32 = 75;
+    CELL_PARTS: u32 = 4;
+    CELL_MASK_WORDS: u32 = 3;
+    /// Room for more triangles of a cell with meshes: `MAX_MORE_LISTED` of them, then `MORE_MASK_WORDS` further words of bits
+    /// for each part of the cell. The number of those rooms that are taken, then the rooms themselves, follow the cells.
+    MORE_WORDS: u32 = 261;
+    MAX_MORE_LISTED: u32 = 181;
+    MORE_MASK_WORDS: u32 = 5;
+    /// Values of `MESH_SEARCH`: camera rays search by lists and trees; by lists alone, which leaves pixels unfinished;
+    /// those of these pixels with more triangles, by lists alone; and what is left then, by trees alone. Where a branch that
+    /// no thread takes costs as much as one that all take, passes are faster than one.
     SEARCH_ALL: u32 = 0;
     SEARCH_LISTS: u32 = 1;
-    SEARCH_REST: u32 = 2;
+    SEARCH_MANY: u32 = 2;
+    SEARCH_REST: u32 = 3;
+    /// In the fourth component of a pixel's sum, which is zero without a pixel filter's negative lobes: its samples are left
+    /// to a later pass.
+    UNFINISHED: f64 = -1.0;
     /// Nodes of a mesh's tree that are opened for one cell.
     MAX_CELL_NODES: u32 = 4096;
+    /// Cells of a block, which follow each other where subgroups are short.
+    CELL_BLOCK_WIDTH: u32 = 4;
+    CELL_BLOCK_HEIGHT: u32 = 2;
     /// Content of a cell: the background alone; one shape whose colour changes little; anything else.
     CELL_EMPTY: u32 = 0;
     CELL_UNIFORM: u32 = 1;

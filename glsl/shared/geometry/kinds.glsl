@@ -14,6 +14,9 @@
 
 #define ADD_COUNT(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed, is_concave) + (count)
 
+// Places in a cell's list.
+const uint LIST_ROOM = CONCAVE_SHAPES ? MAX_LISTED_WITH_MESHES : MAX_LISTED;
+
 uint shape_count() {
     COUNT_SHAPES
     return shapes;

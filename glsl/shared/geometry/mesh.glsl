@@ -29,12 +29,16 @@ real3 octahedral(uint word) {
     return v * scale;
 }
 
+// A corner of the triangle that is shaded.
+real3 seen_corner = real3(0.0);
+
 Triangle triangle_in(const Mesh mesh, uint index) {
     uint at = mesh.corners + 3u * index;
     Placement placement = placement_of(mesh);
     real3 a = placed_point(placement, real3(point_in(mesh_texel(at))));
     real3 b = placed_point(placement, real3(point_in(mesh_texel(at + 1u))));
     real3 c = placed_point(placement, real3(point_in(mesh_texel(at + 2u))));
+    seen_corner = a;
     at = mesh.attributes + mesh.attribute_count * index;
     uvec4 plane = mesh_texel(at);
     vec4 first = uintBitsToFloat(mesh_texel(at + 1u));

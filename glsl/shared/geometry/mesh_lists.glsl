@@ -5,9 +5,7 @@
 
 #include "../tile_culling.glsl"
 #include "mesh.glsl"
-
-// Error of edge functions in f32, relative to the products of their parts.
-const float EDGE_ROUNDING = 4e-6;
+#include "mesh_edges.glsl"
 
 // A triangle whose edge functions are held for all samples of a pixel; all zero for none.
 struct Held {
@@ -21,13 +19,32 @@ struct Held {
     bool one_sided;
 };
 
-// Registers, where reads from memory cost more than these: the first triangles of a pixel.
-Held held_0;
-Held held_1;
-Held held_2;
-Held held_3;
+const Held NOTHING_HELD = Held(0u, real3(0.0), real3(0.0), real3(0.0), real3(0.0), real3(0.0), real3(0.0), false);
 
-#define EACH_HELD(DO) DO(0) DO(1) DO(2) DO(3)
+// A ray may meet something that no list holds.
+bool unfinished = false;
+
+// Camera rays search lists alone.
+const bool BY_LISTS = MESH_SEARCH == SEARCH_LISTS || MESH_SEARCH == SEARCH_MANY;
+
+// Registers, where reads from memory cost more than these: the first triangles of a pixel. The pass by lists alone leaves
+// pixels with more to the next one.
+#define HELD_TRIANGLES (MESH_SEARCH == SEARCH_LISTS ? 6u : 4u)
+#define HOLDS (HOLDS_TRIANGLES && ORIGIN_IS_EYE)
+
+// Pixels of many triangles: each is read once for a group of samples, of which the nearest triangles are found before.
+const bool GROUPED = MESH_SEARCH == SEARCH_MANY;
+const uint GROUP = 8u;
+real3 group_ways[GROUP];
+real group_nearest[GROUP];
+uint group_found[GROUP];
+uint group_sample = 0u; // the current one
+
+#define EACH_HELD(DO) DO(0) DO(1) DO(2) DO(3) DO(4) DO(5)
+
+#define DECLARE_HELD(k) Held held_##k;
+EACH_HELD(DECLARE_HELD)
+#undef DECLARE_HELD
 
 Held held_triangle(uint at) {
     uvec4 first = mesh_texel(at);
@@ -37,56 +54,78 @@ Held held_triangle(uint at) {
     return Held(at, a, b, c, cross3(b + c, c - b), cross3(c + a, a - c), cross3(a + b, b - a), first.w != 0u);
 }
 
-// True if a ray of the pixel may meet the triangle. Rays are `way` and as much as x and y to either side, in which the
-// edge functions are affine.
-bool may_be_met(const Held triangle, vec3 way, vec3 x, vec3 y) {
-    vec3 a = vec3(triangle.a);
-    vec3 b = vec3(triangle.b);
-    vec3 c = vec3(triangle.c);
-    vec3 na = vec3(triangle.across_a);
-    vec3 nb = vec3(triangle.across_b);
-    vec3 nc = vec3(triangle.across_c);
-    vec3 middle = vec3(dot3(way, na), dot3(way, nb), dot3(way, nc));
-    vec3 aside = abs(vec3(dot3(x, na), dot3(x, nb), dot3(x, nc))) + abs(vec3(dot3(y, na), dot3(y, nb), dot3(y, nc)));
-    vec3 size = abs(way) + abs(x) + abs(y);
-    vec3 reach = max(max(abs(a), abs(b)), abs(c));
-    vec3 longest = max(max(abs(c - b), abs(a - c)), abs(b - a));
-    float product = dot3(size, vec3(reach.y * longest.z + reach.z * longest.y, reach.z * longest.x + reach.x * longest.z,
-                                    reach.x * longest.y + reach.y * longest.x));
-    aside += EDGE_ROUNDING * product;
-    return all(greaterThanEqual(middle, -aside)) || all(lessThanEqual(middle, aside));
+// Takes the first triangle whose bit is set: its index in the list.
+uint first_of(inout Candidates marked) {
+    bool later = marked.meshes == uvec4(0u);
+    uvec4 words = later ? marked.more : marked.meshes;
+    uvec4 lowest = words & (~words + 1u);
+    bvec4 skipped = bvec4(false, words.x != 0u, (words.x | words.y) != 0u, (words.x | words.y | words.z) != 0u);
+    lowest = mix(lowest, uvec4(0u), skipped);
+    uvec4 lanes = uvec4(0u, 32u, 64u, 96u) + uvec4(max(findLSB(lowest), ivec4(0)));
+    uvec4 chosen = mix(lanes, uvec4(0u), equal(lowest, uvec4(0u)));
+    if (later) marked.more ^= lowest;
+    else marked.meshes ^= lowest;
+    return (chosen.x | chosen.y | chosen.z | chosen.w) + (later ? 128u : 0u);
 }
 
-// Returns a bit for each listed triangle that rays of the pixel may meet, but for those that are held from here on; all
-// for parallel rays.
-uvec4 listed_in_pixel(const Header header, uvec2 pixel, uint list) {
-    uint first = list + CELL_HEAD + tile_lists[list];
-    uint count = tile_lists[list + 2u];
+bool any_left(const Candidates marked) { return (marked.meshes | marked.more) != uvec4(0u); }
+
+// The texel of a listed triangle.
+uint listed_texel(const Candidates candidates, uint index) {
+    uint place = tile_lists[candidates.list] + index;
+    uint more = tile_lists[candidates.list + CELL_HEAD + LIST_ROOM];
+    return tile_lists[place < LIST_ROOM ? candidates.list + CELL_HEAD + place : more + place - LIST_ROOM];
+}
+
+// Marks the listed triangles that rays of the pixel may meet; all for parallel rays.
+void test_in_pixel(const Header header, uvec2 pixel, inout Candidates candidates) {
     bool parallel = MODE_IS(PROJECTIONS, PROJECTION_ORTHOGRAPHIC, header.projection);
     vec2 place = (vec2(pixel) - 0.5 * vec2(header.image_size)) + 0.5;
     vec3 way = (place.x * vec3(header.step_x) + place.y * vec3(header.step_y)) + vec3(header.forward);
     vec3 x = header.filter_radius * vec3(header.step_x);
     vec3 y = header.filter_radius * vec3(header.step_y);
-    const real3 none = real3(0.0);
-#define CLEAR_HELD(k) held_##k = Held(0u, none, none, none, none, none, none, false);
-    EACH_HELD(CLEAR_HELD)
-#undef CLEAR_HELD
-    uint kept = 0u;
-    uvec4 met = uvec4(0u);
+    vec3 size = abs(way) + (abs(x) + abs(y));
+    uint count = tile_lists[candidates.list + 2u];
     for (uint k = 0u; k < count; k++) {
-        Held triangle = held_triangle(tile_lists[first + k]);
-        bool is_met = parallel || may_be_met(triangle, way, x, y);
-        if (HOLDS_TRIANGLES && ORIGIN_IS_EYE) {
-#define HOLD(n) if (is_met && kept == uint(n)) held_##n = triangle;
-            EACH_HELD(HOLD)
-#undef HOLD
-            kept += is_met ? 1u : 0u;
-            is_met = is_met && kept > 4u;
-        }
+        uint at = listed_texel(candidates, k);
+        EdgeForms edges = edge_forms_of(point_in(mesh_texel(at)), point_in(mesh_texel(at + 1u)), point_in(mesh_texel(at + 2u)), way, x, y, size);
+        vec3 aside = (abs(edges.along_x) + abs(edges.along_y)) + edges.slack;
+        bool is_met = parallel || all(greaterThanEqual(edges.here, -aside)) || all(lessThanEqual(edges.here, aside));
         uint bit = is_met ? 1u << (k & 31u) : 0u;
-        met |= bit * uvec4(equal(uvec4(k >> 5u), uvec4(0u, 1u, 2u, 3u)));
+        uvec4 bits = bit * uvec4(equal(uvec4((k >> 5u) & 3u), uvec4(0u, 1u, 2u, 3u)));
+        if (k < 128u) candidates.meshes |= bits;
+        else candidates.more |= bits;
     }
-    return met;
+}
+
+// Marks the listed triangles that rays of the pixel may meet, but for those that are held from here on. Where memory is
+// read lane by lane, tile culling has tested them.
+void mark_in_pixel(const Header header, uvec2 place, uvec2 pixel, inout Candidates candidates) {
+    if (!HOLDS_TRIANGLES) {
+        test_in_pixel(header, pixel, candidates);
+        return;
+    }
+    uvec2 part = (place % header.cell_side) / (header.cell_side / CELL_PARTS);
+    uint number = part.y * CELL_PARTS + part.x;
+    uint more = tile_lists[candidates.list + CELL_HEAD + LIST_ROOM];
+    uint at = candidates.list + CELL_HEAD + LIST_ROOM + 1u + number * CELL_MASK_WORDS;
+    candidates.meshes = uvec4(tile_lists[at], tile_lists[at + 1u], tile_lists[at + 2u], 0u);
+    if (more != NO_LIST) {
+        at = more + MAX_MORE_LISTED + number * MORE_MASK_WORDS;
+        candidates.meshes.w = tile_lists[at];
+        candidates.more = uvec4(tile_lists[at + 1u], tile_lists[at + 2u], tile_lists[at + 3u], tile_lists[at + 4u]);
+    }
+    bool holds = false;
+    if (HOLDS) holds = !GROUPED;
+    if (holds) {
+#define HOLD(n)                                                                                              \
+    if (n < HELD_TRIANGLES) {                                                                                \
+        held_##n = NOTHING_HELD;                                                                             \
+        if (any_left(candidates)) held_##n = held_triangle(listed_texel(candidates, first_of(candidates))); \
+    }
+        EACH_HELD(HOLD)
+#undef HOLD
+    }
 }
 
 // Where a ray from the eye meets it, else -1.
@@ -95,13 +134,7 @@ real distance_to_held(const Held triangle, real3 d) {
     return distance_by(edges, triangle.a, triangle.b, triangle.c, d, triangle.one_sided);
 }
 
-// Finds the nearest listed triangle if that is nearer than `best`; of those at the same t the first one. Returns true if
-// nothing that is not listed can be nearer. Meshes that are leaves of the tree over all are in no list.
-bool nearest_listed(const Ray ray, const Candidates candidates, inout real best, inout FoundTriangle triangle) {
-    uint first = candidates.list + CELL_HEAD + tile_lists[candidates.list];
-    float depth = uintBitsToFloat(tile_lists[candidates.list + 3u]);
-    uint found = NO_SHAPE;
-#define NEARER(next, at_next)                                                                              \
+#define NEARER(best, found, next, at_next)                                                                 \
     {                                                                                                      \
         real t = next;                                                                                     \
         uint at = at_next;                                                                                 \
@@ -109,27 +142,49 @@ bool nearest_listed(const Ray ray, const Candidates candidates, inout real best,
         best = nearer ? t : best;                                                                          \
         found = nearer ? at : found;                                                                       \
     }
-    if (HOLDS_TRIANGLES && ORIGIN_IS_EYE) {
-#define TRY(k) NEARER(distance_to_held(held_##k, ray.direction), held_##k.at)
-        EACH_HELD(TRY)
+
+// Finds the nearest marked triangle for each sample of the group.
+void find_for_group(Candidates marked) {
+    for (uint k = 0u; k < GROUP; k++) {
+        group_nearest[k] = FAR;
+        group_found[k] = NO_SHAPE;
+    }
+    while (any_left(marked)) {
+        Held triangle = held_triangle(listed_texel(marked, first_of(marked)));
+        for (uint k = 0u; k < GROUP; k++) NEARER(group_nearest[k], group_found[k], distance_to_held(triangle, group_ways[k]), triangle.at)
+    }
+}
+
+// Finds the nearest marked triangle if that is nearer than `best`; of those at the same t the first one. Returns true if
+// nothing that is not listed can be nearer. Meshes that are leaves of the tree over all are in no list.
+bool nearest_listed(const Ray ray, const Candidates candidates, inout real best, inout FoundTriangle triangle) {
+    float depth = uintBitsToFloat(tile_lists[candidates.list + 3u]);
+    uint found = NO_SHAPE;
+    bool loops = true;
+    if (HOLDS) {
+        loops = !BY_LISTS;
+        if (GROUPED) {
+            for (uint k = 0u; k < GROUP; k++) {
+                if (k == group_sample) NEARER(best, found, group_nearest[k], group_found[k])
+            }
+        } else {
+#define TRY(k) if (k < HELD_TRIANGLES) NEARER(best, found, distance_to_held(held_##k, ray.direction), held_##k.at)
+            EACH_HELD(TRY)
 #undef TRY
-    }
-    uvec4 rest = candidates.meshes;
-    while (any(notEqual(rest, uvec4(0u)))) {
-        // The lowest word that is not empty comes first.
-        if (rest.x == 0u) {
-            rest = uvec4(rest.yzw, 0u);
-            first += 32u;
-            continue;
         }
-        uint texel = tile_lists[first + uint(findLSB(rest.x))];
-        rest.x &= rest.x - 1u;
-        NEARER(distance_in(texel, ray, ORIGIN_IS_EYE, false), texel)
     }
-#undef NEARER
+    if (loops) {
+        Candidates rest = candidates;
+        while (any_left(rest)) {
+            uint texel = listed_texel(rest, first_of(rest));
+            NEARER(best, found, distance_in(texel, ray, ORIGIN_IS_EYE, false), texel)
+        }
+    }
     triangle.at = found;
     if (PLACED_MESHES) triangle.mesh = found == NO_SHAPE ? NO_SHAPE : mesh_texel(found + 1u).w;
     return best <= depth;
 }
+
+#undef NEARER
 
 #endif

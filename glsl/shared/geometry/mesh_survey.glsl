@@ -4,6 +4,7 @@
 #define MESH_SURVEY_GLSL
 
 #include "beams.glsl"
+#include "mesh_edges.glsl"
 
 // Rays that tell how deep a cell is: those at its corners and at its middle.
 const uint PROBES = 5u;
@@ -20,6 +21,9 @@ struct CellRays {
 
 // What is known of the cell so far.
 struct Survey {
+    uint cell;          // its first word
+    uint first;         // place of the first triangle in its list
+    uint more;          // first word of its room for more, if it has any
     uint count;         // of triangles in its list
     float depth;        // no triangle that is not in the list is met up to here
     float met[PROBES];  // where the probes meet the first triangle
@@ -60,7 +64,7 @@ float depth_in(const Header header, const CellRays cell, vec3 low, vec3 high) {
     return outside || along + half_depth < 0.0 ? -1.0 : max(along - half_depth, 0.0);
 }
 
-// Where a ray meets the triangle, FAR if it does not; as `distance_in` of mesh.glsl.
+// Where a ray meets the triangle, FAR if it does not; as `distance_in` of mesh_tests.glsl.
 float meets_at(vec3 a, vec3 b, vec3 c, vec3 d, bool one_sided) {
     vec3 edges = vec3(dot3(d, cross3(b + c, c - b)), dot3(d, cross3(c + a, a - c)), dot3(d, cross3(a + b, b - a)));
     bool back = edges.x >= 0.0 && edges.y >= 0.0 && edges.z >= 0.0;
@@ -71,10 +75,28 @@ float meets_at(vec3 a, vec3 b, vec3 c, vec3 d, bool one_sided) {
     return (front || back) && whole != 0.0 && t > 0.0 ? t : FAR;
 }
 
-// Adds a triangle to the list, which begins at `list` and has room for so many.
-void add_to_list(const Header header, const CellRays cell, uint at, vec3 a, vec3 b, vec3 c, bool one_sided, uint list, uint room, inout Survey survey) {
-    if (survey.count < room) {
-        found[list + survey.count] = at;
+// Returns the first word of a room for more that is free now; NO_LIST if there is none.
+uint more_room(const Header header) {
+    uint side = header.cell_side;
+    uint rooms = ((header.film_size.x + side - 1u) / side) * ((header.film_size.y + side - 1u) / side) * CELL_WORDS;
+    uint room = (uint(found.length()) - rooms - 1u) / MORE_WORDS;
+    uint taken = atomicAdd(found[rooms], 1u);
+    return taken < room ? rooms + 1u + taken * MORE_WORDS : NO_LIST;
+}
+
+// The word of a triangle in the list.
+uint listed_at(const Survey survey, uint index) {
+    uint place = survey.first + index;
+    return place < LIST_ROOM ? survey.cell + CELL_HEAD + place : survey.more + place - LIST_ROOM;
+}
+
+// Adds a triangle to the list.
+void add_to_list(const Header header, const CellRays cell, uint at, vec3 a, vec3 b, vec3 c, bool one_sided, inout Survey survey) {
+    uint place = survey.first + survey.count;
+    if (place == LIST_ROOM && survey.more == NO_LIST) survey.more = more_room(header);
+    uint room = survey.more == NO_LIST ? LIST_ROOM : LIST_ROOM + MAX_MORE_LISTED;
+    if (place < room) {
+        found[listed_at(survey, survey.count)] = at;
         survey.count++;
     } else {
         // What is left out may be met from here on.
@@ -89,9 +111,25 @@ void add_to_list(const Header header, const CellRays cell, uint at, vec3 a, vec3
     survey.depth = min(survey.depth, farthest);
 }
 
+// True if rays of the cell may meet the triangle; those of a perspective camera are within a pyramid.
+bool meets_cell(const Header header, const PixelFrustum frame, uint square, vec3 a, vec3 b, vec3 c) {
+    if (is_parallel(header)) {
+        Triangle triangle;
+        triangle.a = a;
+        triangle.b = b;
+        triangle.c = c;
+        return may_meet(header, frame, square, triangle);
+    }
+    vec3 x = 0.5 * frame.rays[0];
+    vec3 y = 0.5 * frame.rays[1];
+    vec3 way = frame.rays[2] + (x + y);
+    EdgeForms edges = edge_forms_of(a, b, c, way, x, y, abs(way) + (abs(x) + abs(y)));
+    vec3 aside = (abs(edges.along_x) + abs(edges.along_y)) + edges.slack;
+    return all(greaterThanEqual(edges.here, -aside)) || all(lessThanEqual(edges.here, aside));
+}
+
 // Adds the triangles of all meshes but those that are leaves of the tree over all, which end the depth.
-void survey_meshes(const Header header, const PixelFrustum frame, uint square, const CellRays cell, uint list, uint room,
-                   inout Survey survey) {
+void survey_meshes(const Header header, const PixelFrustum frame, uint square, const CellRays cell, inout Survey survey) {
     uint waiting[TREE_STACK];
     float depths[TREE_STACK];
     uint height = 0u;
@@ -122,14 +160,11 @@ void survey_meshes(const Header header, const PixelFrustum frame, uint square, c
         } else {
             for (uint k = 0u; k < count; k++) {
                 uint at = reference + 3u * k;
-                Triangle triangle;
                 uvec4 first = mesh_texel(at);
-                triangle.a = point_in(first);
-                triangle.b = point_in(mesh_texel(at + 1u));
-                triangle.c = point_in(mesh_texel(at + 2u));
-                if (may_meet(header, frame, square, triangle)) {
-                    add_to_list(header, cell, at, triangle.a, triangle.b, triangle.c, first.w != 0u, list, room, survey);
-                }
+                vec3 a = point_in(first);
+                vec3 b = point_in(mesh_texel(at + 1u));
+                vec3 c = point_in(mesh_texel(at + 2u));
+                if (meets_cell(header, frame, square, a, b, c)) add_to_list(header, cell, at, a, b, c, first.w != 0u, survey);
             }
         }
         while (height > 0u && depths[height - 1u] > survey.depth) height--;
@@ -142,6 +177,45 @@ void survey_meshes(const Header header, const PixelFrustum frame, uint square, c
         if (opened + 1u == MAX_CELL_NODES) survey.depth = min(survey.depth, depths[height]);
     }
     for (uint k = 0u; k < height; k++) survey.depth = min(survey.depth, depths[k]);
+}
+
+// Marks for each part of the cell the triangles of its list that the part's rays may meet; all for parallel rays. In a
+// part, rays are those through its middle and as much to either side as `radius` steps, in which edge functions are affine.
+void mark_parts(const Header header, uvec2 pixel, const Survey survey) {
+    uint masks = survey.cell + CELL_HEAD + LIST_ROOM + 1u;
+    float side = float(header.cell_side / CELL_PARTS);
+    float radius = header.filter_radius + 0.5 * (side - 1.0);
+    vec2 place = (vec2(pixel) - 0.5 * vec2(header.image_size)) + 0.5 * side;
+    vec3 way = (place.x * header.step_x + place.y * header.step_y) + header.forward;
+    vec3 x = side * header.step_x;
+    vec3 y = side * header.step_y;
+    vec3 size = abs(way) + (4.0 + radius) * (abs(x) + abs(y));
+    uint words = survey.more == NO_LIST ? CELL_MASK_WORDS : CELL_MASK_WORDS + MORE_MASK_WORDS;
+    for (uint word = 0u; word < words; word++) {
+        uint marks[CELL_PARTS * CELL_PARTS];
+        for (uint part = 0u; part < CELL_PARTS * CELL_PARTS; part++) marks[part] = 0u;
+        uint end = min(survey.count, 32u * word + 32u);
+        for (uint k = 32u * word; k < end; k++) {
+            uint at = found[listed_at(survey, k)];
+            vec3 a = point_in(mesh_texel(at));
+            vec3 b = point_in(mesh_texel(at + 1u));
+            vec3 c = point_in(mesh_texel(at + 2u));
+            EdgeForms edges = edge_forms_of(a, b, c, way, x, y, size);
+            vec3 aside = (radius / side) * (abs(edges.along_x) + abs(edges.along_y)) + edges.slack;
+            vec3 least = edges.here - aside;
+            uint bit = 1u << (k & 31u);
+            for (uint part = 0u; part < CELL_PARTS * CELL_PARTS; part++) {
+                vec3 low = (least + float(part % CELL_PARTS) * edges.along_x) + float(part / CELL_PARTS) * edges.along_y;
+                vec3 high = low + 2.0 * aside;
+                bool is_met = min(min(high.x, high.y), high.z) >= 0.0 || max(max(low.x, low.y), low.z) <= 0.0;
+                marks[part] |= is_met || is_parallel(header) ? bit : 0u;
+            }
+        }
+        bool in_cell = word < CELL_MASK_WORDS;
+        uint first = in_cell ? masks + word : survey.more + MAX_MORE_LISTED + word - CELL_MASK_WORDS;
+        uint stride = in_cell ? CELL_MASK_WORDS : MORE_MASK_WORDS;
+        for (uint part = 0u; part < CELL_PARTS * CELL_PARTS; part++) found[first + part * stride] = marks[part];
+    }
 }
 
 #endif

@@ -96,6 +96,16 @@ real distance_between(real3 a, real3 b, real3 c, real3 d, bool one_sided) {
     return distance_by(edges, a, b, c, d, one_sided);
 }
 
+// Of corners as seen from the eye.
+real distance_between(real3 a, real3 b, real3 c, const Ray ray, bool from_eye, bool one_sided) {
+    if (!from_eye) {
+        a -= ray.origin;
+        b -= ray.origin;
+        c -= ray.origin;
+    }
+    return distance_between(a, b, c, ray.direction, one_sided);
+}
+
 // A shadow ray that surfaces may let pass meets both sides of all.
 bool meets_backs = false;
 
@@ -105,12 +115,7 @@ real distance_in(uint at, const Ray ray, bool from_eye, bool any) {
     real3 a = real3(point_in(first));
     real3 b = real3(point_in(mesh_texel(at + 1u)));
     real3 c = real3(point_in(mesh_texel(at + 2u)));
-    if (!from_eye) {
-        a -= ray.origin;
-        b -= ray.origin;
-        c -= ray.origin;
-    }
-    return distance_between(a, b, c, ray.direction, !any && !meets_backs && first.w != 0u);
+    return distance_between(a, b, c, ray, from_eye, !any && !meets_backs && first.w != 0u);
 }
 #endif
 

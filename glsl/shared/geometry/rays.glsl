@@ -6,10 +6,7 @@
 
 #include "../tile_culling.glsl"
 #include "kinds.glsl"
-#include "mesh_lists.glsl"
-
-// A camera ray may meet something that no list holds.
-bool unfinished = false;
+#include "mesh_shades.glsl"
 
 // Replaces the hit by the nearest triangle of a mesh, if that is nearer. `first`: the shape that is the first mesh.
 void nearest_in_meshes(const Ray ray, const Candidates candidates, uint first, inout Hit hit) {
@@ -20,7 +17,7 @@ void nearest_in_meshes(const Ray ray, const Candidates candidates, uint first, i
         is_complete = candidates.list != NO_LIST && nearest_listed(ray, candidates, best, found);
         unfinished = unfinished || !is_complete;
     }
-    if (MESH_SEARCH != SEARCH_LISTS) {
+    if (!BY_LISTS) {
         if (!is_complete) search(0u, nowhere(ray), first, ray, ORIGIN_IS_EYE, false, best, found);
     }
     if (found.at != NO_SHAPE) hit = hit_of(found, first, best);
@@ -64,12 +61,14 @@ Hit nearest_hit(const Ray ray, uint skip, const Candidates candidates) {
     return hit;
 }
 
-// True when a shape lies at 0 < t < t_max, whichever is found first.
-bool occluded(const Ray ray, real t_max, uint skip) {
+// True when a shape lies at 0 < t < t_max, whichever is found first. `normal`: of the surface that the ray has left.
+bool occluded(const Ray ray, real t_max, uint skip, real3 normal) {
     bool blocked = false;
     COUNT_SHAPES
 #define OCCLUDES(Type, at, LIST, first, count, is_planar, is_polygonal, is_listed, is_concave)                                                 \
-    if (LIST != 0u) {                                                                                        \
+    if (is_concave && SHADES) {                                                                              \
+        blocked = is_shaded(ray, t_max, seen_corner, normal);                                                \
+    } else if (LIST != 0u) {                                                                                 \
         if (is_concave) blocked = blocked || occluded_by_meshes(ray, first, t_max);                          \
         else for (uint i = 0u; i < count; i++) {                                                             \
             real2 local;                                                                                     \

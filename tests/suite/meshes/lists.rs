@@ -6,7 +6,7 @@ use moire::internal::core::range::Rect;
 use moire::internal::lab::metrics::compare;
 use moire::internal::render::Tuning;
 use moire::internal::scene::model::{Algorithm, Lens, Pattern, Precision, Projection, Scene};
-use moire::internal::schema::layout::{CELL_WORDS, MAX_LISTED};
+use moire::internal::schema::layout::{CELL_WORDS, MAX_LISTED_WITH_MESHES, MAX_MORE_LISTED};
 
 use crate::stage::{assert_same_bits, packed, render, render_with, small};
 use crate::tile_culling::{assert_same, culls_tiles, without};
@@ -41,8 +41,10 @@ fn full_lists_say_up_to_which_depth_they_are_complete() {
     let scene = packed(scene, None);
     let (film, words) = culls_tiles(&scene);
     let cells: Vec<&[u32]> = words.chunks(CELL_WORDS as usize).collect();
-    let is_full = |cell: &&&[u32]| cell[0] + cell[2] == MAX_LISTED && f32::from_bits(cell[3]) < 1e30;
+    let listed = |cell: &&[u32]| cell[0] + cell[2];
+    let is_full = |cell: &&&[u32]| listed(cell) >= MAX_LISTED_WITH_MESHES && f32::from_bits(cell[3]) < 1e30;
     assert!(cells.iter().filter(is_full).count() > 0, "no list is full");
+    assert!(cells.iter().any(|cell| listed(cell) > MAX_LISTED_WITH_MESHES), "no cell has room for more");
     assert_same_bits(&film, &render(&without(&scene)), "full lists");
 }
 
@@ -52,7 +54,8 @@ fn depths_of_cells_end_behind_what_hides_the_rest() {
     let mut hidden = 0;
     for cell in words.chunks(CELL_WORDS as usize) {
         let depth = f32::from_bits(cell[3]);
-        assert!(depth > 0.0 && depth <= 1e30 && cell[0] + cell[2] <= MAX_LISTED, "{depth}, {:?}", &cell[..4]);
+        let most = MAX_LISTED_WITH_MESHES + MAX_MORE_LISTED;
+        assert!(depth > 0.0 && depth <= 1e30 && cell[0] + cell[2] <= most, "{depth}, {:?}", &cell[..4]);
         hidden += usize::from(depth < 1e30 && cell[2] > 0);
     }
     assert!(hidden > 20, "{hidden} cells end behind a surface");
