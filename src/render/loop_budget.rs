@@ -19,8 +19,9 @@ const SOLID: u64 = 10;
 const TAPS: u64 = 5;
 const BOXES: u64 = MAX_BOXES as u64;
 const CONES: u64 = MAX_CONES as u64;
-/// Nodes and triangles of all trees together that a ray meets, with a margin: tens of them.
-const TREES: u64 = 512;
+/// Nodes and triangles of all trees together that a ray meets, with a margin: tens of them. With as many for a shadow ray,
+/// 64 samples are taken at once.
+const TREES: u64 = 480;
 /// Nodes of each tree, of most of which a ray meets the root alone.
 const TREE: u64 = 16;
 /// Surfaces that a path passes by their alpha, of which few have many.

@@ -14,7 +14,6 @@ const WITHOUT_TWIN: &[(&str, &str)] = &[
     ("mip_chain", "its twin makes levels on the host: `src/texture/mips`"),
     ("geometry/mesh_lists", "lists shorten a search: pictures with and without them are equal"),
     ("geometry/mesh_survey", "it makes these lists"),
-    ("geometry/mesh_edges", "bounds by which triangles are listed"),
     ("geometry/mesh_shades", "so do those of the triangles that may shade a pixel"),
     ("geometry/mesh_receivers", "what a pixel sees, for these"),
     ("probe_main", "a list of look-ups"),

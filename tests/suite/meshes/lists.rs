@@ -4,8 +4,9 @@
 use glam::DVec3;
 use moire::internal::core::range::Rect;
 use moire::internal::lab::metrics::compare;
+use moire::internal::pack::features::bounces;
 use moire::internal::render::Tuning;
-use moire::internal::scene::model::{Algorithm, Lens, Pattern, Precision, Projection, Scene};
+use moire::internal::scene::model::{Algorithm, Lens, Light, Pattern, Precision, Projection, Scene};
 use moire::internal::schema::layout::{CELL_WORDS, MAX_LISTED_WITH_MESHES, MAX_MORE_LISTED};
 
 use crate::stage::{assert_same_bits, packed, render, render_with, small};
@@ -46,6 +47,33 @@ fn full_lists_say_up_to_which_depth_they_are_complete() {
     assert!(cells.iter().filter(is_full).count() > 0, "no list is full");
     assert!(cells.iter().any(|cell| listed(cell) > MAX_LISTED_WITH_MESHES), "no cell has room for more");
     assert_same_bits(&film, &render(&without(&scene)), "full lists");
+}
+
+/// A knot alone shades itself: of the triangles that may shade a pixel some are found once, others by the tree.
+#[test]
+fn shadows_are_the_same_with_and_without_lists() {
+    let mut scene = knot(128, 16);
+    scene.shapes.planes.clear();
+    scene.shapes.meshes.retain(|mesh| mesh.triangle_count() > 1000);
+    let middle = DVec3::new(0.9, 0.75, 0.0);
+    let mut shaded = 0;
+    for (k, direction) in
+        [[-0.5, 1.0, 0.8], [1.0, 0.02, 0.1], [0.3, -0.2, 1.0], [0.1, 0.2, -1.0]].into_iter().enumerate()
+    {
+        let direction = DVec3::from(direction);
+        scene.lights = vec![Light::Directional { direction, irradiance: DVec3::splat(3.0) }];
+        scene.camera.look_at = middle;
+        scene.camera.eye = middle + [1.6, 2.5, 4.0, 9.0][k] * DVec3::new(0.3, 0.4, 0.85);
+        let lit = packed(scene.clone(), None);
+        assert!(!bounces(&lit) && lit.records.lights.len() == 1 && lit.records.meshes.len() == 1);
+        assert!(lit.records.planes.is_empty() && lit.records.triangles.is_empty() && lit.culls_tiles());
+        let picture = render(&lit);
+        assert_same_bits(&picture, &render(&without(&lit)), &format!("light {k}"));
+        let mut bright = lit.clone();
+        bright.records.lights[0].direction = -bright.records.lights[0].direction;
+        shaded += usize::from(compare(&picture, &render(&bright)).unwrap().rmse > 0.01);
+    }
+    assert_eq!(shaded, 4, "the light does not matter");
 }
 
 #[test]
