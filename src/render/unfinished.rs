@@ -105,7 +105,7 @@ impl UnfinishedPixels {
                 places.push(PixelBatch::place_of((pixel - first) as u32, width));
             }
         })?;
-        places.sort_by_key(|&place| (place >> 16) / BLOCK << 16 | (place & 0xFFFF) / BLOCK);
+        places.sort_by_key(|&place| (((place >> 16) / BLOCK) << 16) | ((place & 0xFFFF) / BLOCK));
         Ok(places)
     }
 }
