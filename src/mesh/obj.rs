@@ -269,7 +269,7 @@ mod tests {
         assert_eq!((mesh.colors.len(), mesh.colors[0]), (5, Vec4::ONE));
         assert_eq!(mesh.colors[4], Vec4::new(0.5, 0.25, 0.0, 1.0));
         assert!(square("v 0 0 9 1\nf 1 2 3\n").unwrap().colors.is_empty());
-        assert!(square("v 0 0 9 1 1 x\nf 1 2 3\n").unwrap_err().to_string().contains("line 5"));
+        assert!(square("v 0 0 9 1 1 x\nf 1 2 3\n").unwrap_err().to_string().contains("line 7"));
     }
 
     #[test]
