@@ -8,6 +8,7 @@ use glam::{DVec2, DVec3, DVec4};
 use ply_rs_bw::ply::{ElementDef, PropertyType, ScalarType};
 
 use super::{Fault, Mesh, MeshFormat, MeshTriangle, check, polygon};
+use crate::core::color::srgb_to_linear;
 use header::is_number;
 use records::{Body, Face, NUMBERS, Vertex};
 
@@ -82,13 +83,10 @@ impl Encoding {
         code / self.most
     }
 
-    /// Returns the light of a code (IEC 61966-2-1).
+    /// Returns the light of a code.
     fn light(self, code: f64) -> f64 {
-        match self.share(code) {
-            share if !self.is_srgb => share,
-            share if share <= 0.04045 => share / 12.92,
-            share => ((share + 0.055) / 1.055).powf(2.4),
-        }
+        let share = self.share(code);
+        if self.is_srgb { srgb_to_linear(share) } else { share }
     }
 }
 

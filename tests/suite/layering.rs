@@ -17,7 +17,7 @@ pub const ALLOWED: &[(&str, &[&str])] = &[
     ("core", &[]),
     ("schema", &["core"]),
     ("texture", &["core", "schema"]),
-    ("mesh", &[]),
+    ("mesh", &["core"]),
     ("tree", &["schema::constants"]),
     ("scene", &["core", "texture", "schema", "mesh"]),
     ("pack", &["core", "texture", "scene", "schema", "tree"]),
