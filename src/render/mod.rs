@@ -13,6 +13,7 @@ mod images;
 mod layer_samples;
 pub mod layers;
 mod loop_budget;
+mod mesh_passes;
 mod mip_chain;
 mod picture;
 mod plan;

@@ -12,7 +12,7 @@ use crate::gpu::{Gpu, Pipeline};
 use crate::pack::features::Features;
 use crate::pack::{self, PackedScene, Schedule};
 use crate::scene::model::Scene;
-use crate::schema::constants::SEARCH_ALL;
+use crate::schema::constants::{SEARCH_ALL, SEARCH_TEAM, SEARCH_TEAM_REST, TEAM_HEIGHT, TEAM_WIDTH};
 use crate::schema::enums::{Quantity, TexelSource};
 use crate::schema::layout::{Header, Slice};
 use crate::schema::specialization::Constant;
@@ -21,12 +21,13 @@ use super::batches::BatchSampler;
 use super::beams::BeamPass;
 use super::film_buffer::FilmBuffer;
 use super::loop_budget::samples_at_once;
+use super::mesh_passes;
 use super::resources::{Resources, shader_for};
 use super::sample_pipeline::SamplePipeline;
 use super::texel_buffer;
 use super::tile_culling::TileCulling;
-use super::tiles::TileRenderer;
-use super::unfinished::{self, UnfinishedPixels};
+use super::tiles::{Rest, TileRenderer};
+use super::unfinished::UnfinishedPixels;
 use super::{Report, Tuning, build_pipeline, specialization, tuning};
 
 pub struct Session<'a> {
@@ -179,16 +180,28 @@ impl<'a> Session<'a> {
         features: &Features,
         shader: &'static Shader,
     ) -> Result<(TileRenderer<'a>, Arc<FilmBuffer>)> {
-        let passes = unfinished::passes(self.gpu, scene, features);
-        let (pipeline, groups_per_tile) = self.pipeline(features, shader, passes[0])?;
+        let passes = mesh_passes::passes(self.gpu.info(), &self.tuning, scene, features);
+        let built = passes
+            .searches
+            .iter()
+            .map(|&search| self.pipeline(features, shader, search, passes.lists_shades));
+        let mut built = built.collect::<Result<Vec<_>>>()?;
+        let (pipeline, groups_per_tile) = built.remove(0);
         let film = self.film(scene, features)?;
-        let rest = match passes[1..] {
-            [] => None,
-            ref passes => {
-                let pipelines = passes.iter().map(|&pass| Ok(self.pipeline(features, shader, pass)?.0));
-                let pipelines = pipelines.collect::<Result<Vec<_>>>()?;
+        let mut pipelines: Vec<_> = built.into_iter().map(|(pipeline, _)| pipeline).collect();
+        let rest = match passes.searches {
+            [_] => Rest::Nothing,
+            [SEARCH_TEAM, _] => Rest::Tiles(pipelines.remove(0)),
+            _ => {
                 let [x, y] = self.tuning.group_size(self.gpu.info())?;
-                Some(UnfinishedPixels::new(self.gpu, &self.resources, shader, pipelines, x * y, &film)?)
+                Rest::Lists(UnfinishedPixels::new(
+                    self.gpu,
+                    &self.resources,
+                    shader,
+                    pipelines,
+                    x * y,
+                    &film,
+                )?)
             }
         };
         let group = self.resources.bind(self.gpu, &pipeline, shader, &film.buffer, None)?;
@@ -199,7 +212,7 @@ impl<'a> Session<'a> {
 
     fn sample_pipeline(&self, scene: &PackedScene, features: &Features) -> Result<SamplePipeline> {
         let shader = shader_for(scene.algorithm, features)?;
-        let (pipeline, groups_per_tile) = self.pipeline(features, shader, SEARCH_ALL)?;
+        let (pipeline, groups_per_tile) = self.pipeline(features, shader, SEARCH_ALL, false)?;
         Ok(SamplePipeline { pipeline, shader, groups_per_tile })
     }
 
@@ -209,8 +222,12 @@ impl<'a> Session<'a> {
         features: &Features,
         shader: &'static Shader,
         search: u32,
+        lists_shades: bool,
     ) -> Result<(Arc<Pipeline>, u32)> {
-        let group_size = self.tuning.group_size(self.gpu.info())?;
+        let group_size = match search {
+            SEARCH_TEAM | SEARCH_TEAM_REST => [TEAM_WIDTH, TEAM_HEIGHT],
+            _ => self.tuning.group_size(self.gpu.info())?,
+        };
         let slots = self.resources.slots;
         let mut constants =
             specialization::constants(shader, features, &self.resources.sections, group_size, slots);
@@ -218,6 +235,7 @@ impl<'a> Session<'a> {
         let parameters = [
             (Constant::TablesInHead, tables_in_head),
             (Constant::MeshSearch, search),
+            (Constant::ListsShades, u32::from(lists_shades)),
             (Constant::Quantities, features.quantities),
         ];
         constants.extend(shader.values(parameters));

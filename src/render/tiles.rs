@@ -10,13 +10,21 @@ use super::unfinished::UnfinishedPixels;
 use crate::core::error::{Error, Result};
 use crate::core::progress::Progress;
 use crate::gpu::{BindGroup, Gpu, Pipeline};
+use crate::schema::constants::TEAM_SQUARES;
 use crate::schema::layout::Slice;
+
+/// What takes the samples of the pixels that a first pipeline leaves unfinished.
+pub enum Rest {
+    Nothing,
+    Lists(UnfinishedPixels),
+    /// A second pipeline, which skips the others by itself.
+    Tiles(Arc<Pipeline>),
+}
 
 pub struct TileRenderer<'a> {
     pub gpu: &'a Gpu,
     pub pipeline: Arc<Pipeline>,
-    /// Takes the samples of the pixels that the pipeline leaves unfinished.
-    pub rest: Option<UnfinishedPixels>,
+    pub rest: Rest,
     pub group: BindGroup,
     pub groups_per_tile: u32,
 }
@@ -26,12 +34,28 @@ impl TileRenderer<'_> {
     pub fn warm_up(&self, film: &FilmBuffer) -> Result<()> {
         if let Some(band) = film.bands(film.whole()).next() {
             let slice = Slice { sample_count: 1, ..band.slice() };
-            self.gpu.run(&self.pipeline, &self.group, bytemuck::bytes_of(&slice), [1, 1, 1])?;
-            if let Some(rest) = &self.rest {
+            self.run(&slice, [1, 1, 1], &mut Report::default())?;
+            if let Rest::Lists(rest) = &self.rest {
                 rest.warm_up(self.gpu, &band)?;
             }
         }
         Ok(())
+    }
+
+    /// Renders a slice, but for the pixels of lists; returns the wall time.
+    fn run(&self, slice: &Slice, groups: [u32; 3], report: &mut Report) -> Result<f64> {
+        let second = match &self.rest {
+            Rest::Tiles(pipeline) => Some(pipeline),
+            _ => None,
+        };
+        let mut seconds = 0.0;
+        let second = second.map(|pipeline| (pipeline, [groups[0], groups[1], TEAM_SQUARES]));
+        for (pipeline, groups) in [(&self.pipeline, groups)].into_iter().chain(second) {
+            let time = self.gpu.run(pipeline, &self.group, bytemuck::bytes_of(slice), groups)?;
+            report.add_slice(time);
+            seconds += time.wall_seconds;
+        }
+        Ok(seconds)
     }
 
     /// Renders the first `count` tiles of a band, in tile order.
@@ -49,16 +73,15 @@ impl TileRenderer<'_> {
                 let tiles = plan.tiles(count - first_tile, sample_count);
                 let slice = Slice { first_tile, first_sample, sample_count, ..band.slice() };
                 let groups = [self.groups_per_tile, tiles, 1];
-                let time = self.gpu.run(&self.pipeline, &self.group, bytemuck::bytes_of(&slice), groups)?;
-                report.add_slice(time);
-                plan.learn(tiles, sample_count, time.wall_seconds);
+                let seconds = self.run(&slice, groups, report)?;
+                plan.learn(tiles, sample_count, seconds);
                 progress.advance(plan.done());
                 if progress.cancelled() {
                     return Err(Error::Interrupted);
                 }
                 first_tile += tiles;
             }
-            if let Some(rest) = &self.rest {
+            if let Rest::Lists(rest) = &self.rest {
                 rest.finish(self.gpu, band, [first_sample, sample_count], report, progress)?;
             }
         }

@@ -52,11 +52,13 @@ pub struct Tuning {
     pub group: Option<[u32; 2]>,
     /// Largest length of a texel buffer in words, if less than the device allows.
     pub texel_words: Option<u64>,
+    /// Workgroups sample pixels of meshes together where they can; `None` chooses by the device.
+    pub teams: Option<bool>,
 }
 
 impl Default for Tuning {
     fn default() -> Self {
-        Tuning { texels: TexelChoice::Auto, group: None, texel_words: None }
+        Tuning { texels: TexelChoice::Auto, group: None, texel_words: None, teams: None }
     }
 }
 

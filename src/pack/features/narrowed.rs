@@ -84,6 +84,7 @@ pub fn narrowed(constant: Constant, s: &PackedScene) -> Option<u32> {
         | C::Quantities
         | C::MeshSearch
         | C::HoldsTriangles
+        | C::ListsShades
         | C::OpaqueUniforms
         | C::MipChannels
         | C::MipComponentBytes
