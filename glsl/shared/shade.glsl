@@ -130,7 +130,9 @@ vec3 advance(const Header header, const Points points, const SampleDimensions di
             Path before = path;
             bool continues = BOUNCES && path.depth < header.max_depth;
             Bsdf bsdf;
-            if (HAS_LIT) bsdf = bsdf_at(material, look.color, look.metallic, look.roughness, surface.normal, direction);
+            if (HAS_LIT) {
+                bsdf = bsdf_at(material, look.color, look.metallic, look.roughness, look.dielectric, look.edge, surface.normal, direction);
+            }
             is_alive = BOUNCES && bounced(header, hit, surface, print, material, dimensions, path);
             if (BOUNCES && HAS_LIT && (THIRD_LOBE || LIT_BY_ENVIRONMENT)) {
                 if (is_lit(material.model)) is_alive = goes_on(header, hit, surface, print, bsdf, carried, look.occlusion, dimensions, path);

@@ -10,6 +10,7 @@ mod phong;
 mod physical;
 mod relief;
 mod scales;
+mod specular;
 
 use std::path::Path;
 

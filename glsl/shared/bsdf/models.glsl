@@ -60,13 +60,15 @@ vec3 emitted(uint model, vec3 color) {
     return MODE_IS(MODELS, MODEL_UNLIT, model) ? unlit_emitted(color) : vec3(0.0);
 }
 
-Bsdf bsdf_at(const Material material, vec3 color, float metallic, float roughness, real3 normal, real3 direction) {
+// `dielectric` and `edge`: what the surface of a dielectric reflects head-on and at grazing angles.
+Bsdf bsdf_at(const Material material, vec3 color, float metallic, float roughness, vec3 dielectric, float edge, real3 normal,
+             real3 direction) {
     vec3 mirror = HAS(MODELS, MODEL_PHONG) ? vec3(mirrored(direction, normal)) : vec3(0.0);
     float diffuse_roughness = HAS(MODELS, MODEL_OREN_NAYAR) ? sqrt(material.alpha) : 0.0;
     MetallicRoughness facets = MetallicRoughness(vec3(0.0), vec3(0.0), vec3(0.0), 1.0, 0.0);
     if (MODE_IS(MODELS, MODEL_METALLIC_ROUGHNESS, material.model)) {
         float cosine = float(-dot3(normal, direction) * inverse_root(dot3(direction, direction)));
-        facets = metallic_roughness(color, metallic, roughness, material.specular, material.edge, cosine);
+        facets = metallic_roughness(color, metallic, roughness, dielectric, edge, cosine);
     }
     return Bsdf(material.model, color, material.specular, material.exponent, diffuse_roughness, vec3(normal), vec3(direction),
                 mirror, facets);

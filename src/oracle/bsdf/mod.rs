@@ -91,9 +91,15 @@ pub fn bsdf_at<'a>(
 ) -> Bsdf<'a> {
     let cosine = -normal.dot(direction) / direction.length();
     let facets = is_glossy(material.model).then(|| {
-        let dielectric = material.specular.as_dvec3();
-        let edge = f64::from(material.edge);
-        metallic_roughness(scene, look.color, look.metallic, look.roughness, dielectric, edge, cosine)
+        metallic_roughness(
+            scene,
+            look.color,
+            look.metallic,
+            look.roughness,
+            look.dielectric,
+            look.edge,
+            cosine,
+        )
     });
     Bsdf { material, albedo: look.color, normal, direction, mirror: mirrored(direction, normal), facets }
 }
