@@ -41,6 +41,11 @@ impl Model {
         self.is("glossy")
     }
 
+    /// Returns true if it reflects rays and transmits none.
+    pub fn is_mirror(self) -> bool {
+        self.is_specular() && !self.transmits()
+    }
+
     /// Returns true if it transmits rays.
     pub fn transmits(self) -> bool {
         self.is("transmits")

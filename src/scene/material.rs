@@ -240,6 +240,11 @@ impl Material {
         std::iter::once(&mut self.sampler).chain(bump).chain(others)
     }
 
+    /// Returns true if it mirrors a ray into one of many directions.
+    pub fn is_rough_mirror(&self) -> bool {
+        self.model.is_mirror() && self.roughness > 0.0
+    }
+
     /// Returns true if rays may pass its surface without being bent.
     pub fn lets_rays_pass(&self) -> bool {
         self.alpha != AlphaMode::Opaque || self.sides == Sides::Front

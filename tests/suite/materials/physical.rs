@@ -24,7 +24,7 @@ pub fn plane(degrees: f64, samples: u32, material: &str, rest: &str) -> String {
     )
 }
 
-fn mean(film: &Film) -> DVec3 {
+pub fn mean(film: &Film) -> DVec3 {
     let sum: DVec3 = film.pixels.iter().map(|p| DVec3::from_array(p.map(f64::from))).sum();
     sum / film.pixels.len() as f64
 }
