@@ -97,8 +97,8 @@ constants! {
     /// Entries along each side of the table of what facets reflect.
     FACET_TABLE_SIDE: u32 = 32;
     /// Bits of `second_uv_maps` above those of `MaterialMap`.
-    SECOND_UV_COLOR: u32 = 16;
-    SECOND_UV_BUMP: u32 = 32;
+    SECOND_UV_COLOR: u32 = 256;
+    SECOND_UV_BUMP: u32 = 512;
 
     /// Largest number of iterations over an ellipse's texels.
     MAX_ELLIPSE_STEPS: u32 = 8192;

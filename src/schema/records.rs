@@ -185,15 +185,14 @@ records! {
         kind: LightKind,
     }
 
+    /// Where a texture is absent, its index is `NO_TEXTURE`.
     Material in materials as "choice among materials" {
         color: Vec3,
         bump_strength: f32,
         model: Model,
-        /// Or `NO_TEXTURE`.
         texture_index: u32,
         sampler_index: u32,
         image_slot: u32,
-        /// Or `NO_TEXTURE`.
         bump_texture_index: u32,
         bump_sampler_index: u32,
         bump_image_slot: u32,
@@ -203,18 +202,15 @@ records! {
         /// Of model `metallic-roughness`.
         roughness: f32,
         metallic: f32,
-        /// Or `NO_TEXTURE`.
         roughness_texture_index: u32,
         roughness_sampler_index: u32,
         roughness_image_slot: u32,
-        /// Or `NO_TEXTURE`.
         emission_texture_index: u32,
         emission_sampler_index: u32,
         emission_image_slot: u32,
         /// Emitted radiance; times its texture.
         emission: Vec3,
         occlusion_strength: f32,
-        /// Or `NO_TEXTURE`.
         occlusion_texture_index: u32,
         occlusion_sampler_index: u32,
         occlusion_image_slot: u32,
@@ -227,7 +223,8 @@ records! {
         opacity: f32,
         /// Seen from the front only.
         one_sided: bool,
-        /// Colour of Phong's highlight, or the reflectance of a dielectric surface that is seen head-on.
+        /// Colour of Phong's highlight, or the reflectance of a dielectric surface that is seen head-on, which is at most
+        /// `edge` once a map has multiplied it.
         specular: Vec3,
         /// Reflectance of a dielectric surface at grazing angles, of model `metallic-roughness`.
         edge: f32,
@@ -235,6 +232,12 @@ records! {
         exponent: f32,
         /// Index of refraction.
         ior: f32,
+        specular_weight_texture_index: u32,
+        specular_weight_sampler_index: u32,
+        specular_weight_image_slot: u32,
+        specular_tint_texture_index: u32,
+        specular_tint_sampler_index: u32,
+        specular_tint_image_slot: u32,
     }
 
     /// The mapping from a surface point to a texture coordinate.

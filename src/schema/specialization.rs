@@ -18,6 +18,8 @@ specialization! {
     LightKinds = "LIGHT_KINDS", modes(LightKind), "light";
     /// Some point shines within a cone, or up to a distance.
     Ranged = "RANGED", switch, "cones and ranges of lights";
+    /// Some rough mirror reflects an environment that is a light.
+    RoughMirrors = "ROUGH_MIRRORS", switch, "environment in rough mirrors";
     Shadows = "SHADOWS", switch, "shadow rays";
     Bounces = "BOUNCES", switch, "bounces";
     Environment = "ENVIRONMENT", switch, "environment";

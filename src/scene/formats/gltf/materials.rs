@@ -29,6 +29,8 @@ impl CoordinateSets<'_> {
             &material.metallic_roughness_texture,
             &material.emissive_texture,
             &material.occlusion_texture,
+            &material.specular_texture,
+            &material.specular_color_texture,
         ];
         let read = || read.into_iter().flatten();
         let first = read().next();
@@ -125,6 +127,10 @@ pub(in crate::scene::formats) fn add(
         if added.model.is_glossy() {
             let map = material.metallic_roughness_texture;
             added.metallic_roughness_map = map.and_then(|found| reader.used(&found, ColorSpace::Linear));
+            added.specular_weight_map =
+                material.specular_texture.and_then(|found| reader.used(&found, ColorSpace::Linear));
+            added.specular_tint_map =
+                material.specular_color_texture.and_then(|found| reader.used(&found, ColorSpace::Srgb));
         }
         added.emission = material.emissive * material.emissive_strength;
         added.emission_map =
@@ -258,6 +264,8 @@ impl Reader<'_> {
             material.metallic_roughness_texture,
             material.emissive_texture,
             material.occlusion_texture,
+            material.specular_texture,
+            material.specular_color_texture,
         ];
         let others = others.into_iter().filter(|_| !material.unlit);
         let read: Vec<usize> =
@@ -285,8 +293,6 @@ impl Reader<'_> {
         let transmits = material.transmission > 0.0;
         tell(transmits && material.transmission <= 0.5, "transmission of half the light or less");
         tell(transmits && material.transmission_texture.is_some(), "the texture of transmission");
-        tell(material.specular_texture.is_some(), "the texture of specular");
-        tell(material.specular_color_texture.is_some(), "the texture of specular colours");
         if !left.is_empty() {
             let left = left.join(", ");
             self.note(&format!("not drawn: {left}"));
