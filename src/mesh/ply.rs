@@ -1,6 +1,7 @@
 //! Reads PLY files: text, and binary of either byte order. Input: their bytes. Output: a mesh whose triangles use one
 //! index per corner for position, texture coordinate and normal. Elements and properties of no use here are skipped.
 
+mod fixed;
 mod header;
 mod records;
 
@@ -9,6 +10,7 @@ use ply_rs_bw::ply::{ElementDef, PropertyType, ScalarType};
 
 use super::{Fault, Mesh, MeshFormat, MeshTriangle, check, polygon};
 use crate::core::color::srgb_to_linear;
+use fixed::Fixed;
 use header::is_number;
 use records::{Body, Face, NUMBERS, Vertex};
 
@@ -42,6 +44,24 @@ fn vertices(body: &mut Body, element: &ElementDef, mesh: &mut Mesh) -> Result<()
     let uv = (10..NUMBERS.len()).step_by(2).find(|&pair| has(pair, 2));
     let has_normals = has(3, 3);
     let encodings = has(6, 3).then(|| NUMBERS.map(|name| Encoding::of(element, name)));
+    let has_alpha = has(9, 1);
+    let color = |encodings: &[Encoding; NUMBERS.len()], [r, g, b, alpha]: [f64; 4]| {
+        let [r, g, b] = [(6, r), (7, g), (8, b)].map(|(k, code)| encodings[k].light(code));
+        DVec4::new(r, g, b, if has_alpha { encodings[9].share(alpha) } else { 1.0 }).as_vec4()
+    };
+    if let Some(fixed) = Fixed::take(body, element) {
+        mesh.positions = fixed.of_each([0, 1, 2], DVec3::from_array);
+        if has_normals {
+            mesh.normals = fixed.of_each([3, 4, 5], DVec3::from_array);
+        }
+        if let Some(encodings) = &encodings {
+            mesh.colors = fixed.of_each([6, 7, 8, 9], |codes| color(encodings, codes));
+        }
+        if let Some(pair) = uv {
+            mesh.uvs = fixed.of_each([pair, pair + 1], DVec2::from_array);
+        }
+        return Ok(());
+    }
     mesh.positions.reserve_exact(element.count);
     for i in 0..element.count {
         let vertex: Vertex = body.record(element, i)?;
@@ -51,9 +71,7 @@ fn vertices(body: &mut Body, element: &ElementDef, mesh: &mut Mesh) -> Result<()
             mesh.normals.push(DVec3::new(nx, ny, nz));
         }
         if let Some(encodings) = &encodings {
-            let [r, g, b] = [6, 7, 8].map(|k| encodings[k].light(vertex.0[k]));
-            let alpha = if has(9, 1) { encodings[9].share(vertex.0[9]) } else { 1.0 };
-            mesh.colors.push(DVec4::new(r, g, b, alpha).as_vec4());
+            mesh.colors.push(color(encodings, [6, 7, 8, 9].map(|k| vertex.0[k])));
         }
         if let Some(&[u, v]) = uv.and_then(|pair| vertex.0.get(pair..pair + 2)) {
             mesh.uvs.push(DVec2::new(u, v));
@@ -93,6 +111,21 @@ impl Encoding {
 /// Reads faces and cuts them into at most `most` triangles.
 fn faces(body: &mut Body, element: &ElementDef, mesh: &mut Mesh, most: usize) -> Result<(), Fault> {
     let count = mesh.positions.len();
+    let (has_uvs, has_normals) = (!mesh.uvs.is_empty(), !mesh.normals.is_empty());
+    let triangle = |positions: [u32; 3]| MeshTriangle {
+        positions,
+        uvs: has_uvs.then_some(positions),
+        normals: has_normals.then_some(positions),
+        material: None,
+    };
+    let missing = |wrong: f64| format!("it refers to vertex {wrong}; the file has {count}");
+    if let Some(fixed) =
+        Some(element.count).filter(|&count| count <= most).and_then(|_| Fixed::take(body, element))
+    {
+        let fault = |(i, wrong)| Fault::new(format!("face {i}"), missing(wrong));
+        mesh.triangles = fixed.triangles(count, triangle).map_err(fault)?;
+        return Ok(());
+    }
     for i in 0..element.count {
         let face: Face = body.record(element, i)?;
         let fault = |what| Fault::new(format!("face {i}"), what);
@@ -101,14 +134,12 @@ fn faces(body: &mut Body, element: &ElementDef, mesh: &mut Mesh, most: usize) ->
         }
         let exists = |n: f64| n >= 0.0 && n.fract() == 0.0 && n < count as f64;
         if let Some(wrong) = face.corners.iter().find(|&&n| !exists(n)) {
-            return Err(fault(format!("it refers to vertex {wrong}; the file has {count}")));
+            return Err(fault(missing(*wrong)));
         }
         let corners: Vec<u32> = face.corners.iter().map(|&n| n as u32).collect();
-        for triangle in polygon::triangles(&mesh.positions, &corners) {
-            let positions = triangle.map(|corner| corners.get(corner).copied().unwrap_or_default());
-            let uvs = (!mesh.uvs.is_empty()).then_some(positions);
-            let normals = (!mesh.normals.is_empty()).then_some(positions);
-            mesh.triangles.push(MeshTriangle { positions, uvs, normals, material: None });
+        for cut in polygon::triangles(&mesh.positions, &corners) {
+            let positions = cut.map(|corner| corners.get(corner).copied().unwrap_or_default());
+            mesh.triangles.push(triangle(positions));
         }
         check::count(mesh.triangles.len(), most)?;
     }

@@ -32,7 +32,7 @@ use super::{Report, Tuning, build_pipeline, specialization, tuning};
 
 pub struct Session<'a> {
     pub(super) gpu: &'a Gpu,
-    /// Without texels and their prefix sums, which are on the device.
+    /// Without texels, their prefix sums and meshes, which are on the device.
     scene: PackedScene,
     pub(super) resources: Resources,
     keep_everything: bool,
@@ -83,7 +83,7 @@ pub(super) enum Work<'a> {
 }
 
 impl<'a> Session<'a> {
-    /// Uploads a scene. Its texels are freed on the host once the device has them.
+    /// Uploads a scene. Its texels and meshes are freed on the host once the device has them.
     pub fn open(
         gpu: &'a Gpu,
         mut scene: PackedScene,
@@ -98,7 +98,7 @@ impl<'a> Session<'a> {
         let resources = Resources::upload(gpu, &scene, &features, tuning.texel_words(gpu))?;
         let films = Mutex::new([None, None]);
         let tile_culling = OnceLock::new();
-        (scene.texels, scene.prefix_sums) = (Vec::new(), Vec::new());
+        (scene.texels, scene.prefix_sums, scene.mesh_texels) = Default::default();
         let header = Mutex::new(scene.header);
         let upload_seconds = clock.elapsed().as_secs_f64();
         Ok(Session {

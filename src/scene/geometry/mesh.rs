@@ -129,6 +129,11 @@ impl Stored<'_> {
         Triangle { material: self.mesh.material, motion: self.mesh.motion, ..triangle }
     }
 
+    /// Returns the corners of that triangle in any order.
+    pub fn corners(&self, place: usize) -> [DVec3; 3] {
+        self.placed.corners(&self.placed.mesh.triangles[self.mesh.triangles[place] as usize])
+    }
+
     /// Returns true if the triangles lie in a space of their own, which a mirror turns into the world: their corners have
     /// the order of the world.
     pub fn is_turned(&self) -> bool {
