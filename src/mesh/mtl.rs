@@ -18,10 +18,22 @@ pub struct MtlMaterial {
     pub exponent: Option<f64>,
     /// `Ni`, the index of refraction.
     pub ior: Option<f64>,
+    /// `d`, or 1 less `Tr`: how much the surface covers.
+    pub dissolve: Option<f64>,
+    /// `Tf`, the colour of light that passes.
+    pub filter: Option<[f64; 3]>,
+    /// `Pr`, the roughness of physically based materials.
+    pub roughness: Option<f64>,
+    /// `Pm`, how much it is a metal.
+    pub metallic: Option<f64>,
     /// `illum`, the number of the lighting model.
     pub illumination: Option<u32>,
     /// `map_Kd`.
     pub diffuse_map: Option<MtlMap>,
+    /// `map_Pr`.
+    pub roughness_map: Option<MtlMap>,
+    /// `map_Pm`.
+    pub metallic_map: Option<MtlMap>,
     /// `map_Bump` or `bump`, heights.
     pub bump_map: Option<MtlMap>,
     /// `norm`, normals in tangent space.
@@ -67,8 +79,16 @@ fn statement(material: &mut MtlMaterial, keyword: &[u8], rest: &[u8]) -> Result<
         b"ks" => material.specular = color(rest)?.or(material.specular),
         b"ns" => material.exponent = Some(number(first_value(rest))?),
         b"ni" => material.ior = Some(number(first_value(rest))?),
+        // `d` wins over `Tr`, wherever it stands: programs that write both mean it.
+        b"d" => material.dissolve = Some(number(last_value(rest))?),
+        b"tr" => material.dissolve = material.dissolve.or(Some(1.0 - number(first_value(rest))?)),
+        b"tf" => material.filter = color(rest)?.or(material.filter),
+        b"pr" => material.roughness = Some(number(first_value(rest))?),
+        b"pm" => material.metallic = Some(number(first_value(rest))?),
         b"illum" => material.illumination = Some(whole(first_value(rest))?),
         b"map_kd" => material.diffuse_map = map(rest)?,
+        b"map_pr" => material.roughness_map = map(rest)?,
+        b"map_pm" => material.metallic_map = map(rest)?,
         b"map_bump" | b"bump" => material.bump_map = map(rest)?,
         b"norm" => material.normal_map = map(rest)?,
         _ => {}
@@ -162,6 +182,11 @@ fn first_value(rest: &[u8]) -> &[u8] {
     words(rest).next().unwrap_or_default()
 }
 
+/// Returns the last word of the arguments, which follows options.
+fn last_value(rest: &[u8]) -> &[u8] {
+    words(rest).last().unwrap_or_default()
+}
+
 /// Turns the rest of a line into a name.
 fn name(rest: &[u8]) -> String {
     String::from_utf8_lossy(rest).into_owned()
@@ -183,12 +208,25 @@ mod tests {
             exponent: Some(100.0),
             ior: Some(1.5),
             illumination: Some(2),
+            dissolve: Some(1.0),
             ..MtlMaterial::default()
         };
         let other =
             MtlMaterial { name: "b".into(), diffuse: Some([1.0, 2.0, 3.0]), ..MtlMaterial::default() };
         assert_eq!(read(text.as_bytes()).unwrap(), [red, other]);
         assert_eq!(read(b"").unwrap(), []);
+    }
+
+    #[test]
+    fn reads_what_passes_and_physically_based_statements() {
+        let text = "newmtl a\nTr 0.75\nTf 0.5 1 1\nPr 0.25\nPm 1\nmap_Pr r.png\nmap_Pm -clamp on m.png\n\
+                    newmtl b\nTr 0.9\nd -halo 0.5\nTr 0.25";
+        let [a, b] = <[MtlMaterial; 2]>::try_from(read(text.as_bytes()).unwrap()).unwrap();
+        assert_eq!((a.dissolve, a.filter), (Some(0.25), Some([0.5, 1.0, 1.0])));
+        assert_eq!((a.roughness, a.metallic), (Some(0.25), Some(1.0)));
+        assert_eq!(a.roughness_map.unwrap().file, "r.png");
+        assert!(a.metallic_map.unwrap().clamp);
+        assert_eq!(b.dissolve, Some(0.5));
     }
 
     #[test]

@@ -110,7 +110,7 @@ fn filtering(scene: &Scene, facts: &Facts, option: &mut impl FnMut(&str, &str)) 
     let suits = |filter| {
         let changes = Changes {
             filter: Some(filter),
-            mip: Some(mip),
+            mip: Some(mip.into()),
             footprint: Some(footprint),
             ..Changes::default()
         };

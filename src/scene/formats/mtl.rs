@@ -1,5 +1,5 @@
-//! Materials of MTL libraries as materials of a scene. Input: the statements of a library. Output: lambert, or phong where
-//! it has a highlight; textures are colours (sRGB) that repeat and are read trilinearly.
+//! Materials of MTL libraries as materials of a scene. Input: the statements of a library. Output: lambert, phong where it
+//! has a highlight, glass, or metallic-roughness where a program wrote physically based statements; textures are colours (sRGB) that repeat and are read trilinearly.
 
 use std::path::Path;
 
@@ -7,13 +7,16 @@ use glam::{DVec2, DVec3};
 
 use crate::mesh::mtl::{MtlMap, MtlMaterial};
 use crate::scene::builder::SceneBuilder;
-use crate::scene::model::{BumpKind, BumpMap, Mapping, Material, Model};
+use crate::scene::model::{AlphaMode, BumpKind, BumpMap, Mapping, Material, Model, TextureUse};
 use crate::texture::data::{ColorSpace, Dimension, MipKernel};
 use crate::texture::sampler_spec::{Address, MipMode, SamplerSpec};
 use crate::texture::source::{ReadOptions, TextureContent, TextureSource};
 
 /// `illum` from this number on has a highlight.
 const HIGHLIGHT: u32 = 2;
+/// Numbers of `illum` with refraction, and with glass unless `d` says that nothing passes.
+const REFRACTION: [u32; 2] = [6, 7];
+const GLASS: [u32; 2] = [4, 9];
 
 /// A library whose materials are added to a scene.
 pub(super) struct Library<'a> {
@@ -42,6 +45,19 @@ impl<'a> Library<'a> {
             material.specular = specular;
             material.exponent = found.exponent.unwrap_or(material.exponent).clamp(1.0, 1e6);
         }
+        if is_physical(found) {
+            self.physical(found, &mut material);
+        }
+        if is_glass(found) {
+            material.model = Model::GLASS;
+            material.color = color(found.filter).unwrap_or(DVec3::ONE);
+            material.ior = found.ior.unwrap_or(material.ior).clamp(0.01, 100.0);
+            material.roughness = found.roughness.unwrap_or(0.0).clamp(0.0, 1.0);
+            material.metallic_roughness_map = None;
+        } else if let Some(covered) = found.dissolve.filter(|covered| *covered < 1.0) {
+            material.alpha = AlphaMode::Blend;
+            material.opacity = covered.max(0.0);
+        }
         let bump = match (&found.normal_map, &found.bump_map) {
             (Some(map), _) => Some((map, BumpKind::Normal)),
             (None, Some(map)) => Some((map, BumpKind::Bump)),
@@ -57,18 +73,56 @@ impl<'a> Library<'a> {
                 second_uv: false,
             });
         }
-        if let Some(map) = &found.diffuse_map {
+        if let Some(map) = found.diffuse_map.as_ref().filter(|_| !is_glass(found)) {
             // Many exporters write black beside a texture, and mean the texture.
             if material.color == DVec3::ZERO {
                 material.color = DVec3::ONE;
             }
             material.texture = Some(self.texture(map, true));
         }
-        if let Some(map) = found.diffuse_map.as_ref().or(bump.map(|(map, _)| map)) {
+        if let Some(map) = first_map(found, bump.map(|(map, _)| map)) {
             material.sampler = self.sampler(map.clamp);
             material.mapping = mapping(map);
         }
         self.builder.material(material)
+    }
+
+    /// Applies the statements of physically based materials.
+    fn physical(&mut self, found: &MtlMaterial, material: &mut Material) {
+        let factor = |number: Option<f64>, map: &Option<MtlMap>, absent: f64| {
+            number.unwrap_or(if map.is_some() { 1.0 } else { absent }).clamp(0.0, 1.0)
+        };
+        material.model = Model::PHYSICAL;
+        material.metallic = factor(found.metallic, &found.metallic_map, 0.0);
+        // A highlight of this exponent is as wide as facets of roughness² = √(2 / (n + 2)).
+        let by_exponent = found.exponent.map_or(1.0, |n| (2.0 / (n.max(0.0) + 2.0)).powf(0.25));
+        material.roughness = factor(found.roughness, &found.roughness_map, by_exponent);
+        // Programs write 1 where nothing is known.
+        if let Some(ior) = found.ior.filter(|ior| *ior > 1.0) {
+            material.ior = ior.min(100.0);
+        }
+        let rough = found.roughness_map.as_ref();
+        let metal = found.metallic_map.as_ref();
+        // One texture has both, in green and blue; a grey one is as good for what is not 0.
+        let map = match (rough, metal) {
+            (Some(rough), Some(metal)) if rough == metal => Some(rough),
+            (Some(rough), None) if material.metallic == 0.0 => Some(rough),
+            (None, Some(metal)) if material.roughness == 0.0 => Some(metal),
+            (None, None) => None,
+            _ => {
+                self.builder.note(format!(
+                    "material {:?}: map_Pr and map_Pm are left out, as they are not one texture with roughness in green \
+                     and metallic in blue",
+                    found.name
+                ));
+                None
+            }
+        };
+        material.metallic_roughness_map = map.map(|map| TextureUse {
+            texture: self.texture(map, false),
+            sampler: self.sampler(map.clamp),
+            second_uv: false,
+        });
     }
 
     fn texture(&mut self, map: &MtlMap, is_color: bool) -> usize {
@@ -96,6 +150,24 @@ impl<'a> Library<'a> {
         let builder = &mut *self.builder;
         *self.samplers[usize::from(clamp)].get_or_insert_with(|| builder.sampler(spec))
     }
+}
+
+/// Returns the map whose scale, offset and clamping are those of the material.
+fn first_map<'a>(found: &'a MtlMaterial, bump: Option<&'a MtlMap>) -> Option<&'a MtlMap> {
+    let maps = [found.diffuse_map.as_ref(), bump, found.roughness_map.as_ref(), found.metallic_map.as_ref()];
+    maps.into_iter().flatten().next()
+}
+
+/// Returns whether a program wrote statements of physically based materials.
+fn is_physical(found: &MtlMaterial) -> bool {
+    let numbers = found.roughness.is_some() || found.metallic.is_some();
+    numbers || found.roughness_map.is_some() || found.metallic_map.is_some()
+}
+
+/// Returns whether light passes the surface and is refracted.
+fn is_glass(found: &MtlMaterial) -> bool {
+    let passes = found.dissolve.is_none_or(|covered| covered < 1.0);
+    found.illumination.is_some_and(|i| REFRACTION.contains(&i) || passes && GLASS.contains(&i))
 }
 
 /// Returns scale and offset of coordinates whose v grows upwards, for one that grows downwards:
