@@ -23,23 +23,20 @@ pub struct MeshPasses {
 /// Returns the passes of a scene. Pixels whose lists are not enough are sampled by passes of their own, if camera rays
 /// alone have lists: their mark takes the place of the sum of signs. Workgroups sample together if no ray is left for
 /// trees, whose search would slow down all others.
-pub fn passes(device: &DeviceInfo, tuning: &Tuning, scene: &PackedScene, features: &Features) -> MeshPasses {
+pub fn passes(device: &DeviceInfo, scene: &PackedScene, features: &Features) -> MeshPasses {
     let has_lists = scene.culls_tiles() && scene.has_concave_shapes() && !features.everything;
     let has_mark = !bounces(scene) && scene.mean_sign.is_none();
     let lists_shades = lists_shades(scene, features);
-    let by_teams = tuning.teams.unwrap_or(!Tuning::holds_triangles(device));
-    let searches: &[u32] = match has_lists && has_mark {
-        true if by_teams && samples_by_teams(scene, features, lists_shades) => {
-            &[SEARCH_TEAM, SEARCH_TEAM_REST]
-        }
-        true if Tuning::holds_triangles(device) => &[SEARCH_LISTS, SEARCH_MANY, SEARCH_REST],
+    let searches: &[u32] = match (has_lists && has_mark, Tuning::holds_triangles(device)) {
+        (true, true) => &[SEARCH_LISTS, SEARCH_MANY, SEARCH_REST],
+        (true, false) if samples_by_teams(scene, features, lists_shades) => &[SEARCH_TEAM, SEARCH_TEAM_REST],
         _ => &[SEARCH_ALL],
     };
     MeshPasses { searches, lists_shades }
 }
 
-/// Samples of a pixel from which on workgroups take them together.
-const TEAM_SAMPLES: u32 = 4;
+/// Samples of a pixel from which on workgroups are faster together, lists included.
+const TEAM_SAMPLES: u32 = 12;
 
 fn samples_by_teams(scene: &PackedScene, features: &Features, lists_shades: bool) -> bool {
     let many = scene.samples >= TEAM_SAMPLES;

@@ -27,7 +27,6 @@ use super::sample_pipeline::SamplePipeline;
 use super::texel_buffer;
 use super::tile_culling::TileCulling;
 use super::tiles::{Rest, TileRenderer};
-use super::unfinished::UnfinishedPixels;
 use super::{Report, Tuning, build_pipeline, specialization, tuning};
 
 pub struct Session<'a> {
@@ -180,30 +179,14 @@ impl<'a> Session<'a> {
         features: &Features,
         shader: &'static Shader,
     ) -> Result<(TileRenderer<'a>, Arc<FilmBuffer>)> {
-        let passes = mesh_passes::passes(self.gpu.info(), &self.tuning, scene, features);
-        let built = passes
-            .searches
-            .iter()
-            .map(|&search| self.pipeline(features, shader, search, passes.lists_shades));
-        let mut built = built.collect::<Result<Vec<_>>>()?;
-        let (pipeline, groups_per_tile) = built.remove(0);
+        let passes = mesh_passes::passes(self.gpu.info(), scene, features);
+        let pipeline_of = |&search: &u32| self.pipeline(features, shader, search, passes.lists_shades);
+        let mut pipelines = passes.searches.iter().map(pipeline_of).collect::<Result<Vec<_>>>()?;
+        let (pipeline, groups_per_tile) = pipelines.remove(0);
         let film = self.film(scene, features)?;
-        let mut pipelines: Vec<_> = built.into_iter().map(|(pipeline, _)| pipeline).collect();
-        let rest = match passes.searches {
-            [_] => Rest::Nothing,
-            [SEARCH_TEAM, _] => Rest::Tiles(pipelines.remove(0)),
-            _ => {
-                let [x, y] = self.tuning.group_size(self.gpu.info())?;
-                Rest::Lists(UnfinishedPixels::new(
-                    self.gpu,
-                    &self.resources,
-                    shader,
-                    pipelines,
-                    x * y,
-                    &film,
-                )?)
-            }
-        };
+        let later = pipelines.into_iter().map(|(pipeline, _)| pipeline).collect();
+        let [x, y] = self.tuning.group_size(self.gpu.info())?;
+        let rest = Rest::new(self.gpu, &self.resources, shader, later, x * y, &film)?;
         let group = self.resources.bind(self.gpu, &pipeline, shader, &film.buffer, None)?;
         let renderer = TileRenderer { gpu: self.gpu, pipeline, rest, group, groups_per_tile };
         renderer.warm_up(&film)?;

@@ -3,12 +3,13 @@
 
 use std::sync::Arc;
 
-use super::Report;
 use super::dispatch_plan::DispatchPlan;
 use super::film_buffer::{Band, FilmBuffer};
 use super::unfinished::UnfinishedPixels;
+use super::{Report, Resources};
 use crate::core::error::{Error, Result};
 use crate::core::progress::Progress;
+use crate::gpu::shaders::Shader;
 use crate::gpu::{BindGroup, Gpu, Pipeline};
 use crate::schema::constants::TEAM_SQUARES;
 use crate::schema::layout::Slice;
@@ -19,6 +20,25 @@ pub enum Rest {
     Lists(UnfinishedPixels),
     /// A second pipeline, which skips the others by itself.
     Tiles(Arc<Pipeline>),
+}
+
+impl Rest {
+    /// `later` are the pipelines of the passes after the first one, of one shader: none, one that skips finished pixels
+    /// by itself, or several that take lists.
+    pub fn new(
+        gpu: &Gpu,
+        resources: &Resources,
+        shader: &Shader,
+        mut later: Vec<Arc<Pipeline>>,
+        threads_per_group: u32,
+        film: &Arc<FilmBuffer>,
+    ) -> Result<Rest> {
+        Ok(match later.len() {
+            0 => Rest::Nothing,
+            1 => Rest::Tiles(later.remove(0)),
+            _ => Rest::Lists(UnfinishedPixels::new(gpu, resources, shader, later, threads_per_group, film)?),
+        })
+    }
 }
 
 pub struct TileRenderer<'a> {

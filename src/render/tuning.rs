@@ -52,13 +52,11 @@ pub struct Tuning {
     pub group: Option<[u32; 2]>,
     /// Largest length of a texel buffer in words, if less than the device allows.
     pub texel_words: Option<u64>,
-    /// Workgroups sample pixels of meshes together where they can; `None` chooses by the device.
-    pub teams: Option<bool>,
 }
 
 impl Default for Tuning {
     fn default() -> Self {
-        Tuning { texels: TexelChoice::Auto, group: None, texel_words: None, teams: None }
+        Tuning { texels: TexelChoice::Auto, group: None, texel_words: None }
     }
 }
 
@@ -106,7 +104,8 @@ impl Tuning {
         device.kind == DeviceKind::Cpu
     }
 
-    /// Returns true if a pixel's triangles are kept in registers: lavapipe reads memory lane by lane.
+    /// Returns true if a pixel's triangles are kept in registers: lavapipe reads memory lane by lane. GPUs keep them in
+    /// shared memory, for workgroups that sample together; lavapipe (Mesa 22.3.6) loses samples there.
     pub fn holds_triangles(device: &DeviceInfo) -> bool {
         device.kind == DeviceKind::Cpu
     }

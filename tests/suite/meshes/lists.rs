@@ -2,10 +2,8 @@
 //! where lists are full, where a cell sees past what its probes met, and beside other shapes.
 
 use glam::DVec3;
-use moire::internal::core::film::Film;
 use moire::internal::core::range::Rect;
 use moire::internal::lab::metrics::compare;
-use moire::internal::pack::PackedScene;
 use moire::internal::pack::features::bounces;
 use moire::internal::render::Tuning;
 use moire::internal::scene::model::{Algorithm, Lens, Light, Model, Pattern, Precision, Projection, Scene};
@@ -49,31 +47,22 @@ fn full_lists_say_up_to_which_depth_they_are_complete() {
     assert!(cells.iter().filter(is_full).count() > 0, "no list is full");
     assert!(cells.iter().any(|cell| listed(cell) > MAX_LISTED_WITH_MESHES), "no cell has room for more");
     assert_same_bits(&film, &render(&without(&scene)), "full lists");
-    assert_same_bits(&film, &by_teams(&scene), "full lists, by teams");
 }
 
-fn by_teams(scene: &PackedScene) -> Film {
-    render_with(scene, false, &Tuning { teams: Some(true), ..Tuning::default() }).0
-}
-
-/// Tiles at the edges are not whole; samples are no whole number of turns; long sums are in blocks.
+/// Tiles at the edges are not whole; samples are no whole number of turns of a workgroup; long sums are in blocks.
 #[test]
-fn workgroups_that_sample_together_see_the_same() {
+fn any_number_of_samples_is_the_same_with_and_without_lists() {
     let mut scene = knot(70, 16);
     scene.lights.clear();
     for material in &mut scene.materials {
         material.model = Model::Unlit;
     }
-    let alone = |scene: &PackedScene| {
-        render_with(scene, false, &Tuning { teams: Some(false), ..Tuning::default() }).0
-    };
     for spp in [4, 5, 16, 70, 97] {
         scene.sampling.pattern = Pattern::SobolOwen;
         scene.sampling.spp = spp;
-        let rect = Rect { x: 3, y: 5, width: 51, height: 37 };
-        let packed = packed(scene.clone(), Some(rect));
+        let packed = packed(scene.clone(), Some(Rect { x: 3, y: 5, width: 51, height: 37 }));
         assert!(packed.culls_tiles() && !bounces(&packed));
-        assert_same_bits(&alone(&packed), &by_teams(&packed), &format!("{spp} samples"));
+        assert_same_bits(&render(&packed), &render(&without(&packed)), &format!("{spp} samples"));
     }
 }
 
@@ -97,7 +86,6 @@ fn shadows_are_the_same_with_and_without_lists() {
         assert!(lit.records.planes.is_empty() && lit.records.triangles.is_empty() && lit.culls_tiles());
         let picture = render(&lit);
         assert_same_bits(&picture, &render(&without(&lit)), &format!("light {k}"));
-        assert_same_bits(&picture, &by_teams(&lit), &format!("light {k}, by teams"));
         let mut bright = lit.clone();
         bright.records.lights[0].direction = -bright.records.lights[0].direction;
         shaded += usize::from(compare(&picture, &render(&bright)).unwrap().rmse > 0.01);
