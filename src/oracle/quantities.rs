@@ -79,6 +79,16 @@ pub fn look_up_quantity(quantity: Quantity, look_up: &LookUp<'_>) -> DVec3 {
     value.extend(1.0)
 }
 
+/// A unit vector as a whole number: two octahedral components of 12 bits each (Cigolle et al. 2014).
+fn direction_number(n: DVec3) -> f64 {
+    let p = n.truncate() / ((n.x.abs() + n.y.abs()) + n.z.abs());
+    let toward = |x: f64, other: f64| if x < 0.0 { other.abs() - 1.0 } else { 1.0 - other.abs() };
+    let folded = DVec2::new(toward(p.x, p.y), toward(p.y, p.x));
+    let p = if n.z < 0.0 { folded } else { p };
+    let steps = (4095.0 * (0.5 * p + 0.5).clamp(DVec2::ZERO, DVec2::ONE) + 0.5).floor();
+    steps.x * 4096.0 + steps.y
+}
+
 /// Returns a quantity of the surface itself; no hit: it is the environment's. Numbers count from 1.
 pub fn surface_quantity(quantity: Quantity, hit: Option<&Hit>, surface: &Surface, albedo: DVec3) -> DVec3 {
     let number = |n: f64| DVec3::new(n, 0.0, 1.0);
@@ -88,6 +98,12 @@ pub fn surface_quantity(quantity: Quantity, hit: Option<&Hit>, surface: &Surface
         (Quantity::Normal, _) => surface.normal,
         (Quantity::Depth, Some(hit)) => number(hit.t),
         (Quantity::Instance, Some(hit)) => number(f64::from(hit.shape) + 1.0),
+        (Quantity::Place, _) => surface.at_rest,
+        (Quantity::Facet, Some(hit)) => DVec3::new(
+            f64::from(hit.shape) + 1.0,
+            direction_number(surface.geometric_normal),
+            direction_number(surface.normal),
+        ),
         _ => albedo,
     }
 }

@@ -49,7 +49,7 @@ fn meaning(aov: Aov) -> &'static str {
         Aov::Magnification => "log2 of the pixels that a texel covers: red is magnified, blue minified",
         Aov::Level => "the level that the scene's sampler reads for a whole pixel",
         Aov::Anisotropy => "how many times longer than wide the footprint is",
-        Aov::Surfaces => "how many shapes the samples of a pixel meet; the background is one",
+        Aov::Surfaces => "how many surfaces the samples of a pixel meet; the background is one",
         Aov::Uv => "the place in the texture",
         Aov::Normal => "the shading normal, towards the camera",
         Aov::Depth => "distance along the view direction",

@@ -8,7 +8,7 @@ use glam::{DAffine3, DVec3};
 use rayon::prelude::*;
 
 use super::meshes::{CornerAttributes, Placed};
-use super::{Bounds, Described, Fields, Shapes, Triangle};
+use super::{Bounds, Described, Facets, Fields, Shapes, Triangle};
 use crate::core::error::Result;
 use crate::mesh;
 use crate::scene::limits::COORDINATE;
@@ -177,6 +177,7 @@ impl fmt::Debug for Mesh {
 
 impl Described for Mesh {
     const KEYS: &[&str] = &[];
+    const FACETS: Facets = Facets::Many;
 
     fn read(fields: &dyn Fields, _material: usize) -> Result<Mesh> {
         Err(fields.missing("file"))
