@@ -3,7 +3,7 @@
 
 use glam::{DVec2, DVec3};
 
-use super::appearance::{appearance, at_uv_of, bumped_normal, map_input};
+use super::appearance::{TextureUse, appearance, at_uv_of, bumped_normal, map_input, use_of};
 use super::camera::Ray;
 use super::filter::sample_texture::read_level;
 use super::footprint::{Footprint, MAX_STRETCH, RayDifferential, endless_footprint, footprint_at};
@@ -12,8 +12,8 @@ use super::geometry::hit::{Hit, Surface};
 use super::geometry::rays::{hit_surface, nearest_hit};
 use super::mapping::{Coordinate, texture_coordinate};
 use crate::pack::{PackedScene, TextureKind};
-use crate::schema::constants::SECOND_UV_COLOR;
-use crate::schema::enums::Quantity;
+use crate::schema::constants::SECOND_UV_BUMP;
+use crate::schema::enums::{MaterialMap, Quantity};
 use crate::schema::layout::{Material, NO_SHAPE, NO_TEXTURE, Sampler, Texture, UvProjection};
 use crate::texture::sampler_spec::Address;
 
@@ -40,14 +40,46 @@ pub fn place_in_tile(mode: Address, u: f64) -> f64 {
     }
 }
 
-/// Returns the look-up of a material's texture; procedural textures have no texels.
-pub fn look_up<'a>(scene: &'a PackedScene, material: &Material, mapped: &Coordinate) -> Option<LookUp<'a>> {
-    let texture = material.texture_index;
+/// What a material reads a texture for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Slot {
+    Color,
+    Bump,
+    Roughness,
+    Emission,
+    Occlusion,
+}
+
+impl Slot {
+    pub const ALL: [Slot; 5] = [Slot::Color, Slot::Bump, Slot::Roughness, Slot::Emission, Slot::Occlusion];
+
+    /// Returns texture, sampler and bit of the coordinates.
+    fn of(self, m: &Material) -> [u32; 3] {
+        let map = |map| {
+            let TextureUse { texture_index, sampler_index, second_uv } = use_of(m, map);
+            [texture_index, sampler_index, second_uv]
+        };
+        match self {
+            Slot::Color => map(MaterialMap::Mask),
+            Slot::Bump => [m.bump_texture_index, m.bump_sampler_index, SECOND_UV_BUMP],
+            Slot::Roughness => map(MaterialMap::Roughness),
+            Slot::Emission => map(MaterialMap::Emission),
+            Slot::Occlusion => map(MaterialMap::Occlusion),
+        }
+    }
+}
+
+/// Returns the look-up of a texture; procedural textures have no texels.
+fn look_up<'a>(
+    scene: &'a PackedScene,
+    [texture, sampler]: [u32; 2],
+    mapped: &Coordinate,
+) -> Option<LookUp<'a>> {
     let image = scene.records.textures.get(texture as usize).filter(|_| texture != NO_TEXTURE)?;
     if kind_of(image) == TextureKind::Procedural {
         return None;
     }
-    let how = &scene.records.samplers[material.sampler_index as usize];
+    let how = &scene.records.samplers[sampler as usize];
     let (coordinate, face) = in_texture(image, mapped);
     Some(LookUp { texture, image, how, coordinate, face, spread: texel_spread(image, &coordinate) })
 }
@@ -142,12 +174,13 @@ pub fn first_hit<'a>(
 }
 
 impl<'a> FirstHit<'a> {
-    /// Returns the look-up of the material's texture, if it has texels.
-    pub fn look_up(&self, scene: &'a PackedScene, ray: &Ray) -> Option<LookUp<'a>> {
-        let map = self.map?;
-        let shown = at_uv_of(self.material, SECOND_UV_COLOR, &self.surface);
+    /// Returns the look-up of one of the material's textures, if it has texels.
+    pub fn look_up(&self, slot: Slot, scene: &'a PackedScene, ray: &Ray) -> Option<LookUp<'a>> {
+        let [texture, sampler, second_uv] = slot.of(self.material);
+        let map = self.map.filter(|_| texture != NO_TEXTURE)?;
+        let shown = at_uv_of(self.material, second_uv, &self.surface);
         let mapped = texture_coordinate(map, &map_input(map, ray, &shown, &self.print));
-        look_up(scene, self.material, &mapped)
+        look_up(scene, [texture, sampler], &mapped)
     }
 }
 
@@ -162,7 +195,7 @@ pub fn measured(
     let quantity = scene.header.quantity;
     let Some(mut first) = first_hit(scene, ray, beam, skip) else { return DVec3::ZERO };
     if is_of_look_ups(quantity) {
-        let look_up = first.look_up(scene, ray);
+        let look_up = first.look_up(Slot::Color, scene, ray);
         return look_up.map_or(DVec3::ZERO, |look_up| look_up_quantity(quantity, &look_up));
     }
     let mut albedo = DVec3::ZERO;

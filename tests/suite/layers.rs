@@ -5,6 +5,7 @@ mod agree;
 mod command;
 mod inspect;
 mod known;
+mod maps;
 mod surfaces;
 
 use std::fs;

@@ -1,13 +1,14 @@
 //! The folder of `moire inspect`: every layer as a picture, all of them in one EXR file, and the page. Input: a scene and
 //! the backends that render it. Output: files, each complete or not at all.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use super::advice::{Advice, Facts, advice};
-use super::charts::{Charts, charts};
+use super::charts::{Charts, charts, readers};
 use super::page;
 use super::picture::picture;
-use super::survey::{Survey, survey};
+use super::survey::{Survey, View, survey};
 use crate::core::error::Result;
 use crate::core::film::{Film, Placement};
 use crate::core::layer::Layer;
@@ -60,12 +61,23 @@ pub fn inspect(scene: &Scene, options: &Options, on: &[On], progress: &dyn Progr
     let layers = render_layers(scene, options, on, &wanted, Some(&picture), &part(OWN_SHARE, 1.0))?;
     let layers: Vec<Inspected> =
         wanted.into_iter().zip(layers).map(|(aov, layer)| Inspected { aov, layer }).collect();
-    let survey = survey(&packed_at_centres(scene, options)?);
-    let charts =
-        survey.views.iter().map(|view| charts(scene, view.texture, view.size, view.levels)).collect();
+    let survey = survey(scene, &packed_at_centres(scene, options)?);
+    let charts = all_charts(scene, &survey);
     let surfaces = layers.iter().find(|own| own.aov == Aov::Surfaces).map(|own| &own.layer);
     let advice = advice(scene, &Facts::new(scene, &survey, surfaces));
     Ok(Inspection { picture, layers, left_out, survey, charts, advice })
+}
+
+/// Returns the charts of each image. The maps of a material have the same ones if they are of one size.
+fn all_charts(scene: &Scene, survey: &Survey) -> Vec<Option<Charts>> {
+    let mut known = BTreeMap::new();
+    let of = |view: &View| {
+        let readers = readers(scene, &view.textures);
+        let key = (readers.clone(), view.size, view.levels);
+        let found = known.entry(key).or_insert_with(|| charts(scene, &readers, view.size, view.levels));
+        found.clone()
+    };
+    survey.views.iter().map(of).collect()
 }
 
 /// Writes all files; returns their names.

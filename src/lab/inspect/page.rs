@@ -1,17 +1,12 @@
 //! The page of `moire inspect`: what the view needs, every layer as a picture, and for each texture how densely it is
 //! seen, which levels and texels are read, and whether its charts mix. Input: an inspection. Output: HTML beside pictures.
 
-use super::advice::percent;
-use super::charts::Charts;
+mod textures;
+
 use super::folder::{EXR, Inspection, PICTURE, file_of};
-use super::scale::short;
-use super::survey::View;
-use crate::lab::plot::html::{Header, Html, code, document, html, section, table};
+use crate::lab::plot::html::{Header, Html, code, document, html, section};
 use crate::render::layers::Aov;
 use crate::scene::model::Scene;
-
-/// Shares below which a texture is not said to be too small.
-const CLOSE: f64 = 0.05;
 
 /// Returns the page.
 pub fn html(scene: &Scene, inspection: &Inspection) -> String {
@@ -37,7 +32,7 @@ pub fn html(scene: &Scene, inspection: &Inspection) -> String {
         more,
     };
     let sections = section("layers", "Layers", layers(inspection))
-        + section("textures", "Textures", textures(scene, inspection))
+        + section("textures", "Textures", textures::textures(scene, inspection))
         + section("method", "What is exact and what is sampled", method(inspection));
     document(&header, &sections, "")
 }
@@ -89,139 +84,6 @@ fn layers(inspection: &Inspection) -> Html {
         )
 }
 
-fn textures(scene: &Scene, inspection: &Inspection) -> Html {
-    let survey = &inspection.survey;
-    let views = survey.views.iter().zip(&inspection.charts);
-    let each: Html = views
-        .map(|(view, charts)| {
-            let name = scene.textures.get(view.texture).map_or("", |texture| texture.name.as_str());
-            let [width, height] = view.size.map(|n| n.to_string());
-            html!("<h3>{}: {} × {} texels</h3>\n", name, width, height)
-                + texture(view, charts.as_ref(), survey.pixels)
-        })
-        .collect();
-    let without = share_of(survey.untextured, survey.pixels);
-    each + html!(
-        "<p>Pixels that see no texture of texels: {}, {} of {}.</p>\n",
-        survey.untextured.to_string(),
-        without,
-        survey.pixels.to_string()
-    )
-}
-
-fn texture(view: &View, charts: Option<&Charts>, pixels: u64) -> Html {
-    let seen = view.density.pixels();
-    if seen == 0 {
-        return html!("<p>No pixel of this view reads it directly; mirrors and bump maps may.</p>\n");
-    }
-    let said = [Some(needs(view)), never_read(view), charts.and_then(|charts| bleeding(charts, view))];
-    let said: Html = said.into_iter().flatten().map(|sentence| html!("<p>{}</p>\n", sentence)).collect();
-    let range = |octave: i32| {
-        let [from, to] = [octave, octave + 1].map(|power| short(f64::from(power).exp2()));
-        format!("{from} to {to}")
-    };
-    let bins = view.density.histogram();
-    let bins = bins.iter().map(|bin| row(&range(bin.octave), bin.pixels, seen));
-    let levels = view.level_pixels.iter().enumerate().filter(|(_, n)| **n > 0);
-    let levels = levels.map(|(level, &n)| row(&level.to_string(), n, seen));
-    html!("<p>Seen by {} pixels, {} of all.</p>\n", seen.to_string(), share_of(seen, pixels))
-        + said
-        + table(
-            "Texels for each pixel, along the longer axis",
-            &["texels", "pixels", "share", ""],
-            &bins.collect::<Vec<_>>(),
-        )
-        + table(
-            "Levels that are read; a pixel between two levels reads both",
-            &["level", "pixels", "share", ""],
-            &levels.collect::<Vec<_>>(),
-        )
-}
-
-/// Returns a row of a histogram, with a bar.
-fn row(name: &str, count: u64, all: u64) -> Vec<Html> {
-    let width = format!("{:.1}", 100.0 * count as f64 / all.max(1) as f64);
-    vec![
-        html!("{}", name),
-        html!("{}", count.to_string()),
-        html!("{}", share_of(count, all)),
-        html!("<span class=\"count\" style=\"width: {}%\"></span>", width),
-    ]
-}
-
-fn share_of(part: u64, all: u64) -> String {
-    percent(part as f64 / all.max(1) as f64)
-}
-
-/// Returns whether the texture is larger or smaller than the view needs.
-fn needs(view: &View) -> String {
-    let factor = view.density.spare_factor();
-    let size = |factor: f64| {
-        let [w, h] = view.size.map(|n| (f64::from(n) / factor).round().max(1.0));
-        format!("{w} × {h}")
-    };
-    let middle = short(view.density.quantile(0.5).unwrap_or(0.0));
-    let close = 1.0 - view.density.above(0.5);
-    if factor > 1.0 {
-        format!(
-            "Larger than this view needs: even the closest pixels cover {} texels and more, so {} texels would show the \
-             same. Half of the pixels cover more than {middle}.",
-            short(factor),
-            size(factor)
-        )
-    } else if factor < 1.0 && close >= CLOSE {
-        format!(
-            "Smaller than this view needs: in {} of its pixels a texel is larger than two pixels; {} texels would give \
-             the closest pixels one each. Half of the pixels cover more than {middle}.",
-            percent(close),
-            size(factor)
-        )
-    } else {
-        format!("Of the size that this view needs: half of the pixels cover more than {middle} texels.")
-    }
-}
-
-fn never_read(view: &View) -> Option<String> {
-    let never = view.never_read?;
-    let cells = match never.side {
-        1 => "texels".to_owned(),
-        side => format!("blocks of {side} × {side} texels"),
-    };
-    Some(format!(
-        "Never read: {} of {} {cells} ({}) are under no pixel's footprint.",
-        never.cells,
-        never.all,
-        share_of(never.cells, never.all)
-    ))
-}
-
-/// Returns whether charts mix on the levels that are read.
-fn bleeding(charts: &Charts, view: &View) -> Option<String> {
-    let count = charts.count;
-    if count < 2 {
-        return None;
-    }
-    if charts.overlap {
-        return Some(format!("Its {count} charts lie over each other, so they share texels at every level."));
-    }
-    let Some(level) = charts.bleeds_from() else {
-        return Some(format!("Its {count} charts mix on none of its levels."));
-    };
-    let shared = charts.shared[(level - charts.first_level) as usize];
-    let readers: u64 = view.level_pixels.iter().skip(level as usize).sum();
-    let so = if readers > 0 {
-        format!(
-            "{readers} look-ups of this view read such a level: leave more room between charts, or read no more than \
-             {level} levels"
-        )
-    } else {
-        "this view reads none of these levels".to_owned()
-    };
-    Some(format!(
-        "Its {count} charts bleed from level {level} on, where {shared} texels hold two or more; {so}."
-    ))
-}
-
 fn method(inspection: &Inspection) -> Html {
     let step = inspection.survey.step;
     let looked = if step > 1 {
@@ -232,8 +94,9 @@ fn method(inspection: &Inspection) -> Html {
     html!(
         "<p>Layers are those of one ray through the centre of each pixel, in the middle of the shutter's time and through \
          a pinhole, with the footprint of the whole pixel by ray differentials: they are exact for that ray, and say \
-         nothing of what the rest of the pixel sees. <b>surfaces</b> is counted, and <b>albedo</b> averaged, over samples. \
-         {} They are computed in float64. Texels that are never read are found with up to 16 × 16 points in each \
+         nothing of what the rest of the pixel sees. Layers of look-ups show the texture of the colour; the textures' own \
+         numbers are of every texture that the material reads there. <b>surfaces</b> is counted, and <b>albedo</b> averaged, \
+         over samples. {} They are computed in float64. Texels that are never read are found with up to 16 × 16 points in each \
          footprint; what mirrors and glass show is not followed.</p>\n",
         looked
     )

@@ -4,7 +4,7 @@
 use std::fmt;
 use std::sync::Arc;
 
-use glam::{DAffine3, DVec3};
+use glam::{DAffine3, DVec2, DVec3};
 use rayon::prelude::*;
 
 use super::meshes::{CornerAttributes, Placed};
@@ -165,6 +165,19 @@ impl Shapes {
     pub fn for_each_triangle(&self, mut each: impl FnMut(&Triangle)) {
         self.triangles.iter().for_each(&mut each);
         self.meshes.iter().for_each(|mesh| mesh.for_each(1, |triangle| each(&triangle)));
+    }
+
+    /// Calls `each` with the material of every triangle and both texture coordinates of its corners; the second ones are 0
+    /// where there are none.
+    pub fn for_each_coordinates(&self, mut each: impl FnMut(usize, [[DVec2; 3]; 2])) {
+        self.triangles.iter().for_each(|own| each(own.material, [own.uvs, [DVec2::ZERO; 3]]));
+        for mesh in &self.meshes {
+            let placed = Placed::new(&mesh.file, &mesh.placement);
+            for &index in mesh.triangles.iter() {
+                let uvs = [placed.triangle(index).uvs, placed.attributes(index).second_uvs];
+                each(mesh.material, uvs);
+            }
+        }
     }
 }
 
