@@ -2,6 +2,7 @@
 //! of textures.
 
 mod agree;
+mod browser;
 mod command;
 mod inspect;
 mod known;

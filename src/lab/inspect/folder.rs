@@ -6,8 +6,9 @@ use std::path::Path;
 
 use super::advice::{Advice, Facts, advice};
 use super::charts::{Charts, charts, readers};
+use super::legend::Legend;
 use super::page;
-use super::picture::picture;
+use super::picture::colored;
 use super::survey::{Survey, View, survey};
 use crate::core::error::Result;
 use crate::core::film::{Film, Placement};
@@ -80,13 +81,13 @@ fn all_charts(scene: &Scene, survey: &Survey) -> Vec<Option<Charts>> {
     survey.views.iter().map(of).collect()
 }
 
-/// Writes all files; returns their names.
-pub fn write(folder: &Path, scene: &Scene, inspection: &Inspection) -> Result<Vec<String>> {
+/// Writes all files; returns their names. `view`: options that choose what is seen, for the command on the page.
+pub fn write(folder: &Path, scene: &Scene, inspection: &Inspection, view: &[String]) -> Result<Vec<String>> {
     let film = &inspection.picture.film;
     let size = [film.width, film.height];
     let names: Vec<String> = scene.materials.iter().map(|material| material.name.clone()).collect();
-    let films: Vec<Film> =
-        inspection.layers.iter().map(|own| picture(own.aov, &own.layer, size, &names)).collect();
+    let colored = |own: &Inspected| colored(own.aov, &own.layer, size, &names);
+    let (films, legends): (Vec<Film>, Vec<Legend>) = inspection.layers.iter().map(colored).unzip();
     let mut files: Vec<String> = vec![PICTURE.into(), EXR.into()];
     files.extend(inspection.layers.iter().map(|own| file_of(own.aov)));
     let paths: Vec<_> = files.iter().map(|file| folder.join(file)).collect();
@@ -96,7 +97,7 @@ pub fn write(folder: &Path, scene: &Scene, inspection: &Inspection) -> Result<Ve
     let placement = Some(Placement::whole(film.width, film.height));
     let options = WriteOptions { layers: &layers, placement, ..WriteOptions::default() };
     output::write_pictures(&pictures, &options, || Ok(()))?;
-    output::write_file(&folder.join(PAGE), page::html(scene, inspection).as_bytes())?;
+    output::write_file(&folder.join(PAGE), page::html(scene, inspection, view, &legends).as_bytes())?;
     files.push(PAGE.into());
     Ok(files)
 }

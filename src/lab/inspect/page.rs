@@ -1,15 +1,16 @@
 //! The page of `moire inspect`: what the view needs, every layer as a picture, and for each texture how densely it is
 //! seen, which levels and texels are read, and whether its charts mix. Input: an inspection. Output: HTML beside pictures.
 
+mod layers;
 mod textures;
 
-use super::folder::{EXR, Inspection, PICTURE, file_of};
+use super::folder::Inspection;
+use super::legend::Legend;
 use crate::lab::plot::html::{Header, Html, code, document, html, section};
-use crate::render::layers::Aov;
 use crate::scene::model::Scene;
 
-/// Returns the page.
-pub fn html(scene: &Scene, inspection: &Inspection) -> String {
+/// Returns the page. `view`: options that choose what is seen; `legends`: of the layers, in their order.
+pub fn html(scene: &Scene, inspection: &Inspection, view: &[String], legends: &[Legend]) -> String {
     let film = &inspection.picture.film;
     let name = scene.path.file_name().map_or("a scene".into(), |name| name.to_string_lossy());
     let facts = format!(
@@ -19,7 +20,9 @@ pub fn html(scene: &Scene, inspection: &Inspection) -> String {
         inspection.picture.device,
         env!("CARGO_PKG_VERSION")
     );
-    let command = format!("moire render {} {}", scene.path.display(), inspection.advice.options.join(" "));
+    let path = scene.path.display().to_string();
+    let words = [&path].into_iter().chain(view).chain(&inspection.advice.options).map(|word| quoted(word));
+    let command = format!("moire render {}", words.collect::<Vec<_>>().join(" "));
     let more = code(&command)
         + html!(
             "<p>These are rules of thumb for what is seen below; <code>moire study</code> measures which setting has the \
@@ -31,57 +34,19 @@ pub fn html(scene: &Scene, inspection: &Inspection) -> String {
         lead: &inspection.advice.sentence,
         more,
     };
-    let sections = section("layers", "Layers", layers(inspection))
+    let sections = section("layers", "Layers", layers::layers(inspection, legends))
         + section("textures", "Textures", textures::textures(scene, inspection))
         + section("method", "What is exact and what is sampled", method(inspection));
     document(&header, &sections, "")
 }
 
-/// Returns a sentence on what a layer shows.
-fn meaning(aov: Aov) -> &'static str {
-    match aov {
-        Aov::Texels => "texels that a pixel covers along the longer axis of its footprint",
-        Aov::Magnification => "log2 of the pixels that a texel covers: red is magnified, blue minified",
-        Aov::Level => "the level that the scene's sampler reads for a whole pixel",
-        Aov::Anisotropy => "how many times longer than wide the footprint is",
-        Aov::Surfaces => "how many surfaces the samples of a pixel meet; the background is one",
-        Aov::Uv => "the place in the texture",
-        Aov::Normal => "the shading normal, towards the camera",
-        Aov::Depth => "distance along the view direction",
-        Aov::Instance => "the shape, by its number",
-        Aov::Material => "the material",
-        Aov::Samples => "samples of the pixel",
-        Aov::Error => "estimated error of the pixel's colour",
-        Aov::Albedo => "the material's colour times its texture, without light",
+/// Returns a word as shells read it.
+fn quoted(word: &str) -> String {
+    let is_plain = |c: char| c.is_alphanumeric() || "-_./:=@%+,".contains(c);
+    if !word.is_empty() && word.chars().all(is_plain) {
+        return word.to_owned();
     }
-}
-
-fn figure(file: &str, name: &str, what: &str) -> Html {
-    html!(
-        "<figure><a href=\"{}\"><img class=\"pixels\" src=\"{}\" alt=\"{}: {}\" loading=\"lazy\"/></a>\
-         <figcaption><b>{}</b>: {}</figcaption></figure>\n",
-        file,
-        file,
-        name,
-        what,
-        name,
-        what
-    )
-}
-
-fn layers(inspection: &Inspection) -> Html {
-    let own = figure(PICTURE, "picture", "the scene as it is rendered");
-    let others =
-        inspection.layers.iter().map(|own| figure(&file_of(own.aov), own.aov.name(), meaning(own.aov)));
-    let figures: Html = std::iter::once(own).chain(others).collect();
-    let left_out: Html = inspection.left_out.iter().map(|why| html!("<p>Left out: {}.</p>\n", why)).collect();
-    html!("<div class=\"grid\">\n{}</div>\n", figures)
-        + left_out
-        + html!(
-            "<p>All numbers are in <a href=\"{}\">{}</a>, a channel each: <code>level.Y</code>, <code>uv.U</code>.</p>\n",
-            EXR,
-            EXR
-        )
+    format!("'{}'", word.replace('\'', "'\\''"))
 }
 
 fn method(inspection: &Inspection) -> Html {
@@ -100,4 +65,16 @@ fn method(inspection: &Inspection) -> Html {
          footprint; what mirrors and glass show is not followed.</p>\n",
         looked
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::quoted;
+
+    #[test]
+    fn shells_read_the_word_back() {
+        assert_eq!(quoted("a/b-1.glb"), "a/b-1.glb");
+        assert_eq!(quoted("my model's.glb"), r"'my model'\''s.glb'");
+        assert_eq!([quoted(""), quoted("$x")], ["''", "'$x'"]);
+    }
 }
