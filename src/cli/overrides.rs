@@ -95,6 +95,18 @@ impl Overrides {
         changes.apply(scene)
     }
 
+    /// Returns those of the options that choose what is seen, and how samples become pixels.
+    pub fn view(&self) -> Vec<String> {
+        let options = [
+            ("camera", self.camera.clone()),
+            ("size", self.size.map(|[width, height]| format!("{width}x{height}"))),
+            ("pixel-filter", self.pixel_filter.map(|kind| kind.name().to_owned())),
+            ("pixel-filter-radius", self.pixel_filter_radius.map(|radius| radius.to_string())),
+        ];
+        let given = options.into_iter().filter_map(|(name, value)| Some([format!("--{name}"), value?]));
+        given.flatten().collect()
+    }
+
     /// Returns the goal that ends the sampling, unless that is a number of samples.
     pub fn goal(&self) -> Option<Goal> {
         self.budget.map(Goal::Seconds).or(self.target_error.map(Goal::Error))

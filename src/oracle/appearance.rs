@@ -153,9 +153,10 @@ pub fn bumped_normal(
 
 /// A texture as a material reads it.
 pub struct TextureUse {
-    texture_index: u32,
-    sampler_index: u32,
-    second_uv: u32,
+    pub texture_index: u32,
+    pub sampler_index: u32,
+    /// The bit of `Material::second_uv_maps`.
+    pub second_uv: u32,
 }
 
 /// Returns how a map is read; that of the mask is the colour's texture.

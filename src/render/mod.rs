@@ -11,6 +11,7 @@ mod dispatch_plan;
 mod film_buffer;
 mod images;
 mod layer_samples;
+mod layer_surfaces;
 pub mod layers;
 mod loop_budget;
 mod mesh_passes;

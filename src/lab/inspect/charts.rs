@@ -41,10 +41,23 @@ impl Charts {
 const EMPTY: u32 = u32::MAX;
 const SEVERAL: u32 = u32::MAX - 1;
 
-/// Returns the charts of a texture of this size and number of levels; `None` if no triangles read it by coordinates of
-/// their own within the texture, or too many.
-pub fn charts(scene: &Scene, texture: usize, size: [u32; 2], levels: u32) -> Option<Charts> {
-    let triangles = triangles(scene, texture)?;
+/// Returns the materials that read one of some textures by coordinates of their own, and true for the second ones.
+pub fn readers(scene: &Scene, textures: &[usize]) -> Vec<(usize, bool)> {
+    let own = scene.materials.iter().enumerate().filter(|(_, own)| own.mapping.kind == MappingKind::Surface);
+    let mut readers: Vec<(usize, bool)> = own
+        .flat_map(|(number, own)| own.textures().map(move |used| (number, used)))
+        .filter(|(_, used)| textures.contains(&used.texture))
+        .map(|(number, used)| (number, used.second_uv))
+        .collect();
+    readers.sort_unstable();
+    readers.dedup();
+    readers
+}
+
+/// Returns the charts of an image of this size and number of levels that these materials read; `None` if no triangles have
+/// coordinates within the image, or too many.
+pub fn charts(scene: &Scene, readers: &[(usize, bool)], size: [u32; 2], levels: u32) -> Option<Charts> {
+    let triangles = triangles(scene, readers)?;
     let inside = |uv: &DVec2| uv.min_element() >= -BESIDE && uv.max_element() <= 1.0 + BESIDE;
     if triangles.is_empty() || !triangles.iter().flatten().all(inside) {
         return None;
@@ -64,20 +77,16 @@ pub fn charts(scene: &Scene, texture: usize, size: [u32; 2], levels: u32) -> Opt
     Some(Charts { count, overlap, first_level, shared })
 }
 
-/// Returns the texture coordinates of the triangles that read a texture by their own.
-fn triangles(scene: &Scene, texture: usize) -> Option<Vec<[DVec2; 3]>> {
-    let reads = |material: usize| {
-        let material = &scene.materials[material];
-        (material.texture == Some(texture) && material.mapping.kind == MappingKind::Surface)
-            .then_some(&material.mapping)
-    };
-    if scene.shapes.triangle_count() > MAX_TRIANGLES {
+/// Returns the texture coordinates at which triangles of these materials read.
+fn triangles(scene: &Scene, readers: &[(usize, bool)]) -> Option<Vec<[DVec2; 3]>> {
+    if readers.is_empty() || scene.shapes.triangle_count() > MAX_TRIANGLES {
         return None;
     }
     let mut found = Vec::new();
-    scene.shapes.for_each_triangle(|triangle| {
-        if let Some(mapping) = reads(triangle.material) {
-            found.push(triangle.uvs.map(|uv| mapped(mapping, uv)));
+    scene.shapes.for_each_coordinates(|material, [first, second]| {
+        for &(_, is_second) in readers.iter().filter(|(own, _)| *own == material) {
+            let uvs = if is_second { second } else { first };
+            found.push(uvs.map(|uv| mapped(&scene.materials[material].mapping, uv)));
         }
     });
     Some(found)

@@ -4,11 +4,11 @@
 use std::fmt;
 use std::sync::Arc;
 
-use glam::{DAffine3, DVec3};
+use glam::{DAffine3, DVec2, DVec3};
 use rayon::prelude::*;
 
 use super::meshes::{CornerAttributes, Placed};
-use super::{Bounds, Described, Fields, Shapes, Triangle};
+use super::{Bounds, Described, Facets, Fields, Shapes, Triangle};
 use crate::core::error::Result;
 use crate::mesh;
 use crate::scene::limits::COORDINATE;
@@ -171,6 +171,19 @@ impl Shapes {
         self.triangles.iter().for_each(&mut each);
         self.meshes.iter().for_each(|mesh| mesh.for_each(1, |triangle| each(&triangle)));
     }
+
+    /// Calls `each` with the material of every triangle and both texture coordinates of its corners; the second ones are 0
+    /// where there are none.
+    pub fn for_each_coordinates(&self, mut each: impl FnMut(usize, [[DVec2; 3]; 2])) {
+        self.triangles.iter().for_each(|own| each(own.material, [own.uvs, [DVec2::ZERO; 3]]));
+        for mesh in &self.meshes {
+            let placed = Placed::new(&mesh.file, &mesh.placement);
+            for &index in mesh.triangles.iter() {
+                let uvs = [placed.triangle(index).uvs, placed.attributes(index).second_uvs];
+                each(mesh.material, uvs);
+            }
+        }
+    }
 }
 
 /// A file may have millions of triangles.
@@ -182,6 +195,7 @@ impl fmt::Debug for Mesh {
 
 impl Described for Mesh {
     const KEYS: &[&str] = &[];
+    const FACETS: Facets = Facets::Many;
 
     fn read(fields: &dyn Fields, _material: usize) -> Result<Mesh> {
         Err(fields.missing("file"))

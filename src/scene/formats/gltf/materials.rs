@@ -243,9 +243,14 @@ impl Reader<'_> {
                 TextureContent::Embedded(label, bytes.clone())
             }
         };
-        let name = [&texture.name, &image.name].into_iter().find(|name| !name.is_empty());
+        let file = match &image.content {
+            Content::Path(file) => file,
+            Content::Bytes(_) => "",
+        };
+        let names = [file, &image.name, &texture.name];
+        let name = names.into_iter().find(|name| !name.is_empty());
         Some(self.builder.texture(TextureSource {
-            name: name.cloned().unwrap_or_else(|| format!("image {index}")),
+            name: name.map_or_else(|| format!("image {index}"), str::to_owned),
             content,
             dimension: Dimension::Two,
             color_space,
