@@ -48,10 +48,20 @@ pub enum Slot {
     Roughness,
     Emission,
     Occlusion,
+    SpecularWeight,
+    SpecularTint,
 }
 
 impl Slot {
-    pub const ALL: [Slot; 5] = [Slot::Color, Slot::Bump, Slot::Roughness, Slot::Emission, Slot::Occlusion];
+    pub const ALL: [Slot; 7] = [
+        Slot::Color,
+        Slot::Bump,
+        Slot::Roughness,
+        Slot::Emission,
+        Slot::Occlusion,
+        Slot::SpecularWeight,
+        Slot::SpecularTint,
+    ];
 
     /// Returns texture, sampler and bit of the coordinates.
     fn of(self, m: &Material) -> [u32; 3] {
@@ -65,6 +75,8 @@ impl Slot {
             Slot::Roughness => map(MaterialMap::Roughness),
             Slot::Emission => map(MaterialMap::Emission),
             Slot::Occlusion => map(MaterialMap::Occlusion),
+            Slot::SpecularWeight => map(MaterialMap::SpecularWeight),
+            Slot::SpecularTint => map(MaterialMap::SpecularTint),
         }
     }
 }

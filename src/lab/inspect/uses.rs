@@ -38,13 +38,16 @@ pub(super) fn uses(scene: &Scene, textures: &[usize], pixels: &BTreeMap<(usize, 
 
 /// Returns the texture that a material reads for something.
 fn use_of(material: &Material, slot: Slot) -> Option<TextureUse> {
-    let Maps { color, bump, roughness, emission, occlusion } = material.maps();
+    let Maps { color, bump, roughness, emission, occlusion, specular_weight, specular_tint } =
+        material.maps();
     match slot {
         Slot::Color => color,
         Slot::Bump => bump,
         Slot::Roughness => roughness,
         Slot::Emission => emission,
         Slot::Occlusion => occlusion,
+        Slot::SpecularWeight => specular_weight,
+        Slot::SpecularTint => specular_tint,
     }
 }
 
@@ -61,6 +64,8 @@ impl Use {
             Slot::Roughness => "roughness and metallic",
             Slot::Emission => "emission",
             Slot::Occlusion => "occlusion",
+            Slot::SpecularWeight => "weight of the reflection",
+            Slot::SpecularTint => "tint of the reflection",
         };
         let by = material.map_or(String::new(), |material| format!(" of {}", material.name));
         format!("{slot}{by} ({})", counted(self.pixels as usize, "pixel"))

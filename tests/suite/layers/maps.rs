@@ -79,6 +79,8 @@ fn a_map_without_a_texture_of_the_colour_is_read_too() {
         ("metallic_roughness_map = 't'", Slot::Roughness),
         ("emission_map = 't'", Slot::Emission),
         ("occlusion_map = 't'", Slot::Occlusion),
+        ("specular_weight_map = 't'", Slot::SpecularWeight),
+        ("specular_tint_map = 't'", Slot::SpecularTint),
     ] {
         with_maps("", &format!("model = 'metallic-roughness'\n{keys}"), |scene| {
             let found = surveyed(&scene);
