@@ -8,7 +8,6 @@ use std::collections::BTreeMap;
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
-use super::layers::lightless;
 use crate::core::error::Result;
 use crate::core::film::Film;
 use crate::core::progress::{Progress, SubProgress};
@@ -32,9 +31,9 @@ const SMOOTH_COSINE: f64 = 0.866_025_403_784_438_6;
 /// Sine of 15 degrees: a surface that turns evenly by 30 leaves the chord between its ends by half of that.
 const CHORD_SINE: f64 = 0.258_819_045_102_520_8;
 
-/// Returns the scene whose samples look for surfaces, each within its own pixel.
-pub(super) fn looking(scene: &Scene) -> Scene {
-    let mut scene = lightless(scene);
+/// Returns the scene whose samples look for surfaces, each within its own pixel; `lightless` is the scene as layers see it.
+pub(super) fn looking(lightless: Scene) -> Scene {
+    let mut scene = lightless;
     scene.pixel_filter = PixelFilter::default();
     let sampling = &mut scene.sampling;
     (sampling.footprint, sampling.quantity) = (Footprint::None, Quantity::Albedo);

@@ -62,7 +62,7 @@ pub fn render_layers(
                 layer(aov, &film)
             }
             Aov::Surfaces => {
-                let looking = looking(scene);
+                let looking = looking(lightless(scene));
                 let mut loaded = load(&looking, options, on)?;
                 let mut measuring = Measuring::open(&mut loaded, options)?;
                 let film = measuring.surfaces(&looking, &steps.next())?;
@@ -108,7 +108,7 @@ fn at_centres(scene: &Scene) -> Scene {
 }
 
 /// Returns the scene whose paths end at their first hit.
-pub(super) fn lightless(scene: &Scene) -> Scene {
+fn lightless(scene: &Scene) -> Scene {
     let mut scene = scene.clone();
     scene.lights.clear();
     let sampling = &mut scene.sampling;
