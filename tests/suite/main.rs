@@ -72,6 +72,7 @@ mod scene;
 mod slopes;
 mod sources;
 mod specialise;
+mod spots;
 mod stability;
 mod stage;
 mod stochastic;
