@@ -129,7 +129,7 @@ impl<'a> FirstHit<'a> {
     /// Returns the look-up of the material's texture, if it has texels.
     pub fn look_up(&self, scene: &'a PackedScene, ray: &Ray) -> Option<LookUp<'a>> {
         let map = self.map?;
-        let shown = at_uv_of(self.material, SECOND_UV_COLOR, &self.surface);
+        let shown = at_uv_of(scene, self.material, SECOND_UV_COLOR, &self.surface);
         let mapped = texture_coordinate(map, &map_input(map, ray, &shown, &self.print));
         look_up(scene, self.material, &mapped)
     }

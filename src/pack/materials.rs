@@ -1,7 +1,7 @@
 //! Packs materials into device records, with the image descriptors of their textures.
 
 use super::{PackedScene, textures};
-use crate::scene::model::{BumpKind, Material, Sides, TextureUse};
+use crate::scene::model::{BumpKind, Material, OwnUv, Sides, TextureUse};
 use crate::schema::constants::{SECOND_UV_BUMP, SECOND_UV_COLOR};
 use crate::schema::enums::MaterialMap;
 use crate::schema::layout;
@@ -31,6 +31,15 @@ pub(super) fn material(packed: &mut PackedScene, source: &Material) -> layout::M
     let second =
         |map: Option<TextureUse>, bit: u32| if map.is_some_and(|map| map.second_uv) { bit } else { 0 };
     let of = |map: MaterialMap| 1 << map as u32;
+    let own = [
+        (of(MaterialMap::Roughness), maps.roughness),
+        (of(MaterialMap::Emission), maps.emission),
+        (of(MaterialMap::Occlusion), maps.occlusion),
+        (SECOND_UV_COLOR, maps.color),
+        (SECOND_UV_BUMP, maps.bump),
+    ];
+    let first_map_uv = packed.records.map_uvs.len() as u32;
+    let own_uv_maps = own_uvs(packed, own);
     layout::Material {
         color: source.color.as_vec3(),
         bump_strength: bump.map_or(0.0, |r| r.strength) as f32,
@@ -61,6 +70,8 @@ pub(super) fn material(packed: &mut PackedScene, source: &Material) -> layout::M
             | second(maps.roughness, of(MaterialMap::Roughness))
             | second(maps.emission, of(MaterialMap::Emission))
             | second(maps.occlusion, of(MaterialMap::Occlusion)),
+        own_uv_maps,
+        first_map_uv,
         alpha_mode: source.alpha,
         alpha_cutoff: source.alpha_cutoff as f32,
         opacity: source.opacity as f32,
@@ -70,4 +81,21 @@ pub(super) fn material(packed: &mut PackedScene, source: &Material) -> layout::M
         exponent: source.exponent as f32,
         ior: source.ior as f32,
     }
+}
+
+/// Adds the coordinates that maps have for themselves, in the order of their bits; returns the bits of these maps.
+fn own_uvs<const N: usize>(packed: &mut PackedScene, mut maps: [(u32, Option<TextureUse>); N]) -> u32 {
+    maps.sort_unstable_by_key(|(bit, _)| *bit);
+    let mut bits = 0;
+    for (bit, map) in maps {
+        let Some(OwnUv { set, transform }) = map.and_then(|map| map.own_uv) else { continue };
+        bits |= bit;
+        packed.records.map_uvs.push(layout::MapUv {
+            row_u: transform.matrix2.row(0),
+            row_v: transform.matrix2.row(1),
+            offset: transform.translation,
+            set: set as u32,
+        });
+    }
+    bits
 }

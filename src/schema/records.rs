@@ -20,7 +20,6 @@ records! {
         /// Displacement between the times 0 and 1.
         eye_motion: DVec3,
         view_motion: DVec3,
-        /// Linear RGB.
         background: Vec3,
         projection: ProjectionKind,
         image_size: UVec2,
@@ -139,7 +138,7 @@ records! {
         corners: u32,
         /// Texel of the first triangle's attributes.
         attributes: u32,
-        /// Their number for each triangle: four, then two each of colours and second texture coordinates.
+        /// Their number for each triangle: four, then two each of colours and further texture coordinates.
         attribute_count: u32,
         has_colors: bool,
         has_second_uv: bool,
@@ -185,42 +184,40 @@ records! {
         kind: LightKind,
     }
 
+    /// Indices of textures may be `NO_TEXTURE`.
     Material in materials as "choice among materials" {
         color: Vec3,
         bump_strength: f32,
         model: Model,
-        /// Or `NO_TEXTURE`.
         texture_index: u32,
         sampler_index: u32,
         image_slot: u32,
-        /// Or `NO_TEXTURE`.
         bump_texture_index: u32,
         bump_sampler_index: u32,
         bump_image_slot: u32,
         bump_kind: BumpKind,
         /// Roughness of a mirror's or glass's microfacet distribution (GGX); 0 is smooth.
         alpha: f32,
-        /// Of model `metallic-roughness`.
         roughness: f32,
         metallic: f32,
-        /// Or `NO_TEXTURE`.
         roughness_texture_index: u32,
         roughness_sampler_index: u32,
         roughness_image_slot: u32,
-        /// Or `NO_TEXTURE`.
         emission_texture_index: u32,
         emission_sampler_index: u32,
         emission_image_slot: u32,
         /// Emitted radiance; times its texture.
         emission: Vec3,
         occlusion_strength: f32,
-        /// Or `NO_TEXTURE`.
         occlusion_texture_index: u32,
         occlusion_sampler_index: u32,
         occlusion_image_slot: u32,
         /// Maps that are read at the mesh's second texture coordinates: one bit for each `MaterialMap`, and above them
         /// those of the colour and of the bump map.
         second_uv_maps: u32,
+        /// The same bits for maps with coordinates of their own, whose records follow each other in the order of the bits.
+        own_uv_maps: u32,
+        first_map_uv: u32,
         alpha_mode: AlphaMode,
         alpha_cutoff: f32,
         /// Times the alpha of its texture.
@@ -251,6 +248,16 @@ records! {
         offset: DVec2,
         kind: MapKind,
         entity: EntityKind,
+    }
+
+    /// Coordinates at which one map of a material is read: those of a set of the mesh, transformed.
+    MapUv in map_uvs as "coordinates of maps" {
+        /// uv' = (row_u · uv, row_v · uv) + offset.
+        row_u: DVec2,
+        row_v: DVec2,
+        offset: DVec2,
+        /// Which set, 0 for the second.
+        set: u32,
     }
 
     Texture in textures as "choice among textures" {
@@ -289,7 +296,6 @@ records! {
         aspect: f64,
         offset: f64,
         jitter: f64,
-        /// Linear RGB.
         background: Vec3,
         kind: ProceduralKind,
         figure: Vec3,
@@ -303,8 +309,7 @@ records! {
         dimensions: u32,
     }
 
-    /// Four numbers of the distribution of the environment's light: first the cumulative one of its rows, then that of
-    /// the cells of each row.
+    /// Four numbers of the distribution of the environment's light: cumulative, of its rows, then of the cells of each.
     EnvironmentPart in environment_parts as "environment as a light" {
         values: Vec4,
     }

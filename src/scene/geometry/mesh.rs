@@ -4,7 +4,7 @@
 use std::fmt;
 use std::sync::Arc;
 
-use glam::{DAffine3, DVec3};
+use glam::{DAffine3, DVec2, DVec3};
 use rayon::prelude::*;
 
 use super::meshes::{CornerAttributes, Placed};
@@ -38,7 +38,8 @@ pub struct Mesh {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct AttributeKinds {
     pub colors: bool,
-    pub second_uvs: bool,
+    /// Sets of texture coordinates beyond the first.
+    pub further_uvs: usize,
     pub tangents: bool,
 }
 
@@ -95,7 +96,7 @@ impl Mesh {
     pub(crate) fn attribute_kinds(&self) -> AttributeKinds {
         AttributeKinds {
             colors: !self.file.colors.is_empty(),
-            second_uvs: !self.file.second_uvs.is_empty(),
+            further_uvs: usize::from(!self.file.second_uvs.is_empty()) + self.file.more_uvs.len(),
             tangents: !self.file.tangents.is_empty(),
         }
     }
@@ -138,6 +139,11 @@ impl Stored<'_> {
     /// Returns what the corners of that triangle have beside normals and texture coordinates.
     pub fn attributes(&self, place: usize) -> CornerAttributes {
         self.placed.attributes(self.mesh.triangles[place])
+    }
+
+    /// Returns the coordinates of that triangle's corners in a further set, 0 the second.
+    pub fn further_uvs(&self, place: usize, set: usize) -> [DVec2; 3] {
+        self.placed.further_uvs(self.mesh.triangles[place], set)
     }
 }
 
