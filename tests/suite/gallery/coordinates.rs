@@ -139,7 +139,6 @@ fn films(reading: [(usize, Turn); 5], baked: bool, plain: Option<usize>) -> [Fil
                 [image]\nwidth = 4\nheight = 4\n[sampling]\nmax_depth = 0\n\
                 [[texture]]\nname = 'sky'\nfile = 'sky.png'\ncolor_space = 'linear'\n\
                 [background]\nenvironment = 'sky'\n[[light]]\nkind = 'environment'\n\
-                [[light]]\nkind = 'directional'\ndirection = [1, 2, 3]\nirradiance = [2, 2, 2]\n\
                 [[mesh]]\nfile = 'm.gltf'\n";
     let scene = parse(&folder.path().join("scene.toml"), text).unwrap();
     assert!(scene.notes.is_empty(), "{:?}", scene.notes);
