@@ -159,16 +159,16 @@ fn each_texture_has_its_own_set_and_its_own_transform() {
         let reading = numbers.map(|(set, transform)| (set, TRANSFORMS[transform]));
         let [device, oracle] = films(reading, false, None);
         let [device_wanted, wanted] = films(reading, true, None);
-        for (by, found, wanted) in
-            [("by the oracle", &oracle, &wanted), ("on the device", &device, &device_wanted)]
+        for (by, found, wanted, most) in
+            [("by the oracle", &oracle, &wanted, 1e-4), ("on the device", &device, &device_wanted, 1e-3)]
         {
             let apart = farthest(found, wanted);
-            assert!(apart < 1e-3, "{numbers:?}: {apart} {by}");
+            assert!(apart < most, "{numbers:?}: {apart} {by}");
         }
-        // The picture tells whether a slot is read anywhere else.
+        // The oracle's picture tells whether a slot is read anywhere else: ten times as far apart.
         for (slot, name) in SLOTS.iter().enumerate() {
             let [_, other] = films(reading, true, Some(slot));
-            assert!(farthest(&other, &wanted) > 0.01, "{name} is not seen: {}", farthest(&other, &wanted));
+            assert!(farthest(&other, &wanted) > 1e-3, "{name} is not seen: {}", farthest(&other, &wanted));
         }
     }
 }
