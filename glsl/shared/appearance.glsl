@@ -15,6 +15,8 @@ struct Appearance {
     float roughness;
     vec3 emission;
     float occlusion; // share of the environment's light that arrives
+    vec3 dielectric; // reflectance of a dielectric surface head-on
+    float edge;      // and at grazing angles
 };
 
 // Some ray may pass a surface.
@@ -178,6 +180,12 @@ uint maps_of(const Material material) {
     if (HAS(MATERIAL_MAPS, MATERIAL_MAP_MASK) && material.alpha_mode == ALPHA_MASK && material.texture_index != NO_TEXTURE) {
         maps |= 1u << MATERIAL_MAP_MASK;
     }
+    if (HAS(MATERIAL_MAPS, MATERIAL_MAP_SPECULAR_WEIGHT) && material.specular_weight_texture_index != NO_TEXTURE) {
+        maps |= 1u << MATERIAL_MAP_SPECULAR_WEIGHT;
+    }
+    if (HAS(MATERIAL_MAPS, MATERIAL_MAP_SPECULAR_TINT) && material.specular_tint_texture_index != NO_TEXTURE) {
+        maps |= 1u << MATERIAL_MAP_SPECULAR_TINT;
+    }
     return maps;
 }
 
@@ -200,6 +208,13 @@ TextureUse use_of(const Material material, uint map) {
     if (MODE_IS(MATERIAL_MAPS, MATERIAL_MAP_OCCLUSION, map)) {
         use = TextureUse(material.occlusion_texture_index, material.occlusion_sampler_index, material.occlusion_image_slot, 1u << map);
     }
+    if (MODE_IS(MATERIAL_MAPS, MATERIAL_MAP_SPECULAR_WEIGHT, map)) {
+        use = TextureUse(material.specular_weight_texture_index, material.specular_weight_sampler_index, material.specular_weight_image_slot,
+                         1u << map);
+    }
+    if (MODE_IS(MATERIAL_MAPS, MATERIAL_MAP_SPECULAR_TINT, map)) {
+        use = TextureUse(material.specular_tint_texture_index, material.specular_tint_sampler_index, material.specular_tint_image_slot, 1u << map);
+    }
     return use;
 }
 
@@ -211,6 +226,11 @@ void apply_map(uint map, vec4 texel, const Material material, float vertex_alpha
     }
     if (MODE_IS(MATERIAL_MAPS, MATERIAL_MAP_EMISSION, map)) look.emission *= texel.xyz;
     if (MODE_IS(MATERIAL_MAPS, MATERIAL_MAP_OCCLUSION, map)) look.occlusion = 1.0 + material.occlusion_strength * (texel.x - 1.0);
+    if (MODE_IS(MATERIAL_MAPS, MATERIAL_MAP_SPECULAR_WEIGHT, map)) {
+        look.dielectric *= texel.w;
+        look.edge *= texel.w;
+    }
+    if (MODE_IS(MATERIAL_MAPS, MATERIAL_MAP_SPECULAR_TINT, map)) look.dielectric *= texel.xyz;
     if (MODE_IS(MATERIAL_MAPS, MATERIAL_MAP_MASK, map)) look.opacity = material.opacity * vertex_alpha * texel.w;
 }
 
@@ -232,7 +252,8 @@ float covered_share(const Material material, const Surface surface, float alpha)
 
 // Returns what the material looks like, after its bump map has changed the normal.
 Appearance appearance(const Material material, const UvProjection map, const Ray ray, inout Surface surface, const Footprint print, uvec2 random) {
-    Appearance look = Appearance(material.color, material.opacity, material.metallic, material.roughness, material.emission, 1.0);
+    Appearance look = Appearance(material.color, material.opacity, material.metallic, material.roughness, material.emission, 1.0,
+                                 material.specular, material.edge);
     float vertex_alpha = 1.0;
     if (VERTEX_COLORS) {
         look.color *= surface.attributes.color.xyz;
@@ -300,6 +321,7 @@ Appearance appearance(const Material material, const UvProjection map, const Ray
             tap++;
         } while ((BUMPED && tap <= taps) || (MATERIAL_MAPS != 0u && (tap <= taps || maps != 0u)));
     }
+    if (HAS(MATERIAL_MAPS, MATERIAL_MAP_SPECULAR_TINT)) look.dielectric = min(look.dielectric, vec3(look.edge));
 #endif
     return look;
 }

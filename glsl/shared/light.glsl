@@ -168,6 +168,10 @@ Lit direct_light(const Header header, const Surface surface, float time, uint sh
         if (AREA_LIGHTS) share *= aim.density;
         if (RANGED && point_light) share *= punctual_share(light, vec3(way));
         bool lit = facing > 0.0 && dot3(surface.geometric_normal, way) > 0.0;
+        if (ROUGH_MIRRORS) {
+            // Mirrors reflect what rays see.
+            lit = lit && (MODE_IS(LIGHT_KINDS, LIGHT_ENVIRONMENT, light.kind) || !is_specular(bsdf.model));
+        }
         if (lit) {
             if (SHADOWS) {
                 real3 to_light = point_light ? light.position - start : way;

@@ -45,12 +45,25 @@ vec3 look_up_quantity(uint quantity, const Material material, const TexCoord map
 }
 #endif
 
+// A unit vector as a whole number: two octahedral components of 12 bits each (Cigolle et al. 2014).
+float direction_number(vec3 n) {
+    vec2 p = n.xy / ((abs(n.x) + abs(n.y)) + abs(n.z));
+    vec2 folded = vec2(p.x < 0.0 ? abs(p.y) - 1.0 : 1.0 - abs(p.y), p.y < 0.0 ? abs(p.x) - 1.0 : 1.0 - abs(p.x));
+    vec2 steps = floor(4095.0 * clamp(0.5 * (n.z < 0.0 ? folded : p) + 0.5, 0.0, 1.0) + 0.5);
+    return steps.x * 4096.0 + steps.y;
+}
+
 // Returns a quantity of the surface itself; `missed`: it is the environment's. Numbers count from 1.
 vec3 surface_quantity(uint quantity, bool missed, const Hit hit, const Surface surface, vec3 albedo) {
     vec3 value = albedo;
     if (quantity == QUANTITY_NORMAL) value = missed ? vec3(0.0) : vec3(surface.normal);
     if (quantity == QUANTITY_DEPTH) value = missed ? vec3(0.0) : vec3(float(hit.t), 0.0, 1.0);
     if (quantity == QUANTITY_INSTANCE) value = missed ? vec3(0.0) : vec3(float(hit.shape + 1u), 0.0, 1.0);
+    if (quantity == QUANTITY_PLACE) value = missed ? vec3(0.0) : vec3(surface.at_rest);
+    if (quantity == QUANTITY_FACET) {
+        vec3 facet = vec3(float(hit.shape + 1u), direction_number(vec3(surface.geometric_normal)), direction_number(vec3(surface.normal)));
+        value = missed ? vec3(0.0) : facet;
+    }
     if (quantity == QUANTITY_MATERIAL) value = vec3(float(surface.link.x + 1u), 0.0, 1.0);
     return value;
 }

@@ -9,9 +9,9 @@
 #include "features.glsl"
 #include "layout.glsl"
 #include "sample_dimensions.glsl"
-#include "pixel_filter.glsl"
-#include "shade.glsl"
-#include "slice.glsl"
+#include "camera_sample.glsl"
+#include "film_sums.glsl"
+#include "render_team.glsl"
 
 // Samples of single pixels. A film of batches holds two halves, each with sums of radiance and of the mean of
 // its squared channels; if the pixel filter has negative lobes two more with the sums of samples in these,
@@ -26,14 +26,6 @@ struct Task {
     uint first;
     uint end;
 };
-
-// The place of a sample in its pixel.
-Place sample_place(const Header header, const Points points, uint s) {
-    uvec2 position;
-    if (SAMPLE_DIMENSIONS == 0u) position = sample_point(points, s, false);
-    else position = choose(header, points, s, 0u, true).place;
-    return filtered_place(header, position);
-}
 
 Task tile_task() {
     return Task(film_pixel(), 0u, first_sample(), first_sample() + sample_count());
@@ -67,6 +59,10 @@ void main() {
     Header header = load_header();
     preload_records();
     clear_notices();
+    if (TEAMED || MESH_SEARCH == SEARCH_TEAM_REST) {
+        render_as_team(header);
+        return;
+    }
     bool is_batch = MODE_IS(SCHEDULES, SCHEDULE_BATCHES, schedule());
     Task task;
     if (MESH_SEARCH == SEARCH_MANY || MESH_SEARCH == SEARCH_REST) task = listed_task();
@@ -136,29 +132,8 @@ void main() {
             SampleDimensions dimensions = NO_CHOICES;
             if (SAMPLE_DIMENSIONS != 0u) dimensions = choose(header, points, s, starts ? 0u : path.depth, starts);
             if (starts) {
-                uvec2 position;
-                if (SAMPLE_DIMENSIONS == 0u) position = sample_point(points, s, false);
-                else position = dimensions.place;
-                Header camera = header;
-                float time = 0.0;
-                if (TIMED) time = header.shutter_opens + header.shutter_time * unit_square(dimensions.time).x;
-                if (MOVING_CAMERA) {
-                    if (header.camera_moves) camera = camera_at(header, time);
-                }
-                Place place = filtered_place(header, position);
-                sign = place.sign;
+                path = camera_sample(header, pixel, key, points, s, dimensions, candidates, sign);
                 signs += sign;
-                Ray ray = camera_ray(camera, pixel, place.inside);
-                if (LENS) {
-                    if (header.lens_radius > 0.0) ray = through_lens(camera, ray, unit_square(dimensions.lens));
-                }
-                if (TIMED) ray.time = time;
-                if (MOVING_CAMERA) {
-                    if (header.camera_moves) ray.origin += time * header.eye_motion;
-                }
-                // Bits that are independent of the sample's position.
-                uvec2 random = RANDOM ? pcg2d(sample_bits(key, s) ^ 0x5BD1E995u) : uvec2(0u);
-                path = camera_path(ray, camera_differential(camera, ray), random, candidates);
             }
             vec3 more = advance(header, points, dimensions, path);
             count_diagnostic(DIAGNOSTIC_RADIANCE, no_number(more));
@@ -211,20 +186,7 @@ void main() {
         }
         return;
     }
-    if (is_signed) {
-        uint behind = at + (COMPENSATED ? 2u : 1u) * pixels;
-        vec4 sums = vec4(negative, 0.0);
-        film[behind] = first_sample() > 0u ? film[behind] + sums : sums;
-    }
-    if (COMPENSATED && first_sample() > 0u) {
-        vec3 term = sum - (film[at + pixels].xyz + lost);
-        vec3 total = film[at].xyz + term;
-        lost = (total - film[at].xyz) - term;
-        if (SIGNED) signs += film[at].w;
-        sum = total;
-    }
-    if (COMPENSATED) film[at + pixels] = vec4(lost, 0.0);
-    film[at] = vec4(sum, SIGNED ? signs : 0.0);
+    add_to_film(header, at, sum, lost, signs, negative);
 }
 
 #endif

@@ -39,6 +39,13 @@ bool bounced(const Header header, const Hit hit, Surface surface, const Footprin
     Bounce bounce = sample_bsdf(material, surface, ray.direction, dimensions);
     real3 normal = bounce.mirrored ? surface.geometric_normal : -surface.geometric_normal;
     path.ray = Ray(offset_origin(surface.point, normal, surface.size), bounce.direction, ray.time);
+    if (LIT_BY_ENVIRONMENT) path.density = 0.0;
+    if (ROUGH_MIRRORS) {
+        // Where nothing is seen from the surface by itself, no light is sampled.
+        if (is_rough_mirror(material) && is_lit_by_environment(header) && !bounce.is_raised) {
+            path.density = mirrored_density(vec3(surface.normal), vec3(ray.direction), vec3(bounce.direction), material.alpha);
+        }
+    }
     if (FILTERED) {
         RayDifferential beam = path.beam;
         if (bounce.mirrored) {
@@ -67,7 +74,7 @@ bool goes_on(const Header header, const Hit hit, Surface surface, const Footprin
     consistent_normal(ray.direction, surface);
     bsdf.normal = vec3(surface.normal);
     Scattered next = scattered(bsdf, surface, path.throughput, carried, dimensions, to_sky);
-    path.throughput = next.diffuse ? next.weight * occlusion : next.weight;
+    path.throughput = next.occluded ? next.weight * occlusion : next.weight;
     path.density = next.density;
     path.diffuse = next.diffuse;
     path.ray = Ray(offset_origin(surface.point, surface.geometric_normal, surface.size), next.direction, ray.time);
@@ -130,14 +137,22 @@ vec3 advance(const Header header, const Points points, const SampleDimensions di
             Path before = path;
             bool continues = BOUNCES && path.depth < header.max_depth;
             Bsdf bsdf;
-            if (HAS_LIT) bsdf = bsdf_at(material, look.color, look.metallic, look.roughness, surface.normal, direction);
+            if (HAS_LIT) {
+                bsdf = bsdf_at(material, look.color, look.metallic, look.roughness, look.dielectric, look.edge, surface.normal, direction);
+            }
             is_alive = BOUNCES && bounced(header, hit, surface, print, material, dimensions, path);
             if (BOUNCES && HAS_LIT && (THIRD_LOBE || LIT_BY_ENVIRONMENT)) {
                 if (is_lit(material.model)) is_alive = goes_on(header, hit, surface, print, bsdf, carried, look.occlusion, dimensions, path);
             }
             seen = emitted(material.model, before.throughput);
+            bool mirrors = false;
+            if (ROUGH_MIRRORS) {
+                mirrors = continues && is_rough_mirror(material) && is_lit_by_environment(header);
+                if (mirrors) consistent_normal(direction, surface);
+                bsdf.normal = vec3(surface.normal);
+            }
             if (HAS_LIT) {
-                if (is_lit(material.model)) {
+                if (is_lit(material.model) || mirrors) {
                     Lit lit = direct_light(header, surface, path.ray.time, hit.shape, bsdf, points, dimensions, look.occlusion, continues, before.random);
                     seen = reflected(bsdf, before.throughput, carried, lit);
                 }

@@ -103,7 +103,6 @@ void main() {
     if (CONCAVE_SHAPES) {
         CellRays cell_sides = cell_rays(header, frame);
         survey.first = min(listed, LIST_ROOM);
-        survey.cell = begin;
         survey_meshes(header, frame, SQUARE, cell_sides, survey);
         found[begin + CELL_HEAD + LIST_ROOM] = survey.more;
         if (HOLDS_TRIANGLES) mark_parts(header, pixel, survey);

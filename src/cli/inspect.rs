@@ -51,7 +51,7 @@ pub fn run(args: &InspectArgs) -> Result<ExitCode> {
     let options = Options { goal: args.overrides.goal(), ..Options::default() };
     let inspection = inspect::inspect(&scene, &options, &[on], &bar)?;
     bar.finish();
-    let files = inspect::write(&args.out, &scene, &inspection)?;
+    let files = inspect::write(&args.out, &scene, &inspection, &args.overrides.view())?;
     if !args.quiet {
         inspection.left_out.iter().for_each(|why| super::notify(format_args!("left out: {why}")));
         super::notify(format_args!(

@@ -11,7 +11,7 @@ use crate::integrators::adaptive::Goal;
 use crate::scene::MAX_RADIUS;
 use crate::scene::changes::Changes;
 use crate::scene::model::{Algorithm, Footprint, Pattern, PixelFilterKind, Precision, Scene};
-use crate::texture::sampler_spec::{Filter, Method, MipMode};
+use crate::texture::sampler_spec::{Filter, LevelUse, Method};
 
 use super::{DEVICE, OUTPUT, SAMPLING, TEXTURES, named_parser};
 
@@ -54,8 +54,8 @@ pub struct Overrides {
     #[arg(long, value_name = "P", value_parser = named_parser(Precision::NAMES, Precision::from_name), help_heading = DEVICE)]
     precision: Option<Precision>,
     /// Levels that every sampler reads
-    #[arg(long, value_name = "M", value_parser = named_parser(MipMode::NAMES, MipMode::from_name), help_heading = TEXTURES)]
-    mip: Option<MipMode>,
+    #[arg(long, value_name = "M", value_parser = named_parser(LevelUse::NAMES, LevelUse::from_name), help_heading = TEXTURES)]
+    mip: Option<LevelUse>,
     /// Pixel filter
     #[arg(long, value_name = "NAME", value_parser = named_parser(PixelFilterKind::NAMES, PixelFilterKind::from_name), help_heading = SAMPLING)]
     pixel_filter: Option<PixelFilterKind>,
@@ -93,6 +93,18 @@ impl Overrides {
             shared: self.shared,
         };
         changes.apply(scene)
+    }
+
+    /// Returns those of the options that choose what is seen, and how samples become pixels.
+    pub fn view(&self) -> Vec<String> {
+        let options = [
+            ("camera", self.camera.clone()),
+            ("size", self.size.map(|[width, height]| format!("{width}x{height}"))),
+            ("pixel-filter", self.pixel_filter.map(|kind| kind.name().to_owned())),
+            ("pixel-filter-radius", self.pixel_filter_radius.map(|radius| radius.to_string())),
+        ];
+        let given = options.into_iter().filter_map(|(name, value)| Some([format!("--{name}"), value?]));
+        given.flatten().collect()
     }
 
     /// Returns the goal that ends the sampling, unless that is a number of samples.

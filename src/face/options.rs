@@ -92,7 +92,7 @@ impl RenderOptions {
 
     /// Sets the mip mode of every sampler.
     pub fn mip(mut self, mip: MipMode) -> Self {
-        self.changes.mip = Some(mip);
+        self.changes.mip = Some(mip.into());
         self
     }
 

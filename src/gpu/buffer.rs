@@ -7,6 +7,7 @@ use ash::vk;
 use gpu_allocator::MemoryLocation;
 use gpu_allocator::vulkan::Allocation;
 
+use super::command::Commands;
 use super::convert;
 use super::device::Core;
 use super::result::{WithOperation, size_text};
@@ -79,6 +80,23 @@ impl Buffer {
     /// Returns the buffer view, which is null unless the use is a texel buffer.
     pub(super) fn texel_view(&self) -> vk::BufferView {
         self.raw.view
+    }
+
+    /// Returns the content if it lies in memory that the host reads and writes as its own, so that nothing need be copied
+    /// by way of another buffer. While `commands` are lent, no submission runs and nobody else has the content.
+    pub(super) fn host_bytes<'a>(&'a self, commands: &'a mut Commands) -> Option<&'a mut [u8]> {
+        use vk::MemoryPropertyFlags as Flags;
+        let core = &self.raw.core;
+        if !commands.are_of(core) || core.is_hung() {
+            return None;
+        }
+        let allocation = self.raw.allocation.as_ref()?;
+        let needed = Flags::HOST_COHERENT | Flags::HOST_CACHED;
+        let mapped = allocation.mapped_ptr().filter(|_| allocation.memory_properties().contains(needed))?;
+        // SAFETY: the memory is mapped while the allocation lives, and at least as long as the buffer. The only commands of
+        // the device are borrowed by the slice, so no submission uses the buffer and there is no second slice; what earlier
+        // ones wrote was made visible to the host by their closing barrier.
+        Some(unsafe { std::slice::from_raw_parts_mut(mapped.cast().as_ptr(), self.bytes() as usize) })
     }
 
     /// Refuses a range `offset .. offset + len` that does not lie inside the buffer.

@@ -62,6 +62,11 @@ impl Commands {
         Ok(())
     }
 
+    /// Returns true if these are the commands of that device.
+    pub(super) fn are_of(&self, core: &Arc<Core>) -> bool {
+        Arc::ptr_eq(&self.core, core)
+    }
+
     /// Records, submits and waits for the fence. `name` names the work in errors.
     pub(super) fn run(
         &mut self,

@@ -1,4 +1,4 @@
-//! Reads back bytes of a buffer, chunk by chunk through the staging buffer.
+//! Reads back bytes of a buffer: from memory of the host directly, else chunk by chunk through the staging buffer.
 
 use ash::vk;
 
@@ -15,6 +15,10 @@ pub(super) fn from_buffer(
     out: &mut [u8],
 ) -> Result<()> {
     buffer.check_range(offset, out.len())?;
+    if let Some(bytes) = buffer.host_bytes(commands) {
+        out.copy_from_slice(&bytes[offset as usize..][..out.len()]);
+        return Ok(());
+    }
     let mut src_offset = offset;
     for chunk in out.chunks_mut(STAGING_BYTES) {
         let target = staging.get(chunk.len())?;

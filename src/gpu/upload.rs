@@ -1,7 +1,9 @@
-//! Uploads bytes or texels into buffers and images and leaves them ready for shaders. All data goes
-//! through the staging buffer in chunks; small mip levels share a chunk.
+//! Uploads bytes or texels into buffers and images and leaves them ready for shaders. Bytes of buffers
+//! in memory of the host are written there; all other data goes through the staging buffer in chunks.
+//! Small mip levels share a chunk.
 
 use ash::vk;
+use rayon::prelude::*;
 
 use super::buffer::Buffer;
 use super::command::Commands;
@@ -12,6 +14,8 @@ use crate::core::error::Result;
 /// The alignment of copies within a chunk: the largest texel size (Vulkan 1.2, "Copying Data
 /// Between Buffers and Images", requires a multiple of the texel size and of 4).
 const ALIGNMENT: usize = 16;
+/// Bytes that a thread copies at once.
+const AT_ONCE: usize = 1 << 20;
 
 pub(super) fn to_buffer(
     staging: &mut Staging,
@@ -21,6 +25,12 @@ pub(super) fn to_buffer(
     data: &[u8],
 ) -> Result<()> {
     buffer.check_range(offset, data.len())?;
+    if let Some(bytes) = buffer.host_bytes(commands) {
+        let target = &mut bytes[offset as usize..][..data.len()];
+        let both = target.par_chunks_mut(AT_ONCE).zip(data.par_chunks(AT_ONCE));
+        both.for_each(|(target, data)| target.copy_from_slice(data));
+        return Ok(());
+    }
     let mut dst_offset = offset;
     for chunk in data.chunks(STAGING_BYTES) {
         let source = staging.get(chunk.len())?;

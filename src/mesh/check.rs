@@ -1,7 +1,12 @@
 //! What must hold for a mesh of any format: finite numbers, indices of what exists, a number of triangles within the
 //! limit.
 
-use super::{Fault, Mesh};
+use rayon::prelude::*;
+
+use super::{Fault, Mesh, MeshTriangle};
+
+/// Elements that a thread takes at once.
+const AT_ONCE: usize = 1 << 13;
 
 /// Refuses more triangles than `most`.
 pub(super) fn count(triangles: usize, most: usize) -> Result<(), Fault> {
@@ -14,28 +19,34 @@ pub(super) fn count(triangles: usize, most: usize) -> Result<(), Fault> {
 /// Returns the mesh if all its numbers are finite and all its indices in range.
 pub(super) fn checked(mesh: Mesh) -> Result<Mesh, Fault> {
     let infinite = |what: &str, index: usize| Fault::new(format!("{what} {index}"), "a number is not finite");
-    if let Some(i) = mesh.positions.iter().position(|p| !p.is_finite()) {
+    if let Some(i) = first(&mesh.positions, |p| !p.is_finite()) {
         return Err(infinite("position", i));
     }
-    if let Some(i) = mesh.uvs.iter().position(|uv| !uv.is_finite()) {
+    if let Some(i) = first(&mesh.uvs, |uv| !uv.is_finite()) {
         return Err(infinite("texture coordinate", i));
     }
-    if let Some(i) = mesh.normals.iter().position(|n| !n.is_finite()) {
+    if let Some(i) = first(&mesh.normals, |n| !n.is_finite()) {
         return Err(infinite("normal", i));
     }
-    for (i, triangle) in mesh.triangles.iter().enumerate() {
+    let wrong = |triangle: &MeshTriangle| {
         let lists = [
             ("position", Some(triangle.positions), mesh.positions.len()),
             ("texture coordinate", triangle.uvs, mesh.uvs.len()),
             ("normal", triangle.normals, mesh.normals.len()),
         ];
-        for (what, indices, count) in lists {
-            let wrong = indices.into_iter().flatten().find(|&index| index as usize >= count);
-            if let Some(index) = wrong {
-                let what = format!("{what} {index} does not exist; the file has {count}");
-                return Err(Fault::new(format!("triangle {i}"), what));
-            }
-        }
+        lists.into_iter().find_map(|(what, indices, count)| {
+            let index = indices.into_iter().flatten().find(|&index| index as usize >= count)?;
+            Some(format!("{what} {index} does not exist; the file has {count}"))
+        })
+    };
+    if let Some(i) = first(&mesh.triangles, |triangle| wrong(triangle).is_some()) {
+        return Err(Fault::new(format!("triangle {i}"), wrong(&mesh.triangles[i]).unwrap_or_default()));
     }
     Ok(mesh)
+}
+
+/// Returns the place of the first element that is wrong.
+fn first<T: Sync>(list: &[T], is_wrong: impl Fn(&T) -> bool + Sync + Send) -> Option<usize> {
+    let of_run = |(run, elements): (usize, &[T])| Some(run * AT_ONCE + elements.iter().position(&is_wrong)?);
+    list.par_chunks(AT_ONCE).enumerate().find_map_first(of_run)
 }

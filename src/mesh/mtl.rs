@@ -18,16 +18,26 @@ pub struct MtlMaterial {
     pub exponent: Option<f64>,
     /// `Ni`, the index of refraction.
     pub ior: Option<f64>,
+    /// `d`, or 1 − `Tr`: how much the surface covers.
+    pub opacity: Option<f64>,
+    /// `Tf`, the colour of light that passes.
+    pub filter: Option<[f64; 3]>,
+    /// `Pr`, the roughness of physically based materials.
+    pub roughness: Option<f64>,
+    /// `Pm`, how much it is a metal.
+    pub metallic: Option<f64>,
     /// `illum`, the number of the lighting model.
     pub illumination: Option<u32>,
     /// `map_Kd`.
     pub diffuse_map: Option<MtlMap>,
+    /// `map_Pr`.
+    pub roughness_map: Option<MtlMap>,
+    /// `map_Pm`.
+    pub metallic_map: Option<MtlMap>,
     /// `map_Bump` or `bump`, heights.
     pub bump_map: Option<MtlMap>,
     /// `norm`, normals in tangent space.
     pub normal_map: Option<MtlMap>,
-    /// `d`, or 1 − `Tr`.
-    pub opacity: Option<f64>,
     /// `map_d`.
     pub opacity_map: Option<MtlMap>,
     /// `Ke`.
@@ -99,12 +109,17 @@ fn statement(material: &mut MtlMaterial, keyword: &[u8], rest: &[u8], line: usiz
         b"ns" => material.exponent = Some(number(first_value(rest))?),
         b"ni" => material.ior = Some(number(first_value(rest))?),
         b"d" => material.opacity = Some(share(rest)?),
-        // Programs that write both mean `d`.
+        // Programs that write both mean `d`, wherever it stands.
         b"tr" => material.opacity = material.opacity.or(Some(1.0 - share(rest)?)),
+        b"tf" => material.filter = color(rest)?.or(material.filter),
+        b"pr" => material.roughness = Some(number(first_value(rest))?),
+        b"pm" => material.metallic = Some(number(first_value(rest))?),
         b"illum" => material.illumination = Some(whole(first_value(rest))?),
         b"map_kd" => material.diffuse_map = map(rest, line)?,
         b"map_ke" => material.emission_map = map(rest, line)?,
         b"map_d" => material.opacity_map = map(rest, line)?,
+        b"map_pr" => material.roughness_map = map(rest, line)?,
+        b"map_pm" => material.metallic_map = map(rest, line)?,
         b"map_bump" | b"bump" => material.bump_map = map(rest, line)?,
         b"norm" => material.normal_map = map(rest, line)?,
         _ => {}
@@ -117,10 +132,12 @@ fn told(keyword: &[u8], rest: &[u8]) -> Option<String> {
     let shown = String::from_utf8_lossy(keyword);
     let lower = shown.to_ascii_lowercase();
     match lower.as_str() {
-        "kd" | "ks" | "ke" if is_spectral(rest) => {
+        "kd" | "ks" | "ke" | "tf" if is_spectral(rest) => {
             Some(format!("{shown} is given by a spectrum or in XYZ, which is not read"))
         }
-        "map_kd" | "map_ke" | "map_d" | "map_bump" | "bump" | "norm" if rest.is_empty() => {
+        "map_kd" | "map_ke" | "map_d" | "map_pr" | "map_pm" | "map_bump" | "bump" | "norm"
+            if rest.is_empty() =>
+        {
             Some(format!("{shown} names no file"))
         }
         other => UNREAD.contains(&other).then(|| format!("{shown} is not drawn")),
@@ -260,6 +277,18 @@ mod tests {
             MtlMaterial { name: "b".into(), diffuse: Some([1.0, 2.0, 3.0]), ..MtlMaterial::default() };
         assert_eq!(read(text.as_bytes()).unwrap(), [red, other]);
         assert_eq!(read(b"").unwrap(), []);
+    }
+
+    #[test]
+    fn reads_what_passes_and_physically_based_statements() {
+        let text = "newmtl a\nTr 0.75\nTf 0.5 1 1\nPr 0.25\nPm 1\nmap_Pr r.png\nmap_Pm -clamp on m.png\n\
+                    newmtl b\nTr 0.9\nd -halo 0.5\nTr 0.25";
+        let [a, b] = <[MtlMaterial; 2]>::try_from(read(text.as_bytes()).unwrap()).unwrap();
+        assert_eq!((a.opacity, a.filter), (Some(0.25), Some([0.5, 1.0, 1.0])));
+        assert_eq!((a.roughness, a.metallic), (Some(0.25), Some(1.0)));
+        assert_eq!(a.roughness_map.unwrap().file, "r.png");
+        assert!(a.metallic_map.unwrap().clamp);
+        assert_eq!(b.opacity, Some(0.5));
     }
 
     #[test]

@@ -1,17 +1,20 @@
 //! Reads PLY files: text, and binary of either byte order. Input: their bytes. Output: a mesh whose triangles use one
 //! index per corner for position, texture coordinate and normal. Elements and properties of no use here are skipped.
 
+mod colors;
 mod faces;
+mod fixed;
 mod header;
 mod records;
 
 use glam::{DVec2, DVec3, DVec4};
-use ply_rs_bw::ply::{ElementDef, PropertyType, ScalarType};
+use ply_rs_bw::ply::ElementDef;
 
 use super::mtl::MtlMaterial;
 use super::{Fault, Mesh, MeshFormat, check};
-use crate::core::color::srgb_to_linear;
+use colors::Encoding;
 use faces::Surfaces;
+use fixed::Fixed;
 use header::{Parts, is_number};
 use records::{Body, NUMBERS, Vertex};
 
@@ -67,6 +70,24 @@ fn vertices(body: &mut Body, element: &ElementDef, mesh: &mut Mesh) -> Result<()
     let uv = (10..NUMBERS.len()).step_by(2).find(|&pair| has(pair, 2));
     let has_normals = has(3, 3);
     let encodings = has(6, 3).then(|| NUMBERS.map(|name| Encoding::of(element, name)));
+    let has_alpha = has(9, 1);
+    let color = |encodings: &[Encoding; NUMBERS.len()], [r, g, b, alpha]: [f64; 4]| {
+        let [r, g, b] = [(6, r), (7, g), (8, b)].map(|(k, code)| encodings[k].light(code));
+        DVec4::new(r, g, b, if has_alpha { encodings[9].share(alpha) } else { 1.0 }).as_vec4()
+    };
+    if let Some(fixed) = Fixed::take(body, element) {
+        mesh.positions = fixed.of_each([0, 1, 2], DVec3::from_array);
+        if has_normals {
+            mesh.normals = fixed.of_each([3, 4, 5], DVec3::from_array);
+        }
+        if let Some(encodings) = &encodings {
+            mesh.colors = fixed.of_each([6, 7, 8, 9], |codes| color(encodings, codes));
+        }
+        if let Some(pair) = uv {
+            mesh.uvs = fixed.of_each([pair, pair + 1], DVec2::from_array);
+        }
+        return Ok(());
+    }
     mesh.positions.reserve_exact(element.count);
     for i in 0..element.count {
         let vertex: Vertex = body.record(element, i)?;
@@ -76,43 +97,13 @@ fn vertices(body: &mut Body, element: &ElementDef, mesh: &mut Mesh) -> Result<()
             mesh.normals.push(DVec3::new(nx, ny, nz));
         }
         if let Some(encodings) = &encodings {
-            let [r, g, b] = [6, 7, 8].map(|k| encodings[k].light(vertex.0[k]));
-            let alpha = if has(9, 1) { encodings[9].share(vertex.0[9]) } else { 1.0 };
-            mesh.colors.push(DVec4::new(r, g, b, alpha).as_vec4());
+            mesh.colors.push(color(encodings, [6, 7, 8, 9].map(|k| vertex.0[k])));
         }
         if let Some(&[u, v]) = uv.and_then(|pair| vertex.0.get(pair..pair + 2)) {
             mesh.uvs.push(DVec2::new(u, v));
         }
     }
     Ok(())
-}
-
-/// How a file writes a share of light: whole numbers are codes of sRGB up to the greatest of their type, others linear.
-#[derive(Clone, Copy)]
-struct Encoding {
-    most: f64,
-    is_srgb: bool,
-}
-
-impl Encoding {
-    fn of(element: &ElementDef, name: &str) -> Encoding {
-        let most = match element.properties.get(name).map(|property| &property.data_type) {
-            Some(PropertyType::Scalar(ScalarType::UChar)) => 255.0,
-            Some(PropertyType::Scalar(ScalarType::UShort)) => 65535.0,
-            _ => return Encoding { most: 1.0, is_srgb: false },
-        };
-        Encoding { most, is_srgb: true }
-    }
-
-    fn share(self, code: f64) -> f64 {
-        code / self.most
-    }
-
-    /// Returns the light of a code.
-    fn light(self, code: f64) -> f64 {
-        let share = self.share(code);
-        if self.is_srgb { srgb_to_linear(share) } else { share }
-    }
 }
 
 #[cfg(test)]

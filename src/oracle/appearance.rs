@@ -28,6 +28,10 @@ pub struct Appearance {
     pub emission: DVec3,
     /// Share of the environment's light that arrives.
     pub occlusion: f64,
+    /// Reflectance of a dielectric surface head-on.
+    pub dielectric: DVec3,
+    /// And at grazing angles.
+    pub edge: f64,
 }
 
 /// Returns the inputs of the surface's mapping.
@@ -176,9 +180,10 @@ pub fn bumped_normal(
 
 /// A texture as a material reads it.
 pub struct TextureUse {
-    texture_index: u32,
-    sampler_index: u32,
-    second_uv: u32,
+    pub texture_index: u32,
+    pub sampler_index: u32,
+    /// The bit of `Material::second_uv_maps`.
+    pub second_uv: u32,
 }
 
 /// Returns how a map is read; that of the mask is the colour's texture.
@@ -195,6 +200,14 @@ pub fn use_of(material: &Material, map: MaterialMap) -> TextureUse {
             [m.occlusion_texture_index, m.occlusion_sampler_index, 1 << MaterialMap::Occlusion as u32]
         }
         MaterialMap::Mask => [m.texture_index, m.sampler_index, SECOND_UV_COLOR],
+        MaterialMap::SpecularWeight => {
+            let bit = 1 << MaterialMap::SpecularWeight as u32;
+            [m.specular_weight_texture_index, m.specular_weight_sampler_index, bit]
+        }
+        MaterialMap::SpecularTint => {
+            let bit = 1 << MaterialMap::SpecularTint as u32;
+            [m.specular_tint_texture_index, m.specular_tint_sampler_index, bit]
+        }
     };
     TextureUse { texture_index, sampler_index, second_uv }
 }
@@ -251,6 +264,8 @@ pub fn appearance(
         roughness: material.roughness.into(),
         emission: material.emission.as_dvec3(),
         occlusion: 1.0,
+        dielectric: material.specular.as_dvec3(),
+        edge: material.edge.into(),
     };
     if let Some(texel) = sampled(MaterialMap::Roughness) {
         look.roughness *= texel.y;
@@ -261,6 +276,13 @@ pub fn appearance(
     }
     if let Some(texel) = sampled(MaterialMap::Occlusion) {
         look.occlusion = 1.0 + f64::from(material.occlusion_strength) * (texel.x - 1.0);
+    }
+    if let Some(texel) = sampled(MaterialMap::SpecularWeight) {
+        look.dielectric *= texel.w;
+        look.edge *= texel.w;
+    }
+    if let Some(texel) = sampled(MaterialMap::SpecularTint) {
+        look.dielectric = (look.dielectric * texel.truncate()).min(DVec3::splat(look.edge));
     }
     if material.alpha_mode == AlphaMode::Mask {
         let point = (at.0, at.1, &Footprint::default());

@@ -7,7 +7,7 @@ use glam::{DVec2, DVec3};
 
 use super::appearance::opacity_at;
 use super::bsdf::scattering::balanced_lobes;
-use super::bsdf::{Bsdf, Lit, evaluate};
+use super::bsdf::{Bsdf, Lit, evaluate, is_specular};
 use super::camera::Ray;
 use super::disk_sampling::{concentric_disc, on_cap};
 use super::environment::{sampled_sky, sky_radiance};
@@ -176,7 +176,9 @@ pub fn direct_light(scene: &PackedScene, surface: &Surface, by: &Directions<'_>,
             LightKind::Environment => sky_aim(scene, square()),
         };
         let facing = surface.normal.dot(aim.way);
-        if facing > 0.0 && surface.geometric_normal.dot(aim.way) > 0.0 {
+        // Mirrors reflect what rays see.
+        let reflects = kind == LightKind::Environment || !is_specular(bsdf.material.model);
+        if reflects && facing > 0.0 && surface.geometric_normal.dot(aim.way) > 0.0 {
             let from_start = matches!(kind, LightKind::Point | LightKind::Spot | LightKind::Rectangle);
             let to_light = if from_start { aim.way + (surface.point - start) } else { aim.way };
             let shadow = Ray { origin: start, direction: to_light, time: by.time };

@@ -3,7 +3,7 @@
 
 use glam::{DVec2, DVec3};
 
-use super::appearance::{appearance, at_uv_of, bumped_normal, map_input};
+use super::appearance::{TextureUse, appearance, at_uv_of, bumped_normal, map_input, use_of};
 use super::camera::Ray;
 use super::filter::sample_texture::read_level;
 use super::footprint::{Footprint, MAX_STRETCH, RayDifferential, endless_footprint, footprint_at};
@@ -12,8 +12,8 @@ use super::geometry::hit::{Hit, Surface};
 use super::geometry::rays::{hit_surface, nearest_hit};
 use super::mapping::{Coordinate, texture_coordinate};
 use crate::pack::{PackedScene, TextureKind};
-use crate::schema::constants::SECOND_UV_COLOR;
-use crate::schema::enums::Quantity;
+use crate::schema::constants::SECOND_UV_BUMP;
+use crate::schema::enums::{MaterialMap, Quantity};
 use crate::schema::layout::{Material, NO_SHAPE, NO_TEXTURE, Sampler, Texture, UvProjection};
 use crate::texture::sampler_spec::Address;
 
@@ -40,14 +40,58 @@ pub fn place_in_tile(mode: Address, u: f64) -> f64 {
     }
 }
 
-/// Returns the look-up of a material's texture; procedural textures have no texels.
-pub fn look_up<'a>(scene: &'a PackedScene, material: &Material, mapped: &Coordinate) -> Option<LookUp<'a>> {
-    let texture = material.texture_index;
+/// What a material reads a texture for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Slot {
+    Color,
+    Bump,
+    Roughness,
+    Emission,
+    Occlusion,
+    SpecularWeight,
+    SpecularTint,
+}
+
+impl Slot {
+    pub const ALL: [Slot; 7] = [
+        Slot::Color,
+        Slot::Bump,
+        Slot::Roughness,
+        Slot::Emission,
+        Slot::Occlusion,
+        Slot::SpecularWeight,
+        Slot::SpecularTint,
+    ];
+
+    /// Returns texture, sampler and bit of the coordinates.
+    fn of(self, m: &Material) -> [u32; 3] {
+        let map = |map| {
+            let TextureUse { texture_index, sampler_index, second_uv } = use_of(m, map);
+            [texture_index, sampler_index, second_uv]
+        };
+        match self {
+            Slot::Color => map(MaterialMap::Mask),
+            Slot::Bump => [m.bump_texture_index, m.bump_sampler_index, SECOND_UV_BUMP],
+            Slot::Roughness => map(MaterialMap::Roughness),
+            Slot::Emission => map(MaterialMap::Emission),
+            Slot::Occlusion => map(MaterialMap::Occlusion),
+            Slot::SpecularWeight => map(MaterialMap::SpecularWeight),
+            Slot::SpecularTint => map(MaterialMap::SpecularTint),
+        }
+    }
+}
+
+/// Returns the look-up of a texture; procedural textures have no texels.
+fn look_up<'a>(
+    scene: &'a PackedScene,
+    [texture, sampler]: [u32; 2],
+    mapped: &Coordinate,
+) -> Option<LookUp<'a>> {
     let image = scene.records.textures.get(texture as usize).filter(|_| texture != NO_TEXTURE)?;
     if kind_of(image) == TextureKind::Procedural {
         return None;
     }
-    let how = &scene.records.samplers[material.sampler_index as usize];
+    let how = &scene.records.samplers[sampler as usize];
     let (coordinate, face) = in_texture(image, mapped);
     Some(LookUp { texture, image, how, coordinate, face, spread: texel_spread(image, &coordinate) })
 }
@@ -79,6 +123,16 @@ pub fn look_up_quantity(quantity: Quantity, look_up: &LookUp<'_>) -> DVec3 {
     value.extend(1.0)
 }
 
+/// A unit vector as a whole number: two octahedral components of 12 bits each (Cigolle et al. 2014).
+fn direction_number(n: DVec3) -> f64 {
+    let p = n.truncate() / ((n.x.abs() + n.y.abs()) + n.z.abs());
+    let toward = |x: f64, other: f64| if x < 0.0 { other.abs() - 1.0 } else { 1.0 - other.abs() };
+    let folded = DVec2::new(toward(p.x, p.y), toward(p.y, p.x));
+    let p = if n.z < 0.0 { folded } else { p };
+    let steps = (4095.0 * (0.5 * p + 0.5).clamp(DVec2::ZERO, DVec2::ONE) + 0.5).floor();
+    steps.x * 4096.0 + steps.y
+}
+
 /// Returns a quantity of the surface itself; no hit: it is the environment's. Numbers count from 1.
 pub fn surface_quantity(quantity: Quantity, hit: Option<&Hit>, surface: &Surface, albedo: DVec3) -> DVec3 {
     let number = |n: f64| DVec3::new(n, 0.0, 1.0);
@@ -88,6 +142,12 @@ pub fn surface_quantity(quantity: Quantity, hit: Option<&Hit>, surface: &Surface
         (Quantity::Normal, _) => surface.normal,
         (Quantity::Depth, Some(hit)) => number(hit.t),
         (Quantity::Instance, Some(hit)) => number(f64::from(hit.shape) + 1.0),
+        (Quantity::Place, _) => surface.at_rest,
+        (Quantity::Facet, Some(hit)) => DVec3::new(
+            f64::from(hit.shape) + 1.0,
+            direction_number(surface.geometric_normal),
+            direction_number(surface.normal),
+        ),
         _ => albedo,
     }
 }
@@ -126,12 +186,13 @@ pub fn first_hit<'a>(
 }
 
 impl<'a> FirstHit<'a> {
-    /// Returns the look-up of the material's texture, if it has texels.
-    pub fn look_up(&self, scene: &'a PackedScene, ray: &Ray) -> Option<LookUp<'a>> {
-        let map = self.map?;
-        let shown = at_uv_of(scene, self.material, SECOND_UV_COLOR, &self.surface);
+    /// Returns the look-up of one of the material's textures, if it has texels.
+    pub fn look_up(&self, slot: Slot, scene: &'a PackedScene, ray: &Ray) -> Option<LookUp<'a>> {
+        let [texture, sampler, second_uv] = slot.of(self.material);
+        let map = self.map.filter(|_| texture != NO_TEXTURE)?;
+        let shown = at_uv_of(scene, self.material, second_uv, &self.surface);
         let mapped = texture_coordinate(map, &map_input(map, ray, &shown, &self.print));
-        look_up(scene, self.material, &mapped)
+        look_up(scene, [texture, sampler], &mapped)
     }
 }
 
@@ -146,7 +207,7 @@ pub fn measured(
     let quantity = scene.header.quantity;
     let Some(mut first) = first_hit(scene, ray, beam, skip) else { return DVec3::ZERO };
     if is_of_look_ups(quantity) {
-        let look_up = first.look_up(scene, ray);
+        let look_up = first.look_up(Slot::Color, scene, ray);
         return look_up.map_or(DVec3::ZERO, |look_up| look_up_quantity(quantity, &look_up));
     }
     let mut albedo = DVec3::ZERO;

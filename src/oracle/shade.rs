@@ -4,9 +4,10 @@ use glam::DVec3;
 
 use super::appearance::{appearance, bumped_normal, covered_share};
 use super::bsdf::facets::widened_differential;
+use super::bsdf::metallic_roughness::mirrored_density;
 use super::bsdf::scattering::scattered;
 use super::bsdf::specular::sample_bsdf;
-use super::bsdf::{Bsdf, bsdf_at, emitted, is_glossy, is_lit, is_specular, reflected};
+use super::bsdf::{Bsdf, bsdf_at, emitted, is_glossy, is_lit, is_rough_mirror, is_specular, reflected};
 use super::camera::Ray;
 use super::environment::sky_density;
 use super::footprint::{
@@ -24,7 +25,7 @@ use super::shading_normal::consistent_normal;
 use crate::pack::PackedScene;
 use crate::schema::constants::MAX_LAYERS;
 use crate::schema::enums::Quantity;
-use crate::schema::layout::{Header, Material, NO_MATERIAL, NO_SHAPE};
+use crate::schema::layout::{Material, NO_MATERIAL, NO_SHAPE};
 
 /// A path between two hits: the ray, its width, the path's throughput, and the shape that it leaves.
 #[derive(Clone)]
@@ -67,7 +68,7 @@ pub fn camera_path(ray: Ray, beam: RayDifferential, random: [u32; 2]) -> Path {
 
 /// Continues a reflected or refracted path; returns false if the material ends it.
 fn bounced(
-    header: &Header,
+    scene: &PackedScene,
     hit: &Hit,
     mut surface: Surface,
     print: Footprint,
@@ -78,6 +79,7 @@ fn bounced(
     if !is_specular(material.model) {
         return false;
     }
+    let header = &scene.header;
     let direction = path.ray.direction;
     consistent_normal(direction, &mut surface);
     let bounce = sample_bsdf(material, &surface, direction, dimensions);
@@ -92,6 +94,12 @@ fn bounced(
     let normal = if bounce.mirrored { surface.geometric_normal } else { -surface.geometric_normal };
     let origin = offset_origin(surface.point, normal, surface.size);
     path.ray = Ray { origin, direction: bounce.direction, time: path.ray.time };
+    // Where nothing is seen from the surface by itself, no light is sampled.
+    path.density = if is_rough_mirror(material) && is_lit_by_environment(scene) && !bounce.is_raised {
+        mirrored_density(surface.normal, direction, bounce.direction, bounce.alpha)
+    } else {
+        0.0
+    };
     path.beam = if bounce.mirrored {
         reflected_differential(&path.beam, &meeting)
     } else {
@@ -123,7 +131,7 @@ fn goes_on(
     consistent_normal(ray.direction, &mut surface);
     let bsdf = Bsdf { normal: surface.normal, ..*bsdf };
     let next = scattered(&bsdf, &surface, path.throughput, carried, dimensions, to_sky);
-    path.throughput = if next.diffuse { next.weight * occlusion } else { next.weight };
+    path.throughput = if next.occluded { next.weight * occlusion } else { next.weight };
     (path.density, path.diffuse) = (next.density, next.diffuse);
     let origin = offset_origin(surface.point, surface.geometric_normal, surface.size);
     path.ray = Ray { origin, direction: next.direction, time: ray.time };
@@ -215,19 +223,25 @@ pub fn advance(scene: &PackedScene, path: &mut Path) -> DVec3 {
     let continues = path.depth < header.max_depth;
     let color = path.throughput * look.color;
     path.throughput = color;
-    let mut is_alive = bounced(header, &hit, surface, print, material, &dimensions, path);
+    let mut is_alive = bounced(scene, &hit, surface, print, material, &dimensions, path);
     let mut seen = emitted(material.model, color);
-    if is_lit(material.model) {
+    let mirrors = continues && is_rough_mirror(material) && is_lit_by_environment(scene);
+    if is_lit(material.model) || mirrors {
+        if mirrors {
+            consistent_normal(ray.direction, &mut surface);
+        }
         let bsdf = bsdf_at(scene, material, &look, surface.normal, ray.direction);
-        is_alive = goes_on(
-            scene,
-            (&hit, surface, print),
-            &bsdf,
-            before.throughput,
-            look.occlusion,
-            &dimensions,
-            path,
-        );
+        if !mirrors {
+            is_alive = goes_on(
+                scene,
+                (&hit, surface, print),
+                &bsdf,
+                before.throughput,
+                look.occlusion,
+                &dimensions,
+                path,
+            );
+        }
         let points = before.points.as_ref().map(|(points, _)| points);
         let lit = direct_light(
             scene,

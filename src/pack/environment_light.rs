@@ -14,6 +14,8 @@ use crate::texture::data::{ColorSpace, Component, TextureData};
 
 /// Most columns and rows.
 const MOST: [usize; 2] = [512, 256];
+/// About the number of points at which small pictures are read.
+const MOST_POINTS: usize = 1 << 18;
 /// Of a cell's share what its neighbours have a part in, as look-ups blend texels.
 const BLEND: f64 = 0.25;
 
@@ -28,7 +30,7 @@ pub struct Distribution {
 pub fn distribution(environment: Option<(&Environment, &TextureData)>) -> Distribution {
     let Some((environment, texture)) = environment else { return of_cells(1, 1, &[1.0]) };
     let directions = Directions::new(environment, texture);
-    // Texels are smaller than cells, except at poles.
+    // Cells are about as large as texels, so that a small sun fills the few that it lies in.
     let [columns, rows] = directions.cells();
     let mut cells = vec![0.0; columns * rows];
     directions.for_each(|way, light| {
@@ -96,8 +98,8 @@ impl<'a> Directions<'a> {
     fn cells(&self) -> [usize; 2] {
         let [width, height] = [self.texture.width, self.texture.height].map(|n| n as usize);
         let [columns, rows] = match self.layout {
-            EnvironmentLayout::Equirectangular => [width / 2, height / 2],
-            EnvironmentLayout::Cube => [2 * width, width],
+            EnvironmentLayout::Equirectangular => [width, height],
+            EnvironmentLayout::Cube => [4 * width, 2 * width],
         };
         [columns.clamp(1, MOST[0]), rows.clamp(1, MOST[1])]
     }
@@ -107,21 +109,27 @@ impl<'a> Directions<'a> {
         (local.x * x + local.y * y + local.z * z).normalize_or(DVec3::Y)
     }
 
-    /// Calls `each` with the direction of every texel and its luminance times its solid angle.
+    /// Calls `each` with directions all over every texel, and for each the luminance times the solid angle it stands for.
     fn for_each(&self, mut each: impl FnMut(DVec3, f64)) {
         let [width, height] = [self.texture.width, self.texture.height].map(|n| n as usize);
-        let center = |i: usize, count: usize| (i as f64 + 0.5) / count as f64;
-        for slice in 0..self.texture.depth as usize {
-            for row in 0..height {
-                for column in 0..width {
-                    let (u, v) = (center(column, width), center(row, height));
-                    let (local, area) = match self.layout {
-                        EnvironmentLayout::Equirectangular => sphere_point(u, v),
-                        EnvironmentLayout::Cube => cube_point(slice, 2.0 * u - 1.0, 2.0 * v - 1.0),
-                    };
-                    let texel = (slice * height + row) * width + column;
-                    each(self.world(local), self.luminance(texel) * area);
-                }
+        let depth = self.texture.depth as usize;
+        let side = ((MOST_POINTS as f64 / (depth * height * width) as f64).sqrt() as usize).clamp(1, 8);
+        let place = |i: usize, part: usize, count: usize| {
+            (i as f64 + (part as f64 + 0.5) / side as f64) / count as f64
+        };
+        for texel in 0..depth * height * width {
+            let light = self.luminance(texel) / (side * side) as f64;
+            if light == 0.0 {
+                continue;
+            }
+            let (slice, row, column) = (texel / width / height, texel / width % height, texel % width);
+            for part in 0..side * side {
+                let (u, v) = (place(column, part % side, width), place(row, part / side, height));
+                let (local, area) = match self.layout {
+                    EnvironmentLayout::Equirectangular => sphere_point(u, v),
+                    EnvironmentLayout::Cube => cube_point(slice, 2.0 * u - 1.0, 2.0 * v - 1.0),
+                };
+                each(self.world(local), light * area);
             }
         }
     }

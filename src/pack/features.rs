@@ -80,9 +80,14 @@ impl Features {
         if self.double { Reals::F64Records } else { Reals::F32 }
     }
 
+    /// Returns the value of a constant, `None` for one that the scene does not narrow.
+    pub fn value(&self, constant: Constant) -> Option<u32> {
+        self.values.iter().find(|(own, _)| *own == constant).map(|(_, value)| *value)
+    }
+
     /// Returns true if the code of a switch is kept.
     pub fn has(&self, switch: Constant) -> bool {
-        self.values.iter().any(|(constant, value)| *constant == switch && *value != 0)
+        self.value(switch).is_some_and(|value| value != 0)
     }
 }
 

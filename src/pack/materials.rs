@@ -26,7 +26,8 @@ pub(super) fn material(packed: &mut PackedScene, source: &Material) -> layout::M
     let maps = source.maps();
     let color = used(maps.color);
     let bump_map = used(maps.bump);
-    let [roughness, emission, occlusion] = [maps.roughness, maps.emission, maps.occlusion].map(used);
+    let [roughness, emission, occlusion] = [maps.roughness, maps.emission, maps.occlusion].map(&mut used);
+    let [specular_weight, specular_tint] = [maps.specular_weight, maps.specular_tint].map(used);
     let bump = source.bump;
     let second =
         |map: Option<TextureUse>, bit: u32| if map.is_some_and(|map| map.second_uv) { bit } else { 0 };
@@ -35,6 +36,8 @@ pub(super) fn material(packed: &mut PackedScene, source: &Material) -> layout::M
         (of(MaterialMap::Roughness), maps.roughness),
         (of(MaterialMap::Emission), maps.emission),
         (of(MaterialMap::Occlusion), maps.occlusion),
+        (of(MaterialMap::SpecularWeight), maps.specular_weight),
+        (of(MaterialMap::SpecularTint), maps.specular_tint),
         (SECOND_UV_COLOR, maps.color),
         (SECOND_UV_BUMP, maps.bump),
     ];
@@ -69,7 +72,9 @@ pub(super) fn material(packed: &mut PackedScene, source: &Material) -> layout::M
             | second(maps.bump, SECOND_UV_BUMP)
             | second(maps.roughness, of(MaterialMap::Roughness))
             | second(maps.emission, of(MaterialMap::Emission))
-            | second(maps.occlusion, of(MaterialMap::Occlusion)),
+            | second(maps.occlusion, of(MaterialMap::Occlusion))
+            | second(maps.specular_weight, of(MaterialMap::SpecularWeight))
+            | second(maps.specular_tint, of(MaterialMap::SpecularTint)),
         own_uv_maps,
         first_map_uv,
         alpha_mode: source.alpha,
@@ -80,6 +85,12 @@ pub(super) fn material(packed: &mut PackedScene, source: &Material) -> layout::M
         edge: source.specular_weight as f32,
         exponent: source.exponent as f32,
         ior: source.ior as f32,
+        specular_weight_texture_index: specular_weight.texture,
+        specular_weight_sampler_index: specular_weight.sampler,
+        specular_weight_image_slot: specular_weight.slot,
+        specular_tint_texture_index: specular_tint.texture,
+        specular_tint_sampler_index: specular_tint.sampler,
+        specular_tint_image_slot: specular_tint.slot,
     }
 }
 

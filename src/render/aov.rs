@@ -15,7 +15,7 @@ named_enum! {
         Level = "level",
         /// The footprint's longer axis over its shorter one.
         Anisotropy = "anisotropy",
-        /// Different shapes that samples of the pixel meet; the background is one.
+        /// Different surfaces that samples of the pixel meet; the background is one.
         Surfaces = "surfaces",
         /// The place in the texture.
         Uv = "uv",

@@ -1,68 +1,12 @@
-//! Layers that count or compare the samples of a pixel: how many different shapes they meet, how many there are, and how
-//! far their mean may be off. Input: a scene, and backends or its picture. Output: one number a pixel.
+//! Layers of the samples of a pixel: how many there are, and how far their mean may be off. Input: a scene, or its picture.
+//! Output: one number a pixel.
 
 use super::aov::Aov;
-use super::layers::lightless;
 use super::picture::{On, Options, Picture, render_scene};
 use crate::core::error::Result;
-use crate::core::film::Film;
 use crate::core::layer::{Channel, Layer};
-use crate::core::progress::{Progress, SubProgress};
-use crate::core::range::{Range, Rect};
-use crate::sampling::Backend;
-use crate::scene::model::{Footprint, Pattern, PixelFilter, Quantity, Scene};
-
-/// More different shapes in a pixel count as so many.
-pub const MAX_SURFACES: usize = 8;
-/// Samples that look for shapes: those of the scene, at most so many; or so many of another pattern, if the scene has
-/// fewer than the least number.
-const MAX_LOOKING: u32 = 64;
-const LOOKING: u32 = 16;
-const MIN_LOOKING: u32 = 4;
-/// Rows of the picture whose samples are read together.
-const ROWS: u32 = 256;
-
-/// Returns the scene whose samples look for shapes, each within its own pixel.
-pub(super) fn looking(scene: &Scene) -> Scene {
-    let mut scene = lightless(scene);
-    scene.pixel_filter = PixelFilter::default();
-    let sampling = &mut scene.sampling;
-    (sampling.footprint, sampling.quantity) = (Footprint::None, Quantity::Albedo);
-    if sampling.samples() < MIN_LOOKING {
-        (sampling.pattern, sampling.spp, sampling.shared) = (Pattern::SobolOwen, LOOKING, false);
-    }
-    sampling.spp = sampling.spp.min(MAX_LOOKING);
-    scene
-}
-
-/// Returns the number of different shapes that the samples of each pixel meet, as the first of three values.
-pub(super) fn count_surfaces(
-    backend: &mut dyn Backend,
-    [width, height]: [u32; 2],
-    samples: u32,
-    progress: &dyn Progress,
-) -> Result<Film> {
-    let mut counts = Film::new(width, height, samples);
-    for pixels in Rect::whole([width, height]).strips(ROWS) {
-        let mut met = vec![Vec::with_capacity(MAX_SURFACES); pixels.area()];
-        for s in 0..samples {
-            let done =
-                (f64::from(pixels.y) + f64::from(pixels.height * s) / f64::from(samples)) / f64::from(height);
-            let part = SubProgress { whole: progress, from: done, to: done };
-            let sums = backend.sum(&Range { pixels, samples: s..s + 1 }, &part)?;
-            for (met, [shape, ..]) in met.iter_mut().zip(sums.blocks().iter().flat_map(|block| &block.sums)) {
-                if !met.contains(shape) && met.len() < MAX_SURFACES {
-                    met.push(*shape);
-                }
-            }
-        }
-        let first = (pixels.y * width) as usize;
-        for (pixel, met) in counts.pixels[first..].iter_mut().zip(&met) {
-            *pixel = [met.len() as f32, 0.0, 1.0];
-        }
-    }
-    Ok(counts)
-}
+use crate::core::progress::Progress;
+use crate::scene::model::Scene;
 
 /// Returns the layer of samples or of errors: those of an adaptive picture, the same number everywhere, or half the
 /// difference of two pictures with different seeds.

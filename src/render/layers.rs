@@ -4,8 +4,9 @@
 
 pub use super::aov::Aov;
 use super::backend::DeviceBackend;
-pub use super::layer_samples::MAX_SURFACES;
-use super::layer_samples::{count_surfaces, estimates, looking};
+use super::layer_samples::estimates;
+pub use super::layer_surfaces::MAX_SURFACES;
+use super::layer_surfaces::{Take, count_surfaces, looking};
 use super::picture::{Loaded, On, Options, Picture, load};
 use super::session::Session;
 use crate::core::error::Result;
@@ -62,12 +63,9 @@ pub fn render_layers(
             }
             Aov::Surfaces => {
                 let looking = looking(scene);
-                let samples = looking.sampling.samples();
                 let mut loaded = load(&looking, options, on)?;
                 let mut measuring = Measuring::open(&mut loaded, options)?;
-                let film = measuring.measure(Quantity::Instance, &mut |backend, size| {
-                    count_surfaces(backend, size, samples, &steps.next())
-                })?;
+                let film = measuring.surfaces(&looking, &steps.next())?;
                 layer(aov, &film)
             }
             _ => estimates(aov, scene, options, on, picture, &steps.next())?,
@@ -119,7 +117,7 @@ pub(super) fn lightless(scene: &Scene) -> Scene {
 }
 
 /// Takes the samples of a picture of that size from a backend.
-type Take<'t> = dyn FnMut(&mut dyn Backend, [u32; 2]) -> Result<Film> + 't;
+type TakeFilm<'t> = dyn FnMut(&mut dyn Backend, [u32; 2]) -> Result<Film> + 't;
 
 /// A scene that is open for measurements.
 enum Measuring<'g> {
@@ -142,7 +140,7 @@ impl<'g> Measuring<'g> {
     }
 
     /// Hands a backend that measures this quantity to `take`, with the size of the picture.
-    fn measure(&mut self, quantity: Quantity, take: &mut Take<'_>) -> Result<Film> {
+    fn measure(&mut self, quantity: Quantity, take: &mut TakeFilm<'_>) -> Result<Film> {
         match self {
             Measuring::Device(session) => {
                 let prepared = session.prepare_quantity(quantity)?;
@@ -154,6 +152,36 @@ impl<'g> Measuring<'g> {
             Measuring::Oracle(scene) => {
                 scene.header.quantity = quantity;
                 take(&mut OracleBackend::new(scene)?, scene.header.film_size.to_array())
+            }
+        }
+    }
+}
+
+impl Measuring<'_> {
+    /// Counts surfaces; the scene is the one that was opened.
+    fn surfaces(&mut self, scene: &Scene, progress: &dyn Progress) -> Result<Film> {
+        match self {
+            Measuring::Device(session) => {
+                let facets = session.prepare_quantity(Quantity::Facet)?;
+                let places = session.prepare_quantity(Quantity::Place)?;
+                let size = facets.film_size();
+                let mut measure = |quantity: Quantity, take: &mut Take<'_>| {
+                    // One at a time, as they share the session's buffers.
+                    let prepared = if quantity == Quantity::Facet { &facets } else { &places };
+                    let mut backend = DeviceBackend::new(prepared)?;
+                    let taken = take(&mut backend);
+                    backend.finish()?;
+                    taken
+                };
+                count_surfaces(&mut measure, scene, size, progress)
+            }
+            Measuring::Oracle(packed) => {
+                let size = packed.header.film_size.to_array();
+                let mut measure = |quantity: Quantity, take: &mut Take<'_>| {
+                    packed.header.quantity = quantity;
+                    take(&mut OracleBackend::new(packed)?)
+                };
+                count_surfaces(&mut measure, scene, size, progress)
             }
         }
     }

@@ -19,11 +19,12 @@ const SOLID: u64 = 10;
 const TAPS: u64 = 5;
 const BOXES: u64 = MAX_BOXES as u64;
 const CONES: u64 = MAX_CONES as u64;
-/// Nodes and triangles of all trees together that a ray meets, with a margin: tens of them. With as many for a shadow ray,
-/// 64 samples are taken at once.
-const TREES: u64 = 480;
-/// Nodes of each tree, of most of which a ray meets the root alone.
-const TREE: u64 = 16;
+/// Nodes and triangles of the tree over all meshes that each of a sample's first rays meets, with a margin: tens of them.
+/// With as many for a shadow ray, 64 samples are taken at once.
+const TREE: u64 = 480;
+const FIRST_RAYS: u64 = 4;
+/// Those of each further ray: of many rays the mean counts.
+const TREE_OF_FURTHER: u64 = 192;
 /// Surfaces that a path passes by their alpha, of which few have many.
 const LAYERS: u64 = 4;
 /// Digits of Halton points, or iterations to find an order, with a margin.
@@ -74,7 +75,8 @@ fn iterations_of_a_sample(scene: &PackedScene, ellipse: u64) -> u64 {
         return iterations_of_cones(scene, ellipse);
     }
     let count = |n: usize| n as u64;
-    let shapes = count(scene.shape_count()) + 3 + trees(count(scene.records.meshes.len()));
+    let shapes = count(scene.shape_count() - scene.records.meshes.len()) + 3;
+    let lights = count(scene.records.lights.len());
     let records = count(
         scene.records.materials.len() + scene.records.uv_projections.len() + scene.records.motions.len(),
     );
@@ -82,15 +84,17 @@ fn iterations_of_a_sample(scene: &PackedScene, ellipse: u64) -> u64 {
     let rays = if bounces(scene) { 1 + u64::from(scene.header.max_depth) + layers } else { 1 };
     let bumped = scene.records.materials.iter().any(|m| m.bump_texture_index != NO_TEXTURE);
     let taps = if bumped { TAPS } else { 1 };
-    let hit = 1 + shapes + records + count(scene.records.lights.len()) * (1 + shapes);
+    let hit = 1 + shapes + records + lights * (1 + shapes);
     let chances = scene.header.sample_dimensions;
     let glass = u64::from(chances >> SampleDimension::Fresnel as u32 & 1);
     let choices = if chances == 0 { 0 } else { (4 + glass) * (1 + POINTS) };
-    rays * (choices + hit + taps * iterations_of_a_look_up(scene, ellipse))
+    let trees = if scene.has_concave_shapes() { iterations_in_trees(rays * (1 + lights)) } else { 0 };
+    trees + rays * (choices + hit + taps * iterations_of_a_look_up(scene, ellipse))
 }
 
-fn trees(meshes: u64) -> u64 {
-    if meshes > 0 { TREES + TREE * meshes } else { 0 }
+fn iterations_in_trees(rays: u64) -> u64 {
+    let first = rays.min(FIRST_RAYS);
+    first * TREE + (rays - first) * TREE_OF_FURTHER
 }
 
 fn iterations_of_a_look_up(scene: &PackedScene, ellipse: u64) -> u64 {

@@ -12,7 +12,7 @@ use crate::gpu::{Gpu, Pipeline};
 use crate::pack::features::Features;
 use crate::pack::{self, PackedScene, Schedule};
 use crate::scene::model::Scene;
-use crate::schema::constants::SEARCH_ALL;
+use crate::schema::constants::{SEARCH_ALL, SEARCH_TEAM, SEARCH_TEAM_REST, TEAM_HEIGHT, TEAM_WIDTH};
 use crate::schema::enums::{Quantity, TexelSource};
 use crate::schema::layout::{Header, Slice};
 use crate::schema::specialization::Constant;
@@ -21,17 +21,17 @@ use super::batches::BatchSampler;
 use super::beams::BeamPass;
 use super::film_buffer::FilmBuffer;
 use super::loop_budget::samples_at_once;
+use super::mesh_passes;
 use super::resources::{Resources, shader_for};
 use super::sample_pipeline::SamplePipeline;
 use super::texel_buffer;
 use super::tile_culling::TileCulling;
-use super::tiles::TileRenderer;
-use super::unfinished::{self, UnfinishedPixels};
+use super::tiles::{Rest, TileRenderer};
 use super::{Report, Tuning, build_pipeline, specialization, tuning};
 
 pub struct Session<'a> {
     pub(super) gpu: &'a Gpu,
-    /// Without texels and their prefix sums, which are on the device.
+    /// Without texels, their prefix sums and meshes, which are on the device.
     scene: PackedScene,
     pub(super) resources: Resources,
     keep_everything: bool,
@@ -82,7 +82,7 @@ pub(super) enum Work<'a> {
 }
 
 impl<'a> Session<'a> {
-    /// Uploads a scene. Its texels are freed on the host once the device has them.
+    /// Uploads a scene. Its texels and meshes are freed on the host once the device has them.
     pub fn open(
         gpu: &'a Gpu,
         mut scene: PackedScene,
@@ -97,7 +97,7 @@ impl<'a> Session<'a> {
         let resources = Resources::upload(gpu, &scene, &features, tuning.texel_words(gpu))?;
         let films = Mutex::new([None, None]);
         let tile_culling = OnceLock::new();
-        (scene.texels, scene.prefix_sums) = (Vec::new(), Vec::new());
+        (scene.texels, scene.prefix_sums, scene.mesh_texels) = Default::default();
         let header = Mutex::new(scene.header);
         let upload_seconds = clock.elapsed().as_secs_f64();
         Ok(Session {
@@ -179,18 +179,14 @@ impl<'a> Session<'a> {
         features: &Features,
         shader: &'static Shader,
     ) -> Result<(TileRenderer<'a>, Arc<FilmBuffer>)> {
-        let passes = unfinished::passes(self.gpu, scene, features);
-        let (pipeline, groups_per_tile) = self.pipeline(features, shader, passes[0])?;
+        let passes = mesh_passes::passes(self.gpu.info(), scene, features);
+        let pipeline_of = |&search: &u32| self.pipeline(features, shader, search, passes.lists_shades);
+        let mut pipelines = passes.searches.iter().map(pipeline_of).collect::<Result<Vec<_>>>()?;
+        let (pipeline, groups_per_tile) = pipelines.remove(0);
         let film = self.film(scene, features)?;
-        let rest = match passes[1..] {
-            [] => None,
-            ref passes => {
-                let pipelines = passes.iter().map(|&pass| Ok(self.pipeline(features, shader, pass)?.0));
-                let pipelines = pipelines.collect::<Result<Vec<_>>>()?;
-                let [x, y] = self.tuning.group_size(self.gpu.info())?;
-                Some(UnfinishedPixels::new(self.gpu, &self.resources, shader, pipelines, x * y, &film)?)
-            }
-        };
+        let later = pipelines.into_iter().map(|(pipeline, _)| pipeline).collect();
+        let [x, y] = self.tuning.group_size(self.gpu.info())?;
+        let rest = Rest::new(self.gpu, &self.resources, shader, later, x * y, &film)?;
         let group = self.resources.bind(self.gpu, &pipeline, shader, &film.buffer, None)?;
         let renderer = TileRenderer { gpu: self.gpu, pipeline, rest, group, groups_per_tile };
         renderer.warm_up(&film)?;
@@ -199,7 +195,7 @@ impl<'a> Session<'a> {
 
     fn sample_pipeline(&self, scene: &PackedScene, features: &Features) -> Result<SamplePipeline> {
         let shader = shader_for(scene.algorithm, features)?;
-        let (pipeline, groups_per_tile) = self.pipeline(features, shader, SEARCH_ALL)?;
+        let (pipeline, groups_per_tile) = self.pipeline(features, shader, SEARCH_ALL, false)?;
         Ok(SamplePipeline { pipeline, shader, groups_per_tile })
     }
 
@@ -209,8 +205,12 @@ impl<'a> Session<'a> {
         features: &Features,
         shader: &'static Shader,
         search: u32,
+        lists_shades: bool,
     ) -> Result<(Arc<Pipeline>, u32)> {
-        let group_size = self.tuning.group_size(self.gpu.info())?;
+        let group_size = match search {
+            SEARCH_TEAM | SEARCH_TEAM_REST => [TEAM_WIDTH, TEAM_HEIGHT],
+            _ => self.tuning.group_size(self.gpu.info())?,
+        };
         let slots = self.resources.slots;
         let mut constants =
             specialization::constants(shader, features, &self.resources.sections, group_size, slots);
@@ -218,6 +218,7 @@ impl<'a> Session<'a> {
         let parameters = [
             (Constant::TablesInHead, tables_in_head),
             (Constant::MeshSearch, search),
+            (Constant::ListsShades, u32::from(lists_shades)),
             (Constant::Quantities, features.quantities),
         ];
         constants.extend(shader.values(parameters));

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use super::{Report, Resources, build_pipeline, specialization};
 use crate::core::error::Result;
 use crate::gpu::shaders;
-use crate::gpu::{BindGroup, Buffer, BufferUse, Gpu, Pipeline};
+use crate::gpu::{BindGroup, Buffer, BufferUse, DeviceKind, Gpu, Pipeline};
 use crate::pack::PackedScene;
 use crate::pack::features::Features;
 use crate::schema::enums::TexelSource;
@@ -16,8 +16,10 @@ use crate::schema::layout::{
 };
 
 const GROUP: u32 = 64;
-/// Triangles times cells that one submission tests: some tenths of a second on a slow device.
-const MAX_TESTS: u64 = 1 << 24;
+/// Triangles times cells that one submission tests: some tenths of a second on a CPU and on a slow GPU. The latter has to
+/// have many cells at once, as few threads take as long as many.
+const MAX_TESTS_CPU: u64 = 1 << 24;
+const MAX_TESTS_GPU: u64 = 1 << 28;
 
 /// Cells of which one may have more triangles of meshes than its list has room for.
 const CELLS_A_ROOM: u64 = 16;
@@ -64,7 +66,8 @@ impl TileCulling {
         let group = resources.bind(gpu, &pipeline, shader, &buffer, None)?;
         let tests =
             scene.listed_shapes().max(1) as u64 + TESTS_OF_MESHES * u64::from(scene.has_concave_shapes());
-        let cells_at_once = (MAX_TESTS / tests).clamp(u64::from(GROUP), 1 << 20) as u32;
+        let most = if gpu.info().kind == DeviceKind::Cpu { MAX_TESTS_CPU } else { MAX_TESTS_GPU };
+        let cells_at_once = (most / tests).clamp(u64::from(GROUP), 1 << 20) as u32;
         let culling = TileCulling { buffer, pipeline, group, side, cells, cells_at_once, has_rooms };
         // Lazy compilation in the driver happens now; the pipelines that read the lists are then tried on the first tile.
         let [across, down] = culling.whole_blocks();

@@ -3,20 +3,48 @@
 
 use std::sync::Arc;
 
-use super::Report;
 use super::dispatch_plan::DispatchPlan;
 use super::film_buffer::{Band, FilmBuffer};
 use super::unfinished::UnfinishedPixels;
+use super::{Report, Resources};
 use crate::core::error::{Error, Result};
 use crate::core::progress::Progress;
+use crate::gpu::shaders::Shader;
 use crate::gpu::{BindGroup, Gpu, Pipeline};
+use crate::schema::constants::TEAM_SQUARES;
 use crate::schema::layout::Slice;
+
+/// What takes the samples of the pixels that a first pipeline leaves unfinished.
+pub enum Rest {
+    Nothing,
+    Lists(UnfinishedPixels),
+    /// A second pipeline, which skips the others by itself.
+    Tiles(Arc<Pipeline>),
+}
+
+impl Rest {
+    /// `later` are the pipelines of the passes after the first one, of one shader: none, one that skips finished pixels
+    /// by itself, or several that take lists.
+    pub fn new(
+        gpu: &Gpu,
+        resources: &Resources,
+        shader: &Shader,
+        mut later: Vec<Arc<Pipeline>>,
+        threads_per_group: u32,
+        film: &Arc<FilmBuffer>,
+    ) -> Result<Rest> {
+        Ok(match later.len() {
+            0 => Rest::Nothing,
+            1 => Rest::Tiles(later.remove(0)),
+            _ => Rest::Lists(UnfinishedPixels::new(gpu, resources, shader, later, threads_per_group, film)?),
+        })
+    }
+}
 
 pub struct TileRenderer<'a> {
     pub gpu: &'a Gpu,
     pub pipeline: Arc<Pipeline>,
-    /// Takes the samples of the pixels that the pipeline leaves unfinished.
-    pub rest: Option<UnfinishedPixels>,
+    pub rest: Rest,
     pub group: BindGroup,
     pub groups_per_tile: u32,
 }
@@ -26,12 +54,28 @@ impl TileRenderer<'_> {
     pub fn warm_up(&self, film: &FilmBuffer) -> Result<()> {
         if let Some(band) = film.bands(film.whole()).next() {
             let slice = Slice { sample_count: 1, ..band.slice() };
-            self.gpu.run(&self.pipeline, &self.group, bytemuck::bytes_of(&slice), [1, 1, 1])?;
-            if let Some(rest) = &self.rest {
+            self.run(&slice, [1, 1, 1], &mut Report::default())?;
+            if let Rest::Lists(rest) = &self.rest {
                 rest.warm_up(self.gpu, &band)?;
             }
         }
         Ok(())
+    }
+
+    /// Renders a slice, but for the pixels of lists; returns the wall time.
+    fn run(&self, slice: &Slice, groups: [u32; 3], report: &mut Report) -> Result<f64> {
+        let second = match &self.rest {
+            Rest::Tiles(pipeline) => Some(pipeline),
+            _ => None,
+        };
+        let mut seconds = 0.0;
+        let second = second.map(|pipeline| (pipeline, [groups[0], groups[1], TEAM_SQUARES]));
+        for (pipeline, groups) in [(&self.pipeline, groups)].into_iter().chain(second) {
+            let time = self.gpu.run(pipeline, &self.group, bytemuck::bytes_of(slice), groups)?;
+            report.add_slice(time);
+            seconds += time.wall_seconds;
+        }
+        Ok(seconds)
     }
 
     /// Renders the first `count` tiles of a band, in tile order.
@@ -49,16 +93,15 @@ impl TileRenderer<'_> {
                 let tiles = plan.tiles(count - first_tile, sample_count);
                 let slice = Slice { first_tile, first_sample, sample_count, ..band.slice() };
                 let groups = [self.groups_per_tile, tiles, 1];
-                let time = self.gpu.run(&self.pipeline, &self.group, bytemuck::bytes_of(&slice), groups)?;
-                report.add_slice(time);
-                plan.learn(tiles, sample_count, time.wall_seconds);
+                let seconds = self.run(&slice, groups, report)?;
+                plan.learn(tiles, sample_count, seconds);
                 progress.advance(plan.done());
                 if progress.cancelled() {
                     return Err(Error::Interrupted);
                 }
                 first_tile += tiles;
             }
-            if let Some(rest) = &self.rest {
+            if let Rest::Lists(rest) = &self.rest {
                 rest.finish(self.gpu, band, [first_sample, sample_count], report, progress)?;
             }
         }

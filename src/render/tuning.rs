@@ -104,7 +104,8 @@ impl Tuning {
         device.kind == DeviceKind::Cpu
     }
 
-    /// Returns true if a pixel's triangles are kept in registers: lavapipe reads memory lane by lane.
+    /// Returns true if a pixel's triangles are kept in registers: lavapipe reads memory lane by lane. GPUs keep them in
+    /// shared memory, for workgroups that sample together; lavapipe (Mesa 22.3.6) loses samples there.
     pub fn holds_triangles(device: &DeviceInfo) -> bool {
         device.kind == DeviceKind::Cpu
     }

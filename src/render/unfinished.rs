@@ -5,14 +5,12 @@
 use std::sync::Arc;
 
 use super::film_buffer::{Band, FilmBuffer};
-use super::{Report, Resources, Tuning};
+use super::{Report, Resources};
 use crate::core::error::{Error, Result};
 use crate::core::progress::Progress;
 use crate::gpu::shaders::Shader;
 use crate::gpu::{BindGroup, Buffer, BufferUse, Gpu, Pipeline};
-use crate::pack::PackedScene;
-use crate::pack::features::{Features, bounces};
-use crate::schema::constants::{SEARCH_ALL, SEARCH_LISTS, SEARCH_MANY, SEARCH_REST, UNFINISHED};
+use crate::schema::constants::UNFINISHED;
 use crate::schema::layout::{PixelBatch, Slice, TILE};
 
 /// Pixels that one submission takes: as many as a tile has.
@@ -21,18 +19,7 @@ const AT_ONCE: usize = (TILE * TILE) as usize;
 /// Side of the squares whose pixels follow each other in a list.
 const BLOCK: u32 = 8;
 
-/// Returns the `MESH_SEARCH` of each pass of a scene. Pixels whose lists are not enough are rendered by themselves where
-/// branches are not skipped, if camera rays alone have lists. Their mark takes the place of the sum of signs.
-pub fn passes(gpu: &Gpu, scene: &PackedScene, features: &Features) -> &'static [u32] {
-    let has_lists = scene.culls_tiles() && scene.has_concave_shapes() && !features.everything;
-    let has_mark = !bounces(scene) && scene.mean_sign.is_none();
-    match has_lists && has_mark && Tuning::holds_triangles(gpu.info()) {
-        true => &[SEARCH_LISTS, SEARCH_MANY, SEARCH_REST],
-        false => &[SEARCH_ALL],
-    }
-}
-
-/// The passes after the first one.
+/// The passes after the first one, each by a list of the pixels that are left.
 pub struct UnfinishedPixels {
     pipelines: Vec<Arc<Pipeline>>,
     /// The list of pixels, with room for `AT_ONCE`.

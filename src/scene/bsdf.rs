@@ -41,6 +41,11 @@ impl Model {
         self.is("glossy")
     }
 
+    /// Returns true if it reflects rays and transmits none.
+    pub fn is_mirror(self) -> bool {
+        self.is_specular() && !self.transmits()
+    }
+
     /// Returns true if it transmits rays.
     pub fn transmits(self) -> bool {
         self.is("transmits")
@@ -61,7 +66,7 @@ pub(super) enum Value {
     Map(fn(&mut Material) -> &mut Option<TextureUse>),
 }
 
-pub(super) const KEYS: [ModelKey; 6] = [
+pub(super) const KEYS: [ModelKey; 10] = [
     ModelKey { name: "specular", value: Value::Color(|m| &mut m.specular), limits: COLOR },
     ModelKey { name: "exponent", value: Value::Number(|m| &mut m.exponent), limits: EXPONENT },
     ModelKey { name: "ior", value: Value::Number(|m| &mut m.ior), limits: IOR },
@@ -72,6 +77,10 @@ pub(super) const KEYS: [ModelKey; 6] = [
         value: Value::Map(|m| &mut m.metallic_roughness_map),
         limits: UNIT,
     },
+    ModelKey { name: "specular_weight", value: Value::Number(|m| &mut m.specular_weight), limits: UNIT },
+    ModelKey { name: "specular_weight_map", value: Value::Map(|m| &mut m.specular_weight_map), limits: UNIT },
+    ModelKey { name: "specular_tint", value: Value::Color(|m| &mut m.specular_tint), limits: COLOR },
+    ModelKey { name: "specular_tint_map", value: Value::Map(|m| &mut m.specular_tint_map), limits: UNIT },
 ];
 
 /// Checks the fields that the material's model uses.

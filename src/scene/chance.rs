@@ -35,10 +35,10 @@ impl Scene {
         self.materials.iter().any(Material::lets_rays_pass)
     }
 
-    /// Returns true if the environment lights surfaces.
+    /// Returns true if the environment lights surfaces, or rough mirrors reflect it.
     pub fn is_lit_by_environment(&self) -> bool {
         let lights = self.lights.iter().any(|light| matches!(light, Light::Environment));
-        lights && self.materials.iter().any(|m| m.model.is_lit())
+        lights && self.materials.iter().any(|m| m.model.is_lit() || m.is_rough_mirror())
     }
 
     /// Returns true if lit surfaces continue paths.

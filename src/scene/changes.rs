@@ -5,7 +5,7 @@ use super::cone;
 use super::limits::{check_filters, check_shared, check_spp};
 use super::model::{Algorithm, Footprint, Pattern, PixelFilter, PixelFilterKind, Precision, Sampling, Scene};
 use crate::core::error::{Error, Result};
-use crate::texture::sampler_spec::{Filter, Method, MipMode};
+use crate::texture::sampler_spec::{Filter, LevelUse, Method};
 
 /// The overrides of a scene; none by default.
 #[derive(Clone, Debug, Default)]
@@ -20,7 +20,7 @@ pub struct Changes {
     /// Applies to every sampler, like the filter and the levels.
     pub method: Option<Method>,
     pub filter: Option<Filter>,
-    pub mip: Option<MipMode>,
+    pub mip: Option<LevelUse>,
     pub footprint: Option<Footprint>,
     pub precision: Option<Precision>,
     pub pixel_filter: Option<PixelFilterKind>,
@@ -56,7 +56,9 @@ impl Changes {
         check_shared(sampling.pattern, sampling.shared).map_err(Error::new)?;
         check_spp(sampling.pattern, sampling.spp).map_err(|m| Error::new(format!("--spp: {m}")))?;
         for sampler in &mut scene.samplers {
-            sampler.mip = self.mip.unwrap_or(sampler.mip);
+            if let Some(levels) = self.mip {
+                (sampler.mip, sampler.stored_levels) = levels.parts();
+            }
             sampler.method = self.method.unwrap_or(sampler.method);
             if let Some(filter) = self.filter {
                 (sampler.mag, sampler.min) = filter.both();

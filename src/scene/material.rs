@@ -78,6 +78,10 @@ pub struct Maps {
     pub emission: Option<TextureUse>,
     /// Keeps light of the environment away, in red.
     pub occlusion: Option<TextureUse>,
+    /// Multiplies what the surface of a dielectric reflects, in alpha.
+    pub specular_weight: Option<TextureUse>,
+    /// Multiplies the reflectance of a dielectric head-on.
+    pub specular_tint: Option<TextureUse>,
 }
 
 named_enum! {
@@ -116,6 +120,10 @@ pub struct Material {
     pub specular_tint: DVec3,
     /// Of `metallic-roughness`: multiplies what the surface of a dielectric reflects, at grazing angles too.
     pub specular_weight: f64,
+    /// Multiplies that weight by its alpha.
+    pub specular_weight_map: Option<TextureUse>,
+    /// Multiplies that tint.
+    pub specular_tint_map: Option<TextureUse>,
     /// Radiance that it emits, whatever its model.
     pub emission: DVec3,
     /// Multiplies the emission.
@@ -157,6 +165,8 @@ impl Default for Material {
             metallic_roughness_map: None,
             specular_tint: DVec3::ONE,
             specular_weight: 1.0,
+            specular_weight_map: None,
+            specular_tint_map: None,
             emission: DVec3::ZERO,
             emission_map: None,
             occlusion_map: None,
@@ -193,37 +203,60 @@ impl Material {
             roughness: self.metallic_roughness_map,
             emission: self.emission_map,
             occlusion: self.occlusion_map,
+            specular_weight: self.specular_weight_map,
+            specular_tint: self.specular_tint_map,
         }
     }
 
     /// Returns the textures that it reads, each with its sampler.
     pub fn textures(&self) -> impl Iterator<Item = TextureUse> + use<> {
-        let Maps { color, bump, roughness, emission, occlusion } = self.maps();
-        [color, bump, roughness, emission, occlusion].into_iter().flatten()
+        let Maps { color, bump, roughness, emission, occlusion, specular_weight, specular_tint } =
+            self.maps();
+        [color, bump, roughness, emission, occlusion, specular_weight, specular_tint].into_iter().flatten()
     }
 
-    /// Returns the colour of its highlight, or the reflectance head-on of a dielectric surface (Fresnel).
+    /// Returns the colour of its highlight, or the reflectance head-on of a dielectric surface (Fresnel), which is at most
+    /// its weight once a map has multiplied it.
     pub(crate) fn head_on_color(&self) -> DVec3 {
         if !self.model.is_glossy() {
             return self.specular;
         }
         let root = (self.ior - 1.0) / (self.ior + 1.0);
-        (root * root * self.specular_tint).min(DVec3::ONE) * self.specular_weight
+        let tinted = root * root * self.specular_tint;
+        let bounded = if self.specular_tint_map.is_some() { tinted } else { tinted.min(DVec3::ONE) };
+        bounded * self.specular_weight
     }
 
     /// Returns the indices of all its textures.
     pub(crate) fn texture_indices_mut(&mut self) -> impl Iterator<Item = &mut usize> {
-        let maps = [&mut self.metallic_roughness_map, &mut self.emission_map, &mut self.occlusion_map];
-        let others = maps.into_iter().flatten().map(|map| &mut map.texture);
+        let others = [
+            &mut self.metallic_roughness_map,
+            &mut self.emission_map,
+            &mut self.occlusion_map,
+            &mut self.specular_weight_map,
+            &mut self.specular_tint_map,
+        ];
+        let others = others.into_iter().flatten().map(|map| &mut map.texture);
         self.texture.iter_mut().chain(self.bump.iter_mut().map(|bump| &mut bump.texture)).chain(others)
     }
 
     /// Returns the indices of all samplers that it names.
     pub(crate) fn sampler_indices_mut(&mut self) -> impl Iterator<Item = &mut usize> {
-        let maps = [&mut self.metallic_roughness_map, &mut self.emission_map, &mut self.occlusion_map];
-        let others = maps.into_iter().flatten().map(|map| &mut map.sampler);
+        let others = [
+            &mut self.metallic_roughness_map,
+            &mut self.emission_map,
+            &mut self.occlusion_map,
+            &mut self.specular_weight_map,
+            &mut self.specular_tint_map,
+        ];
+        let others = others.into_iter().flatten().map(|map| &mut map.sampler);
         let bump = self.bump.iter_mut().filter_map(|bump| bump.sampler.as_mut());
         std::iter::once(&mut self.sampler).chain(bump).chain(others)
+    }
+
+    /// Returns true if it mirrors a ray into one of many directions.
+    pub fn is_rough_mirror(&self) -> bool {
+        self.model.is_mirror() && self.roughness > 0.0
     }
 
     /// Returns true if rays may pass its surface without being bent.

@@ -8,7 +8,7 @@ use glam::DVec3;
 pub use super::bsdf::Model;
 pub use super::camera::{Camera, Lens, Projection};
 pub use super::geometry::kinds::*;
-pub use super::geometry::{Bounds, Shape, Shapes};
+pub use super::geometry::{Bounds, Facets, Shape, Shapes};
 pub use super::mapping::{Entity, Mapping, MappingKind, Space};
 pub use super::material::{BumpMap, Green, Maps, Material, OwnUv, Sides, TextureUse};
 pub use super::pixel_filter::{PixelFilter, PixelFilterKind};

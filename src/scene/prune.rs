@@ -37,7 +37,8 @@ pub fn prune(scene: &mut Scene) -> Vec<String> {
     note(&mut dropped, "sampler", &samplers);
     merge_textures(scene, &mut dropped);
 
-    if !scene.lights.is_empty() && !scene.materials.iter().any(|m| m.model.is_lit()) {
+    let is_lit = scene.materials.iter().any(|m| m.model.is_lit()) || scene.is_lit_by_environment();
+    if !scene.lights.is_empty() && !is_lit {
         let count = scene.lights.len();
         dropped.push(format!(
             "{} that {} on nothing",

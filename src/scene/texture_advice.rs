@@ -46,7 +46,10 @@ fn is_normals(bump: BumpMap, texture: usize) -> bool {
 
 fn is_color(scene: &Scene, texture: usize) -> bool {
     let environment = scene.background.environment.map(|e| e.texture);
-    let of = |m: &Material| [m.texture, m.emission_map.map(|map| map.texture)];
+    let of = |m: &Material| {
+        let maps = [m.emission_map, m.specular_tint_map].map(|map| map.map(|map| map.texture));
+        [m.texture, maps[0], maps[1]]
+    };
     scene.materials.iter().flat_map(of).chain([environment]).any(|t| t == Some(texture))
 }
 

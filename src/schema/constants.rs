@@ -52,11 +52,19 @@ constants! {
     MORE_MASK_WORDS: u32 = 5;
     /// Values of `MESH_SEARCH`: camera rays search by lists and trees; by lists alone, which leaves pixels unfinished;
     /// those of these pixels with more triangles, by lists alone; and what is left then, by trees alone. Where a branch that
-    /// no thread takes costs as much as one that all take, passes are faster than one.
+    /// no thread takes costs as much as one that all take, passes are faster than one. The last two are passes of workgroups
+    /// that sample their pixels together: by lists alone, and what is left then, by trees alone.
     SEARCH_ALL: u32 = 0;
     SEARCH_LISTS: u32 = 1;
     SEARCH_MANY: u32 = 2;
     SEARCH_REST: u32 = 3;
+    SEARCH_TEAM: u32 = 4;
+    SEARCH_TEAM_REST: u32 = 5;
+    /// Pixels, and threads, of a workgroup that samples them together.
+    TEAM_WIDTH: u32 = 8;
+    TEAM_HEIGHT: u32 = 4;
+    /// Squares of pixels into which they are divided, which are sampled one after the other.
+    TEAM_SQUARES: u32 = 8;
     /// In the fourth component of a pixel's sum, which is zero without a pixel filter's negative lobes: its samples are left
     /// to a later pass.
     UNFINISHED: f64 = -1.0;
@@ -89,8 +97,8 @@ constants! {
     /// Entries along each side of the table of what facets reflect.
     FACET_TABLE_SIDE: u32 = 32;
     /// Bits of `second_uv_maps` above those of `MaterialMap`.
-    SECOND_UV_COLOR: u32 = 16;
-    SECOND_UV_BUMP: u32 = 32;
+    SECOND_UV_COLOR: u32 = 256;
+    SECOND_UV_BUMP: u32 = 512;
 
     /// Largest number of iterations over an ellipse's texels.
     MAX_ELLIPSE_STEPS: u32 = 8192;

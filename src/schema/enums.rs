@@ -90,6 +90,10 @@ enums! {
         Instance = "instance",
         Material = "material",
         Albedo = "albedo",
+        /// The place where the shape does not move, from the eye at time 0.
+        Place = "place",
+        /// The number of the shape, the facet's normal and the shading normal before bump maps, as numbers.
+        Facet = "facet",
     }
 
     /// The footprint over which a texture look-up is averaged (`[sampling] footprint`).

@@ -184,7 +184,7 @@ records! {
         kind: LightKind,
     }
 
-    /// Indices of textures may be `NO_TEXTURE`.
+    /// Where a texture is absent, its index is `NO_TEXTURE`.
     Material in materials as "choice among materials" {
         color: Vec3,
         bump_strength: f32,
@@ -224,7 +224,8 @@ records! {
         opacity: f32,
         /// Seen from the front only.
         one_sided: bool,
-        /// Colour of Phong's highlight, or the reflectance of a dielectric surface that is seen head-on.
+        /// Colour of Phong's highlight, or the reflectance of a dielectric surface that is seen head-on, which is at most
+        /// `edge` once a map has multiplied it.
         specular: Vec3,
         /// Reflectance of a dielectric surface at grazing angles, of model `metallic-roughness`.
         edge: f32,
@@ -232,6 +233,12 @@ records! {
         exponent: f32,
         /// Index of refraction.
         ior: f32,
+        specular_weight_texture_index: u32,
+        specular_weight_sampler_index: u32,
+        specular_weight_image_slot: u32,
+        specular_tint_texture_index: u32,
+        specular_tint_sampler_index: u32,
+        specular_tint_image_slot: u32,
     }
 
     /// The mapping from a surface point to a texture coordinate.

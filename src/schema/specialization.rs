@@ -18,6 +18,8 @@ specialization! {
     LightKinds = "LIGHT_KINDS", modes(LightKind), "light";
     /// Some point shines within a cone, or up to a distance.
     Ranged = "RANGED", switch, "cones and ranges of lights";
+    /// Some rough mirror reflects an environment that is a light.
+    RoughMirrors = "ROUGH_MIRRORS", switch, "environment in rough mirrors";
     Shadows = "SHADOWS", switch, "shadow rays";
     Bounces = "BOUNCES", switch, "bounces";
     Environment = "ENVIRONMENT", switch, "environment";
@@ -99,6 +101,8 @@ specialization! {
     /// A bit mask of `Quantity`: radiance alone by default.
     Quantities = "QUANTITIES", parameter(1), "quantities in place of radiance";
     MeshSearch = "MESH_SEARCH", parameter(0), "by lists or trees";
+    /// A pixel lists the triangles of meshes that may shade what it sees.
+    ListsShades = "LISTS_SHADES", flag, "lists of shadows";
     /// Triangles of meshes are kept in registers for all samples of a pixel.
     HoldsTriangles = "HOLDS_TRIANGLES", flag, "triangles in registers";
     OpaqueUniforms = "OPAQUE_UNIFORMS", id, "numbers whose uniformity is hidden";

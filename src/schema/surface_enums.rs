@@ -53,6 +53,10 @@ enums! {
         Occlusion = "occlusion",
         /// Alpha of the colour's texture, without a footprint, for a mask.
         Mask = "mask",
+        /// In alpha: multiplies what the surface of a dielectric reflects.
+        SpecularWeight = "specular-weight",
+        /// Multiplies the reflectance of a dielectric head-on.
+        SpecularTint = "specular-tint",
     }
 
     /// The texture coordinate computation on the device.

@@ -1,6 +1,7 @@
 //! The states of a sampler as data: the table from which scene vocabulary, `VkSampler` objects,
 //! shader constants, oracle and test names are generated.
 
+use crate::core::named::named_enum;
 pub use crate::schema::enums::{Address, Filter, Method, MipMode, TexelCenter};
 
 /// The addressing and filtering of a texture.
@@ -31,6 +32,42 @@ pub struct SamplerSpec {
     pub max_anisotropy: u32,
     /// B and C of the cubic filter.
     pub cubic: [f32; 2],
+}
+
+named_enum! {
+    /// How levels are read, as scenes and the command line name it.
+    pub enum LevelUse {
+        /// Level 0 alone.
+        None = "none",
+        /// The nearest level.
+        Nearest = "nearest",
+        /// Between two levels.
+        Linear = "linear",
+        /// Between two of the levels that the files of textures store.
+        Stored = "stored",
+    }
+}
+
+impl LevelUse {
+    /// Returns the mip mode, and whether levels are those that files store.
+    pub const fn parts(self) -> (MipMode, bool) {
+        match self {
+            LevelUse::None => (MipMode::None, false),
+            LevelUse::Nearest => (MipMode::Nearest, false),
+            LevelUse::Linear => (MipMode::Linear, false),
+            LevelUse::Stored => (MipMode::Linear, true),
+        }
+    }
+}
+
+impl From<MipMode> for LevelUse {
+    fn from(mode: MipMode) -> LevelUse {
+        match mode {
+            MipMode::None => LevelUse::None,
+            MipMode::Nearest => LevelUse::Nearest,
+            MipMode::Linear => LevelUse::Linear,
+        }
+    }
 }
 
 /// B = 0, C = ½, which interpolates.

@@ -10,6 +10,8 @@ use super::{Child, Growing, MOST, Tree, WIDEST};
 
 /// Nodes of more primitives have the subtrees of their children built at the same time.
 const AT_ONCE: usize = 1 << 14;
+/// Boxes that a thread asks for at once.
+const MIN_RUN: usize = 1 << 12;
 
 /// Builds a tree over boxes, each given by its least and greatest finite coordinates.
 ///
@@ -17,21 +19,28 @@ const AT_ONCE: usize = 1 << 14;
 ///
 /// If `width` is not 2 to 8, or for more boxes than `MOST` or than the levels have room for.
 pub fn build(boxes: &[[Vec3; 2]], growing: Growing) -> Tree {
+    build_over(boxes.len(), |index| boxes[index], growing)
+}
+
+/// Builds a tree over as many boxes, which need not be in memory: each is asked for once.
+///
+/// # Panics
+///
+/// As [`build`].
+pub fn build_over(count: usize, box_of: impl Fn(usize) -> [Vec3; 2] + Sync, growing: Growing) -> Tree {
     let Growing { width, leaf, levels } = growing;
     assert!((2..=WIDEST).contains(&width), "nodes have 2 to {WIDEST} children, not {width}");
     let most = MOST.min(leaf.saturating_mul(width.saturating_pow(levels)));
-    assert!(boxes.len() <= most, "{} boxes are more than {most}", boxes.len());
-    let item = |(index, [min, max]): (usize, &[Vec3; 2])| Child {
-        min: min.to_array(),
-        reference: index as u32,
-        max: max.to_array(),
-        count: 1,
+    assert!(count <= most, "{count} boxes are more than {most}");
+    let item = |index: usize| {
+        let [min, max] = box_of(index).map(|corner| corner.to_array());
+        Child { min, reference: index as u32, max, count: 1 }
     };
-    let mut items: Vec<Child> = boxes.par_iter().enumerate().map(item).collect();
+    let mut items: Vec<Child> = (0..count).into_par_iter().with_min_len(MIN_RUN).map(item).collect();
     let mut growth = Growth { children: Vec::new(), depth: 0, growing };
     let bounds = Bounds::of(&items);
     growth.node(&mut items, bounds, 0, 1);
-    let order = items.par_iter().map(|item| item.reference).collect();
+    let order = items.par_iter().with_min_len(MIN_RUN).map(|item| item.reference).collect();
     Tree { children: growth.children, order, width, depth: growth.depth }
 }
 

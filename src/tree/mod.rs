@@ -14,7 +14,7 @@ use bytemuck::{Pod, Zeroable};
 
 use crate::schema::constants::TREE_STACK;
 
-pub use build::build;
+pub use build::{build, build_over};
 pub use check::check;
 
 /// Most primitives in a leaf.

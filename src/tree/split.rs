@@ -3,11 +3,14 @@
 //! tree too deep, halves of equal counts.
 
 use glam::Vec3A;
+use rayon::prelude::*;
 
 use super::{Child, Growing, WIDEST};
 
 /// Below so many primitives half the bins do: more would cost time and gain nothing.
 const FEW: usize = 64;
+/// More primitives than this are looked at by several threads, in runs of this many.
+const RUN: usize = 1 << 14;
 
 /// A box in registers.
 #[derive(Clone, Copy)]
@@ -24,7 +27,8 @@ impl Bounds {
     }
 
     pub fn of(items: &[Child]) -> Bounds {
-        items.iter().fold(Bounds::NONE, |sum, item| sum.with(bounds(item)))
+        let of_run = |run: &[Child]| run.iter().fold(Bounds::NONE, |sum, item| sum.with(bounds(item)));
+        over_runs(items, Bounds::NONE, of_run, Bounds::with)
     }
 
     /// Returns half the surface; in double precision, as squares of single coordinates overflow and vanish.
@@ -143,16 +147,35 @@ fn centre(item: Bounds) -> Vec3A {
 }
 
 fn centres(items: &[Child]) -> Bounds {
-    let points = items.iter().map(|item| centre(bounds(item)));
-    points.fold(Bounds::NONE, |sum, at| sum.with(Bounds { min: at, max: at }))
+    let of_run = |run: &[Child]| {
+        let points = run.iter().map(|item| centre(bounds(item)));
+        points.fold(Bounds::NONE, |sum, at| sum.with(Bounds { min: at, max: at }))
+    };
+    over_runs(items, Bounds::NONE, of_run, Bounds::with)
+}
+
+/// Returns what is found of primitives; many are looked at in runs, by several threads, and the results joined.
+fn over_runs<T: Copy + Send + Sync>(
+    items: &[Child],
+    none: T,
+    of_run: impl Fn(&[Child]) -> T + Sync + Send,
+    join: impl Fn(T, T) -> T + Sync + Send,
+) -> T {
+    if items.len() <= RUN { of_run(items) } else { items.par_chunks(RUN).map(of_run).reduce(|| none, join) }
 }
 
 /// Reorders at least two primitives into two parts. Returns how many the first takes, and their boxes.
 fn split(items: &mut [Child]) -> (usize, [Bounds; 2]) {
+    let halves = |items: &[Child]| {
+        let (low, high) = items.split_at(items.len() / 2);
+        (low.len(), [Bounds::of(low), Bounds::of(high)])
+    };
+    if items.len() == 2 {
+        return halves(items);
+    }
     let centres = centres(items);
-    if items.len() == 2 || centres.min == centres.max {
-        let left = items.len() / 2;
-        return (left, [Bounds::of(&items[..left]), Bounds::of(&items[left..])]);
+    if centres.min == centres.max {
+        return halves(items);
     }
     if items.len() < FEW { split_binned::<8>(items, centres) } else { split_binned::<16>(items, centres) }
 }
@@ -161,14 +184,31 @@ fn split_binned<const BINS: usize>(items: &mut [Child], centres: Bounds) -> (usi
     let extent = centres.max - centres.min;
     // The scale of a flat axis is infinite, its bins come out as 0 times infinity, which the cast takes to zero.
     let scale = BINS as f32 / extent;
-    let mut bins = [[Bin { bounds: Bounds::NONE, count: 0 }; BINS]; 3];
-    for item in &*items {
-        let own = bounds(item);
-        let at = ((centre(own) - centres.min) * scale).to_array();
-        for (bins, at) in bins.iter_mut().zip(at) {
-            let bin = &mut bins[(at as usize).min(BINS - 1)];
-            *bin = Bin { bounds: bin.bounds.with(own), count: bin.count + 1 };
+    let none = [[Bin { bounds: Bounds::NONE, count: 0 }; BINS]; 3];
+    let fill = |bins: &mut [[Bin; BINS]; 3], run: &[Child]| {
+        for item in run {
+            let own = bounds(item);
+            let at = ((centre(own) - centres.min) * scale).to_array();
+            for (bins, at) in bins.iter_mut().zip(at) {
+                let bin = &mut bins[bin_of::<BINS>(at)];
+                *bin = Bin { bounds: bin.bounds.with(own), count: bin.count + 1 };
+            }
         }
+    };
+    let mut bins = none;
+    if items.len() <= RUN {
+        fill(&mut bins, items);
+    } else {
+        let of_run = |run: &[Child]| {
+            let mut bins = none;
+            fill(&mut bins, run);
+            bins
+        };
+        let join = |mut one: [[Bin; BINS]; 3], other: [[Bin; BINS]; 3]| {
+            one.iter_mut().flatten().zip(other.iter().flatten()).for_each(|(a, b)| *a = a.with(*b));
+            one
+        };
+        bins = items.par_chunks(RUN).map(of_run).reduce(|| none, join);
     }
     // Of equal costs (all surfaces may vanish) the most even split, as the others would make a list of the tree.
     let mut best = (f64::INFINITY, usize::MAX);
@@ -182,7 +222,8 @@ fn split_binned<const BINS: usize>(items: &mut [Child], centres: Bounds) -> (usi
         let mut below = bins[0];
         for bin in 1..BINS {
             let rest = above[bin];
-            if below.count > 0 && rest.count > 0 {
+            // Behind an empty bin the parts are those of the plane before it.
+            if bins[bin - 1].count > 0 && rest.count > 0 {
                 let cost = below.count as f64 * below.bounds.area() + rest.count as f64 * rest.bounds.area();
                 let key = (cost, below.count.abs_diff(rest.count));
                 if key < best {
@@ -197,9 +238,15 @@ fn split_binned<const BINS: usize>(items: &mut [Child], centres: Bounds) -> (usi
     let (least, scale) = (centres.min[axis], scale[axis]);
     let is_below = |item: &Child| {
         let centre = 0.25 * item.min[axis] + 0.25 * item.max[axis];
-        (((centre - least) * scale) as usize).min(BINS - 1) < plane
+        bin_of::<BINS>((centre - least) * scale) < plane
     };
     (partition(items, is_below), sides)
+}
+
+/// Returns the bin at a place in units of bins.
+fn bin_of<const BINS: usize>(at: f32) -> usize {
+    // By way of 32 bits, which takes the fewest instructions.
+    (at as i32).clamp(0, BINS as i32 - 1) as usize
 }
 
 /// The primitives whose centres lie in one slice of a node.

@@ -2,9 +2,12 @@
 //! of textures.
 
 mod agree;
+mod browser;
 mod command;
 mod inspect;
 mod known;
+mod maps;
+mod surfaces;
 
 use std::fs;
 use std::path::Path;

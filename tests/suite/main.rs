@@ -10,6 +10,7 @@ mod advice;
 mod backends;
 mod bad_input;
 mod beams;
+mod browser;
 #[cfg(unix)]
 mod child;
 mod circles;

@@ -5,11 +5,14 @@ mod alpha;
 mod glass;
 mod leaning;
 mod mirrored;
+mod mirrored_sky;
 mod oren_nayar;
 mod phong;
+mod phong_sky;
 mod physical;
 mod relief;
 mod scales;
+mod specular;
 
 use std::path::Path;
 

@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 
 use glam::{DVec2, DVec3};
 use moire::internal::mesh::FORMATS;
-use moire::internal::scene::model::{MappingKind, Model, Scene, Triangle};
+use moire::internal::scene::model::{AlphaMode, MappingKind, Model, Scene, Triangle};
 use moire::internal::scene::{advice, load, parse};
 use moire::internal::texture::data::ColorSpace;
 use moire::internal::texture::sampler_spec::{Address, MipMode};
@@ -151,6 +151,41 @@ fn a_material_of_the_scene_replaces_those_of_the_file() {
     let scene = scene_in(folder.path(), body).unwrap();
     assert_eq!(scene.materials[scene.shapes.triangles[0].material].name, "b");
     assert!(scene.notes.is_empty(), "{:?}", scene.notes);
+}
+
+#[test]
+fn glass_and_physically_based_materials_of_a_library() {
+    let library = "newmtl pane\nKd 0 0 0\nTf 0.5 1 1\nNi 1.33\nillum 7\nd 1\nmap_Kd a.png\n\
+                   newmtl tinted\nNi 1.5\nillum 4\nd 0.1\nnewmtl opaque\nKs 1 1 1\nNi 1.5\nillum 4\nd 1\n\
+                   newmtl veil\nKd 1 0 0\nTr 0.75\nnewmtl steel\nKd 0.5 0.5 0.5\nPr 0.25\nPm 1\nNi 1\n\
+                   newmtl orm\nmap_Pr orm.png\nmap_Pm orm.png\nnewmtl two\nPr 0.5\nPm 0.5\nmap_Pr r.png\nmap_Pm m.png\n";
+    let names = ["pane", "tinted", "opaque", "veil", "steel", "orm", "two"];
+    let faces: String = names.iter().map(|name| format!("usemtl {name}\nf 1/1 2/2 3/3\n")).collect();
+    let folder = folder(&[("quad.obj", &format!("mtllib lib.mtl\n{QUAD}{faces}")), ("lib.mtl", library)]);
+    fs::copy(absolute("textures/tiles.png"), folder.path().join("orm.png")).unwrap();
+    let scene = scene_in(folder.path(), "[[mesh]]\nfile = 'quad.obj'\n").unwrap();
+    let of = |name: &str| scene.materials.iter().find(|m| m.name == name).unwrap();
+    let pane = of("pane");
+    assert_eq!((pane.model, pane.ior, pane.texture), (Model::GLASS, 1.33, None));
+    assert_eq!((pane.color, pane.alpha), (DVec3::new(0.5, 1.0, 1.0), AlphaMode::Opaque));
+    assert_eq!((of("tinted").model, of("tinted").color), (Model::GLASS, DVec3::ONE));
+    assert_eq!((of("opaque").model, of("opaque").alpha), (Model::Phong, AlphaMode::Opaque));
+    let veil = of("veil");
+    assert_eq!((veil.model, veil.alpha, veil.opacity), (Model::Lambert, AlphaMode::Blend, 0.25));
+    let steel = of("steel");
+    assert_eq!((steel.model, steel.roughness, steel.metallic, steel.ior), (Model::PHYSICAL, 0.25, 1.0, 1.5));
+    let orm = of("orm");
+    assert_eq!((orm.roughness, orm.metallic), (1.0, 1.0));
+    let map = orm.metallic_roughness_map.unwrap();
+    assert_eq!(scene.textures[map.texture].color_space, ColorSpace::Linear);
+    assert_eq!(scene.samplers[map.sampler].mip, MipMode::Linear);
+    let two = of("two");
+    assert_eq!((two.roughness, two.metallic, two.metallic_roughness_map), (0.5, 0.5, None));
+    assert!(
+        scene.notes.iter().any(|note| note.contains("two") && note.contains("map_Pr")),
+        "{:?}",
+        scene.notes
+    );
 }
 
 #[test]

@@ -88,6 +88,27 @@ pub fn specular(document: &mut Document) {
     }
 }
 
+/// Two dark squares, each of four quarters: alpha of one texture weakens what the surface reflects, 0 to all of it; the
+/// colours of the other one tint it.
+pub fn specular_map(document: &mut Document) {
+    document.uses("KHR_materials_specular");
+    document.camera([0.0, 2.6, 2.6], [0.0, 0.0, 0.0], 0.6);
+    document.sun([-0.3, 1.0, -1.0], 2.0);
+    document.sun([0.3, 1.0, -1.0], 2.0);
+    let square = shapes::square(document);
+    let alpha = pictures::rgba([2, 2], |x, y| [255, 0, 0, 85 * (x + 2 * y) as u8]);
+    let tints = [[255, 255, 255], [255, 40, 40], [40, 255, 40], [40, 40, 255]];
+    let tint = pictures::rgb([2, 2], |x, y| tints[(x + 2 * y) as usize]);
+    for (x, key, picture) in [(-0.95, "specularTexture", alpha), (0.95, "specularColorTexture", tint)] {
+        let texture = document.texture(&picture, Some(json!({ "magFilter": 9728 })));
+        let extensions = json!({ "KHR_materials_specular": { key: { "index": texture } } });
+        let material = material(document, [0.02, 0.02, 0.02], 0.0, 0.5, extensions);
+        let lying = [-FRAC_1_SQRT_2, 0.0, 0.0, FRAC_1_SQRT_2];
+        let node = json!({ "translation": [x, 0, 0], "rotation": lying, "scale": [1.7, 1.7, 1] });
+        square.stand(document, material, node);
+    }
+}
+
 /// Balls that let all light through, of refractive index 1.0, 1.33 and 2.4, before a checker.
 pub fn glass(document: &mut Document) {
     document.uses("KHR_materials_transmission");

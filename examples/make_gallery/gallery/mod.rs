@@ -23,7 +23,7 @@ type Build = fn(&mut Document);
 
 /// Returns every file.
 pub fn all() -> Vec<File> {
-    let text: [(&str, Build); 20] = [
+    let text: [(&str, Build); 21] = [
         ("transforms.gltf", geometry::transforms),
         ("accessors.gltf", geometry::accessors),
         ("cameras.gltf", stage::cameras),
@@ -41,6 +41,7 @@ pub fn all() -> Vec<File> {
         ("metallic_roughness.gltf", looks::metallic_roughness),
         ("metallic_roughness_map.gltf", looks::metallic_roughness_map),
         ("specular.gltf", looks::specular),
+        ("specular_map.gltf", looks::specular_map),
         ("glass.gltf", looks::glass),
         ("emissive.gltf", looks::emissive),
         ("unlit.gltf", looks::unlit),

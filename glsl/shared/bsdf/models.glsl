@@ -36,14 +36,20 @@ struct Lit {
 
 // Some model has the second lobe, or the third.
 const bool THIRD_LOBE = HAS(MODELS, MODEL_METALLIC_ROUGHNESS);
-const bool SECOND_LOBE = (MODELS & ((1u << MODEL_PHONG) | (1u << MODEL_OREN_NAYAR))) != 0u || THIRD_LOBE;
+const bool SECOND_LOBE = (MODELS & ((1u << MODEL_PHONG) | (1u << MODEL_OREN_NAYAR))) != 0u || THIRD_LOBE || ROUGH_MIRRORS;
 
 // Some model reflects the light of lights. Tested before `is_lit` is called: code behind a call stays in the pipeline.
-const bool HAS_LIT = (MODELS & ((1u << MODEL_LAMBERT) | (1u << MODEL_PHONG) | (1u << MODEL_OREN_NAYAR))) != 0u || THIRD_LOBE;
+const bool HAS_LIT = (MODELS & ((1u << MODEL_LAMBERT) | (1u << MODEL_PHONG) | (1u << MODEL_OREN_NAYAR))) != 0u || THIRD_LOBE ||
+                     ROUGH_MIRRORS;
 
 // True if it reflects or refracts rays, and nothing else.
 bool is_specular(uint model) {
     return MODE_IS(MODELS, MODEL_MIRROR, model) || MODE_IS(MODELS, MODEL_DIELECTRIC, model);
+}
+
+// True for a mirror that reflects an environment whose light is sampled.
+bool is_rough_mirror(const Material material) {
+    return ROUGH_MIRRORS && MODE_IS(MODELS, MODEL_MIRROR, material.model) && material.alpha > 0.0;
 }
 
 // True if it reflects the light of lights.
@@ -60,13 +66,18 @@ vec3 emitted(uint model, vec3 color) {
     return MODE_IS(MODELS, MODEL_UNLIT, model) ? unlit_emitted(color) : vec3(0.0);
 }
 
-Bsdf bsdf_at(const Material material, vec3 color, float metallic, float roughness, real3 normal, real3 direction) {
+// `dielectric` and `edge`: what the surface of a dielectric reflects head-on and at grazing angles.
+Bsdf bsdf_at(const Material material, vec3 color, float metallic, float roughness, vec3 dielectric, float edge, real3 normal,
+             real3 direction) {
     vec3 mirror = HAS(MODELS, MODEL_PHONG) ? vec3(mirrored(direction, normal)) : vec3(0.0);
     float diffuse_roughness = HAS(MODELS, MODEL_OREN_NAYAR) ? sqrt(material.alpha) : 0.0;
     MetallicRoughness facets = MetallicRoughness(vec3(0.0), vec3(0.0), vec3(0.0), 1.0, 0.0);
     if (MODE_IS(MODELS, MODEL_METALLIC_ROUGHNESS, material.model)) {
         float cosine = float(-dot3(normal, direction) * inverse_root(dot3(direction, direction)));
-        facets = metallic_roughness(color, metallic, roughness, material.specular, material.edge, cosine);
+        facets = metallic_roughness(color, metallic, roughness, dielectric, edge, cosine);
+    }
+    if (ROUGH_MIRRORS) {
+        if (is_rough_mirror(material)) facets = MetallicRoughness(vec3(0.0), color, color, material.alpha, 1.0);
     }
     return Bsdf(material.model, color, material.specular, material.exponent, diffuse_roughness, vec3(normal), vec3(direction),
                 mirror, facets);
@@ -85,6 +96,10 @@ vec3 evaluate(const Bsdf bsdf, vec3 way) {
         lobes = vec2(1.0, facets.x);
         third = facets.y;
     }
+    if (ROUGH_MIRRORS && MODE_IS(MODELS, MODEL_MIRROR, bsdf.model)) {
+        vec2 facets = facet_lobes(bsdf.normal, bsdf.direction, way, bsdf.facets.alpha);
+        lobes = vec2(0.0, facets.x + facets.y);
+    }
     return vec3(lobes, third);
 }
 
@@ -100,6 +115,7 @@ vec3 reflected(const Bsdf bsdf, vec3 color, vec3 carried, const Lit lit) {
     if (MODE_IS(MODELS, MODEL_METALLIC_ROUGHNESS, bsdf.model)) {
         seen = carried * (bsdf.facets.diffuse * lit.first + bsdf.facets.head_on * lit.second + bsdf.facets.grazing * lit.third);
     }
+    if (ROUGH_MIRRORS && MODE_IS(MODELS, MODEL_MIRROR, bsdf.model)) seen = color * lit.second;
     return seen;
 }
 

@@ -21,11 +21,21 @@ struct Scattered {
     float density;   // over solid angle; 0 where nothing else samples this light
     float alpha;     // of the lobe
     bool diffuse;    // the environment alone counts
+    bool occluded;   // by what keeps its diffuse light away
     bool leaves;     // false: it enters the surface
 };
 
-// Share of the bounces that facets have. `to_sky`: the environment lights surfaces.
+// Some highlight reflects the environment.
+const bool HIGHLIGHTS = HAS(MODELS, MODEL_PHONG) && LIT_BY_ENVIRONMENT;
+
+// Share of the bounces that facets have, or Phong's highlight. `to_sky`: the environment lights surfaces.
 float facet_bounces(const Bsdf bsdf, bool to_sky) {
+    if (HIGHLIGHTS && MODE_IS(MODELS, MODEL_PHONG, bsdf.model)) {
+        float highlight = luminance(bsdf.specular);
+        float all = highlight + luminance(bsdf.albedo);
+        return all > 0.0 && to_sky ? highlight / all : 0.0;
+    }
+    if (ROUGH_MIRRORS && MODE_IS(MODELS, MODEL_MIRROR, bsdf.model)) return 1.0;
     if (!is_glossy(bsdf.model)) return 0.0;
     return to_sky ? bsdf.facets.bounced : 1.0;
 }
@@ -35,8 +45,11 @@ vec2 scattered_densities(const Bsdf bsdf, vec3 way) {
     float facets = facet_bounces(bsdf, true);
     float cosine = max(dot3(bsdf.normal, way) * inversesqrt(dot3(way, way)), 0.0);
     vec2 densities = vec2((1.0 - facets) * cosine * (1.0 / PI), 0.0);
-    if (is_glossy(bsdf.model)) {
+    if (is_glossy(bsdf.model) || (ROUGH_MIRRORS && MODE_IS(MODELS, MODEL_MIRROR, bsdf.model))) {
         densities.y = facets * mirrored_density(bsdf.normal, bsdf.direction, way, bsdf.facets.alpha);
+    }
+    if (HIGHLIGHTS) {
+        if (MODE_IS(MODELS, MODEL_PHONG, bsdf.model)) densities.y = facets * highlight_density(bsdf.mirror, way, bsdf.exponent);
     }
     return densities;
 }
@@ -62,12 +75,24 @@ Scattered scattered(const Bsdf bsdf, const Surface surface, vec3 color, vec3 car
     vec2 disc = concentric_disc(square);
     vec3 way = around(n, vec3(disc, sqrt(max(1.0 - (disc.x * disc.x + disc.y * disc.y), 0.0))));
     float cosine = max(dot3(n, way), 0.0);
-    Scattered next = Scattered(real3(way), vec3(0.0), 0.0, 1.0, true, true);
+    Scattered next = Scattered(real3(way), vec3(0.0), 0.0, 1.0, true, true, true);
     if (LIT_BY_ENVIRONMENT && to_sky) {
         vec3 lobes = evaluate(bsdf, way);
         bool second = MODE_IS(MODELS, MODEL_OREN_NAYAR, bsdf.model);
         next.weight = reflected(bsdf, color, carried, Lit(vec3(lobes.x), vec3(second ? lobes.y : 0.0), vec3(0.0))) / max(1.0 - facets, 1e-6);
         next.density = (1.0 - facets) * cosine * (1.0 / PI);
+    }
+    if (HIGHLIGHTS) {
+        if (MODE_IS(MODELS, MODEL_PHONG, bsdf.model) && by_facet) {
+            vec3 highlight = sampled_highlight(bsdf.mirror, disc, bsdf.exponent);
+            float above = dot3(n, highlight);
+            next.direction = real3(highlight);
+            next.weight = carried * bsdf.specular * ((bsdf.exponent + 2.0) / (bsdf.exponent + 1.0) * max(above, 0.0) / max(facets, 1e-6));
+            next.density = facets * highlight_density(bsdf.mirror, highlight, bsdf.exponent);
+            next.alpha = sqrt(2.0 / (bsdf.exponent + 2.0));
+            next.occluded = false;
+            next.leaves = above > 0.0;
+        }
     }
     if (is_glossy(bsdf.model)) {
         float alpha = bsdf.facets.alpha;
@@ -83,6 +108,7 @@ Scattered scattered(const Bsdf bsdf, const Surface surface, vec3 color, vec3 car
             next.density = to_sky ? facets * mirrored_density(n, bsdf.direction, mirror, alpha) : 0.0;
             next.alpha = alpha;
             next.diffuse = false;
+            next.occluded = false;
             next.leaves = leaving > 0.0;
         }
     }

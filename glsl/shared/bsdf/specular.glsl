@@ -17,6 +17,7 @@ struct Bounce {
     float weight;   // what facets let pass of its light
     bool mirrored;  // else refracted
     bool leaves;    // false: a facet sends it into the surface
+    bool is_raised; // it would have entered the surface
 };
 
 // Ratio of the refractive indices before and behind a surface.
@@ -31,13 +32,18 @@ real mirrored_share(const Material material, real3 direction, real3 normal, floa
     return share;
 }
 
-// The mirrored or the refracted way, on its own side of surfaces whose normals lean.
-real3 bounced_way(real3 direction, real3 normal, const Surface surface, float ratio, bool mirror) {
+// The mirrored or the refracted way, on its own side of surfaces whose normals lean; `is_raised`: moved there.
+real3 bounced_way(real3 direction, real3 normal, const Surface surface, float ratio, bool mirror, out bool is_raised) {
     real3 way = direction;
     if (mirror) way = mirrored(direction, normal);
     else way = refracted(direction, normal, ratio);
     real side = mirror ? 1.0 : -1.0;
-    if (LEANING) way = on_its_side(direction, way, side * surface.normal, side * surface.geometric_normal);
+    is_raised = false;
+    if (LEANING) {
+        real3 other = on_its_side(direction, way, side * surface.normal, side * surface.geometric_normal);
+        is_raised = other != way;
+        way = other;
+    }
     return way;
 }
 
@@ -53,8 +59,9 @@ Bounce sample_bsdf(const Material material, const Surface surface, real3 directi
     if (HAS(MODELS, MODEL_DIELECTRIC)) {
         mirror = unit_line(dimensions.fresnel) < mirrored_share(material, direction, normal, ratio);
     }
-    real3 way = bounced_way(direction, normal, surface, ratio, mirror);
-    Bounce bounce = Bounce(way, normal, ratio, alpha, 1.0, mirror, true);
+    bool is_raised;
+    real3 way = bounced_way(direction, normal, surface, ratio, mirror, is_raised);
+    Bounce bounce = Bounce(way, normal, ratio, alpha, 1.0, mirror, true, is_raised);
     if (GLOSSY) {
         if (alpha > 0.0) {
             real3 outward = mirror ? way : -way;

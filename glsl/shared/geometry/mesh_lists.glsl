@@ -4,28 +4,14 @@
 #define MESH_LISTS_GLSL
 
 #include "../tile_culling.glsl"
-#include "mesh.glsl"
 #include "mesh_edges.glsl"
-
-// A triangle whose edge functions are held for all samples of a pixel; all zero for none.
-struct Held {
-    uint at;
-    real3 a;
-    real3 b;
-    real3 c;
-    real3 across_a; // of the edge that a is not at
-    real3 across_b;
-    real3 across_c;
-    bool one_sided;
-};
-
-const Held NOTHING_HELD = Held(0u, real3(0.0), real3(0.0), real3(0.0), real3(0.0), real3(0.0), real3(0.0), false);
+#include "mesh_held.glsl"
 
 // A ray may meet something that no list holds.
 bool unfinished = false;
 
 // Camera rays search lists alone.
-const bool BY_LISTS = MESH_SEARCH == SEARCH_LISTS || MESH_SEARCH == SEARCH_MANY;
+const bool BY_LISTS = MESH_SEARCH == SEARCH_LISTS || MESH_SEARCH == SEARCH_MANY || MESH_SEARCH == SEARCH_TEAM;
 
 // Registers, where reads from memory cost more than these: the first triangles of a pixel. The pass by lists alone leaves
 // pixels with more to the next one.
@@ -34,6 +20,11 @@ const bool BY_LISTS = MESH_SEARCH == SEARCH_LISTS || MESH_SEARCH == SEARCH_MANY;
 
 // Pixels of many triangles: each is read once for a group of samples, of which the nearest triangles are found before.
 const bool GROUPED = MESH_SEARCH == SEARCH_MANY;
+// A workgroup samples its pixels together: what the current sample meets of the listed triangles is found before.
+const bool TEAMED = MESH_SEARCH == SEARCH_TEAM;
+real team_nearest;
+uint team_found;
+
 const uint GROUP = 8u;
 real3 group_ways[GROUP];
 real group_nearest[GROUP];
@@ -45,14 +36,6 @@ uint group_sample = 0u; // the current one
 #define DECLARE_HELD(k) Held held_##k;
 EACH_HELD(DECLARE_HELD)
 #undef DECLARE_HELD
-
-Held held_triangle(uint at) {
-    uvec4 first = mesh_texel(at);
-    real3 a = real3(point_in(first));
-    real3 b = real3(point_in(mesh_texel(at + 1u)));
-    real3 c = real3(point_in(mesh_texel(at + 2u)));
-    return Held(at, a, b, c, cross3(b + c, c - b), cross3(c + a, a - c), cross3(a + b, b - a), first.w != 0u);
-}
 
 // Takes the first triangle whose bit is set: its index in the list.
 uint first_of(inout Candidates marked) {
@@ -70,6 +53,9 @@ uint first_of(inout Candidates marked) {
 
 bool any_left(const Candidates marked) { return (marked.meshes | marked.more) != uvec4(0u); }
 
+// No triangle that is in no list is met up to here.
+float list_depth(uint list) { return uintBitsToFloat(tile_lists[list + 3u]); }
+
 // The texel of a listed triangle.
 uint listed_texel(const Candidates candidates, uint index) {
     uint place = tile_lists[candidates.list] + index;
@@ -77,21 +63,37 @@ uint listed_texel(const Candidates candidates, uint index) {
     return tile_lists[place < LIST_ROOM ? candidates.list + CELL_HEAD + place : more + place - LIST_ROOM];
 }
 
-// Marks the listed triangles that rays of the pixel may meet; all for parallel rays.
-void test_in_pixel(const Header header, uvec2 pixel, inout Candidates candidates) {
-    bool parallel = MODE_IS(PROJECTIONS, PROJECTION_ORTHOGRAPHIC, header.projection);
+// The rays of a pixel: the one through its middle, and as much to either side as the pixel filter reaches.
+struct PixelRays {
+    vec3 way;
+    vec3 x;
+    vec3 y;
+    vec3 size;
+};
+
+PixelRays pixel_rays(const Header header, uvec2 pixel) {
     vec2 place = (vec2(pixel) - 0.5 * vec2(header.image_size)) + 0.5;
     vec3 way = (place.x * vec3(header.step_x) + place.y * vec3(header.step_y)) + vec3(header.forward);
     vec3 x = header.filter_radius * vec3(header.step_x);
     vec3 y = header.filter_radius * vec3(header.step_y);
-    vec3 size = abs(way) + (abs(x) + abs(y));
+    return PixelRays(way, x, y, abs(way) + (abs(x) + abs(y)));
+}
+
+// True if rays of the pixel may meet the triangle; always for parallel rays.
+bool may_meet(const Header header, const PixelRays rays, uint at) {
+    if (MODE_IS(PROJECTIONS, PROJECTION_ORTHOGRAPHIC, header.projection)) return true;
+    EdgeForms edges = edge_forms_of(point_in(mesh_texel(at)), point_in(mesh_texel(at + 1u)), point_in(mesh_texel(at + 2u)), rays.way, rays.x, rays.y,
+                                    rays.size);
+    vec3 aside = (abs(edges.along_x) + abs(edges.along_y)) + edges.slack;
+    return all(greaterThanEqual(edges.here, -aside)) || all(lessThanEqual(edges.here, aside));
+}
+
+// Marks the listed triangles that rays of the pixel may meet.
+void test_in_pixel(const Header header, uvec2 pixel, inout Candidates candidates) {
+    PixelRays rays = pixel_rays(header, pixel);
     uint count = tile_lists[candidates.list + 2u];
     for (uint k = 0u; k < count; k++) {
-        uint at = listed_texel(candidates, k);
-        EdgeForms edges = edge_forms_of(point_in(mesh_texel(at)), point_in(mesh_texel(at + 1u)), point_in(mesh_texel(at + 2u)), way, x, y, size);
-        vec3 aside = (abs(edges.along_x) + abs(edges.along_y)) + edges.slack;
-        bool is_met = parallel || all(greaterThanEqual(edges.here, -aside)) || all(lessThanEqual(edges.here, aside));
-        uint bit = is_met ? 1u << (k & 31u) : 0u;
+        uint bit = may_meet(header, rays, listed_texel(candidates, k)) ? 1u << (k & 31u) : 0u;
         uvec4 bits = bit * uvec4(equal(uvec4((k >> 5u) & 3u), uvec4(0u, 1u, 2u, 3u)));
         if (k < 128u) candidates.meshes |= bits;
         else candidates.more |= bits;
@@ -128,21 +130,6 @@ void mark_in_pixel(const Header header, uvec2 place, uvec2 pixel, inout Candidat
     }
 }
 
-// Where a ray from the eye meets it, else -1.
-real distance_to_held(const Held triangle, real3 d) {
-    real3 edges = real3(dot3(d, triangle.across_a), dot3(d, triangle.across_b), dot3(d, triangle.across_c));
-    return distance_by(edges, triangle.a, triangle.b, triangle.c, d, triangle.one_sided);
-}
-
-#define NEARER(best, found, next, at_next)                                                                 \
-    {                                                                                                      \
-        real t = next;                                                                                     \
-        uint at = at_next;                                                                                 \
-        bool nearer = t > 0.0 && (t < best || (t == best && found != NO_SHAPE && at < found));             \
-        best = nearer ? t : best;                                                                          \
-        found = nearer ? at : found;                                                                       \
-    }
-
 // Finds the nearest marked triangle for each sample of the group.
 void find_for_group(Candidates marked) {
     for (uint k = 0u; k < GROUP; k++) {
@@ -158,10 +145,12 @@ void find_for_group(Candidates marked) {
 // Finds the nearest marked triangle if that is nearer than `best`; of those at the same t the first one. Returns true if
 // nothing that is not listed can be nearer. Meshes that are leaves of the tree over all are in no list.
 bool nearest_listed(const Ray ray, const Candidates candidates, inout real best, inout FoundTriangle triangle) {
-    float depth = uintBitsToFloat(tile_lists[candidates.list + 3u]);
+    float depth = list_depth(candidates.list);
     uint found = NO_SHAPE;
-    bool loops = true;
-    if (HOLDS) {
+    bool loops = !TEAMED;
+    if (TEAMED) {
+        NEARER(best, found, team_nearest, team_found)
+    } else if (HOLDS) {
         loops = !BY_LISTS;
         if (GROUPED) {
             for (uint k = 0u; k < GROUP; k++) {
@@ -184,7 +173,5 @@ bool nearest_listed(const Ray ray, const Candidates candidates, inout real best,
     if (PLACED_MESHES) triangle.mesh = found == NO_SHAPE ? NO_SHAPE : mesh_texel(found + 1u).w;
     return best <= depth;
 }
-
-#undef NEARER
 
 #endif

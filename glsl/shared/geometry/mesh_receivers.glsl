@@ -48,7 +48,7 @@ Receiver receiver_of(const Held held) {
 }
 
 // Adds what the pixel sees of a triangle to the region. Returns false where it is neither lit nor dark.
-bool receive(const Held held, vec3 way, vec3 x, vec3 y, out Receiver receiver) {
+bool receive(const Held held, const PixelRays rays, out Receiver receiver) {
     receiver = receiver_of(held);
     vec3 n = receiver.normal;
     float height = dot3(n, receiver.a);
@@ -61,7 +61,7 @@ bool receive(const Held held, vec3 way, vec3 x, vec3 y, out Receiver receiver) {
     vec3 far = vec3(-FAR);
     bool is_bounded = true;
     for (uint k = 0u; k < 4u; k++) {
-        vec3 d = (way + ((k & 1u) == 0u ? -1.0 : 1.0) * x) + ((k & 2u) == 0u ? -1.0 : 1.0) * y;
+        vec3 d = (rays.way + ((k & 1u) == 0u ? -1.0 : 1.0) * rays.x) + ((k & 2u) == 0u ? -1.0 : 1.0) * rays.y;
         float along = dot3(n, d);
         is_bounded = is_bounded && along < -1e-4;
         vec3 p = in_frame((height / min(along, -1e-4)) * d);
@@ -93,6 +93,7 @@ bool leaves_lit(vec3 a, vec3 b, vec3 c, const Receiver receiver) {
     vec3 n = receiver.normal;
     float highest = max(max(above_plane(a, receiver.a, n, receiver.slack), above_plane(b, receiver.a, n, receiver.slack)),
                         above_plane(c, receiver.a, n, receiver.slack));
+    if (highest <= allowed || !receiver.is_lit) return true;
     vec3 doubled = cross3(b - a, c - a);
     float area = sqrt(dot3(doubled, doubled));
     vec3 own = doubled / max(area, 1e-30);
@@ -102,8 +103,7 @@ bool leaves_lit(vec3 a, vec3 b, vec3 c, const Receiver receiver) {
     float deepest = max(max(above_plane(receiver.a, a, -own, slack), above_plane(receiver.b, a, -own, slack)),
                         above_plane(receiver.c, a, -own, slack));
     bool leans_little = dot3(own, n) > 0.9;
-    bool is_over = abs(facing) > 1e-3 && (deepest < -64.0 * ULP * shade_reach || (leans_little && deepest <= allowed));
-    return highest <= allowed || is_over || !receiver.is_lit;
+    return abs(facing) > 1e-3 && (deepest < -64.0 * ULP * shade_reach || (leans_little && deepest <= allowed));
 }
 
 #endif

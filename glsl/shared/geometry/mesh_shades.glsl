@@ -5,12 +5,10 @@
 #define MESH_SHADES_GLSL
 
 #include "mesh_receivers.glsl"
+#include "mesh_team.glsl"
 #include "../shading_normal.glsl"
 
-const bool ONE_SUN = LIGHTS == 1u && LIGHT_KINDS == (1u << LIGHT_DIRECTIONAL) && SHADOWS;
-const bool MESHES_ALONE = (PLANES | SPHERES | TRIANGLES | DISCS) == 0u && !PLACED_MESHES;
-const bool SHADES = BY_LISTS && HOLDS_TRIANGLES && !BOUNCES && PROJECTIONS == (1u << PROJECTION_PERSPECTIVE) && ONE_SUN &&
-                    MESHES_ALONE && ALPHA_MODES == (1u << ALPHA_OPAQUE) && !ONE_SIDED;
+const bool SHADES = BY_LISTS && LISTS_SHADES;
 
 // Leaves of the tree above what a pixel sees, and nodes that wait; and their triangles above it, before they are tested
 // against each triangle that is seen.
@@ -37,6 +35,13 @@ bool is_beside(vec3 least, vec3 greatest) {
     return any(greaterThan(least.xy, shade_greatest.xy + margin)) || any(lessThan(greatest, shade_least - margin));
 }
 
+bool is_box_beside(vec3 least, vec3 greatest) {
+    vec3 middle = in_frame(0.5 * (least + greatest));
+    vec3 half_size = 0.5 * (greatest - least);
+    vec3 extent = vec3(dot3(abs(shade_frame[0]), half_size), dot3(abs(shade_frame[1]), half_size), dot3(abs(shade_frame[2]), half_size));
+    return is_beside(middle - extent, middle + extent);
+}
+
 // True if the light sees an edge from p to q between the triangle's third corner and the region.
 bool parts(vec2 p, vec2 q, vec2 third) {
     vec2 along = q - p;
@@ -48,51 +53,62 @@ bool parts(vec2 p, vec2 q, vec2 third) {
     return n.x * (corner.x - p.x) + n.y * (corner.y - p.y) > 64.0 * ULP * size * (abs(n.x) + abs(n.y));
 }
 
-bool is_above(vec3 a, vec3 b, vec3 c) {
-    vec3 pa = in_frame(a);
-    vec3 pb = in_frame(b);
-    vec3 pc = in_frame(c);
+bool is_above_in_frame(vec3 pa, vec3 pb, vec3 pc) {
     if (is_beside(min(min(pa, pb), pc), max(max(pa, pb), pc))) return false;
     return !(parts(pa.xy, pb.xy, pc.xy) || parts(pb.xy, pc.xy, pa.xy) || parts(pc.xy, pa.xy, pb.xy));
 }
+
+bool is_above(vec3 a, vec3 b, vec3 c) { return is_above_in_frame(in_frame(a), in_frame(b), in_frame(c)); }
 
 // The triangles above the region; in the end, those that may shade.
 uint above[SHADE_ROOM];
 uint shades = 0u;
 
-// Sets up the region of what the pixel sees. Returns false if that is not known well enough.
-bool receive_all(const Header header, uvec2 pixel, Candidates marked) {
+// Begins the region of what a pixel sees; returns its rays, a little more of them than there are.
+PixelRays receiving_rays(const Header header, uvec2 pixel) {
     vec3 to_light = vec3(light_at(0u).direction);
     vec3 first = any_tangent(to_light);
     shade_frame = mat3(first, cross3(to_light, first), to_light);
     shade_least = vec3(FAR);
     shade_greatest = vec3(-FAR);
     shade_reach = 0.0;
-    vec2 place = (vec2(pixel) - 0.5 * vec2(header.image_size)) + 0.5;
-    vec3 way = (place.x * vec3(header.step_x) + place.y * vec3(header.step_y)) + vec3(header.forward);
-    vec3 x = (1.001 * header.filter_radius) * vec3(header.step_x);
-    vec3 y = (1.001 * header.filter_radius) * vec3(header.step_y);
-    bool is_sure = true;
-    if (GROUPED) {
-        while (any_left(marked)) {
-            Receiver receiver;
-            is_sure = receive(held_triangle(listed_texel(marked, first_of(marked))), way, x, y, receiver) && is_sure;
-        }
-    } else {
-#define RECEIVE(k) is_sure = receive(held_##k, way, x, y, receiver_##k) && is_sure;
-        EACH_HELD(RECEIVE)
-#undef RECEIVE
-    }
+    PixelRays rays = pixel_rays(header, pixel);
+    rays.x = (1.001 * header.filter_radius) * vec3(header.step_x);
+    rays.y = (1.001 * header.filter_radius) * vec3(header.step_y);
+    return rays;
+}
+
+bool is_region_empty() { return shade_least.x > shade_greatest.x; }
+
+// Ends the region. Returns false if it is not known well enough.
+bool close_region(bool is_sure) {
     float widened = 128.0 * ULP * shade_reach;
     shade_least -= widened;
     shade_greatest += widened;
-    return is_sure || shade_least.x > shade_greatest.x;
+    return is_sure || is_region_empty();
+}
+
+// Sets up the region of what the pixel sees. Returns false if that is not known well enough.
+bool receive_all(const Header header, uvec2 pixel, Candidates marked) {
+    PixelRays rays = receiving_rays(header, pixel);
+    bool is_sure = true;
+    if (GROUPED || TEAMED) {
+        while (any_left(marked)) {
+            Receiver receiver;
+            is_sure = receive(held_triangle(listed_texel(marked, first_of(marked))), rays, receiver) && is_sure;
+        }
+    } else {
+#define RECEIVE(k) is_sure = receive(held_##k, rays, receiver_##k) && is_sure;
+        EACH_HELD(RECEIVE)
+#undef RECEIVE
+    }
+    return close_region(is_sure);
 }
 
 // True if the triangle shades nothing that any of the receivers sees.
 bool leaves_all_lit(vec3 a, vec3 b, vec3 c, Candidates marked) {
     bool is_lit = true;
-    if (GROUPED) {
+    if (GROUPED || TEAMED) {
         while (is_lit && any_left(marked)) {
             Receiver receiver = receiver_of(held_triangle(listed_texel(marked, first_of(marked))));
             is_lit = is_lit && leaves_lit(a, b, c, receiver);
@@ -116,10 +132,7 @@ uint leaves_above() {
         for (uint k = 0u; k < TREE_WIDTH; k++) {
             uvec4 least = mesh_texel(reference + 2u * k);
             uvec4 greatest = mesh_texel(reference + 2u * k + 1u);
-            vec3 middle = in_frame(0.5 * (point_in(least) + point_in(greatest)));
-            vec3 half_size = 0.5 * (point_in(greatest) - point_in(least));
-            vec3 extent = vec3(dot3(abs(shade_frame[0]), half_size), dot3(abs(shade_frame[1]), half_size), dot3(abs(shade_frame[2]), half_size));
-            bool is_met = least.w != NO_SHAPE && !is_beside(middle - extent, middle + extent);
+            bool is_met = least.w != NO_SHAPE && !is_box_beside(point_in(least), point_in(greatest));
             bool is_leaf = greatest.w != 0u;
             if (is_met) room[is_leaf ? NODE_ROOM - 1u - leaves : height] = least.w | (greatest.w << TREE_COUNT_SHIFT);
             leaves += is_met && is_leaf ? 1u : 0u;
@@ -138,7 +151,7 @@ bool gather_shades(const Header header, uvec2 pixel, const Candidates marked) {
     bool is_sure = receive_all(header, pixel, marked);
     uint count = 0u;
     uint leaves = 0u;
-    if (shade_least.x <= shade_greatest.x) leaves = leaves_above();
+    if (!is_region_empty()) leaves = leaves_above();
     if (leaves == NODE_ROOM) {
         is_sure = false;
         leaves = 0u;
@@ -188,7 +201,12 @@ bool is_shaded(const Ray ray, real t_max, real3 place, real3 normal) {
     bool is_off = dot3(normal, ray.origin - place) >= 32.0 * ULP * shade_reach;
     unfinished = unfinished || !(is_within && is_off);
     bool blocked = false;
-    if (GROUPED) {
+    if (TEAMED) {
+        for (uint k = 0u; k < team_shade_counts[team_member] && !blocked; k++) {
+            real t = distance_in(team_shades[k * TEAM + team_member], ray, false, true);
+            blocked = t > 0.0 && t < t_max;
+        }
+    } else if (GROUPED) {
         for (uint k = 0u; k < shades && !blocked; k++) {
             real t = distance_in(above[k], ray, false, true);
             blocked = blocked || (t > 0.0 && t < t_max);

@@ -6,7 +6,7 @@
 
 #include "../tile_culling.glsl"
 #include "kinds.glsl"
-#include "mesh_shades.glsl"
+#include "mesh_team_shades.glsl"
 
 // Replaces the hit by the nearest triangle of a mesh, if that is nearer. `first`: the shape that is the first mesh.
 void nearest_in_meshes(const Ray ray, const Candidates candidates, uint first, inout Hit hit) {

@@ -2,7 +2,7 @@
 //! survey of its textures, and the layer of surfaces. Output: one sentence, and the options that it names. The rules are
 //! those of thumb of the guide; `moire study` measures which setting wins.
 
-use super::survey::Survey;
+use super::survey::{Seen, Survey};
 use crate::core::layer::Layer;
 use crate::scene::changes::Changes;
 use crate::scene::model::{Algorithm, Footprint, Scene};
@@ -24,11 +24,11 @@ const MANY_EDGES: f64 = 0.3;
 pub struct Facts {
     /// Of all pixels: those that read a texture of texels.
     pub textured: f64,
-    /// Of these: those that cover more than a texel.
+    /// Of these: those that cover more than a texel of one of their textures.
     pub minified: f64,
-    /// Of those: those whose footprint is more than twice as long as wide.
+    /// Of those: those whose footprint there is more than twice as long as wide.
     pub elongated: f64,
-    /// Of the textured pixels: those over which a texel is larger than two pixels.
+    /// Of the textured pixels: those in which a texel of one is larger than two pixels.
     pub magnified: f64,
     /// Of all pixels: those that see several surfaces.
     pub edges: f64,
@@ -47,17 +47,15 @@ pub struct Advice {
 impl Facts {
     pub fn new(scene: &Scene, survey: &Survey, surfaces: Option<&Layer>) -> Facts {
         let ratio = |part: f64, all: f64| if all > 0.0 { part / all } else { 0.0 };
-        let sum = |of: fn(&super::survey::View) -> f64| survey.views.iter().map(of).sum::<f64>();
-        let textured = sum(|view| view.density.pixels() as f64);
-        let minified = sum(|view| view.minified as f64);
-        let magnified = sum(|view| (1.0 - view.density.above(0.5)) * view.density.pixels() as f64);
+        let Seen { textured, minified, elongated, magnified } = survey.seen;
+        let share = |part: u64, all: u64| ratio(part as f64, all as f64);
         let several = surfaces.map_or(0, |layer| layer.first_values().filter(|n| *n > 1.0).count());
         let pixels = surfaces.map_or(0, |layer| layer.present.len());
         Facts {
-            textured: ratio(textured, survey.pixels as f64),
-            minified: ratio(minified, textured),
-            elongated: ratio(sum(|view| view.elongated as f64), minified),
-            magnified: ratio(magnified, textured),
+            textured: share(textured, survey.pixels),
+            minified: share(minified, textured),
+            elongated: share(elongated, minified),
+            magnified: share(magnified, textured),
             edges: ratio(several as f64, pixels as f64),
             is_noisy: scene.camera.lens.is_some()
                 || scene.camera.moves()
@@ -110,7 +108,7 @@ fn filtering(scene: &Scene, facts: &Facts, option: &mut impl FnMut(&str, &str)) 
     let suits = |filter| {
         let changes = Changes {
             filter: Some(filter),
-            mip: Some(mip),
+            mip: Some(mip.into()),
             footprint: Some(footprint),
             ..Changes::default()
         };

@@ -4,10 +4,11 @@
 use std::path::Path;
 
 use super::advice::{Advice, Facts, advice};
-use super::charts::{Charts, charts};
+use super::charts::{Charts, charts, readers};
+use super::legend::Legend;
 use super::page;
-use super::picture::picture;
-use super::survey::{Survey, survey};
+use super::picture::colored;
+use super::survey::{Survey, View, survey};
 use crate::core::error::Result;
 use crate::core::film::{Film, Placement};
 use crate::core::layer::Layer;
@@ -60,21 +61,35 @@ pub fn inspect(scene: &Scene, options: &Options, on: &[On], progress: &dyn Progr
     let layers = render_layers(scene, options, on, &wanted, Some(&picture), &part(OWN_SHARE, 1.0))?;
     let layers: Vec<Inspected> =
         wanted.into_iter().zip(layers).map(|(aov, layer)| Inspected { aov, layer }).collect();
-    let survey = survey(&packed_at_centres(scene, options)?);
-    let charts =
-        survey.views.iter().map(|view| charts(scene, view.texture, view.size, view.levels)).collect();
+    let survey = survey(scene, &packed_at_centres(scene, options)?);
+    let charts = all_charts(scene, &survey);
     let surfaces = layers.iter().find(|own| own.aov == Aov::Surfaces).map(|own| &own.layer);
     let advice = advice(scene, &Facts::new(scene, &survey, surfaces));
     Ok(Inspection { picture, layers, left_out, survey, charts, advice })
 }
 
-/// Writes all files; returns their names.
-pub fn write(folder: &Path, scene: &Scene, inspection: &Inspection) -> Result<Vec<String>> {
+/// Returns the charts of each image. The maps of a material have the same ones if they are of one size.
+fn all_charts(scene: &Scene, survey: &Survey) -> Vec<Option<Charts>> {
+    let mut known: Vec<(_, Option<Charts>)> = Vec::new();
+    let of = |view: &View| {
+        let key = (readers(scene, &view.textures), view.size, view.levels);
+        if let Some((_, found)) = known.iter().find(|(other, _)| *other == key) {
+            return found.clone();
+        }
+        let found = charts(scene, &key.0, view.size, view.levels);
+        known.push((key, found.clone()));
+        found
+    };
+    survey.views.iter().map(of).collect()
+}
+
+/// Writes all files; returns their names. `view`: options that choose what is seen, for the command on the page.
+pub fn write(folder: &Path, scene: &Scene, inspection: &Inspection, view: &[String]) -> Result<Vec<String>> {
     let film = &inspection.picture.film;
     let size = [film.width, film.height];
     let names: Vec<String> = scene.materials.iter().map(|material| material.name.clone()).collect();
-    let films: Vec<Film> =
-        inspection.layers.iter().map(|own| picture(own.aov, &own.layer, size, &names)).collect();
+    let colored = |own: &Inspected| colored(own.aov, &own.layer, size, &names);
+    let (films, legends): (Vec<Film>, Vec<Legend>) = inspection.layers.iter().map(colored).unzip();
     let mut files: Vec<String> = vec![PICTURE.into(), EXR.into()];
     files.extend(inspection.layers.iter().map(|own| file_of(own.aov)));
     let paths: Vec<_> = files.iter().map(|file| folder.join(file)).collect();
@@ -84,7 +99,7 @@ pub fn write(folder: &Path, scene: &Scene, inspection: &Inspection) -> Result<Ve
     let placement = Some(Placement::whole(film.width, film.height));
     let options = WriteOptions { layers: &layers, placement, ..WriteOptions::default() };
     output::write_pictures(&pictures, &options, || Ok(()))?;
-    output::write_file(&folder.join(PAGE), page::html(scene, inspection).as_bytes())?;
+    output::write_file(&folder.join(PAGE), page::html(scene, inspection, view, &legends).as_bytes())?;
     files.push(PAGE.into());
     Ok(files)
 }

@@ -33,6 +33,9 @@ const INK: [u8; 3] = [236, 236, 241];
 /// Distances and sizes in pixels of the font.
 const MARGIN: usize = 4;
 const BAR: usize = 8;
+/// From one line of swatches to the next one, and how many lines there are at most.
+const LINE: usize = font::HEIGHT + 2;
+const MOST_LINES: usize = 24;
 /// The narrowest picture that has room for a legend; narrower ones get ground beside them.
 const MIN_WIDTH: usize = 256;
 /// Pictures from this width on have a font of twice the size.
@@ -42,9 +45,13 @@ const WIDE: usize = 640;
 pub fn with_legend(film: &Film, legend: &Legend) -> Film {
     let size = if film.width as usize >= WIDE { 2 } else { 1 };
     let width = (film.width as usize).max(MIN_WIDTH);
+    let lines = match &legend.key {
+        Key::Swatches(swatches) => lines(swatches, width / size, film.height as usize / size),
+        _ => Vec::new(),
+    };
     let rows = match &legend.key {
         Key::Bar { .. } => BAR + 2 + font::HEIGHT,
-        Key::Swatches(_) => font::HEIGHT,
+        Key::Swatches(_) => lines.len() * LINE,
         Key::None => 0,
     };
     let gap = if rows > 0 { MARGIN } else { 0 };
@@ -54,7 +61,9 @@ pub fn with_legend(film: &Film, legend: &Legend) -> Film {
     canvas.text(&legend.title, MARGIN, MARGIN);
     match &legend.key {
         Key::Bar { color, ticks } => canvas.bar(*color, ticks, line),
-        Key::Swatches(swatches) => canvas.swatches(swatches, line),
+        Key::Swatches(_) => {
+            lines.iter().enumerate().for_each(|(i, own)| canvas.swatches(own, line + i * LINE))
+        }
         Key::None => {}
     }
     canvas.film
@@ -122,18 +131,93 @@ impl Canvas {
         }
     }
 
-    /// Draws as many swatches as there is room for.
-    fn swatches(&mut self, swatches: &[Swatch], y: usize) {
+    fn swatches(&mut self, line: &Line<'_>, y: usize) {
         let mut x = MARGIN;
-        for Swatch { color, name } in swatches {
-            if x + 2 * font::ADVANCE + font::width(name) > self.width() {
-                break;
-            }
+        for Swatch { color, name } in line.swatches {
             for row in 0..font::HEIGHT - 1 {
                 (0..font::HEIGHT - 1).for_each(|column| self.dot(x + column, y + row, *color));
             }
             self.text(name, x + font::HEIGHT + 2, y);
-            x += font::HEIGHT + 2 + font::width(name) + font::ADVANCE;
+            x += width_of(name);
         }
+        self.text(&line.rest, x, y);
+    }
+}
+
+/// A line of swatches, and what stands behind them.
+struct Line<'a> {
+    swatches: &'a [Swatch],
+    rest: String,
+}
+
+/// Returns the width of a swatch with its name and the gap behind it.
+fn width_of(name: &str) -> usize {
+    font::HEIGHT + 2 + font::width(name) + font::ADVANCE
+}
+
+/// Returns swatches in lines within a width, in pixels of the font. Of more than have room under a picture of that height,
+/// the last line says how many are left out.
+fn lines(swatches: &[Swatch], width: usize, height: usize) -> Vec<Line<'_>> {
+    let most = (height / LINE).clamp(1, MOST_LINES);
+    let mut lines = Vec::new();
+    let mut rest = swatches;
+    while !rest.is_empty() {
+        let is_last = lines.len() + 1 == most;
+        let told = |left: usize| if left > 0 { format!("and {left} more") } else { String::new() };
+        let fit = |reserved: usize| {
+            let mut x = MARGIN + reserved;
+            let fits = |own: &&Swatch| {
+                x += width_of(&own.name);
+                x <= width + font::ADVANCE
+            };
+            rest.iter().take_while(fits).count()
+        };
+        let all = fit(0);
+        if is_last && all < rest.len() {
+            let count = fit(font::width(&told(rest.len())));
+            lines.push(Line { swatches: &rest[..count], rest: told(rest.len() - count) });
+            break;
+        }
+        // A name that is wider than the picture is cut at its edge.
+        let (line, others) = rest.split_at(all.max(1));
+        lines.push(Line { swatches: line, rest: String::new() });
+        rest = others;
+    }
+    lines
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn swatches(count: usize) -> Vec<Swatch> {
+        (0..count).map(|i| Swatch { color: [0; 3], name: format!("{i:02}") }).collect()
+    }
+
+    fn counts(count: usize, height: usize) -> (Vec<usize>, String) {
+        let swatches = swatches(count);
+        let found = lines(&swatches, 256, height);
+        let last = found.last().map_or(String::new(), |line| line.rest.clone());
+        (found.iter().map(|line| line.swatches.len()).collect(), last)
+    }
+
+    #[test]
+    fn swatches_fill_lines_and_what_has_no_room_is_counted() {
+        // A name of two letters takes 28 pixels.
+        assert_eq!(counts(10, 200), (vec![9, 1], String::new()));
+        assert_eq!(counts(20, 200), (vec![9, 9, 2], String::new()));
+        assert_eq!(counts(9, 8), (vec![9], String::new()));
+        let (lines, rest) = counts(200, 40);
+        let shown: usize = lines.iter().sum();
+        assert_eq!((lines.len(), rest), (4, format!("and {} more", 200 - shown)));
+        assert_eq!(counts(5, 1).0, [5], "there is one line at least");
+    }
+
+    #[test]
+    fn a_name_without_room_has_a_line_of_its_own() {
+        let mut all = swatches(3);
+        all[1].name = "x".repeat(100);
+        let found = lines(&all, 256, 200);
+        assert_eq!(found.iter().map(|line| line.swatches.len()).collect::<Vec<_>>(), [1, 1, 1]);
     }
 }

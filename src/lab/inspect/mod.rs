@@ -4,15 +4,17 @@
 pub mod advice;
 mod charts;
 mod colors;
-mod density;
+pub mod density;
 mod folder;
 mod font;
 mod legend;
+mod marks;
 pub mod page;
 pub mod picture;
 mod scale;
 pub mod survey;
+pub mod uses;
 
-pub use charts::{Charts, charts};
+pub use charts::{Charts, Coordinates, charts, readers};
 pub use density::Density;
 pub use folder::{Inspected, Inspection, PAGE, file_of, inspect, write};

@@ -8,8 +8,14 @@ use crate::core::film::Film;
 use crate::core::layer::Layer;
 use crate::render::layers::{Aov, MAX_SURFACES};
 
-/// Returns the picture of a layer. `names`: of the materials, for the legend of `material`.
-pub fn picture(aov: Aov, layer: &Layer, [width, height]: [u32; 2], names: &[String]) -> Film {
+/// Returns the picture of a layer with its legend under it. `names`: of the materials, for the legend of `material`.
+pub fn picture(aov: Aov, layer: &Layer, size: [u32; 2], names: &[String]) -> Film {
+    let (film, legend) = colored(aov, layer, size, names);
+    with_legend(&film, &legend)
+}
+
+/// Returns the picture of a layer, and its legend apart.
+pub fn colored(aov: Aov, layer: &Layer, [width, height]: [u32; 2], names: &[String]) -> (Film, Legend) {
     let looks = Looks::new(aov, layer, names);
     let mut film = Film::new(width, height, 1);
     for (i, pixel) in film.pixels.iter_mut().enumerate() {
@@ -17,7 +23,7 @@ pub fn picture(aov: Aov, layer: &Layer, [width, height]: [u32; 2], names: &[Stri
         let value = |c: usize| layer.channels.get(c).map_or(0.0, |channel| channel.values[i]);
         *pixel = if present { (looks.color)([value(0), value(1), value(2)]) } else { light(NOTHING) };
     }
-    with_legend(&film, &looks.legend)
+    (film, looks.legend)
 }
 
 /// The colours of a layer.

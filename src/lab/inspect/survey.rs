@@ -1,44 +1,41 @@
-//! What the view reads of each texture, by the oracle: one ray through the centre of each pixel, with the footprint of the
-//! whole pixel. Input: a packed scene. Output: for each texture of texels its density, the levels that are read, and the
-//! texels that no footprint covers. In large pictures every n-th pixel of every n-th row is looked at.
+//! What the view reads of each image, by the oracle: one ray through the centre of each pixel, with the footprint of the
+//! whole pixel, and every texture that the material there reads. Input: a scene, and the same packed. Output: for each
+//! image of texels what it is read for, its density, the levels that are read, and the texels that no footprint covers.
+//! In large pictures every n-th pixel of every n-th row is looked at.
+
+use std::collections::BTreeMap;
 
 use glam::DVec2;
 use rayon::prelude::*;
 
 use super::density::Density;
+use super::marks::{Mark, Marks, NeverRead};
+use super::uses::{Use, uses};
 use crate::oracle::camera::camera_ray;
 use crate::oracle::footprint::camera_differential;
-use crate::oracle::quantities::{first_hit, place_in_tile};
+use crate::oracle::quantities::{LookUp, Slot, first_hit};
 use crate::pack::{PackedScene, TextureKind};
+use crate::scene::model::{Scene, TextureSource};
 use crate::schema::layout::{NO_SHAPE, Texture};
-use crate::texture::sampler_spec::{Address, MipMode};
+use crate::texture::data::{ColorSpace, MipKernel};
+use crate::texture::sampler_spec::MipMode;
 
 /// Pixels that are looked at, at most.
 const MAX_PIXELS: u64 = 1 << 20;
-/// Cells along the longer side of a texture in which texels that are read are marked, at most.
-const MAX_CELLS: u32 = 1024;
-/// Points along each axis of a footprint that mark cells, at most, and texels to each side that a point stands for.
-const MAX_POINTS: f64 = 16.0;
-const MAX_BLOCK: f64 = 8.0;
 /// Footprints longer than this many widths count as elongated.
 pub const ELONGATED: f64 = 2.0;
+/// Texels that cover more than so many pixels show their outline under `linear`.
+pub const LARGE_TEXEL: f64 = 2.0;
 
-/// The parts of a texture that no footprint covers.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct NeverRead {
-    pub cells: u64,
-    pub all: u64,
-    /// Texels along each side of a cell.
-    pub side: u32,
-}
-
-/// How a texture is seen.
+/// How an image is seen. A pixel counts once, by its longest footprint, even if its material reads the image more often.
 #[derive(Clone, Debug)]
 pub struct View {
-    /// Index of the texture.
-    pub texture: usize,
+    /// Indices of its textures: an image that is read as colours and as numbers is two of them.
+    pub textures: Vec<usize>,
     pub size: [u32; 2],
     pub levels: u32,
+    /// By all materials, in their order.
+    pub uses: Vec<Use>,
     pub density: Density,
     /// Pixels whose footprint covers more than a texel, and those of them that are elongated.
     pub minified: u64,
@@ -49,165 +46,227 @@ pub struct View {
     pub never_read: Option<NeverRead>,
 }
 
-/// How all textures are seen.
+/// How many pixels see textures, and how; images of one texel count as colours.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Seen {
+    /// They read an image at least.
+    pub textured: u64,
+    /// Of these: they cover more than a texel of one.
+    pub minified: u64,
+    /// Of those: with a footprint more than twice as long as wide.
+    pub elongated: u64,
+    /// Of the textured ones: a texel is larger than two pixels.
+    pub magnified: u64,
+}
+
+/// How all images are seen.
 #[derive(Clone, Debug)]
 pub struct Survey {
     pub views: Vec<View>,
+    pub seen: Seen,
     /// Pixels that were looked at.
     pub pixels: u64,
-    /// Pixels without a texture of texels.
+    /// Pixels that read no image.
     pub untextured: u64,
     /// Every so many pixels along both axes.
     pub step: u32,
 }
 
-/// The look-up of one pixel.
-struct Sighting {
-    texture: usize,
-    at: DVec2,
-    change: [DVec2; 2],
-    address: [Address; 2],
-    face: u32,
+/// What one pixel reads of one image.
+struct Reading {
+    /// Index of the image's first texture.
+    image: usize,
+    material: u32,
+    /// A bit for each slot.
+    slots: u8,
     major: f64,
-    minor: f64,
-    level: f64,
-    blends: bool,
+    is_elongated: bool,
+    /// A bit for each level.
+    levels: u32,
 }
 
-/// Looks at the pixels of a scene that was packed for rays through their centres.
-pub fn survey(scene: &PackedScene) -> Survey {
-    let [width, height] = scene.header.film_size.to_array();
+/// What the pixels of a row see.
+#[derive(Default)]
+struct Row {
+    readings: Vec<Reading>,
+    seen: Seen,
+    untextured: u64,
+}
+
+/// Looks at the pixels of a scene; `packed` for rays through their centres.
+pub fn survey(scene: &Scene, packed: &PackedScene) -> Survey {
+    let [width, height] = packed.header.film_size.to_array();
     let all = u64::from(width) * u64::from(height);
     let step = (all as f64 / MAX_PIXELS as f64).sqrt().ceil().max(1.0) as u32;
     let rows: Vec<u32> = (0..height).step_by(step as usize).collect();
-    let row =
-        |&y: &u32| (0..width).step_by(step as usize).map(|x| sighting(scene, [x, y])).collect::<Vec<_>>();
-    let sightings: Vec<Option<Sighting>> = rows.par_iter().flat_map_iter(row).collect();
-    let pixels = sightings.len() as u64;
-    let mut of: Vec<Vec<Sighting>> = scene.records.textures.iter().map(|_| Vec::new()).collect();
-    for sighting in sightings.into_iter().flatten() {
-        of[sighting.texture].push(sighting);
+    let columns: Vec<u32> = (0..width).step_by(step as usize).collect();
+    let images = images(&scene.textures, packed.records.textures.len());
+    let marks: Vec<Option<Marks>> = packed
+        .records
+        .textures
+        .iter()
+        .enumerate()
+        .map(|(i, texture)| (images[i] == i).then(|| marks(texture)).flatten())
+        .collect();
+    let looking = Looking { packed, images: &images, marks: &marks };
+    let row = |&y: &u32| {
+        let mut row = Row::default();
+        columns.iter().for_each(|&x| looking.look([x, y], &mut row));
+        row
+    };
+    let rows: Vec<Row> = rows.par_iter().map(row).collect();
+    let sum = |of: fn(&Row) -> u64| rows.iter().map(of).sum();
+    let seen = Seen {
+        textured: sum(|row| row.seen.textured),
+        minified: sum(|row| row.seen.minified),
+        elongated: sum(|row| row.seen.elongated),
+        magnified: sum(|row| row.seen.magnified),
+    };
+    let (pixels, untextured) = ((rows.len() * columns.len()) as u64, sum(|row| row.untextured));
+    let mut of: Vec<Vec<Reading>> = images.iter().map(|_| Vec::new()).collect();
+    for reading in rows.into_iter().flat_map(|row| row.readings) {
+        of[reading.image].push(reading);
     }
-    let untextured = pixels - of.iter().map(|own| own.len() as u64).sum::<u64>();
-    let textures = scene.records.textures.iter().zip(&of).enumerate();
-    let has_texels = textures.filter(|(_, (image, _))| image.kind != TextureKind::Procedural);
-    let views = has_texels.map(|(texture, (image, own))| view(texture, image, own)).collect();
-    Survey { views, pixels, untextured, step }
+    let has_texels =
+        |&i: &usize| images[i] == i && packed.records.textures[i].kind != TextureKind::Procedural;
+    let view_of = |i: usize| {
+        let textures: Vec<usize> = (i..images.len()).filter(|&other| images[other] == i).collect();
+        View {
+            uses: uses(scene, &textures, &pixels_of_slots(&of[i])),
+            textures,
+            never_read: marks[i].as_ref().map(Marks::never_read),
+            ..view(&packed.records.textures[i], &of[i])
+        }
+    };
+    let views = (0..images.len()).filter(has_texels).map(view_of).collect();
+    Survey { views, seen, pixels, untextured, step }
 }
 
-fn sighting(scene: &PackedScene, [x, y]: [u32; 2]) -> Option<Sighting> {
-    let header = &scene.header;
-    let place = [x + header.crop.x, y + header.crop.y];
-    let ray = camera_ray(header, place, DVec2::splat(0.5));
-    let first = first_hit(scene, &ray, &camera_differential(header, &ray), NO_SHAPE)?;
-    let look_up = first.look_up(scene, &ray)?;
-    Some(Sighting {
-        texture: look_up.texture as usize,
+/// Returns for each texture the first one of the same image, whatever its texels mean.
+fn images(textures: &[TextureSource], count: usize) -> Vec<usize> {
+    let image = |texture: &TextureSource| TextureSource {
+        color_space: ColorSpace::Linear,
+        color_space_stated: true,
+        mip_kernel: MipKernel::Box,
+        ..texture.identity()
+    };
+    let identities: Vec<TextureSource> = textures.iter().map(image).collect();
+    let first = |i: usize| {
+        let own = identities.get(i)?;
+        identities.iter().position(|other| other == own)
+    };
+    (0..count).map(|i| first(i).unwrap_or(i)).collect()
+}
+
+fn marks(texture: &Texture) -> Option<Marks> {
+    let faces = if texture.kind == TextureKind::Cube { 6 } else { 1 };
+    let is_flat = !matches!(texture.kind, TextureKind::Volume | TextureKind::Procedural);
+    is_flat.then(|| Marks::new([texture.size.x, texture.size.y], faces))
+}
+
+/// What looks at pixels.
+struct Looking<'a> {
+    packed: &'a PackedScene,
+    images: &'a [usize],
+    marks: &'a [Option<Marks>],
+}
+
+impl Looking<'_> {
+    /// Adds what a pixel reads.
+    fn look(&self, [x, y]: [u32; 2], row: &mut Row) {
+        let header = &self.packed.header;
+        let place = [x + header.crop.x, y + header.crop.y];
+        let ray = camera_ray(header, place, DVec2::splat(0.5));
+        let first = first_hit(self.packed, &ray, &camera_differential(header, &ray), NO_SHAPE);
+        let before = row.readings.len();
+        let mut seen = Seen::default();
+        let look_ups = first.iter().flat_map(|first| {
+            let look_up = |slot: Slot| Some((slot, first.look_up(slot, self.packed, &ray)?));
+            Slot::ALL.into_iter().filter_map(look_up).map(|own| (own, first.surface.material))
+        });
+        for ((slot, look_up), material) in look_ups {
+            let image = self.images[look_up.texture as usize];
+            if let Some(marks) = &self.marks[image] {
+                marks.add(&mark_of(&look_up));
+            }
+            let reading = Reading { image, material, ..reading(slot, &look_up) };
+            if look_up.image.size.x.max(look_up.image.size.y) > 1 {
+                seen.minified |= u64::from(reading.major > 1.0);
+                seen.elongated |= u64::from(reading.major > 1.0 && reading.is_elongated);
+                seen.magnified |= u64::from(reading.major * LARGE_TEXEL <= 1.0);
+            }
+            match row.readings[before..].iter_mut().find(|other| other.image == image) {
+                Some(other) => other.join(&reading),
+                None => row.readings.push(reading),
+            }
+        }
+        let is_textured = row.readings.len() > before;
+        row.untextured += u64::from(!is_textured);
+        row.seen.textured += u64::from(is_textured);
+        row.seen.minified += seen.minified;
+        row.seen.elongated += seen.elongated;
+        row.seen.magnified += seen.magnified;
+    }
+}
+
+fn mark_of(look_up: &LookUp<'_>) -> Mark {
+    Mark {
         at: look_up.coordinate.at.truncate(),
         change: look_up.coordinate.change.map(|d| d.truncate()),
         address: [look_up.how.address_u, look_up.how.address_v],
         face: look_up.face,
-        major: look_up.spread.major.sqrt(),
-        minor: look_up.spread.minor.sqrt(),
-        level: look_up.level(),
-        blends: look_up.how.mip_mode == MipMode::Linear,
-    })
+    }
 }
 
-fn view(texture: usize, image: &Texture, sightings: &[Sighting]) -> View {
-    let minified = || sightings.iter().filter(|s| s.major > 1.0);
-    let mut level_pixels = vec![0; image.levels as usize];
-    for s in sightings {
-        let low = (s.level.floor() as usize).min(level_pixels.len() - 1);
-        level_pixels[low] += 1;
-        if s.blends && s.level.fract() > 0.0 && low + 1 < level_pixels.len() {
-            level_pixels[low + 1] += 1;
+fn reading(slot: Slot, look_up: &LookUp<'_>) -> Reading {
+    let [major, minor] = [look_up.spread.major, look_up.spread.minor].map(f64::sqrt);
+    let level = look_up.level();
+    let low = (level.floor() as u32).min(look_up.image.levels.saturating_sub(1));
+    let blends = look_up.how.mip_mode == MipMode::Linear && level.fract() > 0.0;
+    let high = if blends && low + 1 < look_up.image.levels { low + 1 } else { low };
+    Reading {
+        image: 0,
+        material: 0,
+        slots: 1 << slot as u8,
+        major,
+        is_elongated: major > ELONGATED * minor,
+        levels: 1 << low | 1 << high,
+    }
+}
+
+impl Reading {
+    fn join(&mut self, other: &Reading) {
+        self.slots |= other.slots;
+        self.levels |= other.levels;
+        if other.major > self.major {
+            (self.major, self.is_elongated) = (other.major, other.is_elongated);
         }
     }
+}
+
+/// Returns the pixels that read an image for each slot of each material.
+fn pixels_of_slots(readings: &[Reading]) -> BTreeMap<(usize, Slot), u64> {
+    let mut pixels = BTreeMap::new();
+    for own in readings {
+        for slot in Slot::ALL.into_iter().filter(|&slot| own.slots >> slot as u8 & 1 != 0) {
+            *pixels.entry((own.material as usize, slot)).or_default() += 1;
+        }
+    }
+    pixels
+}
+
+fn view(image: &Texture, readings: &[Reading]) -> View {
+    let minified = || readings.iter().filter(|own| own.major > 1.0);
+    let reads = |level: u32| readings.iter().filter(|own| own.levels >> level & 1 != 0).count() as u64;
     View {
-        texture,
+        textures: Vec::new(),
         size: [image.size.x, image.size.y],
         levels: image.levels,
-        density: Density::new(sightings.iter().map(|s| s.major).collect()),
+        uses: Vec::new(),
+        density: Density::new(readings.iter().map(|own| own.major).collect()),
         minified: minified().count() as u64,
-        elongated: minified().filter(|s| s.major > ELONGATED * s.minor).count() as u64,
-        level_pixels,
-        never_read: (image.kind != TextureKind::Volume).then(|| never_read(image, sightings)),
-    }
-}
-
-/// Marks the cells of the texels around points of each footprint, and counts those that are left.
-fn never_read(image: &Texture, sightings: &[Sighting]) -> NeverRead {
-    let faces = if image.kind == TextureKind::Cube { 6 } else { 1 };
-    let mut marks = Marks::new([image.size.x, image.size.y], faces);
-    for s in sightings {
-        // Nothing is left to be found in most views of repeated textures.
-        if marks.left == 0 {
-            break;
-        }
-        marks.add(s);
-    }
-    NeverRead { cells: marks.left, all: marks.read.len() as u64, side: marks.side }
-}
-
-/// The cells of a texture that some footprint covers.
-struct Marks {
-    /// In texels.
-    size: DVec2,
-    side: u32,
-    cells: [usize; 2],
-    read: Vec<bool>,
-    left: u64,
-}
-
-impl Marks {
-    fn new([width, height]: [u32; 2], faces: usize) -> Marks {
-        let side = width.max(height).div_ceil(MAX_CELLS);
-        let cells = [width, height].map(|n| n.div_ceil(side) as usize);
-        let read = vec![false; cells[0] * cells[1] * faces];
-        Marks { size: DVec2::new(width.into(), height.into()), side, cells, left: read.len() as u64, read }
-    }
-
-    /// Marks the cells around points of a footprint; points farther apart than a texel stand for those between them.
-    fn add(&mut self, s: &Sighting) {
-        let lengths = s.change.map(|d| (d * self.size).length());
-        let points = lengths.map(|length| length.ceil().clamp(1.0, MAX_POINTS));
-        let spacing = (lengths[0] / points[0]).max(lengths[1] / points[1]);
-        let half = 0.5 * spacing.clamp(1.0, MAX_BLOCK);
-        for i in 0..points[0] as u32 {
-            for j in 0..points[1] as u32 {
-                let way = [(i, points[0]), (j, points[1])].map(|(i, n)| (f64::from(i) + 0.5) / n - 0.5);
-                let at = s.at + way[0] * s.change[0] + way[1] * s.change[1];
-                let [columns, rows] = [0, 1].map(|axis| self.around(s.address[axis], at[axis], half, axis));
-                for &row in rows.iter().flatten() {
-                    columns.iter().flatten().for_each(|&column| self.mark(s.face as usize, column, row));
-                }
-            }
-        }
-    }
-
-    /// Returns the cells along an axis within `half` texels of a coordinate.
-    fn around(
-        &self,
-        address: Address,
-        at: f64,
-        half: f64,
-        axis: usize,
-    ) -> [Option<usize>; MAX_BLOCK as usize + 1] {
-        let size = self.size[axis];
-        let count = (2.0 * half / f64::from(self.side)).ceil() as usize;
-        let mut cells = [None; MAX_BLOCK as usize + 1];
-        for (k, cell) in cells.iter_mut().enumerate().take(count + 1) {
-            let beside = half * (2.0 * k as f64 / count as f64 - 1.0);
-            let place = place_in_tile(address, at + beside / size) * size;
-            *cell = Some((place as usize / self.side as usize).min(self.cells[axis] - 1));
-        }
-        cells
-    }
-
-    fn mark(&mut self, face: usize, column: usize, row: usize) {
-        let read = &mut self.read[(face * self.cells[1] + row) * self.cells[0] + column];
-        self.left -= u64::from(!*read);
-        *read = true;
+        elongated: minified().filter(|own| own.is_elongated).count() as u64,
+        level_pixels: (0..image.levels).map(reads).collect(),
+        never_read: None,
     }
 }

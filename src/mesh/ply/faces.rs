@@ -3,7 +3,8 @@
 
 use ply_rs_bw::ply::ElementDef;
 
-use super::records::{Body, Face};
+use super::fixed::Fixed;
+use super::records::{Body, Face, TEXTURE};
 use crate::mesh::{Fault, Mesh, MeshTriangle, check, polygon};
 use glam::DVec2;
 
@@ -28,6 +29,9 @@ impl Surfaces {
     /// Reads all records of an element.
     pub fn read(&mut self, body: &mut Body, element: &ElementDef, mesh: &mut Mesh) -> Result<(), Fault> {
         let is_strip = element.name == "tristrips";
+        if !is_strip && self.read_triangles(body, element, mesh)? {
+            return Ok(());
+        }
         for number in 0..element.count {
             let face: Face = body.record(element, number)?;
             if mesh.positions.is_empty() {
@@ -37,6 +41,25 @@ impl Surfaces {
             }
         }
         Ok(())
+    }
+
+    /// Reads the records of faces at once and returns true if each is a triangle with what its vertices have.
+    fn read_triangles(&self, body: &mut Body, element: &ElementDef, mesh: &mut Mesh) -> Result<bool, Fault> {
+        let count = mesh.positions.len();
+        let have_textures = self.textures > 0 && element.properties.contains_key(TEXTURE);
+        if count == 0 || have_textures || element.count > self.most - mesh.triangles.len() {
+            return Ok(false);
+        }
+        let Some(fixed) = Fixed::take(body, element) else { return Ok(false) };
+        let read = fixed.triangles(count, |positions| self.of_vertices(mesh, positions));
+        let mut read = read.map_err(|(i, wrong)| Fault::new(format!("face {i}"), missing(wrong, count)))?;
+        if mesh.triangles.is_empty() {
+            // Of many triangles, a copy would take as long as their reading.
+            mesh.triangles = read;
+        } else {
+            mesh.triangles.append(&mut read);
+        }
+        Ok(true)
     }
 
     /// Adds those that came before the vertices.
@@ -55,7 +78,7 @@ impl Surfaces {
         let exists = |n: f64| n >= 0.0 && n.fract() == 0.0 && n < count as f64;
         let ends = |n: f64| is_strip && n == -1.0;
         if let Some(wrong) = face.corners.iter().find(|&&n| !exists(n) && !ends(n)) {
-            return Err(fault(format!("it refers to vertex {wrong}; the file has {count}")));
+            return Err(fault(missing(*wrong, count)));
         }
         if is_strip {
             for strip in face.corners.split(|&n| n < 0.0) {
@@ -115,4 +138,9 @@ impl Surfaces {
     fn first_texture(&self) -> Option<u32> {
         (self.textures > 0).then_some(0)
     }
+}
+
+/// Says that a corner has no vertex.
+fn missing(wrong: f64, count: usize) -> String {
+    format!("it refers to vertex {wrong}; the file has {count}")
 }

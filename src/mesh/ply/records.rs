@@ -21,7 +21,7 @@ pub(super) const NUMBERS: [&str; 18] = [
 const CORNER_UVS: &str = "texcoord";
 
 /// Name of the number of a face's texture.
-const TEXTURE: &str = "texnumber";
+pub(super) const TEXTURE: &str = "texnumber";
 
 /// Names of the list of the corners of a face.
 pub(super) const CORNERS: [&str; 2] = ["vertex_indices", "vertex_index"];

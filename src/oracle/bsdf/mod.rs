@@ -38,7 +38,7 @@ pub struct Bsdf<'a> {
     pub direction: DVec3,
     /// Its mirror reflection.
     pub mirror: DVec3,
-    /// Of model `metallic-roughness`.
+    /// Of model `metallic-roughness`, and of rough mirrors.
     pub facets: Option<MetallicRoughness>,
 }
 
@@ -54,6 +54,11 @@ pub struct Lit {
 /// Returns whether a material sends rays on, and nothing else.
 pub fn is_specular(model: Model) -> bool {
     model.is_specular()
+}
+
+/// Returns whether it is a mirror of facets.
+pub fn is_rough_mirror(material: &Material) -> bool {
+    material.model.is_mirror() && material.alpha > 0.0
 }
 
 /// Returns whether a material reflects light.
@@ -90,11 +95,25 @@ pub fn bsdf_at<'a>(
     direction: DVec3,
 ) -> Bsdf<'a> {
     let cosine = -normal.dot(direction) / direction.length();
-    let facets = is_glossy(material.model).then(|| {
-        let dielectric = material.specular.as_dvec3();
-        let edge = f64::from(material.edge);
-        metallic_roughness(scene, look.color, look.metallic, look.roughness, dielectric, edge, cosine)
+    let mirror = is_rough_mirror(material).then(|| MetallicRoughness {
+        diffuse: DVec3::ZERO,
+        head_on: look.color,
+        grazing: look.color,
+        alpha: material.alpha.into(),
+        bounced: 1.0,
     });
+    let facets = is_glossy(material.model).then(|| {
+        metallic_roughness(
+            scene,
+            look.color,
+            look.metallic,
+            look.roughness,
+            look.dielectric,
+            look.edge,
+            cosine,
+        )
+    });
+    let facets = facets.or(mirror);
     Bsdf { material, albedo: look.color, normal, direction, mirror: mirrored(direction, normal), facets }
 }
 
@@ -102,7 +121,10 @@ pub fn bsdf_at<'a>(
 pub fn evaluate(bsdf: &Bsdf<'_>, way: DVec3) -> DVec3 {
     if let Some(facets) = &bsdf.facets {
         let lobes = facet_lobes(bsdf.normal, bsdf.direction, way, facets.alpha);
-        return DVec3::new(1.0, lobes.x, lobes.y);
+        return match is_glossy(bsdf.material.model) {
+            true => DVec3::new(1.0, lobes.x, lobes.y),
+            false => DVec3::new(0.0, lobes.x + lobes.y, 0.0),
+        };
     }
     let [first, second] = match bsdf.material.model {
         Model::Phong => phong_lobes(bsdf.mirror, way, bsdf.material.exponent.into()),
@@ -116,6 +138,9 @@ pub fn evaluate(bsdf: &Bsdf<'_>, way: DVec3) -> DVec3 {
 
 /// Returns the radiance that a lit material reflects to the eye; `color` is the albedo times what the path carries.
 pub fn reflected(bsdf: &Bsdf<'_>, color: DVec3, carried: DVec3, lit: Lit) -> DVec3 {
+    if is_rough_mirror(bsdf.material) {
+        return color * lit.second;
+    }
     if let Some(facets) = &bsdf.facets {
         let mirrored = facets.head_on * lit.second + facets.grazing * lit.third;
         return carried * (facets.diffuse * lit.first + mirrored);

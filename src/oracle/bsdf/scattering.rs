@@ -6,13 +6,15 @@ use std::f64::consts::PI;
 use glam::{DVec2, DVec3};
 
 use super::facets::{smith_g2_over_g1, visible_normal};
-use super::metallic_roughness::{mirrored_density, schlick};
+use super::metallic_roughness::{luminance, mirrored_density, schlick};
 use super::mirror::mirrored;
+use super::phong::{highlight_density, sampled_highlight};
 use super::{Bsdf, Lit, evaluate, is_both_diffuse, is_glossy, reflected};
 use crate::oracle::disk_sampling::concentric_disc;
 use crate::oracle::footprint::around;
 use crate::oracle::geometry::hit::Surface;
 use crate::oracle::sample_dimensions::{SampleDimensions, unit_square};
+use crate::scene::model::Model;
 
 /// The ray by which a lit surface continues a path.
 pub struct Scattered {
@@ -25,12 +27,19 @@ pub struct Scattered {
     pub alpha: f64,
     /// True if the environment alone counts.
     pub diffuse: bool,
+    /// By what keeps the environment's diffuse light away.
+    pub occluded: bool,
     /// False if it enters the surface.
     pub leaves: bool,
 }
 
-/// Share of the bounces that facets have; `to_sky`: the environment lights surfaces.
+/// Share of the bounces that facets have, or Phong's highlight; `to_sky`: the environment lights surfaces.
 fn facet_bounces(bsdf: &Bsdf<'_>, to_sky: bool) -> f64 {
+    if bsdf.material.model == Model::Phong {
+        let highlight = luminance(bsdf.material.specular.as_dvec3());
+        let all = highlight + luminance(bsdf.albedo);
+        return if all > 0.0 && to_sky { highlight / all } else { 0.0 };
+    }
     match &bsdf.facets {
         Some(_) if !to_sky => 1.0,
         Some(facets) => facets.bounced,
@@ -46,7 +55,11 @@ fn scattered_densities(bsdf: &Bsdf<'_>, way: DVec3) -> DVec2 {
         .facets
         .as_ref()
         .map_or(0.0, |found| facets * mirrored_density(bsdf.normal, bsdf.direction, way, found.alpha));
-    DVec2::new((1.0 - facets) * cosine / PI, mirrors)
+    let highlights = match bsdf.material.model {
+        Model::Phong => facets * highlight_density(bsdf.mirror, way, bsdf.material.exponent.into()),
+        _ => 0.0,
+    };
+    DVec2::new((1.0 - facets) * cosine / PI, mirrors + highlights)
 }
 
 /// Lobes of light that is sampled with `density`, where `scattered` samples it as well.
@@ -77,6 +90,21 @@ pub fn scattered(
     let disc = concentric_disc(square);
     let way = around(n, disc.extend((1.0 - disc.length_squared()).max(0.0).sqrt()));
     let above = surface.geometric_normal;
+    if bsdf.material.model == Model::Phong && by_facet {
+        let exponent = f64::from(bsdf.material.exponent);
+        let highlight = sampled_highlight(bsdf.mirror, disc, exponent);
+        let cosine = n.dot(highlight);
+        let gain = (exponent + 2.0) / (exponent + 1.0) * cosine.max(0.0) / facets.max(1e-6);
+        return Scattered {
+            direction: highlight,
+            weight: carried * bsdf.material.specular.as_dvec3() * gain,
+            density: facets * highlight_density(bsdf.mirror, highlight, exponent),
+            alpha: (2.0 / (exponent + 2.0)).sqrt(),
+            diffuse: true,
+            occluded: false,
+            leaves: cosine > 0.0 && highlight.dot(above) > 0.0,
+        };
+    }
     if let (Some(found), true) = (&bsdf.facets, by_facet) {
         let facet = visible_normal(bsdf.direction, n, found.alpha, square);
         let view = -bsdf.direction.normalize();
@@ -92,6 +120,7 @@ pub fn scattered(
             density: if to_sky { density } else { 0.0 },
             alpha: found.alpha,
             diffuse: false,
+            occluded: false,
             leaves: leaving > 0.0 && mirror.dot(above) > 0.0,
         };
     }
@@ -105,6 +134,7 @@ pub fn scattered(
         density: (1.0 - facets) * n.dot(way).max(0.0) / PI,
         alpha: 1.0,
         diffuse: true,
+        occluded: true,
         leaves: way.dot(above) > 0.0,
     }
 }

@@ -27,6 +27,8 @@ pub struct Bounce {
     pub mirrored: bool,
     /// False: a facet sends it into the surface.
     pub leaves: bool,
+    /// True if it would have entered the surface.
+    pub is_raised: bool,
 }
 
 /// Ratio of the refractive indices before and behind a surface.
@@ -40,11 +42,18 @@ pub fn mirrored_share(material: &Material, direction: DVec3, normal: DVec3, rati
     if material.model == Model::Dielectric { fresnel_dielectric(direction, normal, ratio) } else { 1.0 }
 }
 
-/// The mirrored or the refracted way, on its own side of surfaces whose normals lean.
-fn bounced_way(direction: DVec3, normal: DVec3, surface: &Surface, ratio: f64, mirror: bool) -> DVec3 {
+/// The mirrored or the refracted way, on its own side of surfaces whose normals lean; and whether it was moved there.
+fn bounced_way(
+    direction: DVec3,
+    normal: DVec3,
+    surface: &Surface,
+    ratio: f64,
+    mirror: bool,
+) -> (DVec3, bool) {
     let way = if mirror { mirrored(direction, normal) } else { refracted(direction, normal, ratio) };
     let side = if mirror { 1.0 } else { -1.0 };
-    on_its_side(direction, way, side * surface.normal, side * surface.geometric_normal)
+    let other = on_its_side(direction, way, side * surface.normal, side * surface.geometric_normal);
+    (other, other != way)
 }
 
 /// A sample of what a specular material sends on.
@@ -60,8 +69,17 @@ pub fn sample_bsdf(
         if alpha > 0.0 { visible_normal(direction, surface.normal, alpha, lobe) } else { surface.normal };
     let ratio = index_ratio(material, surface.inside);
     let mirror = unit_line(dimensions.fresnel) < mirrored_share(material, direction, normal, ratio);
-    let way = bounced_way(direction, normal, surface, ratio, mirror);
-    let bounce = Bounce { direction: way, normal, ratio, alpha, weight: 1.0, mirrored: mirror, leaves: true };
+    let (way, is_raised) = bounced_way(direction, normal, surface, ratio, mirror);
+    let bounce = Bounce {
+        direction: way,
+        normal,
+        ratio,
+        alpha,
+        weight: 1.0,
+        mirrored: mirror,
+        leaves: true,
+        is_raised,
+    };
     if alpha <= 0.0 {
         return bounce;
     }

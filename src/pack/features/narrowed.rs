@@ -23,6 +23,7 @@ pub fn narrowed(constant: Constant, s: &PackedScene) -> Option<u32> {
         C::Models => bits(s.records.materials.iter().map(|m| m.model as u32)),
         C::LightKinds => bits(s.records.lights.iter().map(|l| l.kind as u32)),
         C::Ranged => u32::from(s.records.lights.iter().any(|l| l.kind == LightKind::Spot)),
+        C::RoughMirrors => u32::from(mirrors_environment(s)),
         C::Shadows => u32::from(casts_shadows(s)),
         C::Bounces => u32::from(bounces(s)),
         C::Environment => u32::from(s.header.environment_material != NO_MATERIAL),
@@ -84,6 +85,7 @@ pub fn narrowed(constant: Constant, s: &PackedScene) -> Option<u32> {
         | C::Quantities
         | C::MeshSearch
         | C::HoldsTriangles
+        | C::ListsShades
         | C::OpaqueUniforms
         | C::MipChannels
         | C::MipComponentBytes

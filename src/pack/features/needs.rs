@@ -97,6 +97,8 @@ pub fn material_maps(scene: &PackedScene) -> u32 {
         | of(MaterialMap::Emission, |m| m.emission_texture_index != NO_TEXTURE)
         | of(MaterialMap::Occlusion, |m| m.occlusion_texture_index != NO_TEXTURE)
         | of(MaterialMap::Mask, |m| m.alpha_mode == AlphaMode::Mask && m.texture_index != NO_TEXTURE)
+        | of(MaterialMap::SpecularWeight, |m| m.specular_weight_texture_index != NO_TEXTURE)
+        | of(MaterialMap::SpecularTint, |m| m.specular_tint_texture_index != NO_TEXTURE)
 }
 
 /// Returns true if some look-ups select texels at random.
@@ -125,8 +127,16 @@ pub fn bump_kinds(scene: &PackedScene) -> u32 {
     )
 }
 
+/// Returns true if rough mirrors reflect an environment whose light is sampled.
+pub fn mirrors_environment(scene: &PackedScene) -> bool {
+    let is_rough_mirror = |m: &layout::Material| m.model.is_mirror() && m.alpha > 0.0;
+    scene.header.environment_rows > 0
+        && scene.header.max_depth > 0
+        && scene.records.materials.iter().any(is_rough_mirror)
+}
+
 /// Returns true if shapes can occlude lights; a single flat shape cannot occlude itself.
 pub fn casts_shadows(scene: &PackedScene) -> bool {
-    let lit = has_model(scene, Model::is_lit);
+    let lit = has_model(scene, Model::is_lit) || mirrors_environment(scene);
     !scene.records.lights.is_empty() && lit && scene.shapes_occlude()
 }

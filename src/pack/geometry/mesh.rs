@@ -7,17 +7,16 @@ use glam::{DAffine3, DVec3, Vec3, Vec4};
 use rayon::prelude::*;
 
 use super::mesh_forest::{LEVELS_OF_ALL, TEXELS_OF_CHILD};
-use super::triangle::{corner_uvs, triangle_errors};
+use super::triangle::{CornerUvs, triangle_errors};
 use super::{Rounded, add_map, cross, reach};
 use crate::core::error::{Error, ErrorKind, Result};
 use crate::pack::mapping::{self, Place};
 use crate::pack::precision::{Camera, PART_OF_PIXEL, U};
 use crate::pack::{MapKind, PackedScene};
 use crate::scene::geometry::{AttributeKinds, Stored};
-use crate::scene::model::{Mapping, MappingKind, Material, Mesh, Scene, Shape, Sides};
+use crate::scene::model::{Mapping, MappingKind, Material, Mesh, Scene, Shape, Sides, Triangle};
 use crate::schema::constants::{MESH_MIRRORED_UV, MESH_SMOOTH, NO_PLACEMENT, TREE_WIDTH};
 use crate::schema::layout;
-use crate::texture::sampler_spec::SamplerSpec;
 use crate::tree::{self, Growing, LEAF, levels};
 
 /// Triangles of which the errors of texture coordinates are computed.
@@ -43,8 +42,13 @@ pub(super) fn pack(packed: &mut PackedScene, scene: &Scene, mesh: &Mesh, eye: DV
         None => {
             let origin = stored.placement().map_or(eye, |(_, origin)| origin);
             let texels = Arc::make_mut(&mut packed.mesh_texels);
-            let source =
-                Source { mesh, stored: &stored, material, sampler: scene.sampler_of(material), origin };
+            let source = Source {
+                mesh,
+                stored: &stored,
+                material,
+                uvs: CornerUvs::new(material, &scene.sampler_of(material)),
+                origin,
+            };
             let record = source.pack(texels, before as u32);
             if texels.len() > MAX_TEXELS {
                 let what = format!("meshes take {} MiB; they may take 2048 MiB at most", texels.len() >> 16);
@@ -114,7 +118,7 @@ struct Source<'a> {
     mesh: &'a Mesh,
     stored: &'a Stored<'a>,
     material: &'a Material,
-    sampler: SamplerSpec,
+    uvs: CornerUvs,
     /// Coordinates count from there.
     origin: DVec3,
 }
@@ -123,13 +127,11 @@ impl Source<'_> {
     /// Appends nodes, corners and attributes. `number`: of the mesh.
     fn pack(&self, texels: &mut Vec<[u32; 4]>, number: u32) -> layout::Mesh {
         let count = self.mesh.triangle_count();
-        let corners =
-            |place: usize| self.stored.triangle(place).vertices.map(|v| (v - self.origin).as_vec3());
-        let corners: Vec<[Vec3; 3]> = (0..count).into_par_iter().with_min_len(AT_ONCE).map(corners).collect();
-        let box_of = |[a, b, c]: &[Vec3; 3]| [a.min(*b).min(*c), a.max(*b).max(*c)];
-        let boxes: Vec<[Vec3; 2]> = corners.par_iter().with_min_len(AT_ONCE).map(box_of).collect();
-        let mut tree = tree::build(&boxes, OF_A_MESH);
-        drop(boxes);
+        let box_of = |place: usize| {
+            let [a, b, c] = self.seen(self.stored.corners(place));
+            [a.min(b).min(c), a.max(b).max(c)]
+        };
+        let mut tree = tree::build_over(count, box_of, OF_A_MESH);
         let kinds = self.mesh.attribute_kinds();
         let attribute_count = 4 + 2 * usize::from(kinds.colors) + 2 * kinds.further_uvs;
         let nodes = texels.len();
@@ -143,21 +145,20 @@ impl Source<'_> {
                 (nodes as u32).wrapping_add(TEXELS_OF_CHILD.wrapping_mul(child.reference))
             };
         }
-        texels.reserve_exact((3 + attribute_count) * count + 2 * tree.children.len());
-        texels.extend_from_slice(bytemuck::cast_slice(&tree.children));
-        texels.resize(first_attribute + attribute_count * count, [0; 4]);
+        lengthen(texels, first_attribute + attribute_count * count);
+        let children: &[[u32; 4]] = bytemuck::cast_slice(&tree.children);
+        texels[nodes..first_corner].copy_from_slice(children);
         let (all_corners, all_attributes) = texels[first_corner..].split_at_mut(TEXELS_OF_CORNERS * count);
-        let one_sided = u32::from(self.material.sides == Sides::Front);
-        let order = &tree.order;
-        let of_corners = all_corners.par_chunks_exact_mut(TEXELS_OF_CORNERS).with_min_len(AT_ONCE);
-        of_corners.enumerate().for_each(|(place, texels)| {
-            let [a, b, c] = corners[order[place] as usize];
-            texels.copy_from_slice(&[texel(a, one_sided), texel(b, number), texel(c, place as u32)]);
+        let of_corners = all_corners.par_chunks_exact_mut(TEXELS_OF_CORNERS);
+        let of_attributes = all_attributes.par_chunks_exact_mut(attribute_count);
+        let both = of_corners.zip(of_attributes).with_min_len(AT_ONCE).enumerate();
+        let smooth = both.map(|(place, (corners, attributes))| {
+            let source = tree.order[place] as usize;
+            let triangle = self.stored.triangle(source);
+            self.write_corners(&triangle, [number, place as u32], corners);
+            self.write_attributes(&triangle, source, kinds, attributes);
+            triangle.normals.is_some()
         });
-        let of_attributes = all_attributes.par_chunks_exact_mut(attribute_count).with_min_len(AT_ONCE);
-        let smooth = of_attributes
-            .enumerate()
-            .map(|(place, texels)| self.attributes(order[place] as usize, kinds, texels));
         let is_smooth = smooth.reduce(|| false, |one, other| one || other);
         layout::Mesh {
             nodes: nodes as u32,
@@ -172,20 +173,42 @@ impl Source<'_> {
         }
     }
 
-    /// Writes the attributes of a triangle; returns true if it has shading normals.
-    fn attributes(&self, place: usize, kinds: AttributeKinds, texels: &mut [[u32; 4]]) -> bool {
-        let (triangle, others) = (self.stored.triangle(place), self.stored.attributes(place));
+    /// Returns corners as devices have them.
+    fn seen(&self, corners: [DVec3; 3]) -> [Vec3; 3] {
+        corners.map(|v| (v - self.origin).as_vec3())
+    }
+
+    /// Writes the corners of a triangle, with the number of its mesh and its place there.
+    fn write_corners(&self, triangle: &Triangle, [number, place]: [u32; 2], texels: &mut [[u32; 4]]) {
+        let [a, b, c] = self.seen(triangle.vertices);
+        let one_sided = u32::from(self.material.sides == Sides::Front);
+        texels.copy_from_slice(&[texel(a, one_sided), texel(b, number), texel(c, place)]);
+    }
+
+    /// Writes the attributes of the triangle at a place of the mesh.
+    fn write_attributes(
+        &self,
+        triangle: &Triangle,
+        place: usize,
+        kinds: AttributeKinds,
+        texels: &mut [[u32; 4]],
+    ) {
         let [a, b, c] = triangle.vertices.map(|v| v - self.origin);
         let turned = cross(b - a, c - a).normalize();
         // Corners in a space of their own have the order of the world, which a mirror turns.
         let normal = if self.stored.is_turned() { -turned } else { turned };
-        let shading = triangle.normals.unwrap_or([normal; 3]).map(octahedral);
-        let [uv_a, uv_b, uv_c] = corner_uvs(&triangle, self.material, &self.sampler).map(|uv| uv.as_vec2());
+        let shading = triangle.normals.map_or([octahedral(normal); 3], |normals| normals.map(octahedral));
+        let [uv_a, uv_b, uv_c] = self.uvs.of(triangle).map(|uv| uv.as_vec2());
         let bits = |numbers: [f32; 4]| numbers.map(f32::to_bits);
         let smooth = if triangle.normals.is_some() { MESH_SMOOTH } else { 0 };
+        let others = self.stored.attributes(place);
         let mirrored = if others.tangents[0].w < 0.0 { MESH_MIRRORED_UV } else { 0 };
         // A corner without a direction gets any: look-ups there are of no extent.
-        let tangents = others.tangents.map(|t| octahedral(t.truncate().normalize_or(DVec3::X)));
+        let tangents = if kinds.tangents {
+            others.tangents.map(|t| octahedral(t.truncate().normalize_or(DVec3::X)))
+        } else {
+            [octahedral(DVec3::X); 3]
+        };
         let [v_b, v_c] = [uv_b.y, uv_c.y].map(f32::to_bits);
         texels[..4].copy_from_slice(&[
             texel(normal.as_vec3(), smooth | mirrored),
@@ -203,7 +226,17 @@ impl Source<'_> {
             let [a, b, c] = self.stored.further_uvs(place, set).map(|uv| uv.as_vec2());
             texels.copy_from_slice(&[bits([a.x, b.x, c.x, a.y]), bits([b.y, c.y, 0.0, 0.0])]);
         }
-        triangle.normals.is_some()
+    }
+}
+
+/// Lengthens a buffer to `length` texels of zeros; the first mesh of a buffer takes memory that is zero already, which
+/// whoever writes there is the first to touch.
+fn lengthen(texels: &mut Vec<[u32; 4]>, length: usize) {
+    if texels.is_empty() {
+        *texels = vec![[0; 4]; length];
+    } else {
+        texels.reserve_exact(length - texels.len());
+        texels.resize(length, [0; 4]);
     }
 }
 
@@ -222,8 +255,15 @@ fn octahedral(v: DVec3) -> u32 {
     let flat = v / v.abs().element_sum();
     let fold = |this: f64, other: f64| (1.0 - other.abs()).copysign(this);
     let [x, y] = if flat.z < 0.0 { [fold(flat.x, flat.y), fold(flat.y, flat.x)] } else { [flat.x, flat.y] };
-    let [x, y] = [x, y].map(|part| u32::from((part * 32767.0).round() as i16 as u16));
+    let [x, y] = [x, y].map(|part| u32::from(rounded(part * 32767.0) as i16 as u16));
     x | y << 16
+}
+
+/// Rounds to the nearest whole number, halves away from zero, without the call that `round` is on older processors.
+fn rounded(x: f64) -> i32 {
+    let whole = x as i32;
+    let rest = x - f64::from(whole);
+    whole + i32::from(rest >= 0.5) - i32::from(rest <= -0.5)
 }
 
 impl Rounded for Mesh {

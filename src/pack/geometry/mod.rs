@@ -90,6 +90,11 @@ macro_rules! kinds {
                 self.shapes_that(|properties| has(properties, "concave")) > 0
             }
 
+            /// Returns true if all shapes are.
+            pub fn has_concave_shapes_alone(&self) -> bool {
+                self.has_concave_shapes() && self.shapes_that(|properties| !has(properties, "concave")) == 0
+            }
+
             /// The number of shapes of the kinds whose properties are chosen.
             fn shapes_that(&self, chosen: impl Fn(&[&str]) -> bool) -> usize {
                 let lists = [$((chosen(&[$(stringify!($property)),*]), self.records.$list.len())),+];

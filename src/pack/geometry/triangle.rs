@@ -1,6 +1,6 @@
 //! Triangles → their records, and how far f32 misplaces what is seen of them.
 
-use glam::{DVec2, DVec3};
+use glam::{DMat2, DVec2, DVec3};
 
 use super::{Rounded, add_map, cross, reach};
 use crate::core::error::Result;
@@ -27,7 +27,7 @@ pub(super) fn pack(
     let [a, b, c] = triangle.vertices.map(|v| v - eye);
     let normal = cross(b - a, c - a).normalize();
     let material = &scene.materials[triangle.material];
-    let uvs = corner_uvs(triangle, material, &scene.sampler_of(material));
+    let uvs = CornerUvs::new(material, &scene.sampler_of(material)).of(triangle);
     let place = Place { centroid: triangle.centroid(), bounds: triangle.bounds() };
     let map = add_map(packed, scene, triangle.material, |mapping, sampler, flat| match mapping.kind {
         MappingKind::Surface => layout::UvProjection { kind: MapKind::VertexUv, ..Default::default() },
@@ -53,13 +53,26 @@ pub(super) fn pack(
     })
 }
 
-/// The vertices' coordinates after scale, rotation and offset, with the whole tiles of the first
-/// vertex taken out of all three.
-pub(super) fn corner_uvs(triangle: &Triangle, material: &Material, sampler: &SamplerSpec) -> [DVec2; 3] {
-    let matrix = mapping::uv_matrix(&material.mapping);
-    let uvs = triangle.uvs.map(|uv| matrix * uv + material.mapping.offset);
-    let whole = mapping::whole_tiles(uvs[0], mapping::periods(sampler));
-    uvs.map(|uv| uv - whole)
+/// What becomes of the texture coordinates of the corners of triangles that have one material.
+pub(super) struct CornerUvs {
+    matrix: DMat2,
+    offset: DVec2,
+    periods: DVec2,
+}
+
+impl CornerUvs {
+    pub(super) fn new(material: &Material, sampler: &SamplerSpec) -> CornerUvs {
+        let mapping = &material.mapping;
+        let (matrix, periods) = (mapping::uv_matrix(mapping), mapping::periods(sampler));
+        CornerUvs { matrix, offset: mapping.offset, periods }
+    }
+
+    /// Returns the mapped coordinates of a triangle, without whole tiles of the first.
+    pub(super) fn of(&self, triangle: &Triangle) -> [DVec2; 3] {
+        let uvs = triangle.uvs.map(|uv| self.matrix * uv + self.offset);
+        let whole = mapping::whole_tiles(uvs[0], self.periods);
+        uvs.map(|uv| uv - whole)
+    }
 }
 
 /// An edge function is the volume d·(p × q); it is off by a part of |d| |p| |q|, and vanishes along the edge.

@@ -42,6 +42,8 @@ pub fn material(key: Key, material: &Material, textures: &[TextureSource], sampl
         ("metallic_roughness_map", material.metallic_roughness_map),
         ("emission_map", material.emission_map),
         ("occlusion_map", material.occlusion_map),
+        ("specular_weight_map", material.specular_weight_map),
+        ("specular_tint_map", material.specular_tint_map),
     ] {
         let Some(map) = map else { continue };
         let key = key.of(name);

@@ -60,7 +60,7 @@ pub fn load_seen_by(path: &Path, camera: Option<&str>) -> Result<Scene> {
             no_camera(&stage, camera)?;
             let [format, ..] = &FORMATS;
             let path = Path::new(STANDARD_INPUT);
-            let bytes = bytes_of(std::io::stdin().lock(), SCENE, path, format.max_bytes)?;
+            let bytes = bytes_of(std::io::stdin().lock(), 0, SCENE, path, format.max_bytes)?;
             return (format.read)(path, bytes);
         }
         if mesh_file::is_mesh(path) {
@@ -105,11 +105,15 @@ fn read_file(kind: &str, formats: &[&str], path: &Path, most: u64) -> Result<Vec
         let help = odd_path(path).filter(|_| error.kind() == Io::NotFound);
         unreadable(kind, path, &error.to_string()).and_help(help)
     })?;
-    bytes_of(file, kind, path, most)
+    let expected = file.metadata().map_or(0, |known| known.len().min(most));
+    bytes_of(file, expected, kind, path, most)
 }
 
-fn bytes_of(source: impl Read, kind: &str, path: &Path, most: u64) -> Result<Vec<u8>> {
+/// Reads all of a source, for which memory is taken beforehand if its length is known.
+fn bytes_of(source: impl Read, expected: u64, kind: &str, path: &Path, most: u64) -> Result<Vec<u8>> {
     let mut bytes = Vec::new();
+    // One more, as the end is found by reading. If there is not so much, reading says so.
+    let _ = bytes.try_reserve_exact(expected as usize + 1);
     source
         .take(most + 1)
         .read_to_end(&mut bytes)

@@ -8,7 +8,7 @@ use glam::{DAffine3, DVec2, DVec3};
 use rayon::prelude::*;
 
 use super::meshes::{CornerAttributes, Placed};
-use super::{Bounds, Described, Fields, Shapes, Triangle};
+use super::{Bounds, Described, Facets, Fields, Shapes, Triangle};
 use crate::core::error::Result;
 use crate::mesh;
 use crate::scene::limits::COORDINATE;
@@ -130,6 +130,11 @@ impl Stored<'_> {
         Triangle { material: self.mesh.material, motion: self.mesh.motion, ..triangle }
     }
 
+    /// Returns the corners of that triangle in any order.
+    pub fn corners(&self, place: usize) -> [DVec3; 3] {
+        self.placed.corners(&self.placed.mesh.triangles[self.mesh.triangles[place] as usize])
+    }
+
     /// Returns true if the triangles lie in a space of their own, which a mirror turns into the world: their corners have
     /// the order of the world.
     pub fn is_turned(&self) -> bool {
@@ -172,6 +177,23 @@ impl Shapes {
         self.triangles.iter().for_each(&mut each);
         self.meshes.iter().for_each(|mesh| mesh.for_each(1, |triangle| each(&triangle)));
     }
+
+    /// Calls `each` with the material of every triangle and what returns the texture coordinates of its corners: the first
+    /// ones, or those of a further set, 0 the second; they are the same at all corners where there are none.
+    pub fn for_each_coordinates(&self, mut each: impl FnMut(usize, &dyn Fn(Option<usize>) -> [DVec2; 3])) {
+        for own in &self.triangles {
+            each(own.material, &|set| if set.is_none() { own.uvs } else { [DVec2::ZERO; 3] });
+        }
+        for mesh in &self.meshes {
+            let placed = Placed::new(&mesh.file, &mesh.placement);
+            for &index in mesh.triangles.iter() {
+                each(mesh.material, &|set| match set {
+                    None => placed.triangle(index).uvs,
+                    Some(set) => placed.further_uvs(index, set),
+                });
+            }
+        }
+    }
 }
 
 /// A file may have millions of triangles.
@@ -183,6 +205,7 @@ impl fmt::Debug for Mesh {
 
 impl Described for Mesh {
     const KEYS: &[&str] = &[];
+    const FACETS: Facets = Facets::Many;
 
     fn read(fields: &dyn Fields, _material: usize) -> Result<Mesh> {
         Err(fields.missing("file"))

@@ -103,9 +103,13 @@ pub(in crate::scene) fn add(
 
 /// Returns the triangles that have an area where they stand, in the order of the file.
 fn with_area(placed: &Placed<'_>) -> Vec<u32> {
-    let all = placed.mesh.triangles.par_iter().zip(0..placed.mesh.triangles.len() as u32);
-    let with_area = all.with_min_len(AT_ONCE).filter(|(triangle, _)| !collinear(placed.corners(triangle)));
-    with_area.map(|(_, index)| index).collect()
+    let triangles = &placed.mesh.triangles;
+    let has_area = |index: &u32| !collinear(placed.corners(&triangles[*index as usize]));
+    let all = || (0..triangles.len() as u32).into_par_iter().with_min_len(AT_ONCE);
+    let have_area = |run: &[MeshTriangle]| run.iter().all(|triangle| !collinear(placed.corners(triangle)));
+    // Mostly all have one, and a list of known length takes no joining.
+    let is_whole = triangles.par_chunks(AT_ONCE).all(have_area);
+    if is_whole { all().collect() } else { all().filter(has_area).collect() }
 }
 
 /// Returns true if this many triangles in several places are held once.
@@ -119,6 +123,11 @@ type Grouped = Vec<(usize, Arc<[u32]>)>;
 
 /// Returns triangles of a file, grouped by a key that their material has.
 fn of_materials(file: &Mesh, triangles: Vec<u32>, key: impl Fn(Option<u32>) -> usize) -> Grouped {
+    let own = |index: &u32| file.triangles[*index as usize].material;
+    let first = triangles.first().and_then(own);
+    if triangles.par_chunks(AT_ONCE).all(|run| run.iter().all(|index| own(index) == first)) {
+        return if triangles.is_empty() { Vec::new() } else { vec![(key(first), triangles.into())] };
+    }
     let mut grouped: BTreeMap<usize, Vec<u32>> = BTreeMap::new();
     let mut last = (None, key(None));
     for index in triangles {
@@ -152,7 +161,7 @@ fn stretch(placement: &Placement) -> f64 {
 
 /// A mesh in the world, or in its own space with fronts and backs as in the world.
 pub(super) struct Placed<'a> {
-    mesh: &'a Mesh,
+    pub mesh: &'a Mesh,
     placement: Placement,
     normal_matrix: DMat3,
     mirrors: bool,
@@ -172,7 +181,7 @@ impl Placed<'_> {
         self.placement.transform_point3(self.mesh.positions[index as usize])
     }
 
-    fn corners(&self, triangle: &MeshTriangle) -> [DVec3; 3] {
+    pub fn corners(&self, triangle: &MeshTriangle) -> [DVec3; 3] {
         triangle.positions.map(|i| self.position(i))
     }
 
@@ -208,10 +217,18 @@ pub(crate) struct CornerAttributes {
     pub tangents: [DVec4; 3],
 }
 
+impl CornerAttributes {
+    /// Those of a file that has none of them.
+    const NONE: CornerAttributes = CornerAttributes { colors: [Vec4::ONE; 3], tangents: [DVec4::ZERO; 3] };
+}
+
 impl Placed<'_> {
     /// Returns the attributes of a triangle's corners, in the order of `triangle`.
     pub fn attributes(&self, index: u32) -> CornerAttributes {
         let mesh = self.mesh;
+        if !mesh.has_attributes() {
+            return CornerAttributes::NONE;
+        }
         let found = mesh.triangles[index as usize];
         let order = if self.mirrors { [0, 2, 1] } else { [0, 1, 2] };
         let at = |corner: usize| found.positions[order[corner]] as usize;

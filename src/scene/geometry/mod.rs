@@ -23,12 +23,26 @@ pub struct Bounds {
     pub max: DVec3,
 }
 
+/// How many triangles a shape consists of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Facets {
+    /// It is no triangle.
+    None,
+    /// It is one.
+    One,
+    /// It has a tree of them.
+    Many,
+}
+
 /// The common properties of all shapes.
 pub trait Shape {
     /// Returns its index into `Scene::materials`.
     fn material(&self) -> usize;
     /// Returns that index for writing.
     fn material_mut(&mut self) -> &mut usize;
+
+    /// Returns how many triangles it consists of.
+    fn facets(&self) -> Facets;
 
     /// Returns its displacement between the times 0 and 1.
     fn motion(&self) -> DVec3;
@@ -59,6 +73,8 @@ pub trait Kind: Shape + Sized {
 trait Described: Kind {
     /// Keys of its section beside `material` and `motion`; none if a scene file names it otherwise.
     const KEYS: &[&str];
+    /// How many triangles it consists of.
+    const FACETS: Facets = Facets::None;
 
     /// Reads a shape that lies still and has this material.
     fn read(fields: &dyn Fields, material: usize) -> Result<Self>;
@@ -152,6 +168,10 @@ macro_rules! kinds {
 
             fn material_mut(&mut self) -> &mut usize {
                 &mut self.material
+            }
+
+            fn facets(&self) -> Facets {
+                <$kind as Described>::FACETS
             }
 
             fn motion(&self) -> DVec3 {

@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use super::fields::required;
-use super::{Bounds, Described, Fields};
+use super::{Bounds, Described, Facets, Fields};
 use crate::core::error::Result;
 use crate::scene::limits::{COORDINATE, collinear};
 use crate::scene::model::{DEFAULT, Material};
@@ -35,6 +35,7 @@ impl Triangle {
 
 impl Described for Triangle {
     const KEYS: &[&str] = &["vertices", "uvs", "normals"];
+    const FACETS: Facets = Facets::One;
 
     fn read(fields: &dyn Fields, material: usize) -> Result<Triangle> {
         let vertices = required(fields, "vertices", |key| fields.vectors(key, "vertices"))?;

@@ -7,9 +7,11 @@ use std::path::Path;
 use moire::internal::core::error::Result;
 use moire::internal::core::film::Film;
 use moire::internal::pack::{self, PackedScene};
+use moire::internal::scene::changes::Changes;
 use moire::internal::scene::parse;
 use moire::internal::texture::data::{Dimension, TexelFormat};
 use moire::internal::texture::load::load;
+use moire::internal::texture::sampler_spec::{LevelUse, MipMode};
 use tempfile::{TempDir, tempdir};
 
 use super::write::{DXGI_RGBA8, Dds, Ktx2, VK_RGBA8, solid_levels};
@@ -90,6 +92,22 @@ fn pictures_show_the_stored_level_of_their_footprint() {
     }
     let between = only_color(&pictures(&wall(folder.path(), "", "mip = 'stored'", 2f64.sqrt()).unwrap()));
     assert!((between[1] - 0.5).abs() < 1e-3 && (between[2] - 0.5).abs() < 1e-3, "{between:?}");
+}
+
+/// As the command line sets it for all samplers.
+#[test]
+fn an_override_reads_the_stored_levels_or_makes_them() {
+    for (levels, parts) in [
+        (LevelUse::Stored, (MipMode::Linear, true)),
+        (LevelUse::Linear, (MipMode::Linear, false)),
+        (LevelUse::None, (MipMode::None, false)),
+    ] {
+        let text = "[camera]\neye = [0, 0, 1]\nlook_at = [0, 0, 0]\nvertical_fov = 9\n[image]\nwidth = 1\nheight = 1\n\
+                    [[sampler]]\nname = 'a'\nmip = 'stored'\n[[sampler]]\nname = 'b'\nmip = 'nearest'\n";
+        let mut scene = parse(Path::new("levels.toml"), text).unwrap();
+        Changes { mip: Some(levels), ..Changes::default() }.apply(&mut scene).unwrap();
+        assert!(scene.samplers.iter().all(|s| (s.mip, s.stored_levels) == parts), "{levels}");
+    }
 }
 
 #[test]

@@ -11,7 +11,7 @@ use super::{DOWN, stage};
 use crate::support::moire;
 
 /// Runs in a folder with a scene; returns the exit code and what stderr says, in one line.
-fn run(folder: &Path, arguments: &[&str]) -> (i32, String) {
+pub fn run(folder: &Path, arguments: &[&str]) -> (i32, String) {
     let output = moire().current_dir(folder).args(arguments).args(["--device", "oracle"]).output().unwrap();
     let told = String::from_utf8_lossy(&output.stderr).into_owned();
     let told = told.split_whitespace().filter(|word| *word != "│").collect::<Vec<_>>().join(" ");
@@ -131,6 +131,34 @@ fn inspect_writes_every_layer_their_numbers_and_a_page() {
         assert!(page.contains(part), "{part}");
     }
     assert_eq!(channels(&folder.path().join("seen/layers.exr")).len(), 3 + 2 + 2 + 3 + 3 + 9);
+}
+
+#[test]
+fn the_page_has_legends_as_text_names_for_pictures_and_a_command_that_runs() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::rename(stage(folder.path(), DOWN), folder.path().join("it's one.toml")).unwrap();
+    let options = ["inspect", "it's one.toml", "--out", "seen", "--size", "24x20"];
+    assert_eq!(run(folder.path(), &options).0, 0);
+    let page = fs::read_to_string(folder.path().join("seen/index.html")).unwrap();
+    let pictures: Vec<&str> =
+        page.split("<img ").skip(1).map(|rest| rest.split("/>").next().unwrap()).collect();
+    assert_eq!(pictures.len(), moire::internal::render::layers::Aov::NAMES.len() + 1);
+    assert!(pictures.iter().all(|img| !img.contains("alt=\"\"") && img.contains("alt=\"")), "{pictures:?}");
+    for part in
+        ["<li><span style=\"background: #", "</span>m</li>", "linear-gradient(", "colour of m (480 pixels)"]
+    {
+        assert!(page.contains(part), "{part}");
+    }
+    // Legends are text, so that the pictures are the pixels.
+    let level = read_picture(&folder.path().join("seen/level.png")).unwrap();
+    assert_eq!((level.width, level.height), (24, 20));
+    let command = page.split("<pre><code>moire ").nth(1).unwrap().split("</code>").next().unwrap();
+    assert!(command.starts_with("render 'it'\\''s one.toml' --size 24x20 --filter "), "{command}");
+    let options: Vec<&str> = command.split(" --size").nth(1).unwrap().split_whitespace().collect();
+    let options = [&["render", "it's one.toml", "-q", "-o", "x.png", "--size"], &options[..]].concat();
+    assert_eq!(run(folder.path(), &options), (0, String::new()));
+    let found = read_picture(&folder.path().join("x.png")).unwrap();
+    assert_eq!((found.width, found.height), (24, 20));
 }
 
 #[test]

@@ -1,8 +1,9 @@
 //! What `moire inspect` says of textures: densities, levels, texels that are never read, charts, and the advice.
 
 use moire::internal::lab::inspect::advice::{Facts, advice};
-use moire::internal::lab::inspect::charts;
+use moire::internal::lab::inspect::density::Wanted;
 use moire::internal::lab::inspect::survey::{Survey, survey};
+use moire::internal::lab::inspect::{Charts, charts, readers};
 use moire::internal::render::Options;
 use moire::internal::render::layers::packed_at_centres;
 use moire::internal::scene::model::Scene;
@@ -11,7 +12,7 @@ use super::{DOWN, with_scene};
 use crate::stage::scene;
 
 fn surveyed(scene: &Scene) -> Survey {
-    survey(&packed_at_centres(scene, &Options::default()).unwrap())
+    survey(scene, &packed_at_centres(scene, &Options::default()).unwrap())
 }
 
 #[test]
@@ -32,7 +33,8 @@ fn a_plane_seen_straight_has_one_bin_and_one_level() {
     with_scene(DOWN, |scene| {
         let view = surveyed(&scene).views.remove(0);
         assert_eq!(view.density.histogram().len(), 1);
-        assert_eq!(view.density.spare_factor(), 4.0, "four texels a pixel");
+        let quarter = Wanted { octaves: -2, is_capped: false };
+        assert_eq!(view.density.wanted(view.size), quarter, "four texels a pixel");
         assert_eq!(view.level_pixels, [0, 0, 256, 0, 0, 0, 0]);
         assert_eq!((view.minified, view.elongated), (256, 0), "twice as long is not more than twice");
     });
@@ -64,10 +66,15 @@ fn two_charts(gap: f64) -> String {
     scene + &triangle(0.0) + &triangle(0.25 + gap)
 }
 
+/// Of the first texture, at its size.
+fn charts_of(scene: &Scene) -> Option<Charts> {
+    charts(scene, &readers(scene, &[0]), [64, 64], 7)
+}
+
 #[test]
 fn charts_four_texels_apart_bleed_where_a_texel_reaches_over_the_gap() {
     with_scene(&two_charts(4.0 / 64.0), |scene| {
-        let found = charts(&scene, 0, [64, 64], 7).unwrap();
+        let found = charts_of(&scene).unwrap();
         assert_eq!((found.count, found.overlap), (2, false));
         // Columns 0 to 15 and 20 to 35: a texel of 8 columns holds 16 to 23, one of 16 holds 16 to 31, one of 32 both.
         assert_eq!(found.bleeds_from(), Some(5));
@@ -78,9 +85,9 @@ fn charts_four_texels_apart_bleed_where_a_texel_reaches_over_the_gap() {
 fn charts_over_each_other_are_said_to_overlap_and_repeated_textures_have_none() {
     let overlapping = two_charts(0.25)
         .replace("uvs = [[0.5, 0], [0.5, 1], [0.75, 0]]", "uvs = [[0.01, 0], [0.01, 1], [0.26, 0]]");
-    with_scene(&overlapping, |scene| assert!(charts(&scene, 0, [64, 64], 7).unwrap().overlap));
-    with_scene(&two_charts(1.0), |scene| assert_eq!(charts(&scene, 0, [64, 64], 7), None));
-    with_scene(DOWN, |scene| assert_eq!(charts(&scene, 0, [64, 64], 7), None, "a plane has no charts"));
+    with_scene(&overlapping, |scene| assert!(charts_of(&scene).unwrap().overlap));
+    with_scene(&two_charts(1.0), |scene| assert_eq!(charts_of(&scene), None));
+    with_scene(DOWN, |scene| assert_eq!(charts_of(&scene), None, "a plane has no charts"));
 }
 
 #[test]

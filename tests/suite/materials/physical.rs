@@ -13,7 +13,7 @@ use super::{floats, scene};
 use crate::stage;
 
 /// A plane across the z axis, seen by parallel rays at an angle from that axis.
-fn plane(degrees: f64, samples: u32, material: &str, rest: &str) -> String {
+pub fn plane(degrees: f64, samples: u32, material: &str, rest: &str) -> String {
     let (sin, cos) = degrees.to_radians().sin_cos();
     format!(
         "camera = {{ eye = [{sin}, 0, {cos}], look_at = [0, 0, 0], orthographic_height = 0.01 }}\n\
@@ -24,12 +24,12 @@ fn plane(degrees: f64, samples: u32, material: &str, rest: &str) -> String {
     )
 }
 
-fn mean(film: &Film) -> DVec3 {
+pub fn mean(film: &Film) -> DVec3 {
     let sum: DVec3 = film.pixels.iter().map(|p| DVec3::from_array(p.map(f64::from))).sum();
     sum / film.pixels.len() as f64
 }
 
-fn both(packed: &PackedScene) -> [DVec3; 2] {
+pub fn both(packed: &PackedScene) -> [DVec3; 2] {
     [stage::render(packed), stage::render_on_oracle(packed)].map(|film| mean(&film))
 }
 

@@ -148,6 +148,32 @@ fn each_map_has_its_own_sampler_coordinates_and_encoding() {
 }
 
 #[test]
+fn textures_of_specular_have_their_own_sampler_coordinates_and_encoding() {
+    let text = "{\"extensions\":{\"KHR_materials_specular\":{\"specularFactor\":0.5,\"specularTexture\":{\"index\":1},\
+        \"specularColorFactor\":[2,1,0.5],\"specularColorTexture\":{\"index\":0,\"extensions\":\
+        {\"KHR_texture_transform\":{\"texCoord\":1,\"offset\":[0.5,0]}}}}}}";
+    let scene = loaded(text, &textures());
+    let found = only(&scene);
+    let [weight, tint] = [found.specular_weight_map, found.specular_tint_map].map(Option::unwrap);
+    let address = |sampler: usize| scene.samplers[sampler].address[0];
+    assert_eq!([weight, tint].map(|map| address(map.sampler)), [Address::ClampToEdge, Address::Repeat]);
+    assert_eq!([weight, tint].map(|map| map.second_uv), [false, true]);
+    let space = |texture: usize| scene.textures[texture].color_space;
+    assert_eq!([weight, tint].map(|map| space(map.texture)), [ColorSpace::Linear, ColorSpace::Srgb]);
+    assert_eq!((found.specular_weight, found.specular_tint), (0.5, DVec3::new(2.0, 1.0, 0.5)));
+    assert!(scene.notes.is_empty(), "{:?}", scene.notes);
+    let packed = packed(scene, None);
+    assert!(packed.records.meshes[0].has_second_uv);
+    let [device, oracle] = [render(&packed), render_on_oracle(&packed)]
+        .map(|film| film.pixels[film.pixels.len() / 2 + film.width as usize / 2]);
+    // f32 against f64.
+    assert!(
+        device.iter().zip(oracle).all(|(a, b)| (a - b).abs() < 1e-4 * b && b > 0.01),
+        "{device:?} {oracle:?}"
+    );
+}
+
+#[test]
 fn third_coordinates_are_those_of_their_texture_alone() {
     let transform = |x: f64| format!("\"extensions\":{{\"KHR_texture_transform\":{{\"offset\":[{x},0]}}}}");
     let text = format!(

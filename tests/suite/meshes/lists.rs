@@ -6,7 +6,7 @@ use moire::internal::core::range::Rect;
 use moire::internal::lab::metrics::compare;
 use moire::internal::pack::features::bounces;
 use moire::internal::render::Tuning;
-use moire::internal::scene::model::{Algorithm, Lens, Light, Pattern, Precision, Projection, Scene};
+use moire::internal::scene::model::{Algorithm, Lens, Light, Model, Pattern, Precision, Projection, Scene};
 use moire::internal::schema::layout::{CELL_WORDS, MAX_LISTED_WITH_MESHES, MAX_MORE_LISTED};
 
 use crate::stage::{assert_same_bits, packed, render, render_with, small};
@@ -47,6 +47,23 @@ fn full_lists_say_up_to_which_depth_they_are_complete() {
     assert!(cells.iter().filter(is_full).count() > 0, "no list is full");
     assert!(cells.iter().any(|cell| listed(cell) > MAX_LISTED_WITH_MESHES), "no cell has room for more");
     assert_same_bits(&film, &render(&without(&scene)), "full lists");
+}
+
+/// Tiles at the edges are not whole; samples are no whole number of turns of a workgroup; long sums are in blocks.
+#[test]
+fn any_number_of_samples_is_the_same_with_and_without_lists() {
+    let mut scene = knot(70, 16);
+    scene.lights.clear();
+    for material in &mut scene.materials {
+        material.model = Model::Unlit;
+    }
+    for spp in [4, 5, 16, 70, 97] {
+        scene.sampling.pattern = Pattern::SobolOwen;
+        scene.sampling.spp = spp;
+        let packed = packed(scene.clone(), Some(Rect { x: 3, y: 5, width: 51, height: 37 }));
+        assert!(packed.culls_tiles() && !bounces(&packed));
+        assert_same_bits(&render(&packed), &render(&without(&packed)), &format!("{spp} samples"));
+    }
 }
 
 /// A knot alone shades itself: of the triangles that may shade a pixel some are found once, others by the tree.

@@ -1,15 +1,11 @@
 //! The page in headless Chromium, where `chromium` is installed: no console message, plots and
 //! pictures visible, nothing wider than a phone, dark mode, working legends.
 
-use std::fs;
-use std::path::Path;
-use std::process::Command;
-
 use serde_json::Value;
 use tempfile::tempdir;
 
 use super::studied;
-use crate::support::untested;
+use crate::browser::{brightness, is_installed, probed};
 
 /// Frames as wide as a phone and as a desk's screen; what is found in them ends up in the document.
 const PROBE: &str = r#"<!doctype html><title>probe</title>
@@ -47,38 +43,6 @@ addEventListener("load", () => {
 });
 </script>"#;
 
-/// Returns the probe's result, or `None` without a browser.
-fn probed(folder: &Path, dark: bool) -> Option<Value> {
-    let scheme = if dark { 0 } else { 1 };
-    let profile = tempdir().unwrap();
-    let output = Command::new("chromium")
-        .args([
-            "--headless",
-            "--no-sandbox",
-            "--disable-gpu",
-            "--disable-dev-shm-usage",
-            "--enable-logging=stderr",
-        ])
-        .args(["--allow-file-access-from-files", "--virtual-time-budget=4000", "--window-size=1400,900"])
-        .arg(format!("--blink-settings=preferredColorScheme={scheme}"))
-        .arg(format!("--user-data-dir={}", profile.path().display()))
-        .arg("--dump-dom")
-        .arg(format!("file://{}", folder.join("probe.html").display()))
-        .output()
-        .ok()?;
-    let console: Vec<String> = String::from_utf8_lossy(&output.stderr)
-        .lines()
-        .filter(|l| l.contains("CONSOLE"))
-        .map(str::to_owned)
-        .collect();
-    assert!(console.is_empty(), "the console says {console:#?}");
-    let dom = String::from_utf8_lossy(&output.stdout).into_owned();
-    let report = dom.split("<pre id=\"report\">").nth(1).and_then(|rest| rest.split("</pre>").next());
-    let report = report
-        .unwrap_or_else(|| panic!("no report; the browser said {}", String::from_utf8_lossy(&output.stderr)));
-    Some(serde_json::from_str(report).unwrap())
-}
-
 fn numbers(pair: &Value) -> [f64; 2] {
     [0, 1].map(|i| pair[i].as_f64().unwrap())
 }
@@ -106,20 +70,14 @@ fn check(found: &Value, phone: bool) {
 
 #[test]
 fn page_works_in_a_browser_on_a_phone_and_in_the_dark() {
-    if Command::new("chromium").arg("--version").output().is_err() {
-        untested("the page in a browser: chromium is not installed");
+    if !is_installed() {
         return;
     }
     let folder = tempdir().unwrap();
     let methods = "center,grid,random,stratified,stratified+cone+anisotropic";
     studied(folder.path(), &["--methods", methods, "--spp", "1,4,16", "--repeats", "1"]);
-    fs::write(folder.path().join("probe.html"), PROBE).unwrap();
-    let brightness = |color: &Value| -> u32 {
-        let digits = color.as_str().unwrap().split(|c: char| !c.is_ascii_digit());
-        digits.filter_map(|d| d.parse::<u32>().ok()).take(3).sum()
-    };
     for dark in [false, true] {
-        let Some(report) = probed(folder.path(), dark) else { return };
+        let report = probed(folder.path(), PROBE, dark);
         for name in ["phone", "desk"] {
             let found = &report[name];
             check(found, name == "phone");

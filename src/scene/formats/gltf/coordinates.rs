@@ -25,6 +25,8 @@ impl CoordinateSets<'_> {
             &material.metallic_roughness_texture,
             &material.emissive_texture,
             &material.occlusion_texture,
+            &material.specular_texture,
+            &material.specular_color_texture,
         ];
         let mut read = read.into_iter().flatten();
         let Some(first) = read.next() else { return CoordinateSets::default() };

@@ -9,7 +9,7 @@ use glam::swizzles::Vec4Swizzles as _;
 use super::coordinates::CoordinateSets;
 use super::images::{self, Chosen};
 use super::notes::MaterialNotes;
-use crate::mesh::gltf::{self, Material, Model, Texture, TextureRef, Wrap};
+use crate::mesh::gltf::{self, Content, Material, Model, Texture, TextureRef, Wrap};
 use crate::scene::builder::SceneBuilder;
 use crate::scene::model::{self, AlphaMode, BumpKind, BumpMap, Sides, TextureUse};
 use crate::texture::data::{ColorSpace, Dimension, MipKernel};
@@ -62,6 +62,8 @@ pub(in crate::scene::formats) fn add(
         if added.model.is_glossy() {
             added.metallic_roughness_map =
                 reader.used(material.metallic_roughness_texture, ColorSpace::Linear)?;
+            added.specular_weight_map = reader.used(material.specular_texture, ColorSpace::Linear)?;
+            added.specular_tint_map = reader.used(material.specular_color_texture, ColorSpace::Srgb)?;
         }
         added.emission = material.emissive * material.emissive_strength;
         added.emission_map = reader.used(material.emissive_texture, ColorSpace::Srgb)?;
@@ -161,9 +163,15 @@ impl Reader<'_> {
         if let Some(note) = note {
             self.note(&note);
         }
-        let name = [&texture.name, &self.model.images[index].name].into_iter().find(|name| !name.is_empty());
+        let image = &self.model.images[index];
+        let file = match &image.content {
+            Content::Path(file) => file,
+            Content::Bytes(_) => "",
+        };
+        let names = [file, &image.name, &texture.name];
+        let name = names.into_iter().find(|name| !name.is_empty());
         Ok(Some(self.builder.texture(TextureSource {
-            name: name.cloned().unwrap_or_else(|| format!("image {index}")),
+            name: name.map_or_else(|| format!("image {index}"), str::to_owned),
             content,
             dimension: Dimension::Two,
             color_space,
@@ -182,6 +190,8 @@ impl Reader<'_> {
             material.metallic_roughness_texture,
             material.emissive_texture,
             material.occlusion_texture,
+            material.specular_texture,
+            material.specular_color_texture,
         ];
         let others = others.into_iter().filter(|_| !material.unlit);
         let read: Vec<usize> =
@@ -210,8 +220,6 @@ impl Reader<'_> {
         let transmits = material.transmission > 0.0;
         tell(transmits && material.transmission <= 0.5, "transmission of half the light or less");
         tell(transmits && material.transmission_texture.is_some(), "the texture of transmission");
-        tell(material.specular_texture.is_some(), "the texture of specular");
-        tell(material.specular_color_texture.is_some(), "the texture of specular colours");
         if !left.is_empty() {
             let left = left.join(", ");
             self.note(&format!("not drawn: {left}"));

@@ -12,7 +12,9 @@ use crate::scene::limits::ANISOTROPY;
 use crate::scene::model::DEFAULT;
 use crate::scene::model::{Background, Environment, EnvironmentLayout, TextureSource};
 use crate::texture::data::Dimension;
-use crate::texture::sampler_spec::{Address, CATMULL_ROM, Filter, Method, MipMode, SamplerSpec, TexelCenter};
+use crate::texture::sampler_spec::{
+    Address, CATMULL_ROM, Filter, LevelUse, Method, SamplerSpec, TexelCenter,
+};
 
 pub(super) const SAMPLER: &[&str] = &[
     "name",
@@ -27,13 +29,6 @@ pub(super) const SAMPLER: &[&str] = &[
 ];
 pub(super) const BACKGROUND: &[&str] = &["color", "environment", "sampler", "layout", "rotate", "mirror"];
 const FILTER: &[&str] = &["mag", "min"];
-/// How levels are read, by name; with `stored`, linearly between those of the file.
-const MIPS: [(&str, MipMode, bool); 4] = [
-    ("none", MipMode::None, false),
-    ("nearest", MipMode::Nearest, false),
-    ("linear", MipMode::Linear, false),
-    ("stored", MipMode::Linear, true),
-];
 /// Cubic filters by name, with B and C (Mitchell & Netravali 1988).
 const CUBICS: [(&str, [f32; 2]); 3] =
     [("catmull-rom", CATMULL_ROM), ("b-spline", [1.0, 0.0]), ("mitchell", [1.0 / 3.0, 1.0 / 3.0])];
@@ -79,7 +74,7 @@ pub(super) fn sampler(table: &Table<'_>) -> Result<SamplerSpec> {
         spec.border_color = field.numbers::<4>()?.map(|x| x as f32);
     }
     if let Some(field) = table.get("mip") {
-        (spec.mip, spec.stored_levels) = field.choice(&MIPS.map(|m| m.0), &MIPS.map(|m| (m.1, m.2)))?;
+        (spec.mip, spec.stored_levels) = field.choice(LevelUse::NAMES, LevelUse::ALL)?.parts();
     }
     if let Some(field) = table.get("method") {
         spec.method = field.choice(Method::NAMES, Method::ALL)?;

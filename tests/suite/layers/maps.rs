@@ -1,0 +1,134 @@
+//! What `moire inspect` says of all the maps of a material, of images that are read more than once, and of models.
+
+use std::fs;
+use std::path::Path;
+
+use moire::internal::core::film::Film;
+use moire::internal::lab::inspect::survey::{Seen, Survey, View, survey};
+use moire::internal::lab::inspect::uses::Slot;
+use moire::internal::lab::inspect::{Coordinates, charts, readers};
+use moire::internal::output::{WriteOptions, write};
+use moire::internal::render::Options;
+use moire::internal::render::layers::packed_at_centres;
+use moire::internal::scene::model::Scene;
+use moire::internal::scene::{self, prune::prune};
+
+use super::{DOWN, stage};
+use crate::support::{data, gradient};
+
+fn surveyed(scene: &Scene) -> Survey {
+    survey(scene, &packed_at_centres(scene, &Options::default()).unwrap())
+}
+
+fn loaded(path: &Path) -> Scene {
+    let mut scene = scene::load(path).unwrap();
+    prune(&mut scene);
+    scene
+}
+
+/// The plane of `DOWN`, four texels of `t.png` a pixel, with these textures and keys of its material, beside an image `o.png`
+/// of half the size.
+fn with_maps<T>(textures: &str, keys: &str, with: impl FnOnce(Scene) -> T) -> T {
+    let folder = tempfile::tempdir().unwrap();
+    write(&gradient(32, 32), &folder.path().join("o.png"), &WriteOptions::default()).unwrap();
+    let text = DOWN
+        .replace("[[sampler]]", &format!("{textures}\n[[sampler]]"))
+        .replace("model = \"unlit\"\ntexture = \"t\"", keys)
+        .replace("scale = [0.5, 0.25]", "scale = [0.5, 0.5]");
+    with(loaded(&stage(folder.path(), &text)))
+}
+
+fn uses(view: &View) -> Vec<(Slot, u64)> {
+    view.uses.iter().map(|own| (own.slot, own.pixels)).collect()
+}
+
+#[test]
+fn every_map_of_a_material_is_looked_at_and_an_image_is_listed_once() {
+    let textures = "[[texture]]\nname = 'numbers'\nfile = 't.png'\ncolor_space = 'linear'\n\
+                    [[texture]]\nname = 'o'\nfile = 'o.png'\ncolor_space = 'linear'\n\
+                    [[texture]]\nname = 'e'\nfile = 'o.png'\n";
+    let keys = "model = 'metallic-roughness'\ntexture = 't'\nnormal_map = 'numbers'\n\
+                metallic_roughness_map = 'o'\nocclusion_map = 'o'\nemission_map = 'e'";
+    with_maps(textures, keys, |scene| {
+        let found = surveyed(&scene);
+        assert_eq!(found.views.len(), 2, "{found:?}");
+        assert_eq!(found.untextured, 0);
+        assert_eq!(found.seen, Seen { textured: 256, minified: 256, elongated: 0, magnified: 0 });
+        let [t, o] = [&found.views[0], &found.views[1]];
+        assert_eq!(uses(t), [(Slot::Color, 256), (Slot::Bump, 256)]);
+        assert_eq!(uses(o), [(Slot::Roughness, 256), (Slot::Emission, 256), (Slot::Occlusion, 256)]);
+        assert_eq!([t.textures.len(), o.textures.len()], [2, 2]);
+        for (view, length, level) in [(t, 4.0, 2), (o, 2.0, 1)] {
+            assert_eq!(view.density.pixels(), 256, "a pixel counts once");
+            assert_eq!(view.density.quantile(0.0), Some(length));
+            assert_eq!(view.density.quantile(1.0), Some(length));
+            assert_eq!(view.level_pixels[level], 256);
+            assert_eq!(view.level_pixels.iter().sum::<u64>(), 256);
+            assert_eq!(view.never_read.unwrap().cells, 0);
+        }
+        let words: Vec<String> = t.uses.iter().map(|own| own.words(&scene)).collect();
+        assert_eq!(words, ["colour of m (256 pixels)", "normal map of m (256 pixels)"]);
+    });
+}
+
+#[test]
+fn a_map_without_a_texture_of_the_colour_is_read_too() {
+    for (keys, slot) in [
+        ("normal_map = 't'", Slot::Bump),
+        ("bump_map = 't'", Slot::Bump),
+        ("metallic_roughness_map = 't'", Slot::Roughness),
+        ("emission_map = 't'", Slot::Emission),
+        ("occlusion_map = 't'", Slot::Occlusion),
+        ("specular_weight_map = 't'", Slot::SpecularWeight),
+        ("specular_tint_map = 't'", Slot::SpecularTint),
+    ] {
+        with_maps("", &format!("model = 'metallic-roughness'\n{keys}"), |scene| {
+            let found = surveyed(&scene);
+            assert_eq!((found.views.len(), found.seen.textured), (1, 256), "{keys}");
+            assert_eq!(uses(&found.views[0]), [(slot, 256)], "{keys}");
+        });
+    }
+}
+
+#[test]
+fn an_image_of_one_texel_is_a_colour_that_no_filter_changes() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = stage(folder.path(), DOWN);
+    write(&Film::new(1, 1, 1), &folder.path().join("t.png"), &WriteOptions::default()).unwrap();
+    let found = surveyed(&loaded(&path));
+    assert_eq!(found.seen, Seen { textured: 256, ..Seen::default() });
+}
+
+#[test]
+fn charts_are_those_of_the_coordinates_that_a_map_reads() {
+    let scene = loaded(&data().join("gallery/uv_sets.gltf"));
+    let all = readers(&scene, &(0..scene.textures.len()).collect::<Vec<_>>());
+    let reads = |coordinates| all.iter().any(|own| own.1 == coordinates);
+    assert!(reads(Coordinates::First) && reads(Coordinates::Second), "{all:?}");
+    for reader in &all {
+        let found = charts(&scene, &[*reader], [64, 64], 7);
+        assert!(found.is_none_or(|charts| charts.count > 0));
+    }
+    assert_eq!(charts(&scene, &[], [64, 64], 7), None);
+}
+
+#[test]
+fn textures_of_models_have_the_name_of_the_file_or_of_the_image() {
+    let folder = tempfile::tempdir().unwrap();
+    let model = fs::read_to_string(data().join("gallery/normal_map.gltf")).unwrap();
+    let mut model: serde_json::Value = serde_json::from_str(&model).unwrap();
+    let bytes = model["images"][0]["uri"].clone();
+    write(&gradient(8, 8), &folder.path().join("a b.png"), &WriteOptions::default()).unwrap();
+    for (uri, image, texture, name) in [
+        ("a%20b.png".into(), "picture", "texture", "a b.png"),
+        (bytes.clone(), "picture", "texture", "picture"),
+        (bytes.clone(), "", "texture", "texture"),
+        (bytes, "", "", "image 0"),
+    ] {
+        (model["images"][0]["uri"], model["images"][0]["name"]) = (uri, image.into());
+        model["textures"][0]["name"] = texture.into();
+        let path = folder.path().join("m.gltf");
+        fs::write(&path, model.to_string()).unwrap();
+        assert_eq!(loaded(&path).textures[0].name, name);
+    }
+}
