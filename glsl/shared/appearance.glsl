@@ -63,13 +63,42 @@ MapInput map_input(const UvProjection map, const Ray ray, const Surface surface,
     return seen;
 }
 
+#if !defined(SHAPES_IN_BEAMS) || defined(MESHES_IN_CELLS)
+#define HAS_MESH_TEXELS
+uvec4 mesh_texel(uint at);
+
+// Returns the surface with coordinates that a map has for itself, which are read here: few maps have any.
+Surface at_own_uv(const MapUv own, Surface surface) {
+    VertexAttributes seen = surface.attributes;
+    uint at = seen.uv_texel + 2u * own.set;
+    vec4 first = uintBitsToFloat(mesh_texel(at));
+    vec4 second = uintBitsToFloat(mesh_texel(at + 1u));
+    vec3 u = first.xyz;
+    vec3 v = vec3(first.w, second.xy);
+    real2 uv = real2(dot3(seen.weights, u), dot3(seen.weights, v));
+    surface.own_uv = real2(own.row_u.x * uv.x + own.row_u.y * uv.y, own.row_v.x * uv.x + own.row_v.y * uv.y) + own.offset;
+    if (FILTERED || BUMPED) {
+        vec3 u_way = (seen.weight_a * u.x + seen.weight_b * u.y) + seen.weight_c * u.z;
+        vec3 v_way = (seen.weight_a * v.x + seen.weight_b * v.y) + seen.weight_c * v.z;
+        surface.own_u = float(own.row_u.x) * u_way + float(own.row_u.y) * v_way;
+        surface.own_v = float(own.row_v.x) * u_way + float(own.row_v.y) * v_way;
+    }
+    return surface;
+}
+#endif
+
 // Returns the surface with the texture coordinates of one of the material's maps in place of its own.
 Surface at_uv_of(const Material material, uint map_bit, Surface surface) {
-    if (!SECOND_UV) return surface;
-    if ((material.second_uv_maps & map_bit) == 0u) return surface;
-    surface.own_uv = surface.attributes.second_uv;
-    surface.own_u = surface.attributes.second_u;
-    surface.own_v = surface.attributes.second_v;
+    if (SECOND_UV && (material.second_uv_maps & map_bit) != 0u) {
+        surface.own_uv = surface.attributes.second_uv;
+        surface.own_u = surface.attributes.second_u;
+        surface.own_v = surface.attributes.second_v;
+    }
+#ifdef HAS_MESH_TEXELS
+    if (MAP_UVS != 0u && (material.own_uv_maps & map_bit) != 0u && surface.attributes.uv_texel != 0u) {
+        surface = at_own_uv(map_uv_at(material.first_map_uv + uint(bitCount(material.own_uv_maps & (map_bit - 1u)))), surface);
+    }
+#endif
     return surface;
 }
 

@@ -176,6 +176,7 @@ vec3 advance(const Header header, const Points points, const SampleDimensions di
                     path.throughput = carried * passed;
                     passes(hit, surface, print, path);
                     is_alive = path.layers < MAX_LAYERS;
+                    count_diagnostic(DIAGNOSTIC_LAYERS, !is_alive);
                 }
                 has_passed = has_passed && !missed;
             }

@@ -72,6 +72,7 @@ fn said(guard: Diagnostic) -> (&'static str, &'static str) {
         Diagnostic::Depth => ("path", "at max_depth, ended in black"),
         Diagnostic::Pieces => ("cone", "for which there was no room"),
         Diagnostic::Radiance => ("sample", "whose radiance is no number"),
+        Diagnostic::Layers => ("path", "through more than 64 surfaces that let rays pass, ended in black"),
     }
 }
 

@@ -7,8 +7,10 @@ pub mod mtl;
 mod obj;
 mod ply;
 mod polygon;
+pub mod relative;
 mod stl;
 mod tangents;
+mod text;
 
 use std::fmt;
 
@@ -27,6 +29,8 @@ pub struct Mesh {
     pub colors: Vec<Vec4>,
     /// Second texture coordinates, v upwards, one for each position; empty without any.
     pub second_uvs: Vec<DVec2>,
+    /// Further sets, each as the second one.
+    pub more_uvs: Vec<Vec<DVec2>>,
     /// Tangents along u with the sign of the bitangent, for the corners of each triangle; empty without any.
     pub tangents: Vec<[Vec4; 3]>,
     /// Counter-clockwise as seen from the front, in the order of the file.
@@ -35,6 +39,10 @@ pub struct Mesh {
     pub materials: Vec<String>,
     /// Files that define these materials, as written.
     pub libraries: Vec<String>,
+    /// Definitions of these materials that the file itself has.
+    pub definitions: Vec<mtl::MtlMaterial>,
+    /// What was passed over, in sentences.
+    pub notes: Vec<String>,
 }
 
 impl Mesh {

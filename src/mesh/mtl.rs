@@ -1,9 +1,9 @@
 //! Wavefront MTL, the materials of OBJ files. Input: the text of a file. Output: its materials in its order, with
-//! those statements that describe a surface and its textures; all others are passed over. Nothing is opened here, and
-//! no number is judged: what the values mean to a renderer is for the caller to say.
+//! those statements that describe a surface and its textures, and what is told of others that change its look. Nothing
+//! is opened here: what the values mean to a renderer is for the caller to say.
 
 use super::Fault;
-use super::obj::{first_word, lines, number, quoted, words};
+use super::text::{first_word, lines, number, quoted, words};
 
 /// Material as the file has it; what it does not say is absent.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -18,8 +18,8 @@ pub struct MtlMaterial {
     pub exponent: Option<f64>,
     /// `Ni`, the index of refraction.
     pub ior: Option<f64>,
-    /// `d`, or 1 less `Tr`: how much the surface covers.
-    pub dissolve: Option<f64>,
+    /// `d`, or 1 − `Tr`: how much the surface covers.
+    pub opacity: Option<f64>,
     /// `Tf`, the colour of light that passes.
     pub filter: Option<[f64; 3]>,
     /// `Pr`, the roughness of physically based materials.
@@ -38,6 +38,22 @@ pub struct MtlMaterial {
     pub bump_map: Option<MtlMap>,
     /// `norm`, normals in tangent space.
     pub normal_map: Option<MtlMap>,
+    /// `map_d`.
+    pub opacity_map: Option<MtlMap>,
+    /// `Ke`.
+    pub emission: Option<[f64; 3]>,
+    /// `map_Ke`.
+    pub emission_map: Option<MtlMap>,
+    /// Statements that change its look and are not read, with the first line of each.
+    pub notes: Vec<String>,
+}
+
+impl MtlMaterial {
+    /// Returns the material of a surface that shows a picture.
+    pub(super) fn of_picture(file: &str) -> MtlMaterial {
+        let map = MtlMap::of_file(file.replace('\\', "/"), 0);
+        MtlMaterial { name: file.to_owned(), diffuse_map: Some(map), ..MtlMaterial::default() }
+    }
 }
 
 /// Texture of a material.
@@ -53,6 +69,14 @@ pub struct MtlMap {
     pub clamp: bool,
     /// `-bm`, the factor of a bump map.
     pub strength: Option<f64>,
+    /// Line of the file, from 1; 0 outside of MTL files.
+    pub line: usize,
+}
+
+impl MtlMap {
+    fn of_file(file: String, line: usize) -> MtlMap {
+        MtlMap { file, scale: [1.0; 2], offset: [0.0; 2], clamp: false, strength: None, line }
+    }
 }
 
 /// Reads the materials of a file.
@@ -64,44 +88,82 @@ pub fn read(bytes: &[u8]) -> Result<Vec<MtlMaterial>, Fault> {
             materials.push(MtlMaterial { name: name(rest), ..MtlMaterial::default() });
         } else if let Some(material) = materials.last_mut() {
             // Before the first material, a statement describes none.
-            let read = statement(material, keyword, rest);
+            let read = statement(material, keyword, rest, number);
             read.map_err(|what| Fault::new(format!("line {number}"), what))?;
+            material.notes.extend(told(keyword, rest).map(|what| format!("line {number}: {what}")));
         }
     }
     Ok(materials)
 }
 
+/// Statements that change the look of a surface and are not read.
+const UNREAD: [&str; 7] = ["map_ks", "map_ns", "disp", "map_disp", "refl", "map_refl", "decal"];
+
 /// Reads a statement into its material, or returns what is wrong with it.
-fn statement(material: &mut MtlMaterial, keyword: &[u8], rest: &[u8]) -> Result<(), String> {
+fn statement(material: &mut MtlMaterial, keyword: &[u8], rest: &[u8], line: usize) -> Result<(), String> {
     // Programs disagree on capitals, most of all in the names of maps.
     match keyword.to_ascii_lowercase().as_slice() {
         b"kd" => material.diffuse = color(rest)?.or(material.diffuse),
         b"ks" => material.specular = color(rest)?.or(material.specular),
+        b"ke" => material.emission = color(rest)?.or(material.emission),
         b"ns" => material.exponent = Some(number(first_value(rest))?),
         b"ni" => material.ior = Some(number(first_value(rest))?),
-        // `d` wins over `Tr`, wherever it stands: programs that write both mean it.
-        b"d" => material.dissolve = Some(number(last_value(rest))?),
-        b"tr" => material.dissolve = material.dissolve.or(Some(1.0 - number(first_value(rest))?)),
+        b"d" => material.opacity = Some(share(rest)?),
+        // Programs that write both mean `d`, wherever it stands.
+        b"tr" => material.opacity = material.opacity.or(Some(1.0 - share(rest)?)),
         b"tf" => material.filter = color(rest)?.or(material.filter),
         b"pr" => material.roughness = Some(number(first_value(rest))?),
         b"pm" => material.metallic = Some(number(first_value(rest))?),
         b"illum" => material.illumination = Some(whole(first_value(rest))?),
-        b"map_kd" => material.diffuse_map = map(rest)?,
-        b"map_pr" => material.roughness_map = map(rest)?,
-        b"map_pm" => material.metallic_map = map(rest)?,
-        b"map_bump" | b"bump" => material.bump_map = map(rest)?,
-        b"norm" => material.normal_map = map(rest)?,
+        b"map_kd" => material.diffuse_map = map(rest, line)?,
+        b"map_ke" => material.emission_map = map(rest, line)?,
+        b"map_d" => material.opacity_map = map(rest, line)?,
+        b"map_pr" => material.roughness_map = map(rest, line)?,
+        b"map_pm" => material.metallic_map = map(rest, line)?,
+        b"map_bump" | b"bump" => material.bump_map = map(rest, line)?,
+        b"norm" => material.normal_map = map(rest, line)?,
         _ => {}
     }
     Ok(())
 }
 
+/// Returns what is told of a statement that is not read as it stands.
+fn told(keyword: &[u8], rest: &[u8]) -> Option<String> {
+    let shown = String::from_utf8_lossy(keyword);
+    let lower = shown.to_ascii_lowercase();
+    match lower.as_str() {
+        "kd" | "ks" | "ke" | "tf" if is_spectral(rest) => {
+            Some(format!("{shown} is given by a spectrum or in XYZ, which is not read"))
+        }
+        "map_kd" | "map_ke" | "map_d" | "map_pr" | "map_pm" | "map_bump" | "bump" | "norm"
+            if rest.is_empty() =>
+        {
+            Some(format!("{shown} names no file"))
+        }
+        other => UNREAD.contains(&other).then(|| format!("{shown} is not drawn")),
+    }
+}
+
+/// Reads a number from 0 to 1, behind the option of a halo.
+fn share(rest: &[u8]) -> Result<f64, String> {
+    let share = number(words(rest).find(|word| *word != b"-halo").unwrap_or_default())?;
+    let is_share = (0.0..=1.0).contains(&share);
+    if is_share { Ok(share) } else { Err(format!("{share} is out of range; 0 to 1 is allowed")) }
+}
+
+fn is_spectral(rest: &[u8]) -> bool {
+    [&b"spectral"[..], b"xyz"].contains(&first_value(rest))
+}
+
 /// Reads a colour, or nothing if it is given by a spectrum or in XYZ.
 fn color(rest: &[u8]) -> Result<Option<[f64; 3]>, String> {
-    if [&b"spectral"[..], b"xyz"].contains(&first_value(rest)) {
+    if is_spectral(rest) {
         return Ok(None);
     }
     let values: Vec<f64> = words(rest).take(3).map(number).collect::<Result<_, _>>()?;
+    if let Some(negative) = values.iter().find(|value| **value < 0.0) {
+        return Err(format!("colour has {negative}; numbers from 0 are allowed"));
+    }
     match *values.as_slice() {
         [grey] => Ok(Some([grey; 3])),
         [r, g, b] => Ok(Some([r, g, b])),
@@ -110,9 +172,8 @@ fn color(rest: &[u8]) -> Result<Option<[f64; 3]>, String> {
 }
 
 /// Reads a texture, or nothing if no file is named.
-fn map(mut rest: &[u8]) -> Result<Option<MtlMap>, String> {
-    let mut map =
-        MtlMap { file: String::new(), scale: [1.0; 2], offset: [0.0; 2], clamp: false, strength: None };
+fn map(mut rest: &[u8], line: usize) -> Result<Option<MtlMap>, String> {
+    let mut map = MtlMap::of_file(String::new(), line);
     while let Some(after) = option(&mut map, rest)? {
         rest = after;
     }
@@ -182,11 +243,6 @@ fn first_value(rest: &[u8]) -> &[u8] {
     words(rest).next().unwrap_or_default()
 }
 
-/// Returns the last word of the arguments, which follows options.
-fn last_value(rest: &[u8]) -> &[u8] {
-    words(rest).last().unwrap_or_default()
-}
-
 /// Turns the rest of a line into a name.
 fn name(rest: &[u8]) -> String {
     String::from_utf8_lossy(rest).into_owned()
@@ -200,7 +256,7 @@ mod tests {
     #[test]
     fn reads_materials() {
         let text = "# Made by hand\r\nKd 9 9 9\nnewmtl red wall \r\n\tKd 0.8 0.1 0.1 # red\nKs 0.5\nKs spectral a.rfl 1\n\
-                    Ns 1e2\nNi 1.5\nillum 2\nTr 0\nmap_kd\nnewmtl b\nKd \\\n 1 2 3";
+                    Ns 1e2\nNi 1.5\nillum 2\nd -halo .25\nTr 0\nKe 0 1 2\nmap_kd\nrefl a.png\nnewmtl b\nKd \\\n 1 2 3";
         let red = MtlMaterial {
             name: "red wall".into(),
             diffuse: Some([0.8, 0.1, 0.1]),
@@ -208,7 +264,13 @@ mod tests {
             exponent: Some(100.0),
             ior: Some(1.5),
             illumination: Some(2),
-            dissolve: Some(1.0),
+            opacity: Some(0.25),
+            emission: Some([0.0, 1.0, 2.0]),
+            notes: vec![
+                "line 6: Ks is given by a spectrum or in XYZ, which is not read".into(),
+                "line 13: map_kd names no file".into(),
+                "line 14: refl is not drawn".into(),
+            ],
             ..MtlMaterial::default()
         };
         let other =
@@ -222,11 +284,11 @@ mod tests {
         let text = "newmtl a\nTr 0.75\nTf 0.5 1 1\nPr 0.25\nPm 1\nmap_Pr r.png\nmap_Pm -clamp on m.png\n\
                     newmtl b\nTr 0.9\nd -halo 0.5\nTr 0.25";
         let [a, b] = <[MtlMaterial; 2]>::try_from(read(text.as_bytes()).unwrap()).unwrap();
-        assert_eq!((a.dissolve, a.filter), (Some(0.25), Some([0.5, 1.0, 1.0])));
+        assert_eq!((a.opacity, a.filter), (Some(0.25), Some([0.5, 1.0, 1.0])));
         assert_eq!((a.roughness, a.metallic), (Some(0.25), Some(1.0)));
         assert_eq!(a.roughness_map.unwrap().file, "r.png");
         assert!(a.metallic_map.unwrap().clamp);
-        assert_eq!(b.dissolve, Some(0.5));
+        assert_eq!(b.opacity, Some(0.5));
     }
 
     #[test]
@@ -234,24 +296,21 @@ mod tests {
         let text = "newmtl a\nmap_Kd -blendu off -s 2 3 1 -mm 0 1 -o .5 -clamp on tex\\my wood.png\n\
                     map_Bump -bm 0.3 -imfchan l -t 1 1 1 -s 2 7\nnorm -odd.png";
         let material = read(text.as_bytes()).unwrap().remove(0);
-        let plain = |file: &str| MtlMap {
-            file: file.into(),
-            scale: [1.0; 2],
-            offset: [0.0; 2],
-            clamp: false,
-            strength: None,
-        };
-        let wood = MtlMap { scale: [2.0, 3.0], offset: [0.5, 0.0], clamp: true, ..plain("tex/my wood.png") };
+        let plain = |file: &str, line| MtlMap::of_file(file.into(), line);
+        let wood =
+            MtlMap { scale: [2.0, 3.0], offset: [0.5, 0.0], clamp: true, ..plain("tex/my wood.png", 2) };
         assert_eq!(material.diffuse_map, Some(wood));
-        let bump = MtlMap { scale: [2.0, 1.0], strength: Some(0.3), ..plain("7") };
+        let bump = MtlMap { scale: [2.0, 1.0], strength: Some(0.3), ..plain("7", 3) };
         assert_eq!(material.bump_map, Some(bump));
-        assert_eq!(material.normal_map, Some(plain("-odd.png")));
+        assert_eq!(material.normal_map, Some(plain("-odd.png", 4)));
     }
 
     #[test]
     fn faults_name_the_line() {
         for (text, fault) in [
             ("Kd 1 2", "line 2: colour has 2 numbers; it needs 1 or 3"),
+            ("Kd 1 -0.5 0", "line 2: colour has -0.5; numbers from 0 are allowed"),
+            ("Tr 1.5", "line 2: 1.5 is out of range; 0 to 1 is allowed"),
             ("Kd", "line 2: colour has 0 numbers; it needs 1 or 3"),
             ("Ns abc", "line 2: \"abc\" is no number"),
             ("Ni", "line 2: \"\" is no number"),

@@ -1,12 +1,13 @@
 //! Wavefront OBJ. Input: the text of a file, in UTF-8 as far as its names matter. Output: its faces, cut into
 //! triangles, with the names of their materials and of the files that define these. Curves, lines, points and groups
-//! are passed over. The lines and words of such texts are found here for MTL as well.
+//! are passed over.
 
-use std::borrow::Cow;
 use std::collections::HashMap;
 
 use glam::{DVec2, DVec3, Vec4};
 
+use super::relative::inside;
+use super::text::{first_word, lines, number, quoted, words};
 use super::{Fault, Mesh, MeshFormat, MeshTriangle, check, polygon};
 
 /// The format.
@@ -73,9 +74,7 @@ impl Reader {
             b"vn" => self.mesh.normals.push(DVec3::from_array(numbers(rest, 3, "normal")?)),
             b"f" => self.face(rest)?,
             b"usemtl" => self.use_material(&String::from_utf8_lossy(rest))?,
-            b"mtllib" if !rest.is_empty() => {
-                self.mesh.libraries.push(String::from_utf8_lossy(rest).into_owned());
-            }
+            b"mtllib" if !rest.is_empty() => self.mesh.libraries.extend(libraries(rest)?),
             _ => {}
         }
         Ok(())
@@ -158,6 +157,16 @@ impl Face {
     }
 }
 
+/// Returns the files that a statement names: one whose name may have spaces, or several of which each has its ending.
+fn libraries(rest: &[u8]) -> Result<Vec<String>, String> {
+    let line = String::from_utf8_lossy(rest).replace('\\', "/");
+    let words: Vec<&str> = line.split_ascii_whitespace().collect();
+    let is_list = words.iter().all(|word| word.to_ascii_lowercase().ends_with(".mtl"));
+    let names = if is_list { words } else { vec![line.as_str()] };
+    let refused = |name: &str, why: &str| format!("mtllib {} {why}", quoted(name.as_bytes()));
+    names.into_iter().map(|name| inside(name).map_err(|why| refused(name, why))).collect()
+}
+
 /// Returns three elements of a list, or nothing if it lacks one.
 fn pick(list: &[u32], [a, b, c]: [usize; 3]) -> Option<[u32; 3]> {
     Some([*list.get(a)?, *list.get(b)?, *list.get(c)?])
@@ -190,55 +199,6 @@ fn numbers<const N: usize>(rest: &[u8], least: usize, what: &str) -> Result<[f64
         return Err(format!("{what} has {count} numbers; it needs {least}"));
     }
     Ok(found)
-}
-
-/// Reads a finite number.
-pub(super) fn number(word: &[u8]) -> Result<f64, String> {
-    let parsed = std::str::from_utf8(word).ok().and_then(|word| word.parse::<f64>().ok());
-    parsed.filter(|number| number.is_finite()).ok_or_else(|| format!("{} is no number", quoted(word)))
-}
-
-/// Quotes a word for a message, shortened if it is long.
-pub(super) fn quoted(word: &[u8]) -> String {
-    format!("{:?}", String::from_utf8_lossy(word.get(..40).unwrap_or(word)))
-}
-
-/// Returns the words of a line up to a comment.
-pub(super) fn words(line: &[u8]) -> impl Iterator<Item = &[u8]> {
-    let all = line.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
-    all.take_while(|word| !word.starts_with(b"#"))
-}
-
-/// Returns the first word of a line, and the rest, trimmed.
-pub(super) fn first_word(line: &[u8]) -> (&[u8], &[u8]) {
-    let line = line.trim_ascii();
-    let end = line.iter().position(u8::is_ascii_whitespace).unwrap_or(line.len());
-    let (word, rest) = line.split_at_checked(end).unwrap_or((line, &[]));
-    (word, rest.trim_ascii_start())
-}
-
-/// Returns the lines of a text with their numbers, those that a backslash continues joined by a space, or a fault if
-/// it is no text of single bytes.
-pub(super) fn lines(bytes: &[u8]) -> Result<impl Iterator<Item = (usize, Cow<'_, [u8]>)>, Fault> {
-    let marked = bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff");
-    // Without a mark, every other byte of Latin text is zero.
-    if marked || bytes.iter().take(2).any(|byte| *byte == 0) {
-        return Err(Fault::new("", "it is binary or UTF-16 text; save it as UTF-8"));
-    }
-    let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-    let mut numbered = (1..).zip(text.split(|byte| *byte == b'\n').map(<[u8]>::trim_ascii));
-    Ok(std::iter::from_fn(move || {
-        let (number, first) = numbered.next()?;
-        let mut line = Cow::Borrowed(first);
-        // A comment may end with a path; it must not swallow the statement below it.
-        while line.ends_with(b"\\") && !line.starts_with(b"#") {
-            let whole = line.to_mut();
-            whole.pop();
-            whole.push(b' ');
-            whole.extend_from_slice(numbered.next().map(|(_, next)| next).unwrap_or_default());
-        }
-        Some((number, line))
-    }))
 }
 
 #[cfg(test)]
@@ -285,6 +245,14 @@ mod tests {
     }
 
     #[test]
+    fn carriage_returns_alone_end_lines_and_libraries_are_several() {
+        let text = "mtllib a.mtl sub\\b.MTL\nmtllib my file.mtl\nf 1 2 3\n";
+        let mesh = square(text).unwrap();
+        assert_eq!(mesh.libraries, ["a.mtl", "sub/b.MTL", "my file.mtl"]);
+        assert_eq!(read(format!("{SQUARE}{text}").replace('\n', "\r").as_bytes(), 4).unwrap(), mesh);
+    }
+
+    #[test]
     fn faults_name_the_line() {
         let many = format!("f{}", " 1".repeat(polygon::MOST_CORNERS + 1));
         for (text, fault) in [
@@ -301,6 +269,11 @@ mod tests {
             ("v 1 abc 2", "line 7: \"abc\" is no number"),
             ("vn 1 1e999 2", "line 7: \"1e999\" is no number"),
             (&many, "line 7: face has more than 10000 corners"),
+            (
+                "mtllib ../../../etc/passwd",
+                "line 7: mtllib \"../../../etc/passwd\" leaves the folder of the file",
+            ),
+            ("mtllib /m.mtl", "line 7: mtllib \"/m.mtl\" is an absolute path; it has to be relative"),
             ("f 1 2", "it has no faces; at least one of three corners is needed"),
         ] {
             assert_eq!(square(text).unwrap_err().to_string(), fault);

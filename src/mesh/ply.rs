@@ -1,40 +1,66 @@
 //! Reads PLY files: text, and binary of either byte order. Input: their bytes. Output: a mesh whose triangles use one
 //! index per corner for position, texture coordinate and normal. Elements and properties of no use here are skipped.
 
+mod colors;
+mod faces;
 mod fixed;
 mod header;
 mod records;
 
 use glam::{DVec2, DVec3, DVec4};
-use ply_rs_bw::ply::{ElementDef, PropertyType, ScalarType};
+use ply_rs_bw::ply::ElementDef;
 
-use super::{Fault, Mesh, MeshFormat, MeshTriangle, check, polygon};
-use crate::core::color::srgb_to_linear;
+use super::mtl::MtlMaterial;
+use super::{Fault, Mesh, MeshFormat, check};
+use colors::Encoding;
+use faces::Surfaces;
 use fixed::Fixed;
-use header::is_number;
-use records::{Body, Face, NUMBERS, Vertex};
+use header::{Parts, is_number};
+use records::{Body, NUMBERS, Vertex};
 
 /// The format PLY.
 pub(super) const FORMAT: MeshFormat = MeshFormat { name: "PLY", ending: "ply", read };
 
 /// Reads the vertices and faces of a file.
 fn read(bytes: &[u8], most: usize) -> Result<Mesh, Fault> {
-    let (header, rest) = header::read(bytes)?;
-    let (vertex, face) = header::elements(&header)?;
+    let Parts { header, textures, rest } = header::read(bytes)?;
+    header::check(&header)?;
     header::fits(&header, rest.len())?;
     let mut body = Body { rest, encoding: header.encoding };
     let mut mesh = Mesh::default();
-    for element in header.elements.values() {
-        if element.name == vertex.name {
+    let mut surfaces = Surfaces::new(textures.len(), most);
+    let holds = |element: &ElementDef| element.name == "vertex" || header::is_surface(element);
+    let last = header.elements.values().rposition(holds).unwrap_or(0);
+    for element in header.elements.values().take(last + 1) {
+        if element.name == "vertex" {
             vertices(&mut body, element, &mut mesh)?;
-        } else if element.name == face.name {
-            faces(&mut body, element, &mut mesh, most)?;
-            break;
+            surfaces.has_uvs = !mesh.uvs.is_empty();
+            surfaces.add_waiting(&mut mesh)?;
+        } else if header::is_surface(element) {
+            surfaces.read(&mut body, element, &mut mesh)?;
         } else {
             (0..element.count).try_for_each(|i| body.skip(element, i))?;
         }
     }
+    // Without a vertex, each of them is at fault.
+    surfaces.add_waiting(&mut mesh)?;
+    if mesh.triangles.is_empty() {
+        return Err(Fault::new("", "none of its faces has an area"));
+    }
+    textured(&mut mesh, textures);
     check::checked(mesh)
+}
+
+/// Makes the pictures that a file names those of its materials.
+fn textured(mesh: &mut Mesh, textures: Vec<String>) {
+    if !textures.is_empty() && mesh.uvs.is_empty() {
+        let first = &textures[0];
+        mesh.notes.push(format!("its texture {first:?} is left out: nothing has texture coordinates"));
+        mesh.set_material(None);
+        return;
+    }
+    mesh.definitions = textures.iter().map(|file| MtlMaterial::of_picture(file)).collect();
+    mesh.materials = textures;
 }
 
 /// Reads positions, and texture coordinates, normals and colours if the element has them.
@@ -80,80 +106,12 @@ fn vertices(body: &mut Body, element: &ElementDef, mesh: &mut Mesh) -> Result<()
     Ok(())
 }
 
-/// How a file writes a share of light: whole numbers are codes of sRGB up to the greatest of their type, others linear.
-#[derive(Clone, Copy)]
-struct Encoding {
-    most: f64,
-    is_srgb: bool,
-}
-
-impl Encoding {
-    fn of(element: &ElementDef, name: &str) -> Encoding {
-        let most = match element.properties.get(name).map(|property| &property.data_type) {
-            Some(PropertyType::Scalar(ScalarType::UChar)) => 255.0,
-            Some(PropertyType::Scalar(ScalarType::UShort)) => 65535.0,
-            _ => return Encoding { most: 1.0, is_srgb: false },
-        };
-        Encoding { most, is_srgb: true }
-    }
-
-    fn share(self, code: f64) -> f64 {
-        code / self.most
-    }
-
-    /// Returns the light of a code.
-    fn light(self, code: f64) -> f64 {
-        let share = self.share(code);
-        if self.is_srgb { srgb_to_linear(share) } else { share }
-    }
-}
-
-/// Reads faces and cuts them into at most `most` triangles.
-fn faces(body: &mut Body, element: &ElementDef, mesh: &mut Mesh, most: usize) -> Result<(), Fault> {
-    let count = mesh.positions.len();
-    let (has_uvs, has_normals) = (!mesh.uvs.is_empty(), !mesh.normals.is_empty());
-    let triangle = |positions: [u32; 3]| MeshTriangle {
-        positions,
-        uvs: has_uvs.then_some(positions),
-        normals: has_normals.then_some(positions),
-        material: None,
-    };
-    let missing = |wrong: f64| format!("it refers to vertex {wrong}; the file has {count}");
-    if let Some(fixed) =
-        Some(element.count).filter(|&count| count <= most).and_then(|_| Fixed::take(body, element))
-    {
-        let fault = |(i, wrong)| Fault::new(format!("face {i}"), missing(wrong));
-        mesh.triangles = fixed.triangles(count, triangle).map_err(fault)?;
-        return Ok(());
-    }
-    for i in 0..element.count {
-        let face: Face = body.record(element, i)?;
-        let fault = |what| Fault::new(format!("face {i}"), what);
-        if face.corners.len() > polygon::MOST_CORNERS {
-            return Err(fault(format!("it has more than {} corners", polygon::MOST_CORNERS)));
-        }
-        let exists = |n: f64| n >= 0.0 && n.fract() == 0.0 && n < count as f64;
-        if let Some(wrong) = face.corners.iter().find(|&&n| !exists(n)) {
-            return Err(fault(missing(*wrong)));
-        }
-        let corners: Vec<u32> = face.corners.iter().map(|&n| n as u32).collect();
-        for cut in polygon::triangles(&mesh.positions, &corners) {
-            let positions = cut.map(|corner| corners.get(corner).copied().unwrap_or_default());
-            mesh.triangles.push(triangle(positions));
-        }
-        check::count(mesh.triangles.len(), most)?;
-    }
-    if mesh.triangles.is_empty() {
-        return Err(Fault::new("", "none of its faces has an area"));
-    }
-    Ok(())
-}
-
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used)]
 
     use super::*;
+    use crate::mesh::MeshTriangle;
 
     const QUADS: [[u8; 4]; 6] =
         [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
@@ -224,6 +182,56 @@ mod tests {
     }
 
     #[test]
+    fn faces_may_come_first_and_strips_take_their_place() {
+        let square = "-1 1 0\n-1 -1 0\n1 -1 0\n1 1 0\n";
+        let vertices = "element vertex 4\nproperty float x\nproperty float y\nproperty float z\n";
+        let list = "property list uchar int vertex_indices\n";
+        let after =
+            ascii(&format!("{vertices}element face 1\n{list}end_header\n{square}4 0 1 2 3\n")).unwrap();
+        let before =
+            ascii(&format!("element face 1\n{list}{vertices}end_header\n4 0 1 2 3\n{square}")).unwrap();
+        assert_eq!(before, after);
+        let strips = format!("{vertices}element tristrips 1\n{list}end_header\n{square}");
+        let strip = |numbers: &str| ascii(&format!("{strips}{numbers}\n"));
+        let of = |mesh: Mesh| mesh.triangles.iter().map(|t| t.positions).collect::<Vec<_>>();
+        assert_eq!(of(strip("4 0 1 3 2").unwrap()), [[0, 1, 3], [3, 1, 2]]);
+        assert_eq!(of(strip("7 0 1 3 -1 1 2 3").unwrap()), [[0, 1, 3], [1, 2, 3]]);
+        assert!(strip("3 0 1 9").unwrap_err().contains("tristrips 0: it refers to vertex 9"));
+    }
+
+    #[test]
+    fn colours_have_another_name_and_corners_coordinates_of_their_own() {
+        let vertices = "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n";
+        let colors =
+            "property uchar diffuse_red\nproperty uchar diffuse_green\nproperty uchar diffuse_blue\n";
+        let list = "element face 1\nproperty list uchar int vertex_indices\n";
+        let positions = ["0 0 0", "1 0 0", "0 1 0"];
+        let colored = positions.map(|p| format!("{p} 255 0 255\n")).concat();
+        let mesh = ascii(&format!("{vertices}{colors}{list}end_header\n{colored}3 0 1 2\n")).unwrap();
+        assert_eq!(mesh.colors, [glam::Vec4::new(1.0, 0.0, 1.0, 1.0); 3]);
+        let plain = positions.map(|p| format!("{p}\n")).concat();
+        let of = |uvs: &str| {
+            let uv = "property list uchar float texcoord\n";
+            ascii(&format!("{vertices}{list}{uv}end_header\n{plain}3 0 1 2 {uvs}\n"))
+        };
+        let mesh = of("6 0 0 .5 0 0 1").unwrap();
+        assert_eq!((mesh.uvs[1], mesh.triangles[0].uvs), (DVec2::new(0.5, 0.0), Some([0, 1, 2])));
+        assert_eq!(of("0").unwrap().triangles[0].uvs, None);
+        assert!(of("4 0 0 1 1").unwrap_err().contains("4 numbers; 6 are needed"));
+    }
+
+    #[test]
+    fn words_and_versions_that_are_none_are_named() {
+        let text = format!("{TRIANGLE}0 0 0\n1 0 0\n0 1 0\n3 a b c\n");
+        assert_refused(&text, "face 0: \"a\" is no number");
+        assert_refused(&text.replace("3 a b c", "3 a 1 2"), "face 0: \"a\" is no number");
+        assert_refused(&text.replace("3 a b c", "3 0 1 x"), "truncated");
+        assert_refused(&text.replace("1 0 0", "1 y 0"), "vertex 1: \"y\" is no number");
+        let other = read(b"ply\nformat ascii 2.0\nend_header\n", 1).unwrap_err();
+        assert_eq!(other.what, "its version is \"2.0\"; 1.0 is read");
+    }
+
+    #[test]
     fn never_reads_part_of_a_file() {
         let whole = binary_cube("binary_little_endian", f32::to_le_bytes, i32::to_le_bytes);
         for length in 3..whole.len() {
@@ -275,7 +283,7 @@ mod tests {
         assert_refused(&format!("{points}3 0 1 -1\n"), "face 0: it refers to vertex -1");
         assert_refused(&format!("{points}3 0 1 2.5\n"), "face 0: it refers to vertex 2.5");
         assert_refused(&format!("{points}4000000000 0 1 2\n"), "face 0: the file ends within it");
-        assert_refused(&format!("{points}3 0 x 2\n\n"), "face 0: its line does not hold the numbers");
+        assert_refused(&format!("{points}3 0 x 2\n\n"), "face 0: \"x\" is no number");
         assert_refused(&format!("{points}2 0 1\n"), "none of its faces");
         assert_refused(&format!("{points}10001{}\n", " 0".repeat(10_001)), "face 0: it has more than 10000");
         assert_refused(&format!("{TRIANGLE}0 0 nan\n1 0 0\n0 1 0\n3 0 1 2"), "position 0: a number is not");
@@ -285,7 +293,7 @@ mod tests {
     fn refuses_faulty_headers() {
         assert!(read(b"solid", 1).unwrap_err().what.contains("begin with \"ply\""));
         let points = TRIANGLE.replace("face", "edge");
-        assert_refused(&points, "it has points but no faces, as a point cloud");
+        assert_refused(&points, "it has points but no faces and no tristrips, as a point cloud");
         assert_refused(&TRIANGLE.replace("float x", "float w"), "element \"vertex\" has no property \"x\"");
         assert_refused(&TRIANGLE.replace("float y", "float x"), "alike");
         assert_refused(&TRIANGLE.replace("float y", "real y"), "line 5: \"property real y\" is not allowed");

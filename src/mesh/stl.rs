@@ -11,12 +11,16 @@ pub(super) const FORMAT: MeshFormat = MeshFormat { name: "STL", ending: "stl", r
 
 /// Bytes before the first triangle: a comment, and the number of triangles.
 const HEADER: usize = 84;
+/// Bytes in which a binary file has a zero.
+const AT_BEGINNING: usize = 512;
 /// Bytes of a triangle: normal, three corners, two bytes of attributes.
 const RECORD: usize = 50;
 
 fn read(bytes: &[u8], most: usize) -> Result<Mesh, Fault> {
     // Programs begin binary files with `solid` too, so that the length decides first.
-    let is_text = bytes.trim_ascii_start().starts_with(b"solid");
+    let begins = bytes.trim_ascii_start().get(..5).is_some_and(|word| word.eq_ignore_ascii_case(b"solid"));
+    // A number of triangles, or a coordinate, has a zero byte; a text has none.
+    let is_text = begins && !bytes.iter().take(AT_BEGINNING).any(|byte| *byte == 0);
     match announced(bytes) {
         Some(count) if bytes.len() as u64 == length_of(count) || !is_text => binary(bytes, count, most),
         None if !is_text => {
@@ -46,7 +50,13 @@ fn binary(bytes: &[u8], count: u32, most: usize) -> Result<Mesh, Fault> {
     let number = |bytes: &[u8]| f64::from(f32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]]));
     let corner = |bytes: &[u8]| DVec3::new(number(bytes), number(&bytes[4..]), number(&bytes[8..]));
     let corners = records.flat_map(|record| [12, 24, 36].map(|first| corner(&record[first..first + 12])));
-    check::checked(of_corners(corners.collect()))
+    let mut mesh = of_corners(corners.collect());
+    let further = bytes.len() as u64 - needed;
+    if further > 0 {
+        mesh.notes
+            .push(format!("its last {further} bytes are ignored: they are behind the {count} triangles"));
+    }
+    check::checked(mesh)
 }
 
 /// Returns the mesh of triangles that share no corner.
@@ -67,7 +77,7 @@ fn text(bytes: &[u8], most: usize) -> Result<Mesh, Fault> {
         let place = || format!("line {line}");
         let shown = String::from_utf8_lossy(bytes);
         let mut words = shown.split_ascii_whitespace();
-        match words.next() {
+        match words.next().map(str::to_ascii_lowercase).as_deref() {
             Some("vertex") => positions.push(corner(&mut words).map_err(|what| Fault::new(place(), what))?),
             Some("facet") => first = positions.len(),
             Some("endfacet") if positions.len() - first != 3 => {
@@ -142,5 +152,17 @@ mod tests {
         assert!(fault(TEXT.replace("vertex 1 0 0", "").as_bytes()).starts_with("line 8: a facet has 3"));
         assert!(fault(b"solid\nendsolid").contains("no facets"));
         assert!(fault(b"hello").contains("no STL file"));
+    }
+
+    #[test]
+    fn capitals_and_bytes_behind_the_triangles_are_read() {
+        let small = read(TEXT.as_bytes(), 1).unwrap();
+        assert_eq!(read(TEXT.to_uppercase().as_bytes(), 1).unwrap(), small);
+        let corners = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+        let mut longer = bytes(b"solid made by a program", &corners);
+        longer.extend(b"extra");
+        let mesh = read(&longer, 1).unwrap();
+        assert_eq!((mesh.positions, mesh.triangles), (small.positions, small.triangles));
+        assert_eq!(mesh.notes, ["its last 5 bytes are ignored: they are behind the 1 triangles"]);
     }
 }

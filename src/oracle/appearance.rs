@@ -8,13 +8,14 @@ use super::camera::Ray;
 use super::filter::sample_texture;
 use super::footprint::{Footprint, any_tangent, mirrored_change};
 use super::geometry::hit::Surface;
+use super::geometry::mesh_tests::mesh_texel;
 use super::mapping::{Coordinate, MapInput, texture_coordinate};
 use super::shading_normal::consistent_normal;
 use crate::pack::{EntityKind, PackedScene};
 use crate::scene::model::BumpKind;
 use crate::schema::constants::{SECOND_UV_BUMP, SECOND_UV_COLOR};
 use crate::schema::enums::{AlphaMode, MaterialMap};
-use crate::schema::layout::{Material, NO_TEXTURE, UvProjection};
+use crate::schema::layout::{MapUv, Material, NO_TEXTURE, UvProjection};
 
 /// What a material looks like at a hit.
 #[derive(Clone, Copy, Debug)]
@@ -68,13 +69,39 @@ pub fn map_input(map: &UvProjection, ray: &Ray, surface: &Surface, print: &Footp
     seen
 }
 
-/// Returns the surface with the texture coordinates of one of the material's maps in place of its own.
-pub fn at_uv_of(material: &Material, map_bit: u32, surface: &Surface) -> Surface {
-    if material.second_uv_maps & map_bit == 0 {
-        return *surface;
+/// Returns the surface with coordinates that a map has for itself.
+fn at_own_uv(scene: &PackedScene, own: &MapUv, surface: &Surface) -> Surface {
+    let seen = &surface.attributes;
+    let at = seen.uv_texel + 2 * own.set;
+    let [first, second] =
+        [at, at + 1].map(|at| mesh_texel(scene, at).map(|word| f64::from(f32::from_bits(word))));
+    let u = DVec3::new(first[0], first[1], first[2]);
+    let v = DVec3::new(first[3], second[0], second[1]);
+    let uv = DVec2::new(seen.weights.dot(u), seen.weights.dot(v));
+    let [wa, wb, wc] = seen.weight_gradients;
+    let [along_u, along_v] = [u, v].map(|value| wa * value.x + wb * value.y + wc * value.z);
+    Surface {
+        own_uv: DVec2::new(own.row_u.dot(uv), own.row_v.dot(uv)) + own.offset,
+        own_gradients: [own.row_u, own.row_v].map(|row| row.x * along_u + row.y * along_v),
+        ..*surface
     }
+}
+
+/// Returns the surface with the texture coordinates of one of the material's maps in place of its own.
+pub fn at_uv_of(scene: &PackedScene, material: &Material, map_bit: u32, surface: &Surface) -> Surface {
     let attributes = &surface.attributes;
-    Surface { own_uv: attributes.second_uv, own_gradients: attributes.second_gradients, ..*surface }
+    if material.second_uv_maps & map_bit != 0 {
+        return Surface {
+            own_uv: attributes.second_uv,
+            own_gradients: attributes.second_gradients,
+            ..*surface
+        };
+    }
+    if material.own_uv_maps & map_bit != 0 && attributes.uv_texel != 0 {
+        let place = material.first_map_uv + (material.own_uv_maps & (map_bit - 1)).count_ones();
+        return at_own_uv(scene, &scene.records.map_uvs[place as usize], surface);
+    }
+    *surface
 }
 
 /// Returns the gradients of u and v along the surface, from their changes along two tangents.
@@ -111,7 +138,7 @@ pub fn bumped_normal(
     if texture == NO_TEXTURE {
         return surface.normal;
     }
-    let surface = &at_uv_of(material, SECOND_UV_BUMP, surface);
+    let surface = &at_uv_of(scene, material, SECOND_UV_BUMP, surface);
     let side = if surface.inside { -1.0 } else { 1.0 };
     let n = side * surface.normal;
     let strength = f64::from(material.bump_strength);
@@ -196,7 +223,7 @@ fn read(
 ) -> Option<DVec4> {
     let (ray, surface, print) = at;
     let map = map.filter(|_| texture.texture_index != NO_TEXTURE)?;
-    let shown = at_uv_of(material, texture.second_uv, surface);
+    let shown = at_uv_of(scene, material, texture.second_uv, surface);
     let c = texture_coordinate(map, &map_input(map, ray, &shown, print));
     let records = &scene.records;
     let image = &records.textures[texture.texture_index as usize];

@@ -190,7 +190,7 @@ impl<'a> FirstHit<'a> {
     pub fn look_up(&self, slot: Slot, scene: &'a PackedScene, ray: &Ray) -> Option<LookUp<'a>> {
         let [texture, sampler, second_uv] = slot.of(self.material);
         let map = self.map.filter(|_| texture != NO_TEXTURE)?;
-        let shown = at_uv_of(self.material, second_uv, &self.surface);
+        let shown = at_uv_of(scene, self.material, second_uv, &self.surface);
         let mapped = texture_coordinate(map, &map_input(map, ray, &shown, &self.print));
         look_up(scene, [texture, sampler], &mapped)
     }

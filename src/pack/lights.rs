@@ -9,6 +9,10 @@ use crate::schema::layout;
 /// Largest cosine between edges that count as perpendicular: the rounding error of f32.
 const RIGHT_ANGLE: f64 = 1e-6;
 
+/// Cosines between the inner and the outer angle of a spot, at least: the light of equal angles ends within 0.003° from 15°
+/// on, and single precision resolves that.
+const LEAST_FADE: f64 = 1e-5;
+
 pub fn light(light: &Light, eye: DVec3) -> layout::Light {
     let at = |kind: LightKind, position: DVec3, power: DVec3| layout::Light {
         position: position - eye,
@@ -43,7 +47,7 @@ pub fn light(light: &Light, eye: DVec3) -> layout::Light {
         Light::Spot { position, direction, intensity, inner, outer, range } => {
             // As KHR_lights_punctual has it.
             let [inner, outer] = [inner, outer].map(|angle| angle.to_radians().cos());
-            let slope = 1.0 / (inner - outer).max(1e-3);
+            let slope = 1.0 / (inner - outer).max(LEAST_FADE);
             let whole = outer <= -1.0;
             layout::Light {
                 direction: direction.normalize(),

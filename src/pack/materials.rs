@@ -1,7 +1,7 @@
 //! Packs materials into device records, with the image descriptors of their textures.
 
 use super::{PackedScene, textures};
-use crate::scene::model::{BumpKind, Material, Sides, TextureUse};
+use crate::scene::model::{BumpKind, Material, OwnUv, Sides, TextureUse};
 use crate::schema::constants::{SECOND_UV_BUMP, SECOND_UV_COLOR};
 use crate::schema::enums::MaterialMap;
 use crate::schema::layout;
@@ -32,6 +32,17 @@ pub(super) fn material(packed: &mut PackedScene, source: &Material) -> layout::M
     let second =
         |map: Option<TextureUse>, bit: u32| if map.is_some_and(|map| map.second_uv) { bit } else { 0 };
     let of = |map: MaterialMap| 1 << map as u32;
+    let own = [
+        (of(MaterialMap::Roughness), maps.roughness),
+        (of(MaterialMap::Emission), maps.emission),
+        (of(MaterialMap::Occlusion), maps.occlusion),
+        (of(MaterialMap::SpecularWeight), maps.specular_weight),
+        (of(MaterialMap::SpecularTint), maps.specular_tint),
+        (SECOND_UV_COLOR, maps.color),
+        (SECOND_UV_BUMP, maps.bump),
+    ];
+    let first_map_uv = packed.records.map_uvs.len() as u32;
+    let own_uv_maps = own_uvs(packed, own);
     layout::Material {
         color: source.color.as_vec3(),
         bump_strength: bump.map_or(0.0, |r| r.strength) as f32,
@@ -64,6 +75,8 @@ pub(super) fn material(packed: &mut PackedScene, source: &Material) -> layout::M
             | second(maps.occlusion, of(MaterialMap::Occlusion))
             | second(maps.specular_weight, of(MaterialMap::SpecularWeight))
             | second(maps.specular_tint, of(MaterialMap::SpecularTint)),
+        own_uv_maps,
+        first_map_uv,
         alpha_mode: source.alpha,
         alpha_cutoff: source.alpha_cutoff as f32,
         opacity: source.opacity as f32,
@@ -79,4 +92,21 @@ pub(super) fn material(packed: &mut PackedScene, source: &Material) -> layout::M
         specular_tint_sampler_index: specular_tint.sampler,
         specular_tint_image_slot: specular_tint.slot,
     }
+}
+
+/// Adds the coordinates that maps have for themselves, in the order of their bits; returns the bits of these maps.
+fn own_uvs<const N: usize>(packed: &mut PackedScene, mut maps: [(u32, Option<TextureUse>); N]) -> u32 {
+    maps.sort_unstable_by_key(|(bit, _)| *bit);
+    let mut bits = 0;
+    for (bit, map) in maps {
+        let Some(OwnUv { set, transform }) = map.and_then(|map| map.own_uv) else { continue };
+        bits |= bit;
+        packed.records.map_uvs.push(layout::MapUv {
+            row_u: transform.matrix2.row(0),
+            row_v: transform.matrix2.row(1),
+            offset: transform.translation,
+            set: set as u32,
+        });
+    }
+    bits
 }

@@ -9,7 +9,11 @@ use crate::texture::sampler_spec::SamplerSpec;
 
 /// Returns how the levels of a texture that is read at levels are made.
 pub(super) fn kernel(scene: &Scene, index: usize, texture: &TextureData) -> Result<MipKernel> {
-    let own = scene.textures.get(index).map_or(MipKernel::Box, |t| t.mip_kernel);
+    let own = match scene.textures.get(index).map_or(MipKernel::Box, |t| t.mip_kernel) {
+        MipKernel::Auto if texture.stored_levels.is_empty() => MipKernel::Box,
+        MipKernel::Auto => MipKernel::Stored,
+        stated => stated,
+    };
     let named = scene.textures.get(index).map_or(texture.name.as_str(), |t| t.name.as_str());
     let mut asking =
         readers(scene, index).filter(|s| s.reads_levels()).map(|s: &SamplerSpec| s.stored_levels);

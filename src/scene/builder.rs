@@ -120,6 +120,11 @@ impl SceneBuilder {
         Ok(added.is_empty)
     }
 
+    /// Returns true if it has a shape.
+    pub(super) fn has_shapes(&self) -> bool {
+        self.scene.shapes.iter().next().is_some()
+    }
+
     /// Names a further file that the scene was read from.
     pub(super) fn source(&mut self, path: PathBuf) {
         self.scene.sources.push(path);

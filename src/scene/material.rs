@@ -1,7 +1,7 @@
 //! The material of a surface as data: its model, colour and maps, what it emits, and what its alpha means. Part of the
 //! model.
 
-use glam::DVec3;
+use glam::{DAffine2, DVec3};
 
 use super::bsdf::Model;
 use super::mapping::Mapping;
@@ -39,10 +39,21 @@ pub struct BumpMap {
     pub sampler: Option<usize>,
     /// Read at the second texture coordinates of a mesh.
     pub second_uv: bool,
+    /// Read at coordinates that no other texture has, in place of either.
+    pub own_uv: Option<OwnUv>,
+}
+
+/// Coordinates of a mesh at which one texture of a material is read.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OwnUv {
+    /// Which set of the mesh: 0 is the second.
+    pub set: usize,
+    /// Applied to these coordinates, v downwards.
+    pub transform: DAffine2,
 }
 
 /// A texture as a material reads it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TextureUse {
     /// Index into `Scene::textures`.
     pub texture: usize,
@@ -50,6 +61,8 @@ pub struct TextureUse {
     pub sampler: usize,
     /// Read at the second texture coordinates of a mesh.
     pub second_uv: bool,
+    /// Read at coordinates that no other texture has, in place of either.
+    pub own_uv: Option<OwnUv>,
 }
 
 /// The textures of a material.
@@ -178,10 +191,11 @@ impl Material {
 
     /// Returns its textures by what they are for, each with its sampler.
     pub fn maps(&self) -> Maps {
-        let color = |texture| TextureUse { texture, sampler: self.sampler, second_uv: self.second_uv };
+        let color =
+            |texture| TextureUse { texture, sampler: self.sampler, second_uv: self.second_uv, own_uv: None };
         let bump = |bump: BumpMap| {
             let sampler = bump.sampler.unwrap_or(self.sampler);
-            TextureUse { texture: bump.texture, sampler, second_uv: bump.second_uv }
+            TextureUse { texture: bump.texture, sampler, second_uv: bump.second_uv, own_uv: bump.own_uv }
         };
         Maps {
             color: self.texture.map(color),

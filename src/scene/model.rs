@@ -10,7 +10,7 @@ pub use super::camera::{Camera, Lens, Projection};
 pub use super::geometry::kinds::*;
 pub use super::geometry::{Bounds, Facets, Shape, Shapes};
 pub use super::mapping::{Entity, Mapping, MappingKind, Space};
-pub use super::material::{BumpMap, Green, Maps, Material, Sides, TextureUse};
+pub use super::material::{BumpMap, Green, Maps, Material, OwnUv, Sides, TextureUse};
 pub use super::pixel_filter::{PixelFilter, PixelFilterKind};
 pub use super::sampling::{Algorithm, Footprint, Pattern, Precision, Quantity, Sampling};
 use crate::core::named::named_enum;

@@ -277,5 +277,7 @@ enums! {
         Pieces = "pieces",
         /// Samples whose radiance is NaN or infinite.
         Radiance = "radiance",
+        /// Paths that ended in black behind `MAX_LAYERS` surfaces that let rays pass.
+        Layers = "layers",
     }
 }

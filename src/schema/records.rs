@@ -20,7 +20,6 @@ records! {
         /// Displacement between the times 0 and 1.
         eye_motion: DVec3,
         view_motion: DVec3,
-        /// Linear RGB.
         background: Vec3,
         projection: ProjectionKind,
         image_size: UVec2,
@@ -139,7 +138,7 @@ records! {
         corners: u32,
         /// Texel of the first triangle's attributes.
         attributes: u32,
-        /// Their number for each triangle: four, then two each of colours and second texture coordinates.
+        /// Their number for each triangle: four, then two each of colours and further texture coordinates.
         attribute_count: u32,
         has_colors: bool,
         has_second_uv: bool,
@@ -199,7 +198,6 @@ records! {
         bump_kind: BumpKind,
         /// Roughness of a mirror's or glass's microfacet distribution (GGX); 0 is smooth.
         alpha: f32,
-        /// Of model `metallic-roughness`.
         roughness: f32,
         metallic: f32,
         roughness_texture_index: u32,
@@ -217,6 +215,9 @@ records! {
         /// Maps that are read at the mesh's second texture coordinates: one bit for each `MaterialMap`, and above them
         /// those of the colour and of the bump map.
         second_uv_maps: u32,
+        /// The same bits for maps with coordinates of their own, whose records follow each other in the order of the bits.
+        own_uv_maps: u32,
+        first_map_uv: u32,
         alpha_mode: AlphaMode,
         alpha_cutoff: f32,
         /// Times the alpha of its texture.
@@ -256,6 +257,16 @@ records! {
         entity: EntityKind,
     }
 
+    /// Coordinates at which one map of a material is read: those of a set of the mesh, transformed.
+    MapUv in map_uvs as "coordinates of maps" {
+        /// uv' = (row_u · uv, row_v · uv) + offset.
+        row_u: DVec2,
+        row_v: DVec2,
+        offset: DVec2,
+        /// Which set, 0 for the second.
+        set: u32,
+    }
+
     Texture in textures as "choice among textures" {
         /// Width, height, depth.
         size: UVec3,
@@ -292,7 +303,6 @@ records! {
         aspect: f64,
         offset: f64,
         jitter: f64,
-        /// Linear RGB.
         background: Vec3,
         kind: ProceduralKind,
         figure: Vec3,
@@ -306,8 +316,7 @@ records! {
         dimensions: u32,
     }
 
-    /// Four numbers of the distribution of the environment's light: first the cumulative one of its rows, then that of
-    /// the cells of each row.
+    /// Four numbers of the distribution of the environment's light: cumulative, of its rows, then of the cells of each.
     EnvironmentPart in environment_parts as "environment as a light" {
         values: Vec4,
     }

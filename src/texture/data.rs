@@ -23,6 +23,8 @@ named_enum! {
         Kaiser = "kaiser",
         /// None: the levels are those that the file stores, as written.
         Stored = "stored",
+        /// `Stored` where the file stores levels, `Box` elsewhere.
+        Auto = "auto",
     }
 }
 

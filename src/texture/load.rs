@@ -7,7 +7,7 @@ use super::data::{Component, Dimension, TexelFormat, TextureData};
 use super::decode::{AllowedFloats, check_picture, in_texture, read_checked, read_embedded, texture_of};
 use super::read_file::{self, FileFacts, Picture, Texels};
 use super::source::{TextureContent, TextureSource};
-use super::{cube, nrrd, stack, tiles, volume};
+use super::{cube, cutout, nrrd, stack, tiles, volume};
 use crate::core::error::{Error, Result};
 use crate::core::panics;
 
@@ -75,6 +75,9 @@ fn read(source: &TextureSource, values: AllowedFloats) -> Result<Picture> {
         }
         TextureContent::Faces(files) => cube::join(files, reading, space, values),
         TextureContent::Slices(files) => stack::read(files, reading, space, values, "slice"),
+        TextureContent::Cutout { color, opacity } => {
+            cutout::read(color.as_ref(), opacity, reading, space, values)
+        }
         TextureContent::Tiles(set) => tiles::read(set, reading, space, values),
         TextureContent::Procedural(_) => Ok(ramp(&[[0.0; 4]]).into()),
         TextureContent::Texels(plain) => {

@@ -35,7 +35,7 @@ pub fn mip_chain(texture: &TextureData, kernel: MipKernel) -> Vec<TextureData> {
     let stored =
         Level { size: size(texture, 0), rows: Rows::Stored { texels: &texture.texels, codec: &codec } };
     match kernel {
-        MipKernel::Box => box_levels(texture, &codec, stored),
+        MipKernel::Box | MipKernel::Auto => box_levels(texture, &codec, stored),
         MipKernel::Kaiser => kaiser_levels(texture, &codec, stored),
         MipKernel::Stored => texture.stored_levels.clone(),
     }

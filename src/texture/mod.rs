@@ -10,6 +10,7 @@ mod analysis_steps;
 mod analysis_verdict;
 mod container;
 mod cube;
+mod cutout;
 pub mod data;
 #[allow(missing_docs)]
 pub mod decode;

@@ -6,7 +6,8 @@ use std::io::ErrorKind;
 use std::path::Path;
 
 use super::formats::supported;
-use super::read_file::unreadable;
+use super::read_file::{identify, no_picture, unreadable};
+use super::sniff::{self, Content, HEAD_BYTES};
 use crate::core::error::{Error, Result};
 
 pub(super) fn open(path: &Path) -> Result<File> {
@@ -25,6 +26,24 @@ pub(super) fn open(path: &Path) -> Result<File> {
         ));
     }
     File::open(path).map_err(|e| unreadable(path, &e))
+}
+
+/// Refuses a file that is none of the pictures that can be read, by its first bytes.
+pub(crate) fn check_file(path: &Path) -> Result<()> {
+    let mut source = open(path)?;
+    refuse_other(identify(&mut source).map_err(|e| unreadable(path, &e))?, path)
+}
+
+/// Refuses bytes that are none of the pictures that can be read, by the first of them; `name` is for messages.
+pub(crate) fn check_bytes(bytes: &[u8], name: &Path) -> Result<()> {
+    refuse_other(sniff::identify(bytes.get(..HEAD_BYTES).unwrap_or(bytes)), name)
+}
+
+fn refuse_other(content: Content, path: &Path) -> Result<()> {
+    match content {
+        Content::Picture(_) => Ok(()),
+        Content::Other(what) => Err(no_picture(path, &what)),
+    }
 }
 
 /// Returns a hint about a missing path: suspicious characters, the missing folder, or the closest

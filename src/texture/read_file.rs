@@ -180,7 +180,7 @@ fn read_whole(mut source: impl Read, length: usize, path: &Path) -> Result<Vec<u
     Ok(file)
 }
 
-fn identify(source: &mut (impl Read + Seek)) -> std::io::Result<Content> {
+pub(super) fn identify(source: &mut (impl Read + Seek)) -> std::io::Result<Content> {
     let mut head = Vec::with_capacity(sniff::HEAD_BYTES);
     source.by_ref().take(sniff::HEAD_BYTES as u64).read_to_end(&mut head)?;
     source.rewind()?;
@@ -206,7 +206,7 @@ pub fn is_turned(path: &Path) -> bool {
     }
 }
 
-fn no_picture(path: &Path, what: &str) -> Error {
+pub(super) fn no_picture(path: &Path, what: &str) -> Error {
     Error::with_help(
         format!("{}: not a picture that can be read: the content {what}", path.display()),
         format!("supported are {}, whatever the ending of the name", supported()),

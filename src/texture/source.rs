@@ -69,6 +69,13 @@ pub enum TextureContent {
     Faces([PathBuf; 6]),
     /// Pictures of equal size, the first at w = 0.
     Slices(Vec<PathBuf>),
+    /// A picture of colours, white without one, with the opacity of another.
+    Cutout {
+        /// The picture of the colours.
+        color: Option<PathBuf>,
+        /// The picture of the opacity.
+        opacity: PathBuf,
+    },
     /// One picture of the tiles of several files.
     Tiles(TileSet),
     /// A file of bare texels.
@@ -162,6 +169,9 @@ impl TextureContent {
             TextureContent::File(file) | TextureContent::CubeFile(file, _) => vec![file],
             TextureContent::Faces(files) => files.iter().map(PathBuf::as_path).collect(),
             TextureContent::Slices(files) => files.iter().map(PathBuf::as_path).collect(),
+            TextureContent::Cutout { color, opacity } => {
+                color.iter().chain([opacity]).map(PathBuf::as_path).collect()
+            }
             TextureContent::Tiles(set) => set.tiles.iter().map(|tile| tile.file.as_path()).collect(),
             TextureContent::Volume(volume) => vec![&volume.file],
         }
@@ -181,6 +191,7 @@ impl TextureContent {
             TextureContent::File(file) | TextureContent::CubeFile(file, _) => vec![file],
             TextureContent::Faces(files) => files.iter_mut().collect(),
             TextureContent::Slices(files) => files.iter_mut().collect(),
+            TextureContent::Cutout { color, opacity } => color.iter_mut().chain([opacity]).collect(),
             TextureContent::Tiles(set) => set.tiles.iter_mut().map(|tile| &mut tile.file).collect(),
             TextureContent::Volume(volume) => vec![&mut volume.file],
         }

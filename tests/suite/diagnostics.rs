@@ -133,3 +133,17 @@ fn cones_without_room_are_counted() {
     let pieces = found.iter().find(|(guard, _)| *guard == Diagnostic::Pieces).unwrap().1;
     assert!(pieces > 0, "{found:?}");
 }
+
+/// 64 surfaces let rays pass, and what is behind them is black.
+#[test]
+fn paths_through_more_layers_than_are_followed_are_counted() {
+    let layers = |count: usize| {
+        let glass = "[[material]]\nname = 'm'\nmodel = 'unlit'\nalpha = 'blend'\nopacity = 0.01\n";
+        let walls: String = (0..count)
+            .map(|i| WALL.replace("[0, 0, 0]", &format!("[0, 0, {:?}]", -0.01 * i as f64)))
+            .collect();
+        counts(scene(&format!("{SAMPLES}{glass}{walls}"), None))
+    };
+    only(&layers(63), Diagnostic::Layers, 0);
+    only(&layers(70), Diagnostic::Layers, 8 * 8 * 4);
+}

@@ -8,6 +8,7 @@
 
 mod answers;
 mod cameras;
+mod coordinates;
 #[path = "../../examples/make_gallery/gallery/mod.rs"]
 mod made;
 mod surfaces;

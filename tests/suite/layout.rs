@@ -83,6 +83,8 @@ fn records_are_written_as_the_rule_says() {
         occlusion_sampler_index: 30,
         occlusion_image_slot: 31,
         second_uv_maps: 32,
+        own_uv_maps: 42,
+        first_map_uv: 43,
         alpha_mode: AlphaMode::Blend,
         alpha_cutoff: 33.0,
         opacity: 34.0,
@@ -107,11 +109,11 @@ fn records_are_written_as_the_rule_says() {
         [20, 21, 22, 23],
         [24, f(25.0), f(26.0), f(27.0)],
         [f(28.0), 29, 30, 31],
-        [32, AlphaMode::Blend as u32, f(33.0), f(34.0)],
-        [1, f(11.0), f(12.0), f(13.0)],
-        [f(35.0), f(14.0), f(15.0), 36],
-        [37, 38, 39, 40],
-        [41, 0, 0, 0],
+        [32, 42, 43, AlphaMode::Blend as u32],
+        [f(33.0), f(34.0), 1, 0],
+        [f(11.0), f(12.0), f(13.0), f(35.0)],
+        [f(14.0), f(15.0), 36, 37],
+        [38, 39, 40, 41],
     ];
     assert_eq!(Material::UNITS, (0, 12));
     // Without reals, whatever their precision.

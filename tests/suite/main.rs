@@ -73,6 +73,7 @@ mod scene;
 mod slopes;
 mod sources;
 mod specialise;
+mod spots;
 mod stability;
 mod stage;
 mod stochastic;

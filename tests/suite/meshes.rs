@@ -4,8 +4,10 @@
 mod gltf;
 mod gltf_materials;
 mod instances;
+mod libraries;
 mod lists;
 mod mutated;
+mod told;
 mod trees;
 
 use std::fs;
@@ -111,6 +113,8 @@ fn materials_of_a_library_become_materials_of_the_scene() {
         "mtllib a lib.mtl\n{QUAD}usemtl wood\nf 1/1 2/2 3/3\nusemtl shiny\nf 1/1 3/3 4/4\nf 4/4 3/3 1/1\n"
     );
     let folder = folder(&[("quad.obj", &mesh), ("a lib.mtl", library)]);
+    fs::create_dir(folder.path().join("sub")).unwrap();
+    fs::copy(absolute("textures/tiles.png"), folder.path().join("sub/wood grain.png")).unwrap();
     let scene = scene_in(folder.path(), "[[mesh]]\nfile = 'quad.obj'\n").unwrap();
     let names: Vec<&str> =
         scene.shapes.triangles.iter().map(|t| scene.materials[t.material].name.as_str()).collect();
@@ -158,6 +162,7 @@ fn glass_and_physically_based_materials_of_a_library() {
     let names = ["pane", "tinted", "opaque", "veil", "steel", "orm", "two"];
     let faces: String = names.iter().map(|name| format!("usemtl {name}\nf 1/1 2/2 3/3\n")).collect();
     let folder = folder(&[("quad.obj", &format!("mtllib lib.mtl\n{QUAD}{faces}")), ("lib.mtl", library)]);
+    fs::copy(absolute("textures/tiles.png"), folder.path().join("orm.png")).unwrap();
     let scene = scene_in(folder.path(), "[[mesh]]\nfile = 'quad.obj'\n").unwrap();
     let of = |name: &str| scene.materials.iter().find(|m| m.name == name).unwrap();
     let pane = of("pane");

@@ -40,9 +40,15 @@ struct VertexAttributes {
     vec3 second_u; // gradients along the surface
     vec3 second_v;
     vec4 tangent;  // with the sign of the bitangent, 0 for none
+    uint uv_texel; // of the second texture coordinates, for maps with coordinates of their own; 0 for none
+    vec3 weights;  // of the corners, and the gradients of each
+    vec3 weight_a;
+    vec3 weight_b;
+    vec3 weight_c;
 };
 
-const VertexAttributes NO_ATTRIBUTES = VertexAttributes(vec4(1.0), real2(0.0), vec3(0.0), vec3(0.0), vec4(0.0));
+const VertexAttributes NO_ATTRIBUTES = 
+    VertexAttributes(vec4(1.0), real2(0.0), vec3(0.0), vec3(0.0), vec4(0.0), 0u, vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
 
 struct Surface {
     real3 point;

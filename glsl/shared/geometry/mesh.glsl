@@ -89,6 +89,11 @@ VertexAttributes attributes_of(const Mesh mesh, const Triangle triangle, uint in
             found.second_v = (wa * v.x + wb * v.y) + wc * v.z;
         }
     }
+    if (MAP_UVS != 0u && mesh.has_second_uv) {
+        found.uv_texel = at;
+        found.weights = w;
+        if (FILTERED || BUMPED) weight_gradients(triangle, found.weight_a, found.weight_b, found.weight_c);
+    }
     return found;
 }
 
@@ -96,7 +101,7 @@ Surface surface_of(const Mesh mesh, real3 point, real2 local) {
     uint index = uint(local.x);
     Triangle triangle = triangle_in(mesh, index);
     Surface surface = surface_of(triangle, point, local);
-    if (VERTEX_COLORS || SECOND_UV || TANGENTS) surface.attributes = attributes_of(mesh, triangle, index, point);
+    if (VERTEX_COLORS || SECOND_UV || MAP_UVS != 0u || TANGENTS) surface.attributes = attributes_of(mesh, triangle, index, point);
     return surface;
 }
 

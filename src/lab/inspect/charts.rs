@@ -6,7 +6,7 @@ use std::collections::HashMap;
 
 use glam::DVec2;
 
-use crate::scene::model::{Mapping, MappingKind, Scene};
+use crate::scene::model::{Mapping, MappingKind, OwnUv, Scene, TextureUse};
 
 /// More triangles are not looked at.
 const MAX_TRIANGLES: usize = 1 << 20;
@@ -41,22 +41,58 @@ impl Charts {
 const EMPTY: u32 = u32::MAX;
 const SEVERAL: u32 = u32::MAX - 1;
 
-/// Returns the materials that read one of some textures by coordinates of their own, and true for the second ones.
-pub fn readers(scene: &Scene, textures: &[usize]) -> Vec<(usize, bool)> {
+/// The coordinates of triangles at which a texture is read.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Coordinates {
+    First,
+    Second,
+    /// Those that one map has for itself.
+    Own(OwnUv),
+}
+
+impl Coordinates {
+    fn of(used: &TextureUse) -> Coordinates {
+        match used.own_uv {
+            _ if used.second_uv => Coordinates::Second,
+            Some(own) => Coordinates::Own(own),
+            None => Coordinates::First,
+        }
+    }
+
+    /// Returns them, from what returns those of a set.
+    fn read(&self, of_set: &dyn Fn(Option<usize>) -> [DVec2; 3]) -> [DVec2; 3] {
+        match self {
+            Coordinates::First => of_set(None),
+            Coordinates::Second => of_set(Some(0)),
+            Coordinates::Own(own) => of_set(Some(own.set)).map(|uv| own.transform.transform_point2(uv)),
+        }
+    }
+}
+
+/// Returns the materials that read one of some textures by coordinates of triangles, and by which.
+pub fn readers(scene: &Scene, textures: &[usize]) -> Vec<(usize, Coordinates)> {
     let own = scene.materials.iter().enumerate().filter(|(_, own)| own.mapping.kind == MappingKind::Surface);
-    let mut readers: Vec<(usize, bool)> = own
+    let all = own
         .flat_map(|(number, own)| own.textures().map(move |used| (number, used)))
         .filter(|(_, used)| textures.contains(&used.texture))
-        .map(|(number, used)| (number, used.second_uv))
-        .collect();
-    readers.sort_unstable();
-    readers.dedup();
+        .map(|(number, used)| (number, Coordinates::of(&used)));
+    let mut readers = Vec::new();
+    for reader in all {
+        if !readers.contains(&reader) {
+            readers.push(reader);
+        }
+    }
     readers
 }
 
 /// Returns the charts of an image of this size and number of levels that these materials read; `None` if no triangles have
 /// coordinates within the image, or too many.
-pub fn charts(scene: &Scene, readers: &[(usize, bool)], size: [u32; 2], levels: u32) -> Option<Charts> {
+pub fn charts(
+    scene: &Scene,
+    readers: &[(usize, Coordinates)],
+    size: [u32; 2],
+    levels: u32,
+) -> Option<Charts> {
     let triangles = triangles(scene, readers)?;
     let inside = |uv: &DVec2| uv.min_element() >= -BESIDE && uv.max_element() <= 1.0 + BESIDE;
     if triangles.is_empty() || !triangles.iter().flatten().all(inside) {
@@ -78,15 +114,14 @@ pub fn charts(scene: &Scene, readers: &[(usize, bool)], size: [u32; 2], levels: 
 }
 
 /// Returns the texture coordinates at which triangles of these materials read.
-fn triangles(scene: &Scene, readers: &[(usize, bool)]) -> Option<Vec<[DVec2; 3]>> {
+fn triangles(scene: &Scene, readers: &[(usize, Coordinates)]) -> Option<Vec<[DVec2; 3]>> {
     if readers.is_empty() || scene.shapes.triangle_count() > MAX_TRIANGLES {
         return None;
     }
     let mut found = Vec::new();
-    scene.shapes.for_each_coordinates(|material, [first, second]| {
-        for &(_, is_second) in readers.iter().filter(|(own, _)| *own == material) {
-            let uvs = if is_second { second } else { first };
-            found.push(uvs.map(|uv| mapped(&scene.materials[material].mapping, uv)));
+    scene.shapes.for_each_coordinates(|material, of_set| {
+        for (_, at) in readers.iter().filter(|(own, _)| *own == material) {
+            found.push(at.read(of_set).map(|uv| mapped(&scene.materials[material].mapping, uv)));
         }
     });
     Some(found)

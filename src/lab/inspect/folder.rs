@@ -1,7 +1,6 @@
 //! The folder of `moire inspect`: every layer as a picture, all of them in one EXR file, and the page. Input: a scene and
 //! the backends that render it. Output: files, each complete or not at all.
 
-use std::collections::BTreeMap;
 use std::path::Path;
 
 use super::advice::{Advice, Facts, advice};
@@ -71,12 +70,15 @@ pub fn inspect(scene: &Scene, options: &Options, on: &[On], progress: &dyn Progr
 
 /// Returns the charts of each image. The maps of a material have the same ones if they are of one size.
 fn all_charts(scene: &Scene, survey: &Survey) -> Vec<Option<Charts>> {
-    let mut known = BTreeMap::new();
+    let mut known: Vec<(_, Option<Charts>)> = Vec::new();
     let of = |view: &View| {
-        let readers = readers(scene, &view.textures);
-        let key = (readers.clone(), view.size, view.levels);
-        let found = known.entry(key).or_insert_with(|| charts(scene, &readers, view.size, view.levels));
-        found.clone()
+        let key = (readers(scene, &view.textures), view.size, view.levels);
+        if let Some((_, found)) = known.iter().find(|(other, _)| *other == key) {
+            return found.clone();
+        }
+        let found = charts(scene, &key.0, view.size, view.levels);
+        known.push((key, found.clone()));
+        found
     };
     survey.views.iter().map(of).collect()
 }

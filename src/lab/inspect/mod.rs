@@ -15,6 +15,6 @@ mod scale;
 pub mod survey;
 pub mod uses;
 
-pub use charts::{Charts, charts, readers};
+pub use charts::{Charts, Coordinates, charts, readers};
 pub use density::Density;
 pub use folder::{Inspected, Inspection, PAGE, file_of, inspect, write};

@@ -72,6 +72,16 @@ impl Component {
     }
 }
 
+/// Returns the name of a type of so many numbers.
+pub(super) fn type_name(width: usize) -> &'static str {
+    match width {
+        1 => "SCALAR",
+        2 => "VEC2",
+        3 => "VEC3",
+        _ => "VEC4",
+    }
+}
+
 /// An open accessor.
 pub(super) struct Accessor<'a> {
     /// JSON pointer to it.
@@ -122,6 +132,11 @@ impl Accessor<'_> {
     /// Returns whether every element is zero.
     pub(super) fn is_zero(&self) -> bool {
         self.data.is_none() && self.sparse.is_none()
+    }
+
+    /// Returns the name of its type.
+    pub(super) fn kind(&self) -> &'static str {
+        type_name(self.width)
     }
 
     /// Returns the JSON pointer to it.
@@ -188,7 +203,7 @@ impl<'a> Accessors<'a> {
             "VEC2" => 2,
             "VEC3" => 3,
             "VEC4" => 4,
-            _ => return Err(json.fault_at("type", "SCALAR, VEC2, VEC3 and VEC4 are allowed here")),
+            _ => return Err(json.other_than("type", "SCALAR, VEC2, VEC3 and VEC4 are allowed here")),
         };
         let size = component.size() * width;
         let count = json.needed("count", json.whole("count")?)?;
@@ -242,7 +257,7 @@ impl<'a> Accessors<'a> {
         let places = json.needed("indices", json.object("indices")?)?;
         let component = component(places)?;
         if !matches!(component, Component::U8 | Component::U16 | Component::U32) {
-            return Err(places.fault_at("componentType", "5121, 5123 and 5125 are allowed here"));
+            return Err(places.other_than("componentType", "5121, 5123 and 5125 are allowed here"));
         }
         let data = self.data(places, count, component.size())?;
         let values = self.data(json.needed("values", json.object("values")?)?, count, size)?;

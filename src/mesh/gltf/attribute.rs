@@ -6,6 +6,9 @@ use std::rc::Rc;
 use super::accessor::{Accessor, Accessors, Component};
 use crate::mesh::Fault;
 
+/// Sets of texture coordinates that are read.
+pub(super) const MOST_SETS: usize = 8;
+
 /// What an accessor is used as.
 #[derive(Clone, Copy)]
 pub(super) struct Use {
@@ -49,7 +52,8 @@ impl Use {
         let accessor = accessors.open(index)?;
         if !self.widths.contains(&accessor.width) {
             let allowed: Vec<String> = self.widths.iter().map(|width| format!("VEC{width}")).collect();
-            return Err(accessor.fault("/type", format!("{} has to be {}", self.name, allowed.join(" or "))));
+            let (found, allowed) = (accessor.kind(), allowed.join(" or "));
+            return Err(accessor.fault("/type", format!("it is {found}; {} has to be {allowed}", self.name)));
         }
         if !self.integers.allow(&accessor) {
             let what = format!("{} has to be of {}", self.name, self.integers.allowed());

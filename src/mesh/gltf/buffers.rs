@@ -6,6 +6,7 @@ use std::collections::HashMap;
 
 use super::document::Document;
 use super::json::Json;
+use super::notes::Notes;
 use super::uri::Uri;
 use crate::mesh::Fault;
 
@@ -40,6 +41,7 @@ impl<'a> Buffers<'a> {
     pub(super) fn read(
         document: &Document,
         binary: Option<&'a [u8]>,
+        notes: &mut Notes,
         resolve: Resolve,
     ) -> Result<Buffers<'a>, Fault> {
         let mut all = Buffers { contents: Vec::new(), buffers: Vec::new(), views: Vec::new() };
@@ -51,7 +53,7 @@ impl<'a> Buffers<'a> {
             all.buffers.push(buffer);
         }
         for element in document.list("bufferViews")?.elements() {
-            let view = all.view(element?.json())?;
+            let view = all.view(element?.json(), notes)?;
             all.views.push(view);
         }
         Ok(all)
@@ -96,7 +98,7 @@ impl<'a> Buffers<'a> {
     }
 
     /// Reads a view, whose bytes have to be within its buffer.
-    fn view(&self, json: Json) -> Result<View, Fault> {
+    fn view(&self, json: Json, notes: &mut Notes) -> Result<View, Fault> {
         let buffer = json.needed("buffer", json.index("buffer", self.buffers.len(), "buffers")?)?;
         let available = self.buffers.get(buffer).map_or(0, |buffer| buffer.length);
         let start = json.whole("byteOffset")?.unwrap_or(0);
@@ -106,7 +108,12 @@ impl<'a> Buffers<'a> {
             return Err(json.fault_at("byteLength", what));
         }
         // Some programs write 0 for bytes that follow one another.
-        let stride = json.whole("byteStride")?.filter(|stride| *stride != 0);
+        let stride = json.whole("byteStride")?.filter(|stride| {
+            if *stride == 0 {
+                notes.add("a byteStride of 0 is taken as none; 4 to 252 are allowed", || json.pointer());
+            }
+            *stride != 0
+        });
         if let Some(stride) = stride.filter(|stride| !(4..=252).contains(stride)) {
             return Err(json.fault_at("byteStride", format!("it is {stride}; 4 to 252 are allowed")));
         }
@@ -131,6 +138,11 @@ impl<'a> Buffers<'a> {
             let bytes = content.get(view.start..view.start.checked_add(view.length)?)?;
             Some((bytes, view.stride))
         });
-        bytes.ok_or_else(|| json.fault_at(key, format!("the buffer of view {index} has no data")))
+        bytes.ok_or_else(|| {
+            let buffer = self.views.get(index).map_or(0, |view| view.buffer);
+            let what =
+                "it has no data: neither a uri, nor is it the first one of a .glb file with a binary chunk";
+            Fault::new(format!("/buffers/{buffer}"), format!("{what}; {} needs it", json.pointer()))
+        })
     }
 }

@@ -35,8 +35,8 @@ struct Meshes<'a> {
     materials: usize,
     /// Parts with triangles of each mesh that was read.
     parts: HashMap<usize, Vec<Part>>,
-    /// Different shapes, with the name of the first mesh that has them.
-    shapes: Vec<(Shape, String)>,
+    /// Different shapes, with the name of the first mesh that has them, and the JSON pointer to them there.
+    shapes: Vec<(Shape, [String; 2])>,
     /// Where a shape is among them.
     known: HashMap<Shape, usize>,
 }
@@ -81,8 +81,8 @@ pub(super) fn read(
     }
     let mut primitives = Vec::new();
     let mut places = Vec::with_capacity(meshes.shapes.len());
-    for (shape, name) in &meshes.shapes {
-        let primitive = shape.primitive(accessors, name, notes)?;
+    for (shape, [name, place]) in &meshes.shapes {
+        let primitive = shape.primitive(accessors, [name, place], notes)?;
         places.push(primitive.as_ref().map(|_| primitives.len()));
         primitives.extend(primitive);
     }
@@ -124,7 +124,7 @@ impl Meshes<'_> {
         let json = element.json();
         let name = json.name()?;
         let mut parts = Vec::new();
-        for primitive in json.list("primitives")? {
+        for (number, primitive) in json.list("primitives")?.into_iter().enumerate() {
             let material = primitive.index("material", self.materials, "materials")?;
             let Some(shape) = Shape::read(primitive, accessors.len(), notes)? else { continue };
             let triangles = shape.triangle_count(accessors)?;
@@ -136,7 +136,8 @@ impl Meshes<'_> {
                 Some(index) => *index,
                 None => {
                     self.known.insert(shape.clone(), self.shapes.len());
-                    self.shapes.push((shape, name.clone()));
+                    let place = format!("/meshes/{mesh}/primitives/{number}");
+                    self.shapes.push((shape, [name.clone(), place]));
                     self.shapes.len() - 1
                 }
             };

@@ -33,6 +33,12 @@ impl<'a> Json<'a> {
         Fault::new(format!("{}/{}", self.pointer(), escaped(key)), what)
     }
 
+    /// Returns the fault of a member that is none of what is allowed.
+    pub(super) fn other_than(self, key: &str, allowed: &str) -> Fault {
+        let found = self.get(key).map_or_else(|| "missing".to_owned(), |json| shown(json.value));
+        self.fault_at(key, format!("it is {found}; {allowed}"))
+    }
+
     /// Returns the JSON pointer to this value.
     pub(super) fn pointer(self) -> String {
         let mut pointer = self.place.to_owned();

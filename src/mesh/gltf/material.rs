@@ -3,6 +3,7 @@
 
 use glam::{DVec2, DVec3, DVec4};
 
+use super::attribute::MOST_SETS;
 use super::document::Document;
 use super::json::Json;
 use super::notes::Notes;
@@ -193,7 +194,7 @@ impl Reader<'_> {
             "OPAQUE" => Ok(AlphaMode::Opaque),
             "MASK" => Ok(AlphaMode::Mask(self.factor(json, "alphaCutoff", 0.5, f64::MAX)?)),
             "BLEND" => Ok(AlphaMode::Blend),
-            _ => Err(json.fault_at("alphaMode", "OPAQUE, MASK and BLEND are allowed")),
+            _ => Err(json.other_than("alphaMode", "OPAQUE, MASK and BLEND are allowed")),
         }
     }
 
@@ -241,9 +242,9 @@ impl Reader<'_> {
             });
         }
         let uv_set = uv_set.unwrap_or(0);
-        if uv_set > 1 {
+        if uv_set >= MOST_SETS {
             self.notes
-                .add("textures use coordinates beyond TEXCOORD_1, which are ignored", || json.pointer());
+                .add("textures use coordinates beyond TEXCOORD_7, which are ignored", || json.pointer());
         }
         Ok(Some(TextureRef { texture, uv_set, transform }))
     }

@@ -48,7 +48,7 @@ pub fn read(bytes: &[u8], most: usize, resolve: Resolve) -> Result<Model, Fault>
     if document.list("animations")?.len() > 0 {
         notes.add("animations are ignored", || "/animations".to_owned());
     }
-    let buffers = Buffers::read(&document, file.binary, resolve)?;
+    let buffers = Buffers::read(&document, file.binary, &mut notes, resolve)?;
     let images = images::images(&document, &buffers)?;
     let samplers = images::samplers(&document)?;
     let textures = images::textures(&document, images.len(), samplers.len())?;
@@ -64,7 +64,7 @@ pub fn read(bytes: &[u8], most: usize, resolve: Resolve) -> Result<Model, Fault>
         accessors: accessors.len(),
     };
     let forest = Forest::read(&document, &counts, &mut notes)?;
-    let scenes = forest.scenes(&document)?;
+    let scenes = forest.scenes(&document, &mut notes)?;
     let root = document.members(&["scene"])?;
     let default_scene = root.json().index("scene", scenes.len(), "scenes")?.unwrap_or(0);
     let drawn = instances::read(&document, &forest, &mut accessors, materials.len(), most, &mut notes)?;
@@ -83,6 +83,7 @@ pub fn read(bytes: &[u8], most: usize, resolve: Resolve) -> Result<Model, Fault>
         default_scene,
         primitives: drawn.primitives,
         instances: drawn.instances,
+        degenerate: notes.count(primitive::WITHOUT_AREA),
         materials,
         textures,
         samplers,

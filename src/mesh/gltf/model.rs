@@ -20,6 +20,8 @@ pub struct Model {
     pub primitives: Vec<Primitive>,
     /// Where primitives stand.
     pub instances: Vec<Instance>,
+    /// Triangles without an area, which no primitive has.
+    pub degenerate: usize,
     /// Materials in the order of the file.
     pub materials: Vec<Material>,
     /// Textures in the order of the file.
@@ -62,14 +64,16 @@ pub struct Node {
 pub struct Primitive {
     /// Name of the first mesh that has it, empty if that has none.
     pub name: String,
+    /// JSON pointer to it in that mesh.
+    pub place: String,
     /// Vertices.
     pub positions: Vec<DVec3>,
     /// Shading normals, of any length.
     pub normals: Vec<DVec3>,
     /// Tangents, with the sign of the bitangent; empty without normals.
     pub tangents: Vec<DVec4>,
-    /// Two sets of texture coordinates, v downwards.
-    pub uvs: [Vec<DVec2>; 2],
+    /// Sets of texture coordinates, v downwards: two at least, of which one may be empty.
+    pub uvs: Vec<Vec<DVec2>>,
     /// Linear colours with alpha.
     pub colors: Vec<DVec4>,
     /// Counter-clockwise as seen from the front, in the order of the file. Each has an area.

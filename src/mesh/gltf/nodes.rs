@@ -1,6 +1,8 @@
 //! The graph of nodes. Input: the file's lists of nodes and scenes. Output: nodes with their matrices to the world, and
 //! what each holds. A graph with circles, with a node below two others, or too deep is refused.
 
+use std::collections::HashSet;
+
 use glam::DAffine3;
 
 use super::document::Document;
@@ -114,7 +116,7 @@ impl Forest {
     }
 
     /// Reads all scenes; without any, returns one of all nodes.
-    pub(super) fn scenes(&self, document: &Document) -> Result<Vec<Scene>, Fault> {
+    pub(super) fn scenes(&self, document: &Document, notes: &mut Notes) -> Result<Vec<Scene>, Fault> {
         let root = |json: Json| {
             let index = json.as_index(self.nodes.len(), "nodes")?;
             match self.parents.get(index) {
@@ -128,7 +130,12 @@ impl Forest {
         for element in document.list("scenes")?.elements() {
             let element = element?;
             let json = element.json();
-            let roots = json.list("nodes")?.into_iter().map(root).collect::<Result<_, _>>()?;
+            let roots = json.list("nodes")?.into_iter().map(root).collect::<Result<Vec<_>, _>>()?;
+            let mut listed = HashSet::new();
+            let again = roots.iter().filter(|index| !listed.insert(**index)).count();
+            if again > 0 {
+                notes.add_many("a scene lists a node again; it is drawn once", again, || json.pointer());
+            }
             scenes.push(Scene { name: json.name()?, roots });
         }
         if scenes.is_empty() {

@@ -28,6 +28,11 @@ impl Notes {
         }
     }
 
+    /// Returns how often a remark came up.
+    pub(super) fn count(&self, what: &str) -> usize {
+        self.kinds.iter().find(|kind| kind.what == what).map_or(0, |kind| kind.count)
+    }
+
     /// Returns the sentences.
     pub(super) fn sentences(self) -> impl Iterator<Item = String> {
         self.kinds.into_iter().map(|Kind { what, count, place }| match count {

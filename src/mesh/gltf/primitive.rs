@@ -7,12 +7,15 @@ use std::rc::Rc;
 use glam::{DVec2, DVec3, DVec4};
 
 use super::accessor::{Accessor, Accessors, Component};
-use super::attribute::{Use, Vertices};
+use super::attribute::{MOST_SETS, Use, Vertices};
 use super::json::Json;
 use super::model::Primitive;
 use super::notes::Notes;
 use super::topology::{Mode, has_area};
 use crate::mesh::Fault;
+
+/// What is told of triangles without an area.
+pub(super) const WITHOUT_AREA: &str = "triangles without an area are left out";
 
 /// What makes a primitive: accessors and how they are used. Equal shapes share one primitive.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -22,7 +25,8 @@ pub(super) struct Shape {
     positions: usize,
     normals: Option<usize>,
     tangents: Option<usize>,
-    uvs: [Option<usize>; 2],
+    /// Two at least.
+    uvs: Vec<Option<usize>>,
     colors: Option<usize>,
 }
 
@@ -40,13 +44,16 @@ impl Shape {
             Some(other) => return Err(json.fault_at("mode", format!("it is {other}; 0 to 6 are allowed"))),
         };
         let attributes = json.needed("attributes", json.object("attributes")?)?;
-        let attribute = |key| attributes.index(key, accessors, "accessors");
+        let attribute = |key: &str| attributes.index(key, accessors, "accessors");
         let Some(positions) = attribute("POSITION")? else {
             notes.add("primitives without positions are not drawn", || json.pointer());
             return Ok(None);
         };
         note_ignored(json, attributes, notes);
         let normals = attribute("NORMAL")?;
+        let uvs = (0..MOST_SETS).map(|set| attribute(&format!("TEXCOORD_{set}")));
+        let mut uvs: Vec<Option<usize>> = uvs.collect::<Result<_, _>>()?;
+        uvs.truncate(uvs.iter().rposition(Option::is_some).map_or(2, |last| (last + 1).max(2)));
         Ok(Some(Shape {
             mode,
             indices: json.index("indices", accessors, "accessors")?,
@@ -54,7 +61,7 @@ impl Shape {
             normals,
             // Without normals, flat ones are used, to which the tangents do not belong.
             tangents: attribute("TANGENT")?.filter(|_| normals.is_some()),
-            uvs: [attribute("TEXCOORD_0")?, attribute("TEXCOORD_1")?],
+            uvs,
             colors: attribute("COLOR_0")?,
         }))
     }
@@ -69,17 +76,20 @@ impl Shape {
     pub(super) fn primitive(
         &self,
         accessors: &mut Accessors,
-        name: &str,
+        [name, place]: [&str; 2],
         notes: &mut Notes,
     ) -> Result<Option<Primitive>, Fault> {
         let count = accessors.open(self.positions)?.count;
         let positions = Use::POSITION.open(accessors, self.positions, count)?;
+        if count == 0 {
+            return Err(
+                positions.fault("/count", "it is 0; a primitive with indices needs positions, 1 at least")
+            );
+        }
         let normals = opened(Use::NORMAL, accessors, self.normals, count)?;
         let tangents = opened(Use::TANGENT, accessors, self.tangents, count)?;
-        let uvs = [
-            opened(Use::UV, accessors, self.uvs[0], count)?,
-            opened(Use::UV, accessors, self.uvs[1], count)?,
-        ];
+        let uvs = self.uvs.iter().map(|uvs| opened(Use::UV, accessors, *uvs, count));
+        let uvs: Vec<Option<Rc<Accessor>>> = uvs.collect::<Result<_, _>>()?;
         let colors = opened(Use::COLOR, accessors, self.colors, count)?;
         let indices = self.indices.map(|index| accessors.open(index)).transpose()?;
 
@@ -99,7 +109,7 @@ impl Shape {
         });
         if triangles.len() < all {
             let place = || positions.place().to_owned();
-            notes.add_many("triangles without an area are left out", all - triangles.len(), place);
+            notes.add_many(WITHOUT_AREA, all - triangles.len(), place);
         }
         if triangles.is_empty() {
             return Ok(None);
@@ -107,10 +117,11 @@ impl Shape {
         let uv = |accessor: &Option<Rc<Accessor>>| read(&vertices, accessor, DVec2::from_array);
         Ok(Some(Primitive {
             name: name.to_owned(),
+            place: place.to_owned(),
             positions: points,
             normals: read(&vertices, &normals, DVec3::from_array)?,
             tangents: read(&vertices, &tangents, DVec4::from_array)?,
-            uvs: [uv(&uvs[0])?, uv(&uvs[1])?],
+            uvs: uvs.iter().map(uv).collect::<Result<_, _>>()?,
             colors: match colors.as_ref().map(|colors| colors.width) {
                 Some(3) => read(&vertices, &colors, |[r, g, b]| DVec4::new(r, g, b, 1.0))?,
                 _ => read(&vertices, &colors, DVec4::from_array)?,
@@ -154,7 +165,7 @@ fn read<const N: usize, T>(
 /// Reads the corners that indices list.
 fn corners(indices: &Accessor, count: usize) -> Result<Vec<u32>, Fault> {
     if indices.width != 1 {
-        return Err(indices.fault("/type", "indices have to be SCALAR"));
+        return Err(indices.fault("/type", format!("it is {}; indices have to be SCALAR", indices.kind())));
     }
     let unsigned = matches!(indices.component, Component::U8 | Component::U16 | Component::U32);
     if !unsigned || indices.normalized {
@@ -203,8 +214,8 @@ fn note_ignored(json: Json, attributes: Json, notes: &mut Notes) {
     }
     for (name, value) in attributes.members() {
         let what = match name.split_once('_') {
-            Some(("TEXCOORD", set)) if !matches!(set, "0" | "1") => {
-                "texture coordinates beyond TEXCOORD_1 are ignored"
+            Some(("TEXCOORD", set)) if set.parse().is_ok_and(|set: usize| set >= MOST_SETS) => {
+                "texture coordinates beyond TEXCOORD_7 are ignored"
             }
             Some(("COLOR", set)) if set != "0" => "colours beyond COLOR_0 are ignored",
             Some(("JOINTS" | "WEIGHTS", _)) => "joints and weights are ignored",

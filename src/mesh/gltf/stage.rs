@@ -94,7 +94,7 @@ pub(super) fn lights(document: &Document) -> Result<Vec<Light>, Fault> {
 fn camera(json: Json) -> Result<Camera, Fault> {
     let kind = json.needed("type", json.text("type")?)?;
     if !matches!(kind, "perspective" | "orthographic") {
-        return Err(json.fault_at("type", "perspective and orthographic are allowed"));
+        return Err(json.other_than("type", "perspective and orthographic are allowed"));
     }
     let values = json.needed(kind, json.object(kind)?)?;
     let positive = |key| values.number_if(key, "greater than 0", |number| number > 0.0);
@@ -117,11 +117,11 @@ fn light(json: Json) -> Result<Light, Fault> {
         "directional" => LightKind::Directional,
         "point" => LightKind::Point,
         "spot" => spot(json)?,
-        _ => return Err(json.fault_at("type", "directional, point and spot are allowed")),
+        _ => return Err(json.other_than("type", "directional, point and spot are allowed")),
     };
     let color = json.numbers("color")?.unwrap_or([1.0; 3]);
     if color.iter().any(|value| *value < 0.0) {
-        return Err(json.fault_at("color", "numbers from 0 are allowed"));
+        return Err(json.other_than("color", "numbers from 0 are allowed"));
     }
     Ok(Light {
         name: json.name()?,

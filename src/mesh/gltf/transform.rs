@@ -30,7 +30,9 @@ pub(super) fn local(json: Json) -> Result<DAffine3, Fault> {
     }
     let matrix = DMat4::from_cols_array(&columns);
     if !matrix.row(3).abs_diff_eq(DVec4::W, 1e-6) {
-        return Err(json.fault_at("matrix", "its last row is not 0 0 0 1"));
+        return Err(
+            json.fault_at("matrix", format!("its last row is {}; [0, 0, 0, 1] is needed", matrix.row(3)))
+        );
     }
     Ok(DAffine3::from_mat4(matrix))
 }

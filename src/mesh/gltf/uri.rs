@@ -5,6 +5,8 @@ use base64::Engine;
 use base64::alphabet::STANDARD;
 use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
 
+use crate::mesh::relative::inside;
+
 /// Programs disagree on padding; without it nothing is ambiguous.
 const BASE64: GeneralPurpose = GeneralPurpose::new(
     &STANDARD,
@@ -47,7 +49,7 @@ fn data(rest: &str) -> Result<Uri, String> {
 
 /// Returns a relative path in normal form, or what is wrong with it.
 fn path(uri: &str) -> Result<String, String> {
-    let refused = |why: &str| {
+    let refused = |why: &str| -> Result<String, String> {
         let start: String = uri.chars().take(60).collect();
         Err(format!("{start:?} {why}"))
     };
@@ -60,22 +62,7 @@ fn path(uri: &str) -> Result<String, String> {
     if path.contains('\\') || path.contains(char::is_control) {
         return refused("has a backslash or a control character");
     }
-    if path.starts_with('/') {
-        return refused("is an absolute path; it has to be relative");
-    }
-    let mut folders = Vec::new();
-    for part in path.split('/') {
-        match part {
-            "" | "." => {}
-            ".." if folders.pop().is_none() => return refused("leaves the folder of the file"),
-            ".." => {}
-            name => folders.push(name),
-        }
-    }
-    if folders.is_empty() {
-        return refused("names no file");
-    }
-    Ok(folders.join("/"))
+    inside(&path).or_else(refused)
 }
 
 /// Replaces `%41` by the byte that it stands for. A percent sign without two digits stands for itself, as programs

@@ -7,12 +7,24 @@ use ply_rs_bw::ply::{ElementDef, Encoding, Header, PropertyType, ScalarType};
 use super::Fault;
 use super::records::{CORNERS, NUMBERS, Skipped, next_line};
 
-/// Reads the header and returns it with the bytes that follow.
-pub(super) fn read(bytes: &[u8]) -> Result<(Header, &[u8]), Fault> {
+/// The header of a file, the pictures that its remarks name, and the bytes that follow.
+pub(super) struct Parts<'a> {
+    pub(super) header: Header,
+    pub(super) textures: Vec<String>,
+    pub(super) rest: &'a [u8],
+}
+
+/// Reads the header.
+pub(super) fn read(bytes: &[u8]) -> Result<Parts<'_>, Fault> {
     if !bytes.starts_with(b"ply") {
         return Err(Fault::new("header", "it does not begin with \"ply\""));
     }
-    let (text, rest) = plain(bytes)?;
+    let (text, textures, rest) = plain(bytes)?;
+    let version = text.lines().find_map(|line| line.strip_prefix("format ")?.split_whitespace().nth(1));
+    if let Some(other) = version.filter(|version| *version != "1.0") {
+        let shown: String = other.chars().take(40).collect();
+        return Err(Fault::new("header", format!("its version is {shown:?}; 1.0 is read")));
+    }
     let header = Parser::<Skipped>::new().read_header(&mut Reader::new(text.as_bytes()));
     let header = header.map_err(|error| in_words(&error, &text))?;
     let announces = |line: &&str| line.starts_with("element") || line.starts_with("property");
@@ -21,22 +33,31 @@ pub(super) fn read(bytes: &[u8]) -> Result<(Header, &[u8]), Fault> {
     if announced != header.elements.values().map(|e| 1 + e.properties.len()).sum::<usize>() {
         return Err(Fault::new("header", "it names two elements, or two properties of one, alike"));
     }
-    Ok((header, rest))
+    Ok(Parts { header, textures, rest })
 }
 
-/// Returns the lines of the header and the bytes that follow. Remarks are left empty, as they may hold what the
-/// crate refuses: blank lines, other encodings than UTF-8.
-fn plain(bytes: &[u8]) -> Result<(String, &[u8]), Fault> {
-    let (mut text, mut rest) = (String::new(), bytes);
+/// Returns the lines of the header, the pictures that remarks name (MeshLab), and the bytes that follow. Remarks are left
+/// empty, as they may hold what the crate refuses: blank lines, other encodings than UTF-8.
+fn plain(bytes: &[u8]) -> Result<(String, Vec<String>, &[u8]), Fault> {
+    let (mut text, mut textures, mut rest) = (String::new(), Vec::new(), bytes);
     while !text.ends_with("end_header\n") {
         let line = next_line(&mut rest)
             .ok_or_else(|| Fault::new("header", "it has no line \"end_header\"; the file is truncated"))?;
         let line = String::from_utf8_lossy(line);
         let word = line.split_whitespace().next().unwrap_or("comment");
+        let texture =
+            line.trim().strip_prefix("comment").and_then(|rest| rest.trim().strip_prefix("TextureFile "));
+        textures.extend(texture.map(|name| name.trim().to_owned()));
         text += if ["comment", "obj_info"].contains(&word) { word } else { line.trim() };
         text.push('\n');
     }
-    Ok((text, rest))
+    // Some programs write the colours of vertices by the name of what they mean.
+    for name in ["red", "green", "blue", "alpha"] {
+        if !text.contains(&format!(" {name}\n")) {
+            text = text.replace(&format!(" diffuse_{name}\n"), &format!(" {name}\n"));
+        }
+    }
+    Ok((text, textures, rest))
 }
 
 /// Says which line of the header the crate refused.
@@ -49,25 +70,32 @@ fn in_words(error: &ParseError, text: &str) -> Fault {
     Fault::new(format!("line {number}"), format!("\"{shown}\" is not allowed in the header at this place"))
 }
 
-/// Returns the elements of vertices and faces if they hold what a mesh needs.
-pub(super) fn elements(header: &Header) -> Result<(&ElementDef, &ElementDef), Fault> {
-    let place = |name: &str| header.elements.get_index_of(name);
+/// Tells whether an element holds faces or strips of triangles.
+pub(super) fn is_surface(element: &ElementDef) -> bool {
+    element.count > 0 && ["face", "tristrips"].contains(&element.name.as_str())
+}
+
+/// Refuses elements that do not hold what a mesh needs.
+pub(super) fn check(header: &Header) -> Result<(), Fault> {
     let vertex = header.elements.get("vertex");
     let vertex = vertex.ok_or_else(|| Fault::new("header", "it has no element \"vertex\""))?;
     if let Some(name) = NUMBERS.iter().take(3).find(|name| !is_number(vertex, name)) {
         return Err(Fault::new("header", format!("element \"vertex\" has no property \"{name}\"")));
     }
-    let face = header.elements.get("face").filter(|face| face.count > 0);
-    let face = face.ok_or_else(|| Fault::new("", "it has points but no faces, as a point cloud"))?;
-    if place("face") < place("vertex") {
-        return Err(Fault::new("header", "element \"face\" comes before element \"vertex\""));
+    let mut surfaces = header.elements.values().filter(|element| is_surface(element)).peekable();
+    if surfaces.peek().is_none() {
+        return Err(Fault::new("", "it has points but no faces and no tristrips, as a point cloud"));
     }
-    let mut types = CORNERS.iter().filter_map(|name| face.properties.get(*name)).map(|p| &p.data_type);
-    match types.next() {
-        Some(PropertyType::List(_, item)) if !is_fraction(item) => Ok((vertex, face)),
-        Some(_) => Err(Fault::new("header", "\"vertex_indices\" is no list of whole numbers")),
-        None => Err(Fault::new("header", "element \"face\" has no property \"vertex_indices\"")),
+    for surface in surfaces {
+        let mut types = CORNERS.iter().filter_map(|name| surface.properties.get(*name)).map(|p| &p.data_type);
+        let what = match types.next() {
+            Some(PropertyType::List(_, item)) if !is_fraction(item) => continue,
+            Some(_) => "\"vertex_indices\" is no list of whole numbers".to_owned(),
+            None => format!("element \"{}\" has no property \"vertex_indices\"", surface.name),
+        };
+        return Err(Fault::new("header", what));
     }
+    Ok(())
 }
 
 /// Tells whether an element has a number of this name.

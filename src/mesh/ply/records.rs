@@ -7,7 +7,7 @@ use std::io::ErrorKind;
 use ply_rs_bw::parser::{ParseError, Parser};
 use ply_rs_bw::ply::{ElementDef, Encoding, Property, PropertyAccess, PropertyAccessResult, PropertyType};
 
-use super::{Fault, polygon};
+use super::Fault;
 
 /// Names of the numbers of a vertex: the position, from 3 the normal, from 6 the colour with its alpha, from 10 the pairs
 /// of names that texture coordinates go by.
@@ -16,6 +16,12 @@ pub(super) const NUMBERS: [&str; 18] = [
     "x", "y", "z", "nx", "ny", "nz", "red", "green", "blue", "alpha",
     "s", "t", "u", "v", "texture_u", "texture_v", "tx", "ty",
 ];
+
+/// Name of the list of coordinates at the corners of a face.
+const CORNER_UVS: &str = "texcoord";
+
+/// Name of the number of a face's texture.
+pub(super) const TEXTURE: &str = "texnumber";
 
 /// Names of the list of the corners of a face.
 pub(super) const CORNERS: [&str; 2] = ["vertex_indices", "vertex_index"];
@@ -52,13 +58,19 @@ impl Body<'_> {
     }
 
     /// Reads a record from the next line.
-    fn text_record<R: PropertyAccess>(&mut self, element: &ElementDef) -> Result<R, &'static str> {
+    fn text_record<R: PropertyAccess>(&mut self, element: &ElementDef) -> Result<R, String> {
         let line = self.line().ok_or(TRUNCATED)?;
-        let record = std::str::from_utf8(line).ok().and_then(|line| parsed(line, element));
-        record.ok_or(if self.rest.is_empty() {
-            TRUNCATED
-        } else {
-            "its line does not hold the numbers that the header announces"
+        let line = String::from_utf8_lossy(line).into_owned();
+        parsed(&line, element).ok_or_else(|| {
+            // A file that was cut ends within its last word.
+            let other = line.split_ascii_whitespace().find(|word| word.parse::<f64>().is_err());
+            match other {
+                Some(word) if !self.rest.is_empty() || !line.trim_ascii_end().ends_with(word) => {
+                    format!("{:?} is no number", word.chars().take(40).collect::<String>())
+                }
+                _ if self.rest.is_empty() => TRUNCATED.to_owned(),
+                _ => "its line does not hold the numbers that the header announces".to_owned(),
+            }
         })
     }
 
@@ -81,11 +93,12 @@ pub(super) fn next_line<'a>(rest: &mut &'a [u8]) -> Option<&'a [u8]> {
 }
 
 /// Says what ails a binary record. Types that do not fit are refused with the header.
-fn in_words(error: ParseError) -> &'static str {
-    match error.kind() {
+fn in_words(error: ParseError) -> String {
+    let what = match error.kind() {
         ErrorKind::UnexpectedEof => TRUNCATED,
         _ => "it has a list of negative length",
-    }
+    };
+    what.to_owned()
 }
 
 /// Reads a record from its line. Numbers become doubles, whichever type they have in the header.
@@ -129,50 +142,68 @@ impl PropertyAccess for Vertex {
         let Some((place, _)) = places.find(|(_, number)| *number == name) else {
             return PropertyAccessResult::Ignored;
         };
-        *place = match property {
-            Property::Char(n) => n.into(),
-            Property::UChar(n) => n.into(),
-            Property::Short(n) => n.into(),
-            Property::UShort(n) => n.into(),
-            Property::Int(n) => n.into(),
-            Property::UInt(n) => n.into(),
-            Property::Float(n) => n.into(),
-            Property::Double(n) => n,
-            _ => return PropertyAccessResult::Ignored,
-        };
+        let Some(number) = scalar(&property) else { return PropertyAccessResult::Ignored };
+        *place = number;
         PropertyAccessResult::Set
     }
 }
 
-/// The corners of a face, as numbers that may be any; one more than allowed if there are too many.
+/// Returns a number of any type.
+fn scalar(property: &Property) -> Option<f64> {
+    Some(match *property {
+        Property::Char(n) => n.into(),
+        Property::UChar(n) => n.into(),
+        Property::Short(n) => n.into(),
+        Property::UShort(n) => n.into(),
+        Property::Int(n) => n.into(),
+        Property::UInt(n) => n.into(),
+        Property::Float(n) => n.into(),
+        Property::Double(n) => n,
+        _ => return None,
+    })
+}
+
+/// The corners of a face or a strip, as numbers that may be any, with what each corner has, and its texture.
 pub(super) struct Face {
     pub(super) corners: Vec<f64>,
+    /// Two for each corner, or none.
+    pub(super) uvs: Vec<f64>,
+    pub(super) texture: Option<f64>,
 }
 
 impl PropertyAccess for Face {
     fn new() -> Self {
-        Face { corners: Vec::new() }
+        Face { corners: Vec::new(), uvs: Vec::new(), texture: None }
     }
 
     fn set_property(&mut self, name: &str, property: Property) -> PropertyAccessResult {
-        if !CORNERS.contains(&name) || !self.corners.is_empty() {
+        if name == TEXTURE {
+            self.texture = scalar(&property);
+            return PropertyAccessResult::Set;
+        }
+        let list = match name {
+            CORNER_UVS => &mut self.uvs,
+            _ if CORNERS.contains(&name) => &mut self.corners,
+            _ => return PropertyAccessResult::Ignored,
+        };
+        if !list.is_empty() {
             return PropertyAccessResult::Ignored;
         }
-        self.corners = match property {
+        *list = match property {
             Property::ListChar(list) => numbers(list),
             Property::ListUChar(list) => numbers(list),
             Property::ListShort(list) => numbers(list),
             Property::ListUShort(list) => numbers(list),
             Property::ListInt(list) => numbers(list),
             Property::ListUInt(list) => numbers(list),
-            Property::ListDouble(list) => numbers(list),
+            Property::ListFloat(list) => numbers(list),
+            Property::ListDouble(list) => list,
             _ => return PropertyAccessResult::Ignored,
         };
         PropertyAccessResult::Set
     }
 }
 
-/// Converts a list, up to one number more than a face may have corners.
 fn numbers<N: Into<f64>>(list: Vec<N>) -> Vec<f64> {
-    list.into_iter().take(polygon::MOST_CORNERS + 1).map(Into::into).collect()
+    list.into_iter().map(Into::into).collect()
 }

@@ -39,6 +39,11 @@ pub struct VertexAttributes {
     pub second_gradients: [DVec3; 2],
     /// With the sign of the bitangent, 0 for none.
     pub tangent: DVec4,
+    /// Of the second texture coordinates, for maps with coordinates of their own; 0 for none.
+    pub uv_texel: u32,
+    /// Of the corners, and the gradients of each.
+    pub weights: DVec3,
+    pub weight_gradients: [DVec3; 3],
 }
 
 impl Default for VertexAttributes {
@@ -48,6 +53,9 @@ impl Default for VertexAttributes {
             second_uv: DVec2::ZERO,
             second_gradients: [DVec3::ZERO; 2],
             tangent: DVec4::ZERO,
+            uv_texel: 0,
+            weights: DVec3::ZERO,
+            weight_gradients: [DVec3::ZERO; 3],
         }
     }
 }

@@ -107,6 +107,9 @@ fn attributes_of(
         found.second_uv = DVec2::new(w.dot(u), w.dot(v));
         let [wa, wb, wc] = weight_gradients(triangle);
         found.second_gradients = [u, v].map(|value| wa * value.x + wb * value.y + wc * value.z);
+        found.uv_texel = at;
+        found.weights = w;
+        found.weight_gradients = [wa, wb, wc];
     }
     found
 }

@@ -6,7 +6,7 @@ use glam::{BVec3, DVec3, Vec3};
 use crate::oracle::camera::Ray;
 use crate::pack::PackedScene;
 
-pub(super) fn mesh_texel(scene: &PackedScene, at: u32) -> [u32; 4] {
+pub(in crate::oracle) fn mesh_texel(scene: &PackedScene, at: u32) -> [u32; 4] {
     scene.mesh_texels[at as usize]
 }
 

@@ -6,7 +6,7 @@ pub mod cones;
 pub mod hit;
 pub mod kinds;
 mod mesh_search;
-mod mesh_tests;
+pub(super) mod mesh_tests;
 pub mod rays;
 
 use crate::schema::shapes::with_shapes;

@@ -133,7 +133,7 @@ impl Source<'_> {
         };
         let mut tree = tree::build_over(count, box_of, OF_A_MESH);
         let kinds = self.mesh.attribute_kinds();
-        let attribute_count = 4 + 2 * usize::from(kinds.colors) + 2 * usize::from(kinds.second_uvs);
+        let attribute_count = 4 + 2 * usize::from(kinds.colors) + 2 * kinds.further_uvs;
         let nodes = texels.len();
         let first_corner = nodes + TEXELS_OF_CHILD as usize * tree.children.len();
         let first_attribute = first_corner + TEXELS_OF_CORNERS * count;
@@ -166,7 +166,7 @@ impl Source<'_> {
             attributes: first_attribute as u32,
             attribute_count: attribute_count as u32,
             has_colors: kinds.colors,
-            has_second_uv: kinds.second_uvs,
+            has_second_uv: kinds.further_uvs > 0,
             has_tangents: kinds.tangents,
             is_smooth,
             ..Default::default()
@@ -222,9 +222,9 @@ impl Source<'_> {
             rest[..2].copy_from_slice(&[[a[0], a[1], b[0], b[1]], [c[0], c[1], 0, 0]]);
             rest = &mut rest[2..];
         }
-        if kinds.second_uvs {
-            let [a, b, c] = others.second_uvs.map(|uv| uv.as_vec2());
-            rest[..2].copy_from_slice(&[bits([a.x, b.x, c.x, a.y]), bits([b.y, c.y, 0.0, 0.0])]);
+        for (set, texels) in rest.chunks_exact_mut(2).enumerate() {
+            let [a, b, c] = self.stored.further_uvs(place, set).map(|uv| uv.as_vec2());
+            texels.copy_from_slice(&[bits([a.x, b.x, c.x, a.y]), bits([b.y, c.y, 0.0, 0.0])]);
         }
     }
 }

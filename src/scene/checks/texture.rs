@@ -41,6 +41,7 @@ pub fn texture(key: Key, source: &TextureSource) -> Check {
             }
         }
         TextureContent::File(_)
+        | TextureContent::Cutout { .. }
         | TextureContent::Tiles(_)
         | TextureContent::Embedded(..)
         | TextureContent::CubeFile(..)
@@ -85,6 +86,7 @@ fn dimension(key: Key, source: &TextureSource) -> Check {
             return key.refuse(what, "not from one picture");
         }
         TextureContent::Texels(_) => ("texels", Dimension::Two, "texels are one picture"),
+        TextureContent::Cutout { .. } => ("file", Dimension::Two, "such pictures are flat"),
         TextureContent::Tiles(_) => ("file", Dimension::Two, "tiles are those of one flat picture"),
         TextureContent::Embedded(..) => ("file", Dimension::Two, "an embedded picture is flat"),
         TextureContent::File(_) | TextureContent::Procedural(_) => return Ok(()),

@@ -11,8 +11,9 @@ use super::mtl::Library;
 use super::read_file;
 use crate::core::counted::{counted, verb};
 use crate::core::error::{Error, ErrorKind, Result};
-use crate::mesh::gltf::Model;
-use crate::mesh::{self, Fault, Mesh, MeshFormat, mtl};
+use crate::mesh::gltf::{Material, Model};
+use crate::mesh::mtl::{self, MtlMaterial};
+use crate::mesh::{self, Fault, Mesh, MeshFormat};
 use crate::scene::builder::SceneBuilder;
 use crate::scene::geometry::meshes::{self, Instance, Placement};
 use crate::scene::limits::MAX_TRIANGLES;
@@ -51,6 +52,13 @@ pub(super) struct Usage<'a> {
     /// The scene and the node of a glTF file.
     pub scene: Option<&'a str>,
     pub node: Option<&'a str>,
+}
+
+impl Usage<'_> {
+    /// Returns the key that may be wrong if a corner is out of range.
+    fn cause(&self) -> &'static str {
+        if self.placement == Placement::IDENTITY { "file" } else { "transform" }
+    }
 }
 
 /// A key of a [`Usage`] that does not suit the file, and why.
@@ -134,18 +142,24 @@ impl MeshFile {
         matches!(self.content, Content::Mesh(_))
     }
 
-    /// Adds triangles and materials, for each usage once; of a glTF file for one.
-    pub fn add(self, usages: &[Usage<'_>], builder: &mut SceneBuilder) -> Result<Result<(), Unsuited>> {
+    /// Adds triangles and materials, for each usage once; of a glTF file for one. Returns how many triangles have no area and
+    /// were left out.
+    pub fn add(self, usages: &[Usage<'_>], builder: &mut SceneBuilder) -> Result<Result<usize, Unsuited>> {
         let path = self.path;
+        let told = match &self.content {
+            Content::Mesh(_) => 0,
+            Content::Gltf(model) => model.degenerate,
+        };
         let dropped = match self.content {
             Content::Mesh(mesh) => {
+                mesh.notes.iter().for_each(|note| builder.note(format!("{}: {note}", path.display())));
                 let instances = match instances(&path, &mesh, usages, builder)? {
                     Ok(instances) => instances,
                     Err(unsuited) => return Ok(Err(unsuited)),
                 };
                 meshes::add(builder, *mesh, &instances, false).map_err(|(usage, what)| Unsuited {
                     usage,
-                    key: "file",
+                    key: usages[usage].cause(),
                     what,
                 })
             }
@@ -163,6 +177,7 @@ impl MeshFile {
                 let (triangles, verb) = (counted(dropped, "triangle"), verb(dropped, "has", "have"));
                 builder.note(format!("{}: left out {triangles} that {verb} no area", path.display()));
             }
+            dropped + told
         }))
     }
 }
@@ -212,33 +227,36 @@ fn add_model(
     let drawn = gltf::drawn(model, usage.scene, usage.node).map_err(|what| (key, what))?;
     model.notes.iter().for_each(|note| builder.note(format!("{}: {note}", path.display())));
     let mut notes = gltf::MaterialNotes::default();
+    let default = Material { name: "default".into(), ..Material::default() };
     let mut dropped = 0;
-    let mut known: HashMap<Option<usize>, Vec<usize>> = HashMap::new();
+    let mut known: HashMap<Option<usize>, usize> = HashMap::new();
     for Drawn { mut mesh, instances } in gltf::meshes(model, &drawn).map_err(|what| ("file", what))? {
-        let names_material = usage.material.is_none() && instances.iter().any(|(_, own)| own.is_some());
+        let names_material = usage.material.is_none();
         let instances = instances.into_iter().map(|(placement, material)| {
-            let material_of = known.entry(material).or_insert_with(|| {
-                let found = material.map(|index| &model.materials[index]);
-                let index = found.filter(|_| usage.material.is_none()).map(|material| {
-                    let named = usage.materials.iter().find(|(name, _)| *name == material.name);
-                    named.map_or_else(
-                        || gltf::add_material(path, model, material, builder, &mut notes),
-                        |(_, index)| *index,
-                    )
-                });
-                Vec::from_iter(index)
-            });
-            Instance {
+            // What names no material has the default one of the specification.
+            let found = material.map_or(&default, |index| &model.materials[index]);
+            let named = usage.materials.iter().find(|(name, _)| material.is_some() && *name == found.name);
+            let material_of = match (known.get(&material), named) {
+                _ if usage.material.is_some() => Vec::new(),
+                (_, Some((_, index))) | (Some(index), None) => vec![*index],
+                (None, None) => {
+                    let index = gltf::add_material(path, model, found, builder, &mut notes);
+                    let index = index.map_err(|what| ("file", what))?;
+                    known.insert(material, index);
+                    vec![index]
+                }
+            };
+            Ok(Instance {
                 placement: usage.placement * placement,
                 motion: usage.motion,
-                material_of: material_of.clone(),
+                material_of,
                 other: usage.material.unwrap_or(DEFAULT),
-            }
+            })
         });
-        let instances: Vec<Instance> = instances.collect();
+        let instances: Vec<Instance> = instances.collect::<Result<_, _>>()?;
         mesh.set_material(names_material.then_some(0));
         dropped += meshes::add(builder, mesh, &instances, gltf::has_one_sided(model))
-            .map_err(|(_, what)| ("file", what))?;
+            .map_err(|(_, what)| (usage.cause(), what))?;
     }
     notes.sentences().for_each(|note| builder.note(format!("{}: {note}", path.display())));
     Ok(dropped)
@@ -272,24 +290,29 @@ fn add_materials(
         |name: &String| usage.materials.iter().find(|(own, _)| own == name).map(|(_, index)| *index);
     let mut indices: Vec<usize> =
         mesh.materials.iter().map(|name| of_scene(name).unwrap_or(DEFAULT)).collect();
-    for library in &mesh.libraries {
-        let library = path.parent().unwrap_or(Path::new("")).join(library);
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let mut define = |materials: &[MtlMaterial], mut library: Library<'_>| -> Result<()> {
+        for material in materials {
+            let named = mesh.materials.iter().position(|name| *name == material.name);
+            if let Some(place) = named.filter(|&place| indices[place] == DEFAULT) {
+                indices[place] = library.add(material)?;
+            }
+        }
+        Ok(())
+    };
+    define(&mesh.definitions, Library::new(folder, "", path, builder))?;
+    for name in &mesh.libraries {
+        let library = folder.join(name);
         let bytes = match read_file("library", &["MTL"], &library, MAX_LIBRARY_BYTES) {
             Ok(bytes) => bytes,
             Err(error) => {
-                builder.note(format!("{}: its materials are white: {error}", path.display()));
+                builder.note(format!("{}: materials of this library are white: {error}", path.display()));
                 continue;
             }
         };
         builder.source(library.clone());
         let materials = mtl::read(&bytes).map_err(|fault| of_fault(&library, "MTL", &fault))?;
-        let mut library = Library::new(&library, builder);
-        for material in &materials {
-            let named = mesh.materials.iter().position(|name| *name == material.name);
-            if let Some(place) = named.filter(|&place| indices[place] == DEFAULT) {
-                indices[place] = library.add(material);
-            }
-        }
+        define(&materials, Library::new(folder, name, &library, builder))?;
     }
     let names = mesh.materials.iter().zip(&indices);
     let unknown: Vec<&String> = names.filter(|(_, index)| **index == DEFAULT).map(|(name, _)| name).collect();

@@ -45,7 +45,15 @@ pub(super) fn read(path: &Path, camera: Option<&str>) -> Result<Scene> {
     for light in lights {
         builder.light(light);
     }
-    file.add(&[Usage::default()], &mut builder)?.map_err(|unsuited| failed(unsuited.what))?;
+    let dropped = file.add(&[Usage::default()], &mut builder)?.map_err(|unsuited| failed(unsuited.what))?;
+    if !builder.has_shapes() {
+        return Err(failed(format!(
+            "the file has no triangles ({dropped} degenerate, points and lines left out)"
+        ))
+        .and_help(Some(
+            "export its surfaces as triangles with an area, below nodes of its default scene".into(),
+        )));
+    }
     let scene = builder.check().map_err(|refusal| failed(refusal.to_string()))?;
     check_filters(&scene)?;
     Ok(scene)

@@ -38,7 +38,8 @@ pub struct Mesh {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct AttributeKinds {
     pub colors: bool,
-    pub second_uvs: bool,
+    /// Sets of texture coordinates beyond the first.
+    pub further_uvs: usize,
     pub tangents: bool,
 }
 
@@ -95,7 +96,7 @@ impl Mesh {
     pub(crate) fn attribute_kinds(&self) -> AttributeKinds {
         AttributeKinds {
             colors: !self.file.colors.is_empty(),
-            second_uvs: !self.file.second_uvs.is_empty(),
+            further_uvs: usize::from(!self.file.second_uvs.is_empty()) + self.file.more_uvs.len(),
             tangents: !self.file.tangents.is_empty(),
         }
     }
@@ -144,6 +145,11 @@ impl Stored<'_> {
     pub fn attributes(&self, place: usize) -> CornerAttributes {
         self.placed.attributes(self.mesh.triangles[place])
     }
+
+    /// Returns the coordinates of that triangle's corners in a further set, 0 the second.
+    pub fn further_uvs(&self, place: usize, set: usize) -> [DVec2; 3] {
+        self.placed.further_uvs(self.mesh.triangles[place], set)
+    }
 }
 
 fn bounds_of(file: &mesh::Mesh, triangles: &[u32], placement: &DAffine3) -> Bounds {
@@ -172,15 +178,19 @@ impl Shapes {
         self.meshes.iter().for_each(|mesh| mesh.for_each(1, |triangle| each(&triangle)));
     }
 
-    /// Calls `each` with the material of every triangle and both texture coordinates of its corners; the second ones are 0
-    /// where there are none.
-    pub fn for_each_coordinates(&self, mut each: impl FnMut(usize, [[DVec2; 3]; 2])) {
-        self.triangles.iter().for_each(|own| each(own.material, [own.uvs, [DVec2::ZERO; 3]]));
+    /// Calls `each` with the material of every triangle and what returns the texture coordinates of its corners: the first
+    /// ones, or those of a further set, 0 the second; they are the same at all corners where there are none.
+    pub fn for_each_coordinates(&self, mut each: impl FnMut(usize, &dyn Fn(Option<usize>) -> [DVec2; 3])) {
+        for own in &self.triangles {
+            each(own.material, &|set| if set.is_none() { own.uvs } else { [DVec2::ZERO; 3] });
+        }
         for mesh in &self.meshes {
             let placed = Placed::new(&mesh.file, &mesh.placement);
             for &index in mesh.triangles.iter() {
-                let uvs = [placed.triangle(index).uvs, placed.attributes(index).second_uvs];
-                each(mesh.material, uvs);
+                each(mesh.material, &|set| match set {
+                    None => placed.triangle(index).uvs,
+                    Some(set) => placed.further_uvs(index, set),
+                });
             }
         }
     }

@@ -213,15 +213,13 @@ impl Placed<'_> {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct CornerAttributes {
     pub colors: [Vec4; 3],
-    pub second_uvs: [DVec2; 3],
     /// In the world, unit or zero, with the sign of the bitangent.
     pub tangents: [DVec4; 3],
 }
 
 impl CornerAttributes {
     /// Those of a file that has none of them.
-    const NONE: CornerAttributes =
-        CornerAttributes { colors: [Vec4::ONE; 3], second_uvs: [DVec2::Y; 3], tangents: [DVec4::ZERO; 3] };
+    const NONE: CornerAttributes = CornerAttributes { colors: [Vec4::ONE; 3], tangents: [DVec4::ZERO; 3] };
 }
 
 impl Placed<'_> {
@@ -238,16 +236,24 @@ impl Placed<'_> {
         let sign = if self.mirrors { -1.0 } else { 1.0 };
         CornerAttributes {
             colors: [0, 1, 2].map(|corner| mesh.colors.get(at(corner)).copied().unwrap_or(Vec4::ONE)),
-            second_uvs: [0, 1, 2].map(|corner| {
-                let uv = mesh.second_uvs.get(at(corner)).copied().unwrap_or_default();
-                DVec2::new(uv.x, 1.0 - uv.y)
-            }),
             tangents: order.map(|corner| {
                 let tangent = tangents[corner].as_dvec4();
                 let way = self.placement.transform_vector3(tangent.truncate()).normalize_or_zero();
                 way.extend(sign * tangent.w)
             }),
         }
+    }
+
+    /// Returns the coordinates of a triangle's corners in a further set, 0 the second, in the order of `triangle`.
+    pub fn further_uvs(&self, index: u32, set: usize) -> [DVec2; 3] {
+        let mesh = self.mesh;
+        let order = if self.mirrors { [0, 2, 1] } else { [0, 1, 2] };
+        let uvs = set.checked_sub(1).map_or(&mesh.second_uvs, |more| &mesh.more_uvs[more]);
+        order.map(|corner| {
+            let at = mesh.triangles[index as usize].positions[corner] as usize;
+            let uv = uvs.get(at).copied().unwrap_or_default();
+            DVec2::new(uv.x, 1.0 - uv.y)
+        })
     }
 }
 

@@ -6,7 +6,7 @@ use std::fs;
 use base64::prelude::{BASE64_STANDARD, Engine as _};
 use glam::{DVec3, Vec4};
 use moire::internal::scene::load;
-use moire::internal::scene::model::{AlphaMode, Light, Material, Model, Scene, Sides};
+use moire::internal::scene::model::{AlphaMode, Light, Material, Model, Scene, Sides, TextureUse};
 use moire::internal::texture::data::ColorSpace;
 use moire::internal::texture::sampler_spec::Address;
 use tempfile::tempdir;
@@ -14,7 +14,7 @@ use tempfile::tempdir;
 use crate::stage::{packed, render, render_on_oracle};
 
 /// One texel.
-const PNG: &str = "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mNk+M9QDwADhgGAWjR9awAAAABJRU5ErkJggg==";
+pub(super) const PNG: &str = "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mNk+M9QDwADhgGAWjR9awAAAABJRU5ErkJggg==";
 
 /// A square of side 2 about the origin that faces +z, with two sets of coordinates and colours (u8, normalised), in this
 /// material; `more`: further members of the file.
@@ -174,7 +174,7 @@ fn textures_of_specular_have_their_own_sampler_coordinates_and_encoding() {
 }
 
 #[test]
-fn a_third_set_of_coordinates_is_told() {
+fn third_coordinates_are_those_of_their_texture_alone() {
     let transform = |x: f64| format!("\"extensions\":{{\"KHR_texture_transform\":{{\"offset\":[{x},0]}}}}");
     let text = format!(
         "{{\"name\":\"three\",\"pbrMetallicRoughness\":{{\"baseColorTexture\":{{\"index\":0}},\
@@ -182,8 +182,11 @@ fn a_third_set_of_coordinates_is_told() {
         transform(0.1),
         transform(0.2)
     );
-    let notes = loaded(&text, &textures()).notes.join("\n");
-    assert!(notes.contains("three") && notes.contains("two sets"), "{notes}");
+    let scene = loaded(&text, &textures());
+    let found = only(&scene);
+    let own = |map: Option<TextureUse>| map.unwrap().own_uv.unwrap().transform.translation.x;
+    assert_eq!([own(found.metallic_roughness_map), own(found.emission_map)], [0.1, 0.2]);
+    assert!(scene.notes.is_empty(), "{:?}", scene.notes);
 }
 
 /// Linear as they are, in 16 bits: 128/255 is not darkened.

@@ -135,7 +135,11 @@ fn replaces_sparse_elements() {
             json!(3),
             "indices/count: 3 elements of 1 bytes, 1 apart, from byte 0; the view has 2 bytes",
         ),
-        ("indices/componentType", json!(5120), "indices/componentType: 5121, 5123 and 5125 are allowed here"),
+        (
+            "indices/componentType",
+            json!(5120),
+            "indices/componentType: it is 5120; 5121, 5123 and 5125 are allowed here",
+        ),
         ("values", json!({}), "values/bufferView: it is missing"),
         ("indices/bufferView", json!(9), "indices/bufferView: 9 does not exist; the file has 3 buffer views"),
     ] {
@@ -204,8 +208,12 @@ fn refuses_by_the_place() {
             json!(5125),
             "componentType: POSITION has to be of floats (5126) or integers of 8 or 16 bits (5120 to 5123)",
         ),
-        ("/accessors/0/type", json!("MAT4"), "type: SCALAR, VEC2, VEC3 and VEC4 are allowed here"),
-        ("/accessors/0/type", json!("VEC2"), "type: POSITION has to be VEC3"),
+        (
+            "/accessors/0/type",
+            json!("MAT4"),
+            "type: it is \"MAT4\"; SCALAR, VEC2, VEC3 and VEC4 are allowed here",
+        ),
+        ("/accessors/0/type", json!("VEC2"), "type: it is VEC2; POSITION has to be VEC3"),
         ("/accessors/0/bufferView", json!(1), "bufferView: 1 does not exist; the file has 1 buffer views"),
         ("/accessors/0/sparse", json!([]), "sparse: it is []; an object is needed"),
     ] {
@@ -251,5 +259,5 @@ fn refuses_attributes_that_do_not_fit() {
         "COLOR has to be of floats (5126) or normalized unsigned integers of 8 or 16 bits (5121, 5123)";
     assert_eq!(build.fault(), format!("/accessors/1/componentType: {what}"));
     build.set("/accessors/1/type", json!("SCALAR"));
-    assert_eq!(build.fault(), "/accessors/1/type: COLOR has to be VEC3 or VEC4");
+    assert_eq!(build.fault(), "/accessors/1/type: it is SCALAR; COLOR has to be VEC3 or VEC4");
 }

@@ -68,10 +68,9 @@ fn check(model: &Model) {
         assert!(!primitive.triangles.is_empty());
         assert!(primitive.triangles.as_flattened().iter().all(|corner| (*corner as usize) < count));
         assert!(primitive.positions.iter().all(|position| position.is_finite()));
-        let [uv0, uv1] = &primitive.uvs;
-        for length in
-            [primitive.normals.len(), primitive.tangents.len(), primitive.colors.len(), uv0.len(), uv1.len()]
-        {
+        assert!(primitive.uvs.len() >= 2);
+        let others = [primitive.normals.len(), primitive.tangents.len(), primitive.colors.len()];
+        for length in primitive.uvs.iter().map(Vec::len).chain(others) {
             assert!(length == 0 || length == count);
         }
     }

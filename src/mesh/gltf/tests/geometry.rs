@@ -72,7 +72,7 @@ fn reads_indices_of_every_type() {
     assert_eq!(build.read().unwrap().notes, [few]);
     build.accessor(5121, "VEC2", &[0; 6]);
     build.set("/meshes/0/primitives/0/indices", json!(2));
-    assert_eq!(build.fault(), "/accessors/2/type: indices have to be SCALAR");
+    assert_eq!(build.fault(), "/accessors/2/type: it is VEC2; indices have to be SCALAR");
 }
 
 #[test]
@@ -104,7 +104,7 @@ fn reads_every_attribute() {
 fn notes_what_it_ignores() {
     let mut build = Build::triangle();
     let part = "/meshes/0/primitives/0";
-    for name in ["TEXCOORD_2", "TEXCOORD_10", "COLOR_1", "JOINTS_0", "WEIGHTS_0", "_OWN", "OTHER"] {
+    for name in ["TEXCOORD_8", "TEXCOORD_10", "COLOR_1", "JOINTS_0", "WEIGHTS_0", "_OWN", "OTHER"] {
         build.set(&format!("{part}/attributes/{name}"), json!(0));
     }
     build.set(&format!("{part}/targets"), json!([{}]));
@@ -120,7 +120,7 @@ fn notes_what_it_ignores() {
             "morph targets are ignored (at /meshes/0/primitives/0)",
             "colours beyond COLOR_0 are ignored (at /meshes/0/primitives/0/attributes/COLOR_1)",
             "joints and weights are ignored (2 times, first at /meshes/0/primitives/0/attributes/JOINTS_0)",
-            "texture coordinates beyond TEXCOORD_1 are ignored (2 times, first at \
+            "texture coordinates beyond TEXCOORD_7 are ignored (2 times, first at \
              /meshes/0/primitives/0/attributes/TEXCOORD_10)",
             "extension \"KHR_materials_sheen\" is ignored",
         ]

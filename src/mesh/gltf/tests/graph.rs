@@ -67,7 +67,7 @@ fn refuses_wrong_nodes() {
             json!({ "matrix": identity, "scale": [1, 1, 1] }),
             "/matrix: a node has either a matrix or translation, rotation and scale",
         ),
-        (json!({ "matrix": projective }), "/matrix: its last row is not 0 0 0 1"),
+        (json!({ "matrix": projective }), "/matrix: its last row is [1, 0, 0, 1]; [0, 0, 0, 1] is needed"),
         (json!({ "matrix": [1, 2] }), "/matrix: it is [1,2]; a list of 16 numbers is needed"),
         (json!({ "scale": ["a", 1, 1] }), "/scale: it is [\"a\",1,1]; a list of 3 numbers is needed"),
         (json!({ "mesh": 1 }), "/mesh: 1 does not exist; the file has 1 meshes"),
@@ -164,7 +164,7 @@ fn copies_instances() {
     let short = build.clone().set("/accessors/1/count", json!(1)).fault();
     assert_eq!(short, "/accessors/2/count: it is 2; ROTATION has to have 1 elements here");
     let wrong = build.clone().set(&format!("{place}/SCALE"), json!(rotation)).fault();
-    assert_eq!(wrong, "/accessors/2/type: SCALE has to be VEC3");
+    assert_eq!(wrong, "/accessors/2/type: it is VEC4; SCALE has to be VEC3");
     build.bytes[36 + 24..36 + 28].fill(0);
     assert_eq!(build.fault(), "/accessors/2: element 0, a rotation, has no length");
     // Copies of zeros need no bytes, but count as places.

@@ -124,16 +124,16 @@ fn moves_factors_into_range() {
     let place = "/materials/0/pbrMetallicRoughness/metallicFactor";
     let note = format!("factors of materials out of range are moved into it (2 times, first at {place})");
     assert_eq!(model.notes, [note]);
-    build.set("/materials", json!([{ "normalTexture": { "index": 0, "texCoord": 3 } }]));
+    build.set("/materials", json!([{ "normalTexture": { "index": 0, "texCoord": 8 } }]));
     let note =
-        "textures use coordinates beyond TEXCOORD_1, which are ignored (at /materials/0/normalTexture)";
+        "textures use coordinates beyond TEXCOORD_7, which are ignored (at /materials/0/normalTexture)";
     assert_eq!(build.read().unwrap().notes, [note]);
 }
 
 #[test]
 fn refuses_wrong_materials() {
     for (value, fault) in [
-        (json!({ "alphaMode": "CUTOUT" }), "alphaMode: OPAQUE, MASK and BLEND are allowed"),
+        (json!({ "alphaMode": "CUTOUT" }), "alphaMode: it is \"CUTOUT\"; OPAQUE, MASK and BLEND are allowed"),
         (json!({ "emissiveFactor": [1, 2] }), "emissiveFactor: it is [1,2]; a list of 3 numbers is needed"),
         (json!({ "doubleSided": 1 }), "doubleSided: it is 1; true or false is needed"),
         (json!({ "pbrMetallicRoughness": 1 }), "pbrMetallicRoughness: it is 1; an object is needed"),

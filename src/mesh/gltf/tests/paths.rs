@@ -34,7 +34,11 @@ fn needs_no_data_for_buffers_of_extensions() {
     build.set("/bufferViews/1", json!({ "buffer": 1, "byteLength": 100 }));
     assert!(build.read().is_ok());
     build.set("/accessors/0/bufferView", json!(1));
-    assert_eq!(build.fault(), "/accessors/0/bufferView: the buffer of view 1 has no data");
+    assert_eq!(
+        build.fault(),
+        "/buffers/1: it has no data: neither a uri, nor is it the first one of a .glb file with a binary chunk; /accessors/0 \
+         needs it"
+    );
 }
 
 #[test]

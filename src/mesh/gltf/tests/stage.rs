@@ -35,7 +35,7 @@ fn reads_cameras() {
 fn refuses_wrong_cameras() {
     for (camera, fault) in [
         (json!({}), "type: it is missing"),
-        (json!({ "type": "fisheye" }), "type: perspective and orthographic are allowed"),
+        (json!({ "type": "fisheye" }), "type: it is \"fisheye\"; perspective and orthographic are allowed"),
         (json!({ "type": "perspective" }), "perspective: it is missing"),
         (json!({ "type": "perspective", "perspective": {} }), "perspective/yfov: it is missing"),
         (
@@ -99,7 +99,7 @@ fn reads_lights() {
 fn refuses_wrong_lights() {
     for (light, fault) in [
         (json!({}), "/type: it is missing"),
-        (json!({ "type": "area" }), "/type: directional, point and spot are allowed"),
+        (json!({ "type": "area" }), "/type: it is \"area\"; directional, point and spot are allowed"),
         (json!({ "type": "spot" }), "/spot: it is missing"),
         (
             json!({ "type": "spot", "spot": { "innerConeAngle": 1 } }),
@@ -109,7 +109,10 @@ fn refuses_wrong_lights() {
             json!({ "type": "spot", "spot": { "outerConeAngle": 2 } }),
             "/spot/outerConeAngle: it is 2; it has to be between 0 and π/2",
         ),
-        (json!({ "type": "point", "color": [1, -1, 1] }), "/color: numbers from 0 are allowed"),
+        (
+            json!({ "type": "point", "color": [1, -1, 1] }),
+            "/color: it is [1,-1,1]; numbers from 0 are allowed",
+        ),
         (json!({ "type": "point", "intensity": -1 }), "/intensity: it is -1; it has to be at least 0"),
         (json!({ "type": "point", "range": 0 }), "/range: it is 0; it has to be greater than 0"),
     ] {

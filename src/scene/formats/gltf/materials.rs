@@ -1,95 +1,29 @@
 //! Materials of a glTF file as materials of a scene. Input: the model and its folder. Output: the index of a material,
 //! with its textures and samplers as the file has them; what is not drawn is told by its name, once for a material.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use glam::DVec3;
 use glam::swizzles::Vec4Swizzles as _;
 
+use super::coordinates::CoordinateSets;
+use super::images::{self, Chosen};
+use super::notes::MaterialNotes;
 use crate::mesh::gltf::{self, Content, Material, Model, Texture, TextureRef, Wrap};
 use crate::scene::builder::SceneBuilder;
 use crate::scene::model::{self, AlphaMode, BumpKind, BumpMap, Sides, TextureUse};
 use crate::texture::data::{ColorSpace, Dimension, MipKernel};
-use crate::texture::formats::is_picture;
 use crate::texture::sampler_spec::{Address, MipMode, SamplerSpec, basic_filter};
-use crate::texture::source::{OrientationUse, ReadOptions, TextureContent, TextureSource};
+use crate::texture::source::{OrientationUse, ReadOptions, TextureSource};
 
-/// The coordinates at which a material reads its textures: those of its first texture, and the first others.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct CoordinateSets<'a> {
-    pub first: Option<&'a TextureRef>,
-    pub second: Option<&'a TextureRef>,
-}
-
-impl CoordinateSets<'_> {
-    pub fn of(material: &Material) -> CoordinateSets<'_> {
-        let read = [
-            &material.base_color_texture,
-            &material.normal_texture,
-            &material.metallic_roughness_texture,
-            &material.emissive_texture,
-            &material.occlusion_texture,
-            &material.specular_texture,
-            &material.specular_color_texture,
-        ];
-        let read = || read.into_iter().flatten();
-        let first = read().next();
-        let second = read().find(|other| first.is_some_and(|first| !is_alike(first, other)));
-        CoordinateSets { first, second }
-    }
-
-    /// Returns whether a texture is read at the second coordinates.
-    pub fn is_second(&self, reference: &TextureRef) -> bool {
-        self.second.is_some_and(|second| is_alike(second, reference))
-    }
-
-    fn has(&self, reference: &TextureRef) -> bool {
-        [self.first, self.second].into_iter().flatten().any(|known| is_alike(known, reference))
-    }
-}
-
-impl PartialEq for CoordinateSets<'_> {
-    fn eq(&self, other: &Self) -> bool {
-        let read = |set: Option<&TextureRef>| set.map_or((0, None), |set| (set.uv_set, set.transform));
-        let are = |sets: &Self| (read(sets.first), sets.second.map(|set| read(Some(set))));
-        are(self) == are(other)
-    }
-}
-
-/// Returns whether two textures are read at the same coordinates.
-fn is_alike(a: &TextureRef, b: &TextureRef) -> bool {
-    a.uv_set == b.uv_set && a.transform == b.transform
-}
-
-/// What is told about materials: the words, the first material of which they are true, and the number of these.
-#[derive(Default)]
-pub(in crate::scene::formats) struct MaterialNotes(Vec<(String, String, usize)>);
-
-impl MaterialNotes {
-    fn add(&mut self, what: &str, material: &Material) {
-        match self.0.iter_mut().find(|(words, ..)| words == what) {
-            Some((.., count)) => *count += 1,
-            None => self.0.push((what.to_owned(), material.name.clone(), 1)),
-        }
-    }
-
-    /// Returns one sentence for all materials of which the same is told.
-    pub fn sentences(&self) -> impl Iterator<Item = String> {
-        self.0.iter().map(|(what, first, count)| match count {
-            1 => format!("material {first:?}: {what}"),
-            _ => format!("{count} materials, the first {first:?}: {what}"),
-        })
-    }
-}
-
-/// Adds a material; returns its index.
+/// Adds a material; returns its index, or which of its images cannot be read.
 pub(in crate::scene::formats) fn add(
     path: &Path,
     found_in: &Model,
     material: &Material,
     builder: &mut SceneBuilder,
     notes: &mut MaterialNotes,
-) -> usize {
+) -> Result<usize, String> {
     let sets = CoordinateSets::of(material);
     let mut reader = Reader { path, model: found_in, builder, material, notes, sets };
     let mut added = model::Material {
@@ -110,12 +44,12 @@ pub(in crate::scene::formats) fn add(
         gltf::AlphaMode::Mask(cutoff) => (AlphaMode::Mask, cutoff),
         gltf::AlphaMode::Blend => (AlphaMode::Blend, added.alpha_cutoff),
     };
-    let base = material.base_color_texture.and_then(|found| reader.used(&found, ColorSpace::Srgb));
+    let base = reader.used(material.base_color_texture, ColorSpace::Srgb)?;
     if let Some(base) = base {
         (added.texture, added.sampler, added.second_uv) = (Some(base.texture), base.sampler, base.second_uv);
     }
     if !material.unlit {
-        let normal = material.normal_texture.and_then(|found| reader.used(&found, ColorSpace::Linear));
+        let normal = reader.used(material.normal_texture, ColorSpace::Linear)?;
         // Green of glTF points along the bitangent, which is against v.
         added.bump = normal.map(|normal| BumpMap {
             kind: BumpKind::NormalDown,
@@ -123,20 +57,17 @@ pub(in crate::scene::formats) fn add(
             strength: material.normal_scale,
             sampler: Some(normal.sampler),
             second_uv: normal.second_uv,
+            own_uv: normal.own_uv,
         });
         if added.model.is_glossy() {
-            let map = material.metallic_roughness_texture;
-            added.metallic_roughness_map = map.and_then(|found| reader.used(&found, ColorSpace::Linear));
-            added.specular_weight_map =
-                material.specular_texture.and_then(|found| reader.used(&found, ColorSpace::Linear));
-            added.specular_tint_map =
-                material.specular_color_texture.and_then(|found| reader.used(&found, ColorSpace::Srgb));
+            added.metallic_roughness_map =
+                reader.used(material.metallic_roughness_texture, ColorSpace::Linear)?;
+            added.specular_weight_map = reader.used(material.specular_texture, ColorSpace::Linear)?;
+            added.specular_tint_map = reader.used(material.specular_color_texture, ColorSpace::Srgb)?;
         }
         added.emission = material.emissive * material.emissive_strength;
-        added.emission_map =
-            material.emissive_texture.and_then(|found| reader.used(&found, ColorSpace::Srgb));
-        added.occlusion_map =
-            material.occlusion_texture.and_then(|found| reader.used(&found, ColorSpace::Linear));
+        added.emission_map = reader.used(material.emissive_texture, ColorSpace::Srgb)?;
+        added.occlusion_map = reader.used(material.occlusion_texture, ColorSpace::Linear)?;
         added.occlusion_strength = material.occlusion_strength;
     }
     if base.is_none()
@@ -146,7 +77,7 @@ pub(in crate::scene::formats) fn add(
     }
     reader.tell_missing_coordinates();
     reader.tell_what_is_left_out();
-    builder.material(added)
+    Ok(builder.material(added))
 }
 
 /// The greatest refractive index of scenes: it reflects nearly all light.
@@ -196,7 +127,7 @@ struct Reader<'a> {
 
 impl Reader<'_> {
     fn note(&mut self, what: &str) {
-        self.notes.add(what, self.material);
+        self.notes.add(what, self.model, self.material);
     }
 
     fn sampler(&mut self, texture: &Texture) -> usize {
@@ -204,52 +135,42 @@ impl Reader<'_> {
         self.builder.sampler_like(spec)
     }
 
-    /// Adds a texture as the material reads it.
-    fn used(&mut self, reference: &TextureRef, color_space: ColorSpace) -> Option<TextureUse> {
-        if !self.sets.has(reference) {
-            self.note("more than two sets of texture coordinates; the others are read as the first");
-        }
-        let texture = self.texture(reference, color_space)?;
+    /// Adds a texture, if there is one, as the material reads it.
+    fn used(
+        &mut self,
+        reference: Option<TextureRef>,
+        color_space: ColorSpace,
+    ) -> Result<Option<TextureUse>, String> {
+        let Some(reference) = reference else { return Ok(None) };
+        let Some(texture) = self.texture(&reference, color_space)? else { return Ok(None) };
         let sampler = self.sampler(&self.model.textures[reference.texture]);
-        Some(TextureUse { texture, sampler, second_uv: self.sets.is_second(reference) })
+        Ok(Some(TextureUse {
+            texture,
+            sampler,
+            second_uv: self.sets.is_second(&reference),
+            own_uv: self.sets.own(&reference),
+        }))
     }
 
     /// Adds a texture in the first of its formats that can be read.
-    fn texture(&mut self, reference: &TextureRef, color_space: ColorSpace) -> Option<usize> {
+    fn texture(&mut self, reference: &TextureRef, color_space: ColorSpace) -> Result<Option<usize>, String> {
         let texture = &self.model.textures[reference.texture];
-        let mut images = texture.sources.iter().map(|&index| (index, &self.model.images[index]));
-        let Some((index, image)) = images.find(|(_, image)| is_readable(&image.content)) else {
-            let formats: Vec<&str> = texture
-                .sources
-                .iter()
-                .filter_map(|&index| self.model.images[index].mime.as_deref())
-                .collect();
-            self.note(&format!(
-                "a texture is left out: its images are none that can be read ({})",
-                if formats.is_empty() {
-                    "no PNG, JPEG, WebP, KTX2 or DDS".into()
-                } else {
-                    formats.join(", ")
-                }
-            ));
-            return None;
+        let Some(Chosen { index, content, note }) = images::chosen(self.path, self.model, texture)? else {
+            let what = "a texture is left out: it has no image in a format that is read";
+            self.note(&format!("{what} (/textures/{})", reference.texture));
+            return Ok(None);
         };
-        let content = match &image.content {
-            Content::Path(file) => {
-                TextureContent::File(self.path.parent().unwrap_or(Path::new("")).join(file))
-            }
-            Content::Bytes(bytes) => {
-                let label = PathBuf::from(format!("{} (image {index})", self.path.display()));
-                TextureContent::Embedded(label, bytes.clone())
-            }
-        };
+        if let Some(note) = note {
+            self.note(&note);
+        }
+        let image = &self.model.images[index];
         let file = match &image.content {
             Content::Path(file) => file,
             Content::Bytes(_) => "",
         };
         let names = [file, &image.name, &texture.name];
         let name = names.into_iter().find(|name| !name.is_empty());
-        Some(self.builder.texture(TextureSource {
+        Ok(Some(self.builder.texture(TextureSource {
             name: name.map_or_else(|| format!("image {index}"), str::to_owned),
             content,
             dimension: Dimension::Two,
@@ -257,8 +178,8 @@ impl Reader<'_> {
             color_space_stated: true,
             reading: ReadOptions { orientation: OrientationUse::Ignore, layer: None },
             flip_v: false,
-            mip_kernel: MipKernel::Box,
-        }))
+            mip_kernel: MipKernel::Auto,
+        })))
     }
 
     /// Tells of meshes in this material without the coordinates at which it reads a texture.
@@ -276,12 +197,13 @@ impl Reader<'_> {
         let read: Vec<usize> =
             others.chain([material.base_color_texture]).flatten().map(|reference| reference.uv_set).collect();
         let worn = |index: usize| std::ptr::eq(&model.materials[index], material);
-        for set in (0..2).filter(|set| read.contains(set)) {
+        let most = read.iter().copied().max().map_or(0, |most| most + 1);
+        for set in (0..most).filter(|set| read.contains(set)) {
             let instances = model.instances.iter().filter(|instance| instance.material.is_some_and(worn));
             let mut meshes = instances.map(|instance| &model.primitives[instance.primitive]);
-            if let Some(mesh) = meshes.find(|mesh| mesh.uvs[set].is_empty()) {
+            if let Some(mesh) = meshes.find(|mesh| mesh.uvs.get(set).is_none_or(Vec::is_empty)) {
                 let name =
-                    if mesh.name.is_empty() { "a mesh".into() } else { format!("mesh {:?}", mesh.name) };
+                    if mesh.name.is_empty() { mesh.place.clone() } else { format!("mesh {:?}", mesh.name) };
                 self.note(&format!("{name} has no TEXCOORD_{set}, so its texture is read at (0, 0)"));
             }
         }
@@ -302,13 +224,5 @@ impl Reader<'_> {
             let left = left.join(", ");
             self.note(&format!("not drawn: {left}"));
         }
-    }
-}
-
-/// Returns whether an image is in a format that textures may have; of a file that is not opened yet its ending tells.
-fn is_readable(content: &Content) -> bool {
-    match content {
-        Content::Bytes(bytes) => is_picture(bytes),
-        Content::Path(path) => !path.to_lowercase().ends_with(".basis"),
     }
 }

@@ -1,24 +1,27 @@
 //! glTF files as parts of a scene. Input: the file, and which of its scenes and nodes are drawn. Output: one mesh for each
-//! of its materials, all in the file's space; its materials, camera and lights. Texture coordinates are transformed here:
-//! a material reads its textures at two sets of them at most.
+//! of its materials, all in the file's space; its materials, camera and lights.
 
+mod coordinates;
+mod images;
 mod materials;
+mod notes;
 mod stage;
 
 use std::collections::HashMap;
 use std::path::Path;
 
-use glam::{DAffine3, DMat2, DVec2, DVec3, Vec4};
+use glam::{DAffine3, DVec3, Vec4};
 
 use super::read_file;
 use crate::core::error::Result;
-use crate::mesh::gltf::{self, Instance, Model, Primitive, TextureRef};
+use crate::mesh::gltf::{self, Instance, Model, Primitive};
 use crate::mesh::{Fault, Mesh, MeshTriangle};
 use crate::scene::geometry::meshes::{normal_matrix, shares};
 use crate::scene::limits::MAX_TRIANGLES;
 
-use materials::CoordinateSets;
-pub(super) use materials::{MaterialNotes, add as add_material};
+use coordinates::{Along, CoordinateSets};
+pub(super) use materials::add as add_material;
+pub(super) use notes::MaterialNotes;
 pub(super) use stage::{View, camera, lights};
 
 /// Most bytes of a buffer in a file of its own.
@@ -40,35 +43,54 @@ pub(super) fn read(path: &Path, bytes: &[u8], sources: &mut Vec<std::path::PathB
 /// with all below them. The error says which names there are.
 pub(super) fn drawn(model: &Model, scene: Option<&str>, node: Option<&str>) -> Result<Vec<bool>, String> {
     if let Some(name) = node {
-        let roots = model.named(name);
+        let named = model.named(name);
+        let numbered = number_in(name, model.nodes.len()).filter(|_| named.is_empty());
+        let roots: Vec<usize> = named.into_iter().chain(numbered).collect();
         if roots.is_empty() {
-            let names = model.nodes.iter().map(|node| node.name.as_str());
-            return Err(format!("expected the name of a node of the file, found {name:?}{}", listed(names)));
+            let names = listed(model.nodes.iter().map(|node| node.name.as_str()), model.nodes.len());
+            return Err(format!(
+                "expected the name or the number of a node of the file, found {name:?}{names}"
+            ));
         }
         return Ok(model.below(&roots));
     }
     let Some(name) = scene else { return Ok(model.in_scene(model.default_scene)) };
     let found = model.scenes.iter().position(|scene| scene.name == name);
-    found.map(|index| model.in_scene(index)).ok_or_else(|| {
-        let names = listed(model.scenes.iter().map(|scene| scene.name.as_str()));
-        format!("expected the name of a scene of the file, found {name:?}{names}")
-    })
+    found.or_else(|| number_in(name, model.scenes.len())).map(|index| model.in_scene(index)).ok_or_else(
+        || {
+            let names = listed(model.scenes.iter().map(|scene| scene.name.as_str()), model.scenes.len());
+            format!("expected the name or the number of a scene of the file, found {name:?}{names}")
+        },
+    )
 }
 
-/// Returns a list of names for a message.
-fn listed<'a>(names: impl Iterator<Item = &'a str>) -> String {
+/// Returns a word as the number, from 0, of one of `count` things.
+fn number_in(word: &str, count: usize) -> Option<usize> {
+    word.parse().ok().filter(|number| *number < count)
+}
+
+/// Returns a list of names for a message, and the numbers of all `count` things.
+fn listed<'a>(names: impl Iterator<Item = &'a str>, count: usize) -> String {
     const MOST: usize = 12;
     let names: Vec<String> = names.filter(|name| !name.is_empty()).map(|name| format!("{name:?}")).collect();
+    let numbers = match count {
+        0 => "; there is none".to_owned(),
+        1 => "; the only number is 0".to_owned(),
+        _ => format!("; numbers are 0 to {}", count - 1),
+    };
     match names.len() {
-        0 => "; the file names none".into(),
-        count if count > MOST => format!("; it has {}, … ({count} in all)", names[..MOST].join(", ")),
-        _ => format!("; it has {}", names.join(", ")),
+        0 => format!("{numbers}, and none has a name"),
+        named if named > MOST => {
+            format!("; it has {}, … ({named} in all){numbers}", names[..MOST].join(", "))
+        }
+        _ => format!("; it has {}{numbers}", names.join(", ")),
     }
 }
 
 /// Returns whether some material is seen from the front only; the default one is.
 pub(super) fn has_one_sided(model: &Model) -> bool {
-    model.materials.is_empty() || model.materials.iter().any(|material| !material.double_sided)
+    let is_default = |instance: &Instance| instance.material.is_none();
+    model.instances.iter().any(is_default) || model.materials.iter().any(|material| !material.double_sided)
 }
 
 /// A part of what is drawn: a mesh in the file's space, or one that stands in several places.
@@ -83,8 +105,8 @@ pub(super) struct Drawn {
 struct Look<'a> {
     primitive: usize,
     sets: CoordinateSets<'a>,
-    /// Whether tangents are of the second set.
-    tangents: Option<bool>,
+    /// Along which coordinates tangents run.
+    tangents: Option<Along>,
 }
 
 impl Look<'_> {
@@ -92,13 +114,13 @@ impl Look<'_> {
         let material = material.map(|index| &model.materials[index]);
         let sets = material.map_or_else(CoordinateSets::default, CoordinateSets::of);
         let normal = material.and_then(|material| material.normal_texture.as_ref());
-        let tangents = normal.map(|normal| sets.is_second(normal));
+        let tangents = normal.map(|normal| sets.along(normal));
         Look { primitive, sets, tangents }
     }
 
     fn complete(&self, mesh: &mut Mesh) {
         match self.tangents {
-            Some(is_second) => mesh.complete_tangents(is_second),
+            Some(along) => along.complete(mesh),
             None => mesh.tangents.clear(),
         }
     }
@@ -187,10 +209,7 @@ fn append(mesh: &mut Mesh, primitive: &Primitive, matrix: &DAffine3, sets: &Coor
     let first_normal = mesh.normals.len() as u32;
     let normals = normal_matrix(&matrix.matrix3);
     mesh.normals.extend(primitive.normals.iter().map(|n| normals * *n));
-    mesh.uvs.extend(transformed(primitive, sets.first));
-    if sets.second.is_some() {
-        mesh.second_uvs.extend(transformed(primitive, sets.second));
-    }
+    sets.append(mesh, primitive);
     if !primitive.colors.is_empty() {
         mesh.colors.resize(first as usize, Vec4::ONE);
         mesh.colors.extend(primitive.colors.iter().map(|color| color.as_vec4()));
@@ -214,25 +233,4 @@ fn append(mesh: &mut Mesh, primitive: &Primitive, matrix: &DAffine3, sets: &Coor
         let normals = (!primitive.normals.is_empty()).then_some(normals);
         MeshTriangle { positions, uvs: Some(positions), normals, material: None }
     }));
-}
-
-/// Returns the coordinates of a primitive's corners as a texture reads them, v upwards as meshes have it.
-fn transformed(primitive: &Primitive, reference: Option<&TextureRef>) -> impl Iterator<Item = DVec2> {
-    let set = reference.map_or(0, |reference| reference.uv_set);
-    let uvs = primitive.uvs.get(set).map_or(&[][..], Vec::as_slice);
-    let transform = transform(reference);
-    (0..primitive.positions.len()).map(move |index| {
-        let uv = transform(uvs.get(index).copied().unwrap_or(DVec2::ZERO));
-        DVec2::new(uv.x, 1.0 - uv.y)
-    })
-}
-
-/// Returns what KHR_texture_transform does to coordinates: scale, then a rotation that is clockwise in (u, v), then the
-/// offset.
-fn transform(coordinates: Option<&TextureRef>) -> impl Fn(DVec2) -> DVec2 + use<> {
-    let transform = coordinates.and_then(|reference| reference.transform);
-    move |uv| match transform {
-        Some(t) => DMat2::from_angle(-t.rotation) * (t.scale * uv) + t.offset,
-        None => uv,
-    }
 }

@@ -71,7 +71,7 @@ pub(super) fn material(table: &Table<'_>, known: &Known<'_, '_>) -> Result<Mater
 /// Reads a map that has the material's sampler.
 fn map(field: Field<'_>, known: &Known<'_, '_>, material: &Material) -> Result<TextureUse> {
     let texture = known.textures.resolve(field)?;
-    Ok(TextureUse { texture, sampler: material.sampler, second_uv: false })
+    Ok(TextureUse { texture, sampler: material.sampler, second_uv: false, own_uv: None })
 }
 
 /// Reads what a material emits, and what keeps the environment's light from it. A map alone is not multiplied.
@@ -177,6 +177,7 @@ fn bump(table: &Table<'_>, known: &Known<'_, '_>) -> Result<Option<BumpMap>> {
         strength,
         sampler: None,
         second_uv: false,
+        own_uv: None,
     }))
 }
 

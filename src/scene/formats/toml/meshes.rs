@@ -65,8 +65,8 @@ fn section<'a>(folder: &Path, table: Table<'a>, names: &Names<'_>) -> Result<Sec
     let mut usage = Usage {
         placement: table.get("transform").map_or(Ok(Placement::IDENTITY), placement)?,
         motion: table.get("motion").map_or(Ok(DVec3::ZERO), Field::vec3)?,
-        scene: table.get("scene").map(Field::string).transpose()?,
-        node: table.get("node").map(Field::string).transpose()?,
+        scene: table.get("scene").map(name_or_number).transpose()?,
+        node: table.get("node").map(name_or_number).transpose()?,
         ..Usage::default()
     };
     if let Some(field) = table.get("material") {
@@ -80,6 +80,14 @@ fn materials(field: Field<'_>, names: &Names<'_>) -> Result<(Option<usize>, Rena
     let DeValue::Table(_) = field.value() else { return Ok((Some(names.resolve(field)?), Vec::new())) };
     let of_file = |(name, field): (&str, Field<'_>)| Ok((name.to_owned(), names.resolve(field)?));
     Ok((None, field.entries().map(of_file).collect::<Result<_>>()?))
+}
+
+/// Reads a name, or a number from 0 as it is written.
+fn name_or_number(field: Field<'_>) -> Result<&str> {
+    match field.value() {
+        DeValue::Integer(number) if number.radix() == 10 => Ok(number.as_str()),
+        _ => field.string(),
+    }
 }
 
 /// Reads scale, rotation and translation, or the three rows of a matrix of 3 × 4.
