@@ -5,6 +5,7 @@ use std::fs;
 
 use base64::prelude::{BASE64_STANDARD, Engine as _};
 use glam::{DVec3, Vec4};
+use moire::internal::lab::inspect::{Coordinates, readers};
 use moire::internal::scene::load;
 use moire::internal::scene::model::{AlphaMode, Light, Material, Model, Scene, Sides, TextureUse};
 use moire::internal::texture::data::ColorSpace;
@@ -178,15 +179,30 @@ fn third_coordinates_are_those_of_their_texture_alone() {
     let transform = |x: f64| format!("\"extensions\":{{\"KHR_texture_transform\":{{\"offset\":[{x},0]}}}}");
     let text = format!(
         "{{\"name\":\"three\",\"pbrMetallicRoughness\":{{\"baseColorTexture\":{{\"index\":0}},\
-         \"metallicRoughnessTexture\":{{\"index\":0,{}}}}},\"emissiveTexture\":{{\"index\":0,{}}}}}",
+         \"metallicRoughnessTexture\":{{\"index\":0,{}}}}},\"emissiveTexture\":{{\"index\":0,{}}},\
+         \"extensions\":{{\"KHR_materials_specular\":{{\"specularTexture\":{{\"index\":1,{}}},\
+         \"specularColorTexture\":{{\"index\":1,{}}}}}}}}}",
         transform(0.1),
-        transform(0.2)
+        transform(0.2),
+        transform(0.3),
+        transform(0.4)
     );
     let scene = loaded(&text, &textures());
     let found = only(&scene);
     let own = |map: Option<TextureUse>| map.unwrap().own_uv.unwrap().transform.translation.x;
-    assert_eq!([own(found.metallic_roughness_map), own(found.emission_map)], [0.1, 0.2]);
+    let Material { metallic_roughness_map, emission_map, specular_weight_map, specular_tint_map, .. } =
+        *found;
+    let maps = [metallic_roughness_map, emission_map, specular_weight_map, specular_tint_map];
+    assert_eq!(maps.map(own), [0.1, 0.2, 0.3, 0.4]);
     assert!(scene.notes.is_empty(), "{:?}", scene.notes);
+    // Charts are those of the same coordinates.
+    for map in maps.map(Option::unwrap) {
+        assert!(readers(&scene, &[map.texture]).contains(&(0, Coordinates::Own(map.own_uv.unwrap()))));
+    }
+    // In the order of the bits of the maps.
+    let records = packed(scene, None).records;
+    let moved: Vec<f64> = records.map_uvs.iter().map(|own| own.offset.x).collect();
+    assert_eq!(moved, [0.1, 0.2, 0.3, 0.4]);
 }
 
 /// Linear as they are, in 16 bits: 128/255 is not darkened.
