@@ -124,8 +124,7 @@ records! {
         is_polar: bool,
     }
 
-    /// Triangles of one material in a tree. Its nodes, corners and attributes lie in the buffer of meshes, where other meshes
-    /// may share them.
+    /// Triangles of one material in a tree. All its parts lie in the buffer of meshes, where others may share them.
     Mesh in meshes as "loop over meshes" {
         /// The ball around its box.
         center: DVec3,
@@ -212,8 +211,7 @@ records! {
         occlusion_texture_index: u32,
         occlusion_sampler_index: u32,
         occlusion_image_slot: u32,
-        /// Maps that are read at the mesh's second texture coordinates: one bit for each `MaterialMap`, and above them
-        /// those of the colour and of the bump map.
+        /// Maps read at the mesh's second coordinates: a bit for each `MaterialMap`, above them colour and bump map.
         second_uv_maps: u32,
         /// The same bits for maps with coordinates of their own, whose records follow each other in the order of the bits.
         own_uv_maps: u32,
@@ -222,16 +220,13 @@ records! {
         alpha_cutoff: f32,
         /// Times the alpha of its texture.
         opacity: f32,
-        /// Seen from the front only.
         one_sided: bool,
-        /// Colour of Phong's highlight, or the reflectance of a dielectric surface that is seen head-on, which is at most
-        /// `edge` once a map has multiplied it.
+        /// Colour of Phong's highlight, or a dielectric's reflectance head-on, at most `edge` after its maps.
         specular: Vec3,
         /// Reflectance of a dielectric surface at grazing angles, of model `metallic-roughness`.
         edge: f32,
         /// Exponent of Phong's highlight.
         exponent: f32,
-        /// Index of refraction.
         ior: f32,
         specular_weight_texture_index: u32,
         specular_weight_sampler_index: u32,
