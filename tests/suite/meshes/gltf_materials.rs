@@ -182,10 +182,10 @@ fn third_coordinates_are_those_of_their_texture_alone() {
          \"metallicRoughnessTexture\":{{\"index\":0,{}}}}},\"emissiveTexture\":{{\"index\":0,{}}},\
          \"extensions\":{{\"KHR_materials_specular\":{{\"specularTexture\":{{\"index\":1,{}}},\
          \"specularColorTexture\":{{\"index\":1,{}}}}}}}}}",
-        transform(0.1),
-        transform(0.2),
-        transform(0.3),
-        transform(0.4)
+        transform(0.125),
+        transform(0.25),
+        transform(0.375),
+        transform(0.5)
     );
     let scene = loaded(&text, &textures());
     let found = only(&scene);
@@ -193,7 +193,7 @@ fn third_coordinates_are_those_of_their_texture_alone() {
     let Material { metallic_roughness_map, emission_map, specular_weight_map, specular_tint_map, .. } =
         *found;
     let maps = [metallic_roughness_map, emission_map, specular_weight_map, specular_tint_map];
-    assert_eq!(maps.map(own), [0.1, 0.2, 0.3, 0.4]);
+    assert_eq!(maps.map(own), [0.125, 0.25, 0.375, 0.5]);
     assert!(scene.notes.is_empty(), "{:?}", scene.notes);
     // Charts are those of the same coordinates.
     for map in maps.map(Option::unwrap) {
@@ -202,7 +202,7 @@ fn third_coordinates_are_those_of_their_texture_alone() {
     // In the order of the bits of the maps.
     let records = packed(scene, None).records;
     let moved: Vec<f64> = records.map_uvs.iter().map(|own| own.offset.x).collect();
-    assert_eq!(moved, [0.1, 0.2, 0.3, 0.4]);
+    assert_eq!(moved, [0.125, 0.25, 0.375, 0.5]);
 }
 
 /// Linear as they are, in 16 bits: 128/255 is not darkened.
