@@ -231,7 +231,8 @@ fn a_file_of_five_names_is_held_once() {
         let left_out = report["left_out"].as_array().unwrap().iter();
         left_out.filter(|text| text.as_str().unwrap().contains("reads the texels of \"t0\"")).count()
     };
-    let texels = 512 * 512 * 4;
+    // But for the alignment of what lies beside each other, which is a page at most.
+    let texels = 512 * 512 * 4 - 4096;
     let different = five(folder.path(), ["a.png", "b.png", "c.png", "d.png", "e.png"], "");
     let once = five(folder.path(), same, "");
     assert_eq!((held(&different), held(&once)), (0, 4));
