@@ -229,19 +229,23 @@ impl Material {
 
     /// Returns the indices of all its textures.
     pub(crate) fn texture_indices_mut(&mut self) -> impl Iterator<Item = &mut usize> {
-        let others = [
-            &mut self.metallic_roughness_map,
-            &mut self.emission_map,
-            &mut self.occlusion_map,
-            &mut self.specular_weight_map,
-            &mut self.specular_tint_map,
-        ];
+        let (texture, _, bump, others) = self.readers_mut();
         let others = others.into_iter().flatten().map(|map| &mut map.texture);
-        self.texture.iter_mut().chain(self.bump.iter_mut().map(|bump| &mut bump.texture)).chain(others)
+        texture.iter_mut().chain(bump.iter_mut().map(|bump| &mut bump.texture)).chain(others)
     }
 
     /// Returns the indices of all samplers that it names.
     pub(crate) fn sampler_indices_mut(&mut self) -> impl Iterator<Item = &mut usize> {
+        let (_, sampler, bump, others) = self.readers_mut();
+        let others = others.into_iter().flatten().map(|map| &mut map.sampler);
+        let bump = bump.iter_mut().filter_map(|bump| bump.sampler.as_mut());
+        std::iter::once(sampler).chain(bump).chain(others)
+    }
+
+    /// Returns what reads textures: the colour's texture and its sampler, the bump map, and the other maps.
+    fn readers_mut(
+        &mut self,
+    ) -> (&mut Option<usize>, &mut usize, &mut Option<BumpMap>, [&mut Option<TextureUse>; 5]) {
         let others = [
             &mut self.metallic_roughness_map,
             &mut self.emission_map,
@@ -249,9 +253,7 @@ impl Material {
             &mut self.specular_weight_map,
             &mut self.specular_tint_map,
         ];
-        let others = others.into_iter().flatten().map(|map| &mut map.sampler);
-        let bump = self.bump.iter_mut().filter_map(|bump| bump.sampler.as_mut());
-        std::iter::once(&mut self.sampler).chain(bump).chain(others)
+        (&mut self.texture, &mut self.sampler, &mut self.bump, others)
     }
 
     /// Returns true if it mirrors a ray into one of many directions.
