@@ -59,13 +59,6 @@ RayDifferential camera_differential(const Header header, const Ray ray) {
     return beam;
 }
 
-// Returns a unit vector perpendicular to the unit vector n (Duff et al. 2017).
-vec3 any_tangent(vec3 n) {
-    float side = n.z >= 0.0 ? 1.0 : -1.0;
-    float a = -1.0 / (side + n.z);
-    return vec3(1.0 + side * n.x * n.x * a, side * n.x * n.y * a, -side * n.x);
-}
-
 // Transforms v from the frame around +z to one around the unit vector n.
 vec3 around(vec3 n, vec3 v) {
     vec3 tangent = any_tangent(n);

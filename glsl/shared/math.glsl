@@ -155,4 +155,11 @@ float log2_accurate(float x) {
     return sum;
 }
 
+// Returns a unit vector perpendicular to the unit vector n (Duff et al. 2017).
+vec3 any_tangent(vec3 n) {
+    float side = n.z >= 0.0 ? 1.0 : -1.0;
+    float a = -1.0 / (side + n.z);
+    return vec3(1.0 + side * n.x * n.x * a, side * n.x * n.y * a, -side * n.x);
+}
+
 #endif

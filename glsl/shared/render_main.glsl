@@ -65,7 +65,7 @@ void main() {
     }
     bool is_batch = MODE_IS(SCHEDULES, SCHEDULE_BATCHES, schedule());
     Task task;
-    if (MESH_SEARCH == SEARCH_MANY || MESH_SEARCH == SEARCH_REST) task = listed_task();
+    if (MESH_SEARCH == SEARCH_MORE || MESH_SEARCH == SEARCH_MANY || MESH_SEARCH == SEARCH_REST) task = listed_task();
     else if (is_batch) task = batch_task(header);
     else task = tile_task();
     if (!in_film(header, task.place)) return;
@@ -81,15 +81,17 @@ void main() {
     Points points = pixel_points(header, pixel, key);
     uint at = film_index(header, task.place);
     Candidates candidates = ANYTHING;
-    if (TILE_CULLED && MESH_SEARCH != SEARCH_REST) {
+    if (TILE_CULLED) {
         uvec2 place = task.place + uvec2(0u, slice.band_y);
         candidates.list = cell_list(header, place);
         if (CONCAVE_SHAPES) {
             if (candidates.list != NO_LIST) mark_in_pixel(header, place, pixel, candidates);
+            Candidates marked = candidates;
+            if (candidates.list != NO_LIST) hold_in_pixel(candidates);
             // Not all can be held: the pixel is left to the next pass.
             if (HOLDS) {
-                unfinished = MESH_SEARCH == SEARCH_LISTS && any_left(candidates);
-                if (SHADES) unfinished = !gather_shades(header, pixel, candidates) || unfinished;
+                unfinished = BY_HELD && any_left(candidates);
+                if (SHADES) unfinished = !gather_shades(header, pixel, marked) || unfinished;
                 if (unfinished) task.end = task.first;
             }
         }

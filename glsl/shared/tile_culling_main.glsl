@@ -15,7 +15,7 @@ layout(local_size_x_id = 0, local_size_y_id = 1, local_size_z = 1) in;
 
 layout(std430, set = 0, binding = BINDING_OUTPUT) buffer Found { uint found[]; };
 
-#include "geometry/mesh_survey.glsl"
+#include "geometry/mesh_shade_survey.glsl"
 
 layout(push_constant) uniform Push { CellRange part; };
 
@@ -104,8 +104,9 @@ void main() {
         CellRays cell_sides = cell_rays(header, frame);
         survey.first = min(listed, LIST_ROOM);
         survey_meshes(header, frame, SQUARE, cell_sides, survey);
-        found[begin + CELL_HEAD + LIST_ROOM] = survey.more;
+        found[begin + CELL_MORE] = survey.more;
         if (HOLDS_TRIANGLES) mark_parts(header, pixel, survey);
+        if (LISTS_SHADES) survey_shades(header, frame, survey);
         round = round || survey.count > 0u || survey.depth < FAR;
     }
     bool empty = seen == 0u && !round && !(ENVIRONMENT && header.environment_material != NO_MATERIAL);

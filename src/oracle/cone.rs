@@ -5,7 +5,7 @@ use std::f64::consts::FRAC_2_SQRT_PI;
 use glam::{DVec2, DVec3, DVec4};
 
 use super::camera::Ray;
-use super::footprint::any_tangent;
+use super::math::any_tangent;
 
 /// Radius of a disc of area 1: 1 / √π.
 const DISC_RADIUS: f64 = 0.5 * FRAC_2_SQRT_PI;

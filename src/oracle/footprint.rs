@@ -3,6 +3,7 @@
 use glam::{DMat3, DVec3};
 
 use super::camera::Ray;
+use super::math::any_tangent;
 use crate::pack::ProjectionKind;
 use crate::scene::model::Footprint as FootprintKind;
 use crate::schema::layout::Header;
@@ -49,13 +50,6 @@ pub fn camera_differential(header: &Header, ray: &Ray) -> RayDifferential {
             spread: side / ray.direction.length().sqrt(),
         }
     }
-}
-
-/// Returns a unit vector perpendicular to the unit vector n (Duff et al. 2017).
-pub fn any_tangent(n: DVec3) -> DVec3 {
-    let side = if n.z >= 0.0 { 1.0 } else { -1.0 };
-    let a = -1.0 / (side + n.z);
-    DVec3::new(1.0 + side * n.x * n.x * a, side * n.x * n.y * a, -side * n.x)
 }
 
 /// Transforms v from the frame around +z to one around the unit vector n.

@@ -34,3 +34,10 @@ pub fn atan2_accurate(y: f64, x: f64) -> f64 {
 pub fn sine_turns(t: f64) -> f64 {
     (2.0 * std::f64::consts::PI * (t - t.round_ties_even())).sin()
 }
+
+/// Returns a unit vector perpendicular to the unit vector n (Duff et al. 2017).
+pub fn any_tangent(n: DVec3) -> DVec3 {
+    let side = if n.z >= 0.0 { 1.0 } else { -1.0 };
+    let a = -1.0 / (side + n.z);
+    DVec3::new(1.0 + side * n.x * n.x * a, side * n.x * n.y * a, -side * n.x)
+}

@@ -6,7 +6,7 @@ use crate::gpu::DeviceInfo;
 use crate::pack::PackedScene;
 use crate::pack::features::{Features, bounces};
 use crate::schema::constants::{
-    SEARCH_ALL, SEARCH_LISTS, SEARCH_MANY, SEARCH_REST, SEARCH_TEAM, SEARCH_TEAM_REST,
+    SEARCH_ALL, SEARCH_FEW, SEARCH_MANY, SEARCH_MORE, SEARCH_REST, SEARCH_TEAM, SEARCH_TEAM_REST,
 };
 use crate::schema::enums::{AlphaMode, LightKind, ProjectionKind};
 use crate::schema::specialization::Constant;
@@ -28,7 +28,8 @@ pub fn passes(device: &DeviceInfo, scene: &PackedScene, features: &Features) -> 
     let has_mark = !bounces(scene) && scene.mean_sign.is_none();
     let lists_shades = lists_shades(scene, features);
     let searches: &[u32] = match (has_lists && has_mark, Tuning::holds_triangles(device)) {
-        (true, true) => &[SEARCH_LISTS, SEARCH_MANY, SEARCH_REST],
+        (true, true) if lists_shades => &[SEARCH_FEW, SEARCH_MORE, SEARCH_MANY, SEARCH_REST],
+        (true, true) => &[SEARCH_FEW, SEARCH_MANY, SEARCH_REST],
         (true, false) if samples_by_teams(scene, features, lists_shades) => &[SEARCH_TEAM, SEARCH_TEAM_REST],
         _ => &[SEARCH_ALL],
     };

@@ -4,15 +4,17 @@
 
 use std::sync::Arc;
 
-use super::{Report, Resources, build_pipeline, specialization};
+use super::{Report, Resources, build_pipeline, mesh_passes, specialization};
 use crate::core::error::Result;
 use crate::gpu::shaders;
 use crate::gpu::{BindGroup, Buffer, BufferUse, DeviceKind, Gpu, Pipeline};
 use crate::pack::PackedScene;
 use crate::pack::features::Features;
 use crate::schema::enums::TexelSource;
+use crate::schema::specialization::Constant;
 use crate::schema::layout::{
-    CELL_BLOCK_HEIGHT, CELL_BLOCK_WIDTH, CELL_EMPTY, CELL_UNIFORM, CELL_WORDS, CellRange, MORE_WORDS, TILE,
+    CELL_BLOCK_HEIGHT, CELL_BLOCK_WIDTH, CELL_EMPTY, CELL_UNIFORM, CELL_WORDS, CELLS_A_ROOM, CellRange,
+    MORE_WORDS, SHADE_WORDS, TILE,
 };
 
 const GROUP: u32 = 64;
@@ -21,8 +23,8 @@ const GROUP: u32 = 64;
 const MAX_TESTS_CPU: u64 = 1 << 24;
 const MAX_TESTS_GPU: u64 = 1 << 28;
 
-/// Cells of which one may have more triangles of meshes than its list has room for.
-const CELLS_A_ROOM: u64 = 16;
+/// What stands behind the cells at first: no rooms and no words of shades are taken.
+const COUNTERS: [u32; 2] = [0, 0];
 
 /// Boxes and triangles of meshes that are tested for a cell, of few of which more.
 const TESTS_OF_MESHES: u64 = 1024;
@@ -48,7 +50,10 @@ impl TileCulling {
     ) -> Result<TileCulling> {
         let shader = shaders::TILE_CULLING_FAMILY.shader(TexelSource::None, features.records())?;
         let slots = resources.slots;
-        let constants = specialization::constants(shader, features, &resources.sections, [GROUP, 1], slots);
+        let lists_shades = mesh_passes::passes(gpu.info(), scene, features).lists_shades;
+        let mut constants =
+            specialization::constants(shader, features, &resources.sections, [GROUP, 1], slots);
+        constants.extend(shader.values([(Constant::ListsShades, u32::from(lists_shades))]));
         let pipeline = build_pipeline(gpu, shader, &constants, slots, size_of::<CellRange>())?;
         let [width, height] = scene.header.film_size.to_array();
         let side = scene.header.cell_side;
@@ -57,11 +62,12 @@ impl TileCulling {
         let cells_end = count * u64::from(CELL_WORDS) * 4;
         let mut bytes = cells_end;
         if scene.has_concave_shapes() {
-            let rooms = 4 + count.div_ceil(CELLS_A_ROOM) * u64::from(MORE_WORDS) * 4;
+            let rooms = count.div_ceil(u64::from(CELLS_A_ROOM)) * u64::from(MORE_WORDS);
+            let shades = if lists_shades { count * u64::from(SHADE_WORDS) } else { 0 };
             let limit = gpu.info().limits.max_storage_buffer_range;
-            bytes = (cells_end + rooms).min(limit.max(cells_end));
+            bytes = (cells_end + (COUNTERS.len() as u64 + rooms + shades) * 4).min(limit.max(cells_end));
         }
-        let has_rooms = bytes > cells_end;
+        let has_rooms = bytes >= cells_end + COUNTERS.len() as u64 * 4;
         let buffer = gpu.buffer("tile lists", bytes, BufferUse::Storage)?;
         let group = resources.bind(gpu, &pipeline, shader, &buffer, None)?;
         let tests =
@@ -85,9 +91,8 @@ impl TileCulling {
     /// Fills the lists.
     pub fn run(&self, gpu: &Gpu, report: &mut Report) -> Result<()> {
         if self.has_rooms {
-            // None is taken.
             let cells = u64::from(self.cells[0]) * u64::from(self.cells[1]);
-            gpu.write_buffer(&self.buffer, cells * u64::from(CELL_WORDS) * 4, &[0; 4])?;
+            gpu.write_buffer(&self.buffer, cells * u64::from(CELL_WORDS) * 4, bytemuck::cast_slice(&COUNTERS))?;
         }
         let cells = self.whole_blocks().iter().product();
         for first in (0..cells).step_by(self.cells_at_once as usize) {

@@ -35,31 +35,42 @@ constants! {
 
     /// Words of a cell of the picture: `CELL_HEAD`, then single triangles by their index, then those of meshes by the
     /// texel of their corners, `MAX_LISTED` in all. In a scene with meshes `MAX_LISTED_WITH_MESHES`; behind these the first
-    /// word of the cell's room for more, or `NO_LIST`, and `CELL_MASK_WORDS` words of bits for each of `CELL_PARTS` ×
+    /// word of the cell's room for more, or `NO_LIST`, that of its shades, and `CELL_MASK_WORDS` words of bits for each of `CELL_PARTS` ×
     /// `CELL_PARTS` parts of the cell: one for each triangle of a mesh in the list, set if rays of the part may meet it.
     CELL_WORDS: u32 = 128;
     /// Number of single triangles, content, number of triangles of meshes, and the depth up to which no other triangle
     /// of a mesh is met.
     CELL_HEAD: u32 = 4;
     MAX_LISTED: u32 = 124;
-    MAX_LISTED_WITH_MESHES: u32 = 75;
+    MAX_LISTED_WITH_MESHES: u32 = 74;
     CELL_PARTS: u32 = 4;
     CELL_MASK_WORDS: u32 = 3;
     /// Room for more triangles of a cell with meshes: `MAX_MORE_LISTED` of them, then `MORE_MASK_WORDS` further words of bits
-    /// for each part of the cell. The number of those rooms that are taken, then the rooms themselves, follow the cells.
+    /// for each part of the cell. The number of those rooms that are taken, that of words of shades that are taken, the rooms
+    /// themselves, one for `CELLS_A_ROOM` cells, and words of shades follow the cells.
     MORE_WORDS: u32 = 261;
+    CELLS_A_ROOM: u32 = 16;
     MAX_MORE_LISTED: u32 = 181;
     MORE_MASK_WORDS: u32 = 5;
-    /// Values of `MESH_SEARCH`: camera rays search by lists and trees; by lists alone, which leaves pixels unfinished;
-    /// those of these pixels with more triangles, by lists alone; and what is left then, by trees alone. Where a branch that
-    /// no thread takes costs as much as one that all take, passes are faster than one. The last two are passes of workgroups
-    /// that sample their pixels together: by lists alone, and what is left then, by trees alone.
+    /// The shades of a cell, where a directional light shines: `SHADES_HEAD` words, which are the region that lit surfaces
+    /// fill in the light's frame (least and greatest), the number of triangles above it, and how
+    /// many words of bits each of them has; then for each its texel and a bit for each triangle of the cell's list, set if it
+    /// may shade that. There is room for `SHADE_WORDS` words on average. Bits are left out where more than `MAX_SHADE_PAIRS`
+    /// of two triangles would have to be tested.
+    SHADES_HEAD: u32 = 8;
+    SHADE_WORDS: u32 = 48;
+    MAX_SHADE_PAIRS: u32 = 4096;
+    /// Values of `MESH_SEARCH`: camera rays search by lists and trees; by lists alone, in pixels of few triangles, of more,
+    /// and of many, each of which leaves pixels unfinished; and what is left then, by lists and trees. Where a branch that no
+    /// thread takes costs as much as one that all take, passes are faster than one. The last two are passes of workgroups that
+    /// sample their pixels together: by lists alone, and what is left then, by trees alone.
     SEARCH_ALL: u32 = 0;
-    SEARCH_LISTS: u32 = 1;
-    SEARCH_MANY: u32 = 2;
-    SEARCH_REST: u32 = 3;
-    SEARCH_TEAM: u32 = 4;
-    SEARCH_TEAM_REST: u32 = 5;
+    SEARCH_FEW: u32 = 1;
+    SEARCH_MORE: u32 = 2;
+    SEARCH_MANY: u32 = 3;
+    SEARCH_REST: u32 = 4;
+    SEARCH_TEAM: u32 = 5;
+    SEARCH_TEAM_REST: u32 = 6;
     /// Pixels, and threads, of a workgroup that samples them together.
     TEAM_WIDTH: u32 = 8;
     TEAM_HEIGHT: u32 = 4;

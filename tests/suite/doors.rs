@@ -14,6 +14,8 @@ const WITHOUT_TWIN: &[(&str, &str)] = &[
     ("mip_chain", "its twin makes levels on the host: `src/texture/mips`"),
     ("geometry/mesh_lists", "lists shorten a search: pictures with and without them are equal"),
     ("geometry/mesh_survey", "it makes these lists"),
+    ("geometry/mesh_shade_region", "what is lit, for the lists of what may shade it"),
+    ("geometry/mesh_shade_survey", "it makes these lists"),
     ("geometry/mesh_shades", "so do those of the triangles that may shade a pixel"),
     ("geometry/mesh_receivers", "what a pixel sees, for these"),
     ("geometry/mesh_held", "triangles of lists, kept for many rays"),

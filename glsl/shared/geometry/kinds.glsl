@@ -16,6 +16,12 @@
 
 // Places in a cell's list.
 const uint LIST_ROOM = CONCAVE_SHAPES ? MAX_LISTED_WITH_MESHES : MAX_LISTED;
+// Words of a cell in a scene with meshes: where its room for more begins, where its shades begin, and bits of its parts.
+const uint CELL_MORE = CELL_HEAD + LIST_ROOM;
+const uint CELL_SHADES = CELL_MORE + 1u;
+const uint CELL_MASKS = CELL_MORE + 2u;
+// Of a cell of which nothing is lit: no shades begin there.
+const uint NO_SHADES = 0u;
 
 uint shape_count() {
     COUNT_SHAPES

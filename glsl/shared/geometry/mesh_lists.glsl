@@ -11,15 +11,16 @@
 bool unfinished = false;
 
 // Camera rays search lists alone.
-const bool BY_LISTS = MESH_SEARCH == SEARCH_LISTS || MESH_SEARCH == SEARCH_MANY || MESH_SEARCH == SEARCH_TEAM;
+const bool BY_LISTS = MESH_SEARCH == SEARCH_FEW || MESH_SEARCH == SEARCH_MORE || MESH_SEARCH == SEARCH_MANY || MESH_SEARCH == SEARCH_TEAM;
+// Pixels with more triangles than are held are left to the next pass.
+const bool BY_HELD = MESH_SEARCH == SEARCH_FEW || MESH_SEARCH == SEARCH_MORE;
 
-// Registers, where reads from memory cost more than these: the first triangles of a pixel. The pass by lists alone leaves
-// pixels with more to the next one.
-#define HELD_TRIANGLES (MESH_SEARCH == SEARCH_LISTS ? 6u : 4u)
+// Registers, where reads from memory cost more than these: the first triangles of a pixel.
+#define HELD_TRIANGLES (MESH_SEARCH == SEARCH_FEW ? 6u : MESH_SEARCH == SEARCH_MORE ? 8u : 4u)
 #define HOLDS (HOLDS_TRIANGLES && ORIGIN_IS_EYE)
 
 // Pixels of many triangles: each is read once for a group of samples, of which the nearest triangles are found before.
-const bool GROUPED = MESH_SEARCH == SEARCH_MANY;
+const bool GROUPED = MESH_SEARCH == SEARCH_MANY || MESH_SEARCH == SEARCH_REST;
 // A workgroup samples its pixels together: what the current sample meets of the listed triangles is found before.
 const bool TEAMED = MESH_SEARCH == SEARCH_TEAM;
 real team_nearest;
@@ -31,7 +32,7 @@ real group_nearest[GROUP];
 uint group_found[GROUP];
 uint group_sample = 0u; // the current one
 
-#define EACH_HELD(DO) DO(0) DO(1) DO(2) DO(3) DO(4) DO(5)
+#define EACH_HELD(DO) DO(0) DO(1) DO(2) DO(3) DO(4) DO(5) DO(6) DO(7)
 
 #define DECLARE_HELD(k) Held held_##k;
 EACH_HELD(DECLARE_HELD)
@@ -59,7 +60,7 @@ float list_depth(uint list) { return uintBitsToFloat(tile_lists[list + 3u]); }
 // The texel of a listed triangle.
 uint listed_texel(const Candidates candidates, uint index) {
     uint place = tile_lists[candidates.list] + index;
-    uint more = tile_lists[candidates.list + CELL_HEAD + LIST_ROOM];
+    uint more = tile_lists[candidates.list + CELL_MORE];
     return tile_lists[place < LIST_ROOM ? candidates.list + CELL_HEAD + place : more + place - LIST_ROOM];
 }
 
@@ -100,8 +101,7 @@ void test_in_pixel(const Header header, uvec2 pixel, inout Candidates candidates
     }
 }
 
-// Marks the listed triangles that rays of the pixel may meet, but for those that are held from here on. Where memory is
-// read lane by lane, tile culling has tested them.
+// Marks the listed triangles that rays of the pixel may meet. Where memory is read lane by lane, tile culling has tested them.
 void mark_in_pixel(const Header header, uvec2 place, uvec2 pixel, inout Candidates candidates) {
     if (!HOLDS_TRIANGLES) {
         test_in_pixel(header, pixel, candidates);
@@ -109,14 +109,18 @@ void mark_in_pixel(const Header header, uvec2 place, uvec2 pixel, inout Candidat
     }
     uvec2 part = (place % header.cell_side) / (header.cell_side / CELL_PARTS);
     uint number = part.y * CELL_PARTS + part.x;
-    uint more = tile_lists[candidates.list + CELL_HEAD + LIST_ROOM];
-    uint at = candidates.list + CELL_HEAD + LIST_ROOM + 1u + number * CELL_MASK_WORDS;
+    uint more = tile_lists[candidates.list + CELL_MORE];
+    uint at = candidates.list + CELL_MASKS + number * CELL_MASK_WORDS;
     candidates.meshes = uvec4(tile_lists[at], tile_lists[at + 1u], tile_lists[at + 2u], 0u);
     if (more != NO_LIST) {
         at = more + MAX_MORE_LISTED + number * MORE_MASK_WORDS;
         candidates.meshes.w = tile_lists[at];
         candidates.more = uvec4(tile_lists[at + 1u], tile_lists[at + 2u], tile_lists[at + 3u], tile_lists[at + 4u]);
     }
+}
+
+// Holds the first marked triangles, whose marks are taken.
+void hold_in_pixel(inout Candidates candidates) {
     bool holds = false;
     if (HOLDS) holds = !GROUPED;
     if (holds) {
@@ -151,7 +155,7 @@ bool nearest_listed(const Ray ray, const Candidates candidates, inout real best,
     if (TEAMED) {
         NEARER(best, found, team_nearest, team_found)
     } else if (HOLDS) {
-        loops = !BY_LISTS;
+        loops = !BY_LISTS && !GROUPED;
         if (GROUPED) {
             for (uint k = 0u; k < GROUP; k++) {
                 if (k == group_sample) NEARER(best, found, group_nearest[k], group_found[k])

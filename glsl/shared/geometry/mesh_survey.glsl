@@ -75,13 +75,25 @@ float meets_at(vec3 a, vec3 b, vec3 c, vec3 d, bool one_sided) {
     return (front || back) && whole != 0.0 && t > 0.0 ? t : FAR;
 }
 
+uint cell_count(const Header header) {
+    uint side = header.cell_side;
+    return ((header.film_size.x + side - 1u) / side) * ((header.film_size.y + side - 1u) / side);
+}
+
+// The number of rooms for more, as far as the buffer has them.
+uint count_of_rooms(const Header header) {
+    uint cells = cell_count(header);
+    uint behind = uint(found.length()) - cells * CELL_WORDS;
+    return behind < 2u ? 0u : min((cells + CELLS_A_ROOM - 1u) / CELLS_A_ROOM, (behind - 2u) / MORE_WORDS);
+}
+
 // Returns the first word of a room for more that is free now; NO_LIST if there is none.
 uint more_room(const Header header) {
-    uint side = header.cell_side;
-    uint rooms = ((header.film_size.x + side - 1u) / side) * ((header.film_size.y + side - 1u) / side) * CELL_WORDS;
-    uint room = (uint(found.length()) - rooms - 1u) / MORE_WORDS;
-    uint taken = atomicAdd(found[rooms], 1u);
-    return taken < room ? rooms + 1u + taken * MORE_WORDS : NO_LIST;
+    uint rooms = count_of_rooms(header);
+    if (rooms == 0u) return NO_LIST;
+    uint behind = cell_count(header) * CELL_WORDS;
+    uint taken = atomicAdd(found[behind], 1u);
+    return taken < rooms ? behind + 2u + taken * MORE_WORDS : NO_LIST;
 }
 
 // The word of a triangle in the list.
@@ -182,7 +194,7 @@ void survey_meshes(const Header header, const PixelFrustum frame, uint square, c
 // Marks for each part of the cell the triangles of its list that the part's rays may meet; all for parallel rays. In a
 // part, rays are those through its middle and as much to either side as `radius` steps, in which edge functions are affine.
 void mark_parts(const Header header, uvec2 pixel, const Survey survey) {
-    uint masks = survey.cell + CELL_HEAD + LIST_ROOM + 1u;
+    uint masks = survey.cell + CELL_MASKS;
     float side = float(header.cell_side / CELL_PARTS);
     float radius = header.filter_radius + 0.5 * (side - 1.0);
     vec2 place = (vec2(pixel) - 0.5 * vec2(header.image_size)) + 0.5 * side;

@@ -4,7 +4,8 @@
 use glam::{DVec2, DVec3};
 
 use crate::oracle::disk_sampling::{concentric_disc, on_cap};
-use crate::oracle::footprint::{RayDifferential, any_tangent, around};
+use crate::oracle::footprint::{RayDifferential, around};
+use crate::oracle::math::any_tangent;
 use crate::schema::layout::Header;
 
 /// The normal of a facet that a ray along `direction` meets, on a surface with unit normal n against the ray.

@@ -1,0 +1,215 @@
+// The shades of a cell of pixels: the triangles of meshes that may shade what its camera rays see from a directional light,
+// which its pixels choose from. They stand behind the cells, after the region for which they are all.
+#ifndef MESH_SHADE_SURVEY_GLSL
+#define MESH_SHADE_SURVEY_GLSL
+
+#include "mesh_survey.glsl"
+#include "mesh_shade_region.glsl"
+
+// What the cell sees, in parts: surfaces that lie apart would have much between them in one.
+const uint REGION_PARTS = 4u;
+ShadeRegion region_parts[REGION_PARTS];
+
+float size_of(const ShadeRegion region) { return is_empty(region) ? 0.0 : sum_of_parts(region.greatest - region.least); }
+
+// Adds a region to the part that grows least by it.
+void add_to_parts(const ShadeRegion region) {
+    if (is_empty(region)) return;
+    float least = FAR;
+    uint best = 0u;
+    for (uint k = 0u; k < REGION_PARTS; k++) {
+        // A new part for what is not near another one.
+        float growth = is_empty(region_parts[k]) ? 8.0 * size_of(region) : size_of(joined(region_parts[k], region)) - size_of(region_parts[k]);
+        best = growth < least ? k : best;
+        least = min(growth, least);
+    }
+    for (uint k = 0u; k < REGION_PARTS; k++) {
+        if (k == best) region_parts[k] = joined(region_parts[k], region);
+    }
+}
+
+// True if a box of the tree is above none of the parts.
+bool is_box_beside(vec3 low, vec3 high) {
+    vec3 middle = in_frame(0.5 * (low + high));
+    vec3 half_size = 0.5 * (high - low);
+    vec3 extent = vec3(dot3(abs(shade_frame[0]), half_size), dot3(abs(shade_frame[1]), half_size), dot3(abs(shade_frame[2]), half_size));
+    bool is_out = true;
+    for (uint k = 0u; k < REGION_PARTS; k++) is_out = is_out && (is_empty(region_parts[k]) || is_beside(region_parts[k], middle - extent, middle + extent));
+    return is_out;
+}
+
+bool is_above_parts(vec3 a, vec3 b, vec3 c) {
+    vec3 pa = in_frame(a);
+    vec3 pb = in_frame(b);
+    vec3 pc = in_frame(c);
+    bool is_over = false;
+    for (uint k = 0u; k < REGION_PARTS; k++) is_over = is_over || is_above(region_parts[k], pa, pb, pc);
+    return is_over;
+}
+
+// The triangles above the parts: the texels of the first ones. Where threads are many, their memory is dear.
+const uint SHADE_ROOM = HOLDS_TRIANGLES ? 768u : 384u;
+uint above[SHADE_ROOM];
+
+// Nodes that wait, from the beginning on, and leaves above the parts, from the end on.
+const uint NODE_ROOM = HOLDS_TRIANGLES ? 1024u : 768u;
+uint room[NODE_ROOM];
+
+// Finds the leaves above the parts. Returns their number, NODE_ROOM if there are too many.
+uint leaves_above() {
+    uint height = 0u;
+    uint leaves = 0u;
+    uint reference = 0u;
+    for (uint opened = 0u; opened < MAX_CELL_NODES; opened++) {
+        for (uint k = 0u; k < TREE_WIDTH; k++) {
+            uvec4 least = mesh_texel(reference + 2u * k);
+            uvec4 greatest = mesh_texel(reference + 2u * k + 1u);
+            bool is_met = least.w != NO_SHAPE && !is_box_beside(point_in(least), point_in(greatest));
+            bool is_leaf = greatest.w != 0u;
+            if (is_met) room[is_leaf ? NODE_ROOM - 1u - leaves : height] = least.w | (greatest.w << TREE_COUNT_SHIFT);
+            leaves += is_met && is_leaf ? 1u : 0u;
+            height += is_met && !is_leaf ? 1u : 0u;
+        }
+        if (height == 0u) return leaves;
+        if (height + leaves + TREE_WIDTH > NODE_ROOM) return NODE_ROOM;
+        height--;
+        reference = room[height];
+    }
+    return NODE_ROOM;
+}
+
+// Finds the triangles above the parts. Returns their number, more than SHADE_ROOM if not all are known.
+uint triangles_above() {
+    uint leaves = leaves_above();
+    if (leaves == NODE_ROOM) return NODE_ROOM;
+    uint count = 0u;
+    uint left = 0u;
+    uint at = 0u;
+    while ((left | leaves) != 0u) {
+        if (left == 0u) {
+            uint leaf = room[NODE_ROOM - leaves];
+            leaves--;
+            at = leaf & ((1u << TREE_COUNT_SHIFT) - 1u);
+            left = leaf >> TREE_COUNT_SHIFT;
+        }
+        if (is_above_parts(point_in(mesh_texel(at)), point_in(mesh_texel(at + 1u)), point_in(mesh_texel(at + 2u)))) {
+            if (count < SHADE_ROOM) above[count] = at;
+            count++;
+        }
+        at += 3u;
+        left--;
+    }
+    return count;
+}
+
+// Returns the first of as many words of shades, which are free now; NO_LIST if there are not as many.
+uint shade_words(const Header header, uint count) {
+    uint behind = cell_count(header) * CELL_WORDS;
+    uint words = behind + 2u + count_of_rooms(header) * MORE_WORDS;
+    uint end = uint(found.length());
+    if (end < behind + 2u) return NO_LIST;
+    uint taken = atomicAdd(found[behind + 1u], count);
+    uint room = end > words ? end - words : 0u;
+    return taken <= room && count <= room - taken ? words + taken : NO_LIST;
+}
+
+// How far a point is from the plane through `place`, at most; all lengths count with an error of `slack`.
+float above_plane(vec3 point, vec3 place, vec3 normal, float slack) {
+    vec3 v = point - place;
+    return dot3(normal, v) + slack * (abs(v.x) + abs(v.y) + abs(v.z));
+}
+
+// True if no point that the receiver sees, moved off it, is shaded by the triangle: it is below the receiver's plane, or
+// the receiver is above its plane, which the light is above, too. `reach`: the largest coordinate of what is seen.
+bool leaves_lit(vec3 a, vec3 b, vec3 c, const Receiver receiver, float reach) {
+    float allowed = 8.0 * ULP * reach_of(receiver);
+    vec3 n = receiver.normal;
+    float highest = max(max(above_plane(a, receiver.a, n, receiver.slack), above_plane(b, receiver.a, n, receiver.slack)),
+                        above_plane(c, receiver.a, n, receiver.slack));
+    if (highest <= allowed || !receiver.is_lit) return true;
+    vec3 doubled = cross3(b - a, c - a);
+    float area = sqrt(dot3(doubled, doubled));
+    vec3 own = doubled / max(area, 1e-30);
+    float facing = dot3(own, shade_frame[2]);
+    own = facing < 0.0 ? -own : own;
+    float slack = slack_of(b - a, c - a, area);
+    float deepest = max(max(above_plane(receiver.a, a, -own, slack), above_plane(receiver.b, a, -own, slack)),
+                        above_plane(receiver.c, a, -own, slack));
+    bool leans_little = dot3(own, n) > 0.9;
+    return abs(facing) > 1e-3 && (deepest < -64.0 * ULP * reach || (leans_little && deepest <= allowed));
+}
+
+// Words of bits for the triangles of a cell's list; none if there are too many pairs to test.
+uint bit_words(const Survey survey, uint count) {
+    return count * survey.count <= MAX_SHADE_PAIRS ? (survey.count + 31u) / 32u : 0u;
+}
+
+// Chooses of the triangles above the parts those that may shade one of the cell's list, each followed by the bits of those
+// that it may shade: they fill the room of nodes from its beginning on. Returns the number of words, NODE_ROOM if they are
+// too many.
+uint choose_shades(const Survey survey, uint count, float reach) {
+    uint words = bit_words(survey, count);
+    uint end = 0u;
+    for (uint k = 0u; k < count; k++) {
+        if (end + words >= NODE_ROOM) return NODE_ROOM;
+        uint texel = above[k];
+        vec3 a = point_in(mesh_texel(texel));
+        vec3 b = point_in(mesh_texel(texel + 1u));
+        vec3 c = point_in(mesh_texel(texel + 2u));
+        room[end] = texel;
+        bool is_kept = words == 0u;
+        for (uint word = 0u; word < words; word++) {
+            uint bits = 0u;
+            uint last = min(survey.count, 32u * word + 32u);
+            for (uint r = 32u * word; r < last; r++) {
+                uint seen = found[listed_at(survey, r)];
+                Receiver receiver = receiver_of(true, point_in(mesh_texel(seen)), point_in(mesh_texel(seen + 1u)), point_in(mesh_texel(seen + 2u)));
+                bits |= leaves_lit(a, b, c, receiver, reach) ? 0u : 1u << (r & 31u);
+            }
+            room[end + 1u + word] = bits;
+            is_kept = is_kept || bits != 0u;
+        }
+        end += is_kept ? 1u + words : 0u;
+    }
+    return end;
+}
+
+// Finds the shades of what a cell's list holds; writes where they are.
+void survey_shades(const Header header, const PixelFrustum frame, const Survey survey) {
+    set_shade_frame(vec3(light_at(0u).direction));
+    vec3 x = 0.5 * frame.rays[0];
+    vec3 y = 0.5 * frame.rays[1];
+    vec3 way = frame.rays[2] + (x + y);
+    for (uint k = 0u; k < REGION_PARTS; k++) region_parts[k] = EMPTY_REGION;
+    for (uint k = 0u; k < survey.count; k++) {
+        uint at = found[listed_at(survey, k)];
+        Receiver receiver = receiver_of(true, point_in(mesh_texel(at)), point_in(mesh_texel(at + 1u)), point_in(mesh_texel(at + 2u)));
+        add_to_parts(region_of(receiver, way, x, y));
+    }
+    ShadeRegion region = EMPTY_REGION;
+    for (uint k = 0u; k < REGION_PARTS; k++) {
+        region_parts[k] = widened(region_parts[k]);
+        region = joined(region, region_parts[k]);
+    }
+    uint words = 0u;
+    uint count = 0u;
+    uint first = NO_SHADES;
+    if (!is_empty(region)) {
+        first = NO_LIST;
+        count = triangles_above();
+        words = count <= SHADE_ROOM ? choose_shades(survey, count, region.reach) : NODE_ROOM;
+        if (words < NODE_ROOM) first = shade_words(header, SHADES_HEAD + words);
+    }
+    found[survey.cell + CELL_SHADES] = first;
+    if (first == NO_LIST || first == NO_SHADES) return;
+    for (uint k = 0u; k < 3u; k++) {
+        found[first + k] = floatBitsToUint(region.least[k]);
+        found[first + 3u + k] = floatBitsToUint(region.greatest[k]);
+    }
+    uint bits = bit_words(survey, count);
+    found[first + 6u] = words / (1u + bits);
+    found[first + 7u] = bits;
+    for (uint k = 0u; k < words; k++) found[first + SHADES_HEAD + k] = room[k];
+}
+
+#endif
