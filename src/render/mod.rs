@@ -15,6 +15,7 @@ mod layer_surfaces;
 pub mod layers;
 mod loop_budget;
 mod mesh_passes;
+mod mesh_upload;
 mod mip_chain;
 mod picture;
 mod plan;

@@ -94,10 +94,11 @@ impl<'a> Session<'a> {
         scene.samples_at_once = samples_at_once(gpu.info(), &scene)?;
         let image_source = tuning.image_source(gpu, &scene);
         let features = Features::new(&scene, image_source, keep_everything);
-        let resources = Resources::upload(gpu, &scene, &features, tuning.texel_words(gpu))?;
+        let meshes = std::mem::take(&mut scene.mesh_texels);
+        let resources = Resources::upload(gpu, &scene, meshes, &features, tuning.texel_words(gpu))?;
         let films = Mutex::new([None, None]);
         let tile_culling = OnceLock::new();
-        (scene.texels, scene.prefix_sums, scene.mesh_texels) = Default::default();
+        (scene.texels, scene.prefix_sums) = Default::default();
         let header = Mutex::new(scene.header);
         let upload_seconds = clock.elapsed().as_secs_f64();
         Ok(Session {
