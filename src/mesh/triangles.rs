@@ -57,10 +57,12 @@ impl Triangles {
         Triangles { positions, uvs, normals, materials: Materials::All(material) }
     }
 
+    /// Returns their number.
     pub fn len(&self) -> usize {
         self.positions.len()
     }
 
+    /// Returns true if there are none.
     pub fn is_empty(&self) -> bool {
         self.positions.is_empty()
     }

@@ -22,6 +22,7 @@ mod plan;
 mod resources;
 mod sample_pipeline;
 mod session;
+mod session_pipelines;
 pub mod specialization;
 mod texel_buffer;
 mod tile_culling;

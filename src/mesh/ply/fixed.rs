@@ -1,6 +1,8 @@
 //! Binary records of one length. Input: the bytes of an element. Output: its numbers and its triangles, read by several
 //! threads; nothing where records have lists of other lengths, which are left to the reader of one after the other.
 
+use std::sync::atomic::{AtomicBool, Ordering};
+
 use ply_rs_bw::ply::{ElementDef, Encoding, PropertyType, ScalarType};
 use rayon::prelude::*;
 
@@ -118,8 +120,16 @@ impl<'a> Fixed<'a> {
         let corners = |record: &[u8]| self.corners.map(|corner| corner.of(record));
         let exists = |n: f64| n >= 0.0 && n < vertices as f64;
         let wrong = |record: &[u8]| corners(record).into_iter().find(|&n| !exists(n));
-        let all: Vec<[u32; 3]> = self.records().map(|record| corners(record).map(|n| n as u32)).collect();
-        if self.records().filter(|record| wrong(record).is_some()).count() == 0 {
+        let is_wrong = AtomicBool::new(false);
+        let read = |record: &[u8]| {
+            let corners = corners(record);
+            if !corners.into_iter().all(exists) {
+                is_wrong.store(true, Ordering::Relaxed);
+            }
+            corners.map(|n| n as u32)
+        };
+        let all: Vec<[u32; 3]> = self.records().map(read).collect();
+        if !is_wrong.into_inner() {
             return Ok(all);
         }
         let first = self.records().enumerate().find_map_first(|(i, record)| Some((i, wrong(record)?)));
