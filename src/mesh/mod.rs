@@ -54,6 +54,11 @@ impl Mesh {
         self.triangles.extend(triangles);
     }
 
+    /// Adds triangles without a material whose corners have one index for all that they have.
+    pub fn extend_of_vertices(&mut self, corners: Vec<[u32; 3]>, has_uvs: bool, has_normals: bool) {
+        self.triangles.append(Triangles::of_vertices(corners, has_uvs, has_normals, None));
+    }
+
     /// Returns the number of its triangles.
     pub fn triangle_count(&self) -> usize {
         self.triangles.len()

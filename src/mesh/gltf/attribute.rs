@@ -153,3 +153,26 @@ pub(super) fn each<T: Send>(
         element => read(element).map(|_| values),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+
+    use super::*;
+
+    #[test]
+    fn of_many_elements_the_first_fault_is_named() {
+        let count = 5 * AT_ONCE;
+        let read = |wrong: &[usize]| {
+            let read = |i: usize| {
+                if wrong.contains(&i) { Err(Fault::new(format!("element {i}"), "")) } else { Ok(i) }
+            };
+            each(count, read, || 0)
+        };
+        assert_eq!(read(&[]).unwrap(), (0..count).collect::<Vec<_>>());
+        for wrong in [[3, 7], [count - 1, 2 * AT_ONCE], [AT_ONCE, AT_ONCE + 1], [count - 1, count - 2]] {
+            let first = wrong.into_iter().min().unwrap();
+            assert_eq!(read(&wrong).unwrap_err().place, format!("element {first}"));
+        }
+    }
+}

@@ -16,7 +16,7 @@ use rayon::prelude::*;
 use super::read_file;
 use crate::core::error::Result;
 use crate::mesh::gltf::{self, Instance, Model, Primitive};
-use crate::mesh::{Fault, Mesh, MeshTriangle, Triangles};
+use crate::mesh::{Fault, Mesh, MeshTriangle};
 use crate::scene::geometry::meshes::{normal_matrix, shares};
 use crate::scene::limits::MAX_TRIANGLES;
 
@@ -233,16 +233,15 @@ fn append(mesh: &mut Mesh, primitive: &Primitive, matrix: &DAffine3, sets: &Coor
         };
         mesh.tangents.extend(faces().map(|corners| corners.map(tangent)));
     }
-    if first == 0 {
-        let triangles = primitive.triangles.par_iter().with_min_len(AT_ONCE);
-        let triangles = triangles.map(|corners| turned(*corners)).collect();
-        mesh.triangles = Triangles::of_vertices(triangles, true, !primitive.normals.is_empty(), None);
-        return;
+    let has_normals = !primitive.normals.is_empty();
+    if first == first_normal || !has_normals {
+        let faces = primitive.faces_at_once().with_min_len(AT_ONCE);
+        let corners = faces.map(|corners| turned(corners).map(|corner| first + corner)).collect();
+        return mesh.extend_of_vertices(corners, true, has_normals);
     }
     mesh.extend(faces().map(|corners| {
         let positions = corners.map(|corner| first + corner);
-        let normals = corners.map(|corner| first_normal + corner);
-        let normals = (!primitive.normals.is_empty()).then_some(normals);
+        let normals = Some(corners.map(|corner| first_normal + corner));
         MeshTriangle { positions, uvs: Some(positions), normals, material: None }
     }));
 }
