@@ -39,10 +39,12 @@ const MEASURING: &str = "Measuring";
 
 /// Prepares the process. Must be called once, before anything else: a write beyond the file size
 /// limit (`ulimit -f`) then returns an error like a full disk, instead of a signal that would end
-/// the program and leave a temporary file; drivers get a writable shader cache; and if stderr is
-/// not a terminal, messages are not wrapped, so that quoted text stays intact.
+/// the program and leave a temporary file; drivers get a writable shader cache; large blocks of
+/// memory go back to the system when they are freed; and if stderr is not a terminal, messages are
+/// not wrapped, so that quoted text stays intact.
 pub fn prepare_process() {
     gpu::prepare_driver_cache();
+    gpu::prepare_host_memory();
     #[cfg(unix)]
     {
         let noticed = std::sync::Arc::default();

@@ -16,6 +16,7 @@ mod descriptor;
 mod device;
 #[cfg(unix)]
 mod driver_cache;
+mod host_memory;
 mod image;
 mod image_check;
 mod info;
@@ -39,6 +40,7 @@ pub use debug::{MessageLog, validation_available};
 pub use descriptor::{BindGroup, BindingDesc, BindingKind, Bound};
 #[cfg(unix)]
 pub use driver_cache::prepare as prepare_driver_cache;
+pub use host_memory::{give_back as give_back_host_memory, prepare as prepare_host_memory};
 pub use image::{Image, ImageDesc, ImageFormat, ImageShape, Swizzle};
 pub use info::{DeviceInfo, DeviceKind, DeviceLimits};
 pub use instance::list_devices;

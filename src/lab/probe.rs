@@ -4,6 +4,8 @@
 
 mod records;
 
+use std::sync::Arc;
+
 use bytemuck::Pod;
 
 use crate::core::error::{Error, Result};
@@ -165,7 +167,8 @@ fn run<T: Pod>(
     count: usize,
     push: &[u32],
 ) -> Result<Vec<T>> {
-    let resources = Resources::upload(gpu, scene, features, Tuning::default().texel_words(gpu))?;
+    let (meshes, most_words) = (Arc::clone(&scene.mesh_texels), Tuning::default().texel_words(gpu));
+    let resources = Resources::upload(gpu, scene, meshes, features, most_words)?;
     let slots = resources.slots;
     let constants = specialization::constants(shader, features, &resources.sections, [GROUP, 1], slots);
     let pipeline = build_pipeline(gpu, shader, &constants, slots, (1 + push.len()) * size_of::<u32>())?;

@@ -3,7 +3,7 @@
 
 use rayon::prelude::*;
 
-use super::{Fault, Mesh, MeshTriangle};
+use super::{Fault, Mesh};
 
 /// Elements that a thread takes at once.
 const AT_ONCE: usize = 1 << 13;
@@ -28,7 +28,8 @@ pub(super) fn checked(mesh: Mesh) -> Result<Mesh, Fault> {
     if let Some(i) = first(&mesh.normals, |n| !n.is_finite()) {
         return Err(infinite("normal", i));
     }
-    let wrong = |triangle: &MeshTriangle| {
+    let wrong = |index: usize| {
+        let triangle = mesh.triangles.get(index);
         let lists = [
             ("position", Some(triangle.positions), mesh.positions.len()),
             ("texture coordinate", triangle.uvs, mesh.uvs.len()),
@@ -39,8 +40,9 @@ pub(super) fn checked(mesh: Mesh) -> Result<Mesh, Fault> {
             Some(format!("{what} {index} does not exist; the file has {count}"))
         })
     };
-    if let Some(i) = first(&mesh.triangles, |triangle| wrong(triangle).is_some()) {
-        return Err(Fault::new(format!("triangle {i}"), wrong(&mesh.triangles[i]).unwrap_or_default()));
+    let all = (0..mesh.triangles.len()).into_par_iter().with_min_len(AT_ONCE);
+    if let Some((i, what)) = all.find_map_first(|i| Some((i, wrong(i)?))) {
+        return Err(Fault::new(format!("triangle {i}"), what));
     }
     Ok(mesh)
 }

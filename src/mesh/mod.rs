@@ -11,10 +11,13 @@ pub mod relative;
 mod stl;
 mod tangents;
 mod text;
+mod triangles;
 
 use std::fmt;
 
 use glam::{DVec2, DVec3, Vec4};
+
+pub use triangles::Triangles;
 
 /// Triangles over shared positions, texture coordinates and normals.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -34,7 +37,7 @@ pub struct Mesh {
     /// Tangents along u with the sign of the bitangent, for the corners of each triangle; empty without any.
     pub tangents: Vec<[Vec4; 3]>,
     /// Counter-clockwise as seen from the front, in the order of the file.
-    pub triangles: Vec<MeshTriangle>,
+    pub triangles: Triangles,
     /// Names of the materials that triangles refer to.
     pub materials: Vec<String>,
     /// Files that define these materials, as written.
@@ -51,6 +54,11 @@ impl Mesh {
         self.triangles.extend(triangles);
     }
 
+    /// Adds triangles without a material whose corners have one index for all that they have.
+    pub fn extend_of_vertices(&mut self, corners: Vec<[u32; 3]>, has_uvs: bool, has_normals: bool) {
+        self.triangles.append(Triangles::of_vertices(corners, has_uvs, has_normals, None));
+    }
+
     /// Returns the number of its triangles.
     pub fn triangle_count(&self) -> usize {
         self.triangles.len()
@@ -63,13 +71,13 @@ impl Mesh {
 
     /// Gives all triangles the material of this index, or none.
     pub fn set_material(&mut self, material: Option<u32>) {
-        self.triangles.iter_mut().for_each(|triangle| triangle.material = material);
+        self.triangles.set_material(material);
     }
 
     /// Returns the least and the greatest coordinates of all corners.
     pub fn bounds(&self) -> [DVec3; 2] {
-        let corners = self.triangles.iter().flat_map(|triangle| triangle.positions);
-        let positions = corners.filter_map(|index| self.positions.get(index as usize));
+        let corners = self.triangles.positions().as_flattened();
+        let positions = corners.iter().filter_map(|index| self.positions.get(*index as usize));
         let none = [DVec3::INFINITY, DVec3::NEG_INFINITY];
         positions.fold(none, |[min, max], position| [min.min(*position), max.max(*position)])
     }

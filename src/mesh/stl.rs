@@ -5,7 +5,7 @@ use std::str::{FromStr, SplitAsciiWhitespace};
 
 use glam::DVec3;
 
-use super::{Fault, Mesh, MeshFormat, MeshTriangle, check};
+use super::{Fault, Mesh, MeshFormat, Triangles, check};
 
 pub(super) const FORMAT: MeshFormat = MeshFormat { name: "STL", ending: "stl", read };
 
@@ -61,11 +61,9 @@ fn binary(bytes: &[u8], count: u32, most: usize) -> Result<Mesh, Fault> {
 
 /// Returns the mesh of triangles that share no corner.
 fn of_corners(positions: Vec<DVec3>) -> Mesh {
-    let triangle = |first: u32| {
-        let positions = [first, first + 1, first + 2];
-        MeshTriangle { positions, uvs: None, normals: None, material: None }
-    };
+    let triangle = |first: u32| [first, first + 1, first + 2];
     let triangles = (0..positions.len() as u32).step_by(3).map(triangle).collect();
+    let triangles = Triangles::of_vertices(triangles, false, false, None);
     Mesh { positions, triangles, ..Mesh::default() }
 }
 

@@ -37,7 +37,7 @@ struct Made<'a> {
 
 impl Made<'_> {
     fn corners(&self, face: usize) -> [DVec3; 3] {
-        self.mesh.triangles[face].positions.map(|index| self.mesh.positions[index as usize])
+        self.mesh.triangles.positions()[face].map(|index| self.mesh.positions[index as usize])
     }
 }
 
@@ -56,14 +56,14 @@ impl Geometry for Made<'_> {
 
     fn normal(&self, face: usize, corner: usize) -> [f32; 3] {
         let own =
-            self.mesh.triangles[face].normals.map(|indices| self.mesh.normals[indices[corner] as usize]);
+            self.mesh.triangles.get(face).normals.map(|indices| self.mesh.normals[indices[corner] as usize]);
         let [a, b, c] = self.corners(face);
         let normal = own.and_then(DVec3::try_normalize).unwrap_or_else(|| (b - a).cross(c - a));
         normal.normalize_or(DVec3::Z).as_vec3().into()
     }
 
     fn tex_coord(&self, face: usize, corner: usize) -> [f32; 2] {
-        let triangle = &self.mesh.triangles[face];
+        let triangle = self.mesh.triangles.get(face);
         let uv = if self.second {
             self.mesh.second_uvs.get(triangle.positions[corner] as usize).copied()
         } else {
@@ -97,7 +97,7 @@ mod tests {
         Mesh {
             positions: corners.map(|c| c.extend(0.0)).to_vec(),
             uvs: corners.map(|c| if mirrored { DVec2::new(1.0 - c.x, c.y) } else { c }).to_vec(),
-            triangles: vec![triangle([0, 1, 2]), triangle([0, 2, 3])],
+            triangles: [triangle([0, 1, 2]), triangle([0, 2, 3])].into_iter().collect(),
             ..Mesh::default()
         }
     }

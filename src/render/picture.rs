@@ -12,7 +12,7 @@ use crate::core::error::Result;
 use crate::core::film::Film;
 use crate::core::progress::Progress;
 use crate::core::range::Rect;
-use crate::gpu::{DeviceInfo, DeviceSelect, Gpu};
+use crate::gpu::{self, DeviceInfo, DeviceSelect, Gpu};
 use crate::integrators::adaptive::{Goal, PixelEstimates};
 use crate::oracle::backend::OracleBackend;
 use crate::pack::{self, MipPlacement, PackedScene};
@@ -146,7 +146,7 @@ pub fn render_scene(scene: &Scene, options: &Options, on: &[On], progress: &dyn 
     let nonfinite =
         packed.texture_names.iter().cloned().zip(packed.nonfinite_texels.iter().copied()).collect();
     let integrator = integrator(&packed, options.goal);
-    let double = packed.double;
+    let (double, has_meshes) = (packed.double, !packed.mesh_texels.is_empty());
 
     // The last backend takes the scene itself, the others copies.
     let mut scenes = vec![packed.clone(); on.len().saturating_sub(1)];
@@ -164,6 +164,10 @@ pub fn render_scene(scene: &Scene, options: &Options, on: &[On], progress: &dyn 
     let mut prepared = Vec::with_capacity(on.len());
     for member in &members {
         prepared.push(member.prepare()?);
+    }
+    if has_meshes {
+        // What their trees and the driver's compiler took, before sums and film take theirs.
+        gpu::give_back_host_memory();
     }
     let clock = Instant::now();
     let mut backends = Vec::with_capacity(on.len());

@@ -1,10 +1,11 @@
 //! Packed scene → buffers and images on the device: only those that the features need, and of the textures only the
 //! source in use.
 
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 use super::diagnostics::DiagnosticCounters;
 use super::images::Uploads;
+use super::mesh_upload;
 use super::mip_chain::MipGenerator;
 use super::texel_buffer::{self, TexelBuffer};
 use crate::core::error::Result;
@@ -50,10 +51,12 @@ pub struct Resources {
 }
 
 impl Resources {
-    /// Uploads a scene; a texel buffer has at most `most_words`.
+    /// Uploads a scene; a texel buffer has at most `most_words`. `meshes`: its texels of meshes, which are freed
+    /// on the host as the device gets them, unless others hold them too.
     pub fn upload(
         gpu: &Gpu,
         packed: &PackedScene,
+        meshes: Arc<Vec<[u32; 4]>>,
         features: &Features,
         most_words: u64,
     ) -> Result<Resources> {
@@ -77,10 +80,7 @@ impl Resources {
             (slots.texel_blocks, slots.block_log2) =
                 (texel_buffer.blocks.len() as u32, texel_buffer.block_log2);
         }
-        let meshes = packed.mesh_texels.as_slice();
-        let upload_meshes =
-            || gpu.upload_buffer("meshes", BufferUse::TexelUint4, bytemuck::cast_slice(meshes));
-        let meshes = (!meshes.is_empty()).then(upload_meshes).transpose()?;
+        let meshes = mesh_upload::upload(gpu, meshes)?;
         slots.meshes = meshes.is_some() || features.everything;
         let prefix_sums = OnceLock::new();
         if packed.beams {

@@ -7,27 +7,24 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use std::time::Instant;
 
 use crate::core::error::{Error, Result};
+use crate::gpu::Gpu;
 use crate::gpu::shaders::{self, Shader};
-use crate::gpu::{Gpu, Pipeline};
 use crate::pack::features::Features;
 use crate::pack::{self, PackedScene, Schedule};
 use crate::scene::model::Scene;
-use crate::schema::constants::{SEARCH_ALL, SEARCH_TEAM, SEARCH_TEAM_REST, TEAM_HEIGHT, TEAM_WIDTH};
 use crate::schema::enums::{Quantity, TexelSource};
-use crate::schema::layout::{Header, Slice};
-use crate::schema::specialization::Constant;
+use crate::schema::layout::Header;
 
 use super::batches::BatchSampler;
 use super::beams::BeamPass;
 use super::film_buffer::FilmBuffer;
 use super::loop_budget::samples_at_once;
-use super::mesh_passes;
 use super::resources::{Resources, shader_for};
 use super::sample_pipeline::SamplePipeline;
 use super::texel_buffer;
 use super::tile_culling::TileCulling;
 use super::tiles::{Rest, TileRenderer};
-use super::{Report, Tuning, build_pipeline, specialization, tuning};
+use super::{Report, Tuning};
 
 pub struct Session<'a> {
     pub(super) gpu: &'a Gpu,
@@ -37,7 +34,7 @@ pub struct Session<'a> {
     keep_everything: bool,
     /// True if look-ups of method shader read images.
     image_source: bool,
-    tuning: Tuning,
+    pub(super) tuning: Tuning,
     /// Warnings about features that the device lacks.
     warnings: Vec<String>,
     /// The current header of the scene buffer.
@@ -94,10 +91,11 @@ impl<'a> Session<'a> {
         scene.samples_at_once = samples_at_once(gpu.info(), &scene)?;
         let image_source = tuning.image_source(gpu, &scene);
         let features = Features::new(&scene, image_source, keep_everything);
-        let resources = Resources::upload(gpu, &scene, &features, tuning.texel_words(gpu))?;
+        let meshes = std::mem::take(&mut scene.mesh_texels);
+        let resources = Resources::upload(gpu, &scene, meshes, &features, tuning.texel_words(gpu))?;
         let films = Mutex::new([None, None]);
         let tile_culling = OnceLock::new();
-        (scene.texels, scene.prefix_sums, scene.mesh_texels) = Default::default();
+        (scene.texels, scene.prefix_sums) = Default::default();
         let header = Mutex::new(scene.header);
         let upload_seconds = clock.elapsed().as_secs_f64();
         Ok(Session {
@@ -151,7 +149,7 @@ impl<'a> Session<'a> {
 
         let clock = Instant::now();
         if scene.culls_tiles() && self.tile_culling.get().is_none() {
-            let tile_culling = TileCulling::new(self.gpu, scene, &self.resources, &features)?;
+            let tile_culling = self.new_tile_culling(scene, &features)?;
             // Never set twice: both were empty just now.
             let _ = self.resources.tile_lists.set(tile_culling.buffer.clone());
             let _ = self.tile_culling.set(tile_culling);
@@ -179,9 +177,7 @@ impl<'a> Session<'a> {
         features: &Features,
         shader: &'static Shader,
     ) -> Result<(TileRenderer<'a>, Arc<FilmBuffer>)> {
-        let passes = mesh_passes::passes(self.gpu.info(), scene, features);
-        let pipeline_of = |&search: &u32| self.pipeline(features, shader, search, passes.lists_shades);
-        let mut pipelines = passes.searches.iter().map(pipeline_of).collect::<Result<Vec<_>>>()?;
+        let mut pipelines = self.pipelines(scene, features, shader)?;
         let (pipeline, groups_per_tile) = pipelines.remove(0);
         let film = self.film(scene, features)?;
         let later = pipelines.into_iter().map(|(pipeline, _)| pipeline).collect();
@@ -191,39 +187,6 @@ impl<'a> Session<'a> {
         let renderer = TileRenderer { gpu: self.gpu, pipeline, rest, group, groups_per_tile };
         renderer.warm_up(&film)?;
         Ok((renderer, film))
-    }
-
-    fn sample_pipeline(&self, scene: &PackedScene, features: &Features) -> Result<SamplePipeline> {
-        let shader = shader_for(scene.algorithm, features)?;
-        let (pipeline, groups_per_tile) = self.pipeline(features, shader, SEARCH_ALL, false)?;
-        Ok(SamplePipeline { pipeline, shader, groups_per_tile })
-    }
-
-    /// Returns a pipeline, and its number of workgroups per tile.
-    fn pipeline(
-        &self,
-        features: &Features,
-        shader: &'static Shader,
-        search: u32,
-        lists_shades: bool,
-    ) -> Result<(Arc<Pipeline>, u32)> {
-        let group_size = match search {
-            SEARCH_TEAM | SEARCH_TEAM_REST => [TEAM_WIDTH, TEAM_HEIGHT],
-            _ => self.tuning.group_size(self.gpu.info())?,
-        };
-        let slots = self.resources.slots;
-        let mut constants =
-            specialization::constants(shader, features, &self.resources.sections, group_size, slots);
-        let tables_in_head = u32::from(Tuning::tables_in_head(self.gpu.info()));
-        let parameters = [
-            (Constant::TablesInHead, tables_in_head),
-            (Constant::MeshSearch, search),
-            (Constant::ListsShades, u32::from(lists_shades)),
-            (Constant::Quantities, features.quantities),
-        ];
-        constants.extend(shader.values(parameters));
-        let pipeline = build_pipeline(self.gpu, shader, &constants, slots, size_of::<Slice>())?;
-        Ok((pipeline, tuning::groups_per_tile(group_size)))
     }
 
     fn features_of(&self, scene: &PackedScene) -> Features {

@@ -2,9 +2,15 @@
 //! these elements as vectors; an accessor of a type that the use does not allow is refused.
 
 use std::rc::Rc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use rayon::prelude::*;
 
 use super::accessor::{Accessor, Accessors, Component};
 use crate::mesh::Fault;
+
+/// Elements that a thread reads at once.
+const AT_ONCE: usize = 1 << 12;
 
 /// Sets of texture coordinates that are read.
 pub(super) const MOST_SETS: usize = 8;
@@ -105,21 +111,16 @@ pub(super) enum Vertices {
 
 impl Vertices {
     /// Reads the elements of an accessor that are vertices.
-    pub(super) fn read<const N: usize, T>(
+    pub(super) fn read<const N: usize, T: Send>(
         &self,
         accessor: &Accessor,
-        convert: impl Fn([f64; N]) -> T,
+        convert: impl Fn([f64; N]) -> T + Sync + Send,
     ) -> Result<Vec<T>, Fault> {
         let count = match self {
             Vertices::First(count) => *count,
             Vertices::Some(used) => used.len(),
         };
-        // Collected results would not tell how much memory is needed.
-        let mut values = Vec::with_capacity(count);
-        for i in 0..count {
-            values.push(convert(accessor.numbers(self.element(i))?));
-        }
-        Ok(values)
+        each(count, |i| Ok(convert(accessor.numbers(self.element(i))?)), || convert([0.0; N]))
     }
 
     /// Returns which element a vertex is.
@@ -127,6 +128,51 @@ impl Vertices {
         match self {
             Vertices::First(_) => vertex,
             Vertices::Some(used) => used.get(vertex).map_or(0, |index| *index as usize),
+        }
+    }
+}
+
+/// Returns what is read for each of `count` elements, by several threads, or the fault of the first one that has any;
+/// `none` stands for those meanwhile.
+pub(super) fn each<T: Send>(
+    count: usize,
+    read: impl Fn(usize) -> Result<T, Fault> + Sync + Send,
+    none: impl Fn() -> T + Sync + Send,
+) -> Result<Vec<T>, Fault> {
+    let first_fault = AtomicUsize::new(usize::MAX);
+    let at = |element: usize| {
+        read(element).unwrap_or_else(|_| {
+            first_fault.fetch_min(element, Ordering::Relaxed);
+            none()
+        })
+    };
+    // Collected results would not tell how much memory is needed.
+    let values = (0..count).into_par_iter().with_min_len(AT_ONCE).map(at).collect();
+    match first_fault.into_inner() {
+        usize::MAX => Ok(values),
+        element => read(element).map(|_| values),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+
+    use super::*;
+
+    #[test]
+    fn of_many_elements_the_first_fault_is_named() {
+        let count = 5 * AT_ONCE;
+        let read = |wrong: &[usize]| {
+            let read = |i: usize| {
+                if wrong.contains(&i) { Err(Fault::new(format!("element {i}"), "")) } else { Ok(i) }
+            };
+            each(count, read, || 0)
+        };
+        assert_eq!(read(&[]).unwrap(), (0..count).collect::<Vec<_>>());
+        for wrong in [[3, 7], [count - 1, 2 * AT_ONCE], [AT_ONCE, AT_ONCE + 1], [count - 1, count - 2]] {
+            let first = wrong.into_iter().min().unwrap();
+            assert_eq!(read(&wrong).unwrap_err().place, format!("element {first}"));
         }
     }
 }

@@ -2,6 +2,7 @@
 //! a node. Positions are as in the file: y upwards, in metres.
 
 use glam::{DAffine3, DVec2, DVec3, DVec4};
+use rayon::prelude::*;
 
 use super::images::{Image, Sampler, Texture};
 use super::material::Material;
@@ -97,6 +98,11 @@ impl Primitive {
     /// Returns the corners of its triangles.
     pub fn faces(&self) -> impl Iterator<Item = [u32; 3]> {
         self.triangles.iter().copied()
+    }
+
+    /// Returns the corners of its triangles for several threads.
+    pub fn faces_at_once(&self) -> impl IndexedParallelIterator<Item = [u32; 3]> {
+        self.triangles.par_iter().copied()
     }
 }
 

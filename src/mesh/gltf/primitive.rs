@@ -5,9 +5,10 @@
 use std::rc::Rc;
 
 use glam::{DVec2, DVec3, DVec4};
+use rayon::prelude::*;
 
 use super::accessor::{Accessor, Accessors, Component};
-use super::attribute::{MOST_SETS, Use, Vertices};
+use super::attribute::{MOST_SETS, Use, Vertices, each};
 use super::json::Json;
 use super::model::Primitive;
 use super::notes::Notes;
@@ -16,6 +17,9 @@ use crate::mesh::Fault;
 
 /// What is told of triangles without an area.
 pub(super) const WITHOUT_AREA: &str = "triangles without an area are left out";
+
+/// Triangles that a thread looks at at once.
+const AT_ONCE: usize = 1 << 12;
 
 /// What makes a primitive: accessors and how they are used. Equal shapes share one primitive.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -103,10 +107,13 @@ impl Shape {
         };
         let vertices = compact(&mut triangles, count);
         let points: Vec<DVec3> = vertices.read(&positions, DVec3::from_array)?;
-        triangles.retain(|corners| {
-            let [a, b, c] = corners.map(|corner| points.get(corner as usize).copied().unwrap_or_default());
-            has_area([a, b, c])
-        });
+        let keeps = |corners: &[u32; 3]| {
+            has_area(corners.map(|corner| points.get(corner as usize).copied().unwrap_or_default()))
+        };
+        // Mostly all have one.
+        if !triangles.par_iter().with_min_len(AT_ONCE).all(keeps) {
+            triangles.retain(keeps);
+        }
         if triangles.len() < all {
             let place = || positions.place().to_owned();
             notes.add_many(WITHOUT_AREA, all - triangles.len(), place);
@@ -154,10 +161,10 @@ fn opened<'a>(
 }
 
 /// Reads the vertices' elements of an attribute, none if it is not there.
-fn read<const N: usize, T>(
+fn read<const N: usize, T: Send>(
     vertices: &Vertices,
     accessor: &Option<Rc<Accessor>>,
-    convert: impl Fn([f64; N]) -> T,
+    convert: impl Fn([f64; N]) -> T + Sync + Send,
 ) -> Result<Vec<T>, Fault> {
     accessor.as_ref().map_or(Ok(Vec::new()), |accessor| vertices.read(accessor, convert))
 }
@@ -172,16 +179,15 @@ fn corners(indices: &Accessor, count: usize) -> Result<Vec<u32>, Fault> {
         let what = "indices have to be of unsigned integers (5121, 5123, 5125), not normalized";
         return Err(indices.fault("/componentType", what));
     }
-    let mut corners = Vec::with_capacity(indices.count);
-    for i in 0..indices.count {
+    let corner = |i: usize| {
         let [index] = indices.numbers(i)?;
         if index >= count as f64 {
             let what = format!("element {i} is {index}; the primitive has {count} vertices");
             return Err(indices.fault("", what));
         }
-        corners.push(index as u32);
-    }
-    Ok(corners)
+        Ok(index as u32)
+    };
+    each(indices.count, corner, || 0)
 }
 
 /// Returns the corners of a primitive without indices.

@@ -5,7 +5,7 @@ use ply_rs_bw::ply::ElementDef;
 
 use super::fixed::Fixed;
 use super::records::{Body, Face, TEXTURE};
-use crate::mesh::{Fault, Mesh, MeshTriangle, check, polygon};
+use crate::mesh::{Fault, Mesh, MeshTriangle, Triangles, check, polygon};
 use glam::DVec2;
 
 /// What faces and strips become.
@@ -51,14 +51,10 @@ impl Surfaces {
             return Ok(false);
         }
         let Some(fixed) = Fixed::take(body, element) else { return Ok(false) };
-        let read = fixed.triangles(count, |positions| self.of_vertices(mesh, positions));
-        let mut read = read.map_err(|(i, wrong)| Fault::new(format!("face {i}"), missing(wrong, count)))?;
-        if mesh.triangles.is_empty() {
-            // Of many triangles, a copy would take as long as their reading.
-            mesh.triangles = read;
-        } else {
-            mesh.triangles.append(&mut read);
-        }
+        let read = fixed.triangles(count);
+        let read = read.map_err(|(i, wrong)| Fault::new(format!("face {i}"), missing(wrong, count)))?;
+        let (has_normals, texture) = (!mesh.normals.is_empty(), self.first_texture());
+        mesh.triangles.append(Triangles::of_vertices(read, self.has_uvs, has_normals, texture));
         Ok(true)
     }
 

@@ -1,6 +1,8 @@
 //! Binary records of one length. Input: the bytes of an element. Output: its numbers and its triangles, read by several
 //! threads; nothing where records have lists of other lengths, which are left to the reader of one after the other.
 
+use std::sync::atomic::{AtomicBool, Ordering};
+
 use ply_rs_bw::ply::{ElementDef, Encoding, PropertyType, ScalarType};
 use rayon::prelude::*;
 
@@ -113,17 +115,21 @@ impl<'a> Fixed<'a> {
         self.records().map(|record| make(numbers.map(|number| number.of(record)))).collect()
     }
 
-    /// Returns what is made of the corners of each record, or which record has corners that do not exist.
-    pub(super) fn triangles<T: Send>(
-        &self,
-        vertices: usize,
-        make: impl Fn([u32; 3]) -> T + Sync + Send,
-    ) -> Result<Vec<T>, (usize, f64)> {
+    /// Returns the corners of each record, or which record has corners that do not exist.
+    pub(super) fn triangles(&self, vertices: usize) -> Result<Vec<[u32; 3]>, (usize, f64)> {
         let corners = |record: &[u8]| self.corners.map(|corner| corner.of(record));
         let exists = |n: f64| n >= 0.0 && n < vertices as f64;
         let wrong = |record: &[u8]| corners(record).into_iter().find(|&n| !exists(n));
-        let all: Vec<T> = self.records().map(|record| make(corners(record).map(|n| n as u32))).collect();
-        if self.records().filter(|record| wrong(record).is_some()).count() == 0 {
+        let is_wrong = AtomicBool::new(false);
+        let read = |record: &[u8]| {
+            let corners = corners(record);
+            if !corners.into_iter().all(exists) {
+                is_wrong.store(true, Ordering::Relaxed);
+            }
+            corners.map(|n| n as u32)
+        };
+        let all: Vec<[u32; 3]> = self.records().map(read).collect();
+        if !is_wrong.into_inner() {
             return Ok(all);
         }
         let first = self.records().enumerate().find_map_first(|(i, record)| Some((i, wrong(record)?)));
@@ -189,7 +195,7 @@ mod tests {
         let mesh = read_same(&FACES, 3).unwrap();
         let counts = [&mesh.positions.len(), &mesh.normals.len(), &mesh.uvs.len(), &mesh.colors.len()];
         assert_eq!((counts, mesh.triangles.len()), ([&5; 4], 3));
-        assert_eq!(mesh.triangles[2].normals, Some([4, 0, 3]));
+        assert_eq!(mesh.triangles.get(2).normals, Some([4, 0, 3]));
         assert!(read_same(&FACES, 2).unwrap_err().contains("more than 2 triangles"));
     }
 
@@ -197,7 +203,7 @@ mod tests {
     fn other_faces_than_triangles_are_read_one_by_one() {
         for lists in [&[0, 1, 2, 4][..], &[0, 1], &[]] {
             let mesh = read_same(&[FACES[0], lists, FACES[1]], 9).unwrap();
-            assert_eq!(mesh.triangles.last().unwrap().positions, [2, 1, 3]);
+            assert_eq!(mesh.triangles.positions().last().copied().unwrap(), [2, 1, 3]);
         }
     }
 

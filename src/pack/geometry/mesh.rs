@@ -17,7 +17,7 @@ use crate::scene::geometry::{AttributeKinds, Stored};
 use crate::scene::model::{Mapping, MappingKind, Material, Mesh, Scene, Shape, Sides, Triangle};
 use crate::schema::constants::{MESH_MIRRORED_UV, MESH_SMOOTH, NO_PLACEMENT, TREE_WIDTH};
 use crate::schema::layout;
-use crate::tree::{self, Growing, LEAF, levels};
+use crate::tree::{self, Growing, LEAF, Tree, levels};
 
 /// Triangles of which the errors of texture coordinates are computed.
 const TESTED: usize = 1024;
@@ -131,14 +131,14 @@ impl Source<'_> {
             let [a, b, c] = self.seen(self.stored.corners(place));
             [a.min(b).min(c), a.max(b).max(c)]
         };
-        let mut tree = tree::build_over(count, box_of, OF_A_MESH);
+        let Tree { mut children, order, .. } = tree::build_over(count, box_of, OF_A_MESH);
         let kinds = self.mesh.attribute_kinds();
         let attribute_count = 4 + 2 * usize::from(kinds.colors) + 2 * kinds.further_uvs;
         let nodes = texels.len();
-        let first_corner = nodes + TEXELS_OF_CHILD as usize * tree.children.len();
+        let first_corner = nodes + TEXELS_OF_CHILD as usize * children.len();
         let first_attribute = first_corner + TEXELS_OF_CORNERS * count;
         // What exceeds the indices' range is refused by the caller.
-        for child in tree.children.iter_mut().filter(|child| child.is_used()) {
+        for child in children.iter_mut().filter(|child| child.is_used()) {
             child.reference = if child.count > 0 {
                 (first_corner as u32).wrapping_add((TEXELS_OF_CORNERS as u32).wrapping_mul(child.reference))
             } else {
@@ -146,14 +146,15 @@ impl Source<'_> {
             };
         }
         lengthen(texels, first_attribute + attribute_count * count);
-        let children: &[[u32; 4]] = bytemuck::cast_slice(&tree.children);
-        texels[nodes..first_corner].copy_from_slice(children);
+        texels[nodes..first_corner].copy_from_slice(bytemuck::cast_slice(&children));
+        // Before most of the texels are touched and take memory.
+        drop(children);
         let (all_corners, all_attributes) = texels[first_corner..].split_at_mut(TEXELS_OF_CORNERS * count);
         let of_corners = all_corners.par_chunks_exact_mut(TEXELS_OF_CORNERS);
         let of_attributes = all_attributes.par_chunks_exact_mut(attribute_count);
         let both = of_corners.zip(of_attributes).with_min_len(AT_ONCE).enumerate();
         let smooth = both.map(|(place, (corners, attributes))| {
-            let source = tree.order[place] as usize;
+            let source = order[place] as usize;
             let triangle = self.stored.triangle(source);
             self.write_corners(&triangle, [number, place as u32], corners);
             self.write_attributes(&triangle, source, kinds, attributes);

@@ -44,14 +44,15 @@ pub(crate) struct AttributeKinds {
 }
 
 impl Mesh {
-    /// Returns these triangles of a file, of which there is one at least.
+    /// Returns these triangles of a file, of which there is one at least; `corners`: the positions that they use.
     pub(in crate::scene) fn new(
         file: Arc<mesh::Mesh>,
         triangles: Arc<[u32]>,
+        corners: &[u32],
         placement: DAffine3,
         is_shared: bool,
     ) -> Mesh {
-        let bounds = bounds_of(&file, &triangles, &placement);
+        let bounds = bounds_of(&file, corners, &placement);
         Mesh { file, triangles, placement, bounds, is_shared, material: DEFAULT, motion: DVec3::ZERO }
     }
 
@@ -80,8 +81,8 @@ impl Mesh {
             return Stored { placed: Placed::new(&self.file, &self.placement), mesh: self, placement: None };
         }
         // About a corner, as files may have it anywhere.
-        let middle =
-            self.file.positions[self.file.triangles[self.triangles[0] as usize].positions[0] as usize];
+        let [first, ..] = self.file.triangles.positions()[self.triangles[0] as usize];
+        let middle = self.file.positions[first as usize];
         let middle = DAffine3::from_translation(middle);
         let placed = Placed::in_own_space(&self.file, self.mirrors());
         Stored { placed, mesh: self, placement: Some((self.placement * middle, middle.translation)) }
@@ -132,7 +133,7 @@ impl Stored<'_> {
 
     /// Returns the corners of that triangle in any order.
     pub fn corners(&self, place: usize) -> [DVec3; 3] {
-        self.placed.corners(&self.placed.mesh.triangles[self.mesh.triangles[place] as usize])
+        self.placed.corners(self.mesh.file.triangles.positions()[self.mesh.triangles[place] as usize])
     }
 
     /// Returns true if the triangles lie in a space of their own, which a mirror turns into the world: their corners have
@@ -152,18 +153,17 @@ impl Stored<'_> {
     }
 }
 
-fn bounds_of(file: &mesh::Mesh, triangles: &[u32], placement: &DAffine3) -> Bounds {
+fn bounds_of(file: &mesh::Mesh, corners: &[u32], placement: &DAffine3) -> Bounds {
     let none = || Bounds { min: DVec3::INFINITY, max: DVec3::NEG_INFINITY };
     let with = |bounds: Bounds, other: Bounds| Bounds {
         min: bounds.min.min(other.min),
         max: bounds.max.max(other.max),
     };
-    let of_triangle = |&index: &u32| {
-        let corners = file.triangles[index as usize].positions;
-        let places = corners.map(|i| placement.transform_point3(file.positions[i as usize]));
-        places.into_iter().fold(none(), |bounds, place| with(bounds, Bounds { min: place, max: place }))
+    let of_run = |run: &[u32]| {
+        let places = run.iter().map(|i| placement.transform_point3(file.positions[*i as usize]));
+        places.fold(none(), |bounds, place| with(bounds, Bounds { min: place, max: place }))
     };
-    triangles.par_iter().with_min_len(4096).map(of_triangle).reduce(none, with)
+    corners.par_chunks(4096).map(of_run).reduce(none, with)
 }
 
 impl Shapes {

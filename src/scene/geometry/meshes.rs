@@ -69,15 +69,16 @@ pub(in crate::scene) fn add(
     let is_shared = shares(mesh.triangle_count(), &placements);
     let file = Arc::new(mesh);
     let (mut kept, mut dropped) = (Vec::new(), 0);
+    let farthest = farthest(&file.positions);
     for (number, instance) in instances.iter().enumerate() {
         let placed = Placed::new(&file, &instance.placement);
-        check_positions(&placed).map_err(|what| (number, what))?;
+        check_positions(&placed, farthest).map_err(|what| (number, what))?;
         let motion = instance.motion;
         if is_single {
             let with_area = with_area(&placed);
             dropped += file.triangles.len() - with_area.len();
             for index in with_area {
-                let material = instance.material(file.triangles[index as usize].material);
+                let material = instance.material(file.triangles.material(index as usize));
                 builder.shape(Triangle { material, motion, ..placed.triangle(index) });
             }
             continue;
@@ -89,12 +90,12 @@ pub(in crate::scene) fn add(
                 own => own.map_or(0, |index| index as usize + 1),
             });
         }
-        dropped += file.triangles.len() - kept.iter().map(|(_, triangles)| triangles.len()).sum::<usize>();
-        for (key, triangles) in &kept {
+        dropped += file.triangles.len() - kept.iter().map(|group| group.triangles.len()).sum::<usize>();
+        for Group { key, triangles, corners } in &kept {
             let own = || key.checked_sub(1).map(|index| index as u32);
             let material = if is_shared { instance.material(own()) } else { *key };
             let (file, triangles) = (Arc::clone(&file), Arc::clone(triangles));
-            let mesh = shapes::Mesh::new(file, triangles, instance.placement, is_shared);
+            let mesh = shapes::Mesh::new(file, triangles, corners, instance.placement, is_shared);
             builder.shape(shapes::Mesh { material, motion, ..mesh });
         }
     }
@@ -103,10 +104,10 @@ pub(in crate::scene) fn add(
 
 /// Returns the triangles that have an area where they stand, in the order of the file.
 fn with_area(placed: &Placed<'_>) -> Vec<u32> {
-    let triangles = &placed.mesh.triangles;
-    let has_area = |index: &u32| !collinear(placed.corners(&triangles[*index as usize]));
+    let triangles = placed.mesh.triangles.positions();
+    let has_area = |index: &u32| !collinear(placed.corners(triangles[*index as usize]));
     let all = || (0..triangles.len() as u32).into_par_iter().with_min_len(AT_ONCE);
-    let have_area = |run: &[MeshTriangle]| run.iter().all(|triangle| !collinear(placed.corners(triangle)));
+    let have_area = |run: &[[u32; 3]]| run.iter().all(|corners| !collinear(placed.corners(*corners)));
     // Mostly all have one, and a list of known length takes no joining.
     let is_whole = triangles.par_chunks(AT_ONCE).all(have_area);
     if is_whole { all().collect() } else { all().filter(has_area).collect() }
@@ -118,30 +119,59 @@ pub(in crate::scene) fn shares(triangles: usize, placements: &[&Placement]) -> b
     triangles > FEW && saved >= MANY && placements.iter().all(|placement| stretch(placement) <= MOST_STRETCH)
 }
 
-/// Triangles of a mesh by a key.
-type Grouped = Vec<(usize, Arc<[u32]>)>;
+/// Triangles of a mesh with one key.
+struct Group {
+    key: usize,
+    triangles: Arc<[u32]>,
+    /// The positions that they use, each once.
+    corners: Vec<u32>,
+}
+
+impl Group {
+    fn new(file: &Mesh, key: usize, triangles: Vec<u32>) -> Group {
+        let mut is_used = vec![false; file.positions.len()];
+        let all = file.triangles.positions();
+        triangles.iter().flat_map(|index| all[*index as usize]).for_each(|i| is_used[i as usize] = true);
+        let corners = (0..).zip(is_used).filter_map(|(index, is_used)| is_used.then_some(index)).collect();
+        Group { key, triangles: triangles.into(), corners }
+    }
+}
 
 /// Returns triangles of a file, grouped by a key that their material has.
-fn of_materials(file: &Mesh, triangles: Vec<u32>, key: impl Fn(Option<u32>) -> usize) -> Grouped {
-    let own = |index: &u32| file.triangles[*index as usize].material;
+fn of_materials(file: &Mesh, triangles: Vec<u32>, key: impl Fn(Option<u32>) -> usize) -> Vec<Group> {
+    let own = |index: &u32| file.triangles.material(*index as usize);
     let first = triangles.first().and_then(own);
-    if triangles.par_chunks(AT_ONCE).all(|run| run.iter().all(|index| own(index) == first)) {
-        return if triangles.is_empty() { Vec::new() } else { vec![(key(first), triangles.into())] };
+    let have_first = || triangles.par_iter().with_min_len(AT_ONCE).all(|index| own(index) == first);
+    if file.triangles.have_one_material() || have_first() {
+        return if triangles.is_empty() { Vec::new() } else { vec![Group::new(file, key(first), triangles)] };
     }
     let mut grouped: BTreeMap<usize, Vec<u32>> = BTreeMap::new();
     let mut last = (None, key(None));
     for index in triangles {
-        let own = file.triangles[index as usize].material;
+        let own = file.triangles.material(index as usize);
         if own != last.0 {
             last = (own, key(own));
         }
         grouped.entry(last.1).or_default().push(index);
     }
-    grouped.into_iter().map(|(key, triangles)| (key, triangles.into())).collect()
+    grouped.into_iter().map(|(key, triangles)| Group::new(file, key, triangles)).collect()
 }
 
-/// Refuses corners out of the range of coordinates.
-fn check_positions(placed: &Placed<'_>) -> Result<(), String> {
+/// Returns the greatest absolute values of coordinates.
+fn farthest(positions: &[DVec3]) -> DVec3 {
+    let of_run = |run: &[DVec3]| run.iter().fold(DVec3::ZERO, |most, position| most.max(position.abs()));
+    positions.par_chunks(AT_ONCE).map(of_run).reduce(|| DVec3::ZERO, DVec3::max)
+}
+
+/// Refuses corners out of the range of coordinates; `farthest`: no coordinate of the mesh exceeds these.
+fn check_positions(placed: &Placed<'_>, farthest: DVec3) -> Result<(), String> {
+    let Placement { matrix3: DMat3 { x_axis: x, y_axis: y, z_axis: z }, translation } = placed.placement;
+    let [x, y, z] = [x, y, z].map(DVec3::abs);
+    // Twice as far, for what rounding adds: mostly no corner has to be looked at.
+    let reach = 2.0 * (x * farthest.x + y * farthest.y + z * farthest.z + translation.abs());
+    if reach.to_array().iter().all(|&x| (COORDINATE.allow)(x)) {
+        return Ok(());
+    }
     let outside = |i: &usize| !placed.position(*i as u32).to_array().iter().all(|&x| (COORDINATE.allow)(x));
     match (0..placed.mesh.positions.len()).into_par_iter().find_first(outside) {
         None => Ok(()),
@@ -181,8 +211,8 @@ impl Placed<'_> {
         self.placement.transform_point3(self.mesh.positions[index as usize])
     }
 
-    pub fn corners(&self, triangle: &MeshTriangle) -> [DVec3; 3] {
-        triangle.positions.map(|i| self.position(i))
+    pub fn corners(&self, triangle: [u32; 3]) -> [DVec3; 3] {
+        triangle.map(|i| self.position(i))
     }
 
     fn normal(&self, index: u32) -> DVec3 {
@@ -196,9 +226,9 @@ impl Placed<'_> {
 
     /// Returns a triangle that lies still and has the default material.
     pub fn triangle(&self, index: u32) -> Triangle {
-        let found = self.mesh.triangles[index as usize];
+        let found = self.mesh.triangles.get(index as usize);
         let found = if self.mirrors { reversed(&found) } else { found };
-        let flat = Triangle::new(self.corners(&found));
+        let flat = Triangle::new(self.corners(found.positions));
         let own = found.normals.map(|indices| indices.map(|i| self.normal(i)));
         Triangle {
             uvs: found.uvs.map_or(flat.uvs, |indices| indices.map(|i| self.uv(i))),
@@ -229,9 +259,9 @@ impl Placed<'_> {
         if !mesh.has_attributes() {
             return CornerAttributes::NONE;
         }
-        let found = mesh.triangles[index as usize];
+        let found = mesh.triangles.positions()[index as usize];
         let order = if self.mirrors { [0, 2, 1] } else { [0, 1, 2] };
-        let at = |corner: usize| found.positions[order[corner]] as usize;
+        let at = |corner: usize| found[order[corner]] as usize;
         let tangents = mesh.tangents.get(index as usize).copied().unwrap_or_default();
         let sign = if self.mirrors { -1.0 } else { 1.0 };
         CornerAttributes {
@@ -250,7 +280,7 @@ impl Placed<'_> {
         let order = if self.mirrors { [0, 2, 1] } else { [0, 1, 2] };
         let uvs = set.checked_sub(1).map_or(&mesh.second_uvs, |more| &mesh.more_uvs[more]);
         order.map(|corner| {
-            let at = mesh.triangles[index as usize].positions[corner] as usize;
+            let at = mesh.triangles.positions()[index as usize][corner] as usize;
             let uv = uvs.get(at).copied().unwrap_or_default();
             DVec2::new(uv.x, 1.0 - uv.y)
         })

@@ -3,7 +3,9 @@
 //! the file has them, of which each texture has its own transform.
 
 use glam::{DAffine2, DMat2, DVec2};
+use rayon::prelude::*;
 
+use super::AT_ONCE;
 use crate::mesh::Mesh;
 use crate::mesh::gltf::{Material, Primitive, TextureRef};
 use crate::scene::model::OwnUv;
@@ -65,14 +67,14 @@ impl CoordinateSets<'_> {
         let of = |reference: Option<&TextureRef>| {
             coordinates(primitive, reference.map_or(0, |found| found.uv_set), transform(reference))
         };
-        mesh.uvs.extend(of(self.first));
+        mesh.uvs.par_extend(of(self.first));
         if self.second.is_some() {
-            mesh.second_uvs.extend(of(self.second));
+            mesh.second_uvs.par_extend(of(self.second));
         }
         if let Some((second, more)) = self.others.split_first() {
-            mesh.second_uvs.extend(raw(*second));
+            mesh.second_uvs.par_extend(raw(*second));
             mesh.more_uvs.resize_with(more.len(), Vec::new);
-            mesh.more_uvs.iter_mut().zip(more).for_each(|(uvs, set)| uvs.extend(raw(*set)));
+            mesh.more_uvs.iter_mut().zip(more).for_each(|(uvs, set)| uvs.par_extend(raw(*set)));
         }
     }
 
@@ -131,9 +133,11 @@ fn coordinates(
     primitive: &Primitive,
     set: usize,
     transform: DAffine2,
-) -> impl Iterator<Item = DVec2> + use<'_> {
+) -> impl IndexedParallelIterator<Item = DVec2> + use<'_> {
     let uvs = primitive.uvs.get(set).map_or(&[][..], Vec::as_slice);
     (0..primitive.positions.len())
+        .into_par_iter()
+        .with_min_len(AT_ONCE)
         .map(move |index| flipped(transform.transform_point2(uvs.get(index).copied().unwrap_or_default())))
 }
 

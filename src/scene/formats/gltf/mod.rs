@@ -11,6 +11,7 @@ use std::collections::HashMap;
 use std::path::Path;
 
 use glam::{DAffine3, DVec3, Vec4};
+use rayon::prelude::*;
 
 use super::read_file;
 use crate::core::error::Result;
@@ -26,6 +27,9 @@ pub(super) use stage::{View, camera, lights};
 
 /// Most bytes of a buffer in a file of its own.
 const MAX_BUFFER_BYTES: u64 = 4 << 30;
+
+/// Vertices or triangles that a thread takes at once.
+const AT_ONCE: usize = 1 << 12;
 
 /// Reads a file; `sources` gets the files of buffers beside it.
 pub(super) fn read(path: &Path, bytes: &[u8], sources: &mut Vec<std::path::PathBuf>) -> Result<Model, Fault> {
@@ -204,11 +208,12 @@ pub(super) fn bounds(model: &Model, drawn: &[bool]) -> [DVec3; 2] {
 fn append(mesh: &mut Mesh, primitive: &Primitive, matrix: &DAffine3, sets: &CoordinateSets<'_>) {
     let first = mesh.positions.len() as u32;
     let before = mesh.triangle_count();
-    mesh.positions.extend(primitive.positions.iter().map(|p| matrix.transform_point3(*p)));
+    let positions = primitive.positions.par_iter().with_min_len(AT_ONCE);
+    mesh.positions.par_extend(positions.map(|p| matrix.transform_point3(*p)));
     let count = mesh.positions.len();
     let first_normal = mesh.normals.len() as u32;
     let normals = normal_matrix(&matrix.matrix3);
-    mesh.normals.extend(primitive.normals.iter().map(|n| normals * *n));
+    mesh.normals.par_extend(primitive.normals.par_iter().with_min_len(AT_ONCE).map(|n| normals * *n));
     sets.append(mesh, primitive);
     if !primitive.colors.is_empty() {
         mesh.colors.resize(first as usize, Vec4::ONE);
@@ -217,7 +222,8 @@ fn append(mesh: &mut Mesh, primitive: &Primitive, matrix: &DAffine3, sets: &Coor
         mesh.colors.resize(count, Vec4::ONE);
     }
     let mirrors = matrix.matrix3.determinant() < 0.0;
-    let faces = || primitive.faces().map(|[a, b, c]| if mirrors { [a, c, b] } else { [a, b, c] });
+    let turned = |[a, b, c]: [u32; 3]| if mirrors { [a, c, b] } else { [a, b, c] };
+    let faces = || primitive.faces().map(turned);
     if !primitive.tangents.is_empty() {
         mesh.tangents.resize(before, [Vec4::ZERO; 3]);
         let tangent = |corner: u32| {
@@ -227,10 +233,15 @@ fn append(mesh: &mut Mesh, primitive: &Primitive, matrix: &DAffine3, sets: &Coor
         };
         mesh.tangents.extend(faces().map(|corners| corners.map(tangent)));
     }
+    let has_normals = !primitive.normals.is_empty();
+    if first == first_normal || !has_normals {
+        let faces = primitive.faces_at_once().with_min_len(AT_ONCE);
+        let corners = faces.map(|corners| turned(corners).map(|corner| first + corner)).collect();
+        return mesh.extend_of_vertices(corners, true, has_normals);
+    }
     mesh.extend(faces().map(|corners| {
         let positions = corners.map(|corner| first + corner);
-        let normals = corners.map(|corner| first_normal + corner);
-        let normals = (!primitive.normals.is_empty()).then_some(normals);
+        let normals = Some(corners.map(|corner| first_normal + corner));
         MeshTriangle { positions, uvs: Some(positions), normals, material: None }
     }));
 }

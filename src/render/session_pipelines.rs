@@ -1,0 +1,82 @@
+//! The pipelines of a session. Input: its scene with one choice of samples, and the features of that. Output: pipelines for
+//! each pass, and tile culling; several are built at the same time, as drivers take one thread for each.
+
+use std::sync::Arc;
+
+use rayon::prelude::*;
+
+use super::sample_pipeline::SamplePipeline;
+use super::session::Session;
+use super::tile_culling::TileCulling;
+use super::{Tuning, build_pipeline, mesh_passes, specialization, tuning};
+use crate::core::error::Result;
+use crate::gpu::Pipeline;
+use crate::gpu::shaders::Shader;
+use crate::pack::features::Features;
+use crate::pack::{PackedScene, Schedule};
+use crate::render::resources::shader_for;
+use crate::schema::constants::{SEARCH_ALL, SEARCH_TEAM, SEARCH_TEAM_REST, TEAM_HEIGHT, TEAM_WIDTH};
+use crate::schema::layout::Slice;
+use crate::schema::specialization::Constant;
+
+/// A pipeline, and its number of workgroups per tile.
+type Built = (Arc<Pipeline>, u32);
+
+impl Session<'_> {
+    /// Returns tile culling. The pipelines of samples, which need its lists, are built meanwhile and kept for later.
+    pub(super) fn new_tile_culling(&self, scene: &PackedScene, features: &Features) -> Result<TileCulling> {
+        let ahead = || match scene.schedule {
+            Schedule::Tiles if !scene.beams => {
+                // An error comes back when they are asked for.
+                let _ = shader_for(scene.algorithm, features)
+                    .and_then(|shader| self.pipelines(scene, features, shader));
+            }
+            Schedule::Tiles | Schedule::Batches => {}
+        };
+        rayon::join(|| TileCulling::new(self.gpu, scene, &self.resources, features), ahead).0
+    }
+
+    /// Returns the pipelines of the passes by which tiles are rendered.
+    pub(super) fn pipelines(
+        &self,
+        scene: &PackedScene,
+        features: &Features,
+        shader: &'static Shader,
+    ) -> Result<Vec<Built>> {
+        let passes = mesh_passes::passes(self.gpu.info(), scene, features);
+        let build = |&search: &u32| self.pipeline(features, shader, search, passes.lists_shades);
+        passes.searches.par_iter().map(build).collect()
+    }
+
+    pub(super) fn sample_pipeline(&self, scene: &PackedScene, features: &Features) -> Result<SamplePipeline> {
+        let shader = shader_for(scene.algorithm, features)?;
+        let (pipeline, groups_per_tile) = self.pipeline(features, shader, SEARCH_ALL, false)?;
+        Ok(SamplePipeline { pipeline, shader, groups_per_tile })
+    }
+
+    fn pipeline(
+        &self,
+        features: &Features,
+        shader: &'static Shader,
+        search: u32,
+        lists_shades: bool,
+    ) -> Result<Built> {
+        let group_size = match search {
+            SEARCH_TEAM | SEARCH_TEAM_REST => [TEAM_WIDTH, TEAM_HEIGHT],
+            _ => self.tuning.group_size(self.gpu.info())?,
+        };
+        let slots = self.resources.slots;
+        let mut constants =
+            specialization::constants(shader, features, &self.resources.sections, group_size, slots);
+        let tables_in_head = u32::from(Tuning::tables_in_head(self.gpu.info()));
+        let parameters = [
+            (Constant::TablesInHead, tables_in_head),
+            (Constant::MeshSearch, search),
+            (Constant::ListsShades, u32::from(lists_shades)),
+            (Constant::Quantities, features.quantities),
+        ];
+        constants.extend(shader.values(parameters));
+        let pipeline = build_pipeline(self.gpu, shader, &constants, slots, size_of::<Slice>())?;
+        Ok((pipeline, tuning::groups_per_tile(group_size)))
+    }
+}
