@@ -3,7 +3,7 @@
 
 use glam::{DVec2, DVec3};
 
-use super::appearance::{TextureUse, appearance, at_uv_of, bumped_normal, map_input, use_of};
+use super::appearance::{appearance, at_uv_of, bumped_normal, map_input};
 use super::camera::Ray;
 use super::filter::sample_texture::read_level;
 use super::footprint::{Footprint, MAX_STRETCH, RayDifferential, endless_footprint, footprint_at};
@@ -11,6 +11,7 @@ use super::footprint_axes::{FootprintEllipse, in_texture, kind_of, texel_spread}
 use super::geometry::hit::{Hit, Surface};
 use super::geometry::rays::{hit_surface, nearest_hit};
 use super::mapping::{Coordinate, texture_coordinate};
+use super::material_maps::{TextureUse, use_of};
 use crate::pack::{PackedScene, TextureKind};
 use crate::schema::constants::SECOND_UV_BUMP;
 use crate::schema::enums::{MaterialMap, Quantity};
@@ -50,10 +51,11 @@ pub enum Slot {
     Occlusion,
     SpecularWeight,
     SpecularTint,
+    Transmission,
 }
 
 impl Slot {
-    pub const ALL: [Slot; 7] = [
+    pub const ALL: [Slot; 8] = [
         Slot::Color,
         Slot::Bump,
         Slot::Roughness,
@@ -61,6 +63,7 @@ impl Slot {
         Slot::Occlusion,
         Slot::SpecularWeight,
         Slot::SpecularTint,
+        Slot::Transmission,
     ];
 
     /// Returns texture, sampler and bit of the coordinates.
@@ -77,6 +80,7 @@ impl Slot {
             Slot::Occlusion => map(MaterialMap::Occlusion),
             Slot::SpecularWeight => map(MaterialMap::SpecularWeight),
             Slot::SpecularTint => map(MaterialMap::SpecularTint),
+            Slot::Transmission => map(MaterialMap::Transmission),
         }
     }
 }

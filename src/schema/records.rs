@@ -163,6 +163,8 @@ records! {
         /// Times the alpha of its texture.
         opacity: f32,
         one_sided: bool,
+        /// Share of the light in a body that passes it, of model `metallic-roughness`.
+        transmission: f32,
         /// Colour of Phong's highlight, or a dielectric's reflectance head-on, at most `edge` after its maps.
         specular: Vec3,
         /// Reflectance of a dielectric surface at grazing angles, of model `metallic-roughness`.
@@ -176,6 +178,9 @@ records! {
         specular_tint_texture_index: u32,
         specular_tint_sampler_index: u32,
         specular_tint_image_slot: u32,
+        transmission_texture_index: u32,
+        transmission_sampler_index: u32,
+        transmission_image_slot: u32,
     }
 
     /// The mapping from a surface point to a texture coordinate.

@@ -99,6 +99,7 @@ pub fn material_maps(scene: &PackedScene) -> u32 {
         | of(MaterialMap::Mask, |m| m.alpha_mode == AlphaMode::Mask && m.texture_index != NO_TEXTURE)
         | of(MaterialMap::SpecularWeight, |m| m.specular_weight_texture_index != NO_TEXTURE)
         | of(MaterialMap::SpecularTint, |m| m.specular_tint_texture_index != NO_TEXTURE)
+        | of(MaterialMap::Transmission, |m| m.transmission_texture_index != NO_TEXTURE)
 }
 
 /// Returns true if some look-ups select texels at random.

@@ -81,6 +81,7 @@ fn a_map_without_a_texture_of_the_colour_is_read_too() {
         ("occlusion_map = 't'", Slot::Occlusion),
         ("specular_weight_map = 't'", Slot::SpecularWeight),
         ("specular_tint_map = 't'", Slot::SpecularTint),
+        ("transmission = 1\ntransmission_texture = 't'", Slot::Transmission),
     ] {
         with_maps("", &format!("model = 'metallic-roughness'\n{keys}"), |scene| {
             let found = surveyed(&scene);
