@@ -126,7 +126,8 @@ pub fn transmission(document: &mut Document) {
     let metals = [0.0, 0.5, 1.0].map(|metallic| (metallic, map()));
     for (k, (metallic, transmission)) in factors.into_iter().chain(metals).enumerate() {
         // Index 1 bends no ray: what is behind the panes stays where it is.
-        let extensions = json!({ "KHR_materials_transmission": transmission, "KHR_materials_ior": { "ior": 1 } });
+        let extensions =
+            json!({ "KHR_materials_transmission": transmission, "KHR_materials_ior": { "ior": 1 } });
         let material = material(document, [0.9, 0.3, 0.2], metallic, 0.4, extensions);
         square.stand(document, material, sixth(k));
     }
