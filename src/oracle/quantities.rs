@@ -85,6 +85,11 @@ impl Slot {
     }
 }
 
+/// Returns what the texture is for whose look-ups are measured: the colour, or else the first map that the material has.
+pub fn measured_slot(material: &Material) -> Option<Slot> {
+    Slot::ALL.into_iter().find(|slot| slot.of(material)[0] != NO_TEXTURE)
+}
+
 /// Returns the look-up of a texture; procedural textures have no texels.
 fn look_up<'a>(
     scene: &'a PackedScene,
@@ -211,7 +216,7 @@ pub fn measured(
     let quantity = scene.header.quantity;
     let Some(mut first) = first_hit(scene, ray, beam, skip) else { return DVec3::ZERO };
     if is_of_look_ups(quantity) {
-        let look_up = first.look_up(Slot::Color, scene, ray);
+        let look_up = measured_slot(first.material).and_then(|slot| first.look_up(slot, scene, ray));
         return look_up.map_or(DVec3::ZERO, |look_up| look_up_quantity(quantity, &look_up));
     }
     let mut albedo = DVec3::ZERO;
