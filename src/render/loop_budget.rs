@@ -98,10 +98,13 @@ fn bent_rays(scene: &PackedScene) -> u64 {
 }
 
 /// Returns the surfaces that a path passes. One without a back is passed from behind alone, which a straight ray can do
-/// once; what has alpha may be passed again and again.
+/// once; what has alpha may be passed again and again. Backs of meshes are not met at all.
 fn layers(scene: &PackedScene) -> u64 {
-    let has_alpha = scene.records.materials.iter().any(|m| m.alpha_mode != AlphaMode::Opaque);
-    if has_alpha { LAYERS } else { LAYERS.min(bent_rays(scene) * scene.one_sided_shapes() as u64) }
+    if scene.records.materials.iter().any(|m| m.alpha_mode != AlphaMode::Opaque) {
+        return LAYERS;
+    }
+    let shapes = scene.shape_count() - scene.records.meshes.len();
+    if scene.has_one_sided_shapes() { LAYERS.min(bent_rays(scene) * shapes as u64) } else { 0 }
 }
 
 fn iterations_in_trees(rays: u64) -> u64 {

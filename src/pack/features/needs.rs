@@ -89,7 +89,7 @@ pub fn bends_rays(scene: &PackedScene) -> bool {
 
 /// Returns true if some material lets rays pass.
 pub fn lets_rays_pass(scene: &PackedScene) -> bool {
-    scene.one_sided_shapes() > 0 || scene.records.materials.iter().any(|m| m.alpha_mode != AlphaMode::Opaque)
+    scene.has_one_sided_shapes() || scene.records.materials.iter().any(|m| m.alpha_mode != AlphaMode::Opaque)
 }
 
 /// Returns the maps that materials have beside those of colour and relief.

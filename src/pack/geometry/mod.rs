@@ -78,14 +78,11 @@ macro_rules! kinds {
                 self.records.meshes.iter().any(|mesh| self.is_one_sided(mesh.material))
             }
 
-            /// Returns the number of shapes of other kinds that are seen from the front only.
-            pub fn one_sided_shapes(&self) -> usize {
+            /// Returns true if some shape of another kind is seen from the front only.
+            pub fn has_one_sided_shapes(&self) -> bool {
                 let one_sided = |material: u32| self.is_one_sided(material);
-                let counts = [$((
-                    !has(&[$(stringify!($property)),*], "concave"),
-                    self.records.$list.iter().filter(|shape| one_sided(shape.material)).count(),
-                )),+];
-                total(&counts)
+                false$(|| !has(&[$(stringify!($property)),*], "concave")
+                    && self.records.$list.iter().any(|shape| one_sided(shape.material)))+
             }
 
             /// Returns true if a ray that leaves some shape outwards may meet it again.
