@@ -22,6 +22,8 @@ mod constants;
 mod enums;
 #[path = "build/generate.rs"]
 mod generate;
+#[path = "src/schema/header.rs"]
+mod header;
 #[path = "src/schema/models.rs"]
 mod models;
 #[path = "src/schema/packing.rs"]

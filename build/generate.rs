@@ -92,7 +92,7 @@ fn features() -> Result<String, AnyError> {
         };
         writeln!(text, "layout(constant_id = {id}) const {kind} {} = {default};", constant.name)?;
     }
-    let lists = RECORDS.iter().map(|record| record.list.to_uppercase()).filter(|list| !list.is_empty());
+    let lists = RECORDS.iter().map(|record| record.list.to_uppercase());
     for (list, at) in lists.zip(0..) {
         let id = SPECIALIZATION.len() + 2 * at;
         writeln!(text, "layout(constant_id = {id}) const uint {list} = DYNAMIC;")?;

@@ -1,21 +1,22 @@
-//! Generates GLSL for the records of `src/schema/records.rs`: a struct with named fields; functions that read it, each
+//! Generates GLSL for the records of `src/schema/header.rs` and `records.rs`: a struct with named fields; functions that read it, each
 //! unit of 16 bytes once; and for records in a list the access by index, cached if the list is short.
 
+use crate::header::HEADER;
 use crate::packing::{Kind, Packer, shape};
 use crate::records::{LENGTHS, PLACES, RECORDS};
 use crate::tables::Record;
 
 pub fn records() -> String {
-    let lists = || RECORDS.iter().filter(|record| !record.list.is_empty());
-    let preloads: String = lists().map(|record| format!("    preload_{}();\n", record.list)).collect();
+    let preloads: String = RECORDS.iter().map(|record| format!("    preload_{}();\n", record.list)).collect();
     let some = |of: &str| {
         let dynamic = |record: &Record| format!("{}{of} == DYNAMIC", record.list.to_uppercase());
-        lists().map(dynamic).collect::<Vec<_>>().join(" || ")
+        RECORDS.iter().map(dynamic).collect::<Vec<_>>().join(" || ")
     };
-    let mut text: String = RECORDS.iter().chain([&LENGTHS, &PLACES]).map(record).collect();
+    let mut text: String =
+        [&HEADER].into_iter().chain(RECORDS).chain([&LENGTHS, &PLACES]).map(record).collect();
     // Both follow the header; they are read only if something in them is not known when the pipeline is built.
     text += "Lengths lengths;\nPlaces places;\n\n";
-    text.extend(lists().map(list));
+    text.extend(RECORDS.iter().map(list));
     let lengths = format!("    if ({}) lengths = lengths_in_head(HEADER_UNITS);\n", some(""));
     let places = format!("    if ({}) places = places_in_head(HEADER_UNITS + LENGTHS_UNITS);\n", some("_AT"));
     text + &format!("void preload_records() {{\n{lengths}{places}{preloads}}}\n")

@@ -27,6 +27,7 @@ pub struct Block {
 
 pub struct Record {
     pub name: &'static str,
+    /// Empty for one that is in no list.
     pub list: &'static str,
     /// Name and type of each field.
     pub fields: &'static [(&'static str, &'static str)],
@@ -90,11 +91,21 @@ macro_rules! specialization {
     };
 }
 
+macro_rules! header {
+    ($(#[$meta:meta])* $record:ident { $($(#[$fmeta:meta])* $field:ident: $type:ident,)+ }) => {
+        pub const HEADER: crate::tables::Record = crate::tables::Record {
+            name: stringify!($record),
+            list: "",
+            fields: &[$((stringify!($field), stringify!($type)),)+],
+        };
+    };
+}
+
 macro_rules! records {
-    ($($(#[$meta:meta])* $record:ident $(in $list:ident as $what:literal)? { $($(#[$fmeta:meta])* $field:ident: $type:ident,)+ })+) => {
+    ($($(#[$meta:meta])* $record:ident in $list:ident as $what:literal { $($(#[$fmeta:meta])* $field:ident: $type:ident,)+ })+) => {
         pub const RECORDS: &[crate::tables::Record] = &[$(crate::tables::Record {
             name: stringify!($record),
-            list: concat!($(stringify!($list))?),
+            list: stringify!($list),
             fields: &[$((stringify!($field), stringify!($type)),)+],
         },)+];
 
@@ -102,7 +113,7 @@ macro_rules! records {
         pub const LENGTHS: crate::tables::Record = crate::tables::Record {
             name: "Lengths",
             list: "",
-            fields: &[$($((stringify!($list), "u32"),)?)+],
+            fields: &[$((stringify!($list), "u32"),)+],
         };
 
         /// Where all lists begin.

@@ -6,18 +6,8 @@
 
 #include "filter/sample_texture.glsl"
 #include "geometry/hit.glsl"
+#include "material_maps.glsl"
 #include "shading_normal.glsl"
-
-struct Appearance {
-    vec3 color;
-    float opacity;
-    float metallic;
-    float roughness;
-    vec3 emission;
-    float occlusion; // share of the environment's light that arrives
-    vec3 dielectric; // reflectance of a dielectric surface head-on
-    float edge;      // and at grazing angles
-};
 
 // Some ray may pass a surface.
 const bool TRANSPARENT = (ALPHA_MODES & ~(1u << ALPHA_OPAQUE)) != 0u || ONE_SIDED;
@@ -171,69 +161,6 @@ vec3 bump_normal(const Material material, const UvProjection map, const Ray ray,
 }
 #endif
 
-// Returns the maps that the material has, one bit for each MATERIAL_MAP.
-uint maps_of(const Material material) {
-    uint maps = 0u;
-    if (HAS(MATERIAL_MAPS, MATERIAL_MAP_ROUGHNESS) && material.roughness_texture_index != NO_TEXTURE) maps |= 1u << MATERIAL_MAP_ROUGHNESS;
-    if (HAS(MATERIAL_MAPS, MATERIAL_MAP_EMISSION) && material.emission_texture_index != NO_TEXTURE) maps |= 1u << MATERIAL_MAP_EMISSION;
-    if (HAS(MATERIAL_MAPS, MATERIAL_MAP_OCCLUSION) && material.occlusion_texture_index != NO_TEXTURE) maps |= 1u << MATERIAL_MAP_OCCLUSION;
-    if (HAS(MATERIAL_MAPS, MATERIAL_MAP_MASK) && material.alpha_mode == ALPHA_MASK && material.texture_index != NO_TEXTURE) {
-        maps |= 1u << MATERIAL_MAP_MASK;
-    }
-    if (HAS(MATERIAL_MAPS, MATERIAL_MAP_SPECULAR_WEIGHT) && material.specular_weight_texture_index != NO_TEXTURE) {
-        maps |= 1u << MATERIAL_MAP_SPECULAR_WEIGHT;
-    }
-    if (HAS(MATERIAL_MAPS, MATERIAL_MAP_SPECULAR_TINT) && material.specular_tint_texture_index != NO_TEXTURE) {
-        maps |= 1u << MATERIAL_MAP_SPECULAR_TINT;
-    }
-    return maps;
-}
-
-// A texture as a material reads it.
-struct TextureUse {
-    uint texture_index;
-    uint sampler_index;
-    uint image_slot;
-    uint second_uv; // bit of `second_uv_maps`
-};
-
-TextureUse use_of(const Material material, uint map) {
-    TextureUse use = TextureUse(material.texture_index, material.sampler_index, material.image_slot, SECOND_UV_COLOR);
-    if (MODE_IS(MATERIAL_MAPS, MATERIAL_MAP_ROUGHNESS, map)) {
-        use = TextureUse(material.roughness_texture_index, material.roughness_sampler_index, material.roughness_image_slot, 1u << map);
-    }
-    if (MODE_IS(MATERIAL_MAPS, MATERIAL_MAP_EMISSION, map)) {
-        use = TextureUse(material.emission_texture_index, material.emission_sampler_index, material.emission_image_slot, 1u << map);
-    }
-    if (MODE_IS(MATERIAL_MAPS, MATERIAL_MAP_OCCLUSION, map)) {
-        use = TextureUse(material.occlusion_texture_index, material.occlusion_sampler_index, material.occlusion_image_slot, 1u << map);
-    }
-    if (MODE_IS(MATERIAL_MAPS, MATERIAL_MAP_SPECULAR_WEIGHT, map)) {
-        use = TextureUse(material.specular_weight_texture_index, material.specular_weight_sampler_index, material.specular_weight_image_slot,
-                         1u << map);
-    }
-    if (MODE_IS(MATERIAL_MAPS, MATERIAL_MAP_SPECULAR_TINT, map)) {
-        use = TextureUse(material.specular_tint_texture_index, material.specular_tint_sampler_index, material.specular_tint_image_slot, 1u << map);
-    }
-    return use;
-}
-
-// Applies what was read of a map.
-void apply_map(uint map, vec4 texel, const Material material, float vertex_alpha, inout Appearance look) {
-    if (MODE_IS(MATERIAL_MAPS, MATERIAL_MAP_ROUGHNESS, map)) {
-        look.roughness *= texel.y;
-        look.metallic *= texel.z;
-    }
-    if (MODE_IS(MATERIAL_MAPS, MATERIAL_MAP_EMISSION, map)) look.emission *= texel.xyz;
-    if (MODE_IS(MATERIAL_MAPS, MATERIAL_MAP_OCCLUSION, map)) look.occlusion = 1.0 + material.occlusion_strength * (texel.x - 1.0);
-    if (MODE_IS(MATERIAL_MAPS, MATERIAL_MAP_SPECULAR_WEIGHT, map)) {
-        look.dielectric *= texel.w;
-        look.edge *= texel.w;
-    }
-    if (MODE_IS(MATERIAL_MAPS, MATERIAL_MAP_SPECULAR_TINT, map)) look.dielectric *= texel.xyz;
-    if (MODE_IS(MATERIAL_MAPS, MATERIAL_MAP_MASK, map)) look.opacity = material.opacity * vertex_alpha * texel.w;
-}
-
 // Returns the share of a shadow ray's light that a surface has, on both of its sides.
 float alpha_share(const Material material, float alpha) {
     float share = 1.0;
@@ -253,7 +180,7 @@ float covered_share(const Material material, const Surface surface, float alpha)
 // Returns what the material looks like, after its bump map has changed the normal.
 Appearance appearance(const Material material, const UvProjection map, const Ray ray, inout Surface surface, const Footprint print, uvec2 random) {
     Appearance look = Appearance(material.color, material.opacity, material.metallic, material.roughness, material.emission, 1.0,
-                                 material.specular, material.edge);
+                                 material.specular, material.edge, TRANSMISSIVE ? material.transmission : 0.0);
     float vertex_alpha = 1.0;
     if (VERTEX_COLORS) {
         look.color *= surface.attributes.color.xyz;

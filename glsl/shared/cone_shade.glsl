@@ -122,7 +122,7 @@ vec3 shade_part(const Header header, Branch branch, uint shape) {
     if (!lit && !is_specular(material.model)) return sum + emitted(material.model, branch.weight);
     Bsdf bsdf;
     if (HAS_LIT) {
-        bsdf = bsdf_at(material, look.color, look.metallic, look.roughness, look.dielectric, look.edge, surface.normal, ray.direction);
+        bsdf = bsdf_at(material, look, surface.normal, ray.direction);
     }
     if (!lit) consistent_normal(ray.direction, surface);
     float ratio = index_ratio(material, surface.inside);

@@ -1,4 +1,4 @@
-// The scene buffer and its access, in units of 16 bytes; the records are in src/schema/records.rs.
+// The scene buffer and its access, in units of 16 bytes; the records are in src/schema/header.rs and records.rs.
 #ifndef LAYOUT_GLSL
 #define LAYOUT_GLSL
 

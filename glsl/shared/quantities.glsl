@@ -26,11 +26,25 @@ float place_in_tile(uint mask, uint mode, float u) {
     return place;
 }
 
-// Returns a quantity of the look-up of a material's texture. Procedural textures have no texels.
-vec3 look_up_quantity(uint quantity, const Material material, const TexCoord mapped) {
-    bool textured = material.texture_index != NO_TEXTURE;
-    Texture image = texture_at(textured ? material.texture_index : 0u);
-    Sampler how = sampler_at(textured ? material.sampler_index : 0u);
+// Returns the texture whose look-ups are measured: that of the colour, or else the first map that the material has.
+TextureUse measured_use(const Material material) {
+    TextureUse use = TextureUse(material.texture_index, material.sampler_index, material.image_slot, SECOND_UV_COLOR);
+    if (use.texture_index != NO_TEXTURE) return use;
+    if (MATERIAL_MAPS != 0u) {
+        uint maps = maps_of(material);
+        if (maps != 0u) use = use_of(material, uint(findLSB(maps)));
+    }
+    if (BUMPED && material.bump_texture_index != NO_TEXTURE) {
+        use = TextureUse(material.bump_texture_index, material.bump_sampler_index, material.bump_image_slot, SECOND_UV_BUMP);
+    }
+    return use;
+}
+
+// Returns a quantity of the look-up of a texture. Procedural textures have no texels.
+vec3 look_up_quantity(uint quantity, const TextureUse use, const TexCoord mapped) {
+    bool textured = use.texture_index != NO_TEXTURE;
+    Texture image = texture_at(textured ? use.texture_index : 0u);
+    Sampler how = sampler_at(textured ? use.sampler_index : 0u);
     uint face;
     Coordinate c = in_texture(image, near_coordinate(image, how, mapped), face);
     FootprintEllipse spread = texel_spread(image, c);
@@ -77,8 +91,9 @@ vec3 measured(const Header header, const Hit hit, bool missed, const Material ma
     vec3 value = surface_quantity(header.quantity, missed, hit, surface, albedo);
 #if SOURCE != SOURCE_NONE
     if (!MEASURES_COLOR && header.quantity <= QUANTITY_UV) {
-        Surface shown = at_uv_of(material, SECOND_UV_COLOR, surface);
-        value = look_up_quantity(header.quantity, material, texture_coordinate(map, map_input(map, ray, shown, print)));
+        TextureUse use = measured_use(material);
+        Surface shown = at_uv_of(material, use.second_uv, surface);
+        value = look_up_quantity(header.quantity, use, texture_coordinate(map, map_input(map, ray, shown, print)));
     }
 #endif
     return value;

@@ -66,20 +66,28 @@ bool bounced(const Header header, const Hit hit, Surface surface, const Footprin
 }
 
 // Continues a path at a lit surface that reflects what is around it; returns false if it ends there.
-bool goes_on(const Header header, const Hit hit, Surface surface, const Footprint print, Bsdf bsdf, vec3 carried, float occlusion,
-             const SampleDimensions dimensions, inout Path path) {
+bool goes_on(const Header header, const Hit hit, Surface surface, const Footprint print, const Material material, Bsdf bsdf, vec3 carried,
+             float occlusion, const SampleDimensions dimensions, inout Path path) {
     bool to_sky = is_lit_by_environment(header);
     if (!is_glossy(bsdf.model) && !to_sky) return false;
     Ray ray = path.ray;
     consistent_normal(ray.direction, surface);
     bsdf.normal = vec3(surface.normal);
-    Scattered next = scattered(bsdf, surface, path.throughput, carried, dimensions, to_sky);
+    float ratio = TRANSMISSIVE ? index_ratio(material, surface.inside) : 1.0;
+    Scattered next = scattered(bsdf, surface, path.throughput, carried, dimensions, to_sky, ratio);
     path.throughput = next.occluded ? next.weight * occlusion : next.weight;
     path.density = next.density;
     path.diffuse = next.diffuse;
-    path.ray = Ray(offset_origin(surface.point, surface.geometric_normal, surface.size), next.direction, ray.time);
+    real3 side = surface.geometric_normal;
+    if (TRANSMISSIVE) side = next.through ? -side : side;
+    path.ray = Ray(offset_origin(surface.point, side, surface.size), next.direction, ray.time);
     if (FILTERED) {
         RayDifferential beam = reflected_differential(path.beam, ray, hit.t, print, surface.normal, surface.shape_operator, surface.curvature);
+        if (TRANSMISSIVE) {
+            if (next.through) {
+                beam = refracted_differential(path.beam, ray, hit.t, print, next.facet, surface.shape_operator, surface.curvature, ratio);
+            }
+        }
         path.beam = widened_differential(header, beam, vec3(next.direction), next.alpha);
     }
     return next.leaves;
@@ -138,11 +146,13 @@ vec3 advance(const Header header, const Points points, const SampleDimensions di
             bool continues = BOUNCES && path.depth < header.max_depth;
             Bsdf bsdf;
             if (HAS_LIT) {
-                bsdf = bsdf_at(material, look.color, look.metallic, look.roughness, look.dielectric, look.edge, surface.normal, direction);
+                bsdf = bsdf_at(material, look, surface.normal, direction);
             }
             is_alive = BOUNCES && bounced(header, hit, surface, print, material, dimensions, path);
             if (BOUNCES && HAS_LIT && (THIRD_LOBE || LIT_BY_ENVIRONMENT)) {
-                if (is_lit(material.model)) is_alive = goes_on(header, hit, surface, print, bsdf, carried, look.occlusion, dimensions, path);
+                if (is_lit(material.model)) {
+                    is_alive = goes_on(header, hit, surface, print, material, bsdf, carried, look.occlusion, dimensions, path);
+                }
             }
             seen = emitted(material.model, before.throughput);
             bool mirrors = false;

@@ -11,29 +11,13 @@ use super::math::any_tangent;
 use super::geometry::hit::Surface;
 use super::geometry::mesh_tests::mesh_texel;
 use super::mapping::{Coordinate, MapInput, texture_coordinate};
+use super::material_maps::{Appearance, TextureUse, apply_map, use_of};
 use super::shading_normal::consistent_normal;
 use crate::pack::{EntityKind, PackedScene};
 use crate::scene::model::BumpKind;
-use crate::schema::constants::{SECOND_UV_BUMP, SECOND_UV_COLOR};
+use crate::schema::constants::SECOND_UV_BUMP;
 use crate::schema::enums::{AlphaMode, MaterialMap};
 use crate::schema::layout::{MapUv, Material, NO_TEXTURE, UvProjection};
-
-/// What a material looks like at a hit.
-#[derive(Clone, Copy, Debug)]
-pub struct Appearance {
-    /// Linear RGB.
-    pub color: DVec3,
-    pub opacity: f64,
-    pub metallic: f64,
-    pub roughness: f64,
-    pub emission: DVec3,
-    /// Share of the environment's light that arrives.
-    pub occlusion: f64,
-    /// Reflectance of a dielectric surface head-on.
-    pub dielectric: DVec3,
-    /// And at grazing angles.
-    pub edge: f64,
-}
 
 /// Returns the inputs of the surface's mapping.
 pub fn map_input(map: &UvProjection, ray: &Ray, surface: &Surface, print: &Footprint) -> MapInput {
@@ -179,40 +163,6 @@ pub fn bumped_normal(
     side * result.try_normalize().unwrap_or(n)
 }
 
-/// A texture as a material reads it.
-pub struct TextureUse {
-    pub texture_index: u32,
-    pub sampler_index: u32,
-    /// The bit of `Material::second_uv_maps`.
-    pub second_uv: u32,
-}
-
-/// Returns how a map is read; that of the mask is the colour's texture.
-pub fn use_of(material: &Material, map: MaterialMap) -> TextureUse {
-    let m = material;
-    let [texture_index, sampler_index, second_uv] = match map {
-        MaterialMap::Roughness => {
-            [m.roughness_texture_index, m.roughness_sampler_index, 1 << MaterialMap::Roughness as u32]
-        }
-        MaterialMap::Emission => {
-            [m.emission_texture_index, m.emission_sampler_index, 1 << MaterialMap::Emission as u32]
-        }
-        MaterialMap::Occlusion => {
-            [m.occlusion_texture_index, m.occlusion_sampler_index, 1 << MaterialMap::Occlusion as u32]
-        }
-        MaterialMap::Mask => [m.texture_index, m.sampler_index, SECOND_UV_COLOR],
-        MaterialMap::SpecularWeight => {
-            let bit = 1 << MaterialMap::SpecularWeight as u32;
-            [m.specular_weight_texture_index, m.specular_weight_sampler_index, bit]
-        }
-        MaterialMap::SpecularTint => {
-            let bit = 1 << MaterialMap::SpecularTint as u32;
-            [m.specular_tint_texture_index, m.specular_tint_sampler_index, bit]
-        }
-    };
-    TextureUse { texture_index, sampler_index, second_uv }
-}
-
 /// Returns what is read of a texture of the material; `None` without one.
 fn read(
     scene: &PackedScene,
@@ -267,23 +217,12 @@ pub fn appearance(
         occlusion: 1.0,
         dielectric: material.specular.as_dvec3(),
         edge: material.edge.into(),
+        transmission: material.transmission.into(),
     };
-    if let Some(texel) = sampled(MaterialMap::Roughness) {
-        look.roughness *= texel.y;
-        look.metallic *= texel.z;
-    }
-    if let Some(texel) = sampled(MaterialMap::Emission) {
-        look.emission *= texel.truncate();
-    }
-    if let Some(texel) = sampled(MaterialMap::Occlusion) {
-        look.occlusion = 1.0 + f64::from(material.occlusion_strength) * (texel.x - 1.0);
-    }
-    if let Some(texel) = sampled(MaterialMap::SpecularWeight) {
-        look.dielectric *= texel.w;
-        look.edge *= texel.w;
-    }
-    if let Some(texel) = sampled(MaterialMap::SpecularTint) {
-        look.dielectric = (look.dielectric * texel.truncate()).min(DVec3::splat(look.edge));
+    for &map_of in MaterialMap::ALL.iter().filter(|map_of| **map_of != MaterialMap::Mask) {
+        if let Some(texel) = sampled(map_of) {
+            apply_map(map_of, texel, material, &mut look);
+        }
     }
     if material.alpha_mode == AlphaMode::Mask {
         let point = (at.0, at.1, &Footprint::default());

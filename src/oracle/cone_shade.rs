@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use glam::{DVec2, DVec3};
 
-use super::appearance::{Appearance, appearance, bumped_normal};
+use super::appearance::{appearance, bumped_normal};
 use super::bsdf::dielectric::refracted;
 use super::bsdf::mirror::mirrored;
 use super::bsdf::specular::{index_ratio, mirrored_share};
@@ -21,6 +21,7 @@ use super::geometry::cones::{is_concave, leaving, left_shape, meet};
 use super::geometry::hit::{FAR, Hit, Surface};
 use super::geometry::rays::{hit_surface, offset_origin};
 use super::light::punctual_share;
+use super::material_maps::Appearance;
 use super::shading_normal::{consistent_normal, on_its_side};
 use crate::pack::{LightKind, PackedScene};
 use crate::schema::layout::{Light, Material, NO_MATERIAL, NO_SHAPE};

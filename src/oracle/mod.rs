@@ -23,6 +23,7 @@ pub mod grid;
 pub mod halton;
 pub mod light;
 pub mod mapping;
+pub mod material_maps;
 pub mod math;
 pub mod noise;
 pub mod patterns;

@@ -3,7 +3,7 @@
 
 use glam::{DVec2, DVec3};
 
-use super::appearance::{TextureUse, appearance, at_uv_of, bumped_normal, map_input, use_of};
+use super::appearance::{appearance, at_uv_of, bumped_normal, map_input};
 use super::camera::Ray;
 use super::filter::sample_texture::read_level;
 use super::footprint::{Footprint, MAX_STRETCH, RayDifferential, endless_footprint, footprint_at};
@@ -11,6 +11,7 @@ use super::footprint_axes::{FootprintEllipse, in_texture, kind_of, texel_spread}
 use super::geometry::hit::{Hit, Surface};
 use super::geometry::rays::{hit_surface, nearest_hit};
 use super::mapping::{Coordinate, texture_coordinate};
+use super::material_maps::{TextureUse, use_of};
 use crate::pack::{PackedScene, TextureKind};
 use crate::schema::constants::SECOND_UV_BUMP;
 use crate::schema::enums::{MaterialMap, Quantity};
@@ -50,10 +51,11 @@ pub enum Slot {
     Occlusion,
     SpecularWeight,
     SpecularTint,
+    Transmission,
 }
 
 impl Slot {
-    pub const ALL: [Slot; 7] = [
+    pub const ALL: [Slot; 8] = [
         Slot::Color,
         Slot::Bump,
         Slot::Roughness,
@@ -61,6 +63,7 @@ impl Slot {
         Slot::Occlusion,
         Slot::SpecularWeight,
         Slot::SpecularTint,
+        Slot::Transmission,
     ];
 
     /// Returns texture, sampler and bit of the coordinates.
@@ -77,8 +80,14 @@ impl Slot {
             Slot::Occlusion => map(MaterialMap::Occlusion),
             Slot::SpecularWeight => map(MaterialMap::SpecularWeight),
             Slot::SpecularTint => map(MaterialMap::SpecularTint),
+            Slot::Transmission => map(MaterialMap::Transmission),
         }
     }
+}
+
+/// Returns what the texture is for whose look-ups are measured: the colour, or else the first map that the material has.
+pub fn measured_slot(material: &Material) -> Option<Slot> {
+    Slot::ALL.into_iter().find(|slot| slot.of(material)[0] != NO_TEXTURE)
 }
 
 /// Returns the look-up of a texture; procedural textures have no texels.
@@ -207,7 +216,7 @@ pub fn measured(
     let quantity = scene.header.quantity;
     let Some(mut first) = first_hit(scene, ray, beam, skip) else { return DVec3::ZERO };
     if is_of_look_ups(quantity) {
-        let look_up = first.look_up(Slot::Color, scene, ray);
+        let look_up = measured_slot(first.material).and_then(|slot| first.look_up(slot, scene, ray));
         return look_up.map_or(DVec3::ZERO, |look_up| look_up_quantity(quantity, &look_up));
     }
     let mut albedo = DVec3::ZERO;

@@ -6,7 +6,7 @@ use super::appearance::{appearance, bumped_normal, covered_share};
 use super::bsdf::facets::widened_differential;
 use super::bsdf::metallic_roughness::mirrored_density;
 use super::bsdf::scattering::scattered;
-use super::bsdf::specular::sample_bsdf;
+use super::bsdf::specular::{index_ratio, sample_bsdf};
 use super::bsdf::{Bsdf, bsdf_at, emitted, is_glossy, is_lit, is_rough_mirror, is_specular, reflected};
 use super::camera::Ray;
 use super::environment::sky_density;
@@ -130,10 +130,12 @@ fn goes_on(
     let ray = path.ray;
     consistent_normal(ray.direction, &mut surface);
     let bsdf = Bsdf { normal: surface.normal, ..*bsdf };
-    let next = scattered(&bsdf, &surface, path.throughput, carried, dimensions, to_sky);
+    let ratio = index_ratio(bsdf.material, surface.inside);
+    let next = scattered(&bsdf, &surface, path.throughput, carried, dimensions, to_sky, ratio);
     path.throughput = if next.occluded { next.weight * occlusion } else { next.weight };
     (path.density, path.diffuse) = (next.density, next.diffuse);
-    let origin = offset_origin(surface.point, surface.geometric_normal, surface.size);
+    let side = if next.through { -surface.geometric_normal } else { surface.geometric_normal };
+    let origin = offset_origin(surface.point, side, surface.size);
     path.ray = Ray { origin, direction: next.direction, time: ray.time };
     let meeting = Meeting {
         ray,
@@ -143,7 +145,11 @@ fn goes_on(
         shape_operator: surface.shape_operator,
         curvature: surface.curvature,
     };
-    let beam = reflected_differential(&path.beam, &meeting);
+    let beam = if next.through {
+        refracted_differential(&path.beam, &Meeting { normal: next.facet, ..meeting }, ratio)
+    } else {
+        reflected_differential(&path.beam, &meeting)
+    };
     path.beam = widened_differential(&scene.header, &beam, next.direction, next.alpha);
     next.leaves
 }

@@ -12,7 +12,7 @@ use crate::schema::specialization::{Constant, Kind};
 
 use narrowed::narrowed;
 use needs::compensates;
-pub use needs::{bounces, lets_rays_pass};
+pub use needs::{bends_rays, bounces};
 
 /// Longer lists are read at run time, as unrolled code would grow without limit.
 const UNROLL: usize = 16;

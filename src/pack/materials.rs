@@ -27,7 +27,8 @@ pub(super) fn material(packed: &mut PackedScene, source: &Material) -> layout::M
     let color = used(maps.color);
     let bump_map = used(maps.bump);
     let [roughness, emission, occlusion] = [maps.roughness, maps.emission, maps.occlusion].map(&mut used);
-    let [specular_weight, specular_tint] = [maps.specular_weight, maps.specular_tint].map(used);
+    let [specular_weight, specular_tint, transmission] =
+        [maps.specular_weight, maps.specular_tint, maps.transmission].map(used);
     let bump = source.bump;
     let second =
         |map: Option<TextureUse>, bit: u32| if map.is_some_and(|map| map.second_uv) { bit } else { 0 };
@@ -38,6 +39,7 @@ pub(super) fn material(packed: &mut PackedScene, source: &Material) -> layout::M
         (of(MaterialMap::Occlusion), maps.occlusion),
         (of(MaterialMap::SpecularWeight), maps.specular_weight),
         (of(MaterialMap::SpecularTint), maps.specular_tint),
+        (of(MaterialMap::Transmission), maps.transmission),
         (SECOND_UV_COLOR, maps.color),
         (SECOND_UV_BUMP, maps.bump),
     ];
@@ -74,13 +76,15 @@ pub(super) fn material(packed: &mut PackedScene, source: &Material) -> layout::M
             | second(maps.emission, of(MaterialMap::Emission))
             | second(maps.occlusion, of(MaterialMap::Occlusion))
             | second(maps.specular_weight, of(MaterialMap::SpecularWeight))
-            | second(maps.specular_tint, of(MaterialMap::SpecularTint)),
+            | second(maps.specular_tint, of(MaterialMap::SpecularTint))
+            | second(maps.transmission, of(MaterialMap::Transmission)),
         own_uv_maps,
         first_map_uv,
         alpha_mode: source.alpha,
         alpha_cutoff: source.alpha_cutoff as f32,
         opacity: source.opacity as f32,
         one_sided: source.sides == Sides::Front,
+        transmission: source.transmission as f32,
         specular: source.head_on_color().as_vec3(),
         edge: source.specular_weight as f32,
         exponent: source.exponent as f32,
@@ -91,6 +95,9 @@ pub(super) fn material(packed: &mut PackedScene, source: &Material) -> layout::M
         specular_tint_texture_index: specular_tint.texture,
         specular_tint_sampler_index: specular_tint.sampler,
         specular_tint_image_slot: specular_tint.slot,
+        transmission_texture_index: transmission.texture,
+        transmission_sampler_index: transmission.sampler,
+        transmission_image_slot: transmission.slot,
     }
 }
 

@@ -4,10 +4,11 @@
 
 use crate::core::error::{Error, Result};
 use crate::gpu::{DeviceInfo, DeviceKind};
-use crate::pack::features::{bounces, lets_rays_pass};
+use crate::pack::features::{bends_rays, bounces};
 use crate::pack::{PackedScene, SampleDimension, TextureKind};
 use crate::scene::model::Algorithm;
 use crate::schema::constants::{MAX_BOXES, MAX_CONE_FRAGMENTS, MAX_CONES, MAX_ELLIPSE_STEPS};
+use crate::schema::enums::AlphaMode;
 use crate::schema::layout::{MAX_SAMPLES_AT_ONCE, NO_TEXTURE, Procedural, Sampler};
 use crate::texture::filter::LoopCost;
 
@@ -80,8 +81,7 @@ fn iterations_of_a_sample(scene: &PackedScene, ellipse: u64) -> u64 {
     let records = count(
         scene.records.materials.len() + scene.records.uv_projections.len() + scene.records.motions.len(),
     );
-    let layers = if lets_rays_pass(scene) { LAYERS } else { 0 };
-    let rays = if bounces(scene) { 1 + u64::from(scene.header.max_depth) + layers } else { 1 };
+    let rays = bent_rays(scene) + layers(scene);
     let bumped = scene.records.materials.iter().any(|m| m.bump_texture_index != NO_TEXTURE);
     let taps = if bumped { TAPS } else { 1 };
     let hit = 1 + shapes + records + lights * (1 + shapes);
@@ -90,6 +90,21 @@ fn iterations_of_a_sample(scene: &PackedScene, ellipse: u64) -> u64 {
     let choices = if chances == 0 { 0 } else { (4 + glass) * (1 + POINTS) };
     let trees = if scene.has_concave_shapes() { iterations_in_trees(rays * (1 + lights)) } else { 0 };
     trees + rays * (choices + hit + taps * iterations_of_a_look_up(scene, ellipse))
+}
+
+/// Returns the most rays of a path that are not those before them, gone on straight.
+fn bent_rays(scene: &PackedScene) -> u64 {
+    if bends_rays(scene) { 1 + u64::from(scene.header.max_depth) } else { 1 }
+}
+
+/// Returns the surfaces that a path passes. One without a back is passed from behind alone, which a straight ray can do
+/// once; what has alpha may be passed again and again. Backs of meshes are not met at all.
+fn layers(scene: &PackedScene) -> u64 {
+    if scene.records.materials.iter().any(|m| m.alpha_mode != AlphaMode::Opaque) {
+        return LAYERS;
+    }
+    let shapes = scene.shape_count() - scene.records.meshes.len();
+    if scene.has_one_sided_shapes() { LAYERS.min(bent_rays(scene) * shapes as u64) } else { 0 }
 }
 
 fn iterations_in_trees(rays: u64) -> u64 {

@@ -66,7 +66,7 @@ pub(super) enum Value {
     Map(fn(&mut Material) -> &mut Option<TextureUse>),
 }
 
-pub(super) const KEYS: [ModelKey; 10] = [
+pub(super) const KEYS: [ModelKey; 12] = [
     ModelKey { name: "specular", value: Value::Color(|m| &mut m.specular), limits: COLOR },
     ModelKey { name: "exponent", value: Value::Number(|m| &mut m.exponent), limits: EXPONENT },
     ModelKey { name: "ior", value: Value::Number(|m| &mut m.ior), limits: IOR },
@@ -81,6 +81,12 @@ pub(super) const KEYS: [ModelKey; 10] = [
     ModelKey { name: "specular_weight_map", value: Value::Map(|m| &mut m.specular_weight_map), limits: UNIT },
     ModelKey { name: "specular_tint", value: Value::Color(|m| &mut m.specular_tint), limits: COLOR },
     ModelKey { name: "specular_tint_map", value: Value::Map(|m| &mut m.specular_tint_map), limits: UNIT },
+    ModelKey { name: "transmission", value: Value::Number(|m| &mut m.transmission), limits: UNIT },
+    ModelKey {
+        name: "transmission_texture",
+        value: Value::Map(|m| &mut m.transmission_texture),
+        limits: UNIT,
+    },
 ];
 
 /// Checks the fields that the material's model uses.

@@ -82,6 +82,8 @@ pub struct Maps {
     pub specular_weight: Option<TextureUse>,
     /// Multiplies the reflectance of a dielectric head-on.
     pub specular_tint: Option<TextureUse>,
+    /// Multiplies the share of light that passes a body, in red.
+    pub transmission: Option<TextureUse>,
 }
 
 named_enum! {
@@ -124,6 +126,10 @@ pub struct Material {
     pub specular_weight_map: Option<TextureUse>,
     /// Multiplies that tint.
     pub specular_tint_map: Option<TextureUse>,
+    /// Of `metallic-roughness`: the share of light in a dielectric's body that passes it, in place of being scattered.
+    pub transmission: f64,
+    /// Multiplies that share by its red.
+    pub transmission_texture: Option<TextureUse>,
     /// Radiance that it emits, whatever its model.
     pub emission: DVec3,
     /// Multiplies the emission.
@@ -167,6 +173,8 @@ impl Default for Material {
             specular_weight: 1.0,
             specular_weight_map: None,
             specular_tint_map: None,
+            transmission: 0.0,
+            transmission_texture: None,
             emission: DVec3::ZERO,
             emission_map: None,
             occlusion_map: None,
@@ -205,14 +213,16 @@ impl Material {
             occlusion: self.occlusion_map,
             specular_weight: self.specular_weight_map,
             specular_tint: self.specular_tint_map,
+            transmission: self.transmission_texture,
         }
     }
 
     /// Returns the textures that it reads, each with its sampler.
     pub fn textures(&self) -> impl Iterator<Item = TextureUse> + use<> {
-        let Maps { color, bump, roughness, emission, occlusion, specular_weight, specular_tint } =
-            self.maps();
-        [color, bump, roughness, emission, occlusion, specular_weight, specular_tint].into_iter().flatten()
+        let maps = self.maps();
+        let Maps { color, bump, roughness, emission, occlusion, .. } = maps;
+        let body = [maps.specular_weight, maps.specular_tint, maps.transmission];
+        [color, bump, roughness, emission, occlusion].into_iter().chain(body).flatten()
     }
 
     /// Returns the colour of its highlight, or the reflectance head-on of a dielectric surface (Fresnel), which is at most
@@ -245,13 +255,14 @@ impl Material {
     /// Returns what reads textures: the colour's texture and its sampler, the bump map, and the other maps.
     fn readers_mut(
         &mut self,
-    ) -> (&mut Option<usize>, &mut usize, &mut Option<BumpMap>, [&mut Option<TextureUse>; 5]) {
+    ) -> (&mut Option<usize>, &mut usize, &mut Option<BumpMap>, [&mut Option<TextureUse>; 6]) {
         let others = [
             &mut self.metallic_roughness_map,
             &mut self.emission_map,
             &mut self.occlusion_map,
             &mut self.specular_weight_map,
             &mut self.specular_tint_map,
+            &mut self.transmission_texture,
         ];
         (&mut self.texture, &mut self.sampler, &mut self.bump, others)
     }

@@ -2,6 +2,7 @@
 
 pub use super::blocks::{CellRange, Halving, PixelBatch, Slice};
 pub use super::constants::*;
+pub use super::header::*;
 pub use super::record::{RealBits, Record, bytes_of};
 pub use super::records::*;
 

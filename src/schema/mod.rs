@@ -8,6 +8,7 @@ pub mod bindings;
 pub mod blocks;
 pub mod constants;
 pub mod enums;
+pub mod header;
 pub mod layout;
 pub mod models;
 pub mod packing;

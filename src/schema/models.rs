@@ -18,7 +18,7 @@ macro_rules! with_models {
             OrenNayar = "oren-nayar", [lit], [roughness];
             /// A metal, or a diffuse body under a dielectric surface; facets follow GGX (glTF 2.0, Appendix B).
             MetallicRoughness = "metallic-roughness", [lit glossy], [metallic roughness metallic_roughness_map ior
-                specular_weight specular_weight_map specular_tint specular_tint_map];
+                specular_weight specular_weight_map specular_tint specular_tint_map transmission transmission_texture];
         }
     };
 }

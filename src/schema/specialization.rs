@@ -38,6 +38,8 @@ specialization! {
     AlphaModes = "ALPHA_MODES", modes(AlphaMode), "alpha";
     /// Some material beside the unlit ones emits light.
     Emissive = "EMISSIVE", switch, "emission";
+    /// Light passes the body of some material of model `metallic-roughness`.
+    Transmissive = "TRANSMISSIVE", switch, "light through bodies";
     /// Some surface other than a mesh is seen from the front only.
     OneSided = "ONE_SIDED", switch, "surfaces without a back";
     /// Triangles of meshes are met from the front only.

@@ -57,6 +57,8 @@ enums! {
         SpecularWeight = "specular-weight",
         /// Multiplies the reflectance of a dielectric head-on.
         SpecularTint = "specular-tint",
+        /// In red: multiplies the share of light in a body that passes it.
+        Transmission = "transmission",
     }
 
     /// The texture coordinate computation on the device.

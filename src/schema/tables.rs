@@ -168,31 +168,42 @@ macro_rules! kind {
     };
 }
 
-/// Records of the scene buffer, and the name of the code that loops over a list of them.
+/// The record at the front of the scene buffer.
+macro_rules! header {
+    ($(#[$meta:meta])* $record:ident { $($(#[$fmeta:meta])* $field:ident: $type:ident,)+ }) => {
+        use super::enums::*;
+        use super::packing::{Packer, shape};
+        use super::record::{Field as _, Record, Writer};
+        use glam::{DVec3, UVec2, Vec3};
+        record! { $(#[$meta])* $record { $($(#[$fmeta])* $field: $type,)+ } }
+    };
+}
+
+/// Records of lists in the scene buffer, and the name of the code that loops over each.
 macro_rules! records {
-    ($($(#[$meta:meta])* $record:ident $(in $list:ident as $what:literal)? { $($(#[$fmeta:meta])* $field:ident: $type:ident,)+ })+) => {
+    ($($(#[$meta:meta])* $record:ident in $list:ident as $what:literal { $($(#[$fmeta:meta])* $field:ident: $type:ident,)+ })+) => {
         use super::enums::*;
         use super::models::Model;
         use super::packing::{Packer, shape};
         use super::record::{Field as _, RealBits, Record, Writer, bytes_of};
-        use glam::{DVec2, DVec3, DVec4, UVec2, UVec3, Vec3, Vec4};
+        use glam::{DVec2, DVec3, DVec4, UVec3, Vec3, Vec4};
         $(record! { $(#[$meta])* $record { $($(#[$fmeta])* $field: $type,)+ } })+
 
         record! {
             /// The length of each list of records.
-            Lengths { $($($list: u32,)?)+ }
+            Lengths { $($list: u32,)+ }
         }
 
         record! {
             /// The offset of each list of records in the scene buffer, in units of 16 bytes.
-            Places { $($($list: u32,)?)+ }
+            Places { $($list: u32,)+ }
         }
 
         impl Places {
             /// Returns the offset of a list.
             pub fn of(&mut self, list: List) -> &mut u32 {
                 match list {
-                    $($(List::$record => &mut self.$list,)?)+
+                    $(List::$record => &mut self.$list,)+
                 }
             }
         }
@@ -200,14 +211,14 @@ macro_rules! records {
         /// A list of records in the scene buffer.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
         pub enum List {
-            $($(#[doc = concat!("`", stringify!($list), "`.")] $record,)?)+
+            $(#[doc = concat!("`", stringify!($list), "`.")] $record,)+
         }
 
         impl List {
             /// All lists, in the order of the table.
-            pub const ALL: &'static [List] = &[$($(list!($list List::$record),)?)+];
-            const NAMES: &'static [&'static str] = &[$($(stringify!($list),)?)+];
-            const WHAT: &'static [&'static str] = &[$($($what,)?)+];
+            pub const ALL: &'static [List] = &[$(List::$record,)+];
+            const NAMES: &'static [&'static str] = &[$(stringify!($list),)+];
+            const WHAT: &'static [&'static str] = &[$($what,)+];
 
             pub const fn name(self) -> &'static str {
                 List::NAMES[self as usize]
@@ -222,39 +233,32 @@ macro_rules! records {
         /// The lists of records after the header of the scene buffer.
         #[derive(Clone, Debug, Default)]
         pub struct Records {
-            $($(pub $list: Vec<$record>,)?)+
+            $(pub $list: Vec<$record>,)+
         }
 
         impl Records {
             pub fn lengths(&self) -> Lengths {
-                Lengths { $($($list: self.$list.len() as u32,)?)+ }
+                Lengths { $($list: self.$list.len() as u32,)+ }
             }
 
             pub fn len(&self, list: List) -> usize {
                 match list {
-                    $($(List::$record => self.$list.len(),)?)+
+                    $(List::$record => self.$list.len(),)+
                 }
             }
 
             /// Returns the bytes of a list.
             pub fn bytes(&self, list: List, double: bool) -> Vec<u8> {
                 match list {
-                    $($(List::$record => bytes_of(&self.$list, double),)?)+
+                    $(List::$record => bytes_of(&self.$list, double),)+
                 }
             }
 
             /// Rounds all records to the f32 values that the shader reads unless it reads f64.
             pub fn quantize_f32(&mut self) {
-                $($(self.$list.iter_mut().for_each(|record| *record = record.quantize_f32());)?)+
+                $(self.$list.iter_mut().for_each(|record| *record = record.quantize_f32());)+
             }
         }
-    };
-}
-
-/// Expands to the second of two tokens: a list's name drives the repetition.
-macro_rules! list {
-    ($list:ident $variant:expr) => {
-        $variant
     };
 }
 

@@ -55,7 +55,7 @@ macro_rules! pictures {
 pictures! {
     accessors alpha cameras cameras_above emissive glass instancing lights metallic_roughness metallic_roughness_map
     metallic_roughness_sky normal_map occlusion_sky quantized samplers sides sixteen_bits specular specular_map
-    texture_formats texture_transform transforms unlit uv_sets vertex_colors
+    texture_formats texture_transform transforms transmission unlit uv_sets vertex_colors
 }
 
 fn names(folder: &str) -> BTreeSet<String> {

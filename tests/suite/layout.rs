@@ -89,6 +89,7 @@ fn records_are_written_as_the_rule_says() {
         alpha_cutoff: 33.0,
         opacity: 34.0,
         one_sided: true,
+        transmission: 44.0,
         specular: Vec3::new(11.0, 12.0, 13.0),
         edge: 35.0,
         exponent: 14.0,
@@ -99,6 +100,9 @@ fn records_are_written_as_the_rule_says() {
         specular_tint_texture_index: 39,
         specular_tint_sampler_index: 40,
         specular_tint_image_slot: 41,
+        transmission_texture_index: 45,
+        transmission_sampler_index: 46,
+        transmission_image_slot: 47,
     };
     let f = f32::to_bits;
     let expected = [
@@ -110,12 +114,13 @@ fn records_are_written_as_the_rule_says() {
         [24, f(25.0), f(26.0), f(27.0)],
         [f(28.0), 29, 30, 31],
         [32, 42, 43, AlphaMode::Blend as u32],
-        [f(33.0), f(34.0), 1, 0],
+        [f(33.0), f(34.0), 1, f(44.0)],
         [f(11.0), f(12.0), f(13.0), f(35.0)],
         [f(14.0), f(15.0), 36, 37],
         [38, 39, 40, 41],
+        [45, 46, 47, 0],
     ];
-    assert_eq!(Material::UNITS, (0, 12));
+    assert_eq!(Material::UNITS, (0, 13));
     // Without reals, whatever their precision.
     assert_eq!(words(&material, false), expected.concat());
     assert_eq!(words(&material, true), expected.concat());

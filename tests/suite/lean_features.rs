@@ -78,6 +78,20 @@ fn glass_anisotropic_and_stochastic_look_ups_in_a_cube_and_a_volume() {
 }
 
 #[test]
+fn bodies_that_let_light_through_below_a_sky_that_lights() {
+    same_bits(
+        "transmission",
+        "[sampling]\nspp = 4\nfootprint = 'differentials'\n[background]\nenvironment = 'flat'\nsampler = 's'
+[[light]]\nkind = 'environment'
+[[sampler]]\nname = 's'\nfilter = 'linear'\nmip = 'linear'
+[[material]]\nname = 'ground'\ntexture = 'flat'\nsampler = 's'
+[[material]]\nname = 'pane'\nmodel = 'metallic-roughness'\ntransmission_texture = 'flat'\nroughness = 0.3\nsampler = 's'
+[[plane]]\norigin = [0, -0.5, 0]\ntangent = [1, 0, 0]\nbitangent = [0, 0, 1]\nmaterial = 'ground'\nhalf_extent = 5
+[[sphere]]\ncenter = [0, 0.4, 0]\nradius = 0.9\nmaterial = 'pane'\n",
+    );
+}
+
+#[test]
 fn patterns_bumps_cubic_look_ups_and_boxes() {
     same_bits(
         "patterns",

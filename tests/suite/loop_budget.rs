@@ -1,10 +1,13 @@
 //! Scenes with long loops: Mesa's CPU driver ends all loops of a thread after 65 535 iterations, so
 //! that threads take fewer samples at once.
 
+use std::path::Path;
+
 use moire::internal::core::progress::NoProgress;
 use moire::internal::gpu::DeviceKind;
 use moire::internal::render::{self, Tuning};
 use moire::internal::scene::model::{Footprint, Scene, Triangle};
+use moire::internal::scene::parse;
 use moire::internal::texture::sampler_spec::{Filter, MipMode};
 
 use crate::lookup::bench::Rng;
@@ -54,6 +57,36 @@ fn ellipses_up_to_the_horizon_at_hundreds_of_samples() {
     }
     (scene.width, scene.height) = (64, 48);
     assert_as_the_oracle(scene, 2e-3, "the horizon's ellipses");
+}
+
+/// A floor, a wall and a ball that are seen from the front only, and a ring of lights above them. Nothing reflects, so that
+/// paths go on through backs alone, of which there are three.
+fn under_many_lights(count: usize) -> Scene {
+    let mut text = "camera = { eye = [0, 2, 6], look_at = [0, 1, 0], vertical_fov = 50 }\n\
+                    image = { width = 16, height = 12 }\nsampling = { spp = 4, max_depth = 64 }\n\
+                    [[material]]\nname = 'm'\nsides = 'front'\n\
+                    [[plane]]\norigin = [0, 0, 0]\ntangent = [1, 0, 0]\nbitangent = [0, 0, -1]\nmaterial = 'm'\n\
+                    [[plane]]\norigin = [0, 0, -2]\ntangent = [1, 0, 0]\nbitangent = [0, 1, 0]\nmaterial = 'm'\n\
+                    [[sphere]]\ncenter = [0, 1, 0]\nradius = 1\nmaterial = 'm'\n"
+        .to_owned();
+    for i in 0..count {
+        let (sin, cos) = (i as f64 * std::f64::consts::TAU / count as f64).sin_cos();
+        let intensity = 40.0 / count as f64;
+        text += &format!(
+            "[[light]]\nkind = 'point'\nposition = [{}, 3, {}]\nintensity = [{intensity}, {intensity}, {intensity}]\n",
+            3.0 * cos,
+            3.0 * sin
+        );
+    }
+    parse(Path::new("lights.toml"), &text).unwrap()
+}
+
+#[test]
+fn hundreds_of_lights_over_surfaces_without_backs() {
+    let of = |count| render_on_oracle(&packed(under_many_lights(count), None)).pixels[100][0];
+    assert!(of(500) > 0.1, "they light what is seen");
+    // An edge between f32 and f64 moves one sample of 4 and one light of 500.
+    assert_as_the_oracle(under_many_lights(500), 2e-3, "500 lights");
 }
 
 #[test]

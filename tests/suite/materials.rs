@@ -13,6 +13,7 @@ mod physical;
 mod relief;
 mod scales;
 mod specular;
+mod transmission;
 
 use std::path::Path;
 

@@ -109,6 +109,39 @@ pub fn specular_map(document: &mut Document) {
     }
 }
 
+/// Red panes before a checker. Above factors 0, 0.5 and 1; below a texture whose quarters let nothing to all of the light
+/// through, of a body, half a metal and a metal.
+pub fn transmission(document: &mut Document) {
+    document.uses("KHR_materials_transmission");
+    document.uses("KHR_materials_ior");
+    document.front_camera();
+    document.sun([-0.5, 0.5, 2.0], 2.0);
+    let square = shapes::square(document);
+    checkered_wall(document, &square);
+    let quarters = pictures::rgb([2, 2], |x, y| [85 * (x + 2 * y) as u8, 255, 0]);
+    let texture = document.texture(&quarters, Some(json!({ "magFilter": 9728 })));
+    let factor = |factor: f64| json!({ "transmissionFactor": factor });
+    let map = || json!({ "transmissionFactor": 1, "transmissionTexture": { "index": texture } });
+    let factors = [0.0, 0.5, 1.0].map(|share| (0.0, factor(share)));
+    let metals = [0.0, 0.5, 1.0].map(|metallic| (metallic, map()));
+    for (k, (metallic, transmission)) in factors.into_iter().chain(metals).enumerate() {
+        // Index 1 bends no ray: what is behind the panes stays where it is.
+        let extensions =
+            json!({ "KHR_materials_transmission": transmission, "KHR_materials_ior": { "ior": 1 } });
+        let material = material(document, [0.9, 0.3, 0.2], metallic, 0.4, extensions);
+        square.stand(document, material, sixth(k));
+    }
+}
+
+/// A wall of grey tiles behind everything.
+fn checkered_wall(document: &mut Document, square: &Shape) {
+    let uvs = document.floats("VEC2", &corner_uvs([0.0, 0.0], [12.0, 8.0]));
+    let texture = document.texture(&pictures::checker(220, 60), Some(json!({ "magFilter": 9728 })));
+    let behind = document.unlit(json!({ "baseColorTexture": { "index": texture } }));
+    let node = json!({ "translation": [0, 0, -2], "scale": [12, 8, 1] });
+    square.with("TEXCOORD_0", uvs).stand(document, behind, node);
+}
+
 /// Balls that let all light through, of refractive index 1.0, 1.33 and 2.4, before a checker.
 pub fn glass(document: &mut Document) {
     document.uses("KHR_materials_transmission");
@@ -116,11 +149,7 @@ pub fn glass(document: &mut Document) {
     document.camera([0.0, 0.6, 8.0], [0.0, 0.0, 0.0], 0.5);
     document.sun([-1.0, 1.0, 1.5], 3.0);
     let square = shapes::square(document);
-    let uvs = document.floats("VEC2", &corner_uvs([0.0, 0.0], [12.0, 8.0]));
-    let texture = document.texture(&pictures::checker(220, 60), Some(json!({ "magFilter": 9728 })));
-    let behind = document.unlit(json!({ "baseColorTexture": { "index": texture } }));
-    let node = json!({ "translation": [0, 0, -2], "scale": [12, 8, 1] });
-    square.with("TEXCOORD_0", uvs).stand(document, behind, node);
+    checkered_wall(document, &square);
     let ball = shapes::ball(document, 4);
     for (x, ior) in [(-1.95, 1.0), (0.0, 1.33), (1.95, 2.4)] {
         let extensions = json!({ "KHR_materials_transmission": { "transmissionFactor": 1 },

@@ -23,7 +23,7 @@ type Build = fn(&mut Document);
 
 /// Returns every file.
 pub fn all() -> Vec<File> {
-    let text: [(&str, Build); 21] = [
+    let text: [(&str, Build); 22] = [
         ("transforms.gltf", geometry::transforms),
         ("accessors.gltf", geometry::accessors),
         ("cameras.gltf", stage::cameras),
@@ -43,6 +43,7 @@ pub fn all() -> Vec<File> {
         ("specular.gltf", looks::specular),
         ("specular_map.gltf", looks::specular_map),
         ("glass.gltf", looks::glass),
+        ("transmission.gltf", looks::transmission),
         ("emissive.gltf", looks::emissive),
         ("unlit.gltf", looks::unlit),
     ];

@@ -1,7 +1,8 @@
 // Model `metallic-roughness` (glTF 2.0, Appendix B): facets that follow GGX over a diffuse body, whose reflectance is
 // Schlick's between that head-on and that at grazing angles. What facets lose to other facets comes back by the factor
 // 1 + F0 (1 - E) / E (Turquin 2019), and the body has what the facets do not reflect, so that a white surface returns all
-// light. E and the part of it that Schlick's term has are tables of cosine and roughness. Twin:
+// light. Where light passes the body, that is part of what the diffuse lobe would have (KHR_materials_transmission). E and
+// the part of it that Schlick's term has are tables of cosine and roughness. Twin:
 // src/oracle/bsdf/metallic_roughness.rs.
 #ifndef METALLIC_ROUGHNESS_GLSL
 #define METALLIC_ROUGHNESS_GLSL
@@ -38,7 +39,9 @@ struct MetallicRoughness {
     vec3 head_on;  // reflectance of facets that are seen head-on
     vec3 grazing;  // and at grazing angles
     float alpha;
-    float bounced; // share of a sample's bounces that facets have
+    float bounced;    // share of a sample's bounces that facets have
+    vec3 transmitted; // share of light that passes the body
+    vec2 passing;     // share of a sample's rays that do: without those of the diffuse lobe, and with them
 };
 
 // Rec. 709 luminance.
@@ -46,8 +49,10 @@ float luminance(vec3 color) {
     return dot3(color, vec3(0.2126, 0.7152, 0.0722));
 }
 
-// `dielectric`: reflectance of the body's surface that is seen head-on; `edge`: at grazing angles.
-MetallicRoughness metallic_roughness(vec3 color, float metallic, float roughness, vec3 dielectric, float edge, float cosine) {
+// `dielectric`: reflectance of the body's surface that is seen head-on; `edge`: at grazing angles; `transmission`: share of
+// what enters the body that passes it.
+MetallicRoughness metallic_roughness(vec3 color, float metallic, float roughness, vec3 dielectric, float edge, float transmission,
+                                     float cosine) {
     float rough = max(min(roughness, 1.0), LEAST_ROUGHNESS);
     vec2 share = facet_share(max(min(cosine, 1.0), 0.0), rough);
     float lost = (1.0 - share.x) / share.x;
@@ -60,8 +65,16 @@ MetallicRoughness metallic_roughness(vec3 color, float metallic, float roughness
     vec3 grazing = edge * body_gain;
     grazing += metallic * (metal_gain - grazing);
     float bounced = luminance(head_on * (share.x - share.y) + grazing * share.y);
+    vec3 transmitted = vec3(0.0);
+    vec2 passing = vec2(0.0);
+    if (TRANSMISSIVE) {
+        transmitted = diffuse * transmission;
+        diffuse -= transmitted;
+        float passed = luminance(transmitted);
+        if (passed > 0.0) passing = vec2(passed) / (vec2(bounced + passed) + vec2(0.0, luminance(diffuse)));
+    }
     float all = bounced + luminance(diffuse);
-    return MetallicRoughness(diffuse, head_on, grazing, rough * rough, all > 0.0 ? bounced / all : 1.0);
+    return MetallicRoughness(diffuse, head_on, grazing, rough * rough, all > 0.0 ? bounced / all : 1.0, transmitted, passing);
 }
 
 // Density of facets around the half vector, over pi (Walter et al. 2007), by the cross product: near the normal a cosine

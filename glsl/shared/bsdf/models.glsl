@@ -6,6 +6,7 @@
 
 #include "../features.glsl"
 #include "../layout.glsl"
+#include "../material_maps.glsl"
 #include "lambert.glsl"
 #include "metallic_roughness.glsl"
 #include "mirror.glsl"
@@ -66,18 +67,17 @@ vec3 emitted(uint model, vec3 color) {
     return MODE_IS(MODELS, MODEL_UNLIT, model) ? unlit_emitted(color) : vec3(0.0);
 }
 
-// `dielectric` and `edge`: what the surface of a dielectric reflects head-on and at grazing angles.
-Bsdf bsdf_at(const Material material, vec3 color, float metallic, float roughness, vec3 dielectric, float edge, real3 normal,
-             real3 direction) {
+Bsdf bsdf_at(const Material material, const Appearance look, real3 normal, real3 direction) {
+    vec3 color = look.color;
     vec3 mirror = HAS(MODELS, MODEL_PHONG) ? vec3(mirrored(direction, normal)) : vec3(0.0);
     float diffuse_roughness = HAS(MODELS, MODEL_OREN_NAYAR) ? sqrt(material.alpha) : 0.0;
-    MetallicRoughness facets = MetallicRoughness(vec3(0.0), vec3(0.0), vec3(0.0), 1.0, 0.0);
+    MetallicRoughness facets = MetallicRoughness(vec3(0.0), vec3(0.0), vec3(0.0), 1.0, 0.0, vec3(0.0), vec2(0.0));
     if (MODE_IS(MODELS, MODEL_METALLIC_ROUGHNESS, material.model)) {
         float cosine = float(-dot3(normal, direction) * inverse_root(dot3(direction, direction)));
-        facets = metallic_roughness(color, metallic, roughness, dielectric, edge, cosine);
+        facets = metallic_roughness(color, look.metallic, look.roughness, look.dielectric, look.edge, look.transmission, cosine);
     }
     if (ROUGH_MIRRORS) {
-        if (is_rough_mirror(material)) facets = MetallicRoughness(vec3(0.0), color, color, material.alpha, 1.0);
+        if (is_rough_mirror(material)) facets = MetallicRoughness(vec3(0.0), color, color, material.alpha, 1.0, vec3(0.0), vec2(0.0));
     }
     return Bsdf(material.model, color, material.specular, material.exponent, diffuse_roughness, vec3(normal), vec3(direction),
                 mirror, facets);

@@ -59,8 +59,8 @@ fn method(inspection: &Inspection) -> Html {
     html!(
         "<p>Layers are those of one ray through the centre of each pixel, in the middle of the shutter's time and through \
          a pinhole, with the footprint of the whole pixel by ray differentials: they are exact for that ray, and say \
-         nothing of what the rest of the pixel sees. Layers of look-ups show the texture of the colour; the textures' own \
-         numbers are of every texture that the material reads there. <b>surfaces</b> is counted, and <b>albedo</b> averaged, \
+         nothing of what the rest of the pixel sees. Layers of look-ups show the texture of the colour, or, of a material \
+         without one, the first of its maps; the textures' own numbers are of every texture that the material reads there. <b>surfaces</b> is counted, and <b>albedo</b> averaged, \
          over samples. {} They are computed in float64. Texels that are never read are found with up to 16 × 16 points in each \
          footprint; what mirrors and glass show is not followed.</p>\n",
         looked

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use crate::core::counted::counted;
 pub use crate::oracle::quantities::Slot;
-use crate::scene::model::{Maps, Material, Scene, TextureUse};
+use crate::scene::model::{Material, Scene, TextureUse};
 
 /// What an image is read for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -38,16 +38,16 @@ pub(super) fn uses(scene: &Scene, textures: &[usize], pixels: &BTreeMap<(usize, 
 
 /// Returns the texture that a material reads for something.
 fn use_of(material: &Material, slot: Slot) -> Option<TextureUse> {
-    let Maps { color, bump, roughness, emission, occlusion, specular_weight, specular_tint } =
-        material.maps();
+    let maps = material.maps();
     match slot {
-        Slot::Color => color,
-        Slot::Bump => bump,
-        Slot::Roughness => roughness,
-        Slot::Emission => emission,
-        Slot::Occlusion => occlusion,
-        Slot::SpecularWeight => specular_weight,
-        Slot::SpecularTint => specular_tint,
+        Slot::Color => maps.color,
+        Slot::Bump => maps.bump,
+        Slot::Roughness => maps.roughness,
+        Slot::Emission => maps.emission,
+        Slot::Occlusion => maps.occlusion,
+        Slot::SpecularWeight => maps.specular_weight,
+        Slot::SpecularTint => maps.specular_tint,
+        Slot::Transmission => maps.transmission,
     }
 }
 
@@ -66,6 +66,7 @@ impl Use {
             Slot::Occlusion => "occlusion",
             Slot::SpecularWeight => "weight of the reflection",
             Slot::SpecularTint => "tint of the reflection",
+            Slot::Transmission => "transmission",
         };
         let by = material.map_or(String::new(), |material| format!(" of {}", material.name));
         format!("{slot}{by} ({})", counted(self.pixels as usize, "pixel"))

@@ -5,7 +5,7 @@ use glam::DVec3;
 
 /// Square of what of a ray as long as d goes along the normal behind a surface; `ratio` of refractive indices, in
 /// front over behind. Not above 0 where everything is reflected.
-fn straight_behind(direction: DVec3, n: DVec3, ratio: f64) -> f64 {
+pub fn straight_behind(direction: DVec3, n: DVec3, ratio: f64) -> f64 {
     let sine = ratio * direction.cross(n).length();
     let size = direction.length();
     (size - sine) * (size + sine)

@@ -6,6 +6,7 @@ use std::f64::consts::PI;
 use glam::{DVec2, DVec3};
 
 use super::facets::smith;
+use crate::oracle::material_maps::Appearance;
 use crate::pack::PackedScene;
 use crate::schema::constants::FACET_TABLE_SIDE;
 
@@ -38,6 +39,10 @@ pub struct MetallicRoughness {
     pub alpha: f64,
     /// Share of a sample's bounces that facets have.
     pub bounced: f64,
+    /// Share of light that passes the body.
+    pub transmitted: DVec3,
+    /// Share of a sample's rays that do: without those of the diffuse lobe, and with them.
+    pub passing: [f64; 2],
 }
 
 /// Rec. 709 luminance.
@@ -45,29 +50,27 @@ pub fn luminance(color: DVec3) -> f64 {
     color.dot(DVec3::new(0.2126, 0.7152, 0.0722))
 }
 
-/// `dielectric`: reflectance of the body's surface that is seen head-on; `edge`: at grazing angles.
-pub fn metallic_roughness(
-    scene: &PackedScene,
-    color: DVec3,
-    metallic: f64,
-    roughness: f64,
-    dielectric: DVec3,
-    edge: f64,
-    cosine: f64,
-) -> MetallicRoughness {
+/// Returns the lobes of a material that looks like this, seen under the angle of this cosine.
+pub fn metallic_roughness(scene: &PackedScene, look: &Appearance, cosine: f64) -> MetallicRoughness {
+    let Appearance { color, metallic, roughness, dielectric, edge, transmission, .. } = *look;
     let rough = roughness.clamp(LEAST_ROUGHNESS, 1.0);
     let share = facet_share(scene, cosine.clamp(0.0, 1.0), rough);
     let lost = (1.0 - share.x) / share.x;
     let body_gain = 1.0 + dielectric * lost;
     let metal_gain = 1.0 + color * lost;
     let body = (dielectric * (share.x - share.y) + edge * share.y) * body_gain;
-    let diffuse = color * (1.0 - metallic) * (1.0 - body).max(DVec3::ZERO);
+    let entering = color * (1.0 - metallic) * (1.0 - body).max(DVec3::ZERO);
+    let transmitted = entering * transmission;
+    let diffuse = entering - transmitted;
     let head_on = (dielectric * body_gain).lerp(color * metal_gain, metallic);
     let grazing = (edge * body_gain).lerp(metal_gain, metallic);
     let bounced = luminance(head_on * (share.x - share.y) + grazing * share.y);
+    let passed = luminance(transmitted);
+    let passing = [0.0, luminance(diffuse)]
+        .map(|rest| if passed > 0.0 { passed / (bounced + rest + passed) } else { 0.0 });
     let all = bounced + luminance(diffuse);
     let bounced = if all > 0.0 { bounced / all } else { 1.0 };
-    MetallicRoughness { diffuse, head_on, grazing, alpha: rough * rough, bounced }
+    MetallicRoughness { diffuse, head_on, grazing, alpha: rough * rough, bounced, transmitted, passing }
 }
 
 /// Density of facets around the half vector, over π (Walter et al. 2007), by the cross product.

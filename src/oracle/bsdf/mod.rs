@@ -14,7 +14,7 @@ pub mod unlit;
 
 use glam::DVec3;
 
-use super::appearance::Appearance;
+use super::material_maps::Appearance;
 use crate::pack::PackedScene;
 use crate::scene::model::Model;
 use crate::schema::enums::AlphaMode;
@@ -101,18 +101,10 @@ pub fn bsdf_at<'a>(
         grazing: look.color,
         alpha: material.alpha.into(),
         bounced: 1.0,
+        transmitted: DVec3::ZERO,
+        passing: [0.0; 2],
     });
-    let facets = is_glossy(material.model).then(|| {
-        metallic_roughness(
-            scene,
-            look.color,
-            look.metallic,
-            look.roughness,
-            look.dielectric,
-            look.edge,
-            cosine,
-        )
-    });
+    let facets = is_glossy(material.model).then(|| metallic_roughness(scene, look, cosine));
     let facets = facets.or(mirror);
     Bsdf { material, albedo: look.color, normal, direction, mirror: mirrored(direction, normal), facets }
 }

@@ -43,7 +43,7 @@ pub fn mirrored_share(material: &Material, direction: DVec3, normal: DVec3, rati
 }
 
 /// The mirrored or the refracted way, on its own side of surfaces whose normals lean; and whether it was moved there.
-fn bounced_way(
+pub fn bounced_way(
     direction: DVec3,
     normal: DVec3,
     surface: &Surface,

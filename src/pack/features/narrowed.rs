@@ -39,6 +39,7 @@ pub fn narrowed(constant: Constant, s: &PackedScene) -> Option<u32> {
         C::MaterialMaps => material_maps(s),
         C::AlphaModes => bits(s.records.materials.iter().map(|m| m.alpha_mode as u32)),
         C::Emissive => u32::from(s.records.materials.iter().any(|m| m.emission != Vec3::ZERO)),
+        C::Transmissive => u32::from(s.records.materials.iter().any(|m| m.transmission > 0.0)),
         C::OneSided => u32::from(s.has_one_sided_shapes()),
         C::CulledBacks => u32::from(s.culls_backs()),
         C::VertexColors => u32::from(s.records.meshes.iter().any(|m| m.has_colors)),

@@ -75,12 +75,16 @@ pub fn filters_procedurals(scene: &PackedScene) -> bool {
     !scene.records.procedurals.is_empty() && scene.prefilters()
 }
 
-/// Returns true if rays may continue: by mirrors or glass, by surfaces that reflect what is around them, or through those
-/// that let them pass.
+/// Returns true if rays may continue: by reflection or refraction, or straight through surfaces that let them pass.
 pub fn bounces(scene: &PackedScene) -> bool {
+    bends_rays(scene) || lets_rays_pass(scene)
+}
+
+/// Returns true if rays may continue by mirrors or glass, or by surfaces that reflect what is around them.
+pub fn bends_rays(scene: &PackedScene) -> bool {
     let goes_on = has_model(scene, |model| model.is_specular() || model.is_glossy())
         || scene.header.environment_rows > 0;
-    scene.header.max_depth > 0 && goes_on || lets_rays_pass(scene)
+    scene.header.max_depth > 0 && goes_on
 }
 
 /// Returns true if some material lets rays pass.
@@ -99,6 +103,7 @@ pub fn material_maps(scene: &PackedScene) -> u32 {
         | of(MaterialMap::Mask, |m| m.alpha_mode == AlphaMode::Mask && m.texture_index != NO_TEXTURE)
         | of(MaterialMap::SpecularWeight, |m| m.specular_weight_texture_index != NO_TEXTURE)
         | of(MaterialMap::SpecularTint, |m| m.specular_tint_texture_index != NO_TEXTURE)
+        | of(MaterialMap::Transmission, |m| m.transmission_texture_index != NO_TEXTURE)
 }
 
 /// Returns true if some look-ups select texels at random.

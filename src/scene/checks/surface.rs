@@ -44,6 +44,7 @@ pub fn material(key: Key, material: &Material, textures: &[TextureSource], sampl
         ("occlusion_map", material.occlusion_map),
         ("specular_weight_map", material.specular_weight_map),
         ("specular_tint_map", material.specular_tint_map),
+        ("transmission_texture", material.transmission_texture),
     ] {
         let Some(map) = map else { continue };
         let key = key.of(name);

@@ -4,16 +4,18 @@ use std::fs;
 use std::path::Path;
 
 use moire::internal::core::film::Film;
+use moire::internal::core::layer::Layer;
 use moire::internal::lab::inspect::survey::{Seen, Survey, View, survey};
 use moire::internal::lab::inspect::uses::Slot;
 use moire::internal::lab::inspect::{Coordinates, charts, readers};
 use moire::internal::output::{WriteOptions, write};
-use moire::internal::render::Options;
-use moire::internal::render::layers::packed_at_centres;
+use moire::internal::render::layers::{Aov, packed_at_centres};
+use moire::internal::render::{On, Options};
 use moire::internal::scene::model::Scene;
 use moire::internal::scene::{self, prune::prune};
 
-use super::{DOWN, stage};
+use super::{DOWN, layers, stage};
+use crate::stage::device_name;
 use crate::support::{data, gradient};
 
 fn surveyed(scene: &Scene) -> Survey {
@@ -81,6 +83,7 @@ fn a_map_without_a_texture_of_the_colour_is_read_too() {
         ("occlusion_map = 't'", Slot::Occlusion),
         ("specular_weight_map = 't'", Slot::SpecularWeight),
         ("specular_tint_map = 't'", Slot::SpecularTint),
+        ("transmission = 1\ntransmission_texture = 't'", Slot::Transmission),
     ] {
         with_maps("", &format!("model = 'metallic-roughness'\n{keys}"), |scene| {
             let found = surveyed(&scene);
@@ -88,6 +91,67 @@ fn a_map_without_a_texture_of_the_colour_is_read_too() {
             assert_eq!(uses(&found.views[0]), [(slot, 256)], "{keys}");
         });
     }
+}
+
+/// The layers of look-ups of the plane, on the oracle and on the device.
+fn look_ups(keys: &str) -> [Vec<Layer>; 2] {
+    let wanted = [Aov::Texels, Aov::Magnification, Aov::Level, Aov::Anisotropy, Aov::Uv];
+    let textures = "[[texture]]\nname = 'o'\nfile = 'o.png'\ncolor_space = 'linear'\n";
+    let keys = format!("model = 'metallic-roughness'\n{keys}");
+    with_maps(textures, &keys, |scene| {
+        [On::Oracle, On::parse(&device_name()).unwrap()].map(|on| layers(&scene, on, &wanted))
+    })
+}
+
+/// Of a texture of which a pixel covers this many texels: four of `t.png`, two of `o.png`.
+fn assert_shows(found: &[Vec<Layer>; 2], texels: f32, what: &str) {
+    for layers in found {
+        let is = |layer: usize, wanted: f32| {
+            layers[layer].first_values().all(|value| (value - wanted).abs() < 1e-3)
+        };
+        assert!(
+            layers.iter().all(|layer| layer.present.iter().all(|present| *present)),
+            "{what}: of every pixel"
+        );
+        assert!(
+            is(0, texels) && is(1, -texels.log2()) && is(2, texels.log2()) && is(3, 1.0),
+            "{what}: {layers:?}"
+        );
+    }
+    let [oracle, device] = found.each_ref().map(|layers| layers.iter().flat_map(|layer| &layer.channels));
+    for (oracle, device) in oracle.zip(device) {
+        let far = oracle.values.iter().zip(&device.values).any(|(a, b)| (a - b).abs() > 1e-3);
+        assert!(!far, "{what}: {oracle:?} {device:?}");
+    }
+}
+
+#[test]
+fn layers_of_look_ups_show_the_first_map_where_the_colour_has_no_texture() {
+    let color = look_ups("texture = 't'");
+    assert_shows(&color, 4.0, "colour");
+    for map in [
+        "normal_map",
+        "bump_map",
+        "metallic_roughness_map",
+        "emission_map",
+        "occlusion_map",
+        "specular_weight_map",
+        "specular_tint_map",
+        "transmission_texture",
+    ] {
+        let found = look_ups(&format!("{map} = 't'"));
+        assert_shows(&found, 4.0, map);
+        assert_eq!(found, color, "{map}: every layer is that of the same texture");
+        assert_shows(&look_ups(&format!("texture = 't'\n{map} = 'o'")), 4.0, "the colour comes first");
+    }
+    assert_shows(
+        &look_ups("normal_map = 't'\nmetallic_roughness_map = 'o'"),
+        4.0,
+        "relief before the other maps",
+    );
+    assert_shows(&look_ups("emission_map = 'o'\nocclusion_map = 't'"), 2.0, "in their order");
+    let none = look_ups("color = [1, 1, 1]");
+    assert!(none.iter().flatten().all(|layer| !layer.present.contains(&true)), "without any");
 }
 
 #[test]

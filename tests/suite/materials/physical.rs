@@ -33,7 +33,7 @@ pub fn both(packed: &PackedScene) -> [DVec3; 2] {
     [stage::render(packed), stage::render_on_oracle(packed)].map(|film| mean(&film))
 }
 
-const WHITE_SKY: &str = "[background]\ncolor = [1, 1, 1]\n[[light]]\nkind = 'environment'\n";
+pub const WHITE_SKY: &str = "[background]\ncolor = [1, 1, 1]\n[[light]]\nkind = 'environment'\n";
 
 #[test]
 fn a_white_furnace_stays_white_within_one_percent() {

@@ -104,21 +104,39 @@ fn factors_alpha_and_sides_are_those_of_the_file() {
 }
 
 #[test]
-fn glass_passes_most_of_its_light_and_less_of_it_is_told() {
-    let of = |factor: f64| {
-        loaded(
-            &format!(
-                "{{\"name\":\"pane\",\"pbrMetallicRoughness\":{{\"roughnessFactor\":0.1}},\
-                 \"extensions\":{{\"KHR_materials_transmission\":{{\"transmissionFactor\":{factor}}}}}}}"
-            ),
-            "",
-        )
+fn clear_glass_is_glass_and_other_bodies_let_their_share_through() {
+    let of = |base: &str, transmission: &str| {
+        let extension = format!("\"extensions\":{{\"KHR_materials_transmission\":{{{transmission}}}}}");
+        let material = format!(
+            "{{\"name\":\"pane\",\"pbrMetallicRoughness\":{{\"roughnessFactor\":0.1{base}}},{extension}}}"
+        );
+        let scene = loaded(&material, &textures());
+        assert!(scene.notes.is_empty(), "{:?}", scene.notes);
+        scene
     };
-    let glass = of(1.0);
+    let body = ",\"metallicFactor\":0";
+    let all = "\"transmissionFactor\":1";
+    let glass = of(body, all);
     assert_eq!((only(&glass).model, only(&glass).roughness), (Model::GLASS, 0.1));
-    let less = of(0.25);
-    assert_eq!(only(&less).model, Model::PHYSICAL);
-    assert!(less.notes.join("\n").contains("pane"), "{:?}", less.notes);
+    // Metals let nothing through, and what is mirrored has no colour.
+    for (base, transmission) in [
+        (body, "\"transmissionFactor\":0.25"),
+        ("", all),
+        (",\"metallicFactor\":0,\"baseColorFactor\":[1,0.5,1,1]", all),
+        (",\"metallicFactor\":0,\"metallicRoughnessTexture\":{\"index\":1}", all),
+    ] {
+        let scene = of(base, transmission);
+        let share = if transmission == all { 1.0 } else { 0.25 };
+        assert_eq!((only(&scene).model, only(&scene).transmission), (Model::PHYSICAL, share), "{base}");
+    }
+    let scene = of(body, "\"transmissionFactor\":1,\"transmissionTexture\":{\"index\":1,\"texCoord\":1}");
+    let map = only(&scene).transmission_texture.unwrap();
+    assert_eq!(scene.textures[map.texture].color_space, ColorSpace::Linear);
+    assert_eq!(scene.samplers[map.sampler].address[0], Address::ClampToEdge);
+    assert!(
+        only(&of(body, "\"transmissionTexture\":{\"index\":1}")).transmission_texture.is_none(),
+        "of nothing"
+    );
 }
 
 #[test]

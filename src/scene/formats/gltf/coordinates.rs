@@ -29,6 +29,7 @@ impl CoordinateSets<'_> {
             &material.occlusion_texture,
             &material.specular_texture,
             &material.specular_color_texture,
+            &material.transmission_texture,
         ];
         let mut read = read.into_iter().flatten();
         let Some(first) = read.next() else { return CoordinateSets::default() };

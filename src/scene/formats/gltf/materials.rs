@@ -64,6 +64,11 @@ pub(in crate::scene::formats) fn add(
                 reader.used(material.metallic_roughness_texture, ColorSpace::Linear)?;
             added.specular_weight_map = reader.used(material.specular_texture, ColorSpace::Linear)?;
             added.specular_tint_map = reader.used(material.specular_color_texture, ColorSpace::Srgb)?;
+            added.transmission = material.transmission;
+            if material.transmission > 0.0 {
+                added.transmission_texture =
+                    reader.used(material.transmission_texture, ColorSpace::Linear)?;
+            }
         }
         added.emission = material.emissive * material.emissive_strength;
         added.emission_map = reader.used(material.emissive_texture, ColorSpace::Srgb)?;
@@ -76,18 +81,28 @@ pub(in crate::scene::formats) fn add(
         added.sampler = other.sampler;
     }
     reader.tell_missing_coordinates();
-    reader.tell_what_is_left_out();
     Ok(builder.material(added))
 }
 
 /// The greatest refractive index of scenes: it reflects nearly all light.
 const TOTAL_IOR: f64 = 100.0;
 
-/// Returns the reflection model: most of the light passes glass, and nothing else.
+/// Returns the reflection model. A body that lets all light pass and says nothing of what it reflects is clear glass, of
+/// which Fresnel's share is known exactly; a colour would tint what that reflects, too.
 fn model_of(material: &Material) -> model::Model {
+    let is_clear =
+        material.transmission >= 1.0 && material.metallic <= 0.0 && material.base_color.xyz() == DVec3::ONE;
+    let reflects_by_itself = material.specular == 1.0 && material.specular_color == DVec3::ONE;
+    let textures = [
+        material.base_color_texture,
+        material.metallic_roughness_texture,
+        material.transmission_texture,
+        material.specular_texture,
+        material.specular_color_texture,
+    ];
     if material.unlit {
         model::Model::PLAIN
-    } else if material.transmission > 0.5 {
+    } else if is_clear && reflects_by_itself && textures.iter().all(Option::is_none) {
         model::Model::GLASS
     } else {
         model::Model::PHYSICAL
@@ -192,6 +207,7 @@ impl Reader<'_> {
             material.occlusion_texture,
             material.specular_texture,
             material.specular_color_texture,
+            material.transmission_texture,
         ];
         let others = others.into_iter().filter(|_| !material.unlit);
         let read: Vec<usize> =
@@ -206,23 +222,6 @@ impl Reader<'_> {
                     if mesh.name.is_empty() { mesh.place.clone() } else { format!("mesh {:?}", mesh.name) };
                 self.note(&format!("{name} has no TEXCOORD_{set}, so its texture is read at (0, 0)"));
             }
-        }
-    }
-
-    fn tell_what_is_left_out(&mut self) {
-        let material = self.material;
-        let mut left: Vec<&str> = Vec::new();
-        let mut tell = |is_used: bool, what| {
-            if is_used {
-                left.push(what);
-            }
-        };
-        let transmits = material.transmission > 0.0;
-        tell(transmits && material.transmission <= 0.5, "transmission of half the light or less");
-        tell(transmits && material.transmission_texture.is_some(), "the texture of transmission");
-        if !left.is_empty() {
-            let left = left.join(", ");
-            self.note(&format!("not drawn: {left}"));
         }
     }
 }

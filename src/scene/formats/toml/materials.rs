@@ -33,6 +33,8 @@ pub(super) const MATERIAL: &[&str] = &[
     "specular_weight_map",
     "specular_tint",
     "specular_tint_map",
+    "transmission",
+    "transmission_texture",
     "emission",
     "emission_map",
     "occlusion_map",
@@ -122,6 +124,9 @@ fn read_alpha(table: &Table<'_>, material: &mut Material) -> Result<()> {
 fn read_model_keys(table: &Table<'_>, known: &Known<'_, '_>, material: &mut Material) -> Result<()> {
     if material.model.has_key("metallic_roughness_map") && table.get("metallic_roughness_map").is_some() {
         (material.metallic, material.roughness) = (1.0, 1.0);
+    }
+    if material.model.has_key("transmission_texture") && table.get("transmission_texture").is_some() {
+        material.transmission = 1.0;
     }
     for ModelKey { name, value, .. } in KEYS {
         let Some(field) = table.get(name) else { continue };
