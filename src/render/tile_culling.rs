@@ -11,11 +11,11 @@ use crate::gpu::{BindGroup, Buffer, BufferUse, DeviceKind, Gpu, Pipeline};
 use crate::pack::PackedScene;
 use crate::pack::features::Features;
 use crate::schema::enums::TexelSource;
-use crate::schema::specialization::Constant;
 use crate::schema::layout::{
     CELL_BLOCK_HEIGHT, CELL_BLOCK_WIDTH, CELL_EMPTY, CELL_UNIFORM, CELL_WORDS, CELLS_A_ROOM, CellRange,
     MORE_WORDS, SHADE_WORDS, TILE,
 };
+use crate::schema::specialization::Constant;
 
 const GROUP: u32 = 64;
 /// Triangles times cells that one submission tests: some tenths of a second on a CPU and on a slow GPU. The latter has to
@@ -92,7 +92,11 @@ impl TileCulling {
     pub fn run(&self, gpu: &Gpu, report: &mut Report) -> Result<()> {
         if self.has_rooms {
             let cells = u64::from(self.cells[0]) * u64::from(self.cells[1]);
-            gpu.write_buffer(&self.buffer, cells * u64::from(CELL_WORDS) * 4, bytemuck::cast_slice(&COUNTERS))?;
+            gpu.write_buffer(
+                &self.buffer,
+                cells * u64::from(CELL_WORDS) * 4,
+                bytemuck::cast_slice(&COUNTERS),
+            )?;
         }
         let cells = self.whole_blocks().iter().product();
         for first in (0..cells).step_by(self.cells_at_once as usize) {

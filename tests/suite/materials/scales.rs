@@ -9,10 +9,10 @@ use moire::internal::lab::metrics::compare;
 use moire::internal::oracle::appearance::{map_input, uv_gradients};
 use moire::internal::oracle::camera::Ray;
 use moire::internal::oracle::footprint::Footprint;
-use moire::internal::oracle::math::any_tangent;
 use moire::internal::oracle::geometry::rays::hit_surface;
 use moire::internal::oracle::geometry::rays::nearest_hit;
 use moire::internal::oracle::mapping::texture_coordinate;
+use moire::internal::oracle::math::any_tangent;
 use moire::internal::pack::{self, PackedScene};
 use moire::internal::scene::parse;
 
