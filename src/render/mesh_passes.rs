@@ -3,37 +3,32 @@
 
 use super::Tuning;
 use crate::gpu::DeviceInfo;
-use crate::pack::PackedScene;
 use crate::pack::features::{Features, bounces};
+use crate::pack::{PackedScene, Schedule};
 use crate::schema::constants::{
     SEARCH_ALL, SEARCH_FEW, SEARCH_MANY, SEARCH_MORE, SEARCH_REST, SEARCH_TEAM, SEARCH_TEAM_REST,
 };
 use crate::schema::enums::{AlphaMode, LightKind, ProjectionKind};
 use crate::schema::specialization::Constant;
 
-/// The passes of a scene.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct MeshPasses {
-    /// The `MESH_SEARCH` of each pass. Each one after the first takes the pixels that those before it leave unfinished.
-    pub searches: &'static [u32],
-    /// Shadow rays are tested with what the pixel lists for them.
-    pub lists_shades: bool,
-}
-
-/// Returns the passes of a scene. Pixels whose lists are not enough are sampled by passes of their own, if camera rays
-/// alone have lists: their mark takes the place of the sum of signs. Workgroups sample together if no ray is left for
-/// trees, whose search would slow down all others.
-pub fn passes(device: &DeviceInfo, scene: &PackedScene, features: &Features) -> MeshPasses {
+/// Returns the passes of a scene by the `MESH_SEARCH` of each, given whether tile culling lists shades. Each one after the
+/// first takes the pixels that those before it leave unfinished. Pixels whose lists are not enough are sampled by passes of
+/// their own, if camera rays alone have lists: their mark takes the place of the sum of signs. Workgroups sample together if
+/// no ray is left for trees, whose search would slow down all others.
+pub fn passes(
+    device: &DeviceInfo,
+    scene: &PackedScene,
+    features: &Features,
+    lists_shades: bool,
+) -> &'static [u32] {
     let has_lists = scene.culls_tiles() && scene.has_concave_shapes() && !features.everything;
     let has_mark = !bounces(scene) && scene.mean_sign.is_none();
-    let lists_shades = lists_shades(scene, features);
-    let searches: &[u32] = match (has_lists && has_mark, Tuning::holds_triangles(device)) {
+    match (has_lists && has_mark, Tuning::holds_triangles(device)) {
         (true, true) if lists_shades => &[SEARCH_FEW, SEARCH_MORE, SEARCH_MANY, SEARCH_REST],
         (true, true) => &[SEARCH_FEW, SEARCH_MANY, SEARCH_REST],
         (true, false) if samples_by_teams(scene, features, lists_shades) => &[SEARCH_TEAM, SEARCH_TEAM_REST],
         _ => &[SEARCH_ALL],
-    };
-    MeshPasses { searches, lists_shades }
+    }
 }
 
 /// Samples of a pixel from which on workgroups are faster together, lists included.
@@ -46,10 +41,14 @@ fn samples_by_teams(scene: &PackedScene, features: &Features, lists_shades: bool
     many && by_lists && !scene.diagnosed
 }
 
-/// Returns true if what may shade a pixel can be listed: triangles of meshes at rest, where nothing else is and one
-/// directional light shines.
-fn lists_shades(scene: &PackedScene, features: &Features) -> bool {
-    features.has(Constant::Shadows)
+/// Returns true if what may shade a pixel can be listed, and pixels are sampled in passes that use it: triangles of meshes
+/// at rest, where nothing else is and one directional light shines.
+pub fn lists_shades(scene: &PackedScene, features: &Features) -> bool {
+    scene.schedule == Schedule::Tiles
+        && !bounces(scene)
+        && scene.mean_sign.is_none()
+        && !features.everything
+        && features.has(Constant::Shadows)
         && scene.records.lights.len() == 1
         && has_only(features, Constant::LightKinds, LightKind::Directional as u32)
         && has_only(features, Constant::Projections, ProjectionKind::Perspective as u32)

@@ -43,9 +43,14 @@ impl Session<'_> {
         features: &Features,
         shader: &'static Shader,
     ) -> Result<Vec<Built>> {
-        let passes = mesh_passes::passes(self.gpu.info(), scene, features);
-        let build = |&search: &u32| self.pipeline(features, shader, search, passes.lists_shades);
-        passes.searches.par_iter().map(build).collect()
+        // Lists serve all choices of samples of a session.
+        let lists_shades = match self.tile_culling() {
+            Some(tile_culling) => tile_culling.lists_shades,
+            None => mesh_passes::lists_shades(scene, features),
+        };
+        let searches = mesh_passes::passes(self.gpu.info(), scene, features, lists_shades);
+        let build = |&search: &u32| self.pipeline(features, shader, search, lists_shades);
+        searches.par_iter().map(build).collect()
     }
 
     pub(super) fn sample_pipeline(&self, scene: &PackedScene, features: &Features) -> Result<SamplePipeline> {

@@ -39,6 +39,8 @@ pub struct TileCulling {
     cells_at_once: u32,
     /// Behind the cells there is room for more triangles of some of them.
     has_rooms: bool,
+    /// They list what may shade the cells, too.
+    pub lists_shades: bool,
 }
 
 impl TileCulling {
@@ -50,7 +52,7 @@ impl TileCulling {
     ) -> Result<TileCulling> {
         let shader = shaders::TILE_CULLING_FAMILY.shader(TexelSource::None, features.records())?;
         let slots = resources.slots;
-        let lists_shades = mesh_passes::passes(gpu.info(), scene, features).lists_shades;
+        let lists_shades = mesh_passes::lists_shades(scene, features);
         let mut constants =
             specialization::constants(shader, features, &resources.sections, [GROUP, 1], slots);
         constants.extend(shader.values([(Constant::ListsShades, u32::from(lists_shades))]));
@@ -74,7 +76,8 @@ impl TileCulling {
             scene.listed_shapes().max(1) as u64 + TESTS_OF_MESHES * u64::from(scene.has_concave_shapes());
         let most = if gpu.info().kind == DeviceKind::Cpu { MAX_TESTS_CPU } else { MAX_TESTS_GPU };
         let cells_at_once = (most / tests).clamp(u64::from(GROUP), 1 << 20) as u32;
-        let culling = TileCulling { buffer, pipeline, group, side, cells, cells_at_once, has_rooms };
+        let culling =
+            TileCulling { buffer, pipeline, group, side, cells, cells_at_once, has_rooms, lists_shades };
         // Lazy compilation in the driver happens now; the pipelines that read the lists are then tried on the first tile.
         let [across, down] = culling.whole_blocks();
         let end = across * down.min(TILE.div_ceil(side).next_multiple_of(CELL_BLOCK_HEIGHT));

@@ -53,11 +53,11 @@ constants! {
     MAX_MORE_LISTED: u32 = 181;
     MORE_MASK_WORDS: u32 = 5;
     /// The shades of a cell, where a directional light shines: `SHADES_HEAD` words, which are the region that lit surfaces
-    /// fill in the light's frame (least and greatest), the number of triangles above it, and how
-    /// many words of bits each of them has; then for each its texel and a bit for each triangle of the cell's list, set if it
-    /// may shade that. There is room for `SHADE_WORDS` words on average. Bits are left out where more than `MAX_SHADE_PAIRS`
-    /// of two triangles would have to be tested.
-    SHADES_HEAD: u32 = 8;
+    /// fill in the light's frame (least and greatest), the number of triangles above it, how many words of bits each of them
+    /// has, and the largest coordinate of what is seen; then for each its texel and a bit for each triangle of the cell's
+    /// list, set if it may shade that. There is room for `SHADE_WORDS` words on average. Where more than `MAX_SHADE_PAIRS` of
+    /// two triangles would have to be tested, each may shade all.
+    SHADES_HEAD: u32 = 9;
     SHADE_WORDS: u32 = 48;
     MAX_SHADE_PAIRS: u32 = 4096;
     /// Values of `MESH_SEARCH`: camera rays search by lists and trees; by lists alone, in pixels of few triangles, of more,

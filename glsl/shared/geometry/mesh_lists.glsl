@@ -89,16 +89,19 @@ bool may_meet(const Header header, const PixelRays rays, uint at) {
     return all(greaterThanEqual(edges.here, -aside)) || all(lessThanEqual(edges.here, aside));
 }
 
+// Marks a listed triangle, if it is to be.
+void mark(inout Candidates candidates, uint index, bool is_marked) {
+    uint bit = is_marked ? 1u << (index & 31u) : 0u;
+    uvec4 bits = bit * uvec4(equal(uvec4((index >> 5u) & 3u), uvec4(0u, 1u, 2u, 3u)));
+    if (index < 128u) candidates.meshes |= bits;
+    else candidates.more |= bits;
+}
+
 // Marks the listed triangles that rays of the pixel may meet.
 void test_in_pixel(const Header header, uvec2 pixel, inout Candidates candidates) {
     PixelRays rays = pixel_rays(header, pixel);
     uint count = tile_lists[candidates.list + 2u];
-    for (uint k = 0u; k < count; k++) {
-        uint bit = may_meet(header, rays, listed_texel(candidates, k)) ? 1u << (k & 31u) : 0u;
-        uvec4 bits = bit * uvec4(equal(uvec4((k >> 5u) & 3u), uvec4(0u, 1u, 2u, 3u)));
-        if (k < 128u) candidates.meshes |= bits;
-        else candidates.more |= bits;
-    }
+    for (uint k = 0u; k < count; k++) mark(candidates, k, may_meet(header, rays, listed_texel(candidates, k)));
 }
 
 // Marks the listed triangles that rays of the pixel may meet. Where memory is read lane by lane, tile culling has tested them.

@@ -128,4 +128,30 @@ bool is_above(const ShadeRegion region, vec3 pa, vec3 pb, vec3 pc) {
     return !(parts(region, pa.xy, pb.xy, pc.xy) || parts(region, pb.xy, pc.xy, pa.xy) || parts(region, pc.xy, pa.xy, pb.xy));
 }
 
+// How far a point is from the plane through `place`, at most; all lengths count with an error of `slack`.
+float above_plane(vec3 point, vec3 place, vec3 normal, float slack) {
+    vec3 v = point - place;
+    return dot3(normal, v) + slack * (abs(v.x) + abs(v.y) + abs(v.z));
+}
+
+// True if no point that the receiver sees, moved off it, is shaded by the triangle: it is below the receiver's plane, or
+// the receiver is above its plane, which the light is above, too. `reach`: the largest coordinate of what is seen.
+bool leaves_lit(vec3 a, vec3 b, vec3 c, const Receiver receiver, float reach) {
+    float allowed = 8.0 * ULP * reach_of(receiver);
+    vec3 n = receiver.normal;
+    float highest = max(max(above_plane(a, receiver.a, n, receiver.slack), above_plane(b, receiver.a, n, receiver.slack)),
+                        above_plane(c, receiver.a, n, receiver.slack));
+    if (highest <= allowed || !receiver.is_lit) return true;
+    vec3 doubled = cross3(b - a, c - a);
+    float area = sqrt(dot3(doubled, doubled));
+    vec3 own = doubled / max(area, 1e-30);
+    float facing = dot3(own, shade_frame[2]);
+    own = facing < 0.0 ? -own : own;
+    float slack = slack_of(b - a, c - a, area);
+    float deepest = max(max(above_plane(receiver.a, a, -own, slack), above_plane(receiver.b, a, -own, slack)),
+                        above_plane(receiver.c, a, -own, slack));
+    bool leans_little = dot3(own, n) > 0.9;
+    return abs(facing) > 1e-3 && (deepest < -64.0 * ULP * reach || (leans_little && deepest <= allowed));
+}
+
 #endif

@@ -113,35 +113,9 @@ uint shade_words(const Header header, uint count) {
     return taken <= room && count <= room - taken ? words + taken : NO_LIST;
 }
 
-// How far a point is from the plane through `place`, at most; all lengths count with an error of `slack`.
-float above_plane(vec3 point, vec3 place, vec3 normal, float slack) {
-    vec3 v = point - place;
-    return dot3(normal, v) + slack * (abs(v.x) + abs(v.y) + abs(v.z));
-}
-
-// True if no point that the receiver sees, moved off it, is shaded by the triangle: it is below the receiver's plane, or
-// the receiver is above its plane, which the light is above, too. `reach`: the largest coordinate of what is seen.
-bool leaves_lit(vec3 a, vec3 b, vec3 c, const Receiver receiver, float reach) {
-    float allowed = 8.0 * ULP * reach_of(receiver);
-    vec3 n = receiver.normal;
-    float highest = max(max(above_plane(a, receiver.a, n, receiver.slack), above_plane(b, receiver.a, n, receiver.slack)),
-                        above_plane(c, receiver.a, n, receiver.slack));
-    if (highest <= allowed || !receiver.is_lit) return true;
-    vec3 doubled = cross3(b - a, c - a);
-    float area = sqrt(dot3(doubled, doubled));
-    vec3 own = doubled / max(area, 1e-30);
-    float facing = dot3(own, shade_frame[2]);
-    own = facing < 0.0 ? -own : own;
-    float slack = slack_of(b - a, c - a, area);
-    float deepest = max(max(above_plane(receiver.a, a, -own, slack), above_plane(receiver.b, a, -own, slack)),
-                        above_plane(receiver.c, a, -own, slack));
-    bool leans_little = dot3(own, n) > 0.9;
-    return abs(facing) > 1e-3 && (deepest < -64.0 * ULP * reach || (leans_little && deepest <= allowed));
-}
-
-// Words of bits for the triangles of a cell's list; none if there are too many pairs to test.
+// Words of bits for the triangles of a cell's list; none if there are too many pairs to test, or where pixels test them.
 uint bit_words(const Survey survey, uint count) {
-    return count * survey.count <= MAX_SHADE_PAIRS ? (survey.count + 31u) / 32u : 0u;
+    return HOLDS_TRIANGLES && count * survey.count <= MAX_SHADE_PAIRS ? (survey.count + 31u) / 32u : 0u;
 }
 
 // Chooses of the triangles above the parts those that may shade one of the cell's list, each followed by the bits of those
@@ -209,6 +183,7 @@ void survey_shades(const Header header, const PixelFrustum frame, const Survey s
     uint bits = bit_words(survey, count);
     found[first + 6u] = words / (1u + bits);
     found[first + 7u] = bits;
+    found[first + 8u] = floatBitsToUint(region.reach);
     for (uint k = 0u; k < words; k++) found[first + SHADES_HEAD + k] = room[k];
 }
 

@@ -14,23 +14,44 @@ void load_region(uint member) {
     shade_region = ShadeRegion(team_least[member], team_greatest[member], team_reach[member]);
 }
 
+// The triangles of a cell's list that a triangle may shade.
+Candidates shaded_by(vec3 a, vec3 b, vec3 c, uint list, uint first) {
+    Candidates shaded = ANYTHING;
+    shaded.list = list;
+    uint seen = tile_lists[list + 2u];
+    bool is_tested = seen * count_of_shades(first) <= MAX_SHADE_PAIRS;
+    float reach = uintBitsToFloat(tile_lists[first + 8u]);
+    for (uint k = 0u; k < seen; k++) {
+        uint at = listed_texel(shaded, k);
+        bool is_lit = is_tested;
+        if (is_tested) {
+            Receiver receiver = receiver_of(true, point_in(mesh_texel(at)), point_in(mesh_texel(at + 1u)), point_in(mesh_texel(at + 2u)));
+            is_lit = leaves_lit(a, b, c, receiver, reach);
+        }
+        mark(shaded, k, !is_lit);
+    }
+    return shaded;
+}
+
 // Lists what may shade each pixel, with a shade of the cell by each thread.
 void share_shades(const Header header, uint thread) {
     for (uint corner = 0u; corner < TEAM_WIDTH; corner += header.cell_side) {
         uint list = team_lists[corner];
         uint first = list == NO_LIST ? NO_LIST : cell_shades(list);
         uint count = count_of_shades(first);
-        uint bits = bits_of_shades(first);
         for (uint index = thread; index < count; index += TEAM) {
-            uint at = first + SHADES_HEAD + index * (1u + bits);
-            uint texel = tile_lists[at];
-            vec3 a = in_frame(point_in(mesh_texel(texel)));
-            vec3 b = in_frame(point_in(mesh_texel(texel + 1u)));
-            vec3 c = in_frame(point_in(mesh_texel(texel + 2u)));
+            uint texel = tile_lists[first + SHADES_HEAD + index];
+            vec3 a = point_in(mesh_texel(texel));
+            vec3 b = point_in(mesh_texel(texel + 1u));
+            vec3 c = point_in(mesh_texel(texel + 2u));
+            Candidates shaded = shaded_by(a, b, c, list, first);
+            a = in_frame(a);
+            b = in_frame(b);
+            c = in_frame(c);
             for (uint member = 0u; member < TEAM; member++) {
+                bool is_met = team_lists[member] == list && ((team_marks[member] & shaded.meshes) | (team_more[member] & shaded.more)) != uvec4(0u);
                 load_region(member);
-                if (team_lists[member] != list || !is_above(shade_region, a, b, c)) continue;
-                if (!may_shade(at, bits, Candidates(list, team_marks[member], team_more[member]))) continue;
+                if (!is_met || !is_above(shade_region, a, b, c)) continue;
                 uint place = atomicAdd(team_shade_counts[member], 1u);
                 if (place < TEAM_SHADES) team_shades[place * TEAM + member] = texel;
                 else team_left_out[member] = 1u;
