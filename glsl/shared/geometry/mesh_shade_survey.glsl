@@ -48,11 +48,11 @@ bool is_above_parts(vec3 a, vec3 b, vec3 c) {
 }
 
 // The triangles above the parts: the texels of the first ones. Where threads are many, their memory is dear.
-const uint SHADE_ROOM = HOLDS_TRIANGLES ? 768u : 384u;
+const uint SHADE_ROOM = HOLDS_TRIANGLES ? 768u : 96u;
 uint above[SHADE_ROOM];
 
 // Nodes that wait, from the beginning on, and leaves above the parts, from the end on.
-const uint NODE_ROOM = HOLDS_TRIANGLES ? 1024u : 768u;
+const uint NODE_ROOM = HOLDS_TRIANGLES ? 1024u : 256u;
 uint room[NODE_ROOM];
 
 // Finds the leaves above the parts. Returns their number, NODE_ROOM if there are too many.
