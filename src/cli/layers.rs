@@ -28,6 +28,13 @@ pub struct LayerArgs {
     no_beauty: bool,
 }
 
+impl LayerArgs {
+    /// Returns true if a layer numbers shapes, of which each mesh has to be one.
+    pub fn numbers_meshes(&self) -> bool {
+        self.aov.contains(&Aov::Instance)
+    }
+}
+
 /// A false-colour picture and its file.
 struct FalseColors {
     aov: Aov,

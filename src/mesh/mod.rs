@@ -11,6 +11,7 @@ pub mod relative;
 mod stl;
 mod tangents;
 mod text;
+mod winding;
 
 use std::fmt;
 
@@ -88,6 +89,19 @@ pub struct MeshTriangle {
     pub material: Option<u32>,
 }
 
+impl MeshTriangle {
+    /// Returns it seen from its back.
+    pub fn reversed(&self) -> MeshTriangle {
+        let swap = |[a, b, c]: [u32; 3]| [a, c, b];
+        MeshTriangle {
+            positions: swap(self.positions),
+            uvs: self.uvs.map(swap),
+            normals: self.normals.map(swap),
+            ..*self
+        }
+    }
+}
+
 /// Why a file is no mesh.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Fault {
@@ -111,6 +125,9 @@ impl fmt::Display for Fault {
         f.write_str(&self.what)
     }
 }
+
+/// Materials that a file or a library may have: as many as a scene may have shapes.
+const MAX_MATERIALS: usize = 65_535;
 
 /// A format of mesh files.
 #[derive(Clone, Copy, Debug)]

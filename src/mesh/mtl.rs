@@ -2,8 +2,8 @@
 //! those statements that describe a surface and its textures, and what is told of others that change its look. Nothing
 //! is opened here: what the values mean to a renderer is for the caller to say.
 
-use super::Fault;
 use super::text::{first_word, lines, number, quoted, words};
+use super::{Fault, MAX_MATERIALS};
 
 /// Material as the file has it; what it does not say is absent.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -85,6 +85,10 @@ pub fn read(bytes: &[u8]) -> Result<Vec<MtlMaterial>, Fault> {
     for (number, line) in lines(bytes)? {
         let (keyword, rest) = first_word(&line);
         if keyword.eq_ignore_ascii_case(b"newmtl") {
+            if materials.len() == MAX_MATERIALS {
+                let what = format!("more than {MAX_MATERIALS} materials, the most that a library may have");
+                return Err(Fault::new(format!("line {number}"), what));
+            }
             materials.push(MtlMaterial { name: name(rest), ..MtlMaterial::default() });
         } else if let Some(material) = materials.last_mut() {
             // Before the first material, a statement describes none.

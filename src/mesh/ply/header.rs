@@ -75,6 +75,13 @@ pub(super) fn is_surface(element: &ElementDef) -> bool {
     element.count > 0 && ["face", "tristrips"].contains(&element.name.as_str())
 }
 
+/// Tells of colours of faces.
+pub(super) fn colors_note(element: &ElementDef) -> Option<String> {
+    let has_colors = ["red", "green", "blue"].iter().all(|name| is_number(element, name));
+    let what = "those of vertices are read";
+    has_colors.then(|| format!("left out: colours of {} faces; {what}", element.count))
+}
+
 /// Refuses elements that do not hold what a mesh needs.
 pub(super) fn check(header: &Header) -> Result<(), Fault> {
     let vertex = header.elements.get("vertex");
