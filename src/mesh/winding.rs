@@ -23,7 +23,7 @@ pub(super) fn settle(mesh: &mut Mesh) {
     let turned = turn(mesh);
     if turned > 0 {
         let (triangles, verb) = (counted(turned, "triangle"), verb(turned, "is", "are"));
-        mesh.notes.push(format!("{triangles} {verb} turned around: all normals of each point to its back"));
+        mesh.notes.push(format!("{triangles} {verb} turned around, as all three normals point backwards"));
     }
 }
 

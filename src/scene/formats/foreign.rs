@@ -12,7 +12,7 @@ const MODELS: [&str; 22] = [
     "off", "step", "stp", "usd", "usda", "usdc", "usdz",
 ];
 /// First bytes of models, which no scene has.
-const BEGINNINGS: [(&[u8], &str); 11] = [
+const BEGINNINGS: [(&[u8], &str); 12] = [
     (b"ply", "a PLY file"),
     (b"glTF", "a glTF file"),
     (b"{", "JSON, as glTF files are"),
@@ -21,6 +21,7 @@ const BEGINNINGS: [(&[u8], &str); 11] = [
     (b"o ", "an OBJ file"),
     (b"g ", "an OBJ file"),
     (b"mtllib ", "an OBJ file"),
+    (b"newmtl ", "a library of materials (MTL)"),
     (b"Kaydara FBX", "an FBX file"),
     (b"BLENDER", "a file of Blender"),
     (b"PXR-USDC", "a USD file"),
