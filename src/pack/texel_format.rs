@@ -20,7 +20,7 @@ pub(super) fn without_equal_channels(texture: TextureData) -> Result<TextureData
         Component::Unorm16 => opaque_greys::<2>(&level.texels, component.one()),
         Component::Float32 => opaque_greys::<4>(&level.texels, component.one()),
     };
-    check_room(&texture, "it", texture.texels.len() / 4)?;
+    check_room(&texture, "its texels", texture.texels.len() / 4)?;
     let Some(first) = greys(&texture) else { return Ok(texture) };
     let Some(levels) = texture.stored_levels.iter().map(greys).collect::<Option<Vec<_>>>() else {
         return Ok(texture);

@@ -94,14 +94,14 @@ pub fn pack_textures(
         } else if packed.nonfinite_texels[index] > 0 {
             // Copies of the texels and their shares, and the levels of both.
             let bytes = 2 * (texture.texels.len() + bytes_of_levels(&texture, kernel));
-            check_room(&texture, "making its mip levels", bytes)?;
+            check_room(&texture, "its mip levels", bytes)?;
             mips::mip_chain_of_finite(&texture)
         } else if mip_chains.leaves(&texture, kernel) {
             packed.device_levels.push(index);
-            check_room(&texture, "making its mip levels", bytes_of_levels(&texture, kernel))?;
+            check_room(&texture, "its mip levels", bytes_of_levels(&texture, kernel))?;
             mips::zeroed_levels(&texture)
         } else {
-            check_room(&texture, "making its mip levels", bytes_of_levels(&texture, kernel))?;
+            check_room(&texture, "its mip levels", bytes_of_levels(&texture, kernel))?;
             mips::mip_chain(&texture, kernel)
         };
         let record = Texture {
@@ -198,7 +198,7 @@ fn append(
         ));
     }
     let more = |held: usize| end * 4 - held;
-    let no_room = |held: usize| no_room(&texture.name, "it", more(held));
+    let no_room = |held: usize| no_room(&texture.name, "its texels", more(held));
     let pointers: Vec<u8> = words.iter().rev().flat_map(|&word| (word as u32).to_ne_bytes()).collect();
     if packed.texels.is_empty() {
         packed.texels = texture.texels;

@@ -13,7 +13,7 @@ pub fn check_room(texture: &TextureData, what: &str, bytes: usize) -> Result<()>
 /// Returns the error for memory that is not there.
 pub fn no_room(name: &str, what: &str, bytes: usize) -> Error {
     Error::with_help(
-        format!("texture \"{name}\": {what} does not fit into memory, {} MiB more", bytes.div_ceil(1 << 20)),
+        format!("texture \"{name}\": no room in memory for {what}, {} MiB", bytes.div_ceil(1 << 20)),
         "scale the picture down, or use fewer and smaller textures",
     )
     .of_kind(ErrorKind::Scene)

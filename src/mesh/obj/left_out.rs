@@ -61,12 +61,13 @@ impl LeftOut {
         self.0.into_iter().map(|(keyword, count, line)| {
             let what = match keyword.as_slice() {
                 b"l" => counted(count, "line"),
-                b"p" => counted(count, "statement of point"),
+                b"p" => format!("{} of points", counted(count, "statement")),
                 b"curv" | b"curv2" => counted(count, "curve"),
                 b"surf" => counted(count, "free-form surface"),
-                other => counted(count, &format!("statement {}", quoted(other))),
+                other => format!("{} {}", counted(count, "statement"), quoted(other)),
             };
-            format!("left out: {what}, the first in line {line}")
+            let first = if count > 1 { "the first " } else { "" };
+            format!("left out: {what}, {first}in line {line}")
         })
     }
 }

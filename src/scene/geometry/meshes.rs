@@ -9,6 +9,7 @@ use std::sync::Arc;
 use glam::{DAffine3, DMat3, DQuat, DVec2, DVec3, DVec4, EulerRot, Vec4};
 use rayon::prelude::*;
 
+use crate::core::number::shown_vector;
 use crate::mesh::{Mesh, MeshTriangle};
 use crate::scene::builder::SceneBuilder;
 use crate::scene::limits::{COORDINATE, collinear};
@@ -154,7 +155,7 @@ fn check_positions(placed: &Placed<'_>) -> Result<(), String> {
         None => Ok(()),
         Some(i) => {
             let position = placed.position(i as u32);
-            Err(format!("position {i} becomes {position}, which is not {}", COORDINATE.words))
+            Err(format!("position {i} becomes {}, which is not {}", shown_vector(position), COORDINATE.words))
         }
     }
 }
