@@ -67,6 +67,15 @@ impl Mesh {
         self.triangles.iter_mut().for_each(|triangle| triangle.material = material);
     }
 
+    /// Returns the number of triangles without texture coordinates that have a material which is `textured`, and the name of
+    /// the first of these.
+    pub fn lacking_uvs(&self, textured: impl Fn(usize) -> bool) -> Option<(usize, &str)> {
+        let bare = self.triangles.iter().filter(|triangle| triangle.uvs.is_none());
+        let mut bare = bare.filter_map(|triangle| triangle.material).map(|own| own as usize);
+        let first = bare.find(|&own| textured(own))?;
+        Some((1 + bare.filter(|&own| textured(own)).count(), self.materials.get(first)?))
+    }
+
     /// Returns the least and the greatest coordinates of all corners.
     pub fn bounds(&self) -> [DVec3; 2] {
         let corners = self.triangles.iter().flat_map(|triangle| triangle.positions);

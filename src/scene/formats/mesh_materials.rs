@@ -77,15 +77,10 @@ pub(super) fn tell_missing_coordinates(
     builder: &mut SceneBuilder,
 ) {
     let is_textured: Vec<bool> = materials.iter().map(|&index| builder.is_textured(index)).collect();
-    let textured = |own: u32| is_textured.get(own as usize) == Some(&true);
-    let mut bare = mesh.triangles.iter().filter(|triangle| triangle.uvs.is_none());
-    let mut bare = bare.by_ref().filter_map(|triangle| triangle.material).filter(|&own| textured(own));
-    let Some(first) = bare.next() else { return };
-    let count = 1 + bare.count();
+    let Some((count, first)) = mesh.lacking_uvs(|own| is_textured.get(own) == Some(&true)) else { return };
     let (triangles, verb) = (counted(count, "triangle"), verb(count, "has", "have"));
     builder.note(format!(
-        "{}: {triangles} of textured materials, the first {:?}, {verb} no texture coordinates: each shows half a picture",
-        path.display(),
-        mesh.materials[first as usize]
+        "{}: {triangles} of textured materials, the first {first:?}, {verb} no texture coordinates: each shows half a picture",
+        path.display()
     ));
 }

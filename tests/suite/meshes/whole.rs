@@ -29,7 +29,7 @@ fn grid(n: usize) -> String {
     text
 }
 
-const TEXTURED: &str = "[[texture]]\nname = 't'\nprocedural = 'checkerboard'\n\
+const TEXTURED: &str = "[[texture]]\nname = 't'\nprocedural = 'checker'\n\
                         [[material]]\nname = 'm'\nmodel = 'unlit'\ntexture = 't'\n";
 
 #[test]
